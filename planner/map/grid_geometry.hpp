@@ -1,0 +1,73 @@
+// The bounded voxel lattice of a workspace, aligned with OctoMap's: voxel k of an axis covers
+// [k r, (k + 1) r), and k equals OctoMap's key minus 32768 (OcTreeBaseImpl::coordToKey).
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "sim/core/pose.hpp"
+
+namespace gnbv {
+
+using Key = std::array<std::int32_t, 3>;      // signed lattice coordinates
+using VoxelIndex = std::uint32_t;             // position in the dense arrays, x fastest
+
+class GridGeometry {
+ public:
+  GridGeometry() = default;
+  /// All voxels that overlap the box with more than a face.
+  GridGeometry(const Box3& bounds_m, double resolution_m)
+      : resolution_m_(resolution_m), inverse_resolution_(1.0 / resolution_m) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      min_[a] = static_cast<std::int32_t>(std::floor(bounds_m.min()[axis] * inverse_resolution_ + 1e-6));
+      const auto end =
+          static_cast<std::int32_t>(std::ceil(bounds_m.max()[axis] * inverse_resolution_ - 1e-6));
+      size_[a] = end - min_[a];
+    }
+  }
+
+  double resolution_m() const { return resolution_m_; }
+  const Key& min_key() const { return min_; }
+  const Key& size() const { return size_; }
+  std::size_t voxel_count() const {
+    return static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]) *
+           static_cast<std::size_t>(size_[2]);
+  }
+
+  /// As OctoMap's coordToKey: floor of the coordinate times the resolution factor, in double.
+  std::int32_t key_of(double coordinate_m) const {
+    return static_cast<std::int32_t>(std::floor(inverse_resolution_ * coordinate_m));
+  }
+  Key key_of(const Vec3& p_world_m) const {
+    return {key_of(p_world_m.x()), key_of(p_world_m.y()), key_of(p_world_m.z())};
+  }
+  /// As OctoMap's keyToCoord: the centre of the voxel.
+  double center_m(std::int32_t key) const { return (static_cast<double>(key) + 0.5) * resolution_m_; }
+  Vec3 center_m(const Key& key) const { return {center_m(key[0]), center_m(key[1]), center_m(key[2])}; }
+
+  bool contains(const Key& key) const {
+    return static_cast<std::uint32_t>(key[0] - min_[0]) < static_cast<std::uint32_t>(size_[0]) &&
+           static_cast<std::uint32_t>(key[1] - min_[1]) < static_cast<std::uint32_t>(size_[1]) &&
+           static_cast<std::uint32_t>(key[2] - min_[2]) < static_cast<std::uint32_t>(size_[2]);
+  }
+  /// Requires contains(key).
+  VoxelIndex index_of(const Key& key) const {
+    return static_cast<VoxelIndex>(((key[2] - min_[2]) * size_[1] + (key[1] - min_[1])) * size_[0] +
+                                   (key[0] - min_[0]));
+  }
+  Key key_at(VoxelIndex index) const {
+    const auto i = static_cast<std::int32_t>(index);
+    return {i % size_[0] + min_[0], (i / size_[0]) % size_[1] + min_[1],
+            i / (size_[0] * size_[1]) + min_[2]};
+  }
+
+ private:
+  double resolution_m_ = 1.0;
+  double inverse_resolution_ = 1.0;
+  Key min_ = {0, 0, 0};
+  Key size_ = {0, 0, 0};
+};
+
+}  // namespace gnbv

@@ -1,0 +1,25 @@
+// Adaptive Grid Viewpoint Sampling (paper section 2.4, Fig. 5).
+#pragma once
+
+#include <vector>
+
+#include "sim/core/pose.hpp"
+
+namespace gnbv {
+
+/// Defaults: section 3.1.1, and the scale rule of the released code.
+struct AgvsConfig {
+  double step_m = 1.0;
+  double yaw_step_rad = deg_to_rad(45.0);
+  bool rotation_only = true;        // offer the current position with other yaws, at scale 1
+  double scale_factor = 1.5;        // at each detected local minimum
+  double scale_max = 7.5;
+  double utility_threshold = 0.1;   // local minimum: best utility below this ...
+  int utility_window = 3;           // ... over this many views
+};
+
+/// 3 x 3 x 3 positions in the body-yaw frame at step_m * scale, times 3 yaws, in a fixed order; the
+/// current position only as AgvsConfig says, and never the current pose itself.
+std::vector<ViewPose> sample_agvs(const AgvsConfig& config, const ViewPose& current, double scale);
+
+}  // namespace gnbv

@@ -1,0 +1,44 @@
+// What to run: one value, assembled from every module's own config, read once.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "planner/planner.hpp"
+#include "sensors/camera_model.hpp"
+#include "sensors/lidar_model.hpp"
+#include "sim/guidance.hpp"
+#include "sim/mesh_file.hpp"
+#include "sim/vehicle_config.hpp"
+
+namespace gnbv {
+
+struct StructureConfig {
+  std::string builtin = "aircraft";   // used when file.path is empty
+  MeshFileConfig file;
+  bool ground = true;
+};
+
+/// Where the views begin; the paper is silent, the default is the authors' batch configuration.
+/// A seed moves it uniformly within +- jitter, clipped to the navigation box.
+struct StartConfig {
+  ViewPose pose = {Vec3(0.0, -20.0, 5.0), deg_to_rad(90.0)};
+  Vec3 jitter_m = Vec3(5.0, 1.0, 2.0);
+  double jitter_yaw_rad = 0.0;
+};
+
+struct Scenario {
+  std::string name = "unnamed";
+  std::uint64_t seed = 1;
+  Box3 workspace_m = Box3(Vec3(-20, -20, 0), Vec3(20, 20, 20));
+  StructureConfig structure;
+  std::vector<CameraConfig> cameras;
+  LidarConfig lidar;
+  VehicleConfig vehicle;
+  GuidanceConfig guidance;
+  StartConfig start;
+  PlannerConfig planner;
+};
+
+}  // namespace gnbv

@@ -1,0 +1,63 @@
+// A pinhole RGBD camera on the body. Header only, since the planner shares the type but not the
+// ray tracer behind it.
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include "sim/core/pose.hpp"
+
+namespace gnbv {
+
+/// Defaults: the forward camera of the paper's simulated RGBD pair (section 3.1.1, Table 1).
+struct CameraConfig {
+  std::string name = "rgbd";
+  int width_px = 640;
+  int height_px = 480;
+  double fov_x_rad = deg_to_rad(60.0);
+  double fov_y_rad = deg_to_rad(45.0);
+  double range_min_m = 0.3;   // along the optical axis; nearer returns are invalid
+  double range_max_m = 8.0;   // along the optical axis (a plane, not a sphere)
+  Vec3 p_body_m = Vec3::Zero();
+  double pitch_rad = 0.0;     // about body y: positive looks down
+};
+
+/// Pinhole geometry derived from a CameraConfig; pixel (0, 0) is top left, centres at half pixels.
+struct CameraModel {
+  CameraConfig config;
+  double fx_px = 0.0;
+  double fy_px = 0.0;
+  double cx_px = 0.0;
+  double cy_px = 0.0;
+  Isometry T_body_camera = Isometry::Identity();  // optical frame: x right, y down, z forward
+
+  /// Point on the plane z = 1 of the optical frame that the centre of pixel (u, v) looks at.
+  Vec3f ray_camera(int u, int v) const {
+    return {static_cast<float>((u + 0.5 - cx_px) / fx_px),
+            static_cast<float>((v + 0.5 - cy_px) / fy_px), 1.0F};
+  }
+};
+
+/// Rotation whose columns are the optical axes of a level, forward-looking camera in the body.
+inline Eigen::Matrix3d R_body_optical() {
+  Eigen::Matrix3d R;
+  R << 0, 0, 1,  //
+      -1, 0, 0,  //
+      0, -1, 0;
+  return R;
+}
+
+inline CameraModel make_camera_model(const CameraConfig& config) {
+  CameraModel model;
+  model.config = config;
+  model.fx_px = 0.5 * config.width_px / std::tan(0.5 * config.fov_x_rad);
+  model.fy_px = 0.5 * config.height_px / std::tan(0.5 * config.fov_y_rad);
+  model.cx_px = 0.5 * config.width_px;
+  model.cy_px = 0.5 * config.height_px;
+  model.T_body_camera.translate(config.p_body_m);
+  model.T_body_camera.rotate(Eigen::AngleAxisd(config.pitch_rad, Vec3::UnitY()));
+  model.T_body_camera.rotate(R_body_optical());
+  return model;
+}
+
+}  // namespace gnbv

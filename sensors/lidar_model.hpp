@@ -1,0 +1,37 @@
+// A planar scanning LIDAR on the body. Header only, as camera_model.hpp.
+#pragma once
+
+#include <cmath>
+
+#include "sim/core/pose.hpp"
+
+namespace gnbv {
+
+/// Defaults: the profiling laser of the paper (180 degrees, 0.1-30 m) with the beams and rate of
+/// the released floating_sensor.sdf; tilted down, which reproduces the paper's profile row.
+struct LidarConfig {
+  int beams = 720;
+  double fov_rad = kPi;
+  double rate_hz = 40.0;
+  double range_min_m = 0.1;
+  double range_max_m = 30.0;
+  Vec3 p_body_m = Vec3::Zero();
+  double pitch_rad = deg_to_rad(10.0);  // about body y: positive tilts the fan down
+};
+
+/// LIDAR frame: FLU, beams in its x-y plane, counter-clockwise from -fov/2 to +fov/2 inclusive.
+inline Isometry T_body_lidar(const LidarConfig& config) {
+  Isometry T = Isometry::Identity();
+  T.translate(config.p_body_m);
+  T.rotate(Eigen::AngleAxisd(config.pitch_rad, Vec3::UnitY()));
+  return T;
+}
+
+/// Unit direction of a beam in the LIDAR frame.
+inline Vec3f beam_lidar(const LidarConfig& config, int beam) {
+  const double step_rad = config.beams > 1 ? config.fov_rad / (config.beams - 1) : 0.0;
+  const double azimuth_rad = -0.5 * config.fov_rad + beam * step_rad;
+  return {static_cast<float>(std::cos(azimuth_rad)), static_cast<float>(std::sin(azimuth_rad)), 0.0F};
+}
+
+}  // namespace gnbv

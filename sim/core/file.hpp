@@ -1,0 +1,22 @@
+// Files that are either whole or not there.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace gnbv {
+
+/// The whole file. Throws BadInput naming the path when it cannot be read.
+std::string read_file(const std::filesystem::path& path);
+
+/// Writes beside `path` and renames: a reader sees the old file or the new one, never a part.
+/// Throws BadInput naming the path when it cannot be written.
+void write_file_atomically(const std::filesystem::path& path, std::string_view content);
+
+/// The same for writers that want a path of their own: `write` fills the temporary file.
+void write_file_atomically(const std::filesystem::path& path,
+                           const std::function<void(const std::filesystem::path&)>& write);
+
+}  // namespace gnbv

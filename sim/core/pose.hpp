@@ -1,0 +1,45 @@
+// Frames and poses. World: ENU, metres, z up. Body: FLU. Optical: x right, y down, z forward.
+// A transform T_a_b maps coordinates in b to coordinates in a, so that products cancel:
+// T_world_camera = T_world_body * T_body_camera.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+namespace gnbv {
+
+using Vec3 = Eigen::Vector3d;
+using Vec3f = Eigen::Vector3f;
+using Isometry = Eigen::Isometry3d;
+using Box3 = Eigen::AlignedBox3d;
+
+constexpr double kPi = std::numbers::pi;
+constexpr double deg_to_rad(double angle_deg) { return angle_deg * (kPi / 180.0); }
+constexpr double rad_to_deg(double angle_rad) { return angle_rad * (180.0 / kPi); }
+
+/// The same angle in (-pi, pi].
+inline double wrap_angle_rad(double angle_rad) {
+  const double wrapped = std::remainder(angle_rad, 2.0 * kPi);
+  return wrapped <= -kPi ? wrapped + 2.0 * kPi : wrapped;
+}
+
+/// A level pose of the vehicle: where a view is taken from. Yaw turns about world z, 0 = east (+x).
+struct ViewPose {
+  Vec3 p_world_m = Vec3::Zero();
+  double yaw_rad = 0.0;
+};
+
+inline Isometry T_world_body(const ViewPose& pose) {
+  Isometry T = Isometry::Identity();
+  T.translate(pose.p_world_m);
+  T.rotate(Eigen::AngleAxisd(pose.yaw_rad, Vec3::UnitZ()));
+  return T;
+}
+
+/// Heading of the body x axis in the world's horizontal plane, in (-pi, pi].
+inline double yaw_of(const Isometry& T_world_body) {
+  return std::atan2(T_world_body.linear()(1, 0), T_world_body.linear()(0, 0));
+}
+
+}  // namespace gnbv

@@ -1,0 +1,49 @@
+// Random numbers keyed by what they are for, never drawn from shared state: the same key gives the
+// same number in any order and on any number of threads.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+namespace gnbv {
+
+/// One name per use, so that no two uses ever share a number.
+enum class Stream : std::uint64_t { start_pose = 1, depth_noise = 2, range_noise = 3, bench = 4 };
+
+struct RandomKey {
+  std::uint64_t seed = 0;
+  Stream stream = Stream::start_pose;
+  std::uint64_t frame = 0;
+  std::uint64_t index = 0;
+};
+
+/// Finaliser of SplitMix64 (Steele, Lea, Flood 2014): a bijection that mixes all 64 bits.
+constexpr std::uint64_t mix_bits(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15ULL;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
+  return x ^ (x >> 31);
+}
+
+constexpr std::uint64_t random_bits(const RandomKey& key) {
+  std::uint64_t h = mix_bits(key.seed);
+  h = mix_bits(h ^ static_cast<std::uint64_t>(key.stream));
+  h = mix_bits(h ^ key.frame);
+  return mix_bits(h ^ key.index);
+}
+
+/// Uniform in [0, 1).
+constexpr double uniform01(const RandomKey& key) {
+  return static_cast<double>(random_bits(key) >> 11) * 0x1.0p-53;
+}
+
+/// Standard normal by Box and Muller, from two numbers that no other key shares.
+inline double standard_normal(const RandomKey& key) {
+  const std::uint64_t h = random_bits(key);
+  const double u = (static_cast<double>(h >> 11) + 1.0) * 0x1.0p-53;  // (0, 1]
+  const double v = static_cast<double>(mix_bits(h) >> 11) * 0x1.0p-53;
+  return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * std::numbers::pi * v);
+}
+
+}  // namespace gnbv

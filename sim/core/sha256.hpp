@@ -1,0 +1,42 @@
+// SHA-256 over typed data; the run's result_sha256 is made with it.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace gnbv {
+
+class Sha256 {
+ public:
+  Sha256();
+  ~Sha256();
+  Sha256(const Sha256&) = delete;
+  Sha256& operator=(const Sha256&) = delete;
+
+  void add_bytes(std::span<const std::byte> bytes);
+  void add(std::string_view text) { add_bytes(std::as_bytes(std::span(text.data(), text.size()))); }
+  /// Little-endian machines only, as the file formats of the run directory are.
+  template <typename T>
+    requires std::is_arithmetic_v<T>
+  void add(std::span<const T> values) {
+    add_bytes(std::as_bytes(values));
+  }
+  template <typename T>
+    requires std::is_arithmetic_v<T>
+  void add(T value) {
+    add(std::span<const T>(&value, 1));
+  }
+
+  /// 64 lower-case hexadecimal digits. Call once, last.
+  std::string hex();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace gnbv

@@ -1,0 +1,29 @@
+// Mesh files of any format assimp reads. The only file of the project that knows assimp is its .cpp.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "sim/triangle_mesh.hpp"
+
+namespace gnbv {
+
+/// How a file's coordinates become world coordinates:
+/// p_world = R(up_axis -> z) * p_file * unit_m * scale + offset_m.
+struct MeshFileConfig {
+  std::string path;                 // empty: no file
+  double scale = 1.0;
+  Vec3 offset_m = Vec3::Zero();
+  std::string up_axis = "auto";     // auto (as the file says, z when it is silent), x, y or z
+  double unit_m = 0.0;              // metres per file unit; 0 = as the file says, metres when silent
+};
+
+/// Reads, instances nodes, triangulates, drops degenerate faces, welds nothing. Throws BadInput
+/// naming the file (and what is wrong with it) when it is missing, unreadable, without faces, or
+/// holds NaN or infinite coordinates.
+TriangleMesh load_mesh(const MeshFileConfig& config);
+
+/// Writes .obj, .ply or .glb by extension, by rename. Throws BadInput for any other.
+void write_mesh(const TriangleMesh& mesh, const std::filesystem::path& path);
+
+}  // namespace gnbv
