@@ -25,11 +25,10 @@ class BrokenInvariant : public std::runtime_error {
 }  // namespace gnbv
 
 /// Stops the run when `condition` is false; on in release builds too. The rest is a fmt message.
-#define GNBV_CHECK(condition, ...)                                                        \
-  do {                                                                                    \
-    if (!(condition)) {                                                                   \
-      throw ::gnbv::BrokenInvariant(fmt::format("{}:{}: `{}` does not hold: {}", __FILE__, \
-                                                __LINE__, #condition,                     \
-                                                fmt::format(__VA_ARGS__)));               \
-    }                                                                                     \
+#define GNBV_CHECK(condition, ...)                                                                \
+  do {                                                                                            \
+    if (!(condition)) {                                                                           \
+      throw ::gnbv::BrokenInvariant(fmt::format("{}:{}: `{}` does not hold: {}", __FILE__,        \
+                                                __LINE__, #condition, fmt::format(__VA_ARGS__))); \
+    }                                                                                             \
   } while (false)

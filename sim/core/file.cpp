@@ -24,7 +24,8 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
     std::ofstream out(part, std::ios::binary | std::ios::trunc);
     out.write(content.data(), static_cast<std::streamsize>(content.size()));
     out.flush();
-    if (!out) throw BadInput(fmt::format("{}: cannot write: {}", path.string(), std::strerror(errno)));
+    if (!out)
+      throw BadInput(fmt::format("{}: cannot write: {}", path.string(), std::strerror(errno)));
   });
 }
 

@@ -21,15 +21,11 @@ class Sha256 {
   void add(std::string_view text) { add_bytes(std::as_bytes(std::span(text.data(), text.size()))); }
   /// Little-endian machines only, as the file formats of the run directory are.
   template <typename T>
-    requires std::is_arithmetic_v<T>
-  void add(std::span<const T> values) {
-    add_bytes(std::as_bytes(values));
-  }
+  requires std::is_arithmetic_v<T>
+  void add(std::span<const T> values) { add_bytes(std::as_bytes(values)); }
   template <typename T>
-    requires std::is_arithmetic_v<T>
-  void add(T value) {
-    add(std::span<const T>(&value, 1));
-  }
+  requires std::is_arithmetic_v<T>
+  void add(T value) { add(std::span<const T>(&value, 1)); }
 
   /// 64 lower-case hexadecimal digits. Call once, last.
   std::string hex();
