@@ -18,10 +18,12 @@ constexpr std::int64_t kTicksPerSecond = 250;
 constexpr double kTick_s = 1.0 / static_cast<double>(kTicksPerSecond);
 
 /// PX4's TrajectorySetpoint in our world frame (ENU, FLU): NaN means "not controlled".
-/// Position together with velocity uses the velocity as feed-forward.
+/// Position together with velocity uses the velocity as feed-forward, likewise the acceleration.
+/// Each axis needs one of the three, x and y come in pairs; otherwise the vehicle stops and holds.
 struct Setpoint {
   Vec3 p_world_m = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
   Vec3 v_world_m_s = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+  Vec3 a_world_m_s2 = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
   double yaw_rad = std::numeric_limits<double>::quiet_NaN();
   double yaw_rate_rad_s = std::numeric_limits<double>::quiet_NaN();
 };
@@ -49,6 +51,8 @@ class Flight {
 };
 
 /// An airborne vehicle hovering at `start` (rotors at hover speed), in a world rebuilt for it.
+/// VehicleKind::quadrotor: sim/vehicle.hpp under sim/autopilot.hpp, estimate = truth.
+/// VehicleKind::ideal: moves exactly as commanded, level, draws hover power and never collides.
 std::unique_ptr<Flight> make_flight(const VehicleConfig& config, const World& world,
                                     const ViewPose& start);
 

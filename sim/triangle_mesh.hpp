@@ -16,10 +16,10 @@ struct Material {
 };
 
 struct TriangleMesh {
-  std::vector<Vec3f> vertices_m;                       // (n, 3)
-  std::vector<std::array<std::uint32_t, 3>> faces;     // (m, 3), counter-clockwise seen from outside
+  std::vector<Vec3f> vertices_m;                    // (n, 3)
+  std::vector<std::array<std::uint32_t, 3>> faces;  // (m, 3), counter-clockwise seen from outside
   std::vector<Material> materials = {Material{}};
-  std::vector<std::uint16_t> face_material;            // (m), index into materials; empty = all 0
+  std::vector<std::uint16_t> face_material;  // (m), index into materials; empty = all 0
 };
 
 /// Smallest box around the vertices; empty for a mesh without vertices.

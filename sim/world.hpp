@@ -7,7 +7,7 @@ namespace gnbv {
 
 struct World {
   TriangleMesh structure;
-  bool has_ground = true;   // the plane z = 0, seen by the sensors and solid for the vehicle
+  bool has_ground = true;  // the plane z = 0, seen by the sensors and solid for the vehicle
 };
 
 }  // namespace gnbv

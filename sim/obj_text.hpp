@@ -1,0 +1,36 @@
+// Wavefront OBJ as text: what of a file is fit to be handed to the mesh importer, and back.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/triangle_mesh.hpp"
+
+namespace gnbv {
+
+/// The importer copies a vertex once for every face corner. So that the file's own vertices can be
+/// told again, each one's number goes through it as the texture coordinate
+/// (number % kObjNumberBase, number / kObjNumberBase), exact in float up to 2^36 vertices.
+constexpr std::uint32_t kObjNumberBase = 4096;
+
+struct ObjText {
+  std::string text;            // v, vt, f, usemtl and mtllib lines, all well formed
+  std::vector<Vec3> vertices;  // (n, 3) of the file, in its own coordinates and order
+};
+
+/// Reads the shape and the material names; normals and texture coordinates of the file are left
+/// out. Unreadable lines and faces of vertices that do not exist are left out too and counted in
+/// `warnings`, as long as the numbering of the vertices is beyond doubt. Throws BadInput naming the
+/// line where it is not (unreadable beside a vertex, and more vertices to come) and where a
+/// coordinate is not finite.
+ObjText read_obj_text(const std::filesystem::path& path, std::string_view content,
+                      std::vector<std::string>& warnings);
+
+/// The mesh as OBJ, its materials taken from the file `mtl_name` beside it.
+std::string obj_text_of(const TriangleMesh& mesh, const std::string& mtl_name);
+std::string mtl_text_of(const TriangleMesh& mesh);
+
+}  // namespace gnbv
