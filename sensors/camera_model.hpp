@@ -16,10 +16,10 @@ struct CameraConfig {
   int height_px = 480;
   double fov_x_rad = deg_to_rad(60.0);
   double fov_y_rad = deg_to_rad(45.0);
-  double range_min_m = 0.3;   // along the optical axis; nearer returns are invalid
-  double range_max_m = 8.0;   // along the optical axis (a plane, not a sphere)
+  double range_min_m = 0.3;  // along the optical axis; nearer returns are invalid
+  double range_max_m = 8.0;  // along the optical axis (a plane, not a sphere)
   Vec3 p_body_m = Vec3::Zero();
-  double pitch_rad = 0.0;     // about body y: positive looks down
+  double pitch_rad = 0.0;  // about body y: positive looks down
 };
 
 /// Pinhole geometry derived from a CameraConfig; pixel (0, 0) is top left, centres at half pixels.

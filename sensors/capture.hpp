@@ -14,6 +14,7 @@ DepthFrame capture_depth(const RayScene& scene, const CameraModel& camera, int c
                          const Isometry& T_world_body, int threads);
 
 /// One sweep of the LIDAR, taken at one instant.
-LidarScan capture_scan(const RayScene& scene, const LidarConfig& lidar, const Isometry& T_world_body);
+LidarScan capture_scan(const RayScene& scene, const LidarConfig& lidar,
+                       const Isometry& T_world_body);
 
 }  // namespace gnbv

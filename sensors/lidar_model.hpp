@@ -31,7 +31,8 @@ inline Isometry T_body_lidar(const LidarConfig& config) {
 inline Vec3f beam_lidar(const LidarConfig& config, int beam) {
   const double step_rad = config.beams > 1 ? config.fov_rad / (config.beams - 1) : 0.0;
   const double azimuth_rad = -0.5 * config.fov_rad + beam * step_rad;
-  return {static_cast<float>(std::cos(azimuth_rad)), static_cast<float>(std::sin(azimuth_rad)), 0.0F};
+  return {static_cast<float>(std::cos(azimuth_rad)), static_cast<float>(std::sin(azimuth_rad)),
+          0.0F};
 }
 
 }  // namespace gnbv

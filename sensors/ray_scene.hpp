@@ -12,8 +12,8 @@
 namespace gnbv {
 
 struct RayHit {
-  float distance_m = 0.0F;          // in units of the ray's direction length; kNoReturn when nothing
-  std::int32_t face = -1;           // index into World::structure.faces; -1 nothing, -2 the ground
+  float distance_m = 0.0F;  // in units of the ray's direction length; kNoReturn when nothing
+  std::int32_t face = -1;   // index into World::structure.faces; -1 nothing, -2 the ground
 };
 
 /// Ray queries against the structure and the ground. Const after construction: any number of
@@ -28,13 +28,14 @@ class RayScene {
   /// First hit of each ray in (near_m, far_m], traced in coherent packets of 16: rays that are
   /// neighbours in the span should be neighbours in space. `directions` need not be unit length;
   /// distances are in multiples of them. hits.size() == directions.size().
-  void first_hits(const Vec3f& origin_world_m, std::span<const Vec3f> directions_world, float near_m,
-                  float far_m, std::span<RayHit> hits) const;
+  void first_hits(const Vec3f& origin_world_m, std::span<const Vec3f> directions_world,
+                  float near_m, float far_m, std::span<RayHit> hits) const;
 
   /// For each ray from its own origin: whether anything of the structure (never the ground) lies in
   /// (near_m, infinity). Sizes equal. blocked[i] is 0 or 1.
-  void structure_blocks(std::span<const Vec3f> origins_world_m, std::span<const Vec3f> directions_world,
-                        float near_m, std::span<std::uint8_t> blocked) const;
+  void structure_blocks(std::span<const Vec3f> origins_world_m,
+                        std::span<const Vec3f> directions_world, float near_m,
+                        std::span<std::uint8_t> blocked) const;
 
   /// Distance from a point to the structure's surface, up to `limit_m`; infinity beyond.
   double distance_to_structure_m(const Vec3& p_world_m, double limit_m) const;

@@ -1,0 +1,259 @@
+#include "sensors/ray_scene.hpp"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "sensors/frames.hpp"
+#include "sim/core/error.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr std::size_t kPacket = 16;
+constexpr float kGroundHalfWidth_m = 1000.0F;
+// ray masks: sensors see both, questions about the structure leave the ground out
+constexpr unsigned kStructureMask = 1;
+constexpr unsigned kGroundMask = 2;
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// Owns one reference of an Embree handle.
+template <typename Handle, void (*Release)(Handle)>
+class Owner {
+ public:
+  explicit Owner(Handle handle) : handle_(handle) {}
+  ~Owner() {
+    if (handle_ != nullptr) Release(handle_);
+  }
+  Owner(const Owner&) = delete;
+  Owner& operator=(const Owner&) = delete;
+  Handle get() const { return handle_; }
+
+ private:
+  Handle handle_;
+};
+
+void check_device(RTCDevice device, const char* doing) {
+  const RTCError error = rtcGetDeviceError(device);
+  GNBV_CHECK(error == RTC_ERROR_NONE, "Embree error {} while {}", static_cast<int>(error), doing);
+}
+
+/// Copies the triangles into a new geometry of `scene`; its id. Embree pads its own buffers.
+unsigned attach_triangles(RTCDevice device, RTCScene scene, std::span<const Vec3f> vertices_m,
+                          std::span<const std::array<std::uint32_t, 3>> faces, unsigned mask) {
+  const Owner<RTCGeometry, rtcReleaseGeometry> geometry(
+      rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
+  auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX,
+                                                             0, RTC_FORMAT_FLOAT3,
+                                                             3 * sizeof(float), vertices_m.size()));
+  auto* index = static_cast<std::uint32_t*>(
+      rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                              3 * sizeof(std::uint32_t), faces.size()));
+  check_device(device, "allocating geometry");
+  for (const Vec3f& v : vertices_m) vertex = std::copy_n(v.data(), 3, vertex);
+  for (const auto& face : faces) index = std::copy_n(face.data(), 3, index);
+  rtcSetGeometryBuildQuality(geometry.get(), RTC_BUILD_QUALITY_HIGH);
+  rtcSetGeometryMask(geometry.get(), mask);
+  rtcCommitGeometry(geometry.get());
+  return rtcAttachGeometry(scene, geometry.get());
+}
+
+/// Closest point of triangle abc to p: the region of p among vertices, edges and face decides
+/// (Ericson, Real-Time Collision Detection 2005, section 5.1.5).
+Vec3 closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 ab = b - a;
+  const Vec3 ac = c - a;
+  const double d1 = ab.dot(p - a);
+  const double d2 = ac.dot(p - a);
+  if (d1 <= 0.0 && d2 <= 0.0) return a;
+  const double d3 = ab.dot(p - b);
+  const double d4 = ac.dot(p - b);
+  if (d3 >= 0.0 && d4 <= d3) return b;
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return a + d1 / (d1 - d3) * ab;
+  const double d5 = ab.dot(p - c);
+  const double d6 = ac.dot(p - c);
+  if (d6 >= 0.0 && d5 <= d6) return c;
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return a + d2 / (d2 - d6) * ac;
+  const double va = d3 * d6 - d5 * d4;
+  const double along_b = d4 - d3;
+  const double along_c = d5 - d6;
+  if (va <= 0.0 && along_b >= 0.0 && along_c >= 0.0) {
+    return b + along_b / (along_b + along_c) * (c - b);
+  }
+  const double scale = 1.0 / (va + vb + vc);
+  return a + vb * scale * ab + vc * scale * ac;
+}
+
+struct NearestQuery {
+  const std::vector<Vec3f>* vertices_m;
+  const std::vector<std::array<std::uint32_t, 3>>* faces;
+  unsigned structure_id;
+  Vec3 p_world_m;
+  double distance_m;
+};
+
+/// Embree searches in float around the rounded point: the ball is kept a little larger than the
+/// distance found so far, which is measured in double.
+float search_radius_m(double distance_m) {
+  return static_cast<float>(distance_m * 1.000001 + 1e-5);
+}
+
+bool visit_nearest(RTCPointQueryFunctionArguments* arguments) {
+  auto& query = *static_cast<NearestQuery*>(arguments->userPtr);
+  if (arguments->geomID != query.structure_id) return false;
+  const auto& face = (*query.faces)[arguments->primID];
+  const auto corner = [&](int i) -> Vec3 {
+    return (*query.vertices_m)[face[static_cast<std::size_t>(i)]].cast<double>();
+  };
+  const Vec3 nearest = closest_on_triangle(query.p_world_m, corner(0), corner(1), corner(2));
+  const double distance_m = (nearest - query.p_world_m).norm();
+  if (!(distance_m < query.distance_m)) return false;
+  query.distance_m = distance_m;
+  arguments->query->radius = search_radius_m(distance_m);
+  return true;
+}
+
+}  // namespace
+
+struct RayScene::Impl {
+  // One build thread: the tree, and with it the last bit of a distance, then never depends on how
+  // a build happened to be shared out among threads.
+  Owner<RTCDevice, rtcReleaseDevice> device{rtcNewDevice("threads=1")};
+  Owner<RTCScene, rtcReleaseScene> scene{new_scene(device.get())};
+  std::vector<Vec3f> vertices_m;
+  std::vector<std::array<std::uint32_t, 3>> faces;
+  unsigned structure_id = RTC_INVALID_GEOMETRY_ID;
+  unsigned ground_id = RTC_INVALID_GEOMETRY_ID;
+
+  explicit Impl(const World& world)
+      : vertices_m(world.structure.vertices_m), faces(world.structure.faces) {
+    GNBV_CHECK(rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) != 0,
+               "this Embree was built without ray masks");
+    for (const auto& face : faces) {
+      for (const std::uint32_t i : face) {
+        GNBV_CHECK(i < vertices_m.size(), "face vertex {} of {}", i, vertices_m.size());
+      }
+    }
+    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_HIGH);
+    if (!faces.empty()) {
+      structure_id = attach_triangles(device.get(), scene.get(), vertices_m, faces, kStructureMask);
+    }
+    if (world.has_ground) {
+      constexpr float w = kGroundHalfWidth_m;
+      const std::array<Vec3f, 4> corners = {Vec3f(-w, -w, 0), Vec3f(w, -w, 0), Vec3f(w, w, 0),
+                                            Vec3f(-w, w, 0)};
+      const std::array<std::array<std::uint32_t, 3>, 2> halves = {{{0, 1, 2}, {0, 2, 3}}};
+      ground_id = attach_triangles(device.get(), scene.get(), corners, halves, kGroundMask);
+    }
+    rtcCommitScene(scene.get());
+    check_device(device.get(), "building the scene");
+  }
+
+  static RTCScene new_scene(RTCDevice device) {
+    GNBV_CHECK(device != nullptr, "Embree error {} while opening a device",
+               static_cast<int>(rtcGetDeviceError(nullptr)));
+    return rtcNewScene(device);
+  }
+};
+
+RayScene::RayScene(const World& world) : impl_(std::make_unique<Impl>(world)) {}
+RayScene::~RayScene() = default;
+RayScene::RayScene(RayScene&&) noexcept = default;
+RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+
+void RayScene::first_hits(const Vec3f& origin_world_m, std::span<const Vec3f> directions_world,
+                          float near_m, float far_m, std::span<RayHit> hits) const {
+  GNBV_CHECK(hits.size() == directions_world.size(), "{} hits for {} rays", hits.size(),
+             directions_world.size());
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  RTCRayHit16 packet{};
+  alignas(64) std::array<int, kPacket> valid{};
+  for (std::size_t i = 0; i < kPacket; ++i) {  // Embree writes only tfar and the hit
+    packet.ray.org_x[i] = origin_world_m.x();
+    packet.ray.org_y[i] = origin_world_m.y();
+    packet.ray.org_z[i] = origin_world_m.z();
+    packet.ray.tnear[i] = near_m;
+    packet.ray.mask[i] = kStructureMask | kGroundMask;
+  }
+  for (std::size_t begin = 0; begin < hits.size(); begin += kPacket) {
+    const std::size_t count = std::min(kPacket, hits.size() - begin);
+    for (std::size_t i = 0; i < kPacket; ++i) {
+      valid[i] = i < count ? -1 : 0;
+      packet.ray.tfar[i] = far_m;
+      packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    for (std::size_t i = 0; i < kPacket; ++i) {
+      const Vec3f& direction = directions_world[begin + std::min(i, count - 1)];
+      packet.ray.dir_x[i] = direction.x();
+      packet.ray.dir_y[i] = direction.y();
+      packet.ray.dir_z[i] = direction.z();
+    }
+    rtcIntersect16(valid.data(), impl_->scene.get(), &context, &packet);
+    for (std::size_t i = 0; i < count; ++i) {
+      const unsigned id = packet.hit.geomID[i];
+      const bool is_hit = id != RTC_INVALID_GEOMETRY_ID;
+      const auto face = static_cast<std::int32_t>(packet.hit.primID[i]);
+      hits[begin + i] = {is_hit ? packet.ray.tfar[i] : kNoReturn, !is_hit                  ? -1
+                                                                  : id == impl_->ground_id ? -2
+                                                                                           : face};
+    }
+  }
+}
+
+void RayScene::structure_blocks(std::span<const Vec3f> origins_world_m,
+                                std::span<const Vec3f> directions_world, float near_m,
+                                std::span<std::uint8_t> blocked) const {
+  GNBV_CHECK(origins_world_m.size() == blocked.size() && directions_world.size() == blocked.size(),
+             "{} origins and {} directions for {} answers", origins_world_m.size(),
+             directions_world.size(), blocked.size());
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  RTCRay16 packet{};
+  alignas(64) std::array<int, kPacket> valid{};
+  for (std::size_t begin = 0; begin < blocked.size(); begin += kPacket) {
+    const std::size_t count = std::min(kPacket, blocked.size() - begin);
+    for (std::size_t i = 0; i < kPacket; ++i) {
+      const std::size_t ray = begin + std::min(i, count - 1);
+      valid[i] = i < count ? -1 : 0;
+      packet.org_x[i] = origins_world_m[ray].x();
+      packet.org_y[i] = origins_world_m[ray].y();
+      packet.org_z[i] = origins_world_m[ray].z();
+      packet.dir_x[i] = directions_world[ray].x();
+      packet.dir_y[i] = directions_world[ray].y();
+      packet.dir_z[i] = directions_world[ray].z();
+      packet.tnear[i] = near_m;
+      packet.tfar[i] = kInfinity;
+      packet.mask[i] = kStructureMask;
+    }
+    rtcOccluded16(valid.data(), impl_->scene.get(), &context, &packet);
+    // Embree marks an occluded ray with tfar = -infinity
+    for (std::size_t i = 0; i < count; ++i) blocked[begin + i] = packet.tfar[i] < 0.0F ? 1 : 0;
+  }
+}
+
+double RayScene::distance_to_structure_m(const Vec3& p_world_m, double limit_m) const {
+  NearestQuery nearest{&impl_->vertices_m, &impl_->faces, impl_->structure_id, p_world_m,
+                       std::numeric_limits<double>::infinity()};
+  RTCPointQuery query{};
+  query.x = static_cast<float>(p_world_m.x());
+  query.y = static_cast<float>(p_world_m.y());
+  query.z = static_cast<float>(p_world_m.z());
+  query.radius = search_radius_m(limit_m);
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(impl_->scene.get(), &query, &context, visit_nearest, &nearest);
+  return nearest.distance_m <= limit_m ? nearest.distance_m
+                                       : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace gnbv

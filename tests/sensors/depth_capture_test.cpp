@@ -1,0 +1,241 @@
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "sensors/capture.hpp"
+#include "tests/sensors/shapes.hpp"
+
+namespace gnbv {
+namespace {
+
+using test::add_wall;
+using test::world_of;
+
+CameraModel camera_with(double pitch_rad, double range_min_m, double range_max_m, int width_px = 64,
+                        int height_px = 48) {
+  CameraConfig config;
+  config.width_px = width_px;
+  config.height_px = height_px;
+  config.pitch_rad = pitch_rad;
+  config.range_min_m = range_min_m;
+  config.range_max_m = range_max_m;
+  return make_camera_model(config);
+}
+
+float at(const CameraModel& camera, const DepthFrame& frame, int u, int v) {
+  return frame.depth_m[static_cast<std::size_t>(v * camera.config.width_px + u)];
+}
+
+Vec3 direction_world(const CameraModel& camera, const DepthFrame& frame, int u, int v) {
+  return frame.T_world_camera.linear() * camera.ray_camera(u, v).cast<double>();
+}
+
+bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+}
+
+bool all_of_kind(const DepthFrame& frame, bool (*kind)(float)) {
+  return std::all_of(frame.depth_m.begin(), frame.depth_m.end(), kind);
+}
+bool is_invalid(float depth_m) { return std::isnan(depth_m); }
+bool is_no_return(float depth_m) { return depth_m == kNoReturn; }
+bool is_depth(float depth_m) { return std::isfinite(depth_m); }
+
+TEST(DepthCapture, PlaneIsReadExactlyAtEveryPixel) {
+  TriangleMesh wall;
+  add_wall(wall, 5.0, -100, 100, -100, 100);
+  const RayScene scene(world_of(wall, false));
+  for (const double pitch_deg : {0.0, 20.0, -35.0}) {
+    for (const double yaw_deg : {0.0, 25.0}) {
+      const CameraModel camera = camera_with(deg_to_rad(pitch_deg), 0.3, 200.0, 640, 480);
+      const ViewPose pose{{1.25, -2.0, 3.0}, deg_to_rad(yaw_deg)};
+      const DepthFrame frame = capture_depth(scene, camera, 0, T_world_body(pose), 1);
+      for (int v = 0; v < 480; ++v) {
+        for (int u = 0; u < 640; ++u) {
+          const double expected_m = (5.0 - 1.25) / direction_world(camera, frame, u, v).x();
+          // float rays: a few roundings of 6e-8, magnified up to 4 times by the slant
+          ASSERT_NEAR(at(camera, frame, u, v), expected_m, 1e-5 * expected_m) << u << ", " << v;
+        }
+      }
+    }
+  }
+}
+
+TEST(DepthCapture, InsideSphereReadsRadiusEverywhere) {
+  const Vec3 centre_m(4.0, -7.0, 12.0);
+  const double radius_m = 3.0;
+  const TriangleMesh ball = test::sphere(centre_m, radius_m, 5);
+  // a facet's plane passes between its corners' radius and this distance from the centre
+  double innermost_m = radius_m;
+  for (std::size_t i = 0; i < ball.faces.size(); ++i) {
+    const auto [a, b, c] = test::corners(ball, i);
+    const Vec3 normal = (b - a).cross(c - a).normalized();
+    innermost_m = std::min(innermost_m, std::abs(normal.dot(a - centre_m)));
+  }
+  ASSERT_GT(innermost_m, radius_m - 2e-3);
+  const RayScene scene(world_of(ball, false));
+  const CameraModel camera = camera_with(deg_to_rad(20.0), 0.3, 8.0, 640, 480);
+  const DepthFrame frame = capture_depth(scene, camera, 0, T_world_body({centre_m, 2.0}), 1);
+  for (int v = 0; v < 480; ++v) {
+    for (int u = 0; u < 640; ++u) {
+      const double range_m = at(camera, frame, u, v) * camera.ray_camera(u, v).norm();
+      // float coordinates of up to 15 m: 1e-6 each
+      ASSERT_GE(range_m, innermost_m - 1e-5) << u << ", " << v;
+      ASSERT_LE(range_m, radius_m + 1e-5) << u << ", " << v;
+    }
+  }
+}
+
+TEST(DepthCapture, FieldOfViewEndsAtTheImageBorder) {
+  const CameraModel camera = camera_with(0.0, 0.3, 8.0, 640, 480);
+  const double half_y_m = 5.0 * std::tan(deg_to_rad(30.0));
+  const double half_z_m = 5.0 * std::tan(deg_to_rad(22.5));
+  // a wall that ends half a pixel beyond the outermost centres, then half a pixel before them;
+  // centres are 1 / 640 and 1 / 480 of the half width inside the border
+  for (const double pixels_from_border : {0.5, 1.5}) {
+    const double y_m = half_y_m * (1.0 - pixels_from_border / 320.0);
+    const double z_m = half_z_m * (1.0 - pixels_from_border / 240.0);
+    TriangleMesh wall;
+    // border pixel centres lie half a pixel inside; move the rim half a pixel to either side
+    add_wall(wall, 5.0, -y_m, y_m, -z_m, z_m);
+    const RayScene scene(world_of(wall, false));
+    const DepthFrame frame = capture_depth(scene, camera, 0, Isometry::Identity(), 1);
+    const int lost = pixels_from_border < 1.0 ? 0 : 1;
+    for (int v = 0; v < 480; ++v) {
+      for (int u = 0; u < 640; ++u) {
+        const bool inside = u >= lost && u < 640 - lost && v >= lost && v < 480 - lost;
+        ASSERT_EQ(is_depth(at(camera, frame, u, v)), inside) << u << ", " << v;
+      }
+    }
+  }
+}
+
+TEST(DepthCapture, LeftOfTheImageIsLeftOfTheBody) {
+  TriangleMesh wall;
+  add_wall(wall, 5.0, 0.0, 50.0, -50.0, 50.0);  // y > 0 only
+  const RayScene scene(world_of(wall, false));
+  const CameraModel camera = camera_with(0.0, 0.3, 8.0);
+  const DepthFrame frame = capture_depth(scene, camera, 3, Isometry::Identity(), 1);
+  EXPECT_EQ(frame.camera, 3);
+  for (int v = 0; v < 48; ++v) {
+    for (int u = 0; u < 64; ++u) EXPECT_EQ(is_depth(at(camera, frame, u, v)), u < 32);
+  }
+}
+
+TEST(DepthCapture, PositivePitchLooksDown) {
+  const RayScene scene(world_of({}, true));
+  // an odd number of rows, so that the middle row is the optical axis
+  const CameraModel camera = camera_with(deg_to_rad(20.0), 0.3, 100.0, 65, 49);
+  const DepthFrame frame = capture_depth(scene, camera, 0, T_world_body({{7, 8, 5.0}, -1.0}), 1);
+  EXPECT_NEAR(at(camera, frame, 32, 24), 5.0 / std::sin(deg_to_rad(20.0)), 1e-4);  // float, 15 m
+  EXPECT_LT(at(camera, frame, 32, 48), at(camera, frame, 32, 24));
+  EXPECT_TRUE(is_no_return(at(camera, frame, 32, 0)));  // 2.5 degrees above the horizon
+}
+
+TEST(DepthCapture, GroundIsThePlaneZeroSeenFromBothSides) {
+  const RayScene scene(world_of({}, true));
+  const CameraModel down = camera_with(deg_to_rad(90.0), 0.3, 100.0);
+  const CameraModel up = camera_with(deg_to_rad(-90.0), 0.3, 100.0);
+  const DepthFrame above = capture_depth(scene, down, 0, T_world_body({{-300, 20, 6.5}, 0.7}), 1);
+  const DepthFrame below = capture_depth(scene, up, 0, T_world_body({{30, 400, -2.0}, 0.7}), 1);
+  for (const float depth_m : above.depth_m) ASSERT_NEAR(depth_m, 6.5, 6.5e-6);  // 1e-6 relative
+  for (const float depth_m : below.depth_m) ASSERT_NEAR(depth_m, 2.0, 2.0e-6);
+  const RayScene empty(world_of({}, false));
+  EXPECT_TRUE(
+      all_of_kind(capture_depth(empty, down, 0, T_world_body({{0, 0, 6.5}, 0}), 1), is_no_return));
+}
+
+TEST(DepthCapture, NearerThanTheMinimumIsInvalid) {
+  TriangleMesh wall;
+  add_wall(wall, 5.0, -50, 50, -50, 50);
+  const RayScene scene(world_of(wall, false));
+  const CameraModel camera = camera_with(0.0, 0.3, 8.0);
+  EXPECT_TRUE(
+      all_of_kind(capture_depth(scene, camera, 0, T_world_body({{4.71, 0, 0}, 0}), 1), is_invalid));
+  EXPECT_TRUE(
+      all_of_kind(capture_depth(scene, camera, 0, T_world_body({{4.69, 0, 0}, 0}), 1), is_depth));
+}
+
+TEST(DepthCapture, TooNearASurfaceHidesWhatIsBehindIt) {
+  TriangleMesh walls;
+  add_wall(walls, 0.2, 0.0, 50, -50, 50);  // too near, left half only
+  add_wall(walls, 3.0, -50, 50, -50, 50);
+  const RayScene scene(world_of(walls, false));
+  const CameraModel camera = camera_with(0.0, 0.3, 8.0);
+  const DepthFrame frame = capture_depth(scene, camera, 0, Isometry::Identity(), 1);
+  for (int v = 0; v < 48; ++v) {
+    for (int u = 0; u < 64; ++u) {
+      const float depth_m = at(camera, frame, u, v);
+      if (u < 32) {
+        ASSERT_TRUE(is_invalid(depth_m)) << u << ", " << v;
+      } else {
+        ASSERT_NEAR(depth_m, 3.0, 3e-6) << u << ", " << v;  // float
+      }
+    }
+  }
+}
+
+TEST(DepthCapture, MaximumRangeIsAPlane) {
+  TriangleMesh wall;
+  add_wall(wall, 10.0, -50, 50, -50, 50);
+  const RayScene scene(world_of(wall, false));
+  const CameraModel camera = camera_with(0.0, 0.3, 8.0);
+  // at 7.99 m depth the corner pixels are 9.8 m away, and still return
+  EXPECT_TRUE(
+      all_of_kind(capture_depth(scene, camera, 0, T_world_body({{2.01, 0, 0}, 0}), 1), is_depth));
+  EXPECT_TRUE(all_of_kind(capture_depth(scene, camera, 0, T_world_body({{1.99, 0, 0}, 0}), 1),
+                          is_no_return));
+}
+
+TEST(DepthCapture, EqualsBruteForceAtEveryPixel) {
+  const TriangleMesh soup = test::random_soup(60, 3.0, {0, 0, 0}, 11);
+  const RayScene scene(world_of(soup, false));
+  const CameraModel camera = camera_with(deg_to_rad(-10.0), 0.3, 8.0, 61, 50);  // no multiple of 4
+  int hits = 0;
+  int undecided = 0;
+  for (int view = 0; view < 8; ++view) {
+    const double yaw_rad = 0.8 * view;
+    const Vec3 p_world_m(-5.0 * std::cos(yaw_rad), -5.0 * std::sin(yaw_rad), -1.0);
+    const DepthFrame frame = capture_depth(scene, camera, 0, T_world_body({p_world_m, yaw_rad}), 2);
+    for (int v = 0; v < 50; ++v) {
+      for (int u = 0; u < 61; ++u) {
+        const test::BruteHit expected = test::brute_first_hit(
+            soup, frame.T_world_camera.translation(), direction_world(camera, frame, u, v));
+        if (expected.is_near_edge || std::abs(expected.distance - 8.0) < 1e-4) {
+          ++undecided;
+          continue;
+        }
+        const float depth_m = at(camera, frame, u, v);
+        if (expected.distance > 8.0) {
+          ASSERT_TRUE(is_no_return(depth_m)) << u << ", " << v << " of view " << view;
+        } else if (expected.distance < 0.3) {
+          ASSERT_TRUE(is_invalid(depth_m)) << u << ", " << v << " of view " << view;
+        } else {
+          // float rays; triangles met under a few degrees magnify their rounding
+          ASSERT_NEAR(depth_m, expected.distance, 5e-5) << u << ", " << v << " of view " << view;
+          ++hits;
+        }
+      }
+    }
+  }
+  EXPECT_GT(hits, 3000);
+  EXPECT_LT(undecided, 300);
+}
+
+TEST(DepthCapture, SameFrameForAnyThreadCount) {
+  const TriangleMesh soup = test::random_soup(3000, 5.0, {0, 0, 3}, 5);
+  const RayScene scene(world_of(soup, true));
+  const RayScene rebuilt(world_of(soup, true));
+  for (const auto& [width, height] : {std::pair(640, 480), std::pair(61, 47), std::pair(3, 2)}) {
+    const CameraModel camera = camera_with(deg_to_rad(20.0), 0.3, 8.0, width, height);
+    const Isometry T = T_world_body({{-6, 1, 4}, 0.3});
+    const DepthFrame one = capture_depth(scene, camera, 0, T, 1);
+    for (const int threads : {2, 5}) {
+      EXPECT_TRUE(same_bits(one.depth_m, capture_depth(scene, camera, 0, T, threads).depth_m));
+    }
+    EXPECT_TRUE(same_bits(one.depth_m, capture_depth(rebuilt, camera, 0, T, 2).depth_m));
+  }
+}
+
+}  // namespace
+}  // namespace gnbv

@@ -1,0 +1,176 @@
+#include "sensors/ray_scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include "sensors/frames.hpp"
+#include "tests/sensors/shapes.hpp"
+
+namespace gnbv {
+namespace {
+
+using test::add_wall;
+using test::world_of;
+
+std::vector<Vec3f> random_directions(std::size_t count, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::normal_distribution<float> normal;
+  std::vector<Vec3f> out;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float x = normal(generator);
+    const float y = normal(generator);
+    out.emplace_back(x, y, normal(generator));
+  }
+  return out;
+}
+
+TEST(RayScene, FirstHitNamesFaceGroundOrNothing) {
+  TriangleMesh wall;
+  add_wall(wall, -9.0, -1, 1, 0, 2);  // faces 0 and 1, behind
+  add_wall(wall, 4.0, -1, 1, 0, 2);   // faces 2 and 3
+  const RayScene scene(world_of(wall, true));
+  const std::vector<Vec3f> directions = {{2, 0.4F, 0}, {2, -0.4F, 0.1F}, {0, 0, -0.5F}, {0, 0, 1}};
+  std::vector<RayHit> hits(4);
+  scene.first_hits({0, 0, 1}, directions, 0.0F, 100.0F, hits);
+  EXPECT_EQ(hits[0].face, 2);                  // y = 0.8, z = 1: below the diagonal
+  EXPECT_NEAR(hits[0].distance_m, 2.0, 1e-6);  // in units of the direction
+  EXPECT_EQ(hits[1].face, 3);                  // y = -0.8, z = 1.2: above it
+  EXPECT_EQ(hits[2].face, -2);
+  EXPECT_NEAR(hits[2].distance_m, 2.0, 1e-6);
+  EXPECT_EQ(hits[3].face, -1);
+  EXPECT_EQ(hits[3].distance_m, kNoReturn);
+}
+
+TEST(RayScene, HitsLieBeyondNearAndUpToFar) {
+  TriangleMesh walls;
+  add_wall(walls, 2.0, -1, 1, -1, 1);
+  add_wall(walls, 4.0, -1, 1, -1, 1);
+  const RayScene scene(world_of(walls, false));
+  const std::vector<Vec3f> ahead = {{1, 0.1F, 0.2F}};
+  const auto distance = [&](float near_m, float far_m) {
+    std::vector<RayHit> hits(1);
+    scene.first_hits({0, 0, 0}, ahead, near_m, far_m, hits);
+    return hits[0].distance_m;
+  };
+  EXPECT_FLOAT_EQ(distance(0.0F, 10.0F), 2.0F);
+  EXPECT_FLOAT_EQ(distance(2.1F, 10.0F), 4.0F);
+  EXPECT_EQ(distance(2.1F, 3.9F), kNoReturn);
+  EXPECT_EQ(distance(0.0F, 1.9F), kNoReturn);
+}
+
+TEST(RayScene, PacketsEqualBruteForceForAnyNumberOfRays) {
+  const TriangleMesh soup = test::random_soup(80, 4.0, {0, 0, 0}, 3);
+  const RayScene scene(world_of(soup, false));
+  const Vec3f origin(0.3F, -0.2F, 0.1F);
+  for (const std::size_t count : {0U, 1U, 15U, 16U, 17U, 1000U}) {
+    const std::vector<Vec3f> directions = random_directions(count, 7);
+    std::vector<RayHit> hits(count);
+    scene.first_hits(origin, directions, 0.0F, 1e6F, hits);
+    for (std::size_t i = 0; i < count; ++i) {
+      const test::BruteHit expected =
+          test::brute_first_hit(soup, origin.cast<double>(), directions[i].cast<double>());
+      if (expected.is_near_edge) continue;
+      ASSERT_EQ(hits[i].face, expected.face) << i << " of " << count;
+      if (expected.face < 0) continue;
+      ASSERT_NEAR(hits[i].distance_m, expected.distance, 2e-5 * (1 + expected.distance)) << i;
+    }
+  }
+}
+
+TEST(RayScene, AnswersDependOnTheirOwnPacketAlone) {
+  const RayScene scene(world_of(test::random_soup(500, 4.0, {0, 0, 0}, 3), true));
+  const std::vector<Vec3f> directions = random_directions(160, 9);
+  std::vector<RayHit> whole(160);
+  scene.first_hits({0, 0, 1}, directions, 0.0F, 50.0F, whole);
+  for (std::size_t begin = 0; begin < 160; begin += 16) {
+    std::vector<RayHit> part(16);
+    scene.first_hits({0, 0, 1}, std::span(directions).subspan(begin, 16), 0.0F, 50.0F, part);
+    for (std::size_t i = 0; i < 16; ++i) {
+      EXPECT_EQ(part[i].distance_m, whole[begin + i].distance_m);
+      EXPECT_EQ(part[i].face, whole[begin + i].face);
+    }
+  }
+}
+
+TEST(RayScene, StructureBlocksEqualsBruteForceAndIgnoresTheGround) {
+  const TriangleMesh soup = test::random_soup(150, 4.0, {0, 0, 0}, 17);
+  const RayScene scene(world_of(soup, true));  // the ground cuts through the middle
+  const std::size_t count = 1003;              // no multiple of 16
+  const std::vector<Vec3f> directions = random_directions(count, 1);
+  std::vector<Vec3f> origins = random_directions(count, 2);
+  for (Vec3f& origin : origins) origin *= 3.0F;
+  std::vector<std::uint8_t> blocked(count, 7);
+  scene.structure_blocks(origins, directions, 1e-4F, blocked);
+  int sums[2] = {0, 0};
+  for (std::size_t i = 0; i < count; ++i) {
+    ASSERT_LE(blocked[i], 1);
+    const test::BruteHit expected =
+        test::brute_first_hit(soup, origins[i].cast<double>(), directions[i].cast<double>());
+    if (expected.is_near_edge || expected.distance < 1e-3) continue;
+    ASSERT_EQ(blocked[i], expected.face >= 0 ? 1 : 0) << i;
+    ++sums[blocked[i]];
+  }
+  EXPECT_GT(sums[0], 100);
+  EXPECT_GT(sums[1], 100);
+}
+
+TEST(RayScene, StructureBlocksStartsBeyondNear) {
+  TriangleMesh wall;
+  add_wall(wall, 1.0, -1, 1, -1, 1);
+  const RayScene scene(world_of(wall, false));
+  const std::vector<Vec3f> origin = {{0, 0.1F, 0.2F}};
+  const std::vector<Vec3f> ahead = {{1, 0, 0}};
+  std::vector<std::uint8_t> blocked(1);
+  scene.structure_blocks(origin, ahead, 0.99F, blocked);
+  EXPECT_EQ(blocked[0], 1);
+  scene.structure_blocks(origin, ahead, 1.01F, blocked);
+  EXPECT_EQ(blocked[0], 0);
+}
+
+/// Distance to a triangle as the least over its plane point, if inside, and its edges.
+double slow_distance(const Vec3& p, const std::array<Vec3, 3>& t) {
+  double best = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 edge = t[(i + 1) % 3] - t[i];
+    const double s = std::clamp((p - t[i]).dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+    best = std::min(best, (t[i] + s * edge - p).norm());
+  }
+  const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
+  const Vec3 foot = p - normal.dot(p - t[0]) * normal;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if ((t[(i + 1) % 3] - t[i]).cross(foot - t[i]).dot(normal) < 0.0) return best;
+  }
+  return std::abs(normal.dot(p - t[0]));
+}
+
+TEST(RayScene, DistanceToStructureEqualsBruteForceAndIgnoresTheGround) {
+  const TriangleMesh soup = test::random_soup(50, 4.0, {0, 0, 6}, 29);
+  const RayScene scene(world_of(soup, true));
+  std::mt19937 generator(4);
+  std::uniform_real_distribution<double> coordinate(-8.0, 8.0);
+  int beyond = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const double x = coordinate(generator);
+    const double y = coordinate(generator);
+    const Vec3 p_world_m(x, y, 6.0 + coordinate(generator));
+    double expected_m = std::numeric_limits<double>::infinity();
+    for (std::size_t f = 0; f < soup.faces.size(); ++f) {
+      expected_m = std::min(expected_m, slow_distance(p_world_m, test::corners(soup, f)));
+    }
+    // both in double: only the order of operations differs
+    ASSERT_NEAR(scene.distance_to_structure_m(p_world_m, 100.0), expected_m, 1e-9) << i;
+    const double limited_m = scene.distance_to_structure_m(p_world_m, 2.0);
+    if (expected_m > 2.0) {
+      ASSERT_TRUE(std::isinf(limited_m)) << i;
+      ++beyond;
+    } else {
+      ASSERT_NEAR(limited_m, expected_m, 1e-9) << i;
+    }
+  }
+  EXPECT_GT(beyond, 100);
+  const RayScene ground(world_of({}, true));
+  EXPECT_TRUE(std::isinf(ground.distance_to_structure_m({0, 0, 1}, 1e6)));
+  EXPECT_TRUE(std::isinf(RayScene(world_of({}, false)).distance_to_structure_m({0, 0, 1}, 1.0)));
+}
+
+}  // namespace
+}  // namespace gnbv
