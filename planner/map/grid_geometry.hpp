@@ -3,30 +3,22 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 
 #include "sim/core/pose.hpp"
 
 namespace gnbv {
 
-using Key = std::array<std::int32_t, 3>;      // signed lattice coordinates
-using VoxelIndex = std::uint32_t;             // position in the dense arrays, x fastest
+using Key = std::array<std::int32_t, 3>;  // signed lattice coordinates
+using VoxelIndex = std::uint32_t;         // position in the dense arrays, x fastest
 
 class GridGeometry {
  public:
   GridGeometry() = default;
-  /// All voxels that overlap the box with more than a face.
-  GridGeometry(const Box3& bounds_m, double resolution_m)
-      : resolution_m_(resolution_m), inverse_resolution_(1.0 / resolution_m) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto a = static_cast<std::size_t>(axis);
-      min_[a] = static_cast<std::int32_t>(std::floor(bounds_m.min()[axis] * inverse_resolution_ + 1e-6));
-      const auto end =
-          static_cast<std::int32_t>(std::ceil(bounds_m.max()[axis] * inverse_resolution_ - 1e-6));
-      size_[a] = end - min_[a];
-    }
-  }
+  /// All voxels that overlap the box with more than a face. Throws BadInput for a resolution that
+  /// is not positive, an empty box, or one that does not fit OctoMap's 16-bit keys or 31-bit
+  /// indices.
+  GridGeometry(const Box3& bounds_m, double resolution_m);
 
   double resolution_m() const { return resolution_m_; }
   const Key& min_key() const { return min_; }
@@ -37,15 +29,29 @@ class GridGeometry {
   }
 
   /// As OctoMap's coordToKey: floor of the coordinate times the resolution factor, in double.
+  /// Coordinates beyond +-2^30 voxels, and NaN, give a key outside every grid.
   std::int32_t key_of(double coordinate_m) const {
-    return static_cast<std::int32_t>(std::floor(inverse_resolution_ * coordinate_m));
+    constexpr double kLimit = 1 << 30;
+    const double scaled = inverse_resolution_ * coordinate_m;
+    const double bounded = scaled > -kLimit ? (scaled < kLimit ? scaled : kLimit) : -kLimit;
+    const auto truncated = static_cast<std::int32_t>(bounded);
+    return truncated - static_cast<std::int32_t>(bounded < truncated);
   }
   Key key_of(const Vec3& p_world_m) const {
     return {key_of(p_world_m.x()), key_of(p_world_m.y()), key_of(p_world_m.z())};
   }
+  /// The same for float32 points: OctoMap widens each coordinate to double.
+  Key key_of(const Vec3f& p_world_m) const {
+    return {key_of(static_cast<double>(p_world_m.x())), key_of(static_cast<double>(p_world_m.y())),
+            key_of(static_cast<double>(p_world_m.z()))};
+  }
   /// As OctoMap's keyToCoord: the centre of the voxel.
-  double center_m(std::int32_t key) const { return (static_cast<double>(key) + 0.5) * resolution_m_; }
-  Vec3 center_m(const Key& key) const { return {center_m(key[0]), center_m(key[1]), center_m(key[2])}; }
+  double center_m(std::int32_t key) const {
+    return (static_cast<double>(key) + 0.5) * resolution_m_;
+  }
+  Vec3 center_m(const Key& key) const {
+    return {center_m(key[0]), center_m(key[1]), center_m(key[2])};
+  }
 
   bool contains(const Key& key) const {
     return static_cast<std::uint32_t>(key[0] - min_[0]) < static_cast<std::uint32_t>(size_[0]) &&

@@ -10,28 +10,30 @@
 
 namespace gnbv {
 
-/// Defaults: OctoMap's sensor model, and the thresholds of the released configuration.
+/// Defaults: OctoMap's sensor model, and the thresholds of the released configuration. Thresholds
+/// are compared as float32 log-odds, so one miss (0.4) is free and one hit (0.7) occupied.
 struct OccupancyConfig {
   double resolution_m = 0.2;
   double prob_hit = 0.7;
   double prob_miss = 0.4;
   double clamp_min = 0.1192;
   double clamp_max = 0.971;
-  double occupied_min = 0.6;   // p >= this is occupied
-  double free_max = 0.4;       // p <= this is free, between is unknown
+  double occupied_min = 0.6;  // p >= this is occupied
+  double free_max = 0.4;      // p <= this is free, between is unknown
 };
 
 enum class VoxelState : std::uint8_t { unknown = 0, free = 1, occupied = 2 };
 
 /// The voxels one scan touches, each once, occupied before free (OctoMap's computeUpdate).
 struct ScanUpdate {
-  std::vector<VoxelIndex> free;      // disjoint from occupied
+  std::vector<VoxelIndex> free;  // disjoint from occupied
   std::vector<VoxelIndex> occupied;
 };
 
 class OccupancyGrid {
  public:
-  /// `bounds_m` is the workspace: the grid holds nothing outside it.
+  /// `bounds_m` is the workspace: the grid holds nothing outside it. Throws BadInput naming the
+  /// keys for probabilities out of order.
   OccupancyGrid(const OccupancyConfig& config, const Box3& bounds_m);
 
   const OccupancyConfig& config() const { return config_; }
@@ -49,9 +51,9 @@ class OccupancyGrid {
   /// Eq. (1) in nat; ln 2 while unmeasured, 0 at a clamping bound (released code: "ignore entropies
   /// at clamping points").
   float entropy_nat(VoxelIndex v) const { return entropy_nat_[v]; }
-  /// Sum of Eq. (1) over all voxels of the workspace, clamped ones at their own small value;
-  /// kept up to date by apply().
-  double total_entropy_nat() const { return total_entropy_nat_; }
+  /// Sum of entropy_nat over all voxels of the workspace, kept up to date by apply(). Summed in
+  /// units of 2^-32 nat, so that no order of updates changes it.
+  double total_entropy_nat() const;
   std::size_t occupied_count() const { return occupied_count_; }
 
   /// Adds the log-odds of a miss to each free voxel and of a hit to each occupied one, clamped.
@@ -63,7 +65,17 @@ class OccupancyGrid {
   std::span<const float> all_log_odds() const { return log_odds_; }
 
  private:
+  struct Entropy {
+    float log_odds = 0.0F;
+    float nat = 0.0F;
+    std::int64_t units = 0;  // the same in 2^-32 nat
+  };
+  Entropy compute_entropy(float log_odds) const;
+  const Entropy& entropy_of(float log_odds);
   void add_log_odds(VoxelIndex v, float delta);
+  bool is_clamped(float log_odds) const {
+    return log_odds <= clamp_min_log_ || log_odds >= clamp_max_log_;
+  }
 
   OccupancyConfig config_;
   GridGeometry geometry_;
@@ -74,8 +86,10 @@ class OccupancyGrid {
   std::vector<std::uint8_t> measured_;
   std::vector<VoxelState> state_;
   std::vector<float> entropy_nat_;
-  double total_entropy_nat_ = 0.0;
+  std::int64_t total_entropy_ = 0;  // in units of 2^-32 nat
   std::size_t occupied_count_ = 0;
+  // entropies last computed, by a hash of the log-odds: sums of hits and misses take few values
+  std::vector<Entropy> entropy_memo_;
 };
 
 }  // namespace gnbv

@@ -7,8 +7,8 @@
 
 namespace gnbv {
 
-/// Writes `stem`.ot (all log-odds) and `stem`.bt (maximum likelihood), both by rename, holding every
-/// measured voxel with its exact log-odds, pruned as OctoMap prunes.
+/// Writes `stem`.ot (all log-odds) and `stem`.bt (maximum likelihood), both by rename, holding
+/// every measured voxel with its exact log-odds, pruned as OctoMap prunes.
 void write_octomap(const OccupancyGrid& grid, const std::filesystem::path& stem);
 
 }  // namespace gnbv

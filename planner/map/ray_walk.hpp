@@ -1,4 +1,6 @@
-// One ray through the lattice, exactly as OctoMap walks it.
+// One ray through the lattice, exactly as OctoMap walks it: same float32 direction, same float64
+// steps, so the same voxels bit for bit as octomap::OcTreeBaseImpl::computeRayKeys (1.9.7;
+// Amanatides and Woo 1987).
 #pragma once
 
 #include <algorithm>
@@ -9,55 +11,86 @@
 
 namespace gnbv {
 
-/// Visits the voxels from `origin` towards `end` in order, with the origin's and without the end's,
-/// as octomap::OcTreeBaseImpl::computeRayKeys (1.9.7; Amanatides and Woo 1987) does: same float32
-/// direction, same float64 steps, so the same voxels bit for bit. `visit(Key)` returns false to
-/// stop. Voxels outside the grid are visited too; the caller knows its bounds.
-template <typename Visit>
-void walk_ray(const GridGeometry& grid, const Vec3f& origin_m, const Vec3f& end_m, Visit&& visit) {
-  Key key;
-  Key key_end;
-  for (std::size_t a = 0; a < 3; ++a) {
-    key[a] = grid.key_of(static_cast<double>(origin_m[static_cast<int>(a)]));
-    key_end[a] = grid.key_of(static_cast<double>(end_m[static_cast<int>(a)]));
-  }
-  if (key == key_end || !visit(key)) return;
+/// What all rays from one point share.
+struct RayOrigin {
+  Vec3f p_m = Vec3f::Zero();
+  Key key = {0, 0, 0};
+  // signed distance from the point to the borders of its voxel, along each axis
+  std::array<double, 3> to_upper_border_m = {0.0, 0.0, 0.0};
+  std::array<double, 3> to_lower_border_m = {0.0, 0.0, 0.0};
+};
 
-  Vec3f direction = end_m - origin_m;
+inline RayOrigin make_ray_origin(const GridGeometry& grid, const Vec3f& origin_m) {
+  RayOrigin origin;
+  origin.p_m = origin_m;
+  origin.key = grid.key_of(origin_m);
+  // OctoMap rounds half a voxel to float32 before it adds it to the centre
+  const auto half_m = static_cast<double>(static_cast<float>(grid.resolution_m() * 0.5));
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto p_m = static_cast<double>(origin_m[static_cast<Eigen::Index>(a)]);
+    origin.to_upper_border_m[a] = (grid.center_m(origin.key[a]) + half_m) - p_m;
+    origin.to_lower_border_m[a] = (grid.center_m(origin.key[a]) - half_m) - p_m;
+  }
+  return origin;
+}
+
+/// Steps of one ray: along axis a it crosses borders at t_next[a], then every t_voxel[a].
+struct RaySteps {
+  static constexpr double kNever = std::numeric_limits<double>::max();
+  Key step = {0, 0, 0};
+  std::array<double, 3> t_next{kNever, kNever, kNever};
+  std::array<double, 3> t_voxel{kNever, kNever, kNever};
+  double length_m = 0.0;  // 0 when float32 cannot tell the ends apart: such a ray takes no step
+};
+
+inline RaySteps make_ray_steps(const GridGeometry& grid, const RayOrigin& origin,
+                               const Vec3f& end_m) {
+  RaySteps ray;
+  Vec3f direction = end_m - origin.p_m;
   // octomap::Vector3::norm sums float32 products, left to right, and takes a float64 root of it
   const float squared =
       direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2];
   const float length_m = static_cast<float>(std::sqrt(static_cast<double>(squared)));
-  direction[0] /= length_m;
-  direction[1] /= length_m;
-  direction[2] /= length_m;
-
-  constexpr double kNever = std::numeric_limits<double>::max();
-  const double resolution_m = grid.resolution_m();
-  Key step = {0, 0, 0};
-  std::array<double, 3> t_next{kNever, kNever, kNever};
-  std::array<double, 3> t_voxel{kNever, kNever, kNever};
+  if (!(length_m > 0.0F)) return ray;
+  ray.length_m = static_cast<double>(length_m);
   for (std::size_t a = 0; a < 3; ++a) {
-    const float d = direction[static_cast<int>(a)];
-    step[a] = d > 0.0F ? 1 : (d < 0.0F ? -1 : 0);
-    if (step[a] == 0) continue;
-    double border_m = grid.center_m(key[a]);
-    border_m += static_cast<double>(static_cast<float>(step[a] * resolution_m * 0.5));
+    const float d = direction[static_cast<Eigen::Index>(a)] / length_m;
+    if (d == 0.0F) continue;
     const auto d64 = static_cast<double>(d);
-    t_next[a] = (border_m - static_cast<double>(origin_m[static_cast<int>(a)])) / d64;
-    t_voxel[a] = resolution_m / std::fabs(d64);
+    ray.step[a] = d > 0.0F ? 1 : -1;
+    ray.t_next[a] = (d > 0.0F ? origin.to_upper_border_m[a] : origin.to_lower_border_m[a]) / d64;
+    ray.t_voxel[a] = grid.resolution_m() / std::fabs(d64);
   }
+  return ray;
+}
 
+/// Visits the voxels from `origin` towards `end` in order, with the origin's and without the end's.
+/// `visit(Key)` returns false to stop. Voxels outside the grid are visited too; the caller knows
+/// its bounds. Both points must be finite.
+template <typename Visit>
+void walk_ray(const GridGeometry& grid, const RayOrigin& origin, const Vec3f& end_m,
+              Visit&& visit) {
+  Key key = origin.key;
+  const Key key_end = grid.key_of(end_m);
+  if (key == key_end || !visit(key)) return;
+  RaySteps ray = make_ray_steps(grid, origin, end_m);
+  if (!(ray.length_m > 0.0)) return;
   while (true) {
-    const std::size_t axis = t_next[0] < t_next[1] ? (t_next[0] < t_next[2] ? 0U : 2U)
-                                                   : (t_next[1] < t_next[2] ? 1U : 2U);
-    key[axis] += step[axis];
-    t_next[axis] += t_voxel[axis];
+    const std::size_t axis = ray.t_next[0] < ray.t_next[1]
+                                 ? (ray.t_next[0] < ray.t_next[2] ? 0U : 2U)
+                                 : (ray.t_next[1] < ray.t_next[2] ? 1U : 2U);
+    key[axis] += ray.step[axis];
+    ray.t_next[axis] += ray.t_voxel[axis];
     if (key == key_end) return;
     // rounding may walk past the end voxel: stop at the ray's length
-    if (std::min({t_next[0], t_next[1], t_next[2]}) > static_cast<double>(length_m)) return;
+    if (std::min({ray.t_next[0], ray.t_next[1], ray.t_next[2]}) > ray.length_m) return;
     if (!visit(key)) return;
   }
+}
+
+template <typename Visit>
+void walk_ray(const GridGeometry& grid, const Vec3f& origin_m, const Vec3f& end_m, Visit&& visit) {
+  walk_ray(grid, make_ray_origin(grid, origin_m), end_m, visit);
 }
 
 }  // namespace gnbv

@@ -1,0 +1,126 @@
+#include "bench/reference/octomap_twin.hpp"
+
+#include <octomap/octomap.h>
+
+#include "sim/core/error.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr int kOctomapKeyOffset = 32768;
+
+octomap::point3d octomap_point(const Vec3f& p) { return {p.x(), p.y(), p.z()}; }
+
+Key key_of(const octomap::OcTreeKey& key) {
+  return {key[0] - kOctomapKeyOffset, key[1] - kOctomapKeyOffset, key[2] - kOctomapKeyOffset};
+}
+
+octomap::OcTreeKey octomap_key(const Key& key) {
+  return {static_cast<octomap::key_type>(key[0] + kOctomapKeyOffset),
+          static_cast<octomap::key_type>(key[1] + kOctomapKeyOffset),
+          static_cast<octomap::key_type>(key[2] + kOctomapKeyOffset)};
+}
+
+}  // namespace
+
+struct OctomapTwin::Tree {
+  explicit Tree(double resolution_m) : octree(resolution_m) {}
+  octomap::OcTree octree;
+};
+
+OctomapTwin::OctomapTwin(std::unique_ptr<Tree> tree) : tree_(std::move(tree)) {}
+OctomapTwin::~OctomapTwin() = default;
+OctomapTwin::OctomapTwin(OctomapTwin&&) noexcept = default;
+OctomapTwin& OctomapTwin::operator=(OctomapTwin&&) noexcept = default;
+
+OctomapTwin::OctomapTwin(const OccupancyConfig& config)
+    : tree_(std::make_unique<Tree>(config.resolution_m)) {
+  octomap::OcTree& octree = tree_->octree;
+  octree.setProbHit(config.prob_hit);
+  octree.setProbMiss(config.prob_miss);
+  octree.setClampingThresMin(config.clamp_min);
+  octree.setClampingThresMax(config.clamp_max);
+  octree.setOccupancyThres(config.occupied_min);
+}
+
+OctomapTwin OctomapTwin::read(const std::filesystem::path& path) {
+  auto tree = std::make_unique<Tree>(0.1);
+  if (path.extension() == ".bt") {
+    if (!tree->octree.readBinary(path.string())) {
+      throw BadInput(fmt::format("{}: OctoMap cannot read it", path.string()));
+    }
+    return OctomapTwin(std::move(tree));
+  }
+  const std::unique_ptr<octomap::AbstractOcTree> read(octomap::AbstractOcTree::read(path.string()));
+  auto* octree = dynamic_cast<octomap::OcTree*>(read.get());
+  if (octree == nullptr) {
+    throw BadInput(fmt::format("{}: OctoMap cannot read it", path.string()));
+  }
+  tree->octree.swapContent(*octree);
+  tree->octree.setResolution(octree->getResolution());
+  return OctomapTwin(std::move(tree));
+}
+
+void OctomapTwin::insert(const Vec3f& origin_world_m, std::span<const ScanRay> rays) {
+  octomap::OcTree& octree = tree_->octree;
+  octomap::KeySet free;
+  octomap::KeySet occupied;
+  octomap::KeyRay ray_keys;
+  for (const ScanRay& ray : rays) {
+    const octomap::point3d end = octomap_point(ray.end_world_m);
+    if (octree.computeRayKeys(octomap_point(origin_world_m), end, ray_keys)) {
+      free.insert(ray_keys.begin(), ray_keys.end());
+    }
+    octomap::OcTreeKey key;
+    if (ray.hit && octree.coordToKeyChecked(end, key)) occupied.insert(key);
+  }
+  for (const octomap::OcTreeKey& key : free) {
+    if (occupied.find(key) == occupied.end()) octree.updateNode(key, false);
+  }
+  for (const octomap::OcTreeKey& key : occupied) octree.updateNode(key, true);
+}
+
+void OctomapTwin::insert_point_cloud(const Vec3f& origin_world_m,
+                                     std::span<const Vec3f> ends_world_m, bool lazy) {
+  octomap::Pointcloud cloud;
+  cloud.reserve(ends_world_m.size());
+  for (const Vec3f& end_m : ends_world_m) cloud.push_back(octomap_point(end_m));
+  constexpr double kNoMaximumRange = -1.0;
+  tree_->octree.insertPointCloud(cloud, octomap_point(origin_world_m), kNoMaximumRange, lazy);
+}
+
+std::vector<Key> OctomapTwin::ray_keys(const Vec3f& origin_m, const Vec3f& end_m) const {
+  octomap::KeyRay ray;
+  std::vector<Key> keys;
+  if (!tree_->octree.computeRayKeys(octomap_point(origin_m), octomap_point(end_m), ray))
+    return keys;
+  for (const octomap::OcTreeKey& key : ray) keys.push_back(key_of(key));
+  return keys;
+}
+
+std::optional<float> OctomapTwin::log_odds(const Key& key) const {
+  const octomap::OcTreeNode* node = tree_->octree.search(octomap_key(key));
+  if (node == nullptr) return std::nullopt;
+  return node->getLogOdds();
+}
+
+std::optional<bool> OctomapTwin::is_occupied(const Key& key) const {
+  const octomap::OcTreeNode* node = tree_->octree.search(octomap_key(key));
+  if (node == nullptr) return std::nullopt;
+  return tree_->octree.isNodeOccupied(node);
+}
+
+double OctomapTwin::resolution_m() const { return tree_->octree.getResolution(); }
+
+std::size_t OctomapTwin::voxel_count() const {
+  std::size_t voxels = 0;
+  const octomap::OcTree& octree = tree_->octree;
+  for (auto leaf = octree.begin_leafs(); leaf != octree.end_leafs(); ++leaf) {
+    voxels += std::size_t{1} << (3 * (octree.getTreeDepth() - leaf.getDepth()));
+  }
+  return voxels;
+}
+
+std::size_t OctomapTwin::node_count() const { return tree_->octree.size(); }
+
+}  // namespace gnbv

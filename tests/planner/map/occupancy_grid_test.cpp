@@ -1,0 +1,147 @@
+#include "planner/map/occupancy_grid.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sim/core/error.hpp"
+#include "tests/planner/map/random_points.hpp"
+
+namespace gnbv {
+namespace {
+
+const Box3 kBox_m(Vec3(-1, -1, 0), Vec3(1, 1, 1));
+
+OccupancyGrid small_grid() { return OccupancyGrid(OccupancyConfig{}, kBox_m); }
+
+double entropy_nat(double p) { return -p * std::log(p) - (1.0 - p) * std::log(1.0 - p); }
+
+TEST(OccupancyGrid, UnmeasuredSpaceIsUnknownAtLn2) {
+  const OccupancyGrid grid = small_grid();
+  EXPECT_EQ(grid.geometry().voxel_count(), 500U);
+  for (VoxelIndex v = 0; v < 500; ++v) {
+    EXPECT_EQ(grid.state(v), VoxelState::unknown);
+    EXPECT_FALSE(grid.is_measured(v));
+    EXPECT_EQ(grid.log_odds(v), 0.0F);
+    EXPECT_EQ(grid.entropy_nat(v), static_cast<float>(std::log(2.0)));
+  }
+  // each voxel is rounded to 2^-32 nat, so at most half of it off
+  EXPECT_NEAR(grid.total_entropy_nat(), 500.0 * std::log(2.0), 500.0 * 0x1p-33);
+}
+
+TEST(OccupancyGrid, OneMissIsFreeAndOneHitOccupied) {
+  OccupancyGrid grid = small_grid();
+  grid.apply({.free = {3}, .occupied = {4}});
+  EXPECT_EQ(grid.state(3), VoxelState::free);
+  EXPECT_EQ(grid.state(4), VoxelState::occupied);
+  EXPECT_TRUE(grid.is_measured(3));
+  EXPECT_TRUE(grid.is_measured(4));
+  EXPECT_FALSE(grid.is_measured(5));
+  EXPECT_EQ(grid.occupied_count(), 1U);
+  // float32 log-odds hold p to about 1e-7
+  EXPECT_NEAR(grid.probability(3), 0.4, 1e-7);
+  EXPECT_NEAR(grid.probability(4), 0.7, 1e-7);
+  EXPECT_EQ(grid.probability(5), 0.5);
+}
+
+TEST(OccupancyGrid, BetweenTheThresholdsIsUnknownAgain) {
+  OccupancyGrid grid = small_grid();
+  grid.apply({.free = {}, .occupied = {7}});
+  grid.apply({.free = {7}, .occupied = {}});
+  grid.apply({.free = {7}, .occupied = {}});  // 0.847 - 2 * 0.405: p = 0.509
+  EXPECT_EQ(grid.state(7), VoxelState::unknown);
+  EXPECT_TRUE(grid.is_measured(7));
+  EXPECT_EQ(grid.occupied_count(), 0U);
+}
+
+/// Log-odds of a clamping bound, as OctoMap stores it.
+float bound(double p) { return static_cast<float>(std::log(p / (1.0 - p))); }
+
+TEST(OccupancyGrid, ClampsAtBothBoundsExactlyAndComesBack) {
+  OccupancyGrid grid = small_grid();
+  for (int i = 0; i < 20; ++i) grid.apply({.free = {1}, .occupied = {2}});
+  EXPECT_EQ(grid.log_odds(1), bound(0.1192));
+  EXPECT_EQ(grid.log_odds(2), bound(0.971));
+  EXPECT_EQ(grid.entropy_nat(1), 0.0F);
+  EXPECT_EQ(grid.entropy_nat(2), 0.0F);
+  EXPECT_NEAR(grid.total_entropy_nat(), 498.0 * std::log(2.0), 498.0 * 0x1p-33);
+  grid.apply({.free = {2}, .occupied = {1}});
+  EXPECT_EQ(grid.log_odds(1), bound(0.1192) + bound(0.7));
+  EXPECT_EQ(grid.log_odds(2), bound(0.971) + bound(0.4));
+  EXPECT_GT(grid.entropy_nat(1), 0.0F);
+}
+
+TEST(OccupancyGrid, EntropyIsEquationOneOfTheProbability) {
+  OccupancyGrid grid = small_grid();
+  grid.apply({.free = {0}, .occupied = {1}});
+  // float32 results: relative 6e-8, and p off by 1e-7 times a slope below 1
+  EXPECT_NEAR(grid.entropy_nat(0), entropy_nat(0.4), 2e-7);
+  EXPECT_NEAR(grid.entropy_nat(1), entropy_nat(0.7), 2e-7);
+  EXPECT_NEAR(grid.entropy_nat(0), 0.6730117, 2e-7);
+}
+
+ScanUpdate random_update(Random& random, VoxelIndex voxels) {
+  ScanUpdate update;
+  for (VoxelIndex v = 0; v < voxels; ++v) {
+    const double kind = random.uniform(0.0, 1.0);
+    if (kind < 0.3) update.free.push_back(v);
+    if (kind > 0.85) update.occupied.push_back(v);
+  }
+  return update;
+}
+
+TEST(OccupancyGrid, TotalEntropyEqualsTheFullSumAfterAnyUpdates) {
+  OccupancyGrid grid = small_grid();
+  Random random(5);
+  for (int scan = 0; scan < 200; ++scan) grid.apply(random_update(random, 500));
+  double sum_nat = 0.0;
+  std::size_t occupied = 0;
+  for (VoxelIndex v = 0; v < 500; ++v) {
+    const bool is_clamped = grid.log_odds(v) == bound(0.1192) || grid.log_odds(v) == bound(0.971);
+    if (!is_clamped) sum_nat += entropy_nat(grid.probability(v));
+    occupied += static_cast<std::size_t>(grid.state(v) == VoxelState::occupied);
+  }
+  // the increments are exact integers: only the rounding of each voxel to 2^-32 nat is left, and
+  // float64 rounding of a sum below 350
+  EXPECT_NEAR(grid.total_entropy_nat(), sum_nat, 500.0 * 0x1p-33 + 1e-10);
+  EXPECT_EQ(grid.occupied_count(), occupied);
+}
+
+TEST(OccupancyGrid, TotalEntropyDoesNotDependOnTheOrderOfVoxels) {
+  OccupancyGrid forward = small_grid();
+  OccupancyGrid backward = small_grid();
+  Random random(6);
+  for (int scan = 0; scan < 50; ++scan) {
+    ScanUpdate update = random_update(random, 500);
+    forward.apply(update);
+    std::reverse(update.free.begin(), update.free.end());
+    std::reverse(update.occupied.begin(), update.occupied.end());
+    backward.apply(update);
+  }
+  EXPECT_EQ(forward.total_entropy_nat(), backward.total_entropy_nat());
+}
+
+TEST(OccupancyGrid, OutsideIsUnknown) {
+  OccupancyGrid grid = small_grid();
+  grid.apply({.free = {}, .occupied = {0}});
+  EXPECT_EQ(grid.state_at(Vec3(-0.9, -0.9, 0.1)), VoxelState::occupied);
+  EXPECT_EQ(grid.state_at(Vec3(-1.1, -0.9, 0.1)), VoxelState::unknown);
+  EXPECT_EQ(grid.state_at(Vec3(-0.9, -0.9, -0.1)), VoxelState::unknown);
+}
+
+TEST(OccupancyGrid, RefusesProbabilitiesOutOfOrder) {
+  for (const auto& spoil :
+       std::vector<void (*)(OccupancyConfig&)>{[](OccupancyConfig& c) { c.prob_hit = 0.5; },
+                                               [](OccupancyConfig& c) { c.prob_miss = 0.6; },
+                                               [](OccupancyConfig& c) { c.clamp_min = 0.0; },
+                                               [](OccupancyConfig& c) { c.clamp_max = 1.0; },
+                                               [](OccupancyConfig& c) { c.occupied_min = 0.3; },
+                                               [](OccupancyConfig& c) { c.resolution_m = -0.2; }}) {
+    OccupancyConfig config;
+    spoil(config);
+    EXPECT_THROW(OccupancyGrid(config, kBox_m), BadInput);
+  }
+}
+
+}  // namespace
+}  // namespace gnbv

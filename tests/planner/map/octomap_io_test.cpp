@@ -1,0 +1,124 @@
+#include "planner/map/octomap_io.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <bit>
+#include <filesystem>
+
+#include "bench/reference/octomap_twin.hpp"
+#include "planner/map/scan_insertion.hpp"
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "tests/planner/map/random_points.hpp"
+
+namespace gnbv {
+namespace {
+
+class OctomapFiles : public ::testing::Test {
+ protected:
+  OctomapFiles() : grid_(OccupancyConfig{}, Box3(Vec3(-3, -2, 0), Vec3(3, 2, 2))) {
+    folder_ =
+        std::filesystem::temp_directory_path() /
+        (std::string("gnbv_") + ::testing::UnitTest::GetInstance()->current_test_info()->name() +
+         "_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder_);
+    Random random(53);
+    for (int scan = 0; scan < 12; ++scan) {
+      const Vec3f origin_m = random.point_in(Box3(Vec3(-2, -1, 0.5), Vec3(2, 1, 1.5)));
+      std::vector<ScanRay> rays;
+      for (int i = 0; i < 500; ++i) {
+        rays.push_back({random.point_in(Box3(Vec3(-3, -2, 0), Vec3(3, 2, 2))), random.chance(0.5)});
+      }
+      grid_.apply(compute_update(grid_.geometry(), origin_m, rays, 1));
+    }
+  }
+  ~OctomapFiles() override {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+
+  std::size_t measured_count() const {
+    std::size_t count = 0;
+    for (VoxelIndex v = 0; v < grid_.geometry().voxel_count(); ++v) {
+      count += static_cast<std::size_t>(grid_.is_measured(v));
+    }
+    return count;
+  }
+
+  std::filesystem::path folder_;
+  OccupancyGrid grid_;
+};
+
+TEST_F(OctomapFiles, OtHoldsEveryLogOddsBitForBitAndNothingElse) {
+  write_octomap(grid_, folder_ / "map.v1");  // a stem with a dot keeps it
+  const OctomapTwin read = OctomapTwin::read(folder_ / "map.v1.ot");
+  EXPECT_EQ(read.resolution_m(), 0.2);
+  for (VoxelIndex v = 0; v < grid_.geometry().voxel_count(); ++v) {
+    const std::optional<float> log_odds = read.log_odds(grid_.geometry().key_at(v));
+    ASSERT_EQ(log_odds.has_value(), grid_.is_measured(v));
+    if (!log_odds) continue;
+    ASSERT_EQ(std::bit_cast<std::uint32_t>(*log_odds),
+              std::bit_cast<std::uint32_t>(grid_.log_odds(v)));
+  }
+  EXPECT_EQ(read.voxel_count(), measured_count());
+}
+
+TEST_F(OctomapFiles, BtHoldsOccupiedAgainstNot) {
+  write_octomap(grid_, folder_ / "map");
+  const OctomapTwin read = OctomapTwin::read(folder_ / "map.bt");
+  for (VoxelIndex v = 0; v < grid_.geometry().voxel_count(); ++v) {
+    const std::optional<bool> is_occupied = read.is_occupied(grid_.geometry().key_at(v));
+    ASSERT_EQ(is_occupied.has_value(), grid_.is_measured(v));
+    if (!is_occupied) continue;
+    ASSERT_EQ(*is_occupied, grid_.state(v) == VoxelState::occupied);
+  }
+  EXPECT_EQ(read.voxel_count(), measured_count());
+}
+
+TEST_F(OctomapFiles, EqualVoxelsArePrunedToOneNode) {
+  OccupancyGrid block(OccupancyConfig{}, Box3(Vec3(-1, -1, 0), Vec3(2, 2, 2)));
+  ScanUpdate update;
+  for (VoxelIndex v = 0; v < block.geometry().voxel_count(); ++v) {
+    const Key key = block.geometry().key_at(v);
+    if (std::ranges::all_of(key, [](int k) { return k >= 0 && k < 8; })) update.free.push_back(v);
+  }
+  ASSERT_EQ(update.free.size(), 512U);
+  block.apply(update);
+  for (const char* extension : {".ot", ".bt"}) {
+    write_octomap(block, folder_ / "block");
+    const OctomapTwin read = OctomapTwin::read((folder_ / "block").string() + extension);
+    EXPECT_EQ(read.voxel_count(), 512U);
+    EXPECT_EQ(read.node_count(), 14U);  // one leaf three levels above the finest of 16
+  }
+}
+
+TEST_F(OctomapFiles, WritingPrintsNothingAndLeavesNoPartsBehind) {
+  ::testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStderr();
+  write_octomap(grid_, folder_ / "map");
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+  std::size_t files = 0;
+  for ([[maybe_unused]] const auto& file : std::filesystem::directory_iterator(folder_)) ++files;
+  EXPECT_EQ(files, 2U);
+}
+
+TEST_F(OctomapFiles, AMapThatNothingTouchedIsAValidFile) {
+  const OccupancyGrid empty(OccupancyConfig{}, Box3(Vec3(0, 0, 0), Vec3(1, 1, 1)));
+  write_octomap(empty, folder_ / "empty");
+  EXPECT_EQ(OctomapTwin::read(folder_ / "empty.ot").node_count(), 0U);
+}
+
+TEST_F(OctomapFiles, AFolderThatIsNotThereIsNamed) {
+  try {
+    write_octomap(grid_, folder_ / "nowhere" / "map");
+    FAIL();
+  } catch (const BadInput& error) {
+    EXPECT_NE(std::string(error.what()).find("nowhere"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace gnbv

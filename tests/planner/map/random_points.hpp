@@ -1,0 +1,29 @@
+// Random numbers of the map tests; the seed is in the test, so a failure repeats.
+#pragma once
+
+#include "sim/core/pose.hpp"
+#include "sim/core/rng.hpp"
+
+namespace gnbv {
+
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : seed_(seed) {}
+  double uniform(double low, double high) {
+    return low + (high - low) * uniform01({seed_, Stream::bench, 0, next_++});
+  }
+  bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
+  Vec3f point_in(const Box3& box_m) {
+    Vec3f p_m;
+    for (int a = 0; a < 3; ++a) {
+      p_m[a] = static_cast<float>(uniform(box_m.min()[a], box_m.max()[a]));
+    }
+    return p_m;
+  }
+
+ private:
+  std::uint64_t seed_;
+  std::uint64_t next_ = 0;
+};
+
+}  // namespace gnbv

@@ -1,0 +1,191 @@
+#include "planner/map/scan_insertion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "bench/reference/analytic_scans.hpp"
+#include "bench/reference/octomap_twin.hpp"
+#include "tests/planner/map/random_points.hpp"
+
+namespace gnbv {
+namespace {
+
+const Box3 kBox_m(Vec3(-3, -2.5, 0), Vec3(3.1, 2.5, 2));
+
+/// Float log-odds bit for bit, and whether the node exists, over all voxels of the grid.
+void expect_equal(const OccupancyGrid& grid, const OctomapTwin& twin) {
+  std::size_t measured = 0;
+  const auto voxels = static_cast<VoxelIndex>(grid.geometry().voxel_count());
+  for (VoxelIndex v = 0; v < voxels; ++v) {
+    const std::optional<float> expected = twin.log_odds(grid.geometry().key_at(v));
+    ASSERT_EQ(grid.is_measured(v), expected.has_value()) << "voxel " << v;
+    if (!expected) continue;
+    ++measured;
+    ASSERT_EQ(std::bit_cast<std::uint32_t>(grid.log_odds(v)),
+              std::bit_cast<std::uint32_t>(*expected))
+        << "voxel " << v << ": " << grid.log_odds(v) << " against " << *expected;
+  }
+  EXPECT_GT(measured, voxels / 20) << "the scans hardly touched the grid";
+}
+
+/// Hits, clearing rays and floor, ends in and out of the box, some on voxel borders or
+/// axis-aligned.
+std::vector<ScanRay> random_rays(Random& random, const Vec3f& origin_m, int count) {
+  const Box3 around_m(kBox_m.min() - Vec3(2, 2, 1), kBox_m.max() + Vec3(2, 2, 2));
+  std::vector<ScanRay> rays;
+  for (int i = 0; i < count; ++i) {
+    Vec3f end_m = random.point_in(around_m);
+    if (random.chance(0.1)) end_m.head<2>() = origin_m.head<2>();
+    if (random.chance(0.1)) end_m[1] = std::round(end_m[1] * 5.0F) / 5.0F;
+    if (random.chance(0.1)) end_m = origin_m + 0.02F * (end_m - origin_m);
+    rays.push_back({end_m, end_m.z() > 0.3F && random.chance(0.6)});
+  }
+  return rays;
+}
+
+void insert(OccupancyGrid& grid, ScanInserter& inserter, const Vec3f& origin_m,
+            std::span<const ScanRay> rays) {
+  grid.apply(inserter.compute_update(origin_m, rays, 2));
+}
+
+TEST(ScanInsertion, GridEqualsOctomapVoxelByVoxel) {
+  for (const double resolution_m : {0.2, 0.07, 0.05}) {
+    OccupancyConfig config;
+    config.resolution_m = resolution_m;
+    OccupancyGrid grid(config, kBox_m);
+    ScanInserter inserter(grid.geometry());
+    OctomapTwin twin(config);
+    Random random(23);
+    for (int scan = 0; scan < 9; ++scan) {
+      Vec3f origin_m = random.point_in(kBox_m);
+      if (scan == 3) origin_m = {-4.0F, 0.0F, 1.0F};  // outside, looking in
+      if (scan == 5) origin_m = {0.0F, 0.2F, 1.0F};   // on voxel borders
+      const std::vector<ScanRay> rays = random_rays(random, origin_m, 400);
+      insert(grid, inserter, origin_m, rays);
+      twin.insert(origin_m, rays);
+    }
+    expect_equal(grid, twin);
+  }
+}
+
+TEST(ScanInsertion, DepthFramesEqualOctomapVoxelByVoxel) {
+  CameraConfig camera_config;
+  camera_config.width_px = 80;
+  camera_config.height_px = 60;
+  camera_config.pitch_rad = deg_to_rad(20.0);
+  const CameraModel camera = make_camera_model(camera_config);
+  const AnalyticScene scene = example_scene();
+  OccupancyGrid grid(OccupancyConfig{}, Box3(Vec3(-10, -10, 0), Vec3(10, 10, 8)));
+  ScanInserter inserter(grid.geometry());
+  OctomapTwin twin(grid.config());
+  for (int view = 0; view < 12; ++view) {
+    const double angle_rad = view * kPi / 6.0;
+    const ViewPose pose = {Vec3(8.0 * std::cos(angle_rad), 8.0 * std::sin(angle_rad), 5.0),
+                           angle_rad + kPi};
+    const DepthFrame frame = analytic_depth(scene, camera, T_world_body(pose));
+    const Vec3f origin_m = frame.T_world_camera.translation().cast<float>();
+    const std::vector<ScanRay> rays = rays_of(frame, camera, 0.3);
+    insert(grid, inserter, origin_m, rays);
+    twin.insert(origin_m, rays);
+  }
+  EXPECT_GT(grid.occupied_count(), 300U);
+  expect_equal(grid, twin);
+}
+
+std::vector<LidarScan> example_scans(const LidarConfig& lidar, int count) {
+  const AnalyticScene scene = example_scene();
+  std::vector<LidarScan> scans;
+  for (int s = 0; s < count; ++s) {
+    const ViewPose pose = {Vec3(-9.0, -9.0 + 0.05 * s, 7.5 - 0.05 * s), 0.4};
+    scans.push_back(analytic_scan(scene, lidar, T_world_body(pose)));
+  }
+  return scans;
+}
+
+TEST(ScanInsertion, LidarSweepsEqualOctomapVoxelByVoxel) {
+  LidarConfig lidar;
+  lidar.beams = 120;
+  const std::vector<LidarScan> scans = example_scans(lidar, 70);  // more than one batch
+  OccupancyGrid grid(OccupancyConfig{}, Box3(Vec3(-10, -10, 0), Vec3(10, 10, 8)));
+  OctomapTwin twin(grid.config());
+  insert_scans(grid, scans, lidar, 0.3, 2);
+  for (const LidarScan& scan : scans) {
+    twin.insert(scan.T_world_lidar.translation().cast<float>(), rays_of(scan, lidar, 0.3));
+  }
+  expect_equal(grid, twin);
+}
+
+TEST(ScanInsertion, BatchOfSweepsIsTheSameAtAnyThreadCount) {
+  LidarConfig lidar;
+  lidar.beams = 90;
+  const std::vector<LidarScan> scans = example_scans(lidar, 130);  // more than one batch
+  const Box3 box_m(Vec3(-10, -10, 0), Vec3(10, 10, 8));
+  OccupancyGrid one(OccupancyConfig{}, box_m);
+  insert_scans(one, scans, lidar, 0.3, 1);
+  for (const int threads : {2, 5}) {
+    OccupancyGrid many(OccupancyConfig{}, box_m);
+    insert_scans(many, scans, lidar, 0.3, threads);
+    EXPECT_TRUE(std::ranges::equal(one.all_log_odds(), many.all_log_odds()));
+    EXPECT_EQ(one.total_entropy_nat(), many.total_entropy_nat());
+  }
+}
+
+TEST(ScanInsertion, UpdateIsTheSameAtAnyThreadCountAndWithUsedMemory) {
+  const GridGeometry grid(kBox_m, 0.1);
+  Random random(31);
+  const Vec3f origin_m(0.3F, -0.2F, 1.1F);
+  const std::vector<ScanRay> rays = random_rays(random, origin_m, 60000);  // four bands
+  const ScanUpdate one = compute_update(grid, origin_m, rays, 1);
+  EXPECT_GT(one.free.size(), 10000U);
+  EXPECT_GT(one.occupied.size(), 1000U);
+  ScanInserter used(grid);
+  for (const int threads : {1, 2, 5, 2}) {
+    const ScanUpdate again = used.compute_update(origin_m, rays, threads);
+    EXPECT_EQ(again.free, one.free) << threads << " threads";
+    EXPECT_EQ(again.occupied, one.occupied) << threads << " threads";
+  }
+}
+
+TEST(ScanInsertion, EachVoxelIsListedOnceAndOccupiedWins) {
+  const GridGeometry grid(kBox_m, 0.2);
+  Random random(37);
+  const Vec3f origin_m(0.3F, -0.2F, 1.1F);
+  const std::vector<ScanRay> rays = random_rays(random, origin_m, 40000);
+  const ScanUpdate update = compute_update(grid, origin_m, rays, 2);
+  std::vector<int> listed(grid.voxel_count(), 0);
+  for (const VoxelIndex v : update.free) ++listed[v];
+  for (const VoxelIndex v : update.occupied) ++listed[v];
+  EXPECT_EQ(std::ranges::max(listed), 1);
+}
+
+TEST(ScanInsertion, ARayThroughAnotherHitLeavesItOccupied) {
+  const GridGeometry grid(kBox_m, 0.2);
+  const Vec3f origin_m(0.1F, 0.1F, 1.1F);
+  const std::vector<ScanRay> rays = {{Vec3f(1.9F, 0.1F, 1.1F), false},
+                                     {Vec3f(0.9F, 0.1F, 1.1F), true}};
+  const ScanUpdate update = compute_update(grid, origin_m, rays, 1);
+  ASSERT_EQ(update.occupied.size(), 1U);
+  EXPECT_EQ(grid.key_at(update.occupied[0]), (Key{4, 0, 5}));
+  EXPECT_EQ(update.free.size(), 8U);  // x keys 0 to 8 without 4, and without the end's 9
+}
+
+TEST(ScanInsertion, RaysThatLeaveTheGridSideBySideStopThere) {
+  const GridGeometry grid(kBox_m, 0.2);
+  const Vec3f origin_m(0.1F, 0.1F, 1.1F);
+  const std::vector<ScanRay> rays(8, {Vec3f(0.1F, 0.1F, 50.0F), false});
+  const ScanUpdate update = compute_update(grid, origin_m, rays, 1);
+  std::vector<VoxelIndex> expected;
+  for (std::int32_t z = 5; z < 10; ++z) expected.push_back(grid.index_of({0, 0, z}));
+  EXPECT_EQ(update.free, expected);
+}
+
+TEST(ScanInsertion, NoRaysTouchNothing) {
+  const ScanUpdate update = compute_update(GridGeometry(kBox_m, 0.2), Vec3f::Zero(), {}, 2);
+  EXPECT_TRUE(update.free.empty());
+  EXPECT_TRUE(update.occupied.empty());
+}
+
+}  // namespace
+}  // namespace gnbv

@@ -1,0 +1,201 @@
+#include "planner/map/surface_cloud.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "bench/reference/analytic_scans.hpp"
+#include "bench/reference/pcl_twin.hpp"
+#include "planner/map/scan_insertion.hpp"
+#include "sim/core/error.hpp"
+#include "tests/planner/map/random_points.hpp"
+
+namespace gnbv {
+namespace {
+
+const Box3 kBox_m(Vec3(-2, -2, 0), Vec3(2, 2, 2));
+
+std::vector<Vec3f> points_of_frame(const ViewPose& pose) {
+  CameraConfig config;
+  config.width_px = 160;
+  config.height_px = 120;
+  const CameraModel camera = make_camera_model(config);
+  const DepthFrame frame = analytic_depth(example_scene(), camera, T_world_body(pose));
+  std::vector<Vec3f> points;
+  for (const ScanRay& ray : rays_of(frame, camera, 0.3)) {
+    if (ray.hit) points.push_back(ray.end_world_m);
+  }
+  return points;
+}
+
+/// A bumpy sheet with some clutter: several points a leaf, and all neighbour distances.
+std::vector<Vec3f> random_sheet(Random& random, int count) {
+  std::vector<Vec3f> points;
+  const Vec3f corner_m = random.point_in(Box3(Vec3(-2, -2, 0.2), Vec3(1, 1, 1.2)));
+  for (int i = 0; i < count; ++i) {
+    Vec3f p_m = corner_m + random.point_in(Box3(Vec3::Zero(), Vec3(1.0, 1.0, 0.03)));
+    if (random.chance(0.2)) p_m = random.point_in(kBox_m);
+    points.push_back(p_m);
+  }
+  return points;
+}
+
+/// Sums of neighbour counts per voxel, every pair looked at.
+std::vector<std::uint64_t> brute_force(const SurfaceCloud& cloud, const GridGeometry& grid) {
+  std::vector<std::uint64_t> sums(grid.voxel_count(), 0);
+  const auto radius2_m2 = static_cast<float>(cloud.search_radius_m() * cloud.search_radius_m());
+  for (const Vec3f& p : cloud.points_world_m()) {
+    std::uint64_t near = 0;
+    for (const Vec3f& q : cloud.points_world_m()) {
+      const float dx = q[0] - p[0];
+      const float dy = q[1] - p[1];
+      const float dz = q[2] - p[2];
+      near += static_cast<std::uint64_t>(dx * dx + dy * dy + dz * dz <= radius2_m2);
+    }
+    sums[grid.index_of(grid.key_of(p))] += near;
+  }
+  return sums;
+}
+
+std::vector<std::uint64_t> by_pcl(const SurfaceCloud& cloud, const GridGeometry& grid) {
+  std::vector<std::uint64_t> sums(grid.voxel_count(), 0);
+  const std::vector<std::uint32_t> counts =
+      pcl_neighbour_counts(cloud.points_world_m(), cloud.search_radius_m());
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    sums[grid.index_of(grid.key_of(cloud.points_world_m()[i]))] += counts[i];
+  }
+  return sums;
+}
+
+std::vector<std::uint64_t> sums_of(const SurfaceCloud& cloud, const GridGeometry& grid) {
+  std::vector<std::uint64_t> sums;
+  for (VoxelIndex v = 0; v < grid.voxel_count(); ++v) sums.push_back(cloud.neighbour_sum(v));
+  return sums;
+}
+
+TEST(SurfaceCloud, DensityEqualsBruteForceAndPclAfterEveryBatch) {
+  // buckets that coincide with the voxels, and two that do not; the last is one leaf wide
+  for (const auto& [voxel_m, leaf_m] :
+       std::vector<std::pair<double, double>>{{0.2, 0.02}, {0.17, 0.025}, {0.05, 0.06}}) {
+    const GridGeometry grid(kBox_m, voxel_m);
+    SurfaceCloud cloud({.leaf_m = leaf_m, .profile_leaf_m = 0.1}, grid);
+    Random random(41);
+    for (int batch = 0; batch < 4; ++batch) {
+      cloud.add(random_sheet(random, 1500), batch == 0 ? 0.1 : leaf_m);
+      const std::vector<std::uint64_t> sums = sums_of(cloud, grid);
+      ASSERT_EQ(sums, brute_force(cloud, grid)) << "voxel " << voxel_m << ", batch " << batch;
+      ASSERT_EQ(sums, by_pcl(cloud, grid)) << "voxel " << voxel_m << ", batch " << batch;
+    }
+    EXPECT_GT(cloud.points_world_m().size(), 1000U);
+  }
+}
+
+TEST(SurfaceCloud, HandDrawnDensities) {
+  const GridGeometry grid(kBox_m, 0.2);  // radius 0.1414
+  SurfaceCloud cloud(CloudConfig{}, grid);
+  // one voxel with a row of three points 0.09 apart, and one lone point in the voxel beyond
+  const std::vector<Vec3f> points = {Vec3f(0.01F, 0.1F, 0.1F), Vec3f(0.10F, 0.1F, 0.1F),
+                                     Vec3f(0.19F, 0.1F, 0.1F), Vec3f(0.35F, 0.1F, 0.1F)};
+  EXPECT_EQ(cloud.add(points, 0.02), 4U);
+  const VoxelIndex first = grid.index_of(grid.key_of(Vec3(0.1, 0.1, 0.1)));
+  const VoxelIndex second = grid.index_of(grid.key_of(Vec3(0.3, 0.1, 0.1)));
+  EXPECT_EQ(cloud.point_count(first), 3U);
+  EXPECT_DOUBLE_EQ(cloud.density(first), (2.0 + 3.0 + 2.0) / 3.0);
+  EXPECT_DOUBLE_EQ(cloud.density(second), 1.0);
+  EXPECT_EQ(cloud.density(second + 1), 0.0);
+  // a point across the border from the third one changes both voxels
+  EXPECT_EQ(cloud.add(std::vector<Vec3f>{Vec3f(0.25F, 0.1F, 0.1F)}, 0.02), 1U);
+  EXPECT_DOUBLE_EQ(cloud.density(first), (2.0 + 3.0 + 3.0) / 3.0);
+  EXPECT_DOUBLE_EQ(cloud.density(second), (2.0 + 3.0) / 2.0);
+  EXPECT_DOUBLE_EQ(cloud.density_max(), 300.0);
+}
+
+TEST(SurfaceCloud, ALeafKeepsTheCentroidOfTheFirstBatchThatReachedIt) {
+  const GridGeometry grid(kBox_m, 0.2);
+  SurfaceCloud cloud(CloudConfig{}, grid);
+  EXPECT_EQ(
+      cloud.add(std::vector<Vec3f>{Vec3f(0.101F, 0.11F, 0.11F), Vec3f(0.111F, 0.11F, 0.11F)}, 0.02),
+      1U);
+  EXPECT_EQ(cloud.add(std::vector<Vec3f>{Vec3f(0.119F, 0.11F, 0.11F)}, 0.02), 0U);
+  ASSERT_EQ(cloud.points_world_m().size(), 1U);
+  EXPECT_FLOAT_EQ(cloud.points_world_m()[0].x(), 0.106F);
+}
+
+TEST(SurfaceCloud, ACoarseBatchEntersTheFineLeavesByItsCentroids) {
+  const GridGeometry grid(kBox_m, 0.2);
+  SurfaceCloud cloud(CloudConfig{}, grid);
+  const std::vector<Vec3f> coarse = {Vec3f(0.11F, 0.15F, 0.15F), Vec3f(0.19F, 0.15F, 0.15F)};
+  EXPECT_EQ(cloud.add(coarse, 0.1), 1U);
+  EXPECT_FLOAT_EQ(cloud.points_world_m()[0].x(), 0.15F);
+  // the leaf of the centroid is taken, those of its points are not
+  EXPECT_EQ(cloud.add(std::vector<Vec3f>{Vec3f(0.15F, 0.15F, 0.15F)}, 0.02), 0U);
+  EXPECT_EQ(cloud.add(coarse, 0.02), 2U);
+}
+
+TEST(SurfaceCloud, IgnoresWhatLiesOutsideTheWorkspace) {
+  const GridGeometry grid(kBox_m, 0.2);
+  SurfaceCloud cloud(CloudConfig{}, grid);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<Vec3f> points = {Vec3f(2.01F, 0, 1), Vec3f(0, -2.01F, 1), Vec3f(0, 0, -0.01F),
+                                     Vec3f(nan, 0, 1), Vec3f(0, 0, 1e30F)};
+  EXPECT_EQ(cloud.add(points, 0.02), 0U);
+  // and takes what lies in its corners
+  EXPECT_EQ(cloud.add(std::vector<Vec3f>{Vec3f(-2, -2, 0), Vec3f(1.999F, 1.999F, 1.999F)}, 0.02),
+            2U);
+}
+
+TEST(SurfaceCloud, EqualsLeafByLeafFillingOfBatches) {
+  const GridGeometry grid(kBox_m, 0.2);
+  SurfaceCloud cloud(CloudConfig{}, grid);
+  const LeafLattice lattice(0.02);
+  std::map<LeafKey, Vec3f> first_centroid;
+  Random random(43);
+  for (int batch = 0; batch < 5; ++batch) {
+    const std::vector<Vec3f> points = random_sheet(random, 4000);
+    const std::size_t before = first_centroid.size();
+    for (const Vec3f& c_m : leaf_filter(points, 0.02)) {
+      if (grid.contains(grid.key_of(c_m))) first_centroid.emplace(lattice.key_of(c_m), c_m);
+    }
+    ASSERT_EQ(cloud.add(points, 0.02), first_centroid.size() - before);
+  }
+  for (const Vec3f& p_m : cloud.points_world_m()) {
+    ASSERT_EQ(first_centroid.at(lattice.key_of(p_m)), p_m);
+  }
+}
+
+TEST(LeafFilter, EqualsPclVoxelGridOnAFrame) {
+  const std::vector<Vec3f> points = points_of_frame({Vec3(-6, 0, 3), 0.0});
+  ASSERT_GT(points.size(), 5000U);
+  for (const double leaf_m : {0.02, 0.1, 0.25}) {
+    std::vector<Vec3f> ours = leaf_filter(points, leaf_m);
+    std::vector<Vec3f> pcl = pcl_leaf_filter(points, leaf_m);
+    ASSERT_EQ(ours.size(), pcl.size());
+    const LeafLattice lattice(leaf_m);
+    std::map<LeafKey, Vec3f> by_leaf;
+    for (const Vec3f& c_m : ours) by_leaf.emplace(lattice.key_of(c_m), c_m);
+    ASSERT_EQ(by_leaf.size(), ours.size());
+    std::size_t not_found = 0;
+    for (const Vec3f& c_m : pcl) {
+      const auto match = by_leaf.find(lattice.key_of(c_m));
+      if (match == by_leaf.end()) {
+        ++not_found;  // PCL's float32 sum may round a centroid across the border of its leaf
+        continue;
+      }
+      // PCL adds up to 200 float32 coordinates below 16 m: each addition rounds by at most half an
+      // ulp of 3200, 1.2e-4, and so does the mean
+      ASSERT_LT((match->second - c_m).cwiseAbs().maxCoeff(), 1.2e-4F) << "leaf " << leaf_m;
+    }
+    EXPECT_LE(not_found, 2U);
+  }
+}
+
+TEST(SurfaceCloud, RefusesLeavesItCannotHold) {
+  const GridGeometry grid(kBox_m, 0.2);
+  EXPECT_THROW(SurfaceCloud({.leaf_m = 0.0, .profile_leaf_m = 0.1}, grid), BadInput);
+  EXPECT_THROW(SurfaceCloud({.leaf_m = 0.001, .profile_leaf_m = 0.1}, grid), BadInput);
+}
+
+}  // namespace
+}  // namespace gnbv
