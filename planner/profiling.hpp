@@ -11,13 +11,13 @@ enum class ProfilingMethod { bounding_box, none };
 
 struct ProfilingConfig {
   ProfilingMethod method = ProfilingMethod::bounding_box;
-  bool scan_in_transit = true;   // LIDAR on between the descents too
+  bool scan_in_transit = true;  // LIDAR on between the descents too
 };
 
 /// One straight leg of the profile.
 struct ProfileLeg {
   ViewPose goal;
-  bool is_descent = false;       // flown at profiling speed; otherwise a transit
+  bool is_descent = false;  // flown at profiling speed; otherwise a transit
 };
 
 /// Eight descents on the faces of the navigation box: four corners and four side middles, from top

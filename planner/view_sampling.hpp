@@ -1,6 +1,7 @@
 // Adaptive Grid Viewpoint Sampling (paper section 2.4, Fig. 5).
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "sim/core/pose.hpp"
@@ -11,15 +12,20 @@ namespace gnbv {
 struct AgvsConfig {
   double step_m = 1.0;
   double yaw_step_rad = deg_to_rad(45.0);
-  bool rotation_only = true;        // offer the current position with other yaws, at scale 1
-  double scale_factor = 1.5;        // at each detected local minimum
+  bool rotation_only = true;  // offer the current position with other yaws, at scale 1
+  double scale_factor = 1.5;  // at each detected local minimum
   double scale_max = 7.5;
-  double utility_threshold = 0.1;   // local minimum: best utility below this ...
-  int utility_window = 3;           // ... over this many views
+  double utility_threshold = 0.1;  // local minimum: best utility below this ...
+  int utility_window = 3;          // ... over this many views
 };
 
-/// 3 x 3 x 3 positions in the body-yaw frame at step_m * scale, times 3 yaws, in a fixed order; the
-/// current position only as AgvsConfig says, and never the current pose itself.
+/// 3 x 3 x 3 positions in the body-yaw frame at step_m * scale, times 3 yaws, yaws innermost, in a
+/// fixed order; the current position only as AgvsConfig says, and never the current pose itself.
 std::vector<ViewPose> sample_agvs(const AgvsConfig& config, const ViewPose& current, double scale);
+
+/// Scale for the next view: the last one grown by scale_factor (at most scale_max) at a local
+/// minimum, else 1. `utilities`: those of the chosen views, oldest first.
+double next_agvs_scale(const AgvsConfig& config, double last_scale,
+                       std::span<const double> utilities);
 
 }  // namespace gnbv

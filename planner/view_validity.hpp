@@ -13,7 +13,7 @@ namespace gnbv {
 /// Defaults: section 3.1.1, and the released configuration where the paper is silent.
 struct ValidityConfig {
   double collision_radius_m = 1.5;
-  double z_min_m = 0.7;                     // floor of the navigation box
+  double z_min_m = 0.7;  // floor of the navigation box
   int recent_poses = 50;
   double recent_distance_m = 0.05;
   double recent_yaw_rad = 0.1;

@@ -1,0 +1,150 @@
+#include "planner/planner.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/parallel.hpp"
+
+namespace gnbv {
+namespace {
+
+/// The hits of a set of rays: the points of the cloud.
+std::vector<Vec3f> surface_points_world_m(std::span<const ScanRay> rays) {
+  std::vector<Vec3f> points;
+  for (const ScanRay& ray : rays) {
+    if (ray.hit) points.push_back(ray.end_world_m);
+  }
+  return points;
+}
+
+/// Candidates that may be flown to, in the order they were sampled.
+std::vector<ViewPose> valid_views(const PlannerModel& model, const Belief& belief,
+                                  const History& history, const ViewPose& current,
+                                  std::span<const ViewPose> candidates) {
+  const auto recent_count = std::min(history.decisions.size(),
+                                     static_cast<std::size_t>(model.config.validity.recent_poses));
+  std::vector<ViewPose> recent;
+  for (auto it = history.decisions.end() - static_cast<std::ptrdiff_t>(recent_count);
+       it != history.decisions.end(); ++it) {
+    recent.push_back(it->view);
+  }
+  std::vector<ViewPose> valid;
+  for (const ViewPose& candidate : candidates) {
+    if (!rejection(model.config.validity, model.navigation_m, belief.grid, recent, current,
+                   candidate)) {
+      valid.push_back(candidate);
+    }
+  }
+  return valid;
+}
+
+/// One ViewStats per view. Views are dealt to a fixed number of lanes, each with marks of its own.
+std::vector<ViewStats> evaluate_views(const PlannerModel& model, const Belief& belief,
+                                      const ViewPose& current, std::span<const ViewPose> views,
+                                      int threads) {
+  std::vector<ViewStats> stats(views.size());
+  const auto lanes = static_cast<std::size_t>(std::max(threads, 1));
+  parallel_for(threads, lanes, [&](std::size_t lane) {
+    VisitMarks marks(belief.grid.geometry().voxel_count());
+    for (std::size_t i = lane; i < views.size(); i += lanes) {
+      stats[i] = evaluate_view(belief.grid, belief.cloud, model.view_rays, views[i], marks);
+      stats[i].density_max = belief.cloud.density_max();
+      stats[i].path_m = (views[i].p_world_m - current.p_world_m).norm();
+    }
+  });
+  return stats;
+}
+
+/// The view with the highest utility among those sampled at one scale; the first of equals.
+std::optional<Decision> best_at_scale(const PlannerModel& model, const Belief& belief,
+                                      const History& history, const ViewPose& current, double scale,
+                                      int threads) {
+  const std::vector<ViewPose> candidates = sample_agvs(model.config.agvs, current, scale);
+  const std::vector<ViewPose> valid = valid_views(model, belief, history, current, candidates);
+  const std::vector<ViewStats> stats = evaluate_views(model, belief, current, valid, threads);
+
+  std::optional<Decision> best;
+  for (std::size_t i = 0; i < valid.size(); ++i) {
+    const std::optional<Score> utility = score(model.config.utility, stats[i]);
+    if (!utility || (best && utility->value <= best->score.value)) continue;
+    best = Decision{.view = valid[i],
+                    .sampler = "agvs",
+                    .scale = scale,
+                    .candidates = static_cast<int>(candidates.size()),
+                    .valid = static_cast<int>(valid.size()),
+                    .score = *utility};
+  }
+  return best;
+}
+
+}  // namespace
+
+PlannerModel::PlannerModel(const PlannerConfig& planner_config, const Box3& workspace,
+                           std::span<const CameraModel> camera_models,
+                           const LidarConfig& lidar_config)
+    : config(planner_config),
+      workspace_m(workspace),
+      navigation_m(navigation_box_m(planner_config.validity, workspace)),
+      cameras(camera_models.begin(), camera_models.end()),
+      lidar(lidar_config),
+      view_rays(make_view_rays(cameras, planner_config.map.resolution_m)) {}
+
+Belief::Belief(const PlannerModel& model)
+    : grid(model.config.map, model.workspace_m), cloud(model.config.cloud, grid.geometry()) {}
+
+void integrate_profile(const PlannerModel& model, std::span<const LidarScan> scans, Belief& belief,
+                       int threads) {
+  insert_scans(belief.grid, scans, model.lidar, model.config.floor_z_m, threads);
+  std::vector<Vec3f> points;
+  for (const LidarScan& scan : scans) {
+    const std::vector<Vec3f> hits =
+        surface_points_world_m(rays_of(scan, model.lidar, model.config.floor_z_m));
+    points.insert(points.end(), hits.begin(), hits.end());
+  }
+  belief.cloud.add(points, model.config.cloud.profile_leaf_m);
+}
+
+void integrate_view(const PlannerModel& model, std::span<const DepthFrame> frames, Belief& belief,
+                    int threads) {
+  std::vector<Vec3f> points;
+  for (const DepthFrame& frame : frames) {
+    const CameraModel& camera = model.cameras[static_cast<std::size_t>(frame.camera)];
+    const std::vector<ScanRay> rays = rays_of(frame, camera, model.config.floor_z_m);
+    const Vec3f origin_world_m = frame.T_world_camera.translation().cast<float>();
+    belief.grid.apply(compute_update(belief.grid.geometry(), origin_world_m, rays, threads));
+    const std::vector<Vec3f> hits = surface_points_world_m(rays);
+    points.insert(points.end(), hits.begin(), hits.end());
+  }
+  belief.has_depth_return = belief.has_depth_return || !points.empty();
+  belief.cloud.add(points, model.config.cloud.leaf_m);
+}
+
+void remember_entropy(const Belief& belief, double entropy_before_nat, History& history) {
+  if (!belief.has_depth_return) return;
+  if (history.entropies_nat.empty()) history.entropies_nat.push_back(entropy_before_nat);
+  history.entropies_nat.push_back(belief.grid.total_entropy_nat());
+}
+
+std::optional<Decision> plan_next_view(const PlannerModel& model, const Belief& belief,
+                                       const History& history, const ViewPose& current,
+                                       int threads) {
+  const AgvsConfig& agvs = model.config.agvs;
+  std::vector<double> utilities;
+  double last_scale = 1.0;
+  for (const Decision& decision : history.decisions) {
+    if (decision.sampler == "start") continue;
+    utilities.push_back(decision.score.value);
+    last_scale = decision.scale;
+  }
+  // a scale without any valid view is grown as a local minimum is, before giving up
+  double scale = next_agvs_scale(agvs, last_scale, utilities);
+  while (true) {
+    if (auto decision = best_at_scale(model, belief, history, current, scale, threads)) {
+      return decision;
+    }
+    if (scale >= agvs.scale_max || agvs.scale_factor <= 1.0) return std::nullopt;
+    scale = std::min(scale * agvs.scale_factor, agvs.scale_max);
+  }
+}
+
+}  // namespace gnbv

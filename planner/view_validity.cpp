@@ -1,0 +1,122 @@
+#include "planner/view_validity.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnbv {
+namespace {
+
+/// Squared distance between a point and a segment.
+double squared_distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 ab = b - a;
+  const double length2 = ab.squaredNorm();
+  const double t = length2 > 0.0 ? std::clamp((p - a).dot(ab) / length2, 0.0, 1.0) : 0.0;
+  return (p - (a + t * ab)).squaredNorm();
+}
+
+/// Squared distance between a segment and a box: convex along the segment, so a ternary search
+/// finds its minimum (to 2^-24 of the segment's length after 42 thirds).
+double squared_distance_to_segment(const Box3& box, const Vec3& a, const Vec3& b) {
+  double lo = 0.0;
+  double hi = 1.0;
+  const auto at = [&](double t) { return box.squaredExteriorDistance(Vec3(a + t * (b - a))); };
+  for (int i = 0; i < 42; ++i) {
+    const double third = (hi - lo) / 3.0;
+    if (at(lo + third) <= at(hi - third)) {
+      hi -= third;
+    } else {
+      lo += third;
+    }
+  }
+  return at(0.5 * (lo + hi));
+}
+
+bool is_recent(const ValidityConfig& config, std::span<const ViewPose> recent,
+               const ViewPose& view) {
+  return std::any_of(recent.begin(), recent.end(), [&](const ViewPose& pose) {
+    return (pose.p_world_m - view.p_world_m).norm() < config.recent_distance_m &&
+           std::fabs(wrap_angle_rad(pose.yaw_rad - view.yaw_rad)) < config.recent_yaw_rad;
+  });
+}
+
+}  // namespace
+
+std::string_view name_of(Rejection reason) {
+  switch (reason) {
+    case Rejection::out_of_bounds:
+      return "out_of_bounds";
+    case Rejection::not_free:
+      return "not_free";
+    case Rejection::collision:
+      return "collision";
+    case Rejection::path_blocked:
+      return "path_blocked";
+    case Rejection::recently_visited:
+      return "recently_visited";
+  }
+  return "unknown";
+}
+
+Box3 navigation_box_m(const ValidityConfig& config, const Box3& workspace_m) {
+  Box3 box = workspace_m;
+  box.min().z() = std::max(box.min().z(), config.z_min_m);
+  return box;
+}
+
+bool is_segment_clear(const OccupancyGrid& grid, const Vec3& from_world_m, const Vec3& to_world_m,
+                      double radius_m) {
+  const GridGeometry& geometry = grid.geometry();
+  const double half_m = 0.5 * geometry.resolution_m();
+  const double sure_m = radius_m + half_m * std::sqrt(3.0);  // farther centres cannot touch
+  Key lo;
+  Key hi;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const int axis = static_cast<int>(a);
+    const double min_m = std::min(from_world_m[axis], to_world_m[axis]) - radius_m;
+    const double max_m = std::max(from_world_m[axis], to_world_m[axis]) + radius_m;
+    lo[a] = std::max(geometry.key_of(min_m), geometry.min_key()[a]);
+    hi[a] = std::min(geometry.key_of(max_m), geometry.min_key()[a] + geometry.size()[a] - 1);
+    if (lo[a] > hi[a]) return true;
+  }
+  for (Key key = lo; key[2] <= hi[2]; ++key[2]) {
+    for (key[1] = lo[1]; key[1] <= hi[1]; ++key[1]) {
+      key[0] = lo[0];
+      VoxelIndex v = geometry.index_of(key);
+      for (; key[0] <= hi[0]; ++key[0], ++v) {
+        if (grid.state(v) != VoxelState::occupied) continue;
+        const Vec3 center_m = geometry.center_m(key);
+        const double to_center2 = squared_distance_to_segment(center_m, from_world_m, to_world_m);
+        if (to_center2 > sure_m * sure_m) continue;
+        const Box3 cube(center_m - Vec3::Constant(half_m), center_m + Vec3::Constant(half_m));
+        if (to_center2 < radius_m * radius_m ||
+            squared_distance_to_segment(cube, from_world_m, to_world_m) < radius_m * radius_m) {
+          return false;
+        }
+      }
+    }
+  }
+  return true;
+}
+
+std::optional<Rejection> rejection(const ValidityConfig& config, const Box3& navigation_m,
+                                   const OccupancyGrid& grid, std::span<const ViewPose> recent,
+                                   const ViewPose& current, const ViewPose& candidate) {
+  // a lattice walked in steps ends on the box's faces but for rounding
+  constexpr double kRounding_m = 1e-6;
+  const Vec3& p = candidate.p_world_m;
+  if (navigation_m.squaredExteriorDistance(p) > kRounding_m * kRounding_m) {
+    return Rejection::out_of_bounds;
+  }
+  if (is_recent(config, recent, candidate)) return Rejection::recently_visited;
+  // a face of the box belongs to the voxel inside it
+  const Vec3 inside =
+      p.cwiseMax(navigation_m.min()).cwiseMin(navigation_m.max() - Vec3::Constant(kRounding_m));
+  if (grid.state_at(inside) != VoxelState::free) return Rejection::not_free;
+  if (!is_segment_clear(grid, p, p, config.collision_radius_m)) return Rejection::collision;
+  if (!is_segment_clear(grid, current.p_world_m, p, config.collision_radius_m)) {
+    return Rejection::path_blocked;
+  }
+  return std::nullopt;
+}
+
+}  // namespace gnbv
