@@ -1,10 +1,7 @@
 // Scenario files: YAML in, typed values out, nothing guessed.
 #pragma once
 
-#include <filesystem>
 #include <string>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include "scenarios/scenario.hpp"
@@ -14,15 +11,21 @@ namespace gnbv {
 /// Built-in scenario names, sorted.
 std::vector<std::string> builtin_scenario_names();
 
-/// Reads a built-in name or a YAML path, then applies `overrides` ("planner.utility.name=isler", in
-/// order; the value is YAML). Throws BadInput listing every fault: unknown key (with the nearest
-/// known one), wrong type, value out of range, each with file, line, key and value.
+/// Reads a built-in name or a YAML path (a file named like a built-in scenario: "./aircraft"), then
+/// applies the overrides in order: "planner.utility.name=isler", "cameras.0.range_max_m=6",
+/// "workspace_m={max: [9, 9, 9]}". The value is YAML; a map sets the keys it names, a list replaces
+/// the list. Relative paths of a file mean beside that file, those of an override the current
+/// folder; in the Scenario they are absolute.
+/// Throws BadInput with every fault, one a line, `file:line: key: value 'X': what (did you mean)`:
+/// syntax, unknown and repeated keys, wrong types, values out of range, problems().
 Scenario load_scenario(const std::string& name_or_path, const std::vector<std::string>& overrides);
 
-/// The resolved configuration as YAML: load_scenario on it gives the same Scenario.
+/// The resolved configuration as YAML, every key with its value and absolute paths: load_scenario
+/// on it gives the same Scenario, bit for bit, if load_scenario made it. (An angle set by other
+/// means may lie between two numbers of degrees and lands on one of them.)
 std::string to_yaml(const Scenario& scenario);
 
-/// JSON schema of the scenario file, for editors.
+/// JSON schema (draft 7) of the scenario file, for editors: types, ranges, names, meanings.
 std::string scenario_json_schema();
 
 }  // namespace gnbv

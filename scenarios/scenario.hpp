@@ -1,8 +1,10 @@
 // What to run: one value, assembled from every module's own config, read once.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "planner/planner.hpp"
@@ -14,8 +16,11 @@
 
 namespace gnbv {
 
+/// Structures that assets/ generates, by the name StructureConfig::builtin takes.
+constexpr std::array<std::string_view, 2> kStructureNames = {"aircraft", "smoke"};
+
 struct StructureConfig {
-  std::string builtin = "aircraft";   // used when file.path is empty
+  std::string builtin = "aircraft";  // used when file.path is empty
   MeshFileConfig file;
   bool ground = true;
 };

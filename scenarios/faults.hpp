@@ -1,0 +1,65 @@
+// What is wrong with a scenario, and where it says so. Faults are collected, then thrown together.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnbv {
+
+/// Where a value was given: a line of a file, or an override.
+struct Origin {
+  std::string source;  // as the message shows it: a path, "--set a.b=c"
+  int line = 0;        // from 1; 0 = the source has no lines
+  int rank = 0;        // 0 the file, then 1, 2, ... the overrides: later ones win
+};
+
+/// "source:line", or "source".
+std::string text_of(const Origin& origin);
+
+/// By the path of a key ("cameras.0.name"): where its value was last given.
+using Origins = std::map<std::string, Origin>;
+
+class Faults {
+ public:
+  /// "source:line: path: value 'value': what", without the parts that are empty.
+  void add(const Origin& origin, std::string_view path, std::string_view value,
+           std::string_view what);
+
+  bool empty() const { return faults_.empty(); }
+  /// Whether the key, one above or one below it is at fault.
+  bool concerns(std::string_view path) const;
+  /// Throws BadInput with one line per fault in the order of the input; returns if there are none.
+  void throw_if_any() const;
+
+ private:
+  struct Fault {
+    Origin origin;
+    std::string path;
+    std::string message;
+  };
+  std::vector<Fault> faults_;
+};
+
+/// Whether one path equals the other or lies below it.
+bool is_at_or_below(std::string_view path, std::string_view above);
+
+/// Number of single-character insertions, deletions and replacements that turn `a` into `b`.
+std::size_t edit_distance(std::string_view a, std::string_view b);
+
+/// The known name with the smallest edit distance, the first of them; nothing when all are farther
+/// than `limit`.
+std::optional<std::string_view> nearest_name(std::string_view name,
+                                             std::span<const std::string_view> known,
+                                             std::size_t limit);
+
+/// How many slips still count as a slip: half the name's length, at least 2.
+std::size_t slip_limit(std::string_view name);
+
+/// "a, b, c".
+std::string join(std::span<const std::string_view> names);
+
+}  // namespace gnbv

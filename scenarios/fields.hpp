@@ -1,0 +1,201 @@
+// Every key of a scenario file, named once: its place, its allowed values and its meaning. Reading,
+// writing, the JSON schema and --set are visitors of the same description, so that a new field is
+// one line in the fields() of its struct (fields_*.cpp, by room).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "scenarios/scenario.hpp"
+#include "sim/core/error.hpp"
+
+namespace gnbv {
+
+/// Allowed numbers. An open end is itself not allowed.
+struct Range {
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  bool is_min_open = false;
+  bool is_max_open = false;
+};
+constexpr Range between(double min, double max) { return {min, max, false, false}; }
+constexpr Range above_upto(double min, double max) { return {min, max, true, false}; }
+constexpr Range inside(double min, double max) { return {min, max, true, true}; }
+bool contains(const Range& range, double value);
+/// "from 0 to 8", "above 0, up to 8".
+std::string text_of(const Range& range);
+
+enum class FieldKind {
+  number,
+  angle,  // radians in the config, degrees in the file
+  integer,
+  flag,
+  word,   // a name that may become part of a file name: letters, digits, '.', '_', '-'
+  path,   // relative ones mean: beside the file that names them
+  choice  // one of a list of names
+};
+
+struct Field {
+  std::string_view key;
+  FieldKind kind = FieldKind::number;
+  Range allowed;                              // number, angle (degrees), integer
+  std::span<const std::string_view> choices;  // choice
+  std::string_view meaning;                   // one line, for the schema
+};
+
+/// The place of a field's value. Vec3: three numbers or angles, each in Field::allowed.
+using FieldValue = std::variant<double*, int*, std::uint64_t*, bool*, std::string*, Vec3*>;
+
+/// How many items a list may have.
+struct ListSize {
+  std::size_t min = 0;
+  std::size_t max = 0;
+};
+
+template <typename Enum>
+struct Named {
+  Enum value;
+  std::string_view name;
+};
+
+/// Walks over the keys of a config in the order of the file. The struct's fields() calls the public
+/// functions; a visitor implements the private ones.
+class FieldVisitor {
+ public:
+  FieldVisitor() = default;
+  virtual ~FieldVisitor() = default;
+  FieldVisitor(const FieldVisitor&) = delete;
+  FieldVisitor& operator=(const FieldVisitor&) = delete;
+
+  void number(std::string_view key, double& value, const Range& allowed, std::string_view meaning) {
+    leaf({key, FieldKind::number, allowed, {}, meaning}, &value);
+  }
+  void number(std::string_view key, Vec3& value, const Range& allowed, std::string_view meaning) {
+    leaf({key, FieldKind::number, allowed, {}, meaning}, &value);
+  }
+  void angle(std::string_view key_deg, double& value_rad, const Range& allowed_deg,
+             std::string_view meaning) {
+    leaf({key_deg, FieldKind::angle, allowed_deg, {}, meaning}, &value_rad);
+  }
+  void angle(std::string_view key_deg, Vec3& value_rad, const Range& allowed_deg,
+             std::string_view meaning) {
+    leaf({key_deg, FieldKind::angle, allowed_deg, {}, meaning}, &value_rad);
+  }
+  void integer(std::string_view key, int& value, const Range& allowed, std::string_view meaning) {
+    leaf({key, FieldKind::integer, allowed, {}, meaning}, &value);
+  }
+  void integer(std::string_view key, std::uint64_t& value, std::string_view meaning) {
+    leaf({key, FieldKind::integer, {}, {}, meaning}, &value);
+  }
+  void flag(std::string_view key, bool& value, std::string_view meaning) {
+    leaf({key, FieldKind::flag, {}, {}, meaning}, &value);
+  }
+  void word(std::string_view key, std::string& value, std::string_view meaning) {
+    leaf({key, FieldKind::word, {}, {}, meaning}, &value);
+  }
+  void path(std::string_view key, std::string& value, std::string_view meaning) {
+    leaf({key, FieldKind::path, {}, {}, meaning}, &value);
+  }
+  void choice(std::string_view key, std::string& value, std::span<const std::string_view> choices,
+              std::string_view meaning) {
+    leaf({key, FieldKind::choice, {}, choices, meaning}, &value);
+  }
+  template <typename Enum, std::size_t count>
+  void choice(std::string_view key, Enum& value, const std::array<Named<Enum>, count>& names,
+              std::string_view meaning);
+  void box(std::string_view key, Box3& value, const Range& allowed, std::string_view meaning);
+
+  template <typename Config>
+  void section(std::string_view key, Config& config, std::string_view meaning) {
+    begin_section(key, meaning);
+    fields(*this, config);
+    end_section();
+  }
+  /// A list of the user's own length: one given anew replaces the old one, its items at defaults.
+  template <typename Config>
+  void list(std::string_view key, std::vector<Config>& items, const ListSize& allowed,
+            std::string_view meaning) {
+    const std::optional<std::size_t> given = begin_list(key, items.size(), allowed, meaning);
+    if (given) items.assign(*given, Config{});
+    visit_items(items);
+  }
+  /// A list of fixed length: what an item leaves out keeps its value.
+  template <typename Config, std::size_t count>
+  void list(std::string_view key, std::array<Config, count>& items, std::string_view meaning) {
+    begin_list(key, count, {count, count}, meaning);
+    visit_items(items);
+  }
+
+ private:
+  virtual void leaf(const Field& field, const FieldValue& value) = 0;
+  virtual void begin_section(std::string_view key, std::string_view meaning) = 0;
+  virtual void end_section() = 0;
+  /// The number of items to visit, if a new list is given.
+  virtual std::optional<std::size_t> begin_list(std::string_view key, std::size_t size,
+                                                const ListSize& allowed,
+                                                std::string_view meaning) = 0;
+  virtual void end_list() = 0;
+  virtual void begin_item(std::size_t index) = 0;
+  virtual void end_item() = 0;
+
+  template <typename Items>
+  void visit_items(Items& items) {
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      begin_item(i);
+      fields(*this, items[i]);
+      end_item();
+    }
+    end_list();
+  }
+};
+
+// fields_sim.cpp
+void fields(FieldVisitor& v, MeshFileConfig& c);
+void fields(FieldVisitor& v, RotorMount& c);
+void fields(FieldVisitor& v, AirframeParameters& c);
+void fields(FieldVisitor& v, AutopilotParameters& c);
+void fields(FieldVisitor& v, PowerParameters& c);
+void fields(FieldVisitor& v, VehicleConfig& c);
+void fields(FieldVisitor& v, FeedForward& c);
+void fields(FieldVisitor& v, GuidanceConfig& c);
+// fields_sensors.cpp
+void fields(FieldVisitor& v, CameraConfig& c);
+void fields(FieldVisitor& v, LidarConfig& c);
+// fields_planner.cpp
+void fields(FieldVisitor& v, OccupancyConfig& c);
+void fields(FieldVisitor& v, CloudConfig& c);
+void fields(FieldVisitor& v, ProfilingConfig& c);
+void fields(FieldVisitor& v, AgvsConfig& c);
+void fields(FieldVisitor& v, ValidityConfig& c);
+void fields(FieldVisitor& v, UtilityConfig& c);
+void fields(FieldVisitor& v, TerminationConfig& c);
+void fields(FieldVisitor& v, PlannerConfig& c);
+// fields_scenario.cpp
+void fields(FieldVisitor& v, StructureConfig& c);
+void fields(FieldVisitor& v, StartConfig& c);
+void fields(FieldVisitor& v, Scenario& c);
+
+template <typename Enum, std::size_t count>
+void FieldVisitor::choice(std::string_view key, Enum& value,
+                          const std::array<Named<Enum>, count>& names, std::string_view meaning) {
+  std::array<std::string_view, count> choices;
+  std::string name;
+  for (std::size_t i = 0; i < count; ++i) {
+    choices[i] = names[i].name;
+    if (names[i].value == value) name = names[i].name;
+  }
+  GNBV_CHECK(!name.empty(), "{} = {} has no name", key, static_cast<int>(value));
+  choice(key, name, choices, meaning);
+  for (const Named<Enum>& known : names) {
+    if (known.name == name) value = known.value;
+  }
+}
+
+}  // namespace gnbv

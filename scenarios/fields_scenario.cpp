@@ -1,0 +1,37 @@
+#include "scenarios/fields.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr Range kCoordinate_m = between(-1e4, 1e4);
+
+}  // namespace
+
+void fields(FieldVisitor& v, StructureConfig& c) {
+  v.choice("builtin", c.builtin, kStructureNames, "Built-in structure, unless file.path is given.");
+  v.section("file", c.file, "A mesh of your own.");
+  v.flag("ground", c.ground, "Whether there is a solid ground at z = 0.");
+}
+
+void fields(FieldVisitor& v, StartConfig& c) {
+  v.number("position_m", c.pose.p_world_m, kCoordinate_m, "Where the views begin, world ENU.");
+  v.angle("yaw_deg", c.pose.yaw_rad, between(-360, 360), "Heading there, 0 = east, 90 = north.");
+  v.number("jitter_m", c.jitter_m, between(0, 1e4),
+           "The seed moves the start by up to this, within the navigation box.");
+  v.angle("jitter_yaw_deg", c.jitter_yaw_rad, between(0, 180), "And turns it by up to this.");
+}
+
+void fields(FieldVisitor& v, Scenario& c) {
+  v.word("name", c.name, "Name of the scenario, for reports.");
+  v.integer("seed", c.seed, "Moves the start pose and draws the sensor noise.");
+  v.box("workspace_m", c.workspace_m, kCoordinate_m, "What is mapped and flown in, world ENU.");
+  v.section("structure", c.structure, "What stands there.");
+  v.list("cameras", c.cameras, {1, 16}, "The depth cameras on the vehicle.");
+  v.section("lidar", c.lidar, "The LIDAR that flies the profile.");
+  v.section("vehicle", c.vehicle, "What flies.");
+  v.section("guidance", c.guidance, "How it flies from view to view.");
+  v.section("start", c.start, "Where the views begin.");
+  v.section("planner", c.planner, "What is believed and decided.");
+}
+
+}  // namespace gnbv

@@ -1,0 +1,130 @@
+#include "scenarios/load.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scenarios/builtin.hpp"
+#include "scenarios/document.hpp"
+#include "scenarios/faults.hpp"
+#include "scenarios/problems.hpp"
+#include "scenarios/reader.hpp"
+#include "scenarios/write.hpp"
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Source {
+  std::string text;
+  std::string label;   // as faults show it
+  std::string folder;  // where its relative paths begin
+};
+
+std::string here() { return fs::current_path().string(); }
+
+Source open_source(const std::string& name_or_path) {
+  std::vector<std::string_view> names;
+  for (const BuiltinScenario& builtin : builtin_scenarios()) {
+    if (builtin.name == name_or_path) {
+      return {std::string(builtin.yaml), fmt::format("{} (built in)", builtin.name), here()};
+    }
+    names.push_back(builtin.name);
+  }
+  std::error_code ignored;
+  const fs::path path = name_or_path;
+  if (fs::is_directory(path, ignored)) {
+    throw BadInput(fmt::format("{}: is a folder; a scenario is a YAML file or one of: {}",
+                               name_or_path, join(names)));
+  }
+  if (!fs::exists(path, ignored)) {
+    const std::string stem = path.stem().string();
+    const auto near = nearest_name(stem, names, slip_limit(stem));
+    const std::string hint = near ? fmt::format("did you mean '{}'? ", *near) : "";
+    throw BadInput(fmt::format("{}: no such file, and no built-in scenario ({}built in: {})",
+                               name_or_path, hint, join(names)));
+  }
+  return {read_file(path), name_or_path, fs::absolute(path).parent_path().string()};
+}
+
+std::string value_of(const Scenario& scenario, const std::string& key) {
+  for (const auto& [path, text] : scenario_values(scenario)) {
+    if (path == key) return text;
+  }
+  return "";
+}
+
+/// A key and where it, or the nearest section around it, was given.
+struct Culprit {
+  std::string key;
+  Origin origin;
+  bool is_given_itself = false;
+};
+
+/// Of keys that do not go together, the one given last; of those, one given itself; of those, the
+/// first. At `source` when all are at their defaults.
+Culprit culprit_of(const std::vector<std::string>& keys, const Origins& origins,
+                   const Origin& source) {
+  Culprit culprit = {keys.front(), {source.source, 0, -1}, false};
+  for (const std::string& key : keys) {
+    std::string path = key;
+    auto given = origins.find(path);
+    while (given == origins.end() && path.find('.') != std::string::npos) {
+      path.resize(path.rfind('.'));
+      given = origins.find(path);
+    }
+    if (given == origins.end()) continue;
+    const bool is_given_itself = path == key;
+    if (std::pair(given->second.rank, is_given_itself) >
+        std::pair(culprit.origin.rank, culprit.is_given_itself)) {
+      culprit = {key, given->second, is_given_itself};
+    }
+  }
+  return culprit;
+}
+
+/// Adds what does not go together. Keys already at fault are left out: it would only repeat them.
+void add_problems(const Scenario& scenario, const Origin& source, const Origins& origins,
+                  Faults& faults) {
+  const Faults given = faults;
+  for (const Problem& problem : problems(scenario)) {
+    if (std::any_of(problem.keys.begin(), problem.keys.end(),
+                    [&](const std::string& key) { return given.concerns(key); })) {
+      continue;
+    }
+    const Culprit culprit = culprit_of(problem.keys, origins, source);
+    faults.add(culprit.origin, culprit.key, value_of(scenario, culprit.key), problem.what);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> builtin_scenario_names() {
+  std::vector<std::string> names;
+  for (const BuiltinScenario& builtin : builtin_scenarios()) names.emplace_back(builtin.name);
+  return names;
+}
+
+Scenario load_scenario(const std::string& name_or_path, const std::vector<std::string>& overrides) {
+  const Source source = open_source(name_or_path);
+  const Origin origin = {source.label, 1, 0};
+  Faults faults;
+  Origins origins;
+  Scenario scenario;
+  const std::optional<YamlNode> root = parse_document(source.text, origin, faults);
+  if (!root) faults.throw_if_any();
+  GNBV_CHECK(root.has_value(), "no tree and no fault in {}", source.label);
+  read_scenario(*root, source.folder, scenario, faults, origins);
+  for (std::size_t i = 0; i < overrides.size(); ++i) {
+    const auto picks = parse_override(overrides[i], static_cast<int>(i) + 1, faults);
+    if (picks) read_scenario(*picks, here(), scenario, faults, origins);
+  }
+  if (root->kind == YamlNode::Kind::map) add_problems(scenario, origin, origins, faults);
+  faults.throw_if_any();
+  return scenario;
+}
+
+}  // namespace gnbv

@@ -1,0 +1,158 @@
+#include "scenarios/problems.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+
+namespace gnbv {
+namespace {
+
+using Problems = std::vector<Problem>;
+
+constexpr double kGiB = 1024.0 * 1024 * 1024;
+constexpr std::array<char, 3> kAxes = {'x', 'y', 'z'};
+
+std::string text_of(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z()); }
+
+/// The two have to be in order; the first key is the smaller one's.
+void require_below(double low, double high, const std::string& low_key, const std::string& high_key,
+                   Problems& out) {
+  if (low < high) return;
+  out.push_back({{high_key, low_key},
+                 fmt::format("{} = {} has to be below {} = {}", low_key, low, high_key, high)});
+}
+
+void check_sensors(const Scenario& s, Problems& out) {
+  if (s.cameras.empty()) out.push_back({{"cameras"}, "names no camera; at least one has to look"});
+  for (std::size_t i = 0; i < s.cameras.size(); ++i) {
+    const std::string key = fmt::format("cameras.{}.", i);
+    require_below(s.cameras[i].range_min_m, s.cameras[i].range_max_m, key + "range_min_m",
+                  key + "range_max_m", out);
+    for (std::size_t j = 0; j < i; ++j) {
+      if (s.cameras[i].name != s.cameras[j].name) continue;
+      out.push_back(
+          {{key + "name", fmt::format("cameras.{}.name", j)},
+           fmt::format("two cameras, {} and {}, are named '{}'", j, i, s.cameras[i].name)});
+      break;
+    }
+  }
+  require_below(s.lidar.range_min_m, s.lidar.range_max_m, "lidar.range_min_m", "lidar.range_max_m",
+                out);
+}
+
+/// Size and place of the map; only for a workspace that is a box.
+void check_map_size(const Scenario& s, Problems& out) {
+  const double resolution_m = s.planner.map.resolution_m;
+  const Vec3 size_m = s.workspace_m.sizes();
+  const Vec3 voxels = (size_m / resolution_m - Vec3::Constant(1e-6)).array().ceil();
+  const double bytes = voxels.prod() * kMapBytesPerVoxel;
+  if (bytes > kMapBudget_bytes) {
+    const double fitting_m = resolution_m * std::cbrt(bytes / kMapBudget_bytes);
+    out.push_back(
+        {{"planner.map.resolution_m", "workspace_m"},
+         fmt::format("a map of {} x {} x {} m at {} m needs {:.3g} voxels and {:.1f} GiB, "
+                     "the budget is {:.0f} GiB; about {:.2g} m fits",
+                     size_m.x(), size_m.y(), size_m.z(), resolution_m, voxels.prod(), bytes / kGiB,
+                     kMapBudget_bytes / kGiB, fitting_m)});
+  }
+  // OctoMap's keys are 16 bits wide, with the origin in their middle
+  constexpr double kMaxKey = 32767.0;
+  const double farthest_m =
+      s.workspace_m.min().cwiseAbs().cwiseMax(s.workspace_m.max().cwiseAbs()).maxCoeff();
+  if (farthest_m / resolution_m > kMaxKey) {
+    out.push_back({{"planner.map.resolution_m", "workspace_m"},
+                   fmt::format("a workspace up to {} m from the origin at {} m is beyond the {} "
+                               "voxels that OctoMap's keys reach",
+                               farthest_m, resolution_m, kMaxKey)});
+  }
+}
+
+void check_workspace(const Scenario& s, Problems& out) {
+  bool is_box = true;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low_m = s.workspace_m.min()[axis];
+    const double high_m = s.workspace_m.max()[axis];
+    if (low_m < high_m) continue;
+    is_box = false;
+    out.push_back({{"workspace_m.max", "workspace_m.min"},
+                   fmt::format("min {} = {} has to be below max {} = {}",
+                               kAxes[static_cast<std::size_t>(axis)], low_m,
+                               kAxes[static_cast<std::size_t>(axis)], high_m)});
+  }
+  if (!is_box) return;
+  check_map_size(s, out);
+
+  const double top_m = s.workspace_m.max().z();
+  const double z_min_m = s.planner.validity.z_min_m;
+  if (z_min_m >= top_m) {
+    out.push_back({{"planner.validity.z_min_m", "workspace_m.max"},
+                   fmt::format("the navigation box is empty: z_min_m = {} has to be below the top "
+                               "of the workspace, {}",
+                               z_min_m, top_m)});
+    return;
+  }
+  Box3 navigation_m = s.workspace_m;
+  navigation_m.min().z() = std::max(navigation_m.min().z(), z_min_m);
+  const Vec3& start_m = s.start.pose.p_world_m;
+  if (!navigation_m.contains(start_m)) {
+    out.push_back(
+        {{"start.position_m", "planner.validity.z_min_m", "workspace_m.min", "workspace_m.max"},
+         fmt::format("the start {} lies outside the navigation box from {} to {}", text_of(start_m),
+                     text_of(navigation_m.min()), text_of(navigation_m.max()))});
+  }
+}
+
+void check_map_thresholds(const OccupancyConfig& map, Problems& out) {
+  const std::string key = "planner.map.";
+  require_below(map.free_max, map.occupied_min, key + "free_max", key + "occupied_min", out);
+  if (map.clamp_max < map.occupied_min) {
+    out.push_back({{key + "occupied_min", key + "clamp_max"},
+                   fmt::format("nothing could become occupied: clamp_max = {} is below "
+                               "occupied_min = {}",
+                               map.clamp_max, map.occupied_min)});
+  }
+  if (map.clamp_min > map.free_max) {
+    out.push_back({{key + "free_max", key + "clamp_min"},
+                   fmt::format("nothing could become free: clamp_min = {} is above free_max = {}",
+                               map.clamp_min, map.free_max)});
+  }
+}
+
+void check_vehicle(const VehicleConfig& vehicle, Problems& out) {
+  for (std::size_t i = 0; i < vehicle.airframe.rotors.size(); ++i) {
+    if (std::abs(vehicle.airframe.rotors[i].spin) == 1.0) continue;
+    out.push_back({{fmt::format("vehicle.airframe.rotors.{}.spin", i)}, "has to be 1 or -1"});
+  }
+  require_below(vehicle.autopilot.thrust_min, vehicle.autopilot.thrust_max,
+                "vehicle.autopilot.thrust_min", "vehicle.autopilot.thrust_max", out);
+}
+
+void check_structure(const StructureConfig& structure, Problems& out) {
+  const std::string& path = structure.file.path;
+  std::error_code ignored;
+  if (path.empty() || std::filesystem::is_regular_file(path, ignored)) return;
+  out.push_back({{"structure.file.path"}, "there is no such file"});
+}
+
+void check_utility(const UtilityConfig& utility, Problems& out) {
+  if (utility.name != "proposed" || utility.beta + utility.gamma > 0.0) return;
+  out.push_back({{"planner.utility.beta", "planner.utility.gamma"},
+                 "beta and gamma are both 0; Eq. (2) divides by their sum"});
+}
+
+}  // namespace
+
+std::vector<Problem> problems(const Scenario& scenario) {
+  Problems out;
+  check_workspace(scenario, out);
+  check_structure(scenario.structure, out);
+  check_sensors(scenario, out);
+  check_vehicle(scenario.vehicle, out);
+  check_map_thresholds(scenario.planner.map, out);
+  check_utility(scenario.planner.utility, out);
+  return out;
+}
+
+}  // namespace gnbv

@@ -1,0 +1,25 @@
+// What is wrong with a scenario whose values are each allowed, but do not go together.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scenarios/scenario.hpp"
+
+namespace gnbv {
+
+/// Memory the dense map may take, and what it takes a voxel: occupancy grid 10 bytes (float32
+/// log-odds, measured, state, float32 entropy), surface cloud 12 (uint32 count, uint64 sum),
+/// visit marks 2 for the first thread.
+constexpr double kMapBudget_bytes = 4.0 * 1024 * 1024 * 1024;
+constexpr double kMapBytesPerVoxel = 24.0;
+
+struct Problem {
+  std::vector<std::string> keys;  // whose values do not go together, the likeliest culprit first
+  std::string what;
+};
+
+/// All of them; none for a scenario that can be run.
+std::vector<Problem> problems(const Scenario& scenario);
+
+}  // namespace gnbv

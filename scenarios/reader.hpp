@@ -1,0 +1,18 @@
+// From a tree to the config: what the tree names is set, all else stays.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scenarios/document.hpp"
+#include "scenarios/fields.hpp"
+
+namespace gnbv {
+
+/// Sets what `root` names. Whatever does not fit, unknown keys included, goes to `faults` and
+/// changes nothing; where values were given goes to `origins`. Relative paths are taken from
+/// `folder`. Angles that are not named become their written_angle_rad().
+void read_scenario(const YamlNode& root, const std::string& folder, Scenario& scenario,
+                   Faults& faults, Origins& origins);
+
+}  // namespace gnbv

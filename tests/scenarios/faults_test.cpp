@@ -1,0 +1,196 @@
+#include "scenarios/faults.hpp"
+
+#include <fmt/ranges.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "tests/scenarios/scenario_text.hpp"
+
+namespace gnbv {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+TEST(Faults, AnUnknownKeyNamesTheNearestKnownOne) {
+  EXPECT_EQ(complaint(kMinimal + "planner:\n  utilty: {name: isler}\n"),
+            "s.yaml:3: planner.utilty: is no known key (did you mean 'planner.utility'?)");
+  EXPECT_EQ(complaint(kMinimal + "planner: {agvs: {stepm: 2}}\n"),
+            "s.yaml:2: planner.agvs.stepm: value '2': is no known key (did you mean "
+            "'planner.agvs.step_m'?)");
+}
+
+TEST(Faults, AKeyInTheWrongPlaceNamesTheRightOne) {
+  EXPECT_EQ(complaint(kMinimal + "resolution_m: 0.1\n"),
+            "s.yaml:2: resolution_m: value '0.1': is no known key (did you mean "
+            "'planner.map.resolution_m'?)");
+}
+
+TEST(Faults, AnUnknownKeyLikeNoOtherListsTheKnownOnes) {
+  EXPECT_THAT(complaint(kMinimal + "planner: {cloud: {xyzzy: 1}}\n"),
+              HasSubstr("(known here: leaf_m, profile_leaf_m)"));
+}
+
+TEST(Faults, AnUnknownNameShowsTheAllowedOnesAndTheNearest) {
+  EXPECT_EQ(complaint(kMinimal + "structure: {builtin: aircraf}"),
+            "s.yaml:2: structure.builtin: value 'aircraf': is no known name (did you mean "
+            "'aircraft'? allowed: aircraft, smoke)");
+  EXPECT_THAT(complaint(kMinimal + "planner: {utility: {name: islr}}"),
+              AllOf(HasSubstr("did you mean 'isler'?"), HasSubstr("proposed")));
+  EXPECT_THAT(complaint(kMinimal + "vehicle: {kind: 0}"),
+              AllOf(HasSubstr("s.yaml:2: vehicle.kind: value '0'"), HasSubstr("quadrotor, ideal")));
+}
+
+TEST(Faults, AreAllReportedAtOnceInTheOrderOfTheInput) {
+  EXPECT_EQ(complaint("nme: x\nseed: -1\ncameras:\n  - width_px: a\n  - {name: b, pitch_deg: 91}\n"
+                      "lidar: {range_min_m: 30}\n",
+                      {"lidar.beams=0", "start.yaw=3"}),
+            "s.yaml:1: nme: value 'x': is no known key (did you mean 'name'?)\n"
+            "s.yaml:2: seed: value '-1': is out of range (allowed: from 0 to "
+            "18446744073709551615)\n"
+            "s.yaml:4: cameras.0.width_px: value 'a': expects a whole number\n"
+            "s.yaml:5: cameras.1.pitch_deg: value '91': is out of range (allowed: from -90 to 90)\n"
+            "s.yaml:6: lidar.range_min_m: value '30': lidar.range_min_m = 30 has to be below "
+            "lidar.range_max_m = 30\n"
+            "--set lidar.beams=0: lidar.beams: value '0': is out of range (allowed: from 1 to "
+            "100000)\n"
+            "--set start.yaw=3: start.yaw: value '3': is no known key (did you mean "
+            "'start.yaw_deg'?)");
+}
+
+TEST(ExactTypes, WholeNumbersTakeNothingElse) {
+  for (const char* bad : {"1.5", "5.0", "1e3", "0x10", "010", "\"5\"", "'5'", "five", "true", "[5]",
+                          "{}", "~", "", "99999999999999999999", ".nan", "5 m", "1_000"}) {
+    EXPECT_THAT(complaint(fmt::format("{}lidar:\n  beams: {}\n", kMinimal, bad)),
+                StartsWith("s.yaml:3: lidar.beams: "))
+        << bad;
+  }
+  EXPECT_EQ(load_text(kMinimal + "lidar: {beams: +5}").lidar.beams, 5);
+}
+
+TEST(ExactTypes, NumbersAreFiniteAndUnquoted) {
+  for (const char* bad : {"\"5\"",    "'5'",   ".nan",   ".NaN", "nan", ".inf", "-.inf", "inf",
+                          "infinity", "1e999", "1e-999", "five", "5m",  "0x10", "1,5",   "true",
+                          "~",        "",      "[5]",    "+-5",  "--5", "."}) {
+    EXPECT_THAT(complaint(fmt::format("{}guidance:\n  speed_m_s: {}\n", kMinimal, bad)),
+                StartsWith("s.yaml:3: guidance.speed_m_s: "))
+        << bad;
+  }
+  for (const char* good : {"5", "5.", "5.0", "+5", "0.5e1", "50E-1", "005"}) {
+    EXPECT_EQ(
+        load_text(fmt::format("{}guidance: {{speed_m_s: {}}}", kMinimal, good)).guidance.speed_m_s,
+        5.0)
+        << good;
+  }
+}
+
+TEST(ExactTypes, FlagsAreTrueOrFalse) {
+  for (const char* bad : {"yes", "on", "1", "True", "\"true\"", "~"}) {
+    EXPECT_THAT(complaint(fmt::format("{}structure: {{ground: {}}}", kMinimal, bad)),
+                AllOf(StartsWith("s.yaml:2: structure.ground: "), HasSubstr("true or false")))
+        << bad;
+  }
+  EXPECT_FALSE(load_text(kMinimal + "structure: {ground: false}").structure.ground);
+}
+
+TEST(ExactTypes, TextIsTextNotWhatYamlTakesForANumber) {
+  for (const char* bad : {"5", "1e3", "true", "~", "null", "[a]", "a/b", "\"\"", ".hidden"}) {
+    EXPECT_THAT(complaint(fmt::format("{}name: {}", kMinimal, bad)), StartsWith("s.yaml:2: name: "))
+        << bad;
+  }
+  EXPECT_EQ(load_text(kMinimal + "name: \"5\"").name, "5");
+}
+
+TEST(ExactTypes, VectorsHaveThreeNumbersAndBoxesTwoCorners) {
+  EXPECT_EQ(complaint(kMinimal + "start: {position_m: [0, 0]}"),
+            "s.yaml:2: start.position_m: value '[0, 0]': has 2 items; expects [x, y, z]");
+  EXPECT_EQ(complaint(kMinimal + "start: {position_m:\n  [0, \"0\", 1]}"),
+            "s.yaml:3: start.position_m.1: value '\"0\"': is text in quotes; expects a number");
+  EXPECT_THAT(complaint(kMinimal + "workspace_m: [0, 0, 0, 1, 1, 1]"),
+              StartsWith("s.yaml:2: workspace_m: value '[0, 0, 0, 1, 1, 1]': expects a map"));
+}
+
+TEST(Syntax, FaultsAndRepeatedKeysNameTheirLine) {
+  EXPECT_THAT(complaint("name: a\nseed: [1\n"), StartsWith("s.yaml:3: not YAML: "));
+  EXPECT_THAT(complaint("name: a\n\tseed: 1\n"), StartsWith("s.yaml:2: not YAML: "));
+  EXPECT_EQ(complaint(kMinimal + "lidar:\n  beams: 5\n  beams: 6\n"),
+            "s.yaml:4: lidar.beams: key given twice, first on line 3");
+  EXPECT_EQ(complaint(kMinimal + "name: !!str a\n"),
+            "s.yaml:2: name: the tag 'tag:yaml.org,2002:str' is not supported");
+}
+
+TEST(Syntax, AScenarioIsOneMap) {
+  EXPECT_EQ(complaint(""), "s.yaml:1: is empty; a scenario is a map of keys");
+  EXPECT_EQ(complaint("# nothing\n"), "s.yaml:1: is empty; a scenario is a map of keys");
+  EXPECT_EQ(complaint("---\n"), "s.yaml:2: has no value; expects a map of keys");
+  EXPECT_EQ(complaint("- 5\n"), "s.yaml:1: value '[5]': expects a map of keys");
+  EXPECT_EQ(complaint("5\n"), "s.yaml:1: value '5': expects a map of keys");
+  EXPECT_EQ(complaint(kMinimal + "---\nname: a\n"),
+            "s.yaml:2: a second YAML document begins here; a scenario is one document");
+  EXPECT_EQ(complaint("---\n" + kMinimal + "...\n"), "");
+}
+
+TEST(Syntax, AliasesRepeatTheirValueButCannotExplode) {
+  EXPECT_EQ(load_text("cameras: [&a {name: a, width_px: 7}, {name: b, width_px: 8}]\n"
+                      "start: {position_m: &p [1, 2, 3], jitter_m: *p}")
+                .start.jitter_m,
+            Vec3(1, 2, 3));
+  std::string bomb = "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n";
+  for (int i = 1; i < 20; ++i) {
+    bomb += fmt::format("a{0}: &a{0} [*a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}]\n", i, i - 1);
+  }
+  EXPECT_THAT(complaint(bomb), HasSubstr("aliases stand for more than"));
+}
+
+TEST(Overrides, AreRefusedWithTheirText) {
+  EXPECT_EQ(complaint(kMinimal, {"planner.utilty.name=x"}),
+            "--set planner.utilty.name=x: planner.utilty: is no known key (did you mean "
+            "'planner.utility'?)");
+  EXPECT_THAT(complaint(kMinimal, {"seed"}), StartsWith("--set seed: has to read key=value"));
+  EXPECT_THAT(complaint(kMinimal, {"=5"}), StartsWith("--set =5: has to read key=value"));
+  EXPECT_THAT(complaint(kMinimal, {"seed="}), StartsWith("--set seed=: seed: has no value"));
+  EXPECT_THAT(complaint(kMinimal, {"seed=[1"}), StartsWith("--set seed=[1: not YAML: "));
+  EXPECT_THAT(complaint(kMinimal, {"seed.x=1"}), StartsWith("--set seed.x=1: seed: "));
+  EXPECT_EQ(complaint(kMinimal, {"cameras.1.name=b"}),
+            "--set cameras.1.name=b: cameras.1: is no item of the list (allowed: 0 to 0)");
+  EXPECT_EQ(complaint(kMinimal, {"start.position_m.3=1"}),
+            "--set start.position_m.3=1: start.position_m.3: value '1': is no item of [x, y, z] "
+            "(allowed: 0 to 2)");
+}
+
+TEST(MissingScenario, ListsTheBuiltinsAndTheNearest) {
+  const auto message = [](const std::string& name) -> std::string {
+    try {
+      load_scenario(name, {});
+      return "";
+    } catch (const BadInput& error) {
+      return error.what();
+    }
+  };
+  EXPECT_EQ(message("aircaft"),
+            fmt::format("aircaft: no such file, and no built-in scenario (did you mean 'aircraft'? "
+                        "built in: {})",
+                        fmt::join(builtin_scenario_names(), ", ")));
+  EXPECT_THAT(message("/nowhere/zzzzzz.yaml"),
+              AllOf(HasSubstr("no such file"), HasSubstr("smoke")));
+  EXPECT_THAT(message(testing::TempDir()), HasSubstr("is a folder"));
+}
+
+TEST(EditDistance, EqualsTheRecursiveDefinition) {
+  const std::vector<std::string> words = {"", "a", "ab", "ba", "abc", "acb", "kitten", "sitting"};
+  const std::function<std::size_t(std::string_view, std::string_view)> slow =
+      [&](std::string_view a, std::string_view b) -> std::size_t {
+    if (a.empty() || b.empty()) return a.size() + b.size();
+    return std::min({slow(a.substr(1), b) + 1, slow(a, b.substr(1)) + 1,
+                     slow(a.substr(1), b.substr(1)) + (a[0] == b[0] ? 0 : 1)});
+  };
+  for (const std::string& a : words) {
+    for (const std::string& b : words) EXPECT_EQ(edit_distance(a, b), slow(a, b)) << a << ' ' << b;
+  }
+}
+
+}  // namespace
+}  // namespace gnbv

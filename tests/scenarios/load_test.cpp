@@ -1,0 +1,146 @@
+#include "scenarios/load.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "scenarios/builtin.hpp"
+#include "scenarios/write.hpp"
+#include "sim/core/file.hpp"
+#include "tests/scenarios/scenario_text.hpp"
+
+namespace gnbv {
+namespace {
+
+TEST(LoadScenario, DefaultsSurviveWritingAndReading) {
+  Scenario defaults;
+  defaults.cameras.resize(1);
+  const std::string yaml = to_yaml(defaults);
+  EXPECT_EQ(to_yaml(load_text(yaml)), yaml);
+  EXPECT_EQ(to_yaml(load_text(kMinimal)), yaml) << "what a file leaves out is at its default";
+}
+
+TEST(LoadScenario, EveryBuiltinLoadsAndRepeatsFromItsOwnText) {
+  for (const std::string& name : builtin_scenario_names()) {
+    const Scenario scenario = load_scenario(name, {});
+    EXPECT_EQ(scenario.name, name);
+    EXPECT_EQ(to_yaml(load_text(to_yaml(scenario))), to_yaml(scenario));
+  }
+}
+
+TEST(LoadScenario, BuiltinsAreTheFilesOfTheFolder) {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(GNBV_SCENARIOS_FOLDER)) {
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path().stem().string());
+  }
+  std::sort(files.begin(), files.end());
+  EXPECT_EQ(builtin_scenario_names(), files);
+  for (const BuiltinScenario& builtin : builtin_scenarios()) {
+    EXPECT_EQ(builtin.yaml,
+              read_file(fmt::format("{}/{}.yaml", GNBV_SCENARIOS_FOLDER, builtin.name)));
+  }
+}
+
+TEST(LoadScenario, AircraftHoldsTableOne) {
+  const Scenario s = load_scenario("aircraft", {});
+  EXPECT_EQ(s.workspace_m.sizes(), Vec3(40, 40, 20));
+  ASSERT_EQ(s.cameras.size(), 2U);
+  for (const CameraConfig& camera : s.cameras) {
+    EXPECT_EQ(camera.fov_x_rad, deg_to_rad(60.0));
+    EXPECT_EQ(camera.fov_y_rad, deg_to_rad(45.0));
+  }
+  EXPECT_EQ(s.cameras[0].pitch_rad, deg_to_rad(20.0));
+  EXPECT_EQ(s.cameras[1].pitch_rad, deg_to_rad(-20.0));
+  const UtilityConfig& u = s.planner.utility;
+  EXPECT_EQ(std::vector({u.alpha, u.beta, u.gamma, u.lambda_per_m}),
+            std::vector({10.0, 0.5, 0.5, 0.2}));
+  EXPECT_EQ(s.planner.termination.entropy_change_percent, 0.001);
+}
+
+TEST(LoadScenario, DegreesOfTheFileAreRadiansInside) {
+  EXPECT_EQ(load_text("cameras: [{pitch_deg: 12.3}]").cameras[0].pitch_rad, deg_to_rad(12.3));
+  const Vec3 rates = load_text(kMinimal, {"vehicle.autopilot.rate_max_deg_s=[10, 20, 30]"})
+                         .vehicle.autopilot.rate_max_rad_s;
+  EXPECT_EQ(rates, Vec3(deg_to_rad(10), deg_to_rad(20), deg_to_rad(30)));
+}
+
+TEST(LoadScenario, AnyAngleThatWasReadIsWrittenSoThatItReadsBackExactly) {
+  for (int i = 0; i < 2000; ++i) {
+    // degrees with long binary expansions, over all magnitudes of the range
+    const double degrees = -89.7 + 0.0897131 * i;
+    const Scenario s = load_scenario("smoke", {fmt::format("lidar.pitch_deg={}", degrees)});
+    const auto values = scenario_values(s);
+    const auto pitch = std::find_if(values.begin(), values.end(),
+                                    [](const auto& v) { return v.first == "lidar.pitch_deg"; });
+    ASSERT_NE(pitch, values.end());
+    EXPECT_EQ(deg_to_rad(std::stod(pitch->second)), s.lidar.pitch_rad) << degrees;
+  }
+}
+
+TEST(LoadScenario, RoundNumbersOfDegreesAreWrittenRound) {
+  for (int degrees = -360; degrees <= 360; ++degrees) {
+    const Scenario s = load_scenario("smoke", {fmt::format("start.yaw_deg={}", degrees)});
+    EXPECT_THAT(to_yaml(s), testing::HasSubstr(fmt::format("  yaw_deg: {}\n", degrees)));
+  }
+}
+
+TEST(LoadScenario, NumbersAreWrittenInTheFewestDigitsThatReadBack) {
+  const Scenario s = load_text(kMinimal, {"planner.utility.alpha=0.1", "planner.utility.beta=1e-6",
+                                          "planner.utility.gamma=0.30000000000000004"});
+  EXPECT_THAT(to_yaml(s), testing::HasSubstr("alpha: 0.1\n    beta: 1.0e-06\n"
+                                             "    gamma: 0.30000000000000004\n"));
+}
+
+TEST(Overrides, ApplyInOrderTheLastOneWins) {
+  const Scenario s = load_text("seed: 3\n" + kMinimal, {"seed=4", "name=a", "seed=5"});
+  EXPECT_EQ(s.seed, 5U);
+  EXPECT_EQ(s.name, "a");
+}
+
+TEST(Overrides, ReachItemsOfListsAndNumbersOfVectors) {
+  const Scenario s = load_scenario("aircraft", {"cameras.1.range_max_m=6", "workspace_m.max.2=15",
+                                                "vehicle.airframe.rotors.3.p_body_m.0=-0.2"});
+  EXPECT_EQ(s.cameras[0].range_max_m, 8.0);
+  EXPECT_EQ(s.cameras[1].range_max_m, 6.0);
+  EXPECT_EQ(s.workspace_m.max(), Vec3(20, 20, 15));
+  EXPECT_EQ(s.vehicle.airframe.rotors[3].p_body_m, Vec3(-0.2, -0.2, 0.023));
+}
+
+TEST(Overrides, AMapSetsWhatItNamesAListReplacesTheList) {
+  const Scenario s = load_scenario(
+      "aircraft", {"planner.utility={name: isler, alpha: 3}", "cameras=[{name: one}]"});
+  EXPECT_EQ(s.planner.utility.name, "isler");
+  EXPECT_EQ(s.planner.utility.alpha, 3.0);
+  EXPECT_EQ(s.planner.utility.beta, 0.5);
+  ASSERT_EQ(s.cameras.size(), 1U);
+  EXPECT_EQ(s.cameras[0].pitch_rad, 0.0) << "items of the new list start at defaults";
+}
+
+TEST(Paths, OfAFileAreBesideItThoseOfAnOverrideInTheCurrentFolder) {
+  const ScenarioFile file("structure: {file: {path: mesh/../s.yaml}}\n" + kMinimal);
+  const Scenario s = load_scenario(file.path().string(), {});
+  EXPECT_EQ(s.structure.file.path, file.path().lexically_normal().string());
+
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(file.folder());
+  const Scenario t = load_scenario("smoke", {"structure.file.path=s.yaml"});
+  std::filesystem::current_path(before);
+  EXPECT_TRUE(std::filesystem::path(t.structure.file.path).is_absolute());
+  EXPECT_TRUE(std::filesystem::equivalent(t.structure.file.path, file.path()));
+  EXPECT_EQ(load_text(to_yaml(t)).structure.file.path, t.structure.file.path);
+}
+
+TEST(Paths, WithAwkwardLettersSurviveWritingAndReading) {
+  const ScenarioFile file(kMinimal);
+  for (const char* name : {"a b.obj", "it's.obj", "q\"uote.obj", "back\\slash.obj", "#5: x.obj",
+                           "ünïcode.obj", "tab\t.obj"}) {
+    const std::string path = (file.folder() / name).string();
+    std::ofstream(path) << "x";
+    Scenario s = load_text(kMinimal);
+    s.structure.file.path = path;
+    EXPECT_EQ(load_text(to_yaml(s)).structure.file.path, path);
+  }
+}
+
+}  // namespace
+}  // namespace gnbv

@@ -1,0 +1,90 @@
+#include "scenarios/problems.hpp"
+
+#include <gmock/gmock.h>
+
+#include "tests/scenarios/scenario_text.hpp"
+
+namespace gnbv {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+TEST(Problems, AreLaidToTheLineOfTheKeyGivenLast) {
+  const std::string text = "cameras:\n  - range_min_m: 9\n";
+  EXPECT_EQ(complaint(text),
+            "s.yaml:2: cameras.0.range_min_m: value '9': cameras.0.range_min_m = 9 has to be below "
+            "cameras.0.range_max_m = 8");
+  EXPECT_THAT(complaint(text, {"cameras.0.range_max_m=8.5"}),
+              StartsWith("--set cameras.0.range_max_m=8.5: cameras.0.range_max_m: value '8.5': "));
+  EXPECT_EQ(complaint(text, {"cameras.0.range_max_m=9.5"}), "");
+  EXPECT_THAT(complaint(kMinimal + "lidar: {range_max_m: 5}", {"lidar.range_min_m=6"}),
+              StartsWith("--set lidar.range_min_m=6: lidar.range_min_m: value '6': "));
+  EXPECT_THAT(complaint("cameras:\n  - {}\n  - {name: b}\n", {"cameras=[{}, {}]"}),
+              StartsWith("--set cameras=[{}, {}]: cameras.1.name: value 'rgbd': "))
+      << "the new list knows nothing of the old one's lines";
+}
+
+TEST(Problems, OfAKeyThatIsAtFaultItselfAreNotAdded) {
+  EXPECT_EQ(complaint("cameras: [{range_min_m: 9, range_max_m: a}]"),
+            "s.yaml:1: cameras.0.range_max_m: value 'a': expects a number");
+}
+
+TEST(Problems, AWorkspaceIsABoxThatFitsIntoMemory) {
+  EXPECT_EQ(complaint(kMinimal + "workspace_m: {min: [0, 0, 20]}"),
+            "s.yaml:2: workspace_m.min: value '[0, 0, 20]': min z = 20 has to be below max z = 20");
+  EXPECT_THAT(complaint(kMinimal + "planner: {map: {resolution_m: 0.01}}"),
+              AllOf(StartsWith("s.yaml:2: planner.map.resolution_m: value '0.01': "),
+                    // 4000 x 4000 x 2000 voxels of 24 bytes
+                    HasSubstr("3.2e+10 voxels and 715.3 GiB"), HasSubstr("the budget is 4 GiB")));
+  EXPECT_THAT(complaint(kMinimal + "planner: {map: {resolution_m: 0.001}}\n"
+                                   "workspace_m: {min: [40, 0, 0], max: [41, 1, 1]}\n"
+                                   "start: {position_m: [40, 0, 1]}"),
+              HasSubstr("OctoMap's keys"));
+}
+
+TEST(Problems, TheStartLiesInTheNavigationBox) {
+  EXPECT_EQ(complaint(kMinimal + "\nstart:\n  position_m: [0, 0, 0.5]"),
+            "s.yaml:4: start.position_m: value '[0, 0, 0.5]': the start [0, 0, 0.5] lies outside "
+            "the navigation box from [-20, -20, 0.7] to [20, 20, 20]");
+  EXPECT_THAT(complaint(kMinimal + "planner: {validity: {z_min_m: 20}}"),
+              AllOf(StartsWith("s.yaml:2: planner.validity.z_min_m: value '20': "),
+                    HasSubstr("the navigation box is empty")));
+}
+
+TEST(Problems, CamerasExistAndDiffer) {
+  EXPECT_EQ(complaint("name: a"), "s.yaml: cameras: names no camera; at least one has to look");
+  EXPECT_THAT(complaint("cameras: []"), StartsWith("s.yaml:1: cameras: value '[]': has 0 items"));
+  EXPECT_EQ(complaint("cameras:\n  - {}\n  - {name: rgbd}\n"),
+            "s.yaml:3: cameras.1.name: value 'rgbd': two cameras, 0 and 1, are named 'rgbd'");
+}
+
+TEST(Problems, AVoxelCanBecomeFreeAndOccupied) {
+  const std::string map = kMinimal + "planner: {map: {";
+  EXPECT_THAT(
+      complaint(map + "free_max: 0.6}}"),
+      HasSubstr("planner.map.free_max = 0.6 has to be below planner.map.occupied_min = 0.6"));
+  EXPECT_THAT(complaint(map + "clamp_max: 0.55}}"), HasSubstr("nothing could become occupied"));
+  EXPECT_THAT(complaint(map + "clamp_min: 0.45}}"), HasSubstr("nothing could become free"));
+}
+
+TEST(Problems, OthersThatCannotRun) {
+  EXPECT_THAT(complaint(kMinimal, {"vehicle.airframe.rotors.2.spin=0.5"}),
+              HasSubstr("rotors.2.spin: value '0.5': has to be 1 or -1"));
+  EXPECT_THAT(complaint(kMinimal, {"vehicle.autopilot.thrust_max=0.1"}), HasSubstr("thrust_min"));
+  EXPECT_THAT(complaint(kMinimal, {"planner.utility={beta: 0, gamma: 0}"}),
+              HasSubstr("Eq. (2) divides"));
+  EXPECT_THAT(complaint(kMinimal + "structure: {file: {path: none.obj}}"),
+              AllOf(StartsWith("s.yaml:2: structure.file.path: value '"),
+                    HasSubstr("none.obj': there is no such file")));
+}
+
+TEST(Problems, OfABuiltinScenarioAreNone) {
+  for (const std::string& name : builtin_scenario_names()) {
+    EXPECT_TRUE(problems(load_scenario(name, {})).empty()) << name;
+  }
+}
+
+}  // namespace
+}  // namespace gnbv
