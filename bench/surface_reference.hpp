@@ -6,37 +6,40 @@
 #include <span>
 #include <vector>
 
+#include "bench/surface_samples.hpp"
+#include "bench/voxel_set.hpp"
 #include "sensors/ray_scene.hpp"
 #include "sim/world.hpp"
 
 namespace gnbv {
 
-/// The paper's three voxel sizes (Tables 2 and 3).
-constexpr std::array<double, 3> kCoverageSizes_m = {0.05, 0.10, 0.50};
-
 struct ReferenceConfig {
-  double floor_z_m = 0.3;        // surface below is never mapped, so it is never asked for
+  double floor_z_m = 0.3;  // surface below is never mapped, so it is never asked for
   double sample_spacing_m = 0.0125;
-  int directions = 128;          // over the sphere, per sample, until one escapes
+  int directions = 128;         // over the sphere, per sample, until one escapes
+  double escape_near_m = 1e-4;  // what lies nearer to the sample on such a line does not block it
 };
 
-/// Sorted, unique voxel codes of the surface at one size. Voxel k covers [k s, (k + 1) s).
-using VoxelSet = std::vector<std::uint64_t>;
-
+/// The samples of the surface (surface_samples.hpp) put into voxels, by kCoverageSizes_m. The two
+/// coarser sizes are derived from the finest, which is exact: a voxel holds a sample if one of the
+/// finest voxels in it does.
 struct SurfaceReference {
-  std::array<VoxelSet, 3> raw;       // any surface, by kCoverageSizes_m
-  std::array<VoxelSet, 3> outside;   // surface from which some straight line leaves the structure
+  std::array<VoxelSet, 3> raw;      // any surface
+  std::array<VoxelSet, 3> outside;  // surface from which some straight line leaves the structure
 };
 
-/// Deterministic at any number of threads.
+/// Deterministic at any number of threads. A voxel belongs to `outside` if one of its samples sees
+/// out: two degrees off the face's normal, off its opposite, or in one of `directions`
+/// directions. The ground never blocks. Openings narrower than the directions resolve (about
+/// 4 pi / directions steradian) are found only by luck.
 SurfaceReference make_surface_reference(const World& world, const RayScene& scene,
                                         const ReferenceConfig& config, int threads);
 
-/// The voxels of a cloud.
-VoxelSet voxels_of(std::span<const Vec3f> points_world_m, double size_m);
-
-/// Share of `reference` that is in `cloud`, in [0, 1]; 0 for an empty reference.
-double coverage(const VoxelSet& reference, const VoxelSet& cloud);
+/// 1 for each sample that sees out by the rule above, 0 for the others. make_surface_reference asks
+/// less, since a voxel's first such sample settles it.
+std::vector<std::uint8_t> samples_seeing_out(const World& world, const RayScene& scene,
+                                             std::span<const SurfaceSample> samples,
+                                             const ReferenceConfig& config, int threads);
 
 /// {"0.05", "0.10", "0.50"} of the run directory.
 std::array<double, 3> coverage_at_all_sizes(const std::array<VoxelSet, 3>& reference,

@@ -1,0 +1,40 @@
+// Sets of voxels, the currency of the coverage metric. Voxel k of an axis covers [k s, (k + 1) s).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sim/core/pose.hpp"
+
+namespace gnbv {
+
+/// The paper's three voxel sizes (Tables 2 and 3).
+constexpr std::array<double, 3> kCoverageSizes_m = {0.05, 0.10, 0.50};
+
+/// The sizes in units of the finest: a finest voxel lies in exactly one voxel of each size.
+constexpr std::array<int, 3> kCoverageFactors = {1, 2, 10};
+
+/// Sorted, unique voxel codes of one size. A code holds x, y, z in this order of weight.
+using VoxelSet = std::vector<std::uint64_t>;
+
+/// Code of the voxel that holds a point. The index is floor(x / s) in exact arithmetic for the
+/// three sizes above, so that sizes nest. Throws BrokenInvariant for a point that is not finite or
+/// farther than 2^20 voxels from the origin.
+std::uint64_t voxel_code(const Vec3f& p_world_m, double size_m);
+
+/// Centre of a voxel.
+Vec3 voxel_centre_m(std::uint64_t code, double size_m);
+
+/// The voxels of a cloud. Throws BadInput naming the first point that is not finite or farther than
+/// 2^20 voxels from the origin.
+VoxelSet voxels_of(std::span<const Vec3f> points_world_m, double size_m);
+
+/// The voxels `factor` times as large that hold a voxel of `fine`. factor >= 1.
+VoxelSet coarser(const VoxelSet& fine, int factor);
+
+/// Share of `reference` that is in `cloud`, in [0, 1]; 0 for an empty reference.
+double coverage(const VoxelSet& reference, const VoxelSet& cloud);
+
+}  // namespace gnbv
