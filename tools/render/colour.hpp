@@ -1,0 +1,51 @@
+// Colours of the pictures: linear light inside, sRGB at the border.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+namespace gnbv {
+
+using Rgb = std::array<float, 3>;  // linear, each in [0, 1]
+
+/// IEC 61966-2-1, one channel in [0, 1].
+inline float srgb_to_linear(float s) {
+  return s <= 0.04045F ? s / 12.92F : std::pow((s + 0.055F) / 1.055F, 2.4F);
+}
+
+inline float linear_to_srgb(float l) {
+  return l <= 0.0031308F ? 12.92F * l : 1.055F * std::pow(l, 1.0F / 2.4F) - 0.055F;
+}
+
+/// 0xRRGGBB as a colour picker shows it.
+inline Rgb srgb(std::uint32_t rrggbb) {
+  const auto channel = [&](int shift) {
+    return srgb_to_linear(static_cast<float>((rrggbb >> shift) & 0xffU) / 255.0F);
+  };
+  return {channel(16), channel(8), channel(0)};
+}
+
+/// Piecewise linear through evenly spaced colours; `t` is clamped to [0, 1].
+inline Rgb ramp(std::span<const Rgb> colours, double t) {
+  const double x = std::clamp(t, 0.0, 1.0) * static_cast<double>(colours.size() - 1);
+  const std::size_t i = std::min(static_cast<std::size_t>(x), colours.size() - 2);
+  const float f = static_cast<float>(x - static_cast<double>(i));
+  Rgb out{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    out[k] = colours[i][k] * (1.0F - f) + colours[i + 1][k] * f;
+  }
+  return out;
+}
+
+/// Order along a path: dark violet to orange, monotone in lightness, never as light as the paper
+/// white of the background.
+inline Rgb path_ramp(double t) {
+  static const std::array<Rgb, 6> colours = {srgb(0x2b0f8a), srgb(0x6a0fb0), srgb(0xa3209c),
+                                             srgb(0xd03b76), srgb(0xee6a45), srgb(0xf9a01f)};
+  return ramp(colours, t);
+}
+
+}  // namespace gnbv

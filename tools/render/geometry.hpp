@@ -1,0 +1,43 @@
+// Scene items as triangles ready to be drawn; no GL here.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "tools/render/scene.hpp"
+
+namespace gnbv {
+
+struct DrawVertex {
+  Vec3f p_world_m;
+  Vec3f n_world;
+  std::array<float, 4> rgba;
+};
+
+struct DrawBall {
+  Vec3f centre_m;
+  float radius_m;
+  Rgb rgb;
+  bool casts_shadow;
+};
+
+struct DrawLists {
+  std::vector<DrawVertex> vertices;
+  // triples of vertices: solids that cast shadows, solids that do not, and what is drawn last
+  std::vector<std::uint32_t> casting, plain, translucent;
+  std::vector<DrawBall> balls;  // those that cast shadows first
+  std::size_t casting_balls = 0;
+  Eigen::AlignedBox3f bounds_m;  // of all of it
+};
+
+/// Unit normal of each corner of each face: the mean, weighted by corner angle, over the faces
+/// around the corner's position whose normals lie within the crease of this face's; zero for faces
+/// without area. Corners at equal positions belong together even where the file has not welded
+/// them.
+std::vector<std::array<Vec3f, 3>> corner_normals(const TriangleMesh& mesh, double crease_rad);
+
+DrawLists make_draw_lists(const RenderScene& scene);
+
+}  // namespace gnbv

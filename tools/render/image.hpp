@@ -1,0 +1,31 @@
+// An 8-bit colour picture and its PNG file.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace gnbv {
+
+/// RGB8, sRGB-encoded, rows from top to bottom without padding.
+struct Image {
+  int width_px = 0;
+  int height_px = 0;
+  std::vector<std::uint8_t> rgb;  // (height, width, 3)
+
+  std::array<std::uint8_t, 3> at(int x, int y) const {
+    const std::size_t i = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) +
+                               static_cast<std::size_t>(x));
+    return {rgb[i], rgb[i + 1], rgb[i + 2]};
+  }
+};
+
+/// Writes an RGB PNG by rename. Throws BadInput naming the path when it cannot be written.
+void write_png(const Image& image, const std::filesystem::path& path);
+
+/// Reads any PNG as RGB8. Throws BadInput naming the path.
+Image read_png(const std::filesystem::path& path);
+
+}  // namespace gnbv

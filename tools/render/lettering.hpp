@@ -1,0 +1,31 @@
+// Words and plain marks on a finished picture: a stroke font of our own, so that captions need no
+// font files.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "tools/render/colour.hpp"
+#include "tools/render/image.hpp"
+
+namespace gnbv {
+
+using Rgb8 = std::array<std::uint8_t, 3>;  // sRGB as in Image
+
+Rgb8 to_rgb8(const Rgb& linear);
+
+/// A round-ended line between two points (px, 0, 0 is the top left corner), `width_px` wide,
+/// antialiased and clipped to the picture.
+void draw_line(Image& image, const std::array<double, 2>& from_px,
+               const std::array<double, 2>& to_px, double width_px, const Rgb8& colour);
+
+/// Printable ASCII; anything else appears as '?'. `height_px` is that of a capital. Returns the x
+/// where the text ends.
+double draw_text(Image& image, std::string_view text, double x_px, double baseline_px,
+                 double height_px, const Rgb8& colour);
+
+/// Width of what draw_text() would draw.
+double text_width_px(std::string_view text, double height_px);
+
+}  // namespace gnbv

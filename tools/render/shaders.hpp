@@ -1,0 +1,227 @@
+// GLSL 3.30 sources. All colours are linear; the multisampled target encodes to sRGB by itself.
+#pragma once
+
+namespace gnbv::shaders {
+
+/// Precedes every other source: the block that all programs share (std140, as FrameBlock).
+inline constexpr const char* kCommon = R"(#version 330 core
+layout(std140) uniform Frame {
+  mat4 clip_from_world;
+  mat4 shadow_from_world;   // to [0, 1] in all three
+  vec4 eye;                 // xyz world; w = view height in px of the supersampled target
+  vec4 to_light;            // xyz world, unit; w = side of a shadow texel, m
+  vec4 to_fill;             // xyz world, unit; w = 1 / tan(fov_y / 2)
+  vec4 camera_right;        // xyz world; w = width of the shadowed square, m
+  vec4 camera_up;           // xyz world; w = side of the shadow map, px
+  vec4 ground;              // centre x, y, height z, radius
+  vec4 grid;                // minor, major; depth where haze begins and its range, m
+};
+)";
+
+/// Lighting of every solid thing.
+inline constexpr const char* kLighting = R"(
+uniform sampler2DShadow shadow_map;
+
+// outermost first, so that the first four tell a penumbra from an even surface
+const vec2 kDisc[12] = vec2[](
+  vec2(-0.840, -0.074), vec2(0.962, -0.195), vec2(0.185, -0.893), vec2(0.203, 0.890),
+  vec2(-0.696, 0.457), vec2(-0.326, -0.406), vec2(0.473, -0.480), vec2(0.519, 0.767),
+  vec2(0.507, 0.064), vec2(0.896, 0.412), vec2(-0.322, -0.933), vec2(-0.203, 0.350));
+
+// share of the key light that arrives, by percentage closer filtering over `spread` texels
+float key_share(vec3 p, vec3 n, float spread) {
+  float slope = 1.0 - clamp(dot(n, to_light.xyz), 0.0, 1.0);
+  vec3 lifted = p + n * to_light.w * (1.0 + 2.5 * slope);
+  vec3 s = (shadow_from_world * vec4(lifted, 1.0)).xyz;
+  if (any(notEqual(s.xy, clamp(s.xy, 0.0, 1.0)))) return 1.0;
+  s.z = min(s.z, 1.0);
+  float step_uv = spread / camera_up.w;
+  float sum = 0.0;
+  for (int i = 0; i < 4; ++i) sum += texture(shadow_map, vec3(s.xy + kDisc[i] * step_uv, s.z));
+  if (sum == 0.0 || sum == 4.0) return sum / 4.0;
+  for (int i = 4; i < 12; ++i) sum += texture(shadow_map, vec3(s.xy + kDisc[i] * step_uv, s.z));
+  return sum / 12.0;
+}
+
+vec3 lit(vec3 albedo, vec3 n, vec3 p, float gloss) {
+  vec3 l = to_light.xyz;
+  vec3 v = normalize(eye.xyz - p);
+  float facing = max(dot(n, l), 0.0);
+  float key = facing > 0.0 ? facing * key_share(p, n, 1.8) : 0.0;
+  float fill = max(dot(n, to_fill.xyz), 0.0);
+  vec3 ambient = mix(vec3(0.15, 0.145, 0.14), vec3(0.33, 0.355, 0.39), 0.5 + 0.5 * n.z);
+  vec3 light = ambient + key * vec3(0.84, 0.81, 0.76) + fill * vec3(0.09, 0.10, 0.12);
+  // grazing surfaces darken a little, which draws outlines where structure covers structure
+  float grazing = 1.0 - abs(dot(n, v));
+  light *= 1.0 - 0.45 * grazing * grazing * grazing;
+  float shine = pow(max(dot(n, normalize(l + v)), 0.0), 48.0) * gloss * key;
+  // a little air between near and far things, for depth
+  float depth = dot(p - eye.xyz, cross(camera_up.xyz, camera_right.xyz));
+  float haze = 0.20 * clamp((depth - grid.z) / grid.w, 0.0, 1.0);
+  vec3 c = albedo * light + vec3(shine);
+  // white paint in full light keeps its shape instead of clipping
+  c = mix(c, 1.0 - 0.3 * exp((0.7 - c) / 0.3), step(0.7, c));
+  return mix(c, vec3(0.74, 0.76, 0.79), haze);
+}
+)";
+
+inline constexpr const char* kSolidVertex = R"(
+layout(location = 0) in vec3 p_in;
+layout(location = 1) in vec3 n_in;
+layout(location = 2) in vec4 colour_in;
+out vec3 p_world;
+out vec3 n_world;
+out vec4 colour;
+void main() {
+  p_world = p_in;
+  n_world = n_in;
+  colour = colour_in;
+  gl_Position = clip_from_world * vec4(p_in, 1.0);
+}
+)";
+
+inline constexpr const char* kSolidFragment = R"(
+in vec3 p_world;
+in vec3 n_world;
+in vec4 colour;
+out vec4 pixel;
+void main() {
+  vec3 n = normalize(n_world);
+  // both sides are lit alike: users' meshes are not always oriented
+  if (!gl_FrontFacing) n = -n;
+  pixel = vec4(lit(colour.rgb, n, p_world, 0.10), colour.a);
+}
+)";
+
+/// Balls: a square point each, on which the fragment finds the sphere.
+inline constexpr const char* kBallVertex = R"(
+layout(location = 0) in vec4 ball_in;    // centre, radius
+layout(location = 1) in vec3 colour_in;
+out vec4 ball;
+out vec3 colour;
+void main() {
+  ball = ball_in;
+  colour = colour_in;
+  gl_Position = clip_from_world * vec4(ball_in.xyz, 1.0);
+  gl_PointSize = max(1.0, ball_in.w * to_fill.w * eye.w / gl_Position.w);
+}
+)";
+
+inline constexpr const char* kBallFragment = R"(
+in vec4 ball;
+in vec3 colour;
+out vec4 pixel;
+void main() {
+  vec2 q = vec2(2.0, -2.0) * (gl_PointCoord - 0.5);
+  float rr = dot(q, q);
+  if (rr > 1.0) discard;
+  vec3 to_eye = normalize(cross(camera_right.xyz, camera_up.xyz));
+  vec3 n = normalize(q.x * camera_right.xyz + q.y * camera_up.xyz + sqrt(1.0 - rr) * to_eye);
+  vec3 p = ball.xyz + ball.w * n;
+  vec4 clip = clip_from_world * vec4(p, 1.0);
+  gl_FragDepth = 0.5 + 0.5 * clip.z / clip.w;
+  pixel = vec4(lit(colour, n, p, 0.10), 1.0);
+}
+)";
+
+inline constexpr const char* kSolidShadowVertex = R"(
+layout(location = 0) in vec3 p_in;
+void main() { gl_Position = vec4(2.0 * (shadow_from_world * vec4(p_in, 1.0)).xyz - 1.0, 1.0); }
+)";
+
+inline constexpr const char* kSolidShadowFragment = R"(
+void main() {}
+)";
+
+inline constexpr const char* kBallShadowVertex = R"(
+layout(location = 0) in vec4 ball_in;
+void main() {
+  gl_Position = vec4(2.0 * (shadow_from_world * vec4(ball_in.xyz, 1.0)).xyz - 1.0, 1.0);
+  gl_PointSize = max(1.0, 2.0 * ball_in.w / camera_right.w * camera_up.w);
+}
+)";
+
+inline constexpr const char* kBallShadowFragment = R"(
+void main() {
+  vec2 q = 2.0 * (gl_PointCoord - 0.5);
+  if (dot(q, q) > 1.0) discard;
+}
+)";
+
+inline constexpr const char* kGroundVertex = R"(
+out vec2 p_ground;
+void main() {
+  vec2 q = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+  p_ground = ground.xy + q * ground.w;
+  gl_Position = clip_from_world * vec4(p_ground, ground.z, 1.0);
+}
+)";
+
+inline constexpr const char* kGroundFragment = R"(
+in vec2 p_ground;
+out vec4 pixel;
+
+// coverage of lines `width` wide every `spacing`, with the pixel's footprint as filter; lines
+// thinner than the footprint turn pale instead of flickering
+float lines(vec2 p, float spacing, float width) {
+  vec2 footprint = max(fwidth(p), vec2(1e-6));
+  vec2 wide = max(vec2(width), footprint);
+  vec2 away = abs(fract(p / spacing - 0.5) - 0.5) * spacing;
+  vec2 line = 1.0 - smoothstep(0.5 * wide - 0.5 * footprint, 0.5 * wide + 0.5 * footprint, away);
+  line *= width / wide;
+  line = mix(line, vec2(width / spacing), smoothstep(vec2(0.3), vec2(0.8), footprint / spacing));
+  return 1.0 - (1.0 - line.x) * (1.0 - line.y);
+}
+
+void main() {
+  float r = length(p_ground - ground.xy) / ground.w;
+  float fade = 1.0 - smoothstep(0.30, 1.0, r);
+  if (fade <= 0.0) discard;
+  vec3 p = vec3(p_ground, ground.z);
+  float shade = 1.0 - key_share(p, vec3(0.0, 0.0, 1.0), 3.0);
+  float line = max(0.28 * lines(p_ground, grid.x, 0.03), 0.45 * lines(p_ground, grid.y, 0.06));
+  // paint: darkening only, so that the plane itself melts into the background
+  vec3 ink = mix(vec3(0.13, 0.15, 0.19), vec3(0.05, 0.06, 0.09), shade);
+  float cover = max(line, 0.0);
+  cover = 1.0 - (1.0 - cover) * (1.0 - 0.42 * shade);
+  pixel = vec4(ink, cover * fade);
+}
+)";
+
+/// Fills the picture with one triangle.
+inline constexpr const char* kScreenVertex = R"(
+void main() {
+  vec2 q = vec2((gl_VertexID << 1) & 2, gl_VertexID & 2);
+  gl_Position = vec4(q * 2.0 - 1.0, 0.0, 1.0);
+}
+)";
+
+inline constexpr const char* kBackgroundFragment = R"(
+out vec4 pixel;
+void main() {
+  float t = gl_FragCoord.y / eye.w;  // 0 at the bottom
+  pixel = vec4(mix(vec3(0.60, 0.615, 0.63), vec3(0.90, 0.92, 0.94), smoothstep(0.0, 1.0, t)), 1.0);
+}
+)";
+
+/// Box filter over 2 x 2 in linear light, sRGB encoding, ordered dither against bands; the first
+/// row written is the top one.
+inline constexpr const char* kResolveFragment = R"(
+uniform sampler2D picture;
+out vec4 pixel;
+vec3 encode(vec3 l) {
+  return mix(12.92 * l, 1.055 * pow(max(l, 1e-6), vec3(1.0 / 2.4)) - 0.055, step(0.0031308, l));
+}
+float bayer2(ivec2 a) { return float((2 * a.x + 3 * a.y) & 3); }
+
+void main() {
+  ivec2 out_px = ivec2(gl_FragCoord.xy);
+  ivec2 q = 2 * ivec2(out_px.x, textureSize(picture, 0).y / 2 - 1 - out_px.y);
+  vec3 sum = texelFetch(picture, q, 0).rgb + texelFetch(picture, q + ivec2(1, 0), 0).rgb +
+             texelFetch(picture, q + ivec2(0, 1), 0).rgb + texelFetch(picture, q + ivec2(1, 1), 0).rgb;
+  float dither = (4.0 * bayer2(out_px & 1) + bayer2((out_px >> 1) & 1) + 0.5) / 16.0 - 0.5;
+  pixel = vec4(encode(0.25 * sum) + dither / 255.0, 1.0);
+}
+)";
+
+}  // namespace gnbv::shaders

@@ -1,0 +1,54 @@
+// Where a picture is taken from.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "sim/core/pose.hpp"
+
+namespace gnbv {
+
+/// A pinhole camera with square pixels and its picture. Optical frame: x right, y down, z forward.
+struct RenderView {
+  int width_px = 1280;
+  int height_px = 720;
+  Isometry T_world_camera = Isometry::Identity();
+  double fov_y_rad = deg_to_rad(30.0);
+  double focus_m = 10.0;                       // depth of the subject: where a scale bar is true
+  Vec3 to_light_world = Vec3(0.3, -0.5, 0.8);  // towards the key light, any length
+};
+
+/// Camera at `eye` looking at `target` with world z up in the picture (north up for a plumb view).
+Isometry look_at(const Vec3& eye_world_m, const Vec3& target_world_m);
+
+/// From where to look, as seen from the subject: azimuth about z from east (+x), elevation above
+/// the horizon.
+struct ViewAngles {
+  double azimuth_rad = deg_to_rad(-120.0);
+  double elevation_rad = deg_to_rad(28.0);
+};
+
+/// Free borders, as parts of the picture's width (left, right) or height (top, bottom).
+struct FrameMargins {
+  double left = 0.03;
+  double right = 0.03;
+  double top = 0.03;
+  double bottom = 0.03;
+};
+
+/// The nearest camera of that direction, opening and size that shows every point inside the
+/// margins. The key light stands over the camera's left shoulder. Throws BadInput without points,
+/// with a size under 1 px, or with margins that leave nothing.
+RenderView frame_points(std::span<const Vec3> points_world_m, const ViewAngles& angles,
+                        int width_px, int height_px, const FrameMargins& margins = {},
+                        double fov_y_rad = deg_to_rad(30.0));
+
+/// The same for the corners of a box.
+RenderView frame_box(const Box3& box_world_m, const ViewAngles& angles, int width_px, int height_px,
+                     const FrameMargins& margins = {}, double fov_y_rad = deg_to_rad(30.0));
+
+/// Picture coordinates in px (0, 0 is the top left corner, pixel centres at halves) and depth in m;
+/// nothing behind the camera.
+std::optional<Vec3> project(const RenderView& view, const Vec3& p_world_m);
+
+}  // namespace gnbv
