@@ -1,0 +1,160 @@
+// The program as its users meet it: exit codes, messages, and what it leaves behind.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "sim/core/file.hpp"
+#include "tests/support/temp_folder.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int exit_code = -1;
+  std::string output;  // stdout and stderr
+};
+
+Outcome gnbv(const std::string& arguments) {
+  const std::string command = std::string(GNBV_PROGRAM) + " " + arguments + " 2>&1";
+  Outcome outcome;
+  FILE* const pipe = popen(command.c_str(), "r");
+  std::array<char, 4096> buffer{};
+  while (std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe) != nullptr) {
+    outcome.output += buffer.data();
+  }
+  const int status = pclose(pipe);
+  outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return outcome;
+}
+
+bool has(const Outcome& outcome, const std::string& text) {
+  return outcome.output.find(text) != std::string::npos;
+}
+
+std::string one_view(const fs::path& out) {
+  return "run smoke --set planner.termination.max_iterations=1 --out " + out.string();
+}
+
+TEST(Program, HelpsAndSaysItsVersion) {
+  for (const std::string arguments : {"--help", "run --help", "table --help", "render --help"}) {
+    const Outcome help = gnbv(arguments);
+    EXPECT_EQ(help.exit_code, 0) << arguments;
+    EXPECT_TRUE(has(help, "Usage")) << arguments;
+  }
+  EXPECT_EQ(gnbv("--version").exit_code, 0);
+}
+
+TEST(Program, BadUsageExitsWith2) {
+  EXPECT_EQ(gnbv("").exit_code, 2);
+  EXPECT_EQ(gnbv("fly-me-to-the-moon").exit_code, 2);
+  EXPECT_EQ(gnbv("run").exit_code, 2);
+  EXPECT_EQ(gnbv("run smoke --threads none").exit_code, 2);
+}
+
+TEST(Program, RunsRendersAndRepeatsFromItsOwnRunDirectory) {
+  TempFolder temp;
+  const fs::path a = temp.path() / "a";
+  const fs::path b = temp.path() / "b";
+  const Outcome first = gnbv("run smoke --seed 3 --out " + a.string());
+  ASSERT_EQ(first.exit_code, 0) << first.output;
+  EXPECT_TRUE(has(first, a.string()));
+  const Outcome second =
+      gnbv("run " + (a / "scenario.yaml").string() + " --threads 1 --out " + b.string());
+  ASSERT_EQ(second.exit_code, 0) << second.output;
+  const auto sha = [](const fs::path& run) {
+    return nlohmann::json::parse(read_file(run / "summary.json")).at("result_sha256");
+  };
+  EXPECT_EQ(sha(a), sha(b));
+
+  const Outcome render = gnbv("render " + a.string());
+  ASSERT_EQ(render.exit_code, 0) << render.output;
+  EXPECT_TRUE(fs::exists(a / "path.png"));
+}
+
+/// Input that must be refused with exit code 2, the given words, and nothing left behind.
+struct BadInputCase {
+  const char* name;
+  std::string arguments;
+  std::vector<std::string> words;
+};
+
+class RefusedInput : public testing::TestWithParam<BadInputCase> {};
+
+TEST_P(RefusedInput, ExitsWith2NamesTheFaultAndLeavesNothing) {
+  TempFolder temp;
+  const fs::path here = temp.path();
+  std::ofstream(here / "unknown.yaml") << "name: x\nplaner: {}\n";
+  std::ofstream(here / "type.yaml") << "name: x\n\nseed: many\n";
+  std::ofstream(here / "range.yaml") << "planner:\n  map:\n    resolution_m: -0.2\n";
+  std::ofstream(here / "broken.yaml") << "planner: {map: [\n";
+  std::ofstream(here / "empty.obj") << "";
+  std::ofstream(here / "nan.obj") << "v 0 0 1\nv nan 0 1\nv 0 1 1\nf 1 2 3\n";
+  std::ofstream(here / "outside.obj") << "v 0 0 1\nv 900 0 1\nv 0 1 1\nf 1 2 3\n";
+  std::ofstream(here / "file") << "";
+  std::string arguments = GetParam().arguments;
+  for (std::size_t at = arguments.find('@'); at != std::string::npos; at = arguments.find('@')) {
+    arguments.replace(at, 1, here.string());
+  }
+  const Outcome outcome = gnbv(arguments);
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+  for (const std::string& word : GetParam().words) {
+    EXPECT_TRUE(has(outcome, word)) << "no '" << word << "' in: " << outcome.output;
+  }
+  EXPECT_FALSE(fs::exists(here / "out"));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Program, RefusedInput,
+    testing::Values(
+        BadInputCase{"UnknownScenario", "run aircaft --out @/out", {"aircaft", "aircraft"}},
+        BadInputCase{"UnknownKey",
+                     "run @/unknown.yaml --out @/out",
+                     {"unknown.yaml:2", "planer", "planner"}},
+        BadInputCase{"WrongType", "run @/type.yaml --out @/out", {"type.yaml:3", "seed", "many"}},
+        BadInputCase{
+            "OutOfRange", "run @/range.yaml --out @/out", {"range.yaml:3", "resolution_m", "-0.2"}},
+        BadInputCase{"BrokenYaml", "run @/broken.yaml --out @/out", {"broken.yaml"}},
+        BadInputCase{"MissingFile", "run @/absent.yaml --out @/out", {"absent.yaml"}},
+        BadInputCase{"UnknownSetKey",
+                     "run smoke --set planner.utilty.name=isler --out @/out",
+                     {"--set", "utilty", "utility"}},
+        BadInputCase{
+            "UnknownUtility", "run smoke --utility best --out @/out", {"best", "proposed"}},
+        BadInputCase{"MissingMesh", "run smoke --mesh @/absent.obj --out @/out", {"absent.obj"}},
+        BadInputCase{"EmptyMesh", "run smoke --mesh @/empty.obj --out @/out", {"empty.obj"}},
+        BadInputCase{"NanMesh", "run smoke --mesh @/nan.obj --out @/out", {"nan.obj"}},
+        BadInputCase{"MeshOutside",
+                     "run smoke --mesh @/outside.obj --out @/out",
+                     {"outside.obj", "workspace_m"}},
+        BadInputCase{"UnwritableOut", "run smoke --out @/file/out", {"file/out"}},
+        BadInputCase{"RenderOfNothing", "render @/out", {"out"}}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST(Program, KeepsARunThatIsAlreadyThere) {
+  TempFolder temp;
+  const fs::path out = temp.path() / "run";
+  ASSERT_EQ(gnbv(one_view(out)).exit_code, 0);
+  const std::string before = read_file(out / "summary.json");
+  const Outcome again = gnbv(one_view(out));
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_TRUE(has(again, "--resume"));
+  EXPECT_EQ(read_file(out / "summary.json"), before);
+}
+
+TEST(Program, PrintsJsonAloneOnStdoutWhenAsked) {
+  TempFolder temp;
+  const Outcome json = gnbv(one_view(temp.path() / "run") + " --json --quiet");
+  ASSERT_EQ(json.exit_code, 0);
+  EXPECT_EQ(nlohmann::json::parse(json.output).at("iterations"), 1);
+}
+
+}  // namespace
+}  // namespace gnbv

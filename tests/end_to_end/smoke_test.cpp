@@ -1,0 +1,208 @@
+// The smoke mission through the library: every real component, a few seconds.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "bench/reference/octomap_twin.hpp"
+#include "bench/surface_reference.hpp"
+#include "scenarios/load.hpp"
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "tests/support/temp_folder.hpp"
+#include "tools/mission/iterations_csv.hpp"
+#include "tools/mission/load_world.hpp"
+#include "tools/mission/mission.hpp"
+#include "tools/mission/run_directory.hpp"
+#include "tools/mission/score.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+
+Scenario smoke(const std::vector<std::string>& overrides = {}) {
+  return load_scenario("smoke", overrides);
+}
+
+struct Flown {
+  explicit Flown(const Scenario& flown_scenario, const MissionHooks& hooks = {}, int threads = 2)
+      : scenario(flown_scenario),
+        world(load_world(scenario)),
+        scene(world),
+        result(run_mission(scenario, world, scene, hooks, threads)) {}
+
+  Scenario scenario;
+  World world;
+  RayScene scene;
+  MissionResult result;
+};
+
+/// One mission for all tests that only look at it.
+const Flown& smoke_flight() {
+  static const Flown flight(smoke());
+  return flight;
+}
+
+TEST(SmokeMission, EndsAsStatedAndTouchesNothing) {
+  const MissionResult& result = smoke_flight().result;
+  EXPECT_EQ(result.termination, Termination::max_iterations);
+  EXPECT_EQ(result.legs_timed_out, 0);
+  EXPECT_EQ(static_cast<int>(result.views.size()),
+            smoke_flight().scenario.planner.termination.max_iterations);
+}
+
+TEST(SmokeMission, TheViewsAddToWhatTheProfileTaught) {
+  const MissionResult& result = smoke_flight().result;
+  EXPECT_LT(result.views.front().entropy_nat, result.entropy_after_profile_nat);
+  EXPECT_LT(result.views.back().entropy_nat, result.views.front().entropy_nat);
+  EXPECT_GT(result.views.back().cloud_points, 2 * result.profile_points_world_m.size());
+}
+
+TEST(SmokeMission, CoversMostOfTheStructure) {
+  const Flown& f = smoke_flight();
+  const SurfaceReference reference =
+      make_surface_reference(f.world, f.scene, {.floor_z_m = f.scenario.planner.floor_z_m}, 2);
+  const MissionScore score = score_mission(reference, f.result);
+  for (std::size_t size = 0; size < kCoverageSizes_m.size(); ++size) {
+    EXPECT_GE(score.final[size], score.profile[size]);
+  }
+  EXPECT_GT(score.final[0], 2 * score.profile[0]);
+  EXPECT_GT(score.final[2], 0.9);
+}
+
+TEST(SmokeMission, EveryPointOfTheCloudLiesOnTheStructure) {
+  // a leaf's centroid lies within the leaf, off a curved or folded surface by less than its
+  // diagonal
+  const Flown& f = smoke_flight();
+  const double limit_m = f.scenario.planner.cloud.profile_leaf_m * std::sqrt(3.0);
+  for (const Vec3f& point : f.result.belief.cloud.points_world_m()) {
+    ASSERT_LT(f.scene.distance_to_structure_m(point.cast<double>(), 1.0), limit_m)
+        << point.transpose();
+  }
+}
+
+TEST(SmokeMission, TheFlownPathFollowsThePlannedOne) {
+  const MissionDistances& distance = smoke_flight().result.distance;
+  EXPECT_GE(distance.flown_m, 0.9 * distance.straight_m);
+  EXPECT_LE(distance.flown_m, 1.3 * distance.straight_m);
+}
+
+TEST(SmokeMission, HasTheSameHashAtAnyNumberOfThreads) {
+  const std::string two = result_sha256(smoke_flight().result);
+  EXPECT_EQ(result_sha256(Flown(smoke(), {}, 1).result), two);
+  EXPECT_EQ(result_sha256(Flown(smoke(), {}, 5).result), two);
+}
+
+TEST(SmokeMission, AnotherSeedIsAnotherMission) {
+  const Flown other(smoke({"seed=2", "planner.termination.max_iterations=1"}));
+  EXPECT_NE(other.result.start.p_world_m, smoke_flight().result.start.p_world_m);
+}
+
+TEST(SmokeMission, EachUtilityFliesItsOwnWay) {
+  std::set<std::string> hashes;
+  for (const std::string name : {"proposed", "bircher", "isler"}) {
+    const Flown flight(smoke({"planner.utility.name=" + name}));
+    EXPECT_NE(flight.result.termination, Termination::collision);
+    hashes.insert(result_sha256(flight.result));
+  }
+  EXPECT_EQ(hashes.size(), 3U);
+}
+
+TEST(SmokeMission, TheIdealVehicleFliesExactlyThePlannedLegs) {
+  const Flown ideal(smoke({"vehicle.kind=ideal"}));
+  EXPECT_EQ(ideal.result.termination, Termination::max_iterations);
+  // summed tick by tick: rounding only
+  EXPECT_NEAR(ideal.result.distance.flown_m, ideal.result.distance.straight_m, 1e-6);
+}
+
+TEST(ResumedMission, EqualsTheUninterruptedOne) {
+  TempFolder temp;
+  const fs::path folder = temp.path() / "run";
+  const auto fly = [&](bool resume, int stop_after) {
+    const Scenario scenario = smoke();
+    RunDirectory directory(folder, scenario, resume);
+    int views = 0;
+    MissionHooks hooks;
+    hooks.on_view = [&](const ViewRecord& view) {
+      directory.append(view);
+      ++views;
+    };
+    hooks.should_stop = [&] { return views >= stop_after; };
+    hooks.replay = directory.recorded();
+    return Flown(scenario, hooks).result;
+  };
+  // the first one is "killed": its journal is all that it leaves behind
+  EXPECT_EQ(fly(false, 5).termination, Termination::interrupted);
+  EXPECT_EQ(read_decisions(folder / "iterations.csv.part").size(), 5U);
+  EXPECT_EQ(result_sha256(fly(true, 1000)), result_sha256(smoke_flight().result));
+}
+
+TEST(ResumedMission, RefusesAnotherConfigurationAndANewRunInItsPlace) {
+  TempFolder temp;
+  const fs::path folder = temp.path() / "run";
+  const RunDirectory first(folder, smoke(), false);
+  EXPECT_THROW(RunDirectory(folder, smoke(), false), BadInput);
+  EXPECT_THROW(RunDirectory(folder, smoke({"seed=9"}), true), BadInput);
+}
+
+TEST(Journal, LosesOnlyTheHalfWrittenLine) {
+  TempFolder temp;
+  const fs::path csv = temp.path() / "iterations.csv.part";
+  std::string text = iterations_csv_header();
+  for (const ViewRecord& view : smoke_flight().result.views) text += iterations_csv_row(view);
+  std::ofstream(csv) << text.substr(0, text.size() - 10);
+  const std::vector<Decision> read = read_decisions(csv);
+  const auto& views = smoke_flight().result.views;
+  ASSERT_EQ(read.size(), views.size() - 1);
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    EXPECT_EQ(read[i].view.p_world_m, views[i].decision.view.p_world_m);
+    EXPECT_EQ(read[i].view.yaw_rad, views[i].decision.view.yaw_rad);
+    EXPECT_EQ(read[i].sampler, views[i].decision.sampler);
+    EXPECT_EQ(read[i].score.value, views[i].decision.score.value);
+  }
+}
+
+TEST(Journal, NamesFileAndLineOfAFault) {
+  TempFolder temp;
+  const fs::path csv = temp.path() / "iterations.csv";
+  std::ofstream(csv) << iterations_csv_header() << "0,1,2\n";
+  try {
+    read_decisions(csv);
+    FAIL();
+  } catch (const BadInput& error) {
+    EXPECT_NE(std::string(error.what()).find("iterations.csv:2"), std::string::npos);
+  }
+}
+
+TEST(RunDirectoryFiles, AreCompleteAndReadByTheirTools) {
+  TempFolder temp;
+  const fs::path folder = temp.path() / "run";
+  const Flown& f = smoke_flight();
+  RunDirectory directory(folder, f.scenario, false);
+  for (const ViewRecord& view : f.result.views) directory.append(view);
+  directory.finish(f.scenario, f.result, {}, 1.0);
+
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename());
+  EXPECT_EQ(names, (std::set<std::string>{"scenario.yaml", "summary.json", "iterations.csv",
+                                          "trajectory.tum", "cloud.ply", "profile.ply", "map.ot",
+                                          "map.bt"}));
+  const auto summary = nlohmann::json::parse(read_file(folder / "summary.json"));
+  EXPECT_EQ(summary.at("result_sha256"), result_sha256(f.result));
+  EXPECT_EQ(summary.at("iterations"), f.result.views.size());
+  EXPECT_EQ(summary.at("termination"), "max_iterations");
+  EXPECT_EQ(to_yaml(load_scenario((folder / "scenario.yaml").string(), {})), to_yaml(f.scenario));
+
+  const OctomapTwin tree = OctomapTwin::read(folder / "map.ot");
+  const OccupancyGrid& grid = f.result.belief.grid;
+  std::size_t measured = 0;
+  for (VoxelIndex v = 0; v < grid.geometry().voxel_count(); ++v) {
+    measured += static_cast<std::size_t>(grid.is_measured(v));
+  }
+  EXPECT_EQ(tree.voxel_count(), measured);
+}
+
+}  // namespace
+}  // namespace gnbv

@@ -1,0 +1,57 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "bench/paper_table.hpp"
+#include "sim/core/file.hpp"
+#include "tools/gnbv/commands.hpp"
+#include "tools/gnbv/execute.hpp"
+#include "tools/gnbv/figures.hpp"
+
+namespace gnbv {
+namespace {
+
+struct RunOptions : MissionOptions {
+  bool json = false;
+};
+
+void run(const RunOptions& options) {
+  const Scenario scenario = resolve_scenario(options);
+  const ExecutedMission mission = execute_mission(scenario, options);
+  if (options.json) {
+    fmt::print("{}", read_file(mission.folder / "summary.json"));
+  } else {
+    fmt::print("{}\n{}\n", one_row_summary(scenario.name, figures_of(scenario, mission)),
+               mission.folder.string());
+  }
+  if (mission.result.termination == Termination::collision) {
+    throw CommandFailed("the vehicle hit something; the run directory shows where");
+  }
+}
+
+}  // namespace
+
+void add_mission_options(CLI::App& command, MissionOptions& options) {
+  command.add_option("SCENARIO", options.scenario, "built-in name or YAML file")->required();
+  command.add_option("--mesh", options.mesh, "a mesh file instead of the scenario's structure");
+  command.add_option("--seed", options.seed, "moves the start pose and keys all noise");
+  command.add_option("--set", options.overrides, "KEY=VALUE of the scenario file; repeatable")
+      ->allow_extra_args(false);
+  command.add_option("--out", options.out, "run directory (default: a new one under runs/)");
+  command.add_option("--threads", options.threads, "0 = all; the result does not depend on it")
+      ->check(CLI::Range(0, 1024));
+  command.add_flag("--quiet", options.quiet, "no progress on stderr");
+}
+
+void add_run_command(CLI::App& app) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* const command = app.add_subcommand("run", "fly one mission and score it");
+  add_mission_options(*command, *options);
+  command->add_option("--utility", options->utility, "utility by name");
+  command->add_flag("--resume", options->resume, "continue the interrupted run in --out");
+  command->add_flag("--json", options->json, "print summary.json instead of a table");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace gnbv

@@ -1,0 +1,43 @@
+// One mission from the command line to its run directory; what `run` and `table` share.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenarios/scenario.hpp"
+#include "tools/mission/mission_result.hpp"
+#include "tools/mission/score.hpp"
+
+namespace gnbv {
+
+/// What the command line may say about a mission beside its scenario.
+struct MissionOptions {
+  std::string scenario;                // built-in name or YAML path
+  std::string mesh;                    // overrides the scenario's structure; "" keeps it
+  std::string utility;                 // "" keeps the scenario's
+  std::optional<std::uint64_t> seed;   // nothing keeps the scenario's
+  std::vector<std::string> overrides;  // --set key=value, in order
+  std::filesystem::path out;           // "" chooses a free folder under runs/
+  int threads = 0;                     // 0 = as many as the machine has
+  bool resume = false;
+  bool quiet = false;
+};
+
+/// The scenario with the options applied: --mesh, --utility and --seed first, then --set in order.
+Scenario resolve_scenario(const MissionOptions& options);
+
+struct ExecutedMission {
+  std::filesystem::path folder;
+  MissionResult result;
+  MissionScore score;
+  double total_wall_s = 0.0;
+};
+
+/// Checks everything that can be wrong with the input, flies the mission, scores it and writes the
+/// run directory. Ctrl-C ends it after the view at hand, with a complete directory.
+ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& options);
+
+}  // namespace gnbv

@@ -1,0 +1,43 @@
+// gnbv: the program. Exit codes: 0 done, 1 the thing asked failed, 2 bad usage or bad input.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+
+#include "sim/core/error.hpp"
+#include "tools/gnbv/commands.hpp"
+
+namespace {
+
+int run(int argc, char** argv) {
+  CLI::App app("Next-best-view 3D reconstruction with a UAV: simulate, measure, compare.", "gnbv");
+  app.set_version_flag("--version", GNBV_VERSION);
+  app.require_subcommand(1);
+  gnbv::add_run_command(app);
+  gnbv::add_table_command(app);
+  gnbv::add_render_command(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const gnbv::BadInput& error) {
+    fmt::print(stderr, "gnbv: {}\n", error.what());
+    return 2;
+  } catch (const gnbv::CommandFailed& failed) {
+    fmt::print(stderr, "gnbv: {}\n", failed.what());
+    return 1;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "gnbv: internal error: {}\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,113 @@
+#include "tools/mission/iterations_csv.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <sstream>
+
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr std::string_view kHeader =
+    "iteration,x,y,z,yaw,sampler,scale,candidates,valid,utility,information,density_term,"
+    "prediction,distance_factor,entropy_nat,density_points_per_voxel,cloud_points,straight_m,"
+    "flown_m,time_s,wall_sense_s,wall_map_s,wall_plan_s,wall_fly_s";
+constexpr std::size_t kColumns = 24;
+
+/// The samplers a row may name, with storage that outlives every Decision.
+constexpr std::array<std::string_view, 2> kSamplers = {"start", "agvs"};
+
+/// One row's cells, read left to right.
+class Row {
+ public:
+  Row(const std::filesystem::path& csv, std::size_t line, const std::string& text)
+      : csv_(csv), line_(line) {
+    std::istringstream in(text);
+    for (std::string cell; std::getline(in, cell, ',');) cells_.push_back(cell);
+    if (cells_.size() != kColumns) fail(text, fmt::format("must have {} columns", kColumns));
+  }
+
+  const std::string& text() { return cells_[next_++]; }
+  double number() {
+    const std::string& cell = text();
+    char* end = nullptr;
+    const double value = std::strtod(cell.c_str(), &end);
+    if (cell.empty() || *end != '\0') fail(cell, "is not a number");
+    return value;
+  }
+  std::string_view sampler() {
+    const std::string& cell = text();
+    const auto* const known = std::find(kSamplers.begin(), kSamplers.end(), cell);
+    if (known == kSamplers.end()) fail(cell, "is no sampler");
+    return *known;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& value, const std::string& what) const {
+    throw BadInput(fmt::format("{}:{}: '{}' {}", csv_.string(), line_, value, what));
+  }
+
+  const std::filesystem::path& csv_;
+  std::size_t line_;
+  std::vector<std::string> cells_;
+  std::size_t next_ = 0;
+};
+
+Decision decision_of(Row row) {
+  Decision d;
+  row.number();  // iteration
+  d.view.p_world_m.x() = row.number();
+  d.view.p_world_m.y() = row.number();
+  d.view.p_world_m.z() = row.number();
+  d.view.yaw_rad = row.number();
+  d.sampler = row.sampler();
+  d.scale = row.number();
+  d.candidates = static_cast<int>(row.number());
+  d.valid = static_cast<int>(row.number());
+  d.score.value = row.number();
+  d.score.information = row.number();
+  d.score.density = row.number();
+  d.score.prediction = row.number();
+  d.score.distance = row.number();
+  return d;
+}
+
+}  // namespace
+
+std::string iterations_csv_header() { return fmt::format("{}\n", kHeader); }
+
+std::string iterations_csv_row(const ViewRecord& view) {
+  const Decision& d = view.decision;
+  const Vec3& p = d.view.p_world_m;
+  return fmt::format(
+      "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{:.6f},{:.6f},"
+      "{:.6f},{:.6f}\n",
+      view.iteration, p.x(), p.y(), p.z(), d.view.yaw_rad, d.sampler, d.scale, d.candidates,
+      d.valid, d.score.value, d.score.information, d.score.density, d.score.prediction,
+      d.score.distance, view.entropy_nat, view.density_points_per_voxel, view.cloud_points,
+      view.straight_m, view.flown_m, view.time_s, view.wall.sense_s, view.wall.map_s,
+      view.wall.plan_s, view.wall.fly_s);
+}
+
+std::vector<Decision> read_decisions(const std::filesystem::path& csv) {
+  const std::string content = read_file(csv);
+  std::vector<Decision> decisions;
+  std::size_t line = 0;
+  for (std::size_t begin = 0; begin < content.size();) {
+    const std::size_t end = content.find('\n', begin);
+    if (end == std::string::npos) break;
+    const std::string text = content.substr(begin, end - begin);
+    begin = end + 1;
+    if (++line > 1) {
+      decisions.push_back(decision_of(Row(csv, line, text)));
+    } else if (text != kHeader) {
+      throw BadInput(fmt::format("{}:1: is not the header that this version writes", csv.string()));
+    }
+  }
+  return decisions;
+}
+
+}  // namespace gnbv

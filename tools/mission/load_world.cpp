@@ -1,0 +1,32 @@
+#include "tools/mission/load_world.hpp"
+
+#include "assets/catalog.hpp"
+#include "sim/core/error.hpp"
+
+namespace gnbv {
+
+World load_world(const Scenario& scenario) {
+  const StructureConfig& structure = scenario.structure;
+  const bool from_file = !structure.file.path.empty();
+  World world{.structure =
+                  from_file ? load_mesh(structure.file) : make_builtin_structure(structure.builtin),
+              .has_ground = structure.ground};
+  const Box3 mesh_m = bounds_m(world.structure);
+  // written coordinates are rounded: a millimetre outside is no fault
+  const Box3 allowed_m(scenario.workspace_m.min() - Vec3::Constant(1e-3),
+                       scenario.workspace_m.max() + Vec3::Constant(1e-3));
+  if (!allowed_m.contains(mesh_m)) {
+    const Vec3 lo = mesh_m.min();
+    const Vec3 hi = mesh_m.max();
+    throw BadInput(fmt::format(
+        "{}: the mesh spans [{:.2f}, {:.2f}, {:.2f}] to [{:.2f}, {:.2f}, {:.2f}] m, which is not "
+        "inside workspace_m: set structure.file.scale, structure.file.offset_m, "
+        "structure.file.unit_m or "
+        "workspace_m",
+        from_file ? structure.file.path : structure.builtin, lo.x(), lo.y(), lo.z(), hi.x(), hi.y(),
+        hi.z()));
+  }
+  return world;
+}
+
+}  // namespace gnbv

@@ -1,0 +1,242 @@
+#include "tools/mission/mission.hpp"
+
+#include <chrono>
+#include <memory>
+#include <utility>
+
+#include "sensors/capture.hpp"
+#include "sim/flight.hpp"
+#include "sim/guidance.hpp"
+#include "tools/mission/start_pose.hpp"
+
+namespace gnbv {
+namespace {
+
+/// Adds the wall time of its scope to a counter.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& total_s) : total_s_(total_s), begin_(Clock::now()) {}
+  ~Stopwatch() { total_s_ += std::chrono::duration<double>(Clock::now() - begin_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double& total_s_;
+  Clock::time_point begin_;
+};
+
+std::vector<CameraModel> camera_models(const Scenario& scenario) {
+  std::vector<CameraModel> models;
+  for (const CameraConfig& camera : scenario.cameras) models.push_back(make_camera_model(camera));
+  return models;
+}
+
+/// All that changes while the mission runs, beside what never does.
+struct Mission {
+  Mission(const Scenario& mission_scenario, const World& world, const RayScene& ray_scene,
+          const MissionHooks& mission_hooks, int thread_count)
+      : scenario(mission_scenario),
+        scene(ray_scene),
+        hooks(mission_hooks),
+        threads(thread_count),
+        planner(scenario.planner, scenario.workspace_m, camera_models(scenario), scenario.lidar),
+        out(start_pose(scenario, scene), planner),
+        flight(make_flight(scenario.vehicle, world, out.start)),
+        current(out.start),
+        last_p_world_m(out.start.p_world_m) {}
+
+  const Scenario& scenario;
+  const RayScene& scene;
+  const MissionHooks& hooks;
+  const int threads;
+  const PlannerModel planner;
+
+  MissionResult out;
+  std::unique_ptr<Flight> flight;
+  History history;
+  ViewPose current;      // where the planner believes to be
+  Vec3 last_p_world_m;   // truth, one tick ago
+  double flown_m = 0.0;  // truth, since the start
+  WallTimes view_wall;   // of the view at hand
+};
+
+double time_s(const Flight& flight) { return static_cast<double>(flight.tick()) * kTick_s; }
+
+/// Flies one leg and keeps its track; `on_tick` runs after each tick.
+std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal, double speed_m_s,
+                                   const std::function<void(const Flight&)>& on_tick) {
+  constexpr std::int64_t kTicksPerSample = kTicksPerSecond / 10;
+  const LegEnd end =
+      fly_leg(*m.flight, goal, speed_m_s, m.scenario.guidance, [&](const Flight& flight) {
+        const Isometry T = flight.state().T_world_body;
+        m.flown_m += (T.translation() - m.last_p_world_m).norm();
+        m.last_p_world_m = T.translation();
+        if (flight.tick() % kTicksPerSample == 0) m.out.trajectory.push_back({time_s(flight), T});
+        on_tick(flight);
+      });
+  if (end == LegEnd::collision) return Termination::collision;
+  m.current = goal;
+  if (end == LegEnd::timeout) {
+    ++m.out.legs_timed_out;
+    const Isometry T = m.flight->state().T_world_body;
+    m.current = {T.translation(), yaw_of(T)};
+  }
+  return std::nullopt;
+}
+
+std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal) {
+  return fly_leg(m, goal, m.scenario.guidance.speed_m_s, [](const Flight&) {});
+}
+
+/// Profiles the structure with the LIDAR and believes the scans in one batch (section 2.2).
+std::optional<Termination> fly_profile(Mission& m) {
+  const Stopwatch watch(m.out.wall.profile_s);
+  const ProfilingConfig& profiling = m.planner.config.profiling;
+  std::vector<LidarScan> scans;
+  if (profiling.method != ProfilingMethod::none) {
+    const std::vector<ProfileLeg> legs = bounding_box_profile(m.planner.navigation_m, m.current);
+    for (std::size_t i = 0; i < legs.size(); ++i) {
+      const bool scanning = legs[i].is_descent || (profiling.scan_in_transit && i > 0);
+      const double rate_hz = m.scenario.lidar.rate_hz;
+      const GuidanceConfig& guidance = m.scenario.guidance;
+      m.out.distance.profile_m += (legs[i].goal.p_world_m - m.current.p_world_m).norm();
+      const auto crash = fly_leg(
+          m, legs[i].goal, legs[i].is_descent ? guidance.profile_speed_m_s : guidance.speed_m_s,
+          [&](const Flight& flight) {
+            const auto sweeps = [&](std::int64_t tick) {
+              return static_cast<std::int64_t>(static_cast<double>(tick) * kTick_s * rate_hz);
+            };
+            if (scanning && sweeps(flight.tick()) != sweeps(flight.tick() - 1)) {
+              scans.push_back(capture_scan(m.scene, m.scenario.lidar, flight.state().T_world_body));
+            }
+          });
+      if (crash) return crash;
+      m.hooks.on_profile(static_cast<double>(i + 1) / static_cast<double>(legs.size()));
+    }
+  }
+  integrate_profile(m.planner, scans, m.out.belief, m.threads);
+  const auto points = m.out.belief.cloud.points_world_m();
+  m.out.profile_points_world_m.assign(points.begin(), points.end());
+  m.out.entropy_after_profile_nat = m.out.belief.grid.total_entropy_nat();
+  m.out.distance.profile_flown_m = m.flown_m;
+  m.out.profile_end_s = time_s(*m.flight);
+  return std::nullopt;
+}
+
+/// Back to where the views begin: straight when that is clear, else over the top of the workspace.
+std::optional<Termination> fly_to_first_view(Mission& m) {
+  const Stopwatch watch(m.out.wall.fly_s);
+  const ViewPose& goal = m.out.start;
+  const double radius_m = m.planner.config.validity.collision_radius_m;
+  std::vector<ViewPose> legs = {goal};
+  if (!is_segment_clear(m.out.belief.grid, m.current.p_world_m, goal.p_world_m, radius_m)) {
+    const double top_z_m = m.planner.navigation_m.max().z();
+    ViewPose climb = m.current;
+    climb.p_world_m.z() = top_z_m;
+    ViewPose across = goal;
+    across.p_world_m.z() = top_z_m;
+    legs = {climb, across, goal};
+  }
+  for (const ViewPose& leg : legs) {
+    m.out.distance.transfer_m += (leg.p_world_m - m.current.p_world_m).norm();
+    if (const auto crash = fly_leg(m, leg)) return crash;
+  }
+  m.flown_m = 0.0;
+  return std::nullopt;
+}
+
+std::optional<Termination> fly_to_view(Mission& m, const Decision& next) {
+  const Stopwatch watch(m.view_wall.fly_s);
+  m.out.distance.straight_m += (next.view.p_world_m - m.current.p_world_m).norm();
+  const auto crash = fly_leg(m, next.view);
+  m.out.distance.flown_m = m.flown_m;
+  return crash;
+}
+
+std::vector<DepthFrame> sense(Mission& m) {
+  const Stopwatch watch(m.view_wall.sense_s);
+  const Isometry T_world_body = m.flight->state().T_world_body;
+  std::vector<DepthFrame> frames;
+  for (const CameraModel& camera : m.planner.cameras) {
+    const int index = static_cast<int>(frames.size());
+    frames.push_back(capture_depth(m.scene, camera, index, T_world_body, m.threads));
+  }
+  return frames;
+}
+
+void integrate(Mission& m, std::span<const DepthFrame> frames) {
+  const Stopwatch watch(m.view_wall.map_s);
+  const double entropy_before_nat = m.out.belief.grid.total_entropy_nat();
+  integrate_view(m.planner, frames, m.out.belief, m.threads);
+  remember_entropy(m.out.belief, entropy_before_nat, m.history);
+}
+
+void record(Mission& m, const Decision& decision) {
+  m.history.decisions.push_back(decision);
+  const Belief& belief = m.out.belief;
+  const std::size_t points = belief.cloud.points_world_m().size();
+  const std::size_t occupied = belief.grid.occupied_count();
+  m.out.views.push_back(
+      {.iteration = static_cast<int>(m.out.views.size()),
+       .decision = decision,
+       .entropy_nat = belief.grid.total_entropy_nat(),
+       .density_points_per_voxel =
+           occupied == 0 ? 0.0 : static_cast<double>(points) / static_cast<double>(occupied),
+       .cloud_points = points,
+       .straight_m = m.out.distance.straight_m,
+       .flown_m = m.out.distance.flown_m,
+       .time_s = time_s(*m.flight),
+       .wall = m.view_wall});
+  m.out.wall.sense_s += m.view_wall.sense_s;
+  m.out.wall.map_s += m.view_wall.map_s;
+  m.out.wall.plan_s += m.view_wall.plan_s;
+  m.out.wall.fly_s += m.view_wall.fly_s;
+  m.view_wall = {};
+  m.hooks.on_view(m.out.views.back());
+}
+
+std::optional<Termination> termination(const Mission& m) {
+  const TerminationConfig& config = m.planner.config.termination;
+  if (m.out.views.size() >= static_cast<std::size_t>(config.max_iterations)) {
+    return Termination::max_iterations;
+  }
+  if (entropy_has_settled(config, m.history.entropies_nat)) return Termination::entropy_change;
+  if (m.hooks.should_stop()) return Termination::interrupted;
+  return std::nullopt;
+}
+
+std::optional<Decision> decide(Mission& m) {
+  const Stopwatch watch(m.view_wall.plan_s);
+  const std::size_t next = m.history.decisions.size();
+  if (next < m.hooks.replay.size()) return m.hooks.replay[next];
+  return plan_next_view(m.planner, m.out.belief, m.history, m.current, m.threads);
+}
+
+MissionResult finish(Mission& m, Termination reason) {
+  m.out.termination = reason;
+  m.out.flight_time_s = time_s(*m.flight);
+  m.out.energy_wh = m.flight->energy_wh();
+  return std::move(m.out);
+}
+
+}  // namespace
+
+MissionResult run_mission(const Scenario& scenario, const World& world, const RayScene& scene,
+                          const MissionHooks& hooks, int threads) {
+  Mission m(scenario, world, scene, hooks, threads);
+  if (const auto crash = fly_profile(m)) return finish(m, *crash);
+  if (const auto crash = fly_to_first_view(m)) return finish(m, *crash);
+  Decision next = {.view = m.out.start};
+  while (true) {
+    if (const auto crash = fly_to_view(m, next)) return finish(m, *crash);
+    integrate(m, sense(m));
+    record(m, next);
+    if (const auto over = termination(m)) return finish(m, *over);
+    const std::optional<Decision> decision = decide(m);
+    if (!decision) return finish(m, Termination::no_valid_view);
+    next = *decision;
+  }
+}
+
+}  // namespace gnbv

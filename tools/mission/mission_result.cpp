@@ -1,0 +1,30 @@
+#include "tools/mission/mission_result.hpp"
+
+#include "sim/core/sha256.hpp"
+
+namespace gnbv {
+
+std::string result_sha256(const MissionResult& result) {
+  Sha256 hash;
+  hash.add(name_of(result.termination));
+  for (const TrajectorySample& sample : result.trajectory) {
+    hash.add(sample.time_s);
+    hash.add(std::span<const double>(sample.T_world_body.data(), 16));
+  }
+  for (const ViewRecord& view : result.views) {
+    const Vec3& p = view.decision.view.p_world_m;
+    hash.add(std::span<const double>(p.data(), 3));
+    for (const double value : {view.decision.view.yaw_rad, view.decision.scale,
+                               view.decision.score.value, view.entropy_nat, view.flown_m}) {
+      hash.add(value);
+    }
+  }
+  hash.add(result.energy_wh);
+  hash.add(result.belief.grid.all_log_odds());
+  for (const Vec3f& point : result.belief.cloud.points_world_m()) {
+    hash.add(std::span<const float>(point.data(), 3));
+  }
+  return hash.hex();
+}
+
+}  // namespace gnbv
