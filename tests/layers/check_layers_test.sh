@@ -1,0 +1,127 @@
+#!/usr/bin/env bash
+# The law: tools/check_layers refuses every kind of forbidden include, naming file, line and
+# include, and nothing that is allowed. The cases below fill two trees laid out like the repository,
+# one line of a file each; the check reads each tree once.
+#
+# usage: tests/layers/check_layers_test.sh PATH_OF_CHECK_LAYERS
+set -euo pipefail
+
+check=$1
+root=$(mktemp -d)
+trap 'rm -rf "$root"' EXIT
+mkdir "$root/allowed" "$root/forbidden" "$root/empty"
+declare -A lines=()     # how many a file of the forbidden tree has
+declare -A expected=()  # "file:line" -> the include to be named there
+
+allowed() {  # allowed FILE LINE
+  mkdir -p "$root/allowed/$(dirname "$1")"
+  echo "$2" >>"$root/allowed/$1"
+}
+
+forbidden() {  # forbidden FILE LINE
+  mkdir -p "$root/forbidden/$(dirname "$1")"
+  echo "$2" >>"$root/forbidden/$1"
+  lines[$1]=$((${lines[$1]:-0} + 1))
+  local include=${2#*include}
+  include=${include// /}
+  expected[$1:${lines[$1]}]=${include//[\"<>]/}
+}
+
+# ---- the planner cannot see the ground truth --------------------------------------------------
+for truth in sim/world.hpp sim/triangle_mesh.hpp sim/mesh_file.hpp sim/flight.hpp \
+  sim/vehicle_config.hpp sensors/ray_scene.hpp sensors/capture.hpp assets/aircraft.hpp \
+  scenarios/scenario.hpp bench/coverage.hpp tools/mission/mission.hpp; do
+  forbidden planner/planner.cpp "#include \"$truth\""
+  forbidden planner/map/occupancy_grid.hpp "#include \"$truth\""
+done
+for believed in planner/visibility.hpp sim/core/pose.hpp sensors/camera_model.hpp \
+  sensors/lidar_model.hpp sensors/frames.hpp; do
+  allowed planner/planner.cpp "#include \"$believed\""
+done
+# nor by way of the sensor types it reads
+for type in camera_model lidar_model frames; do
+  forbidden "sensors/$type.hpp" '#include "sim/world.hpp"'
+  forbidden "sensors/$type.hpp" '#include "sensors/ray_scene.hpp"'
+  allowed "sensors/$type.hpp" '#include "sim/core/pose.hpp"'
+done
+
+# ---- the other rooms --------------------------------------------------------------------------
+forbidden sim/core/pose.hpp '#include "sim/world.hpp"'
+forbidden sim/world.cpp '#include "sensors/frames.hpp"'
+forbidden sim/world.cpp '#include "planner/planner.hpp"'
+forbidden assets/aircraft.cpp '#include "sensors/frames.hpp"'
+forbidden sensors/capture.cpp '#include "planner/planner.hpp"'
+forbidden sensors/capture.cpp '#include "assets/aircraft.hpp"'
+forbidden scenarios/load.cpp '#include "sim/world.hpp"'
+forbidden scenarios/load.cpp '#include "sensors/ray_scene.hpp"'
+forbidden scenarios/load.cpp '#include "bench/coverage.hpp"'
+forbidden bench/coverage.cpp '#include "tools/mission/mission.hpp"'
+forbidden tools/mission/mission.cpp '#include "tests/support/scenes.hpp"'
+allowed sim/world.cpp '#include "sim/core/pose.hpp"'
+allowed assets/aircraft.cpp '#include "sim/triangle_mesh.hpp"'
+allowed sensors/capture.cpp '#include "sim/world.hpp"'
+allowed scenarios/scenario.hpp '#include "planner/planner.hpp"'
+allowed bench/coverage.cpp '#include "sensors/ray_scene.hpp"'
+allowed tools/mission/mission.cpp '#include "bench/coverage.hpp"'
+allowed tests/end_to_end/smoke_test.cpp '#include "tools/mission/mission.hpp"'
+
+# ---- libraries stop at their one file ---------------------------------------------------------
+library() {  # library HEADER FILE_THAT_MAY FILE_THAT_MAY_NOT...
+  allowed "$2" "#include <$1>"
+  local file
+  for file in "${@:3}" planner/planner.cpp tests/support/scenes.hpp; do
+    forbidden "$file" "#include <$1>"
+  done
+}
+library embree3/rtcore.h sensors/ray_scene.cpp sensors/ray_scene.hpp bench/ceiling.cpp
+library btBulletDynamicsCommon.h sim/vehicle.cpp sim/vehicle.hpp sim/world.cpp
+library bullet/btBulletCollisionCommon.h sim/vehicle.cpp sim/flight.hpp
+library LinearMath/btTransform.h sim/vehicle.cpp sim/flight.hpp
+library assimp/Importer.hpp sim/mesh_file.cpp sim/mesh_file.hpp tools/mission/load_world.cpp
+library octomap/OcTree.h planner/map/octomap_io.cpp planner/map/octomap_io.hpp planner/map/occupancy_grid.cpp
+library pcl/point_types.h bench/reference/slow_cloud.cpp bench/coverage.cpp
+library yaml-cpp/yaml.h scenarios/load.cpp tools/gnbv/main.cpp
+library GL/osmesa.h tools/render/render.cpp tools/render/view.cpp tools/mission/mission.cpp
+library CLI/CLI.hpp tools/gnbv/main.cpp tools/mission/mission.cpp
+allowed bench/reference/slow_map.cpp '#include <octomap/octomap.h>'
+allowed sim/core/sha256.cpp '#include <openssl/evp.h>'
+forbidden tools/mission/run_directory.cpp '#include <openssl/evp.h>'
+forbidden sim/world.cpp '#include <gtest/gtest.h>'
+forbidden sim/world.cpp '#include <benchmark/benchmark.h>'
+
+# ---- spellings that would slip past -----------------------------------------------------------
+forbidden planner/planner.cpp '  #  include <sim/world.hpp>'
+forbidden planner/planner.cpp '#include"sim/world.hpp"'
+forbidden planner/planner.cpp '#include "../sim/world.hpp"'
+forbidden planner/planner.cpp '#include "sim/core/../world.hpp"'
+forbidden planner/planner.cpp '#include "planner/../sim/world.hpp"'
+forbidden planner/planner.cpp '#include "world.hpp"'
+forbidden sensors/ray_scene.cpp '#include "embree3/rtcore.h"'
+allowed planner/planner.cpp '#include <vector>'
+allowed planner/planner.cpp '// as #include "sim/world.hpp" would'
+forbidden planner/planner.cpp '#include GROUND_TRUTH'
+
+# ---- what the check says ----------------------------------------------------------------------
+failed=0
+complain() { echo "FAILED: $*" >&2; failed=$((failed + 1)); }
+
+run_check() {  # run_check TREE: sets status and output
+  status=0
+  output=$("$check" "$root/$1" 2>&1) || status=$?
+}
+
+run_check allowed
+[[ $status == 0 ]] || complain "something allowed was refused (status $status): $output"
+
+run_check forbidden
+[[ $status == 1 ]] || complain "status $status, not 1, on a tree full of forbidden includes"
+for place in "${!expected[@]}"; do
+  grep -qE "^$place: #include [\"<]?${expected[$place]}[\">]?: ." <<<"$output" ||
+    complain "$place: #include ${expected[$place]} was not named"
+done
+
+run_check empty
+[[ $status == 2 ]] || complain "status $status, not 2, on a tree without sources"
+
+echo "${#expected[@]} forbidden includes, $failed failures"
+((failed == 0))
