@@ -38,16 +38,16 @@ std::vector<ViewPose> valid_views(const PlannerModel& model, const Belief& belie
   return valid;
 }
 
-/// One ViewStats per view. Views are dealt to a fixed number of lanes, each with marks of its own.
+/// One ViewStats per view, each computed alone: which thread did it leaves no trace.
 std::vector<ViewStats> evaluate_views(const PlannerModel& model, const Belief& belief,
                                       const ViewPose& current, std::span<const ViewPose> views,
-                                      int threads) {
+                                      Workbench& bench) {
   std::vector<ViewStats> stats(views.size());
-  const auto lanes = static_cast<std::size_t>(std::max(threads, 1));
-  parallel_for(threads, lanes, [&](std::size_t lane) {
-    VisitMarks marks(belief.grid.geometry().voxel_count());
+  const std::size_t lanes = bench.marks.size();
+  parallel_for(bench.threads, lanes, [&](std::size_t lane) {
     for (std::size_t i = lane; i < views.size(); i += lanes) {
-      stats[i] = evaluate_view(belief.grid, belief.cloud, model.view_rays, views[i], marks);
+      stats[i] =
+          evaluate_view(belief.grid, belief.cloud, model.view_rays, views[i], bench.marks[lane]);
       stats[i].density_max = belief.cloud.density_max();
       stats[i].path_m = (views[i].p_world_m - current.p_world_m).norm();
     }
@@ -58,10 +58,10 @@ std::vector<ViewStats> evaluate_views(const PlannerModel& model, const Belief& b
 /// The view with the highest utility among those sampled at one scale; the first of equals.
 std::optional<Decision> best_at_scale(const PlannerModel& model, const Belief& belief,
                                       const History& history, const ViewPose& current, double scale,
-                                      int threads) {
+                                      Workbench& bench) {
   const std::vector<ViewPose> candidates = sample_agvs(model.config.agvs, current, scale);
   const std::vector<ViewPose> valid = valid_views(model, belief, history, current, candidates);
-  const std::vector<ViewStats> stats = evaluate_views(model, belief, current, valid, threads);
+  const std::vector<ViewStats> stats = evaluate_views(model, belief, current, valid, bench);
 
   std::optional<Decision> best;
   for (std::size_t i = 0; i < valid.size(); ++i) {
@@ -92,9 +92,17 @@ PlannerModel::PlannerModel(const PlannerConfig& planner_config, const Box3& work
 Belief::Belief(const PlannerModel& model)
     : grid(model.config.map, model.workspace_m), cloud(model.config.cloud, grid.geometry()) {}
 
-void integrate_profile(const PlannerModel& model, std::span<const LidarScan> scans, Belief& belief,
-                       int threads) {
-  insert_scans(belief.grid, scans, model.lidar, model.config.floor_z_m, threads);
+Workbench::Workbench(const PlannerModel& model, int thread_count)
+    : threads(std::max(thread_count, 1)),
+      inserter(GridGeometry(model.workspace_m, model.config.map.resolution_m)),
+      marks(static_cast<std::size_t>(threads),
+            VisitMarks(
+                GridGeometry(model.workspace_m, model.config.map.resolution_m).voxel_count())) {}
+
+void integrate_profile(const PlannerModel& model, std::span<const LidarScan> scans,
+                       Workbench& bench, Belief& belief) {
+  bench.inserter.insert_scans(belief.grid, scans, model.lidar, model.config.floor_z_m,
+                              bench.threads);
   std::vector<Vec3f> points;
   for (const LidarScan& scan : scans) {
     const std::vector<Vec3f> hits =
@@ -104,14 +112,14 @@ void integrate_profile(const PlannerModel& model, std::span<const LidarScan> sca
   belief.cloud.add(points, model.config.cloud.profile_leaf_m);
 }
 
-void integrate_view(const PlannerModel& model, std::span<const DepthFrame> frames, Belief& belief,
-                    int threads) {
+void integrate_view(const PlannerModel& model, std::span<const DepthFrame> frames, Workbench& bench,
+                    Belief& belief) {
   std::vector<Vec3f> points;
   for (const DepthFrame& frame : frames) {
     const CameraModel& camera = model.cameras[static_cast<std::size_t>(frame.camera)];
     const std::vector<ScanRay> rays = rays_of(frame, camera, model.config.floor_z_m);
     const Vec3f origin_world_m = frame.T_world_camera.translation().cast<float>();
-    belief.grid.apply(compute_update(belief.grid.geometry(), origin_world_m, rays, threads));
+    belief.grid.apply(bench.inserter.compute_update(origin_world_m, rays, bench.threads));
     const std::vector<Vec3f> hits = surface_points_world_m(rays);
     points.insert(points.end(), hits.begin(), hits.end());
   }
@@ -127,7 +135,7 @@ void remember_entropy(const Belief& belief, double entropy_before_nat, History& 
 
 std::optional<Decision> plan_next_view(const PlannerModel& model, const Belief& belief,
                                        const History& history, const ViewPose& current,
-                                       int threads) {
+                                       Workbench& bench) {
   const AgvsConfig& agvs = model.config.agvs;
   std::vector<double> utilities;
   double last_scale = 1.0;
@@ -139,7 +147,7 @@ std::optional<Decision> plan_next_view(const PlannerModel& model, const Belief& 
   // a scale without any valid view is grown as a local minimum is, before giving up
   double scale = next_agvs_scale(agvs, last_scale, utilities);
   while (true) {
-    if (auto decision = best_at_scale(model, belief, history, current, scale, threads)) {
+    if (auto decision = best_at_scale(model, belief, history, current, scale, bench)) {
       return decision;
     }
     if (scale >= agvs.scale_max || agvs.scale_factor <= 1.0) return std::nullopt;

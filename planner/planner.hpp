@@ -52,13 +52,22 @@ struct Belief {
   bool has_depth_return = false;  // any camera has seen a surface
 };
 
+/// Memory to work in, kept from view to view. No result depends on what it holds.
+struct Workbench {
+  Workbench(const PlannerModel& model, int thread_count);
+
+  int threads;
+  ScanInserter inserter;
+  std::vector<VisitMarks> marks;  // one a thread
+};
+
 /// Adds the buffered sweeps of the profile in one batch (paper section 2.2).
-void integrate_profile(const PlannerModel& model, std::span<const LidarScan> scans, Belief& belief,
-                       int threads);
+void integrate_profile(const PlannerModel& model, std::span<const LidarScan> scans,
+                       Workbench& bench, Belief& belief);
 
 /// Adds the frames of one view, camera by camera.
-void integrate_view(const PlannerModel& model, std::span<const DepthFrame> frames, Belief& belief,
-                    int threads);
+void integrate_view(const PlannerModel& model, std::span<const DepthFrame> frames, Workbench& bench,
+                    Belief& belief);
 
 /// A chosen view and why.
 struct Decision {
@@ -83,6 +92,6 @@ void remember_entropy(const Belief& belief, double entropy_before_nat, History& 
 /// The next best view from `current`, or nothing when no sampled view is valid at any scale.
 std::optional<Decision> plan_next_view(const PlannerModel& model, const Belief& belief,
                                        const History& history, const ViewPose& current,
-                                       int threads);
+                                       Workbench& bench);
 
 }  // namespace gnbv

@@ -31,6 +31,34 @@ double squared_distance_to_segment(const Box3& box, const Vec3& a, const Vec3& b
   return at(0.5 * (lo + hi));
 }
 
+/// Whether `is_hit` says so of the cube of any occupied voxel within `margin_m` of the box.
+template <typename IsHit>
+bool any_occupied_near(const OccupancyGrid& grid, const Box3& box, double margin_m,
+                       const IsHit& is_hit) {
+  const GridGeometry& geometry = grid.geometry();
+  Key lo;
+  Key hi;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto axis = static_cast<Eigen::Index>(a);
+    lo[a] = std::max(geometry.key_of(box.min()[axis] - margin_m), geometry.min_key()[a]);
+    hi[a] = std::min(geometry.key_of(box.max()[axis] + margin_m),
+                     geometry.min_key()[a] + geometry.size()[a] - 1);
+    if (lo[a] > hi[a]) return false;
+  }
+  const Vec3 half_m = Vec3::Constant(0.5 * geometry.resolution_m());
+  for (Key key = lo; key[2] <= hi[2]; ++key[2]) {
+    for (key[1] = lo[1]; key[1] <= hi[1]; ++key[1]) {
+      key[0] = lo[0];
+      for (VoxelIndex v = geometry.index_of(key); key[0] <= hi[0]; ++key[0], ++v) {
+        if (grid.state(v) != VoxelState::occupied) continue;
+        const Vec3 center_m = geometry.center_m(key);
+        if (is_hit(Box3(center_m - half_m, center_m + half_m))) return true;
+      }
+    }
+  }
+  return false;
+}
+
 bool is_recent(const ValidityConfig& config, std::span<const ViewPose> recent,
                const ViewPose& view) {
   return std::any_of(recent.begin(), recent.end(), [&](const ViewPose& pose) {
@@ -63,39 +91,27 @@ Box3 navigation_box_m(const ValidityConfig& config, const Box3& workspace_m) {
   return box;
 }
 
-bool is_segment_clear(const OccupancyGrid& grid, const Vec3& from_world_m, const Vec3& to_world_m,
-                      double radius_m) {
-  const GridGeometry& geometry = grid.geometry();
-  const double half_m = 0.5 * geometry.resolution_m();
-  const double sure_m = radius_m + half_m * std::sqrt(3.0);  // farther centres cannot touch
-  Key lo;
-  Key hi;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const int axis = static_cast<int>(a);
-    const double min_m = std::min(from_world_m[axis], to_world_m[axis]) - radius_m;
-    const double max_m = std::max(from_world_m[axis], to_world_m[axis]) + radius_m;
-    lo[a] = std::max(geometry.key_of(min_m), geometry.min_key()[a]);
-    hi[a] = std::min(geometry.key_of(max_m), geometry.min_key()[a] + geometry.size()[a] - 1);
-    if (lo[a] > hi[a]) return true;
-  }
-  for (Key key = lo; key[2] <= hi[2]; ++key[2]) {
-    for (key[1] = lo[1]; key[1] <= hi[1]; ++key[1]) {
-      key[0] = lo[0];
-      VoxelIndex v = geometry.index_of(key);
-      for (; key[0] <= hi[0]; ++key[0], ++v) {
-        if (grid.state(v) != VoxelState::occupied) continue;
-        const Vec3 center_m = geometry.center_m(key);
-        const double to_center2 = squared_distance_to_segment(center_m, from_world_m, to_world_m);
-        if (to_center2 > sure_m * sure_m) continue;
-        const Box3 cube(center_m - Vec3::Constant(half_m), center_m + Vec3::Constant(half_m));
-        if (to_center2 < radius_m * radius_m ||
-            squared_distance_to_segment(cube, from_world_m, to_world_m) < radius_m * radius_m) {
-          return false;
-        }
-      }
-    }
-  }
-  return true;
+bool is_sphere_clear(const OccupancyGrid& grid, const Vec3& p_world_m, double radius_m) {
+  return !any_occupied_near(grid, Box3(p_world_m), radius_m, [&](const Box3& cube) {
+    return cube.squaredExteriorDistance(p_world_m) < radius_m * radius_m;
+  });
+}
+
+bool is_path_clear(const OccupancyGrid& grid, const Vec3& from_world_m, const Vec3& to_world_m,
+                   double radius_m) {
+  Box3 span(from_world_m);
+  span.extend(to_world_m);
+  const double radius2 = radius_m * radius_m;
+  const double reach_m = radius_m + 0.5 * std::sqrt(3.0) * grid.geometry().resolution_m();
+  return !any_occupied_near(grid, span, radius_m, [&](const Box3& cube) {
+    const double to_center2 = squared_distance_to_segment(cube.center(), from_world_m, to_world_m);
+    if (to_center2 > reach_m * reach_m) return false;
+    const double nearest2 = squared_distance_to_segment(cube, from_world_m, to_world_m);
+    // the search for the nearest point is good to rounding: the start itself is no approach
+    constexpr double kRounding_m2 = 1e-9;
+    return nearest2 < radius2 &&
+           nearest2 < cube.squaredExteriorDistance(from_world_m) - kRounding_m2;
+  });
 }
 
 std::optional<Rejection> rejection(const ValidityConfig& config, const Box3& navigation_m,
@@ -112,8 +128,8 @@ std::optional<Rejection> rejection(const ValidityConfig& config, const Box3& nav
   const Vec3 inside =
       p.cwiseMax(navigation_m.min()).cwiseMin(navigation_m.max() - Vec3::Constant(kRounding_m));
   if (grid.state_at(inside) != VoxelState::free) return Rejection::not_free;
-  if (!is_segment_clear(grid, p, p, config.collision_radius_m)) return Rejection::collision;
-  if (!is_segment_clear(grid, current.p_world_m, p, config.collision_radius_m)) {
+  if (!is_sphere_clear(grid, p, config.collision_radius_m)) return Rejection::collision;
+  if (!is_path_clear(grid, current.p_world_m, p, config.collision_radius_m)) {
     return Rejection::path_blocked;
   }
   return std::nullopt;

@@ -25,9 +25,14 @@ std::string_view name_of(Rejection reason);
 /// The workspace, with its floor raised to z_min_m.
 Box3 navigation_box_m(const ValidityConfig& config, const Box3& workspace_m);
 
-/// Whether a sphere swept along the straight segment touches no occupied voxel (a cube).
-bool is_segment_clear(const OccupancyGrid& grid, const Vec3& from_world_m, const Vec3& to_world_m,
-                      double radius_m);
+/// Whether a sphere at the point touches no occupied voxel (a cube).
+bool is_sphere_clear(const OccupancyGrid& grid, const Vec3& p_world_m, double radius_m);
+
+/// Whether a sphere swept along the straight path touches no occupied voxel. A voxel that it
+/// touches at the start already, because it was only seen from there, may be left but not
+/// approached.
+bool is_path_clear(const OccupancyGrid& grid, const Vec3& from_world_m, const Vec3& to_world_m,
+                   double radius_m);
 
 /// Why the view may not be flown to from `current`; nothing when it may.
 std::optional<Rejection> rejection(const ValidityConfig& config, const Box3& navigation_m,

@@ -1,6 +1,7 @@
 #include "planner/visibility.hpp"
 
 #include <array>
+#include <limits>
 
 #include "planner/map/ray_walk.hpp"
 
@@ -37,22 +38,26 @@ ViewStats evaluate_view(const OccupancyGrid& grid, const SurfaceCloud& cloud,
 
   ViewStats stats;
   std::array<std::uint32_t, 3> voxels = {0, 0, 0};  // by VoxelState
+  const auto see = [&](VoxelIndex v) {
+    const VoxelState state = states[v];
+    const auto entropy_nat = static_cast<double>(entropies_nat[v]);
+    stats.entropy_per_ray_nat += entropy_nat;
+    if (marks.mark(v)) {
+      ++voxels[static_cast<std::size_t>(state)];
+      stats.entropy_nat += entropy_nat;
+      if (state == VoxelState::occupied) stats.density_sum += cloud.density(v);
+    }
+    return state != VoxelState::occupied;
+  };
+  Vec3 origin_body_m = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+  RayOrigin origin;
   for (const ViewRay& ray : rays) {
-    const Vec3f origin_world_m = (T * ray.origin_body_m).cast<float>();
-    const Vec3f end_world_m = (T * ray.end_body_m).cast<float>();
-    walk_ray(geometry, origin_world_m, end_world_m, [&](const Key& key) {
-      if (!geometry.contains(key)) return false;
-      const VoxelIndex v = geometry.index_of(key);
-      const VoxelState state = states[v];
-      const auto entropy_nat = static_cast<double>(entropies_nat[v]);
-      stats.entropy_per_ray_nat += entropy_nat;
-      if (marks.mark(v)) {
-        ++voxels[static_cast<std::size_t>(state)];
-        stats.entropy_nat += entropy_nat;
-        if (state == VoxelState::occupied) stats.density_sum += cloud.density(v);
-      }
-      return state != VoxelState::occupied;
-    });
+    if (ray.origin_body_m != origin_body_m) {  // the rays of a camera stand together
+      origin_body_m = ray.origin_body_m;
+      origin = make_ray_origin(geometry, (T * origin_body_m).cast<float>());
+    }
+    if (!geometry.contains(origin.key)) continue;
+    walk_ray_inside(geometry, origin, (T * ray.end_body_m).cast<float>(), see);
   }
   stats.unknown_voxels = voxels[static_cast<std::size_t>(VoxelState::unknown)];
   stats.free_voxels = voxels[static_cast<std::size_t>(VoxelState::free)];

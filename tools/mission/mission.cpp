@@ -35,12 +35,12 @@ std::vector<CameraModel> camera_models(const Scenario& scenario) {
 /// All that changes while the mission runs, beside what never does.
 struct Mission {
   Mission(const Scenario& mission_scenario, const World& world, const RayScene& ray_scene,
-          const MissionHooks& mission_hooks, int thread_count)
+          const MissionHooks& mission_hooks, int threads)
       : scenario(mission_scenario),
         scene(ray_scene),
         hooks(mission_hooks),
-        threads(thread_count),
         planner(scenario.planner, scenario.workspace_m, camera_models(scenario), scenario.lidar),
+        bench(planner, threads),
         out(start_pose(scenario, scene), planner),
         flight(make_flight(scenario.vehicle, world, out.start)),
         current(out.start),
@@ -49,8 +49,9 @@ struct Mission {
   const Scenario& scenario;
   const RayScene& scene;
   const MissionHooks& hooks;
-  const int threads;
   const PlannerModel planner;
+
+  Workbench bench;
 
   MissionResult out;
   std::unique_ptr<Flight> flight;
@@ -115,7 +116,7 @@ std::optional<Termination> fly_profile(Mission& m) {
       m.hooks.on_profile(static_cast<double>(i + 1) / static_cast<double>(legs.size()));
     }
   }
-  integrate_profile(m.planner, scans, m.out.belief, m.threads);
+  integrate_profile(m.planner, scans, m.bench, m.out.belief);
   const auto points = m.out.belief.cloud.points_world_m();
   m.out.profile_points_world_m.assign(points.begin(), points.end());
   m.out.entropy_after_profile_nat = m.out.belief.grid.total_entropy_nat();
@@ -130,7 +131,7 @@ std::optional<Termination> fly_to_first_view(Mission& m) {
   const ViewPose& goal = m.out.start;
   const double radius_m = m.planner.config.validity.collision_radius_m;
   std::vector<ViewPose> legs = {goal};
-  if (!is_segment_clear(m.out.belief.grid, m.current.p_world_m, goal.p_world_m, radius_m)) {
+  if (!is_path_clear(m.out.belief.grid, m.current.p_world_m, goal.p_world_m, radius_m)) {
     const double top_z_m = m.planner.navigation_m.max().z();
     ViewPose climb = m.current;
     climb.p_world_m.z() = top_z_m;
@@ -160,7 +161,7 @@ std::vector<DepthFrame> sense(Mission& m) {
   std::vector<DepthFrame> frames;
   for (const CameraModel& camera : m.planner.cameras) {
     const int index = static_cast<int>(frames.size());
-    frames.push_back(capture_depth(m.scene, camera, index, T_world_body, m.threads));
+    frames.push_back(capture_depth(m.scene, camera, index, T_world_body, m.bench.threads));
   }
   return frames;
 }
@@ -168,7 +169,7 @@ std::vector<DepthFrame> sense(Mission& m) {
 void integrate(Mission& m, std::span<const DepthFrame> frames) {
   const Stopwatch watch(m.view_wall.map_s);
   const double entropy_before_nat = m.out.belief.grid.total_entropy_nat();
-  integrate_view(m.planner, frames, m.out.belief, m.threads);
+  integrate_view(m.planner, frames, m.bench, m.out.belief);
   remember_entropy(m.out.belief, entropy_before_nat, m.history);
 }
 
@@ -210,7 +211,7 @@ std::optional<Decision> decide(Mission& m) {
   const Stopwatch watch(m.view_wall.plan_s);
   const std::size_t next = m.history.decisions.size();
   if (next < m.hooks.replay.size()) return m.hooks.replay[next];
-  return plan_next_view(m.planner, m.out.belief, m.history, m.current, m.threads);
+  return plan_next_view(m.planner, m.out.belief, m.history, m.current, m.bench);
 }
 
 MissionResult finish(Mission& m, Termination reason) {
