@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <ostream>
 #include <string>
 
 #include "sim/core/file.hpp"
@@ -86,6 +87,8 @@ struct BadInputCase {
   std::vector<std::string> words;
 };
 
+void PrintTo(const BadInputCase& refused, std::ostream* out) { *out << refused.arguments; }
+
 class RefusedInput : public testing::TestWithParam<BadInputCase> {};
 
 TEST_P(RefusedInput, ExitsWith2NamesTheFaultAndLeavesNothing) {
@@ -136,7 +139,7 @@ INSTANTIATE_TEST_SUITE_P(
                      {"outside.obj", "workspace_m"}},
         BadInputCase{"UnwritableOut", "run smoke --out @/file/out", {"file/out"}},
         BadInputCase{"RenderOfNothing", "render @/out", {"out"}}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& refused) { return std::string(refused.param.name); });
 
 TEST(Program, KeepsARunThatIsAlreadyThere) {
   TempFolder temp;
