@@ -29,11 +29,12 @@ Scenario smoke(const std::vector<std::string>& overrides = {}) {
 struct Flown {
   explicit Flown(const Scenario& flown_scenario, const MissionHooks& hooks = {}, int threads = 2)
       : scenario(flown_scenario),
-        world(load_world(scenario)),
+        world(load_world(scenario, warnings)),
         scene(world),
         result(run_mission(scenario, world, scene, hooks, threads)) {}
 
   Scenario scenario;
+  std::vector<std::string> warnings;
   World world;
   RayScene scene;
   MissionResult result;

@@ -90,7 +90,9 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
                           ? options.threads
                           : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   // all that can be wrong with the input is found before the first file is written
-  const World world = load_world(scenario);
+  std::vector<std::string> warnings;
+  const World world = load_world(scenario, warnings);
+  for (const std::string& warning : warnings) fmt::print(stderr, "gnbv: {}\n", warning);
   const RayScene scene(world);
   start_pose(scenario, scene);
   RunDirectory directory(options.out.empty() ? free_folder(scenario) : options.out, scenario,

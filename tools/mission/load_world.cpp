@@ -5,11 +5,11 @@
 
 namespace gnbv {
 
-World load_world(const Scenario& scenario) {
+World load_world(const Scenario& scenario, std::vector<std::string>& warnings) {
   const StructureConfig& structure = scenario.structure;
   const bool from_file = !structure.file.path.empty();
   World world{.structure =
-                  from_file ? load_mesh(structure.file) : make_builtin_structure(structure.builtin),
+                  from_file ? load_mesh(structure.file, &warnings) : make_builtin_structure(structure.builtin),
               .has_ground = structure.ground};
   const Box3 mesh_m = bounds_m(world.structure);
   // written coordinates are rounded: a millimetre outside is no fault

@@ -1,13 +1,17 @@
 // From the scenario's structure section to the world it names.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "scenarios/scenario.hpp"
 #include "sim/world.hpp"
 
 namespace gnbv {
 
-/// Generates the built-in structure or reads the mesh file. Throws BadInput when the structure
-/// cannot be had or does not lie inside the workspace.
-World load_world(const Scenario& scenario);
+/// Generates the built-in structure or reads the mesh file; what the file's reader had to leave out
+/// is appended to `warnings`, a sentence each. Throws BadInput when the structure cannot be had or
+/// does not lie inside the workspace.
+World load_world(const Scenario& scenario, std::vector<std::string>& warnings);
 
 }  // namespace gnbv
