@@ -244,6 +244,7 @@ std::string one_row_summary(std::string_view scenario, const MissionFigures& mis
   };
   add(our_cells(mission, mission.utility));
   if (row != nullptr) add(paper_cells(*row));
+  table.notes.push_back(mission_note(mission));
   return terminal_text(table);
 }
 

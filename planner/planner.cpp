@@ -8,15 +8,6 @@
 namespace gnbv {
 namespace {
 
-/// The hits of a set of rays: the points of the cloud.
-std::vector<Vec3f> surface_points_world_m(std::span<const ScanRay> rays) {
-  std::vector<Vec3f> points;
-  for (const ScanRay& ray : rays) {
-    if (ray.hit) points.push_back(ray.end_world_m);
-  }
-  return points;
-}
-
 /// Candidates that may be flown to, in the order they were sampled.
 std::vector<ViewPose> valid_views(const PlannerModel& model, const Belief& belief,
                                   const History& history, const ViewPose& current,
@@ -150,7 +141,7 @@ std::optional<Decision> plan_next_view(const PlannerModel& model, const Belief& 
     if (auto decision = best_at_scale(model, belief, history, current, scale, bench)) {
       return decision;
     }
-    if (scale >= agvs.scale_max || agvs.scale_factor <= 1.0) return std::nullopt;
+    if (scale >= agvs.scale_max) return std::nullopt;
     scale = std::min(scale * agvs.scale_factor, agvs.scale_max);
   }
 }

@@ -124,10 +124,9 @@ std::optional<Rejection> rejection(const ValidityConfig& config, const Box3& nav
     return Rejection::out_of_bounds;
   }
   if (is_recent(config, recent, candidate)) return Rejection::recently_visited;
-  // a face of the box belongs to the voxel inside it
-  const Vec3 inside =
-      p.cwiseMax(navigation_m.min()).cwiseMin(navigation_m.max() - Vec3::Constant(kRounding_m));
-  if (grid.state_at(inside) != VoxelState::free) return Rejection::not_free;
+  if (grid.state_at(grid.geometry().nearest_inside(p)) != VoxelState::free) {
+    return Rejection::not_free;
+  }
   if (!is_sphere_clear(grid, p, config.collision_radius_m)) return Rejection::collision;
   if (!is_path_clear(grid, current.p_world_m, p, config.collision_radius_m)) {
     return Rejection::path_blocked;

@@ -54,9 +54,9 @@ ViewStats evaluate_view(const OccupancyGrid& grid, const SurfaceCloud& cloud,
   for (const ViewRay& ray : rays) {
     if (ray.origin_body_m != origin_body_m) {  // the rays of a camera stand together
       origin_body_m = ray.origin_body_m;
-      origin = make_ray_origin(geometry, (T * origin_body_m).cast<float>());
+      // a camera on the workspace's face, or a hand's breadth outside, looks from that face
+      origin = make_ray_origin(geometry, geometry.nearest_inside(T * origin_body_m).cast<float>());
     }
-    if (!geometry.contains(origin.key)) continue;
     walk_ray_inside(geometry, origin, (T * ray.end_body_m).cast<float>(), see);
   }
   stats.unknown_voxels = voxels[static_cast<std::size_t>(VoxelState::unknown)];

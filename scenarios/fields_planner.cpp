@@ -36,7 +36,7 @@ void fields(FieldVisitor& v, AgvsConfig& c) {
   v.angle("yaw_step_deg", c.yaw_step_rad, above_upto(0, 180), "Between the yaws of a position.");
   v.flag("rotation_only", c.rotation_only,
          "Offer the current position with other yaws at scale 1.");
-  v.number("scale_factor", c.scale_factor, between(1, 100),
+  v.number("scale_factor", c.scale_factor, between(1.1, 100),
            "Growth of the grid at a local minimum.");
   v.number("scale_max", c.scale_max, between(1, 1e3), "The grid's largest scale.");
   v.number("utility_threshold", c.utility_threshold, between(0, 1e9),

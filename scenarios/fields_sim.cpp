@@ -117,7 +117,7 @@ void fields(FieldVisitor& v, GuidanceConfig& c) {
   v.angle("yaw_rate_deg_s", c.yaw_rate_rad_s, above_upto(0, 1e3), "Top turning speed.");
   v.angle("yaw_acceleration_deg_s2", c.yaw_acceleration_rad_s2, above_upto(0, 1e4),
           "Of starting and ending a turn.");
-  v.number("smoothing_s", c.smoothing_s, between(0, 10),
+  v.number("smoothing_s", c.smoothing_s, above_upto(0, 10),
            "Every change of acceleration takes this long.");
   v.section("feed_forward", c.feed_forward, "Acceleration sent along with position and velocity.");
   v.number("arrival_distance_m", c.arrival_distance_m, above_upto(0, 10),

@@ -47,7 +47,7 @@ void check_map_size(const Scenario& s, Problems& out) {
   const double resolution_m = s.planner.map.resolution_m;
   const Vec3 size_m = s.workspace_m.sizes();
   const Vec3 voxels = (size_m / resolution_m - Vec3::Constant(1e-6)).array().ceil();
-  const double bytes = voxels.prod() * kMapBytesPerVoxel;
+  const double bytes = voxels.prod() * (kMapBytesPerVoxel + kMapBytesPerVoxelAndThread);
   if (bytes > kMapBudget_bytes) {
     const double fitting_m = resolution_m * std::cbrt(bytes / kMapBudget_bytes);
     out.push_back(
@@ -104,6 +104,33 @@ void check_workspace(const Scenario& s, Problems& out) {
   }
 }
 
+void check_cloud(const PlannerConfig& planner, Problems& out) {
+  // SurfaceCloud keeps a bit a leaf in buckets of one voxel
+  constexpr double kLeavesPerVoxel = 64.0;
+  const double finest_m = planner.map.resolution_m / kLeavesPerVoxel;
+  if (planner.cloud.leaf_m >= finest_m) return;
+  out.push_back({{"planner.cloud.leaf_m", "planner.map.resolution_m"},
+                 fmt::format("leaf_m = {} has to be at least a 64th of planner.map.resolution_m = "
+                             "{}, that is {}",
+                             planner.cloud.leaf_m, planner.map.resolution_m, finest_m)});
+}
+
+/// The lattice of candidate rays on the plane at maximum range, one a voxel.
+void check_view_rays(const Scenario& s, Problems& out) {
+  constexpr double kMaxRays = 1e6;
+  for (std::size_t i = 0; i < s.cameras.size(); ++i) {
+    const CameraConfig& c = s.cameras[i];
+    const double plane_m = 2.0 * c.range_max_m / s.planner.map.resolution_m;
+    const double rays =
+        plane_m * std::tan(0.5 * c.fov_x_rad) * plane_m * std::tan(0.5 * c.fov_y_rad);
+    if (rays <= kMaxRays) continue;
+    out.push_back({{fmt::format("cameras.{}.range_max_m", i), "planner.map.resolution_m"},
+                   fmt::format("a view would be {:.2g} rays, one a voxel of the plane at maximum "
+                               "range; at most {:.0g} can be walked for every candidate",
+                               rays, kMaxRays)});
+  }
+}
+
 void check_map_thresholds(const OccupancyConfig& map, Problems& out) {
   const std::string key = "planner.map.";
   require_below(map.free_max, map.occupied_min, key + "free_max", key + "occupied_min", out);
@@ -125,8 +152,39 @@ void check_vehicle(const VehicleConfig& vehicle, Problems& out) {
     if (std::abs(vehicle.airframe.rotors[i].spin) == 1.0) continue;
     out.push_back({{fmt::format("vehicle.airframe.rotors.{}.spin", i)}, "has to be 1 or -1"});
   }
-  require_below(vehicle.autopilot.thrust_min, vehicle.autopilot.thrust_max,
-                "vehicle.autopilot.thrust_min", "vehicle.autopilot.thrust_max", out);
+  const AutopilotParameters& autopilot = vehicle.autopilot;
+  const std::string key = "vehicle.autopilot.";
+  require_below(autopilot.thrust_min, autopilot.thrust_max, key + "thrust_min", key + "thrust_max",
+                out);
+  require_below(autopilot.thrust_margin_xy, autopilot.thrust_max, key + "thrust_margin_xy",
+                key + "thrust_max", out);
+  // thrust of four rotors at rest equals weight (sim/rotors.hpp)
+  const AirframeParameters& a = vehicle.airframe;
+  const double hover_rad_s =
+      std::sqrt(a.mass_kg * a.gravity_m_s2 / (4.0 * a.thrust_coefficient_n_s2));
+  const double hover = (hover_rad_s - a.idle_speed_rad_s) / a.command_gain_rad_s;
+  if (autopilot.thrust_min < hover && hover < autopilot.thrust_max) return;
+  out.push_back({{"vehicle.airframe.mass_kg", "vehicle.airframe.thrust_coefficient_n_s2"},
+                 fmt::format("hovering takes the command {:.2f}, which is not between thrust_min = "
+                             "{} and thrust_max = {}",
+                             hover, autopilot.thrust_min, autopilot.thrust_max)});
+}
+
+/// A leg flown faster than the autopilot allows only times out.
+void check_guidance(const Scenario& s, Problems& out) {
+  const auto check = [&](double speed_m_s, const char* key, double limit_m_s, const char* limit) {
+    if (speed_m_s <= limit_m_s || s.vehicle.kind == VehicleKind::ideal) return;
+    out.push_back({{std::string("guidance.") + key, std::string("vehicle.autopilot.") + limit},
+                   fmt::format("{} = {} is above the autopilot's {} = {}", key, speed_m_s, limit,
+                               limit_m_s)});
+  };
+  const AutopilotParameters& a = s.vehicle.autopilot;
+  check(s.guidance.speed_m_s, "speed_m_s", a.speed_max_m_s, "speed_max_m_s");
+  check(s.guidance.profile_speed_m_s, "profile_speed_m_s", a.speed_max_m_s, "speed_max_m_s");
+  check(s.guidance.climb_speed_max_m_s, "climb_speed_max_m_s", a.climb_speed_max_m_s,
+        "climb_speed_max_m_s");
+  check(s.guidance.descent_speed_max_m_s, "descent_speed_max_m_s", a.descent_speed_max_m_s,
+        "descent_speed_max_m_s");
 }
 
 void check_structure(const StructureConfig& structure, Problems& out) {
@@ -150,6 +208,9 @@ std::vector<Problem> problems(const Scenario& scenario) {
   check_structure(scenario.structure, out);
   check_sensors(scenario, out);
   check_vehicle(scenario.vehicle, out);
+  check_guidance(scenario, out);
+  check_cloud(scenario.planner, out);
+  check_view_rays(scenario, out);
   check_map_thresholds(scenario.planner.map, out);
   check_utility(scenario.planner.utility, out);
   return out;

@@ -2,6 +2,7 @@
 // [k r, (k + 1) r), and k equals OctoMap's key minus 32768 (OcTreeBaseImpl::coordToKey).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -51,6 +52,19 @@ class GridGeometry {
   }
   Vec3 center_m(const Key& key) const {
     return {center_m(key[0]), center_m(key[1]), center_m(key[2])};
+  }
+
+  /// The nearest point that lies in a voxel of the grid also as float32: a point on an upper face
+  /// belongs to the voxel beyond it.
+  Vec3 nearest_inside(const Vec3& p_world_m) const {
+    constexpr double kFace_m = 1e-4;
+    Vec3 inside_m;
+    for (Eigen::Index a = 0; a < 3; ++a) {
+      const auto i = static_cast<std::size_t>(a);
+      inside_m[a] = std::clamp(p_world_m[a], min_[i] * resolution_m_ + kFace_m,
+                               (min_[i] + size_[i]) * resolution_m_ - kFace_m);
+    }
+    return inside_m;
   }
 
   bool contains(const Key& key) const {

@@ -67,9 +67,11 @@ double OccupancyGrid::total_entropy_nat() const {
 }
 
 OccupancyGrid::Entropy OccupancyGrid::compute_entropy(float log_odds) const {
-  const double p = 1.0 - 1.0 / (1.0 + std::exp(static_cast<double>(log_odds)));
-  const double entropy_nat = -p * std::log(p) - (1.0 - p) * std::log(1.0 - p);  // Eq. (1)
   if (is_clamped(log_odds)) return {.log_odds = log_odds};
+  // Eq. (1) in terms of l = |log-odds|, where p = 1 / (1 + e^-l) cannot round to 0 or 1
+  const double l = std::fabs(static_cast<double>(log_odds));
+  const double e = std::exp(-l);
+  const double entropy_nat = std::log1p(e) + l * e / (1.0 + e);
   return {.log_odds = log_odds,
           .nat = static_cast<float>(entropy_nat),
           .units = std::llround(entropy_nat * kTotalUnits)};

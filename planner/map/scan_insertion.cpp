@@ -69,6 +69,14 @@ std::vector<ScanRay> rays_along(const LidarScan& scan, const LidarConfig& lidar,
 
 }  // namespace
 
+std::vector<Vec3f> surface_points_world_m(std::span<const ScanRay> rays) {
+  std::vector<Vec3f> points;
+  for (const ScanRay& ray : rays) {
+    if (ray.hit) points.push_back(ray.end_world_m);
+  }
+  return points;
+}
+
 std::vector<ScanRay> rays_of(const DepthFrame& frame, const CameraModel& camera, double floor_z_m) {
   const int width_px = camera.config.width_px;
   const int height_px = camera.config.height_px;

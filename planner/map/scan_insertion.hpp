@@ -21,6 +21,9 @@ std::vector<ScanRay> rays_of(const DepthFrame& frame, const CameraModel& camera,
 /// Rays of a sweep in beam order; the maximum range is a sphere.
 std::vector<ScanRay> rays_of(const LidarScan& scan, const LidarConfig& lidar, double floor_z_m);
 
+/// The ends of the rays that hit: the points of the cloud.
+std::vector<Vec3f> surface_points_world_m(std::span<const ScanRay> rays);
+
 /// Computes updates, reusing its memory from scan to scan: one byte a voxel and thread.
 class ScanInserter {
  public:

@@ -20,11 +20,12 @@ namespace fs = std::filesystem;
 
 struct Outcome {
   int exit_code = -1;
-  std::string output;  // stdout and stderr
+  std::string output;  // stdout, and stderr unless the arguments send it elsewhere
 };
 
 Outcome gnbv(const std::string& arguments) {
-  const std::string command = std::string(GNBV_PROGRAM) + " " + arguments + " 2>&1";
+  const bool both = arguments.find("2>") == std::string::npos;
+  const std::string command = std::string(GNBV_PROGRAM) + " " + arguments + (both ? " 2>&1" : "");
   Outcome outcome;
   FILE* const pipe = popen(command.c_str(), "r");
   std::array<char, 4096> buffer{};
@@ -138,8 +139,43 @@ INSTANTIATE_TEST_SUITE_P(
                      "run smoke --mesh @/outside.obj --out @/out",
                      {"outside.obj", "workspace_m"}},
         BadInputCase{"UnwritableOut", "run smoke --out @/file/out", {"file/out"}},
+        BadInputCase{"LeafTooFine",
+                     "run smoke --set planner.cloud.leaf_m=0.002 --out @/out",
+                     {"--set", "leaf_m", "0.002"}},
+        BadInputCase{"TooHeavyToFly",
+                     "run smoke --set vehicle.airframe.mass_kg=5 --out @/out",
+                     {"--set", "mass_kg", "thrust_max"}},
+        BadInputCase{"NegativeSeed", "run smoke --seed -1 --out @/out", {"seed", "-1"}},
+        BadInputCase{"ResumeOfNothing", "run smoke --resume", {"--resume", "--out"}},
+        BadInputCase{"FolderOfAnother", "run smoke --out @", {"not empty"}},
+        BadInputCase{"TableWithoutAPaper", "table smoke --out @/out", {"smoke", "aircraft"}},
         BadInputCase{"RenderOfNothing", "render @/out", {"out"}}),
     [](const auto& refused) { return std::string(refused.param.name); });
+
+TEST(Program, AKilledRunGoesOnToTheSameResult) {
+  TempFolder temp;
+  const fs::path whole = temp.path() / "whole";
+  const fs::path killed = temp.path() / "killed";
+  const std::string run = "run smoke --set planner.termination.max_iterations=80 --out ";
+  ASSERT_EQ(gnbv(run + whole.string()).exit_code, 0);
+  // killed when the journal holds some views, and asked to stop when it holds some more
+  for (const std::string signal : {"KILL", "TERM"}) {
+    const std::string start = run + killed.string() + " --resume";
+    const std::string lines = signal == "KILL" ? "4" : "20";
+    const std::string stop = " & p=$!; n=0; while [ $(cat " + killed.string() +
+                             "/iterations.csv.part 2>/dev/null | wc -l) -lt " + lines +
+                             " ] && [ $n -lt 1000 ]; do sleep 0.01; n=$((n+1)); done; kill -" +
+                             signal + " $p; wait $p";
+    const Outcome stopped = gnbv(start + " 2>/dev/null" + stop);
+    EXPECT_NE(stopped.exit_code, 0) << signal << stopped.output;
+  }
+  const Outcome resumed = gnbv(run + killed.string() + " --resume");
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.output;
+  const auto sha = [](const fs::path& folder) {
+    return nlohmann::json::parse(read_file(folder / "summary.json")).at("result_sha256");
+  };
+  EXPECT_EQ(sha(killed), sha(whole));
+}
 
 TEST(Program, KeepsARunThatIsAlreadyThere) {
   TempFolder temp;
@@ -154,7 +190,7 @@ TEST(Program, KeepsARunThatIsAlreadyThere) {
 
 TEST(Program, PrintsJsonAloneOnStdoutWhenAsked) {
   TempFolder temp;
-  const Outcome json = gnbv(one_view(temp.path() / "run") + " --json --quiet");
+  const Outcome json = gnbv(one_view(temp.path() / "run") + " --json 2>/dev/null");
   ASSERT_EQ(json.exit_code, 0);
   EXPECT_EQ(nlohmann::json::parse(json.output).at("iterations"), 1);
 }

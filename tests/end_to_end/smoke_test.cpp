@@ -122,26 +122,49 @@ TEST(SmokeMission, TheIdealVehicleFliesExactlyThePlannedLegs) {
   EXPECT_NEAR(ideal.result.distance.flown_m, ideal.result.distance.straight_m, 1e-6);
 }
 
+/// Flies smoke into `folder`, asked to stop after some views of its own.
+MissionResult fly_into(const fs::path& folder, bool resume, std::size_t stop_after) {
+  const Scenario scenario = smoke();
+  RunDirectory directory(folder, scenario, resume);
+  std::size_t views = 0;
+  MissionHooks hooks;
+  hooks.on_view = [&](const ViewRecord& view) {
+    directory.append(view);
+    ++views;
+  };
+  hooks.should_stop = [&] { return views >= stop_after; };
+  hooks.replay = directory.recorded();
+  return Flown(scenario, hooks).result;
+}
+
 TEST(ResumedMission, EqualsTheUninterruptedOne) {
   TempFolder temp;
   const fs::path folder = temp.path() / "run";
-  const auto fly = [&](bool resume, int stop_after) {
-    const Scenario scenario = smoke();
-    RunDirectory directory(folder, scenario, resume);
-    int views = 0;
-    MissionHooks hooks;
-    hooks.on_view = [&](const ViewRecord& view) {
-      directory.append(view);
-      ++views;
-    };
-    hooks.should_stop = [&] { return views >= stop_after; };
-    hooks.replay = directory.recorded();
-    return Flown(scenario, hooks).result;
-  };
   // the first one is "killed": its journal is all that it leaves behind
-  EXPECT_EQ(fly(false, 5).termination, Termination::interrupted);
+  EXPECT_EQ(fly_into(folder, false, 5).termination, Termination::interrupted);
   EXPECT_EQ(read_decisions(folder / "iterations.csv.part").size(), 5U);
-  EXPECT_EQ(result_sha256(fly(true, 1000)), result_sha256(smoke_flight().result));
+  EXPECT_EQ(result_sha256(fly_into(folder, true, 1000)), result_sha256(smoke_flight().result));
+}
+
+TEST(ResumedMission, LosesNoRecordedViewWhenItIsStoppedEarly) {
+  TempFolder temp;
+  const fs::path folder = temp.path() / "run";
+  fly_into(folder, false, 5);
+  EXPECT_EQ(fly_into(folder, true, 2).views.size(), 5U);
+  EXPECT_EQ(read_decisions(folder / "iterations.csv.part").size(), 5U);
+}
+
+TEST(ResumedMission, FliesWhatWasRecordedAndDoesNotPlanItAgain) {
+  // the second view is turned by hand: planning anew would not choose it
+  std::vector<Decision> recorded;
+  for (std::size_t i = 0; i < 2; ++i) {
+    recorded.push_back(smoke_flight().result.views[i].decision);
+  }
+  recorded[1].view.yaw_rad = wrap_angle_rad(recorded[1].view.yaw_rad + 0.1);
+  MissionHooks hooks;
+  hooks.replay = recorded;
+  const Flown flight(smoke({"planner.termination.max_iterations=2"}), hooks);
+  EXPECT_EQ(flight.result.views[1].decision.view.yaw_rad, recorded[1].view.yaw_rad);
 }
 
 TEST(ResumedMission, RefusesAnotherConfigurationAndANewRunInItsPlace) {

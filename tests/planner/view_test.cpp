@@ -130,8 +130,8 @@ TEST(ViewRays, AreTheLatticeOfTheReleasedCode) {
 }
 
 /// The same counts, from sets of voxels gathered ray by ray.
-ViewStats brute_force(const OccupancyGrid& grid, std::span<const ViewRay> rays,
-                      const ViewPose& pose) {
+ViewStats brute_force(const OccupancyGrid& grid, const SurfaceCloud& cloud,
+                      std::span<const ViewRay> rays, const ViewPose& pose) {
   ViewStats stats;
   std::set<VoxelIndex> seen;
   const Isometry T = T_world_body(pose);
@@ -155,6 +155,7 @@ ViewStats brute_force(const OccupancyGrid& grid, std::span<const ViewRay> rays,
     stats.free_voxels += grid.state(v) == VoxelState::free ? 1 : 0;
     stats.unknown_voxels += grid.state(v) == VoxelState::unknown ? 1 : 0;
     stats.occupied_voxels += grid.state(v) == VoxelState::occupied ? 1 : 0;
+    if (grid.state(v) == VoxelState::occupied) stats.density_sum += cloud.density(v);
   }
   return stats;
 }
@@ -170,7 +171,16 @@ TEST(EvaluateView, EqualsBruteForceOnRandomMaps) {
     }
     grid.apply(update);
   }
-  const SurfaceCloud cloud(CloudConfig{}, grid.geometry());
+  SurfaceCloud cloud(CloudConfig{}, grid.geometry());
+  std::vector<Vec3f> points;
+  for (VoxelIndex v = 0; v < grid.geometry().voxel_count(); ++v) {
+    if (grid.state(v) != VoxelState::occupied) continue;
+    const Vec3 center_m = grid.geometry().center_m(grid.geometry().key_at(v));
+    for (std::uint64_t i = 0; i < v % 4; ++i) {
+      points.push_back((center_m + Vec3::Constant(0.1 * draw(40 + i, v) - 0.05)).cast<float>());
+    }
+  }
+  cloud.add(points, 0.02);
   const CameraModel camera = make_camera_model({.range_max_m = 4.0, .pitch_rad = 0.3});
   const auto rays = make_view_rays({&camera, 1}, 0.2);
   VisitMarks marks(grid.geometry().voxel_count());
@@ -178,13 +188,15 @@ TEST(EvaluateView, EqualsBruteForceOnRandomMaps) {
     const ViewPose pose{Vec3(draw(30, i) * 9 - 4.5, draw(31, i) * 9 - 4.5, draw(32, i) * 4 + 0.7),
                         draw(33, i) * 6.28};
     const ViewStats fast = evaluate_view(grid, cloud, rays, pose, marks);
-    const ViewStats slow = brute_force(grid, rays, pose);
+    const ViewStats slow = brute_force(grid, cloud, rays, pose);
     EXPECT_EQ(fast.free_voxels, slow.free_voxels);
     EXPECT_EQ(fast.unknown_voxels, slow.unknown_voxels);
     EXPECT_EQ(fast.occupied_voxels, slow.occupied_voxels);
     // sums of up to 1e5 float32 entropies in float64, in another order
     EXPECT_NEAR(fast.entropy_nat, slow.entropy_nat, 1e-6);
     EXPECT_EQ(fast.entropy_per_ray_nat, slow.entropy_per_ray_nat);
+    EXPECT_NEAR(fast.density_sum, slow.density_sum, 1e-9);
+    EXPECT_GT(slow.density_sum, 0.0);
     EXPECT_GT(slow.occupied_voxels, 0U);
   }
 }
@@ -195,7 +207,15 @@ TEST(EvaluateView, AWallHidesWhatIsBehindItAndIsCountedItself) {
   for (double y = -4.9; y < 5.0; y += 0.2) {
     for (double z = 0.1; z < 5.0; z += 0.2) wall.insert(voxel_at(probe, Vec3(1.1, y, z)));
   }
-  const OccupancyGrid grid = free_grid_with(wall);
+  // free up to the wall, unknown behind it
+  OccupancyGrid grid = empty_grid();
+  ScanUpdate update;
+  for (VoxelIndex v = 0; v < grid.geometry().voxel_count(); ++v) {
+    const double x_m = grid.geometry().center_m(grid.geometry().key_at(v)).x();
+    if (wall.contains(v)) update.occupied.push_back(v);
+    if (x_m < 1.0) update.free.push_back(v);
+  }
+  grid.apply(update);
   const SurfaceCloud cloud(CloudConfig{}, grid.geometry());
   const CameraModel camera = make_camera_model({.range_max_m = 4.0});
   const auto rays = make_view_rays({&camera, 1}, 0.2);
@@ -205,6 +225,47 @@ TEST(EvaluateView, AWallHidesWhatIsBehindItAndIsCountedItself) {
   // the wall is 2.03 m ahead: 60 x 45 degrees see 2.34 x 1.68 m of it, 12 or 13 by 9 voxels
   EXPECT_GE(stats.occupied_voxels, 12U * 8U);
   EXPECT_LE(stats.occupied_voxels, 14U * 10U);
+}
+
+TEST(EvaluateView, SeesFromEveryFaceOfTheWorkspace) {
+  const OccupancyGrid grid = empty_grid();
+  const SurfaceCloud cloud(CloudConfig{}, grid.geometry());
+  const CameraModel camera = make_camera_model({.range_max_m = 4.0});
+  const auto rays = make_view_rays({&camera, 1}, 0.2);
+  VisitMarks marks(grid.geometry().voxel_count());
+  for (const ViewPose& pose : {ViewPose{Vec3(5, 0, 2), kPi}, ViewPose{Vec3(-5, 0, 2), 0.0},
+                               ViewPose{Vec3(0, 5, 2), -kPi / 2}, ViewPose{Vec3(0, -5, 2), kPi / 2},
+                               ViewPose{Vec3(0, 0, 5), 0.0}, ViewPose{Vec3(0, 0, 0), 0.0}}) {
+    EXPECT_GT(evaluate_view(grid, cloud, rays, pose, marks).unknown_voxels, 1000U)
+        << pose.p_world_m.transpose();
+  }
+}
+
+TEST(InsideWalk, NamesTheVoxelsOfTheFullWalkThatLieInTheGrid) {
+  for (const double resolution_m : {0.2, 0.07, 0.05}) {
+    const GridGeometry grid(kWorkspace, resolution_m);
+    for (std::uint64_t i = 0; i < 500; ++i) {
+      const Vec3 from(draw(50, i) * 10 - 5, draw(51, i) * 10 - 5, draw(52, i) * 5);
+      // some along an axis, some out of the grid
+      Vec3 to = from + Vec3(draw(53, i) - 0.5, draw(54, i) - 0.5, draw(55, i) - 0.5) * 8.0;
+      if (i % 5 == 0) to.y() = from.y();
+      if (i % 10 == 0) to.z() = from.z();
+      const RayOrigin origin = make_ray_origin(grid, from.cast<float>());
+      if (!grid.contains(origin.key)) continue;
+      std::vector<VoxelIndex> full;
+      walk_ray(grid, origin, to.cast<float>(), [&](const Key& key) {
+        if (!grid.contains(key)) return false;
+        full.push_back(grid.index_of(key));
+        return true;
+      });
+      std::vector<VoxelIndex> inside;
+      walk_ray_inside(grid, origin, to.cast<float>(), [&](VoxelIndex v) {
+        inside.push_back(v);
+        return true;
+      });
+      ASSERT_EQ(inside, full) << resolution_m << " " << i;
+    }
+  }
 }
 
 TEST(VisitMarks, ForgetNothingWhenTheirCounterWrapsAround) {

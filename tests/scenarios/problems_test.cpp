@@ -37,7 +37,7 @@ TEST(Problems, AWorkspaceIsABoxThatFitsIntoMemory) {
   EXPECT_THAT(complaint(kMinimal + "planner: {map: {resolution_m: 0.01}}"),
               AllOf(StartsWith("s.yaml:2: planner.map.resolution_m: value '0.01': "),
                     // 4000 x 4000 x 2000 voxels of 24 bytes
-                    HasSubstr("3.2e+10 voxels and 715.3 GiB"), HasSubstr("the budget is 4 GiB")));
+                    HasSubstr("3.2e+10 voxels and 864.3 GiB"), HasSubstr("the budget is 4 GiB")));
   EXPECT_THAT(complaint(kMinimal + "planner: {map: {resolution_m: 0.001}}\n"
                                    "workspace_m: {min: [40, 0, 0], max: [41, 1, 1]}\n"
                                    "start: {position_m: [40, 0, 1]}"),

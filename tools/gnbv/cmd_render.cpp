@@ -32,7 +32,8 @@ void render(const RenderOptions& options) {
   picture.camera = scenario.cameras.front();
   picture.has_ground = scenario.structure.ground;
   const fs::path png = options.out.empty() ? options.run / "path.png" : options.out;
-  std::vector<std::string> told_by_run;  // the mesh was read, and its faults told, when it was flown
+  std::vector<std::string>
+      told_by_run;  // the mesh was read, and its faults told, when it was flown
   render_run(options.run, load_world(scenario, told_by_run).structure, picture, png);
   fmt::print("{}\n", png.string());
 }

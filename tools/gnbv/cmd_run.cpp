@@ -28,6 +28,12 @@ void run(const RunOptions& options) {
   if (mission.result.termination == Termination::collision) {
     throw CommandFailed("the vehicle hit something; the run directory shows where");
   }
+  if (mission.result.termination == Termination::interrupted) {
+    throw CommandFailed(
+        fmt::format("interrupted after {} views; `gnbv run {} --resume --out {}` continues it",
+                    mission.result.views.size(), (mission.folder / "scenario.yaml").string(),
+                    mission.folder.string()));
+  }
 }
 
 }  // namespace
@@ -35,7 +41,7 @@ void run(const RunOptions& options) {
 void add_mission_options(CLI::App& command, MissionOptions& options) {
   command.add_option("SCENARIO", options.scenario, "built-in name or YAML file")->required();
   command.add_option("--mesh", options.mesh, "a mesh file instead of the scenario's structure");
-  command.add_option("--seed", options.seed, "moves the start pose and keys all noise");
+  command.add_option("--seed", options.seed, "moves the start pose");
   command.add_option("--set", options.overrides, "KEY=VALUE of the scenario file; repeatable")
       ->allow_extra_args(false);
   command.add_option("--out", options.out, "run directory (default: a new one under runs/)");

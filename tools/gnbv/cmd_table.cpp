@@ -18,6 +18,9 @@ struct TableOptions : MissionOptions {
 };
 
 void table(const TableOptions& options) {
+  if (options.resume && options.out.empty()) {
+    throw BadInput("--resume: needs --out, the folder of the table to continue");
+  }
   const PaperTable* const paper = find_paper_table(resolve_scenario(options).name);
   if (paper == nullptr) {
     std::string known;
@@ -25,13 +28,18 @@ void table(const TableOptions& options) {
     throw BadInput(fmt::format("{}: the paper has no table for this scenario; it has:{}",
                                options.scenario, known));
   }
+  const Scenario first = resolve_scenario(options);
+  const fs::path parent = options.out.empty()
+                              ? free_folder(fmt::format("table-{}-seed{}", first.name, first.seed))
+                              : options.out;
   std::vector<MissionFigures> missions;
   std::vector<fs::path> folders;
   bool collided = false;
   for (const PaperRow& row : paper->rows) {
     MissionOptions one = options;
-    one.utility = row.utility;
-    if (!options.out.empty()) one.out = options.out / std::string(row.utility);
+    // last, so that it is the row's whatever the user set
+    one.overrides.push_back(fmt::format("planner.utility.name={}", row.utility));
+    one.out = parent / std::string(row.utility);
     const Scenario scenario = resolve_scenario(one);
     const ExecutedMission mission = execute_mission(scenario, one);
     missions.push_back(figures_of(scenario, mission));
@@ -39,9 +47,8 @@ void table(const TableOptions& options) {
     collided = collided || mission.result.termination == Termination::collision;
     // Ctrl-C ends the mission at hand; the table of the others would be misread as complete
     if (mission.result.termination == Termination::interrupted) {
-      throw CommandFailed(
-          fmt::format("interrupted; continue with --resume --out {}",
-                      options.out.empty() ? mission.folder.string() : options.out.string()));
+      throw CommandFailed(fmt::format(
+          "interrupted; the same command with --resume --out {} goes on", parent.string()));
     }
   }
   const TextTable text = comparison_table(*paper, missions);

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "scenarios/load.hpp"
+#include "scenarios/problems.hpp"
 #include "sim/core/error.hpp"
 #include "tools/gnbv/progress.hpp"
 #include "tools/mission/load_world.hpp"
@@ -23,34 +24,44 @@ double seconds_since(Clock::time_point begin) {
 }
 
 // a signal handler can reach nothing else
-volatile std::sig_atomic_t interrupt_count = 0;
+volatile std::sig_atomic_t stop_requested = 0;
 
-/// While it lives, the first Ctrl-C asks the mission to stop and the second one kills.
+/// While it lives, the first Ctrl-C (or SIGTERM) asks the mission to stop and the second one kills.
 class InterruptGuard {
  public:
   InterruptGuard() {
-    interrupt_count = 0;
-    previous_ = std::signal(SIGINT, [](int) {
-      interrupt_count = 1;
-      std::signal(SIGINT, SIG_DFL);
-    });
+    stop_requested = 0;
+    const auto ask_to_stop = [](int signal) {
+      stop_requested = 1;
+      std::signal(signal, SIG_DFL);
+    };
+    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, ask_to_stop);
   }
-  ~InterruptGuard() { std::signal(SIGINT, previous_); }
+  ~InterruptGuard() {
+    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
+  }
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
-  static bool requested() { return interrupt_count != 0; }
-
- private:
-  void (*previous_)(int) = SIG_DFL;
+  static bool requested() { return stop_requested != 0; }
 };
 
-fs::path free_folder(const Scenario& scenario) {
-  const std::string name =
-      fmt::format("{}-{}-seed{}", scenario.name, scenario.planner.utility.name, scenario.seed);
-  fs::path folder = fs::path("runs") / name;
-  for (int n = 2; fs::exists(folder); ++n)
-    folder = fs::path("runs") / fmt::format("{}-{}", name, n);
-  return folder;
+/// Memory that grows with the threads is not in the scenario's own budget.
+void need_memory_for(const Scenario& scenario, int threads) {
+  const GridGeometry grid(scenario.workspace_m, scenario.planner.map.resolution_m);
+  const double bytes = static_cast<double>(grid.voxel_count()) *
+                       (kMapBytesPerVoxel + kMapBytesPerVoxelAndThread * threads);
+  if (bytes <= kMapBudget_bytes) return;
+  throw BadInput(
+      fmt::format("--threads {}: a map of {} voxels needs {:.1f} GiB with so many, the "
+                  "budget is {:.0f} GiB",
+                  threads, grid.voxel_count(), bytes / 0x1p30, kMapBudget_bytes / 0x1p30));
+}
+
+/// The value as a YAML scalar, whatever it holds.
+std::string quoted(const std::string& value) {
+  std::string out = "'";
+  for (const char c : value) out += c == '\'' ? "''" : std::string(1, c);
+  return out + "'";
 }
 
 MissionHooks make_hooks(const Scenario& scenario, RunDirectory& directory, Progress& progress) {
@@ -70,33 +81,48 @@ MissionHooks make_hooks(const Scenario& scenario, RunDirectory& directory, Progr
 
 }  // namespace
 
+fs::path free_folder(const std::string& name) {
+  fs::path folder = fs::path("runs") / name;
+  for (int n = 2; fs::exists(folder); ++n)
+    folder = fs::path("runs") / fmt::format("{}-{}", name, n);
+  return folder;
+}
+
 Scenario resolve_scenario(const MissionOptions& options) {
   std::vector<std::string> overrides;
   // absolute, since a relative path in a scenario file is relative to that file
   if (!options.mesh.empty()) {
-    overrides.push_back(fmt::format("structure.file.path={}", fs::absolute(options.mesh).string()));
+    overrides.push_back(
+        fmt::format("structure.file.path={}", quoted(fs::absolute(options.mesh).string())));
   }
   if (!options.utility.empty()) {
     overrides.push_back(fmt::format("planner.utility.name={}", options.utility));
   }
-  if (options.seed) overrides.push_back(fmt::format("seed={}", *options.seed));
+  if (!options.seed.empty()) overrides.push_back("seed=" + options.seed);
   overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
   return load_scenario(options.scenario, overrides);
 }
 
 ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& options) {
   const auto begin = Clock::now();
+  if (options.resume && options.out.empty()) {
+    throw BadInput("--resume: needs --out, the run directory to continue");
+  }
   const int threads = options.threads > 0
                           ? options.threads
                           : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  need_memory_for(scenario, threads);
   // all that can be wrong with the input is found before the first file is written
   std::vector<std::string> warnings;
   const World world = load_world(scenario, warnings);
   for (const std::string& warning : warnings) fmt::print(stderr, "gnbv: {}\n", warning);
   const RayScene scene(world);
   start_pose(scenario, scene);
-  RunDirectory directory(options.out.empty() ? free_folder(scenario) : options.out, scenario,
-                         options.resume);
+  const fs::path folder =
+      options.out.empty() ? free_folder(fmt::format("{}-{}-seed{}", scenario.name,
+                                                    scenario.planner.utility.name, scenario.seed))
+                          : options.out;
+  RunDirectory directory(folder, scenario, options.resume);
   const InterruptGuard interrupt;
   Progress progress(fmt::format("{} {}", scenario.name, scenario.planner.utility.name),
                     options.quiet);

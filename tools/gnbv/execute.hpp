@@ -1,9 +1,7 @@
 // One mission from the command line to its run directory; what `run` and `table` share.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,13 +16,16 @@ struct MissionOptions {
   std::string scenario;                // built-in name or YAML path
   std::string mesh;                    // overrides the scenario's structure; "" keeps it
   std::string utility;                 // "" keeps the scenario's
-  std::optional<std::uint64_t> seed;   // nothing keeps the scenario's
+  std::string seed;                    // "" keeps the scenario's
   std::vector<std::string> overrides;  // --set key=value, in order
   std::filesystem::path out;           // "" chooses a free folder under runs/
   int threads = 0;                     // 0 = as many as the machine has
   bool resume = false;
   bool quiet = false;
 };
+
+/// runs/NAME, or runs/NAME-2 and so on: the first that does not exist.
+std::filesystem::path free_folder(const std::string& name);
 
 /// The scenario with the options applied: --mesh, --utility and --seed first, then --set in order.
 Scenario resolve_scenario(const MissionOptions& options);

@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <exception>
+#include <new>
 
 #include "sim/core/error.hpp"
 #include "tools/gnbv/commands.hpp"
@@ -29,12 +33,18 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    const int exit_code = run(argc, argv);
+    if (std::fflush(stdout) == 0) return exit_code;
+    fmt::print(stderr, "gnbv: stdout: {}\n", std::strerror(errno));
+    return 1;
   } catch (const gnbv::BadInput& error) {
     fmt::print(stderr, "gnbv: {}\n", error.what());
     return 2;
   } catch (const gnbv::CommandFailed& failed) {
     fmt::print(stderr, "gnbv: {}\n", failed.what());
+    return 1;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "gnbv: out of memory\n");
     return 1;
   } catch (const std::exception& error) {
     fmt::print(stderr, "gnbv: internal error: {}\n", error.what());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <sstream>
 
@@ -35,8 +36,21 @@ class Row {
     const std::string& cell = text();
     char* end = nullptr;
     const double value = std::strtod(cell.c_str(), &end);
-    if (cell.empty() || *end != '\0') fail(cell, "is not a number");
+    if (cell.empty() || *end != '\0' || !std::isfinite(value)) fail(cell, "is not a number");
     return value;
+  }
+  int count() {
+    const double value = number();
+    if (value < 0.0 || value > 1e9 || value != std::floor(value)) {
+      fail(fmt::format("{}", value), "is not a count");
+    }
+    return static_cast<int>(value);
+  }
+  void expect_iteration(std::size_t expected) {
+    const int iteration = count();
+    if (static_cast<std::size_t>(iteration) != expected) {
+      fail(fmt::format("{}", iteration), fmt::format("must be iteration {}", expected));
+    }
   }
   std::string_view sampler() {
     const std::string& cell = text();
@@ -56,17 +70,17 @@ class Row {
   std::size_t next_ = 0;
 };
 
-Decision decision_of(Row row) {
+Decision decision_of(Row row, std::size_t iteration) {
   Decision d;
-  row.number();  // iteration
+  row.expect_iteration(iteration);
   d.view.p_world_m.x() = row.number();
   d.view.p_world_m.y() = row.number();
   d.view.p_world_m.z() = row.number();
   d.view.yaw_rad = row.number();
   d.sampler = row.sampler();
   d.scale = row.number();
-  d.candidates = static_cast<int>(row.number());
-  d.valid = static_cast<int>(row.number());
+  d.candidates = row.count();
+  d.valid = row.count();
   d.score.value = row.number();
   d.score.information = row.number();
   d.score.density = row.number();
@@ -102,7 +116,7 @@ std::vector<Decision> read_decisions(const std::filesystem::path& csv) {
     const std::string text = content.substr(begin, end - begin);
     begin = end + 1;
     if (++line > 1) {
-      decisions.push_back(decision_of(Row(csv, line, text)));
+      decisions.push_back(decision_of(Row(csv, line, text), line - 2));
     } else if (text != kHeader) {
       throw BadInput(fmt::format("{}:1: is not the header that this version writes", csv.string()));
     }

@@ -8,8 +8,8 @@ namespace gnbv {
 World load_world(const Scenario& scenario, std::vector<std::string>& warnings) {
   const StructureConfig& structure = scenario.structure;
   const bool from_file = !structure.file.path.empty();
-  World world{.structure =
-                  from_file ? load_mesh(structure.file, &warnings) : make_builtin_structure(structure.builtin),
+  World world{.structure = from_file ? load_mesh(structure.file, &warnings)
+                                     : make_builtin_structure(structure.builtin),
               .has_ground = structure.ground};
   const Box3 mesh_m = bounds_m(world.structure);
   // written coordinates are rounded: a millimetre outside is no fault

@@ -62,6 +62,11 @@ struct Mission {
   WallTimes view_wall;   // of the view at hand
 };
 
+/// A resumed run goes on until it has caught up: stopping earlier would lose recorded views.
+bool should_stop(const Mission& m) {
+  return m.out.views.size() >= m.hooks.replay.size() && m.hooks.should_stop();
+}
+
 double time_s(const Flight& flight) { return static_cast<double>(flight.tick()) * kTick_s; }
 
 /// Flies one leg and keeps its track; `on_tick` runs after each tick.
@@ -90,39 +95,44 @@ std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal) {
   return fly_leg(m, goal, m.scenario.guidance.speed_m_s, [](const Flight&) {});
 }
 
+/// Flies the legs of the profile and keeps the LIDAR's sweeps.
+std::optional<Termination> scan_profile(Mission& m, std::vector<LidarScan>& scans) {
+  const ProfilingConfig& profiling = m.planner.config.profiling;
+  if (profiling.method == ProfilingMethod::none) return std::nullopt;
+  const GuidanceConfig& guidance = m.scenario.guidance;
+  const auto sweeps = [&](std::int64_t tick) {
+    return static_cast<std::int64_t>(static_cast<double>(tick) * kTick_s *
+                                     m.scenario.lidar.rate_hz);
+  };
+  const std::vector<ProfileLeg> legs = bounding_box_profile(m.planner.navigation_m, m.current);
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    const bool scanning = legs[i].is_descent || (profiling.scan_in_transit && i > 0);
+    const double speed_m_s = legs[i].is_descent ? guidance.profile_speed_m_s : guidance.speed_m_s;
+    m.out.distance.profile_m += (legs[i].goal.p_world_m - m.current.p_world_m).norm();
+    const auto crash = fly_leg(m, legs[i].goal, speed_m_s, [&](const Flight& flight) {
+      if (scanning && sweeps(flight.tick()) != sweeps(flight.tick() - 1)) {
+        scans.push_back(capture_scan(m.scene, m.scenario.lidar, flight.state().T_world_body));
+      }
+    });
+    if (crash) return crash;
+    m.hooks.on_profile(static_cast<double>(i + 1) / static_cast<double>(legs.size()));
+    if (should_stop(m)) return Termination::interrupted;
+  }
+  return std::nullopt;
+}
+
 /// Profiles the structure with the LIDAR and believes the scans in one batch (section 2.2).
 std::optional<Termination> fly_profile(Mission& m) {
   const Stopwatch watch(m.out.wall.profile_s);
-  const ProfilingConfig& profiling = m.planner.config.profiling;
   std::vector<LidarScan> scans;
-  if (profiling.method != ProfilingMethod::none) {
-    const std::vector<ProfileLeg> legs = bounding_box_profile(m.planner.navigation_m, m.current);
-    for (std::size_t i = 0; i < legs.size(); ++i) {
-      const bool scanning = legs[i].is_descent || (profiling.scan_in_transit && i > 0);
-      const double rate_hz = m.scenario.lidar.rate_hz;
-      const GuidanceConfig& guidance = m.scenario.guidance;
-      m.out.distance.profile_m += (legs[i].goal.p_world_m - m.current.p_world_m).norm();
-      const auto crash = fly_leg(
-          m, legs[i].goal, legs[i].is_descent ? guidance.profile_speed_m_s : guidance.speed_m_s,
-          [&](const Flight& flight) {
-            const auto sweeps = [&](std::int64_t tick) {
-              return static_cast<std::int64_t>(static_cast<double>(tick) * kTick_s * rate_hz);
-            };
-            if (scanning && sweeps(flight.tick()) != sweeps(flight.tick() - 1)) {
-              scans.push_back(capture_scan(m.scene, m.scenario.lidar, flight.state().T_world_body));
-            }
-          });
-      if (crash) return crash;
-      m.hooks.on_profile(static_cast<double>(i + 1) / static_cast<double>(legs.size()));
-    }
-  }
+  const std::optional<Termination> over = scan_profile(m, scans);
   integrate_profile(m.planner, scans, m.bench, m.out.belief);
   const auto points = m.out.belief.cloud.points_world_m();
   m.out.profile_points_world_m.assign(points.begin(), points.end());
   m.out.entropy_after_profile_nat = m.out.belief.grid.total_entropy_nat();
   m.out.distance.profile_flown_m = m.flown_m;
   m.out.profile_end_s = time_s(*m.flight);
-  return std::nullopt;
+  return over;
 }
 
 /// Back to where the views begin: straight when that is clear, else over the top of the workspace.
@@ -203,7 +213,7 @@ std::optional<Termination> termination(const Mission& m) {
     return Termination::max_iterations;
   }
   if (entropy_has_settled(config, m.history.entropies_nat)) return Termination::entropy_change;
-  if (m.hooks.should_stop()) return Termination::interrupted;
+  if (should_stop(m)) return Termination::interrupted;
   return std::nullopt;
 }
 
@@ -226,7 +236,7 @@ MissionResult finish(Mission& m, Termination reason) {
 MissionResult run_mission(const Scenario& scenario, const World& world, const RayScene& scene,
                           const MissionHooks& hooks, int threads) {
   Mission m(scenario, world, scene, hooks, threads);
-  if (const auto crash = fly_profile(m)) return finish(m, *crash);
+  if (const auto over = fly_profile(m)) return finish(m, *over);
   if (const auto crash = fly_to_first_view(m)) return finish(m, *crash);
   Decision next = {.view = m.out.start};
   while (true) {

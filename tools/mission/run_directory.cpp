@@ -86,7 +86,12 @@ std::string trajectory_tum(const MissionResult& result) {
 RunDirectory::RunDirectory(fs::path folder, const Scenario& scenario, bool resume)
     : folder_(std::move(folder)) {
   const std::string yaml = to_yaml(scenario);
-  const bool holds_a_run = fs::exists(folder_ / kScenario);
+  std::error_code error;
+  const bool holds_a_run = fs::exists(folder_ / kScenario, error);
+  if (!holds_a_run && fs::exists(folder_, error) && !fs::is_empty(folder_, error)) {
+    throw BadInput(
+        fmt::format("{}: is not empty and holds no run: choose another --out", folder_.string()));
+  }
   if (holds_a_run && !resume) {
     throw BadInput(
         fmt::format("{}: holds a run already: add --resume to continue it, or choose "
@@ -99,7 +104,6 @@ RunDirectory::RunDirectory(fs::path folder, const Scenario& scenario, bool resum
                     "can be resumed",
                     (folder_ / kScenario).string()));
   }
-  std::error_code error;
   fs::create_directories(folder_, error);
   if (error) {
     throw BadInput(
