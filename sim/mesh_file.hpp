@@ -1,5 +1,4 @@
-// Mesh files of any format assimp reads. The only file of the project that knows assimp is its
-// .cpp.
+// Mesh files of any format assimp reads. Only mesh_file.cpp and mesh_write.cpp know assimp.
 #pragma once
 
 #include <filesystem>

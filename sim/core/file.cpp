@@ -1,5 +1,7 @@
 #include "sim/core/file.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -8,6 +10,13 @@
 #include "sim/core/error.hpp"
 
 namespace gnbv {
+
+std::string extension_of(const std::filesystem::path& path) {
+  std::string out = path.extension().string();
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return out;
+}
 
 std::string read_file(const std::filesystem::path& path) {
   std::error_code ignored;

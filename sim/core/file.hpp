@@ -8,6 +8,9 @@
 
 namespace gnbv {
 
+/// The extension in lower case, with its dot: ".obj"; empty without one.
+std::string extension_of(const std::filesystem::path& path);
+
 /// The whole file. Throws BadInput naming the path when it cannot be read.
 std::string read_file(const std::filesystem::path& path);
 
