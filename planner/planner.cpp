@@ -8,6 +8,17 @@
 namespace gnbv {
 namespace {
 
+/// Volume of the pyramids up to maximum range, in voxels.
+double frustum_voxels(std::span<const CameraModel> cameras, double resolution_m) {
+  double volume_m3 = 0.0;
+  for (const CameraModel& camera : cameras) {
+    const CameraConfig& c = camera.config;
+    volume_m3 += 4.0 / 3.0 * std::tan(0.5 * c.fov_x_rad) * std::tan(0.5 * c.fov_y_rad) *
+                 std::pow(c.range_max_m, 3);
+  }
+  return volume_m3 / std::pow(resolution_m, 3);
+}
+
 /// Candidates that may be flown to, in the order they were sampled.
 std::vector<ViewPose> valid_views(const PlannerModel& model, const Belief& belief,
                                   const History& history, const ViewPose& current,
@@ -78,7 +89,8 @@ PlannerModel::PlannerModel(const PlannerConfig& planner_config, const Box3& work
       navigation_m(navigation_box_m(planner_config.validity, workspace)),
       cameras(camera_models.begin(), camera_models.end()),
       lidar(lidar_config),
-      view_rays(make_view_rays(cameras, planner_config.map.resolution_m)) {}
+      view_rays(make_view_rays(cameras, planner_config.map.resolution_m)),
+      view_voxels(frustum_voxels(cameras, planner_config.map.resolution_m)) {}
 
 Belief::Belief(const PlannerModel& model)
     : grid(model.config.map, model.workspace_m), cloud(model.config.cloud, grid.geometry()) {}
@@ -128,22 +140,24 @@ std::optional<Decision> plan_next_view(const PlannerModel& model, const Belief& 
                                        const History& history, const ViewPose& current,
                                        Workbench& bench) {
   const AgvsConfig& agvs = model.config.agvs;
-  std::vector<double> utilities;
+  Progress progress{
+      .utilities = {}, .entropies_nat = history.entropies_nat, .view_voxels = model.view_voxels};
   double last_scale = 1.0;
   for (const Decision& decision : history.decisions) {
     if (decision.sampler == "start") continue;
-    utilities.push_back(decision.score.value);
+    progress.utilities.push_back(decision.score.value);
     last_scale = decision.scale;
   }
-  // a scale without any valid view is grown as a local minimum is, before giving up
-  double scale = next_agvs_scale(agvs, last_scale, utilities);
-  while (true) {
+  // a scale without any valid view is grown as at a local minimum; last comes the finest
+  const double first_scale = next_agvs_scale(agvs, last_scale, progress);
+  for (double scale = first_scale;; scale = std::min(scale * agvs.scale_factor, agvs.scale_max)) {
     if (auto decision = best_at_scale(model, belief, history, current, scale, bench)) {
       return decision;
     }
-    if (scale >= agvs.scale_max) return std::nullopt;
-    scale = std::min(scale * agvs.scale_factor, agvs.scale_max);
+    if (scale >= agvs.scale_max) break;
   }
+  if (first_scale <= 1.0) return std::nullopt;
+  return best_at_scale(model, belief, history, current, 1.0, bench);
 }
 
 }  // namespace gnbv

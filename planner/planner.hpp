@@ -41,6 +41,7 @@ struct PlannerModel {
   std::vector<CameraModel> cameras;
   LidarConfig lidar;
   std::vector<ViewRay> view_rays;
+  double view_voxels;  // of the cameras' frusta together
 };
 
 /// What is believed about the world, and all of it.

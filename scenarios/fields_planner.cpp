@@ -42,6 +42,9 @@ void fields(FieldVisitor& v, AgvsConfig& c) {
   v.number("utility_threshold", c.utility_threshold, between(0, 1e9),
            "Local minimum: the best utility stays below this");
   v.integer("utility_window", c.utility_window, between(1, 1e6), "for so many views.");
+  v.number("entropy_threshold_nat", c.entropy_threshold_nat, between(0, 1),
+           "Or when no view changed the total entropy by more than this per voxel of its frusta");
+  v.integer("entropy_window", c.entropy_window, {1, 1000}, "over this many views.");
 }
 
 void fields(FieldVisitor& v, ValidityConfig& c) {

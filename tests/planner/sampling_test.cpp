@@ -95,14 +95,33 @@ TEST(Agvs, TurnsWithTheBody) {
   }
 }
 
-TEST(Agvs, ScaleGrowsOnlyAtALocalMinimumAndUpToItsLimit) {
+TEST(Agvs, ScaleGrowsWhenUtilityIsLowAndUpToItsLimit) {
   const AgvsConfig config;
-  const std::vector<double> low = {0.5, 0.05, 0.02, 0.09};
-  const std::vector<double> high = {0.01, 0.02, 0.3};
+  const Progress low{.utilities = {0.5, 0.05, 0.02, 0.09}, .entropies_nat = {}, .view_voxels = 1};
+  const Progress high{.utilities = {0.01, 0.02, 0.3}, .entropies_nat = {}, .view_voxels = 1};
+  const Progress few{.utilities = {0.0, 0.0}, .entropies_nat = {}, .view_voxels = 1};
   EXPECT_EQ(next_agvs_scale(config, 1.0, low), 1.5);
   EXPECT_EQ(next_agvs_scale(config, 6.0, low), 7.5);
   EXPECT_EQ(next_agvs_scale(config, 6.0, high), 1.0);
-  EXPECT_EQ(next_agvs_scale(config, 1.0, std::vector<double>{0.0, 0.0}), 1.0);
+  EXPECT_EQ(next_agvs_scale(config, 1.0, few), 1.0);
+}
+
+TEST(Agvs, ScaleGrowsWhenEntropyStandsStill) {
+  AgvsConfig config;
+  config.entropy_threshold_nat = 0.001;
+  config.entropy_window = 3;
+  // of 1000 voxels: still below 1 nat a view, up or down
+  const std::vector<double> still = {900, 500, 499.5, 500.2, 500.1};
+  const std::vector<double> moving = {500, 499.5, 498, 498.1};
+  const auto scale = [&](const std::vector<double>& entropies_nat) {
+    return next_agvs_scale(config, 1.0,
+                           {.utilities = {}, .entropies_nat = entropies_nat, .view_voxels = 1000});
+  };
+  EXPECT_EQ(scale(still), 1.5);
+  EXPECT_EQ(scale(moving), 1.0);
+  EXPECT_EQ(scale({500, 500, 500}), 1.0);  // no full window yet
+  config.entropy_threshold_nat = 0.0;
+  EXPECT_EQ(scale(still), 1.0);
 }
 
 TEST(EntropyTermination, NeedsEveryViewOfTheWindowToBeQuiet) {

@@ -64,7 +64,7 @@ std::string quoted(const std::string& value) {
   return out + "'";
 }
 
-MissionHooks make_hooks(const Scenario& scenario, RunDirectory& directory, Progress& progress) {
+MissionHooks make_hooks(const Scenario& scenario, RunDirectory& directory, ProgressBar& progress) {
   MissionHooks hooks;
   hooks.on_profile = [&progress](double share) { progress.show(0.1 * share, "profile"); };
   hooks.on_view = [&](const ViewRecord& view) {
@@ -124,8 +124,8 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
                           : options.out;
   RunDirectory directory(folder, scenario, options.resume);
   const InterruptGuard interrupt;
-  Progress progress(fmt::format("{} {}", scenario.name, scenario.planner.utility.name),
-                    options.quiet);
+  ProgressBar progress(fmt::format("{} {}", scenario.name, scenario.planner.utility.name),
+                       options.quiet);
   try {
     MissionResult result =
         run_mission(scenario, world, scene, make_hooks(scenario, directory, progress), threads);

@@ -26,7 +26,7 @@ std::size_t terminal_columns() {
 
 }  // namespace
 
-Progress::Progress(std::string label, bool quiet)
+ProgressBar::ProgressBar(std::string label, bool quiet)
     : label_(std::move(label)),
       style_(quiet || std::getenv("NO_PROGRESS") != nullptr ? Style::silent
              : is_terminal()                                ? Style::bar
@@ -34,11 +34,11 @@ Progress::Progress(std::string label, bool quiet)
       begin_(std::chrono::steady_clock::now()),
       last_drawn_(begin_ - std::chrono::hours(1)) {}
 
-Progress::~Progress() {
+ProgressBar::~ProgressBar() {
   if (bar_is_open_) fmt::print(stderr, "\n");
 }
 
-void Progress::show(double share_done, const std::string& note) {
+void ProgressBar::show(double share_done, const std::string& note) {
   const double share = std::clamp(share_done, 0.0, 1.0);
   const auto now = std::chrono::steady_clock::now();
   if (style_ == Style::lines) {

@@ -6,13 +6,13 @@
 
 namespace gnbv {
 
-class Progress {
+class ProgressBar {
  public:
   /// `label` stands before the bar. Silent when `quiet` or NO_PROGRESS is set.
-  Progress(std::string label, bool quiet);
-  ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
+  ProgressBar(std::string label, bool quiet);
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
 
   /// `share_done` in [0, 1]; `note` says what is being done.
   void show(double share_done, const std::string& note);
