@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "planner/map/ray_walk.hpp"
+#include "sim/core/error.hpp"
 
 namespace gnbv {
 
@@ -56,6 +57,8 @@ ViewStats evaluate_view(const OccupancyGrid& grid, const SurfaceCloud& cloud,
       origin_body_m = ray.origin_body_m;
       // a camera on the workspace's face, or a hand's breadth outside, looks from that face
       origin = make_ray_origin(geometry, geometry.nearest_inside(T * origin_body_m).cast<float>());
+      GNBV_CHECK(geometry.contains(origin.key), "camera at {} {} {}", origin.p_m.x(),
+                 origin.p_m.y(), origin.p_m.z());
     }
     walk_ray_inside(geometry, origin, (T * ray.end_body_m).cast<float>(), see);
   }
