@@ -24,7 +24,7 @@ class RunPicture : public ::testing::Test {
     write("iterations.csv",
           "iteration,utility,yaw,x,y,z\n1,0.5,3.0,4,4,1\n2,0.4,1.5,-4,4,2\n3,0.3,0.8,-4,-4,3\n");
     write("summary.json",
-          R"({"scenario": "cube", "utility": "proposed", "iterations": 3, "profile_end_s": 2.0,
+          R"({"scenario": "cube", "utility": "proposed", "iterations": 3, "views_begin_s": 2.0,
               "distance_m": {"flown": 31.0}, "coverage": {"final": {"0.05": 0.941}}})");
     cube_.vertices_m = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0},
                         {-1, -1, 2}, {1, -1, 2}, {1, 1, 2}, {-1, 1, 2}};
@@ -58,7 +58,7 @@ TEST_F(RunPicture, FilesAreReadByColumnName) {
   ASSERT_EQ(record.views.size(), 3U);
   EXPECT_EQ(record.views[1].p_world_m, Vec3(-4, 4, 2));
   EXPECT_EQ(record.views[1].yaw_rad, 1.5);
-  EXPECT_EQ(record.profile_end_s, 2.0);
+  EXPECT_EQ(record.views_begin_s, 2.0);
   EXPECT_EQ(record.title, "cube, proposed");
   EXPECT_EQ(record.detail, "3 views, 31.0 m, coverage 94.1 % at 0.05 m");
 }
@@ -85,7 +85,7 @@ TEST_F(RunPicture, ProfileFlightIsGreyAndPlannedFlightRunsThroughTheRamp) {
 TEST_F(RunPicture, WithoutSummaryTheWholeFlightIsOfOneKind) {
   std::filesystem::remove(dir_ / "summary.json");
   const RunRecord record = read_run(dir_);
-  EXPECT_FALSE(record.profile_end_s.has_value());
+  EXPECT_FALSE(record.views_begin_s.has_value());
   const RenderView view = run_view(record, cube_, {});
   EXPECT_EQ(run_scene(record, cube_, {}, view).tubes.size(), 1U);
 }

@@ -44,6 +44,7 @@ Json summary(const Scenario& scenario, const MissionResult& r, const MissionScor
         {"profile_flown", r.distance.profile_flown_m},
         {"transfer", r.distance.transfer_m}}},
       {"profile_end_s", r.profile_end_s},
+      {"views_begin_s", r.views.empty() ? r.profile_end_s : r.views.front().time_s},
       {"flight_time_s", r.flight_time_s},
       {"energy_wh", r.energy_wh},
       {"entropy_nat",

@@ -53,7 +53,7 @@ std::vector<std::size_t> simplified(const std::vector<PathSample>& path, double 
 
 // Metres flown up to each sample since the profile flight ended; 0 during it.
 std::vector<double> planned_metres(const RunRecord& record) {
-  const double begin_s = record.profile_end_s.value_or(record.path.front().time_s);
+  const double begin_s = record.views_begin_s.value_or(record.path.front().time_s);
   std::vector<double> metres(record.path.size(), 0.0);
   for (std::size_t i = 1; i < metres.size(); ++i) {
     const double step_m = (record.path[i].p_world_m - record.path[i - 1].p_world_m).norm();
@@ -65,7 +65,7 @@ std::vector<double> planned_metres(const RunRecord& record) {
 void add_path(const RunRecord& record, double unit_m, RenderScene& scene) {
   const std::vector<double> metres = planned_metres(record);
   const double total_m = std::max(metres.back(), 1e-9);
-  const double begin_s = record.profile_end_s.value_or(record.path.front().time_s);
+  const double begin_s = record.views_begin_s.value_or(record.path.front().time_s);
   TubeItem profile{{}, {kProfileColour}, static_cast<float>(1.05 * unit_m)};
   TubeItem planned{{}, {}, static_cast<float>(1.8 * unit_m)};
   for (const std::size_t i : simplified(record.path, 0.25 * unit_m, total_m / 150.0)) {
@@ -184,7 +184,7 @@ void draw_run_caption(Image& image, const RunRecord& record, const RunPictureOpt
   }
   x -= 10.0 * u;
   write_before("first view");
-  if (!record.profile_end_s) return;
+  if (!record.views_begin_s) return;
   x -= 16.0 * u;
   write_before("profile");
   draw_line(image, {x - 30.0 * u, bottom}, {x, bottom}, 4.0 * u, to_rgb8(kProfileColour));

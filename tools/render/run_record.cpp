@@ -109,8 +109,8 @@ void read_summary(const std::filesystem::path& path, RunRecord& record) {
   if (!std::filesystem::exists(path)) return;
   try {
     const nlohmann::json summary = nlohmann::json::parse(read_file(path));
-    if (summary.contains("profile_end_s")) {
-      record.profile_end_s = summary.at("profile_end_s").get<double>();
+    if (summary.contains("views_begin_s")) {
+      record.views_begin_s = summary.at("views_begin_s").get<double>();
     }
     for (const char* key : {"scenario", "utility"}) {
       if (!summary.contains(key)) continue;

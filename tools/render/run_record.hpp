@@ -18,7 +18,7 @@ struct PathSample {
 struct RunRecord {
   std::vector<PathSample> path;         // trajectory.tum, times ascending
   std::vector<ViewPose> views;          // iterations.csv, in order
-  std::optional<double> profile_end_s;  // summary.json, where the planned views begin
+  std::optional<double> views_begin_s;  // summary.json, where the planned views begin
   std::string title;                    // scenario and utility, empty without summary.json
   std::string detail;                   // the main figures in one line, as far as they are there
 };
