@@ -39,14 +39,6 @@ const std::vector<View>& views() {
   return all;
 }
 
-std::vector<Vec3f> hits_of(const View& view) {
-  std::vector<Vec3f> points_m;
-  for (const ScanRay& ray : view.rays) {
-    if (ray.hit) points_m.push_back(ray.end_world_m);
-  }
-  return points_m;
-}
-
 void BM_RaysOfFrame(benchmark::State& state) {
   const CameraModel camera = make_camera_model(CameraConfig{});
   const DepthFrame frame =
@@ -138,7 +130,7 @@ void BM_CloudAddFrames(benchmark::State& state) {
   const double leaf_m = static_cast<double>(state.range(0)) * 1e-3;
   const OccupancyGrid grid(OccupancyConfig{}, kWorkspace_m);
   std::vector<std::vector<Vec3f>> frames_m;
-  for (const View& view : views()) frames_m.push_back(hits_of(view));
+  for (const View& view : views()) frames_m.push_back(surface_points_world_m(view.rays));
   std::size_t gained = 0;
   for (auto _ : state) {
     state.PauseTiming();
@@ -154,7 +146,7 @@ void BM_CloudAddFrames(benchmark::State& state) {
 BENCHMARK(BM_CloudAddFrames)->ArgName("leaf_mm")->Arg(20)->Arg(50)->Unit(benchmark::kMillisecond);
 
 void BM_PclFilterAndDensityOfAFrame(benchmark::State& state) {
-  const std::vector<Vec3f> frame_m = hits_of(views()[0]);
+  const std::vector<Vec3f> frame_m = surface_points_world_m(views()[0].rays);
   for (auto _ : state) {
     const std::vector<Vec3f> filtered_m = pcl_leaf_filter(frame_m, 0.02);
     benchmark::DoNotOptimize(pcl_neighbour_counts(filtered_m, 0.2 / std::sqrt(2.0)));

@@ -386,8 +386,7 @@ TEST_F(MeshFile, UnusableConfigIsNamed) {
   EXPECT_TRUE(says(complaint(config), "unit_m = -1"));
 }
 
-// ---- the paper's own structures, on machines that have them
-// --------------------------------------
+// The paper's own structures are never committed: these run on machines that have them.
 
 TEST(PaperMesh, A340HasTheVerticesFacesAndSizeOfTheFile) {
   const fs::path path = fs::path(GNBV_SHARED_MESHES) / "a340.obj";
