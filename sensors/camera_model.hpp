@@ -9,6 +9,16 @@
 
 namespace gnbv {
 
+/// Depth noise by name; the laws and their sources are in sensors/depth_noise.hpp.
+enum class DepthNoise { none, released, khoshelham, nguyen, stereo };
+
+struct DepthNoiseConfig {
+  DepthNoise model = DepthNoise::none;
+  // stereo only: sigma = z^2 * disparity_noise_px / (focal length in pixels * baseline_m)
+  double baseline_m = 0.063;
+  double disparity_noise_px = 0.1;
+};
+
 /// Defaults: the forward camera of the paper's simulated RGBD pair (section 3.1.1, Table 1).
 struct CameraConfig {
   std::string name = "rgbd";
@@ -18,8 +28,12 @@ struct CameraConfig {
   double fov_y_rad = deg_to_rad(45.0);
   double range_min_m = 0.3;  // along the optical axis; nearer returns are invalid
   double range_max_m = 8.0;  // along the optical axis (a plane, not a sphere)
+  double rate_hz = 0.0;      // frames a second in flight; 0: one at each view and none between
   Vec3 p_body_m = Vec3::Zero();
-  double pitch_rad = 0.0;  // about body y: positive looks down
+  double roll_rad = 0.0;   // about body x, applied first
+  double pitch_rad = 0.0;  // about body y: positive looks down; applied second
+  double yaw_rad = 0.0;    // about body z: positive looks left; applied last
+  DepthNoiseConfig noise;
 };
 
 /// Pinhole geometry derived from a CameraConfig; pixel (0, 0) is top left, centres at half pixels.
@@ -55,7 +69,9 @@ inline CameraModel make_camera_model(const CameraConfig& config) {
   model.cx_px = 0.5 * config.width_px;
   model.cy_px = 0.5 * config.height_px;
   model.T_body_camera.translate(config.p_body_m);
+  model.T_body_camera.rotate(Eigen::AngleAxisd(config.yaw_rad, Vec3::UnitZ()));
   model.T_body_camera.rotate(Eigen::AngleAxisd(config.pitch_rad, Vec3::UnitY()));
+  model.T_body_camera.rotate(Eigen::AngleAxisd(config.roll_rad, Vec3::UnitX()));
   model.T_body_camera.rotate(R_body_optical());
   return model;
 }

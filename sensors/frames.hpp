@@ -1,6 +1,8 @@
 // What the sensors hand to the map: ranges with the pose the measurement was taken from.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -19,7 +21,15 @@ struct DepthFrame {
   std::vector<float> depth_m;  // (height, width) row-major, along the optical axis; see above
 };
 
+/// What the same camera sees in colour, pixel by pixel aligned with its depth.
+struct ColourFrame {
+  int camera = 0;
+  Isometry T_world_camera = Isometry::Identity();  // optical frame
+  std::vector<std::array<std::uint8_t, 3>> rgb;    // (height, width) row-major, sRGB
+};
+
 struct LidarScan {
+  int lidar = 0;  // index of the LIDAR on the vehicle
   Isometry T_world_lidar = Isometry::Identity();
   std::vector<float> range_m;  // (beams), along the beam; see above
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <string>
 
 #include "sim/core/pose.hpp"
 
@@ -10,20 +11,34 @@ namespace gnbv {
 /// Defaults: the profiling laser of the paper (180 degrees, 0.1-30 m) with the beams and rate of
 /// the released floating_sensor.sdf; tilted down, which reproduces the paper's profile row.
 struct LidarConfig {
+  std::string name = "lidar";
   int beams = 720;
   double fov_rad = kPi;
   double rate_hz = 40.0;
   double range_min_m = 0.1;
   double range_max_m = 30.0;
   Vec3 p_body_m = Vec3::Zero();
-  double pitch_rad = deg_to_rad(10.0);  // about body y: positive tilts the fan down
+  double roll_rad = 0.0;                // about body x, applied first
+  double pitch_rad = deg_to_rad(10.0);  // about body y: positive tilts the fan down; second
+  double yaw_rad = 0.0;                 // about body z, applied last
+  double range_sigma_m = 0.0;           // of each range
+  /// Whether the beams of a sweep are taken one after the other, fov / 2 pi of a period in all,
+  /// while the vehicle moves; else all at once.
+  bool rolling = false;
 };
+
+/// Time from the first beam of a sweep to its last: the head turns evenly, once a period.
+inline double sweep_duration_s(const LidarConfig& config) {
+  return config.rolling ? config.fov_rad / (2.0 * kPi * config.rate_hz) : 0.0;
+}
 
 /// LIDAR frame: FLU, beams in its x-y plane, counter-clockwise from -fov/2 to +fov/2 inclusive.
 inline Isometry T_body_lidar(const LidarConfig& config) {
   Isometry T = Isometry::Identity();
   T.translate(config.p_body_m);
+  T.rotate(Eigen::AngleAxisd(config.yaw_rad, Vec3::UnitZ()));
   T.rotate(Eigen::AngleAxisd(config.pitch_rad, Vec3::UnitY()));
+  T.rotate(Eigen::AngleAxisd(config.roll_rad, Vec3::UnitX()));
   return T;
 }
 

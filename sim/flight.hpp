@@ -39,7 +39,10 @@ class Flight {
   virtual ~Flight() = default;
   /// Ticks since the start.
   virtual std::int64_t tick() const = 0;
+  /// The truth.
   virtual VehicleState state() const = 0;
+  /// What the autopilot, the guidance and the map believe (VehicleConfig::estimate).
+  virtual VehicleState estimate() const = 0;
   /// Holds until the next call.
   virtual void command(const Setpoint& setpoint) = 0;
   /// Advances one tick. Throws BrokenInvariant when the state becomes NaN.
@@ -53,7 +56,8 @@ class Flight {
 /// An airborne vehicle hovering at `start` (rotors at hover speed), in a world rebuilt for it.
 /// VehicleKind::quadrotor: sim/vehicle.hpp under sim/autopilot.hpp, estimate = truth.
 /// VehicleKind::ideal: moves exactly as commanded, level, draws hover power and never collides.
+/// `seed` keys the errors of the estimate.
 std::unique_ptr<Flight> make_flight(const VehicleConfig& config, const World& world,
-                                    const ViewPose& start);
+                                    const ViewPose& start, std::uint64_t seed);
 
 }  // namespace gnbv

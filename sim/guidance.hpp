@@ -22,7 +22,7 @@ struct FeedForward {
 /// Arrival as in the released vehicle_control_iris.cpp, but tighter. The acceleration lies between
 /// that file's braking (v^2 = |e| a / 2 with a = 1, that is 0.25) and PX4's Auto limit of 3.
 struct GuidanceConfig {
-  double speed_m_s = 2.0;
+  double path_speed_m_s = 2.0;
   double profile_speed_m_s = 1.0;
   double climb_speed_max_m_s = 2.5;    // below MPC_Z_VEL_MAX_UP 3 and MPC_Z_VEL_MAX_DN 1.5, so that
   double descent_speed_max_m_s = 1.2;  // the position loop has room to correct; slows the whole leg
@@ -37,13 +37,14 @@ struct GuidanceConfig {
   double timeout_s = 60.0;  // beyond the time the reference itself needs
 };
 
-enum class LegEnd { arrived, timeout, collision };
+enum class LegEnd { arrived, timeout, collision, stopped };
 
 /// Flies the straight line to `goal` at up to `speed_m_s`, turning the short way meanwhile, and
 /// streams setpoints every 20 ms. Returns when the reference has come to rest and the vehicle has
 /// arrived (position, yaw and speed), on contact, or on timeout; the last setpoint stays in force.
-/// `on_tick` (may be empty) is called after every tick: sensors that run in flight hook in there.
+/// Where the vehicle is, is what its estimate says. `on_tick` (may be empty) is called after every
+/// tick: sensors that run in flight hook in there; when it returns false the leg ends as `stopped`.
 LegEnd fly_leg(Flight& flight, const ViewPose& goal, double speed_m_s, const GuidanceConfig& config,
-               const std::function<void(const Flight&)>& on_tick);
+               const std::function<bool(const Flight&)>& on_tick);
 
 }  // namespace gnbv

@@ -10,9 +10,22 @@
 
 namespace gnbv {
 
+/// Procedural textures, solid in space, so that they need no texture coordinates (sim/texture.hpp).
+enum class Pattern {
+  plain,    // rgb everywhere
+  noise,    // clouds of rgb and rgb_2: paint, soil, concrete
+  panels,   // sheets of rgb with joints of rgb_2, each sheet a little lighter or darker
+  bricks,   // courses of rgb in mortar of rgb_2
+  stripes,  // bands of rgb and rgb_2, stacked in z
+  checker   // cubes of rgb and rgb_2
+};
+
 struct Material {
   std::string name = "default";
   std::array<float, 3> rgb = {0.7F, 0.7F, 0.7F};  // linear, each in [0, 1]
+  Pattern pattern = Pattern::plain;
+  std::array<float, 3> rgb_2 = {0.5F, 0.5F, 0.5F};  // linear; unused by `plain`
+  float pattern_size_m = 1.0F;                      // of a sheet, brick, band, cube or cloud
 };
 
 struct TriangleMesh {

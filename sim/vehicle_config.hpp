@@ -5,6 +5,8 @@
 #pragma once
 
 #include <array>
+#include <string>
+#include <string_view>
 
 #include "sim/core/pose.hpp"
 
@@ -74,15 +76,34 @@ struct PowerParameters {
   double k2 = 0.3051;
   double c2 = 0.3177;
   double c4 = 0.0296;
+  double battery_wh = 0.0;  // usable energy; 0: never empty
+};
+
+/// Error of the state estimate by name; the laws and their sources are in sim/state_estimator.hpp.
+enum class EstimateModel { none, mocap, gnss, vio };
+
+struct EstimateConfig {
+  EstimateModel model = EstimateModel::none;
 };
 
 enum class VehicleKind { quadrotor, ideal };
 
 struct VehicleConfig {
+  std::string preset = "iris";  // names the parameters that all below are the defaults of
   VehicleKind kind = VehicleKind::quadrotor;
+  EstimateConfig estimate;
   AirframeParameters airframe;
   AutopilotParameters autopilot;
   PowerParameters power;
 };
+
+/// iris: today's PX4 SITL (the defaults of the structs above); iris_sitl_2019: the SITL of the
+/// paper's year; authors: what the authors' package pins (RotorS, 2015 firmware); f450: the
+/// quadrotor of the paper's lab. Sources beside each.
+constexpr std::array<std::string_view, 4> kVehiclePresets = {"iris", "iris_sitl_2019", "authors",
+                                                             "f450"};
+
+/// The parameters by that name; it has to be one of kVehiclePresets.
+VehicleConfig vehicle_preset(std::string_view name);
 
 }  // namespace gnbv

@@ -9,7 +9,14 @@
 namespace gnbv {
 
 /// One name per use, so that no two uses ever share a number.
-enum class Stream : std::uint64_t { start_pose = 1, depth_noise = 2, range_noise = 3, bench = 4 };
+enum class Stream : std::uint64_t {
+  start_pose = 1,
+  depth_noise = 2,
+  range_noise = 3,
+  bench = 4,
+  pose_noise = 5,
+  lateral_noise = 6,
+};
 
 struct RandomKey {
   std::uint64_t seed = 0;
