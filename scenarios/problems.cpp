@@ -38,8 +38,14 @@ void check_sensors(const Scenario& s, Problems& out) {
       break;
     }
   }
-  require_below(s.lidar.range_min_m, s.lidar.range_max_m, "lidar.range_min_m", "lidar.range_max_m",
-                out);
+  for (std::size_t i = 0; i < s.lidars.size(); ++i) {
+    const std::string key = fmt::format("lidars.{}.", i);
+    require_below(s.lidars[i].range_min_m, s.lidars[i].range_max_m, key + "range_min_m",
+                  key + "range_max_m", out);
+  }
+  if (s.lidars.empty() && s.planner.profiling.method != ProfilingMethod::none) {
+    out.push_back({{"lidars", "planner.profiling.method"}, "the profile needs a LIDAR to scan it"});
+  }
 }
 
 /// Size and place of the map; only for a workspace that is a box.

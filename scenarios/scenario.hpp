@@ -39,7 +39,7 @@ struct Scenario {
   Box3 workspace_m = Box3(Vec3(-20, -20, 0), Vec3(20, 20, 20));
   StructureConfig structure;
   std::vector<CameraConfig> cameras;
-  LidarConfig lidar;
+  std::vector<LidarConfig> lidars = {LidarConfig{}};
   VehicleConfig vehicle;
   GuidanceConfig guidance;
   StartConfig start;

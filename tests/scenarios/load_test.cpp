@@ -68,12 +68,12 @@ TEST(LoadScenario, AnyAngleThatWasReadIsWrittenSoThatItReadsBackExactly) {
   for (int i = 0; i < 2000; ++i) {
     // degrees with long binary expansions, over all magnitudes of the range
     const double degrees = -89.7 + 0.0897131 * i;
-    const Scenario s = load_scenario("smoke", {fmt::format("lidar.pitch_deg={}", degrees)});
+    const Scenario s = load_scenario("smoke", {fmt::format("lidars.0.pitch_deg={}", degrees)});
     const auto values = scenario_values(s);
     const auto pitch = std::find_if(values.begin(), values.end(),
-                                    [](const auto& v) { return v.first == "lidar.pitch_deg"; });
+                                    [](const auto& v) { return v.first == "lidars.0.pitch_deg"; });
     ASSERT_NE(pitch, values.end());
-    EXPECT_EQ(deg_to_rad(std::stod(pitch->second)), s.lidar.pitch_rad) << degrees;
+    EXPECT_EQ(deg_to_rad(std::stod(pitch->second)), s.lidars[0].pitch_rad) << degrees;
   }
 }
 
