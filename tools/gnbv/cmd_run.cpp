@@ -56,6 +56,7 @@ void add_run_command(CLI::App& app) {
   add_mission_options(*command, *options);
   command->add_option("--utility", options->utility, "utility by name");
   command->add_flag("--resume", options->resume, "continue the interrupted run in --out");
+  command->add_flag("--frames", options->frames, "also write what the cameras saw, to frames/");
   command->add_flag("--json", options->json, "print summary.json instead of a table");
   command->callback([options] { run(*options); });
 }

@@ -2,12 +2,14 @@
 
 #include <chrono>
 #include <csignal>
+#include <optional>
 #include <thread>
 
 #include "scenarios/load.hpp"
 #include "scenarios/problems.hpp"
 #include "sim/core/error.hpp"
 #include "tools/gnbv/progress.hpp"
+#include "tools/mission/frame_files.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/mission.hpp"
 #include "tools/mission/run_directory.hpp"
@@ -127,8 +129,14 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
   ProgressBar progress(fmt::format("{} {}", scenario.name, scenario.planner.utility.name),
                        options.quiet);
   try {
-    MissionResult result =
-        run_mission(scenario, world, scene, make_hooks(scenario, directory, progress), threads);
+    MissionHooks hooks = make_hooks(scenario, directory, progress);
+    std::optional<FrameFiles> frames;
+    if (options.frames) {
+      frames.emplace(directory.path() / "frames", camera_models(scenario));
+      hooks.on_frames = [&](const auto&... all) { frames->write(all...); };
+    }
+    MissionResult result = run_mission(scenario, world, scene, hooks, threads);
+    if (frames) frames->finish();
     const auto scoring = Clock::now();
     progress.show(1.0, "scoring");
     const SurfaceReference reference =

@@ -22,6 +22,7 @@ struct MissionOptions {
   int threads = 0;                     // 0 = as many as the machine has
   bool resume = false;
   bool quiet = false;
+  bool frames = false;  // also write frames/
 };
 
 /// runs/NAME, or runs/NAME-2 and so on: the first that does not exist.
