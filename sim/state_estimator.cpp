@@ -21,9 +21,7 @@ constexpr double kVioDriftPerPath = 0.01;
 constexpr double kVioHeading_rad_per_m = deg_to_rad(0.01);
 constexpr double kVioCorrelation_m = 100.0;
 
-Vec4 gnss_sigma() {
-  return {kGnssPosition_m, kGnssPosition_m, kGnssPosition_m, kGnssHeading_rad};
-}
+Vec4 gnss_sigma() { return {kGnssPosition_m, kGnssPosition_m, kGnssPosition_m, kGnssHeading_rad}; }
 
 Vec4 vio_sigma_per_m() {
   const double each_axis = kVioDriftPerPath / std::sqrt(3.0);

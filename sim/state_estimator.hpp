@@ -9,7 +9,8 @@ namespace gnbv {
 
 /// none: the truth, as the paper assumes.
 /// mocap: 1 mm and 0.1 deg (sigma, each axis), fresh at every tick.
-/// gnss: a position error of 0.5 m (sigma, each axis; EKF2_GPS_P_NOISE) and a heading error of 2 deg
+/// gnss: a position error of 0.5 m (sigma, each axis; EKF2_GPS_P_NOISE) and a heading error of 2
+/// deg
 ///   that wander as critically damped second-order Gauss-Markov processes of 0.05 rad/s (a
 ///   correlation time of some 40 s, own choice); the velocity error is the position error's
 ///   derivative. Both begin at their stationary law.

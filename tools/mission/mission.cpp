@@ -51,9 +51,9 @@ struct Mission {
   MissionResult out;
   std::unique_ptr<Flight> flight;
   History history;
-  ViewPose current;      // where the planner believes to be
-  Vec3 last_p_world_m;   // truth, one tick ago
-  double flown_m = 0.0;  // truth, since the start
+  ViewPose current;                 // where the planner believes to be
+  Vec3 last_p_world_m;              // truth, one tick ago
+  double flown_m = 0.0;             // truth, since the start
   double entropy_before_nat = 0.0;  // of the view at hand
   WallTimes view_wall;              // of the view at hand
 };
@@ -109,11 +109,11 @@ std::optional<Termination> scan_profile(Mission& m, ProfileScanner& scanner) {
   const std::vector<ProfileLeg> legs = bounding_box_profile(m.planner.navigation_m, m.current);
   for (std::size_t i = 0; i < legs.size(); ++i) {
     const bool scanning = legs[i].is_descent || (profiling.scan_in_transit && i > 0);
-    const double speed_m_s = legs[i].is_descent ? guidance.profile_speed_m_s : guidance.path_speed_m_s;
+    const double speed_m_s =
+        legs[i].is_descent ? guidance.profile_speed_m_s : guidance.path_speed_m_s;
     m.out.distance.profile_m += (legs[i].goal.p_world_m - m.current.p_world_m).norm();
-    const auto over =
-        fly_leg(m, legs[i].goal, speed_m_s,
-                [&](const Flight& flight) { scanner.tick(flight, scanning); });
+    const auto over = fly_leg(m, legs[i].goal, speed_m_s,
+                              [&](const Flight& flight) { scanner.tick(flight, scanning); });
     if (over) return over;
     m.hooks.on_profile(static_cast<double>(i + 1) / static_cast<double>(legs.size()));
     if (should_stop(m)) return Termination::interrupted;

@@ -18,8 +18,8 @@ std::vector<Isometry> spread_over(std::span<const Isometry> at_ticks, double dur
   for (std::size_t i = 1; i <= last; ++i) {
     const double tick = static_cast<double>(i) / static_cast<double>(last) * duration_s / kTick_s;
     const std::size_t before = std::min(static_cast<std::size_t>(tick), last - 1);
-    spread.push_back(interpolated(at_ticks[before], at_ticks[before + 1],
-                                  tick - static_cast<double>(before)));
+    spread.push_back(
+        interpolated(at_ticks[before], at_ticks[before + 1], tick - static_cast<double>(before)));
   }
   return spread;
 }
@@ -27,15 +27,16 @@ std::vector<Isometry> spread_over(std::span<const Isometry> at_ticks, double dur
 }  // namespace
 
 bool is_due(double rate_hz, std::int64_t tick) {
-  const auto count = [&](std::int64_t t) { return std::floor(static_cast<double>(t) * kTick_s * rate_hz); };
+  const auto count = [&](std::int64_t t) {
+    return std::floor(static_cast<double>(t) * kTick_s * rate_hz);
+  };
   return count(tick) != count(tick - 1);
 }
 
 DepthFrame sense_depth(const RayScene& scene, const CameraModel& camera, int camera_index,
                        const Flight& flight, std::uint64_t seed, int threads) {
-  DepthFrame frame =
-      capture_depth(scene, camera, camera_index, flight.state().T_world_body,
-                    {seed, static_cast<std::uint64_t>(flight.tick())}, threads);
+  DepthFrame frame = capture_depth(scene, camera, camera_index, flight.state().T_world_body,
+                                   {seed, static_cast<std::uint64_t>(flight.tick())}, threads);
   frame.T_world_camera = flight.estimate().T_world_body * camera.T_body_camera;
   return frame;
 }
@@ -72,9 +73,8 @@ void ProfileScanner::finish(std::size_t i) {
   if (sweep.T_world_body.size() > 1) {
     sweep.T_world_body = spread_over(sweep.T_world_body, sweep_duration_s(lidar));
   }
-  LidarScan scan =
-      capture_scan(scene_, lidar, static_cast<int>(i), sweep.T_world_body,
-                   {seed_, static_cast<std::uint64_t>(sweep.begin_tick)});
+  LidarScan scan = capture_scan(scene_, lidar, static_cast<int>(i), sweep.T_world_body,
+                                {seed_, static_cast<std::uint64_t>(sweep.begin_tick)});
   scan.T_world_lidar = sweep.T_world_body_believed * T_body_lidar(lidar);
   scans_.push_back(std::move(scan));
   sweep.T_world_body.clear();
