@@ -1,7 +1,5 @@
 #include "assets/lab_airplane.hpp"
 
-#include <utility>
-
 #include "assets/lab_airplane_parts.hpp"
 
 namespace gnbv {

@@ -1,4 +1,6 @@
 // Fuselage with its scoop, canopy and spinner.
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "assets/lab_airplane_parts.hpp"

@@ -62,11 +62,13 @@ constexpr double kSlot = 0.715, kShroud = 0.695;  // of the chord: the skin's ed
 constexpr double kNose = 0.728;                   // of a control surface
 constexpr std::size_t kPoints = 11;
 
-/// 2 kPoints points, as aerofoil_ring(); the last but one on each side is the edge of the skin.
+/// 2 kPoints points, as aerofoil_ring(); the last but one on each side is the edge of the skin, the
+/// others lie at the same fractions with and without a slot.
 Ring fixed_ring(const AerofoilSection& section, bool slotted) {
-  const double edge = slotted ? kSlot : 0.94;
   const auto at = [&](std::size_t k, double side) {
-    return aerofoil_point_m(section, edge * chord_fraction(k, kPoints - 1), side);
+    const double edge = slotted ? kSlot : 0.94;
+    const double s = k + 1 < kPoints ? 0.64 * chord_fraction(k, kPoints - 2) : edge;
+    return aerofoil_point_m(section, s, side);
   };
   Ring ring = {section.leading_edge_m};
   for (std::size_t k = 1; k < kPoints; ++k) ring.push_back(at(k, 1.0));

@@ -1,6 +1,5 @@
 #include "assets/lab_model.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -1,5 +1,6 @@
 #include "assets/lab_shapes.hpp"
 
+#include <array>
 #include <cmath>
 
 #include "sim/core/error.hpp"
@@ -24,11 +25,6 @@ Vec3 tangent(const std::vector<TubePoint>& path, std::size_t i) {
 }
 
 }  // namespace
-
-Part moved(Part part, const Isometry& T_world_part) {
-  for (Vec3& p : part.points_m) p = T_world_part * p;
-  return part;
-}
 
 Part box(const Isometry& T_world_box, const Vec3& size_m, std::uint16_t material) {
   return loft({rectangle(T_world_box, size_m.x(), size_m.y(), 0.0),

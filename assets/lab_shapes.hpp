@@ -1,15 +1,13 @@
 // Bodies that both lab structures are put together from: boxes, boards and tubes in any attitude.
 #pragma once
 
-#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "assets/mesh_builder.hpp"
 
 namespace gnbv {
-
-/// Any rigid motion of a part.
-Part moved(Part part, const Isometry& T_world_part);
 
 /// Box of `size_m` whose bottom's middle is the frame's origin.
 Part box(const Isometry& T_world_box, const Vec3& size_m, std::uint16_t material);
