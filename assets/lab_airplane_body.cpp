@@ -11,7 +11,7 @@ namespace gnbv::lab_airplane {
 namespace {
 
 constexpr std::size_t kHalfSides = 16;
-constexpr double kCowlFront_m = -1.80, kTail_m = 1.935;
+constexpr double kCowlFront_m = -1.803, kTail_m = 1.935;
 constexpr double kCowlEnd_m = -1.13, kAntiGlareEnd_m = -0.86;
 
 double height_fraction(std::size_t side) {  // of the middle of a side, -1 lowest, 1 highest
@@ -28,7 +28,7 @@ Paint fuselage_paint(double y_m, double height) {
 }
 
 Part fuselage() {
-  const MonotoneCurve half_width_m({{-1.80, 0.132},
+  const MonotoneCurve half_width_m({{-1.803, 0.132},
                                     {-1.55, 0.168},
                                     {-1.20, 0.192},
                                     {-0.60, 0.208},
@@ -38,14 +38,14 @@ Part fuselage() {
                                     {1.40, 0.088},
                                     {1.75, 0.050},
                                     {1.935, 0.018}});
-  const MonotoneCurve top_m({{-1.80, 0.658},
+  const MonotoneCurve top_m({{-1.803, 0.658},
                              {-1.55, 0.679},
                              {-1.00, 0.697},
                              {0.50, 0.703},
                              {1.00, 0.690},
                              {1.50, 0.662},
                              {1.935, 0.637}});
-  const MonotoneCurve bottom_m({{-1.80, 0.392},
+  const MonotoneCurve bottom_m({{-1.803, 0.392},
                                 {-1.55, 0.352},
                                 {-1.10, 0.322},
                                 {-0.50, 0.304},
@@ -95,14 +95,15 @@ constexpr double kFairingBegin_m = 0.575;  // the canopy ends in a painted fairi
 
 /// A tandem bubble with frames that stand out of the glass; its sill is inside the fuselage.
 Part canopy() {
-  const MonotoneCurve half_width_m({{-1.00, 0.085},
+  constexpr double kBegin_m = -1.003, kEnd_m = 1.083;
+  const MonotoneCurve half_width_m({{kBegin_m, 0.085},
                                     {-0.72, 0.142},
                                     {-0.40, 0.158},
                                     {0.10, 0.158},
                                     {0.50, 0.132},
                                     {0.80, 0.090},
-                                    {1.08, 0.045}});
-  const MonotoneCurve top_m({{-1.00, 0.668},
+                                    {kEnd_m, 0.045}});
+  const MonotoneCurve top_m({{kBegin_m, 0.668},
                              {-0.86, 0.742},
                              {-0.72, 0.805},
                              {-0.45, 0.858},
@@ -110,7 +111,7 @@ Part canopy() {
                              {0.30, 0.862},
                              {0.60, 0.801},
                              {0.85, 0.733},
-                             {1.08, 0.672}});
+                             {kEnd_m, 0.672}});
   constexpr double kKeel_m = 0.592, kSill_m = 0.642, kProud_m = 0.006, kRamp_m = 0.004;
   constexpr std::size_t kArc = 12;
   const auto ring_at = [&](double y_m, double proud_m) {
@@ -130,11 +131,11 @@ Part canopy() {
     stations_m.push_back(y_m);
     rings.push_back(ring_at(y_m, proud_m));
   };
-  double from_m = -1.00;
+  double from_m = kBegin_m;
+  add(from_m, 0.0);
   const auto add_glass = [&](double to_m) {
     const int steps = std::max(1, static_cast<int>((to_m - from_m) / 0.06));
-    for (int i = from_m > -1.0 ? 1 : 0; i < steps; ++i)
-      add(from_m + (to_m - from_m) * i / steps, 0.0);
+    for (int i = 1; i < steps; ++i) add(from_m + (to_m - from_m) * i / steps, 0.0);
   };
   for (const Band& frame : kFrames) {
     add_glass(frame.begin_m - kRamp_m);
@@ -144,8 +145,8 @@ Part canopy() {
     from_m = frame.end_m + kRamp_m;
     add(from_m, 0.0);
   }
-  add_glass(1.08);
-  add(1.08, 0.0);
+  add_glass(kEnd_m);
+  add(kEnd_m, 0.0);
 
   const auto paint = [&](std::size_t ring, std::size_t) -> std::uint16_t {
     if (ring + 1 >= stations_m.size()) return kSkinWhite;
@@ -154,7 +155,7 @@ Part canopy() {
       if (y_m > frame.begin_m - kRamp_m && y_m < frame.end_m + kRamp_m) return kCanopyFrame;
     return y_m > kFairingBegin_m ? kSkinWhite : kGlass;
   };
-  return loft(rings, {Vec3(0.0, -1.0, 0.63)}, {Vec3(0.0, 1.08, 0.63)}, paint);
+  return loft(rings, {Vec3(0.0, kBegin_m, 0.63)}, {Vec3(0.0, kEnd_m, 0.63)}, paint);
 }
 
 }  // namespace

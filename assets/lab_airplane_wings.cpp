@@ -15,17 +15,17 @@ struct Row {
   double span_m, leading_y_m, trailing_y_m, z_m, half_thickness_m, camber_m;
 };
 
-constexpr std::array<Row, 5> kWing = {{{0.080, -0.560, 0.120, 0.353, 0.047, 0.009},
+constexpr std::array<Row, 5> kWing = {{{0.063, -0.564, 0.120, 0.353, 0.047, 0.009},
                                        {0.240, -0.528, 0.104, 0.364, 0.043, 0.009},
                                        {1.380, -0.378, -0.010, 0.449, 0.021, 0.005},
                                        {1.455, -0.338, -0.020, 0.456, 0.016, 0.003},
                                        {1.497, -0.262, -0.045, 0.462, 0.006, 0.000}}};
-constexpr std::array<Row, 4> kTailplane = {{{0.020, 1.405, 1.835, 0.6120, 0.021, 0.0},
+constexpr std::array<Row, 4> kTailplane = {{{0.023, 1.405, 1.835, 0.6120, 0.021, 0.0},
                                             {0.100, 1.432, 1.840, 0.6155, 0.020, 0.0},
                                             {0.555, 1.588, 1.861, 0.6310, 0.011, 0.0},
                                             {0.603, 1.655, 1.848, 0.6325, 0.004, 0.0}}};
 constexpr std::array<Row, 4> kFin = {{{0.595, 1.290, 1.917, 0.0, 0.027, 0.0},
-                                      {0.690, 1.376, 1.941, 0.0, 0.025, 0.0},
+                                      {0.693, 1.376, 1.941, 0.0, 0.025, 0.0},
                                       {0.955, 1.617, 1.997, 0.0, 0.014, 0.0},
                                       {0.997, 1.724, 1.975, 0.0, 0.005, 0.0}}};
 
@@ -166,11 +166,11 @@ Part blade(const std::vector<Row>& rows, Paint paint) {
 }  // namespace
 
 std::vector<Part> wings() {
-  std::vector<Station> stations = {{0.08, false}};
+  std::vector<Station> stations = {{0.063, false}};
   add_bay(stations, 0.242, 0.858);  // flap
   add_bay(stations, 0.902, 1.362);  // aileron
   for (const double x_m : {1.410, 1.455, 1.482, 1.497}) stations.push_back({x_m, false});
-  std::vector<Station> tail_stations = {{0.02, false}};
+  std::vector<Station> tail_stations = {{0.023, false}};
   add_bay(tail_stations, 0.092, 0.528);
   for (const double x_m : {0.555, 0.583, 0.603}) tail_stations.push_back({x_m, false});
   return {fixed_surface(kWing, stations, Kind::wing, kWingSkin),
@@ -182,12 +182,12 @@ std::vector<Part> wings() {
 
 std::vector<Part> centre_fins() {
   std::vector<Station> stations = {{0.595, false}};
-  add_bay(stations, 0.682, 0.942);
+  add_bay(stations, 0.685, 0.942);
   for (const double z_m : {0.965, 0.985, 0.997}) stations.push_back({z_m, false});
   std::vector<Part> parts = {fixed_surface(kFin, stations, Kind::fin, kTailStripes),
-                             control_surface(kFin, 0.690, 0.934, Kind::fin, 0.0, kControlSurface),
+                             control_surface(kFin, 0.693, 0.934, Kind::fin, 0.0, kControlSurface),
                              // the strakes before the fin and under the tail
-                             blade({{0.640, 0.94, 1.70, 0.0, 0.013, 0.0},
+                             blade({{0.643, 0.94, 1.70, 0.0, 0.013, 0.0},
                                     {0.716, 1.09, 1.70, 0.0, 0.011, 0.0},
                                     {0.757, 1.31, 1.70, 0.0, 0.009, 0.0},
                                     {0.793, 1.45, 1.70, 0.0, 0.007, 0.0}},
@@ -199,8 +199,9 @@ std::vector<Part> centre_fins() {
   struct Antenna {
     double y_m, root_z_m, tip_z_m, chord_m;
   };
-  for (const Antenna& at : {Antenna{-1.05, 0.665, 0.752, 0.075}, Antenna{-0.86, 0.34, 0.243, 0.065},
-                            Antenna{0.42, 0.345, 0.232, 0.070}}) {
+  for (const Antenna& at :
+       {Antenna{-1.05, 0.665, 0.752, 0.075}, Antenna{-0.86, 0.343, 0.243, 0.065},
+        Antenna{0.42, 0.345, 0.232, 0.070}}) {
     parts.push_back(blade(
         {{at.root_z_m, at.y_m, at.y_m + at.chord_m, 0.0, 0.008, 0.0},
          {at.tip_z_m, at.y_m + 0.6 * at.chord_m, at.y_m + 1.05 * at.chord_m, 0.0, 0.005, 0.0}},
