@@ -24,9 +24,9 @@ AttitudeSetpoint position_loop(const AutopilotParameters& parameters,
 
 RotorCommands rate_loop(const AutopilotParameters& parameters, const AirframeParameters& airframe,
                         RateControlMemory& memory, const Vec3& omega_body_rad_s,
-                        const Vec3& omega_setpoint_body_rad_s, double thrust, double dt_s) {
+                        const Vec3& omega_setpoint_body_rad_s, double thrust) {
   const Vec3 torque =
-      rate_control(parameters, memory, omega_body_rad_s, omega_setpoint_body_rad_s, dt_s);
+      rate_control(parameters, memory, omega_body_rad_s, omega_setpoint_body_rad_s, kRateStep_s);
   const MixerOutput mixed = mix(airframe, torque, thrust);
   for (int i = 0; i < 3; ++i) {
     const double missing = torque[i] - mixed.torque[i];
@@ -34,19 +34,6 @@ RotorCommands rate_loop(const AutopilotParameters& parameters, const AirframePar
     memory.saturation[i] = missing > kRounding ? 1 : (missing < -kRounding ? -1 : 0);
   }
   return mixed.commands;
-}
-
-RotorCommands autopilot(const AutopilotParameters& parameters, const AirframeParameters& airframe,
-                        AutopilotMemory& memory, std::int64_t tick, const VehicleState& state,
-                        const Setpoint& setpoint) {
-  if (tick % kTicksPerPositionLoop == 0) {
-    memory.attitude_setpoint = position_loop(parameters, airframe, full_envelope(parameters),
-                                             memory.position, state, setpoint);
-  }
-  const Vec3 omega_setpoint = attitude_control(
-      parameters, Eigen::Quaterniond(state.T_world_body.linear()), memory.attitude_setpoint);
-  return rate_loop(parameters, airframe, memory.rate, state.omega_body_rad_s, omega_setpoint,
-                   memory.attitude_setpoint.thrust, kTick_s);
 }
 
 }  // namespace gnbv

@@ -1,4 +1,5 @@
-// The PX4 cascade: setpoint and state in, rotor commands out.
+// The PX4 cascade around the controllers: from setpoint to attitude, and from body rate to rotor
+// commands.
 #pragma once
 
 #include "sim/attitude_control.hpp"
@@ -6,16 +7,9 @@
 
 namespace gnbv {
 
-/// Position and velocity loops at 50 Hz, attitude, rate and mixer at every 4 ms tick (250 Hz is
-/// what Gazebo's lockstep yields).
+/// Position and velocity loops at 50 Hz, attitude at every 4 ms tick, rate and mixer at 1 kHz.
 constexpr int kTicksPerPositionLoop = 5;
 constexpr double kPositionLoop_s = kTicksPerPositionLoop * kTick_s;
-
-struct AutopilotMemory {
-  PositionControlMemory position;
-  RateControlMemory rate;
-  AttitudeSetpoint attitude_setpoint;
-};
 
 /// The limits of the position loop that a phase of flight narrows. A climb limit below zero asks
 /// for a descent at that speed at least.
@@ -26,21 +20,16 @@ struct FlightEnvelope {
 };
 FlightEnvelope full_envelope(const AutopilotParameters& parameters);
 
-/// Position and velocity loops. The state estimate is the truth. Hover thrust is the true hover
-/// command, held constant: PX4's hover thrust estimator would converge to it.
+/// Position and velocity loops. Hover thrust is the true hover command, held constant: PX4's hover
+/// thrust estimator would converge to it.
 AttitudeSetpoint position_loop(const AutopilotParameters& parameters,
                                const AirframeParameters& airframe, const FlightEnvelope& envelope,
                                PositionControlMemory& memory, const VehicleState& state,
                                const Setpoint& setpoint);
 
-/// Rate loop and mixer, `dt_s` after the last.
+/// Rate loop and mixer, kRateStep_s after the last.
 RotorCommands rate_loop(const AutopilotParameters& parameters, const AirframeParameters& airframe,
                         RateControlMemory& memory, const Vec3& omega_body_rad_s,
-                        const Vec3& omega_setpoint_body_rad_s, double thrust, double dt_s);
-
-/// One tick of the whole cascade in free flight. `tick` counts from the start.
-RotorCommands autopilot(const AutopilotParameters& parameters, const AirframeParameters& airframe,
-                        AutopilotMemory& memory, std::int64_t tick, const VehicleState& state,
-                        const Setpoint& setpoint);
+                        const Vec3& omega_setpoint_body_rad_s, double thrust);
 
 }  // namespace gnbv

@@ -51,7 +51,7 @@ NavState Px4::intention() const { return intention_; }
 bool Px4::is_armed() const { return is_armed_; }
 bool Px4::is_landed() const { return land_.is_landed; }
 bool Px4::is_in_failsafe() const { return is_in_failsafe_; }
-const AttitudeSetpoint& Px4::attitude_setpoint() const { return autopilot_.attitude_setpoint; }
+const AttitudeSetpoint& Px4::attitude_setpoint() const { return attitude_setpoint_; }
 std::vector<StatusText> Px4::take_messages() { return std::exchange(messages_, {}); }
 
 void Px4::say(int severity, std::string text) { messages_.push_back({severity, std::move(text)}); }
@@ -72,16 +72,18 @@ RotorSpeeds Px4::step(const VehicleState& estimate) {
   detect_landing();
   disarm_when_due();
   ++tick_;
-  if (!is_armed_ || nav_state_ == NavState::terminate) return {};
+  omega_setpoint_body_rad_s_ = attitude_control(
+      parameters_, Eigen::Quaterniond(estimate.T_world_body.linear()), attitude_setpoint_);
+  return rate_step(estimate.omega_body_rad_s);
+}
 
-  const Vec3 integral = autopilot_.rate.integral;
-  const Vec3 omega_setpoint =
-      attitude_control(parameters_, Eigen::Quaterniond(estimate.T_world_body.linear()),
-                       autopilot_.attitude_setpoint);
+RotorSpeeds Px4::rate_step(const Vec3& omega_body_rad_s) {
+  if (!is_armed_ || nav_state_ == NavState::terminate) return {};
+  const Vec3 integral = rate_.integral;
   const RotorCommands commands =
-      rate_loop(parameters_, airframe_, autopilot_.rate, estimate.omega_body_rad_s, omega_setpoint,
-                autopilot_.attitude_setpoint.thrust, kTick_s);
-  if (land_.is_maybe_landed) autopilot_.rate.integral = integral;  // the ground holds it, not we
+      rate_loop(parameters_, airframe_, rate_, omega_body_rad_s, omega_setpoint_body_rad_s_,
+                attitude_setpoint_.thrust);
+  if (land_.is_maybe_landed) rate_.integral = integral;  // the ground holds it, not we
   return reference_speeds(airframe_, commands);
 }
 
@@ -113,13 +115,13 @@ void Px4::run_position_loop() {
   tilt_limit_rad_ += std::clamp(tilt_aim_rad - tilt_limit_rad_, -kTiltStep_rad, kTiltStep_rad);
 
   if (nav_state_ == NavState::terminate) {
-    autopilot_.attitude_setpoint = idle(estimate_, 0.0);
+    attitude_setpoint_ = idle(estimate_, 0.0);
     return;
   }
   const double thrust_min = is_flying ? parameters_.thrust_min : kRampThrustMin;
   if (takeoff_.phase < TakeoffPhase::ramp || (is_flying && land_.has_ground_contact)) {
-    autopilot_.position.integral_m_s2.setZero();
-    autopilot_.attitude_setpoint = idle(estimate_, is_flying ? thrust_min : 0.0);
+    position_.integral_m_s2.setZero();
+    attitude_setpoint_ = idle(estimate_, is_flying ? thrust_min : 0.0);
     return;
   }
   const double climb_m_s =
@@ -129,15 +131,15 @@ void Px4::run_position_loop() {
   const FlightEnvelope envelope{climb_limit_m_s(takeoff_, airframe_.gravity_m_s2,
                                                 parameters_.velocity_p_per_s.z(), climb_m_s),
                                 tilt_limit_rad_, thrust_min};
-  autopilot_.attitude_setpoint =
-      position_loop(parameters_, airframe_, envelope, autopilot_.position, estimate_, setpoint_);
+  attitude_setpoint_ =
+      position_loop(parameters_, airframe_, envelope, position_, estimate_, setpoint_);
 }
 
 void Px4::detect_landing() {
   const LandEvidence evidence{
       .is_armed = is_armed_,
       .is_told_to_descend = asks_for_descent(setpoint_) || nav_state_ == NavState::terminate,
-      .thrust = autopilot_.attitude_setpoint.thrust,
+      .thrust = attitude_setpoint_.thrust,
       .thrust_min = parameters_.thrust_min,
       .hover_thrust = hover_command(airframe_)};
   const bool was_landed = land_.is_landed;

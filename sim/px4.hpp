@@ -62,6 +62,8 @@ class Px4 {
 
   /// Advances one tick: rotor references, 0 when disarmed.
   RotorSpeeds step(const VehicleState& estimate);
+  /// The rate loop alone, for the other kRateStepsPerTick - 1 steps within the tick.
+  RotorSpeeds rate_step(const Vec3& omega_body_rad_s);
 
   std::int64_t tick() const;
   NavState nav_state() const;  // what runs
@@ -111,7 +113,10 @@ class Px4 {
   LandDetector land_ = kOnGround;
   Setpoint setpoint_;  // what is flown now
   double tilt_limit_rad_ = 0.0;
-  AutopilotMemory autopilot_;
+  PositionControlMemory position_;
+  AttitudeSetpoint attitude_setpoint_;
+  Vec3 omega_setpoint_body_rad_s_ = Vec3::Zero();
+  RateControlMemory rate_;
   std::vector<StatusText> messages_;
 };
 

@@ -109,7 +109,8 @@ Ack Px4::arm(bool armed, bool force) {
   has_flown_ = false;
   landed_ticks_ = 0;
   home_world_m_ = estimate_.T_world_body.translation().head<2>();
-  autopilot_ = {};
+  position_ = {};
+  rate_ = {};
   say(6, "Armed");
   choose_mode();
   return Ack::accepted;

@@ -1,5 +1,7 @@
 #include "sim/quadrotor.hpp"
 
+#include <utility>
+
 #include "sim/core/error.hpp"
 
 namespace gnbv {
@@ -54,7 +56,10 @@ double Quadrotor::power_w() const {
 }
 
 void Quadrotor::step() {
-  vehicle_.step(px4_.step(estimate_));
+  bool is_first = true;
+  vehicle_.step([&](const Vec3& omega_body_rad_s) {
+    return std::exchange(is_first, false) ? px4_.step(estimate_) : px4_.rate_step(omega_body_rad_s);
+  });
   estimate_ = estimator_.step(vehicle_.state());
   energy_j_ += kTick_s * power_w();
 }

@@ -53,6 +53,8 @@ struct RigidVehicle::Scene {
   void add_static(btCollisionShape* shape);
   /// Notes what the hull touches, and takes away the part of the velocity that leads into it.
   Vec3 feel_contacts(const Vec3& v_world_m_s);
+  /// Turns the rotors through one tick; their mean wrench.
+  Wrench turn_rotors(const RateControl& control);
   /// Angular velocity, in world axes, of a body at attitude R with this angular momentum.
   Vec3 omega_world(const Eigen::Matrix3d& R_world_body, const Vec3& L_world) const {
     return R_world_body *
@@ -179,13 +181,37 @@ double RigidVehicle::thrust_n() const { return scene_->thrust_n; }
 bool RigidVehicle::has_touched_structure() const { return scene_->has_touched_structure; }
 bool RigidVehicle::has_touched_ground() const { return scene_->has_touched_ground; }
 
+Wrench RigidVehicle::Scene::turn_rotors(const RateControl& control) {
+  const Vec3 v_body_m_s = state.T_world_body.linear().transpose() * state.v_world_m_s;
+  Vec3 omega = state.omega_body_rad_s;
+  Wrench mean;
+  for (int k = 0; k < kRateStepsPerTick; ++k) {
+    const RotorSpeeds reference_rad_s = control(omega);
+    const Wrench wrench = rotor_wrench(airframe, speeds_rad_s, v_body_m_s, omega);
+    mean.force_body_n += wrench.force_body_n / kRateStepsPerTick;
+    mean.torque_body_n_m += wrench.torque_body_n_m / kRateStepsPerTick;
+    mean.thrust_n += wrench.thrust_n / kRateStepsPerTick;
+    const Vec3 L_body = airframe.inertia_kg_m2.cwiseProduct(omega);
+    omega += kRateStep_s * (wrench.torque_body_n_m - omega.cross(L_body))
+                               .cwiseQuotient(airframe.inertia_kg_m2);
+    for (std::size_t i = 0; i < kRotors; ++i) {
+      speeds_rad_s[i] =
+          rotor_speed_after(airframe, speeds_rad_s[i], reference_rad_s[i], kRateStep_s);
+    }
+  }
+  return mean;
+}
+
 void RigidVehicle::step(const RotorSpeeds& reference_rad_s) {
+  step([&](const Vec3&) { return reference_rad_s; });
+}
+
+void RigidVehicle::step(const RateControl& control) {
   Scene& s = *scene_;
   const Eigen::Matrix3d R0 = s.state.T_world_body.linear();
   const Vec3 omega0_world = R0 * s.state.omega_body_rad_s;
 
-  const Wrench wrench = rotor_wrench(
-      s.airframe, s.speeds_rad_s, R0.transpose() * s.state.v_world_m_s, s.state.omega_body_rad_s);
+  const Wrench wrench = s.turn_rotors(control);
   const Vec3 a_world =
       R0 * wrench.force_body_n / s.airframe.mass_kg - s.airframe.gravity_m_s2 * Vec3::UnitZ();
   const Vec3 torque_world = R0 * wrench.torque_body_n_m;
@@ -214,10 +240,6 @@ void RigidVehicle::step(const RotorSpeeds& reference_rad_s) {
   const Eigen::Matrix3d R1 = s.state.T_world_body.linear();
   s.state.omega_body_rad_s = R1.transpose() * s.omega_world(R1, s.angular_momentum_world_n_m_s);
   s.thrust_n = wrench.thrust_n;
-  for (std::size_t i = 0; i < kRotors; ++i) {
-    s.speeds_rad_s[i] =
-        rotor_speed_after(s.airframe, s.speeds_rad_s[i], reference_rad_s[i], kTick_s);
-  }
   GNBV_CHECK(s.state.T_world_body.matrix().allFinite() && s.state.v_world_m_s.allFinite() &&
                  s.state.omega_body_rad_s.allFinite() &&
                  std::isfinite(s.speeds_rad_s[0] + s.speeds_rad_s[1] + s.speeds_rad_s[2] +
