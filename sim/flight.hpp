@@ -16,6 +16,9 @@ namespace gnbv {
 /// Physics and control tick: 4 ms, as Gazebo's worlds/empty.world. Time is a count of ticks.
 constexpr std::int64_t kTicksPerSecond = 250;
 constexpr double kTick_s = 1.0 / static_cast<double>(kTicksPerSecond);
+/// Within a tick, the rate loop and the rotors run at 1 kHz.
+constexpr int kRateStepsPerTick = 4;
+constexpr double kRateStep_s = kTick_s / kRateStepsPerTick;
 
 /// PX4's TrajectorySetpoint in our world frame (ENU, FLU): NaN means "not controlled".
 /// Position together with velocity uses the velocity as feed-forward, likewise the acceleration.

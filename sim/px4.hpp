@@ -7,30 +7,18 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "sim/auto_modes.hpp"
 #include "sim/autopilot.hpp"
+#include "sim/failsafe.hpp"
+#include "sim/land_detector.hpp"
+#include "sim/takeoff.hpp"
 
 namespace gnbv {
-
-/// PX4's navigation states. There is no remote control here, so the modes that need one (manual to
-/// position) can be asked for, but cannot run: Commander falls back from them.
-enum class NavState {
-  manual,
-  stabilized,
-  altitude,
-  position,
-  hold,  // AUTO_LOITER
-  mission,
-  rtl,
-  takeoff,
-  land,
-  descend,
-  offboard,
-  terminate
-};
-std::string_view name_of(NavState state);
 
 /// MAV_RESULT.
 enum class Ack : std::uint8_t {
@@ -74,6 +62,8 @@ class Px4 {
 
   /// Advances one tick: rotor references, 0 when disarmed.
   RotorSpeeds step(const VehicleState& estimate);
+  /// The rate loop alone, for the other kRateStepsPerTick - 1 steps within the tick.
+  RotorSpeeds rate_step(const Vec3& omega_body_rad_s);
 
   std::int64_t tick() const;
   NavState nav_state() const;  // what runs
@@ -81,8 +71,53 @@ class Px4 {
   bool is_armed() const;
   bool is_landed() const;
   bool is_in_failsafe() const;
+  /// What the position loop asks of the attitude loop.
+  const AttitudeSetpoint& attitude_setpoint() const;
   /// What was said since the last call, oldest first.
   std::vector<StatusText> take_messages();
+
+ private:
+  double offboard_silence_s() const;
+  Health health() const;
+  void say(int severity, std::string text);
+  void disarm();
+  void disarm_when_due();
+  void choose_mode();
+  void enter(NavState mode);
+  bool wants_takeoff() const;
+  Setpoint setpoint_to_fly();
+  void run_position_loop();
+  void detect_landing();
+
+  AutopilotParameters parameters_;
+  AirframeParameters airframe_;
+  std::int64_t tick_ = 0;
+  VehicleState estimate_;
+
+  NavState intention_ = NavState::hold;
+  NavState intention_after_disarming_ = NavState::hold;
+  NavState nav_state_ = NavState::hold;
+  bool is_in_failsafe_ = false;
+  bool is_armed_ = false;
+  bool has_flown_ = false;  // since arming
+  std::int64_t landed_ticks_ = 0;
+  Eigen::Vector2d home_world_m_ = Eigen::Vector2d::Zero();  // where it was armed
+
+  Setpoint offboard_setpoint_;
+  bool is_offboard_setpoint_valid_ = true;
+  std::optional<std::int64_t> heartbeat_tick_;
+
+  double takeoff_altitude_m_ = 0.0;
+  AutoFlight auto_;
+  Takeoff takeoff_;
+  LandDetector land_ = kOnGround;
+  Setpoint setpoint_;  // what is flown now
+  double tilt_limit_rad_ = 0.0;
+  PositionControlMemory position_;
+  AttitudeSetpoint attitude_setpoint_;
+  Vec3 omega_setpoint_body_rad_s_ = Vec3::Zero();
+  RateControlMemory rate_;
+  std::vector<StatusText> messages_;
 };
 
 }  // namespace gnbv

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "sim/vehicle.hpp"
+#include "tests/support/streaming_flight.hpp"
 
 namespace gnbv {
 namespace {
@@ -20,7 +21,7 @@ double tilt_rad(const VehicleState& state) {
 }
 
 std::unique_ptr<Flight> flight_from(const ViewPose& start) {
-  return make_flight(kConfig, World{}, start);
+  return streaming(make_flight(kConfig, World{}, start, 1));
 }
 
 Setpoint position(const Vec3& p_world_m, double yaw_rad) {
@@ -111,17 +112,28 @@ TEST(Autopilot, StepsToAllSidesAreAlike) {
 }
 
 TEST(Autopilot, HoversAtTheHoverCommand) {
-  AutopilotMemory memory;
   VehicleState start;
   start.T_world_body = T_world_body(kStart);
   RotorSpeeds hover{};
   hover.fill(hover_speed_rad_s(kConfig.airframe));
   RigidVehicle vehicle(kConfig.airframe, World{}, start, hover);
-  for (std::int64_t tick = 0; tick < 2500; ++tick) {
-    const RotorCommands commands = autopilot(kConfig.autopilot, kConfig.airframe, memory, tick,
-                                             vehicle.state(), position(kStart.p_world_m, 0.0));
-    for (const double command : commands) ASSERT_NEAR(command, 0.7067, 1e-3);
-    vehicle.step(reference_speeds(kConfig.airframe, commands));
+  PositionControlMemory position_memory;
+  RateControlMemory rate_memory;
+  for (int i = 0; i < 500; ++i) {
+    const AttitudeSetpoint attitude = position_loop(
+        kConfig.autopilot, kConfig.airframe, full_envelope(kConfig.autopilot), position_memory,
+        vehicle.state(), position(kStart.p_world_m, 0.0));
+    for (int tick = 0; tick < kTicksPerPositionLoop; ++tick) {
+      const Vec3 omega_setpoint = attitude_control(
+          kConfig.autopilot, Eigen::Quaterniond(vehicle.state().T_world_body.linear()), attitude);
+      vehicle.step([&](const Vec3& omega_body_rad_s) {
+        const RotorCommands commands =
+            rate_loop(kConfig.autopilot, kConfig.airframe, rate_memory, omega_body_rad_s,
+                      omega_setpoint, attitude.thrust);
+        for (const double command : commands) EXPECT_NEAR(command, 0.7067, 1e-3);
+        return reference_speeds(kConfig.airframe, commands);
+      });
+    }
   }
   // trim is exact: only rounding moves it
   EXPECT_NEAR((vehicle.state().T_world_body.translation() - kStart.p_world_m).norm(), 0.0, 1e-9);
