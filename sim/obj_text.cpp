@@ -130,13 +130,16 @@ class ObjReader {
     for (std::size_t i = 0; i < 3; ++i) {
       const auto value = i < values.size() ? number_of(values[i]) : std::nullopt;
       if (!value) fail(line_, fmt::format("vertex {} has no three coordinates", next_vertex()));
-      if (!std::isfinite(*value)) {
-        fail(line_, fmt::format("vertex {} has the coordinate {}", next_vertex(), values[i]));
+      if (!std::isfinite(*value) && out_.not_finite.empty()) {
+        out_.not_finite = fmt::format("{}:{}: vertex {} has the coordinate {}", path_.string(),
+                                      line_, next_vertex(), values[i]);
       }
       p[static_cast<Eigen::Index>(i)] = *value;
     }
-    fmt::format_to(std::back_inserter(out_.text), "v {} {} {}\nvt {} {}\n", p.x(), p.y(), p.z(),
-                   out_.vertices.size() % kObjNumberBase, out_.vertices.size() / kObjNumberBase);
+    const Vec3 shown = p.allFinite() ? p : Vec3::Zero();
+    fmt::format_to(std::back_inserter(out_.text), "v {} {} {}\nvt {} {}\n", shown.x(), shown.y(),
+                   shown.z(), out_.vertices.size() % kObjNumberBase,
+                   out_.vertices.size() / kObjNumberBase);
     out_.vertices.push_back(p);
   }
 
@@ -153,6 +156,7 @@ class ObjReader {
     }
     if (values.size() < 3) return unreadable_.add(line_);
     out_.text += face + '\n';
+    ++out_.face_count;
   }
 
   void use_material(const std::string& name) { out_.text += "usemtl " + name + '\n'; }
