@@ -225,8 +225,8 @@ void check_file(const std::string& path) {
   }
 }
 
-const aiScene& import(Assimp::Importer& importer, const MeshFileConfig& config,
-                      const ObjText* obj) {
+const aiScene& imported_scene(Assimp::Importer& importer, const MeshFileConfig& config,
+                              const ObjText* obj) {
   const std::string extension = extension_of(config.path);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, config.up_axis != "auto");
   // without meshes some importers would make up one from the bones
@@ -236,8 +236,9 @@ const aiScene& import(Assimp::Importer& importer, const MeshFileConfig& config,
                                                                  aiProcess_Triangulate, "obj")
                                    : importer.ReadFile(config.path, aiProcess_Triangulate);
   if (scene == nullptr || scene->mRootNode == nullptr) {
-    throw BadInput(fmt::format("{}: cannot be read as {}: {}", config.path, extension,
-                               importer.GetErrorString()));
+    throw BadInput(
+        fmt::format("{}: cannot be read as {}, it may be damaged or of another format ({})",
+                    config.path, extension, importer.GetErrorString()));
   }
   return *scene;
 }
@@ -259,7 +260,7 @@ MeshReading read_mesh(const MeshFileConfig& config) {
     obj = read_obj_text(config.path, read_file(config.path), reading.warnings);
     if (obj.face_count == 0) throw BadInput(fmt::format("{}: holds no faces", config.path));
   }
-  const aiScene& scene = import(importer, config, is_obj ? &obj : nullptr);
+  const aiScene& scene = imported_scene(importer, config, is_obj ? &obj : nullptr);
   const DeclaredAxes declared = declared_by(config.path, scene);
   reading.declared_unit_m = declared.unit_m;
   reading.declared_up_axis = declared.up_axis;

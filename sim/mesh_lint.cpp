@@ -114,10 +114,10 @@ double area_below_m2(const TriangleMesh& mesh, std::size_t face, double z_m) {
 }
 
 std::optional<char> likely_up_axis(const TriangleMesh& mesh) {
-  constexpr double kNearZero = 0.02;     // of the largest extent
-  constexpr double kLayer = 0.01;        // of it, above the lower end
-  constexpr double kMinContact = 0.05;   // of the area
-  constexpr double kDominance = 3.0;     // over the other axes
+  constexpr double kNearZero = 0.02;    // of the largest extent
+  constexpr double kLayer = 0.01;       // of it, above the lower end
+  constexpr double kMinContact = 0.05;  // of the area
+  constexpr double kDominance = 3.0;    // over the other axes
   Box3 box;
   double area = 0.0;
   std::vector<std::pair<Box3, double>> faces;
@@ -154,6 +154,7 @@ std::optional<char> likely_up_axis(const TriangleMesh& mesh) {
 MeshLint lint_mesh(const TriangleMesh& mesh) {
   MeshLint out;
   const std::vector<std::uint32_t> first = joined(mesh.vertices_m);
+  out.is_sound.assign(mesh.faces.size(), false);
   out.is_two_sided.assign(mesh.faces.size(), false);
   std::vector<bool> is_used(mesh.vertices_m.size(), false);
   std::vector<SortedFace> sound;
@@ -174,6 +175,7 @@ MeshLint lint_mesh(const TriangleMesh& mesh) {
     } else if (is_flat(mesh, i)) {
       ++out.flat_faces;
     } else {
+      out.is_sound[i] = true;
       sound.push_back(sorted(corners, i));
       add(out.sound, face_area_m2(mesh, i));
       for (const std::uint32_t v : corners) out.box_m.extend(mesh.vertices_m[v].cast<double>());

@@ -27,12 +27,12 @@ struct MeshLint {
   std::size_t unreferenced_vertices = 0;
 
   FaceTally sound;
-  Box3 box_m;                     // around them
-  FaceTally duplicate;            // an earlier face has the same corners in the same sense
-  FaceTally two_sided;            // another face has the same corners in the opposite sense
-  std::vector<bool> is_two_sided;  // by face
-  std::size_t edges = 0;          // between positions
-  std::size_t open_edges = 0;     // of one face
+  Box3 box_m;           // around them
+  FaceTally duplicate;  // an earlier face has the same corners in the same sense
+  FaceTally two_sided;  // another face has the same corners in the opposite sense
+  std::vector<bool> is_sound, is_two_sided;  // by face
+  std::size_t edges = 0;                     // between positions
+  std::size_t open_edges = 0;                // of one face
   std::size_t crowded_edges = 0;  // of more than two, a pair of two-sided faces counting as one
 };
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "sim/core/file.hpp"
 #include "tests/sim/mesh_files.hpp"
 
 namespace gnbv {
@@ -42,6 +43,13 @@ TEST_F(MeshFile, PlyRoundTripKeepsEveryVertexAndFace) {
   const TriangleMesh back = load_mesh(file(folder_ / "box.ply"));
   EXPECT_EQ(back.vertices_m, box.vertices_m);
   EXPECT_EQ(back.faces, box.faces);
+}
+
+TEST_F(MeshFile, PlyFacesCarryTheirMaterialInSrgb) {
+  write_mesh(two_coloured_box(), folder_ / "box.ply");
+  const std::string bytes = read_file(folder_ / "box.ply");
+  // the last face's, linear (1, 0, 0.125); 1.055 * 0.125^(1/2.4) - 0.055 is 99 of 255
+  EXPECT_EQ(bytes.substr(bytes.size() - 3), std::string("\xff\0\x63", 3));
 }
 
 TEST_F(MeshFile, GlbRoundTripKeepsShapeAndColoursWithZUp) {

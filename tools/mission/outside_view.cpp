@@ -78,8 +78,8 @@ std::vector<std::uint8_t> seen_sides(const SideSearch& search,
 
 OutsideView view_from_outside(const TriangleMesh& mesh, const std::vector<bool>& is_two_sided,
                               int threads) {
-  GNBV_CHECK(is_two_sided.size() == mesh.faces.size(), "{} flags for {} faces",
-             is_two_sided.size(), mesh.faces.size());
+  GNBV_CHECK(is_two_sided.size() == mesh.faces.size(), "{} flags for {} faces", is_two_sided.size(),
+             mesh.faces.size());
   OutsideView view;
   view.area_m2 = surface_area_m2(mesh);
   if (mesh.faces.empty()) return view;
