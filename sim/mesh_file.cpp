@@ -10,15 +10,14 @@
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 #include <unordered_map>
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "sim/core/srgb.hpp"
 #include "sim/mesh_units.hpp"
 #include "sim/obj_text.hpp"
+#include "sim/ply_file.hpp"
 
 namespace gnbv {
 namespace {
@@ -97,26 +96,6 @@ Material material_from(const aiMaterial& from) {
   return to;
 }
 
-/// Vertex colours are sRGB. 0xrgb: the mean of a face's corners in 16 steps a channel, few enough
-/// to be materials.
-unsigned colour_step(const aiMesh& part, const aiFace& face) {
-  aiColor4D sum;
-  for (unsigned k = 0; k < 3; ++k) sum += part.mColors[0][face.mIndices[k]];
-  const auto step = [](float channel_sum) {
-    return static_cast<unsigned>(std::lround(15.0F * std::clamp(channel_sum / 3.0F, 0.0F, 1.0F)));
-  };
-  return step(sum.r) << 8 | step(sum.g) << 4 | step(sum.b);
-}
-constexpr unsigned kNoColour = 0x1000;
-
-Material material_from(unsigned colour) {
-  const auto channel = [&](unsigned shift) {
-    return srgb_to_linear(static_cast<float>((colour >> shift) & 0xfU) / 15.0F);
-  };
-  return {.name = fmt::format("colour_{:03x}", colour),
-          .rgb = {channel(8), channel(4), channel(0)}};
-}
-
 struct PositionHash {
   std::size_t operator()(const std::array<float, 3>& p) const {
     std::size_t h = 0;
@@ -129,7 +108,7 @@ struct PositionHash {
 class MeshBuilder {
  public:
   MeshBuilder(const MeshFileConfig& config, const aiScene& scene)
-      : path_(config.path), scene_(scene), is_ply_(extension_of(config.path) == ".ply") {
+      : path_(config.path), scene_(scene) {
     mesh_.materials.clear();
   }
 
@@ -163,13 +142,10 @@ class MeshBuilder {
     const aiVector3D& v = part.mVertices[index];
     const Vec3f p = world_point(Vec3(v.x, v.y, v.z), T_world_node);
     const auto next = static_cast<std::uint32_t>(mesh_.vertices_m.size());
-    if (!is_ply_) {
-      const Vec3f key = p + Vec3f::Zero();  // -0 becomes 0
-      const auto [entry, is_new] = index_of_.try_emplace({key.x(), key.y(), key.z()}, next);
-      if (!is_new) return entry->second;
-    }
-    mesh_.vertices_m.push_back(p);
-    return next;
+    const Vec3f key = p + Vec3f::Zero();  // -0 becomes 0
+    const auto [entry, is_new] = index_of_.try_emplace({key.x(), key.y(), key.z()}, next);
+    if (is_new) mesh_.vertices_m.push_back(p);
+    return entry->second;
   }
 
   void add_instance(const aiMesh& part, const Matrix4& T_world_node) {
@@ -188,33 +164,29 @@ class MeshBuilder {
                                            world_index[polygon.mIndices[2]]};
       if (is_mirrored) std::swap(face[1], face[2]);
       mesh_.faces.push_back(face);
-      mesh_.face_material.push_back(material_of(part, polygon));
+      mesh_.face_material.push_back(material_of(part.mMaterialIndex));
     }
   }
 
-  /// Index of a face's material among those that faces use, in order of first use.
-  std::uint16_t material_of(const aiMesh& part, const aiFace& face) {
-    const auto colour = part.HasVertexColors(0) && is_ply_ ? colour_step(part, face) : kNoColour;
-    const auto [entry, is_new] =
-        index_of_material_.try_emplace({part.mMaterialIndex, colour}, mesh_.materials.size());
+  /// Index of an importer's material among those that faces use, in order of first use.
+  std::uint16_t material_of(unsigned importer_index) {
+    const auto [entry, is_new] = index_of_material_.try_emplace(
+        importer_index, static_cast<std::uint16_t>(mesh_.materials.size()));
     if (is_new) {
       if (mesh_.materials.size() > std::numeric_limits<std::uint16_t>::max()) {
         throw BadInput(fmt::format("{}: more than 65536 materials", path_));
       }
-      mesh_.materials.push_back(colour == kNoColour
-                                    ? material_from(*scene_.mMaterials[part.mMaterialIndex])
-                                    : material_from(colour));
+      mesh_.materials.push_back(material_from(*scene_.mMaterials[importer_index]));
     }
-    return static_cast<std::uint16_t>(entry->second);
+    return entry->second;
   }
 
   std::string path_;
   const aiScene& scene_;
-  bool is_ply_ = false;
   bool is_numbered_ = false;
   TriangleMesh mesh_;
   std::unordered_map<std::array<float, 3>, std::uint32_t, PositionHash> index_of_;
-  std::map<std::pair<unsigned, unsigned>, std::size_t> index_of_material_;
+  std::unordered_map<unsigned, std::uint16_t> index_of_material_;
 };
 
 void check_file(const std::string& path) {
@@ -254,13 +226,17 @@ MeshReading read_mesh(const MeshFileConfig& config) {
     throw BadInput(fmt::format("{}: '{}' is no known mesh format", config.path, extension));
   }
   MeshReading reading;
-  ObjText obj;
-  const bool is_obj = extension == ".obj";
-  if (is_obj) {
-    obj = read_obj_text(config.path, read_file(config.path), reading.warnings);
-    if (obj.face_count == 0) throw BadInput(fmt::format("{}: holds no faces", config.path));
+  PlyFile numbered;  // what numbers its own vertices: an OBJ file has no colours
+  const bool is_numbered = extension == ".obj" || extension == ".ply";
+  if (extension == ".obj") {
+    numbered.shape = read_obj_text(config.path, read_file(config.path), reading.warnings);
+  } else if (extension == ".ply") {
+    numbered = read_ply(config.path, read_file(config.path), reading.warnings);
   }
-  const aiScene& scene = imported_scene(importer, config, is_obj ? &obj : nullptr);
+  if (is_numbered && numbered.shape.face_count == 0) {
+    throw BadInput(fmt::format("{}: holds no faces", config.path));
+  }
+  const aiScene& scene = imported_scene(importer, config, is_numbered ? &numbered.shape : nullptr);
   const DeclaredAxes declared = declared_by(config.path, scene);
   reading.declared_unit_m = declared.unit_m;
   reading.declared_up_axis = declared.up_axis;
@@ -269,10 +245,11 @@ MeshReading read_mesh(const MeshFileConfig& config) {
 
   const Matrix4 T_world = T_world_imported(config, reading);
   MeshBuilder builder(config, scene);
-  if (is_obj) builder.use_numbered_vertices(obj.vertices, T_world);
+  if (is_numbered) builder.use_numbered_vertices(numbered.shape.vertices, T_world);
   builder.add_node(*scene.mRootNode, T_world);
   reading.mesh = builder.take();
-  reading.not_finite = obj.not_finite;
+  paint(numbered, reading.mesh);
+  reading.not_finite = numbered.shape.not_finite;
   const auto& vertices = reading.mesh.vertices_m;
   const auto bad =
       std::find_if(vertices.begin(), vertices.end(), [](const Vec3f& p) { return !p.allFinite(); });

@@ -35,9 +35,9 @@ struct MeshReading {
 /// Reads, instances nodes and triangulates. The vertices of OBJ and PLY files stay as the file
 /// numbers them; those of formats that repeat a vertex per face, normal or material are joined
 /// where their positions are equal, nowhere else. Materials carry the diffuse colours of the file;
-/// the vertex colours of a PLY file become materials too, a face taking the mean of its corners in
-/// steps of a 15th. Throws BadInput naming the file (and what is wrong with it) when it is missing
-/// or unreadable, and when the config itself is not usable.
+/// those of a PLY file are the colours of its faces or vertices (sim/ply_file.hpp). Throws BadInput
+/// naming the file (and what is wrong with it) when it is missing or unreadable, and when the
+/// config itself is not usable.
 MeshReading read_mesh(const MeshFileConfig& config);
 
 /// read_mesh() without the faces that have no area (is_flat() of sim/mesh_lint.hpp). What had to be

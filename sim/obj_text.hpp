@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,11 @@ struct ObjText {
   std::size_t face_count = 0;
   std::string not_finite;  // names the first coordinate that is NaN or infinite; empty without one
 };
+
+/// Appends a vertex; one that is not finite stays in `vertices`, the text has 0 in its place.
+void append_vertex(ObjText& obj, const Vec3& p_file);
+/// Appends a face of vertices counted from 0.
+void append_face(ObjText& obj, std::span<const std::size_t> corners);
 
 /// Reads the shape and the material names; normals and texture coordinates of the file are left
 /// out. Unreadable lines and faces of vertices that do not exist are left out too and counted in

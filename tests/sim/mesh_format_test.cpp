@@ -112,15 +112,18 @@ TEST_F(MeshFile, PlyInTextTakesQuadsAndTheColoursOfItsVertices) {
   const TriangleMesh mesh = load_mesh(file(write("box.ply", ply)));
   EXPECT_EQ(mesh.faces.size(), 12U);
   expect_box(mesh, {0, 0, 0}, {1, 2, 3}, 6.0);
+  const auto light = [](float share) {
+    return std::array{0.0F, 0.0908417F, 0.4019778F,
+                      1.0F}[static_cast<std::size_t>(std::lround(3.0F * share))];
+  };
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
     float height = 0.0F;
     for (const auto v : mesh.faces[i]) height += mesh.vertices_m[v].z() / 9.0F;
-    // the mean in sRGB: a third of 255 is 85, one of the steps, 0.0908 in linear light
-    const auto linear = [](float share) { return share < 0.5F ? 0.0908417F : 0.4019778F; };
+    // the mean in sRGB: 85 or 170 of 255 is 0.0908 or 0.402 in linear light
     const auto& rgb = mesh.materials[mesh.face_material[i]].rgb;
     const float red = 1.0F - height;
-    EXPECT_NEAR(rgb[0], red < 0.1F ? 0.0F : red > 0.9F ? 1.0F : linear(red), 1e-5);
-    EXPECT_NEAR(rgb[2], height < 0.1F ? 0.0F : height > 0.9F ? 1.0F : linear(height), 1e-5);
+    EXPECT_NEAR(rgb[0], light(red), 1e-5);
+    EXPECT_NEAR(rgb[2], light(height), 1e-5);
     EXPECT_EQ(rgb[1], 0.0F);
   }
 }
@@ -148,6 +151,39 @@ TEST_F(MeshFile, PlyInBytesTakesDoublesOfEitherEndianness) {
     EXPECT_EQ(mesh.materials.size(), 1U);
     expect_box(mesh, {0, 0, 0}, {1, 2, 3}, 6.0);
   }
+}
+
+TEST_F(MeshFile, PlyThatBreaksItsHeadersPromisesIsRefused) {
+  const std::string head = ply_header("ascii", "float", 1);
+  std::string vertices;
+  for (int i = 0; i < 8; ++i) vertices += fmt::format("{} {} 0 0 0 0\n", i % 2, i / 2);
+  const auto with = [&](const std::string& text) { return complaint(file(write("p.ply", text))); };
+  EXPECT_EQ(with(head + vertices + "3 0 1 2\n"), "");
+  EXPECT_TRUE(says(with(head + vertices + "3 0 1\n"), "p.ply: ends before"));
+  EXPECT_TRUE(says(with(head + "0 0 0 0 0 0\n"), "p.ply: ends before"));
+  EXPECT_TRUE(says(with(head + vertices + "3 0 one 2\n"), "'one' is no number"));
+  EXPECT_TRUE(says(with(head + vertices + "3 0 1 8\n"), "no faces"));
+  EXPECT_TRUE(says(with(head + vertices + "3 0 1 -1\n"), "no faces"));
+  EXPECT_TRUE(says(with(head + vertices + "-3\n"), "no faces"));
+  EXPECT_TRUE(says(with(head.substr(0, 40)), "no end_header"));
+  EXPECT_TRUE(says(with("ply\nformat ascii 1.0\nelement vertex many\n"), "unreadable line"));
+  EXPECT_TRUE(says(with("ply\nelement vertex 1\nproperty real x\n"), "unknown type 'real'"));
+}
+
+TEST_F(MeshFile, PlyWithManyColoursKeepsThemInSteps) {
+  std::string ply = ply_header("ascii", "float", 1);
+  const auto at = ply.find("element vertex 8");
+  ply.replace(at, 16, "element vertex 900");
+  ply.replace(ply.find("element face 1"), 14, "element face 300");
+  for (int i = 0; i < 900; ++i) {  // three vertices of one colour to each face
+    ply += fmt::format("{} {} {} {} {} 7\n", i, i % 3, i % 2, i / 3 % 256, i / 3);
+  }
+  for (int i = 0; i < 300; ++i) ply += fmt::format("3 {} {} {}\n", 3 * i, 3 * i + 1, 3 * i + 2);
+  const TriangleMesh mesh = load_mesh(file(write("p.ply", ply)));
+  EXPECT_LE(mesh.materials.size(), 64U);
+  const auto& rgb = mesh.materials[mesh.face_material[120]].rgb;
+  EXPECT_EQ(mesh.materials[mesh.face_material[120]].name, "colour_777700");  // of 120, 120, 7
+  EXPECT_NEAR(rgb[0], 0.184475, 1e-5);  // ((119 / 255 + 0.055) / 1.055)^2.4
 }
 
 std::string gltf_bytes() {

@@ -50,6 +50,12 @@ TEST_F(MeshFile, PlyFacesCarryTheirMaterialInSrgb) {
   const std::string bytes = read_file(folder_ / "box.ply");
   // the last face's, linear (1, 0, 0.125); 1.055 * 0.125^(1/2.4) - 0.055 is 99 of 255
   EXPECT_EQ(bytes.substr(bytes.size() - 3), std::string("\xff\0\x63", 3));
+  const TriangleMesh back = load_mesh(file(folder_ / "box.ply"));
+  EXPECT_EQ(back.face_material, two_coloured_box().face_material);
+  for (std::size_t i = 0; i < 3; ++i) {
+    // half a byte's step where sRGB is steepest against linear light, 2.4 / 1.055 / 255 / 2
+    EXPECT_NEAR(back.materials[0].rgb[i], two_coloured_box().materials[0].rgb[i], 0.0045);
+  }
 }
 
 TEST_F(MeshFile, GlbRoundTripKeepsShapeAndColoursWithZUp) {
