@@ -114,7 +114,8 @@ class PlyReader {
       else
         return false;
     } else if (words[0] == "element" && n == 3) {
-      Element element{.name = words[1]};
+      Element element;
+      element.name = words[1];
       const char* const last = words[2].data() + words[2].size();
       const auto [end, error] = std::from_chars(words[2].data(), last, element.count);
       if (error != std::errc() || end != last) return false;
