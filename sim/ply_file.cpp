@@ -96,9 +96,7 @@ class PlyReader {
       const std::vector<std::string> words = words_of(take_line());
       if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
       if (words[0] == "end_header") return;
-      if (!read_declaration(words)) {
-        fail(fmt::format("its header has an unreadable line, beginning '{}'", words[0]));
-      }
+      if (!read_declaration(words)) fail(fmt::format("its header has a bad '{}' line", words[0]));
     }
   }
 

@@ -166,7 +166,7 @@ TEST_F(MeshFile, PlyThatBreaksItsHeadersPromisesIsRefused) {
   EXPECT_TRUE(says(with(head + vertices + "3 0 1 -1\n"), "no faces"));
   EXPECT_TRUE(says(with(head + vertices + "-3\n"), "no faces"));
   EXPECT_TRUE(says(with(head.substr(0, 35)), "no end_header"));
-  EXPECT_TRUE(says(with("ply\nformat ascii 1.0\nelement vertex many\n"), "unreadable line"));
+  EXPECT_TRUE(says(with("ply\nformat ascii 1.0\nelement vertex many\n"), "bad 'element' line"));
   EXPECT_TRUE(says(with("ply\nelement vertex 1\nproperty real x\n"), "unknown type 'real'"));
 }
 

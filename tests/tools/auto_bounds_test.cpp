@@ -85,6 +85,7 @@ TEST(AutoBounds, FloorIsTheGroundUnlessTheStructureSinksOrFloatsAway) {
   };
   EXPECT_EQ(floor_of(0.0), 0.0);
   EXPECT_EQ(floor_of(4.9), 0.0);
+  EXPECT_EQ(floor_of(-5e-4), 0.0);  // written coordinates are rounded
   EXPECT_NEAR(floor_of(-1.9), -2.0, 1e-9);
   EXPECT_NEAR(floor_of(100.0), 95.0, 1e-9);
   EXPECT_NEAR(floor_of(-50.0), -50.0, 1e-9);

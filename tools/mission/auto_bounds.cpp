@@ -11,11 +11,13 @@ namespace gnbv {
 namespace {
 
 constexpr double kShareOfRange = 5.0 / 8.0;
+constexpr double kRounding_m = 1e-3;  // as load_world() allows a mesh outside the workspace
 constexpr double kClearance_m = 2.0;  // between the collision sphere and the workspace's face
 
 double floor_of_m(const Scenario& scenario, double lowest_m, double margin_m) {
   const bool stands = scenario.structure.ground && lowest_m <= margin_m;
-  return stands ? std::min(0.0, lowest_m) : lowest_m - margin_m;
+  if (!stands) return lowest_m - margin_m;
+  return lowest_m < -kRounding_m ? lowest_m : 0.0;
 }
 
 /// Outwards to multiples of the resolution; what is one but for rounding stays.

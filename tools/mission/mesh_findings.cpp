@@ -149,6 +149,14 @@ Finding place_finding(const MeshReport& report, const Scenario& scenario) {
   return {"place", Severity::ok, span, ""};
 }
 
+double share_below(const MeshReport& report, double z_m) {
+  double below_m2 = 0.0;
+  for (std::size_t i = 0; i < report.lint.is_sound.size(); ++i) {
+    if (report.lint.is_sound[i]) below_m2 += area_below_m2(report.reading.mesh, i, z_m);
+  }
+  return below_m2 / report.lint.sound.area_m2;
+}
+
 Finding ground_finding(const MeshReport& report, const Scenario& scenario) {
   const double lowest_m = report.lint.box_m.min().z();
   const double height_m = report.lint.box_m.sizes().z();
@@ -159,13 +167,9 @@ Finding ground_finding(const MeshReport& report, const Scenario& scenario) {
     return {"ground", Severity::ok, "structure.ground is off", ""};
   }
   if (lowest_m < -tolerance_m) {
-    double below_m2 = 0.0;
-    for (std::size_t i = 0; i < report.reading.mesh.faces.size(); ++i) {
-      below_m2 += area_below_m2(report.reading.mesh, i, 0.0);
-    }
     return {"ground", Severity::warning,
             fmt::format("reaches {:.3g} m below the ground (z = 0), with {} of its surface",
-                        -lowest_m, percent(below_m2 / report.lint.sound.area_m2)),
+                        -lowest_m, percent(share_below(report, 0.0))),
             flag()};
   }
   if (lowest_m > floating_m) {
@@ -177,11 +181,7 @@ Finding ground_finding(const MeshReport& report, const Scenario& scenario) {
 
 Finding floor_finding(const MeshReport& report, const Scenario& scenario) {
   const double floor_m = scenario.planner.floor_z_m;
-  double below_m2 = 0.0;
-  for (std::size_t i = 0; i < report.reading.mesh.faces.size(); ++i) {
-    below_m2 += area_below_m2(report.reading.mesh, i, floor_m);
-  }
-  const double share = below_m2 / report.lint.sound.area_m2;
+  const double share = share_below(report, floor_m);
   const std::string what = fmt::format(
       "{} of the surface lies below planner.floor_z_m = {} m, where nothing is mapped "
       "or counted",
