@@ -197,7 +197,9 @@ void check_structure(const StructureConfig& structure, Problems& out) {
   const std::string& path = structure.file.path;
   std::error_code ignored;
   if (path.empty() || std::filesystem::is_regular_file(path, ignored)) return;
-  out.push_back({{"structure.file.path"}, "there is no such file"});
+  out.push_back({{"structure.file.path"},
+                 std::filesystem::is_directory(path, ignored) ? "is a folder, not a mesh file"
+                                                              : "there is no such file"});
 }
 
 void check_utility(const UtilityConfig& utility, Problems& out) {

@@ -8,6 +8,7 @@
 #include "scenarios/load.hpp"
 #include "scenarios/problems.hpp"
 #include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
 #include "tools/gnbv/progress.hpp"
 #include "tools/mission/frame_files.hpp"
 #include "tools/mission/load_world.hpp"
@@ -94,6 +95,7 @@ Scenario resolve_scenario(const MissionOptions& options) {
   std::vector<std::string> overrides;
   // absolute, since a relative path in a scenario file is relative to that file
   if (!options.mesh.empty()) {
+    if (!fs::is_regular_file(options.mesh)) read_file(options.mesh);  // throws, with the cause
     overrides.push_back(
         fmt::format("structure.file.path={}", quoted(fs::absolute(options.mesh).string())));
   }
