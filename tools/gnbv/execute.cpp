@@ -10,6 +10,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/gnbv/progress.hpp"
+#include "tools/mission/auto_bounds.hpp"
 #include "tools/mission/frame_files.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/mission.hpp"
@@ -104,7 +105,10 @@ Scenario resolve_scenario(const MissionOptions& options) {
   }
   if (!options.seed.empty()) overrides.push_back("seed=" + options.seed);
   overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
-  return load_scenario(options.scenario, overrides);
+  const Scenario scenario = load_scenario(options.scenario, overrides);
+  if (!options.bounds_auto) return scenario;
+  std::vector<std::string> warnings;  // repeated when the mission loads the structure
+  return with_bounds_around(scenario, bounds_m(load_structure(scenario, warnings)));
 }
 
 ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& options) {

@@ -21,6 +21,7 @@ struct MissionOptions {
   std::filesystem::path out;           // "" chooses a free folder under runs/
   int threads = 0;                     // 0 = as many as the machine has
   bool resume = false;
+  bool bounds_auto = false;  // lay the workspace and the start around the structure
   bool quiet = false;
   bool frames = false;  // also write frames/
 };
