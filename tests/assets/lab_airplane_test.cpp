@@ -61,7 +61,7 @@ TEST(LabAirplane, IsTheSameEveryTime) {
 TEST(LabAirplane, MirrorMapsTheFacesOntoThemselvesBitForBit) {
   using Point = std::array<float, 3>;
   using Face = std::array<Point, 3>;
-  const auto face = [](std::array<Vec3f, 3> corners, float side, std::uint16_t) {
+  const auto face = [](std::array<Vec3f, 3> corners, float side) {
     if (side < 0.0F) std::swap(corners[1], corners[2]);
     Face points;
     for (std::size_t i = 0; i < 3; ++i)
@@ -74,8 +74,8 @@ TEST(LabAirplane, MirrorMapsTheFacesOntoThemselvesBitForBit) {
     const auto& f = mesh().faces[i];
     const std::array<Vec3f, 3> corners = {mesh().vertices_m[f[0]], mesh().vertices_m[f[1]],
                                           mesh().vertices_m[f[2]]};
-    faces.emplace_back(face(corners, 1.0F, 0), mesh().face_material[i]);
-    images.emplace_back(face(corners, -1.0F, 0), mesh().face_material[i]);
+    faces.emplace_back(face(corners, 1.0F), mesh().face_material[i]);
+    images.emplace_back(face(corners, -1.0F), mesh().face_material[i]);
   }
   std::sort(faces.begin(), faces.end());
   std::sort(images.begin(), images.end());

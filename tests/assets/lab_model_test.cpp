@@ -45,27 +45,24 @@ TEST(LabModel, HasNoPlaneOnTheVoxelBoundariesInUse) {
 
 TEST(LabModel, IsTheSameEveryTime) { EXPECT_EQ(sha256_of(mesh()), sha256_of(make_lab_model())); }
 
-// Points of a grid that no face is parallel to a row of: off the axes by irrational-looking steps.
-template <typename Visit>
-void for_grid(double step_m, const Visit& visit) {
-  for (double x_m = -0.6433; x_m < 0.65; x_m += step_m)
-    for (double y_m = -0.4937; y_m < 0.5; y_m += step_m)
-      for (double z_m = 0.0071; z_m < 1.5; z_m += step_m) visit(Vec3(x_m, y_m, z_m));
-}
+// Grids begin off the round numbers, so that no line runs along a face.
+const Vec3 kFirst_m(-0.6433, -0.4937, 0.0071), kLast_m(0.65, 0.5, 1.5);
 
 TEST(LabModel, IsConcaveSeenAlongEveryAxis) {
-  // A convex body is entered once by any line. One line in ten entering twice means niches and
+  // A convex body is entered once by any line. One line in ten entering again means niches and
   // overhangs of that share of the silhouette.
+  constexpr double kStep_m = 0.0213;
   for (int axis = 0; axis < 3; ++axis) {
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
     int once = 0, again = 0;
-    for_grid(0.0213, [&](const Vec3& p_m) {
-      Vec3 first = p_m;
-      if (p_m[axis] > (axis == 2 ? 0.02 : axis == 1 ? -0.48 : -0.63)) return;  // a line, not points
-      first[axis] = 0.0;
-      const int count = entries(mesh(), first, axis);
-      once += count > 0;
-      again += count > 1;
-    });
+    Vec3 p_m = Vec3::Zero();
+    for (p_m[u] = kFirst_m[u]; p_m[u] < kLast_m[u]; p_m[u] += kStep_m) {
+      for (p_m[v] = kFirst_m[v]; p_m[v] < kLast_m[v]; p_m[v] += kStep_m) {
+        const int count = entries(mesh(), p_m, axis);
+        once += count > 0;
+        again += count > 1;
+      }
+    }
     EXPECT_GT(once, 500) << axis;
     EXPECT_GT(again, 0.1 * once) << axis;
   }
@@ -81,12 +78,18 @@ TEST(LabModel, HasNoSymmetry) {
   const std::array<Vec3, 3> images = {{{-1, 1, 1}, {1, -1, 1}, {-1, -1, 1}}};
   std::array<int, 3> shared = {0, 0, 0};
   int occupied = 0;
-  for_grid(0.059, [&](const Vec3& p_m) {
-    if (!inside(p_m)) return;
-    ++occupied;
-    for (std::size_t i = 0; i < images.size(); ++i)
-      shared[i] += inside(p_m.cwiseProduct(images[i]));
-  });
+  constexpr double kStep_m = 0.059;
+  for (double x_m = kFirst_m.x(); x_m < kLast_m.x(); x_m += kStep_m) {
+    for (double y_m = kFirst_m.y(); y_m < kLast_m.y(); y_m += kStep_m) {
+      for (double z_m = kFirst_m.z(); z_m < kLast_m.z(); z_m += kStep_m) {
+        const Vec3 p_m(x_m, y_m, z_m);
+        if (!inside(p_m)) continue;
+        ++occupied;
+        for (std::size_t i = 0; i < images.size(); ++i)
+          shared[i] += inside(p_m.cwiseProduct(images[i]));
+      }
+    }
+  }
   EXPECT_GT(occupied, 300);
   for (const int count : shared) EXPECT_LT(count, 0.8 * occupied);
 }
