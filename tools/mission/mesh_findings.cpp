@@ -32,7 +32,10 @@ std::string name_of_unit(double unit_m) {
 std::string percent(double share) { return fmt::format("{:.1f} %", 100.0 * share); }
 
 std::string size_text(const Vec3& size_m) {
-  return fmt::format("{:.4g} x {:.4g} x {:.4g} m", size_m.x(), size_m.y(), size_m.z());
+  const auto text = [](double x_m) {
+    return x_m < 1e4 ? fmt::format("{:.4g}", x_m) : fmt::format("{:.0f}", x_m);
+  };
+  return fmt::format("{} x {} x {} m", text(size_m.x()), text(size_m.y()), text(size_m.z()));
 }
 
 /// The flag that moves the structure by `shift_m` from where it is placed now.
@@ -129,7 +132,8 @@ Finding place_finding(const MeshReport& report, const Scenario& scenario) {
   if (farthest_m > reach_m) {
     return {"place", Severity::error,
             fmt::format("{}: the map reaches only {:.0f} m from the origin", span, reach_m),
-            offset_flag(scenario, to_origin)};
+            box.sizes().maxCoeff() > kLargest_m ? "put the size right first"
+                                                : offset_flag(scenario, to_origin)};
   }
   if (farthest_m > kGround_m) {
     return {"place", Severity::warning,
