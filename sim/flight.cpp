@@ -21,6 +21,7 @@ class QuadrotorFlight final : public Flight {
 
   std::int64_t tick() const override { return tick_; }
   VehicleState state() const override { return vehicle_.state(); }
+  VehicleState estimate() const override { return vehicle_.state(); }
   void command(const Setpoint& setpoint) override { setpoint_ = setpoint; }
   bool has_collided() const override { return vehicle_.has_collided(); }
   double energy_wh() const override { return energy_j_ / kJoulesPerWattHour; }
@@ -52,7 +53,7 @@ class QuadrotorFlight final : public Flight {
 }  // namespace
 
 std::unique_ptr<Flight> make_flight(const VehicleConfig& config, const World& world,
-                                    const ViewPose& start) {
+                                    const ViewPose& start, std::uint64_t /*seed*/) {
   switch (config.kind) {
     case VehicleKind::quadrotor:
       return std::make_unique<QuadrotorFlight>(config, world, start);
