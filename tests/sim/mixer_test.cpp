@@ -22,8 +22,7 @@ TEST(Mixer, PositiveTorqueIsPositiveOnTheBody) {
   for (int axis = 0; axis < 3; ++axis) {
     const MixerOutput out = mix(kIris, 0.1 * Vec3::Unit(axis), 0.5);
     const Wrench wrench =
-        rotor_wrench(kIris, reference_speeds(kIris, out.commands),
-                     Vec3::Zero(), Vec3::Zero());
+        rotor_wrench(kIris, reference_speeds(kIris, out.commands), Vec3::Zero(), Vec3::Zero());
     EXPECT_GT(wrench.torque_body_n_m[axis], 0.0) << "axis " << axis;
   }
 }

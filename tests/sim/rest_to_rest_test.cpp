@@ -38,6 +38,7 @@ TEST(RestToRest, TakesTheClosedFormsTime) {
   EXPECT_NEAR(RestToRest(3.375, kPx4).duration_s(), 3.000, 5e-4);
   EXPECT_NEAR(RestToRest(10.0, kPx4).duration_s(), 4.478, 5e-4);
   EXPECT_NEAR(RestToRest(20.0, kPx4).duration_s(), 6.417, 5e-4);
+  EXPECT_NEAR(RestToRest(2.5, kPx4).duration_s(), 4.0 * std::cbrt(2.5 / 8.0), 1e-12);
   // too slow to reach the acceleration limit: D / v + 2 sqrt(v / j)
   EXPECT_NEAR(RestToRest(5.0, {0.2, 1.0, 4.0}).duration_s(), 25.0 + 2.0 * std::sqrt(0.05), 1e-12);
 }
