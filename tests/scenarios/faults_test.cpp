@@ -75,14 +75,14 @@ TEST(ExactTypes, NumbersAreFiniteAndUnquoted) {
   for (const char* bad : {"\"5\"",    "'5'",   ".nan",   ".NaN", "nan", ".inf", "-.inf", "inf",
                           "infinity", "1e999", "1e-999", "five", "5m",  "0x10", "1,5",   "true",
                           "~",        "",      "[5]",    "+-5",  "--5", "."}) {
-    EXPECT_THAT(complaint(fmt::format("{}guidance:\n  speed_m_s: {}\n", kMinimal, bad)),
-                StartsWith("s.yaml:3: guidance.speed_m_s: "))
+    EXPECT_THAT(complaint(fmt::format("{}guidance:\n  path_speed_m_s: {}\n", kMinimal, bad)),
+                StartsWith("s.yaml:3: guidance.path_speed_m_s: "))
         << bad;
   }
   for (const char* good : {"5", "5.", "5.0", "+5", "0.5e1", "50E-1", "005"}) {
-    EXPECT_EQ(
-        load_text(fmt::format("{}guidance: {{speed_m_s: {}}}", kMinimal, good)).guidance.speed_m_s,
-        5.0)
+    EXPECT_EQ(load_text(fmt::format("{}guidance: {{path_speed_m_s: {}}}", kMinimal, good))
+                  .guidance.path_speed_m_s,
+              5.0)
         << good;
   }
 }

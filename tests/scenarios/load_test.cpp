@@ -91,6 +91,37 @@ TEST(LoadScenario, NumbersAreWrittenInTheFewestDigitsThatReadBack) {
                                              "    gamma: 0.30000000000000004\n"));
 }
 
+TEST(VehiclePreset, HoldsWhereTheKeysBesideItSayNothingElse) {
+  const VehicleConfig authors = load_text(kMinimal + "vehicle: {preset: authors}").vehicle;
+  EXPECT_EQ(authors.preset, "authors");
+  EXPECT_EQ(authors.airframe.idle_speed_rad_s, vehicle_preset("authors").airframe.idle_speed_rad_s);
+  // whatever their order in the file
+  const Scenario heavy = load_text(kMinimal +
+                                   "vehicle:\n  power: {battery_wh: 56.6}\n"
+                                   "  airframe: {mass_kg: 1.6}\n  preset: authors\n"
+                                   "  kind: ideal\n  estimate: {model: vio}\n");
+  EXPECT_EQ(heavy.vehicle.airframe.mass_kg, 1.6);
+  EXPECT_EQ(heavy.vehicle.airframe.idle_speed_rad_s, 450.0);
+  EXPECT_EQ(heavy.vehicle.power.battery_wh, 56.6);
+  EXPECT_EQ(heavy.vehicle.kind, VehicleKind::ideal);
+  EXPECT_EQ(heavy.vehicle.estimate.model, EstimateModel::vio);
+  EXPECT_EQ(load_text(kMinimal, {"vehicle.preset=f450"}).vehicle.airframe.mass_kg, 1.9);
+}
+
+TEST(VehiclePreset, LoadsWithoutProblemsAndRepeatsFromItsOwnText) {
+  for (const std::string_view preset : kVehiclePresets) {
+    const Scenario s =
+        load_text(kMinimal + fmt::format("vehicle: {{preset: {}, power: {{k1: 0.9}}}}", preset));
+    const std::string text = to_yaml(s);
+    EXPECT_EQ(to_yaml(load_text(text)), text);
+  }
+}
+
+TEST(VehiclePreset, IsOneOfTheKnown) {
+  EXPECT_THAT(complaint(kMinimal + "vehicle: {preset: concorde}"),
+              testing::HasSubstr("iris, iris_sitl_2019, authors, f450"));
+}
+
 TEST(Overrides, ApplyInOrderTheLastOneWins) {
   const Scenario s = load_text("seed: 3\n" + kMinimal, {"seed=4", "name=a", "seed=5"});
   EXPECT_EQ(s.seed, 5U);

@@ -78,7 +78,7 @@ std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal, double spee
                                    const std::function<void(const Flight&)>& on_tick) {
   constexpr std::int64_t kTicksPerSample = kTicksPerSecond / 10;
   const LegEnd end =
-      fly_leg(*m.flight, goal, speed_m_s, m.scenario.guidance, [&](const Flight& flight) {
+      fly_leg(*m.flight, goal, speed_m_s, m.scenario.guidance, m.scenario.vehicle, [&](const Flight& flight) {
         const Isometry T = flight.state().T_world_body;
         m.flown_m += (T.translation() - m.last_p_world_m).norm();
         m.last_p_world_m = T.translation();
