@@ -28,8 +28,8 @@ struct ColourCapture {
     std::vector<RayHit> hits(directions_world.size());
     scene.first_hits(origin_world_m, directions_world, 0.0F, std::numeric_limits<float>::infinity(),
                      hits);
-    std::vector<Vec3f> normals_world(hits.size());
-    std::vector<Vec3f> surface_world_m(hits.size());
+    std::vector<Vec3f> normals_world(hits.size(), Vec3f::Zero());
+    std::vector<Vec3f> surface_world_m(hits.size(), origin_world_m);
     for (std::size_t ray = 0; ray < hits.size(); ++ray) {
       if (hits[ray].face == kNoFace) continue;
       surface_world_m[ray] = origin_world_m + hits[ray].distance_m * directions_world[ray];
