@@ -12,6 +12,7 @@ namespace gnbv {
 /// Defaults: the profiling laser of the paper (180 degrees, 0.1-30 m) with the beams and rate of
 /// the released floating_sensor.sdf; tilted down, which reproduces the paper's profile row.
 struct LidarConfig {
+  std::string preset = "profiling_sim";  // the sensor whose values these began as; a label, no more
   std::string name = "lidar";
   int beams = 720;
   double fov_rad = kPi;

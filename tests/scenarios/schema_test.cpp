@@ -78,7 +78,7 @@ TEST(Schema, EveryKeyCanBeSet) {
       EXPECT_EQ(after[i].first, before[i].first);
       if (before[i].first == leaf.path) {
         EXPECT_NE(after[i].second, before[i].second) << leaf.path << '=' << value;
-      } else {
+      } else if (!leaf.path.ends_with("preset")) {  // which is there to set its neighbours
         EXPECT_EQ(after[i].second, before[i].second) << leaf.path << '=' << value;
       }
     }
