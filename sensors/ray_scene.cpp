@@ -90,6 +90,14 @@ Vec3 closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3
   return a + vb * scale * ab + vc * scale * ac;
 }
 
+/// Rays that begin `near_m` from their origin and see everything; all else is still to be set.
+RTCRayHit16 packet_from(float near_m) {
+  RTCRayHit16 packet{};
+  std::fill_n(packet.ray.tnear, kPacket, near_m);
+  std::fill_n(packet.ray.mask, kPacket, kStructureMask | kGroundMask);
+  return packet;
+}
+
 struct NearestQuery {
   const std::vector<Vec3f>* vertices_m;
   const std::vector<std::array<std::uint32_t, 3>>* faces;
@@ -128,11 +136,16 @@ struct RayScene::Impl {
   Owner<RTCScene, rtcReleaseScene> scene{new_scene(device.get())};
   std::vector<Vec3f> vertices_m;
   std::vector<std::array<std::uint32_t, 3>> faces;
+  std::vector<Material> materials;
+  std::vector<std::uint16_t> face_material;
   unsigned structure_id = RTC_INVALID_GEOMETRY_ID;
   unsigned ground_id = RTC_INVALID_GEOMETRY_ID;
 
   explicit Impl(const World& world)
-      : vertices_m(world.structure.vertices_m), faces(world.structure.faces) {
+      : vertices_m(world.structure.vertices_m),
+        faces(world.structure.faces),
+        materials(world.structure.materials),
+        face_material(world.structure.face_material) {
     GNBV_CHECK(rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) != 0,
                "this Embree was built without ray masks");
     for (const auto& face : faces) {
@@ -140,6 +153,12 @@ struct RayScene::Impl {
         GNBV_CHECK(i < vertices_m.size(), "face vertex {} of {}", i, vertices_m.size());
       }
     }
+    GNBV_CHECK(face_material.empty() || face_material.size() == faces.size(),
+               "{} materials of {} faces", face_material.size(), faces.size());
+    for (const std::uint16_t i : face_material) {
+      GNBV_CHECK(i < materials.size(), "material {} of {}", i, materials.size());
+    }
+    GNBV_CHECK(!materials.empty() || faces.empty(), "a structure without materials");
     rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_HIGH);
     if (!faces.empty()) {
@@ -161,6 +180,43 @@ struct RayScene::Impl {
                static_cast<int>(rtcGetDeviceError(nullptr)));
     return rtcNewScene(device);
   }
+
+  /// Traces `directions_world` in packets; set_origin(lane, ray) puts each ray's origin into
+  /// `packet`. The last packet repeats its last ray in the lanes left over, which are not traced.
+  template <typename SetOrigin>
+  void trace(RTCRayHit16& packet, const SetOrigin& set_origin,
+             std::span<const Vec3f> directions_world, float far_m, std::span<RayHit> hits) const {
+    GNBV_CHECK(hits.size() == directions_world.size(), "{} hits for {} rays", hits.size(),
+               directions_world.size());
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    alignas(64) std::array<int, kPacket> valid{};
+    for (std::size_t begin = 0; begin < hits.size(); begin += kPacket) {
+      const std::size_t count = std::min(kPacket, hits.size() - begin);
+      for (std::size_t i = 0; i < kPacket; ++i) {
+        valid[i] = i < count ? -1 : 0;
+        packet.ray.tfar[i] = far_m;
+        packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+      }
+      for (std::size_t i = 0; i < kPacket; ++i) {
+        const std::size_t ray = begin + std::min(i, count - 1);
+        set_origin(i, ray);
+        packet.ray.dir_x[i] = directions_world[ray].x();
+        packet.ray.dir_y[i] = directions_world[ray].y();
+        packet.ray.dir_z[i] = directions_world[ray].z();
+      }
+      rtcIntersect16(valid.data(), scene.get(), &context, &packet);
+      for (std::size_t i = 0; i < count; ++i) {
+        const unsigned id = packet.hit.geomID[i];
+        const bool is_hit = id != RTC_INVALID_GEOMETRY_ID;
+        const auto face = static_cast<std::int32_t>(packet.hit.primID[i]);
+        hits[begin + i] = {is_hit ? packet.ray.tfar[i] : kNoReturn, !is_hit           ? kNoFace
+                                                                    : id == ground_id ? kGroundFace
+                                                                                      : face};
+      }
+    }
+  }
 };
 
 RayScene::RayScene(const World& world) : impl_(std::make_unique<Impl>(world)) {}
@@ -170,43 +226,28 @@ RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 
 void RayScene::first_hits(const Vec3f& origin_world_m, std::span<const Vec3f> directions_world,
                           float near_m, float far_m, std::span<RayHit> hits) const {
-  GNBV_CHECK(hits.size() == directions_world.size(), "{} hits for {} rays", hits.size(),
-             directions_world.size());
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  RTCRayHit16 packet{};
-  alignas(64) std::array<int, kPacket> valid{};
+  RTCRayHit16 packet = packet_from(near_m);
   for (std::size_t i = 0; i < kPacket; ++i) {  // Embree writes only tfar and the hit
     packet.ray.org_x[i] = origin_world_m.x();
     packet.ray.org_y[i] = origin_world_m.y();
     packet.ray.org_z[i] = origin_world_m.z();
-    packet.ray.tnear[i] = near_m;
-    packet.ray.mask[i] = kStructureMask | kGroundMask;
   }
-  for (std::size_t begin = 0; begin < hits.size(); begin += kPacket) {
-    const std::size_t count = std::min(kPacket, hits.size() - begin);
-    for (std::size_t i = 0; i < kPacket; ++i) {
-      valid[i] = i < count ? -1 : 0;
-      packet.ray.tfar[i] = far_m;
-      packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    }
-    for (std::size_t i = 0; i < kPacket; ++i) {
-      const Vec3f& direction = directions_world[begin + std::min(i, count - 1)];
-      packet.ray.dir_x[i] = direction.x();
-      packet.ray.dir_y[i] = direction.y();
-      packet.ray.dir_z[i] = direction.z();
-    }
-    rtcIntersect16(valid.data(), impl_->scene.get(), &context, &packet);
-    for (std::size_t i = 0; i < count; ++i) {
-      const unsigned id = packet.hit.geomID[i];
-      const bool is_hit = id != RTC_INVALID_GEOMETRY_ID;
-      const auto face = static_cast<std::int32_t>(packet.hit.primID[i]);
-      hits[begin + i] = {is_hit ? packet.ray.tfar[i] : kNoReturn, !is_hit                  ? -1
-                                                                  : id == impl_->ground_id ? -2
-                                                                                           : face};
-    }
-  }
+  impl_->trace(
+      packet, [](std::size_t, std::size_t) {}, directions_world, far_m, hits);
+}
+
+void RayScene::first_hits(std::span<const Vec3f> origins_world_m,
+                          std::span<const Vec3f> directions_world, float near_m, float far_m,
+                          std::span<RayHit> hits) const {
+  GNBV_CHECK(origins_world_m.size() == hits.size(), "{} origins for {} hits",
+             origins_world_m.size(), hits.size());
+  RTCRayHit16 packet = packet_from(near_m);
+  const auto set_origin = [&](std::size_t lane, std::size_t ray) {
+    packet.ray.org_x[lane] = origins_world_m[ray].x();
+    packet.ray.org_y[lane] = origins_world_m[ray].y();
+    packet.ray.org_z[lane] = origins_world_m[ray].z();
+  };
+  impl_->trace(packet, set_origin, directions_world, far_m, hits);
 }
 
 void RayScene::structure_blocks(std::span<const Vec3f> origins_world_m,
@@ -239,6 +280,19 @@ void RayScene::structure_blocks(std::span<const Vec3f> origins_world_m,
     // Embree marks an occluded ray with tfar = -infinity
     for (std::size_t i = 0; i < count; ++i) blocked[begin + i] = packet.tfar[i] < 0.0F ? 1 : 0;
   }
+}
+
+Vec3f RayScene::normal_world(const RayHit& hit) const {
+  if (hit.face == kGroundFace) return Vec3f::UnitZ();
+  GNBV_CHECK(hit.face >= 0, "the normal of nothing");
+  const auto& [a, b, c] = impl_->faces[static_cast<std::size_t>(hit.face)];
+  const std::vector<Vec3f>& p = impl_->vertices_m;
+  return (p[b] - p[a]).cross(p[c] - p[a]).stableNormalized();
+}
+
+const Material& RayScene::material(std::int32_t face) const {
+  const std::vector<std::uint16_t>& of_face = impl_->face_material;
+  return impl_->materials[of_face.empty() ? 0 : of_face[static_cast<std::size_t>(face)]];
 }
 
 double RayScene::distance_to_structure_m(const Vec3& p_world_m, double limit_m) const {

@@ -11,9 +11,12 @@
 
 namespace gnbv {
 
+constexpr std::int32_t kNoFace = -1;
+constexpr std::int32_t kGroundFace = -2;
+
 struct RayHit {
-  float distance_m = 0.0F;  // in units of the ray's direction length; kNoReturn when nothing
-  std::int32_t face = -1;   // index into World::structure.faces; -1 nothing, -2 the ground
+  float distance_m = 0.0F;      // in units of the ray's direction length; kNoReturn when nothing
+  std::int32_t face = kNoFace;  // index into World::structure.faces, or one of the two above
 };
 
 /// Ray queries against the structure and the ground. Const after construction: any number of
@@ -30,12 +33,22 @@ class RayScene {
   /// distances are in multiples of them. hits.size() == directions.size().
   void first_hits(const Vec3f& origin_world_m, std::span<const Vec3f> directions_world,
                   float near_m, float far_m, std::span<RayHit> hits) const;
+  /// The same for rays that begin each at its own origin; as many origins as directions.
+  void first_hits(std::span<const Vec3f> origins_world_m, std::span<const Vec3f> directions_world,
+                  float near_m, float far_m, std::span<RayHit> hits) const;
 
   /// For each ray from its own origin: whether anything of the structure (never the ground) lies in
   /// (near_m, infinity). Sizes equal. blocked[i] is 0 or 1.
   void structure_blocks(std::span<const Vec3f> origins_world_m,
                         std::span<const Vec3f> directions_world, float near_m,
                         std::span<std::uint8_t> blocked) const;
+
+  /// Unit normal of what a ray has met: a face of the structure, on the side its corners run
+  /// counter-clockwise, or the ground. Zero for a face without area.
+  Vec3f normal_world(const RayHit& hit) const;
+
+  /// What a face of the structure is made of.
+  const Material& material(std::int32_t face) const;
 
   /// Distance from a point to the structure's surface, up to `limit_m`; infinity beyond.
   double distance_to_structure_m(const Vec3& p_world_m, double limit_m) const;
