@@ -4,6 +4,7 @@
 #include <array>
 
 #include "assets/aircraft.hpp"
+#include "assets/power_plant.hpp"
 #include "assets/smoke.hpp"
 #include "sim/core/error.hpp"
 
@@ -17,6 +18,7 @@ struct Entry {
 
 constexpr std::array kCatalog = {
     Entry{"aircraft", make_aircraft},
+    Entry{"power_plant", make_power_plant},
     Entry{"smoke", make_smoke_structure},
 };
 

@@ -17,7 +17,7 @@
 namespace gnbv {
 
 /// Structures that assets/ generates, by the name StructureConfig::builtin takes.
-constexpr std::array<std::string_view, 2> kStructureNames = {"aircraft", "smoke"};
+constexpr std::array<std::string_view, 3> kStructureNames = {"aircraft", "power_plant", "smoke"};
 
 struct StructureConfig {
   std::string builtin = "aircraft";  // used when file.path is empty
