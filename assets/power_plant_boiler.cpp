@@ -110,7 +110,7 @@ std::vector<Part> stair_tower() {
     const double lane_m = is_east ? kOuterLane_m : kInnerLane_m;
     const double from_m = kFoot_m + kRise_m * i, to_m = from_m + kRise_m;
     const double lower_x_m = is_east ? kWest_m : kEast_m, upper_x_m = is_east ? kEast_m : kWest_m;
-    add(parts, stairs({{lower_x_m, lane_m, from_m}, {upper_x_m, lane_m, to_m}, 0.42, 5},
+    add(parts, stairs({{lower_x_m, lane_m, from_m}, {upper_x_m, lane_m, to_m}, 0.44, 5},
                       kGalvanised, kGasYellow));
     const double west_m = is_east ? kEast_m - 0.06 : -4.12,
                  east_m = is_east ? -1.22 : kWest_m + 0.06;

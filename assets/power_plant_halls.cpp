@@ -1,6 +1,4 @@
 // Turbine hall with its annex, control building: brickwork.
-#include <cmath>
-
 #include "assets/power_plant_parts.hpp"
 #include "assets/solids.hpp"
 
@@ -84,7 +82,7 @@ std::vector<Part> turbine_hall() {
     if (i < 6) parts.push_back(box({x_m + 0.29, x_m + 1.336, -3.907, -3.79, 2.72, 3.66}, kGlass));
   }
   parts.push_back(box({-7.79, 1.21, -0.21, -0.088, 2.93, 3.62}, kGlass));      // over the alley
-  parts.push_back(box({-8.274, -8.12, -2.73, -1.31, 0.37, 2.04}, kDoorBlue));  // west gable
+  parts.push_back(box({-8.274, -8.12, -1.83, -0.47, 0.37, 2.04}, kDoorBlue));  // west gable
   parts.push_back(box({-8.268, -8.12, -2.92, -1.08, 2.51, 3.98}, kGlass));
   parts.push_back(box({1.68, 1.812, -2.92, -1.08, 2.28, 3.98}, kGlass));  // east gable
   add(parts, annex());

@@ -1,5 +1,6 @@
 // Transformer yard in the south-west, coal and ash handling in the east.
 #include <cmath>
+#include <utility>
 
 #include "assets/power_plant_parts.hpp"
 #include "assets/solids.hpp"
@@ -7,13 +8,13 @@
 namespace gnbv::power_plant {
 namespace {
 
-/// Tank with radiators, bushings and conservator; its bus duct leads east into the turbine hall.
-std::vector<Part> transformer(double y_m) {
+/// Tank with radiators, bushings and conservator; its bus duct leads east through the wall.
+std::vector<Part> transformer(double y_m, double wall_x_m) {
   constexpr double kWest_m = -11.38, kEast_m = -9.97, kTop_m = 1.57;
   std::vector<Part> parts = {
       box({-11.79, -9.58, y_m - 0.94, y_m + 0.94, 0.0, 0.23}, kConcrete),
       box({kWest_m, kEast_m, y_m - 0.44, y_m + 0.44, 0.17, kTop_m}, kTransformerGreen),
-      beam({-10.21, y_m, 1.41}, {-8.14, y_m, 1.41}, 0.31, 0.26, kInsulatedPipe)};
+      beam({-10.21, y_m, 1.41}, {wall_x_m + 0.09, y_m, 1.41}, 0.31, 0.26, kInsulatedPipe)};
   for (int i = 0; i < 3; ++i) {
     const double x_m = -11.13 + 0.45 * i;
     parts.push_back(
@@ -114,8 +115,8 @@ std::vector<Part> conveyor() {
 }  // namespace
 
 std::vector<Part> transformer_yard() {
-  std::vector<Part> parts = transformer(-2.23);
-  add(parts, transformer(-5.07));
+  std::vector<Part> parts = transformer(-2.23, -8.23);
+  add(parts, transformer(-5.07, -7.43));
   parts.push_back(box({-11.63, -9.37, -3.76, -3.57, 0.0, 2.42}, kConcrete));  // fire wall
   add(parts, line_gantry());
   return parts;

@@ -1,5 +1,6 @@
 #include "assets/solids.hpp"
 
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <utility>
