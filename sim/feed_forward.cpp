@@ -38,7 +38,7 @@ Vec3 acceleration_setpoint(const AirframeParameters& airframe, const AutopilotPa
 
 double attitude_lag_s(const AutopilotParameters& autopilot) {
   // a loop of gain P follows a long ramp 1 / P later; those of a leg are short, and with this share
-  // of it legs keep nearest to their lines (measured, in steps of a tenth, with every preset)
+  // of it the presets deviate and overshoot least on the whole (measured, in steps of a tenth)
   return 0.8 / autopilot.attitude_p_per_s.x();
 }
 
