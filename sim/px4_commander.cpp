@@ -150,8 +150,10 @@ Ack Px4::set_mode(NavState mode) {
 /// The mode that runs follows intention and health.
 void Px4::choose_mode() {
   if (nav_state_ == NavState::terminate) return;  // never left
-  if (is_armed_ && nav_state_ == NavState::takeoff && is_finished(auto_)) {
-    intention_ = intention_after_disarming_ = NavState::hold;
+  if (nav_state_ == NavState::takeoff && takeoff_.phase == TakeoffPhase::flight &&
+      is_finished(auto_, estimate_)) {
+    intention_ = intention_after_disarming_ = nav_state_ = NavState::hold;
+    auto_ = hold_after_takeoff(auto_);
   }
   ModeChoice choice{intention_, false, false};
   if (is_armed_) {
@@ -173,7 +175,8 @@ void Px4::choose_mode() {
   enter(choice.mode);
 }
 
-/// Between Auto modes the trajectory goes on as it is, except out of a descent, which has none.
+/// Between Auto modes the trajectory goes on as it is, except after a descent, which leaves it
+/// below the vehicle.
 void Px4::enter(NavState mode) {
   const bool was_on_trajectory = auto_.mode == nav_state_ &&
                                  auto_.stage < AutoFlight::Stage::land &&

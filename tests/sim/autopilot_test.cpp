@@ -120,16 +120,15 @@ TEST(Autopilot, HoversAtTheHoverCommand) {
   PositionControlMemory position_memory;
   RateControlMemory rate_memory;
   for (int i = 0; i < 500; ++i) {
-    const AttitudeSetpoint attitude = position_loop(
-        kConfig.autopilot, kConfig.airframe, full_envelope(kConfig.autopilot), position_memory,
-        vehicle.state(), position(kStart.p_world_m, 0.0));
+    const AttitudeSetpoint attitude =
+        position_loop(kConfig.autopilot, kConfig.airframe, full_envelope(kConfig.autopilot),
+                      position_memory, vehicle.state(), position(kStart.p_world_m, 0.0));
     for (int tick = 0; tick < kTicksPerPositionLoop; ++tick) {
       const Vec3 omega_setpoint = attitude_control(
           kConfig.autopilot, Eigen::Quaterniond(vehicle.state().T_world_body.linear()), attitude);
       vehicle.step([&](const Vec3& omega_body_rad_s) {
-        const RotorCommands commands =
-            rate_loop(kConfig.autopilot, kConfig.airframe, rate_memory, omega_body_rad_s,
-                      omega_setpoint, attitude.thrust);
+        const RotorCommands commands = rate_loop(kConfig.autopilot, kConfig.airframe, rate_memory,
+                                                 omega_body_rad_s, omega_setpoint, attitude.thrust);
         for (const double command : commands) EXPECT_NEAR(command, 0.7067, 1e-3);
         return reference_speeds(kConfig.airframe, commands);
       });
