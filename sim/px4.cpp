@@ -67,7 +67,7 @@ void Px4::offboard_setpoint(const Setpoint& setpoint) {
 
 RotorSpeeds Px4::step(const VehicleState& estimate) {
   estimate_ = estimate;
-  choose_mode();
+  update_mode();
   if (tick_ % kTicksPerPositionLoop == 0) run_position_loop();
   detect_landing();
   disarm_when_due();

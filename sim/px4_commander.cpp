@@ -112,7 +112,7 @@ Ack Px4::arm(bool armed, bool force) {
   position_ = {};
   rate_ = {};
   say(6, "Armed");
-  choose_mode();
+  update_mode();
   return Ack::accepted;
 }
 
@@ -120,7 +120,7 @@ void Px4::disarm() {
   is_armed_ = false;
   intention_ = intention_after_disarming_;
   say(6, "Disarmed");
-  choose_mode();
+  update_mode();
 }
 
 void Px4::disarm_when_due() {
@@ -143,12 +143,12 @@ Ack Px4::set_mode(NavState mode) {
   intention_ = mode;
   if (!prevents_arming(mode) || mode == NavState::terminate) intention_after_disarming_ = mode;
   if (mode == NavState::takeoff) takeoff_altitude_m_ = parameters_.commander.takeoff_altitude_m;
-  choose_mode();
+  update_mode();
   return Ack::accepted;
 }
 
 /// The mode that runs follows intention and health.
-void Px4::choose_mode() {
+void Px4::update_mode() {
   if (nav_state_ == NavState::terminate) return;  // never left
   if (nav_state_ == NavState::takeoff && takeoff_.phase == TakeoffPhase::flight &&
       is_finished(auto_, estimate_)) {
@@ -157,7 +157,7 @@ void Px4::choose_mode() {
   }
   ModeChoice choice{intention_, false, false};
   if (is_armed_) {
-    choice = gnbv::choose_mode(intention_, health(), offboard_silence_s(), parameters_.commander);
+    choice = choose_mode(intention_, health(), offboard_silence_s(), parameters_.commander);
   }
   if (choice.disarms) {
     say(2, "Failsafe: offboard stream lost, disarming");

@@ -275,6 +275,17 @@ TEST(Px4Modes, ArmingOnTheGroundIsHomeOfTheReturn) {
   EXPECT_GT(top_m, 5.1);
 }
 
+TEST(Px4Modes, FliesByTheEstimateNotByTheTruth) {
+  VehicleConfig config;
+  config.estimate.model = EstimateModel::gnss;
+  const Vec3 goal(3, 1, 10);
+  Quadrotor quadrotor = airborne(config);
+  stream(quadrotor, go_to(goal), 20.0);
+  const Vec3 believed = quadrotor.estimate().T_world_body.translation();
+  EXPECT_LT((believed - goal).norm(), 0.05);  // the estimate wanders by some cm/s
+  EXPECT_GT((place(quadrotor) - goal).norm(), 0.1);
+}
+
 TEST(Px4Modes, ACrashIntoTheStructureIsSeenAndStaysFinite) {
   World world;
   world.structure.vertices_m = {{3, -10, 0}, {3, 10, 0}, {3, 10, 20}, {3, -10, 20}};
