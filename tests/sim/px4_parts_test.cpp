@@ -110,7 +110,8 @@ TEST(RateSteps, SeeTheBodyRateGrowEvenlyUnderConstantTorque) {
   int calls = 0;
   for (int tick = 0; tick < 50; ++tick) {
     vehicle.step([&](const Vec3& omega_body_rad_s) {
-      EXPECT_NEAR(omega_body_rad_s.z(), calls * kRateStep_s * alpha_rad_s2, 1e-12);  // rounding
+      // the unequal arms let it roll and pitch a little, which turns it at second order
+      EXPECT_NEAR(omega_body_rad_s.z(), calls * kRateStep_s * alpha_rad_s2, 1e-9);
       ++calls;
       return speeds;
     });
