@@ -161,6 +161,7 @@ void fields(FieldVisitor& v, MeshFileConfig& c);
 void fields(FieldVisitor& v, RotorMount& c);
 void fields(FieldVisitor& v, AirframeParameters& c);
 void fields(FieldVisitor& v, AutopilotParameters& c);
+void fields(FieldVisitor& v, CommanderParameters& c);
 void fields(FieldVisitor& v, PowerParameters& c);
 void fields(FieldVisitor& v, EstimateConfig& c);
 void fields(FieldVisitor& v, VehicleConfig& c);

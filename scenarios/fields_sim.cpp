@@ -14,6 +14,15 @@ constexpr std::array<Named<EstimateModel>, 4> kEstimateModels = {{{EstimateModel
                                                                   {EstimateModel::mocap, "mocap"},
                                                                   {EstimateModel::gnss, "gnss"},
                                                                   {EstimateModel::vio, "vio"}}};
+constexpr std::array<Named<OffboardLossAction>, 8> kOffboardLossActions = {
+    {{OffboardLossAction::position, "position"},
+     {OffboardLossAction::altitude, "altitude"},
+     {OffboardLossAction::stabilized, "stabilized"},
+     {OffboardLossAction::rtl, "rtl"},
+     {OffboardLossAction::land, "land"},
+     {OffboardLossAction::hold, "hold"},
+     {OffboardLossAction::terminate, "terminate"},
+     {OffboardLossAction::disarm, "disarm"}}};
 
 }  // namespace
 
@@ -90,6 +99,45 @@ void fields(FieldVisitor& v, AutopilotParameters& c) {
   v.number("rate_integral_max", c.rate_integral_max, kShare, "MC_RR_INT_LIM and its twins.");
   v.angle("rate_integral_fade_deg_s", c.rate_integral_fade_rad_s, above_upto(0, 1e5),
           "Rate error beyond which nothing is integrated.");
+  v.section("commander", c.commander, "Arming, modes, failsafe, takeoff, landing and Auto modes.");
+}
+
+void fields(FieldVisitor& v, CommanderParameters& c) {
+  constexpr Range kTime = between(0, 1e3);
+  constexpr Range kSpeed = above_upto(0, 100);
+  constexpr Range kLength = between(0, 1e3);
+  v.number("offboard_loss_s", c.offboard_loss_s, above_upto(0, 1e3), "COM_OF_LOSS_T.");
+  v.number("offboard_loss_hold_s", c.offboard_loss_hold_s, kTime,
+           "Held this long before the action; PX4 1.9's COM_OF_LOSS_T.");
+  v.choice("offboard_loss_action", c.offboard_loss_action, kOffboardLossActions,
+           "COM_OBL_RC_ACT; a mode that cannot run falls back, without a remote control to hold.");
+  v.number("disarm_after_landing_s", c.disarm_after_landing_s, kTime, "COM_DISARM_LAND.");
+  v.number("disarm_never_flown_s", c.disarm_never_flown_s, kTime, "COM_DISARM_PRFLT.");
+  v.number("spool_up_s", c.spool_up_s, kTime, "COM_SPOOLUP_TIME.");
+  v.number("takeoff_ramp_s", c.takeoff_ramp_s, kTime, "MPC_TKO_RAMP_T.");
+  v.number("takeoff_altitude_m", c.takeoff_altitude_m, kLength, "MIS_TAKEOFF_ALT.");
+  v.number("takeoff_speed_m_s", c.takeoff_speed_m_s, kSpeed, "MPC_TKO_SPEED.");
+  v.angle("tilt_max_on_ground_deg", c.tilt_max_on_ground_rad, inside(0, 90), "MPC_TILTMAX_LND.");
+  v.number("land_detection_s", c.land_detection_s, kTime, "LNDMC_TRIG_TIME.");
+  v.number("land_speed_vertical_max_m_s", c.land_speed_vertical_max_m_s, kSpeed,
+           "LNDMC_Z_VEL_MAX.");
+  v.number("land_speed_horizontal_max_m_s", c.land_speed_horizontal_max_m_s, kSpeed,
+           "LNDMC_XY_VEL_MAX.");
+  v.angle("land_rotation_max_deg_s", c.land_rotation_max_rad_s, above_upto(0, 1e4),
+          "LNDMC_ROT_MAX.");
+  v.number("cruise_speed_m_s", c.cruise_speed_m_s, kSpeed, "MPC_XY_CRUISE.");
+  v.number("climb_speed_m_s", c.climb_speed_m_s, kSpeed, "MPC_Z_V_AUTO_UP.");
+  v.number("descent_speed_m_s", c.descent_speed_m_s, kSpeed, "MPC_Z_V_AUTO_DN.");
+  v.number("acceleration_m_s2", c.acceleration_m_s2, kSpeed, "MPC_ACC_HOR.");
+  v.number("acceleration_up_m_s2", c.acceleration_up_m_s2, kSpeed, "MPC_ACC_UP_MAX.");
+  v.number("acceleration_down_m_s2", c.acceleration_down_m_s2, kSpeed, "MPC_ACC_DOWN_MAX.");
+  v.number("jerk_m_s3", c.jerk_m_s3, kSpeed, "MPC_JERK_AUTO.");
+  v.number("path_error_max_m", c.path_error_max_m, above_upto(0, 1e3), "MPC_XY_ERR_MAX.");
+  v.number("land_speed_m_s", c.land_speed_m_s, kSpeed, "MPC_LAND_SPEED.");
+  v.number("land_slow_from_m", c.land_slow_from_m, kLength, "MPC_LAND_ALT1.");
+  v.number("land_slow_below_m", c.land_slow_below_m, kLength, "MPC_LAND_ALT2.");
+  v.number("return_altitude_m", c.return_altitude_m, kLength, "RTL_RETURN_ALT.");
+  v.number("return_distance_min_m", c.return_distance_min_m, kLength, "RTL_MIN_DIST.");
 }
 
 void fields(FieldVisitor& v, PowerParameters& c) {

@@ -10,8 +10,8 @@ namespace {
 using Vec2 = Eigen::Vector2d;
 using Stage = AutoFlight::Stage;
 
-constexpr double kTrajectoryArrival_m = 0.01;
-constexpr double kVehicleArrival_m = 0.1;
+constexpr double kAltitudeArrival_m = 0.8;  // NAV_MC_ALT_RAD; the rest of the way is flown as well
+constexpr double kHomeArrival_m = 0.5;      // of RTL, before it descends and still comes nearer
 
 Stage first_stage(NavState mode) {
   switch (mode) {
@@ -72,7 +72,8 @@ Vec3 wanted_velocity(const AutoFlight& flight, const CommanderParameters& parame
   } else if (flight.stage == Stage::land) {
     v_m_s.z() = -landing_speed_m_s(parameters, height_m);
   }
-  if (flight.stage == Stage::go_home) {
+  if (flight.stage == Stage::go_home ||
+      (flight.stage == Stage::land && flight.mode == NavState::rtl)) {
     const Vec2 way_m = flight.home_world_m - p_world_m.head<2>();
     const double speed_m_s = std::min(
         parameters.cruise_speed_m_s,
@@ -96,18 +97,17 @@ void move_trajectory(AutoFlight& flight, const CommanderParameters& parameters,
                        {level, level, vertical_limits(parameters, is_upwards)}, pace * dt_s);
 }
 
+bool is_at_altitude(const AutoFlight& flight, const VehicleState& estimate) {
+  return std::abs(flight.altitude_m - estimate.T_world_body.translation().z()) < kAltitudeArrival_m;
+}
+
 void enter_next_stage(AutoFlight& flight, const VehicleState& estimate) {
-  const auto has_arrived = [](double trajectory_m, double vehicle_m) {
-    return trajectory_m < kTrajectoryArrival_m && vehicle_m < kVehicleArrival_m;
-  };
-  const Vec3 trajectory = position(flight);
-  const Vec3 vehicle = estimate.T_world_body.translation();
-  if (flight.stage == Stage::climb && has_arrived(std::abs(flight.altitude_m - trajectory.z()),
-                                                  std::abs(flight.altitude_m - vehicle.z()))) {
-    flight.stage = flight.mode == NavState::rtl ? Stage::go_home : Stage::hold;
+  if (flight.mode != NavState::rtl) return;
+  const Vec2 p_world_m = estimate.T_world_body.translation().head<2>();
+  if (flight.stage == Stage::climb && is_at_altitude(flight, estimate)) {
+    flight.stage = Stage::go_home;
   } else if (flight.stage == Stage::go_home &&
-             has_arrived((flight.home_world_m - trajectory.head<2>()).norm(),
-                         (flight.home_world_m - vehicle.head<2>()).norm())) {
+             (flight.home_world_m - p_world_m).norm() < kHomeArrival_m) {
     flight.stage = Stage::land;
   }
 }
@@ -154,8 +154,14 @@ Setpoint step_auto(AutoFlight& flight, const CommanderParameters& parameters,
   return setpoint;
 }
 
-bool is_finished(const AutoFlight& flight) {
-  return flight.mode == NavState::takeoff && flight.stage == Stage::hold;
+bool is_finished(const AutoFlight& flight, const VehicleState& estimate) {
+  return flight.mode == NavState::takeoff && is_at_altitude(flight, estimate);
+}
+
+AutoFlight hold_after_takeoff(const AutoFlight& takeoff) {
+  AutoFlight flight = takeoff;
+  flight.mode = NavState::hold;
+  return flight;
 }
 
 }  // namespace gnbv

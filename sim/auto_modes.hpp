@@ -32,7 +32,10 @@ AutoFlight begin_auto(NavState mode, const CommanderParameters& parameters,
 Setpoint step_auto(AutoFlight& flight, const CommanderParameters& parameters,
                    const VehicleState& estimate, double dt_s);
 
-/// Whether a takeoff has come to its altitude.
-bool is_finished(const AutoFlight& flight);
+/// Whether a takeoff has come near its altitude (NAV_MC_ALT_RAD).
+bool is_finished(const AutoFlight& takeoff, const VehicleState& estimate);
+
+/// HOLD that ends what is left of the takeoff.
+AutoFlight hold_after_takeoff(const AutoFlight& takeoff);
 
 }  // namespace gnbv

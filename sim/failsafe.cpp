@@ -38,13 +38,6 @@ std::optional<NavState> mode_of(OffboardLossAction action) {
 
 }  // namespace
 
-std::string_view name_of(NavState state) {
-  constexpr std::array<std::string_view, 12> kNames = {
-      "MANUAL", "STABILIZED", "ALTITUDE", "POSITION", "HOLD",     "MISSION",
-      "RTL",    "TAKEOFF",    "LAND",     "DESCEND",  "OFFBOARD", "TERMINATE"};
-  return kNames.at(static_cast<std::size_t>(state));
-}
-
 bool can_run(NavState mode, const Health& health) {
   switch (mode) {
     case NavState::manual:

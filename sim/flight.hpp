@@ -1,5 +1,5 @@
 // What flies: setpoints in, true motion out. Two implementations live behind it: the quadrotor in
-// Bullet behind a PX4-style cascade, and an ideal vehicle that moves as commanded.
+// Bullet behind PX4, and an ideal vehicle that moves as commanded.
 #pragma once
 
 #include <cstdint>
@@ -46,7 +46,8 @@ class Flight {
   virtual VehicleState state() const = 0;
   /// What the autopilot, the guidance and the map believe (VehicleConfig::estimate).
   virtual VehicleState estimate() const = 0;
-  /// Holds until the next call.
+  /// Holds until the next call; a quadrotor gives it up when no other comes for
+  /// CommanderParameters::offboard_loss_s, and then stays where it is.
   virtual void command(const Setpoint& setpoint) = 0;
   /// Advances one tick. Throws BrokenInvariant when the state becomes NaN.
   virtual void step() = 0;
@@ -57,7 +58,7 @@ class Flight {
 };
 
 /// An airborne vehicle hovering at `start` (rotors at hover speed), in a world rebuilt for it.
-/// VehicleKind::quadrotor: sim/vehicle.hpp under sim/autopilot.hpp, estimate = truth.
+/// VehicleKind::quadrotor: sim/quadrotor.hpp, armed and in OFFBOARD.
 /// VehicleKind::ideal: moves exactly as commanded, level, draws hover power and never collides.
 /// `seed` keys the errors of the estimate.
 std::unique_ptr<Flight> make_flight(const VehicleConfig& config, const World& world,

@@ -67,7 +67,7 @@ void Px4::offboard_setpoint(const Setpoint& setpoint) {
 
 RotorSpeeds Px4::step(const VehicleState& estimate) {
   estimate_ = estimate;
-  choose_mode();
+  update_mode();
   if (tick_ % kTicksPerPositionLoop == 0) run_position_loop();
   detect_landing();
   disarm_when_due();
@@ -80,9 +80,8 @@ RotorSpeeds Px4::step(const VehicleState& estimate) {
 RotorSpeeds Px4::rate_step(const Vec3& omega_body_rad_s) {
   if (!is_armed_ || nav_state_ == NavState::terminate) return {};
   const Vec3 integral = rate_.integral;
-  const RotorCommands commands =
-      rate_loop(parameters_, airframe_, rate_, omega_body_rad_s, omega_setpoint_body_rad_s_,
-                attitude_setpoint_.thrust);
+  const RotorCommands commands = rate_loop(parameters_, airframe_, rate_, omega_body_rad_s,
+                                           omega_setpoint_body_rad_s_, attitude_setpoint_.thrust);
   if (land_.is_maybe_landed) rate_.integral = integral;  // the ground holds it, not we
   return reference_speeds(airframe_, commands);
 }

@@ -82,7 +82,7 @@ class Px4 {
   void say(int severity, std::string text);
   void disarm();
   void disarm_when_due();
-  void choose_mode();
+  void update_mode();
   void enter(NavState mode);
   bool wants_takeoff() const;
   Setpoint setpoint_to_fly();

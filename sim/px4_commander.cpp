@@ -112,7 +112,7 @@ Ack Px4::arm(bool armed, bool force) {
   position_ = {};
   rate_ = {};
   say(6, "Armed");
-  choose_mode();
+  update_mode();
   return Ack::accepted;
 }
 
@@ -120,7 +120,7 @@ void Px4::disarm() {
   is_armed_ = false;
   intention_ = intention_after_disarming_;
   say(6, "Disarmed");
-  choose_mode();
+  update_mode();
 }
 
 void Px4::disarm_when_due() {
@@ -143,19 +143,21 @@ Ack Px4::set_mode(NavState mode) {
   intention_ = mode;
   if (!prevents_arming(mode) || mode == NavState::terminate) intention_after_disarming_ = mode;
   if (mode == NavState::takeoff) takeoff_altitude_m_ = parameters_.commander.takeoff_altitude_m;
-  choose_mode();
+  update_mode();
   return Ack::accepted;
 }
 
 /// The mode that runs follows intention and health.
-void Px4::choose_mode() {
+void Px4::update_mode() {
   if (nav_state_ == NavState::terminate) return;  // never left
-  if (is_armed_ && nav_state_ == NavState::takeoff && is_finished(auto_)) {
-    intention_ = intention_after_disarming_ = NavState::hold;
+  if (nav_state_ == NavState::takeoff && takeoff_.phase == TakeoffPhase::flight &&
+      is_finished(auto_, estimate_)) {
+    intention_ = intention_after_disarming_ = nav_state_ = NavState::hold;
+    auto_ = hold_after_takeoff(auto_);
   }
   ModeChoice choice{intention_, false, false};
   if (is_armed_) {
-    choice = gnbv::choose_mode(intention_, health(), offboard_silence_s(), parameters_.commander);
+    choice = choose_mode(intention_, health(), offboard_silence_s(), parameters_.commander);
   }
   if (choice.disarms) {
     say(2, "Failsafe: offboard stream lost, disarming");
@@ -173,7 +175,8 @@ void Px4::choose_mode() {
   enter(choice.mode);
 }
 
-/// Between Auto modes the trajectory goes on as it is, except out of a descent, which has none.
+/// Between Auto modes the trajectory goes on as it is, except after a descent, which leaves it
+/// below the vehicle.
 void Px4::enter(NavState mode) {
   const bool was_on_trajectory = auto_.mode == nav_state_ &&
                                  auto_.stage < AutoFlight::Stage::land &&

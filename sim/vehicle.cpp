@@ -192,8 +192,8 @@ Wrench RigidVehicle::Scene::turn_rotors(const RateControl& control) {
     mean.torque_body_n_m += wrench.torque_body_n_m / kRateStepsPerTick;
     mean.thrust_n += wrench.thrust_n / kRateStepsPerTick;
     const Vec3 L_body = airframe.inertia_kg_m2.cwiseProduct(omega);
-    omega += kRateStep_s * (wrench.torque_body_n_m - omega.cross(L_body))
-                               .cwiseQuotient(airframe.inertia_kg_m2);
+    omega += kRateStep_s *
+             (wrench.torque_body_n_m - omega.cross(L_body)).cwiseQuotient(airframe.inertia_kg_m2);
     for (std::size_t i = 0; i < kRotors; ++i) {
       speeds_rad_s[i] =
           rotor_speed_after(airframe, speeds_rad_s[i], reference_rad_s[i], kRateStep_s);

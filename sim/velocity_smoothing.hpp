@@ -31,7 +31,8 @@ struct SpeedChange {
 /// The fastest way from `now` to the speed `v_m_s`.
 SpeedChange fastest_change(const SmoothedAxis& now, double v_m_s, const AxisLimits& limits);
 
-/// The same change with a lower peak, so that it takes `duration_s` (not less than the fastest).
+/// The same change with a lower peak, so that it takes `duration_s` (not less than the fastest), or
+/// as long as the acceleration at hand allows.
 SpeedChange stretched_change(const SmoothedAxis& now, double v_m_s, const AxisLimits& limits,
                              double duration_s);
 

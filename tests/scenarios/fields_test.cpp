@@ -73,6 +73,7 @@ TEST(Fields, EveryFieldOfEveryConfigHasAKey) {
   EXPECT_EQ(key_count<RotorMount>(), field_count<RotorMount>());
   EXPECT_EQ(key_count<AirframeParameters>(), field_count<AirframeParameters>());
   EXPECT_EQ(key_count<AutopilotParameters>(), field_count<AutopilotParameters>());
+  EXPECT_EQ(key_count<CommanderParameters>(), field_count<CommanderParameters>());
   EXPECT_EQ(key_count<PowerParameters>(), field_count<PowerParameters>());
   EXPECT_EQ(key_count<EstimateConfig>(), field_count<EstimateConfig>());
   EXPECT_EQ(key_count<VehicleConfig>(), field_count<VehicleConfig>());

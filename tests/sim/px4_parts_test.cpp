@@ -4,6 +4,7 @@
 #include "sim/core/rng.hpp"
 #include "sim/land_detector.hpp"
 #include "sim/takeoff.hpp"
+#include "sim/vehicle.hpp"
 #include "sim/velocity_smoothing.hpp"
 
 namespace gnbv {
@@ -93,6 +94,29 @@ TEST(VelocitySmoothing, BrakingSpeedArrivesWithoutPassingTheGoal) {
     }
     EXPECT_NEAR(axis.x_m, goal_m, 0.01) << goal_m;
   }
+}
+
+TEST(RateSteps, SeeTheBodyRateGrowEvenlyUnderConstantTorque) {
+  AirframeParameters airframe;
+  airframe.drag_coefficient_n_s2_per_m = 0.0;
+  airframe.rolling_coefficient_n_s2 = 0.0;
+  World world;
+  world.has_ground = false;
+  const RotorSpeeds speeds = {800, 800, 810, 810};  // yaw only
+  const double alpha_rad_s2 =
+      rotor_wrench(airframe, speeds, Vec3::Zero(), Vec3::Zero()).torque_body_n_m.z() /
+      airframe.inertia_kg_m2.z();
+  RigidVehicle vehicle(airframe, world, VehicleState{}, speeds);
+  int calls = 0;
+  for (int tick = 0; tick < 50; ++tick) {
+    vehicle.step([&](const Vec3& omega_body_rad_s) {
+      // the unequal arms let it roll and pitch a little, which turns it at second order
+      EXPECT_NEAR(omega_body_rad_s.z(), calls * kRateStep_s * alpha_rad_s2, 1e-9);
+      ++calls;
+      return speeds;
+    });
+  }
+  EXPECT_EQ(calls, 50 * kRateStepsPerTick);
 }
 
 TEST(Takeoff, ClimbLimitIsLinearOverTheRamp) {  // 19
