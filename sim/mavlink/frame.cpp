@@ -1,6 +1,6 @@
 #include "sim/mavlink/frame.hpp"
 
-#include <algorithm>
+#include <array>
 
 #include "sim/core/error.hpp"
 
@@ -112,18 +112,15 @@ std::vector<std::uint8_t> write_frame(const Frame& frame) {
              frame.message_id, frame.payload.size());
   std::size_t size = frame.payload.size();
   while (size > 1 && frame.payload[size - 1] == 0) --size;
-  std::vector<std::uint8_t> bytes = {kStart2,
-                                     static_cast<std::uint8_t>(size),
-                                     0,
-                                     0,
-                                     frame.sequence,
-                                     frame.system_id,
-                                     frame.component_id,
-                                     static_cast<std::uint8_t>(frame.message_id),
-                                     static_cast<std::uint8_t>(frame.message_id >> 8),
-                                     static_cast<std::uint8_t>(frame.message_id >> 16)};
-  bytes.insert(bytes.end(), frame.payload.begin(),
-               frame.payload.begin() + static_cast<std::ptrdiff_t>(size));
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(kHeaderSize2 + size + kCrcSize);
+  detail::write(
+      bytes, std::array{kStart2, static_cast<std::uint8_t>(size), std::uint8_t{0}, std::uint8_t{0},
+                        frame.sequence, frame.system_id, frame.component_id});
+  for (const int shift : {0, 8, 16}) {
+    bytes.push_back(static_cast<std::uint8_t>(frame.message_id >> shift));
+  }
+  for (const std::uint8_t byte : std::span(frame.payload).first(size)) bytes.push_back(byte);
   detail::write(bytes, frame_crc(std::span(bytes).subspan(1), info->crc_extra));
   return bytes;
 }
