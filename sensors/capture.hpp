@@ -11,16 +11,16 @@
 
 namespace gnbv {
 
-/// What the noise of a measurement is keyed by, beside the sensor and the pixel or beam: the seed of
-/// the mission and the tick of the measurement. Noise depends on nothing else.
+/// What the noise of a measurement is keyed by, beside the sensor and the pixel or beam: the seed
+/// of the mission and the tick of the measurement. Noise depends on nothing else.
 struct NoiseKey {
   std::uint64_t seed = 0;
   std::uint64_t tick = 0;
 };
 
 /// Depth along the optical axis for every pixel centre: kInvalidRange nearer than range_min_m,
-/// kNoReturn beyond range_max_m, noise by CameraConfig::noise before either is decided. The frame is
-/// the same at any number of threads. `T_world_body` is the true pose, and the frame carries it:
+/// kNoReturn beyond range_max_m, noise by CameraConfig::noise before either is decided. The frame
+/// is the same at any number of threads. `T_world_body` is the true pose, and the frame carries it:
 /// who believes another one says so afterwards.
 DepthFrame capture_depth(const RayScene& scene, const CameraModel& camera, int camera_index,
                          const Isometry& T_world_body, const NoiseKey& key, int threads);

@@ -1,26 +1,52 @@
 #include "sim/autopilot.hpp"
 
+#include <algorithm>
+
 namespace gnbv {
+
+FlightEnvelope full_envelope(const AutopilotParameters& parameters) {
+  return {parameters.climb_speed_max_m_s, parameters.tilt_max_rad, parameters.thrust_min};
+}
+
+AttitudeSetpoint position_loop(const AutopilotParameters& parameters,
+                               const AirframeParameters& airframe, const FlightEnvelope& envelope,
+                               PositionControlMemory& memory, const VehicleState& state,
+                               const Setpoint& setpoint) {
+  AutopilotParameters narrowed = parameters;
+  narrowed.climb_speed_max_m_s = envelope.climb_speed_max_m_s;
+  narrowed.descent_speed_max_m_s =
+      std::max(parameters.descent_speed_max_m_s, -envelope.climb_speed_max_m_s);
+  narrowed.tilt_max_rad = envelope.tilt_max_rad;
+  narrowed.thrust_min = envelope.thrust_min;
+  return position_control(narrowed, airframe.gravity_m_s2, hover_command(airframe), memory, state,
+                          setpoint, kPositionLoop_s);
+}
+
+RotorCommands rate_loop(const AutopilotParameters& parameters, const AirframeParameters& airframe,
+                        RateControlMemory& memory, const Vec3& omega_body_rad_s,
+                        const Vec3& omega_setpoint_body_rad_s, double thrust, double dt_s) {
+  const Vec3 torque =
+      rate_control(parameters, memory, omega_body_rad_s, omega_setpoint_body_rad_s, dt_s);
+  const MixerOutput mixed = mix(airframe, torque, thrust);
+  for (int i = 0; i < 3; ++i) {
+    const double missing = torque[i] - mixed.torque[i];
+    constexpr double kRounding = 1e-7;  // FLT_EPSILON in PX4
+    memory.saturation[i] = missing > kRounding ? 1 : (missing < -kRounding ? -1 : 0);
+  }
+  return mixed.commands;
+}
 
 RotorCommands autopilot(const AutopilotParameters& parameters, const AirframeParameters& airframe,
                         AutopilotMemory& memory, std::int64_t tick, const VehicleState& state,
                         const Setpoint& setpoint) {
   if (tick % kTicksPerPositionLoop == 0) {
-    memory.attitude_setpoint =
-        position_control(parameters, airframe.gravity_m_s2, hover_command(airframe),
-                         memory.position, state, setpoint, kTicksPerPositionLoop * kTick_s);
+    memory.attitude_setpoint = position_loop(parameters, airframe, full_envelope(parameters),
+                                             memory.position, state, setpoint);
   }
-  const Eigen::Quaterniond q_world_body(state.T_world_body.linear());
-  const Vec3 omega_setpoint = attitude_control(parameters, q_world_body, memory.attitude_setpoint);
-  const Vec3 torque =
-      rate_control(parameters, memory.rate, state.omega_body_rad_s, omega_setpoint, kTick_s);
-  const MixerOutput mixed = mix(airframe, torque, memory.attitude_setpoint.thrust);
-  for (int i = 0; i < 3; ++i) {
-    const double missing = torque[i] - mixed.torque[i];
-    constexpr double kRounding = 1e-7;  // FLT_EPSILON in PX4
-    memory.rate.saturation[i] = missing > kRounding ? 1 : (missing < -kRounding ? -1 : 0);
-  }
-  return mixed.commands;
+  const Vec3 omega_setpoint = attitude_control(
+      parameters, Eigen::Quaterniond(state.T_world_body.linear()), memory.attitude_setpoint);
+  return rate_loop(parameters, airframe, memory.rate, state.omega_body_rad_s, omega_setpoint,
+                   memory.attitude_setpoint.thrust, kTick_s);
 }
 
 }  // namespace gnbv

@@ -89,20 +89,21 @@ bool has_arrived(const VehicleState& state, const ViewPose& goal, const Guidance
 }  // namespace
 
 LegEnd fly_leg(Flight& flight, const ViewPose& goal, double speed_m_s, const GuidanceConfig& config,
-               const std::function<void(const Flight&)>& on_tick) {
+               const std::function<bool(const Flight&)>& on_tick) {
   GNBV_CHECK(goal.p_world_m.allFinite() && std::isfinite(goal.yaw_rad) && speed_m_s > 0.0,
              "the goal must be finite and the speed, {} m/s, positive", speed_m_s);
-  const Leg leg(level_pose(flight.state()), goal, speed_m_s, config);
+  const Leg leg(level_pose(flight.estimate()), goal, speed_m_s, config);
   for (int sent = 0;; ++sent) {
     const double time_s = sent * kTicksPerSetpoint * kTick_s;
     if (time_s > leg.duration_s() + config.timeout_s) return LegEnd::timeout;
     flight.command(leg.at(time_s, config));
     for (int i = 0; i < kTicksPerSetpoint; ++i) {
       flight.step();
-      if (on_tick) on_tick(flight);
+      const bool goes_on = !on_tick || on_tick(flight);
       if (flight.has_collided()) return LegEnd::collision;
+      if (!goes_on) return LegEnd::stopped;
     }
-    if (time_s >= leg.duration_s() && has_arrived(flight.state(), goal, config)) {
+    if (time_s >= leg.duration_s() && has_arrived(flight.estimate(), goal, config)) {
       return LegEnd::arrived;
     }
   }

@@ -29,6 +29,8 @@ class IdealFlight final : public Flight {
     return state;
   }
 
+  VehicleState estimate() const override { return state(); }
+
   double energy_wh() const override {
     return hover_power_w_ * kTick_s * static_cast<double>(tick_) / kJoulesPerWattHour;
   }

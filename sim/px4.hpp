@@ -1,36 +1,24 @@
 // PX4 as an external client meets it: commands with acknowledgements, modes, arming, the offboard
-// stream and its failsafe, takeoff ramp, landing detection. Simulation time only, no input or output:
-// the same calls at the same ticks give the same flight, bit by bit.
-// Source of every rule: PX4-Autopilot, as listed in the tests (Commander.cpp, UserModeIntention.cpp,
-// offboardCheck.cpp, failsafe.cpp, Takeoff.cpp, MulticopterLandDetector.cpp).
+// stream and its failsafe, takeoff ramp, landing detection. Simulation time only, no input or
+// output: the same calls at the same ticks give the same flight, bit by bit. Source of every rule:
+// PX4-Autopilot, as listed in the tests (Commander.cpp, UserModeIntention.cpp, offboardCheck.cpp,
+// failsafe.cpp, Takeoff.cpp, MulticopterLandDetector.cpp).
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "sim/auto_modes.hpp"
 #include "sim/autopilot.hpp"
+#include "sim/failsafe.hpp"
+#include "sim/land_detector.hpp"
+#include "sim/takeoff.hpp"
 
 namespace gnbv {
-
-/// PX4's navigation states. There is no remote control here, so the modes that need one (manual to
-/// position) can be asked for, but cannot run: Commander falls back from them.
-enum class NavState {
-  manual,
-  stabilized,
-  altitude,
-  position,
-  hold,  // AUTO_LOITER
-  mission,
-  rtl,
-  takeoff,
-  land,
-  descend,
-  offboard,
-  terminate
-};
-std::string_view name_of(NavState state);
 
 /// MAV_RESULT.
 enum class Ack : std::uint8_t {
@@ -58,8 +46,9 @@ struct StatusText {
 class Px4 {
  public:
   enum class Start {
-    on_ground,        // disarmed, in HOLD
-    airborne_offboard // armed, flying, in OFFBOARD with a stream just received: a mission begins here
+    on_ground,         // disarmed, in HOLD
+    airborne_offboard  // armed, flying, in OFFBOARD with a stream just received: a mission begins
+                       // here
   };
   Px4(const AutopilotParameters& parameters, const AirframeParameters& airframe,
       const VehicleState& start, Start how);
@@ -67,8 +56,8 @@ class Px4 {
   Ack command(const Px4Command& command);
   Ack arm(bool armed, bool force = false);
   Ack set_mode(NavState mode);
-  /// A setpoint of the offboard stream (world ENU). A valid one refreshes the heartbeat in any mode;
-  /// it is flown only in OFFBOARD. An invalid one (Setpoint) stops and holds, with a warning.
+  /// A setpoint of the offboard stream (world ENU). A valid one refreshes the heartbeat in any
+  /// mode; it is flown only in OFFBOARD. An invalid one (Setpoint) stops and holds, with a warning.
   void offboard_setpoint(const Setpoint& setpoint);
 
   /// Advances one tick: rotor references, 0 when disarmed.
@@ -80,8 +69,50 @@ class Px4 {
   bool is_armed() const;
   bool is_landed() const;
   bool is_in_failsafe() const;
+  /// What the position loop asks of the attitude loop.
+  const AttitudeSetpoint& attitude_setpoint() const;
   /// What was said since the last call, oldest first.
   std::vector<StatusText> take_messages();
+
+ private:
+  double offboard_silence_s() const;
+  Health health() const;
+  void say(int severity, std::string text);
+  void disarm();
+  void disarm_when_due();
+  void choose_mode();
+  void enter(NavState mode);
+  bool wants_takeoff() const;
+  Setpoint setpoint_to_fly();
+  void run_position_loop();
+  void detect_landing();
+
+  AutopilotParameters parameters_;
+  AirframeParameters airframe_;
+  std::int64_t tick_ = 0;
+  VehicleState estimate_;
+
+  NavState intention_ = NavState::hold;
+  NavState intention_after_disarming_ = NavState::hold;
+  NavState nav_state_ = NavState::hold;
+  bool is_in_failsafe_ = false;
+  bool is_armed_ = false;
+  bool has_flown_ = false;  // since arming
+  std::int64_t landed_ticks_ = 0;
+  Eigen::Vector2d home_world_m_ = Eigen::Vector2d::Zero();  // where it was armed
+
+  Setpoint offboard_setpoint_;
+  bool is_offboard_setpoint_valid_ = true;
+  std::optional<std::int64_t> heartbeat_tick_;
+
+  double takeoff_altitude_m_ = 0.0;
+  AutoFlight auto_;
+  Takeoff takeoff_;
+  LandDetector land_ = kOnGround;
+  Setpoint setpoint_;  // what is flown now
+  double tilt_limit_rad_ = 0.0;
+  AutopilotMemory autopilot_;
+  std::vector<StatusText> messages_;
 };
 
 }  // namespace gnbv

@@ -26,8 +26,20 @@ class Quadrotor final : public Flight {
   /// Electrical power at the last tick.
   double power_w() const;
 
-  Px4& px4();
-  const Px4& px4() const;
+  Px4& px4() { return px4_; }
+  const Px4& px4() const { return px4_; }
+
+ private:
+  Quadrotor(const VehicleConfig& config, const World& world, const VehicleState& start,
+            std::uint64_t seed, Px4::Start how);
+
+  VehicleConfig config_;
+  Px4::Start how_;
+  RigidVehicle vehicle_;
+  StateEstimator estimator_;
+  VehicleState estimate_;
+  Px4 px4_;
+  double energy_j_ = 0.0;
 };
 
 }  // namespace gnbv

@@ -5,6 +5,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "sim/core/error.hpp"
@@ -50,7 +51,8 @@ struct RigidVehicle::Scene {
   Scene& operator=(const Scene&) = delete;
 
   void add_static(btCollisionShape* shape);
-  bool is_touching();
+  /// Notes what the hull touches, and takes away the part of the velocity that leads into it.
+  Vec3 feel_contacts(const Vec3& v_world_m_s);
   /// Angular velocity, in world axes, of a body at attitude R with this angular momentum.
   Vec3 omega_world(const Eigen::Matrix3d& R_world_body, const Vec3& L_world) const {
     return R_world_body *
@@ -59,10 +61,14 @@ struct RigidVehicle::Scene {
 
   AirframeParameters airframe;
   VehicleState state;
-  Vec3 angular_momentum_world_n_m_s = Vec3::Zero();  // kept, so that rounding alone can change it
+  // The momenta, kept so that rounding alone can change them. At rest on the ground the velocity
+  // here is that of half a tick of free fall, which Bullet takes away in the middle of the tick.
+  Vec3 v_world_m_s;
+  Vec3 angular_momentum_world_n_m_s = Vec3::Zero();
   RotorSpeeds speeds_rad_s;
   double thrust_n = 0.0;
-  bool has_collided = false;
+  bool has_touched_structure = false;
+  bool has_touched_ground = false;
 
   // Bullet keeps pointers: declared in order of need, so destroyed in reverse.
   std::vector<int> indices;
@@ -84,6 +90,7 @@ RigidVehicle::Scene::Scene(const AirframeParameters& airframe_in, const World& w
                            const VehicleState& start, const RotorSpeeds& start_rad_s)
     : airframe(airframe_in),
       state(start),
+      v_world_m_s(start.v_world_m_s),
       speeds_rad_s(start_rad_s),
       hull_shape(btVector3(airframe_in.hull_radius_m, airframe_in.hull_radius_m,
                            0.5 * airframe_in.hull_height_m)) {
@@ -137,14 +144,23 @@ void RigidVehicle::Scene::add_static(btCollisionShape* shape) {
   world.addRigidBody(statics.back().get());
 }
 
-bool RigidVehicle::Scene::is_touching() {
+Vec3 RigidVehicle::Scene::feel_contacts(const Vec3& v_free_world_m_s) {
+  Vec3 v = v_free_world_m_s;
   for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
     const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+    const bool is_first = manifold.getBody0() == body.get();
+    const btCollisionObject* other = is_first ? manifold.getBody1() : manifold.getBody0();
+    bool& has_touched =
+        other->getCollisionShape() == &ground_shape ? has_touched_ground : has_touched_structure;
     for (int k = 0; k < manifold.getNumContacts(); ++k) {
-      if (manifold.getContactPoint(k).getDistance() <= 0.0) return true;
+      const btManifoldPoint& point = manifold.getContactPoint(k);
+      has_touched = has_touched || point.getDistance() <= 0.0;
+      if (point.getAppliedImpulse() <= 0.0) continue;
+      const Vec3 outwards = (is_first ? 1.0 : -1.0) * from_bullet(point.m_normalWorldOnB);
+      v -= std::min(0.0, v.dot(outwards)) * outwards;
     }
   }
-  return false;
+  return v;
 }
 
 RigidVehicle::RigidVehicle(const AirframeParameters& airframe, const World& world,
@@ -160,7 +176,8 @@ RigidVehicle::~RigidVehicle() = default;
 const VehicleState& RigidVehicle::state() const { return scene_->state; }
 const RotorSpeeds& RigidVehicle::rotor_speeds_rad_s() const { return scene_->speeds_rad_s; }
 double RigidVehicle::thrust_n() const { return scene_->thrust_n; }
-bool RigidVehicle::has_collided() const { return scene_->has_collided; }
+bool RigidVehicle::has_touched_structure() const { return scene_->has_touched_structure; }
+bool RigidVehicle::has_touched_ground() const { return scene_->has_touched_ground; }
 
 void RigidVehicle::step(const RotorSpeeds& reference_rad_s) {
   Scene& s = *scene_;
@@ -175,7 +192,7 @@ void RigidVehicle::step(const RotorSpeeds& reference_rad_s) {
 
   // Bullet moves the body with the velocities of mid-tick, found from the momenta: second order,
   // exact under constant force, and without torque the angular momentum stays what it is.
-  const Vec3 v_mid_world = s.state.v_world_m_s + 0.5 * kTick_s * a_world;
+  const Vec3 v_mid_world = s.v_world_m_s + 0.5 * kTick_s * a_world;
   const Vec3 L_mid_world = s.angular_momentum_world_n_m_s + 0.5 * kTick_s * torque_world;
   Vec3 omega_mid_world = s.omega_world(rotation(0.5 * kTick_s * omega0_world) * R0, L_mid_world);
   omega_mid_world = s.omega_world(rotation(0.5 * kTick_s * omega_mid_world) * R0, L_mid_world);
@@ -191,9 +208,9 @@ void RigidVehicle::step(const RotorSpeeds& reference_rad_s) {
     const Vec3 d_omega_world = from_bullet(s.body->getAngularVelocity()) - omega_mid_world;
     s.angular_momentum_world_n_m_s +=
         R0 * s.airframe.inertia_kg_m2.cwiseProduct(R0.transpose() * d_omega_world);
-    s.has_collided = s.has_collided || s.is_touching();
   }
-  s.state.v_world_m_s = v_world + 0.5 * kTick_s * a_world;
+  s.v_world_m_s = v_world + 0.5 * kTick_s * a_world;
+  s.state.v_world_m_s = s.feel_contacts(s.v_world_m_s);
   const Eigen::Matrix3d R1 = s.state.T_world_body.linear();
   s.state.omega_body_rad_s = R1.transpose() * s.omega_world(R1, s.angular_momentum_world_n_m_s);
   s.thrust_n = wrench.thrust_n;

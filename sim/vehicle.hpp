@@ -25,8 +25,10 @@ class RigidVehicle {
   const RotorSpeeds& rotor_speeds_rad_s() const;
   /// Sum of the rotors' thrust during the last tick.
   double thrust_n() const;
-  /// Whether the hull has touched the structure or the ground since the start.
-  bool has_collided() const;
+  /// Whether the hull has touched the structure, or the ground, since the start.
+  bool has_touched_structure() const;
+  bool has_touched_ground() const;
+  bool has_collided() const { return has_touched_structure() || has_touched_ground(); }
 
  private:
   struct Scene;

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "sim/commander_parameters.hpp"
 #include "sim/core/pose.hpp"
 
 namespace gnbv {
@@ -67,6 +68,7 @@ struct AutopilotParameters {
   Vec3 rate_d = {0.003, 0.003, 0.0};
   double rate_integral_max = 0.3;                       // MC_RR_INT_LIM, ...
   double rate_integral_fade_rad_s = deg_to_rad(400.0);  // rate_control.cpp: no I beyond this error
+  CommanderParameters commander;
 };
 
 /// Liu et al. 2017, fitted on an IRIS+:

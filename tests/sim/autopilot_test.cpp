@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "sim/vehicle.hpp"
+#include "tests/support/streaming_flight.hpp"
 
 namespace gnbv {
 namespace {
@@ -20,7 +21,7 @@ double tilt_rad(const VehicleState& state) {
 }
 
 std::unique_ptr<Flight> flight_from(const ViewPose& start) {
-  return make_flight(kConfig, World{}, start);
+  return streaming(make_flight(kConfig, World{}, start, 1));
 }
 
 Setpoint position(const Vec3& p_world_m, double yaw_rad) {

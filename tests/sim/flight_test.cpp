@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "sim/core/error.hpp"
+#include "tests/support/streaming_flight.hpp"
 
 namespace gnbv {
 namespace {
@@ -36,7 +37,7 @@ const ViewPose kStart = {Vec3(0, 0, 5), 0.3};
 
 TEST(Flight, StartsAtRestWhereItIsTold) {
   for (const VehicleKind vehicle : {VehicleKind::quadrotor, VehicleKind::ideal}) {
-    const auto flight = make_flight(kind(vehicle), World{}, kStart);
+    const auto flight = streaming(make_flight(kind(vehicle), World{}, kStart, 1));
     EXPECT_EQ(flight->tick(), 0);
     EXPECT_TRUE(flight->state().T_world_body.isApprox(T_world_body(kStart), 1e-15));
     for (int i = 0; i < 250; ++i) flight->step();
@@ -47,7 +48,7 @@ TEST(Flight, StartsAtRestWhereItIsTold) {
 }
 
 TEST(Flight, FlyingIntoAWallIsACollision) {
-  const auto flight = make_flight({}, walled_world(), kStart);
+  const auto flight = streaming(make_flight({}, walled_world(), kStart, 1));
   flight->command(go_to(Vec3(6, 0, 5), 0.3));
   for (int i = 0; i < 1500; ++i) flight->step();
   EXPECT_TRUE(flight->has_collided());
@@ -55,7 +56,7 @@ TEST(Flight, FlyingIntoAWallIsACollision) {
 }
 
 TEST(Flight, FlyingIntoTheGroundIsACollision) {
-  const auto flight = make_flight({}, World{}, {Vec3(0, 0, 1), 0.0});
+  const auto flight = streaming(make_flight({}, World{}, {Vec3(0, 0, 1), 0.0}, 1));
   flight->command(go_to(Vec3(0, 0, -2), 0.0));
   for (int i = 0; i < 1500; ++i) flight->step();
   EXPECT_TRUE(flight->has_collided());
@@ -64,7 +65,7 @@ TEST(Flight, FlyingIntoTheGroundIsACollision) {
 
 TEST(Flight, SameCommandsGiveTheSameBits) {
   const auto fly = [] {  // free flight, contact and tumbling
-    const auto flight = make_flight({}, walled_world(), kStart);
+    const auto flight = streaming(make_flight({}, walled_world(), kStart, 1));
     flight->command(go_to(Vec3(2, 3, 7), 2.0));
     for (int i = 0; i < 700; ++i) flight->step();
     flight->command(go_to(Vec3(6, 0, 5), -1.0));
@@ -81,7 +82,7 @@ TEST(Flight, SameCommandsGiveTheSameBits) {
 
 TEST(Flight, HoverDrawsHoverPower) {
   for (const VehicleKind vehicle : {VehicleKind::quadrotor, VehicleKind::ideal}) {
-    const auto flight = make_flight(kind(vehicle), World{}, kStart);
+    const auto flight = streaming(make_flight(kind(vehicle), World{}, kStart, 1));
     for (int i = 0; i < 36 * kTicksPerSecond; ++i) flight->step();
     EXPECT_NEAR(flight->energy_wh(), 1.85, 0.005);  // 185 W for a hundredth of an hour
   }
@@ -90,12 +91,12 @@ TEST(Flight, HoverDrawsHoverPower) {
 TEST(Flight, NanStartThrowsBrokenInvariant) {
   const ViewPose nowhere = {Vec3::Constant(std::numeric_limits<double>::quiet_NaN()), 0.0};
   for (const VehicleKind vehicle : {VehicleKind::quadrotor, VehicleKind::ideal}) {
-    EXPECT_THROW(make_flight(kind(vehicle), World{}, nowhere), BrokenInvariant);
+    EXPECT_THROW(make_flight(kind(vehicle), World{}, nowhere, 1), BrokenInvariant);
   }
 }
 
 TEST(IdealFlight, IsWhereTheSetpointIs) {
-  const auto flight = make_flight(kind(VehicleKind::ideal), walled_world(), kStart);
+  const auto flight = make_flight(kind(VehicleKind::ideal), walled_world(), kStart, 1);
   const ViewPose there = {Vec3(6, -2, 9), -2.5};
   flight->command(go_to(there.p_world_m, there.yaw_rad));
   flight->step();
@@ -104,7 +105,7 @@ TEST(IdealFlight, IsWhereTheSetpointIs) {
 }
 
 TEST(IdealFlight, IntegratesVelocityAndYawRate) {
-  const auto flight = make_flight(kind(VehicleKind::ideal), World{}, kStart);
+  const auto flight = make_flight(kind(VehicleKind::ideal), World{}, kStart, 1);
   Setpoint setpoint;
   setpoint.v_world_m_s = Vec3(1, -2, 0.5);
   setpoint.yaw_rate_rad_s = 0.4;
