@@ -45,7 +45,8 @@ export class Vehicle {
   get isArmed() { return (this.latest.Heartbeat.baseMode & 128) !== 0; }
   get mainMode() { return this.latest.Heartbeat.customMode >>> 16 & 0xff; }
 
-  /** Resolves when the predicate holds; rejects after that much simulated time, or at silence. */
+  /** Resolves when the predicate holds; rejects after that much simulated time, or
+   *  when that time stands still. */
   until(what, simulatedSeconds, predicate) {
     return new Promise((resolve, reject) => {
       const fail = why => {
@@ -54,12 +55,14 @@ export class Vehicle {
           this.position.map(x => x.toFixed(2))}, texts: ${this.texts.slice(-5).join(' | ')}`));
       };
       const beginMs = this.timeMs;
-      let heardAt = Date.now();
+      let lastMs = beginMs;
+      let lastProgress = Date.now();
       const watch = setInterval(() => {
-        if (Date.now() - heardAt > 30000) fail('no telemetry for 30 s');
+        if (this.timeMs !== lastMs) lastProgress = Date.now();
+        lastMs = this.timeMs;
+        if (Date.now() - lastProgress > 30000) fail('the simulation has stood still for 30 s');
       }, 1000);
       const check = () => {
-        heardAt = Date.now();
         if (predicate()) {
           done();
           resolve();
