@@ -20,9 +20,9 @@ float measured_range(float true_m, float read_m, double range_min_m, double rang
   return read_m > static_cast<float>(range_max_m) ? kNoReturn : read_m;
 }
 
-/// Angle between a ray and the normal of what it meets, either side of it.
-double incidence_rad(const RayScene& scene, const RayHit& hit, const Vec3f& direction_world) {
-  const float cosine = std::abs(scene.normal_world(hit).dot(direction_world.normalized()));
+/// Angle between a ray and the normal of the face it meets, either side of it.
+double incidence_rad(const RayScene& scene, std::int32_t face, const Vec3f& direction_world) {
+  const float cosine = std::abs(scene.normal_world(face).dot(direction_world.normalized()));
   return std::acos(std::min(static_cast<double>(cosine), 1.0));
 }
 
@@ -36,54 +36,62 @@ struct DepthCapture {
   float far_m;
   PixelTiles tiles;
 
-  std::vector<RayHit> trace(std::span<const Vec3f> directions_world) const {
-    std::vector<RayHit> hits(directions_world.size());
-    scene.first_hits(origin_world_m, directions_world, kTraceFrom_m, far_m, hits);
-    return hits;
+  void trace(RunRays& rays) const {
+    scene.first_hits(origin_world_m, rays.directions_world, kTraceFrom_m, far_m, rays.hits);
   }
 
-  void exact_row(int tile_row) const {
-    const std::vector<RayHit> hits = trace(tiles.directions_world(tile_row));
+  void exact_run(const TileRun& run, RunRays& rays) const {
+    tiles.directions_world(run, rays.directions_world);
+    scene.first_distances(origin_world_m, rays.directions_world, kTraceFrom_m, far_m,
+                          rays.distances_m);
     const auto range_min_m = static_cast<float>(camera.config.range_min_m);
-    tiles.for_each_pixel(tile_row, [&](std::size_t ray, std::size_t pixel) {
-      const float depth_m = hits[ray].distance_m;  // traced up to range_max_m
-      frame.depth_m[pixel] = depth_m < range_min_m ? kInvalidRange : depth_m;
-    });
+    for (std::size_t tile = 0; tile < rays.distances_m.size(); ++tile) {
+      for (float& depth_m : rays.distances_m[tile]) {  // traced up to range_max_m
+        depth_m = depth_m < range_min_m ? kInvalidRange : depth_m;
+      }
+      tiles.put(run, tile, rays.distances_m[tile], frame.depth_m);
+    }
   }
 
-  void noisy_row(int tile_row) const {
-    std::vector<Vec3f> directions_world = tiles.directions_world(tile_row);
-    std::vector<RayHit> hits = trace(directions_world);
+  void noisy_run(const TileRun& run, RunRays& rays) const {
+    tiles.directions_world(run, rays.directions_world);
+    trace(rays);
     if (camera.config.noise.model == DepthNoise::nguyen) {
-      displace(tile_row, hits, directions_world);
-      hits = trace(directions_world);
+      displace(run, rays);
+      trace(rays);
     }
-    tiles.for_each_pixel(tile_row, [&](std::size_t ray, std::size_t pixel) {
-      frame.depth_m[pixel] = read(hits[ray], directions_world[ray], pixel);
+    tiles.for_each_pixel(run, [&](std::size_t tile, std::size_t ray, std::size_t pixel) {
+      const HitPacket& hits = rays.hits[tile];
+      frame.depth_m[pixel] = read(hits.distance_m[ray], hits.face[ray],
+                                  rays.directions_world[tile].direction(ray), pixel);
     });
   }
 
   /// Turns each ray to where its pixel really looks, as far as the surface it met is slanted.
-  void displace(int tile_row, std::span<const RayHit> hits,
-                std::span<Vec3f> directions_world) const {
-    tiles.for_each_pixel(tile_row, [&](std::size_t ray, std::size_t pixel) {
+  void displace(const TileRun& run, RunRays& rays) const {
+    tiles.for_each_pixel(run, [&](std::size_t tile, std::size_t ray, std::size_t pixel) {
+      RayPacket& packet = rays.directions_world[tile];
+      const std::int32_t face = rays.hits[tile].face[ray];
       const double theta_rad =
-          hits[ray].face == kNoFace ? 0.0 : incidence_rad(scene, hits[ray], directions_world[ray]);
+          face == kNoFace ? 0.0 : incidence_rad(scene, face, packet.direction(ray));
       const double sigma_px = lateral_sigma_px(camera.config.noise, theta_rad);
-      directions_world[ray] +=
+      const Vec3f shift_world =
           tiles.shift_world(sigma_px * lateral_deviate(key, frame.camera, pixel, 0),
                             sigma_px * lateral_deviate(key, frame.camera, pixel, 1));
+      packet.x[ray] += shift_world.x();
+      packet.y[ray] += shift_world.y();
+      packet.z[ray] += shift_world.z();
     });
   }
 
-  float read(const RayHit& hit, const Vec3f& direction_world, std::size_t pixel) const {
-    if (hit.face == kNoFace) return kNoReturn;
-    const double theta_rad = incidence_rad(scene, hit, direction_world);
+  float read(float true_m, std::int32_t face, const Vec3f& direction_world,
+             std::size_t pixel) const {
+    if (face == kNoFace) return kNoReturn;
+    const double theta_rad = incidence_rad(scene, face, direction_world);
     if (!has_return(camera.config.noise, theta_rad)) return kInvalidRange;
-    const double true_m = hit.distance_m;
     const double sigma_m = depth_sigma_m(camera, true_m, theta_rad);
     const double read_m = true_m + sigma_m * depth_deviate(key, frame.camera, pixel);
-    return measured_range(hit.distance_m, static_cast<float>(read_m), camera.config.range_min_m,
+    return measured_range(true_m, static_cast<float>(read_m), camera.config.range_min_m,
                           camera.config.range_max_m);
   }
 };
@@ -165,8 +173,8 @@ DepthFrame capture_depth(const RayScene& scene, const CameraModel& camera, int c
                                 static_cast<float>(farthest_m(camera)),
                                 PixelTiles(camera, frame.T_world_camera)};
   const bool is_exact = config.noise.model == DepthNoise::none;
-  for_each_tile_row(capture.tiles, threads, [&](int tile_row) {
-    is_exact ? capture.exact_row(tile_row) : capture.noisy_row(tile_row);
+  for_each_tile_run(capture.tiles, threads, [&](const TileRun& run, RunRays& rays) {
+    is_exact ? capture.exact_run(run, rays) : capture.noisy_run(run, rays);
   });
   return frame;
 }

@@ -15,6 +15,13 @@ namespace {
 /// within a kilometre, less than anything worth a shadow.
 constexpr float kOffSurface_m = 1e-3F;
 
+/// What the rays of one packet meet, where it is, and how it is lit.
+struct Surface {
+  std::array<Vec3f, RayPacket::kRays> p_world_m;
+  std::array<Vec3f, RayPacket::kRays> normal_world;  // towards who looks
+  std::array<std::uint8_t, RayPacket::kRays> is_dark{};
+};
+
 struct ColourCapture {
   const RayScene& scene;
   Vec3f origin_world_m;
@@ -23,43 +30,45 @@ struct ColourCapture {
   SrgbTable srgb;
   ColourFrame& frame;
 
-  void row(int tile_row) const {
-    const std::vector<Vec3f> directions_world = tiles.directions_world(tile_row);
-    std::vector<RayHit> hits(directions_world.size());
-    scene.first_hits(origin_world_m, directions_world, 0.0F, std::numeric_limits<float>::infinity(),
-                     hits);
-    std::vector<Vec3f> normals_world(hits.size(), Vec3f::Zero());
-    std::vector<Vec3f> surface_world_m(hits.size(), origin_world_m);
-    for (std::size_t ray = 0; ray < hits.size(); ++ray) {
-      if (hits[ray].face == kNoFace) continue;
-      surface_world_m[ray] = origin_world_m + hits[ray].distance_m * directions_world[ray];
-      normals_world[ray] = scene.normal_world(hits[ray]);
-      // faces have two sides: the one that is seen is lit
-      if (normals_world[ray].dot(directions_world[ray]) > 0.0F) normals_world[ray] *= -1.0F;
+  void capture_run(const TileRun& run, RunRays& rays) const {
+    tiles.directions_world(run, rays.directions_world);
+    scene.first_hits(origin_world_m, rays.directions_world, 0.0F,
+                     std::numeric_limits<float>::infinity(), rays.hits);
+    std::vector<Surface> surfaces;
+    for (std::size_t tile = 0; tile < rays.hits.size(); ++tile) {
+      surfaces.push_back(surface_of(rays.directions_world[tile], rays.hits[tile]));
     }
-    const std::vector<std::uint8_t> is_dark = in_shadow(surface_world_m, normals_world);
-    tiles.for_each_pixel(tile_row, [&](std::size_t ray, std::size_t pixel) {
-      const std::int32_t face = hits[ray].face;
-      if (face == kNoFace) {
-        frame.rgb[pixel] = srgb(sky_colour(directions_world[ray]));
-        return;
-      }
-      const Material& material = face == kGroundFace ? ground : scene.material(face);
-      const auto [r, g, b] = albedo(material, surface_world_m[ray], normals_world[ray]);
-      frame.rgb[pixel] = srgb(lit_colour({r, g, b}, normals_world[ray], is_dark[ray] == 0));
+    tiles.for_each_pixel(run, [&](std::size_t tile, std::size_t ray, std::size_t pixel) {
+      const std::int32_t face = rays.hits[tile].face[ray];
+      frame.rgb[pixel] =
+          srgb(face == kNoFace ? sky_colour(rays.directions_world[tile].direction(ray))
+                               : colour_of(face, surfaces[tile], ray));
     });
   }
 
-  std::vector<std::uint8_t> in_shadow(std::span<const Vec3f> surface_world_m,
-                                      std::span<const Vec3f> normals_world) const {
-    std::vector<Vec3f> origins_world_m(surface_world_m.size());
-    for (std::size_t i = 0; i < origins_world_m.size(); ++i) {
-      origins_world_m[i] = surface_world_m[i] + kOffSurface_m * normals_world[i];
+  Surface surface_of(const RayPacket& directions_world, const HitPacket& hits) const {
+    Surface surface;
+    std::array<Vec3f, RayPacket::kRays> off_surface_m;
+    for (std::size_t ray = 0; ray < RayPacket::kRays; ++ray) {
+      const bool is_hit = hits.face[ray] != kNoFace;  // else its place is that of the camera
+      const Vec3f direction = directions_world.direction(ray);
+      Vec3f normal = is_hit ? scene.normal_world(hits.face[ray]) : Vec3f::Zero();
+      if (normal.dot(direction) > 0.0F) normal = -normal;  // faces have two sides
+      surface.normal_world[ray] = normal;
+      surface.p_world_m[ray] = origin_world_m;
+      if (is_hit) surface.p_world_m[ray] += hits.distance_m[ray] * direction;
+      off_surface_m[ray] = surface.p_world_m[ray] + kOffSurface_m * normal;
     }
-    const std::vector<Vec3f> sunwards(origins_world_m.size(), towards_sun_world());
-    std::vector<std::uint8_t> blocked(origins_world_m.size());
-    scene.structure_blocks(origins_world_m, sunwards, 0.0F, blocked);
-    return blocked;
+    std::array<Vec3f, RayPacket::kRays> sunwards;
+    sunwards.fill(towards_sun_world());
+    scene.structure_blocks(off_surface_m, sunwards, 0.0F, surface.is_dark);
+    return surface;
+  }
+
+  Vec3f colour_of(std::int32_t face, const Surface& surface, std::size_t ray) const {
+    const Material& material = face == kGroundFace ? ground : scene.material(face);
+    const auto [r, g, b] = albedo(material, surface.p_world_m[ray], surface.normal_world[ray]);
+    return lit_colour({r, g, b}, surface.normal_world[ray], surface.is_dark[ray] == 0);
   }
 };
 
@@ -81,7 +90,8 @@ ColourFrame capture_colour(const RayScene& scene, const CameraModel& camera, int
                                  PixelTiles(camera, frame.T_world_camera),
                                  SrgbTable(),
                                  frame};
-  for_each_tile_row(capture.tiles, threads, [&](int tile_row) { capture.row(tile_row); });
+  for_each_tile_run(capture.tiles, threads,
+                    [&](const TileRun& run, RunRays& rays) { capture.capture_run(run, rays); });
   return frame;
 }
 

@@ -14,7 +14,7 @@
 namespace gnbv {
 namespace {
 
-constexpr std::size_t kPacket = 16;
+constexpr std::size_t kPacket = RayPacket::kRays;
 constexpr float kGroundHalfWidth_m = 1000.0F;
 // ray masks: sensors see both, questions about the structure leave the ground out
 constexpr unsigned kStructureMask = 1;
@@ -91,8 +91,12 @@ Vec3 closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3
 }
 
 /// Rays that begin `near_m` from their origin and see everything; all else is still to be set.
-RTCRayHit16 packet_from(float near_m) {
+/// (Embree writes only tfar and the hit.)
+RTCRayHit16 packet_from(const Vec3f& origin_world_m, float near_m) {
   RTCRayHit16 packet{};
+  std::fill_n(packet.ray.org_x, kPacket, origin_world_m.x());
+  std::fill_n(packet.ray.org_y, kPacket, origin_world_m.y());
+  std::fill_n(packet.ray.org_z, kPacket, origin_world_m.z());
   std::fill_n(packet.ray.tnear, kPacket, near_m);
   std::fill_n(packet.ray.mask, kPacket, kStructureMask | kGroundMask);
   return packet;
@@ -181,41 +185,76 @@ struct RayScene::Impl {
     return rtcNewScene(device);
   }
 
-  /// Traces `directions_world` in packets; set_origin(lane, ray) puts each ray's origin into
-  /// `packet`. The last packet repeats its last ray in the lanes left over, which are not traced.
-  template <typename SetOrigin>
-  void trace(RTCRayHit16& packet, const SetOrigin& set_origin,
-             std::span<const Vec3f> directions_world, float far_m, std::span<RayHit> hits) const {
-    GNBV_CHECK(hits.size() == directions_world.size(), "{} hits for {} rays", hits.size(),
-               directions_world.size());
+  /// Traces `count` packets: load(i, packet.ray, valid) sets directions, and origins unless they
+  /// are set already, and clears the lanes of `valid` that hold no ray; store(i, packet) takes the
+  /// answers.
+  template <typename Load, typename Store>
+  void trace(std::size_t count, RTCRayHit16& packet, float far_m, const Load& load,
+             const Store& store) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     alignas(64) std::array<int, kPacket> valid{};
-    for (std::size_t begin = 0; begin < hits.size(); begin += kPacket) {
-      const std::size_t count = std::min(kPacket, hits.size() - begin);
-      for (std::size_t i = 0; i < kPacket; ++i) {
-        valid[i] = i < count ? -1 : 0;
-        packet.ray.tfar[i] = far_m;
-        packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-      }
-      for (std::size_t i = 0; i < kPacket; ++i) {
-        const std::size_t ray = begin + std::min(i, count - 1);
-        set_origin(i, ray);
-        packet.ray.dir_x[i] = directions_world[ray].x();
-        packet.ray.dir_y[i] = directions_world[ray].y();
-        packet.ray.dir_z[i] = directions_world[ray].z();
-      }
+    for (std::size_t i = 0; i < count; ++i) {
+      valid.fill(-1);
+      std::fill_n(packet.ray.tfar, kPacket, far_m);
+      std::fill_n(packet.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
+      load(i, packet.ray, valid);
       rtcIntersect16(valid.data(), scene.get(), &context, &packet);
-      for (std::size_t i = 0; i < count; ++i) {
-        const unsigned id = packet.hit.geomID[i];
-        const bool is_hit = id != RTC_INVALID_GEOMETRY_ID;
-        const auto face = static_cast<std::int32_t>(packet.hit.primID[i]);
-        hits[begin + i] = {is_hit ? packet.ray.tfar[i] : kNoReturn, !is_hit           ? kNoFace
-                                                                    : id == ground_id ? kGroundFace
-                                                                                      : face};
-      }
+      store(i, packet);
     }
+  }
+
+  template <typename Store>
+  void trace_packets(const Vec3f& origin_world_m, std::span<const RayPacket> directions_world,
+                     float near_m, float far_m, const Store& store) const {
+    const auto load = [&](std::size_t i, RTCRay16& ray, std::array<int, kPacket>&) {
+      std::copy_n(directions_world[i].x.data(), kPacket, ray.dir_x);
+      std::copy_n(directions_world[i].y.data(), kPacket, ray.dir_y);
+      std::copy_n(directions_world[i].z.data(), kPacket, ray.dir_z);
+    };
+    RTCRayHit16 packet = packet_from(origin_world_m, near_m);
+    trace(directions_world.size(), packet, far_m, load, store);
+  }
+
+  /// Traces rays given one by one; set_origin(ray, lane) puts a ray's origin into `packet`. The
+  /// last packet repeats its last ray in the lanes left over, which are not traced.
+  template <typename SetOrigin>
+  void trace_each(RTCRayHit16& packet, const SetOrigin& set_origin,
+                  std::span<const Vec3f> directions_world, float far_m,
+                  std::span<RayHit> hits) const {
+    GNBV_CHECK(hits.size() == directions_world.size(), "{} hits for {} rays", hits.size(),
+               directions_world.size());
+    const auto load = [&](std::size_t i, RTCRay16& ray, std::array<int, kPacket>& valid) {
+      const std::size_t rays = std::min(kPacket, hits.size() - i * kPacket);
+      std::fill(valid.begin() + static_cast<std::ptrdiff_t>(rays), valid.end(), 0);
+      for (std::size_t lane = 0; lane < kPacket; ++lane) {
+        const std::size_t from = i * kPacket + std::min(lane, rays - 1);
+        set_origin(from, lane);
+        ray.dir_x[lane] = directions_world[from].x();
+        ray.dir_y[lane] = directions_world[from].y();
+        ray.dir_z[lane] = directions_world[from].z();
+      }
+    };
+    const auto store = [&](std::size_t i, const RTCRayHit16& answer) {
+      const auto some = hits.subspan(i * kPacket, std::min(kPacket, hits.size() - i * kPacket));
+      for (std::size_t lane = 0; lane < some.size(); ++lane) {
+        some[lane] = {distance_m(answer, lane), face(answer, lane)};
+      }
+    };
+    trace((hits.size() + kPacket - 1) / kPacket, packet, far_m, load, store);
+  }
+
+  // Written so that 16 lanes at a time can be computed: everything is read, then chosen from.
+  static float distance_m(const RTCRayHit16& answer, std::size_t lane) {
+    const float tfar = answer.ray.tfar[lane];
+    return answer.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID ? kNoReturn : tfar;
+  }
+  std::int32_t face(const RTCRayHit16& answer, std::size_t lane) const {
+    const unsigned id = answer.hit.geomID[lane];
+    const auto hit = static_cast<std::int32_t>(answer.hit.primID[lane]);
+    const std::int32_t of_something = id == ground_id ? kGroundFace : hit;
+    return id == RTC_INVALID_GEOMETRY_ID ? kNoFace : of_something;
   }
 };
 
@@ -224,16 +263,40 @@ RayScene::~RayScene() = default;
 RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 
+void RayScene::first_hits(const Vec3f& origin_world_m, std::span<const RayPacket> directions_world,
+                          float near_m, float far_m, std::span<HitPacket> hits) const {
+  GNBV_CHECK(hits.size() == directions_world.size(), "{} hits for {} packets of rays", hits.size(),
+             directions_world.size());
+  impl_->trace_packets(origin_world_m, directions_world, near_m, far_m,
+                       [&](std::size_t i, const RTCRayHit16& answer) {
+                         HitPacket& out = hits[i];
+                         for (std::size_t lane = 0; lane < kPacket; ++lane) {
+                           out.distance_m[lane] = Impl::distance_m(answer, lane);
+                           out.face[lane] = impl_->face(answer, lane);
+                         }
+                       });
+}
+
+void RayScene::first_distances(const Vec3f& origin_world_m,
+                               std::span<const RayPacket> directions_world, float near_m,
+                               float far_m,
+                               std::span<std::array<float, kPacket>> distances_m) const {
+  GNBV_CHECK(distances_m.size() == directions_world.size(), "{} distances for {} packets of rays",
+             distances_m.size(), directions_world.size());
+  impl_->trace_packets(origin_world_m, directions_world, near_m, far_m,
+                       [&](std::size_t i, const RTCRayHit16& answer) {
+                         std::array<float, kPacket>& out = distances_m[i];
+                         for (std::size_t lane = 0; lane < kPacket; ++lane) {
+                           out[lane] = Impl::distance_m(answer, lane);
+                         }
+                       });
+}
+
 void RayScene::first_hits(const Vec3f& origin_world_m, std::span<const Vec3f> directions_world,
                           float near_m, float far_m, std::span<RayHit> hits) const {
-  RTCRayHit16 packet = packet_from(near_m);
-  for (std::size_t i = 0; i < kPacket; ++i) {  // Embree writes only tfar and the hit
-    packet.ray.org_x[i] = origin_world_m.x();
-    packet.ray.org_y[i] = origin_world_m.y();
-    packet.ray.org_z[i] = origin_world_m.z();
-  }
-  impl_->trace(
-      packet, [](std::size_t, std::size_t) {}, directions_world, far_m, hits);
+  RTCRayHit16 packet = packet_from(origin_world_m, near_m);
+  const auto keep_origin = [](std::size_t, std::size_t) {};
+  impl_->trace_each(packet, keep_origin, directions_world, far_m, hits);
 }
 
 void RayScene::first_hits(std::span<const Vec3f> origins_world_m,
@@ -241,13 +304,13 @@ void RayScene::first_hits(std::span<const Vec3f> origins_world_m,
                           std::span<RayHit> hits) const {
   GNBV_CHECK(origins_world_m.size() == hits.size(), "{} origins for {} hits",
              origins_world_m.size(), hits.size());
-  RTCRayHit16 packet = packet_from(near_m);
-  const auto set_origin = [&](std::size_t lane, std::size_t ray) {
+  RTCRayHit16 packet = packet_from(Vec3f::Zero(), near_m);
+  const auto set_origin = [&](std::size_t ray, std::size_t lane) {
     packet.ray.org_x[lane] = origins_world_m[ray].x();
     packet.ray.org_y[lane] = origins_world_m[ray].y();
     packet.ray.org_z[lane] = origins_world_m[ray].z();
   };
-  impl_->trace(packet, set_origin, directions_world, far_m, hits);
+  impl_->trace_each(packet, set_origin, directions_world, far_m, hits);
 }
 
 void RayScene::structure_blocks(std::span<const Vec3f> origins_world_m,
@@ -282,10 +345,10 @@ void RayScene::structure_blocks(std::span<const Vec3f> origins_world_m,
   }
 }
 
-Vec3f RayScene::normal_world(const RayHit& hit) const {
-  if (hit.face == kGroundFace) return Vec3f::UnitZ();
-  GNBV_CHECK(hit.face >= 0, "the normal of nothing");
-  const auto& [a, b, c] = impl_->faces[static_cast<std::size_t>(hit.face)];
+Vec3f RayScene::normal_world(std::int32_t face) const {
+  if (face == kGroundFace) return Vec3f::UnitZ();
+  GNBV_CHECK(face >= 0, "the normal of nothing");
+  const auto& [a, b, c] = impl_->faces[static_cast<std::size_t>(face)];
   const std::vector<Vec3f>& p = impl_->vertices_m;
   return (p[b] - p[a]).cross(p[c] - p[a]).stableNormalized();
 }

@@ -31,9 +31,11 @@ Colour mix(const Colour& a, const Colour& b, float share_b) {
 
 /// Uniform in [0, 1), one number a cell.
 float number_of(const Cell& cell) {
-  std::uint64_t bits = 0;
-  for (const std::int64_t i : cell) bits = mix_bits(bits ^ static_cast<std::uint64_t>(i));
-  return static_cast<float>(bits >> 40) * 0x1.0p-24F;
+  // fractional parts of the square roots of 2, 3 and 5, made odd: no small cells share a sum
+  const std::uint64_t sum = static_cast<std::uint64_t>(cell[0]) * 0x6a09e667f3bcc909ULL +
+                            static_cast<std::uint64_t>(cell[1]) * 0xbb67ae8584caa73bULL +
+                            static_cast<std::uint64_t>(cell[2]) * 0x3c6ef372fe94f82bULL;
+  return static_cast<float>(mix_bits(sum) >> 40) * 0x1.0p-24F;
 }
 
 std::int64_t floor_of(float x) { return static_cast<std::int64_t>(std::floor(x)); }
