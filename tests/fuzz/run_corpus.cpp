@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <vector>
 
 #include "sim/core/file.hpp"
 
@@ -15,8 +16,10 @@ int main(int argc, char** argv) {
   }
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(argv[1])) {
-    const std::string bytes = gnbv::read_file(entry.path());
-    LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+    const std::string text = gnbv::read_file(entry.path());
+    // exactly as large as its content, so that a sanitizer sees a read behind the end
+    const std::vector<std::uint8_t> bytes(text.begin(), text.end());
+    LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
     ++files;
   }
   fmt::print("{} inputs\n", files);
