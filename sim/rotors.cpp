@@ -93,4 +93,14 @@ double power_w(const PowerParameters& power, double thrust_n, const Vec3& v_worl
   return induced_w + profile_w + parasitic_w;
 }
 
+double landing_energy_wh(const VehicleConfig& vehicle, double height_m) {
+  const AirframeParameters& airframe = vehicle.airframe;
+  const CommanderParameters& commander = vehicle.autopilot.commander;
+  const double hover_w =
+      power_w(vehicle.power, airframe.mass_kg * airframe.gravity_m_s2, Vec3::Zero());
+  const double duration_s = std::max(0.0, height_m) / commander.land_speed_m_s +
+                            commander.land_detection_s + commander.disarm_after_landing_s;
+  return hover_w * duration_s / kJoulesPerWattHour;
+}
+
 }  // namespace gnbv

@@ -42,8 +42,8 @@ constexpr double kJoulesPerWattHour = 3600.0;
 /// Electrical power by PowerParameters' law.
 double power_w(const PowerParameters& power, double thrust_n, const Vec3& v_world_m_s);
 
-/// Energy of a descent straight down from `height_m` at PX4's landing speed, and of the three
-/// seconds that the landing detector and the disarming take.
+/// Energy of a descent straight down from `height_m` at PX4's slow landing speed, and of the
+/// seconds that the land detector and the disarming take.
 double landing_energy_wh(const VehicleConfig& vehicle, double height_m);
 
 }  // namespace gnbv
