@@ -29,6 +29,7 @@ struct Lean {
 constexpr Lean kBellyLean = {-15.9, -13.4, -12.9, -9.3, 1.35};  // grey begins behind the nose
 constexpr Lean kTailLean = {4.9, 9.1, 11.4, 15.6, 1.55};        // as the fin's leading edge
 constexpr double kBellyFrom_m = -13.3, kBellyAngle_rad = -0.62;
+constexpr double kCheatLineFrom_rad = -0.06, kCheatLineTo_rad = 0.18;  // below the windows
 constexpr double kLiveryFrom_m = 9.3, kLiveryLightFrom_m = 8.65;
 
 /// Half width, top and bottom of the fuselage at a station y. Near the nose the stations run over
@@ -177,7 +178,9 @@ Part fuselage() {
     if (station_m > kLiveryFrom_m) return kLiveryBlue;
     if (station_m > kLiveryLightFrom_m) return kLiveryLight;
     const std::size_t k = side < kHalfSides ? side : 2 * kHalfSides - 1 - side;
-    const bool belly = station_m > kBellyFrom_m && side_angle_rad(k + 1) < kBellyAngle_rad;
+    const double angle_rad = side_angle_rad(k + 1);
+    if (angle_rad > kCheatLineFrom_rad && angle_rad < kCheatLineTo_rad) return kCheatLine;
+    const bool belly = station_m > kBellyFrom_m && angle_rad < kBellyAngle_rad;
     return belly ? kBellyGrey : kFuselageWhite;
   };
   return loft(rings, {Vec3(0.0, kNoseTip_m, kNoseTipHeight_m)}, {exhaust_end_m}, paint);

@@ -14,6 +14,7 @@ enum Paint : std::uint16_t {
   kBellyGrey,
   kLiveryBlue,
   kLiveryLight,
+  kCheatLine,
   kWingGrey,
   kControlSurface,
   kNacelleBlue,

@@ -4,6 +4,8 @@
 #include <array>
 
 #include "assets/aircraft.hpp"
+#include "assets/lab_airplane.hpp"
+#include "assets/lab_model.hpp"
 #include "assets/smoke.hpp"
 #include "sim/core/error.hpp"
 
@@ -17,6 +19,8 @@ struct Entry {
 
 constexpr std::array kCatalog = {
     Entry{"aircraft", make_aircraft},
+    Entry{"lab_model", make_lab_model},
+    Entry{"lab_airplane", make_lab_airplane},
     Entry{"smoke", make_smoke_structure},
 };
 

@@ -63,13 +63,16 @@ double chord_fraction(std::size_t k, std::size_t n) {
   return std::pow(static_cast<double>(k) / static_cast<double>(n), kChordDensity);
 }
 
-Ring aerofoil_ring(const AerofoilSection& section, std::size_t n) {
+Vec3 aerofoil_point_m(const AerofoilSection& section, double s, double side) {
   const Vec3 chord_m = section.trailing_edge_m - section.leading_edge_m;
-  const auto at = [&](std::size_t k, double side) -> Vec3 {
-    const double s = chord_fraction(k, n);
-    const double height_m =
-        section.camber_m * camber(s) + side * section.half_thickness_m * thickness(s);
-    return section.leading_edge_m + s * chord_m + height_m * section.up;
+  const double height_m =
+      section.camber_m * camber(s) + side * section.half_thickness_m * thickness(s);
+  return section.leading_edge_m + s * chord_m + height_m * section.up;
+}
+
+Ring aerofoil_ring(const AerofoilSection& section, std::size_t n) {
+  const auto at = [&](std::size_t k, double side) {
+    return aerofoil_point_m(section, chord_fraction(k, n), side);
   };
   Ring ring = {section.leading_edge_m};
   for (std::size_t k = 1; k < n; ++k) ring.push_back(at(k, 1.0));

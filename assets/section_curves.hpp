@@ -36,6 +36,10 @@ struct AerofoilSection {
 /// Fraction of the chord at point k of n of one side; denser towards the leading edge.
 double chord_fraction(std::size_t k, std::size_t n);
 
+/// Point of the section at fraction s of the chord: side 1 is the upper surface, -1 the lower one,
+/// 0 the mean line.
+Vec3 aerofoil_point_m(const AerofoilSection& section, double s, double side);
+
 /// 2 n points: leading edge, upper side, trailing edge (point n), lower side. Thickness is the NACA
 /// four-digit one with a closed trailing edge, camber its mean line (NACA Report 460).
 Ring aerofoil_ring(const AerofoilSection& section, std::size_t n);

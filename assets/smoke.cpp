@@ -29,9 +29,10 @@ Ring rectangle(double x0_m, double x1_m, double y0_m, double y1_m, double z0_m, 
 
 TriangleMesh make_smoke_structure() {
   TriangleMesh mesh;
-  mesh.materials = {{"plaster", {0.80F, 0.77F, 0.70F}},
-                    {"roof", {0.55F, 0.20F, 0.14F}},
-                    {"annex", {0.45F, 0.52F, 0.58F}}};
+  mesh.materials = {
+      {"plaster", {0.80F, 0.77F, 0.70F}, Pattern::bricks, {0.48F, 0.44F, 0.38F}, 0.13F},
+      {"roof", {0.55F, 0.20F, 0.14F}, Pattern::stripes, {0.33F, 0.11F, 0.08F}, 0.047F},
+      {"annex", {0.45F, 0.52F, 0.58F}, Pattern::panels, {0.17F, 0.20F, 0.24F}, 0.17F}};
   // off the multiples of 5 cm, where rounding would decide which voxel a wall belongs to
   const std::vector<Ring> tower = {circle(-0.42, 0.12, 0.012, 0.46),
                                    circle(-0.42, 0.12, 0.61, 0.44), circle(-0.42, 0.12, 1.13, 0.44),

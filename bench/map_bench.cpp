@@ -114,7 +114,7 @@ void BM_GridInsert200Sweeps(benchmark::State& state) {
   OccupancyGrid grid(OccupancyConfig{}, kWorkspace_m);
   ScanInserter inserter(grid.geometry());
   for (auto _ : state) {
-    inserter.insert_scans(grid, scans, lidar, kFloor_m, static_cast<int>(state.range(0)));
+    inserter.insert_scans(grid, scans, {&lidar, 1}, kFloor_m, static_cast<int>(state.range(0)));
   }
 }
 BENCHMARK(BM_GridInsert200Sweeps)

@@ -15,23 +15,6 @@ namespace {
 constexpr double kSlab_m = 0.5;
 static_assert(kCoverageSizes_m[2] == kSlab_m);
 
-// A Fibonacci sphere, taken in steps of about the golden ratio of its length, so that the first few
-// directions already spread over the sphere.
-std::vector<Vec3f> spread_directions(int count) {
-  const double golden_rad = kPi * (3.0 - std::sqrt(5.0));
-  int stride = std::max(1, static_cast<int>(std::lround(0.618 * count)));
-  while (std::gcd(stride, count) != 1) ++stride;
-  std::vector<Vec3f> directions;
-  for (int k = 0; k < count; ++k) {
-    const auto i = static_cast<double>(static_cast<std::int64_t>(k) * stride % count);
-    const double z = 1.0 - (2.0 * i + 1.0) / count;
-    const double r = std::sqrt(1.0 - z * z);
-    directions.push_back(
-        Vec3(r * std::cos(golden_rad * i), r * std::sin(golden_rad * i), z).cast<float>());
-  }
-  return directions;
-}
-
 // Unit normals, tilted by two degrees: built structures have edges straight opposite each other,
 // and a ray should not aim at one.
 std::vector<Vec3f> tilted_normals(const TriangleMesh& mesh) {
@@ -231,6 +214,23 @@ std::array<VoxelSet, 3> all_sizes(VoxelSet finest) {
 }
 
 }  // namespace
+
+// A Fibonacci sphere, taken in steps of about the golden ratio of its length, so that the first few
+// directions already spread over the sphere.
+std::vector<Vec3f> spread_directions(int count) {
+  const double golden_rad = kPi * (3.0 - std::sqrt(5.0));
+  int stride = std::max(1, static_cast<int>(std::lround(0.618 * count)));
+  while (std::gcd(stride, count) != 1) ++stride;
+  std::vector<Vec3f> directions;
+  for (int k = 0; k < count; ++k) {
+    const auto i = static_cast<double>(static_cast<std::int64_t>(k) * stride % count);
+    const double z = 1.0 - (2.0 * i + 1.0) / count;
+    const double r = std::sqrt(1.0 - z * z);
+    directions.push_back(
+        Vec3(r * std::cos(golden_rad * i), r * std::sin(golden_rad * i), z).cast<float>());
+  }
+  return directions;
+}
 
 SurfaceReference make_surface_reference(const World& world, const RayScene& scene,
                                         const ReferenceConfig& config, int threads) {

@@ -33,13 +33,13 @@ struct PlannerConfig {
 /// What the planner is given once: its settings and what it knows of vehicle and workspace.
 struct PlannerModel {
   PlannerModel(const PlannerConfig& config, const Box3& workspace_m,
-               std::span<const CameraModel> cameras, const LidarConfig& lidar);
+               std::span<const CameraModel> cameras, std::span<const LidarConfig> lidars);
 
   PlannerConfig config;
   Box3 workspace_m;
   Box3 navigation_m;
   std::vector<CameraModel> cameras;
-  LidarConfig lidar;
+  std::vector<LidarConfig> lidars;
   std::vector<ViewRay> view_rays;
   double view_voxels;  // of the cameras' frusta together
 };

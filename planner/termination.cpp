@@ -13,6 +13,8 @@ std::string_view name_of(Termination reason) {
       return "entropy_change";
     case Termination::no_valid_view:
       return "no_valid_view";
+    case Termination::battery:
+      return "battery";
     case Termination::interrupted:
       return "interrupted";
     case Termination::collision:

@@ -13,7 +13,14 @@ struct TerminationConfig {
   int entropy_window = 5;                 // consecutive views
 };
 
-enum class Termination { max_iterations, entropy_change, no_valid_view, interrupted, collision };
+enum class Termination {
+  max_iterations,
+  entropy_change,
+  no_valid_view,
+  battery,  // what is left is needed to land
+  interrupted,
+  collision
+};
 std::string_view name_of(Termination reason);
 
 /// Whether each of the last entropy_window views changed the total entropy by less than the

@@ -27,7 +27,7 @@ void fields(FieldVisitor& v, Scenario& c) {
   v.box("workspace_m", c.workspace_m, kCoordinate_m, "What is mapped and flown in, world ENU.");
   v.section("structure", c.structure, "What stands there.");
   v.list("cameras", c.cameras, {1, 16}, "The depth cameras on the vehicle.");
-  v.section("lidar", c.lidar, "The LIDAR that flies the profile.");
+  v.list("lidars", c.lidars, {0, 16}, "The LIDARs that scan the profile.");
   v.section("vehicle", c.vehicle, "What flies.");
   v.section("guidance", c.guidance, "How it flies from view to view.");
   v.section("start", c.start, "Where the views begin.");

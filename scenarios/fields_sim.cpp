@@ -15,6 +15,14 @@ constexpr std::array<Named<OffboardLossAction>, 8> kOffboardLossActions = {
      {OffboardLossAction::hold, "hold"},
      {OffboardLossAction::terminate, "terminate"},
      {OffboardLossAction::disarm, "disarm"}}};
+constexpr std::array<Named<ThrustLoss>, 3> kThrustLosses = {
+    {{ThrustLoss::none, "none"},
+     {ThrustLoss::axial_speed, "axial_speed"},
+     {ThrustLoss::whole_speed, "whole_speed"}}};
+constexpr std::array<Named<EstimateModel>, 4> kEstimateModels = {{{EstimateModel::none, "none"},
+                                                                  {EstimateModel::mocap, "mocap"},
+                                                                  {EstimateModel::gnss, "gnss"},
+                                                                  {EstimateModel::vio, "vio"}}};
 
 }  // namespace
 
@@ -46,8 +54,12 @@ void fields(FieldVisitor& v, AirframeParameters& c) {
            "Rotor drag over rotor speed times in-plane velocity.");
   v.number("rolling_coefficient_n_s2", c.rolling_coefficient_n_s2, between(0, 1),
            "Rolling moment over rotor speed times in-plane velocity.");
-  v.number("axial_limit_m_s", c.axial_limit_m_s, above_upto(0, 1e3),
-           "Axial speed at which a rotor gives no thrust any more.");
+  v.flag("rolling_follows_spin", c.rolling_follows_spin,
+         "Whether the rolling moment changes sign with the rotor's spin.");
+  v.choice("thrust_loss", c.thrust_loss, kThrustLosses,
+           "The speed of a rotor through the air that takes thrust from it.");
+  v.number("thrust_loss_limit_m_s", c.thrust_loss_limit_m_s, above_upto(0, 1e3),
+           "That speed at which no thrust is left.");
   v.number("time_constant_up_s", c.time_constant_up_s, above_upto(0, 10),
            "Of a rotor that gains speed.");
   v.number("time_constant_down_s", c.time_constant_down_s, above_upto(0, 10),
@@ -134,40 +146,39 @@ void fields(FieldVisitor& v, PowerParameters& c) {
   v.number("k2", c.k2, above_upto(0, 1e3), "Induced velocity (Liu et al. 2017).");
   v.number("c2", c.c2, kAny, "Profile power (Liu et al. 2017).");
   v.number("c4", c.c4, kAny, "Parasitic power (Liu et al. 2017).");
+  v.number("battery_wh", c.battery_wh, between(0, 1e5), "Usable energy; 0: never empty.");
+}
+
+void fields(FieldVisitor& v, EstimateConfig& c) {
+  v.choice("model", c.model, kEstimateModels,
+           "none: the truth; otherwise with the errors of motion capture, satellites or vision.");
 }
 
 void fields(FieldVisitor& v, VehicleConfig& c) {
+  const std::string before = c.preset;
+  v.choice("preset", c.preset, kVehiclePresets,
+           "The vehicle whose parameters hold where the keys below say nothing else.");
+  if (c.preset != before) c = vehicle_preset(c.preset);
   v.choice("kind", c.kind, kVehicleKinds,
            "quadrotor: rigid body under an autopilot; ideal: moves exactly as commanded.");
+  v.section("estimate", c.estimate, "What the vehicle believes about its own state.");
   v.section("airframe", c.airframe, "Rigid body and rotors.");
   v.section("autopilot", c.autopilot, "PX4's multicopter cascade; capitals name its parameters.");
-  v.section("power", c.power, "Power drawn by the rotors.");
-}
-
-void fields(FieldVisitor& v, FeedForward& c) {
-  v.number("gain_xy", c.gain_xy, between(0, 100), "On the reference's horizontal acceleration.");
-  v.number("drag_xy_per_s", c.drag_xy_per_s, between(0, 100), "On its horizontal velocity.");
-  v.number("gain_z", c.gain_z, between(0, 100), "On its vertical acceleration.");
-  v.number("drag_z_per_s", c.drag_z_per_s, between(0, 100), "On its vertical velocity.");
-  v.number("attitude_lag_s", c.attitude_lag_s, between(0, 10),
-           "From the acceleration setpoint to the tilt.");
+  v.section("power", c.power, "Power drawn by the rotors, and the battery.");
 }
 
 void fields(FieldVisitor& v, GuidanceConfig& c) {
-  v.number("speed_m_s", c.speed_m_s, above_upto(0, 50), "Top speed between views.");
+  v.number("path_speed_m_s", c.path_speed_m_s, above_upto(0, 50), "Top speed between views.");
   v.number("profile_speed_m_s", c.profile_speed_m_s, above_upto(0, 50),
            "Top speed of the profile's descents.");
-  v.number("climb_speed_max_m_s", c.climb_speed_max_m_s, above_upto(0, 50), "Top speed upwards.");
-  v.number("descent_speed_max_m_s", c.descent_speed_max_m_s, above_upto(0, 50),
-           "Top speed downwards.");
   v.number("acceleration_m_s2", c.acceleration_m_s2, above_upto(0, 50),
            "Of speeding up and braking.");
+  v.number("jerk_m_s3", c.jerk_m_s3, above_upto(0, 1e3), "Top rate of change of acceleration.");
   v.angle("yaw_rate_deg_s", c.yaw_rate_rad_s, above_upto(0, 1e3), "Top turning speed.");
   v.angle("yaw_acceleration_deg_s2", c.yaw_acceleration_rad_s2, above_upto(0, 1e4),
           "Of starting and ending a turn.");
-  v.number("smoothing_s", c.smoothing_s, above_upto(0, 10),
-           "Every change of acceleration takes this long.");
-  v.section("feed_forward", c.feed_forward, "Acceleration sent along with position and velocity.");
+  v.angle("yaw_jerk_deg_s3", c.yaw_jerk_rad_s3, above_upto(0, 1e5),
+          "Top rate of change of the turn's acceleration.");
   v.number("arrival_distance_m", c.arrival_distance_m, above_upto(0, 10),
            "Arrived: nearer to the goal than this,");
   v.angle("arrival_yaw_deg", c.arrival_yaw_rad, above_upto(0, 180),

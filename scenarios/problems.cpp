@@ -38,8 +38,14 @@ void check_sensors(const Scenario& s, Problems& out) {
       break;
     }
   }
-  require_below(s.lidar.range_min_m, s.lidar.range_max_m, "lidar.range_min_m", "lidar.range_max_m",
-                out);
+  for (std::size_t i = 0; i < s.lidars.size(); ++i) {
+    const std::string key = fmt::format("lidars.{}.", i);
+    require_below(s.lidars[i].range_min_m, s.lidars[i].range_max_m, key + "range_min_m",
+                  key + "range_max_m", out);
+  }
+  if (s.lidars.empty() && s.planner.profiling.method != ProfilingMethod::none) {
+    out.push_back({{"lidars", "planner.profiling.method"}, "the profile needs a LIDAR to scan it"});
+  }
 }
 
 /// Size and place of the map; only for a workspace that is a box.
@@ -170,28 +176,28 @@ void check_vehicle(const VehicleConfig& vehicle, Problems& out) {
                              hover, autopilot.thrust_min, autopilot.thrust_max)});
 }
 
-/// A leg flown faster than the autopilot allows only times out.
+/// A leg flown faster than the autopilot allows would only time out. Climb and descent are limited
+/// by the guidance itself.
 void check_guidance(const Scenario& s, Problems& out) {
-  const auto check = [&](double speed_m_s, const char* key, double limit_m_s, const char* limit) {
-    if (speed_m_s <= limit_m_s || s.vehicle.kind == VehicleKind::ideal) return;
-    out.push_back({{std::string("guidance.") + key, std::string("vehicle.autopilot.") + limit},
-                   fmt::format("{} = {} is above the autopilot's {} = {}", key, speed_m_s, limit,
-                               limit_m_s)});
+  if (s.vehicle.kind == VehicleKind::ideal) return;
+  const double limit_m_s = s.vehicle.autopilot.speed_max_m_s;
+  const auto check = [&](double speed_m_s, const std::string& key) {
+    if (speed_m_s <= limit_m_s) return;
+    out.push_back({{"guidance." + key, "vehicle.autopilot.speed_max_m_s"},
+                   fmt::format("{} = {} is above the autopilot's speed_max_m_s = {}", key,
+                               speed_m_s, limit_m_s)});
   };
-  const AutopilotParameters& a = s.vehicle.autopilot;
-  check(s.guidance.speed_m_s, "speed_m_s", a.speed_max_m_s, "speed_max_m_s");
-  check(s.guidance.profile_speed_m_s, "profile_speed_m_s", a.speed_max_m_s, "speed_max_m_s");
-  check(s.guidance.climb_speed_max_m_s, "climb_speed_max_m_s", a.climb_speed_max_m_s,
-        "climb_speed_max_m_s");
-  check(s.guidance.descent_speed_max_m_s, "descent_speed_max_m_s", a.descent_speed_max_m_s,
-        "descent_speed_max_m_s");
+  check(s.guidance.path_speed_m_s, "path_speed_m_s");
+  check(s.guidance.profile_speed_m_s, "profile_speed_m_s");
 }
 
 void check_structure(const StructureConfig& structure, Problems& out) {
   const std::string& path = structure.file.path;
   std::error_code ignored;
   if (path.empty() || std::filesystem::is_regular_file(path, ignored)) return;
-  out.push_back({{"structure.file.path"}, "there is no such file"});
+  out.push_back({{"structure.file.path"},
+                 std::filesystem::is_directory(path, ignored) ? "is a folder, not a mesh file"
+                                                              : "there is no such file"});
 }
 
 void check_utility(const UtilityConfig& utility, Problems& out) {

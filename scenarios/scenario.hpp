@@ -17,7 +17,8 @@
 namespace gnbv {
 
 /// Structures that assets/ generates, by the name StructureConfig::builtin takes.
-constexpr std::array<std::string_view, 2> kStructureNames = {"aircraft", "smoke"};
+constexpr std::array<std::string_view, 4> kStructureNames = {"aircraft", "lab_model",
+                                                             "lab_airplane", "smoke"};
 
 struct StructureConfig {
   std::string builtin = "aircraft";  // used when file.path is empty
@@ -39,7 +40,7 @@ struct Scenario {
   Box3 workspace_m = Box3(Vec3(-20, -20, 0), Vec3(20, 20, 20));
   StructureConfig structure;
   std::vector<CameraConfig> cameras;
-  LidarConfig lidar;
+  std::vector<LidarConfig> lidars = {LidarConfig{}};
   VehicleConfig vehicle;
   GuidanceConfig guidance;
   StartConfig start;

@@ -4,29 +4,62 @@
 #include <cmath>
 
 #include "sim/core/error.hpp"
+#include "sim/feed_forward.hpp"
 #include "sim/rest_to_rest.hpp"
+#include "sim/rotors.hpp"
 
 namespace gnbv {
 namespace {
 
-constexpr int kTicksPerSetpoint = 5;  // 20 ms
+constexpr int kTicksPerSetpoint = 5;   // 20 ms
+constexpr double kShareOfLimit = 0.8;  // of the autopilot's, so that its loops can still correct
+
+/// A quadrotor is led below its autopilot's limits.
+double speed_along(const Vec3& direction, double speed_m_s, const VehicleConfig& vehicle) {
+  if (vehicle.kind == VehicleKind::ideal) return speed_m_s;
+  const AutopilotParameters& autopilot = vehicle.autopilot;
+  const auto limited = [&](double speed, double share, double limit_m_s) {
+    return share > 0.0 ? std::min(speed, kShareOfLimit * limit_m_s / share) : speed;
+  };
+  double speed = limited(speed_m_s, direction.head<2>().norm(), autopilot.speed_max_m_s);
+  speed = limited(speed, direction.z(), autopilot.climb_speed_max_m_s);
+  return limited(speed, -direction.z(), autopilot.descent_speed_max_m_s);
+}
+
+/// A quadrotor turns by unequal rotors, and beyond a tenth of the command its thrust gives way.
+RestToRest::Limits turn_limits(const GuidanceConfig& config, const VehicleConfig& vehicle) {
+  if (vehicle.kind == VehicleKind::ideal) {
+    return {config.yaw_rate_rad_s, config.yaw_acceleration_rad_s2, config.yaw_jerk_rad_s3};
+  }
+  const double authority_rad_s2 = 0.1 * yaw_authority_rad_s2(vehicle.airframe);
+  const double share = std::min(1.0, authority_rad_s2 / config.yaw_acceleration_rad_s2);
+  return {std::min(config.yaw_rate_rad_s, kShareOfLimit * vehicle.autopilot.rate_max_rad_s.z()),
+          share * config.yaw_acceleration_rad_s2, share * config.yaw_jerk_rad_s3};
+}
+
+Vec3 direction_between(const Vec3& from, const Vec3& to) {
+  const double length_m = (to - from).norm();
+  return length_m > 0.0 ? Vec3((to - from) / length_m) : Vec3(Vec3::Zero());
+}
 
 /// The reference of one leg: the straight line, and the short way round to the heading.
 class Leg {
  public:
-  Leg(const ViewPose& start, const ViewPose& goal, double speed_m_s, const GuidanceConfig& config)
-      : start_(start),
+  Leg(const ViewPose& start, const ViewPose& goal, double speed_m_s, const GuidanceConfig& config,
+      const VehicleConfig& vehicle)
+      : vehicle_(vehicle),
+        start_(start),
         goal_(goal),
         turn_rad_(wrap_angle_rad(goal.yaw_rad - start.yaw_rad)),
-        direction_(direction(start, goal)),
-        path_((goal.p_world_m - start.p_world_m).norm(), speed_along(direction_, speed_m_s, config),
-              config.acceleration_m_s2, config.smoothing_s),
-        turn_(std::abs(turn_rad_), config.yaw_rate_rad_s, config.yaw_acceleration_rad_s2,
-              config.smoothing_s) {}
+        direction_(direction_between(start.p_world_m, goal.p_world_m)),
+        path_((goal.p_world_m - start.p_world_m).norm(),
+              {speed_along(direction_, speed_m_s, vehicle), config.acceleration_m_s2,
+               config.jerk_m_s3}),
+        turn_(std::abs(turn_rad_), turn_limits(config, vehicle)) {}
 
   double duration_s() const { return std::max(path_.duration_s(), turn_.duration_s()); }
 
-  Setpoint at(double time_s, const GuidanceConfig& config) const {
+  Setpoint at(double time_s) const {
     const RestToRest::Sample path = path_.at(time_s);
     const RestToRest::Sample turn = turn_.at(time_s);
     Setpoint setpoint;
@@ -34,39 +67,28 @@ class Leg {
     setpoint.v_world_m_s = path.speed * direction_;
     setpoint.yaw_rad = wrap_angle_rad(start_.yaw_rad + std::copysign(turn.position, turn_rad_));
     setpoint.yaw_rate_rad_s = std::copysign(turn.speed, turn_rad_);
-    setpoint.a_world_m_s2 =
-        acceleration_ahead(config.feed_forward, time_s, setpoint.yaw_rate_rad_s);
+    setpoint.a_world_m_s2 = acceleration_ahead(time_s, setpoint.yaw_rate_rad_s);
     if (time_s >= path_.duration_s()) setpoint.p_world_m = goal_.p_world_m;
     if (time_s >= turn_.duration_s()) setpoint.yaw_rad = goal_.yaw_rad;
     return setpoint;
   }
 
  private:
-  static Vec3 direction(const ViewPose& start, const ViewPose& goal) {
-    const Vec3 line_m = goal.p_world_m - start.p_world_m;
-    const double length_m = line_m.norm();
-    return length_m > 0.0 ? Vec3(line_m / length_m) : Vec3(Vec3::Zero());
-  }
-
-  static double speed_along(const Vec3& direction, double speed_m_s, const GuidanceConfig& config) {
-    const double rise = direction.z();
-    if (rise > 0.0) return std::min(speed_m_s, config.climb_speed_max_m_s / rise);
-    if (rise < 0.0) return std::min(speed_m_s, config.descent_speed_max_m_s / -rise);
-    return speed_m_s;
-  }
-
-  /// The acceleration setpoint that lets the cascade follow without building up an error.
-  Vec3 acceleration_ahead(const FeedForward& ff, double time_s, double yaw_rate_rad_s) const {
-    const RestToRest::Sample ahead = path_.at(time_s + ff.attitude_lag_s);
-    const Vec3 a_m_s2 = ahead.acceleration * direction_;
-    const Vec3 v_m_s = ahead.speed * direction_;
-    const Vec3 wanted(ff.gain_xy * a_m_s2.x() + ff.drag_xy_per_s * v_m_s.x(),
-                      ff.gain_xy * a_m_s2.y() + ff.drag_xy_per_s * v_m_s.y(),
-                      ff.gain_z * a_m_s2.z() + ff.drag_z_per_s * std::abs(v_m_s.z()));
+  /// What the tilt needs is sent ahead of it by its lag, what the rotors need at once.
+  Vec3 acceleration_ahead(double time_s, double yaw_rate_rad_s) const {
+    const double lag_s = attitude_lag_s(vehicle_.autopilot);
+    const auto wanted_at = [&](double t_s) {
+      const RestToRest::Sample path = path_.at(t_s);
+      return acceleration_setpoint(vehicle_.airframe, vehicle_.autopilot, path.speed * direction_,
+                                   path.acceleration * direction_);
+    };
+    const Vec3 ahead = wanted_at(time_s + lag_s);
+    const Vec3 tilt_part(ahead.x(), ahead.y(), wanted_at(time_s).z());
     // a tilt that lags is carried round by the turning body
-    return Eigen::AngleAxisd(-yaw_rate_rad_s * ff.attitude_lag_s, Vec3::UnitZ()) * wanted;
+    return Eigen::AngleAxisd(-yaw_rate_rad_s * lag_s, Vec3::UnitZ()) * tilt_part;
   }
 
+  const VehicleConfig& vehicle_;
   ViewPose start_;
   ViewPose goal_;
   double turn_rad_;
@@ -89,14 +111,14 @@ bool has_arrived(const VehicleState& state, const ViewPose& goal, const Guidance
 }  // namespace
 
 LegEnd fly_leg(Flight& flight, const ViewPose& goal, double speed_m_s, const GuidanceConfig& config,
-               const std::function<bool(const Flight&)>& on_tick) {
+               const VehicleConfig& vehicle, const std::function<bool(const Flight&)>& on_tick) {
   GNBV_CHECK(goal.p_world_m.allFinite() && std::isfinite(goal.yaw_rad) && speed_m_s > 0.0,
              "the goal must be finite and the speed, {} m/s, positive", speed_m_s);
-  const Leg leg(level_pose(flight.estimate()), goal, speed_m_s, config);
+  const Leg leg(level_pose(flight.estimate()), goal, speed_m_s, config, vehicle);
   for (int sent = 0;; ++sent) {
     const double time_s = sent * kTicksPerSetpoint * kTick_s;
     if (time_s > leg.duration_s() + config.timeout_s) return LegEnd::timeout;
-    flight.command(leg.at(time_s, config));
+    flight.command(leg.at(time_s));
     for (int i = 0; i < kTicksPerSetpoint; ++i) {
       flight.step();
       const bool goes_on = !on_tick || on_tick(flight);

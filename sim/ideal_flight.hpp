@@ -8,8 +8,8 @@
 namespace gnbv {
 
 /// Level; takes position and yaw from the setpoint at once, integrates velocity and yaw rate where
-/// these are not given, keeps what is not commanded. It has no body: it never collides. Its energy
-/// is the quadrotor's hover power times the time.
+/// these are not given, keeps what is not commanded. It has no body: it never collides. It knows
+/// where it is. Its energy is the quadrotor's hover power times the time.
 std::unique_ptr<Flight> make_ideal_flight(const VehicleConfig& config, const ViewPose& start);
 
 }  // namespace gnbv

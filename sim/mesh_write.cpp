@@ -9,6 +9,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/srgb.hpp"
 #include "sim/mesh_file.hpp"
 #include "sim/obj_text.hpp"
 
@@ -87,7 +88,8 @@ void append_bytes(std::string& out, T value) {
   out.append(bytes.data(), bytes.size());
 }
 
-/// Own writer: assimp's binary PLY with colours is corrupt (found with 5.2.4). Little-endian.
+/// Own writer: assimp's binary PLY with colours is corrupt (found with 5.2.4). Little-endian;
+/// each face has the sRGB bytes of its material, as MeshLab shows them.
 std::string ply_of(const TriangleMesh& mesh) {
   std::string out = fmt::format(
       "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float "
@@ -103,7 +105,7 @@ std::string ply_of(const TriangleMesh& mesh) {
     for (const std::uint32_t index : mesh.faces[i]) append_bytes(out, index);
     const std::size_t material = mesh.face_material.empty() ? 0 : mesh.face_material[i];
     for (const float channel : mesh.materials[material].rgb) {
-      append_bytes(out, static_cast<std::uint8_t>(std::lround(255.0F * channel)));
+      append_bytes(out, static_cast<std::uint8_t>(std::lround(255.0F * linear_to_srgb(channel))));
     }
   }
   return out;

@@ -130,29 +130,28 @@ class ObjReader {
     for (std::size_t i = 0; i < 3; ++i) {
       const auto value = i < values.size() ? number_of(values[i]) : std::nullopt;
       if (!value) fail(line_, fmt::format("vertex {} has no three coordinates", next_vertex()));
-      if (!std::isfinite(*value)) {
-        fail(line_, fmt::format("vertex {} has the coordinate {}", next_vertex(), values[i]));
+      if (!std::isfinite(*value) && out_.not_finite.empty()) {
+        out_.not_finite = fmt::format("{}:{}: vertex {} has the coordinate {}", path_.string(),
+                                      line_, next_vertex(), values[i]);
       }
       p[static_cast<Eigen::Index>(i)] = *value;
     }
-    fmt::format_to(std::back_inserter(out_.text), "v {} {} {}\nvt {} {}\n", p.x(), p.y(), p.z(),
-                   out_.vertices.size() % kObjNumberBase, out_.vertices.size() / kObjNumberBase);
-    out_.vertices.push_back(p);
+    append_vertex(out_, p);
   }
 
   void add_face(std::span<const std::string_view> values) {
     settle(false);
     const auto count = static_cast<long long>(out_.vertices.size());
-    std::string face = "f";
+    std::vector<std::size_t> corners;
     for (const std::string_view value : values) {
       const auto corner = corner_of(value);
       if (!corner) return unreadable_.add(line_);
       const long long vertex = *corner < 0 ? count + 1 + *corner : *corner;
       if (vertex < 1 || vertex > count) return impossible_.add(line_);
-      fmt::format_to(std::back_inserter(face), " {}/{}", vertex, vertex);
+      corners.push_back(static_cast<std::size_t>(vertex) - 1);
     }
     if (values.size() < 3) return unreadable_.add(line_);
-    out_.text += face + '\n';
+    append_face(out_, corners);
   }
 
   void use_material(const std::string& name) { out_.text += "usemtl " + name + '\n'; }
@@ -210,6 +209,23 @@ std::string material_name(const TriangleMesh& mesh, std::size_t index) {
 }
 
 }  // namespace
+
+void append_vertex(ObjText& obj, const Vec3& p_file) {
+  const Vec3 shown = p_file.allFinite() ? p_file : Vec3::Zero();
+  fmt::format_to(std::back_inserter(obj.text), "v {} {} {}\nvt {} {}\n", shown.x(), shown.y(),
+                 shown.z(), obj.vertices.size() % kObjNumberBase,
+                 obj.vertices.size() / kObjNumberBase);
+  obj.vertices.push_back(p_file);
+}
+
+void append_face(ObjText& obj, std::span<const std::size_t> corners) {
+  obj.text += 'f';
+  for (const std::size_t corner : corners) {
+    fmt::format_to(std::back_inserter(obj.text), " {}/{}", corner + 1, corner + 1);
+  }
+  obj.text += '\n';
+  ++obj.face_count;
+}
 
 ObjText read_obj_text(const std::filesystem::path& path, std::string_view content,
                       std::vector<std::string>& warnings) {

@@ -6,50 +6,64 @@
 #include "sim/core/error.hpp"
 
 namespace gnbv {
+namespace {
 
-RestToRest::RestToRest(double distance, double speed_max, double acceleration_max,
-                       double smoothing_s)
-    : distance_(distance), smoothing_s_(smoothing_s) {
-  GNBV_CHECK(distance >= 0.0 && speed_max > 0.0 && acceleration_max > 0.0 && smoothing_s > 0.0,
-             "distance {}, speed {}, acceleration {}, smoothing {} s", distance, speed_max,
-             acceleration_max, smoothing_s);
-  const double peak = std::min(speed_max, std::sqrt(acceleration_max * distance));
-  const double ramp_s = peak / acceleration_max;
-  const double cruise_s = peak > 0.0 ? std::max(0.0, distance / peak - ramp_s) : 0.0;
-  trapezoid_s_ = 2.0 * ramp_s + cruise_s;
+/// The speed at half way when nothing is lost on cruising: with a stretch of constant acceleration
+/// if there is room for one, otherwise the jerk alone shapes the motion.
+double peak_speed_within(double distance, double acceleration, double jerk) {
+  const double lost_to_jerk = acceleration * acceleration / jerk;
+  const bool has_room = distance >= 2.0 * lost_to_jerk * acceleration / jerk;
+  if (!has_room) return std::cbrt(0.25 * distance * distance * jerk);
+  return 0.5 *
+         (std::sqrt(lost_to_jerk * lost_to_jerk + 4.0 * acceleration * distance) - lost_to_jerk);
+}
 
-  phases_[0].acceleration = acceleration_max;
-  const std::array<double, 3> starts_s = {ramp_s, ramp_s + cruise_s, trapezoid_s_};
-  const std::array<double, 3> accelerations = {0.0, -acceleration_max, 0.0};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Trapezoid begin = along(phases_[i], starts_s[i]);
-    phases_[i + 1] = {starts_s[i], begin.integral, begin.position, begin.speed, accelerations[i]};
+}  // namespace
+
+RestToRest::RestToRest(double distance, const Limits& limits)
+    : distance_(distance), jerk_(limits.jerk) {
+  GNBV_CHECK(
+      distance >= 0.0 && limits.speed > 0.0 && limits.acceleration > 0.0 && limits.jerk > 0.0,
+      "distance {}, speed {}, acceleration {}, jerk {}", distance, limits.speed,
+      limits.acceleration, limits.jerk);
+  if (distance == 0.0) return;
+  const double peak_speed =
+      std::min(limits.speed, peak_speed_within(distance, limits.acceleration, limits.jerk));
+  jerk_s_ = std::min(limits.acceleration / limits.jerk, std::sqrt(peak_speed / limits.jerk));
+  speeding_up_s_ = peak_speed / (limits.jerk * jerk_s_) + jerk_s_;
+  // speeding up and slowing down cover peak_speed * speeding_up_s together
+  cruise_s_ = std::max(0.0, distance / peak_speed - speeding_up_s_);
+}
+
+RestToRest::Sample RestToRest::first_half(double time_s) const {
+  const double acceleration = jerk_ * jerk_s_;
+  const double grown_s = std::min(time_s, jerk_s_);
+  Sample now = {jerk_ * grown_s * grown_s * grown_s / 6.0, 0.5 * jerk_ * grown_s * grown_s,
+                jerk_ * grown_s};
+  const auto advance = [&now](double dt_s, double jerk) {
+    now.position += dt_s * (now.speed + dt_s * (now.acceleration / 2.0 + dt_s * jerk / 6.0));
+    now.speed += dt_s * (now.acceleration + dt_s * jerk / 2.0);
+    now.acceleration += dt_s * jerk;
+  };
+  const double constant_s = speeding_up_s_ - 2.0 * jerk_s_;
+  if (time_s > jerk_s_) advance(std::min(time_s - jerk_s_, constant_s), 0.0);
+  if (time_s > speeding_up_s_ - jerk_s_) {
+    now.acceleration = acceleration;
+    advance(std::min(time_s - (speeding_up_s_ - jerk_s_), jerk_s_), -jerk_);
   }
-  phases_[3].position = distance;
-  phases_[3].speed = 0.0;
-}
-
-RestToRest::Trapezoid RestToRest::along(const Phase& phase, double time_s) {
-  const double t = time_s - phase.start_s;
-  const double half_a = 0.5 * phase.acceleration;
-  return {phase.integral + t * (phase.position + t * (0.5 * phase.speed + t * half_a / 3.0)),
-          phase.position + t * (phase.speed + t * half_a), phase.speed + t * phase.acceleration};
-}
-
-RestToRest::Trapezoid RestToRest::trapezoid(double time_s) const {
-  if (time_s <= 0.0) return {};
-  std::size_t i = 3;
-  while (i > 0 && time_s < phases_[i].start_s) --i;
-  return along(phases_[i], time_s);
+  if (time_s > speeding_up_s_) {
+    now.acceleration = 0.0;
+    now.position += (time_s - speeding_up_s_) * now.speed;
+  }
+  return now;
 }
 
 RestToRest::Sample RestToRest::at(double time_s) const {
+  if (time_s <= 0.0) return {distance_ > 0.0 ? 0.0 : distance_, 0.0, 0.0};
   if (time_s >= duration_s()) return {distance_, 0.0, 0.0};
-  const Trapezoid now = trapezoid(time_s);
-  const Trapezoid before = trapezoid(time_s - smoothing_s_);
-  return {(now.integral - before.integral) / smoothing_s_,
-          (now.position - before.position) / smoothing_s_,
-          (now.speed - before.speed) / smoothing_s_};
+  if (time_s <= 0.5 * duration_s()) return first_half(time_s);
+  const Sample mirrored = first_half(duration_s() - time_s);  // the motion is symmetric in time
+  return {distance_ - mirrored.position, mirrored.speed, -mirrored.acceleration};
 }
 
 }  // namespace gnbv

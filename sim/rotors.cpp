@@ -34,6 +34,28 @@ double hover_command(const AirframeParameters& airframe) {
   return command;
 }
 
+double yaw_authority_rad_s2(const AirframeParameters& airframe) {
+  const double thrust_per_command_n = 2.0 * airframe.thrust_coefficient_n_s2 *
+                                      hover_speed_rad_s(airframe) * airframe.command_gain_rad_s;
+  return static_cast<double>(kRotors) * airframe.moment_per_thrust_m * thrust_per_command_n /
+         airframe.inertia_kg_m2.z();
+}
+
+double thrust_share(const AirframeParameters& airframe, const Vec3& v_rotor_body_m_s) {
+  const auto share_at = [&](double speed_m_s) {
+    return std::clamp(1.0 - speed_m_s / airframe.thrust_loss_limit_m_s, 0.0, 1.0);
+  };
+  switch (airframe.thrust_loss) {
+    case ThrustLoss::none:
+      return 1.0;
+    case ThrustLoss::axial_speed:
+      return share_at(std::abs(v_rotor_body_m_s.z()));
+    case ThrustLoss::whole_speed:
+      return share_at(v_rotor_body_m_s.norm());
+  }
+  throw BrokenInvariant("thrust loss outside its enumeration");
+}
+
 Wrench rotor_wrench(const AirframeParameters& airframe, const RotorSpeeds& speeds_rad_s,
                     const Vec3& v_body_m_s, const Vec3& omega_body_rad_s) {
   Wrench sum;
@@ -42,17 +64,16 @@ Wrench rotor_wrench(const AirframeParameters& airframe, const RotorSpeeds& speed
     const double speed_rad_s = speeds_rad_s[i];
     const Vec3 v_rotor_m_s = v_body_m_s + omega_body_rad_s.cross(rotor.p_body_m);
     const Vec3 v_disk_m_s(v_rotor_m_s.x(), v_rotor_m_s.y(), 0.0);
-    const double axial_factor =
-        std::clamp(1.0 - std::abs(v_rotor_m_s.z()) / airframe.axial_limit_m_s, 0.0, 1.0);
     const double thrust_at_rest_n = airframe.thrust_coefficient_n_s2 * speed_rad_s * speed_rad_s;
-    const double thrust_n = thrust_at_rest_n * axial_factor;
+    const double thrust_n = thrust_at_rest_n * thrust_share(airframe, v_rotor_m_s);
 
     const Vec3 force_n =
         thrust_n * Vec3::UnitZ() - speed_rad_s * airframe.drag_coefficient_n_s2_per_m * v_disk_m_s;
-    // the plugin takes the reaction torque from the thrust at rest, and signs the rolling moment
+    // the plugin takes the reaction torque from the thrust at rest
     Vec3 torque_n_m = rotor.p_body_m.cross(force_n);
     torque_n_m.z() -= rotor.spin * airframe.moment_per_thrust_m * thrust_at_rest_n;
-    torque_n_m -= rotor.spin * speed_rad_s * airframe.rolling_coefficient_n_s2 * v_disk_m_s;
+    const double rolling_sign = airframe.rolling_follows_spin ? rotor.spin : 1.0;
+    torque_n_m -= rolling_sign * speed_rad_s * airframe.rolling_coefficient_n_s2 * v_disk_m_s;
 
     sum.force_body_n += force_n;
     sum.torque_body_n_m += torque_n_m;

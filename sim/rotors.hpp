@@ -22,6 +22,12 @@ double hover_speed_rad_s(const AirframeParameters& airframe);
 /// The command, of [0, 1], at which thrust equals weight. Throws BrokenInvariant when out of reach.
 double hover_command(const AirframeParameters& airframe);
 
+/// Angular acceleration about body z for a unit of yaw command, at hover.
+double yaw_authority_rad_s2(const AirframeParameters& airframe);
+
+/// What is left of a rotor's thrust at rest when it moves through the air, in [0, 1].
+double thrust_share(const AirframeParameters& airframe, const Vec3& v_rotor_body_m_s);
+
 /// Sum over the rotors, about the centre of mass, gravity not included.
 struct Wrench {
   Vec3 force_body_n = Vec3::Zero();
@@ -35,5 +41,9 @@ constexpr double kJoulesPerWattHour = 3600.0;
 
 /// Electrical power by PowerParameters' law.
 double power_w(const PowerParameters& power, double thrust_n, const Vec3& v_world_m_s);
+
+/// Energy of a descent straight down from `height_m` at PX4's landing speed, and of the three
+/// seconds that the landing detector and the disarming take.
+double landing_energy_wh(const VehicleConfig& vehicle, double height_m);
 
 }  // namespace gnbv

@@ -21,6 +21,9 @@ struct RotorMount {
   double spin = 1.0;
 };
 
+/// What of the velocity takes thrust from a rotor: the plugin has changed its mind over the years.
+enum class ThrustLoss { none, axial_speed, whole_speed };
+
 /// Iris: one rigid body, its 5 g rotors added as point masses; the centre of mass is the origin.
 struct AirframeParameters {
   double mass_kg = 1.55;
@@ -33,7 +36,9 @@ struct AirframeParameters {
   double moment_per_thrust_m = 0.06;             // reaction torque = this * thrust at rest
   double drag_coefficient_n_s2_per_m = 1.75e-4;  // drag = coefficient * speed * in-plane velocity
   double rolling_coefficient_n_s2 = 1.0e-6;      // rolling moment, same law
-  double axial_limit_m_s = 25.0;                 // thrust falls linearly to 0 at this axial speed
+  bool rolling_follows_spin = true;              // the rolling moment changes sign with the spin
+  ThrustLoss thrust_loss = ThrustLoss::axial_speed;
+  double thrust_loss_limit_m_s = 25.0;  // thrust falls linearly to 0 at this speed
   double time_constant_up_s = 0.0125;
   double time_constant_down_s = 0.025;
   double idle_speed_rad_s = 100.0;     // armed, command 0
@@ -73,6 +78,7 @@ struct AutopilotParameters {
 
 /// Liu et al. 2017, fitted on an IRIS+:
 /// P = k1 T [V/2 + sqrt((V/2)^2 + T/k2^2)] + c2 T^1.5 + c4 V_h^3, T thrust, V climb speed.
+/// Every preset keeps these coefficients: nobody has published them for the other airframes.
 struct PowerParameters {
   double k1 = 0.8554;
   double k2 = 0.3051;

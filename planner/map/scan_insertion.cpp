@@ -161,10 +161,12 @@ ScanUpdate ScanInserter::compute_update(const Vec3f& origin_world_m, std::span<c
 }
 
 void ScanInserter::insert_scans(OccupancyGrid& grid, std::span<const LidarScan> scans,
-                                const LidarConfig& lidar, double floor_z_m, int threads) {
+                                std::span<const LidarConfig> lidars, double floor_z_m,
+                                int threads) {
   GNBV_CHECK(grid.geometry().min_key() == grid_.min_key() && grid.geometry().size() == grid_.size(),
              "another grid than the one this inserter was made for");
-  const std::vector<Vec3f> beams = beams_of(lidar);
+  std::vector<std::vector<Vec3f>> beams;  // of each LIDAR
+  for (const LidarConfig& lidar : lidars) beams.push_back(beams_of(lidar));
   const auto workers = static_cast<std::size_t>(std::max(threads, 1));
   need_walkers(threads);
   std::vector<ScanUpdate> updates(kScansPerBatch);
@@ -176,7 +178,9 @@ void ScanInserter::insert_scans(OccupancyGrid& grid, std::span<const LidarScan> 
     std::atomic<std::size_t> next{0};
     parallel_for(threads, workers, [&](std::size_t w) {
       for (std::size_t s = next++; s < batch.size(); s = next++) {
-        const std::vector<ScanRay> rays = rays_along(batch[s], lidar, beams, floor_z_m);
+        const auto lidar = static_cast<std::size_t>(batch[s].lidar);
+        const std::vector<ScanRay> rays =
+            rays_along(batch[s], lidars[lidar], beams[lidar], floor_z_m);
         const Vec3f origin_m = batch[s].T_world_lidar.translation().cast<float>();
         occupied[w].clear();
         collect_occupied(grid_, walkers_[w], rays, occupied[w]);
@@ -196,9 +200,9 @@ ScanUpdate compute_update(const GridGeometry& grid, const Vec3f& origin_world_m,
   return ScanInserter(grid).compute_update(origin_world_m, rays, threads);
 }
 
-void insert_scans(OccupancyGrid& grid, std::span<const LidarScan> scans, const LidarConfig& lidar,
-                  double floor_z_m, int threads) {
-  ScanInserter(grid.geometry()).insert_scans(grid, scans, lidar, floor_z_m, threads);
+void insert_scans(OccupancyGrid& grid, std::span<const LidarScan> scans,
+                  std::span<const LidarConfig> lidars, double floor_z_m, int threads) {
+  ScanInserter(grid.geometry()).insert_scans(grid, scans, lidars, floor_z_m, threads);
 }
 
 }  // namespace gnbv

@@ -35,9 +35,10 @@ class ScanInserter {
   ScanUpdate compute_update(const Vec3f& origin_world_m, std::span<const ScanRay> rays,
                             int threads);
 
-  /// Inserts the buffered profile: each sweep is one update, in order of time.
-  void insert_scans(OccupancyGrid& grid, std::span<const LidarScan> scans, const LidarConfig& lidar,
-                    double floor_z_m, int threads);
+  /// Inserts the buffered profile: each sweep is one update, in order of time. LidarScan::lidar
+  /// says which of `lidars` took it.
+  void insert_scans(OccupancyGrid& grid, std::span<const LidarScan> scans,
+                    std::span<const LidarConfig> lidars, double floor_z_m, int threads);
 
  private:
   void need_walkers(int threads);
@@ -51,7 +52,7 @@ class ScanInserter {
 /// The same, once, without memory to reuse.
 ScanUpdate compute_update(const GridGeometry& grid, const Vec3f& origin_world_m,
                           std::span<const ScanRay> rays, int threads);
-void insert_scans(OccupancyGrid& grid, std::span<const LidarScan> scans, const LidarConfig& lidar,
-                  double floor_z_m, int threads);
+void insert_scans(OccupancyGrid& grid, std::span<const LidarScan> scans,
+                  std::span<const LidarConfig> lidars, double floor_z_m, int threads);
 
 }  // namespace gnbv

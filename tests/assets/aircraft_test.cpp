@@ -5,13 +5,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <set>
-#include <string>
 #include <tuple>
 
 #include "assets/aircraft_parts.hpp"
-#include "sim/core/sha256.hpp"
 #include "tests/assets/mesh_laws.hpp"
+#include "tests/assets/structure_laws.hpp"
 
 namespace gnbv {
 namespace {
@@ -19,18 +17,6 @@ namespace {
 const TriangleMesh& mesh() {
   static const TriangleMesh made = make_aircraft();
   return made;
-}
-
-std::string sha256_of(const TriangleMesh& m) {
-  Sha256 hash;
-  for (const Vec3f& v : m.vertices_m) hash.add(std::span<const float>(v.data(), 3));
-  for (const auto& f : m.faces) hash.add(std::span<const std::uint32_t>(f));
-  hash.add(std::span<const std::uint16_t>(m.face_material));
-  for (const Material& material : m.materials) {
-    hash.add(material.name);
-    hash.add(std::span<const float>(material.rgb));
-  }
-  return hash.hex();
 }
 
 TEST(Aircraft, HasTheSizeOfThePapersAircraft) {
@@ -55,17 +41,7 @@ TEST(Aircraft, HasTheCountsPromised) {
   EXPECT_LE(mesh().faces.size(), 33000U);
 }
 
-TEST(Aircraft, EveryPartIsClosedAndFacesOutwards) {
-  EXPECT_EQ(open_edges(mesh().faces), 0U);
-  const std::vector<Faces> parts = connected_parts(mesh().faces, mesh().vertices_m.size());
-  EXPECT_GT(parts.size(), 100U);
-  for (const Faces& faces : parts) {
-    Part part;
-    for (const Vec3f& v : mesh().vertices_m) part.points_m.push_back(v.cast<double>());
-    part.faces = faces;
-    EXPECT_GT(signed_volume_m3(part), 0.0);
-  }
-}
+TEST(Aircraft, EveryPartIsClosedAndFacesOutwards) { EXPECT_GT(expect_closed_parts(mesh()), 100U); }
 
 TEST(Aircraft, MirrorMapsTheVerticesOntoThemselvesBitForBit) {
   using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>;
@@ -104,18 +80,8 @@ TEST(Aircraft, HasNoDegenerateFaceAndNoUnusedVertex) {
   EXPECT_LT(aspect.back(), 50.0);
 }
 
-TEST(Aircraft, EveryFaceHasANamedMaterialAndEveryMaterialIsUsed) {
-  ASSERT_EQ(mesh().face_material.size(), mesh().faces.size());
-  std::set<std::uint16_t> used(mesh().face_material.begin(), mesh().face_material.end());
-  EXPECT_EQ(used.size(), mesh().materials.size());
-  EXPECT_LT(*used.rbegin(), mesh().materials.size());
-  std::set<std::string> names;
-  for (const Material& material : mesh().materials) {
-    names.insert(material.name);
-    EXPECT_NE(material.name, Material{}.name);
-    for (const float c : material.rgb) EXPECT_TRUE(c >= 0.0F && c <= 1.0F) << material.name;
-  }
-  EXPECT_EQ(names.size(), mesh().materials.size());
+TEST(Aircraft, EveryFaceHasANamedMaterialAndEveryMaterialIsUsedAndPatterned) {
+  expect_sound_materials(mesh());
 }
 
 TEST(Aircraft, IsTheSameEveryTime) { EXPECT_EQ(sha256_of(mesh()), sha256_of(make_aircraft())); }
@@ -126,19 +92,7 @@ TEST(Aircraft, HasTheAreaStated) {
 }
 
 TEST(Aircraft, HasNoLargePlaneOnAVoxelBoundary) {
-  // Such a plane would fall into one layer of voxels or the other by rounding.
-  double area_m2 = 0.0;
-  for (const auto& f : mesh().faces) {
-    const Vec3 a = mesh().vertices_m[f[0]].cast<double>(),
-               b = mesh().vertices_m[f[1]].cast<double>(),
-               c = mesh().vertices_m[f[2]].cast<double>();
-    for (int axis = 0; axis < 3; ++axis) {
-      const double at = a[axis], cells = at / 0.05;
-      if (a[axis] == b[axis] && b[axis] == c[axis] && std::abs(cells - std::round(cells)) < 1e-4)
-        area_m2 += 0.5 * (b - a).cross(c - a).norm();
-    }
-  }
-  EXPECT_LT(area_m2, 0.05);
+  EXPECT_LT(area_on_voxel_boundaries_m2(mesh(), 0.05), 0.05);
 }
 
 /// Points of `part` number `first` to `first + count`, all inside `body`?

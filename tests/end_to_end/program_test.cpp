@@ -46,7 +46,8 @@ std::string one_view(const fs::path& out) {
 }
 
 TEST(Program, HelpsAndSaysItsVersion) {
-  for (const std::string arguments : {"--help", "run --help", "table --help", "render --help"}) {
+  for (const std::string arguments :
+       {"--help", "run --help", "table --help", "render --help", "asset --help", "lint --help"}) {
     const Outcome help = gnbv(arguments);
     EXPECT_EQ(help.exit_code, 0) << arguments;
     EXPECT_TRUE(has(help, "Usage")) << arguments;
@@ -133,6 +134,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadInputCase{
             "UnknownUtility", "run smoke --utility best --out @/out", {"best", "proposed"}},
         BadInputCase{"MissingMesh", "run smoke --mesh @/absent.obj --out @/out", {"absent.obj"}},
+        BadInputCase{"MeshFolder", "run smoke --mesh @ --out @/out", {"is a directory"}},
+        BadInputCase{"LintOfNothing", "lint @/absent.obj", {"absent.obj", "No such file"}},
+        BadInputCase{"UnknownAsset", "asset aircrft -o @/out", {"aircrft", "'aircraft'"}},
+        BadInputCase{"UnknownMeshFormat", "asset smoke -o @/out", {"out", ".obj, .ply or .glb"}},
         BadInputCase{"EmptyMesh", "run smoke --mesh @/empty.obj --out @/out", {"empty.obj"}},
         BadInputCase{"NanMesh", "run smoke --mesh @/nan.obj --out @/out", {"nan.obj"}},
         BadInputCase{"MeshOutside",
@@ -186,6 +191,31 @@ TEST(Program, KeepsARunThatIsAlreadyThere) {
   EXPECT_EQ(again.exit_code, 2);
   EXPECT_TRUE(has(again, "--resume"));
   EXPECT_EQ(read_file(out / "summary.json"), before);
+}
+
+TEST(Program, WritesItsStructuresAndFindsThemSound) {
+  TempFolder temp;
+  for (const std::string extension : {".obj", ".ply", ".glb"}) {
+    const std::string file = (temp.path() / ("smoke" + extension)).string();
+    const Outcome asset = gnbv("asset smoke --json 2>/dev/null -o " + file);
+    ASSERT_EQ(asset.exit_code, 0) << asset.output;
+    const Outcome lint = gnbv("lint --json 2>/dev/null " + file);
+    EXPECT_EQ(lint.exit_code, 0) << lint.output;
+    const auto facts = nlohmann::json::parse(asset.output);
+    const auto report = nlohmann::json::parse(lint.output);
+    EXPECT_EQ(report.at("usable"), true);
+    EXPECT_EQ(report.at("faces"), facts.at("faces"));
+    EXPECT_EQ(report.at("bounds_m"), facts.at("bounds_m"));
+  }
+  EXPECT_TRUE(has(gnbv("asset --list"), "smoke\n"));
+}
+
+TEST(Program, LintExitsWith1OnAMeshThatNoMissionTakes) {
+  TempFolder temp;
+  std::ofstream(temp.path() / "nan.obj") << "v 0 0 1\nv nan 0 1\nv 0 1 1\nf 1 2 3\n";
+  const Outcome lint = gnbv("lint " + (temp.path() / "nan.obj").string());
+  EXPECT_EQ(lint.exit_code, 1) << lint.output;
+  EXPECT_TRUE(has(lint, "nan.obj:2: vertex 2")) << lint.output;
 }
 
 TEST(Program, PrintsJsonAloneOnStdoutWhenAsked) {

@@ -10,10 +10,9 @@
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "tests/support/flown.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/mission/iterations_csv.hpp"
-#include "tools/mission/load_world.hpp"
-#include "tools/mission/mission.hpp"
 #include "tools/mission/run_directory.hpp"
 #include "tools/mission/score.hpp"
 
@@ -21,24 +20,6 @@ namespace gnbv {
 namespace {
 
 namespace fs = std::filesystem;
-
-Scenario smoke(const std::vector<std::string>& overrides = {}) {
-  return load_scenario("smoke", overrides);
-}
-
-struct Flown {
-  explicit Flown(const Scenario& flown_scenario, const MissionHooks& hooks = {}, int threads = 2)
-      : scenario(flown_scenario),
-        world(load_world(scenario, warnings)),
-        scene(world),
-        result(run_mission(scenario, world, scene, hooks, threads)) {}
-
-  Scenario scenario;
-  std::vector<std::string> warnings;
-  World world;
-  RayScene scene;
-  MissionResult result;
-};
 
 /// One mission for all tests that only look at it.
 const Flown& smoke_flight() {

@@ -46,16 +46,16 @@ TEST(Faults, AnUnknownNameShowsTheAllowedOnesAndTheNearest) {
 
 TEST(Faults, AreAllReportedAtOnceInTheOrderOfTheInput) {
   EXPECT_EQ(complaint("nme: x\nseed: -1\ncameras:\n  - width_px: a\n  - {name: b, pitch_deg: 91}\n"
-                      "lidar: {range_min_m: 30}\n",
-                      {"lidar.beams=0", "start.yaw=3"}),
+                      "lidars: [{range_min_m: 30}]\n",
+                      {"lidars.0.beams=0", "start.yaw=3"}),
             "s.yaml:1: nme: value 'x': is no known key (did you mean 'name'?)\n"
             "s.yaml:2: seed: value '-1': is out of range (allowed: from 0 to "
             "18446744073709551615)\n"
             "s.yaml:4: cameras.0.width_px: value 'a': expects a whole number\n"
             "s.yaml:5: cameras.1.pitch_deg: value '91': is out of range (allowed: from -90 to 90)\n"
-            "s.yaml:6: lidar.range_min_m: value '30': lidar.range_min_m = 30 has to be below "
-            "lidar.range_max_m = 30\n"
-            "--set lidar.beams=0: lidar.beams: value '0': is out of range (allowed: from 1 to "
+            "s.yaml:6: lidars.0.range_min_m: value '30': lidars.0.range_min_m = 30 has to be below "
+            "lidars.0.range_max_m = 30\n"
+            "--set lidars.0.beams=0: lidars.0.beams: value '0': is out of range (allowed: from 1 to "
             "100000)\n"
             "--set start.yaw=3: start.yaw: value '3': is no known key (did you mean "
             "'start.yaw_deg'?)");
@@ -64,25 +64,25 @@ TEST(Faults, AreAllReportedAtOnceInTheOrderOfTheInput) {
 TEST(ExactTypes, WholeNumbersTakeNothingElse) {
   for (const char* bad : {"1.5", "5.0", "1e3", "0x10", "010", "\"5\"", "'5'", "five", "true", "[5]",
                           "{}", "~", "", "99999999999999999999", ".nan", "5 m", "1_000"}) {
-    EXPECT_THAT(complaint(fmt::format("{}lidar:\n  beams: {}\n", kMinimal, bad)),
-                StartsWith("s.yaml:3: lidar.beams: "))
+    EXPECT_THAT(complaint(fmt::format("{}lidars:\n  - beams: {}\n", kMinimal, bad)),
+                StartsWith("s.yaml:3: lidars.0.beams: "))
         << bad;
   }
-  EXPECT_EQ(load_text(kMinimal + "lidar: {beams: +5}").lidar.beams, 5);
+  EXPECT_EQ(load_text(kMinimal + "lidars: [{beams: +5}]").lidars[0].beams, 5);
 }
 
 TEST(ExactTypes, NumbersAreFiniteAndUnquoted) {
   for (const char* bad : {"\"5\"",    "'5'",   ".nan",   ".NaN", "nan", ".inf", "-.inf", "inf",
                           "infinity", "1e999", "1e-999", "five", "5m",  "0x10", "1,5",   "true",
                           "~",        "",      "[5]",    "+-5",  "--5", "."}) {
-    EXPECT_THAT(complaint(fmt::format("{}guidance:\n  speed_m_s: {}\n", kMinimal, bad)),
-                StartsWith("s.yaml:3: guidance.speed_m_s: "))
+    EXPECT_THAT(complaint(fmt::format("{}guidance:\n  path_speed_m_s: {}\n", kMinimal, bad)),
+                StartsWith("s.yaml:3: guidance.path_speed_m_s: "))
         << bad;
   }
   for (const char* good : {"5", "5.", "5.0", "+5", "0.5e1", "50E-1", "005"}) {
-    EXPECT_EQ(
-        load_text(fmt::format("{}guidance: {{speed_m_s: {}}}", kMinimal, good)).guidance.speed_m_s,
-        5.0)
+    EXPECT_EQ(load_text(fmt::format("{}guidance: {{path_speed_m_s: {}}}", kMinimal, good))
+                  .guidance.path_speed_m_s,
+              5.0)
         << good;
   }
 }
@@ -116,8 +116,8 @@ TEST(ExactTypes, VectorsHaveThreeNumbersAndBoxesTwoCorners) {
 TEST(Syntax, FaultsAndRepeatedKeysNameTheirLine) {
   EXPECT_THAT(complaint("name: a\nseed: [1\n"), StartsWith("s.yaml:3: not YAML: "));
   EXPECT_THAT(complaint("name: a\n\tseed: 1\n"), StartsWith("s.yaml:2: not YAML: "));
-  EXPECT_EQ(complaint(kMinimal + "lidar:\n  beams: 5\n  beams: 6\n"),
-            "s.yaml:4: lidar.beams: key given twice, first on line 3");
+  EXPECT_EQ(complaint(kMinimal + "lidars:\n  - beams: 5\n    beams: 6\n"),
+            "s.yaml:4: lidars.0.beams: key given twice, first on line 3");
   EXPECT_EQ(complaint(kMinimal + "name: !!str a\n"),
             "s.yaml:2: name: the tag 'tag:yaml.org,2002:str' is not supported");
 }

@@ -75,8 +75,8 @@ TEST(Fields, EveryFieldOfEveryConfigHasAKey) {
   EXPECT_EQ(key_count<AutopilotParameters>(), field_count<AutopilotParameters>());
   EXPECT_EQ(key_count<CommanderParameters>(), field_count<CommanderParameters>());
   EXPECT_EQ(key_count<PowerParameters>(), field_count<PowerParameters>());
+  EXPECT_EQ(key_count<EstimateConfig>(), field_count<EstimateConfig>());
   EXPECT_EQ(key_count<VehicleConfig>(), field_count<VehicleConfig>());
-  EXPECT_EQ(key_count<FeedForward>(), field_count<FeedForward>());
   EXPECT_EQ(key_count<GuidanceConfig>(), field_count<GuidanceConfig>());
   EXPECT_EQ(key_count<CameraConfig>(), field_count<CameraConfig>());
   EXPECT_EQ(key_count<LidarConfig>(), field_count<LidarConfig>());

@@ -68,12 +68,12 @@ TEST(LoadScenario, AnyAngleThatWasReadIsWrittenSoThatItReadsBackExactly) {
   for (int i = 0; i < 2000; ++i) {
     // degrees with long binary expansions, over all magnitudes of the range
     const double degrees = -89.7 + 0.0897131 * i;
-    const Scenario s = load_scenario("smoke", {fmt::format("lidar.pitch_deg={}", degrees)});
+    const Scenario s = load_scenario("smoke", {fmt::format("lidars.0.pitch_deg={}", degrees)});
     const auto values = scenario_values(s);
     const auto pitch = std::find_if(values.begin(), values.end(),
-                                    [](const auto& v) { return v.first == "lidar.pitch_deg"; });
+                                    [](const auto& v) { return v.first == "lidars.0.pitch_deg"; });
     ASSERT_NE(pitch, values.end());
-    EXPECT_EQ(deg_to_rad(std::stod(pitch->second)), s.lidar.pitch_rad) << degrees;
+    EXPECT_EQ(deg_to_rad(std::stod(pitch->second)), s.lidars[0].pitch_rad) << degrees;
   }
 }
 
@@ -89,6 +89,37 @@ TEST(LoadScenario, NumbersAreWrittenInTheFewestDigitsThatReadBack) {
                                           "planner.utility.gamma=0.30000000000000004"});
   EXPECT_THAT(to_yaml(s), testing::HasSubstr("alpha: 0.1\n    beta: 1.0e-06\n"
                                              "    gamma: 0.30000000000000004\n"));
+}
+
+TEST(VehiclePreset, HoldsWhereTheKeysBesideItSayNothingElse) {
+  const VehicleConfig authors = load_text(kMinimal + "vehicle: {preset: authors}").vehicle;
+  EXPECT_EQ(authors.preset, "authors");
+  EXPECT_EQ(authors.airframe.idle_speed_rad_s, vehicle_preset("authors").airframe.idle_speed_rad_s);
+  // whatever their order in the file
+  const Scenario heavy = load_text(kMinimal +
+                                   "vehicle:\n  power: {battery_wh: 56.6}\n"
+                                   "  airframe: {mass_kg: 1.6}\n  preset: authors\n"
+                                   "  kind: ideal\n  estimate: {model: vio}\n");
+  EXPECT_EQ(heavy.vehicle.airframe.mass_kg, 1.6);
+  EXPECT_EQ(heavy.vehicle.airframe.idle_speed_rad_s, 450.0);
+  EXPECT_EQ(heavy.vehicle.power.battery_wh, 56.6);
+  EXPECT_EQ(heavy.vehicle.kind, VehicleKind::ideal);
+  EXPECT_EQ(heavy.vehicle.estimate.model, EstimateModel::vio);
+  EXPECT_EQ(load_text(kMinimal, {"vehicle.preset=f450"}).vehicle.airframe.mass_kg, 1.9);
+}
+
+TEST(VehiclePreset, LoadsWithoutProblemsAndRepeatsFromItsOwnText) {
+  for (const std::string_view preset : kVehiclePresets) {
+    const Scenario s =
+        load_text(kMinimal + fmt::format("vehicle: {{preset: {}, power: {{k1: 0.9}}}}", preset));
+    const std::string text = to_yaml(s);
+    EXPECT_EQ(to_yaml(load_text(text)), text);
+  }
+}
+
+TEST(VehiclePreset, IsOneOfTheKnown) {
+  EXPECT_THAT(complaint(kMinimal + "vehicle: {preset: concorde}"),
+              testing::HasSubstr("iris, iris_sitl_2019, authors, f450"));
 }
 
 TEST(Overrides, ApplyInOrderTheLastOneWins) {

@@ -263,6 +263,19 @@ TEST(Png, RoundTripsAndNamesThePathOnError) {
   }
 }
 
+TEST(Png, KeepsEveryValueOfASixteenBitPicture) {
+  GreyImage16 image{256, 256, {}};
+  for (int i = 0; i < 65536; ++i) image.values.push_back(static_cast<std::uint16_t>(i));
+  const auto path = scratch("grey.png");
+  write_png(image, path);
+  const GreyImage16 back = read_png_grey16(path);
+  EXPECT_EQ(back.width_px, 256);
+  EXPECT_EQ(back.values, image.values);
+  write_png(Image{1, 1, {1, 2, 3}}, path);
+  EXPECT_THROW(read_png_grey16(path), BadInput);
+  std::filesystem::remove_all(path.parent_path());
+}
+
 TEST(Lettering, InkStaysWithinItsWidthAndThePicture) {
   const Image blank{200, 40, std::vector<std::uint8_t>(200 * 40 * 3, 255)};
   std::string all;

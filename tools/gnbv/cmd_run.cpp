@@ -44,6 +44,13 @@ void add_mission_options(CLI::App& command, MissionOptions& options) {
   command.add_option("--seed", options.seed, "moves the start pose");
   command.add_option("--set", options.overrides, "KEY=VALUE of the scenario file; repeatable")
       ->allow_extra_args(false);
+  command
+      .add_option_function<std::string>(
+          "--bounds",
+          [&options](const std::string& bounds) { options.bounds_auto = bounds == "auto"; },
+          "auto: lay workspace and start around the structure, wherever it is; scenario: as it "
+          "says")
+      ->check(CLI::IsMember({"auto", "scenario"}));
   command.add_option("--out", options.out, "run directory (default: a new one under runs/)");
   command.add_option("--threads", options.threads, "0 = all; the result does not depend on it")
       ->check(CLI::Range(0, 1024));
@@ -56,6 +63,7 @@ void add_run_command(CLI::App& app) {
   add_mission_options(*command, *options);
   command->add_option("--utility", options->utility, "utility by name");
   command->add_flag("--resume", options->resume, "continue the interrupted run in --out");
+  command->add_flag("--frames", options->frames, "also write what the cameras saw, to frames/");
   command->add_flag("--json", options->json, "print summary.json instead of a table");
   command->callback([options] { run(*options); });
 }

@@ -2,12 +2,16 @@
 
 #include <chrono>
 #include <csignal>
+#include <optional>
 #include <thread>
 
 #include "scenarios/load.hpp"
 #include "scenarios/problems.hpp"
 #include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
 #include "tools/gnbv/progress.hpp"
+#include "tools/mission/auto_bounds.hpp"
+#include "tools/mission/frame_files.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/mission.hpp"
 #include "tools/mission/run_directory.hpp"
@@ -92,6 +96,7 @@ Scenario resolve_scenario(const MissionOptions& options) {
   std::vector<std::string> overrides;
   // absolute, since a relative path in a scenario file is relative to that file
   if (!options.mesh.empty()) {
+    if (!fs::is_regular_file(options.mesh)) read_file(options.mesh);  // throws, with the cause
     overrides.push_back(
         fmt::format("structure.file.path={}", quoted(fs::absolute(options.mesh).string())));
   }
@@ -100,7 +105,10 @@ Scenario resolve_scenario(const MissionOptions& options) {
   }
   if (!options.seed.empty()) overrides.push_back("seed=" + options.seed);
   overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
-  return load_scenario(options.scenario, overrides);
+  const Scenario scenario = load_scenario(options.scenario, overrides);
+  if (!options.bounds_auto) return scenario;
+  std::vector<std::string> warnings;  // repeated when the mission loads the structure
+  return with_bounds_around(scenario, bounds_m(load_structure(scenario, warnings)));
 }
 
 ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& options) {
@@ -127,8 +135,14 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
   ProgressBar progress(fmt::format("{} {}", scenario.name, scenario.planner.utility.name),
                        options.quiet);
   try {
-    MissionResult result =
-        run_mission(scenario, world, scene, make_hooks(scenario, directory, progress), threads);
+    MissionHooks hooks = make_hooks(scenario, directory, progress);
+    std::optional<FrameFiles> frames;
+    if (options.frames) {
+      frames.emplace(directory.path() / "frames", camera_models(scenario));
+      hooks.on_frames = [&](const auto&... all) { frames->write(all...); };
+    }
+    MissionResult result = run_mission(scenario, world, scene, hooks, threads);
+    if (frames) frames->finish();
     const auto scoring = Clock::now();
     progress.show(1.0, "scoring");
     const SurfaceReference reference =

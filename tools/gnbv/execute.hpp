@@ -21,7 +21,9 @@ struct MissionOptions {
   std::filesystem::path out;           // "" chooses a free folder under runs/
   int threads = 0;                     // 0 = as many as the machine has
   bool resume = false;
+  bool bounds_auto = false;  // lay the workspace and the start around the structure
   bool quiet = false;
+  bool frames = false;  // also write frames/
 };
 
 /// runs/NAME, or runs/NAME-2 and so on: the first that does not exist.

@@ -21,6 +21,8 @@ int run(int argc, char** argv) {
   gnbv::add_run_command(app);
   gnbv::add_table_command(app);
   gnbv::add_render_command(app);
+  gnbv::add_asset_command(app);
+  gnbv::add_lint_command(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

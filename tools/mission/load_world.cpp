@@ -5,12 +5,15 @@
 
 namespace gnbv {
 
+TriangleMesh load_structure(const Scenario& scenario, std::vector<std::string>& warnings) {
+  const StructureConfig& structure = scenario.structure;
+  return structure.file.path.empty() ? make_builtin_structure(structure.builtin)
+                                     : load_mesh(structure.file, &warnings);
+}
+
 World load_world(const Scenario& scenario, std::vector<std::string>& warnings) {
   const StructureConfig& structure = scenario.structure;
-  const bool from_file = !structure.file.path.empty();
-  World world{.structure = from_file ? load_mesh(structure.file, &warnings)
-                                     : make_builtin_structure(structure.builtin),
-              .has_ground = structure.ground};
+  World world{.structure = load_structure(scenario, warnings), .has_ground = structure.ground};
   const Box3 mesh_m = bounds_m(world.structure);
   // written coordinates are rounded: a millimetre outside is no fault
   const Box3 allowed_m(scenario.workspace_m.min() - Vec3::Constant(1e-3),
@@ -20,11 +23,10 @@ World load_world(const Scenario& scenario, std::vector<std::string>& warnings) {
     const Vec3 hi = mesh_m.max();
     throw BadInput(fmt::format(
         "{}: the mesh spans [{:.2f}, {:.2f}, {:.2f}] to [{:.2f}, {:.2f}, {:.2f}] m, which is not "
-        "inside workspace_m: set structure.file.scale, structure.file.offset_m, "
-        "structure.file.unit_m or "
-        "workspace_m",
-        from_file ? structure.file.path : structure.builtin, lo.x(), lo.y(), lo.z(), hi.x(), hi.y(),
-        hi.z()));
+        "inside workspace_m: `--bounds auto` lays the workspace around it; or set "
+        "structure.file.scale, structure.file.offset_m, structure.file.unit_m or workspace_m",
+        structure.file.path.empty() ? structure.builtin : structure.file.path, lo.x(), lo.y(),
+        lo.z(), hi.x(), hi.y(), hi.z()));
   }
   return world;
 }

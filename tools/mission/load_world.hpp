@@ -9,9 +9,12 @@
 
 namespace gnbv {
 
-/// Generates the built-in structure or reads the mesh file; what the file's reader had to leave out
-/// is appended to `warnings`, a sentence each. Throws BadInput when the structure cannot be had or
-/// does not lie inside the workspace.
+/// Generates the built-in structure or reads the mesh file, wherever it lies; what the file's
+/// reader had to leave out is appended to `warnings`, a sentence each. Throws BadInput when the
+/// structure cannot be had.
+TriangleMesh load_structure(const Scenario& scenario, std::vector<std::string>& warnings);
+
+/// The world with that structure. Throws BadInput, too, when it does not lie inside the workspace.
 World load_world(const Scenario& scenario, std::vector<std::string>& warnings);
 
 }  // namespace gnbv

@@ -4,9 +4,10 @@
 #include <memory>
 #include <utility>
 
-#include "sensors/capture.hpp"
 #include "sim/flight.hpp"
 #include "sim/guidance.hpp"
+#include "sim/rotors.hpp"
+#include "tools/mission/sensing.hpp"
 #include "tools/mission/start_pose.hpp"
 
 namespace gnbv {
@@ -26,12 +27,6 @@ class Stopwatch {
   Clock::time_point begin_;
 };
 
-std::vector<CameraModel> camera_models(const Scenario& scenario) {
-  std::vector<CameraModel> models;
-  for (const CameraConfig& camera : scenario.cameras) models.push_back(make_camera_model(camera));
-  return models;
-}
-
 /// All that changes while the mission runs, beside what never does.
 struct Mission {
   Mission(const Scenario& mission_scenario, const World& world, const RayScene& ray_scene,
@@ -39,10 +34,10 @@ struct Mission {
       : scenario(mission_scenario),
         scene(ray_scene),
         hooks(mission_hooks),
-        planner(scenario.planner, scenario.workspace_m, camera_models(scenario), scenario.lidar),
+        planner(scenario.planner, scenario.workspace_m, camera_models(scenario), scenario.lidars),
         bench(planner, threads),
         out(start_pose(scenario, scene), planner),
-        flight(make_flight(scenario.vehicle, world, out.start)),
+        flight(make_flight(scenario.vehicle, world, out.start, scenario.seed)),
         current(out.start),
         last_p_world_m(out.start.p_world_m) {}
 
@@ -56,10 +51,11 @@ struct Mission {
   MissionResult out;
   std::unique_ptr<Flight> flight;
   History history;
-  ViewPose current;      // where the planner believes to be
-  Vec3 last_p_world_m;   // truth, one tick ago
-  double flown_m = 0.0;  // truth, since the start
-  WallTimes view_wall;   // of the view at hand
+  ViewPose current;                 // where the planner believes to be
+  Vec3 last_p_world_m;              // truth, one tick ago
+  double flown_m = 0.0;             // truth, since the start
+  double entropy_before_nat = 0.0;  // of the view at hand
+  WallTimes view_wall;              // of the view at hand
 };
 
 /// A resumed run goes on until it has caught up: stopping earlier would lose recorded views.
@@ -69,64 +65,68 @@ bool should_stop(const Mission& m) {
 
 double time_s(const Flight& flight) { return static_cast<double>(flight.tick()) * kTick_s; }
 
+/// Whether what is left in the battery is more than a straight descent to the ground takes.
+bool has_energy_to_go_on(const Mission& m) {
+  const VehicleConfig& vehicle = m.scenario.vehicle;
+  if (vehicle.power.battery_wh <= 0.0) return true;
+  const double z_m = m.flight->estimate().T_world_body.translation().z();
+  return m.flight->energy_wh() + landing_energy_wh(vehicle, z_m) < vehicle.power.battery_wh;
+}
+
 /// Flies one leg and keeps its track; `on_tick` runs after each tick.
 std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal, double speed_m_s,
                                    const std::function<void(const Flight&)>& on_tick) {
   constexpr std::int64_t kTicksPerSample = kTicksPerSecond / 10;
   const LegEnd end =
-      fly_leg(*m.flight, goal, speed_m_s, m.scenario.guidance, [&](const Flight& flight) {
+      fly_leg(*m.flight, goal, speed_m_s, m.scenario.guidance, m.scenario.vehicle, [&](const Flight& flight) {
         const Isometry T = flight.state().T_world_body;
         m.flown_m += (T.translation() - m.last_p_world_m).norm();
         m.last_p_world_m = T.translation();
         if (flight.tick() % kTicksPerSample == 0) m.out.trajectory.push_back({time_s(flight), T});
         on_tick(flight);
+        return has_energy_to_go_on(m);
       });
   if (end == LegEnd::collision) return Termination::collision;
+  if (end == LegEnd::stopped) return Termination::battery;
   m.current = goal;
   if (end == LegEnd::timeout) {
     ++m.out.legs_timed_out;
-    const Isometry T = m.flight->state().T_world_body;
+    const Isometry T = m.flight->estimate().T_world_body;
     m.current = {T.translation(), yaw_of(T)};
   }
   return std::nullopt;
 }
 
 std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal) {
-  return fly_leg(m, goal, m.scenario.guidance.speed_m_s, [](const Flight&) {});
+  return fly_leg(m, goal, m.scenario.guidance.path_speed_m_s, [](const Flight&) {});
 }
 
-/// Flies the legs of the profile and keeps the LIDAR's sweeps.
-std::optional<Termination> scan_profile(Mission& m, std::vector<LidarScan>& scans) {
+/// Flies the legs of the profile while the LIDARs scan.
+std::optional<Termination> scan_profile(Mission& m, ProfileScanner& scanner) {
   const ProfilingConfig& profiling = m.planner.config.profiling;
   if (profiling.method == ProfilingMethod::none) return std::nullopt;
   const GuidanceConfig& guidance = m.scenario.guidance;
-  const auto sweeps = [&](std::int64_t tick) {
-    return static_cast<std::int64_t>(static_cast<double>(tick) * kTick_s *
-                                     m.scenario.lidar.rate_hz);
-  };
   const std::vector<ProfileLeg> legs = bounding_box_profile(m.planner.navigation_m, m.current);
   for (std::size_t i = 0; i < legs.size(); ++i) {
     const bool scanning = legs[i].is_descent || (profiling.scan_in_transit && i > 0);
-    const double speed_m_s = legs[i].is_descent ? guidance.profile_speed_m_s : guidance.speed_m_s;
+    const double speed_m_s =
+        legs[i].is_descent ? guidance.profile_speed_m_s : guidance.path_speed_m_s;
     m.out.distance.profile_m += (legs[i].goal.p_world_m - m.current.p_world_m).norm();
-    const auto crash = fly_leg(m, legs[i].goal, speed_m_s, [&](const Flight& flight) {
-      if (scanning && sweeps(flight.tick()) != sweeps(flight.tick() - 1)) {
-        scans.push_back(capture_scan(m.scene, m.scenario.lidar, flight.state().T_world_body));
-      }
-    });
-    if (crash) return crash;
+    const auto over = fly_leg(m, legs[i].goal, speed_m_s,
+                              [&](const Flight& flight) { scanner.tick(flight, scanning); });
+    if (over) return over;
     m.hooks.on_profile(static_cast<double>(i + 1) / static_cast<double>(legs.size()));
     if (should_stop(m)) return Termination::interrupted;
   }
   return std::nullopt;
 }
 
-/// Profiles the structure with the LIDAR and believes the scans in one batch (section 2.2).
+/// Profiles the structure with the LIDARs and believes the scans in one batch (section 2.2).
 std::optional<Termination> fly_profile(Mission& m) {
   const Stopwatch watch(m.out.wall.profile_s);
-  std::vector<LidarScan> scans;
-  const std::optional<Termination> over = scan_profile(m, scans);
-  integrate_profile(m.planner, scans, m.bench, m.out.belief);
+  ProfileScanner scanner(m.scene, m.scenario.lidars, m.scenario.seed);
+  const std::optional<Termination> over = scan_profile(m, scanner);
+  integrate_profile(m.planner, scanner.scans(), m.bench, m.out.belief);
   const auto points = m.out.belief.cloud.points_world_m();
   m.out.profile_points_world_m.assign(points.begin(), points.end());
   m.out.entropy_after_profile_nat = m.out.belief.grid.total_entropy_nat();
@@ -151,36 +151,52 @@ std::optional<Termination> fly_to_first_view(Mission& m) {
   }
   for (const ViewPose& leg : legs) {
     m.out.distance.transfer_m += (leg.p_world_m - m.current.p_world_m).norm();
-    if (const auto crash = fly_leg(m, leg)) return crash;
+    if (const auto over = fly_leg(m, leg)) return over;
   }
   m.flown_m = 0.0;
   return std::nullopt;
 }
 
+DepthFrame depth_frame(const Mission& m, std::size_t camera) {
+  return sense_depth(m.scene, m.planner.cameras[camera], static_cast<int>(camera), *m.flight,
+                     m.scenario.seed, m.bench.threads);
+}
+
+/// Flies to the view; cameras that run in flight are believed on the way.
 std::optional<Termination> fly_to_view(Mission& m, const Decision& next) {
   const Stopwatch watch(m.view_wall.fly_s);
+  m.entropy_before_nat = m.out.belief.grid.total_entropy_nat();
   m.out.distance.straight_m += (next.view.p_world_m - m.current.p_world_m).norm();
-  const auto crash = fly_leg(m, next.view);
+  const auto over =
+      fly_leg(m, next.view, m.scenario.guidance.path_speed_m_s, [&](const Flight& flight) {
+        for (std::size_t i = 0; i < m.planner.cameras.size(); ++i) {
+          if (!is_due(m.planner.cameras[i].config.rate_hz, flight.tick())) continue;
+          const DepthFrame frame = depth_frame(m, i);
+          integrate_view(m.planner, {&frame, 1}, m.bench, m.out.belief);
+        }
+      });
   m.out.distance.flown_m = m.flown_m;
-  return crash;
+  return over;
 }
 
 std::vector<DepthFrame> sense(Mission& m) {
   const Stopwatch watch(m.view_wall.sense_s);
-  const Isometry T_world_body = m.flight->state().T_world_body;
   std::vector<DepthFrame> frames;
-  for (const CameraModel& camera : m.planner.cameras) {
-    const int index = static_cast<int>(frames.size());
-    frames.push_back(capture_depth(m.scene, camera, index, T_world_body, m.bench.threads));
+  for (std::size_t i = 0; i < m.planner.cameras.size(); ++i) frames.push_back(depth_frame(m, i));
+  if (!m.hooks.on_frames) return frames;
+  std::vector<ColourFrame> colours;
+  for (std::size_t i = 0; i < m.planner.cameras.size(); ++i) {
+    colours.push_back(sense_colour(m.scene, m.planner.cameras[i], static_cast<int>(i), *m.flight,
+                                   m.bench.threads));
   }
+  m.hooks.on_frames(m.out.views.size(), time_s(*m.flight), frames, colours);
   return frames;
 }
 
 void integrate(Mission& m, std::span<const DepthFrame> frames) {
   const Stopwatch watch(m.view_wall.map_s);
-  const double entropy_before_nat = m.out.belief.grid.total_entropy_nat();
   integrate_view(m.planner, frames, m.bench, m.out.belief);
-  remember_entropy(m.out.belief, entropy_before_nat, m.history);
+  remember_entropy(m.out.belief, m.entropy_before_nat, m.history);
 }
 
 void record(Mission& m, const Decision& decision) {
@@ -228,19 +244,26 @@ MissionResult finish(Mission& m, Termination reason) {
   m.out.termination = reason;
   m.out.flight_time_s = time_s(*m.flight);
   m.out.energy_wh = m.flight->energy_wh();
+  m.out.final_state = m.flight->state();
   return std::move(m.out);
 }
 
 }  // namespace
 
+std::vector<CameraModel> camera_models(const Scenario& scenario) {
+  std::vector<CameraModel> models;
+  for (const CameraConfig& camera : scenario.cameras) models.push_back(make_camera_model(camera));
+  return models;
+}
+
 MissionResult run_mission(const Scenario& scenario, const World& world, const RayScene& scene,
                           const MissionHooks& hooks, int threads) {
   Mission m(scenario, world, scene, hooks, threads);
   if (const auto over = fly_profile(m)) return finish(m, *over);
-  if (const auto crash = fly_to_first_view(m)) return finish(m, *crash);
+  if (const auto over = fly_to_first_view(m)) return finish(m, *over);
   Decision next = {.view = m.out.start};
   while (true) {
-    if (const auto crash = fly_to_view(m, next)) return finish(m, *crash);
+    if (const auto over = fly_to_view(m, next)) return finish(m, *over);
     integrate(m, sense(m));
     record(m, next);
     if (const auto over = termination(m)) return finish(m, *over);

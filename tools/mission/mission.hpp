@@ -2,9 +2,11 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "scenarios/scenario.hpp"
+#include "sensors/frames.hpp"
 #include "sensors/ray_scene.hpp"
 #include "sim/world.hpp"
 #include "tools/mission/mission_result.hpp"
@@ -14,9 +16,16 @@ namespace gnbv {
 struct MissionHooks {
   std::function<void(double share_done)> on_profile = [](double) {};  // 0 to 1
   std::function<void(const ViewRecord&)> on_view = [](const ViewRecord&) {};
+  /// The frames of a view, camera by camera, before they are believed. Colour is captured only when
+  /// this is set.
+  std::function<void(std::size_t iteration, double time_s, std::span<const DepthFrame>,
+                     std::span<const ColourFrame>)>
+      on_frames;
   std::function<bool()> should_stop = [] { return false; };  // asked after each view
   std::vector<Decision> replay;  // decisions of an interrupted run: flown again, not planned again
 };
+
+std::vector<CameraModel> camera_models(const Scenario& scenario);
 
 /// Runs the mission. The result is the same at any number of threads, replayed or not.
 MissionResult run_mission(const Scenario& scenario, const World& world, const RayScene& scene,

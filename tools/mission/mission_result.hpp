@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "planner/planner.hpp"
+#include "sim/flight.hpp"
 
 namespace gnbv {
 
@@ -56,6 +57,7 @@ struct MissionResult {
   double profile_end_s = 0.0;
   double flight_time_s = 0.0;
   double energy_wh = 0.0;
+  VehicleState final_state;  // true, when the mission ended: after a collision, where and how fast
   double entropy_after_profile_nat = 0.0;
   int legs_timed_out = 0;
   std::vector<Vec3f> profile_points_world_m;

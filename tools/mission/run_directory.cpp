@@ -27,12 +27,18 @@ Json by_size(const std::array<double, 3>& coverage) {
 Json summary(const Scenario& scenario, const MissionResult& r, const MissionScore& score,
              double total_wall_s) {
   const double entropy_nat = r.belief.grid.total_entropy_nat();
+  const double battery_wh = scenario.vehicle.power.battery_wh;
+  const Json battery = battery_wh > 0.0 ? Json(battery_wh) : Json(nullptr);  // null: never empty
+  const Vec3 p = r.final_state.T_world_body.translation();
+  const Eigen::Quaterniond q(r.final_state.T_world_body.linear());
+  const Vec3& v = r.final_state.v_world_m_s;
   return {
       {"schema", 1},
       {"scenario", scenario.name},
       {"structure", scenario.structure.file.path.empty() ? scenario.structure.builtin
                                                          : scenario.structure.file.path},
       {"utility", scenario.planner.utility.name},
+      {"vehicle", scenario.vehicle.kind == VehicleKind::ideal ? "ideal" : scenario.vehicle.preset},
       {"seed", scenario.seed},
       {"version", GNBV_VERSION},
       {"iterations", r.views.size()},
@@ -47,6 +53,7 @@ Json summary(const Scenario& scenario, const MissionResult& r, const MissionScor
       {"views_begin_s", r.views.empty() ? r.profile_end_s : r.views.front().time_s},
       {"flight_time_s", r.flight_time_s},
       {"energy_wh", r.energy_wh},
+      {"battery_wh", battery},
       {"entropy_nat",
        {{"after_profile", r.entropy_after_profile_nat},
         {"final", entropy_nat},
@@ -59,6 +66,10 @@ Json summary(const Scenario& scenario, const MissionResult& r, const MissionScor
       {"density_points_per_voxel", r.views.empty() ? 0.0 : r.views.back().density_points_per_voxel},
       {"collisions", r.termination == Termination::collision ? 1 : 0},
       {"legs_timed_out", r.legs_timed_out},
+      {"final_state",
+       {{"position_m", std::vector<double>(p.begin(), p.end())},
+        {"quaternion_xyzw", std::vector<double>{q.x(), q.y(), q.z(), q.w()}},
+        {"velocity_m_s", std::vector<double>(v.begin(), v.end())}}},
       {"wall_s",
        {{"total", total_wall_s},
         {"profile", r.wall.profile_s},

@@ -1,4 +1,4 @@
-// An 8-bit colour picture and its PNG file.
+// Pictures, 8-bit colour and 16-bit grey, and their PNG files.
 #pragma once
 
 #include <array>
@@ -22,10 +22,21 @@ struct Image {
   }
 };
 
-/// Writes an RGB PNG by rename. Throws BadInput naming the path when it cannot be written.
+/// 16 bits a pixel, linear: depth in millimetres.
+struct GreyImage16 {
+  int width_px = 0;
+  int height_px = 0;
+  std::vector<std::uint16_t> values;  // (height, width)
+};
+
+/// Write PNGs by rename. Throw BadInput naming the path when it cannot be written.
 void write_png(const Image& image, const std::filesystem::path& path);
+void write_png(const GreyImage16& image, const std::filesystem::path& path);
 
 /// Reads any PNG as RGB8. Throws BadInput naming the path.
 Image read_png(const std::filesystem::path& path);
+
+/// Reads a PNG of 16 grey bits a pixel, values as they are. Throws BadInput naming the path.
+GreyImage16 read_png_grey16(const std::filesystem::path& path);
 
 }  // namespace gnbv

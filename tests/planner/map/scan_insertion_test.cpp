@@ -110,7 +110,7 @@ TEST(ScanInsertion, LidarSweepsEqualOctomapVoxelByVoxel) {
   const std::vector<LidarScan> scans = example_scans(lidar, 70);  // more than one batch
   OccupancyGrid grid(OccupancyConfig{}, Box3(Vec3(-10, -10, 0), Vec3(10, 10, 8)));
   OctomapTwin twin(grid.config());
-  insert_scans(grid, scans, lidar, 0.3, 2);
+  insert_scans(grid, scans, {&lidar, 1}, 0.3, 2);
   for (const LidarScan& scan : scans) {
     twin.insert(scan.T_world_lidar.translation().cast<float>(), rays_of(scan, lidar, 0.3));
   }
@@ -123,10 +123,10 @@ TEST(ScanInsertion, BatchOfSweepsIsTheSameAtAnyThreadCount) {
   const std::vector<LidarScan> scans = example_scans(lidar, 130);  // more than one batch
   const Box3 box_m(Vec3(-10, -10, 0), Vec3(10, 10, 8));
   OccupancyGrid one(OccupancyConfig{}, box_m);
-  insert_scans(one, scans, lidar, 0.3, 1);
+  insert_scans(one, scans, {&lidar, 1}, 0.3, 1);
   for (const int threads : {2, 5}) {
     OccupancyGrid many(OccupancyConfig{}, box_m);
-    insert_scans(many, scans, lidar, 0.3, threads);
+    insert_scans(many, scans, {&lidar, 1}, 0.3, threads);
     EXPECT_TRUE(std::ranges::equal(one.all_log_odds(), many.all_log_odds()));
     EXPECT_EQ(one.total_entropy_nat(), many.total_entropy_nat());
   }

@@ -1,0 +1,145 @@
+// Missions in which something is not as it should be: noise, a wrong pose, a wall, an empty
+// battery.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "sim/core/file.hpp"
+#include "sim/rotors.hpp"
+#include "tests/support/flown.hpp"
+#include "tests/support/temp_folder.hpp"
+#include "tools/mission/frame_files.hpp"
+#include "tools/render/image.hpp"
+
+namespace gnbv {
+namespace {
+
+std::vector<std::string> short_mission(std::vector<std::string> overrides) {
+  overrides.emplace_back("planner.termination.max_iterations=3");
+  return overrides;
+}
+
+/// Root mean square distance of the cloud's points from the structure, those within 2 m of it.
+double cloud_error_m(const Flown& flight) {
+  double sum = 0.0;
+  int count = 0;
+  for (const Vec3f& point : flight.result.belief.cloud.points_world_m()) {
+    const double distance_m = flight.scene.distance_to_structure_m(point.cast<double>(), 2.0);
+    if (!std::isfinite(distance_m)) continue;
+    sum += distance_m * distance_m;
+    ++count;
+  }
+  return std::sqrt(sum / count);
+}
+
+TEST(NoisyMission, IsTheSameAtAnyNumberOfThreadsAndAnotherWithAnotherSeed) {
+  const std::vector<std::string> noisy =
+      short_mission({"cameras.0.noise.model=nguyen", "lidars.0.range_sigma_m=0.02",
+                     "lidars.0.rolling=true", "vehicle.estimate.model=gnss"});
+  const std::string hash = result_sha256(Flown(smoke(noisy), {}, 1).result);
+  EXPECT_EQ(result_sha256(Flown(smoke(noisy), {}, 3).result), hash);
+  std::vector<std::string> reseeded = noisy;
+  reseeded.insert(reseeded.end(), {"seed=2", "start.jitter_m=[0,0,0]"});
+  std::vector<std::string> unmoved = noisy;
+  unmoved.emplace_back("start.jitter_m=[0,0,0]");
+  EXPECT_NE(result_sha256(Flown(smoke(reseeded)).result),
+            result_sha256(Flown(smoke(unmoved)).result));
+}
+
+TEST(NoisyMission, BlursTheCloudByAboutTheNoise) {
+  // frames alone, seen from about 2 m: 0.0025 z^2 is a centimetre there, and up to 6 cm at 5 m
+  const std::vector<std::string> frames_alone = {"planner.profiling.method=none"};
+  std::vector<std::string> noisy = frames_alone;
+  noisy.emplace_back("cameras.0.noise.model=released");
+  const double clean_m = cloud_error_m(Flown(smoke(short_mission(frames_alone))));
+  const double noisy_m = cloud_error_m(Flown(smoke(short_mission(noisy))));
+  EXPECT_GT(noisy_m, clean_m + 0.002);
+  EXPECT_LT(noisy_m, 0.06);
+}
+
+TEST(WronglyLocatedMission, BelievesWhatItsEstimateSays) {
+  const double true_m = cloud_error_m(Flown(smoke(short_mission({}))));
+  const double gnss_m = cloud_error_m(
+      Flown(smoke(short_mission({"vehicle.estimate.model=gnss", "start.jitter_m=[0,0,0]"}))));
+  EXPECT_LT(true_m, 0.05);
+  EXPECT_GT(gnss_m, 0.1);  // half a metre off, partly along the surface
+}
+
+TEST(CamerasInFlight, SeeMoreThanTheViewsAlone) {
+  const Flown views(smoke(short_mission({})));
+  const Flown flight(smoke(short_mission({"cameras.0.rate_hz=2"})));
+  ASSERT_GE(views.result.views.size(), 1U);
+  EXPECT_GT(flight.result.views.back().cloud_points, views.result.views.back().cloud_points);
+}
+
+TEST(EmptyingBattery, EndsTheMissionWithEnoughLeftToLand) {
+  const double whole_wh = Flown(smoke()).result.energy_wh;
+  for (const double share : {0.2, 0.8}) {  // in the profile, and among the views
+    const double battery_wh = share * whole_wh;
+    const Flown flight(smoke({fmt::format("vehicle.power.battery_wh={}", battery_wh)}));
+    const MissionResult& result = flight.result;
+    EXPECT_EQ(result.termination, Termination::battery) << share;
+    const double landing_wh = landing_energy_wh(flight.scenario.vehicle,
+                                                result.final_state.T_world_body.translation().z());
+    EXPECT_GE(landing_wh, 0.0);
+    // one tick at less than a kilowatt is the most it can be late
+    EXPECT_GE(battery_wh - result.energy_wh, landing_wh - 1000.0 * kTick_s / kJoulesPerWattHour);
+    EXPECT_LT(battery_wh - result.energy_wh, landing_wh + 0.01);
+  }
+}
+
+TEST(HittingTheStructure, EndsTheMissionWhereItHappened) {
+  // the structure stands where the profile descends
+  TempFolder temp;
+  const std::filesystem::path obj = temp.path() / "tower.obj";
+  write_file_atomically(obj,
+                        "v 3 3 0\nv 3.9 3 0\nv 3.9 3.9 0\nv 3 3.9 0\n"
+                        "v 3 3 4\nv 3.9 3 4\nv 3.9 3.9 4\nv 3 3.9 4\n"
+                        "f 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 7 8\n");
+  const Flown flight(smoke({fmt::format("structure.file.path={}", obj.string())}));
+  EXPECT_EQ(flight.result.termination, Termination::collision);
+  const Vec3 p = flight.result.final_state.T_world_body.translation();
+  EXPECT_LT(flight.scene.distance_to_structure_m(p, 5.0),
+            flight.scenario.vehicle.airframe.hull_radius_m + 0.1);
+  EXPECT_TRUE(flight.result.final_state.v_world_m_s.allFinite());
+  EXPECT_GT(flight.result.flight_time_s, 0.0);
+}
+
+TEST(FrameFilesOfARun, HoldWhatTheCamerasSaw) {
+  TempFolder temp;
+  const Scenario scenario = smoke(short_mission({}));
+  FrameFiles files(temp.path() / "frames", camera_models(scenario));
+  std::vector<float> first_depth_m;
+  MissionHooks hooks;
+  hooks.on_frames = [&](std::size_t iteration, double time_s, std::span<const DepthFrame> depth,
+                        std::span<const ColourFrame> colour) {
+    if (iteration == 0) first_depth_m = depth[0].depth_m;
+    files.write(iteration, time_s, depth, colour);
+  };
+  const Flown flight(scenario, hooks);
+  files.finish();
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(temp.path() / "frames")) {
+    names.insert(entry.path().filename());
+  }
+  EXPECT_EQ(names,
+            (std::set<std::string>{"0000_rgbd.rgb.png", "0000_rgbd.depth.png", "0001_rgbd.rgb.png",
+                                   "0001_rgbd.depth.png", "0002_rgbd.rgb.png",
+                                   "0002_rgbd.depth.png", "cameras.json", "poses.csv"}));
+  const GreyImage16 depth = read_png_grey16(temp.path() / "frames/0000_rgbd.depth.png");
+  ASSERT_EQ(depth.values.size(), first_depth_m.size());
+  for (std::size_t i = 0; i < first_depth_m.size(); ++i) {
+    const float expected_mm = std::isfinite(first_depth_m[i]) ? 1000.0F * first_depth_m[i] : 0.0F;
+    ASSERT_NEAR(depth.values[i], expected_mm, 0.51);  // rounded to millimetres
+  }
+  const Image colour = read_png(temp.path() / "frames/0000_rgbd.rgb.png");
+  EXPECT_EQ(colour.width_px, 160);
+  EXPECT_EQ(colour.height_px, 120);
+  // the pictures change nothing
+  EXPECT_EQ(result_sha256(flight.result), result_sha256(Flown(scenario).result));
+}
+
+}  // namespace
+}  // namespace gnbv

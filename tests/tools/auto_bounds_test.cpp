@@ -1,0 +1,113 @@
+#include "tools/mission/auto_bounds.hpp"
+
+#include <gtest/gtest.h>
+
+#include "planner/view_validity.hpp"
+#include "scenarios/load.hpp"
+#include "scenarios/problems.hpp"
+#include "sim/core/error.hpp"
+#include "sim/core/rng.hpp"
+
+namespace gnbv {
+namespace {
+
+Scenario aircraft() { return load_scenario("aircraft", {}); }
+
+bool is_multiple(double x, double step) { return std::abs(x / step - std::round(x / step)) < 1e-9; }
+
+TEST(AutoBounds, MarginFollowsTheLongestRangeAndTheRadius) {
+  Scenario scenario = aircraft();
+  EXPECT_DOUBLE_EQ(flight_margin_m(scenario), 5.0);
+  scenario.cameras[1].range_max_m = 12.0;
+  EXPECT_DOUBLE_EQ(flight_margin_m(scenario), 7.5);
+  for (CameraConfig& camera : scenario.cameras) camera.range_max_m = 2.0;
+  EXPECT_DOUBLE_EQ(flight_margin_m(scenario), 3.5);
+}
+
+TEST(AutoBounds, ThePapersAircraftKeepsAboutItsOwnWorkspace) {
+  const Scenario out =
+      with_bounds_around(aircraft(), Box3(Vec3(-14.93, -17.68, 0.42), Vec3(14.93, 17.69, 8.09)));
+  EXPECT_TRUE(out.workspace_m.min().isApprox(Vec3(-20.0, -22.8, 0.0)));
+  EXPECT_TRUE(out.workspace_m.max().isApprox(Vec3(20.0, 22.8, 13.2)));
+  EXPECT_TRUE(out.start.pose.p_world_m.isApprox(Vec3(0.0, -22.8, 5.0)));
+  EXPECT_DOUBLE_EQ(out.start.pose.yaw_rad, 0.5 * kPi);
+}
+
+/// What has to hold around any structure.
+void expect_sound(const Scenario& from, const Box3& structure_m) {
+  const Scenario out = with_bounds_around(from, structure_m);
+  const double margin_m = flight_margin_m(from);
+  const double step_m = from.planner.map.resolution_m;
+  const Box3& room = out.workspace_m;
+  EXPECT_TRUE(room.contains(structure_m));
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_TRUE(is_multiple(room.min()[axis], step_m)) << room.min()[axis];
+    EXPECT_TRUE(is_multiple(room.max()[axis], step_m)) << room.max()[axis];
+    if (axis == 2) continue;
+    const double below_m = structure_m.min()[axis] - room.min()[axis];
+    const double above_m = room.max()[axis] - structure_m.max()[axis];
+    // never less than the margin, and less than a voxel more, both but for rounding
+    EXPECT_GE(below_m, margin_m - 1e-5);
+    EXPECT_GE(above_m, margin_m - 1e-5);
+    EXPECT_LT(std::max(below_m, above_m), margin_m + step_m + 1e-5);
+  }
+  EXPECT_GE(room.max().z() - structure_m.max().z(), margin_m - 1e-5);
+  const ViewPose& start = out.start.pose;
+  EXPECT_TRUE(navigation_box_m(out.planner.validity, room).contains(start.p_world_m));
+  EXPECT_GE(structure_m.min().y() - start.p_world_m.y(), out.planner.validity.collision_radius_m);
+  const Vec3 to_centre = structure_m.center() - start.p_world_m;
+  EXPECT_NEAR(std::atan2(to_centre.y(), to_centre.x()), start.yaw_rad, 1e-12);
+  EXPECT_TRUE(problems(out).empty());
+}
+
+TEST(AutoBounds, EveryStructureGetsRoomOnTheLatticeAndALegalStart) {
+  std::uint64_t index = 0;
+  const auto random = [&](double low, double high) {
+    return low + (high - low) * uniform01({5, Stream::bench, 0, index++});
+  };
+  for (int round = 0; round < 200; ++round) {
+    const Vec3 low(random(-300, 300), random(-300, 300), random(-20, 60));
+    const Vec3 size(random(0.2, 40), random(0.2, 40), random(0.2, 40));
+    Scenario scenario = aircraft();
+    scenario.structure.ground = round % 3 != 0;
+    scenario.planner.map.resolution_m = round % 2 == 0 ? 0.2 : 0.3;
+    expect_sound(scenario, Box3(low, Vec3(low + size)));
+  }
+  expect_sound(load_scenario("smoke", {}), Box3(Vec3(-1, -1, 0), Vec3(1, 1, 1.6)));
+}
+
+TEST(AutoBounds, FloorIsTheGroundUnlessTheStructureSinksOrFloatsAway) {
+  Scenario scenario = aircraft();
+  const auto floor_of = [&](double lowest_m) {
+    return with_bounds_around(scenario, Box3(Vec3(-1, -1, lowest_m), Vec3(1, 1, lowest_m + 2)))
+        .workspace_m.min()
+        .z();
+  };
+  EXPECT_EQ(floor_of(0.0), 0.0);
+  EXPECT_EQ(floor_of(4.9), 0.0);
+  EXPECT_EQ(floor_of(-5e-4), 0.0);  // written coordinates are rounded
+  EXPECT_NEAR(floor_of(-1.9), -2.0, 1e-9);
+  EXPECT_NEAR(floor_of(100.0), 95.0, 1e-9);
+  EXPECT_NEAR(floor_of(-50.0), -50.0, 1e-9);
+  scenario.structure.ground = false;
+  EXPECT_NEAR(floor_of(0.0), -5.0, 1e-9);
+}
+
+TEST(AutoBounds, WhatNoMapCanHoldIsRefusedWithItsReason) {
+  const auto complaint = [](const Box3& structure_m) -> std::string {
+    try {
+      with_bounds_around(aircraft(), structure_m);
+    } catch (const BadInput& error) {
+      return error.what();
+    }
+    return "";
+  };
+  // 32767 voxels of 0.2 m reach 6553 m
+  EXPECT_EQ(complaint(Box3(Vec3(6540, 0, 0), Vec3(6548, 1, 1))), "");
+  EXPECT_NE(complaint(Box3(Vec3(6550, 0, 0), Vec3(6552, 1, 1))).find("OctoMap"), std::string::npos);
+  EXPECT_NE(complaint(Box3(Vec3(0, 0, 0), Vec3(900, 900, 90))).find("resolution_m"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace gnbv

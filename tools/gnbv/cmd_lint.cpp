@@ -1,0 +1,51 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include "scenarios/load.hpp"
+#include "sim/core/error.hpp"
+#include "tools/gnbv/commands.hpp"
+#include "tools/mission/mesh_report.hpp"
+
+namespace gnbv {
+namespace {
+
+struct LintOptions : MissionOptions {
+  bool json = false;
+};
+
+void lint(const LintOptions& options) {
+  const Scenario scenario = resolve_scenario(options);
+  const int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const MeshReport report = report_on_mesh(scenario, threads);
+  fmt::print("{}", options.json ? json_text(report) : terminal_text(report));
+  if (!report.is_usable()) {
+    throw CommandFailed(fmt::format("{}: not usable as it is", report.path));
+  }
+}
+
+}  // namespace
+
+void add_lint_command(CLI::App& app) {
+  auto options = std::make_shared<LintOptions>();
+  options->scenario = "aircraft";
+  CLI::App* const command =
+      app.add_subcommand("lint", "say what is wrong with a mesh and how to put it right");
+  command->add_option("MESH", options->mesh, "mesh file")->required();
+  command
+      ->add_option("--scenario", options->scenario,
+                   "scenario it is meant for: built-in name or YAML file")
+      ->capture_default_str();
+  command
+      ->add_option("--set", options->overrides,
+                   "KEY=VALUE of the scenario file, as for `run`; repeatable "
+                   "(structure.file.scale, .unit_m, .up_axis, .offset_m)")
+      ->allow_extra_args(false);
+  command->add_flag("--json", options->json, "print JSON instead of text");
+  command->callback([options] { lint(*options); });
+}
+
+}  // namespace gnbv

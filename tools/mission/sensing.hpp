@@ -1,0 +1,52 @@
+// What the vehicle's sensors deliver: captured from the true pose, stamped with the believed one.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "sensors/capture.hpp"
+#include "sim/flight.hpp"
+
+namespace gnbv {
+
+/// Whether something that happens `rate_hz` times a second happens at this tick; never at rate 0.
+bool is_due(double rate_hz, std::int64_t tick);
+
+/// One depth frame of the camera, now.
+DepthFrame sense_depth(const RayScene& scene, const CameraModel& camera, int camera_index,
+                       const Flight& flight, std::uint64_t seed, int threads);
+
+/// And what it sees in colour.
+ColourFrame sense_colour(const RayScene& scene, const CameraModel& camera, int camera_index,
+                         const Flight& flight, int threads);
+
+/// Collects the sweeps of all LIDARs while the vehicle flies.
+class ProfileScanner {
+ public:
+  ProfileScanner(const RayScene& scene, std::span<const LidarConfig> lidars, std::uint64_t seed);
+
+  /// After every tick. Sweeps that are due begin only while `is_on`; those begun are finished.
+  void tick(const Flight& flight, bool is_on);
+
+  /// Finished sweeps in the order in which they ended.
+  const std::vector<LidarScan>& scans() const { return scans_; }
+
+ private:
+  /// A sweep that has begun: the believed pose of its first beam, and the true ones since.
+  struct Sweep {
+    std::int64_t begin_tick = 0;
+    Isometry T_world_body_believed = Isometry::Identity();
+    std::vector<Isometry> T_world_body;  // at each tick
+  };
+  void finish(std::size_t lidar);
+
+  const RayScene& scene_;
+  std::span<const LidarConfig> lidars_;
+  std::uint64_t seed_;
+  std::vector<Sweep> sweeps_;  // of each LIDAR; without poses while none is under way
+  std::vector<LidarScan> scans_;
+};
+
+}  // namespace gnbv
