@@ -1,8 +1,8 @@
 // PX4 as an external client meets it: commands with acknowledgements, modes, arming, the offboard
-// stream and its failsafe, takeoff ramp, landing detection. Simulation time only, no input or output:
-// the same calls at the same ticks give the same flight, bit by bit.
-// Source of every rule: PX4-Autopilot, as listed in the tests (Commander.cpp, UserModeIntention.cpp,
-// offboardCheck.cpp, failsafe.cpp, Takeoff.cpp, MulticopterLandDetector.cpp).
+// stream and its failsafe, takeoff ramp, landing detection. Simulation time only, no input or
+// output: the same calls at the same ticks give the same flight, bit by bit. Source of every rule:
+// PX4-Autopilot, as listed in the tests (Commander.cpp, UserModeIntention.cpp, offboardCheck.cpp,
+// failsafe.cpp, Takeoff.cpp, MulticopterLandDetector.cpp).
 #pragma once
 
 #include <array>
@@ -46,8 +46,9 @@ struct StatusText {
 class Px4 {
  public:
   enum class Start {
-    on_ground,        // disarmed, in HOLD
-    airborne_offboard // armed, flying, in OFFBOARD with a stream just received: a mission begins here
+    on_ground,         // disarmed, in HOLD
+    airborne_offboard  // armed, flying, in OFFBOARD with a stream just received: a mission begins
+                       // here
   };
   Px4(const AutopilotParameters& parameters, const AirframeParameters& airframe,
       const VehicleState& start, Start how);
@@ -55,8 +56,8 @@ class Px4 {
   Ack command(const Px4Command& command);
   Ack arm(bool armed, bool force = false);
   Ack set_mode(NavState mode);
-  /// A setpoint of the offboard stream (world ENU). A valid one refreshes the heartbeat in any mode;
-  /// it is flown only in OFFBOARD. An invalid one (Setpoint) stops and holds, with a warning.
+  /// A setpoint of the offboard stream (world ENU). A valid one refreshes the heartbeat in any
+  /// mode; it is flown only in OFFBOARD. An invalid one (Setpoint) stops and holds, with a warning.
   void offboard_setpoint(const Setpoint& setpoint);
 
   /// Advances one tick: rotor references, 0 when disarmed.
