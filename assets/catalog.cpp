@@ -6,6 +6,7 @@
 #include "assets/aircraft.hpp"
 #include "assets/lab_airplane.hpp"
 #include "assets/lab_model.hpp"
+#include "assets/power_plant.hpp"
 #include "assets/smoke.hpp"
 #include "sim/core/error.hpp"
 
@@ -19,6 +20,7 @@ struct Entry {
 
 constexpr std::array kCatalog = {
     Entry{"aircraft", make_aircraft},
+    Entry{"power_plant", make_power_plant},
     Entry{"lab_model", make_lab_model},
     Entry{"lab_airplane", make_lab_airplane},
     Entry{"smoke", make_smoke_structure},

@@ -7,8 +7,8 @@
 
 namespace gnbv {
 
-/// "aircraft", "lab_model", "lab_airplane" or "smoke". Requires a known name: scenarios are checked
-/// against the same list.
+/// "aircraft", "power_plant", "lab_model", "lab_airplane" or "smoke". Requires a known name:
+/// scenarios are checked against the same list.
 TriangleMesh make_builtin_structure(std::string_view name);
 
 }  // namespace gnbv

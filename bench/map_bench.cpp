@@ -110,11 +110,12 @@ std::vector<LidarScan> descent(const LidarConfig& lidar, int count) {
 /// 14,000 sweeps make a profile: multiply by 70.
 void BM_GridInsert200Sweeps(benchmark::State& state) {
   const LidarConfig lidar;
+  const LidarModel model = make_lidar_model(lidar);
   const std::vector<LidarScan> scans = descent(lidar, 200);
   OccupancyGrid grid(OccupancyConfig{}, kWorkspace_m);
   ScanInserter inserter(grid.geometry());
   for (auto _ : state) {
-    inserter.insert_scans(grid, scans, {&lidar, 1}, kFloor_m, static_cast<int>(state.range(0)));
+    inserter.insert_scans(grid, scans, {&model, 1}, kFloor_m, static_cast<int>(state.range(0)));
   }
 }
 BENCHMARK(BM_GridInsert200Sweeps)

@@ -83,12 +83,12 @@ std::optional<Decision> best_at_scale(const PlannerModel& model, const Belief& b
 
 PlannerModel::PlannerModel(const PlannerConfig& planner_config, const Box3& workspace,
                            std::span<const CameraModel> camera_models,
-                           std::span<const LidarConfig> lidar_configs)
+                           std::span<const LidarModel> lidar_models)
     : config(planner_config),
       workspace_m(workspace),
       navigation_m(navigation_box_m(planner_config.validity, workspace)),
       cameras(camera_models.begin(), camera_models.end()),
-      lidars(lidar_configs.begin(), lidar_configs.end()),
+      lidars(lidar_models.begin(), lidar_models.end()),
       view_rays(make_view_rays(cameras, planner_config.map.resolution_m)),
       view_voxels(frustum_voxels(cameras, planner_config.map.resolution_m)) {}
 
@@ -108,7 +108,7 @@ void integrate_profile(const PlannerModel& model, std::span<const LidarScan> sca
                               bench.threads);
   std::vector<Vec3f> points;
   for (const LidarScan& scan : scans) {
-    const LidarConfig& lidar = model.lidars[static_cast<std::size_t>(scan.lidar)];
+    const LidarModel& lidar = model.lidars[static_cast<std::size_t>(scan.lidar)];
     const std::vector<Vec3f> hits =
         surface_points_world_m(rays_of(scan, lidar, model.config.floor_z_m));
     points.insert(points.end(), hits.begin(), hits.end());

@@ -33,13 +33,13 @@ struct PlannerConfig {
 /// What the planner is given once: its settings and what it knows of vehicle and workspace.
 struct PlannerModel {
   PlannerModel(const PlannerConfig& config, const Box3& workspace_m,
-               std::span<const CameraModel> cameras, std::span<const LidarConfig> lidars);
+               std::span<const CameraModel> cameras, std::span<const LidarModel> lidars);
 
   PlannerConfig config;
   Box3 workspace_m;
   Box3 navigation_m;
   std::vector<CameraModel> cameras;
-  std::vector<LidarConfig> lidars;
+  std::vector<LidarModel> lidars;
   std::vector<ViewRay> view_rays;
   double view_voxels;  // of the cameras' frusta together
 };

@@ -167,6 +167,7 @@ void fields(FieldVisitor& v, EstimateConfig& c);
 void fields(FieldVisitor& v, VehicleConfig& c);
 void fields(FieldVisitor& v, GuidanceConfig& c);
 // fields_sensors.cpp
+void fields(FieldVisitor& v, DepthNoiseConfig& c);
 void fields(FieldVisitor& v, CameraConfig& c);
 void fields(FieldVisitor& v, LidarConfig& c);
 // fields_planner.cpp

@@ -6,6 +6,14 @@ namespace {
 constexpr std::array<std::string_view, 4> kUpAxes = {"auto", "x", "y", "z"};
 constexpr std::array<Named<VehicleKind>, 2> kVehicleKinds = {
     {{VehicleKind::quadrotor, "quadrotor"}, {VehicleKind::ideal, "ideal"}}};
+constexpr std::array<Named<ThrustLoss>, 3> kThrustLosses = {
+    {{ThrustLoss::none, "none"},
+     {ThrustLoss::axial_speed, "axial_speed"},
+     {ThrustLoss::whole_speed, "whole_speed"}}};
+constexpr std::array<Named<EstimateModel>, 4> kEstimateModels = {{{EstimateModel::none, "none"},
+                                                                  {EstimateModel::mocap, "mocap"},
+                                                                  {EstimateModel::gnss, "gnss"},
+                                                                  {EstimateModel::vio, "vio"}}};
 constexpr std::array<Named<OffboardLossAction>, 8> kOffboardLossActions = {
     {{OffboardLossAction::position, "position"},
      {OffboardLossAction::altitude, "altitude"},
@@ -15,14 +23,6 @@ constexpr std::array<Named<OffboardLossAction>, 8> kOffboardLossActions = {
      {OffboardLossAction::hold, "hold"},
      {OffboardLossAction::terminate, "terminate"},
      {OffboardLossAction::disarm, "disarm"}}};
-constexpr std::array<Named<ThrustLoss>, 3> kThrustLosses = {
-    {{ThrustLoss::none, "none"},
-     {ThrustLoss::axial_speed, "axial_speed"},
-     {ThrustLoss::whole_speed, "whole_speed"}}};
-constexpr std::array<Named<EstimateModel>, 4> kEstimateModels = {{{EstimateModel::none, "none"},
-                                                                  {EstimateModel::mocap, "mocap"},
-                                                                  {EstimateModel::gnss, "gnss"},
-                                                                  {EstimateModel::vio, "vio"}}};
 
 }  // namespace
 

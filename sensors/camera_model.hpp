@@ -21,6 +21,7 @@ struct DepthNoiseConfig {
 
 /// Defaults: the forward camera of the paper's simulated RGBD pair (section 3.1.1, Table 1).
 struct CameraConfig {
+  std::string preset = "rgbd_sim";  // the sensor whose values these began as; a label, no more
   std::string name = "rgbd";
   int width_px = 640;
   int height_px = 480;

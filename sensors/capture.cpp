@@ -1,129 +1,204 @@
 #include "sensors/capture.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <cstddef>
+#include <vector>
 
+#include "sensors/pixel_tiles.hpp"
 #include "sim/core/error.hpp"
-#include "sim/core/parallel.hpp"
 
 namespace gnbv {
 namespace {
 
-// A packet of 16 rays is a square of pixels: the fastest shape measured with Embree's coherent
-// packets (4x2 and 16x1 pixels are slower). Tiles start at pixel (0, 0) whatever the threads do.
-constexpr int kTile_px = 4;
-constexpr std::size_t kTilePixels = 16;
-constexpr int kTileRowsPerTask = 4;
-
 /// Traced from the sensor itself: what is too near to be measured still hides what lies behind it.
 constexpr float kTraceFrom_m = 0.0F;
 
-float measured_range(float distance_m, double range_min_m) {
-  return distance_m < static_cast<float>(range_min_m) ? kInvalidRange : distance_m;
+/// A surface at `true_m` that reads `read_m`.
+float measured_range(float true_m, float read_m, double range_min_m, double range_max_m) {
+  if (std::min(true_m, read_m) < static_cast<float>(range_min_m)) return kInvalidRange;
+  return read_m > static_cast<float>(range_max_m) ? kNoReturn : read_m;
 }
 
-/// The separable parts of CameraModel::ray_camera for every column and row.
-struct PixelGrid {
-  std::vector<float> x_camera;  // (width)
-  std::vector<float> y_camera;  // (height)
+/// Angle between a ray and the normal of the face it meets, either side of it.
+double incidence_rad(const RayScene& scene, std::int32_t face, const Vec3f& direction_world) {
+  const float cosine = std::abs(scene.normal_world(face).dot(direction_world.normalized()));
+  return std::acos(std::min(static_cast<double>(cosine), 1.0));
+}
 
-  explicit PixelGrid(const CameraModel& camera) {
-    for (int u = 0; u < camera.config.width_px; ++u)
-      x_camera.push_back(camera.ray_camera(u, 0).x());
-    for (int v = 0; v < camera.config.height_px; ++v) {
-      y_camera.push_back(camera.ray_camera(0, v).y());
+/// One depth frame in the making.
+struct DepthCapture {
+  const RayScene& scene;
+  const CameraModel& camera;
+  NoiseKey key;
+  DepthFrame& frame;
+  Vec3f origin_world_m;
+  float far_m;
+  PixelTiles tiles;
+
+  void trace(RunRays& rays) const {
+    scene.first_hits(origin_world_m, rays.directions_world, kTraceFrom_m, far_m, rays.hits);
+  }
+
+  void exact_run(const TileRun& run, RunRays& rays) const {
+    tiles.directions_world(run, rays.directions_world);
+    scene.first_distances(origin_world_m, rays.directions_world, kTraceFrom_m, far_m,
+                          rays.distances_m);
+    const auto range_min_m = static_cast<float>(camera.config.range_min_m);
+    for (std::size_t tile = 0; tile < rays.distances_m.size(); ++tile) {
+      for (float& depth_m : rays.distances_m[tile]) {  // traced up to range_max_m
+        depth_m = depth_m < range_min_m ? kInvalidRange : depth_m;
+      }
+      tiles.put(run, tile, rays.distances_m[tile], frame.depth_m);
     }
+  }
+
+  void noisy_run(const TileRun& run, RunRays& rays) const {
+    tiles.directions_world(run, rays.directions_world);
+    trace(rays);
+    if (camera.config.noise.model == DepthNoise::nguyen) {
+      displace(run, rays);
+      trace(rays);
+    }
+    tiles.for_each_pixel(run, [&](std::size_t tile, std::size_t ray, std::size_t pixel) {
+      const HitPacket& hits = rays.hits[tile];
+      frame.depth_m[pixel] = read(hits.distance_m[ray], hits.face[ray],
+                                  rays.directions_world[tile].direction(ray), pixel);
+    });
+  }
+
+  /// Turns each ray to where its pixel really looks, as far as the surface it met is slanted.
+  void displace(const TileRun& run, RunRays& rays) const {
+    tiles.for_each_pixel(run, [&](std::size_t tile, std::size_t ray, std::size_t pixel) {
+      RayPacket& packet = rays.directions_world[tile];
+      const std::int32_t face = rays.hits[tile].face[ray];
+      const double theta_rad =
+          face == kNoFace ? 0.0 : incidence_rad(scene, face, packet.direction(ray));
+      const double sigma_px = lateral_sigma_px(camera.config.noise, theta_rad);
+      const Vec3f shift_world =
+          tiles.shift_world(sigma_px * lateral_deviate(key, frame.camera, pixel, 0),
+                            sigma_px * lateral_deviate(key, frame.camera, pixel, 1));
+      packet.x[ray] += shift_world.x();
+      packet.y[ray] += shift_world.y();
+      packet.z[ray] += shift_world.z();
+    });
+  }
+
+  float read(float true_m, std::int32_t face, const Vec3f& direction_world,
+             std::size_t pixel) const {
+    if (face == kNoFace) return kNoReturn;
+    const double theta_rad = incidence_rad(scene, face, direction_world);
+    if (!has_return(camera.config.noise, theta_rad)) return kInvalidRange;
+    const double sigma_m = depth_sigma_m(camera, true_m, theta_rad);
+    const double read_m = true_m + sigma_m * depth_deviate(key, frame.camera, pixel);
+    return measured_range(true_m, static_cast<float>(read_m), camera.config.range_min_m,
+                          camera.config.range_max_m);
   }
 };
 
-/// Traces one row of tiles into the frame. Tiles that overhang the image repeat its last column or
-/// row, so that every packet is full.
-void capture_tile_row(const RayScene& scene, const CameraModel& camera, const PixelGrid& grid,
-                      int tile_row, DepthFrame& frame) {
-  const int width = camera.config.width_px;
-  const int height = camera.config.height_px;
-  const auto tiles = static_cast<std::size_t>((width + kTile_px - 1) / kTile_px);
-  const Eigen::Matrix3f R_world_camera = frame.T_world_camera.linear().cast<float>();
-  const Vec3f origin_world_m = frame.T_world_camera.translation().cast<float>();
-
-  std::array<Vec3f, kTile_px> row_world;
-  for (int j = 0; j < kTile_px; ++j) {
-    const int v = std::min(tile_row * kTile_px + j, height - 1);
-    row_world[static_cast<std::size_t>(j)] =
-        R_world_camera.col(2) + grid.y_camera[static_cast<std::size_t>(v)] * R_world_camera.col(1);
+/// Poses in between, position and rotation each at an even pace.
+class PosesDuringSweep {
+ public:
+  explicit PosesDuringSweep(std::span<const Isometry> poses) : poses_(poses) {
+    for (const Isometry& pose : poses) rotations_.emplace_back(pose.linear());
   }
+
+  /// `share` of the sweep in [0, 1].
+  Isometry at(double share) const {
+    const double place = share * static_cast<double>(poses_.size() - 1);
+    const std::size_t before = std::min(static_cast<std::size_t>(place), poses_.size() - 2);
+    const double t = place - static_cast<double>(before);
+    Isometry pose = Isometry::Identity();
+    pose.translate((1.0 - t) * poses_[before].translation() + t * poses_[before + 1].translation());
+    pose.rotate(rotations_[before].slerp(t, rotations_[before + 1]));
+    return pose;
+  }
+
+ private:
+  std::span<const Isometry> poses_;
+  std::vector<Eigen::Quaterniond> rotations_;
+};
+
+bool is_still(std::span<const Isometry> poses) {
+  return std::all_of(poses.begin(), poses.end(),
+                     [&](const Isometry& pose) { return pose.matrix() == poses.front().matrix(); });
+}
+
+std::vector<RayHit> trace_instant(const RayScene& scene, const LidarModel& lidar,
+                                  const Isometry& T_world_lidar, float far_m) {
+  const Eigen::Matrix3f R_world_lidar = T_world_lidar.linear().cast<float>();
   std::vector<Vec3f> directions_world;
-  directions_world.reserve(tiles * kTilePixels);
-  for (int u0 = 0; u0 < width; u0 += kTile_px) {
-    for (const Vec3f& row : row_world) {
-      for (int i = 0; i < kTile_px; ++i) {
-        const auto u = static_cast<std::size_t>(std::min(u0 + i, width - 1));
-        directions_world.push_back(row + grid.x_camera[u] * R_world_camera.col(0));
-      }
-    }
-  }
-
+  directions_world.reserve(lidar.beams_lidar.size());
+  for (const Vec3f& beam : lidar.beams_lidar) directions_world.push_back(R_world_lidar * beam);
   std::vector<RayHit> hits(directions_world.size());
-  scene.first_hits(origin_world_m, directions_world, kTraceFrom_m,
-                   static_cast<float>(camera.config.range_max_m), hits);
+  scene.first_hits(T_world_lidar.translation().cast<float>(), directions_world, kTraceFrom_m, far_m,
+                   hits);
+  return hits;
+}
 
-  std::size_t ray = 0;
-  for (int u0 = 0; u0 < width; u0 += kTile_px) {
-    for (int j = 0; j < kTile_px; ++j) {
-      for (int i = 0; i < kTile_px; ++i, ++ray) {
-        const int u = u0 + i;
-        const int v = tile_row * kTile_px + j;
-        if (u >= width || v >= height) continue;
-        // the directions reach z = 1 of the optical frame, so distances along them are depths
-        frame.depth_m[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) +
-                      static_cast<std::size_t>(u)] =
-            measured_range(hits[ray].distance_m, camera.config.range_min_m);
-      }
-    }
+std::vector<RayHit> trace_moving(const RayScene& scene, const LidarModel& lidar,
+                                 std::span<const Isometry> T_world_body_during, float far_m) {
+  const PosesDuringSweep poses(T_world_body_during);
+  const std::size_t beams = lidar.beams_lidar.size();
+  const double last = std::max(1.0, static_cast<double>(beams) - 1.0);
+  std::vector<Vec3f> origins_world_m(beams);
+  std::vector<Vec3f> directions_world(beams);
+  for (std::size_t i = 0; i < beams; ++i) {
+    const Isometry T_world_lidar = poses.at(static_cast<double>(i) / last) * lidar.T_body_lidar;
+    origins_world_m[i] = T_world_lidar.translation().cast<float>();
+    directions_world[i] = T_world_lidar.linear().cast<float>() * lidar.beams_lidar[i];
   }
+  std::vector<RayHit> hits(beams);
+  scene.first_hits(origins_world_m, directions_world, kTraceFrom_m, far_m, hits);
+  return hits;
 }
 
 }  // namespace
 
 DepthFrame capture_depth(const RayScene& scene, const CameraModel& camera, int camera_index,
-                         const Isometry& T_world_body, int threads) {
-  const int width = camera.config.width_px;
-  const int height = camera.config.height_px;
-  GNBV_CHECK(width > 0 && height > 0, "camera {} has {} x {} pixels", camera.config.name, width,
-             height);
+                         const Isometry& T_world_body, const NoiseKey& key, int threads) {
+  const CameraConfig& config = camera.config;
+  GNBV_CHECK(config.width_px > 0 && config.height_px > 0, "camera {} has {} x {} pixels",
+             config.name, config.width_px, config.height_px);
   DepthFrame frame;
   frame.camera = camera_index;
   frame.T_world_camera = T_world_body * camera.T_body_camera;
-  frame.depth_m.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-
-  const PixelGrid grid(camera);
-  const int tile_rows = (height + kTile_px - 1) / kTile_px;
-  const int tasks = (tile_rows + kTileRowsPerTask - 1) / kTileRowsPerTask;
-  parallel_for(threads, static_cast<std::size_t>(tasks), [&](std::size_t task) {
-    const int first = static_cast<int>(task) * kTileRowsPerTask;
-    const int last = std::min(first + kTileRowsPerTask, tile_rows);
-    for (int row = first; row < last; ++row) capture_tile_row(scene, camera, grid, row, frame);
+  frame.depth_m.resize(static_cast<std::size_t>(config.width_px) *
+                       static_cast<std::size_t>(config.height_px));
+  const DepthCapture capture = {scene,
+                                camera,
+                                key,
+                                frame,
+                                frame.T_world_camera.translation().cast<float>(),
+                                static_cast<float>(farthest_m(camera)),
+                                PixelTiles(camera, frame.T_world_camera)};
+  const bool is_exact = config.noise.model == DepthNoise::none;
+  for_each_tile_run(capture.tiles, threads, [&](const TileRun& run, RunRays& rays) {
+    is_exact ? capture.exact_run(run, rays) : capture.noisy_run(run, rays);
   });
   return frame;
 }
 
-LidarScan capture_scan(const RayScene& scene, const LidarConfig& lidar,
-                       const Isometry& T_world_body) {
+LidarScan capture_scan(const RayScene& scene, const LidarModel& lidar, int lidar_index,
+                       std::span<const Isometry> T_world_body_during, const NoiseKey& key) {
+  GNBV_CHECK(!T_world_body_during.empty(), "a sweep of {} without a pose", lidar.config.name);
+  const LidarConfig& config = lidar.config;
+  const auto far_m = static_cast<float>(farthest_m(config));
   LidarScan scan;
-  scan.T_world_lidar = T_world_body * T_body_lidar(lidar);
-  const Eigen::Matrix3f R_world_lidar = scan.T_world_lidar.linear().cast<float>();
-  std::vector<Vec3f> directions_world;
-  directions_world.reserve(static_cast<std::size_t>(lidar.beams));
-  for (int beam = 0; beam < lidar.beams; ++beam) {
-    directions_world.push_back(R_world_lidar * beam_lidar(lidar, beam));
-  }
-  std::vector<RayHit> hits(directions_world.size());
-  scene.first_hits(scan.T_world_lidar.translation().cast<float>(), directions_world, kTraceFrom_m,
-                   static_cast<float>(lidar.range_max_m), hits);
+  scan.lidar = lidar_index;
+  scan.T_world_lidar = T_world_body_during.front() * lidar.T_body_lidar;
+  const std::vector<RayHit> hits = is_still(T_world_body_during)
+                                       ? trace_instant(scene, lidar, scan.T_world_lidar, far_m)
+                                       : trace_moving(scene, lidar, T_world_body_during, far_m);
   scan.range_m.reserve(hits.size());
-  for (const RayHit& hit : hits) {
-    scan.range_m.push_back(measured_range(hit.distance_m, lidar.range_min_m));
+  for (std::size_t beam = 0; beam < hits.size(); ++beam) {
+    const float true_m = hits[beam].distance_m;
+    float read_m = true_m;
+    if (hits[beam].face != kNoFace && config.range_sigma_m > 0.0) {
+      read_m =
+          static_cast<float>(true_m + config.range_sigma_m * range_deviate(key, lidar_index, beam));
+    }
+    scan.range_m.push_back(measured_range(true_m, read_m, config.range_min_m, config.range_max_m));
   }
   return scan;
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "sim/core/pose.hpp"
 
@@ -11,6 +12,7 @@ namespace gnbv {
 /// Defaults: the profiling laser of the paper (180 degrees, 0.1-30 m) with the beams and rate of
 /// the released floating_sensor.sdf; tilted down, which reproduces the paper's profile row.
 struct LidarConfig {
+  std::string preset = "profiling_sim";  // the sensor whose values these began as; a label, no more
   std::string name = "lidar";
   int beams = 720;
   double fov_rad = kPi;
@@ -48,6 +50,21 @@ inline Vec3f beam_lidar(const LidarConfig& config, int beam) {
   const double azimuth_rad = -0.5 * config.fov_rad + beam * step_rad;
   return {static_cast<float>(std::cos(azimuth_rad)), static_cast<float>(std::sin(azimuth_rad)),
           0.0F};
+}
+
+/// What every sweep of a LIDAR shares.
+struct LidarModel {
+  LidarConfig config;
+  Isometry T_body_lidar = Isometry::Identity();
+  std::vector<Vec3f> beams_lidar;  // beam_lidar() of every beam
+};
+
+inline LidarModel make_lidar_model(const LidarConfig& config) {
+  LidarModel model = {config, T_body_lidar(config), {}};
+  for (int beam = 0; beam < config.beams; ++beam) {
+    model.beams_lidar.push_back(beam_lidar(config, beam));
+  }
+  return model;
 }
 
 }  // namespace gnbv

@@ -14,7 +14,7 @@
 namespace gnbv {
 namespace {
 
-constexpr std::size_t kPacket = 16;
+constexpr std::size_t kPacket = RayPacket::kRays;
 constexpr float kGroundHalfWidth_m = 1000.0F;
 // ray masks: sensors see both, questions about the structure leave the ground out
 constexpr unsigned kStructureMask = 1;
@@ -90,6 +90,18 @@ Vec3 closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3
   return a + vb * scale * ab + vc * scale * ac;
 }
 
+/// Rays that begin `near_m` from their origin and see everything; all else is still to be set.
+/// (Embree writes only tfar and the hit.)
+RTCRayHit16 packet_from(const Vec3f& origin_world_m, float near_m) {
+  RTCRayHit16 packet{};
+  std::fill_n(packet.ray.org_x, kPacket, origin_world_m.x());
+  std::fill_n(packet.ray.org_y, kPacket, origin_world_m.y());
+  std::fill_n(packet.ray.org_z, kPacket, origin_world_m.z());
+  std::fill_n(packet.ray.tnear, kPacket, near_m);
+  std::fill_n(packet.ray.mask, kPacket, kStructureMask | kGroundMask);
+  return packet;
+}
+
 struct NearestQuery {
   const std::vector<Vec3f>* vertices_m;
   const std::vector<std::array<std::uint32_t, 3>>* faces;
@@ -128,11 +140,16 @@ struct RayScene::Impl {
   Owner<RTCScene, rtcReleaseScene> scene{new_scene(device.get())};
   std::vector<Vec3f> vertices_m;
   std::vector<std::array<std::uint32_t, 3>> faces;
+  std::vector<Material> materials;
+  std::vector<std::uint16_t> face_material;
   unsigned structure_id = RTC_INVALID_GEOMETRY_ID;
   unsigned ground_id = RTC_INVALID_GEOMETRY_ID;
 
   explicit Impl(const World& world)
-      : vertices_m(world.structure.vertices_m), faces(world.structure.faces) {
+      : vertices_m(world.structure.vertices_m),
+        faces(world.structure.faces),
+        materials(world.structure.materials),
+        face_material(world.structure.face_material) {
     GNBV_CHECK(rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) != 0,
                "this Embree was built without ray masks");
     for (const auto& face : faces) {
@@ -140,6 +157,12 @@ struct RayScene::Impl {
         GNBV_CHECK(i < vertices_m.size(), "face vertex {} of {}", i, vertices_m.size());
       }
     }
+    GNBV_CHECK(face_material.empty() || face_material.size() == faces.size(),
+               "{} materials of {} faces", face_material.size(), faces.size());
+    for (const std::uint16_t i : face_material) {
+      GNBV_CHECK(i < materials.size(), "material {} of {}", i, materials.size());
+    }
+    GNBV_CHECK(!materials.empty() || faces.empty(), "a structure without materials");
     rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_HIGH);
     if (!faces.empty()) {
@@ -161,6 +184,78 @@ struct RayScene::Impl {
                static_cast<int>(rtcGetDeviceError(nullptr)));
     return rtcNewScene(device);
   }
+
+  /// Traces `count` packets: load(i, packet.ray, valid) sets directions, and origins unless they
+  /// are set already, and clears the lanes of `valid` that hold no ray; store(i, packet) takes the
+  /// answers.
+  template <typename Load, typename Store>
+  void trace(std::size_t count, RTCRayHit16& packet, float far_m, const Load& load,
+             const Store& store) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    alignas(64) std::array<int, kPacket> valid{};
+    for (std::size_t i = 0; i < count; ++i) {
+      valid.fill(-1);
+      std::fill_n(packet.ray.tfar, kPacket, far_m);
+      std::fill_n(packet.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
+      load(i, packet.ray, valid);
+      rtcIntersect16(valid.data(), scene.get(), &context, &packet);
+      store(i, packet);
+    }
+  }
+
+  template <typename Store>
+  void trace_packets(const Vec3f& origin_world_m, std::span<const RayPacket> directions_world,
+                     float near_m, float far_m, const Store& store) const {
+    const auto load = [&](std::size_t i, RTCRay16& ray, std::array<int, kPacket>&) {
+      std::copy_n(directions_world[i].x.data(), kPacket, ray.dir_x);
+      std::copy_n(directions_world[i].y.data(), kPacket, ray.dir_y);
+      std::copy_n(directions_world[i].z.data(), kPacket, ray.dir_z);
+    };
+    RTCRayHit16 packet = packet_from(origin_world_m, near_m);
+    trace(directions_world.size(), packet, far_m, load, store);
+  }
+
+  /// Traces rays given one by one; set_origin(ray, lane) puts a ray's origin into `packet`. The
+  /// last packet repeats its last ray in the lanes left over, which are not traced.
+  template <typename SetOrigin>
+  void trace_each(RTCRayHit16& packet, const SetOrigin& set_origin,
+                  std::span<const Vec3f> directions_world, float far_m,
+                  std::span<RayHit> hits) const {
+    GNBV_CHECK(hits.size() == directions_world.size(), "{} hits for {} rays", hits.size(),
+               directions_world.size());
+    const auto load = [&](std::size_t i, RTCRay16& ray, std::array<int, kPacket>& valid) {
+      const std::size_t rays = std::min(kPacket, hits.size() - i * kPacket);
+      std::fill(valid.begin() + static_cast<std::ptrdiff_t>(rays), valid.end(), 0);
+      for (std::size_t lane = 0; lane < kPacket; ++lane) {
+        const std::size_t from = i * kPacket + std::min(lane, rays - 1);
+        set_origin(from, lane);
+        ray.dir_x[lane] = directions_world[from].x();
+        ray.dir_y[lane] = directions_world[from].y();
+        ray.dir_z[lane] = directions_world[from].z();
+      }
+    };
+    const auto store = [&](std::size_t i, const RTCRayHit16& answer) {
+      const auto some = hits.subspan(i * kPacket, std::min(kPacket, hits.size() - i * kPacket));
+      for (std::size_t lane = 0; lane < some.size(); ++lane) {
+        some[lane] = {distance_m(answer, lane), face(answer, lane)};
+      }
+    };
+    trace((hits.size() + kPacket - 1) / kPacket, packet, far_m, load, store);
+  }
+
+  // Written so that 16 lanes at a time can be computed: everything is read, then chosen from.
+  static float distance_m(const RTCRayHit16& answer, std::size_t lane) {
+    const float tfar = answer.ray.tfar[lane];
+    return answer.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID ? kNoReturn : tfar;
+  }
+  std::int32_t face(const RTCRayHit16& answer, std::size_t lane) const {
+    const unsigned id = answer.hit.geomID[lane];
+    const auto hit = static_cast<std::int32_t>(answer.hit.primID[lane]);
+    const std::int32_t of_something = id == ground_id ? kGroundFace : hit;
+    return id == RTC_INVALID_GEOMETRY_ID ? kNoFace : of_something;
+  }
 };
 
 RayScene::RayScene(const World& world) : impl_(std::make_unique<Impl>(world)) {}
@@ -168,45 +263,54 @@ RayScene::~RayScene() = default;
 RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 
+void RayScene::first_hits(const Vec3f& origin_world_m, std::span<const RayPacket> directions_world,
+                          float near_m, float far_m, std::span<HitPacket> hits) const {
+  GNBV_CHECK(hits.size() == directions_world.size(), "{} hits for {} packets of rays", hits.size(),
+             directions_world.size());
+  impl_->trace_packets(origin_world_m, directions_world, near_m, far_m,
+                       [&](std::size_t i, const RTCRayHit16& answer) {
+                         HitPacket& out = hits[i];
+                         for (std::size_t lane = 0; lane < kPacket; ++lane) {
+                           out.distance_m[lane] = Impl::distance_m(answer, lane);
+                           out.face[lane] = impl_->face(answer, lane);
+                         }
+                       });
+}
+
+void RayScene::first_distances(const Vec3f& origin_world_m,
+                               std::span<const RayPacket> directions_world, float near_m,
+                               float far_m,
+                               std::span<std::array<float, kPacket>> distances_m) const {
+  GNBV_CHECK(distances_m.size() == directions_world.size(), "{} distances for {} packets of rays",
+             distances_m.size(), directions_world.size());
+  impl_->trace_packets(origin_world_m, directions_world, near_m, far_m,
+                       [&](std::size_t i, const RTCRayHit16& answer) {
+                         std::array<float, kPacket>& out = distances_m[i];
+                         for (std::size_t lane = 0; lane < kPacket; ++lane) {
+                           out[lane] = Impl::distance_m(answer, lane);
+                         }
+                       });
+}
+
 void RayScene::first_hits(const Vec3f& origin_world_m, std::span<const Vec3f> directions_world,
                           float near_m, float far_m, std::span<RayHit> hits) const {
-  GNBV_CHECK(hits.size() == directions_world.size(), "{} hits for {} rays", hits.size(),
-             directions_world.size());
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  RTCRayHit16 packet{};
-  alignas(64) std::array<int, kPacket> valid{};
-  for (std::size_t i = 0; i < kPacket; ++i) {  // Embree writes only tfar and the hit
-    packet.ray.org_x[i] = origin_world_m.x();
-    packet.ray.org_y[i] = origin_world_m.y();
-    packet.ray.org_z[i] = origin_world_m.z();
-    packet.ray.tnear[i] = near_m;
-    packet.ray.mask[i] = kStructureMask | kGroundMask;
-  }
-  for (std::size_t begin = 0; begin < hits.size(); begin += kPacket) {
-    const std::size_t count = std::min(kPacket, hits.size() - begin);
-    for (std::size_t i = 0; i < kPacket; ++i) {
-      valid[i] = i < count ? -1 : 0;
-      packet.ray.tfar[i] = far_m;
-      packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    }
-    for (std::size_t i = 0; i < kPacket; ++i) {
-      const Vec3f& direction = directions_world[begin + std::min(i, count - 1)];
-      packet.ray.dir_x[i] = direction.x();
-      packet.ray.dir_y[i] = direction.y();
-      packet.ray.dir_z[i] = direction.z();
-    }
-    rtcIntersect16(valid.data(), impl_->scene.get(), &context, &packet);
-    for (std::size_t i = 0; i < count; ++i) {
-      const unsigned id = packet.hit.geomID[i];
-      const bool is_hit = id != RTC_INVALID_GEOMETRY_ID;
-      const auto face = static_cast<std::int32_t>(packet.hit.primID[i]);
-      hits[begin + i] = {is_hit ? packet.ray.tfar[i] : kNoReturn, !is_hit                  ? -1
-                                                                  : id == impl_->ground_id ? -2
-                                                                                           : face};
-    }
-  }
+  RTCRayHit16 packet = packet_from(origin_world_m, near_m);
+  const auto keep_origin = [](std::size_t, std::size_t) {};
+  impl_->trace_each(packet, keep_origin, directions_world, far_m, hits);
+}
+
+void RayScene::first_hits(std::span<const Vec3f> origins_world_m,
+                          std::span<const Vec3f> directions_world, float near_m, float far_m,
+                          std::span<RayHit> hits) const {
+  GNBV_CHECK(origins_world_m.size() == hits.size(), "{} origins for {} hits",
+             origins_world_m.size(), hits.size());
+  RTCRayHit16 packet = packet_from(Vec3f::Zero(), near_m);
+  const auto set_origin = [&](std::size_t ray, std::size_t lane) {
+    packet.ray.org_x[lane] = origins_world_m[ray].x();
+    packet.ray.org_y[lane] = origins_world_m[ray].y();
+    packet.ray.org_z[lane] = origins_world_m[ray].z();
+  };
+  impl_->trace_each(packet, set_origin, directions_world, far_m, hits);
 }
 
 void RayScene::structure_blocks(std::span<const Vec3f> origins_world_m,
@@ -239,6 +343,19 @@ void RayScene::structure_blocks(std::span<const Vec3f> origins_world_m,
     // Embree marks an occluded ray with tfar = -infinity
     for (std::size_t i = 0; i < count; ++i) blocked[begin + i] = packet.tfar[i] < 0.0F ? 1 : 0;
   }
+}
+
+Vec3f RayScene::normal_world(std::int32_t face) const {
+  if (face == kGroundFace) return Vec3f::UnitZ();
+  GNBV_CHECK(face >= 0, "the normal of nothing");
+  const auto& [a, b, c] = impl_->faces[static_cast<std::size_t>(face)];
+  const std::vector<Vec3f>& p = impl_->vertices_m;
+  return (p[b] - p[a]).cross(p[c] - p[a]).stableNormalized();
+}
+
+const Material& RayScene::material(std::int32_t face) const {
+  const std::vector<std::uint16_t>& of_face = impl_->face_material;
+  return impl_->materials[of_face.empty() ? 0 : of_face[static_cast<std::size_t>(face)]];
 }
 
 double RayScene::distance_to_structure_m(const Vec3& p_world_m, double limit_m) const {

@@ -1,6 +1,8 @@
 // The world as the sensors see it. The only file of the project that knows Embree is its .cpp.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -11,9 +13,28 @@
 
 namespace gnbv {
 
+constexpr std::int32_t kNoFace = -1;
+constexpr std::int32_t kGroundFace = -2;
+
 struct RayHit {
-  float distance_m = 0.0F;  // in units of the ray's direction length; kNoReturn when nothing
-  std::int32_t face = -1;   // index into World::structure.faces; -1 nothing, -2 the ground
+  float distance_m = 0.0F;      // in units of the ray's direction length; kNoReturn when nothing
+  std::int32_t face = kNoFace;  // index into World::structure.faces, or one of the two above
+};
+
+/// Directions of 16 rays that are traced at once: neighbours in space.
+struct RayPacket {
+  static constexpr std::size_t kRays = 16;
+  alignas(64) std::array<float, kRays> x{};
+  alignas(64) std::array<float, kRays> y{};
+  alignas(64) std::array<float, kRays> z{};
+
+  Vec3f direction(std::size_t ray) const { return {x[ray], y[ray], z[ray]}; }
+};
+
+/// What they meet first, as in RayHit.
+struct HitPacket {
+  std::array<float, RayPacket::kRays> distance_m{};
+  std::array<std::int32_t, RayPacket::kRays> face{};
 };
 
 /// Ray queries against the structure and the ground. Const after construction: any number of
@@ -25,10 +46,19 @@ class RayScene {
   RayScene(RayScene&&) noexcept;
   RayScene& operator=(RayScene&&) noexcept;
 
-  /// First hit of each ray in (near_m, far_m], traced in coherent packets of 16: rays that are
-  /// neighbours in the span should be neighbours in space. `directions` need not be unit length;
-  /// distances are in multiples of them. hits.size() == directions.size().
+  /// First hit of each ray in (near_m, far_m]. Directions need not be of unit length; distances are
+  /// in multiples of them. As many hits as rays.
+  void first_hits(const Vec3f& origin_world_m, std::span<const RayPacket> directions_world,
+                  float near_m, float far_m, std::span<HitPacket> hits) const;
+  /// Their distances alone, which is faster.
+  void first_distances(const Vec3f& origin_world_m, std::span<const RayPacket> directions_world,
+                       float near_m, float far_m,
+                       std::span<std::array<float, RayPacket::kRays>> distances_m) const;
+  /// First hits of any number of rays, 16 neighbours in the span to a packet.
   void first_hits(const Vec3f& origin_world_m, std::span<const Vec3f> directions_world,
+                  float near_m, float far_m, std::span<RayHit> hits) const;
+  /// The same for rays that begin each at its own origin; as many origins as directions.
+  void first_hits(std::span<const Vec3f> origins_world_m, std::span<const Vec3f> directions_world,
                   float near_m, float far_m, std::span<RayHit> hits) const;
 
   /// For each ray from its own origin: whether anything of the structure (never the ground) lies in
@@ -36,6 +66,13 @@ class RayScene {
   void structure_blocks(std::span<const Vec3f> origins_world_m,
                         std::span<const Vec3f> directions_world, float near_m,
                         std::span<std::uint8_t> blocked) const;
+
+  /// Unit normal of a face of the structure, on the side its corners run counter-clockwise, or of
+  /// the ground. Zero for a face without area.
+  Vec3f normal_world(std::int32_t face) const;
+
+  /// What a face of the structure is made of.
+  const Material& material(std::int32_t face) const;
 
   /// Distance from a point to the structure's surface, up to `limit_m`; infinity beyond.
   double distance_to_structure_m(const Vec3& p_world_m, double limit_m) const;

@@ -11,8 +11,8 @@ Vec3 acceleration_setpoint(const AirframeParameters& airframe, const AutopilotPa
   constexpr double kCount = static_cast<double>(kRotors);
   Vec3 body_z_world = Vec3::UnitZ();
   double speed_rad_s = hover_speed_rad_s(airframe);
-  // thrust and tilt depend on the drag, and the drag on both, but weakly: with the strongest drag
-  // of the presets an error shrinks threefold
+  // thrust and tilt depend on the drag, and the drag on both, but weakly: eight turns leave less
+  // than 1 mm/s^2, even with the strongest drag of the presets
   for (int i = 0; i < 8; ++i) {
     const Eigen::Quaterniond q = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), body_z_world);
     const Vec3 v_body_m_s = q.conjugate() * v_world_m_s;
@@ -37,6 +37,8 @@ Vec3 acceleration_setpoint(const AirframeParameters& airframe, const AutopilotPa
 }
 
 double attitude_lag_s(const AutopilotParameters& autopilot) {
+  // a loop of gain P follows a long ramp 1 / P later; those of a leg are short, and with this share
+  // of it the presets deviate and overshoot least on the whole (measured, in steps of a tenth)
   return 0.8 / autopilot.attitude_p_per_s.x();
 }
 

@@ -26,7 +26,8 @@ double speed_along(const Vec3& direction, double speed_m_s, const VehicleConfig&
   return limited(speed, -direction.z(), autopilot.descent_speed_max_m_s);
 }
 
-/// A quadrotor turns by unequal rotors, and beyond a tenth of the command its thrust gives way.
+/// A quadrotor turns by unequal rotors: a tenth of their command is left for it, of the 0.15 beyond
+/// which the mixer gives yaw up first.
 RestToRest::Limits turn_limits(const GuidanceConfig& config, const VehicleConfig& vehicle) {
   if (vehicle.kind == VehicleKind::ideal) {
     return {config.yaw_rate_rad_s, config.yaw_acceleration_rad_s2, config.yaw_jerk_rad_s3};

@@ -5,7 +5,8 @@
 //   KFW   kuri-kustar/Firmware@24feea6 of 2015, posix-configs/SITL/init/rc_iris_ros
 //   MRS   ctu-mrs/mrs_uav_gazebo_simulation, f450.yaml, and mrs_uav_gazebo_simulator,
 //         f450.sdf.jinja
-//   RFL   RflySim, the 450 mm quadrotor of Beihang's course: 1.4 kg with battery and autopilot
+//   RFL   RflySim's default quadrotor, a bare one of 450 mm (ModelParam_uavMass 1.4, uavJ,
+//         rotorCt, rotorCm, motorT; PosCtrl_tune_data.c of a model generated from it)
 #include <cmath>
 
 #include "sim/core/error.hpp"
@@ -79,14 +80,13 @@ VehicleConfig authors() {
 }
 
 /// The paper names the lab's frame, DJI F450, its autopilot (Pixhawk), computer (Jetson TX2),
-/// camera (ZED Mini) and LIDAR (Hokuyo), but no mass. RFL's quadrotor is the bare vehicle; the
-/// payload is taken as 0.5 kg within 12 cm x 12 cm x 15 cm, half above and half below the frame (8
-/// cm).
+/// camera (ZED Mini) and LIDAR (Hokuyo), but no mass. RFL is the bare vehicle; the payload is taken
+/// as 0.5 kg in boxes of 12 cm x 12 cm x 15 cm, half of it 8 cm above the frame, half 8 cm below.
 VehicleConfig f450() {
   VehicleConfig vehicle;
   vehicle.preset = "f450";
   AirframeParameters& a = vehicle.airframe;
-  a.mass_kg = 1.9;  // MRS: 1.7 with a smaller computer and no LIDAR
+  a.mass_kg = 1.9;  // MRS: 1.7 with an Intel NUC
   // RFL 0.0211, 0.0219, 0.0366, and the payload
   a.inertia_kg_m2 = {0.0258, 0.0266, 0.0378};
   const double arm_m = 0.225 * std::sqrt(0.5);  // wheelbase 450 mm, square

@@ -42,31 +42,6 @@ std::vector<VoxelIndex> voxels_of(std::span<const VoxelPlace> places) {
   return voxels;
 }
 
-std::vector<Vec3f> beams_of(const LidarConfig& lidar) {
-  std::vector<Vec3f> beams;
-  for (int beam = 0; beam < lidar.beams; ++beam) beams.push_back(beam_lidar(lidar, beam));
-  return beams;
-}
-
-std::vector<ScanRay> rays_along(const LidarScan& scan, const LidarConfig& lidar,
-                                std::span<const Vec3f> beams, double floor_z_m) {
-  GNBV_CHECK(scan.range_m.size() == beams.size(), "{} ranges for {} beams", scan.range_m.size(),
-             beams.size());
-  const auto range_min_m = static_cast<float>(lidar.range_min_m);
-  const auto range_max_m = static_cast<float>(lidar.range_max_m);
-  std::vector<ScanRay> rays;
-  rays.reserve(beams.size());
-  for (std::size_t b = 0; b < beams.size(); ++b) {
-    const float range_m = scan.range_m[b];
-    if (!(range_m >= range_min_m)) continue;
-    const bool has_return = range_m <= range_max_m;
-    const double along_m = has_return ? static_cast<double>(range_m) : lidar.range_max_m;
-    const Vec3 end_m = scan.T_world_lidar * (along_m * beams[b].cast<double>());
-    rays.push_back({end_m.cast<float>(), has_return && end_m.z() >= floor_z_m});
-  }
-  return rays;
-}
-
 }  // namespace
 
 std::vector<Vec3f> surface_points_world_m(std::span<const ScanRay> rays) {
@@ -109,8 +84,23 @@ std::vector<ScanRay> rays_of(const DepthFrame& frame, const CameraModel& camera,
   return rays;
 }
 
-std::vector<ScanRay> rays_of(const LidarScan& scan, const LidarConfig& lidar, double floor_z_m) {
-  return rays_along(scan, lidar, beams_of(lidar), floor_z_m);
+std::vector<ScanRay> rays_of(const LidarScan& scan, const LidarModel& lidar, double floor_z_m) {
+  const std::vector<Vec3f>& beams = lidar.beams_lidar;
+  GNBV_CHECK(scan.range_m.size() == beams.size(), "{} ranges for {} beams", scan.range_m.size(),
+             beams.size());
+  const auto range_min_m = static_cast<float>(lidar.config.range_min_m);
+  const auto range_max_m = static_cast<float>(lidar.config.range_max_m);
+  std::vector<ScanRay> rays;
+  rays.reserve(beams.size());
+  for (std::size_t b = 0; b < beams.size(); ++b) {
+    const float range_m = scan.range_m[b];
+    if (!(range_m >= range_min_m)) continue;
+    const bool has_return = range_m <= range_max_m;
+    const double along_m = has_return ? static_cast<double>(range_m) : lidar.config.range_max_m;
+    const Vec3 end_m = scan.T_world_lidar * (along_m * beams[b].cast<double>());
+    rays.push_back({end_m.cast<float>(), has_return && end_m.z() >= floor_z_m});
+  }
+  return rays;
 }
 
 void ScanInserter::need_walkers(int threads) {
@@ -161,12 +151,10 @@ ScanUpdate ScanInserter::compute_update(const Vec3f& origin_world_m, std::span<c
 }
 
 void ScanInserter::insert_scans(OccupancyGrid& grid, std::span<const LidarScan> scans,
-                                std::span<const LidarConfig> lidars, double floor_z_m,
+                                std::span<const LidarModel> lidars, double floor_z_m,
                                 int threads) {
   GNBV_CHECK(grid.geometry().min_key() == grid_.min_key() && grid.geometry().size() == grid_.size(),
              "another grid than the one this inserter was made for");
-  std::vector<std::vector<Vec3f>> beams;  // of each LIDAR
-  for (const LidarConfig& lidar : lidars) beams.push_back(beams_of(lidar));
   const auto workers = static_cast<std::size_t>(std::max(threads, 1));
   need_walkers(threads);
   std::vector<ScanUpdate> updates(kScansPerBatch);
@@ -178,9 +166,8 @@ void ScanInserter::insert_scans(OccupancyGrid& grid, std::span<const LidarScan> 
     std::atomic<std::size_t> next{0};
     parallel_for(threads, workers, [&](std::size_t w) {
       for (std::size_t s = next++; s < batch.size(); s = next++) {
-        const auto lidar = static_cast<std::size_t>(batch[s].lidar);
-        const std::vector<ScanRay> rays =
-            rays_along(batch[s], lidars[lidar], beams[lidar], floor_z_m);
+        const LidarModel& lidar = lidars[static_cast<std::size_t>(batch[s].lidar)];
+        const std::vector<ScanRay> rays = rays_of(batch[s], lidar, floor_z_m);
         const Vec3f origin_m = batch[s].T_world_lidar.translation().cast<float>();
         occupied[w].clear();
         collect_occupied(grid_, walkers_[w], rays, occupied[w]);
@@ -201,7 +188,7 @@ ScanUpdate compute_update(const GridGeometry& grid, const Vec3f& origin_world_m,
 }
 
 void insert_scans(OccupancyGrid& grid, std::span<const LidarScan> scans,
-                  std::span<const LidarConfig> lidars, double floor_z_m, int threads) {
+                  std::span<const LidarModel> lidars, double floor_z_m, int threads) {
   ScanInserter(grid.geometry()).insert_scans(grid, scans, lidars, floor_z_m, threads);
 }
 

@@ -19,7 +19,7 @@ namespace gnbv {
 std::vector<ScanRay> rays_of(const DepthFrame& frame, const CameraModel& camera, double floor_z_m);
 
 /// Rays of a sweep in beam order; the maximum range is a sphere.
-std::vector<ScanRay> rays_of(const LidarScan& scan, const LidarConfig& lidar, double floor_z_m);
+std::vector<ScanRay> rays_of(const LidarScan& scan, const LidarModel& lidar, double floor_z_m);
 
 /// The ends of the rays that hit: the points of the cloud.
 std::vector<Vec3f> surface_points_world_m(std::span<const ScanRay> rays);
@@ -38,7 +38,7 @@ class ScanInserter {
   /// Inserts the buffered profile: each sweep is one update, in order of time. LidarScan::lidar
   /// says which of `lidars` took it.
   void insert_scans(OccupancyGrid& grid, std::span<const LidarScan> scans,
-                    std::span<const LidarConfig> lidars, double floor_z_m, int threads);
+                    std::span<const LidarModel> lidars, double floor_z_m, int threads);
 
  private:
   void need_walkers(int threads);
@@ -53,6 +53,6 @@ class ScanInserter {
 ScanUpdate compute_update(const GridGeometry& grid, const Vec3f& origin_world_m,
                           std::span<const ScanRay> rays, int threads);
 void insert_scans(OccupancyGrid& grid, std::span<const LidarScan> scans,
-                  std::span<const LidarConfig> lidars, double floor_z_m, int threads);
+                  std::span<const LidarModel> lidars, double floor_z_m, int threads);
 
 }  // namespace gnbv

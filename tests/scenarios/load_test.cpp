@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "scenarios/builtin.hpp"
+#include "scenarios/sensor_presets.hpp"
 #include "scenarios/write.hpp"
 #include "sim/core/file.hpp"
 #include "tests/scenarios/scenario_text.hpp"
@@ -145,6 +146,72 @@ TEST(Overrides, AMapSetsWhatItNamesAListReplacesTheList) {
   EXPECT_EQ(s.planner.utility.beta, 0.5);
   ASSERT_EQ(s.cameras.size(), 1U);
   EXPECT_EQ(s.cameras[0].pitch_rad, 0.0) << "items of the new list start at defaults";
+}
+
+TEST(SensorPresets, BringTheirValuesAndTheKeysBesideThemOverride) {
+  const CameraConfig camera =
+      load_text(
+          "cameras: [{preset: zed_mini, name: eye, range_max_m: 7, noise: {baseline_m: 0.1}}]")
+          .cameras[0];
+  EXPECT_EQ(camera.name, "eye");
+  EXPECT_EQ(camera.fov_x_rad, deg_to_rad(90.0));
+  EXPECT_EQ(camera.range_min_m, 0.1);
+  EXPECT_EQ(camera.range_max_m, 7.0);
+  EXPECT_EQ(camera.noise.model, DepthNoise::stereo);
+  EXPECT_EQ(camera.noise.baseline_m, 0.1);
+  const LidarConfig lidar =
+      load_text(kMinimal + "lidar: {beams: 11, preset: hokuyo_ust_10lx}").lidar;
+  EXPECT_EQ(lidar.beams, 11) << "wherever among the keys the preset stands";
+  EXPECT_EQ(lidar.range_max_m, 10.0);
+  EXPECT_TRUE(lidar.rolling);
+}
+
+TEST(SensorPresets, LeaveNameAndMountingToTheVehicle) {
+  const Scenario s = load_text(
+      "cameras: [{name: a, pitch_deg: 20}, {name: b, p_body_m: [1, 2, 3], yaw_deg: 30}]\n"
+      "lidar: {pitch_deg: 5}",
+      {"cameras.0.preset=zed_mini", "cameras.1.preset=zed_mini", "lidar.preset=hokuyo_utm_30lx"});
+  EXPECT_EQ(s.cameras[0].name, "a");
+  EXPECT_EQ(s.cameras[1].name, "b");
+  EXPECT_EQ(s.cameras[0].pitch_rad, deg_to_rad(20.0));
+  EXPECT_EQ(s.cameras[1].yaw_rad, deg_to_rad(30.0));
+  EXPECT_EQ(s.cameras[1].p_body_m, Vec3(1, 2, 3));
+  EXPECT_EQ(s.lidar.pitch_rad, deg_to_rad(5.0));
+  EXPECT_EQ(s.lidar.beams, 1081);
+}
+
+TEST(SensorPresets, AreOverriddenOnlyByNamingAnother) {
+  const std::string text = "cameras: [{preset: zed_mini, range_max_m: 7}]\n";
+  EXPECT_EQ(load_text(text, {"cameras.0.preset=zed_mini"}).cameras[0].range_max_m, 7.0);
+  EXPECT_EQ(load_text(text, {"cameras.0.preset=rgbd_sim"}).cameras[0].range_max_m, 8.0);
+  EXPECT_EQ(load_text(text, {"cameras.0.width_px=80"}).cameras[0].range_max_m, 7.0);
+}
+
+TEST(SensorPresets, SurviveWritingAndReading) {
+  for (const std::string_view camera : kCameraPresets) {
+    for (const std::string_view lidar : kLidarPresets) {
+      const std::string text = fmt::format(
+          "cameras: [{{preset: {}, height_px: 99}}]\nlidar: {{preset: {}}}\n", camera, lidar);
+      const std::string yaml = to_yaml(load_text(text));
+      EXPECT_EQ(to_yaml(load_text(yaml)), yaml);
+      EXPECT_THAT(yaml, testing::HasSubstr(fmt::format("- preset: {}\n", camera)));
+      EXPECT_THAT(yaml, testing::HasSubstr("height_px: 99"));
+    }
+  }
+}
+
+TEST(SensorPresets, OfTheSimulationAreTheDefaults) {
+  EXPECT_EQ(kCameraPresets[0], CameraConfig{}.preset);
+  EXPECT_EQ(kLidarPresets[0], LidarConfig{}.preset);
+  EXPECT_THAT(load_text(kMinimal).cameras[0].noise.model, DepthNoise::none)
+      << "the paper states no noise";
+}
+
+TEST(SensorPresets, OfTheZedHasSquarePixelsAndItsMakersNoise) {
+  const CameraModel zed = make_camera_model(load_text("cameras: [{preset: zed_mini}]").cameras[0]);
+  EXPECT_NEAR(zed.fx_px / zed.fy_px, 1.0, 0.002);
+  const DepthNoiseConfig& noise = zed.config.noise;
+  EXPECT_NEAR(noise.disparity_noise_px / (zed.fx_px * noise.baseline_m), 2.48e-3, 5e-6);
 }
 
 TEST(Paths, OfAFileAreBesideItThoseOfAnOverrideInTheCurrentFolder) {

@@ -49,7 +49,7 @@ TEST(DepthCapture, PlaneIsReadExactlyAtEveryPixel) {
     for (const double yaw_deg : {0.0, 25.0}) {
       const CameraModel camera = camera_with(deg_to_rad(pitch_deg), 0.3, 200.0, 640, 480);
       const ViewPose pose{{1.25, -2.0, 3.0}, deg_to_rad(yaw_deg)};
-      const DepthFrame frame = capture_depth(scene, camera, 0, T_world_body(pose), 1);
+      const DepthFrame frame = capture_depth(scene, camera, 0, T_world_body(pose), {}, 1);
       for (int v = 0; v < 480; ++v) {
         for (int u = 0; u < 640; ++u) {
           const double expected_m = (5.0 - 1.25) / direction_world(camera, frame, u, v).x();
@@ -75,7 +75,7 @@ TEST(DepthCapture, InsideSphereReadsRadiusEverywhere) {
   ASSERT_GT(innermost_m, radius_m - 2e-3);
   const RayScene scene(world_of(ball, false));
   const CameraModel camera = camera_with(deg_to_rad(20.0), 0.3, 8.0, 640, 480);
-  const DepthFrame frame = capture_depth(scene, camera, 0, T_world_body({centre_m, 2.0}), 1);
+  const DepthFrame frame = capture_depth(scene, camera, 0, T_world_body({centre_m, 2.0}), {}, 1);
   for (int v = 0; v < 480; ++v) {
     for (int u = 0; u < 640; ++u) {
       const double range_m = at(camera, frame, u, v) * camera.ray_camera(u, v).norm();
@@ -99,7 +99,7 @@ TEST(DepthCapture, FieldOfViewEndsAtTheImageBorder) {
     // border pixel centres lie half a pixel inside; move the rim half a pixel to either side
     add_wall(wall, 5.0, -y_m, y_m, -z_m, z_m);
     const RayScene scene(world_of(wall, false));
-    const DepthFrame frame = capture_depth(scene, camera, 0, Isometry::Identity(), 1);
+    const DepthFrame frame = capture_depth(scene, camera, 0, Isometry::Identity(), {}, 1);
     const int lost = pixels_from_border < 1.0 ? 0 : 1;
     for (int v = 0; v < 480; ++v) {
       for (int u = 0; u < 640; ++u) {
@@ -115,7 +115,7 @@ TEST(DepthCapture, LeftOfTheImageIsLeftOfTheBody) {
   add_wall(wall, 5.0, 0.0, 50.0, -50.0, 50.0);  // y > 0 only
   const RayScene scene(world_of(wall, false));
   const CameraModel camera = camera_with(0.0, 0.3, 8.0);
-  const DepthFrame frame = capture_depth(scene, camera, 3, Isometry::Identity(), 1);
+  const DepthFrame frame = capture_depth(scene, camera, 3, Isometry::Identity(), {}, 1);
   EXPECT_EQ(frame.camera, 3);
   for (int v = 0; v < 48; ++v) {
     for (int u = 0; u < 64; ++u) EXPECT_EQ(is_depth(at(camera, frame, u, v)), u < 32);
@@ -126,7 +126,8 @@ TEST(DepthCapture, PositivePitchLooksDown) {
   const RayScene scene(world_of({}, true));
   // an odd number of rows, so that the middle row is the optical axis
   const CameraModel camera = camera_with(deg_to_rad(20.0), 0.3, 100.0, 65, 49);
-  const DepthFrame frame = capture_depth(scene, camera, 0, T_world_body({{7, 8, 5.0}, -1.0}), 1);
+  const DepthFrame frame =
+      capture_depth(scene, camera, 0, T_world_body({{7, 8, 5.0}, -1.0}), {}, 1);
   EXPECT_NEAR(at(camera, frame, 32, 24), 5.0 / std::sin(deg_to_rad(20.0)), 1e-4);  // float, 15 m
   EXPECT_LT(at(camera, frame, 32, 48), at(camera, frame, 32, 24));
   EXPECT_TRUE(is_no_return(at(camera, frame, 32, 0)));  // 2.5 degrees above the horizon
@@ -136,13 +137,14 @@ TEST(DepthCapture, GroundIsThePlaneZeroSeenFromBothSides) {
   const RayScene scene(world_of({}, true));
   const CameraModel down = camera_with(deg_to_rad(90.0), 0.3, 100.0);
   const CameraModel up = camera_with(deg_to_rad(-90.0), 0.3, 100.0);
-  const DepthFrame above = capture_depth(scene, down, 0, T_world_body({{-300, 20, 6.5}, 0.7}), 1);
-  const DepthFrame below = capture_depth(scene, up, 0, T_world_body({{30, 400, -2.0}, 0.7}), 1);
+  const DepthFrame above =
+      capture_depth(scene, down, 0, T_world_body({{-300, 20, 6.5}, 0.7}), {}, 1);
+  const DepthFrame below = capture_depth(scene, up, 0, T_world_body({{30, 400, -2.0}, 0.7}), {}, 1);
   for (const float depth_m : above.depth_m) ASSERT_NEAR(depth_m, 6.5, 6.5e-6);  // 1e-6 relative
   for (const float depth_m : below.depth_m) ASSERT_NEAR(depth_m, 2.0, 2.0e-6);
   const RayScene empty(world_of({}, false));
-  EXPECT_TRUE(
-      all_of_kind(capture_depth(empty, down, 0, T_world_body({{0, 0, 6.5}, 0}), 1), is_no_return));
+  EXPECT_TRUE(all_of_kind(capture_depth(empty, down, 0, T_world_body({{0, 0, 6.5}, 0}), {}, 1),
+                          is_no_return));
 }
 
 TEST(DepthCapture, NearerThanTheMinimumIsInvalid) {
@@ -150,10 +152,10 @@ TEST(DepthCapture, NearerThanTheMinimumIsInvalid) {
   add_wall(wall, 5.0, -50, 50, -50, 50);
   const RayScene scene(world_of(wall, false));
   const CameraModel camera = camera_with(0.0, 0.3, 8.0);
-  EXPECT_TRUE(
-      all_of_kind(capture_depth(scene, camera, 0, T_world_body({{4.71, 0, 0}, 0}), 1), is_invalid));
-  EXPECT_TRUE(
-      all_of_kind(capture_depth(scene, camera, 0, T_world_body({{4.69, 0, 0}, 0}), 1), is_depth));
+  EXPECT_TRUE(all_of_kind(capture_depth(scene, camera, 0, T_world_body({{4.71, 0, 0}, 0}), {}, 1),
+                          is_invalid));
+  EXPECT_TRUE(all_of_kind(capture_depth(scene, camera, 0, T_world_body({{4.69, 0, 0}, 0}), {}, 1),
+                          is_depth));
 }
 
 TEST(DepthCapture, TooNearASurfaceHidesWhatIsBehindIt) {
@@ -162,7 +164,7 @@ TEST(DepthCapture, TooNearASurfaceHidesWhatIsBehindIt) {
   add_wall(walls, 3.0, -50, 50, -50, 50);
   const RayScene scene(world_of(walls, false));
   const CameraModel camera = camera_with(0.0, 0.3, 8.0);
-  const DepthFrame frame = capture_depth(scene, camera, 0, Isometry::Identity(), 1);
+  const DepthFrame frame = capture_depth(scene, camera, 0, Isometry::Identity(), {}, 1);
   for (int v = 0; v < 48; ++v) {
     for (int u = 0; u < 64; ++u) {
       const float depth_m = at(camera, frame, u, v);
@@ -181,9 +183,9 @@ TEST(DepthCapture, MaximumRangeIsAPlane) {
   const RayScene scene(world_of(wall, false));
   const CameraModel camera = camera_with(0.0, 0.3, 8.0);
   // at 7.99 m depth the corner pixels are 9.8 m away, and still return
-  EXPECT_TRUE(
-      all_of_kind(capture_depth(scene, camera, 0, T_world_body({{2.01, 0, 0}, 0}), 1), is_depth));
-  EXPECT_TRUE(all_of_kind(capture_depth(scene, camera, 0, T_world_body({{1.99, 0, 0}, 0}), 1),
+  EXPECT_TRUE(all_of_kind(capture_depth(scene, camera, 0, T_world_body({{2.01, 0, 0}, 0}), {}, 1),
+                          is_depth));
+  EXPECT_TRUE(all_of_kind(capture_depth(scene, camera, 0, T_world_body({{1.99, 0, 0}, 0}), {}, 1),
                           is_no_return));
 }
 
@@ -196,7 +198,8 @@ TEST(DepthCapture, EqualsBruteForceAtEveryPixel) {
   for (int view = 0; view < 8; ++view) {
     const double yaw_rad = 0.8 * view;
     const Vec3 p_world_m(-5.0 * std::cos(yaw_rad), -5.0 * std::sin(yaw_rad), -1.0);
-    const DepthFrame frame = capture_depth(scene, camera, 0, T_world_body({p_world_m, yaw_rad}), 2);
+    const DepthFrame frame =
+        capture_depth(scene, camera, 0, T_world_body({p_world_m, yaw_rad}), {}, 2);
     for (int v = 0; v < 50; ++v) {
       for (int u = 0; u < 61; ++u) {
         const test::BruteHit expected = test::brute_first_hit(
@@ -229,11 +232,11 @@ TEST(DepthCapture, SameFrameForAnyThreadCount) {
   for (const auto& [width, height] : {std::pair(640, 480), std::pair(61, 47), std::pair(3, 2)}) {
     const CameraModel camera = camera_with(deg_to_rad(20.0), 0.3, 8.0, width, height);
     const Isometry T = T_world_body({{-6, 1, 4}, 0.3});
-    const DepthFrame one = capture_depth(scene, camera, 0, T, 1);
+    const DepthFrame one = capture_depth(scene, camera, 0, T, {}, 1);
     for (const int threads : {2, 5}) {
-      EXPECT_TRUE(same_bits(one.depth_m, capture_depth(scene, camera, 0, T, threads).depth_m));
+      EXPECT_TRUE(same_bits(one.depth_m, capture_depth(scene, camera, 0, T, {}, threads).depth_m));
     }
-    EXPECT_TRUE(same_bits(one.depth_m, capture_depth(rebuilt, camera, 0, T, 2).depth_m));
+    EXPECT_TRUE(same_bits(one.depth_m, capture_depth(rebuilt, camera, 0, T, {}, 2).depth_m));
   }
 }
 

@@ -18,10 +18,16 @@ LidarConfig lidar_with(double pitch_rad) {
 }
 constexpr std::size_t kForward = 360;
 
+/// A sweep from one place.
+LidarScan sweep(const RayScene& scene, const LidarConfig& lidar, const Isometry& T_world_body,
+                const NoiseKey& key = {}) {
+  return capture_scan(scene, make_lidar_model(lidar), 0, {&T_world_body, 1}, key);
+}
+
 TEST(LidarCapture, DefaultTiltPointsTheFanDownTenDegrees) {
   const RayScene scene(world_of({}, true));
   const LidarConfig lidar = lidar_with(LidarConfig{}.pitch_rad);
-  const LidarScan scan = capture_scan(scene, lidar, T_world_body({{3, 4, 2.0}, 1.1}));
+  const LidarScan scan = sweep(scene, lidar, T_world_body({{3, 4, 2.0}, 1.1}));
   for (int beam = 0; beam < lidar.beams; ++beam) {
     const double azimuth_rad = deg_to_rad(-90.0 + 0.25 * beam);
     const double expected_m = 2.0 / (std::sin(deg_to_rad(10.0)) * std::cos(azimuth_rad));
@@ -40,7 +46,7 @@ TEST(LidarCapture, BeamsRunCounterClockwiseFromTheRight) {
   add_wall(panels, 3.0, -0.5, 0.5, -1, 1);
   test::add_rectangle(panels, {-0.5, 4, -1}, {1, 0, 0}, {0, 0, 2});
   const RayScene scene(world_of(panels, false));
-  const LidarScan scan = capture_scan(scene, lidar_with(0.0), Isometry::Identity());
+  const LidarScan scan = sweep(scene, lidar_with(0.0), Isometry::Identity());
   ASSERT_EQ(scan.range_m.size(), 721U);
   EXPECT_NEAR(scan.range_m.front(), 2.0, 1e-5);
   EXPECT_NEAR(scan.range_m[kForward], 3.0, 1e-5);
@@ -53,7 +59,7 @@ TEST(LidarCapture, RangesAreSphericalUpToTheMaximum) {
   add_wall(wall, 20.0, -100, 100, -100, 100);
   const RayScene scene(world_of(wall, false));
   const LidarConfig lidar = lidar_with(0.0);
-  const LidarScan scan = capture_scan(scene, lidar, Isometry::Identity());
+  const LidarScan scan = sweep(scene, lidar, Isometry::Identity());
   int returns = 0;
   for (int beam = 0; beam < lidar.beams; ++beam) {
     const double cosine = std::cos(deg_to_rad(-90.0 + 0.25 * beam));
@@ -73,7 +79,7 @@ TEST(LidarCapture, TooNearASurfaceIsInvalidAndHides) {
   add_wall(walls, 0.05, -0.01, 0.01, -1, 1);
   add_wall(walls, 3.0, -50, 50, -1, 1);
   const RayScene scene(world_of(walls, false));
-  const LidarScan scan = capture_scan(scene, lidar_with(0.0), Isometry::Identity());
+  const LidarScan scan = sweep(scene, lidar_with(0.0), Isometry::Identity());
   EXPECT_TRUE(std::isnan(scan.range_m[kForward]));
   EXPECT_NEAR(scan.range_m[kForward + 120], 3.0 / std::cos(deg_to_rad(30.0)), 1e-5);
 }
@@ -83,7 +89,7 @@ TEST(LidarCapture, EqualsBruteForceAtEveryBeam) {
   const RayScene scene(world_of(soup, false));
   LidarConfig lidar;
   lidar.p_body_m = {0.1, 0.0, -0.05};
-  const LidarScan scan = capture_scan(scene, lidar, T_world_body({{-4, 0.5, 1}, 0.2}));
+  const LidarScan scan = sweep(scene, lidar, T_world_body({{-4, 0.5, 1}, 0.2}));
   int compared = 0;
   for (int beam = 0; beam < lidar.beams; ++beam) {
     const Vec3 direction = scan.T_world_lidar.linear() * beam_lidar(lidar, beam).cast<double>();

@@ -36,17 +36,17 @@ class Sliding final : public Flight {
 
 World sphere_world() { return test::world_of(test::sphere(Vec3::Zero(), 5.0, 4), false); }
 
-LidarConfig lidar_at(double rate_hz, bool rolling) {
+LidarModel lidar_at(double rate_hz, bool rolling) {
   LidarConfig lidar;
   lidar.beams = 91;
   lidar.rate_hz = rate_hz;
   lidar.pitch_rad = 0.0;
   lidar.rolling = rolling;
-  return lidar;
+  return make_lidar_model(lidar);
 }
 
 std::vector<LidarScan> scan_for(double seconds, double speed_m_s,
-                                const std::vector<LidarConfig>& lidars) {
+                                const std::vector<LidarModel>& lidars) {
   const World world = sphere_world();
   const RayScene scene(world);
   ProfileScanner scanner(scene, lidars, 1);
@@ -106,7 +106,7 @@ TEST(ProfileScan, SkewsByTheWayFlownDuringTheSweep) {
 TEST(ProfileScan, BeginsNoSweepWhileItIsOff) {
   const World world = sphere_world();
   const RayScene scene(world);
-  const std::vector<LidarConfig> lidars = {lidar_at(40.0, true)};
+  const std::vector<LidarModel> lidars = {lidar_at(40.0, true)};
   ProfileScanner scanner(scene, lidars, 1);
   Sliding flight(1.0);
   for (int i = 0; i < 250; ++i) {

@@ -38,7 +38,7 @@ void run(const RunOptions& options) {
 
 }  // namespace
 
-void add_mission_options(CLI::App& command, MissionOptions& options) {
+void add_scenario_options(CLI::App& command, MissionOptions& options) {
   command.add_option("SCENARIO", options.scenario, "built-in name or YAML file")->required();
   command.add_option("--mesh", options.mesh, "a mesh file instead of the scenario's structure");
   command.add_option("--seed", options.seed, "moves the start pose");
@@ -51,6 +51,10 @@ void add_mission_options(CLI::App& command, MissionOptions& options) {
           "auto: lay workspace and start around the structure, wherever it is; scenario: as it "
           "says")
       ->check(CLI::IsMember({"auto", "scenario"}));
+}
+
+void add_mission_options(CLI::App& command, MissionOptions& options) {
+  add_scenario_options(command, options);
   command.add_option("--out", options.out, "run directory (default: a new one under runs/)");
   command.add_option("--threads", options.threads, "0 = all; the result does not depend on it")
       ->check(CLI::Range(0, 1024));

@@ -14,9 +14,13 @@ class CommandFailed : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The options that every command which flies missions has.
+/// The options that say which scenario is meant: SCENARIO, --mesh, --seed, --set.
+void add_scenario_options(CLI::App& command, MissionOptions& options);
+
+/// Those, and the others that every command which flies missions has.
 void add_mission_options(CLI::App& command, MissionOptions& options);
 
+void add_fly_command(CLI::App& app);
 void add_run_command(CLI::App& app);
 void add_table_command(CLI::App& app);
 void add_render_command(CLI::App& app);

@@ -1,7 +1,6 @@
 #include "tools/gnbv/execute.hpp"
 
 #include <chrono>
-#include <csignal>
 #include <optional>
 #include <thread>
 
@@ -9,6 +8,7 @@
 #include "scenarios/problems.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "tools/gnbv/interrupt.hpp"
 #include "tools/gnbv/progress.hpp"
 #include "tools/mission/auto_bounds.hpp"
 #include "tools/mission/frame_files.hpp"
@@ -26,28 +26,6 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
-
-// a signal handler can reach nothing else
-volatile std::sig_atomic_t stop_requested = 0;
-
-/// While it lives, the first Ctrl-C (or SIGTERM) asks the mission to stop and the second one kills.
-class InterruptGuard {
- public:
-  InterruptGuard() {
-    stop_requested = 0;
-    const auto ask_to_stop = [](int signal) {
-      stop_requested = 1;
-      std::signal(signal, SIG_DFL);
-    };
-    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, ask_to_stop);
-  }
-  ~InterruptGuard() {
-    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
-  }
-  InterruptGuard(const InterruptGuard&) = delete;
-  InterruptGuard& operator=(const InterruptGuard&) = delete;
-  static bool requested() { return stop_requested != 0; }
-};
 
 /// Memory that grows with the threads is not in the scenario's own budget.
 void need_memory_for(const Scenario& scenario, int threads) {

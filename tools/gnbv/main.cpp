@@ -18,6 +18,7 @@ int run(int argc, char** argv) {
   CLI::App app("Next-best-view 3D reconstruction with a UAV: simulate, measure, compare.", "gnbv");
   app.set_version_flag("--version", GNBV_VERSION);
   app.require_subcommand(1);
+  gnbv::add_fly_command(app);
   gnbv::add_run_command(app);
   gnbv::add_table_command(app);
   gnbv::add_render_command(app);

@@ -27,6 +27,12 @@ class Stopwatch {
   Clock::time_point begin_;
 };
 
+std::vector<LidarModel> lidar_models(const Scenario& scenario) {
+  std::vector<LidarModel> models;
+  for (const LidarConfig& lidar : scenario.lidars) models.push_back(make_lidar_model(lidar));
+  return models;
+}
+
 /// All that changes while the mission runs, beside what never does.
 struct Mission {
   Mission(const Scenario& mission_scenario, const World& world, const RayScene& ray_scene,
@@ -34,7 +40,7 @@ struct Mission {
       : scenario(mission_scenario),
         scene(ray_scene),
         hooks(mission_hooks),
-        planner(scenario.planner, scenario.workspace_m, camera_models(scenario), scenario.lidars),
+        planner(scenario.planner, scenario.workspace_m, camera_models(scenario), lidar_models(scenario)),
         bench(planner, threads),
         out(start_pose(scenario, scene), planner),
         flight(make_flight(scenario.vehicle, world, out.start, scenario.seed)),
@@ -124,7 +130,7 @@ std::optional<Termination> scan_profile(Mission& m, ProfileScanner& scanner) {
 /// Profiles the structure with the LIDARs and believes the scans in one batch (section 2.2).
 std::optional<Termination> fly_profile(Mission& m) {
   const Stopwatch watch(m.out.wall.profile_s);
-  ProfileScanner scanner(m.scene, m.scenario.lidars, m.scenario.seed);
+  ProfileScanner scanner(m.scene, m.planner.lidars, m.scenario.seed);
   const std::optional<Termination> over = scan_profile(m, scanner);
   integrate_profile(m.planner, scanner.scans(), m.bench, m.out.belief);
   const auto points = m.out.belief.cloud.points_world_m();

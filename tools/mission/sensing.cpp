@@ -49,33 +49,33 @@ ColourFrame sense_colour(const RayScene& scene, const CameraModel& camera, int c
   return frame;
 }
 
-ProfileScanner::ProfileScanner(const RayScene& scene, std::span<const LidarConfig> lidars,
+ProfileScanner::ProfileScanner(const RayScene& scene, std::span<const LidarModel> lidars,
                                std::uint64_t seed)
     : scene_(scene), lidars_(lidars), seed_(seed), sweeps_(lidars.size()) {}
 
 void ProfileScanner::tick(const Flight& flight, bool is_on) {
   for (std::size_t i = 0; i < lidars_.size(); ++i) {
     Sweep& sweep = sweeps_[i];
-    if (sweep.T_world_body.empty() && is_on && is_due(lidars_[i].rate_hz, flight.tick())) {
+    if (sweep.T_world_body.empty() && is_on && is_due(lidars_[i].config.rate_hz, flight.tick())) {
       sweep.begin_tick = flight.tick();
       sweep.T_world_body_believed = flight.estimate().T_world_body;
     } else if (sweep.T_world_body.empty()) {
       continue;
     }
     sweep.T_world_body.push_back(flight.state().T_world_body);
-    if (sweep.T_world_body.size() > ticks_of(lidars_[i])) finish(i);
+    if (sweep.T_world_body.size() > ticks_of(lidars_[i].config)) finish(i);
   }
 }
 
 void ProfileScanner::finish(std::size_t i) {
-  const LidarConfig& lidar = lidars_[i];
+  const LidarModel& lidar = lidars_[i];
   Sweep& sweep = sweeps_[i];
   if (sweep.T_world_body.size() > 1) {
-    sweep.T_world_body = spread_over(sweep.T_world_body, sweep_duration_s(lidar));
+    sweep.T_world_body = spread_over(sweep.T_world_body, sweep_duration_s(lidar.config));
   }
   LidarScan scan = capture_scan(scene_, lidar, static_cast<int>(i), sweep.T_world_body,
                                 {seed_, static_cast<std::uint64_t>(sweep.begin_tick)});
-  scan.T_world_lidar = sweep.T_world_body_believed * T_body_lidar(lidar);
+  scan.T_world_lidar = sweep.T_world_body_believed * lidar.T_body_lidar;
   scans_.push_back(std::move(scan));
   sweep.T_world_body.clear();
 }

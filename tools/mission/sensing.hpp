@@ -25,7 +25,7 @@ ColourFrame sense_colour(const RayScene& scene, const CameraModel& camera, int c
 /// Collects the sweeps of all LIDARs while the vehicle flies.
 class ProfileScanner {
  public:
-  ProfileScanner(const RayScene& scene, std::span<const LidarConfig> lidars, std::uint64_t seed);
+  ProfileScanner(const RayScene& scene, std::span<const LidarModel> lidars, std::uint64_t seed);
 
   /// After every tick. Sweeps that are due begin only while `is_on`; those begun are finished.
   void tick(const Flight& flight, bool is_on);
@@ -43,7 +43,7 @@ class ProfileScanner {
   void finish(std::size_t lidar);
 
   const RayScene& scene_;
-  std::span<const LidarConfig> lidars_;
+  std::span<const LidarModel> lidars_;
   std::uint64_t seed_;
   std::vector<Sweep> sweeps_;  // of each LIDAR; without poses while none is under way
   std::vector<LidarScan> scans_;

@@ -88,7 +88,7 @@ TEST(RaysOf, LidarRangesAreSpherical) {
   LidarScan scan;
   scan.T_world_lidar = T_world_body({Vec3(1, 2, 20), 0.3}) * T_body_lidar(lidar);
   scan.range_m = {kNoReturn, kInvalidRange, 7.0F, 31.0F, 0.05F};
-  const std::vector<ScanRay> rays = rays_of(scan, lidar, kFloor_m);
+  const std::vector<ScanRay> rays = rays_of(scan, make_lidar_model(lidar), kFloor_m);
   ASSERT_EQ(rays.size(), 3U);
   const std::array<double, 3> range_m = {30.0, 7.0, 30.0};
   const std::array<int, 3> beam = {0, 2, 3};

@@ -107,12 +107,13 @@ std::vector<LidarScan> example_scans(const LidarConfig& lidar, int count) {
 TEST(ScanInsertion, LidarSweepsEqualOctomapVoxelByVoxel) {
   LidarConfig lidar;
   lidar.beams = 120;
+  const LidarModel model = make_lidar_model(lidar);
   const std::vector<LidarScan> scans = example_scans(lidar, 70);  // more than one batch
   OccupancyGrid grid(OccupancyConfig{}, Box3(Vec3(-10, -10, 0), Vec3(10, 10, 8)));
   OctomapTwin twin(grid.config());
-  insert_scans(grid, scans, {&lidar, 1}, 0.3, 2);
+  insert_scans(grid, scans, {&model, 1}, 0.3, 2);
   for (const LidarScan& scan : scans) {
-    twin.insert(scan.T_world_lidar.translation().cast<float>(), rays_of(scan, lidar, 0.3));
+    twin.insert(scan.T_world_lidar.translation().cast<float>(), rays_of(scan, model, 0.3));
   }
   expect_equal(grid, twin);
 }
@@ -120,13 +121,14 @@ TEST(ScanInsertion, LidarSweepsEqualOctomapVoxelByVoxel) {
 TEST(ScanInsertion, BatchOfSweepsIsTheSameAtAnyThreadCount) {
   LidarConfig lidar;
   lidar.beams = 90;
+  const LidarModel model = make_lidar_model(lidar);
   const std::vector<LidarScan> scans = example_scans(lidar, 130);  // more than one batch
   const Box3 box_m(Vec3(-10, -10, 0), Vec3(10, 10, 8));
   OccupancyGrid one(OccupancyConfig{}, box_m);
-  insert_scans(one, scans, {&lidar, 1}, 0.3, 1);
+  insert_scans(one, scans, {&model, 1}, 0.3, 1);
   for (const int threads : {2, 5}) {
     OccupancyGrid many(OccupancyConfig{}, box_m);
-    insert_scans(many, scans, {&lidar, 1}, 0.3, threads);
+    insert_scans(many, scans, {&model, 1}, 0.3, threads);
     EXPECT_TRUE(std::ranges::equal(one.all_log_odds(), many.all_log_odds()));
     EXPECT_EQ(one.total_entropy_nat(), many.total_entropy_nat());
   }

@@ -1,0 +1,98 @@
+// The camera in colour. Its rays are those of capture_depth, so that the two agree pixel by pixel.
+#include <limits>
+#include <vector>
+
+#include "sensors/capture.hpp"
+#include "sensors/light.hpp"
+#include "sensors/pixel_tiles.hpp"
+#include "sim/core/error.hpp"
+#include "sim/texture.hpp"
+
+namespace gnbv {
+namespace {
+
+/// Shadow rays begin this far off the surface, towards who looks: more than a float's rounding
+/// within a kilometre, less than anything worth a shadow.
+constexpr float kOffSurface_m = 1e-3F;
+
+/// What the rays of one packet meet, where it is, and how it is lit.
+struct Surface {
+  std::array<Vec3f, RayPacket::kRays> p_world_m;
+  std::array<Vec3f, RayPacket::kRays> normal_world;  // towards who looks
+  std::array<std::uint8_t, RayPacket::kRays> is_dark{};
+};
+
+struct ColourCapture {
+  const RayScene& scene;
+  Vec3f origin_world_m;
+  Material ground;
+  PixelTiles tiles;
+  SrgbTable srgb;
+  ColourFrame& frame;
+
+  void capture_run(const TileRun& run, RunRays& rays) const {
+    tiles.directions_world(run, rays.directions_world);
+    scene.first_hits(origin_world_m, rays.directions_world, 0.0F,
+                     std::numeric_limits<float>::infinity(), rays.hits);
+    std::vector<Surface> surfaces;
+    for (std::size_t tile = 0; tile < rays.hits.size(); ++tile) {
+      surfaces.push_back(surface_of(rays.directions_world[tile], rays.hits[tile]));
+    }
+    tiles.for_each_pixel(run, [&](std::size_t tile, std::size_t ray, std::size_t pixel) {
+      const std::int32_t face = rays.hits[tile].face[ray];
+      frame.rgb[pixel] =
+          srgb(face == kNoFace ? sky_colour(rays.directions_world[tile].direction(ray))
+                               : colour_of(face, surfaces[tile], ray));
+    });
+  }
+
+  Surface surface_of(const RayPacket& directions_world, const HitPacket& hits) const {
+    Surface surface;
+    std::array<Vec3f, RayPacket::kRays> off_surface_m;
+    for (std::size_t ray = 0; ray < RayPacket::kRays; ++ray) {
+      const bool is_hit = hits.face[ray] != kNoFace;  // else its place is that of the camera
+      const Vec3f direction = directions_world.direction(ray);
+      Vec3f normal = is_hit ? scene.normal_world(hits.face[ray]) : Vec3f::Zero();
+      if (normal.dot(direction) > 0.0F) normal = -normal;  // faces have two sides
+      surface.normal_world[ray] = normal;
+      surface.p_world_m[ray] = origin_world_m;
+      if (is_hit) surface.p_world_m[ray] += hits.distance_m[ray] * direction;
+      off_surface_m[ray] = surface.p_world_m[ray] + kOffSurface_m * normal;
+    }
+    std::array<Vec3f, RayPacket::kRays> sunwards;
+    sunwards.fill(towards_sun_world());
+    scene.structure_blocks(off_surface_m, sunwards, 0.0F, surface.is_dark);
+    return surface;
+  }
+
+  Vec3f colour_of(std::int32_t face, const Surface& surface, std::size_t ray) const {
+    const Material& material = face == kGroundFace ? ground : scene.material(face);
+    const auto [r, g, b] = albedo(material, surface.p_world_m[ray], surface.normal_world[ray]);
+    return lit_colour({r, g, b}, surface.normal_world[ray], surface.is_dark[ray] == 0);
+  }
+};
+
+}  // namespace
+
+ColourFrame capture_colour(const RayScene& scene, const CameraModel& camera, int camera_index,
+                           const Isometry& T_world_body, int threads) {
+  const CameraConfig& config = camera.config;
+  GNBV_CHECK(config.width_px > 0 && config.height_px > 0, "camera {} has {} x {} pixels",
+             config.name, config.width_px, config.height_px);
+  ColourFrame frame;
+  frame.camera = camera_index;
+  frame.T_world_camera = T_world_body * camera.T_body_camera;
+  frame.rgb.resize(static_cast<std::size_t>(config.width_px) *
+                   static_cast<std::size_t>(config.height_px));
+  const ColourCapture capture = {scene,
+                                 frame.T_world_camera.translation().cast<float>(),
+                                 ground_material(),
+                                 PixelTiles(camera, frame.T_world_camera),
+                                 SrgbTable(),
+                                 frame};
+  for_each_tile_run(capture.tiles, threads,
+                    [&](const TileRun& run, RunRays& rays) { capture.capture_run(run, rays); });
+  return frame;
+}
+
+}  // namespace gnbv

@@ -1,0 +1,115 @@
+#include "sim/mavlink/border.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnbv::mavlink {
+namespace {
+
+constexpr std::uint8_t kFrameLocalNed = 1;  // MAV_FRAME
+constexpr std::uint8_t kFrameBodyNed = 8;
+
+// POSITION_TARGET_TYPEMASK: what to ignore, and what the acceleration means
+constexpr unsigned kIgnoreX = 1;  // y and z in the next bits
+constexpr unsigned kIgnoreVx = 8;
+constexpr unsigned kIgnoreAx = 64;
+constexpr unsigned kForce = 512;
+constexpr unsigned kIgnoreYaw = 1024;
+constexpr unsigned kIgnoreYawRate = 2048;
+
+constexpr double kNotControlled = std::numeric_limits<double>::quiet_NaN();
+
+double unless_ignored(float value, unsigned type_mask, unsigned bit) {
+  return (type_mask & bit) != 0 ? kNotControlled : static_cast<double>(value);
+}
+
+/// The three axes, each NaN when its bit is set.
+Vec3 unless_ignored(const std::array<float, 3>& v, unsigned type_mask, unsigned first_bit) {
+  return {unless_ignored(v[0], type_mask, first_bit),
+          unless_ignored(v[1], type_mask, first_bit << 1),
+          unless_ignored(v[2], type_mask, first_bit << 2)};
+}
+
+std::array<float, 3> as_floats(const Vec3& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+/// Turned about the vertical; NaN as a whole when one axis is.
+Vec3 world_from_level_frd(const Vec3& v_frd, double yaw_world_rad) {
+  if (v_frd.hasNaN()) return Vec3::Constant(kNotControlled);
+  return Eigen::AngleAxisd(yaw_world_rad, Vec3::UnitZ()) * swap_flu_frd(v_frd);
+}
+
+bool is_infinite(const Setpoint& s) {
+  const auto any = [](const Vec3& v) { return v.array().isInf().any(); };
+  return any(s.p_world_m) || any(s.v_world_m_s) || any(s.a_world_m_s2) || std::isinf(s.yaw_rad) ||
+         std::isinf(s.yaw_rate_rad_s);
+}
+
+bool controls_something(const Setpoint& s) {
+  const auto any = [](const Vec3& v) { return !v.array().isNaN().all(); };
+  return any(s.p_world_m) || any(s.v_world_m_s) || any(s.a_world_m_s2);
+}
+
+}  // namespace
+
+Euler euler_ned_frd(const Isometry& T_world_body) {
+  const auto axis_ned = [&](const Vec3& axis_frd) {
+    return swap_enu_ned(T_world_body.linear() * swap_flu_frd(axis_frd));
+  };
+  const Vec3 forward = axis_ned(Vec3::UnitX());
+  const double down_of_right = axis_ned(Vec3::UnitY()).z();
+  const double down_of_down = axis_ned(Vec3::UnitZ()).z();
+  return {.roll_rad = std::atan2(down_of_right, down_of_down),
+          .pitch_rad = std::atan2(-forward.z(), std::hypot(forward.x(), forward.y())),
+          .yaw_rad = std::atan2(forward.y(), forward.x())};
+}
+
+Attitude attitude_of(const VehicleState& state, std::uint32_t time_boot_ms) {
+  const Euler euler = euler_ned_frd(state.T_world_body);
+  const Vec3 omega_frd_rad_s = swap_flu_frd(state.omega_body_rad_s);
+  return {.time_boot_ms = time_boot_ms,
+          .roll_rad = static_cast<float>(euler.roll_rad),
+          .pitch_rad = static_cast<float>(euler.pitch_rad),
+          .yaw_rad = static_cast<float>(euler.yaw_rad),
+          .roll_speed_rad_s = static_cast<float>(omega_frd_rad_s.x()),
+          .pitch_speed_rad_s = static_cast<float>(omega_frd_rad_s.y()),
+          .yaw_speed_rad_s = static_cast<float>(omega_frd_rad_s.z())};
+}
+
+LocalPositionNed local_position_of(const VehicleState& state, std::uint32_t time_boot_ms) {
+  return {.time_boot_ms = time_boot_ms,
+          .p_ned_m = as_floats(swap_enu_ned(state.T_world_body.translation())),
+          .v_ned_m_s = as_floats(swap_enu_ned(state.v_world_m_s))};
+}
+
+std::variant<Setpoint, Refusal> setpoint_of(const SetPositionTargetLocalNed& message,
+                                            double yaw_world_rad) {
+  const unsigned mask = message.type_mask;
+  if (message.coordinate_frame != kFrameLocalNed && message.coordinate_frame != kFrameBodyNed) {
+    return Refusal{fmt::format("setpoint frame {} unsupported", message.coordinate_frame)};
+  }
+  if ((mask & kForce) != 0) return Refusal{"setpoint of force not supported"};
+
+  const Vec3 v_m_s = unless_ignored(message.v_m_s, mask, kIgnoreVx);
+  const Vec3 a_m_s2 = unless_ignored(message.a_m_s2, mask, kIgnoreAx);
+  Setpoint setpoint;
+  if (message.coordinate_frame == kFrameLocalNed) {
+    setpoint.p_world_m = swap_enu_ned(unless_ignored(message.p_m, mask, kIgnoreX));
+    setpoint.v_world_m_s = swap_enu_ned(v_m_s);
+    setpoint.a_world_m_s2 = swap_enu_ned(a_m_s2);
+  } else {
+    setpoint.v_world_m_s = world_from_level_frd(v_m_s, yaw_world_rad);
+    setpoint.a_world_m_s2 = world_from_level_frd(a_m_s2, yaw_world_rad);
+  }
+  // NaN passes through: std::remainder of NaN is NaN, and so is its negative
+  setpoint.yaw_rad = swap_yaw_enu_ned(unless_ignored(message.yaw_rad, mask, kIgnoreYaw));
+  setpoint.yaw_rate_rad_s = -unless_ignored(message.yaw_rate_rad_s, mask, kIgnoreYawRate);
+  if (is_infinite(setpoint)) return Refusal{"setpoint with infinite numbers"};
+  if (!controls_something(setpoint)) return Refusal{"setpoint invalid: nothing to control"};
+  return setpoint;
+}
+
+}  // namespace gnbv::mavlink

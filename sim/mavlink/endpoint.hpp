@@ -1,0 +1,74 @@
+// The vehicle's end of a MAVLink connection, without the network: datagrams in, frames out. The
+// vehicle is system 1, component 1, and speaks MAVLink 2.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sim/mavlink/link.hpp"
+#include "sim/quadrotor.hpp"
+
+namespace gnbv::mavlink {
+
+/// What became of the frames that the link accepted, and what was sent.
+struct EndpointCounts {
+  std::uint64_t setpoints = 0;
+  std::uint64_t refused_setpoints = 0;
+  std::uint64_t commands = 0;
+  std::uint64_t ignored = 0;  // for another system, or a message the vehicle has no ear for
+  std::uint64_t sent = 0;
+};
+
+class Endpoint {
+ public:
+  /// `battery_wh` as PowerParameters has it.
+  explicit Endpoint(double battery_wh) : battery_wh_(battery_wh) {}
+
+  /// Does what the client asks for: COMMAND_LONG and SET_MODE, each acknowledged, and
+  /// SET_POSITION_TARGET_LOCAL_NED. `now_s` is wall time from any origin.
+  void receive(std::span<const std::uint8_t> datagram, const Address& from, double now_s,
+               Quadrotor& vehicle);
+  void count_oversized_datagram() { link_.count_oversized_datagram(); }
+
+  /// The frames to send to client(), each a datagram: acknowledgements, texts, and the telemetry
+  /// that is due by wall time. Empty without a client. State and position are the autopilot's
+  /// estimate; times are simulation time.
+  std::vector<std::vector<std::uint8_t>> take_outgoing(double now_s, Quadrotor& vehicle);
+
+  const std::optional<Address>& client() const { return link_.client(); }
+  const LinkCounts& link_counts() const { return link_.counts(); }
+  const EndpointCounts& counts() const { return counts_; }
+
+ private:
+  void obey(const Frame& frame, double now_s, Quadrotor& vehicle);
+  void obey(const Px4Command& command, const Frame& frame, Quadrotor& vehicle);
+  void obey(const SetPositionTargetLocalNed& message, double now_s, Quadrotor& vehicle);
+  void say(const gnbv::StatusText& text);
+  void send_telemetry(double now_s, const Quadrotor& vehicle);
+  template <typename Message>
+  void send(const Message& message);
+
+  double battery_wh_;
+  Link link_;
+  EndpointCounts counts_;
+  std::vector<std::vector<std::uint8_t>> outgoing_;
+  std::uint8_t sequence_ = 0;
+  std::uint16_t text_id_ = 0;
+  std::string refusal_told_;
+  double refusal_told_s_ = 0.0;
+
+  /// When each message is to be sent next.
+  struct Due {
+    double heartbeat_s = 0.0;
+    double attitude_s = 0.0;
+    double local_position_s = 0.0;
+    double battery_s = 0.0;
+    double extended_state_s = 0.0;
+  };
+  Due due_;
+};
+
+}  // namespace gnbv::mavlink

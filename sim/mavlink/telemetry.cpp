@@ -1,0 +1,113 @@
+#include "sim/mavlink/telemetry.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/error.hpp"
+
+namespace gnbv::mavlink {
+namespace {
+
+constexpr std::uint8_t kQuadrotor = 2;          // MAV_TYPE
+constexpr std::uint8_t kPx4 = 12;               // MAV_AUTOPILOT
+constexpr std::uint8_t kCustomModeEnabled = 1;  // MAV_MODE_FLAG
+constexpr std::uint8_t kSafetyArmed = 128;
+constexpr std::uint8_t kStandby = 3;  // MAV_STATE
+constexpr std::uint8_t kActive = 4;
+constexpr std::uint8_t kCritical = 5;
+constexpr std::uint8_t kOnGround = 1;  // MAV_LANDED_STATE
+constexpr std::uint8_t kInAir = 2;
+constexpr std::uint8_t kLithiumPolymer = 1;  // MAV_BATTERY_TYPE
+constexpr std::uint16_t kDoSetMode = 176;    // MAV_CMD
+
+constexpr std::uint32_t main_mode(std::uint32_t mode) { return mode << 16; }
+constexpr std::uint32_t auto_mode(std::uint32_t sub_mode) { return main_mode(4) | sub_mode << 24; }
+
+}  // namespace
+
+std::uint32_t custom_mode_of(NavState state) {
+  switch (state) {
+    case NavState::manual:
+      return main_mode(1);
+    case NavState::altitude:
+      return main_mode(2);
+    case NavState::position:
+      return main_mode(3);
+    case NavState::takeoff:
+      return auto_mode(2);
+    case NavState::hold:
+      return auto_mode(3);
+    case NavState::mission:
+      return auto_mode(4);
+    case NavState::rtl:
+      return auto_mode(5);
+    case NavState::land:
+    case NavState::descend:
+      return auto_mode(6);
+    case NavState::offboard:
+      return main_mode(6);
+    case NavState::stabilized:
+      return main_mode(7);
+    case NavState::terminate:
+      return main_mode(10);
+  }
+  GNBV_CHECK(false, "no such navigation state: {}", static_cast<int>(state));
+  return 0;
+}
+
+Heartbeat heartbeat_of(const Px4& px4) {
+  const std::uint8_t armed = px4.is_armed() ? kSafetyArmed : 0;
+  return {.custom_mode = custom_mode_of(px4.nav_state()),
+          .type = kQuadrotor,
+          .autopilot = kPx4,
+          .base_mode = static_cast<std::uint8_t>(kCustomModeEnabled | armed),
+          .system_status = px4.is_in_failsafe() ? kCritical
+                           : px4.is_armed()     ? kActive
+                                                : kStandby};
+}
+
+ExtendedSysState extended_sys_state_of(const Px4& px4) {
+  return {.landed_state = px4.is_landed() ? kOnGround : kInAir};
+}
+
+BatteryStatus battery_status_of(double energy_used_wh, double battery_wh) {
+  BatteryStatus status;
+  status.type = kLithiumPolymer;
+  status.energy_consumed_hj = static_cast<std::int32_t>(std::lround(36.0 * energy_used_wh));
+  if (battery_wh > 0.0) {
+    const double left = std::clamp(1.0 - energy_used_wh / battery_wh, 0.0, 1.0);
+    status.remaining_percent = static_cast<std::int8_t>(std::lround(100.0 * left));
+  }
+  return status;
+}
+
+std::vector<StatusText> status_texts_of(const gnbv::StatusText& said, std::uint16_t id) {
+  const std::size_t width = StatusText{}.text.size();
+  const bool is_long = said.text.size() > width;
+  std::vector<StatusText> chunks;
+  std::size_t begin = 0;
+  do {
+    StatusText chunk{.severity = static_cast<std::uint8_t>(said.severity),
+                     .id = is_long ? id : std::uint16_t{0},
+                     .chunk_seq = static_cast<std::uint8_t>(chunks.size())};
+    const std::string_view part = std::string_view(said.text).substr(begin, width);
+    std::ranges::copy(part, chunk.text.begin());
+    chunks.push_back(chunk);
+    begin += width;
+    // a text is over at its first chunk with a NUL: one that ends with a full chunk needs another
+  } while (begin < said.text.size() || (is_long && begin == said.text.size()));
+  return chunks;
+}
+
+Px4Command command_of(const CommandLong& message) {
+  return {.id = message.command, .param = message.param};
+}
+
+Px4Command command_of(const SetMode& message) {
+  return {.id = kDoSetMode,
+          .param = {static_cast<float>(message.base_mode),
+                    static_cast<float>(message.custom_mode >> 16 & 0xff),
+                    static_cast<float>(message.custom_mode >> 24), 0.0F, 0.0F, 0.0F, 0.0F}};
+}
+
+}  // namespace gnbv::mavlink

@@ -1,0 +1,25 @@
+// The autopilot's own words in MAVLink's: modes, battery, texts. (State: sim/mavlink/border.hpp.)
+#pragma once
+
+#include <vector>
+
+#include "sim/mavlink/messages.hpp"
+#include "sim/px4.hpp"
+
+namespace gnbv::mavlink {
+
+/// PX4's custom mode (px4_custom_mode.h): main mode << 16 | sub mode << 24.
+std::uint32_t custom_mode_of(NavState state);
+
+Heartbeat heartbeat_of(const Px4& px4);
+ExtendedSysState extended_sys_state_of(const Px4& px4);
+/// `battery_wh` 0: never empty, the remaining share is unknown.
+BatteryStatus battery_status_of(double energy_used_wh, double battery_wh);
+/// One message for up to 50 characters, and chunks with the same `id` (not 0) for more.
+std::vector<StatusText> status_texts_of(const gnbv::StatusText& said, std::uint16_t id);
+
+/// The command that a COMMAND_LONG, or a SET_MODE, stands for.
+Px4Command command_of(const CommandLong& message);
+Px4Command command_of(const SetMode& message);
+
+}  // namespace gnbv::mavlink

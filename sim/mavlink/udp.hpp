@@ -1,0 +1,49 @@
+// The one file that talks to the network: a non-blocking UDP socket (POSIX, IPv4).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "sim/mavlink/link.hpp"
+
+namespace gnbv::mavlink {
+
+/// udp://a.b.c.d:port
+std::string url_of(const Address& address);
+
+/// The address that "udp://HOST:PORT" names. HOST may be left out and is then the loopback, never
+/// all interfaces; PORT 0 means any free one. Throws BadInput naming the URL.
+Address resolve_udp_url(const std::string& url);
+
+class UdpSocket {
+ public:
+  /// Binds. Throws BadInput with the address and the system's reason when that is not possible.
+  explicit UdpSocket(const Address& address);
+  ~UdpSocket();
+  UdpSocket(const UdpSocket&) = delete;
+  UdpSocket& operator=(const UdpSocket&) = delete;
+
+  /// Where it is bound: the address asked for, with the port that was found for 0.
+  Address address() const;
+
+  struct Datagram {
+    Address from;
+    std::span<const std::uint8_t> bytes;  // valid until the next call
+    bool is_oversized = false;            // longer than the buffer; `bytes` is its beginning
+  };
+  /// The next datagram, if one has come.
+  std::optional<Datagram> receive();
+  /// Returns at the next datagram, after `timeout_s`, or on a signal.
+  void wait(double timeout_s) const;
+  /// Whether the system took it. UDP may lose it all the same.
+  bool send(std::span<const std::uint8_t> bytes, const Address& to) const;
+
+ private:
+  int descriptor_ = -1;
+  std::array<std::uint8_t, 2048> buffer_{};  // seven frames of the greatest size
+};
+
+}  // namespace gnbv::mavlink

@@ -1,0 +1,286 @@
+// Each law of depth noise, measured on frames of a wall: at n pixels an error of 5 % in a
+// coefficient, which is 10 % of the variance, lies 10 % / sqrt(2 / n) standard deviations off, that
+// is 12 at n = 30,000, where four are allowed.
+#include "sensors/depth_noise.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <optional>
+
+#include "sensors/capture.hpp"
+#include "tests/sensors/shapes.hpp"
+#include "tests/sensors/statistics.hpp"
+
+namespace gnbv {
+namespace {
+
+using test::add_rectangle;
+using test::is_standard;
+using test::moments;
+using test::world_of;
+
+constexpr DepthNoise kModels[] = {DepthNoise::released, DepthNoise::khoshelham, DepthNoise::nguyen,
+                                  DepthNoise::stereo};
+
+CameraConfig narrow_camera(DepthNoise model) {
+  CameraConfig config;
+  config.width_px = 240;
+  config.height_px = 160;
+  config.fov_x_rad = deg_to_rad(3.0);  // so that depth and incidence are nearly the same everywhere
+  config.fov_y_rad = deg_to_rad(2.0);
+  config.range_min_m = 0.1;
+  config.range_max_m = 20.0;
+  config.noise.model = model;
+  return config;
+}
+
+/// A wall through (z_m, 0, 0) whose normal is `tilt_rad` off the camera's axis, about body z.
+TriangleMesh slanted_wall(double z_m, double tilt_rad) {
+  TriangleMesh wall;
+  const Vec3 along(-std::sin(tilt_rad), std::cos(tilt_rad), 0.0);
+  const Vec3 up(0.0, 0.0, 20.0);
+  add_rectangle(wall, Vec3(z_m, 0, 0) - 40.0 * along - up, 80.0 * along, 2.0 * up);
+  return wall;
+}
+
+/// Errors of a frame of the wall, each over the deviation that `sigma` gives it.
+template <typename Sigma>
+test::Moments errors(const CameraConfig& config, double z_m, double tilt_rad, const NoiseKey& key,
+                     const Sigma& sigma) {
+  const RayScene scene(world_of(slanted_wall(z_m, tilt_rad), false));
+  const CameraModel camera = make_camera_model(config);
+  const DepthFrame frame = capture_depth(scene, camera, 0, Isometry::Identity(), key, 2);
+  std::vector<double> sample;
+  for (int v = 0; v < config.height_px; ++v) {
+    for (int u = 0; u < config.width_px; ++u) {
+      const Vec3 ray = R_body_optical() * camera.ray_camera(u, v).cast<double>();
+      const Vec3 normal(std::cos(tilt_rad), std::sin(tilt_rad), 0.0);
+      const double true_m = z_m * normal.x() / normal.dot(ray);
+      const double theta_rad = std::acos(normal.dot(ray) / ray.norm());
+      const auto pixel = static_cast<std::size_t>(v * config.width_px + u);
+      sample.push_back((frame.depth_m[pixel] - true_m) / sigma(true_m, theta_rad));
+    }
+  }
+  return moments(sample);
+}
+
+TEST(DepthNoise, ReleasedGrowsWithTheSquareOfTheDepth) {
+  for (const double z_m : {0.7, 3.0, 8.0}) {
+    EXPECT_TRUE(is_standard(errors(narrow_camera(DepthNoise::released), z_m, 0.5, {3, 5},
+                                   [](double z, double) { return 0.0025 * z * z; })))
+        << z_m;
+  }
+}
+
+TEST(DepthNoise, KhoshelhamGrowsWithTheSquareOfTheDepth) {
+  // the source's own figure: about 4 cm at the maximum range of 5 m, here 3.6 cm
+  CameraModel camera = make_camera_model(narrow_camera(DepthNoise::khoshelham));
+  EXPECT_NEAR(depth_sigma_m(camera, 5.0, 0.0), 0.0356, 1e-4);
+  for (const double z_m : {0.7, 3.0, 5.0}) {
+    EXPECT_TRUE(is_standard(errors(camera.config, z_m, 0.5, {3, 6}, [](double z, double) {
+      return 1.425e-3 * z * z;
+    }))) << z_m;
+  }
+}
+
+TEST(DepthNoise, StereoIsAnErrorOfTheDisparity) {
+  CameraConfig config = narrow_camera(DepthNoise::stereo);
+  config.noise.baseline_m = 0.07;
+  config.noise.disparity_noise_px = 1.3;  // of a long lens: 4583 pixels
+  const double focal_px = 120.0 / std::tan(deg_to_rad(1.5));
+  for (const double z_m : {0.7, 3.0, 8.0}) {
+    EXPECT_TRUE(is_standard(errors(config, z_m, 0.5, {3, 7}, [&](double z, double) {
+      return z * z * 1.3 / (focal_px * 0.07);
+    }))) << z_m;
+  }
+  // the ZED Mini at 1280 x 720, as its maker's figures give it
+  CameraConfig zed;
+  zed.width_px = 1280;
+  zed.fov_x_rad = deg_to_rad(90.0);
+  zed.noise = {DepthNoise::stereo, 0.063, 0.1};
+  EXPECT_NEAR(depth_sigma_m(make_camera_model(zed), 1.0, 0.0), 2.48e-3, 5e-6);
+}
+
+/// Nguyen's axial law as published.
+double nguyen_axial_m(double z_m, double theta_rad) {
+  const double facing_m = 0.0012 + 0.0019 * std::pow(z_m - 0.4, 2);
+  if (theta_rad <= deg_to_rad(60.0)) return facing_m;
+  return facing_m + 0.0001 / std::sqrt(z_m) * std::pow(theta_rad / (0.5 * kPi - theta_rad), 2);
+}
+
+TEST(DepthNoise, NguyenDependsOnDepthAndIncidence) {
+  for (const double z_m : {0.6, 1.5, 4.0}) {
+    for (const double tilt_deg : {0.0, 40.0, 58.0, 65.0, 75.0}) {
+      // a lateral displacement of s pixels on a slanted wall is a depth of s z tan(theta) / f, too
+      const CameraConfig config = narrow_camera(DepthNoise::nguyen);
+      const double focal_px = make_camera_model(config).fx_px;
+      const auto sigma_m = [&](double z, double theta_rad) {
+        const double lateral_px = 0.8 + 0.035 * theta_rad / (0.5 * kPi - theta_rad);
+        const double slanted_m = lateral_px * z * std::tan(theta_rad) / focal_px;
+        return std::hypot(nguyen_axial_m(z, theta_rad), slanted_m);
+      };
+      EXPECT_TRUE(is_standard(errors(config, z_m, deg_to_rad(tilt_deg), {3, 8}, sigma_m)))
+          << z_m << " m, " << tilt_deg << " deg";
+    }
+  }
+}
+
+TEST(DepthNoise, NguyenSeesNothingBeyondEightyDegreesAndThatIsInvalidNotFree) {
+  const CameraModel camera = make_camera_model(narrow_camera(DepthNoise::nguyen));
+  for (const auto& [tilt_deg, is_seen] : {std::pair(77.0, true), std::pair(83.0, false)}) {
+    const RayScene scene(world_of(slanted_wall(3.0, deg_to_rad(tilt_deg)), false));
+    const DepthFrame frame = capture_depth(scene, camera, 0, Isometry::Identity(), {}, 1);
+    for (const float depth_m : frame.depth_m) ASSERT_EQ(std::isfinite(depth_m), is_seen);
+    for (const float depth_m : frame.depth_m) ASSERT_NE(depth_m, kNoReturn);
+  }
+}
+
+TEST(DepthNoise, NguyenDisplacesAnEdgeByItsLateralDeviation) {
+  // an edge through the middle of an image of 8 pixels, upright or level: the share of pixels, d
+  // pixels outside of it, that still see the wall is the normal law's tail beyond d / 0.8
+  constexpr int kAcross = 8;
+  constexpr int kAlong = 2000;
+  constexpr int kFrames = 25;
+  for (const bool is_upright : {true, false}) {
+    CameraConfig config = narrow_camera(DepthNoise::nguyen);
+    config.width_px = is_upright ? kAcross : kAlong;
+    config.height_px = is_upright ? kAlong : kAcross;
+    config.fov_x_rad = 1e-4 * config.width_px;
+    config.fov_y_rad = 1e-4 * config.height_px;
+    const CameraModel camera = make_camera_model(config);
+    // y > 0 is the left of the image, z > 0 its top
+    TriangleMesh wall;
+    test::add_wall(wall, 4.0, is_upright ? 0 : -9, 9, is_upright ? -9 : 0, 9);
+    const RayScene scene(world_of(wall, false));
+    std::array<double, kAcross> seen{};
+    for (std::uint64_t tick = 0; tick < kFrames; ++tick) {
+      const DepthFrame frame = capture_depth(scene, camera, 0, Isometry::Identity(), {1, tick}, 2);
+      for (std::size_t i = 0; i < frame.depth_m.size(); ++i) {
+        const std::size_t across = is_upright ? i % kAcross : i / kAlong;
+        seen[across] += std::isfinite(frame.depth_m[i]) ? 1.0 : 0.0;
+      }
+    }
+    for (std::size_t across = 2; across < 6; ++across) {
+      const double outside_px = static_cast<double>(across) + 0.5 - 0.5 * kAcross;
+      const double expected = 0.5 * std::erfc(outside_px / 0.8 / std::sqrt(2.0));
+      constexpr double kTrials = kFrames * kAlong;
+      // four standard deviations of the binomial law are 0.008 at half a pixel; 5 % of 0.8 px would
+      // shift the share by 0.010
+      const double allowed = 4.0 * std::sqrt(expected * (1.0 - expected) / kTrials);
+      EXPECT_NEAR(seen[across] / kTrials, expected, allowed) << outside_px;
+    }
+  }
+}
+
+TEST(DepthNoise, LateralDeviationGrowsWithIncidence) {
+  const DepthNoiseConfig nguyen = {DepthNoise::nguyen};
+  EXPECT_DOUBLE_EQ(lateral_sigma_px(nguyen, 0.0), 0.8);
+  EXPECT_DOUBLE_EQ(lateral_sigma_px(nguyen, 0.25 * kPi), 0.835);
+  EXPECT_EQ(lateral_sigma_px(nguyen, 0.5 * kPi), lateral_sigma_px(nguyen, deg_to_rad(80.0)));
+  EXPECT_EQ(lateral_sigma_px({DepthNoise::stereo}, 1.0), 0.0);
+}
+
+DepthFrame noisy_frame(const CameraConfig& config, int camera, const NoiseKey& key, int threads) {
+  const RayScene scene(world_of(test::random_soup(300, 5.0, {6, 0, 0}, 5), true));
+  return capture_depth(scene, make_camera_model(config), camera, T_world_body({{-3, 1, 2}, 0.1}),
+                       key, threads);
+}
+
+/// Share of pixels with a depth in both frames where the two agree to the bit.
+double agreement(const DepthFrame& a, const DepthFrame& b) {
+  double both = 0.0;
+  double same = 0.0;
+  for (std::size_t i = 0; i < a.depth_m.size(); ++i) {
+    if (!std::isfinite(a.depth_m[i]) || !std::isfinite(b.depth_m[i])) continue;
+    both += 1.0;
+    same += a.depth_m[i] == b.depth_m[i] ? 1.0 : 0.0;
+  }
+  return same / both;
+}
+
+TEST(DepthNoise, IsKeyedBySeedTickAndCameraNotByThreads) {
+  CameraConfig config;
+  config.width_px = 161;  // no multiple of 4
+  config.height_px = 119;
+  for (const DepthNoise model : kModels) {
+    config.noise.model = model;
+    const DepthFrame frame = noisy_frame(config, 0, {1, 2}, 1);
+    for (const int threads : {1, 2, 5}) {
+      const DepthFrame again = noisy_frame(config, 0, {1, 2}, threads);
+      ASSERT_EQ(std::memcmp(frame.depth_m.data(), again.depth_m.data(),
+                            frame.depth_m.size() * sizeof(float)),
+                0);
+    }
+    // floats of a few metres carry 23 bits: two noises agree on next to no pixel
+    EXPECT_LT(agreement(frame, noisy_frame(config, 0, {2, 2}, 1)), 1e-3);
+    EXPECT_LT(agreement(frame, noisy_frame(config, 0, {1, 3}, 1)), 1e-3);
+    EXPECT_LT(agreement(frame, noisy_frame(config, 1, {1, 2}, 1)), 1e-3);
+  }
+}
+
+TEST(DepthNoise, PixelsOfAFrameAreIndependent) {
+  // neighbours correlate by no more than chance: four of 1 / sqrt(n)
+  CameraConfig config = narrow_camera(DepthNoise::released);
+  const RayScene scene(world_of(slanted_wall(3.0, 0.0), false));
+  const DepthFrame frame =
+      capture_depth(scene, make_camera_model(config), 0, Isometry::Identity(), {1, 1}, 1);
+  for (const std::size_t lag : {1U, 2U, 4U, 240U, 961U}) {
+    double sum = 0.0;
+    const std::size_t n = frame.depth_m.size() - lag;
+    for (std::size_t i = 0; i < n; ++i) {
+      sum += (frame.depth_m[i] - 3.0) * (frame.depth_m[i + lag] - 3.0) / std::pow(0.0225, 2);
+    }
+    EXPECT_LT(std::abs(sum / static_cast<double>(n)), 4.0 / std::sqrt(n)) << lag;
+  }
+}
+
+TEST(DepthNoise, NearTheMinimumReadingsAreInvalidNeverFree) {
+  CameraConfig config = narrow_camera(DepthNoise::released);
+  config.range_min_m = 4.0;
+  const CameraModel camera = make_camera_model(config);
+  // a wall just too near is never read, whatever the noise; one just far enough half the time
+  const RayScene near(world_of(slanted_wall(3.99, 0.0), false));
+  for (const float d : capture_depth(near, camera, 0, Isometry::Identity(), {}, 1).depth_m) {
+    ASSERT_TRUE(std::isnan(d));
+  }
+  const RayScene at(world_of(slanted_wall(4.0001, 0.0), false));
+  double invalid = 0.0;
+  for (const float d : capture_depth(at, camera, 0, Isometry::Identity(), {}, 1).depth_m) {
+    ASSERT_NE(d, kNoReturn);
+    ASSERT_FALSE(d < 4.0F);
+    invalid += std::isnan(d) ? 1.0 : 0.0;
+  }
+  EXPECT_NEAR(invalid / (240 * 160), 0.5, 0.011);  // four of 0.5 / sqrt(38400)
+}
+
+TEST(DepthNoise, AtTheMaximumTheReadingDecides) {
+  CameraConfig config = narrow_camera(DepthNoise::released);
+  config.range_max_m = 8.0;
+  const CameraModel camera = make_camera_model(config);
+  // deviations of 0.16 m: from one beyond the maximum 16 % still read within it, and as many from
+  // one before it read beyond; that is the normal law's tail, to four binomial deviations
+  for (const double sigmas : {-1.0, 0.0, 1.0}) {
+    const double z_m = 8.0 + 0.16 * sigmas;
+    const RayScene scene(world_of(slanted_wall(z_m, 0.0), false));
+    double beyond = 0.0;
+    for (const float d : capture_depth(scene, camera, 0, Isometry::Identity(), {}, 1).depth_m) {
+      ASSERT_FALSE(std::isnan(d));
+      ASSERT_TRUE(d <= 8.0F || d == kNoReturn);
+      beyond += d == kNoReturn ? 1.0 : 0.0;
+    }
+    const double expected = 0.5 * std::erfc((8.0 - z_m) / (0.0025 * z_m * z_m) / std::sqrt(2.0));
+    EXPECT_NEAR(beyond / (240 * 160), expected, 0.011) << z_m;
+  }
+  const RayScene empty(world_of({}, false));
+  for (const DepthNoise model : kModels) {
+    config.noise.model = model;
+    const CameraModel noisy = make_camera_model(config);
+    for (const float d : capture_depth(empty, noisy, 0, Isometry::Identity(), {}, 1).depth_m) {
+      ASSERT_EQ(d, kNoReturn);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gnbv

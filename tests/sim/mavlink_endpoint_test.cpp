@@ -1,0 +1,270 @@
+// The vehicle as a client meets it: frames in, frames out, no network and no wall clock.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+#include <ostream>
+
+#include "sim/core/rng.hpp"
+#include "sim/mavlink/border.hpp"
+#include "sim/mavlink/endpoint.hpp"
+#include "sim/mavlink/telemetry.hpp"
+
+namespace gnbv::mavlink {
+namespace {
+
+constexpr Address kClient = {0x7f000001, 40001};
+constexpr std::uint16_t kArmDisarm = 400;  // MAV_CMD
+constexpr std::uint16_t kDoSetMode = 176;
+constexpr std::uint16_t kNavLand = 21;
+constexpr std::uint16_t kRequestMessage = 512;
+constexpr std::uint8_t kArmedFlag = 128;
+
+/// A client and the vehicle on open ground, in step: wall time is simulation time.
+class Session {
+ public:
+  explicit Session(double battery_wh = 0.0)
+      : vehicle_({}, World{}, ViewPose{}, 1, Px4::Start::on_ground), endpoint_(battery_wh) {}
+
+  template <typename Message>
+  void send(const Message& message) {
+    endpoint_.receive(write_frame({sequence_++, 255, 190, Message::kInfo.id, payload_of(message)}),
+                      kClient, now_s(), vehicle_);
+  }
+  void command(std::uint16_t id, float param1 = 0, float param2 = 0) {
+    send(CommandLong{
+        .param = {param1, param2}, .command = id, .target_system = 1, .target_component = 1});
+  }
+  /// Position and heading east, as an offboard stream repeats it.
+  void send_position(const Vec3& p_world_m) {
+    const Vec3 p_ned_m = swap_enu_ned(p_world_m);
+    send(SetPositionTargetLocalNed{
+        .p_m = {static_cast<float>(p_ned_m.x()), static_cast<float>(p_ned_m.y()),
+                static_cast<float>(p_ned_m.z())},
+        .type_mask = 2552,
+        .target_system = 1,
+        .target_component = 1,
+        .coordinate_frame = 1});
+  }
+
+  /// One tick, and what the vehicle says after it.
+  void step() {
+    vehicle_.step();
+    listen();
+  }
+  void listen() {
+    for (const auto& bytes : endpoint_.take_outgoing(now_s(), vehicle_)) {
+      ReadCounts counts;
+      const auto frames = read_frames(bytes, counts);
+      ASSERT_EQ(frames.size(), 1U);
+      heard_[frames[0].message_id].push_back(frames[0]);
+    }
+  }
+  /// Steps with a setpoint every 40 ms until it is so, at most this long.
+  bool fly_until(const Vec3& p_world_m, double limit_s, const std::function<bool()>& is_so) {
+    const double begin_s = now_s();
+    while (now_s() - begin_s < limit_s) {
+      if (is_so()) return true;
+      if (vehicle_.tick() % 10 == 0) send_position(p_world_m);
+      step();
+    }
+    return false;
+  }
+
+  template <typename Message>
+  std::size_t count() {
+    return heard_[Message::kInfo.id].size();
+  }
+  template <typename Message>
+  Message last() {
+    return message_of<Message>(heard_[Message::kInfo.id].back().payload);
+  }
+  double now_s() const { return static_cast<double>(vehicle_.tick()) * kTick_s; }
+  Quadrotor& vehicle() { return vehicle_; }
+  Endpoint& endpoint() { return endpoint_; }
+
+ private:
+  Quadrotor vehicle_;
+  Endpoint endpoint_;
+  std::uint8_t sequence_ = 0;
+  std::map<std::uint32_t, std::vector<Frame>> heard_;
+};
+
+TEST(MavlinkEndpoint, NothingIsSentBeforeAClientSpeaks) {
+  Session session;
+  for (int i = 0; i < 500; ++i) session.step();
+  EXPECT_EQ(session.endpoint().counts().sent, 0U);
+  session.send(Heartbeat{});
+  session.listen();
+  EXPECT_GE(session.endpoint().counts().sent, 5U);
+}
+
+TEST(MavlinkEndpoint, TelemetryComesAtItsRates) {
+  Session session;
+  session.send(Heartbeat{});
+  for (int i = 0; i < 10 * kTicksPerSecond; ++i) session.step();
+  // 10 s; both ends count, and a message waits for the next tick
+  EXPECT_NEAR(static_cast<double>(session.count<Heartbeat>()), 10, 1);
+  EXPECT_NEAR(static_cast<double>(session.count<Attitude>()), 500, 2);
+  EXPECT_NEAR(static_cast<double>(session.count<LocalPositionNed>()), 300, 2);
+  EXPECT_NEAR(static_cast<double>(session.count<BatteryStatus>()), 5, 1);
+  EXPECT_NEAR(static_cast<double>(session.count<ExtendedSysState>()), 50, 1);
+  EXPECT_NEAR(session.last<LocalPositionNed>().time_boot_ms, 10000.0, 40.0);
+}
+
+TEST(MavlinkEndpoint, EveryCommandForUsIsAcknowledgedOnce) {
+  Session session;
+  session.command(kArmDisarm, 1);
+  session.listen();
+  ASSERT_EQ(session.count<CommandAck>(), 1U);
+  EXPECT_EQ(session.last<CommandAck>().command, kArmDisarm);
+  EXPECT_EQ(session.last<CommandAck>().result, 0);
+  EXPECT_EQ(session.last<CommandAck>().target_system, 255);
+  EXPECT_EQ(session.last<CommandAck>().target_component, 190);
+  EXPECT_EQ(session.last<Heartbeat>().base_mode & kArmedFlag, kArmedFlag);
+  session.command(kRequestMessage, 30);
+  session.listen();
+  ASSERT_EQ(session.count<CommandAck>(), 2U);
+  EXPECT_EQ(session.last<CommandAck>().command, kRequestMessage);
+  EXPECT_EQ(session.last<CommandAck>().result, static_cast<int>(Ack::unsupported));
+}
+
+TEST(MavlinkEndpoint, WhatIsForOthersIsIgnored) {
+  Session session;
+  session.send(CommandLong{.param = {1}, .command = kArmDisarm, .target_system = 2});
+  session.send(CommandLong{
+      .param = {1}, .command = kArmDisarm, .target_system = 1, .target_component = 100});
+  session.send(SetMode{.custom_mode = 6U << 16, .target_system = 7, .base_mode = 1});
+  session.send(Attitude{});
+  session.listen();
+  EXPECT_EQ(session.count<CommandAck>(), 0U);
+  EXPECT_FALSE(session.vehicle().px4().is_armed());
+  EXPECT_EQ(session.endpoint().counts().ignored, 4U);
+  session.send(CommandLong{.param = {1}, .command = kArmDisarm});  // 0, 0: everybody
+  EXPECT_TRUE(session.vehicle().px4().is_armed());
+}
+
+TEST(MavlinkEndpoint, SetModeIsTheCommandOfThatName) {
+  Session by_message;
+  by_message.send(SetMode{.custom_mode = 4U << 16 | 6U << 24, .target_system = 1, .base_mode = 1});
+  by_message.listen();
+  EXPECT_EQ(by_message.last<CommandAck>().command, kDoSetMode);
+  EXPECT_EQ(by_message.last<CommandAck>().result, 0);
+  EXPECT_EQ(by_message.vehicle().px4().intention(), NavState::land);
+}
+
+TEST(MavlinkEndpoint, EveryModeThatIsToldCanBeAskedFor) {
+  for (const NavState state : {NavState::manual, NavState::altitude, NavState::position,
+                               NavState::takeoff, NavState::hold, NavState::mission, NavState::rtl,
+                               NavState::land, NavState::offboard, NavState::stabilized}) {
+    Session session;
+    session.send_position({0, 0, 1});  // OFFBOARD wants its stream
+    session.send(SetMode{.custom_mode = custom_mode_of(state), .target_system = 1, .base_mode = 1});
+    EXPECT_EQ(session.vehicle().px4().intention(), state) << name_of(state);
+  }
+}
+
+TEST(MavlinkEndpoint, ARefusedSetpointIsToldOnceASecond) {
+  Session session;
+  SetPositionTargetLocalNed message{.coordinate_frame = 7};
+  for (int i = 0; i < 3 * kTicksPerSecond; ++i) {
+    if (i % 5 == 0) session.send(message);
+    session.step();
+  }
+  EXPECT_EQ(session.endpoint().counts().refused_setpoints, 150U);
+  EXPECT_EQ(session.endpoint().counts().setpoints, 0U);
+  EXPECT_NEAR(static_cast<double>(session.count<gnbv::mavlink::StatusText>()), 3, 1);
+  EXPECT_EQ(std::string(session.last<gnbv::mavlink::StatusText>().text.data()),
+            "setpoint frame 7 unsupported");
+}
+
+TEST(MavlinkEndpoint, ALongTextArrivesInChunks) {
+  for (const std::size_t size : {0U, 1U, 49U, 50U, 51U, 99U, 100U, 101U, 150U}) {
+    std::string said;
+    for (std::size_t i = 0; i < size; ++i) said += static_cast<char>('a' + i % 26);
+    const auto chunks = status_texts_of({.severity = 4, .text = said}, 9);
+    std::string heard;
+    for (std::size_t i = 0; i < chunks.size(); ++i) {
+      EXPECT_EQ(chunks[i].severity, 4);
+      EXPECT_EQ(chunks[i].id, size > 50 ? 9 : 0);
+      EXPECT_EQ(chunks[i].chunk_seq, i);
+      const auto end = std::ranges::find(chunks[i].text, '\0');
+      EXPECT_EQ(end == chunks[i].text.end(), size >= 50 && i + 1 < chunks.size() + (size == 50))
+          << "the last chunk of several, and only it, has a NUL";
+      heard.append(chunks[i].text.begin(), end);
+    }
+    EXPECT_EQ(heard, said);
+  }
+}
+
+TEST(MavlinkEndpoint, TheBatteryIsKnownOnlyWhereItIsConfigured) {
+  EXPECT_EQ(battery_status_of(12.0, 0.0).remaining_percent, -1);
+  EXPECT_EQ(battery_status_of(12.0, 48.0).remaining_percent, 75);
+  EXPECT_EQ(battery_status_of(60.0, 48.0).remaining_percent, 0);
+  EXPECT_EQ(battery_status_of(1.0, 0.0).energy_consumed_hj, 36);  // 1 Wh = 3600 J
+}
+
+TEST(MavlinkEndpoint, AClientArmsTakesOffFliesAndLands) {
+  Session session;
+  const Vec3 over_start(0, 0, 3);
+  ASSERT_TRUE(session.fly_until(over_start, 2.0, [&] { return session.now_s() > 1.0; }));
+  session.command(kDoSetMode, 1, 6);
+  session.command(kArmDisarm, 1);
+  session.listen();
+  EXPECT_EQ(session.last<CommandAck>().result, 0);
+  for (const Vec3& corner : {over_start, Vec3(5, 0, 3), Vec3(5, 5, 3), Vec3(0, 5, 3), over_start}) {
+    const auto is_there = [&] {
+      const auto& p = session.last<LocalPositionNed>().p_ned_m;
+      return (swap_enu_ned(Vec3(p[0], p[1], p[2])) - corner).norm() < 0.3;
+    };
+    EXPECT_TRUE(session.fly_until(corner, 15.0, is_there)) << corner.transpose();
+    EXPECT_EQ(session.last<Heartbeat>().custom_mode, 6U << 16);
+    EXPECT_EQ(session.last<ExtendedSysState>().landed_state, 2);
+  }
+  session.command(kNavLand);
+  for (int i = 0; i < 30 * kTicksPerSecond; ++i) session.step();
+  EXPECT_EQ(session.last<Heartbeat>().base_mode & kArmedFlag, 0);
+  EXPECT_EQ(session.last<ExtendedSysState>().landed_state, 1);
+  EXPECT_LT(session.vehicle().state().T_world_body.translation().z(), 0.1);
+}
+
+/// Any number a float can be, extremes more often than chance has them.
+float wild_float(std::uint64_t trial, std::uint64_t index) {
+  const std::uint64_t bits = random_bits({7, Stream::bench, trial, index});
+  constexpr std::array kExtremes = {0.0F, 1.0F, -1.0F, 3e38F, -3e38F, 1e-40F, 21196.0F};
+  if (bits % 3 == 0) return kExtremes[(bits >> 8) % kExtremes.size()];
+  if (bits % 3 == 1) return static_cast<float>(static_cast<double>(bits >> 40) * 1e-5 - 80.0);
+  return std::bit_cast<float>(static_cast<std::uint32_t>(bits >> 32));
+}
+
+TEST(MavlinkEndpoint, NothingAClientSaysBreaksTheVehicle) {
+  for (std::uint64_t trial = 0; trial < 20; ++trial) {
+    Session session;
+    std::uint64_t index = 0;
+    const auto wild = [&] { return wild_float(trial, ++index); };
+    for (int i = 0; i < 1000; ++i) {
+      CommandLong command{.command = std::array<std::uint16_t, 5>{400, 176, 22, 21, 20}[index % 5]};
+      SetPositionTargetLocalNed setpoint{
+          .p_m = {wild(), wild(), wild()},
+          .v_m_s = {wild(), wild(), wild()},
+          .a_m_s2 = {wild(), wild(), wild()},
+          .yaw_rad = wild(),
+          .yaw_rate_rad_s = wild(),
+          .type_mask =
+              static_cast<std::uint16_t>(random_bits({8, Stream::bench, trial, index}) & 0xdff),
+          .coordinate_frame = i % 2 == 0 ? std::uint8_t{1} : std::uint8_t{8}};
+      for (float& param : command.param) param = wild();
+      if (i % 20 == 10) session.send(command);
+      if (i % 50 == 0) session.command(kDoSetMode, 1, 6);  // mostly in OFFBOARD, armed
+      if (i % 50 == 1) session.command(kArmDisarm, 1);
+      session.send(setpoint);
+      for (int tick = 0; tick < 5; ++tick) session.step();  // throws when the state becomes NaN
+    }
+    EXPECT_TRUE(session.vehicle().state().T_world_body.matrix().allFinite());
+    EXPECT_GT(session.endpoint().counts().setpoints, 100U);
+  }
+}
+
+}  // namespace
+}  // namespace gnbv::mavlink

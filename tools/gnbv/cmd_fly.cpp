@@ -1,0 +1,153 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "sim/core/error.hpp"
+#include "tools/gnbv/commands.hpp"
+#include "tools/gnbv/interrupt.hpp"
+#include "tools/gnbv/serve.hpp"
+#include "tools/mission/load_world.hpp"
+#include "tools/mission/start_pose.hpp"
+
+namespace gnbv {
+namespace {
+
+struct FlyOptions : MissionOptions {
+  std::string url = "udp://127.0.0.1:14540";
+  double speed = 1.0;
+  double duration_s = 0.0;
+  bool json = false;
+};
+
+std::string_view name_of(ServeEnd end) {
+  switch (end) {
+    case ServeEnd::stopped:
+      return "stopped";
+    case ServeEnd::duration:
+      return "duration";
+    case ServeEnd::collision:
+      return "collision";
+  }
+  return "";
+}
+
+nlohmann::ordered_json summary_of(const Scenario& scenario, const Quadrotor& vehicle,
+                                  const mavlink::Endpoint& endpoint, const ServeResult& result) {
+  const mavlink::LinkCounts& link = endpoint.link_counts();
+  const mavlink::EndpointCounts& obeyed = endpoint.counts();
+  return {{"schema", "gnbv-fly-1"},
+          {"scenario", scenario.name},
+          {"preset", scenario.vehicle.preset},
+          {"seed", scenario.seed},
+          {"end", name_of(result.end)},
+          {"flight_time_s", static_cast<double>(vehicle.tick()) * kTick_s},
+          {"wall_s", result.wall_s},
+          {"energy_wh", vehicle.energy_wh()},
+          {"datagrams", link.datagrams},
+          {"accepted", link.accepted},
+          {"setpoints", obeyed.setpoints},
+          {"refused_setpoints", obeyed.refused_setpoints},
+          {"commands", obeyed.commands},
+          {"ignored", obeyed.ignored},
+          {"sent", obeyed.sent},
+          {"dropped",
+           {{"bad_crc", link.frames.bad_crc},
+            {"truncated", link.frames.truncated},
+            {"oversized", link.frames.oversized},
+            {"unknown", link.frames.unknown},
+            {"replayed", link.replayed},
+            {"oversized_datagrams", link.oversized_datagrams},
+            {"foreign_datagrams", link.foreign_datagrams}}}};
+}
+
+/// The same figures in two lines.
+std::string text_of(const nlohmann::ordered_json& s) {
+  std::string dropped;
+  for (const auto& [reason, count] : s.at("dropped").items()) {
+    dropped +=
+        fmt::format("{}{} {}", dropped.empty() ? "" : ", ", count.get<std::uint64_t>(), reason);
+  }
+  const auto count = [&](const char* key) { return s.at(key).get<std::uint64_t>(); };
+  return fmt::format(
+      "{}: {:.2f} s simulated in {:.2f} s, {:.2f} Wh, end: {}\n"
+      "frames: {} accepted ({} setpoints, {} refused, {} commands, {} ignored), {} sent; dropped: "
+      "{}\n",
+      s.at("scenario").get<std::string>(), s.at("flight_time_s").get<double>(),
+      s.at("wall_s").get<double>(), s.at("energy_wh").get<double>(), s.at("end").get<std::string>(),
+      count("accepted"), count("setpoints"), count("refused_setpoints"), count("commands"),
+      count("ignored"), count("sent"), dropped);
+}
+
+void need_ground_and_rotors(const Scenario& scenario) {
+  if (scenario.vehicle.kind != VehicleKind::quadrotor) {
+    throw BadInput("vehicle.kind: `gnbv fly` flies the quadrotor; set it to quadrotor");
+  }
+  if (!scenario.structure.ground) {
+    throw BadInput("structure.ground: `gnbv fly` starts on the ground; set it to true");
+  }
+}
+
+void fly(const FlyOptions& options) {
+  const Scenario scenario = resolve_scenario(options);
+  need_ground_and_rotors(scenario);
+  const mavlink::Address address = mavlink::resolve_udp_url(options.url);
+  std::vector<std::string> warnings;
+  const World world = load_world(scenario, warnings);
+  for (const std::string& warning : warnings) fmt::print(stderr, "gnbv: {}\n", warning);
+  const ViewPose start = start_pose(scenario, RayScene(world));
+  Quadrotor vehicle(scenario.vehicle, world, start, scenario.seed, Px4::Start::on_ground);
+  mavlink::Endpoint endpoint(scenario.vehicle.power.battery_wh);
+  mavlink::UdpSocket socket(address);
+
+  const InterruptGuard interrupt;
+  fmt::print(stderr, "gnbv: listening on {}, {} at x {:.2f} y {:.2f} m, speed {}; Ctrl-C ends\n",
+             mavlink::url_of(socket.address()), scenario.vehicle.preset, start.p_world_m.x(),
+             start.p_world_m.y(), options.speed);
+  const auto on_lag = [&options] {
+    fmt::print(stderr, "gnbv: this machine cannot keep up with --speed {}: simulating slower\n",
+               options.speed);
+  };
+  const ServeResult result = serve(vehicle, endpoint, socket,
+                                   {.speed = options.speed,
+                                    .duration_s = options.duration_s,
+                                    .should_stop = InterruptGuard::requested,
+                                    .on_lag = on_lag});
+  const nlohmann::ordered_json summary = summary_of(scenario, vehicle, endpoint, result);
+  fmt::print("{}", options.json ? summary.dump(2) + "\n" : text_of(summary));
+  if (result.end == ServeEnd::collision) {
+    const Vec3 p_world_m = vehicle.state().T_world_body.translation();
+    throw CommandFailed(fmt::format(
+        "the vehicle hit the structure at [{:.2f}, {:.2f}, {:.2f}] m after {:.2f} s", p_world_m.x(),
+        p_world_m.y(), p_world_m.z(), static_cast<double>(vehicle.tick()) * kTick_s));
+  }
+}
+
+}  // namespace
+
+void add_fly_command(CLI::App& app) {
+  auto options = std::make_shared<FlyOptions>();
+  CLI::App* const command = app.add_subcommand("fly", "serve the vehicle to a MAVLink client");
+  command->footer(
+      "The vehicle stands on the ground at the scenario's start, disarmed, as system 1, component "
+      "1,\n"
+      "and speaks like PX4. It listens at the URL and answers the first client that sends it a\n"
+      "good frame; other addresses are dropped until that client was silent for 5 s. NED\n"
+      "coordinates count from the scenario's origin: north is y, east is x.");
+  add_scenario_options(*command, *options);
+  command
+      ->add_option("--mavlink", options->url,
+                   "udp://HOST:PORT to listen at; port 0 finds a free one")
+      ->capture_default_str();
+  command->add_option("--speed", options->speed, "simulated seconds per second")
+      ->check(CLI::Range(0.01, 1000.0))
+      ->capture_default_str();
+  command
+      ->add_option("--duration", options->duration_s, "simulated seconds (default: until Ctrl-C)")
+      ->check(CLI::Range(0.004, 1e9));
+  command->add_flag("--json", options->json, "print the summary as JSON");
+  command->callback([options] { fly(*options); });
+}
+
+}  // namespace gnbv
