@@ -5,6 +5,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/rest_to_rest.hpp"
+#include "tests/support/streaming_flight.hpp"
 
 namespace gnbv {
 namespace {
@@ -36,7 +37,7 @@ struct Report {
 };
 
 Report report_of(const VehicleConfig& vehicle, const ViewPose& goal, double speed_m_s) {
-  const auto flight = make_flight(vehicle, World{}, kStart, 1);
+  const auto flight = streaming(make_flight(vehicle, World{}, kStart, 1));
   const Vec3 line_m = goal.p_world_m - kStart.p_world_m;
   const Vec3 direction = line_m.norm() > 0.0 ? Vec3(line_m.normalized()) : Vec3(1, 0, 0);
   Report report;
