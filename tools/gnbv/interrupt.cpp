@@ -1,6 +1,7 @@
 #include "tools/gnbv/interrupt.hpp"
 
 #include <csignal>
+#include <initializer_list>
 
 namespace gnbv {
 namespace {
