@@ -19,10 +19,8 @@ struct Entry {
 };
 
 constexpr std::array kCatalog = {
-    Entry{"aircraft", make_aircraft},
-    Entry{"power_plant", make_power_plant},
-    Entry{"lab_model", make_lab_model},
-    Entry{"lab_airplane", make_lab_airplane},
+    Entry{"aircraft", make_aircraft},     Entry{"power_plant", make_power_plant},
+    Entry{"lab_model", make_lab_model},   Entry{"lab_airplane", make_lab_airplane},
     Entry{"smoke", make_smoke_structure},
 };
 

@@ -17,8 +17,8 @@
 namespace gnbv {
 
 /// Structures that assets/ generates, by the name StructureConfig::builtin takes.
-constexpr std::array<std::string_view, 5> kStructureNames = {
-    "aircraft", "power_plant", "lab_model", "lab_airplane", "smoke"};
+constexpr std::array<std::string_view, 5> kStructureNames = {"aircraft", "power_plant", "lab_model",
+                                                             "lab_airplane", "smoke"};
 
 struct StructureConfig {
   std::string builtin = "aircraft";  // used when file.path is empty

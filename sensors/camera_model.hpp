@@ -34,7 +34,7 @@ struct CameraConfig {
   double roll_rad = 0.0;   // about body x, applied first
   double pitch_rad = 0.0;  // about body y: positive looks down; applied second
   double yaw_rad = 0.0;    // about body z: positive looks left; applied last
-  DepthNoiseConfig noise;
+  DepthNoiseConfig noise = {};
 };
 
 /// Pinhole geometry derived from a CameraConfig; pixel (0, 0) is top left, centres at half pixels.

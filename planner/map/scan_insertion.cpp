@@ -151,8 +151,7 @@ ScanUpdate ScanInserter::compute_update(const Vec3f& origin_world_m, std::span<c
 }
 
 void ScanInserter::insert_scans(OccupancyGrid& grid, std::span<const LidarScan> scans,
-                                std::span<const LidarModel> lidars, double floor_z_m,
-                                int threads) {
+                                std::span<const LidarModel> lidars, double floor_z_m, int threads) {
   GNBV_CHECK(grid.geometry().min_key() == grid_.min_key() && grid.geometry().size() == grid_.size(),
              "another grid than the one this inserter was made for");
   const auto workers = static_cast<std::size_t>(std::max(threads, 1));

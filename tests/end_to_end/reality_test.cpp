@@ -1,5 +1,6 @@
 // Missions in which something is not as it should be: noise, a wrong pose, a wall, an empty
 // battery.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

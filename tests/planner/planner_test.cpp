@@ -15,7 +15,7 @@ PlannerModel small_model() {
   PlannerConfig config;
   config.validity.collision_radius_m = 0.5;
   const CameraModel camera = make_camera_model({});
-  return PlannerModel(config, kWorkspace, {&camera, 1}, LidarConfig{});
+  return PlannerModel(config, kWorkspace, {&camera, 1}, {});
 }
 
 /// A wall at x = 6, all else free where `is_known` says so and unmeasured elsewhere.

@@ -37,7 +37,7 @@ TEST(Faults, AnUnknownKeyLikeNoOtherListsTheKnownOnes) {
 TEST(Faults, AnUnknownNameShowsTheAllowedOnesAndTheNearest) {
   EXPECT_EQ(complaint(kMinimal + "structure: {builtin: aircraf}"),
             "s.yaml:2: structure.builtin: value 'aircraf': is no known name (did you mean "
-            "'aircraft'? allowed: aircraft, smoke)");
+            "'aircraft'? allowed: aircraft, power_plant, lab_model, lab_airplane, smoke)");
   EXPECT_THAT(complaint(kMinimal + "planner: {utility: {name: islr}}"),
               AllOf(HasSubstr("did you mean 'isler'?"), HasSubstr("proposed")));
   EXPECT_THAT(complaint(kMinimal + "vehicle: {kind: 0}"),
@@ -45,20 +45,21 @@ TEST(Faults, AnUnknownNameShowsTheAllowedOnesAndTheNearest) {
 }
 
 TEST(Faults, AreAllReportedAtOnceInTheOrderOfTheInput) {
-  EXPECT_EQ(complaint("nme: x\nseed: -1\ncameras:\n  - width_px: a\n  - {name: b, pitch_deg: 91}\n"
-                      "lidars: [{range_min_m: 30}]\n",
-                      {"lidars.0.beams=0", "start.yaw=3"}),
-            "s.yaml:1: nme: value 'x': is no known key (did you mean 'name'?)\n"
-            "s.yaml:2: seed: value '-1': is out of range (allowed: from 0 to "
-            "18446744073709551615)\n"
-            "s.yaml:4: cameras.0.width_px: value 'a': expects a whole number\n"
-            "s.yaml:5: cameras.1.pitch_deg: value '91': is out of range (allowed: from -90 to 90)\n"
-            "s.yaml:6: lidars.0.range_min_m: value '30': lidars.0.range_min_m = 30 has to be below "
-            "lidars.0.range_max_m = 30\n"
-            "--set lidars.0.beams=0: lidars.0.beams: value '0': is out of range (allowed: from 1 to "
-            "100000)\n"
-            "--set start.yaw=3: start.yaw: value '3': is no known key (did you mean "
-            "'start.yaw_deg'?)");
+  EXPECT_EQ(
+      complaint("nme: x\nseed: -1\ncameras:\n  - width_px: a\n  - {name: b, pitch_deg: 91}\n"
+                "lidars: [{range_min_m: 30}]\n",
+                {"lidars.0.beams=0", "start.yaw=3"}),
+      "s.yaml:1: nme: value 'x': is no known key (did you mean 'name'?)\n"
+      "s.yaml:2: seed: value '-1': is out of range (allowed: from 0 to "
+      "18446744073709551615)\n"
+      "s.yaml:4: cameras.0.width_px: value 'a': expects a whole number\n"
+      "s.yaml:5: cameras.1.pitch_deg: value '91': is out of range (allowed: from -90 to 90)\n"
+      "s.yaml:6: lidars.0.range_min_m: value '30': lidars.0.range_min_m = 30 has to be below "
+      "lidars.0.range_max_m = 30\n"
+      "--set lidars.0.beams=0: lidars.0.beams: value '0': is out of range (allowed: from 1 to "
+      "100000)\n"
+      "--set start.yaw=3: start.yaw: value '3': is no known key (did you mean "
+      "'start.yaw_deg'?)");
 }
 
 TEST(ExactTypes, WholeNumbersTakeNothingElse) {

@@ -160,7 +160,7 @@ TEST(SensorPresets, BringTheirValuesAndTheKeysBesideThemOverride) {
   EXPECT_EQ(camera.noise.model, DepthNoise::stereo);
   EXPECT_EQ(camera.noise.baseline_m, 0.1);
   const LidarConfig lidar =
-      load_text(kMinimal + "lidar: {beams: 11, preset: hokuyo_ust_10lx}").lidar;
+      load_text(kMinimal + "lidars: [{beams: 11, preset: hokuyo_ust_10lx}]").lidars[0];
   EXPECT_EQ(lidar.beams, 11) << "wherever among the keys the preset stands";
   EXPECT_EQ(lidar.range_max_m, 10.0);
   EXPECT_TRUE(lidar.rolling);
@@ -169,15 +169,16 @@ TEST(SensorPresets, BringTheirValuesAndTheKeysBesideThemOverride) {
 TEST(SensorPresets, LeaveNameAndMountingToTheVehicle) {
   const Scenario s = load_text(
       "cameras: [{name: a, pitch_deg: 20}, {name: b, p_body_m: [1, 2, 3], yaw_deg: 30}]\n"
-      "lidar: {pitch_deg: 5}",
-      {"cameras.0.preset=zed_mini", "cameras.1.preset=zed_mini", "lidar.preset=hokuyo_utm_30lx"});
+      "lidars: [{pitch_deg: 5}]",
+      {"cameras.0.preset=zed_mini", "cameras.1.preset=zed_mini",
+       "lidars.0.preset=hokuyo_utm_30lx"});
   EXPECT_EQ(s.cameras[0].name, "a");
   EXPECT_EQ(s.cameras[1].name, "b");
   EXPECT_EQ(s.cameras[0].pitch_rad, deg_to_rad(20.0));
   EXPECT_EQ(s.cameras[1].yaw_rad, deg_to_rad(30.0));
   EXPECT_EQ(s.cameras[1].p_body_m, Vec3(1, 2, 3));
-  EXPECT_EQ(s.lidar.pitch_rad, deg_to_rad(5.0));
-  EXPECT_EQ(s.lidar.beams, 1081);
+  EXPECT_EQ(s.lidars[0].pitch_rad, deg_to_rad(5.0));
+  EXPECT_EQ(s.lidars[0].beams, 1081);
 }
 
 TEST(SensorPresets, AreOverriddenOnlyByNamingAnother) {
@@ -191,7 +192,7 @@ TEST(SensorPresets, SurviveWritingAndReading) {
   for (const std::string_view camera : kCameraPresets) {
     for (const std::string_view lidar : kLidarPresets) {
       const std::string text = fmt::format(
-          "cameras: [{{preset: {}, height_px: 99}}]\nlidar: {{preset: {}}}\n", camera, lidar);
+          "cameras: [{{preset: {}, height_px: 99}}]\nlidars: [{{preset: {}}}]\n", camera, lidar);
       const std::string yaml = to_yaml(load_text(text));
       EXPECT_EQ(to_yaml(load_text(yaml)), yaml);
       EXPECT_THAT(yaml, testing::HasSubstr(fmt::format("- preset: {}\n", camera)));

@@ -78,7 +78,8 @@ TEST(StateEstimate, GnssVelocityErrorIsThePositionErrorsDerivative) {
   VehicleState before = estimator.step(truth);
   for (int i = 0; i < 1000; ++i) {
     const VehicleState now = estimator.step(truth);
-    const Vec3 rate_m_s = (position_error_m(now, truth) - position_error_m(before, truth)) / kTick_s;
+    const Vec3 rate_m_s =
+        (position_error_m(now, truth) - position_error_m(before, truth)) / kTick_s;
     ASSERT_LT((rate_m_s - now.v_world_m_s).norm(), 1e-9);  // rounding of a 4 ms difference
     before = now;
   }
@@ -129,9 +130,13 @@ TEST(StateEstimate, VioStandsStillWithTheVehicleAndKeepsRollAndPitch) {
 TEST(StateEstimate, IsKeyedByTheSeed) {
   const VehicleState truth = moving(0.0, 1.0);
   const auto first = [&](EstimateModel model, std::uint64_t seed) {
-    return StateEstimator({model}, seed, moving(-1.0, 1.0)).step(truth).T_world_body.matrix().eval();
+    return StateEstimator({model}, seed, moving(-1.0, 1.0))
+        .step(truth)
+        .T_world_body.matrix()
+        .eval();
   };
-  for (const EstimateModel model : {EstimateModel::mocap, EstimateModel::gnss, EstimateModel::vio}) {
+  for (const EstimateModel model :
+       {EstimateModel::mocap, EstimateModel::gnss, EstimateModel::vio}) {
     EXPECT_EQ(first(model, 1), first(model, 1));
     EXPECT_NE(first(model, 1), first(model, 2));
   }

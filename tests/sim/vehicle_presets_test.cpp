@@ -61,15 +61,15 @@ TEST_P(Preset, HoversAtItsHoverCommand) {
   AttitudeSetpoint attitude;
   for (int tick = 0; tick < 1000; ++tick) {
     if (tick % kTicksPerPositionLoop == 0) {
-      attitude = position_loop(vehicle.autopilot, vehicle.airframe, full_envelope(vehicle.autopilot),
-                               position_memory, body.state(), hold);
+      attitude =
+          position_loop(vehicle.autopilot, vehicle.airframe, full_envelope(vehicle.autopilot),
+                        position_memory, body.state(), hold);
     }
     const Vec3 omega_setpoint = attitude_control(
         vehicle.autopilot, Eigen::Quaterniond(body.state().T_world_body.linear()), attitude);
     body.step([&](const Vec3& omega_body_rad_s) {
-      const RotorCommands commands =
-          rate_loop(vehicle.autopilot, vehicle.airframe, rate_memory, omega_body_rad_s,
-                    omega_setpoint, attitude.thrust);
+      const RotorCommands commands = rate_loop(vehicle.autopilot, vehicle.airframe, rate_memory,
+                                               omega_body_rad_s, omega_setpoint, attitude.thrust);
       for (const double command : commands) EXPECT_NEAR(command, GetParam().hover_command, 1e-3);
       return reference_speeds(vehicle.airframe, commands);
     });
@@ -96,9 +96,9 @@ TEST_P(Preset, TiltedFlightReachesItsTerminalSpeed) {
     const Eigen::Quaterniond q(state.T_world_body.linear());
     const Vec3 omega_setpoint = attitude_control(vehicle.autopilot, q, setpoint);
     body.step([&](const Vec3& omega_body_rad_s) {
-      return reference_speeds(airframe, rate_loop(vehicle.autopilot, airframe, memory,
-                                                  omega_body_rad_s, omega_setpoint,
-                                                  setpoint.thrust));
+      return reference_speeds(
+          airframe, rate_loop(vehicle.autopilot, airframe, memory, omega_body_rad_s, omega_setpoint,
+                              setpoint.thrust));
     });
   }
   const VehicleState& state = body.state();

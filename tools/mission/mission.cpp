@@ -40,7 +40,8 @@ struct Mission {
       : scenario(mission_scenario),
         scene(ray_scene),
         hooks(mission_hooks),
-        planner(scenario.planner, scenario.workspace_m, camera_models(scenario), lidar_models(scenario)),
+        planner(scenario.planner, scenario.workspace_m, camera_models(scenario),
+                lidar_models(scenario)),
         bench(planner, threads),
         out(start_pose(scenario, scene), planner),
         flight(make_flight(scenario.vehicle, world, out.start, scenario.seed)),
@@ -83,15 +84,16 @@ bool has_energy_to_go_on(const Mission& m) {
 std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal, double speed_m_s,
                                    const std::function<void(const Flight&)>& on_tick) {
   constexpr std::int64_t kTicksPerSample = kTicksPerSecond / 10;
-  const LegEnd end =
-      fly_leg(*m.flight, goal, speed_m_s, m.scenario.guidance, m.scenario.vehicle, [&](const Flight& flight) {
-        const Isometry T = flight.state().T_world_body;
-        m.flown_m += (T.translation() - m.last_p_world_m).norm();
-        m.last_p_world_m = T.translation();
-        if (flight.tick() % kTicksPerSample == 0) m.out.trajectory.push_back({time_s(flight), T});
-        on_tick(flight);
-        return has_energy_to_go_on(m);
-      });
+  const LegEnd end = fly_leg(*m.flight, goal, speed_m_s, m.scenario.guidance, m.scenario.vehicle,
+                             [&](const Flight& flight) {
+                               const Isometry T = flight.state().T_world_body;
+                               m.flown_m += (T.translation() - m.last_p_world_m).norm();
+                               m.last_p_world_m = T.translation();
+                               if (flight.tick() % kTicksPerSample == 0)
+                                 m.out.trajectory.push_back({time_s(flight), T});
+                               on_tick(flight);
+                               return has_energy_to_go_on(m);
+                             });
   if (end == LegEnd::collision) return Termination::collision;
   if (end == LegEnd::stopped) return Termination::battery;
   m.current = goal;

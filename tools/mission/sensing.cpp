@@ -28,7 +28,7 @@ std::vector<Isometry> spread_over(std::span<const Isometry> at_ticks, double dur
 
 bool is_due(double rate_hz, std::int64_t tick) {
   const auto count = [&](std::int64_t t) {
-    return std::floor(static_cast<double>(t) * kTick_s * rate_hz);
+    return std::floor(static_cast<double>(t) * rate_hz / static_cast<double>(kTicksPerSecond));
   };
   return count(tick) != count(tick - 1);
 }
