@@ -80,10 +80,14 @@ std::vector<Vec3f> points_world(const DepthFrame& frame, const CameraModel& came
   parallel_for(threads, points.size() / width, [&](std::size_t v) {
     Eigen::Vector4f down;
     down << camera.ray_camera(0, static_cast<int>(v)).y() * R.col(1) + R.col(2), 0.0F;
-    for (std::size_t u = 0; u < width; ++u) {
-      const Eigen::Vector4f point_m = origin_m + frame.depth_m[v * width + u] * (across[u] + down);
-      points[v * width + u] = point_m.head<3>();
+    const float* const depth_m = &frame.depth_m[v * width];
+    Vec3f* const row = &points[v * width];
+    // four numbers are stored at once, the last of them where the next point begins
+    for (std::size_t u = 0; u + 1 < width; ++u) {
+      Eigen::Map<Eigen::Vector4f>(row[u].data()) = origin_m + depth_m[u] * (across[u] + down);
     }
+    const std::size_t last = width - 1;
+    row[last] = (origin_m + depth_m[last] * (across[last] + down)).head<3>();
   });
   return points;
 }

@@ -46,9 +46,9 @@ struct DepthCapture {
                           rays.distances_m);
     const auto range_min_m = static_cast<float>(camera.config.range_min_m);
     for (std::size_t tile = 0; tile < rays.distances_m.size(); ++tile) {
-      for (float& depth_m : rays.distances_m[tile]) {  // traced up to range_max_m
-        depth_m = depth_m < range_min_m ? kInvalidRange : depth_m;
-      }
+      // traced up to range_max_m: only what is too near is left to sort out
+      Eigen::Map<Eigen::Array<float, RayPacket::kRays, 1>> depths_m(rays.distances_m[tile].data());
+      depths_m = (depths_m < range_min_m).select(kInvalidRange, depths_m);
       tiles.put(run, tile, rays.distances_m[tile], frame.depth_m);
     }
   }

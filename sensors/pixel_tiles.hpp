@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -74,13 +75,15 @@ class PixelTiles {
     const auto width = static_cast<std::size_t>(width_px_);
     const std::size_t u0 = (static_cast<std::size_t>(run.first) + tile) * kTile_px;
     const std::size_t v0 = static_cast<std::size_t>(run.row) * kTile_px;
-    const std::size_t v_count = std::min<std::size_t>(kTile_px, image.size() / width - v0);
-    float* to = &image[v0 * width + u0];
-    for (std::size_t j = 0; j < v_count; ++j, to += width) {
-      if (u0 + kTile_px <= width) {
-        std::copy_n(&values[j * kTile_px], kTile_px, to);  // of a constant length: a single move
+    const auto v_end = std::min<std::size_t>(v0 + kTile_px, static_cast<std::size_t>(height_px_));
+    const std::size_t u_count = std::min<std::size_t>(kTile_px, width - u0);
+    const float* from = values.data();
+    for (std::size_t v = v0; v < v_end; ++v, from += kTile_px) {
+      float* const to = &image[v * width + u0];
+      if (u_count == kTile_px) {
+        std::memcpy(to, from, kTile_px * sizeof(float));  // of a constant length: a single move
       } else {
-        std::copy_n(&values[j * kTile_px], width - u0, to);
+        std::memcpy(to, from, u_count * sizeof(float));
       }
     }
   }
