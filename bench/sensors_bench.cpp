@@ -145,7 +145,7 @@ void BM_LidarSweep(benchmark::State& state, double range_sigma_m, bool is_moving
     for (std::size_t i = 1; i < poses.size(); ++i) {
       poses[i].pretranslate(Vec3(0.004 * static_cast<double>(i), 0.0, 0.0));
     }
-    benchmark::DoNotOptimize(capture_scan(scene(), lidar, 0, poses, {}));
+    benchmark::DoNotOptimize(capture_scan(scene(), lidar, 0, poses, 0.00625, {}));
   };
   const auto prepare = [&](const Isometry& T_world_body, BareEmbree& bare) {
     const Isometry T_world_lidar = T_world_body * lidar.T_body_lidar;

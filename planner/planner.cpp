@@ -118,6 +118,7 @@ void integrate_profile(const PlannerModel& model, std::span<const LidarScan> sca
 
 void integrate_view(const PlannerModel& model, std::span<const DepthFrame> frames, Workbench& bench,
                     Belief& belief) {
+  if (frames.empty()) return;
   std::vector<Vec3f> points;
   for (const DepthFrame& frame : frames) {
     const CameraModel& camera = model.cameras[static_cast<std::size_t>(frame.camera)];

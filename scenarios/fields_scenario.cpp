@@ -23,7 +23,7 @@ void fields(FieldVisitor& v, StartConfig& c) {
 
 void fields(FieldVisitor& v, Scenario& c) {
   v.word("name", c.name, "Name of the scenario, for reports.");
-  v.integer("seed", c.seed, "Moves the start pose.");
+  v.integer("seed", c.seed, "Moves the start pose and keys all noise.");
   v.box("workspace_m", c.workspace_m, kCoordinate_m, "What is mapped and flown in, world ENU.");
   v.section("structure", c.structure, "What stands there.");
   v.list("cameras", c.cameras, {1, 16}, "The depth cameras on the vehicle.");

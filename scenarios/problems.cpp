@@ -6,6 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "sim/rotors.hpp"
+
 namespace gnbv {
 namespace {
 
@@ -154,6 +156,10 @@ void check_map_thresholds(const OccupancyConfig& map, Problems& out) {
 }
 
 void check_vehicle(const VehicleConfig& vehicle, Problems& out) {
+  if (vehicle.kind == VehicleKind::ideal && vehicle.estimate.model != EstimateModel::none) {
+    out.push_back({{"vehicle.estimate.model", "vehicle.kind"},
+                   "an ideal vehicle knows where it is: its estimate is `none`"});
+  }
   for (std::size_t i = 0; i < vehicle.airframe.rotors.size(); ++i) {
     if (std::abs(vehicle.airframe.rotors[i].spin) == 1.0) continue;
     out.push_back({{fmt::format("vehicle.airframe.rotors.{}.spin", i)}, "has to be 1 or -1"});
@@ -164,11 +170,8 @@ void check_vehicle(const VehicleConfig& vehicle, Problems& out) {
                 out);
   require_below(autopilot.thrust_margin_xy, autopilot.thrust_max, key + "thrust_margin_xy",
                 key + "thrust_max", out);
-  // thrust of four rotors at rest equals weight (sim/rotors.hpp)
   const AirframeParameters& a = vehicle.airframe;
-  const double hover_rad_s =
-      std::sqrt(a.mass_kg * a.gravity_m_s2 / (4.0 * a.thrust_coefficient_n_s2));
-  const double hover = (hover_rad_s - a.idle_speed_rad_s) / a.command_gain_rad_s;
+  const double hover = (hover_speed_rad_s(a) - a.idle_speed_rad_s) / a.command_gain_rad_s;
   if (autopilot.thrust_min < hover && hover < autopilot.thrust_max) return;
   out.push_back({{"vehicle.airframe.mass_kg", "vehicle.airframe.thrust_coefficient_n_s2"},
                  fmt::format("hovering takes the command {:.2f}, which is not between thrust_min = "
@@ -189,6 +192,27 @@ void check_guidance(const Scenario& s, Problems& out) {
   };
   check(s.guidance.path_speed_m_s, "path_speed_m_s");
   check(s.guidance.profile_speed_m_s, "profile_speed_m_s");
+}
+
+/// The guidance streams a setpoint every 20 ms.
+void check_offboard(const VehicleConfig& vehicle, Problems& out) {
+  constexpr double kStream_s = 0.02;
+  const double loss_s = vehicle.autopilot.commander.offboard_loss_s;
+  if (vehicle.kind == VehicleKind::ideal || loss_s > kStream_s) return;
+  out.push_back({{"vehicle.autopilot.commander.offboard_loss_s"},
+                 fmt::format("has to exceed the {} s between two setpoints of the guidance, or the "
+                             "vehicle never stays in OFFBOARD",
+                             kStream_s)});
+}
+
+void check_battery(const Scenario& s, Problems& out) {
+  const double battery_wh = s.vehicle.power.battery_wh;
+  const double landing_wh = landing_energy_wh(s.vehicle, s.start.pose.p_world_m.z());
+  if (battery_wh <= 0.0 || battery_wh > landing_wh) return;
+  out.push_back({{"vehicle.power.battery_wh"},
+                 fmt::format("has to exceed {:.3g} Wh, which landing from the start takes; 0 means "
+                             "that it is never empty",
+                             landing_wh)});
 }
 
 void check_structure(const StructureConfig& structure, Problems& out) {
@@ -215,6 +239,8 @@ std::vector<Problem> problems(const Scenario& scenario) {
   check_sensors(scenario, out);
   check_vehicle(scenario.vehicle, out);
   check_guidance(scenario, out);
+  check_offboard(scenario.vehicle, out);
+  check_battery(scenario, out);
   check_cloud(scenario.planner, out);
   check_view_rays(scenario, out);
   check_map_thresholds(scenario.planner.map, out);

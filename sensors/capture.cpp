@@ -103,11 +103,10 @@ class PosesDuringSweep {
     for (const Isometry& pose : poses) rotations_.emplace_back(pose.linear());
   }
 
-  /// `share` of the sweep in [0, 1].
-  Isometry at(double share) const {
-    const double place = share * static_cast<double>(poses_.size() - 1);
-    const std::size_t before = std::min(static_cast<std::size_t>(place), poses_.size() - 2);
-    const double t = place - static_cast<double>(before);
+  /// `intervals` after the first pose.
+  Isometry at(double intervals) const {
+    const std::size_t before = std::min(static_cast<std::size_t>(intervals), poses_.size() - 2);
+    const double t = intervals - static_cast<double>(before);
     Isometry pose = Isometry::Identity();
     pose.translate((1.0 - t) * poses_[before].translation() + t * poses_[before + 1].translation());
     pose.rotate(rotations_[before].slerp(t, rotations_[before + 1]));
@@ -137,14 +136,20 @@ std::vector<RayHit> trace_instant(const RayScene& scene, const LidarModel& lidar
 }
 
 std::vector<RayHit> trace_moving(const RayScene& scene, const LidarModel& lidar,
-                                 std::span<const Isometry> T_world_body_during, float far_m) {
+                                 std::span<const Isometry> T_world_body_during, double interval_s,
+                                 float far_m) {
   const PosesDuringSweep poses(T_world_body_during);
   const std::size_t beams = lidar.beams_lidar.size();
   const double last = std::max(1.0, static_cast<double>(beams) - 1.0);
+  const double intervals = sweep_duration_s(lidar.config) / interval_s;
+  constexpr double kRounding = 1e-9;
+  GNBV_CHECK(intervals <= static_cast<double>(T_world_body_during.size() - 1) + kRounding,
+             "{} poses {} s apart do not last for the sweep of {}", T_world_body_during.size(),
+             interval_s, lidar.config.name);
   std::vector<Vec3f> origins_world_m(beams);
   std::vector<Vec3f> directions_world(beams);
   for (std::size_t i = 0; i < beams; ++i) {
-    const Isometry T_world_lidar = poses.at(static_cast<double>(i) / last) * lidar.T_body_lidar;
+    const Isometry T_world_lidar = poses.at(intervals * static_cast<double>(i) / last) * lidar.T_body_lidar;
     origins_world_m[i] = T_world_lidar.translation().cast<float>();
     directions_world[i] = T_world_lidar.linear().cast<float>() * lidar.beams_lidar[i];
   }
@@ -180,7 +185,8 @@ DepthFrame capture_depth(const RayScene& scene, const CameraModel& camera, int c
 }
 
 LidarScan capture_scan(const RayScene& scene, const LidarModel& lidar, int lidar_index,
-                       std::span<const Isometry> T_world_body_during, const NoiseKey& key) {
+                       std::span<const Isometry> T_world_body_during, double interval_s,
+                       const NoiseKey& key) {
   GNBV_CHECK(!T_world_body_during.empty(), "a sweep of {} without a pose", lidar.config.name);
   const LidarConfig& config = lidar.config;
   const auto far_m = static_cast<float>(farthest_m(config));
@@ -189,7 +195,7 @@ LidarScan capture_scan(const RayScene& scene, const LidarModel& lidar, int lidar
   scan.T_world_lidar = T_world_body_during.front() * lidar.T_body_lidar;
   const std::vector<RayHit> hits = is_still(T_world_body_during)
                                        ? trace_instant(scene, lidar, scan.T_world_lidar, far_m)
-                                       : trace_moving(scene, lidar, T_world_body_during, far_m);
+                                       : trace_moving(scene, lidar, T_world_body_during, interval_s, far_m);
   scan.range_m.reserve(hits.size());
   for (std::size_t beam = 0; beam < hits.size(); ++beam) {
     const float true_m = hits[beam].distance_m;

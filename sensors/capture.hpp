@@ -25,11 +25,12 @@ DepthFrame capture_depth(const RayScene& scene, const CameraModel& camera, int c
 ColourFrame capture_colour(const RayScene& scene, const CameraModel& camera, int camera_index,
                            const Isometry& T_world_body, int threads);
 
-/// One sweep of the LIDAR. `T_world_body_during` are true poses evenly spread over
-/// sweep_duration_s(), first and last included; one pose means a sweep at one instant. Each beam is
+/// One sweep of the LIDAR. `T_world_body_during` are true poses, one every `interval_s` from the
+/// first beam to the last one or just after it; one pose means a sweep at one instant. Each beam is
 /// traced from the pose of its own time, in between interpolated; the scan carries the first pose,
 /// as a driver stamps it, so that a moving rolling scan is skewed. Ranges as depths above.
 LidarScan capture_scan(const RayScene& scene, const LidarModel& lidar, int lidar_index,
-                       std::span<const Isometry> T_world_body_during, const NoiseKey& key);
+                       std::span<const Isometry> T_world_body_during, double interval_s,
+                       const NoiseKey& key);
 
 }  // namespace gnbv

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/core/srgb.hpp"
+
 namespace gnbv {
 namespace {
 
@@ -12,10 +14,6 @@ const Vec3f kGroundAmbient(0.10F, 0.09F, 0.08F);
 const Vec3f kZenith(0.14F, 0.30F, 0.68F);
 const Vec3f kHorizon(0.62F, 0.72F, 0.82F);
 const Vec3f kHaze(0.30F, 0.29F, 0.27F);
-
-float srgb_of(float linear) {
-  return linear <= 0.0031308F ? 12.92F * linear : 1.055F * std::pow(linear, 1.0F / 2.4F) - 0.055F;
-}
 
 }  // namespace
 
@@ -53,7 +51,7 @@ SrgbTable::SrgbTable() {
   for (int i = 0; i <= kSteps; ++i) {
     const float linear = static_cast<float>(i) / kSteps;
     levels_[static_cast<std::size_t>(i)] =
-        static_cast<std::uint8_t>(std::lround(255.0F * srgb_of(linear)));
+        static_cast<std::uint8_t>(std::lround(255.0F * linear_to_srgb(linear)));
   }
 }
 

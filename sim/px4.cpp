@@ -57,12 +57,12 @@ std::vector<StatusText> Px4::take_messages() { return std::exchange(messages_, {
 void Px4::say(int severity, std::string text) { messages_.push_back({severity, std::move(text)}); }
 
 void Px4::offboard_setpoint(const Setpoint& setpoint) {
-  const bool was_valid = std::exchange(is_offboard_setpoint_valid_, is_valid(setpoint));
+  const bool is_invalid = !is_valid(setpoint);
+  if (!is_invalid) heartbeat_tick_ = tick_;
+  if (nav_state_ != NavState::offboard) return;
   offboard_setpoint_ = setpoint;
-  if (is_offboard_setpoint_valid_)
-    heartbeat_tick_ = tick_;
-  else if (was_valid)
-    say(4, "Invalid offboard setpoint: the vehicle stops and holds");
+  const bool has_warned = std::exchange(has_warned_of_setpoint_, is_invalid);
+  if (is_invalid && !has_warned) say(4, "Invalid offboard setpoint: the vehicle stops and holds");
 }
 
 RotorSpeeds Px4::step(const VehicleState& estimate) {
@@ -86,10 +86,12 @@ RotorSpeeds Px4::rate_step(const Vec3& omega_body_rad_s) {
   return reference_speeds(airframe_, commands);
 }
 
-/// Whether somebody asks the waiting vehicle to fly: offboard, a fresh setpoint that leads upwards.
+/// Whether somebody asks the waiting vehicle to fly: offboard, a fresh and valid setpoint that
+/// leads upwards.
 bool Px4::wants_takeoff() const {
   if (nav_state_ == NavState::takeoff) return true;
-  if (nav_state_ != NavState::offboard || offboard_silence_s() >= kTakeoffSetpointAge_s)
+  if (nav_state_ != NavState::offboard || offboard_silence_s() >= kTakeoffSetpointAge_s ||
+      !is_valid(offboard_setpoint_))
     return false;
   return offboard_setpoint_.p_world_m.z() > estimate_.T_world_body.translation().z() ||
          offboard_setpoint_.v_world_m_s.z() > 0.0 || offboard_setpoint_.a_world_m_s2.z() > 0.0;

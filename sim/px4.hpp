@@ -57,7 +57,8 @@ class Px4 {
   Ack arm(bool armed, bool force = false);
   Ack set_mode(NavState mode);
   /// A setpoint of the offboard stream (world ENU). A valid one refreshes the heartbeat in any
-  /// mode; it is flown only in OFFBOARD. An invalid one (Setpoint) stops and holds, with a warning.
+  /// mode, but only those that come in OFFBOARD are flown: until the first of them the vehicle
+  /// stops and holds. An invalid one (Setpoint) does so too, with a warning.
   void offboard_setpoint(const Setpoint& setpoint);
 
   /// Advances one tick: rotor references, 0 when disarmed.
@@ -104,7 +105,7 @@ class Px4 {
   Eigen::Vector2d home_world_m_ = Eigen::Vector2d::Zero();  // where it was armed
 
   Setpoint offboard_setpoint_;
-  bool is_offboard_setpoint_valid_ = true;
+  bool has_warned_of_setpoint_ = false;  // the last one was invalid
   std::optional<std::int64_t> heartbeat_tick_;
 
   double takeoff_altitude_m_ = 0.0;

@@ -164,19 +164,19 @@ void Px4::update_mode() {
     disarm();
     return;
   }
-  if (choice.mode == nav_state_) return;
-  if (choice.is_failsafe) {
+  const bool is_change = choice.mode != nav_state_;
+  if (choice.is_failsafe && (is_change || !is_in_failsafe_)) {
     say(4, "Failsafe: " + std::string(name_of(intention_)) + " cannot run, " +
                std::string(name_of(choice.mode)));
-  } else if (is_in_failsafe_) {
+  } else if (!choice.is_failsafe && is_in_failsafe_) {
     say(6, "Failsafe over: " + std::string(name_of(intention_)));
   }
   is_in_failsafe_ = choice.is_failsafe;
-  enter(choice.mode);
+  if (is_change) enter(choice.mode);
 }
 
 /// Between Auto modes the trajectory goes on as it is, except after a descent, which leaves it
-/// below the vehicle.
+/// below the vehicle. OFFBOARD begins with no setpoint, that is, it stops and holds.
 void Px4::enter(NavState mode) {
   const bool was_on_trajectory = auto_.mode == nav_state_ &&
                                  auto_.stage < AutoFlight::Stage::land &&
@@ -185,6 +185,8 @@ void Px4::enter(NavState mode) {
   nav_state_ = mode;
   auto_ = begin_auto(mode, parameters_.commander, estimate_, home_world_m_, takeoff_altitude_m_);
   if (was_on_trajectory) auto_.axes = axes;
+  offboard_setpoint_ = Setpoint{};
+  has_warned_of_setpoint_ = false;
 }
 
 }  // namespace gnbv

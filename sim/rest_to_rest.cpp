@@ -59,7 +59,7 @@ RestToRest::Sample RestToRest::first_half(double time_s) const {
 }
 
 RestToRest::Sample RestToRest::at(double time_s) const {
-  if (time_s <= 0.0) return {distance_ > 0.0 ? 0.0 : distance_, 0.0, 0.0};
+  if (time_s <= 0.0) return {0.0, 0.0, 0.0};
   if (time_s >= duration_s()) return {distance_, 0.0, 0.0};
   if (time_s <= 0.5 * duration_s()) return first_half(time_s);
   const Sample mirrored = first_half(duration_s() - time_s);  // the motion is symmetric in time

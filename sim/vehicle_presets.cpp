@@ -43,6 +43,15 @@ VehicleConfig iris_sitl_2019() {
   p.descent_speed_max_m_s = 1.0;
   p.attitude_p_per_s = {6.0, 6.0, 2.8};
   p.rate_p = {0.2, 0.2, 0.2};
+
+  CommanderParameters& c = p.commander;
+  c.offboard_loss_s = 0.5;                           // fixed, Commander.cpp: then LOITER
+  c.offboard_loss_hold_s = 5.0;                      // rcS, COM_OF_LOSS_T
+  c.offboard_loss_action = OffboardLossAction::rtl;  // rcS, COM_OBL_ACT
+  c.disarm_after_landing_s = 0.1;                    // rcS
+  c.descent_speed_m_s = p.descent_speed_max_m_s;     // one limit for all modes, MPC_Z_VEL_MAX_DN
+  c.acceleration_m_s2 = 5.0;                         // MPC_ACC_HOR
+  c.jerk_m_s3 = 8.0;                                 // MPC_JERK_AUTO
   return vehicle;
 }
 
@@ -76,6 +85,8 @@ VehicleConfig authors() {
   p.rate_max_rad_s.z() = deg_to_rad(60.0);
   p.rate_p = {0.15, 0.15, 0.35};
   p.rate_i = {0.05, 0.05, 0.1};
+  p.commander.offboard_loss_s = 0.5;                      // KFW commander.cpp, fixed
+  p.commander.tilt_max_on_ground_rad = deg_to_rad(15.0);  // MPC_TILTMAX_LND
   return vehicle;
 }
 

@@ -37,16 +37,6 @@ inline Isometry T_world_body(const ViewPose& pose) {
   return T;
 }
 
-/// The pose at `share` of the way from one to another: straight line, and the short way round.
-inline Isometry interpolated(const Isometry& from, const Isometry& to, double share) {
-  const Eigen::Quaterniond q_from(from.linear());
-  const Eigen::Quaterniond q_to(to.linear());
-  Isometry T = Isometry::Identity();
-  T.translate(from.translation() + share * (to.translation() - from.translation()));
-  T.rotate(q_from.slerp(share, q_to));
-  return T;
-}
-
 /// Heading of the body x axis in the world's horizontal plane, in (-pi, pi].
 inline double yaw_of(const Isometry& T_world_body) {
   return std::atan2(T_world_body.linear()(1, 0), T_world_body.linear()(0, 0));

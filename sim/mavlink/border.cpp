@@ -19,6 +19,12 @@ constexpr unsigned kForce = 512;
 constexpr unsigned kIgnoreYaw = 1024;
 constexpr unsigned kIgnoreYawRate = 2048;
 
+// No vehicle is told more, axis by axis. A greater number is garbage, and it would wind up the
+// controller's integrals.
+constexpr double kPositionMax_m = 1e6;
+constexpr double kSpeedMax_m_s = 1e3;
+constexpr double kAccelerationMax_m_s2 = 1e3;
+
 constexpr double kNotControlled = std::numeric_limits<double>::quiet_NaN();
 
 double unless_ignored(float value, unsigned type_mask, unsigned bit) {
@@ -42,9 +48,12 @@ Vec3 world_from_level_frd(const Vec3& v_frd, double yaw_world_rad) {
   return Eigen::AngleAxisd(yaw_world_rad, Vec3::UnitZ()) * swap_flu_frd(v_frd);
 }
 
-bool is_infinite(const Setpoint& s) {
-  const auto any = [](const Vec3& v) { return v.array().isInf().any(); };
-  return any(s.p_world_m) || any(s.v_world_m_s) || any(s.a_world_m_s2) || std::isinf(s.yaw_rad) ||
+/// Whether a number that is not NaN is beyond its bound; angles and their rates may be anything
+/// finite.
+bool is_out_of_bounds(const Setpoint& s) {
+  const auto any = [](const Vec3& v, double limit) { return (v.array().abs() > limit).any(); };
+  return any(s.p_world_m, kPositionMax_m) || any(s.v_world_m_s, kSpeedMax_m_s) ||
+         any(s.a_world_m_s2, kAccelerationMax_m_s2) || std::isinf(s.yaw_rad) ||
          std::isinf(s.yaw_rate_rad_s);
 }
 
@@ -107,7 +116,7 @@ std::variant<Setpoint, Refusal> setpoint_of(const SetPositionTargetLocalNed& mes
   // NaN passes through: std::remainder of NaN is NaN, and so is its negative
   setpoint.yaw_rad = swap_yaw_enu_ned(unless_ignored(message.yaw_rad, mask, kIgnoreYaw));
   setpoint.yaw_rate_rad_s = -unless_ignored(message.yaw_rate_rad_s, mask, kIgnoreYawRate);
-  if (is_infinite(setpoint)) return Refusal{"setpoint with infinite numbers"};
+  if (is_out_of_bounds(setpoint)) return Refusal{"setpoint out of bounds"};
   if (!controls_something(setpoint)) return Refusal{"setpoint invalid: nothing to control"};
   return setpoint;
 }

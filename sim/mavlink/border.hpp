@@ -37,8 +37,8 @@ struct Refusal {
 /// The setpoint that the message asks for, as PX4's mavlink_receiver.cpp reads it: a field that is
 /// ignored by the type mask, or NaN, is not controlled. LOCAL_NED (1) is taken as it is; BODY_NED
 /// (8) turns velocity and acceleration by the heading, each only when none of its axes is ignored,
-/// and has no position. Refused: other frames, the force bit, infinite numbers, nothing left to
-/// control.
+/// and has no position. Refused: other frames, the force bit, a world axis beyond 1e6 m, 1e3 m/s or
+/// 1e3 m/s^2, an infinite yaw or yaw rate, nothing left to control.
 std::variant<Setpoint, Refusal> setpoint_of(const SetPositionTargetLocalNed& message,
                                             double yaw_world_rad);
 

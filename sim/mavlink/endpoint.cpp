@@ -127,7 +127,6 @@ std::vector<std::vector<std::uint8_t>> Endpoint::take_outgoing(double now_s, Qua
   if (!client().has_value()) return {};
   for (const gnbv::StatusText& text : said) say(text);
   send_telemetry(now_s, vehicle);
-  counts_.sent += outgoing_.size();
   return std::exchange(outgoing_, {});
 }
 

@@ -37,6 +37,8 @@ class Endpoint {
   /// that is due by wall time. Empty without a client. State and position are the autopilot's
   /// estimate; times are simulation time.
   std::vector<std::vector<std::uint8_t>> take_outgoing(double now_s, Quadrotor& vehicle);
+  /// Takes note that one of them went out.
+  void count_sent() { ++counts_.sent; }
 
   const std::optional<Address>& client() const { return link_.client(); }
   const LinkCounts& link_counts() const { return link_.counts(); }

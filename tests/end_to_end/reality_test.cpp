@@ -120,7 +120,6 @@ TEST(FrameFilesOfARun, HoldWhatTheCamerasSaw) {
     files.write(iteration, time_s, depth, colour);
   };
   const Flown flight(scenario, hooks);
-  files.finish();
   std::set<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(temp.path() / "frames")) {
     names.insert(entry.path().filename());

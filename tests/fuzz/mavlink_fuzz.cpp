@@ -18,9 +18,12 @@ void check_setpoint(const Frame& frame) {
   const auto read = setpoint_of(message, 0.5);
   const auto* const setpoint = std::get_if<Setpoint>(&read);
   if (setpoint == nullptr) return;
-  for (const Vec3& v : {setpoint->p_world_m, setpoint->v_world_m_s, setpoint->a_world_m_s2}) {
-    GNBV_CHECK(!v.array().isInf().any(), "an infinite setpoint");
-  }
+  const auto check_bound = [](const Vec3& v, double limit) {
+    GNBV_CHECK(!(v.array().abs() > limit).any(), "a setpoint beyond {}", limit);
+  };
+  check_bound(setpoint->p_world_m, 1e6);
+  check_bound(setpoint->v_world_m_s, 1e3);
+  check_bound(setpoint->a_world_m_s2, 1e3);
   GNBV_CHECK(!(std::abs(setpoint->yaw_rad) > kPi), "a yaw of {}", setpoint->yaw_rad);
 }
 

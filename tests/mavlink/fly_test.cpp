@@ -1,13 +1,19 @@
 // `gnbv fly` as its users meet it: what it refuses, how it ends, what it prints.
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <sys/wait.h>
 
 #include <array>
+#include <chrono>
 #include <cstdio>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <ostream>
+#include <stop_token>
 #include <string>
+#include <thread>
 
+#include "sim/mavlink/messages.hpp"
 #include "sim/mavlink/udp.hpp"
 
 namespace gnbv {
@@ -18,9 +24,12 @@ struct Outcome {
   std::string output;
 };
 
-/// `prefix` goes before the program, `redirection` behind its arguments.
-Outcome fly(const std::string& arguments, const std::string& redirection = "2>&1",
-            const std::string& prefix = "") {
+/// `prefix` goes before the program, `redirection` behind its arguments; `on_line` gets each line
+/// of the output as it comes.
+Outcome fly(
+    const std::string& arguments, const std::string& redirection = "2>&1",
+    const std::string& prefix = "",
+    const std::function<void(const std::string&)>& on_line = [](const std::string&) {}) {
   const std::string command =
       prefix + std::string(GNBV_PROGRAM) + " fly " + arguments + " " + redirection;
   Outcome outcome;
@@ -28,6 +37,7 @@ Outcome fly(const std::string& arguments, const std::string& redirection = "2>&1
   std::array<char, 4096> buffer{};
   while (std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe) != nullptr) {
     outcome.output += buffer.data();
+    on_line(buffer.data());
   }
   const int status = pclose(pipe);
   outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
@@ -35,6 +45,29 @@ Outcome fly(const std::string& arguments, const std::string& redirection = "2>&1
 }
 
 const std::string kFreePort = "smoke --mavlink udp://127.0.0.1:0 ";
+const std::string kListening = "gnbv: listening on ";
+
+/// Asks for OFFBOARD, for arming and for the middle of the structure, until it is stopped.
+void fly_into_structure(const std::stop_token& stop, const mavlink::Address& vehicle) {
+  const mavlink::UdpSocket socket({0x7f000001, 0});
+  std::uint8_t sequence = 0;
+  const auto send = [&]<typename Message>(const Message& message) {
+    socket.send(mavlink::write_frame(
+                    {sequence++, 255, 190, Message::kInfo.id, mavlink::payload_of(message)}),
+                vehicle);
+  };
+  while (!stop.stop_requested()) {
+    send(mavlink::SetPositionTargetLocalNed{.p_m = {0.0F, 0.0F, -0.7F},
+                                            .type_mask = 2552,  // position and yaw
+                                            .target_system = 1,
+                                            .target_component = 1,
+                                            .coordinate_frame = 1});
+    send(mavlink::SetMode{.custom_mode = 6U << 16, .target_system = 1, .base_mode = 1});
+    send(mavlink::CommandLong{
+        .param = {1}, .command = 400, .target_system = 1, .target_component = 1});
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+}
 
 TEST(Fly, EndsAfterItsDurationWithASummary) {
   const Outcome outcome = fly(kFreePort + "--speed 20 --duration 2 --json", "2>/dev/null");
@@ -55,17 +88,37 @@ TEST(Fly, SaysWhereItListens) {
 }
 
 TEST(Fly, CtrlCIsAnOrdinaryEnd) {
-  const Outcome outcome = fly(kFreePort, "2>&1", "timeout --preserve-status -s INT 3 ");
+  // the shell says its process id and becomes the program
+  pid_t process = 0;
+  const auto interrupt = [&](const std::string& line) {
+    if (process == 0) process = std::stoi(line);
+    if (line.starts_with(kListening)) kill(process, SIGINT);
+  };
+  const Outcome outcome = fly(kFreePort, "2>&1", "echo $$; exec ", interrupt);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   EXPECT_NE(outcome.output.find("end: stopped"), std::string::npos) << outcome.output;
 }
 
 TEST(Fly, TouchingTheStructureIsAFailureThatSaysWhere) {
+  std::jthread client;
+  const auto connect = [&](const std::string& line) {
+    if (!line.starts_with(kListening)) return;
+    const std::size_t begin = kListening.size();
+    client = std::jthread(fly_into_structure,
+                          mavlink::resolve_udp_url(line.substr(begin, line.find(',') - begin)));
+  };
+  const Outcome outcome = fly(kFreePort + "--speed 2 --duration 60", "2>&1", "", connect);
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
+  EXPECT_NE(outcome.output.find("hit the structure at ["), std::string::npos) << outcome.output;
+}
+
+TEST(Fly, AStartAboveTheStructureIsBadInput) {
   // the tower's wall stands at x = 0.04: the start is above it, the ground below is in it
   const Outcome outcome = fly(
       kFreePort + "--duration 5 --set start='{position_m: [0.04, 0.12, 4], jitter_m: [0, 0, 0]}'");
-  EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
-  EXPECT_NE(outcome.output.find("hit the structure at [0.0"), std::string::npos) << outcome.output;
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+  EXPECT_NE(outcome.output.find("start.position_m"), std::string::npos) << outcome.output;
+  EXPECT_EQ(outcome.output.find("listening"), std::string::npos) << outcome.output;
 }
 
 TEST(Fly, WhatCannotBeServedIsBadInput) {

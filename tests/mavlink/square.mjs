@@ -8,19 +8,25 @@ const ARM_DISARM = 400;
 const DO_SET_MODE = 176;
 const NAV_LAND = 21;
 const OFFBOARD = 6; // PX4's main mode
+const TEMPORARILY_REJECTED = 1; // MAV_RESULT
 const SIDE_M = 5;
 const HEIGHT_M = 3;
 const TOLERANCE_M = 0.5;
 
 const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 
-async function accepted(what, result) {
-  const ack = await result;
+/** Commands, and again while that is rejected for the moment, as when the stream was late. */
+async function accepted(what, vehicle, ...command) {
+  let ack = await vehicle.command(...command);
+  for (let again = 0; again < 10 && ack === TEMPORARILY_REJECTED; again += 1) {
+    await new Promise(resolve => setTimeout(resolve, 200));
+    ack = await vehicle.command(...command);
+  }
   if (ack !== 0) throw new Error(`${what}: MAV_RESULT ${ack}, not accepted`);
 }
 
 async function flySquare(vehicle) {
-  await vehicle.until('first telemetry', 10,
+  await vehicle.until('first telemetry', 20,
     () => vehicle.latest.Heartbeat && vehicle.latest.LocalPositionNed);
   const [north, east, down] = vehicle.position;
   const corners = [[0, 0], [SIDE_M, 0], [SIDE_M, SIDE_M], [0, SIDE_M], [0, 0]].map(
@@ -29,9 +35,11 @@ async function flySquare(vehicle) {
   vehicle.flyTo(corners[0]);
   const beginMs = vehicle.timeMs;
   await vehicle.until('a second of stream', 10, () => vehicle.timeMs - beginMs > 1000);
-  await accepted('OFFBOARD', vehicle.command(DO_SET_MODE, 1, OFFBOARD));
-  await accepted('arming', vehicle.command(ARM_DISARM, 1));
-  await vehicle.until('armed in OFFBOARD', 5, () => vehicle.isArmed && vehicle.mainMode === OFFBOARD);
+  await accepted('OFFBOARD', vehicle, DO_SET_MODE, 1, OFFBOARD);
+  await accepted('arming', vehicle, ARM_DISARM, 1);
+  // a heartbeat tells it, which comes once a second of wall time
+  await vehicle.until('armed in OFFBOARD', 20,
+    () => vehicle.isArmed && vehicle.mainMode === OFFBOARD);
 
   for (const corner of corners) {
     vehicle.flyTo(corner);
@@ -40,7 +48,7 @@ async function flySquare(vehicle) {
     console.log(`corner ${corner.map(x => x.toFixed(2))} reached to ` +
       `${distance(vehicle.position, corner).toFixed(2)} m at ${vehicle.timeMs / 1000} s`);
   }
-  await accepted('landing', vehicle.command(NAV_LAND));
+  await accepted('landing', vehicle, NAV_LAND);
   vehicle.stopStream();
   await vehicle.until('landed and disarmed', 60, () => !vehicle.isArmed);
   const error = distance(vehicle.position, [north, east, down]);

@@ -6,7 +6,7 @@ gnbv=$1
 cd "$2"
 
 log=$(mktemp) summary=$(mktemp)
-"$gnbv" fly smoke --mavlink udp://127.0.0.1:0 --speed 4 --duration 600 --json >"$summary" 2>"$log" &
+"$gnbv" fly smoke --mavlink udp://127.0.0.1:0 --speed 2 --duration 600 --json >"$summary" 2>"$log" &
 vehicle=$!
 trap 'kill "$vehicle" 2>/dev/null || true; rm -f "$log" "$summary"' EXIT
 

@@ -45,8 +45,8 @@ export class Vehicle {
   get isArmed() { return (this.latest.Heartbeat.baseMode & 128) !== 0; }
   get mainMode() { return this.latest.Heartbeat.customMode >>> 16 & 0xff; }
 
-  /** Resolves when the predicate holds; rejects after that much simulated time, or
-   *  when that time stands still. */
+  /** Resolves when the predicate holds; rejects after that much simulated time, counted from the
+   *  first that is known, or when that time stands still. */
   until(what, simulatedSeconds, predicate) {
     return new Promise((resolve, reject) => {
       const fail = why => {
@@ -54,8 +54,8 @@ export class Vehicle {
         reject(new Error(`${what}: ${why}; position ${this.latest.LocalPositionNed &&
           this.position.map(x => x.toFixed(2))}, texts: ${this.texts.slice(-5).join(' | ')}`));
       };
-      const beginMs = this.timeMs;
-      let lastMs = beginMs;
+      let beginMs = this.latest.LocalPositionNed?.timeBootMs;
+      let lastMs = this.timeMs;
       let lastProgress = Date.now();
       const watch = setInterval(() => {
         if (this.timeMs !== lastMs) lastProgress = Date.now();
@@ -63,6 +63,7 @@ export class Vehicle {
         if (Date.now() - lastProgress > 30000) fail('the simulation has stood still for 30 s');
       }, 1000);
       const check = () => {
+        beginMs ??= this.latest.LocalPositionNed?.timeBootMs;
         if (predicate()) {
           done();
           resolve();

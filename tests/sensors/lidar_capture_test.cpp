@@ -21,7 +21,7 @@ constexpr std::size_t kForward = 360;
 /// A sweep from one place.
 LidarScan sweep(const RayScene& scene, const LidarConfig& lidar, const Isometry& T_world_body,
                 const NoiseKey& key = {}) {
-  return capture_scan(scene, make_lidar_model(lidar), 0, {&T_world_body, 1}, key);
+  return capture_scan(scene, make_lidar_model(lidar), 0, {&T_world_body, 1}, 0.0, key);
 }
 
 TEST(LidarCapture, DefaultTiltPointsTheFanDownTenDegrees) {

@@ -55,7 +55,7 @@ TEST(RollingScan, OfAMovingVehicleIsSkewedByItsSpeedTimesTheBeamsTime) {
   for (const Vec3& v_m_s : {Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(-0.4, 0.7, 0)}) {
     const std::vector<Isometry> poses = {at(Vec3::Zero()), at(0.5 * duration_s * v_m_s),
                                          at(duration_s * v_m_s)};
-    const LidarScan scan = capture_scan(scene, lidar, 2, poses, {});
+    const LidarScan scan = capture_scan(scene, lidar, 2, poses, 0.5 * duration_s, {});
     EXPECT_EQ(scan.lidar, 2);
     EXPECT_EQ(scan.T_world_lidar.matrix(), at(Vec3::Zero()).matrix());
     for (std::size_t beam = 0; beam <= 720; ++beam) {
@@ -80,7 +80,8 @@ TEST(RollingScan, OfATurningVehicleIsTwistedByItsRateTimesTheBeamsTime) {
   const RayScene scene(world_of(wall, false));
   const double turn_rad = deg_to_rad(1.0);
   const std::vector<Isometry> poses = {at(Vec3::Zero()), at(Vec3::Zero(), turn_rad)};
-  const LidarScan scan = capture_scan(scene, lidar, 0, poses, {});
+  const LidarScan scan =
+      capture_scan(scene, lidar, 0, poses, sweep_duration_s(lidar.config), {});
   for (std::size_t beam = 60; beam <= 660; ++beam) {
     const double azimuth_rad = deg_to_rad(-90.0 + 0.25 * static_cast<double>(beam)) +
                                turn_rad * static_cast<double>(beam) / 720.0;
@@ -94,9 +95,9 @@ TEST(RollingScan, OfAStillVehicleIsTheInstantScan) {
   const RayScene scene(world_of(test::random_soup(300, 5.0, {6, 0, 0}, 5), true));
   const Isometry pose = at({-3, 1, 2}, 0.3);
   const std::vector<Isometry> poses(6, pose);
-  const LidarScan rolling = capture_scan(scene, make_lidar_model(config), 0, poses, {});
+  const LidarScan rolling = capture_scan(scene, make_lidar_model(config), 0, poses, 0.004, {});
   config.rolling = false;
-  const LidarScan instant = capture_scan(scene, make_lidar_model(config), 0, {&pose, 1}, {});
+  const LidarScan instant = capture_scan(scene, make_lidar_model(config), 0, {&pose, 1}, 0.0, {});
   EXPECT_EQ(std::memcmp(rolling.range_m.data(), instant.range_m.data(),
                         instant.range_m.size() * sizeof(float)),
             0);
@@ -111,7 +112,8 @@ TEST(RollingScan, BeamsFollowThePosesTheyAreGiven) {
   const RayScene scene(world_of(wall, false));
   const std::vector<Isometry> poses = {at({0, 0, 0}), at({0.1, 0, 0}), at({0.1, 0, 0}),
                                        at({0.1, 0.3, 0})};
-  const LidarScan scan = capture_scan(scene, lidar, 0, poses, {});
+  const LidarScan scan =
+      capture_scan(scene, lidar, 0, poses, sweep_duration_s(lidar.config) / 3.0, {});
   EXPECT_NEAR(scan.range_m.back(), 5.7, 5e-6);
   EXPECT_NEAR(scan.range_m[360], 5.9, 5e-6);
   const double azimuth_rad = deg_to_rad(-90.0 + 0.25 * 120);  // half way to the second pose
@@ -128,10 +130,10 @@ TEST(RangeNoise, IsNormalWithItsSigma) {
   const LidarModel noisy = make_lidar_model(config);
   config.range_sigma_m = 0.0;
   const LidarModel exact = make_lidar_model(config);
-  const LidarScan truth = capture_scan(scene, exact, 0, {&pose, 1}, {});
+  const LidarScan truth = capture_scan(scene, exact, 0, {&pose, 1}, 0.0, {});
   std::vector<double> sample;
   for (std::uint64_t tick = 0; tick < 50; ++tick) {
-    const LidarScan scan = capture_scan(scene, noisy, 0, {&pose, 1}, {9, tick});
+    const LidarScan scan = capture_scan(scene, noisy, 0, {&pose, 1}, 0.0, {9, tick});
     for (std::size_t i = 0; i < scan.range_m.size(); ++i) {
       sample.push_back((scan.range_m[i] - truth.range_m[i]) / 0.03);
     }
@@ -146,7 +148,7 @@ TEST(RangeNoise, IsKeyedBySeedTickAndLidar) {
   const RayScene scene(world_of(test::sphere({0, 0, 0}, 8.0, 3), false));
   const Isometry pose = Isometry::Identity();
   const auto ranges = [&](int index, const NoiseKey& key) {
-    return capture_scan(scene, lidar, index, {&pose, 1}, key).range_m;
+    return capture_scan(scene, lidar, index, {&pose, 1}, 0.0, key).range_m;
   };
   const auto agree = [](const std::vector<float>& a, const std::vector<float>& b) {
     return std::inner_product(a.begin(), a.end(), b.begin(), 0, std::plus<>(), std::equal_to<>());
@@ -168,7 +170,7 @@ TEST(RangeNoise, KeepsTheLawsOfNearAndFar) {
   const Isometry pose = Isometry::Identity();
   const auto count = [&](double radius_m, const auto& kind) {
     const RayScene scene(world_of(test::sphere({0, 0, 0}, radius_m, 6), false));
-    const LidarScan scan = capture_scan(scene, lidar, 0, {&pose, 1}, {});
+    const LidarScan scan = capture_scan(scene, lidar, 0, {&pose, 1}, 0.0, {});
     return std::count_if(scan.range_m.begin(), scan.range_m.end(), kind);
   };
   const auto is_invalid = [](float r) { return std::isnan(r); };

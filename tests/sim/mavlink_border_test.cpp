@@ -131,6 +131,43 @@ TEST(MavlinkBorder, NothingToControlAndInfinityAreRefused) {
   }
 }
 
+TEST(MavlinkBorder, EveryAxisHasABound) {
+  struct Group {
+    std::array<float, 3> SetPositionTargetLocalNed::*field;
+    float limit;
+    int first_bit;
+  };
+  for (const Group& group : {Group{&SetPositionTargetLocalNed::p_m, 1e6F, 0},
+                             Group{&SetPositionTargetLocalNed::v_m_s, 1e3F, 3},
+                             Group{&SetPositionTargetLocalNed::a_m_s2, 1e3F, 6}}) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (const float sign : {1.0F, -1.0F}) {
+        SetPositionTargetLocalNed message = full_message(0);
+        float& value = (message.*group.field)[axis];
+        value = sign * group.limit;
+        EXPECT_FALSE(is_refused(message)) << group.limit << " axis " << axis;
+        for (const float beyond : {std::nextafter(group.limit, 1e9F), 3e38F}) {
+          value = sign * beyond;
+          message.type_mask = 0;
+          EXPECT_TRUE(is_refused(message)) << beyond << " axis " << axis;
+          message.type_mask =
+              static_cast<std::uint16_t>(1U << (static_cast<std::size_t>(group.first_bit) + axis));
+          EXPECT_FALSE(is_refused(message)) << "where it is ignored it does no harm";
+        }
+      }
+    }
+  }
+}
+
+TEST(MavlinkBorder, TheBodyFrameHasTheSameBounds) {
+  SetPositionTargetLocalNed message = full_message(0, 8);
+  message.a_m_s2[0] = 3e38F;
+  EXPECT_TRUE(is_refused(message));
+  message.a_m_s2[0] = 1.0F;
+  message.p_m[0] = 3e38F;  // it has no position
+  EXPECT_FALSE(is_refused(message));
+}
+
 /// Oracle: the definition of the angles, Rz Ry Rx in NED/FRD, carried to ENU/FLU by matrices.
 Isometry world_body_of(const Euler& e) {
   Eigen::Matrix3d enu_ned;

@@ -160,6 +160,26 @@ TEST(Px4Modes, EveryLossActionDoesWhatItSays) {
   EXPECT_FALSE(quadrotor.px4().is_armed());
 }
 
+TEST(Px4Modes, CommandingTheFallbackModeEndsTheFailsafe) {
+  for (const auto& [action, mode] : {std::pair(OffboardLossAction::hold, NavState::hold),
+                                     std::pair(OffboardLossAction::land, NavState::land)}) {
+    CommanderParameters commander;
+    commander.offboard_loss_action = action;
+    Quadrotor quadrotor = airborne(with(commander));
+    Px4& px4 = quadrotor.px4();
+    wait(quadrotor, 1.1);
+    ASSERT_TRUE(px4.is_in_failsafe());
+    ASSERT_EQ(px4.nav_state(), mode);
+    px4.take_messages();
+    EXPECT_EQ(px4.set_mode(mode), Ack::accepted);
+    EXPECT_FALSE(px4.is_in_failsafe());
+    EXPECT_TRUE(has_said(px4, "Failsafe over"));
+    wait(quadrotor, 0.5);
+    EXPECT_EQ(px4.set_mode(NavState::rtl), Ack::accepted);
+    EXPECT_FALSE(has_said(px4, "Failsafe"));  // it was over before
+  }
+}
+
 TEST(Px4Modes, ALossCanBeHeldBeforeItIsActedOn) {  // PX4 1.9: two stages
   CommanderParameters commander;
   commander.offboard_loss_s = 0.5;

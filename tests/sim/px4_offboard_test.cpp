@@ -98,6 +98,33 @@ TEST(Offboard, XWithoutYIsInvalid) {  // 7
   EXPECT_LT(std::abs(place(quadrotor).x()), 0.01);  // stayed
 }
 
+TEST(Offboard, AnInvalidSetpointStartsNoTakeoff) {
+  Quadrotor quadrotor = on_ground();
+  const Setpoint below = go_to(Vec3(1, 2, -1));
+  stream(quadrotor, below, 0.1);
+  ASSERT_EQ(quadrotor.px4().set_mode(NavState::offboard), Ack::accepted);
+  ASSERT_EQ(quadrotor.px4().arm(true), Ack::accepted);
+  stream(quadrotor, below, 2.0);  // the rotors have spun up, and wait
+  for (int i = 0; i < ticks(0.9); ++i) {
+    stream(quadrotor, go_to(Vec3(1, kNan, 5)), kTick_s);
+    ASSERT_EQ(quadrotor.px4().attitude_setpoint().thrust, 0.0);
+  }
+  stream(quadrotor, go_to(Vec3(1, 2, 5)), 0.1);
+  EXPECT_GT(quadrotor.px4().attitude_setpoint().thrust, 0.0);
+}
+
+TEST(Offboard, FliesNoSetpointThatCameInAnotherMode) {
+  Quadrotor quadrotor = airborne();
+  hold(quadrotor);
+  stream(quadrotor, go_to(Vec3(5, 0, 10)), 0.5);
+  ASSERT_EQ(quadrotor.px4().set_mode(NavState::offboard), Ack::accepted);
+  wait(quadrotor, 0.9);
+  EXPECT_EQ(quadrotor.px4().nav_state(), NavState::offboard);
+  EXPECT_LT((place(quadrotor) - Vec3(0, 0, 10)).norm(), 0.01);  // stops and holds until the first
+  stream(quadrotor, go_to(Vec3(5, 0, 10)), 8.0);
+  EXPECT_NEAR(place(quadrotor).x(), 5.0, 0.05);
+}
+
 TEST(Offboard, VelocityBesideAPositionIsFedForward) {  // 8
   // a target that moves: with its velocity the vehicle follows without the lag v / P of 1.05 m
   const auto lag_m = [](double share) {

@@ -139,6 +139,16 @@ TEST_P(Preset, FeedForwardLeavesTheCascadeNothingToCorrect) {
   }
 }
 
+TEST_P(Preset, AutoModesKeepToItsOwnSpeedLimits) {
+  const AutopilotParameters& limits = vehicle.autopilot;
+  const CommanderParameters& c = limits.commander;
+  EXPECT_LE(c.cruise_speed_m_s, limits.speed_max_m_s);
+  EXPECT_LE(c.climb_speed_m_s, limits.climb_speed_max_m_s);
+  EXPECT_LE(c.takeoff_speed_m_s, limits.climb_speed_max_m_s);
+  EXPECT_LE(c.descent_speed_m_s, limits.descent_speed_max_m_s);
+  EXPECT_LE(c.land_speed_m_s, limits.descent_speed_max_m_s);
+}
+
 INSTANTIATE_TEST_SUITE_P(Figures, Preset,
                          testing::Values(Figures{"iris", 0.7067, 1.86, 4.70},
                                          Figures{"iris_sitl_2019", 0.5635, 2.75, 1.22},
@@ -194,6 +204,34 @@ TEST(Presets, OldVelocityGainsGiveTheThrustTheyNamed) {
   const Vec3 thrust = out.thrust * (out.q_world_body * Vec3::UnitZ());
   EXPECT_NEAR(thrust.x(), 0.2, 1e-12);
   EXPECT_NEAR(thrust.z(), hover, 1e-12);
+}
+
+TEST(Presets, CommandersAreThoseOfTheirFirmware) {  // sheet, sections 2 and 3
+  const auto commander = [](std::string_view preset) {
+    return vehicle_preset(preset).autopilot.commander;
+  };
+  const CommanderParameters px19 = commander("iris_sitl_2019");
+  EXPECT_EQ(px19.offboard_loss_s, 0.5);
+  EXPECT_EQ(px19.offboard_loss_hold_s, 5.0);
+  EXPECT_EQ(px19.offboard_loss_action, OffboardLossAction::rtl);
+  EXPECT_EQ(px19.disarm_after_landing_s, 0.1);
+  EXPECT_EQ(px19.descent_speed_m_s, 1.0);
+  EXPECT_EQ(px19.acceleration_m_s2, 5.0);
+  EXPECT_EQ(px19.jerk_m_s3, 8.0);
+  EXPECT_EQ(px19.tilt_max_on_ground_rad, deg_to_rad(12.0));
+  const CommanderParameters kfw = commander("authors");
+  EXPECT_EQ(kfw.offboard_loss_s, 0.5);
+  EXPECT_EQ(kfw.tilt_max_on_ground_rad, deg_to_rad(15.0));
+  for (const CommanderParameters& today : {commander("iris"), commander("f450")}) {
+    EXPECT_EQ(today.offboard_loss_s, 1.0);
+    EXPECT_EQ(today.offboard_loss_hold_s, 0.0);
+    EXPECT_EQ(today.offboard_loss_action, OffboardLossAction::position);
+    EXPECT_EQ(today.disarm_after_landing_s, 2.0);
+    EXPECT_EQ(today.descent_speed_m_s, 1.5);
+    EXPECT_EQ(today.acceleration_m_s2, 3.0);
+    EXPECT_EQ(today.jerk_m_s3, 4.0);
+    EXPECT_EQ(today.tilt_max_on_ground_rad, deg_to_rad(12.0));
+  }
 }
 
 TEST(Presets, UnknownNamesThrow) { EXPECT_THROW(vehicle_preset("concorde"), BrokenInvariant); }

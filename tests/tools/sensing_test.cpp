@@ -75,6 +75,15 @@ TEST(ProfileScan, GivesEachLidarItsOwnRate) {
   EXPECT_EQ(count[1], 10);
 }
 
+TEST(ProfileScan, LosesNoSweepThatBeginsBeforeTheLastOneEnds) {
+  for (const double rate_hz : {10.0, 40.0, 50.0}) {
+    LidarConfig config = lidar_at(rate_hz, true).config;
+    config.fov_rad = 2.0 * kPi;  // a sweep lasts for the whole period
+    const auto scans = scan_for(2.0, 1.0, {make_lidar_model(config)});
+    EXPECT_EQ(scans.size(), static_cast<std::size_t>(2.0 * rate_hz) - 1) << rate_hz;
+  }
+}
+
 TEST(ProfileScan, CarriesTheBelievedPoseOfItsFirstBeam) {
   for (const bool rolling : {false, true}) {
     const auto scans = scan_for(0.1, 1.0, {lidar_at(40.0, rolling)});

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -89,6 +90,21 @@ void need_ground_and_rotors(const Scenario& scenario) {
   }
 }
 
+/// Where a mission of this scenario would begin, for a vehicle that stands on the ground below.
+ViewPose ground_start(const Scenario& scenario, const RayScene& scene) {
+  const ViewPose start = start_pose(scenario, scene);
+  const AirframeParameters& airframe = scenario.vehicle.airframe;
+  const double half_height_m = 0.5 * airframe.hull_height_m;
+  const double clearance_m = std::hypot(airframe.hull_radius_m, half_height_m);
+  const Vec3 on_ground_world_m(start.p_world_m.x(), start.p_world_m.y(), half_height_m);
+  if (scene.distance_to_structure_m(on_ground_world_m, clearance_m) >= clearance_m) return start;
+  throw BadInput(
+      fmt::format("start.position_m: a vehicle on the ground at x {:.2f} y {:.2f} m, below the "
+                  "start, is within "
+                  "{:.2f} m of the structure, which its hull takes: move the start away from it",
+                  start.p_world_m.x(), start.p_world_m.y(), clearance_m));
+}
+
 void fly(const FlyOptions& options) {
   const Scenario scenario = resolve_scenario(options);
   need_ground_and_rotors(scenario);
@@ -96,7 +112,7 @@ void fly(const FlyOptions& options) {
   std::vector<std::string> warnings;
   const World world = load_world(scenario, warnings);
   for (const std::string& warning : warnings) fmt::print(stderr, "gnbv: {}\n", warning);
-  const ViewPose start = start_pose(scenario, RayScene(world));
+  const ViewPose start = ground_start(scenario, RayScene(world));
   Quadrotor vehicle(scenario.vehicle, world, start, scenario.seed, Px4::Start::on_ground);
   mavlink::Endpoint endpoint(scenario.vehicle.power.battery_wh);
   mavlink::UdpSocket socket(address);
@@ -106,8 +122,11 @@ void fly(const FlyOptions& options) {
              mavlink::url_of(socket.address()), scenario.vehicle.preset, start.p_world_m.x(),
              start.p_world_m.y(), options.speed);
   const auto on_lag = [&options] {
-    fmt::print(stderr, "gnbv: this machine cannot keep up with --speed {}: simulating slower\n",
-               options.speed);
+    fmt::print(
+        stderr,
+        "gnbv: this machine does not always keep up with --speed {}: the time that it is late "
+        "is not made up for\n",
+        options.speed);
   };
   const ServeResult result = serve(vehicle, endpoint, socket,
                                    {.speed = options.speed,
@@ -140,7 +159,10 @@ void add_fly_command(CLI::App& app) {
       ->add_option("--mavlink", options->url,
                    "udp://HOST:PORT to listen at; port 0 finds a free one")
       ->capture_default_str();
-  command->add_option("--speed", options->speed, "simulated seconds per second")
+  command
+      ->add_option("--speed", options->speed,
+                   "simulated seconds per second. Setpoints have to come within "
+                   "vehicle.autopilot.commander.offboard_loss_s / speed of wall time")
       ->check(CLI::Range(0.01, 1000.0))
       ->capture_default_str();
   command

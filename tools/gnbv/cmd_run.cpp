@@ -41,7 +41,7 @@ void run(const RunOptions& options) {
 void add_scenario_options(CLI::App& command, MissionOptions& options) {
   command.add_option("SCENARIO", options.scenario, "built-in name or YAML file")->required();
   command.add_option("--mesh", options.mesh, "a mesh file instead of the scenario's structure");
-  command.add_option("--seed", options.seed, "moves the start pose");
+  command.add_option("--seed", options.seed, "moves the start pose and keys all noise");
   command.add_option("--set", options.overrides, "KEY=VALUE of the scenario file; repeatable")
       ->allow_extra_args(false);
   command

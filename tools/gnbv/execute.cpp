@@ -120,7 +120,6 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
       hooks.on_frames = [&](const auto&... all) { frames->write(all...); };
     }
     MissionResult result = run_mission(scenario, world, scene, hooks, threads);
-    if (frames) frames->finish();
     const auto scoring = Clock::now();
     progress.show(1.0, "scoring");
     const SurfaceReference reference =

@@ -10,10 +10,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// The client is looked after at least this often, whatever the speed.
-constexpr double kTurn_s = 0.005;
-/// More than this behind the wall clock is not made up for.
-constexpr double kLagMax_s = 0.5;
 /// Datagrams a turn, so that a flood cannot stop the simulation.
 constexpr int kDatagramsPerTurn = 256;
 
@@ -37,32 +33,9 @@ void hear(mavlink::Endpoint& endpoint, mavlink::UdpSocket& socket, Quadrotor& ve
 void speak(mavlink::Endpoint& endpoint, const mavlink::UdpSocket& socket, Quadrotor& vehicle,
            double now_s) {
   for (const auto& frame : endpoint.take_outgoing(now_s, vehicle)) {
-    socket.send(frame, *endpoint.client());
+    if (socket.send(frame, *endpoint.client())) endpoint.count_sent();
   }
 }
-
-/// From wall time to the tick that is due, with the time given up taken off.
-class Pace {
- public:
-  explicit Pace(double speed) : ticks_per_s_(speed * static_cast<double>(kTicksPerSecond)) {}
-  std::int64_t due_tick(double now_s) const {
-    return static_cast<std::int64_t>(std::floor((now_s - given_up_s_) * ticks_per_s_));
-  }
-  double due_s(std::int64_t tick) const {
-    return given_up_s_ + static_cast<double>(tick) / ticks_per_s_;
-  }
-  /// Gives up the lag of a vehicle at `tick` if it is too great; whether it was.
-  bool give_up_lag(std::int64_t tick, double now_s) {
-    const double lag_s = now_s - due_s(tick);
-    if (lag_s <= kLagMax_s) return false;
-    given_up_s_ += lag_s;
-    return true;
-  }
-
- private:
-  double ticks_per_s_;
-  double given_up_s_ = 0.0;
-};
 
 std::int64_t last_tick_of(double duration_s) {
   if (duration_s == 0.0) return std::numeric_limits<std::int64_t>::max();
@@ -70,6 +43,26 @@ std::int64_t last_tick_of(double duration_s) {
 }
 
 }  // namespace
+
+Pace::Pace(double speed)
+    : ticks_per_s_(speed * static_cast<double>(kTicksPerSecond)),
+      ticks_per_turn_(static_cast<std::int64_t>(std::ceil(2.0 * kTurn_s * ticks_per_s_))) {}
+
+std::int64_t Pace::turn_end(std::int64_t tick, double now_s) const {
+  const auto due = static_cast<std::int64_t>(std::floor((now_s - given_up_s_) * ticks_per_s_));
+  return std::min(due, tick + ticks_per_turn_);
+}
+
+double Pace::due_s(std::int64_t tick) const {
+  return given_up_s_ + static_cast<double>(tick) / ticks_per_s_;
+}
+
+bool Pace::give_up_lag(std::int64_t tick, double now_s) {
+  const double lag_s = now_s - due_s(tick);
+  if (lag_s * ticks_per_s_ * kTick_s <= kLagMax_s) return false;
+  given_up_s_ += lag_s;
+  return true;
+}
 
 ServeResult serve(Quadrotor& vehicle, mavlink::Endpoint& endpoint, mavlink::UdpSocket& socket,
                   const ServeOptions& options) {
@@ -86,8 +79,8 @@ ServeResult serve(Quadrotor& vehicle, mavlink::Endpoint& endpoint, mavlink::UdpS
     socket.wait(std::min(pace.due_s(vehicle.tick() + 1) - seconds_since(begin), kTurn_s));
     const double now_s = seconds_since(begin);
     hear(endpoint, socket, vehicle, now_s);
-    while (!end() && vehicle.tick() < pace.due_tick(now_s) &&
-           seconds_since(begin) < now_s + kTurn_s) {
+    const std::int64_t turn_end = pace.turn_end(vehicle.tick(), now_s);
+    while (!end() && vehicle.tick() < turn_end && seconds_since(begin) < now_s + kTurn_s) {
       vehicle.step();
     }
     speak(endpoint, socket, vehicle, now_s);

@@ -14,7 +14,7 @@ struct ServeOptions {
   double speed = 1.0;       // simulated seconds per wall second
   double duration_s = 0.0;  // simulated; 0: until should_stop
   std::function<bool()> should_stop;
-  std::function<void()> on_lag;  // called once, when the machine cannot keep up
+  std::function<void()> on_lag;  // called once, when time is given up for the first time
 };
 
 enum class ServeEnd { stopped, duration, collision };
@@ -25,9 +25,34 @@ struct ServeResult {
   double wall_s = 0.0;
 };
 
+/// The client is heard at least this often in wall time, whatever the speed.
+constexpr double kTurn_s = 0.005;
+/// Being further behind than this, in simulated time, is not made up for. It is a small part of the
+/// silence after which PX4 takes the offboard stream for lost.
+constexpr double kLagMax_s = 0.1;
+
+/// Which ticks are due by the wall clock, which counts in seconds since the beginning.
+class Pace {
+ public:
+  explicit Pace(double speed);
+  /// The tick that a vehicle at `tick` is stepped to before the client is heard again: the one that
+  /// is due, but never more than what two turns simulate at the asked speed.
+  std::int64_t turn_end(std::int64_t tick, double now_s) const;
+  /// When a tick is due.
+  double due_s(std::int64_t tick) const;
+  /// Gives up the lag of a vehicle at `tick` if it exceeds kLagMax_s; whether it did.
+  bool give_up_lag(std::int64_t tick, double now_s);
+
+ private:
+  double ticks_per_s_;
+  std::int64_t ticks_per_turn_;
+  double given_up_s_ = 0.0;  // wall time
+};
+
 /// Steps the vehicle and serves the endpoint until one of the ends. A client's messages take effect
-/// at the next tick. Time that the machine cannot catch up with is given up: the simulation then
-/// runs slower than asked for, and never in bursts.
+/// at the next tick. After a stall at most kLagMax_s of simulated time is made up for, in turns
+/// between which the client is heard; the rest is given up, and the simulation is slower than asked
+/// for by that much. So a client is never lost because this program was late.
 ServeResult serve(Quadrotor& vehicle, mavlink::Endpoint& endpoint, mavlink::UdpSocket& socket,
                   const ServeOptions& options);
 

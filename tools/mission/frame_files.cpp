@@ -43,6 +43,18 @@ FrameFiles::FrameFiles(std::filesystem::path folder, std::vector<CameraModel> ca
     throw BadInput(
         fmt::format("{}: cannot make the folder: {}", folder_.string(), error.message()));
   }
+  nlohmann::ordered_json cameras = nlohmann::ordered_json::array();
+  for (const CameraModel& camera : cameras_) {
+    cameras.push_back({{"name", camera.config.name},
+                       {"width_px", camera.config.width_px},
+                       {"height_px", camera.config.height_px},
+                       {"fx_px", camera.fx_px},
+                       {"fy_px", camera.fy_px},
+                       {"cx_px", camera.cx_px},
+                       {"cy_px", camera.cy_px},
+                       {"depth_scale_m", 0.001}});
+  }
+  write_file_atomically(folder_ / "cameras.json", cameras.dump(2) + "\n");
 }
 
 void FrameFiles::write(std::size_t iteration, double time_s, std::span<const DepthFrame> depth,
@@ -61,21 +73,6 @@ void FrameFiles::write(std::size_t iteration, double time_s, std::span<const Dep
         iteration, camera.name, time_s, p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w(), stem,
         stem);
   }
-}
-
-void FrameFiles::finish() const {
-  nlohmann::ordered_json cameras = nlohmann::ordered_json::array();
-  for (const CameraModel& camera : cameras_) {
-    cameras.push_back({{"name", camera.config.name},
-                       {"width_px", camera.config.width_px},
-                       {"height_px", camera.config.height_px},
-                       {"fx_px", camera.fx_px},
-                       {"fy_px", camera.fy_px},
-                       {"cx_px", camera.cx_px},
-                       {"cy_px", camera.cy_px},
-                       {"depth_scale_m", 0.001}});
-  }
-  write_file_atomically(folder_ / "cameras.json", cameras.dump(2) + "\n");
   write_file_atomically(folder_ / "poses.csv", poses_);
 }
 

@@ -170,17 +170,21 @@ DepthFrame depth_frame(const Mission& m, std::size_t camera) {
                      m.scenario.seed, m.bench.threads);
 }
 
-/// Flies to the view; cameras that run in flight are believed on the way.
+/// Flies to the view; cameras that run in flight are believed on the way. A frame is believed one
+/// tick late, so that one due on arrival is left to the view itself.
 std::optional<Termination> fly_to_view(Mission& m, const Decision& next) {
   const Stopwatch watch(m.view_wall.fly_s);
   m.entropy_before_nat = m.out.belief.grid.total_entropy_nat();
   m.out.distance.straight_m += (next.view.p_world_m - m.current.p_world_m).norm();
+  std::vector<DepthFrame> pending;
   const auto over =
       fly_leg(m, next.view, m.scenario.guidance.path_speed_m_s, [&](const Flight& flight) {
+        integrate_view(m.planner, pending, m.bench, m.out.belief);
+        pending.clear();
         for (std::size_t i = 0; i < m.planner.cameras.size(); ++i) {
-          if (!is_due(m.planner.cameras[i].config.rate_hz, flight.tick())) continue;
-          const DepthFrame frame = depth_frame(m, i);
-          integrate_view(m.planner, {&frame, 1}, m.bench, m.out.belief);
+          if (is_due(m.planner.cameras[i].config.rate_hz, flight.tick())) {
+            pending.push_back(depth_frame(m, i));
+          }
         }
       });
   m.out.distance.flown_m = m.flown_m;

@@ -1,7 +1,7 @@
 #include "tools/mission/sensing.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace gnbv {
 namespace {
@@ -9,19 +9,6 @@ namespace {
 /// Ticks from the first beam of a sweep to the tick of its last one, or just after it.
 std::size_t ticks_of(const LidarConfig& lidar) {
   return static_cast<std::size_t>(std::ceil(sweep_duration_s(lidar) / kTick_s));
-}
-
-/// The poses of every tick, resampled so that the last one falls on the end of the sweep.
-std::vector<Isometry> spread_over(std::span<const Isometry> at_ticks, double duration_s) {
-  const std::size_t last = at_ticks.size() - 1;
-  std::vector<Isometry> spread = {at_ticks.front()};
-  for (std::size_t i = 1; i <= last; ++i) {
-    const double tick = static_cast<double>(i) / static_cast<double>(last) * duration_s / kTick_s;
-    const std::size_t before = std::min(static_cast<std::size_t>(tick), last - 1);
-    spread.push_back(
-        interpolated(at_ticks[before], at_ticks[before + 1], tick - static_cast<double>(before)));
-  }
-  return spread;
 }
 
 }  // namespace
@@ -51,33 +38,28 @@ ColourFrame sense_colour(const RayScene& scene, const CameraModel& camera, int c
 
 ProfileScanner::ProfileScanner(const RayScene& scene, std::span<const LidarModel> lidars,
                                std::uint64_t seed)
-    : scene_(scene), lidars_(lidars), seed_(seed), sweeps_(lidars.size()) {}
+    : scene_(scene), lidars_(lidars), seed_(seed) {}
 
 void ProfileScanner::tick(const Flight& flight, bool is_on) {
-  for (std::size_t i = 0; i < lidars_.size(); ++i) {
-    Sweep& sweep = sweeps_[i];
-    if (sweep.T_world_body.empty() && is_on && is_due(lidars_[i].config.rate_hz, flight.tick())) {
-      sweep.begin_tick = flight.tick();
-      sweep.T_world_body_believed = flight.estimate().T_world_body;
-    } else if (sweep.T_world_body.empty()) {
-      continue;
-    }
-    sweep.T_world_body.push_back(flight.state().T_world_body);
-    if (sweep.T_world_body.size() > ticks_of(lidars_[i].config)) finish(i);
+  for (std::size_t i = 0; is_on && i < lidars_.size(); ++i) {
+    if (!is_due(lidars_[i].config.rate_hz, flight.tick())) continue;
+    sweeps_.push_back({i, flight.tick(), flight.estimate().T_world_body, {}});
   }
+  for (Sweep& sweep : sweeps_) sweep.T_world_body.push_back(flight.state().T_world_body);
+  std::erase_if(sweeps_, [&](const Sweep& sweep) {
+    const bool is_over = sweep.T_world_body.size() > ticks_of(lidars_[sweep.lidar].config);
+    if (is_over) finish(sweep);
+    return is_over;
+  });
 }
 
-void ProfileScanner::finish(std::size_t i) {
-  const LidarModel& lidar = lidars_[i];
-  Sweep& sweep = sweeps_[i];
-  if (sweep.T_world_body.size() > 1) {
-    sweep.T_world_body = spread_over(sweep.T_world_body, sweep_duration_s(lidar.config));
-  }
-  LidarScan scan = capture_scan(scene_, lidar, static_cast<int>(i), sweep.T_world_body,
-                                {seed_, static_cast<std::uint64_t>(sweep.begin_tick)});
+void ProfileScanner::finish(const Sweep& sweep) {
+  const LidarModel& lidar = lidars_[sweep.lidar];
+  LidarScan scan =
+      capture_scan(scene_, lidar, static_cast<int>(sweep.lidar), sweep.T_world_body, kTick_s,
+                   {seed_, static_cast<std::uint64_t>(sweep.begin_tick)});
   scan.T_world_lidar = sweep.T_world_body_believed * lidar.T_body_lidar;
   scans_.push_back(std::move(scan));
-  sweep.T_world_body.clear();
 }
 
 }  // namespace gnbv

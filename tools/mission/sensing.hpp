@@ -36,16 +36,17 @@ class ProfileScanner {
  private:
   /// A sweep that has begun: the believed pose of its first beam, and the true ones since.
   struct Sweep {
+    std::size_t lidar = 0;
     std::int64_t begin_tick = 0;
     Isometry T_world_body_believed = Isometry::Identity();
     std::vector<Isometry> T_world_body;  // at each tick
   };
-  void finish(std::size_t lidar);
+  void finish(const Sweep& sweep);
 
   const RayScene& scene_;
   std::span<const LidarModel> lidars_;
   std::uint64_t seed_;
-  std::vector<Sweep> sweeps_;  // of each LIDAR; without poses while none is under way
+  std::vector<Sweep> sweeps_;  // under way, oldest first; a LIDAR may begin one before its last ends
   std::vector<LidarScan> scans_;
 };
 
