@@ -149,7 +149,8 @@ std::vector<RayHit> trace_moving(const RayScene& scene, const LidarModel& lidar,
   std::vector<Vec3f> origins_world_m(beams);
   std::vector<Vec3f> directions_world(beams);
   for (std::size_t i = 0; i < beams; ++i) {
-    const Isometry T_world_lidar = poses.at(intervals * static_cast<double>(i) / last) * lidar.T_body_lidar;
+    const Isometry T_world_lidar =
+        poses.at(intervals * static_cast<double>(i) / last) * lidar.T_body_lidar;
     origins_world_m[i] = T_world_lidar.translation().cast<float>();
     directions_world[i] = T_world_lidar.linear().cast<float>() * lidar.beams_lidar[i];
   }
@@ -193,9 +194,10 @@ LidarScan capture_scan(const RayScene& scene, const LidarModel& lidar, int lidar
   LidarScan scan;
   scan.lidar = lidar_index;
   scan.T_world_lidar = T_world_body_during.front() * lidar.T_body_lidar;
-  const std::vector<RayHit> hits = is_still(T_world_body_during)
-                                       ? trace_instant(scene, lidar, scan.T_world_lidar, far_m)
-                                       : trace_moving(scene, lidar, T_world_body_during, interval_s, far_m);
+  const std::vector<RayHit> hits =
+      is_still(T_world_body_during)
+          ? trace_instant(scene, lidar, scan.T_world_lidar, far_m)
+          : trace_moving(scene, lidar, T_world_body_during, interval_s, far_m);
   scan.range_m.reserve(hits.size());
   for (std::size_t beam = 0; beam < hits.size(); ++beam) {
     const float true_m = hits[beam].distance_m;

@@ -80,8 +80,7 @@ TEST(RollingScan, OfATurningVehicleIsTwistedByItsRateTimesTheBeamsTime) {
   const RayScene scene(world_of(wall, false));
   const double turn_rad = deg_to_rad(1.0);
   const std::vector<Isometry> poses = {at(Vec3::Zero()), at(Vec3::Zero(), turn_rad)};
-  const LidarScan scan =
-      capture_scan(scene, lidar, 0, poses, sweep_duration_s(lidar.config), {});
+  const LidarScan scan = capture_scan(scene, lidar, 0, poses, sweep_duration_s(lidar.config), {});
   for (std::size_t beam = 60; beam <= 660; ++beam) {
     const double azimuth_rad = deg_to_rad(-90.0 + 0.25 * static_cast<double>(beam)) +
                                turn_rad * static_cast<double>(beam) / 720.0;

@@ -43,18 +43,18 @@ FrameFiles::FrameFiles(std::filesystem::path folder, std::vector<CameraModel> ca
     throw BadInput(
         fmt::format("{}: cannot make the folder: {}", folder_.string(), error.message()));
   }
-  nlohmann::ordered_json cameras = nlohmann::ordered_json::array();
+  nlohmann::ordered_json intrinsics = nlohmann::ordered_json::array();
   for (const CameraModel& camera : cameras_) {
-    cameras.push_back({{"name", camera.config.name},
-                       {"width_px", camera.config.width_px},
-                       {"height_px", camera.config.height_px},
-                       {"fx_px", camera.fx_px},
-                       {"fy_px", camera.fy_px},
-                       {"cx_px", camera.cx_px},
-                       {"cy_px", camera.cy_px},
-                       {"depth_scale_m", 0.001}});
+    intrinsics.push_back({{"name", camera.config.name},
+                          {"width_px", camera.config.width_px},
+                          {"height_px", camera.config.height_px},
+                          {"fx_px", camera.fx_px},
+                          {"fy_px", camera.fy_px},
+                          {"cx_px", camera.cx_px},
+                          {"cy_px", camera.cy_px},
+                          {"depth_scale_m", 0.001}});
   }
-  write_file_atomically(folder_ / "cameras.json", cameras.dump(2) + "\n");
+  write_file_atomically(folder_ / "cameras.json", intrinsics.dump(2) + "\n");
 }
 
 void FrameFiles::write(std::size_t iteration, double time_s, std::span<const DepthFrame> depth,

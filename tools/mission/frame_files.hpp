@@ -11,8 +11,8 @@
 
 namespace gnbv {
 
-/// Writes ITERATION_CAMERA.rgb.png (sRGB) and ITERATION_CAMERA.depth.png (16 bits, millimetres along
-/// the optical axis, 0 where there is none) of each view, cameras.json (pinhole intrinsics in
+/// Writes ITERATION_CAMERA.rgb.png (sRGB) and ITERATION_CAMERA.depth.png (16 bits, millimetres
+/// along the optical axis, 0 where there is none) of each view, cameras.json (pinhole intrinsics in
 /// pixels, pixel centres at half pixels) and poses.csv, which grows with the views (T_world_camera
 /// as believed: metres, unit quaternion; optical frame, world ENU). Every file appears by rename.
 class FrameFiles {

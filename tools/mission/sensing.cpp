@@ -55,9 +55,8 @@ void ProfileScanner::tick(const Flight& flight, bool is_on) {
 
 void ProfileScanner::finish(const Sweep& sweep) {
   const LidarModel& lidar = lidars_[sweep.lidar];
-  LidarScan scan =
-      capture_scan(scene_, lidar, static_cast<int>(sweep.lidar), sweep.T_world_body, kTick_s,
-                   {seed_, static_cast<std::uint64_t>(sweep.begin_tick)});
+  LidarScan scan = capture_scan(scene_, lidar, static_cast<int>(sweep.lidar), sweep.T_world_body,
+                                kTick_s, {seed_, static_cast<std::uint64_t>(sweep.begin_tick)});
   scan.T_world_lidar = sweep.T_world_body_believed * lidar.T_body_lidar;
   scans_.push_back(std::move(scan));
 }

@@ -46,7 +46,8 @@ class ProfileScanner {
   const RayScene& scene_;
   std::span<const LidarModel> lidars_;
   std::uint64_t seed_;
-  std::vector<Sweep> sweeps_;  // under way, oldest first; a LIDAR may begin one before its last ends
+  std::vector<Sweep>
+      sweeps_;  // under way, oldest first; a LIDAR may begin one before its last ends
   std::vector<LidarScan> scans_;
 };
 
