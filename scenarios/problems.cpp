@@ -205,16 +205,6 @@ void check_offboard(const VehicleConfig& vehicle, Problems& out) {
                              kStream_s)});
 }
 
-void check_battery(const Scenario& s, Problems& out) {
-  const double battery_wh = s.vehicle.power.battery_wh;
-  const double landing_wh = landing_energy_wh(s.vehicle, s.start.pose.p_world_m.z());
-  if (battery_wh <= 0.0 || battery_wh > landing_wh) return;
-  out.push_back({{"vehicle.power.battery_wh"},
-                 fmt::format("has to exceed {:.3g} Wh, which landing from the start takes; 0 means "
-                             "that it is never empty",
-                             landing_wh)});
-}
-
 void check_structure(const StructureConfig& structure, Problems& out) {
   const std::string& path = structure.file.path;
   std::error_code ignored;
@@ -240,7 +230,6 @@ std::vector<Problem> problems(const Scenario& scenario) {
   check_vehicle(scenario.vehicle, out);
   check_guidance(scenario, out);
   check_offboard(scenario.vehicle, out);
-  check_battery(scenario, out);
   check_cloud(scenario.planner, out);
   check_view_rays(scenario, out);
   check_map_thresholds(scenario.planner.map, out);

@@ -100,11 +100,10 @@ TEST(VehiclePreset, HoldsWhereTheKeysBesideItSayNothingElse) {
   const Scenario heavy = load_text(kMinimal +
                                    "vehicle:\n  power: {battery_wh: 56.6}\n"
                                    "  airframe: {mass_kg: 1.6}\n  preset: authors\n"
-                                   "  kind: ideal\n  estimate: {model: vio}\n");
+                                   "  estimate: {model: vio}\n");
   EXPECT_EQ(heavy.vehicle.airframe.mass_kg, 1.6);
   EXPECT_EQ(heavy.vehicle.airframe.idle_speed_rad_s, 450.0);
   EXPECT_EQ(heavy.vehicle.power.battery_wh, 56.6);
-  EXPECT_EQ(heavy.vehicle.kind, VehicleKind::ideal);
   EXPECT_EQ(heavy.vehicle.estimate.model, EstimateModel::vio);
   EXPECT_EQ(load_text(kMinimal, {"vehicle.preset=f450"}).vehicle.airframe.mass_kg, 1.9);
 }

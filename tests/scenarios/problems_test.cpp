@@ -86,5 +86,15 @@ TEST(Problems, OfABuiltinScenarioAreNone) {
   }
 }
 
+TEST(Problems, AnIdealVehicleDoesNotEstimate) {
+  EXPECT_THAT(complaint(kMinimal + "vehicle: {kind: ideal}", {"vehicle.estimate.model=gnss"}),
+              StartsWith("--set vehicle.estimate.model=gnss: vehicle.estimate.model: "));
+}
+
+TEST(Problems, TheStreamOfTheGuidanceHasToKeepTheVehicleInOffboard) {
+  const std::string key = "vehicle.autopilot.commander.offboard_loss_s";
+  EXPECT_THAT(complaint(kMinimal, {key + "=0.02"}), StartsWith("--set " + key + "=0.02: " + key));
+}
+
 }  // namespace
 }  // namespace gnbv
