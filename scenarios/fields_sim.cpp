@@ -27,7 +27,8 @@ constexpr std::array<Named<OffboardLossAction>, 8> kOffboardLossActions = {
 }  // namespace
 
 void fields(FieldVisitor& v, MeshFileConfig& c) {
-  v.path("path", c.path, "Mesh file in any format assimp reads; empty: the built-in structure.");
+  v.path("path", c.path,
+         "Mesh file (OBJ, STL, PLY, DAE, GLTF, GLB); empty: the built-in structure.");
   v.number("scale", c.scale, above_upto(0, 1e6), "Factor on the file's coordinates.");
   v.number("offset_m", c.offset_m, between(-1e4, 1e4), "Added after scaling, world axes.");
   v.choice("up_axis", c.up_axis, kUpAxes,

@@ -1,4 +1,5 @@
-// Mesh files of any format assimp reads. Only mesh_file.cpp and mesh_write.cpp know assimp.
+// Mesh files: PLY by our own reader, all other formats by assimp, which only mesh_file.cpp and
+// mesh_write.cpp know.
 #pragma once
 
 #include <filesystem>
