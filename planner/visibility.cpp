@@ -33,15 +33,14 @@ ViewStats evaluate_view(const OccupancyGrid& grid, const SurfaceCloud& cloud,
                         VisitMarks& marks) {
   marks.next_view();
   const GridGeometry& geometry = grid.geometry();
-  const std::span<const VoxelState> states = grid.states();
-  const std::span<const float> entropies_nat = grid.entropies_nat();
+  const std::span<const VoxelWord> words = grid.words();
   const Isometry T = T_world_body(candidate);
 
   ViewStats stats;
   std::array<std::uint32_t, 3> voxels = {0, 0, 0};  // by VoxelState
   const auto see = [&](VoxelIndex v) {
-    const VoxelState state = states[v];
-    const auto entropy_nat = static_cast<double>(entropies_nat[v]);
+    const VoxelState state = state_of(words[v]);
+    const double entropy_nat = entropy_units_of(words[v]) * kEntropyUnit_nat;
     stats.entropy_per_ray_nat += entropy_nat;
     if (marks.mark(v)) {
       ++voxels[static_cast<std::size_t>(state)];

@@ -46,16 +46,14 @@ OccupancyGrid::OccupancyGrid(const OccupancyConfig& config, const Box3& bounds_m
   const Entropy unmeasured = compute_entropy(0.0F);
   entropy_memo_.assign(std::size_t{1} << kMemoBits, unmeasured);
   const std::size_t voxels = geometry_.voxel_count();
-  log_odds_.assign(voxels, 0.0F);
-  measured_.assign(voxels, 0);
-  state_.assign(voxels, VoxelState::unknown);
-  entropy_nat_.assign(voxels, unmeasured.nat);
+  log_odds_ = ZeroedArray<float>(voxels);
+  words_ = ZeroedArray<VoxelWord>(voxels);
   total_entropy_ = unmeasured.units * static_cast<std::int64_t>(voxels);
 }
 
 VoxelState OccupancyGrid::state_at(const Vec3& p_world_m) const {
   const Key key = geometry_.key_of(p_world_m);
-  return geometry_.contains(key) ? state_[geometry_.index_of(key)] : VoxelState::unknown;
+  return geometry_.contains(key) ? state(geometry_.index_of(key)) : VoxelState::unknown;
 }
 
 double OccupancyGrid::probability(VoxelIndex v) const {
@@ -73,7 +71,7 @@ OccupancyGrid::Entropy OccupancyGrid::compute_entropy(float log_odds) const {
   const double e = std::exp(-l);
   const double entropy_nat = std::log1p(e) + l * e / (1.0 + e);
   return {.log_odds = log_odds,
-          .nat = static_cast<float>(entropy_nat),
+          .word_units = static_cast<std::uint32_t>(std::llround(entropy_nat / kEntropyUnit_nat)),
           .units = std::llround(entropy_nat * kTotalUnits)};
 }
 
@@ -93,15 +91,21 @@ void OccupancyGrid::add_log_odds(VoxelIndex v, float delta) {
   total_entropy_ -= entropy_of(before).units;
   const Entropy& entropy = entropy_of(after);
   total_entropy_ += entropy.units;
+  const VoxelState now = after >= occupied_min_log_ ? VoxelState::occupied
+                         : after <= free_max_log_   ? VoxelState::free
+                                                    : VoxelState::unknown;
+  occupied_count_ += static_cast<std::size_t>(now == VoxelState::occupied);
+  occupied_count_ -= static_cast<std::size_t>(state(v) == VoxelState::occupied);
+  predicted_count_ -= static_cast<std::size_t>(is_predicted(v));
   log_odds_[v] = after;
-  entropy_nat_[v] = entropy.nat;
-  measured_[v] = 1;
-  const VoxelState state = after >= occupied_min_log_ ? VoxelState::occupied
-                           : after <= free_max_log_   ? VoxelState::free
-                                                      : VoxelState::unknown;
-  occupied_count_ += static_cast<std::size_t>(state == VoxelState::occupied);
-  occupied_count_ -= static_cast<std::size_t>(state_[v] == VoxelState::occupied);
-  state_[v] = state;
+  words_[v] = measured_word(now, entropy.word_units);
+}
+
+bool OccupancyGrid::predict(VoxelIndex v) {
+  if (is_measured(v)) return false;
+  predicted_count_ += static_cast<std::size_t>(!is_predicted(v));
+  words_[v] |= kPredictedBit;
+  return true;
 }
 
 void OccupancyGrid::apply(const ScanUpdate& update) {

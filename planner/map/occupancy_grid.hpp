@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "planner/map/grid_geometry.hpp"
+#include "planner/map/voxel_word.hpp"
+#include "sim/core/zeroed_array.hpp"
 
 namespace gnbv {
 
@@ -21,8 +23,6 @@ struct OccupancyConfig {
   double occupied_min = 0.6;  // p >= this is occupied
   double free_max = 0.4;      // p <= this is free, between is unknown
 };
-
-enum class VoxelState : std::uint8_t { unknown = 0, free = 1, occupied = 2 };
 
 /// The voxels one scan touches, each once, occupied before free (OctoMap's computeUpdate).
 struct ScanUpdate {
@@ -42,15 +42,17 @@ class OccupancyGrid {
   /// Natural logarithm of the odds, float32 as in OctoMap; 0 while unmeasured.
   float log_odds(VoxelIndex v) const { return log_odds_[v]; }
   /// Whether any scan has touched the voxel (OctoMap: the node exists).
-  bool is_measured(VoxelIndex v) const { return measured_[v] != 0; }
-  VoxelState state(VoxelIndex v) const { return state_[v]; }
+  bool is_measured(VoxelIndex v) const { return (words_[v] & kMeasuredBit) != 0; }
+  VoxelState state(VoxelIndex v) const { return state_of(words_[v]); }
   /// State outside the grid is unknown.
   VoxelState state_at(const Vec3& p_world_m) const;
   double probability(VoxelIndex v) const;
 
   /// Eq. (1) in nat; ln 2 while unmeasured, 0 at a clamping bound (released code: "ignore entropies
   /// at clamping points").
-  float entropy_nat(VoxelIndex v) const { return entropy_nat_[v]; }
+  float entropy_nat(VoxelIndex v) const {
+    return static_cast<float>(entropy_units_of(words_[v])) * static_cast<float>(kEntropyUnit_nat);
+  }
   /// Sum of entropy_nat over all voxels of the workspace, kept up to date by apply(). Summed in
   /// units of 2^-32 nat, so that no order of updates changes it.
   double total_entropy_nat() const;
@@ -59,16 +61,21 @@ class OccupancyGrid {
   /// Adds the log-odds of a miss to each free voxel and of a hit to each occupied one, clamped.
   void apply(const ScanUpdate& update);
 
-  /// Row pointers for the hot loops; index with VoxelIndex.
-  std::span<const VoxelState> states() const { return state_; }
-  std::span<const float> entropies_nat() const { return entropy_nat_; }
-  std::span<const float> all_log_odds() const { return log_odds_; }
+  /// Marks the voxel as predicted to be surface (section 2.3) unless it has been measured; the
+  /// first measurement takes the mark away. Returns whether it is marked now.
+  bool predict(VoxelIndex v);
+  bool is_predicted(VoxelIndex v) const { return (words_[v] & kPredictedBit) != 0; }
+  std::size_t predicted_count() const { return predicted_count_; }
+
+  /// Rows for the hot loops; index with VoxelIndex.
+  std::span<const VoxelWord> words() const { return words_.span(); }
+  std::span<const float> all_log_odds() const { return log_odds_.span(); }
 
  private:
   struct Entropy {
     float log_odds = 0.0F;
-    float nat = 0.0F;
-    std::int64_t units = 0;  // the same in 2^-32 nat
+    std::uint32_t word_units = 0;  // in 2^-24 nat
+    std::int64_t units = 0;        // in 2^-32 nat
   };
   Entropy compute_entropy(float log_odds) const;
   const Entropy& entropy_of(float log_odds);
@@ -82,12 +89,11 @@ class OccupancyGrid {
   float hit_log_ = 0.0F, miss_log_ = 0.0F;
   float clamp_min_log_ = 0.0F, clamp_max_log_ = 0.0F;
   float occupied_min_log_ = 0.0F, free_max_log_ = 0.0F;
-  std::vector<float> log_odds_;
-  std::vector<std::uint8_t> measured_;
-  std::vector<VoxelState> state_;
-  std::vector<float> entropy_nat_;
+  ZeroedArray<float> log_odds_;
+  ZeroedArray<VoxelWord> words_;
   std::int64_t total_entropy_ = 0;  // in units of 2^-32 nat
   std::size_t occupied_count_ = 0;
+  std::size_t predicted_count_ = 0;
   // entropies last computed, by a hash of the log-odds: sums of hits and misses take few values
   std::vector<Entropy> entropy_memo_;
 };

@@ -1,0 +1,55 @@
+#include "sim/core/simd.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+
+namespace gnbv {
+namespace {
+
+constexpr std::array kLevels = {SimdLevel::scalar, SimdLevel::avx2, SimdLevel::avx512};
+
+SimdLevel level_of_processor() {
+#if defined(__x86_64__) && defined(__GNUC__)
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
+      __builtin_cpu_supports("avx512cd")) {
+    return SimdLevel::avx512;
+  }
+  if (__builtin_cpu_supports("avx2")) return SimdLevel::avx2;
+#endif
+  return SimdLevel::scalar;
+}
+
+SimdLevel level_asked_for() {
+  const char* const asked = std::getenv("GNBV_SIMD");
+  for (const SimdLevel level : kLevels) {
+    if (asked != nullptr && name_of(level) == asked) return level;
+  }
+  return SimdLevel::avx512;
+}
+
+SimdLevel& current_level() {
+  static SimdLevel level = std::min(level_of_processor(), level_asked_for());
+  return level;
+}
+
+}  // namespace
+
+std::string_view name_of(SimdLevel level) {
+  switch (level) {
+    case SimdLevel::scalar:
+      return "scalar";
+    case SimdLevel::avx2:
+      return "avx2";
+    case SimdLevel::avx512:
+      return "avx512";
+  }
+  return "unknown";
+}
+
+SimdLevel simd_level() { return current_level(); }
+
+void set_simd_level(SimdLevel most) { current_level() = std::min(level_of_processor(), most); }
+
+}  // namespace gnbv
