@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/core/parallel.hpp"
-
 namespace gnbv {
 namespace {
 
@@ -17,66 +15,6 @@ double frustum_voxels(std::span<const CameraModel> cameras, double resolution_m)
                  std::pow(c.range_max_m, 3);
   }
   return volume_m3 / std::pow(resolution_m, 3);
-}
-
-/// Candidates that may be flown to, in the order they were sampled.
-std::vector<ViewPose> valid_views(const PlannerModel& model, const Belief& belief,
-                                  const History& history, const ViewPose& current,
-                                  std::span<const ViewPose> candidates) {
-  const auto recent_count = std::min(history.decisions.size(),
-                                     static_cast<std::size_t>(model.config.validity.recent_poses));
-  std::vector<ViewPose> recent;
-  for (auto it = history.decisions.end() - static_cast<std::ptrdiff_t>(recent_count);
-       it != history.decisions.end(); ++it) {
-    recent.push_back(it->view);
-  }
-  std::vector<ViewPose> valid;
-  for (const ViewPose& candidate : candidates) {
-    if (!rejection(model.config.validity, model.navigation_m, belief.grid, recent, current,
-                   candidate)) {
-      valid.push_back(candidate);
-    }
-  }
-  return valid;
-}
-
-/// One ViewStats per view, each computed alone: which thread did it leaves no trace.
-std::vector<ViewStats> evaluate_views(const PlannerModel& model, const Belief& belief,
-                                      const ViewPose& current, std::span<const ViewPose> views,
-                                      Workbench& bench) {
-  std::vector<ViewStats> stats(views.size());
-  const std::size_t lanes = bench.marks.size();
-  parallel_for(bench.threads, lanes, [&](std::size_t lane) {
-    for (std::size_t i = lane; i < views.size(); i += lanes) {
-      stats[i] =
-          evaluate_view(belief.grid, belief.cloud, model.view_rays, views[i], bench.marks[lane]);
-      stats[i].density_max = belief.cloud.density_max();
-      stats[i].path_m = (views[i].p_world_m - current.p_world_m).norm();
-    }
-  });
-  return stats;
-}
-
-/// The view with the highest utility among those sampled at one scale; the first of equals.
-std::optional<Decision> best_at_scale(const PlannerModel& model, const Belief& belief,
-                                      const History& history, const ViewPose& current, double scale,
-                                      Workbench& bench) {
-  const std::vector<ViewPose> candidates = sample_agvs(model.config.agvs, current, scale);
-  const std::vector<ViewPose> valid = valid_views(model, belief, history, current, candidates);
-  const std::vector<ViewStats> stats = evaluate_views(model, belief, current, valid, bench);
-
-  std::optional<Decision> best;
-  for (std::size_t i = 0; i < valid.size(); ++i) {
-    const std::optional<Score> utility = score(model.config.utility, stats[i]);
-    if (!utility || (best && utility->value <= best->score.value)) continue;
-    best = Decision{.view = valid[i],
-                    .sampler = "agvs",
-                    .scale = scale,
-                    .candidates = static_cast<int>(candidates.size()),
-                    .valid = static_cast<int>(valid.size()),
-                    .score = *utility};
-  }
-  return best;
 }
 
 }  // namespace
@@ -98,9 +36,11 @@ Belief::Belief(const PlannerModel& model)
 Workbench::Workbench(const PlannerModel& model, int thread_count)
     : threads(std::max(thread_count, 1)),
       inserter(GridGeometry(model.workspace_m, model.config.map.resolution_m)),
-      marks(static_cast<std::size_t>(threads),
-            VisitMarks(
-                GridGeometry(model.workspace_m, model.config.map.resolution_m).voxel_count())) {}
+      marks(
+          static_cast<std::size_t>(threads),
+          VisitMarks(GridGeometry(model.workspace_m, model.config.map.resolution_m).voxel_count())),
+      frontier_marks(GridGeometry(model.workspace_m, model.config.map.resolution_m).voxel_count()) {
+}
 
 void integrate_profile(const PlannerModel& model, std::span<const LidarScan> scans,
                        Workbench& bench, Belief& belief) {
@@ -114,6 +54,15 @@ void integrate_profile(const PlannerModel& model, std::span<const LidarScan> sca
     points.insert(points.end(), hits.begin(), hits.end());
   }
   belief.cloud.add(points, model.config.cloud.profile_leaf_m);
+}
+
+bool sees_surface(std::span<const LidarScan> scans, std::span<const LidarModel> lidars,
+                  double floor_z_m) {
+  return std::any_of(scans.begin(), scans.end(), [&](const LidarScan& scan) {
+    const std::vector<ScanRay> rays =
+        rays_of(scan, lidars[static_cast<std::size_t>(scan.lidar)], floor_z_m);
+    return std::any_of(rays.begin(), rays.end(), [](const ScanRay& ray) { return ray.hit; });
+  });
 }
 
 void integrate_view(const PlannerModel& model, std::span<const DepthFrame> frames, Workbench& bench,
@@ -132,34 +81,18 @@ void integrate_view(const PlannerModel& model, std::span<const DepthFrame> frame
   belief.cloud.add(points, model.config.cloud.leaf_m);
 }
 
+std::vector<Vec3> positions_of(const History& history) {
+  std::vector<Vec3> positions_m;
+  for (const Decision& decision : history.decisions) {
+    positions_m.push_back(decision.view.p_world_m);
+  }
+  return positions_m;
+}
+
 void remember_entropy(const Belief& belief, double entropy_before_nat, History& history) {
   if (!belief.has_depth_return) return;
   if (history.entropies_nat.empty()) history.entropies_nat.push_back(entropy_before_nat);
   history.entropies_nat.push_back(belief.grid.total_entropy_nat());
-}
-
-std::optional<Decision> plan_next_view(const PlannerModel& model, const Belief& belief,
-                                       const History& history, const ViewPose& current,
-                                       Workbench& bench) {
-  const AgvsConfig& agvs = model.config.agvs;
-  Progress progress{
-      .utilities = {}, .entropies_nat = history.entropies_nat, .view_voxels = model.view_voxels};
-  double last_scale = 1.0;
-  for (const Decision& decision : history.decisions) {
-    if (decision.sampler == "start") continue;
-    progress.utilities.push_back(decision.score.value);
-    last_scale = decision.scale;
-  }
-  // a scale without any valid view is grown as at a local minimum; last comes the finest
-  const double first_scale = next_agvs_scale(agvs, last_scale, progress);
-  for (double scale = first_scale;; scale = std::min(scale * agvs.scale_factor, agvs.scale_max)) {
-    if (auto decision = best_at_scale(model, belief, history, current, scale, bench)) {
-      return decision;
-    }
-    if (scale >= agvs.scale_max) break;
-  }
-  if (first_scale <= 1.0) return std::nullopt;
-  return best_at_scale(model, belief, history, current, 1.0, bench);
 }
 
 }  // namespace gnbv

@@ -1,9 +1,10 @@
-// Believes and decides: integrates what the sensors measured, then names the next view. Nothing
+// What is believed, and the model it is believed by: integrates what the sensors measured. Nothing
 // here ever sees the mesh, the world or the vehicle.
 #pragma once
 
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -11,6 +12,8 @@
 #include "planner/map/scan_insertion.hpp"
 #include "planner/map/surface_cloud.hpp"
 #include "planner/profiling.hpp"
+#include "planner/routes.hpp"
+#include "planner/symmetry.hpp"
 #include "planner/termination.hpp"
 #include "planner/utility.hpp"
 #include "planner/view_sampling.hpp"
@@ -20,13 +23,17 @@
 namespace gnbv {
 
 struct PlannerConfig {
+  std::string preset = "paper";  // what the switches began as; see presets.hpp
   OccupancyConfig map;
   CloudConfig cloud;
   double floor_z_m = 0.3;  // returns below are the floor: they clear, but mark nothing
   ProfilingConfig profiling;
   AgvsConfig agvs;
+  FvsConfig fvs;
   ValidityConfig validity;
   UtilityConfig utility;
+  RouteConfig routes;
+  SymmetryConfig symmetry;
   TerminationConfig termination;
 };
 
@@ -60,11 +67,16 @@ struct Workbench {
   int threads;
   ScanInserter inserter;
   std::vector<VisitMarks> marks;  // one a thread
+  FrontierMarks frontier_marks;
 };
 
 /// Adds the buffered sweeps of the profile in one batch (paper section 2.2).
 void integrate_profile(const PlannerModel& model, std::span<const LidarScan> scans,
                        Workbench& bench, Belief& belief);
+
+/// Whether any of the sweeps had a return above the floor.
+bool sees_surface(std::span<const LidarScan> scans, std::span<const LidarModel> lidars,
+                  double floor_z_m);
 
 /// Adds the frames of one view, camera by camera.
 void integrate_view(const PlannerModel& model, std::span<const DepthFrame> frames, Workbench& bench,
@@ -78,6 +90,7 @@ struct Decision {
   int candidates = 0;  // sampled
   int valid = 0;       // of them not rejected
   Score score = {};
+  std::vector<Vec3> via_world_m = {};  // points on the way there; none: straight
 };
 
 /// What was decided so far, oldest first, and how the total entropy went: the memory that sampling,
@@ -85,14 +98,13 @@ struct Decision {
 struct History {
   std::vector<Decision> decisions;
   std::vector<double> entropies_nat;  // as entropy_has_settled() wants them
+  std::vector<ViewPose> route;        // of a baseline that plans all views at once
 };
+
+/// Where the views were taken, oldest first.
+std::vector<Vec3> positions_of(const History& history);
 
 /// Records the outcome of the latest decision's view.
 void remember_entropy(const Belief& belief, double entropy_before_nat, History& history);
-
-/// The next best view from `current`, or nothing when no sampled view is valid at any scale.
-std::optional<Decision> plan_next_view(const PlannerModel& model, const Belief& belief,
-                                       const History& history, const ViewPose& current,
-                                       Workbench& bench);
 
 }  // namespace gnbv

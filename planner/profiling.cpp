@@ -1,5 +1,6 @@
 #include "planner/profiling.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -22,6 +23,69 @@ std::array<Eigen::Vector2d, 8> stations_m(const Box3& box) {
 }
 
 }  // namespace
+
+ProfileRoute::ProfileRoute(const ProfilingConfig& config, const Box3& navigation_m,
+                           const ViewPose& start)
+    : config_(config), navigation_m_(navigation_m) {
+  if (config.method == ProfilingMethod::bounding_box) {
+    legs_ = bounding_box_profile(navigation_m, start);
+  }
+  radius_m_ = 0.5 * std::min(navigation_m.sizes().x(), navigation_m.sizes().y());
+  const Vec3 from_center_m = start.p_world_m - navigation_m.center();
+  first_bearing_rad_ = std::atan2(from_center_m.y(), from_center_m.x());
+  z_m_ = navigation_m.min().z();
+}
+
+std::optional<ProfileLeg> ProfileRoute::next(bool saw_surface) {
+  if (config_.method == ProfilingMethod::circular) return next_on_circle(saw_surface);
+  if (next_leg_ >= legs_.size()) return std::nullopt;
+  return legs_[next_leg_++];
+}
+
+double ProfileRoute::share_done() const {
+  if (config_.method == ProfilingMethod::circular) {
+    return static_cast<double>(station_) / config_.circle_stations;
+  }
+  return legs_.empty() ? 1.0 : static_cast<double>(next_leg_) / static_cast<double>(legs_.size());
+}
+
+ViewPose ProfileRoute::on_circle(double bearing_rad, double z_m) const {
+  Vec3 p_world_m = navigation_m_.center();
+  p_world_m += radius_m_ * Vec3(std::cos(bearing_rad), std::sin(bearing_rad), 0.0);
+  p_world_m.z() = z_m;
+  return {p_world_m, wrap_angle_rad(bearing_rad + kPi)};
+}
+
+std::optional<ProfileLeg> ProfileRoute::next_on_circle(bool saw_surface) {
+  constexpr double kArc_rad = deg_to_rad(18.0);  // its chord comes 1.2 % of the radius inside
+  if (station_ >= config_.circle_stations) return std::nullopt;
+  const double spacing_rad = 2.0 * kPi / config_.circle_stations;
+  const int arcs = station_ == 0 ? 1 : static_cast<int>(std::ceil(spacing_rad / kArc_rad - 1e-9));
+  const double bearing_rad = first_bearing_rad_ + station_ * spacing_rad;
+  if (arc_ < arcs) {  // on the way, at the height it has climbed to
+    ++arc_;
+    const double to_go = 1.0 - static_cast<double>(arc_) / arcs;
+    return ProfileLeg{on_circle(bearing_rad - to_go * spacing_rad, z_m_), false};
+  }
+  const double bottom_m = navigation_m_.min().z();
+  const double top_m = navigation_m_.max().z();
+  if (arc_ == arcs) {  // arrived: it begins at the bottom, scanning on the way down
+    ++arc_;
+    if (z_m_ > bottom_m) {
+      z_m_ = bottom_m;
+      return ProfileLeg{on_circle(bearing_rad, z_m_), true};
+    }
+  }
+  const bool is_first_climb = arc_ == arcs + 1;
+  if ((is_first_climb || saw_surface) && z_m_ < top_m) {
+    arc_ = arcs + 2;
+    z_m_ = std::min(z_m_ + config_.climb_step_m, top_m);
+    return ProfileLeg{on_circle(bearing_rad, z_m_), true};
+  }
+  ++station_;
+  arc_ = 0;
+  return next_on_circle(false);
+}
 
 std::vector<ProfileLeg> bounding_box_profile(const Box3& navigation_m, const ViewPose& start) {
   const std::array<Eigen::Vector2d, 8> stations = stations_m(navigation_m);

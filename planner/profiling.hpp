@@ -1,28 +1,62 @@
 // The initial rough scan: where to fly it (paper section 2.2, Fig. 4).
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "sim/core/pose.hpp"
 
 namespace gnbv {
 
-enum class ProfilingMethod { bounding_box, none };
+/// bounding_box: the paper's eight descents. circular: the released "circular adaptive": climbs on
+/// a circle while surface is seen. saved: reads the map of an earlier profile. none: no profile.
+enum class ProfilingMethod { bounding_box, circular, saved, none };
 
 struct ProfilingConfig {
   ProfilingMethod method = ProfilingMethod::bounding_box;
   bool scan_in_transit = true;  // LIDAR on between the descents too
+  std::string file;             // saved: profile.map of an earlier run
+  int circle_stations = 5;      // circular: evenly spread
+  double climb_step_m = 1.0;    // circular: how far it climbs before it asks again
 };
 
 /// One straight leg of the profile.
 struct ProfileLeg {
   ViewPose goal;
-  bool is_descent = false;  // flown at profiling speed; otherwise a transit
+  bool is_scan = false;  // flown at profiling speed with the LIDAR on; otherwise a transit
 };
 
 /// Eight descents on the faces of the navigation box: four corners and four side middles, from top
 /// to bottom, facing the centre, in order around the box from the one nearest to `start`, in the
 /// direction of the nearer neighbour.
 std::vector<ProfileLeg> bounding_box_profile(const Box3& navigation_m, const ViewPose& start);
+
+/// Hands out the legs of a profile, one after the other.
+class ProfileRoute {
+ public:
+  ProfileRoute(const ProfilingConfig& config, const Box3& navigation_m, const ViewPose& start);
+
+  /// The next leg; nothing when the profile is over. `saw_surface`: whether the LIDARs had returns
+  /// above the floor since the leg before was handed out.
+  std::optional<ProfileLeg> next(bool saw_surface);
+  /// Share of the profile that is done, 0 to 1; of an adaptive one, of its stations.
+  double share_done() const;
+
+ private:
+  std::optional<ProfileLeg> next_on_circle(bool saw_surface);
+  ViewPose on_circle(double bearing_rad, double z_m) const;
+
+  ProfilingConfig config_;
+  Box3 navigation_m_;
+  std::vector<ProfileLeg> legs_;  // bounding_box: all of them
+  std::size_t next_leg_ = 0;
+  // circular: the inscribed circle of the navigation box
+  double radius_m_ = 0.0;
+  double first_bearing_rad_ = 0.0;
+  int station_ = 0;
+  int arc_ = 0;  // of the way to the station, in steps that stay outside the structure
+  double z_m_ = 0.0;
+};
 
 }  // namespace gnbv

@@ -13,6 +13,8 @@ std::string_view name_of(Termination reason) {
       return "entropy_change";
     case Termination::no_valid_view:
       return "no_valid_view";
+    case Termination::repeated_motion:
+      return "repeated_motion";
     case Termination::battery:
       return "battery";
     case Termination::interrupted:

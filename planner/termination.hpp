@@ -11,13 +11,15 @@ struct TerminationConfig {
   int max_iterations = 635;
   double entropy_change_percent = 0.001;  // of the total entropy, per view; 0 switches it off
   int entropy_window = 5;                 // consecutive views
+  int repeated_moves = 10;                // back and forth, in a row; 0 switches it off
 };
 
 enum class Termination {
   max_iterations,
   entropy_change,
   no_valid_view,
-  battery,  // what is left is needed to land
+  repeated_motion,  // goes back and forth between two places
+  battery,          // what is left is needed to land
   interrupted,
   collision
 };

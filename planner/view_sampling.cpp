@@ -14,17 +14,6 @@ bool is_utility_low(const AgvsConfig& config, std::span<const double> utilities)
   return *std::max_element(recent.begin(), recent.end()) < config.utility_threshold;
 }
 
-bool is_entropy_still(const AgvsConfig& config, const Progress& progress) {
-  const auto window = static_cast<std::size_t>(config.entropy_window);
-  if (progress.entropies_nat.size() < window + 1) return false;
-  const std::span<const double> recent = progress.entropies_nat.last(window + 1);
-  double largest_nat = 0.0;
-  for (std::size_t i = 1; i < recent.size(); ++i) {
-    largest_nat = std::max(largest_nat, std::fabs(recent[i] - recent[i - 1]));
-  }
-  return largest_nat / progress.view_voxels < config.entropy_threshold_nat;
-}
-
 }  // namespace
 
 std::vector<ViewPose> sample_agvs(const AgvsConfig& config, const ViewPose& current, double scale) {
@@ -48,10 +37,48 @@ std::vector<ViewPose> sample_agvs(const AgvsConfig& config, const ViewPose& curr
   return views;
 }
 
-double next_agvs_scale(const AgvsConfig& config, double last_scale, const Progress& progress) {
-  if (!is_utility_low(config, progress.utilities) && !is_entropy_still(config, progress)) {
-    return 1.0;
+std::vector<ViewPose> sample_fvs(const FvsConfig& config, const Vec3& centroid_world_m) {
+  std::vector<ViewPose> views;
+  for (int layer = -1; layer <= 1; ++layer) {
+    for (int i = 0; i < config.views_per_layer; ++i) {
+      const double bearing_rad = 2.0 * kPi * i / config.views_per_layer;
+      const Vec3 outwards(std::cos(bearing_rad), std::sin(bearing_rad), 0.0);
+      const Vec3 p_world_m = centroid_world_m + config.radius_m * outwards +
+                             layer * config.layer_step_m * Vec3::UnitZ();
+      views.push_back({p_world_m, wrap_angle_rad(bearing_rad + kPi)});
+    }
   }
+  return views;
+}
+
+bool is_entropy_still(double threshold_nat, int window, const Progress& progress) {
+  const auto changes = static_cast<std::size_t>(window);
+  if (threshold_nat <= 0.0 || progress.entropies_nat.size() < changes + 1) return false;
+  const std::span<const double> recent = progress.entropies_nat.last(changes + 1);
+  double largest_nat = 0.0;
+  for (std::size_t i = 1; i < recent.size(); ++i) {
+    largest_nat = std::max(largest_nat, std::fabs(recent[i] - recent[i - 1]));
+  }
+  return largest_nat / progress.view_voxels < threshold_nat;
+}
+
+bool is_back_and_forth(std::span<const Vec3> positions_m, int moves) {
+  constexpr double kSame_m = 0.01;
+  const auto count = static_cast<std::size_t>(moves);
+  if (moves <= 0 || positions_m.size() < count + 2) return false;
+  for (std::size_t i = positions_m.size() - count; i < positions_m.size(); ++i) {
+    if ((positions_m[i] - positions_m[i - 2]).norm() > kSame_m) return false;
+    if ((positions_m[i] - positions_m[i - 1]).norm() <= kSame_m) return false;
+  }
+  return true;
+}
+
+double next_agvs_scale(const AgvsConfig& config, double last_scale, const Progress& progress) {
+  const bool is_at_minimum =
+      is_utility_low(config, progress.utilities) ||
+      is_back_and_forth(progress.positions_m, config.repeated_moves) ||
+      is_entropy_still(config.entropy_threshold_nat, config.entropy_window, progress);
+  if (!config.scales || !is_at_minimum) return 1.0;
   return std::min(last_scale * config.scale_factor, config.scale_max);
 }
 

@@ -1,37 +1,68 @@
-// Adaptive Grid Viewpoint Sampling (paper section 2.4, Fig. 5).
+// Where candidate views are sampled (paper section 2.4): around the current one (AGVS, Fig. 5), or
+// around thinly sampled surface (FVS, Fig. 6).
 #pragma once
 
 #include <span>
 #include <vector>
 
+#include "planner/frontiers.hpp"
 #include "sim/core/pose.hpp"
 
 namespace gnbv {
 
-/// Defaults: section 3.1.1, the scale rule of the released code, and the paper's own sign of a
-/// local minimum, the entropy change per voxel of the view (section 2.4).
+/// Adaptive Grid Viewpoint Sampling. Defaults: section 3.1.1 and the released scale rule.
 struct AgvsConfig {
   double step_m = 1.0;
   double yaw_step_rad = deg_to_rad(45.0);
   bool rotation_only = true;  // offer the current position with other yaws, at scale 1
-  double scale_factor = 1.5;  // at each detected local minimum
+  bool scales = true;         // grow the grid at a local minimum
+  double scale_factor = 1.5;
   double scale_max = 7.5;
-  double utility_threshold = 0.1;         // local minimum: best utility below this ...
-  int utility_window = 3;                 // ... over this many views,
-  double entropy_threshold_nat = 0.0002;  // or largest entropy change per voxel below this ...
-  int entropy_window = 4;                 // ... over this many views; threshold 0 = never
+  double utility_threshold = 0.1;      // local minimum: best utility below this ...
+  int utility_window = 3;              // ... over this many views,
+  int repeated_moves = 4;              // or so many moves back and forth; 0 = never,
+  double entropy_threshold_nat = 0.0;  // or largest entropy change per voxel below this ...
+  int entropy_window = 4;              // ... over this many views; threshold 0 = never
+};
+
+/// Frontier Viewpoint Sampling. Defaults: the paper, with the released figures where it has none;
+/// `tries` and `agvs_when_stuck` are our own, see FIDELITY.md.
+struct FvsConfig {
+  bool enabled = true;
+  double entropy_threshold_nat = 0.002;  // local minimum: largest entropy change per voxel below
+  int entropy_window = 4;                // this over so many views
+  FrontierConfig frontier;
+  int tries = 50;              // clusters, nearest first, until one has a valid view
+  bool pool_clusters = false;  // the views of all these clusters compete (released code)
+  int views_per_layer = 4;
+  double radius_m = 3.5;              // of the cylinder around the centroid
+  double layer_step_m = 1.0;          // three layers: this below, at and above the centroid
+  bool needs_visible_cluster = true;  // a view must see a voxel of the cluster (occlusion culling)
+  bool agvs_when_stuck = true;        // where no cluster has a valid view; else the mission ends
 };
 
 /// 3 x 3 x 3 positions in the body-yaw frame at step_m * scale, times 3 yaws, yaws innermost, in a
 /// fixed order; the current position only as AgvsConfig says, and never the current pose itself.
 std::vector<ViewPose> sample_agvs(const AgvsConfig& config, const ViewPose& current, double scale);
 
+/// Three layers of views_per_layer views on a cylinder around the vertical through the centroid,
+/// looking at that axis; the first stands to the east (+x) of it.
+std::vector<ViewPose> sample_fvs(const FvsConfig& config, const Vec3& centroid_world_m);
+
 /// What a local minimum shows in, oldest first.
 struct Progress {
-  std::vector<double> utilities;          // of the chosen views
-  std::span<const double> entropies_nat;  // total, before and after each view
-  double view_voxels = 1.0;               // of the cameras' frusta
+  std::vector<double> utilities = {};          // of the chosen views
+  std::vector<Vec3> positions_m = {};          // of all views so far
+  std::span<const double> entropies_nat = {};  // total, before and after each view
+  double view_voxels = 1.0;                    // of the cameras' frusta
 };
+
+/// Whether each of the last `window` changes of the total entropy is below the threshold per voxel.
+bool is_entropy_still(double threshold_nat, int window, const Progress& progress);
+
+/// Whether each of the last `moves` moves only undoes the one before: the position is that of two
+/// views ago (within a centimetre), and another than that of the view before.
+bool is_back_and_forth(std::span<const Vec3> positions_m, int moves);
 
 /// Scale for the next view: the last one grown by scale_factor (at most scale_max) at a local
 /// minimum, else 1.

@@ -1,4 +1,4 @@
-// Which candidate views may be flown to (paper section 2.4 and 3, Fig. 7).
+// Which candidate views may be flown to, and how (paper section 2.4 and 3, Fig. 7).
 #pragma once
 
 #include <optional>
@@ -6,9 +6,14 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/map/occupancy_grid.hpp"
+#include "planner/clearance.hpp"
+#include "planner/path_search.hpp"
 
 namespace gnbv {
+
+/// How the way to a view is checked: straight against the map, which holds the profile (the
+/// paper); straight, or else around what blocks it (ours); or not at all (released code).
+enum class PathCheck { straight, astar, unchecked };
 
 /// Defaults: section 3.1.1, and the released configuration where the paper is silent.
 struct ValidityConfig {
@@ -17,22 +22,57 @@ struct ValidityConfig {
   int recent_poses = 50;
   double recent_distance_m = 0.05;
   double recent_yaw_rad = 0.1;
+  PathCheck path = PathCheck::straight;
+  PathSearchConfig path_search = {};
 };
 
-enum class Rejection { out_of_bounds, not_free, collision, path_blocked, recently_visited };
+enum class Rejection {
+  out_of_bounds,
+  not_free,
+  collision,
+  path_blocked,
+  recently_visited,
+  cluster_outside_fov,  // FVS: the centroid of the cluster is in no camera's frustum
+  cluster_hidden,       // FVS: no voxel of the cluster is visible
+  sees_no_surface,      // refused by the utility
+};
 std::string_view name_of(Rejection reason);
 
 /// The workspace, with its floor raised to z_min_m.
 Box3 navigation_box_m(const ValidityConfig& config, const Box3& workspace_m);
 
-/// Whether a sphere at the point touches no occupied voxel (a cube).
-bool is_sphere_clear(const OccupancyGrid& grid, const Vec3& p_world_m, double radius_m);
+/// Whether a view may be flown to, and the way there.
+struct Reachability {
+  std::optional<Rejection> rejected;  // nothing: it may
+  std::vector<Vec3> via_world_m;      // points between here and there; empty: straight
+};
 
-/// Whether a sphere swept along the straight path touches no occupied voxel. A voxel that it
-/// touches at the start already, because it was only seen from there, may be left but not
-/// approached.
-bool is_path_clear(const OccupancyGrid& grid, const Vec3& from_world_m, const Vec3& to_world_m,
-                   double radius_m);
+/// Checks views from one place, one after another; those of one position share its checks.
+class ViewChecker {
+ public:
+  /// Keeps references to all of them.
+  ViewChecker(const ValidityConfig& config, const Box3& navigation_m, const OccupancyGrid& grid,
+              std::span<const ViewPose> recent, const ViewPose& current)
+      : config_(config),
+        navigation_m_(navigation_m),
+        grid_(grid),
+        recent_(recent),
+        current_(current) {}
+
+  const Reachability& check(const ViewPose& candidate);
+
+ private:
+  Reachability check_position(const Vec3& p_world_m) const;
+
+  const ValidityConfig& config_;
+  const Box3& navigation_m_;
+  const OccupancyGrid& grid_;
+  std::span<const ViewPose> recent_;
+  const ViewPose& current_;
+  std::optional<Vec3> checked_m_;  // the position at hand, and what was found there
+  Reachability at_position_;
+  Reachability recently_visited_ = {Rejection::recently_visited, {}};
+};
 
 /// Why the view may not be flown to from `current`; nothing when it may.
 std::optional<Rejection> rejection(const ValidityConfig& config, const Box3& navigation_m,

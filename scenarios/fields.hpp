@@ -175,8 +175,13 @@ void fields(FieldVisitor& v, OccupancyConfig& c);
 void fields(FieldVisitor& v, CloudConfig& c);
 void fields(FieldVisitor& v, ProfilingConfig& c);
 void fields(FieldVisitor& v, AgvsConfig& c);
+void fields(FieldVisitor& v, FrontierConfig& c);
+void fields(FieldVisitor& v, FvsConfig& c);
+void fields(FieldVisitor& v, PathSearchConfig& c);
 void fields(FieldVisitor& v, ValidityConfig& c);
 void fields(FieldVisitor& v, UtilityConfig& c);
+void fields(FieldVisitor& v, RouteConfig& c);
+void fields(FieldVisitor& v, SymmetryConfig& c);
 void fields(FieldVisitor& v, TerminationConfig& c);
 void fields(FieldVisitor& v, PlannerConfig& c);
 // fields_scenario.cpp

@@ -1,10 +1,17 @@
+#include "planner/presets.hpp"
 #include "scenarios/fields.hpp"
 
 namespace gnbv {
 namespace {
 
-constexpr std::array<Named<ProfilingMethod>, 2> kProfilingMethods = {
-    {{ProfilingMethod::bounding_box, "bounding_box"}, {ProfilingMethod::none, "none"}}};
+constexpr std::array<Named<ProfilingMethod>, 4> kProfilingMethods = {
+    {{ProfilingMethod::bounding_box, "bounding_box"},
+     {ProfilingMethod::circular, "circular"},
+     {ProfilingMethod::saved, "saved"},
+     {ProfilingMethod::none, "none"}}};
+constexpr std::array<Named<PathCheck>, 3> kPathChecks = {{{PathCheck::straight, "straight"},
+                                                          {PathCheck::astar, "astar"},
+                                                          {PathCheck::unchecked, "unchecked"}}};
 constexpr std::array<Named<DensityTerm>, 2> kDensityTerms = {
     {{DensityTerm::sparse, "sparse"}, {DensityTerm::literal, "literal"}}};
 
@@ -29,6 +36,11 @@ void fields(FieldVisitor& v, CloudConfig& c) {
 void fields(FieldVisitor& v, ProfilingConfig& c) {
   v.choice("method", c.method, kProfilingMethods, "The rough scan before the first view.");
   v.flag("scan_in_transit", c.scan_in_transit, "LIDAR on between the descents too.");
+  v.path("file", c.file, "saved: the profile.map of an earlier run.");
+  v.integer("circle_stations", c.circle_stations, between(1, 1000),
+            "circular: places on the circle where it climbs.");
+  v.number("climb_step_m", c.climb_step_m, between(0.01, 1e3),
+           "circular: climbs by this as long as surface is seen.");
 }
 
 void fields(FieldVisitor& v, AgvsConfig& c) {
@@ -36,15 +48,51 @@ void fields(FieldVisitor& v, AgvsConfig& c) {
   v.angle("yaw_step_deg", c.yaw_step_rad, above_upto(0, 180), "Between the yaws of a position.");
   v.flag("rotation_only", c.rotation_only,
          "Offer the current position with other yaws at scale 1.");
+  v.flag("scales", c.scales, "Grow the grid at a local minimum.");
   v.number("scale_factor", c.scale_factor, between(1.1, 100),
            "Growth of the grid at a local minimum.");
   v.number("scale_max", c.scale_max, between(1, 1e3), "The grid's largest scale.");
   v.number("utility_threshold", c.utility_threshold, between(0, 1e9),
            "Local minimum: the best utility stays below this");
   v.integer("utility_window", c.utility_window, between(1, 1e6), "for so many views.");
+  v.integer("repeated_moves", c.repeated_moves, between(0, 1e6),
+            "Or after so many moves back and forth; 0: never.");
   v.number("entropy_threshold_nat", c.entropy_threshold_nat, between(0, 1),
            "Or when no view changed the total entropy by more than this per voxel of its frusta");
-  v.integer("entropy_window", c.entropy_window, {1, 1000}, "over this many views.");
+  v.integer("entropy_window", c.entropy_window, between(1, 1000), "over this many views.");
+}
+
+void fields(FieldVisitor& v, FrontierConfig& c) {
+  v.number("density_share", c.density_share, between(0, 10),
+           "Frontier: less dense than this share of a fully scanned plane.");
+  v.integer("neighbour_voxels", c.neighbour_voxels, between(1, 100),
+            "Frontier voxels so near along each axis are one cluster.");
+  v.integer("min_cluster_voxels", c.min_cluster_voxels, between(1, 1e6),
+            "Smaller clusters are left out.");
+  v.number("max_extent_m", c.max_extent_m, between(0, 1e4),
+           "Larger clusters are cut; 0: never, the paper to the letter.");
+}
+
+void fields(FieldVisitor& v, FvsConfig& c) {
+  v.flag("enabled", c.enabled, "Whether frontier views are sampled at a local minimum.");
+  v.number("entropy_threshold_nat", c.entropy_threshold_nat, between(0, 1),
+           "Local minimum: no view changed the total entropy by more, per voxel of its frusta,");
+  v.integer("entropy_window", c.entropy_window, between(1, 1000), "over this many views.");
+  v.section("frontier", c.frontier, "Which voxels are frontiers, and how they cluster.");
+  v.integer("tries", c.tries, between(1, 1e6),
+            "Clusters, nearest first, until one has a valid view; 1: the paper.");
+  v.flag("pool_clusters", c.pool_clusters, "The views of all these clusters compete.");
+  v.integer("views_per_layer", c.views_per_layer, between(1, 360), "Around the cluster.");
+  v.number("radius_m", c.radius_m, above_upto(0, 1e3), "Of the cylinder of views.");
+  v.number("layer_step_m", c.layer_step_m, between(0, 1e3), "Height between its three layers.");
+  v.flag("needs_visible_cluster", c.needs_visible_cluster,
+         "A view must see part of the cluster unoccluded.");
+  v.flag("agvs_when_stuck", c.agvs_when_stuck,
+         "Where no cluster has a valid view, sample the grid; false: the mission ends.");
+}
+
+void fields(FieldVisitor& v, PathSearchConfig& c) {
+  v.integer("max_expansions", c.max_expansions, between(1, 1e7), "Nodes a search may look at.");
 }
 
 void fields(FieldVisitor& v, ValidityConfig& c) {
@@ -55,11 +103,17 @@ void fields(FieldVisitor& v, ValidityConfig& c) {
   v.number("recent_distance_m", c.recent_distance_m, between(0, 100),
            "The same view: nearer than this");
   v.angle("recent_yaw_deg", c.recent_yaw_rad, between(0, 180), "and turned by less than this.");
+  v.choice("path", c.path, kPathChecks,
+           "straight: a view behind an obstacle is discarded; astar: unless there is a way around "
+           "it; unchecked: flown to all the same.");
+  v.section("path_search", c.path_search, "The search for a way around.");
 }
 
 void fields(FieldVisitor& v, UtilityConfig& c) {
   constexpr Range kWeight = between(0, 1e9);
-  v.choice("name", c.name, utility_names(), "Formula that ranks the candidate views.");
+  std::vector<std::string_view> names = utility_names();
+  names.insert(names.end(), kRouteNames.begin(), kRouteNames.end());
+  v.choice("name", c.name, names, "What ranks the candidate views, or a baseline's route.");
   v.number("alpha", c.alpha, kWeight, "Weight of information, Eq. (2).");
   v.number("beta", c.beta, kWeight, "Weight of density, Eq. (2).");
   v.number("gamma", c.gamma, kWeight, "Weight of prediction, Eq. (2).");
@@ -68,22 +122,42 @@ void fields(FieldVisitor& v, UtilityConfig& c) {
            "sparse: reward thinly sampled surface; literal: Eq. (2) as printed.");
 }
 
+void fields(FieldVisitor& v, RouteConfig& c) {
+  v.number("standoff_m", c.standoff_m, above_upto(0, 1e3), "From the surface of the profile.");
+  v.number("overlap", c.overlap, between(0, 0.95), "lawnmower: of neighbouring images.");
+}
+
+void fields(FieldVisitor& v, SymmetryConfig& c) {
+  v.flag("enabled", c.enabled, "Whether a mirror-symmetric profile predicts its other half.");
+  v.number("min_support", c.min_support, between(0, 1),
+           "Share of mirrored points that measured free space must not contradict.");
+}
+
 void fields(FieldVisitor& v, TerminationConfig& c) {
   v.integer("max_iterations", c.max_iterations, between(1, 1e6), "Views at most.");
   v.number("entropy_change_percent", c.entropy_change_percent, between(0, 100),
            "Over when the total entropy changes by less, per view; 0: never.");
   v.integer("entropy_window", c.entropy_window, between(1, 1e6), "For so many views in a row.");
+  v.integer("repeated_moves", c.repeated_moves, between(0, 1e6),
+            "Over after so many moves back and forth; 0: never.");
 }
 
 void fields(FieldVisitor& v, PlannerConfig& c) {
+  const std::string before = c.preset;
+  v.choice("preset", c.preset, kPlannerPresets,
+           "paper, or the authors' released code: sets the switches in which they differ.");
+  if (c.preset != before) set_preset_switches(c);
   v.section("map", c.map, "The occupancy grid.");
   v.section("cloud", c.cloud, "The surface cloud.");
   v.number("floor_z_m", c.floor_z_m, between(-1e4, 1e4),
            "Returns below are the floor: they clear, but mark nothing.");
   v.section("profiling", c.profiling, "The rough scan before the first view.");
   v.section("agvs", c.agvs, "Adaptive grid view sampling.");
+  v.section("fvs", c.fvs, "Frontier view sampling.");
   v.section("validity", c.validity, "Which views may be flown to.");
   v.section("utility", c.utility, "What a view is worth.");
+  v.section("routes", c.routes, "Baselines whose views are laid around the profile.");
+  v.section("symmetry", c.symmetry, "The mirror image of the profile.");
   v.section("termination", c.termination, "When the mission is over.");
 }
 

@@ -183,7 +183,7 @@ void SurfaceCloud::insert(const Vec3f& p_m, const Leaf& leaf) {
     }
   }
   neighbour_sum_[voxel] += neighbours + 1;  // the point itself
-  ++point_count_[voxel];
+  if (point_count_[voxel]++ == 0) voxels_with_points_.push_back(voxel);
   append(buckets_[bucket_at_[leaf.bucket_cell]], p_m, voxel);
   points_.push_back(p_m);
 }

@@ -35,6 +35,8 @@ class SurfaceCloud {
   std::size_t add(std::span<const Vec3f> points_world_m, double leaf_m);
 
   std::span<const Vec3f> points_world_m() const { return points_; }
+  /// The voxels that hold points, in the order in which they got their first one.
+  std::span<const VoxelIndex> voxels() const { return voxels_with_points_; }
   /// Points per voxel of the occupancy grid.
   std::uint32_t point_count(VoxelIndex v) const { return point_count_[v]; }
   /// Sum of the neighbour counts of the points in the voxel.
@@ -83,6 +85,7 @@ class SurfaceCloud {
   double search_radius_m_ = 0.0;
   float search_radius2_m2_ = 0.0F;
   std::vector<Vec3f> points_;
+  std::vector<VoxelIndex> voxels_with_points_;
   std::vector<std::uint32_t> point_count_;
   std::vector<std::uint64_t> neighbour_sum_;
 

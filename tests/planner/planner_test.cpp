@@ -1,5 +1,5 @@
 // The decision as a whole: which view, at which scale, and when there is none.
-#include "planner/planner.hpp"
+#include "planner/next_view.hpp"
 
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ bool everywhere(const Vec3&) { return true; }
 std::optional<Decision> plan(const PlannerModel& model, const Belief& belief,
                              const History& history = {}, int threads = 2) {
   Workbench bench(model, threads);
-  return plan_next_view(model, belief, history, kCurrent, bench);
+  return plan_next_view(model, belief, history, kCurrent, bench).next;
 }
 
 TEST(PlanNextView, FindsNothingInAnUnknownWorld) {

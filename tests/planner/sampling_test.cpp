@@ -47,8 +47,8 @@ TEST(BoundingBoxProfile, StartsAtTheNearestStationAndVisitsAllEight) {
 TEST(BoundingBoxProfile, DescendsFromTopToBottomFacingTheCentre) {
   const auto legs = bounding_box_profile(kBox, {Vec3(3, -20, 5), 0});
   for (std::size_t i = 0; i < legs.size(); i += 2) {
-    EXPECT_FALSE(legs[i].is_descent);
-    EXPECT_TRUE(legs[i + 1].is_descent);
+    EXPECT_FALSE(legs[i].is_scan);
+    EXPECT_TRUE(legs[i + 1].is_scan);
     EXPECT_EQ(legs[i].goal.p_world_m.z(), 20.0);
     EXPECT_EQ(legs[i + 1].goal.p_world_m.z(), 0.7);
     const Vec3 forward = T_world_body(legs[i].goal).linear().col(0);

@@ -66,8 +66,11 @@ void add_run_command(CLI::App& app) {
   CLI::App* const command = app.add_subcommand("run", "fly one mission and score it");
   add_mission_options(*command, *options);
   command->add_option("--utility", options->utility, "utility by name");
+  command->add_option("--preset", options->preset, "paper, or released: the authors' own code");
   command->add_flag("--resume", options->resume, "continue the interrupted run in --out");
   command->add_flag("--frames", options->frames, "also write what the cameras saw, to frames/");
+  command->add_flag("--candidates", options->candidates,
+                    "also write every candidate's terms or reason of rejection");
   command->add_flag("--json", options->json, "print summary.json instead of a table");
   command->callback([options] { run(*options); });
 }

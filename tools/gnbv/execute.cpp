@@ -11,6 +11,7 @@
 #include "tools/gnbv/interrupt.hpp"
 #include "tools/gnbv/progress.hpp"
 #include "tools/mission/auto_bounds.hpp"
+#include "tools/mission/candidates_file.hpp"
 #include "tools/mission/frame_files.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/mission.hpp"
@@ -81,6 +82,7 @@ Scenario resolve_scenario(const MissionOptions& options) {
   if (!options.utility.empty()) {
     overrides.push_back(fmt::format("planner.utility.name={}", options.utility));
   }
+  if (!options.preset.empty()) overrides.push_back("planner.preset=" + options.preset);
   if (!options.seed.empty()) overrides.push_back("seed=" + options.seed);
   overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
   const Scenario scenario = load_scenario(options.scenario, overrides);
@@ -119,6 +121,11 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
       frames.emplace(directory.path() / "frames", camera_models(scenario));
       hooks.on_frames = [&](const auto&... all) { frames->write(all...); };
     }
+    std::optional<CandidatesFile> candidates;
+    if (options.candidates) {
+      candidates.emplace(directory.path(), directory.recorded().size());
+      hooks.on_candidates = [&](const auto&... all) { candidates->write(all...); };
+    }
     MissionResult result = run_mission(scenario, world, scene, hooks, threads);
     const auto scoring = Clock::now();
     progress.show(1.0, "scoring");
@@ -126,6 +133,7 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
         make_surface_reference(world, scene, {.floor_z_m = scenario.planner.floor_z_m}, threads);
     const MissionScore score = score_mission(reference, result);
     result.wall.score_s = seconds_since(scoring);
+    if (candidates) candidates->finish();
     directory.finish(scenario, result, score, seconds_since(begin));
     return {directory.path(), std::move(result), score, seconds_since(begin)};
   } catch (const BrokenInvariant& broken) {

@@ -16,6 +16,7 @@ struct MissionOptions {
   std::string scenario;                // built-in name or YAML path
   std::string mesh;                    // overrides the scenario's structure; "" keeps it
   std::string utility;                 // "" keeps the scenario's
+  std::string preset;                  // "" keeps the scenario's
   std::string seed;                    // "" keeps the scenario's
   std::vector<std::string> overrides;  // --set key=value, in order
   std::filesystem::path out;           // "" chooses a free folder under runs/
@@ -23,7 +24,8 @@ struct MissionOptions {
   bool resume = false;
   bool bounds_auto = false;  // lay the workspace and the start around the structure
   bool quiet = false;
-  bool frames = false;  // also write frames/
+  bool candidates = false;  // also write candidates.jsonl
+  bool frames = false;      // also write frames/
 };
 
 /// runs/NAME, or runs/NAME-2 and so on: the first that does not exist.

@@ -15,11 +15,11 @@ namespace {
 constexpr std::string_view kHeader =
     "iteration,x,y,z,yaw,sampler,scale,candidates,valid,utility,information,density_term,"
     "prediction,distance_factor,entropy_nat,density_points_per_voxel,cloud_points,straight_m,"
-    "flown_m,time_s,wall_sense_s,wall_map_s,wall_plan_s,wall_fly_s";
-constexpr std::size_t kColumns = 24;
+    "flown_m,time_s,wall_sense_s,wall_map_s,wall_plan_s,wall_fly_s,via";
+constexpr std::size_t kColumns = 25;
 
 /// The samplers a row may name, with storage that outlives every Decision.
-constexpr std::array<std::string_view, 2> kSamplers = {"start", "agvs"};
+constexpr std::array<std::string_view, 4> kSamplers = {"start", "agvs", "fvs", "route"};
 
 /// One row's cells, read left to right.
 class Row {
@@ -28,23 +28,35 @@ class Row {
       : csv_(csv), line_(line) {
     std::istringstream in(text);
     for (std::string cell; std::getline(in, cell, ',');) cells_.push_back(cell);
+    if (text.ends_with(',')) cells_.emplace_back();
     if (cells_.size() != kColumns) fail(text, fmt::format("must have {} columns", kColumns));
   }
 
   const std::string& text() { return cells_[next_++]; }
-  double number() {
-    const std::string& cell = text();
-    char* end = nullptr;
-    const double value = std::strtod(cell.c_str(), &end);
-    if (cell.empty() || *end != '\0' || !std::isfinite(value)) fail(cell, "is not a number");
-    return value;
-  }
+  double number() { return number_in(text()); }
   int count() {
     const double value = number();
     if (value < 0.0 || value > 1e9 || value != std::floor(value)) {
       fail(fmt::format("{}", value), "is not a count");
     }
     return static_cast<int>(value);
+  }
+  void skip(std::size_t cells) { next_ += cells; }
+  /// Points as "x:y:z;x:y:z"; none when the cell is empty.
+  std::vector<Vec3> points() {
+    const std::string& cell = text();
+    std::vector<Vec3> points;
+    std::istringstream in(cell);
+    for (std::string point; std::getline(in, point, ';');) {
+      std::istringstream coordinates(point);
+      std::vector<double> values;
+      for (std::string value; std::getline(coordinates, value, ':');) {
+        values.push_back(number_in(value));
+      }
+      if (values.size() != 3) fail(cell, "is no list of x:y:z");
+      points.emplace_back(values[0], values[1], values[2]);
+    }
+    return points;
   }
   void expect_iteration(std::size_t expected) {
     const int iteration = count();
@@ -60,6 +72,12 @@ class Row {
   }
 
  private:
+  double number_in(const std::string& cell) const {
+    char* end = nullptr;
+    const double value = std::strtod(cell.c_str(), &end);
+    if (cell.empty() || *end != '\0' || !std::isfinite(value)) fail(cell, "is not a number");
+    return value;
+  }
   [[noreturn]] void fail(const std::string& value, const std::string& what) const {
     throw BadInput(fmt::format("{}:{}: '{}' {}", csv_.string(), line_, value, what));
   }
@@ -86,6 +104,9 @@ Decision decision_of(Row row, std::size_t iteration) {
   d.score.density = row.number();
   d.score.prediction = row.number();
   d.score.distance = row.number();
+  constexpr std::size_t kMeasured = 10;  // columns of what was measured there
+  row.skip(kMeasured);
+  d.via_world_m = row.points();
   return d;
 }
 
@@ -96,14 +117,18 @@ std::string iterations_csv_header() { return fmt::format("{}\n", kHeader); }
 std::string iterations_csv_row(const ViewRecord& view) {
   const Decision& d = view.decision;
   const Vec3& p = d.view.p_world_m;
+  std::string via;
+  for (const Vec3& via_m : d.via_world_m) {
+    via += fmt::format("{}{}:{}:{}", via.empty() ? "" : ";", via_m.x(), via_m.y(), via_m.z());
+  }
   return fmt::format(
       "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{:.6f},{:.6f},"
-      "{:.6f},{:.6f}\n",
+      "{:.6f},{:.6f},{}\n",
       view.iteration, p.x(), p.y(), p.z(), d.view.yaw_rad, d.sampler, d.scale, d.candidates,
       d.valid, d.score.value, d.score.information, d.score.density, d.score.prediction,
       d.score.distance, view.entropy_nat, view.density_points_per_voxel, view.cloud_points,
       view.straight_m, view.flown_m, view.time_s, view.wall.sense_s, view.wall.map_s,
-      view.wall.plan_s, view.wall.fly_s);
+      view.wall.plan_s, view.wall.fly_s, via);
 }
 
 std::vector<Decision> read_decisions(const std::filesystem::path& csv) {

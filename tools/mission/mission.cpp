@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "planner/next_view.hpp"
 #include "sim/flight.hpp"
 #include "sim/guidance.hpp"
 #include "sim/rotors.hpp"
@@ -112,21 +113,23 @@ std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal) {
 /// Flies the legs of the profile while the LIDARs scan.
 std::optional<Termination> scan_profile(Mission& m, ProfileScanner& scanner) {
   const ProfilingConfig& profiling = m.planner.config.profiling;
-  if (profiling.method == ProfilingMethod::none) return std::nullopt;
   const GuidanceConfig& guidance = m.scenario.guidance;
-  const std::vector<ProfileLeg> legs = bounding_box_profile(m.planner.navigation_m, m.current);
-  for (std::size_t i = 0; i < legs.size(); ++i) {
-    const bool scanning = legs[i].is_descent || (profiling.scan_in_transit && i > 0);
-    const double speed_m_s =
-        legs[i].is_descent ? guidance.profile_speed_m_s : guidance.path_speed_m_s;
-    m.out.distance.profile_m += (legs[i].goal.p_world_m - m.current.p_world_m).norm();
-    const auto over = fly_leg(m, legs[i].goal, speed_m_s,
+  ProfileRoute route(profiling, m.planner.navigation_m, m.current);
+  std::size_t looked_at = 0;  // of the sweeps
+  for (bool is_first = true;; is_first = false) {
+    const auto fresh = std::span(scanner.scans()).subspan(looked_at);
+    looked_at = scanner.scans().size();
+    const auto leg = route.next(sees_surface(fresh, m.planner.lidars, m.planner.config.floor_z_m));
+    if (!leg) return std::nullopt;
+    const bool scanning = leg->is_scan || (profiling.scan_in_transit && !is_first);
+    const double speed_m_s = leg->is_scan ? guidance.profile_speed_m_s : guidance.path_speed_m_s;
+    m.out.distance.profile_m += (leg->goal.p_world_m - m.current.p_world_m).norm();
+    const auto over = fly_leg(m, leg->goal, speed_m_s,
                               [&](const Flight& flight) { scanner.tick(flight, scanning); });
     if (over) return over;
-    m.hooks.on_profile(static_cast<double>(i + 1) / static_cast<double>(legs.size()));
+    m.hooks.on_profile(route.share_done());
     if (should_stop(m)) return Termination::interrupted;
   }
-  return std::nullopt;
 }
 
 /// Profiles the structure with the LIDARs and believes the scans in one batch (section 2.2).
@@ -175,18 +178,25 @@ DepthFrame depth_frame(const Mission& m, std::size_t camera) {
 std::optional<Termination> fly_to_view(Mission& m, const Decision& next) {
   const Stopwatch watch(m.view_wall.fly_s);
   m.entropy_before_nat = m.out.belief.grid.total_entropy_nat();
-  m.out.distance.straight_m += (next.view.p_world_m - m.current.p_world_m).norm();
+  m.out.distance.straight_m +=
+      path_length_m(m.current.p_world_m, next.via_world_m, next.view.p_world_m);
   std::vector<DepthFrame> pending;
-  const auto over =
-      fly_leg(m, next.view, m.scenario.guidance.path_speed_m_s, [&](const Flight& flight) {
-        integrate_view(m.planner, pending, m.bench, m.out.belief);
-        pending.clear();
-        for (std::size_t i = 0; i < m.planner.cameras.size(); ++i) {
-          if (is_due(m.planner.cameras[i].config.rate_hz, flight.tick())) {
-            pending.push_back(depth_frame(m, i));
-          }
-        }
-      });
+  const auto look = [&](const Flight& flight) {
+    integrate_view(m.planner, pending, m.bench, m.out.belief);
+    pending.clear();
+    for (std::size_t i = 0; i < m.planner.cameras.size(); ++i) {
+      if (is_due(m.planner.cameras[i].config.rate_hz, flight.tick())) {
+        pending.push_back(depth_frame(m, i));
+      }
+    }
+  };
+  std::vector<ViewPose> legs;
+  for (const Vec3& via_m : next.via_world_m) legs.push_back({via_m, next.view.yaw_rad});
+  legs.push_back(next.view);
+  std::optional<Termination> over;
+  for (std::size_t i = 0; i < legs.size() && !over; ++i) {
+    over = fly_leg(m, legs[i], m.scenario.guidance.path_speed_m_s, look);
+  }
   m.out.distance.flown_m = m.flown_m;
   return over;
 }
@@ -241,6 +251,9 @@ std::optional<Termination> termination(const Mission& m) {
     return Termination::max_iterations;
   }
   if (entropy_has_settled(config, m.history.entropies_nat)) return Termination::entropy_change;
+  if (is_back_and_forth(positions_of(m.history), config.repeated_moves)) {
+    return Termination::repeated_motion;
+  }
   if (should_stop(m)) return Termination::interrupted;
   return std::nullopt;
 }
@@ -249,7 +262,9 @@ std::optional<Decision> decide(Mission& m) {
   const Stopwatch watch(m.view_wall.plan_s);
   const std::size_t next = m.history.decisions.size();
   if (next < m.hooks.replay.size()) return m.hooks.replay[next];
-  return plan_next_view(m.planner, m.out.belief, m.history, m.current, m.bench);
+  Plan plan = plan_next_view(m.planner, m.out.belief, m.history, m.current, m.bench);
+  m.hooks.on_candidates(next, plan);
+  return std::move(plan.next);
 }
 
 MissionResult finish(Mission& m, Termination reason) {
@@ -258,6 +273,18 @@ MissionResult finish(Mission& m, Termination reason) {
   m.out.energy_wh = m.flight->energy_wh();
   m.out.final_state = m.flight->state();
   return std::move(m.out);
+}
+
+/// What a baseline that asks no utility will fly, laid around the profile.
+void lay_route(Mission& m) {
+  const PlannerConfig& config = m.planner.config;
+  if (!is_route(config.utility.name)) return;
+  m.history.route = plan_route(config.utility.name, config.routes,
+                               {.grid = m.out.belief.grid,
+                                .navigation_m = m.planner.navigation_m,
+                                .camera = m.planner.cameras.front(),
+                                .start = m.out.start,
+                                .views = config.termination.max_iterations});
 }
 
 }  // namespace
@@ -273,6 +300,7 @@ MissionResult run_mission(const Scenario& scenario, const World& world, const Ra
   Mission m(scenario, world, scene, hooks, threads);
   if (const auto over = fly_profile(m)) return finish(m, *over);
   if (const auto over = fly_to_first_view(m)) return finish(m, *over);
+  lay_route(m);
   Decision next = {.view = m.out.start};
   while (true) {
     if (const auto over = fly_to_view(m, next)) return finish(m, *over);

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "planner/next_view.hpp"
 #include "scenarios/scenario.hpp"
 #include "sensors/frames.hpp"
 #include "sensors/ray_scene.hpp"
@@ -21,6 +22,10 @@ struct MissionHooks {
   std::function<void(std::size_t iteration, double time_s, std::span<const DepthFrame>,
                      std::span<const ColourFrame>)>
       on_frames;
+  /// All candidates of a decision, before the chosen one is flown to; `iteration` is the view that
+  /// it chooses. Not called for replayed decisions.
+  std::function<void(std::size_t iteration, const Plan&)> on_candidates = [](std::size_t,
+                                                                             const Plan&) {};
   std::function<bool()> should_stop = [] { return false; };  // asked after each view
   std::vector<Decision> replay;  // decisions of an interrupted run: flown again, not planned again
 };

@@ -38,6 +38,7 @@ Json summary(const Scenario& scenario, const MissionResult& r, const MissionScor
       {"structure", scenario.structure.file.path.empty() ? scenario.structure.builtin
                                                          : scenario.structure.file.path},
       {"utility", scenario.planner.utility.name},
+      {"preset", scenario.planner.preset},
       {"vehicle", scenario.vehicle.kind == VehicleKind::ideal ? "ideal" : scenario.vehicle.preset},
       {"seed", scenario.seed},
       {"version", GNBV_VERSION},

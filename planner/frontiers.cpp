@@ -1,0 +1,116 @@
+#include "planner/frontiers.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "sim/core/error.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr std::uint8_t kUnvisited = 1;
+
+/// All frontier voxels within the neighbourhood of `seed`, directly or by way of others; takes
+/// their marks away.
+std::vector<VoxelIndex> connected_to(VoxelIndex seed, int reach, const GridGeometry& geometry,
+                                     FrontierMarks& marks) {
+  std::vector<VoxelIndex> voxels = {seed};
+  marks[seed] = 0;
+  for (std::size_t next = 0; next < voxels.size(); ++next) {
+    const Key key = geometry.key_at(voxels[next]);
+    Key low;
+    Key high;
+    for (std::size_t a = 0; a < 3; ++a) {
+      low[a] = std::max(key[a] - reach, geometry.min_key()[a]);
+      high[a] = std::min(key[a] + reach, geometry.min_key()[a] + geometry.size()[a] - 1);
+    }
+    for (Key at = low; at[2] <= high[2]; ++at[2]) {
+      for (at[1] = low[1]; at[1] <= high[1]; ++at[1]) {
+        at[0] = low[0];
+        for (VoxelIndex v = geometry.index_of(at); at[0] <= high[0]; ++at[0], ++v) {
+          if (marks[v] != kUnvisited) continue;
+          marks[v] = 0;
+          voxels.push_back(v);
+        }
+      }
+    }
+  }
+  std::sort(voxels.begin(), voxels.end());
+  return voxels;
+}
+
+double largest_extent_m(std::span<const VoxelIndex> voxels, const GridGeometry& geometry) {
+  Key low = geometry.key_at(voxels.front());
+  Key high = low;
+  for (const VoxelIndex v : voxels) {
+    const Key key = geometry.key_at(v);
+    for (std::size_t a = 0; a < 3; ++a) {
+      low[a] = std::min(low[a], key[a]);
+      high[a] = std::max(high[a], key[a]);
+    }
+  }
+  const std::int32_t steps = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+  return (steps + 1) * geometry.resolution_m();
+}
+
+/// The voxels by the cell of the world lattice in which their centres lie.
+std::vector<std::vector<VoxelIndex>> cut(std::span<const VoxelIndex> voxels, double cell_m,
+                                         const GridGeometry& geometry) {
+  std::map<Key, std::vector<VoxelIndex>> cells;
+  for (const VoxelIndex v : voxels) {
+    const Vec3 cell = (geometry.center_m(geometry.key_at(v)) / cell_m).array().floor();
+    cells[{static_cast<int>(cell.z()), static_cast<int>(cell.y()), static_cast<int>(cell.x())}]
+        .push_back(v);
+  }
+  std::vector<std::vector<VoxelIndex>> pieces;
+  for (auto& [cell, piece] : cells) pieces.push_back(std::move(piece));
+  return pieces;
+}
+
+Vec3 centroid_m(std::span<const VoxelIndex> voxels, const GridGeometry& geometry) {
+  Vec3 sum_m = Vec3::Zero();
+  for (const VoxelIndex v : voxels) sum_m += geometry.center_m(geometry.key_at(v));
+  return sum_m / static_cast<double>(voxels.size());
+}
+
+}  // namespace
+
+bool is_frontier(const FrontierConfig& config, const OccupancyGrid& grid, const SurfaceCloud& cloud,
+                 VoxelIndex v) {
+  if (grid.state(v) != VoxelState::occupied) return false;
+  const double density = cloud.density(v);
+  return density > 0.0 && density < config.density_share * cloud.density_max();
+}
+
+std::vector<FrontierCluster> find_frontiers(const FrontierConfig& config, const OccupancyGrid& grid,
+                                            const SurfaceCloud& cloud, FrontierMarks& marks) {
+  const GridGeometry& geometry = grid.geometry();
+  GNBV_CHECK(marks.size() == geometry.voxel_count(), "{} marks for {} voxels", marks.size(),
+             geometry.voxel_count());
+  std::vector<VoxelIndex> frontier;
+  for (const VoxelIndex v : cloud.voxels()) {
+    if (is_frontier(config, grid, cloud, v)) frontier.push_back(v);
+  }
+  std::sort(frontier.begin(), frontier.end());
+  for (const VoxelIndex v : frontier) marks[v] = kUnvisited;
+
+  const auto min_voxels = static_cast<std::size_t>(config.min_cluster_voxels);
+  std::vector<FrontierCluster> clusters;
+  for (const VoxelIndex seed : frontier) {
+    if (marks[seed] != kUnvisited) continue;
+    std::vector<std::vector<VoxelIndex>> pieces = {
+        connected_to(seed, config.neighbour_voxels, geometry, marks)};
+    if (config.max_extent_m > 0.0 &&
+        largest_extent_m(pieces.front(), geometry) > config.max_extent_m) {
+      pieces = cut(pieces.front(), config.max_extent_m, geometry);
+    }
+    for (std::vector<VoxelIndex>& piece : pieces) {
+      if (piece.size() < min_voxels) continue;
+      const Vec3 center_m = centroid_m(piece, geometry);
+      clusters.push_back({std::move(piece), center_m});
+    }
+  }
+  return clusters;
+}
+
+}  // namespace gnbv

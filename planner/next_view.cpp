@@ -1,0 +1,221 @@
+#include "planner/next_view.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "planner/cluster_view.hpp"
+#include "planner/routes.hpp"
+#include "sim/core/parallel.hpp"
+
+namespace gnbv {
+namespace {
+
+/// One decision under way.
+class Decider {
+ public:
+  Decider(const PlannerModel& model, const Belief& belief, const History& history,
+          const ViewPose& current, Workbench& bench)
+      : model_(model),
+        belief_(belief),
+        history_(history),
+        current_(current),
+        bench_(bench),
+        recent_(recent_views()),
+        progress_(progress()),
+        checker_(model.config.validity, model.navigation_m, belief.grid, recent_, current_) {}
+
+  Plan decide() {
+    if (is_route(model_.config.utility.name)) {
+      follow_route();
+      return std::move(plan_);
+    }
+    const FvsConfig& fvs = model_.config.fvs;
+    const bool is_stuck =
+        fvs.enabled && is_entropy_still(fvs.entropy_threshold_nat, fvs.entropy_window, progress_);
+    if (is_stuck && (try_fvs() || !fvs.agvs_when_stuck)) return std::move(plan_);
+    try_agvs();
+    return std::move(plan_);
+  }
+
+ private:
+  std::vector<ViewPose> recent_views() const {
+    const std::vector<Decision>& all = history_.decisions;
+    const auto count =
+        std::min(all.size(), static_cast<std::size_t>(model_.config.validity.recent_poses));
+    std::vector<ViewPose> recent;
+    for (std::size_t i = all.size() - count; i < all.size(); ++i) recent.push_back(all[i].view);
+    return recent;
+  }
+
+  Progress progress() const {
+    Progress made{.utilities = {},
+                  .positions_m = positions_of(history_),
+                  .entropies_nat = history_.entropies_nat,
+                  .view_voxels = model_.view_voxels};
+    for (const Decision& decision : history_.decisions) {
+      if (decision.sampler != "start") made.utilities.push_back(decision.score.value);
+    }
+    return made;
+  }
+
+  /// The first valid view of the route after the one that was taken last.
+  void follow_route() {
+    const auto is_last = [&](const ViewPose& view) {
+      const ViewPose& last = history_.decisions.back().view;
+      return view.p_world_m == last.p_world_m && view.yaw_rad == last.yaw_rad;
+    };
+    const bool has_begun =
+        !history_.decisions.empty() && history_.decisions.back().sampler == "route";
+    auto view = has_begun ? std::find_if(history_.route.begin(), history_.route.end(), is_last)
+                          : history_.route.begin();
+    if (has_begun && view != history_.route.end()) ++view;
+    for (; view != history_.route.end() && !plan_.next; ++view) {
+      Candidate candidate{.view = *view, .sampler = "route"};
+      check(candidate);
+      if (!candidate.rejected) {
+        plan_.next = Decision{.view = *view,
+                              .sampler = "route",
+                              .candidates = 1,
+                              .valid = 1,
+                              .via_world_m = candidate.via_world_m};
+      }
+      plan_.candidates.push_back(std::move(candidate));
+    }
+  }
+
+  /// The nearest cluster that has a valid view, or all of the nearest together.
+  bool try_fvs() {
+    const FvsConfig& fvs = model_.config.fvs;
+    const std::vector<FrontierCluster> clusters =
+        find_frontiers(fvs.frontier, belief_.grid, belief_.cloud, bench_.frontier_marks);
+    std::vector<std::size_t> nearest(clusters.size());
+    std::iota(nearest.begin(), nearest.end(), std::size_t{0});
+    const auto distance2 = [&](std::size_t i) {
+      return (clusters[i].centroid_world_m - current_.p_world_m).squaredNorm();
+    };
+    std::stable_sort(nearest.begin(), nearest.end(),
+                     [&](std::size_t a, std::size_t b) { return distance2(a) < distance2(b); });
+    nearest.resize(std::min(nearest.size(), static_cast<std::size_t>(fvs.tries)));
+    std::vector<Candidate> pool;
+    for (std::size_t rank = 0; rank < nearest.size(); ++rank) {
+      std::vector<Candidate> views = views_of(clusters[nearest[rank]], static_cast<int>(rank));
+      std::move(views.begin(), views.end(), std::back_inserter(pool));
+      const bool is_last = rank + 1 == nearest.size();
+      if (fvs.pool_clusters && !is_last) continue;
+      if (choose_among(std::move(pool))) return true;
+      pool.clear();
+    }
+    return false;
+  }
+
+  std::vector<Candidate> views_of(const FrontierCluster& cluster, int rank) {
+    const FvsConfig& fvs = model_.config.fvs;
+    std::vector<Candidate> views;
+    for (const ViewPose& view : sample_fvs(fvs, cluster.centroid_world_m)) {
+      Candidate candidate{.view = view, .sampler = "fvs", .cluster = rank};
+      check(candidate);
+      if (!candidate.rejected) {
+        candidate.rejected = cluster_rejection(model_.cameras, belief_.grid, cluster, view,
+                                               fvs.needs_visible_cluster);
+      }
+      views.push_back(std::move(candidate));
+    }
+    return views;
+  }
+
+  /// A scale without any valid view is grown as at a local minimum; last comes the finest.
+  bool try_agvs() {
+    const AgvsConfig& agvs = model_.config.agvs;
+    const double last_scale = history_.decisions.empty() ? 1.0 : history_.decisions.back().scale;
+    const double first_scale = next_agvs_scale(agvs, last_scale, progress_);
+    for (double scale = first_scale;; scale = std::min(scale * agvs.scale_factor, agvs.scale_max)) {
+      if (try_agvs_at(scale)) return true;
+      if (!agvs.scales || scale >= agvs.scale_max) break;
+    }
+    return first_scale > 1.0 && try_agvs_at(1.0);
+  }
+
+  bool try_agvs_at(double scale) {
+    std::vector<Candidate> candidates;
+    for (const ViewPose& view : sample_agvs(model_.config.agvs, current_, scale)) {
+      Candidate candidate{.view = view, .sampler = "agvs", .scale = scale};
+      check(candidate);
+      candidates.push_back(std::move(candidate));
+    }
+    return choose_among(std::move(candidates));
+  }
+
+  void check(Candidate& candidate) {
+    const Reachability& reachability = checker_.check(candidate.view);
+    candidate.rejected = reachability.rejected;
+    candidate.via_world_m = reachability.via_world_m;
+    candidate.path_m =
+        path_length_m(current_.p_world_m, candidate.via_world_m, candidate.view.p_world_m);
+  }
+
+  /// Scores the candidates not rejected, each alone: which thread did it leaves no trace.
+  void score_all(std::span<Candidate> candidates) {
+    std::vector<std::size_t> valid;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      if (!candidates[i].rejected) valid.push_back(i);
+    }
+    const std::size_t lanes = bench_.marks.size();
+    parallel_for(bench_.threads, lanes, [&](std::size_t lane) {
+      for (std::size_t i = lane; i < valid.size(); i += lanes) {
+        Candidate& candidate = candidates[valid[i]];
+        ViewStats stats = evaluate_view(belief_.grid, belief_.cloud, model_.view_rays,
+                                        candidate.view, bench_.marks[lane]);
+        stats.density_max = belief_.cloud.density_max();
+        stats.path_m = candidate.path_m;
+        const std::optional<Score> utility = score(model_.config.utility, stats);
+        if (utility) {
+          candidate.score = *utility;
+        } else {
+          candidate.rejected = Rejection::sees_no_surface;
+        }
+      }
+    });
+  }
+
+  /// Takes the candidate of the highest utility, the first of equals, and keeps the record.
+  bool choose_among(std::vector<Candidate> candidates) {
+    score_all(candidates);
+    const Candidate* best = nullptr;
+    int valid = 0;
+    for (const Candidate& candidate : candidates) {
+      if (candidate.rejected) continue;
+      ++valid;
+      if (best == nullptr || candidate.score.value > best->score.value) best = &candidate;
+    }
+    if (best != nullptr) {
+      plan_.next = Decision{.view = best->view,
+                            .sampler = best->sampler,
+                            .scale = best->scale,
+                            .candidates = static_cast<int>(candidates.size()),
+                            .valid = valid,
+                            .score = best->score,
+                            .via_world_m = best->via_world_m};
+    }
+    std::move(candidates.begin(), candidates.end(), std::back_inserter(plan_.candidates));
+    return plan_.next.has_value();
+  }
+
+  const PlannerModel& model_;
+  const Belief& belief_;
+  const History& history_;
+  const ViewPose& current_;
+  Workbench& bench_;
+  const std::vector<ViewPose> recent_;
+  const Progress progress_;
+  ViewChecker checker_;
+  Plan plan_;
+};
+
+}  // namespace
+
+Plan plan_next_view(const PlannerModel& model, const Belief& belief, const History& history,
+                    const ViewPose& current, Workbench& bench) {
+  return Decider(model, belief, history, current, bench).decide();
+}
+
+}  // namespace gnbv

@@ -1,0 +1,29 @@
+// A way around what blocks the straight path.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "planner/map/occupancy_grid.hpp"
+
+namespace gnbv {
+
+struct PathSearchConfig {
+  int max_expansions = 1000;  // nodes looked at before the search gives up: a work budget
+};
+
+/// A* (Hart, Nilsson, Raphael 1968) on a lattice through `from` with a step of half the radius (at
+/// least a voxel), 26 neighbours a node, through voxels known to be free, the sphere clear all the
+/// way and inside the navigation box; then straightened greedily. Returns the points between the
+/// ends: none when the straight path will do. Nothing where no way was found. Deterministic: of
+/// equal nodes the one found first is expanded first.
+std::optional<std::vector<Vec3>> find_path(const PathSearchConfig& config,
+                                           const OccupancyGrid& grid, const Box3& navigation_m,
+                                           const Vec3& from_world_m, const Vec3& to_world_m,
+                                           double radius_m);
+
+/// Length of the way from one end by the points between them to the other.
+double path_length_m(const Vec3& from_world_m, std::span<const Vec3> via_world_m,
+                     const Vec3& to_world_m);
+
+}  // namespace gnbv

@@ -1,0 +1,39 @@
+#include "planner/presets.hpp"
+
+#include "sim/core/error.hpp"
+
+namespace gnbv {
+namespace {
+
+void set_paper(PlannerConfig& config) {
+  const PlannerConfig paper;
+  config.profiling.scan_in_transit = paper.profiling.scan_in_transit;
+  config.agvs.repeated_moves = paper.agvs.repeated_moves;
+  config.fvs.frontier.max_extent_m = paper.fvs.frontier.max_extent_m;
+  config.fvs.tries = paper.fvs.tries;
+  config.fvs.pool_clusters = paper.fvs.pool_clusters;
+  config.fvs.views_per_layer = paper.fvs.views_per_layer;
+  config.fvs.needs_visible_cluster = paper.fvs.needs_visible_cluster;
+  config.validity.path = paper.validity.path;
+}
+
+void set_released(PlannerConfig& config) {
+  config.profiling.scan_in_transit = false;
+  config.fvs.frontier.max_extent_m = 0.0;
+  config.fvs.tries = 50;
+  config.fvs.pool_clusters = true;
+  config.fvs.views_per_layer = 8;
+  config.fvs.needs_visible_cluster = false;
+  config.validity.path = PathCheck::unchecked;
+}
+
+}  // namespace
+
+void set_preset_switches(PlannerConfig& config) {
+  GNBV_CHECK(config.preset == "paper" || config.preset == "released", "no preset '{}'",
+             config.preset);
+  set_paper(config);
+  if (config.preset == "released") set_released(config);
+}
+
+}  // namespace gnbv

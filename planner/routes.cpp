@@ -1,0 +1,141 @@
+#include "planner/routes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "sim/core/error.hpp"
+
+namespace gnbv {
+namespace {
+
+std::vector<Vec3> occupied_centers_m(const OccupancyGrid& grid) {
+  std::vector<Vec3> centers_m;
+  const auto voxels = static_cast<VoxelIndex>(grid.geometry().voxel_count());
+  for (VoxelIndex v = 0; v < voxels; ++v) {
+    if (grid.state(v) == VoxelState::occupied) {
+      centers_m.push_back(grid.geometry().center_m(grid.geometry().key_at(v)));
+    }
+  }
+  return centers_m;
+}
+
+double yaw_towards(const Vec3& from_m, const Vec3& to_m) {
+  return std::atan2(to_m.y() - from_m.y(), to_m.x() - from_m.x());
+}
+
+/// Where the ray from `center` leaves the last ball of radius `standoff` around an obstacle.
+double exit_m(const Vec3& center_m, const Vec3& direction, std::span<const Vec3> obstacles_m,
+              double standoff_m) {
+  double exit_m = standoff_m;
+  for (const Vec3& obstacle_m : obstacles_m) {
+    const Vec3 to_m = obstacle_m - center_m;
+    const double along_m = to_m.dot(direction);
+    const double across2_m2 = to_m.squaredNorm() - along_m * along_m;
+    const double half2_m2 = standoff_m * standoff_m - across2_m2;
+    if (half2_m2 > 0.0) exit_m = std::max(exit_m, along_m + std::sqrt(half2_m2));
+  }
+  return exit_m;
+}
+
+/// Reorders: each view is the nearest to the one before among those left.
+void order_by_nearest(const Vec3& start_m, std::vector<ViewPose>& views) {
+  Vec3 at_m = start_m;
+  for (std::size_t next = 0; next < views.size(); ++next) {
+    const auto nearest = std::min_element(views.begin() + static_cast<std::ptrdiff_t>(next),
+                                          views.end(), [&](const ViewPose& a, const ViewPose& b) {
+                                            return (a.p_world_m - at_m).squaredNorm() <
+                                                   (b.p_world_m - at_m).squaredNorm();
+                                          });
+    std::iter_swap(views.begin() + static_cast<std::ptrdiff_t>(next), nearest);
+    at_m = views[next].p_world_m;
+  }
+}
+
+/// Fibonacci lattice on the upper hemisphere: equal areas, golden angle between neighbours.
+std::vector<ViewPose> hemisphere(const RouteConfig& config, const RouteProblem& problem,
+                                 std::span<const Vec3> obstacles_m, const Box3& structure_m) {
+  const Vec3 center_m(structure_m.center().x(), structure_m.center().y(), structure_m.min().z());
+  std::vector<ViewPose> views;
+  for (int i = 0; i < problem.views; ++i) {
+    const double up = (i + 0.5) / problem.views;
+    const double bearing_rad = 2.0 * kPi * i / (std::numbers::phi * std::numbers::phi);
+    const double level = std::sqrt(1.0 - up * up);
+    const Vec3 direction(level * std::cos(bearing_rad), level * std::sin(bearing_rad), up);
+    const Vec3 p_m =
+        center_m + exit_m(center_m, direction, obstacles_m, config.standoff_m) * direction;
+    const Vec3 inside_m =
+        p_m.cwiseMax(problem.navigation_m.min()).cwiseMin(problem.navigation_m.max());
+    views.push_back({inside_m, yaw_towards(inside_m, center_m)});
+  }
+  order_by_nearest(problem.start.p_world_m, views);
+  return views;
+}
+
+/// Evenly spaced from `from` to `to`, both included, no farther apart than `step`.
+std::vector<double> steps(double from, double to, double step) {
+  const int count = std::max(1, static_cast<int>(std::ceil(std::fabs(to - from) / step - 1e-9)));
+  std::vector<double> values;
+  for (int i = 0; i <= count; ++i) values.push_back(from + (to - from) * i / count);
+  return values;
+}
+
+/// Rows on the four sides of the box around the structure, from the bottom up, and then above it.
+std::vector<ViewPose> lawnmower(const RouteConfig& config, const RouteProblem& problem,
+                                const Box3& structure_m) {
+  const double across_m = 2.0 * config.standoff_m * (1.0 - config.overlap);
+  const double column_m = across_m * std::tan(0.5 * problem.camera.config.fov_x_rad);
+  const double row_m = across_m * std::tan(0.5 * problem.camera.config.fov_y_rad);
+  const Vec3 margin_m = Vec3::Constant(config.standoff_m);
+  const Box3 around_m = Box3(structure_m.min() - margin_m, structure_m.max() + margin_m)
+                            .intersection(problem.navigation_m);
+  const Vec3 lo = around_m.min();
+  const Vec3 hi = around_m.max();
+  const std::array<std::array<Eigen::Vector2d, 2>, 4> sides = {
+      {{{{lo.x(), lo.y()}, {hi.x(), lo.y()}}},
+       {{{hi.x(), lo.y()}, {hi.x(), hi.y()}}},
+       {{{hi.x(), hi.y()}, {lo.x(), hi.y()}}},
+       {{{lo.x(), hi.y()}, {lo.x(), lo.y()}}}}};
+  std::vector<ViewPose> views;
+  bool forwards = true;
+  for (const auto& [from, to] : sides) {
+    const Eigen::Vector2d along = to - from;
+    const double inwards_rad = std::atan2(along.x(), -along.y());
+    for (const double z_m : steps(lo.z(), structure_m.max().z(), row_m)) {
+      std::vector<double> shares = steps(0.0, 1.0, column_m / along.norm());
+      if (!forwards) std::reverse(shares.begin(), shares.end());
+      forwards = !forwards;
+      for (const double share : shares) {
+        const Eigen::Vector2d p = from + share * along;
+        views.push_back({Vec3(p.x(), p.y(), std::min(z_m, hi.z())), inwards_rad});
+      }
+    }
+  }
+  for (const double y_m : steps(hi.y(), lo.y(), column_m)) {
+    std::vector<double> xs_m = steps(lo.x(), hi.x(), row_m);
+    if (!forwards) std::reverse(xs_m.begin(), xs_m.end());
+    for (const double x_m : xs_m) views.push_back({Vec3(x_m, y_m, hi.z()), forwards ? 0.0 : kPi});
+    forwards = !forwards;
+  }
+  return views;
+}
+
+}  // namespace
+
+bool is_route(std::string_view utility_name) {
+  return std::find(kRouteNames.begin(), kRouteNames.end(), utility_name) != kRouteNames.end();
+}
+
+std::vector<ViewPose> plan_route(std::string_view name, const RouteConfig& config,
+                                 const RouteProblem& problem) {
+  GNBV_CHECK(is_route(name), "'{}' is no route", name);
+  const std::vector<Vec3> obstacles_m = occupied_centers_m(problem.grid);
+  if (obstacles_m.empty()) return {};
+  Box3 structure_m;
+  for (const Vec3& center_m : obstacles_m) structure_m.extend(center_m);
+  return name == "lawnmower" ? lawnmower(config, problem, structure_m)
+                             : hemisphere(config, problem, obstacles_m, structure_m);
+}
+
+}  // namespace gnbv

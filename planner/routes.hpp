@@ -1,0 +1,40 @@
+// Baselines that plan all their views at once from the profile, and ask no utility: what a planner
+// that decides view by view has to beat.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "planner/map/occupancy_grid.hpp"
+#include "sensors/camera_model.hpp"
+
+namespace gnbv {
+
+/// uniform_hemisphere: directions spread evenly over the upper half space, each view where a line
+/// from the structure's centre comes out of its surroundings. lawnmower: rows back and forth on
+/// four sides and above. Both look at what they pass from the same distance.
+constexpr std::array<std::string_view, 2> kRouteNames = {"uniform_hemisphere", "lawnmower"};
+bool is_route(std::string_view utility_name);
+
+struct RouteConfig {
+  double standoff_m = 4.0;  // from the occupied voxels of the profile: half of the cameras' range
+  double overlap = 0.3;     // lawnmower: of neighbouring images
+};
+
+/// What a route is laid around.
+struct RouteProblem {
+  const OccupancyGrid& grid;
+  const Box3& navigation_m;
+  const CameraModel& camera;  // whose footprint spaces the rows
+  ViewPose start;
+  int views = 1;  // uniform_hemisphere: how many
+};
+
+/// The views in the order in which they are to be flown; empty where nothing is occupied.
+/// Requires is_route(name).
+std::vector<ViewPose> plan_route(std::string_view name, const RouteConfig& config,
+                                 const RouteProblem& problem);
+
+}  // namespace gnbv

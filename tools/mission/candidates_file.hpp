@@ -1,0 +1,29 @@
+// candidates.jsonl: why each view was chosen, and every other one was not.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+
+#include "planner/next_view.hpp"
+
+namespace gnbv {
+
+/// One JSON object a line and candidate, in the order they were sampled: `iteration` of the view
+/// that the decision chose, pose (m, rad), sampler, scale or cluster, path_m, then either
+/// `rejected` with its reason or `utility` with its terms; `chosen` marks the one that was flown
+/// to. Appended to candidates.jsonl.part, which finish() renames.
+class CandidatesFile {
+ public:
+  /// `first_iteration`: decisions from here on will be written; what an interrupted run wrote of
+  /// earlier ones is kept. Throws BadInput naming the file.
+  CandidatesFile(const std::filesystem::path& folder, std::size_t first_iteration);
+
+  void write(std::size_t iteration, const Plan& plan);
+  void finish();
+
+ private:
+  std::filesystem::path path_;
+  std::ofstream part_;
+};
+
+}  // namespace gnbv
