@@ -23,7 +23,7 @@ class Search {
         from_m_(from_world_m),
         to_m_(to_world_m),
         radius_m_(radius_m),
-        step_m_(std::max(0.5 * radius_m, grid.geometry().resolution_m())) {}
+        step_m_(std::max(radius_m, grid.geometry().resolution_m())) {}
 
   std::optional<std::vector<Vec3>> run(int max_expansions) {
     const Node start = {0, 0, 0};

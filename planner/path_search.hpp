@@ -9,10 +9,10 @@
 namespace gnbv {
 
 struct PathSearchConfig {
-  int max_expansions = 1000;  // nodes looked at before the search gives up: a work budget
+  int max_expansions = 2000;  // nodes looked at before the search gives up: a work budget
 };
 
-/// A* (Hart, Nilsson, Raphael 1968) on a lattice through `from` with a step of half the radius (at
+/// A* (Hart, Nilsson, Raphael 1968) on a lattice through `from` with a step of the radius (at
 /// least a voxel), 26 neighbours a node, through voxels known to be free, the sphere clear all the
 /// way and inside the navigation box; then straightened greedily. Returns the points between the
 /// ends: none when the straight path will do. Nothing where no way was found. Deterministic: of

@@ -81,6 +81,15 @@ std::vector<double> steps(double from, double to, double step) {
   return values;
 }
 
+/// Adds the row from the end that is nearer to where the views so far end.
+void append_row(std::vector<ViewPose> row, const Vec3& start_m, std::vector<ViewPose>& views) {
+  const Vec3 at_m = views.empty() ? start_m : views.back().p_world_m;
+  if ((row.back().p_world_m - at_m).norm() < (row.front().p_world_m - at_m).norm()) {
+    std::reverse(row.begin(), row.end());
+  }
+  views.insert(views.end(), row.begin(), row.end());
+}
+
 /// Rows on the four sides of the box around the structure, from the bottom up, and then above it.
 std::vector<ViewPose> lawnmower(const RouteConfig& config, const RouteProblem& problem,
                                 const Box3& structure_m) {
@@ -98,25 +107,24 @@ std::vector<ViewPose> lawnmower(const RouteConfig& config, const RouteProblem& p
        {{{hi.x(), hi.y()}, {lo.x(), hi.y()}}},
        {{{lo.x(), hi.y()}, {lo.x(), lo.y()}}}}};
   std::vector<ViewPose> views;
-  bool forwards = true;
   for (const auto& [from, to] : sides) {
     const Eigen::Vector2d along = to - from;
     const double inwards_rad = std::atan2(along.x(), -along.y());
     for (const double z_m : steps(lo.z(), structure_m.max().z(), row_m)) {
-      std::vector<double> shares = steps(0.0, 1.0, column_m / along.norm());
-      if (!forwards) std::reverse(shares.begin(), shares.end());
-      forwards = !forwards;
-      for (const double share : shares) {
+      std::vector<ViewPose> row;
+      for (const double share : steps(0.0, 1.0, column_m / along.norm())) {
         const Eigen::Vector2d p = from + share * along;
-        views.push_back({Vec3(p.x(), p.y(), std::min(z_m, hi.z())), inwards_rad});
+        row.push_back({Vec3(p.x(), p.y(), std::min(z_m, hi.z())), inwards_rad});
       }
+      append_row(std::move(row), problem.start.p_world_m, views);
     }
   }
   for (const double y_m : steps(hi.y(), lo.y(), column_m)) {
-    std::vector<double> xs_m = steps(lo.x(), hi.x(), row_m);
-    if (!forwards) std::reverse(xs_m.begin(), xs_m.end());
-    for (const double x_m : xs_m) views.push_back({Vec3(x_m, y_m, hi.z()), forwards ? 0.0 : kPi});
-    forwards = !forwards;
+    std::vector<ViewPose> row;
+    for (const double x_m : steps(lo.x(), hi.x(), row_m)) {
+      row.push_back({Vec3(x_m, y_m, hi.z()), 0.0});
+    }
+    append_row(std::move(row), problem.start.p_world_m, views);
   }
   return views;
 }

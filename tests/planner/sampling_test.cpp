@@ -1,61 +1,15 @@
-// Profiling waypoints, AGVS candidates and termination: all pure functions.
+// AGVS and FVS candidates, local minima and termination: all pure functions.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <set>
-#include <tuple>
 
-#include "planner/profiling.hpp"
 #include "planner/termination.hpp"
 #include "planner/view_sampling.hpp"
 
 namespace gnbv {
 namespace {
-
-const Box3 kBox(Vec3(-20, -20, 0.7), Vec3(20, 20, 20));
-
-double length_m(const std::vector<ProfileLeg>& legs) {
-  double sum_m = 0.0;
-  for (std::size_t i = 1; i < legs.size(); ++i) {
-    sum_m += (legs[i].goal.p_world_m - legs[i - 1].goal.p_world_m).norm();
-  }
-  return sum_m;
-}
-
-TEST(BoundingBoxProfile, HasThePapersLength) {
-  // released_code.md: 8 x 19.3 + 7 x sqrt(20^2 + 19.3^2) = 349 m without the approach
-  const auto legs = bounding_box_profile(kBox, {Vec3(0, -20, 5), 0});
-  ASSERT_EQ(legs.size(), 16U);
-  EXPECT_NEAR(length_m(legs), 8 * 19.3 + 7 * std::hypot(20.0, 19.3), 1e-9);
-}
-
-TEST(BoundingBoxProfile, StartsAtTheNearestStationAndVisitsAllEight) {
-  for (const Vec3& start : {Vec3(0, -20, 5), Vec3(19, 18, 3), Vec3(-20, 3, 1)}) {
-    const auto legs = bounding_box_profile(kBox, {start, 0});
-    std::set<std::tuple<double, double>> stations;
-    double nearest_m = 1e9;
-    for (const ProfileLeg& leg : legs) {
-      stations.insert({leg.goal.p_world_m.x(), leg.goal.p_world_m.y()});
-      nearest_m = std::min(nearest_m, (leg.goal.p_world_m - start).head<2>().norm());
-    }
-    EXPECT_EQ(stations.size(), 8U);
-    EXPECT_EQ((legs[0].goal.p_world_m - start).head<2>().norm(), nearest_m);
-  }
-}
-
-TEST(BoundingBoxProfile, DescendsFromTopToBottomFacingTheCentre) {
-  const auto legs = bounding_box_profile(kBox, {Vec3(3, -20, 5), 0});
-  for (std::size_t i = 0; i < legs.size(); i += 2) {
-    EXPECT_FALSE(legs[i].is_scan);
-    EXPECT_TRUE(legs[i + 1].is_scan);
-    EXPECT_EQ(legs[i].goal.p_world_m.z(), 20.0);
-    EXPECT_EQ(legs[i + 1].goal.p_world_m.z(), 0.7);
-    const Vec3 forward = T_world_body(legs[i].goal).linear().col(0);
-    const Vec3 to_center = (kBox.center() - legs[i].goal.p_world_m).cwiseProduct(Vec3(1, 1, 0));
-    EXPECT_NEAR(forward.dot(to_center.normalized()), 1.0, 1e-12);
-  }
-}
 
 TEST(Agvs, OffersTheGridOfThePaperWithoutTheCurrentPose) {
   const ViewPose current{Vec3(1, 2, 3), 0.3};
@@ -122,6 +76,52 @@ TEST(Agvs, ScaleGrowsWhenEntropyStandsStill) {
   EXPECT_EQ(scale({500, 500, 500}), 1.0);  // no full window yet
   config.entropy_threshold_nat = 0.0;
   EXPECT_EQ(scale(still), 1.0);
+}
+
+TEST(Agvs, ScaleGrowsWhenItGoesBackAndForth) {
+  const AgvsConfig config;  // four moves
+  const Vec3 a(0, 0, 5);
+  const Vec3 b(1, 0, 5);
+  const auto scale = [&](const std::vector<Vec3>& positions_m) {
+    return next_agvs_scale(config, 1.0, {.positions_m = positions_m});
+  };
+  EXPECT_EQ(scale({a, b, a, b, a, b}), 1.5);
+  EXPECT_EQ(scale({b, a, b, a, b}), 1.0);  // three moves undone, not four
+  EXPECT_EQ(scale({a, b, a, b, Vec3(1, 1, 5), b}), 1.0);
+  EXPECT_EQ(scale({a, a, a, a, a, a}), 1.0);  // turning on the spot is no motion
+}
+
+TEST(Agvs, NeverGrowsWithItsScalesOff) {
+  AgvsConfig config;
+  config.scales = false;
+  EXPECT_EQ(next_agvs_scale(config, 3.0, {.utilities = {0.0, 0.0, 0.0}}), 1.0);
+}
+
+TEST(Fvs, StandsOnThreeLayersOfACylinderFacingItsAxis) {
+  const FvsConfig config;
+  const Vec3 centroid(3, -2, 6);
+  const auto views = sample_fvs(config, centroid);
+  ASSERT_EQ(views.size(), 12U);
+  std::array<int, 3> by_layer = {0, 0, 0};
+  for (const ViewPose& view : views) {
+    const Vec3 offset = view.p_world_m - centroid;
+    EXPECT_NEAR(offset.head<2>().norm(), 3.5, 1e-12);
+    ++by_layer.at(static_cast<std::size_t>(std::lround(offset.z()) + 1));
+    const Vec3 forward = T_world_body(view).linear().col(0);
+    EXPECT_NEAR(forward.head<2>().dot(-offset.head<2>().normalized()), 1.0, 1e-12);
+  }
+  EXPECT_EQ(by_layer, (std::array<int, 3>{4, 4, 4}));
+  FvsConfig released;
+  released.views_per_layer = 8;
+  EXPECT_EQ(sample_fvs(released, centroid).size(), 24U);
+}
+
+TEST(BackAndForth, EndsAMissionAfterTenMoves) {
+  std::vector<Vec3> positions_m;
+  for (int i = 0; i < 12; ++i) positions_m.emplace_back(i % 2, 0, 5);
+  EXPECT_TRUE(is_back_and_forth(positions_m, TerminationConfig{}.repeated_moves));
+  EXPECT_FALSE(is_back_and_forth(std::span(positions_m).last(11), 10));
+  EXPECT_FALSE(is_back_and_forth(positions_m, 0));  // switched off
 }
 
 TEST(EntropyTermination, NeedsEveryViewOfTheWindowToBeQuiet) {
