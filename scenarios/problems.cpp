@@ -45,8 +45,15 @@ void check_sensors(const Scenario& s, Problems& out) {
     require_below(s.lidars[i].range_min_m, s.lidars[i].range_max_m, key + "range_min_m",
                   key + "range_max_m", out);
   }
-  if (s.lidars.empty() && s.planner.profiling.method != ProfilingMethod::none) {
+  const ProfilingMethod profiling = s.planner.profiling.method;
+  const bool is_scanned =
+      profiling != ProfilingMethod::none && profiling != ProfilingMethod::saved;
+  if (s.lidars.empty() && is_scanned) {
     out.push_back({{"lidars", "planner.profiling.method"}, "the profile needs a LIDAR to scan it"});
+  }
+  if (profiling == ProfilingMethod::saved && s.planner.profiling.file.empty()) {
+    out.push_back({{"planner.profiling.file", "planner.profiling.method"},
+                   "saved: names no file; an earlier run's profile.map has to be named"});
   }
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <thread>
 
+#include "planner/belief_file.hpp"
 #include "scenarios/load.hpp"
 #include "scenarios/problems.hpp"
 #include "sim/core/error.hpp"
@@ -40,6 +41,14 @@ void need_memory_for(const Scenario& scenario, int threads) {
                   threads, grid.voxel_count(), bytes / 0x1p30, kMapBudget_bytes / 0x1p30));
 }
 
+/// A saved profile that cannot be used is found before anything is written.
+void need_saved_profile(const Scenario& scenario) {
+  const ProfilingConfig& profiling = scenario.planner.profiling;
+  if (profiling.method != ProfilingMethod::saved) return;
+  read_belief(profiling.file,
+              PlannerModel(scenario.planner, scenario.workspace_m, camera_models(scenario), {}));
+}
+
 /// The value as a YAML scalar, whatever it holds.
 std::string quoted(const std::string& value) {
   std::string out = "'";
@@ -50,6 +59,7 @@ std::string quoted(const std::string& value) {
 MissionHooks make_hooks(const Scenario& scenario, RunDirectory& directory, ProgressBar& progress) {
   MissionHooks hooks;
   hooks.on_profile = [&progress](double share) { progress.show(0.1 * share, "profile"); };
+  hooks.on_profile_belief = [&](const Belief& belief) { directory.write_profile(belief); };
   hooks.on_view = [&](const ViewRecord& view) {
     directory.append(view);
     const int last = scenario.planner.termination.max_iterations;
@@ -106,6 +116,7 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
   for (const std::string& warning : warnings) fmt::print(stderr, "gnbv: {}\n", warning);
   const RayScene scene(world);
   start_pose(scenario, scene);
+  need_saved_profile(scenario);
   const fs::path folder =
       options.out.empty() ? free_folder(fmt::format("{}-{}-seed{}", scenario.name,
                                                     scenario.planner.utility.name, scenario.seed))

@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "planner/belief_file.hpp"
 #include "planner/next_view.hpp"
 #include "sim/flight.hpp"
 #include "sim/guidance.hpp"
@@ -132,18 +133,36 @@ std::optional<Termination> scan_profile(Mission& m, ProfileScanner& scanner) {
   }
 }
 
-/// Profiles the structure with the LIDARs and believes the scans in one batch (section 2.2).
+/// Profiles the structure with the LIDARs and believes the scans in one batch (section 2.2), or
+/// takes up the belief that an earlier profile left.
 std::optional<Termination> fly_profile(Mission& m) {
   const Stopwatch watch(m.out.wall.profile_s);
-  ProfileScanner scanner(m.scene, m.planner.lidars, m.scenario.seed);
-  const std::optional<Termination> over = scan_profile(m, scanner);
-  integrate_profile(m.planner, scanner.scans(), m.bench, m.out.belief);
+  const ProfilingConfig& profiling = m.planner.config.profiling;
+  std::optional<Termination> over;
+  if (profiling.method == ProfilingMethod::saved) {
+    m.out.belief = read_belief(profiling.file, m.planner);
+  } else {
+    ProfileScanner scanner(m.scene, m.planner.lidars, m.scenario.seed);
+    over = scan_profile(m, scanner);
+    integrate_profile(m.planner, scanner.scans(), m.bench, m.out.belief);
+  }
   const auto points = m.out.belief.cloud.points_world_m();
   m.out.profile_points_world_m.assign(points.begin(), points.end());
   m.out.entropy_after_profile_nat = m.out.belief.grid.total_entropy_nat();
   m.out.distance.profile_flown_m = m.flown_m;
   m.out.profile_end_s = time_s(*m.flight);
+  m.hooks.on_profile_belief(m.out.belief);
   return over;
+}
+
+/// Predicts the other half of a symmetric structure (section 2.3).
+void predict(Mission& m) {
+  const Stopwatch watch(m.out.wall.symmetry_s);
+  Prediction& prediction = m.out.prediction;
+  prediction.symmetry =
+      find_symmetry(m.planner.config.symmetry, m.out.profile_points_world_m, m.out.belief.grid);
+  prediction.predicted_voxels = predict_surface(prediction.symmetry, m.out.belief.grid);
+  prediction.symmetry.mirrored_world_m = {};
 }
 
 /// Back to where the views begin: straight when that is clear, else over the top of the workspace.
@@ -299,6 +318,7 @@ MissionResult run_mission(const Scenario& scenario, const World& world, const Ra
                           const MissionHooks& hooks, int threads) {
   Mission m(scenario, world, scene, hooks, threads);
   if (const auto over = fly_profile(m)) return finish(m, *over);
+  predict(m);
   if (const auto over = fly_to_first_view(m)) return finish(m, *over);
   lay_route(m);
   Decision next = {.view = m.out.start};

@@ -12,6 +12,7 @@ namespace gnbv {
 /// Wall time spent, by what it was spent on. Never part of a result.
 struct WallTimes {
   double profile_s = 0.0;
+  double symmetry_s = 0.0;
   double sense_s = 0.0;
   double map_s = 0.0;
   double plan_s = 0.0;
@@ -45,6 +46,12 @@ struct MissionDistances {
   double flown_m = 0.0;     // the same legs, as flown
 };
 
+/// Whether the profile has a mirror image, and what it predicts.
+struct Prediction {
+  Symmetry symmetry;  // its mirrored points are dropped
+  std::size_t predicted_voxels = 0;
+};
+
 struct MissionResult {
   MissionResult(const ViewPose& start_pose, const PlannerModel& planner)
       : start(start_pose), belief(planner) {}
@@ -59,6 +66,7 @@ struct MissionResult {
   double energy_wh = 0.0;
   VehicleState final_state;  // true, when the mission ended: after a collision, where and how fast
   double entropy_after_profile_nat = 0.0;
+  Prediction prediction;
   int legs_timed_out = 0;
   std::vector<Vec3f> profile_points_world_m;
   Belief belief;

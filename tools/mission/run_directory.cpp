@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "planner/belief_file.hpp"
 #include "planner/map/octomap_io.hpp"
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
@@ -22,6 +23,20 @@ constexpr std::string_view kSummary = "summary.json";
 
 Json by_size(const std::array<double, 3>& coverage) {
   return {{"0.05", coverage[0]}, {"0.10", coverage[1]}, {"0.50", coverage[2]}};
+}
+
+Json symmetry_of(const Prediction& prediction) {
+  const Symmetry& symmetry = prediction.symmetry;
+  Json plane = nullptr;
+  if (symmetry.plane) {
+    const Vec3& n = symmetry.plane->normal_world;
+    plane = {{"normal", std::vector<double>(n.begin(), n.end())},
+             {"offset_m", symmetry.plane->offset_m}};
+  }
+  return {{"plane", plane},
+          {"support", symmetry.support},
+          {"confirmed", symmetry.confirmed},
+          {"predicted_voxels", prediction.predicted_voxels}};
 }
 
 Json summary(const Scenario& scenario, const MissionResult& r, const MissionScore& score,
@@ -59,6 +74,7 @@ Json summary(const Scenario& scenario, const MissionResult& r, const MissionScor
        {{"after_profile", r.entropy_after_profile_nat},
         {"final", entropy_nat},
         {"reduction", r.entropy_after_profile_nat - entropy_nat}}},
+      {"symmetry", symmetry_of(r.prediction)},
       {"coverage",
        {{"profile", by_size(score.profile)},
         {"final", by_size(score.final)},
@@ -74,6 +90,7 @@ Json summary(const Scenario& scenario, const MissionResult& r, const MissionScor
       {"wall_s",
        {{"total", total_wall_s},
         {"profile", r.wall.profile_s},
+        {"symmetry", r.wall.symmetry_s},
         {"sense", r.wall.sense_s},
         {"map", r.wall.map_s},
         {"plan", r.wall.plan_s},
@@ -130,6 +147,10 @@ RunDirectory::RunDirectory(fs::path folder, const Scenario& scenario, bool resum
   // the journal is written anew as the recorded views are flown again, and takes its place only
   // when it has caught up: a resumed run that is killed, too, has lost nothing
   write_file_atomically(folder_ / kScenario, yaml);
+}
+
+void RunDirectory::write_profile(const Belief& belief) const {
+  write_belief(belief, folder_ / "profile.map");
 }
 
 void RunDirectory::append(const ViewRecord& view) {

@@ -24,6 +24,9 @@ class RunDirectory {
   /// Decisions of the run that is resumed, oldest first; empty for a new one.
   const std::vector<Decision>& recorded() const { return recorded_; }
 
+  /// Writes profile.map, which another mission can begin with (planner.profiling.method: saved).
+  void write_profile(const Belief& belief) const;
+
   /// Appends a row to the journal and flushes it: a killed run loses at most the view it was busy
   /// with.
   void append(const ViewRecord& view);

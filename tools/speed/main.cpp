@@ -1,0 +1,122 @@
+// speed_table: the planner's hot paths and a whole mission against their references, in one run on
+// one machine. tools/bench builds and runs it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "bench/cloud_speed.hpp"
+#include "bench/map_speed.hpp"
+#include "bench/view_speed.hpp"
+#include "scenarios/load.hpp"
+#include "sim/core/simd.hpp"
+#include "tools/mission/load_world.hpp"
+#include "tools/mission/mission.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr std::size_t kWindow = 50;  // views at either end of a mission
+
+/// Wall time of one view: flying, sensing, believing, deciding.
+double wall_s(const ViewRecord& view) {
+  return view.wall.sense_s + view.wall.map_s + view.wall.plan_s + view.wall.fly_s;
+}
+
+double mean_s(std::span<const ViewRecord> views) {
+  double sum_s = 0.0;
+  for (const ViewRecord& view : views) sum_s += wall_s(view);
+  return sum_s / static_cast<double>(views.size());
+}
+
+struct TimedMission {
+  double wall_s = 0.0;
+  double first_s = 0.0;  // mean of the first views
+  double last_s = 0.0;   // mean of the last views
+  std::string sha256;
+};
+
+/// The aircraft mission of 600 views, without scoring and pictures.
+TimedMission fly(const Scenario& scenario, const World& world, const RayScene& scene, int threads) {
+  const auto begin = std::chrono::steady_clock::now();
+  const MissionResult result = run_mission(scenario, world, scene, {}, threads);
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
+  const std::span<const ViewRecord> views = result.views;
+  const std::size_t window = std::min(kWindow, views.size());
+  return {wall.count(), mean_s(views.first(window)), mean_s(views.last(window)),
+          result_sha256(result)};
+}
+
+std::vector<SpeedRow> mission_speed() {
+  constexpr double kLimit_s = 30.0;
+  const std::vector<std::string> overrides = {"planner.termination.max_iterations=600"};
+  const Scenario scenario = load_scenario("aircraft", overrides);
+  std::vector<std::string> warnings;
+  const World world = load_world(scenario, warnings);
+  const RayScene scene(world);
+  const TimedMission two = fly(scenario, world, scene, 2);
+  const TimedMission one = fly(scenario, world, scene, 1);
+  const bool same = one.sha256 == two.sha256;
+  return {{"mission_600_views", two.wall_s, kLimit_s, "s", kLimit_s / two.wall_s, same, 1.0},
+          {"mission_two_threads_over_one", two.wall_s, one.wall_s, "s", one.wall_s / two.wall_s,
+           same, 1.5},
+          {"mission_last_50_over_first_50", 1e3 * two.last_s, 1e3 * two.first_s, "ms per view",
+           two.last_s / two.first_s, same, 1.3}};
+}
+
+std::vector<SpeedRow> all_rows() {
+  std::vector<SpeedRow> rows;
+  for (const auto& part : {map_speed(), view_speed(), cloud_speed(), mission_speed()}) {
+    rows.insert(rows.end(), part.begin(), part.end());
+  }
+  return rows;
+}
+
+/// Rows whose name says "over" and whose target is a limit from above.
+bool is_met(const SpeedRow& row) {
+  const bool is_limit =
+      row.name == "all_utilities_over_one" || row.name == "mission_last_50_over_first_50";
+  return row.identical && (is_limit ? row.ratio <= row.target : row.ratio >= row.target);
+}
+
+void print_json(const std::vector<SpeedRow>& rows) {
+  nlohmann::ordered_json json = {{"simd", name_of(simd_level())}};
+  for (const SpeedRow& row : rows) {
+    json["rows"].push_back({{"name", row.name},
+                            {"ours", row.ours},
+                            {"reference", row.reference},
+                            {"unit", row.unit},
+                            {"ratio", row.ratio},
+                            {"identical", row.identical},
+                            {"target", row.target},
+                            {"met", is_met(row)}});
+  }
+  fmt::print("{}\n", json.dump(2));
+}
+
+void print_table(const std::vector<SpeedRow>& rows) {
+  fmt::print("{:<32}{:>12}{:>12}  {:<12}{:>8}{:>8}  {}\n", "", "ours", "reference", "unit", "ratio",
+             "target", "identical");
+  for (const SpeedRow& row : rows) {
+    fmt::print("{:<32}{:>12.3f}{:>12.3f}  {:<12}{:>8.2f}{:>8.1f}  {}{}\n", row.name, row.ours,
+               row.reference, row.unit, row.ratio, row.target, row.identical ? "yes" : "NO",
+               is_met(row) ? "" : "  missed");
+  }
+}
+
+}  // namespace
+}  // namespace gnbv
+
+int main(int argc, char** argv) {
+  const bool json = argc == 2 && std::strcmp(argv[1], "--json") == 0;
+  if (argc > 1 && !json) {
+    fmt::print(stderr, "usage: speed_table [--json]\n");
+    return 2;
+  }
+  const std::vector<gnbv::SpeedRow> rows = gnbv::all_rows();
+  json ? gnbv::print_json(rows) : gnbv::print_table(rows);
+  return 0;
+}
