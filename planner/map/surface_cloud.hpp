@@ -33,6 +33,8 @@ class SurfaceCloud {
   /// it takes no memory; full, memory.hpp's for each voxel and what the points need.
   SurfaceCloud(const CloudConfig& config, const GridGeometry& voxels);
 
+  const CloudConfig& config() const { return config_; }
+
   /// Adds one batch (a frame, a profile) through the leaf filter of `leaf_m`, then the cloud's own.
   /// Points outside the workspace are ignored. Returns how many points the cloud gained; they stand
   /// at the end of points_world_m(), in the order in which the batch first reached their leaves.
