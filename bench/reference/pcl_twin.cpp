@@ -35,22 +35,50 @@ std::vector<Vec3f> pcl_leaf_filter(std::span<const Vec3f> points_m, double leaf_
   return centroids_m;
 }
 
-std::vector<std::uint32_t> pcl_neighbour_counts(std::span<const Vec3f> points_m, double radius_m) {
-  const Cloud::Ptr cloud = pcl_cloud(points_m);
-  pcl::KdTreeFLANN<pcl::PointXYZ> tree(false);
-  if (!cloud->empty()) tree.setInputCloud(cloud);
+struct PclNeighbours::State {
+  Cloud::Ptr cloud{new Cloud};
+  pcl::KdTreeFLANN<pcl::PointXYZ> tree{false};
+  double radius_m = 0.0;
+  pcl::Indices indices;
+  std::vector<float> distances2;
+};
+
+PclNeighbours::PclNeighbours(double radius_m) : state_(std::make_unique<State>()) {
   // PCL squares the radius to float32; the next float32 up turns FLANN's < into <=
   const float above = std::nextafter(static_cast<float>(radius_m * radius_m),
                                      std::numeric_limits<float>::infinity());
-  const double radius_up_m = std::sqrt(static_cast<double>(above));
+  state_->radius_m = std::sqrt(static_cast<double>(above));
+}
+
+PclNeighbours::~PclNeighbours() = default;
+
+void PclNeighbours::append(std::span<const Vec3f> points_m) {
+  *state_->cloud += *pcl_cloud(points_m);
+}
+
+std::size_t PclNeighbours::size() const { return state_->cloud->size(); }
+
+void PclNeighbours::build() {
+  if (!state_->cloud->empty()) state_->tree.setInputCloud(state_->cloud);
+}
+
+std::uint32_t PclNeighbours::count(std::size_t point) {
+  return static_cast<std::uint32_t>(state_->tree.radiusSearch(
+      (*state_->cloud)[point], state_->radius_m, state_->indices, state_->distances2));
+}
+
+std::span<const int> PclNeighbours::near(std::size_t point) {
+  count(point);
+  return state_->indices;
+}
+
+std::vector<std::uint32_t> pcl_neighbour_counts(std::span<const Vec3f> points_m, double radius_m) {
+  PclNeighbours neighbours(radius_m);
+  neighbours.append(points_m);
+  neighbours.build();
   std::vector<std::uint32_t> counts;
   counts.reserve(points_m.size());
-  pcl::Indices indices;
-  std::vector<float> distances2;
-  for (const pcl::PointXYZ& p : *cloud) {
-    counts.push_back(
-        static_cast<std::uint32_t>(tree.radiusSearch(p, radius_up_m, indices, distances2)));
-  }
+  for (std::size_t i = 0; i < points_m.size(); ++i) counts.push_back(neighbours.count(i));
   return counts;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -16,5 +17,26 @@ std::vector<Vec3f> pcl_leaf_filter(std::span<const Vec3f> points_m, double leaf_
 /// (pcl::KdTreeFLANN, built anew). FLANN asks for less than the squared radius: a pair at exactly
 /// that float32 distance, which SurfaceCloud counts, is counted here as well.
 std::vector<std::uint32_t> pcl_neighbour_counts(std::span<const Vec3f> points_m, double radius_m);
+
+/// The same for a cloud that grows and points of it that are asked for one by one.
+class PclNeighbours {
+ public:
+  explicit PclNeighbours(double radius_m);
+  ~PclNeighbours();
+  PclNeighbours(const PclNeighbours&) = delete;
+  PclNeighbours& operator=(const PclNeighbours&) = delete;
+
+  void append(std::span<const Vec3f> points_m);
+  std::size_t size() const;
+  /// Builds the kd-tree of all points anew; for count() and near().
+  void build();
+  std::uint32_t count(std::size_t point);
+  /// Their indices, valid until the next question.
+  std::span<const int> near(std::size_t point);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace gnbv

@@ -21,6 +21,7 @@ class LeafLattice {
   LeafKey key_of(const Vec3f& p_m) const {
     return {key_of(p_m[0]), key_of(p_m[1]), key_of(p_m[2])};
   }
+  float inverse_leaf_1_m() const { return inverse_leaf_; }
 
  private:
   std::int32_t key_of(float coordinate_m) const {

@@ -88,7 +88,11 @@ void OccupancyGrid::add_log_odds(VoxelIndex v, float delta) {
   if (after < clamp_min_log_) after = clamp_min_log_;
   if (after > clamp_max_log_) after = clamp_max_log_;
   if (after == before) return;  // at a bound, hence measured
-  total_entropy_ -= entropy_of(before).units;
+  set_log_odds(v, after);
+}
+
+void OccupancyGrid::set_log_odds(VoxelIndex v, float after) {
+  total_entropy_ -= entropy_of(log_odds_[v]).units;
   const Entropy& entropy = entropy_of(after);
   total_entropy_ += entropy.units;
   const VoxelState now = after >= occupied_min_log_ ? VoxelState::occupied
@@ -99,6 +103,12 @@ void OccupancyGrid::add_log_odds(VoxelIndex v, float delta) {
   predicted_count_ -= static_cast<std::size_t>(is_predicted(v));
   log_odds_[v] = after;
   words_[v] = measured_word(now, entropy.word_units);
+}
+
+bool OccupancyGrid::restore(VoxelIndex v, float log_odds) {
+  if (is_measured(v) || !(log_odds >= clamp_min_log_ && log_odds <= clamp_max_log_)) return false;
+  set_log_odds(v, log_odds);
+  return true;
 }
 
 bool OccupancyGrid::predict(VoxelIndex v) {

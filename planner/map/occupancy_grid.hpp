@@ -61,6 +61,10 @@ class OccupancyGrid {
   /// Adds the log-odds of a miss to each free voxel and of a hit to each occupied one, clamped.
   void apply(const ScanUpdate& update);
 
+  /// Gives a voxel that no scan has touched the log-odds it had in another grid like this one.
+  /// False, and nothing changes, when one has, or when they are beyond the clamping bounds.
+  [[nodiscard]] bool restore(VoxelIndex v, float log_odds);
+
   /// Marks the voxel as predicted to be surface (section 2.3) unless it has been measured; the
   /// first measurement takes the mark away. Returns whether it is marked now.
   bool predict(VoxelIndex v);
@@ -80,6 +84,7 @@ class OccupancyGrid {
   Entropy compute_entropy(float log_odds) const;
   const Entropy& entropy_of(float log_odds);
   void add_log_odds(VoxelIndex v, float delta);
+  void set_log_odds(VoxelIndex v, float after);
   bool is_clamped(float log_odds) const {
     return log_odds <= clamp_min_log_ || log_odds >= clamp_max_log_;
   }

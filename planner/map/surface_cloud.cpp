@@ -5,14 +5,38 @@
 #include <limits>
 
 #include "sim/core/error.hpp"
+#include "sim/core/simd.hpp"
 
 namespace gnbv {
 namespace {
 
 constexpr std::int32_t kMostLeavesPerBucket = 64;
+constexpr double kMostCells = 2147483648.0;  // their indices are signed 32-bit in the gathers
+constexpr std::size_t kPixelsAtOnce = 8192;  // their columns and indices stay in the cache
 
 std::int32_t floor_div(std::int32_t a, std::int32_t b) {
   return a >= 0 ? a / b : -((b - 1 - a) / b);
+}
+
+/// The first float32 number whose voxel is not below `key` along an axis.
+float first_of_voxel(const GridGeometry& voxels, std::int32_t key) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  auto at_m = static_cast<float>(key * voxels.resolution_m());
+  while (voxels.key_of(static_cast<double>(at_m)) >= key) at_m = std::nextafter(at_m, -kInfinity);
+  while (voxels.key_of(static_cast<double>(at_m)) < key) at_m = std::nextafter(at_m, kInfinity);
+  return at_m;
+}
+
+const CloudKernels& kernels() {
+  switch (simd_level()) {
+    case SimdLevel::avx512:
+      return cloud_avx512::kKernels;
+    case SimdLevel::avx2:
+      return cloud_avx2::kKernels;
+    case SimdLevel::scalar:
+      break;
+  }
+  return cloud_scalar::kKernels;
 }
 
 }  // namespace
@@ -27,14 +51,14 @@ SurfaceCloud::SurfaceCloud(const CloudConfig& config, const GridGeometry& voxels
   density_max_ = 3.0 * (voxel_m / config.leaf_m) * (voxel_m / config.leaf_m);
   search_radius_m_ = voxel_m / std::sqrt(2.0);
   search_radius2_m2_ = static_cast<float>(search_radius_m_ * search_radius_m_);
-  point_count_.assign(voxels.voxel_count(), 0);
-  neighbour_sum_.assign(voxels.voxel_count(), 0);
+  slot_of_ = ZeroedArray<std::uint32_t>(voxels.voxel_count());
+  voxel_points_.resize(1);
 
   leaves_per_bucket_ = static_cast<std::int32_t>(std::ceil(voxel_m / config.leaf_m - 1e-9));
   bucket_m_ = static_cast<float>(leaves_per_bucket_ * config.leaf_m);
   const auto leaves = static_cast<std::size_t>(leaves_per_bucket_);
-  words_per_bucket_ = (leaves * leaves * leaves + 63) / 64;
-  std::size_t cells = 1;
+  words_per_bucket_ = (leaves * leaves * leaves + 31) / 32;
+  double cells = 1.0;
   for (std::size_t a = 0; a < 3; ++a) {
     // a bucket more on each side, so that the neighbours of any point have a cell
     const double min_m = voxels.min_key()[a] * voxel_m;
@@ -43,9 +67,20 @@ SurfaceCloud::SurfaceCloud(const CloudConfig& config, const GridGeometry& voxels
     first_bucket_[a] = static_cast<std::int32_t>(std::floor(min_m / bucket_m)) - 2;
     bucket_cells_[a] =
         static_cast<std::int32_t>(std::floor(max_m / bucket_m)) + 3 - first_bucket_[a];
-    cells *= static_cast<std::size_t>(bucket_cells_[a]);
+    cells *= bucket_cells_[a];
+    low_m_[a] = first_of_voxel(voxels, voxels.min_key()[a]);
+    high_m_[a] = std::nextafter(first_of_voxel(voxels, voxels.min_key()[a] + voxels.size()[a]),
+                                -std::numeric_limits<float>::infinity());
   }
-  bucket_at_.assign(cells, kNone);
+  if (cells >= kMostCells) {
+    throw BadInput(fmt::format("resolution_m: {} makes {:.3g} buckets of points, more than 2^31",
+                               voxel_m, cells));
+  }
+  bucket_at_ = ZeroedArray<std::uint32_t>(static_cast<std::size_t>(cells));
+  buckets_.resize(1);
+  taken_.resize(words_per_bucket_, 0);
+  blocks_.resize(1);
+  next_block_.resize(1, 0);
 }
 
 SurfaceCloud::Leaf SurfaceCloud::place_of(const LeafKey& leaf) const {
@@ -67,20 +102,20 @@ SurfaceCloud::Leaf SurfaceCloud::place_of(const LeafKey& leaf) const {
 }
 
 bool SurfaceCloud::is_taken(const Leaf& leaf) const {
-  const std::uint32_t bucket = bucket_at_[leaf.bucket_cell];
-  return bucket != kNone &&
-         (taken_[bucket * words_per_bucket_ + leaf.bit / 64] >> (leaf.bit % 64) & 1U) != 0;
+  const std::size_t bucket = bucket_at_[leaf.bucket_cell];
+  return (taken_[bucket * words_per_bucket_ + leaf.bit / 32] >> (leaf.bit % 32) & 1U) != 0;
 }
 
 bool SurfaceCloud::take(const Leaf& leaf) {
   std::uint32_t& bucket = bucket_at_[leaf.bucket_cell];
-  if (bucket == kNone) {
+  if (bucket == 0) {
     bucket = static_cast<std::uint32_t>(buckets_.size());
     buckets_.emplace_back();
     taken_.resize(taken_.size() + words_per_bucket_, 0);
+    GNBV_CHECK(taken_.size() <= std::numeric_limits<std::int32_t>::max(), "{} buckets", bucket);
   }
-  std::uint64_t& word = taken_[bucket * words_per_bucket_ + leaf.bit / 64];
-  const std::uint64_t mask = std::uint64_t{1} << (leaf.bit % 64);
+  std::uint32_t& word = taken_[bucket * words_per_bucket_ + leaf.bit / 32];
+  const std::uint32_t mask = 1U << (leaf.bit % 32);
   if ((word & mask) != 0) return false;
   word |= mask;
   return true;
@@ -88,7 +123,6 @@ bool SurfaceCloud::take(const Leaf& leaf) {
 
 std::size_t SurfaceCloud::add(std::span<const Vec3f> points_world_m, double leaf_m) {
   GNBV_CHECK(leaf_m > 0.0, "leaf of {} m", leaf_m);
-  const std::size_t before = points_.size();
   const bool is_own_leaf = leaf_m == config_.leaf_m;
   const LeafLattice batch_lattice(leaf_m);
   batch_.reset();
@@ -99,6 +133,67 @@ std::size_t SurfaceCloud::add(std::span<const Vec3f> points_world_m, double leaf
     if (is_own_leaf && is_taken(place_of(leaf))) continue;
     batch_.add(leaf, p_m);
   }
+  return insert_batch(is_own_leaf);
+}
+
+std::size_t SurfaceCloud::add(std::span<const FrameRays> frames, double leaf_m) {
+  if (leaf_m != config_.leaf_m) {
+    std::vector<Vec3f> points_m;
+    for (const FrameRays& frame : frames) {
+      for (std::size_t i = 0; i < frame.kind.size(); ++i) {
+        if (frame.kind[i] != PixelRay::hits) continue;
+        points_m.emplace_back(frame.x_m[i], frame.y_m[i], frame.z_m[i]);
+      }
+    }
+    return add(points_m, leaf_m);
+  }
+  batch_.reset();
+  for (const FrameRays& frame : frames) add_untaken(frame);
+  return insert_batch(true);
+}
+
+LeafTable SurfaceCloud::leaf_table() const {
+  LeafTable table{.bucket_at = bucket_at_.data(),
+                  .taken = taken_.data(),
+                  .words_per_bucket = static_cast<std::int32_t>(words_per_bucket_),
+                  .leaves_per_bucket = leaves_per_bucket_,
+                  .first_leaf = {},
+                  .cells_x = bucket_cells_[0],
+                  .cells_y = bucket_cells_[1],
+                  .inverse_leaf_1_m = lattice_.inverse_leaf_1_m(),
+                  .low_m = {},
+                  .high_m = {}};
+  for (std::size_t a = 0; a < 3; ++a) {
+    table.first_leaf[a] = first_bucket_[a] * leaves_per_bucket_;
+    table.low_m[a] = low_m_[a];
+    table.high_m[a] = high_m_[a];
+  }
+  return table;
+}
+
+void SurfaceCloud::add_untaken(const FrameRays& frame) {
+  static_assert(sizeof(PixelRay) == 1);
+  const LeafTable table = leaf_table();
+  const PixelColumns pixels{.x_m = frame.x_m.data(),
+                            .y_m = frame.y_m.data(),
+                            .z_m = frame.z_m.data(),
+                            .kind = reinterpret_cast<const std::uint8_t*>(frame.kind.data()),
+                            .hits = static_cast<std::uint8_t>(PixelRay::hits)};
+  const FindUntaken find_untaken = kernels().find_untaken;
+  const std::size_t count = frame.kind.size();
+  untaken_.resize(kPixelsAtOnce);
+  for (std::size_t begin = 0; begin < count; begin += kPixelsAtOnce) {
+    const std::size_t end = std::min(begin + kPixelsAtOnce, count);
+    const std::size_t found = find_untaken(table, pixels, begin, end, untaken_.data());
+    for (const std::uint32_t i : std::span(untaken_).first(found)) {
+      const Vec3f p_m(frame.x_m[i], frame.y_m[i], frame.z_m[i]);
+      batch_.add(lattice_.key_of(p_m), p_m);
+    }
+  }
+}
+
+std::size_t SurfaceCloud::insert_batch(bool is_own_leaf) {
+  const std::size_t before = points_.size();
   for (std::size_t i = 0; i < batch_.size(); ++i) {
     const Vec3f p_m = batch_.centroid_m(i);
     const Leaf leaf = place_of(is_own_leaf ? batch_.leaf(i) : lattice_.key_of(p_m));
@@ -107,84 +202,84 @@ std::size_t SurfaceCloud::add(std::span<const Vec3f> points_world_m, double leaf
   return points_.size() - before;
 }
 
-std::uint64_t SurfaceCloud::count_pairs(const Vec3f& p_m, const Bucket& bucket) {
-  std::uint64_t pairs = 0;
-  for (std::uint32_t b = bucket.last_block; b != kNone; b = blocks_[b].next) {
-    const Block& block = blocks_[b];
-    std::array<std::int32_t, kBlockPoints> is_near;
-    for (std::size_t i = 0; i < kBlockPoints; ++i) {
-      const float dx = block.x[i] - p_m[0];
-      const float dy = block.y[i] - p_m[1];
-      const float dz = block.z[i] - p_m[2];
-      is_near[i] = dx * dx + dy * dy + dz * dz <= search_radius2_m2_ ? 1 : 0;
-    }
-    std::int32_t in_block = 0;
-    for (const std::int32_t n : is_near) in_block += n;
-    pairs += static_cast<std::uint64_t>(in_block);
-    if (bucket.has_one_voxel || in_block == 0) continue;
-    for (std::size_t i = 0; i < kBlockPoints; ++i) {
-      if (is_near[i] != 0) ++neighbour_sum_[block.voxel[i]];
-    }
+bool SurfaceCloud::restore(std::span<const Vec3f> points_world_m) {
+  GNBV_CHECK(points_.empty(), "{} points are there already", points_.size());
+  for (const Vec3f& p_m : points_world_m) {
+    if (!voxels_.contains(voxels_.key_of(p_m))) return false;
+    const Leaf leaf = place_of(lattice_.key_of(p_m));
+    if (!take(leaf)) return false;
+    insert(p_m, leaf);
   }
-  if (bucket.has_one_voxel) neighbour_sum_[bucket.voxel] += pairs;
-  return pairs;
+  return true;
 }
 
-void SurfaceCloud::append(Bucket& bucket, const Vec3f& p_m, VoxelIndex voxel) {
-  if (bucket.last_block == kNone) {
-    bucket.voxel = voxel;
-  } else {
-    bucket.has_one_voxel &= bucket.voxel == voxel;
-  }
-  if (bucket.last_block == kNone || bucket.last_count == kBlockPoints) {
-    Block block;
-    block.x.fill(std::numeric_limits<float>::infinity());
-    block.y = block.x;
-    block.z = block.x;
-    block.voxel.fill(0);
-    block.next = bucket.last_block;
-    bucket.last_block = static_cast<std::uint32_t>(blocks_.size());
-    bucket.last_count = 0;
-    blocks_.push_back(block);
-  }
-  Block& block = blocks_[bucket.last_block];
-  const std::size_t i = bucket.last_count++;
-  block.x[i] = p_m[0];
-  block.y[i] = p_m[1];
-  block.z[i] = p_m[2];
-  block.voxel[i] = voxel;
-}
-
-void SurfaceCloud::insert(const Vec3f& p_m, const Leaf& leaf) {
-  const VoxelIndex voxel = voxels_.index_of(voxels_.key_of(p_m));
-  // buckets within reach; the slack covers rounding of leaf borders and of the distance
-  const auto nx = static_cast<std::size_t>(bucket_cells_[0]);
-  const auto ny = static_cast<std::size_t>(bucket_cells_[1]);
+CellBox SurfaceCloud::cells_within_reach(const Vec3f& p_m) const {
+  // the slack covers rounding of leaf borders and of the distance
   const float reach_m = static_cast<float>(search_radius_m_) * 1.001F + 1e-5F * bucket_m_;
-  std::array<std::size_t, 3> low;
-  std::array<std::size_t, 3> high;
+  CellBox cells;
   for (std::size_t a = 0; a < 3; ++a) {
     const float at_m = p_m[static_cast<Eigen::Index>(a)];
     const float slack_m = reach_m + 4e-7F * std::fabs(at_m);
     const auto cell_of = [&](float x_m) {
-      return static_cast<std::size_t>(static_cast<std::int32_t>(std::floor(x_m / bucket_m_)) -
-                                      first_bucket_[a]);
+      const float scaled = x_m / bucket_m_;
+      const auto truncated = static_cast<std::int32_t>(scaled);
+      const auto is_below = static_cast<std::int32_t>(scaled < static_cast<float>(truncated));
+      return static_cast<std::size_t>(truncated - is_below - first_bucket_[a]);
     };
-    low[a] = cell_of(at_m - slack_m);
-    high[a] = cell_of(at_m + slack_m);
+    cells.low[a] = cell_of(at_m - slack_m);
+    cells.high[a] = cell_of(at_m + slack_m);
   }
-  std::uint64_t neighbours = 0;
-  for (std::size_t z = low[2]; z <= high[2]; ++z) {
-    for (std::size_t y = low[1]; y <= high[1]; ++y) {
-      for (std::size_t x = low[0]; x <= high[0]; ++x) {
-        const std::uint32_t bucket = bucket_at_[(z * ny + y) * nx + x];
-        if (bucket != kNone) neighbours += count_pairs(p_m, buckets_[bucket]);
-      }
+  return cells;
+}
+
+std::uint32_t SurfaceCloud::slot_of(const Vec3f& p_m) {
+  const VoxelIndex voxel = voxels_.index_of(voxels_.key_of(p_m));
+  std::uint32_t& slot = slot_of_[voxel];
+  if (slot == 0) {
+    voxels_with_points_.push_back(voxel);
+    slot = static_cast<std::uint32_t>(voxel_points_.size());
+    voxel_points_.emplace_back();
+  }
+  return slot;
+}
+
+void SurfaceCloud::append(CloudBucket& bucket, const Vec3f& p_m, std::uint32_t slot) {
+  if (bucket.last_block == 0) {
+    bucket.slot = slot;
+  } else {
+    bucket.has_one_voxel &= bucket.slot == slot;
+  }
+  if (bucket.last_block == 0 || bucket.last_count == kPointsPerBlock) {
+    PointBlock& block = blocks_.emplace_back();
+    for (float* const column : {block.x_m, block.y_m, block.z_m}) {
+      std::fill_n(column, kPointsPerBlock, std::numeric_limits<float>::infinity());
     }
+    next_block_.push_back(bucket.last_block);
+    bucket.last_block = static_cast<std::uint32_t>(blocks_.size() - 1);
+    bucket.last_count = 0;
   }
-  neighbour_sum_[voxel] += neighbours + 1;  // the point itself
-  if (point_count_[voxel]++ == 0) voxels_with_points_.push_back(voxel);
-  append(buckets_[bucket_at_[leaf.bucket_cell]], p_m, voxel);
+  PointBlock& block = blocks_[bucket.last_block];
+  const std::uint32_t i = bucket.last_count++;
+  block.x_m[i] = p_m[0];
+  block.y_m[i] = p_m[1];
+  block.z_m[i] = p_m[2];
+  block.slot[i] = slot;
+}
+
+void SurfaceCloud::insert(const Vec3f& p_m, const Leaf& leaf) {
+  const std::uint32_t slot = slot_of(p_m);
+  const PointTable table{.bucket_at = bucket_at_.data(),
+                         .buckets = buckets_.data(),
+                         .blocks = blocks_.data(),
+                         .next_block = next_block_.data(),
+                         .cells_x = static_cast<std::size_t>(bucket_cells_[0]),
+                         .cells_y = static_cast<std::size_t>(bucket_cells_[1]),
+                         .radius2_m2 = search_radius2_m2_};
+  const std::uint64_t neighbours =
+      kernels().count_neighbours(table, p_m.data(), cells_within_reach(p_m), voxel_points_.data());
+  voxel_points_[slot].neighbour_sum += neighbours + 1;  // the point itself
+  ++voxel_points_[slot].point_count;
+  append(buckets_[bucket_at_[leaf.bucket_cell]], p_m, slot);
   points_.push_back(p_m);
 }
 

@@ -6,8 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "planner/map/cloud_kernels.hpp"
+#include "planner/map/frame_rays.hpp"
 #include "planner/map/grid_geometry.hpp"
 #include "planner/map/leaf_filter.hpp"
+#include "sim/core/zeroed_array.hpp"
 
 namespace gnbv {
 
@@ -26,47 +29,45 @@ struct CloudConfig {
 /// comparison dx dx + dy dy + dz dz <= r r, which is the same from either point.
 class SurfaceCloud {
  public:
-  /// Throws BadInput naming leaf_m when it is not positive or less than a 64th of a voxel.
+  /// Throws BadInput naming leaf_m when it is not positive or less than a 64th of a voxel. Empty,
+  /// it takes no memory; full, memory.hpp's for each voxel and what the points need.
   SurfaceCloud(const CloudConfig& config, const GridGeometry& voxels);
+
+  const CloudConfig& config() const { return config_; }
 
   /// Adds one batch (a frame, a profile) through the leaf filter of `leaf_m`, then the cloud's own.
   /// Points outside the workspace are ignored. Returns how many points the cloud gained; they stand
   /// at the end of points_world_m(), in the order in which the batch first reached their leaves.
   std::size_t add(std::span<const Vec3f> points_world_m, double leaf_m);
+  /// The same for the pixels of the frames that hit, frame by frame, as one batch.
+  std::size_t add(std::span<const FrameRays> frames, double leaf_m);
+
+  /// Fills a cloud that is empty with points_world_m() of one like it; every count becomes that
+  /// one's, and so does whatever is added later. False, and the cloud half filled, when they cannot
+  /// be such points: outside the workspace, or two in a leaf.
+  [[nodiscard]] bool restore(std::span<const Vec3f> points_world_m);
 
   std::span<const Vec3f> points_world_m() const { return points_; }
   /// The voxels that hold points, in the order in which they got their first one.
   std::span<const VoxelIndex> voxels() const { return voxels_with_points_; }
   /// Points per voxel of the occupancy grid.
-  std::uint32_t point_count(VoxelIndex v) const { return point_count_[v]; }
+  std::uint32_t point_count(VoxelIndex v) const { return voxel_points_[slot_of_[v]].point_count; }
   /// Sum of the neighbour counts of the points in the voxel.
-  std::uint64_t neighbour_sum(VoxelIndex v) const { return neighbour_sum_[v]; }
+  std::uint64_t neighbour_sum(VoxelIndex v) const {
+    return voxel_points_[slot_of_[v]].neighbour_sum;
+  }
   /// Mean neighbour count of the points in the voxel; 0 without points.
   double density(VoxelIndex v) const {
-    return point_count_[v] == 0
-               ? 0.0
-               : static_cast<double>(neighbour_sum_[v]) / static_cast<double>(point_count_[v]);
+    const VoxelPoints& points = voxel_points_[slot_of_[v]];
+    return points.point_count == 0 ? 0.0
+                                   : static_cast<double>(points.neighbour_sum) /
+                                         static_cast<double>(points.point_count);
   }
   /// Density of a fully scanned plane: 3 (voxel / leaf)^2, the released normaliser.
   double density_max() const { return density_max_; }
   double search_radius_m() const { return search_radius_m_; }
 
  private:
-  static constexpr std::uint32_t kNone = 0xffffffffU;
-  static constexpr std::size_t kBlockPoints = 16;
-  /// Points of one bucket, in columns for the distance loop; unused places lie at infinity.
-  struct Block {
-    std::array<float, kBlockPoints> x, y, z;
-    std::array<VoxelIndex, kBlockPoints> voxel;
-    std::uint32_t next = kNone;  // block of the same bucket
-  };
-  /// A cube of leaves_per_bucket_ leaves a side, at least a search radius wide.
-  struct Bucket {
-    std::uint32_t last_block = kNone;
-    std::uint32_t last_count = 0;
-    VoxelIndex voxel = 0;  // of all its points, if
-    bool has_one_voxel = true;
-  };
   struct Leaf {
     std::size_t bucket_cell;  // into bucket_at_
     std::uint32_t bit;        // into the bucket's mask
@@ -74,9 +75,13 @@ class SurfaceCloud {
   Leaf place_of(const LeafKey& leaf) const;
   bool is_taken(const Leaf& leaf) const;
   bool take(const Leaf& leaf);
+  LeafTable leaf_table() const;
+  void add_untaken(const FrameRays& frame);
+  std::size_t insert_batch(bool is_own_leaf);
+  CellBox cells_within_reach(const Vec3f& p_m) const;
+  std::uint32_t slot_of(const Vec3f& p_m);
   void insert(const Vec3f& p_m, const Leaf& leaf);
-  std::uint64_t count_pairs(const Vec3f& p_m, const Bucket& bucket);
-  void append(Bucket& bucket, const Vec3f& p_m, VoxelIndex voxel);
+  void append(CloudBucket& bucket, const Vec3f& p_m, std::uint32_t slot);
 
   CloudConfig config_;
   GridGeometry voxels_;
@@ -85,20 +90,23 @@ class SurfaceCloud {
   double search_radius_m_ = 0.0;
   float search_radius2_m2_ = 0.0F;
   std::vector<Vec3f> points_;
-  std::vector<VoxelIndex> voxels_with_points_;
-  std::vector<std::uint32_t> point_count_;
-  std::vector<std::uint64_t> neighbour_sum_;
+  ZeroedArray<std::uint32_t> slot_of_;     // of each voxel: index into voxel_points_
+  std::vector<VoxelPoints> voxel_points_;  // the first one is that of all voxels without points
+  std::vector<VoxelIndex> voxels_with_points_;  // of the slots from the second on
 
   std::int32_t leaves_per_bucket_ = 1;
   std::size_t words_per_bucket_ = 1;
   float bucket_m_ = 1.0F;
   LeafKey first_bucket_ = {0, 0, 0};
   std::array<std::int32_t, 3> bucket_cells_ = {0, 0, 0};
-  std::vector<std::uint32_t> bucket_at_;  // dense over the workspace: index into buckets_
-  std::vector<Bucket> buckets_;
-  std::vector<std::uint64_t> taken_;  // words_per_bucket_ for each bucket, a bit a leaf
-  std::vector<Block> blocks_;
+  std::array<float, 3> low_m_ = {0, 0, 0}, high_m_ = {0, 0, 0};  // float32 numbers in the workspace
+  ZeroedArray<std::uint32_t> bucket_at_;  // of each cell: index into buckets_
+  std::vector<CloudBucket> buckets_;      // the first one is that of all cells without points
+  std::vector<std::uint32_t> taken_;      // words_per_bucket_ for each bucket, a bit a leaf
+  std::vector<PointBlock> blocks_;        // the first one is none
+  std::vector<std::uint32_t> next_block_;
   LeafSums batch_;
+  std::vector<std::uint32_t> untaken_;  // pixels of a frame
 };
 
 }  // namespace gnbv

@@ -5,8 +5,8 @@
 #include <thread>
 
 #include "planner/belief_file.hpp"
+#include "planner/map/memory.hpp"
 #include "scenarios/load.hpp"
-#include "scenarios/problems.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/gnbv/interrupt.hpp"
@@ -32,8 +32,7 @@ double seconds_since(Clock::time_point begin) {
 /// Memory that grows with the threads is not in the scenario's own budget.
 void need_memory_for(const Scenario& scenario, int threads) {
   const GridGeometry grid(scenario.workspace_m, scenario.planner.map.resolution_m);
-  const double bytes = static_cast<double>(grid.voxel_count()) *
-                       (kMapBytesPerVoxel + kMapBytesPerVoxelAndThread * threads);
+  const auto bytes = static_cast<double>(map_bytes(grid, threads));
   if (bytes <= kMapBudget_bytes) return;
   throw BadInput(
       fmt::format("--threads {}: a map of {} voxels needs {:.1f} GiB with so many, the "

@@ -1,0 +1,92 @@
+// The two hot loops of SurfaceCloud, compiled once for each SimdLevel; all give the same bits.
+// Plain structs and pointers only: a unit compiled for AVX must not share inline code with others.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace gnbv {
+
+constexpr std::uint32_t kPointsPerBlock = 16;
+
+/// Points of one bucket, in columns; unused places lie at infinity.
+struct alignas(64) PointBlock {
+  float x_m[kPointsPerBlock], y_m[kPointsPerBlock], z_m[kPointsPerBlock];
+  std::uint32_t slot[kPointsPerBlock];  // of the point's voxel
+};
+
+/// A cube of leaves, at least a search radius wide.
+struct CloudBucket {
+  std::uint32_t last_block = 0;  // 0: none
+  std::uint32_t last_count = 0;  // points in that block
+  std::uint32_t slot = 0;        // of the voxel of all its points, if
+  bool has_one_voxel = true;
+};
+
+/// What is counted of a voxel that holds points.
+struct VoxelPoints {
+  std::uint64_t neighbour_sum = 0;
+  std::uint32_t point_count = 0;
+};
+
+/// Which leaves hold a point. Cells of buckets are x fastest; bucket 0 holds nothing.
+struct LeafTable {
+  const std::uint32_t* bucket_at;  // of each cell
+  const std::uint32_t* taken;      // words_per_bucket for each bucket, a bit a leaf
+  std::int32_t words_per_bucket;
+  std::int32_t leaves_per_bucket;  // a side, at most 64
+  std::int32_t first_leaf[3];      // where the cells begin
+  std::int32_t cells_x, cells_y;
+  float inverse_leaf_1_m;
+  float low_m[3], high_m[3];  // the workspace, both ends inside
+};
+
+/// The points of a frame, column by column.
+struct PixelColumns {
+  const float *x_m, *y_m, *z_m;
+  const std::uint8_t* kind;
+  std::uint8_t hits;  // the kind that is a point
+};
+
+/// The points of the cloud, found by cells.
+struct PointTable {
+  const std::uint32_t* bucket_at;
+  const CloudBucket* buckets;
+  const PointBlock* blocks;         // block 0 is none
+  const std::uint32_t* next_block;  // in the same bucket
+  std::size_t cells_x, cells_y;
+  float radius2_m2;
+};
+
+/// Cells from low to high, both included.
+struct CellBox {
+  std::size_t low[3], high[3];
+};
+
+/// Writes the indices, ascending, of those pixels from `begin` up to `end` that are hits inside the
+/// workspace in leaves not taken; `out` has room for `end` - `begin`, rounded up to 16, numbers.
+/// Returns how many.
+using FindUntaken = std::size_t (*)(const LeafTable& table, const PixelColumns& pixels,
+                                    std::size_t begin, std::size_t end, std::uint32_t* out);
+
+/// Counts the points of the cells within the radius of a point (SurfaceCloud's float32 comparison)
+/// and adds 1 to neighbour_sum of the voxel of each, in `voxels` by slot.
+using CountNeighbours = std::uint64_t (*)(const PointTable& table, const float* p_m,
+                                          const CellBox& cells, VoxelPoints* voxels);
+
+struct CloudKernels {
+  FindUntaken find_untaken;
+  CountNeighbours count_neighbours;
+};
+
+namespace cloud_scalar {
+extern const CloudKernels kKernels;
+}
+namespace cloud_avx2 {
+extern const CloudKernels kKernels;
+}
+namespace cloud_avx512 {
+extern const CloudKernels kKernels;
+}
+
+}  // namespace gnbv

@@ -1,0 +1,208 @@
+// A belief that was saved and loaded is the one that was not, and nothing else is ever loaded.
+#include "planner/belief_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+
+#include "bench/reference/analytic_scans.hpp"
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "sim/core/sha256.hpp"
+#include "tests/support/temp_folder.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+
+PlannerModel model_of(const PlannerConfig& config) {
+  CameraConfig camera;
+  camera.width_px = 80;
+  camera.height_px = 60;
+  const CameraModel model = make_camera_model(camera);
+  const LidarModel lidar = make_lidar_model(LidarConfig{});
+  return PlannerModel(config, Box3(Vec3(-10, -8, 0), Vec3(10, 8, 6)), {&model, 1}, {&lidar, 1});
+}
+
+std::vector<DepthFrame> view(const PlannerModel& model, int index) {
+  const double angle_rad = 0.7 * index;
+  const Vec3 p_m(7.0 * std::cos(angle_rad), 6.0 * std::sin(angle_rad), 3.0);
+  return {analytic_depth(example_scene(), model.cameras[0], T_world_body({p_m, angle_rad + kPi}))};
+}
+
+std::vector<LidarScan> profile(const PlannerModel& model) {
+  const Isometry T = T_world_body({Vec3(-7.0, -6.0, 3.0), 0.6});
+  return {analytic_scan(example_scene(), model.lidars[0].config, T)};
+}
+
+void expect_equal(const Belief& a, const Belief& b) {
+  const auto voxels = static_cast<VoxelIndex>(a.grid.geometry().voxel_count());
+  ASSERT_EQ(b.grid.geometry().voxel_count(), voxels);
+  for (VoxelIndex v = 0; v < voxels; ++v) {
+    ASSERT_EQ(std::bit_cast<std::uint32_t>(a.grid.log_odds(v)),
+              std::bit_cast<std::uint32_t>(b.grid.log_odds(v)));
+    ASSERT_EQ(a.grid.words()[v], b.grid.words()[v]);
+    ASSERT_EQ(a.cloud.point_count(v), b.cloud.point_count(v));
+    ASSERT_EQ(a.cloud.neighbour_sum(v), b.cloud.neighbour_sum(v));
+  }
+  EXPECT_EQ(a.grid.total_entropy_nat(), b.grid.total_entropy_nat());
+  EXPECT_EQ(a.grid.occupied_count(), b.grid.occupied_count());
+  EXPECT_EQ(a.grid.predicted_count(), b.grid.predicted_count());
+  EXPECT_TRUE(std::ranges::equal(a.cloud.points_world_m(), b.cloud.points_world_m()));
+  EXPECT_EQ(a.has_depth_return, b.has_depth_return);
+}
+
+void predict_some(Belief& belief) {
+  const std::size_t voxels = belief.grid.geometry().voxel_count();
+  for (std::size_t v = 0; v < voxels; v += 97) belief.grid.predict(static_cast<VoxelIndex>(v));
+}
+
+class BeliefFile : public testing::Test {
+ protected:
+  /// A profile, a view, and some predicted voxels.
+  Belief early_belief() const {
+    Belief belief(model_);
+    Workbench bench(model_, 1);
+    integrate_profile(model_, profile(model_), bench, belief);
+    integrate_view(model_, view(model_, 0), bench, belief);
+    predict_some(belief);
+    return belief;
+  }
+  std::string complaint(const std::string& content) const {
+    write_file_atomically(path_, content);
+    try {
+      read_belief(path_, model_);
+    } catch (const BadInput& bad) {
+      return bad.what();
+    }
+    return "";
+  }
+
+  TempFolder folder_;
+  fs::path path_ = folder_.path() / "belief.bin";
+  PlannerModel model_ = model_of({});
+};
+
+/// `content` with a digest that fits.
+std::string signed_again(std::string content) {
+  content.resize(content.size() - 64);
+  Sha256 sha;
+  sha.add(std::string_view(content));
+  return content + sha.hex();
+}
+
+TEST_F(BeliefFile, GoesOnAsIfItHadNeverBeenSaved) {
+  Belief unsaved = early_belief();
+  write_belief(unsaved, path_);
+  Belief loaded = read_belief(path_, model_);
+  expect_equal(loaded, unsaved);
+  EXPECT_GT(loaded.grid.predicted_count(), 100U);
+  EXPECT_GT(loaded.cloud.points_world_m().size(), 500U);
+  EXPECT_TRUE(loaded.has_depth_return);
+
+  Workbench bench(model_, 1);
+  for (int index = 1; index < 4; ++index) {
+    integrate_view(model_, view(model_, index), bench, unsaved);
+    integrate_view(model_, view(model_, index), bench, loaded);
+  }
+  expect_equal(loaded, unsaved);
+}
+
+TEST_F(BeliefFile, KeepsWhatIsMeasuredButStillAtEvenOdds) {
+  PlannerConfig config;
+  config.map.prob_miss = 1.0 - config.map.prob_hit;
+  const PlannerModel model = model_of(config);
+  Belief belief(model);
+  belief.grid.apply({.free = {}, .occupied = {7}});
+  belief.grid.apply({.free = {7}, .occupied = {}});
+  ASSERT_EQ(belief.grid.log_odds(7), 0.0F);
+  write_belief(belief, path_);
+  expect_equal(read_belief(path_, model), belief);
+}
+
+TEST_F(BeliefFile, OfAnEmptyMapIsSmall) {
+  write_belief(Belief(model_), path_);
+  EXPECT_LT(fs::file_size(path_), 300U);
+  expect_equal(read_belief(path_, model_), Belief(model_));
+}
+
+TEST_F(BeliefFile, CutShortIsRefused) {
+  write_belief(early_belief(), path_);
+  const std::string whole = read_file(path_);
+  for (std::size_t twentieth = 0; twentieth < 20; ++twentieth) {
+    EXPECT_THAT(complaint(whole.substr(0, whole.size() * twentieth / 20)),
+                HasSubstr(path_.string() + ": "));
+  }
+  for (const std::size_t left : {1U, 5U, 13U, 14U, 77U, 78U, 79U}) {
+    EXPECT_THAT(complaint(whole.substr(0, left)), HasSubstr("cut short")) << left;
+  }
+  EXPECT_THAT(complaint(whole.substr(0, whole.size() - 1)), HasSubstr("cut short"));
+  EXPECT_THAT(complaint(whole + "x"), HasSubstr("damaged"));
+}
+
+TEST_F(BeliefFile, WithAFlippedBitIsRefused) {
+  write_belief(early_belief(), path_);
+  const std::string whole = read_file(path_);
+  for (std::size_t step = 0; step < 300; ++step) {
+    std::string flipped = whole;
+    // all of the beginning, then here and there
+    const std::size_t at = step < 200 ? step : whole.size() * (step - 200) / 100;
+    flipped[at] = static_cast<char>(flipped[at] ^ (1 << step % 8));
+    EXPECT_THAT(complaint(flipped), HasSubstr(path_.string() + ": ")) << at;
+  }
+}
+
+TEST_F(BeliefFile, WithNonsenseUnderAFittingDigestIsRefused) {
+  write_belief(early_belief(), path_);
+  const std::string whole = read_file(path_);
+  const std::size_t body = whole.size() - 64;
+  // the count of points is after the line, 14 settings and a flag
+  const std::size_t count_at = 14 + 14 * 8 + 1;
+  std::string many = whole;
+  many.replace(count_at, 8, std::string(8, '\x7f'));
+  EXPECT_THAT(complaint(signed_again(many)), HasSubstr("fewer points than it says"));
+  std::string few = whole;
+  few.replace(count_at, 8, std::string("\x01\0\0\0\0\0\0\0", 8));
+  EXPECT_NE(complaint(signed_again(few)), "");
+  for (std::size_t twentieth = 1; twentieth < 20; ++twentieth) {
+    const std::string cut = whole.substr(0, body * twentieth / 20);
+    EXPECT_NE(complaint(signed_again(cut + std::string(64, '0'))), "") << twentieth;
+  }
+  for (std::size_t step = 0; step < 300; ++step) {  // most of it is refused; none of it crashes
+    std::string flipped = whole;
+    const std::size_t at = count_at + (body - count_at) * step / 300;
+    flipped[at] = static_cast<char>(flipped[at] ^ (1 << step % 8));
+    complaint(signed_again(flipped));
+  }
+}
+
+TEST_F(BeliefFile, ThatIsSomethingElseIsRefused) {
+  EXPECT_THAT(complaint("name: aircraft\n"), HasSubstr("is not a belief"));
+  EXPECT_THAT(complaint(""), HasSubstr("is not a belief"));
+  EXPECT_THAT(complaint(std::string(1000, '\0')), HasSubstr("is not a belief"));
+  EXPECT_THROW(read_belief(folder_.path(), model_), BadInput);
+  EXPECT_THROW(read_belief(folder_.path() / "none", model_), BadInput);
+}
+
+TEST_F(BeliefFile, OfAnotherMapIsRefused) {
+  PlannerConfig config;
+  config.map.prob_hit = 0.8;
+  write_belief(Belief(model_of(config)), path_);
+  EXPECT_THAT(complaint(read_file(path_)),
+              AllOf(HasSubstr("another map"), HasSubstr("prob_hit is 0.8, not 0.7")));
+  config = {};
+  config.cloud.leaf_m = 0.05;
+  write_belief(Belief(model_of(config)), path_);
+  EXPECT_THAT(complaint(read_file(path_)), HasSubstr("leaf_m is 0.05, not 0.02"));
+  config = {};
+  config.map.resolution_m = 0.1;
+  write_belief(Belief(model_of(config)), path_);
+  EXPECT_THAT(complaint(read_file(path_)), HasSubstr("resolution_m is 0.1, not 0.2"));
+}
+
+}  // namespace
+}  // namespace gnbv
