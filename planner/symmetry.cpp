@@ -175,12 +175,11 @@ Symmetry find_symmetry(const SymmetryConfig& config, std::span<const Vec3f> prof
 }
 
 std::size_t predict_surface(const Symmetry& symmetry, OccupancyGrid& grid) {
-  const std::size_t before = grid.predicted_count();
   for (const Vec3f& p : symmetry.mirrored_world_m) {
     const Key key = grid.geometry().key_of(p);
     if (grid.geometry().contains(key)) grid.predict(grid.geometry().index_of(key));
   }
-  return grid.predicted_count() - before;
+  return grid.predicted_count();
 }
 
 }  // namespace gnbv

@@ -31,7 +31,8 @@ struct Symmetry {
 Symmetry find_symmetry(const SymmetryConfig& config, std::span<const Vec3f> profile_world_m,
                        const OccupancyGrid& grid);
 
-/// Marks the mirrored points in the map where it knows nothing; returns how many voxels are marked.
+/// Marks the mirrored points in the map where it knows nothing; returns how many voxels of the map
+/// are marked then.
 std::size_t predict_surface(const Symmetry& symmetry, OccupancyGrid& grid);
 
 }  // namespace gnbv

@@ -217,7 +217,7 @@ extern "C" __attribute__((visibility("default"))) void gnbv_match_keypoints(
 extern "C" __attribute__((visibility("default"))) void gnbv_refine_planes(
     std::span<const ProfilePoint> profile, std::span<MirrorPlane> planes) {
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
-  if (profile.size() < kNeighbours) return;
+  if (planes.empty() || profile.size() < kNeighbours) return;
   const Cloud::Ptr cloud = thinned(with_normals(profile));
   if (cloud->size() < kNeighbours) return;
   const Vec3 center_world_m = center_of(*cloud);
