@@ -18,7 +18,6 @@ constexpr double kBandwidth_m = 0.6;
 constexpr std::size_t kMaxRefined = 5;
 constexpr double kRefineReach_m = 1.5;
 constexpr double kMaxGainOfRefining = 0.3;  // of support, with room: 0.15 on the aircraft
-constexpr double kMinConfirmed = 0.2;       // else nearly everything falls where nothing is known
 constexpr double kMinMoved = 0.25;          // else nearly everything stays where it is
 constexpr std::size_t kMaxWitnesses = 4000;
 
@@ -156,17 +155,18 @@ Symmetry find_symmetry(const SymmetryConfig& config, std::span<const Vec3f> prof
   const Extent extent = extent_of(witnesses_world_m);
   // a plane found roughly misses thin wings: less is asked of it
   const std::vector<Candidate> rough =
-      judged(rough_planes(profile, extent), witnesses_world_m, grid, 0.5 * kMinConfirmed);
+      judged(rough_planes(profile, extent), witnesses_world_m, grid, 0.5 * config.min_confirmed);
   std::vector<MirrorPlane> planes =
       worth_refining(rough, config.min_support - kMaxGainOfRefining, extent);
   symmetry_module().refine_planes(profile, planes);
-  const std::vector<Candidate> refined = judged(planes, witnesses_world_m, grid, kMinConfirmed);
+  const std::vector<Candidate> refined =
+      judged(planes, witnesses_world_m, grid, config.min_confirmed);
 
-  if (!rough.empty()) symmetry.support = rough.front().support.support;
-  if (refined.empty()) return symmetry;
-  const Candidate& best = refined.front();
+  if (rough.empty()) return symmetry;
+  const Candidate& best = refined.empty() ? rough.front() : refined.front();
   symmetry.support = best.support.support;
-  if (symmetry.support < config.min_support) return symmetry;
+  symmetry.confirmed = best.support.confirmed;
+  if (refined.empty() || symmetry.support < config.min_support) return symmetry;
   symmetry.plane = best.plane;
   for (const Vec3f& p : profile_world_m) {
     symmetry.mirrored_world_m.push_back(mirrored(best.plane, p.cast<double>()).cast<float>());

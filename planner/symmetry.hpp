@@ -15,12 +15,14 @@ namespace gnbv {
 /// choice elsewhere (FIDELITY.md).
 struct SymmetryConfig {
   bool enabled = true;
-  double min_support = 0.97;  // share of mirrored points not contradicted by measured free space
+  double min_support = 0.97;   // share of mirrored points not contradicted by measured free space
+  double min_confirmed = 0.5;  // share of them that falls on measured surface
 };
 
 struct Symmetry {
   std::optional<MirrorPlane> plane;  // nothing: the structure is not symmetric, or not known to be
   double support = 0.0;              // of the best plane, accepted or not
+  double confirmed = 0.0;            // of the same plane
   std::vector<Vec3f> mirrored_world_m;  // the profile seen in the mirror; empty without a plane
 };
 
