@@ -131,6 +131,8 @@ void fields(FieldVisitor& v, SymmetryConfig& c) {
   v.flag("enabled", c.enabled, "Whether a mirror-symmetric profile predicts its other half.");
   v.number("min_support", c.min_support, between(0, 1),
            "Share of mirrored points that measured free space must not contradict.");
+  v.number("min_confirmed", c.min_confirmed, between(0, 1),
+           "Share of mirrored points that must fall on measured surface.");
 }
 
 void fields(FieldVisitor& v, TerminationConfig& c) {
