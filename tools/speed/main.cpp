@@ -9,7 +9,6 @@
 #include <numeric>
 
 #include "bench/cloud_speed.hpp"
-#include "bench/map_speed.hpp"
 #include "bench/view_speed.hpp"
 #include "scenarios/load.hpp"
 #include "sim/core/simd.hpp"
