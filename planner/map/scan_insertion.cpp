@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "planner/map/frame_view.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
 
@@ -148,6 +149,22 @@ ScanUpdate ScanInserter::compute_update(const Vec3f& origin_world_m, std::span<c
   join(walkers_[0], free_, free);
   walkers_[0].clear(free);
   return {.free = voxels_of(free), .occupied = voxels_of(occupied)};
+}
+
+ScanUpdate ScanInserter::compute_update(const FrameRays& rays, const DepthFrame& frame,
+                                        const CameraModel& camera, int threads) {
+  if (can_project(grid_, frame, camera)) {
+    return frames_.compute_update(rays, frame, camera, threads);
+  }
+  std::vector<ScanRay> each;
+  for (std::size_t i = 0; i < rays.kind.size(); ++i) {
+    if (rays.kind[i] == PixelRay::none) continue;
+    each.push_back({Vec3f(rays.x_m[i], rays.y_m[i], rays.z_m[i]), rays.kind[i] == PixelRay::hits});
+  }
+  ScanUpdate update = compute_update(rays.origin_world_m, each, threads);
+  std::ranges::sort(update.free);
+  std::ranges::sort(update.occupied);
+  return update;
 }
 
 void ScanInserter::insert_scans(OccupancyGrid& grid, std::span<const LidarScan> scans,
