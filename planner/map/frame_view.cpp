@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/map/ray_walk.hpp"
+
 namespace gnbv {
 namespace {
 
@@ -62,6 +64,17 @@ void set_bounds(const GridGeometry& grid, const Eigen::Matrix3d& R, const Camera
   }
 }
 
+void set_camera_voxel(const GridGeometry& grid, const DepthFrame& frame, const CameraModel& camera,
+                      FrameView& view) {
+  const RayOrigin origin = make_ray_origin(grid, frame.T_world_camera.translation().cast<float>());
+  for (std::size_t a = 0; a < 3; ++a) {
+    view.camera_key[a] = origin.key[a];
+    view.lower_border_m[a] = static_cast<float>(origin.to_lower_border_m[a]);
+    view.upper_border_m[a] = static_cast<float>(origin.to_upper_border_m[a]);
+  }
+  view.direction_slack = view.margin_m / static_cast<float>(camera.config.range_min_m);
+}
+
 }  // namespace
 
 bool can_project(const GridGeometry& grid, const DepthFrame& frame, const CameraModel& camera) {
@@ -110,6 +123,7 @@ FrameView make_frame_view(const GridGeometry& grid, const DepthFrame& frame,
   view.half_voxel_m = static_cast<float>(half_m);
   view.margin_m = static_cast<float>(margin);
   view.resolution_m = grid.resolution_m();
+  set_camera_voxel(grid, frame, camera, view);
   set_bounds(grid, R, camera, furthest_m, view);
   return view;
 }

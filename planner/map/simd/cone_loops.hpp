@@ -13,13 +13,16 @@ struct SeenVoxel {
   float low_m[3], high_m[3];
   float inverse_nearest;  // 1 / least depth of the voxel, infinite when it reaches the camera plane
   int first_u, last_u, first_v, last_v;
+  int from_camera[3];  // voxels from the camera's own
 };
+
+constexpr int kMostLines = 12;
 
 /// The rays that pass a box are those between the lines u = at + slope * v, and one ends beyond
 /// the box where 1 / depth is less than the greatest of `exit` at its pixel.
 struct Cone {
-  float lower_at[6], lower_slope[6];
-  float upper_at[6], upper_slope[6];
+  float lower_at[kMostLines], lower_slope[kMostLines];
+  float upper_at[kMostLines], upper_slope[kMostLines];
   float exit_at[6], exit_u[6], exit_v[6];
   int lowers = 0, uppers = 0, exits = 0;
   float least_exit = 0.0F;
@@ -91,6 +94,54 @@ inline Cone make_cone(const FrameView& view, const SeenVoxel& voxel, float margi
   return cone;
 }
 
+/// Whether the camera is so close to the voxel that a margin says nothing, yet on none of the
+/// borders that OctoMap has rays cross: then directions alone tell which voxels a ray enters.
+inline bool is_at_camera(const FrameView& view, const SeenVoxel& voxel) {
+  for (int a = 0; a < 3; ++a) {
+    if (voxel.low_m[a] > view.margin_m || voxel.high_m[a] < -view.margin_m) return false;
+    if (!(view.lower_border_m[a] < 0.0F && view.upper_border_m[a] > 0.0F)) return false;
+  }
+  return true;
+}
+
+/// The cone of a voxel at the camera: rays cross the border to it before they leave along another
+/// axis. `is_sure`: whatever the slack, and they end at least two voxels on.
+inline Cone make_cone_at_camera(const FrameView& view, const SeenVoxel& voxel, bool is_sure) {
+  Cone cone;
+  cone.least_exit =
+      is_sure ? 1.0F / (4.0F * (view.half_voxel_m + view.margin_m)) : __builtin_inff();
+  const float slack = is_sure ? -view.direction_slack : view.direction_slack;
+  const auto keep = [&](int b, float of_b, int a, float of_a) {
+    const float room = slack * ((of_b < 0.0F ? -of_b : of_b) + (of_a < 0.0F ? -of_a : of_a));
+    keep_side(cone, of_b * view.toward[b] + of_a * view.toward[a] + room,
+              of_b * view.right[b] + of_a * view.right[a],
+              of_b * view.down[b] + of_a * view.down[a]);
+  };
+  for (int b = 0; b < 3; ++b) {
+    const int step = voxel.from_camera[b];
+    if (step == 0) continue;
+    const auto sign = static_cast<float>(step);
+    const float near_m = step > 0 ? view.upper_border_m[b] : -view.lower_border_m[b];
+    keep(b, sign, b, 0.0F);
+    for (int a = 0; a < 3; ++a) {
+      if (a == b) continue;
+      const int other = voxel.from_camera[a];
+      const float voxel_m = other == 0 ? 0.0F : 2.0F * view.half_voxel_m;
+      if (other >= 0) keep(b, sign * (view.upper_border_m[a] + voxel_m), a, -near_m);
+      if (other <= 0) keep(b, sign * (voxel_m - view.lower_border_m[a]), a, near_m);
+    }
+  }
+  return cone;
+}
+
+enum class Proof { might_pass, sure_to_pass };
+
+inline Cone make_cone(const FrameView& view, const SeenVoxel& voxel, Proof proof) {
+  const bool is_sure = proof == Proof::sure_to_pass;
+  if (is_at_camera(view, voxel)) return make_cone_at_camera(view, voxel, is_sure);
+  return make_cone(view, voxel, is_sure ? -view.margin_m : view.margin_m);
+}
+
 /// The part of a cone in one row of pixels.
 struct ConeRow {
   float first_u, last_u;
@@ -153,7 +204,7 @@ inline Spans spans_of(const Cone& cone, const SeenVoxel& voxel, int first_v) {
 
 /// Whether some ray is proven to pass the voxel. If none is, asks for a walk of those that might.
 inline bool is_passed(const FrameView& view, const SeenVoxel& voxel, const FrameMarks& marks) {
-  const Cone might = make_cone(view, voxel, view.margin_m);
+  const Cone might = make_cone(view, voxel, Proof::might_pass);
   Cone sure;
   bool has_sure = false;
   int doubts = 0;
@@ -173,7 +224,7 @@ inline bool is_passed(const FrameView& view, const SeenVoxel& voxel, const Frame
         const Floats w = load(inverse_depth + u0);
         std::uint32_t lanes = bits(passing(might, row, u, w));
         if (lanes == 0) continue;
-        if (!has_sure) sure = make_cone(view, voxel, -view.margin_m);
+        if (!has_sure) sure = make_cone(view, voxel, Proof::sure_to_pass);
         has_sure = true;
         const ConeRow sure_row = row_of(sure, voxel, static_cast<float>(v));
         if (bits(passing(sure, sure_row, u, w)) != 0) return true;

@@ -57,6 +57,10 @@ struct FrameView {
   double origin_m[3];
   double resolution_m;
   int min_key[3], size[3];
+  int camera_key[3];
+  // OctoMap's distances to the borders of the camera's own voxel, negative and positive; and by how
+  // much the direction of a ray, per metre of depth, may differ from that of its pixel
+  float lower_border_m[3], upper_border_m[3], direction_slack;
   int box_first[3], box_last[3];  // voxels from min_key that rays can reach
 };
 

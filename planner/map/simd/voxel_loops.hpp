@@ -112,7 +112,8 @@ inline Mask hidden(const FrameView& view, const PixelBox& box) {
 
 /// Tests lane by lane, ray by ray.
 inline void resolve(const FrameView& view, const Centers& c, const PixelBox& box,
-                    std::uint32_t lanes, std::uint8_t* voxel, const FrameMarks& marks) {
+                    std::uint32_t lanes, const int first_key[3], std::uint8_t* voxel,
+                    const FrameMarks& marks) {
   float center_m[3][kLanes];
   float pixel[4][kLanes];
   float inverse_nearest[kLanes];
@@ -128,7 +129,9 @@ inline void resolve(const FrameView& view, const Centers& c, const PixelBox& box
     for (int a = 0; a < 3; ++a) {
       seen.low_m[a] = center_m[a][l] - view.half_voxel_m;
       seen.high_m[a] = center_m[a][l] + view.half_voxel_m;
+      seen.from_camera[a] = first_key[a] - view.camera_key[a];
     }
+    seen.from_camera[0] += l;
     seen.inverse_nearest = inverse_nearest[l];
     seen.first_u = static_cast<int>(pixel[0][l]);
     seen.last_u = static_cast<int>(pixel[1][l]);
@@ -167,7 +170,7 @@ inline Run clip(const FrameView& view, const double first_center_m[3]) {
 }
 
 void project_row(const FrameView& view, int y, int z, const FrameMarks& marks) {
-  const int key[3] = {view.min_key[0], view.min_key[1] + y, view.min_key[2] + z};
+  int key[3] = {view.min_key[0], view.min_key[1] + y, view.min_key[2] + z};
   double center_m[3];
   for (int a = 0; a < 3; ++a) {
     center_m[a] = (key[a] + 0.5) * view.resolution_m - view.origin_m[a];
@@ -190,7 +193,8 @@ void project_row(const FrameView& view, int y, int z, const FrameMarks& marks) {
     if (open == freed) continue;
     const PixelBox box = pixel_box(view, c);
     const std::uint32_t settled = freed | bits(box.is_empty | hidden(view, box));
-    resolve(view, c, box, open & ~settled, voxel, marks);
+    key[0] = view.min_key[0] + x;
+    resolve(view, c, box, open & ~settled, key, voxel, marks);
   }
 }
 
