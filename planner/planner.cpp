@@ -122,11 +122,10 @@ void integrate_view(const PlannerModel& model, std::span<const DepthFrame> frame
   std::vector<Vec3f> points;
   for (const DepthFrame& frame : frames) {
     const CameraModel& camera = model.cameras[static_cast<std::size_t>(frame.camera)];
-    const std::vector<ScanRay> rays = rays_of(frame, camera, model.config.floor_z_m);
-    const Vec3f origin_world_m = frame.T_world_camera.translation().cast<float>();
-    belief.grid.apply(bench.inserter.compute_update(origin_world_m, rays, bench.threads));
-    const std::vector<Vec3f> hits = surface_points_world_m(rays);
-    points.insert(points.end(), hits.begin(), hits.end());
+    compute_frame_rays(frame, camera, model.config.floor_z_m, bench.frame_rays);
+    belief.grid.apply(
+        bench.inserter.compute_update(bench.frame_rays, frame, camera, bench.threads));
+    append_surface_points(bench.frame_rays, points);
   }
   belief.has_depth_return = belief.has_depth_return || !points.empty();
   belief.cloud.add(points, model.config.cloud.leaf_m);

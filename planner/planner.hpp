@@ -59,6 +59,7 @@ struct Workbench {
 
   int threads;
   ScanInserter inserter;
+  FrameRays frame_rays;
   std::vector<VisitMarks> marks;  // one a thread
 };
 

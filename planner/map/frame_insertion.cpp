@@ -41,7 +41,9 @@ void FrameInserter::prepare(const CameraModel& camera, int threads) {
   levels_ = 1;
   while ((1 << levels_) < std::max(tiles_x_, tiles_y_)) ++levels_;
   const std::size_t rows = static_cast<std::size_t>(tiles_y_) * kTile_px;
-  inverse_depth_.assign(rows * static_cast<std::size_t>(row_stride_), kNoRay);
+  inverse_depth_.resize(rows * static_cast<std::size_t>(row_stride_));
+  const auto below = static_cast<std::ptrdiff_t>(height_) * row_stride_;  // the last tiles' rest
+  std::fill(inverse_depth_.begin() + below, inverse_depth_.end(), kNoRay);
   const auto tiles = static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_);
   tile_windows_.resize(tiles * static_cast<std::size_t>(levels_));
   ends_.resize(static_cast<std::size_t>(tiles_y_));
@@ -51,6 +53,7 @@ void FrameInserter::prepare(const CameraModel& camera, int threads) {
     worker.walk.resize(pixels, 0);
     worker.doubts.resize(pixels + kPadding);
     worker.row.resize(static_cast<std::size_t>(row_stride_) + 1);
+    worker.ends.resize(static_cast<std::size_t>(width_));
   }
 }
 
@@ -94,8 +97,7 @@ void FrameInserter::read_band(const FrameRays& rays, const DepthFrame& frame,
   depths.width = width_;
   set_ranges(camera, depths);
   std::vector<VoxelIndex>& voxels = ends_[static_cast<std::size_t>(band)];
-  voxels.resize(static_cast<std::size_t>(width_) * kTile_px);
-  std::ptrdiff_t count = 0;
+  voxels.clear();
   for (int v = band * kTile_px; v < std::min((band + 1) * kTile_px, height_); ++v) {
     const std::ptrdiff_t first = std::ptrdiff_t{v} * width_;
     depths.depth_m = frame.depth_m.data() + first;
@@ -105,33 +107,33 @@ void FrameInserter::read_band(const FrameRays& rays, const DepthFrame& frame,
     ends.end_m[1] = rays.y_m.data() + first;
     ends.end_m[2] = rays.z_m.data() + first;
     ends.kind = reinterpret_cast<const std::uint8_t*>(rays.kind.data() + first);
-    count += kernels.ends_of_row(ends, voxels.data() + count);
+    const int count = kernels.ends_of_row(ends, worker.ends.data());
+    voxels.insert(voxels.end(), worker.ends.begin(), worker.ends.begin() + count);
   }
-  voxels.resize(static_cast<std::size_t>(count));
   keep_tiles(band);
 }
 
 void FrameInserter::walk_doubtful_rays(const FrameRays& rays) {
   const RayOrigin origin = make_ray_origin(grid_, rays.origin_world_m);
+  const auto walk = [&](std::size_t pixel) {
+    const Vec3f end_m(rays.x_m[pixel], rays.y_m[pixel], rays.z_m[pixel]);
+    walk_ray_inside(grid_, origin, end_m, [&](VoxelIndex v) {
+      if (marks_[v] == kUntouched) marks_[v] = kFreed;
+      return true;
+    });
+  };
+  walked_count_ = 0;
   for (Worker& worker : workers_) {
-    constexpr std::size_t kWord = sizeof(std::uint64_t);
-    for (std::size_t i = 0; i < worker.walk.size(); ++i) {
-      std::uint64_t word = 1;
-      if (i % kWord == 0 && i + kWord <= worker.walk.size()) {
-        std::memcpy(&word, worker.walk.data() + i, kWord);
-      }
-      if (word == 0) {
-        i += kWord - 1;
-        continue;
-      }
-      if (worker.walk[i] == 0) continue;
-      worker.walk[i] = 0;
+    // few are asked for: memchr passes over the others fastest
+    std::uint8_t* const end = worker.walk.data() + worker.walk.size();
+    std::uint8_t* next = worker.walk.data();
+    while (next != end) {
+      next = static_cast<std::uint8_t*>(std::memchr(next, 1, static_cast<std::size_t>(end - next)));
+      if (next == nullptr) break;
+      *next = 0;
+      walk(static_cast<std::size_t>(next - worker.walk.data()));
       ++walked_count_;
-      const Vec3f end_m(rays.x_m[i], rays.y_m[i], rays.z_m[i]);
-      walk_ray_inside(grid_, origin, end_m, [&](VoxelIndex v) {
-        if (marks_[v] == kUntouched) marks_[v] = kFreed;
-        return true;
-      });
+      ++next;
     }
   }
 }
@@ -187,7 +189,6 @@ ScanUpdate FrameInserter::compute_update(const FrameRays& rays, const DepthFrame
       frame_kernels().project_layer(view, z, marks);
     }
   });
-  walked_count_ = 0;
   walk_doubtful_rays(rays);
   return collect(view);
 }
