@@ -38,7 +38,8 @@ class ScanInserter {
                             int threads);
 
   /// The voxels a frame touches, each list in ascending order; `rays` is compute_frame_rays() of
-  /// it. As compute_update() of its rays, voxel by voxel where can_project() allows it.
+  /// it. As compute_update() of its rays, but voxel by voxel where can_project() allows it and the
+  /// pixels are many.
   ScanUpdate compute_update(const FrameRays& rays, const DepthFrame& frame,
                             const CameraModel& camera, int threads);
 
