@@ -1,17 +1,18 @@
 // Map and cloud against their slow twins, on the frames of bench/reference/analytic_scans.hpp.
 #include <benchmark/benchmark.h>
 
+#include "bench/map_speed.hpp"
 #include "bench/reference/analytic_scans.hpp"
 #include "bench/reference/octomap_twin.hpp"
 #include "bench/reference/pcl_twin.hpp"
 #include "planner/map/scan_insertion.hpp"
 #include "planner/map/surface_cloud.hpp"
+#include "sim/core/simd.hpp"
 
 namespace gnbv {
 namespace {
 
 constexpr double kFloor_m = 0.3;
-constexpr int kViews = 16;
 const Box3 kWorkspace_m(Vec3(-20, -20, 0), Vec3(20, 20, 20));
 
 struct View {
@@ -19,34 +20,56 @@ struct View {
   std::vector<ScanRay> rays;
 };
 
-/// 640 x 480 frames on a circle around the scene, looking inwards and down.
 const std::vector<View>& views() {
   static const std::vector<View> all = [] {
-    CameraConfig config;
-    config.pitch_rad = deg_to_rad(20.0);
-    const CameraModel camera = make_camera_model(config);
     std::vector<View> made;
-    for (int view = 0; view < kViews; ++view) {
-      const double angle_rad = view * 2.0 * kPi / kViews;
-      const ViewPose pose = {Vec3(9.0 * std::cos(angle_rad), 9.0 * std::sin(angle_rad), 4.5),
-                             angle_rad + kPi};
-      const DepthFrame frame = analytic_depth(example_scene(), camera, T_world_body(pose));
-      made.push_back(
-          {frame.T_world_camera.translation().cast<float>(), rays_of(frame, camera, kFloor_m)});
+    for (const DepthFrame& frame : circle_frames()) {
+      made.push_back({frame.T_world_camera.translation().cast<float>(),
+                      rays_of(frame, circle_camera(), kFloor_m)});
     }
     return made;
   }();
   return all;
 }
 
-void BM_RaysOfFrame(benchmark::State& state) {
-  const CameraModel camera = make_camera_model(CameraConfig{});
-  const DepthFrame frame =
-      analytic_depth(example_scene(), camera, T_world_body({Vec3(-9, 0, 4.5), 0.0}));
-  for (auto _ : state) benchmark::DoNotOptimize(rays_of(frame, camera, kFloor_m));
+/// Sets the level that the benchmark asks for, and says which one it got.
+void use_level(benchmark::State& state) {
+  set_simd_level(static_cast<SimdLevel>(state.range(0)));
+  state.SetLabel(std::string(name_of(simd_level())));
 }
-BENCHMARK(BM_RaysOfFrame)->Unit(benchmark::kMillisecond);
 
+void BM_FrameRays(benchmark::State& state) {
+  use_level(state);
+  FrameRays rays;
+  for (auto _ : state) compute_frame_rays(circle_frames()[0], circle_camera(), kFloor_m, rays);
+  set_simd_level(SimdLevel::avx512);
+}
+BENCHMARK(BM_FrameRays)->ArgName("level")->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
+
+/// From the depths to the updated grid.
+void BM_GridInsertDepthFrame(benchmark::State& state) {
+  use_level(state);
+  const int threads = static_cast<int>(state.range(1));
+  const std::vector<DepthFrame>& frames = circle_frames();
+  OccupancyGrid grid(OccupancyConfig{}, kWorkspace_m);
+  ScanInserter inserter(grid.geometry());
+  FrameRays rays;
+  std::size_t next = 0;
+  for (auto _ : state) {
+    const DepthFrame& frame = frames[next++ % frames.size()];
+    compute_frame_rays(frame, circle_camera(), kFloor_m, rays);
+    grid.apply(inserter.compute_update(rays, frame, circle_camera(), threads));
+  }
+  set_simd_level(SimdLevel::avx512);
+}
+BENCHMARK(BM_GridInsertDepthFrame)
+    ->ArgNames({"level", "threads"})
+    ->ArgsProduct({{0, 1, 2}, {1, 2}})
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+
+/// Ray by ray.
 void BM_GridInsertFrame(benchmark::State& state) {
   const int threads = static_cast<int>(state.range(0));
   const std::vector<View>& frames = views();
@@ -54,7 +77,7 @@ void BM_GridInsertFrame(benchmark::State& state) {
   ScanInserter inserter(grid.geometry());
   std::size_t frame = 0;
   for (auto _ : state) {
-    const View& view = frames[frame++ % kViews];
+    const View& view = frames[frame++ % frames.size()];
     grid.apply(inserter.compute_update(view.origin_m, view.rays, threads));
   }
 }
@@ -76,7 +99,7 @@ void BM_OctomapInsertPointCloud(benchmark::State& state) {
   }
   std::size_t frame = 0;
   for (auto _ : state) {
-    const std::size_t v = frame++ % kViews;
+    const std::size_t v = frame++ % views().size();
     twin.insert_point_cloud(views()[v].origin_m, ends_m[v], lazy);
   }
 }
@@ -85,18 +108,18 @@ BENCHMARK(BM_OctomapInsertPointCloud)
     ->Arg(0)
     ->Arg(1)
     ->Unit(benchmark::kMillisecond)
-    ->Iterations(kViews);
+    ->Iterations(16);
 
 void BM_OctomapTwinInsertFrame(benchmark::State& state) {
   OctomapTwin twin{OccupancyConfig{}};
   const std::vector<View>& frames = views();
   std::size_t frame = 0;
   for (auto _ : state) {
-    const View& view = frames[frame++ % kViews];
+    const View& view = frames[frame++ % frames.size()];
     twin.insert(view.origin_m, view.rays);
   }
 }
-BENCHMARK(BM_OctomapTwinInsertFrame)->Unit(benchmark::kMillisecond)->Iterations(kViews);
+BENCHMARK(BM_OctomapTwinInsertFrame)->Unit(benchmark::kMillisecond)->Iterations(16);
 
 std::vector<LidarScan> descent(const LidarConfig& lidar, int count) {
   std::vector<LidarScan> scans;
@@ -139,7 +162,7 @@ void BM_CloudAddFrames(benchmark::State& state) {
     state.ResumeTiming();
     for (const std::vector<Vec3f>& frame_m : frames_m) gained += cloud.add(frame_m, leaf_m);
   }
-  const auto frames = static_cast<double>(state.iterations()) * kViews;
+  const auto frames = static_cast<double>(state.iterations() * views().size());
   state.counters["new_points_per_frame"] = static_cast<double>(gained) / frames;
   state.counters["ms_per_frame"] =
       benchmark::Counter(frames * 1e-3, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);

@@ -68,17 +68,17 @@ bool sees_surface(std::span<const LidarScan> scans, std::span<const LidarModel> 
 void integrate_view(const PlannerModel& model, std::span<const DepthFrame> frames, Workbench& bench,
                     Belief& belief) {
   if (frames.empty()) return;
-  std::vector<Vec3f> points;
-  for (const DepthFrame& frame : frames) {
-    const CameraModel& camera = model.cameras[static_cast<std::size_t>(frame.camera)];
-    const std::vector<ScanRay> rays = rays_of(frame, camera, model.config.floor_z_m);
-    const Vec3f origin_world_m = frame.T_world_camera.translation().cast<float>();
-    belief.grid.apply(bench.inserter.compute_update(origin_world_m, rays, bench.threads));
-    const std::vector<Vec3f> hits = surface_points_world_m(rays);
-    points.insert(points.end(), hits.begin(), hits.end());
+  bench.frame_rays.resize(frames.size());
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const CameraModel& camera = model.cameras[static_cast<std::size_t>(frames[i].camera)];
+    FrameRays& rays = bench.frame_rays[i];
+    compute_frame_rays(frames[i], camera, model.config.floor_z_m, rays);
+    belief.grid.apply(bench.inserter.compute_update(rays, frames[i], camera, bench.threads));
+    belief.has_depth_return =
+        belief.has_depth_return ||
+        std::find(rays.kind.begin(), rays.kind.end(), PixelRay::hits) != rays.kind.end();
   }
-  belief.has_depth_return = belief.has_depth_return || !points.empty();
-  belief.cloud.add(points, model.config.cloud.leaf_m);
+  belief.cloud.add(bench.frame_rays, model.config.cloud.leaf_m);
 }
 
 std::vector<Vec3> positions_of(const History& history) {

@@ -66,6 +66,7 @@ struct Workbench {
 
   int threads;
   ScanInserter inserter;
+  std::vector<FrameRays> frame_rays;  // of the view at hand
   std::vector<VisitMarks> marks;  // one a thread
   FrontierMarks frontier_marks;
 };

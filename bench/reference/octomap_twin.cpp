@@ -26,6 +26,7 @@ octomap::OcTreeKey octomap_key(const Key& key) {
 struct OctomapTwin::Tree {
   explicit Tree(double resolution_m) : octree(resolution_m) {}
   octomap::OcTree octree;
+  octomap::KeyRay ray;  // large: reused from ray to ray
 };
 
 OctomapTwin::OctomapTwin(std::unique_ptr<Tree> tree) : tree_(std::move(tree)) {}
@@ -90,11 +91,11 @@ void OctomapTwin::insert_point_cloud(const Vec3f& origin_world_m,
 }
 
 std::vector<Key> OctomapTwin::ray_keys(const Vec3f& origin_m, const Vec3f& end_m) const {
-  octomap::KeyRay ray;
   std::vector<Key> keys;
-  if (!tree_->octree.computeRayKeys(octomap_point(origin_m), octomap_point(end_m), ray))
+  if (!tree_->octree.computeRayKeys(octomap_point(origin_m), octomap_point(end_m), tree_->ray)) {
     return keys;
-  for (const octomap::OcTreeKey& key : ray) keys.push_back(key_of(key));
+  }
+  for (const octomap::OcTreeKey& key : tree_->ray) keys.push_back(key_of(key));
   return keys;
 }
 

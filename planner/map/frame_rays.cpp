@@ -1,5 +1,10 @@
 #include "planner/map/frame_rays.hpp"
 
+#include <algorithm>
+#include <array>
+
+#include "planner/map/frame_view.hpp"
+#include "planner/map/simd/frame_kernels.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {
@@ -11,31 +16,46 @@ void compute_frame_rays(const DepthFrame& frame, const CameraModel& camera, doub
   const std::size_t pixels = width * height;
   GNBV_CHECK(frame.depth_m.size() == pixels, "{} depths for {} x {} pixels", frame.depth_m.size(),
              width, height);
-  const auto range_min_m = static_cast<float>(camera.config.range_min_m);
-  const auto range_max_m = static_cast<float>(camera.config.range_max_m);
   const Eigen::Matrix3d R = frame.T_world_camera.linear();
   const Vec3 origin_m = frame.T_world_camera.translation();
   rays.origin_world_m = origin_m.cast<float>();
-  for (std::vector<float>* column : {&rays.x_m, &rays.y_m, &rays.z_m}) column->resize(pixels);
+  const std::array<std::vector<float>*, 3> end_m = {&rays.x_m, &rays.y_m, &rays.z_m};
+  for (std::vector<float>* const column : end_m) column->resize(pixels);
   rays.kind.resize(pixels);
-  std::size_t i = 0;
+
+  PixelRow row{};
+  row.width = camera.config.width_px;
+  row.floor_z_m = floor_z_m;
+  set_ranges(camera, row);
+  std::array<std::vector<double>, 3> across;  // world part of each column
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto axis = static_cast<Eigen::Index>(a);
+    across[a].resize(width + kPadding);
+    for (std::size_t u = 0; u < width; ++u) {
+      across[a][u] =
+          R(axis, 0) * static_cast<double>(camera.ray_camera(static_cast<int>(u), 0).x());
+    }
+    row.across[a] = across[a].data();
+    row.origin_m[a] = origin_m[axis];
+  }
+  const FrameKernels& kernels = frame_kernels();
   for (std::size_t v = 0; v < height; ++v) {
     const Vec3 down =
         R.col(1) * static_cast<double>(camera.ray_camera(0, static_cast<int>(v)).y()) + R.col(2);
-    for (std::size_t u = 0; u < width; ++u, ++i) {
-      const float d_m = frame.depth_m[i];
-      const Vec3 across =
-          R.col(0) * static_cast<double>(camera.ray_camera(static_cast<int>(u), 0).x());
-      const bool has_return = d_m <= range_max_m;
-      const double along_m = has_return ? static_cast<double>(d_m) : camera.config.range_max_m;
-      const Vec3 end_m = origin_m + along_m * (across + down);
-      rays.x_m[i] = static_cast<float>(end_m.x());
-      rays.y_m[i] = static_cast<float>(end_m.y());
-      rays.z_m[i] = static_cast<float>(end_m.z());
-      rays.kind[i] = !(d_m >= range_min_m)                  ? PixelRay::none
-                     : has_return && end_m.z() >= floor_z_m ? PixelRay::hits
-                                                            : PixelRay::clears;
+    for (std::size_t a = 0; a < 3; ++a) {
+      row.down[a] = down[static_cast<Eigen::Index>(a)];
+      row.end_m[a] = end_m[a]->data() + v * width;
     }
+    row.depth_m = frame.depth_m.data() + v * width;
+    row.kind = reinterpret_cast<std::uint8_t*>(rays.kind.data() + v * width);
+    kernels.rays_of_row(row);
+  }
+}
+
+void append_surface_points(const FrameRays& rays, std::vector<Vec3f>& points_world_m) {
+  for (std::size_t i = 0; i < rays.kind.size(); ++i) {
+    if (rays.kind[i] != PixelRay::hits) continue;
+    points_world_m.emplace_back(rays.x_m[i], rays.y_m[i], rays.z_m[i]);
   }
 }
 

@@ -22,6 +22,8 @@ class GridGeometry {
   GridGeometry(const Box3& bounds_m, double resolution_m);
 
   double resolution_m() const { return resolution_m_; }
+  /// The factor of key_of.
+  double inverse_resolution() const { return inverse_resolution_; }
   const Key& min_key() const { return min_; }
   const Key& size() const { return size_; }
   std::size_t voxel_count() const {

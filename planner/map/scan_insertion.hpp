@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "planner/map/fan_walker.hpp"
+#include "planner/map/frame_insertion.hpp"
+#include "planner/map/frame_rays.hpp"
 #include "planner/map/occupancy_grid.hpp"
 #include "sensors/camera_model.hpp"
 #include "sensors/frames.hpp"
@@ -27,13 +29,19 @@ std::vector<Vec3f> surface_points_world_m(std::span<const ScanRay> rays);
 /// Computes updates, reusing its memory from scan to scan: one byte a voxel and thread.
 class ScanInserter {
  public:
-  explicit ScanInserter(const GridGeometry& grid) : grid_(grid) {}
+  explicit ScanInserter(const GridGeometry& grid) : grid_(grid), frames_(grid) {}
 
   /// The voxels the rays touch inside the grid. Oracle: octomap::OcTree::computeUpdate.
   /// Rays are walked in fixed bands on `threads` threads; the result, order included, does not
   /// depend on how many. Points must be finite.
   ScanUpdate compute_update(const Vec3f& origin_world_m, std::span<const ScanRay> rays,
                             int threads);
+
+  /// The voxels a frame touches, each list in ascending order; `rays` is compute_frame_rays() of
+  /// it. As compute_update() of its rays, but voxel by voxel where can_project() allows it and the
+  /// pixels are many.
+  ScanUpdate compute_update(const FrameRays& rays, const DepthFrame& frame,
+                            const CameraModel& camera, int threads);
 
   /// Inserts the buffered profile: each sweep is one update, in order of time. LidarScan::lidar
   /// says which of `lidars` took it.
@@ -44,6 +52,7 @@ class ScanInserter {
   void need_walkers(int threads);
 
   GridGeometry grid_;
+  FrameInserter frames_;
   std::vector<FanWalker> walkers_;                 // one a thread, unmarked between calls
   std::vector<std::vector<VoxelPlace>> occupied_;  // of each band
   std::vector<std::vector<VoxelPlace>> free_;      // of each band

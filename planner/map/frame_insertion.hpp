@@ -1,0 +1,60 @@
+// A depth frame into the map, voxel by voxel instead of ray by ray: a frame has millions of steps
+// of rays but some ten thousand voxels. OctoMap's answer all the same. A voxel is freed when some
+// ray passes it and ends beyond it, with a margin far above the rounding of OctoMap's float32
+// rays, untouched when every ray misses it or ends before it by that margin, and the few rays
+// between the two are walked as OctoMap walks them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "planner/map/frame_rays.hpp"
+#include "planner/map/occupancy_grid.hpp"
+#include "planner/map/simd/frame_kernels.hpp"
+
+namespace gnbv {
+
+/// Computes updates of frames, reusing its memory from frame to frame: one byte a voxel, and for
+/// each thread one byte and one integer a pixel.
+class FrameInserter {
+ public:
+  explicit FrameInserter(const GridGeometry& grid);
+
+  /// The voxels the frame's rays touch inside the grid, in ascending order, the same on any number
+  /// of threads. `rays` is compute_frame_rays() of the frame. Requires can_project() of
+  /// frame_view.hpp. Oracle:
+  /// octomap::OcTree::computeUpdate.
+  ScanUpdate compute_update(const FrameRays& rays, const DepthFrame& frame,
+                            const CameraModel& camera, int threads);
+
+  /// How many rays the last frame had walked.
+  std::size_t walked_count() const { return walked_count_; }
+
+ private:
+  struct Worker {
+    std::vector<std::uint8_t> walk;    // (pixels)
+    std::vector<std::int32_t> doubts;  // (pixels + padding)
+    std::vector<std::int32_t> row;     // scratch of EndRow
+    std::vector<VoxelIndex> ends;      // (width)
+  };
+  void prepare(const CameraModel& camera, int threads);
+  void read_band(const FrameRays& rays, const DepthFrame& frame, const CameraModel& camera,
+                 int band, Worker& worker);
+  void keep_tiles(int band);
+  void widen_tiles();
+  void walk_doubtful_rays(const FrameRays& rays);
+  ScanUpdate collect(const FrameView& view);
+
+  GridGeometry grid_;
+  std::vector<std::uint8_t> marks_;  // of voxels; untouched between calls
+  int width_ = 0, height_ = 0, row_stride_ = 0;
+  int tiles_x_ = 0, tiles_y_ = 0, levels_ = 0;
+  std::vector<float> inverse_depth_;           // (rows of whole tiles, row_stride_)
+  std::vector<float> tile_windows_;            // (levels_, tiles_y_, tiles_x_)
+  std::vector<std::vector<VoxelIndex>> ends_;  // of each band of kTile_px rows
+  std::vector<Worker> workers_;
+  std::size_t walked_count_ = 0;
+};
+
+}  // namespace gnbv

@@ -1,0 +1,96 @@
+// The loops of map insertion that exist once for every SIMD level: plain pointers in, plain
+// pointers out. Whoever calls them owns the memory and knows the frames.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace gnbv {
+
+constexpr int kPadding = 16;     // elements a row may be read beyond its end: one vector
+constexpr int kTile_px = 8;      // side of the squares of which the furthest depth is kept
+constexpr int kTileLevels = 12;  // windows of 2^level tiles; enough for images of 32,768 pixels
+
+/// What one row of pixels needs to become rays: end = origin + depth * (across[u] + down).
+struct PixelRow {
+  const float* depth_m;  // (width)
+  int width;
+  const double* across[3];  // (width + kPadding), world, metres per metre of depth
+  double down[3];
+  double origin_m[3];
+  double range_max_m;
+  double floor_z_m;
+  float range_min_m;  // as compared with depths
+  float range_max_compared_m;
+  float* end_m[3];     // (width), out, world
+  std::uint8_t* kind;  // (width), out, PixelRay
+};
+
+/// What a row of ray ends needs to become voxels.
+struct EndRow {
+  const float* end_m[3];  // (width), world
+  const std::uint8_t* kind;
+  int width;
+  double inverse_resolution;
+  double min_key[3];
+  double size[3];
+  std::int32_t* scratch;  // (width + 1 + kPadding)
+};
+
+/// A frame as the voxels see it. World coordinates here are relative to the camera.
+struct FrameView {
+  // 1 / depth of each pixel's end, infinite without a ray; rows padded with infinity
+  const float* inverse_depth;
+  int width, height, row_stride;
+  // tile_windows[level] + ty * tile_stride + tx: the least inverse depth of the 2^level x 2^level
+  // tiles from (tx, ty) on
+  const float* tile_windows;
+  int tile_stride, level_stride;
+  // direction of pixel (u, v), per metre of depth: toward + u * right + v * down
+  float toward[3], right[3], down[3];
+  float camera_axis[3][3];          // unit x, y and z axes of the camera, world
+  float focal_px[2], center_px[2];  // pixel = focal * x / z + center
+  float center_slack;  // no pixel of the image is further than this, per metre, from the nearest
+  float half_voxel_m, margin_m;
+  float extent_m[3];   // of half a voxel along each camera axis, with the margin
+  double plane[6][4];  // inside the pyramid of rays, with room for a voxel: dot + [3] >= 0
+  double origin_m[3];
+  double resolution_m;
+  int min_key[3], size[3];
+  int camera_key[3];
+  // OctoMap's distances to the borders of the camera's own voxel, negative and positive; and by how
+  // much the direction of a ray, per metre of depth, may differ from that of its pixel
+  float lower_border_m[3], upper_border_m[3], direction_slack;
+  int box_first[3], box_last[3];  // voxels from min_key that rays can reach
+};
+
+/// What one thread writes.
+struct FrameMarks {
+  std::uint8_t* voxel;   // of the whole grid; kUntouched or kEnd before, some kFreed after
+  std::uint8_t* walk;    // (height, width): set to 1 for rays that have to be walked
+  std::int32_t* doubts;  // (height * width + kPadding), scratch
+};
+constexpr std::uint8_t kUntouched = 0;
+constexpr std::uint8_t kFreed = 1;
+constexpr std::uint8_t kEnd = 2;
+
+struct FrameKernels {
+  void (*rays_of_row)(const PixelRow& row);
+  /// Writes to `voxels` (width) the indices of those in the grid that hold the ends of hits,
+  /// without repeating one from pixel to pixel, and returns how many.
+  int (*ends_of_row)(const EndRow& row, std::uint32_t* voxels);
+  /// `inverse_depth` (width + padding to a whole tile and kPadding): see FrameView.
+  void (*invert_row)(const PixelRow& row, float* inverse_depth, int padded_width);
+  /// Frees every voxel of the layer z (from min_key) that is proven to be passed by a ray, and asks
+  /// for a walk of every ray that might pass one that is not.
+  void (*project_layer)(const FrameView& view, int layer, const FrameMarks& marks);
+};
+
+/// The loops for simd_level().
+const FrameKernels& frame_kernels();
+
+extern const FrameKernels kFrameKernelsSse2;
+extern const FrameKernels kFrameKernelsAvx2;
+extern const FrameKernels kFrameKernelsAvx512;
+
+}  // namespace gnbv

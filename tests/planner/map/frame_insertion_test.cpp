@@ -1,0 +1,225 @@
+#include "planner/map/frame_insertion.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "bench/reference/analytic_scans.hpp"
+#include "bench/reference/octomap_twin.hpp"
+#include "planner/map/frame_view.hpp"
+#include "planner/map/scan_insertion.hpp"
+#include "tests/planner/map/frames.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr double kFloor_m = 0.3;
+const Box3 kBox_m(Vec3(-6, -5, 0), Vec3(6.1, 5, 6));
+
+/// Octomap's rule ray by ray, with its own ray keys.
+ScanUpdate expected_update(const GridGeometry& grid, const OctomapTwin& twin,
+                           const DepthFrame& frame, const CameraModel& camera) {
+  const Vec3f origin_m = frame.T_world_camera.translation().cast<float>();
+  std::vector<char> is_free(grid.voxel_count(), 0);
+  std::vector<char> is_occupied(grid.voxel_count(), 0);
+  for (const ScanRay& ray : rays_of(frame, camera, kFloor_m)) {
+    for (const Key& key : twin.ray_keys(origin_m, ray.end_world_m)) {
+      if (grid.contains(key)) is_free[grid.index_of(key)] = 1;
+    }
+    const Key end = grid.key_of(ray.end_world_m);
+    if (ray.hit && grid.contains(end)) is_occupied[grid.index_of(end)] = 1;
+  }
+  ScanUpdate update;
+  for (VoxelIndex v = 0; v < grid.voxel_count(); ++v) {
+    if (is_occupied[v] != 0) {
+      update.occupied.push_back(v);
+    } else if (is_free[v] != 0) {
+      update.free.push_back(v);
+    }
+  }
+  return update;
+}
+
+/// The first voxel that only one of the lists has.
+std::string difference(const std::vector<VoxelIndex>& ours, const std::vector<VoxelIndex>& theirs) {
+  const auto [mine, other] = std::ranges::mismatch(ours, theirs);
+  if (mine == ours.end() && other == theirs.end()) return "";
+  const bool is_extra = other == theirs.end() || (mine != ours.end() && *mine < *other);
+  return is_extra ? fmt::format("voxel {} too much", *mine)
+                  : fmt::format("voxel {} missing", *other);
+}
+
+class FrameInsertion : public ::testing::Test {
+ protected:
+  /// At every level and some numbers of threads, with memory used before.
+  void expect_equal(const DepthFrame& frame, const CameraModel& camera, const char* what) {
+    const ScanUpdate expected = expected_update(grid_, twin_, frame, camera);
+    touched_ += expected.free.size() + expected.occupied.size();
+    FrameRays rays;
+    const auto expect = [&](const ScanUpdate& update, int threads) {
+      ASSERT_EQ(difference(update.free, expected.free), "")
+          << what << ", " << name_of(simd_level()) << ", " << threads << " threads";
+      ASSERT_EQ(difference(update.occupied, expected.occupied), "")
+          << what << ", " << name_of(simd_level()) << ", " << threads << " threads";
+    };
+    const bool is_projected = can_project(grid_, frame, camera);
+    for (const SimdLevel level : kSimdLevels) {
+      set_simd_level(level);
+      compute_frame_rays(frame, camera, kFloor_m, rays);
+      if (is_projected) expect(frames_.compute_update(rays, frame, camera, 1), 1);
+    }
+    for (const int threads : {2, 5}) {
+      if (is_projected) expect(frames_.compute_update(rays, frame, camera, threads), threads);
+    }
+    expect(inserter_.compute_update(rays, frame, camera, 2), 2);
+  }
+  void use_resolution(double resolution_m) {
+    config_.resolution_m = resolution_m;
+    grid_ = GridGeometry(kBox_m, resolution_m);
+    inserter_ = ScanInserter(grid_);
+    frames_ = FrameInserter(grid_);
+    twin_ = OctomapTwin(config_);
+  }
+
+  SimdLevelGuard guard_;
+  OccupancyConfig config_;
+  GridGeometry grid_ = GridGeometry(kBox_m, 0.2);
+  ScanInserter inserter_ = ScanInserter(grid_);
+  FrameInserter frames_ = FrameInserter(grid_);
+  OctomapTwin twin_ = OctomapTwin(config_);
+  std::size_t touched_ = 0;
+};
+
+const std::vector<CameraModel>& cameras() {
+  static const std::vector<CameraModel> all = {
+      camera_of(160, 120, 60.0, 45.0), camera_of(96, 64, 90.0, 60.0),
+      camera_of(101, 33, 60.0, 45.0),  camera_of(16, 12, 60.0, 45.0),
+      camera_of(5, 3, 90.0, 60.0),     camera_of(1, 1, 60.0, 45.0)};
+  return all;
+}
+
+TEST_F(FrameInsertion, EqualsOctomapForScenesSeenFromAnyPose) {
+  const AnalyticScene scene = {.spheres = {{Vec3(0.5, 0.2, 2.0), 1.5}, {Vec3(-3.0, 3.0, 1.0), 1.0}},
+                               .ground_z_m = 0.0,
+                               .wall_x_m = 5.0};
+  for (const double resolution_m : {0.2, 0.07, 0.05}) {
+    use_resolution(resolution_m);
+    Random random(41);
+    for (int view = 0; view < (resolution_m < 0.1 ? 1 : 8); ++view) {
+      for (const CameraModel& camera : cameras()) {
+        const ViewPose pose = {random.point_in(kBox_m).cast<double>(), random.uniform(-kPi, kPi)};
+        expect_equal(analytic_depth(scene, camera, T_world_body(pose)), camera, "scene");
+        if (HasFatalFailure()) return;
+      }
+    }
+  }
+  EXPECT_GT(touched_, 100000U);
+}
+
+TEST_F(FrameInsertion, EqualsOctomapForPlanesAndNoise) {
+  for (const double resolution_m : {0.2, 0.07}) {
+    use_resolution(resolution_m);
+    Random random(43);
+    for (int view = 0; view < (resolution_m < 0.1 ? 1 : 12); ++view) {
+      for (const CameraModel& camera : cameras()) {
+        DepthFrame frame;
+        frame.T_world_camera = random_pose(random, kBox_m);
+        frame.depth_m = plane_depths(camera, random.uniform(0.3, 8.5), random.uniform(-1.5, 1.5));
+        expect_equal(frame, camera, "plane");
+        for (float& d_m : frame.depth_m) {
+          if (random.chance(0.5)) d_m = kInvalidRange;
+        }
+        expect_equal(frame, camera, "half a plane");
+        frame.depth_m = noise_depths(random, camera);
+        expect_equal(frame, camera, "noise");
+        if (HasFatalFailure()) return;
+      }
+    }
+  }
+}
+
+TEST_F(FrameInsertion, EqualsOctomapWhereEverythingLiesOnVoxelBorders) {
+  const std::array<Vec3, 4> directions = {Vec3::UnitX(), -Vec3::UnitY(), Vec3::UnitZ(),
+                                          Vec3(1, 1, 0).normalized()};
+  for (const double resolution_m : {0.2, 0.1, 0.25}) {
+    use_resolution(resolution_m);
+    Random random(47);
+    for (const CameraModel& camera : cameras()) {
+      for (const Vec3& forward : directions) {
+        const Vec3 right = forward.cross(Vec3(-forward.y(), forward.z(), forward.x() + 0.5));
+        DepthFrame frame;
+        Eigen::Matrix3d R;
+        R.col(2) = forward;
+        R.col(0) = right.normalized();
+        if (forward.z() == 0.0) R.col(0) = forward.cross(Vec3::UnitZ());
+        R.col(1) = forward.cross(R.col(0));
+        frame.T_world_camera.linear() = R;
+        frame.T_world_camera.translation() = Vec3(-1.0, 0.4, 2.0);
+        frame.depth_m = plane_depths(camera, 3.0, 0.0);
+        expect_equal(frame, camera, "a border");
+        frame.depth_m.assign(frame.depth_m.size(), kNoReturn);
+        expect_equal(frame, camera, "nothing");
+        for (float& d_m : frame.depth_m) {
+          d_m = static_cast<float>(std::round(random.uniform(1.0, 20.0)) * 0.2);
+        }
+        expect_equal(frame, camera, "borders");
+        if (HasFatalFailure()) return;
+      }
+    }
+  }
+}
+
+TEST_F(FrameInsertion, EqualsOctomapForCamerasAtTheBorderAndOutside) {
+  Random random(53);
+  const CameraModel& camera = cameras()[1];
+  const std::array<Vec3, 6> positions = {Vec3(-6.0, 0.0, 2.0), Vec3(-5.99995, 0.0, 2.0),
+                                         Vec3(-6.5, 0.1, 2.0), Vec3(6.19999, 4.99999, 5.99999),
+                                         Vec3(0.0, 0.0, 0.0),  Vec3(1.0, 1.0, 7.0)};
+  for (const Vec3& position_m : positions) {
+    for (int view = 0; view < 12; ++view) {
+      DepthFrame frame;
+      frame.T_world_camera = random_pose(random, kBox_m);
+      frame.T_world_camera.translation() = position_m;
+      frame.depth_m = view % 2 == 0 ? noise_depths(random, camera)
+                                    : plane_depths(camera, random.uniform(0.3, 8.5), 0.2);
+      expect_equal(frame, camera, "border");
+      if (HasFatalFailure()) return;
+    }
+  }
+  EXPECT_GT(touched_, 10000U);
+}
+
+TEST_F(FrameInsertion, AFullFrameEqualsOctomapAndWalksFewRays) {
+  const CameraModel camera = camera_of(640, 480, 60.0, 45.0);
+  const AnalyticScene scene = {
+      .spheres = {{Vec3(0.5, 0.2, 2.0), 1.5}}, .ground_z_m = 0.0, .wall_x_m = 5.0};
+  const DepthFrame frame =
+      analytic_depth(scene, camera, T_world_body({Vec3(-5.13, 0.31, 2.43), 0.1}));
+  expect_equal(frame, camera, "full");
+  FrameRays rays;
+  compute_frame_rays(frame, camera, kFloor_m, rays);
+  FrameInserter frames(grid_);
+  ASSERT_TRUE(can_project(grid_, frame, camera));
+  frames.compute_update(rays, frame, camera, 1);
+  EXPECT_LT(frames.walked_count(), 3072U);  // a hundredth of them
+}
+
+TEST_F(FrameInsertion, FramesThatCannotBeProjectedEqualOctomapToo) {
+  Random random(59);
+  DepthFrame frame;
+  frame.T_world_camera = random_pose(random, Box3(Vec3(-1, -1, 2), Vec3(1, 1, 3)));
+  CameraModel camera = cameras()[1];
+  frame.depth_m = noise_depths(random, camera);
+  EXPECT_TRUE(can_project(grid_, frame, camera));
+  camera.config.range_min_m = 0.0;
+  EXPECT_FALSE(can_project(grid_, frame, camera));
+  expect_equal(frame, camera, "no minimum range");
+  camera.config.range_min_m = 0.3;
+  frame.T_world_camera.linear() *= 1.01;
+  EXPECT_FALSE(can_project(grid_, frame, camera));
+  expect_equal(frame, camera, "no rotation");
+}
+
+}  // namespace
+}  // namespace gnbv

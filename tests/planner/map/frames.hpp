@@ -1,0 +1,65 @@
+// Depth frames of the map tests, most of them such as no scene would give.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "sensors/camera_model.hpp"
+#include "sensors/frames.hpp"
+#include "sim/core/simd.hpp"
+#include "tests/planner/map/random_points.hpp"
+
+namespace gnbv {
+
+constexpr std::array kSimdLevels = {SimdLevel::scalar, SimdLevel::avx2, SimdLevel::avx512};
+
+/// Gives the processor's best level back at the end of a test.
+struct SimdLevelGuard {
+  ~SimdLevelGuard() { set_simd_level(SimdLevel::avx512); }
+};
+
+inline CameraModel camera_of(int width_px, int height_px, double fov_x_deg, double fov_y_deg) {
+  CameraConfig config;
+  config.width_px = width_px;
+  config.height_px = height_px;
+  config.fov_x_rad = deg_to_rad(fov_x_deg);
+  config.fov_y_rad = deg_to_rad(fov_y_deg);
+  return make_camera_model(config);
+}
+
+/// Any position in the box and any attitude.
+inline Isometry random_pose(Random& random, const Box3& box_m) {
+  Isometry T = Isometry::Identity();
+  T.translate(random.point_in(box_m).cast<double>());
+  T.rotate(Eigen::AngleAxisd(random.uniform(-kPi, kPi), Vec3::UnitZ()));
+  T.rotate(Eigen::AngleAxisd(random.uniform(-kPi, kPi), Vec3::UnitY()));
+  T.rotate(Eigen::AngleAxisd(random.uniform(-kPi, kPi), Vec3::UnitX()));
+  return T;
+}
+
+/// Depths of a plane through what the middle pixel sees at `depth_m`, tilted by `slope` in u and v.
+inline std::vector<float> plane_depths(const CameraModel& camera, double depth_m, double slope) {
+  std::vector<float> depths_m;
+  for (int v = 0; v < camera.config.height_px; ++v) {
+    for (int u = 0; u < camera.config.width_px; ++u) {
+      const Vec3f ray = camera.ray_camera(u, v);
+      const double z_m = depth_m / (1.0 - slope * static_cast<double>(ray.x() + ray.y()));
+      depths_m.push_back(z_m > 0.0 && z_m < 9.0 ? static_cast<float>(z_m) : kNoReturn);
+    }
+  }
+  return depths_m;
+}
+
+/// Each pixel on its own: a quarter invalid, a quarter without return, some out of range.
+inline std::vector<float> noise_depths(Random& random, const CameraModel& camera) {
+  std::vector<float> depths_m;
+  for (int i = 0; i < camera.config.width_px * camera.config.height_px; ++i) {
+    const double kind = random.uniform(0.0, 4.0);
+    depths_m.push_back(kind < 1.0   ? kInvalidRange
+                       : kind < 2.0 ? kNoReturn
+                                    : static_cast<float>(random.uniform(0.0, 9.0)));
+  }
+  return depths_m;
+}
+
+}  // namespace gnbv
