@@ -40,7 +40,7 @@ struct PlannerModel {
   Box3 navigation_m;
   std::vector<CameraModel> cameras;
   std::vector<LidarModel> lidars;
-  std::vector<ViewRay> view_rays;
+  ViewRays view_rays;
   double view_voxels;  // of the cameras' frusta together
 };
 
