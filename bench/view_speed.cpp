@@ -119,9 +119,8 @@ class ViewBench {
     const std::vector<ViewPose> some(candidates_.begin(), candidates_.begin() + kTwinCandidates);
     const PaperViewTwin twin(belief_.grid);
     std::int64_t seen = 0;
-    const double twin_us = median_us(some, 1, [&](const ViewPose& candidate) {
-      seen += twin.evaluate(rays_, candidate).free;
-    });
+    const double twin_us = median_us(
+        some, 1, [&](const ViewPose& candidate) { seen += twin.evaluate(rays_, candidate).free; });
     const SimdLevel best = simd_level();
     std::vector<SpeedRow> rows = {candidate_row("candidate", twin_us, seen > 0 ? 100.0 : 0.0)};
     rows.push_back(all_over_one_row());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/candidate_stats.hpp"
 #include "sim/core/parallel.hpp"
 
 namespace gnbv {
@@ -49,7 +50,9 @@ std::vector<ViewStats> evaluate_views(const PlannerModel& model, const Belief& b
   parallel_for(bench.threads, lanes, [&](std::size_t lane) {
     for (std::size_t i = lane; i < views.size(); i += lanes) {
       stats[i] =
-          evaluate_view(belief.grid, belief.cloud, model.view_rays, views[i], bench.marks[lane]);
+          candidate_stats(model.config.utility, belief.grid, belief.cloud, belief.shadow,
+                          belief.cloud.density_max() / 3.0,  // released frontiers: 100 of 300
+                          model.view_rays, views[i], bench.marks[lane]);
       stats[i].density_max = belief.cloud.density_max();
       stats[i].path_m = (views[i].p_world_m - current.p_world_m).norm();
     }
@@ -67,7 +70,8 @@ std::optional<Decision> best_at_scale(const PlannerModel& model, const Belief& b
 
   std::optional<Decision> best;
   for (std::size_t i = 0; i < valid.size(); ++i) {
-    const std::optional<Score> utility = score(model.config.utility, stats[i]);
+    const std::optional<Score> utility = score(
+        model.config.utility, stats[i], {.iteration = history.decisions.size(), .candidate = i});
     if (!utility || (best && utility->value <= best->score.value)) continue;
     best = Decision{.view = valid[i],
                     .sampler = "agvs",
@@ -93,7 +97,9 @@ PlannerModel::PlannerModel(const PlannerConfig& planner_config, const Box3& work
       view_voxels(frustum_voxels(cameras, planner_config.map.resolution_m)) {}
 
 Belief::Belief(const PlannerModel& model)
-    : grid(model.config.map, model.workspace_m), cloud(model.config.cloud, grid.geometry()) {}
+    : grid(model.config.map, model.workspace_m),
+      cloud(model.config.cloud, grid.geometry()),
+      shadow(model.config.utility.shadow, grid.geometry()) {}
 
 Workbench::Workbench(const PlannerModel& model, int thread_count)
     : threads(std::max(thread_count, 1)),
@@ -127,6 +133,11 @@ void integrate_view(const PlannerModel& model, std::span<const DepthFrame> frame
     belief.grid.apply(bench.inserter.compute_update(origin_world_m, rays, bench.threads));
     const std::vector<Vec3f> hits = surface_points_world_m(rays);
     points.insert(points.end(), hits.begin(), hits.end());
+    if (needs_of(model.config.utility).shadow) {
+      FrameRays columns;
+      compute_frame_rays(frame, camera, model.config.floor_z_m, columns);
+      belief.shadow.add(columns, belief.grid);
+    }
   }
   belief.has_depth_return = belief.has_depth_return || !points.empty();
   belief.cloud.add(points, model.config.cloud.leaf_m);

@@ -50,6 +50,7 @@ struct Belief {
 
   OccupancyGrid grid;
   SurfaceCloud cloud;
+  ShadowBand shadow;
   bool has_depth_return = false;  // any camera has seen a surface
 };
 

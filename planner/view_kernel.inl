@@ -5,7 +5,7 @@ namespace gnbv {
 namespace {
 
 constexpr std::size_t kLaneCount = static_cast<std::size_t>(kLanes);
-constexpr int kStepsPerFlush = 256;  // 369 steps of ln 2 overflow a lane of 32 bits
+constexpr int kStepsPerFlush = 256;       // 369 steps of ln 2 overflow a lane of 32 bits
 constexpr float kFixedPerUnit = 0x1p-4F;  // 2^-20 nat per 2^-24 nat
 
 // ---- making ready ------------------------------------------------------------------------------
@@ -219,8 +219,8 @@ inline Floats free_probability(Floats x) {
   return div(all(1.0F), add(all(1.0F), odds));
 }
 
-inline void measure(const float* all_log_odds, const Bundle& b, Ints word, Ints known, Mask occupied,
-                    Ints t_exit, float odds_power, RayMetrics& m) {
+inline void measure(const float* all_log_odds, const Bundle& b, Ints word, Ints known,
+                    Mask occupied, Ints t_exit, float odds_power, RayMetrics& m) {
   const Mask unknown = has_not_bits(b.seeing, word, kStateMask);
   const Floats log_odds = gather(b.seeing, all_log_odds, b.voxel);
   const Floats entropy = to_floats(sub(all(static_cast<std::int32_t>(kLn2Units)), known));
@@ -341,7 +341,8 @@ void tally_group(const ViewMaps& maps, std::size_t first, Mask marked, VoxelSums
   };
   list(has_bits(marked, word, static_cast<std::uint32_t>(VoxelState::occupied)), sums.occupied,
        sums.occupied_count);
-  if (sums.shadow != nullptr) list(has_bits(marked, word, kShadowBit), sums.shadow, sums.shadow_count);
+  if (sums.shadow != nullptr)
+    list(has_bits(marked, word, kShadowBit), sums.shadow, sums.shadow_count);
 }
 
 void tally_row(const ViewMaps& maps, std::size_t first, std::size_t length, VoxelSums& sums) {

@@ -10,8 +10,8 @@
 namespace gnbv {
 
 extern const ViewKernels kViewKernelsAvx2 = {.prepare = prepare_rays,
-                                            .walk_voxels = walk_rays<false>,
-                                            .walk_full = walk_rays<true>,
-                                            .tally_row = tally_row};
+                                             .walk_voxels = walk_rays<false>,
+                                             .walk_full = walk_rays<true>,
+                                             .tally_row = tally_row};
 
 }  // namespace gnbv

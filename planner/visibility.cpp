@@ -172,15 +172,16 @@ ViewStats evaluate_view(const OccupancyGrid& grid, const SurfaceCloud& cloud, co
   const Isometry T = T_world_body(candidate);
   marks.predicted_ends.resize(rays.count());
   marks.occupied.resize(rays.count() + kMarkPadding);
-  ViewMaps maps = {.words = grid.words().data(),
-                   .log_odds = grid.all_log_odds().data(),
-                   .marks = marks.marks.data(),
-                   .resting_voxel =
-                       static_cast<std::int32_t>(geometry.voxel_count() + kMarkPadding - 1),
-                   .predicted = marks.predicted_ends.data(),
-                   .predicted_count = 0};
+  ViewMaps maps = {
+      .words = grid.words().data(),
+      .log_odds = grid.all_log_odds().data(),
+      .marks = marks.marks.data(),
+      .resting_voxel = static_cast<std::int32_t>(geometry.voxel_count() + kMarkPadding - 1),
+      .predicted = marks.predicted_ends.data(),
+      .predicted_count = 0};
   RaySums ray_sums{};
   ViewStats stats;
+  stats.voxel_m3 = std::pow(geometry.resolution_m(), 3);
   const float odds_power = options.legacy_visibility ? -kLog2e : kLog2e;
   for (const ViewRays::Camera& camera : rays.cameras) {
     const RayFanFrame frame = make_frame(geometry, T, camera.origin_body_m);
@@ -188,13 +189,12 @@ ViewStats evaluate_view(const OccupancyGrid& grid, const SurfaceCloud& cloud, co
     const auto walk = full ? kernels().walk_full : kernels().walk_voxels;
     const std::int64_t share_before = ray_sums.unknown_share;
     walk(prepared, frame.origin_voxel, odds_power, maps, ray_sums);
-    stats.unknown_volume_m3 += static_cast<double>(ray_sums.unknown_share - share_before) *
-                               kShareUnit * camera.pyramid_m3;
+    stats.unknown_volume_m3 +=
+        static_cast<double>(ray_sums.unknown_share - share_before) * kShareUnit * camera.pyramid_m3;
   }
   VoxelSums voxel_sums{};
   voxel_sums.occupied = marks.occupied.data();
-  const double proximity =
-      tally(grid, maps, box_of(geometry, rays, T), options, marks, voxel_sums);
+  const double proximity = tally(grid, maps, box_of(geometry, rays, T), options, marks, voxel_sums);
 
   const auto occupied = static_cast<std::int64_t>(voxel_sums.occupied_count);
   stats.free_voxels = static_cast<std::uint32_t>(voxel_sums.free);
@@ -204,8 +204,7 @@ ViewStats evaluate_view(const OccupancyGrid& grid, const SurfaceCloud& cloud, co
   stats.predicted_voxels = count_unique({maps.predicted, maps.predicted_count});
   stats.entropy_nat = entropy_nat(voxel_sums.visited, voxel_sums.known);
   stats.entropy_per_ray_nat = entropy_nat(ray_sums.visits, ray_sums.known);
-  add_density(cloud, {voxel_sums.occupied, voxel_sums.occupied_count}, options.sparse_below,
-              stats);
+  add_density(cloud, {voxel_sums.occupied, voxel_sums.occupied_count}, options.sparse_below, stats);
   if (full) fill_ray_stats(ray_sums, stats);
   stats.proximity_sum = proximity;
   return stats;

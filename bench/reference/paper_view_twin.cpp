@@ -36,7 +36,8 @@ void for_each_ray(const GridGeometry& grid, const ViewRays& rays, const ViewPose
   for (const ViewRays::Camera& camera : rays.cameras) {
     const Vec3 origin_m = grid.nearest_inside(T * camera.origin_body_m);
     for (std::size_t i = camera.first; i < camera.first + camera.count; ++i) {
-      visit(origin_m, T * Vec3(rays.end_body_m[0][i], rays.end_body_m[1][i], rays.end_body_m[2][i]));
+      visit(origin_m,
+            T * Vec3(rays.end_body_m[0][i], rays.end_body_m[1][i], rays.end_body_m[2][i]));
     }
   }
 }
@@ -47,8 +48,8 @@ struct PaperViewTwin::Tree {
   Tree(double resolution_m, const GridGeometry& grid) : octree(resolution_m), geometry(grid) {}
 
   bool is_in_workspace(const octomap::OcTreeKey& key) const {
-    return geometry.contains({key[0] - kOctomapKeyOffset, key[1] - kOctomapKeyOffset,
-                              key[2] - kOctomapKeyOffset});
+    return geometry.contains(
+        {key[0] - kOctomapKeyOffset, key[1] - kOctomapKeyOffset, key[2] - kOctomapKeyOffset});
   }
   /// Adds the voxel unless it is known already; false outside the workspace.
   bool see(const octomap::OcTreeKey& key, std::set<octomap::OcTreeKey, KeyLess>& seen,

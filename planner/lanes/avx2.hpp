@@ -71,8 +71,7 @@ inline Floats gather(Mask m, const float* p, Ints at) {
   return {_mm256_mask_i32gather_ps(_mm256_setzero_ps(), p, at.v, _mm256_castsi256_ps(m.m), 4)};
 }
 inline Mask nonzero_bytes(const std::uint8_t* p) {
-  const __m256i bytes =
-      _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(p)));
+  const __m256i bytes = _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(p)));
   return {_mm256_cmpgt_epi32(bytes, _mm256_setzero_si256())};
 }
 inline Ints load_where(Mask m, const std::uint32_t* p) {

@@ -34,7 +34,9 @@ inline Ints load(const std::int32_t* p) { return {_mm512_loadu_si512(p)}; }
 inline void store(std::int32_t* p, Ints a) { _mm512_storeu_si512(p, a.v); }
 inline Ints add(Ints a, Ints b) { return {_mm512_add_epi32(a.v, b.v)}; }
 inline Ints sub(Ints a, Ints b) { return {_mm512_sub_epi32(a.v, b.v)}; }
-inline Ints add_where(Mask m, Ints a, Ints b) { return {_mm512_mask_add_epi32(a.v, m.m, a.v, b.v)}; }
+inline Ints add_where(Mask m, Ints a, Ints b) {
+  return {_mm512_mask_add_epi32(a.v, m.m, a.v, b.v)};
+}
 inline Ints select(Mask m, Ints a, Ints b) { return {_mm512_mask_mov_epi32(b.v, m.m, a.v)}; }
 inline Ints min(Ints a, Ints b) { return {_mm512_min_epi32(a.v, b.v)}; }
 template <unsigned kBits>

@@ -34,12 +34,12 @@ inline Ints load(const std::int32_t* p) { return {*p}; }
 inline void store(std::int32_t* p, Ints a) { *p = a.v; }
 /// Modulo 2^32, as vectors add.
 inline Ints add(Ints a, Ints b) {
-  return {static_cast<std::int32_t>(static_cast<std::uint32_t>(a.v) +
-                                    static_cast<std::uint32_t>(b.v))};
+  return {
+      static_cast<std::int32_t>(static_cast<std::uint32_t>(a.v) + static_cast<std::uint32_t>(b.v))};
 }
 inline Ints sub(Ints a, Ints b) {
-  return {static_cast<std::int32_t>(static_cast<std::uint32_t>(a.v) -
-                                    static_cast<std::uint32_t>(b.v))};
+  return {
+      static_cast<std::int32_t>(static_cast<std::uint32_t>(a.v) - static_cast<std::uint32_t>(b.v))};
 }
 inline Ints add_where(Mask m, Ints a, Ints b) { return add(a, {b.v & -static_cast<int>(m.m)}); }
 inline Ints select(Mask m, Ints a, Ints b) { return {m.m ? a.v : b.v}; }
