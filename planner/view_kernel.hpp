@@ -68,10 +68,11 @@ struct RaySums {
   std::int64_t rear_side_rays;
   std::int64_t shadow_rays;
   std::int64_t front_rays;
-  std::int64_t occlusion_aware;  // 2^-20 nat
-  std::int64_t unobserved;       // 2^-20 nat
-  std::int64_t rear_side;        // 2^-20 nat
-  std::int64_t unknown_share;    // sum over rays of the unknown share of the pyramid, 2^-30
+  // sums of P_v H, 2^-24 nat; of one ray they stay below 1 - ln(1 - P) < 40 nat and fit 32 bits
+  std::int64_t occlusion_aware;
+  std::int64_t unobserved;
+  std::int64_t rear_side;
+  std::int64_t unknown_share;  // sum over rays of the unknown share of the pyramid, 2^-30
 };
 
 /// Walks prepared rays that start in one voxel. `odds_power` is log2(e), negative for the legacy

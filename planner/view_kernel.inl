@@ -5,8 +5,7 @@ namespace gnbv {
 namespace {
 
 constexpr std::size_t kLaneCount = static_cast<std::size_t>(kLanes);
-constexpr int kStepsPerFlush = 256;       // 369 steps of ln 2 overflow a lane of 32 bits
-constexpr float kFixedPerUnit = 0x1p-4F;  // 2^-20 nat per 2^-24 nat
+constexpr int kStepsPerFlush = 256;  // 369 steps of ln 2 overflow a lane of 32 bits
 
 // ---- making ready ------------------------------------------------------------------------------
 
@@ -254,9 +253,8 @@ inline std::int64_t sum_lanes(Ints a) {
   return sum;
 }
 
-inline std::int64_t sum_fixed(Floats a, float per_unit) {
-  return sum_lanes(to_ints(mul(a, all(per_unit))));
-}
+/// Rounded ray by ray, so that their order leaves no trace.
+inline std::int64_t sum_rounded(Floats a) { return sum_lanes(to_ints(a)); }
 
 void add_rays(const RayMetrics& m, const WideLanes& known, RaySums& sums) {
   constexpr float kCubeShare = 0x1p-57F;  // times are 2^-29 of the ray, shares 2^-30
@@ -266,10 +264,10 @@ void add_rays(const RayMetrics& m, const WideLanes& known, RaySums& sums) {
   sums.shadow_rays += count(m.shadow);
   sums.front_rays += count(without(m.front_hit, m.shadow));
   sums.visits_occupied += sum_lanes(select(m.hit, m.visits, all(0)));
-  sums.occlusion_aware += sum_fixed(m.occlusion_aware, kFixedPerUnit);
-  sums.unobserved += sum_fixed(m.unobserved, kFixedPerUnit);
-  sums.rear_side += sum_fixed(select(m.rear_hit, m.rear_side, all(0.0F)), kFixedPerUnit);
-  sums.unknown_share += sum_fixed(m.volume, kCubeShare);
+  sums.occlusion_aware += sum_rounded(m.occlusion_aware);
+  sums.unobserved += sum_rounded(m.unobserved);
+  sums.rear_side += sum_rounded(select(m.rear_hit, m.rear_side, all(0.0F)));
+  sums.unknown_share += sum_rounded(mul(m.volume, all(kCubeShare)));
   for (std::uint32_t left = bits(m.hit); left != 0; left &= left - 1) {
     sums.known_occupied += known.lane[__builtin_ctz(left)];
   }

@@ -11,9 +11,8 @@ namespace gnbv {
 namespace {
 
 constexpr float kLog2e = 1.44269504F;
-constexpr double kFixed_nat = 0x1p-20;        // of RaySums
 constexpr double kShareUnit = 0x1p-30;        // of RaySums::unknown_share
-constexpr double kDensityUnit = 0x1p-20;      // densities are summed as integers
+constexpr double kDensityUnit = 0x1p-32;      // densities are summed as integers
 constexpr std::size_t kPreparedColumns = 11;  // of PreparedRays
 
 const ViewKernels& kernels() {
@@ -147,10 +146,10 @@ double entropy_nat(std::int64_t voxels, std::int64_t known) {
 void fill_ray_stats(const RaySums& sums, ViewStats& stats) {
   stats.rays = static_cast<std::uint32_t>(sums.rays);
   stats.rays_occupied = static_cast<std::uint32_t>(sums.rays_occupied);
-  stats.occlusion_aware_nat = static_cast<double>(sums.occlusion_aware) * kFixed_nat;
-  stats.unobserved_nat = static_cast<double>(sums.unobserved) * kFixed_nat;
+  stats.occlusion_aware_nat = static_cast<double>(sums.occlusion_aware) * kEntropyUnit_nat;
+  stats.unobserved_nat = static_cast<double>(sums.unobserved) * kEntropyUnit_nat;
   stats.rear_side_rays = static_cast<std::uint32_t>(sums.rear_side_rays);
-  stats.rear_side_nat = static_cast<double>(sums.rear_side) * kFixed_nat;
+  stats.rear_side_nat = static_cast<double>(sums.rear_side) * kEntropyUnit_nat;
   stats.crossed_by_occupied = static_cast<std::uint64_t>(sums.visits_occupied);
   stats.entropy_of_occupied_nat = entropy_nat(sums.visits_occupied, sums.known_occupied);
   stats.shadow_rays = static_cast<std::uint32_t>(sums.shadow_rays);

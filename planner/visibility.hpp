@@ -36,7 +36,7 @@ struct ViewStats {
   // (legacy: of P_j), P is 0.5 where unmeasured
   std::uint32_t rays = 0;                 // that see at least one voxel
   std::uint32_t rays_occupied = 0;        // that end at an occupied voxel
-  double occlusion_aware_nat = 0.0;       // sum of P_v H, to 2^-21 nat a ray
+  double occlusion_aware_nat = 0.0;       // sum of P_v H, to 2^-25 nat a ray
   double unobserved_nat = 0.0;            // the same over unknown voxels
   std::uint32_t rear_side_rays = 0;       // whose occupied end is entered from an unknown voxel
   double rear_side_nat = 0.0;             // of those: sum of P_v H over the unknown run and the end

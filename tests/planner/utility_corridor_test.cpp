@@ -14,7 +14,7 @@ namespace {
 constexpr double kUnknown_nat = std::numbers::ln2;
 const double kFree_nat = -0.4 * std::log(0.4) - 0.6 * std::log(0.6);
 const double kOccupied_nat = -0.7 * std::log(0.7) - 0.3 * std::log(0.3);
-constexpr double kTolerance = 2e-6;  // 2^-21 nat a ray, float32 along it
+constexpr double kTolerance = 2e-6;  // float32 along the ray
 
 double value(const char* name, ViewStats stats, double path_m = 0.0) {
   UtilityConfig config;

@@ -21,20 +21,20 @@ FrameRays ray_to(double x_m, PixelRay kind = PixelRay::hits) {
 
 TEST(ShadowBand, CountsStepsBehindTheHitUpToItsDepth) {
   Corridor corridor(12);
-  ShadowBand band({.shadow_depth_m = 0.7}, corridor.grid.geometry());
+  ShadowBand band({.shadow_depth_m = 0.75}, corridor.grid.geometry());
   corridor.hit(3);
-  band.add(ray_to(0.7), corridor.grid);  // from 0.7 m to 1.4 m: the voxel with the end is left out
+  band.add(ray_to(0.7), corridor.grid);  // from 0.7 m to 1.45 m: the voxel with the end is left out
   const std::vector<int> expected = {0, 0, 0, 0, 1, 2, 3, 0, 0, 0, 0, 0};
   for (VoxelIndex v = 0; v < 12; ++v) {
     EXPECT_EQ(band.steps_behind(v), expected[v]) << v;
     EXPECT_EQ(corridor.grid.is_shaded(v), expected[v] > 0) << v;
   }
-  EXPECT_DOUBLE_EQ(band.steps_max(), 7.0);
+  EXPECT_DOUBLE_EQ(band.steps_max(), 7.5);
 }
 
 TEST(ShadowBand, KeepsTheSmallestDistance) {
   Corridor corridor(12);
-  ShadowBand band({.shadow_depth_m = 0.7}, corridor.grid.geometry());
+  ShadowBand band({.shadow_depth_m = 0.75}, corridor.grid.geometry());
   band.add(ray_to(0.7), corridor.grid);
   band.add(ray_to(0.9), corridor.grid);
   EXPECT_EQ(band.steps_behind(5), 1);
@@ -45,7 +45,7 @@ TEST(ShadowBand, KeepsTheSmallestDistance) {
 
 TEST(ShadowBand, HoldsOnlyWhereNothingHasBeenMeasured) {
   Corridor corridor(12);
-  ShadowBand band({.shadow_depth_m = 0.7}, corridor.grid.geometry());
+  ShadowBand band({.shadow_depth_m = 0.75}, corridor.grid.geometry());
   corridor.miss(4);
   band.add(ray_to(0.7), corridor.grid);
   EXPECT_FALSE(corridor.grid.is_shaded(4));
@@ -57,7 +57,7 @@ TEST(ShadowBand, HoldsOnlyWhereNothingHasBeenMeasured) {
 
 TEST(ShadowBand, FollowsHitsAlone) {
   Corridor corridor(12);
-  ShadowBand band({.shadow_depth_m = 0.7}, corridor.grid.geometry());
+  ShadowBand band({.shadow_depth_m = 0.75}, corridor.grid.geometry());
   band.add(ray_to(0.7, PixelRay::clears), corridor.grid);
   band.add(ray_to(0.7, PixelRay::none), corridor.grid);
   for (VoxelIndex v = 0; v < 12; ++v) EXPECT_FALSE(corridor.grid.is_shaded(v));
