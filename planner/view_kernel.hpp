@@ -91,16 +91,23 @@ struct VoxelSums {
   std::size_t shadow_count;
 };
 
-/// Counts the marked voxels of the row [first, first + length) and clears their marks. May also
-/// count and clear marks after the row.
-using TallyRow = void (*)(const ViewMaps& maps, std::size_t first, std::size_t length,
-                          VoxelSums& sums);
+/// Voxels first + row * stride + [0, length), for each row.
+struct VoxelRows {
+  std::size_t first;
+  std::size_t length;
+  std::size_t stride;
+  std::size_t count;
+};
+
+/// Counts the marked voxels of the rows and clears their marks. May also count and clear up to 63
+/// voxels after a row.
+using TallyPlane = void (*)(const ViewMaps& maps, const VoxelRows& rows, VoxelSums& sums);
 
 struct ViewKernels {
   PrepareRays prepare;
   WalkRays walk_voxels;
   WalkRays walk_full;
-  TallyRow tally_row;
+  TallyPlane tally_plane;
 };
 
 extern const ViewKernels kViewKernelsScalar;

@@ -5,6 +5,8 @@ namespace gnbv {
 namespace {
 
 constexpr std::size_t kLaneCount = static_cast<std::size_t>(kLanes);
+constexpr std::size_t kTallyChunk = 64;
+constexpr int kChunksPerFlush = 256 * kLanes / 64;
 constexpr int kStepsPerFlush = 256;  // 369 steps of ln 2 overflow a lane of 32 bits
 
 // ---- making ready ------------------------------------------------------------------------------
@@ -28,14 +30,13 @@ inline AxisSteps axis_steps(const RayFanFrame& f, int axis, float direction, dou
   const auto d = static_cast<double>(direction);
   const bool up = d > 0.0;
   const bool moves = up || d < 0.0;
-  const double speed = moves ? (up ? d : -d) : 1.0;
-  const double inverse = 1.0 / speed;
+  const double along_m = (up ? d : -d) * length_m;
   const double border_m = up ? f.to_upper_border_m[axis] : -f.to_lower_border_m[axis];
-  const double scale = static_cast<double>(kRayEnd) / length_m;
+  constexpr double kEnd = static_cast<double>(kRayEnd);
   constexpr double kNever = static_cast<double>(kNeverReached);
-  const double t_next_m = border_m * inverse;
-  const double next = t_next_m * scale;
-  const double voxel = f.resolution_m * inverse * scale;
+  const double time_per_m = kEnd / (moves ? along_m : 1.0);
+  const double next = border_m * time_per_m;
+  const double voxel = f.resolution_m * time_per_m;
   AxisSteps steps;
   steps.t_next = static_cast<std::int32_t>((moves && next < kNever ? next : kNever) + 0.5);
   steps.t_voxel = static_cast<std::int32_t>((moves && voxel < kNever ? voxel : kNever) + 0.5);
@@ -43,10 +44,10 @@ inline AxisSteps axis_steps(const RayFanFrame& f, int axis, float direction, dou
   const std::int32_t inside = up ? f.steps_up[axis] : f.steps_down[axis];
   steps.t_leave = static_cast<double>(steps.t_next) +
                   static_cast<double>(inside) * static_cast<double>(steps.t_voxel);
-  const double rest_m = length_m - t_next_m;
+  const double rest_m = along_m - border_m;
   const auto after_first =
-      static_cast<std::int32_t>((rest_m > 0.0 ? rest_m : 0.0) * speed * f.inverse_resolution);
-  steps.crossings = moves && rest_m >= 0.0 ? after_first + 1 : 0;
+      static_cast<std::int32_t>((rest_m > 0.0 ? rest_m : 0.0) * f.inverse_resolution);
+  steps.crossings = moves && next <= kEnd ? after_first + 1 : 0;
   return steps;
 }
 
@@ -192,10 +193,9 @@ struct RayMetrics {
   Floats unknown_run = all(0.0F);  // P_v H since the last known voxel
   Floats rear_side = all(0.0F);
   Floats volume = all(0.0F);  // sum of cubes of times, over the unknown voxels
-  Floats cube_enter = all(0.0F);
-  Ints visits = all(0);
+  Ints t_enter = all(0);
+  Ints visits = all(0);  // of the rays that hit
   Mask after_unknown = no_lane();
-  Mask after_free = no_lane();
   Mask hit = no_lane();
   Mask rear_hit = no_lane();
   Mask front_hit = no_lane();
@@ -218,31 +218,51 @@ inline Floats free_probability(Floats x) {
   return div(all(1.0F), add(all(1.0F), odds));
 }
 
-inline void measure(const float* all_log_odds, const Bundle& b, Ints word, Ints known,
-                    Mask occupied, Ints t_exit, float odds_power, RayMetrics& m) {
+inline Floats cube(Ints t) {
+  const Floats f = to_floats(t);
+  return mul(mul(f, f), f);
+}
+
+/// Rays that meet a surface at their voxel number `step`, from 0.
+inline void measure_hits(Mask occupied, Floats visible, int step, RayMetrics& m) {
+  const Mask rear = occupied & m.after_unknown;
+  m.rear_side = select(rear, add(m.unknown_run, visible), m.rear_side);
+  m.rear_hit = m.rear_hit | rear;
+  if (step > 0) m.front_hit = m.front_hit | without(occupied, rear);
+  m.hit = m.hit | occupied;
+  m.visits = select(occupied, all(step + 1), m.visits);
+}
+
+inline void measure_unknown(Mask unknown, Ints word, Floats visible, Ints t_exit, RayMetrics& m) {
+  m.unobserved = add_where(unknown, m.unobserved, visible);
+  m.unknown_run = select(unknown, add(m.unknown_run, visible), all(0.0F));
+  m.volume = add_where(unknown, m.volume, sub(cube(t_exit), cube(m.t_enter)));
+  m.shadow = m.shadow | has_bits(unknown, word, kShadowBit);
+}
+
+/// Adds the voxels at hand. The branches only skip what would change nothing.
+inline void measure(const ViewMaps& maps, const Bundle& b, Ints word, Ints known, Mask occupied,
+                    Ints t_exit, float odds_power, int step, RayMetrics& m) {
   const Mask unknown = has_not_bits(b.seeing, word, kStateMask);
-  const Floats log_odds = gather(b.seeing, all_log_odds, b.voxel);
   const Floats entropy = to_floats(sub(all(static_cast<std::int32_t>(kLn2Units)), known));
   const Floats visible = mul(m.visibility, entropy);
   m.occlusion_aware = add_where(b.seeing, m.occlusion_aware, visible);
-  m.unobserved = add_where(unknown, m.unobserved, visible);
-  m.unknown_run = add(m.unknown_run, visible);
-  m.rear_side = select(occupied, m.unknown_run, m.rear_side);
-  m.unknown_run = select(unknown, m.unknown_run, all(0.0F));
-  m.hit = m.hit | occupied;
-  m.rear_hit = m.rear_hit | (occupied & m.after_unknown);
-  m.front_hit = m.front_hit | (occupied & m.after_free);
+  if (any(occupied)) measure_hits(occupied, visible, step, m);
+  if (any(unknown)) {
+    measure_unknown(unknown, word, visible, t_exit, m);
+  } else {
+    m.unknown_run = all(0.0F);
+  }
   m.after_unknown = unknown;
-  m.after_free = has_bits(b.seeing, word, static_cast<std::uint32_t>(VoxelState::free));
-  m.shadow = m.shadow | has_bits(unknown, word, kShadowBit);
-  m.visits = add_where(b.seeing, m.visits, all(1));
-  const Floats t = to_floats(t_exit);
-  const Floats cube_exit = mul(mul(t, t), t);
-  m.volume = add_where(unknown, m.volume, sub(cube_exit, m.cube_enter));
-  m.cube_enter = cube_exit;
+  m.t_enter = t_exit;
+  const Mask measured = has_bits(b.seeing, word, kMeasuredBit);
+  Floats factor = all(0.5F);  // of log-odds 0
+  if (any(measured)) {
+    const Floats log_odds = gather(measured, maps.log_odds, b.voxel);
+    factor = free_probability(mul(log_odds, all(odds_power)));
+  }
   // below 2^-60 it adds nothing, and what follows from it would be denormal and slow
-  m.visibility =
-      max(mul(m.visibility, free_probability(mul(log_odds, all(odds_power)))), all(0x1p-60F));
+  m.visibility = max(mul(m.visibility, factor), all(0x1p-60F));
 }
 
 inline std::int64_t sum_lanes(Ints a) {
@@ -258,15 +278,14 @@ inline std::int64_t sum_rounded(Floats a) { return sum_lanes(to_ints(a)); }
 
 void add_rays(const RayMetrics& m, const WideLanes& known, RaySums& sums) {
   constexpr float kCubeShare = 0x1p-57F;  // times are 2^-29 of the ray, shares 2^-30
-  sums.rays += count(less(every_lane(), all(0), m.visits));
   sums.rays_occupied += count(m.hit);
   sums.rear_side_rays += count(m.rear_hit);
   sums.shadow_rays += count(m.shadow);
   sums.front_rays += count(without(m.front_hit, m.shadow));
-  sums.visits_occupied += sum_lanes(select(m.hit, m.visits, all(0)));
+  sums.visits_occupied += sum_lanes(m.visits);
   sums.occlusion_aware += sum_rounded(m.occlusion_aware);
   sums.unobserved += sum_rounded(m.unobserved);
-  sums.rear_side += sum_rounded(select(m.rear_hit, m.rear_side, all(0.0F)));
+  sums.rear_side += sum_rounded(m.rear_side);
   sums.unknown_share += sum_rounded(mul(m.volume, all(kCubeShare)));
   for (std::uint32_t left = bits(m.hit); left != 0; left &= left - 1) {
     sums.known_occupied += known.lane[__builtin_ctz(left)];
@@ -275,20 +294,17 @@ void add_rays(const RayMetrics& m, const WideLanes& known, RaySums& sums) {
 
 template <bool kFull>
 void walk_bundle(Bundle b, float odds_power, ViewMaps& maps, RaySums& sums) {
+  const ViewMaps local = maps;  // a mark might be any byte in memory to the compiler
+  const Ints resting_voxel = all(local.resting_voxel);
   RayMetrics metrics;
   Ints known_sum = all(0);
   WideLanes known_wide;
   Mask foresees = b.seeing;  // rays that have met no predicted voxel
-  int steps = 0;
   std::int64_t visits = 0;
-  // locals, since a mark might be any byte in memory to the compiler
-  std::uint8_t* const marks = maps.marks;
-  const std::uint32_t* const words = maps.words;
-  const float* const log_odds = maps.log_odds;
-  const Ints resting_voxel = all(maps.resting_voxel);
-  while (any(b.seeing)) {
-    mark(marks, b.seeing, b.voxel, resting_voxel);
-    const Ints word = gather(b.seeing, words, b.voxel);
+  sums.rays += count(b.seeing);
+  for (int step = 0; any(b.seeing); ++step) {
+    mark(local.marks, b.seeing, b.voxel, resting_voxel);
+    const Ints word = gather(b.seeing, local.words, b.voxel);
     const Ints known = shift_right<kKnownShift>(word);
     known_sum = add(known_sum, known);
     visits += count(b.seeing);
@@ -301,14 +317,11 @@ void walk_bundle(Bundle b, float odds_power, ViewMaps& maps, RaySums& sums) {
     }
     const Ints t_exit = exit_time(b);
     if constexpr (kFull) {
-      measure(log_odds, b, word, known, occupied, t_exit, odds_power, metrics);
+      measure(local, b, word, known, occupied, t_exit, odds_power, step, metrics);
     }
     take_step(b, t_exit);
     b.seeing = without(b.seeing & b.moving, occupied);
-    if (++steps == kStepsPerFlush) {
-      flush(known_sum, known_wide);
-      steps = 0;
-    }
+    if (step % kStepsPerFlush == kStepsPerFlush - 1) flush(known_sum, known_wide);
   }
   flush(known_sum, known_wide);
   sums.visits += visits;
@@ -339,28 +352,37 @@ void tally_group(const ViewMaps& maps, std::size_t first, Mask marked, VoxelSums
   };
   list(has_bits(marked, word, static_cast<std::uint32_t>(VoxelState::occupied)), sums.occupied,
        sums.occupied_count);
-  if (sums.shadow != nullptr)
+  if (sums.shadow != nullptr) {
     list(has_bits(marked, word, kShadowBit), sums.shadow, sums.shadow_count);
+  }
 }
 
-void tally_row(const ViewMaps& maps, std::size_t first, std::size_t length, VoxelSums& sums) {
-  constexpr std::size_t kChunk = 64;
-  for (std::size_t at = first; at < first + length; at += kChunk) {
-    std::uint64_t marks[8];
-    __builtin_memcpy(marks, maps.marks + at, kChunk);
-    std::uint64_t some = 0;
-    for (const std::uint64_t eight : marks) some |= eight;
-    if (some == 0) continue;
-    Ints known_sum = all(0);
-    WideLanes known_wide;
-    for (std::size_t group = at; group < at + kChunk; group += kLaneCount) {
-      const Mask marked = nonzero_bytes(maps.marks + group);
-      if (any(marked)) tally_group(maps, group, marked, sums, known_sum);
+inline bool is_blank(const std::uint8_t* marks) {
+  std::uint64_t eights[kTallyChunk / 8];
+  __builtin_memcpy(eights, marks, kTallyChunk);
+  std::uint64_t some = 0;
+  for (const std::uint64_t eight : eights) some |= eight;
+  return some == 0;
+}
+
+void tally_plane(const ViewMaps& maps, const VoxelRows& rows, VoxelSums& sums) {
+  Ints known_sum = all(0);
+  WideLanes known_wide;
+  int chunks = 0;
+  for (std::size_t row = 0; row < rows.count; ++row) {
+    const std::size_t first = rows.first + row * rows.stride;
+    for (std::size_t at = first; at < first + rows.length; at += kTallyChunk) {
+      if (is_blank(maps.marks + at)) continue;
+      for (std::size_t group = at; group < at + kTallyChunk; group += kLaneCount) {
+        const Mask marked = nonzero_bytes(maps.marks + group);
+        if (any(marked)) tally_group(maps, group, marked, sums, known_sum);
+      }
+      __builtin_memset(maps.marks + at, 0, kTallyChunk);
+      if (++chunks % kChunksPerFlush == 0) flush(known_sum, known_wide);
     }
-    flush(known_sum, known_wide);
-    sums.known += sum_of(known_wide);
-    __builtin_memset(maps.marks + at, 0, kChunk);
   }
+  flush(known_sum, known_wide);
+  sums.known += sum_of(known_wide);
 }
 
 }  // namespace

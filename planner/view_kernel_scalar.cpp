@@ -12,6 +12,6 @@ namespace gnbv {
 extern const ViewKernels kViewKernelsScalar = {.prepare = prepare_rays,
                                                .walk_voxels = walk_rays<false>,
                                                .walk_full = walk_rays<true>,
-                                               .tally_row = tally_row};
+                                               .tally_plane = tally_plane};
 
 }  // namespace gnbv

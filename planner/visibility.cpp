@@ -96,25 +96,30 @@ KeyBox box_of(const GridGeometry& grid, const ViewRays& rays, const Isometry& T_
   return box;
 }
 
-/// Counts what was marked, row by row, and clears it. Returns the sum of steps behind the surface
-/// that proximity counts.
+/// Counts what was marked, plane by plane, and clears it. Returns the sum of steps behind the
+/// surface that proximity counts.
 double tally(const OccupancyGrid& grid, const ViewMaps& maps, const KeyBox& box,
              const ViewOptions& options, VisitMarks& marks, VoxelSums& sums) {
   const GridGeometry& geometry = grid.geometry();
   const bool counts_shadow = options.detail == ViewDetail::rays && options.shadow != nullptr;
-  marks.shadow_row.resize(static_cast<std::size_t>(geometry.size()[0]) + kMarkPadding);
-  sums.shadow = counts_shadow ? marks.shadow_row.data() : nullptr;
+  const auto extent = [&](std::size_t a) {
+    return static_cast<std::size_t>(std::max(box.high[a] - box.low[a] + 1, 0));
+  };
+  VoxelRows rows = {.first = 0,
+                    .length = extent(0),
+                    .stride = static_cast<std::size_t>(geometry.size()[0]),
+                    .count = extent(1)};
+  marks.shadow.resize(counts_shadow ? rows.stride * rows.count + kMarkPadding : 0);
+  sums.shadow = counts_shadow ? marks.shadow.data() : nullptr;
   std::int64_t shadow_voxels = 0;
   std::int64_t steps_behind = 0;
-  const auto length = static_cast<std::size_t>(std::max(box.high[0] - box.low[0] + 1, 0));
   for (std::int32_t z = box.low[2]; z <= box.high[2]; ++z) {
-    for (std::int32_t y = box.low[1]; y <= box.high[1]; ++y) {
-      sums.shadow_count = 0;
-      kernels().tally_row(maps, geometry.index_of({box.low[0], y, z}), length, sums);
-      shadow_voxels += static_cast<std::int64_t>(sums.shadow_count);
-      for (std::size_t i = 0; i < sums.shadow_count; ++i) {
-        steps_behind += options.shadow->steps_behind(static_cast<VoxelIndex>(sums.shadow[i]));
-      }
+    rows.first = geometry.index_of({box.low[0], box.low[1], z});
+    sums.shadow_count = 0;
+    kernels().tally_plane(maps, rows, sums);
+    shadow_voxels += static_cast<std::int64_t>(sums.shadow_count);
+    for (std::size_t i = 0; i < sums.shadow_count; ++i) {
+      steps_behind += options.shadow->steps_behind(static_cast<VoxelIndex>(sums.shadow[i]));
     }
   }
   if (!counts_shadow) return 0.0;

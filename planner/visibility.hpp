@@ -84,7 +84,7 @@ struct VisitMarks {
   std::vector<std::int32_t> prepared;        // PreparedRays
   std::vector<std::int32_t> predicted_ends;  // first predicted voxel of each ray
   std::vector<std::int32_t> occupied;        // seen
-  std::vector<std::int32_t> shadow_row;      // seen, of one row of the grid
+  std::vector<std::int32_t> shadow;          // seen, of one plane of the grid
 };
 
 /// How a view is looked at.
