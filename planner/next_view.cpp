@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "planner/candidate_stats.hpp"
 #include "planner/cluster_view.hpp"
 #include "planner/routes.hpp"
 #include "sim/core/parallel.hpp"
@@ -22,6 +23,7 @@ class Decider {
         bench_(bench),
         recent_(recent_views()),
         progress_(progress()),
+        frontier_density_(model.config.fvs.frontier.density_share * belief.cloud.density_max()),
         checker_(model.config.validity, model.navigation_m, belief.grid, recent_, current_) {}
 
   Plan decide() {
@@ -163,11 +165,14 @@ class Decider {
     parallel_for(bench_.threads, lanes, [&](std::size_t lane) {
       for (std::size_t i = lane; i < valid.size(); i += lanes) {
         Candidate& candidate = candidates[valid[i]];
-        ViewStats stats = evaluate_view(belief_.grid, belief_.cloud, model_.view_rays,
-                                        candidate.view, bench_.marks[lane]);
+        ViewStats stats = candidate_stats(model_.config.utility, belief_.grid, belief_.cloud,
+                                          belief_.shadow, frontier_density_, model_.view_rays,
+                                          candidate.view, bench_.marks[lane]);
         stats.density_max = belief_.cloud.density_max();
         stats.path_m = candidate.path_m;
-        const std::optional<Score> utility = score(model_.config.utility, stats);
+        const ScoreContext context = {
+            .seed = model_.seed, .iteration = history_.decisions.size(), .candidate = valid[i]};
+        const std::optional<Score> utility = score(model_.config.utility, stats, context);
         if (utility) {
           candidate.score = *utility;
         } else {
@@ -207,6 +212,7 @@ class Decider {
   Workbench& bench_;
   const std::vector<ViewPose> recent_;
   const Progress progress_;
+  const double frontier_density_;
   ViewChecker checker_;
   Plan plan_;
 };

@@ -21,17 +21,21 @@ double frustum_voxels(std::span<const CameraModel> cameras, double resolution_m)
 
 PlannerModel::PlannerModel(const PlannerConfig& planner_config, const Box3& workspace,
                            std::span<const CameraModel> camera_models,
-                           std::span<const LidarModel> lidar_models)
+                           std::span<const LidarModel> lidar_models, std::uint64_t mission_seed)
     : config(planner_config),
+      seed(mission_seed),
       workspace_m(workspace),
       navigation_m(navigation_box_m(planner_config.validity, workspace)),
       cameras(camera_models.begin(), camera_models.end()),
       lidars(lidar_models.begin(), lidar_models.end()),
       view_rays(make_view_rays(cameras, planner_config.map.resolution_m)),
-      view_voxels(frustum_voxels(cameras, planner_config.map.resolution_m)) {}
+      view_voxels(frustum_voxels(cameras, planner_config.map.resolution_m)),
+      needs_shadow(!is_route(config.utility.name) && needs_of(config.utility).shadow) {}
 
 Belief::Belief(const PlannerModel& model)
-    : grid(model.config.map, model.workspace_m), cloud(model.config.cloud, grid.geometry()) {}
+    : grid(model.config.map, model.workspace_m),
+      cloud(model.config.cloud, grid.geometry()),
+      shadow(model.config.utility.shadow, grid.geometry()) {}
 
 Workbench::Workbench(const PlannerModel& model, int thread_count)
     : threads(std::max(thread_count, 1)),
@@ -77,6 +81,7 @@ void integrate_view(const PlannerModel& model, std::span<const DepthFrame> frame
     belief.has_depth_return =
         belief.has_depth_return ||
         std::find(rays.kind.begin(), rays.kind.end(), PixelRay::hits) != rays.kind.end();
+    if (model.needs_shadow) belief.shadow.add(rays, belief.grid);
   }
   belief.cloud.add(bench.frame_rays, model.config.cloud.leaf_m);
 }

@@ -40,15 +40,18 @@ struct PlannerConfig {
 /// What the planner is given once: its settings and what it knows of vehicle and workspace.
 struct PlannerModel {
   PlannerModel(const PlannerConfig& config, const Box3& workspace_m,
-               std::span<const CameraModel> cameras, std::span<const LidarModel> lidars);
+               std::span<const CameraModel> cameras, std::span<const LidarModel> lidars,
+               std::uint64_t seed = 0);
 
   PlannerConfig config;
+  std::uint64_t seed;  // of what the planner leaves to chance
   Box3 workspace_m;
   Box3 navigation_m;
   std::vector<CameraModel> cameras;
   std::vector<LidarModel> lidars;
-  std::vector<ViewRay> view_rays;
+  ViewRays view_rays;
   double view_voxels;  // of the cameras' frusta together
+  bool needs_shadow;   // whether the utility asks for Belief::shadow
 };
 
 /// What is believed about the world, and all of it.
@@ -57,6 +60,7 @@ struct Belief {
 
   OccupancyGrid grid;
   SurfaceCloud cloud;
+  ShadowBand shadow;
   bool has_depth_return = false;  // any camera has seen a surface
 };
 
@@ -67,7 +71,7 @@ struct Workbench {
   int threads;
   ScanInserter inserter;
   std::vector<FrameRays> frame_rays;  // of the view at hand
-  std::vector<VisitMarks> marks;  // one a thread
+  std::vector<VisitMarks> marks;      // one a thread
   FrontierMarks frontier_marks;
 };
 

@@ -15,6 +15,9 @@ void set_paper(PlannerConfig& config) {
   config.fvs.views_per_layer = paper.fvs.views_per_layer;
   config.fvs.needs_visible_cluster = paper.fvs.needs_visible_cluster;
   config.validity.path = paper.validity.path;
+  config.utility.bircher_lambda_per_m = paper.utility.bircher_lambda_per_m;
+  config.utility.hit_voxel = paper.utility.hit_voxel;
+  config.utility.prediction_hides_hits = paper.utility.prediction_hides_hits;
 }
 
 void set_released(PlannerConfig& config) {
@@ -25,6 +28,9 @@ void set_released(PlannerConfig& config) {
   config.fvs.views_per_layer = 8;
   config.fvs.needs_visible_cluster = false;
   config.validity.path = PathCheck::unchecked;
+  config.utility.bircher_lambda_per_m = 0.5;
+  config.utility.hit_voxel = HitVoxel::excluded;
+  config.utility.prediction_hides_hits = true;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // How much a view is worth. Every formula scores the same ViewStats.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,30 +15,71 @@ namespace gnbv {
 /// ones (the formula to the letter).
 enum class DensityTerm { sparse, literal };
 
+/// How often bircher and isler count a voxel: once a ray that crosses it (released code), or once.
+enum class IgCounting { per_ray, unique };
+
+/// Whether bircher and isler count the occupied voxel that ends a ray; the released code does not,
+/// see released_slips.hpp.
+enum class HitVoxel { counted, excluded };
+
+/// What bircher_volume pays for a cubic metre of visible space.
+struct VolumeWeights {
+  double unmapped = 1.0;
+  double free = 0.0;
+  double occupied = 0.0;
+};
+
 /// The formula by name and the weights of Table 1, Scenario 1. Each formula takes what it needs.
 struct UtilityConfig {
   std::string name = "proposed";
   double alpha = 10.0;
   double beta = 0.5;
   double gamma = 0.5;
-  double lambda_per_m = 0.2;
+  double lambda_per_m = 0.2;          // proposed, bircher_volume, aep
+  double bircher_lambda_per_m = 0.2;  // bircher; 0.5 in the released configuration
   DensityTerm density_term = DensityTerm::sparse;
+  bool normalise_weights = true;  // beta and gamma divided by their sum (released code)
+  IgCounting ig_counting = IgCounting::per_ray;
+  HitVoxel hit_voxel = HitVoxel::counted;
+  bool prediction_hides_hits = false;  // slip of the released code, see released_slips.hpp
+  bool legacy_visibility = false;      // see ViewOptions
+  VolumeWeights volume_weights = {};
+  ShadowConfig shadow = {};
+};
+
+/// What a random choice is keyed by. Nothing else reads it.
+struct ScoreContext {
+  std::uint64_t seed = 0;
+  std::uint64_t iteration = 0;
+  std::uint64_t candidate = 0;  // index among those sampled
 };
 
 /// A value with the terms it is made of. Terms that a formula lacks are 0, the distance factor 1.
 struct Score {
   double value = 0.0;
-  double information = 0.0;  // E hat of Eq. (2), or nat along rays
+  double information = 0.0;  // E hat of Eq. (2), or the gain before any discount
   double density = 0.0;      // D hat
   double prediction = 0.0;   // P hat
   double distance = 1.0;     // exp(-lambda d)
 };
 
-/// The formulas by name, in the order of the paper's tables.
+/// What a formula asks of evaluate_view().
+struct UtilityNeeds {
+  ViewDetail detail = ViewDetail::voxels;
+  bool shadow = false;             // a ShadowBand
+  bool refuses_blind = false;      // no score for views that see nothing occupied (released code)
+  bool released_baseline = false;  // hit_voxel is for it
+};
+
+/// The formulas by name, those of the paper's tables first.
 std::vector<std::string_view> utility_names();
 
-/// Scores with the formula that `config` names. Nothing for a view that sees no occupied voxel
-/// (released code: "must see occupied"). Requires a name of utility_names().
-std::optional<Score> score(const UtilityConfig& config, const ViewStats& stats);
+/// Requires a name of utility_names().
+UtilityNeeds needs_of(const UtilityConfig& config);
+
+/// Scores with the formula that `config` names. Nothing for a view that sees no occupied voxel and
+/// a formula that refuses those. Requires a name of utility_names().
+std::optional<Score> score(const UtilityConfig& config, const ViewStats& stats,
+                           const ScoreContext& context = {});
 
 }  // namespace gnbv

@@ -179,6 +179,8 @@ void fields(FieldVisitor& v, FrontierConfig& c);
 void fields(FieldVisitor& v, FvsConfig& c);
 void fields(FieldVisitor& v, PathSearchConfig& c);
 void fields(FieldVisitor& v, ValidityConfig& c);
+void fields(FieldVisitor& v, VolumeWeights& c);
+void fields(FieldVisitor& v, ShadowConfig& c);
 void fields(FieldVisitor& v, UtilityConfig& c);
 void fields(FieldVisitor& v, RouteConfig& c);
 void fields(FieldVisitor& v, SymmetryConfig& c);

@@ -14,6 +14,10 @@ constexpr std::array<Named<PathCheck>, 3> kPathChecks = {{{PathCheck::straight, 
                                                           {PathCheck::unchecked, "unchecked"}}};
 constexpr std::array<Named<DensityTerm>, 2> kDensityTerms = {
     {{DensityTerm::sparse, "sparse"}, {DensityTerm::literal, "literal"}}};
+constexpr std::array<Named<IgCounting>, 2> kIgCountings = {
+    {{IgCounting::per_ray, "per_ray"}, {IgCounting::unique, "unique"}}};
+constexpr std::array<Named<HitVoxel>, 2> kHitVoxels = {
+    {{HitVoxel::counted, "counted"}, {HitVoxel::excluded, "excluded"}}};
 
 }  // namespace
 
@@ -109,6 +113,17 @@ void fields(FieldVisitor& v, ValidityConfig& c) {
   v.section("path_search", c.path_search, "The search for a way around.");
 }
 
+void fields(FieldVisitor& v, VolumeWeights& c) {
+  constexpr Range kWeight = between(0, 1e9);
+  v.number("unmapped", c.unmapped, kWeight, "A cubic metre of unknown space.");
+  v.number("free", c.free, kWeight, "A cubic metre of free space.");
+  v.number("occupied", c.occupied, kWeight, "A cubic metre of occupied space.");
+}
+
+void fields(FieldVisitor& v, ShadowConfig& c) {
+  v.number("shadow_depth_m", c.shadow_depth_m, above_upto(0, 100), "Behind a hit, along its ray.");
+}
+
 void fields(FieldVisitor& v, UtilityConfig& c) {
   constexpr Range kWeight = between(0, 1e9);
   std::vector<std::string_view> names = utility_names();
@@ -120,6 +135,19 @@ void fields(FieldVisitor& v, UtilityConfig& c) {
   v.number("lambda_per_m", c.lambda_per_m, kWeight, "Decay with distance, Eq. (2).");
   v.choice("density_term", c.density_term, kDensityTerms,
            "sparse: reward thinly sampled surface; literal: Eq. (2) as printed.");
+  v.number("bircher_lambda_per_m", c.bircher_lambda_per_m, kWeight,
+           "bircher: decay with distance; 0.5 in the released configuration.");
+  v.flag("normalise_weights", c.normalise_weights, "Divide beta and gamma by their sum.");
+  v.choice("ig_counting", c.ig_counting, kIgCountings,
+           "bircher, isler: a voxel counts once a ray that crosses it, or once.");
+  v.choice("hit_voxel", c.hit_voxel, kHitVoxels,
+           "bircher, isler: whether the voxel that ends a ray counts; excluded: released slip.");
+  v.flag("prediction_hides_hits", c.prediction_hides_hits,
+         "A hit counts only where the prediction was hit too; released slip.");
+  v.flag("legacy_visibility", c.legacy_visibility,
+         "Visibility multiplies P instead of 1 - P, as the released code of Delmerico et al.");
+  v.section("volume_weights", c.volume_weights, "bircher_volume: worth of visible space.");
+  v.section("shadow", c.shadow, "proximity_count, area_factor: what lies behind seen surface.");
 }
 
 void fields(FieldVisitor& v, RouteConfig& c) {

@@ -47,8 +47,7 @@ void check_sensors(const Scenario& s, Problems& out) {
                   key + "range_max_m", out);
   }
   const ProfilingMethod profiling = s.planner.profiling.method;
-  const bool is_scanned =
-      profiling != ProfilingMethod::none && profiling != ProfilingMethod::saved;
+  const bool is_scanned = profiling != ProfilingMethod::none && profiling != ProfilingMethod::saved;
   if (s.lidars.empty() && is_scanned) {
     out.push_back({{"lidars", "planner.profiling.method"}, "the profile needs a LIDAR to scan it"});
   }

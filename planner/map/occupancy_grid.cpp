@@ -118,6 +118,12 @@ bool OccupancyGrid::predict(VoxelIndex v) {
   return true;
 }
 
+bool OccupancyGrid::shade(VoxelIndex v) {
+  if (is_measured(v)) return false;
+  words_[v] |= kShadowBit;
+  return true;
+}
+
 void OccupancyGrid::apply(const ScanUpdate& update) {
   for (const VoxelIndex v : update.free) add_log_odds(v, miss_log_);
   for (const VoxelIndex v : update.occupied) add_log_odds(v, hit_log_);

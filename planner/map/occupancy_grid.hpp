@@ -71,6 +71,11 @@ class OccupancyGrid {
   bool is_predicted(VoxelIndex v) const { return (words_[v] & kPredictedBit) != 0; }
   std::size_t predicted_count() const { return predicted_count_; }
 
+  /// Marks the voxel as within the shadow band (shadow_band.hpp) unless it has been measured; the
+  /// first measurement takes the mark away. Returns whether it is marked now.
+  bool shade(VoxelIndex v);
+  bool is_shaded(VoxelIndex v) const { return (words_[v] & kShadowBit) != 0; }
+
   /// Rows for the hot loops; index with VoxelIndex.
   std::span<const VoxelWord> words() const { return words_.span(); }
   std::span<const float> all_log_odds() const { return log_odds_.span(); }

@@ -11,11 +11,12 @@ enum class VoxelState : std::uint8_t { unknown = 0, free = 1, occupied = 2 };
 using VoxelWord = std::uint32_t;
 
 // bits 0-1: VoxelState; bit 2: any scan touched it; bit 3: predicted to be surface by symmetry,
-// which is dropped with the first measurement; bits 4-7: 0; bits 8-31: what is already known of it,
-// ln 2 minus Eq. (1), in units of 2^-24 nat
+// bit 4: within the shadow band behind a surface; both are dropped with the first measurement;
+// bits 5-7: 0; bits 8-31: what is already known of it, ln 2 minus Eq. (1), in units of 2^-24 nat
 constexpr VoxelWord kStateMask = 3U;
 constexpr VoxelWord kMeasuredBit = 4U;
 constexpr VoxelWord kPredictedBit = 8U;
+constexpr VoxelWord kShadowBit = 16U;
 constexpr unsigned kKnownShift = 8;
 constexpr std::uint32_t kLn2Units = 11629080;  // ln 2 in 2^-24 nat; exactly float32's ln 2
 constexpr double kEntropyUnit_nat = 0x1p-24;

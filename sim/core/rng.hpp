@@ -16,6 +16,7 @@ enum class Stream : std::uint64_t {
   bench = 4,
   pose_noise = 5,
   lateral_noise = 6,
+  random_view = 7,
 };
 
 struct RandomKey {

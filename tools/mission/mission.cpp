@@ -43,7 +43,7 @@ struct Mission {
         scene(ray_scene),
         hooks(mission_hooks),
         planner(scenario.planner, scenario.workspace_m, camera_models(scenario),
-                lidar_models(scenario)),
+                lidar_models(scenario), scenario.seed),
         bench(planner, threads),
         out(start_pose(scenario, scene), planner),
         flight(make_flight(scenario.vehicle, world, out.start, scenario.seed)),

@@ -1,0 +1,39 @@
+// Candidate evaluation as the paper's code does it, on a plain octomap::OcTree: cast the ray, list
+// its keys, keep them in a set, search the tree for every voxel. Slow, and trusted.
+#pragma once
+
+#include <memory>
+
+#include "planner/visibility.hpp"
+
+namespace gnbv {
+
+/// Voxels that a view sees, each once.
+struct ViewCounts {
+  std::int64_t free = 0;
+  std::int64_t occupied = 0;
+  std::int64_t unknown = 0;
+};
+
+class PaperViewTwin {
+ public:
+  /// Copies what the grid has measured into a tree.
+  explicit PaperViewTwin(const OccupancyGrid& grid);
+  ~PaperViewTwin();
+  PaperViewTwin(PaperViewTwin&&) noexcept;
+  PaperViewTwin& operator=(PaperViewTwin&&) noexcept;
+
+  /// A ray that hits something is listed to the centre of the voxel it hit, as in the paper's code,
+  /// so that the voxels before it may differ from those of the ray itself.
+  ViewCounts evaluate(const ViewRays& rays, const ViewPose& candidate) const;
+
+ private:
+  struct Tree;
+  std::unique_ptr<Tree> tree_;
+};
+
+/// The voxels that evaluate_view() is to count, by OctoMap's float64 walk.
+ViewCounts exact_view_counts(const OccupancyGrid& grid, const ViewRays& rays,
+                             const ViewPose& candidate);
+
+}  // namespace gnbv

@@ -1,0 +1,39 @@
+// The unmeasured voxels just behind what was seen of the surface, where more of it is likely
+// (proximity count and area factor: Delmerico et al. 2018; Vasquez-Gomez et al. 2014).
+#pragma once
+
+#include <cstdint>
+
+#include "planner/map/frame_rays.hpp"
+#include "planner/map/occupancy_grid.hpp"
+
+namespace gnbv {
+
+/// Depth of the band behind a hit, along its ray. Default: the launch file of the released code of
+/// Delmerico et al.
+struct ShadowConfig {
+  double shadow_depth_m = 0.3;
+};
+
+/// For each voxel the smallest number of steps, 1 or more, from the voxel of a hit along the ray
+/// through it. Only voxels that are unmeasured count; the grid keeps which (is_shaded).
+class ShadowBand {
+ public:
+  /// Throws BadInput naming shadow_depth_m when it is not between 0 and 80 voxels.
+  ShadowBand(const ShadowConfig& config, const GridGeometry& grid);
+
+  /// Extends the hits of a frame that the grid has already been given.
+  void add(const FrameRays& rays, OccupancyGrid& grid);
+
+  /// Steps behind the surface; 0 for a voxel in no shadow. Holds while grid.is_shaded(v).
+  int steps_behind(VoxelIndex v) const { return steps_[v]; }
+  /// delta_max of the proximity count: 2 depth / resolution.
+  double steps_max() const { return steps_max_; }
+
+ private:
+  double shadow_depth_m_;
+  double steps_max_;
+  ZeroedArray<std::uint8_t> steps_;
+};
+
+}  // namespace gnbv

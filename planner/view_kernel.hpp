@@ -1,0 +1,117 @@
+// The hot loops of visibility.cpp, compiled once for each SimdLevel. Plain structs and raw pointers
+// only: a unit compiled for AVX that emitted a shared inline function could hand it to processors
+// without AVX.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace gnbv {
+
+/// Times along a ray are integers: kRayEnd is the end of the ray. Sums of them are exact, so every
+/// level walks the same voxels, and a step out of the grid is seen before it is taken.
+constexpr std::int32_t kRayEnd = 1 << 29;
+constexpr std::int32_t kNeverReached = (1 << 30) - 1;
+
+/// A camera of the candidate view, as the walk needs it. Axes x, y, z.
+struct RayFanFrame {
+  double R[3][3];     // world from body
+  double t_m[3];      // of the body
+  float origin_m[3];  // of the camera, inside the grid
+  std::int32_t origin_key[3];
+  double to_upper_border_m[3];  // see RayOrigin
+  double to_lower_border_m[3];
+  std::int32_t steps_up[3];  // voxels of the grid beyond the origin's
+  std::int32_t steps_down[3];
+  std::int32_t stride[3];  // change of VoxelIndex with a step up
+  std::int32_t origin_voxel;
+  double resolution_m;
+  double inverse_resolution;
+};
+
+/// The rays of one camera made ready, in columns; `count` is a multiple of kRayPadding.
+constexpr std::size_t kRayPadding = 16;
+struct PreparedRays {
+  std::size_t count;
+  std::int32_t* t_next[3];   // when the ray crosses the next border of each axis
+  std::int32_t* t_voxel[3];  // and how long it takes from there to the one after
+  std::int32_t* move[3];     // change of VoxelIndex
+  std::int32_t* t_leave;     // when it leaves the grid
+  std::int32_t* voxels;      // to visit before range ends; 0 for padding
+};
+
+/// Turns the ends of `rays.count` rays (columns, body frame) into steps through the grid.
+using PrepareRays = void (*)(const RayFanFrame& frame, const double* const end_body_m[3],
+                             const PreparedRays& rays);
+
+/// What the walk reads and writes. `marks` has kMarkPadding bytes beyond the voxels, and is zero
+/// between views.
+constexpr std::size_t kMarkPadding = 128;
+struct ViewMaps {
+  const std::uint32_t* words;  // VoxelWord
+  const float* log_odds;
+  std::uint8_t* marks;
+  std::int32_t resting_voxel;  // where rays that have ended mark: in the padding
+  std::int32_t* predicted;     // first predicted voxel of each ray that has one
+  std::size_t predicted_count;
+};
+
+/// Sums over the rays, in integers: the order of the rays leaves no trace.
+struct RaySums {
+  std::int64_t visits;  // voxels, once per ray
+  std::int64_t known;   // sum over visits of ln 2 - entropy, 2^-24 nat
+  // ---- of the full walk
+  std::int64_t rays;
+  std::int64_t rays_occupied;
+  std::int64_t visits_occupied;  // of the rays that end occupied
+  std::int64_t known_occupied;
+  std::int64_t rear_side_rays;
+  std::int64_t shadow_rays;
+  std::int64_t front_rays;
+  // sums of P_v H, 2^-24 nat; of one ray they stay below 1 - ln(1 - P) < 40 nat and fit 32 bits
+  std::int64_t occlusion_aware;
+  std::int64_t unobserved;
+  std::int64_t rear_side;
+  std::int64_t unknown_share;  // sum over rays of the unknown share of the pyramid, 2^-30
+};
+
+/// Walks prepared rays that start in one voxel. `odds_power` is log2(e), negative for the legacy
+/// visibility; only the full walk reads it.
+using WalkRays = void (*)(const PreparedRays& rays, std::int32_t origin_voxel, float odds_power,
+                          ViewMaps& maps, RaySums& sums);
+
+/// Sums over the marked voxels, each once.
+struct VoxelSums {
+  std::int64_t visited;
+  std::int64_t free;
+  std::int64_t known;  // as in RaySums
+  std::int32_t* occupied;
+  std::size_t occupied_count;
+  std::int32_t* shadow;  // voxels in a shadow; nothing is written when null
+  std::size_t shadow_count;
+};
+
+/// Voxels first + row * stride + [0, length), for each row.
+struct VoxelRows {
+  std::size_t first;
+  std::size_t length;
+  std::size_t stride;
+  std::size_t count;
+};
+
+/// Counts the marked voxels of the rows and clears their marks. May also count and clear up to 63
+/// voxels after a row.
+using TallyPlane = void (*)(const ViewMaps& maps, const VoxelRows& rows, VoxelSums& sums);
+
+struct ViewKernels {
+  PrepareRays prepare;
+  WalkRays walk_voxels;
+  WalkRays walk_full;
+  TallyPlane tally_plane;
+};
+
+extern const ViewKernels kViewKernelsScalar;
+extern const ViewKernels kViewKernelsAvx2;
+extern const ViewKernels kViewKernelsAvx512;
+
+}  // namespace gnbv

@@ -1,0 +1,389 @@
+// The kernels of view_kernel.hpp in terms of lanes: included by one unit for each SimdLevel, after
+// the lanes of that level. Every level does the same float32 operations in the same order per ray.
+
+namespace gnbv {
+namespace {
+
+constexpr std::size_t kLaneCount = static_cast<std::size_t>(kLanes);
+constexpr std::size_t kTallyChunk = 64;
+constexpr int kChunksPerFlush = 256 * kLanes / 64;
+constexpr int kStepsPerFlush = 256;  // 369 steps of ln 2 overflow a lane of 32 bits
+
+// ---- making ready ------------------------------------------------------------------------------
+
+/// floor, for |x| < 2^31.
+inline std::int32_t floor_of(double x) {
+  const auto truncated = static_cast<std::int32_t>(x);
+  return truncated - static_cast<std::int32_t>(x < static_cast<double>(truncated));
+}
+
+struct AxisSteps {
+  std::int32_t t_next;
+  std::int32_t t_voxel;
+  std::int32_t move;
+  double t_leave;
+  std::int32_t crossings;  // of borders within the ray
+};
+
+/// One axis of make_ray_steps() (ray_walk.hpp), rounded to integer times at the end.
+inline AxisSteps axis_steps(const RayFanFrame& f, int axis, float direction, double length_m) {
+  const auto d = static_cast<double>(direction);
+  const bool up = d > 0.0;
+  const bool moves = up || d < 0.0;
+  const double along_m = (up ? d : -d) * length_m;
+  const double border_m = up ? f.to_upper_border_m[axis] : -f.to_lower_border_m[axis];
+  constexpr double kEnd = static_cast<double>(kRayEnd);
+  constexpr double kNever = static_cast<double>(kNeverReached);
+  const double time_per_m = kEnd / (moves ? along_m : 1.0);
+  const double next = border_m * time_per_m;
+  const double voxel = f.resolution_m * time_per_m;
+  AxisSteps steps;
+  steps.t_next = static_cast<std::int32_t>((moves && next < kNever ? next : kNever) + 0.5);
+  steps.t_voxel = static_cast<std::int32_t>((moves && voxel < kNever ? voxel : kNever) + 0.5);
+  steps.move = up ? f.stride[axis] : -f.stride[axis];
+  const std::int32_t inside = up ? f.steps_up[axis] : f.steps_down[axis];
+  steps.t_leave = static_cast<double>(steps.t_next) +
+                  static_cast<double>(inside) * static_cast<double>(steps.t_voxel);
+  const double rest_m = along_m - border_m;
+  const auto after_first =
+      static_cast<std::int32_t>((rest_m > 0.0 ? rest_m : 0.0) * f.inverse_resolution);
+  steps.crossings = moves && next <= kEnd ? after_first + 1 : 0;
+  return steps;
+}
+
+inline double smaller(double a, double b) { return a < b ? a : b; }
+inline std::int32_t distance(std::int32_t a, std::int32_t b) { return a < b ? b - a : a - b; }
+
+void prepare_rays(const RayFanFrame& frame, const double* const end_body_m[3],
+                  const PreparedRays& rays) {
+  const RayFanFrame f = frame;
+  const double* const bx = end_body_m[0];
+  const double* const by = end_body_m[1];
+  const double* const bz = end_body_m[2];
+  const PreparedRays out = rays;
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < out.count; ++i) {
+    const auto ex = static_cast<float>(f.R[0][0] * bx[i] + f.R[0][1] * by[i] + f.t_m[0]);
+    const auto ey = static_cast<float>(f.R[1][0] * bx[i] + f.R[1][1] * by[i] + f.t_m[1]);
+    const auto ez = static_cast<float>(f.R[2][2] * bz[i] + f.t_m[2]);
+    const float fx = ex - f.origin_m[0];
+    const float fy = ey - f.origin_m[1];
+    const float fz = ez - f.origin_m[2];
+    // as octomap::Vector3::norm
+    const float length_m = __builtin_sqrtf(fx * fx + fy * fy + fz * fz);
+    const auto length64_m = static_cast<double>(length_m);
+    const AxisSteps x = axis_steps(f, 0, fx / length_m, length64_m);
+    const AxisSteps y = axis_steps(f, 1, fy / length_m, length64_m);
+    const AxisSteps z = axis_steps(f, 2, fz / length_m, length64_m);
+    // the walk ends before the voxel with the end, unless rounding leads past it
+    const std::int32_t to_end =
+        distance(floor_of(f.inverse_resolution * static_cast<double>(ex)), f.origin_key[0]) +
+        distance(floor_of(f.inverse_resolution * static_cast<double>(ey)), f.origin_key[1]) +
+        distance(floor_of(f.inverse_resolution * static_cast<double>(ez)), f.origin_key[2]);
+    const std::int32_t crossings = x.crossings + y.crossings + z.crossings;
+    const std::int32_t within = crossings > 1 ? crossings : 1;
+    const double t_leave = smaller(smaller(x.t_leave, y.t_leave),
+                                   smaller(z.t_leave, static_cast<double>(kNeverReached)));
+    out.t_next[0][i] = x.t_next;
+    out.t_next[1][i] = y.t_next;
+    out.t_next[2][i] = z.t_next;
+    out.t_voxel[0][i] = x.t_voxel;
+    out.t_voxel[1][i] = y.t_voxel;
+    out.t_voxel[2][i] = z.t_voxel;
+    out.move[0][i] = x.move;
+    out.move[1][i] = y.move;
+    out.move[2][i] = z.move;
+    out.t_leave[i] = static_cast<std::int32_t>(t_leave);
+    out.voxels[i] = to_end < within ? to_end : within;
+  }
+}
+
+// ---- walking -----------------------------------------------------------------------------------
+
+/// Where the rays of a bundle are. `moving` rays are inside the grid and their range; `seeing`
+/// ones have met nothing occupied either. Rays that stopped seeing move on, so that no step has to
+/// wait for what the map says of the one before.
+struct Bundle {
+  Ints t_next[3];
+  Ints t_voxel[3];
+  Ints move[3];
+  Ints t_leave;
+  Ints voxels_left;
+  Ints voxel;
+  Mask moving;
+  Mask seeing;
+};
+
+inline Bundle load_bundle(const PreparedRays& rays, std::size_t first, std::int32_t origin_voxel) {
+  Bundle b;
+  for (int a = 0; a < 3; ++a) {
+    b.t_next[a] = load(rays.t_next[a] + first);
+    b.t_voxel[a] = load(rays.t_voxel[a] + first);
+    b.move[a] = load(rays.move[a] + first);
+  }
+  b.t_leave = load(rays.t_leave + first);
+  b.voxels_left = load(rays.voxels + first);
+  b.voxel = all(origin_voxel);
+  b.moving = less(every_lane(), all(0), b.voxels_left);
+  b.seeing = b.moving;
+  return b;
+}
+
+/// When the rays leave their voxels.
+inline Ints exit_time(const Bundle& b) { return min(b.t_next[0], min(b.t_next[1], b.t_next[2])); }
+
+/// Takes every moving ray into its next voxel. Of equal times the later axis goes first, as in
+/// walk_ray().
+inline void take_step(Bundle& b, Ints t_exit) {
+  b.voxels_left = sub(b.voxels_left, all(1));
+  b.moving = less(less(b.moving, all(0), b.voxels_left), t_exit, b.t_leave);
+  const Mask z = equal(b.moving, b.t_next[2], t_exit);
+  const Mask not_z = without(b.moving, z);
+  const Mask y = equal(not_z, b.t_next[1], t_exit);
+  const Mask x = without(not_z, y);
+  b.t_next[0] = add_where(x, b.t_next[0], b.t_voxel[0]);
+  b.t_next[1] = add_where(y, b.t_next[1], b.t_voxel[1]);
+  b.t_next[2] = add_where(z, b.t_next[2], b.t_voxel[2]);
+  b.voxel = add_where(x, b.voxel, b.move[0]);
+  b.voxel = add_where(y, b.voxel, b.move[1]);
+  b.voxel = add_where(z, b.voxel, b.move[2]);
+}
+
+inline void mark(std::uint8_t* marks, Mask seeing, Ints voxel, Ints resting_voxel) {
+  alignas(64) std::int32_t at[kLaneCount];
+  store(at, select(seeing, voxel, resting_voxel));
+  // through memory: the compiler would take the lanes out of the register, at twice the cost
+  __asm__("" : "+m"(at));
+  for (std::size_t lane = 0; lane < kLaneCount; ++lane) {
+    marks[static_cast<std::uint32_t>(at[lane])] = 1;
+  }
+}
+
+inline void list_voxels(Mask which, Ints voxel, std::int32_t* list, std::size_t& count) {
+  alignas(64) std::int32_t at[kLaneCount];
+  store(at, voxel);
+  for (std::uint32_t left = bits(which); left != 0; left &= left - 1) {
+    list[count++] = at[__builtin_ctz(left)];
+  }
+}
+
+/// Sums of 32-bit lanes that may not overflow.
+struct WideLanes {
+  std::int64_t lane[kLaneCount] = {};
+};
+inline void flush(Ints& sum, WideLanes& wide) {
+  alignas(64) std::int32_t part[kLaneCount];
+  store(part, sum);
+  for (std::size_t i = 0; i < kLaneCount; ++i) {
+    wide.lane[i] += static_cast<std::int64_t>(static_cast<std::uint32_t>(part[i]));
+  }
+  sum = all(0);
+}
+inline std::int64_t sum_of(const WideLanes& wide) {
+  std::int64_t sum = 0;
+  for (std::size_t i = 0; i < kLaneCount; ++i) sum += wide.lane[i];
+  return sum;
+}
+
+/// What the full walk keeps of each ray.
+struct RayMetrics {
+  Floats visibility = all(1.0F);  // P_v
+  Floats occlusion_aware = all(0.0F);
+  Floats unobserved = all(0.0F);
+  Floats unknown_run = all(0.0F);  // P_v H since the last known voxel
+  Floats rear_side = all(0.0F);
+  Floats volume = all(0.0F);  // sum of cubes of times, over the unknown voxels
+  Ints t_enter = all(0);
+  Ints visits = all(0);  // of the rays that hit
+  Mask after_unknown = no_lane();
+  Mask hit = no_lane();
+  Mask rear_hit = no_lane();
+  Mask front_hit = no_lane();
+  Mask shadow = no_lane();
+};
+
+/// 1 / (1 + e^l) = 1 - P, from x = l log2(e). Within 2e-6 for every x.
+inline Floats free_probability(Floats x) {
+  constexpr float kRounder = 12582912.0F;  // 1.5 * 2^23: its neighbours are the integers
+  const Floats bounded = min(max(x, all(-100.0F)), all(100.0F));
+  const Floats shifted = add(bounded, all(kRounder));
+  const Floats r = sub(bounded, sub(shifted, all(kRounder)));
+  // 2^r for |r| <= 0.5, relative error 3e-6
+  Floats power = all(0.00958285388F);
+  power = add(mul(power, r), all(0.0559064336F));
+  power = add(mul(power, r), all(0.240240991F));
+  power = add(mul(power, r), all(0.693124175F));
+  power = add(mul(power, r), all(1.0F));
+  const Floats odds = floats_of(add(bits_of(power), shift_left<23>(bits_of(shifted))));
+  return div(all(1.0F), add(all(1.0F), odds));
+}
+
+inline Floats cube(Ints t) {
+  const Floats f = to_floats(t);
+  return mul(mul(f, f), f);
+}
+
+/// Rays that meet a surface at their voxel number `step`, from 0.
+inline void measure_hits(Mask occupied, Floats visible, int step, RayMetrics& m) {
+  const Mask rear = occupied & m.after_unknown;
+  m.rear_side = select(rear, add(m.unknown_run, visible), m.rear_side);
+  m.rear_hit = m.rear_hit | rear;
+  if (step > 0) m.front_hit = m.front_hit | without(occupied, rear);
+  m.hit = m.hit | occupied;
+  m.visits = select(occupied, all(step + 1), m.visits);
+}
+
+inline void measure_unknown(Mask unknown, Ints word, Floats visible, Ints t_exit, RayMetrics& m) {
+  m.unobserved = add_where(unknown, m.unobserved, visible);
+  m.unknown_run = select(unknown, add(m.unknown_run, visible), all(0.0F));
+  m.volume = add_where(unknown, m.volume, sub(cube(t_exit), cube(m.t_enter)));
+  m.shadow = m.shadow | has_bits(unknown, word, kShadowBit);
+}
+
+/// Adds the voxels at hand. The branches only skip what would change nothing.
+inline void measure(const ViewMaps& maps, const Bundle& b, Ints word, Ints known, Mask occupied,
+                    Ints t_exit, float odds_power, int step, RayMetrics& m) {
+  const Mask unknown = has_not_bits(b.seeing, word, kStateMask);
+  const Floats entropy = to_floats(sub(all(static_cast<std::int32_t>(kLn2Units)), known));
+  const Floats visible = mul(m.visibility, entropy);
+  m.occlusion_aware = add_where(b.seeing, m.occlusion_aware, visible);
+  if (any(occupied)) measure_hits(occupied, visible, step, m);
+  if (any(unknown)) {
+    measure_unknown(unknown, word, visible, t_exit, m);
+  } else {
+    m.unknown_run = all(0.0F);
+  }
+  m.after_unknown = unknown;
+  m.t_enter = t_exit;
+  const Mask measured = has_bits(b.seeing, word, kMeasuredBit);
+  Floats factor = all(0.5F);  // of log-odds 0
+  if (any(measured)) {
+    const Floats log_odds = gather(measured, maps.log_odds, b.voxel);
+    factor = free_probability(mul(log_odds, all(odds_power)));
+  }
+  // below 2^-60 it adds nothing, and what follows from it would be denormal and slow
+  m.visibility = max(mul(m.visibility, factor), all(0x1p-60F));
+}
+
+inline std::int64_t sum_lanes(Ints a) {
+  alignas(64) std::int32_t part[kLaneCount];
+  store(part, a);
+  std::int64_t sum = 0;
+  for (std::size_t i = 0; i < kLaneCount; ++i) sum += part[i];
+  return sum;
+}
+
+/// Rounded ray by ray, so that their order leaves no trace.
+inline std::int64_t sum_rounded(Floats a) { return sum_lanes(to_ints(a)); }
+
+void add_rays(const RayMetrics& m, const WideLanes& known, RaySums& sums) {
+  constexpr float kCubeShare = 0x1p-57F;  // times are 2^-29 of the ray, shares 2^-30
+  sums.rays_occupied += count(m.hit);
+  sums.rear_side_rays += count(m.rear_hit);
+  sums.shadow_rays += count(m.shadow);
+  sums.front_rays += count(without(m.front_hit, m.shadow));
+  sums.visits_occupied += sum_lanes(m.visits);
+  sums.occlusion_aware += sum_rounded(m.occlusion_aware);
+  sums.unobserved += sum_rounded(m.unobserved);
+  sums.rear_side += sum_rounded(m.rear_side);
+  sums.unknown_share += sum_rounded(mul(m.volume, all(kCubeShare)));
+  for (std::uint32_t left = bits(m.hit); left != 0; left &= left - 1) {
+    sums.known_occupied += known.lane[__builtin_ctz(left)];
+  }
+}
+
+template <bool kFull>
+void walk_bundle(Bundle b, float odds_power, ViewMaps& maps, RaySums& sums) {
+  const ViewMaps local = maps;  // a mark might be any byte in memory to the compiler
+  const Ints resting_voxel = all(local.resting_voxel);
+  RayMetrics metrics;
+  Ints known_sum = all(0);
+  WideLanes known_wide;
+  Mask foresees = b.seeing;  // rays that have met no predicted voxel
+  std::int64_t visits = 0;
+  sums.rays += count(b.seeing);
+  for (int step = 0; any(b.seeing); ++step) {
+    mark(local.marks, b.seeing, b.voxel, resting_voxel);
+    const Ints word = gather(b.seeing, local.words, b.voxel);
+    const Ints known = shift_right<kKnownShift>(word);
+    known_sum = add(known_sum, known);
+    visits += count(b.seeing);
+    const Mask occupied =
+        has_bits(b.seeing, word, static_cast<std::uint32_t>(VoxelState::occupied));
+    const Mask predicted = has_bits(b.seeing & foresees, word, kPredictedBit);
+    if (any(predicted)) {
+      list_voxels(predicted, b.voxel, maps.predicted, maps.predicted_count);
+      foresees = without(foresees, predicted);
+    }
+    const Ints t_exit = exit_time(b);
+    if constexpr (kFull) {
+      measure(local, b, word, known, occupied, t_exit, odds_power, step, metrics);
+    }
+    take_step(b, t_exit);
+    b.seeing = without(b.seeing & b.moving, occupied);
+    if (step % kStepsPerFlush == kStepsPerFlush - 1) flush(known_sum, known_wide);
+  }
+  flush(known_sum, known_wide);
+  sums.visits += visits;
+  sums.known += sum_of(known_wide);
+  if constexpr (kFull) add_rays(metrics, known_wide, sums);
+}
+
+template <bool kFull>
+void walk_rays(const PreparedRays& rays, std::int32_t origin_voxel, float odds_power,
+               ViewMaps& maps, RaySums& sums) {
+  for (std::size_t first = 0; first < rays.count; first += kLaneCount) {
+    walk_bundle<kFull>(load_bundle(rays, first, origin_voxel), odds_power, maps, sums);
+  }
+}
+
+// ---- counting ----------------------------------------------------------------------------------
+
+void tally_group(const ViewMaps& maps, std::size_t first, Mask marked, VoxelSums& sums,
+                 Ints& known_sum) {
+  const Ints word = load_where(marked, maps.words + first);
+  known_sum = add(known_sum, shift_right<kKnownShift>(word));
+  sums.visited += count(marked);
+  sums.free += count(has_bits(marked, word, static_cast<std::uint32_t>(VoxelState::free)));
+  const auto list = [&](Mask which, std::int32_t* out, std::size_t& out_count) {
+    for (std::uint32_t left = bits(which); left != 0; left &= left - 1) {
+      out[out_count++] = static_cast<std::int32_t>(first) + __builtin_ctz(left);
+    }
+  };
+  list(has_bits(marked, word, static_cast<std::uint32_t>(VoxelState::occupied)), sums.occupied,
+       sums.occupied_count);
+  if (sums.shadow != nullptr) {
+    list(has_bits(marked, word, kShadowBit), sums.shadow, sums.shadow_count);
+  }
+}
+
+inline bool is_blank(const std::uint8_t* marks) {
+  std::uint64_t eights[kTallyChunk / 8];
+  __builtin_memcpy(eights, marks, kTallyChunk);
+  std::uint64_t some = 0;
+  for (const std::uint64_t eight : eights) some |= eight;
+  return some == 0;
+}
+
+void tally_plane(const ViewMaps& maps, const VoxelRows& rows, VoxelSums& sums) {
+  Ints known_sum = all(0);
+  WideLanes known_wide;
+  int chunks = 0;
+  for (std::size_t row = 0; row < rows.count; ++row) {
+    const std::size_t first = rows.first + row * rows.stride;
+    for (std::size_t at = first; at < first + rows.length; at += kTallyChunk) {
+      if (is_blank(maps.marks + at)) continue;
+      for (std::size_t group = at; group < at + kTallyChunk; group += kLaneCount) {
+        const Mask marked = nonzero_bytes(maps.marks + group);
+        if (any(marked)) tally_group(maps, group, marked, sums, known_sum);
+      }
+      __builtin_memset(maps.marks + at, 0, kTallyChunk);
+      if (++chunks % kChunksPerFlush == 0) flush(known_sum, known_wide);
+    }
+  }
+  flush(known_sum, known_wide);
+  sums.known += sum_of(known_wide);
+}
+
+}  // namespace
+}  // namespace gnbv

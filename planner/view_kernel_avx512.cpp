@@ -1,0 +1,17 @@
+// The view kernels for processors with AVX-512.
+#include "planner/view_kernel.hpp"
+
+// the lanes first
+#include "planner/lanes/avx512.hpp"
+// then what is written in terms of them
+#include "planner/map/voxel_word.hpp"
+#include "planner/view_kernel.inl"
+
+namespace gnbv {
+
+extern const ViewKernels kViewKernelsAvx512 = {.prepare = prepare_rays,
+                                               .walk_voxels = walk_rays<false>,
+                                               .walk_full = walk_rays<true>,
+                                               .tally_plane = tally_plane};
+
+}  // namespace gnbv
