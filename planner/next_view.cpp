@@ -24,7 +24,8 @@ class Decider {
         recent_(recent_views()),
         progress_(progress()),
         frontier_density_(model.config.fvs.frontier.density_share * belief.cloud.density_max()),
-        checker_(model.config.validity, model.navigation_m, belief.grid, recent_, current_) {}
+        validity_(validity()),
+        checker_(validity_, model.navigation_m, belief.grid, recent_, current_) {}
 
   Plan decide() {
     if (is_route(model_.config.utility.name)) {
@@ -47,6 +48,15 @@ class Decider {
     std::vector<ViewPose> recent;
     for (std::size_t i = all.size() - count; i < all.size(); ++i) recent.push_back(all[i].view);
     return recent;
+  }
+
+  /// A route flies around what is in its way: it has nowhere else to go.
+  ValidityConfig validity() const {
+    ValidityConfig config = model_.config.validity;
+    if (is_route(model_.config.utility.name) && config.path == PathCheck::straight) {
+      config.path = PathCheck::astar;
+    }
+    return config;
   }
 
   Progress progress() const {
@@ -213,6 +223,7 @@ class Decider {
   const std::vector<ViewPose> recent_;
   const Progress progress_;
   const double frontier_density_;
+  const ValidityConfig validity_;
   ViewChecker checker_;
   Plan plan_;
 };
