@@ -15,8 +15,8 @@ namespace gnbv {
 /// choice elsewhere (FIDELITY.md).
 struct SymmetryConfig {
   bool enabled = true;
-  double min_support = 0.97;   // share of mirrored points not contradicted by measured free space
-  double min_confirmed = 0.5;  // share of them that falls on measured surface
+  double min_support = 0.985;  // share of mirrored points not contradicted by measured free space
+  double min_confirmed = 0.4;  // share of them that falls on measured surface
 };
 
 struct Symmetry {

@@ -17,9 +17,10 @@ constexpr double kSweepSpacing_m = 0.2;  // a mission's is 0.05 m and less; figu
 const Box3 kAircraftWorkspace(Vec3(-20, -20, 0), Vec3(20, 20, 20));
 const Box3 kPlantWorkspace(Vec3(-25, -16, 0), Vec3(25, 16, 12));
 
-test::SweptProfile aircraft_profile(const World& world, int descents) {
+test::SweptProfile aircraft_profile(const World& world, int descents,
+                                    const LidarConfig& lidar = {}) {
   const ViewPose start = {Vec3(0, -20, 5), 0.5 * kPi};
-  return test::sweep_profile(world, kAircraftWorkspace, start, descents, kSweepSpacing_m);
+  return test::sweep_profile(world, kAircraftWorkspace, start, descents, kSweepSpacing_m, lidar);
 }
 
 test::SweptProfile plant_profile(const World& world, int descents) {
@@ -35,6 +36,7 @@ void expect_plane_x_0(const Symmetry& symmetry) {
   ASSERT_TRUE(symmetry.plane) << "support " << symmetry.support;
   EXPECT_GT(symmetry.plane->normal_world.x(), std::cos(deg_to_rad(1.0)));
   EXPECT_LT(std::fabs(symmetry.plane->offset_m), 0.10);
+  EXPECT_GT(symmetry.support, 0.99);
 }
 
 /// Share of the predicted voxels whose centre is within a voxel of the surface.
@@ -72,6 +74,7 @@ void expect_none(const World& world) {
   for (const int descents : {3, 8}) {
     const Symmetry symmetry = symmetry_of(plant_profile(world, descents));
     EXPECT_FALSE(symmetry.plane) << descents << " descents, support " << symmetry.support;
+    // measured: 0.53 and 0.96 at most, against 0.996 at least where there is symmetry
     EXPECT_LT(symmetry.support, SymmetryConfig{}.min_support - 0.015);
   }
 }
@@ -95,6 +98,17 @@ TEST(ProfileSymmetry, OfTheAircraftPredictsNextToNothingFromEight) {
 }
 
 TEST(ProfileSymmetry, IsNotInventedForThePowerPlant) { expect_none({make_power_plant()}); }
+
+TEST(ProfileSymmetry, SurvivesNoisyRanges) {
+  LidarConfig noisy;
+  noisy.range_sigma_m = 0.05;
+  const World world = {make_aircraft()};
+  test::SweptProfile profile = aircraft_profile(world, 3, noisy);
+  const Symmetry symmetry = symmetry_of(profile);
+  expect_plane_x_0(symmetry);
+  predict_surface(symmetry, profile.belief.grid);
+  EXPECT_GT(share_on_surface(profile.belief.grid, RayScene(world)), 0.9);
+}
 
 TEST(PaperMeshSymmetry, OfTheA340PredictsTheFarSideFromThreeWaypoints) {
   const auto world = paper_world("a340.obj", 1.0, Vec3::Zero());

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "planner/mirror_support.hpp"
+#include "planner/symmetry_module.hpp"
 #include "tests/planner/blobs.hpp"
 
 namespace gnbv {
@@ -156,12 +157,59 @@ TEST(FindSymmetry, DeclinesWhatOnlyTurnsIntoItself) {
 }
 
 TEST(FindSymmetry, DeclinesALevelMirror) {
-  const MirrorPlane level = {Vec3::UnitZ(), 3.0};
+  const MirrorPlane level = {Vec3::UnitZ(), 2.9};
   Blobs half = l_shaped_half(4);
-  std::erase_if(half, [](const Sphere& s) { return s.center_m.z() + s.radius_m > 2.6; });
-  ASSERT_GE(half.size(), 3U);
+  for (Sphere& sphere : half)
+    sphere.center_m.z() = 0.3 + 0.4 * sphere.center_m.z() + sphere.radius_m;
+  std::erase_if(half, [](const Sphere& s) { return s.center_m.z() + s.radius_m > 2.8; });
+  ASSERT_GE(half.size(), 5U);
   EXPECT_FALSE(
       symmetry_of(with_images(half, [&](const Vec3& p_m) { return mirrored(level, p_m); })).plane);
+}
+
+TEST(FindSymmetry, DeclinesToMirrorIntoTheUnknown) {
+  const Blobs half = l_shaped_half(1);
+  const std::vector<Vec3f> points_m = surface_points_m(half, 0.12);
+  const OccupancyGrid grid = measured_grid(half, points_m, [](const Vec3&) { return false; });
+  // nothing speaks against any plane, only too little for it
+  const Symmetry gullible = find_symmetry({.min_confirmed = 0.0}, points_m, grid);
+  EXPECT_TRUE(gullible.plane);
+  EXPECT_LT(gullible.confirmed, 0.6);
+  EXPECT_FALSE(find_symmetry({.min_confirmed = 0.6}, points_m, grid).plane);
+}
+
+TEST(MatchKeypoints, PairsKeypointsWithTheirImages) {
+  const MirrorPlane truth = plane_at(37.0, 1.3);
+  std::vector<ProfilePoint> profile;
+  for (const Sphere& sphere : mirror_pair(2, truth)) {
+    for (const Vec3f& p_m : surface_points_m({sphere}, 0.12)) {
+      profile.push_back({p_m, p_m - sphere.center_m.cast<float>()});
+    }
+  }
+  std::vector<KeypointPair> pairs;
+  symmetry_module().match_keypoints(profile, pairs);
+  std::size_t images = 0;
+  for (const KeypointPair& pair : pairs) {
+    const Vec3 image_m = mirrored(truth, pair.a_world_m.cast<double>());
+    images += (image_m - pair.b_world_m.cast<double>()).norm() < 0.3;
+  }
+  // by chance one pair in a hundred, as there are that many keypoints
+  EXPECT_GT(pairs.size(), 400U);
+  EXPECT_GT(static_cast<double>(images), 0.05 * static_cast<double>(pairs.size()));
+}
+
+TEST(RefinePlanes, BringsAPlaneBack) {
+  const MirrorPlane truth = plane_at(37.0, 1.3);
+  std::vector<ProfilePoint> profile;
+  for (const Vec3f& p_m : surface_points_m(mirror_pair(2, truth), 0.12)) {
+    profile.push_back({p_m, Vec3f::UnitZ()});
+  }
+  const Extent extent = {Vec3::Zero(), 5.0};
+  std::vector<MirrorPlane> planes = {truth, plane_at(38.5, 1.5), plane_at(36.0, 1.0)};
+  planes.push_back(
+      plane_through(1.3 * truth.normal_world, truth.normal_world + 0.03 * Vec3::UnitZ()));
+  symmetry_module().refine_planes(profile, planes);
+  for (const MirrorPlane& plane : planes) EXPECT_LT(distance_m(plane, truth, extent), 0.02);
 }
 
 TEST(FindSymmetry, MirrorsEveryPointOfTheProfile) {

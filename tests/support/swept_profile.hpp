@@ -35,19 +35,20 @@ inline std::vector<Isometry> profile_poses(const Box3& navigation_m, const ViewP
   return poses;
 }
 
-/// What the planner believes after them, with the default LIDAR and planner.
+/// What the planner believes after them.
 inline SweptProfile sweep_profile(const World& world, const Box3& workspace_m,
-                                  const ViewPose& start, int descents, double spacing_m) {
-  const std::array lidars = {make_lidar_model({})};
-  SweptProfile out{PlannerModel({}, workspace_m, {}, lidars),
-                   Belief(PlannerModel({}, workspace_m, {}, lidars))};
+                                  const ViewPose& start, int descents, double spacing_m,
+                                  const LidarConfig& lidar = {}) {
+  const std::array lidars = {make_lidar_model(lidar)};
+  const PlannerModel model({}, workspace_m, {}, lidars);
+  SweptProfile out{model, Belief(model)};
   const RayScene scene(world);
   std::vector<LidarScan> scans;
-  for (const Isometry& T : profile_poses(out.model.navigation_m, start, descents, spacing_m)) {
-    scans.push_back(capture_scan(scene, lidars[0], 0, {&T, 1}, 0.004, {1, scans.size()}));
+  for (const Isometry& T : profile_poses(model.navigation_m, start, descents, spacing_m)) {
+    scans.push_back(capture_scan(scene, lidars[0], 0, {&T, 1}, 1.0, {1, scans.size()}));
   }
-  Workbench bench(out.model, 2);
-  integrate_profile(out.model, scans, bench, out.belief);
+  Workbench bench(model, 2);
+  integrate_profile(model, scans, bench, out.belief);
   return out;
 }
 
