@@ -190,6 +190,26 @@ TEST_F(FrameInsertion, EqualsOctomapForCamerasAtTheBorderAndOutside) {
   EXPECT_GT(touched_, 10000U);
 }
 
+/// Rays along the diagonal leave the camera's voxel by both faces of an edge at once: which comes
+/// first is decided by OctoMap's rounding of distances of a nanometre.
+TEST_F(FrameInsertion, EqualsOctomapForCamerasOnAnEdgeThatLookAlongTheDiagonal) {
+  Random random(61);
+  const std::vector<CameraModel> narrow = {camera_of(1, 1, 0.1, 0.1), camera_of(5, 3, 0.1, 0.1),
+                                           camera_of(20, 1, 90.0, 0.1)};
+  for (int view = 0; view < 100; ++view) {
+    for (const CameraModel& camera : narrow) {
+      const double yaw_rad = 0.25 * kPi + 0.5 * kPi * (view % 4) + random.uniform(-1e-3, 1e-3);
+      const Vec3 position_m(view % 3 - 1.0, 1.0, view % 5 == 0 ? 2.0 : 2.13);
+      DepthFrame frame;
+      frame.T_world_camera = T_world_body({position_m, yaw_rad}) * camera.T_body_camera;
+      frame.depth_m.assign(
+          static_cast<std::size_t>(camera.config.width_px * camera.config.height_px), 3.0F);
+      expect_equal(frame, camera, "edge");
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
 TEST_F(FrameInsertion, AFullFrameEqualsOctomapAndWalksFewRays) {
   const CameraModel camera = camera_of(640, 480, 60.0, 45.0);
   const AnalyticScene scene = {
