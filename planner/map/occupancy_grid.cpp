@@ -37,18 +37,16 @@ void need_usable(const OccupancyConfig& c) {
 OccupancyGrid::OccupancyGrid(const OccupancyConfig& config, const Box3& bounds_m)
     : config_(config), geometry_(bounds_m, config.resolution_m) {
   need_usable(config);
-  hit_log_ = log_odds_of(config.prob_hit);
-  miss_log_ = log_odds_of(config.prob_miss);
   clamp_min_log_ = log_odds_of(config.clamp_min);
   clamp_max_log_ = log_odds_of(config.clamp_max);
   occupied_min_log_ = log_odds_of(config.occupied_min);
   free_max_log_ = log_odds_of(config.free_max);
-  const Entropy unmeasured = compute_entropy(0.0F);
-  entropy_memo_.assign(std::size_t{1} << kMemoBits, unmeasured);
+  hits_ = make_memo(log_odds_of(config.prob_hit));
+  misses_ = make_memo(log_odds_of(config.prob_miss));
   const std::size_t voxels = geometry_.voxel_count();
   log_odds_ = ZeroedArray<float>(voxels);
   words_ = ZeroedArray<VoxelWord>(voxels);
-  total_entropy_ = unmeasured.units * static_cast<std::int64_t>(voxels);
+  total_entropy_ = compute_entropy(0.0F).units * static_cast<std::int64_t>(voxels);
 }
 
 VoxelState OccupancyGrid::state_at(const Vec3& p_world_m) const {
@@ -65,49 +63,68 @@ double OccupancyGrid::total_entropy_nat() const {
 }
 
 OccupancyGrid::Entropy OccupancyGrid::compute_entropy(float log_odds) const {
-  if (is_clamped(log_odds)) return {.log_odds = log_odds};
+  if (is_clamped(log_odds)) return {};
   // Eq. (1) in terms of l = |log-odds|, where p = 1 / (1 + e^-l) cannot round to 0 or 1
   const double l = std::fabs(static_cast<double>(log_odds));
   const double e = std::exp(-l);
   const double entropy_nat = std::log1p(e) + l * e / (1.0 + e);
-  return {.log_odds = log_odds,
-          .word_units = static_cast<std::uint32_t>(std::llround(entropy_nat / kEntropyUnit_nat)),
+  return {.word_units = static_cast<std::uint32_t>(std::llround(entropy_nat / kEntropyUnit_nat)),
           .units = std::llround(entropy_nat * kTotalUnits)};
 }
 
-const OccupancyGrid::Entropy& OccupancyGrid::entropy_of(float log_odds) {
-  const std::uint32_t hash = std::bit_cast<std::uint32_t>(log_odds) * 0x9e3779b1U;
-  Entropy& memo = entropy_memo_[hash >> (32 - kMemoBits)];
-  if (memo.log_odds != log_odds) memo = compute_entropy(log_odds);
-  return memo;
-}
-
-void OccupancyGrid::add_log_odds(VoxelIndex v, float delta) {
-  const float before = log_odds_[v];
+OccupancyGrid::Step OccupancyGrid::compute_step(float before, float delta) const {
   float after = before + delta;
   if (after < clamp_min_log_) after = clamp_min_log_;
   if (after > clamp_max_log_) after = clamp_max_log_;
-  if (after == before) return;  // at a bound, hence measured
-  set_log_odds(v, after);
+  return make_step(before, after);
 }
 
-void OccupancyGrid::set_log_odds(VoxelIndex v, float after) {
-  total_entropy_ -= entropy_of(log_odds_[v]).units;
-  const Entropy& entropy = entropy_of(after);
-  total_entropy_ += entropy.units;
-  const VoxelState now = after >= occupied_min_log_ ? VoxelState::occupied
-                         : after <= free_max_log_   ? VoxelState::free
-                                                    : VoxelState::unknown;
-  occupied_count_ += static_cast<std::size_t>(now == VoxelState::occupied);
-  occupied_count_ -= static_cast<std::size_t>(state(v) == VoxelState::occupied);
-  predicted_count_ -= static_cast<std::size_t>(is_predicted(v));
-  log_odds_[v] = after;
-  words_[v] = measured_word(now, entropy.word_units);
+OccupancyGrid::Step OccupancyGrid::make_step(float before, float after) const {
+  const VoxelState state = after >= occupied_min_log_ ? VoxelState::occupied
+                           : after <= free_max_log_   ? VoxelState::free
+                                                      : VoxelState::unknown;
+  const Entropy entropy = compute_entropy(after);
+  return {.before = before,
+          .after = after,
+          .word = measured_word(state, entropy.word_units),
+          .entropy_gain = entropy.units - compute_entropy(before).units};
+}
+
+OccupancyGrid::StepMemo OccupancyGrid::make_memo(float delta) const {
+  const std::size_t size = std::size_t{1} << kMemoBits;
+  return {.delta = delta, .steps = std::vector<Step>(size, compute_step(0.0F, delta))};
+}
+
+const OccupancyGrid::Step& OccupancyGrid::step_from(float before, StepMemo& memo) const {
+  const std::uint32_t hash = std::bit_cast<std::uint32_t>(before) * 0x9e3779b1U;
+  Step& step = memo.steps[hash >> (32 - kMemoBits)];
+  if (step.before != before) step = compute_step(before, memo.delta);
+  return step;
+}
+
+void OccupancyGrid::take_step(VoxelIndex v, const Step& step) {
+  const auto is_occupied = [](VoxelWord word) {
+    return static_cast<std::size_t>(state_of(word) == VoxelState::occupied);
+  };
+  const VoxelWord word = words_[v];
+  total_entropy_ += step.entropy_gain;
+  occupied_count_ += is_occupied(step.word) - is_occupied(word);
+  predicted_count_ -= static_cast<std::size_t>((word & kPredictedBit) != 0);
+  log_odds_[v] = step.after;
+  words_[v] = step.word;
+}
+
+void OccupancyGrid::add_log_odds(std::span<const VoxelIndex> voxels, StepMemo& memo) {
+  for (const VoxelIndex v : voxels) {
+    const Step& step = step_from(log_odds_[v], memo);
+    if (step.after == step.before) continue;  // at a bound, hence measured
+    take_step(v, step);
+  }
 }
 
 bool OccupancyGrid::restore(VoxelIndex v, float log_odds) {
   if (is_measured(v) || !(log_odds >= clamp_min_log_ && log_odds <= clamp_max_log_)) return false;
-  set_log_odds(v, log_odds);
+  take_step(v, make_step(log_odds_[v], log_odds));
   return true;
 }
 
@@ -125,8 +142,8 @@ bool OccupancyGrid::shade(VoxelIndex v) {
 }
 
 void OccupancyGrid::apply(const ScanUpdate& update) {
-  for (const VoxelIndex v : update.free) add_log_odds(v, miss_log_);
-  for (const VoxelIndex v : update.occupied) add_log_odds(v, hit_log_);
+  add_log_odds(update.free, misses_);
+  add_log_odds(update.occupied, hits_);
 }
 
 }  // namespace gnbv

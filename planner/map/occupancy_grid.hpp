@@ -82,21 +82,34 @@ class OccupancyGrid {
 
  private:
   struct Entropy {
-    float log_odds = 0.0F;
     std::uint32_t word_units = 0;  // in 2^-24 nat
     std::int64_t units = 0;        // in 2^-32 nat
   };
+  /// What a hit or a miss makes of a voxel's log-odds.
+  struct Step {
+    float before = 0.0F;
+    float after = 0.0F;
+    VoxelWord word = 0;
+    std::int64_t entropy_gain = 0;  // in 2^-32 nat
+  };
+  /// Steps last computed, by a hash of the log-odds: sums of hits and misses take few values.
+  struct StepMemo {
+    float delta = 0.0F;
+    std::vector<Step> steps;
+  };
   Entropy compute_entropy(float log_odds) const;
-  const Entropy& entropy_of(float log_odds);
-  void add_log_odds(VoxelIndex v, float delta);
-  void set_log_odds(VoxelIndex v, float after);
+  Step make_step(float before, float after) const;
+  Step compute_step(float before, float delta) const;
+  StepMemo make_memo(float delta) const;
+  const Step& step_from(float before, StepMemo& memo) const;
+  void take_step(VoxelIndex v, const Step& step);
+  void add_log_odds(std::span<const VoxelIndex> voxels, StepMemo& memo);
   bool is_clamped(float log_odds) const {
     return log_odds <= clamp_min_log_ || log_odds >= clamp_max_log_;
   }
 
   OccupancyConfig config_;
   GridGeometry geometry_;
-  float hit_log_ = 0.0F, miss_log_ = 0.0F;
   float clamp_min_log_ = 0.0F, clamp_max_log_ = 0.0F;
   float occupied_min_log_ = 0.0F, free_max_log_ = 0.0F;
   ZeroedArray<float> log_odds_;
@@ -104,8 +117,7 @@ class OccupancyGrid {
   std::int64_t total_entropy_ = 0;  // in units of 2^-32 nat
   std::size_t occupied_count_ = 0;
   std::size_t predicted_count_ = 0;
-  // entropies last computed, by a hash of the log-odds: sums of hits and misses take few values
-  std::vector<Entropy> entropy_memo_;
+  StepMemo hits_, misses_;
 };
 
 }  // namespace gnbv

@@ -8,6 +8,7 @@
 #include "bench/reference/analytic_scans.hpp"
 #include "bench/reference/octomap_twin.hpp"
 #include "planner/map/frame_view.hpp"
+#include "planner/map/ray_walk.hpp"
 #include "planner/map/scan_insertion.hpp"
 #include "tests/planner/map/frames.hpp"
 
@@ -188,6 +189,32 @@ TEST_F(FrameInsertion, EqualsOctomapForCamerasAtTheBorderAndOutside) {
     }
   }
   EXPECT_GT(touched_, 10000U);
+}
+
+/// A camera on an edge of its voxel, as far as float32 can tell, whose rays leave by both faces of
+/// that edge at once: which comes first is decided by OctoMap's distances of nanometres.
+TEST_F(FrameInsertion, EqualsOctomapForCamerasOnAnEdgeWhoseRaysLeaveByBothFaces) {
+  Random random(61);
+  const std::vector<CameraModel> narrow = {camera_of(1, 1, 0.1, 0.1), camera_of(5, 3, 0.1, 0.1),
+                                           camera_of(20, 1, 90.0, 0.1)};
+  for (int view = 0; view < 100; ++view) {
+    for (const CameraModel& camera : narrow) {
+      const std::array<double, 3> on_border_m = {1.0, 0.4, 0.6};
+      const Vec3 position_m(on_border_m[static_cast<std::size_t>(view % 3)],
+                            on_border_m[static_cast<std::size_t>(view / 3 % 3)], 2.13);
+      const RayOrigin origin = make_ray_origin(grid_, position_m.cast<float>());
+      ASSERT_LT(origin.to_lower_border_m[0], 0.0);
+      ASSERT_LT(origin.to_lower_border_m[1], 0.0);
+      const double yaw_rad = std::atan2(origin.to_lower_border_m[1], origin.to_lower_border_m[0]) +
+                             random.uniform(-1e-3, 1e-3);
+      DepthFrame frame;
+      frame.T_world_camera = T_world_body({position_m, yaw_rad}) * camera.T_body_camera;
+      frame.depth_m.assign(
+          static_cast<std::size_t>(camera.config.width_px * camera.config.height_px), 3.0F);
+      expect_equal(frame, camera, "edge");
+      if (HasFatalFailure()) return;
+    }
+  }
 }
 
 TEST_F(FrameInsertion, AFullFrameEqualsOctomapAndWalksFewRays) {
