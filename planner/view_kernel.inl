@@ -174,6 +174,7 @@ struct WideLanes {
 inline void flush(Ints& sum, WideLanes& wide) {
   alignas(64) std::int32_t part[kLaneCount];
   store(part, sum);
+  __asm__("" : "+m"(part));  // as in mark(): so that the loop is one of vectors
   for (std::size_t i = 0; i < kLaneCount; ++i) {
     wide.lane[i] += static_cast<std::int64_t>(static_cast<std::uint32_t>(part[i]));
   }
@@ -265,35 +266,38 @@ inline void measure(const ViewMaps& maps, const Bundle& b, Ints word, Ints known
   m.visibility = max(mul(m.visibility, factor), all(0x1p-60F));
 }
 
-inline std::int64_t sum_lanes(Ints a) {
-  alignas(64) std::int32_t part[kLaneCount];
-  store(part, a);
-  std::int64_t sum = 0;
-  for (std::size_t i = 0; i < kLaneCount; ++i) sum += part[i];
-  return sum;
-}
+/// Sums over bundles, lane by lane. No term is negative.
+struct LaneTotals {
+  WideLanes known;
+  WideLanes visits_occupied;
+  WideLanes occlusion_aware;
+  WideLanes unobserved;
+  WideLanes rear_side;
+  WideLanes unknown_share;
+};
 
+inline void add_to(WideLanes& total, Ints part) { flush(part, total); }
 /// Rounded ray by ray, so that their order leaves no trace.
-inline std::int64_t sum_rounded(Floats a) { return sum_lanes(to_ints(a)); }
+inline void add_to(WideLanes& total, Floats part) { add_to(total, to_ints(part)); }
 
-void add_rays(const RayMetrics& m, const WideLanes& known, RaySums& sums) {
+void add_rays(const RayMetrics& m, const WideLanes& known, LaneTotals& totals, RaySums& sums) {
   constexpr float kCubeShare = 0x1p-57F;  // times are 2^-29 of the ray, shares 2^-30
   sums.rays_occupied += count(m.hit);
   sums.rear_side_rays += count(m.rear_hit);
   sums.shadow_rays += count(m.shadow);
   sums.front_rays += count(without(m.front_hit, m.shadow));
-  sums.visits_occupied += sum_lanes(m.visits);
-  sums.occlusion_aware += sum_rounded(m.occlusion_aware);
-  sums.unobserved += sum_rounded(m.unobserved);
-  sums.rear_side += sum_rounded(m.rear_side);
-  sums.unknown_share += sum_rounded(mul(m.volume, all(kCubeShare)));
+  add_to(totals.visits_occupied, m.visits);
+  add_to(totals.occlusion_aware, m.occlusion_aware);
+  add_to(totals.unobserved, m.unobserved);
+  add_to(totals.rear_side, m.rear_side);
+  add_to(totals.unknown_share, mul(m.volume, all(kCubeShare)));
   for (std::uint32_t left = bits(m.hit); left != 0; left &= left - 1) {
     sums.known_occupied += known.lane[__builtin_ctz(left)];
   }
 }
 
 template <bool kFull>
-void walk_bundle(Bundle b, float odds_power, ViewMaps& maps, RaySums& sums) {
+void walk_bundle(Bundle b, float odds_power, ViewMaps& maps, LaneTotals& totals, RaySums& sums) {
   const ViewMaps local = maps;  // a mark might be any byte in memory to the compiler
   const Ints resting_voxel = all(local.resting_voxel);
   RayMetrics metrics;
@@ -304,9 +308,9 @@ void walk_bundle(Bundle b, float odds_power, ViewMaps& maps, RaySums& sums) {
   sums.rays += count(b.seeing);
   for (int step = 0; any(b.seeing); ++step) {
     mark(local.marks, b.seeing, b.voxel, resting_voxel);
-    const Ints word = gather(b.seeing, local.words, b.voxel);
+    const Ints word = gather(b.moving, local.words, b.voxel);  // waits for no earlier word
     const Ints known = shift_right<kKnownShift>(word);
-    known_sum = add(known_sum, known);
+    known_sum = add_where(b.seeing, known_sum, known);
     visits += count(b.seeing);
     const Mask occupied =
         has_bits(b.seeing, word, static_cast<std::uint32_t>(VoxelState::occupied));
@@ -325,16 +329,23 @@ void walk_bundle(Bundle b, float odds_power, ViewMaps& maps, RaySums& sums) {
   }
   flush(known_sum, known_wide);
   sums.visits += visits;
-  sums.known += sum_of(known_wide);
-  if constexpr (kFull) add_rays(metrics, known_wide, sums);
+  for (std::size_t i = 0; i < kLaneCount; ++i) totals.known.lane[i] += known_wide.lane[i];
+  if constexpr (kFull) add_rays(metrics, known_wide, totals, sums);
 }
 
 template <bool kFull>
 void walk_rays(const PreparedRays& rays, std::int32_t origin_voxel, float odds_power,
                ViewMaps& maps, RaySums& sums) {
+  LaneTotals totals;
   for (std::size_t first = 0; first < rays.count; first += kLaneCount) {
-    walk_bundle<kFull>(load_bundle(rays, first, origin_voxel), odds_power, maps, sums);
+    walk_bundle<kFull>(load_bundle(rays, first, origin_voxel), odds_power, maps, totals, sums);
   }
+  sums.known += sum_of(totals.known);
+  sums.visits_occupied += sum_of(totals.visits_occupied);
+  sums.occlusion_aware += sum_of(totals.occlusion_aware);
+  sums.unobserved += sum_of(totals.unobserved);
+  sums.rear_side += sum_of(totals.rear_side);
+  sums.unknown_share += sum_of(totals.unknown_share);
 }
 
 // ---- counting ----------------------------------------------------------------------------------
