@@ -3,9 +3,12 @@
 
 // the lanes first
 #include "planner/lanes/avx512.hpp"
-// then what is written in terms of them
+// then what is written in terms of them, in this order
+#include "planner/lanes/wide_sums.inl"
 #include "planner/map/voxel_word.hpp"
-#include "planner/view_kernel.inl"
+#include "planner/view_prepare.inl"
+#include "planner/view_tally.inl"
+#include "planner/view_walk.inl"
 
 namespace gnbv {
 

@@ -68,6 +68,22 @@ TEST(ExcludedHitVoxel, ATiltedWallIsSeenWhereItsVoxelsAreClipped) {
   EXPECT_LT(slipped, right / 2);
 }
 
+TEST(ExcludedHitVoxel, LeavesTheVoxelsBeforeIt) {
+  Corridor corridor(8);
+  corridor.miss(0);
+  corridor.hit(2);
+  const ViewStats stats =
+      evaluate_view_with_slips(corridor.grid, corridor.cloud, Corridor::one_ray(1.2),
+                               {Vec3(0.1, 0.1, 0.1), 0.0}, {.excludes_hit_voxel = true}, 0.0);
+  const auto entropy_nat = [&](VoxelIndex v) {
+    return static_cast<double>(corridor.grid.entropy_nat(v));
+  };
+  EXPECT_EQ(stats.entropy_per_ray_nat, entropy_nat(0) + entropy_nat(1));
+  EXPECT_EQ(stats.free_voxels, 1U);
+  EXPECT_EQ(stats.unknown_voxels, 1U);
+  EXPECT_EQ(stats.occupied_voxels, 0U);
+}
+
 TEST(ExcludedHitVoxel, IsForTheBaselinesAlone) {
   const WallScene flat(0.0);
   VisitMarks marks(flat.grid.geometry().voxel_count());

@@ -241,6 +241,21 @@ TEST_F(EvaluateView, CountsTheVoxelsOfTheExactWalkFromPosesOnTheLatticeToo) {
   EXPECT_LE(static_cast<double>(difference), 1e-4 * static_cast<double>(voxels));
 }
 
+TEST(RaysThatEndOnABorder, StopWhereTheExactWalkStops) {
+  Corridor corridor(16);
+  for (int steps = 1; steps <= 28; ++steps) {
+    const ViewRays rays = Corridor::one_ray(0.1 * steps);
+    for (const ViewPose& pose :
+         {ViewPose{Vec3(0.1, 0.1, 0.1), 0.0}, ViewPose{Vec3(3.1, 0.1, 0.1), kPi},
+          ViewPose{Vec3(0.2, 0.1, 0.1), 0.0}, ViewPose{Vec3(3.0, 0.1, 0.1), kPi}}) {
+      const ViewStats fast =
+          evaluate_view(corridor.grid, corridor.cloud, rays, pose, corridor.marks);
+      EXPECT_EQ(fast.unknown_voxels, exact_view_counts(corridor.grid, rays, pose).unknown)
+          << steps << " from " << pose.p_world_m.x();
+    }
+  }
+}
+
 TEST_F(EvaluateView, SeesWhatThePapersWaySees) {
   const PaperViewTwin twin(scene_.grid);
   for (std::uint64_t i = 0; i < 5; ++i) {

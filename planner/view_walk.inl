@@ -1,0 +1,239 @@
+// The walk of a view's rays in terms of lanes, see view_kernel.hpp. Every level does the same
+// float32 operations in the same order per ray.
+
+namespace gnbv {
+namespace {
+
+constexpr int kStepsPerFlush = 256;  // 369 steps of ln 2 overflow a lane of 32 bits
+
+/// Where the rays of a bundle are. `moving` rays are inside the grid and their range; `seeing`
+/// ones have met nothing occupied either. Rays that stopped seeing move on, so that no step has to
+/// wait for what the map says of the one before.
+struct Bundle {
+  Ints t_next[3];
+  Ints t_voxel[3];
+  Ints move[3];
+  Ints t_leave;
+  Ints voxels_left;
+  Ints voxel;
+  Mask moving;
+  Mask seeing;
+};
+
+inline Bundle load_bundle(const PreparedRays& rays, std::size_t first, std::int32_t origin_voxel) {
+  Bundle b;
+  for (int a = 0; a < 3; ++a) {
+    b.t_next[a] = load(rays.t_next[a] + first);
+    b.t_voxel[a] = load(rays.t_voxel[a] + first);
+    b.move[a] = load(rays.move[a] + first);
+  }
+  b.t_leave = load(rays.t_leave + first);
+  b.voxels_left = load(rays.voxels + first);
+  b.voxel = all(origin_voxel);
+  b.moving = less(every_lane(), all(0), b.voxels_left);
+  b.seeing = b.moving;
+  return b;
+}
+
+/// When the rays leave their voxels.
+inline Ints exit_time(const Bundle& b) { return min(b.t_next[0], min(b.t_next[1], b.t_next[2])); }
+
+/// Takes every moving ray into its next voxel. Of equal times the later axis goes first, as in
+/// walk_ray().
+inline void take_step(Bundle& b, Ints t_exit) {
+  b.voxels_left = sub(b.voxels_left, all(1));
+  b.moving = less(less(b.moving, all(0), b.voxels_left), t_exit, b.t_leave);
+  const Mask z = equal(b.moving, b.t_next[2], t_exit);
+  const Mask not_z = without(b.moving, z);
+  const Mask y = equal(not_z, b.t_next[1], t_exit);
+  const Mask x = without(not_z, y);
+  b.t_next[0] = add_where(x, b.t_next[0], b.t_voxel[0]);
+  b.t_next[1] = add_where(y, b.t_next[1], b.t_voxel[1]);
+  b.t_next[2] = add_where(z, b.t_next[2], b.t_voxel[2]);
+  b.voxel = add_where(x, b.voxel, b.move[0]);
+  b.voxel = add_where(y, b.voxel, b.move[1]);
+  b.voxel = add_where(z, b.voxel, b.move[2]);
+}
+
+inline void mark(std::uint8_t* marks, Mask seeing, Ints voxel, Ints resting_voxel) {
+  alignas(64) std::int32_t at[kLaneCount];
+  store(at, select(seeing, voxel, resting_voxel));
+  // through memory: the compiler would take the lanes out of the register, at twice the cost
+  __asm__("" : "+m"(at));
+  for (std::size_t lane = 0; lane < kLaneCount; ++lane) {
+    marks[static_cast<std::uint32_t>(at[lane])] = 1;
+  }
+}
+
+inline void list_voxels(Mask which, Ints voxel, std::int32_t* list, std::size_t& count) {
+  alignas(64) std::int32_t at[kLaneCount];
+  store(at, voxel);
+  for (std::uint32_t left = bits(which); left != 0; left &= left - 1) {
+    list[count++] = at[__builtin_ctz(left)];
+  }
+}
+
+/// What the full walk keeps of each ray.
+struct RayMetrics {
+  Floats visibility = all(1.0F);  // P_v
+  Floats occlusion_aware = all(0.0F);
+  Floats unobserved = all(0.0F);
+  Floats unknown_run = all(0.0F);  // P_v H since the last known voxel
+  Floats rear_side = all(0.0F);
+  Floats volume = all(0.0F);  // sum of cubes of times, over the unknown voxels
+  Ints t_enter = all(0);
+  Ints visits = all(0);  // of the rays that hit
+  Mask after_unknown = no_lane();
+  Mask hit = no_lane();
+  Mask rear_hit = no_lane();
+  Mask front_hit = no_lane();
+  Mask shadow = no_lane();
+};
+
+/// 1 / (1 + e^l) = 1 - P, from x = l log2(e). Within 2e-6 for every x.
+inline Floats free_probability(Floats x) {
+  constexpr float kRounder = 12582912.0F;  // 1.5 * 2^23: its neighbours are the integers
+  const Floats bounded = min(max(x, all(-100.0F)), all(100.0F));
+  const Floats shifted = add(bounded, all(kRounder));
+  const Floats r = sub(bounded, sub(shifted, all(kRounder)));
+  // 2^r for |r| <= 0.5, relative error 3e-6
+  Floats power = all(0.00958285388F);
+  power = add(mul(power, r), all(0.0559064336F));
+  power = add(mul(power, r), all(0.240240991F));
+  power = add(mul(power, r), all(0.693124175F));
+  power = add(mul(power, r), all(1.0F));
+  const Floats odds = floats_of(add(bits_of(power), shift_left<23>(bits_of(shifted))));
+  return div(all(1.0F), add(all(1.0F), odds));
+}
+
+inline Floats cube(Ints t) {
+  const Floats f = to_floats(t);
+  return mul(mul(f, f), f);
+}
+
+/// Rays that meet a surface at their voxel number `step`, from 0.
+inline void measure_hits(Mask occupied, Floats visible, int step, RayMetrics& m) {
+  const Mask rear = occupied & m.after_unknown;
+  m.rear_side = select(rear, add(m.unknown_run, visible), m.rear_side);
+  m.rear_hit = m.rear_hit | rear;
+  if (step > 0) m.front_hit = m.front_hit | without(occupied, rear);
+  m.hit = m.hit | occupied;
+  m.visits = select(occupied, all(step + 1), m.visits);
+}
+
+inline void measure_unknown(Mask unknown, Ints word, Floats visible, Ints t_exit, RayMetrics& m) {
+  m.unobserved = add_where(unknown, m.unobserved, visible);
+  m.unknown_run = select(unknown, add(m.unknown_run, visible), all(0.0F));
+  m.volume = add_where(unknown, m.volume, sub(cube(t_exit), cube(m.t_enter)));
+  m.shadow = m.shadow | has_bits(unknown, word, kShadowBit);
+}
+
+/// Adds the voxels at hand. The branches only skip what would change nothing.
+inline void measure(const ViewMaps& maps, const Bundle& b, Ints word, Ints known, Mask occupied,
+                    Ints t_exit, float odds_power, int step, RayMetrics& m) {
+  const Mask unknown = has_not_bits(b.seeing, word, kStateMask);
+  const Floats entropy = to_floats(sub(all(static_cast<std::int32_t>(kLn2Units)), known));
+  const Floats visible = mul(m.visibility, entropy);
+  m.occlusion_aware = add_where(b.seeing, m.occlusion_aware, visible);
+  if (any(occupied)) measure_hits(occupied, visible, step, m);
+  if (any(unknown)) {
+    measure_unknown(unknown, word, visible, t_exit, m);
+  } else {
+    m.unknown_run = all(0.0F);
+  }
+  m.after_unknown = unknown;
+  m.t_enter = t_exit;
+  const Mask measured = has_bits(b.seeing, word, kMeasuredBit);
+  Floats factor = all(0.5F);  // of log-odds 0
+  if (any(measured)) {
+    const Floats log_odds = gather(measured, maps.log_odds, b.voxel);
+    factor = free_probability(mul(log_odds, all(odds_power)));
+  }
+  // below 2^-60 it adds nothing, and what follows from it would be denormal and slow
+  m.visibility = max(mul(m.visibility, factor), all(0x1p-60F));
+}
+
+/// Sums over bundles, lane by lane. No term is negative.
+struct LaneTotals {
+  WideLanes known;
+  WideLanes visits_occupied;
+  WideLanes occlusion_aware;
+  WideLanes unobserved;
+  WideLanes rear_side;
+  WideLanes unknown_share;
+};
+
+inline void add_to(WideLanes& total, Ints part) { flush(part, total); }
+/// Rounded ray by ray, so that their order leaves no trace.
+inline void add_to(WideLanes& total, Floats part) { add_to(total, to_ints(part)); }
+
+void add_rays(const RayMetrics& m, const WideLanes& known, LaneTotals& totals, RaySums& sums) {
+  constexpr float kCubeShare = 0x1p-57F;  // times are 2^-29 of the ray, shares 2^-30
+  sums.rays_occupied += count(m.hit);
+  sums.rear_side_rays += count(m.rear_hit);
+  sums.shadow_rays += count(m.shadow);
+  sums.front_rays += count(without(m.front_hit, m.shadow));
+  add_to(totals.visits_occupied, m.visits);
+  add_to(totals.occlusion_aware, m.occlusion_aware);
+  add_to(totals.unobserved, m.unobserved);
+  add_to(totals.rear_side, m.rear_side);
+  add_to(totals.unknown_share, mul(m.volume, all(kCubeShare)));
+  for (std::uint32_t left = bits(m.hit); left != 0; left &= left - 1) {
+    sums.known_occupied += known.lane[__builtin_ctz(left)];
+  }
+}
+
+template <bool kFull>
+void walk_bundle(Bundle b, float odds_power, ViewMaps& maps, LaneTotals& totals, RaySums& sums) {
+  const ViewMaps local = maps;  // a mark might be any byte in memory to the compiler
+  const Ints resting_voxel = all(local.resting_voxel);
+  RayMetrics metrics;
+  Ints known_sum = all(0);
+  WideLanes known_wide;
+  Mask foresees = b.seeing;  // rays that have met no predicted voxel
+  std::int64_t visits = 0;
+  sums.rays += count(b.seeing);
+  for (int step = 0; any(b.seeing); ++step) {
+    mark(local.marks, b.seeing, b.voxel, resting_voxel);
+    const Ints word = gather(b.moving, local.words, b.voxel);  // waits for no earlier word
+    const Ints known = shift_right<kKnownShift>(word);
+    known_sum = add_where(b.seeing, known_sum, known);
+    visits += count(b.seeing);
+    const Mask occupied =
+        has_bits(b.seeing, word, static_cast<std::uint32_t>(VoxelState::occupied));
+    const Mask predicted = has_bits(b.seeing & foresees, word, kPredictedBit);
+    if (any(predicted)) {
+      list_voxels(predicted, b.voxel, maps.predicted, maps.predicted_count);
+      foresees = without(foresees, predicted);
+    }
+    const Ints t_exit = exit_time(b);
+    if constexpr (kFull) {
+      measure(local, b, word, known, occupied, t_exit, odds_power, step, metrics);
+    }
+    take_step(b, t_exit);
+    b.seeing = without(b.seeing & b.moving, occupied);
+    if (step % kStepsPerFlush == kStepsPerFlush - 1) flush(known_sum, known_wide);
+  }
+  flush(known_sum, known_wide);
+  sums.visits += visits;
+  for (std::size_t i = 0; i < kLaneCount; ++i) totals.known.lane[i] += known_wide.lane[i];
+  if constexpr (kFull) add_rays(metrics, known_wide, totals, sums);
+}
+
+template <bool kFull>
+void walk_rays(const PreparedRays& rays, std::int32_t origin_voxel, float odds_power,
+               ViewMaps& maps, RaySums& sums) {
+  LaneTotals totals;
+  for (std::size_t first = 0; first < rays.count; first += kLaneCount) {
+    walk_bundle<kFull>(load_bundle(rays, first, origin_voxel), odds_power, maps, totals, sums);
+  }
+  sums.known += sum_of(totals.known);
+  sums.visits_occupied += sum_of(totals.visits_occupied);
+  sums.occlusion_aware += sum_of(totals.occlusion_aware);
+  sums.unobserved += sum_of(totals.unobserved);
+  sums.rear_side += sum_of(totals.rear_side);
+  sums.unknown_share += sum_of(totals.unknown_share);
+}
+
+}  // namespace
+}  // namespace gnbv
