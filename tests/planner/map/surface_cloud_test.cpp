@@ -262,6 +262,20 @@ TEST_F(SurfaceCloudLevels, FramesGiveWhatTheirPointsGive) {
   }
 }
 
+TEST_F(SurfaceCloudLevels, APointAtExactlyTheRadiusCounts) {
+  const GridGeometry grid(Box3(Vec3(-8, -8, 0), Vec3(8, 8, 8)), 2.0);  // radius^2 2
+  for (const SimdLevel level : {SimdLevel::scalar, SimdLevel::avx2, SimdLevel::avx512}) {
+    set_simd_level(level);
+    SurfaceCloud cloud({.leaf_m = 0.25, .profile_leaf_m = 0.25}, grid);
+    cloud.add(std::vector<Vec3f>{Vec3f(0.5F, 0.5F, 0.5F), Vec3f(1.5F, 1.5F, 0.5F)}, 0.25);
+    EXPECT_EQ(cloud.neighbour_sum(grid.index_of(grid.key_of(Vec3(1, 1, 1)))), 4U);
+    const float beyond_m = std::nextafter(1.5F, 2.0F);
+    SurfaceCloud apart({.leaf_m = 0.25, .profile_leaf_m = 0.25}, grid);
+    apart.add(std::vector<Vec3f>{Vec3f(0.5F, 0.5F, 0.5F), Vec3f(beyond_m, 1.5F, 0.5F)}, 0.25);
+    EXPECT_EQ(apart.neighbour_sum(grid.index_of(grid.key_of(Vec3(1, 1, 1)))), 2U);
+  }
+}
+
 TEST(SurfaceCloud, RestoredFromItsPointsItIsTheSameAndStaysSo) {
   const GridGeometry grid(kBox_m, 0.17);
   const CloudConfig config{.leaf_m = 0.025, .profile_leaf_m = 0.1};
