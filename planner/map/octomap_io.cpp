@@ -13,6 +13,9 @@ namespace gnbv {
 namespace {
 
 constexpr int kOctomapKeyOffset = 32768;
+// voxels of the cubes that are pruned before the next layer of cubes is filled in: an octree takes
+// some 46 bytes a voxel, which all of a large map together would not have
+constexpr int kLayerVoxels = 16;
 
 octomap::OcTreeKey octomap_key(const Key& key) {
   return {static_cast<octomap::key_type>(key[0] + kOctomapKeyOffset),
@@ -28,10 +31,17 @@ void fill(octomap::OcTree& tree, const OccupancyGrid& grid) {
   tree.setClampingThresMax(config.clamp_max);
   tree.setOccupancyThres(config.occupied_min);
   const GridGeometry& geometry = grid.geometry();
-  const auto voxels = static_cast<VoxelIndex>(geometry.voxel_count());
-  for (VoxelIndex v = 0; v < voxels; ++v) {
-    if (!grid.is_measured(v)) continue;
-    tree.setNodeValue(octomap_key(geometry.key_at(v)), grid.log_odds(v), true);
+  const Key& min = geometry.min_key();
+  const Key& size = geometry.size();
+  VoxelIndex v = 0;  // x fastest
+  for (std::int32_t z = min[2]; z < min[2] + size[2]; ++z) {
+    if ((z + kOctomapKeyOffset) % kLayerVoxels == 0) tree.prune();
+    for (std::int32_t y = min[1]; y < min[1] + size[1]; ++y) {
+      for (std::int32_t x = min[0]; x < min[0] + size[0]; ++x, ++v) {
+        if (!grid.is_measured(v)) continue;
+        tree.setNodeValue(octomap_key({x, y, z}), grid.log_odds(v), true);
+      }
+    }
   }
   tree.updateInnerOccupancy();
   tree.prune();

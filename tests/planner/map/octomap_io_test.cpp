@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <filesystem>
+#include <fstream>
 
 #include "bench/reference/octomap_twin.hpp"
 #include "planner/map/scan_insertion.hpp"
@@ -78,20 +79,48 @@ TEST_F(OctomapFiles, BtHoldsOccupiedAgainstNot) {
 }
 
 TEST_F(OctomapFiles, EqualVoxelsArePrunedToOneNode) {
-  OccupancyGrid block(OccupancyConfig{}, Box3(Vec3(-1, -1, 0), Vec3(2, 2, 2)));
+  OccupancyGrid block(OccupancyConfig{}, Box3(Vec3(-1, -1, 0), Vec3(7, 7, 7)));
+  struct Case {
+    std::int32_t side;
+    std::size_t nodes;  // one leaf, that many levels below the root
+  };
+  for (const auto& [side, nodes] : {Case{8, 14}, Case{32, 12}}) {
+    ScanUpdate update;
+    for (VoxelIndex v = 0; v < block.geometry().voxel_count(); ++v) {
+      const Key key = block.geometry().key_at(v);
+      const auto is_in = [n = side](std::int32_t k) { return k >= 0 && k < n; };
+      if (std::ranges::all_of(key, is_in) && !block.is_measured(v)) update.free.push_back(v);
+    }
+    block.apply(update);
+    for (const char* extension : {".ot", ".bt"}) {
+      write_octomap(block, folder_ / "block");
+      const OctomapTwin read = OctomapTwin::read((folder_ / "block").string() + extension);
+      EXPECT_EQ(read.voxel_count(), static_cast<std::size_t>(side * side * side));
+      EXPECT_EQ(read.node_count(), nodes);
+    }
+  }
+}
+
+std::size_t most_resident_kib() {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    if (word != "VmHWM:") continue;
+    std::size_t kib = 0;
+    status >> kib;
+    return kib;
+  }
+  return 0;
+}
+
+TEST_F(OctomapFiles, AreWrittenWithoutATreeOfAllVoxels) {
+  OccupancyGrid free(OccupancyConfig{}, Box3(Vec3(0, 0, 0), Vec3(32, 32, 32)));
   ScanUpdate update;
-  for (VoxelIndex v = 0; v < block.geometry().voxel_count(); ++v) {
-    const Key key = block.geometry().key_at(v);
-    if (std::ranges::all_of(key, [](int k) { return k >= 0 && k < 8; })) update.free.push_back(v);
-  }
-  ASSERT_EQ(update.free.size(), 512U);
-  block.apply(update);
-  for (const char* extension : {".ot", ".bt"}) {
-    write_octomap(block, folder_ / "block");
-    const OctomapTwin read = OctomapTwin::read((folder_ / "block").string() + extension);
-    EXPECT_EQ(read.voxel_count(), 512U);
-    EXPECT_EQ(read.node_count(), 14U);  // one leaf three levels above the finest of 16
-  }
+  for (VoxelIndex v = 0; v < free.geometry().voxel_count(); ++v) update.free.push_back(v);
+  ASSERT_EQ(update.free.size(), 4'096'000U);
+  free.apply(update);
+  const std::size_t before_kib = most_resident_kib();
+  write_octomap(free, folder_ / "free");
+  EXPECT_LT(most_resident_kib() - before_kib, 60'000U);  // all at once: 180,000
 }
 
 TEST_F(OctomapFiles, WritingPrintsNothingAndLeavesNoPartsBehind) {
