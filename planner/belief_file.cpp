@@ -167,6 +167,32 @@ void take_voxels(Reader& in, OccupancyGrid& grid) {
   }
 }
 
+/// Shaded voxels as distances from one to the next, each with its steps behind the surface.
+void put_shadow(const Belief& belief, Writer& out) {
+  const auto voxels = static_cast<VoxelIndex>(belief.grid.geometry().voxel_count());
+  VoxelIndex last = 0;
+  for (VoxelIndex v = 0; v < voxels; ++v) {
+    if (!belief.grid.is_shaded(v)) continue;
+    out.put(static_cast<std::uint8_t>(belief.shadow.steps_behind(v)));
+    out.put_count(v - last);
+    last = v;
+  }
+  out.put(std::uint8_t{0});  // steps of none: the end
+}
+
+void take_shadow(Reader& in, Belief& belief) {
+  std::uint64_t v = 0;
+  while (const auto steps = in.take<std::uint8_t>()) {
+    const std::uint64_t distance = in.take_count();
+    const std::size_t voxels = belief.grid.geometry().voxel_count();
+    if (distance >= voxels - v) in.refuse("a shadow beyond the map");
+    v += distance;
+    if (!belief.shadow.restore(static_cast<VoxelIndex>(v), steps, belief.grid)) {
+      in.refuse("a shadow on a measured voxel");
+    }
+  }
+}
+
 /// The text between first line and digest; refuses all that this program did not write.
 std::string_view checked_body(std::string_view content, const Reader& in) {
   if (!content.starts_with(kFirstLine)) {
@@ -190,6 +216,7 @@ void write_belief(const Belief& belief, const std::filesystem::path& path) {
   out.put(static_cast<std::uint8_t>(belief.has_depth_return));
   put_points(belief.cloud.points_world_m(), out);
   put_voxels(belief.grid, out);
+  put_shadow(belief, out);
   out.put(digest_of(out.bytes()));
   write_file_atomically(path, out.bytes());
 }
@@ -207,6 +234,7 @@ Belief read_belief(const std::filesystem::path& path, const PlannerModel& model)
   belief.has_depth_return = in.take<std::uint8_t>() != 0;
   if (!belief.cloud.restore(take_points(in))) in.refuse("its points are not those of a cloud");
   take_voxels(in, belief.grid);
+  take_shadow(in, belief);
   if (in.size() != 0) in.refuse("more than a belief");
   return belief;
 }

@@ -1,5 +1,7 @@
 #include "planner/map/fan_walker.hpp"
 
+#include <algorithm>
+
 #ifdef __SSE2__
 #include <emmintrin.h>
 #endif
@@ -79,13 +81,33 @@ void FanWalker::clear(std::span<const VoxelPlace> places) {
   for (const VoxelPlace place : places) marks_[static_cast<std::uint32_t>(place)] = kUnmarked;
 }
 
+bool FanWalker::enter(const Key& key_end, RaySteps& ray, Key& key) const {
+  const Key& min = grid_.min_key();
+  const Key& size = grid_.size();
+  const auto misses_along = [&](std::size_t a) {
+    return key[a] < min[a] ? ray.step[a] <= 0 : key[a] >= min[a] + size[a] && ray.step[a] >= 0;
+  };
+  while (!grid_.contains(key)) {
+    if (misses_along(0) || misses_along(1) || misses_along(2)) return false;
+    const std::size_t axis = next_axis(ray);
+    key[axis] += ray.step[axis];
+    ray.t_next[axis] += ray.t_voxel[axis];
+    if (key == key_end || *std::min_element(ray.t_next.begin(), ray.t_next.end()) > ray.length_m) {
+      return false;
+    }
+  }
+  return true;
+}
+
 bool FanWalker::start_ray(const RayOrigin& origin, const Vec3f& end_m, Lanes& lanes,
                           std::size_t lane, std::vector<VoxelPlace>& places) {
   const Key key_end = grid_.key_of(end_m);
   if (key_end == origin.key) return false;
-  const VoxelPlace start = place_of(origin.key);
+  RaySteps ray = make_ray_steps(grid_, origin, end_m);
+  Key key = origin.key;
+  if (!grid_.contains(key) && (!(ray.length_m > 0.0) || !enter(key_end, ray, key))) return false;
+  const VoxelPlace start = place_of(key);
   if (mark(start)) places.push_back(start);
-  const RaySteps ray = make_ray_steps(grid_, origin, end_m);
   if (!(ray.length_m > 0.0)) return false;
   lanes.set(lane, ray, move_, start, grid_.contains(key_end) ? place_of(key_end) : kNowhere);
   return true;
@@ -162,7 +184,6 @@ struct PairOfRays {
 
 void FanWalker::walk(const RayOrigin& origin, std::span<const ScanRay> rays,
                      std::vector<VoxelPlace>& places) {
-  if (!grid_.contains(origin.key)) return walk_one_by_one(origin, rays, places);
   Lanes lanes;
   std::size_t active = 0;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {

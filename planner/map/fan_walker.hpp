@@ -42,6 +42,9 @@ class FanWalker {
 
  private:
   struct Lanes;
+  /// Walks a ray from a voxel outside the grid to its first one inside, where `ray` and `key` then
+  /// stand; false when it ends before, or never comes in.
+  bool enter(const Key& key_end, RaySteps& ray, Key& key) const;
   bool start_ray(const RayOrigin& origin, const Vec3f& end_m, Lanes& lanes, std::size_t lane,
                  std::vector<VoxelPlace>& places);
   bool start_next(const RayOrigin& origin, std::span<const ScanRay>& rays, Lanes& lanes,

@@ -6,13 +6,14 @@ double map_bytes(const std::array<double, 3>& voxels, int threads) {
   constexpr double kGrid_bytes = 8.0;
   constexpr double kCloud_bytes = 4.0;
   constexpr double kBucket_bytes = 4.0;
-  constexpr double kVisit_bytes = 2.0;
+  constexpr double kMarks_bytes = 3.0;
+  constexpr double kVisit_bytes = 1.0;
   constexpr double kWalk_bytes = 1.0;
   const auto framed = [&](double frame) {
     return (voxels[0] + frame) * (voxels[1] + frame) * (voxels[2] + frame);
   };
   // buckets are no smaller than voxels, and reach two or three of them beyond the grid
-  return framed(0.0) * (kGrid_bytes + kCloud_bytes + kVisit_bytes * threads) +
+  return framed(0.0) * (kGrid_bytes + kCloud_bytes + kMarks_bytes + kVisit_bytes * threads) +
          framed(6.0) * kBucket_bytes + framed(2.0) * kWalk_bytes * threads;
 }
 

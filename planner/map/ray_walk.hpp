@@ -65,6 +65,12 @@ inline RaySteps make_ray_steps(const GridGeometry& grid, const RayOrigin& origin
   return ray;
 }
 
+/// The axis along which the ray next crosses a border; OctoMap's choice among equals.
+inline std::size_t next_axis(const RaySteps& ray) {
+  return ray.t_next[0] < ray.t_next[1] ? (ray.t_next[0] < ray.t_next[2] ? 0U : 2U)
+                                       : (ray.t_next[1] < ray.t_next[2] ? 1U : 2U);
+}
+
 /// Visits the voxels from `origin` towards `end` in order, with the origin's and without the end's.
 /// `visit(Key)` returns false to stop. Voxels outside the grid are visited too; the caller knows
 /// its bounds. Both points must be finite.
@@ -77,9 +83,7 @@ void walk_ray(const GridGeometry& grid, const RayOrigin& origin, const Vec3f& en
   RaySteps ray = make_ray_steps(grid, origin, end_m);
   if (!(ray.length_m > 0.0)) return;
   while (true) {
-    const std::size_t axis = ray.t_next[0] < ray.t_next[1]
-                                 ? (ray.t_next[0] < ray.t_next[2] ? 0U : 2U)
-                                 : (ray.t_next[1] < ray.t_next[2] ? 1U : 2U);
+    const std::size_t axis = next_axis(ray);
     key[axis] += ray.step[axis];
     ray.t_next[axis] += ray.t_voxel[axis];
     if (key == key_end) return;

@@ -37,4 +37,10 @@ void ShadowBand::add(const FrameRays& rays, OccupancyGrid& grid) {
   }
 }
 
+bool ShadowBand::restore(VoxelIndex v, int steps, OccupancyGrid& grid) {
+  if (steps < 1 || !grid.shade(v)) return false;
+  steps_[v] = static_cast<std::uint8_t>(steps);
+  return true;
+}
+
 }  // namespace gnbv

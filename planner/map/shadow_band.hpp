@@ -25,6 +25,10 @@ class ShadowBand {
   /// Extends the hits of a frame that the grid has already been given.
   void add(const FrameRays& rays, OccupancyGrid& grid);
 
+  /// Takes up a voxel of a band that was saved; false, and nothing done, for one that is measured
+  /// or with no step.
+  bool restore(VoxelIndex v, int steps, OccupancyGrid& grid);
+
   /// Steps behind the surface; 0 for a voxel in no shadow. Holds while grid.is_shaded(v).
   int steps_behind(VoxelIndex v) const { return steps_[v]; }
   /// delta_max of the proximity count: 2 depth / resolution.

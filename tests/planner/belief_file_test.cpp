@@ -47,6 +47,9 @@ void expect_equal(const Belief& a, const Belief& b) {
               std::bit_cast<std::uint32_t>(b.grid.log_odds(v)));
     ASSERT_EQ(a.grid.words()[v], b.grid.words()[v]);
     ASSERT_EQ(a.cloud.point_count(v), b.cloud.point_count(v));
+    if (a.grid.is_shaded(v)) {
+      ASSERT_EQ(a.shadow.steps_behind(v), b.shadow.steps_behind(v));
+    }
     ASSERT_EQ(a.cloud.neighbour_sum(v), b.cloud.neighbour_sum(v));
   }
   EXPECT_EQ(a.grid.total_entropy_nat(), b.grid.total_entropy_nat());
@@ -110,6 +113,23 @@ TEST_F(BeliefFile, GoesOnAsIfItHadNeverBeenSaved) {
     integrate_view(model_, view(model_, index), bench, loaded);
   }
   expect_equal(loaded, unsaved);
+}
+
+TEST_F(BeliefFile, KeepsTheShadowBand) {
+  PlannerConfig config;
+  config.utility.name = "proximity_count";  // reads it
+  const PlannerModel model = model_of(config);
+  Belief belief(model);
+  Workbench bench(model, 1);
+  integrate_view(model, view(model, 0), bench, belief);
+  write_belief(belief, path_);
+  Belief loaded = read_belief(path_, model);
+  std::size_t shaded = 0;
+  for (const VoxelWord word : belief.grid.words()) shaded += (word & kShadowBit) != 0 ? 1 : 0;
+  EXPECT_GT(shaded, 100U);
+  expect_equal(belief, loaded);
+  for (Belief* each : {&belief, &loaded}) integrate_view(model, view(model, 1), bench, *each);
+  expect_equal(belief, loaded);
 }
 
 TEST_F(BeliefFile, KeepsWhatIsMeasuredButStillAtEvenOdds) {

@@ -15,7 +15,7 @@
 namespace gnbv {
 
 struct MissionHooks {
-  std::function<void(double share_done)> on_profile = [](double) {};  // 0 to 1
+  std::function<void(double share_done)> on_profile = [](double) {};            // 0 to 1
   std::function<void(const Belief&)> on_profile_belief = [](const Belief&) {};  // at its end
   std::function<void(const ViewRecord&)> on_view = [](const ViewRecord&) {};
   /// The frames of a view, camera by camera, before they are believed. Colour is captured only when
