@@ -83,7 +83,7 @@ class Decider {
     if (has_begun && view != history_.route.end()) ++view;
     for (; view != history_.route.end() && !plan_.next; ++view) {
       Candidate candidate{.view = *view, .sampler = "route"};
-      check(candidate);
+      check(checker_, candidate);
       if (!candidate.rejected) {
         plan_.next = Decision{.view = *view,
                               .sampler = "route",
@@ -125,7 +125,7 @@ class Decider {
     std::vector<Candidate> views;
     for (const ViewPose& view : sample_fvs(fvs, cluster.centroid_world_m)) {
       Candidate candidate{.view = view, .sampler = "fvs", .cluster = rank};
-      check(candidate);
+      check(checker_, candidate);
       if (!candidate.rejected) {
         candidate.rejected = cluster_rejection(model_.cameras, belief_.grid, cluster, view,
                                                fvs.needs_visible_cluster);
@@ -150,15 +150,27 @@ class Decider {
   bool try_agvs_at(double scale) {
     std::vector<Candidate> candidates;
     for (const ViewPose& view : sample_agvs(model_.config.agvs, current_, scale)) {
-      Candidate candidate{.view = view, .sampler = "agvs", .scale = scale};
-      check(candidate);
-      candidates.push_back(std::move(candidate));
+      candidates.push_back({.view = view, .sampler = "agvs", .scale = scale});
     }
+    check_all(candidates);
     return choose_among(std::move(candidates));
   }
 
-  void check(Candidate& candidate) {
-    const Reachability& reachability = checker_.check(candidate.view);
+  /// Each thread takes its share in one piece, since neighbours often share their position.
+  void check_all(std::span<Candidate> candidates) {
+    const std::size_t lanes = bench_.marks.size();
+    parallel_for(bench_.threads, lanes, [&](std::size_t lane) {
+      ViewChecker checker(validity_, model_.navigation_m, belief_.grid, recent_, current_);
+      const std::size_t begin = candidates.size() * lane / lanes;
+      const std::size_t end = candidates.size() * (lane + 1) / lanes;
+      for (Candidate& candidate : candidates.subspan(begin, end - begin)) {
+        check(checker, candidate);
+      }
+    });
+  }
+
+  void check(ViewChecker& checker, Candidate& candidate) const {
+    const Reachability& reachability = checker.check(candidate.view);
     candidate.rejected = reachability.rejected;
     candidate.via_world_m = reachability.via_world_m;
     candidate.path_m =

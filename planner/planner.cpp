@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/core/error.hpp"
+#include "sim/core/parallel.hpp"
+
 namespace gnbv {
 namespace {
 
@@ -39,7 +42,8 @@ Belief::Belief(const PlannerModel& model)
 
 Workbench::Workbench(const PlannerModel& model, int thread_count)
     : threads(std::max(thread_count, 1)),
-      inserter(GridGeometry(model.workspace_m, model.config.map.resolution_m)),
+      inserters(std::max<std::size_t>(model.cameras.size(), 1),
+                ScanInserter(GridGeometry(model.workspace_m, model.config.map.resolution_m))),
       marks(
           static_cast<std::size_t>(threads),
           VisitMarks(GridGeometry(model.workspace_m, model.config.map.resolution_m).voxel_count())),
@@ -48,8 +52,8 @@ Workbench::Workbench(const PlannerModel& model, int thread_count)
 
 void integrate_profile(const PlannerModel& model, std::span<const LidarScan> scans,
                        Workbench& bench, Belief& belief) {
-  bench.inserter.insert_scans(belief.grid, scans, model.lidars, model.config.floor_z_m,
-                              bench.threads);
+  bench.inserters.front().insert_scans(belief.grid, scans, model.lidars, model.config.floor_z_m,
+                                       bench.threads);
   std::vector<Vec3f> points;
   for (const LidarScan& scan : scans) {
     const LidarModel& lidar = model.lidars[static_cast<std::size_t>(scan.lidar)];
@@ -72,18 +76,32 @@ bool sees_surface(std::span<const LidarScan> scans, std::span<const LidarModel> 
 void integrate_view(const PlannerModel& model, std::span<const DepthFrame> frames, Workbench& bench,
                     Belief& belief) {
   if (frames.empty()) return;
+  GNBV_CHECK(frames.size() <= bench.inserters.size(), "{} frames of {} cameras", frames.size(),
+             bench.inserters.size());
   bench.frame_rays.resize(frames.size());
-  for (std::size_t i = 0; i < frames.size(); ++i) {
+  std::vector<ScanUpdate> updates(frames.size());
+  const int threads_per_frame = std::max(bench.threads / static_cast<int>(frames.size()), 1);
+  parallel_for(bench.threads, frames.size(), [&](std::size_t i) {
     const CameraModel& camera = model.cameras[static_cast<std::size_t>(frames[i].camera)];
-    FrameRays& rays = bench.frame_rays[i];
-    compute_frame_rays(frames[i], camera, model.config.floor_z_m, rays);
-    belief.grid.apply(bench.inserter.compute_update(rays, frames[i], camera, bench.threads));
-    belief.has_depth_return =
-        belief.has_depth_return ||
-        std::find(rays.kind.begin(), rays.kind.end(), PixelRay::hits) != rays.kind.end();
-    if (model.needs_shadow) belief.shadow.add(rays, belief.grid);
-  }
-  belief.cloud.add(bench.frame_rays, model.config.cloud.leaf_m);
+    compute_frame_rays(frames[i], camera, model.config.floor_z_m, bench.frame_rays[i]);
+    updates[i] = bench.inserters[i].compute_update(bench.frame_rays[i], frames[i], camera,
+                                                   threads_per_frame);
+  });
+  const auto update_map = [&] {
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      belief.grid.apply(updates[i]);
+      if (model.needs_shadow) belief.shadow.add(bench.frame_rays[i], belief.grid);
+    }
+  };
+  const auto update_cloud = [&] { belief.cloud.add(bench.frame_rays, model.config.cloud.leaf_m); };
+  parallel_for(bench.threads, 2, [&](std::size_t task) {  // neither reads the other
+    task == 0 ? update_map() : update_cloud();
+  });
+  const auto has_hit = [](const FrameRays& rays) {
+    return std::find(rays.kind.begin(), rays.kind.end(), PixelRay::hits) != rays.kind.end();
+  };
+  belief.has_depth_return = belief.has_depth_return ||
+                            std::any_of(bench.frame_rays.begin(), bench.frame_rays.end(), has_hit);
 }
 
 std::vector<Vec3> positions_of(const History& history) {

@@ -6,7 +6,7 @@ double map_bytes(const std::array<double, 3>& voxels, int threads) {
   constexpr double kGrid_bytes = 8.0;
   constexpr double kCloud_bytes = 4.0;
   constexpr double kBucket_bytes = 4.0;
-  constexpr double kMarks_bytes = 3.0;
+  constexpr double kMarks_bytes = 4.0;
   constexpr double kVisit_bytes = 1.0;
   constexpr double kWalk_bytes = 1.0;
   const auto framed = [&](double frame) {
