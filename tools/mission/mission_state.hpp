@@ -1,0 +1,66 @@
+// What the stages of a mission share: its state, and how a leg is flown. For tools/mission/ only.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "sim/flight.hpp"
+#include "tools/mission/mission.hpp"
+
+namespace gnbv {
+
+/// Adds the wall time of its scope to a counter.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& total_s) : total_s_(total_s), begin_(Clock::now()) {}
+  ~Stopwatch() { total_s_ += std::chrono::duration<double>(Clock::now() - begin_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double& total_s_;
+  Clock::time_point begin_;
+};
+
+/// All that changes while the mission runs, beside what never does.
+struct Mission {
+  Mission(const Scenario& mission_scenario, const World& world, const RayScene& ray_scene,
+          const MissionHooks& mission_hooks, int threads);
+
+  const Scenario& scenario;
+  const RayScene& scene;
+  const MissionHooks& hooks;
+  const PlannerModel planner;
+
+  Workbench bench;
+
+  MissionResult out;
+  std::unique_ptr<Flight> flight;
+  History history;
+  ViewPose current;                 // where the planner believes to be
+  Vec3 last_p_world_m;              // truth, one tick ago
+  double flown_m = 0.0;             // truth, since the start
+  double entropy_before_nat = 0.0;  // of the view at hand
+  WallTimes view_wall;              // of the view at hand
+};
+
+double time_s(const Flight& flight);
+
+/// A resumed run goes on until it has caught up: stopping earlier would lose recorded views.
+bool should_stop(const Mission& m);
+
+/// Flies one leg and keeps its track; `on_tick` runs after each tick.
+std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal, double speed_m_s,
+                                   const std::function<void(const Flight&)>& on_tick);
+/// At path speed, with nothing to do on the way.
+std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal);
+
+/// Profiles the structure with the LIDARs and believes the scans in one batch (section 2.2), or
+/// takes up the belief that an earlier profile left; then predicts what symmetry tells of the rest
+/// (section 2.3), and flies back to where the views begin.
+std::optional<Termination> fly_profile(Mission& m);
+
+}  // namespace gnbv

@@ -1,0 +1,106 @@
+// The first stage of a mission: the profile, and what is made of it before the first view.
+#include "planner/belief_file.hpp"
+#include "tools/mission/mission_state.hpp"
+#include "tools/mission/sensing.hpp"
+
+namespace gnbv {
+namespace {
+
+/// Flies the legs of the profile while the LIDARs scan.
+std::optional<Termination> scan_profile(Mission& m, ProfileScanner& scanner) {
+  const ProfilingConfig& profiling = m.planner.config.profiling;
+  const GuidanceConfig& guidance = m.scenario.guidance;
+  ProfileRoute route(profiling, m.planner.navigation_m, m.current);
+  std::size_t looked_at = 0;  // of the sweeps
+  for (bool is_first = true;; is_first = false) {
+    const auto fresh = std::span(scanner.scans()).subspan(looked_at);
+    looked_at = scanner.scans().size();
+    const auto leg = route.next(sees_surface(fresh, m.planner.lidars, m.planner.config.floor_z_m));
+    if (!leg) return std::nullopt;
+    const bool scanning = leg->is_scan || (profiling.scan_in_transit && !is_first);
+    const double speed_m_s = leg->is_scan ? guidance.profile_speed_m_s : guidance.path_speed_m_s;
+    m.out.distance.profile_m += (leg->goal.p_world_m - m.current.p_world_m).norm();
+    const auto over = fly_leg(m, leg->goal, speed_m_s,
+                              [&](const Flight& flight) { scanner.tick(flight, scanning); });
+    if (over) return over;
+    m.hooks.on_profile(route.share_done());
+    if (should_stop(m)) return Termination::interrupted;
+  }
+}
+
+/// Flies and believes the profile, or takes up a saved one.
+std::optional<Termination> take_profile(Mission& m) {
+  const Stopwatch watch(m.out.wall.profile_s);
+  const ProfilingConfig& profiling = m.planner.config.profiling;
+  std::optional<Termination> over;
+  if (profiling.method == ProfilingMethod::saved) {
+    m.out.belief = read_belief(profiling.file, m.planner);
+  } else {
+    ProfileScanner scanner(m.scene, m.planner.lidars, m.scenario.seed);
+    over = scan_profile(m, scanner);
+    integrate_profile(m.planner, scanner.scans(), m.bench, m.out.belief);
+  }
+  const auto points = m.out.belief.cloud.points_world_m();
+  m.out.profile_points_world_m.assign(points.begin(), points.end());
+  m.out.entropy_after_profile_nat = m.out.belief.grid.total_entropy_nat();
+  m.out.distance.profile_flown_m = m.flown_m;
+  m.out.profile_end_s = time_s(*m.flight);
+  m.hooks.on_profile_belief(m.out.belief);
+  return over;
+}
+
+/// Predicts the other half of a symmetric structure (section 2.3).
+void predict(Mission& m) {
+  const Stopwatch watch(m.out.wall.symmetry_s);
+  Prediction& prediction = m.out.prediction;
+  prediction.symmetry =
+      find_symmetry(m.planner.config.symmetry, m.out.profile_points_world_m, m.out.belief.grid);
+  prediction.predicted_voxels = predict_surface(prediction.symmetry, m.out.belief.grid);
+  prediction.symmetry.mirrored_world_m = {};
+}
+
+/// Back to where the views begin: straight when that is clear, else over the top of the workspace.
+std::optional<Termination> fly_to_first_view(Mission& m) {
+  const Stopwatch watch(m.out.wall.fly_s);
+  const ViewPose& goal = m.out.start;
+  const double radius_m = m.planner.config.validity.collision_radius_m;
+  std::vector<ViewPose> legs = {goal};
+  if (!is_path_clear(m.out.belief.grid, m.current.p_world_m, goal.p_world_m, radius_m)) {
+    const double top_z_m = m.planner.navigation_m.max().z();
+    ViewPose climb = m.current;
+    climb.p_world_m.z() = top_z_m;
+    ViewPose across = goal;
+    across.p_world_m.z() = top_z_m;
+    legs = {climb, across, goal};
+  }
+  for (const ViewPose& leg : legs) {
+    m.out.distance.transfer_m += (leg.p_world_m - m.current.p_world_m).norm();
+    if (const auto over = fly_leg(m, leg)) return over;
+  }
+  m.flown_m = 0.0;
+  return std::nullopt;
+}
+
+/// What a baseline that asks no utility will fly, laid around the profile.
+void lay_route(Mission& m) {
+  const PlannerConfig& config = m.planner.config;
+  if (!is_route(config.utility.name)) return;
+  m.history.route = plan_route(config.utility.name, config.routes,
+                               {.grid = m.out.belief.grid,
+                                .navigation_m = m.planner.navigation_m,
+                                .camera = m.planner.cameras.front(),
+                                .start = m.out.start,
+                                .views = config.termination.max_iterations});
+}
+
+}  // namespace
+
+std::optional<Termination> fly_profile(Mission& m) {
+  if (const auto over = take_profile(m)) return over;
+  predict(m);
+  if (const auto over = fly_to_first_view(m)) return over;
+  lay_route(m);
+  return std::nullopt;
+}
+
+}  // namespace gnbv
