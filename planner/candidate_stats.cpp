@@ -11,7 +11,7 @@ ViewStats candidate_stats(const UtilityConfig& config, const OccupancyGrid& grid
   const ReleasedSlips slips = {
       .excludes_hit_voxel = needs.released_baseline && config.hit_voxel == HitVoxel::excluded,
       .prediction_hides_hits =
-          needs.refuses_blind && config.prediction_hides_hits && config.gamma > 0.0};
+          needs.released_baseline && config.prediction_hides_hits && config.gamma > 0.0};
   if (slips.excludes_hit_voxel || slips.prediction_hides_hits) {
     return evaluate_view_with_slips(grid, cloud, rays, candidate, slips, sparse_below);
   }

@@ -90,6 +90,7 @@ class Decider {
                               .candidates = 1,
                               .valid = 1,
                               .via_world_m = candidate.via_world_m};
+        plan_.chosen = plan_.candidates.size();
       }
       plan_.candidates.push_back(std::move(candidate));
     }
@@ -124,13 +125,13 @@ class Decider {
     const FvsConfig& fvs = model_.config.fvs;
     std::vector<Candidate> views;
     for (const ViewPose& view : sample_fvs(fvs, cluster.centroid_world_m)) {
-      Candidate candidate{.view = view, .sampler = "fvs", .cluster = rank};
-      check(checker_, candidate);
-      if (!candidate.rejected) {
-        candidate.rejected = cluster_rejection(model_.cameras, belief_.grid, cluster, view,
-                                               fvs.needs_visible_cluster);
-      }
-      views.push_back(std::move(candidate));
+      views.push_back({.view = view, .sampler = "fvs", .cluster = rank});
+    }
+    check_all(views);
+    for (Candidate& candidate : views) {
+      if (candidate.rejected) continue;
+      candidate.rejected = cluster_rejection(model_.cameras, belief_.grid, cluster, candidate.view,
+                                             fvs.needs_visible_cluster);
     }
     return views;
   }
@@ -222,6 +223,7 @@ class Decider {
                             .valid = valid,
                             .score = best->score,
                             .via_world_m = best->via_world_m};
+      plan_.chosen = plan_.candidates.size() + static_cast<std::size_t>(best - candidates.data());
     }
     std::move(candidates.begin(), candidates.end(), std::back_inserter(plan_.candidates));
     return plan_.next.has_value();

@@ -23,6 +23,7 @@ struct Candidate {
 /// The next view, if any, and all candidates of this decision in the order they were sampled.
 struct Plan {
   std::optional<Decision> next;
+  std::optional<std::size_t> chosen;  // of the candidates
   std::vector<Candidate> candidates;
 };
 

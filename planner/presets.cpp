@@ -8,13 +8,12 @@ namespace {
 void set_paper(PlannerConfig& config) {
   const PlannerConfig paper;
   config.profiling.scan_in_transit = paper.profiling.scan_in_transit;
-  config.agvs.repeated_moves = paper.agvs.repeated_moves;
   config.fvs.frontier.max_extent_m = paper.fvs.frontier.max_extent_m;
   config.fvs.tries = paper.fvs.tries;
   config.fvs.pool_clusters = paper.fvs.pool_clusters;
   config.fvs.views_per_layer = paper.fvs.views_per_layer;
   config.fvs.needs_visible_cluster = paper.fvs.needs_visible_cluster;
-  config.validity.path = paper.validity.path;
+  config.fvs.agvs_when_stuck = paper.fvs.agvs_when_stuck;
   config.utility.bircher_lambda_per_m = paper.utility.bircher_lambda_per_m;
   config.utility.hit_voxel = paper.utility.hit_voxel;
   config.utility.prediction_hides_hits = paper.utility.prediction_hides_hits;
@@ -27,7 +26,7 @@ void set_released(PlannerConfig& config) {
   config.fvs.pool_clusters = true;
   config.fvs.views_per_layer = 8;
   config.fvs.needs_visible_cluster = false;
-  config.validity.path = PathCheck::unchecked;
+  config.fvs.agvs_when_stuck = false;
   config.utility.bircher_lambda_per_m = 0.5;
   config.utility.hit_voxel = HitVoxel::excluded;
   config.utility.prediction_hides_hits = true;

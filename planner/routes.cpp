@@ -58,8 +58,10 @@ std::vector<ViewPose> hemisphere(const RouteConfig& config, const RouteProblem& 
                                  std::span<const Vec3> obstacles_m, const Box3& structure_m) {
   const Vec3 center_m(structure_m.center().x(), structure_m.center().y(), structure_m.min().z());
   std::vector<ViewPose> views;
-  for (int i = 0; i < problem.views; ++i) {
-    const double up = (i + 0.5) / problem.views;
+  constexpr int kMostViews = 10000;  // ordering them takes the square of it
+  const int count = std::min(problem.views, kMostViews);
+  for (int i = 0; i < count; ++i) {
+    const double up = (i + 0.5) / count;
     const double bearing_rad = 2.0 * kPi * i / (std::numbers::phi * std::numbers::phi);
     const double level = std::sqrt(1.0 - up * up);
     const Vec3 direction(level * std::cos(bearing_rad), level * std::sin(bearing_rad), up);
@@ -142,8 +144,15 @@ std::vector<ViewPose> plan_route(std::string_view name, const RouteConfig& confi
   if (obstacles_m.empty()) return {};
   Box3 structure_m;
   for (const Vec3& center_m : obstacles_m) structure_m.extend(center_m);
-  return name == "lawnmower" ? lawnmower(config, problem, structure_m)
-                             : hemisphere(config, problem, obstacles_m, structure_m);
+  std::vector<ViewPose> views = name == "lawnmower"
+                                    ? lawnmower(config, problem, structure_m)
+                                    : hemisphere(config, problem, obstacles_m, structure_m);
+  // views clamped to a corner of the navigation box may be the same
+  const auto is_same = [](const ViewPose& a, const ViewPose& b) {
+    return a.p_world_m == b.p_world_m && a.yaw_rad == b.yaw_rad;
+  };
+  views.erase(std::unique(views.begin(), views.end(), is_same), views.end());
+  return views;
 }
 
 }  // namespace gnbv

@@ -29,7 +29,7 @@ struct RouteProblem {
   const Box3& navigation_m;
   const CameraModel& camera;  // whose footprint spaces the rows
   ViewPose start;
-  int views = 1;  // uniform_hemisphere: how many
+  int views = 1;  // uniform_hemisphere: how many, 10,000 at most
 };
 
 /// The views in the order in which they are to be flown; empty where nothing is occupied.

@@ -151,7 +151,7 @@ void fields(FieldVisitor& v, UtilityConfig& c) {
 }
 
 void fields(FieldVisitor& v, RouteConfig& c) {
-  v.number("standoff_m", c.standoff_m, above_upto(0, 1e3), "From the surface of the profile.");
+  v.number("standoff_m", c.standoff_m, between(0.1, 1e3), "From the surface of the profile.");
   v.number("overlap", c.overlap, between(0, 0.95), "lawnmower: of neighbouring images.");
 }
 

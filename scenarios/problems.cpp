@@ -62,7 +62,7 @@ void check_map_size(const Scenario& s, Problems& out) {
   const double resolution_m = s.planner.map.resolution_m;
   const Vec3 size_m = s.workspace_m.sizes();
   const Vec3 voxels = (size_m / resolution_m - Vec3::Constant(1e-6)).array().ceil();
-  const double bytes = map_bytes({voxels.x(), voxels.y(), voxels.z()}, 1);
+  const double bytes = map_bytes({voxels.x(), voxels.y(), voxels.z()}, 1, s.cameras.size());
   if (bytes > kMapBudget_bytes) {
     const double fitting_m = resolution_m * std::cbrt(bytes / kMapBudget_bytes);
     out.push_back(
@@ -116,6 +116,23 @@ void check_workspace(const Scenario& s, Problems& out) {
         {{"start.position_m", "planner.validity.z_min_m", "workspace_m.min", "workspace_m.max"},
          fmt::format("the start {} lies outside the navigation box from {} to {}", text_of(start_m),
                      text_of(navigation_m.min()), text_of(navigation_m.max()))});
+  }
+}
+
+/// Lengths that have to fit the voxels of the map.
+void check_lengths(const PlannerConfig& planner, Problems& out) {
+  const double resolution_m = planner.map.resolution_m;
+  const double extent_m = planner.fvs.frontier.max_extent_m;
+  if (extent_m != 0.0 && extent_m < resolution_m) {
+    out.push_back({{"planner.fvs.frontier.max_extent_m", "planner.map.resolution_m"},
+                   fmt::format("max_extent_m = {} is neither 0 nor at least a voxel, {} m",
+                               extent_m, resolution_m)});
+  }
+  const double shadow_m = planner.utility.shadow.shadow_depth_m;
+  if (shadow_m > kMaxShadow_voxels * resolution_m) {
+    out.push_back({{"planner.utility.shadow.shadow_depth_m", "planner.map.resolution_m"},
+                   fmt::format("shadow_depth_m = {} is more than {} voxels of {} m", shadow_m,
+                               kMaxShadow_voxels, resolution_m)});
   }
 }
 
@@ -238,6 +255,7 @@ std::vector<Problem> problems(const Scenario& scenario) {
   check_guidance(scenario, out);
   check_offboard(scenario.vehicle, out);
   check_cloud(scenario.planner, out);
+  check_lengths(scenario.planner, out);
   check_view_rays(scenario, out);
   check_map_thresholds(scenario.planner.map, out);
   check_utility(scenario.planner.utility, out);

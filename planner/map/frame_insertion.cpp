@@ -6,6 +6,7 @@
 
 #include "planner/map/frame_view.hpp"
 #include "planner/map/ray_walk.hpp"
+#include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
 
 namespace gnbv {
@@ -30,7 +31,7 @@ EndRow make_end_row(const GridGeometry& grid, int width) {
 }  // namespace
 
 FrameInserter::FrameInserter(const GridGeometry& grid)
-    : grid_(grid), marks_(grid.voxel_count() + kPadding, kUntouched) {}
+    : grid_(grid), marks_(grid.voxel_count() + kPadding) {}
 
 void FrameInserter::prepare(const CameraModel& camera, int threads) {
   width_ = camera.config.width_px;
@@ -160,6 +161,9 @@ ScanUpdate FrameInserter::collect(const FrameView& view) {
 ScanUpdate FrameInserter::compute_update(const FrameRays& rays, const DepthFrame& frame,
                                          const CameraModel& camera, int threads) {
   prepare(camera, threads);
+  const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+  GNBV_CHECK(frame.depth_m.size() == pixels && rays.kind.size() == pixels,
+             "{} depths and {} rays for {} pixels", frame.depth_m.size(), rays.kind.size(), pixels);
   const std::size_t workers = workers_.size();
   parallel_for(threads, workers, [&](std::size_t w) {
     for (auto band = static_cast<int>(w); band < tiles_y_; band += static_cast<int>(workers)) {

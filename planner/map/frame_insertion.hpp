@@ -12,6 +12,7 @@
 #include "planner/map/frame_rays.hpp"
 #include "planner/map/occupancy_grid.hpp"
 #include "planner/map/simd/frame_kernels.hpp"
+#include "sim/core/zeroed_array.hpp"
 
 namespace gnbv {
 
@@ -47,7 +48,7 @@ class FrameInserter {
   ScanUpdate collect(const FrameView& view);
 
   GridGeometry grid_;
-  std::vector<std::uint8_t> marks_;  // of voxels; untouched between calls
+  ZeroedArray<std::uint8_t> marks_;  // of voxels; untouched between calls
   int width_ = 0, height_ = 0, row_stride_ = 0;
   int tiles_x_ = 0, tiles_y_ = 0, levels_ = 0;
   std::vector<float> inverse_depth_;           // (rows of whole tiles, row_stride_)

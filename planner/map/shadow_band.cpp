@@ -9,10 +9,9 @@ ShadowBand::ShadowBand(const ShadowConfig& config, const GridGeometry& grid)
     : shadow_depth_m_(config.shadow_depth_m),
       steps_max_(2.0 * config.shadow_depth_m / grid.resolution_m()),
       steps_(grid.voxel_count()) {
-  constexpr double kMaxDepth_voxels = 80.0;  // 3 axes of so many steps fit a byte
-  if (!(shadow_depth_m_ > 0.0 && shadow_depth_m_ <= kMaxDepth_voxels * grid.resolution_m())) {
+  if (!(shadow_depth_m_ > 0.0 && shadow_depth_m_ <= kMaxShadow_voxels * grid.resolution_m())) {
     throw BadInput(fmt::format("shadow_depth_m: {} is not between 0 and {} voxels of {} m",
-                               shadow_depth_m_, kMaxDepth_voxels, grid.resolution_m()));
+                               shadow_depth_m_, kMaxShadow_voxels, grid.resolution_m()));
   }
 }
 

@@ -15,6 +15,9 @@ struct ShadowConfig {
   double shadow_depth_m = 0.3;
 };
 
+/// The band is no deeper: three axes of so many steps fit a byte.
+constexpr double kMaxShadow_voxels = 80.0;
+
 /// For each voxel the smallest number of steps, 1 or more, from the voxel of a hit along the ray
 /// through it. Only voxels that are unmeasured count; the grid keeps which (is_shaded).
 class ShadowBand {

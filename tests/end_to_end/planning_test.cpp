@@ -9,6 +9,7 @@
 
 #include "planner/belief_file.hpp"
 #include "planner/utility.hpp"
+#include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/core/simd.hpp"
 #include "tests/support/flown.hpp"
@@ -46,6 +47,7 @@ TEST(PlannerMission, ThePresetsFlyDifferently) {
   const Flown paper(smoke());
   const Flown released(smoke({"planner.preset=released"}));
   EXPECT_NE(result_sha256(paper.result), result_sha256(released.result));
+  EXPECT_GE(released.result.views.size(), 3U);
 }
 
 TEST(PlannerMission, ASavedProfileIsTakenUpWhereItEnded) {
@@ -126,6 +128,12 @@ TEST(CandidatesFile, HasEachCandidateOnceAndOneChosenADecision) {
   }
   EXPECT_EQ(chosen, (std::vector<int>{0, 1, 1, 1, 1, 1}));
   for (std::size_t i = 1; i < all.size(); ++i) EXPECT_GE(all[i], 12) << i;
+}
+
+TEST(CandidatesFile, IsRefusedForARunThatDidNotWriteOneBefore) {
+  const TempFolder temp;
+  EXPECT_THROW(CandidatesFile(temp.path(), 3), BadInput);
+  EXPECT_NO_THROW(CandidatesFile(temp.path(), 1));  // the start alone is no decision
 }
 
 TEST(CandidatesFile, OfAResumedMissionIsThatOfAnUninterruptedOne) {

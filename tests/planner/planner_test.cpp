@@ -30,14 +30,14 @@ TEST(Presets, DifferInTheirSwitchesAndInNothingElse) {
   set_preset_switches(config);
   EXPECT_EQ(config.fvs.frontier.max_extent_m, 0.0);
   EXPECT_EQ(config.fvs.views_per_layer, 8);
-  EXPECT_EQ(config.validity.path, PathCheck::unchecked);
+  EXPECT_EQ(config.utility.hit_voxel, HitVoxel::excluded);
   EXPECT_EQ(config.utility.alpha, 7.0);
   EXPECT_EQ(config.map.resolution_m, 0.3);
   config.preset = "paper";
   set_preset_switches(config);
   EXPECT_EQ(config.fvs.frontier.max_extent_m, 2.0);
   EXPECT_EQ(config.fvs.views_per_layer, 4);
-  EXPECT_EQ(config.validity.path, PathCheck::straight);
+  EXPECT_EQ(config.utility.hit_voxel, HitVoxel::counted);
 }
 
 }  // namespace

@@ -124,6 +124,7 @@ TEST(PredictionThatHidesHits, NeedsAWeightForPrediction) {
   corridor.hit(2);
   const ShadowBand shadow({}, corridor.grid.geometry());
   UtilityConfig config;
+  config.name = "isler";
   config.prediction_hides_hits = true;
   const auto occupied = [&] {
     return candidate_stats(config, corridor.grid, corridor.cloud, shadow, 0.0,
@@ -132,6 +133,9 @@ TEST(PredictionThatHidesHits, NeedsAWeightForPrediction) {
   };
   EXPECT_EQ(occupied(), 0U);
   config.gamma = 0.0;
+  EXPECT_EQ(occupied(), 1U);
+  config.gamma = 0.5;
+  config.name = "proposed";  // a slip of the baselines alone
   EXPECT_EQ(occupied(), 1U);
 }
 

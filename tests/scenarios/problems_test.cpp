@@ -36,8 +36,8 @@ TEST(Problems, AWorkspaceIsABoxThatFitsIntoMemory) {
             "s.yaml:2: workspace_m.min: value '[0, 0, 20]': min z = 20 has to be below max z = 20");
   EXPECT_THAT(complaint(kMinimal + "planner: {map: {resolution_m: 0.01}}"),
               AllOf(StartsWith("s.yaml:2: planner.map.resolution_m: value '0.01': "),
-                    // 4000 x 4000 x 2000 voxels of 22 bytes, and the frames around them
-                    HasSubstr("3.2e+10 voxels and 656.4 GiB"), HasSubstr("the budget is 6 GiB")));
+                    // 4000 x 4000 x 2000 voxels of 21 bytes, and the frames around them
+                    HasSubstr("3.2e+10 voxels and 626.6 GiB"), HasSubstr("the budget is 6 GiB")));
   EXPECT_EQ(complaint(kMinimal + "planner: {map: {resolution_m: 0.05}}"), "");
   EXPECT_THAT(complaint(kMinimal + "planner: {map: {resolution_m: 0.001}}\n"
                                    "workspace_m: {min: [40, 0, 0], max: [41, 1, 1]}\n"

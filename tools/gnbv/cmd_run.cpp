@@ -30,9 +30,10 @@ void run(const RunOptions& options) {
   }
   if (mission.result.termination == Termination::interrupted) {
     throw CommandFailed(
-        fmt::format("interrupted after {} views; `gnbv run {} --resume --out {}` continues it",
+        fmt::format("interrupted after {} views; `gnbv run {} --resume --out {}{}{}` continues it",
                     mission.result.views.size(), (mission.folder / "scenario.yaml").string(),
-                    mission.folder.string()));
+                    mission.folder.string(), options.frames ? " --frames" : "",
+                    options.candidates ? " --candidates" : ""));
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "planner/belief_file.hpp"
 #include "planner/map/memory.hpp"
+#include "planner/symmetry_module.hpp"
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
@@ -32,7 +33,7 @@ double seconds_since(Clock::time_point begin) {
 /// Memory that grows with the threads is not in the scenario's own budget.
 void need_memory_for(const Scenario& scenario, int threads) {
   const GridGeometry grid(scenario.workspace_m, scenario.planner.map.resolution_m);
-  const auto bytes = static_cast<double>(map_bytes(grid, threads));
+  const auto bytes = static_cast<double>(map_bytes(grid, threads, scenario.cameras.size()));
   if (bytes <= kMapBudget_bytes) return;
   throw BadInput(
       fmt::format("--threads {}: a map of {} voxels needs {:.1f} GiB with so many, the "
@@ -116,6 +117,7 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
   const RayScene scene(world);
   start_pose(scenario, scene);
   need_saved_profile(scenario);
+  if (scenario.planner.symmetry.enabled) symmetry_module();  // throws when it is missing
   const fs::path folder =
       options.out.empty() ? free_folder(fmt::format("{}-{}-seed{}", scenario.name,
                                                     scenario.planner.utility.name, scenario.seed))
@@ -143,8 +145,8 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
         make_surface_reference(world, scene, {.floor_z_m = scenario.planner.floor_z_m}, threads);
     const MissionScore score = score_mission(reference, result);
     result.wall.score_s = seconds_since(scoring);
-    if (candidates) candidates->finish();
     directory.finish(scenario, result, score, seconds_since(begin));
+    if (candidates) candidates->finish();
     return {directory.path(), std::move(result), score, seconds_since(begin)};
   } catch (const BrokenInvariant& broken) {
     throw BrokenInvariant(fmt::format("{}\nreplay with: gnbv run {} --out REPLAY", broken.what(),

@@ -1,5 +1,6 @@
 #include "tools/mission/candidates_file.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "sim/core/error.hpp"
@@ -12,6 +13,8 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 constexpr std::string_view kName = "candidates.jsonl";
+constexpr std::string_view kNotWritten =
+    "the interrupted run did not write its candidates: resume it without --candidates";
 
 fs::path part_of(const fs::path& path) { return path.string() + ".part"; }
 
@@ -38,10 +41,15 @@ Json json_of(std::size_t iteration, const Candidate& c, bool is_chosen) {
   return json;
 }
 
-/// The whole lines of decisions before `iteration`, as an interrupted run left them.
+/// The whole lines of decisions before `iteration`, as an interrupted run left them. Throws when
+/// they do not reach up to it: then that run did not write them all.
 std::string lines_before(std::size_t iteration, const fs::path& part) {
   std::string kept;
-  if (!fs::exists(part)) return kept;
+  std::size_t last = 0;  // the start is no decision
+  if (!fs::exists(part)) {
+    if (iteration > 1) throw BadInput(fmt::format("{}: {}", part.string(), kNotWritten));
+    return kept;
+  }
   const std::string content = read_file(part);
   for (std::size_t begin = 0; begin < content.size();) {
     const std::size_t end = content.find('\n', begin);
@@ -53,8 +61,12 @@ std::string lines_before(std::size_t iteration, const fs::path& part) {
         json.is_object() && json.contains("iteration") && json["iteration"].is_number_unsigned();
     if (!is_ours)
       throw BadInput(fmt::format("{}: holds a line that is no candidate", part.string()));
-    if (json["iteration"].get<std::size_t>() < iteration) kept += line;
+    const auto of = json["iteration"].get<std::size_t>();
+    if (of >= iteration) continue;
+    kept += line;
+    last = std::max(last, of);
   }
+  if (last + 1 < iteration) throw BadInput(fmt::format("{}: {}", part.string(), kNotWritten));
   return kept;
 }
 
@@ -69,11 +81,8 @@ CandidatesFile::CandidatesFile(const fs::path& folder, std::size_t first_iterati
 }
 
 void CandidatesFile::write(std::size_t iteration, const Plan& plan) {
-  for (const Candidate& c : plan.candidates) {
-    const bool is_chosen = plan.next && !c.rejected && c.sampler == plan.next->sampler &&
-                           c.view.p_world_m == plan.next->view.p_world_m &&
-                           c.view.yaw_rad == plan.next->view.yaw_rad;
-    part_ << json_of(iteration, c, is_chosen).dump() << '\n';
+  for (std::size_t i = 0; i < plan.candidates.size(); ++i) {
+    part_ << json_of(iteration, plan.candidates[i], plan.chosen == i).dump() << '\n';
   }
   part_.flush();
   if (!part_) throw BadInput(fmt::format("{}: cannot write", part_of(path_).string()));
@@ -81,7 +90,9 @@ void CandidatesFile::write(std::size_t iteration, const Plan& plan) {
 
 void CandidatesFile::finish() {
   part_.close();
-  fs::rename(part_of(path_), path_);
+  std::error_code error;
+  fs::rename(part_of(path_), path_, error);
+  if (error) throw BadInput(fmt::format("{}: cannot write: {}", path_.string(), error.message()));
 }
 
 }  // namespace gnbv

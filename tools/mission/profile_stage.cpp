@@ -15,7 +15,9 @@ std::optional<Termination> scan_profile(Mission& m, ProfileScanner& scanner) {
   for (bool is_first = true;; is_first = false) {
     const auto fresh = std::span(scanner.scans()).subspan(looked_at);
     looked_at = scanner.scans().size();
-    const auto leg = route.next(sees_surface(fresh, m.planner.lidars, m.planner.config.floor_z_m));
+    const bool saw_surface = profiling.method == ProfilingMethod::circular &&
+                             sees_surface(fresh, m.planner.lidars, m.planner.config.floor_z_m);
+    const auto leg = route.next(saw_surface);
     if (!leg) return std::nullopt;
     const bool scanning = leg->is_scan || (profiling.scan_in_transit && !is_first);
     const double speed_m_s = leg->is_scan ? guidance.profile_speed_m_s : guidance.path_speed_m_s;
@@ -45,7 +47,7 @@ std::optional<Termination> take_profile(Mission& m) {
   m.out.entropy_after_profile_nat = m.out.belief.grid.total_entropy_nat();
   m.out.distance.profile_flown_m = m.flown_m;
   m.out.profile_end_s = time_s(*m.flight);
-  m.hooks.on_profile_belief(m.out.belief);
+  if (!over) m.hooks.on_profile_belief(m.out.belief);
   return over;
 }
 

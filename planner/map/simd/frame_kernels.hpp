@@ -7,9 +7,8 @@
 
 namespace gnbv {
 
-constexpr int kPadding = 16;     // elements a row may be read beyond its end: one vector
-constexpr int kTile_px = 8;      // side of the squares of which the furthest depth is kept
-constexpr int kTileLevels = 12;  // windows of 2^level tiles; enough for images of 32,768 pixels
+constexpr int kPadding = 16;  // elements a row may be read beyond its end: one vector
+constexpr int kTile_px = 8;   // side of the squares of which the furthest depth is kept
 
 /// What one row of pixels needs to become rays: end = origin + depth * (across[u] + down).
 struct PixelRow {

@@ -182,7 +182,11 @@ void project_row(const FrameView& view, int y, int z, const FrameMarks& marks) {
     std::uint8_t* const voxel = marks.voxel + row_start + x;
     const int left = run.last - x + 1;
     const std::uint32_t in_run = left < kLanes ? (1U << left) - 1U : kAllLanes;
-    const std::uint32_t open = in_run & bits(equal(load_bytes(voxel), all(0)));
+    // what lies behind the row may be another thread's
+    std::uint8_t tail[kLanes] = {};
+    for (int i = 0; left < kLanes && i < left; ++i) tail[i] = voxel[i];
+    const std::uint8_t* const seen = left < kLanes ? tail : voxel;
+    const std::uint32_t open = in_run & bits(equal(load_bytes(seen), all(0)));
     if (open == 0) continue;
     center_m[0] = row_start_m + x * view.resolution_m;
     const Centers c = make_centers(view, center_m);

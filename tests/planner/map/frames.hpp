@@ -13,9 +13,13 @@ namespace gnbv {
 
 constexpr std::array kSimdLevels = {SimdLevel::scalar, SimdLevel::avx2, SimdLevel::avx512};
 
-/// Gives the processor's best level back at the end of a test.
+/// Gives the level back at the end of a test.
 struct SimdLevelGuard {
-  ~SimdLevelGuard() { set_simd_level(SimdLevel::avx512); }
+  SimdLevelGuard() : before(simd_level()) {}
+  ~SimdLevelGuard() { set_simd_level(before); }
+  SimdLevelGuard(const SimdLevelGuard&) = delete;
+  SimdLevelGuard& operator=(const SimdLevelGuard&) = delete;
+  const SimdLevel before;
 };
 
 inline CameraModel camera_of(int width_px, int height_px, double fov_x_deg, double fov_y_deg) {

@@ -7,8 +7,9 @@ namespace {
 
 TEST(MapBytes, AreNoLessThanWhatEveryVoxelHolds) {
   const GridGeometry grid(Box3(Vec3(-2, -2, 0), Vec3(2, 2, 2)), 0.2);
-  EXPECT_GE(map_bytes(grid, 1), 22 * grid.voxel_count());
-  EXPECT_GE(map_bytes(grid, 4), map_bytes(grid, 1) + 6 * grid.voxel_count());
+  EXPECT_GE(map_bytes(grid, 1, 2), 22 * grid.voxel_count());
+  EXPECT_GE(map_bytes(grid, 4, 2), map_bytes(grid, 1, 2) + 6 * grid.voxel_count());
+  EXPECT_EQ(map_bytes(grid, 1, 5), map_bytes(grid, 1, 2) + 3 * grid.voxel_count());
 }
 
 TEST(MapBytes, OfAQuarterOfABillionVoxelsAreWithinTheBudget) {
@@ -17,8 +18,8 @@ TEST(MapBytes, OfAQuarterOfABillionVoxelsAreWithinTheBudget) {
   EXPECT_EQ(fine.voxel_count(), 256'000'000U);
   EXPECT_EQ(wide.voxel_count(), 250'000'000U);
   for (const GridGeometry& grid : {fine, wide}) {
-    EXPECT_LT(static_cast<double>(map_bytes(grid, 2)), kMapBudget_bytes);
-    EXPECT_GT(static_cast<double>(map_bytes(grid, 4)), kMapBudget_bytes);
+    EXPECT_LT(static_cast<double>(map_bytes(grid, 2, 2)), kMapBudget_bytes);
+    EXPECT_GT(static_cast<double>(map_bytes(grid, 4, 2)), kMapBudget_bytes);
   }
 }
 
