@@ -44,7 +44,9 @@ std::vector<Setting> settings_of(const Belief& belief) {
           {"clamp_max", map.clamp_max},
           {"occupied_min", map.occupied_min},
           {"free_max", map.free_max},
-          {"leaf_m", belief.cloud.config().leaf_m}};
+          {"leaf_m", belief.cloud.config().leaf_m},
+          {"profile_leaf_m", belief.cloud.config().profile_leaf_m},
+          {"floor_z_m", belief.floor_z_m}};
 }
 
 std::string digest_of(std::string_view content) {

@@ -38,7 +38,8 @@ PlannerModel::PlannerModel(const PlannerConfig& planner_config, const Box3& work
 Belief::Belief(const PlannerModel& model)
     : grid(model.config.map, model.workspace_m),
       cloud(model.config.cloud, grid.geometry()),
-      shadow(model.config.utility.shadow, grid.geometry()) {}
+      shadow(model.config.utility.shadow, grid.geometry()),
+      floor_z_m(model.config.floor_z_m) {}
 
 Workbench::Workbench(const PlannerModel& model, int thread_count)
     : threads(std::max(thread_count, 1)) {

@@ -61,6 +61,7 @@ struct Belief {
   OccupancyGrid grid;
   SurfaceCloud cloud;
   ShadowBand shadow;
+  double floor_z_m;               // returns below were taken for the floor
   bool has_depth_return = false;  // any camera has seen a surface
 };
 

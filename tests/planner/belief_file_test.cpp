@@ -180,8 +180,8 @@ TEST_F(BeliefFile, WithNonsenseUnderAFittingDigestIsRefused) {
   write_belief(early_belief(), path_);
   const std::string whole = read_file(path_);
   const std::size_t body = whole.size() - 64;
-  // the count of points is after the line, 14 settings and a flag
-  const std::size_t count_at = 14 + 14 * 8 + 1;
+  // the count of points is after the line, 16 settings and a flag
+  const std::size_t count_at = 14 + 16 * 8 + 1;
   std::string many = whole;
   many.replace(count_at, 8, std::string(8, '\x7f'));
   EXPECT_THAT(complaint(signed_again(many)), HasSubstr("fewer points than it says"));
@@ -222,6 +222,10 @@ TEST_F(BeliefFile, OfAnotherMapIsRefused) {
   config.map.resolution_m = 0.1;
   write_belief(Belief(model_of(config)), path_);
   EXPECT_THAT(complaint(read_file(path_)), HasSubstr("resolution_m is 0.1, not 0.2"));
+  config = {};
+  config.floor_z_m = 0.1;
+  write_belief(Belief(model_of(config)), path_);
+  EXPECT_THAT(complaint(read_file(path_)), HasSubstr("floor_z_m is 0.1, not 0.3"));
 }
 
 }  // namespace
