@@ -23,7 +23,7 @@ namespace {
 TEST(PlannerMission, EveryUtilityFliesWithoutACollision) {
   std::vector<std::string_view> names = utility_names();
   names.insert(names.end(), kRouteNames.begin(), kRouteNames.end());
-  EXPECT_EQ(names.size(), 17U);
+  EXPECT_GE(names.size(), 17U);
   for (const std::string_view name : names) {
     const Flown flight(smoke(
         {fmt::format("planner.utility.name={}", name), "planner.termination.max_iterations=5"}));
