@@ -24,8 +24,7 @@ class Decider {
         recent_(recent_views()),
         progress_(progress()),
         frontier_density_(model.config.fvs.frontier.density_share * belief.cloud.density_max()),
-        validity_(validity()),
-        checker_(validity_, model.navigation_m, belief.grid, recent_, current_) {}
+        validity_(validity()) {}
 
   Plan decide() {
     if (is_route(model_.config.utility.name)) {
@@ -81,9 +80,10 @@ class Decider {
     auto view = has_begun ? std::find_if(history_.route.begin(), history_.route.end(), is_last)
                           : history_.route.begin();
     if (has_begun && view != history_.route.end()) ++view;
+    ViewChecker checker(validity_, model_.navigation_m, belief_.grid, recent_, current_);
     for (; view != history_.route.end() && !plan_.next; ++view) {
       Candidate candidate{.view = *view, .sampler = "route"};
-      check(checker_, candidate);
+      check(checker, candidate);
       if (!candidate.rejected) {
         plan_.next = Decision{.view = *view,
                               .sampler = "route",
@@ -238,7 +238,6 @@ class Decider {
   const Progress progress_;
   const double frontier_density_;
   const ValidityConfig validity_;
-  ViewChecker checker_;
   Plan plan_;
 };
 
