@@ -15,7 +15,7 @@ constexpr std::int32_t kNeverReached = (1 << 30) - 1;
 
 /// A camera of the candidate view, as the walk needs it. Axes x, y, z.
 struct RayFanFrame {
-  double R[3][3];     // world from body
+  double R[3][3];     // world from body, a turn about z
   double t_m[3];      // of the body
   float origin_m[3];  // of the camera, inside the grid
   std::int32_t origin_key[3];

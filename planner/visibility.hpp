@@ -97,7 +97,7 @@ struct ViewOptions {
 
 /// Walks all rays from the candidate pose; density_max and path_m stay 0. `rays` must have been
 /// made for the grid's resolution, `marks` for its number of voxels. The same bits on every
-/// SimdLevel. Voxels are those of walk_ray_inside() but for ties within a millionth of a voxel.
+/// SimdLevel. Voxels are those of walk_ray_inside() but for near ties: 2e-6 voxels at 40 steps.
 ViewStats evaluate_view(const OccupancyGrid& grid, const SurfaceCloud& cloud, const ViewRays& rays,
                         const ViewPose& candidate, VisitMarks& marks,
                         const ViewOptions& options = {});

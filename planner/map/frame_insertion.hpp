@@ -29,7 +29,7 @@ class FrameInserter {
   ScanUpdate compute_update(const FrameRays& rays, const DepthFrame& frame,
                             const CameraModel& camera, int threads);
 
-  /// How many rays the last frame had walked.
+  /// Walks of single rays in the last frame, of all threads; one may count twice.
   std::size_t walked_count() const { return walked_count_; }
 
  private:

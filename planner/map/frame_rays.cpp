@@ -52,11 +52,4 @@ void compute_frame_rays(const DepthFrame& frame, const CameraModel& camera, doub
   }
 }
 
-void append_surface_points(const FrameRays& rays, std::vector<Vec3f>& points_world_m) {
-  for (std::size_t i = 0; i < rays.kind.size(); ++i) {
-    if (rays.kind[i] != PixelRay::hits) continue;
-    points_world_m.emplace_back(rays.x_m[i], rays.y_m[i], rays.z_m[i]);
-  }
-}
-
 }  // namespace gnbv

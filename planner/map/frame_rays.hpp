@@ -28,7 +28,4 @@ struct FrameRays {
 void compute_frame_rays(const DepthFrame& frame, const CameraModel& camera, double floor_z_m,
                         FrameRays& rays);
 
-/// Appends the ends of the pixels that hit, in their order: the points of the cloud.
-void append_surface_points(const FrameRays& rays, std::vector<Vec3f>& points_world_m);
-
 }  // namespace gnbv

@@ -26,7 +26,7 @@ std::vector<ScanRay> rays_of(const LidarScan& scan, const LidarModel& lidar, dou
 /// The ends of the rays that hit: the points of the cloud.
 std::vector<Vec3f> surface_points_world_m(std::span<const ScanRay> rays);
 
-/// Computes updates, reusing its memory from scan to scan: one byte a voxel and thread.
+/// Computes updates, reusing its memory from scan to scan: a byte a voxel and thread, and one.
 class ScanInserter {
  public:
   explicit ScanInserter(const GridGeometry& grid) : grid_(grid), frames_(grid) {}

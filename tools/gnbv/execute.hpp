@@ -31,7 +31,7 @@ struct MissionOptions {
 /// runs/NAME, or runs/NAME-2 and so on: the first that does not exist.
 std::filesystem::path free_folder(const std::string& name);
 
-/// The scenario with the options applied: --mesh, --utility and --seed first, then --set in order.
+/// The scenario with the options applied: --mesh, --utility, --preset, --seed, then --set.
 Scenario resolve_scenario(const MissionOptions& options);
 
 struct ExecutedMission {
