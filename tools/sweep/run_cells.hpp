@@ -1,0 +1,40 @@
+// Runs the cells of a sweep that are not done yet, each in a process of its own.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tools/sweep/sweep.hpp"
+
+namespace gnbv {
+
+struct RunCellsOptions {
+  std::filesystem::path folder;  // of the sweep; FOLDER/cells/ID/ are the run directories
+  int jobs = 1;                  // processes at a time
+  int threads = 0;               // of each; 0 shares the machine's among the jobs
+  bool retry_failed = false;     // failed cells are run again
+  bool wait_for_locked = true;   // cells that another process runs: wait for them, or leave them
+  bool quiet = false;
+};
+
+enum class CellStatus { done, failed, locked, missing };
+
+struct CellOutcome {
+  CellStatus status = CellStatus::missing;
+  std::filesystem::path run;  // the run directory, when done
+  std::string failure;        // one line, when failed
+};
+
+/// What is known of the cell on disk.
+CellOutcome look_up(const std::filesystem::path& folder, const Cell& cell);
+
+/// Runs what is missing and returns an outcome a cell, in their order. A cell's run directory
+/// appears by rename when it is complete; one that fails is recorded beside it and does not stop
+/// the others. Ctrl-C ends the missions at hand, which a later call resumes; then the outcomes hold
+/// `missing` ones. A mission that ends in a collision is done: that is a result.
+std::vector<CellOutcome> run_cells(std::span<const Cell> cells, const RunCellsOptions& options);
+
+}  // namespace gnbv
