@@ -1,0 +1,72 @@
+// Figures over seeds: means with intervals, paired tests, ranks.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace gnbv {
+
+/// Requires a value.
+double mean_of(std::span<const double> values);
+
+/// With n - 1 in the denominator. Requires two values.
+double sample_deviation(std::span<const double> values);
+
+struct Interval {
+  double low = 0.0;
+  double high = 0.0;
+
+  bool contains(double value) const { return low <= value && value <= high; }
+};
+
+/// I_x(a, b), the regularised incomplete beta function, by its continued fraction (DLMF 8.17.22).
+/// Requires a, b > 0 and x in [0, 1].
+double incomplete_beta(double a, double b, double x);
+
+/// P(T <= t) of Student's t with so many degrees of freedom (Abramowitz and Stegun 26.7.1).
+double student_t_cdf(double t, double degrees_of_freedom);
+
+/// The t that student_t_cdf takes to `p`. Requires p in (0, 1).
+double student_t_quantile(double p, double degrees_of_freedom);
+
+/// A mean and how far the true one may be from it.
+struct MeanEstimate {
+  std::size_t n = 0;
+  double mean = 0.0;
+  std::optional<double> half_width;  // of the 95 % interval (Student 1908); none with one value
+};
+
+/// Requires a value.
+MeanEstimate estimate_mean(std::span<const double> values);
+
+/// Wilcoxon's signed-rank test (Wilcoxon 1945) that differences are symmetric about 0.
+struct SignedRankTest {
+  std::size_t n = 0;     // differences that are not 0; the others are dropped
+  double w_plus = 0.0;   // sum of the ranks of positive differences; equal sizes share their ranks
+  double p = 1.0;        // two-sided
+  bool is_exact = true;  // over all 2^n signs (n <= 25), else normal, corrected for continuity and
+                         // ties (Hollander, Wolfe 1999, section 3.1)
+};
+
+SignedRankTest wilcoxon_signed_rank(std::span<const double> differences);
+
+/// The smallest p that `n` differences can have: all of one sign, none 0, none equal in size.
+double least_wilcoxon_p(std::size_t n);
+
+constexpr int kBootstrapResamples = 10000;
+
+/// 95 % percentile interval of the mean (Efron, Tibshirani 1993, chapter 13). Deterministic: the
+/// draws are keyed by `seed`. Too narrow for few values: see statistics_test.cpp for how much.
+/// Requires a value.
+Interval bootstrap_mean_interval(std::span<const double> values, std::uint64_t seed);
+
+/// Holm's step-down adjustment (Holm 1979): p values of one family, in their order.
+std::vector<double> holm_adjusted(std::span<const double> p);
+
+/// Ranks from 1 for the smallest; equal values share the mean of theirs.
+std::vector<double> ranks_of(std::span<const double> values);
+
+}  // namespace gnbv
