@@ -139,8 +139,7 @@ TEST(Wilcoxon, NothingButZerosSaysNothing) {
   EXPECT_EQ(test.p, 1.0);
 }
 
-// Beyond the exact range: W of 26 differences against the exact distribution of 25 would not show
-// an error, so the normal law is compared where both exist, through a difference that adds nothing.
+// Oracle: random sign patterns of 26 ranks, the first n that is not enumerated.
 TEST(Wilcoxon, NormalLawGoesOnWhereTheExactOneEnds) {
   for (const double mean : {0.0, 0.3, 0.6}) {
     const std::vector<double> many = normal_values(26, 11, mean);
@@ -190,7 +189,7 @@ TEST(Bootstrap, PercentilesAreThoseOfAllResamples) {
   EXPECT_DOUBLE_EQ(interval.high, 5.0);
 }
 
-// Known to be too narrow for few values: half that is why verdicts also ask Student's interval.
+// Known to be too narrow for few values, which is why a verdict also asks Student's interval.
 TEST(Bootstrap, CoversLessThanItSaysWithFiveValuesAndNearlyThatWithForty) {
   const auto share = [](std::size_t n, int samples) {
     int hits = 0;
@@ -204,7 +203,7 @@ TEST(Bootstrap, CoversLessThanItSaysWithFiveValuesAndNearlyThatWithForty) {
   EXPECT_NEAR(share(40, 200), 0.94, 0.055);
 }
 
-TEST(Holm, IsThePapersExampleAndNeverDecreases) {
+TEST(Holm, StepsDownAndNeverDecreases) {
   // ordered: 0.01 x 4, 0.013 x 3, 0.03 x 2, 0.04 x 1 -> not below the one before
   const std::vector<double> adjusted = holm_adjusted(std::vector<double>{0.03, 0.01, 0.04, 0.013});
   EXPECT_DOUBLE_EQ(adjusted[1], 0.04);

@@ -22,8 +22,7 @@ void run(const RunOptions& options) {
   if (options.json) {
     fmt::print("{}", read_file(mission.folder / "summary.json"));
   } else {
-    fmt::print("{}\n{}\n", one_row_summary(scenario.name, figures_of(scenario, mission)),
-               mission.folder.string());
+    fmt::print("{}\n{}\n", one_row_summary(figures_of(scenario, mission)), mission.folder.string());
   }
   if (mission.result.termination == Termination::collision) {
     throw CommandFailed("the vehicle hit something; the run directory shows where");

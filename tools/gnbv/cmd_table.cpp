@@ -32,7 +32,7 @@ void table(const TableOptions& options) {
   const fs::path parent = options.out.empty()
                               ? free_folder(fmt::format("table-{}-seed{}", first.name, first.seed))
                               : options.out;
-  std::vector<MissionFigures> missions;
+  std::vector<RunFigures> missions;
   std::vector<fs::path> folders;
   bool collided = false;
   for (const PaperRow& row : paper->rows) {
@@ -51,7 +51,7 @@ void table(const TableOptions& options) {
           "interrupted; the same command with --resume --out {} goes on", parent.string()));
     }
   }
-  const TextTable text = comparison_table(*paper, missions);
+  const TextTable text = comparison_table(*paper, missions, {});
   fmt::print("{}\n", options.markdown ? markdown_text(text) : terminal_text(text));
   for (const fs::path& folder : folders) fmt::print("{}\n", folder.string());
   if (collided) throw CommandFailed("a vehicle hit something; its run directory shows where");

@@ -1,0 +1,65 @@
+// Tables without form, and the forms they are printed in: terminal, Markdown, CSV, LaTeX, JSON.
+// Every form carries the same rows and notes; people read rounded text, machines the plain numbers.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnbv {
+
+/// What the cells of a column are, and which plain columns CSV and JSON make of it: `text` and
+/// `number` one named by the key, `estimate` (a mean and the half width of its 95 % interval) KEY
+/// and KEY_ci95, `interval` KEY_low and KEY_high.
+enum class ColumnKind { text, number, estimate, interval };
+
+struct TableColumn {
+  std::string head;  // for people
+  std::string key;   // for machines, in the unit of the plain numbers
+  ColumnKind kind = ColumnKind::text;
+};
+
+/// A cell as people read it and, unless the column is of text, its plain numbers.
+struct TableCell {
+  std::string text;
+  std::array<std::optional<double>, 2> values{};
+};
+
+struct TextTable {
+  std::string title;
+  std::vector<TableColumn> columns;  // the first is of text
+  std::vector<std::vector<TableCell>> rows;
+  std::vector<std::string> notes;
+};
+
+/// A number as people read it: with `decimals`, thousands grouped as the paper does ("10,970").
+std::string grouped_number(double value, int decimals);
+
+/// Aligned columns for a terminal; ends with a line feed.
+std::string terminal_text(const TextTable& table);
+
+/// A table of GitHub's Markdown, its title in bold above and its notes as a list below.
+std::string markdown_text(const TextTable& table);
+
+/// RFC 4180: keys, then a record a row; plain numbers, empty where there is none. A note is a
+/// record whose first field begins with "note: "; its other fields are empty. The title is not in
+/// it.
+std::string csv_text(const TextTable& table);
+
+/// A `table` environment for the packages booktabs and, where the text is not ASCII, UTF-8 input.
+std::string latex_text(const TextTable& table);
+
+/// An object: title, columns (key, head), rows (objects by key; null where there is no number),
+/// notes.
+std::string json_text(const TextTable& table);
+
+/// The forms by name, as --format takes them.
+constexpr std::array<std::string_view, 5> kTableFormats = {"terminal", "markdown", "csv", "latex",
+                                                           "json"};
+
+/// Requires a name of kTableFormats.
+std::string formatted_text(const TextTable& table, std::string_view format);
+
+}  // namespace gnbv
