@@ -4,57 +4,88 @@
 
 #include "bench/paper_table.hpp"
 #include "sim/core/error.hpp"
+#include "tools/gnbv/bench_runs.hpp"
 #include "tools/gnbv/commands.hpp"
-#include "tools/gnbv/execute.hpp"
-#include "tools/gnbv/figures.hpp"
 
 namespace gnbv {
 namespace {
 
-namespace fs = std::filesystem;
-
-struct TableOptions : MissionOptions {
-  bool markdown = false;
+struct TableOptions : BenchOptions {
+  bool no_oracle = false;
 };
 
+const PaperTable& paper_table_of(const Scenario& scenario, const std::string& asked_for) {
+  const PaperTable* const paper = find_paper_table(scenario.name);
+  if (paper != nullptr) return *paper;
+  std::string known;
+  for (const PaperTable& t : paper_tables()) known += fmt::format(" {}", t.scenario);
+  throw BadInput(fmt::format("{}: the paper has no table for this scenario; it has:{}", asked_for,
+                             known));
+}
+
+Sweep sweep_of(const TableOptions& options, const PaperTable& paper, std::uint64_t first_seed) {
+  Sweep sweep;
+  SweepScenario scenario{.name = std::string(paper.scenario),
+                         .scenario = options.scenario,
+                         .mesh = options.mesh,
+                         .bounds_auto = options.bounds_auto,
+                         .overrides = {}};
+  if (!options.preset.empty()) scenario.overrides.push_back("planner.preset=" + options.preset);
+  scenario.overrides.insert(scenario.overrides.end(), options.overrides.begin(),
+                            options.overrides.end());
+  sweep.scenarios = {scenario};
+  std::vector<std::string> utilities;
+  for (const PaperRow& row : paper.rows) utilities.emplace_back(row.utility);
+  if (!options.no_oracle) utilities.insert(utilities.end(), {"oracle_views", "oracle_metres"});
+  for (const std::string& utility : utilities) {
+    // after the scenario's, so that it is the row's whatever the user set
+    sweep.methods.push_back({utility, {"planner.utility.name=" + utility}});
+  }
+  sweep.seeds = seeds_from(first_seed, options.seed_count);
+  return sweep;
+}
+
+/// The text as a word of a shell.
+std::string shell_word(const std::string& text) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./=,:+-";
+  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? "'\\''" : std::string(1, c);
+  return word + "'";
+}
+
+/// What the table depends on; neither where it was made nor by how many processors.
+std::string command_of(const TableOptions& options, std::uint64_t first_seed) {
+  std::string command = fmt::format("gnbv table {} --seed {} --seeds {}",
+                                    shell_word(options.scenario), first_seed, options.seed_count);
+  if (!options.mesh.empty()) command += " --mesh " + shell_word(options.mesh);
+  if (options.bounds_auto) command += " --bounds auto";
+  if (!options.preset.empty()) command += " --preset " + shell_word(options.preset);
+  for (const std::string& set : options.overrides) command += " --set " + shell_word(set);
+  return command + (options.no_oracle ? " --no-oracle" : "");
+}
+
 void table(const TableOptions& options) {
-  if (options.resume && options.out.empty()) {
-    throw BadInput("--resume: needs --out, the folder of the table to continue");
-  }
-  const PaperTable* const paper = find_paper_table(resolve_scenario(options).name);
-  if (paper == nullptr) {
-    std::string known;
-    for (const PaperTable& t : paper_tables()) known += fmt::format(" {}", t.scenario);
-    throw BadInput(fmt::format("{}: the paper has no table for this scenario; it has:{}",
-                               options.scenario, known));
-  }
   const Scenario first = resolve_scenario(options);
-  const fs::path parent = options.out.empty()
-                              ? free_folder(fmt::format("table-{}-seed{}", first.name, first.seed))
-                              : options.out;
-  std::vector<RunFigures> missions;
-  std::vector<fs::path> folders;
-  bool collided = false;
-  for (const PaperRow& row : paper->rows) {
-    MissionOptions one = options;
-    // last, so that it is the row's whatever the user set
-    one.overrides.push_back(fmt::format("planner.utility.name={}", row.utility));
-    one.out = parent / std::string(row.utility);
-    const Scenario scenario = resolve_scenario(one);
-    const ExecutedMission mission = execute_mission(scenario, one);
-    missions.push_back(figures_of(scenario, mission));
-    folders.push_back(mission.folder);
-    collided = collided || mission.result.termination == Termination::collision;
-    // Ctrl-C ends the mission at hand; the table of the others would be misread as complete
-    if (mission.result.termination == Termination::interrupted) {
-      throw CommandFailed(fmt::format(
-          "interrupted; the same command with --resume --out {} goes on", parent.string()));
-    }
+  const PaperTable& paper = paper_table_of(first, options.scenario);
+  const std::vector<Cell> cells = cells_of(sweep_of(options, paper, first.seed));
+  const Ceiling ceiling = ceiling_of(cells.front().resolved, options.threads);
+  const BenchRuns flown = fly_cells(cells, options);
+  std::vector<RunFigures> runs;
+  for (const ComparedRun& run : flown.runs) runs.push_back(run.figures);
+  TextTable text = comparison_table(paper, runs, ceiling);
+  const std::string structure = first.structure.file.path.empty() ? first.structure.builtin
+                                                                  : first.structure.file.path;
+  if (!is_papers_structure(paper, structure)) {
+    text.notes.push_back(fmt::format(
+        "ours is of {}, which is not known to be the structure that the paper's figures are of",
+        options.mesh.empty() ? structure : options.mesh));
   }
-  const TextTable text = comparison_table(*paper, missions, {});
-  fmt::print("{}\n", options.markdown ? markdown_text(text) : terminal_text(text));
-  for (const fs::path& folder : folders) fmt::print("{}\n", folder.string());
-  if (collided) throw CommandFailed("a vehicle hit something; its run directory shows where");
+  text.notes.insert(text.notes.end(), flown.notes.begin(), flown.notes.end());
+  text.notes.push_back(fmt::format("{}, version {}", command_of(options, first.seed),
+                                   GNBV_VERSION));
+  print_bench(text, options.format, flown.has_failures);
 }
 
 }  // namespace
@@ -64,8 +95,12 @@ void add_table_command(CLI::App& app) {
   CLI::App* const command =
       app.add_subcommand("table", "fly every row of the paper's table and print both");
   add_mission_options(*command, *options);
-  command->add_flag("--resume", options->resume, "continue the interrupted table in --out");
-  command->add_flag("--markdown", options->markdown, "print the table as Markdown");
+  command->get_option("--out")->description(
+      "folder of the missions (default: runs/bench); those it holds are not flown again");
+  command->add_option("--preset", options->preset, "paper, or released: the authors' own code");
+  add_bench_options(*command, *options);
+  command->add_flag("--no-oracle", options->no_oracle,
+                    "without the rows of planners that know the mesh");
   command->callback([options] { table(*options); });
 }
 

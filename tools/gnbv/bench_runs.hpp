@@ -1,0 +1,52 @@
+// Cells flown and read back: what `table` and `compare` share.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "bench/ceiling.hpp"
+#include "bench/comparison.hpp"
+#include "bench/text_table.hpp"
+#include "tools/gnbv/execute.hpp"
+#include "tools/sweep/sweep.hpp"
+
+namespace gnbv {
+
+/// What the command line says about many missions.
+struct BenchOptions : MissionOptions {
+  int seed_count = 1;
+  int jobs = 1;
+  std::string format = "terminal";
+};
+
+/// --seeds, --jobs and --format, beside the options of missions.
+void add_bench_options(CLI::App& command, BenchOptions& options);
+
+/// Where cells are kept when --out is not given: cells are named by their content, so that every
+/// table and comparison finds what another one flew.
+std::filesystem::path bench_folder(const BenchOptions& options);
+
+/// `count` seeds from the first on.
+std::vector<std::uint64_t> seeds_from(std::uint64_t first, int count);
+
+struct BenchRuns {
+  std::vector<ComparedRun> runs;   // of the cells that are done, in their order
+  std::vector<std::string> notes;  // cells that are missing here, and missions that ended early
+  bool has_failures = false;       // cells without a result, collisions
+};
+
+/// Flies what is missing and reads all. Throws CommandFailed when it is interrupted.
+BenchRuns fly_cells(const std::vector<Cell>& cells, const BenchOptions& options);
+
+/// What is known of the cells in a folder, without flying anything.
+BenchRuns read_cells(const std::vector<Cell>& cells, const std::filesystem::path& folder);
+
+/// The ceiling of a scenario, with its structure loaded for the purpose.
+Ceiling ceiling_of(const Scenario& scenario, int threads);
+
+/// Prints the table, then throws CommandFailed if something failed.
+void print_bench(const TextTable& table, const std::string& format, bool has_failures);
+
+}  // namespace gnbv

@@ -1,0 +1,111 @@
+#include "tools/sweep/method_options.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+#include <string_view>
+
+#include "sim/core/error.hpp"
+
+namespace gnbv {
+namespace {
+
+/// The parts between the commas that no bracket, brace or quote holds.
+std::vector<std::string> split_at_commas(std::string_view text) {
+  std::vector<std::string> parts(1);
+  int depth = 0;
+  char quote = '\0';
+  for (const char c : text) {
+    if (quote != '\0') {
+      quote = c == quote ? '\0' : quote;
+    } else if (c == '\'' || c == '"') {
+      quote = c;
+    } else if (c == '[' || c == '{') {
+      ++depth;
+    } else if (c == ']' || c == '}') {
+      --depth;
+    } else if (c == ',' && depth == 0) {
+      parts.emplace_back();
+      continue;
+    }
+    parts.back() += c;
+  }
+  return parts;
+}
+
+bool is_assignment(std::string_view text) {
+  const std::size_t equals = text.find('=');
+  return equals != std::string_view::npos && equals > 0 && equals + 1 < text.size();
+}
+
+class Methods {
+ public:
+  void add(const std::string& name, std::vector<std::string> overrides) {
+    if (!names_.insert(name).second) add_fault(fmt::format("method '{}': named twice", name));
+    methods_.push_back({name, std::move(overrides)});
+  }
+
+  void add_variant(const std::string& text) {
+    const std::size_t colon = text.substr(0, text.find('=')).find(':');
+    const bool is_named = colon != std::string::npos;
+    const std::string name = is_named ? text.substr(0, colon) : text;
+    const std::vector<std::string> parts =
+        split_at_commas(is_named ? std::string_view(text).substr(colon + 1) : text);
+    for (const std::string& part : parts) {
+      if (!is_assignment(part) || name.empty()) {
+        return add_fault(
+            fmt::format("--variant: value '{}': expected [NAME:]KEY=VALUE[,KEY=VALUE]...", text));
+      }
+    }
+    add(name, parts);
+  }
+
+  void add_varied(const std::string& text) {
+    const std::size_t equals = text.find('=');
+    for (const std::string& value :
+         split_at_commas(std::string_view(text).substr(std::min(equals + 1, text.size())))) {
+      const std::string assignment = text.substr(0, equals) + "=" + value;
+      if (equals == std::string::npos || !is_assignment(assignment)) {
+        return add_fault(fmt::format("--vary: value '{}': expected KEY=VALUE[,VALUE]...", text));
+      }
+      add(assignment, {assignment});
+    }
+  }
+
+  std::vector<SweepMethod> all() && {
+    if (faults_.empty() && methods_.size() < 2) {
+      add_fault(fmt::format(
+          "{}: nothing to compare with; name more by --utilities, --presets, --variant or --vary",
+          methods_.empty() ? "no method" : "one method, '" + methods_[0].name + "'"));
+    }
+    if (!faults_.empty()) throw BadInput(faults_);
+    return std::move(methods_);
+  }
+
+ private:
+  void add_fault(const std::string& fault) { faults_ += (faults_.empty() ? "" : "\n") + fault; }
+
+  std::vector<SweepMethod> methods_;
+  std::set<std::string> names_;
+  std::string faults_;
+};
+
+}  // namespace
+
+std::vector<SweepMethod> methods_of(const MethodOptions& options) {
+  Methods methods;
+  const bool only_variants = options.utilities.empty() && options.presets.empty() &&
+                             options.varies.empty() && !options.variants.empty();
+  if (only_variants) methods.add("default", {});
+  for (const std::string& utility : options.utilities) {
+    methods.add(utility, {"planner.utility.name=" + utility});
+  }
+  for (const std::string& preset : options.presets) {
+    methods.add(preset, {"planner.preset=" + preset});
+  }
+  for (const std::string& variant : options.variants) methods.add_variant(variant);
+  for (const std::string& varied : options.varies) methods.add_varied(varied);
+  return std::move(methods).all();
+}
+
+}  // namespace gnbv
