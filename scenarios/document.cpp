@@ -11,6 +11,8 @@
 #include <sstream>
 #include <utility>
 
+#include "scenarios/flow_yaml.hpp"
+
 namespace gnbv {
 namespace {
 
@@ -215,8 +217,8 @@ std::optional<YamlNode> parse_document(const std::string& text, const Origin& so
   return std::move(builder.root());
 }
 
-std::optional<YamlNode> parse_override(const std::string& text, int rank, Faults& faults) {
-  const Origin origin = {fmt::format("--set {}", text), 0, rank};
+std::optional<YamlNode> parse_override(const std::string& text, const Origin& origin,
+                                       Faults& faults) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0) {
     faults.add(origin, "", "", "has to read key=value, as in planner.agvs.step_m=0.5");
@@ -243,42 +245,6 @@ std::optional<YamlNode> parse_override(const std::string& text, int rank, Faults
     if (dot == std::string::npos) return node;
     path.resize(dot);
   }
-}
-
-namespace {
-
-std::string flow_text(const YamlNode& node) {
-  std::string text;
-  switch (node.kind) {
-    case YamlNode::Kind::null:
-      return "";
-    case YamlNode::Kind::scalar:
-      return node.is_quoted ? '"' + node.text + '"' : node.text;
-    case YamlNode::Kind::list:
-      for (const YamlNode& item : node.items) text += (text.empty() ? "" : ", ") + flow_text(item);
-      return '[' + text + ']';
-    case YamlNode::Kind::map:
-    case YamlNode::Kind::picks:
-      for (const YamlEntry& entry : node.entries) {
-        text += (text.empty() ? "" : ", ") + entry.key + ": " + flow_text(entry.value);
-      }
-      return '{' + text + '}';
-  }
-  return text;
-}
-
-}  // namespace
-
-std::string excerpt(const YamlNode& node) {
-  constexpr std::size_t kMaxLength = 60;
-  std::string text = flow_text(node);
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  }
-  if (text.size() <= kMaxLength) return text;
-  std::size_t end = kMaxLength - 3;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80) --end;  // whole UTF-8
-  return text.substr(0, end) + "...";
 }
 
 }  // namespace gnbv

@@ -40,11 +40,9 @@ struct YamlEntry {
 std::optional<YamlNode> parse_document(const std::string& text, const Origin& source,
                                        Faults& faults);
 
-/// Reads "a.b.c=value" (the value is YAML) as a tree of picks; `rank` is its place among the
-/// overrides, from 1.
-std::optional<YamlNode> parse_override(const std::string& text, int rank, Faults& faults);
-
-/// The value on one line, as a message shows it; long ones are cut.
-std::string excerpt(const YamlNode& node);
+/// Reads "a.b.c=value" (the value is YAML) as a tree of picks. `origin` has no line; its rank is
+/// the place among the overrides, from 1.
+std::optional<YamlNode> parse_override(const std::string& text, const Origin& origin,
+                                       Faults& faults);
 
 }  // namespace gnbv

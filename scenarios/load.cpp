@@ -109,6 +109,13 @@ std::vector<std::string> builtin_scenario_names() {
 }
 
 Scenario load_scenario(const std::string& name_or_path, const std::vector<std::string>& overrides) {
+  std::vector<Override> all;
+  for (const std::string& text : overrides) all.push_back({.text = text});
+  return load_with_overrides(name_or_path, all);
+}
+
+Scenario load_with_overrides(const std::string& name_or_path,
+                             const std::vector<Override>& overrides) {
   const Source source = open_source(name_or_path);
   const Origin origin = {source.label, 1, 0};
   Faults faults;
@@ -119,8 +126,11 @@ Scenario load_scenario(const std::string& name_or_path, const std::vector<std::s
   GNBV_CHECK(root.has_value(), "no tree and no fault in {}", source.label);
   read_scenario(*root, source.folder, scenario, faults, origins);
   for (std::size_t i = 0; i < overrides.size(); ++i) {
-    const auto picks = parse_override(overrides[i], static_cast<int>(i) + 1, faults);
-    if (picks) read_scenario(*picks, here(), scenario, faults, origins);
+    const auto& [text, given_by, folder] = overrides[i];
+    const Origin given = {given_by.empty() ? fmt::format("--set {}", text) : given_by, 0,
+                          static_cast<int>(i) + 1};
+    const auto picks = parse_override(text, given, faults);
+    if (picks) read_scenario(*picks, folder.empty() ? here() : folder, scenario, faults, origins);
   }
   if (root->kind == YamlNode::Kind::map) add_problems(scenario, origin, origins, faults);
   faults.throw_if_any();

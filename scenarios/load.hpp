@@ -20,6 +20,17 @@ std::vector<std::string> builtin_scenario_names();
 /// syntax, unknown and repeated keys, wrong types, values out of range, problems().
 Scenario load_scenario(const std::string& name_or_path, const std::vector<std::string>& overrides);
 
+/// A value given over those of the scenario file.
+struct Override {
+  std::string text;      // KEY=VALUE, the value in YAML
+  std::string source{};  // as faults show it; "" = "--set TEXT"
+  std::string folder{};  // where its relative paths begin; "" = the current folder
+};
+
+/// load_scenario() with overrides that were not given on the command line.
+Scenario load_with_overrides(const std::string& name_or_path,
+                             const std::vector<Override>& overrides);
+
 /// The resolved configuration as YAML, every key with its value and absolute paths: load_scenario
 /// on it gives the same Scenario, bit for bit, if load_scenario made it. (An angle set by other
 /// means may lie between two numbers of degrees and lands on one of them.)

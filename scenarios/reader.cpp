@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "scenarios/flow_yaml.hpp"
 #include "scenarios/values.hpp"
 #include "scenarios/write.hpp"
 

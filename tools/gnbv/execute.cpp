@@ -7,12 +7,9 @@
 #include "planner/belief_file.hpp"
 #include "planner/map/memory.hpp"
 #include "planner/symmetry_module.hpp"
-#include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
-#include "sim/core/file.hpp"
 #include "tools/gnbv/interrupt.hpp"
 #include "tools/gnbv/progress.hpp"
-#include "tools/mission/auto_bounds.hpp"
 #include "tools/mission/candidates_file.hpp"
 #include "tools/mission/frame_files.hpp"
 #include "tools/mission/load_world.hpp"
@@ -49,13 +46,6 @@ void need_saved_profile(const Scenario& scenario) {
               PlannerModel(scenario.planner, scenario.workspace_m, camera_models(scenario), {}));
 }
 
-/// The value as a YAML scalar, whatever it holds.
-std::string quoted(const std::string& value) {
-  std::string out = "'";
-  for (const char c : value) out += c == '\'' ? "''" : std::string(1, c);
-  return out + "'";
-}
-
 MissionHooks make_hooks(const Scenario& scenario, RunDirectory& directory, ProgressBar& progress) {
   MissionHooks hooks;
   hooks.on_profile = [&progress](double share) { progress.show(0.1 * share, "profile"); };
@@ -79,26 +69,6 @@ fs::path free_folder(const std::string& name) {
   for (int n = 2; fs::exists(folder); ++n)
     folder = fs::path("runs") / fmt::format("{}-{}", name, n);
   return folder;
-}
-
-Scenario resolve_scenario(const MissionOptions& options) {
-  std::vector<std::string> overrides;
-  // absolute, since a relative path in a scenario file is relative to that file
-  if (!options.mesh.empty()) {
-    if (!fs::is_regular_file(options.mesh)) read_file(options.mesh);  // throws, with the cause
-    overrides.push_back(
-        fmt::format("structure.file.path={}", quoted(fs::absolute(options.mesh).string())));
-  }
-  if (!options.utility.empty()) {
-    overrides.push_back(fmt::format("planner.utility.name={}", options.utility));
-  }
-  if (!options.preset.empty()) overrides.push_back("planner.preset=" + options.preset);
-  if (!options.seed.empty()) overrides.push_back("seed=" + options.seed);
-  overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
-  const Scenario scenario = load_scenario(options.scenario, overrides);
-  if (!options.bounds_auto) return scenario;
-  std::vector<std::string> warnings;  // repeated when the mission loads the structure
-  return with_bounds_around(scenario, bounds_m(load_structure(scenario, warnings)));
 }
 
 ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& options) {

@@ -3,26 +3,19 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "scenarios/scenario.hpp"
 #include "tools/mission/mission_result.hpp"
+#include "tools/mission/resolve.hpp"
 #include "tools/mission/score.hpp"
 
 namespace gnbv {
 
 /// What the command line may say about a mission beside its scenario.
-struct MissionOptions {
-  std::string scenario;                // built-in name or YAML path
-  std::string mesh;                    // overrides the scenario's structure; "" keeps it
-  std::string utility;                 // "" keeps the scenario's
-  std::string preset;                  // "" keeps the scenario's
-  std::string seed;                    // "" keeps the scenario's
-  std::vector<std::string> overrides;  // --set key=value, in order
-  std::filesystem::path out;           // "" chooses a free folder under runs/
-  int threads = 0;                     // 0 = as many as the machine has
+struct MissionOptions : ScenarioOptions {
+  std::filesystem::path out;  // "" chooses a free folder under runs/
+  int threads = 0;            // 0 = as many as the machine has
   bool resume = false;
-  bool bounds_auto = false;  // lay the workspace and the start around the structure
   bool quiet = false;
   bool candidates = false;  // also write candidates.jsonl
   bool frames = false;      // also write frames/
@@ -30,9 +23,6 @@ struct MissionOptions {
 
 /// runs/NAME, or runs/NAME-2 and so on: the first that does not exist.
 std::filesystem::path free_folder(const std::string& name);
-
-/// The scenario with the options applied: --mesh, --utility, --preset, --seed, then --set.
-Scenario resolve_scenario(const MissionOptions& options);
 
 struct ExecutedMission {
   std::filesystem::path folder;

@@ -3,15 +3,17 @@
 
 namespace gnbv {
 
-/// While it lives, the first Ctrl-C (or SIGTERM) asks the work at hand to stop and the second one
+/// While it lives, Ctrl-C (or SIGTERM) asks the work at hand to stop, `asks` times; the next one
 /// kills.
 class InterruptGuard {
  public:
-  InterruptGuard();
+  explicit InterruptGuard(int asks = 1);
   ~InterruptGuard();
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
-  static bool requested();
+  static bool requested() { return requests() > 0; }
+  /// How often it was asked for, up to `asks`.
+  static int requests();
 };
 
 }  // namespace gnbv

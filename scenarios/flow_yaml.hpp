@@ -1,0 +1,16 @@
+// A tree back as text, on one line.
+#pragma once
+
+#include <string>
+
+#include "scenarios/document.hpp"
+
+namespace gnbv {
+
+/// The value as YAML in flow style, which parse_override() reads as the same value.
+std::string flow_yaml(const YamlNode& node);
+
+/// The value as a message shows it; long ones are cut.
+std::string excerpt(const YamlNode& node);
+
+}  // namespace gnbv

@@ -1,0 +1,221 @@
+// The cells of a sweep: their order, their names, and what is wrong with its file.
+#include "tools/sweep/sweep.hpp"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <set>
+
+#include "sim/core/error.hpp"
+#include "tests/support/temp_folder.hpp"
+#include "tools/sweep/cell_id.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class SweepFile : public testing::Test {
+ protected:
+  Sweep read(const std::string& text) {
+    std::ofstream(temp_.path() / "s.yaml") << text;
+    return read_sweep(temp_.path() / "s.yaml");
+  }
+
+  /// What reading the file or resolving its cells complains about, with short paths.
+  std::string complaint(const std::string& text) {
+    std::string message;
+    try {
+      cells_of(read(text));
+      return "";
+    } catch (const BadInput& error) {
+      message = error.what();
+    }
+    const std::string folder = temp_.path().string() + '/';
+    for (std::size_t at = message.find(folder); at != std::string::npos; at = message.find(folder))
+      message.erase(at, folder.size());
+    return message;
+  }
+
+  void write_triangle(const fs::path& path, double height_m = 1.0) {
+    fs::create_directories(path.parent_path());
+    std::ofstream(path) << "v 0 0 0.5\nv 1 0 0.5\nv 0 1 " << height_m << "\nf 1 2 3\n";
+  }
+
+  TempFolder temp_;
+};
+
+std::vector<std::string> names_of(const std::vector<SweepMethod>& methods) {
+  std::vector<std::string> names;
+  for (const SweepMethod& method : methods) names.push_back(method.name);
+  return names;
+}
+
+TEST_F(SweepFile, CellsAreScenarioByScenarioMethodByMethodSeedBySeed) {
+  const Sweep sweep = read(
+      "scenarios: [smoke, {name: wide, scenario: smoke, set: {planner.agvs.step_m: 0.9}}]\n"
+      "utilities: [proposed, bircher]\nseeds: [7, 1]\n");
+  const std::vector<Cell> cells = cells_of(sweep);
+  ASSERT_EQ(cells.size(), cell_count(sweep));
+  std::vector<std::string> order;
+  for (const Cell& cell : cells) {
+    order.push_back(fmt::format("{} {} {}", cell.scenario, cell.method, cell.seed));
+    EXPECT_EQ(cell.resolved.seed, cell.seed);
+    EXPECT_EQ(cell.resolved.planner.utility.name, cell.method);
+    EXPECT_EQ(cell.resolved.planner.agvs.step_m, cell.scenario == "wide" ? 0.9 : 0.7);
+  }
+  EXPECT_THAT(order, ElementsAre("smoke proposed 7", "smoke proposed 1", "smoke bircher 7",
+                                 "smoke bircher 1", "wide proposed 7", "wide proposed 1",
+                                 "wide bircher 7", "wide bircher 1"));
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    EXPECT_EQ(cell_at(sweep, i).id, cells[i].id) << i;  // the one against all
+  }
+}
+
+TEST_F(SweepFile, UtilitiesPresetsAndVariantsStandSideBySideTimesTheGrid) {
+  const Sweep sweep = read(
+      "scenarios: smoke\nutilities: bircher\npresets: [released]\n"
+      "variants: [{name: near, set: {planner.agvs.step_m: 0.4}}]\n"
+      "grid: {planner.cloud.leaf_m: [0.02, 0.04], planner.map.resolution_m: 0.25}\n"
+      "set: {planner.termination.max_iterations: 9}\n");
+  EXPECT_THAT(
+      names_of(sweep.methods),
+      ElementsAre("bircher leaf_m=0.02 resolution_m=0.25", "bircher leaf_m=0.04 resolution_m=0.25",
+                  "released leaf_m=0.02 resolution_m=0.25",
+                  "released leaf_m=0.04 resolution_m=0.25", "near leaf_m=0.02 resolution_m=0.25",
+                  "near leaf_m=0.04 resolution_m=0.25"));
+  const std::vector<Cell> cells = cells_of(sweep);
+  ASSERT_EQ(cells.size(), 6U);
+  EXPECT_EQ(cells[1].resolved.planner.utility.name, "bircher");
+  EXPECT_EQ(cells[1].resolved.planner.cloud.leaf_m, 0.04);
+  EXPECT_EQ(cells[2].resolved.planner.preset, "released");
+  EXPECT_EQ(cells[4].resolved.planner.agvs.step_m, 0.4);
+  for (const Cell& cell : cells) {
+    EXPECT_EQ(cell.resolved.planner.map.resolution_m, 0.25);
+    EXPECT_EQ(cell.resolved.planner.termination.max_iterations, 9);
+    EXPECT_EQ(cell.seed, 1U);
+  }
+}
+
+TEST_F(SweepFile, APresetDoesNotUndoWhatIsSetBesideIt) {
+  const std::string before = "scenarios: smoke\nset: {planner.utility.density_term: ";
+  for (const std::string term : {"literal", "sparse"}) {
+    for (const Cell& cell : cells_of(read(before + term + "}\npresets: [paper, released]\n"))) {
+      std::string error = cell.method + " " + term;
+      Scenario same = cell.resolved;
+      EXPECT_EQ(CellNamer().id_of(same), cell.id) << error;
+      const Cell other =
+          cells_of(read("scenarios: {scenario: smoke, set: {planner.preset: " + cell.method +
+                        ", planner.utility.density_term: " + term + "}}\n"))[0];
+      EXPECT_EQ(other.id, cell.id) << error;
+    }
+  }
+}
+
+TEST_F(SweepFile, TheIdIsThatOfTheContent) {
+  const std::string text = "scenarios: smoke\nutilities: [proposed, bircher]\nseeds: 3\n";
+  const std::vector<Cell> cells = cells_of(read(text));
+  std::set<std::string> ids;
+  for (const Cell& cell : cells) {
+    EXPECT_EQ(cell.id.size(), 16U);
+    EXPECT_EQ(cell.id.find_first_not_of("0123456789abcdef"), std::string::npos);
+    ids.insert(cell.id);
+  }
+  EXPECT_EQ(ids.size(), cells.size());
+  // names of rows are no content, values are
+  const auto id = [&](const std::string& more) {
+    return cells_of(read("scenarios: {name: other, scenario: smoke}\n" + more))[0].id;
+  };
+  EXPECT_EQ(id("variants: {name: as it is}\n"), cells[0].id);
+  EXPECT_EQ(id("set: {planner.cloud.leaf_m: 0.05}\n"), cells[0].id);  // smoke's own
+  EXPECT_NE(id("set: {planner.cloud.leaf_m: 0.051}\n"), cells[0].id);
+  EXPECT_NE(id("seeds: [4]\n"), cells[0].id);
+}
+
+TEST_F(SweepFile, AMeshCountsByItsContentWhereverItLies) {
+  write_triangle(temp_.path() / "a" / "m.obj");
+  write_triangle(temp_.path() / "b" / "n.obj");
+  write_triangle(temp_.path() / "c" / "m.obj", 1.25);
+  const auto id = [&](const std::string& entry) {
+    return cells_of(read("scenarios: {scenario: smoke, " + entry + "}\n"))[0].id;
+  };
+  const std::string first = id("mesh: a/m.obj");
+  EXPECT_EQ(id("mesh: b/n.obj"), first);
+  EXPECT_EQ(id("set: {structure.file.path: b/n.obj}"), first);
+  EXPECT_NE(id("mesh: c/m.obj"), first);
+  EXPECT_NE(id("mesh: a/m.obj, bounds: auto"), first);
+  EXPECT_NE(id("mesh: a/m.obj, set: {structure.file.scale: 2}"), first);
+}
+
+TEST_F(SweepFile, RelativePathsMeanBesideTheFile) {
+  write_triangle(temp_.path() / "m.obj");
+  std::ofstream(temp_.path() / "mine.yaml") << "name: own\ncameras: [{}]\n";
+  const Sweep sweep = read("scenarios: [{scenario: mine.yaml, mesh: m.obj}, ./mine.yaml]\n");
+  EXPECT_EQ(sweep.scenarios[0].name, "m");
+  EXPECT_EQ(sweep.scenarios[1].name, "mine");
+  const std::vector<Cell> cells = cells_of(sweep);
+  EXPECT_EQ(cells[0].resolved.name, "own");
+  EXPECT_EQ(cells[0].resolved.structure.file.path, (temp_.path() / "m.obj").string());
+}
+
+TEST_F(SweepFile, AllFaultsAreNamedAtOnceWithTheirLines) {
+  EXPECT_EQ(
+      complaint("scenarios:\n  - smok\n  - {scenario: smoke, mesh: none.obj, bound: auto}\n"
+                "utilites: [proposed]\n"
+                "presets: [relesed]\n"
+                "variants: [{set: {planner.cloud.leaf_m: 0.02}}]\n"
+                "grid:\n  planner.utilty.name: [isler]\n  planner.cloud.leaf_m: []\n"
+                "set:\n  planner.agvs.step_m: long\n  seed: 3\n"
+                "seeds: [1, -1, 1]\n"),
+      "s.yaml:2: scenarios.0: value 'smok': no such file, and no built-in scenario (did you mean "
+      "'smoke'? built in: aircraft, lab_airplane, lab_model, power_plant, smoke)\n"
+      "s.yaml:3: scenarios.1.bound: is no known key (did you mean 'bounds'?)\n"
+      "s.yaml:3: scenarios.1.mesh: value 'none.obj': no such file\n"
+      "s.yaml:4: utilites: is no known key (did you mean 'utilities'?)\n"
+      "s.yaml:6: variants.0: value '{set: {planner.cloud.leaf_m: 0.02}}': has no key 'name'\n"
+      "s.yaml:9: grid.planner.cloud.leaf_m: value '[]': the list is empty\n"
+      "s.yaml:12: set.seed: seeds are given by the key 'seeds'\n"
+      "s.yaml:13: seeds.1: value '-1': expects a whole number, 0 or more\n"
+      "s.yaml:13: seeds.2: value '1': is given twice\n"
+      "s.yaml:5: planner.preset: value 'relesed': is no known name (did you mean 'released'? "
+      "allowed: paper, released)\n"
+      "s.yaml:11: planner.agvs.step_m: value 'long': expects a number\n"
+      "s.yaml:8: planner.utilty: is no known key (did you mean 'planner.utility'?)");
+}
+
+TEST_F(SweepFile, NamesStandForOneRowEach) {
+  EXPECT_THAT(complaint("scenarios: [smoke, smoke]\n"), HasSubstr("s.yaml:1: scenarios.1"));
+  EXPECT_THAT(complaint("scenarios: smoke\nutilities: [isler, isler]\n"),
+              HasSubstr("the name 'isler' is given twice"));
+}
+
+TEST_F(SweepFile, ValuesReachTheScenarioAsTheyAreWritten) {
+  const Sweep sweep = read(
+      "scenarios: smoke\nset:\n"
+      "  workspace_m: {min: [-4, -4, 0], max: [4, 4.5, 5]}\n"
+      "  structure.file.path: \"\"\n"
+      "  planner.termination: {max_iterations: 3}\n"
+      "  cameras.0.name: 'no\"7'\n");
+  EXPECT_THAT(
+      sweep.scenarios[0].overrides,
+      ElementsAre("workspace_m={min: [-4, -4, 0], max: [4, 4.5, 5]}", "structure.file.path=\"\"",
+                  "planner.termination={max_iterations: 3}", "cameras.0.name=\"no\\\"7\""));
+}
+
+TEST_F(SweepFile, MoreCellsThanAnybodyMeansAreRefused) {
+  EXPECT_THAT(complaint("scenarios: smoke\nutilities: [proposed, isler]\nseeds: 900000\n"),
+              HasSubstr("s.yaml:3: seeds: value '900000': makes 1800000 cells"));
+  std::string grid = "scenarios: smoke\ngrid:\n";
+  for (const char* key : {"planner.agvs.step_m", "planner.cloud.leaf_m", "start.jitter_yaw_deg",
+                          "planner.map.resolution_m"}) {
+    grid += fmt::format("  {}: [", key);
+    for (int i = 0; i < 40; ++i) grid += fmt::format("{},", i);
+    grid += "]\n";
+  }
+  EXPECT_THAT(complaint(grid), HasSubstr("grid: value"));
+}
+
+}  // namespace
+}  // namespace gnbv

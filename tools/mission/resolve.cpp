@@ -1,0 +1,50 @@
+#include "tools/mission/resolve.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "sim/core/file.hpp"
+#include "tools/mission/auto_bounds.hpp"
+#include "tools/mission/load_world.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The value as a YAML scalar, whatever it holds.
+std::string quoted(const std::string& value) {
+  std::string out = "'";
+  for (const char c : value) out += c == '\'' ? "''" : std::string(1, c);
+  return out + "'";
+}
+
+}  // namespace
+
+Box3 structure_bounds_m(const Scenario& scenario) {
+  std::vector<std::string> warnings;  // repeated when the mission loads the structure
+  return bounds_m(load_structure(scenario, warnings));
+}
+
+Scenario resolve_scenario(const ScenarioOptions& options) { return resolve_scenario(options, {}); }
+
+Scenario resolve_scenario(const ScenarioOptions& options, const std::vector<Override>& overrides,
+                          const std::function<Box3(const Scenario&)>& bounds_m) {
+  std::vector<Override> all;
+  const auto add = [&all](std::string text) { all.push_back({.text = std::move(text)}); };
+  // absolute, since a relative path in a scenario file is relative to that file
+  if (!options.mesh.empty()) {
+    if (!fs::is_regular_file(options.mesh)) read_file(options.mesh);  // throws, with the cause
+    add(fmt::format("structure.file.path={}", quoted(fs::absolute(options.mesh).string())));
+  }
+  if (!options.utility.empty()) add(fmt::format("planner.utility.name={}", options.utility));
+  if (!options.preset.empty()) add("planner.preset=" + options.preset);
+  if (!options.seed.empty()) add("seed=" + options.seed);
+  for (const std::string& text : options.overrides) add(text);
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  const Scenario scenario = load_with_overrides(options.scenario, all);
+  return options.bounds_auto ? with_bounds_around(scenario, bounds_m(scenario)) : scenario;
+}
+
+}  // namespace gnbv

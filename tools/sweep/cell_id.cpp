@@ -1,0 +1,32 @@
+#include "tools/sweep/cell_id.hpp"
+
+#include "scenarios/load.hpp"
+#include "sim/core/file.hpp"
+#include "sim/core/sha256.hpp"
+
+namespace gnbv {
+
+std::string CellNamer::content_path(const std::string& path) {
+  if (path.empty()) return path;
+  std::string& known = content_paths_[path];
+  if (known.empty()) {
+    Sha256 hash;
+    hash.add(read_file(path));
+    known = "/sha256/" + hash.hex();  // absolute: to_yaml() puts the current folder before others
+  }
+  return known;
+}
+
+std::string CellNamer::id_of(const Scenario& scenario) {
+  Scenario named = scenario;
+  std::string& mesh = named.structure.file.path;
+  std::string& profile = named.planner.profiling.file;
+  mesh = content_path(mesh);
+  profile = content_path(profile);
+  Sha256 hash;
+  hash.add("gnbv cell 1\n" GNBV_VERSION "\n");
+  hash.add(to_yaml(named));
+  return hash.hex().substr(0, 16);
+}
+
+}  // namespace gnbv

@@ -1,0 +1,26 @@
+// The name of a cell: what its result depends on, in 16 digits.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "scenarios/scenario.hpp"
+
+namespace gnbv {
+
+/// Names cells; remembers the content of the files it has read.
+class CellNamer {
+ public:
+  /// 16 hexadecimal digits of the SHA-256 of the program's version and the resolved scenario, in
+  /// which files (a mesh, a saved profile) are named by the SHA-256 of their content: the same on
+  /// every machine, wherever the files lie. A file that the mesh refers to (the .bin of a .gltf) is
+  /// not followed. Throws BadInput naming a file that cannot be read.
+  std::string id_of(const Scenario& scenario);
+
+ private:
+  std::string content_path(const std::string& path);
+
+  std::map<std::string, std::string> content_paths_;
+};
+
+}  // namespace gnbv

@@ -1,0 +1,128 @@
+#include <algorithm>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "sim/core/error.hpp"
+#include "tools/mission/resolve.hpp"
+#include "tools/sweep/cell_id.hpp"
+#include "tools/sweep/sweep.hpp"
+
+namespace gnbv {
+namespace {
+
+/// Resolves scenarios; the boxes of their structures are found once each.
+class Resolver {
+ public:
+  explicit Resolver(const Sweep& sweep) : sweep_(sweep) {}
+
+  /// Seeds aside: the seed is the scenario's own.
+  Scenario resolve(const SweepScenario& scenario, const SweepMethod& method) {
+    std::vector<Override> overrides;
+    append(scenario.overrides, scenario.sources, overrides);
+    append(method.overrides, method.sources, overrides);
+    // a preset sets many keys: it would undo those that were set before it
+    std::stable_partition(overrides.begin(), overrides.end(), [](const Override& given) {
+      return std::string_view(given.text).substr(0, given.text.find('=')).ends_with(".preset");
+    });
+    ScenarioOptions options;
+    options.scenario = scenario.scenario;
+    options.mesh = scenario.mesh;
+    options.bounds_auto = scenario.bounds_auto;
+    return resolve_scenario(options, overrides,
+                            [this](const Scenario& resolved) { return bounds_of(resolved); });
+  }
+
+ private:
+  void append(const std::vector<std::string>& texts, const std::vector<std::string>& sources,
+              std::vector<Override>& overrides) const {
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+      overrides.push_back({.text = texts[i],
+                           .source = i < sources.size() ? sources[i] : "",
+                           .folder = sweep_.folder.string()});
+    }
+  }
+
+  Box3 bounds_of(const Scenario& scenario) {
+    const StructureConfig& s = scenario.structure;
+    const Vec3& offset_m = s.file.offset_m;
+    const std::string key =
+        fmt::format("{}|{}|{}|{} {} {}|{}|{}", s.builtin, s.file.path, s.file.scale, offset_m.x(),
+                    offset_m.y(), offset_m.z(), s.file.up_axis, s.file.unit_m);
+    const auto known = bounds_m_.find(key);
+    if (known != bounds_m_.end()) return known->second;
+    return bounds_m_[key] = structure_bounds_m(scenario);
+  }
+
+  const Sweep& sweep_;
+  std::map<std::string, Box3> bounds_m_;
+};
+
+/// Faults of many cells: each line once, in the order of the first cell that has it.
+class CellFaults {
+ public:
+  void add(const std::string& message) {
+    std::istringstream lines(message);
+    for (std::string line; std::getline(lines, line);) {
+      if (!seen_.insert(line).second) continue;
+      text_ += (text_.empty() ? "" : "\n") + line;
+    }
+  }
+  void throw_if_any() const {
+    if (!text_.empty()) throw BadInput(text_);
+  }
+
+ private:
+  std::set<std::string> seen_;
+  std::string text_;
+};
+
+Cell make_cell(const SweepScenario& scenario, const SweepMethod& method, std::uint64_t seed,
+               const Scenario& resolved, CellNamer& namer) {
+  Cell cell = {scenario.name, method.name, seed, "", resolved};
+  cell.resolved.seed = seed;
+  cell.id = namer.id_of(cell.resolved);
+  return cell;
+}
+
+}  // namespace
+
+std::size_t cell_count(const Sweep& sweep) {
+  return sweep.scenarios.size() * sweep.methods.size() * sweep.seeds.size();
+}
+
+std::vector<Cell> cells_of(const Sweep& sweep) {
+  Resolver resolver(sweep);
+  CellNamer namer;
+  CellFaults faults;
+  std::vector<Cell> cells;
+  cells.reserve(cell_count(sweep));
+  for (const SweepScenario& scenario : sweep.scenarios) {
+    for (const SweepMethod& method : sweep.methods) {
+      try {
+        const Scenario resolved = resolver.resolve(scenario, method);
+        for (const std::uint64_t seed : sweep.seeds) {
+          cells.push_back(make_cell(scenario, method, seed, resolved, namer));
+        }
+      } catch (const BadInput& error) {
+        faults.add(error.what());
+      }
+    }
+  }
+  faults.throw_if_any();
+  return cells;
+}
+
+Cell cell_at(const Sweep& sweep, std::size_t index) {
+  GNBV_CHECK(index < cell_count(sweep), "cell {} of {}", index, cell_count(sweep));
+  const std::size_t seeds = sweep.seeds.size();
+  const std::size_t methods = sweep.methods.size();
+  const SweepScenario& scenario = sweep.scenarios[index / (methods * seeds)];
+  const SweepMethod& method = sweep.methods[index / seeds % methods];
+  Resolver resolver(sweep);
+  CellNamer namer;
+  return make_cell(scenario, method, sweep.seeds[index % seeds], resolver.resolve(scenario, method),
+                   namer);
+}
+
+}  // namespace gnbv

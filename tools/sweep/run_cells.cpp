@@ -1,0 +1,256 @@
+#include "tools/sweep/run_cells.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <deque>
+#include <map>
+#include <thread>
+
+#include "scenarios/load.hpp"
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "tools/gnbv/interrupt.hpp"
+#include "tools/gnbv/progress.hpp"
+#include "tools/sweep/cell_files.hpp"
+#include "tools/sweep/child.hpp"
+#include "tools/sweep/failure.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr auto kPoll = std::chrono::milliseconds(10);
+constexpr auto kLockedPoll = std::chrono::milliseconds(500);
+
+/// Locks aside.
+CellOutcome on_disk(const CellFiles& files) {
+  std::error_code ignored;
+  if (fs::exists(files.run, ignored)) return {CellStatus::done, files.run, ""};
+  if (!fs::exists(files.failed, ignored)) return {};
+  return {CellStatus::failed, {}, failure_of(files.failed)};
+}
+
+fs::path this_program() { return fs::read_symlink("/proc/self/exe"); }
+
+/// Runs the distinct cells among those given, a few at a time.
+class Pool {
+ public:
+  Pool(std::span<const Cell> cells, const RunCellsOptions& options)
+      : cells_(cells),
+        options_(options),
+        program_(options.program.empty() ? this_program() : options.program),
+        threads_(options.threads > 0 ? options.threads : shared_threads(options.jobs)),
+        outcomes_(cells.size()),
+        progress_("sweep", options.quiet) {
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (first_of_id_.emplace(cells[i].id, i).second) waiting_.push_back(i);
+    }
+  }
+
+  std::vector<CellOutcome> run() {
+    const InterruptGuard interrupt(2);
+    try {
+      while (!is_over()) {
+        pass_on_interrupts();
+        start_waiting();
+        reap();
+        if (!is_over()) std::this_thread::sleep_for(kPoll);
+      }
+    } catch (...) {  // a full disk: nobody would wait for the missions
+      for (const Running& one : running_) kill(one.child, SIGINT);
+      throw;
+    }
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      outcomes_[i] = outcomes_[first_of_id_.at(cells_[i].id)];
+    }
+    return std::move(outcomes_);
+  }
+
+ private:
+  struct Running {
+    std::size_t index = 0;
+    CellFiles files;
+    CellLock lock;
+    std::vector<std::string> command;
+    std::uintmax_t log_begin = 0;  // what is before it, another run printed
+    pid_t child = 0;
+  };
+
+  static int shared_threads(int jobs) {
+    const int all = static_cast<int>(std::thread::hardware_concurrency());
+    return std::max(1, all / std::max(1, jobs));
+  }
+
+  bool is_over() const {
+    return running_.empty() &&
+           (InterruptGuard::requested() || (waiting_.empty() && locked_.empty()));
+  }
+
+  /// The first Ctrl-C asks the missions to end after the view at hand, the second one kills them.
+  void pass_on_interrupts() {
+    for (; passed_on_ < InterruptGuard::requests(); ++passed_on_) {
+      for (const Running& one : running_) kill(one.child, passed_on_ == 0 ? SIGINT : SIGKILL);
+    }
+  }
+
+  void start_waiting() {
+    if (waiting_.empty() && Clock::now() > look_at_locked_) waiting_.swap(locked_);
+    while (!waiting_.empty() && !InterruptGuard::requested() &&
+           running_.size() < static_cast<std::size_t>(options_.jobs)) {
+      const std::size_t index = waiting_.front();
+      waiting_.pop_front();
+      begin(index);
+    }
+  }
+
+  void begin(std::size_t index) {
+    const CellFiles files = cell_files(options_.folder, cells_[index].id);
+    CellOutcome known = on_disk(files);
+    if (is_settled(known)) return settle(index, known);
+    std::optional<CellLock> lock = CellLock::take(files.lock);
+    if (!lock) {
+      if (!options_.wait_for_locked) return settle(index, {CellStatus::locked, {}, ""});
+      locked_.push_back(index);
+      look_at_locked_ = Clock::now() + kLockedPoll;
+      return;
+    }
+    // whoever had the lock until now may have finished the cell
+    known = on_disk(files);
+    if (is_settled(known)) {
+      if (known.status == CellStatus::done) fs::remove(files.lock);
+      return settle(index, known);
+    }
+    if (fs::remove(files.failed)) fs::remove_all(files.part);
+    const auto termination = termination_of(files.part);
+    if (termination && *termination != "interrupted") return settle(index, publish(files));
+    start(index, files, std::move(*lock));
+  }
+
+  /// Nothing is left to do for the cell.
+  bool is_settled(const CellOutcome& outcome) const {
+    return outcome.status == CellStatus::done ||
+           (outcome.status == CellStatus::failed && !options_.retry_failed);
+  }
+
+  void start(std::size_t index, const CellFiles& files, CellLock lock) {
+    fs::create_directories(files.part);
+    fs::remove(files.part / "summary.json");  // of an interruption: the next one is of this run
+    // the same cell may have been begun where its mesh had another path
+    write_file_atomically(files.part / "scenario.yaml", to_yaml(cells_[index].resolved));
+    std::error_code no_log;
+    const std::uintmax_t size = fs::file_size(files.log, no_log);
+    Running one = {.index = index,
+                   .files = files,
+                   .lock = std::move(lock),
+                   .command = {program_.string(), "run", (files.part / "scenario.yaml").string(),
+                               "--out", files.part.string(), "--resume", "--quiet", "--threads",
+                               fmt::format("{}", threads_)},
+                   .log_begin = no_log ? 0 : size};
+    one.child = start_child(one.command, files.log, one.lock.descriptor());
+    running_.push_back(std::move(one));
+  }
+
+  void reap() {
+    for (std::size_t i = 0; i < running_.size();) {
+      const std::optional<ChildEnd> end = end_of(running_[i].child);
+      if (!end) {
+        ++i;
+        continue;
+      }
+      const Running one = std::move(running_[i]);
+      running_.erase(running_.begin() + static_cast<std::ptrdiff_t>(i));
+      flown_ += 1;
+      settle(one.index, outcome_of(one, *end));
+    }
+  }
+
+  CellOutcome outcome_of(const Running& one, const ChildEnd& end) {
+    const auto termination = termination_of(one.files.part);
+    if (termination && *termination != "interrupted") return publish(one.files);
+    if (termination || InterruptGuard::requested()) return {};  // a later call resumes it
+    if (end.signal == SIGKILL) {
+      // a scheduler that kills the job kills this process, too, and the cell has not failed
+      std::this_thread::sleep_for(std::chrono::seconds(1));
+      if (InterruptGuard::requested()) return {};
+    }
+    return record_failure(cells_[one.index], one.files, end, one.command, one.log_begin);
+  }
+
+  static CellOutcome publish(const CellFiles& files) {
+    std::error_code error;
+    fs::rename(files.part, files.run, error);
+    if (error && !fs::exists(files.run)) {
+      throw BadInput(fmt::format("{}: cannot be renamed to {}: {}", files.part.string(),
+                                 files.run.string(), error.message()));
+    }
+    // where locks do not reach (two machines, NFS without locks) another may have been first
+    if (error) fs::remove_all(files.part);
+    // the cell is done: whoever still gets the lock sees that, so the file has served its purpose
+    fs::remove(files.lock);
+    return {CellStatus::done, files.run, ""};
+  }
+
+  void settle(std::size_t index, const CellOutcome& outcome) {
+    outcomes_[index] = outcome;
+    settled_ += 1;
+    failed_ += outcome.status == CellStatus::failed ? 1 : 0;
+    const std::size_t all = first_of_id_.size();
+    std::string note = fmt::format("{}/{} cells, {} failed", settled_, all, failed_);
+    if (flown_ > 0 && settled_ < all) {
+      const double spent_s = std::chrono::duration<double>(Clock::now() - begin_).count();
+      const double left_s =
+          spent_s / static_cast<double>(flown_) * static_cast<double>(all - settled_);
+      note += fmt::format(", about {:.0f} min left", std::ceil(left_s / 60.0));
+    }
+    progress_.show(static_cast<double>(settled_) / static_cast<double>(all), note);
+  }
+
+  std::span<const Cell> cells_;
+  const RunCellsOptions& options_;
+  const fs::path program_;
+  const int threads_;
+  std::map<std::string, std::size_t> first_of_id_;  // others of the id share its outcome
+  std::vector<CellOutcome> outcomes_;
+  std::deque<std::size_t> waiting_;
+  std::deque<std::size_t> locked_;  // by other processes
+  Clock::time_point look_at_locked_ = Clock::now();
+  std::vector<Running> running_;
+  int passed_on_ = 0;
+  std::size_t settled_ = 0;
+  std::size_t flown_ = 0;  // of those, by this call
+  std::size_t failed_ = 0;
+  const Clock::time_point begin_ = Clock::now();
+  ProgressBar progress_;
+};
+
+}  // namespace
+
+CellOutcome look_up(const fs::path& folder, const Cell& cell) {
+  const CellFiles files = cell_files(folder, cell.id);
+  const CellOutcome known = on_disk(files);
+  if (known.status == CellStatus::done || !is_locked(files.lock)) return known;
+  return {CellStatus::locked, {}, ""};
+}
+
+std::vector<CellOutcome> run_cells(std::span<const Cell> cells, const RunCellsOptions& options) {
+  GNBV_CHECK(options.jobs > 0, "{} jobs", options.jobs);
+  std::error_code error;
+  fs::create_directories(options.folder / "cells", error);
+  if (error) {
+    throw BadInput(
+        fmt::format("{}: cannot make the folder: {}", options.folder.string(), error.message()));
+  }
+  try {
+    return Pool(cells, options).run();
+  } catch (const fs::filesystem_error& failed) {
+    throw BadInput(failed.what());  // names the paths
+  }
+}
+
+}  // namespace gnbv
