@@ -206,7 +206,9 @@ std::vector<std::string> answers(const Comparison& comparison) {
 TextTable comparison_table(const Comparison& comparison) {
   using enum ColumnKind;
   TextTable table;
-  table.title = fmt::format("{} against {}", fmt::join(comparison.methods, ", "),
+  std::vector<std::string> others = comparison.methods;
+  others.erase(others.begin() + static_cast<std::ptrdiff_t>(comparison.baseline));
+  table.title = fmt::format("{} against {}", fmt::join(others, ", "),
                             comparison.methods[comparison.baseline]);
   table.columns = {{"Scenario", "scenario", text},
                    {"Metric", "metric", text},

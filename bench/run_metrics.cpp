@@ -63,7 +63,7 @@ constexpr std::array<RunMetric, 14> kMetrics = {{
      [](const RunFigures& run, const MetricContext&) -> Value { return run.iterations; }},
     {kDistanceMetric, false, 1,
      [](const RunFigures& run, const MetricContext&) -> Value { return run.straight_m; }},
-    {"flight time (s)", false, 0,
+    {"flight time (s)", false, 1,
      [](const RunFigures& run, const MetricContext&) -> Value { return run.flight_time_s; }},
 }};
 

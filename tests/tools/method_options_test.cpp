@@ -29,10 +29,9 @@ TEST(MethodOptions, StandInTheOrderOfUtilitiesPresetsVariantsValues) {
                                    .presets = {"released"},
                                    .variants = {"literal:planner.utility.density_term=literal"},
                                    .varies = {"planner.utility.lambda_per_m=0.1,0.2"}});
-  EXPECT_EQ(names(methods), (std::vector<std::string>{
-                                "proposed", "bircher", "released", "literal",
-                                "planner.utility.lambda_per_m=0.1",
-                                "planner.utility.lambda_per_m=0.2"}));
+  EXPECT_EQ(names(methods), (std::vector<std::string>{"proposed", "bircher", "released", "literal",
+                                                      "planner.utility.lambda_per_m=0.1",
+                                                      "planner.utility.lambda_per_m=0.2"}));
   EXPECT_EQ(methods[1].overrides, Overrides{"planner.utility.name=bircher"});
   EXPECT_EQ(methods[2].overrides, Overrides{"planner.preset=released"});
   EXPECT_EQ(methods[3].overrides, Overrides{"planner.utility.density_term=literal"});
@@ -59,8 +58,8 @@ TEST(MethodOptions, AllFaultsAreNamedAtOnce) {
   const std::string fault = fault_of({.utilities = {"isler", "isler"},
                                       .variants = {"n:novalue", ":a=1"},
                                       .varies = {"k", "k=1,,2"}});
-  for (const std::string text : {"'isler': named twice", "'n:novalue'", "':a=1'", "--vary: value 'k'",
-                                 "'k=1,,2'"}) {
+  for (const std::string text :
+       {"'isler': named twice", "'n:novalue'", "':a=1'", "--vary: value 'k'", "'k=1,,2'"}) {
     EXPECT_NE(fault.find(text), std::string::npos) << text << " in " << fault;
   }
 }

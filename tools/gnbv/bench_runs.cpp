@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <thread>
 
+#include "scenarios/load.hpp"
 #include "sensors/ray_scene.hpp"
 #include "sim/core/error.hpp"
 #include "tools/gnbv/commands.hpp"
@@ -23,35 +24,62 @@ bool ended_early(const std::string& termination) {
   return termination == "collision" || termination == "battery" || termination == "interrupted";
 }
 
+std::string why_missing(const CellOutcome& outcome) {
+  if (outcome.status == CellStatus::failed) return outcome.failure;
+  return outcome.status == CellStatus::locked ? "being flown by another process" : "not flown";
+}
+
+/// Sentences about cells, each with the seeds that it is true of.
+class CellNotes {
+ public:
+  void add(const Cell& cell, const std::string& sentence) {
+    const std::string key = fmt::format("{}, {}: {}", cell.scenario, cell.method, sentence);
+    auto at = std::find_if(notes_.begin(), notes_.end(),
+                           [&](const auto& note) { return note.first == key; });
+    if (at == notes_.end()) at = notes_.insert(notes_.end(), {key, {}});
+    at->second.push_back(cell.seed);
+  }
+  std::vector<std::string> lines() const {
+    std::vector<std::string> all;
+    for (const auto& [key, seeds] : notes_) {
+      all.push_back(
+          fmt::format("{} (seed{} {})", key, seeds.size() > 1 ? "s" : "", fmt::join(seeds, ", ")));
+    }
+    return all;
+  }
+
+ private:
+  std::vector<std::pair<std::string, std::vector<std::uint64_t>>> notes_;
+};
+
 BenchRuns collect(const std::vector<Cell>& cells, const std::vector<CellOutcome>& outcomes) {
   BenchRuns collected;
+  CellNotes notes;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Cell& cell = cells[i];
-    const std::string who =
-        fmt::format("{}, {}, seed {}", cell.scenario, cell.method, cell.seed);
     if (outcomes[i].status != CellStatus::done) {
-      const std::string why = outcomes[i].status == CellStatus::failed ? outcomes[i].failure
-                              : outcomes[i].status == CellStatus::locked
-                                  ? "being flown by another process"
-                                  : "not flown";
-      collected.notes.push_back(fmt::format("{}: without a result: {}", who, why));
+      notes.add(cell, "without a result: " + why_missing(outcomes[i]));
       collected.has_failures = true;
       continue;
     }
     ComparedRun run{cell.scenario, cell.method, cell.seed, read_run_figures(outcomes[i].run)};
     if (ended_early(run.figures.termination)) {
-      collected.notes.push_back(fmt::format("{}: ended by {} after {} views; counted as it is", who,
-                                            run.figures.termination, run.figures.iterations));
+      notes.add(cell, fmt::format("ended by {}, counted as it is", run.figures.termination));
     }
     collected.has_failures = collected.has_failures || run.figures.termination == "collision";
     collected.runs.push_back(std::move(run));
+    collected.folders.push_back(outcomes[i].run);
   }
+  collected.notes = notes.lines();
   return collected;
 }
 
 }  // namespace
 
 void add_bench_options(CLI::App& command, BenchOptions& options) {
+  add_work_options(command, options);
+  command.get_option("--out")->description(
+      "folder of the missions (default: runs/bench); those it holds are not flown again");
   command.add_option("--seeds", options.seed_count, "how many seeds, from --seed on")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
@@ -93,13 +121,25 @@ BenchRuns read_cells(const std::vector<Cell>& cells, const fs::path& folder) {
   return collect(cells, outcomes);
 }
 
-Ceiling ceiling_of(const Scenario& scenario, int threads) {
+Ceiling ceiling_of(const Scenario& scenario, const BenchOptions& options) {
+  if (!options.quiet) fmt::print(stderr, "gnbv: ceiling of {}\n", scenario.name);
   std::vector<std::string> warnings;  // the missions' logs hold them
   const World world = load_world(scenario, warnings);
   const RayScene scene(world);
   const unsigned all = std::max(1U, std::thread::hardware_concurrency());
   return find_ceiling(scenario, world, scene, start_pose(scenario, scene),
-                      threads > 0 ? threads : static_cast<int>(all));
+                      options.threads > 0 ? options.threads : static_cast<int>(all));
+}
+
+std::map<std::string, Ceiling> ceilings_of(const BenchRuns& runs, const BenchOptions& options) {
+  std::map<std::string, Ceiling> ceilings;
+  for (std::size_t i = 0; i < runs.runs.size(); ++i) {
+    const std::string& name = runs.runs[i].scenario;
+    if (ceilings.contains(name)) continue;
+    const Scenario scenario = load_scenario((runs.folders[i] / "scenario.yaml").string(), {});
+    ceilings.emplace(name, ceiling_of(scenario, options));
+  }
+  return ceilings;
 }
 
 void print_bench(const TextTable& table, const std::string& format, bool has_failures) {

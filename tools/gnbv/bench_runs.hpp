@@ -21,7 +21,8 @@ struct BenchOptions : MissionOptions {
   std::string format = "terminal";
 };
 
-/// --seeds, --jobs and --format, beside the options of missions.
+/// What many missions share beside their scenario: --seeds, --jobs, --threads, --format, --out,
+/// --quiet.
 void add_bench_options(CLI::App& command, BenchOptions& options);
 
 /// Where cells are kept when --out is not given: cells are named by their content, so that every
@@ -32,7 +33,8 @@ std::filesystem::path bench_folder(const BenchOptions& options);
 std::vector<std::uint64_t> seeds_from(std::uint64_t first, int count);
 
 struct BenchRuns {
-  std::vector<ComparedRun> runs;   // of the cells that are done, in their order
+  std::vector<ComparedRun> runs;               // of the cells that are done, in their order
+  std::vector<std::filesystem::path> folders;  // of these runs
   std::vector<std::string> notes;  // cells that are missing here, and missions that ended early
   bool has_failures = false;       // cells without a result, collisions
 };
@@ -44,7 +46,10 @@ BenchRuns fly_cells(const std::vector<Cell>& cells, const BenchOptions& options)
 BenchRuns read_cells(const std::vector<Cell>& cells, const std::filesystem::path& folder);
 
 /// The ceiling of a scenario, with its structure loaded for the purpose.
-Ceiling ceiling_of(const Scenario& scenario, int threads);
+Ceiling ceiling_of(const Scenario& scenario, const BenchOptions& options);
+
+/// The ceilings of the scenarios that the runs are of, each as its first run resolved it.
+std::map<std::string, Ceiling> ceilings_of(const BenchRuns& runs, const BenchOptions& options);
 
 /// Prints the table, then throws CommandFailed if something failed.
 void print_bench(const TextTable& table, const std::string& format, bool has_failures);

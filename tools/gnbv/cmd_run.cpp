@@ -38,8 +38,7 @@ void run(const RunOptions& options) {
 
 }  // namespace
 
-void add_scenario_options(CLI::App& command, MissionOptions& options) {
-  command.add_option("SCENARIO", options.scenario, "built-in name or YAML file")->required();
+void add_structure_options(CLI::App& command, MissionOptions& options) {
   command.add_option("--mesh", options.mesh, "a mesh file instead of the scenario's structure");
   command.add_option("--seed", options.seed, "moves the start pose and keys all noise");
   command.add_option("--set", options.overrides, "KEY=VALUE of the scenario file; repeatable")
@@ -53,12 +52,21 @@ void add_scenario_options(CLI::App& command, MissionOptions& options) {
       ->check(CLI::IsMember({"auto", "scenario"}));
 }
 
-void add_mission_options(CLI::App& command, MissionOptions& options) {
-  add_scenario_options(command, options);
+void add_scenario_options(CLI::App& command, MissionOptions& options) {
+  command.add_option("SCENARIO", options.scenario, "built-in name or YAML file")->required();
+  add_structure_options(command, options);
+}
+
+void add_work_options(CLI::App& command, MissionOptions& options) {
   command.add_option("--out", options.out, "run directory (default: a new one under runs/)");
   command.add_option("--threads", options.threads, "0 = all; the result does not depend on it")
       ->check(CLI::Range(0, 1024));
   command.add_flag("--quiet", options.quiet, "no progress on stderr");
+}
+
+void add_mission_options(CLI::App& command, MissionOptions& options) {
+  add_scenario_options(command, options);
+  add_work_options(command, options);
 }
 
 void add_run_command(CLI::App& app) {

@@ -19,8 +19,8 @@ const PaperTable& paper_table_of(const Scenario& scenario, const std::string& as
   if (paper != nullptr) return *paper;
   std::string known;
   for (const PaperTable& t : paper_tables()) known += fmt::format(" {}", t.scenario);
-  throw BadInput(fmt::format("{}: the paper has no table for this scenario; it has:{}", asked_for,
-                             known));
+  throw BadInput(
+      fmt::format("{}: the paper has no table for this scenario; it has:{}", asked_for, known));
 }
 
 Sweep sweep_of(const TableOptions& options, const PaperTable& paper, std::uint64_t first_seed) {
@@ -70,21 +70,21 @@ void table(const TableOptions& options) {
   const Scenario first = resolve_scenario(options);
   const PaperTable& paper = paper_table_of(first, options.scenario);
   const std::vector<Cell> cells = cells_of(sweep_of(options, paper, first.seed));
-  const Ceiling ceiling = ceiling_of(cells.front().resolved, options.threads);
+  const Ceiling ceiling = ceiling_of(cells.front().resolved, options);
   const BenchRuns flown = fly_cells(cells, options);
   std::vector<RunFigures> runs;
   for (const ComparedRun& run : flown.runs) runs.push_back(run.figures);
   TextTable text = comparison_table(paper, runs, ceiling);
-  const std::string structure = first.structure.file.path.empty() ? first.structure.builtin
-                                                                  : first.structure.file.path;
+  const std::string structure =
+      first.structure.file.path.empty() ? first.structure.builtin : first.structure.file.path;
   if (!is_papers_structure(paper, structure)) {
     text.notes.push_back(fmt::format(
         "ours is of {}, which is not known to be the structure that the paper's figures are of",
         options.mesh.empty() ? structure : options.mesh));
   }
   text.notes.insert(text.notes.end(), flown.notes.begin(), flown.notes.end());
-  text.notes.push_back(fmt::format("{}, version {}", command_of(options, first.seed),
-                                   GNBV_VERSION));
+  text.notes.push_back(
+      fmt::format("{}, version {}", command_of(options, first.seed), GNBV_VERSION));
   print_bench(text, options.format, flown.has_failures);
 }
 
@@ -94,9 +94,7 @@ void add_table_command(CLI::App& app) {
   auto options = std::make_shared<TableOptions>();
   CLI::App* const command =
       app.add_subcommand("table", "fly every row of the paper's table and print both");
-  add_mission_options(*command, *options);
-  command->get_option("--out")->description(
-      "folder of the missions (default: runs/bench); those it holds are not flown again");
+  add_scenario_options(*command, *options);
   command->add_option("--preset", options->preset, "paper, or released: the authors' own code");
   add_bench_options(*command, *options);
   command->add_flag("--no-oracle", options->no_oracle,

@@ -14,12 +14,19 @@ class CommandFailed : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The options that say which scenario is meant: SCENARIO, --mesh, --seed, --set.
+/// What a scenario is changed by: --mesh, --seed, --set, --bounds.
+void add_structure_options(CLI::App& command, MissionOptions& options);
+
+/// SCENARIO and those.
 void add_scenario_options(CLI::App& command, MissionOptions& options);
 
-/// Those, and the others that every command which flies missions has.
+/// --out, --threads and --quiet.
+void add_work_options(CLI::App& command, MissionOptions& options);
+
+/// All of them: what every command which flies a mission has.
 void add_mission_options(CLI::App& command, MissionOptions& options);
 
+void add_compare_command(CLI::App& app);
 void add_fly_command(CLI::App& app);
 void add_run_command(CLI::App& app);
 void add_table_command(CLI::App& app);

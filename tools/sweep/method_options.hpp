@@ -9,17 +9,17 @@
 namespace gnbv {
 
 struct MethodOptions {
-  std::vector<std::string> utilities;
-  std::vector<std::string> presets;
-  std::vector<std::string> variants;  // [NAME:]KEY=VALUE[,KEY=VALUE]...
-  std::vector<std::string> varies;    // KEY=VALUE[,VALUE]...: a method a value
+  std::vector<std::string> utilities{};
+  std::vector<std::string> presets{};
+  std::vector<std::string> variants{};  // [NAME:]KEY=VALUE[,KEY=VALUE]...
+  std::vector<std::string> varies{};    // KEY=VALUE[,VALUE]...: a method a value
 };
 
-/// In the order of the options above: a utility and a preset are named as they are, a variant by its
-/// NAME or its text, a varied value by KEY=VALUE. When only variants are named, the scenario as it
-/// is, "default", stands first. Commas within brackets, braces or quotes separate nothing. Throws
-/// BadInput with every fault at once: text that is none of this, a name that stands twice, fewer
-/// than two methods. Keys and values are checked by cells_of().
+/// In the order of the options above: a utility and a preset are named as they are, a variant by
+/// its NAME or its text, a varied value by KEY=VALUE. When only variants are named, the scenario as
+/// it is, "default", stands first. Commas within brackets, braces or quotes separate nothing.
+/// Throws BadInput with every fault at once: text that is none of this, a name that stands twice,
+/// fewer than two methods. Keys and values are checked by cells_of().
 std::vector<SweepMethod> methods_of(const MethodOptions& options);
 
 }  // namespace gnbv

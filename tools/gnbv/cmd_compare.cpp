@@ -1,0 +1,147 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "bench/comparison_text.hpp"
+#include "sim/core/error.hpp"
+#include "tools/gnbv/bench_runs.hpp"
+#include "tools/gnbv/commands.hpp"
+#include "tools/sweep/method_options.hpp"
+#include "tools/sweep/read_manifest.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CompareOptions : BenchOptions {
+  std::vector<std::string> scenarios;
+  MethodOptions methods;
+  std::string baseline;  // "" is the first method
+  fs::path from;         // of a sweep; "" flies
+};
+
+/// What is compared, before anything is flown.
+struct Plan {
+  std::vector<Cell> cells;
+  std::string baseline;
+};
+
+std::vector<SweepScenario> scenarios_of(const CompareOptions& options) {
+  if (options.scenarios.empty()) throw BadInput("compare: needs a SCENARIO, or --from");
+  if (options.scenarios.size() > 1 && !options.mesh.empty()) {
+    throw BadInput(fmt::format("--mesh {}: one structure for {} scenarios; compare them one by one",
+                               options.mesh, options.scenarios.size()));
+  }
+  std::vector<SweepScenario> scenarios;
+  for (const std::string& given : options.scenarios) {
+    const std::string name = fs::path(given).stem().string();
+    const bool is_new = std::none_of(scenarios.begin(), scenarios.end(),
+                                     [&](const SweepScenario& s) { return s.name == name; });
+    if (!is_new) throw BadInput(fmt::format("{}: two scenarios are named '{}'", given, name));
+    scenarios.push_back({.name = name,
+                         .scenario = given,
+                         .mesh = options.mesh,
+                         .bounds_auto = options.bounds_auto,
+                         .overrides = options.overrides});
+  }
+  return scenarios;
+}
+
+std::string chosen_baseline(const std::vector<std::string>& methods, const std::string& asked_for) {
+  if (asked_for.empty()) return methods.front();
+  if (std::find(methods.begin(), methods.end(), asked_for) != methods.end()) return asked_for;
+  throw BadInput(fmt::format("--baseline: value '{}': no method of this comparison; it has: {}",
+                             asked_for, fmt::join(methods, ", ")));
+}
+
+std::uint64_t first_seed(const CompareOptions& options) {
+  ScenarioOptions first = options;  // as `run` reads it, with its faults
+  first.scenario = options.scenarios.front();
+  return resolve_scenario(first).seed;
+}
+
+Plan plan_of(const CompareOptions& options) {
+  Sweep sweep{.scenarios = scenarios_of(options), .methods = {}, .seeds = {}, .folder = {}};
+  sweep.methods = methods_of(options.methods);
+  std::vector<std::string> names;
+  for (const SweepMethod& method : sweep.methods) names.push_back(method.name);
+  Plan plan{.cells = {}, .baseline = chosen_baseline(names, options.baseline)};
+  sweep.seeds = seeds_from(first_seed(options), options.seed_count);
+  plan.cells = cells_of(sweep);
+  return plan;
+}
+
+Plan plan_of_sweep(const CompareOptions& options) {
+  Plan plan{.cells = cells_of_manifest(options.from), .baseline = {}};
+  std::vector<std::string> names;
+  for (const Cell& cell : plan.cells) {
+    if (std::find(names.begin(), names.end(), cell.method) == names.end()) {
+      names.push_back(cell.method);
+    }
+  }
+  if (names.size() < 2) {
+    throw BadInput(
+        fmt::format("{}: the sweep has one method: nothing to compare", options.from.string()));
+  }
+  plan.baseline = chosen_baseline(names, options.baseline);
+  return plan;
+}
+
+void compare_command(const CompareOptions& options) {
+  const bool flies = options.from.empty();
+  const Plan plan = flies ? plan_of(options) : plan_of_sweep(options);
+  const BenchRuns collected =
+      flies ? fly_cells(plan.cells, options) : read_cells(plan.cells, options.from);
+  const bool has_baseline =
+      std::any_of(collected.runs.begin(), collected.runs.end(),
+                  [&](const ComparedRun& run) { return run.method == plan.baseline; });
+  if (!has_baseline) {
+    for (const std::string& note : collected.notes) fmt::print(stderr, "gnbv: {}\n", note);
+    throw CommandFailed(fmt::format("no mission of the baseline, {}, is done", plan.baseline));
+  }
+  const Comparison comparison =
+      compare(collected.runs, plan.baseline, ceilings_of(collected, options));
+  TextTable table = comparison_table(comparison);
+  table.notes.insert(table.notes.end(), collected.notes.begin(), collected.notes.end());
+  print_bench(table, options.format, collected.has_failures);
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& app) {
+  auto options = std::make_shared<CompareOptions>();
+  options->seed_count = 5;
+  CLI::App* const command =
+      app.add_subcommand("compare", "fly methods over seeds: is one better than another here?");
+  CLI::Option* const scenarios =
+      command->add_option("SCENARIO", options->scenarios, "built-in names or YAML files");
+  add_structure_options(*command, *options);
+  MethodOptions& methods = options->methods;
+  std::vector<CLI::Option*> what_to_fly = {
+      scenarios,
+      command->add_option("--utilities", methods.utilities, "utilities by name, with commas")
+          ->delimiter(',')
+          ->allow_extra_args(false),
+      command->add_option("--presets", methods.presets, "planner presets by name, with commas")
+          ->delimiter(',')
+          ->allow_extra_args(false),
+      command
+          ->add_option("--variant", methods.variants,
+                       "[NAME:]KEY=VALUE[,KEY=VALUE]... of the scenario file; repeatable")
+          ->allow_extra_args(false),
+      command
+          ->add_option("--vary", methods.varies,
+                       "KEY=VALUE[,VALUE]...: a method a value; repeatable")
+          ->allow_extra_args(false)};
+  command->add_option("--baseline", options->baseline,
+                      "method the others are tested against (default: the first)");
+  add_bench_options(*command, *options);
+  CLI::Option* const from =
+      command->add_option("--from", options->from, "folder of a sweep: compare what it flew");
+  for (CLI::Option* const option : what_to_fly) option->excludes(from);
+  command->callback([options] { compare_command(*options); });
+}
+
+}  // namespace gnbv
