@@ -5,9 +5,14 @@
 #include <cstddef>
 #include <span>
 
+#include "sensors/ray_scene.hpp"
 #include "sim/core/pose.hpp"
 
 namespace gnbv {
+
+/// Farther than this is as good as lost: distances beyond count as this much, so that a stray point
+/// weighs no more than a wrong one.
+constexpr double kFarthest_m = 1.0;
 
 /// The distances of precision, recall and F.
 constexpr std::array<double, 3> kScoreDistances_m = {0.02, 0.05, 0.10};
@@ -36,5 +41,14 @@ struct CloudDensity {
   double mean_points = 0.0;
   double variation = 0.0;
 };
+
+/// Exact distances of every point of the cloud to the structure, and of every sample of the surface
+/// (SurfaceReference::samples_world_m) to its nearest point of the cloud. An empty cloud, like an
+/// empty surface, is kFarthest_m away and scores 0. Deterministic at any number of threads.
+CloudDistances cloud_distances(const RayScene& scene, std::span<const Vec3f> cloud_world_m,
+                               std::span<const Vec3f> samples_world_m, int threads);
+
+/// Zero for an empty cloud. Voxels are those of voxel_code().
+CloudDensity cloud_density(std::span<const Vec3f> cloud_world_m, double voxel_m);
 
 }  // namespace gnbv

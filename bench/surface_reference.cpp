@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "sim/core/error.hpp"
@@ -42,15 +43,17 @@ struct Groups {
 
 class EscapeSearch {
  public:
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
   EscapeSearch(const TriangleMesh& mesh, const RayScene& scene, const ReferenceConfig& config)
       : scene_(scene),
         near_m_(static_cast<float>(config.escape_near_m)),
         normals_(tilted_normals(mesh)),
         directions_(spread_directions(config.directions)) {}
 
-  // 1 for each group with a sample that sees out.
-  std::vector<std::uint8_t> settle(const Groups& groups) const {
-    std::vector<std::uint8_t> seen(groups.size(), 0);
+  // For each group the sample found to see out, kNone without one.
+  std::vector<std::size_t> settle(const Groups& groups) const {
+    std::vector<std::size_t> seen(groups.size(), kNone);
     std::vector<std::size_t> open(groups.size());
     std::iota(open.begin(), open.end(), std::size_t{0});
     Batch batch;
@@ -62,31 +65,34 @@ class EscapeSearch {
  private:
   struct Batch {
     std::vector<Vec3f> origins, directions;
-    std::vector<std::size_t> group;
+    std::vector<std::size_t> group, sample;
     std::vector<std::uint8_t> blocked;
-    void add(std::size_t g, const Vec3f& origin, const Vec3f& direction) {
+    void add(std::size_t g, std::size_t s, const Vec3f& origin, const Vec3f& direction) {
       group.push_back(g);
+      sample.push_back(s);
       origins.push_back(origin);
       directions.push_back(direction);
     }
   };
 
   // Traces the batch, empties it and drops the groups it settled from `open`.
-  void trace(Batch& batch, std::vector<std::size_t>& open, std::vector<std::uint8_t>& seen) const {
+  void trace(Batch& batch, std::vector<std::size_t>& open, std::vector<std::size_t>& seen) const {
     batch.blocked.assign(batch.group.size(), 0);
     scene_.structure_blocks(batch.origins, batch.directions, near_m_, batch.blocked);
     for (std::size_t i = 0; i < batch.group.size(); ++i) {
-      if (batch.blocked[i] == 0) seen[batch.group[i]] = 1;
+      std::size_t& found = seen[batch.group[i]];
+      if (batch.blocked[i] == 0 && found == kNone) found = batch.sample[i];
     }
-    std::erase_if(open, [&](std::size_t g) { return seen[g] != 0; });
+    std::erase_if(open, [&](std::size_t g) { return seen[g] != kNone; });
     batch.group.clear();
+    batch.sample.clear();
     batch.origins.clear();
     batch.directions.clear();
   }
 
   // Round r asks the r-th sample of every open group: most surface is settled by its first.
   void along_normals(const Groups& groups, std::vector<std::size_t>& open,
-                     std::vector<std::uint8_t>& seen, Batch& batch) const {
+                     std::vector<std::size_t>& seen, Batch& batch) const {
     std::size_t longest = 0;
     for (const std::size_t g : open) {
       longest = std::max(longest, groups.first[g + 1] - groups.first[g]);
@@ -94,9 +100,10 @@ class EscapeSearch {
     for (std::size_t r = 0; r < longest && !open.empty(); ++r) {
       for (const float side : {1.0F, -1.0F}) {
         for (const std::size_t g : open) {
-          if (groups.first[g] + r >= groups.first[g + 1]) continue;
-          const SurfaceSample& s = groups.samples[groups.first[g] + r];
-          batch.add(g, s.p_world_m, side * normals_[s.face]);
+          const std::size_t i = groups.first[g] + r;
+          if (i >= groups.first[g + 1]) continue;
+          const SurfaceSample& s = groups.samples[i];
+          batch.add(g, i, s.p_world_m, side * normals_[s.face]);
         }
         trace(batch, open, seen);
       }
@@ -106,12 +113,12 @@ class EscapeSearch {
   // One direction at a time for all samples left: neighbours in space with equal directions trace
   // fast.
   void along_directions(const Groups& groups, std::vector<std::size_t>& open,
-                        std::vector<std::uint8_t>& seen, Batch& batch) const {
+                        std::vector<std::size_t>& seen, Batch& batch) const {
     for (const Vec3f& direction : directions_) {
       if (open.empty()) return;
       for (const std::size_t g : open) {
         for (std::size_t i = groups.first[g]; i < groups.first[g + 1]; ++i) {
-          batch.add(g, groups.samples[i].p_world_m, direction);
+          batch.add(g, i, groups.samples[i].p_world_m, direction);
         }
       }
       trace(batch, open, seen);
@@ -176,13 +183,25 @@ std::vector<SurfaceSample> slab_samples(const TriangleMesh& mesh, const Slabs& s
 
 struct SlabVoxels {
   VoxelSet raw, outside;  // of the finest size
+  std::vector<Vec3f> samples_world_m;
+};
+
+/// Samples by voxel, those of a voxel by their distance from its centre.
+struct InVoxel {
+  std::uint64_t code = 0;
+  float from_centre_m2 = 0.0F;
+  std::uint32_t sample = 0;
+  auto operator<=>(const InVoxel&) const = default;
 };
 
 SlabVoxels slab_voxels(const std::vector<SurfaceSample>& samples, const EscapeSearch& search) {
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> order;  // code, sample
+  std::vector<InVoxel> order;
   order.reserve(samples.size());
   for (std::uint32_t i = 0; i < samples.size(); ++i) {
-    order.emplace_back(voxel_code(samples[i].p_world_m, kCoverageSizes_m[0]), i);
+    const Vec3f& p_m = samples[i].p_world_m;
+    const std::uint64_t code = voxel_code(p_m, kCoverageSizes_m[0]);
+    const Vec3 off_m = p_m.cast<double>() - voxel_centre_m(code, kCoverageSizes_m[0]);
+    order.push_back({code, static_cast<float>(off_m.squaredNorm()), i});
   }
   std::sort(order.begin(), order.end());
 
@@ -190,7 +209,7 @@ SlabVoxels slab_voxels(const std::vector<SurfaceSample>& samples, const EscapeSe
   std::vector<SurfaceSample> sorted;
   sorted.reserve(samples.size());
   Groups groups;
-  for (const auto& [code, i] : order) {
+  for (const auto& [code, from_centre_m2, i] : order) {
     if (voxels.raw.empty() || voxels.raw.back() != code) {
       voxels.raw.push_back(code);
       groups.first.push_back(sorted.size());
@@ -199,18 +218,13 @@ SlabVoxels slab_voxels(const std::vector<SurfaceSample>& samples, const EscapeSe
   }
   groups.first.push_back(sorted.size());
   groups.samples = sorted;
-  const std::vector<std::uint8_t> seen = search.settle(groups);
+  const std::vector<std::size_t> seen = search.settle(groups);
   for (std::size_t g = 0; g < seen.size(); ++g) {
-    if (seen[g] != 0) voxels.outside.push_back(voxels.raw[g]);
+    if (seen[g] == EscapeSearch::kNone) continue;
+    voxels.outside.push_back(voxels.raw[g]);
+    voxels.samples_world_m.push_back(sorted[seen[g]].p_world_m);
   }
   return voxels;
-}
-
-std::array<VoxelSet, 3> all_sizes(VoxelSet finest) {
-  std::array<VoxelSet, 3> sizes;
-  for (std::size_t i = 1; i < sizes.size(); ++i) sizes[i] = coarser(finest, kCoverageFactors[i]);
-  sizes[0] = std::move(finest);
-  return sizes;
 }
 
 }  // namespace
@@ -245,8 +259,11 @@ SurfaceReference make_surface_reference(const World& world, const RayScene& scen
   for (const SlabVoxels& part : parts) {
     all.raw.insert(all.raw.end(), part.raw.begin(), part.raw.end());
     all.outside.insert(all.outside.end(), part.outside.begin(), part.outside.end());
+    all.samples_world_m.insert(all.samples_world_m.end(), part.samples_world_m.begin(),
+                               part.samples_world_m.end());
   }
-  return {all_sizes(std::move(all.raw)), all_sizes(std::move(all.outside))};
+  return {at_all_sizes(std::move(all.raw)), at_all_sizes(std::move(all.outside)),
+          std::move(all.samples_world_m)};
 }
 
 std::vector<std::uint8_t> samples_seeing_out(const World& world, const RayScene& scene,
@@ -262,15 +279,18 @@ std::vector<std::uint8_t> samples_seeing_out(const World& world, const RayScene&
     groups.samples = samples.subspan(begin, std::min(kChunk, samples.size() - begin));
     groups.first.resize(groups.samples.size() + 1);
     std::iota(groups.first.begin(), groups.first.end(), std::size_t{0});
-    const std::vector<std::uint8_t> part = search.settle(groups);
-    std::copy(part.begin(), part.end(), seen.begin() + static_cast<std::ptrdiff_t>(begin));
+    const std::vector<std::size_t> part = search.settle(groups);
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      seen[begin + i] = part[i] != EscapeSearch::kNone ? 1 : 0;
+    }
   });
   return seen;
 }
 
 std::array<double, 3> coverage_at_all_sizes(const std::array<VoxelSet, 3>& reference,
                                             std::span<const Vec3f> points_world_m) {
-  const std::array<VoxelSet, 3> cloud = all_sizes(voxels_of(points_world_m, kCoverageSizes_m[0]));
+  const std::array<VoxelSet, 3> cloud =
+      at_all_sizes(voxels_of(points_world_m, kCoverageSizes_m[0]));
   std::array<double, 3> shares{};
   for (std::size_t i = 0; i < shares.size(); ++i) shares[i] = coverage(reference[i], cloud[i]);
   return shares;

@@ -26,6 +26,12 @@ struct ReferenceConfig {
 struct SurfaceReference {
   std::array<VoxelSet, 3> raw;      // any surface
   std::array<VoxelSet, 3> outside;  // surface from which some straight line leaves the structure
+  // One sample of each voxel of outside[0], in its order, that sees out: the nearest to the voxel's
+  // centre of those found first. They lie evenly whatever the triangles are; recall and
+  // completeness are of them.
+  std::vector<Vec3f> samples_world_m;
+
+  bool operator==(const SurfaceReference&) const = default;
 };
 
 /// Deterministic at any number of threads. A voxel belongs to `outside` if one of its samples sees
@@ -34,6 +40,11 @@ struct SurfaceReference {
 /// 4 pi / directions steradian) are found only by luck.
 SurfaceReference make_surface_reference(const World& world, const RayScene& scene,
                                         const ReferenceConfig& config, int threads);
+
+/// The same from the cache (content_cache.hpp), where it is kept by the geometry of the structure
+/// and the config.
+SurfaceReference cached_surface_reference(const World& world, const RayScene& scene,
+                                          const ReferenceConfig& config, int threads);
 
 /// 1 for each sample that sees out by the rule above, 0 for the others. make_surface_reference asks
 /// less, since a voxel's first such sample settles it.

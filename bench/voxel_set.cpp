@@ -101,6 +101,13 @@ VoxelSet coarser(const VoxelSet& fine, int factor) {
   return codes;
 }
 
+std::array<VoxelSet, 3> at_all_sizes(VoxelSet finest) {
+  std::array<VoxelSet, 3> sizes;
+  for (std::size_t i = 1; i < sizes.size(); ++i) sizes[i] = coarser(finest, kCoverageFactors[i]);
+  sizes[0] = std::move(finest);
+  return sizes;
+}
+
 double coverage(const VoxelSet& reference, const VoxelSet& cloud) {
   if (reference.empty()) return 0.0;
   std::size_t covered = 0;

@@ -34,6 +34,9 @@ VoxelSet voxels_of(std::span<const Vec3f> points_world_m, double size_m);
 /// The voxels `factor` times as large that hold a voxel of `fine`. factor >= 1.
 VoxelSet coarser(const VoxelSet& fine, int factor);
 
+/// The voxels of all three sizes that hold those of the finest, by kCoverageSizes_m.
+std::array<VoxelSet, 3> at_all_sizes(VoxelSet finest);
+
 /// Share of `reference` that is in `cloud`, in [0, 1]; 0 for an empty reference.
 double coverage(const VoxelSet& reference, const VoxelSet& cloud);
 

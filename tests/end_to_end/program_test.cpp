@@ -1,9 +1,8 @@
 // The program as its users meet it: exit codes, messages, and what it leaves behind.
-#include <gtest/gtest.h>
-#include <sys/wait.h>
+#include "tests/support/program.hpp"
 
-#include <array>
-#include <cstdio>
+#include <gtest/gtest.h>
+
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -18,36 +17,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Outcome {
-  int exit_code = -1;
-  std::string output;  // stdout, and stderr unless the arguments send it elsewhere
-};
-
-Outcome gnbv(const std::string& arguments) {
-  const bool both = arguments.find("2>") == std::string::npos;
-  const std::string command = std::string(GNBV_PROGRAM) + " " + arguments + (both ? " 2>&1" : "");
-  Outcome outcome;
-  FILE* const pipe = popen(command.c_str(), "r");
-  std::array<char, 4096> buffer{};
-  while (std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe) != nullptr) {
-    outcome.output += buffer.data();
-  }
-  const int status = pclose(pipe);
-  outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return outcome;
-}
-
-bool has(const Outcome& outcome, const std::string& text) {
-  return outcome.output.find(text) != std::string::npos;
-}
-
 std::string one_view(const fs::path& out) {
   return "run smoke --set planner.termination.max_iterations=1 --out " + out.string();
 }
 
 TEST(Program, HelpsAndSaysItsVersion) {
   for (const std::string arguments :
-       {"--help", "run --help", "table --help", "render --help", "asset --help", "lint --help"}) {
+       {"--help", "run --help", "table --help", "render --help", "asset --help", "lint --help",
+        "score --help", "check --help"}) {
     const Outcome help = gnbv(arguments);
     EXPECT_EQ(help.exit_code, 0) << arguments;
     EXPECT_TRUE(has(help, "Usage")) << arguments;

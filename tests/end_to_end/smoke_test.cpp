@@ -27,6 +27,17 @@ const Flown& smoke_flight() {
   return flight;
 }
 
+const MissionScore& smoke_score() {
+  static const MissionScore score = [] {
+    const Flown& f = smoke_flight();
+    const SurfaceReference reference =
+        make_surface_reference(f.world, f.scene, {.floor_z_m = f.scenario.planner.floor_z_m}, 2);
+    return score_cloud(reference, f.scene, scored_cloud(f.result),
+                       f.scenario.planner.map.resolution_m, 2);
+  }();
+  return score;
+}
+
 TEST(SmokeMission, EndsAsStatedAndTouchesNothing) {
   const MissionResult& result = smoke_flight().result;
   EXPECT_EQ(result.termination, Termination::max_iterations);
@@ -47,10 +58,7 @@ TEST(SmokeMission, TheCloudOnlyGrows) {
 }
 
 TEST(SmokeMission, CoversMostOfTheStructure) {
-  const Flown& f = smoke_flight();
-  const SurfaceReference reference =
-      make_surface_reference(f.world, f.scene, {.floor_z_m = f.scenario.planner.floor_z_m}, 2);
-  const MissionScore score = score_mission(reference, f.result);
+  const MissionScore& score = smoke_score();
   for (std::size_t size = 0; size < kCoverageSizes_m.size(); ++size) {
     EXPECT_GE(score.final[size], score.profile[size]);
   }
@@ -191,13 +199,13 @@ TEST(RunDirectoryFiles, AreCompleteAndReadByTheirTools) {
   const Flown& f = smoke_flight();
   RunDirectory directory(folder, f.scenario, false);
   for (const ViewRecord& view : f.result.views) directory.append(view);
-  directory.finish(f.scenario, f.result, {}, 1.0);
+  directory.finish(f.scenario, f.result, smoke_score(), 1.0);
 
   std::set<std::string> names;
   for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename());
   EXPECT_EQ(names, (std::set<std::string>{"scenario.yaml", "summary.json", "iterations.csv",
                                           "trajectory.tum", "cloud.ply", "profile.ply", "map.ot",
-                                          "map.bt"}));
+                                          "map.bt", "coverage.csv"}));
   const auto summary = nlohmann::json::parse(read_file(folder / "summary.json"));
   EXPECT_EQ(summary.at("result_sha256"), result_sha256(f.result));
   EXPECT_EQ(summary.at("iterations"), f.result.views.size());

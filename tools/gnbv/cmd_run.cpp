@@ -7,7 +7,7 @@
 #include "sim/core/file.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/execute.hpp"
-#include "tools/gnbv/figures.hpp"
+#include "tools/mission/run_figures_file.hpp"
 
 namespace gnbv {
 namespace {
@@ -22,7 +22,7 @@ void run(const RunOptions& options) {
   if (options.json) {
     fmt::print("{}", read_file(mission.folder / "summary.json"));
   } else {
-    fmt::print("{}\n{}\n", one_row_summary(figures_of(scenario, mission)), mission.folder.string());
+    fmt::print("{}\n{}\n", one_row_summary(read_run_figures(mission.folder)), mission.folder.string());
   }
   if (mission.result.termination == Termination::collision) {
     throw CommandFailed("the vehicle hit something; the run directory shows where");

@@ -112,8 +112,9 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
     const auto scoring = Clock::now();
     progress.show(1.0, "scoring");
     const SurfaceReference reference =
-        make_surface_reference(world, scene, {.floor_z_m = scenario.planner.floor_z_m}, threads);
-    const MissionScore score = score_mission(reference, result);
+        cached_surface_reference(world, scene, {.floor_z_m = scenario.planner.floor_z_m}, threads);
+    const MissionScore score = score_cloud(reference, scene, scored_cloud(result),
+                                           scenario.planner.map.resolution_m, threads);
     result.wall.score_s = seconds_since(scoring);
     directory.finish(scenario, result, score, seconds_since(begin));
     if (candidates) candidates->finish();

@@ -25,6 +25,8 @@ int run(int argc, char** argv) {
   gnbv::add_render_command(app);
   gnbv::add_asset_command(app);
   gnbv::add_lint_command(app);
+  gnbv::add_score_command(app);
+  gnbv::add_check_command(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -110,6 +110,39 @@ Decision decision_of(Row row, std::size_t iteration) {
   return d;
 }
 
+ViewMark mark_of(Row row, std::size_t iteration) {
+  row.expect_iteration(iteration);
+  constexpr std::size_t kBeforePoints = 15;  // columns of the decision, entropy and density
+  row.skip(kBeforePoints);
+  ViewMark mark;
+  mark.cloud_points = static_cast<std::size_t>(row.count());
+  mark.straight_m = row.number();
+  row.skip(1);
+  mark.time_s = row.number();
+  return mark;
+}
+
+/// Every whole line below the header; a last one without its end is left out.
+template <typename Result>
+std::vector<Result> read_rows(const std::filesystem::path& csv,
+                              Result (*result_of)(Row, std::size_t)) {
+  const std::string content = read_file(csv);
+  std::vector<Result> results;
+  std::size_t line = 0;
+  for (std::size_t begin = 0; begin < content.size();) {
+    const std::size_t end = content.find('\n', begin);
+    if (end == std::string::npos) break;
+    const std::string text = content.substr(begin, end - begin);
+    begin = end + 1;
+    if (++line > 1) {
+      results.push_back(result_of(Row(csv, line, text), line - 2));
+    } else if (text != kHeader) {
+      throw BadInput(fmt::format("{}:1: is not the header that this version writes", csv.string()));
+    }
+  }
+  return results;
+}
+
 }  // namespace
 
 std::string iterations_csv_header() { return fmt::format("{}\n", kHeader); }
@@ -132,21 +165,11 @@ std::string iterations_csv_row(const ViewRecord& view) {
 }
 
 std::vector<Decision> read_decisions(const std::filesystem::path& csv) {
-  const std::string content = read_file(csv);
-  std::vector<Decision> decisions;
-  std::size_t line = 0;
-  for (std::size_t begin = 0; begin < content.size();) {
-    const std::size_t end = content.find('\n', begin);
-    if (end == std::string::npos) break;
-    const std::string text = content.substr(begin, end - begin);
-    begin = end + 1;
-    if (++line > 1) {
-      decisions.push_back(decision_of(Row(csv, line, text), line - 2));
-    } else if (text != kHeader) {
-      throw BadInput(fmt::format("{}:1: is not the header that this version writes", csv.string()));
-    }
-  }
-  return decisions;
+  return read_rows<Decision>(csv, decision_of);
+}
+
+std::vector<ViewMark> read_view_marks(const std::filesystem::path& csv) {
+  return read_rows<ViewMark>(csv, mark_of);
 }
 
 }  // namespace gnbv

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tools/mission/mission_result.hpp"
+#include "tools/mission/score.hpp"
 
 namespace gnbv {
 
@@ -15,5 +16,8 @@ std::string iterations_csv_row(const ViewRecord& view);
 /// The decisions of an iterations.csv, oldest first. A last line without its end, as a killed run
 /// leaves it, is left out. Throws BadInput naming file and line for anything else it cannot read.
 std::vector<Decision> read_decisions(const std::filesystem::path& csv);
+
+/// How far the mission was after each view, read the same way.
+std::vector<ViewMark> read_view_marks(const std::filesystem::path& csv);
 
 }  // namespace gnbv

@@ -1,14 +1,44 @@
 #include "tools/mission/score.hpp"
 
+#include "bench/coverage_curve.hpp"
+
 namespace gnbv {
 
-MissionScore score_mission(const SurfaceReference& reference, const MissionResult& result) {
-  const std::span<const Vec3f> profile = result.profile_points_world_m;
-  const std::span<const Vec3f> cloud = result.belief.cloud.points_world_m();
-  return {.profile = coverage_at_all_sizes(reference.outside, profile),
-          .final = coverage_at_all_sizes(reference.outside, cloud),
-          .profile_raw = coverage_at_all_sizes(reference.raw, profile),
-          .final_raw = coverage_at_all_sizes(reference.raw, cloud)};
+ScoredCloud scored_cloud(const MissionResult& result) {
+  ScoredCloud cloud{.points_world_m = result.belief.cloud.points_world_m(),
+                    .profile_points = result.profile_points_world_m.size(),
+                    .profile_end_s = result.profile_end_s};
+  for (const ViewRecord& view : result.views) {
+    cloud.views.push_back({view.cloud_points, view.straight_m, view.time_s});
+  }
+  return cloud;
+}
+
+MissionScore score_cloud(const SurfaceReference& reference, const RayScene& scene,
+                         const ScoredCloud& cloud, double density_voxel_m, int threads) {
+  // the profile, every view, and the end, which is the last of them
+  std::vector<std::size_t> prefixes = {cloud.profile_points};
+  for (const ViewMark& view : cloud.views) prefixes.push_back(view.cloud_points);
+  prefixes.push_back(cloud.points_world_m.size());
+  const std::vector<CoverageShares> shares =
+      coverage_of_prefixes(reference, cloud.points_world_m, prefixes, threads);
+
+  MissionScore score{.profile = shares.front().outside,
+                     .final = shares.back().outside,
+                     .profile_raw = shares.front().raw,
+                     .final_raw = shares.back().raw};
+  score.curve.coverage.push_back(shares.front().outside);
+  score.curve.metres.push_back(0.0);
+  score.curve.seconds.push_back(0.0);
+  for (std::size_t i = 0; i < cloud.views.size(); ++i) {
+    score.curve.coverage.push_back(shares[i + 1].outside);
+    score.curve.metres.push_back(cloud.views[i].straight_m);
+    score.curve.seconds.push_back(cloud.views[i].time_s - cloud.profile_end_s);
+  }
+  score.distances =
+      cloud_distances(scene, cloud.points_world_m, reference.samples_world_m, threads);
+  score.density = cloud_density(cloud.points_world_m, density_voxel_m);
+  return score;
 }
 
 }  // namespace gnbv

@@ -2,11 +2,31 @@
 #pragma once
 
 #include <array>
+#include <span>
+#include <vector>
 
+#include "bench/cloud_metrics.hpp"
+#include "bench/run_figures.hpp"
 #include "bench/surface_reference.hpp"
 #include "tools/mission/mission_result.hpp"
 
 namespace gnbv {
+
+/// Where a mission was after a view.
+struct ViewMark {
+  std::size_t cloud_points = 0;
+  double straight_m = 0.0;  // from the first view on
+  double time_s = 0.0;      // since the start of the mission
+};
+
+/// All of a mission that its score depends on; a run directory holds it, too.
+struct ScoredCloud {
+  std::span<const Vec3f> points_world_m;
+  std::size_t profile_points = 0;  // the first ones
+  double profile_end_s = 0.0;
+  std::vector<ViewMark> views = {};
+};
+ScoredCloud scored_cloud(const MissionResult& result);
 
 /// Coverage as fractions, by kCoverageSizes_m.
 struct MissionScore {
@@ -14,8 +34,13 @@ struct MissionScore {
   std::array<double, 3> final{};
   std::array<double, 3> profile_raw{};  // raw reference
   std::array<double, 3> final_raw{};
+  CloudDistances distances = {};
+  CloudDensity density = {};  // over voxels of the map's size
+  CoverageCurve curve = {};
 };
 
-MissionScore score_mission(const SurfaceReference& reference, const MissionResult& result);
+/// Deterministic at any number of threads. `density_voxel_m` is planner.map.resolution_m.
+MissionScore score_cloud(const SurfaceReference& reference, const RayScene& scene,
+                         const ScoredCloud& cloud, double density_voxel_m, int threads);
 
 }  // namespace gnbv

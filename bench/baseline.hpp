@@ -1,0 +1,72 @@
+// The regression gate: what a mission has to reach again, within stated tolerances.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/run_figures.hpp"
+
+namespace gnbv {
+
+/// Which way a metric gets better; `same`: any change beyond the tolerance is for the worse.
+enum class Better { higher, lower, same };
+
+struct BaselineMetric {
+  std::string name;
+  double value = 0.0;
+  double tolerance = 0.0;  // absolute, in the metric's unit
+  Better better = Better::same;
+};
+
+/// What a baseline is of. Figures of anything else are not comparable.
+struct BaselineSubject {
+  std::string scenario;
+  std::string structure;  // built-in name, or name of the mesh file without its folders
+  std::string utility;
+  std::string preset;
+  std::uint64_t seed = 0;
+  std::string version;  // of the program
+};
+
+struct Baseline {
+  BaselineSubject of;
+  std::vector<BaselineMetric> metrics;       // all that metric_names() names, in its order
+  std::optional<std::string> result_sha256;  // when it has to be the same: on one machine only
+};
+
+/// coverage_0.05, coverage_0.10, coverage_0.50 (seen from outside), precision, recall and f (at
+/// 0.05 m), chamfer_m, density (points a voxel), straight_m, flight_time_s, iterations,
+/// entropy_reduction_nat.
+std::vector<std::string_view> metric_names();
+
+/// A baseline file. Throws BadInput naming file and key: other schema, metric missing or unknown,
+/// a value or tolerance that is no number or negative, `better` that is none of the three.
+Baseline read_baseline(const std::filesystem::path& path);
+std::string to_json(const Baseline& baseline);
+
+/// Of a run, with the tolerances (and what is asked of the hash) of `before`, or else 0.02 for
+/// shares, 0.005 m for Chamfer, a tenth of the value for all other metrics.
+Baseline make_baseline(const RunFigures& run, const std::optional<Baseline>& before);
+
+enum class Verdict { kept, better, regressed };
+
+struct MetricChange {
+  BaselineMetric baseline;
+  double now = 0.0;
+  Verdict verdict = Verdict::kept;
+};
+
+struct BaselineCheck {
+  std::vector<MetricChange> metrics;  // in the baseline's order
+  bool is_hash_wrong = false;
+};
+
+/// Throws BadInput naming `path` and every difference when the run is of something else.
+BaselineCheck check_against(const Baseline& baseline, const std::filesystem::path& path,
+                            const RunFigures& run);
+
+}  // namespace gnbv

@@ -1,0 +1,196 @@
+#include "bench/baseline.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "tests/support/temp_folder.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+
+RunFigures run() {
+  RunFigures run;
+  run.scenario = "smoke";
+  run.structure = "/somewhere/plane.obj";
+  run.utility = "proposed";
+  run.preset = "paper";
+  run.seed = 3;
+  run.version = "1.2.3";
+  run.result_sha256 = "abc";
+  run.iterations = 12;
+  run.entropy_reduction_nat = 900.0;
+  run.straight_m = 20.0;
+  run.flight_time_s = 100.0;
+  run.coverage_final = {0.5, 0.8, 0.9};
+  run.distances.at[1] = {0.05, 0.9, 0.6, 0.72};
+  run.distances.chamfer_m = 0.04;
+  run.density.mean_points = 50.0;
+  return run;
+}
+
+std::vector<std::string> with_verdict(const BaselineCheck& check, Verdict verdict) {
+  std::vector<std::string> names;
+  for (const MetricChange& change : check.metrics) {
+    if (change.verdict == verdict) names.push_back(change.baseline.name);
+  }
+  return names;
+}
+
+TEST(Baseline, OfARunKeepsThatRun) {
+  const Baseline baseline = make_baseline(run(), std::nullopt);
+  const BaselineCheck check = check_against(baseline, "b.json", run());
+  EXPECT_EQ(with_verdict(check, Verdict::kept).size(), metric_names().size());
+  EXPECT_FALSE(check.is_hash_wrong);
+}
+
+/// Every figure of the baseline, one at a time, a little within and beyond its tolerance.
+TEST(Baseline, EachMetricRegressesAndImprovesBeyondItsToleranceOnly) {
+  Baseline baseline = make_baseline(run(), std::nullopt);
+  for (std::size_t i = 0; i < baseline.metrics.size(); ++i) {
+    BaselineMetric& metric = baseline.metrics[i];
+    const double value = metric.value;
+    ASSERT_GT(metric.tolerance, 0.0) << metric.name;
+    for (const double steps : {-1.01, -0.99, 0.99, 1.01}) {
+      for (const Better better : {Better::higher, Better::lower, Better::same}) {
+        metric.better = better;
+        // the run is `steps` tolerances above the baseline
+        metric.value = value - steps * metric.tolerance;
+        const bool is_beyond = std::abs(steps) > 1.0;
+        const bool is_gain = better != Better::same && (better == Better::higher) == (steps > 0.0);
+        const Verdict expected = !is_beyond ? Verdict::kept
+                                 : is_gain  ? Verdict::better
+                                            : Verdict::regressed;
+        const BaselineCheck check = check_against(baseline, "b.json", run());
+        EXPECT_EQ(check.metrics[i].verdict, expected) << metric.name << " " << steps;
+        EXPECT_EQ(with_verdict(check, Verdict::kept).size(),
+                  metric_names().size() - (is_beyond ? 1 : 0));
+      }
+    }
+    metric.value = value;
+  }
+}
+
+TEST(Baseline, HashCountsOnlyWhereItIsAskedFor) {
+  Baseline baseline = make_baseline(run(), std::nullopt);
+  RunFigures other = run();
+  other.result_sha256 = "def";
+  EXPECT_FALSE(check_against(baseline, "b.json", other).is_hash_wrong);
+  baseline.result_sha256 = "abc";
+  EXPECT_TRUE(check_against(baseline, "b.json", other).is_hash_wrong);
+  EXPECT_FALSE(check_against(baseline, "b.json", run()).is_hash_wrong);
+  EXPECT_EQ(make_baseline(other, baseline).result_sha256, "def");
+}
+
+TEST(Baseline, AnUpdateKeepsTolerancesAndTakesTheFigures) {
+  Baseline before = make_baseline(run(), std::nullopt);
+  before.metrics[0].tolerance = 0.123;
+  before.metrics[1].better = Better::same;
+  RunFigures better = run();
+  better.coverage_final = {0.6, 0.85, 0.95};
+  const Baseline after = make_baseline(better, before);
+  EXPECT_EQ(after.metrics[0].value, 0.6);
+  EXPECT_EQ(after.metrics[0].tolerance, 0.123);
+  EXPECT_EQ(after.metrics[1].better, Better::same);
+}
+
+TEST(Baseline, ReadsBackWhatItWrote) {
+  TempFolder temp;
+  const fs::path file = temp.path() / "b.json";
+  Baseline written = make_baseline(run(), std::nullopt);
+  written.result_sha256 = "abc";
+  write_file_atomically(file, to_json(written));
+  const Baseline read = read_baseline(file);
+  EXPECT_EQ(to_json(read), to_json(written));
+  EXPECT_EQ(read.of.structure, "plane.obj");  // the same mesh in another folder is the same
+  EXPECT_NO_THROW(check_against(read, file, run()));
+}
+
+TEST(Baseline, OfSomethingElseNamesEveryDifference) {
+  const Baseline baseline = make_baseline(run(), std::nullopt);
+  RunFigures other = run();
+  other.scenario = "aircraft";
+  other.structure = "ship.obj";
+  other.utility = "isler";
+  other.preset = "released";
+  other.seed = 4;
+  other.version = "1.3.0";
+  try {
+    check_against(baseline, "b.json", other);
+    FAIL();
+  } catch (const BadInput& error) {
+    const std::string what = error.what();
+    for (const char* word : {"b.json", "aircraft", "ship.obj", "isler", "released", "4", "1.3.0"}) {
+      EXPECT_NE(what.find(word), std::string::npos) << word << " in: " << what;
+    }
+  }
+}
+
+/// A baseline file with one place of its text changed.
+struct FileFault {
+  const char* name;
+  const char* was;
+  const char* is;
+  const char* word;  // of the complaint
+};
+
+class BaselineFile : public testing::TestWithParam<FileFault> {};
+
+TEST_P(BaselineFile, WithAFaultIsRefusedByKey) {
+  TempFolder temp;
+  const fs::path file = temp.path() / "b.json";
+  std::string text = to_json(make_baseline(run(), std::nullopt));
+  const std::size_t at = text.find(GetParam().was);
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, std::string(GetParam().was).size(), GetParam().is);
+  std::ofstream(file) << text;
+  try {
+    read_baseline(file);
+    FAIL();
+  } catch (const BadInput& error) {
+    const std::string what = error.what();
+    EXPECT_NE(what.find("b.json"), std::string::npos) << what;
+    EXPECT_NE(what.find(GetParam().word), std::string::npos) << what;
+    EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Baseline, BaselineFile,
+    testing::Values(
+        FileFault{"Schema", "gnbv-baseline-1", "gnbv-baseline-2", "schema"},
+        FileFault{"NoJson", "{", "", "JSON"},
+        FileFault{"MetricMissing", "\"chamfer_m\"", "\"shamfer_m\"", "metrics.chamfer_m"},
+        FileFault{"Tolerance", "\"tolerance\": 0.02", "\"tolerance\": \"0.02\"",
+                  "metrics.coverage_0.05.tolerance"},
+        FileFault{"NegativeTolerance", "\"tolerance\": 0.02", "\"tolerance\": -1",
+                  "metrics.coverage_0.05.tolerance"},
+        FileFault{"InfiniteTolerance", "\"tolerance\": 0.02", "\"tolerance\": 1e999", "JSON"},
+        FileFault{"Value", "\"value\": 0.5", "\"value\": null", "metrics.coverage_0.05.value"},
+        FileFault{"Better", "\"higher\"", "\"more\"", "more"},
+        FileFault{"Seed", "\"seed\": 3", "\"seed\": -3", "of.seed"},
+        FileFault{"Subject", "\"utility\"", "\"untility\"", "of.utility"}),
+    [](const auto& fault) { return std::string(fault.param.name); });
+
+TEST(Baseline, WithAMetricThatIsNoneIsRefused) {
+  TempFolder temp;
+  const fs::path file = temp.path() / "b.json";
+  std::string text = to_json(make_baseline(run(), std::nullopt));
+  text.replace(text.find("\"metrics\": {"), 12,
+               "\"metrics\": {\"beauty\": {\"value\": 1, \"tolerance\": 1, \"better\": \"same\"},");
+  std::ofstream(file) << text;
+  try {
+    read_baseline(file);
+    FAIL();
+  } catch (const BadInput& error) {
+    EXPECT_NE(std::string(error.what()).find("metrics.beauty"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace gnbv

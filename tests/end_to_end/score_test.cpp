@@ -1,0 +1,233 @@
+// Scores and gates of run directories and clouds, by the program.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/temp_folder.hpp"
+#include "tools/mission/cloud_file.hpp"
+#include "tools/mission/run_figures_file.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// One finished smoke mission for all tests, which copy it; the cache of all of them is beside it.
+class Score : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = fs::temp_directory_path() / ("gnbv_score_test_" + std::to_string(getpid()));
+    fs::create_directories(folder_);
+    setenv("GNBV_CACHE", (folder_ / "cache").c_str(), 1);
+    flown_ = gnbv("run smoke --quiet --out " + (folder_ / "run").string());
+  }
+  static void TearDownTestSuite() { fs::remove_all(folder_); }
+  void SetUp() override { ASSERT_EQ(flown_.exit_code, 0) << flown_.output; }
+
+  static fs::path original() { return folder_ / "run"; }
+  fs::path copy() const {
+    fs::copy(original(), temp_.path() / "run", fs::copy_options::recursive);
+    return temp_.path() / "run";
+  }
+  static Json summary_of(const fs::path& run) {
+    return Json::parse(read_file(run / "summary.json"));
+  }
+
+  static inline fs::path folder_;
+  static inline Outcome flown_;
+  TempFolder temp_;
+};
+
+constexpr std::array kScored = {"precision_recall", "accuracy_m", "completeness_m",
+                                "chamfer_m",        "density",    "auc"};
+
+TEST_F(Score, UpdatesARunToTheVeryBytesThatItWroteItself) {
+  const std::string summary = read_file(original() / "summary.json");
+  const std::string coverage = read_file(original() / "coverage.csv");
+  const fs::path run = copy();
+  // of schema 1, and with figures that are wrong
+  Json old = summary_of(run);
+  old["schema"] = 1;
+  old["coverage"]["final"]["0.05"] = 0.123;
+  for (const char* key : kScored) old.erase(key);
+  write_file_atomically(run / "summary.json", old.dump(2) + "\n");
+  fs::remove(run / "coverage.csv");
+  EXPECT_THROW(read_run_figures(run), BadInput);
+
+  const Outcome only_looked = gnbv("score " + run.string());
+  ASSERT_EQ(only_looked.exit_code, 0) << only_looked.output;
+  EXPECT_FALSE(fs::exists(run / "coverage.csv"));
+  for (const std::string threads : {"1", "2"}) {
+    // uncached, then cached
+    const Outcome updated = gnbv("score " + run.string() + " --update --threads " + threads);
+    ASSERT_EQ(updated.exit_code, 0) << updated.output;
+    EXPECT_EQ(read_file(run / "summary.json"), summary);
+    EXPECT_EQ(read_file(run / "coverage.csv"), coverage);
+    fs::remove_all(folder_ / "cache");
+  }
+}
+
+TEST_F(Score, OfARunReadsBackAsItsFigures) {
+  const RunFigures figures = read_run_figures(original());
+  const Json summary = summary_of(original());
+  EXPECT_EQ(figures.scenario, "smoke");
+  EXPECT_EQ(figures.structure, "smoke");
+  EXPECT_EQ(figures.result_sha256, summary.at("result_sha256"));
+  EXPECT_EQ(figures.iterations, summary.at("iterations"));
+  EXPECT_EQ(figures.coverage_final[1], summary.at("coverage").at("final").at("0.10"));
+  EXPECT_EQ(figures.coverage_profile_raw[2],
+            summary.at("coverage").at("profile_raw_reference").at("0.50"));
+  EXPECT_EQ(figures.distances.at[2].recall, summary.at("precision_recall").at(2).at("recall"));
+  EXPECT_EQ(figures.density.variation, summary.at("density").at("variation"));
+  // the curve goes from the profile to the end, and never falls
+  ASSERT_EQ(figures.curve.views(), static_cast<std::size_t>(figures.iterations));
+  EXPECT_EQ(figures.curve.coverage.front(), figures.coverage_profile);
+  EXPECT_EQ(figures.curve.coverage.back(), figures.coverage_final);
+  EXPECT_EQ(figures.curve.metres.back(), figures.straight_m);
+  for (std::size_t view = 1; view <= figures.curve.views(); ++view) {
+    for (std::size_t size = 0; size < 3; ++size) {
+      EXPECT_GE(figures.curve.coverage[view][size], figures.curve.coverage[view - 1][size]);
+    }
+    EXPECT_GT(figures.curve.seconds[view], figures.curve.seconds[view - 1]);
+  }
+  EXPECT_EQ(area_under_coverage(figures.curve, Effort::metres, 0, figures.straight_m),
+            summary.at("auc").at("metres"));
+}
+
+TEST_F(Score, OfTheRunsCloudIsTheRuns) {
+  const Outcome outcome =
+      gnbv("score " + (original() / "cloud.ply").string() + " --scenario smoke --json 2>/dev/null");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const Json cloud = Json::parse(outcome.output);
+  const Json run = summary_of(original());
+  EXPECT_EQ(cloud.at("coverage").at("final"), run.at("coverage").at("final"));
+  EXPECT_FALSE(cloud.contains("auc"));
+  for (const char* key : {"precision_recall", "chamfer_m", "density"}) {
+    EXPECT_EQ(cloud.at(key), run.at(key)) << key;
+  }
+}
+
+TEST_F(Score, OfAMeshFileIsThatOfTheStructureItHolds) {
+  const fs::path mesh = temp_.path() / "mesh.ply";
+  ASSERT_EQ(gnbv("asset smoke -o " + mesh.string()).exit_code, 0);
+  const std::string score = "score " + (original() / "cloud.ply").string() + " --json 2>/dev/null";
+  const Outcome by_mesh = gnbv(score + " --mesh " + mesh.string());
+  ASSERT_EQ(by_mesh.exit_code, 0) << by_mesh.output;
+  const Json a = Json::parse(by_mesh.output);
+  const Json b = Json::parse(gnbv(score + " --scenario smoke").output);
+  EXPECT_EQ(a.at("coverage"), b.at("coverage"));
+  EXPECT_EQ(a.at("chamfer_m"), b.at("chamfer_m"));
+  // surface below is not asked for
+  const Json high = Json::parse(gnbv(score + " --scenario smoke --floor-z 1").output);
+  EXPECT_EQ(high.at("floor_z_m"), 1.0);
+  EXPECT_NE(high.at("coverage"), b.at("coverage"));
+}
+
+/// Arguments after which `score` exits with 2 and one line that holds the words.
+struct Refused {
+  std::string arguments;
+  std::vector<std::string> words;
+};
+
+// one test, since every test of its own flies a mission
+TEST_F(Score, RefusesWhatItCannotScoreInOneLine) {
+  const fs::path here = temp_.path();
+  std::vector<Vec3f> points = read_cloud(original() / "cloud.ply");
+  write_cloud_ply({}, here / "empty.ply");
+  const auto write_moved = [&](const char* name, float scale, const Vec3f& offset_m) {
+    std::vector<Vec3f> moved;
+    for (const Vec3f& p : points) moved.emplace_back(scale * p + offset_m);
+    write_cloud_ply(moved, here / name);
+  };
+  write_moved("mm.ply", 1000.0F, Vec3f::Zero());
+  write_moved("moved.ply", 1.0F, Vec3f(20, 0, 0));
+  points[5].y() = std::numeric_limits<float>::quiet_NaN();
+  write_cloud_ply(points, here / "nan.ply");
+  std::ofstream(here / "prose.ply") << "Lorem ipsum\n";
+  fs::create_directory(here / "nothing");
+  fs::copy_file(here / "moved.ply", copy() / "profile.ply", fs::copy_options::overwrite_existing);
+
+  const std::vector<Refused> all = {
+      {"@/empty.ply --scenario smoke", {"empty.ply", "no points"}},
+      {"@/nan.ply --scenario smoke", {"nan.ply", "point 5 ", "not finite"}},
+      {"@/mm.ply --scenario smoke",
+       {"mm.ply", "looks like millimetres", "scale the cloud by 0.001"}},
+      {"@/moved.ply --scenario smoke",
+       {"moved.ply", "no point within 1 m of the mesh", "the cloud spans"}},
+      {"@/prose.ply --scenario smoke", {"prose.ply", "no PLY"}},
+      {"@/mm.ply", {"--mesh", "--scenario"}},
+      {"@/absent.ply --scenario smoke", {"absent.ply"}},
+      {"@/nothing", {"nothing", "no summary.json"}},
+      {"@/mm.ply --scenario smoke --update", {"--update", "mm.ply"}},
+      {"@/run --scenario smoke", {"scenario.yaml"}},
+      {"@/run", {"profile.ply", "cloud.ply"}},
+  };
+  for (const Refused& refused : all) {
+    std::string arguments = refused.arguments;
+    arguments.replace(0, 1, here.string());
+    const Outcome outcome = gnbv("score " + arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments << "\n" << outcome.output;
+    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
+    for (const std::string& word : refused.words) {
+      EXPECT_TRUE(has(outcome, word)) << "no '" << word << "' in: " << outcome.output;
+    }
+  }
+}
+
+/// The gate of this repository's own CI.
+TEST_F(Score, SmokeKeepsItsBaseline) {
+  const Outcome check =
+      gnbv("check " + original().string() + " --against " GNBV_BASELINES "/smoke.json");
+  EXPECT_EQ(check.exit_code, 0) << check.output;
+}
+
+TEST_F(Score, AWorseMissionFailsTheBaselineByName) {
+  const fs::path run = temp_.path() / "worse";
+  ASSERT_EQ(
+      gnbv("run smoke --quiet --set planner.termination.max_iterations=6 --out " + run.string())
+          .exit_code,
+      0);
+  const Outcome check = gnbv("check " + run.string() + " --against " GNBV_BASELINES "/smoke.json");
+  EXPECT_EQ(check.exit_code, 1) << check.output;
+  EXPECT_TRUE(has(check, "regressed coverage_0.05")) << check.output;
+  EXPECT_TRUE(has(check, "better    flight_time_s")) << check.output;
+}
+
+TEST_F(Score, ChecksAgainstABaselineThatItWrote) {
+  const std::string baseline = (temp_.path() / "b.json").string();
+  const std::string check = "check " + original().string() + " --against " + baseline;
+  EXPECT_EQ(gnbv(check).exit_code, 2);  // there is none yet
+  ASSERT_EQ(gnbv(check + " --update").exit_code, 0);
+  EXPECT_EQ(gnbv(check).exit_code, 0);
+  Json changed = Json::parse(read_file(baseline));
+  changed["metrics"]["recall"]["value"] = 2.0;
+  changed["metrics"]["recall"]["tolerance"] = 0.5;
+  changed["result_sha256"] = "other";
+  write_file_atomically(baseline, changed.dump());
+  const Outcome json = gnbv(check + " --json 2>/dev/null");
+  EXPECT_EQ(json.exit_code, 1);
+  EXPECT_EQ(Json::parse(json.output).at("regressed"), 2);
+  ASSERT_EQ(gnbv(check + " --update").exit_code, 0);
+  const Json updated = Json::parse(read_file(baseline));
+  EXPECT_EQ(updated.at("metrics").at("recall").at("tolerance"), 0.5);
+  EXPECT_EQ(updated.at("result_sha256"), summary_of(original()).at("result_sha256"));
+  changed["of"]["seed"] = 99;
+  write_file_atomically(baseline, changed.dump());
+  const Outcome other = gnbv(check);
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_TRUE(has(other, "seed 99, the run's is ")) << other.output;
+}
+
+}  // namespace
+}  // namespace gnbv

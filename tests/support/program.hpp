@@ -1,0 +1,35 @@
+// The gnbv program, run as its users run it. The test needs GNBV_PROGRAM, the path of it.
+#pragma once
+
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <string>
+
+namespace gnbv {
+
+struct Outcome {
+  int exit_code = -1;
+  std::string output;  // stdout, and stderr unless the arguments send it elsewhere
+};
+
+inline Outcome gnbv(const std::string& arguments) {
+  const bool both = arguments.find("2>") == std::string::npos;
+  const std::string command = std::string(GNBV_PROGRAM) + " " + arguments + (both ? " 2>&1" : "");
+  Outcome outcome;
+  FILE* const pipe = popen(command.c_str(), "r");
+  std::array<char, 4096> buffer{};
+  while (std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe) != nullptr) {
+    outcome.output += buffer.data();
+  }
+  const int status = pclose(pipe);
+  outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return outcome;
+}
+
+inline bool has(const Outcome& outcome, const std::string& text) {
+  return outcome.output.find(text) != std::string::npos;
+}
+
+}  // namespace gnbv

@@ -1,0 +1,142 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "sim/core/error.hpp"
+#include "tools/gnbv/commands.hpp"
+#include "tools/gnbv/execute.hpp"
+#include "tools/mission/cloud_file.hpp"
+#include "tools/mission/rescore.hpp"
+#include "tools/mission/summary_file.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ScoreOptions : MissionOptions {
+  std::string target;
+  std::string floor_z_m;
+  bool update = false;
+  bool json = false;
+};
+
+template <typename Value>
+std::string percent_row(const std::string& name, const Value& value_at) {
+  std::string row = fmt::format("{:<26}", name);
+  for (std::size_t i = 0; i < 3; ++i) row += fmt::format("{:>9.1f}%", 100.0 * value_at(i));
+  return row + "\n";
+}
+
+std::string heading(const std::string& name, const std::array<double, 3>& columns_m) {
+  std::string row = fmt::format("{:<26}", name);
+  for (const double column_m : columns_m) row += fmt::format("{:>8.2f} m", column_m);
+  return row + "\n" + std::string(56, '-') + "\n";
+}
+
+std::string terminal_text(const Scored& scored, const std::string& name, bool is_run) {
+  const MissionScore& score = scored.score;
+  std::string text = fmt::format("{}: {} points against {}, its surface above z = {} m\n\n", name,
+                                 scored.points, scored.structure, scored.floor_z_m);
+  text += heading("Coverage, voxels of", kCoverageSizes_m);
+  const auto coverage_row = [&](const std::string& row, const std::array<double, 3>& shares) {
+    text += percent_row(row, [&](std::size_t i) { return shares[i]; });
+  };
+  coverage_row("seen from outside", score.final);
+  coverage_row("all surface, also inner", score.final_raw);
+  if (is_run) coverage_row("profile, from outside", score.profile);
+  text += "\n" + heading("Within", kScoreDistances_m);
+  const auto& at = score.distances.at;
+  text += percent_row("precision", [&](std::size_t i) { return at[i].precision; });
+  text += percent_row("recall, from outside", [&](std::size_t i) { return at[i].recall; });
+  text += percent_row("F", [&](std::size_t i) { return at[i].f; });
+  text += fmt::format(
+      "\nChamfer distance {:.4f} m: accuracy {:.4f} m, completeness {:.4f} m; beyond {} m counts "
+      "as that\nDensity {:.1f} points a voxel of {} m that holds any, variation {:.2f}\n",
+      score.distances.chamfer_m, score.distances.accuracy_m, score.distances.completeness_m,
+      kFarthest_m, score.density.mean_points, score.density.voxel_m, score.density.variation);
+  return text;
+}
+
+std::string json_text(const Scored& scored, bool is_run) {
+  nlohmann::ordered_json json = {{"schema", "gnbv-score-1"},
+                                 {"structure", scored.structure},
+                                 {"points", scored.points},
+                                 {"floor_z_m", scored.floor_z_m}};
+  json.update(nlohmann::ordered_json::parse(score_json(scored.score, is_run)));
+  json["wall_s"] = {{"reference", scored.reference_s}, {"score", scored.score_s}};
+  return json.dump(2) + "\n";
+}
+
+/// What a cloud is compared with is not written in it.
+Scored score_file(ScoreOptions options, int threads) {
+  if (options.update) {
+    throw BadInput(fmt::format("--update: {} is no run directory", options.target));
+  }
+  if (options.mesh.empty() && options.scenario.empty()) {
+    throw BadInput("score: needs --mesh FILE or --scenario NAME, whose surface is the true one");
+  }
+  if (options.scenario.empty()) options.scenario = "aircraft";
+  if (!options.floor_z_m.empty()) {
+    options.overrides.push_back("planner.floor_z_m=" + options.floor_z_m);
+  }
+  return score_any_cloud(options.target, read_cloud(options.target), resolve_scenario(options),
+                         threads);
+}
+
+Scored score_folder(const ScoreOptions& options, int threads) {
+  const bool says_more = !options.mesh.empty() || !options.scenario.empty() ||
+                         !options.floor_z_m.empty() || !options.overrides.empty();
+  if (says_more) {
+    throw BadInput(
+        fmt::format("{}: a run is scored by its own scenario.yaml: --mesh, --scenario, "
+                    "--floor-z and --set are for clouds",
+                    options.target));
+  }
+  Scored scored = score_run(options.target, threads);
+  if (options.update) update_run(options.target, scored.score);
+  return scored;
+}
+
+void score(const ScoreOptions& options) {
+  const int threads = options.threads > 0
+                          ? options.threads
+                          : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const bool is_run = fs::is_directory(options.target);
+  const Scored scored = is_run ? score_folder(options, threads) : score_file(options, threads);
+  fmt::print("{}", options.json ? json_text(scored, is_run)
+                                : terminal_text(scored, options.target, is_run));
+}
+
+}  // namespace
+
+void add_score_command(CLI::App& app) {
+  auto options = std::make_shared<ScoreOptions>();
+  CLI::App* const command =
+      app.add_subcommand("score", "measure any cloud, or a run, against the true surface");
+  command->add_option("CLOUD|RUN", options->target, ".ply or .xyz cloud (m), or a run directory")
+      ->required();
+  command->add_option("--mesh", options->mesh, "mesh file that holds the true surface");
+  command->add_option("--scenario", options->scenario,
+                      "its structure instead; built-in name or YAML file");
+  command->add_option("--floor-z", options->floor_z_m,
+                      "surface below this height (m) is not asked for (default: the scenario's, "
+                      "0.3)");
+  command
+      ->add_option("--set", options->overrides,
+                   "KEY=VALUE of the scenario file; repeatable (structure.file.scale, .unit_m, "
+                   ".up_axis, .offset_m; planner.map.resolution_m for the density)")
+      ->allow_extra_args(false);
+  command->add_option("--threads", options->threads, "0 = all; the result does not depend on it")
+      ->check(CLI::Range(0, 1024));
+  command->add_flag("--update", options->update,
+                    "put the score into the run's summary.json and coverage.csv");
+  command->add_flag("--json", options->json, "print JSON instead of a table");
+  command->callback([options] { score(*options); });
+}
+
+}  // namespace gnbv

@@ -1,0 +1,34 @@
+// A run directory scored anew, from its files alone.
+#pragma once
+
+#include <filesystem>
+
+#include "scenarios/scenario.hpp"
+#include "tools/mission/score.hpp"
+
+namespace gnbv {
+
+/// A score, and what it is of.
+struct Scored {
+  MissionScore score;
+  std::string structure;  // built-in name, or path of the mesh
+  std::size_t points = 0;
+  double floor_z_m = 0.0;
+  double reference_s = 0.0;  // wall time, of the reference
+  double score_s = 0.0;      // and of all that is compared with it
+};
+
+/// Any cloud against the scenario's structure, wherever that lies. Throws BadInput, beginning with
+/// `name`, for a cloud that cannot be scored (bench/cloud_faults.hpp).
+Scored score_any_cloud(const std::string& name, std::span<const Vec3f> cloud_world_m,
+                       const Scenario& scenario, int threads);
+
+/// Scores cloud.ply, profile.ply and iterations.csv by scenario.yaml: bit for bit what the run
+/// itself found. Throws BadInput naming the file that is missing or does not fit the others.
+Scored score_run(const std::filesystem::path& run, int threads);
+
+/// Puts the score into coverage.csv and summary.json, each by rename; whatever else they hold, and
+/// all other files, stay as they are. Upgrades runs of schema 1.
+void update_run(const std::filesystem::path& run, const MissionScore& score);
+
+}  // namespace gnbv
