@@ -46,14 +46,14 @@ struct RunFigures {
   double profile_m = 0.0;
   double flight_time_s = 0.0;
   double energy_wh = 0.0;
-  std::array<double, 3> coverage_final{};        // of the surface seen from outside
-  std::array<double, 3> coverage_profile{};      // the same, after the profile
-  std::array<double, 3> coverage_final_raw{};    // of all surface
+  std::array<double, 3> coverage_final{};      // of the surface seen from outside
+  std::array<double, 3> coverage_profile{};    // the same, after the profile
+  std::array<double, 3> coverage_final_raw{};  // of all surface
   std::array<double, 3> coverage_profile_raw{};
-  double density_points_per_voxel = 0.0;         // cloud points per occupied voxel (Fig. 9)
-  CloudDistances distances;                      // precision, recall, F, Chamfer
+  double density_points_per_voxel = 0.0;  // cloud points per occupied voxel (Fig. 9)
+  CloudDistances distances;               // precision, recall, F, Chamfer
   CloudDensity density;
-  CoverageCurve curve;                           // may be empty
+  CoverageCurve curve;  // may be empty
   double wall_s = 0.0;
 };
 

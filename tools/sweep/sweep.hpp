@@ -12,9 +12,9 @@ namespace gnbv {
 
 /// A scenario as a table or comparison names it, and how it is made.
 struct SweepScenario {
-  std::string name;                    // of the row; unique in a sweep
-  std::string scenario;                // built-in name or YAML path
-  std::string mesh;                    // "" keeps the scenario's structure
+  std::string name;      // of the row; unique in a sweep
+  std::string scenario;  // built-in name or YAML path
+  std::string mesh;      // "" keeps the scenario's structure
   bool bounds_auto = false;
   std::vector<std::string> overrides;  // key=value, in order
 };
@@ -36,17 +36,17 @@ struct Cell {
   std::string scenario;  // SweepScenario::name
   std::string method;    // SweepMethod::name
   std::uint64_t seed = 0;
-  std::string id;        // 16 hexadecimal digits of the SHA-256 of the resolved scenario, with the
-                         // mesh file by its content, and the version of the program
+  std::string id;  // 16 hexadecimal digits of the SHA-256 of the resolved scenario, with the
+                   // mesh file by its content, and the version of the program
   Scenario resolved;
 };
 
 /// The sweep of a YAML file. Throws BadInput naming every fault at once, each with file and line.
 Sweep read_sweep(const std::filesystem::path& yaml);
 
-/// All cells, scenario by scenario, method by method, seed by seed; the index of `--index`. Resolves
-/// every scenario; throws BadInput with all faults of all cells at once, each named once. Cells of
-/// the same content (a method that changes nothing) keep the same id.
+/// All cells, scenario by scenario, method by method, seed by seed; the index of `--index`.
+/// Resolves every scenario; throws BadInput with all faults of all cells at once, each named once.
+/// Cells of the same content (a method that changes nothing) keep the same id.
 std::vector<Cell> cells_of(const Sweep& sweep);
 
 }  // namespace gnbv
