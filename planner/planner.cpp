@@ -33,7 +33,8 @@ PlannerModel::PlannerModel(const PlannerConfig& planner_config, const Box3& work
       lidars(lidar_models.begin(), lidar_models.end()),
       view_rays(make_view_rays(cameras, planner_config.map.resolution_m)),
       view_voxels(frustum_voxels(cameras, planner_config.map.resolution_m)),
-      needs_shadow(!is_route(config.utility.name) && needs_of(config.utility).shadow) {}
+      needs_shadow(!is_route(config.utility.name) && !is_oracle(config.utility.name) &&
+                   needs_of(config.utility).shadow) {}
 
 Belief::Belief(const PlannerModel& model)
     : grid(model.config.map, model.workspace_m),

@@ -137,6 +137,10 @@ bool is_route(std::string_view utility_name) {
   return std::find(kRouteNames.begin(), kRouteNames.end(), utility_name) != kRouteNames.end();
 }
 
+bool is_oracle(std::string_view utility_name) {
+  return std::find(kOracleNames.begin(), kOracleNames.end(), utility_name) != kOracleNames.end();
+}
+
 std::vector<ViewPose> plan_route(std::string_view name, const RouteConfig& config,
                                  const RouteProblem& problem) {
   GNBV_CHECK(is_route(name), "'{}' is no route", name);

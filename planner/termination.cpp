@@ -17,6 +17,8 @@ std::string_view name_of(Termination reason) {
       return "repeated_motion";
     case Termination::battery:
       return "battery";
+    case Termination::route_flown:
+      return "route_flown";
     case Termination::interrupted:
       return "interrupted";
     case Termination::collision:

@@ -20,6 +20,7 @@ enum class Termination {
   no_valid_view,
   repeated_motion,  // goes back and forth between two places
   battery,          // what is left is needed to land
+  route_flown,      // every view of a given route was taken
   interrupted,
   collision
 };

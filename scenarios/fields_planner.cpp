@@ -128,7 +128,9 @@ void fields(FieldVisitor& v, UtilityConfig& c) {
   constexpr Range kWeight = between(0, 1e9);
   std::vector<std::string_view> names = utility_names();
   names.insert(names.end(), kRouteNames.begin(), kRouteNames.end());
-  v.choice("name", c.name, names, "What ranks the candidate views, or a baseline's route.");
+  names.insert(names.end(), kOracleNames.begin(), kOracleNames.end());
+  v.choice("name", c.name, names,
+           "What ranks the candidate views, a baseline's route, or an oracle's.");
   v.number("alpha", c.alpha, kWeight, "Weight of information, Eq. (2).");
   v.number("beta", c.beta, kWeight, "Weight of density, Eq. (2).");
   v.number("gamma", c.gamma, kWeight, "Weight of prediction, Eq. (2).");

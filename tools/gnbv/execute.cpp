@@ -4,6 +4,7 @@
 #include <optional>
 #include <thread>
 
+#include "bench/oracle.hpp"
 #include "planner/belief_file.hpp"
 #include "planner/map/memory.hpp"
 #include "planner/symmetry_module.hpp"
@@ -44,6 +45,16 @@ void need_saved_profile(const Scenario& scenario) {
   if (profiling.method != ProfilingMethod::saved) return;
   read_belief(profiling.file,
               PlannerModel(scenario.planner, scenario.workspace_m, camera_models(scenario), {}));
+}
+
+/// The views of an oracle, which knows the structure; nothing for those who have to find out.
+std::optional<std::vector<Decision>> oracle_route(const Scenario& scenario, const World& world,
+                                                  const RayScene& scene, ProgressBar& progress,
+                                                  int threads) {
+  const std::string& utility = scenario.planner.utility.name;
+  if (!is_oracle(utility)) return std::nullopt;
+  progress.show(0.0, "planning on the true structure");
+  return plan_oracle(scenario, world, scene, start_pose(scenario, scene), aim_of(utility), threads);
 }
 
 MissionHooks make_hooks(const Scenario& scenario, RunDirectory& directory, ProgressBar& progress) {
@@ -92,12 +103,15 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
       options.out.empty() ? free_folder(fmt::format("{}-{}-seed{}", scenario.name,
                                                     scenario.planner.utility.name, scenario.seed))
                           : options.out;
-  RunDirectory directory(folder, scenario, options.resume);
-  const InterruptGuard interrupt;
   ProgressBar progress(fmt::format("{} {}", scenario.name, scenario.planner.utility.name),
                        options.quiet);
+  std::optional<std::vector<Decision>> route =
+      oracle_route(scenario, world, scene, progress, threads);
+  RunDirectory directory(folder, scenario, options.resume);
+  const InterruptGuard interrupt;
   try {
     MissionHooks hooks = make_hooks(scenario, directory, progress);
+    hooks.route = std::move(route);
     std::optional<FrameFiles> frames;
     if (options.frames) {
       frames.emplace(directory.path() / "frames", camera_models(scenario));

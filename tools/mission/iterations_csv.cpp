@@ -19,7 +19,7 @@ constexpr std::string_view kHeader =
 constexpr std::size_t kColumns = 25;
 
 /// The samplers a row may name, with storage that outlives every Decision.
-constexpr std::array<std::string_view, 4> kSamplers = {"start", "agvs", "fvs", "route"};
+constexpr std::array<std::string_view, 5> kSamplers = {"start", "agvs", "fvs", "route", "oracle"};
 
 /// One row's cells, read left to right.
 class Row {

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "sim/core/error.hpp"
 #include "tools/mission/mission_state.hpp"
 #include "tools/mission/sensing.hpp"
 
@@ -90,9 +91,13 @@ std::optional<Termination> termination(const Mission& m) {
   if (m.out.views.size() >= static_cast<std::size_t>(config.max_iterations)) {
     return Termination::max_iterations;
   }
-  if (entropy_has_settled(config, m.history.entropies_nat)) return Termination::entropy_change;
-  if (is_back_and_forth(positions_of(m.history), config.repeated_moves)) {
-    return Termination::repeated_motion;
+  if (!m.hooks.route) {
+    if (entropy_has_settled(config, m.history.entropies_nat)) return Termination::entropy_change;
+    if (is_back_and_forth(positions_of(m.history), config.repeated_moves)) {
+      return Termination::repeated_motion;
+    }
+  } else if (m.out.views.size() > m.hooks.route->size()) {
+    return Termination::route_flown;
   }
   if (should_stop(m)) return Termination::interrupted;
   return std::nullopt;
@@ -102,6 +107,7 @@ std::optional<Decision> decide(Mission& m) {
   const Stopwatch watch(m.view_wall.plan_s);
   const std::size_t next = m.history.decisions.size();
   if (next < m.hooks.replay.size()) return m.hooks.replay[next];
+  if (m.hooks.route) return m.hooks.route->at(next - 1);  // decision 0 is the start
   Plan plan = plan_next_view(m.planner, m.out.belief, m.history, m.current, m.bench);
   m.hooks.on_candidates(next, plan);
   return std::move(plan.next);
@@ -119,6 +125,8 @@ MissionResult finish(Mission& m, Termination reason) {
 
 MissionResult run_mission(const Scenario& scenario, const World& world, const RayScene& scene,
                           const MissionHooks& hooks, int threads) {
+  GNBV_CHECK(hooks.route || !is_oracle(scenario.planner.utility.name), "{} without its route",
+             scenario.planner.utility.name);
   Mission m(scenario, world, scene, hooks, threads);
   if (const auto over = fly_profile(m)) return finish(m, *over);
   Decision next = {.view = m.out.start};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,11 +30,15 @@ struct MissionHooks {
                                                                              const Plan&) {};
   std::function<bool()> should_stop = [] { return false; };  // asked after each view
   std::vector<Decision> replay;  // decisions of an interrupted run: flown again, not planned again
+  /// Views that someone else chose, flown after the start instead of planning. The mission ends as
+  /// route_flown after the last of them; of the rules of termination only max_iterations holds.
+  std::optional<std::vector<Decision>> route;
 };
 
 std::vector<CameraModel> camera_models(const Scenario& scenario);
 
-/// Runs the mission. The result is the same at any number of threads, replayed or not.
+/// Runs the mission. The result is the same at any number of threads, replayed or not. An oracle's
+/// mission (is_oracle()) needs its route.
 MissionResult run_mission(const Scenario& scenario, const World& world, const RayScene& scene,
                           const MissionHooks& hooks, int threads);
 

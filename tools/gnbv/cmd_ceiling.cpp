@@ -1,0 +1,98 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "bench/ceiling.hpp"
+#include "bench/voxel_set.hpp"
+#include "tools/gnbv/commands.hpp"
+#include "tools/gnbv/progress.hpp"
+#include "tools/mission/load_world.hpp"
+#include "tools/mission/start_pose.hpp"
+
+namespace gnbv {
+namespace {
+
+struct CeilingOptions : MissionOptions {
+  bool json = false;
+};
+
+/// The rows of the report: a name for readers, one for programs, and the shares.
+struct Row {
+  const char* text;
+  const char* key;
+  std::array<double, 3> share;
+};
+
+std::array<Row, 4> rows_of(const Ceiling& ceiling) {
+  return {{{"seen, of the surface visible from outside", "outside", ceiling.outside},
+           {"seen, of all surface", "raw", ceiling.raw},
+           {"kept by the cloud, visible from outside", "leaf_outside", ceiling.leaf_outside},
+           {"kept by the cloud, of all surface", "leaf_raw", ceiling.leaf_raw}}};
+}
+
+std::string json_text(const Scenario& scenario, const Ceiling& ceiling, double wall_s) {
+  nlohmann::ordered_json out = {{"schema", "gnbv-ceiling-1"},
+                                {"scenario", scenario.name},
+                                {"structure", scenario.structure.file.path.empty()
+                                                  ? scenario.structure.builtin
+                                                  : scenario.structure.file.path},
+                                {"seed", scenario.seed},
+                                {"positions", ceiling.positions},
+                                {"frames", ceiling.frames}};
+  for (const Row& row : rows_of(ceiling)) {
+    out[row.key] = {{"0.05", row.share[0]}, {"0.10", row.share[1]}, {"0.50", row.share[2]}};
+  }
+  out["wall_s"] = wall_s;
+  return out.dump(2) + "\n";
+}
+
+std::string terminal_text(const Ceiling& ceiling, double wall_s) {
+  std::string text = fmt::format("{:<44}{:>9}{:>9}{:>9}\n", "share of the voxels", "0.05 m",
+                                 "0.10 m", "0.50 m");
+  for (const Row& row : rows_of(ceiling)) {
+    text += fmt::format("{:<44}{:>7.1f} %{:>7.1f} %{:>7.1f} %\n", row.text, 100.0 * row.share[0],
+                        100.0 * row.share[1], 100.0 * row.share[2]);
+  }
+  return text + fmt::format("{} legal positions, {} frames through the cloud, {:.1f} s\n",
+                            ceiling.positions, ceiling.frames, wall_s);
+}
+
+void ceiling(const CeilingOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  const Scenario scenario = resolve_scenario(options);
+  const int threads = options.threads > 0
+                          ? options.threads
+                          : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  std::vector<std::string> warnings;
+  const World world = load_world(scenario, warnings);
+  for (const std::string& warning : warnings) fmt::print(stderr, "gnbv: {}\n", warning);
+  const RayScene scene(world);
+  ProgressBar progress(fmt::format("{} ceiling", scenario.name), options.quiet);
+  progress.show(0.0, "looking from every legal viewpoint");
+  const Ceiling found =
+      find_ceiling(scenario, world, scene, start_pose(scenario, scene), threads);
+  progress.show(1.0, "done");
+  const double wall_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  fmt::print("{}", options.json ? json_text(scenario, found, wall_s)
+                                : terminal_text(found, wall_s));
+}
+
+}  // namespace
+
+void add_ceiling_command(CLI::App& app) {
+  auto options = std::make_shared<CeilingOptions>();
+  CLI::App* const command =
+      app.add_subcommand("ceiling", "print the most that any legal viewpoint can see");
+  add_scenario_options(*command, *options);
+  command->add_option("--threads", options->threads, "0 = all; the result does not depend on it")
+      ->check(CLI::Range(0, 1024));
+  command->add_flag("--quiet", options->quiet, "no progress on stderr");
+  command->add_flag("--json", options->json, "print JSON instead of a table");
+  command->callback([options] { ceiling(*options); });
+}
+
+}  // namespace gnbv
