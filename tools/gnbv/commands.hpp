@@ -29,6 +29,7 @@ void add_mission_options(CLI::App& command, MissionOptions& options);
 void add_compare_command(CLI::App& app);
 void add_fly_command(CLI::App& app);
 void add_run_command(CLI::App& app);
+void add_sweep_command(CLI::App& app);
 void add_table_command(CLI::App& app);
 void add_ceiling_command(CLI::App& app);
 void add_render_command(CLI::App& app);

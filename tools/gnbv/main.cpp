@@ -20,6 +20,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   gnbv::add_fly_command(app);
   gnbv::add_run_command(app);
+  gnbv::add_sweep_command(app);
   gnbv::add_table_command(app);
   gnbv::add_compare_command(app);
   gnbv::add_ceiling_command(app);

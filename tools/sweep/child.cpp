@@ -14,8 +14,8 @@
 
 namespace gnbv {
 
-pid_t start_child(const std::vector<std::string>& command, const std::filesystem::path& log,
-                  int lock) {
+pid_t start_child(const std::filesystem::path& program, const std::vector<std::string>& command,
+                  const std::filesystem::path& log, int lock) {
   std::vector<char*> arguments;
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
@@ -43,7 +43,7 @@ pid_t start_child(const std::vector<std::string>& command, const std::filesystem
                            POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
   pid_t child = 0;
   const int error =
-      posix_spawn(&child, arguments[0], &files, &attributes, arguments.data(), environ);
+      posix_spawn(&child, program.c_str(), &files, &attributes, arguments.data(), environ);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&files);
   if (error != 0) {

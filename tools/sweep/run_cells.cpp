@@ -36,7 +36,8 @@ CellOutcome on_disk(const CellFiles& files) {
   return {CellStatus::failed, {}, failure_of(files.failed)};
 }
 
-fs::path this_program() { return fs::read_symlink("/proc/self/exe"); }
+// not its path: a program that is built anew meanwhile does not mix versions in a sweep
+constexpr std::string_view kThisProgram = "/proc/self/exe";
 
 /// Runs the distinct cells among those given, a few at a time.
 class Pool {
@@ -44,7 +45,7 @@ class Pool {
   Pool(std::span<const Cell> cells, const RunCellsOptions& options)
       : cells_(cells),
         options_(options),
-        program_(options.program.empty() ? this_program() : options.program),
+        program_(options.program.empty() ? fs::path(kThisProgram) : options.program),
         threads_(options.threads > 0 ? options.threads : shared_threads(options.jobs)),
         outcomes_(cells.size()),
         progress_("sweep", options.quiet) {
@@ -85,6 +86,10 @@ class Pool {
   static int shared_threads(int jobs) {
     const int all = static_cast<int>(std::thread::hardware_concurrency());
     return std::max(1, all / std::max(1, jobs));
+  }
+
+  std::string name_of_program() const {
+    return program_ == kThisProgram ? fs::read_symlink(program_).string() : program_.string();
   }
 
   bool is_over() const {
@@ -148,11 +153,11 @@ class Pool {
     Running one = {.index = index,
                    .files = files,
                    .lock = std::move(lock),
-                   .command = {program_.string(), "run", (files.part / "scenario.yaml").string(),
+                   .command = {name_of_program(), "run", (files.part / "scenario.yaml").string(),
                                "--out", files.part.string(), "--resume", "--quiet", "--threads",
                                fmt::format("{}", threads_)},
                    .log_begin = no_log ? 0 : size};
-    one.child = start_child(one.command, files.log, one.lock.descriptor());
+    one.child = start_child(program_, one.command, files.log, one.lock.descriptor());
     running_.push_back(std::move(one));
   }
 

@@ -1,0 +1,249 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdio>
+#include <memory>
+
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "tools/gnbv/commands.hpp"
+#include "tools/sweep/manifest.hpp"
+#include "tools/sweep/slurm.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SweepOptions {
+  fs::path file;
+  fs::path out;
+  int jobs = 1;
+  int threads = 0;
+  std::string index;
+  bool list = false;
+  bool status = false;
+  bool retry_failed = false;
+  bool quiet = false;
+  bool json = false;
+  bool slurm = false;
+  bool slurm_dry_run = false;
+  int slurm_limit = 0;
+  std::string slurm_args;
+};
+
+RunCellsOptions run_options(const SweepOptions& options) {
+  return {.folder = options.out,
+          .jobs = options.jobs,
+          .threads = options.threads,
+          .retry_failed = options.retry_failed,
+          .wait_for_locked = true,
+          .quiet = options.quiet};
+}
+
+std::string name_of(const Cell& cell) {
+  return fmt::format("{} {} seed {}", cell.scenario, cell.method, cell.seed);
+}
+
+void list(const std::vector<Cell>& cells, bool json) {
+  if (json) return fmt::print("{}", cells_json(cells, {}));
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    fmt::print("{:6}  {}  {}\n", i, cells[i].id, name_of(cells[i]));
+  }
+}
+
+/// "K" or "K-L"; throws BadInput for anything else, and for cells that the sweep does not have.
+std::pair<std::size_t, std::size_t> parse_index(const std::string& text, std::size_t cells) {
+  std::size_t first = 0;
+  const char* const end = text.data() + text.size();
+  auto read = std::from_chars(text.data(), end, first);
+  std::size_t last = first;
+  if (read.ec == std::errc{} && read.ptr != end && *read.ptr == '-') {
+    read = std::from_chars(read.ptr + 1, end, last);
+  }
+  if (read.ec != std::errc{} || read.ptr != end || last < first) {
+    throw BadInput(fmt::format("--index {}: has to read K or K-L", text));
+  }
+  if (last >= cells) {
+    throw BadInput(fmt::format("--index {}: the sweep has the cells 0 to {}", text, cells - 1));
+  }
+  return {first, last};
+}
+
+int count_of(const std::vector<CellOutcome>& outcomes, CellStatus status) {
+  return static_cast<int>(std::count_if(outcomes.begin(), outcomes.end(),
+                                        [&](const auto& one) { return one.status == status; }));
+}
+
+/// The rows of the table: cells by scenario and method, in the order of the sweep.
+void print_table(const std::vector<Cell>& cells, const std::vector<CellOutcome>& outcomes) {
+  struct Row {
+    std::string name;
+    std::array<int, 4> count{};
+  };
+  std::vector<Row> rows;
+  std::size_t width = 5;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const std::string name = cells[i].scenario + "  " + cells[i].method;
+    if (rows.empty() || rows.back().name != name) rows.push_back({name, {}});
+    rows.back().count.at(static_cast<std::size_t>(outcomes[i].status)) += 1;
+    width = std::max(width, name.size());
+  }
+  fmt::print("{:<{}}  {:>6} {:>6} {:>7} {:>7}\n", "", width, "done", "failed", "running",
+             "missing");
+  rows.push_back({"all", {}});
+  for (std::size_t i = 0; i + 1 < rows.size(); ++i) {
+    for (std::size_t k = 0; k < 4; ++k) rows.back().count.at(k) += rows[i].count.at(k);
+  }
+  for (const Row& row : rows) {
+    fmt::print("{:<{}}  {:>6} {:>6} {:>7} {:>7}\n", row.name, width, row.count[0], row.count[1],
+               row.count[2], row.count[3]);
+  }
+  constexpr int kNamed = 20;
+  int named = 0;
+  for (std::size_t i = 0; i < cells.size() && named < kNamed; ++i) {
+    if (outcomes[i].status != CellStatus::failed) continue;
+    fmt::print("failed: {} {} {}: {}\n", i, cells[i].id, name_of(cells[i]), outcomes[i].failure);
+    named += 1;
+  }
+  const int more = count_of(outcomes, CellStatus::failed) - named;
+  if (more > 0) fmt::print("failed: and {} more, cells/*.failed.json\n", more);
+}
+
+void report(const SweepOptions& options, const std::vector<Cell>& cells,
+            const std::vector<CellOutcome>& outcomes) {
+  const fs::path results = options.out / "results.csv";
+  write_file_atomically(results, results_csv(cells, outcomes));
+  if (options.json) return fmt::print("{}", cells_json(cells, outcomes));
+  print_table(cells, outcomes);
+  fmt::print("{}\n", results.string());
+}
+
+void show_status(const SweepOptions& options, const std::vector<Cell>& cells) {
+  if (!fs::is_directory(options.out)) {
+    throw BadInput(
+        fmt::format("{}: no such folder: nothing was flown there", options.out.string()));
+  }
+  std::vector<CellOutcome> outcomes;
+  for (const Cell& cell : cells) outcomes.push_back(look_up(options.out, cell));
+  report(options, cells, outcomes);
+}
+
+void fail_if_any_failed(const std::vector<CellOutcome>& outcomes) {
+  const int failed = count_of(outcomes, CellStatus::failed);
+  const int missing = count_of(outcomes, CellStatus::missing);
+  if (missing > 0) {
+    throw CommandFailed(
+        fmt::format("interrupted: {} cells are missing; the same command goes on", missing));
+  }
+  if (failed > 0) {
+    throw CommandFailed(fmt::format("{} cells failed; --retry-failed runs them again", failed));
+  }
+}
+
+/// Some cells for a scheduler's task, which resolves no others: their place is checked against the
+/// manifest, since a file that was changed since would mean other cells.
+void run_indexed(const SweepOptions& options, const Sweep& sweep) {
+  const auto [first, last] = parse_index(options.index, cell_count(sweep));
+  std::vector<Cell> cells;
+  for (std::size_t i = first; i <= last; ++i) cells.push_back(cell_at(sweep, i));
+  if (!fs::exists(options.out / "sweep.json")) {
+    write_manifest(options.out, options.file, cells_of(sweep));
+  }
+  for (std::size_t i = first; i <= last; ++i) {
+    const auto known = manifest_id(options.out, i);
+    if (known == cells[i - first].id) continue;
+    throw BadInput(
+        fmt::format("{}: cell {} is not the one of {}: the sweep, a file it names or the program "
+                    "has changed since; `gnbv sweep` without --index takes the new one",
+                    options.file.string(), i, (options.out / "sweep.json").string()));
+  }
+  RunCellsOptions run = run_options(options);
+  run.wait_for_locked = false;
+  const std::vector<CellOutcome> outcomes = run_cells(cells, run);
+  if (options.json) fmt::print("{}", cells_json(cells, outcomes));
+  for (std::size_t i = 0; i < cells.size() && !options.json; ++i) {
+    const CellOutcome& one = outcomes[i];
+    const std::string what = one.status == CellStatus::done     ? one.run.string()
+                             : one.status == CellStatus::failed ? one.failure
+                             : one.status == CellStatus::locked
+                                 ? "skipped: another process flies it"
+                                 : "interrupted";
+    fmt::print("{} {} {}: {}: {}\n", first + i, cells[i].id, name_of(cells[i]),
+               gnbv::name_of(one.status), what);
+  }
+  fail_if_any_failed(outcomes);
+}
+
+void submit_array(const SweepOptions& options, std::size_t cells) {
+  const fs::path script = options.out / "sweep.sbatch";
+  const SlurmOptions slurm = {.program = fs::read_symlink("/proc/self/exe"),
+                              .sweep_file = options.file,
+                              .folder = options.out,
+                              .cells = cells,
+                              .threads = std::max(1, options.threads),
+                              .limit = options.slurm_limit,
+                              .retry_failed = options.retry_failed,
+                              .arguments = options.slurm_args};
+  write_file_atomically(script, batch_script(slurm, max_array_size().value_or(kMaxArraySize)));
+  fmt::print("{}\n", options.slurm_dry_run ? script.string() : submit(script));
+}
+
+void sweep(const SweepOptions& options) {
+  if (options.out.empty() && !options.list) {
+    throw BadInput("--out: missing: the folder of the sweep");
+  }
+  const Sweep grid = read_sweep(options.file);
+  if (!options.index.empty()) return run_indexed(options, grid);
+  const std::vector<Cell> cells = cells_of(grid);
+  if (options.list) return list(cells, options.json);
+  if (options.status) return show_status(options, cells);
+  write_manifest(options.out, options.file, cells);
+  if (options.slurm || options.slurm_dry_run) return submit_array(options, cells.size());
+  const std::vector<CellOutcome> outcomes = run_cells(cells, run_options(options));
+  report(options, cells, outcomes);
+  fail_if_any_failed(outcomes);
+}
+
+}  // namespace
+
+void add_sweep_command(CLI::App& app) {
+  auto o = std::make_shared<SweepOptions>();
+  CLI::App* const command =
+      app.add_subcommand("sweep", "fly a grid of missions; what is done is not flown again");
+  command->add_option("FILE", o->file, "YAML: scenarios, utilities, grid, seeds (README)")
+      ->required();
+  command->add_option("--out", o->out, "folder of the sweep; the same one goes on with it");
+  command->add_option("--jobs", o->jobs, "missions at a time, each a process")
+      ->check(CLI::Range(1, 1024));
+  command->add_option("--threads", o->threads, "of each mission; 0 = the machine's, shared out")
+      ->check(CLI::Range(0, 1024));
+  CLI::Option* const index = command->add_option(
+      "--index", o->index, "fly only cell K, or K-L, of --list; for schedulers");
+  CLI::Option* const list =
+      command->add_flag("--list", o->list, "print the cells and fly nothing")->excludes(index);
+  command->add_flag("--status", o->status, "print what is done and failed; fly nothing")
+      ->excludes(index)
+      ->excludes(list);
+  command->add_flag("--retry-failed", o->retry_failed, "fly failed cells again, from the start");
+  command->add_flag("--quiet", o->quiet, "no progress on stderr");
+  command->add_flag("--json", o->json, "print the cells as JSON instead of a table");
+  CLI::Option* const slurm =
+      command->add_flag("--slurm", o->slurm, "write OUT/sweep.sbatch, submit it, print the job id")
+          ->excludes(index)
+          ->excludes(list);
+  command
+      ->add_flag("--slurm-dry-run", o->slurm_dry_run, "write OUT/sweep.sbatch and print its path")
+      ->excludes(index)
+      ->excludes(list)
+      ->excludes(slurm);
+  command->add_option("--slurm-limit", o->slurm_limit, "array tasks at a time; 0 = no limit")
+      ->check(CLI::Range(0, 1'000'000));
+  command->add_option("--slurm-args", o->slurm_args,
+                      "further options of sbatch, such as \"--time=02:00:00 --partition=cpu\"");
+  command->callback([o] { sweep(*o); });
+}
+
+}  // namespace gnbv

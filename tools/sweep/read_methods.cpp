@@ -1,0 +1,140 @@
+#include "tools/sweep/read_methods.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scenarios/flow_yaml.hpp"
+
+namespace gnbv {
+namespace {
+
+using Kind = YamlNode::Kind;
+
+struct NamedSettings {
+  std::string name;
+  Settings settings;
+};
+
+class MethodReader {
+ public:
+  explicit MethodReader(SweepYaml& yaml) : yaml_(yaml) {}
+
+  std::vector<SweepMethod> read(const YamlNode& root) {
+    std::vector<NamedSettings> bases = named_by_value(root, "utilities", "planner.utility.name");
+    for (NamedSettings& base : named_by_value(root, "presets", "planner.preset")) {
+      bases.push_back(std::move(base));
+    }
+    for (NamedSettings& base : read_variants(root.find("variants"))) {
+      bases.push_back(std::move(base));
+    }
+    if (bases.empty()) bases.push_back({"", {}});
+    const std::vector<NamedSettings> points = read_grid(root.find("grid"));
+    if (bases.size() * points.size() > kMaxCells) {
+      yaml_.fault(*root.find("grid"), "grid", fmt::format("makes more than {} methods", kMaxCells));
+      return {};
+    }
+    std::vector<SweepMethod> methods;
+    std::set<std::string> names;
+    for (const NamedSettings& base : bases) {
+      for (const NamedSettings& point : points) {
+        Settings settings = base.settings;
+        settings.add(point.settings);
+        std::string name = base.name;
+        if (!point.name.empty()) name += (name.empty() ? "" : " ") + point.name;
+        if (name.empty()) name = "default";
+        yaml_.require_unique(name, names, root, "");
+        methods.push_back({name, std::move(settings.overrides), std::move(settings.sources)});
+      }
+    }
+    return methods;
+  }
+
+ private:
+  std::vector<NamedSettings> named_by_value(const YamlNode& root, const std::string& section,
+                                            const std::string& key) {
+    std::vector<NamedSettings> bases;
+    const YamlNode* const list = root.find(section);
+    if (list == nullptr) return bases;
+    int index = 0;
+    for (const YamlNode* node : yaml_.items_of(*list, section)) {
+      const std::string name =
+          yaml_.text_of(node, fmt::format("{}.{}", section, index++), "a name");
+      if (name.empty()) continue;
+      NamedSettings base = {name, {}};
+      base.settings.add(fmt::format("{}={}", key, flow_yaml(*node)), node->origin);
+      bases.push_back(std::move(base));
+    }
+    return bases;
+  }
+
+  std::vector<NamedSettings> read_variants(const YamlNode* list) {
+    std::vector<NamedSettings> bases;
+    if (list == nullptr) return bases;
+    int index = 0;
+    for (const YamlNode* node : yaml_.items_of(*list, "variants")) {
+      const std::string path = fmt::format("variants.{}", index++);
+      if (!yaml_.require_map(*node, path, {"name", "set"})) continue;
+      if (node->find("name") == nullptr) yaml_.fault(*node, path, "has no key 'name'");
+      const std::string name = yaml_.text_of(node->find("name"), path + ".name", "a name");
+      Settings settings = yaml_.settings_of(node->find("set"), path + ".set");
+      if (!name.empty()) bases.push_back({name, std::move(settings)});
+    }
+    return bases;
+  }
+
+  /// The points of the grid, its last key fastest; one point without a name when there is none.
+  std::vector<NamedSettings> read_grid(const YamlNode* grid) {
+    std::vector<NamedSettings> points = {{"", {}}};
+    if (grid == nullptr) return points;
+    if (grid->kind != Kind::map) {
+      yaml_.fault(*grid, "grid", "expects a map of scenario keys, each with a list of values");
+      return points;
+    }
+    for (const YamlEntry& entry : grid->entries) {
+      const std::string path = "grid." + entry.key;
+      const auto values = yaml_.items_of(entry.value, path);
+      if (entry.key == "seed") yaml_.fault(entry.value, path, "seeds are given by the key 'seeds'");
+      if (values.empty() || entry.key == "seed") continue;
+      if (points.size() * values.size() > kMaxCells) {
+        yaml_.fault(*grid, "grid", fmt::format("has more than {} points", kMaxCells));
+        return {{"", {}}};
+      }
+      const std::string label = short_name(*grid, entry.key);
+      std::vector<NamedSettings> next;
+      for (const NamedSettings& point : points) {
+        for (const YamlNode* value : values) {
+          const std::string text = flow_yaml(*value);
+          NamedSettings added = point;
+          added.name += fmt::format("{}{}={}", point.name.empty() ? "" : " ", label, text);
+          added.settings.add(fmt::format("{}={}", entry.key, text), value->origin);
+          next.push_back(std::move(added));
+        }
+      }
+      points = std::move(next);
+    }
+    return points;
+  }
+
+  /// The last word of a key, or all of it where another key of the grid ends alike.
+  static std::string short_name(const YamlNode& grid, const std::string& key) {
+    const auto last_word = [](const std::string& path) {
+      return path.substr(path.rfind('.') + 1);  // npos + 1 = 0: all of it
+    };
+    const bool is_unique =
+        std::count_if(grid.entries.begin(), grid.entries.end(), [&](const YamlEntry& entry) {
+          return last_word(entry.key) == last_word(key);
+        }) == 1;
+    return is_unique ? last_word(key) : key;
+  }
+
+  SweepYaml& yaml_;
+};
+
+}  // namespace
+
+std::vector<SweepMethod> read_methods(const YamlNode& root, SweepYaml& yaml) {
+  return MethodReader(yaml).read(root);
+}
+
+}  // namespace gnbv

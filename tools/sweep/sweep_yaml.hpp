@@ -1,0 +1,53 @@
+// What the parts of a sweep file have in common.
+#pragma once
+
+#include <filesystem>
+#include <initializer_list>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenarios/document.hpp"
+
+namespace gnbv {
+
+/// Overrides with where they were given.
+struct Settings {
+  std::vector<std::string> overrides;
+  std::vector<std::string> sources;
+
+  void add(std::string text, const Origin& origin);
+  void add(const Settings& others);
+};
+
+/// Reads values and keeps what is wrong with them.
+class SweepYaml {
+ public:
+  explicit SweepYaml(std::string file) : file_(std::move(file)) {}
+
+  Faults& faults() { return faults_; }
+  void fault(const YamlNode& node, const std::string& path, const std::string& what);
+
+  /// Whether it is a map; keys that are not known are named.
+  bool require_map(const YamlNode& node, const std::string& path,
+                   std::initializer_list<std::string_view> known);
+
+  void require_unique(const std::string& name, std::set<std::string>& names, const YamlNode& node,
+                      const std::string& path);
+
+  /// The items of a list, which has some; a single value is a list of one.
+  std::vector<const YamlNode*> items_of(const YamlNode& node, const std::string& path);
+
+  /// The text of a scalar; empty where there is no node, and, with a fault, where it is none.
+  std::string text_of(const YamlNode* node, const std::string& path, const std::string& what);
+
+  /// A map of scenario keys as overrides; none where there is no node.
+  Settings settings_of(const YamlNode* node, const std::string& path);
+
+ private:
+  std::string file_;
+  Faults faults_;
+};
+
+}  // namespace gnbv
