@@ -22,7 +22,8 @@ void run(const RunOptions& options) {
   if (options.json) {
     fmt::print("{}", read_file(mission.folder / "summary.json"));
   } else {
-    fmt::print("{}\n{}\n", one_row_summary(read_run_figures(mission.folder)), mission.folder.string());
+    fmt::print("{}\n{}\n", one_row_summary(read_run_figures(mission.folder)),
+               mission.folder.string());
   }
   if (mission.result.termination == Termination::collision) {
     throw CommandFailed("the vehicle hit something; the run directory shows where");

@@ -1,0 +1,140 @@
+// Tables and comparisons as their users meet them: missions flown, read back and judged.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "sim/core/file.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/temp_folder.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+const std::string kFewViews = " --set planner.termination.max_iterations=4 ";
+
+/// Rows of a table's JSON where `key` is `value`.
+std::vector<Json> rows(const Json& table, const std::string& key, const std::string& value) {
+  std::vector<Json> found;
+  for (const Json& row : table.at("rows")) {
+    if (row.at(key) == value) found.push_back(row);
+  }
+  return found;
+}
+
+TEST(Compare, FliesWhatIsMissingAndJudgesTheRunsThatItsFolderHolds) {
+  TempFolder temp;
+  const std::string compare = "compare smoke --utilities proposed,bircher --seeds 2 --quiet" +
+                              kFewViews + "--out " + temp.path().string() + " --format ";
+  const Outcome first = gnbv(compare + "json 2>/dev/null");
+  ASSERT_EQ(first.exit_code, 0) << first.output;
+  const Json table = Json::parse(first.output);
+  const std::vector<Json> coverage = rows(table, "metric", "coverage at 0.05 m (%)");
+  ASSERT_EQ(coverage.size(), 2U);
+  // the oracle: the summaries of the four runs
+  std::map<std::string, std::map<int, double>> covered;
+  for (const auto& cell : fs::directory_iterator(temp.path() / "cells")) {
+    if (!cell.is_directory()) continue;
+    const Json run = Json::parse(read_file(cell.path() / "summary.json"));
+    covered[run.at("utility")][run.at("seed")] =
+        100.0 * run.at("coverage").at("final").at("0.05").get<double>();
+  }
+  ASSERT_EQ(covered.size(), 2U);
+  const auto& proposed = covered.at("proposed");
+  const auto& bircher = covered.at("bircher");
+  EXPECT_NEAR(coverage[0].at("mean"), (proposed.at(1) + proposed.at(2)) / 2, 1e-9);
+  EXPECT_NEAR(coverage[1].at("difference"),
+              (bircher.at(1) - proposed.at(1) + bircher.at(2) - proposed.at(2)) / 2, 1e-9);
+  EXPECT_FALSE(rows(table, "metric", "AUC over metres (%)").empty());
+  EXPECT_FALSE(rows(table, "metric", "share of ceiling at 0.05 m (%)").empty());
+
+  // a run that is there is not flown again: a doctored one is believed
+  for (const auto& cell : fs::directory_iterator(temp.path() / "cells")) {
+    const fs::path summary = cell.path() / "summary.json";
+    if (!fs::exists(summary)) continue;
+    Json run = Json::parse(read_file(summary));
+    run["distance_m"]["straight"] = 123.0;
+    write_file_atomically(summary, run.dump());
+  }
+  const Outcome second = gnbv(compare + "csv 2>/dev/null");
+  ASSERT_EQ(second.exit_code, 0) << second.output;
+  EXPECT_TRUE(has(second, "smoke,distance (m),bircher,2,123,0,1.5,0,0,0,0,1,1,equal"))
+      << second.output;
+}
+
+TEST(Compare, TakesASweepAndSaysWhatItLacks) {
+  TempFolder temp;
+  const fs::path file = temp.path() / "grid.yaml";
+  std::ofstream(file) << "scenarios: [smoke]\nutilities: [proposed, isler]\nseeds: 2\n"
+                         "set: {planner.termination.max_iterations: 2}\n";
+  const std::string out = (temp.path() / "sweep").string();
+  ASSERT_EQ(gnbv("sweep " + file.string() + " --quiet --index 0 --out " + out).exit_code, 0);
+  ASSERT_EQ(gnbv("sweep " + file.string() + " --quiet --index 2 --out " + out).exit_code, 0);
+  const Outcome part = gnbv("compare --quiet --from " + out + " --baseline isler");
+  EXPECT_EQ(part.exit_code, 1) << part.output;  // two cells of four are missing
+  EXPECT_TRUE(has(part, "proposed against isler")) << part.output;
+  EXPECT_TRUE(has(part, "one seed: no test")) << part.output;
+  EXPECT_TRUE(has(part, "smoke, isler: without a result: not flown (seed 2)")) << part.output;
+  ASSERT_EQ(gnbv("sweep " + file.string() + " --quiet --out " + out).exit_code, 0);
+  EXPECT_EQ(gnbv("compare --quiet --from " + out).exit_code, 0);
+}
+
+TEST(Compare, NamesAllFaultsBeforeItFlies) {
+  TempFolder temp;
+  const std::string out = (temp.path() / "out").string();
+  const Outcome faults = gnbv(
+      "compare smoke --utilities proposed,best --presets relased --variant "
+      "planner.utilty.name=isler --out " +
+      out);
+  EXPECT_EQ(faults.exit_code, 2);
+  for (const std::string word : {"'best'", "'relased'", "planner.utilty"}) {
+    EXPECT_TRUE(has(faults, word)) << word << " in " << faults.output;
+  }
+  const Outcome baseline = gnbv("compare smoke --utilities a,b --baseline c --out " + out);
+  EXPECT_EQ(baseline.exit_code, 2);
+  EXPECT_TRUE(has(baseline, "'c': no method of this comparison; it has: a, b")) << baseline.output;
+  EXPECT_EQ(gnbv("compare smoke --utilities proposed --out " + out).exit_code, 2);
+  EXPECT_EQ(gnbv("compare smoke --utilities proposed,isler --seeds 0 --out " + out).exit_code, 2);
+  EXPECT_EQ(gnbv("compare --utilities proposed,isler --out " + out).exit_code, 2);
+  EXPECT_EQ(gnbv("compare smoke smoke --utilities proposed,isler --out " + out).exit_code, 2);
+  EXPECT_EQ(gnbv("compare --from " + out).exit_code, 2);
+  EXPECT_FALSE(fs::exists(out));
+}
+
+TEST(Table, HasThePapersRowOursTheOraclesAndTheCeiling) {
+  TempFolder temp;
+  const std::string table = "table lab_model --seeds 2 --quiet" + kFewViews + "--out " +
+                            temp.path().string() + " 2>/dev/null --format ";
+  const Outcome json = gnbv(table + "json");
+  ASSERT_EQ(json.exit_code, 0) << json.output;
+  const Json parsed = Json::parse(json.output);
+  std::vector<std::string> order;
+  for (const Json& row : parsed.at("rows")) {
+    order.push_back(row.at("utility").get<std::string>() + ": " + row.at("row").get<std::string>());
+  }
+  EXPECT_EQ(order, (std::vector<std::string>{"Proposed: ours", "Proposed: paper",
+                                             "Oracle, few views: ours", "Oracle, few metres: ours",
+                                             "Profile: ours", "Ceiling: physical",
+                                             "Ceiling: leaf filter"}));
+  EXPECT_EQ(parsed.at("rows").at(0).at("runs"), 2);
+  EXPECT_EQ(parsed.at("rows").at(0).at("iterations"), 4);
+  EXPECT_EQ(parsed.at("rows").at(1).at("entropy_reduction"), 30140);
+  EXPECT_TRUE(parsed.at("rows").at(0).at("time_min").is_number());
+  EXPECT_TRUE(parsed.at("rows").at(0).at("share_of_ceiling").is_number());
+  // every other form has the same rows and the command that repeats it
+  for (const std::string format : {"terminal", "markdown", "csv", "latex"}) {
+    const Outcome other = gnbv(table + format);
+    EXPECT_EQ(other.exit_code, 0) << format;
+    EXPECT_TRUE(has(other, "gnbv table lab") && has(other, "seeds 2")) << other.output;
+    EXPECT_TRUE(has(other, "Oracle, few metres")) << format;
+  }
+}
+
+}  // namespace
+}  // namespace gnbv
