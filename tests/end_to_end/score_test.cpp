@@ -105,6 +105,43 @@ TEST_F(Score, OfARunReadsBackAsItsFigures) {
             summary.at("auc").at("metres"));
 }
 
+TEST_F(Score, FiguresOfADamagedRunAreRefusedByFileAndKey) {
+  const fs::path run = copy();
+  const std::string summary = read_file(run / "summary.json");
+  const std::string coverage = read_file(run / "coverage.csv");
+  const auto complaint = [&] {
+    try {
+      read_run_figures(run);
+    } catch (const BadInput& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(complaint(), "");
+  const auto expect_refused = [&](const std::string& words) {
+    EXPECT_NE(complaint().find(words), std::string::npos) << complaint();
+    write_file_atomically(run / "summary.json", summary);
+    write_file_atomically(run / "coverage.csv", coverage);
+  };
+  Json json = Json::parse(summary);
+  json["distance_m"]["flown"] = "far";
+  write_file_atomically(run / "summary.json", json.dump());
+  expect_refused("summary.json: /distance_m/flown: \"far\" is no number");
+  json.erase("seed");
+  write_file_atomically(run / "summary.json", json.dump());
+  expect_refused("summary.json: /seed: is missing");
+  write_file_atomically(run / "summary.json", "{");
+  expect_refused("summary.json: is no JSON");
+  write_file_atomically(run / "coverage.csv", coverage.substr(0, coverage.rfind("\n12,") + 1));
+  expect_refused("coverage.csv: 12 rows for the profile and 12 views");
+  write_file_atomically(run / "coverage.csv", coverage + "13,1,2,nan,4,5\n");
+  expect_refused("coverage.csv:15: '13,1,2,nan,4,5'");
+  write_file_atomically(run / "coverage.csv", "view\n");
+  expect_refused("coverage.csv:1: is not the header");
+  fs::remove(run / "summary.json");
+  expect_refused("holds no summary.json");
+}
+
 TEST_F(Score, OfTheRunsCloudIsTheRuns) {
   const Outcome outcome =
       gnbv("score " + (original() / "cloud.ply").string() + " --scenario smoke --json 2>/dev/null");
