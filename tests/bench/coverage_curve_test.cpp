@@ -72,5 +72,17 @@ TEST(ReferenceSamples, OneLiesInEachVoxelSeenFromOutsideInItsOrder) {
   }
 }
 
+TEST(ReferenceSamples, OfADoubleWallLieOnTheOuterOne) {
+  // both walls in the same voxels, the hidden one through their middle
+  World world;
+  test::add_box(world.structure, Vec3(-1.04, -1.04, 0.46), Vec3(2.08, 2.08, 2.08));
+  test::add_box(world.structure, Vec3(-1.02, -1.02, 0.48), Vec3(2.04, 2.04, 2.04));
+  const SurfaceReference reference = make_surface_reference(world, RayScene(world), {}, 2);
+  ASSERT_FALSE(reference.samples_world_m.empty());
+  for (const Vec3f& p_m : reference.samples_world_m) {
+    ASSERT_NEAR((p_m - Vec3f(0, 0, 1.5F)).cwiseAbs().maxCoeff(), 1.04F, 1e-5F);
+  }
+}
+
 }  // namespace
 }  // namespace gnbv

@@ -90,7 +90,9 @@ TEST_F(ReferenceCache, ComputesAnewWhatIsDamagedOrOfAnotherForm) {
   EXPECT_EQ(cached(world_), made);
   EXPECT_EQ(read_file(file), whole);
   // whole for the cache, and no reference
-  for (const std::string bytes : {"", "\xff", "\x05\x01", "nonsense"}) {
+  const std::string no_voxels(6, '\0');
+  for (const std::string& bytes : {std::string(), std::string("\xff"), std::string("\x05\x01"),
+                                   std::string("nonsense"), no_voxels + "sample of none"}) {
     store_cached(file.parent_path().filename().string(), file.filename().string(), bytes);
     EXPECT_EQ(cached(world_), made) << bytes;
   }

@@ -63,18 +63,28 @@ TEST_F(Score, UpdatesARunToTheVeryBytesThatItWroteItself) {
   for (const char* key : kScored) old.erase(key);
   write_file_atomically(run / "summary.json", old.dump(2) + "\n");
   fs::remove(run / "coverage.csv");
-  EXPECT_THROW(read_run_figures(run), BadInput);
+  try {
+    read_run_figures(run);
+    FAIL();
+  } catch (const BadInput& error) {
+    EXPECT_NE(std::string(error.what()).find("schema 1 of another version"), std::string::npos)
+        << error.what();
+  }
 
   const Outcome only_looked = gnbv("score " + run.string());
   ASSERT_EQ(only_looked.exit_code, 0) << only_looked.output;
   EXPECT_FALSE(fs::exists(run / "coverage.csv"));
   for (const std::string threads : {"1", "2"}) {
-    // uncached, then cached
     const Outcome updated = gnbv("score " + run.string() + " --update --threads " + threads);
     ASSERT_EQ(updated.exit_code, 0) << updated.output;
     EXPECT_EQ(read_file(run / "summary.json"), summary);
     EXPECT_EQ(read_file(run / "coverage.csv"), coverage);
-    fs::remove_all(folder_ / "cache");
+    // the second time of this schema with every figure wrong, by the cache
+    Json wrong = summary_of(run);
+    wrong["coverage"] = 1;
+    for (const char* key : kScored) wrong[key] = 1;
+    write_file_atomically(run / "summary.json", wrong.dump(2) + "\n");
+    write_file_atomically(run / "coverage.csv", "");
   }
 }
 
@@ -103,6 +113,43 @@ TEST_F(Score, OfARunReadsBackAsItsFigures) {
   }
   EXPECT_EQ(area_under_coverage(figures.curve, Effort::metres, 0, figures.straight_m),
             summary.at("auc").at("metres"));
+}
+
+TEST_F(Score, FiguresOfADamagedRunAreRefusedByFileAndKey) {
+  const fs::path run = copy();
+  const std::string summary = read_file(run / "summary.json");
+  const std::string coverage = read_file(run / "coverage.csv");
+  const auto complaint = [&] {
+    try {
+      read_run_figures(run);
+    } catch (const BadInput& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(complaint(), "");
+  const auto expect_refused = [&](const std::string& words) {
+    EXPECT_NE(complaint().find(words), std::string::npos) << complaint();
+    write_file_atomically(run / "summary.json", summary);
+    write_file_atomically(run / "coverage.csv", coverage);
+  };
+  Json json = Json::parse(summary);
+  json["distance_m"]["flown"] = "far";
+  write_file_atomically(run / "summary.json", json.dump());
+  expect_refused("summary.json: /distance_m/flown: \"far\" is no number");
+  json.erase("seed");
+  write_file_atomically(run / "summary.json", json.dump());
+  expect_refused("summary.json: /seed: is missing");
+  write_file_atomically(run / "summary.json", "{");
+  expect_refused("summary.json: is no JSON");
+  write_file_atomically(run / "coverage.csv", coverage.substr(0, coverage.rfind("\n12,") + 1));
+  expect_refused("coverage.csv: 12 rows for the profile and 12 views");
+  write_file_atomically(run / "coverage.csv", coverage + "13,1,2,nan,4,5\n");
+  expect_refused("coverage.csv:15: '13,1,2,nan,4,5'");
+  write_file_atomically(run / "coverage.csv", "view\n");
+  expect_refused("coverage.csv:1: is not the header");
+  fs::remove(run / "summary.json");
+  expect_refused("holds no summary.json");
 }
 
 TEST_F(Score, OfTheRunsCloudIsTheRuns) {

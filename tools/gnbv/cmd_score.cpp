@@ -84,8 +84,16 @@ Scored score_file(ScoreOptions options, int threads) {
   if (!options.floor_z_m.empty()) {
     options.overrides.push_back("planner.floor_z_m=" + options.floor_z_m);
   }
-  return score_any_cloud(options.target, read_cloud(options.target), resolve_scenario(options),
-                         threads);
+  const Scored scored = score_any_cloud(options.target, read_cloud(options.target),
+                                        resolve_scenario(options), threads);
+  const DistanceScore& widest = scored.score.distances.at.back();
+  if (widest.precision < 0.5) {
+    fmt::print(stderr,
+               "gnbv: {}: only {:.1f} % of the points lie within {} m of the mesh: another frame "
+               "or mesh?\n",
+               options.target, 100.0 * widest.precision, widest.distance_m);
+  }
+  return scored;
 }
 
 Scored score_folder(const ScoreOptions& options, int threads) {
