@@ -56,6 +56,7 @@ class Pool {
 
   std::vector<CellOutcome> run() {
     const InterruptGuard interrupt(2);
+    std::signal(SIGCHLD, SIG_DFL);  // where a launcher ignores it, nobody learns how a child ended
     try {
       while (!is_over()) {
         pass_on_interrupts();
