@@ -172,8 +172,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"EmptyFile", "empty.yaml --out o", "empty.yaml:1: is empty"},
         Refusal{"NoScenarios", "none.yaml --out o", "none.yaml:1: scenarios: value '[]'"},
         Refusal{"MisspeltKey", "key.yaml --out o",
-                "key.yaml:4: seeds: value '0': is out of range (allowed: from 1 to 1000000)\n"
-                "key.yaml:3: planner.utilty: is no known key (did you mean 'planner.utility'?)"},
+                "key.yaml:3: planner.utilty: is no known key (did you mean 'planner.utility'?)\n"
+                "key.yaml:4: seeds: value '0': is out of range (allowed: from 1 to 1000000)"},
         Refusal{"NoFolder", "s.yaml", "--out"},
         Refusal{"StatusOfNothing", "s.yaml --out o --status", "o: no such folder"},
         Refusal{"IndexOutside", "s.yaml --out o --index 4", "the cells 0 to 3"},

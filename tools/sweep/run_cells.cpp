@@ -204,6 +204,7 @@ class Pool {
 
   void settle(std::size_t index, const CellOutcome& outcome) {
     outcomes_[index] = outcome;
+    if (outcome.status == CellStatus::missing) return;
     settled_ += 1;
     failed_ += outcome.status == CellStatus::failed ? 1 : 0;
     const std::size_t all = first_of_id_.size();
