@@ -1,5 +1,7 @@
 #include "sim/core/file.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
@@ -40,9 +42,11 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
 
 void write_file_atomically(const std::filesystem::path& path,
                            const std::function<void(const std::filesystem::path&)>& write) {
-  // the extension stays last, since some libraries choose the format by it
+  // the extension stays last, since some libraries choose the format by it; the process is named,
+  // since others may write the same file
   std::filesystem::path part = path;
-  part.replace_filename("." + path.stem().string() + ".part" + path.extension().string());
+  part.replace_filename(
+      fmt::format(".{}.part{}{}", path.stem().string(), getpid(), path.extension().string()));
   try {
     write(part);
     std::filesystem::rename(part, path);

@@ -216,7 +216,7 @@ class Stopped : public RunCells {
 };
 
 TEST_F(Stopped, AKilledSweepGoesOnToTheSameResult) {
-  const std::vector<Cell> cells = cells_of(smoke_sweep(60, {1}));
+  const std::vector<Cell> cells = cells_of(smoke_sweep(30, {1}));
   const fs::path script = temp_.path() / "noting_pid";
   std::ofstream(script) << "#!/bin/sh\necho $$ > " << (temp_.path() / "pid").string()
                         << "\nexec " GNBV_PROGRAM " \"$@\"\n";
@@ -241,7 +241,7 @@ TEST_F(Stopped, AKilledSweepGoesOnToTheSameResult) {
 }
 
 TEST_F(Stopped, AnInterruptedSweepLeavesWhatALaterOneResumes) {
-  const std::vector<Cell> cells = cells_of(smoke_sweep(60, {1, 2, 3}));
+  const std::vector<Cell> cells = cells_of(smoke_sweep(30, {1, 2, 3}));
   const pid_t sweep = sweep_process(cells, options(1));
   await_views(cells[0]);
   kill(sweep, SIGTERM);

@@ -6,9 +6,12 @@
 #include <fstream>
 #include <set>
 
+#include "scenarios/flow_yaml.hpp"
 #include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/sweep/cell_id.hpp"
+#include "tools/sweep/slurm.hpp"
 
 namespace gnbv {
 namespace {
@@ -100,17 +103,12 @@ TEST_F(SweepFile, UtilitiesPresetsAndVariantsStandSideBySideTimesTheGrid) {
 }
 
 TEST_F(SweepFile, APresetDoesNotUndoWhatIsSetBesideIt) {
-  const std::string before = "scenarios: smoke\nset: {planner.utility.density_term: ";
-  for (const std::string term : {"literal", "sparse"}) {
-    for (const Cell& cell : cells_of(read(before + term + "}\npresets: [paper, released]\n"))) {
-      std::string error = cell.method + " " + term;
-      Scenario same = cell.resolved;
-      EXPECT_EQ(CellNamer().id_of(same), cell.id) << error;
-      const Cell other =
-          cells_of(read("scenarios: {scenario: smoke, set: {planner.preset: " + cell.method +
-                        ", planner.utility.density_term: " + term + "}}\n"))[0];
-      EXPECT_EQ(other.id, cell.id) << error;
-    }
+  // fvs.tries is one of the switches that a preset sets
+  for (const Cell& cell : cells_of(
+           read("scenarios: smoke\nset: {planner.fvs.tries: 7}\npresets: [paper, released]\n"))) {
+    EXPECT_EQ(cell.resolved.planner.preset, cell.method);
+    EXPECT_EQ(cell.resolved.planner.fvs.tries, 7) << cell.method;
+    EXPECT_EQ(cell.resolved.planner.fvs.pool_clusters, cell.method == "released");
   }
 }
 
@@ -132,6 +130,8 @@ TEST_F(SweepFile, TheIdIsThatOfTheContent) {
   EXPECT_EQ(id("set: {planner.cloud.leaf_m: 0.05}\n"), cells[0].id);  // smoke's own
   EXPECT_NE(id("set: {planner.cloud.leaf_m: 0.051}\n"), cells[0].id);
   EXPECT_NE(id("seeds: [4]\n"), cells[0].id);
+  EXPECT_EQ(CellNamer().id_of(cells[0].resolved), cells[0].id);
+  EXPECT_NE(CellNamer("another version").id_of(cells[0].resolved), cells[0].id);
 }
 
 TEST_F(SweepFile, AMeshCountsByItsContentWhereverItLies) {
@@ -174,15 +174,15 @@ TEST_F(SweepFile, AllFaultsAreNamedAtOnceWithTheirLines) {
       "s.yaml:3: scenarios.1.bound: is no known key (did you mean 'bounds'?)\n"
       "s.yaml:3: scenarios.1.mesh: value 'none.obj': no such file\n"
       "s.yaml:4: utilites: is no known key (did you mean 'utilities'?)\n"
-      "s.yaml:6: variants.0: value '{set: {planner.cloud.leaf_m: 0.02}}': has no key 'name'\n"
-      "s.yaml:9: grid.planner.cloud.leaf_m: value '[]': the list is empty\n"
-      "s.yaml:12: set.seed: seeds are given by the key 'seeds'\n"
-      "s.yaml:13: seeds.1: value '-1': expects a whole number, 0 or more\n"
-      "s.yaml:13: seeds.2: value '1': is given twice\n"
       "s.yaml:5: planner.preset: value 'relesed': is no known name (did you mean 'released'? "
       "allowed: paper, released)\n"
+      "s.yaml:6: variants.0: value '{set: {planner.cloud.leaf_m: 0.02}}': has no key 'name'\n"
+      "s.yaml:8: planner.utilty: is no known key (did you mean 'planner.utility'?)\n"
+      "s.yaml:9: grid.planner.cloud.leaf_m: value '[]': the list is empty\n"
       "s.yaml:11: planner.agvs.step_m: value 'long': expects a number\n"
-      "s.yaml:8: planner.utilty: is no known key (did you mean 'planner.utility'?)");
+      "s.yaml:12: set.seed: seeds are given by the key 'seeds'\n"
+      "s.yaml:13: seeds.1: value '-1': expects a whole number, 0 or more\n"
+      "s.yaml:13: seeds.2: value '1': is given twice");
 }
 
 TEST_F(SweepFile, NamesStandForOneRowEach) {
@@ -202,6 +202,57 @@ TEST_F(SweepFile, ValuesReachTheScenarioAsTheyAreWritten) {
       sweep.scenarios[0].overrides,
       ElementsAre("workspace_m={min: [-4, -4, 0], max: [4, 4.5, 5]}", "structure.file.path=\"\"",
                   "planner.termination={max_iterations: 3}", "cameras.0.name=\"no\\\"7\""));
+}
+
+TEST_F(SweepFile, AFlowTextReadsBackAsTheSameValue) {
+  for (const char* text :
+       {"5", "\"5\"", "[1, 2.5, -3e-2]", "{a: {b: [1, two, \"3\"]}, c: true}", "\"a\\\"b\\\\c\"",
+        "[\"a, b\", \"c: d\", \"#e\", \"\", ~]", "\"\\x0a\""}) {
+    Faults faults;
+    const auto node = parse_document(text, {}, faults);
+    ASSERT_TRUE(node && faults.empty()) << text;
+    EXPECT_EQ(flow_yaml(*node), text);
+  }
+  // block text that would end within a list goes into quotes
+  Faults faults;
+  const auto block = parse_document("- a, b\n- 'c'\n- d\n- {e: f g}\n", {}, faults);
+  EXPECT_EQ(flow_yaml(*block), "[\"a, b\", \"c\", d, {e: f g}]");
+}
+
+TEST(BatchScript, ItsTasksFlyEveryCellOnceAndAreNoMoreThanAllowed) {
+  TempFolder temp;
+  for (const auto& [cells, allowed] :
+       {std::pair<std::size_t, std::size_t>{1, 1001}, {6, 6}, {7, 6}, {12, 6}, {13, 6}, {5, 1}}) {
+    SlurmOptions options;
+    options.program = "/bin/echo";
+    options.sweep_file = temp.path() / "it's.yaml";
+    options.folder = temp.path();
+    options.cells = cells;
+    const fs::path script = temp.path() / "s.sbatch";
+    std::ofstream(script) << batch_script(options, allowed);
+    const std::string text = read_file(script);
+    const std::size_t tasks = std::stoul(text.substr(text.find("--array=0-") + 10)) + 1;
+    EXPECT_LE(tasks, allowed);
+    std::size_t next = 0;
+    for (std::size_t task = 0; task < tasks; ++task) {
+      const fs::path out = temp.path() / "out";
+      const std::string run = fmt::format("SLURM_ARRAY_TASK_ID={} bash '{}' | tail -1 > '{}'", task,
+                                          script.string(), out.string());
+      ASSERT_EQ(std::system(run.c_str()), 0);
+      const std::string echoed = read_file(out);
+      const std::string range = echoed.substr(echoed.find("--index ") + 8);
+      EXPECT_EQ(std::stoul(range), next) << cells << " " << allowed;
+      next = std::stoul(range.substr(range.find('-') + 1)) + 1;
+    }
+    EXPECT_EQ(next, cells);
+  }
+}
+
+TEST(BatchScript, ArgumentsOfTwoLinesAreRefused) {
+  SlurmOptions options;
+  options.cells = 1;
+  options.arguments = "--time=1\nrm -rf /";
+  EXPECT_THROW(batch_script(options, 10), BadInput);
 }
 
 TEST_F(SweepFile, MoreCellsThanAnybodyMeansAreRefused) {

@@ -162,6 +162,7 @@ void run_indexed(const SweepOptions& options, const Sweep& sweep) {
   }
   RunCellsOptions run = run_options(options);
   run.wait_for_locked = false;
+  run.quiet = options.quiet || cells.size() == 1;
   const std::vector<CellOutcome> outcomes = run_cells(cells, run);
   if (options.json) fmt::print("{}", cells_json(cells, outcomes));
   for (std::size_t i = 0; i < cells.size() && !options.json; ++i) {

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 
 #include "scenarios/scenario.hpp"
 
@@ -11,6 +12,8 @@ namespace gnbv {
 /// Names cells; remembers the content of the files it has read.
 class CellNamer {
  public:
+  explicit CellNamer(std::string version = GNBV_VERSION) : version_(std::move(version)) {}
+
   /// 16 hexadecimal digits of the SHA-256 of the program's version and the resolved scenario, in
   /// which files (a mesh, a saved profile) are named by the SHA-256 of their content: the same on
   /// every machine, wherever the files lie. A file that the mesh refers to (the .bin of a .gltf) is
@@ -20,6 +23,7 @@ class CellNamer {
  private:
   std::string content_path(const std::string& path);
 
+  std::string version_;
   std::map<std::string, std::string> content_paths_;
 };
 

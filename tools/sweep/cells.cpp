@@ -1,12 +1,11 @@
 #include <algorithm>
 #include <map>
-#include <set>
-#include <sstream>
 
 #include "sim/core/error.hpp"
 #include "tools/mission/resolve.hpp"
 #include "tools/sweep/cell_id.hpp"
 #include "tools/sweep/sweep.hpp"
+#include "tools/sweep/sweep_yaml.hpp"
 
 namespace gnbv {
 namespace {
@@ -58,25 +57,6 @@ class Resolver {
   std::map<std::string, Box3> bounds_m_;
 };
 
-/// Faults of many cells: each line once, in the order of the first cell that has it.
-class CellFaults {
- public:
-  void add(const std::string& message) {
-    std::istringstream lines(message);
-    for (std::string line; std::getline(lines, line);) {
-      if (!seen_.insert(line).second) continue;
-      text_ += (text_.empty() ? "" : "\n") + line;
-    }
-  }
-  void throw_if_any() const {
-    if (!text_.empty()) throw BadInput(text_);
-  }
-
- private:
-  std::set<std::string> seen_;
-  std::string text_;
-};
-
 Cell make_cell(const SweepScenario& scenario, const SweepMethod& method, std::uint64_t seed,
                const Scenario& resolved, CellNamer& namer) {
   Cell cell = {scenario.name, method.name, seed, "", resolved};
@@ -94,7 +74,7 @@ std::size_t cell_count(const Sweep& sweep) {
 std::vector<Cell> cells_of(const Sweep& sweep) {
   Resolver resolver(sweep);
   CellNamer namer;
-  CellFaults faults;
+  std::string faults;  // of all cells
   std::vector<Cell> cells;
   cells.reserve(cell_count(sweep));
   for (const SweepScenario& scenario : sweep.scenarios) {
@@ -105,11 +85,11 @@ std::vector<Cell> cells_of(const Sweep& sweep) {
           cells.push_back(make_cell(scenario, method, seed, resolved, namer));
         }
       } catch (const BadInput& error) {
-        faults.add(error.what());
+        faults += fmt::format("{}\n", error.what());
       }
     }
   }
-  faults.throw_if_any();
+  if (!faults.empty()) throw BadInput(in_order_of_lines(faults));
   return cells;
 }
 

@@ -51,7 +51,7 @@ class SweepReader {
     } catch (const BadInput& error) {
       text += fmt::format("\n{}", error.what());
     }
-    throw BadInput(text);
+    throw BadInput(in_order_of_lines(text));
   }
 
   std::string absolute(const std::string& path) const {

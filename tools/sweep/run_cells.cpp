@@ -56,6 +56,7 @@ class Pool {
 
   std::vector<CellOutcome> run() {
     const InterruptGuard interrupt(2);
+    std::signal(SIGCHLD, SIG_DFL);  // where a launcher ignores it, nobody learns how a child ended
     try {
       while (!is_over()) {
         pass_on_interrupts();
@@ -203,6 +204,7 @@ class Pool {
 
   void settle(std::size_t index, const CellOutcome& outcome) {
     outcomes_[index] = outcome;
+    if (outcome.status == CellStatus::missing) return;
     settled_ += 1;
     failed_ += outcome.status == CellStatus::failed ? 1 : 0;
     const std::size_t all = first_of_id_.size();

@@ -1,8 +1,12 @@
 #include "tools/sweep/sweep_yaml.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
+#include <sstream>
+#include <utility>
 
 #include "scenarios/flow_yaml.hpp"
 
@@ -78,6 +82,36 @@ Settings SweepYaml::settings_of(const YamlNode* node, const std::string& path) {
     }
   }
   return settings;
+}
+
+namespace {
+
+/// "file:12: what" is in line 12 of the file; line 0 without one.
+std::pair<std::string, int> place_of(const std::string& fault) {
+  for (std::size_t at = fault.find(':'); at != std::string::npos; at = fault.find(':', at + 1)) {
+    int line = 0;
+    const char* const end = fault.data() + fault.size();
+    const auto read = std::from_chars(fault.data() + at + 1, end, line);
+    if (read.ec == std::errc{} && read.ptr != end && *read.ptr == ':') {
+      return {fault.substr(0, at), line};
+    }
+  }
+  return {"", 0};
+}
+
+}  // namespace
+
+std::string in_order_of_lines(const std::string& faults) {
+  std::vector<std::string> lines;
+  std::istringstream stream(faults);
+  std::set<std::string> seen;
+  for (std::string line; std::getline(stream, line);) {
+    if (seen.insert(line).second) lines.push_back(line);
+  }
+  std::stable_sort(lines.begin(), lines.end(), [](const std::string& a, const std::string& b) {
+    return place_of(a) < place_of(b);
+  });
+  return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
 }  // namespace gnbv

@@ -50,4 +50,7 @@ class SweepYaml {
   Faults faults_;
 };
 
+/// Faults of many origins, one a line: each once, those of a file together and in its order.
+std::string in_order_of_lines(const std::string& faults);
+
 }  // namespace gnbv
