@@ -165,10 +165,10 @@ void need_same(const BaselineSubject& baseline, const BaselineSubject& run, cons
   throw BadInput(fmt::format("{}: is of something else:{}", path.string(), differences));
 }
 
-Verdict judge(const BaselineMetric& metric, double now) {
+GateVerdict judge(const BaselineMetric& metric, double now) {
   const double gain = metric.better == Better::lower ? metric.value - now : now - metric.value;
-  if (std::abs(gain) <= metric.tolerance) return Verdict::kept;
-  return gain > 0.0 && metric.better != Better::same ? Verdict::better : Verdict::regressed;
+  if (std::abs(gain) <= metric.tolerance) return GateVerdict::kept;
+  return gain > 0.0 && metric.better != Better::same ? GateVerdict::better : GateVerdict::regressed;
 }
 
 }  // namespace

@@ -52,12 +52,12 @@ std::string to_json(const Baseline& baseline);
 /// shares, 0.005 m for Chamfer, a tenth of the value for all other metrics.
 Baseline make_baseline(const RunFigures& run, const std::optional<Baseline>& before);
 
-enum class Verdict { kept, better, regressed };
+enum class GateVerdict { kept, better, regressed };
 
 struct MetricChange {
   BaselineMetric baseline;
   double now = 0.0;
-  Verdict verdict = Verdict::kept;
+  GateVerdict verdict = GateVerdict::kept;
 };
 
 struct BaselineCheck {

@@ -29,9 +29,10 @@ struct LegalViewpoints {
   double step_m = 0.0;
   Vec3 start_world_m = Vec3::Zero();
   std::vector<Vec3> p_world_m = {};
-  std::vector<std::array<std::int32_t, 3>> cell = {};       // steps from the corner, of each position
-  std::vector<std::vector<std::uint32_t>> neighbours = {};  // of each: where clear straight legs lead
-  std::vector<std::uint32_t> near_start = {};          // where clear legs from the start lead
+  std::vector<std::array<std::int32_t, 3>> cell = {};  // steps from the corner, of each position
+  std::vector<std::vector<std::uint32_t>> neighbours =
+      {};                                      // of each: where clear straight legs lead
+  std::vector<std::uint32_t> near_start = {};  // where clear legs from the start lead
 
   std::size_t size() const { return p_world_m.size(); }
 };

@@ -228,8 +228,8 @@ std::vector<Decision> plan_oracle(const Scenario& scenario, const World& world,
         start.p_world_m.x(), start.p_world_m.y(), start.p_world_m.z(),
         scenario.planner.validity.collision_radius_m));
   }
-  const SurfaceReference reference = make_surface_reference(
-      world, scene, {.floor_z_m = scenario.planner.floor_z_m}, threads);
+  const SurfaceReference reference =
+      make_surface_reference(world, scene, {.floor_z_m = scenario.planner.floor_z_m}, threads);
   const ViewSurvey survey = cached_survey(ceiling_key(scenario, world, legal), scenario, scene,
                                           legal, reference, threads);
   return Oracle(scenario, scene, legal, reference, survey, start, threads).plan(aim);

@@ -22,8 +22,8 @@ constexpr double kOracleShare = 0.99;
 /// What a view costs beside its metres, for the aim metres.
 constexpr double kMetresPerView = 1.0;
 
-/// The views after the first one, which is `start`, in the order in which they are to be flown, with
-/// the ways there, every one of which keeps the collision radius from the structure.
+/// The views after the first one, which is `start`, in the order in which they are to be flown,
+/// with the ways there, every one of which keeps the collision radius from the structure.
 ///
 /// Views of the survey (view_survey.hpp) are taken greedily, those that find the most new voxels
 /// first, or the most per metre of detour and kMetresPerView, until the cloud they leave

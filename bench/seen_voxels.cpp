@@ -151,10 +151,19 @@ FreeYawCamera::FreeYawCamera(const CameraModel& camera)
       p_body_m_(camera.config.p_body_m) {
   const Isometry T_camera_body = camera.T_body_camera.inverse();
   offset_camera_m_ = T_camera_body.translation();
-  for (const double share : {0.0, 0.5, -0.5, 0.8, -0.8, 0.99, -0.99}) {
-    const double rad = camera.config.yaw_rad + share * 0.5 * camera.config.fov_x_rad;
-    bearings_.push_back({rad, T_camera_body.linear() * Vec3(std::cos(rad), std::sin(rad), 0.0),
-                         T_camera_body.linear().col(2)});
+  // seen by a tilted camera, bearings outside its field of view are in the image, too
+  const double half_rad = 0.5 * camera.config.fov_x_rad;
+  const double last_share = camera.config.pitch_rad == 0.0 ? 1.0 : kPi / half_rad;
+  const Vec3 aside = Eigen::AngleAxisd(camera.config.yaw_rad, Vec3::UnitZ()) * Vec3::UnitY();
+  const bool is_symmetric = camera.config.roll_rad == 0.0 && std::abs(aside.dot(p_body_m_)) < 1e-9;
+  for (const double share : {0.0, 0.5, 0.8, 0.99, 1.1, 1.25, 1.5, 2.0, 3.0, 4.0}) {
+    if (share > last_share) break;
+    for (const double side : {1.0, -1.0}) {
+      if (side < 0.0 && (is_symmetric || share == 0.0)) continue;
+      const double rad = camera.config.yaw_rad + side * share * half_rad;
+      bearings_.push_back({rad, T_camera_body.linear() * Vec3(std::cos(rad), std::sin(rad), 0.0),
+                           T_camera_body.linear().col(2)});
+    }
   }
 }
 

@@ -90,7 +90,8 @@ Tour kicked(const Tour& tour, std::uint64_t kick) {
   }
   std::sort(cuts.begin(), cuts.end());
   Tour other = tour;
-  std::rotate(other.begin() + at(cuts[0]), other.begin() + at(cuts[1]), other.begin() + at(cuts[2]));
+  std::rotate(other.begin() + at(cuts[0]), other.begin() + at(cuts[1]),
+              other.begin() + at(cuts[2]));
   return other;
 }
 

@@ -29,8 +29,7 @@ double reach_m(std::span<const CameraModel> cameras) {
   double farthest_m = 0.0;
   for (const CameraModel& camera : cameras) {
     const CameraConfig& c = camera.config;
-    const double corner =
-        std::hypot(1.0, std::tan(0.5 * c.fov_x_rad), std::tan(0.5 * c.fov_y_rad));
+    const double corner = std::hypot(1.0, std::tan(0.5 * c.fov_x_rad), std::tan(0.5 * c.fov_y_rad));
     farthest_m = std::max(farthest_m, c.p_body_m.norm() + c.range_max_m * corner);
   }
   return farthest_m;

@@ -34,7 +34,7 @@ RunFigures run() {
   return run;
 }
 
-std::vector<std::string> with_verdict(const BaselineCheck& check, Verdict verdict) {
+std::vector<std::string> with_verdict(const BaselineCheck& check, GateVerdict verdict) {
   std::vector<std::string> names;
   for (const MetricChange& change : check.metrics) {
     if (change.verdict == verdict) names.push_back(change.baseline.name);
@@ -45,7 +45,7 @@ std::vector<std::string> with_verdict(const BaselineCheck& check, Verdict verdic
 TEST(Baseline, OfARunKeepsThatRun) {
   const Baseline baseline = make_baseline(run(), std::nullopt);
   const BaselineCheck check = check_against(baseline, "b.json", run());
-  EXPECT_EQ(with_verdict(check, Verdict::kept).size(), metric_names().size());
+  EXPECT_EQ(with_verdict(check, GateVerdict::kept).size(), metric_names().size());
   EXPECT_FALSE(check.is_hash_wrong);
 }
 
@@ -63,12 +63,12 @@ TEST(Baseline, EachMetricRegressesAndImprovesBeyondItsToleranceOnly) {
         metric.value = value - steps * metric.tolerance;
         const bool is_beyond = std::abs(steps) > 1.0;
         const bool is_gain = better != Better::same && (better == Better::higher) == (steps > 0.0);
-        const Verdict expected = !is_beyond ? Verdict::kept
-                                 : is_gain  ? Verdict::better
-                                            : Verdict::regressed;
+        const GateVerdict expected = !is_beyond ? GateVerdict::kept
+                                     : is_gain  ? GateVerdict::better
+                                                : GateVerdict::regressed;
         const BaselineCheck check = check_against(baseline, "b.json", run());
         EXPECT_EQ(check.metrics[i].verdict, expected) << metric.name << " " << steps;
-        EXPECT_EQ(with_verdict(check, Verdict::kept).size(),
+        EXPECT_EQ(with_verdict(check, GateVerdict::kept).size(),
                   metric_names().size() - (is_beyond ? 1 : 0));
       }
     }

@@ -34,14 +34,14 @@ std::array<Row, 4> rows_of(const Ceiling& ceiling) {
 }
 
 std::string json_text(const Scenario& scenario, const Ceiling& ceiling, double wall_s) {
-  nlohmann::ordered_json out = {{"schema", "gnbv-ceiling-1"},
-                                {"scenario", scenario.name},
-                                {"structure", scenario.structure.file.path.empty()
-                                                  ? scenario.structure.builtin
-                                                  : scenario.structure.file.path},
-                                {"seed", scenario.seed},
-                                {"positions", ceiling.positions},
-                                {"frames", ceiling.frames}};
+  nlohmann::ordered_json out = {
+      {"schema", "gnbv-ceiling-1"},
+      {"scenario", scenario.name},
+      {"structure", scenario.structure.file.path.empty() ? scenario.structure.builtin
+                                                         : scenario.structure.file.path},
+      {"seed", scenario.seed},
+      {"positions", ceiling.positions},
+      {"frames", ceiling.frames}};
   for (const Row& row : rows_of(ceiling)) {
     out[row.key] = {{"0.05", row.share[0]}, {"0.10", row.share[1]}, {"0.50", row.share[2]}};
   }
@@ -50,8 +50,8 @@ std::string json_text(const Scenario& scenario, const Ceiling& ceiling, double w
 }
 
 std::string terminal_text(const Ceiling& ceiling, double wall_s) {
-  std::string text = fmt::format("{:<44}{:>9}{:>9}{:>9}\n", "share of the voxels", "0.05 m",
-                                 "0.10 m", "0.50 m");
+  std::string text =
+      fmt::format("{:<44}{:>9}{:>9}{:>9}\n", "share of the voxels", "0.05 m", "0.10 m", "0.50 m");
   for (const Row& row : rows_of(ceiling)) {
     text += fmt::format("{:<44}{:>7.1f} %{:>7.1f} %{:>7.1f} %\n", row.text, 100.0 * row.share[0],
                         100.0 * row.share[1], 100.0 * row.share[2]);
@@ -72,13 +72,12 @@ void ceiling(const CeilingOptions& options) {
   const RayScene scene(world);
   ProgressBar progress(fmt::format("{} ceiling", scenario.name), options.quiet);
   progress.show(0.0, "looking from every legal viewpoint");
-  const Ceiling found =
-      find_ceiling(scenario, world, scene, start_pose(scenario, scene), threads);
+  const Ceiling found = find_ceiling(scenario, world, scene, start_pose(scenario, scene), threads);
   progress.show(1.0, "done");
   const double wall_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  fmt::print("{}", options.json ? json_text(scenario, found, wall_s)
-                                : terminal_text(found, wall_s));
+  fmt::print("{}",
+             options.json ? json_text(scenario, found, wall_s) : terminal_text(found, wall_s));
 }
 
 }  // namespace

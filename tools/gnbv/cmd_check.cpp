@@ -22,13 +22,13 @@ struct CheckOptions {
   bool json = false;
 };
 
-std::string_view name_of(Verdict verdict) {
+std::string_view name_of(GateVerdict verdict) {
   switch (verdict) {
-    case Verdict::kept:
+    case GateVerdict::kept:
       return "kept";
-    case Verdict::better:
+    case GateVerdict::better:
       return "better";
-    case Verdict::regressed:
+    case GateVerdict::regressed:
       return "regressed";
   }
   GNBV_CHECK(false, "verdict {}", static_cast<int>(verdict));
@@ -38,7 +38,7 @@ std::string terminal_text(const BaselineCheck& check) {
   std::string text;
   std::size_t kept = 0;
   for (const MetricChange& change : check.metrics) {
-    if (change.verdict == Verdict::kept) {
+    if (change.verdict == GateVerdict::kept) {
       ++kept;
       continue;
     }
@@ -87,7 +87,7 @@ void check(const CheckOptions& options) {
   std::size_t regressed = check.is_hash_wrong ? 1 : 0;
   std::string names = check.is_hash_wrong ? " result_sha256" : "";
   for (const MetricChange& change : check.metrics) {
-    if (change.verdict != Verdict::regressed) continue;
+    if (change.verdict != GateVerdict::regressed) continue;
     ++regressed;
     names += " " + change.baseline.name;
   }

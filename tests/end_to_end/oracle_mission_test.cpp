@@ -1,0 +1,114 @@
+// Missions of the oracle: planned on the mesh, flown and scored like the others.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <map>
+
+#include "bench/oracle.hpp"
+#include "sim/core/error.hpp"
+#include "tests/support/flown.hpp"
+#include "tests/support/temp_folder.hpp"
+#include "tools/mission/iterations_csv.hpp"
+#include "tools/mission/run_directory.hpp"
+#include "tools/mission/score.hpp"
+#include "tools/mission/start_pose.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+
+Scenario oracle_smoke(const std::string& utility, const std::string& max_iterations = "100") {
+  // an entropy that hardly changes would end any other mission
+  return smoke({"planner.utility.name=" + utility,
+                "planner.termination.max_iterations=" + max_iterations,
+                "planner.termination.entropy_change_percent=1"});
+}
+
+const std::vector<Decision>& route_of(const std::string& utility) {
+  static std::map<std::string, std::vector<Decision>> routes;
+  if (!routes.contains(utility)) {
+    setenv("GNBV_CACHE", "", 1);
+    const Scenario scenario = oracle_smoke(utility);
+    std::vector<std::string> warnings;
+    const World world = load_world(scenario, warnings);
+    const RayScene scene(world);
+    routes[utility] =
+        plan_oracle(scenario, world, scene, start_pose(scenario, scene), aim_of(utility), 2);
+  }
+  return routes[utility];
+}
+
+MissionHooks with_route(const std::string& utility) {
+  MissionHooks hooks;
+  hooks.route = route_of(utility);
+  return hooks;
+}
+
+class OracleMission : public testing::TestWithParam<const char*> {};
+
+TEST_P(OracleMission, FliesItsWholeRouteAndFindsNearlyAll) {
+  const std::string utility = GetParam();
+  const Flown flight(oracle_smoke(utility), with_route(utility));
+  EXPECT_EQ(flight.result.termination, Termination::route_flown);
+  ASSERT_EQ(flight.result.views.size(), route_of(utility).size() + 1);
+  EXPECT_EQ(flight.result.legs_timed_out, 0);
+  for (std::size_t i = 1; i < flight.result.views.size(); ++i) {
+    const Decision& flown = flight.result.views[i].decision;
+    EXPECT_EQ(flown.view.p_world_m, route_of(utility)[i - 1].view.p_world_m);
+    EXPECT_EQ(flown.sampler, "oracle");
+  }
+  const SurfaceReference reference = make_surface_reference(
+      flight.world, flight.scene, {.floor_z_m = flight.scenario.planner.floor_z_m}, 2);
+  // all of smoke can be seen; what a real vehicle's errors cost beside kOracleShare is little
+  EXPECT_GT(score_mission(reference, flight.result).final[0], kOracleShare - 0.03);
+}
+
+TEST_P(OracleMission, IsCutOffAtMaxIterations) {
+  const std::string utility = GetParam();
+  const Flown flight(oracle_smoke(utility, "3"), with_route(utility));
+  EXPECT_EQ(flight.result.termination, Termination::max_iterations);
+  EXPECT_EQ(flight.result.views.size(), 3U);
+}
+
+TEST_P(OracleMission, ResumedEqualsTheUninterruptedOne) {
+  const std::string utility = GetParam();
+  TempFolder temp;
+  const Scenario scenario = oracle_smoke(utility);
+  const auto fly = [&](std::size_t stop_after, bool resume) {
+    RunDirectory directory(temp.path() / "run", scenario, resume);
+    std::size_t views = 0;
+    MissionHooks hooks = with_route(utility);
+    hooks.on_view = [&](const ViewRecord& view) {
+      directory.append(view);
+      ++views;
+    };
+    hooks.should_stop = [&] { return views >= stop_after; };
+    hooks.replay = directory.recorded();
+    return Flown(scenario, hooks).result;
+  };
+  EXPECT_EQ(fly(4, false).termination, Termination::interrupted);
+  const std::vector<Decision> recorded = read_decisions(temp.path() / "run/iterations.csv.part");
+  ASSERT_EQ(recorded.size(), 4U);
+  EXPECT_EQ(recorded[3].sampler, "oracle");
+  EXPECT_EQ(recorded[3].score.value, route_of(utility)[2].score.value);
+  const MissionResult resumed = fly(1000, true);
+  EXPECT_EQ(result_sha256(resumed), result_sha256(Flown(scenario, with_route(utility), 1).result));
+}
+
+INSTANTIATE_TEST_SUITE_P(BothAims, OracleMission, testing::Values("oracle_views", "oracle_metres"));
+
+TEST(OracleRoute, WithoutOneTheMissionIsRefused) {
+  EXPECT_THROW(Flown(oracle_smoke("oracle_views")), BrokenInvariant);
+}
+
+TEST(OracleRoute, EmptyEndsAfterTheFirstView) {
+  MissionHooks hooks;
+  hooks.route.emplace();
+  const Flown flight(oracle_smoke("oracle_views"), hooks);
+  EXPECT_EQ(flight.result.termination, Termination::route_flown);
+  EXPECT_EQ(flight.result.views.size(), 1U);
+}
+
+}  // namespace
+}  // namespace gnbv
