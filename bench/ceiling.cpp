@@ -13,7 +13,7 @@ constexpr std::string_view kKind = "ceiling-1";
 Ceiling compute(const std::string& key, const Scenario& scenario, const World& world,
                 const RayScene& scene, const LegalViewpoints& legal, int threads) {
   const ReferenceConfig config{.floor_z_m = scenario.planner.floor_z_m};
-  const SurfaceReference reference = make_surface_reference(world, scene, config, threads);
+  const SurfaceReference reference = cached_surface_reference(world, scene, config, threads);
   const VoxelSet seen =
       seen_voxels(world, scene, exact_cameras(scenario), legal.p_world_m, config, threads);
   const ViewSurvey survey = cached_survey(key, scenario, scene, legal, reference, threads);

@@ -229,7 +229,7 @@ std::vector<Decision> plan_oracle(const Scenario& scenario, const World& world,
         scenario.planner.validity.collision_radius_m));
   }
   const SurfaceReference reference =
-      make_surface_reference(world, scene, {.floor_z_m = scenario.planner.floor_z_m}, threads);
+      cached_surface_reference(world, scene, {.floor_z_m = scenario.planner.floor_z_m}, threads);
   const ViewSurvey survey = cached_survey(ceiling_key(scenario, world, legal), scenario, scene,
                                           legal, reference, threads);
   return Oracle(scenario, scene, legal, reference, survey, start, threads).plan(aim);
