@@ -78,7 +78,7 @@ std::string markdown_escaped(std::string_view text) {
 
 /// LaTeX's ten special characters, and the signs of ours that its default fonts lack.
 std::string latex_escaped(std::string_view text) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kEscapes = {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kEscapes = {
       {{"\\", "\\textbackslash{}"},
        {"&", "\\&"},
        {"%", "\\%"},
@@ -89,6 +89,7 @@ std::string latex_escaped(std::string_view text) {
        {"}", "\\}"},
        {"~", "\\textasciitilde{}"},
        {"^", "\\textasciicircum{}"},
+       {"--", "-{}-"},  // else a dash
        {"±", "$\\pm$"},
        {"†", "$^\\dagger$"},
        {"\n", " "}}};
