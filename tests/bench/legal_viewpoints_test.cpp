@@ -62,10 +62,10 @@ TEST(LegalViewpoints, FillAnEmptyRoomToItsFaces) {
 }
 
 TEST(LegalViewpoints, KeepTheRadiusOnEveryLeg) {
-  const World world{wall_with_door(1.5), true};
+  const World world{wall_with_door(1.1), true};
   const RayScene scene(world);
   const LegalViewpoints legal =
-      find_legal_viewpoints(scene, kRoom, kRadius_m, 0.7, Vec3(-2, 0, 2), 2);
+      find_legal_viewpoints(scene, kRoom, kRadius_m, 0.36, Vec3(-2, 0, 2), 2);
   for (std::size_t i = 0; i < legal.size(); ++i) {
     for (const std::uint32_t j : legal.neighbours[i]) {
       for (double t = 0.0; t <= 1.0; t += 0.05) {
