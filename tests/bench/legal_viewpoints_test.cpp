@@ -62,10 +62,14 @@ TEST(LegalViewpoints, FillAnEmptyRoomToItsFaces) {
 }
 
 TEST(LegalViewpoints, KeepTheRadiusOnEveryLeg) {
-  const World world{wall_with_door(1.1), true};
+  // a pole in the middle between positions that are clear of it themselves
+  TriangleMesh pole;
+  test::add_box(pole, Vec3(0.18, 0.18, 0.0), Vec3(0.04, 0.04, 4.0));
+  const World world{pole, true};
   const RayScene scene(world);
   const LegalViewpoints legal =
-      find_legal_viewpoints(scene, kRoom, kRadius_m, 0.36, Vec3(-2, 0, 2), 2);
+      find_legal_viewpoints(scene, kRoom, kRadius_m, 1.2, Vec3(-2, 0, 2), 2);
+  ASSERT_EQ(legal.size(), 7U * 7U * 4U);
   for (std::size_t i = 0; i < legal.size(); ++i) {
     for (const std::uint32_t j : legal.neighbours[i]) {
       for (double t = 0.0; t <= 1.0; t += 0.05) {
