@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "bench/paper_table.hpp"
+#include "planner/routes.hpp"
 #include "sim/core/error.hpp"
 #include "tools/gnbv/bench_runs.hpp"
 #include "tools/gnbv/commands.hpp"
@@ -23,6 +25,16 @@ const PaperTable& paper_table_of(const Scenario& scenario, const std::string& as
       fmt::format("{}: the paper has no table for this scenario; it has:{}", asked_for, known));
 }
 
+/// An oracle is to show what is possible: the paper's number of views is no bound for it, but one
+/// that the user sets is.
+constexpr const char* kToTheEnd = "planner.termination.max_iterations=100000";
+
+bool sets_max_iterations(const std::vector<std::string>& overrides) {
+  return std::any_of(overrides.begin(), overrides.end(), [](const std::string& set) {
+    return set.starts_with("planner.termination.max_iterations=");
+  });
+}
+
 Sweep sweep_of(const TableOptions& options, const PaperTable& paper, std::uint64_t first_seed) {
   Sweep sweep;
   SweepScenario scenario{.name = std::string(paper.scenario),
@@ -34,12 +46,19 @@ Sweep sweep_of(const TableOptions& options, const PaperTable& paper, std::uint64
   scenario.overrides.insert(scenario.overrides.end(), options.overrides.begin(),
                             options.overrides.end());
   sweep.scenarios = {scenario};
-  std::vector<std::string> utilities;
-  for (const PaperRow& row : paper.rows) utilities.emplace_back(row.utility);
-  if (!options.no_oracle) utilities.insert(utilities.end(), {"oracle_views", "oracle_metres"});
-  for (const std::string& utility : utilities) {
-    // after the scenario's, so that it is the row's whatever the user set
-    sweep.methods.push_back({utility, {"planner.utility.name=" + utility}});
+  // after the scenario's, so that it is the row's whatever the user set
+  const auto add_row = [&](std::string_view utility) {
+    sweep.methods.push_back(
+        {std::string(utility), {fmt::format("planner.utility.name={}", utility)}});
+  };
+  for (const PaperRow& row : paper.rows) add_row(row.utility);
+  if (!options.no_oracle) {
+    for (const std::string_view oracle : kOracleNames) {
+      add_row(oracle);
+      if (!sets_max_iterations(options.overrides)) {
+        sweep.methods.back().overrides.push_back(kToTheEnd);
+      }
+    }
   }
   sweep.seeds = seeds_from(first_seed, options.seed_count);
   return sweep;
