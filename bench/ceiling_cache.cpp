@@ -11,7 +11,7 @@
 namespace gnbv {
 namespace {
 
-constexpr std::string_view kSurveyKind = "view_survey-1";
+constexpr std::string_view kSurveyKind = "view_survey-2";
 
 /// Numbers one after the other; counts in groups of seven bits, the lowest first.
 class Writer {
@@ -80,6 +80,7 @@ std::string ceiling_key(const Scenario& scenario, const World& world,
   Sha256 sha;
   sha.add(std::uint64_t{world.structure.vertices_m.size()});
   for (const Vec3f& v : world.structure.vertices_m) sha.add(std::span<const float>(v.data(), 3));
+  sha.add(std::uint64_t{world.structure.faces.size()});
   for (const auto& face : world.structure.faces) sha.add(std::span<const std::uint32_t>(face));
   sha.add(world.has_ground);
   sha.add(std::uint64_t{scenario.cameras.size()});
@@ -90,7 +91,9 @@ std::string ceiling_key(const Scenario& scenario, const World& world,
   sha.add(scenario.planner.floor_z_m);
   sha.add(scenario.planner.cloud.leaf_m);
   sha.add(legal.step_m);
+  sha.add(std::uint64_t{legal.size()});
   for (const Vec3& p : legal.p_world_m) add(sha, p);
+  for (const auto& cell : legal.cell) sha.add(std::span<const std::int32_t>(cell));
   return sha.hex();
 }
 

@@ -56,8 +56,12 @@ std::string terminal_text(const Ceiling& ceiling, double wall_s) {
     text += fmt::format("{:<44}{:>7.1f} %{:>7.1f} %{:>7.1f} %\n", row.text, 100.0 * row.share[0],
                         100.0 * row.share[1], 100.0 * row.share[2]);
   }
-  return text + fmt::format("{} legal positions, {} frames through the cloud, {:.1f} s\n",
-                            ceiling.positions, ceiling.frames, wall_s);
+  return text +
+         fmt::format(
+             "{} legal positions, {} frames through the cloud, {:.1f} s\n"
+             "of exact cameras alone: the profile's LIDAR and noise can lift a mission above "
+             "it\n",
+             ceiling.positions, ceiling.frames, wall_s);
 }
 
 void ceiling(const CeilingOptions& options) {
