@@ -181,6 +181,64 @@ TEST_F(Score, OfAMeshFileIsThatOfTheStructureItHolds) {
   EXPECT_NE(high.at("coverage"), b.at("coverage"));
 }
 
+TEST_F(Score, OfACloudDoesNotDependOnItsGround) {
+  std::vector<Vec3f> points = read_cloud(original() / "cloud.ply");
+  for (int i = 0; i < 50; ++i) {
+    points.emplace(points.begin() + 7 * i, 0.1F * static_cast<float>(i), 0.0F, -0.01F);
+  }
+  const std::string file = (temp_.path() / "ground.ply").string();
+  write_cloud_ply(points, file);
+  const Outcome outcome = gnbv("score " + file + " --scenario smoke --json 2>/dev/null");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const Json with_ground = Json::parse(outcome.output);
+  const Json run = summary_of(original());
+  EXPECT_EQ(with_ground.at("points_below_floor"), 50);
+  EXPECT_EQ(with_ground.at("points"), points.size() - 50);
+  EXPECT_EQ(with_ground.at("coverage").at("final"), run.at("coverage").at("final"));
+  for (const char* key : {"precision_recall", "chamfer_m", "density"}) {
+    EXPECT_EQ(with_ground.at(key), run.at(key)) << key;
+  }
+  const Outcome told = gnbv("score " + file + " --scenario smoke");
+  EXPECT_TRUE(has(told, "50 points below z = 0.3 m left out")) << told.output;
+}
+
+/// Every file of a run that does not fit the others, each alone.
+TEST_F(Score, OfARunWhoseFilesDoNotFitNamesTheFile) {
+  const fs::path run = copy();
+  const auto expect_refused = [&](const char* file, const std::string& content,
+                                  const std::string& words, const std::string& option = "") {
+    const std::string whole = read_file(run / file);
+    write_file_atomically(run / file, content);
+    const Outcome outcome = gnbv("score " + run.string() + option);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+    EXPECT_TRUE(has(outcome, (run / file).string() + ": " + words)) << outcome.output;
+    write_file_atomically(run / file, whole);
+  };
+  const std::string rows = read_file(run / "iterations.csv");
+  const std::size_t last = rows.rfind('\n', rows.size() - 2) + 1;
+  expect_refused("iterations.csv", rows.substr(0, last), "11 views, 12 in summary.json");
+  Json summary = summary_of(run);
+  summary["iterations"] = "12";
+  expect_refused("summary.json", summary.dump(), "iterations: is missing or no count");
+  for (const Json& schema : {Json(3), Json(-1), Json("2"), Json(1.5)}) {
+    summary = summary_of(run);
+    summary["schema"] = schema;
+    expect_refused("summary.json", summary.dump(), "schema: " + schema.dump(), " --update");
+  }
+  summary = summary_of(run);
+  summary.erase("coverage");
+  expect_refused("summary.json", summary.dump(), "is not the summary of a run", " --update");
+
+  std::vector<Vec3f> points = read_cloud(run / "cloud.ply");
+  points[5].z() = std::numeric_limits<float>::infinity();
+  write_cloud_ply(points, temp_.path() / "infinite.ply");
+  expect_refused("cloud.ply", read_file(temp_.path() / "infinite.ply"), "point 5 ");
+  points[5].z() = 60000.0F;
+  write_cloud_ply(points, temp_.path() / "far.ply");
+  expect_refused("cloud.ply", read_file(temp_.path() / "far.ply"), "point 5 ");
+  EXPECT_EQ(gnbv("score " + run.string() + " --update").exit_code, 0);
+}
+
 /// Arguments after which `score` exits with 2 and one line that holds the words.
 struct Refused {
   std::string arguments;
