@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "sim/core/error.hpp"
 #include "tools/gnbv/commands.hpp"
@@ -117,9 +116,7 @@ Scored score_folder(const ScoreOptions& options, int threads) {
 }
 
 void score(const ScoreOptions& options) {
-  const int threads = options.threads > 0
-                          ? options.threads
-                          : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const int threads = thread_count(options.threads);
   const bool is_run = fs::is_directory(options.target);
   const Scored scored = is_run ? score_folder(options, threads) : score_file(options, threads);
   fmt::print("{}", options.json ? json_text(scored, is_run)

@@ -32,9 +32,8 @@ Scored score(const Scenario& scenario, const World& world, const RayScene& scene
   const auto scoring = Clock::now();
   const MissionScore found =
       score_cloud(reference, scene, cloud, scenario.planner.map.resolution_m, threads);
-  const StructureConfig& structure = scenario.structure;
   return {.score = found,
-          .structure = structure.file.path.empty() ? structure.builtin : structure.file.path,
+          .structure = structure_name(scenario.structure),
           .points = cloud.points_world_m.size(),
           .floor_z_m = floor_z_m,
           .reference_s = std::chrono::duration<double>(scoring - begin).count(),

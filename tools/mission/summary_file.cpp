@@ -4,6 +4,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "tools/mission/load_world.hpp"
 
 namespace gnbv {
 namespace {
@@ -95,8 +96,7 @@ std::string summary_json(const Scenario& scenario, const MissionResult& r,
   Json json = {
       {"schema", kSummarySchema},
       {"scenario", scenario.name},
-      {"structure", scenario.structure.file.path.empty() ? scenario.structure.builtin
-                                                         : scenario.structure.file.path},
+      {"structure", structure_name(scenario.structure)},
       {"utility", scenario.planner.utility.name},
       {"preset", scenario.planner.preset},
       {"vehicle", scenario.vehicle.kind == VehicleKind::ideal ? "ideal" : scenario.vehicle.preset},
