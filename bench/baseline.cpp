@@ -42,7 +42,7 @@ constexpr std::array<Metric, 12> kMetrics = {{
      Better::higher, kShareTolerance, 0.0},
     {"f", [](const RunFigures& r) { return r.distances.at[kScoreIndex].f; }, Better::higher,
      kShareTolerance, 0.0},
-    {"chamfer_m", [](const RunFigures& r) { return r.distances.chamfer_m; }, Better::lower, 0.005,
+    {"chamfer_m", [](const RunFigures& r) { return r.distances.chamfer_m; }, Better::lower, 0.001,
      0.0},
     {"density", [](const RunFigures& r) { return r.density.mean_points; }, Better::higher, 0.0,
      kRelativeTolerance},
@@ -80,6 +80,10 @@ class File {
     if (!seed.is_number_unsigned()) refuse("of.seed", seed, "is no count");
     return {text(of, "scenario"), text(of, "structure"),     text(of, "utility"),
             text(of, "preset"),   seed.get<std::uint64_t>(), text(of, "version")};
+  }
+
+  std::string termination() const {
+    return text_of(at(json_, "termination", "termination"), "termination");
   }
 
   std::vector<BaselineMetric> metrics() const {
@@ -148,7 +152,8 @@ class File {
   Json json_;
 };
 
-void need_same(const BaselineSubject& baseline, const BaselineSubject& run, const fs::path& path) {
+void need_same(const BaselineSubject& baseline, const BaselineSubject& run, bool needs_version,
+               const fs::path& path) {
   std::string differences;
   const auto compare = [&](const char* what, const auto& of_baseline, const auto& of_run) {
     if (of_baseline == of_run) return;
@@ -160,7 +165,7 @@ void need_same(const BaselineSubject& baseline, const BaselineSubject& run, cons
   compare("utility", baseline.utility, run.utility);
   compare("preset", baseline.preset, run.preset);
   compare("seed", baseline.seed, run.seed);
-  compare("version", baseline.version, run.version);
+  if (needs_version) compare("version", baseline.version, run.version);
   if (differences.empty()) return;
   throw BadInput(fmt::format("{}: is of something else:{}", path.string(), differences));
 }
@@ -173,15 +178,9 @@ GateVerdict judge(const BaselineMetric& metric, double now) {
 
 }  // namespace
 
-std::vector<std::string_view> metric_names() {
-  std::vector<std::string_view> names;
-  for (const Metric& metric : kMetrics) names.push_back(metric.name);
-  return names;
-}
-
 Baseline read_baseline(const fs::path& path) {
   const File file(path);
-  return {file.subject(), file.metrics(), file.result_sha256()};
+  return {file.subject(), file.termination(), file.metrics(), file.result_sha256()};
 }
 
 std::string to_json(const Baseline& baseline) {
@@ -200,33 +199,48 @@ std::string to_json(const Baseline& baseline) {
                  {"preset", of.preset},
                  {"seed", of.seed},
                  {"version", of.version}}},
+               {"termination", baseline.termination},
                {"metrics", metrics}};
   if (baseline.result_sha256) json["result_sha256"] = *baseline.result_sha256;
   return json.dump(2) + "\n";
 }
 
-Baseline make_baseline(const RunFigures& run, const std::optional<Baseline>& before) {
-  Baseline baseline{.of = subject_of(run), .metrics = {}, .result_sha256 = std::nullopt};
-  if (before && before->result_sha256) baseline.result_sha256 = run.result_sha256;
-  for (std::size_t i = 0; i < kMetrics.size(); ++i) {
-    const Metric& metric = kMetrics[i];
+Baseline make_baseline(const RunFigures& run) {
+  Baseline baseline{.of = subject_of(run),
+                    .termination = run.termination,
+                    .metrics = {},
+                    .result_sha256 = std::nullopt};
+  for (const Metric& metric : kMetrics) {
     const double value = metric.of(run);
-    BaselineMetric entry{.name = std::string(metric.name), .value = value};
-    entry.tolerance = before ? before->metrics[i].tolerance
-                             : metric.tolerance + metric.tolerance_share * std::abs(value);
-    entry.better = before ? before->metrics[i].better : metric.better;
-    baseline.metrics.push_back(std::move(entry));
+    baseline.metrics.push_back(
+        {.name = std::string(metric.name),
+         .value = value,
+         .tolerance = metric.tolerance + metric.tolerance_share * std::abs(value),
+         .better = metric.better});
+  }
+  return baseline;
+}
+
+Baseline updated_baseline(const RunFigures& run, const Baseline& before, const fs::path& path) {
+  need_same(before.of, subject_of(run), false, path);
+  Baseline baseline = make_baseline(run);
+  if (before.result_sha256) baseline.result_sha256 = run.result_sha256;
+  for (std::size_t i = 0; i < kMetrics.size(); ++i) {
+    baseline.metrics[i].tolerance = before.metrics[i].tolerance;
+    baseline.metrics[i].better = before.metrics[i].better;
   }
   return baseline;
 }
 
 BaselineCheck check_against(const Baseline& baseline, const fs::path& path, const RunFigures& run) {
-  need_same(baseline.of, subject_of(run), path);
-  BaselineCheck check;
+  need_same(baseline.of, subject_of(run), true, path);
+  BaselineCheck check{.metrics = {}, .termination = run.termination};
   for (std::size_t i = 0; i < kMetrics.size(); ++i) {
     const double now = kMetrics[i].of(run);
     check.metrics.push_back({baseline.metrics[i], now, judge(baseline.metrics[i], now)});
   }
+  check.is_termination_wrong =
+      run.termination == "collision" || run.termination != baseline.termination;
   check.is_hash_wrong = baseline.result_sha256 && *baseline.result_sha256 != run.result_sha256;
   return check;
 }

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "bench/run_figures.hpp"
@@ -34,23 +33,28 @@ struct BaselineSubject {
 
 struct Baseline {
   BaselineSubject of;
-  std::vector<BaselineMetric> metrics;       // all that metric_names() names, in its order
+  std::string termination;                   // how the mission ended
+  std::vector<BaselineMetric> metrics;       // all that there are, in make_baseline()'s order
   std::optional<std::string> result_sha256;  // when it has to be the same: on one machine only
 };
 
-/// coverage_0.05, coverage_0.10, coverage_0.50 (seen from outside), precision, recall and f (at
-/// 0.05 m), chamfer_m, density (points a voxel), straight_m, flight_time_s, iterations,
-/// entropy_reduction_nat.
-std::vector<std::string_view> metric_names();
-
 /// A baseline file. Throws BadInput naming file and key: other schema, metric missing or unknown,
-/// a value or tolerance that is no number or negative, `better` that is none of the three.
+/// a value that is no number, a tolerance that is none or below 0, `better` that is none of the
+/// three.
 Baseline read_baseline(const std::filesystem::path& path);
 std::string to_json(const Baseline& baseline);
 
-/// Of a run, with the tolerances (and what is asked of the hash) of `before`, or else 0.02 for
-/// shares, 0.005 m for Chamfer, a tenth of the value for all other metrics.
-Baseline make_baseline(const RunFigures& run, const std::optional<Baseline>& before);
+/// Of a run: coverage_0.05, coverage_0.10, coverage_0.50 (seen from outside), precision, recall and
+/// f (at 0.05 m), chamfer_m, density (points a voxel), straight_m, flight_time_s, iterations,
+/// entropy_reduction_nat. Tolerances are 0.02 for shares, 0.001 m for Chamfer, a tenth of the value
+/// for all other metrics.
+Baseline make_baseline(const RunFigures& run);
+
+/// The same with the tolerances of `before`, its `better`, and what it asks of the hash. Throws
+/// BadInput naming `path`, where `before` stands, and every difference when the run is of something
+/// else; of another version it may be.
+Baseline updated_baseline(const RunFigures& run, const Baseline& before,
+                          const std::filesystem::path& path);
 
 enum class GateVerdict { kept, better, regressed };
 
@@ -62,6 +66,8 @@ struct MetricChange {
 
 struct BaselineCheck {
   std::vector<MetricChange> metrics;  // in the baseline's order
+  std::string termination;            // of the run
+  bool is_termination_wrong = false;  // not the baseline's, or a collision, which never is right
   bool is_hash_wrong = false;
 };
 

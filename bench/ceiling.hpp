@@ -1,4 +1,5 @@
-// The most that any legal viewpoint of a scenario can see, whatever planner chooses it.
+// The most that any legal viewpoint of a scenario can see, whatever planner chooses it. Of exact
+// cameras alone: the profile's LIDAR and noise can lift a mission above it.
 #pragma once
 
 #include <array>
@@ -10,7 +11,8 @@
 
 namespace gnbv {
 
-/// Shares of the reference voxels, by kCoverageSizes_m.
+/// Shares of the reference voxels, by kCoverageSizes_m. No leaf share is above its like of what is
+/// seen.
 struct Ceiling {
   std::array<double, 3> raw{};           // of all surface: what a legal viewpoint sees
   std::array<double, 3> outside{};       // of the surface seen from outside

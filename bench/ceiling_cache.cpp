@@ -6,14 +6,14 @@
 #include <sstream>
 
 #include "bench/content_cache.hpp"
-#include "sim/core/sha256.hpp"
+#include "bench/packed_counts.hpp"
 
 namespace gnbv {
 namespace {
 
-constexpr std::string_view kSurveyKind = "view_survey-1";
+constexpr std::string_view kSurveyKind = "view_survey-2";
 
-/// Numbers one after the other; counts in groups of seven bits, the lowest first.
+/// Numbers one after the other, counts packed.
 class Writer {
  public:
   std::string bytes;
@@ -21,10 +21,7 @@ class Writer {
   void put(T value) {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
   }
-  void put_count(std::uint64_t count) {
-    for (; count >= 128; count >>= 7) bytes.push_back(static_cast<char>(count % 128 + 128));
-    bytes.push_back(static_cast<char>(count));
-  }
+  void put_count(std::uint64_t count) { gnbv::put_count(count, bytes); }
 };
 
 /// Reads them back; is_good() turns false at the first that is not there.
@@ -44,14 +41,9 @@ class Reader {
     return value;
   }
   std::uint64_t get_count() {
-    std::uint64_t count = 0;
-    for (unsigned shift = 0; shift < 64; shift += 7) {
-      const auto group = get<std::uint8_t>();
-      count |= static_cast<std::uint64_t>(group % 128U) << shift;
-      if (group < 128) return count;
-    }
-    good_ = false;
-    return 0;
+    const auto count = good_ ? take_count(left_) : std::nullopt;
+    good_ = count.has_value();
+    return count.value_or(0);
   }
 
  private:
@@ -78,9 +70,7 @@ void add(Sha256& sha, const CameraConfig& c) {
 std::string ceiling_key(const Scenario& scenario, const World& world,
                         const LegalViewpoints& legal) {
   Sha256 sha;
-  sha.add(std::uint64_t{world.structure.vertices_m.size()});
-  for (const Vec3f& v : world.structure.vertices_m) sha.add(std::span<const float>(v.data(), 3));
-  for (const auto& face : world.structure.faces) sha.add(std::span<const std::uint32_t>(face));
+  add_mesh(sha, world.structure);
   sha.add(world.has_ground);
   sha.add(std::uint64_t{scenario.cameras.size()});
   for (const CameraConfig& camera : scenario.cameras) add(sha, camera);
@@ -90,7 +80,9 @@ std::string ceiling_key(const Scenario& scenario, const World& world,
   sha.add(scenario.planner.floor_z_m);
   sha.add(scenario.planner.cloud.leaf_m);
   sha.add(legal.step_m);
+  sha.add(std::uint64_t{legal.size()});
   for (const Vec3& p : legal.p_world_m) add(sha, p);
+  for (const auto& cell : legal.cell) sha.add(std::span<const std::int32_t>(cell));
   return sha.hex();
 }
 

@@ -11,8 +11,8 @@
 namespace gnbv {
 
 /// SHA-256 over all that ceiling and survey depend on: structure, ground, cameras (without their
-/// noise), workspace and voxels, floor, leaf, and the legal positions, which stand for start,
-/// navigation box and collision radius.
+/// noise), workspace and voxels, floor, leaf, and the legal positions with their cells, which
+/// stand for start, navigation box and collision radius.
 std::string ceiling_key(const Scenario& scenario, const World& world, const LegalViewpoints& legal);
 
 std::string text_of(const Ceiling& ceiling);

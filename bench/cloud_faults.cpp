@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <iterator>
 
+#include "bench/cloud_metrics.hpp"
 #include "bench/voxel_set.hpp"
 #include "sim/core/error.hpp"
 
@@ -36,7 +37,8 @@ struct Unit {
   double per_m;
 };
 
-void need_metres(const std::string& name, double cloud_m, double structure_m) {
+/// What may be wrong with a cloud that is nowhere near the mesh.
+std::string guess(double cloud_m, double structure_m) {
   // a third of the structure seen, or noise of three times its size, would still be told apart
   constexpr double kSlack = 3.0;
   for (const Unit& unit : {Unit{"millimetres", 1000.0}, Unit{"centimetres", 100.0}}) {
@@ -44,18 +46,14 @@ void need_metres(const std::string& name, double cloud_m, double structure_m) {
       return ratio > unit.per_m / kSlack && ratio < unit.per_m * kSlack;
     };
     if (is_near(cloud_m / structure_m)) {
-      throw BadInput(
-          fmt::format("{}: looks like {}: its extent is {:.1f} m against the mesh's {:.1f} m; "
-                      "scale the cloud by {}",
-                      name, unit.name, cloud_m, structure_m, 1.0 / unit.per_m));
+      return fmt::format("it looks like {}: scale the cloud by {}", unit.name, 1.0 / unit.per_m);
     }
     if (is_near(structure_m / cloud_m)) {
-      throw BadInput(
-          fmt::format("{}: the mesh looks like {}: its extent is {:.1f} m against the cloud's "
-                      "{:.1f} m; add --set structure.file.scale={}",
-                      name, unit.name, structure_m, cloud_m, 1.0 / unit.per_m));
+      return fmt::format("the mesh looks like {}: add --set structure.file.scale={}", unit.name,
+                         1.0 / unit.per_m);
     }
   }
+  return "another frame, axis order or mesh?";
 }
 
 std::string text_of(const Box3& box_m) {
@@ -65,35 +63,69 @@ std::string text_of(const Box3& box_m) {
                      lo.z(), hi.x(), hi.y(), hi.z());
 }
 
-}  // namespace
+[[noreturn]] void refuse(const std::string& name, std::span<const Vec3f> cloud_world_m,
+                         std::size_t i, const char* what) {
+  const Vec3f& p = cloud_world_m[i];
+  throw BadInput(fmt::format("{}: point {} (counted from 0) is ({}, {}, {}) m: {}", name, i, p.x(),
+                             p.y(), p.z(), what));
+}
 
-void need_scorable(const std::string& name, std::span<const Vec3f> cloud_world_m,
-                   const Box3& structure_m) {
-  if (cloud_world_m.empty()) throw BadInput(fmt::format("{}: has no points", name));
-  const auto refuse = [&](std::size_t i, const char* what) {
-    const Vec3f& p = cloud_world_m[i];
-    throw BadInput(fmt::format("{}: point {} (counted from 0) is ({}, {}, {}) m: {}", name, i,
-                               p.x(), p.y(), p.z(), what));
-  };
+void need_finite(const std::string& name, std::span<const Vec3f> cloud_world_m) {
   for (std::size_t i = 0; i < cloud_world_m.size(); ++i) {
-    if (!cloud_world_m[i].allFinite()) refuse(i, "not finite");
-  }
-  need_metres(name, extent_m(cloud_world_m), structure_m.diagonal().norm());
-  for (std::size_t i = 0; i < cloud_world_m.size(); ++i) {
-    const auto farthest_m = static_cast<double>(cloud_world_m[i].cwiseAbs().maxCoeff());
-    if (!(farthest_m < kFarthestCoordinate_m)) refuse(i, "too far from the origin");
+    if (!cloud_world_m[i].allFinite()) refuse(name, cloud_world_m, i, "not finite");
   }
 }
 
-void need_near(const std::string& name, std::span<const Vec3f> cloud_world_m,
-               const CloudDistances& distances, const Box3& structure_m) {
-  if (distances.accuracy_m < kFarthest_m) return;
+bool is_in_range(const Vec3f& p_world_m) {
+  return static_cast<double>(p_world_m.cwiseAbs().maxCoeff()) < kFarthestCoordinate_m;
+}
+
+void need_near(const std::string& name, std::span<const Vec3f> cloud_world_m, const RayScene& scene,
+               const Box3& structure_m) {
+  const auto is_near = [&](const Vec3f& p_m) {
+    return scene.distance_to_structure_m(p_m.cast<double>(), kFarthest_m) < kFarthest_m;
+  };
+  if (std::any_of(cloud_world_m.begin(), cloud_world_m.end(), is_near)) return;
   Box3 cloud_m;
   for (const Vec3f& p_m : cloud_world_m) cloud_m.extend(p_m.cast<double>());
   throw BadInput(
-      fmt::format("{}: no point within {} m of the mesh: the cloud spans {}, the mesh {}: another "
-                  "frame, axis order or mesh?",
-                  name, kFarthest_m, text_of(cloud_m), text_of(structure_m)));
+      fmt::format("{}: no point within {} m of the mesh: the cloud spans {}, the mesh "
+                  "{}: {}",
+                  name, kFarthest_m, text_of(cloud_m), text_of(structure_m),
+                  guess(extent_m(cloud_world_m), structure_m.diagonal().norm())));
+}
+
+}  // namespace
+
+void need_voxels(const std::string& name, std::span<const Vec3f> cloud_world_m) {
+  need_finite(name, cloud_world_m);
+  for (std::size_t i = 0; i < cloud_world_m.size(); ++i) {
+    if (!is_in_range(cloud_world_m[i])) refuse(name, cloud_world_m, i, "too far from the origin");
+  }
+}
+
+std::vector<Vec3f> scorable_points(const std::string& name, std::span<const Vec3f> cloud_world_m,
+                                   double floor_z_m, const RayScene& scene,
+                                   const Box3& structure_m) {
+  if (cloud_world_m.empty()) throw BadInput(fmt::format("{}: has no points", name));
+  need_finite(name, cloud_world_m);
+  // a mission's cloud is of floats: one on the floor must not fall below it by rounding
+  const auto is_below = [floor_m = static_cast<float>(floor_z_m)](const Vec3f& p_m) {
+    return p_m.z() < floor_m;
+  };
+  std::vector<Vec3f> points_m;
+  std::remove_copy_if(cloud_world_m.begin(), cloud_world_m.end(), std::back_inserter(points_m),
+                      is_below);
+  if (points_m.empty()) {
+    throw BadInput(fmt::format("{}: all {} points lie below z = {} m: nothing there is asked for",
+                               name, cloud_world_m.size(), floor_z_m));
+  }
+  need_near(name, points_m, scene, structure_m);
+  for (std::size_t i = 0; i < cloud_world_m.size(); ++i) {
+    if (is_below(cloud_world_m[i]) || is_in_range(cloud_world_m[i])) continue;
+    refuse(name, cloud_world_m, i, "too far from the origin");
+  }
+  return points_m;
 }
 
 }  // namespace gnbv

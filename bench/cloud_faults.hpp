@@ -3,20 +3,23 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
-#include "bench/cloud_metrics.hpp"
+#include "sensors/ray_scene.hpp"
 #include "sim/core/pose.hpp"
 
 namespace gnbv {
 
-/// Throws BadInput, beginning with `name`, for a cloud without points, with a point that is not
-/// finite or too far out for a voxel (its index counts from 0), and for one in millimetres or
-/// centimetres beside the structure's metres, or the other way round.
-void need_scorable(const std::string& name, std::span<const Vec3f> cloud_world_m,
-                   const Box3& structure_m);
+/// Throws BadInput, beginning with `name`, for a point that is not finite or too far out for a
+/// voxel. Its index counts from 0.
+void need_voxels(const std::string& name, std::span<const Vec3f> cloud_world_m);
 
-/// Throws BadInput when every point counts as lost: the cloud lies elsewhere.
-void need_near(const std::string& name, std::span<const Vec3f> cloud_world_m,
-               const CloudDistances& distances, const Box3& structure_m);
+/// The points of a cloud from anywhere that are scored: those below the floor are not, as no
+/// surface there is asked for. Throws BadInput, beginning with `name`, when there are none, for
+/// points as need_voxels(), and when no point is within kFarthest_m of the structure; if the
+/// extents say so, this is put down to millimetres or centimetres beside metres.
+std::vector<Vec3f> scorable_points(const std::string& name, std::span<const Vec3f> cloud_world_m,
+                                   double floor_z_m, const RayScene& scene,
+                                   const Box3& structure_m);
 
 }  // namespace gnbv

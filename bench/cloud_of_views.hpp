@@ -34,14 +34,13 @@ class CloudOfViews {
   void add(std::span<const FrameRays> view);
 
   std::span<const Vec3f> points_world_m() const { return cloud_.points_world_m(); }
-  /// 1 for each voxel of the reference with a point.
-  const std::vector<std::uint8_t>& is_found() const { return is_found_; }
+  /// How many voxels of the reference hold points.
   std::size_t found() const { return found_; }
 
  private:
   const VoxelSet& reference_;
   SurfaceCloud cloud_;
-  std::vector<std::uint8_t> is_found_;
+  std::vector<std::uint8_t> is_found_;  // 1 for each voxel of the reference with a point
   std::size_t found_ = 0;
 };
 

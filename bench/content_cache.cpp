@@ -8,7 +8,6 @@
 #include <fstream>
 
 #include "sim/core/error.hpp"
-#include "sim/core/sha256.hpp"
 
 namespace gnbv {
 namespace {
@@ -49,6 +48,14 @@ fs::path cache_folder() {
   if (!variable("XDG_CACHE_HOME").empty()) return fs::path(variable("XDG_CACHE_HOME")) / "gnbv";
   if (!variable("HOME").empty()) return fs::path(variable("HOME")) / ".cache" / "gnbv";
   return {};
+}
+
+void add_mesh(Sha256& sha, const TriangleMesh& mesh) {
+  static_assert(sizeof(Vec3f) == 3 * sizeof(float));
+  sha.add(std::uint64_t{mesh.vertices_m.size()});
+  sha.add_bytes(std::as_bytes(std::span(mesh.vertices_m)));
+  sha.add(std::uint64_t{mesh.faces.size()});
+  sha.add_bytes(std::as_bytes(std::span(mesh.faces)));
 }
 
 std::optional<std::string> load_cached(std::string_view kind, std::string_view key) {

@@ -6,11 +6,17 @@
 #include <string>
 #include <string_view>
 
+#include "sim/core/sha256.hpp"
+#include "sim/triangle_mesh.hpp"
+
 namespace gnbv {
 
 /// $GNBV_CACHE, else $XDG_CACHE_HOME/gnbv, else $HOME/.cache/gnbv. Empty, and nothing is kept, when
 /// GNBV_CACHE is set to the empty string or none of them is.
 std::filesystem::path cache_folder();
+
+/// Adds a mesh to a key.
+void add_mesh(Sha256& sha, const TriangleMesh& mesh);
 
 /// What was stored under the key; nothing when there is none, or when it is damaged (its SHA-256 is
 /// checked). `kind` names the computation and its version ("surface_reference-1"), `key` is the

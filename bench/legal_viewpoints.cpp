@@ -133,7 +133,7 @@ bool is_leg_clear(const RayScene& scene, const Vec3& a_world_m, const Vec3& b_wo
 
 double lattice_step_m(const Box3& navigation_m) {
   constexpr double kFew = 15000.0;
-  constexpr double kMany = 1e6;  // 200 MB with their legs
+  constexpr double kMany = 1e6;  // half a GB with their legs while they are searched
   constexpr double kUsual_m = 1.0;
   const double volume_m3 = navigation_m.volume();
   return std::max(std::min(kUsual_m, std::cbrt(volume_m3 / kFew)), std::cbrt(volume_m3 / kMany));

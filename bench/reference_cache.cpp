@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "bench/content_cache.hpp"
+#include "bench/packed_counts.hpp"
 #include "bench/surface_reference.hpp"
 #include "sim/core/sha256.hpp"
 
@@ -20,32 +21,12 @@ constexpr std::string_view kKind = "surface_reference-1";
 
 std::string key_of(const TriangleMesh& mesh, const ReferenceConfig& config) {
   Sha256 sha;
-  sha.add(static_cast<std::uint64_t>(mesh.vertices_m.size()));
-  sha.add_bytes(std::as_bytes(std::span(mesh.vertices_m)));
-  sha.add(static_cast<std::uint64_t>(mesh.faces.size()));
-  sha.add_bytes(std::as_bytes(std::span(mesh.faces)));
+  add_mesh(sha, mesh);
   for (const double value : {config.floor_z_m, config.sample_spacing_m, config.escape_near_m}) {
     sha.add(value);
   }
   sha.add(config.directions);
   return sha.hex();
-}
-
-/// Seven bits a byte, the lowest first; the high bit says that more follow.
-void put_count(std::uint64_t count, std::string& bytes) {
-  for (; count >= 0x80; count >>= 7) bytes += static_cast<char>(count | 0x80);
-  bytes += static_cast<char>(count);
-}
-
-std::optional<std::uint64_t> take_count(std::string_view& bytes) {
-  std::uint64_t count = 0;
-  for (unsigned shift = 0; shift < 64 && !bytes.empty(); shift += 7) {
-    const auto byte = static_cast<unsigned char>(bytes.front());
-    bytes.remove_prefix(1);
-    count |= static_cast<std::uint64_t>(byte & 0x7fU) << shift;
-    if ((byte & 0x80U) == 0) return count;
-  }
-  return std::nullopt;
 }
 
 /// The gaps between sorted codes are small: neighbours along z differ by one.

@@ -63,7 +63,6 @@ std::size_t LazyGreedy::take(std::span<const std::uint32_t> items) {
     count += is_taken_[item] == 0 ? 1 : 0;
     is_taken_[item] = 1;
   }
-  taken_ += count;
   return count;
 }
 

@@ -24,15 +24,12 @@ class LazyGreedy {
   /// The items are there now, whatever set they came from; how many were new.
   std::size_t take(std::span<const std::uint32_t> items);
 
-  std::size_t taken() const { return taken_; }
-
  private:
   std::size_t gain(std::size_t set) const;
 
   std::vector<const std::vector<std::uint32_t>*> sets_;
   std::vector<std::uint8_t> is_taken_;
   std::vector<std::size_t> known_gain_;
-  std::size_t taken_ = 0;
 };
 
 }  // namespace gnbv

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "bench/cloud_of_views.hpp"
 #include "sim/core/parallel.hpp"
@@ -35,6 +36,16 @@ double reach_m(std::span<const CameraModel> cameras) {
   return farthest_m;
 }
 
+/// Lattice steps between surveyed positions: one where two are more than half of what the most
+/// short-sighted camera reaches, since nobody would see what lies between them.
+std::int32_t stride_of(const LegalViewpoints& legal, std::span<const CameraModel> cameras) {
+  double reach_m = std::numeric_limits<double>::infinity();
+  for (const CameraModel& camera : cameras) {
+    reach_m = std::min(reach_m, camera.config.range_max_m);
+  }
+  return 2.0 * legal.step_m > 0.5 * reach_m ? 1 : 2;
+}
+
 double share_of_hits(std::span<const FrameRays> view) {
   std::ptrdiff_t hits = 0;
   std::size_t pixels = 0;
@@ -50,10 +61,11 @@ std::vector<SurveyedView> worthwhile_views(const RayScene& scene, const LegalVie
                                            int threads) {
   const std::vector<CameraModel> quick = coarse(cameras);
   const double far_m = reach_m(cameras);
+  const std::int32_t stride = stride_of(legal, cameras);
   std::vector<std::vector<SurveyedView>> at(legal.size());
   parallel_for(threads, legal.size(), [&](std::size_t i) {
     const auto& cell = legal.cell[i];
-    if (cell[0] % 2 != 0 || cell[1] % 2 != 0 || cell[2] % 2 != 0) return;
+    if (cell[0] % stride != 0 || cell[1] % stride != 0 || cell[2] % stride != 0) return;
     if (std::isinf(scene.distance_to_structure_m(legal.p_world_m[i], far_m))) return;
     std::vector<FrameRays> rays;
     for (int k = 0; k < kYaws; ++k) {

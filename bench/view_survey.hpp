@@ -25,8 +25,9 @@ struct ViewSurvey {
   std::array<double, 3> leaf_outside{};
 };
 
-/// Every second legal position along each axis, by eight yaws, as far as the structure fills a
-/// twentieth of the images at least. All views, in the order of `views`, go through one cloud
+/// Every second legal position along each axis (every one where two steps are more than half the
+/// least range_max_m of the cameras), by eight yaws, as far as the structure fills a twentieth of
+/// the images at least. All views, in the order of `views`, go through one cloud
 /// (CloudOfViews). A leaf of it keeps the centroid that reached it first, as a mission's does:
 /// another order gives a slightly different cloud. The same at any number of threads.
 ViewSurvey survey_views(const Scenario& scenario, const RayScene& scene,

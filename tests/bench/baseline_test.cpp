@@ -22,6 +22,7 @@ RunFigures run() {
   run.preset = "paper";
   run.seed = 3;
   run.version = "1.2.3";
+  run.termination = "entropy_change";
   run.result_sha256 = "abc";
   run.iterations = 12;
   run.entropy_reduction_nat = 900.0;
@@ -43,15 +44,32 @@ std::vector<std::string> with_verdict(const BaselineCheck& check, GateVerdict ve
 }
 
 TEST(Baseline, OfARunKeepsThatRun) {
-  const Baseline baseline = make_baseline(run(), std::nullopt);
+  const Baseline baseline = make_baseline(run());
   const BaselineCheck check = check_against(baseline, "b.json", run());
-  EXPECT_EQ(with_verdict(check, GateVerdict::kept).size(), metric_names().size());
+  EXPECT_EQ(with_verdict(check, GateVerdict::kept).size(), 12U);
   EXPECT_FALSE(check.is_hash_wrong);
+  EXPECT_FALSE(check.is_termination_wrong);
+  EXPECT_EQ(check.termination, "entropy_change");
+}
+
+TEST(Baseline, AnotherEndRegressesAndACollisionAlways) {
+  const auto is_wrong = [](const char* was, const char* is) {
+    Baseline baseline = make_baseline(run());
+    baseline.termination = was;
+    RunFigures now = run();
+    now.termination = is;
+    return check_against(baseline, "b.json", now).is_termination_wrong;
+  };
+  EXPECT_FALSE(is_wrong("max_iterations", "max_iterations"));
+  EXPECT_TRUE(is_wrong("max_iterations", "battery"));
+  EXPECT_TRUE(is_wrong("battery", "max_iterations"));
+  EXPECT_TRUE(is_wrong("max_iterations", "collision"));
+  EXPECT_TRUE(is_wrong("collision", "collision"));
 }
 
 /// Every figure of the baseline, one at a time, a little within and beyond its tolerance.
 TEST(Baseline, EachMetricRegressesAndImprovesBeyondItsToleranceOnly) {
-  Baseline baseline = make_baseline(run(), std::nullopt);
+  Baseline baseline = make_baseline(run());
   for (std::size_t i = 0; i < baseline.metrics.size(); ++i) {
     BaselineMetric& metric = baseline.metrics[i];
     const double value = metric.value;
@@ -69,7 +87,7 @@ TEST(Baseline, EachMetricRegressesAndImprovesBeyondItsToleranceOnly) {
         const BaselineCheck check = check_against(baseline, "b.json", run());
         EXPECT_EQ(check.metrics[i].verdict, expected) << metric.name << " " << steps;
         EXPECT_EQ(with_verdict(check, GateVerdict::kept).size(),
-                  metric_names().size() - (is_beyond ? 1 : 0));
+                  baseline.metrics.size() - (is_beyond ? 1 : 0));
       }
     }
     metric.value = value;
@@ -77,23 +95,23 @@ TEST(Baseline, EachMetricRegressesAndImprovesBeyondItsToleranceOnly) {
 }
 
 TEST(Baseline, HashCountsOnlyWhereItIsAskedFor) {
-  Baseline baseline = make_baseline(run(), std::nullopt);
+  Baseline baseline = make_baseline(run());
   RunFigures other = run();
   other.result_sha256 = "def";
   EXPECT_FALSE(check_against(baseline, "b.json", other).is_hash_wrong);
   baseline.result_sha256 = "abc";
   EXPECT_TRUE(check_against(baseline, "b.json", other).is_hash_wrong);
   EXPECT_FALSE(check_against(baseline, "b.json", run()).is_hash_wrong);
-  EXPECT_EQ(make_baseline(other, baseline).result_sha256, "def");
+  EXPECT_EQ(updated_baseline(other, baseline, "b.json").result_sha256, "def");
 }
 
 TEST(Baseline, AnUpdateKeepsTolerancesAndTakesTheFigures) {
-  Baseline before = make_baseline(run(), std::nullopt);
+  Baseline before = make_baseline(run());
   before.metrics[0].tolerance = 0.123;
   before.metrics[1].better = Better::same;
   RunFigures better = run();
   better.coverage_final = {0.6, 0.85, 0.95};
-  const Baseline after = make_baseline(better, before);
+  const Baseline after = updated_baseline(better, before, "b.json");
   EXPECT_EQ(after.metrics[0].value, 0.6);
   EXPECT_EQ(after.metrics[0].tolerance, 0.123);
   EXPECT_EQ(after.metrics[1].better, Better::same);
@@ -102,7 +120,7 @@ TEST(Baseline, AnUpdateKeepsTolerancesAndTakesTheFigures) {
 TEST(Baseline, ReadsBackWhatItWrote) {
   TempFolder temp;
   const fs::path file = temp.path() / "b.json";
-  Baseline written = make_baseline(run(), std::nullopt);
+  Baseline written = make_baseline(run());
   written.result_sha256 = "abc";
   write_file_atomically(file, to_json(written));
   const Baseline read = read_baseline(file);
@@ -111,8 +129,28 @@ TEST(Baseline, ReadsBackWhatItWrote) {
   EXPECT_NO_THROW(check_against(read, file, run()));
 }
 
+TEST(Baseline, IsNotUpdatedByARunOfSomethingElseThanAnotherVersion) {
+  const Baseline before = make_baseline(run());
+  RunFigures next = run();
+  next.version = "1.3.0";
+  next.termination = "max_iterations";
+  const Baseline after = updated_baseline(next, before, "b.json");
+  EXPECT_EQ(after.of.version, "1.3.0");
+  EXPECT_EQ(after.termination, "max_iterations");
+  const auto expect_refused = [&](auto change) {
+    RunFigures other = run();
+    change(other);
+    EXPECT_THROW(updated_baseline(other, before, "b.json"), BadInput);
+  };
+  expect_refused([](RunFigures& r) { r.scenario = "aircraft"; });
+  expect_refused([](RunFigures& r) { r.structure = "ship.obj"; });
+  expect_refused([](RunFigures& r) { r.utility = "isler"; });
+  expect_refused([](RunFigures& r) { r.preset = "released"; });
+  expect_refused([](RunFigures& r) { r.seed = 4; });
+}
+
 TEST(Baseline, OfSomethingElseNamesEveryDifference) {
-  const Baseline baseline = make_baseline(run(), std::nullopt);
+  const Baseline baseline = make_baseline(run());
   RunFigures other = run();
   other.scenario = "aircraft";
   other.structure = "ship.obj";
@@ -144,7 +182,7 @@ class BaselineFile : public testing::TestWithParam<FileFault> {};
 TEST_P(BaselineFile, WithAFaultIsRefusedByKey) {
   TempFolder temp;
   const fs::path file = temp.path() / "b.json";
-  std::string text = to_json(make_baseline(run(), std::nullopt));
+  std::string text = to_json(make_baseline(run()));
   const std::size_t at = text.find(GetParam().was);
   ASSERT_NE(at, std::string::npos);
   text.replace(at, std::string(GetParam().was).size(), GetParam().is);
@@ -164,6 +202,8 @@ INSTANTIATE_TEST_SUITE_P(
     Baseline, BaselineFile,
     testing::Values(
         FileFault{"Schema", "gnbv-baseline-1", "gnbv-baseline-2", "schema"},
+        FileFault{"Termination", "\"termination\": \"entropy_change\"", "\"termination\": 1",
+                  "termination"},
         FileFault{"NoJson", "{", "", "JSON"},
         FileFault{"MetricMissing", "\"chamfer_m\"", "\"shamfer_m\"", "metrics.chamfer_m"},
         FileFault{"Tolerance", "\"tolerance\": 0.02", "\"tolerance\": \"0.02\"",
@@ -180,7 +220,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Baseline, WithAMetricThatIsNoneIsRefused) {
   TempFolder temp;
   const fs::path file = temp.path() / "b.json";
-  std::string text = to_json(make_baseline(run(), std::nullopt));
+  std::string text = to_json(make_baseline(run()));
   text.replace(text.find("\"metrics\": {"), 12,
                "\"metrics\": {\"beauty\": {\"value\": 1, \"tolerance\": 1, \"better\": \"same\"},");
   std::ofstream(file) << text;

@@ -151,6 +151,36 @@ TEST(ViewSurvey, FindsNoMoreAloneThanThereIsAndTogetherWhatTheCloudKeeps) {
   EXPECT_LE(survey().leaf_outside[0], together / static_cast<double>(voxels) + 1e-12);
 }
 
+TEST(ViewSurvey, SkipsNoPositionWhereCamerasReachNoFartherThanFourSteps) {
+  const Scenario near_sighted = load_scenario("smoke", {"cameras.0.range_max_m=2.5"});
+  const auto looks_from_odd_cells = [&](double step_m) {
+    const Smoke& s = smoke();
+    const ValidityConfig& validity = near_sighted.planner.validity;
+    const LegalViewpoints legal =
+        find_legal_viewpoints(s.scene, navigation_box_m(validity, near_sighted.workspace_m),
+                              validity.collision_radius_m, step_m, s.start.p_world_m, 2);
+    const ViewSurvey found = survey_views(near_sighted, s.scene, legal, s.reference, 2);
+    EXPECT_FALSE(found.views.empty());
+    return std::any_of(found.views.begin(), found.views.end(), [&](const SurveyedView& view) {
+      const auto& cell = legal.cell[view.position];
+      return cell[0] % 2 != 0 || cell[1] % 2 != 0 || cell[2] % 2 != 0;
+    });
+  };
+  EXPECT_FALSE(looks_from_odd_cells(0.6));
+  EXPECT_TRUE(looks_from_odd_cells(0.65));
+}
+
+TEST(Ceiling, OfWhatIsSeenIsNoLowerThanOfWhatTheCloudKeeps) {
+  const Smoke& s = smoke();
+  const Ceiling ceiling = find_ceiling(s.scenario, s.world, s.scene, s.start, 2);
+  for (std::size_t size = 0; size < 3; ++size) {
+    EXPECT_GT(ceiling.leaf_raw[size], 0.0);
+    EXPECT_LE(ceiling.leaf_raw[size], ceiling.raw[size]);
+    EXPECT_LE(ceiling.leaf_outside[size], ceiling.outside[size]);
+    EXPECT_LE(ceiling.outside[size], 1.0);
+  }
+}
+
 TEST(CeilingCache, GivesBackWhatWasPutIn) {
   const std::string bytes = bytes_of(survey());
   const auto read = survey_from(bytes);
@@ -193,6 +223,9 @@ TEST(CeilingCache, KeyChangesWithAllThatTheResultDependsOnAndWithNothingElse) {
         "planner.validity.collision_radius_m=0.9", "planner.validity.z_min_m=0.8"}) {
     expect_new({key});
   }
+  LegalViewpoints shifted = s.legal;
+  for (auto& cell : shifted.cell) ++cell[0];
+  EXPECT_TRUE(keys.insert(ceiling_key(s.scenario, s.world, shifted)).second);
   World moved = s.world;
   moved.structure.vertices_m[0].x() += 0.01F;
   EXPECT_TRUE(keys.insert(ceiling_key(s.scenario, moved, s.legal)).second);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -37,6 +38,22 @@ TEST(Program, BadUsageExitsWith2) {
   EXPECT_EQ(gnbv("fly-me-to-the-moon").exit_code, 2);
   EXPECT_EQ(gnbv("run").exit_code, 2);
   EXPECT_EQ(gnbv("run smoke --threads none").exit_code, 2);
+}
+
+/// An oracle plans for minutes in a large scene; what its plan needs would be in the cache.
+TEST(Program, RefusesAFolderBeforeAnOraclePlans) {
+  TempFolder temp;
+  const fs::path cache = temp.path() / "cache";
+  const fs::path other = temp.path() / "other";
+  fs::create_directory(other);
+  write_file_atomically(other / "thesis.txt", "");
+  setenv("GNBV_CACHE", cache.c_str(), 1);
+  const Outcome refused =
+      gnbv("run smoke --set planner.utility.name=oracle_views --out " + other.string());
+  setenv("GNBV_CACHE", "", 1);
+  EXPECT_EQ(refused.exit_code, 2) << refused.output;
+  EXPECT_TRUE(has(refused, "not empty")) << refused.output;
+  EXPECT_FALSE(fs::exists(cache));
 }
 
 TEST(Program, RunsRendersAndRepeatsFromItsOwnRunDirectory) {
@@ -211,7 +228,7 @@ TEST(Program, FliesTheOracleAndItsCeilingIsNoLess) {
   EXPECT_EQ(cached, most);
   const Outcome run = gnbv("run" + where + "--utility oracle_metres --json --out " +
                            (temp.path() / "run").string() + " 2>/dev/null");
-  unsetenv("GNBV_CACHE");
+  setenv("GNBV_CACHE", "", 1);
   ASSERT_EQ(run.exit_code, 0) << run.output;
   const auto flown = nlohmann::json::parse(run.output);
   // where the views fall into leaves differs a little from the survey's

@@ -1,10 +1,8 @@
-// Scores and gates of run directories and clouds, by the program.
+// Scores of run directories and clouds, by the program.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -12,8 +10,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "tests/support/program.hpp"
-#include "tests/support/temp_folder.hpp"
+#include "tests/end_to_end/scored_mission.hpp"
 #include "tools/mission/cloud_file.hpp"
 #include "tools/mission/run_figures_file.hpp"
 
@@ -23,31 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// One finished smoke mission for all tests, which copy it; the cache of all of them is beside it.
-class Score : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    folder_ = fs::temp_directory_path() / ("gnbv_score_test_" + std::to_string(getpid()));
-    fs::create_directories(folder_);
-    setenv("GNBV_CACHE", (folder_ / "cache").c_str(), 1);
-    flown_ = gnbv("run smoke --quiet --out " + (folder_ / "run").string());
-  }
-  static void TearDownTestSuite() { fs::remove_all(folder_); }
-  void SetUp() override { ASSERT_EQ(flown_.exit_code, 0) << flown_.output; }
-
-  static fs::path original() { return folder_ / "run"; }
-  fs::path copy() const {
-    fs::copy(original(), temp_.path() / "run", fs::copy_options::recursive);
-    return temp_.path() / "run";
-  }
-  static Json summary_of(const fs::path& run) {
-    return Json::parse(read_file(run / "summary.json"));
-  }
-
-  static inline fs::path folder_;
-  static inline Outcome flown_;
-  TempFolder temp_;
-};
+using test::Score;
 
 constexpr std::array kScored = {"precision_recall", "accuracy_m", "completeness_m",
                                 "chamfer_m",        "density",    "auc"};
@@ -181,6 +154,64 @@ TEST_F(Score, OfAMeshFileIsThatOfTheStructureItHolds) {
   EXPECT_NE(high.at("coverage"), b.at("coverage"));
 }
 
+TEST_F(Score, OfACloudDoesNotDependOnItsGround) {
+  std::vector<Vec3f> points = read_cloud(original() / "cloud.ply");
+  for (int i = 0; i < 50; ++i) {
+    points.emplace(points.begin() + 7 * i, 0.1F * static_cast<float>(i), 0.0F, -0.01F);
+  }
+  const std::string file = (temp_.path() / "ground.ply").string();
+  write_cloud_ply(points, file);
+  const Outcome outcome = gnbv("score " + file + " --scenario smoke --json 2>/dev/null");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const Json with_ground = Json::parse(outcome.output);
+  const Json run = summary_of(original());
+  EXPECT_EQ(with_ground.at("points_below_floor"), 50);
+  EXPECT_EQ(with_ground.at("points"), points.size() - 50);
+  EXPECT_EQ(with_ground.at("coverage").at("final"), run.at("coverage").at("final"));
+  for (const char* key : {"precision_recall", "chamfer_m", "density"}) {
+    EXPECT_EQ(with_ground.at(key), run.at(key)) << key;
+  }
+  const Outcome told = gnbv("score " + file + " --scenario smoke");
+  EXPECT_TRUE(has(told, "50 points below z = 0.3 m left out")) << told.output;
+}
+
+/// Every file of a run that does not fit the others, each alone.
+TEST_F(Score, OfARunWhoseFilesDoNotFitNamesTheFile) {
+  const fs::path run = copy();
+  const auto expect_refused = [&](const char* file, const std::string& content,
+                                  const std::string& words, const std::string& option = "") {
+    const std::string whole = read_file(run / file);
+    write_file_atomically(run / file, content);
+    const Outcome outcome = gnbv("score " + run.string() + option);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+    EXPECT_TRUE(has(outcome, (run / file).string() + ": " + words)) << outcome.output;
+    write_file_atomically(run / file, whole);
+  };
+  const std::string rows = read_file(run / "iterations.csv");
+  const std::size_t last = rows.rfind('\n', rows.size() - 2) + 1;
+  expect_refused("iterations.csv", rows.substr(0, last), "11 views, 12 in summary.json");
+  Json summary = summary_of(run);
+  summary["iterations"] = "12";
+  expect_refused("summary.json", summary.dump(), "iterations: is missing or no count");
+  for (const Json& schema : {Json(3), Json(-1), Json("2"), Json(1.5)}) {
+    summary = summary_of(run);
+    summary["schema"] = schema;
+    expect_refused("summary.json", summary.dump(), "schema: " + schema.dump(), " --update");
+  }
+  summary = summary_of(run);
+  summary.erase("coverage");
+  expect_refused("summary.json", summary.dump(), "is not the summary of a run", " --update");
+
+  std::vector<Vec3f> points = read_cloud(run / "cloud.ply");
+  points[5].z() = std::numeric_limits<float>::infinity();
+  write_cloud_ply(points, temp_.path() / "infinite.ply");
+  expect_refused("cloud.ply", read_file(temp_.path() / "infinite.ply"), "point 5 ");
+  points[5].z() = 60000.0F;
+  write_cloud_ply(points, temp_.path() / "far.ply");
+  expect_refused("cloud.ply", read_file(temp_.path() / "far.ply"), "point 5 ");
+  EXPECT_EQ(gnbv("score " + run.string() + " --update").exit_code, 0);
+}
+
 /// Arguments after which `score` exits with 2 and one line that holds the words.
 struct Refused {
   std::string arguments;
@@ -230,50 +261,6 @@ TEST_F(Score, RefusesWhatItCannotScoreInOneLine) {
       EXPECT_TRUE(has(outcome, word)) << "no '" << word << "' in: " << outcome.output;
     }
   }
-}
-
-/// The gate of this repository's own CI.
-TEST_F(Score, SmokeKeepsItsBaseline) {
-  const Outcome check =
-      gnbv("check " + original().string() + " --against " GNBV_BASELINES "/smoke.json");
-  EXPECT_EQ(check.exit_code, 0) << check.output;
-}
-
-TEST_F(Score, AWorseMissionFailsTheBaselineByName) {
-  const fs::path run = temp_.path() / "worse";
-  ASSERT_EQ(
-      gnbv("run smoke --quiet --set planner.termination.max_iterations=6 --out " + run.string())
-          .exit_code,
-      0);
-  const Outcome check = gnbv("check " + run.string() + " --against " GNBV_BASELINES "/smoke.json");
-  EXPECT_EQ(check.exit_code, 1) << check.output;
-  EXPECT_TRUE(has(check, "regressed coverage_0.05")) << check.output;
-  EXPECT_TRUE(has(check, "better    flight_time_s")) << check.output;
-}
-
-TEST_F(Score, ChecksAgainstABaselineThatItWrote) {
-  const std::string baseline = (temp_.path() / "b.json").string();
-  const std::string check = "check " + original().string() + " --against " + baseline;
-  EXPECT_EQ(gnbv(check).exit_code, 2);  // there is none yet
-  ASSERT_EQ(gnbv(check + " --update").exit_code, 0);
-  EXPECT_EQ(gnbv(check).exit_code, 0);
-  Json changed = Json::parse(read_file(baseline));
-  changed["metrics"]["recall"]["value"] = 2.0;
-  changed["metrics"]["recall"]["tolerance"] = 0.5;
-  changed["result_sha256"] = "other";
-  write_file_atomically(baseline, changed.dump());
-  const Outcome json = gnbv(check + " --json 2>/dev/null");
-  EXPECT_EQ(json.exit_code, 1);
-  EXPECT_EQ(Json::parse(json.output).at("regressed"), 2);
-  ASSERT_EQ(gnbv(check + " --update").exit_code, 0);
-  const Json updated = Json::parse(read_file(baseline));
-  EXPECT_EQ(updated.at("metrics").at("recall").at("tolerance"), 0.5);
-  EXPECT_EQ(updated.at("result_sha256"), summary_of(original()).at("result_sha256"));
-  changed["of"]["seed"] = 99;
-  write_file_atomically(baseline, changed.dump());
-  const Outcome other = gnbv(check);
-  EXPECT_EQ(other.exit_code, 2);
-  EXPECT_TRUE(has(other, "seed 99, the run's is ")) << other.output;
 }
 
 }  // namespace

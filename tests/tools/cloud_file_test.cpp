@@ -63,15 +63,18 @@ TEST(CloudFile, EveryLayoutGivesTheSamePoints) {
   for (const fs::path& file : {ascii, between, as_double, lines}) {
     EXPECT_EQ(read_cloud(file), kPoints) << file;
   }
-  EXPECT_EQ(read_cloud(written(temp, "e.xyz", "1,2,3,255,0,0\r\n-4.5;0;1e-3\n0.1\t7 -8")), kPoints);
+  EXPECT_EQ(read_cloud(written(temp, "e.xyz", "+1,2,3,255,0,0\r\n-4.5;0;1e-3\n0.1\t7 -8")),
+            kPoints);
 }
 
 TEST(CloudFile, WhatIsNotANumberStaysForTheJudge) {
   TempFolder temp;
-  const std::vector<Vec3f> points = read_cloud(written(temp, "a.xyz", "1 nan 3\n1 2 inf\n"));
-  ASSERT_EQ(points.size(), 2U);
+  const std::vector<Vec3f> points =
+      read_cloud(written(temp, "a.xyz", "1 nan 3\n1 2 inf\n1 2 1e999\n"));
+  ASSERT_EQ(points.size(), 3U);
   EXPECT_TRUE(std::isnan(points[0].y()));
   EXPECT_TRUE(std::isinf(points[1].z()));
+  EXPECT_TRUE(std::isinf(points[2].z()));
 }
 
 TEST(CloudFile, WhatIsNoCloudIsNamedWithItsLine) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <thread>
 
 #include "scenarios/load.hpp"
 #include "sensors/ray_scene.hpp"
@@ -126,9 +125,8 @@ Ceiling ceiling_of(const Scenario& scenario, const BenchOptions& options) {
   std::vector<std::string> warnings;  // the missions' logs hold them
   const World world = load_world(scenario, warnings);
   const RayScene scene(world);
-  const unsigned all = std::max(1U, std::thread::hardware_concurrency());
   return find_ceiling(scenario, world, scene, start_pose(scenario, scene),
-                      options.threads > 0 ? options.threads : static_cast<int>(all));
+                      thread_count(options.threads));
 }
 
 std::map<std::string, Ceiling> ceilings_of(const BenchRuns& runs, const BenchOptions& options) {

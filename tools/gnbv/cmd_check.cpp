@@ -34,7 +34,7 @@ std::string_view name_of(GateVerdict verdict) {
   GNBV_CHECK(false, "verdict {}", static_cast<int>(verdict));
 }
 
-std::string terminal_text(const BaselineCheck& check) {
+std::string terminal_text(const Baseline& baseline, const BaselineCheck& check) {
   std::string text;
   std::size_t kept = 0;
   for (const MetricChange& change : check.metrics) {
@@ -51,12 +51,16 @@ std::string terminal_text(const BaselineCheck& check) {
                         name_of(change.verdict), metric.name, metric.value, change.now,
                         change.now - metric.value, metric.tolerance);
   }
+  if (check.is_termination_wrong) {
+    text += fmt::format("regressed termination: {}, the baseline's is {}\n", check.termination,
+                        baseline.termination);
+  }
   if (check.is_hash_wrong) text += "regressed result_sha256: is another\n";
   return text +
          fmt::format("{} of {} metrics within their tolerance\n", kept, check.metrics.size());
 }
 
-std::string json_text(const BaselineCheck& check, std::size_t regressed) {
+std::string json_text(const Baseline& baseline, const BaselineCheck& check, std::size_t regressed) {
   nlohmann::ordered_json metrics = nlohmann::ordered_json::array();
   for (const MetricChange& change : check.metrics) {
     metrics.push_back({{"metric", change.baseline.name},
@@ -67,15 +71,20 @@ std::string json_text(const BaselineCheck& check, std::size_t regressed) {
   }
   const nlohmann::ordered_json json = {{"schema", "gnbv-check-1"},
                                        {"regressed", regressed},
+                                       {"termination",
+                                        {{"baseline", baseline.termination},
+                                         {"now", check.termination},
+                                         {"regressed", check.is_termination_wrong}}},
                                        {"result_sha256_differs", check.is_hash_wrong},
                                        {"metrics", metrics}};
   return json.dump(2) + "\n";
 }
 
 void update(const CheckOptions& options) {
-  std::optional<Baseline> before;
-  if (fs::exists(options.against)) before = read_baseline(options.against);
-  const Baseline now = make_baseline(read_run_figures(options.run), before);
+  const RunFigures run = read_run_figures(options.run);
+  const Baseline now = fs::exists(options.against)
+                           ? updated_baseline(run, read_baseline(options.against), options.against)
+                           : make_baseline(run);
   write_file_atomically(options.against, to_json(now));
   fmt::print("{}\n", options.against.string());
 }
@@ -84,14 +93,20 @@ void check(const CheckOptions& options) {
   const Baseline baseline = read_baseline(options.against);
   const BaselineCheck check =
       check_against(baseline, options.against, read_run_figures(options.run));
-  std::size_t regressed = check.is_hash_wrong ? 1 : 0;
-  std::string names = check.is_hash_wrong ? " result_sha256" : "";
-  for (const MetricChange& change : check.metrics) {
-    if (change.verdict != GateVerdict::regressed) continue;
+  std::size_t regressed = 0;
+  std::string names;
+  const auto count = [&](bool is_worse, const std::string& name) {
+    if (!is_worse) return;
     ++regressed;
-    names += " " + change.baseline.name;
+    names += " " + name;
+  };
+  count(check.is_termination_wrong, "termination");
+  count(check.is_hash_wrong, "result_sha256");
+  for (const MetricChange& change : check.metrics) {
+    count(change.verdict == GateVerdict::regressed, change.baseline.name);
   }
-  fmt::print("{}", options.json ? json_text(check, regressed) : terminal_text(check));
+  fmt::print("{}",
+             options.json ? json_text(baseline, check, regressed) : terminal_text(baseline, check));
   if (regressed == 0) return;
   throw CommandFailed(fmt::format("{} regressed against {}:{}", options.run.string(),
                                   options.against.string(), names));
@@ -105,9 +120,11 @@ void add_check_command(CLI::App& app) {
       app.add_subcommand("check", "compare a run with a baseline; exit 1 when it is worse");
   command->add_option("RUN", options->run, "run directory")->required();
   command->add_option("--against", options->against, "baseline file (JSON)")->required();
-  command->add_flag("--update", options->update,
-                    "write the run's figures to the baseline; tolerances there are kept");
-  command->add_flag("--json", options->json, "print JSON instead of a table");
+  CLI::Option* const update_flag =
+      command->add_flag("--update", options->update,
+                        "write the run's figures to the baseline; tolerances there are kept");
+  command->add_flag("--json", options->json, "print JSON instead of a table")
+      ->excludes(update_flag);
   command->callback([options] { options->update ? update(*options) : check(*options); });
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <thread>
 
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
@@ -19,8 +18,7 @@ struct LintOptions : MissionOptions {
 
 void lint(const LintOptions& options) {
   const Scenario scenario = resolve_scenario(options);
-  const int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  const MeshReport report = report_on_mesh(scenario, threads);
+  const MeshReport report = report_on_mesh(scenario, thread_count(0));
   fmt::print("{}", options.json ? json_text(report) : terminal_text(report));
   if (!report.is_usable()) {
     throw CommandFailed(fmt::format("{}: not usable as it is", report.path));

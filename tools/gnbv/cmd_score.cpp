@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "sim/core/error.hpp"
 #include "tools/gnbv/commands.hpp"
@@ -40,8 +39,13 @@ std::string heading(const std::string& name, const std::array<double, 3>& column
 
 std::string terminal_text(const Scored& scored, const std::string& name, bool is_run) {
   const MissionScore& score = scored.score;
-  std::string text = fmt::format("{}: {} points against {}, its surface above z = {} m\n\n", name,
+  std::string text = fmt::format("{}: {} points against {}, its surface above z = {} m\n", name,
                                  scored.points, scored.structure, scored.floor_z_m);
+  if (scored.points_below_floor > 0) {
+    text += fmt::format("{} points below z = {} m left out\n", scored.points_below_floor,
+                        scored.floor_z_m);
+  }
+  text += "\n";
   text += heading("Coverage, voxels of", kCoverageSizes_m);
   const auto coverage_row = [&](const std::string& row, const std::array<double, 3>& shares) {
     text += percent_row(row, [&](std::size_t i) { return shares[i]; });
@@ -66,6 +70,7 @@ std::string json_text(const Scored& scored, bool is_run) {
   nlohmann::ordered_json json = {{"schema", "gnbv-score-1"},
                                  {"structure", scored.structure},
                                  {"points", scored.points},
+                                 {"points_below_floor", scored.points_below_floor},
                                  {"floor_z_m", scored.floor_z_m}};
   json.update(nlohmann::ordered_json::parse(score_json(scored.score, is_run)));
   json["wall_s"] = {{"reference", scored.reference_s}, {"score", scored.score_s}};
@@ -89,8 +94,8 @@ Scored score_file(ScoreOptions options, int threads) {
   const DistanceScore& widest = scored.score.distances.at.back();
   if (widest.precision < 0.5) {
     fmt::print(stderr,
-               "gnbv: {}: only {:.1f} % of the points lie within {} m of the mesh: another frame "
-               "or mesh?\n",
+               "gnbv: {}: only {:.1f} % of the points lie within {} m of the mesh: another unit, "
+               "frame or mesh?\n",
                options.target, 100.0 * widest.precision, widest.distance_m);
   }
   return scored;
@@ -111,9 +116,7 @@ Scored score_folder(const ScoreOptions& options, int threads) {
 }
 
 void score(const ScoreOptions& options) {
-  const int threads = options.threads > 0
-                          ? options.threads
-                          : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const int threads = thread_count(options.threads);
   const bool is_run = fs::is_directory(options.target);
   const Scored scored = is_run ? score_folder(options, threads) : score_file(options, threads);
   fmt::print("{}", options.json ? json_text(scored, is_run)
@@ -132,8 +135,8 @@ void add_score_command(CLI::App& app) {
   command->add_option("--scenario", options->scenario,
                       "its structure instead; built-in name or YAML file");
   command->add_option("--floor-z", options->floor_z_m,
-                      "surface below this height (m) is not asked for (default: the scenario's, "
-                      "0.3)");
+                      "surface below this height (m) is not asked for, and points there are left "
+                      "out (default: the scenario's, 0.3)");
   command
       ->add_option("--set", options->overrides,
                    "KEY=VALUE of the scenario file; repeatable (structure.file.scale, .unit_m, "

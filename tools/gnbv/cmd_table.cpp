@@ -8,6 +8,7 @@
 #include "sim/core/error.hpp"
 #include "tools/gnbv/bench_runs.hpp"
 #include "tools/gnbv/commands.hpp"
+#include "tools/mission/load_world.hpp"
 
 namespace gnbv {
 namespace {
@@ -94,8 +95,7 @@ void table(const TableOptions& options) {
   std::vector<RunFigures> runs;
   for (const ComparedRun& run : flown.runs) runs.push_back(run.figures);
   TextTable text = comparison_table(paper, runs, ceiling);
-  const std::string structure =
-      first.structure.file.path.empty() ? first.structure.builtin : first.structure.file.path;
+  const std::string structure = structure_name(first.structure);
   if (!is_papers_structure(paper, structure)) {
     text.notes.push_back(fmt::format(
         "ours is of {}, which is not known to be the structure that the paper's figures are of",

@@ -75,6 +75,11 @@ MissionHooks make_hooks(const Scenario& scenario, RunDirectory& directory, Progr
 
 }  // namespace
 
+int thread_count(int threads) {
+  if (threads > 0) return threads;
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
 fs::path free_folder(const std::string& name) {
   fs::path folder = fs::path("runs") / name;
   for (int n = 2; fs::exists(folder); ++n)
@@ -87,9 +92,7 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
   if (options.resume && options.out.empty()) {
     throw BadInput("--resume: needs --out, the run directory to continue");
   }
-  const int threads = options.threads > 0
-                          ? options.threads
-                          : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const int threads = thread_count(options.threads);
   need_memory_for(scenario, threads);
   // all that can be wrong with the input is found before the first file is written
   std::vector<std::string> warnings;
@@ -103,6 +106,7 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
       options.out.empty() ? free_folder(fmt::format("{}-{}-seed{}", scenario.name,
                                                     scenario.planner.utility.name, scenario.seed))
                           : options.out;
+  need_usable(folder, scenario, options.resume);  // an oracle may think for minutes before it flies
   ProgressBar progress(fmt::format("{} {}", scenario.name, scenario.planner.utility.name),
                        options.quiet);
   std::optional<std::vector<Decision>> route =

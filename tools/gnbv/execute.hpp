@@ -1,4 +1,5 @@
-// One mission from the command line to its run directory; what `run` and `table` share.
+// One mission from the command line to its run directory; and the options that commands about one
+// share.
 #pragma once
 
 #include <filesystem>
@@ -20,6 +21,9 @@ struct MissionOptions : ScenarioOptions {
   bool candidates = false;  // also write candidates.jsonl
   bool frames = false;      // also write frames/
 };
+
+/// `threads`, or as many as the machine has for 0.
+int thread_count(int threads);
 
 /// runs/NAME, or runs/NAME-2 and so on: the first that does not exist.
 std::filesystem::path free_folder(const std::string& name);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <charconv>
+#include <cstdlib>
 #include <cstring>
-#include <limits>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -105,10 +105,10 @@ std::optional<float> take_number(std::string_view& line) {
   line.remove_prefix(std::min(line.find_first_not_of(kBetween), line.size()));
   const std::string_view word = line.substr(0, line.find_first_of(kBetween));
   line.remove_prefix(word.size());
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (word.empty() || end != word.data() + word.size()) return std::nullopt;
-  if (error != std::errc()) return std::numeric_limits<float>::infinity();
+  const std::string text(word);  // ends where the word does
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0') return std::nullopt;
   return static_cast<float>(value);
 }
 

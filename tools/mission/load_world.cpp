@@ -5,6 +5,10 @@
 
 namespace gnbv {
 
+std::string structure_name(const StructureConfig& structure) {
+  return structure.file.path.empty() ? structure.builtin : structure.file.path;
+}
+
 TriangleMesh load_structure(const Scenario& scenario, std::vector<std::string>& warnings) {
   const StructureConfig& structure = scenario.structure;
   return structure.file.path.empty() ? make_builtin_structure(structure.builtin)
@@ -25,8 +29,7 @@ World load_world(const Scenario& scenario, std::vector<std::string>& warnings) {
         "{}: the mesh spans [{:.2f}, {:.2f}, {:.2f}] to [{:.2f}, {:.2f}, {:.2f}] m, which is not "
         "inside workspace_m: `--bounds auto` lays the workspace around it; or set "
         "structure.file.scale, structure.file.offset_m, structure.file.unit_m or workspace_m",
-        structure.file.path.empty() ? structure.builtin : structure.file.path, lo.x(), lo.y(),
-        lo.z(), hi.x(), hi.y(), hi.z()));
+        structure_name(structure), lo.x(), lo.y(), lo.z(), hi.x(), hi.y(), hi.z()));
   }
   return world;
 }

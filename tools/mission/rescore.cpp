@@ -32,9 +32,8 @@ Scored score(const Scenario& scenario, const World& world, const RayScene& scene
   const auto scoring = Clock::now();
   const MissionScore found =
       score_cloud(reference, scene, cloud, scenario.planner.map.resolution_m, threads);
-  const StructureConfig& structure = scenario.structure;
   return {.score = found,
-          .structure = structure.file.path.empty() ? structure.builtin : structure.file.path,
+          .structure = structure_name(scenario.structure),
           .points = cloud.points_world_m.size(),
           .floor_z_m = floor_z_m,
           .reference_s = std::chrono::duration<double>(scoring - begin).count(),
@@ -46,18 +45,34 @@ World world_of(const Scenario& scenario) {
   return {.structure = load_structure(scenario, warnings), .has_ground = scenario.structure.ground};
 }
 
-/// When the profile ended; a number of summary.json.
-double profile_end_s(const fs::path& run) {
+/// What a score needs of summary.json.
+struct SummaryPart {
+  double profile_end_s = 0.0;
+  std::size_t views = 0;
+};
+
+SummaryPart read_summary_part(const fs::path& run) {
   const auto summary = nlohmann::json::parse(read_summary(run), nullptr, false);
-  const bool has_it = summary.is_object() && summary.contains("profile_end_s") &&
-                      summary.at("profile_end_s").is_number();
-  if (has_it) return summary.at("profile_end_s").get<double>();
-  throw BadInput(
-      fmt::format("{}: profile_end_s: is missing or no number", (run / "summary.json").string()));
+  const auto complain = [&](const char* what) {
+    throw BadInput(fmt::format("{}: {}", (run / "summary.json").string(), what));
+  };
+  if (!summary.is_object()) complain("is no JSON object");
+  if (!summary.contains("profile_end_s") || !summary.at("profile_end_s").is_number()) {
+    complain("profile_end_s: is missing or no number");
+  }
+  if (!summary.contains("iterations") || !summary.at("iterations").is_number_unsigned()) {
+    complain("iterations: is missing or no count");
+  }
+  return {summary.at("profile_end_s").get<double>(), summary.at("iterations").get<std::size_t>()};
 }
 
 /// Files of two runs in one directory would score as neither.
-void need_matching(const fs::path& run, const ScoredCloud& cloud, std::span<const Vec3f> profile) {
+void need_matching(const fs::path& run, const ScoredCloud& cloud, std::span<const Vec3f> profile,
+                   std::size_t views) {
+  if (cloud.views.size() != views) {
+    throw BadInput(fmt::format("{}: {} views, {} in summary.json: files of two runs?",
+                               (run / "iterations.csv").string(), cloud.views.size(), views));
+  }
   const std::span<const Vec3f> points = cloud.points_world_m;
   if (profile.size() > points.size() ||
       !std::equal(profile.begin(), profile.end(), points.begin())) {
@@ -82,32 +97,34 @@ void need_matching(const fs::path& run, const ScoredCloud& cloud, std::span<cons
 Scored score_any_cloud(const std::string& name, std::span<const Vec3f> cloud_world_m,
                        const Scenario& scenario, int threads) {
   const World world = world_of(scenario);
-  const Box3 structure_m = bounds_m(world.structure);
-  need_scorable(name, cloud_world_m, structure_m);
   const RayScene scene(world);
-  const ScoredCloud cloud{.points_world_m = cloud_world_m};
-  Scored scored = score(scenario, world, scene, cloud, threads);
-  need_near(name, cloud_world_m, scored.score.distances, structure_m);
+  const std::vector<Vec3f> points_m = scorable_points(
+      name, cloud_world_m, scenario.planner.floor_z_m, scene, bounds_m(world.structure));
+  Scored scored = score(scenario, world, scene, {.points_world_m = points_m}, threads);
+  scored.points_below_floor = cloud_world_m.size() - points_m.size();
   return scored;
 }
 
 Scored score_run(const fs::path& run, int threads) {
-  const double end_s = profile_end_s(run);
+  const SummaryPart summary = read_summary_part(run);
   const Scenario scenario = load_scenario((run / "scenario.yaml").string(), {});
-  const std::vector<Vec3f> points = read_cloud(run / "cloud.ply");
+  const fs::path cloud_path = run / "cloud.ply";
+  const std::vector<Vec3f> points = read_cloud(cloud_path);
+  need_voxels(cloud_path.string(), points);
   const std::vector<Vec3f> profile = read_cloud(run / "profile.ply");
   const ScoredCloud cloud{.points_world_m = points,
                           .profile_points = profile.size(),
-                          .profile_end_s = end_s,
+                          .profile_end_s = summary.profile_end_s,
                           .views = read_view_marks(run / "iterations.csv")};
-  need_matching(run, cloud, profile);
+  need_matching(run, cloud, profile, summary.views);
   const World world = world_of(scenario);
   const RayScene scene(world);
   return score(scenario, world, scene, cloud, threads);
 }
 
 void update_run(const fs::path& run, const MissionScore& score) {
-  const std::string summary = rescored_summary_json(read_summary(run), score);
+  const std::string summary =
+      rescored_summary_json((run / "summary.json").string(), read_summary(run), score);
   write_file_atomically(run / "coverage.csv", coverage_csv(score.curve));
   write_file_atomically(run / "summary.json", summary);
 }

@@ -11,14 +11,16 @@ namespace gnbv {
 /// A score, and what it is of.
 struct Scored {
   MissionScore score;
-  std::string structure;  // built-in name, or path of the mesh
-  std::size_t points = 0;
+  std::string structure;               // built-in name, or path of the mesh
+  std::size_t points = 0;              // that were scored
+  std::size_t points_below_floor = 0;  // that were left out
   double floor_z_m = 0.0;
   double reference_s = 0.0;  // wall time, of the reference
   double score_s = 0.0;      // and of all that is compared with it
 };
 
-/// Any cloud against the scenario's structure, wherever that lies. Throws BadInput, beginning with
+/// Any cloud against the scenario's structure, wherever that lies, without its points below the
+/// floor. Throws BadInput, beginning with
 /// `name`, for a cloud that cannot be scored (bench/cloud_faults.hpp).
 Scored score_any_cloud(const std::string& name, std::span<const Vec3f> cloud_world_m,
                        const Scenario& scenario, int threads);

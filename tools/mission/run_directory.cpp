@@ -33,27 +33,32 @@ std::string trajectory_tum(const MissionResult& result) {
 
 }  // namespace
 
-RunDirectory::RunDirectory(fs::path folder, const Scenario& scenario, bool resume)
-    : folder_(std::move(folder)) {
-  const std::string yaml = to_yaml(scenario);
+void need_usable(const fs::path& folder, const Scenario& scenario, bool resume) {
   std::error_code error;
-  const bool holds_a_run = fs::exists(folder_ / kScenario, error);
-  if (!holds_a_run && fs::exists(folder_, error) && !fs::is_empty(folder_, error)) {
+  const bool holds_a_run = fs::exists(folder / kScenario, error);
+  if (!holds_a_run && fs::exists(folder, error) && !fs::is_empty(folder, error)) {
     throw BadInput(
-        fmt::format("{}: is not empty and holds no run: choose another --out", folder_.string()));
+        fmt::format("{}: is not empty and holds no run: choose another --out", folder.string()));
   }
   if (holds_a_run && !resume) {
     throw BadInput(
         fmt::format("{}: holds a run already: add --resume to continue it, or choose "
                     "another --out",
-                    folder_.string()));
+                    folder.string()));
   }
-  if (holds_a_run && read_file(folder_ / kScenario) != yaml) {
+  if (holds_a_run && read_file(folder / kScenario) != to_yaml(scenario)) {
     throw BadInput(
         fmt::format("{}: the run there is of another configuration: only the same one "
                     "can be resumed",
-                    (folder_ / kScenario).string()));
+                    (folder / kScenario).string()));
   }
+}
+
+RunDirectory::RunDirectory(fs::path folder, const Scenario& scenario, bool resume)
+    : folder_(std::move(folder)) {
+  need_usable(folder_, scenario, resume);
+  std::error_code error;
+  const bool holds_a_run = fs::exists(folder_ / kScenario, error);
   fs::create_directories(folder_, error);
   if (error) {
     throw BadInput(
@@ -66,7 +71,7 @@ RunDirectory::RunDirectory(fs::path folder, const Scenario& scenario, bool resum
   }
   // the journal is written anew as the recorded views are flown again, and takes its place only
   // when it has caught up: a resumed run that is killed, too, has lost nothing
-  write_file_atomically(folder_ / kScenario, yaml);
+  write_file_atomically(folder_ / kScenario, to_yaml(scenario));
 }
 
 void RunDirectory::write_profile(const Belief& belief) const {

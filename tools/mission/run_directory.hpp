@@ -13,10 +13,14 @@
 
 namespace gnbv {
 
+/// Throws BadInput for a folder that holds a run already when `resume` is false, a run of another
+/// scenario, or anything else that is no run. Writes nothing.
+void need_usable(const std::filesystem::path& folder, const Scenario& scenario, bool resume);
+
 class RunDirectory {
  public:
-  /// Makes the folder and writes scenario.yaml. Throws BadInput when it cannot be written, when it
-  /// holds a run already and `resume` is false, or when it holds a run of another scenario.
+  /// Makes the folder and writes scenario.yaml. Throws BadInput when it cannot be written, and as
+  /// need_usable().
   RunDirectory(std::filesystem::path folder, const Scenario& scenario, bool resume);
 
   const std::filesystem::path& path() const { return folder_; }

@@ -16,7 +16,7 @@ ScoredCloud scored_cloud(const MissionResult& result) {
 
 MissionScore score_cloud(const SurfaceReference& reference, const RayScene& scene,
                          const ScoredCloud& cloud, double density_voxel_m, int threads) {
-  // the profile, every view, and the end, which is the last of them
+  // the profile, what each view left, and the whole cloud: the curve ends with the last view
   std::vector<std::size_t> prefixes = {cloud.profile_points};
   for (const ViewMark& view : cloud.views) prefixes.push_back(view.cloud_points);
   prefixes.push_back(cloud.points_world_m.size());

@@ -4,6 +4,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "tools/mission/load_world.hpp"
 
 namespace gnbv {
 namespace {
@@ -95,8 +96,7 @@ std::string summary_json(const Scenario& scenario, const MissionResult& r,
   Json json = {
       {"schema", kSummarySchema},
       {"scenario", scenario.name},
-      {"structure", scenario.structure.file.path.empty() ? scenario.structure.builtin
-                                                         : scenario.structure.file.path},
+      {"structure", structure_name(scenario.structure)},
       {"utility", scenario.planner.utility.name},
       {"preset", scenario.planner.preset},
       {"vehicle", scenario.vehicle.kind == VehicleKind::ideal ? "ideal" : scenario.vehicle.preset},
@@ -162,10 +162,16 @@ std::string score_json(const MissionScore& score, bool is_run) {
   return json.dump(2);
 }
 
-std::string rescored_summary_json(const std::string& summary, const MissionScore& score) {
+std::string rescored_summary_json(const std::string& name, const std::string& summary,
+                                  const MissionScore& score) {
   const Json json = Json::parse(summary, nullptr, false);
   if (!json.is_object() || !json.contains("schema") || !json.contains("coverage")) {
-    throw BadInput("is not the summary of a run");
+    throw BadInput(fmt::format("{}: is not the summary of a run", name));
+  }
+  const Json& schema = json.at("schema");
+  if (!schema.is_number_unsigned() || schema.get<std::uint64_t>() > kSummarySchema) {
+    throw BadInput(fmt::format("{}: schema: {} is none that this version knows, 1 to {}", name,
+                               schema.dump(), kSummarySchema));
   }
   return with_score(json, score).dump(2) + "\n";
 }

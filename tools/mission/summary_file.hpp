@@ -12,7 +12,7 @@
 namespace gnbv {
 
 /// 2: precision_recall, accuracy_m, completeness_m, chamfer_m, density, auc; coverage.csv.
-constexpr int kSummarySchema = 2;
+constexpr unsigned kSummarySchema = 2;
 
 constexpr std::string_view kCoverageCsvHeader =
     "view,metres,seconds,coverage_0.05,coverage_0.10,coverage_0.50";
@@ -28,9 +28,10 @@ std::string read_summary(const std::filesystem::path& run);
 std::string score_json(const MissionScore& score, bool is_run);
 
 /// A summary of this schema or an earlier one, scored anew; all else stays as it is. With the score
-/// it has, a summary of this schema stays the same, byte for byte. Throws BadInput, without the
-/// file's name, for what is no summary.
-std::string rescored_summary_json(const std::string& summary, const MissionScore& score);
+/// it has, a summary of this schema stays the same, byte for byte. Throws BadInput, beginning with
+/// `name`, for what is no summary, or one of a later schema.
+std::string rescored_summary_json(const std::string& name, const std::string& summary,
+                                  const MissionScore& score);
 
 /// A row an entry of the curve. Numbers are written so that they read back exactly.
 std::string coverage_csv(const CoverageCurve& curve);
