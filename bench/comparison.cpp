@@ -22,11 +22,14 @@ std::size_t index_in(std::vector<std::string>& names, const std::string& name) {
 }
 
 Values values_of(const Comparison& comparison, std::span<const ComparedRun> runs,
-                 std::size_t scenario, const RunMetric& metric) {
+                 const Ceilings& ceilings, std::size_t scenario, const RunMetric& metric) {
   Values values(comparison.methods.size());
   for (const ComparedRun& run : runs) {
     if (run.scenario != comparison.scenarios[scenario]) continue;
-    const auto value = metric.value(run.figures, comparison.contexts[scenario]);
+    MetricContext context{.ceiling = {}, .budgets = comparison.budgets[scenario]};
+    const auto ceiling = ceilings.find({run.scenario, run.method});
+    if (ceiling != ceilings.end()) context.ceiling = ceiling->second;
+    const auto value = metric.value(run.figures, context);
     if (!value) continue;
     const auto method =
         std::find(comparison.methods.begin(), comparison.methods.end(), run.method) -
@@ -137,7 +140,7 @@ void add_figures(Comparison& comparison, std::size_t scenario, std::size_t metri
 }  // namespace
 
 Comparison compare(std::span<const ComparedRun> runs, const std::string& baseline,
-                   const std::map<std::string, Ceiling>& ceilings) {
+                   const Ceilings& ceilings) {
   Comparison comparison;
   std::vector<std::vector<const RunFigures*>> by_scenario;
   for (const ComparedRun& run : runs) {
@@ -149,16 +152,13 @@ Comparison compare(std::span<const ComparedRun> runs, const std::string& baselin
   const auto base = std::find(comparison.methods.begin(), comparison.methods.end(), baseline);
   GNBV_CHECK(base != comparison.methods.end(), "no run of the baseline '{}'", baseline);
   comparison.baseline = static_cast<std::size_t>(base - comparison.methods.begin());
-  for (std::size_t s = 0; s < comparison.scenarios.size(); ++s) {
-    MetricContext context{.ceiling = {}, .budgets = common_budgets(by_scenario[s])};
-    const auto ceiling = ceilings.find(comparison.scenarios[s]);
-    if (ceiling != ceilings.end()) context.ceiling = ceiling->second;
-    comparison.contexts.push_back(context);
+  for (const auto& of_scenario : by_scenario) {
+    comparison.budgets.push_back(common_budgets(of_scenario));
   }
   for (std::size_t metric = 0; metric < run_metrics().size(); ++metric) {
     std::vector<std::vector<double>> blocks;
     for (std::size_t s = 0; s < comparison.scenarios.size(); ++s) {
-      const Values values = values_of(comparison, runs, s, run_metrics()[metric]);
+      const Values values = values_of(comparison, runs, ceilings, s, run_metrics()[metric]);
       add_figures(comparison, s, metric, values);
       for (auto& block : rank_blocks(values, run_metrics()[metric].higher_is_better)) {
         blocks.push_back(std::move(block));

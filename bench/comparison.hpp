@@ -1,10 +1,12 @@
 // Is A better than B here? Methods over seeds, with intervals and paired tests.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/run_figures.hpp"
@@ -64,15 +66,19 @@ struct Comparison {
   std::vector<std::string> scenarios;
   std::vector<std::string> methods;
   std::size_t baseline = 0;
-  std::vector<MetricContext> contexts;  // by scenario
-  std::vector<MethodFigure> figures;    // by scenario, metric, method; without what nobody measured
+  std::vector<std::array<double, 3>> budgets;  // by scenario: common_budgets()
+  std::vector<MethodFigure> figures;  // by scenario, metric, method; without what nobody measured
   std::vector<OverallRank> ranks;
 };
 
-/// Scenarios and methods in the order of their first runs. `ceilings` by scenario, as far as they
-/// are known. Requires a run of the baseline, and no two runs of one scenario, method and seed.
+/// By scenario and method: a method that changes a camera, the leaf or the workspace has a ceiling
+/// of its own.
+using Ceilings = std::map<std::pair<std::string, std::string>, Ceiling>;
+
+/// Scenarios and methods in the order of their first runs. The ceilings as far as they are known.
+/// Requires a run of the baseline, and no two runs of one scenario, method and seed.
 Comparison compare(std::span<const ComparedRun> runs, const std::string& baseline,
-                   const std::map<std::string, Ceiling>& ceilings);
+                   const Ceilings& ceilings);
 
 /// The figure of a method, if it has one.
 const MethodFigure* find_figure(const Comparison& comparison, std::size_t scenario,

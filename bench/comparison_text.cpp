@@ -171,7 +171,7 @@ std::vector<std::string> notes(const Comparison& comparison) {
       "through of all that legal viewpoints see; distance in straight lines between views, profile "
       "apart; flight time of the whole mission");
   for (std::size_t s = 0; s < comparison.scenarios.size(); ++s) {
-    const std::array<double, 3>& b = comparison.contexts[s].budgets;
+    const std::array<double, 3>& b = comparison.budgets[s];
     if (b[0] <= 0.0) continue;
     all.push_back(
         fmt::format("{}: AUC is mean coverage at 0.05 m up to the longest run's {:.0f} views, "

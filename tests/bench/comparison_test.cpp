@@ -120,7 +120,7 @@ TEST(Compare, OneSeedIsNotTested) {
 TEST(Compare, BudgetsOfAreasAreTheLongestRuns) {
   const std::vector<ComparedRun> runs = {run("short", 1, 0.8, 50), run("long", 1, 0.8, 200)};
   const Comparison c = compare(runs, "short", {});
-  EXPECT_EQ(c.contexts[0].budgets[1], 200.0);
+  EXPECT_EQ(c.budgets[0][1], 200.0);
   // linear up to 0.8 at 50 m, then 0.8: mean over 200 m is 0.8 (1 - 25/200)
   EXPECT_NEAR(find_figure(c, 0, "AUC over metres (%)", 0)->estimate.mean, 70.0, 1e-9);
   EXPECT_NEAR(find_figure(c, 0, "AUC over metres (%)", 1)->estimate.mean, 40.0, 1e-9);
@@ -135,9 +135,24 @@ TEST(Compare, WhatWasNotMeasuredIsNotCompared) {
   EXPECT_EQ(find_figure(c, 0, "share of ceiling at 0.05 m (%)", 0), nullptr);
   Ceiling ceiling;
   ceiling.leaf_outside = {0.95, 1.0, 1.0};
-  const Comparison with = compare(runs, "base", {{"aircraft", ceiling}});
+  const Comparison with = compare(runs, "base", {{{"aircraft", "base"}, ceiling}});
   EXPECT_NEAR(find_figure(with, 0, "share of ceiling at 0.05 m (%)", 0)->estimate.mean,
               100.0 * (0.90 + 0.91) / 2 / 0.95, 1e-9);
+  EXPECT_EQ(find_figure(with, 0, "share of ceiling at 0.05 m (%)", 1), nullptr);  // `better`
+}
+
+TEST(Compare, EachMethodIsDividedByItsOwnCeiling) {
+  const std::vector<ComparedRun> runs = {run("coarse", 1, 0.4, 50), run("fine", 1, 0.8, 50)};
+  Ceiling low;
+  low.leaf_outside = {0.5, 1.0, 1.0};
+  Ceiling high;
+  high.leaf_outside = {1.0, 1.0, 1.0};
+  const Comparison c =
+      compare(runs, "coarse", {{{"aircraft", "coarse"}, low}, {{"aircraft", "fine"}, high}});
+  for (const std::size_t method : {0, 1}) {  // 0.4 of 0.5, 0.8 of 1
+    EXPECT_NEAR(find_figure(c, 0, "share of ceiling at 0.05 m (%)", method)->estimate.mean, 80.0,
+                1e-9);
+  }
 }
 
 TEST(Compare, RanksAreMeansOverScenariosAndSeeds) {

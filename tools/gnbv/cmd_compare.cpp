@@ -101,10 +101,10 @@ void compare_command(const CompareOptions& options) {
     for (const std::string& note : collected.notes) fmt::print(stderr, "gnbv: {}\n", note);
     throw CommandFailed(fmt::format("no mission of the baseline, {}, is done", plan.baseline));
   }
-  const Comparison comparison =
-      compare(collected.runs, plan.baseline, ceilings_of(collected, options));
-  TextTable table = comparison_table(comparison);
-  table.notes.insert(table.notes.end(), collected.notes.begin(), collected.notes.end());
+  std::vector<std::string> more_notes = collected.notes;
+  const Ceilings ceilings = ceilings_of(collected, options, more_notes);
+  TextTable table = comparison_table(compare(collected.runs, plan.baseline, ceilings));
+  table.notes.insert(table.notes.end(), more_notes.begin(), more_notes.end());
   print_bench(table, options.format, collected.has_failures);
 }
 
