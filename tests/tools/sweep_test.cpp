@@ -134,6 +134,37 @@ TEST_F(SweepFile, TheIdIsThatOfTheContent) {
   EXPECT_NE(CellNamer("another version").id_of(cells[0].resolved), cells[0].id);
 }
 
+TEST_F(SweepFile, AnotherBuildOfTheSameSourcesSharesItsCellsAndAChangedOneDoesNot) {
+  const Cell cell = cells_of(read("scenarios: smoke\n"))[0];
+  EXPECT_EQ(CellNamer(GNBV_VERSION, source_id()).id_of(cell.resolved), cell.id);
+  EXPECT_NE(CellNamer(GNBV_VERSION, "changed sources").id_of(cell.resolved), cell.id);
+}
+
+/// What source_id.cmake makes of two sources built in some way.
+std::string id_from(const fs::path& root, const std::string& build) {
+  std::ofstream(root / "list.txt") << "b.cpp\na.cpp\n";
+  const std::string command = fmt::format(
+      "cmake -DROOT='{0}' -DSOURCES='{0}/list.txt' -DBUILD='{1}' -DOUTPUT='{0}/id' -P {2}",
+      root.string(), build, GNBV_SOURCE_ID_SCRIPT);
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  return read_file(root / "id");
+}
+
+TEST(SourceId, IsThatOfNamesContentsAndBuild) {
+  TempFolder temp;
+  std::ofstream(temp.path() / "a.cpp") << "one";
+  std::ofstream(temp.path() / "b.cpp") << "two";
+  const std::string first = id_from(temp.path(), "g++ 12, flags -O3");
+  EXPECT_EQ(id_from(temp.path(), "g++ 12, flags -O3"), first);
+  EXPECT_NE(id_from(temp.path(), "g++ 12, flags -O2"), first);
+  std::ofstream(temp.path() / "b.cpp") << "twO";
+  EXPECT_NE(id_from(temp.path(), "g++ 12, flags -O3"), first);
+  std::ofstream(temp.path() / "a.cpp") << "two";
+  std::ofstream(temp.path() / "b.cpp") << "one";
+  EXPECT_NE(id_from(temp.path(), "g++ 12, flags -O3"), first);
+  EXPECT_EQ(source_id().size(), 64U);
+}
+
 TEST_F(SweepFile, AMeshCountsByItsContentWhereverItLies) {
   write_triangle(temp_.path() / "a" / "m.obj");
   write_triangle(temp_.path() / "b" / "n.obj");

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "sim/core/file.hpp"
+#include "tools/sweep/source_id.hpp"
 
 namespace gnbv {
 namespace {
@@ -58,7 +59,8 @@ CellOutcome record_failure(const Cell& cell, const CellFiles& files, const Child
                        {"last_lines", lines},
                        {"command", command},
                        {"host", host_name()},
-                       {"version", GNBV_VERSION}};
+                       {"version", GNBV_VERSION},
+                       {"source_id", source_id()}};
   // what a program prints need not be UTF-8
   write_file_atomically(files.failed,
                         record.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");

@@ -7,6 +7,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "tools/sweep/source_id.hpp"
 
 namespace gnbv {
 namespace {
@@ -104,9 +105,10 @@ void write_manifest(const fs::path& folder, const fs::path& yaml, std::span<cons
   fs::create_directories(folder, error);  // a failure is one of the file, too
   write_file_atomically(
       folder / kManifest,
-      fmt::format("{{\n\"schema\": 1,\n\"version\": \"{}\",\n\"file\": {},\n\"text\": {},\n"
+      fmt::format("{{\n\"schema\": 1,\n\"version\": \"{}\",\n\"source_id\": \"{}\",\n\"file\": "
+                  "{},\n\"text\": {},\n"
                   "\"cells\": {}\n}}\n",
-                  GNBV_VERSION, quoted(fs::absolute(yaml).lexically_normal().string()),
+                  GNBV_VERSION, source_id(), quoted(fs::absolute(yaml).lexically_normal().string()),
                   quoted(read_file(yaml)), by_line(items)));
 }
 
