@@ -70,10 +70,10 @@ std::optional<Contrast> contrast_of(const std::map<std::uint64_t, double>& metho
   contrast.baseline_mean = mean_of(base);
   contrast.difference = estimate_mean(differences);
   contrast.bootstrap = bootstrap_mean_interval(differences, kBootstrapSeed);
-  contrast.p = wilcoxon_signed_rank(differences).p;
-  const bool is_equal = std::all_of(differences.begin(), differences.end(),
-                                    [](double difference) { return difference == 0.0; });
-  if (is_equal) contrast.verdict = Verdict::equal;
+  const SignedRankTest test = wilcoxon_signed_rank(differences);
+  contrast.differing = test.n;
+  contrast.p = test.p;
+  if (contrast.pairs > 1 && contrast.differing == 0) contrast.verdict = Verdict::equal;
   return contrast;
 }
 
@@ -90,11 +90,10 @@ void judge(std::vector<Contrast*>& family) {
   for (std::size_t i = 0; i < family.size(); ++i) {
     Contrast& contrast = *family[i];
     contrast.p_holm = adjusted[i];
+    contrast.family = family.size();
     if (contrast.verdict == Verdict::equal || contrast.pairs < 2) continue;
-    // Holm's first step asks for the smallest p times the size of the family
-    const double reachable = static_cast<double>(family.size()) * least_wilcoxon_p(contrast.pairs);
     contrast.verdict = contrast.p_holm <= kLevel ? Verdict::significant
-                       : reachable > kLevel && intervals_exclude_zero(contrast)
+                       : least_p_holm(contrast) > kLevel && intervals_exclude_zero(contrast)
                            ? Verdict::interval_only
                            : Verdict::not_significant;
   }
@@ -138,6 +137,11 @@ void add_figures(Comparison& comparison, std::size_t scenario, std::size_t metri
 }
 
 }  // namespace
+
+double least_p_holm(const Contrast& contrast) {
+  // Holm's first step asks for the smallest p times the size of the family
+  return static_cast<double>(contrast.family) * least_wilcoxon_p(contrast.differing);
+}
 
 Comparison compare(std::span<const ComparedRun> runs, const std::string& baseline,
                    const Ceilings& ceilings) {

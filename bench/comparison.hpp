@@ -26,7 +26,7 @@ struct ComparedRun {
 /// What the seeds say about a difference.
 enum class Verdict {
   untested,         // one seed, or none, that both methods have
-  equal,            // no seed makes a difference
+  equal,            // none of several seeds makes a difference
   not_significant,  // neither of the following
   interval_only,    // so few seeds that no test could reject; yet Student's and the bootstrap
                     // interval of the mean difference both exclude 0
@@ -36,6 +36,8 @@ enum class Verdict {
 /// A method against the baseline, over the seeds that both have.
 struct Contrast {
   std::size_t pairs = 0;
+  std::size_t differing = 0;   // of these, whose difference is not 0: those the test ranks
+  std::size_t family = 1;      // methods of this scenario and metric that Holm adjusts for
   double baseline_mean = 0.0;  // over these seeds
   MeanEstimate difference;     // method - baseline
   Interval bootstrap;          // 95 %, of the mean difference
@@ -43,6 +45,10 @@ struct Contrast {
   double p_holm = 1.0;         // adjusted over the methods of this scenario and metric
   Verdict verdict = Verdict::untested;
 };
+
+/// The least p that a contrast could have had, after Holm's first step; above 5 % its test cannot
+/// reject, whatever the values.
+double least_p_holm(const Contrast& contrast);
 
 /// A method in a scenario by a metric.
 struct MethodFigure {

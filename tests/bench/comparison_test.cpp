@@ -94,7 +94,9 @@ TEST(Compare, HolmCountsTheMethodsAndSoDoesWhatTheTestCanReach) {
   // with two methods six seeds cannot reach 5 % any more
   EXPECT_EQ(coverage_contrast(c, 1).verdict, Verdict::interval_only);
   EXPECT_EQ(coverage_contrast(c, 2).verdict, Verdict::not_significant);
-  EXPECT_NE(all_notes(comparison_table(c)).find("7 seeds could"), std::string::npos);
+  const std::string notes = all_notes(comparison_table(c));
+  EXPECT_NE(notes.find("7 seeds could"), std::string::npos);
+  EXPECT_NE(notes.find("; the intervals are not adjusted for several methods"), std::string::npos);
 }
 
 TEST(Compare, MethodsThatDoTheSameAreEqual) {
@@ -115,6 +117,42 @@ TEST(Compare, OneSeedIsNotTested) {
   EXPECT_EQ(answers(c)[0],
             "aircraft: b covers 2.0 points more than a at 0.05 m (one seed: no test) in 50.0 m "
             "less, 50 % (one seed: no test)");
+}
+
+TEST(Compare, OneSeedWithoutADifferenceIsNotTestedEither) {
+  const std::vector<ComparedRun> runs = {run("a", 1, 0.9, 100), run("b", 1, 0.9, 100)};
+  const Comparison c = compare(runs, "a", {});
+  EXPECT_EQ(coverage_contrast(c, 1).verdict, Verdict::untested);
+  EXPECT_EQ(answers(c)[0],
+            "aircraft: b covers as much as a (one seed: no test) in as many metres (one seed: no "
+            "test)");
+}
+
+TEST(Compare, SeedsWithoutADifferenceGiveTheTestNoPower) {
+  std::vector<ComparedRun> runs = clear_cut(6);
+  runs[6].figures.coverage_final = runs[0].figures.coverage_final;  // the first seed of `better`
+  const Comparison c = compare(runs, "base", {});
+  const Contrast& contrast = coverage_contrast(c, 1);
+  EXPECT_EQ(contrast.pairs, 6U);
+  EXPECT_EQ(contrast.differing, 5U);
+  EXPECT_EQ(contrast.p, 0.0625);  // two of 2^5 signs
+  EXPECT_EQ(contrast.verdict, Verdict::interval_only);
+  const std::string notes = all_notes(comparison_table(c));
+  EXPECT_NE(notes.find("n = 6, 5 of them with a difference: no p of the signed-rank test can be "
+                       "below 0.0625, so"),
+            std::string::npos);
+}
+
+TEST(Compare, EveryNumberOfSeedsHasItsOwnPowerNote) {
+  std::vector<ComparedRun> runs = clear_cut(5);
+  for (ComparedRun more : clear_cut(8)) {
+    more.scenario = "plant";
+    runs.push_back(more);
+  }
+  const std::string notes = all_notes(comparison_table(compare(runs, "base", {})));
+  EXPECT_NE(notes.find("n = 5: no p of the signed-rank test"), std::string::npos);
+  EXPECT_EQ(notes.find("n = 8: no p"), std::string::npos);
+  EXPECT_EQ(notes.find("not adjusted"), std::string::npos);  // one method against the baseline
 }
 
 TEST(Compare, BudgetsOfAreasAreTheLongestRuns) {
