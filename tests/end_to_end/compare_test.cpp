@@ -85,6 +85,33 @@ TEST(Compare, TakesASweepAndSaysWhatItLacks) {
   EXPECT_EQ(gnbv("compare --quiet --from " + out).exit_code, 0);
 }
 
+TEST(Compare, AFailureOfAnEarlierCallIsFlownAgain) {
+  TempFolder temp;
+  const std::string compare = "compare smoke --utilities proposed,isler --seeds 1 --quiet" +
+                              kFewViews + "--out " + temp.path().string();
+  ASSERT_EQ(gnbv(compare).exit_code, 0);
+  std::vector<fs::path> runs;
+  for (const auto& cell : fs::directory_iterator(temp.path() / "cells")) {
+    if (cell.is_directory()) runs.push_back(cell.path());
+  }
+  ASSERT_EQ(runs.size(), 2U);
+  fs::remove_all(runs[0]);  // as a mission leaves it that was killed, say, for its memory
+  std::ofstream(runs[0].string() + ".failed.json") << R"({"failure": "killed by signal 9"})";
+  const Outcome again = gnbv(compare);
+  EXPECT_EQ(again.exit_code, 0) << again.output;
+  EXPECT_TRUE(fs::exists(runs[0] / "summary.json"));
+}
+
+TEST(Compare, FromASweepTakesNothingThatWouldFlyOtherMissions) {
+  for (const std::string option : {"--mesh m.obj", "--seed 2", "--set planner.cloud.leaf_m=0.1",
+                                   "--bounds auto", "--seeds 3", "--jobs 2", "--out o"}) {
+    const Outcome refused = gnbv("compare --from sweep " + option);
+    EXPECT_EQ(refused.exit_code, 2) << option;
+    EXPECT_TRUE(has(refused, "excludes")) << refused.output;
+    EXPECT_TRUE(has(refused, option.substr(0, option.find(' ')))) << refused.output;
+  }
+}
+
 TEST(Compare, AMethodThatChangesTheLeafHasItsOwnCeiling) {
   TempFolder temp;
   const std::string out = " --out " + temp.path().string();

@@ -115,6 +115,7 @@ BenchRuns fly_cells(const std::vector<Cell>& cells, const BenchOptions& options)
   const RunCellsOptions run{.folder = bench_folder(options),
                             .jobs = options.jobs,
                             .threads = options.threads,
+                            .retry_failed = true,  // a failure of an earlier call is no result
                             .quiet = options.quiet};
   const std::vector<CellOutcome> outcomes = run_cells(cells, run);
   const bool is_whole = std::none_of(outcomes.begin(), outcomes.end(), [](const CellOutcome& o) {

@@ -140,6 +140,9 @@ void add_compare_command(CLI::App& app) {
   add_bench_options(*command, *options);
   CLI::Option* const from =
       command->add_option("--from", options->from, "folder of a sweep: compare what it flew");
+  for (const char* name : {"--mesh", "--seed", "--set", "--bounds", "--seeds", "--jobs", "--out"}) {
+    what_to_fly.push_back(command->get_option(name));
+  }
   for (CLI::Option* const option : what_to_fly) option->excludes(from);
   command->callback([options] { compare_command(*options); });
 }
