@@ -22,11 +22,14 @@ std::size_t index_in(std::vector<std::string>& names, const std::string& name) {
 }
 
 Values values_of(const Comparison& comparison, std::span<const ComparedRun> runs,
-                 std::size_t scenario, const RunMetric& metric) {
+                 const Ceilings& ceilings, std::size_t scenario, const RunMetric& metric) {
   Values values(comparison.methods.size());
   for (const ComparedRun& run : runs) {
     if (run.scenario != comparison.scenarios[scenario]) continue;
-    const auto value = metric.value(run.figures, comparison.contexts[scenario]);
+    MetricContext context{.ceiling = {}, .budgets = comparison.budgets[scenario]};
+    const auto ceiling = ceilings.find({run.scenario, run.method});
+    if (ceiling != ceilings.end()) context.ceiling = ceiling->second;
+    const auto value = metric.value(run.figures, context);
     if (!value) continue;
     const auto method =
         std::find(comparison.methods.begin(), comparison.methods.end(), run.method) -
@@ -67,10 +70,10 @@ std::optional<Contrast> contrast_of(const std::map<std::uint64_t, double>& metho
   contrast.baseline_mean = mean_of(base);
   contrast.difference = estimate_mean(differences);
   contrast.bootstrap = bootstrap_mean_interval(differences, kBootstrapSeed);
-  contrast.p = wilcoxon_signed_rank(differences).p;
-  const bool is_equal = std::all_of(differences.begin(), differences.end(),
-                                    [](double difference) { return difference == 0.0; });
-  if (is_equal) contrast.verdict = Verdict::equal;
+  const SignedRankTest test = wilcoxon_signed_rank(differences);
+  contrast.differing = test.n;
+  contrast.p = test.p;
+  if (contrast.pairs > 1 && contrast.differing == 0) contrast.verdict = Verdict::equal;
   return contrast;
 }
 
@@ -87,11 +90,10 @@ void judge(std::vector<Contrast*>& family) {
   for (std::size_t i = 0; i < family.size(); ++i) {
     Contrast& contrast = *family[i];
     contrast.p_holm = adjusted[i];
+    contrast.family = family.size();
     if (contrast.verdict == Verdict::equal || contrast.pairs < 2) continue;
-    // Holm's first step asks for the smallest p times the size of the family
-    const double reachable = static_cast<double>(family.size()) * least_wilcoxon_p(contrast.pairs);
     contrast.verdict = contrast.p_holm <= kLevel ? Verdict::significant
-                       : reachable > kLevel && intervals_exclude_zero(contrast)
+                       : least_p_holm(contrast) > kLevel && intervals_exclude_zero(contrast)
                            ? Verdict::interval_only
                            : Verdict::not_significant;
   }
@@ -136,8 +138,13 @@ void add_figures(Comparison& comparison, std::size_t scenario, std::size_t metri
 
 }  // namespace
 
+double least_p_holm(const Contrast& contrast) {
+  // Holm's first step asks for the smallest p times the size of the family
+  return static_cast<double>(contrast.family) * least_wilcoxon_p(contrast.differing);
+}
+
 Comparison compare(std::span<const ComparedRun> runs, const std::string& baseline,
-                   const std::map<std::string, Ceiling>& ceilings) {
+                   const Ceilings& ceilings) {
   Comparison comparison;
   std::vector<std::vector<const RunFigures*>> by_scenario;
   for (const ComparedRun& run : runs) {
@@ -149,16 +156,13 @@ Comparison compare(std::span<const ComparedRun> runs, const std::string& baselin
   const auto base = std::find(comparison.methods.begin(), comparison.methods.end(), baseline);
   GNBV_CHECK(base != comparison.methods.end(), "no run of the baseline '{}'", baseline);
   comparison.baseline = static_cast<std::size_t>(base - comparison.methods.begin());
-  for (std::size_t s = 0; s < comparison.scenarios.size(); ++s) {
-    MetricContext context{.ceiling = {}, .budgets = common_budgets(by_scenario[s])};
-    const auto ceiling = ceilings.find(comparison.scenarios[s]);
-    if (ceiling != ceilings.end()) context.ceiling = ceiling->second;
-    comparison.contexts.push_back(context);
+  for (const auto& of_scenario : by_scenario) {
+    comparison.budgets.push_back(common_budgets(of_scenario));
   }
   for (std::size_t metric = 0; metric < run_metrics().size(); ++metric) {
     std::vector<std::vector<double>> blocks;
     for (std::size_t s = 0; s < comparison.scenarios.size(); ++s) {
-      const Values values = values_of(comparison, runs, s, run_metrics()[metric]);
+      const Values values = values_of(comparison, runs, ceilings, s, run_metrics()[metric]);
       add_figures(comparison, s, metric, values);
       for (auto& block : rank_blocks(values, run_metrics()[metric].higher_is_better)) {
         blocks.push_back(std::move(block));

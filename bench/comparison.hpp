@@ -1,10 +1,12 @@
 // Is A better than B here? Methods over seeds, with intervals and paired tests.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/run_figures.hpp"
@@ -24,7 +26,7 @@ struct ComparedRun {
 /// What the seeds say about a difference.
 enum class Verdict {
   untested,         // one seed, or none, that both methods have
-  equal,            // no seed makes a difference
+  equal,            // none of several seeds makes a difference
   not_significant,  // neither of the following
   interval_only,    // so few seeds that no test could reject; yet Student's and the bootstrap
                     // interval of the mean difference both exclude 0
@@ -34,6 +36,8 @@ enum class Verdict {
 /// A method against the baseline, over the seeds that both have.
 struct Contrast {
   std::size_t pairs = 0;
+  std::size_t differing = 0;   // of these, whose difference is not 0: those the test ranks
+  std::size_t family = 1;      // methods of this scenario and metric that Holm adjusts for
   double baseline_mean = 0.0;  // over these seeds
   MeanEstimate difference;     // method - baseline
   Interval bootstrap;          // 95 %, of the mean difference
@@ -41,6 +45,10 @@ struct Contrast {
   double p_holm = 1.0;         // adjusted over the methods of this scenario and metric
   Verdict verdict = Verdict::untested;
 };
+
+/// The least p that a contrast could have had, after Holm's first step; above 5 % its test cannot
+/// reject, whatever the values.
+double least_p_holm(const Contrast& contrast);
 
 /// A method in a scenario by a metric.
 struct MethodFigure {
@@ -64,15 +72,19 @@ struct Comparison {
   std::vector<std::string> scenarios;
   std::vector<std::string> methods;
   std::size_t baseline = 0;
-  std::vector<MetricContext> contexts;  // by scenario
-  std::vector<MethodFigure> figures;    // by scenario, metric, method; without what nobody measured
+  std::vector<std::array<double, 3>> budgets;  // by scenario: common_budgets()
+  std::vector<MethodFigure> figures;  // by scenario, metric, method; without what nobody measured
   std::vector<OverallRank> ranks;
 };
 
-/// Scenarios and methods in the order of their first runs. `ceilings` by scenario, as far as they
-/// are known. Requires a run of the baseline, and no two runs of one scenario, method and seed.
+/// By scenario and method: a method that changes a camera, the leaf or the workspace has a ceiling
+/// of its own.
+using Ceilings = std::map<std::pair<std::string, std::string>, Ceiling>;
+
+/// Scenarios and methods in the order of their first runs. The ceilings as far as they are known.
+/// Requires a run of the baseline, and no two runs of one scenario, method and seed.
 Comparison compare(std::span<const ComparedRun> runs, const std::string& baseline,
-                   const std::map<std::string, Ceiling>& ceilings);
+                   const Ceilings& ceilings);
 
 /// The figure of a method, if it has one.
 const MethodFigure* find_figure(const Comparison& comparison, std::size_t scenario,

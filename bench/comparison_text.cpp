@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 
 namespace gnbv {
 namespace {
@@ -18,8 +20,9 @@ std::string verdict_words(const Contrast& contrast) {
     case Verdict::significant:
       return "significant";
     case Verdict::interval_only:
-      return fmt::format("both intervals exclude 0, but {} seeds are too few for the test",
-                         contrast.pairs);
+      return fmt::format("both intervals exclude 0, but {} seeds{} are too few for the test",
+                         contrast.differing,
+                         contrast.differing < contrast.pairs ? " with a difference" : "");
     case Verdict::untested:
       return "one seed: no test";
     case Verdict::equal:
@@ -43,6 +46,9 @@ std::string evidence(const Contrast& contrast, int decimals, const std::string& 
 
 std::string coverage_answer(const Contrast& contrast, const std::string& baseline) {
   if (contrast.verdict == Verdict::equal) return fmt::format("covers as much as {}", baseline);
+  if (contrast.verdict == Verdict::untested && contrast.difference.mean == 0.0) {
+    return fmt::format("covers as much as {} ({})", baseline, verdict_words(contrast));
+  }
   const double points = contrast.difference.mean;
   return fmt::format("covers {} points {} than {} at 0.05 m ({})", number(std::abs(points), 1),
                      points < 0.0 ? "less" : "more", baseline, evidence(contrast, 1, ""));
@@ -50,6 +56,9 @@ std::string coverage_answer(const Contrast& contrast, const std::string& baselin
 
 std::string distance_answer(const Contrast& contrast) {
   if (contrast.verdict == Verdict::equal) return "in as many metres";
+  if (contrast.verdict == Verdict::untested && contrast.difference.mean == 0.0) {
+    return fmt::format("in as many metres ({})", verdict_words(contrast));
+  }
   const double metres = contrast.difference.mean;
   const std::string share =
       contrast.baseline_mean > 0.0
@@ -134,31 +143,34 @@ Row rank_row(const Comparison& comparison, const OverallRank& rank) {
           {.text = "-"}};
 }
 
-/// What so few seeds cannot say.
-void add_power_note(std::vector<std::string>& notes, const Comparison& comparison) {
-  std::size_t most = 0;
+/// What so few seeds cannot say, once for all contrasts alike.
+void add_power_notes(std::vector<std::string>& notes, const Comparison& comparison) {
+  std::set<std::array<std::size_t, 3>> said;
   for (const MethodFigure& figure : comparison.figures) {
-    if (figure.contrast) most = std::max(most, figure.contrast->pairs);
+    if (!figure.contrast || figure.contrast->verdict != Verdict::interval_only) continue;
+    Contrast c = *figure.contrast;
+    if (!said.insert({c.pairs, c.differing, c.family}).second) continue;
+    const double least = least_wilcoxon_p(c.differing);
+    const double least_after_holm = std::min(1.0, least_p_holm(c));
+    const std::size_t differing = c.differing;
+    while (least_p_holm(c) > 0.05) ++c.differing;
+    notes.push_back(fmt::format(
+        "n = {}{}: no p of the signed-rank test can be below {:.4g}{}, so it cannot reject at 5 %; "
+        "{} seeds could. \"By interval only\" means that Student's and the bootstrap interval both "
+        "exclude 0: an indication that rests on differences being about normal, not a test "
+        "passed{}",
+        c.pairs,
+        differing < c.pairs ? fmt::format(", {} of them with a difference", differing) : "", least,
+        c.family > 1
+            ? fmt::format(", {:.4g} after Holm over {} methods", least_after_holm, c.family)
+            : "",
+        c.differing, c.family > 1 ? "; the intervals are not adjusted for several methods" : ""));
   }
-  const std::size_t family = comparison.methods.size() - 1;
-  if (most < 2 || static_cast<double>(family) * least_wilcoxon_p(most) <= 0.05) return;
-  std::size_t enough = most;
-  while (static_cast<double>(family) * least_wilcoxon_p(enough) > 0.05) ++enough;
-  notes.push_back(fmt::format(
-      "n = {}: no p of the signed-rank test can be below {:.4g}{}, so it cannot reject at 5 %; {} "
-      "seeds could. \"By interval only\" means that Student's and the bootstrap interval both "
-      "exclude 0: an indication that rests on differences being about normal, not a test passed",
-      most, least_wilcoxon_p(most),
-      family > 1
-          ? fmt::format(", {:.4g} after Holm over {} methods",
-                        std::min(1.0, static_cast<double>(family) * least_wilcoxon_p(most)), family)
-          : "",
-      enough));
 }
 
 std::vector<std::string> notes(const Comparison& comparison) {
   std::vector<std::string> all = answers(comparison);
-  add_power_note(all, comparison);
+  add_power_notes(all, comparison);
   all.push_back(fmt::format(
       "mean: over the seeds, ± its 95 % interval (Student's t); rank: mean over the seeds that all "
       "methods have, 1 is best; difference: against {} over the seeds that both have, ± its 95 % "
@@ -171,7 +183,7 @@ std::vector<std::string> notes(const Comparison& comparison) {
       "through of all that legal viewpoints see; distance in straight lines between views, profile "
       "apart; flight time of the whole mission");
   for (std::size_t s = 0; s < comparison.scenarios.size(); ++s) {
-    const std::array<double, 3>& b = comparison.contexts[s].budgets;
+    const std::array<double, 3>& b = comparison.budgets[s];
     if (b[0] <= 0.0) continue;
     all.push_back(
         fmt::format("{}: AUC is mean coverage at 0.05 m up to the longest run's {:.0f} views, "

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 
 #include "bench/statistics.hpp"
 #include "sim/core/error.hpp"
@@ -201,8 +200,7 @@ std::string runs_note(const std::string& utility, const Runs& runs) {
   }
   std::string note = fmt::format(
       "{}: ended by {} after {:.0f} views; flown {:.1f} m; all surface, also inner: {}; {:.1f} s "
-      "of "
-      "wall time",
+      "of wall time",
       utility, terminations(runs), mean([](const RunFigures& r) { return r.iterations; }),
       mean([](const RunFigures& r) { return r.flown_m; }), three_percent(raw),
       mean([](const RunFigures& r) { return r.wall_s; }));
@@ -235,8 +233,7 @@ void add_notes(TextTable& table, const PaperTable& paper, bool several_runs,
   if (std::any_of(paper.rows.begin(), paper.rows.end(), is_doubtful)) {
     table.notes.emplace_back(
         "† as printed: more coverage at 0.05 m than at 0.10 m is hardly possible by the paper's "
-        "own "
-        "definition; the two columns may have changed places");
+        "own definition; the two columns may have changed places");
   }
 }
 

@@ -16,13 +16,6 @@ std::vector<std::string> keys_of(const TableColumn& column) {
   return {column.key};
 }
 
-std::string csv_field(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
-
 /// The shortest decimal that reads back as the same double.
 std::string csv_number(const std::optional<double>& value) {
   return value ? fmt::format("{}", *value) : "";
@@ -33,6 +26,13 @@ std::string csv_record(const std::vector<std::string>& fields) {
 }
 
 }  // namespace
+
+std::string csv_field(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + "\"";
+}
 
 std::string csv_text(const TextTable& table) {
   GNBV_CHECK(!table.columns.empty() && table.columns[0].kind == ColumnKind::text,

@@ -11,7 +11,8 @@
 
 namespace gnbv {
 
-/// What a figure is relative to, the same for all runs of a scenario.
+/// What a figure is relative to: the ceiling is that of the run's scenario and method, the budgets
+/// are the same for all runs of a scenario.
 struct MetricContext {
   std::optional<Ceiling> ceiling;
   std::array<double, 3> budgets{};  // of views, metres, seconds: the longest run's; 0 for none

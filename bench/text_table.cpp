@@ -76,9 +76,10 @@ std::string markdown_escaped(std::string_view text) {
   return escaped;
 }
 
-/// LaTeX's ten special characters, and the signs of ours that its default fonts lack.
+/// LaTeX's ten special characters, and the signs of ours that its default fonts lack or, in the old
+/// encoding, have others in the place of.
 std::string latex_escaped(std::string_view text) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kEscapes = {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 17> kEscapes = {
       {{"\\", "\\textbackslash{}"},
        {"&", "\\&"},
        {"%", "\\%"},
@@ -89,6 +90,9 @@ std::string latex_escaped(std::string_view text) {
        {"}", "\\}"},
        {"~", "\\textasciitilde{}"},
        {"^", "\\textasciicircum{}"},
+       {"<", "\\textless{}"},
+       {">", "\\textgreater{}"},
+       {"|", "\\textbar{}"},
        {"--", "-{}-"},  // else a dash
        {"±", "$\\pm$"},
        {"†", "$^\\dagger$"},

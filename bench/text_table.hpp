@@ -43,6 +43,9 @@ std::string terminal_text(const TextTable& table);
 /// A table of GitHub's Markdown, its title in bold above and its notes as a list below.
 std::string markdown_text(const TextTable& table);
 
+/// A field of RFC 4180: in quotes where it has to be.
+std::string csv_field(std::string_view text);
+
 /// RFC 4180: keys, then a record a row; plain numbers, empty where there is none. A note is a
 /// record whose first field begins with "note: "; its other fields are empty. The title is not in
 /// it.

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <cstring>
@@ -42,11 +43,13 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
 
 void write_file_atomically(const std::filesystem::path& path,
                            const std::function<void(const std::filesystem::path&)>& write) {
-  // the extension stays last, since some libraries choose the format by it; the process is named,
-  // since others may write the same file
+  // the extension stays last, since some libraries choose the format by it; the process and its
+  // machine are named, since others may write the same file
+  std::array<char, 256> host{};
+  gethostname(host.data(), host.size() - 1);
   std::filesystem::path part = path;
-  part.replace_filename(
-      fmt::format(".{}.part{}{}", path.stem().string(), getpid(), path.extension().string()));
+  part.replace_filename(fmt::format(".{}.part-{}-{}{}", path.stem().string(), host.data(), getpid(),
+                                    path.extension().string()));
   try {
     write(part);
     std::filesystem::rename(part, path);

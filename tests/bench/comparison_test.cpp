@@ -94,7 +94,9 @@ TEST(Compare, HolmCountsTheMethodsAndSoDoesWhatTheTestCanReach) {
   // with two methods six seeds cannot reach 5 % any more
   EXPECT_EQ(coverage_contrast(c, 1).verdict, Verdict::interval_only);
   EXPECT_EQ(coverage_contrast(c, 2).verdict, Verdict::not_significant);
-  EXPECT_NE(all_notes(comparison_table(c)).find("7 seeds could"), std::string::npos);
+  const std::string notes = all_notes(comparison_table(c));
+  EXPECT_NE(notes.find("7 seeds could"), std::string::npos);
+  EXPECT_NE(notes.find("; the intervals are not adjusted for several methods"), std::string::npos);
 }
 
 TEST(Compare, MethodsThatDoTheSameAreEqual) {
@@ -117,10 +119,46 @@ TEST(Compare, OneSeedIsNotTested) {
             "less, 50 % (one seed: no test)");
 }
 
+TEST(Compare, OneSeedWithoutADifferenceIsNotTestedEither) {
+  const std::vector<ComparedRun> runs = {run("a", 1, 0.9, 100), run("b", 1, 0.9, 100)};
+  const Comparison c = compare(runs, "a", {});
+  EXPECT_EQ(coverage_contrast(c, 1).verdict, Verdict::untested);
+  EXPECT_EQ(answers(c)[0],
+            "aircraft: b covers as much as a (one seed: no test) in as many metres (one seed: no "
+            "test)");
+}
+
+TEST(Compare, SeedsWithoutADifferenceGiveTheTestNoPower) {
+  std::vector<ComparedRun> runs = clear_cut(6);
+  runs[6].figures.coverage_final = runs[0].figures.coverage_final;  // the first seed of `better`
+  const Comparison c = compare(runs, "base", {});
+  const Contrast& contrast = coverage_contrast(c, 1);
+  EXPECT_EQ(contrast.pairs, 6U);
+  EXPECT_EQ(contrast.differing, 5U);
+  EXPECT_EQ(contrast.p, 0.0625);  // two of 2^5 signs
+  EXPECT_EQ(contrast.verdict, Verdict::interval_only);
+  const std::string notes = all_notes(comparison_table(c));
+  EXPECT_NE(notes.find("n = 6, 5 of them with a difference: no p of the signed-rank test can be "
+                       "below 0.0625, so"),
+            std::string::npos);
+}
+
+TEST(Compare, EveryNumberOfSeedsHasItsOwnPowerNote) {
+  std::vector<ComparedRun> runs = clear_cut(5);
+  for (ComparedRun more : clear_cut(8)) {
+    more.scenario = "plant";
+    runs.push_back(more);
+  }
+  const std::string notes = all_notes(comparison_table(compare(runs, "base", {})));
+  EXPECT_NE(notes.find("n = 5: no p of the signed-rank test"), std::string::npos);
+  EXPECT_EQ(notes.find("n = 8: no p"), std::string::npos);
+  EXPECT_EQ(notes.find("not adjusted"), std::string::npos);  // one method against the baseline
+}
+
 TEST(Compare, BudgetsOfAreasAreTheLongestRuns) {
   const std::vector<ComparedRun> runs = {run("short", 1, 0.8, 50), run("long", 1, 0.8, 200)};
   const Comparison c = compare(runs, "short", {});
-  EXPECT_EQ(c.contexts[0].budgets[1], 200.0);
+  EXPECT_EQ(c.budgets[0][1], 200.0);
   // linear up to 0.8 at 50 m, then 0.8: mean over 200 m is 0.8 (1 - 25/200)
   EXPECT_NEAR(find_figure(c, 0, "AUC over metres (%)", 0)->estimate.mean, 70.0, 1e-9);
   EXPECT_NEAR(find_figure(c, 0, "AUC over metres (%)", 1)->estimate.mean, 40.0, 1e-9);
@@ -135,9 +173,24 @@ TEST(Compare, WhatWasNotMeasuredIsNotCompared) {
   EXPECT_EQ(find_figure(c, 0, "share of ceiling at 0.05 m (%)", 0), nullptr);
   Ceiling ceiling;
   ceiling.leaf_outside = {0.95, 1.0, 1.0};
-  const Comparison with = compare(runs, "base", {{"aircraft", ceiling}});
+  const Comparison with = compare(runs, "base", {{{"aircraft", "base"}, ceiling}});
   EXPECT_NEAR(find_figure(with, 0, "share of ceiling at 0.05 m (%)", 0)->estimate.mean,
               100.0 * (0.90 + 0.91) / 2 / 0.95, 1e-9);
+  EXPECT_EQ(find_figure(with, 0, "share of ceiling at 0.05 m (%)", 1), nullptr);  // `better`
+}
+
+TEST(Compare, EachMethodIsDividedByItsOwnCeiling) {
+  const std::vector<ComparedRun> runs = {run("coarse", 1, 0.4, 50), run("fine", 1, 0.8, 50)};
+  Ceiling low;
+  low.leaf_outside = {0.5, 1.0, 1.0};
+  Ceiling high;
+  high.leaf_outside = {1.0, 1.0, 1.0};
+  const Comparison c =
+      compare(runs, "coarse", {{{"aircraft", "coarse"}, low}, {{"aircraft", "fine"}, high}});
+  for (const std::size_t method : {0, 1}) {  // 0.4 of 0.5, 0.8 of 1
+    EXPECT_NEAR(find_figure(c, 0, "share of ceiling at 0.05 m (%)", method)->estimate.mean, 80.0,
+                1e-9);
+  }
 }
 
 TEST(Compare, RanksAreMeansOverScenariosAndSeeds) {

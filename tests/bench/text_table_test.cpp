@@ -100,17 +100,17 @@ TEST(TextTable, JsonReadsBackWithTheSameNumbers) {
 
 TEST(TextTable, LatexEscapesAllThatItWouldRead) {
   TextTable table = example();
-  table.rows = {{{"\\&%_#${}~^--x"}, {"1"}, {"92.8 ±0.6%†"}, {"-"}}};
-  EXPECT_EQ(
-      latex_text(table),
-      "% needs \\usepackage{booktabs}\n"
-      "\\begin{table}\n\\centering\n\\caption{T \\& co}\n"
-      "\\begin{tabular}{lrrr}\n\\toprule\n"
-      "Name & Runs & Coverage & Difference \\\\\n\\midrule\n"
-      "\\textbackslash{}\\&\\%\\_\\#\\$\\{\\}\\textasciitilde{}\\textasciicircum{}-{}-x & 1 & "
-      "92.8 $\\pm$0.6\\%$^\\dagger$ & - \\\\\n"
-      "\\bottomrule\n\\end{tabular}\n"
-      "\n\\par\\footnotesize one, two\n\\end{table}\n");
+  table.rows = {{{"\\&%_#${}~^--x<y>|"}, {"1"}, {"92.8 ±0.6%†"}, {"-"}}};
+  EXPECT_EQ(latex_text(table),
+            "% needs \\usepackage{booktabs}\n"
+            "\\begin{table}\n\\centering\n\\caption{T \\& co}\n"
+            "\\begin{tabular}{lrrr}\n\\toprule\n"
+            "Name & Runs & Coverage & Difference \\\\\n\\midrule\n"
+            "\\textbackslash{}\\&\\%\\_\\#\\$\\{\\}\\textasciitilde{}\\textasciicircum{}-{}-"
+            "x\\textless{}y\\textgreater{}\\textbar{} & 1 & "
+            "92.8 $\\pm$0.6\\%$^\\dagger$ & - \\\\\n"
+            "\\bottomrule\n\\end{tabular}\n"
+            "\n\\par\\footnotesize one, two\n\\end{table}\n");
 }
 
 TEST(TextTable, EveryFormCarriesEveryNote) {

@@ -85,6 +85,71 @@ TEST(Compare, TakesASweepAndSaysWhatItLacks) {
   EXPECT_EQ(gnbv("compare --quiet --from " + out).exit_code, 0);
 }
 
+TEST(Compare, AFailureOfAnEarlierCallIsFlownAgain) {
+  TempFolder temp;
+  const std::string compare = "compare smoke --utilities proposed,isler --seeds 1 --quiet" +
+                              kFewViews + "--out " + temp.path().string();
+  ASSERT_EQ(gnbv(compare).exit_code, 0);
+  std::vector<fs::path> runs;
+  for (const auto& cell : fs::directory_iterator(temp.path() / "cells")) {
+    if (cell.is_directory()) runs.push_back(cell.path());
+  }
+  ASSERT_EQ(runs.size(), 2U);
+  fs::remove_all(runs[0]);  // as a mission leaves it that was killed, say, for its memory
+  std::ofstream(runs[0].string() + ".failed.json") << R"({"failure": "killed by signal 9"})";
+  const Outcome again = gnbv(compare);
+  EXPECT_EQ(again.exit_code, 0) << again.output;
+  EXPECT_TRUE(fs::exists(runs[0] / "summary.json"));
+}
+
+TEST(Compare, FromASweepTakesNothingThatWouldFlyOtherMissions) {
+  for (const std::string option : {"--mesh m.obj", "--seed 2", "--set planner.cloud.leaf_m=0.1",
+                                   "--bounds auto", "--seeds 3", "--jobs 2", "--out o"}) {
+    const Outcome refused = gnbv("compare --from sweep " + option);
+    EXPECT_EQ(refused.exit_code, 2) << option;
+    EXPECT_TRUE(has(refused, "excludes")) << refused.output;
+    EXPECT_TRUE(has(refused, option.substr(0, option.find(' ')))) << refused.output;
+  }
+}
+
+TEST(Compare, AMethodThatChangesTheLeafHasItsOwnCeiling) {
+  TempFolder temp;
+  const std::string out = " --out " + temp.path().string();
+  const Outcome both =
+      gnbv("compare smoke --vary planner.cloud.leaf_m=0.05,0.2 --seeds 1 --quiet --format json" +
+           kFewViews + out + " 2>/dev/null");
+  ASSERT_EQ(both.exit_code, 0) << both.output;
+  const Json table = Json::parse(both.output);
+  const std::vector<Json> covered = rows(table, "metric", "coverage at 0.05 m (%)");
+  const std::vector<Json> shares = rows(table, "metric", "share of ceiling at 0.05 m (%)");
+  ASSERT_EQ(shares.size(), 2U);
+  for (const std::size_t i : {0, 1}) {
+    const std::string leaf = i == 0 ? "0.05" : "0.2";
+    const Outcome one =
+        gnbv("ceiling smoke --quiet --json --set planner.cloud.leaf_m=" + leaf + " 2>/dev/null");
+    const double ceiling = Json::parse(one.output).at("leaf_outside").at("0.05");
+    EXPECT_NEAR(shares[i].at("mean"), covered[i].at("mean").get<double>() / ceiling, 1e-9) << leaf;
+  }
+}
+
+TEST(Compare, AMeshThatIsGoneCostsItsCeilingOnly) {
+  TempFolder temp;
+  const fs::path mesh = temp.path() / "box.obj";
+  std::ofstream(mesh) << "v 0 0 1\nv 1 0 1\nv 0 1 1\nv 0 0 2\n"
+                         "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+  std::ofstream(temp.path() / "grid.yaml")
+      << "scenarios: {name: box, scenario: smoke, mesh: box.obj}\nutilities: [proposed, isler]\n"
+         "set: {planner.termination.max_iterations: 1}\n";
+  const std::string out = (temp.path() / "sweep").string();
+  ASSERT_EQ(
+      gnbv("sweep " + (temp.path() / "grid.yaml").string() + " --quiet --out " + out).exit_code, 0);
+  fs::remove(mesh);
+  const Outcome gone = gnbv("compare --quiet --from " + out);
+  EXPECT_EQ(gone.exit_code, 0) << gone.output;
+  EXPECT_TRUE(has(gone, "box, isler: no share of ceiling: ")) << gone.output;
+  EXPECT_TRUE(has(gone, mesh.string())) << gone.output;
+}
+
 TEST(Compare, NamesAllFaultsBeforeItFlies) {
   TempFolder temp;
   const std::string out = (temp.path() / "out").string();

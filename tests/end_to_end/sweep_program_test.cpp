@@ -1,15 +1,13 @@
 // `gnbv sweep` as its users meet it: exit codes, messages, and what it leaves behind.
 #include <gmock/gmock.h>
-#include <sys/wait.h>
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "sim/core/file.hpp"
+#include "tests/support/program.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace gnbv {
@@ -18,11 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::HasSubstr;
-
-struct Outcome {
-  int exit_code = -1;
-  std::string output;  // stdout, and stderr unless the arguments send it elsewhere
-};
 
 class SweepProgram : public testing::Test {
  protected:
@@ -37,18 +30,7 @@ class SweepProgram : public testing::Test {
     for (std::size_t at = arguments.find('@'); at != std::string::npos; at = arguments.find('@')) {
       arguments.replace(at, 1, temp_.path().string());
     }
-    const bool both = arguments.find("2>") == std::string::npos;
-    const std::string command = "cd " + temp_.path().string() + " && " GNBV_PROGRAM " sweep " +
-                                arguments + (both ? " 2>&1" : "");
-    Outcome outcome;
-    FILE* const pipe = popen(command.c_str(), "r");
-    std::array<char, 4096> buffer{};
-    while (std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe) != nullptr) {
-      outcome.output += buffer.data();
-    }
-    const int status = pclose(pipe);
-    outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return outcome;
+    return gnbv("sweep " + arguments, "cd " + temp_.path().string() + " && ");
   }
 
   void write(const std::string& name, const std::string& text) const {
@@ -126,6 +108,22 @@ TEST_F(SweepProgram, AnIndexMeansTheCellOfTheManifest) {
   EXPECT_FALSE(fs::exists(temp_.path() / "o" / "cells"));
 }
 
+TEST_F(SweepProgram, AFolderBelongsToOneSweepFileUntilAnotherReplacesIt) {
+  ASSERT_EQ(sweep("s.yaml --out o --slurm-dry-run").exit_code, 0);
+  write("t.yaml", "scenarios: smoke\nset: {planner.termination.max_iterations: 1}\n");
+  for (const std::string how : {"", " --status", " --slurm-dry-run"}) {
+    const Outcome other = sweep("t.yaml --out o --quiet" + how);
+    EXPECT_EQ(other.exit_code, 2) << how;
+    EXPECT_THAT(other.output,
+                HasSubstr("o/sweep.json: is of " + temp_.path().string() + "/s.yaml"));
+    EXPECT_THAT(other.output, HasSubstr("not of " + temp_.path().string() + "/t.yaml; --replace"));
+  }
+  EXPECT_EQ(json::parse(read("o/sweep.json")).at("cells").size(), 4U);
+  EXPECT_EQ(sweep("t.yaml --out o --quiet --threads 1 --replace").exit_code, 0);
+  EXPECT_EQ(json::parse(read("o/sweep.json")).at("cells").size(), 1U);
+  EXPECT_EQ(sweep("./t.yaml --out o --status").exit_code, 0);
+}
+
 TEST_F(SweepProgram, TheBatchScriptFliesEachCellInOneTask) {
   const Outcome dry = sweep(
       "s.yaml --out 'o p' --slurm-dry-run --threads 3 --slurm-limit 2 --slurm-args "
@@ -180,6 +178,10 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"IndexOfNothing", "s.yaml --out o --index two", "K or K-L"},
         Refusal{"IndexBackwards", "s.yaml --out o --index 2-1", "K or K-L"},
         Refusal{"TwoActions", "s.yaml --out o --index 1 --list", "--list"},
+        Refusal{"StatusAndSlurm", "s.yaml --out o --status --slurm", "--status"},
+        Refusal{"StatusAndRetry", "s.yaml --out o --status --retry-failed", "--retry-failed"},
+        Refusal{"SlurmAndJobs", "s.yaml --out o --slurm-dry-run --jobs 2", "--jobs"},
+        Refusal{"LimitWithoutSlurm", "s.yaml --out o --slurm-limit 2", "--slurm-limit"},
         Refusal{"UnwritableFolder", "s.yaml --out s.yaml/o", "s.yaml/o"},
         Refusal{"NoJobs", "s.yaml --out o --jobs 0", "--jobs"}),
     [](const auto& refused) { return std::string(refused.param.name); });

@@ -14,9 +14,11 @@ struct Outcome {
   std::string output;  // stdout, and stderr unless the arguments send it elsewhere
 };
 
-inline Outcome gnbv(const std::string& arguments) {
+/// `before` is a shell command that comes first, such as "cd FOLDER && ".
+inline Outcome gnbv(const std::string& arguments, const std::string& before = "") {
   const bool both = arguments.find("2>") == std::string::npos;
-  const std::string command = std::string(GNBV_PROGRAM) + " " + arguments + (both ? " 2>&1" : "");
+  const std::string command =
+      before + std::string(GNBV_PROGRAM) + " " + arguments + (both ? " 2>&1" : "");
   Outcome outcome;
   FILE* const pipe = popen(command.c_str(), "r");
   std::array<char, 4096> buffer{};

@@ -64,6 +64,14 @@ TEST(MethodOptions, AllFaultsAreNamedAtOnce) {
   }
 }
 
+TEST(MethodOptions, ASeedIsNoMethod) {
+  const std::string fault =
+      fault_of({.variants = {"n:planner.agvs.step_m=1,seed=3"}, .varies = {"seed=1,2"}});
+  EXPECT_NE(fault.find("--variant: value 'n:planner.agvs.step_m=1,seed=3': seeds are no method"),
+            std::string::npos);
+  EXPECT_NE(fault.find("--vary: value 'seed=1,2': seeds are no method"), std::string::npos);
+}
+
 TEST(MethodOptions, OneMethodIsNoComparison) {
   EXPECT_NE(fault_of({.utilities = {"isler"}}).find("'isler': nothing to compare"),
             std::string::npos);

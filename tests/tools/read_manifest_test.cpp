@@ -39,12 +39,22 @@ TEST(Manifest, CellsKeepTheirOrder) {
 
 TEST(Manifest, WhatIsNoneIsRefusedByName) {
   for (const std::string text :
-       {"", "[1]", "{}", R"({"cells":[]})", R"({"cells":[{"id":"ab"}]})",
-        R"({"cells":[{"id":"ab","scenario":"s","method":"m","seed":"x"}]})"}) {
+       {"", "[1]", "{}", R"({"schema":1,"cells":[]})", R"({"schema":1,"cells":[{"id":"ab"}]})",
+        R"({"schema":1,"cells":[{"id":"ab","scenario":"s","method":"m","seed":"x"}]})"}) {
     EXPECT_NE(fault_of(text).find("sweep.json: "), std::string::npos) << text;
   }
+  EXPECT_NE(fault_of(R"({"schema":1,"cells":[)" + kCell + "," + kCell + "]}")
+                .find("two cells of s, m, seed 3"),
+            std::string::npos);
+  for (const std::string seed : {"-1", "1.5", "1e3"}) {
+    EXPECT_NE(fault_of(R"({"schema":1,"cells":[{"id":"ab","scenario":"s","method":"m","seed":)" +
+                       seed + "}]}")
+                  .find("seed: value '"),
+              std::string::npos)
+        << seed;
+  }
   EXPECT_NE(
-      fault_of(R"({"cells":[)" + kCell + "," + kCell + "]}").find("two cells of s, m, seed 3"),
+      fault_of(R"({"schema":2,"cells":[)" + kCell + "]}").find("schema: value '2': expects 1"),
       std::string::npos);
   TempFolder empty;
   EXPECT_THROW(cells_of_manifest(empty.path()), BadInput);

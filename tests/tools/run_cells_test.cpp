@@ -54,7 +54,7 @@ class RunCells : public testing::Test {
   TempFolder temp_;
 };
 
-/// Each mission appends the time it began to its log's neighbour: how often a cell was flown.
+/// How often noting_program() was started with this word in its arguments.
 std::size_t flights(const fs::path& program_log, const std::string& id) {
   std::ifstream file(program_log);
   std::size_t count = 0;
@@ -263,9 +263,10 @@ TEST_F(Stopped, TwoSignalsKillAndRecordNoFailure) {
   RunCellsOptions all = options();
   all.program = script;
   const pid_t sweep = sweep_process(cells, all);
-  while (!fs::exists(temp_.path() / "up")) {
+  for (int i = 0; i < 2000 && !fs::exists(temp_.path() / "up"); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
+  ASSERT_TRUE(fs::exists(temp_.path() / "up")) << "no mission began";
   kill(sweep, SIGINT);
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   EXPECT_EQ(waitpid(sweep, nullptr, WNOHANG), 0) << "the first one only asks";

@@ -11,7 +11,6 @@
 #include "sim/core/file.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/sweep/cell_id.hpp"
-#include "tools/sweep/slurm.hpp"
 
 namespace gnbv {
 namespace {
@@ -73,7 +72,11 @@ TEST_F(SweepFile, CellsAreScenarioByScenarioMethodByMethodSeedBySeed) {
                                  "smoke bircher 1", "wide proposed 7", "wide proposed 1",
                                  "wide bircher 7", "wide bircher 1"));
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    EXPECT_EQ(cell_at(sweep, i).id, cells[i].id) << i;  // the one against all
+    for (std::size_t last = i; last < cells.size(); ++last) {
+      const std::vector<Cell> some = cells_of(sweep, i, last);  // against all
+      ASSERT_EQ(some.size(), last - i + 1);
+      for (std::size_t k = i; k <= last; ++k) EXPECT_EQ(some[k - i].id, cells[k].id) << k;
+    }
   }
 }
 
@@ -134,6 +137,12 @@ TEST_F(SweepFile, TheIdIsThatOfTheContent) {
   EXPECT_NE(CellNamer("another version").id_of(cells[0].resolved), cells[0].id);
 }
 
+TEST_F(SweepFile, AnotherBuildOfTheSameSourcesSharesItsCellsAndAChangedOneDoesNot) {
+  const Cell cell = cells_of(read("scenarios: smoke\n"))[0];
+  EXPECT_EQ(CellNamer(GNBV_VERSION, source_id()).id_of(cell.resolved), cell.id);
+  EXPECT_NE(CellNamer(GNBV_VERSION, "changed sources").id_of(cell.resolved), cell.id);
+}
+
 TEST_F(SweepFile, AMeshCountsByItsContentWhereverItLies) {
   write_triangle(temp_.path() / "a" / "m.obj");
   write_triangle(temp_.path() / "b" / "n.obj");
@@ -185,6 +194,22 @@ TEST_F(SweepFile, AllFaultsAreNamedAtOnceWithTheirLines) {
       "s.yaml:13: seeds.2: value '1': is given twice");
 }
 
+TEST_F(SweepFile, AGridKeyThatAMethodSetsIsAFault) {
+  const auto fault_of = [&](const std::string& methods, const std::string& key) {
+    return complaint("scenarios: smoke\n" + methods + "\ngrid: {" + key + ": [isler, paper]}\n");
+  };
+  EXPECT_THAT(fault_of("utilities: [proposed]", "planner.utility.name"),
+              HasSubstr("s.yaml:3: grid.planner.utility.name: value '[isler, paper]': the method "
+                        "'proposed' sets planner.utility.name, too"));
+  EXPECT_THAT(fault_of("presets: [released]", "planner.preset"), HasSubstr("'released' sets"));
+  EXPECT_THAT(fault_of("variants: [{name: v, set: {planner.utility: {name: isler}}}]",
+                       "planner.utility.name"),
+              HasSubstr("'v' sets planner.utility, too"));
+  EXPECT_EQ(complaint("scenarios: smoke\nutilities: [proposed]\n"
+                      "grid: {planner.utility.lambda_per_m: [0.1, 0.2]}\n"),
+            "");
+}
+
 TEST_F(SweepFile, NamesStandForOneRowEach) {
   EXPECT_THAT(complaint("scenarios: [smoke, smoke]\n"), HasSubstr("s.yaml:1: scenarios.1"));
   EXPECT_THAT(complaint("scenarios: smoke\nutilities: [isler, isler]\n"),
@@ -219,45 +244,21 @@ TEST_F(SweepFile, AFlowTextReadsBackAsTheSameValue) {
   EXPECT_EQ(flow_yaml(*block), "[\"a, b\", \"c\", d, {e: f g}]");
 }
 
-TEST(BatchScript, ItsTasksFlyEveryCellOnceAndAreNoMoreThanAllowed) {
-  TempFolder temp;
-  for (const auto& [cells, allowed] :
-       {std::pair<std::size_t, std::size_t>{1, 1001}, {6, 6}, {7, 6}, {12, 6}, {13, 6}, {5, 1}}) {
-    SlurmOptions options;
-    options.program = "/bin/echo";
-    options.sweep_file = temp.path() / "it's.yaml";
-    options.folder = temp.path();
-    options.cells = cells;
-    const fs::path script = temp.path() / "s.sbatch";
-    std::ofstream(script) << batch_script(options, allowed);
-    const std::string text = read_file(script);
-    const std::size_t tasks = std::stoul(text.substr(text.find("--array=0-") + 10)) + 1;
-    EXPECT_LE(tasks, allowed);
-    std::size_t next = 0;
-    for (std::size_t task = 0; task < tasks; ++task) {
-      const fs::path out = temp.path() / "out";
-      const std::string run = fmt::format("SLURM_ARRAY_TASK_ID={} bash '{}' | tail -1 > '{}'", task,
-                                          script.string(), out.string());
-      ASSERT_EQ(std::system(run.c_str()), 0);
-      const std::string echoed = read_file(out);
-      const std::string range = echoed.substr(echoed.find("--index ") + 8);
-      EXPECT_EQ(std::stoul(range), next) << cells << " " << allowed;
-      next = std::stoul(range.substr(range.find('-') + 1)) + 1;
-    }
-    EXPECT_EQ(next, cells);
-  }
-}
-
-TEST(BatchScript, ArgumentsOfTwoLinesAreRefused) {
-  SlurmOptions options;
-  options.cells = 1;
-  options.arguments = "--time=1\nrm -rf /";
-  EXPECT_THROW(batch_script(options, 10), BadInput);
-}
-
 TEST_F(SweepFile, MoreCellsThanAnybodyMeansAreRefused) {
   EXPECT_THAT(complaint("scenarios: smoke\nutilities: [proposed, isler]\nseeds: 900000\n"),
               HasSubstr("s.yaml:3: seeds: value '900000': makes 1800000 cells"));
+  // without seeds, and no cell of theirs is resolved, or the faulty value would be named, too
+  std::string many =
+      "scenarios: [smoke, {name: b, scenario: smoke}]\n"
+      "set: {planner.agvs.step_m: long}\ngrid:\n";
+  for (const char* key : {"planner.agvs.step_m", "planner.cloud.leaf_m"}) {
+    many += fmt::format("  {}: [", key);
+    for (int i = 0; i < 1000; ++i) many += fmt::format("{},", i);
+    many += "]\n";
+  }
+  const std::string fault = complaint(many);
+  EXPECT_THAT(fault, HasSubstr("makes 2000000 cells of the sweep, more than 1000000"));
+  EXPECT_THAT(fault, testing::Not(HasSubstr("long")));
   std::string grid = "scenarios: smoke\ngrid:\n";
   for (const char* key : {"planner.agvs.step_m", "planner.cloud.leaf_m", "start.jitter_yaw_deg",
                           "planner.map.resolution_m"}) {

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include "scenarios/load.hpp"
 #include "sensors/ray_scene.hpp"
@@ -73,6 +75,14 @@ BenchRuns collect(const std::vector<Cell>& cells, const std::vector<CellOutcome>
   return collected;
 }
 
+/// The scenario's text without what only decides between legal viewpoints: methods that differ in
+/// nothing else have one ceiling. What differs in more is looked up in the cache of ceilings.
+std::string without_choice_of_views(Scenario scenario) {
+  scenario.planner.utility = {};
+  scenario.planner.termination = {};
+  return to_yaml(scenario);
+}
+
 }  // namespace
 
 void add_bench_options(CLI::App& command, BenchOptions& options) {
@@ -104,6 +114,7 @@ BenchRuns fly_cells(const std::vector<Cell>& cells, const BenchOptions& options)
   const RunCellsOptions run{.folder = bench_folder(options),
                             .jobs = options.jobs,
                             .threads = options.threads,
+                            .retry_failed = true,  // a failure of an earlier call is no result
                             .quiet = options.quiet};
   const std::vector<CellOutcome> outcomes = run_cells(cells, run);
   const bool is_whole = std::none_of(outcomes.begin(), outcomes.end(), [](const CellOutcome& o) {
@@ -129,13 +140,25 @@ Ceiling ceiling_of(const Scenario& scenario, const BenchOptions& options) {
                       thread_count(options.threads));
 }
 
-std::map<std::string, Ceiling> ceilings_of(const BenchRuns& runs, const BenchOptions& options) {
-  std::map<std::string, Ceiling> ceilings;
+Ceilings ceilings_of(const BenchRuns& runs, const BenchOptions& options,
+                     std::vector<std::string>& notes) {
+  Ceilings ceilings;
+  std::set<std::pair<std::string, std::string>> asked;
+  std::map<std::string, Ceiling> by_content;
   for (std::size_t i = 0; i < runs.runs.size(); ++i) {
-    const std::string& name = runs.runs[i].scenario;
-    if (ceilings.contains(name)) continue;
-    const Scenario scenario = load_scenario((runs.folders[i] / "scenario.yaml").string(), {});
-    ceilings.emplace(name, ceiling_of(scenario, options));
+    const ComparedRun& run = runs.runs[i];
+    if (!asked.insert({run.scenario, run.method}).second) continue;
+    try {
+      const Scenario scenario = load_scenario((runs.folders[i] / "scenario.yaml").string(), {});
+      const std::string content = without_choice_of_views(scenario);
+      if (!by_content.contains(content)) {
+        by_content.emplace(content, ceiling_of(scenario, options));
+      }
+      ceilings.emplace(std::pair(run.scenario, run.method), by_content.at(content));
+    } catch (const BadInput& error) {
+      notes.push_back(
+          fmt::format("{}, {}: no share of ceiling: {}", run.scenario, run.method, error.what()));
+    }
   }
   return ceilings;
 }

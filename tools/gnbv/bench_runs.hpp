@@ -2,7 +2,6 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -48,8 +47,10 @@ BenchRuns read_cells(const std::vector<Cell>& cells, const std::filesystem::path
 /// The ceiling of a scenario, with its structure loaded for the purpose.
 Ceiling ceiling_of(const Scenario& scenario, const BenchOptions& options);
 
-/// The ceilings of the scenarios that the runs are of, each as its first run resolved it.
-std::map<std::string, Ceiling> ceilings_of(const BenchRuns& runs, const BenchOptions& options);
+/// The ceilings of every scenario and method, each as its first run resolved it. One that cannot be
+/// found, its mesh being gone, is left out, and the notes say why.
+Ceilings ceilings_of(const BenchRuns& runs, const BenchOptions& options,
+                     std::vector<std::string>& notes);
 
 /// Prints the table, then throws CommandFailed if something failed.
 void print_bench(const TextTable& table, const std::string& format, bool has_failures);

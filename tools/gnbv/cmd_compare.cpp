@@ -101,10 +101,10 @@ void compare_command(const CompareOptions& options) {
     for (const std::string& note : collected.notes) fmt::print(stderr, "gnbv: {}\n", note);
     throw CommandFailed(fmt::format("no mission of the baseline, {}, is done", plan.baseline));
   }
-  const Comparison comparison =
-      compare(collected.runs, plan.baseline, ceilings_of(collected, options));
-  TextTable table = comparison_table(comparison);
-  table.notes.insert(table.notes.end(), collected.notes.begin(), collected.notes.end());
+  std::vector<std::string> more_notes = collected.notes;
+  const Ceilings ceilings = ceilings_of(collected, options, more_notes);
+  TextTable table = comparison_table(compare(collected.runs, plan.baseline, ceilings));
+  table.notes.insert(table.notes.end(), more_notes.begin(), more_notes.end());
   print_bench(table, options.format, collected.has_failures);
 }
 
@@ -140,6 +140,9 @@ void add_compare_command(CLI::App& app) {
   add_bench_options(*command, *options);
   CLI::Option* const from =
       command->add_option("--from", options->from, "folder of a sweep: compare what it flew");
+  for (const char* name : {"--mesh", "--seed", "--set", "--bounds", "--seeds", "--jobs", "--out"}) {
+    what_to_fly.push_back(command->get_option(name));
+  }
   for (CLI::Option* const option : what_to_fly) option->excludes(from);
   command->callback([options] { compare_command(*options); });
 }

@@ -26,6 +26,7 @@ struct SweepOptions {
   bool list = false;
   bool status = false;
   bool retry_failed = false;
+  bool replace = false;
   bool quiet = false;
   bool json = false;
   bool slurm = false;
@@ -147,14 +148,14 @@ void fail_if_any_failed(const std::vector<CellOutcome>& outcomes) {
 /// manifest, since a file that was changed since would mean other cells.
 void run_indexed(const SweepOptions& options, const Sweep& sweep) {
   const auto [first, last] = parse_index(options.index, cell_count(sweep));
-  std::vector<Cell> cells;
-  for (std::size_t i = first; i <= last; ++i) cells.push_back(cell_at(sweep, i));
-  if (!fs::exists(options.out / "sweep.json")) {
+  const std::vector<Cell> cells = cells_of(sweep, first, last);
+  auto manifest = read_manifest_head(options.out);
+  if (!manifest) {
     write_manifest(options.out, options.file, cells_of(sweep));
+    manifest = read_manifest_head(options.out);
   }
   for (std::size_t i = first; i <= last; ++i) {
-    const auto known = manifest_id(options.out, i);
-    if (known == cells[i - first].id) continue;
+    if (i < manifest->ids.size() && manifest->ids[i] == cells[i - first].id) continue;
     throw BadInput(
         fmt::format("{}: cell {} is not the one of {}: the sweep, a file it names or the program "
                     "has changed since; `gnbv sweep` without --index takes the new one",
@@ -196,10 +197,15 @@ void sweep(const SweepOptions& options) {
   if (options.out.empty() && !options.list) {
     throw BadInput("--out: missing: the folder of the sweep");
   }
+  if (!(options.slurm || options.slurm_dry_run) &&
+      (options.slurm_limit > 0 || !options.slurm_args.empty())) {
+    throw BadInput("--slurm-limit, --slurm-args: need --slurm or --slurm-dry-run");
+  }
   const Sweep grid = read_sweep(options.file);
   if (!options.index.empty()) return run_indexed(options, grid);
   const std::vector<Cell> cells = cells_of(grid);
   if (options.list) return list(cells, options.json);
+  if (!options.replace) require_folder_of(options.out, options.file);
   if (options.status) return show_status(options, cells);
   write_manifest(options.out, options.file, cells);
   if (options.slurm || options.slurm_dry_run) return submit_array(options, cells.size());
@@ -217,28 +223,44 @@ void add_sweep_command(CLI::App& app) {
   command->add_option("FILE", o->file, "YAML: scenarios, utilities, grid, seeds (README)")
       ->required();
   command->add_option("--out", o->out, "folder of the sweep; the same one goes on with it");
-  command->add_option("--jobs", o->jobs, "missions at a time, each a process")
-      ->check(CLI::Range(1, 1024));
+  CLI::Option* const jobs =
+      command->add_option("--jobs", o->jobs, "missions at a time, each a process")
+          ->check(CLI::Range(1, 1024));
   command->add_option("--threads", o->threads, "of each mission; 0 = the machine's, shared out")
       ->check(CLI::Range(0, 1024));
   CLI::Option* const index = command->add_option(
       "--index", o->index, "fly only cell K, or K-L, of --list; for schedulers");
-  CLI::Option* const list =
-      command->add_flag("--list", o->list, "print the cells and fly nothing")->excludes(index);
-  command->add_flag("--status", o->status, "print what is done and failed; fly nothing")
+  CLI::Option* const list = command->add_flag("--list", o->list, "print the cells and fly nothing")
+                                ->excludes(index)
+                                ->excludes(jobs);
+  CLI::Option* const status =
+      command->add_flag("--status", o->status, "print what is done and failed; fly nothing")
+          ->excludes(index)
+          ->excludes(list)
+          ->excludes(jobs);
+  command->add_flag("--retry-failed", o->retry_failed, "fly failed cells again, from the start")
+      ->excludes(list)
+      ->excludes(status);
+  command
+      ->add_flag("--replace", o->replace,
+                 "take OUT though it is another sweep file's; its cells stay")
       ->excludes(index)
-      ->excludes(list);
-  command->add_flag("--retry-failed", o->retry_failed, "fly failed cells again, from the start");
+      ->excludes(list)
+      ->excludes(status);
   command->add_flag("--quiet", o->quiet, "no progress on stderr");
   command->add_flag("--json", o->json, "print the cells as JSON instead of a table");
   CLI::Option* const slurm =
       command->add_flag("--slurm", o->slurm, "write OUT/sweep.sbatch, submit it, print the job id")
           ->excludes(index)
-          ->excludes(list);
+          ->excludes(list)
+          ->excludes(status)
+          ->excludes(jobs);
   command
       ->add_flag("--slurm-dry-run", o->slurm_dry_run, "write OUT/sweep.sbatch and print its path")
       ->excludes(index)
       ->excludes(list)
+      ->excludes(status)
+      ->excludes(jobs)
       ->excludes(slurm);
   command->add_option("--slurm-limit", o->slurm_limit, "array tasks at a time; 0 = no limit")
       ->check(CLI::Range(0, 1'000'000));

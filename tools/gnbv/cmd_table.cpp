@@ -9,6 +9,7 @@
 #include "tools/gnbv/bench_runs.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/mission/load_world.hpp"
+#include "tools/sweep/shell_word.hpp"
 
 namespace gnbv {
 namespace {
@@ -63,16 +64,6 @@ Sweep sweep_of(const TableOptions& options, const PaperTable& paper, std::uint64
   }
   sweep.seeds = seeds_from(first_seed, options.seed_count);
   return sweep;
-}
-
-/// The text as a word of a shell.
-std::string shell_word(const std::string& text) {
-  constexpr std::string_view kPlain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./=,:+-";
-  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? "'\\''" : std::string(1, c);
-  return word + "'";
 }
 
 /// What the table depends on; neither where it was made nor by how many processors.

@@ -24,7 +24,7 @@ std::string CellNamer::id_of(const Scenario& scenario) {
   mesh = content_path(mesh);
   profile = content_path(profile);
   Sha256 hash;
-  hash.add("gnbv cell 1\n" + version_ + "\n");
+  hash.add("gnbv cell 2\n" + version_ + "\n" + source_ + "\n");
   hash.add(to_yaml(named));
   return hash.hex().substr(0, 16);
 }

@@ -72,37 +72,35 @@ std::size_t cell_count(const Sweep& sweep) {
 }
 
 std::vector<Cell> cells_of(const Sweep& sweep) {
+  const std::size_t count = cell_count(sweep);
+  return count == 0 ? std::vector<Cell>{} : cells_of(sweep, 0, count - 1);
+}
+
+std::vector<Cell> cells_of(const Sweep& sweep, std::size_t first, std::size_t last) {
+  GNBV_CHECK(first <= last && last < cell_count(sweep), "cells {} to {} of {}", first, last,
+             cell_count(sweep));
+  const std::size_t seeds = sweep.seeds.size();
+  const std::size_t methods = sweep.methods.size();
   Resolver resolver(sweep);
   CellNamer namer;
   std::string faults;  // of all cells
   std::vector<Cell> cells;
-  cells.reserve(cell_count(sweep));
-  for (const SweepScenario& scenario : sweep.scenarios) {
-    for (const SweepMethod& method : sweep.methods) {
-      try {
-        const Scenario resolved = resolver.resolve(scenario, method);
-        for (const std::uint64_t seed : sweep.seeds) {
-          cells.push_back(make_cell(scenario, method, seed, resolved, namer));
-        }
-      } catch (const BadInput& error) {
-        faults += fmt::format("{}\n", error.what());
+  cells.reserve(last - first + 1);
+  for (std::size_t row = first / seeds; row <= last / seeds; ++row) {
+    const SweepScenario& scenario = sweep.scenarios[row / methods];
+    const SweepMethod& method = sweep.methods[row % methods];
+    try {
+      const Scenario resolved = resolver.resolve(scenario, method);
+      const std::size_t end = std::min(last + 1, (row + 1) * seeds);
+      for (std::size_t i = std::max(first, row * seeds); i < end; ++i) {
+        cells.push_back(make_cell(scenario, method, sweep.seeds[i % seeds], resolved, namer));
       }
+    } catch (const BadInput& error) {
+      faults += fmt::format("{}\n", error.what());
     }
   }
   if (!faults.empty()) throw BadInput(in_order_of_lines(faults));
   return cells;
-}
-
-Cell cell_at(const Sweep& sweep, std::size_t index) {
-  GNBV_CHECK(index < cell_count(sweep), "cell {} of {}", index, cell_count(sweep));
-  const std::size_t seeds = sweep.seeds.size();
-  const std::size_t methods = sweep.methods.size();
-  const SweepScenario& scenario = sweep.scenarios[index / (methods * seeds)];
-  const SweepMethod& method = sweep.methods[index / seeds % methods];
-  Resolver resolver(sweep);
-  CellNamer namer;
-  return make_cell(scenario, method, sweep.seeds[index % seeds], resolver.resolve(scenario, method),
-                   namer);
 }
 
 }  // namespace gnbv

@@ -8,7 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "tools/sweep/source_id.hpp"
 
 namespace gnbv {
 namespace {
@@ -58,15 +60,24 @@ CellOutcome record_failure(const Cell& cell, const CellFiles& files, const Child
                        {"last_lines", lines},
                        {"command", command},
                        {"host", host_name()},
-                       {"version", GNBV_VERSION}};
+                       {"version", GNBV_VERSION},
+                       {"source_id", source_id()}};
   // what a program prints need not be UTF-8
   write_file_atomically(files.failed,
                         record.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   return {CellStatus::failed, {}, line};
 }
 
-std::string failure_of(const fs::path& failed) {
-  const auto record = Json::parse(read_file(failed), nullptr, false);
+std::optional<std::string> failure_of(const fs::path& failed) {
+  std::string text;
+  try {
+    text = read_file(failed);
+  } catch (const BadInput&) {
+    std::error_code ignored;
+    if (fs::exists(failed, ignored)) throw;
+    return std::nullopt;
+  }
+  const auto record = Json::parse(text, nullptr, false);
   const auto line = record.is_object() ? record.find("failure") : record.end();
   if (line == record.end() || !line->is_string()) return "unreadable " + failed.string();
   return line->get<std::string>();

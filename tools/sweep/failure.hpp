@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,8 @@ namespace gnbv {
 CellOutcome record_failure(const Cell& cell, const CellFiles& files, const ChildEnd& end,
                            const std::vector<std::string>& command, std::uintmax_t log_begin);
 
-/// The failure in one line, from ID.failed.json.
-std::string failure_of(const std::filesystem::path& failed);
+/// The failure in one line, from ID.failed.json; nothing without such a file, which whoever runs
+/// the cell again removes at any time.
+std::optional<std::string> failure_of(const std::filesystem::path& failed);
 
 }  // namespace gnbv

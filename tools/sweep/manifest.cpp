@@ -5,8 +5,10 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "bench/text_table.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "tools/sweep/source_id.hpp"
 
 namespace gnbv {
 namespace {
@@ -32,14 +34,6 @@ std::string by_line(const std::vector<Json>& items) {
             item.dump(-1, ' ', false, Json::error_handler_t::replace);
   }
   return text + "\n]";
-}
-
-/// As RFC 4180 wants it.
-std::string csv_text(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
-  return out + '"';
 }
 
 struct Column {
@@ -75,7 +69,7 @@ std::string csv_value(const nlohmann::json& summary, std::string_view pointer) {
   const nlohmann::json::json_pointer place{std::string(pointer)};
   if (!summary.is_object() || !summary.contains(place)) return "";
   const nlohmann::json& value = summary.at(place);
-  return value.is_string() ? csv_text(value.get<std::string>()) : value.dump();
+  return value.is_string() ? csv_field(value.get<std::string>()) : value.dump();
 }
 
 }  // namespace
@@ -104,20 +98,36 @@ void write_manifest(const fs::path& folder, const fs::path& yaml, std::span<cons
   fs::create_directories(folder, error);  // a failure is one of the file, too
   write_file_atomically(
       folder / kManifest,
-      fmt::format("{{\n\"schema\": 1,\n\"version\": \"{}\",\n\"file\": {},\n\"text\": {},\n"
+      fmt::format("{{\n\"schema\": 1,\n\"version\": \"{}\",\n\"source_id\": \"{}\",\n\"file\": "
+                  "{},\n\"text\": {},\n"
                   "\"cells\": {}\n}}\n",
-                  GNBV_VERSION, quoted(fs::absolute(yaml).lexically_normal().string()),
+                  GNBV_VERSION, source_id(), quoted(fs::absolute(yaml).lexically_normal().string()),
                   quoted(read_file(yaml)), by_line(items)));
 }
 
-std::optional<std::string> manifest_id(const fs::path& folder, std::size_t index) {
+std::optional<ManifestHead> read_manifest_head(const fs::path& folder) {
   std::error_code ignored;
-  if (!fs::exists(folder / kManifest, ignored)) return std::nullopt;
-  const auto manifest = nlohmann::json::parse(read_file(folder / kManifest), nullptr, false);
-  const nlohmann::json::json_pointer place(fmt::format("/cells/{}/id", index));
-  if (!manifest.is_object() || !manifest.contains(place)) return std::nullopt;
-  const nlohmann::json& id = manifest.at(place);
-  return id.is_string() ? std::optional(id.get<std::string>()) : std::nullopt;
+  const fs::path path = folder / kManifest;
+  if (!fs::exists(path, ignored)) return std::nullopt;
+  try {
+    const auto manifest = nlohmann::json::parse(read_file(path));
+    ManifestHead head{.file = manifest.at("file").get<std::string>(), .ids = {}};
+    for (const auto& cell : manifest.at("cells"))
+      head.ids.push_back(cell.at("id").get<std::string>());
+    return head;
+  } catch (const nlohmann::json::exception& error) {
+    throw BadInput(fmt::format("{}: is no manifest of a sweep: {}", path.string(), error.what()));
+  }
+}
+
+void require_folder_of(const fs::path& folder, const fs::path& yaml) {
+  const auto head = read_manifest_head(folder);
+  std::error_code ignored;
+  const std::string file = fs::absolute(yaml).lexically_normal().string();
+  if (!head || head->file == file || fs::equivalent(head->file, file, ignored)) return;
+  throw BadInput(
+      fmt::format("{}: is of {}, not of {}; --replace makes it the latter's, and the cells stay",
+                  (folder / kManifest).string(), head->file, file));
 }
 
 std::string results_csv(std::span<const Cell> cells, std::span<const CellOutcome> outcomes) {
@@ -134,8 +144,8 @@ std::string results_csv(std::span<const Cell> cells, std::span<const CellOutcome
       summary = nlohmann::json::parse(read_file(file), nullptr, false);
       if (!summary.is_object()) throw BadInput(fmt::format("{}: is no JSON", file.string()));
     }
-    csv += fmt::format("{},{},{},{},{},{}", i, cell.id, csv_text(cell.scenario),
-                       csv_text(cell.method), cell.seed, name_of(outcomes[i].status));
+    csv += fmt::format("{},{},{},{},{},{}", i, cell.id, csv_field(cell.scenario),
+                       csv_field(cell.method), cell.seed, name_of(outcomes[i].status));
     for (const Column& column : kColumns) csv += ',' + csv_value(summary, column.pointer);
     csv += '\n';
   }

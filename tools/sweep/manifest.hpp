@@ -5,18 +5,29 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "tools/sweep/run_cells.hpp"
 #include "tools/sweep/sweep.hpp"
 
 namespace gnbv {
 
-/// Writes DIR/sweep.json, by rename: version, the sweep file's path and text, and the cells.
+/// Writes DIR/sweep.json, by rename: version and source_id(), the sweep file's path and text, and
+/// the cells.
 void write_manifest(const std::filesystem::path& folder, const std::filesystem::path& yaml,
                     std::span<const Cell> cells);
 
-/// The id of the cell there, with this index; nothing when there is no manifest or no such cell.
-std::optional<std::string> manifest_id(const std::filesystem::path& folder, std::size_t index);
+/// Of which sweep a folder is.
+struct ManifestHead {
+  std::string file;              // absolute path of the sweep file
+  std::vector<std::string> ids;  // of its cells, by index
+};
+
+/// Nothing when there is no manifest; throws BadInput naming it when it is none.
+std::optional<ManifestHead> read_manifest_head(const std::filesystem::path& folder);
+
+/// Throws BadInput naming both files when the folder is that of another sweep file.
+void require_folder_of(const std::filesystem::path& folder, const std::filesystem::path& yaml);
 
 /// One row a cell: what it is, its status, and the key figures of those that are done.
 std::string results_csv(std::span<const Cell> cells, std::span<const CellOutcome> outcomes);

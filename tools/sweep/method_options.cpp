@@ -38,6 +38,11 @@ bool is_assignment(std::string_view text) {
   return equals != std::string_view::npos && equals > 0 && equals + 1 < text.size();
 }
 
+bool sets_seed(std::string_view assignment) {
+  const std::string_view key = assignment.substr(0, assignment.find('='));
+  return key.substr(std::min(key.find_first_not_of(' '), key.size())) == "seed";
+}
+
 class Methods {
  public:
   void add(const std::string& name, std::vector<std::string> overrides) {
@@ -56,11 +61,13 @@ class Methods {
         return add_fault(
             fmt::format("--variant: value '{}': expected [NAME:]KEY=VALUE[,KEY=VALUE]...", text));
       }
+      if (sets_seed(part)) return add_seed_fault("--variant", text);
     }
     add(name, parts);
   }
 
   void add_varied(const std::string& text) {
+    if (sets_seed(text)) return add_seed_fault("--vary", text);
     const std::size_t equals = text.find('=');
     for (const std::string& value :
          split_at_commas(std::string_view(text).substr(std::min(equals + 1, text.size())))) {
@@ -84,6 +91,11 @@ class Methods {
 
  private:
   void add_fault(const std::string& fault) { faults_ += (faults_.empty() ? "" : "\n") + fault; }
+
+  void add_seed_fault(const std::string& option, const std::string& text) {
+    add_fault(fmt::format("{}: value '{}': seeds are no method; --seed and --seeds give them",
+                          option, text));
+  }
 
   std::vector<SweepMethod> methods_;
   std::set<std::string> names_;

@@ -19,7 +19,7 @@ struct MethodOptions {
 /// its NAME or its text, a varied value by KEY=VALUE. When only variants are named, the scenario as
 /// it is, "default", stands first. Commas within brackets, braces or quotes separate nothing.
 /// Throws BadInput with every fault at once: text that is none of this, a name that stands twice,
-/// fewer than two methods. Keys and values are checked by cells_of().
+/// a seed, fewer than two methods. Keys and values are checked by cells_of().
 std::vector<SweepMethod> methods_of(const MethodOptions& options);
 
 }  // namespace gnbv

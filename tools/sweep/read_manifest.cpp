@@ -14,10 +14,14 @@ namespace {
 
 using Json = nlohmann::json;
 
-Cell cell_from(const Json& json) {
+Cell cell_from(const Json& json, const std::filesystem::path& manifest) {
   Cell cell;
   json.at("scenario").get_to(cell.scenario);
   json.at("method").get_to(cell.method);
+  if (!json.at("seed").is_number_unsigned()) {
+    throw BadInput(fmt::format("{}: seed: value '{}': expects a whole number, 0 or more",
+                               manifest.string(), json.at("seed").dump()));
+  }
   json.at("seed").get_to(cell.seed);
   json.at("id").get_to(cell.id);
   return cell;
@@ -31,8 +35,12 @@ std::vector<Cell> cells_of_manifest(const std::filesystem::path& folder) {
   std::set<std::tuple<std::string, std::string, std::uint64_t>> seen;
   try {
     const Json manifest = Json::parse(read_file(path));
+    if (manifest.at("schema") != 1) {
+      throw BadInput(fmt::format("{}: schema: value '{}': expects 1", path.string(),
+                                 manifest.at("schema").dump()));
+    }
     for (const Json& json : manifest.at("cells")) {
-      cells.push_back(cell_from(json));
+      cells.push_back(cell_from(json, path));
       const Cell& cell = cells.back();
       if (!seen.insert({cell.scenario, cell.method, cell.seed}).second) {
         throw BadInput(fmt::format("{}: two cells of {}, {}, seed {}", path.string(), cell.scenario,

@@ -28,6 +28,7 @@ class MethodReader {
     for (NamedSettings& base : read_variants(root.find("variants"))) {
       bases.push_back(std::move(base));
     }
+    refuse_double_keys(root.find("grid"), bases);
     if (bases.empty()) bases.push_back({"", {}});
     const std::vector<NamedSettings> points = read_grid(root.find("grid"));
     if (bases.size() * points.size() > kMaxCells) {
@@ -114,6 +115,29 @@ class MethodReader {
       points = std::move(next);
     }
     return points;
+  }
+
+  /// Whether setting one of the keys sets the other, or a part of it.
+  static bool overlap(const std::string& a, const std::string& b) {
+    return a == b || a.starts_with(b + '.') || b.starts_with(a + '.');
+  }
+
+  /// The grid comes last: what a method says by the same key would count for nothing.
+  void refuse_double_keys(const YamlNode* grid, const std::vector<NamedSettings>& bases) {
+    if (grid == nullptr || grid->kind != Kind::map) return;
+    for (const YamlEntry& entry : grid->entries) {
+      for (const NamedSettings& base : bases) {
+        const auto& set = base.settings.overrides;
+        const auto text = std::find_if(set.begin(), set.end(), [&](const std::string& one) {
+          return overlap(one.substr(0, one.find('=')), entry.key);
+        });
+        if (text == set.end()) continue;
+        yaml_.fault(entry.value, "grid." + entry.key,
+                    fmt::format("the method '{}' sets {}, too", base.name,
+                                text->substr(0, text->find('='))));
+        break;  // one is enough to see it
+      }
+    }
   }
 
   /// The last word of a key, or all of it where another key of the grid ends alike.

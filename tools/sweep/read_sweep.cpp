@@ -16,6 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Kind = YamlNode::Kind;
+
 class SweepReader {
  public:
   explicit SweepReader(const fs::path& yaml)
@@ -32,6 +33,7 @@ class SweepReader {
       read_scenarios(*root);
       sweep_.methods = read_methods(*root, values_);
       read_seeds(root->find("seeds"));
+      refuse_too_many(*root);
     }
     if (!values_.faults().empty()) throw_with_faults_of_cells();
     return std::move(sweep_);
@@ -47,7 +49,7 @@ class SweepReader {
       text = error.what();
     }
     try {
-      cells_of(sweep_);
+      if (cell_count(sweep_) <= kMaxCells) cells_of(sweep_);
     } catch (const BadInput& error) {
       text += fmt::format("\n{}", error.what());
     }
@@ -171,11 +173,16 @@ class SweepReader {
       if (!seen.insert(*seed).second) values_.fault(node->items[i], path, "is given twice");
       sweep_.seeds.push_back(*seed);
     }
-    if (cell_count(sweep_) > kMaxCells) {
-      values_.fault(
-          *node, "seeds",
+  }
+
+  /// At the first of these keys that is there: what is multiplied last.
+  void refuse_too_many(const YamlNode& root) {
+    if (cell_count(sweep_) <= kMaxCells) return;
+    for (const char* key : {"seeds", "grid", "variants", "utilities", "scenarios"}) {
+      if (root.find(key) == nullptr) continue;
+      return values_.fault(
+          *root.find(key), key,
           fmt::format("makes {} cells of the sweep, more than {}", cell_count(sweep_), kMaxCells));
-      sweep_.seeds.resize(1);
     }
   }
 

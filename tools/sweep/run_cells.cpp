@@ -32,8 +32,8 @@ constexpr auto kLockedPoll = std::chrono::milliseconds(500);
 CellOutcome on_disk(const CellFiles& files) {
   std::error_code ignored;
   if (fs::exists(files.run, ignored)) return {CellStatus::done, files.run, ""};
-  if (!fs::exists(files.failed, ignored)) return {};
-  return {CellStatus::failed, {}, failure_of(files.failed)};
+  const std::optional<std::string> failure = failure_of(files.failed);
+  return failure ? CellOutcome{CellStatus::failed, {}, *failure} : CellOutcome{};
 }
 
 // not its path: a program that is built anew meanwhile does not mix versions in a sweep

@@ -9,18 +9,13 @@
 #include <cstdio>
 
 #include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "tools/sweep/shell_word.hpp"
 
 namespace gnbv {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// One word of a shell command, whatever it holds.
-std::string quoted(const std::string& word) {
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? "'\\''" : std::string(1, c);
-  return out + "'";
-}
 
 std::string full_path(const fs::path& path) {
   return fs::absolute(path).lexically_normal().string();
@@ -100,19 +95,26 @@ std::string batch_script(const SlurmOptions& options, std::size_t max_array_size
       "# exec: Slurm's signals reach the program itself\n"
       "exec {} sweep {} --out {} --threads {}{} --index \"$first-$last\"\n",
       options.cells, tasks, tasks - 1, limit, options.threads, in_directive(options.folder), extra,
-      chunk, last, quoted(options.program.string()), quoted(full_path(options.sweep_file)),
-      quoted(full_path(options.folder)), options.threads,
+      chunk, last, shell_word(options.program.string()), shell_word(full_path(options.sweep_file)),
+      shell_word(full_path(options.folder)), options.threads,
       options.retry_failed ? " --retry-failed" : "");
 }
 
 std::string submit(const fs::path& script) {
-  const CommandOutput sent =
-      output_of(fmt::format("sbatch --parsable {} 2>&1", quoted(full_path(script))));
+  const fs::path said = script.string() + ".stderr";  // warnings are no part of the id
+  const CommandOutput sent = output_of(fmt::format(
+      "sbatch --parsable {} 2> {}", shell_word(full_path(script)), shell_word(full_path(said))));
+  const std::string words = fs::exists(said) ? read_file(said) : "";
+  fs::remove(said);
   if (sent.exit_code == 127) {
     throw BadInput(
         fmt::format("sbatch: not found on this machine; {} is written", script.string()));
   }
-  if (sent.exit_code != 0) throw BadInput(fmt::format("sbatch {}: {}", script.string(), sent.text));
+  if (sent.exit_code != 0) {
+    throw BadInput(fmt::format("sbatch {}: {}", script.string(),
+                               words.substr(0, words.find_last_not_of('\n') + 1)));
+  }
+  fmt::print(stderr, "{}", words);
   return sent.text;
 }
 

@@ -29,7 +29,8 @@ std::optional<std::size_t> max_array_size();
 /// array may have tasks, a run of them. Throws BadInput for arguments of more than one line.
 std::string batch_script(const SlurmOptions& options, std::size_t max_array_size);
 
-/// Submits the script; the id of the job. Throws BadInput with what sbatch says against it.
+/// Submits the script; the id of the job. What sbatch warns of goes to stderr; throws BadInput with
+/// what it says against the script.
 std::string submit(const std::filesystem::path& script);
 
 }  // namespace gnbv

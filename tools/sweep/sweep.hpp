@@ -40,7 +40,7 @@ struct Cell {
   std::string scenario;  // SweepScenario::name
   std::string method;    // SweepMethod::name
   std::uint64_t seed = 0;
-  std::string id;  // cell_id()
+  std::string id;  // CellNamer::id_of()
   Scenario resolved;
 };
 
@@ -59,7 +59,7 @@ Sweep read_sweep(const std::filesystem::path& yaml);
 /// once. Cells of the same content (a method that changes nothing) keep the same id.
 std::vector<Cell> cells_of(const Sweep& sweep);
 
-/// cells_of(sweep)[index], without resolving the others.
-Cell cell_at(const Sweep& sweep, std::size_t index);
+/// The cells first to last of cells_of(sweep), without resolving the others.
+std::vector<Cell> cells_of(const Sweep& sweep, std::size_t first, std::size_t last);
 
 }  // namespace gnbv

@@ -1,0 +1,80 @@
+// What a sweep says to Slurm, and hears from it.
+#include "tools/sweep/slurm.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "tests/support/temp_folder.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+TEST(BatchScript, ItsTasksFlyEveryCellOnceAndAreNoMoreThanAllowed) {
+  TempFolder temp;
+  for (const auto& [cells, allowed] :
+       {std::pair<std::size_t, std::size_t>{1, 1001}, {6, 6}, {7, 6}, {12, 6}, {13, 6}, {5, 1}}) {
+    SlurmOptions options;
+    options.program = "/bin/echo";
+    options.sweep_file = temp.path() / "it's.yaml";
+    options.folder = temp.path();
+    options.cells = cells;
+    const fs::path script = temp.path() / "s.sbatch";
+    std::ofstream(script) << batch_script(options, allowed);
+    const std::string text = read_file(script);
+    const std::size_t tasks = std::stoul(text.substr(text.find("--array=0-") + 10)) + 1;
+    EXPECT_LE(tasks, allowed);
+    std::size_t next = 0;
+    for (std::size_t task = 0; task < tasks; ++task) {
+      const fs::path out = temp.path() / "out";
+      const std::string run = fmt::format("SLURM_ARRAY_TASK_ID={} bash '{}' | tail -1 > '{}'", task,
+                                          script.string(), out.string());
+      ASSERT_EQ(std::system(run.c_str()), 0);
+      const std::string echoed = read_file(out);
+      const std::string range = echoed.substr(echoed.find("--index ") + 8);
+      EXPECT_EQ(std::stoul(range), next) << cells << " " << allowed;
+      next = std::stoul(range.substr(range.find('-') + 1)) + 1;
+    }
+    EXPECT_EQ(next, cells);
+  }
+}
+
+TEST(BatchScript, WhatSbatchWarnsOfIsNoPartOfTheId) {
+  TempFolder temp;
+  const auto sbatch_that = [&](const std::string& does) {
+    std::ofstream(temp.path() / "sbatch") << "#!/bin/sh\n" + does + "\n";
+    fs::permissions(temp.path() / "sbatch", fs::perms::owner_all);
+  };
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", (temp.path().string() + ":" + path).c_str(), 1);
+  sbatch_that("echo careful >&2; echo 42");
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(submit(temp.path() / "it's.sbatch"), "42");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "careful\n");
+  sbatch_that("echo 'no such partition' >&2; exit 1");
+  try {
+    submit(temp.path() / "it's.sbatch");
+    ADD_FAILURE() << "a refusal is no id";
+  } catch (const BadInput& error) {
+    EXPECT_THAT(error.what(), HasSubstr("it's.sbatch: no such partition"));
+  }
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_FALSE(fs::exists(temp.path() / "it's.sbatch.stderr"));
+}
+
+TEST(BatchScript, ArgumentsOfTwoLinesAreRefused) {
+  SlurmOptions options;
+  options.cells = 1;
+  options.arguments = "--time=1\nrm -rf /";
+  EXPECT_THROW(batch_script(options, 10), BadInput);
+}
+
+}  // namespace
+}  // namespace gnbv
