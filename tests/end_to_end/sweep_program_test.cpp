@@ -149,6 +149,8 @@ struct Refusal {
   const char* name;
   std::string arguments;
   std::string words;
+
+  friend void PrintTo(const Refusal& refusal, std::ostream* out) { *out << refusal.name; }
 };
 
 class RefusedSweep : public SweepProgram, public testing::WithParamInterface<Refusal> {};
