@@ -96,7 +96,7 @@ TEST(PaperTable, KnowsItsOwnStructures) {
   EXPECT_FALSE(is_papers_structure(aircraft, "power_plant"));
   EXPECT_FALSE(is_papers_structure(aircraft, "/absent.obj"));
   EXPECT_FALSE(is_papers_structure(aircraft, __FILE__));
-  const std::string mesh = "/work/shared/meshes/a340.obj";
+  const std::string mesh = GNBV_SHARED_MESHES "/a340.obj";
   if (!std::filesystem::exists(mesh)) GTEST_SKIP() << mesh << " is not here";
   EXPECT_TRUE(is_papers_structure(aircraft, mesh));
   EXPECT_FALSE(is_papers_structure(*find_paper_table("power_plant"), mesh));
