@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 namespace gnbv {
-namespace {
 
-std::string in_quotes(const std::string& text) {
+std::string yaml_in_quotes(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') out += '\\';
@@ -15,9 +14,11 @@ std::string in_quotes(const std::string& text) {
   return out + '"';
 }
 
+namespace {
+
 /// Inside a list or map: text that would end there goes into quotes; it is no number anyway.
 std::string inner_text(const std::string& text) {
-  return text.find_first_of(",[]{}:#\"'\n") == std::string::npos ? text : in_quotes(text);
+  return text.find_first_of(",[]{}:#\"'\n") == std::string::npos ? text : yaml_in_quotes(text);
 }
 
 std::string inner_yaml(const YamlNode& node) {
@@ -34,7 +35,7 @@ std::string flow_yaml(const YamlNode& node) {
     case YamlNode::Kind::null:
       return "";
     case YamlNode::Kind::scalar:
-      return node.is_quoted ? in_quotes(node.text) : node.text;
+      return node.is_quoted ? yaml_in_quotes(node.text) : node.text;
     case YamlNode::Kind::list:
       for (const YamlNode& item : node.items) text += (text.empty() ? "" : ", ") + inner_yaml(item);
       return '[' + text + ']';

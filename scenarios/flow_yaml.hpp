@@ -13,4 +13,7 @@ std::string flow_yaml(const YamlNode& node);
 /// The value as a message shows it; long ones are cut.
 std::string excerpt(const YamlNode& node);
 
+/// The text as a double-quoted scalar.
+std::string yaml_in_quotes(const std::string& text);
+
 }  // namespace gnbv

@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <type_traits>
 
+#include "scenarios/flow_yaml.hpp"
+
 namespace gnbv {
 namespace {
 
@@ -196,13 +198,7 @@ std::string quoted_text(const std::string& text) {
       std::find(kBools.begin(), kBools.end(), lower) == kBools.end()) {
     return text;
   }
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    const auto byte = static_cast<unsigned char>(c);
-    out += byte < 0x20 || byte == 0x7f ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
-  }
-  return out + '"';
+  return yaml_in_quotes(text);
 }
 
 }  // namespace
