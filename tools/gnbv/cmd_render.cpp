@@ -2,8 +2,6 @@
 
 #include <memory>
 
-#include "scenarios/load.hpp"
-#include "sim/core/error.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/render/run_picture.hpp"
@@ -20,21 +18,12 @@ struct RenderOptions {
 };
 
 void render(const RenderOptions& options) {
-  const fs::path yaml = options.run / "scenario.yaml";
-  if (!fs::exists(yaml)) {
-    throw BadInput(
-        fmt::format("{}: no run directory: scenario.yaml is missing; `gnbv run SCENARIO "
-                    "--out {}` makes one",
-                    options.run.string(), options.run.string()));
-  }
-  const Scenario scenario = load_scenario(yaml.string(), {});
-  RunPictureOptions picture = options.picture;
-  picture.camera = scenario.cameras.front();
-  picture.has_ground = scenario.structure.ground;
+  const RunRecord record = read_run(options.run);
+  for (const std::string& missing : record.missing) fmt::print(stderr, "gnbv: {}\n", missing);
   const fs::path png = options.out.empty() ? options.run / "path.png" : options.out;
-  std::vector<std::string>
-      told_by_run;  // the mesh was read, and its faults told, when it was flown
-  render_run(options.run, load_world(scenario, told_by_run).structure, picture, png);
+  std::vector<std::string> told_by_run;  // the mesh's faults were told when it was flown
+  const World world = load_world(record.scenario, told_by_run);
+  render_run(record, world.structure, options.picture, png);
   fmt::print("{}\n", png.string());
 }
 

@@ -88,9 +88,10 @@ class Row {
   std::size_t next_ = 0;
 };
 
-Decision decision_of(Row row, std::size_t iteration) {
-  Decision d;
+ViewRecord record_of(Row row, std::size_t iteration) {
   row.expect_iteration(iteration);
+  ViewRecord view{.iteration = static_cast<int>(iteration)};
+  Decision& d = view.decision;
   d.view.p_world_m.x() = row.number();
   d.view.p_world_m.y() = row.number();
   d.view.p_world_m.z() = row.number();
@@ -104,43 +105,16 @@ Decision decision_of(Row row, std::size_t iteration) {
   d.score.density = row.number();
   d.score.prediction = row.number();
   d.score.distance = row.number();
-  constexpr std::size_t kMeasured = 10;  // columns of what was measured there
-  row.skip(kMeasured);
+  view.entropy_nat = row.number();
+  view.density_points_per_voxel = row.number();
+  view.cloud_points = static_cast<std::size_t>(row.count());
+  view.straight_m = row.number();
+  view.flown_m = row.number();
+  view.time_s = row.number();
+  constexpr std::size_t kWallTimes = 4;
+  row.skip(kWallTimes);
   d.via_world_m = row.points();
-  return d;
-}
-
-ViewMark mark_of(Row row, std::size_t iteration) {
-  row.expect_iteration(iteration);
-  constexpr std::size_t kBeforePoints = 15;  // columns of the decision, entropy and density
-  row.skip(kBeforePoints);
-  ViewMark mark;
-  mark.cloud_points = static_cast<std::size_t>(row.count());
-  mark.straight_m = row.number();
-  row.skip(1);
-  mark.time_s = row.number();
-  return mark;
-}
-
-/// Every whole line below the header; a last one without its end is left out.
-template <typename Result>
-std::vector<Result> read_rows(const std::filesystem::path& csv,
-                              Result (*result_of)(Row, std::size_t)) {
-  const std::string content = read_file(csv);
-  std::vector<Result> results;
-  std::size_t line = 0;
-  for (std::size_t begin = 0; begin < content.size();) {
-    const std::size_t end = content.find('\n', begin);
-    if (end == std::string::npos) break;
-    const std::string text = content.substr(begin, end - begin);
-    begin = end + 1;
-    if (++line > 1) {
-      results.push_back(result_of(Row(csv, line, text), line - 2));
-    } else if (text != kHeader) {
-      throw BadInput(fmt::format("{}:1: is not the header that this version writes", csv.string()));
-    }
-  }
-  return results;
+  return view;
 }
 
 }  // namespace
@@ -164,12 +138,39 @@ std::string iterations_csv_row(const ViewRecord& view) {
       view.wall.plan_s, view.wall.fly_s, via);
 }
 
+std::vector<ViewRecord> read_view_records(const std::filesystem::path& csv) {
+  const std::string content = read_file(csv);
+  std::vector<ViewRecord> views;
+  std::size_t line = 0;
+  for (std::size_t begin = 0; begin < content.size();) {
+    const std::size_t end = content.find('\n', begin);
+    if (end == std::string::npos) break;
+    const std::string text = content.substr(begin, end - begin);
+    begin = end + 1;
+    if (++line > 1) {
+      views.push_back(record_of(Row(csv, line, text), line - 2));
+    } else if (text != kHeader) {
+      throw BadInput(
+          fmt::format("{}:1: is not the header that this version writes: of another version, and "
+                      "`gnbv run SCENARIO.yaml --out NEW` flies its mission again",
+                      csv.string()));
+    }
+  }
+  return views;
+}
+
 std::vector<Decision> read_decisions(const std::filesystem::path& csv) {
-  return read_rows<Decision>(csv, decision_of);
+  std::vector<Decision> decisions;
+  for (ViewRecord& view : read_view_records(csv)) decisions.push_back(std::move(view.decision));
+  return decisions;
 }
 
 std::vector<ViewMark> read_view_marks(const std::filesystem::path& csv) {
-  return read_rows<ViewMark>(csv, mark_of);
+  std::vector<ViewMark> marks;
+  for (const ViewRecord& view : read_view_records(csv)) {
+    marks.push_back({view.cloud_points, view.straight_m, view.time_s});
+  }
+  return marks;
 }
 
 }  // namespace gnbv

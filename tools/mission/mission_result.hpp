@@ -28,14 +28,14 @@ struct TrajectorySample {
 /// One view that was taken; a row of iterations.csv.
 struct ViewRecord {
   int iteration = 0;  // from 0, the start
-  Decision decision;
+  Decision decision = {};
   double entropy_nat = 0.0;  // total, after the view
   double density_points_per_voxel = 0.0;
   std::size_t cloud_points = 0;
   double straight_m = 0.0;  // from the first view to this one, along the planned legs
   double flown_m = 0.0;     // the same, as flown
   double time_s = 0.0;      // simulated, since the start of the mission
-  WallTimes wall;           // of this view alone
+  WallTimes wall = {};      // of this view alone
 };
 
 struct MissionDistances {

@@ -29,15 +29,15 @@ double px_per_m_at_focus(const RenderView& view) {
 // A sample is dropped where the path between its kept neighbours lies within `tolerance_m` of the
 // straight line between them, while these stay within `reach_m` of each other (colours change along
 // the way).
-std::vector<std::size_t> simplified(const std::vector<PathSample>& path, double tolerance_m,
+std::vector<std::size_t> simplified(const std::vector<TrajectorySample>& path, double tolerance_m,
                                     double reach_m) {
   std::vector<std::size_t> kept = {0};
   const auto is_straight = [&](std::size_t a, std::size_t b) {
-    const Vec3 chord = path[b].p_world_m - path[a].p_world_m;
+    const Vec3 chord = path[b].T_world_body.translation() - path[a].T_world_body.translation();
     const double length_m = chord.norm();
     if (length_m > reach_m) return false;
     for (std::size_t i = a + 1; i < b; ++i) {
-      const Vec3 away = path[i].p_world_m - path[a].p_world_m;
+      const Vec3 away = path[i].T_world_body.translation() - path[a].T_world_body.translation();
       const double t =
           length_m > 0.0 ? std::clamp(away.dot(chord) / (length_m * length_m), 0.0, 1.0) : 0.0;
       if ((away - t * chord).norm() > tolerance_m) return false;
@@ -56,20 +56,23 @@ std::vector<double> planned_metres(const RunRecord& record) {
   const double begin_s = record.views_begin_s.value_or(record.path.front().time_s);
   std::vector<double> metres(record.path.size(), 0.0);
   for (std::size_t i = 1; i < metres.size(); ++i) {
-    const double step_m = (record.path[i].p_world_m - record.path[i - 1].p_world_m).norm();
+    const double step_m =
+        (record.path[i].T_world_body.translation() - record.path[i - 1].T_world_body.translation())
+            .norm();
     metres[i] = metres[i - 1] + (record.path[i - 1].time_s >= begin_s ? step_m : 0.0);
   }
   return metres;
 }
 
 void add_path(const RunRecord& record, double unit_m, RenderScene& scene) {
+  if (record.path.empty()) return;
   const std::vector<double> metres = planned_metres(record);
   const double total_m = std::max(metres.back(), 1e-9);
   const double begin_s = record.views_begin_s.value_or(record.path.front().time_s);
   TubeItem profile{{}, {kProfileColour}, static_cast<float>(1.05 * unit_m)};
   TubeItem planned{{}, {}, static_cast<float>(1.8 * unit_m)};
   for (const std::size_t i : simplified(record.path, 0.25 * unit_m, total_m / 150.0)) {
-    const Vec3f p = record.path[i].p_world_m.cast<float>();
+    const Vec3f p = record.path[i].T_world_body.translation().cast<float>();
     const bool is_profile = record.path[i].time_s < begin_s;
     if (is_profile || planned.points_m.empty()) profile.points_m.push_back(p);
     if (is_profile) continue;
@@ -85,17 +88,17 @@ void add_views(const RunRecord& record, const RunPictureOptions& options, double
   const std::size_t count = record.views.size();
   const std::size_t every =
       options.frustum_every > 0 ? static_cast<std::size_t>(options.frustum_every) : 1 + count / 40;
-  const Isometry T_body_camera = make_camera_model(options.camera).T_body_camera;
+  const Isometry T_body_camera = make_camera_model(record.scenario.cameras.front()).T_body_camera;
   for (std::size_t i = 0; i < count; ++i) {
-    const ViewPose& pose = record.views[i];
+    const ViewPose& pose = record.views[i].decision.view;
     const Rgb colour =
         path_ramp(count > 1 ? static_cast<double>(i) / static_cast<double>(count - 1) : 0.0);
     scene.balls.push_back({pose.p_world_m.cast<float>(), static_cast<float>(3.4 * unit_m), colour});
     if (i % every != 0) continue;
     FrustumItem frustum;
     frustum.T_world_camera = T_world_body(pose) * T_body_camera;
-    frustum.fov_x_rad = options.camera.fov_x_rad;
-    frustum.fov_y_rad = options.camera.fov_y_rad;
+    frustum.fov_x_rad = record.scenario.cameras.front().fov_x_rad;
+    frustum.fov_y_rad = record.scenario.cameras.front().fov_y_rad;
     frustum.length_m = 27.0 * unit_m;
     frustum.edge_radius_m = static_cast<float>(0.75 * unit_m);
     frustum.colour = colour;
@@ -120,15 +123,16 @@ RenderView run_view(const RunRecord& record, const TriangleMesh& structure,
   std::vector<Vec3> points;
   points.reserve(structure.vertices_m.size() + record.path.size() + record.views.size());
   for (const Vec3f& v : structure.vertices_m) points.push_back(v.cast<double>());
-  for (const PathSample& sample : record.path) points.push_back(sample.p_world_m);
-  for (const ViewPose& pose : record.views) points.push_back(pose.p_world_m);
+  for (const TrajectorySample& sample : record.path) {
+    points.push_back(sample.T_world_body.translation());
+  }
+  for (const ViewRecord& view : record.views) points.push_back(view.decision.view.p_world_m);
   FrameMargins margins;
   if (has_caption(options)) {
     const double u = unit_px(options.width_px, options.height_px) / options.height_px;
     // the title fills a corner that wide pictures leave free anyway
     const bool is_wide = 3 * options.width_px > 4 * options.height_px;
-    const bool has_title = !options.title.empty() || !record.title.empty();
-    if (has_title) margins.top = (is_wide ? 34.0 : 82.0) * u;
+    margins.top = (is_wide ? 34.0 : 82.0) * u;
     margins.bottom = 46.0 * u;
   }
   return frame_points(points, options.angles, options.width_px, options.height_px, margins);
@@ -142,7 +146,7 @@ RenderScene run_scene(const RunRecord& record, const TriangleMesh& structure,
     surface.mesh = structure;
     scene.surfaces.push_back(std::move(surface));
   }
-  if (options.has_ground) scene.ground = GroundItem{};
+  if (record.scenario.structure.ground) scene.ground = GroundItem{};
   const double unit_m = unit_px(view.width_px, view.height_px) / px_per_m_at_focus(view);
   add_path(record, unit_m, scene);
   add_views(record, options, unit_m, scene);
@@ -153,9 +157,9 @@ void draw_run_caption(Image& image, const RunRecord& record, const RunPictureOpt
                       const RenderView& view) {
   const double u = unit_px(image.width_px, image.height_px);
   const double bottom = image.height_px - 24.0 * u;
-  const std::string& title = options.title.empty() ? record.title : options.title;
+  const std::string title = options.title.empty() ? run_title(record) : options.title;
   draw_text(image, title, 26.0 * u, 40.0 * u, 15.0 * u, kInk);
-  draw_text(image, record.detail, 26.0 * u, 64.0 * u, 10.0 * u, kPaleInk);
+  draw_text(image, run_detail(record), 26.0 * u, 64.0 * u, 10.0 * u, kPaleInk);
 
   // scale bar, true at the focus
   const double px_per_m = px_per_m_at_focus(view);
@@ -190,9 +194,8 @@ void draw_run_caption(Image& image, const RunRecord& record, const RunPictureOpt
   draw_line(image, {x - 30.0 * u, bottom}, {x, bottom}, 4.0 * u, to_rgb8(kProfileColour));
 }
 
-void render_run(const std::filesystem::path& run_dir, const TriangleMesh& structure,
+void render_run(const RunRecord& record, const TriangleMesh& structure,
                 const RunPictureOptions& options, const std::filesystem::path& png) {
-  const RunRecord record = read_run(run_dir);
   const RenderView view = run_view(record, structure, options);
   Image image = render(run_scene(record, structure, options, view), view);
   if (has_caption(options)) draw_run_caption(image, record, options, view);

@@ -4,8 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "sensors/camera_model.hpp"
-#include "tools/render/run_record.hpp"
+#include "tools/record/run_record.hpp"
 #include "tools/render/scene.hpp"
 
 namespace gnbv {
@@ -14,11 +13,9 @@ struct RunPictureOptions {
   int width_px = 1280;
   int height_px = 720;
   ViewAngles angles;
-  int frustum_every = 0;  // a camera pyramid at every n-th view; 0 = about 40 in all
-  CameraConfig camera;    // whose opening the pyramids show
-  bool has_ground = true;
+  int frustum_every = 0;    // a camera pyramid at every n-th view; 0 = about 40 in all
   bool has_caption = true;  // pictures under 320 x 240 px never have one
-  std::string title;        // empty: scenario and utility of summary.json
+  std::string title;        // empty: scenario and utility
 };
 
 /// Camera that shows the structure, the path and the views, and nothing more.
@@ -34,9 +31,9 @@ RenderScene run_scene(const RunRecord& record, const TriangleMesh& structure,
 void draw_run_caption(Image& image, const RunRecord& record, const RunPictureOptions& options,
                       const RenderView& view);
 
-/// The picture of a run directory as a PNG. `structure` is the mesh the run's scenario.yaml names.
-/// Throws BadInput as read_run(), Renderer and write_png() do.
-void render_run(const std::filesystem::path& run_dir, const TriangleMesh& structure,
+/// The picture of a run as a PNG. `structure` is the mesh that its scenario names. Throws BadInput
+/// as Renderer and write_png() do.
+void render_run(const RunRecord& record, const TriangleMesh& structure,
                 const RunPictureOptions& options, const std::filesystem::path& png);
 
 }  // namespace gnbv

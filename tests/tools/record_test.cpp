@@ -1,0 +1,156 @@
+// Laws of reading a run back: what was written is what is read, what is missing is named with the
+// command that makes it, what is damaged is named with its line.
+#include <gtest/gtest.h>
+
+#include "sim/core/error.hpp"
+#include "tests/support/made_run.hpp"
+#include "tests/support/temp_folder.hpp"
+#include "tools/record/frame_record.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Record : public ::testing::Test {
+ protected:
+  Record() { write_made_run(temp_.path()); }
+
+  void write(const std::string& name, const std::string& content) const {
+    write_file_atomically(temp_.path() / name, content);
+  }
+  void remove(const std::string& name) const { fs::remove_all(temp_.path() / name); }
+  void write_frames() const {
+    fs::create_directories(temp_.path() / "frames");
+    write("frames/cameras.json",
+          R"([{"name": "rgbd", "width_px": 640, "height_px": 480, "fx_px": 500.0, "fy_px": 510.0,
+               "cx_px": 320.0, "cy_px": 240.0, "depth_scale_m": 0.001}])");
+    write("frames/poses.csv",
+          "iteration,camera,time_s,x_m,y_m,z_m,qx,qy,qz,qw,rgb,depth\n"
+          "7,rgbd,12.5,1,2,3,0,0,1,0,0007_rgbd.rgb.png,0007_rgbd.depth.png\n");
+    write("frames/0007_rgbd.rgb.png", "");
+    write("frames/0007_rgbd.depth.png", "");
+  }
+  // The message of the error that reading ends in.
+  template <typename Read>
+  std::string complaint(Read read) const {
+    try {
+      read(temp_.path());
+    } catch (const BadInput& error) {
+      return error.what();
+    }
+    return "";
+  }
+  std::string run_complaint() const { return complaint(read_run); }
+  std::string frames_complaint() const { return complaint(read_frames); }
+  std::string cloud_complaint() const {
+    return complaint([](const fs::path& folder) { read_run_cloud(read_run(folder)); });
+  }
+
+  TempFolder temp_;
+};
+
+TEST_F(Record, HoldsWhatTheFilesSay) {
+  const RunRecord record = read_run(temp_.path());
+  const RunRecord made = made_record();
+  ASSERT_EQ(record.path.size(), made.path.size());
+  EXPECT_EQ(record.path[3].time_s, 3.0);
+  EXPECT_EQ(record.path[3].T_world_body.translation(), Vec3(-4, 4, 2));
+  ASSERT_EQ(record.views.size(), 3U);
+  EXPECT_EQ(record.views[1].decision.view.p_world_m, Vec3(-4, 4, 2));
+  EXPECT_EQ(record.views[1].decision.view.yaw_rad, 1.5);
+  EXPECT_EQ(record.views[1].cloud_points, 5U);
+  EXPECT_EQ(record.views[1].time_s, 4.0);
+  EXPECT_EQ(run_title(record), "smoke, proposed");
+  EXPECT_EQ(run_detail(record), "3 views, 0.0 m");
+}
+
+TEST_F(Record, EveryPointBelongsToTheViewThatBroughtIt) {
+  const RunCloud cloud = read_run_cloud(read_run(temp_.path()));
+  std::vector<int> views;
+  for (std::size_t i = 0; i < cloud.points_world_m.size(); ++i) views.push_back(cloud.view_of(i));
+  EXPECT_EQ(views, (std::vector<int>{-1, -1, 0, 1, 1, 2}));
+}
+
+TEST_F(Record, WhatIsMissingIsNamedWithTheCommandThatMakesIt) {
+  ASSERT_EQ(read_run(temp_.path()).missing.size(), 1U);  // a made run has no summary
+  remove("trajectory.tum");
+  fs::rename(temp_.path() / "iterations.csv", temp_.path() / "iterations.csv.part");
+  const RunRecord record = read_run(temp_.path());
+  EXPECT_TRUE(record.path.empty());
+  EXPECT_EQ(record.views.size(), 3U);  // of the journal
+  EXPECT_FALSE(record.figures.has_value());
+  ASSERT_EQ(record.missing.size(), 3U);
+  for (const std::string& sentence : record.missing) {
+    EXPECT_NE(sentence.find("gnbv run"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("--resume"), std::string::npos) << sentence;
+  }
+  write("summary.json", R"({"schema": 1, "profile_end_s": 2.0, "views_begin_s": 2.5})");
+  const RunRecord older = read_run(temp_.path());
+  EXPECT_EQ(older.views_begin_s, 2.5);
+  EXPECT_NE(older.missing.back().find("--update"), std::string::npos);
+  remove("scenario.yaml");
+  EXPECT_NE(run_complaint().find("gnbv run SCENARIO"), std::string::npos) << run_complaint();
+}
+
+TEST_F(Record, DamagedFilesAreNamedWithTheLine) {
+  const auto expect_complaint = [&](const std::string& path, const std::string& words) {
+    write("trajectory.tum", path);
+    EXPECT_NE(run_complaint().find(words), std::string::npos) << run_complaint();
+  };
+  expect_complaint("0 1 2 3 0 0 0 1\n1 1 2 three 0 0 0 1\n", "trajectory.tum:2");
+  expect_complaint("0 1 2 3 0 0 0\n", "trajectory.tum:1");
+  expect_complaint("0 1 2 3 0 0 0 1\n1 nan 2 3 0 0 0 1\n", "trajectory.tum:2");
+  expect_complaint("1 1 2 3 0 0 0 1\n0 1 2 3 0 0 0 1\n", "goes back");
+  expect_complaint("0 1 2 3 0 0 0 2\n", "unit quaternion");
+  expect_complaint("", "holds no pose");
+  write("trajectory.tum", "0 1 2 3 0 0 0 1\n");
+  EXPECT_EQ(run_complaint(), "");
+  write("summary.json", "{\"schema\": ");
+  EXPECT_NE(run_complaint().find("summary.json"), std::string::npos) << run_complaint();
+  remove("summary.json");
+  write("iterations.csv", "iteration,x,y,yaw\n");
+  EXPECT_NE(run_complaint().find("iterations.csv:1"), std::string::npos) << run_complaint();
+}
+
+TEST_F(Record, ACloudOfAnotherRunIsRefused) {
+  write_cloud_ply(std::vector<Vec3f>(4, Vec3f(0, 0, 1)), temp_.path() / "cloud.ply");
+  EXPECT_NE(cloud_complaint().find("files of two runs"), std::string::npos) << cloud_complaint();
+  remove("cloud.ply");
+  EXPECT_NE(cloud_complaint().find("--resume"), std::string::npos) << cloud_complaint();
+}
+
+TEST_F(Record, FramesHoldPosesAndIntrinsics) {
+  EXPECT_FALSE(has_frames(temp_.path()));
+  EXPECT_NE(frames_complaint().find("--frames"), std::string::npos) << frames_complaint();
+  write_frames();
+  const FrameRecord record = read_frames(temp_.path());
+  ASSERT_EQ(record.frames.size(), 1U);
+  EXPECT_EQ(record.cameras[0].fy_px, 510.0);
+  EXPECT_EQ(record.frames[0].iteration, 7);
+  EXPECT_EQ(record.frames[0].T_world_camera * Vec3(1, 0, 0), Vec3(0, 2, 3));
+  EXPECT_EQ(record.frames[0].depth, temp_.path() / "frames/0007_rgbd.depth.png");
+}
+
+TEST_F(Record, DamagedFramesAreNamedWithTheLine) {
+  write_frames();
+  const std::string good = read_file(temp_.path() / "frames/poses.csv");
+  const auto expect_complaint = [&](std::string from, const std::string& to,
+                                    const std::string& words) {
+    std::string text = good;
+    text.replace(text.find(from), from.size(), to);
+    write("frames/poses.csv", text);
+    EXPECT_NE(frames_complaint().find(words), std::string::npos) << frames_complaint();
+  };
+  expect_complaint("7,rgbd", "7,other", "poses.csv:2");
+  expect_complaint("0,0,1,0", "0,0,1,1", "unit quaternion");
+  expect_complaint("12.5", "soon", "poses.csv:2");
+  expect_complaint("0007_rgbd.rgb", "../0007_rgbd.rgb", "no image");
+  expect_complaint("iteration,", "view,", "poses.csv:1");
+  write("frames/poses.csv", good);
+  write("frames/cameras.json", R"([{"name": "rgbd"}])");
+  EXPECT_NE(frames_complaint().find("cameras.json"), std::string::npos) << frames_complaint();
+}
+
+}  // namespace
+}  // namespace gnbv

@@ -1,0 +1,173 @@
+#include "tools/record/run_record.hpp"
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "scenarios/load.hpp"
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "tools/mission/cloud_file.hpp"
+#include "tools/mission/iterations_csv.hpp"
+#include "tools/mission/run_figures_file.hpp"
+#include "tools/mission/summary_file.hpp"
+#include "tools/record/separated_text.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string command_to_finish(const fs::path& folder) {
+  return fmt::format("`gnbv run {} --resume --out {}` ends the run",
+                     (folder / "scenario.yaml").string(), folder.string());
+}
+
+std::vector<TrajectorySample> read_path(const fs::path& path) {
+  const std::string text = read_file(path);
+  std::string_view rest = text;
+  std::vector<TrajectorySample> samples;
+  for (int line = 1; !rest.empty(); ++line) {
+    std::string_view row = trimmed(next_part(rest, '\n'));
+    if (row.empty() || row.front() == '#') continue;
+    const TextPlace place{path, line};
+    std::array<double, 8> values{};  // time x y z qx qy qz qw
+    for (double& value : values) {
+      value = to_number(next_part(row, ' '), place, "one of the 8 values");
+      row = trimmed(row);
+    }
+    if (!row.empty()) throw BadInput(fmt::format("{}: more than 8 values", to_string(place)));
+    if (!samples.empty() && values[0] < samples.back().time_s) {
+      throw BadInput(fmt::format("{}: time {} s goes back", to_string(place), values[0]));
+    }
+    const Eigen::Quaterniond q(values[7], values[4], values[5], values[6]);
+    if (std::abs(q.norm() - 1.0) > 1e-3) {
+      throw BadInput(fmt::format("{}: qx qy qz qw are no unit quaternion", to_string(place)));
+    }
+    TrajectorySample sample{.time_s = values[0]};
+    sample.T_world_body.translate(Vec3(values[1], values[2], values[3]));
+    sample.T_world_body.rotate(q.normalized());
+    samples.push_back(sample);
+  }
+  if (samples.empty()) throw BadInput(fmt::format("{}: holds no pose", path.string()));
+  return samples;
+}
+
+void read_views(RunRecord& record) {
+  const fs::path csv = record.folder / "iterations.csv";
+  const fs::path journal = record.folder / "iterations.csv.part";
+  if (fs::exists(csv)) {
+    record.views = read_view_records(csv);
+    return;
+  }
+  if (fs::exists(journal)) record.views = read_view_records(journal);
+  record.missing.push_back(fmt::format("{}: is missing, {} views are in its journal; {}",
+                                       csv.string(), record.views.size(),
+                                       command_to_finish(record.folder)));
+}
+
+void read_figures(RunRecord& record) {
+  const fs::path path = record.folder / "summary.json";
+  if (!fs::exists(path)) {
+    record.missing.push_back(
+        fmt::format("{}: is missing; {}", path.string(), command_to_finish(record.folder)));
+    return;
+  }
+  try {
+    const nlohmann::json summary = nlohmann::json::parse(read_file(path));
+    const auto time_of = [&](const char* key) -> std::optional<double> {
+      if (!summary.contains(key)) return std::nullopt;
+      return summary.at(key).get<double>();
+    };
+    record.profile_end_s = time_of("profile_end_s");
+    record.views_begin_s = time_of("views_begin_s");
+    if (summary.at("schema").get<unsigned>() == kSummarySchema &&
+        fs::exists(record.folder / "coverage.csv")) {
+      record.figures = read_run_figures(record.folder);
+      return;
+    }
+  } catch (const nlohmann::json::exception& error) {
+    throw BadInput(fmt::format("{}: {}", path.string(), error.what()));
+  }
+  record.missing.push_back(fmt::format(
+      "{}: is of another version, or coverage.csv is missing; `gnbv score {} --update` scores the "
+      "run anew",
+      path.string(), record.folder.string()));
+}
+
+}  // namespace
+
+RunRecord read_run(const fs::path& folder) {
+  const fs::path yaml = folder / "scenario.yaml";
+  if (!fs::exists(yaml)) {
+    throw BadInput(
+        fmt::format("{}: no run directory: scenario.yaml is missing; `gnbv run SCENARIO --out {}` "
+                    "makes one",
+                    folder.string(), folder.string()));
+  }
+  RunRecord record{.folder = folder, .scenario = load_scenario(yaml.string(), {})};
+  const fs::path trajectory = folder / "trajectory.tum";
+  if (fs::exists(trajectory)) {
+    record.path = read_path(trajectory);
+  } else {
+    record.missing.push_back(
+        fmt::format("{}: is missing; {}", trajectory.string(), command_to_finish(folder)));
+  }
+  read_views(record);
+  read_figures(record);
+  return record;
+}
+
+int RunCloud::view_of(std::size_t point) const {
+  if (point < profile_points) return -1;
+  return static_cast<int>(std::upper_bound(view_points.begin(), view_points.end(), point) -
+                          view_points.begin());
+}
+
+RunCloud read_run_cloud(const RunRecord& record) {
+  for (const char* name : {"cloud.ply", "profile.ply"}) {
+    const fs::path path = record.folder / name;
+    if (fs::exists(path)) continue;
+    throw BadInput(
+        fmt::format("{}: is missing; {}", path.string(), command_to_finish(record.folder)));
+  }
+  RunCloud cloud{.points_world_m = read_cloud(record.folder / "cloud.ply"),
+                 .profile_points = read_cloud(record.folder / "profile.ply").size(),
+                 .view_points = {}};
+  std::size_t before = cloud.profile_points;
+  for (const ViewRecord& view : record.views) {
+    if (view.cloud_points < before) break;
+    before = view.cloud_points;
+    cloud.view_points.push_back(before);
+  }
+  if (cloud.view_points.size() != record.views.size() || before != cloud.points_world_m.size()) {
+    throw BadInput(
+        fmt::format("{}: {} points do not fit profile.ply and iterations.csv: files of "
+                    "two runs?",
+                    (record.folder / "cloud.ply").string(), cloud.points_world_m.size()));
+  }
+  return cloud;
+}
+
+std::string run_title(const RunRecord& record) {
+  return fmt::format("{}, {}", record.scenario.name, record.scenario.planner.utility.name);
+}
+
+std::string run_detail(const RunRecord& record) {
+  std::string detail = fmt::format("{} views", record.views.size());
+  if (!record.views.empty()) {
+    detail += fmt::format(", {:.1f} m", record.views.back().flown_m);
+  }
+  if (record.figures) {
+    detail +=
+        fmt::format(", coverage {:.1f} % at 0.05 m", 100.0 * record.figures->coverage_final[0]);
+  }
+  return detail;
+}
+
+std::string command_to_fly_again(const fs::path& folder, const std::string& options) {
+  return fmt::format("`gnbv run {} {}--out NEW`", (folder / "scenario.yaml").string(),
+                     options.empty() ? "" : options + " ");
+}
+
+}  // namespace gnbv
