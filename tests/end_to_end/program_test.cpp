@@ -243,5 +243,10 @@ TEST(Program, PrintsJsonAloneOnStdoutWhenAsked) {
   EXPECT_EQ(nlohmann::json::parse(json.output).at("iterations"), 1);
 }
 
+TEST(Program, PrintsTheSchemaThatItsScenarioFilesFollow) {
+  const nlohmann::json schema = nlohmann::json::parse(gnbv("schema").output);
+  EXPECT_TRUE(schema.at("properties").contains("planner"));
+}
+
 }  // namespace
 }  // namespace gnbv

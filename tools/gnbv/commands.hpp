@@ -35,6 +35,7 @@ void add_ceiling_command(CLI::App& app);
 void add_render_command(CLI::App& app);
 void add_asset_command(CLI::App& app);
 void add_lint_command(CLI::App& app);
+void add_schema_command(CLI::App& app);
 void add_score_command(CLI::App& app);
 void add_check_command(CLI::App& app);
 
