@@ -16,7 +16,7 @@
 namespace gnbv {
 
 struct MissionHooks {
-  std::function<void(double share_done)> on_profile = [](double) {};            // 0 to 1
+  std::function<void(double share_done)> on_profile = [](double) {};  // 0 to 1
   /// All sweeps so far, after each leg of the profile that is there to scan.
   std::function<void(double time_s, std::span<const LidarScan>)> on_profile_sweeps =
       [](double, std::span<const LidarScan>) {};

@@ -44,17 +44,17 @@ MissionResult fly(const RecordedMission& mission, const MissionHooks& hooks) {
 
 }  // namespace
 
-std::vector<ProfileStage> replay_profile(const RecordedMission& mission) {
+std::vector<ProfileStage> replay_profile(const RecordedMission& mission,
+                                         std::span<const std::size_t> waypoints) {
   const Scenario& scenario = mission.scenario;
   const ProfilingMethod method = scenario.planner.profiling.method;
   if (method == ProfilingMethod::saved || method == ProfilingMethod::none) return {};
-  std::vector<LidarModel> lidars;
-  for (const LidarConfig& lidar : scenario.lidars) lidars.push_back(make_lidar_model(lidar));
-  const PlannerModel model(scenario.planner, scenario.workspace_m, camera_models(scenario), lidars,
-                           scenario.seed);
-  Workbench bench(model, mission.threads);
-  std::vector<ProfileStage> stages;
-  std::vector<double> ends_s;
+  struct Mark {
+    double time_s;
+    std::size_t sweeps;
+  };
+  std::vector<Mark> marks;  // after each waypoint
+  std::vector<LidarScan> sweeps;
   bool is_over = false;
   MissionHooks hooks = hooks_for(mission, 0);
   hooks.on_profile = [&](double share) {
@@ -62,18 +62,28 @@ std::vector<ProfileStage> replay_profile(const RecordedMission& mission) {
     is_over = share >= 1.0;
   };
   hooks.should_stop = [&] { return is_over; };
-  hooks.on_profile_sweeps = [&](double time_s, std::span<const LidarScan> sweeps) {
-    Belief belief(model);
-    integrate_profile(model, sweeps, bench, belief);
-    const auto points = belief.cloud.points_world_m();
-    stages.push_back({.points_world_m = {points.begin(), points.end()}, .path_world_m = {}});
-    ends_s.push_back(time_s);
+  hooks.on_profile_sweeps = [&](double time_s, std::span<const LidarScan> so_far) {
+    marks.push_back({time_s, so_far.size()});
+    sweeps.assign(so_far.begin(), so_far.end());
   };
   const MissionResult result = fly(mission, hooks);
-  for (std::size_t i = 0; i < stages.size(); ++i) {
+
+  std::vector<LidarModel> lidars;
+  for (const LidarConfig& lidar : scenario.lidars) lidars.push_back(make_lidar_model(lidar));
+  const PlannerModel model(scenario.planner, scenario.workspace_m, camera_models(scenario), lidars,
+                           scenario.seed);
+  Workbench bench(model, mission.threads);
+  std::vector<ProfileStage> stages;
+  for (const std::size_t waypoint : waypoints) {
+    const std::size_t count = std::min(waypoint, marks.size());
+    if (count == 0) continue;
+    Belief belief(model);
+    integrate_profile(model, std::span(sweeps).first(marks[count - 1].sweeps), bench, belief);
+    const auto points = belief.cloud.points_world_m();
+    stages.push_back({.waypoints = count, .points_world_m = {points.begin(), points.end()}});
     for (const TrajectorySample& sample : result.trajectory) {
-      if (sample.time_s > ends_s[i]) break;
-      stages[i].path_world_m.push_back(sample.T_world_body.translation());
+      if (sample.time_s > marks[count - 1].time_s) break;
+      stages.back().path_world_m.push_back(sample.T_world_body.translation());
     }
   }
   return stages;

@@ -21,15 +21,17 @@ struct RecordedMission {
   std::function<void(double share_done)> on_progress = [](double) {};  // 0 to 1
 };
 
-/// The profile after one of its waypoints: a descent, or a station of a circular one.
+/// The profile after some of its waypoints: descents, or stations of a circular one.
 struct ProfileStage {
-  std::vector<Vec3f> points_world_m;  // of all sweeps so far, as the cloud takes them
-  std::vector<Vec3> path_world_m;     // flown so far, from the start of the mission
+  std::size_t waypoints = 0;
+  std::vector<Vec3f> points_world_m = {};  // of all sweeps so far, as the cloud takes them
+  std::vector<Vec3> path_world_m = {};     // flown so far, from the start of the mission
 };
 
-/// All stages of the profile, oldest first; none for a mission that took up a saved profile, or
-/// flew none. No view is flown.
-std::vector<ProfileStage> replay_profile(const RecordedMission& mission);
+/// The profile after each of those numbers of waypoints, or after all it has where it has fewer;
+/// nothing for a mission that took up a saved profile, or flew none. No view is flown.
+std::vector<ProfileStage> replay_profile(const RecordedMission& mission,
+                                         std::span<const std::size_t> waypoints);
 
 /// What was believed after the recorded view `iteration`. Throws BadInput when the flight does not
 /// come out as recorded: then another program made the record. Requires iteration <

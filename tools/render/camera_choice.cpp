@@ -63,8 +63,8 @@ CameraChoice choose_camera(const std::string& name_or_file) {
     names += fmt::format("{}{}", names.empty() ? "" : ", ", preset.name);
   }
   if (!std::filesystem::exists(name_or_file)) {
-    throw BadInput(fmt::format("--camera {}: no such file, and none of the presets {}",
-                               name_or_file, names));
+    throw BadInput(
+        fmt::format("--camera {}: no such file, and none of the presets {}", name_or_file, names));
   }
   return {.angles = {}, .camera = read_camera(name_or_file)};
 }

@@ -13,6 +13,7 @@ constexpr double kLetter = 10.0;
 constexpr double kRow = 22.0;
 constexpr double kBar = 120.0;
 constexpr double kGap = 20.0;  // between items
+constexpr double kHalo = 2.5;
 
 // The longest of 1, 2, 5, 10 ... m that stays under `limit_m`.
 double round_length_m(double limit_m) {
@@ -34,7 +35,7 @@ double draw_scale(Image& image, const RenderView& view, double u, double bottom)
     draw_line(image, {x, bottom - 5.0 * u}, {x, bottom + 5.0 * u}, 2.0 * u, kInk);
   }
   return draw_text(image, fmt::format("{} m", length_m), x1 + 10.0 * u, bottom + 5.0 * u,
-                   kLetter * u, kInk);
+                   kLetter * u, kInk, kHalo * u);
 }
 
 bool is_bar(const LegendItem& item) { return item.colours.size() > 1; }
@@ -95,7 +96,8 @@ void draw_legend(Image& image, const std::vector<LegendItem>& legend, double u, 
       x = draw_text(image, item.label_before, x, y + 5.0 * u, kLetter * u, kInk) + 10.0 * u;
     }
     draw_mark(image, item, x, y, u);
-    draw_text(image, item.label, x + (mark_width(item) + 10.0) * u, y + 5.0 * u, kLetter * u, kInk);
+    draw_text(image, item.label, x + (mark_width(item) + 10.0) * u, y + 5.0 * u, kLetter * u, kInk,
+              kHalo * u);
     right -= width + kGap * u;
     is_row_empty = false;
   }
@@ -126,8 +128,8 @@ double px_per_m_at_focus(const RenderView& view) {
 void draw_caption(Image& image, const Caption& caption, const RenderView& view) {
   const double u = layout_unit_px(image.width_px, image.height_px);
   const double bottom = image.height_px - 24.0 * u;
-  draw_text(image, caption.title, kBorder * u, 40.0 * u, 15.0 * u, kInk);
-  draw_text(image, caption.detail, kBorder * u, 64.0 * u, kLetter * u, kPaleInk);
+  draw_text(image, caption.title, kBorder * u, 40.0 * u, 15.0 * u, kInk, kHalo * u);
+  draw_text(image, caption.detail, kBorder * u, 64.0 * u, kLetter * u, kPaleInk, kHalo * u);
   const double scale_end = caption.has_scale ? draw_scale(image, view, u, bottom) : 0.0;
   draw_legend(image, caption.legend, u, bottom, scale_end);
 }

@@ -23,8 +23,8 @@ struct LegendItem {
 
 struct Caption {
   std::string title;
-  std::string detail;               // one line under the title
-  std::vector<LegendItem> legend;   // from left to right
+  std::string detail;              // one line under the title
+  std::vector<LegendItem> legend;  // from left to right
   bool has_scale = true;
 };
 

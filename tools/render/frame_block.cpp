@@ -105,8 +105,7 @@ FrameBlock make_frame_block(const RenderScene& scene, const RenderView& view,
   clip_from_gl(2, 3) = -2.0 * far_m * near_m / (far_m - near_m);
   clip_from_gl(3, 2) = 1.0;
   frame.lens = {static_cast<float>(view.width_px / (f * view.height_px)),
-                static_cast<float>(1.0 / f), static_cast<float>(near_m),
-                static_cast<float>(far_m)};
+                static_cast<float>(1.0 / f), static_cast<float>(near_m), static_cast<float>(far_m)};
   const bool has_ground = scene.ground && eye.z() > scene.ground->z_m;
   frame.hollow = {static_cast<float>(0.025 * scene_size_m(lists)), has_ground ? 1.0F : 0.0F, 0.0F,
                   0.0F};

@@ -77,7 +77,7 @@ void GlContext::make_current() {
 }
 
 GLuint GlContext::make_program(std::initializer_list<const char*> vertex,
-                                    std::initializer_list<const char*> fragment) const {
+                               std::initializer_list<const char*> fragment) const {
   const GLuint program = gl.CreateProgram();
   const auto attach = [&](GLenum stage, std::initializer_list<const char*> parts) {
     std::vector<const char*> sources = {shaders::kCommon};

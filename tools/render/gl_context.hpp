@@ -1,5 +1,5 @@
-// OSMesa and GL, opened at run time, so that programs which draw nothing do not pay for loading them
-// (32 ms) nor need them installed. For render.cpp only.
+// OSMesa and GL, opened at run time, so that programs which draw nothing do not pay for loading
+// them (32 ms) nor need them installed. For render.cpp only.
 #pragma once
 
 #define GL_GLEXT_PROTOTYPES

@@ -20,10 +20,10 @@ struct PictureOptions {
   ViewAngles angles;
   std::optional<RenderView> camera;  // instead of the angles: its pose and opening
   std::optional<int> iteration;      // of a view; nothing: the last one, or as the kind says
-  int every = 0;                     // draw each n-th frustum, take each n-th snapshot; 0: by itself
-  bool has_profile = true;           // draw the profile's flight
-  bool has_caption = true;           // pictures under 320 x 240 px never have one
-  std::string title;                 // empty: scenario and utility
+  int every = 0;             // draw each n-th frustum, take each n-th snapshot; 0: by itself
+  bool has_profile = false;  // show the profile's flight, wide around the structure
+  bool has_caption = true;   // pictures under 320 x 240 px never have one
+  std::string title;         // empty: scenario and utility
 };
 
 /// One scene of a picture that may hold several, side by side.

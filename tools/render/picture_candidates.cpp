@@ -47,9 +47,10 @@ const std::array<Reason, 8>& reasons() {
 std::size_t iteration_asked(const RunRecord& record, const PictureOptions& options) {
   const std::size_t iteration = iteration_of(record, options, record.views.size() / 2);
   if (iteration > 0) return iteration;
-  throw BadInput(fmt::format("{}: view 0 is where the mission starts: nothing chose it; --iteration "
-                             "asks for one from 1 on",
-                             record.folder.string()));
+  throw BadInput(
+      fmt::format("{}: view 0 is where the mission starts: nothing chose it; --iteration "
+                  "asks for one from 1 on",
+                  record.folder.string()));
 }
 
 double camera_range_m(const RunRecord& record) {
@@ -88,9 +89,8 @@ void add_ray(const OccupancyGrid& grid, const Vec3& from, const Vec3& to, double
   double t = 0.0;
   const auto end_piece = [&](const Vec3& end) {
     const Rgb& colour = state == VoxelState::unknown ? kRayUnknown : kRayFree;
-    scene.tubes.push_back({{begin.cast<float>(), end.cast<float>()},
-                           {colour},
-                           static_cast<float>(0.55 * unit_m)});
+    scene.tubes.push_back(
+        {{begin.cast<float>(), end.cast<float>()}, {colour}, static_cast<float>(0.8 * unit_m)});
     begin = end;
   };
   for (; t < length_m && !is_hit; t += step_m) {
@@ -105,12 +105,11 @@ void add_ray(const OccupancyGrid& grid, const Vec3& from, const Vec3& to, double
   }
 }
 
-void add_chosen(const RunRecord& record, const Belief& belief, std::size_t iteration,
-                double unit_m, RenderScene& scene) {
+void add_chosen(const RunRecord& record, const Belief& belief, std::size_t iteration, double unit_m,
+                RenderScene& scene) {
   const ViewPose& view = record.views[iteration].decision.view;
   for (const CameraConfig& camera : record.scenario.cameras) {
-    FrustumItem frustum =
-        frustum_of(camera, T_world_body(view), camera.range_max_m, kChosen);
+    FrustumItem frustum = frustum_of(camera, T_world_body(view), camera.range_max_m, kChosen);
     frustum.edge_radius_m = static_cast<float>(1.2 * unit_m);
     frustum.face_opacity = 0.06F;
     scene.frusta.push_back(frustum);
@@ -131,7 +130,8 @@ void add_chosen(const RunRecord& record, const Belief& belief, std::size_t itera
   way.insert(way.end(), via.begin(), via.end());
   way.push_back(view.p_world_m);
   scene.tubes.push_back(path_tube(way, 1.6 * unit_m, kChosen));
-  scene.balls.push_back({way.front().cast<float>(), static_cast<float>(6.0 * unit_m), srgb(0x14181e)});
+  scene.balls.push_back(
+      {way.front().cast<float>(), static_cast<float>(6.0 * unit_m), srgb(0x14181e)});
   scene.balls.push_back({way.back().cast<float>(), static_cast<float>(7.0 * unit_m), kChosen});
 }
 
@@ -139,15 +139,15 @@ void add_chosen(const RunRecord& record, const Belief& belief, std::size_t itera
 void add_pin(const ViewPose& view, double length_m, double radius_m, const Rgb& colour,
              RenderScene& scene) {
   const Vec3 ahead(std::cos(view.yaw_rad), std::sin(view.yaw_rad), 0.0);
-  scene.tubes.push_back({{view.p_world_m.cast<float>(),
-                          (view.p_world_m + length_m * ahead).cast<float>()},
-                         {colour},
-                         static_cast<float>(radius_m)});
+  scene.tubes.push_back(
+      {{view.p_world_m.cast<float>(), (view.p_world_m + length_m * ahead).cast<float>()},
+       {colour},
+       static_cast<float>(radius_m)});
 }
 
 // The clusters of density frontiers that an FVS decision looked at; the chosen one's stands out.
-void add_frontiers(const RunRecord& record, const ReplayedDecision& decision,
-                   const ViewPose& from, double unit_m, RenderScene& scene) {
+void add_frontiers(const RunRecord& record, const ReplayedDecision& decision, const ViewPose& from,
+                   double unit_m, RenderScene& scene) {
   const Belief& belief = decision.belief;
   FrontierMarks marks(belief.grid.geometry().voxel_count());
   std::vector<FrontierCluster> clusters =
@@ -161,8 +161,7 @@ void add_frontiers(const RunRecord& record, const ReplayedDecision& decision,
   for (std::size_t i = 0; i < clusters.size(); ++i) {
     const bool is_chosen = static_cast<int>(i) == chosen;
     const std::vector<Rgb> colour = {is_chosen ? kLookedAt : kFrontier};
-    scene.surfaces.push_back(
-        voxel_cubes(belief.grid.geometry(), clusters[i].voxels, colour, 0.96));
+    scene.surfaces.push_back(voxel_cubes(belief.grid.geometry(), clusters[i].voxels, colour, 0.96));
     scene.balls.push_back({clusters[i].centroid_world_m.cast<float>(),
                            static_cast<float>((is_chosen ? 6.0 : 3.5) * unit_m), colour.front()});
   }
@@ -244,9 +243,9 @@ Picture draw(RunSource& run, const PictureOptions& options, const RenderView& vi
   }
   add_candidates(decision.plan, all, unit_m, scene);
   add_chosen(record, decision.belief, iteration, unit_m, scene);
-  picture.detail = fmt::format("decision {}: {} candidates by {}, {} valid, the chosen one scores {:.4g}",
-                               iteration, decision.plan.candidates.size(), chosen.sampler,
-                               all.valid, chosen.score.value);
+  picture.detail = fmt::format(
+      "decision {}: {} candidates by {}, {} valid, the chosen one scores {:.4g}", iteration,
+      decision.plan.candidates.size(), chosen.sampler, all.valid, chosen.score.value);
   picture.legend = legend_of(all, is_fvs);
   return picture;
 }

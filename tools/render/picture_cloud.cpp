@@ -41,7 +41,7 @@ Picture draw(RunSource& run, const PictureOptions& options, const RenderView&) {
   const double voxel_m = record.scenario.planner.map.resolution_m;
   const auto points = std::span(cloud.points_world_m).first(count);
   DotsItem dots{.points_m = {points.begin(), points.end()},
-                .normals = point_normals(points, 0.5 * voxel_m),
+                .normals = point_normals(points, 2.5 * record.scenario.planner.cloud.leaf_m),
                 .colours = {},
                 .radius_m = static_cast<float>(0.75 * record.scenario.planner.cloud.leaf_m)};
   const std::vector<std::uint32_t> counts = densities(points, voxel_m);
@@ -65,9 +65,7 @@ Picture draw(RunSource& run, const PictureOptions& options, const RenderView&) {
 
 }  // namespace
 
-const PictureKind kCloudPicture = {.name = "cloud",
-                                   .shows = "point cloud coloured by density",
-                                   .frame = frame,
-                                   .draw = draw};
+const PictureKind kCloudPicture = {
+    .name = "cloud", .shows = "point cloud coloured by density", .frame = frame, .draw = draw};
 
 }  // namespace gnbv

@@ -31,7 +31,7 @@ Picture draw(RunSource& run, const PictureOptions& options, const RenderView&) {
   const double size_m = kCoverageSizes_m.front();
   const VoxelSet seen = voxels_of(std::span(cloud.points_world_m).first(count), size_m);
   // a sample a voxel, in the order of the voxels; dots as wide as the voxels close the surface
-  const std::vector<Vec3f> normals = point_normals(reference.samples_world_m, 2.0 * size_m);
+  const std::vector<Vec3f> normals = point_normals(reference.samples_world_m, size_m);
   DotsItem covered{.colours = {kCovered}, .radius_m = static_cast<float>(0.75 * size_m)};
   DotsItem missed{.colours = {kMissed}, .radius_m = static_cast<float>(0.8 * size_m)};
   for (std::size_t i = 0; i < surface.size(); ++i) {

@@ -5,15 +5,15 @@
 namespace gnbv {
 namespace {
 
-// The profile's flight runs wide around the structure: it may leave the picture.
-void frame(RunSource& run, const PictureOptions&, std::vector<Vec3>& points_world_m) {
+void frame(RunSource& run, const PictureOptions& options, std::vector<Vec3>& points_world_m) {
   frame_structure(run, points_world_m);
   const RunRecord& record = run.record();
-  const double begin_s = record.views_begin_s.value_or(0.0);
+  const double begin_s = options.has_profile ? 0.0 : record.views_begin_s.value_or(0.0);
   for (const TrajectorySample& sample : record.path) {
     if (sample.time_s >= begin_s) points_world_m.push_back(sample.T_world_body.translation());
   }
-  for (const ViewRecord& view : record.views) points_world_m.push_back(view.decision.view.p_world_m);
+  for (const ViewRecord& view : record.views)
+    points_world_m.push_back(view.decision.view.p_world_m);
 }
 
 Picture draw(RunSource& run, const PictureOptions& options, const RenderView& view) {
@@ -27,7 +27,8 @@ Picture draw(RunSource& run, const PictureOptions& options, const RenderView& vi
   if (record.views_begin_s && options.has_profile) {
     picture.legend.push_back({"profile", {kProfileColour}, LegendItem::Mark::line});
   }
-  picture.legend.push_back({.label = "last", .colours = path_colours(), .label_before = "first view"});
+  picture.legend.push_back(
+      {.label = "last", .colours = path_colours(), .label_before = "first view"});
   return picture;
 }
 

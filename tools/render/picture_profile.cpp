@@ -1,8 +1,6 @@
 // The profile growing, as Figure 4 of the paper shows it.
 #include <fmt/format.h>
 
-#include <array>
-
 #include "tools/render/flight_items.hpp"
 #include "tools/render/picture.hpp"
 #include "tools/render/point_normals.hpp"
@@ -10,12 +8,10 @@
 namespace gnbv {
 namespace {
 
-constexpr std::array<std::size_t, 3> kWaypoints = {1, 3, 8};
 const Rgb kPoints = srgb(0x0b6fa8);
 
 void frame(RunSource& run, const PictureOptions&, std::vector<Vec3>& points_world_m) {
-  frame_structure(run, points_world_m);
-  for (const Vec3& p : run.profile().back().path_world_m) points_world_m.push_back(p);
+  frame_structure(run, points_world_m);  // the flight runs wide around it
 }
 
 Picture draw(RunSource& run, const PictureOptions&, const RenderView& view) {
@@ -23,9 +19,7 @@ Picture draw(RunSource& run, const PictureOptions&, const RenderView& view) {
   const double unit_m = layout_unit_m(view);
   const double leaf_m = run.record().scenario.planner.cloud.profile_leaf_m;
   Picture picture;
-  for (const std::size_t waypoint : kWaypoints) {
-    const std::size_t count = std::min(waypoint, stages.size());
-    const ProfileStage& stage = stages[count - 1];
+  for (const ProfileStage& stage : stages) {
     Panel panel;
     add_ghost(run, 0.45F, panel.scene);
     panel.scene.dots.push_back(
@@ -37,17 +31,15 @@ Picture draw(RunSource& run, const PictureOptions&, const RenderView& view) {
     const Vec3& end = stage.path_world_m.back();
     panel.scene.balls.push_back(
         {end.cast<float>(), static_cast<float>(4.0 * unit_m), path_ramp(0.75)});
-    panel.note = fmt::format("{} waypoint{}: {} points", count, count == 1 ? "" : "s",
-                             stage.points_world_m.size());
+    panel.note = fmt::format("{} waypoint{}: {} points", stage.waypoints,
+                             stage.waypoints == 1 ? "" : "s", stage.points_world_m.size());
     picture.panels.push_back(std::move(panel));
   }
-  picture.detail =
-      fmt::format("profile of {} waypoints, {:.1f} s", stages.size(),
-                  run.record().profile_end_s.value_or(0.0));
-  picture.legend = {{"flown", {path_ramp(0.75)}, LegendItem::Mark::line},
-                    {fmt::format("LIDAR points, one a leaf of {} m", leaf_m),
-                     {kPoints},
-                     LegendItem::Mark::dot}};
+  picture.detail = fmt::format("profile of {} waypoints, {:.1f} s", stages.back().waypoints,
+                               run.record().profile_end_s.value_or(0.0));
+  picture.legend = {
+      {"flown", {path_ramp(0.75)}, LegendItem::Mark::line},
+      {fmt::format("LIDAR points, one a leaf of {} m", leaf_m), {kPoints}, LegendItem::Mark::dot}};
   return picture;
 }
 
@@ -55,7 +47,7 @@ Picture draw(RunSource& run, const PictureOptions&, const RenderView& view) {
 
 const PictureKind kProfilePicture = {.name = "profile",
                                      .shows = "profile after 1, 3 and 8 waypoints (Fig. 4)",
-                                     .panels = static_cast<int>(kWaypoints.size()),
+                                     .panels = 3,
                                      .frame = frame,
                                      .draw = draw};
 

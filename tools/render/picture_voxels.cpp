@@ -10,7 +10,7 @@ namespace gnbv {
 namespace {
 
 const Rgb kPredicted = srgb(0xd5309c);
-const Rgb kUnknown = srgb(0x8a94a3);
+const Rgb kUnknown = srgb(0xffffff);
 
 void frame(RunSource& run, const PictureOptions&, std::vector<Vec3>& points_world_m) {
   frame_structure(run, points_world_m);
@@ -35,7 +35,8 @@ Picture draw(RunSource& run, const PictureOptions& options, const RenderView&) {
     high_m = std::max(*high, low_m + geometry.resolution_m());
   }
   std::vector<Rgb> colours;
-  for (const double z_m : heights_m) colours.push_back(amount_ramp((z_m - low_m) / (high_m - low_m)));
+  for (const double z_m : heights_m)
+    colours.push_back(amount_ramp((z_m - low_m) / (high_m - low_m)));
 
   Picture picture{.panels = std::vector<Panel>(1)};
   RenderScene& scene = picture.panels.front().scene;
@@ -45,10 +46,10 @@ Picture draw(RunSource& run, const PictureOptions& options, const RenderView&) {
   }
   const std::vector<Rgb> predicted = {kPredicted};
   scene.surfaces.push_back(voxel_cubes(geometry, voxels.predicted, predicted));
-  scene.surfaces.push_back(free_faces(grid, voxels.unknown, kUnknown, 0.35F));
-  picture.detail = fmt::format("after view {}: {} voxels of {} m occupied, {} predicted", iteration,
-                               voxels.occupied.size(), geometry.resolution_m(),
-                               voxels.predicted.size());
+  scene.surfaces.push_back(free_faces(grid, voxels.unknown, kUnknown, 0.55F));
+  picture.detail =
+      fmt::format("after view {}: {} voxels of {} m occupied, {} predicted", iteration,
+                  voxels.occupied.size(), geometry.resolution_m(), voxels.predicted.size());
   picture.legend = {{"unknown beside free, near surface", {kUnknown}},
                     {"predicted by symmetry", {kPredicted}},
                     {.label = fmt::format("{:.1f} m", high_m),

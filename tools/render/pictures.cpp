@@ -8,9 +8,9 @@
 namespace gnbv {
 namespace {
 
-constexpr std::array<const PictureKind*, 6> kKinds = {&kPathPicture,    &kProfilePicture,
-                                                      &kCloudPicture,   &kCoveragePicture,
-                                                      &kVoxelsPicture,  &kCandidatesPicture};
+constexpr std::array<const PictureKind*, 6> kKinds = {&kPathPicture,   &kProfilePicture,
+                                                      &kCloudPicture,  &kCoveragePicture,
+                                                      &kVoxelsPicture, &kCandidatesPicture};
 
 bool has_caption(const PictureOptions& options) {
   return options.has_caption && fits_caption(options.width_px, options.height_px);
@@ -22,8 +22,7 @@ void paste(const Image& image, int x, int y, Image& onto) {
   for (int row = 0; row < std::min(image.height_px, onto.height_px - y); ++row) {
     const auto from = image.rgb.begin() + 3 * static_cast<std::ptrdiff_t>(row) * image.width_px;
     std::copy_n(from, 3 * columns,
-                onto.rgb.begin() +
-                    3 * (static_cast<std::ptrdiff_t>(y + row) * onto.width_px + x));
+                onto.rgb.begin() + 3 * (static_cast<std::ptrdiff_t>(y + row) * onto.width_px + x));
   }
 }
 
@@ -47,10 +46,22 @@ FrameMargins margins_of(const PictureKind& kind, const PictureOptions& options,
   return margins;
 }
 
+// Whether something that has to be seen lies behind the title.
+bool meets_title(const RenderView& view, const std::vector<Vec3>& points_world_m) {
+  const double u = layout_unit_px(view.width_px, view.height_px);
+  return std::any_of(points_world_m.begin(), points_world_m.end(), [&](const Vec3& p_world_m) {
+    const std::optional<Vec3> p = project(view, p_world_m);
+    return p && p->x() < 520.0 * u && p->y() < 78.0 * u;
+  });
+}
+
 RenderView frame(const PictureOptions& options, const std::vector<Vec3>& points_world_m,
-                 const FrameMargins& margins, int width_px, int height_px) {
-  RenderView view =
-      frame_points(points_world_m, options.angles, width_px, height_px, margins);
+                 FrameMargins margins, int width_px, int height_px) {
+  RenderView view = frame_points(points_world_m, options.angles, width_px, height_px, margins);
+  if (has_caption(options) && meets_title(view, points_world_m)) {
+    margins.top = std::max(margins.top, 82.0 * layout_unit_px(width_px, height_px) / height_px);
+    view = frame_points(points_world_m, options.angles, width_px, height_px, margins);
+  }
   if (!options.camera) return view;
   view.T_world_camera = options.camera->T_world_camera;
   view.fov_y_rad = options.camera->fov_y_rad;
@@ -78,7 +89,8 @@ PanelLayout lay_out(const PictureKind& kind, std::span<RunSource* const> runs,
   for (RunSource* const run : runs) kind.frame(*run, options, points);
   PanelLayout best;
   for (int columns = 1; columns <= kind.panels; ++columns) {
-    PanelLayout layout{.columns = columns, .rows = (kind.panels + columns - 1) / columns, .view = {}};
+    PanelLayout layout{
+        .columns = columns, .rows = (kind.panels + columns - 1) / columns, .view = {}};
     layout.view.width_px = (options.width_px + columns - 1) / columns;
     layout.view.height_px = (options.height_px + layout.rows - 1) / layout.rows;
     layout.view = frame(options, points, margins_of(kind, options, layout), layout.view.width_px,
@@ -92,7 +104,11 @@ PanelLayout lay_out(const PictureKind& kind, std::span<RunSource* const> runs,
 
 Image draw_picture(const PictureKind& kind, RunSource& run, const PictureOptions& options,
                    const PanelLayout& layout, Renderer& renderer) {
-  const Picture picture = kind.draw(run, options, layout.view);
+  return draw_picture(kind.draw(run, options, layout.view), run, options, layout, renderer);
+}
+
+Image draw_picture(const Picture& picture, const RunSource& run, const PictureOptions& options,
+                   const PanelLayout& layout, Renderer& renderer) {
   const double u = layout_unit_px(options.width_px, options.height_px);
   Image image = blank(options.width_px, options.height_px);
   for (std::size_t i = 0; i < picture.panels.size(); ++i) {
@@ -100,8 +116,10 @@ Image draw_picture(const PictureKind& kind, RunSource& run, const PictureOptions
     const int y = static_cast<int>(i) / layout.columns * layout.view.height_px;
     Image panel = renderer.render(picture.panels[i].scene, layout.view);
     if (has_caption(options)) {
-      draw_text(panel, picture.panels[i].note, 26.0 * u, 92.0 * u, 11.0 * u, kInk);
+      draw_text(panel, picture.panels[i].note, 26.0 * u, 92.0 * u, 11.0 * u, kInk, 2.5 * u);
     }
+    if (x > 0) draw_line(panel, {0.0, 0.0}, {0.0, 1.0 * panel.height_px}, 3.0 * u, {255, 255, 255});
+    if (y > 0) draw_line(panel, {0.0, 0.0}, {1.0 * panel.width_px, 0.0}, 3.0 * u, {255, 255, 255});
     paste(panel, x, y, image);
   }
   if (!has_caption(options)) return image;

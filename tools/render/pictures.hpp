@@ -31,6 +31,10 @@ PanelLayout lay_out(const PictureKind& kind, std::span<RunSource* const> runs,
 Image draw_picture(const PictureKind& kind, RunSource& run, const PictureOptions& options,
                    const PanelLayout& layout, Renderer& renderer);
 
+/// An image of a picture that is already there.
+Image draw_picture(const Picture& picture, const RunSource& run, const PictureOptions& options,
+                   const PanelLayout& layout, Renderer& renderer);
+
 /// Images of one size on one sheet, `columns` of them in each row.
 Image contact_sheet(std::span<const Image> images, int columns);
 

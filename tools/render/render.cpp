@@ -32,7 +32,7 @@ struct Renderer::Impl {
   const Gl& gl = context.gl;
   GLuint solid = 0, ball = 0, dot = 0, solid_shadow = 0, ball_shadow = 0, ground = 0,
          background = 0, distance = 0, hollow = 0, resolve = 0;
-  GLuint solids = 0, balls = 0, dots = 0, nothing = 0;  // vertex arrays
+  GLuint solids = 0, balls = 0, dots = 0, nothing = 0;                            // vertex arrays
   GLuint vertices = 0, indices = 0, ball_data = 0, dot_data = 0, frame_data = 0;  // buffers
   std::array<GLuint, kUnits> textures = {};
   std::array<GLuint, kUnits> targets = {};  // framebuffers, by the texture they draw to

@@ -1,5 +1,6 @@
 #include "tools/render/run_source.hpp"
 
+#include <array>
 #include <utility>
 
 #include "sim/core/error.hpp"
@@ -52,13 +53,14 @@ RecordedMission RunSource::mission(const std::string& note) {
 
 const std::vector<ProfileStage>& RunSource::profile() {
   if (!profile_) {
-    profile_ = replay_profile(mission("flying the profile again"));
+    constexpr std::array<std::size_t, 3> kWaypoints = {1, 3, 8};
+    profile_ = replay_profile(mission("flying the profile again"), kWaypoints);
     if (profile_->empty()) {
-      throw BadInput(fmt::format("{}: flew no profile of its own: planner.profiling.method is none "
-                                 "or saved; `gnbv run {} --set "
-                                 "planner.profiling.method=bounding_box --out NEW` flies one",
-                                 record_.folder.string(),
-                                 (record_.folder / "scenario.yaml").string()));
+      throw BadInput(
+          fmt::format("{}: flew no profile of its own: planner.profiling.method is none "
+                      "or saved; `gnbv run {} --set "
+                      "planner.profiling.method=bounding_box --out NEW` flies one",
+                      record_.folder.string(), (record_.folder / "scenario.yaml").string()));
     }
   }
   return *profile_;
@@ -67,9 +69,9 @@ const std::vector<ProfileStage>& RunSource::profile() {
 const Belief& RunSource::belief_after(std::size_t iteration) {
   if (!belief_ || belief_->first != iteration) {
     belief_.reset();  // two maps at once may be too large
-    belief_.emplace(iteration,
-                    replay_belief(mission(fmt::format("flying again to view {}", iteration)),
-                                  iteration));
+    belief_.emplace(
+        iteration,
+        replay_belief(mission(fmt::format("flying again to view {}", iteration)), iteration));
   }
   return belief_->second;
 }

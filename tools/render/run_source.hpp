@@ -31,7 +31,7 @@ class RunSource {
   /// What coverage is measured against.
   const SurfaceReference& reference();
 
-  /// The stages of the profile. Throws BadInput for a run that flew none.
+  /// The profile after 1, 3 and 8 waypoints (Fig. 4). Throws BadInput for a run that flew none.
   const std::vector<ProfileStage>& profile();
   /// What was believed after a view. Throws BadInput as replay_belief().
   const Belief& belief_after(std::size_t iteration);

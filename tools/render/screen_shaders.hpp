@@ -19,8 +19,8 @@ void main() {
 }
 )";
 
-/// Depth along the optical axis, m, of the nearest thing in each pixel of the final size; the ground
-/// counts where it is drawn. Rows from bottom to top.
+/// Depth along the optical axis, m, of the nearest thing in each pixel of the final size; the
+/// ground counts where it is drawn. Rows from bottom to top.
 inline constexpr const char* kDistanceFragment = R"(
 uniform sampler2D depths;
 out float distance_m;
@@ -75,7 +75,7 @@ void main() {
   if (radius_px < 1.0) return;
   radius_px = min(radius_px, 0.12 * float(textureSize(distances, 0).y));
   float turn = 6.2831853 / 16.0 * float(((q.x & 3) * 4 + (q.y & 3)) * 7 % 16);
-  float bias_m = 0.02 * radius_m + 0.0015 * p.z;
+  float bias_m = 0.05 * radius_m + 0.002 * p.z;
   float sum = 0.0;
   for (int i = 0; i < 16; ++i) {
     float share = (float(i) + 0.5) / 16.0;
@@ -90,8 +90,8 @@ void main() {
 }
 )";
 
-/// Box filter over 2 x 2 in linear light, darkened in hollows, sRGB encoding, ordered dither against
-/// bands; the first row written is the top one.
+/// Box filter over 2 x 2 in linear light, darkened in hollows, sRGB encoding, ordered dither
+/// against bands; the first row written is the top one.
 inline constexpr const char* kResolveFragment = R"(
 uniform sampler2D picture;
 uniform sampler2D distances;

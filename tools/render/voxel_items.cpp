@@ -14,8 +14,8 @@ constexpr std::array<std::array<std::uint32_t, 4>, 6> kQuads = {
     {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
 
 Vec3f corner(const Vec3& centre_m, double half_m, std::uint32_t i) {
-  return (centre_m + half_m * Vec3((i & 1U) != 0 ? 1 : -1, (i & 2U) != 0 ? 1 : -1,
-                                   (i & 4U) != 0 ? 1 : -1))
+  return (centre_m +
+          half_m * Vec3((i & 1U) != 0 ? 1 : -1, (i & 2U) != 0 ? 1 : -1, (i & 4U) != 0 ? 1 : -1))
       .cast<float>();
 }
 
