@@ -1,31 +1,42 @@
-// Laws of the pictures of runs: what the files say is what is drawn, and bad files are named.
+// Laws of the pictures of runs: what the files say is what is drawn.
 #include <gtest/gtest.h>
 
+#include "bench/voxel_set.hpp"
+#include "sim/core/error.hpp"
 #include "tests/support/made_run.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tools/render/run_picture.hpp"
+#include "tools/render/camera_choice.hpp"
+#include "tools/render/flight_items.hpp"
+#include "tools/render/pictures.hpp"
+#include "tools/render/snapshots.hpp"
 
 namespace gnbv {
 namespace {
 
-class RunPicture : public ::testing::Test {
- protected:
-  RunPicture() {
-    cube_.vertices_m = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0},
-                        {-1, -1, 2}, {1, -1, 2}, {1, 1, 2}, {-1, 1, 2}};
-    cube_.faces = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
-                   {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
-  }
+World cube() {
+  World world;
+  world.structure.vertices_m = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0},
+                                {-1, -1, 2}, {1, -1, 2}, {1, 1, 2}, {-1, 1, 2}};
+  world.structure.faces = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
+                           {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
+  return world;
+}
 
-  TempFolder temp_;
-  RunRecord record_ = made_record();
-  TriangleMesh cube_;
-};
+RenderScene path_scene(RunSource& run, const PictureOptions& options) {
+  RunSource* const runs[] = {&run};
+  const PanelLayout layout = lay_out(kPathPicture, runs, options);
+  return kPathPicture.draw(run, options, layout.view).panels.at(0).scene;
+}
 
-TEST_F(RunPicture, ProfileFlightIsGreyAndPlannedFlightRunsThroughTheRamp) {
-  const RunPictureOptions options;
-  const RenderView view = run_view(record_, cube_, options);
-  const RenderScene scene = run_scene(record_, cube_, options, view);
+PictureOptions with_profile() {
+  PictureOptions options;
+  options.has_profile = true;
+  return options;
+}
+
+TEST(PathPicture, ProfileFlightIsGreyAndPlannedFlightRunsThroughTheRamp) {
+  RunSource run(made_record(), cube());
+  const RenderScene scene = path_scene(run, with_profile());
   ASSERT_EQ(scene.tubes.size(), 2U);
   EXPECT_EQ(scene.tubes[0].colours.size(), 1U);
   EXPECT_EQ(scene.tubes[0].points_m.front(), Vec3f(-4, -4, 1));
@@ -35,43 +46,156 @@ TEST_F(RunPicture, ProfileFlightIsGreyAndPlannedFlightRunsThroughTheRamp) {
   EXPECT_EQ(scene.tubes[1].colours.front(), path_ramp(0.0));
   EXPECT_EQ(scene.tubes[1].colours.back(), path_ramp(1.0));
   EXPECT_EQ(scene.balls.size(), 3U);
-  EXPECT_EQ(scene.frusta.size(), 3U);
-  // the pyramid looks where the view does: optical z is the body's x
-  EXPECT_NEAR(scene.frusta[1].T_world_camera.linear().col(2).x(), std::cos(1.5), 1e-12);
+  EXPECT_EQ(scene.frusta.size(), 3U * run.record().scenario.cameras.size());
+  EXPECT_EQ(path_scene(run, {}).tubes.size(), 1U);  // the profile is left out
 }
 
-TEST_F(RunPicture, WithoutSummaryTheWholeFlightIsOfOneKind) {
-  record_.views_begin_s = {};
-  const RenderView view = run_view(record_, cube_, {});
-  EXPECT_EQ(run_scene(record_, cube_, {}, view).tubes.size(), 1U);
+TEST(PathPicture, PyramidsLookWhereTheViewDoes) {
+  const RunRecord record = made_record();
+  const FrustumItem frustum =
+      frustum_of(CameraConfig{}, T_world_body(record.views[1].decision.view), 1.0, {});
+  EXPECT_NEAR(frustum.T_world_camera.linear().col(2).x(), std::cos(1.5), 1e-12);
 }
 
-TEST_F(RunPicture, DenseStraightFlightDrawsAsItsEnds) {
-  record_.path.clear();
-  for (int i = 0; i <= 1000; ++i) record_.path.push_back(made_sample(i, {0.01 * i, 0, 5}));
-  record_.views_begin_s = {};
-  const RenderScene scene = run_scene(record_, cube_, {}, run_view(record_, cube_, {}));
+TEST(PathPicture, WithoutSummaryTheWholeFlightIsOfOneKind) {
+  RunRecord record = made_record();
+  record.views_begin_s = {};
+  RunSource run(record, cube());
+  EXPECT_EQ(path_scene(run, with_profile()).tubes.size(), 1U);
+}
+
+TEST(PathPicture, DenseStraightFlightDrawsAsItsEnds) {
+  RunRecord record = made_record();
+  record.path.clear();
+  for (int i = 0; i <= 1000; ++i) record.path.push_back(made_sample(i, {0.01 * i, 0, 5}));
+  record.views_begin_s = {};
+  RunSource run(record, cube());
+  const RenderScene scene = path_scene(run, {});
   ASSERT_EQ(scene.tubes.size(), 1U);
   // colours need a point each 1/150 of the way
   EXPECT_LT(scene.tubes[0].points_m.size(), 180U);
   EXPECT_EQ(scene.tubes[0].points_m.back(), Vec3f(10, 0, 5));
 }
 
-TEST_F(RunPicture, PictureHasTheSizeAskedForAndRepeats) {
-  RunPictureOptions options;
-  options.width_px = 480;
-  options.height_px = 270;
-  render_run(record_, cube_, options, temp_.path() / "a.png");
-  render_run(record_, cube_, options, temp_.path() / "b.png");
-  const Image image = read_png(temp_.path() / "a.png");
-  EXPECT_EQ(image.width_px, 480);
-  EXPECT_EQ(image.height_px, 270);
-  EXPECT_EQ(read_file(temp_.path() / "a.png"), read_file(temp_.path() / "b.png"));
-  // too small for a caption, and still a picture
-  options.width_px = 40;
-  options.height_px = 30;
-  render_run(record_, cube_, options, temp_.path() / "c.png");
-  EXPECT_EQ(read_png(temp_.path() / "c.png").height_px, 30);
+TEST(Pictures, AllRunsAreSeenByTheCameraThatIsTheirOwnNoLonger) {
+  RunSource narrow(made_record(), cube());
+  RunRecord far = made_record();
+  far.views[1].decision.view.p_world_m = {20, 4, 2};
+  far.path[3] = made_sample(3, {20, 4, 2});
+  RunSource wide(far, cube());
+  RunSource* const both[] = {&narrow, &wide};
+  RunSource* const turned[] = {&wide, &narrow};
+  RunSource* const one[] = {&narrow};
+  const RenderView shared = lay_out(kPathPicture, both, {}).view;
+  const RenderView again = lay_out(kPathPicture, turned, {}).view;
+  const RenderView alone = lay_out(kPathPicture, one, {}).view;
+  for (const ViewRecord& view : far.views) {
+    const Vec3 p = project(shared, view.decision.view.p_world_m).value();
+    EXPECT_TRUE(p.x() > 0 && p.x() < 1280 && p.y() > 0 && p.y() < 720);
+    EXPECT_LT((p - project(again, view.decision.view.p_world_m).value()).norm(), 1e-6);
+  }
+  EXPECT_GT(px_per_m_at_focus(alone), px_per_m_at_focus(shared));
+}
+
+TEST(Pictures, HaveTheSizeAskedForAndRepeat) {
+  RunSource run(made_record(), cube());
+  RunSource* const runs[] = {&run};
+  Renderer renderer;
+  // the last one is too small for a caption, and still a picture
+  for (const auto& [width, height] : {std::pair{3840, 2160}, {480, 270}, {40, 30}}) {
+    PictureOptions options;
+    options.width_px = width;
+    options.height_px = height;
+    const PanelLayout layout = lay_out(kPathPicture, runs, options);
+    const Image image = draw_picture(kPathPicture, run, options, layout, renderer);
+    EXPECT_EQ(image.width_px, width);
+    EXPECT_EQ(image.height_px, height);
+    if (width > 1000) continue;
+    EXPECT_EQ(image.rgb, draw_picture(kPathPicture, run, options, layout, renderer).rgb);
+  }
+}
+
+TEST(Pictures, SheetHoldsEveryImageWhereItBelongs) {
+  std::vector<Image> images;
+  for (std::uint8_t i = 0; i < 3; ++i) images.push_back({2, 1, std::vector<std::uint8_t>(6, i)});
+  const Image sheet = contact_sheet(images, 2);
+  EXPECT_EQ(sheet.width_px, 4);
+  EXPECT_EQ(sheet.height_px, 2);
+  EXPECT_EQ(sheet.at(1, 0)[0], 0);
+  EXPECT_EQ(sheet.at(2, 0)[0], 1);
+  EXPECT_EQ(sheet.at(0, 1)[0], 2);
+  EXPECT_EQ(sheet.at(3, 1)[0], 255);  // empty
+}
+
+TEST(Pictures, UnknownKindsAndViewsAreNamed) {
+  EXPECT_THROW(picture_kind("paths"), BadInput);
+  for (const PictureKind* kind : picture_kinds()) EXPECT_EQ(&picture_kind(kind->name), kind);
+  PictureOptions options;
+  options.iteration = 3;
+  EXPECT_THROW(iteration_of(made_record(), options, 0), BadInput);
+  options.iteration = 2;
+  EXPECT_EQ(iteration_of(made_record(), options, 0), 2U);
+  EXPECT_EQ(iteration_of(made_record(), {}, 77), 2U);  // the last one
+}
+
+TEST(Snapshots, AreEachNthViewAndTheLast) {
+  using Iterations = std::vector<std::size_t>;
+  EXPECT_EQ(snapshot_iterations(7, 3, 12), (Iterations{0, 3, 6}));
+  EXPECT_EQ(snapshot_iterations(8, 3, 12), (Iterations{0, 3, 6, 7}));
+  EXPECT_EQ(snapshot_iterations(4, 0, 12), (Iterations{0, 1, 2, 3}));
+  EXPECT_EQ(snapshot_iterations(0, 3, 12), Iterations{});
+  EXPECT_NEAR(static_cast<double>(snapshot_iterations(635, 0, 12).size()), 12.0, 2.0);
+}
+
+TEST(Snapshots, ShowWhatWasFlownAndSeenUpToTheView) {
+  const TempFolder temp;
+  write_made_run(temp.path());
+  RunSource run(temp.path(), 1, [](double, const std::string&) {});
+  RunSource* const runs[] = {&run};
+  const RenderView view = lay_out(kSnapshotFraming, runs, {}).view;
+  const Snapshots snapshots(run, {}, view, false);
+  const std::size_t seen[] = {3, 5, 6};  // made_record()
+  for (std::size_t i = 0; i < 3; ++i) {
+    const RenderScene scene = snapshots.picture(i, view).panels.at(0).scene;
+    EXPECT_EQ(scene.dots.at(0).points_m.size(), seen[i]);
+    const Vec3f vehicle = run.record().views[i].decision.view.p_world_m.cast<float>();
+    EXPECT_LT((scene.tubes.at(0).points_m.back() - vehicle).norm(), 1e-5F);
+  }
+}
+
+TEST(CloudPicture, DrawsEveryPointOfTheCloudUpToTheView) {
+  const TempFolder temp;
+  write_made_run(temp.path());
+  RunSource run(temp.path(), 1, [](double, const std::string&) {});
+  PictureOptions options;
+  const auto dots = [&] {
+    return kCloudPicture.draw(run, options, {}).panels.at(0).scene.dots.at(0).points_m.size();
+  };
+  EXPECT_EQ(dots(), 6U);
+  options.iteration = 1;
+  EXPECT_EQ(dots(), 5U);
+}
+
+TEST(CameraChoice, FileIsReadAndFaultsAreNamed) {
+  const TempFolder temp;
+  const auto file = temp.path() / "camera.json";
+  write_file_atomically(file, R"({"position_m": [0, -9, 3], "target_m": [0, 0, 3],
+                                  "fov_y_deg": 50})");
+  const RenderView view = choose_camera(file.string()).camera.value();
+  EXPECT_NEAR(view.fov_y_rad, deg_to_rad(50.0), 1e-12);
+  EXPECT_NEAR(view.focus_m, 9.0, 1e-12);
+  const Vec3 centre = project(view, {0, 0, 3}).value();
+  EXPECT_NEAR(centre.x(), 640.0, 1e-9);
+  EXPECT_NEAR(centre.y(), 360.0, 1e-9);
+  EXPECT_FALSE(choose_camera("top").camera.has_value());
+  EXPECT_THROW(choose_camera("behind"), BadInput);
+  write_file_atomically(file, R"({"position_m": [0, -9], "target_m": [0, 0, 3]})");
+  try {
+    choose_camera(file.string());
+    FAIL() << "no error";
+  } catch (const BadInput& error) {
+    EXPECT_NE(std::string(error.what()).find("camera.json"), std::string::npos);
+  }
 }
 
 }  // namespace

@@ -84,6 +84,7 @@ void record(Mission& m, const Decision& decision) {
   m.out.wall.fly_s += m.view_wall.fly_s;
   m.view_wall = {};
   m.hooks.on_view(m.out.views.back());
+  m.hooks.on_view_belief(belief);
 }
 
 std::optional<Termination> termination(const Mission& m) {

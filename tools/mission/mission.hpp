@@ -16,9 +16,14 @@
 namespace gnbv {
 
 struct MissionHooks {
-  std::function<void(double share_done)> on_profile = [](double) {};            // 0 to 1
+  std::function<void(double share_done)> on_profile = [](double) {};  // 0 to 1
+  /// All sweeps so far, after each leg of the profile that is there to scan.
+  std::function<void(double time_s, std::span<const LidarScan>)> on_profile_sweeps =
+      [](double, std::span<const LidarScan>) {};
   std::function<void(const Belief&)> on_profile_belief = [](const Belief&) {};  // at its end
   std::function<void(const ViewRecord&)> on_view = [](const ViewRecord&) {};
+  /// What is believed after the latest view, before the next is decided.
+  std::function<void(const Belief&)> on_view_belief = [](const Belief&) {};
   /// The frames of a view, camera by camera, before they are believed. Colour is captured only when
   /// this is set.
   std::function<void(std::size_t iteration, double time_s, std::span<const DepthFrame>,

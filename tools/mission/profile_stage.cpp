@@ -25,6 +25,7 @@ std::optional<Termination> scan_profile(Mission& m, ProfileScanner& scanner) {
     const auto over = fly_leg(m, leg->goal, speed_m_s,
                               [&](const Flight& flight) { scanner.tick(flight, scanning); });
     if (over) return over;
+    if (leg->is_scan) m.hooks.on_profile_sweeps(time_s(*m.flight), scanner.scans());
     m.hooks.on_profile(route.share_done());
     if (should_stop(m)) return Termination::interrupted;
   }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "sim/core/srgb.hpp"
 
@@ -34,9 +35,23 @@ inline Rgb ramp(std::span<const Rgb> colours, double t) {
 
 /// Order along a path: dark violet to orange, monotone in lightness, never as light as the paper
 /// white of the background.
+inline std::vector<Rgb> path_colours() {
+  return {srgb(0x2b0f8a), srgb(0x6a0fb0), srgb(0xa3209c),
+          srgb(0xd03b76), srgb(0xee6a45), srgb(0xf9a01f)};
+}
 inline Rgb path_ramp(double t) {
-  static const std::array<Rgb, 6> colours = {srgb(0x2b0f8a), srgb(0x6a0fb0), srgb(0xa3209c),
-                                             srgb(0xd03b76), srgb(0xee6a45), srgb(0xf9a01f)};
+  static const std::vector<Rgb> colours = path_colours();
+  return ramp(colours, t);
+}
+
+/// Amounts: viridis (van der Walt and Smith, CC0), even in lightness and safe for colour-blind
+/// eyes, without its lightest end.
+inline std::vector<Rgb> amount_colours() {
+  return {srgb(0x440154), srgb(0x472d7b), srgb(0x3b528b), srgb(0x2c728e),
+          srgb(0x21918c), srgb(0x28ae80), srgb(0x5ec962), srgb(0xaddc30)};
+}
+inline Rgb amount_ramp(double t) {
+  static const std::vector<Rgb> colours = amount_colours();
   return ramp(colours, t);
 }
 

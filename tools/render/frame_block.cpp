@@ -23,6 +23,9 @@ Box3 caster_box(const DrawLists& lists, const Eigen::Matrix3d& R) {
     box.extend(Vec3(c.array() - ball.radius_m));
     box.extend(Vec3(c.array() + ball.radius_m));
   }
+  for (std::size_t i = 0; i < lists.casting_dots; ++i) {
+    box.extend(R * lists.dots[i].p_world_m.cast<double>());
+  }
   if (box.isEmpty()) box.extend(Vec3(Vec3::Zero()));
   return box;
 }
@@ -44,6 +47,11 @@ void aim_light(const DrawLists& lists, const Vec3& to_light, FrameBlock& frame) 
   frame.to_light = pack(to_light, side_m / kShadowSide_px);
   frame.camera_right.w() = static_cast<float>(side_m);
   frame.camera_up.w() = static_cast<float>(kShadowSide_px);
+}
+
+// Diagonal of what casts shadows: a path far around it says nothing about its hollows.
+double scene_size_m(const DrawLists& lists) {
+  return std::max(1.0, caster_box(lists, Eigen::Matrix3d::Identity()).diagonal().norm());
 }
 
 // Radius about `centre` of the ground disc: wide enough for the scene and for the shadows on it.
@@ -96,6 +104,11 @@ FrameBlock make_frame_block(const RenderScene& scene, const RenderView& view,
   clip_from_gl(2, 2) = (far_m + near_m) / (far_m - near_m);
   clip_from_gl(2, 3) = -2.0 * far_m * near_m / (far_m - near_m);
   clip_from_gl(3, 2) = 1.0;
+  frame.lens = {static_cast<float>(view.width_px / (f * view.height_px)),
+                static_cast<float>(1.0 / f), static_cast<float>(near_m), static_cast<float>(far_m)};
+  const bool has_ground = scene.ground && eye.z() > scene.ground->z_m;
+  frame.hollow = {static_cast<float>(0.025 * scene_size_m(lists)), has_ground ? 1.0F : 0.0F, 0.0F,
+                  0.0F};
   frame.clip_from_world = (clip_from_gl * view.T_world_camera.inverse().matrix()).cast<float>();
   return frame;
 }

@@ -65,6 +65,7 @@ void add_surface(const SurfaceItem& item, DrawLists& out) {
   GNBV_CHECK(item.vertex_colours.empty() || item.vertex_colours.size() == mesh.vertices_m.size(),
              "{} colours for {} vertices", item.vertex_colours.size(), mesh.vertices_m.size());
   const auto normals = corner_normals(mesh, item.crease_rad);
+  std::vector<std::uint32_t>& indices = item.opacity < 1.0F ? out.ghost : out.casting;
   constexpr std::uint32_t kNone = 0xffffffffU;
   std::vector<std::uint32_t> last(mesh.vertices_m.size(), kNone);  // latest copy of each vertex
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
@@ -73,14 +74,15 @@ void add_surface(const SurfaceItem& item, DrawLists& out) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t v = mesh.faces[f][k];
       const auto colour =
-          rgba(item.vertex_colours.empty() ? mesh.materials[material].rgb : item.vertex_colours[v]);
+          rgba(item.vertex_colours.empty() ? mesh.materials[material].rgb : item.vertex_colours[v],
+               item.opacity);
       const bool is_new = last[v] == kNone || out.vertices[last[v]].rgba != colour ||
                           out.vertices[last[v]].n_world.dot(normals[f][k]) < 0.9999F;
       if (is_new) {
         last[v] = static_cast<std::uint32_t>(out.vertices.size());
         out.vertices.push_back({mesh.vertices_m[v], normals[f][k], colour});
       }
-      out.casting.push_back(last[v]);
+      indices.push_back(last[v]);
     }
   }
 }
@@ -186,6 +188,20 @@ void add_frustum(const FrustumItem& item, DrawLists& out) {
   }
 }
 
+void add_dots(const DotsItem& item, DrawLists& out) {
+  const std::size_t count = item.points_m.size();
+  GNBV_CHECK(item.colours.size() == 1 || item.colours.size() == count, "{} colours for {} points",
+             item.colours.size(), count);
+  GNBV_CHECK(item.normals.empty() || item.normals.size() == count, "{} normals for {} points",
+             item.normals.size(), count);
+  out.dots.reserve(out.dots.size() + count);
+  for (std::size_t i = 0; i < count; ++i) {
+    out.dots.push_back({item.points_m[i], item.radius_m,
+                        item.normals.empty() ? Vec3f(Vec3f::Zero()) : item.normals[i],
+                        item.colours[item.colours.size() == 1 ? 0 : i]});
+  }
+}
+
 }  // namespace
 
 std::vector<std::array<Vec3f, 3>> corner_normals(const TriangleMesh& mesh, double crease_rad) {
@@ -230,6 +246,12 @@ DrawLists make_draw_lists(const RenderScene& scene) {
   for (const BallItem& item : scene.balls) {
     out.balls.push_back({item.centre_m, item.radius_m, item.colour, item.casts_shadow});
   }
+  for (const bool casts_shadow : {true, false}) {
+    for (const DotsItem& item : scene.dots) {
+      if (item.casts_shadow == casts_shadow) add_dots(item, out);
+    }
+    if (casts_shadow) out.casting_dots = out.dots.size();
+  }
   const auto plain_balls = std::stable_partition(
       out.balls.begin(), out.balls.end(), [](const DrawBall& ball) { return ball.casts_shadow; });
   out.casting_balls = static_cast<std::size_t>(plain_balls - out.balls.begin());
@@ -238,6 +260,7 @@ DrawLists make_draw_lists(const RenderScene& scene) {
     out.bounds_m.extend(Vec3f(ball.centre_m.array() - ball.radius_m));
     out.bounds_m.extend(Vec3f(ball.centre_m.array() + ball.radius_m));
   }
+  for (const DrawDot& dot : out.dots) out.bounds_m.extend(dot.p_world_m);
   return out;
 }
 

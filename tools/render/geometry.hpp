@@ -23,12 +23,22 @@ struct DrawBall {
   bool casts_shadow;
 };
 
+struct DrawDot {
+  Vec3f p_world_m;
+  float radius_m;
+  Vec3f n_world;  // zero: lit from everywhere
+  Rgb rgb;
+};
+
 struct DrawLists {
   std::vector<DrawVertex> vertices;
-  // triples of vertices: solids that cast shadows, solids that do not, and what is drawn last
-  std::vector<std::uint32_t> casting, plain, translucent;
+  // triples of vertices: solids that cast shadows, solids that do not, ghosts, and what is drawn
+  // last
+  std::vector<std::uint32_t> casting, plain, ghost, translucent;
   std::vector<DrawBall> balls;  // those that cast shadows first
   std::size_t casting_balls = 0;
+  std::vector<DrawDot> dots;  // those that cast shadows first
+  std::size_t casting_dots = 0;
   Eigen::AlignedBox3f bounds_m;  // of all of it
 };
 

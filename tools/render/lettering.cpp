@@ -232,19 +232,27 @@ void draw_line(Image& image, const std::array<double, 2>& from_px,
 }
 
 double draw_text(Image& image, std::string_view text, double x_px, double baseline_px,
-                 double height_px, const Rgb8& colour) {
+                 double height_px, const Rgb8& colour, double halo_px) {
+  constexpr Rgb8 kHalo = {228, 231, 235};
   const double unit_px = height_px / kCap;
-  double x = x_px;
-  for (const char c : text) {
-    const std::string_view code = glyph(c);
-    std::vector<Stroke> strokes = strokes_of(code);
-    for (Stroke& stroke : strokes) {
-      for (Point& p : stroke) p = {x + unit_px * p[0], baseline_px - unit_px * p[1]};
+  const double pen_px = std::max(1.2, kPenOfHeight * height_px);
+  double end = x_px;
+  // the whole halo first: it must not cover the letter before
+  for (const bool is_halo : {true, false}) {
+    if (is_halo && halo_px <= 0.0) continue;
+    double x = x_px;
+    for (const char c : text) {
+      const std::string_view code = glyph(c);
+      std::vector<Stroke> strokes = strokes_of(code);
+      for (Stroke& stroke : strokes) {
+        for (Point& p : stroke) p = {x + unit_px * p[0], baseline_px - unit_px * p[1]};
+      }
+      paint(image, strokes, is_halo ? pen_px + 2.0 * halo_px : pen_px, is_halo ? kHalo : colour);
+      x += unit_px * (width_of(code) + kGap);
     }
-    paint(image, strokes, std::max(1.2, kPenOfHeight * height_px), colour);
-    x += unit_px * (width_of(code) + kGap);
+    end = x;
   }
-  return x;
+  return end;
 }
 
 double text_width_px(std::string_view text, double height_px) {

@@ -1,225 +1,138 @@
-// The only file that knows OSMesa and GL. The library is opened at run time, so that programs which
-// draw nothing do not pay for loading it (32 ms) nor need it installed.
-#define GL_GLEXT_PROTOTYPES
-#include <GL/osmesa.h>
-#include <dlfcn.h>
-
+#include <algorithm>
 #include <array>
 #include <cstddef>
-#include <initializer_list>
-#include <string>
 
 #include "sim/core/error.hpp"
 #include "tools/render/frame_block.hpp"
 #include "tools/render/geometry.hpp"
+#include "tools/render/gl_context.hpp"
 #include "tools/render/scene.hpp"
+#include "tools/render/screen_shaders.hpp"
 #include "tools/render/shaders.hpp"
-
-#ifdef __SANITIZE_ADDRESS__
-// Mesa 22 never frees its record of a context's window: 160 bytes a context
-extern "C" const char* __lsan_default_suppressions();
-extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa.so"; }
-#endif
 
 namespace gnbv {
 namespace {
 
-// clang-format off
-#define GNBV_OSMESA_FUNCTIONS(X) \
-  X(CreateContextAttribs) X(DestroyContext) X(MakeCurrent) X(GetProcAddress)
-#define GNBV_GL_FUNCTIONS(X)                                                                    \
-  X(AttachShader) X(BindBuffer) X(BindBufferBase) X(BindFramebuffer) X(BindTexture)             \
-  X(BindVertexArray) X(BlendFunc) X(BufferData) X(CheckFramebufferStatus) X(Clear)              \
-  X(CompileShader) X(CreateProgram) X(CreateShader) X(DepthFunc) X(DepthMask) X(Disable)        \
-  X(DrawArrays) X(DrawBuffer) X(DrawElements) X(Enable) X(EnableVertexAttribArray)              \
-  X(FramebufferTexture2D) X(GenBuffers) X(GenFramebuffers) X(GenTextures) X(GenVertexArrays)    \
-  X(GetError) X(GetProgramInfoLog) X(GetProgramiv) X(GetUniformBlockIndex) X(LinkProgram)       \
-  X(PixelStorei) X(ReadBuffer) X(ReadPixels) X(ShaderSource) X(TexImage2D) X(TexParameteri)     \
-  X(UniformBlockBinding) X(UseProgram) X(VertexAttribPointer) X(Viewport)
-// clang-format on
+// Texture units, in the order of GlContext::make_program(); the last one is only drawn to.
+enum Unit : std::size_t { kShadow, kPicture, kDepths, kDistances, kShade, kFinal, kUnits };
 
-struct OsMesa {
-#define X(name) decltype(&::OSMesa##name) name = nullptr;
-  GNBV_OSMESA_FUNCTIONS(X)
-#undef X
+struct Format {
+  GLenum internal, format, type;
 };
-
-struct Gl {
-#define X(name) decltype(&::gl##name) name = nullptr;
-  GNBV_GL_FUNCTIONS(X)
-#undef X
-};
-
-// Never closed: Mesa's threads and LLVM outlive a context.
-OsMesa open_osmesa() {
-  void* library = nullptr;
-  for (const char* name : {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"}) {
-    library = ::dlopen(name, RTLD_LAZY | RTLD_LOCAL);
-    if (library != nullptr) break;
-  }
-  if (library == nullptr) {
-    const char* reason = ::dlerror();
-    throw BadInput(fmt::format("pictures need OSMesa, Debian package libosmesa6: {}",
-                               reason == nullptr ? "cannot be loaded" : reason));
-  }
-  OsMesa mesa;
-#define X(name)                                                                        \
-  mesa.name = reinterpret_cast<decltype(mesa.name)>(::dlsym(library, "OSMesa" #name)); \
-  if (mesa.name == nullptr) {                                                          \
-    throw BadInput("libOSMesa lacks OSMesa" #name ": Mesa 11 or later is needed");     \
-  }
-  GNBV_OSMESA_FUNCTIONS(X)
-#undef X
-  return mesa;
-}
+constexpr Format kSrgb = {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE};
+constexpr Format kRgb = {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
+constexpr Format kFloat = {GL_R32F, GL_RED, GL_FLOAT};
+constexpr Format kByte = {GL_R8, GL_RED, GL_UNSIGNED_BYTE};
+constexpr Format kDepth = {GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT};
 
 }  // namespace
 
 struct Renderer::Impl {
-  OsMesa mesa = open_osmesa();
-  OSMesaContext context = nullptr;
-  std::array<std::uint8_t, 4 * 4 * 4> window{};  // OSMesa wants one; all drawing goes elsewhere
-  Gl gl;
-  GLuint solid = 0, ball = 0, solid_shadow = 0, ball_shadow = 0, ground = 0, background = 0,
-         resolve = 0;
-  GLuint vertex_array[3] = {};                  // solids, balls, nothing
-  GLuint buffer[4] = {};                        // vertices, indices, balls, FrameBlock
-  GLuint texture[4] = {}, framebuffer[3] = {};  // shadow; colour, depth; resolved
+  GlContext context;
+  const Gl& gl = context.gl;
+  GLuint solid = 0, ball = 0, dot = 0, solid_shadow = 0, ball_shadow = 0, ground = 0,
+         background = 0, distance = 0, hollow = 0, resolve = 0;
+  GLuint solids = 0, balls = 0, dots = 0, nothing = 0;                            // vertex arrays
+  GLuint vertices = 0, indices = 0, ball_data = 0, dot_data = 0, frame_data = 0;  // buffers
+  std::array<GLuint, kUnits> textures = {};
+  std::array<GLuint, kUnits> targets = {};  // framebuffers, by the texture they draw to
 
   Impl();
-  ~Impl() {
-    if (context != nullptr) mesa.DestroyContext(context);
-  }
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
-
-  void make_current();
-  GLuint make_program(std::initializer_list<const char*> vertex,
-                      std::initializer_list<const char*> fragment);
-  void make_target(GLuint name, GLuint colour, GLenum colour_format, GLuint depth, int width,
-                   int height);
+  void make_arrays();
+  void make_texture(Unit unit, const Format& format, int width, int height);
+  void begin_target(Unit unit, const Format& format, int width, int height);
   void upload(const DrawLists& lists, const FrameBlock& frame);
-  void draw(GLuint program, GLuint array, GLenum mode, std::size_t first, std::size_t count);
+  void draw_solids(GLuint program, std::size_t first, std::size_t count);
+  void draw_points(GLuint program, GLuint array, std::size_t count);
+  void draw_screen(GLuint program);
+  void draw_shadows(const DrawLists& lists);
+  void draw_things(const RenderScene& scene, const RenderView& view, const DrawLists& lists);
   Image render(const RenderScene& scene, const RenderView& view);
 };
 
-void Renderer::Impl::make_current() {
-  GNBV_CHECK(mesa.MakeCurrent(context, window.data(), GL_UNSIGNED_BYTE, 4, 4) == GL_TRUE,
-             "OSMesaMakeCurrent failed");
-}
-
 Renderer::Impl::Impl() {
-  const std::array<int, 15> attributes = {OSMESA_FORMAT,
-                                          OSMESA_RGBA,
-                                          OSMESA_DEPTH_BITS,
-                                          0,
-                                          OSMESA_STENCIL_BITS,
-                                          0,
-                                          OSMESA_PROFILE,
-                                          OSMESA_CORE_PROFILE,
-                                          OSMESA_CONTEXT_MAJOR_VERSION,
-                                          3,
-                                          OSMESA_CONTEXT_MINOR_VERSION,
-                                          3,
-                                          0,
-                                          0,
-                                          0};
-  context = mesa.CreateContextAttribs(attributes.data(), nullptr);
-  if (context == nullptr)
-    throw BadInput("libOSMesa offers no OpenGL 3.3 core: Mesa 20 or later is needed");
-  make_current();
-#define X(name) gl.name = reinterpret_cast<decltype(gl.name)>(mesa.GetProcAddress("gl" #name));
-  GNBV_GL_FUNCTIONS(X)
-#undef X
   using namespace shaders;
-  solid = make_program({kSolidVertex}, {kLighting, kSolidFragment});
-  ball = make_program({kBallVertex}, {kLighting, kBallFragment});
-  solid_shadow = make_program({kSolidShadowVertex}, {kSolidShadowFragment});
-  ball_shadow = make_program({kBallShadowVertex}, {kBallShadowFragment});
-  ground = make_program({kGroundVertex}, {kLighting, kGroundFragment});
-  background = make_program({kScreenVertex}, {kBackgroundFragment});
-  resolve = make_program({kScreenVertex}, {kResolveFragment});
-
-  gl.GenVertexArrays(3, vertex_array);
-  gl.GenBuffers(4, buffer);
-  gl.GenTextures(4, texture);
-  gl.GenFramebuffers(3, framebuffer);
-  gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, buffer[3]);
-  const auto attribute = [&](GLuint index, int count, std::size_t stride, std::size_t offset) {
-    gl.EnableVertexAttribArray(index);
-    gl.VertexAttribPointer(index, count, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
-                           reinterpret_cast<const void*>(offset));
-  };
-  gl.BindVertexArray(vertex_array[0]);
-  gl.BindBuffer(GL_ARRAY_BUFFER, buffer[0]);
-  gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer[1]);
-  attribute(0, 3, sizeof(DrawVertex), offsetof(DrawVertex, p_world_m));
-  attribute(1, 3, sizeof(DrawVertex), offsetof(DrawVertex, n_world));
-  attribute(2, 4, sizeof(DrawVertex), offsetof(DrawVertex, rgba));
-  gl.BindVertexArray(vertex_array[1]);
-  gl.BindBuffer(GL_ARRAY_BUFFER, buffer[2]);
-  attribute(0, 4, sizeof(DrawBall), offsetof(DrawBall, centre_m));
-  attribute(1, 3, sizeof(DrawBall), offsetof(DrawBall, rgb));
-
-  make_target(framebuffer[0], 0, 0, texture[0], kShadowSide_px, kShadowSide_px);
+  solid = context.make_program({kSolidVertex}, {kLighting, kSolidFragment});
+  ball = context.make_program({kBallVertex}, {kLighting, kBallFragment});
+  dot = context.make_program({kLighting, kDotVertex}, {kDotFragment});
+  solid_shadow = context.make_program({kSolidShadowVertex}, {kSolidShadowFragment});
+  ball_shadow = context.make_program({kBallShadowVertex}, {kBallShadowFragment});
+  ground = context.make_program({kGroundVertex}, {kLighting, kGroundFragment});
+  background = context.make_program({kScreenVertex}, {kBackgroundFragment});
+  distance = context.make_program({kScreenVertex}, {kDistanceFragment});
+  hollow = context.make_program({kScreenVertex}, {kHollowFragment});
+  resolve = context.make_program({kScreenVertex}, {kResolveFragment});
+  make_arrays();
+  gl.GenTextures(kUnits, textures.data());
+  gl.GenFramebuffers(kUnits, targets.data());
+  begin_target(kShadow, kDepth, kShadowSide_px, kShadowSide_px);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
 }
 
-GLuint Renderer::Impl::make_program(std::initializer_list<const char*> vertex,
-                                    std::initializer_list<const char*> fragment) {
-  const GLuint program = gl.CreateProgram();
-  const auto attach = [&](GLenum stage, std::initializer_list<const char*> parts) {
-    std::vector<const char*> sources = {shaders::kCommon};
-    sources.insert(sources.end(), parts.begin(), parts.end());
-    const GLuint shader = gl.CreateShader(stage);
-    gl.ShaderSource(shader, static_cast<GLsizei>(sources.size()), sources.data(), nullptr);
-    gl.CompileShader(shader);
-    gl.AttachShader(program, shader);
+void Renderer::Impl::make_arrays() {
+  for (GLuint* array : {&solids, &balls, &dots, &nothing}) gl.GenVertexArrays(1, array);
+  for (GLuint* buffer : {&vertices, &indices, &ball_data, &dot_data, &frame_data}) {
+    gl.GenBuffers(1, buffer);
+  }
+  gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_data);
+  const auto attribute = [&](GLuint index, int count, std::size_t stride, std::size_t offset) {
+    gl.EnableVertexAttribArray(index);
+    gl.VertexAttribPointer(index, count, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
+                           reinterpret_cast<const void*>(offset));
   };
-  attach(GL_VERTEX_SHADER, vertex);
-  attach(GL_FRAGMENT_SHADER, fragment);
-  gl.LinkProgram(program);
-  GLint is_linked = 0;
-  gl.GetProgramiv(program, GL_LINK_STATUS, &is_linked);
-  std::array<char, 2000> log{};
-  gl.GetProgramInfoLog(program, static_cast<GLsizei>(log.size()), nullptr, log.data());
-  GNBV_CHECK(is_linked == GL_TRUE, "shader: {}", log.data());
-  const GLuint block = gl.GetUniformBlockIndex(program, "Frame");
-  if (block != GL_INVALID_INDEX) gl.UniformBlockBinding(program, block, 0);
-  return program;
+  gl.BindVertexArray(solids);
+  gl.BindBuffer(GL_ARRAY_BUFFER, vertices);
+  gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices);
+  attribute(0, 3, sizeof(DrawVertex), offsetof(DrawVertex, p_world_m));
+  attribute(1, 3, sizeof(DrawVertex), offsetof(DrawVertex, n_world));
+  attribute(2, 4, sizeof(DrawVertex), offsetof(DrawVertex, rgba));
+  gl.BindVertexArray(balls);
+  gl.BindBuffer(GL_ARRAY_BUFFER, ball_data);
+  attribute(0, 4, sizeof(DrawBall), offsetof(DrawBall, centre_m));
+  attribute(1, 3, sizeof(DrawBall), offsetof(DrawBall, rgb));
+  gl.BindVertexArray(dots);
+  gl.BindBuffer(GL_ARRAY_BUFFER, dot_data);
+  attribute(0, 4, sizeof(DrawDot), offsetof(DrawDot, p_world_m));
+  attribute(1, 3, sizeof(DrawDot), offsetof(DrawDot, n_world));
+  attribute(2, 3, sizeof(DrawDot), offsetof(DrawDot, rgb));
 }
 
-// (Re)allocates the textures behind a framebuffer; leaves the depth texture bound, else the colour.
-void Renderer::Impl::make_target(GLuint name, GLuint colour, GLenum colour_format, GLuint depth,
-                                 int width, int height) {
-  gl.BindFramebuffer(GL_FRAMEBUFFER, name);
-  const auto attach = [&](GLuint id, GLenum point, GLenum internal, GLenum format, GLenum type,
-                          GLint wrap) {
-    gl.BindTexture(GL_TEXTURE_2D, id);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(internal), width, height, 0, format, type,
-                  nullptr);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, point, GL_TEXTURE_2D, id, 0);
+// (Re)allocates the texture and leaves it bound to its unit.
+void Renderer::Impl::make_texture(Unit unit, const Format& format, int width, int height) {
+  gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  gl.BindTexture(GL_TEXTURE_2D, textures[unit]);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format.internal), width, height, 0,
+                format.format, format.type, nullptr);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+// What is drawn next goes to that unit's texture; the picture comes with its depths.
+void Renderer::Impl::begin_target(Unit unit, const Format& format, int width, int height) {
+  gl.BindFramebuffer(GL_FRAMEBUFFER, targets[unit]);
+  const auto attach = [&](GLenum point, Unit to) {
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, point, GL_TEXTURE_2D, textures[to], 0);
   };
-  if (colour != 0) {
-    attach(colour, GL_COLOR_ATTACHMENT0, colour_format, GL_RGBA, GL_UNSIGNED_BYTE,
-           GL_CLAMP_TO_EDGE);
-  } else {
+  make_texture(unit, format, width, height);
+  if (unit == kShadow) {
+    attach(GL_DEPTH_ATTACHMENT, unit);
     gl.DrawBuffer(GL_NONE);
     gl.ReadBuffer(GL_NONE);
+  } else {
+    attach(GL_COLOR_ATTACHMENT0, unit);
   }
-  if (depth != 0) {
-    attach(depth, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT,
-           GL_CLAMP_TO_EDGE);
+  if (unit == kPicture) {
+    make_texture(kDepths, kDepth, width, height);
+    attach(GL_DEPTH_ATTACHMENT, kDepths);
   }
   GNBV_CHECK(gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE,
              "framebuffer of {} x {} px", width, height);
+  gl.Viewport(0, 0, width, height);
 }
 
 void Renderer::Impl::upload(const DrawLists& lists, const FrameBlock& frame) {
@@ -227,28 +140,87 @@ void Renderer::Impl::upload(const DrawLists& lists, const FrameBlock& frame) {
     gl.BindBuffer(target, name);
     gl.BufferData(target, static_cast<GLsizeiptr>(bytes), data, GL_STREAM_DRAW);
   };
-  std::vector<std::uint32_t> indices = lists.casting;
-  indices.insert(indices.end(), lists.plain.begin(), lists.plain.end());
-  indices.insert(indices.end(), lists.translucent.begin(), lists.translucent.end());
-  gl.BindVertexArray(vertex_array[0]);  // the index buffer belongs to it
-  fill(GL_ARRAY_BUFFER, buffer[0], lists.vertices.data(),
+  std::vector<std::uint32_t> all = lists.casting;
+  for (const auto* more : {&lists.plain, &lists.ghost, &lists.translucent}) {
+    all.insert(all.end(), more->begin(), more->end());
+  }
+  gl.BindVertexArray(solids);  // the index buffer belongs to it
+  fill(GL_ARRAY_BUFFER, vertices, lists.vertices.data(),
        lists.vertices.size() * sizeof(DrawVertex));
-  fill(GL_ELEMENT_ARRAY_BUFFER, buffer[1], indices.data(), indices.size() * sizeof(std::uint32_t));
-  fill(GL_ARRAY_BUFFER, buffer[2], lists.balls.data(), lists.balls.size() * sizeof(DrawBall));
-  fill(GL_UNIFORM_BUFFER, buffer[3], &frame, sizeof(frame));
+  fill(GL_ELEMENT_ARRAY_BUFFER, indices, all.data(), all.size() * sizeof(std::uint32_t));
+  fill(GL_ARRAY_BUFFER, ball_data, lists.balls.data(), lists.balls.size() * sizeof(DrawBall));
+  fill(GL_ARRAY_BUFFER, dot_data, lists.dots.data(), lists.dots.size() * sizeof(DrawDot));
+  fill(GL_UNIFORM_BUFFER, frame_data, &frame, sizeof(frame));
 }
 
-// `first` and `count` are in indices for the solids, in points or vertices otherwise.
-void Renderer::Impl::draw(GLuint program, GLuint array, GLenum mode, std::size_t first,
-                          std::size_t count) {
+// `first` and `count` are in indices.
+void Renderer::Impl::draw_solids(GLuint program, std::size_t first, std::size_t count) {
+  gl.UseProgram(program);
+  gl.BindVertexArray(solids);
+  gl.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
+                  reinterpret_cast<const void*>(first * sizeof(std::uint32_t)));
+}
+
+void Renderer::Impl::draw_points(GLuint program, GLuint array, std::size_t count) {
   gl.UseProgram(program);
   gl.BindVertexArray(array);
-  if (array == vertex_array[0]) {
-    gl.DrawElements(mode, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
-                    reinterpret_cast<const void*>(first * sizeof(std::uint32_t)));
-  } else {
-    gl.DrawArrays(mode, static_cast<GLint>(first), static_cast<GLsizei>(count));
+  gl.DrawArrays(GL_POINTS, 0, static_cast<GLsizei>(count));
+}
+
+void Renderer::Impl::draw_screen(GLuint program) {
+  gl.UseProgram(program);
+  gl.BindVertexArray(nothing);
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+// What the key light sees.
+void Renderer::Impl::draw_shadows(const DrawLists& lists) {
+  gl.BindFramebuffer(GL_FRAMEBUFFER, targets[kShadow]);
+  gl.Viewport(0, 0, kShadowSide_px, kShadowSide_px);
+  gl.Enable(GL_DEPTH_TEST);
+  gl.Enable(GL_PROGRAM_POINT_SIZE);
+  gl.DepthMask(GL_TRUE);
+  gl.DepthFunc(GL_LESS);
+  gl.Clear(GL_DEPTH_BUFFER_BIT);
+  draw_solids(solid_shadow, 0, lists.casting.size());
+  draw_points(ball_shadow, balls, lists.casting_balls);
+  draw_points(ball_shadow, dots, lists.casting_dots);
+}
+
+// The picture: solids and clouds, then ground, ghosts and translucent faces over them.
+void Renderer::Impl::draw_things(const RenderScene& scene, const RenderView& view,
+                                 const DrawLists& lists) {
+  gl.Enable(GL_FRAMEBUFFER_SRGB);
+  gl.Clear(GL_DEPTH_BUFFER_BIT);
+  gl.DepthMask(GL_FALSE);
+  gl.Disable(GL_DEPTH_TEST);
+  draw_screen(background);
+  gl.Enable(GL_DEPTH_TEST);
+  gl.DepthMask(GL_TRUE);
+  const std::size_t opaque = lists.casting.size() + lists.plain.size();
+  draw_solids(solid, 0, opaque);
+  draw_points(ball, balls, lists.balls.size());
+  draw_points(dot, dots, lists.dots.size());
+  gl.Enable(GL_BLEND);
+  gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  gl.DepthMask(GL_FALSE);
+  if (scene.ground && view.T_world_camera.translation().z() > scene.ground->z_m) {
+    gl.UseProgram(ground);
+    gl.BindVertexArray(nothing);
+    gl.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   }
+  // the nearest layer of the ghosts: first where it is, then how it looks
+  gl.DepthMask(GL_TRUE);
+  gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  draw_solids(solid, opaque, lists.ghost.size());
+  gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  gl.DepthFunc(GL_LEQUAL);
+  draw_solids(solid, opaque, lists.ghost.size());
+  gl.DepthMask(GL_FALSE);
+  draw_solids(solid, opaque + lists.ghost.size(), lists.translucent.size());
+  gl.Disable(GL_BLEND);
+  gl.Disable(GL_FRAMEBUFFER_SRGB);
+  gl.Disable(GL_DEPTH_TEST);
 }
 
 Image Renderer::Impl::render(const RenderScene& scene, const RenderView& view) {
@@ -258,52 +230,18 @@ Image Renderer::Impl::render(const RenderScene& scene, const RenderView& view) {
     throw BadInput(fmt::format("picture size {} x {} px: both must be from 1 to {}", width, height,
                                kMaxSide_px));
   }
-  make_current();
+  context.make_current();
   const DrawLists lists = make_draw_lists(scene);
-  const FrameBlock frame = make_frame_block(scene, view, lists);
-  upload(lists, frame);
-
-  // what the key light sees
-  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer[0]);
-  gl.Viewport(0, 0, kShadowSide_px, kShadowSide_px);
-  gl.Enable(GL_DEPTH_TEST);
-  gl.Enable(GL_PROGRAM_POINT_SIZE);
-  gl.DepthMask(GL_TRUE);
-  gl.DepthFunc(GL_LESS);
-  gl.Clear(GL_DEPTH_BUFFER_BIT);
-  draw(solid_shadow, vertex_array[0], GL_TRIANGLES, 0, lists.casting.size());
-  draw(ball_shadow, vertex_array[1], GL_POINTS, 0, lists.casting_balls);
-
-  // the picture, supersampled: solids, ground, translucent faces
-  make_target(framebuffer[1], texture[1], GL_SRGB8_ALPHA8, texture[2], 2 * width, 2 * height);
-  gl.Viewport(0, 0, 2 * width, 2 * height);
-  gl.Enable(GL_FRAMEBUFFER_SRGB);
-  gl.Clear(GL_DEPTH_BUFFER_BIT);
-  gl.BindTexture(GL_TEXTURE_2D, texture[0]);
-  gl.DepthMask(GL_FALSE);
-  gl.Disable(GL_DEPTH_TEST);
-  draw(background, vertex_array[2], GL_TRIANGLES, 0, 3);
-  gl.Enable(GL_DEPTH_TEST);
-  gl.DepthMask(GL_TRUE);
-  const std::size_t solids = lists.casting.size() + lists.plain.size();
-  draw(solid, vertex_array[0], GL_TRIANGLES, 0, solids);
-  draw(ball, vertex_array[1], GL_POINTS, 0, lists.balls.size());
-  gl.DepthMask(GL_FALSE);
-  gl.Enable(GL_BLEND);
-  gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  if (scene.ground && view.T_world_camera.translation().z() > scene.ground->z_m) {
-    draw(ground, vertex_array[2], GL_TRIANGLE_STRIP, 0, 4);
-  }
-  draw(solid, vertex_array[0], GL_TRIANGLES, solids, lists.translucent.size());
-  gl.Disable(GL_BLEND);
-  gl.Disable(GL_FRAMEBUFFER_SRGB);
-  gl.Disable(GL_DEPTH_TEST);
-
-  // down to the size asked for
-  make_target(framebuffer[2], texture[3], GL_RGBA8, 0, width, height);
-  gl.Viewport(0, 0, width, height);
-  gl.BindTexture(GL_TEXTURE_2D, texture[1]);
-  draw(resolve, vertex_array[2], GL_TRIANGLES, 0, 3);
+  upload(lists, make_frame_block(scene, view, lists));
+  draw_shadows(lists);
+  begin_target(kPicture, kSrgb, 2 * width, 2 * height);
+  draw_things(scene, view, lists);
+  begin_target(kDistances, kFloat, width, height);
+  draw_screen(distance);
+  begin_target(kShade, kByte, width, height);
+  draw_screen(hollow);
+  begin_target(kFinal, kRgb, width, height);
+  draw_screen(resolve);
   Image image{width, height, {}};
   image.rgb.resize(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   gl.PixelStorei(GL_PACK_ALIGNMENT, 1);

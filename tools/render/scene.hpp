@@ -19,6 +19,7 @@ struct SurfaceItem {
   TriangleMesh mesh;
   std::vector<Rgb> vertex_colours;  // (n) as mesh.vertices_m; empty = colours of the materials
   double crease_rad = deg_to_rad(35.0);
+  float opacity = 1.0F;  // under 1: a ghost, of which only the nearest layer is drawn
 };
 
 /// A lit tube along a polyline with round joints and ends.
@@ -35,6 +36,15 @@ struct BallItem {
   float radius_m = 0.1F;
   Rgb colour = {0.5F, 0.5F, 0.5F};
   bool casts_shadow = false;
+};
+
+/// A point cloud as round dots: cheaper than balls by far, for millions of points.
+struct DotsItem {
+  std::vector<Vec3f> points_m = {};
+  std::vector<Vec3f> normals = {};  // (n), unit, either side; empty: lit from everywhere
+  std::vector<Rgb> colours = {};    // (n), or one for all
+  float radius_m = 0.02F;
+  bool casts_shadow = true;
 };
 
 /// The pyramid a camera sees, out to `length_m` along its axis.
@@ -59,6 +69,7 @@ struct RenderScene {
   std::vector<SurfaceItem> surfaces;
   std::vector<TubeItem> tubes;
   std::vector<BallItem> balls;
+  std::vector<DotsItem> dots;
   std::vector<FrustumItem> frusta;
   std::optional<GroundItem> ground;
 };

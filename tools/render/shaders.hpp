@@ -15,6 +15,8 @@ layout(std140) uniform Frame {
   vec4 camera_up;           // xyz world; w = side of the shadow map, px
   vec4 ground;              // centre x, y, height z, radius
   vec4 grid;                // minor, major; depth where haze begins and its range, m
+  vec4 lens;                // tangents of the half angles across and up; depth of near and far, m
+  vec4 hollow;              // radius of ambient occlusion, m; 1 where a ground is drawn
 };
 )";
 
@@ -124,6 +126,33 @@ void main() {
 }
 )";
 
+/// Dots of a cloud: lit once a dot, flat towards the camera.
+inline constexpr const char* kDotVertex = R"(
+layout(location = 0) in vec4 dot_in;    // centre, radius
+layout(location = 1) in vec3 n_in;
+layout(location = 2) in vec3 colour_in;
+flat out vec3 colour;
+void main() {
+  vec3 p = dot_in.xyz;
+  vec3 to_eye = normalize(eye.xyz - p);
+  vec3 n = dot(n_in, n_in) > 0.0 ? n_in : normalize(to_eye + to_light.xyz);
+  if (dot(n, to_eye) < 0.0) n = -n;
+  colour = lit(colour_in, n, p + 2.0 * dot_in.w * to_light.xyz, 0.0);
+  gl_Position = clip_from_world * vec4(p, 1.0);
+  gl_PointSize = max(1.5, dot_in.w * to_fill.w * eye.w / gl_Position.w);
+}
+)";
+
+inline constexpr const char* kDotFragment = R"(
+flat in vec3 colour;
+out vec4 pixel;
+void main() {
+  vec2 q = 2.0 * (gl_PointCoord - 0.5);
+  if (dot(q, q) > 1.0) discard;
+  pixel = vec4(colour, 1.0);
+}
+)";
+
 inline constexpr const char* kSolidShadowVertex = R"(
 layout(location = 0) in vec3 p_in;
 void main() { gl_Position = vec4(2.0 * (shadow_from_world * vec4(p_in, 1.0)).xyz - 1.0, 1.0); }
@@ -185,42 +214,6 @@ void main() {
   float cover = max(line, 0.0);
   cover = 1.0 - (1.0 - cover) * (1.0 - 0.42 * shade);
   pixel = vec4(ink, cover * fade);
-}
-)";
-
-/// Fills the picture with one triangle.
-inline constexpr const char* kScreenVertex = R"(
-void main() {
-  vec2 q = vec2((gl_VertexID << 1) & 2, gl_VertexID & 2);
-  gl_Position = vec4(q * 2.0 - 1.0, 0.0, 1.0);
-}
-)";
-
-inline constexpr const char* kBackgroundFragment = R"(
-out vec4 pixel;
-void main() {
-  float t = gl_FragCoord.y / eye.w;  // 0 at the bottom
-  pixel = vec4(mix(vec3(0.60, 0.615, 0.63), vec3(0.90, 0.92, 0.94), smoothstep(0.0, 1.0, t)), 1.0);
-}
-)";
-
-/// Box filter over 2 x 2 in linear light, sRGB encoding, ordered dither against bands; the first
-/// row written is the top one.
-inline constexpr const char* kResolveFragment = R"(
-uniform sampler2D picture;
-out vec4 pixel;
-vec3 encode(vec3 l) {
-  return mix(12.92 * l, 1.055 * pow(max(l, 1e-6), vec3(1.0 / 2.4)) - 0.055, step(0.0031308, l));
-}
-float bayer2(ivec2 a) { return float((2 * a.x + 3 * a.y) & 3); }
-
-void main() {
-  ivec2 out_px = ivec2(gl_FragCoord.xy);
-  ivec2 q = 2 * ivec2(out_px.x, textureSize(picture, 0).y / 2 - 1 - out_px.y);
-  vec3 sum = texelFetch(picture, q, 0).rgb + texelFetch(picture, q + ivec2(1, 0), 0).rgb +
-             texelFetch(picture, q + ivec2(0, 1), 0).rgb + texelFetch(picture, q + ivec2(1, 1), 0).rgb;
-  float dither = (4.0 * bayer2(out_px & 1) + bayer2((out_px >> 1) & 1) + 0.5) / 16.0 - 0.5;
-  pixel = vec4(encode(0.25 * sum) + dither / 255.0, 1.0);
 }
 )";
 

@@ -1,0 +1,148 @@
+// Laws of light and of what stands for surfaces: hollows, ghosts, dots and voxels.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "sim/core/error.hpp"
+#include "tools/render/point_normals.hpp"
+#include "tools/render/scene.hpp"
+#include "tools/render/voxel_items.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr Rgb kWhite = {0.8F, 0.8F, 0.8F};
+
+// A level square of side 8 m at z = 0, and perhaps a wall of 4 m along its side x = 0.
+RenderScene floor_scene(bool has_wall) {
+  SurfaceItem item;
+  item.mesh.vertices_m = {{0, -4, 0}, {8, -4, 0}, {8, 4, 0}, {0, 4, 0}, {0, -4, 4}, {0, 4, 4}};
+  item.mesh.faces = {{0, 1, 2}, {0, 2, 3}};
+  if (has_wall) item.mesh.faces.insert(item.mesh.faces.end(), {{0, 3, 5}, {0, 5, 4}});
+  item.mesh.materials[0].rgb = kWhite;
+  RenderScene scene;
+  scene.surfaces.push_back(item);
+  return scene;
+}
+
+RenderView floor_view() {
+  RenderView view;
+  view.width_px = 320;
+  view.height_px = 240;
+  view.T_world_camera = look_at({14.0, -6.0, 12.0}, {3.0, 0.0, 0.5});
+  view.to_light_world = Vec3(1.0, 0.0, 1.0);  // no shadow on the floor
+  return view;
+}
+
+double brightness(const Image& image, const RenderView& view, const Vec3& p_world_m) {
+  const Vec3 p = project(view, p_world_m).value();
+  double sum = 0.0;
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      sum += image.at(static_cast<int>(p.x()) + dx, static_cast<int>(p.y()) + dy)[1];
+    }
+  }
+  return sum / 9.0;
+}
+
+TEST(AmbientOcclusion, DarkensACornerAndNotAnOpenPlane) {
+  const RenderView view = floor_view();
+  Renderer renderer;
+  const Image open = renderer.render(floor_scene(false), view);
+  const Image corner = renderer.render(floor_scene(true), view);
+  // 8 cm from the wall, and half of the floor away from it
+  EXPECT_LT(brightness(corner, view, {0.08, 0, 0}), brightness(open, view, {0.08, 0, 0}) - 12.0);
+  EXPECT_NEAR(brightness(corner, view, {5, 0, 0}), brightness(open, view, {5, 0, 0}), 1.5);
+  // an open plane is as even as without any occlusion: what is left is gloss and haze
+  for (double x = 2.0; x < 6.0; x += 0.5) {
+    EXPECT_NEAR(brightness(open, view, {x, 0, 0}), brightness(open, view, {x + 0.25, 0, 0}), 1.5);
+  }
+}
+
+TEST(Ghost, ShowsOneLayerAndWhatIsBehindIt) {
+  RenderView view;
+  view.width_px = 64;
+  view.height_px = 64;
+  view.T_world_camera = look_at({-9, 0, 0}, Vec3::Zero());
+  const auto centre = [&](int sheets, bool has_ball) {
+    RenderScene scene;
+    for (int i = 0; i < sheets; ++i) {
+      const auto x = static_cast<float>(i);
+      SurfaceItem sheet;
+      sheet.mesh.vertices_m = {{x, 2, -2}, {x, -2, -2}, {x, -2, 2}, {x, 2, 2}};
+      sheet.mesh.faces = {{0, 2, 1}, {0, 3, 2}};
+      sheet.opacity = 0.4F;
+      scene.surfaces.push_back(sheet);
+    }
+    if (has_ball) scene.balls.push_back({{5, 0, 0}, 1.0F, {0.8F, 0.02F, 0.02F}, false});
+    return render(scene, view).at(32, 32);
+  };
+  EXPECT_EQ(centre(3, false), centre(1, false));           // not once for each sheet
+  EXPECT_GT(centre(1, true)[0], centre(1, true)[2] + 30);  // red shines through
+}
+
+TEST(Dots, AppearWhereTheProjectionSaysAndHideWhatIsBehind) {
+  RenderView view = floor_view();
+  RenderScene scene = floor_scene(false);
+  DotsItem dots{.points_m = {{3, 1, 1}, {5, -1, 0.5F}}, .colours = {{0.02F, 0.02F, 0.8F}}};
+  dots.radius_m = 0.2F;
+  scene.dots.push_back(dots);
+  const Image image = render(scene, view);
+  for (const Vec3f& point : dots.points_m) {
+    const Vec3 p = project(view, point.cast<double>()).value();
+    const auto pixel = image.at(static_cast<int>(p.x()), static_cast<int>(p.y()));
+    EXPECT_GT(pixel[2], pixel[0] + 60);
+  }
+}
+
+TEST(PointNormals, StandOnAPlaneAndAreUnknownOnALine) {
+  std::vector<Vec3f> plane;
+  const Vec3f n = Vec3f(1, 2, 2).normalized();
+  const Vec3f a = n.unitOrthogonal();
+  const Vec3f b = n.cross(a);
+  for (int i = 0; i < 900; ++i) {
+    plane.push_back(0.02F * static_cast<float>(i % 30) * a +
+                    0.02F * static_cast<float>(i / 30) * b);
+  }
+  // float32 coordinates of 1 m: slopes to a millionth or so over 0.3 m
+  for (const Vec3f& found : point_normals(plane, 0.1)) EXPECT_GT(std::abs(found.dot(n)), 0.9999F);
+  std::vector<Vec3f> line;
+  for (int i = 0; i < 50; ++i) line.push_back(Vec3f(0.02F * static_cast<float>(i), 0.05F, 0.05F));
+  for (const Vec3f& found : point_normals(line, 0.1)) EXPECT_TRUE(found.isZero());
+}
+
+TEST(Voxels, AreSortedAsTheMapHasThem) {
+  // a wall of occupied voxels in free space; behind it nothing was measured
+  OccupancyGrid grid(OccupancyConfig{}, Box3(Vec3(0, 0, 0), Vec3(4, 2, 2)));
+  const GridGeometry& geometry = grid.geometry();
+  ScanUpdate scan;
+  for (VoxelIndex v = 0; v < geometry.voxel_count(); ++v) {
+    const std::int32_t x = geometry.key_at(v)[0];
+    if (x < 10) scan.free.push_back(v);
+    if (x == 10 && geometry.key_at(v)[2] != 5) scan.occupied.push_back(v);
+  }
+  grid.apply(scan);
+  ASSERT_TRUE(grid.predict(geometry.index_of({15, 5, 5})));
+  const SortedVoxels sorted = sort_voxels(grid);
+  EXPECT_EQ(sorted.occupied, scan.occupied);
+  EXPECT_EQ(sorted.occupied.size(), grid.occupied_count());
+  EXPECT_EQ(sorted.predicted.size(), grid.predicted_count());
+  // the gap at z = 5: ten voxels, each next to a free one; nothing behind the wall is
+  EXPECT_EQ(sorted.unknown.size(), 10U);
+  for (const VoxelIndex v : sorted.unknown) EXPECT_EQ(geometry.key_at(v)[0], 10);
+  EXPECT_EQ(free_faces(grid, sorted.unknown, kWhite, 0.5F).mesh.faces.size(), 2U * 10U);
+  const std::vector<Rgb> white = {kWhite};
+  const SurfaceItem cubes = voxel_cubes(geometry, sorted.occupied, white, 1.0);
+  EXPECT_EQ(cubes.mesh.faces.size(), 12U * sorted.occupied.size());
+  // each cube is closed, looks outward and has the volume of its voxel
+  double volume_m3 = 0.0;
+  for (const auto& face : cubes.mesh.faces) {
+    const Vec3f& p = cubes.mesh.vertices_m[face[0]];
+    volume_m3 += static_cast<double>(
+        p.dot(cubes.mesh.vertices_m[face[1]].cross(cubes.mesh.vertices_m[face[2]])) / 6.0F);
+  }
+  EXPECT_NEAR(volume_m3, 0.008 * static_cast<double>(sorted.occupied.size()), 1e-4);
+}
+
+}  // namespace
+}  // namespace gnbv

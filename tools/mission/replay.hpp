@@ -1,0 +1,51 @@
+// A recorded mission flown once more, up to where something of it is asked for: what the planner
+// believed on the way stands in no file.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "tools/mission/mission.hpp"
+
+namespace gnbv {
+
+/// What to fly again. Everything referred to stays with the caller.
+struct RecordedMission {
+  const Scenario& scenario;
+  const World& world;
+  const RayScene& scene;
+  std::span<const ViewRecord> views;  // as recorded
+  int threads = 1;
+  std::function<void(double share_done)> on_progress = [](double) {};  // 0 to 1
+};
+
+/// The profile after some of its waypoints: descents, or stations of a circular one.
+struct ProfileStage {
+  std::size_t waypoints = 0;
+  std::vector<Vec3f> points_world_m = {};  // of all sweeps so far, as the cloud takes them
+  std::vector<Vec3> path_world_m = {};     // flown so far, from the start of the mission
+};
+
+/// The profile after each of those numbers of waypoints, or after all it has where it has fewer;
+/// nothing for a mission that took up a saved profile, or flew none. No view is flown.
+std::vector<ProfileStage> replay_profile(const RecordedMission& mission,
+                                         std::span<const std::size_t> waypoints);
+
+/// What was believed after the recorded view `iteration`. Throws BadInput when the flight does not
+/// come out as recorded: then another program made the record. Requires iteration <
+/// mission.views.size().
+Belief replay_belief(const RecordedMission& mission, std::size_t iteration);
+
+/// A decision, and the belief on which it was made.
+struct ReplayedDecision {
+  Belief belief;
+  Plan plan;  // made again; empty for a mission that was handed its views (an oracle's)
+};
+
+/// The decision that chose the recorded view `iteration`. Throws as replay_belief(). Requires 1 <=
+/// iteration < mission.views.size(): the start was no decision.
+ReplayedDecision replay_decision(const RecordedMission& mission, std::size_t iteration);
+
+}  // namespace gnbv

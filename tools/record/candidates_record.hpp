@@ -1,0 +1,17 @@
+// candidates.jsonl read back: why a view was chosen, and every other one was not.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "planner/next_view.hpp"
+
+namespace gnbv {
+
+/// The candidates of the decision that chose view `iteration`, in the order they were sampled, and
+/// which of them was chosen; `next` stays empty, and so do the points on their ways. Nothing for a
+/// run that wrote no candidates. Throws BadInput naming file and line of whatever is damaged, and a
+/// decision that the file does not hold.
+std::optional<Plan> read_candidates(const std::filesystem::path& run, std::size_t iteration);
+
+}  // namespace gnbv

@@ -1,0 +1,72 @@
+#include "tools/render/camera_choice.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+
+namespace gnbv {
+namespace {
+
+struct Preset {
+  std::string_view name;
+  double azimuth_deg;
+  double elevation_deg;
+};
+// a little from above, so that the ground is seen as a plane
+constexpr std::array<Preset, 6> kPresets = {{{"iso", -120.0, 28.0},
+                                             {"front", -90.0, 8.0},
+                                             {"back", 90.0, 8.0},
+                                             {"left", 180.0, 8.0},
+                                             {"right", 0.0, 8.0},
+                                             {"top", -90.0, 90.0}}};
+
+Vec3 vector_at(const nlohmann::json& json, const char* key) {
+  const auto values = json.at(key).get<std::array<double, 3>>();
+  return {values[0], values[1], values[2]};
+}
+
+RenderView read_camera(const std::filesystem::path& path) {
+  RenderView view;
+  double fov_y_deg = 30.0;
+  try {
+    const nlohmann::json json = nlohmann::json::parse(read_file(path));
+    const Vec3 position_m = vector_at(json, "position_m");
+    const Vec3 target_m = vector_at(json, "target_m");
+    fov_y_deg = json.value("fov_y_deg", fov_y_deg);
+    view.focus_m = (target_m - position_m).norm();
+    if (view.focus_m < 1e-6) throw BadInput("target_m: is where position_m is");
+    view.T_world_camera = look_at(position_m, target_m);
+  } catch (const std::exception& error) {
+    throw BadInput(fmt::format("{}: {}", path.string(), error.what()));
+  }
+  if (!(fov_y_deg > 0.0 && fov_y_deg < 180.0)) {
+    throw BadInput(
+        fmt::format("{}: fov_y_deg: {} is not between 0 and 180", path.string(), fov_y_deg));
+  }
+  view.fov_y_rad = deg_to_rad(fov_y_deg);
+  return view;
+}
+
+}  // namespace
+
+CameraChoice choose_camera(const std::string& name_or_file) {
+  std::string names;
+  for (const Preset& preset : kPresets) {
+    if (preset.name == name_or_file) {
+      return {.angles = {deg_to_rad(preset.azimuth_deg), deg_to_rad(preset.elevation_deg)}};
+    }
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", preset.name);
+  }
+  if (!std::filesystem::exists(name_or_file)) {
+    throw BadInput(
+        fmt::format("--camera {}: no such file, and none of the presets {}", name_or_file, names));
+  }
+  return {.angles = {}, .camera = read_camera(name_or_file)};
+}
+
+}  // namespace gnbv

@@ -1,0 +1,137 @@
+#include "tools/render/caption.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnbv {
+namespace {
+
+constexpr double kBorder = 26.0;  // all lengths here are in layout units
+constexpr double kLetter = 10.0;
+constexpr double kRow = 22.0;
+constexpr double kBar = 120.0;
+constexpr double kGap = 20.0;  // between items
+constexpr double kHalo = 2.5;
+
+// The longest of 1, 2, 5, 10 ... m that stays under `limit_m`.
+double round_length_m(double limit_m) {
+  const double power = std::pow(10.0, std::floor(std::log10(limit_m)));
+  for (const double step : {5.0, 2.0}) {
+    if (step * power <= limit_m) return step * power;
+  }
+  return power;
+}
+
+// Returns the x where the scale ends.
+double draw_scale(Image& image, const RenderView& view, double u, double bottom) {
+  const double px_per_m = px_per_m_at_focus(view);
+  const double length_m = round_length_m(0.16 * view.width_px / px_per_m);
+  const double x0 = kBorder * u;
+  const double x1 = x0 + length_m * px_per_m;
+  draw_line(image, {x0, bottom}, {x1, bottom}, 2.0 * u, kInk);
+  for (const double x : {x0, x1}) {
+    draw_line(image, {x, bottom - 5.0 * u}, {x, bottom + 5.0 * u}, 2.0 * u, kInk);
+  }
+  return draw_text(image, fmt::format("{} m", length_m), x1 + 10.0 * u, bottom + 5.0 * u,
+                   kLetter * u, kInk, kHalo * u);
+}
+
+bool is_bar(const LegendItem& item) { return item.colours.size() > 1; }
+
+double mark_width(const LegendItem& item) {
+  if (is_bar(item)) return kBar;
+  return item.mark == LegendItem::Mark::line ? 30.0 : 10.0;
+}
+
+double item_width(const LegendItem& item) {
+  const double before =
+      item.label_before.empty() ? 0.0 : text_width_px(item.label_before, kLetter) + 10.0;
+  return before + mark_width(item) + 10.0 + text_width_px(item.label, kLetter);
+}
+
+void draw_mark(Image& image, const LegendItem& item, double x, double y, double u) {
+  const double end = x + mark_width(item) * u;
+  if (is_bar(item)) {
+    for (double at = x; at < end; at += 1.0) {
+      draw_line(image, {at, y}, {std::min(at + 1.0, end), y}, 6.0 * u,
+                to_rgb8(ramp(item.colours, (at - x) / (end - x))));
+    }
+    return;
+  }
+  const Rgb8 colour = to_rgb8(item.colours.front());
+  const double middle = 0.5 * (x + end);
+  switch (item.mark) {
+    case LegendItem::Mark::line:
+      draw_line(image, {x, y}, {end, y}, 4.0 * u, colour);
+      break;
+    case LegendItem::Mark::dot:
+      draw_line(image, {middle, y}, {middle, y}, 10.0 * u, colour);
+      break;
+    case LegendItem::Mark::square:
+      for (double dy = -4.0 * u; dy <= 4.0 * u; dy += 0.5) {
+        draw_line(image, {middle - 4.0 * u, y + dy}, {middle + 4.0 * u, y + dy}, 1.0, colour);
+      }
+      break;
+  }
+}
+
+// From the right, the last item lowest; a row that meets the scale makes room above.
+void draw_legend(Image& image, const std::vector<LegendItem>& legend, double u, double bottom,
+                 double left_limit) {
+  double right = image.width_px - kBorder * u;
+  double y = bottom;
+  bool is_row_empty = true;
+  for (std::size_t i = legend.size(); i-- > 0;) {
+    const LegendItem& item = legend[i];
+    const double width = item_width(item) * u;
+    const double limit = y == bottom ? left_limit + kGap * u : kBorder * u;
+    if (!is_row_empty && right - width < limit) {
+      right = image.width_px - kBorder * u;
+      y -= kRow * u;
+    }
+    double x = right - width;
+    if (!item.label_before.empty()) {
+      x = draw_text(image, item.label_before, x, y + 5.0 * u, kLetter * u, kInk) + 10.0 * u;
+    }
+    draw_mark(image, item, x, y, u);
+    draw_text(image, item.label, x + (mark_width(item) + 10.0) * u, y + 5.0 * u, kLetter * u, kInk,
+              kHalo * u);
+    right -= width + kGap * u;
+    is_row_empty = false;
+  }
+}
+
+}  // namespace
+
+double layout_unit_px(int width_px, int height_px) {
+  return std::max(0.7, std::min(width_px / 1280.0, height_px / 720.0));
+}
+
+bool fits_caption(int width_px, int height_px) { return width_px >= 320 && height_px >= 240; }
+
+FrameMargins caption_margins(int width_px, int height_px, int legend_rows) {
+  const double u = layout_unit_px(width_px, height_px) / height_px;
+  // the title fills a corner that wide pictures leave free anyway
+  const bool is_wide = 3 * width_px > 4 * height_px;
+  FrameMargins margins;
+  margins.top = (is_wide ? 34.0 : 82.0) * u;
+  margins.bottom = (24.0 + kRow * legend_rows) * u;
+  return margins;
+}
+
+double px_per_m_at_focus(const RenderView& view) {
+  return 0.5 * view.height_px / std::tan(0.5 * view.fov_y_rad) / view.focus_m;
+}
+
+void draw_caption(Image& image, const Caption& caption, const RenderView& view) {
+  const double u = layout_unit_px(image.width_px, image.height_px);
+  const double bottom = image.height_px - 24.0 * u;
+  draw_text(image, caption.title, kBorder * u, 40.0 * u, 15.0 * u, kInk, kHalo * u);
+  draw_text(image, caption.detail, kBorder * u, 64.0 * u, kLetter * u, kPaleInk, kHalo * u);
+  const double scale_end = caption.has_scale ? draw_scale(image, view, u, bottom) : 0.0;
+  draw_legend(image, caption.legend, u, bottom, scale_end);
+}
+
+}  // namespace gnbv

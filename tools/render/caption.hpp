@@ -1,0 +1,47 @@
+// Title, figures, legend and scale of a finished picture.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/render/lettering.hpp"
+#include "tools/render/view.hpp"
+
+namespace gnbv {
+
+constexpr Rgb8 kInk = {38, 44, 54};
+constexpr Rgb8 kPaleInk = {92, 100, 112};
+
+/// What one colour, or one run of colours, means.
+struct LegendItem {
+  enum class Mark { line, dot, square };
+  std::string label = {};
+  std::vector<Rgb> colours = {};  // one, or those of a bar from its low end to its high end
+  Mark mark = Mark::square;       // of a single colour
+  std::string label_before = {};  // of a bar: at its low end
+};
+
+struct Caption {
+  std::string title;
+  std::string detail;              // one line under the title
+  std::vector<LegendItem> legend;  // from left to right
+  bool has_scale = true;
+};
+
+/// Pixels of a 1280 x 720 picture, in which everything is laid out; small pictures are coarser.
+double layout_unit_px(int width_px, int height_px);
+
+/// Whether a picture is large enough for words.
+bool fits_caption(int width_px, int height_px);
+
+/// Borders that leave room for a caption whose legend takes `legend_rows` rows.
+FrameMargins caption_margins(int width_px, int height_px, int legend_rows = 1);
+
+/// Pixels a metre at the depth of the view's subject.
+double px_per_m_at_focus(const RenderView& view);
+
+/// Title and figures at the top left, the scale at the bottom left (true at the focus of `view`),
+/// the legend at the bottom right, in as many rows as it needs.
+void draw_caption(Image& image, const Caption& caption, const RenderView& view);
+
+}  // namespace gnbv

@@ -1,0 +1,77 @@
+// What every kind of picture of a run has in common. A kind is three functions of a run: what to
+// frame, and what to draw when the camera is known.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/render/caption.hpp"
+#include "tools/render/run_source.hpp"
+#include "tools/render/scene.hpp"
+
+namespace gnbv {
+
+/// What a user may choose.
+struct PictureOptions {
+  int width_px = 1280;
+  int height_px = 720;
+  ViewAngles angles;
+  std::optional<RenderView> camera;  // instead of the angles: its pose and opening
+  std::optional<int> iteration;      // of a view; nothing: the last one, or as the kind says
+  int every = 0;             // draw each n-th frustum, take each n-th snapshot; 0: by itself
+  bool has_profile = false;  // show the profile's flight, wide around the structure
+  bool has_caption = true;   // pictures under 320 x 240 px never have one
+  std::string title;         // empty: scenario and utility
+};
+
+/// One scene of a picture that may hold several, side by side.
+struct Panel {
+  RenderScene scene;
+  std::string note = {};  // over the panel
+};
+
+struct Picture {
+  std::vector<Panel> panels = {};
+  std::string detail = {};  // one line of figures
+  std::vector<LegendItem> legend = {};
+};
+
+struct PictureKind {
+  std::string_view name;  // also of the file
+  std::string_view shows;
+  int panels = 1;
+  int legend_rows = 1;
+  /// Appends the points that have to be seen.
+  void (*frame)(RunSource& run, const PictureOptions& options, std::vector<Vec3>& points_world_m);
+  /// Lines are as thick as suits `view`. Throws BadInput naming what is missing.
+  Picture (*draw)(RunSource& run, const PictureOptions& options, const RenderView& view);
+};
+
+// one file each: picture_NAME.cpp
+extern const PictureKind kPathPicture;
+extern const PictureKind kProfilePicture;
+extern const PictureKind kCloudPicture;
+extern const PictureKind kCoveragePicture;
+extern const PictureKind kVoxelsPicture;
+extern const PictureKind kCandidatesPicture;
+
+/// Metres, at the view's subject, of a layout unit (caption.hpp).
+double layout_unit_m(const RenderView& view);
+
+/// The view that was asked for. Throws BadInput naming --iteration for one that the run did not
+/// take, or a run without views.
+std::size_t iteration_of(const RunRecord& record, const PictureOptions& options,
+                         std::size_t otherwise);
+
+/// Frames the structure.
+void frame_structure(RunSource& run, std::vector<Vec3>& points_world_m);
+
+/// The structure's surface in its own colours, and the ground if the scenario has one.
+void add_structure(RunSource& run, RenderScene& scene);
+/// The same as a pale ghost.
+void add_ghost(RunSource& run, float opacity, RenderScene& scene);
+void add_ground(RunSource& run, RenderScene& scene);
+
+}  // namespace gnbv

@@ -1,0 +1,149 @@
+#include "tools/render/pictures.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "sim/core/error.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr std::array<const PictureKind*, 6> kKinds = {&kPathPicture,   &kProfilePicture,
+                                                      &kCloudPicture,  &kCoveragePicture,
+                                                      &kVoxelsPicture, &kCandidatesPicture};
+
+bool has_caption(const PictureOptions& options) {
+  return options.has_caption && fits_caption(options.width_px, options.height_px);
+}
+
+// What lies beyond the right and the lower border is cut off.
+void paste(const Image& image, int x, int y, Image& onto) {
+  const int columns = std::min(image.width_px, onto.width_px - x);
+  for (int row = 0; row < std::min(image.height_px, onto.height_px - y); ++row) {
+    const auto from = image.rgb.begin() + 3 * static_cast<std::ptrdiff_t>(row) * image.width_px;
+    std::copy_n(from, 3 * columns,
+                onto.rgb.begin() + 3 * (static_cast<std::ptrdiff_t>(y + row) * onto.width_px + x));
+  }
+}
+
+Image blank(int width_px, int height_px) {
+  Image image{width_px, height_px, {}};
+  image.rgb.assign(3 * static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px),
+                   255);
+  return image;
+}
+
+// What a panel leaves free for the words on the whole picture.
+FrameMargins margins_of(const PictureKind& kind, const PictureOptions& options,
+                        const PanelLayout& layout) {
+  if (!has_caption(options)) return {};
+  FrameMargins margins = caption_margins(options.width_px, options.height_px, kind.legend_rows);
+  if (kind.panels > 1) {  // a note over each panel, the title over the first row's
+    const double u = layout_unit_px(options.width_px, options.height_px);
+    margins.top = 100.0 * u / layout.view.height_px;
+    margins.bottom *= static_cast<double>(options.height_px) / layout.view.height_px;
+  }
+  return margins;
+}
+
+// Whether something that has to be seen lies behind the title.
+bool meets_title(const RenderView& view, const std::vector<Vec3>& points_world_m) {
+  const double u = layout_unit_px(view.width_px, view.height_px);
+  return std::any_of(points_world_m.begin(), points_world_m.end(), [&](const Vec3& p_world_m) {
+    const std::optional<Vec3> p = project(view, p_world_m);
+    return p && p->x() < 520.0 * u && p->y() < 78.0 * u;
+  });
+}
+
+RenderView frame(const PictureOptions& options, const std::vector<Vec3>& points_world_m,
+                 FrameMargins margins, int width_px, int height_px) {
+  RenderView view = frame_points(points_world_m, options.angles, width_px, height_px, margins);
+  if (has_caption(options) && meets_title(view, points_world_m)) {
+    margins.top = std::max(margins.top, 82.0 * layout_unit_px(width_px, height_px) / height_px);
+    view = frame_points(points_world_m, options.angles, width_px, height_px, margins);
+  }
+  if (!options.camera) return view;
+  view.T_world_camera = options.camera->T_world_camera;
+  view.fov_y_rad = options.camera->fov_y_rad;
+  view.focus_m = options.camera->focus_m;
+  return view;
+}
+
+}  // namespace
+
+std::span<const PictureKind* const> picture_kinds() { return kKinds; }
+
+const PictureKind& picture_kind(std::string_view name) {
+  std::string names;
+  for (const PictureKind* kind : kKinds) {
+    if (kind->name == name) return *kind;
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", kind->name);
+  }
+  throw BadInput(fmt::format("--what {}: no such picture; there are {}, snapshots, movie and all",
+                             name, names));
+}
+
+PanelLayout lay_out(const PictureKind& kind, std::span<RunSource* const> runs,
+                    const PictureOptions& options) {
+  std::vector<Vec3> points;
+  for (RunSource* const run : runs) kind.frame(*run, options, points);
+  PanelLayout best;
+  for (int columns = 1; columns <= kind.panels; ++columns) {
+    PanelLayout layout{
+        .columns = columns, .rows = (kind.panels + columns - 1) / columns, .view = {}};
+    layout.view.width_px = (options.width_px + columns - 1) / columns;
+    layout.view.height_px = (options.height_px + layout.rows - 1) / layout.rows;
+    layout.view = frame(options, points, margins_of(kind, options, layout), layout.view.width_px,
+                        layout.view.height_px);
+    const bool is_larger =
+        columns == 1 || px_per_m_at_focus(layout.view) > px_per_m_at_focus(best.view);
+    if (is_larger) best = layout;
+  }
+  return best;
+}
+
+Image draw_picture(const PictureKind& kind, RunSource& run, const PictureOptions& options,
+                   const PanelLayout& layout, Renderer& renderer) {
+  return draw_picture(kind.draw(run, options, layout.view), run, options, layout, renderer);
+}
+
+Image draw_picture(const Picture& picture, const RunSource& run, const PictureOptions& options,
+                   const PanelLayout& layout, Renderer& renderer) {
+  const double u = layout_unit_px(options.width_px, options.height_px);
+  Image image = blank(options.width_px, options.height_px);
+  for (std::size_t i = 0; i < picture.panels.size(); ++i) {
+    const int x = static_cast<int>(i) % layout.columns * layout.view.width_px;
+    const int y = static_cast<int>(i) / layout.columns * layout.view.height_px;
+    Image panel = renderer.render(picture.panels[i].scene, layout.view);
+    if (has_caption(options)) {
+      draw_text(panel, picture.panels[i].note, 26.0 * u, 92.0 * u, 11.0 * u, kInk, 2.5 * u);
+    }
+    if (x > 0) draw_line(panel, {0.0, 0.0}, {0.0, 1.0 * panel.height_px}, 3.0 * u, {255, 255, 255});
+    if (y > 0) draw_line(panel, {0.0, 0.0}, {1.0 * panel.width_px, 0.0}, 3.0 * u, {255, 255, 255});
+    paste(panel, x, y, image);
+  }
+  if (!has_caption(options)) return image;
+  draw_caption(image,
+               {.title = options.title.empty() ? run_title(run.record()) : options.title,
+                .detail = picture.detail,
+                .legend = picture.legend},
+               layout.view);
+  return image;
+}
+
+Image contact_sheet(std::span<const Image> images, int columns) {
+  GNBV_CHECK(!images.empty() && columns > 0, "{} images in {} columns", images.size(), columns);
+  const int rows = (static_cast<int>(images.size()) + columns - 1) / columns;
+  const int width_px = images.front().width_px;
+  const int height_px = images.front().height_px;
+  Image sheet = blank(columns * width_px, rows * height_px);
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    GNBV_CHECK(images[i].width_px == width_px && images[i].height_px == height_px,
+               "image {} is of another size", i);
+    paste(images[i], static_cast<int>(i) % columns * width_px,
+          static_cast<int>(i) / columns * height_px, sheet);
+  }
+  return sheet;
+}
+
+}  // namespace gnbv

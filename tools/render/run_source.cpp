@@ -1,0 +1,91 @@
+#include "tools/render/run_source.hpp"
+
+#include <array>
+#include <utility>
+
+#include "sim/core/error.hpp"
+#include "tools/mission/load_world.hpp"
+#include "tools/record/candidates_record.hpp"
+
+namespace gnbv {
+
+RunSource::RunSource(const std::filesystem::path& folder, int threads, SourceProgress on_progress)
+    : record_(read_run(folder)), threads_(threads), on_progress_(std::move(on_progress)) {}
+
+RunSource::RunSource(RunRecord record, World world)
+    : record_(std::move(record)), world_(std::move(world)) {}
+
+const World& RunSource::world() {
+  if (!world_) {
+    std::vector<std::string> told_by_run;  // the mesh's faults were told when it was flown
+    world_ = load_world(record_.scenario, told_by_run);
+  }
+  return *world_;
+}
+
+const RayScene& RunSource::scene() {
+  if (!scene_) scene_.emplace(world());
+  return *scene_;
+}
+
+const RunCloud& RunSource::cloud() {
+  if (!cloud_) cloud_ = read_run_cloud(record_);
+  return *cloud_;
+}
+
+const SurfaceReference& RunSource::reference() {
+  if (!reference_) {
+    on_progress_(0.0, "true surface");
+    reference_ = cached_surface_reference(
+        world(), scene(), {.floor_z_m = record_.scenario.planner.floor_z_m}, threads_);
+  }
+  return *reference_;
+}
+
+RecordedMission RunSource::mission(const std::string& note) {
+  return {.scenario = record_.scenario,
+          .world = world(),
+          .scene = scene(),
+          .views = record_.views,
+          .threads = threads_,
+          .on_progress = [this, note](double share) { on_progress_(share, note); }};
+}
+
+const std::vector<ProfileStage>& RunSource::profile() {
+  if (!profile_) {
+    constexpr std::array<std::size_t, 3> kWaypoints = {1, 3, 8};
+    profile_ = replay_profile(mission("flying the profile again"), kWaypoints);
+    if (profile_->empty()) {
+      throw BadInput(
+          fmt::format("{}: flew no profile of its own: planner.profiling.method is none "
+                      "or saved; `gnbv run {} --set "
+                      "planner.profiling.method=bounding_box --out NEW` flies one",
+                      record_.folder.string(), (record_.folder / "scenario.yaml").string()));
+    }
+  }
+  return *profile_;
+}
+
+const Belief& RunSource::belief_after(std::size_t iteration) {
+  if (!belief_ || belief_->first != iteration) {
+    belief_.reset();  // two maps at once may be too large
+    belief_.emplace(
+        iteration,
+        replay_belief(mission(fmt::format("flying again to view {}", iteration)), iteration));
+  }
+  return belief_->second;
+}
+
+const ReplayedDecision& RunSource::decision(std::size_t iteration) {
+  if (!decision_ || decision_->first != iteration) {
+    decision_.reset();
+    std::optional<Plan> plan = read_candidates(record_.folder, iteration);
+    const RecordedMission again = mission(fmt::format("flying again to view {}", iteration));
+    decision_.emplace(iteration,
+                      plan ? ReplayedDecision{replay_belief(again, iteration - 1), std::move(*plan)}
+                           : replay_decision(again, iteration));
+  }
+  return decision_->second;
+}
+
+}  // namespace gnbv

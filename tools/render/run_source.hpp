@@ -1,0 +1,57 @@
+// All that pictures of one run are made of, read or flown again when it is first asked for.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "bench/surface_reference.hpp"
+#include "tools/mission/replay.hpp"
+#include "tools/record/run_record.hpp"
+
+namespace gnbv {
+
+/// Told while a mission is flown again.
+using SourceProgress = std::function<void(double share_done, const std::string& note)>;
+
+class RunSource {
+ public:
+  /// Reads the run's record. Throws BadInput as read_run().
+  RunSource(const std::filesystem::path& folder, int threads, SourceProgress on_progress);
+  /// A record from elsewhere, with its structure.
+  RunSource(RunRecord record, World world);
+
+  const RunRecord& record() const { return record_; }
+  int threads() const { return threads_; }
+
+  /// The structure and the ground that the scenario names. Throw BadInput when they cannot be had.
+  const World& world();
+  const RayScene& scene();
+  /// Throws BadInput as read_run_cloud().
+  const RunCloud& cloud();
+  /// What coverage is measured against.
+  const SurfaceReference& reference();
+
+  /// The profile after 1, 3 and 8 waypoints (Fig. 4). Throws BadInput for a run that flew none.
+  const std::vector<ProfileStage>& profile();
+  /// What was believed after a view. Throws BadInput as replay_belief().
+  const Belief& belief_after(std::size_t iteration);
+  /// The decision that chose a view: its candidates are those of candidates.jsonl where the run has
+  /// one, or else planned again. Throws BadInput as replay_decision().
+  const ReplayedDecision& decision(std::size_t iteration);
+
+ private:
+  RecordedMission mission(const std::string& note);
+
+  RunRecord record_;
+  int threads_ = 1;
+  SourceProgress on_progress_ = [](double, const std::string&) {};
+  std::optional<World> world_;
+  std::optional<RayScene> scene_;
+  std::optional<RunCloud> cloud_;
+  std::optional<SurfaceReference> reference_;
+  std::optional<std::vector<ProfileStage>> profile_;
+  std::optional<std::pair<std::size_t, Belief>> belief_;  // the one last asked for
+  std::optional<std::pair<std::size_t, ReplayedDecision>> decision_;
+};
+
+}  // namespace gnbv

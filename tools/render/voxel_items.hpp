@@ -1,0 +1,32 @@
+// Voxels of the map as things to draw.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "planner/map/occupancy_grid.hpp"
+#include "tools/render/scene.hpp"
+
+namespace gnbv {
+
+/// Voxels to tell apart, each list in ascending order.
+struct SortedVoxels {
+  std::vector<VoxelIndex> occupied;
+  std::vector<VoxelIndex> predicted;  // by symmetry, never measured
+  /// Unknown, next to a free one (by a face) and at most kNearSurface_voxels from an occupied or
+  /// predicted one: what is left to find out, not all that was never looked at.
+  std::vector<VoxelIndex> unknown;
+};
+constexpr int kNearSurface_voxels = 3;
+
+SortedVoxels sort_voxels(const OccupancyGrid& grid);
+
+/// A cube a voxel, `share` of it wide; colours (n), or one for all.
+SurfaceItem voxel_cubes(const GridGeometry& geometry, std::span<const VoxelIndex> voxels,
+                        std::span<const Rgb> colours, double share = 0.9);
+
+/// The faces that part the voxels from free ones, as a ghost.
+SurfaceItem free_faces(const OccupancyGrid& grid, std::span<const VoxelIndex> voxels,
+                       const Rgb& colour, float opacity);
+
+}  // namespace gnbv
