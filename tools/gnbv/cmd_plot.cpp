@@ -29,11 +29,6 @@ struct PlotOptions {
   bool keep = false;
 };
 
-struct Plot {
-  std::string name;  // of its files, without extension
-  std::string body;
-};
-
 /// The runs in a folder of runs (a sweep's are in cells/), by name; the folder itself when it is a
 /// run, or holds none.
 std::vector<fs::path> runs_in(const fs::path& folder) {
@@ -78,9 +73,10 @@ std::string file_name(const std::string& plot, const RunRecord& record, std::siz
 std::vector<Plot> plots_of_runs(const PlotOptions& options, const std::vector<RunRecord>& records) {
   std::vector<Plot> plots;
   std::set<std::string> taken;
-  const auto add = [&](const char* what, const RunRecord& record, std::optional<std::string> body) {
-    if (body) {
-      plots.push_back({file_name(what, record, records.size(), taken), std::move(*body)});
+  const auto add = [&](const char* what, const RunRecord& record, std::optional<Plot> plot) {
+    if (plot) {
+      plot->name = file_name(what, record, records.size(), taken);
+      plots.push_back(std::move(*plot));
     } else {
       fmt::print(stderr, "gnbv: {}: no views to plot as {}\n", record.folder.string(), what);
     }
@@ -99,9 +95,8 @@ std::vector<Plot> plots_of_coverage(const PlotOptions& options,
   for (const std::string& note : notes) fmt::print(stderr, "gnbv: {}\n", note);
   if (groups.empty()) return {};
   const std::size_t size = options.voxel_m == "0.05" ? 0 : options.voxel_m == "0.10" ? 1 : 2;
-  return {{"coverage-views", coverage_plot(groups, Effort::views, size)},
-          {"coverage-metres", coverage_plot(groups, Effort::metres, size)},
-          {"coverage-seconds", coverage_plot(groups, Effort::seconds, size)}};
+  return {coverage_plot(groups, Effort::views, size), coverage_plot(groups, Effort::metres, size),
+          coverage_plot(groups, Effort::seconds, size)};
 }
 
 void draw(const PlotOptions& options, const Plot& plot, const fs::path& folder) {
@@ -109,7 +104,7 @@ void draw(const PlotOptions& options, const Plot& plot, const fs::path& folder) 
     if (std::find(options.formats.begin(), options.formats.end(), name) == options.formats.end()) {
       continue;
     }
-    const std::string script = plot_script(plot.body, format, options.size);
+    const std::string script = plot_script(plot, format, options.size);
     const fs::path picture = folder / (plot.name + "." + name);
     draw_plot(script, picture);
     fmt::print("{}\n", picture.string());
@@ -166,9 +161,10 @@ void add_plot_command(CLI::App& app) {
                    "in pixels; 1512 is one column of a paper at 432 dots an inch")
       ->check(CLI::Range(200, 8192))
       ->capture_default_str();
-  command->add_option("--height,--height-px", options->size.height_px, "in pixels")
-      ->check(CLI::Range(150, 8192))
-      ->capture_default_str();
+  command
+      ->add_option("--height,--height-px", options->size.height_px,
+                   "in pixels (default: what each plot asks for)")
+      ->check(CLI::Range(150, 8192));
   command->add_flag("--keep", options->keep,
                     "also write the scripts with their data, to restyle: gnuplot X.gp > X");
   command->callback([options] { plot(*options); });

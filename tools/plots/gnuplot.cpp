@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <memory>
@@ -26,7 +27,7 @@ constexpr const char* kStyle =
 set border 3 lc rgb '#5c6470' lw 0.8
 set tics out nomirror scale 0.5 textcolor rgb '#3a424d'
 set grid lc rgb '#e4e7eb' lt 1 dt 1 lw 0.7
-set key textcolor rgb '#262c36' samplen 1.6 spacing 1.05
+set key textcolor rgb '#262c36' samplen 1.4 spacing 1.05 reverse Left
 set xlabel textcolor rgb '#262c36' offset 0,0.4
 set ylabel textcolor rgb '#262c36'
 )";
@@ -116,31 +117,34 @@ std::string gnuplot_text(std::string_view text) {
   return quoted + "'";
 }
 
-std::string plot_script(const std::string& body, PlotFormat format, const PlotSize& size) {
+std::string plot_script(const Plot& plot, PlotFormat format, const PlotSize& size) {
   const double scale = size.width_px / kColumn_px;
+  const int height_px =
+      size.height_px > 0 ? size.height_px : static_cast<int>(std::lround(scale * plot.height_px));
   std::string terminal;
   switch (format) {
     case PlotFormat::svg:
       terminal = fmt::format(
-          "svg noenhanced size {},{} fixed background rgb 'white' font "
+          "svg noenhanced rounded size {},{} fixed background rgb 'white' font "
           "'Helvetica,Arial,sans-serif' "
           "fontscale {:.4f} linewidth {:.4f}",
-          size.width_px, size.height_px, 4.0 * scale, 4.5 * scale);
+          size.width_px, height_px, 3.5 * scale, 4.5 * scale);
       break;
     case PlotFormat::png:
       terminal = fmt::format(
-          "pngcairo noenhanced size {},{} background rgb 'white' font 'Sans,12' fontscale {:.4f} "
+          "pngcairo noenhanced rounded size {},{} background rgb 'white' font 'Sans,12' fontscale "
+          "{:.4f} "
           "linewidth {:.4f} pointscale {:.4f}",
-          size.width_px, size.height_px, 3.0 * scale, 4.5 * scale, 4.0 * scale);
+          size.width_px, height_px, 2.625 * scale, 4.5 * scale, 4.0 * scale);
       break;
     case PlotFormat::pdf:
       terminal = fmt::format(
-          "pdfcairo noenhanced size {:.4f}in,{:.4f}in background rgb 'white' font 'Sans,8' "
+          "pdfcairo noenhanced rounded size {:.4f}in,{:.4f}in background rgb 'white' font 'Sans,7' "
           "fontscale {:.4f} linewidth {:.4f}",
-          kColumn_in * scale, kColumn_in * size.height_px / kColumn_px, scale, scale);
+          kColumn_in * scale, kColumn_in * height_px / kColumn_px, scale, scale);
       break;
   }
-  return "set terminal " + terminal + "\n" + kStyle + body;
+  return "set terminal " + terminal + "\n" + kStyle + plot.body;
 }
 
 void draw_plot(const std::string& script, const std::filesystem::path& picture) {

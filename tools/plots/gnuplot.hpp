@@ -10,10 +10,17 @@ namespace gnbv {
 enum class PlotFormat { svg, png, pdf };
 
 /// A width of 1512 pixels is one column of a paper: 3.5 inches at 432 dots an inch, with letters of
-/// 8 points. Letters and lines grow with the width.
+/// 7 points. Letters and lines grow with the width.
 struct PlotSize {
   int width_px = 1512;
-  int height_px = 1050;
+  int height_px = 0;  // 0: what the plot asks for
+};
+
+/// A picture to be drawn.
+struct Plot {
+  std::string name;      // of its file, without extension
+  std::string body;      // of its script: sets titles and data and plots
+  int height_px = 1050;  // when it is 1512 wide
 };
 
 /// The text as a string of gnuplot's language that means nothing but itself: in single quotes,
@@ -21,9 +28,8 @@ struct PlotSize {
 /// text is off, as plot_script() has it.
 std::string gnuplot_text(std::string_view text);
 
-/// A whole script: terminal, style, then `body`, which sets titles and data and plots. It prints
-/// the picture to stdout.
-std::string plot_script(const std::string& body, PlotFormat format, const PlotSize& size);
+/// A whole script: terminal, style, body. It prints the picture to stdout.
+std::string plot_script(const Plot& plot, PlotFormat format, const PlotSize& size);
 
 /// Draws it; the picture appears by rename. Throws BadInput when gnuplot is not installed, naming
 /// its package, or when the path cannot be written; BrokenInvariant with gnuplot's words when it

@@ -23,12 +23,20 @@ std::string shaded_phases(const std::vector<Phase>& phases);
 /// The entry that explains them, to follow other entries of a plot command; empty without phases.
 std::string key_of_phases(const std::vector<Phase>& phases);
 
-/// Panels one above the other with the same width and one x axis, labelled below the last one.
+/// Settings of a y axis: from `low` to `high`, widened to whole steps, of which there are some
+/// four. Requires low <= high.
+std::string y_axis(double low, double high);
+
+/// The height of a picture of so many panels that is 1512 pixels wide.
+int panels_height_px(std::size_t count);
+
+/// Panels one above the other with the same width and one x axis, labelled below the last one. Each
+/// has a heading, and beside that a key of one row.
 class Panels {
  public:
   Panels(std::size_t count, std::string_view title, std::string_view x_label);
   /// The settings of the next panel, to stand before its plot command.
-  std::string next(std::string_view y_label);
+  std::string next(std::string_view heading);
 
  private:
   std::size_t count_;
