@@ -2,7 +2,9 @@
 
 #include <octomap/octomap.h>
 
+#include <cmath>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <string_view>
 
@@ -54,6 +56,22 @@ void write_header(std::ostream& out, std::string_view first_line, const octomap:
       << "\nres " << fmt::format("{}", tree.getResolution()) << "\ndata\n";
 }
 
+/// The resolution, with the data next. OctoMap's own readers print to stderr, too.
+double read_header(std::istream& in, const std::filesystem::path& path) {
+  std::string line;
+  double resolution_m = 0.0;
+  bool is_tree = false;
+  while (std::getline(in, line) && line != "data") {
+    std::istringstream words(line);
+    std::string key;
+    words >> key;
+    if (key == "res") words >> resolution_m;
+    if (key == "id") is_tree = line == "id OcTree";
+  }
+  if (in && is_tree && resolution_m > 0.0) return resolution_m;
+  throw BadInput(fmt::format("{}: is no map of OctoMap's binary format", path.string()));
+}
+
 template <typename Write>
 void write_by_rename(const std::filesystem::path& path, const Write& write) {
   write_file_atomically(path, [&](const std::filesystem::path& part) {
@@ -80,6 +98,29 @@ void write_octomap(const OccupancyGrid& grid, const std::filesystem::path& stem)
     write_header(out, "# Octomap OcTree binary file", tree);
     tree.writeBinaryData(out);
   });
+}
+
+MeasuredVoxels read_octomap(const std::filesystem::path& bt) {
+  std::ifstream in(bt, std::ios::binary);
+  MeasuredVoxels voxels{.voxel_m = read_header(in, bt)};
+  octomap::OcTree tree(voxels.voxel_m);
+  tree.readBinaryData(in);
+  if (!in) throw BadInput(fmt::format("{}: ends too early", bt.string()));
+  const octomap::OcTree& measured = tree;
+  for (auto leaf = measured.begin_leafs(); leaf != measured.end_leafs(); ++leaf) {
+    const auto edge = static_cast<int>(std::lround(leaf.getSize() / voxels.voxel_m));
+    if (!measured.isNodeOccupied(*leaf)) {
+      voxels.free_voxels += static_cast<std::size_t>(edge) * edge * edge;
+      continue;
+    }
+    const Vec3 first(leaf.getX(), leaf.getY(), leaf.getZ());
+    for (int i = 0; i < edge * edge * edge; ++i) {
+      const Vec3 step(i % edge, i / edge % edge, i / edge / edge);
+      const Vec3 centre = first + voxels.voxel_m * (step - Vec3::Constant(0.5 * (edge - 1)));
+      voxels.occupied_world_m.push_back(centre.cast<float>());
+    }
+  }
+  return voxels;
 }
 
 }  // namespace gnbv

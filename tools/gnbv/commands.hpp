@@ -32,6 +32,8 @@ void add_run_command(CLI::App& app);
 void add_sweep_command(CLI::App& app);
 void add_table_command(CLI::App& app);
 void add_ceiling_command(CLI::App& app);
+void add_export_command(CLI::App& app);
+void add_plot_command(CLI::App& app);
 void add_render_command(CLI::App& app);
 void add_asset_command(CLI::App& app);
 void add_lint_command(CLI::App& app);

@@ -1,0 +1,134 @@
+#include "tools/exports/colmap.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+#include <string>
+
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "tools/exports/export_folder.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kReadme =
+    R"(A gnbv run as a COLMAP model with known poses.
+
+sparse/0/cameras.txt   PINHOLE fx fy cx cy in pixels; the centre of the first pixel is (0.5, 0.5)
+sparse/0/images.txt    world to camera (x right, y down, z forward), world ENU in metres
+sparse/0/points3D.txt  points of the run's cloud, with the images whose depth shows them
+images/CAMERA/N.png    colour of view N; the depth images are in the run's folder frames/
+
+The keypoints in images.txt are projections of the points, not detected features: their
+reprojection error is 0. To work with features instead:
+
+  colmap feature_extractor --database_path d.db --image_path images \
+    --ImageReader.single_camera_per_folder 1 --ImageReader.camera_model PINHOLE
+  colmap exhaustive_matcher --database_path d.db
+  mkdir triangulated && colmap point_triangulator --database_path d.db --image_path images \
+    --input_path sparse/0 --output_path triangulated --clear_points 1
+
+The database numbers images and camera folders as this model does; with one camera, add
+--ImageReader.camera_params and its line of cameras.txt, so that the matcher knows it, too.
+)";
+
+std::string image_name(const FrameRecord& frames, const RecordedFrame& frame) {
+  return fmt::format("{}/{}.png", file_word(frames.cameras[frame.camera]), frame_number(frame));
+}
+
+/// The frames in the order of their names: COLMAP's own programs number images so, from 1.
+std::vector<std::size_t> frames_by_name(const FrameRecord& frames) {
+  std::vector<std::size_t> order(frames.frames.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return image_name(frames, frames.frames[a]) < image_name(frames, frames.frames[b]);
+  });
+  return order;
+}
+
+/// Of each camera, from 1: by the names of their folders.
+std::vector<std::size_t> camera_ids(const FrameRecord& frames) {
+  std::vector<std::size_t> ids;
+  for (const FrameCamera& camera : frames.cameras) {
+    ids.push_back(1 + static_cast<std::size_t>(std::count_if(
+                          frames.cameras.begin(), frames.cameras.end(),
+                          [&](const FrameCamera& c) { return c.name < camera.name; })));
+  }
+  return ids;
+}
+
+std::string cameras_text(const FrameRecord& frames, const std::vector<std::size_t>& ids) {
+  std::string text = "# CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]: fx, fy, cx, cy\n";
+  for (std::size_t i = 0; i < frames.cameras.size(); ++i) {
+    const FrameCamera& c = frames.cameras[i];
+    text += fmt::format("{} PINHOLE {} {} {} {} {} {}\n", ids[i], c.width_px, c.height_px, c.fx_px,
+                        c.fy_px, c.cx_px, c.cy_px);
+  }
+  return text;
+}
+
+std::string images_text(const FrameRecord& frames, const SparseModel& model,
+                        const std::vector<std::size_t>& order,
+                        const std::vector<std::size_t>& ids) {
+  std::string text =
+      "# IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME\n# POINTS2D[]: X, Y, POINT3D_ID\n";
+  auto out = std::back_inserter(text);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const RecordedFrame& frame = frames.frames[order[i]];
+    const Isometry T_camera_world = frame.T_world_camera.inverse();
+    const Eigen::Quaterniond q(T_camera_world.linear());
+    const Vec3 t = T_camera_world.translation();
+    fmt::format_to(out, "{} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {} {}\n", i + 1, q.w(),
+                   q.x(), q.y(), q.z(), t.x(), t.y(), t.z(), ids[frame.camera],
+                   image_name(frames, frame));
+    const char* separator = "";
+    for (const Observation& o : model.observations[order[i]]) {
+      fmt::format_to(out, "{}{:.2f} {:.2f} {}", separator, o.u_px, o.v_px, o.point + 1);
+      separator = " ";
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+/// What images_text() says the other way round: each point with image number and index in its list.
+std::string points_text(const SparseModel& model, const std::vector<std::size_t>& order) {
+  std::vector<std::vector<std::pair<std::size_t, std::size_t>>> tracks(model.points_world_m.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const auto& of_frame = model.observations[order[i]];
+    for (std::size_t j = 0; j < of_frame.size(); ++j)
+      tracks[of_frame[j].point].push_back({i + 1, j});
+  }
+  std::string text = "# POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[]: IMAGE_ID, POINT2D_IDX\n";
+  auto out = std::back_inserter(text);
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    const Vec3f& p = model.points_world_m[i];
+    const Rgb24& c = model.colours[i];
+    fmt::format_to(out, "{} {:.6f} {:.6f} {:.6f} {} {} {} 0", i + 1, p.x(), p.y(), p.z(), c[0],
+                   c[1], c[2]);
+    for (const auto& [image, index] : tracks[i]) fmt::format_to(out, " {} {}", image, index);
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace
+
+void write_colmap(const FrameRecord& frames, const SparseModel& model, const fs::path& folder) {
+  const std::vector<std::size_t> order = frames_by_name(frames);
+  const std::vector<std::size_t> ids = camera_ids(frames);
+  const fs::path sparse = folder / "sparse" / "0";
+  fs::create_directories(sparse);
+  write_file_atomically(sparse / "cameras.txt", cameras_text(frames, ids));
+  write_file_atomically(sparse / "images.txt", images_text(frames, model, order, ids));
+  write_file_atomically(sparse / "points3D.txt", points_text(model, order));
+  write_file_atomically(folder / "README.txt", kReadme);
+  for (const RecordedFrame& frame : frames.frames) {
+    link_or_copy(frame.colour, folder / "images" / image_name(frames, frame));
+  }
+}
+
+}  // namespace gnbv

@@ -1,0 +1,31 @@
+// Folders of files for other programs, that are either whole or not there.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string_view>
+
+#include "tools/record/frame_record.hpp"
+#include "tools/record/run_record.hpp"
+
+namespace gnbv {
+
+/// Fills a folder beside `folder`, which then takes that name: nobody sees a part of it. It also
+/// gets gnbv-export.json, which says what it is. Takes the place of an earlier export or of an
+/// empty folder; throws BadInput naming `folder` when anything else is there, before `fill` runs,
+/// or when it cannot be written.
+void write_export_folder(const RunRecord& record, std::string_view format,
+                         const std::filesystem::path& folder,
+                         const std::function<void(const std::filesystem::path&)>& fill);
+
+/// Gives `file` a second name: a hard link where the file system can, else a copy. Makes the
+/// folders above it. Throws BadInput naming the path.
+void link_or_copy(const std::filesystem::path& file, const std::filesystem::path& second_name);
+
+/// "000007": numbers of one width, so that names sort as the frames were taken.
+std::string frame_number(const RecordedFrame& frame);
+
+/// The camera's name as part of file names. Throws BadInput when it cannot be one.
+std::string file_word(const FrameCamera& camera);
+
+}  // namespace gnbv

@@ -1,0 +1,80 @@
+#include "tools/exports/nerfstudio.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "tools/exports/export_folder.hpp"
+#include "tools/exports/point_ply.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kReadme =
+    R"(A gnbv run as a nerfstudio data set, for example: ns-train depth-nerfacto --data .
+
+transforms.json  camera to world (x right, y up, z back), world ENU in metres as in the run;
+                 applied_transform is therefore the identity; pinhole intrinsics of each frame
+images/          colour, PNG
+depth/           16-bit PNG, along the optical axis; times depth_unit_scale_factor metres, which
+                 is nerfstudio's default; 0 where there is none
+points.ply       coloured points of the run's cloud in the same world, to begin from
+)";
+
+Json matrix_rows(const Eigen::Matrix4d& matrix, int rows) {
+  Json json = Json::array();
+  for (int r = 0; r < rows; ++r) {
+    json.push_back({matrix(r, 0), matrix(r, 1), matrix(r, 2), matrix(r, 3)});
+  }
+  return json;
+}
+
+/// The axes of OpenGL's cameras: y and z of the optical frame turned around.
+Eigen::Matrix4d opengl_pose(const Isometry& T_world_camera) {
+  return T_world_camera.matrix() * Eigen::Vector4d(1, -1, -1, 1).asDiagonal();
+}
+
+double common_depth_scale_m(const FrameRecord& frames) {
+  const double scale_m = frames.cameras.front().depth_scale_m;
+  for (const FrameCamera& c : frames.cameras) {
+    if (c.depth_scale_m == scale_m) continue;
+    throw BadInput(fmt::format(
+        "cameras.json: depth_scale_m of {} is {}, of {} {}: transforms.json has one for all",
+        frames.cameras.front().name, scale_m, c.name, c.depth_scale_m));
+  }
+  return scale_m;
+}
+
+}  // namespace
+
+void write_nerfstudio(const FrameRecord& frames, const SparseModel& model, const fs::path& folder) {
+  Json json = {{"camera_model", "OPENCV"}, {"k1", 0.0}, {"k2", 0.0}, {"p1", 0.0}, {"p2", 0.0}};
+  json["applied_transform"] = matrix_rows(Eigen::Matrix4d::Identity(), 3);
+  json["depth_unit_scale_factor"] = common_depth_scale_m(frames);
+  json["ply_file_path"] = "points.ply";
+  json["frames"] = Json::array();
+  for (const RecordedFrame& frame : frames.frames) {
+    const FrameCamera& c = frames.cameras[frame.camera];
+    const std::string name = fmt::format("{}_{}.png", frame_number(frame), file_word(c));
+    json["frames"].push_back(
+        {{"file_path", "images/" + name},
+         {"depth_file_path", "depth/" + name},
+         {"w", c.width_px},
+         {"h", c.height_px},
+         {"fl_x", c.fx_px},
+         {"fl_y", c.fy_px},
+         {"cx", c.cx_px},
+         {"cy", c.cy_px},
+         {"transform_matrix", matrix_rows(opengl_pose(frame.T_world_camera), 4)}});
+    link_or_copy(frame.colour, folder / "images" / name);
+    link_or_copy(frame.depth, folder / "depth" / name);
+  }
+  write_point_ply(model.points_world_m, model.colours, {}, folder / "points.ply");
+  write_file_atomically(folder / "transforms.json", json.dump(1) + "\n");
+  write_file_atomically(folder / "README.txt", kReadme);
+}
+
+}  // namespace gnbv

@@ -1,0 +1,193 @@
+#include "tools/exports/plain.hpp"
+
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "planner/map/octomap_io.hpp"
+#include "scenarios/load.hpp"
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "tools/exports/export_folder.hpp"
+#include "tools/exports/point_ply.hpp"
+#include "tools/exports/run_poses.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kReadme =
+    R"(A gnbv run as plain files. What the run did not keep is not here.
+
+Frames. World: east, north, up; metres. Body: x forward, y left, z up. Camera: optical frame, x
+right, y down, z forward. A pose is of the named frame in the world: p_world = R(q) p + (x, y, z),
+with the unit quaternion q = (qx, qy, qz, qw). Time is simulated seconds since the mission began.
+
+trajectory.csv   true path of the body at 10 Hz; phase: profile, transfer, views
+views.csv        a row for each view and camera: where body and camera were, why the view was chosen
+                 (sampler, utility and its terms), what was known after it. pose: `believed` is the
+                 vehicle's own estimate when the frame was taken, `planned` the view's goal, where
+                 no frame was kept. entropy_nat: of the whole map; straight_m, flown_m: since the
+                 first view; image, depth: files here
+intrinsics.json  of each camera: pinhole, pixels, the centre of the first pixel at (0.5, 0.5);
+                 T_body_camera row by row; ranges along the optical axis
+images/*.png     colour, sRGB, 8 bits
+depth/*.png      16 bits, millimetres along the optical axis, 0 where there is none
+cloud.ply        the model: x y z (float32, metres), red green blue (grey 128 where no frame shows
+                 the point), view: iteration that brought the point, -1 for the profile
+voxels.ply       centres of the map's occupied voxels (float32, metres)
+map.json         edge of these voxels in metres; how many are occupied, free
+scenario.yaml    the whole configuration; `gnbv run scenario.yaml` flies the mission again
+
+In Python, without our code:
+
+  views = pandas.read_csv("views.csv"); depth = imageio.imread("depth/000000_rgbd.png") / 1000
+  cloud = open3d.io.read_point_cloud("cloud.ply")
+)";
+
+std::string pose_header(std::string_view frame) {
+  return fmt::format("{0}_x_m,{0}_y_m,{0}_z_m,{0}_qx,{0}_qy,{0}_qz,{0}_qw", frame);
+}
+
+std::string pose_cells(const Isometry& T) {
+  const Vec3 p = T.translation();
+  const Eigen::Quaterniond q(T.linear());
+  return fmt::format("{:.6f},{:.6f},{:.6f},{:.9f},{:.9f},{:.9f},{:.9f}", p.x(), p.y(), p.z(), q.x(),
+                     q.y(), q.z(), q.w());
+}
+
+std::string_view phase_at(const RunRecord& record, double time_s) {
+  if (!record.profile_end_s || !record.views_begin_s) return "";
+  if (time_s <= *record.profile_end_s) return "profile";
+  return time_s < *record.views_begin_s ? "transfer" : "views";
+}
+
+std::string trajectory_text(const RunRecord& record) {
+  std::string text = fmt::format("time_s,{},phase\n", pose_header("body"));
+  for (const TrajectorySample& s : record.path) {
+    text += fmt::format("{:.3f},{},{}\n", s.time_s, pose_cells(s.T_world_body),
+                        phase_at(record, s.time_s));
+  }
+  return text;
+}
+
+std::string decision_cells(const ViewRecord& view) {
+  const Decision& d = view.decision;
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", d.sampler, d.scale,
+                     d.candidates, d.valid, d.score.value, d.score.information, d.score.density,
+                     d.score.prediction, d.score.distance, view.entropy_nat,
+                     view.density_points_per_voxel, view.cloud_points, view.straight_m,
+                     view.flown_m, view.time_s);
+}
+
+std::string image_name(const FrameCamera& camera, const RecordedFrame& frame) {
+  return fmt::format("{}_{}.png", frame_number(frame), file_word(camera));
+}
+
+/// The frame of a view and camera; null when none was kept.
+const RecordedFrame* find_frame(const PlainParts& parts, int iteration, const std::string& camera) {
+  if (!parts.frames) return nullptr;
+  for (const RecordedFrame& frame : parts.frames->frames) {
+    if (frame.iteration == iteration && parts.frames->cameras[frame.camera].name == camera) {
+      return &frame;
+    }
+  }
+  return nullptr;
+}
+
+std::string view_row(const ViewRecord& view, const CameraModel& camera,
+                     const RecordedFrame* frame) {
+  const Isometry T_world_camera = frame != nullptr
+                                      ? frame->T_world_camera
+                                      : T_world_body(view.decision.view) * camera.T_body_camera;
+  const std::string name =
+      frame != nullptr ? fmt::format("{}_{}.png", frame_number(*frame), camera.config.name) : "";
+  return fmt::format("{},{},{},{},{},{},{},{}\n", view.iteration, camera.config.name,
+                     frame != nullptr ? "believed" : "planned",
+                     pose_cells(T_world_camera * camera.T_body_camera.inverse()),
+                     pose_cells(T_world_camera), decision_cells(view),
+                     name.empty() ? "" : "images/" + name, name.empty() ? "" : "depth/" + name);
+}
+
+std::string views_text(const RunRecord& record, const PlainParts& parts) {
+  std::string text = fmt::format(
+      "iteration,camera,pose,{},{},sampler,scale,candidates,valid,utility,information,density_term,"
+      "prediction,distance_factor,entropy_nat,density_points_per_voxel,cloud_points,straight_m,"
+      "flown_m,time_s,image,depth\n",
+      pose_header("body"), pose_header("camera"));
+  for (const ViewRecord& view : record.views) {
+    for (const CameraConfig& config : record.scenario.cameras) {
+      text +=
+          view_row(view, make_camera_model(config), find_frame(parts, view.iteration, config.name));
+    }
+  }
+  return text;
+}
+
+std::string intrinsics_text(const RunRecord& record) {
+  Json cameras = Json::array();
+  for (const CameraConfig& config : record.scenario.cameras) {
+    const CameraModel camera = make_camera_model(config);
+    Json T_body_camera = Json::array();
+    for (int r = 0; r < 4; ++r) {
+      const Eigen::RowVector4d row = camera.T_body_camera.matrix().row(r);
+      T_body_camera.push_back({row[0], row[1], row[2], row[3]});
+    }
+    cameras.push_back({{"name", config.name},
+                       {"model", "pinhole"},
+                       {"width_px", config.width_px},
+                       {"height_px", config.height_px},
+                       {"fx_px", camera.fx_px},
+                       {"fy_px", camera.fy_px},
+                       {"cx_px", camera.cx_px},
+                       {"cy_px", camera.cy_px},
+                       {"range_min_m", config.range_min_m},
+                       {"range_max_m", config.range_max_m},
+                       {"depth_scale_m", 0.001},
+                       {"T_body_camera", T_body_camera}});
+  }
+  return Json{{"cameras", cameras}}.dump(2) + "\n";
+}
+
+void link_images(const FrameRecord& frames, const fs::path& folder) {
+  for (const RecordedFrame& frame : frames.frames) {
+    const std::string name = image_name(frames.cameras[frame.camera], frame);
+    link_or_copy(frame.colour, folder / "images" / name);
+    link_or_copy(frame.depth, folder / "depth" / name);
+  }
+}
+
+void write_cloud(const RunCloud& cloud, const std::vector<Rgb24>& colours, const fs::path& path) {
+  std::vector<std::int32_t> views;
+  views.reserve(cloud.points_world_m.size());
+  for (std::size_t i = 0; i < cloud.points_world_m.size(); ++i) views.push_back(cloud.view_of(i));
+  write_point_ply(cloud.points_world_m, colours, views, path);
+}
+
+void write_map(const fs::path& octomap, const fs::path& folder) {
+  const MeasuredVoxels voxels = read_octomap(octomap);
+  write_point_ply(voxels.occupied_world_m, {}, {}, folder / "voxels.ply");
+  const Json json = {{"voxel_m", voxels.voxel_m},
+                     {"occupied_voxels", voxels.occupied_world_m.size()},
+                     {"free_voxels", voxels.free_voxels}};
+  write_file_atomically(folder / "map.json", json.dump(2) + "\n");
+}
+
+}  // namespace
+
+void write_plain(const RunRecord& record, const PlainParts& parts, const fs::path& folder) {
+  if (!record.path.empty())
+    write_file_atomically(folder / "trajectory.csv", trajectory_text(record));
+  if (!record.views.empty()) write_file_atomically(folder / "views.csv", views_text(record, parts));
+  write_file_atomically(folder / "intrinsics.json", intrinsics_text(record));
+  write_file_atomically(folder / "scenario.yaml", to_yaml(record.scenario));
+  write_file_atomically(folder / "README.txt", kReadme);
+  if (parts.frames) link_images(*parts.frames, folder);
+  if (parts.cloud) write_cloud(*parts.cloud, parts.colours, folder / "cloud.ply");
+  const fs::path octomap = record.folder / "map.bt";
+  if (fs::exists(octomap)) write_map(octomap, folder);
+}
+
+}  // namespace gnbv

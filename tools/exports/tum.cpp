@@ -1,0 +1,103 @@
+#include "tools/exports/tum.hpp"
+
+#include <string>
+
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "tools/exports/export_folder.hpp"
+#include "tools/exports/run_poses.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kReadme =
+    R"(A gnbv run in the text formats of the TUM RGB-D benchmark.
+
+trajectory.txt           true path of the body (x forward, y left, z up) in the world (ENU, metres)
+                         at 10 Hz: time_s x y z qx qy qz qw, as `evo_traj tum` opens it
+CAMERA/groundtruth.txt   true path of the camera (x right, y down, z forward), the same columns,
+                         at 10 Hz and at every frame
+CAMERA/estimate.txt      where the vehicle believed the camera to be, at every frame;
+                         `evo_ape tum groundtruth.txt estimate.txt` measures the difference
+CAMERA/rgb.txt           time and name of every colour image
+CAMERA/depth.txt         time and name of every depth image: 16 bits, {} steps a metre
+                         (the benchmark's own have 5000), 0 where there is none
+CAMERA/associations.txt  both, matched: time rgb time depth
+
+The folders of cameras are there for runs that were flown with --frames. Time is simulated and
+begins with the mission.
+)";
+
+std::string pose_line(double time_s, const Isometry& T) {
+  const Vec3 p = T.translation();
+  const Eigen::Quaterniond q(T.linear());
+  return fmt::format("{:.3f} {:.6f} {:.6f} {:.6f} {:.9f} {:.9f} {:.9f} {:.9f}\n", time_s, p.x(),
+                     p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
+}
+
+/// The camera's true poses: those of the path, and between them where frames were taken.
+std::string groundtruth_text(const RunRecord& record, const Isometry& T_body_camera,
+                             const std::vector<double>& frame_times_s) {
+  std::string text = "# time_s x_m y_m z_m qx qy qz qw, optical frame in world ENU, true\n";
+  auto frame = frame_times_s.begin();
+  for (const TrajectorySample& sample : record.path) {
+    for (; frame != frame_times_s.end() && *frame < sample.time_s; ++frame) {
+      if (*frame < record.path.front().time_s) continue;
+      text += pose_line(*frame, *true_pose_at(record, *frame) * T_body_camera);
+    }
+    // a frame at the very time of a sample stands once
+    if (frame != frame_times_s.end() && *frame == sample.time_s) ++frame;
+    text += pose_line(sample.time_s, sample.T_world_body * T_body_camera);
+  }
+  return text;
+}
+
+void write_camera(const RunRecord& record, const FrameRecord& frames, std::size_t camera,
+                  const fs::path& folder) {
+  std::string rgb = "# time_s file\n";
+  std::string depth = rgb;
+  std::string associations;
+  std::string estimate = "# time_s x_m y_m z_m qx qy qz qw, optical frame in world ENU, believed\n";
+  std::vector<double> times_s;
+  for (const RecordedFrame& frame : frames.frames) {
+    if (frame.camera != camera) continue;
+    const std::string name = fmt::format("{:.3f}.png", frame.time_s);
+    rgb += fmt::format("{:.3f} rgb/{}\n", frame.time_s, name);
+    depth += fmt::format("{:.3f} depth/{}\n", frame.time_s, name);
+    associations +=
+        fmt::format("{:.3f} rgb/{} {:.3f} depth/{}\n", frame.time_s, name, frame.time_s, name);
+    estimate += pose_line(frame.time_s, frame.T_world_camera);
+    times_s.push_back(frame.time_s);
+    link_or_copy(frame.colour, folder / "rgb" / name);
+    link_or_copy(frame.depth, folder / "depth" / name);
+  }
+  if (times_s.empty()) return;
+  const Isometry T_body_camera = camera_named(record, frames.cameras[camera].name).T_body_camera;
+  write_file_atomically(folder / "rgb.txt", rgb);
+  write_file_atomically(folder / "depth.txt", depth);
+  write_file_atomically(folder / "associations.txt", associations);
+  write_file_atomically(folder / "estimate.txt", estimate);
+  write_file_atomically(folder / "groundtruth.txt",
+                        groundtruth_text(record, T_body_camera, times_s));
+}
+
+}  // namespace
+
+void write_tum(const RunRecord& record, const FrameRecord* frames, const fs::path& folder) {
+  need_path(record);
+  std::string text = "# time_s x_m y_m z_m qx qy qz qw, body FLU in world ENU, true\n";
+  for (const TrajectorySample& s : record.path) text += pose_line(s.time_s, s.T_world_body);
+  write_file_atomically(folder / "trajectory.txt", text);
+  double steps_per_m = 1000.0;
+  if (frames != nullptr) {
+    steps_per_m = 1.0 / frames->cameras.front().depth_scale_m;
+    for (std::size_t i = 0; i < frames->cameras.size(); ++i) {
+      write_camera(record, *frames, i, folder / file_word(frames->cameras[i]));
+    }
+  }
+  write_file_atomically(folder / "README.txt", fmt::format(fmt::runtime(kReadme), steps_per_m));
+}
+
+}  // namespace gnbv

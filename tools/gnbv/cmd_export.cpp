@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+
+#include <map>
+#include <memory>
+
+#include "sim/core/error.hpp"
+#include "tools/exports/cloud_colours.hpp"
+#include "tools/exports/colmap.hpp"
+#include "tools/exports/export_folder.hpp"
+#include "tools/exports/nerfstudio.hpp"
+#include "tools/exports/plain.hpp"
+#include "tools/exports/tum.hpp"
+#include "tools/gnbv/commands.hpp"
+#include "tools/gnbv/progress.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ExportOptions {
+  fs::path run;
+  fs::path out;
+  std::string format;
+  std::size_t points = 100'000;
+  int threads = 0;
+  bool quiet = false;
+};
+
+/// What every format is made of. Progress is that of the frames, which take nearly all the time.
+struct Export {
+  const ExportOptions& options;
+  const RunRecord& record;
+  int threads;
+  ShareDone progress;
+
+  /// Points of the cloud are centroids of leaves, off the surface by less than half of one.
+  double blur_m() const { return 0.5 * record.scenario.planner.cloud.leaf_m; }
+};
+
+SparseModel sparse_model(const Export& e, const FrameRecord& frames) {
+  const RunCloud cloud = read_run_cloud(e.record);
+  SparseModel model = make_sparse_model(cloud.points_world_m, frames,
+                                        {.max_points = e.options.points,
+                                         .blur_m = e.blur_m(),
+                                         .threads = e.threads,
+                                         .progress = e.progress});
+  if (!e.options.quiet) {
+    fmt::print(stderr, "gnbv: {} frames show {} of the cloud's {} points, {} observations\n",
+               frames.frames.size(), model.points_world_m.size(), cloud.points_world_m.size(),
+               model.observation_count());
+  }
+  return model;
+}
+
+void fill_colmap(const Export& e, const fs::path& folder) {
+  const FrameRecord frames = read_frames(e.record.folder);
+  write_colmap(frames, sparse_model(e, frames), folder);
+}
+
+void fill_nerfstudio(const Export& e, const fs::path& folder) {
+  const FrameRecord frames = read_frames(e.record.folder);
+  write_nerfstudio(frames, sparse_model(e, frames), folder);
+}
+
+void fill_tum(const Export& e, const fs::path& folder) {
+  std::optional<FrameRecord> frames;
+  if (has_frames(e.record.folder)) frames = read_frames(e.record.folder);
+  write_tum(e.record, frames ? &*frames : nullptr, folder);
+}
+
+void fill_plain(const Export& e, const fs::path& folder) {
+  PlainParts parts;
+  if (has_frames(e.record.folder)) parts.frames = read_frames(e.record.folder);
+  if (fs::exists(e.record.folder / "cloud.ply")) parts.cloud = read_run_cloud(e.record);
+  if (parts.frames && parts.cloud) {
+    parts.colours =
+        colours_of_cloud(e.record, *parts.cloud, *parts.frames, e.blur_m(), e.threads, e.progress);
+  }
+  write_plain(e.record, parts, folder);
+}
+
+using Fill = void (*)(const Export&, const fs::path&);
+const std::map<std::string, Fill> kFormats = {{"colmap", fill_colmap},
+                                              {"nerfstudio", fill_nerfstudio},
+                                              {"plain", fill_plain},
+                                              {"tum", fill_tum}};
+
+void export_run(const ExportOptions& options) {
+  const RunRecord record = read_run(options.run);
+  for (const std::string& missing : record.missing) fmt::print(stderr, "gnbv: {}\n", missing);
+  const fs::path folder =
+      options.out.empty() ? options.run / "export" / options.format : options.out;
+  ProgressBar bar("export " + options.format, options.quiet);
+  const Export e{options, record, thread_count(options.threads),
+                 [&](double share) { bar.show(share, "frames"); }};
+  write_export_folder(record, options.format, folder,
+                      [&](const fs::path& part) { kFormats.at(options.format)(e, part); });
+  fmt::print("{}\n", folder.string());
+}
+
+}  // namespace
+
+void add_export_command(CLI::App& app) {
+  auto options = std::make_shared<ExportOptions>();
+  CLI::App* const command = app.add_subcommand("export", "write a run as other programs read it");
+  command->add_option("RUN", options->run, "run directory")->required();
+  command->add_option("--format", options->format, "of the folder that is written")
+      ->required()
+      ->check(CLI::IsMember(kFormats));
+  command->add_option(
+      "-o,--out", options->out,
+      "folder to write (default: RUN/export/FORMAT); an earlier export is replaced");
+  command
+      ->add_option("--points", options->points,
+                   "most points of the sparse model (colmap, nerfstudio)")
+      ->check(CLI::Range(1, 100'000'000))
+      ->capture_default_str();
+  command->add_option("--threads", options->threads, "0 = all; the result does not depend on it")
+      ->check(CLI::Range(0, 1024));
+  command->add_flag("--quiet", options->quiet, "no progress, no notes");
+  command->callback([options] { export_run(*options); });
+}
+
+}  // namespace gnbv

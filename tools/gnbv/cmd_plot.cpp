@@ -1,0 +1,173 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <set>
+
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "tools/gnbv/commands.hpp"
+#include "tools/plots/coverage_plot.hpp"
+#include "tools/plots/gnuplot.hpp"
+#include "tools/plots/run_plots.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::pair<std::string, PlotFormat>> kFormats = {
+    {"svg", PlotFormat::svg}, {"png", PlotFormat::png}, {"pdf", PlotFormat::pdf}};
+
+struct PlotOptions {
+  std::vector<fs::path> runs;
+  fs::path out;
+  std::vector<std::string> formats = {"svg"};
+  std::vector<std::string> plots = {"density", "coverage", "terms"};
+  std::string voxel_m = "0.05";
+  PlotSize size;
+  bool keep = false;
+};
+
+/// The runs in a folder of runs (a sweep's are in cells/), by name; the folder itself when it is a
+/// run, or holds none.
+std::vector<fs::path> runs_in(const fs::path& folder) {
+  if (fs::exists(folder / "scenario.yaml") || !fs::is_directory(folder)) return {folder};
+  std::vector<fs::path> runs;
+  const fs::path cells = folder / "cells";
+  for (const auto& entry : fs::directory_iterator(fs::is_directory(cells) ? cells : folder)) {
+    if (fs::exists(entry.path() / "summary.json")) runs.push_back(entry.path());
+  }
+  std::sort(runs.begin(), runs.end());
+  return runs.empty() ? std::vector{folder} : runs;
+}
+
+std::vector<RunRecord> read_runs(const PlotOptions& options) {
+  std::vector<RunRecord> records;
+  for (const fs::path& given : options.runs) {
+    for (const fs::path& run : runs_in(given)) {
+      records.push_back(read_run(run));
+      for (const std::string& missing : records.back().missing) {
+        fmt::print(stderr, "gnbv: {}\n", missing);
+      }
+    }
+  }
+  return records;
+}
+
+bool wants(const PlotOptions& options, const std::string& plot) {
+  return std::find(options.plots.begin(), options.plots.end(), plot) != options.plots.end();
+}
+
+/// "NAME", or "NAME-RUN" where there are several runs; a number follows where two are named alike.
+std::string file_name(const std::string& plot, const RunRecord& record, std::size_t run_count,
+                      std::set<std::string>& taken) {
+  std::string name = plot;
+  if (run_count > 1)
+    name += "-" + fs::absolute(record.folder / ".").parent_path().filename().string();
+  std::string free = name;
+  for (int i = 2; !taken.insert(free).second; ++i) free = fmt::format("{}-{}", name, i);
+  return free;
+}
+
+std::vector<Plot> plots_of_runs(const PlotOptions& options, const std::vector<RunRecord>& records) {
+  std::vector<Plot> plots;
+  std::set<std::string> taken;
+  const auto add = [&](const char* what, const RunRecord& record, std::optional<Plot> plot) {
+    if (plot) {
+      plot->name = file_name(what, record, records.size(), taken);
+      plots.push_back(std::move(*plot));
+    } else {
+      fmt::print(stderr, "gnbv: {}: no views to plot as {}\n", record.folder.string(), what);
+    }
+  };
+  for (const RunRecord& record : records) {
+    if (wants(options, "density")) add("density", record, density_entropy_plot(record));
+    if (wants(options, "terms")) add("terms", record, terms_plot(record));
+  }
+  return plots;
+}
+
+std::vector<Plot> plots_of_coverage(const PlotOptions& options,
+                                    const std::vector<RunRecord>& records) {
+  std::vector<std::string> notes;
+  const std::vector<RunGroup> groups = group_runs(records, notes);
+  for (const std::string& note : notes) fmt::print(stderr, "gnbv: {}\n", note);
+  if (groups.empty()) return {};
+  const std::size_t size = options.voxel_m == "0.05" ? 0 : options.voxel_m == "0.10" ? 1 : 2;
+  return {coverage_plot(groups, Effort::views, size), coverage_plot(groups, Effort::metres, size),
+          coverage_plot(groups, Effort::seconds, size)};
+}
+
+void draw(const PlotOptions& options, const Plot& plot, const fs::path& folder) {
+  for (const auto& [name, format] : kFormats) {
+    if (std::find(options.formats.begin(), options.formats.end(), name) == options.formats.end()) {
+      continue;
+    }
+    const std::string script = plot_script(plot, format, options.size);
+    const fs::path picture = folder / (plot.name + "." + name);
+    draw_plot(script, picture);
+    fmt::print("{}\n", picture.string());
+    if (!options.keep) continue;
+    // two formats of a plot differ in their terminals only, yet each is whole
+    const fs::path kept = folder / (plot.name + "." + name + ".gp");
+    write_file_atomically(kept, script);
+    fmt::print("{}\n", kept.string());
+  }
+}
+
+void plot(const PlotOptions& options) {
+  const std::vector<RunRecord> records = read_runs(options);
+  std::vector<Plot> plots = plots_of_runs(options, records);
+  if (wants(options, "coverage")) {
+    for (Plot& coverage : plots_of_coverage(options, records)) plots.push_back(std::move(coverage));
+  }
+  if (plots.empty()) {
+    throw BadInput(fmt::format("{}: nothing to plot", records.front().folder.string()));
+  }
+  fs::path folder = options.out;
+  if (folder.empty()) folder = records.size() == 1 ? records.front().folder / "plots" : "plots";
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw BadInput(fmt::format("{}: cannot make it: {}", folder.string(), error.message()));
+  for (const Plot& each : plots) draw(options, each, folder);
+}
+
+}  // namespace
+
+void add_plot_command(CLI::App& app) {
+  auto options = std::make_shared<PlotOptions>();
+  CLI::App* const command =
+      app.add_subcommand("plot", "density, entropy, coverage and utility terms as curves");
+  command->add_option("RUN", options->runs, "run directories, or folders of them")->required();
+  command->add_option("-o,--out", options->out,
+                      "folder to write into (default: RUN/plots; plots/ for several runs)");
+  command->add_option("--format", options->formats, "svg, png, pdf, with commas")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember({"svg", "png", "pdf"}))
+      ->capture_default_str();
+  command->add_option("--plots", options->plots, "which: density, coverage, terms, with commas")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember({"density", "coverage", "terms"}))
+      ->capture_default_str();
+  command->add_option("--voxel", options->voxel_m, "edge of the voxels that are covered (m)")
+      ->check(CLI::IsMember({"0.05", "0.10", "0.50"}))
+      ->capture_default_str();
+  command
+      ->add_option("--width,--width-px", options->size.width_px,
+                   "in pixels; 1512 is one column of a paper at 432 dots an inch")
+      ->check(CLI::Range(200, 8192))
+      ->capture_default_str();
+  command
+      ->add_option("--height,--height-px", options->size.height_px,
+                   "in pixels (default: what each plot asks for)")
+      ->check(CLI::Range(150, 8192));
+  command->add_flag("--keep", options->keep,
+                    "also write the scripts with their data, to restyle: gnuplot X.gp > X");
+  command->callback([options] { plot(*options); });
+}
+
+}  // namespace gnbv

@@ -1,0 +1,17 @@
+// Coverage over effort, of many runs in one picture.
+#pragma once
+
+#include <span>
+
+#include "tools/plots/curves.hpp"
+#include "tools/plots/gnuplot.hpp"
+
+namespace gnbv {
+
+/// "coverage-views", "coverage-metres" or "coverage-seconds": a line for each group, with the 95 %
+/// interval of the mean where it has several runs, and the paper's final coverage dashed where the
+/// paper has the group's scenario, structure and utility. `size` is an index of kCoverageSizes_m.
+/// Requires a group.
+Plot coverage_plot(std::span<const RunGroup> groups, Effort effort, std::size_t size);
+
+}  // namespace gnbv

@@ -1,0 +1,161 @@
+#include "tools/plots/curves.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "scenarios/write.hpp"
+#include "sim/core/error.hpp"
+
+namespace gnbv {
+namespace {
+
+using Values = std::vector<std::pair<std::string, std::string>>;
+
+const std::vector<double>& metres_or_seconds(const CoverageCurve& curve, Effort effort) {
+  return effort == Effort::metres ? curve.metres : curve.seconds;
+}
+
+double effort_at(const CoverageCurve& curve, Effort effort, std::size_t view) {
+  return effort == Effort::views ? static_cast<double>(view)
+                                 : metres_or_seconds(curve, effort)[view];
+}
+
+Values values_without_seed(const RunRecord& run) {
+  Scenario scenario = run.scenario;
+  scenario.seed = 0;
+  return scenario_values(scenario);
+}
+
+std::string value_of(const Values& values, std::string_view key) {
+  const auto at = std::find_if(values.begin(), values.end(),
+                               [&](const auto& value) { return value.first == key; });
+  return at == values.end() ? "" : at->second;
+}
+
+/// The keys in which any two of the groups differ; what everybody knows a method by comes first.
+std::vector<std::string> differing_keys(const std::vector<Values>& groups) {
+  std::vector<std::string> keys = {"name", "planner.utility.name", "planner.preset"};
+  for (const Values& values : groups) {
+    for (const auto& [key, value] : values) {
+      if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+    }
+  }
+  std::erase_if(keys, [&](const std::string& key) {
+    return std::all_of(groups.begin(), groups.end(), [&](const Values& values) {
+      return value_of(values, key) == value_of(groups.front(), key);
+    });
+  });
+  return keys;
+}
+
+/// Names first; other keys only as far as names leave groups alike.
+std::vector<std::string> labels_of(const std::vector<Values>& groups) {
+  std::vector<std::string> labels(groups.size());
+  if (groups.size() == 1) return {value_of(groups.front(), "planner.utility.name")};
+  const std::vector<std::string> keys = differing_keys(groups);
+  for (const std::string& key : keys) {
+    const bool is_name = key == "name" || key == "planner.utility.name" || key == "planner.preset";
+    if (!is_name && std::set(labels.begin(), labels.end()).size() == groups.size()) break;
+    const std::string last = key.substr(key.rfind('.') + 1);
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      const std::string value = value_of(groups[i], key);
+      if (!labels[i].empty()) labels[i] += ", ";
+      labels[i] += is_name ? value : last + "=" + value;
+    }
+  }
+  return labels;
+}
+
+}  // namespace
+
+std::vector<Phase> frontier_phases(std::span<const ViewRecord> views) {
+  std::vector<Phase> phases;
+  bool is_open = false;
+  for (const ViewRecord& view : views) {
+    const bool is_frontier = view.decision.sampler == "fvs";
+    if (is_frontier && !is_open) phases.push_back({view.iteration, view.iteration});
+    if (is_frontier) phases.back().last = view.iteration;
+    is_open = is_frontier;
+  }
+  return phases;
+}
+
+std::vector<double> moving_mean(std::span<const double> values, std::size_t window) {
+  GNBV_CHECK(window % 2 == 1, "a window of {}", window);
+  std::vector<double> means;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::size_t reach = std::min({window / 2, i, values.size() - 1 - i});
+    means.push_back(mean_of(values.subspan(i - reach, 2 * reach + 1)));
+  }
+  return means;
+}
+
+double whole_effort(const CoverageCurve& curve, Effort effort) {
+  return effort_at(curve, effort, curve.views());
+}
+
+double coverage_at(const CoverageCurve& curve, Effort effort, std::size_t size, double at) {
+  std::size_t next = 0;
+  while (next < curve.coverage.size() && effort_at(curve, effort, next) <= at) ++next;
+  if (next == 0) return curve.coverage.front()[size];
+  const double before = curve.coverage[next - 1][size];
+  if (next == curve.coverage.size()) return before;
+  const double begin = effort_at(curve, effort, next - 1);
+  const double share = (at - begin) / (effort_at(curve, effort, next) - begin);
+  return before + share * (curve.coverage[next][size] - before);
+}
+
+std::vector<RunGroup> group_runs(std::span<const RunRecord> runs, std::vector<std::string>& notes) {
+  std::vector<RunGroup> groups;
+  std::vector<Values> values;
+  for (const RunRecord& run : runs) {
+    if (!run.figures || run.figures->curve.coverage.empty()) continue;
+    const Values own = values_without_seed(run);
+    const auto at = std::find(values.begin(), values.end(), own) - values.begin();
+    if (at == std::ssize(values)) {
+      values.push_back(own);
+      groups.emplace_back();
+    }
+    RunGroup& group = groups[static_cast<std::size_t>(at)];
+    const auto same = std::find_if(
+        group.runs.begin(), group.runs.end(),
+        [&](const RunRecord* other) { return other->scenario.seed == run.scenario.seed; });
+    if (same != group.runs.end()) {
+      notes.push_back(fmt::format("{}: the same mission as {}, counted once", run.folder.string(),
+                                  (*same)->folder.string()));
+      continue;
+    }
+    group.runs.push_back(&run);
+  }
+  if (groups.empty()) return groups;
+  const std::vector<std::string> labels = labels_of(values);
+  for (std::size_t i = 0; i < groups.size(); ++i) groups[i].label = labels[i];
+  return groups;
+}
+
+std::vector<CoveragePoint> mean_coverage(const RunGroup& group, Effort effort, std::size_t size) {
+  constexpr std::size_t kSteps = 200;
+  double longest = 0.0;
+  std::size_t most_views = 0;
+  for (const RunRecord* run : group.runs) {
+    longest = std::max(longest, whole_effort(run->figures->curve, effort));
+    most_views = std::max(most_views, run->figures->curve.views());
+  }
+  const bool is_single = group.runs.size() == 1;
+  const std::size_t steps = is_single || effort == Effort::views ? most_views : kSteps;
+  std::vector<CoveragePoint> points;
+  for (std::size_t i = 0; i <= steps; ++i) {
+    const double at = is_single ? effort_at(group.runs.front()->figures->curve, effort, i)
+                                : longest * static_cast<double>(i) / static_cast<double>(steps);
+    std::vector<double> shares;
+    for (const RunRecord* run : group.runs) {
+      // two views at one place take no metres: a run's own point is the view's
+      shares.push_back(is_single ? run->figures->curve.coverage[i][size]
+                                 : coverage_at(run->figures->curve, effort, size, at));
+    }
+    points.push_back({at, estimate_mean(shares)});
+  }
+  return points;
+}
+
+}  // namespace gnbv

@@ -1,0 +1,55 @@
+// What plots are made of: series over views and coverage over effort, as numbers.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/run_figures.hpp"
+#include "bench/statistics.hpp"
+#include "tools/record/run_record.hpp"
+
+namespace gnbv {
+
+/// Consecutive views of one sampler, first and last iteration.
+struct Phase {
+  int first = 0;
+  int last = 0;
+};
+
+/// The phases in which views were found at frontiers (sampler `fvs`).
+std::vector<Phase> frontier_phases(std::span<const ViewRecord> views);
+
+/// The mean of `window` values around each; fewer at the ends, the same number on both sides.
+/// Requires an odd window.
+std::vector<double> moving_mean(std::span<const double> values, std::size_t window);
+
+/// Coverage as a fraction at so much effort, straight between views; what it was at the last view
+/// from then on. Requires a curve.
+double coverage_at(const CoverageCurve& curve, Effort effort, std::size_t size, double at);
+
+/// How much effort the whole curve took. Requires a curve.
+double whole_effort(const CoverageCurve& curve, Effort effort);
+
+/// Runs that differ in their seeds alone.
+struct RunGroup {
+  std::string label;  // scenario, utility, preset and other keys, as far as groups differ in them
+  std::vector<const RunRecord*> runs;
+};
+
+/// Runs with figures, grouped by their whole configuration without the seed, in the order of their
+/// first ones. A run of a group and seed that is there already is left out and named in `notes`.
+std::vector<RunGroup> group_runs(std::span<const RunRecord> runs, std::vector<std::string>& notes);
+
+/// One point of a mean curve.
+struct CoveragePoint {
+  double effort = 0.0;
+  MeanEstimate coverage;  // fractions
+};
+
+/// The curve of a group: one run's own points, or the mean over runs at every view, or at 201 even
+/// steps of metres or seconds up to the longest run. A run that has ended keeps its coverage.
+std::vector<CoveragePoint> mean_coverage(const RunGroup& group, Effort effort, std::size_t size);
+
+}  // namespace gnbv

@@ -1,0 +1,159 @@
+#include "tools/plots/gnuplot.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr double kColumn_px = 1512.0;
+constexpr double kColumn_in = 3.5;
+
+constexpr const char* kStyle =
+    R"(set encoding utf8
+set border 3 lc rgb '#5c6470' lw 0.8
+set tics out nomirror scale 0.5 textcolor rgb '#3a424d'
+set grid lc rgb '#e4e7eb' lt 1 dt 1 lw 0.7
+set key textcolor rgb '#262c36' samplen 1.4 spacing 1.05 reverse Left
+set xlabel textcolor rgb '#262c36' offset 0,0.4
+set ylabel textcolor rgb '#262c36'
+)";
+
+/// Length of the UTF-8 character that the text begins with; 0 when it begins with none.
+std::size_t character_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const std::size_t length = byte(0) < 0x80             ? 1
+                             : (byte(0) & 0xe0) == 0xc0 ? 2
+                             : (byte(0) & 0xf0) == 0xe0 ? 3
+                             : (byte(0) & 0xf8) == 0xf0 ? 4
+                                                        : 0;
+  if (length > text.size()) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+  }
+  return length;
+}
+
+/// A file without a name, that is gone when it is closed.
+using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+File nameless_file(std::string_view content) {
+  File file(std::tmpfile(), std::fclose);
+  const bool is_written =
+      file && std::fwrite(content.data(), 1, content.size(), file.get()) == content.size() &&
+      std::fflush(file.get()) == 0;
+  if (!is_written) throw BadInput(fmt::format("a temporary file: {}", std::strerror(errno)));
+  std::rewind(file.get());
+  return file;
+}
+
+std::string content_of(std::FILE* file) {
+  std::rewind(file);
+  std::string content;
+  std::array<char, 4096> buffer{};
+  while (std::fgets(buffer.data(), static_cast<int>(buffer.size()), file) != nullptr) {
+    content += buffer.data();
+  }
+  return content;
+}
+
+/// Runs gnuplot from script to picture. What it complains about, if it failed.
+std::string complaint_of_gnuplot(std::FILE* script, const std::filesystem::path& picture) {
+  const File errors = nameless_file("");
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_adddup2(&files, fileno(script), STDIN_FILENO);
+  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, picture.c_str(),
+                                   O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  posix_spawn_file_actions_adddup2(&files, fileno(errors.get()), STDERR_FILENO);
+  // -d: what the user's own configuration sets would change the picture
+  std::array<char, 8> name = {"gnuplot"};
+  std::array<char, 3> no_defaults = {"-d"};
+  std::array<char*, 3> arguments = {name.data(), no_defaults.data(), nullptr};
+  pid_t child = 0;
+  const int error = posix_spawnp(&child, "gnuplot", &files, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&files);
+  if (error == ENOENT) {
+    throw BadInput("gnuplot is not installed; `apt-get install gnuplot-nox`, or tools/setup, does");
+  }
+  if (error != 0) throw BadInput(fmt::format("gnuplot: cannot start: {}", std::strerror(error)));
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return "";
+  return fmt::format("status {}: {}", status, content_of(errors.get()));
+}
+
+}  // namespace
+
+std::string gnuplot_text(std::string_view text) {
+  std::string quoted = "'";
+  while (!text.empty()) {
+    const std::size_t length = character_length(text);
+    const auto first = static_cast<unsigned char>(text.front());
+    if (length == 0) {
+      quoted += '?';
+    } else if (first < 0x20 || first == 0x7f) {
+      quoted += ' ';
+    } else if (first == '\'') {
+      quoted += "''";
+    } else {
+      quoted += text.substr(0, length);
+    }
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return quoted + "'";
+}
+
+std::string plot_script(const Plot& plot, PlotFormat format, const PlotSize& size) {
+  const double scale = size.width_px / kColumn_px;
+  const int height_px =
+      size.height_px > 0 ? size.height_px : static_cast<int>(std::lround(scale * plot.height_px));
+  std::string terminal;
+  switch (format) {
+    case PlotFormat::svg:
+      terminal = fmt::format(
+          "svg noenhanced rounded size {},{} fixed background rgb 'white' font "
+          "'Helvetica,Arial,sans-serif' "
+          "fontscale {:.4f} linewidth {:.4f}",
+          size.width_px, height_px, 3.5 * scale, 4.5 * scale);
+      break;
+    case PlotFormat::png:
+      terminal = fmt::format(
+          "pngcairo noenhanced rounded size {},{} background rgb 'white' font 'Sans,12' fontscale "
+          "{:.4f} "
+          "linewidth {:.4f} pointscale {:.4f}",
+          size.width_px, height_px, 2.625 * scale, 4.5 * scale, 4.0 * scale);
+      break;
+    case PlotFormat::pdf:
+      terminal = fmt::format(
+          "pdfcairo noenhanced rounded size {:.4f}in,{:.4f}in background rgb 'white' font 'Sans,7' "
+          "fontscale {:.4f} linewidth {:.4f}",
+          kColumn_in * scale, kColumn_in * height_px / kColumn_px, scale, scale);
+      break;
+  }
+  return "set terminal " + terminal + "\n" + kStyle + plot.body;
+}
+
+void draw_plot(const std::string& script, const std::filesystem::path& picture) {
+  const File input = nameless_file(script);
+  write_file_atomically(picture, [&](const std::filesystem::path& part) {
+    const std::string complaint = complaint_of_gnuplot(input.get(), part);
+    GNBV_CHECK(complaint.empty(), "gnuplot refuses the script of {}: {}", picture.string(),
+               complaint);
+  });
+}
+
+}  // namespace gnbv

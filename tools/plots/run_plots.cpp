@@ -1,0 +1,200 @@
+#include "tools/plots/run_plots.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/plots/gnuplot.hpp"
+#include "tools/plots/script_parts.hpp"
+
+namespace gnbv {
+namespace {
+
+using Columns = std::vector<std::vector<double>>;
+
+constexpr std::size_t kManyViews = 100;
+constexpr std::size_t kWindow = 15;  // views that a mean is taken over, when there are many
+
+std::string title_of(const RunRecord& record) {
+  return fmt::format("{}, seed {}", run_title(record), record.scenario.seed);
+}
+
+std::string x_range(const std::vector<ViewRecord>& views) {
+  return fmt::format("set xrange [{}:{}]\n", views.front().iteration - 0.5,
+                     views.back().iteration + 0.5);
+}
+
+/// The views that somebody scored: not the start, nor those of a route.
+std::vector<ViewRecord> scored_views(const RunRecord& record) {
+  std::vector<ViewRecord> scored;
+  std::copy_if(record.views.begin(), record.views.end(), std::back_inserter(scored),
+               [](const ViewRecord& view) { return view.decision.score.value != 0.0; });
+  return scored;
+}
+
+/// Columns, each smoothed, beside the iterations.
+std::vector<std::vector<double>> rows_of(const std::vector<ViewRecord>& views,
+                                         const Columns& columns, std::size_t window) {
+  std::vector<std::vector<double>> rows(views.size());
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    rows[i].push_back(static_cast<double>(views[i].iteration));
+  }
+  for (const auto& column : columns) {
+    const std::vector<double> smooth = moving_mean(column, window);
+    for (std::size_t i = 0; i < views.size(); ++i) rows[i].push_back(smooth[i]);
+  }
+  return rows;
+}
+
+template <typename Value>
+std::vector<double> column_of(const std::vector<ViewRecord>& views, const Value& value) {
+  std::vector<double> column;
+  for (const ViewRecord& view : views) column.push_back(value(view.decision.score));
+  return column;
+}
+
+/// What the terms of Eq. (2) come to, by their weights.
+struct Eq2 {
+  explicit Eq2(const UtilityConfig& config) : alpha(config.alpha) {
+    const double weights = config.normalise_weights ? config.beta + config.gamma : 1.0;
+    beta = config.beta / weights;
+    gamma = config.gamma / weights;
+  }
+  double density(const Score& s) const { return beta * s.density; }
+  double prediction(const Score& s) const { return gamma * s.prediction; }
+  double information(const Score& s) const { return 1.0 + alpha * s.information; }
+  /// What remains of the value: log10 of the occupied voxels in view, which no file holds.
+  double size(const Score& s) const {
+    return s.value / (information(s) * (density(s) + prediction(s)) * s.distance);
+  }
+
+  double alpha = 0.0;
+  double beta = 0.0;
+  double gamma = 0.0;
+};
+
+/// Value, density, prediction, information, distance, size.
+Columns columns_of_eq2(const std::vector<ViewRecord>& views, const Eq2& eq2) {
+  return {column_of(views, [](const Score& s) { return s.value; }),
+          column_of(views, [&](const Score& s) { return eq2.density(s); }),
+          column_of(views, [&](const Score& s) { return eq2.prediction(s); }),
+          column_of(views, [&](const Score& s) { return eq2.information(s); }),
+          column_of(views, [](const Score& s) { return s.distance; }),
+          column_of(views, [&](const Score& s) { return eq2.size(s); })};
+}
+
+/// Value, gain, distance.
+Columns columns_of(const std::vector<ViewRecord>& views) {
+  return {column_of(views, [](const Score& s) { return s.value; }),
+          column_of(views, [](const Score& s) { return s.information; }),
+          column_of(views, [](const Score& s) { return s.distance; })};
+}
+
+std::string line(std::string_view data, int column, std::size_t colour, std::string_view title) {
+  return fmt::format("${} using 1:{} with lines lw 1.2 lc rgb '{}' title {}", data, column,
+                     kPalette[colour], gnuplot_text(title));
+}
+
+/// The single values behind their means, where means are drawn.
+std::string raw_line(int column, std::size_t colour, bool is_smooth) {
+  if (!is_smooth) return "";
+  return fmt::format("$raw using 1:{} with lines lw 0.35 lc rgb '#b0{}' notitle, ", column,
+                     kPalette[colour].substr(1));
+}
+
+/// An axis from 0 that holds all of a column.
+std::string axis_of(const std::vector<double>& column) {
+  return y_axis(0.0, *std::max_element(column.begin(), column.end()));
+}
+
+std::string heading_of_utility(bool is_smooth) {
+  return is_smooth ? fmt::format("utility (means over {} views)", kWindow) : "utility";
+}
+
+std::string proposed_panels(Panels& panels, const Columns& columns, const std::string& shade_key,
+                            const std::string& heading, bool is_smooth) {
+  std::vector<double> quality = columns[1];
+  std::vector<double> factors = columns[3];
+  for (std::size_t i = 0; i < quality.size(); ++i) {
+    quality[i] += columns[2][i];
+    factors[i] = std::max({factors[i], columns[4][i], columns[5][i]});
+  }
+  std::string text = panels.next(heading) + axis_of(columns[0]) + "plot " +
+                     raw_line(2, 6, is_smooth) + line("mean", 2, 6, "") + shade_key + "\n";
+  text += panels.next("quality, the sum of") + axis_of(quality);
+  text += fmt::format(
+      "plot $mean using 1:(0):3 with filledcurves fc rgb '{}' fs solid 0.6 noborder title "
+      "'density', $mean using 1:3:($3+$4) with filledcurves fc rgb '{}' fs solid 0.6 noborder "
+      "title 'prediction'\n",
+      kPalette[0], kPalette[1]);
+  text += panels.next("times") + axis_of(factors) + "plot " + raw_line(5, 2, is_smooth) +
+          raw_line(6, 3, is_smooth) + raw_line(7, 4, is_smooth);
+  return text + line("mean", 5, 2, "information") + ", " + line("mean", 6, 3, "distance") + ", " +
+         line("mean", 7, 4, "log10 voxels") + "\n";
+}
+
+/// Whether the last column, the distance factor, ever says anything.
+bool is_discounted(const Columns& columns) {
+  return std::any_of(columns.back().begin(), columns.back().end(),
+                     [](double factor) { return factor != 1.0; });
+}
+
+std::string other_panels(Panels& panels, const Columns& columns, const std::string& shade_key,
+                         const std::string& heading, bool is_smooth) {
+  std::string text = panels.next(heading) + axis_of(columns[0]) + "plot " +
+                     raw_line(2, 6, is_smooth) + line("mean", 2, 6, "") + shade_key + "\n";
+  if (!is_discounted(columns)) return text;
+  text += panels.next("the product of gain") + axis_of(columns[1]) + "plot " +
+          raw_line(3, 0, is_smooth) + line("mean", 3, 0, "") + "\n";
+  return text + panels.next("and distance factor") + y_axis(0.0, 1.0) + "plot " +
+         raw_line(4, 3, is_smooth) + line("mean", 4, 3, "") + "\n";
+}
+
+}  // namespace
+
+std::optional<Plot> density_entropy_plot(const RunRecord& record) {
+  if (record.views.empty()) return std::nullopt;
+  Columns columns(2);
+  std::vector<std::vector<double>> rows;
+  for (const ViewRecord& view : record.views) {
+    columns[0].push_back(view.entropy_nat);
+    columns[1].push_back(view.density_points_per_voxel);
+    rows.push_back(
+        {static_cast<double>(view.iteration), view.entropy_nat, view.density_points_per_voxel});
+  }
+  const auto [low, high] = std::minmax_element(columns[0].begin(), columns[0].end());
+  const double unit_nat = *high >= 10'000.0 ? 1000.0 : 1.0;
+  const std::vector<Phase> phases = frontier_phases(record.views);
+  Panels panels(2, title_of(record), "iteration");
+  std::string text = data_block("views", rows) + x_range(record.views) + shaded_phases(phases);
+  text += panels.next(unit_nat > 1.0 ? "entropy (1000 nat)" : "entropy (nat)");
+  text += y_axis(*low / unit_nat, *high / unit_nat);
+  text += fmt::format("plot $views using 1:($2/{}) with lines lw 1.3 lc rgb '{}' notitle{}\n",
+                      unit_nat, kPalette[0], key_of_phases(phases));
+  text += panels.next("density (points/voxel)") + axis_of(columns[1]);
+  text += fmt::format("plot $views using 1:3 with lines lw 1.3 lc rgb '{}' notitle\n", kPalette[1]);
+  return Plot{"density", text + "unset multiplot\n", panels_height_px(2)};
+}
+
+std::optional<Plot> terms_plot(const RunRecord& record) {
+  const std::vector<ViewRecord> views = scored_views(record);
+  if (views.empty()) return std::nullopt;
+  const UtilityConfig& utility = record.scenario.planner.utility;
+  const bool is_proposed = utility.name == "proposed";
+  const Columns columns = is_proposed ? columns_of_eq2(views, Eq2(utility)) : columns_of(views);
+  const bool is_smooth = views.size() > kManyViews;
+  const std::size_t count = is_proposed || is_discounted(columns) ? 3 : 1;
+  const std::vector<Phase> phases = frontier_phases(record.views);
+  Panels panels(count, title_of(record), "iteration");
+  const std::string heading = heading_of_utility(is_smooth);
+  const std::string text =
+      data_block("raw", rows_of(views, columns, 1)) +
+      data_block("mean", rows_of(views, columns, is_smooth ? kWindow : 1)) + x_range(record.views) +
+      shaded_phases(phases) +
+      (is_proposed ? proposed_panels(panels, columns, key_of_phases(phases), heading, is_smooth)
+                   : other_panels(panels, columns, key_of_phases(phases), heading, is_smooth));
+  return Plot{"terms", text + "unset multiplot\n", panels_height_px(count)};
+}
+
+}  // namespace gnbv

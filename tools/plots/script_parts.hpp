@@ -1,0 +1,48 @@
+// What the scripts of all plots share.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/plots/curves.hpp"
+
+namespace gnbv {
+
+/// Okabe and Ito's colours, which people with colour blindness tell apart (2008); darkest first.
+constexpr std::array<std::string_view, 7> kPalette = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                                      "#e69f00", "#56b4e9", "#000000"};
+
+/// A block of data by name: a row of numbers a line, as they are.
+std::string data_block(std::string_view name, const std::vector<std::vector<double>>& rows);
+
+/// Rectangles behind the plot that mark the phases, from half an iteration before to half after.
+std::string shaded_phases(const std::vector<Phase>& phases);
+
+/// The entry that explains them, to follow other entries of a plot command; empty without phases.
+std::string key_of_phases(const std::vector<Phase>& phases);
+
+/// Settings of a y axis: from `low` to `high`, widened to whole steps, of which there are some
+/// four. Requires low <= high.
+std::string y_axis(double low, double high);
+
+/// The height of a picture of so many panels that is 1512 pixels wide.
+int panels_height_px(std::size_t count);
+
+/// Panels one above the other with the same width and one x axis, labelled below the last one. Each
+/// has a heading, and beside that a key of one row.
+class Panels {
+ public:
+  Panels(std::size_t count, std::string_view title, std::string_view x_label);
+  /// The settings of the next panel, to stand before its plot command.
+  std::string next(std::string_view heading);
+
+ private:
+  std::size_t count_;
+  std::size_t drawn_ = 0;
+  std::string title_;
+  std::string x_label_;
+};
+
+}  // namespace gnbv
