@@ -33,6 +33,7 @@ void add_sweep_command(CLI::App& app);
 void add_table_command(CLI::App& app);
 void add_ceiling_command(CLI::App& app);
 void add_render_command(CLI::App& app);
+void add_report_command(CLI::App& app);
 void add_asset_command(CLI::App& app);
 void add_lint_command(CLI::App& app);
 void add_score_command(CLI::App& app);

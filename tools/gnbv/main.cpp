@@ -25,6 +25,7 @@ int run(int argc, char** argv) {
   gnbv::add_compare_command(app);
   gnbv::add_ceiling_command(app);
   gnbv::add_render_command(app);
+  gnbv::add_report_command(app);
   gnbv::add_asset_command(app);
   gnbv::add_lint_command(app);
   gnbv::add_score_command(app);
