@@ -94,6 +94,7 @@ Json paper_json(const RunRecord& record) {
   if (row->distance_m) json["metres"] = *row->distance_m;
   if (row->time_min) json["seconds"] = 60.0 * *row->time_min;
   if (row->coverage_percent) json["coverage_percent"] = *row->coverage_percent;
+  json["is_doubtful"] = is_doubtful(*row);
   if (row->density_points_per_voxel) json["density"] = *row->density_points_per_voxel;
   return json;
 }

@@ -19,6 +19,7 @@ export function lineColour(index: number): string { return runColour(index); }
 export const ink = () => (isDark() ? "#e8ebf0" : "#1d232c");
 export const paleInk = () => (isDark() ? "#98a2b0" : "#667080");
 export const hairline = () => (isDark() ? "#2a313b" : "#e6e9ee");
+export const faintLine = () => (isDark() ? "#4a5462" : "#b3bcc8");
 export const phaseShade = () => (isDark() ? "rgba(255,170,80,0.13)" : "rgba(230,140,40,0.14)");
 export const nowLine = () => (isDark() ? "#ffffff" : "#11151b");
 
@@ -40,6 +41,11 @@ export function ramp(name: RampName, t: number): Rgb {
   const i = Math.min(Math.floor(x), colours.length - 2);
   return [0, 1, 2].map((k) =>
     Math.round(colours[i][k] + (x - i) * (colours[i + 1][k] - colours[i][k]))) as Rgb;
+}
+
+/** 256 colours of a ramp, one after the other. */
+export function rampTable(name: RampName): Uint8Array {
+  return Uint8Array.from(Array.from({ length: 256 }, (_, i) => ramp(name, i / 255)).flat());
 }
 
 export function rampGradient(name: RampName): string {

@@ -134,7 +134,7 @@ const kColourings: [Colouring, string][] = [["real", "Camera colours"], ["height
 export function makeLayerBar(view: View3d, has: { real: boolean; voxels: boolean; cloud: boolean;
     structure: boolean }, coloured: (by: Colouring) => void): HTMLElement {
   const layers: Layers = { cloud: has.cloud, voxels: false, structure: has.structure, path: true,
-    frusta: false, vehicle: true };
+    profile: true, frusta: false, vehicle: true };
   const layer = (key: keyof Layers, text: string) =>
     toggle(text, layers[key], (on) => { layers[key] = on; view.setLayers(layers); });
   const first: Colouring = has.real ? "real" : "height";
@@ -145,11 +145,12 @@ export function makeLayerBar(view: View3d, has: { real: boolean; voxels: boolean
     has.cloud ? layer("cloud", "Points") : null,
     has.voxels ? layer("voxels", "Voxels") : null,
     has.structure ? layer("structure", "Structure") : null,
-    layer("path", "Path"), layer("frusta", "All views"), layer("vehicle", "Vehicle"),
+    layer("path", "Path"), layer("profile", "Profile"), layer("frusta", "All views"),
+    layer("vehicle", "Vehicle"),
     make("span", { class: "gap" }),
     select("Colour of points and voxels", kColourings.filter(([by]) => by !== "real" || has.real),
       first, choose),
     toggle("Follow", false, (on) => view.setFollows(on)),
     make("button", { type: "button", class: "small", click: () => view.frame(),
-      title: "Or double-click into the view" }, "Whole structure"));
+      title: "Show the whole structure; a double click does it, too" }, "Fit"));
 }

@@ -78,6 +78,7 @@ export interface PaperEnd {
   metres?: number;
   seconds?: number;
   coverage_percent?: Vec3;
+  is_doubtful?: boolean; // the table's notes say why
   density?: number;
 }
 

@@ -1,5 +1,6 @@
 // Eye-dome lighting: a pixel is darkened by how far its neighbours stand out before it, which gives
-// a cloud without normals its shape (Boucheny 2009).
+// a cloud without normals its shape (Boucheny 2009). Lines and other marks are drawn afterwards, or
+// each would wear a dark halo.
 import * as three from "three";
 
 const kVertex = `
@@ -28,7 +29,12 @@ void main() {
   float isSomething = step(texture2D(uDepth, vAt).x, 0.99999);
   colour.rgb *= mix(1.0, max(0.25, exp(-9.0 * before / 8.0)), isSomething);
   gl_FragColor = linearToOutputTexel(vec4(colour.rgb, 1.0));
+  gl_FragDepth = texture2D(uDepth, vAt).x;
 }`;
+
+/** What is shaded, and what is drawn over it. */
+export const kSurfaceLayer = 0;
+export const kMarkLayer = 1;
 
 export class DepthShading {
   private readonly target: three.WebGLRenderTarget;
@@ -42,8 +48,7 @@ export class DepthShading {
     this.material = new three.ShaderMaterial({
       vertexShader: kVertex,
       fragmentShader: kFragment,
-      depthTest: false,
-      depthWrite: false,
+      depthFunc: three.AlwaysDepth, // brings the surfaces' depths along, for the marks
       uniforms: {
         uColour: { value: this.target.texture },
         uDepth: { value: this.target.depthTexture },
@@ -67,8 +72,13 @@ export class DepthShading {
     uNear.value = camera.near;
     uFar.value = camera.far;
     renderer.setRenderTarget(this.target);
+    renderer.clear();
+    camera.layers.set(kSurfaceLayer);
     renderer.render(scene, camera);
     renderer.setRenderTarget(null);
+    renderer.clear();
     renderer.render(this.quad, this.screen);
+    camera.layers.set(kMarkLayer);
+    renderer.render(scene, camera);
   }
 }

@@ -44,7 +44,9 @@ function build() {
     replay.setFlights(shownFlights());
   };
   const has = {
-    real: flights.some((flight) => flight.data.cloud?.colour),
+    // of all that have points: pictures side by side should mean the same
+    real: flights.every((flight) => !flight.data.cloud || flight.data.cloud.colour)
+      && flights.some((flight) => flight.data.cloud),
     voxels: flights.some((flight) => flight.data.voxels),
     cloud: flights.some((flight) => flight.data.cloud),
     structure: page.meshes.length > 0,
@@ -61,7 +63,7 @@ function build() {
       panels.makeMissing(page.runs) ?? "",
       isAlone ? panels.makeTiles(page.runs[0])
         : panels.makeRunTable(page.runs, shown, setShown),
-      make("div", { class: "board" },
+      make("div", { class: isAlone ? "board" : "board several" },
         make("section", { class: "mission", "aria-label": "The mission in 3D" },
           make("div", { class: "card view" }, layerBar, stage.element,
             makeTransport(replay, words), words),

@@ -13,33 +13,57 @@ const srgb = (c: [number, number, number]) =>
 /** The colour of the view that is `t` of the way from the first to the last. */
 export const orderColour = (t: number) => srgb(ramp("order", isDark() ? 0.12 + 0.88 * t : 0.85 * t));
 
-/** The flown path; show(n) leaves the first n samples of it. */
+function makeTube(positions: Float32Array, colours: Float32Array, width_px: number, opacity: number) {
+  const geometry = new LineSegmentsGeometry();
+  if (positions.length > 0) geometry.setPositions(positions).setColors(colours);
+  const tube = new LineSegments2(geometry, new LineMaterial({ linewidth: width_px,
+    vertexColors: true, transparent: opacity < 1, opacity }));
+  tube.frustumCulled = false;
+  return tube;
+}
+
+/** The flown path, the profile's part of it thin and grey; show(n) leaves the first n samples. */
 export class PathMark {
-  readonly object: LineSegments2;
+  readonly object = new three.Group();
+  private readonly profile: LineSegments2;
+  private readonly planned: LineSegments2;
+  private readonly firstView: number; // sample
+  private layers = [true, true];
 
   constructor(flight: Flight) {
     const points = flight.points ?? new Float32Array();
     const count = points.length / 3;
-    const firstView = flight.firstViewSample();
-    const profile = new three.Color(isDark() ? 0x75808e : 0x8a95a3);
-    const positions = new Float32Array(Math.max(0, count - 1) * 6);
-    const colours = new Float32Array(positions.length);
-    for (let i = 0; i + 1 < count; ++i) {
-      positions.set(points.subarray(3 * i, 3 * i + 6), 6 * i);
-      const colour = i < firstView ? profile : orderColour((i - firstView) / (count - firstView));
-      colour.toArray(colours, 6 * i);
-      colour.toArray(colours, 6 * i + 3);
-    }
-    const geometry = new LineSegmentsGeometry();
-    if (positions.length > 0) geometry.setPositions(positions).setColors(colours);
-    this.object = new LineSegments2(geometry,
-      new LineMaterial({ linewidth: 2.2, vertexColors: true }));
-    this.object.frustumCulled = false;
+    this.firstView = Math.min(flight.firstViewSample(), count);
+    const grey = new three.Color(isDark() ? 0x75808e : 0x8a95a3);
+    const piece = (begin: number, end: number, colourOf: (i: number) => three.Color) => {
+      const segments = Math.max(0, end - begin - 1);
+      const positions = new Float32Array(6 * segments);
+      const colours = new Float32Array(6 * segments);
+      for (let i = 0; i < segments; ++i) {
+        positions.set(points.subarray(3 * (begin + i), 3 * (begin + i) + 6), 6 * i);
+        colourOf(i / segments).toArray(colours, 6 * i);
+        colourOf(i / segments).toArray(colours, 6 * i + 3);
+      }
+      return { positions, colours };
+    };
+    const before = piece(0, this.firstView, () => grey);
+    const after = piece(Math.max(0, this.firstView - 1), count, orderColour);
+    this.profile = makeTube(before.positions, before.colours, 1.2, 0.7);
+    this.planned = makeTube(after.positions, after.colours, 2.4, 1);
+    this.object.add(this.profile, this.planned);
+  }
+
+  setLayers(showsPlanned: boolean, showsProfile: boolean) {
+    this.layers = [showsPlanned, showsProfile];
   }
 
   show(samples: number) {
-    this.object.geometry.instanceCount = Math.max(0, samples - 1);
-    this.object.visible = samples > 1;
+    const profile = Math.min(samples, this.firstView) - 1;
+    const planned = samples - this.firstView;
+    this.profile.geometry.instanceCount = Math.max(0, profile);
+    this.profile.visible = this.layers[1] && profile > 0;
+    this.planned.geometry.instanceCount = Math.max(0, planned);
+    this.planned.visible = this.layers[0] && planned > 0;
   }
 }
 
@@ -91,7 +115,7 @@ export class FrustaMark {
 /** What the cameras of the vehicle see now, out to their range; to be put on the vehicle's pose. */
 export function makeSight(cameras: CameraData[]): three.Group {
   const group = new three.Group();
-  const faces = new three.MeshBasicMaterial({ color: 0xff8a3c, transparent: true, opacity: 0.1,
+  const faces = new three.MeshBasicMaterial({ color: 0xff8a3c, transparent: true, opacity: 0.07,
     depthWrite: false, side: three.DoubleSide });
   const lines = new three.LineBasicMaterial({ color: 0xff8a3c, transparent: true, opacity: 0.75 });
   for (const camera of cameras) {

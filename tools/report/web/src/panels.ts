@@ -21,7 +21,8 @@ function keyFigures(run: RunData): Figure[] {
   const figures: Figure[] = [];
   if (f) {
     figures.push({ name: "Coverage at 0.05 m", value: number(100 * f.coverage[0], 1), unit: "%",
-      paper: paper?.coverage_percent && `${number(paper.coverage_percent[0], 1)} %` });
+      paper: paper?.coverage_percent &&
+        `${number(paper.coverage_percent[0], 1)} %${paper.is_doubtful ? " †" : ""}` });
     figures.push({ name: "F within 5 cm", value: number(100 * f.f_5cm, 1), unit: "%" });
   }
   figures.push({ name: "Views", value: number(count), unit: "",
@@ -136,7 +137,7 @@ export function readout(flight: Flight, clock: Clock): string {
   const coverage = flight.data.figures?.curve.coverage[n];
   if (coverage) parts.push(`coverage ${number(100 * coverage[0], 1)} %`);
   if (v.candidates[n - 1] > 0) {
-    parts.push(`${v.sampler[n - 1].toUpperCase()}, best of ${v.valid[n - 1]} valid views`);
+    parts.push(`${v.sampler[n - 1].toUpperCase()}, ${v.valid[n - 1]} valid of ${v.candidates[n - 1]} candidates`);
   }
   return parts.join("  ·  ");
 }
@@ -189,9 +190,8 @@ export function showColourKey(key: HTMLElement, by: Colouring, model: Model | un
 
 export function makeHeader(page: PageData): HTMLElement {
   const [run] = page.runs;
-  const detail = page.runs.length > 1 ? page.runs.map((r) => r.label).join("  ·  ")
-    : [`structure ${run.structure}`, `seed ${run.seed}`, `preset ${run.preset}`,
+  const detail = page.runs.length > 1 ? "" : [`structure ${run.structure}`, `seed ${run.seed}`, `preset ${run.preset}`,
       run.figures ? `ended by ${run.figures.termination.replaceAll("_", " ")}` : "not finished"]
       .join("  ·  ");
-  return make("header", {}, make("h1", {}, page.title), make("p", {}, detail));
+  return make("header", {}, make("h1", {}, page.title.replaceAll("_", " ")), make("p", {}, detail));
 }

@@ -1,7 +1,7 @@
 // What the plots show, as numbers: a column of efforts and a column a line.
 import uPlot from "uplot";
 import type { Effort } from "./clock";
-import { lineColour, runColour } from "./colours";
+import { faintLine, lineColour, runColour } from "./colours";
 import type { Flight } from "./flight";
 
 export interface Line {
@@ -31,8 +31,9 @@ export interface PlotChoices {
 }
 
 export type Term = "utility" | "information" | "density_term" | "prediction" | "distance_factor";
-export const kTerms: [Term, string][] = [["utility", "Utility"], ["information", "Information"],
-  ["density_term", "Density"], ["prediction", "Prediction"], ["distance_factor", "Distance factor"]];
+export const kTerms: [Term, string][] = [["distance_factor", "Distance factor"],
+  ["density_term", "Density"], ["information", "Information"], ["prediction", "Prediction"],
+  ["utility", "Utility"]]; // the last is drawn on top
 export const kSizes = ["0.05 m", "0.10 m", "0.50 m"];
 
 type Column = [efforts: number[], values: number[]];
@@ -109,13 +110,21 @@ export function density(flights: Flight[], effort: Effort): PlotContent {
   return content;
 }
 
+/** Utilities of different formulas have different units: each is a share of its run's largest. */
+export const isShare = (flights: Flight[]) =>
+  new Set(flights.map((flight) => flight.data.utility)).size > 1;
+const largest = (values: number[]) => Math.max(...values.map(Math.abs)) || 1;
+
 /** The terms of one run's chosen views, or one term of several. */
 export function terms(flights: Flight[], effort: Effort, { term }: PlotChoices): PlotContent {
   // a start, or a move that was not chosen among candidates, has no score
-  const scores = (flight: Flight, key: Term) =>
+  const scores = (flight: Flight, key: Term, unit = 1) =>
     flight.data.views[key].map((value, i) =>
-      (flight.data.views.candidates[i] > 0 ? value : null) as number);
-  if (flights.length !== 1) return perRun(flights, effort, (f) => scores(f, term), term, 1.2);
+      (flight.data.views.candidates[i] > 0 ? value / unit : null) as number);
+  if (flights.length !== 1) {
+    return perRun(flights, effort,
+      (f) => scores(f, term, isShare(flights) ? largest(f.data.views[term]) : 1), term, 1.2);
+  }
   const [flight] = flights;
   const used = kTerms.filter(([key]) => {
     const rest = key === "distance_factor" ? 1 : 0;
@@ -123,7 +132,8 @@ export function terms(flights: Flight[], effort: Effort, { term }: PlotChoices):
   });
   const x = efforts(flight, effort, 1);
   return {
-    lines: used.map(([, name], i) => ({ name, colour: lineColour(i), width: 1.2 })),
+    lines: used.map(([key, name], i) => ({ name, width: 1.2,
+      colour: key === "distance_factor" ? faintLine() : lineColour(i - 1) })),
     data: joined(used.map(([key]) => [x, scores(flight, key)])),
     rings: [],
   };

@@ -3,7 +3,7 @@ import uPlot from "uplot";
 import type { Clock } from "./clock";
 import { hairline, nowLine, paleInk, phaseShade, runColour } from "./colours";
 import { make, select } from "./dom";
-import type { Flight } from "./flight";
+import { lastAtMost, type Flight } from "./flight";
 import * as specs from "./plot_specs";
 
 const kUnits = { views: "views", metres: "m", seconds: "s" };
@@ -12,21 +12,20 @@ const kHeight = 132;
 
 interface PlotKind {
   title: string;
-  unit: string;
+  unit: (flights: Flight[]) => string;
   content: (flights: Flight[], clock: Clock, choices: specs.PlotChoices) => specs.PlotContent;
   decimals: number;
   control?: "size" | "term";
-  isLog?: boolean;
 }
 
 const kKinds: PlotKind[] = [
-  { title: "Coverage", unit: "%", decimals: 1, control: "size",
+  { title: "Coverage", unit: () => "%", decimals: 1, control: "size",
     content: (f, clock, choices) => specs.coverage(f, clock.effort, choices) },
-  { title: "Entropy of the map", unit: "nat", decimals: 0,
+  { title: "Entropy of the map", unit: () => "nat", decimals: 0,
     content: (f, clock) => specs.entropy(f, clock.effort) },
-  { title: "Density", unit: "points a voxel", decimals: 1,
+  { title: "Density", unit: () => "points a voxel", decimals: 1,
     content: (f, clock) => specs.density(f, clock.effort) },
-  { title: "Utility of the chosen views", unit: "", decimals: 3, control: "term",
+  { title: "Utility of the chosen views", unit: (f) => (specs.isShare(f) ? "share of each run's largest" : ""), decimals: 3, control: "term",
     content: (f, clock, choices) => specs.terms(f, clock.effort, choices) },
 ];
 
@@ -40,7 +39,7 @@ export class Plots {
   constructor(private readonly clock: Clock) {
     clock.onChange(() => {
       if (clock.effort !== this.effort) this.rebuild();
-      else for (const plot of this.plots) plot.redraw(false);
+      else this.followClock();
     });
     new ResizeObserver(() => this.fit()).observe(this.element);
   }
@@ -57,6 +56,7 @@ export class Plots {
     this.element.replaceChildren();
     for (const kind of kKinds) this.add(kind);
     this.fit();
+    this.followClock();
   }
 
   private add(kind: PlotKind) {
@@ -65,9 +65,34 @@ export class Plots {
     const place = make("div", { class: "plot-place" });
     this.element.append(make("figure", { class: "card plot" },
       make("figcaption", {}, make("span", { class: "plot-title" }, kind.title),
-        make("span", { class: "unit" }, kind.unit), this.control(kind)),
+        make("span", { class: "unit" }, kind.unit(this.flights)), this.marksKey(kind, content),
+        this.control(kind)),
       hasValues ? place : make("p", { class: "nothing" }, "Not recorded by this run.")));
     if (hasValues) this.plots.push(new uPlot(this.options(kind, content), content.data, place));
+  }
+
+  /** What the marks of a plot mean, where it has any. */
+  private marksKey(kind: PlotKind, content: specs.PlotContent): HTMLElement | null {
+    const marks: Node[] = [];
+    if (content.rings.length > 0) marks.push(make("span", {}, "○ paper's end"));
+    const hasPhases = this.flights.some((flight) => flight.data.views.sampler.includes("fvs"));
+    if (kind === kKinds[0] && hasPhases) {
+      const swatch = this.flights.length === 1 ? "swatch" : "swatch strip";
+      marks.push(make("span", {}, make("i", { class: swatch }), "frontier views (FVS)"));
+    }
+    return marks.length > 0 ? make("span", { class: "marks-key" }, ...marks) : null;
+  }
+
+  /** The line at the replay's place, and the values there while no cursor asks for others. */
+  private followClock() {
+    for (const plot of this.plots) {
+      plot.redraw(false);
+      if ((plot.cursor.left ?? -1) < 0) this.showValues(plot);
+    }
+  }
+
+  private showValues(plot: uPlot) {
+    plot.setLegend({ idx: Math.max(0, lastAtMost(plot.data[0], this.clock.at + 1e-9)) }, false);
   }
 
   private control(kind: PlotKind): HTMLElement | null {
@@ -114,6 +139,7 @@ export class Plots {
         drawClear: [(plot) => this.shadePhases(plot)],
         draw: [(plot) => drawRings(plot, content.rings), (plot) => this.drawNow(plot)],
         ready: [(plot) => this.followClicks(plot)],
+        setCursor: [(plot) => { if ((plot.cursor.left ?? -1) < 0) this.showValues(plot); }],
       },
     };
   }

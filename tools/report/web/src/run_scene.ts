@@ -1,6 +1,7 @@
 // The scene of one run: what is there, and what of it shows at a moment of the replay.
 import * as three from "three";
-import { hairline, isDark, paleInk } from "./colours";
+import { hairline } from "./colours";
+import { kMarkLayer } from "./depth_shading";
 import type { Clock } from "./clock";
 import { Bytes, type MeshData } from "./data";
 import type { Flight } from "./flight";
@@ -12,19 +13,18 @@ export interface Layers {
   cloud: boolean;
   voxels: boolean;
   structure: boolean;
-  path: boolean;
+  path: boolean; // from the first view on
+  profile: boolean; // and before
   frusta: boolean;
   vehicle: boolean;
 }
 
-export const kBackground = () => (isDark() ? 0x14181e : 0xf4f6f9);
-
 /** Lines every 5 m on the ground. */
 function makeGround(min: number[], max: number[]): three.GridHelper {
   const size = 10 * Math.ceil(Math.max(max[0] - min[0], max[1] - min[1]) / 10 + 1);
-  const grid = new three.GridHelper(size, size / 5, paleInk(), hairline());
+  const grid = new three.GridHelper(size, size / 5, hairline(), hairline());
   (grid.material as three.Material).transparent = true;
-  (grid.material as three.Material).opacity = isDark() ? 0.6 : 0.9;
+  (grid.material as three.Material).opacity = 0.95;
   (grid.material as three.Material).depthWrite = false;
   grid.rotation.x = Math.PI / 2; // three's grids lie in x, z
   grid.position.set((min[0] + max[0]) / 2, (min[1] + max[1]) / 2, Math.min(0, min[2]));
@@ -52,15 +52,18 @@ export class RunScene {
     this.vehicle.add(this.body, this.sight);
     const sun = new three.DirectionalLight(0xffffff, 2.1);
     sun.position.set(-0.5, -0.8, 1.4);
-    this.scene.add(new three.HemisphereLight(0xffffff, 0x8d939c, 1.5), sun);
-    this.scene.add(makeGround(data.workspace.min, data.workspace.max));
+    const sky = new three.HemisphereLight(0xffffff, 0x8d939c, 1.5);
+    for (const light of [sun, sky]) light.layers.enable(kMarkLayer);
+    const ground = makeGround(data.workspace.min, data.workspace.max);
+    this.scene.add(sun, sky, ground);
     for (const part of [this.structure, this.model.cloud, this.model.voxels]) {
       if (part) this.scene.add(part);
     }
     this.scene.add(this.path.object, this.frusta.object, this.vehicle);
+    for (const mark of [ground, this.path.object, this.frusta.object, this.vehicle]) {
+      mark.traverse((part) => part.layers.set(kMarkLayer));
+    }
   }
-
-  setTheme() { this.scene.background = new three.Color(kBackground()); }
 
   setLayers(layers: Layers) {
     if (this.model.cloud) this.model.cloud.visible = layers.cloud;
@@ -69,11 +72,10 @@ export class RunScene {
       this.structure.visible = layers.structure;
       setGhost(this.structure, layers.cloud || layers.voxels);
     }
-    this.showsPath = layers.path;
+    this.path.setLayers(layers.path, layers.profile);
     this.frusta.object.visible = layers.frusta;
     this.vehicle.visible = layers.vehicle;
   }
-  private showsPath = true;
 
   colour(by: Colouring) { this.model.colour(by); }
 
@@ -82,7 +84,6 @@ export class RunScene {
     const n = this.flight.viewsAt(clock);
     this.model.show(n, pxPerTan);
     this.path.show(this.flight.samplesBy(this.flight.timeAt(clock)));
-    this.path.object.visible = this.path.object.visible && this.showsPath;
     this.frusta.show(n);
     const pose = this.flight.poseAt(clock);
     if (!pose) return;

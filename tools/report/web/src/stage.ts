@@ -1,6 +1,7 @@
 // The 3D view: a pane for each run that is shown, and one camera for all of them.
 import * as three from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { isDark } from "./colours";
 import type { Clock } from "./clock";
 import { make } from "./dom";
 import { DepthShading } from "./depth_shading";
@@ -23,9 +24,9 @@ export class Stage {
   constructor(private readonly scenes: RunScene[], private readonly clock: Clock) {
     this.shown = scenes;
     this.element = make("div", { class: "stage" }, this.canvas, this.labels);
-    this.renderer = new three.WebGLRenderer({ canvas: this.canvas, antialias: false });
+    this.renderer = new three.WebGLRenderer({ canvas: this.canvas, antialias: true });
     this.renderer.setScissorTest(true);
-    this.renderer.autoClear = true;
+    this.renderer.autoClear = false;
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.maxDistance = 300;
@@ -75,7 +76,7 @@ export class Stage {
   }
 
   setTheme() {
-    for (const scene of this.scenes) scene.setTheme();
+    this.renderer.setClearColor(isDark() ? 0x14181e : 0xf4f6f9);
     this.invalidate();
   }
 
@@ -84,14 +85,19 @@ export class Stage {
     const box = new three.Box3();
     for (const scene of this.shown) box.union(scene.bounds());
     const centre = box.getCenter(new three.Vector3());
-    const size = box.getSize(new three.Vector3());
     const { width, height } = this.paneSize();
-    const tan = Math.tan(three.MathUtils.degToRad(this.camera.fov) / 2);
-    const aspect = width / Math.max(1, height);
-    const across = Math.hypot(size.x, size.y);
-    const away = Math.max(across / 2 / tan / aspect, (size.z + 0.55 * across) / 2 / tan) * 1.02;
-    this.camera.position.copy(centre).addScaledVector(
-      new three.Vector3(0.55, -0.8, 0.5).normalize(), away);
+    const tan = 0.94 * Math.tan(three.MathUtils.degToRad(this.camera.fov) / 2);
+    const back = new three.Vector3(0.55, -0.8, 0.5).normalize();
+    const right = new three.Vector3(-back.y, back.x, 0).normalize();
+    const up = back.clone().cross(right);
+    let away = 1;
+    for (let corner = 0; corner < 8; ++corner) { // the nearest place that sees all corners
+      const at = new three.Vector3(corner & 1 ? box.max.x : box.min.x,
+        corner & 2 ? box.max.y : box.min.y, corner & 4 ? box.max.z : box.min.z).sub(centre);
+      away = Math.max(away, at.dot(back) + Math.abs(at.dot(up)) / tan,
+        at.dot(back) + Math.abs(at.dot(right)) / tan * height / width);
+    }
+    this.camera.position.copy(centre).addScaledVector(back, away);
     this.controls.target.copy(centre);
     this.controls.update();
     this.invalidate();

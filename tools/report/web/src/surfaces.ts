@@ -1,6 +1,7 @@
 // What has a surface: the structure, the points of the cloud, the voxels.
 import * as three from "three";
-import { ramp } from "./colours";
+import { ramp, rampTable, type RampName } from "./colours";
+import { kMarkLayer, kSurfaceLayer } from "./depth_shading";
 import type { Bytes, MeshData, RunData } from "./data";
 
 /** Colours by what the point is like; `real` is what the cameras saw. */
@@ -28,7 +29,8 @@ export function setGhost(structure: three.Group, isGhost: boolean) {
     material.opacity = isGhost ? 0.13 : 1;
     material.depthWrite = !isGhost;
     material.needsUpdate = true;
-    child.renderOrder = isGhost ? 2 : 0;
+    child.layers.set(isGhost ? kMarkLayer : kSurfaceLayer);
+    child.renderOrder = isGhost ? -1 : 0; // under the marks
   }
 }
 
@@ -46,19 +48,24 @@ const kLinear = Uint8Array.from({ length: 256 }, (_, v) =>
 /** Counts of the cloud's points, with a ceiling that leaves out the densest few. */
 class Densities {
   readonly most: number;
-  private readonly cells = new Map<string, number>();
+  private readonly cells = new Map<number, number>();
 
   constructor(readonly index: Int16Array, readonly count: Uint32Array, readonly size: number) {
     for (let i = 0; i < count.length; ++i) {
-      this.cells.set(`${index[3 * i]},${index[3 * i + 1]},${index[3 * i + 2]}`, count[i]);
+      this.cells.set(Densities.key(index[3 * i], index[3 * i + 1], index[3 * i + 2]), count[i]);
     }
     const sorted = Uint32Array.from(count).sort();
     this.most = sorted[Math.floor(0.98 * (sorted.length - 1))] || 1;
   }
 
+  /** Exact in a double: 16 bits an axis. */
+  private static key(i: number, j: number, k: number): number {
+    return ((i + 32768) * 65536 + j + 32768) * 65536 + k + 32768;
+  }
+
   at(x: number, y: number, z: number): number {
-    const [i, j, k] = [x, y, z].map((c) => Math.floor(c / this.size));
-    return this.cells.get(`${i},${j},${k}`) ?? 0;
+    const cell = (c: number) => Math.floor(c / this.size);
+    return this.cells.get(Densities.key(cell(x), cell(y), cell(z))) ?? 0;
   }
 }
 
@@ -114,16 +121,16 @@ export class Model {
 
   colour(by: Colouring) {
     if (this.cloud) this.cloud.geometry.setAttribute("rgb", this.cloudColours(by));
-    if (this.voxels && this.densities) {
-      const { index, count, size } = this.densities;
-      const first = firstStates(this.voxelsAfter, count.length);
-      const colour = new three.Color();
-      for (let i = 0; i < count.length; ++i) {
-        const [r, g, b] = this.rgb(by, size * (index[3 * i + 2] + 0.5), count[i], first[i]);
-        this.voxels.setColorAt(i, colour.setRGB(r / 255, g / 255, b / 255, three.SRGBColorSpace));
-      }
-      this.voxels.instanceColor!.needsUpdate = true;
+    if (!this.voxels || !this.densities) return;
+    const { index, count, size } = this.densities;
+    const [name, share] = this.ramp(by);
+    const first = firstStates(this.voxelsAfter, count.length);
+    const colour = new three.Color();
+    for (let i = 0; i < count.length; ++i) {
+      const [r, g, b] = ramp(name, share(size * (index[3 * i + 2] + 0.5), count[i], first[i]));
+      this.voxels.setColorAt(i, colour.setRGB(r / 255, g / 255, b / 255, three.SRGBColorSpace));
     }
+    this.voxels.instanceColor!.needsUpdate = true;
   }
 
   /** After `n` views; the points of the last one are marked. */
@@ -137,27 +144,35 @@ export class Model {
     if (this.voxels) this.voxels.count = this.voxelsAfter[n];
   }
 
-  private rgb(by: Colouring, height: number, density: number, state: number) {
-    if (by === "iteration") return ramp("order", state / Math.max(1, this.data.views.x.length));
-    if (by === "density") return ramp("density", density / (this.densities?.most ?? 1));
+  /** The ramp of a colouring, and what of it a point with these properties takes, from 0 to 1. */
+  private ramp(by: Colouring): [RampName, (height: number, density: number, state: number) => number] {
     const [low, high] = this.heights;
-    return ramp("height", (height - low) / (high - low));
+    const states = Math.max(1, this.data.views.x.length);
+    const most = this.densities?.most ?? 1;
+    if (by === "iteration") return ["order", (_, __, state) => state / states];
+    if (by === "density") return ["density", (_, density) => density / most];
+    return ["height", (height) => (height - low) / (high - low)];
   }
 
   private cloudColours(by: Colouring): three.BufferAttribute {
-    const count = this.points.length / 3;
+    const points = this.points;
+    const count = points.length / 3;
     const rgb = new Uint8Array(3 * count);
     if (by === "real" && this.data.cloud?.colour) {
-      rgb.set(this.bytes.u8(this.data.cloud.colour));
+      const seen = this.bytes.u8(this.data.cloud.colour);
+      for (let i = 0; i < rgb.length; ++i) rgb[i] = kLinear[seen[i]];
     } else {
+      const [name, share] = this.ramp(by);
+      const table = rampTable(name).map((value) => kLinear[value]);
       const first = firstStates(this.cloudAfter, count);
       for (let i = 0; i < count; ++i) {
-        const [x, y, z] = this.points.subarray(3 * i, 3 * i + 3);
-        const density = by === "density" ? this.densities?.at(x, y, z) ?? 0 : 0;
-        rgb.set(this.rgb(by, z, density, first[i]), 3 * i);
+        const z = points[3 * i + 2];
+        const density = by === "density"
+          ? this.densities?.at(points[3 * i], points[3 * i + 1], z) ?? 0 : 0;
+        const at = 3 * Math.round(255 * Math.min(Math.max(share(z, density, first[i]), 0), 1));
+        for (let k = 0; k < 3; ++k) rgb[3 * i + k] = table[at + k];
       }
     }
-    for (let i = 0; i < rgb.length; ++i) rgb[i] = kLinear[rgb[i]];
     return new three.BufferAttribute(rgb, 3, true);
   }
 
