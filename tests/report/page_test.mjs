@@ -62,7 +62,9 @@ try {
 
   // and a click into a plot
   const place = await browser.evaluate(`(() => {
-    const box = document.querySelector(".u-over").getBoundingClientRect();
+    const plot = document.querySelector(".u-over");
+    plot.scrollIntoView({ block: "center" });
+    const box = plot.getBoundingClientRect();
     return [box.left + 0.4 * box.width, box.top + box.height / 2];
   })()`);
   for (const type of ["mousePressed", "mouseReleased"]) {
