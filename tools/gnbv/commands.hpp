@@ -35,6 +35,7 @@ void add_ceiling_command(CLI::App& app);
 void add_export_command(CLI::App& app);
 void add_plot_command(CLI::App& app);
 void add_render_command(CLI::App& app);
+void add_report_command(CLI::App& app);
 void add_asset_command(CLI::App& app);
 void add_lint_command(CLI::App& app);
 void add_schema_command(CLI::App& app);

@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# Two short missions with hostile names, their report, and a browser that opens it.
+# usage: page_test.sh GNBV      exit: 0 as it should be, 1 not, 77 no Chromium
+set -euo pipefail
+gnbv=$1
+here=$(cd "$(dirname "$0")" && pwd)
+chromium=$(command -v chromium || command -v chromium-browser || command -v google-chrome) || {
+  echo "page_test.sh: no Chromium: skipped" >&2
+  exit 77
+}
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+
+evil='<img src=x onerror=window.hacked=1>'
+for utility in proposed bircher; do
+  "$gnbv" run smoke --quiet --frames --utility "$utility" --out "$evil$utility" \
+    --set planner.termination.max_iterations=4 >/dev/null
+done
+# names that only files can hold
+node -e '
+  const fs = require("fs");
+  const evil = "</script><script>window.hacked=1</script><svg onload=window.hacked=1>";
+  for (const run of process.argv.slice(1)) {
+    const summary = JSON.parse(fs.readFileSync(run + "/summary.json"));
+    Object.assign(summary, { scenario: evil, structure: evil, utility: evil, version: evil });
+    fs.writeFileSync(run + "/summary.json", JSON.stringify(summary));
+    fs.appendFileSync(run + "/scenario.yaml", "# " + evil + "\n");
+  }' "${evil}proposed" "${evil}bircher"
+"$gnbv" report "${evil}proposed" --quiet -o one.html >/dev/null
+"$gnbv" report "${evil}proposed" "${evil}bircher" --quiet -o two.html >/dev/null
+node "$here/page_test.mjs" "$chromium" one.html "${evil}proposed"
+node "$here/page_test.mjs" "$chromium" two.html "${evil}proposed" "${evil}bircher"

@@ -1,0 +1,73 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "tools/gnbv/commands.hpp"
+#include "tools/gnbv/progress.hpp"
+#include "tools/report/report.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ReportCommandOptions {
+  std::vector<fs::path> runs;
+  fs::path out;
+  ReportOptions report;
+  bool quiet = false;
+};
+
+fs::path page_path(const ReportCommandOptions& options) {
+  if (!options.out.empty()) return options.out;
+  return options.runs.size() == 1 ? options.runs[0] / "report.html" : fs::path("report.html");
+}
+
+void report(ReportCommandOptions options) {
+  if (options.runs.size() > kMaxReportRuns) {
+    throw BadInput(
+        fmt::format("report: {} runs, and a page has room for {}; `gnbv compare --from` "
+                    "compares more",
+                    options.runs.size(), kMaxReportRuns));
+  }
+  options.report.threads = thread_count(options.report.threads);
+  std::vector<RunRecord> records;
+  for (const fs::path& run : options.runs) {
+    records.push_back(read_run(run));
+    for (const std::string& missing : records.back().missing) {
+      fmt::print(stderr, "gnbv: {}\n", missing);
+    }
+  }
+  Report made;
+  {
+    ProgressBar bar("report", options.quiet);
+    made = make_report(records, options.report,
+                       [&](double share) { bar.show(share, "reading runs and frames"); });
+  }
+  for (const std::string& missing : made.missing) fmt::print(stderr, "gnbv: {}\n", missing);
+  const fs::path page = page_path(options);
+  write_file_atomically(page, made.html);
+  fmt::print("{}\n", page.string());
+}
+
+}  // namespace
+
+void add_report_command(CLI::App& app) {
+  auto options = std::make_shared<ReportCommandOptions>();
+  CLI::App* const command = app.add_subcommand(
+      "report", "one offline page of runs: figures beside the paper's, plots, the mission in 3D");
+  command->add_option("RUN", options->runs, "run directories, to compare if several")->required();
+  command->add_option("-o,--out", options->out,
+                      "HTML to write (default: RUN/report.html, of several runs report.html here)");
+  command->add_option("--title", options->report.title, "instead of the runs' own");
+  command
+      ->add_option("--threads", options->report.threads, "0 = all; the page does not depend on it")
+      ->default_val(0)
+      ->check(CLI::Range(0, 1024));
+  command->add_flag("--quiet", options->quiet, "no progress");
+  command->callback([options] { report(*options); });
+}
+
+}  // namespace gnbv

@@ -1,0 +1,25 @@
+// Text that goes into a page and stays text there.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace gnbv {
+
+/// For element content and quoted attributes.
+std::string html_escaped(std::string_view text);
+
+/// JSON for a <script> element: no character in it can end the element or begin a comment.
+std::string script_json(std::string_view json);
+
+/// `'sha256-...'` of an inline script or style, as a Content-Security-Policy names what may run.
+std::string policy_hash(std::string_view text);
+
+/// The template with each {{KEY}} once replaced by its value, in one pass: values are never
+/// searched. Requires every key to be in the template, and no other.
+std::string filled(std::string_view page,
+                   const std::vector<std::pair<std::string_view, std::string_view>>& values);
+
+}  // namespace gnbv

@@ -1,0 +1,251 @@
+#include "tools/report/run_json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "bench/paper_figures.hpp"
+#include "sim/core/file.hpp"
+#include "sim/core/srgb.hpp"
+#include "tools/mission/load_world.hpp"
+#include "tools/report/thinning.hpp"
+#include "tools/sweep/shell_word.hpp"
+
+namespace gnbv {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMaxFaces = 120'000;
+
+Json slice_json(const ByteSlice& slice) { return {slice.at, slice.count}; }
+
+Json vector_json(const Vec3f& v) { return {v.x(), v.y(), v.z()}; }
+
+Json points_json(const PackedPoints& points) {
+  return {{"min", vector_json(points.min_m)},
+          {"size", vector_json(points.size_m)},
+          {"steps", slice_json(points.steps)}};
+}
+
+template <typename Value>
+Json column(const std::vector<ViewRecord>& views, const Value& value_of) {
+  Json values = Json::array();
+  for (const ViewRecord& view : views) values.push_back(value_of(view));
+  return values;
+}
+
+/// A column a key; seconds since the profile's end, metres as planned.
+Json views_json(const RunRecord& record) {
+  const std::vector<ViewRecord>& views = record.views;
+  const double begin_s = record.profile_end_s.value_or(views.empty() ? 0.0 : views.front().time_s);
+  const auto of = [&](const auto& value_of) { return column(views, value_of); };
+  using V = const ViewRecord&;
+  return {{"x", of([](V v) { return v.decision.view.p_world_m.x(); })},
+          {"y", of([](V v) { return v.decision.view.p_world_m.y(); })},
+          {"z", of([](V v) { return v.decision.view.p_world_m.z(); })},
+          {"yaw", of([](V v) { return v.decision.view.yaw_rad; })},
+          {"time", of([](V v) { return v.time_s; })},
+          {"seconds", of([&](V v) { return v.time_s - begin_s; })},
+          {"metres", of([](V v) { return v.straight_m; })},
+          {"sampler", of([](V v) { return v.decision.sampler; })},
+          {"candidates", of([](V v) { return v.decision.candidates; })},
+          {"valid", of([](V v) { return v.decision.valid; })},
+          {"utility", of([](V v) { return v.decision.score.value; })},
+          {"information", of([](V v) { return v.decision.score.information; })},
+          {"density_term", of([](V v) { return v.decision.score.density; })},
+          {"prediction", of([](V v) { return v.decision.score.prediction; })},
+          {"distance_factor", of([](V v) { return v.decision.score.distance; })},
+          {"entropy", of([](V v) { return v.entropy_nat; })},
+          {"density", of([](V v) { return v.density_points_per_voxel; })},
+          {"points", of([](V v) { return v.cloud_points; })}};
+}
+
+Json figures_json(const RunFigures& f) {
+  return {
+      {"termination", f.termination},
+      {"iterations", f.iterations},
+      {"entropy_reduction", f.entropy_reduction_nat},
+      {"straight_m", f.straight_m},
+      {"flown_m", f.flown_m},
+      {"profile_m", f.profile_m},
+      {"flight_time_s", f.flight_time_s},
+      {"energy_wh", f.energy_wh},
+      {"coverage", f.coverage_final},
+      {"f_5cm", f.distances.at[1].f},
+      {"chamfer_m", f.distances.chamfer_m},
+      {"density", f.density_points_per_voxel},
+      {"version", f.version},
+      {"result_sha256", f.result_sha256},
+      {"wall_s", f.wall_s},
+      {"curve",
+       {{"coverage", f.curve.coverage}, {"metres", f.curve.metres}, {"seconds", f.curve.seconds}}}};
+}
+
+/// Where the paper's mission of this utility ended, to mark it in the plots; null without one.
+Json paper_json(const RunRecord& record) {
+  if (!record.figures) return nullptr;
+  const PaperTable* const paper = find_paper_table(record.scenario.name);
+  if (paper == nullptr || !is_papers_structure(*paper, record.figures->structure)) return nullptr;
+  const PaperRow* const row = find_row(*paper, record.scenario.planner.utility.name);
+  if (row == nullptr || !row->iterations) return nullptr;
+  Json json = {{"label", row->label}, {"views", *row->iterations}};
+  if (row->distance_m) json["metres"] = *row->distance_m;
+  if (row->time_min) json["seconds"] = 60.0 * *row->time_min;
+  if (row->coverage_percent) json["coverage_percent"] = *row->coverage_percent;
+  json["is_doubtful"] = is_doubtful(*row);
+  if (row->density_points_per_voxel) json["density"] = *row->density_points_per_voxel;
+  return json;
+}
+
+Json cameras_json(const Scenario& scenario) {
+  Json cameras = Json::array();
+  for (const CameraConfig& config : scenario.cameras) {
+    const CameraModel model = make_camera_model(config);
+    Json T = Json::array();  // column by column
+    for (int c = 0; c < 4; ++c) {
+      for (int r = 0; r < 4; ++r) T.push_back(model.T_body_camera(r, c));
+    }
+    cameras.push_back({{"name", config.name},
+                       {"fov_x", config.fov_x_rad},
+                       {"fov_y", config.fov_y_rad},
+                       {"range_m", config.range_max_m},
+                       {"T_body_camera", T}});
+  }
+  return cameras;
+}
+
+Json vehicle_json(const Scenario& scenario) {
+  Json rotors = Json::array();
+  for (const RotorMount& rotor : scenario.vehicle.airframe.rotors) {
+    rotors.push_back({rotor.p_body_m.x(), rotor.p_body_m.y(), rotor.p_body_m.z()});
+  }
+  return {{"rotors", rotors}, {"radius_m", scenario.vehicle.airframe.hull_radius_m}};
+}
+
+Json packed_json(const PackedRun& packed) {
+  Json json = {{"cloud", nullptr}, {"voxels", nullptr}, {"path", nullptr}};
+  if (packed.cloud) {
+    json["cloud"] = {{"points", points_json(packed.cloud->points)},
+                     {"after", slice_json(packed.cloud->after)},
+                     {"all_points", packed.cloud->all_points},
+                     {"cell_m", packed.cloud->cell_m}};
+    if (packed.cloud->colour) json["cloud"]["colour"] = slice_json(*packed.cloud->colour);
+  }
+  if (packed.voxels) {
+    json["voxels"] = {{"size_m", packed.voxels->size_m},
+                      {"index", slice_json(packed.voxels->index)},
+                      {"after", slice_json(packed.voxels->after)},
+                      {"count", slice_json(packed.voxels->count)}};
+  }
+  if (packed.path) {
+    json["path"] = {{"points", points_json(packed.path->points)},
+                    {"time", slice_json(packed.path->time_s)},
+                    {"quaternion", slice_json(packed.path->quaternion)}};
+  }
+  Json frames = Json::array();
+  for (const PackedThumbnail& t : packed.thumbnails) {
+    frames.push_back(
+        {t.view, packed.cameras[t.camera], t.width_px, t.height_px, t.jpeg.at, t.jpeg.count});
+  }
+  json["frames"] = frames;
+  return json;
+}
+
+}  // namespace
+
+std::vector<std::string> run_labels(const std::vector<RunRecord>& records) {
+  std::vector<std::string> labels;
+  const auto label_of = [](const RunRecord& r, int detail) {
+    std::string label = run_title(r);
+    if (detail > 0) label += fmt::format(", seed {}", r.scenario.seed);
+    if (detail > 1) label += fmt::format(" ({})", r.folder.lexically_normal().string());
+    return label;
+  };
+  const auto is_shared = [&](const RunRecord& r, int detail) {
+    return std::count_if(records.begin(), records.end(), [&](const RunRecord& other) {
+             return label_of(other, detail) == label_of(r, detail);
+           }) > 1;
+  };
+  for (const RunRecord& r : records) {
+    int detail = 0;
+    while (detail < 2 && is_shared(r, detail)) ++detail;
+    labels.push_back(label_of(r, detail));
+  }
+  return labels;
+}
+
+Json table_json(const TextTable& table) {
+  Json json = {{"title", table.title}, {"columns", Json::array()}, {"rows", Json::array()}};
+  for (const TableColumn& c : table.columns) {
+    json["columns"].push_back({{"head", c.head}, {"is_number", c.kind != ColumnKind::text}});
+  }
+  for (const auto& row : table.rows) {
+    Json cells = Json::array();
+    for (const TableCell& cell : row) cells.push_back(cell.text);
+    json["rows"].push_back(cells);
+  }
+  json["notes"] = table.notes;
+  return json;
+}
+
+Json mesh_json(const TriangleMesh& mesh, BytePack& bytes) {
+  const TriangleMesh small = with_fewer_faces(mesh, kMaxFaces);
+  Json json = {{"vertices", points_json(pack_points(small.vertices_m, bytes))},
+               {"all_faces", mesh.faces.size()},
+               {"parts", Json::array()}};
+  for (std::size_t m = 0; m < small.materials.size(); ++m) {
+    std::vector<std::uint32_t> corners;
+    for (std::size_t i = 0; i < small.faces.size(); ++i) {
+      if ((small.face_material.empty() ? 0 : small.face_material[i]) != m) continue;
+      corners.insert(corners.end(), small.faces[i].begin(), small.faces[i].end());
+    }
+    if (corners.empty()) continue;
+    const Material& material = small.materials[m];
+    Json rgb = Json::array();  // linear; what the eye makes of a pattern from afar
+    for (std::size_t k = 0; k < 3; ++k) {
+      const bool is_plain = material.pattern == Pattern::plain;
+      rgb.push_back(is_plain ? material.rgb[k] : 0.7F * material.rgb[k] + 0.3F * material.rgb_2[k]);
+    }
+    json["parts"].push_back({{"rgb", rgb}, {"corners", slice_json(bytes.add(corners))}});
+  }
+  return json;
+}
+
+Json run_json(const RunRecord& record, const std::string& label, const PackedRun& packed,
+              int mesh) {
+  const Scenario& scenario = record.scenario;
+  Json missing = record.missing;
+  for (const std::string& sentence : packed.missing) missing.push_back(sentence);
+  const std::string yaml = (record.folder / "scenario.yaml").string();
+  Json json = {
+      {"label", label},
+      {"scenario", scenario.name},
+      {"structure", structure_name(scenario.structure)},
+      {"utility", scenario.planner.utility.name},
+      {"preset", scenario.planner.preset},
+      {"seed", scenario.seed},
+      {"folder", record.folder.string()},
+      {"command", fmt::format("gnbv run {}{} --out {}", shell_word(yaml),
+                              packed.thumbnails.empty() ? "" : " --frames",
+                              shell_word(record.folder.string() + "-again"))},
+      {"yaml", read_file(record.folder / "scenario.yaml")},
+      {"missing", missing},
+      {"workspace",
+       {{"min", vector_json(scenario.workspace_m.min().cast<float>())},
+        {"max", vector_json(scenario.workspace_m.max().cast<float>())}}},
+      {"has_ground", scenario.structure.ground},
+      {"profile_end_s", record.profile_end_s ? Json(*record.profile_end_s) : Json(nullptr)},
+      {"views_begin_s", record.views_begin_s ? Json(*record.views_begin_s) : Json(nullptr)},
+      {"mesh", mesh},
+      {"cameras", cameras_json(scenario)},
+      {"vehicle", vehicle_json(scenario)},
+      {"views", views_json(record)},
+      {"figures", record.figures ? figures_json(*record.figures) : Json(nullptr)},
+      {"paper", paper_json(record)}};
+  json.update(packed_json(packed));
+  return json;
+}
+
+}  // namespace gnbv

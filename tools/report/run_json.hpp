@@ -1,0 +1,28 @@
+// What the page is told about runs: JSON beside the blocks of bytes.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "bench/text_table.hpp"
+#include "sim/triangle_mesh.hpp"
+#include "tools/report/run_pack.hpp"
+
+namespace gnbv {
+
+/// Names by which people tell the runs apart: title, with seed and folder as far as they need it.
+std::vector<std::string> run_labels(const std::vector<RunRecord>& records);
+
+/// Title, columns, rows and notes as printed.
+nlohmann::ordered_json table_json(const TextTable& table);
+
+/// The structure, thinned to what a page can carry, its arrays added to `bytes`.
+nlohmann::ordered_json mesh_json(const TriangleMesh& mesh, BytePack& bytes);
+
+/// The record with what was packed of it. `mesh` is the page's number of its structure, -1 for
+/// none.
+nlohmann::ordered_json run_json(const RunRecord& record, const std::string& label,
+                                const PackedRun& packed, int mesh);
+
+}  // namespace gnbv

@@ -1,0 +1,140 @@
+#include "tools/report/run_pack.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "sim/core/error.hpp"
+#include "tools/report/thinning.hpp"
+
+namespace gnbv {
+namespace {
+
+std::uint32_t as_count(std::size_t count) { return static_cast<std::uint32_t>(count); }
+
+/// How many of `first_views` (the view that brought each, -1 the profile; ascending) there are
+/// after each number of views.
+std::vector<std::uint32_t> counts_after(const std::vector<int>& first_views, std::size_t views) {
+  std::vector<std::uint32_t> after;
+  for (int n = 0; n <= static_cast<int>(views); ++n) {
+    const auto end = std::lower_bound(first_views.begin(), first_views.end(), n);
+    after.push_back(as_count(static_cast<std::size_t>(end - first_views.begin())));
+  }
+  return after;
+}
+
+PackedCloud pack_cloud(const RunCloud& cloud, const ThinnedPoints& thin, std::size_t views,
+                       BytePack& bytes) {
+  std::vector<Vec3f> points;
+  std::vector<int> first_views;
+  for (const std::size_t i : thin.kept) {
+    points.push_back(cloud.points_world_m[i]);
+    first_views.push_back(cloud.view_of(i));
+  }
+  PackedCloud out{.all_points = cloud.points_world_m.size(), .cell_m = thin.cell_m};
+  out.points = pack_points(points, bytes);
+  out.after = bytes.add(counts_after(first_views, views));
+  return out;
+}
+
+PackedVoxels pack_voxels(const RunCloud& cloud, double size_m, std::size_t views, BytePack& bytes) {
+  const std::vector<std::size_t> first = first_points(cloud.points_world_m, size_m);
+  const auto index_of = [&](const Vec3f& p, int axis) {
+    return static_cast<std::int16_t>(std::floor(static_cast<double>(p[axis]) / size_m));
+  };
+  const auto code_of = [&](const Vec3f& p) {
+    std::uint64_t code = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      code = code << 16U | static_cast<std::uint16_t>(index_of(p, axis));
+    }
+    return code;
+  };
+  std::vector<std::int16_t> index;
+  std::vector<int> first_views;
+  std::unordered_map<std::uint64_t, std::size_t> place;
+  for (const std::size_t i : first) {
+    const Vec3f& p = cloud.points_world_m[i];
+    place.emplace(code_of(p), place.size());
+    for (int axis = 0; axis < 3; ++axis) index.push_back(index_of(p, axis));
+    first_views.push_back(cloud.view_of(i));
+  }
+  std::vector<std::uint32_t> count(first.size(), 0);
+  for (const Vec3f& p : cloud.points_world_m) ++count[place.at(code_of(p))];
+  return {.size_m = size_m,
+          .index = bytes.add(index),
+          .after = bytes.add(counts_after(first_views, views)),
+          .count = bytes.add(count)};
+}
+
+PackedPath pack_path(const std::vector<TrajectorySample>& path, BytePack& bytes) {
+  std::vector<Vec3f> points;
+  std::vector<float> time_s;
+  std::vector<std::int16_t> quaternion;
+  for (const TrajectorySample& sample : path) {
+    points.push_back(sample.T_world_body.translation().cast<float>());
+    time_s.push_back(static_cast<float>(sample.time_s));
+    const Eigen::Quaterniond q(sample.T_world_body.linear());
+    for (const double c : {q.x(), q.y(), q.z(), q.w()}) {
+      quaternion.push_back(static_cast<std::int16_t>(std::lround(32767.0 * c)));
+    }
+  }
+  return {.points = pack_points(points, bytes),
+          .time_s = bytes.add(time_s),
+          .quaternion = bytes.add(quaternion)};
+}
+
+void pack_frames(const RunRecord& record, const RunCloud& cloud, const ThinnedPoints& thin,
+                 const RunBudget& budget, int threads, const ReportProgress& progress,
+                 PackedRun& out) {
+  if (!has_frames(record.folder)) {
+    out.missing.push_back(fmt::format("{}: colour images were not kept; {} keeps them",
+                                      (record.folder / "frames").string(),
+                                      command_to_fly_again(record.folder, "--frames")));
+    return;
+  }
+  const FrameRecord frames = read_frames(record.folder);
+  const CameraFrames seen =
+      read_camera_frames(frames, cloud, thin.kept, budget.frame_bytes, threads, progress);
+  for (const FrameCamera& camera : frames.cameras) out.cameras.push_back(camera.name);
+  for (const Thumbnail& t : seen.thumbnails) {
+    const RecordedFrame& frame = frames.frames[t.frame];
+    out.thumbnails.push_back({.view = frame.iteration,
+                              .camera = frame.camera,
+                              .width_px = t.width_px,
+                              .height_px = t.height_px,
+                              .jpeg = out.bytes.add(t.jpeg)});
+  }
+  if (!out.cloud) return;
+  std::vector<std::uint8_t> colour;
+  for (const auto& rgb : seen.colour) colour.insert(colour.end(), rgb.begin(), rgb.end());
+  out.cloud->colour = out.bytes.add(colour);
+}
+
+}  // namespace
+
+PackedPoints pack_points(std::span<const Vec3f> points_m, BytePack& bytes) {
+  const QuantisedPoints q = quantised(points_m);
+  return {.min_m = q.min_m, .size_m = q.size_m, .steps = bytes.add(q.steps)};
+}
+
+PackedRun pack_run(const RunRecord& record, const RunBudget& budget, int threads,
+                   const ReportProgress& progress) {
+  PackedRun out;
+  RunCloud cloud;
+  ThinnedPoints thin;
+  const std::size_t views = record.views.size();
+  try {
+    cloud = read_run_cloud(record);
+    thin = thinned(cloud.points_world_m, budget.points,
+                   std::max(record.scenario.planner.cloud.leaf_m, 1e-3));
+    out.cloud = pack_cloud(cloud, thin, views, out.bytes);
+    out.voxels = pack_voxels(cloud, record.scenario.planner.map.resolution_m, views, out.bytes);
+  } catch (const BadInput& error) {
+    out.missing.emplace_back(error.what());  // the page does without points
+  }
+  if (!record.path.empty()) out.path = pack_path(record.path, out.bytes);
+  pack_frames(record, cloud, thin, budget, threads, progress, out);
+  return out;
+}
+
+}  // namespace gnbv

@@ -1,0 +1,75 @@
+// One run as the page wants it: numbers in one block of bytes, and what a block cannot say.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/record/run_record.hpp"
+#include "tools/report/byte_pack.hpp"
+#include "tools/report/camera_frames.hpp"
+
+namespace gnbv {
+
+struct PackedPoints {
+  Vec3f min_m = Vec3f::Zero();
+  Vec3f size_m = Vec3f::Zero();
+  ByteSlice steps;  // uint16 (n, 3), see QuantisedPoints
+};
+
+struct PackedCloud {
+  PackedPoints points = {};  // in the order of growth
+  ByteSlice after = {};      // uint32 (views + 1): how many there are after the first n views
+  std::optional<ByteSlice> colour = {};  // uint8 (n, 3), sRGB; only with frames
+  std::size_t all_points = 0;            // before thinning
+  double cell_m = 0.0;                   // of the thinning; 0: none
+};
+
+/// The map's voxels that hold points of the cloud, in the order in which they first did.
+struct PackedVoxels {
+  double size_m = 0.0;
+  ByteSlice index;  // int16 (n, 3): the voxel covers [index, index + 1) * size
+  ByteSlice after;  // uint32 (views + 1), as PackedCloud
+  ByteSlice count;  // uint32 (n): points of the whole cloud in it, in the end
+};
+
+struct PackedPath {
+  PackedPoints points;
+  ByteSlice time_s;      // float32 (n)
+  ByteSlice quaternion;  // int16 (n, 4): x y z w in steps of 1 / 32767, body in world
+};
+
+struct PackedThumbnail {
+  int view = 0;  // index of the view
+  std::size_t camera = 0;
+  int width_px = 0;
+  int height_px = 0;
+  ByteSlice jpeg;
+};
+
+struct PackedRun {
+  BytePack bytes;
+  std::optional<PackedCloud> cloud = {};
+  std::optional<PackedVoxels> voxels = {};
+  std::optional<PackedPath> path = {};
+  std::vector<std::string> cameras = {};  // names, of the thumbnails
+  std::vector<PackedThumbnail> thumbnails = {};
+  std::vector<std::string> missing = {};  // beyond what the record says
+};
+
+/// What a run may take of the page.
+struct RunBudget {
+  std::size_t points = 0;
+  std::size_t frame_bytes = 0;
+};
+
+PackedPoints pack_points(std::span<const Vec3f> points_m, BytePack& bytes);
+
+/// What of the run is there; what is not, or cannot be used, is named in `missing` with the command
+/// that makes it. Throws BadInput for damaged frames.
+PackedRun pack_run(const RunRecord& record, const RunBudget& budget, int threads,
+                   const ReportProgress& progress);
+
+}  // namespace gnbv

@@ -1,0 +1,156 @@
+// What moves the replay and chooses what is shown: slider, play button, keys, layers, colours.
+import { kEfforts, type Clock, type Effort } from "./clock";
+import { choice, make, select, toggle } from "./dom";
+import { lastAtMost, type Flight } from "./flight";
+import type { Layers } from "./run_scene";
+import type { Colouring } from "./surfaces";
+
+const kMissionLasts_s = 60; // a whole replay, at speed 1
+
+/** The replay itself: playing, stepping, and the way from one effort to another. */
+export class Replay {
+  private flights: Flight[] = [];
+  speed = 1;
+
+  constructor(readonly clock: Clock) {}
+
+  setFlights(flights: Flight[]) {
+    this.flights = flights;
+    this.clock.set({ at: Math.min(this.clock.at, this.last()) });
+  }
+
+  /** Of the longest run. */
+  last(effort: Effort = this.clock.effort): number {
+    return Math.max(0, ...this.flights.map((flight) => flight.last(effort)));
+  }
+
+  /** The same moment of the first run, measured otherwise. */
+  setEffort(effort: Effort) {
+    const [lead] = this.flights;
+    const n = lead ? lead.viewsAt(this.clock) : 0;
+    this.clock.set({ effort, at: lead ? lead.effort(n, effort) : 0, isPlaying: false });
+  }
+
+  /** To the next or an earlier view of any run. */
+  step(views: number) {
+    const { clock } = this;
+    if (clock.effort === "views") {
+      this.moveTo(Math.round(clock.at) + views);
+      return;
+    }
+    const all = this.flights.flatMap((flight) => Array.from(
+      { length: flight.count + 1 }, (_, n) => flight.effort(n, clock.effort)));
+    const stops = [...new Set(all)].sort((a, b) => a - b);
+    const here = lastAtMost(stops, clock.at + 1e-9);
+    this.moveTo(stops[Math.min(Math.max(here + views, 0), stops.length - 1)] ?? 0);
+  }
+
+  moveTo(at: number) {
+    this.clock.set({ at: Math.min(Math.max(at, 0), this.last()), isPlaying: false });
+  }
+
+  toggle() {
+    const { clock } = this;
+    if (clock.isPlaying) {
+      // rests at a view, not between two
+      this.moveTo(clock.effort === "views" ? Math.floor(clock.at + 1e-9) : clock.at);
+      return;
+    }
+    clock.set({ isPlaying: true, at: clock.at >= this.last() ? 0 : clock.at });
+    let before = performance.now();
+    const advance = (now: number) => {
+      if (!clock.isPlaying) return;
+      const at = clock.at + this.speed * this.last() * (now - before) / 1000 / kMissionLasts_s;
+      before = now;
+      if (at >= this.last()) { this.moveTo(this.last()); return; }
+      clock.set({ at });
+      requestAnimationFrame(advance);
+    };
+    requestAnimationFrame(advance);
+  }
+}
+
+/** Arrows, Page keys, Home, End and space, wherever no other control wants them. */
+export function listenToKeys(replay: Replay) {
+  addEventListener("keydown", (event) => {
+    const target = event.target as HTMLElement;
+    const isSlider = target.matches("input[type=range]");
+    if (target.matches("select, textarea, summary, button") && event.key === " ") return;
+    if (target.matches("select, textarea, pre") || event.ctrlKey || event.metaKey || event.altKey) return;
+    const large = Math.max(1, Math.round(replay.last("views") / 20));
+    const actions: Record<string, () => void> = {
+      ArrowRight: () => replay.step(event.shiftKey ? 10 : 1),
+      ArrowLeft: () => replay.step(event.shiftKey ? -10 : -1),
+      " ": () => replay.toggle(),
+    };
+    if (isSlider) {
+      Object.assign(actions, {
+        PageUp: () => replay.step(large),
+        PageDown: () => replay.step(-large),
+        Home: () => replay.moveTo(0),
+        End: () => replay.moveTo(replay.last()),
+      });
+    }
+    const action = actions[event.key];
+    if (!action) return;
+    event.preventDefault();
+    action();
+  });
+}
+
+export function makeTransport(replay: Replay, readout: HTMLElement): HTMLElement {
+  const { clock } = replay;
+  const play = make("button", { type: "button", class: "play", click: () => replay.toggle() });
+  const slider = make("input", { type: "range", min: 0, "aria-label": "Replay of the mission" });
+  slider.addEventListener("input", () => replay.moveTo(Number(slider.value)));
+  const update = () => {
+    slider.step = clock.effort === "views" ? "1" : "any";
+    slider.max = String(replay.last());
+    slider.value = String(clock.at);
+    const share = replay.last() > 0 ? 100 * clock.at / replay.last() : 0;
+    slider.style.setProperty("--done", `${share}%`);
+    slider.setAttribute("aria-valuetext", readout.textContent ?? "");
+    play.setAttribute("aria-label", clock.isPlaying ? "Pause" : "Play");
+    play.classList.toggle("playing", clock.isPlaying);
+  };
+  clock.onChange(update);
+  update();
+  const speeds: [string, string][] = [["0.5", "½×"], ["1", "1×"], ["2", "2×"], ["4", "4×"]];
+  return make("div", { class: "transport" }, play, slider,
+    select("Speed of the replay", speeds, "1", (value) => { replay.speed = Number(value); }),
+    choice("Measure the mission by", kEfforts, clock.effort, (effort) => replay.setEffort(effort)));
+}
+
+export interface View3d {
+  setLayers(layers: Layers): void;
+  colour(by: Colouring): void;
+  setFollows(follows: boolean): void;
+  frame(): void;
+}
+
+const kColourings: [Colouring, string][] = [["real", "Camera colours"], ["height", "Height"],
+  ["density", "Density"], ["iteration", "Order of views"]];
+
+export function makeLayerBar(view: View3d, has: { real: boolean; voxels: boolean; cloud: boolean;
+    structure: boolean }, coloured: (by: Colouring) => void): HTMLElement {
+  const layers: Layers = { cloud: has.cloud, voxels: false, structure: has.structure, path: true,
+    profile: true, frusta: false, vehicle: true };
+  const layer = (key: keyof Layers, text: string) =>
+    toggle(text, layers[key], (on) => { layers[key] = on; view.setLayers(layers); });
+  const first: Colouring = has.real ? "real" : "height";
+  const choose = (by: Colouring) => { view.colour(by); coloured(by); };
+  view.setLayers(layers);
+  choose(first);
+  return make("div", { class: "layers", role: "group", "aria-label": "What the 3D view shows" },
+    has.cloud ? layer("cloud", "Points") : null,
+    has.voxels ? layer("voxels", "Voxels") : null,
+    has.structure ? layer("structure", "Structure") : null,
+    layer("path", "Path"), layer("profile", "Profile"), layer("frusta", "All views"),
+    layer("vehicle", "Vehicle"),
+    make("span", { class: "gap" }),
+    select("Colour of points and voxels", kColourings.filter(([by]) => by !== "real" || has.real),
+      first, choose),
+    toggle("Follow", false, (on) => view.setFollows(on)),
+    make("button", { type: "button", class: "small", click: () => view.frame(),
+      title: "Show the whole structure; a double click does it, too" }, "Fit"));
+}

@@ -1,0 +1,152 @@
+// What the program wrote into the page: JSON beside blocks of bytes (tools/report/run_json.cpp).
+
+export type Slice = [at: number, count: number];
+export type Vec3 = [number, number, number];
+
+export interface PackedPoints {
+  min: Vec3;
+  size: Vec3;
+  steps: Slice; // uint16 (n, 3)
+}
+
+export interface Table {
+  title: string;
+  columns: { head: string; is_number: boolean }[];
+  rows: string[][];
+  notes: string[];
+}
+
+export interface MeshData {
+  vertices: PackedPoints;
+  all_faces: number;
+  parts: { rgb: Vec3; corners: Slice }[]; // uint32, three a face
+}
+
+export interface CameraData {
+  name: string;
+  fov_x: number;
+  fov_y: number;
+  range_m: number;
+  T_body_camera: number[]; // 4 x 4, column by column; x right, y down, z forward
+}
+
+/** A column a key, a row a view. */
+export interface Views {
+  x: number[];
+  y: number[];
+  z: number[];
+  yaw: number[];
+  time: number[];
+  seconds: number[];
+  metres: number[];
+  sampler: string[];
+  candidates: number[];
+  valid: number[];
+  utility: number[];
+  information: number[];
+  density_term: number[];
+  prediction: number[];
+  distance_factor: number[];
+  entropy: number[];
+  density: number[];
+  points: number[];
+}
+
+export interface Figures {
+  termination: string;
+  iterations: number;
+  entropy_reduction: number;
+  straight_m: number;
+  flown_m: number;
+  profile_m: number;
+  flight_time_s: number;
+  energy_wh: number;
+  coverage: Vec3;
+  f_5cm: number;
+  chamfer_m: number;
+  density: number;
+  version: string;
+  result_sha256: string;
+  wall_s: number;
+  curve: { coverage: Vec3[]; metres: number[]; seconds: number[] };
+}
+
+/** Where the paper's mission ended. */
+export interface PaperEnd {
+  label: string;
+  views: number;
+  metres?: number;
+  seconds?: number;
+  coverage_percent?: Vec3;
+  is_doubtful?: boolean; // the table's notes say why
+  density?: number;
+}
+
+export type Thumbnail = [
+  view: number, camera: string, width: number, height: number, at: number, bytes: number];
+
+export interface RunData {
+  label: string;
+  scenario: string;
+  structure: string;
+  utility: string;
+  preset: string;
+  seed: number;
+  folder: string;
+  command: string;
+  yaml: string;
+  missing: string[];
+  workspace: { min: Vec3; max: Vec3 };
+  has_ground: boolean;
+  profile_end_s: number | null;
+  views_begin_s: number | null;
+  mesh: number;
+  cameras: CameraData[];
+  vehicle: { rotors: Vec3[]; radius_m: number };
+  views: Views;
+  figures: Figures | null;
+  paper: PaperEnd | null;
+  cloud: { points: PackedPoints; after: Slice; all_points: number; cell_m: number; colour?: Slice }
+    | null;
+  voxels: { size_m: number; index: Slice; after: Slice; count: Slice } | null;
+  path: { points: PackedPoints; time: Slice; quaternion: Slice } | null;
+  frames: Thumbnail[];
+}
+
+export interface PageData {
+  title: string;
+  version: string;
+  tables: Table[];
+  meshes: MeshData[];
+  runs: RunData[];
+}
+
+/** The arrays of one block. */
+export class Bytes {
+  private readonly buffer: ArrayBuffer;
+
+  constructor(elementId: string) {
+    const text = atob(document.getElementById(elementId)!.textContent!);
+    const bytes = new Uint8Array(text.length);
+    for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
+    this.buffer = bytes.buffer;
+  }
+
+  u8([at, count]: Slice) { return new Uint8Array(this.buffer, at, count); }
+  u16([at, count]: Slice) { return new Uint16Array(this.buffer, at, count); }
+  i16([at, count]: Slice) { return new Int16Array(this.buffer, at, count); }
+  u32([at, count]: Slice) { return new Uint32Array(this.buffer, at, count); }
+  f32([at, count]: Slice) { return new Float32Array(this.buffer, at, count); }
+
+  /** Metres, x y z of each point. */
+  points({ min, size, steps }: PackedPoints): Float32Array {
+    const packed = this.u16(steps);
+    const points = new Float32Array(packed.length);
+    for (let i = 0; i < packed.length; ++i) points[i] = min[i % 3] + size[i % 3] * packed[i] / 65535;
+    return points;
+  }
+}
+
+export function readPage(): PageData {
+  return JSON.parse(document.getElementById("data")!.textContent!) as PageData;
+}

@@ -1,0 +1,54 @@
+// Elements by function call. Text is always set as text: no name in a report is ever markup.
+
+type Child = Node | string | null;
+type Properties = Record<string, string | number | boolean | ((event: Event) => void)>;
+
+export function make<K extends keyof HTMLElementTagNameMap>(
+    tag: K, properties: Properties = {}, ...children: Child[]): HTMLElementTagNameMap[K] {
+  const element = document.createElement(tag);
+  for (const [key, value] of Object.entries(properties)) {
+    if (typeof value === "function") element.addEventListener(key, value);
+    else if (key === "class") element.className = String(value);
+    else if (typeof value === "boolean") element.toggleAttribute(key, value);
+    else element.setAttribute(key, String(value));
+  }
+  for (const child of children) if (child !== null) element.append(child);
+  return element;
+}
+
+/** Buttons of which one is pressed. */
+export function choice<T extends string>(
+    label: string, options: [T, string][], chosen: T, choose: (value: T) => void): HTMLElement {
+  const buttons = options.map(([value, text]) =>
+    make("button", { type: "button", "aria-pressed": String(value === chosen), click: () => {
+      buttons.forEach((b, i) => b.setAttribute("aria-pressed", String(options[i][0] === value)));
+      choose(value);
+    } }, text));
+  return make("div", { class: "choice", role: "group", "aria-label": label }, ...buttons);
+}
+
+export function select<T extends string>(
+    label: string, options: [T, string][], chosen: T, choose: (value: T) => void): HTMLElement {
+  const element = make("select", { "aria-label": label },
+    ...options.map(([value, text]) => make("option", { value, selected: value === chosen }, text)));
+  element.addEventListener("change", () => choose(element.value as T));
+  return element;
+}
+
+export function toggle(text: string, on: boolean, change: (on: boolean) => void): HTMLElement {
+  const box = make("input", { type: "checkbox", checked: on });
+  box.addEventListener("change", () => change(box.checked));
+  return make("label", { class: "toggle" }, box, text);
+}
+
+/** "1,234.5" */
+export function number(value: number, decimals = 0): string {
+  return value.toLocaleString("en-US",
+    { minimumFractionDigits: decimals, maximumFractionDigits: decimals });
+}
+
+/** "28:04" */
+export function minutes(seconds: number): string {
+  const whole = Math.round(seconds);
+  return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, "0")}`;
+}

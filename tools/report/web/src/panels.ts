@@ -1,0 +1,197 @@
+// Everything that is text, tables and pictures.
+import { rampGradient, type RampName } from "./colours";
+import type { Clock } from "./clock";
+import type { PageData, RunData, Table } from "./data";
+import { make, minutes, number } from "./dom";
+import type { Flight } from "./flight";
+import type { Model, Colouring } from "./surfaces";
+
+interface Figure {
+  name: string;
+  value: string;
+  unit: string;
+  paper?: string;
+}
+
+/** What a run comes down to. */
+function keyFigures(run: RunData): Figure[] {
+  const f = run.figures;
+  const { views, paper } = run;
+  const count = views.x.length;
+  const figures: Figure[] = [];
+  if (f) {
+    figures.push({ name: "Coverage at 0.05 m", value: number(100 * f.coverage[0], 1), unit: "%",
+      paper: paper?.coverage_percent &&
+        `${number(paper.coverage_percent[0], 1)} %${paper.is_doubtful ? " †" : ""}` });
+    figures.push({ name: "F within 5 cm", value: number(100 * f.f_5cm, 1), unit: "%" });
+  }
+  figures.push({ name: "Views", value: number(count), unit: "",
+    paper: paper ? number(paper.views) : undefined });
+  figures.push({ name: "View to view", value: number(f?.straight_m ?? views.metres.at(-1) ?? 0, 1),
+    unit: "m", paper: paper?.metres ? `${number(paper.metres, 1)} m` : undefined });
+  if (f) {
+    figures.push({ name: "Profile", value: number(f.profile_m, 1), unit: "m" });
+    figures.push({ name: "Density", value: number(f.density, 1), unit: "a voxel",
+      paper: paper?.density ? number(paper.density, 1) : undefined });
+    figures.push({ name: "Flight", value: minutes(f.flight_time_s), unit: "min" });
+    figures.push({ name: "Energy", value: number(f.energy_wh, 1), unit: "Wh" });
+  }
+  return figures;
+}
+
+export function makeTiles(run: RunData): HTMLElement {
+  return make("dl", { class: "tiles" }, ...keyFigures(run).map((figure) =>
+    make("div", { class: "card tile" }, make("dt", {}, figure.name),
+      make("dd", {}, figure.value, make("span", { class: "unit" }, figure.unit)),
+      make("dd", { class: "paper" }, figure.paper ? `paper ${figure.paper}` : ""))));
+}
+
+/** A row a run; its box chooses whether it is shown. */
+export function makeRunTable(runs: RunData[], shown: Set<number>,
+    change: () => void): HTMLElement {
+  const heads = [...new Set(runs.flatMap((run) => keyFigures(run).map((f) => f.name)))];
+  const row = (run: RunData, index: number) => {
+    const figures = new Map(keyFigures(run).map((f) => [f.name, f]));
+    const box = make("input", { type: "checkbox", checked: shown.has(index),
+      "aria-label": `Show ${run.label}` });
+    box.addEventListener("change", () => {
+      if (box.checked) shown.add(index); else shown.delete(index);
+      change();
+    });
+    return make("tr", {}, make("th", { scope: "row" },
+      make("label", {}, box, make("span", { class: `chip run-${index}` }, run.label))),
+      ...heads.map((head) => {
+        const f = figures.get(head);
+        return make("td", { class: "number" }, f ? `${f.value} ${f.unit}` : "");
+      }));
+  };
+  return make("div", { class: "card scroll" }, make("table", { class: "runs" },
+    make("thead", {}, make("tr", {}, make("th", { scope: "col" }, "Shown below"),
+      ...heads.map((head) => make("th", { scope: "col", class: "number" }, head)))),
+    make("tbody", {}, ...runs.map(row))));
+}
+
+export function makeTable(table: Table): HTMLElement {
+  const align = (i: number) => (table.columns[i].is_number ? "number" : "");
+  const ours = table.columns.findIndex((column) => column.head === "Row");
+  return make("div", {},
+    make("h3", {}, table.title),
+    make("div", { class: "card scroll" }, make("table", {},
+      make("thead", {}, make("tr", {}, ...table.columns.map((column, i) =>
+        make("th", { scope: "col", class: align(i) }, column.head)))),
+      make("tbody", {}, ...table.rows.map((row) =>
+        make("tr", { class: row[ours] === "ours" ? "ours" : "" },
+          ...row.map((cell, i) => make("td", { class: align(i) }, cell))))))),
+    make("ul", { class: "notes" }, ...table.notes.map((note) => make("li", {}, note))));
+}
+
+export function makeMissing(runs: RunData[]): HTMLElement | null {
+  const sentences = runs.flatMap((run) => run.missing.map((sentence) =>
+    make("li", {}, runs.length > 1 ? `${run.label}: ` : "", ...withCode(sentence))));
+  if (sentences.length === 0) return null;
+  return make("details", { class: "card missing" },
+    make("summary", {}, sentences.length === 1 ? "One thing is not shown"
+      : `${sentences.length} things are not shown`),
+    make("ul", {}, ...sentences));
+}
+
+/** `commands` between backticks as code. */
+function withCode(sentence: string): (Node | string)[] {
+  return sentence.split("`").map((part, i) => (i % 2 === 1 ? make("code", {}, part) : part));
+}
+
+export function makeConfiguration(runs: RunData[]): HTMLElement {
+  return make("section", {}, make("h2", {}, "Fly it again"),
+    ...runs.map((run) => make("div", { class: "card again" },
+      runs.length > 1 ? make("span", { class: `chip run-${runs.indexOf(run)}` }, run.label) : null,
+      make("div", { class: "command" }, make("code", {}, run.command), copyButton(run.command)),
+      run.figures ? make("p", { class: "fine" },
+        `gnbv ${run.figures.version}, seed ${run.seed}, preset ${run.preset}; result_sha256 `,
+        make("code", {}, run.figures.result_sha256)) : null,
+      make("details", {}, make("summary", {}, "Configuration: scenario.yaml"),
+        make("pre", { tabindex: 0 }, run.yaml)))));
+}
+
+function copyButton(text: string): HTMLElement {
+  const button = make("button", { type: "button", class: "small" }, "Copy");
+  button.addEventListener("click", async () => {
+    try {
+      await navigator.clipboard.writeText(text);
+      button.textContent = "Copied";
+    } catch { // no clipboard for a page from a file: selects the command instead
+      getSelection()?.selectAllChildren(button.previousElementSibling!);
+      button.textContent = "Selected";
+    }
+    setTimeout(() => { button.textContent = "Copy"; }, 1600);
+  });
+  return button;
+}
+
+/** Where the replay is, in words. */
+export function readout(flight: Flight, clock: Clock): string {
+  const n = flight.viewsAt(clock);
+  if (n === 0) return "After the profile, before the first view";
+  const v = flight.data.views;
+  const parts = [`View ${number(n)} of ${number(flight.count)}`, `${number(v.metres[n - 1], 1)} m`,
+    `${minutes(v.seconds[n - 1])} min`];
+  const coverage = flight.data.figures?.curve.coverage[n];
+  if (coverage) parts.push(`coverage ${number(100 * coverage[0], 1)} %`);
+  if (v.candidates[n - 1] > 0) {
+    parts.push(`${v.sampler[n - 1].toUpperCase()}, ${v.valid[n - 1]} valid of ${v.candidates[n - 1]} candidates`);
+  }
+  return parts.join("  ·  ");
+}
+
+/** The frames that the cameras took at the present view, or at the nearest one that was kept. */
+export class FrameStrip {
+  readonly element = make("div", { class: "frames" });
+  private key = "";
+
+  show(flights: Flight[], clock: Clock) {
+    const kept = flights.filter((flight) => flight.data.frames.length > 0);
+    const nearest = kept.map((flight) => nearestView(flight, flight.viewsAt(clock) - 1));
+    const key = kept.map((flight, i) => `${flight.index}:${nearest[i]}`).join();
+    if (key === this.key) return;
+    this.key = key;
+    this.element.replaceChildren(...kept.flatMap((flight, i) => flight.data.frames
+      .filter(([view]) => view === nearest[i])
+      .map(([view, camera, width, height, at, bytes]) => {
+        const jpeg = flight.bytes.u8([at, bytes]);
+        const url = URL.createObjectURL(new Blob([jpeg], { type: "image/jpeg" }));
+        const image = make("img", { src: url, width, height,
+          alt: `View ${view + 1} through ${camera}` });
+        image.addEventListener("load", () => URL.revokeObjectURL(url));
+        return make("figure", { class: "card frame" }, image, make("figcaption", {},
+          flights.length > 1 ? `${flight.data.label}: ` : "", `view ${view + 1}, ${camera}`));
+      })));
+  }
+}
+
+function nearestView(flight: Flight, view: number): number {
+  let best = flight.data.frames[0][0];
+  for (const [candidate] of flight.data.frames) {
+    if (Math.abs(candidate - view) < Math.abs(best - view)) best = candidate;
+  }
+  return best;
+}
+
+/** What the colours of points and voxels mean. */
+export function showColourKey(key: HTMLElement, by: Colouring, model: Model | undefined) {
+  key.replaceChildren();
+  if (!model || by === "real") return;
+  const [low, high, name]: [string, string, RampName] =
+    by === "height" ? [`${number(model.heights[0], 1)} m`, `${number(model.heights[1], 1)} m`, "height"]
+    : by === "density" ? ["0", `${number(model.densities?.most ?? 0)} points a voxel`, "density"]
+    : ["profile", "last view", "order"];
+  const bar = make("span", { class: "bar" });
+  bar.style.background = rampGradient(name);
+  key.append(low, bar, high);
+}
+
+export function makeHeader(page: PageData): HTMLElement {
+  const [run] = page.runs;
+  const detail = page.runs.length > 1 ? "" : [`structure ${run.structure}`, `seed ${run.seed}`, `preset ${run.preset}`,
+      run.figures ? `ended by ${run.figures.termination.replaceAll("_", " ")}` : "not finished"]
+      .join("  ·  ");
+  return make("header", {}, make("h1", {}, page.title.replaceAll("_", " ")), make("p", {}, detail));
+}

@@ -1,0 +1,152 @@
+// What the plots show, as numbers: a column of efforts and a column a line.
+import uPlot from "uplot";
+import type { Effort } from "./clock";
+import { faintLine, lineColour, runColour } from "./colours";
+import type { Flight } from "./flight";
+
+export interface Line {
+  name: string;
+  colour: string;
+  width: number;
+  dash?: number[];
+}
+
+/** A point of the paper, drawn as a ring. */
+export interface Ring {
+  x: number;
+  y: number;
+  colour: string;
+  name: string;
+}
+
+export interface PlotContent {
+  lines: Line[];
+  data: uPlot.AlignedData;
+  rings: Ring[];
+}
+
+export interface PlotChoices {
+  size: 0 | 1 | 2; // of coverage, with several runs
+  term: Term;
+}
+
+export type Term = "utility" | "information" | "density_term" | "prediction" | "distance_factor";
+export const kTerms: [Term, string][] = [["distance_factor", "Distance factor"],
+  ["density_term", "Density"], ["information", "Information"], ["prediction", "Prediction"],
+  ["utility", "Utility"]]; // the last is drawn on top
+export const kSizes = ["0.05 m", "0.10 m", "0.50 m"];
+
+type Column = [efforts: number[], values: number[]];
+
+/** Columns of different efforts on one axis. */
+function joined(columns: Column[]): uPlot.AlignedData {
+  if (columns.length === 0) return [[]];
+  const sameEffort = columns.every(([x]) => x === columns[0][0]);
+  if (sameEffort) return [columns[0][0], ...columns.map(([, y]) => y)];
+  return uPlot.join(columns.map(([x, y]) => [x, y] as uPlot.AlignedData));
+}
+
+const efforts = (flight: Flight, effort: Effort, from: 0 | 1) =>
+  Array.from({ length: flight.count + 1 - from }, (_, i) => flight.effort(i + from, effort));
+
+/** Of values that begin after the first view, or with the profile alone where they are longer. */
+const column = (flight: Flight, effort: Effort, values: number[]): Column =>
+  [efforts(flight, effort, values.length > flight.count ? 0 : 1), values];
+
+const ringOf = (flight: Flight, effort: Effort, y: number | undefined): Ring[] => {
+  const paper = flight.data.paper;
+  const x = paper?.[effort];
+  if (!paper || x === undefined || y === undefined) return [];
+  return [{ x, y, colour: runColour(flight.index), name: paper.label }];
+};
+
+export function coverage(flights: Flight[], effort: Effort, { size }: PlotChoices): PlotContent {
+  const scored = flights.filter((flight) => flight.data.figures);
+  const percent = (flight: Flight, k: number) =>
+    flight.data.figures!.curve.coverage.map((c) => 100 * c[k]);
+  if (flights.length === 1) {
+    const [flight] = scored;
+    if (!flight) return { lines: [], data: [[]], rings: [] };
+    const x = efforts(flight, effort, 0);
+    return {
+      lines: kSizes.map((name, k) => ({ name, colour: lineColour(k), width: 2 })),
+      data: joined(kSizes.map((_, k) => [x, percent(flight, k)])),
+      rings: kSizes.flatMap((_, k) =>
+        ringOf(flight, effort, flight.data.paper?.coverage_percent?.[k])
+          .map((ring) => ({ ...ring, colour: lineColour(k) }))),
+    };
+  }
+  return {
+    lines: scored.map((flight) =>
+      ({ name: flight.data.label, colour: runColour(flight.index), width: 2 })),
+    data: joined(scored.map((flight) => [efforts(flight, effort, 0), percent(flight, size)])),
+    rings: scored.flatMap((flight) =>
+      ringOf(flight, effort, flight.data.paper?.coverage_percent?.[size])),
+  };
+}
+
+function perRun(flights: Flight[], effort: Effort, values: (flight: Flight) => number[],
+    name: string, width = 2): PlotContent {
+  return {
+    lines: flights.map((flight) => ({ name: flights.length > 1 ? flight.data.label : name,
+      colour: runColour(flight.index), width })),
+    data: joined(flights.map((flight) => column(flight, effort, values(flight)))),
+    rings: [],
+  };
+}
+
+/** Total entropy of the map; after the profile alone, too, where the run was scored. */
+export function entropy(flights: Flight[], effort: Effort): PlotContent {
+  return perRun(flights, effort, ({ data, count }) => {
+    if (!data.figures || count === 0) return data.views.entropy;
+    const last = data.views.entropy[count - 1];
+    return [last + data.figures.entropy_reduction, ...data.views.entropy];
+  }, "Entropy");
+}
+
+export function density(flights: Flight[], effort: Effort): PlotContent {
+  const content = perRun(flights, effort, ({ data }) => data.views.density, "Points per voxel");
+  content.rings = flights.flatMap((flight) => ringOf(flight, effort, flight.data.paper?.density));
+  return content;
+}
+
+/** Utilities of different formulas have different units: each is a share of its run's largest. */
+export const isShare = (flights: Flight[]) =>
+  new Set(flights.map((flight) => flight.data.utility)).size > 1;
+const largest = (values: number[]) => Math.max(...values.map(Math.abs)) || 1;
+
+/** The terms of one run's chosen views, or one term of several. */
+export function terms(flights: Flight[], effort: Effort, { term }: PlotChoices): PlotContent {
+  // a start, or a move that was not chosen among candidates, has no score
+  const scores = (flight: Flight, key: Term, unit = 1) =>
+    flight.data.views[key].map((value, i) =>
+      (flight.data.views.candidates[i] > 0 ? value / unit : null) as number);
+  if (flights.length !== 1) {
+    return perRun(flights, effort,
+      (f) => scores(f, term, isShare(flights) ? largest(f.data.views[term]) : 1), term, 1.2);
+  }
+  const [flight] = flights;
+  const used = kTerms.filter(([key]) => {
+    const rest = key === "distance_factor" ? 1 : 0;
+    return key === "utility" || flight.data.views[key].some((value) => value !== rest);
+  });
+  const x = efforts(flight, effort, 1);
+  return {
+    lines: used.map(([key, name], i) => ({ name, width: 1.2,
+      colour: key === "distance_factor" ? faintLine() : lineColour(i - 1) })),
+    data: joined(used.map(([key]) => [x, scores(flight, key)])),
+    rings: [],
+  };
+}
+
+/** Spans of effort in which frontier view sampling chose the views. */
+export function frontierPhases(flight: Flight, effort: Effort): [number, number][] {
+  const spans: [number, number][] = [];
+  flight.data.views.sampler.forEach((sampler, view) => {
+    if (sampler !== "fvs") return;
+    const [from, to] = [flight.effort(view, effort), flight.effort(view + 1, effort)];
+    const open = spans.at(-1);
+    if (open && open[1] === from) open[1] = to; else spans.push([from, to]);
+  });
+  return spans;
+}

@@ -1,0 +1,218 @@
+// The plots: one cursor for all, the replay's place in each; a click moves the replay there.
+import uPlot from "uplot";
+import type { Clock } from "./clock";
+import { hairline, nowLine, paleInk, phaseShade, runColour } from "./colours";
+import { make, select } from "./dom";
+import { lastAtMost, type Flight } from "./flight";
+import * as specs from "./plot_specs";
+
+const kUnits = { views: "views", metres: "m", seconds: "s" };
+const kFont = "11px system-ui, sans-serif";
+const kHeight = 132;
+
+interface PlotKind {
+  title: string;
+  unit: (flights: Flight[]) => string;
+  content: (flights: Flight[], clock: Clock, choices: specs.PlotChoices) => specs.PlotContent;
+  decimals: number;
+  control?: "size" | "term";
+}
+
+const kKinds: PlotKind[] = [
+  { title: "Coverage", unit: () => "%", decimals: 1, control: "size",
+    content: (f, clock, choices) => specs.coverage(f, clock.effort, choices) },
+  { title: "Entropy of the map", unit: () => "nat", decimals: 0,
+    content: (f, clock) => specs.entropy(f, clock.effort) },
+  { title: "Density", unit: () => "points a voxel", decimals: 1,
+    content: (f, clock) => specs.density(f, clock.effort) },
+  { title: "Utility of the chosen views", unit: (f) => (specs.isShare(f) ? "share of each run's largest" : ""), decimals: 3, control: "term",
+    content: (f, clock, choices) => specs.terms(f, clock.effort, choices) },
+];
+
+export class Plots {
+  readonly element = make("section", { class: "plots", "aria-label": "Plots" });
+  private plots: uPlot[] = [];
+  private flights: Flight[] = [];
+  private effort = "";
+  private readonly choices: specs.PlotChoices = { size: 0, term: "utility" };
+
+  constructor(private readonly clock: Clock) {
+    clock.onChange(() => {
+      if (clock.effort !== this.effort) this.rebuild();
+      else this.followClock();
+    });
+    new ResizeObserver(() => this.fit()).observe(this.element);
+  }
+
+  setFlights(flights: Flight[]) {
+    this.flights = flights;
+    this.rebuild();
+  }
+
+  rebuild() {
+    this.effort = this.clock.effort;
+    for (const plot of this.plots) plot.destroy();
+    this.plots = [];
+    this.element.replaceChildren();
+    for (const kind of kKinds) this.add(kind);
+    this.fit();
+    this.followClock();
+  }
+
+  private add(kind: PlotKind) {
+    const content = kind.content(this.flights, this.clock, this.choices);
+    const hasValues = content.lines.length > 0 && content.data[0].length > 0;
+    const place = make("div", { class: "plot-place" });
+    this.element.append(make("figure", { class: "card plot" },
+      make("figcaption", {}, make("span", { class: "plot-title" }, kind.title),
+        make("span", { class: "unit" }, kind.unit(this.flights)), this.marksKey(kind, content),
+        this.control(kind)),
+      hasValues ? place : make("p", { class: "nothing" }, "Not recorded by this run.")));
+    if (hasValues) this.plots.push(new uPlot(this.options(kind, content), content.data, place));
+  }
+
+  /** What the marks of a plot mean, where it has any. */
+  private marksKey(kind: PlotKind, content: specs.PlotContent): HTMLElement | null {
+    const marks: Node[] = [];
+    if (content.rings.length > 0) marks.push(make("span", {}, "○ paper's end"));
+    const hasPhases = this.flights.some((flight) => flight.data.views.sampler.includes("fvs"));
+    if (kind === kKinds[0] && hasPhases) {
+      const swatch = this.flights.length === 1 ? "swatch" : "swatch strip";
+      marks.push(make("span", {}, make("i", { class: swatch }), "frontier views (FVS)"));
+    }
+    return marks.length > 0 ? make("span", { class: "marks-key" }, ...marks) : null;
+  }
+
+  /** The line at the replay's place, and the values there while no cursor asks for others. */
+  private followClock() {
+    for (const plot of this.plots) {
+      plot.redraw(false);
+      if ((plot.cursor.left ?? -1) < 0) this.showValues(plot);
+    }
+  }
+
+  private showValues(plot: uPlot) {
+    plot.setLegend({ idx: Math.max(0, lastAtMost(plot.data[0], this.clock.at + 1e-9)) }, false);
+  }
+
+  private control(kind: PlotKind): HTMLElement | null {
+    if (this.flights.length < 2 || !kind.control) return null;
+    if (kind.control === "size") {
+      return select("Voxel size of the coverage", specs.kSizes.map((s, i) => [String(i), s]),
+        String(this.choices.size), (value) => {
+          this.choices.size = Number(value) as 0 | 1 | 2;
+          this.rebuild();
+        });
+    }
+    return select("Term of the utility", specs.kTerms, this.choices.term, (value) => {
+      this.choices.term = value;
+      this.rebuild();
+    });
+  }
+
+  private options(kind: PlotKind, content: specs.PlotContent): uPlot.Options {
+    const unit = kUnits[this.clock.effort];
+    const axis = { stroke: paleInk(), font: kFont, grid: { stroke: hairline(), width: 1 },
+      ticks: { stroke: hairline(), width: 1, size: 4 } };
+    const text = (v: number | null) => (v === null || v === undefined ? "" :
+      v.toLocaleString("en-US", Math.abs(v) >= 1000 ? { maximumFractionDigits: 0 }
+        : { maximumFractionDigits: kind.decimals, minimumFractionDigits: kind.decimals }));
+    const most = Math.max(...this.flights.map((flight) => flight.last(this.clock.effort)),
+      ...content.rings.map((ring) => ring.x), 1e-6);
+    return {
+      width: 400,
+      height: kHeight,
+      padding: [8, 12, 0, 0],
+      cursor: { sync: { key: "mission" }, drag: { x: false, y: false }, points: { size: 6 },
+        y: false },
+      legend: { live: true },
+      scales: { x: { time: false, range: [0, most] },
+        y: { range: (_, low, high) => yRange(low, high, content.rings) } },
+      axes: [{ ...axis, size: 26, space: 60,
+        values: (_, ticks) => ticks.map((t) => t.toLocaleString("en-US")) },
+        { ...axis, size: 54, space: 28, values: (_, ticks) => shortTicks(ticks) }],
+      series: [{ label: unit, value: (_, v) => text2(v, unit) },
+        ...content.lines.map((line) => ({ label: line.name, stroke: line.colour,
+          width: line.width, dash: line.dash, spanGaps: true, points: { show: false },
+          value: (_: uPlot, v: number | null) => text(v) }))],
+      hooks: {
+        drawClear: [(plot) => this.shadePhases(plot)],
+        draw: [(plot) => drawRings(plot, content.rings), (plot) => this.drawNow(plot)],
+        ready: [(plot) => this.followClicks(plot)],
+        setCursor: [(plot) => { if ((plot.cursor.left ?? -1) < 0) this.showValues(plot); }],
+      },
+    };
+  }
+
+  private shadePhases(plot: uPlot) {
+    const { ctx, bbox } = plot;
+    const strip = 4 * devicePixelRatio;
+    this.flights.forEach((flight, i) => {
+      const isAlone = this.flights.length === 1;
+      ctx.fillStyle = isAlone ? phaseShade() : runColour(flight.index);
+      ctx.globalAlpha = isAlone ? 1 : 0.55;
+      for (const [from, to] of specs.frontierPhases(flight, this.clock.effort)) {
+        const x = plot.valToPos(from, "x", true);
+        const width = Math.max(1, plot.valToPos(to, "x", true) - x);
+        if (isAlone) ctx.fillRect(x, bbox.top, width, bbox.height);
+        else ctx.fillRect(x, bbox.top + bbox.height - (i + 1) * strip, width, strip - 1);
+      }
+      ctx.globalAlpha = 1;
+    });
+  }
+
+  private drawNow(plot: uPlot) {
+    const { ctx, bbox } = plot;
+    const x = Math.round(plot.valToPos(this.clock.at, "x", true));
+    ctx.fillStyle = nowLine();
+    ctx.fillRect(x, bbox.top, Math.max(1, Math.round(1.5 * devicePixelRatio)), bbox.height);
+  }
+
+  private followClicks(plot: uPlot) {
+    const move = (event: MouseEvent) => {
+      const left = event.clientX - plot.over.getBoundingClientRect().left;
+      const at = plot.posToVal(left, "x");
+      this.clock.set({ at: this.clock.effort === "views" ? Math.round(at) : at, isPlaying: false });
+    };
+    plot.over.addEventListener("mousedown", move);
+    plot.over.addEventListener("mousemove", (event) => { if (event.buttons === 1) move(event); });
+  }
+
+  private fit() {
+    for (const plot of this.plots) {
+      const width = plot.root.parentElement!.clientWidth;
+      if (width > 0 && width !== plot.width) plot.setSize({ width, height: kHeight });
+    }
+  }
+}
+
+const text2 = (v: number | null, unit: string) =>
+  (v === null || v === undefined ? "" : `${v.toLocaleString("en-US", { maximumFractionDigits: 1 })} ${unit}`);
+
+/** Room above and below, and for the paper's rings; never below zero when nothing is. */
+function yRange(low: number, high: number, rings: specs.Ring[]): [number, number] {
+  const values = [low, high, ...rings.map((ring) => ring.y)].filter(Number.isFinite);
+  if (values.length === 0) return [0, 1];
+  const [least, most] = [Math.min(...values), Math.max(...values)];
+  const room = 0.06 * (most - least || Math.abs(most) || 1);
+  return [least >= 0 && least - room < 0 ? 0 : least - room, most + room];
+}
+
+/** Few characters: 143.9k rather than 143,900. */
+function shortTicks(ticks: number[]): string[] {
+  const isLarge = Math.max(...ticks.map(Math.abs)) >= 10000;
+  return ticks.map((t) => (isLarge ? `${(t / 1000).toLocaleString("en-US")}k`
+    : t.toLocaleString("en-US")));
+}
+
+function drawRings(plot: uPlot, rings: specs.Ring[]) {
+  const { ctx } = plot;
+  for (const ring of rings) {
+    ctx.beginPath();
+    ctx.lineWidth = 1.6 * devicePixelRatio;
+    ctx.strokeStyle = ring.colour;
+    ctx.arc(plot.valToPos(ring.x, "x", true), plot.valToPos(ring.y, "y", true),
+      4 * devicePixelRatio, 0, 2 * Math.PI);
+    ctx.stroke();
+  }
+}

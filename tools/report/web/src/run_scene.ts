@@ -1,0 +1,109 @@
+// The scene of one run: what is there, and what of it shows at a moment of the replay.
+import * as three from "three";
+import { hairline } from "./colours";
+import { kMarkLayer } from "./depth_shading";
+import type { Clock } from "./clock";
+import { Bytes, type MeshData } from "./data";
+import type { Flight } from "./flight";
+import { FrustaMark, PathMark, makeSight } from "./marks";
+import { Model, makeStructure, setGhost, type Colouring } from "./surfaces";
+import { makeVehicle } from "./vehicle";
+
+export interface Layers {
+  cloud: boolean;
+  voxels: boolean;
+  structure: boolean;
+  path: boolean; // from the first view on
+  profile: boolean; // and before
+  frusta: boolean;
+  vehicle: boolean;
+}
+
+/** Lines every 5 m on the ground. */
+function makeGround(min: number[], max: number[]): three.GridHelper {
+  const size = 10 * Math.ceil(Math.max(max[0] - min[0], max[1] - min[1]) / 10 + 1);
+  const grid = new three.GridHelper(size, size / 5, hairline(), hairline());
+  (grid.material as three.Material).transparent = true;
+  (grid.material as three.Material).opacity = 0.95;
+  (grid.material as three.Material).depthWrite = false;
+  grid.rotation.x = Math.PI / 2; // three's grids lie in x, z
+  grid.position.set((min[0] + max[0]) / 2, (min[1] + max[1]) / 2, Math.min(0, min[2]));
+  return grid;
+}
+
+export class RunScene {
+  readonly scene = new three.Scene();
+  readonly vehicle = new three.Group(); // at the vehicle's pose
+  readonly model: Model;
+  private readonly body: three.Group;
+  private readonly sight: three.Group;
+  private readonly structure: three.Group | null;
+  private readonly path: PathMark;
+  private readonly frusta: FrustaMark;
+
+  constructor(readonly flight: Flight, mesh: MeshData | undefined, meshBytes: Bytes) {
+    const data = flight.data;
+    this.model = new Model(data, flight.bytes);
+    this.structure = mesh ? makeStructure(mesh, meshBytes) : null;
+    this.path = new PathMark(flight);
+    this.frusta = new FrustaMark(flight);
+    this.body = makeVehicle(data.vehicle);
+    this.sight = makeSight(data.cameras);
+    this.vehicle.add(this.body, this.sight);
+    const sun = new three.DirectionalLight(0xffffff, 2.1);
+    sun.position.set(-0.5, -0.8, 1.4);
+    const sky = new three.HemisphereLight(0xffffff, 0x8d939c, 1.5);
+    for (const light of [sun, sky]) light.layers.enable(kMarkLayer);
+    const ground = makeGround(data.workspace.min, data.workspace.max);
+    this.scene.add(sun, sky, ground);
+    for (const part of [this.structure, this.model.cloud, this.model.voxels]) {
+      if (part) this.scene.add(part);
+    }
+    this.scene.add(this.path.object, this.frusta.object, this.vehicle);
+    for (const mark of [ground, this.path.object, this.frusta.object, this.vehicle]) {
+      mark.traverse((part) => part.layers.set(kMarkLayer));
+    }
+  }
+
+  setLayers(layers: Layers) {
+    if (this.model.cloud) this.model.cloud.visible = layers.cloud;
+    if (this.model.voxels) this.model.voxels.visible = layers.voxels;
+    if (this.structure) {
+      this.structure.visible = layers.structure;
+      setGhost(this.structure, layers.cloud || layers.voxels);
+    }
+    this.path.setLayers(layers.path, layers.profile);
+    this.frusta.object.visible = layers.frusta;
+    this.vehicle.visible = layers.vehicle;
+  }
+
+  colour(by: Colouring) { this.model.colour(by); }
+
+  /** As it is at the clock's time, for a camera that draws `pxPerTan` pixels a unit of tangent. */
+  show(clock: Clock, camera: three.PerspectiveCamera, pxPerTan: number) {
+    const n = this.flight.viewsAt(clock);
+    this.model.show(n, pxPerTan);
+    this.path.show(this.flight.samplesBy(this.flight.timeAt(clock)));
+    this.frusta.show(n);
+    const pose = this.flight.poseAt(clock);
+    if (!pose) return;
+    this.vehicle.position.copy(pose.p);
+    this.vehicle.quaternion.copy(pose.q);
+    this.sight.visible = n > 0;
+    // from afar larger than life, or it would be a speck
+    const away = camera.position.distanceTo(pose.p);
+    this.body.scale.setScalar(Math.min(6, Math.max(1, 0.028 * away / this.flight.data.vehicle.radius_m)));
+  }
+
+  /** The box that a camera should show. */
+  bounds(): three.Box3 {
+    const box = new three.Box3();
+    if (this.structure) box.setFromObject(this.structure);
+    else if (this.model.cloud) box.setFromObject(this.model.cloud);
+    if (box.isEmpty()) {
+      const { min, max } = this.flight.data.workspace;
+      box.set(new three.Vector3(...min), new three.Vector3(...max));
+    }
+    return box;
+  }
+}

@@ -1,0 +1,206 @@
+// What has a surface: the structure, the points of the cloud, the voxels.
+import * as three from "three";
+import { ramp, rampTable, type RampName } from "./colours";
+import { kMarkLayer, kSurfaceLayer } from "./depth_shading";
+import type { Bytes, MeshData, RunData } from "./data";
+
+/** Colours by what the point is like; `real` is what the cameras saw. */
+export type Colouring = "height" | "density" | "iteration" | "real";
+
+export function makeStructure(mesh: MeshData, bytes: Bytes): three.Group {
+  const group = new three.Group();
+  const position = new three.BufferAttribute(bytes.points(mesh.vertices), 3);
+  for (const part of mesh.parts) {
+    const geometry = new three.BufferGeometry();
+    geometry.setAttribute("position", position);
+    geometry.setIndex(new three.BufferAttribute(bytes.u32(part.corners), 1));
+    const solid = new three.MeshLambertMaterial({ color: new three.Color(...part.rgb),
+      flatShading: true, side: three.DoubleSide });
+    group.add(new three.Mesh(geometry, solid));
+  }
+  return group;
+}
+
+/** Solid, or a ghost that hides nothing. */
+export function setGhost(structure: three.Group, isGhost: boolean) {
+  for (const child of structure.children) {
+    const material = (child as three.Mesh).material as three.MeshLambertMaterial;
+    material.transparent = isGhost;
+    material.opacity = isGhost ? 0.13 : 1;
+    material.depthWrite = !isGhost;
+    material.needsUpdate = true;
+    child.layers.set(isGhost ? kMarkLayer : kSurfaceLayer);
+    child.renderOrder = isGhost ? -1 : 0; // under the marks
+  }
+}
+
+/** Of each element by the state after which it was there first. */
+function firstStates(after: Uint32Array, count: number): Uint16Array {
+  const first = new Uint16Array(count);
+  for (let n = 1; n < after.length; ++n) first.fill(n, after[n - 1], after[n]);
+  return first;
+}
+
+/** Linear light from sRGB bytes, as vertex colours have to be. */
+const kLinear = Uint8Array.from({ length: 256 }, (_, v) =>
+  Math.round(255 * new three.Color().setRGB(v / 255, 0, 0, three.SRGBColorSpace).r));
+
+/** Counts of the cloud's points, with a ceiling that leaves out the densest few. */
+class Densities {
+  readonly most: number;
+  private readonly cells = new Map<number, number>();
+
+  constructor(readonly index: Int16Array, readonly count: Uint32Array, readonly size: number) {
+    for (let i = 0; i < count.length; ++i) {
+      this.cells.set(Densities.key(index[3 * i], index[3 * i + 1], index[3 * i + 2]), count[i]);
+    }
+    const sorted = Uint32Array.from(count).sort();
+    this.most = sorted[Math.floor(0.98 * (sorted.length - 1))] || 1;
+  }
+
+  /** Exact in a double: 16 bits an axis. */
+  private static key(i: number, j: number, k: number): number {
+    return ((i + 32768) * 65536 + j + 32768) * 65536 + k + 32768;
+  }
+
+  at(x: number, y: number, z: number): number {
+    const cell = (c: number) => Math.floor(c / this.size);
+    return this.cells.get(Densities.key(cell(x), cell(y), cell(z))) ?? 0;
+  }
+}
+
+const kPointVertex = `
+uniform float uSize;
+uniform float uPxPerTan;
+uniform int uNewFrom;
+attribute vec3 rgb;
+varying vec3 vColour;
+void main() {
+  vec4 p = modelViewMatrix * vec4(position, 1.0);
+  gl_Position = projectionMatrix * p;
+  gl_PointSize = clamp(uSize * uPxPerTan / -p.z, 1.6, 14.0);
+  bool isNew = gl_VertexID >= uNewFrom;
+  vColour = isNew ? vec3(1.0, 0.16, 0.02) : rgb;
+  if (isNew) gl_PointSize += 1.0;
+}`;
+const kPointFragment = `
+varying vec3 vColour;
+void main() {
+  vec2 d = gl_PointCoord - 0.5;
+  if (dot(d, d) > 0.25) discard;
+  gl_FragColor = vec4(vColour, 1.0);
+}`;
+
+/** Points and voxels of a run; both are there after as many views as show() says. */
+export class Model {
+  readonly cloud: three.Points | null = null;
+  readonly voxels: three.InstancedMesh | null = null;
+  readonly heights: [number, number] = [0, 1];
+  readonly densities: Densities | null = null;
+  readonly hasReal: boolean;
+  private readonly points: Float32Array = new Float32Array();
+  private readonly cloudAfter: Uint32Array = new Uint32Array();
+  private readonly voxelsAfter: Uint32Array = new Uint32Array();
+
+  constructor(readonly data: RunData, private readonly bytes: Bytes) {
+    this.hasReal = !!data.cloud?.colour;
+    if (data.voxels) {
+      const { index, count, after, size_m } = data.voxels;
+      this.densities = new Densities(bytes.i16(index), bytes.u32(count), size_m);
+      this.voxelsAfter = bytes.u32(after);
+      this.voxels = this.makeVoxels();
+    }
+    if (data.cloud) {
+      this.points = bytes.points(data.cloud.points);
+      this.cloudAfter = bytes.u32(data.cloud.after);
+      const { min, size } = data.cloud.points;
+      this.heights = [min[2], min[2] + Math.max(size[2], 1e-6)];
+      this.cloud = this.makeCloud();
+    }
+  }
+
+  colour(by: Colouring) {
+    if (this.cloud) this.cloud.geometry.setAttribute("rgb", this.cloudColours(by));
+    if (!this.voxels || !this.densities) return;
+    const { index, count, size } = this.densities;
+    const [name, share] = this.ramp(by);
+    const first = firstStates(this.voxelsAfter, count.length);
+    const colour = new three.Color();
+    for (let i = 0; i < count.length; ++i) {
+      const [r, g, b] = ramp(name, share(size * (index[3 * i + 2] + 0.5), count[i], first[i]));
+      this.voxels.setColorAt(i, colour.setRGB(r / 255, g / 255, b / 255, three.SRGBColorSpace));
+    }
+    this.voxels.instanceColor!.needsUpdate = true;
+  }
+
+  /** After `n` views; the points of the last one are marked. */
+  show(n: number, pxPerTan: number) {
+    if (this.cloud) {
+      this.cloud.geometry.setDrawRange(0, this.cloudAfter[n]);
+      const { uniforms } = this.cloud.material as three.ShaderMaterial;
+      uniforms.uNewFrom.value = n > 0 ? this.cloudAfter[n - 1] : 0x7fffffff;
+      uniforms.uPxPerTan.value = pxPerTan;
+    }
+    if (this.voxels) this.voxels.count = this.voxelsAfter[n];
+  }
+
+  /** The ramp of a colouring, and what of it a point with these properties takes, from 0 to 1. */
+  private ramp(by: Colouring): [RampName, (height: number, density: number, state: number) => number] {
+    const [low, high] = this.heights;
+    const states = Math.max(1, this.data.views.x.length);
+    const most = this.densities?.most ?? 1;
+    if (by === "iteration") return ["order", (_, __, state) => state / states];
+    if (by === "density") return ["density", (_, density) => density / most];
+    return ["height", (height) => (height - low) / (high - low)];
+  }
+
+  private cloudColours(by: Colouring): three.BufferAttribute {
+    const points = this.points;
+    const count = points.length / 3;
+    const rgb = new Uint8Array(3 * count);
+    if (by === "real" && this.data.cloud?.colour) {
+      const seen = this.bytes.u8(this.data.cloud.colour);
+      for (let i = 0; i < rgb.length; ++i) rgb[i] = kLinear[seen[i]];
+    } else {
+      const [name, share] = this.ramp(by);
+      const table = rampTable(name).map((value) => kLinear[value]);
+      const first = firstStates(this.cloudAfter, count);
+      for (let i = 0; i < count; ++i) {
+        const z = points[3 * i + 2];
+        const density = by === "density"
+          ? this.densities?.at(points[3 * i], points[3 * i + 1], z) ?? 0 : 0;
+        const at = 3 * Math.round(255 * Math.min(Math.max(share(z, density, first[i]), 0), 1));
+        for (let k = 0; k < 3; ++k) rgb[3 * i + k] = table[at + k];
+      }
+    }
+    return new three.BufferAttribute(rgb, 3, true);
+  }
+
+  private makeCloud(): three.Points {
+    const geometry = new three.BufferGeometry();
+    geometry.setAttribute("position", new three.BufferAttribute(this.points, 3));
+    const spacing = Math.max(this.data.cloud!.cell_m, 0.02);
+    const material = new three.ShaderMaterial({
+      vertexShader: kPointVertex,
+      fragmentShader: kPointFragment,
+      uniforms: { uSize: { value: 1.5 * spacing }, uPxPerTan: { value: 1 }, uNewFrom: { value: 0 } },
+    });
+    const points = new three.Points(geometry, material);
+    points.frustumCulled = false;
+    return points;
+  }
+
+  private makeVoxels(): three.InstancedMesh {
+    const { index, count, size } = this.densities!;
+    const box = new three.BoxGeometry(0.94 * size, 0.94 * size, 0.94 * size);
+    const mesh = new three.InstancedMesh(box, new three.MeshLambertMaterial(), count.length);
+    const place = new three.Matrix4();
+    for (let i = 0; i < count.length; ++i) {
+      place.makeTranslation(size * (index[3 * i] + 0.5), size * (index[3 * i + 1] + 0.5),
+        size * (index[3 * i + 2] + 0.5));
+      mesh.setMatrixAt(i, place);
+    }
+    mesh.frustumCulled = false;
+    return mesh;
+  }
+}
