@@ -29,6 +29,7 @@ int run(int argc, char** argv) {
   gnbv::add_lint_command(app);
   gnbv::add_score_command(app);
   gnbv::add_check_command(app);
+  gnbv::add_surface_command(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
