@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "bench/set_cover.hpp"
+#include "sim/core/error.hpp"
+#include "sim/core/parallel.hpp"
 #include "tools/surface/mesh_edges.hpp"
 #include "tools/surface/view_candidates.hpp"
 
@@ -62,14 +64,23 @@ Vec2f TextureView::pixel_of(const Vec3f& p_world_m_) const {
           static_cast<float>(camera.fy_px * p_m.y() / p_m.z() + camera.cy_px)};
 }
 
-std::vector<TextureView> texture_views(const FrameRecord& record) {
-  std::vector<TextureView> views;
-  views.reserve(record.frames.size());
-  for (const RecordedFrame& frame : record.frames) {
-    views.push_back({.T_camera_world = frame.T_world_camera.inverse(),
-                     .p_world_m = frame.T_world_camera.translation().cast<float>(),
-                     .camera = record.cameras[frame.camera]});
-  }
+std::vector<TextureView> texture_views(const FrameRecord& record, int threads) {
+  std::vector<TextureView> views(record.frames.size());
+  parallel_for(threads, views.size(), [&](std::size_t i) {
+    const RecordedFrame& frame = record.frames[i];
+    views[i] = {.T_camera_world = frame.T_world_camera.inverse(),
+                .p_world_m = frame.T_world_camera.translation().cast<float>(),
+                .camera = record.cameras[frame.camera],
+                .depth_steps = read_png_grey16(frame.depth)};
+    const TextureView& view = views[i];
+    if (view.depth_steps.width_px != view.camera.width_px ||
+        view.depth_steps.height_px != view.camera.height_px) {
+      throw BadInput(fmt::format("{}: is {} x {} px, cameras.json says {} x {}",
+                                 frame.depth.string(), view.depth_steps.width_px,
+                                 view.depth_steps.height_px, view.camera.width_px,
+                                 view.camera.height_px));
+    }
+  });
   return views;
 }
 

@@ -7,24 +7,27 @@
 
 #include "sensors/ray_scene.hpp"
 #include "tools/record/frame_record.hpp"
+#include "tools/render/image.hpp"
 
 namespace gnbv {
 
 using Vec2f = Eigen::Vector2f;
 
-/// A picture's camera.
+/// A picture's camera, and how far it measured.
 struct TextureView {
   Isometry T_camera_world = Isometry::Identity();  // optical frame
   Vec3f p_world_m = Vec3f::Zero();                 // where it was
   FrameCamera camera;
+  GreyImage16 depth_steps = {};  // pixel by pixel with the picture; empty where it is not known
 
   /// Picture coordinates in px, (0, 0) the outer corner of the top left pixel; only for points
   /// before the camera.
   Vec2f pixel_of(const Vec3f& p_world_m_) const;
 };
 
-/// The views of all frames, in their order.
-std::vector<TextureView> texture_views(const FrameRecord& record);
+/// The views of all frames, in their order, with their depth images. Throws BadInput naming an
+/// image that cannot be read or has another size than its camera.
+std::vector<TextureView> texture_views(const FrameRecord& record, int threads);
 
 constexpr std::int32_t kNoView = -1;
 
@@ -38,7 +41,9 @@ struct ViewChoiceSettings {
 /// A view shows a face when all corners lie in the picture (a pixel off its border), the face turns
 /// its front to the camera, and rays from the camera to its middle and past its corners meet
 /// the surface there and nothing before it: what the reconstruction itself hides is not used, nor a
-/// face at an outline, where the background would show. The quality of a view is the resolution it
+/// face at its outline. Views whose measured depth agrees at the corners come first, since at the
+/// outline of the true surface the background may show; others serve faces that have none of them.
+/// The quality of a view is the resolution it
 /// gives the face (cosine of the angle over the square of the distance), no more than the
 /// texture's, times the cosine. Of the views at least 0.6 as good as a face's best, it gets the one
 /// that serves the most faces (greedy set cover), so that charts are large and seams are few.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "sim/core/parallel.hpp"
 
@@ -122,6 +123,25 @@ bool is_clear(const RayScene& scene, const TextureView& view, const Corners& c, 
   return true;
 }
 
+/// Whether the depth measured around each corner is that of the corner.
+bool is_measured(const TextureView& view, const Corners& c, float hidden_m) {
+  const GreyImage16& depth = view.depth_steps;
+  if (depth.values.empty()) return true;
+  for (const Vec3f& corner_m : c.p_m) {
+    const double z_m = (view.T_camera_world * corner_m.cast<double>()).z();
+    const Vec2f px = view.pixel_of(corner_m);
+    for (int i = 0; i < 4; ++i) {  // the four pixels around it
+      const int u = std::clamp(static_cast<int>(px.x() - 0.5F) + i % 2, 0, depth.width_px - 1);
+      const int v = std::clamp(static_cast<int>(px.y() - 0.5F) + i / 2, 0, depth.height_px - 1);
+      const auto at = static_cast<std::size_t>(v) * static_cast<std::size_t>(depth.width_px) +
+                      static_cast<std::size_t>(u);
+      const double off_m = depth.values[at] * view.camera.depth_scale_m - z_m;
+      if (std::abs(off_m) > 2.0 * static_cast<double>(hidden_m)) return false;  // none reads as 0
+    }
+  }
+  return true;
+}
+
 std::vector<ViewCandidate> candidates_of(const Corners& c, const RayScene& scene,
                                          std::span<const TextureView> views,
                                          std::span<const std::uint32_t> near,
@@ -135,16 +155,25 @@ std::vector<ViewCandidate> candidates_of(const Corners& c, const RayScene& scene
     return a.quality != b.quality ? a.quality > b.quality : a.view < b.view;
   });
   std::vector<ViewCandidate> kept;
+  std::optional<ViewCandidate> unmeasured;  // the best that is clear, though its depth is not right
   std::size_t tried = 0;
+  const auto hidden_m = static_cast<float>(settings.hidden_m);
   for (const ViewCandidate& candidate : all) {
     const bool is_enough = !kept.empty() && (candidate.quality < kGoodShare * kept[0].quality ||
                                              kept.size() == kMostKept || tried >= kMostTried);
     if (is_enough) break;
+    const TextureView& view = views[candidate.view];
+    const bool is_sound = is_measured(view, c, hidden_m);
+    if (!is_sound && unmeasured) continue;
     ++tried;
-    if (is_clear(scene, views[candidate.view], c, static_cast<float>(settings.hidden_m))) {
+    if (!is_clear(scene, view, c, hidden_m)) continue;
+    if (is_sound) {
       kept.push_back(candidate);
+    } else {
+      unmeasured = candidate;
     }
   }
+  if (kept.empty() && unmeasured) kept.push_back(*unmeasured);
   return kept;
 }
 
