@@ -60,7 +60,6 @@ void surface(const SurfaceOptions& options) {
   std::vector<std::string> told_by_run;  // the mesh's faults were told when it was flown
   const World truth = load_world(record.scenario, told_by_run);
   const fs::path folder = options.out.empty() ? options.run / "surface" : options.out;
-  make_folder(folder);
 
   std::vector<std::string> notes;
   std::vector<fs::path> paths;
@@ -72,6 +71,7 @@ void surface(const SurfaceOptions& options) {
     progress(0.9, "scoring");
     score = score_surface(mesh.shape, truth, record.scenario.planner.floor_z_m, threads);
     progress(0.95, "writing");
+    make_folder(folder);
     paths = write_surface(mesh, folder);
     paths.push_back(folder / "preview.png");
     write_png(surface_picture(mesh, 1280, 720), paths.back());
@@ -101,7 +101,7 @@ void add_surface_command(CLI::App& app) {
                       "slow (default: auto, by leaf and extent of the cloud, up to 10)");
   command
       ->add_option("--trim-m", options->settings.trim_m,
-                   "surface farther than this from any point is cut off (default: 3 spacings of "
+                   "surface farther than this from any point is cut off (default: 2 spacings of "
                    "the points there, at most 6 leaves)")
       ->check(CLI::PositiveNumber);
   command->add_option("--texture-px", options->settings.texture_px, "longest side of the texture")

@@ -40,14 +40,13 @@ struct ViewChoiceSettings {
 ///
 /// A view shows a face when all corners lie in the picture (a pixel off its border), the face turns
 /// its front to the camera, and rays from the camera to its middle and past its corners meet
-/// the surface there and nothing before it: what the reconstruction itself hides is not used, nor a
-/// face at its outline. Views whose measured depth agrees at the corners come first, since at the
-/// outline of the true surface the background may show; others serve faces that have none of them.
-/// The quality of a view is the resolution it
-/// gives the face (cosine of the angle over the square of the distance), no more than the
-/// texture's, times the cosine. Of the views at least 0.6 as good as a face's best, it gets the one
-/// that serves the most faces (greedy set cover), so that charts are large and seams are few.
-/// `scene` holds `mesh` and nothing else. Deterministic at any number of threads.
+/// nothing of the reconstruction before it. Views whose measured depth agrees at the corners come
+/// first. Others serve faces that have none of these, and not at an outline, where the rays pass
+/// and the picture may show the background. The quality of a view is the resolution it gives the
+/// face (cosine of the angle over the square of the distance), no more than the texture's, times
+/// the cosine. Of the views at least 0.6 as good as a face's best, it gets the one that serves the
+/// most faces (greedy set cover), so that charts are large and seams are few. `scene` holds `mesh`
+/// and nothing else. Deterministic at any number of threads.
 std::vector<std::int32_t> choose_views(const TriangleMesh& mesh, const RayScene& scene,
                                        std::span<const TextureView> views,
                                        const ViewChoiceSettings& settings, int threads);

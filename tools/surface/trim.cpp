@@ -16,7 +16,7 @@ namespace {
 using Face = std::array<std::uint32_t, 3>;
 
 constexpr std::size_t kChunk = 4096;
-constexpr float kReach_spacings = 3.0F;
+constexpr float kReach_spacings = 2.0F;
 constexpr int kSmoothings = 3;
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 

@@ -15,7 +15,7 @@ struct TrimSettings {
 };
 
 /// The surface within reach of the points: each vertex's distance to its nearest point, over that
-/// point's reach (3 spacings), is smoothed along the edges (as Kazhdan's SurfaceTrimmer does with
+/// point's reach (2 spacings), is smoothed along the edges (as Kazhdan's SurfaceTrimmer does with
 /// its densities, so that the rim is smooth) and faces are cut where it is 1. Then without small
 /// parts and unused vertices. Deterministic at any number of threads.
 TriangleMesh trimmed(const TriangleMesh& closed, const OrientedCloud& cloud,

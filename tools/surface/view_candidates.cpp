@@ -102,8 +102,10 @@ float quality_of(const TextureView& view, const Corners& c, double texels_per_m)
   return cosine * std::min(1.0F, cosine * texels * texels);
 }
 
-/// Whether rays to the middle and past each corner meet the surface there.
-bool is_clear(const RayScene& scene, const TextureView& view, const Corners& c, float hidden_m) {
+/// Whether rays to the middle and past each corner meet nothing before the face; and, unless
+/// `beyond_is_known`, nothing far behind it.
+bool is_clear(const RayScene& scene, const TextureView& view, const Corners& c, float hidden_m,
+              bool beyond_is_known) {
   std::array<Vec3f, 4> targets_m = {c.middle_m, c.p_m[0], c.p_m[1], c.p_m[2]};
   const float past_m = kOutline_px * (c.middle_m - view.p_world_m).norm() /
                        static_cast<float>(std::min(view.camera.fx_px, view.camera.fy_px));
@@ -117,16 +119,16 @@ bool is_clear(const RayScene& scene, const TextureView& view, const Corners& c, 
   for (std::size_t k = 0; k < 4; ++k) {
     // distances are in multiples of the direction; a curved surface may lie a little behind
     const float off_m = (hits[k].distance_m - 1.0F) * directions[k].norm();
-    const bool is_there = off_m > -hidden_m && off_m < 3.0F * hidden_m;
-    if (!is_there) return false;
+    if (off_m < -hidden_m || (off_m > 3.0F * hidden_m && !beyond_is_known)) return false;
   }
   return true;
 }
 
-/// Whether the depth measured around each corner is that of the corner.
+/// Whether the depth measured around each corner is that of the corner. False without a depth
+/// image.
 bool is_measured(const TextureView& view, const Corners& c, float hidden_m) {
   const GreyImage16& depth = view.depth_steps;
-  if (depth.values.empty()) return true;
+  if (depth.values.empty()) return false;
   for (const Vec3f& corner_m : c.p_m) {
     const double z_m = (view.T_camera_world * corner_m.cast<double>()).z();
     const Vec2f px = view.pixel_of(corner_m);
@@ -163,10 +165,11 @@ std::vector<ViewCandidate> candidates_of(const Corners& c, const RayScene& scene
                                              kept.size() == kMostKept || tried >= kMostTried);
     if (is_enough) break;
     const TextureView& view = views[candidate.view];
-    const bool is_sound = is_measured(view, c, hidden_m);
+    const bool measured = is_measured(view, c, hidden_m);
+    const bool is_sound = measured || view.depth_steps.values.empty();
     if (!is_sound && unmeasured) continue;
     ++tried;
-    if (!is_clear(scene, view, c, hidden_m)) continue;
+    if (!is_clear(scene, view, c, hidden_m, measured)) continue;
     if (is_sound) {
       kept.push_back(candidate);
     } else {
