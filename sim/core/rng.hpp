@@ -18,6 +18,7 @@ enum class Stream : std::uint64_t {
   lateral_noise = 6,
   random_view = 7,
   bootstrap = 8,
+  surface_sample = 9,
 };
 
 struct RandomKey {

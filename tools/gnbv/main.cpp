@@ -33,6 +33,7 @@ int run(int argc, char** argv) {
   gnbv::add_schema_command(app);
   gnbv::add_score_command(app);
   gnbv::add_check_command(app);
+  gnbv::add_surface_command(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

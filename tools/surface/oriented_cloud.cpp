@@ -1,0 +1,110 @@
+#include "tools/surface/oriented_cloud.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "sim/core/error.hpp"
+#include "sim/core/parallel.hpp"
+#include "tools/surface/point_tree.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr std::size_t kNeighbours = 16;
+constexpr std::size_t kChunk = 4096;
+constexpr float kSureCosine = 0.15F;  // below it, a normal is nearly square to the line of sight
+
+struct Normal {
+  Vec3f unit = Vec3f::Zero();  // zero: none
+  float spacing_m = 0.0F;
+  float cosine = 0.0F;  // to the line of sight
+};
+
+/// Of a plane with n points in a circle of radius r around one of them, r sqrt(pi / n) apart.
+float spacing_of(std::span<const Neighbour> found) {
+  const auto n = static_cast<float>(found.size());
+  return found.back().distance_m * std::sqrt(static_cast<float>(kPi) / n);
+}
+
+Normal normal_at(std::span<const Vec3f> points_m, std::span<const Neighbour> found) {
+  Normal normal;
+  if (found.size() < 3) return normal;
+  Vec3f mean_m = Vec3f::Zero();
+  for (const Neighbour& neighbour : found) mean_m += points_m[neighbour.point];
+  mean_m /= static_cast<float>(found.size());
+  Eigen::Matrix3f covariance_m2 = Eigen::Matrix3f::Zero();
+  for (const Neighbour& neighbour : found) {
+    const Vec3f d_m = points_m[neighbour.point] - mean_m;
+    covariance_m2 += d_m * d_m.transpose();
+  }
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver;
+  solver.computeDirect(covariance_m2);
+  const Vec3f& spread_m2 = solver.eigenvalues();              // ascending
+  if (!(spread_m2[1] > 1e-4F * spread_m2[2])) return normal;  // one line has no normal
+  normal.unit = solver.eigenvectors().col(0);
+  normal.spacing_m = spacing_of(found);
+  return normal;
+}
+
+/// Turns a normal that is nearly square to its line of sight to the side of its sure neighbours.
+Vec3f settled(const std::vector<Normal>& normals, std::size_t point,
+              std::span<const Neighbour> found) {
+  const Normal& own = normals[point];
+  float votes = 0.0F;
+  for (const Neighbour& neighbour : found) {
+    const Normal& other = normals[neighbour.point];
+    if (other.cosine >= kSureCosine) votes += other.cosine * own.unit.dot(other.unit);
+  }
+  return votes < 0.0F ? Vec3f(-own.unit) : own.unit;
+}
+
+}  // namespace
+
+OrientedCloud oriented(const SeenPoints& seen, int threads) {
+  const std::span<const Vec3f> points_m = seen.points_world_m;
+  GNBV_CHECK(points_m.size() == seen.sensors_world_m.size(), "{} points, {} sensors",
+             points_m.size(), seen.sensors_world_m.size());
+  const PointTree tree(points_m);
+  const auto for_each_point = [&](const auto& task) {
+    parallel_for(threads, (points_m.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+      for (std::size_t i = chunk * kChunk; i < std::min(points_m.size(), (chunk + 1) * kChunk);
+           ++i) {
+        task(i);
+      }
+    });
+  };
+
+  std::vector<Normal> normals(points_m.size());
+  for_each_point([&](std::size_t i) {
+    std::array<Neighbour, kNeighbours> neighbours{};
+    Normal normal = normal_at(points_m, tree.nearest(points_m[i], neighbours));
+    const Vec3f to_sensor = (seen.sensors_world_m[i] - points_m[i]).normalized();
+    normal.cosine = normal.unit.dot(to_sensor);
+    if (normal.cosine < 0.0F) {
+      normal.unit = -normal.unit;
+      normal.cosine = -normal.cosine;
+    }
+    normals[i] = normal;
+  });
+
+  std::vector<Vec3f> settled_normals(points_m.size());
+  for_each_point([&](std::size_t i) {
+    settled_normals[i] = normals[i].unit;
+    if (normals[i].cosine >= kSureCosine) return;
+    std::array<Neighbour, kNeighbours> neighbours{};
+    settled_normals[i] = settled(normals, i, tree.nearest(points_m[i], neighbours));
+  });
+
+  OrientedCloud cloud;
+  for (std::size_t i = 0; i < points_m.size(); ++i) {
+    if (normals[i].unit.isZero()) continue;
+    cloud.points_world_m.push_back(points_m[i]);
+    cloud.normals_world.push_back(settled_normals[i]);
+    cloud.spacing_m.push_back(normals[i].spacing_m);
+  }
+  return cloud;
+}
+
+}  // namespace gnbv

@@ -1,0 +1,35 @@
+// The points a surface is made of: where they are, what they were seen from, which way they face.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "tools/record/run_record.hpp"
+
+namespace gnbv {
+
+/// Points with the place of the sensor that saw each.
+struct SeenPoints {
+  std::vector<Vec3f> points_world_m;
+  std::vector<Vec3f> sensors_world_m;  // (points)
+};
+
+/// The points of a run. Those of a view were seen by the camera of the view's pose that has them in
+/// its picture. Those of the profile, whose leaves are coarse, are used only where no view's point
+/// lies within a leaf; each was seen from the nearest pose of the profile's flight between which
+/// and the point no other point lies. Throws BadInput, naming the command that helps, for a cloud
+/// without points, and for a profile without a flight.
+SeenPoints seen_points(const RunRecord& record, const RunCloud& cloud, int threads);
+
+struct OrientedCloud {
+  std::vector<Vec3f> points_world_m;
+  std::vector<Vec3f> normals_world;  // (points), unit, out of the structure
+  std::vector<float> spacing_m;      // (points), between neighbours there
+};
+
+/// Normals by principal components of the 16 nearest points (Hoppe et al. 1992), pointing to the
+/// sensor; where they are nearly square to it, to the side of the neighbours that are not. Points
+/// whose neighbours lie on one line are left out. Deterministic at any number of threads.
+OrientedCloud oriented(const SeenPoints& seen, int threads);
+
+}  // namespace gnbv

@@ -1,0 +1,35 @@
+// Nearest neighbours in a point set. The only file of the room that knows nanoflann is its .cpp.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "sim/core/pose.hpp"
+
+namespace gnbv {
+
+struct Neighbour {
+  std::uint32_t point = 0;
+  float distance_m = 0.0F;
+};
+
+/// Const after construction: any number of threads may query at once.
+class PointTree {
+ public:
+  /// Keeps the span, not the points.
+  explicit PointTree(std::span<const Vec3f> points_m);
+  ~PointTree();
+  PointTree(PointTree&&) noexcept;
+  PointTree& operator=(PointTree&&) noexcept;
+
+  /// Fills `found` with the nearest points, nearest first; returns the part of it that is filled,
+  /// which is less than asked for only when there are fewer points.
+  std::span<const Neighbour> nearest(const Vec3f& p_m, std::span<Neighbour> found) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace gnbv

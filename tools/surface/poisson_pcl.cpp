@@ -1,0 +1,87 @@
+// The module that knows PCL (tools/surface/poisson_module.hpp).
+#include <fcntl.h>
+#include <pcl/console/print.h>
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+#include <pcl/surface/poisson.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "tools/surface/poisson_module.hpp"
+
+namespace gnbv {
+namespace {
+
+/// While it lives, what is written to stdout goes nowhere: PCL's octree prints a line for each
+/// edge that it cannot close, and has no switch for it.
+class SilentStdout {
+ public:
+  SilentStdout() {
+    std::fflush(stdout);
+    kept_ = ::dup(STDOUT_FILENO);
+    const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (nowhere < 0) return;
+    ::dup2(nowhere, STDOUT_FILENO);
+    ::close(nowhere);
+  }
+  ~SilentStdout() {
+    std::fflush(stdout);
+    if (kept_ < 0) return;  // there was no stdout
+    ::dup2(kept_, STDOUT_FILENO);
+    ::close(kept_);
+  }
+  SilentStdout(const SilentStdout&) = delete;
+  SilentStdout& operator=(const SilentStdout&) = delete;
+
+ private:
+  int kept_ = -1;
+};
+
+pcl::PointCloud<pcl::PointNormal>::Ptr cloud_of(std::span<const Vec3f> points_m,
+                                                std::span<const Vec3f> normals) {
+  auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointNormal>>();
+  cloud->reserve(points_m.size());
+  for (std::size_t i = 0; i < points_m.size(); ++i) {
+    pcl::PointNormal point;
+    point.getVector3fMap() = points_m[i];
+    point.getNormalVector3fMap() = normals[i];
+    cloud->push_back(point);
+  }
+  return cloud;
+}
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) void gnbv_poisson_surface(
+    std::span<const Vec3f> points_m, std::span<const Vec3f> normals,
+    const PoissonSettings& settings, TriangleMesh& mesh) {
+  mesh = {};
+  if (points_m.empty()) return;
+  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
+  pcl::Poisson<pcl::PointNormal> poisson;
+  poisson.setInputCloud(cloud_of(points_m, normals));
+  poisson.setDepth(settings.depth);
+  poisson.setPointWeight(settings.point_weight);
+  poisson.setScale(static_cast<float>(kPoissonScale));
+  poisson.setSamplesPerNode(1.5F);
+  poisson.setThreads(1);
+  pcl::PointCloud<pcl::PointNormal> vertices;
+  std::vector<pcl::Vertices> polygons;
+  {
+    const SilentStdout silent;
+    poisson.reconstruct(vertices, polygons);
+  }
+  mesh.vertices_m.reserve(vertices.size());
+  for (const pcl::PointNormal& vertex : vertices)
+    mesh.vertices_m.push_back(vertex.getVector3fMap());
+  mesh.faces.reserve(polygons.size());
+  for (const pcl::Vertices& polygon : polygons) {
+    const auto corner = [&](std::size_t k) {
+      return static_cast<std::uint32_t>(polygon.vertices[k]);
+    };
+    mesh.faces.push_back({corner(0), corner(1), corner(2)});
+  }
+}
+
+}  // namespace gnbv

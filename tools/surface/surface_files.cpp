@@ -1,0 +1,99 @@
+// write_surface() of textured_mesh.hpp.
+#include <fmt/format.h>
+
+#include <bit>
+
+#include "sim/core/file.hpp"
+#include "tools/surface/textured_mesh.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+
+template <typename T>
+void append_bytes(std::string& out, T value) {
+  const auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);
+  out.append(bytes.data(), bytes.size());
+}
+
+std::string ply_of(const TexturedMesh& mesh) {
+  std::string out = fmt::format(
+      "ply\nformat binary_little_endian 1.0\ncomment gnbv, world ENU, metres\nelement vertex {}\n"
+      "property float x\nproperty float y\nproperty float z\nproperty float nx\nproperty float ny\n"
+      "property float nz\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+      "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+      mesh.shape.vertices_m.size(), mesh.shape.faces.size());
+  const std::vector<Vec3f> normals = vertex_normals(mesh.shape);
+  for (std::size_t i = 0; i < mesh.shape.vertices_m.size(); ++i) {
+    for (const float x : mesh.shape.vertices_m[i]) append_bytes(out, x);
+    for (const float x : normals[i]) append_bytes(out, x);
+    for (const std::uint8_t level : mesh.vertex_rgb[i]) append_bytes(out, level);
+  }
+  for (const auto& face : mesh.shape.faces) {
+    append_bytes(out, std::uint8_t{3});
+    for (const std::uint32_t vertex : face) append_bytes(out, vertex);
+  }
+  return out;
+}
+
+/// With a texture, `v` and `vt` of each distinct corner; without, colours behind the positions, as
+/// MeshLab and Blender read them.
+std::string obj_of(const TexturedMesh& mesh) {
+  std::string out = "# gnbv, world ENU, metres\n";
+  auto to = std::back_inserter(out);
+  const bool has_texture = !mesh.face_uv.empty();
+  if (has_texture) out += "mtllib surface.mtl\nusemtl surface\n";
+  for (std::size_t i = 0; i < mesh.shape.vertices_m.size(); ++i) {
+    const Vec3f& p_m = mesh.shape.vertices_m[i];
+    fmt::format_to(to, "v {:.5f} {:.5f} {:.5f}", p_m.x(), p_m.y(), p_m.z());
+    if (!has_texture) {
+      const Rgb8& c = mesh.vertex_rgb[i];
+      fmt::format_to(to, " {:.4f} {:.4f} {:.4f}", c[0] / 255.0, c[1] / 255.0, c[2] / 255.0);
+    }
+    out += '\n';
+  }
+  if (!has_texture) {
+    for (const auto& f : mesh.shape.faces) {
+      fmt::format_to(to, "f {} {} {}\n", f[0] + 1, f[1] + 1, f[2] + 1);
+    }
+    return out;
+  }
+  const DistinctCorners corners = distinct_corners(mesh);
+  for (const Vec2f& uv : corners.uv) {  // v upwards
+    fmt::format_to(to, "vt {:.6f} {:.6f}\n", uv.x() / static_cast<float>(mesh.atlas.width_px),
+                   1.0F - uv.y() / static_cast<float>(mesh.atlas.height_px));
+  }
+  for (const auto& f : corners.faces) {
+    fmt::format_to(to, "f {}/{} {}/{} {}/{}\n", corners.vertex[f[0]] + 1, f[0] + 1,
+                   corners.vertex[f[1]] + 1, f[1] + 1, corners.vertex[f[2]] + 1, f[2] + 1);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<fs::path> write_surface(const TexturedMesh& mesh, const fs::path& folder) {
+  std::vector<fs::path> paths;
+  const auto write = [&](const char* name, const std::string& content) {
+    write_file_atomically(folder / name, content);
+    paths.push_back(folder / name);
+  };
+  std::string png;
+  if (!mesh.face_uv.empty()) {
+    write_png(mesh.atlas, folder / "surface.png");
+    paths.push_back(folder / "surface.png");
+    png = read_file(folder / "surface.png");
+    write("surface.mtl",
+          "newmtl surface\nKa 0 0 0\nKd 1 1 1\nKs 0 0 0\nillum 1\nmap_Kd surface.png\n");
+  } else {  // nothing of an earlier call that no longer belongs to the rest
+    std::error_code ignored;
+    for (const char* stale : {"surface.png", "surface.mtl"}) fs::remove(folder / stale, ignored);
+  }
+  write("surface.obj", obj_of(mesh));
+  write("surface.ply", ply_of(mesh));
+  write("surface.glb", glb_of(mesh, png));
+  return paths;
+}
+
+}  // namespace gnbv

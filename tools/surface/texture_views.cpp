@@ -1,0 +1,96 @@
+#include "tools/surface/texture_views.hpp"
+
+#include <algorithm>
+
+#include "bench/set_cover.hpp"
+#include "sim/core/error.hpp"
+#include "sim/core/parallel.hpp"
+#include "tools/surface/mesh_edges.hpp"
+#include "tools/surface/view_candidates.hpp"
+
+namespace gnbv {
+namespace {
+
+using Candidates = std::vector<std::vector<ViewCandidate>>;
+
+/// The view that shows the most faces takes them, then the next one the most of the others.
+std::vector<std::int32_t> cover(const Candidates& candidates, std::size_t view_count) {
+  std::vector<std::vector<std::uint32_t>> faces_of(view_count);
+  for (std::uint32_t face = 0; face < candidates.size(); ++face) {
+    for (const ViewCandidate& c : candidates[face]) faces_of[c.view].push_back(face);
+  }
+  std::vector<const std::vector<std::uint32_t>*> sets;
+  for (const auto& faces : faces_of) sets.push_back(&faces);
+  LazyGreedy greedy(sets, candidates.size());
+  const std::vector<double> costs(view_count, 1.0);
+  std::vector<std::int32_t> chosen(candidates.size(), kNoView);
+  while (const std::optional<std::size_t> view = greedy.best(costs)) {
+    greedy.take(faces_of[*view]);
+    for (const std::uint32_t face : faces_of[*view]) {
+      if (chosen[face] == kNoView) chosen[face] = static_cast<std::int32_t>(*view);
+    }
+  }
+  return chosen;
+}
+
+/// Faces alone among those of another view join them, where that view shows them as well.
+void join_islands(const TriangleMesh& mesh, const Candidates& candidates,
+                  std::vector<std::int32_t>& chosen) {
+  const auto neighbours = neighbours_across_edges(mesh);
+  constexpr int kPasses = 4;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    for (std::size_t face = 0; face < mesh.faces.size(); ++face) {
+      const auto agreeing = [&](std::int32_t view) {
+        return std::count_if(
+            neighbours[face].begin(), neighbours[face].end(),
+            [&](std::uint32_t other) { return other != kNoNeighbour && chosen[other] == view; });
+      };
+      auto most = agreeing(chosen[face]);
+      for (const ViewCandidate& candidate : candidates[face]) {
+        const auto view = static_cast<std::int32_t>(candidate.view);
+        if (agreeing(view) <= most) continue;
+        most = agreeing(view);
+        chosen[face] = view;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Vec2f TextureView::pixel_of(const Vec3f& p_world_m_) const {
+  const Vec3 p_m = T_camera_world * p_world_m_.cast<double>();
+  return {static_cast<float>(camera.fx_px * p_m.x() / p_m.z() + camera.cx_px),
+          static_cast<float>(camera.fy_px * p_m.y() / p_m.z() + camera.cy_px)};
+}
+
+std::vector<TextureView> texture_views(const FrameRecord& record, int threads) {
+  std::vector<TextureView> views(record.frames.size());
+  parallel_for(threads, views.size(), [&](std::size_t i) {
+    const RecordedFrame& frame = record.frames[i];
+    views[i] = {.T_camera_world = frame.T_world_camera.inverse(),
+                .p_world_m = frame.T_world_camera.translation().cast<float>(),
+                .camera = record.cameras[frame.camera],
+                .depth_steps = read_png_grey16(frame.depth)};
+    const TextureView& view = views[i];
+    if (view.depth_steps.width_px != view.camera.width_px ||
+        view.depth_steps.height_px != view.camera.height_px) {
+      throw BadInput(fmt::format("{}: is {} x {} px, cameras.json says {} x {}",
+                                 frame.depth.string(), view.depth_steps.width_px,
+                                 view.depth_steps.height_px, view.camera.width_px,
+                                 view.camera.height_px));
+    }
+  });
+  return views;
+}
+
+std::vector<std::int32_t> choose_views(const TriangleMesh& mesh, const RayScene& scene,
+                                       std::span<const TextureView> views,
+                                       const ViewChoiceSettings& settings, int threads) {
+  const Candidates candidates = view_candidates(mesh, scene, views, settings, threads);
+  std::vector<std::int32_t> chosen = cover(candidates, views.size());
+  join_islands(mesh, candidates, chosen);
+  return chosen;
+}
+
+}  // namespace gnbv

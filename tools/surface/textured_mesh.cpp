@@ -1,0 +1,216 @@
+#include "tools/surface/textured_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <unordered_map>
+
+#include "sim/core/error.hpp"
+#include "tools/render/colour.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr int kSwatch_px = 4;
+
+Rgb8 rgb8(const Vec3f& colour) {
+  Rgb8 out{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float level = std::clamp(colour[static_cast<Eigen::Index>(k)], 0.0F, 255.0F);
+    out[k] = static_cast<std::uint8_t>(std::lround(level));
+  }
+  return out;
+}
+
+bool has_chart(const FaceUv& uv) { return uv[0].x() >= 0.0F; }
+
+/// Vertices that no picture shows take the mean of their neighbours that have a colour, ring by
+/// ring; what hangs on nothing becomes grey.
+void spread_colours(const TriangleMesh& mesh, std::vector<Vec3f>& colours,
+                    std::vector<std::uint8_t>& is_known) {
+  std::vector<std::uint32_t> open;  // faces with a vertex still unknown
+  for (std::uint32_t face = 0; face < mesh.faces.size(); ++face) open.push_back(face);
+  while (true) {
+    std::map<std::uint32_t, std::pair<Vec3f, float>> ring;
+    std::vector<std::uint32_t> still_open;
+    for (const std::uint32_t face : open) {
+      const auto& corners = mesh.faces[face];
+      const auto known = std::count_if(corners.begin(), corners.end(),
+                                       [&](std::uint32_t v) { return is_known[v] != 0; });
+      if (known == 3) continue;
+      still_open.push_back(face);
+      if (known == 0) continue;
+      for (const std::uint32_t to : corners) {
+        if (is_known[to] != 0) continue;
+        auto& [sum, count] = ring.try_emplace(to, Vec3f::Zero(), 0.0F).first->second;
+        for (const std::uint32_t from : corners) {
+          if (is_known[from] == 0) continue;
+          sum += colours[from];
+          count += 1.0F;
+        }
+      }
+    }
+    if (ring.empty()) break;
+    for (const auto& [vertex, mean] : ring) {
+      colours[vertex] = mean.first / mean.second;
+      is_known[vertex] = 1;
+    }
+    open = std::move(still_open);
+  }
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    if (is_known[i] == 0) colours[i] = Vec3f::Constant(128.0F);
+  }
+}
+
+std::vector<Vec3f> vertex_colours(const TriangleMesh& mesh, const AtlasLayout& layout,
+                                  const Image& atlas) {
+  std::vector<Vec3f> colours(mesh.vertices_m.size(), Vec3f::Zero());
+  std::vector<float> counts(mesh.vertices_m.size(), 0.0F);
+  for (std::size_t face = 0; face < mesh.faces.size(); ++face) {
+    if (!has_chart(layout.face_uv[face])) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      colours[mesh.faces[face][k]] += bilinear(atlas, layout.face_uv[face][k]);
+      counts[mesh.faces[face][k]] += 1.0F;
+    }
+  }
+  std::vector<std::uint8_t> is_known(mesh.vertices_m.size());
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    is_known[i] = counts[i] > 0.0F ? 1 : 0;
+    if (is_known[i] != 0) colours[i] /= counts[i];
+  }
+  spread_colours(mesh, colours, is_known);
+  return colours;
+}
+
+/// The mean colour of each face without a chart, in steps of `step` levels.
+std::map<Rgb8, std::vector<std::uint32_t>> swatches_of(const TriangleMesh& mesh,
+                                                       const AtlasLayout& layout,
+                                                       const std::vector<Vec3f>& colours,
+                                                       float step) {
+  std::map<Rgb8, std::vector<std::uint32_t>> swatches;
+  for (std::uint32_t face = 0; face < mesh.faces.size(); ++face) {
+    if (has_chart(layout.face_uv[face])) continue;
+    const auto& corners = mesh.faces[face];
+    const Vec3f mean = (colours[corners[0]] + colours[corners[1]] + colours[corners[2]]) / 3.0F;
+    swatches[rgb8((mean / step).array().round() * step)].push_back(face);
+  }
+  return swatches;
+}
+
+/// Rows of swatches below the charts.
+void add_swatches(const std::vector<Vec3f>& colours, const AtlasLayout& layout,
+                  TexturedMesh& mesh) {
+  constexpr std::size_t kMostRows = kReserve_px / kSwatch_px;
+  const auto in_row = static_cast<std::size_t>(mesh.atlas.width_px / kSwatch_px);
+  float step = 4.0F;
+  auto swatches = swatches_of(mesh.shape, layout, colours, step);
+  for (; swatches.size() > kMostRows * in_row; step *= 2.0F) {
+    swatches = swatches_of(mesh.shape, layout, colours, step);
+  }
+  Image& atlas = mesh.atlas;
+  const int top = atlas.height_px;
+  const auto rows = static_cast<int>((swatches.size() + in_row - 1) / in_row);
+  atlas.height_px += rows * kSwatch_px;
+  const std::size_t stride = 3 * static_cast<std::size_t>(atlas.width_px);
+  atlas.rgb.resize(stride * static_cast<std::size_t>(atlas.height_px), 128);
+  std::size_t index = 0;
+  for (const auto& [rgb, faces] : swatches) {
+    const int x = static_cast<int>(index % in_row) * kSwatch_px;
+    const int y = top + static_cast<int>(index / in_row) * kSwatch_px;
+    ++index;
+    for (int i = 0; i < kSwatch_px * kSwatch_px; ++i) {
+      const std::size_t at = static_cast<std::size_t>(y + i / kSwatch_px) * stride +
+                             3 * static_cast<std::size_t>(x + i % kSwatch_px);
+      std::copy(rgb.begin(), rgb.end(), atlas.rgb.begin() + static_cast<std::ptrdiff_t>(at));
+    }
+    const Vec2f middle(static_cast<float>(x) + 0.5F * kSwatch_px,
+                       static_cast<float>(y) + 0.5F * kSwatch_px);
+    for (const std::uint32_t face : faces) mesh.face_uv[face] = {middle, middle, middle};
+  }
+}
+
+}  // namespace
+
+TexturedMesh with_texture(TriangleMesh mesh, const AtlasLayout& layout, Image baked) {
+  GNBV_CHECK(!layout.charts.empty(), "no charts");
+  const std::vector<Vec3f> colours = vertex_colours(mesh, layout, baked);
+  TexturedMesh textured{.shape = std::move(mesh),
+                        .vertex_rgb = {},
+                        .face_uv = layout.face_uv,
+                        .atlas = std::move(baked)};
+  for (const Vec3f& colour : colours) textured.vertex_rgb.push_back(rgb8(colour));
+  add_swatches(colours, layout, textured);
+  return textured;
+}
+
+TexturedMesh with_height_colours(TriangleMesh mesh) {
+  static const std::array<Rgb, 5> colours = {srgb(0x30407a), srgb(0x2f7f93), srgb(0x4fae7c),
+                                             srgb(0xa9cf5a), srgb(0xf4e04d)};
+  const Box3 box = bounds_m(mesh);
+  TexturedMesh coloured;
+  for (const Vec3f& p_m : mesh.vertices_m) {
+    const Rgb linear = ramp(colours, (p_m.z() - box.min().z()) / std::max(box.sizes().z(), 1e-9));
+    Vec3f levels;
+    for (int k = 0; k < 3; ++k) {
+      levels[k] = 255.0F * linear_to_srgb(linear[static_cast<std::size_t>(k)]);
+    }
+    coloured.vertex_rgb.push_back(rgb8(levels));
+  }
+  coloured.shape = std::move(mesh);
+  return coloured;
+}
+
+std::vector<Vec3f> vertex_normals(const TriangleMesh& mesh) {
+  std::vector<Vec3f> normals(mesh.vertices_m.size(), Vec3f::Zero());
+  for (const auto& face : mesh.faces) {
+    const Vec3f& a = mesh.vertices_m[face[0]];
+    const Vec3f n = (mesh.vertices_m[face[1]] - a).cross(mesh.vertices_m[face[2]] - a);
+    for (const std::uint32_t vertex : face) normals[vertex] += n;
+  }
+  for (Vec3f& n : normals) n = n.norm() > 0.0F ? Vec3f(n.normalized()) : Vec3f(Vec3f::UnitZ());
+  return normals;
+}
+
+DistinctCorners distinct_corners(const TexturedMesh& mesh) {
+  struct Key {
+    std::uint32_t vertex;
+    std::uint32_t u;
+    std::uint32_t v;
+    bool operator==(const Key&) const = default;
+  };
+  struct Hash {
+    std::size_t operator()(const Key& key) const {
+      std::uint64_t h = key.vertex * 0x9e3779b97f4a7c15ULL;
+      h = (h ^ key.u) * 0xbf58476d1ce4e5b9ULL;
+      return (h ^ key.v ^ (h >> 32)) * 0x94d049bb133111ebULL;
+    }
+  };
+  const auto bits = [](float value) {
+    std::uint32_t out = 0;
+    std::memcpy(&out, &value, sizeof out);
+    return out;
+  };
+  DistinctCorners corners;
+  std::unordered_map<Key, std::uint32_t, Hash> index_of;
+  index_of.reserve(mesh.shape.faces.size());
+  const bool has_uv = !mesh.face_uv.empty();
+  for (std::size_t face = 0; face < mesh.shape.faces.size(); ++face) {
+    auto& out = corners.faces.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t vertex = mesh.shape.faces[face][k];
+      const Vec2f uv = has_uv ? mesh.face_uv[face][k] : Vec2f(Vec2f::Zero());
+      const auto next = static_cast<std::uint32_t>(corners.vertex.size());
+      const auto [entry, is_new] =
+          index_of.try_emplace(Key{vertex, bits(uv.x()), bits(uv.y())}, next);
+      if (is_new) {
+        corners.vertex.push_back(vertex);
+        if (has_uv) corners.uv.push_back(uv);
+      }
+      out[k] = entry->second;
+    }
+  }
+  return corners;
+}
+
+}  // namespace gnbv

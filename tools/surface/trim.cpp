@@ -1,0 +1,170 @@
+#include "tools/surface/trim.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numeric>
+#include <unordered_map>
+
+#include "sim/core/error.hpp"
+#include "sim/core/parallel.hpp"
+#include "tools/surface/point_tree.hpp"
+
+namespace gnbv {
+namespace {
+
+using Face = std::array<std::uint32_t, 3>;
+
+constexpr std::size_t kChunk = 4096;
+constexpr float kReach_spacings = 2.0F;
+constexpr int kSmoothings = 3;
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+double area_m2(const TriangleMesh& mesh, const Face& face) {
+  const Vec3 a = mesh.vertices_m[face[0]].cast<double>();
+  const Vec3 b = mesh.vertices_m[face[1]].cast<double>();
+  const Vec3 c = mesh.vertices_m[face[2]].cast<double>();
+  return 0.5 * (b - a).cross(c - a).norm();
+}
+
+/// Distance of each vertex to its nearest point, in multiples of that point's reach.
+std::vector<float> distance_in_reaches(const TriangleMesh& mesh, const OrientedCloud& cloud,
+                                       const TrimSettings& settings, int threads) {
+  const PointTree tree(cloud.points_world_m);
+  std::vector<float> field(mesh.vertices_m.size());
+  parallel_for(threads, (field.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+    std::array<Neighbour, 1> nearest{};
+    for (std::size_t i = chunk * kChunk; i < std::min(field.size(), (chunk + 1) * kChunk); ++i) {
+      const Neighbour& found = tree.nearest(mesh.vertices_m[i], nearest).front();
+      const float reach_m = settings.reach_m > 0.0
+                                ? static_cast<float>(settings.reach_m)
+                                : std::min(kReach_spacings * cloud.spacing_m[found.point],
+                                           static_cast<float>(settings.reach_max_m));
+      field[i] = found.distance_m / reach_m;
+    }
+  });
+  return field;
+}
+
+/// Each vertex becomes the mean of itself and its neighbours along edges.
+void smooth(const TriangleMesh& mesh, std::vector<float>& field) {
+  std::vector<float> sum = field;
+  std::vector<float> count(field.size(), 1.0F);
+  for (const Face& face : mesh.faces) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      sum[face[k]] += field[face[(k + 1) % 3]];  // the other way comes with the other face
+      count[face[k]] += 1.0F;
+    }
+  }
+  for (std::size_t i = 0; i < field.size(); ++i) field[i] = sum[i] / count[i];
+}
+
+/// Vertices where edges cross the level, each edge's once.
+class Crossings {
+ public:
+  Crossings(std::span<const float> field, float level, std::vector<Vec3f>& vertices_m)
+      : field_(field), level_(level), vertices_m_(vertices_m) {}
+
+  std::uint32_t on_edge(std::uint32_t a, std::uint32_t b) {
+    if (a > b) std::swap(a, b);  // the same from both sides
+    const auto [entry, is_new] = made_.try_emplace((std::uint64_t{a} << 32) | b, kNone);
+    if (is_new) {
+      const float t = (level_ - field_[a]) / (field_[b] - field_[a]);
+      entry->second = static_cast<std::uint32_t>(vertices_m_.size());
+      const Vec3f p_m = vertices_m_[a] + t * (vertices_m_[b] - vertices_m_[a]);
+      vertices_m_.push_back(p_m);
+    }
+    return entry->second;
+  }
+
+ private:
+  std::span<const float> field_;
+  float level_;
+  std::vector<Vec3f>& vertices_m_;
+  std::unordered_map<std::uint64_t, std::uint32_t> made_;
+};
+
+std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t vertex) {
+  while (parent[vertex] != vertex) vertex = parent[vertex] = parent[parent[vertex]];
+  return vertex;
+}
+
+/// For each face the lowest vertex of its part.
+std::vector<std::uint32_t> parts_of(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> parent(mesh.vertices_m.size());
+  std::iota(parent.begin(), parent.end(), 0U);
+  for (const Face& face : mesh.faces) {
+    for (std::size_t k = 1; k < 3; ++k) {
+      const std::uint32_t a = root_of(parent, face[0]);
+      const std::uint32_t b = root_of(parent, face[k]);
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  std::vector<std::uint32_t> parts;
+  parts.reserve(mesh.faces.size());
+  for (const Face& face : mesh.faces) parts.push_back(root_of(parent, face[0]));
+  return parts;
+}
+
+}  // namespace
+
+TriangleMesh cut_at_level(const TriangleMesh& mesh, std::span<const float> field, float level) {
+  GNBV_CHECK(field.size() == mesh.vertices_m.size(), "{} values", field.size());
+  TriangleMesh cut;
+  cut.vertices_m = mesh.vertices_m;
+  Crossings crossings(field, level, cut.vertices_m);
+  for (const Face& face : mesh.faces) {
+    const auto is_below = [&](std::size_t k) { return field[face[k % 3]] < level; };
+    const int below = is_below(0) + is_below(1) + is_below(2);
+    if (below == 3) cut.faces.push_back(face);
+    if (below == 0 || below == 3) continue;
+    std::size_t odd = 0;  // the corner that is alone on its side
+    while (is_below(odd) != (below == 1)) ++odd;
+    const std::uint32_t a = face[odd];
+    const std::uint32_t b = face[(odd + 1) % 3];
+    const std::uint32_t c = face[(odd + 2) % 3];
+    const std::uint32_t ab = crossings.on_edge(a, b);
+    const std::uint32_t ca = crossings.on_edge(c, a);
+    if (below == 1) {
+      cut.faces.push_back({a, ab, ca});
+    } else {
+      cut.faces.push_back({ab, b, c});
+      cut.faces.push_back({ab, c, ca});
+    }
+  }
+  return cut;
+}
+
+TriangleMesh without_scraps(const TriangleMesh& mesh, double part_min_m2) {
+  const std::vector<std::uint32_t> parts = parts_of(mesh);
+  std::vector<double> part_m2(mesh.vertices_m.size(), 0.0);
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
+    part_m2[parts[i]] += area_m2(mesh, mesh.faces[i]);
+  }
+  TriangleMesh kept;
+  std::vector<std::uint32_t> new_index(mesh.vertices_m.size(), kNone);
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
+    if (part_m2[parts[i]] < part_min_m2 || !(area_m2(mesh, mesh.faces[i]) > 0.0)) continue;
+    kept.faces.push_back(mesh.faces[i]);
+    for (const std::uint32_t vertex : mesh.faces[i]) new_index[vertex] = 0;
+  }
+  for (std::size_t i = 0; i < mesh.vertices_m.size(); ++i) {
+    if (new_index[i] == kNone) continue;
+    new_index[i] = static_cast<std::uint32_t>(kept.vertices_m.size());
+    kept.vertices_m.push_back(mesh.vertices_m[i]);
+  }
+  for (Face& face : kept.faces) {
+    for (std::uint32_t& vertex : face) vertex = new_index[vertex];
+  }
+  return kept;
+}
+
+TriangleMesh trimmed(const TriangleMesh& closed, const OrientedCloud& cloud,
+                     const TrimSettings& settings, int threads) {
+  GNBV_CHECK(!cloud.points_world_m.empty(), "no points");
+  std::vector<float> field = distance_in_reaches(closed, cloud, settings, threads);
+  for (int i = 0; i < kSmoothings; ++i) smooth(closed, field);
+  return without_scraps(cut_at_level(closed, field, 1.0F), settings.part_min_m2);
+}
+
+}  // namespace gnbv
