@@ -27,8 +27,8 @@ RenderScene floor_scene(bool has_wall) {
 
 RenderView floor_view() {
   RenderView view;
-  view.width_px = 320;
-  view.height_px = 240;
+  view.width_px = 640;
+  view.height_px = 480;
   view.T_world_camera = look_at({14.0, -6.0, 12.0}, {3.0, 0.0, 0.5});
   view.to_light_world = Vec3(1.0, 0.0, 1.0);  // no shadow on the floor
   return view;
@@ -50,9 +50,12 @@ TEST(AmbientOcclusion, DarkensACornerAndNotAnOpenPlane) {
   Renderer renderer;
   const Image open = renderer.render(floor_scene(false), view);
   const Image corner = renderer.render(floor_scene(true), view);
-  // 8 cm from the wall, and half of the floor away from it
-  EXPECT_LT(brightness(corner, view, {0.08, 0, 0}), brightness(open, view, {0.08, 0, 0}) - 12.0);
-  EXPECT_NEAR(brightness(corner, view, {5, 0, 0}), brightness(open, view, {5, 0, 0}), 1.5);
+  // a hand from the wall against the middle; haze alone darkens the far edge by a few, too
+  const auto fall = [&](const Image& image) {
+    return brightness(image, view, {4, 0, 0}) - brightness(image, view, {0.12, 0, 0});
+  };
+  EXPECT_GT(fall(corner), fall(open) + 8.0);
+  EXPECT_NEAR(brightness(corner, view, {4, 0, 0}), brightness(open, view, {4, 0, 0}), 2.0);
   // an open plane is as even as without any occlusion: what is left is gloss and haze
   for (double x = 2.0; x < 6.0; x += 0.5) {
     EXPECT_NEAR(brightness(open, view, {x, 0, 0}), brightness(open, view, {x + 0.25, 0, 0}), 1.5);
@@ -71,14 +74,17 @@ TEST(Ghost, ShowsOneLayerAndWhatIsBehindIt) {
       SurfaceItem sheet;
       sheet.mesh.vertices_m = {{x, 2, -2}, {x, -2, -2}, {x, -2, 2}, {x, 2, 2}};
       sheet.mesh.faces = {{0, 2, 1}, {0, 3, 2}};
+      sheet.mesh.materials[0].rgb = {0, 0, 0};
       sheet.opacity = 0.4F;
       scene.surfaces.push_back(sheet);
     }
     if (has_ball) scene.balls.push_back({{5, 0, 0}, 1.0F, {0.8F, 0.02F, 0.02F}, false});
     return render(scene, view).at(32, 32);
   };
-  EXPECT_EQ(centre(3, false), centre(1, false));           // not once for each sheet
-  EXPECT_GT(centre(1, true)[0], centre(1, true)[2] + 30);  // red shines through
+  // not once for each sheet, which would take 60 each; haze and gloss take a few
+  EXPECT_NEAR(centre(3, false)[1], centre(1, false)[1], 6);
+  EXPECT_LT(centre(1, false)[1], centre(0, false)[1] - 10);
+  EXPECT_GT(centre(1, true)[0], centre(1, true)[2] + 20);  // red shines through
 }
 
 TEST(Dots, AppearWhereTheProjectionSaysAndHideWhatIsBehind) {

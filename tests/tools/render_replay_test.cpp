@@ -1,12 +1,15 @@
 // Laws of pictures for which a mission is flown again: they show what the mission believed.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "bench/surface_reference.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tests/support/flown.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/mission/candidates_file.hpp"
+#include "tools/mission/cloud_file.hpp"
 #include "tools/mission/replay.hpp"
 #include "tools/record/candidates_record.hpp"
 #include "tools/render/picture.hpp"
@@ -130,6 +133,26 @@ TEST(VoxelsPicture, HoldsACubeForEachVoxelOfTheMap) {
   ASSERT_EQ(scene.surfaces.size(), 3U);  // occupied, predicted, unknown
   EXPECT_EQ(scene.surfaces[0].mesh.faces.size(), 12U * grid.occupied_count());
   EXPECT_EQ(scene.surfaces[1].mesh.faces.size(), 12U * grid.predicted_count());
+}
+
+TEST(CoveragePicture, CoversTheShareThatTheScoreSays) {
+  const TempFolder temp;
+  const auto points = watched().flown.result.belief.cloud.points_world_m();
+  write_cloud_ply(points, temp.path() / "cloud.ply");
+  write_cloud_ply(watched().flown.result.profile_points_world_m, temp.path() / "profile.ply");
+  RunSource run = source(temp.path());
+  const auto dots = kCoveragePicture.draw(run, {}, {}).panels.at(0).scene.dots;
+  ASSERT_EQ(dots.size(), 2U);  // covered, missed
+  const auto covered = static_cast<double>(dots[0].points_m.size());
+  const auto missed = static_cast<double>(dots[1].points_m.size());
+  const auto scored = coverage_at_all_sizes(run.reference().outside, points);
+  EXPECT_DOUBLE_EQ(covered / (covered + missed), scored[0]);
+  // every covered sample has a point in its voxel
+  const VoxelSet seen = voxels_of(points, kCoverageSizes_m[0]);
+  for (const Vec3f& sample : dots[0].points_m) {
+    EXPECT_TRUE(
+        std::binary_search(seen.begin(), seen.end(), voxel_code(sample, kCoverageSizes_m[0])));
+  }
 }
 
 TEST(CandidatesPicture, HoldsAPinForEachCandidate) {

@@ -44,7 +44,7 @@ void main() {
 )";
 
 /// Scalable ambient obscurance (McGuire, Mara, Luebke 2012), 16 taps on a spiral that turns from
-/// pixel to pixel in blocks of 4 x 4. 1: nothing near.
+/// pixel to pixel in blocks of 4 x 4; stronger than theirs by 1.4. 1: nothing near.
 inline constexpr const char* kHollowFragment = R"(
 uniform sampler2D distances;
 out float open_share;
@@ -75,7 +75,7 @@ void main() {
   if (radius_px < 1.0) return;
   radius_px = min(radius_px, 0.12 * float(textureSize(distances, 0).y));
   float turn = 6.2831853 / 16.0 * float(((q.x & 3) * 4 + (q.y & 3)) * 7 % 16);
-  float bias_m = 0.05 * radius_m + 0.002 * p.z;
+  float bias_m = 0.045 * radius_m + 0.0012 * p.z;
   float sum = 0.0;
   for (int i = 0; i < 16; ++i) {
     float share = (float(i) + 0.5) / 16.0;
@@ -86,7 +86,7 @@ void main() {
     float near = max(radius_m * radius_m - vv, 0.0);
     sum += near * near * near * max(dot(v, n) - bias_m, 0.0) / (0.01 * radius_m * radius_m + vv);
   }
-  open_share = max(0.0, 1.0 - 5.0 * sum / (16.0 * pow(radius_m, 5.0)));
+  open_share = max(0.0, 1.0 - 7.0 * sum / (16.0 * pow(radius_m, 5.0)));
 }
 )";
 
