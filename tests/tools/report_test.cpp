@@ -1,5 +1,7 @@
 // Laws of the report: what is packed is restored, what is thinned keeps its bounds and its budget,
 // and no name is ever more than text.
+#include "tools/report/report.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +19,6 @@
 #include "tools/report/camera_frames.hpp"
 #include "tools/report/jpeg.hpp"
 #include "tools/report/page_text.hpp"
-#include "tools/report/report.hpp"
 #include "tools/report/run_json.hpp"
 #include "tools/report/thinning.hpp"
 
@@ -248,8 +249,13 @@ TEST(CameraFrames, APointHasTheColourOfItsPixelAndThumbnailsKeepTheirBudget) {
     }
   }
   FrameRecord frames;
-  frames.cameras = {{.name = "c", .width_px = 64, .height_px = 48, .fx_px = 32.0, .fy_px = 32.0,
-                     .cx_px = 32.0, .cy_px = 24.0}};
+  frames.cameras = {{.name = "c",
+                     .width_px = 64,
+                     .height_px = 48,
+                     .fx_px = 32.0,
+                     .fy_px = 32.0,
+                     .cx_px = 32.0,
+                     .cy_px = 24.0}};
   for (int view = 0; view < 8; ++view) {
     const fs::path png = temp.path() / fmt::format("{}.png", view);
     write_png(image, png);
