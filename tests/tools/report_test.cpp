@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -183,6 +184,22 @@ TEST(Report, HoldsTheViewsAndWhatGrewWithThem) {
   EXPECT_EQ(run["voxels"]["count"][1], 6);            // no two in one
   EXPECT_EQ(run["path"]["time"][1], 5);
   EXPECT_EQ(run["figures"], nullptr);
+}
+
+TEST(PackedRun, PointsAndVoxelsAreThereAfterTheViewThatBroughtThem) {
+  TempFolder temp;
+  write_made_run(temp.path());
+  const PackedRun run = pack_run(read_run(temp.path()), {.points = 100, .frame_bytes = 0}, 1, {});
+  const auto counts = [&](const ByteSlice& slice) {
+    std::vector<std::uint32_t> values(slice.count);
+    std::memcpy(values.data(), run.bytes.bytes().data() + slice.at, 4 * slice.count);
+    return values;
+  };
+  // two points of the profile; after the views 3, 5 and 6
+  ASSERT_TRUE(run.cloud && run.voxels);
+  EXPECT_EQ(counts(run.cloud->after), (std::vector<std::uint32_t>{2, 3, 5, 6}));
+  EXPECT_EQ(counts(run.voxels->after), (std::vector<std::uint32_t>{2, 3, 5, 6}));
+  EXPECT_EQ(counts(run.voxels->count), (std::vector<std::uint32_t>(6, 1)));
 }
 
 TEST(Report, SaysWhatIsMissingAndShowsTheRest) {
