@@ -1,23 +1,23 @@
 // Laws of the report: what is packed is restored, what is thinned keeps its bounds and its budget,
 // and no name is ever more than text.
+#include "tools/report/report.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "assets/catalog.hpp"
-#include "sensors/camera_model.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/core/rng.hpp"
 #include "tests/support/made_run.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/report/byte_pack.hpp"
-#include "tools/report/camera_frames.hpp"
 #include "tools/report/jpeg.hpp"
 #include "tools/report/page_text.hpp"
-#include "tools/report/report.hpp"
 #include "tools/report/run_json.hpp"
 #include "tools/report/thinning.hpp"
 
@@ -184,6 +184,22 @@ TEST(Report, HoldsTheViewsAndWhatGrewWithThem) {
   EXPECT_EQ(run["figures"], nullptr);
 }
 
+TEST(PackedRun, PointsAndVoxelsAreThereAfterTheViewThatBroughtThem) {
+  TempFolder temp;
+  write_made_run(temp.path());
+  const PackedRun run = pack_run(read_run(temp.path()), {.points = 100, .frame_bytes = 0}, 1, {});
+  const auto counts = [&](const ByteSlice& slice) {
+    std::vector<std::uint32_t> values(slice.count);
+    std::memcpy(values.data(), run.bytes.bytes().data() + slice.at, 4 * slice.count);
+    return values;
+  };
+  // two points of the profile; after the views 3, 5 and 6
+  ASSERT_TRUE(run.cloud && run.voxels);
+  EXPECT_EQ(counts(run.cloud->after), (std::vector<std::uint32_t>{2, 3, 5, 6}));
+  EXPECT_EQ(counts(run.voxels->after), (std::vector<std::uint32_t>{2, 3, 5, 6}));
+  EXPECT_EQ(counts(run.voxels->count), (std::vector<std::uint32_t>(6, 1)));
+}
+
 TEST(Report, SaysWhatIsMissingAndShowsTheRest) {
   TempFolder temp;
   write_made_run(temp.path());
@@ -235,47 +251,6 @@ TEST(Report, RunsAreToldApartByAsMuchAsItTakes) {
   EXPECT_EQ(run_labels({c, d}),
             (std::vector<std::string>{"smoke, bircher, seed 1", "smoke, bircher, seed 2"}));
   EXPECT_EQ(run_labels({a, b})[1], "smoke, proposed, seed 1 (runs/b)");
-}
-
-/// One camera that looks along +x from the origin of view 0; its picture is red left, blue right.
-TEST(CameraFrames, APointHasTheColourOfItsPixelAndThumbnailsKeepTheirBudget) {
-  TempFolder temp;
-  Image image{64, 48, {}};
-  for (int y = 0; y < 48; ++y) {
-    for (int x = 0; x < 64; ++x) {
-      const std::array<int, 3> rgb = {x < 32 ? 200 : 0, 0, x < 32 ? 0 : 200};
-      for (const int c : rgb) image.rgb.push_back(static_cast<std::uint8_t>(c));
-    }
-  }
-  FrameRecord frames;
-  frames.cameras = {{.name = "c", .width_px = 64, .height_px = 48, .fx_px = 32.0, .fy_px = 32.0,
-                     .cx_px = 32.0, .cy_px = 24.0}};
-  for (int view = 0; view < 8; ++view) {
-    const fs::path png = temp.path() / fmt::format("{}.png", view);
-    write_png(image, png);
-    frames.frames.push_back({.iteration = view, .colour = png});
-    frames.frames.back().T_world_camera.linear() = R_body_optical();
-  }
-  // profile: near the left one, near none; view 0: left (+y), right
-  const RunCloud cloud{.points_world_m = {{4, 1.1F, 0}, {4, 3, 9}, {4, 1, 0}, {4, -1, 0}},
-                       .profile_points = 2,
-                       .view_points = {4, 4, 4, 4, 4, 4, 4, 4}};
-  const std::vector<std::size_t> all = {0, 1, 2, 3};
-  const auto read = [&](std::size_t max_bytes, int threads) {
-    return read_camera_frames(frames, cloud, all, max_bytes, threads, [](double) {});
-  };
-  const CameraFrames seen = read(1'000'000, 1);
-  using Rgb = std::array<std::uint8_t, 3>;
-  EXPECT_EQ(seen.colour[2], (Rgb{200, 0, 0}));
-  EXPECT_EQ(seen.colour[3], (Rgb{0, 0, 200}));
-  EXPECT_EQ(seen.colour[0], seen.colour[2]);
-  EXPECT_EQ(seen.colour[1][0], 150);  // the grey of what no camera saw
-  ASSERT_EQ(seen.thumbnails.size(), 8U);
-  const std::size_t each = seen.thumbnails[0].jpeg.size();
-  const CameraFrames few = read(3 * each, 3);
-  ASSERT_EQ(few.thumbnails.size(), 3U);  // views 0, 3, 6
-  EXPECT_EQ(few.thumbnails[1].frame, 3U);
-  EXPECT_EQ(few.colour, seen.colour);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "tools/report/jpeg.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
@@ -55,22 +56,22 @@ Image shrunk(const Image& image, int factor) {
   Image out{image.width_px / factor, image.height_px / factor, {}};
   GNBV_CHECK(factor >= 1 && out.width_px > 0 && out.height_px > 0, "{} x {} px by {}",
              image.width_px, image.height_px, factor);
-  out.rgb.reserve(3 * static_cast<std::size_t>(out.width_px) *
-                  static_cast<std::size_t>(out.height_px));
-  const int pixels = factor * factor;
-  for (int y = 0; y < out.height_px; ++y) {
-    for (int x = 0; x < out.width_px; ++x) {
-      std::array<int, 3> sum{};
-      for (int dy = 0; dy < factor; ++dy) {
-        for (int dx = 0; dx < factor; ++dx) {
-          const auto rgb = image.at(factor * x + dx, factor * y + dy);
-          for (std::size_t k = 0; k < 3; ++k) sum[k] += rgb[k];
+  const auto width = static_cast<std::size_t>(out.width_px);
+  const auto side = static_cast<std::size_t>(factor);
+  const std::uint32_t pixels = static_cast<std::uint32_t>(factor * factor);
+  const std::size_t stride = 3 * static_cast<std::size_t>(image.width_px);
+  std::vector<std::uint32_t> sums(3 * width);
+  for (std::size_t y = 0; y < static_cast<std::size_t>(out.height_px); ++y) {
+    std::fill(sums.begin(), sums.end(), pixels / 2);  // to round
+    for (std::size_t row = y * side; row < (y + 1) * side; ++row) {
+      const std::uint8_t* from = image.rgb.data() + row * stride;
+      for (std::size_t x = 0; x < width; ++x) {
+        for (std::size_t i = 0; i < side; ++i, from += 3) {
+          for (std::size_t k = 0; k < 3; ++k) sums[3 * x + k] += from[k];
         }
       }
-      for (const int s : sum) {
-        out.rgb.push_back(static_cast<std::uint8_t>((s + pixels / 2) / pixels));
-      }
     }
+    for (const std::uint32_t sum : sums) out.rgb.push_back(static_cast<std::uint8_t>(sum / pixels));
   }
   return out;
 }

@@ -37,6 +37,7 @@ export const kSurfaceLayer = 0;
 export const kMarkLayer = 1;
 
 export class DepthShading {
+  readonly background = new three.Color();
   private readonly target: three.WebGLRenderTarget;
   private readonly material: three.ShaderMaterial;
   private readonly quad: three.Mesh;
@@ -72,6 +73,7 @@ export class DepthShading {
     uNear.value = camera.near;
     uFar.value = camera.far;
     renderer.setRenderTarget(this.target);
+    renderer.setClearColor(this.background); // here, since it is converted for the present target
     renderer.clear();
     camera.layers.set(kSurfaceLayer);
     renderer.render(scene, camera);

@@ -61,6 +61,7 @@ export class Plots {
 
   private add(kind: PlotKind) {
     const content = kind.content(this.flights, this.clock, this.choices);
+    content.rings = content.rings.filter((ring) => ring.x <= this.lastEffort());
     const hasValues = content.lines.length > 0 && content.data[0].length > 0;
     const place = make("div", { class: "plot-place" });
     this.element.append(make("figure", { class: "card plot" },
@@ -110,6 +111,14 @@ export class Plots {
     });
   }
 
+  /** Of all plots alike: where the longest run ends, or the paper's if that is not much farther. */
+  private lastEffort(): number {
+    const { effort } = this.clock;
+    const ours = Math.max(...this.flights.map((flight) => flight.last(effort)), 1e-6);
+    const papers = this.flights.map((flight) => flight.data.paper?.[effort] ?? 0);
+    return Math.max(ours, ...papers.filter((end) => end <= 1.2 * ours));
+  }
+
   private options(kind: PlotKind, content: specs.PlotContent): uPlot.Options {
     const unit = kUnits[this.clock.effort];
     const axis = { stroke: paleInk(), font: kFont, grid: { stroke: hairline(), width: 1 },
@@ -117,8 +126,7 @@ export class Plots {
     const text = (v: number | null) => (v === null || v === undefined ? "" :
       v.toLocaleString("en-US", Math.abs(v) >= 1000 ? { maximumFractionDigits: 0 }
         : { maximumFractionDigits: kind.decimals, minimumFractionDigits: kind.decimals }));
-    const most = Math.max(...this.flights.map((flight) => flight.last(this.clock.effort)),
-      ...content.rings.map((ring) => ring.x), 1e-6);
+    const most = this.lastEffort();
     return {
       width: 400,
       height: kHeight,
@@ -134,7 +142,8 @@ export class Plots {
       series: [{ label: unit, value: (_, v) => text2(v, unit) },
         ...content.lines.map((line) => ({ label: line.name, stroke: line.colour,
           width: line.width, dash: line.dash, spanGaps: true, points: { show: false },
-          value: (_: uPlot, v: number | null) => text(v) }))],
+          value: (plot: uPlot, _: number, series: number, i: number | null) =>
+            text(lastValue(plot.data[series], i)) }))],
       hooks: {
         drawClear: [(plot) => this.shadePhases(plot)],
         draw: [(plot) => drawRings(plot, content.rings), (plot) => this.drawNow(plot)],
@@ -188,6 +197,12 @@ export class Plots {
 
 const text2 = (v: number | null, unit: string) =>
   (v === null || v === undefined ? "" : `${v.toLocaleString("en-US", { maximumFractionDigits: 1 })} ${unit}`);
+
+/** Of a run at an effort at which another one has a view: its latest value. */
+function lastValue(values: ArrayLike<number | null | undefined>, at: number | null): number | null {
+  for (let i = at ?? -1; i >= 0; --i) if (values[i] !== null && values[i] !== undefined) return values[i]!;
+  return null;
+}
 
 /** Room above and below, and for the paper's rings; never below zero when nothing is. */
 function yRange(low: number, high: number, rings: specs.Ring[]): [number, number] {

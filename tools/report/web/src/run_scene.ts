@@ -95,15 +95,13 @@ export class RunScene {
     this.body.scale.setScalar(Math.min(6, Math.max(1, 0.028 * away / this.flight.data.vehicle.radius_m)));
   }
 
-  /** The box that a camera should show. */
-  bounds(): three.Box3 {
-    const box = new three.Box3();
-    if (this.structure) box.setFromObject(this.structure);
-    else if (this.model.cloud) box.setFromObject(this.model.cloud);
-    if (box.isEmpty()) {
-      const { min, max } = this.flight.data.workspace;
-      box.set(new three.Vector3(...min), new three.Vector3(...max));
+  /** Points (x y z each) that a camera should show. */
+  outline(): Float32Array {
+    for (const part of [this.structure?.children[0] as three.Mesh | undefined, this.model.cloud]) {
+      const position = part?.geometry.getAttribute("position");
+      if (position && position.count > 0) return position.array as Float32Array;
     }
-    return box;
+    const { min, max } = this.flight.data.workspace;
+    return new Float32Array([...min, ...max]);
   }
 }

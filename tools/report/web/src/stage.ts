@@ -76,26 +76,29 @@ export class Stage {
   }
 
   setTheme() {
-    this.renderer.setClearColor(isDark() ? 0x14181e : 0xf4f6f9);
+    this.shading.background.setHex(isDark() ? 0x14181e : 0xf4f6f9);
     this.invalidate();
   }
 
   /** Puts the camera where it sees all of the structure. */
   frame() {
+    const outlines = this.shown.map((scene) => scene.outline());
     const box = new three.Box3();
-    for (const scene of this.shown) box.union(scene.bounds());
+    for (const outline of outlines) box.union(new three.Box3().setFromArray(outline));
     const centre = box.getCenter(new three.Vector3());
     const { width, height } = this.paneSize();
-    const tan = 0.94 * Math.tan(three.MathUtils.degToRad(this.camera.fov) / 2);
+    const tan = 0.86 * Math.tan(three.MathUtils.degToRad(this.camera.fov) / 2);
     const back = new three.Vector3(0.55, -0.8, 0.5).normalize();
     const right = new three.Vector3(-back.y, back.x, 0).normalize();
     const up = back.clone().cross(right);
-    let away = 1;
-    for (let corner = 0; corner < 8; ++corner) { // the nearest place that sees all corners
-      const at = new three.Vector3(corner & 1 ? box.max.x : box.min.x,
-        corner & 2 ? box.max.y : box.min.y, corner & 4 ? box.max.z : box.min.z).sub(centre);
-      away = Math.max(away, at.dot(back) + Math.abs(at.dot(up)) / tan,
-        at.dot(back) + Math.abs(at.dot(right)) / tan * height / width);
+    const at = new three.Vector3();
+    let away = 1; // the nearest that sees every point
+    for (const outline of outlines) {
+      for (let i = 0; i < outline.length; i += 3) {
+        at.fromArray(outline, i).sub(centre);
+        away = Math.max(away, at.dot(back) + Math.abs(at.dot(up)) / tan,
+          at.dot(back) + Math.abs(at.dot(right)) / tan * height / width);
+      }
     }
     this.camera.position.copy(centre).addScaledVector(back, away);
     this.controls.target.copy(centre);
