@@ -14,11 +14,8 @@ struct Outcome {
   std::string output;  // stdout, and stderr unless the arguments send it elsewhere
 };
 
-/// `before` is a shell command that comes first, such as "cd FOLDER && ".
-inline Outcome gnbv(const std::string& arguments, const std::string& before = "") {
-  const bool both = arguments.find("2>") == std::string::npos;
-  const std::string command =
-      before + std::string(GNBV_PROGRAM) + " " + arguments + (both ? " 2>&1" : "");
+/// A shell command: how it ends, and its stdout.
+inline Outcome shell(const std::string& command) {
   Outcome outcome;
   FILE* const pipe = popen(command.c_str(), "r");
   std::array<char, 4096> buffer{};
@@ -28,6 +25,12 @@ inline Outcome gnbv(const std::string& arguments, const std::string& before = ""
   const int status = pclose(pipe);
   outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   return outcome;
+}
+
+/// `before` is a shell command that comes first, such as "cd FOLDER && ".
+inline Outcome gnbv(const std::string& arguments, const std::string& before = "") {
+  const bool both = arguments.find("2>") == std::string::npos;
+  return shell(before + std::string(GNBV_PROGRAM) + " " + arguments + (both ? " 2>&1" : ""));
 }
 
 inline bool has(const Outcome& outcome, const std::string& text) {

@@ -81,9 +81,8 @@ std::string images_text(const FrameRecord& frames, const SparseModel& model,
     const Isometry T_camera_world = frame.T_world_camera.inverse();
     const Eigen::Quaterniond q(T_camera_world.linear());
     const Vec3 t = T_camera_world.translation();
-    fmt::format_to(out, "{} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {} {}\n", i + 1, q.w(),
-                   q.x(), q.y(), q.z(), t.x(), t.y(), t.z(), ids[frame.camera],
-                   image_name(frames, frame));
+    fmt::format_to(out, "{} {} {} {} {} {} {} {} {} {}\n", i + 1, q.w(), q.x(), q.y(), q.z(), t.x(),
+                   t.y(), t.z(), ids[frame.camera], image_name(frames, frame));
     const char* separator = "";
     for (const Observation& o : model.observations[order[i]]) {
       fmt::format_to(out, "{}{:.2f} {:.2f} {}", separator, o.u_px, o.v_px, o.point + 1);
@@ -107,8 +106,7 @@ std::string points_text(const SparseModel& model, const std::vector<std::size_t>
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     const Vec3f& p = model.points_world_m[i];
     const Rgb24& c = model.colours[i];
-    fmt::format_to(out, "{} {:.6f} {:.6f} {:.6f} {} {} {} 0", i + 1, p.x(), p.y(), p.z(), c[0],
-                   c[1], c[2]);
+    fmt::format_to(out, "{} {} {} {} {} {} {} 0", i + 1, p.x(), p.y(), p.z(), c[0], c[1], c[2]);
     for (const auto& [image, index] : tracks[i]) fmt::format_to(out, " {} {}", image, index);
     text += '\n';
   }

@@ -83,7 +83,7 @@ std::string Panels::next(std::string_view heading) {
   const double heading_middle = top + 0.75 * text_line;
   text += fmt::format("set label 2 {} at screen {},{:.4f} left textcolor rgb '#5c6470'\n",
                       gnuplot_text(heading), kLeft, heading_middle);
-  text += fmt::format("set key at screen {},{:.4f} right center horizontal maxrows 1 width -3\n",
+  text += fmt::format("set key at screen {},{:.4f} right center horizontal maxrows 1 width -2\n",
                       kRight, heading_middle);
   text += is_last ? fmt::format("set format x '%g'\nset xlabel {} textcolor rgb '#262c36'\n",
                                 gnuplot_text(x_label_))

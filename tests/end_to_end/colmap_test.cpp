@@ -1,0 +1,107 @@
+// The real COLMAP reads what `gnbv export` writes, and triangulates features of our images, from
+// our poses, onto the true surface.
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <regex>
+
+#include "scenarios/load.hpp"
+#include "sim/core/file.hpp"
+#include "tests/support/export_text.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/temp_folder.hpp"
+#include "tests/support/triangle_distance.hpp"
+#include "tools/mission/load_world.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+
+// images as large as the paper's; the mission's own have a sixteenth of the pixels, and no features
+constexpr const char* kFlight =
+    " --set cameras.0.width_px=640 --set cameras.0.height_px=480"
+    " --set planner.termination.max_iterations=24";
+
+/// A command of COLMAP, on the processor and without a display; fails the test with its last words.
+std::string colmap(const std::string& arguments) {
+  const Outcome outcome = shell("QT_QPA_PLATFORM=offscreen colmap " + arguments + " 2>&1");
+  EXPECT_EQ(outcome.exit_code, 0) << arguments << "\n" << outcome.output;
+  return outcome.output;
+}
+
+double figure(const std::string& report, const std::string& name) {
+  std::smatch match;
+  if (std::regex_search(report, match, std::regex(name + ": *([0-9.]+)")))
+    return std::stod(match[1]);
+  ADD_FAILURE() << "no " << name << " in:\n" << report;
+  return 0.0;
+}
+
+TEST(Colmap, TriangulatesOurImagesOntoTheTrueSurface) {
+  if (shell("command -v colmap").exit_code != 0) GTEST_SKIP() << "colmap is not installed";
+  TempFolder temp;
+  const fs::path run = temp.path() / "run";
+  const fs::path model = temp.path() / "model";
+  const Outcome flown = gnbv("run smoke --quiet --frames --out " + run.string() + kFlight);
+  ASSERT_EQ(flown.exit_code, 0) << flown.output;
+  ASSERT_EQ(
+      gnbv("export " + run.string() + " --quiet --format colmap -o " + model.string()).exit_code,
+      0);
+
+  const std::string report = colmap("model_analyzer --path " + (model / "sparse/0").string());
+  const auto exported = colmap_images(model / "sparse/0");
+  EXPECT_EQ(figure(report, "Registered images"), static_cast<double>(exported.size()));
+  EXPECT_EQ(figure(report, "Points"),
+            static_cast<double>(colmap_points(model / "sparse/0").size()));
+  EXPECT_GT(figure(report, "Mean track length"), 2.0);
+  EXPECT_LT(figure(report, "Mean reprojection error"), 0.5);
+
+  const std::string database = " --database_path " + (temp.path() / "d.db").string();
+  const std::string pictures = " --image_path " + (model / "images").string();
+  colmap(
+      "feature_extractor --SiftExtraction.use_gpu 0 --ImageReader.camera_model PINHOLE "
+      "--ImageReader.single_camera_per_folder 1 --ImageReader.camera_params " +
+      fmt::format("{}", fmt::join(colmap_intrinsics(model / "sparse/0"), ",")) + database +
+      pictures);
+  colmap("exhaustive_matcher --SiftMatching.use_gpu 0" + database);
+  const fs::path triangulated = temp.path() / "triangulated";
+  fs::create_directories(triangulated);
+  colmap(
+      "point_triangulator --clear_points 1 --Mapper.ba_refine_focal_length 0 "
+      "--Mapper.filter_max_reproj_error 2 --input_path " +
+      (model / "sparse/0").string() + " --output_path " + triangulated.string() + database +
+      pictures);
+  colmap("model_converter --output_type TXT --input_path " + triangulated.string() +
+         " --output_path " + triangulated.string());
+
+  std::vector<std::string> warnings;
+  const World world = load_world(load_scenario("smoke", {}), warnings);
+  const Scenario scenario = load_scenario("smoke", {});
+  const Box3 around(scenario.workspace_m.min() - Vec3(0, 0, 1), scenario.workspace_m.max());
+  std::vector<double> off_m;
+  for (const auto& [number, point] : colmap_points(triangulated)) {
+    // COLMAP also finds the ground far beyond the hall, and the edge of the sky
+    if (!around.contains(point.p_world_m)) continue;
+    off_m.push_back(std::min(distance_to_mesh_m(world.structure, point.p_world_m),
+                             std::abs(point.p_world_m.z())));
+  }
+  ASSERT_GT(off_m.size(), 100U);
+  std::sort(off_m.begin(), off_m.end());
+  const auto quantile_m = [&](double q) {
+    return off_m[static_cast<std::size_t>(q * static_cast<double>(off_m.size() - 1))];
+  };
+  fmt::print(
+      "{} images, {} points: {} mm from the mesh at the median, {} mm at 90 %, {} % within 5 cm\n",
+      exported.size(), off_m.size(), std::lround(1000 * quantile_m(0.5)),
+      std::lround(1000 * quantile_m(0.9)),
+      100 * (std::upper_bound(off_m.begin(), off_m.end(), 0.05) - off_m.begin()) /
+          std::ssize(off_m));
+  EXPECT_LT(quantile_m(0.5), 0.02);
+  EXPECT_LT(quantile_m(0.9), 0.05);
+}
+
+}  // namespace
+}  // namespace gnbv

@@ -1,0 +1,215 @@
+// Laws of plots: the data in a script are the run's own figures, intervals are Student's, names
+// mean nothing to gnuplot, and every format is what its name says.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "tests/support/made_run.hpp"
+#include "tests/support/temp_folder.hpp"
+#include "tools/plots/coverage_plot.hpp"
+#include "tools/plots/run_plots.hpp"
+#include "tools/plots/script_parts.hpp"
+
+namespace gnbv {
+namespace {
+
+/// The rows of a data block of a script.
+std::vector<std::vector<double>> block(const std::string& script, const std::string& name) {
+  std::istringstream text(script.substr(script.find("$" + name + " << EOD\n")));
+  std::vector<std::vector<double>> rows;
+  std::string line;
+  std::getline(text, line);
+  while (std::getline(text, line) && line != "EOD") {
+    std::istringstream numbers(line);
+    rows.emplace_back();
+    for (double value = 0.0; numbers >> value;) rows.back().push_back(value);
+  }
+  return rows;
+}
+
+/// Twelve views by Eq. (2), those from 4 to 6 and the last from frontiers.
+RunRecord scored_record() {
+  RunRecord record = made_record();
+  record.views.clear();
+  for (int i = 0; i < 12; ++i) {
+    ViewRecord view{.iteration = i};
+    view.entropy_nat = 900.0 - 7.3 * i;
+    view.density_points_per_voxel = 10.0 + 0.7 * i;
+    view.decision.sampler = (i >= 4 && i <= 6) || i == 11 ? "fvs" : "agvs";
+    Score& s = view.decision.score;
+    s = {.value = 0.0, .information = 0.01 * i, .density = 0.8, .prediction = 0.3, .distance = 0.9};
+    if (i > 0) s.value = (1.0 + 10.0 * s.information) * 0.55 * 0.9 * std::log10(50.0 + i);
+    record.views.push_back(view);
+  }
+  return record;
+}
+
+/// A run whose coverage after `views` views is given; each view takes 2 m and 5 s.
+RunRecord covered_record(std::uint64_t seed, const std::vector<double>& coverage) {
+  RunRecord record = made_record();
+  record.scenario.seed = seed;
+  record.figures.emplace();
+  record.figures->scenario = "smoke";
+  record.figures->utility = record.scenario.planner.utility.name;
+  for (std::size_t i = 0; i < coverage.size(); ++i) {
+    record.figures->curve.coverage.push_back({coverage[i], 1.0, 1.0});
+    record.figures->curve.metres.push_back(2.0 * static_cast<double>(i));
+    record.figures->curve.seconds.push_back(5.0 * static_cast<double>(i));
+  }
+  return record;
+}
+
+RunGroup group_of(const std::vector<RunRecord>& runs) {
+  RunGroup group{.label = "some", .runs = {}};
+  for (const RunRecord& run : runs) group.runs.push_back(&run);
+  return group;
+}
+
+TEST(Plots, DensityAndEntropyAreTheRunsFigures) {
+  const RunRecord record = scored_record();
+  const auto rows = block(density_entropy_plot(record)->body, "views");
+  ASSERT_EQ(rows.size(), record.views.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(rows[i], (std::vector<double>{static_cast<double>(i), record.views[i].entropy_nat,
+                                            record.views[i].density_points_per_voxel}));
+  }
+}
+
+TEST(Plots, FrontierPhasesAreTheRowsOfTheirSampler) {
+  const RunRecord record = scored_record();
+  const std::vector<Phase> phases = frontier_phases(record.views);
+  ASSERT_EQ(phases.size(), 2U);
+  EXPECT_EQ(phases[0].first, 4);
+  EXPECT_EQ(phases[0].last, 6);
+  EXPECT_EQ(phases[1].first, 11);
+  EXPECT_EQ(phases[1].last, 11);
+  const std::string body = density_entropy_plot(record)->body;
+  EXPECT_NE(body.find("rectangle from 3.5,graph 0 to 6.5,graph 1"), std::string::npos);
+  EXPECT_NE(body.find("rectangle from 10.5,graph 0 to 11.5,graph 1"), std::string::npos);
+}
+
+/// The factors that are drawn multiply to the utility, and the start, which nobody scored, is out.
+TEST(Plots, TermsMultiplyToTheUtility) {
+  const auto rows = block(terms_plot(scored_record())->body, "raw");
+  ASSERT_EQ(rows.size(), 11U);
+  for (const auto& row : rows) {
+    EXPECT_NEAR(row[1], (row[2] + row[3]) * row[4] * row[5] * row[6], 1e-9);
+    EXPECT_NEAR(row[6], std::log10(50.0 + row[0]), 1e-9);
+    EXPECT_NEAR(row[2], 0.4, 1e-12);
+    EXPECT_NEAR(row[3], 0.15, 1e-12);
+  }
+  RunRecord unscored = made_record();
+  EXPECT_FALSE(terms_plot(unscored).has_value());
+}
+
+TEST(Plots, MovingMeansShrinkAtTheEnds) {
+  const std::vector<double> values = {1, 2, 4, 8, 16};
+  EXPECT_EQ(moving_mean(values, 3), (std::vector<double>{1, 7.0 / 3, 14.0 / 3, 28.0 / 3, 16}));
+  EXPECT_EQ(moving_mean(values, 1), values);
+}
+
+/// t(0.975, 4) = 2.776445; the deviation of 0.5 +- {0, 1, 2} / 10 is sqrt(0.1 / 4).
+TEST(Plots, BandsAreStudentsIntervals) {
+  std::vector<RunRecord> runs;
+  for (int i = 0; i < 5; ++i) {
+    runs.push_back(covered_record(static_cast<std::uint64_t>(i + 1), {0.2, 0.3 + 0.1 * i}));
+  }
+  const RunGroup group = group_of(runs);
+  const auto rows = block(coverage_plot({&group, 1}, Effort::views, 0).body, "group0");
+  ASSERT_EQ(rows.size(), 2U);
+  const double half = 100.0 * 2.776445105 * std::sqrt(0.025) / std::sqrt(5.0);
+  EXPECT_NEAR(rows[0][3] - rows[0][1], 0.0, 1e-9);
+  EXPECT_NEAR(rows[1][1], 50.0, 1e-9);
+  EXPECT_NEAR(rows[1][2], 50.0 - half, 1e-6);
+  EXPECT_NEAR(rows[1][3], 50.0 + half, 1e-6);
+}
+
+TEST(Plots, OneRunsCurveIsItsOwnAndAnEndedRunKeepsItsCoverage) {
+  const std::vector<RunRecord> runs = {covered_record(1, {0.2, 0.4, 0.5}),
+                                       covered_record(2, {0.2, 0.8})};
+  RunGroup alone{.label = "a", .runs = {&runs[0]}};
+  const auto own = block(coverage_plot({&alone, 1}, Effort::metres, 0).body, "group0");
+  EXPECT_EQ(own,
+            (std::vector<std::vector<double>>{{0, 20, 20, 20}, {2, 40, 40, 40}, {4, 50, 50, 50}}));
+  const RunGroup both = group_of(runs);
+  EXPECT_NEAR(mean_coverage(both, Effort::views, 0)[2].coverage.mean, 0.65, 1e-12);
+  const auto metres = mean_coverage(both, Effort::metres, 0);
+  ASSERT_EQ(metres.size(), 201U);
+  EXPECT_NEAR(metres[25].coverage.mean, 0.5 * (0.25 + 0.35), 1e-12);  // at 0.5 m of 4
+}
+
+TEST(Plots, RunsOfOneMethodAreOneGroup) {
+  std::vector<RunRecord> runs = {covered_record(1, {0.2}), covered_record(2, {0.2}),
+                                 covered_record(1, {0.2}), covered_record(1, {0.2})};
+  runs[3].scenario.planner.cloud.leaf_m = 0.07;
+  std::vector<std::string> notes;
+  const std::vector<RunGroup> groups = group_runs(runs, notes);
+  ASSERT_EQ(groups.size(), 2U);
+  EXPECT_EQ(groups[0].runs.size(), 2U);
+  EXPECT_EQ(groups[0].label, "leaf_m=0.05");
+  EXPECT_EQ(groups[1].label, "leaf_m=0.07");
+  EXPECT_EQ(notes.size(), 1U);
+  runs[3].scenario.planner.utility.name = "isler";
+  EXPECT_EQ(group_runs(runs, notes)[1].label, "isler");
+}
+
+TEST(Plots, TextsMeanNothingToGnuplot) {
+  EXPECT_EQ(gnuplot_text("it's"), "'it''s'");
+  EXPECT_EQ(gnuplot_text("a\nset output \"x\""), "'a set output \"x\"'");
+  EXPECT_EQ(gnuplot_text("caf\xc3\xa9 \xff\xc3"),
+            "'caf\xc3\xa9 ?"
+            "?'");
+}
+
+bool has_gnuplot() {
+  try {
+    TempFolder temp;
+    draw_plot("print 1\n", temp.path() / "any");
+    return true;
+  } catch (const BadInput&) {
+    return false;
+  }
+}
+
+TEST(Plots, EveryFormatIsWhatItSaysEvenWithHostileNames) {
+  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  TempFolder temp;
+  const std::filesystem::path touched = temp.path() / "touched";
+  RunRecord record = scored_record();
+  record.scenario.name = "a_b^{c} 'q' \"d\" `touch " + touched.string() +
+                         "` \\n @x %d $y <b>&amp;\n!touch " + touched.string();
+  const std::vector<Plot> plots = {*density_entropy_plot(record), *terms_plot(record)};
+  for (const Plot& plot : plots) {
+    for (const auto& [format, magic] : {std::pair{PlotFormat::svg, "<?xml"},
+                                        {PlotFormat::png, "\x89PNG"},
+                                        {PlotFormat::pdf, "%PDF"}}) {
+      const std::filesystem::path picture = temp.path() / "picture";
+      draw_plot(plot_script(plot, format, {.width_px = 400}), picture);
+      const std::string content = read_file(picture);
+      EXPECT_TRUE(content.starts_with(magic));
+      EXPECT_GT(content.size(), 3000U);
+      if (format != PlotFormat::svg) continue;
+      EXPECT_NE(content.find("a_b^{c} 'q'"), std::string::npos);  // as it stands, not as markup
+      EXPECT_EQ(content.find("<b>"), std::string::npos);
+    }
+  }
+  EXPECT_FALSE(std::filesystem::exists(touched));
+}
+
+TEST(Plots, ARefusedScriptLeavesNothing) {
+  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  TempFolder temp;
+  try {
+    draw_plot("plot nonsense(\n", temp.path() / "picture.svg");
+    FAIL() << "accepted";
+  } catch (const BrokenInvariant& error) {
+    EXPECT_NE(std::string(error.what()).find("nonsense"), std::string::npos) << error.what();
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(temp.path()));
+}
+
+}  // namespace
+}  // namespace gnbv
