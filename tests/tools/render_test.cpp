@@ -172,10 +172,10 @@ TEST(Render, ShadowFallsOppositeToTheLight) {
 }
 
 TEST(Render, SizeIsHonoured) {
-  RenderScene scene;
-  scene.surfaces.push_back(quad(0.0, 0.5, kRed));
   Renderer renderer;
   for (const auto& [width, height] : {std::pair{1, 1}, {7, 300}, {3840, 2160}}) {
+    RenderScene scene;
+    scene.surfaces.push_back(quad(0.0, width > 1000 ? 0.5 : 4.0, kRed));  // little to shade
     const Image image =
         renderer.render(scene, view_from({-9.0, 0.0, 0.0}, Vec3::Zero(), width, height));
     EXPECT_EQ(image.width_px, width);
