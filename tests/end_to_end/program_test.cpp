@@ -25,8 +25,8 @@ std::string one_view(const fs::path& out) {
 TEST(Program, HelpsAndSaysItsVersion) {
   for (const std::string arguments :
        {"--help", "run --help", "table --help", "render --help", "asset --help", "lint --help",
-        "score --help", "sweep --help", "ceiling --help", "check --help", "compare --help",
-        "surface --help"}) {
+        "schema --help", "score --help", "sweep --help", "ceiling --help", "export --help",
+        "plot --help", "check --help", "compare --help", "report --help", "surface --help"}) {
     const Outcome help = gnbv(arguments);
     EXPECT_EQ(help.exit_code, 0) << arguments;
     EXPECT_TRUE(has(help, "Usage")) << arguments;
