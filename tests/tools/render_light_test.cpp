@@ -70,7 +70,7 @@ TEST(Ghost, ShowsOneLayerAndWhatIsBehindIt) {
   const auto centre = [&](int sheets, bool has_ball) {
     RenderScene scene;
     for (int i = 0; i < sheets; ++i) {
-      const auto x = static_cast<float>(i);
+      const auto x = static_cast<float>(-i);  // the nearest comes last
       SurfaceItem sheet;
       sheet.mesh.vertices_m = {{x, 2, -2}, {x, -2, -2}, {x, -2, 2}, {x, 2, 2}};
       sheet.mesh.faces = {{0, 2, 1}, {0, 3, 2}};

@@ -78,7 +78,7 @@ TEST(PathPicture, DenseStraightFlightDrawsAsItsEnds) {
   EXPECT_EQ(scene.tubes[0].points_m.back(), Vec3f(10, 0, 5));
 }
 
-TEST(Pictures, AllRunsAreSeenByTheCameraThatIsTheirOwnNoLonger) {
+TEST(Pictures, OneCameraShowsWhatAllRunsHave) {
   RunSource narrow(made_record(), cube());
   RunRecord far = made_record();
   far.views[1].decision.view.p_world_m = {20, 4, 2};
