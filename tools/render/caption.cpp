@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace gnbv {
 namespace {
@@ -30,9 +31,12 @@ double draw_scale(Image& image, const RenderView& view, double u, double bottom)
   const double length_m = round_length_m(0.16 * view.width_px / px_per_m);
   const double x0 = kBorder * u;
   const double x1 = x0 + length_m * px_per_m;
-  draw_line(image, {x0, bottom}, {x1, bottom}, 2.0 * u, kInk);
-  for (const double x : {x0, x1}) {
-    draw_line(image, {x, bottom - 5.0 * u}, {x, bottom + 5.0 * u}, 2.0 * u, kInk);
+  constexpr Rgb8 kPaper = {228, 231, 235};  // a halo, as that of the words
+  for (const auto& [colour, width] : {std::pair{kPaper, 2.0 + 2.0 * kHalo}, {kInk, 2.0}}) {
+    draw_line(image, {x0, bottom}, {x1, bottom}, width * u, colour);
+    for (const double x : {x0, x1}) {
+      draw_line(image, {x, bottom - 5.0 * u}, {x, bottom + 5.0 * u}, width * u, colour);
+    }
   }
   return draw_text(image, fmt::format("{} m", length_m), x1 + 10.0 * u, bottom + 5.0 * u,
                    kLetter * u, kInk, kHalo * u);

@@ -66,8 +66,9 @@ void main() {
   vec3 p = position(q);
   open_share = 1.0;
   if (p.z >= 1e9) return;
-  vec3 across = slope(p, position(q - ivec2(1, 0)), position(q + ivec2(1, 0)));
-  vec3 up = slope(p, position(q - ivec2(0, 1)), position(q + ivec2(0, 1)));
+  // over two pixels: the dots of a cloud are steps of one
+  vec3 across = slope(p, position(q - ivec2(2, 0)), position(q + ivec2(2, 0)));
+  vec3 up = slope(p, position(q - ivec2(0, 2)), position(q + ivec2(0, 2)));
   vec3 n = normalize(cross(up, across));
   if (n.z > 0.0) n = -n;
   float radius_m = hollow.x;
