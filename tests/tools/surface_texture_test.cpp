@@ -2,6 +2,8 @@
 // picture in which something else stands before it, charts keep apart, and files read back.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "sim/core/file.hpp"
@@ -159,17 +161,27 @@ TEST(Texture, AFaceThatTurnsAwayOrLeavesThePictureHasNoView) {
   }
 }
 
-TEST(Texture, APictureWhoseDepthDisagreesComesLast) {
+TEST(Texture, APictureWhoseDepthDisagreesIsNotUsed) {
   const TriangleMesh mesh = sheet();
-  std::vector<TextureView> views = {view_from(0.0F, 1.5F), view_from(0.0F, 1.8F)};
-  for (TextureView& view : views) {
+  const auto view_at = [](float z_m, std::uint16_t depth_mm, double range_max_m) {
+    TextureView view = view_from(0.0F, z_m);
     view.depth_steps = {kWidth_px, kHeight_px, {}};
-    view.depth_steps.values.assign(static_cast<std::size_t>(kWidth_px) * kHeight_px, 1800);
-  }
-  const auto chosen = chosen_views(mesh, views);
-  const auto second = std::count(chosen.begin(), chosen.end(), 1);
-  EXPECT_EQ(static_cast<std::size_t>(second), chosen.size());
-  for (const std::int32_t view : chosen_views(mesh, {views[0]})) EXPECT_NE(view, 1);
+    view.depth_steps.values.assign(static_cast<std::size_t>(kWidth_px) * kHeight_px, depth_mm);
+    view.range_max_m = range_max_m;
+    return view;
+  };
+  const auto all_are = [&](std::int32_t wanted, const std::vector<TextureView>& views) {
+    const auto chosen = chosen_views(mesh, views);
+    return std::all_of(chosen.begin(), chosen.end(),
+                       [&](std::int32_t view) { return view == wanted; });
+  };
+  // the nearer one saw something else there; and with agreeing depth, no edge is too near
+  EXPECT_TRUE(all_are(1, {view_at(1.5F, 1800, 8.0), view_at(1.8F, 1800, 8.0)}));
+  EXPECT_TRUE(all_are(kNoView, {view_at(1.5F, 1800, 8.0)}));
+  EXPECT_TRUE(all_are(kNoView, {view_at(1.5F, 0, 8.0)}));  // sky
+  // beyond the range nothing is measured: better than none, but no more
+  EXPECT_EQ(chosen_views(mesh, {view_at(1.5F, 0, 1.0)})[2 * (10 * 20 + 10)], 0);
+  EXPECT_TRUE(all_are(1, {view_at(1.5F, 0, 1.0), view_at(1.8F, 1800, 8.0)}));
 }
 
 TEST(Atlas, ChartsHoldTheirFacesAndKeepApart) {

@@ -63,7 +63,7 @@ TexturedMesh dressed(TriangleMesh shape, const RunRecord& record, const SurfaceS
     return with_height_colours(std::move(shape));
   }
   const FrameRecord frames = read_frames(record.folder);
-  const std::vector<TextureView> views = texture_views(frames, threads);
+  const std::vector<TextureView> views = texture_views(frames, record.scenario.cameras, threads);
   const double texels_per_m = kTexelsPerLeaf / record.scenario.planner.cloud.leaf_m;
   progress(0.65, fmt::format("choosing among {} pictures for {} faces", views.size(),
                              shape.faces.size()));

@@ -64,7 +64,8 @@ Vec2f TextureView::pixel_of(const Vec3f& p_world_m_) const {
           static_cast<float>(camera.fy_px * p_m.y() / p_m.z() + camera.cy_px)};
 }
 
-std::vector<TextureView> texture_views(const FrameRecord& record, int threads) {
+std::vector<TextureView> texture_views(const FrameRecord& record,
+                                       std::span<const CameraConfig> cameras, int threads) {
   std::vector<TextureView> views(record.frames.size());
   parallel_for(threads, views.size(), [&](std::size_t i) {
     const RecordedFrame& frame = record.frames[i];
@@ -72,7 +73,10 @@ std::vector<TextureView> texture_views(const FrameRecord& record, int threads) {
                 .p_world_m = frame.T_world_camera.translation().cast<float>(),
                 .camera = record.cameras[frame.camera],
                 .depth_steps = read_png_grey16(frame.depth)};
-    const TextureView& view = views[i];
+    TextureView& view = views[i];
+    for (const CameraConfig& camera : cameras) {
+      if (camera.name == view.camera.name) view.range_max_m = camera.range_max_m;
+    }
     if (view.depth_steps.width_px != view.camera.width_px ||
         view.depth_steps.height_px != view.camera.height_px) {
       throw BadInput(fmt::format("{}: is {} x {} px, cameras.json says {} x {}",

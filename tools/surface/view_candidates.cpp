@@ -124,11 +124,13 @@ bool is_clear(const RayScene& scene, const TextureView& view, const Corners& c, 
   return true;
 }
 
-/// Whether the depth measured around each corner is that of the corner. False without a depth
-/// image.
-bool is_measured(const TextureView& view, const Corners& c, float hidden_m) {
+enum class DepthSays { agrees, nothing, otherwise };
+
+/// What the depth measured around the corners says of them.
+DepthSays depth_at(const TextureView& view, const Corners& c, float hidden_m) {
   const GreyImage16& depth = view.depth_steps;
-  if (depth.values.empty()) return false;
+  if (depth.values.empty()) return DepthSays::nothing;
+  DepthSays says = DepthSays::agrees;
   for (const Vec3f& corner_m : c.p_m) {
     const double z_m = (view.T_camera_world * corner_m.cast<double>()).z();
     const Vec2f px = view.pixel_of(corner_m);
@@ -138,10 +140,14 @@ bool is_measured(const TextureView& view, const Corners& c, float hidden_m) {
       const auto at = static_cast<std::size_t>(v) * static_cast<std::size_t>(depth.width_px) +
                       static_cast<std::size_t>(u);
       const double off_m = depth.values[at] * view.camera.depth_scale_m - z_m;
-      if (std::abs(off_m) > 2.0 * static_cast<double>(hidden_m)) return false;  // none reads as 0
+      if (depth.values[at] == 0 && z_m > view.range_max_m) {
+        says = DepthSays::nothing;
+      } else if (std::abs(off_m) > 2.0 * static_cast<double>(hidden_m)) {  // none reads as 0
+        return DepthSays::otherwise;
+      }
     }
   }
-  return true;
+  return says;
 }
 
 std::vector<ViewCandidate> candidates_of(const Corners& c, const RayScene& scene,
@@ -157,7 +163,7 @@ std::vector<ViewCandidate> candidates_of(const Corners& c, const RayScene& scene
     return a.quality != b.quality ? a.quality > b.quality : a.view < b.view;
   });
   std::vector<ViewCandidate> kept;
-  std::optional<ViewCandidate> unmeasured;  // the best that is clear, though its depth is not right
+  std::optional<ViewCandidate> unmeasured;  // the best beyond its camera's range
   std::size_t tried = 0;
   const auto hidden_m = static_cast<float>(settings.hidden_m);
   for (const ViewCandidate& candidate : all) {
@@ -165,15 +171,15 @@ std::vector<ViewCandidate> candidates_of(const Corners& c, const RayScene& scene
                                              kept.size() == kMostKept || tried >= kMostTried);
     if (is_enough) break;
     const TextureView& view = views[candidate.view];
-    const bool measured = is_measured(view, c, hidden_m);
-    const bool is_sound = measured || view.depth_steps.values.empty();
-    if (!is_sound && unmeasured) continue;
+    const DepthSays depth = depth_at(view, c, hidden_m);
+    const bool is_last_choice = depth == DepthSays::nothing && !view.depth_steps.values.empty();
+    if (depth == DepthSays::otherwise || (is_last_choice && unmeasured)) continue;
     ++tried;
-    if (!is_clear(scene, view, c, hidden_m, measured)) continue;
-    if (is_sound) {
-      kept.push_back(candidate);
-    } else {
+    if (!is_clear(scene, view, c, hidden_m, depth == DepthSays::agrees)) continue;
+    if (is_last_choice) {
       unmeasured = candidate;
+    } else {
+      kept.push_back(candidate);
     }
   }
   if (kept.empty() && unmeasured) kept.push_back(*unmeasured);
