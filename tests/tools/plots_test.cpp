@@ -38,7 +38,7 @@ RunRecord scored_record() {
     ViewRecord view{.iteration = i};
     view.entropy_nat = 900.0 - 7.3 * i;
     view.density_points_per_voxel = 10.0 + 0.7 * i;
-    view.decision.sampler = (i >= 4 && i <= 6) || i == 11 ? "fvs" : "agvs";
+    view.decision.sampler = (i >= 4 && i <= 6) || i == 11 ? "fvs" : i == 0 ? "start" : "agvs";
     Score& s = view.decision.score;
     s = {.value = 0.0, .information = 0.01 * i, .density = 0.8, .prediction = 0.3, .distance = 0.9};
     if (i > 0) s.value = (1.0 + 10.0 * s.information) * 0.55 * 0.9 * std::log10(50.0 + i);
