@@ -74,8 +74,10 @@ void scale(Patch& patch, double texels_per_m) {
   chart.height = static_cast<int>(std::ceil(size.y())) + 1 + 2 * kGutter_px;
 }
 
-/// The finest scale, down from the wanted one, at which all patches fit into the largest atlas.
-Packing fit(std::vector<Patch>& patches, double& texels_per_m, int max_side_px) {
+/// The finest scale, down from the wanted one, at which all patches and swatches fit into the
+/// largest atlas.
+Packing fit(std::vector<Patch>& patches, std::size_t swatches, double& texels_per_m,
+            int max_side_px) {
   constexpr double kStep = 0.93;
   for (; texels_per_m > 1e-3; texels_per_m *= kStep) {
     std::vector<RectangleSize> sizes;
@@ -85,13 +87,20 @@ Packing fit(std::vector<Patch>& patches, double& texels_per_m, int max_side_px) 
       sizes.push_back({patch.chart.width, patch.chart.height});
     }
     std::optional<Packing> packing = packed(sizes, max_side_px);
-    if (packing && packing->height + kReserve_px <= max_side_px) return *std::move(packing);
+    if (!packing) continue;
+    const int height = packing->height + swatches_height_px(swatches, packing->width);
+    if (height <= max_side_px) return *std::move(packing);
   }
-  throw BadInput(fmt::format("--texture-px: {} charts do not fit into {} x {} px", patches.size(),
-                             max_side_px, max_side_px));
+  throw BadInput(fmt::format("--texture-px: {} charts and {} swatches do not fit into {} x {} px",
+                             patches.size(), swatches, max_side_px, max_side_px));
 }
 
 }  // namespace
+
+int swatches_height_px(std::size_t faces_without_view, int atlas_width_px) {
+  const auto in_row = static_cast<std::size_t>(atlas_width_px / 2);
+  return 2 * static_cast<int>((faces_without_view + in_row - 1) / in_row);
+}
 
 Vec2f Chart::texel_of(const Vec2f& p_px) const {
   const Vec2f corner(static_cast<float>(x + kGutter_px), static_cast<float>(y + kGutter_px));
@@ -116,7 +125,8 @@ AtlasLayout lay_out_atlas(const TriangleMesh& mesh, std::span<const std::int32_t
   AtlasLayout layout{.texels_per_m = settings.texels_per_m};
   layout.face_uv.assign(mesh.faces.size(), FaceUv{Vec2f(-1, -1), Vec2f(-1, -1), Vec2f(-1, -1)});
   if (patches.empty()) return layout;
-  const Packing packing = fit(patches, layout.texels_per_m, settings.max_side_px);
+  const auto swatches = static_cast<std::size_t>(std::count(chosen.begin(), chosen.end(), kNoView));
+  const Packing packing = fit(patches, swatches, layout.texels_per_m, settings.max_side_px);
   layout.width = packing.width;
   layout.height = packing.height;
   for (std::size_t i = 0; i < patches.size(); ++i) {

@@ -34,12 +34,13 @@ struct Chart {
 /// in another chart.
 constexpr int kGutter_px = 2;
 
-/// Free rows that a layout leaves below its charts when the atlas is as large as it may be.
-constexpr int kReserve_px = 32;
+/// Below the charts each face without a view has a swatch of 2 x 2 texels; their height in an atlas
+/// of that width.
+int swatches_height_px(std::size_t faces_without_view, int atlas_width_px);
 
 struct AtlasLayout {
   int width = 0;
-  int height = 0;
+  int height = 0;             // of the charts
   double texels_per_m = 0.0;  // no chart has more
   std::vector<Chart> charts = {};
   std::vector<FaceUv> face_uv =
@@ -52,7 +53,7 @@ struct AtlasSettings {
 };
 
 /// Charts of the faces by their views, and where each lies. As fine as the settings, the pictures
-/// and the largest atlas allow. No charts when no face has a view.
+/// and the largest atlas, swatches included, allow. No charts when no face has a view.
 AtlasLayout lay_out_atlas(const TriangleMesh& mesh, std::span<const std::int32_t> chosen,
                           std::span<const TextureView> views, const AtlasSettings& settings);
 

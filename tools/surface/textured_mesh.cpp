@@ -12,8 +12,6 @@
 namespace gnbv {
 namespace {
 
-constexpr int kSwatch_px = 4;
-
 Rgb8 rgb8(const Vec3f& colour) {
   Rgb8 out{};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -83,50 +81,36 @@ std::vector<Vec3f> vertex_colours(const TriangleMesh& mesh, const AtlasLayout& l
   return colours;
 }
 
-/// The mean colour of each face without a chart, in steps of `step` levels.
-std::map<Rgb8, std::vector<std::uint32_t>> swatches_of(const TriangleMesh& mesh,
-                                                       const AtlasLayout& layout,
-                                                       const std::vector<Vec3f>& colours,
-                                                       float step) {
-  std::map<Rgb8, std::vector<std::uint32_t>> swatches;
-  for (std::uint32_t face = 0; face < mesh.faces.size(); ++face) {
-    if (has_chart(layout.face_uv[face])) continue;
-    const auto& corners = mesh.faces[face];
-    const Vec3f mean = (colours[corners[0]] + colours[corners[1]] + colours[corners[2]]) / 3.0F;
-    swatches[rgb8((mean / step).array().round() * step)].push_back(face);
-  }
-  return swatches;
-}
-
-/// Rows of swatches below the charts.
+/// Each face without a chart gets 2 x 2 texels below the charts. Its corners lie in the middles of
+/// three of them, so that the bilinear filter mixes the colours of its vertices and no others.
 void add_swatches(const std::vector<Vec3f>& colours, const AtlasLayout& layout,
                   TexturedMesh& mesh) {
-  constexpr std::size_t kMostRows = kReserve_px / kSwatch_px;
-  const auto in_row = static_cast<std::size_t>(mesh.atlas.width_px / kSwatch_px);
-  float step = 4.0F;
-  auto swatches = swatches_of(mesh.shape, layout, colours, step);
-  for (; swatches.size() > kMostRows * in_row; step *= 2.0F) {
-    swatches = swatches_of(mesh.shape, layout, colours, step);
+  std::vector<std::uint32_t> faces;
+  for (std::uint32_t face = 0; face < mesh.shape.faces.size(); ++face) {
+    if (!has_chart(layout.face_uv[face])) faces.push_back(face);
   }
   Image& atlas = mesh.atlas;
   const int top = atlas.height_px;
-  const auto rows = static_cast<int>((swatches.size() + in_row - 1) / in_row);
-  atlas.height_px += rows * kSwatch_px;
+  atlas.height_px += swatches_height_px(faces.size(), atlas.width_px);
   const std::size_t stride = 3 * static_cast<std::size_t>(atlas.width_px);
   atlas.rgb.resize(stride * static_cast<std::size_t>(atlas.height_px), 128);
-  std::size_t index = 0;
-  for (const auto& [rgb, faces] : swatches) {
-    const int x = static_cast<int>(index % in_row) * kSwatch_px;
-    const int y = top + static_cast<int>(index / in_row) * kSwatch_px;
-    ++index;
-    for (int i = 0; i < kSwatch_px * kSwatch_px; ++i) {
-      const std::size_t at = static_cast<std::size_t>(y + i / kSwatch_px) * stride +
-                             3 * static_cast<std::size_t>(x + i % kSwatch_px);
+  const int in_row = atlas.width_px / 2;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const int x = 2 * (static_cast<int>(i) % in_row);
+    const int y = top + 2 * (static_cast<int>(i) / in_row);
+    const auto& corners = mesh.shape.faces[faces[i]];
+    const Vec3f& a = colours[corners[0]];
+    const Vec3f& b = colours[corners[1]];
+    const Vec3f& c = colours[corners[2]];
+    const std::array<Vec3f, 4> texels = {a, b, c, b + c - a};
+    for (int k = 0; k < 4; ++k) {
+      const Rgb8 rgb = rgb8(texels[static_cast<std::size_t>(k)]);
+      const std::size_t at =
+          static_cast<std::size_t>(y + k / 2) * stride + 3 * static_cast<std::size_t>(x + k % 2);
       std::copy(rgb.begin(), rgb.end(), atlas.rgb.begin() + static_cast<std::ptrdiff_t>(at));
     }
-    const Vec2f middle(static_cast<float>(x) + 0.5F * kSwatch_px,
-                       static_cast<float>(y) + 0.5F * kSwatch_px);
-    for (const std::uint32_t face : faces) mesh.face_uv[face] = {middle, middle, middle};
+    const Vec2f first(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
+    mesh.face_uv[faces[i]] = {first, first + Vec2f(1, 0), first + Vec2f(0, 1)};
   }
 }
 

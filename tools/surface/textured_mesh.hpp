@@ -17,9 +17,10 @@ struct TexturedMesh {
   Image atlas = {};
 };
 
-/// Gives each face of the mesh its texture: the charts of the layout as they were baked, and small
-/// swatches below them for faces that no picture shows. Those have the colours of the nearest
-/// surface that one shows; so have the vertices. Requires a chart.
+/// Gives each face of the mesh its texture: the charts of the layout as they were baked, and a
+/// small swatch below them for each face that no picture shows. Vertices have the mean colour of
+/// the charts around them or, where there is none, that of the nearest surface that has; swatches
+/// blend those of their corners. Requires a chart.
 TexturedMesh with_texture(TriangleMesh mesh, const AtlasLayout& layout, Image baked);
 
 /// Without a texture: colours by height, dark blue at the bottom to yellow at the top.
