@@ -86,11 +86,16 @@ Culprit culprit_of(const std::vector<std::string>& keys, const Origins& origins,
   return culprit;
 }
 
+enum class MeshFile { has_to_be_there, may_be_missing };
+
 /// Adds what does not go together. Keys already at fault are left out: it would only repeat them.
-void add_problems(const Scenario& scenario, const Origin& source, const Origins& origins,
-                  Faults& faults) {
+void add_problems(const Scenario& scenario, MeshFile mesh_file, const Origin& source,
+                  const Origins& origins, Faults& faults) {
   const Faults given = faults;
   for (const Problem& problem : problems(scenario)) {
+    if (mesh_file == MeshFile::may_be_missing && problem.keys.front() == "structure.file.path") {
+      continue;
+    }
     if (std::any_of(problem.keys.begin(), problem.keys.end(),
                     [&](const std::string& key) { return given.concerns(key); })) {
       continue;
@@ -100,22 +105,8 @@ void add_problems(const Scenario& scenario, const Origin& source, const Origins&
   }
 }
 
-}  // namespace
-
-std::vector<std::string> builtin_scenario_names() {
-  std::vector<std::string> names;
-  for (const BuiltinScenario& builtin : builtin_scenarios()) names.emplace_back(builtin.name);
-  return names;
-}
-
-Scenario load_scenario(const std::string& name_or_path, const std::vector<std::string>& overrides) {
-  std::vector<Override> all;
-  for (const std::string& text : overrides) all.push_back({.text = text});
-  return load_with_overrides(name_or_path, all);
-}
-
-Scenario load_with_overrides(const std::string& name_or_path,
-                             const std::vector<Override>& overrides) {
+Scenario load(const std::string& name_or_path, const std::vector<Override>& overrides,
+              MeshFile mesh_file) {
   const Source source = open_source(name_or_path);
   const Origin origin = {source.label, 1, 0};
   Faults faults;
@@ -132,9 +123,34 @@ Scenario load_with_overrides(const std::string& name_or_path,
     const auto picks = parse_override(text, given, faults);
     if (picks) read_scenario(*picks, folder.empty() ? here() : folder, scenario, faults, origins);
   }
-  if (root->kind == YamlNode::Kind::map) add_problems(scenario, origin, origins, faults);
+  if (root->kind == YamlNode::Kind::map) {
+    add_problems(scenario, mesh_file, origin, origins, faults);
+  }
   faults.throw_if_any();
   return scenario;
+}
+
+}  // namespace
+
+std::vector<std::string> builtin_scenario_names() {
+  std::vector<std::string> names;
+  for (const BuiltinScenario& builtin : builtin_scenarios()) names.emplace_back(builtin.name);
+  return names;
+}
+
+Scenario load_scenario(const std::string& name_or_path, const std::vector<std::string>& overrides) {
+  std::vector<Override> all;
+  for (const std::string& text : overrides) all.push_back({.text = text});
+  return load_with_overrides(name_or_path, all);
+}
+
+Scenario load_flown_scenario(const std::string& path) {
+  return load(path, {}, MeshFile::may_be_missing);
+}
+
+Scenario load_with_overrides(const std::string& name_or_path,
+                             const std::vector<Override>& overrides) {
+  return load(name_or_path, overrides, MeshFile::has_to_be_there);
 }
 
 }  // namespace gnbv

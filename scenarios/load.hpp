@@ -20,6 +20,9 @@ std::vector<std::string> builtin_scenario_names();
 /// syntax, unknown and repeated keys, wrong types, values out of range, problems().
 Scenario load_scenario(const std::string& name_or_path, const std::vector<std::string>& overrides);
 
+/// load_scenario() of a configuration that was flown: its mesh file may have been moved since.
+Scenario load_flown_scenario(const std::string& path);
+
 /// A value given over those of the scenario file.
 struct Override {
   std::string text;      // KEY=VALUE, the value in YAML

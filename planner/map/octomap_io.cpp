@@ -91,6 +91,7 @@ struct BtReader {
   std::istream& in;
   const std::filesystem::path& path;
   MeasuredVoxels& voxels;
+  std::size_t nodes = 1;  // that were read, the root among them
 
   /// The children of the node whose first voxel is `first`, each 2^`level` voxels wide.
   void read_children(const std::array<std::int32_t, 3>& first, int level) {
@@ -105,6 +106,7 @@ struct BtReader {
         corners[i][axis] = first[axis] + static_cast<std::int32_t>(((i >> axis) & 1U) << level);
       }
       states[i] = (static_cast<unsigned char>(bytes[i / 4]) >> (2 * (i % 4))) & 3U;
+      if (states[i] != 0) ++nodes;
       if (states[i] == kFreeLeaf) voxels.free_voxels += std::size_t{1} << (3 * level);
       if (states[i] == kOccupiedLeaf) add_occupied(corners[i], level);
     }
@@ -165,7 +167,13 @@ MeasuredVoxels read_octomap(const std::filesystem::path& bt) {
   std::ifstream in(bt, std::ios::binary);
   const BtHeader header = read_header(in, bt);
   MeasuredVoxels voxels{.voxel_m = header.voxel_m};
-  if (header.nodes > 0) BtReader{in, bt, voxels}.read_children({}, kTreeDepth - 1);
+  if (header.nodes == 0) return voxels;
+  BtReader reader{in, bt, voxels};
+  reader.read_children({}, kTreeDepth - 1);
+  if (reader.nodes != header.nodes) {
+    throw BadInput(fmt::format("{}: is damaged: {} nodes, its header says {}", bt.string(),
+                               reader.nodes, header.nodes));
+  }
   return voxels;
 }
 

@@ -2,8 +2,11 @@
 // mean nothing to gnuplot, and every format is what its name says.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <sstream>
+#include <thread>
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
@@ -164,6 +167,34 @@ TEST(Plots, TextsMeanNothingToGnuplot) {
             "?'");
 }
 
+/// The axis holds the values, and two marks at least, however close to each other these are.
+TEST(Plots, AxesHoldWhatIsDrawn) {
+  const std::vector<std::pair<double, double>> ranges = {
+      {0.0, 0.0}, {7.0, 7.0}, {-3e6, -3e6}, {1e-12, 1e-12}, {123456.7, 123456.9}, {0.2, 1.4}};
+  for (const auto& [low, high] : ranges) {
+    double bottom = 0.0;
+    double top = 0.0;
+    double step = 0.0;
+    const std::string axis = y_axis(low, high);
+    ASSERT_EQ(
+        std::sscanf(axis.c_str(), "set yrange [%lf:%lf]\nset ytics %lf", &bottom, &top, &step), 3);
+    EXPECT_LE(bottom, low);
+    EXPECT_GE(top, high);
+    EXPECT_GE(top - bottom, 1.999 * step) << axis;
+    EXPECT_LE(top - bottom, 8.0 * step) << axis;
+  }
+}
+
+TEST(Plots, RunsWithoutViewsHaveACoverage) {
+  const std::vector<RunRecord> runs = {covered_record(1, {0.2}), covered_record(2, {0.4})};
+  for (const Effort effort : {Effort::views, Effort::metres, Effort::seconds}) {
+    for (const CoveragePoint& point : mean_coverage(group_of(runs), effort, 0)) {
+      EXPECT_EQ(point.effort, 0.0);
+      EXPECT_NEAR(point.coverage.mean, 0.3, 1e-12);
+    }
+  }
+}
+
 bool has_gnuplot() {
   try {
     TempFolder temp;
@@ -197,6 +228,37 @@ TEST(Plots, EveryFormatIsWhatItSaysEvenWithHostileNames) {
     }
   }
   EXPECT_FALSE(std::filesystem::exists(touched));
+}
+
+TEST(Plots, OneViewIsEnough) {
+  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  TempFolder temp;
+  RunRecord record = scored_record();
+  record.views = {record.views[1]};
+  record.views[0].density_points_per_voxel = 0.0;
+  for (const auto& plot : {density_entropy_plot(record), terms_plot(record)}) {
+    ASSERT_TRUE(plot.has_value());
+    EXPECT_NO_THROW(draw_plot(plot_script(*plot, PlotFormat::svg, {}), temp.path() / "one.svg"));
+  }
+  const std::vector<RunRecord> runs = {covered_record(1, {0.2})};
+  for (const Effort effort : {Effort::views, Effort::metres, Effort::seconds}) {
+    const RunGroup group = group_of(runs);
+    const Plot plot = coverage_plot({&group, 1}, effort, 0);
+    EXPECT_NO_THROW(draw_plot(plot_script(plot, PlotFormat::svg, {}), temp.path() / "none.svg"));
+  }
+}
+
+TEST(Plots, APdfDoesNotSayWhenItWasDrawn) {
+  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  TempFolder temp;
+  const std::string script =
+      plot_script(*density_entropy_plot(scored_record()), PlotFormat::pdf, {.width_px = 400});
+  draw_plot(script, temp.path() / "one.pdf");
+  const std::string content = read_file(temp.path() / "one.pdf");
+  EXPECT_NE(content.find("/CreationDate (D:20000101000000"), std::string::npos);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+  draw_plot(script, temp.path() / "two.pdf");
+  EXPECT_EQ(content, read_file(temp.path() / "two.pdf"));
 }
 
 TEST(Plots, ARefusedScriptLeavesNothing) {

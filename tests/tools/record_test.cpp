@@ -72,6 +72,58 @@ TEST_F(Record, EveryPointBelongsToTheViewThatBroughtIt) {
   EXPECT_EQ(views, (std::vector<int>{-1, -1, 0, 1, 1, 2}));
 }
 
+TEST_F(Record, PointsAfterTheLastViewBelongToNone) {
+  const std::string views = read_file(temp_.path() / "iterations.csv");
+  const auto views_of_points = [&] {
+    const RunCloud cloud = read_run_cloud(read_run(temp_.path()));
+    std::vector<int> of_points;
+    for (std::size_t i = 0; i < cloud.points_world_m.size(); ++i) {
+      of_points.push_back(cloud.view_of(i));
+    }
+    return of_points;
+  };
+  const std::size_t last_row = views.rfind('\n', views.size() - 2) + 1;
+  write("iterations.csv", views.substr(0, last_row));
+  EXPECT_EQ(views_of_points(), (std::vector<int>{-1, -1, 0, 1, 1, 2}));
+  write("iterations.csv", views.substr(0, views.find('\n') + 1));
+  EXPECT_EQ(views_of_points(), (std::vector<int>{-1, -1, 0, 0, 0, 0}));
+}
+
+TEST_F(Record, CommandsAreWordsForAShell) {
+  const fs::path folder = temp_.path() / "my run";
+  fs::create_directories(folder);
+  write_made_run(folder);
+  fs::remove(folder / "iterations.csv");
+  const RunRecord record = read_run(folder);
+  ASSERT_EQ(record.missing.size(), 2U);
+  for (const std::string& sentence : record.missing) {
+    EXPECT_NE(sentence.find("run/scenario.yaml' --resume --out '"), std::string::npos) << sentence;
+  }
+  EXPECT_NE(command_to_fly_again(folder, "--frames").find("my run/scenario.yaml' --frames"),
+            std::string::npos);
+}
+
+TEST_F(Record, AFolderHasItsOneName) {
+  const fs::path before = fs::current_path();
+  for (const char* given : {".", "./", "frames/..", "frames/../."}) {
+    fs::create_directories(temp_.path() / "frames");
+    fs::current_path(temp_.path());
+    const RunRecord record = read_run(given);
+    fs::current_path(before);
+    EXPECT_EQ(record.folder, temp_.path()) << given;
+  }
+  EXPECT_EQ(read_run(temp_.path() / "").folder, temp_.path());
+  EXPECT_EQ(read_run(temp_.path() / "frames" / "..").folder, temp_.path());
+}
+
+TEST_F(Record, IsReadWithoutTheMeshFileThatMoved) {
+  Scenario scenario = made_record().scenario;
+  scenario.structure.file.path = (temp_.path() / "moved.ply").string();
+  write("scenario.yaml", to_yaml(scenario));
+  EXPECT_EQ(read_run(temp_.path()).scenario.structure.file.path, scenario.structure.file.path);
+  EXPECT_THROW(load_scenario((temp_.path() / "scenario.yaml").string(), {}), BadInput);
+}
+
 TEST_F(Record, WhatIsMissingIsNamedWithTheCommandThatMakesIt) {
   ASSERT_EQ(read_run(temp_.path()).missing.size(), 1U);  // a made run has no summary
   remove("trajectory.tum");

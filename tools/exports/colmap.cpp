@@ -22,6 +22,7 @@ sparse/0/images.txt    world to camera (x right, y down, z forward), world ENU i
 sparse/0/points3D.txt  points of the run's cloud, with the images whose depth shows them
 images/CAMERA/N.png    colour of view N; the depth images are in the run's folder frames/
 
+Poses are those that the vehicle believed; `gnbv export --format tum` has the true ones, too.
 The keypoints in images.txt are projections of the points, not detected features: their
 reprojection error is 0. To work with features instead:
 

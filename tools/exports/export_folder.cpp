@@ -1,9 +1,13 @@
 #include "tools/exports/export_folder.hpp"
 
-#include <unistd.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
@@ -16,35 +20,78 @@ namespace fs = std::filesystem;
 constexpr const char* kMarker = "gnbv-export.json";
 constexpr const char* kSchema = "gnbv-export-1";
 
-bool is_export(const fs::path& folder) {
-  if (!fs::is_regular_file(folder / kMarker)) return false;
+/// All that is in the folder, by the path from there; folders only as far as they hold something.
+std::vector<std::string> files_in(const fs::path& folder) {
+  std::vector<std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_directory() && !entry.is_symlink()) continue;
+    files.push_back(entry.path().lexically_relative(folder).generic_string());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// The files that an export wrote there, ascending; nothing when the folder is no export.
+std::optional<std::vector<std::string>> exported_files(const fs::path& folder) {
+  if (!fs::is_regular_file(folder / kMarker)) return std::nullopt;
   const auto marker = nlohmann::json::parse(read_file(folder / kMarker), nullptr, false);
-  return marker.is_object() && marker.value("schema", "") == kSchema;
+  if (!marker.is_object() || marker.value("schema", "") != kSchema) return std::nullopt;
+  std::vector<std::string> files = {kMarker};
+  for (const auto& file : marker.value("files", nlohmann::json::array())) {
+    if (file.is_string()) files.push_back(file.get<std::string>());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 void need_place_for(const fs::path& folder) {
   if (!fs::exists(folder)) return;
-  if (fs::is_directory(folder) && (fs::is_empty(folder) || is_export(folder))) return;
-  throw BadInput(
-      fmt::format("{}: is there and no earlier export: nothing is written over it; -o names "
-                  "another folder",
-                  folder.string()));
+  if (fs::is_directory(folder) && fs::is_empty(folder)) return;
+  const auto own = exported_files(folder);
+  if (!own) {
+    throw BadInput(
+        fmt::format("{}: is there and no earlier export: nothing is written over it; -o names "
+                    "another folder",
+                    folder.string()));
+  }
+  const std::vector<std::string> there = files_in(folder);
+  std::vector<std::string> foreign;
+  std::set_difference(there.begin(), there.end(), own->begin(), own->end(),
+                      std::back_inserter(foreign));
+  if (foreign.empty()) return;
+  throw BadInput(fmt::format(
+      "{}: holds files that no export wrote ({} in all): {}{}: remove them, or let -o "
+      "name another folder",
+      folder.string(), foreign.size(),
+      fmt::join(foreign.begin(), foreign.begin() + std::min<std::ptrdiff_t>(3, std::ssize(foreign)),
+                ", "),
+      foreign.size() > 3 ? ", ..." : ""));
 }
 
-std::string marker_text(const RunRecord& record, std::string_view format) {
+std::string marker_text(const RunRecord& record, std::string_view format,
+                        const std::vector<std::string>& files) {
   const nlohmann::ordered_json marker = {{"schema", kSchema},
                                          {"format", format},
                                          {"written_by", "gnbv " GNBV_VERSION},
                                          {"scenario", record.scenario.name},
                                          {"utility", record.scenario.planner.utility.name},
-                                         {"seed", record.scenario.seed}};
+                                         {"seed", record.scenario.seed},
+                                         {"files", files}};
   return marker.dump(2) + "\n";
 }
 
-/// The folder beside it that is filled, and what was there before on its way out.
+/// The folder beside it that is filled ("part"), and what was there before on its way out ("old").
+/// The names are always the same, so that the next export clears up after one that was killed.
 fs::path beside(const fs::path& folder, const char* what) {
-  return folder.parent_path() /
-         fmt::format(".{}.{}-{}", folder.filename().string(), what, getpid());
+  return folder.parent_path() / fmt::format(".{}.gnbv-{}", folder.filename().string(), what);
+}
+
+/// What a killed export left: of a half-finished exchange the earlier export comes back.
+void clear_up(const fs::path& folder) {
+  const fs::path old = beside(folder, "old");
+  if (fs::exists(old) && !fs::exists(folder)) fs::rename(old, folder);
+  fs::remove_all(old);
+  fs::remove_all(beside(folder, "part"));
 }
 
 void take_place(const fs::path& part, const fs::path& folder) {
@@ -65,22 +112,21 @@ void write_export_folder(const RunRecord& record, std::string_view format, const
   // "." and "a/" have no name of their own to rename to
   fs::path place = fs::absolute(folder).lexically_normal();
   if (!place.has_filename()) place = place.parent_path();
-  fs::path part;
+  const fs::path part = beside(place, "part");
   try {
+    clear_up(place);
     need_place_for(place);
-    part = beside(place, "part");
-    fs::remove_all(part);
     fs::create_directories(part);
     fill(part);
-    write_file_atomically(part / kMarker, marker_text(record, format));
+    write_file_atomically(part / kMarker, marker_text(record, format, files_in(part)));
     take_place(part, place);
   } catch (const fs::filesystem_error& error) {
     std::error_code ignored;
-    if (!part.empty()) fs::remove_all(part, ignored);
+    fs::remove_all(part, ignored);
     throw BadInput(fmt::format("{}: cannot write: {}", folder.string(), error.code().message()));
   } catch (...) {
     std::error_code ignored;
-    if (!part.empty()) fs::remove_all(part, ignored);
+    fs::remove_all(part, ignored);
     throw;
   }
 }

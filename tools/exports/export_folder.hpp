@@ -11,9 +11,10 @@
 namespace gnbv {
 
 /// Fills a folder beside `folder`, which then takes that name: nobody sees a part of it. It also
-/// gets gnbv-export.json, which says what it is. Takes the place of an earlier export or of an
-/// empty folder; throws BadInput naming `folder` when anything else is there, before `fill` runs,
-/// or when it cannot be written.
+/// gets gnbv-export.json, which says what it is and lists its files. Takes the place of an earlier
+/// export or of an empty folder; throws BadInput naming `folder` when anything else is there, also
+/// among the files of an earlier export, before `fill` runs, or when it cannot be written. What an
+/// export left that was killed is cleared up first.
 void write_export_folder(const RunRecord& record, std::string_view format,
                          const std::filesystem::path& folder,
                          const std::function<void(const std::filesystem::path&)>& fill);

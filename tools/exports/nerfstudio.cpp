@@ -19,9 +19,12 @@ constexpr const char* kReadme =
 transforms.json  camera to world (x right, y up, z back), world ENU in metres as in the run;
                  applied_transform is therefore the identity; pinhole intrinsics of each frame
 images/          colour, PNG
-depth/           16-bit PNG, along the optical axis; times depth_unit_scale_factor metres, which
-                 is nerfstudio's default; 0 where there is none
+depth/           16-bit PNG, along the optical axis, times depth_unit_scale_factor metres; 0 where
+                 there is none. nerfstudio takes the factor from its dataparser option
+                 --depth-unit-scale-factor: give that one where it is not the default, 0.001
 points.ply       coloured points of the run's cloud in the same world, to begin from
+
+Poses are those that the vehicle believed; `gnbv export --format tum` has the true ones, too.
 )";
 
 Json matrix_rows(const Eigen::Matrix4d& matrix, int rows) {

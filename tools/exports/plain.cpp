@@ -10,7 +10,7 @@
 #include "sim/core/file.hpp"
 #include "tools/exports/export_folder.hpp"
 #include "tools/exports/point_ply.hpp"
-#include "tools/exports/run_poses.hpp"
+#include "tools/record/run_poses.hpp"
 
 namespace gnbv {
 namespace {
@@ -32,18 +32,20 @@ views.csv        a row for each view and camera: where body and camera were, why
                  no frame was kept. entropy_nat: of the whole map; straight_m, flown_m: since the
                  first view; image, depth: files here
 intrinsics.json  of each camera: pinhole, pixels, the centre of the first pixel at (0.5, 0.5);
-                 T_body_camera row by row; ranges along the optical axis
+                 T_body_camera row by row; ranges along the optical axis; depth_scale_m: metres a
+                 step of its depth images
 images/*.png     colour, sRGB, 8 bits
-depth/*.png      16 bits, millimetres along the optical axis, 0 where there is none
+depth/*.png      16 bits, steps of depth_scale_m along the optical axis, 0 where there is none
 cloud.ply        the model: x y z (float32, metres), red green blue (grey 128 where no frame shows
-                 the point), view: iteration that brought the point, -1 for the profile
+                 the point), view: iteration that brought the point, -1 for the profile, and one
+                 more than the last iteration for what came after it
 voxels.ply       centres of the map's occupied voxels (float32, metres)
 map.json         edge of these voxels in metres; how many are occupied, free
 scenario.yaml    the whole configuration; `gnbv run scenario.yaml` flies the mission again
 
 In Python, without our code:
 
-  views = pandas.read_csv("views.csv"); depth = imageio.imread("depth/000000_rgbd.png") / 1000
+  views = pandas.read_csv("views.csv"); depth = imageio.imread("depth/000000_rgbd.png") * scale
   cloud = open3d.io.read_point_cloud("cloud.ply")
 )";
 
@@ -126,7 +128,16 @@ std::string views_text(const RunRecord& record, const PlainParts& parts) {
   return text;
 }
 
-std::string intrinsics_text(const RunRecord& record) {
+/// Of the camera's images; nothing when none were kept.
+std::optional<double> depth_scale_m(const PlainParts& parts, const std::string& camera) {
+  if (!parts.frames) return std::nullopt;
+  for (const FrameCamera& c : parts.frames->cameras) {
+    if (c.name == camera) return c.depth_scale_m;
+  }
+  return std::nullopt;
+}
+
+std::string intrinsics_text(const RunRecord& record, const PlainParts& parts) {
   Json cameras = Json::array();
   for (const CameraConfig& config : record.scenario.cameras) {
     const CameraModel camera = make_camera_model(config);
@@ -145,8 +156,9 @@ std::string intrinsics_text(const RunRecord& record) {
                        {"cy_px", camera.cy_px},
                        {"range_min_m", config.range_min_m},
                        {"range_max_m", config.range_max_m},
-                       {"depth_scale_m", 0.001},
                        {"T_body_camera", T_body_camera}});
+    const auto scale_m = depth_scale_m(parts, config.name);
+    if (scale_m) cameras.back()["depth_scale_m"] = *scale_m;
   }
   return Json{{"cameras", cameras}}.dump(2) + "\n";
 }
@@ -181,7 +193,7 @@ void write_plain(const RunRecord& record, const PlainParts& parts, const fs::pat
   if (!record.path.empty())
     write_file_atomically(folder / "trajectory.csv", trajectory_text(record));
   if (!record.views.empty()) write_file_atomically(folder / "views.csv", views_text(record, parts));
-  write_file_atomically(folder / "intrinsics.json", intrinsics_text(record));
+  write_file_atomically(folder / "intrinsics.json", intrinsics_text(record, parts));
   write_file_atomically(folder / "scenario.yaml", to_yaml(record.scenario));
   write_file_atomically(folder / "README.txt", kReadme);
   if (parts.frames) link_images(*parts.frames, folder);

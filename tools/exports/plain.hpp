@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "tools/exports/frame_sight.hpp"
+#include "tools/record/frame_sight.hpp"
 #include "tools/record/run_record.hpp"
 
 namespace gnbv {

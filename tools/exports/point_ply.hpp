@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <span>
 
-#include "tools/exports/frame_sight.hpp"
+#include "tools/record/frame_sight.hpp"
 
 namespace gnbv {
 

@@ -14,7 +14,9 @@ struct ColouredSighting {
 };
 
 std::vector<Vec3f> thinned(std::span<const Vec3f> points_world_m, std::size_t max_points) {
-  const std::size_t every = points_world_m.size() / std::max<std::size_t>(max_points, 1) + 1;
+  const std::size_t every = points_world_m.empty() ? 1
+                                                   : 1 + (points_world_m.size() - 1) /
+                                                             std::max<std::size_t>(max_points, 1);
   std::vector<Vec3f> kept;
   for (std::size_t i = 0; i < points_world_m.size(); i += every) kept.push_back(points_world_m[i]);
   return kept;

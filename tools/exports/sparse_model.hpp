@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "tools/exports/frame_sight.hpp"
+#include "tools/record/frame_sight.hpp"
 
 namespace gnbv {
 

@@ -5,7 +5,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/exports/export_folder.hpp"
-#include "tools/exports/run_poses.hpp"
+#include "tools/record/run_poses.hpp"
 
 namespace gnbv {
 namespace {
@@ -18,9 +18,12 @@ constexpr const char* kReadme =
 trajectory.txt           true path of the body (x forward, y left, z up) in the world (ENU, metres)
                          at 10 Hz: time_s x y z qx qy qz qw, as `evo_traj tum` opens it
 CAMERA/groundtruth.txt   true path of the camera (x right, y down, z forward), the same columns,
-                         at 10 Hz and at every frame
+                         at 10 Hz and at every frame; up to 0.1 s after the last sample of the
+                         path, where the last view may be, that sample holds
 CAMERA/estimate.txt      where the vehicle believed the camera to be, at every frame;
                          `evo_ape tum groundtruth.txt estimate.txt` measures the difference
+CAMERA/calibration.txt   fx fy cx cy width height in pixels, no distortion; the centre of the
+                         first pixel at (0.5, 0.5)
 CAMERA/rgb.txt           time and name of every colour image
 CAMERA/depth.txt         time and name of every depth image: 16 bits, {} steps a metre
                          (the benchmark's own have 5000), 0 where there is none
@@ -51,6 +54,10 @@ std::string groundtruth_text(const RunRecord& record, const Isometry& T_body_cam
     if (frame != frame_times_s.end() && *frame == sample.time_s) ++frame;
     text += pose_line(sample.time_s, sample.T_world_body * T_body_camera);
   }
+  for (; frame != frame_times_s.end(); ++frame) {  // of the last view, after the last sample
+    const std::optional<Isometry> T_world_body = true_pose_at(record, *frame);
+    if (T_world_body) text += pose_line(*frame, *T_world_body * T_body_camera);
+  }
   return text;
 }
 
@@ -75,6 +82,10 @@ void write_camera(const RunRecord& record, const FrameRecord& frames, std::size_
   }
   if (times_s.empty()) return;
   const Isometry T_body_camera = camera_named(record, frames.cameras[camera].name).T_body_camera;
+  const FrameCamera& c = frames.cameras[camera];
+  write_file_atomically(folder / "calibration.txt",
+                        fmt::format("# fx fy cx cy width height\n{} {} {} {} {} {}\n", c.fx_px,
+                                    c.fy_px, c.cx_px, c.cy_px, c.width_px, c.height_px));
   write_file_atomically(folder / "rgb.txt", rgb);
   write_file_atomically(folder / "depth.txt", depth);
   write_file_atomically(folder / "associations.txt", associations);

@@ -10,10 +10,10 @@
 namespace gnbv {
 
 /// Writes trajectory.txt, the true path of the body as `evo_traj tum` opens it, README.txt, and for
-/// each camera that took frames CAMERA/ with rgb/, depth/, rgb.txt, depth.txt, associations.txt,
-/// groundtruth.txt (true poses of the camera) and estimate.txt (the poses the vehicle believed).
-/// `frames` is null for a run without frames. Throws BadInput for a run without trajectory.tum and
-/// for cameras that the scenario does not know.
+/// each camera that took frames CAMERA/ with rgb/, depth/, calibration.txt, rgb.txt, depth.txt,
+/// associations.txt, groundtruth.txt (true poses of the camera) and estimate.txt (the poses the
+/// vehicle believed). `frames` is null for a run without frames. Throws BadInput for a run without
+/// trajectory.tum and for cameras that the scenario does not know.
 void write_tum(const RunRecord& record, const FrameRecord* frames,
                const std::filesystem::path& folder);
 

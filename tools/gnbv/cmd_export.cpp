@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "sim/core/error.hpp"
-#include "tools/exports/cloud_colours.hpp"
 #include "tools/exports/colmap.hpp"
 #include "tools/exports/export_folder.hpp"
 #include "tools/exports/nerfstudio.hpp"
@@ -12,6 +11,7 @@
 #include "tools/exports/tum.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/progress.hpp"
+#include "tools/record/cloud_colours.hpp"
 
 namespace gnbv {
 namespace {
@@ -63,16 +63,44 @@ void fill_nerfstudio(const Export& e, const fs::path& folder) {
   write_nerfstudio(frames, sparse_model(e, frames), folder);
 }
 
+void note(const std::string& sentence) { fmt::print(stderr, "gnbv: {}\n", sentence); }
+
+/// Says so, with the command that keeps them, when there are none.
+std::optional<FrameRecord> frames_if_kept(const RunRecord& record) {
+  if (has_frames(record.folder)) return read_frames(record.folder);
+  note(fmt::format("{}: no frames were kept, so that no images are written; {} keeps them",
+                   (record.folder / "frames").string(),
+                   command_to_fly_again(record.folder, "--frames")));
+  return std::nullopt;
+}
+
+/// Says so, with the command that makes it, when it is not all there. Throws for a damaged one.
+std::optional<RunCloud> cloud_if_there(const RunRecord& record) {
+  const bool is_there =
+      fs::exists(record.folder / "cloud.ply") && fs::exists(record.folder / "profile.ply");
+  try {
+    return read_run_cloud(record);
+  } catch (const BadInput& error) {
+    if (is_there) throw;
+    note(error.what());
+    return std::nullopt;
+  }
+}
+
 void fill_tum(const Export& e, const fs::path& folder) {
-  std::optional<FrameRecord> frames;
-  if (has_frames(e.record.folder)) frames = read_frames(e.record.folder);
+  const std::optional<FrameRecord> frames = frames_if_kept(e.record);
   write_tum(e.record, frames ? &*frames : nullptr, folder);
 }
 
 void fill_plain(const Export& e, const fs::path& folder) {
   PlainParts parts;
-  if (has_frames(e.record.folder)) parts.frames = read_frames(e.record.folder);
-  if (fs::exists(e.record.folder / "cloud.ply")) parts.cloud = read_run_cloud(e.record);
+  parts.frames = frames_if_kept(e.record);
+  parts.cloud = cloud_if_there(e.record);
+  if (!fs::exists(e.record.folder / "map.bt")) {
+    note(fmt::format("{}: is missing, so that no voxels are written; {} makes one",
+                     (e.record.folder / "map.bt").string(),
+                     command_to_fly_again(e.record.folder, "")));
+  }
   if (parts.frames && parts.cloud) {
     parts.colours =
         colours_of_cloud(e.record, *parts.cloud, *parts.frames, e.blur_m(), e.threads, e.progress);
@@ -90,7 +118,7 @@ void export_run(const ExportOptions& options) {
   const RunRecord record = read_run(options.run);
   for (const std::string& missing : record.missing) fmt::print(stderr, "gnbv: {}\n", missing);
   const fs::path folder =
-      options.out.empty() ? options.run / "export" / options.format : options.out;
+      options.out.empty() ? record.folder / "export" / options.format : options.out;
   ProgressBar bar("export " + options.format, options.quiet);
   const Export e{options, record, thread_count(options.threads),
                  [&](double share) { bar.show(share, "frames"); }};
@@ -105,7 +133,10 @@ void add_export_command(CLI::App& app) {
   auto options = std::make_shared<ExportOptions>();
   CLI::App* const command = app.add_subcommand("export", "write a run as other programs read it");
   command->add_option("RUN", options->run, "run directory")->required();
-  command->add_option("--format", options->format, "of the folder that is written")
+  command
+      ->add_option("--format", options->format,
+                   "of the folder that is written; images have the poses that the vehicle "
+                   "believed, in tum the true ones, too")
       ->required()
       ->check(CLI::IsMember(kFormats));
   command->add_option(

@@ -6,10 +6,10 @@
 #include "bench/paper_table.hpp"
 #include "planner/routes.hpp"
 #include "sim/core/error.hpp"
+#include "sim/core/shell_word.hpp"
 #include "tools/gnbv/bench_runs.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/mission/load_world.hpp"
-#include "tools/sweep/shell_word.hpp"
 
 namespace gnbv {
 namespace {

@@ -109,7 +109,10 @@ std::vector<RunGroup> group_runs(std::span<const RunRecord> runs, std::vector<st
   std::vector<RunGroup> groups;
   std::vector<Values> values;
   for (const RunRecord& run : runs) {
-    if (!run.figures || run.figures->curve.coverage.empty()) continue;
+    if (!run.figures || run.figures->curve.coverage.empty()) {
+      notes.push_back(fmt::format("{}: has no figures: left out of coverage", run.folder.string()));
+      continue;
+    }
     const Values own = values_without_seed(run);
     const auto at = std::find(values.begin(), values.end(), own) - values.begin();
     if (at == std::ssize(values)) {
@@ -142,11 +145,13 @@ std::vector<CoveragePoint> mean_coverage(const RunGroup& group, Effort effort, s
     most_views = std::max(most_views, run->figures->curve.views());
   }
   const bool is_single = group.runs.size() == 1;
-  const std::size_t steps = is_single || effort == Effort::views ? most_views : kSteps;
+  const bool by_views = is_single || effort == Effort::views || most_views == 0;
+  const std::size_t steps = by_views ? most_views : kSteps;
   std::vector<CoveragePoint> points;
   for (std::size_t i = 0; i <= steps; ++i) {
     const double at = is_single ? effort_at(group.runs.front()->figures->curve, effort, i)
-                                : longest * static_cast<double>(i) / static_cast<double>(steps);
+                                : longest * static_cast<double>(i) /
+                                      static_cast<double>(std::max<std::size_t>(steps, 1));
     std::vector<double> shares;
     for (const RunRecord* run : group.runs) {
       // two views at one place take no metres: a run's own point is the view's

@@ -6,11 +6,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <memory>
 
 #include "sim/core/error.hpp"
@@ -96,6 +98,24 @@ std::string complaint_of_gnuplot(std::FILE* script, const std::filesystem::path&
   return fmt::format("status {}: {}", status, content_of(errors.get()));
 }
 
+/// Cairo writes the time of day into a PDF. As long a date, so that the file's offsets stay right.
+void fix_date(const std::filesystem::path& picture) {
+  constexpr std::string_view kKey = "/CreationDate (";
+  std::string content = read_file(picture);
+  const std::size_t key = content.starts_with("%PDF") ? content.rfind(kKey) : std::string::npos;
+  if (key == std::string::npos) return;
+  const std::size_t end = std::min(content.find(')', key), content.size());
+  std::string_view date = "20000101000000";  // and nothing but zeros after it, as of a zone
+  for (std::size_t i = key + kKey.size(); i < end; ++i) {
+    if (content[i] < '0' || content[i] > '9') continue;
+    content[i] = date.empty() ? '0' : date.front();
+    date.remove_prefix(std::min<std::size_t>(date.size(), 1));
+  }
+  std::ofstream out(picture, std::ios::binary | std::ios::trunc);
+  out.write(content.data(), std::ssize(content)).flush();
+  if (!out) throw BadInput(fmt::format("{}: cannot write", picture.string()));
+}
+
 }  // namespace
 
 std::string gnuplot_text(std::string_view text) {
@@ -153,6 +173,7 @@ void draw_plot(const std::string& script, const std::filesystem::path& picture) 
     const std::string complaint = complaint_of_gnuplot(input.get(), part);
     GNBV_CHECK(complaint.empty(), "gnuplot refuses the script of {}: {}", picture.string(),
                complaint);
+    fix_date(part);
   });
 }
 

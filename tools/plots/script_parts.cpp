@@ -46,14 +46,20 @@ std::string key_of_phases(const std::vector<Phase>& phases) {
 }
 
 std::string y_axis(double low, double high) {
-  const double span = std::max(high - low, 1e-9 * std::max(std::abs(high), 1.0));
+  // values that are all the same lie in the middle of an axis around them
+  const double size = std::max({std::abs(low), std::abs(high), 1.0});
+  if (high - low < 1e-9 * size) {
+    low -= 0.05 * size;
+    high += 0.05 * size;
+  }
+  const double span = high - low;
   const double power = std::pow(10.0, std::floor(std::log10(span / 4.0)));
   double step = 10.0 * power;
   for (const double factor : {5.0, 2.0, 1.0}) {
     if (span / (factor * power) <= 5.0) step = factor * power;
   }
-  return fmt::format("set yrange [{:g}:{:g}]\nset ytics {:g}\n", step * std::floor(low / step),
-                     step * std::ceil(high / step), step);
+  return fmt::format("set yrange [{:.12g}:{:.12g}]\nset ytics {:.12g}\n",
+                     step * std::floor(low / step), step * std::ceil(high / step), step);
 }
 
 Panels::Panels(std::size_t count, std::string_view title, std::string_view x_label)

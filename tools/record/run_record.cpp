@@ -7,6 +7,7 @@
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/shell_word.hpp"
 #include "tools/mission/cloud_file.hpp"
 #include "tools/mission/iterations_csv.hpp"
 #include "tools/mission/run_figures_file.hpp"
@@ -20,7 +21,18 @@ namespace fs = std::filesystem;
 
 std::string command_to_finish(const fs::path& folder) {
   return fmt::format("`gnbv run {} --resume --out {}` ends the run",
-                     (folder / "scenario.yaml").string(), folder.string());
+                     shell_word((folder / "scenario.yaml").string()), shell_word(folder.string()));
+}
+
+/// Without "./", "..", or a slash at its end; "." itself by its name.
+fs::path plain_folder(const fs::path& given) {
+  const auto normal = [](const fs::path& path) {
+    const fs::path plain = path.lexically_normal();
+    return plain.has_filename() ? plain : plain.parent_path();
+  };
+  const fs::path plain = normal(given);
+  const bool is_nameless = plain.empty() || plain == "." || plain.filename() == "..";
+  return is_nameless ? normal(fs::absolute(given)) : plain;
 }
 
 std::vector<TrajectorySample> read_path(const fs::path& path) {
@@ -92,20 +104,21 @@ void read_figures(RunRecord& record) {
   record.missing.push_back(fmt::format(
       "{}: is of another version, or coverage.csv is missing; `gnbv score {} --update` scores the "
       "run anew",
-      path.string(), record.folder.string()));
+      path.string(), shell_word(record.folder.string())));
 }
 
 }  // namespace
 
-RunRecord read_run(const fs::path& folder) {
+RunRecord read_run(const fs::path& given) {
+  const fs::path folder = plain_folder(given);
   const fs::path yaml = folder / "scenario.yaml";
   if (!fs::exists(yaml)) {
     throw BadInput(
         fmt::format("{}: no run directory: scenario.yaml is missing; `gnbv run SCENARIO --out {}` "
                     "makes one",
-                    folder.string(), folder.string()));
+                    folder.string(), shell_word(folder.string())));
   }
-  RunRecord record{.folder = folder, .scenario = load_scenario(yaml.string(), {})};
+  RunRecord record{.folder = folder, .scenario = load_flown_scenario(yaml.string())};
   const fs::path trajectory = folder / "trajectory.tum";
   if (fs::exists(trajectory)) {
     record.path = read_path(trajectory);
@@ -140,7 +153,8 @@ RunCloud read_run_cloud(const RunRecord& record) {
     before = view.cloud_points;
     cloud.view_points.push_back(before);
   }
-  if (cloud.view_points.size() != record.views.size() || before != cloud.points_world_m.size()) {
+  // a run that ends in flight has points that came after its last view
+  if (cloud.view_points.size() != record.views.size() || before > cloud.points_world_m.size()) {
     throw BadInput(
         fmt::format("{}: {} points do not fit profile.ply and iterations.csv: files of "
                     "two runs?",
@@ -166,7 +180,7 @@ std::string run_detail(const RunRecord& record) {
 }
 
 std::string command_to_fly_again(const fs::path& folder, const std::string& options) {
-  return fmt::format("`gnbv run {} {}--out NEW`", (folder / "scenario.yaml").string(),
+  return fmt::format("`gnbv run {} {}--out NEW`", shell_word((folder / "scenario.yaml").string()),
                      options.empty() ? "" : options + " ");
 }
 

@@ -14,7 +14,7 @@ namespace gnbv {
 
 /// Whatever of a run is there. Only scenario.yaml has to be.
 struct RunRecord {
-  std::filesystem::path folder;
+  std::filesystem::path folder;             // never "." or "..", no slash at its end
   Scenario scenario;                        // scenario.yaml
   std::vector<TrajectorySample> path = {};  // trajectory.tum, times ascending; empty without it
   std::vector<ViewRecord> views = {};       // iterations.csv, or what a run that goes on has so far
@@ -26,7 +26,8 @@ struct RunRecord {
 
 /// Reads a run directory, finished or not. What is absent, or was written by another version, is
 /// left out and named in `missing` with the command that makes it. Throws BadInput naming the
-/// folder when it holds no run at all, and file and line of whatever is damaged.
+/// folder when it holds no run at all, and file and line of whatever is damaged. A mesh file that
+/// was moved since is missed only by those who load it.
 RunRecord read_run(const std::filesystem::path& folder);
 
 /// The cloud of a run in the order in which it grew.
@@ -35,7 +36,8 @@ struct RunCloud {
   std::size_t profile_points = 0;        // the first ones
   std::vector<std::size_t> view_points;  // (views) how many there were after each view
 
-  /// Of the view after which the point was there; -1 for one of the profile.
+  /// Of the view after which the point was there; -1 for one of the profile, and the number of
+  /// views for one that came after the last of them, as a run leaves them that ends in flight.
   int view_of(std::size_t point) const;
 };
 

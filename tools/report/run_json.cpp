@@ -7,10 +7,10 @@
 
 #include "bench/paper_figures.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/shell_word.hpp"
 #include "sim/core/srgb.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/report/thinning.hpp"
-#include "tools/sweep/shell_word.hpp"
 
 namespace gnbv {
 namespace {

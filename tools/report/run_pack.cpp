@@ -13,13 +13,14 @@ namespace {
 std::uint32_t as_count(std::size_t count) { return static_cast<std::uint32_t>(count); }
 
 /// How many of `first_views` (the view that brought each, -1 the profile; ascending) there are
-/// after each number of views.
+/// after each number of views. What came after the last view counts to it.
 std::vector<std::uint32_t> counts_after(const std::vector<int>& first_views, std::size_t views) {
   std::vector<std::uint32_t> after;
   for (int n = 0; n <= static_cast<int>(views); ++n) {
     const auto end = std::lower_bound(first_views.begin(), first_views.end(), n);
     after.push_back(as_count(static_cast<std::size_t>(end - first_views.begin())));
   }
+  after.back() = as_count(first_views.size());
   return after;
 }
 

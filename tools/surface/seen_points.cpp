@@ -117,32 +117,35 @@ SeenPoints seen_points(const RunRecord& record, const RunCloud& cloud, int threa
   const auto leaf_m = static_cast<float>(record.scenario.planner.cloud.profile_leaf_m);
   SeenPoints seen{.points_world_m = uncovered_profile(cloud, leaf_m, threads),
                   .sensors_world_m = {}};
-  const std::size_t from_profile = seen.points_world_m.size();
+  seen.points_world_m.insert(
+      seen.points_world_m.end(),
+      cloud.points_world_m.begin() + static_cast<std::ptrdiff_t>(cloud.profile_points),
+      cloud.points_world_m.end());
+  const std::size_t from_views =
+      record.views.empty() ? 0 : cloud.points_world_m.size() - cloud.profile_points;
+  const std::size_t from_path = seen.points_world_m.size() - from_views;
   std::vector<Vec3f> poses_world_m = profile_poses(record);
   if (poses_world_m.empty()) {
     for (const ViewRecord& view : record.views) {
       poses_world_m.push_back(view.decision.view.p_world_m.cast<float>());
     }
   }
-  if (from_profile > 0 && poses_world_m.empty()) {
+  if (from_path > 0 && poses_world_m.empty()) {
     throw BadInput(
         fmt::format("{}: nobody knows where its points were seen from: neither trajectory.tum nor "
                     "iterations.csv holds a pose; {}",
                     file.string(), command_to_fly_again(record.folder, "")));
   }
-  seen.points_world_m.insert(
-      seen.points_world_m.end(),
-      cloud.points_world_m.begin() + static_cast<std::ptrdiff_t>(cloud.profile_points),
-      cloud.points_world_m.end());
-  if (from_profile > 0) {
+  if (from_path > 0) {
     seen.sensors_world_m =
-        sensors_of_profile({seen.points_world_m, poses_world_m, leaf_m}, from_profile, threads);
+        sensors_of_profile({seen.points_world_m, poses_world_m, leaf_m}, from_path, threads);
   }
   std::vector<CameraModel> cameras;
   for (const CameraConfig& camera : record.scenario.cameras) {
     cameras.push_back(make_camera_model(camera));
   }
-  for (std::size_t i = cloud.profile_points; i < cloud.points_world_m.size(); ++i) {
+  for (std::size_t i = cloud.points_world_m.size() - from_views; i < cloud.points_world_m.size();
+       ++i) {
     // what came after the last view, while it flew on, was seen from near there
     const std::size_t view =
         std::min(static_cast<std::size_t>(cloud.view_of(i)), record.views.size() - 1);

@@ -10,7 +10,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "tools/sweep/shell_word.hpp"
+#include "sim/core/shell_word.hpp"
 
 namespace gnbv {
 namespace {

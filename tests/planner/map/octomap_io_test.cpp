@@ -117,6 +117,14 @@ TEST_F(OctomapFiles, DamagedFilesAreRefused) {
     EXPECT_THROW(read_octomap(folder_ / "damaged.bt"), BadInput);
   }
   EXPECT_THROW(read_octomap(folder_ / "none.bt"), BadInput);
+  const std::string header = "# Octomap OcTree binary file\nid OcTree\nsize 2\nres 0.1\ndata\n";
+  const auto write_tree = [&](const std::string& data) {
+    write_file_atomically(folder_ / "made.bt", header + data);
+    return folder_ / "made.bt";
+  };
+  EXPECT_THROW(read_octomap(write_tree({2, 0})), BadInput);  // an eighth of all there can be
+  EXPECT_EQ(read_octomap(write_tree({1, 0})).free_voxels, std::size_t{1} << 45U);
+  EXPECT_THROW(read_octomap(write_tree({5, 0})), BadInput);  // three nodes
 }
 
 TEST_F(OctomapFiles, EqualVoxelsArePrunedToOneNode) {

@@ -1,4 +1,4 @@
-#include "tools/exports/cloud_colours.hpp"
+#include "tools/record/cloud_colours.hpp"
 
 #include <limits>
 
@@ -11,6 +11,7 @@ struct ColouredPoint {
   Rgb24 rgb{};
 };
 
+/// The points [begin, end) of the cloud.
 void look_at(const RunCloud& cloud, std::size_t begin, std::size_t end, const FrameSight& sight,
              double blur_m, std::vector<ColouredPoint>& seen) {
   for (std::size_t i = begin; i < end; ++i) {
@@ -26,7 +27,10 @@ std::vector<Rgb24> colours_of_cloud(const RunRecord& record, const RunCloud& clo
                                     const ShareDone& progress) {
   std::vector<std::vector<ColouredPoint>> seen(frames.frames.size());
   for_each_frame(frames, threads, progress, [&](std::size_t frame, const FrameSight& sight) {
+    const std::size_t by_views =
+        cloud.view_points.empty() ? cloud.profile_points : cloud.view_points.back();
     look_at(cloud, 0, cloud.profile_points, sight, blur_m, seen[frame]);
+    look_at(cloud, by_views, cloud.points_world_m.size(), sight, blur_m, seen[frame]);
     for (std::size_t view = 0; view < record.views.size(); ++view) {
       if (record.views[view].iteration != frames.frames[frame].iteration) continue;
       const std::size_t begin = view == 0 ? cloud.profile_points : cloud.view_points[view - 1];

@@ -1,4 +1,4 @@
-#include "tools/sweep/shell_word.hpp"
+#include "sim/core/shell_word.hpp"
 
 #include <string_view>
 

@@ -1,4 +1,4 @@
-#include "tools/exports/frame_sight.hpp"
+#include "tools/record/frame_sight.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "tools/exports/frame_sight.hpp"
+#include "tools/record/frame_sight.hpp"
 #include "tools/record/run_record.hpp"
 
 namespace gnbv {
@@ -12,8 +12,8 @@ namespace gnbv {
 constexpr Rgb24 kNoColour = {128, 128, 128};
 
 /// A colour a point. A point that a view brought has that of the nearest frame of this view, a
-/// point of the profile that of the nearest frame of all. `blur_m` as for FrameSight::sees(). No
-/// result depends on `threads`.
+/// point of the profile, or from after the last view, that of the nearest frame of all. `blur_m` as
+/// for FrameSight::sees(). No result depends on `threads`.
 std::vector<Rgb24> colours_of_cloud(const RunRecord& record, const RunCloud& cloud,
                                     const FrameRecord& frames, double blur_m, int threads,
                                     const ShareDone& progress);

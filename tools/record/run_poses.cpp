@@ -1,10 +1,16 @@
-#include "tools/exports/run_poses.hpp"
+#include "tools/record/run_poses.hpp"
 
 #include <algorithm>
 
 #include "sim/core/error.hpp"
 
 namespace gnbv {
+namespace {
+
+constexpr double kHeld_s =
+    0.1001;  // a period of the path's samples, and what their text rounds off
+
+}  // namespace
 
 void need_path(const RunRecord& record) {
   if (!record.path.empty()) return;
@@ -19,7 +25,10 @@ std::optional<Isometry> true_pose_at(const RunRecord& record, double time_s) {
   const auto after = std::lower_bound(
       record.path.begin(), record.path.end(), time_s,
       [](const TrajectorySample& sample, double t_s) { return sample.time_s < t_s; });
-  if (after == record.path.end()) return std::nullopt;
+  if (after == record.path.end()) {
+    const bool is_held = !record.path.empty() && time_s <= record.path.back().time_s + kHeld_s;
+    return is_held ? std::optional(record.path.back().T_world_body) : std::nullopt;
+  }
   if (after->time_s == time_s) return after->T_world_body;
   if (after == record.path.begin()) return std::nullopt;
   const auto before = std::prev(after);
