@@ -15,6 +15,7 @@ export class Browser {
   #listeners = [];
   #next = 1;
   #session;
+  #hasEnded = false;
 
   /** Opens a window of that size on an empty page. */
   static async open(chromium, width, height) {
@@ -24,7 +25,11 @@ export class Browser {
       { url: "about:blank" });
     const { sessionId } = await browser.#call("Target.attachToTarget", { targetId, flatten: true });
     browser.#session = sessionId;
-    for (const domain of ["Page", "Runtime", "Log", "Network"]) await browser.call(`${domain}.enable`);
+    for (const domain of ["Page", "Runtime", "Log", "Network"]) {
+      await browser.call(`${domain}.enable`);
+    }
+    await browser.call("Emulation.setEmulatedMedia",
+      { features: [{ name: "prefers-color-scheme", value: "light" }] });
     await browser.call("Emulation.setDeviceMetricsOverride",
       { width, height, deviceScaleFactor: 1, mobile: width < 600 });
     return browser;
@@ -36,6 +41,13 @@ export class Browser {
   /** Every event of the page. */
   listen(listener) { this.#listeners.push(listener); }
 
+  /** A PNG of a part of the page, in base64. */
+  async picture({ x, y, width, height }) {
+    const { data } = await this.call("Page.captureScreenshot",
+      { format: "png", clip: { x, y, width, height, scale: 1 } });
+    return data;
+  }
+
   /** The value of a JavaScript expression in the page; promises are awaited. */
   async evaluate(expression) {
     const { result, exceptionDetails } = await this.call("Runtime.evaluate",
@@ -45,7 +57,7 @@ export class Browser {
   }
 
   /** Waits until the expression is true. */
-  async until(expression, seconds = 60) {
+  async until(expression, seconds = 120) {
     const end = Date.now() + 1000 * seconds;
     while (!await this.evaluate(expression)) {
       if (Date.now() > end) throw new Error(`not within ${seconds} s: ${expression}`);
@@ -54,9 +66,11 @@ export class Browser {
   }
 
   async close() {
-    const ended = new Promise((done) => this.#process.once("exit", done));
-    this.#call("Browser.close").catch(() => {});
-    await ended;
+    if (!this.#hasEnded) {
+      const ended = new Promise((done) => { this.#process.once("exit", done); });
+      this.#call("Browser.close").catch(() => {});
+      await ended;
+    }
     rmSync(this.#profile, { recursive: true, force: true, maxRetries: 5 });
   }
 
@@ -65,15 +79,22 @@ export class Browser {
       [...kFlags, `--window-size=${width},${height}`, `--user-data-dir=${this.#profile}`],
       { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] });
     let text = "";
+    this.#process.stdio[4].setEncoding("utf8"); // a character may come in two chunks
     this.#process.stdio[4].on("data", (chunk) => {
       const messages = (text + chunk).split("\0");
       text = messages.pop();
       for (const message of messages) this.#receive(JSON.parse(message));
     });
-    this.#process.once("exit", (code) => {
-      for (const { reject } of this.#waiting.values()) reject(new Error(`Chromium ended: ${code}`));
-      this.#waiting.clear();
-    });
+    this.#process.once("exit", (code, signal) => this.#end(`Chromium ended: ${code ?? signal}`));
+    this.#process.once("error", (error) => this.#end(`Chromium does not start: ${error.message}`));
+    // a pipe without anybody at its end; "exit" tells the rest
+    for (const pipe of this.#process.stdio.slice(3)) pipe.on("error", () => {});
+  }
+
+  #end(why) {
+    this.#hasEnded = true;
+    for (const { reject } of this.#waiting.values()) reject(new Error(why));
+    this.#waiting.clear();
   }
 
   #receive(message) {
@@ -88,6 +109,7 @@ export class Browser {
   }
 
   #call(method, params = {}, sessionId = undefined) {
+    if (this.#hasEnded) return Promise.reject(new Error(`${method}: Chromium has ended`));
     const id = this.#next++;
     this.#process.stdio[3].write(JSON.stringify({ id, method, params, sessionId }) + "\0");
     return new Promise((resolve, reject) => this.#waiting.set(id, { resolve, reject }));

@@ -23,7 +23,7 @@ function assertPose(pose, view, what) {
   assert.ok(Math.min(turn, 2 * Math.PI - turn) < 1e-9, `${what}: ${pose}, not ${view}`);
 }
 
-const browser = await Browser.open(chromium, 1000, 700);
+const browser = await Browser.open(chromium, 800, 500);
 const complaints = [];
 const requests = [];
 browser.listen((event, parameters) => {
@@ -40,6 +40,37 @@ const url = pathToFileURL(resolve(page)).href;
 const drawn = () => browser.evaluate(
   "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))");
 const pose = (run) => browser.evaluate(`gnbv.pose(${run})`);
+const chooseEffort = (effort) => browser.evaluate(
+  `[...document.querySelectorAll(".choice button")]
+    .find((button) => button.textContent === "${effort}").click()`);
+/** Pressed and released where the element has the focus. */
+const key = async (name, element) => {
+  await browser.evaluate(`${element}.focus()`);
+  const code = name === " " ? { code: "Space", text: " ", windowsVirtualKeyCode: 32 }
+    : { code: name };
+  await browser.call("Input.dispatchKeyEvent", { type: "keyDown", key: name, ...code });
+  await browser.call("Input.dispatchKeyEvent", { type: "keyUp", key: name, ...code });
+  await drawn();
+};
+/** Pixels of a picture that are clearly another colour than those of `other`, or than its corner. */
+const differentPixels = (picture, other = "") => browser.evaluate(`(async () => {
+  const pixels = async (png) => {
+    const image = new Image();
+    image.src = "data:image/png;base64," + png;
+    await image.decode();
+    const canvas = new OffscreenCanvas(image.width, image.height).getContext("2d");
+    canvas.drawImage(image, 0, 0);
+    return canvas.getImageData(0, 0, image.width, image.height).data;
+  };
+  const a = await pixels("${picture}");
+  const b = ${other !== ""} ? await pixels("${other}") : null;
+  let count = 0;
+  for (let i = 0; i < a.length; i += 4) {
+    const away = [0, 1, 2].map((k) => Math.abs(a[i + k] - (b ? b[i + k] : a[k])));
+    if (Math.max(...away) > 24) ++count;
+  }
+  return count;
+})()`);
 const slider = "document.querySelector('.transport input[type=range]')";
 
 try {
@@ -78,15 +109,46 @@ try {
 
   // in metres and seconds the same moments
   for (const effort of ["Metres", "Seconds"]) {
-    await browser.evaluate(`[...document.querySelectorAll(".choice button")]
-      .find((button) => button.textContent === "${effort}").click()`);
+    await chooseEffort(effort);
     await drawn();
     assert.match(await browser.evaluate("document.querySelector('.readout').textContent"), /View/);
   }
 
-  // something is drawn: not every pixel of the 3D view is the same
-  const { data } = await browser.call("Page.captureScreenshot", { format: "png" });
-  assert.ok(data.length > 50_000, `a screenshot of ${data.length} bytes`);
+  // before the first view there is a moment of its own, however the mission is measured
+  for (const effort of ["Views", "Metres", "Seconds"]) {
+    await chooseEffort(effort);
+    await key("Home", slider);
+    assert.equal(await browser.evaluate("gnbv.views(0)"), 0, effort);
+    await key("ArrowRight", slider);
+    assert.equal(await browser.evaluate("gnbv.views(0)"), 1, effort);
+    assertPose(await pose(0), views[0][0], `the first view in ${effort}`);
+  }
+
+  // space belongs to the box that has the focus
+  const box = "document.querySelector('.layers input')";
+  const wasOn = await browser.evaluate(`${box}.checked`);
+  await key(" ", box);
+  assert.equal(await browser.evaluate(`${box}.checked`), !wasOn);
+  assert.equal(await browser.evaluate("document.querySelector('.play').ariaLabel"), "Play");
+  await key(" ", box);
+
+  // what is drawn stands out from the background, and changes with the replay
+  const clip = await browser.evaluate(`(() => {
+    const canvas = document.querySelector(".stage canvas");
+    canvas.scrollIntoView({ block: "center" });
+    const { x, y, width, height } = canvas.getBoundingClientRect();
+    return { x: x + scrollX, y: y + scrollY, width, height };
+  })()`);
+  const pictureAfter = async (n) => {
+    await browser.evaluate(`gnbv.seek(${n})`);
+    await drawn();
+    return browser.picture(clip);
+  };
+  const first = await pictureAfter(1);
+  const last = await pictureAfter(views[0].length);
+  const all = clip.width * clip.height;
+  assert.ok(await differentPixels(first) > 0.02 * all, "the 3D view is empty");
+  assert.ok(await differentPixels(last, first) > 0.005 * all, "the 3D view does not follow");
 
   assert.equal(await browser.evaluate("window.hacked"), undefined);
   assert.deepEqual(await browser.evaluate("[...document.querySelectorAll('svg, #app script')].length"), 0);
@@ -102,6 +164,22 @@ try {
   await browser.evaluate(`document.body.append(Object.assign(document.createElement("script"),
     { textContent: "window.hacked = 1" }))`);
   assert.equal(await browser.evaluate("window.hacked"), undefined);
+
+  // without WebGL the rest of the page is there
+  complaints.length = 0;
+  await browser.call("Page.addScriptToEvaluateOnNewDocument", { source: `
+    const { getContext } = HTMLCanvasElement.prototype;
+    HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+      return kind.startsWith("webgl") ? null : getContext.call(this, kind, ...rest);
+    };` });
+  await browser.call("Page.navigate", { url });
+  await browser.until("!!window.gnbv");
+  assert.match(await browser.evaluate("document.querySelector('.stage').textContent"),
+    /3D needs WebGL/);
+  assert.ok(await browser.evaluate("document.querySelectorAll('.u-over').length") > 0);
+  await browser.evaluate("gnbv.seek(2)");
+  assert.equal(await browser.evaluate("gnbv.views(0)"), 2);
+  assert.deepEqual(complaints.filter((text) => !text.includes("WebGL")), []);
 } finally {
   await browser.close();
 }

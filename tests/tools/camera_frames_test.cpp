@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "sensors/camera_model.hpp"
+#include "sim/core/error.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/render/image.hpp"
+#include "tools/report/jpeg.hpp"
 
 namespace gnbv {
 namespace {
@@ -57,6 +59,11 @@ TEST(CameraFrames, APointHasTheColourOfItsPixelAndThumbnailsKeepTheirBudget) {
   ASSERT_EQ(few.thumbnails.size(), 3U);  // views 0, 3, 6
   EXPECT_EQ(few.thumbnails[1].frame, 3U);
   EXPECT_EQ(few.colour, seen.colour);
+  EXPECT_TRUE(few == read(3 * each, 1));
+  EXPECT_TRUE(read(each / 2, 1).thumbnails.empty());
+  for (const int threads : {2, 4, 7}) EXPECT_TRUE(read(1'000'000, threads) == seen) << threads;
+  write_png(shrunk(image, 2), frames.frames[5].colour);
+  EXPECT_THROW(read(1'000'000, 2), BadInput);
 }
 
 }  // namespace

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <memory>
 
 #include "sim/core/error.hpp"
@@ -25,6 +28,22 @@ fs::path page_path(const ReportCommandOptions& options) {
   return options.runs.size() == 1 ? options.runs[0] / "report.html" : fs::path("report.html");
 }
 
+/// Before the work, which takes a while.
+void check_can_be_written(const fs::path& page) {
+  const fs::path folder = page.has_parent_path() ? page.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder)) {
+    throw BadInput(fmt::format("{}: cannot write: {} is no directory; `mkdir -p` makes it",
+                               page.string(), folder.string()));
+  }
+  if (access(folder.c_str(), W_OK) != 0) {
+    throw BadInput(fmt::format("{}: cannot write: {}: {}", page.string(), folder.string(),
+                               std::strerror(errno)));
+  }
+  if (fs::is_directory(page)) {
+    throw BadInput(fmt::format("{}: is a directory; --out names the page itself", page.string()));
+  }
+}
+
 void report(ReportCommandOptions options) {
   if (options.runs.size() > kMaxReportRuns) {
     throw BadInput(
@@ -32,6 +51,7 @@ void report(ReportCommandOptions options) {
                     "compares more",
                     options.runs.size(), kMaxReportRuns));
   }
+  const fs::path page = page_path(options);
   options.report.threads = thread_count(options.report.threads);
   std::vector<RunRecord> records;
   for (const fs::path& run : options.runs) {
@@ -40,6 +60,7 @@ void report(ReportCommandOptions options) {
       fmt::print(stderr, "gnbv: {}\n", missing);
     }
   }
+  check_can_be_written(page);
   Report made;
   {
     ProgressBar bar("report", options.quiet);
@@ -47,7 +68,6 @@ void report(ReportCommandOptions options) {
                        [&](double share) { bar.show(share, "reading runs and frames"); });
   }
   for (const std::string& missing : made.missing) fmt::print(stderr, "gnbv: {}\n", missing);
-  const fs::path page = page_path(options);
   write_file_atomically(page, made.html);
   fmt::print("{}\n", page.string());
 }

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
 #include "tools/report/jpeg.hpp"
 
@@ -57,7 +58,13 @@ struct FrameYield {
 FrameYield read_frame(const FrameRecord& frames, std::size_t index, const RunCloud& cloud,
                       std::span<const std::size_t> points) {
   const RecordedFrame& frame = frames.frames[index];
+  const FrameCamera& camera = frames.cameras[frame.camera];
   const Image image = read_png(frame.colour);
+  if (image.width_px != camera.width_px || image.height_px != camera.height_px) {
+    throw BadInput(fmt::format("{}: {} x {} px, but cameras.json says {} x {} px of camera `{}`",
+                               frame.colour.string(), image.width_px, image.height_px,
+                               camera.width_px, camera.height_px, camera.name));
+  }
   const Image small = shrunk(image, std::max(1, image.width_px / kThumbnailWidth_px));
   FrameYield yield{
       .thumbnail = {index, small.width_px, small.height_px, jpeg_bytes(small, kJpegQuality)},
@@ -65,8 +72,8 @@ FrameYield read_frame(const FrameRecord& frames, std::size_t index, const RunClo
       .colours = {}};
   const Isometry T_camera_world = frame.T_world_camera.inverse();
   for (std::size_t i = yield.range.begin; i < yield.range.end; ++i) {
-    yield.colours.push_back(colour_in(image, frames.cameras[frame.camera], T_camera_world,
-                                      cloud.points_world_m[points[i]]));
+    yield.colours.push_back(
+        colour_in(image, camera, T_camera_world, cloud.points_world_m[points[i]]));
   }
   return yield;
 }
@@ -101,24 +108,23 @@ void colour_from_neighbours(const RunCloud& cloud, std::span<const std::size_t> 
   }
 }
 
-/// Keeps the thumbnails of every n-th view, with the least n that fits.
+/// Keeps the thumbnails of every n-th view, with the least n that fits; none if none fit.
 std::vector<Thumbnail> within(std::vector<Thumbnail> all, const FrameRecord& frames,
                               std::size_t max_bytes) {
-  for (int every = 1;; ++every) {
+  const auto most = static_cast<int>(frames.frames.size());
+  for (int every = 1; every <= most; ++every) {
     std::size_t bytes = 0;
-    std::size_t kept = 0;
     const auto is_kept = [&](const Thumbnail& t) {
       return frames.frames[t.frame].iteration % every == 0;
     };
     for (const Thumbnail& t : all) {
-      if (!is_kept(t)) continue;
-      bytes += t.jpeg.size();
-      ++kept;
+      if (is_kept(t)) bytes += (t.jpeg.size() + 3) / 4 * 4;  // as BytePack aligns them
     }
-    if (bytes > max_bytes && kept > frames.cameras.size()) continue;
+    if (bytes > max_bytes) continue;
     std::erase_if(all, [&](const Thumbnail& t) { return !is_kept(t); });
     return all;
   }
+  return {};
 }
 
 }  // namespace

@@ -1,12 +1,15 @@
 #include "tools/report/report.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "bench/paper_table.hpp"
 #include "sim/core/error.hpp"
 #include "tools/mission/load_world.hpp"
+#include "tools/render/colour.hpp"
 #include "tools/report/page_parts.hpp"
 #include "tools/report/page_text.hpp"
 #include "tools/report/run_json.hpp"
@@ -15,18 +18,27 @@ namespace gnbv {
 namespace {
 
 using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
 
-// Base64 makes four bytes of three: together these stay below 20 MB.
-constexpr std::size_t kMaxPoints = 500'000;  // of one run: six bytes each, nine with colours
+// What a laptop draws fluently.
+constexpr std::size_t kMaxPoints = 500'000;  // of one run
 constexpr std::size_t kAllPoints = 800'000;
-constexpr std::size_t kAllFrameBytes = 9'000'000;
+constexpr std::size_t kAllMeshBytes = 4'000'000;
+constexpr std::size_t kLeastRunBytes = 200'000;  // where names and views alone fill the page
 
-RunBudget budget_of(const std::vector<RunRecord>& records) {
-  const auto with_frames = static_cast<std::size_t>(
-      std::count_if(records.begin(), records.end(),
-                    [](const RunRecord& record) { return has_frames(record.folder); }));
-  return {.points = std::min(kMaxPoints, kAllPoints / records.size()),
-          .frame_bytes = kAllFrameBytes / std::max<std::size_t>(1, with_frames)};
+/// Of a page of `kMaxReportBytes`, for each run: what text and structures leave, in equal shares.
+RunBudget budget_of(const std::vector<RunRecord>& records, std::size_t mesh_bytes) {
+  std::size_t text = page_template().size() + page_style().size() + page_script().size();
+  for (const RunRecord& record : records) {
+    std::error_code ignored;
+    const auto yaml = fs::file_size(record.folder / "scenario.yaml", ignored);
+    text += 50'000 + 600 * record.views.size() + (ignored ? 0 : yaml);  // JSON, with tables
+  }
+  // base64 makes four bytes of three
+  const std::size_t blocks = (kMaxReportBytes - std::min(kMaxReportBytes, text)) / 4 * 3;
+  const std::size_t bytes = (blocks - std::min(blocks, mesh_bytes)) / records.size();
+  return {.bytes = std::max(kLeastRunBytes, bytes),
+          .points = std::min(kMaxPoints, kAllPoints / records.size())};
 }
 
 /// A table a scenario, of the runs that were scored; of the paper's figures only where the
@@ -59,48 +71,74 @@ Json tables_json(const std::vector<RunRecord>& records) {
   return tables;
 }
 
+/// Equal for runs of the same structure.
+std::string structure_key(const Scenario& scenario) {
+  const MeshFileConfig& file = scenario.structure.file;
+  return fmt::format("{}\n{} {} {} {} {} {} {}", structure_name(scenario.structure), file.scale,
+                     file.offset_m.x(), file.offset_m.y(), file.offset_m.z(), file.up_axis,
+                     file.unit_m, file.path.empty() ? "built in" : "file");
+}
+
 /// The structures of the runs, each once.
-class Structures {
- public:
-  explicit Structures(BytePack& bytes) : bytes_(bytes) {}
-
-  /// Number of the run's structure; -1, and a sentence more, when it cannot be had.
-  int number_of(const Scenario& scenario, std::vector<std::string>& missing) {
-    const MeshFileConfig& file = scenario.structure.file;
-    const std::string key =
-        fmt::format("{}\n{} {} {} {} {} {} {}", structure_name(scenario.structure), file.scale,
-                    file.offset_m.x(), file.offset_m.y(), file.offset_m.z(), file.up_axis,
-                    file.unit_m, file.path.empty() ? "built in" : "file");
-    const auto known = std::find(keys_.begin(), keys_.end(), key);
-    if (known != keys_.end()) return static_cast<int>(known - keys_.begin());
-    try {
-      std::vector<std::string> told_by_run;  // the mesh's faults were told when it was flown
-      json_.push_back(mesh_json(load_structure(scenario, told_by_run), bytes_));
-    } catch (const BadInput& error) {
-      missing.emplace_back(error.what());
-      return -1;
-    }
-    keys_.push_back(key);
-    return static_cast<int>(keys_.size()) - 1;
-  }
-
-  const Json& json() const { return json_; }
-
- private:
-  BytePack& bytes_;
-  std::vector<std::string> keys_;
-  Json json_ = Json::array();
+struct Structures {
+  struct OfRun {
+    int number = -1;       // -1: it cannot be had
+    std::string why = {};  // not
+  };
+  BytePack bytes;
+  Json json = Json::array();
+  std::vector<OfRun> of_run;
 };
 
+Structures pack_structures(const std::vector<RunRecord>& records) {
+  std::map<std::string, Structures::OfRun> known;
+  for (const RunRecord& record : records) known[structure_key(record.scenario)] = {};
+  const std::size_t max_bytes = kAllMeshBytes / known.size();
+  known.clear();
+  Structures out;
+  for (const RunRecord& record : records) {
+    const auto [entry, is_new] = known.try_emplace(structure_key(record.scenario));
+    Structures::OfRun& structure = entry->second;
+    try {
+      std::vector<std::string> told_by_run;  // the mesh's faults were told when it was flown
+      if (is_new) {
+        const TriangleMesh mesh = load_structure(record.scenario, told_by_run);
+        structure.number = static_cast<int>(out.json.size());
+        out.json.push_back(mesh_json(mesh, max_bytes, out.bytes));
+      }
+    } catch (const BadInput& error) {
+      structure.why = error.what();
+    }
+    out.of_run.push_back(structure);
+  }
+  return out;
+}
+
+std::string with_blanks(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
 std::string title_of(const std::vector<RunRecord>& records) {
-  if (records.size() == 1) return run_title(records[0]);
+  if (records.size() == 1) return with_blanks(run_title(records[0]));
   std::vector<std::string> scenarios;
   for (const RunRecord& r : records) {
     if (std::find(scenarios.begin(), scenarios.end(), r.scenario.name) == scenarios.end()) {
       scenarios.push_back(r.scenario.name);
     }
   }
-  return fmt::format("{}: {} runs", fmt::join(scenarios, ", "), records.size());
+  return with_blanks(fmt::format("{}: {} runs", fmt::join(scenarios, ", "), records.size()));
+}
+
+/// 256 sRGB colours, three bytes each: those of the pictures of the same run.
+Json ramp_json(const std::vector<Rgb>& colours) {
+  Json bytes = Json::array();
+  for (int i = 0; i < 256; ++i) {
+    for (const float linear : ramp(colours, i / 255.0)) {
+      bytes.push_back(std::lround(255.0F * linear_to_srgb(linear)));
+    }
+  }
+  return bytes;
 }
 
 std::string data_element(const std::string& id, const std::string& type, const std::string& text) {
@@ -129,26 +167,28 @@ Report make_report(const std::vector<RunRecord>& records, const ReportOptions& o
   Report report;
   const std::string title = options.title.empty() ? title_of(records) : options.title;
   const std::vector<std::string> labels = run_labels(records);
-  const RunBudget budget = budget_of(records);
-  BytePack mesh_bytes;
-  Structures structures(mesh_bytes);
+  const Structures structures = pack_structures(records);
+  const RunBudget budget = budget_of(records, structures.bytes.bytes().size());
   Json runs = Json::array();
   std::string data;
   for (std::size_t i = 0; i < records.size(); ++i) {
     PackedRun packed = pack_run(records[i], budget, options.threads, [&](double share) {
       progress((static_cast<double>(i) + share) / static_cast<double>(records.size()));
     });
-    const int mesh = structures.number_of(records[i].scenario, packed.missing);
-    runs.push_back(run_json(records[i], labels[i], packed, mesh));
+    const Structures::OfRun& structure = structures.of_run[i];
+    if (!structure.why.empty()) packed.missing.push_back(structure.why);
+    runs.push_back(run_json(records[i], labels[i], packed, structure.number));
     data += bytes_element(fmt::format("run-{}", i), packed.bytes);
     report.missing.insert(report.missing.end(), packed.missing.begin(), packed.missing.end());
   }
-  data += bytes_element("meshes", mesh_bytes);
-  const Json json = {{"title", title},
-                     {"version", GNBV_VERSION},
-                     {"tables", tables_json(records)},
-                     {"meshes", structures.json()},
-                     {"runs", runs}};
+  data += bytes_element("meshes", structures.bytes);
+  const Json json = {
+      {"title", title},
+      {"version", GNBV_VERSION},
+      {"ramps", {{"path", ramp_json(path_colours())}, {"amount", ramp_json(amount_colours())}}},
+      {"tables", tables_json(records)},
+      {"meshes", structures.json},
+      {"runs", runs}};
   // names may hold anything, also what is no UTF-8
   data += data_element("data", "application/json",
                        script_json(json.dump(-1, ' ', false, Json::error_handler_t::replace)));

@@ -12,6 +12,9 @@ namespace gnbv {
 /// More would be neither readable nor small.
 constexpr std::size_t kMaxReportRuns = 8;
 
+/// Of a page, for missions as the paper's.
+constexpr std::size_t kMaxReportBytes = 25'000'000;
+
 struct ReportOptions {
   int threads = 1;
   std::string title = {};  // empty: of the runs
@@ -22,10 +25,10 @@ struct Report {
   std::vector<std::string> missing;  // a sentence each: what the page shows nothing of, and why
 };
 
-/// The page, at most 25 MB for missions as the paper's: points, voxels, structure and frames are
-/// thinned to a budget that the runs share. The same bytes for the same runs, at any number of
-/// threads. Needs no network, and forbids itself any. `progress` gets the share done. Requires
-/// 1 to kMaxReportRuns records; throws BadInput as the readers of their files do.
+/// The page, at most kMaxReportBytes: points, voxels, paths, structures and frames are thinned to
+/// what the text of the page leaves; the runs share it. The same bytes for the same runs, at any
+/// number of threads. Needs no network, and forbids itself any. `progress` gets the share done.
+/// Requires 1 to kMaxReportRuns records. Files that are missing or damaged are left out and named.
 Report make_report(const std::vector<RunRecord>& records, const ReportOptions& options,
                    const ReportProgress& progress);
 

@@ -7,8 +7,6 @@
 
 #include "bench/paper_figures.hpp"
 #include "sim/core/file.hpp"
-#include "sim/core/shell_word.hpp"
-#include "sim/core/srgb.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/report/thinning.hpp"
 
@@ -18,6 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMaxFaces = 120'000;
+constexpr std::size_t kFewFaces = 100;  // are never too many
 
 Json slice_json(const ByteSlice& slice) { return {slice.at, slice.count}; }
 
@@ -68,17 +67,14 @@ Json figures_json(const RunFigures& f) {
       {"iterations", f.iterations},
       {"entropy_reduction", f.entropy_reduction_nat},
       {"straight_m", f.straight_m},
-      {"flown_m", f.flown_m},
       {"profile_m", f.profile_m},
       {"flight_time_s", f.flight_time_s},
       {"energy_wh", f.energy_wh},
       {"coverage", f.coverage_final},
       {"f_5cm", f.distances.at[1].f},
-      {"chamfer_m", f.distances.chamfer_m},
       {"density", f.density_points_per_voxel},
       {"version", f.version},
       {"result_sha256", f.result_sha256},
-      {"wall_s", f.wall_s},
       {"curve",
        {{"coverage", f.curve.coverage}, {"metres", f.curve.metres}, {"seconds", f.curve.seconds}}}};
 }
@@ -122,6 +118,13 @@ Json vehicle_json(const Scenario& scenario) {
     rotors.push_back({rotor.p_body_m.x(), rotor.p_body_m.y(), rotor.p_body_m.z()});
   }
   return {{"rotors", rotors}, {"radius_m", scenario.vehicle.airframe.hull_radius_m}};
+}
+
+/// Without the backticks that mark it in a sentence: the page gives it a place of its own.
+std::string bare_command_to_fly_again(const std::filesystem::path& folder,
+                                      const std::string& options) {
+  const std::string marked = command_to_fly_again(folder, options);
+  return marked.substr(1, marked.size() - 2);
 }
 
 Json packed_json(const PackedRun& packed) {
@@ -190,8 +193,14 @@ Json table_json(const TextTable& table) {
   return json;
 }
 
-Json mesh_json(const TriangleMesh& mesh, BytePack& bytes) {
-  const TriangleMesh small = with_fewer_faces(mesh, kMaxFaces);
+Json mesh_json(const TriangleMesh& mesh, std::size_t max_bytes, BytePack& bytes) {
+  const auto bytes_of = [](const TriangleMesh& m) {
+    return 12 * m.faces.size() + 6 * m.vertices_m.size() + 3;
+  };
+  TriangleMesh small = with_fewer_faces(mesh, kMaxFaces);
+  while (bytes_of(small) > max_bytes && small.faces.size() > kFewFaces) {
+    small = with_fewer_faces(mesh, small.faces.size() / 4 * 3);
+  }
   Json json = {{"vertices", points_json(pack_points(small.vertices_m, bytes))},
                {"all_faces", mesh.faces.size()},
                {"parts", Json::array()}};
@@ -218,18 +227,15 @@ Json run_json(const RunRecord& record, const std::string& label, const PackedRun
   const Scenario& scenario = record.scenario;
   Json missing = record.missing;
   for (const std::string& sentence : packed.missing) missing.push_back(sentence);
-  const std::string yaml = (record.folder / "scenario.yaml").string();
   Json json = {
       {"label", label},
-      {"scenario", scenario.name},
       {"structure", structure_name(scenario.structure)},
       {"utility", scenario.planner.utility.name},
       {"preset", scenario.planner.preset},
       {"seed", scenario.seed},
       {"folder", record.folder.string()},
-      {"command", fmt::format("gnbv run {}{} --out {}", shell_word(yaml),
-                              packed.thumbnails.empty() ? "" : " --frames",
-                              shell_word(record.folder.string() + "-again"))},
+      {"command",
+       bare_command_to_fly_again(record.folder, packed.cameras.empty() ? "" : "--frames")},
       {"yaml", read_file(record.folder / "scenario.yaml")},
       {"missing", missing},
       {"workspace",

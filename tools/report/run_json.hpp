@@ -17,8 +17,8 @@ std::vector<std::string> run_labels(const std::vector<RunRecord>& records);
 /// Title, columns, rows and notes as printed.
 nlohmann::ordered_json table_json(const TextTable& table);
 
-/// The structure, thinned to what a page can carry, its arrays added to `bytes`.
-nlohmann::ordered_json mesh_json(const TriangleMesh& mesh, BytePack& bytes);
+/// The structure, thinned until its arrays, which are added to `bytes`, take at most `max_bytes`.
+nlohmann::ordered_json mesh_json(const TriangleMesh& mesh, std::size_t max_bytes, BytePack& bytes);
 
 /// The record with what was packed of it. `mesh` is the page's number of its structure, -1 for
 /// none.

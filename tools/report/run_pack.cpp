@@ -10,6 +10,14 @@
 namespace gnbv {
 namespace {
 
+// What the page needs of each, see PackedCloud, PackedVoxels and PackedPath.
+constexpr std::size_t kPointBytes = 6;
+constexpr std::size_t kColourBytes = 3;
+constexpr std::size_t kVoxelBytes = 10;
+constexpr std::size_t kSampleBytes = 18;
+constexpr std::size_t kLeast = 16;        // elements, whatever the budget is
+constexpr std::size_t kPaddingBytes = 3;  // at most, before each array
+
 std::uint32_t as_count(std::size_t count) { return static_cast<std::uint32_t>(count); }
 
 /// How many of `first_views` (the view that brought each, -1 the profile; ascending) there are
@@ -38,8 +46,13 @@ PackedCloud pack_cloud(const RunCloud& cloud, const ThinnedPoints& thin, std::si
   return out;
 }
 
-PackedVoxels pack_voxels(const RunCloud& cloud, double size_m, std::size_t views, BytePack& bytes) {
-  const std::vector<std::size_t> first = first_points(cloud.points_world_m, size_m);
+PackedVoxels pack_voxels(const RunCloud& cloud, double size_m, std::size_t views,
+                         std::size_t max_bytes, BytePack& bytes) {
+  std::vector<std::size_t> first = first_points(cloud.points_world_m, size_m);
+  while (kVoxelBytes * first.size() > max_bytes && first.size() > kLeast) {
+    size_m *= 2.0;
+    first = first_points(cloud.points_world_m, size_m);
+  }
   const auto index_of = [&](const Vec3f& p, int axis) {
     return static_cast<std::int16_t>(std::floor(static_cast<double>(p[axis]) / size_m));
   };
@@ -67,25 +80,38 @@ PackedVoxels pack_voxels(const RunCloud& cloud, double size_m, std::size_t views
           .count = bytes.add(count)};
 }
 
-PackedPath pack_path(const std::vector<TrajectorySample>& path, BytePack& bytes) {
+/// Every n-th sample and the last one, with the least n that fits.
+PackedPath pack_path(const std::vector<TrajectorySample>& path, std::size_t max_bytes,
+                     BytePack& bytes) {
   std::vector<Vec3f> points;
   std::vector<float> time_s;
   std::vector<std::int16_t> quaternion;
-  for (const TrajectorySample& sample : path) {
+  const std::size_t room = std::max(kLeast, max_bytes / kSampleBytes);
+  const std::size_t every = (path.size() + room - 2) / (room - 1);
+  for (std::size_t i = 0; i < path.size();) {
+    const TrajectorySample& sample = path[i];
     points.push_back(sample.T_world_body.translation().cast<float>());
     time_s.push_back(static_cast<float>(sample.time_s));
     const Eigen::Quaterniond q(sample.T_world_body.linear());
     for (const double c : {q.x(), q.y(), q.z(), q.w()}) {
       quaternion.push_back(static_cast<std::int16_t>(std::lround(32767.0 * c)));
     }
+    i = i + 1 == path.size() ? path.size() : std::min(i + every, path.size() - 1);
   }
   return {.points = pack_points(points, bytes),
           .time_s = bytes.add(time_s),
           .quaternion = bytes.add(quaternion)};
 }
 
+/// How many points of a cloud there is room for, when so many bytes are left.
+std::size_t point_count(const RunBudget& budget, std::size_t left, bool has_colours) {
+  const std::size_t room =
+      has_colours ? left / 10 * 6 / (kPointBytes + kColourBytes) : left / kPointBytes;
+  return std::clamp(room, kLeast, std::max(kLeast, budget.points));
+}
+
 void pack_frames(const RunRecord& record, const RunCloud& cloud, const ThinnedPoints& thin,
-                 const RunBudget& budget, int threads, const ReportProgress& progress,
+                 std::size_t max_bytes, int threads, const ReportProgress& progress,
                  PackedRun& out) {
   if (!has_frames(record.folder)) {
     out.missing.push_back(fmt::format("{}: colour images were not kept; {} keeps them",
@@ -94,8 +120,9 @@ void pack_frames(const RunRecord& record, const RunCloud& cloud, const ThinnedPo
     return;
   }
   const FrameRecord frames = read_frames(record.folder);
-  const CameraFrames seen =
-      read_camera_frames(frames, cloud, thin.kept, budget.frame_bytes, threads, progress);
+  const std::size_t colours = kColourBytes * thin.kept.size() + kPaddingBytes;
+  const CameraFrames seen = read_camera_frames(
+      frames, cloud, thin.kept, max_bytes - std::min(max_bytes, colours), threads, progress);
   for (const FrameCamera& camera : frames.cameras) out.cameras.push_back(camera.name);
   for (const Thumbnail& t : seen.thumbnails) {
     const RecordedFrame& frame = frames.frames[t.frame];
@@ -124,17 +151,26 @@ PackedRun pack_run(const RunRecord& record, const RunBudget& budget, int threads
   RunCloud cloud;
   ThinnedPoints thin;
   const std::size_t views = record.views.size();
+  const auto left = [&] {  // after counts and padding
+    const std::size_t used = out.bytes.bytes().size() + 8 * (views + 1) + 16 * kPaddingBytes;
+    return budget.bytes - std::min(budget.bytes, used);
+  };
+  if (!record.path.empty()) out.path = pack_path(record.path, budget.bytes / 8, out.bytes);
   try {
     cloud = read_run_cloud(record);
-    thin = thinned(cloud.points_world_m, budget.points,
+    out.voxels = pack_voxels(cloud, record.scenario.planner.map.resolution_m, views,
+                             budget.bytes / 4, out.bytes);
+    thin = thinned(cloud.points_world_m, point_count(budget, left(), has_frames(record.folder)),
                    std::max(record.scenario.planner.cloud.leaf_m, 1e-3));
     out.cloud = pack_cloud(cloud, thin, views, out.bytes);
-    out.voxels = pack_voxels(cloud, record.scenario.planner.map.resolution_m, views, out.bytes);
   } catch (const BadInput& error) {
     out.missing.emplace_back(error.what());  // the page does without points
   }
-  if (!record.path.empty()) out.path = pack_path(record.path, out.bytes);
-  pack_frames(record, cloud, thin, budget, threads, progress, out);
+  try {
+    pack_frames(record, cloud, thin, left(), threads, progress, out);
+  } catch (const BadInput& error) {
+    out.missing.emplace_back(error.what());  // and without frames
+  }
   return out;
 }
 

@@ -29,10 +29,10 @@ struct PackedCloud {
 
 /// The map's voxels that hold points of the cloud, in the order in which they first did.
 struct PackedVoxels {
-  double size_m = 0.0;
-  ByteSlice index;  // int16 (n, 3): the voxel covers [index, index + 1) * size
-  ByteSlice after;  // uint32 (views + 1), as PackedCloud
-  ByteSlice count;  // uint32 (n): points of the whole cloud in it, in the end
+  double size_m = 0.0;  // the map's, or twice, four times ... that, so that the page can carry them
+  ByteSlice index;      // int16 (n, 3): the voxel covers [index, index + 1) * size
+  ByteSlice after;      // uint32 (views + 1), as PackedCloud
+  ByteSlice count;      // uint32 (n): points of the whole cloud in it, in the end
 };
 
 struct PackedPath {
@@ -59,16 +59,17 @@ struct PackedRun {
   std::vector<std::string> missing = {};  // beyond what the record says
 };
 
-/// What a run may take of the page.
+/// What a run may take of the page, at most.
 struct RunBudget {
+  std::size_t bytes = 0;  // of its block
   std::size_t points = 0;
-  std::size_t frame_bytes = 0;
 };
 
 PackedPoints pack_points(std::span<const Vec3f> points_m, BytePack& bytes);
 
-/// What of the run is there; what is not, or cannot be used, is named in `missing` with the command
-/// that makes it. Throws BadInput for damaged frames.
+/// What of the run is there, thinned to the budget: voxels get a quarter of it, the path an eighth,
+/// points and frames share the rest. What is not there, or cannot be used, is named in `missing`,
+/// where a command makes it with that command.
 PackedRun pack_run(const RunRecord& record, const RunBudget& budget, int threads,
                    const ReportProgress& progress);
 

@@ -6,7 +6,7 @@ export const kEfforts: [Effort, string][] =
 
 export class Clock {
   effort: Effort = "views";
-  at = 0; // in the unit of `effort`, 0 = after the profile
+  at = 0; // in the unit of `effort`; below 0: after the profile, before whatever counts
   isPlaying = false;
   private readonly listeners: (() => void)[] = [];
 

@@ -1,4 +1,5 @@
 // Colours of the page that stylesheets cannot give: of runs, lines and ramps.
+import type { PageData, RampName } from "./data";
 
 export const isDark = () => matchMedia("(prefers-color-scheme: dark)").matches;
 
@@ -16,7 +17,6 @@ export function runColour(index: number): string {
 /** Of one of several lines of the same run. */
 export function lineColour(index: number): string { return runColour(index); }
 
-export const ink = () => (isDark() ? "#e8ebf0" : "#1d232c");
 export const paleInk = () => (isDark() ? "#98a2b0" : "#667080");
 export const hairline = () => (isDark() ? "#2a313b" : "#e6e9ee");
 export const faintLine = () => (isDark() ? "#4a5462" : "#b3bcc8");
@@ -24,30 +24,25 @@ export const phaseShade = () => (isDark() ? "rgba(255,170,80,0.13)" : "rgba(230,
 export const nowLine = () => (isDark() ? "#ffffff" : "#11151b");
 
 type Rgb = [number, number, number];
-const rgbOf = (hex: number): Rgb => [hex >> 16, hex >> 8 & 255, hex & 255];
 
-/** Piecewise linear, even in lightness from first to last: what comes later is lighter. */
-export type RampName = "order" | "height" | "density";
-const kRamps: Record<RampName, Rgb[]> = {
-  order: [0x4a2bc2, 0x8a2bb8, 0xc2379a, 0xe85d6b, 0xf68d45, 0xf9c440].map(rgbOf),
-  height: [0x2b5c8a, 0x2e86ab, 0x3fb0a0, 0x8ccf7e, 0xe3dd6a].map(rgbOf),
-  density: [0x40318a, 0x2f6fae, 0x24a49a, 0x7ed06a, 0xf4e04d].map(rgbOf),
-};
+const kRamps: Record<RampName, Uint8Array> = { path: new Uint8Array(), amount: new Uint8Array() };
 
-/** sRGB bytes at `t`, clamped to [0, 1]. */
-export function ramp(name: RampName, t: number): Rgb {
-  const colours = kRamps[name];
-  const x = Math.min(Math.max(t, 0), 1) * (colours.length - 1);
-  const i = Math.min(Math.floor(x), colours.length - 2);
-  return [0, 1, 2].map((k) =>
-    Math.round(colours[i][k] + (x - i) * (colours[i + 1][k] - colours[i][k]))) as Rgb;
+/** To be called once, before any colour is asked for. */
+export function setRamps(ramps: PageData["ramps"]) {
+  for (const name of ["path", "amount"] as const) kRamps[name] = Uint8Array.from(ramps[name]);
 }
 
-/** 256 colours of a ramp, one after the other. */
-export function rampTable(name: RampName): Uint8Array {
-  return Uint8Array.from(Array.from({ length: 256 }, (_, i) => ramp(name, i / 255)).flat());
+/** sRGB bytes of 256 colours, one after the other. */
+export const rampTable = (name: RampName) => kRamps[name];
+
+/** The one at `t`, clamped to [0, 1]. */
+export function ramp(name: RampName, t: number): Rgb {
+  const at = 3 * Math.round(255 * Math.min(Math.max(t, 0), 1));
+  const [r, g, b] = kRamps[name].subarray(at, at + 3);
+  return [r, g, b];
 }
 
 export function rampGradient(name: RampName): string {
-  return `linear-gradient(90deg,${kRamps[name].map((c) => `rgb(${c.join(",")})`).join(",")})`;
+  const stops = Array.from({ length: 17 }, (_, i) => `rgb(${ramp(name, i / 16).join(",")})`);
+  return `linear-gradient(90deg,${stops.join(",")})`;
 }

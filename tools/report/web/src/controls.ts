@@ -2,7 +2,7 @@
 import { kEfforts, type Clock, type Effort } from "./clock";
 import { choice, make, select, toggle } from "./dom";
 import { lastAtMost, type Flight } from "./flight";
-import type { Layers } from "./run_scene";
+import type { Layers, RunScene } from "./run_scene";
 import type { Colouring } from "./surfaces";
 
 const kMissionLasts_s = 60; // a whole replay, at speed 1
@@ -10,13 +10,22 @@ const kMissionLasts_s = 60; // a whole replay, at speed 1
 /** The replay itself: playing, stepping, and the way from one effort to another. */
 export class Replay {
   private flights: Flight[] = [];
+  private playing = 0; // number of the present way of playing: older ones end
   speed = 1;
 
   constructor(readonly clock: Clock) {}
 
   setFlights(flights: Flight[]) {
     this.flights = flights;
-    this.clock.set({ at: Math.min(this.clock.at, this.last()) });
+    this.clock.set({ at: Math.min(Math.max(this.clock.at, this.begin()), this.last()) });
+  }
+
+  /**
+   * After the profile. Metres and seconds may be 0 at the first view, too, so that the moment
+   * before has a place of its own, a hundredth of the mission before 0.
+   */
+  begin(effort: Effort = this.clock.effort): number {
+    return effort === "views" ? 0 : -Math.max(0.01 * this.last(effort), 1e-3);
   }
 
   /** Of the longest run. */
@@ -28,7 +37,8 @@ export class Replay {
   setEffort(effort: Effort) {
     const [lead] = this.flights;
     const n = lead ? lead.viewsAt(this.clock) : 0;
-    this.clock.set({ effort, at: lead ? lead.effort(n, effort) : 0, isPlaying: false });
+    const at = lead && n > 0 ? lead.effort(n, effort) : this.begin(effort);
+    this.clock.set({ effort, at, isPlaying: false });
   }
 
   /** To the next or an earlier view of any run. */
@@ -39,14 +49,14 @@ export class Replay {
       return;
     }
     const all = this.flights.flatMap((flight) => Array.from(
-      { length: flight.count + 1 }, (_, n) => flight.effort(n, clock.effort)));
-    const stops = [...new Set(all)].sort((a, b) => a - b);
+      { length: flight.count }, (_, n) => flight.effort(n + 1, clock.effort)));
+    const stops = [...new Set([this.begin(), ...all])].sort((a, b) => a - b);
     const here = lastAtMost(stops, clock.at + 1e-9);
-    this.moveTo(stops[Math.min(Math.max(here + views, 0), stops.length - 1)] ?? 0);
+    this.moveTo(stops[Math.min(Math.max(here + views, 0), stops.length - 1)] ?? this.begin());
   }
 
   moveTo(at: number) {
-    this.clock.set({ at: Math.min(Math.max(at, 0), this.last()), isPlaying: false });
+    this.clock.set({ at: Math.min(Math.max(at, this.begin()), this.last()), isPlaying: false });
   }
 
   toggle() {
@@ -56,10 +66,11 @@ export class Replay {
       this.moveTo(clock.effort === "views" ? Math.floor(clock.at + 1e-9) : clock.at);
       return;
     }
-    clock.set({ isPlaying: true, at: clock.at >= this.last() ? 0 : clock.at });
+    clock.set({ isPlaying: true, at: clock.at >= this.last() ? this.begin() : clock.at });
+    const playing = ++this.playing;
     let before = performance.now();
     const advance = (now: number) => {
-      if (!clock.isPlaying) return;
+      if (!clock.isPlaying || playing !== this.playing) return;
       const at = clock.at + this.speed * this.last() * (now - before) / 1000 / kMissionLasts_s;
       before = now;
       if (at >= this.last()) { this.moveTo(this.last()); return; }
@@ -75,8 +86,9 @@ export function listenToKeys(replay: Replay) {
   addEventListener("keydown", (event) => {
     const target = event.target as HTMLElement;
     const isSlider = target.matches("input[type=range]");
-    if (target.matches("select, textarea, summary, button") && event.key === " ") return;
-    if (target.matches("select, textarea, pre") || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (target.matches("select, textarea, pre")) return;
+    if (event.key === " " && target.matches("summary, button, input[type=checkbox]")) return;
     const large = Math.max(1, Math.round(replay.last("views") / 20));
     const actions: Record<string, () => void> = {
       ArrowRight: () => replay.step(event.shiftKey ? 10 : 1),
@@ -87,7 +99,7 @@ export function listenToKeys(replay: Replay) {
       Object.assign(actions, {
         PageUp: () => replay.step(large),
         PageDown: () => replay.step(-large),
-        Home: () => replay.moveTo(0),
+        Home: () => replay.moveTo(replay.begin()),
         End: () => replay.moveTo(replay.last()),
       });
     }
@@ -101,13 +113,15 @@ export function listenToKeys(replay: Replay) {
 export function makeTransport(replay: Replay, readout: HTMLElement): HTMLElement {
   const { clock } = replay;
   const play = make("button", { type: "button", class: "play", click: () => replay.toggle() });
-  const slider = make("input", { type: "range", min: 0, "aria-label": "Replay of the mission" });
+  const slider = make("input", { type: "range", "aria-label": "Replay of the mission" });
   slider.addEventListener("input", () => replay.moveTo(Number(slider.value)));
   const update = () => {
     slider.step = clock.effort === "views" ? "1" : "any";
+    slider.min = String(replay.begin());
     slider.max = String(replay.last());
     slider.value = String(clock.at);
-    const share = replay.last() > 0 ? 100 * clock.at / replay.last() : 0;
+    const all = replay.last() - replay.begin();
+    const share = all > 0 ? 100 * (clock.at - replay.begin()) / all : 0;
     slider.style.setProperty("--done", `${share}%`);
     slider.setAttribute("aria-valuetext", readout.textContent ?? "");
     play.setAttribute("aria-label", clock.isPlaying ? "Pause" : "Play");
@@ -122,6 +136,10 @@ export function makeTransport(replay: Replay, readout: HTMLElement): HTMLElement
 }
 
 export interface View3d {
+  readonly canDraw: boolean;
+  readonly element: HTMLElement;
+  setShown(scenes: RunScene[]): void;
+  setTheme(): void;
   setLayers(layers: Layers): void;
   colour(by: Colouring): void;
   setFollows(follows: boolean): void;

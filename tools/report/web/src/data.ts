@@ -57,17 +57,14 @@ export interface Figures {
   iterations: number;
   entropy_reduction: number;
   straight_m: number;
-  flown_m: number;
   profile_m: number;
   flight_time_s: number;
   energy_wh: number;
   coverage: Vec3;
   f_5cm: number;
-  chamfer_m: number;
   density: number;
   version: string;
   result_sha256: string;
-  wall_s: number;
   curve: { coverage: Vec3[]; metres: number[]; seconds: number[] };
 }
 
@@ -87,7 +84,6 @@ export type Thumbnail = [
 
 export interface RunData {
   label: string;
-  scenario: string;
   structure: string;
   utility: string;
   preset: string;
@@ -113,9 +109,13 @@ export interface RunData {
   frames: Thumbnail[];
 }
 
+/** 256 sRGB colours, three bytes each (tools/render/colour.hpp). */
+export type RampName = "path" | "amount";
+
 export interface PageData {
   title: string;
   version: string;
+  ramps: Record<RampName, number[]>;
   tables: Table[];
   meshes: MeshData[];
   runs: RunData[];
@@ -142,7 +142,9 @@ export class Bytes {
   points({ min, size, steps }: PackedPoints): Float32Array {
     const packed = this.u16(steps);
     const points = new Float32Array(packed.length);
-    for (let i = 0; i < packed.length; ++i) points[i] = min[i % 3] + size[i % 3] * packed[i] / 65535;
+    for (let i = 0; i < packed.length; ++i) {
+      points[i] = min[i % 3] + size[i % 3] * packed[i] / 65535;
+    }
     return points;
   }
 }

@@ -66,7 +66,7 @@ export class DepthShading {
   render(renderer: three.WebGLRenderer, scene: three.Scene, camera: three.PerspectiveCamera,
       width: number, height: number) {
     const ratio = renderer.getPixelRatio();
-    const [w, h] = [Math.max(1, Math.round(width * ratio)), Math.max(1, Math.round(height * ratio))];
+    const [w, h] = [width, height].map((side) => Math.max(1, Math.round(side * ratio)));
     if (this.target.width !== w || this.target.height !== h) this.target.setSize(w, h);
     const { uPixel, uNear, uFar } = this.material.uniforms;
     uPixel.value.set(1.2 * ratio / w, 1.2 * ratio / h);

@@ -46,7 +46,9 @@ export class Flight {
   effort(n: number, effort: Effort): number { return this.efforts[effort][n]; }
   last(effort: Effort): number { return this.efforts[effort][this.count]; }
 
+  /** The first view may be reached at an effort of 0: before it the clock is below 0. */
   viewsAt(clock: Clock): number {
+    if (clock.at < 0) return 0;
     return Math.max(0, lastAtMost(this.efforts[clock.effort], clock.at + 1e-9));
   }
 

@@ -1,6 +1,6 @@
 // The page of `gnbv report`: reads what the program wrote into it, and puts the parts together.
 import { Clock } from "./clock";
-import { runColour } from "./colours";
+import { runColour, setRamps } from "./colours";
 import { Replay, listenToKeys, makeLayerBar, makeTransport } from "./controls";
 import { Bytes, readPage } from "./data";
 import { make } from "./dom";
@@ -8,7 +8,7 @@ import { Flight } from "./flight";
 import * as panels from "./panels";
 import { Plots } from "./plots";
 import { RunScene } from "./run_scene";
-import { Stage } from "./stage";
+import { makeStage } from "./stage";
 
 function setRunColours(count: number) {
   for (let i = 0; i < count; ++i) {
@@ -18,18 +18,20 @@ function setRunColours(count: number) {
 
 function build() {
   const page = readPage();
+  setRamps(page.ramps);
   const flights = page.runs.map((run, i) => new Flight(run, new Bytes(`run-${i}`), i));
   const meshBytes = new Bytes("meshes");
   const scenes = flights.map((flight) =>
     new RunScene(flight, page.meshes[flight.data.mesh], meshBytes));
   const clock = new Clock();
   const replay = new Replay(clock);
-  const stage = new Stage(scenes, clock);
+  const stage = makeStage(scenes, clock);
   const plots = new Plots(clock);
   const strip = new panels.FrameStrip();
   const words = make("p", { class: "readout", "aria-live": "off" });
   const key = make("div", { class: "key" });
-  const shown = new Set(flights.slice(0, 4).map((flight) => flight.index)); // more panes are too small
+  // more panes are too small
+  const shown = new Set(flights.slice(0, 4).map((flight) => flight.index));
   const shownFlights = () => flights.filter((flight) => shown.has(flight.index));
 
   clock.onChange(() => {
@@ -53,7 +55,7 @@ function build() {
   };
   const layerBar = makeLayerBar(stage, has, (by) =>
     panels.showColourKey(key, by, scenes.find((scene) => scene.model.cloud)?.model));
-  stage.element.append(key);
+  if (stage.canDraw) stage.element.append(key);
 
   setRunColours(flights.length);
   const isAlone = flights.length === 1;
@@ -65,15 +67,14 @@ function build() {
         : panels.makeRunTable(page.runs, shown, setShown),
       make("div", { class: isAlone ? "board" : "board several" },
         make("section", { class: "mission", "aria-label": "The mission in 3D" },
-          make("div", { class: "card view" }, layerBar, stage.element,
+          make("div", { class: "card view" }, stage.canDraw ? layerBar : null, stage.element,
             makeTransport(replay, words), words),
           strip.element),
         plots.element),
       page.tables.length > 0 ? make("section", {}, make("h2", {}, "Beside the paper"),
         ...page.tables.map(panels.makeTable)) : "",
       panels.makeConfiguration(page.runs)),
-    make("footer", {}, `gnbv ${page.version}. Points and frames are thinned so that the page stays `
-      + "small; the run directory holds them all."));
+    panels.makeFooter(page));
   setShown();
   replay.moveTo(replay.last());
   listenToKeys(replay);
@@ -82,9 +83,11 @@ function build() {
     stage.setTheme();
     plots.rebuild();
   });
-  // for scripts and tests: gnbv.seek(views), gnbv.pose(run) as x, y, z, yaw of what is drawn
+  // for scripts and tests: gnbv.seek(views), gnbv.pose(run) as x, y, z, yaw of what is drawn,
+  // gnbv.views(run) at the present place of the replay
   Object.assign(window, { gnbv: {
     seek: (views: number) => { replay.setEffort("views"); replay.moveTo(views); },
+    views: (run: number) => flights[run].viewsAt(clock),
     pose: (run: number) => {
       const { position: p, quaternion: q } = scenes[run].vehicle;
       return [p.x, p.y, p.z, 2 * Math.atan2(q.z, q.w)];

@@ -11,9 +11,10 @@ const srgb = (c: [number, number, number]) =>
   new three.Color().setRGB(c[0] / 255, c[1] / 255, c[2] / 255, three.SRGBColorSpace);
 
 /** The colour of the view that is `t` of the way from the first to the last. */
-export const orderColour = (t: number) => srgb(ramp("order", isDark() ? 0.12 + 0.88 * t : 0.85 * t));
+export const orderColour = (t: number) => srgb(ramp("path", t));
 
-function makeTube(positions: Float32Array, colours: Float32Array, width_px: number, opacity: number) {
+function makeTube(positions: Float32Array, colours: Float32Array, width_px: number,
+    opacity: number) {
   const geometry = new LineSegmentsGeometry();
   if (positions.length > 0) geometry.setPositions(positions).setColors(colours);
   const tube = new LineSegments2(geometry, new LineMaterial({ linewidth: width_px,

@@ -1,7 +1,7 @@
 // Everything that is text, tables and pictures.
-import { rampGradient, type RampName } from "./colours";
+import { rampGradient } from "./colours";
 import type { Clock } from "./clock";
-import type { PageData, RunData, Table } from "./data";
+import type { PageData, RampName, RunData, Table } from "./data";
 import { make, minutes, number } from "./dom";
 import type { Flight } from "./flight";
 import type { Model, Colouring } from "./surfaces";
@@ -137,7 +137,8 @@ export function readout(flight: Flight, clock: Clock): string {
   const coverage = flight.data.figures?.curve.coverage[n];
   if (coverage) parts.push(`coverage ${number(100 * coverage[0], 1)} %`);
   if (v.candidates[n - 1] > 0) {
-    parts.push(`${v.sampler[n - 1].toUpperCase()}, ${v.valid[n - 1]} valid of ${v.candidates[n - 1]} candidates`);
+    parts.push(`${v.sampler[n - 1].toUpperCase()}, ${v.valid[n - 1]} valid of `
+      + `${v.candidates[n - 1]} candidates`);
   }
   return parts.join("  ·  ");
 }
@@ -175,23 +176,53 @@ function nearestView(flight: Flight, view: number): number {
   return best;
 }
 
+function densest({ densities }: Model): string {
+  return densities
+    ? `${number(densities.most)} points a voxel of ${number(densities.size, 2)} m` : "no voxels";
+}
+
 /** What the colours of points and voxels mean. */
 export function showColourKey(key: HTMLElement, by: Colouring, model: Model | undefined) {
   key.replaceChildren();
   if (!model || by === "real") return;
   const [low, high, name]: [string, string, RampName] =
-    by === "height" ? [`${number(model.heights[0], 1)} m`, `${number(model.heights[1], 1)} m`, "height"]
-    : by === "density" ? ["0", `${number(model.densities?.most ?? 0)} points a voxel`, "density"]
-    : ["profile", "last view", "order"];
+    by === "height"
+      ? [`${number(model.heights[0], 1)} m`, `${number(model.heights[1], 1)} m`, "amount"]
+      : by === "density" ? ["0", densest(model), "amount"]
+      : ["profile", "last view", "path"];
   const bar = make("span", { class: "bar" });
   bar.style.background = rampGradient(name);
   key.append(low, bar, high);
 }
 
+/** What of the run directory the page leaves out. */
+function thinning(run: RunData, page: PageData): string {
+  const parts: string[] = [];
+  if (run.cloud && run.cloud.cell_m > 0) {
+    const { points, all_points, cell_m } = run.cloud;
+    parts.push(`${number(points.steps[1] / 3)} of ${number(all_points)} points, one in each cube `
+      + `of ${number(100 * cell_m, 1)} cm`);
+  }
+  const mesh = page.meshes[run.mesh];
+  const faces = mesh?.parts.reduce((sum, part) => sum + part.corners[1] / 3, 0) ?? 0;
+  if (mesh && faces < mesh.all_faces) {
+    parts.push(`${number(faces)} of ${number(mesh.all_faces)} faces of the structure`);
+  }
+  if (parts.length === 0) return "";
+  return `${page.runs.length > 1 ? `${run.label}: ` : "Shown are "}${parts.join("; ")}. `;
+}
+
+export function makeFooter(page: PageData): HTMLElement {
+  return make("footer", {}, `gnbv ${page.version}. `,
+    ...page.runs.map((run) => thinning(run, page)), "Frames are shrunk so that the page stays "
+    + "small; the run directory holds everything.");
+}
+
 export function makeHeader(page: PageData): HTMLElement {
   const [run] = page.runs;
-  const detail = page.runs.length > 1 ? "" : [`structure ${run.structure}`, `seed ${run.seed}`, `preset ${run.preset}`,
-      run.figures ? `ended by ${run.figures.termination.replaceAll("_", " ")}` : "not finished"]
-      .join("  ·  ");
-  return make("header", {}, make("h1", {}, page.title.replaceAll("_", " ")), make("p", {}, detail));
+  const detail = page.runs.length > 1 ? "" : [`structure ${run.structure}`, `seed ${run.seed}`,
+    `preset ${run.preset}`,
+    run.figures ? `ended by ${run.figures.termination.replaceAll("_", " ")}` : "not finished"]
+    .join("  ·  ");
+  return make("header", {}, make("h1", {}, page.title), make("p", {}, detail));
 }

@@ -16,7 +16,6 @@ export interface Ring {
   x: number;
   y: number;
   colour: string;
-  name: string;
 }
 
 export interface PlotContent {
@@ -57,7 +56,7 @@ const ringOf = (flight: Flight, effort: Effort, y: number | undefined): Ring[] =
   const paper = flight.data.paper;
   const x = paper?.[effort];
   if (!paper || x === undefined || y === undefined) return [];
-  return [{ x, y, colour: runColour(flight.index), name: paper.label }];
+  return [{ x, y, colour: runColour(flight.index) }];
 };
 
 export function coverage(flights: Flight[], effort: Effort, { size }: PlotChoices): PlotContent {

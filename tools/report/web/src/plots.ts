@@ -25,7 +25,8 @@ const kKinds: PlotKind[] = [
     content: (f, clock) => specs.entropy(f, clock.effort) },
   { title: "Density", unit: () => "points a voxel", decimals: 1,
     content: (f, clock) => specs.density(f, clock.effort) },
-  { title: "Utility of the chosen views", unit: (f) => (specs.isShare(f) ? "share of each run's largest" : ""), decimals: 3, control: "term",
+  { title: "Utility of the chosen views", decimals: 3, control: "term",
+    unit: (f) => (specs.isShare(f) ? "share of each run's largest" : ""),
     content: (f, clock, choices) => specs.terms(f, clock.effort, choices) },
 ];
 
@@ -172,7 +173,7 @@ export class Plots {
 
   private drawNow(plot: uPlot) {
     const { ctx, bbox } = plot;
-    const x = Math.round(plot.valToPos(this.clock.at, "x", true));
+    const x = Math.round(plot.valToPos(Math.max(0, this.clock.at), "x", true));
     ctx.fillStyle = nowLine();
     ctx.fillRect(x, bbox.top, Math.max(1, Math.round(1.5 * devicePixelRatio)), bbox.height);
   }
@@ -195,12 +196,15 @@ export class Plots {
   }
 }
 
-const text2 = (v: number | null, unit: string) =>
-  (v === null || v === undefined ? "" : `${v.toLocaleString("en-US", { maximumFractionDigits: 1 })} ${unit}`);
+const text2 = (v: number | null, unit: string) => (v === null || v === undefined ? ""
+  : `${v.toLocaleString("en-US", { maximumFractionDigits: 1 })} ${unit}`);
 
 /** Of a run at an effort at which another one has a view: its latest value. */
 function lastValue(values: ArrayLike<number | null | undefined>, at: number | null): number | null {
-  for (let i = at ?? -1; i >= 0; --i) if (values[i] !== null && values[i] !== undefined) return values[i]!;
+  for (let i = at ?? -1; i >= 0; --i) {
+    const value = values[i];
+    if (value !== null && value !== undefined) return value;
+  }
   return null;
 }
 

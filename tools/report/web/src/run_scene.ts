@@ -19,15 +19,18 @@ export interface Layers {
   vehicle: boolean;
 }
 
-/** Lines every 5 m on the ground. */
+/** Lines on the ground, every 1, 2, 5, 10 ... m so that there are 8 to 20 each way. */
 function makeGround(min: number[], max: number[]): three.GridHelper {
-  const size = 10 * Math.ceil(Math.max(max[0] - min[0], max[1] - min[1]) / 10 + 1);
-  const grid = new three.GridHelper(size, size / 5, hairline(), hairline());
+  const extent = Math.max(max[0] - min[0], max[1] - min[1]);
+  const decade = 10 ** Math.floor(Math.log10(extent / 8));
+  const step = decade * (extent / 8 >= 5 * decade ? 5 : extent / 8 >= 2 * decade ? 2 : 1);
+  const count = 2 * Math.ceil(extent / step / 2 + 1);
+  const grid = new three.GridHelper(count * step, count, hairline(), hairline());
   (grid.material as three.Material).transparent = true;
   (grid.material as three.Material).opacity = 0.95;
   (grid.material as three.Material).depthWrite = false;
   grid.rotation.x = Math.PI / 2; // three's grids lie in x, z
-  grid.position.set((min[0] + max[0]) / 2, (min[1] + max[1]) / 2, Math.min(0, min[2]));
+  grid.position.set((min[0] + max[0]) / 2, (min[1] + max[1]) / 2, 0);
   return grid;
 }
 
@@ -54,13 +57,14 @@ export class RunScene {
     sun.position.set(-0.5, -0.8, 1.4);
     const sky = new three.HemisphereLight(0xffffff, 0x8d939c, 1.5);
     for (const light of [sun, sky]) light.layers.enable(kMarkLayer);
-    const ground = makeGround(data.workspace.min, data.workspace.max);
-    this.scene.add(sun, sky, ground);
+    this.scene.add(sun, sky);
+    const marks: three.Object3D[] = [this.path.object, this.frusta.object, this.vehicle];
+    if (data.has_ground) marks.unshift(makeGround(data.workspace.min, data.workspace.max));
     for (const part of [this.structure, this.model.cloud, this.model.voxels]) {
       if (part) this.scene.add(part);
     }
-    this.scene.add(this.path.object, this.frusta.object, this.vehicle);
-    for (const mark of [ground, this.path.object, this.frusta.object, this.vehicle]) {
+    this.scene.add(...marks);
+    for (const mark of marks) {
       mark.traverse((part) => part.layers.set(kMarkLayer));
     }
   }
@@ -92,7 +96,14 @@ export class RunScene {
     this.sight.visible = n > 0;
     // from afar larger than life, or it would be a speck
     const away = camera.position.distanceTo(pose.p);
-    this.body.scale.setScalar(Math.min(6, Math.max(1, 0.028 * away / this.flight.data.vehicle.radius_m)));
+    this.body.scale.setScalar(Math.max(1, 0.028 * away / this.flight.data.vehicle.radius_m));
+  }
+
+  /** Everything that can show: structure, points, and where the vehicle may fly. */
+  bounds(): three.Box3 {
+    const { min, max } = this.flight.data.workspace;
+    return new three.Box3().setFromArray(this.outline())
+      .expandByPoint(new three.Vector3(...min)).expandByPoint(new three.Vector3(...max));
   }
 
   /** Points (x y z each) that a camera should show. */

@@ -5,20 +5,46 @@ import { isDark } from "./colours";
 import type { Clock } from "./clock";
 import { make } from "./dom";
 import { DepthShading } from "./depth_shading";
+import type { View3d } from "./controls";
 import type { Layers, RunScene } from "./run_scene";
 import type { Colouring } from "./surfaces";
 
-export class Stage {
+/** In the place of the view, where the browser cannot draw it. */
+class NoStage implements View3d {
+  readonly canDraw = false;
+  readonly element = make("div", { class: "stage" }, make("p", { class: "nothing" },
+    "3D needs WebGL, which this browser or its settings do not offer."));
+  setShown() {}
+  setLayers() {}
+  colour() {}
+  setFollows() {}
+  setTheme() {}
+  frame() {}
+}
+
+export function makeStage(scenes: RunScene[], clock: Clock): View3d {
+  try {
+    return new Stage(scenes, clock);
+  } catch (error) {
+    console.warn(error);
+    return new NoStage();
+  }
+}
+
+class Stage implements View3d {
+  readonly canDraw = true;
   readonly element: HTMLElement;
   private readonly canvas = make("canvas", { tabindex: 0, role: "img", "aria-label":
-    "3D view of the mission. Drag to turn, wheel to zoom, right drag to move, arrow keys to replay." });
+    "3D view of the mission. Drag to turn, wheel to zoom, right drag to move, "
+    + "arrow keys to replay." });
   private readonly labels = make("div", { class: "panes" });
   private readonly renderer: three.WebGLRenderer;
-  private readonly camera = new three.PerspectiveCamera(38, 1, 0.2, 500);
+  private readonly camera = new three.PerspectiveCamera(38, 1, 0.1, 1000);
   private readonly controls: OrbitControls;
   private readonly shading = new DepthShading();
   private shown: RunScene[];
   private isStale = true;
+  private isFramed = false;
   private follows = false;
 
   constructor(private readonly scenes: RunScene[], private readonly clock: Clock) {
@@ -29,7 +55,6 @@ export class Stage {
     this.renderer.autoClear = false;
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, this.canvas);
-    this.controls.maxDistance = 300;
     this.controls.maxPolarAngle = 0.55 * Math.PI;
     this.controls.addEventListener("change", () => this.invalidate());
     this.canvas.addEventListener("dblclick", () => this.frame());
@@ -49,7 +74,8 @@ export class Stage {
     this.shown = scenes;
     this.labels.replaceChildren(...scenes.map((scene) => make("div", { class: "pane" },
       this.scenes.length > 1
-        ? make("span", { class: `chip run-${scene.flight.index}` }, scene.flight.data.label) : null)));
+        ? make("span", { class: `chip run-${scene.flight.index}` }, scene.flight.data.label)
+        : null)));
     this.resize();
   }
 
@@ -100,10 +126,23 @@ export class Stage {
           at.dot(back) + Math.abs(at.dot(right)) / tan * height / width);
       }
     }
+    this.isFramed = true;
+    this.setDepths(away);
     this.camera.position.copy(centre).addScaledVector(back, away);
     this.controls.target.copy(centre);
     this.controls.update();
     this.invalidate();
+  }
+
+  /** So that nothing is cut off, as far as anybody may go from a picture taken at `away`. */
+  private setDepths(away: number) {
+    const all = new three.Box3();
+    for (const scene of this.shown) all.union(scene.bounds());
+    const extent = all.isEmpty() ? 1 : all.getSize(new three.Vector3()).length();
+    this.controls.maxDistance = 4 * Math.max(away, extent);
+    this.camera.far = this.controls.maxDistance + 2 * extent;
+    this.camera.near = this.camera.far / 2500;
+    this.camera.updateProjectionMatrix();
   }
 
   private isColumn() { return this.element.clientWidth < 560; }
@@ -117,14 +156,13 @@ export class Stage {
   private resize() {
     const { clientWidth, clientHeight } = this.element;
     if (clientWidth === 0 || clientHeight === 0) return;
-    const isFirst = this.controls.target.lengthSq() === 0;
     this.labels.classList.toggle("column", this.isColumn());
     this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
     this.renderer.setSize(clientWidth, clientHeight, false);
     const { width, height } = this.paneSize();
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
-    if (isFirst) this.frame();
+    if (!this.isFramed) this.frame();
     this.isStale = true;
     this.draw(); // now, or a resized canvas would show one empty picture
   }

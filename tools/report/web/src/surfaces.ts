@@ -1,8 +1,8 @@
 // What has a surface: the structure, the points of the cloud, the voxels.
 import * as three from "three";
-import { ramp, rampTable, type RampName } from "./colours";
+import { ramp, rampTable } from "./colours";
 import { kMarkLayer, kSurfaceLayer } from "./depth_shading";
-import type { Bytes, MeshData, RunData } from "./data";
+import type { Bytes, MeshData, RampName, RunData } from "./data";
 
 /** Colours by what the point is like; `real` is what the cameras saw. */
 export type Colouring = "height" | "density" | "iteration" | "real";
@@ -41,10 +41,6 @@ function firstStates(after: Uint32Array, count: number): Uint16Array {
   return first;
 }
 
-/** Linear light from sRGB bytes, as vertex colours have to be. */
-const kLinear = Uint8Array.from({ length: 256 }, (_, v) =>
-  Math.round(255 * new three.Color().setRGB(v / 255, 0, 0, three.SRGBColorSpace).r));
-
 /** Counts of the cloud's points, with a ceiling that leaves out the densest few. */
 class Densities {
   readonly most: number;
@@ -80,16 +76,20 @@ void main() {
   gl_Position = projectionMatrix * p;
   gl_PointSize = clamp(uSize * uPxPerTan / -p.z, 1.6, 14.0);
   bool isNew = gl_VertexID >= uNewFrom;
-  vColour = isNew ? vec3(1.0, 0.16, 0.02) : rgb;
+  vColour = isNew ? vec3(1.0, 0.44, 0.15) : rgb;
   if (isNew) gl_PointSize += 1.0;
 }`;
+// Colours come as sRGB bytes: eight bits of linear light would crush the dark ones.
 const kPointFragment = `
 varying vec3 vColour;
 void main() {
   vec2 d = gl_PointCoord - 0.5;
   if (dot(d, d) > 0.25) discard;
-  gl_FragColor = vec4(vColour, 1.0);
+  gl_FragColor = sRGBTransferEOTF(vec4(vColour, 1.0));
 }`;
+
+/** What of a ramp a point takes, from 0 to 1. */
+type Share = (height: number, density: number, state: number) => number;
 
 /** Points and voxels of a run; both are there after as many views as show() says. */
 export class Model {
@@ -97,13 +97,11 @@ export class Model {
   readonly voxels: three.InstancedMesh | null = null;
   readonly heights: [number, number] = [0, 1];
   readonly densities: Densities | null = null;
-  readonly hasReal: boolean;
   private readonly points: Float32Array = new Float32Array();
   private readonly cloudAfter: Uint32Array = new Uint32Array();
   private readonly voxelsAfter: Uint32Array = new Uint32Array();
 
   constructor(readonly data: RunData, private readonly bytes: Bytes) {
-    this.hasReal = !!data.cloud?.colour;
     if (data.voxels) {
       const { index, count, after, size_m } = data.voxels;
       this.densities = new Densities(bytes.i16(index), bytes.u32(count), size_m);
@@ -144,14 +142,14 @@ export class Model {
     if (this.voxels) this.voxels.count = this.voxelsAfter[n];
   }
 
-  /** The ramp of a colouring, and what of it a point with these properties takes, from 0 to 1. */
-  private ramp(by: Colouring): [RampName, (height: number, density: number, state: number) => number] {
+  /** Of a colouring. */
+  private ramp(by: Colouring): [RampName, Share] {
     const [low, high] = this.heights;
     const states = Math.max(1, this.data.views.x.length);
     const most = this.densities?.most ?? 1;
-    if (by === "iteration") return ["order", (_, __, state) => state / states];
-    if (by === "density") return ["density", (_, density) => density / most];
-    return ["height", (height) => (height - low) / (high - low)];
+    if (by === "iteration") return ["path", (_, __, state) => state / states];
+    if (by === "density") return ["amount", (_, density) => density / most];
+    return ["amount", (height) => (height - low) / (high - low)];
   }
 
   private cloudColours(by: Colouring): three.BufferAttribute {
@@ -160,10 +158,10 @@ export class Model {
     const rgb = new Uint8Array(3 * count);
     if (by === "real" && this.data.cloud?.colour) {
       const seen = this.bytes.u8(this.data.cloud.colour);
-      for (let i = 0; i < rgb.length; ++i) rgb[i] = kLinear[seen[i]];
+      rgb.set(seen);
     } else {
       const [name, share] = this.ramp(by);
-      const table = rampTable(name).map((value) => kLinear[value]);
+      const table = rampTable(name);
       const first = firstStates(this.cloudAfter, count);
       for (let i = 0; i < count; ++i) {
         const z = points[3 * i + 2];
@@ -183,7 +181,8 @@ export class Model {
     const material = new three.ShaderMaterial({
       vertexShader: kPointVertex,
       fragmentShader: kPointFragment,
-      uniforms: { uSize: { value: 1.5 * spacing }, uPxPerTan: { value: 1 }, uNewFrom: { value: 0 } },
+      uniforms: { uSize: { value: 1.5 * spacing }, uPxPerTan: { value: 1 },
+        uNewFrom: { value: 0 } },
     });
     const points = new three.Points(geometry, material);
     points.frustumCulled = false;

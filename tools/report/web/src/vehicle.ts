@@ -7,7 +7,8 @@ export function makeVehicle(data: RunData["vehicle"]): three.Group {
   const dark = new three.MeshLambertMaterial({ color: 0x22272e });
   const front = new three.MeshLambertMaterial({ color: 0xff6a1a, emissive: 0x6b2600 });
   const disc = new three.MeshBasicMaterial(
-    { color: 0x9aa7b8, transparent: true, opacity: 0.45, depthWrite: false, side: three.DoubleSide });
+    { color: 0x9aa7b8, transparent: true, opacity: 0.45, depthWrite: false,
+      side: three.DoubleSide });
   const r = data.radius_m;
   const add = (geometry: three.BufferGeometry, material: three.Material, x = 0, y = 0, z = 0) => {
     const mesh = new three.Mesh(geometry, material);

@@ -1,0 +1,187 @@
+// Laws of what reports are packed of: what is packed is restored, what is thinned keeps its bounds
+// and its budget, and no text is ever markup.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "assets/catalog.hpp"
+#include "sim/core/error.hpp"
+#include "sim/core/rng.hpp"
+#include "tests/support/made_frames.hpp"
+#include "tests/support/made_run.hpp"
+#include "tests/support/temp_folder.hpp"
+#include "tools/report/byte_pack.hpp"
+#include "tools/report/jpeg.hpp"
+#include "tools/report/page_text.hpp"
+#include "tools/report/run_json.hpp"
+#include "tools/report/thinning.hpp"
+
+namespace gnbv {
+namespace {
+
+/// Points on a wavy sheet of 10 m by 10 m.
+std::vector<Vec3f> sheet(std::size_t count) {
+  std::vector<Vec3f> points;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto at = [&](std::uint64_t axis) {
+      return static_cast<float>(10.0 * uniform01({7, Stream::bench, i, axis}) - 5.0);
+    };
+    points.emplace_back(at(0), at(1), std::sin(at(0)) - 3.0F);
+  }
+  return points;
+}
+
+std::vector<std::uint8_t> bytes_of(std::string_view text) { return {text.begin(), text.end()}; }
+
+// RFC 4648, section 10
+TEST(Base64, IsThatOfTheStandard) {
+  EXPECT_EQ(base64(bytes_of("")), "");
+  EXPECT_EQ(base64(bytes_of("f")), "Zg==");
+  EXPECT_EQ(base64(bytes_of("fo")), "Zm8=");
+  EXPECT_EQ(base64(bytes_of("foo")), "Zm9v");
+  EXPECT_EQ(base64(bytes_of("foobar")), "Zm9vYmFy");
+  EXPECT_EQ(base64(std::vector<std::uint8_t>{0xff, 0xfe, 0xfb}), "//77");
+}
+
+TEST(BytePack, EveryArrayBeginsWhereABrowserMayReadIt) {
+  BytePack pack;
+  const std::vector<std::uint8_t> odd = {1, 2, 3};
+  const std::vector<std::uint32_t> words = {0x01020304, 5};
+  EXPECT_EQ(pack.add(odd).at, 0U);
+  const ByteSlice slice = pack.add(words);
+  EXPECT_EQ(slice.at, 4U);
+  EXPECT_EQ(slice.count, 2U);
+  EXPECT_EQ(pack.bytes()[4], 4U);  // little-endian
+  EXPECT_EQ(pack.add(std::vector<std::uint8_t>{}).count, 0U);
+}
+
+TEST(QuantisedPoints, AreRestoredWithinHalfAStep) {
+  const std::vector<Vec3f> points = sheet(2000);
+  const QuantisedPoints q = quantised(points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      // half a step, and the rounding of float32 at 10 m
+      EXPECT_NEAR(restored_point(q, i)[axis], points[i][axis], q.size_m[axis] / 131070.0 + 2e-6);
+    }
+  }
+}
+
+TEST(QuantisedPoints, OneHeightIsExact) {
+  const std::vector<Vec3f> flat = {{0, 1, 2.5F}, {4, 1, 2.5F}};
+  const QuantisedPoints q = quantised(flat);
+  EXPECT_EQ(restored_point(q, 0), flat[0]);
+  EXPECT_EQ(restored_point(q, 1), flat[1]);
+  EXPECT_TRUE(quantised({}).steps.empty());
+}
+
+TEST(Thinning, KeepsTheBudgetAndLeavesNoHole) {
+  const std::vector<Vec3f> points = sheet(20000);
+  const ThinnedPoints thin = thinned(points, 1500, 0.02);
+  ASSERT_LE(thin.kept.size(), 1500U);
+  EXPECT_GT(thin.kept.size(), 500U);  // a lattice 1.25 times as coarse keeps 1 / 1.56 of a sheet
+  EXPECT_TRUE(std::is_sorted(thin.kept.begin(), thin.kept.end()));
+  // whatever went lies in the cell of one that stayed
+  const double diagonal_m = thin.cell_m * std::sqrt(3.0);
+  for (std::size_t i = 0; i < points.size(); i += 97) {
+    const bool is_covered = std::any_of(thin.kept.begin(), thin.kept.end(), [&](std::size_t k) {
+      return (points[k] - points[i]).norm() <= diagonal_m;
+    });
+    EXPECT_TRUE(is_covered) << i;
+  }
+}
+
+TEST(Thinning, TheFirstPointOfACellStays) {
+  const std::vector<Vec3f> points = {
+      {0.15F, 0, 0}, {0.05F, 0, 0}, {0.11F, 0, 0}, {-0.05F, 0, 0}, {0.01F, 0.01F, 0.01F}};
+  EXPECT_EQ(first_points(points, 0.1), (std::vector<std::size_t>{0, 1, 3}));
+  EXPECT_EQ(thinned(points, 5, 0.1).kept.size(), 5U);
+  EXPECT_EQ(thinned(points, 5, 0.1).cell_m, 0.0);
+}
+
+TEST(Thinning, AMeshKeepsItsPlaceAndItsMaterials) {
+  const TriangleMesh whole = make_builtin_structure("aircraft");
+  const TriangleMesh thin = with_fewer_faces(whole, 6000);
+  ASSERT_LE(thin.faces.size(), 6000U);
+  EXPECT_GT(thin.faces.size(), 2000U);
+  EXPECT_EQ(thin.faces.size(), thin.face_material.size());
+  EXPECT_TRUE(bounds_m(whole).contains(bounds_m(thin)));
+  EXPECT_NEAR(bounds_m(thin).diagonal().norm(), bounds_m(whole).diagonal().norm(), 0.5);
+  for (const auto& face : thin.faces) {
+    EXPECT_EQ(std::set<std::uint32_t>(face.begin(), face.end()).size(), 3U);
+    for (const std::uint32_t corner : face) ASSERT_LT(corner, thin.vertices_m.size());
+  }
+  EXPECT_EQ(with_fewer_faces(whole, 1'000'000).faces.size(), whole.faces.size());
+}
+
+TEST(Thumbnails, APixelIsTheMeanOfTheSquareItReplaces) {
+  const Image image{4, 2, {0,  0, 0, 10, 0, 0, 9, 9, 9, 9, 9, 9,  //
+                           20, 0, 0, 30, 0, 0, 9, 9, 9, 9, 9, 9}};
+  const Image half = shrunk(image, 2);
+  EXPECT_EQ(half.width_px, 2);
+  EXPECT_EQ(half.height_px, 1);
+  EXPECT_EQ(half.at(0, 0), (std::array<std::uint8_t, 3>{15, 0, 0}));
+  EXPECT_EQ(half.at(1, 0), (std::array<std::uint8_t, 3>{9, 9, 9}));
+  const std::vector<std::uint8_t> jpeg = jpeg_bytes(half, 80);
+  ASSERT_GT(jpeg.size(), 4U);
+  EXPECT_EQ(jpeg[0] << 8U | jpeg[1], 0xffd8);  // start and end of image, ITU T.81 B.1.1.3
+  EXPECT_EQ(jpeg[jpeg.size() - 2] << 8U | jpeg.back(), 0xffd9);
+}
+
+TEST(PageText, NoTextIsMarkup) {
+  EXPECT_EQ(html_escaped("<a href='x'>\"&\"</a>"),
+            "&lt;a href=&#39;x&#39;&gt;&quot;&amp;&quot;&lt;/a&gt;");
+  const std::string hostile = "</script><!--<script>&";
+  const std::string json = script_json(nlohmann::json(hostile).dump());
+  EXPECT_EQ(json.find_first_of("<>&"), std::string::npos) << json;
+  EXPECT_EQ(nlohmann::json::parse(json).get<std::string>(), hostile);
+}
+
+TEST(PageText, ValuesAreNotSearchedForPlaces) {
+  EXPECT_EQ(filled("a{{X}}b{{Y}}c", {{"X", "{{Y}}"}, {"Y", "2"}}), "a{{Y}}b2c");
+  EXPECT_THROW(filled("{{X}}", {}), BrokenInvariant);
+  EXPECT_THROW(filled("", {{"X", ""}}), BrokenInvariant);
+}
+
+// of the empty text, as every browser computes it
+TEST(PageText, ThePolicyNamesAScriptByItsHash) {
+  EXPECT_EQ(policy_hash(""), "'sha256-47DEQpj8HBSa+/TImW+5JCeuQeRkm5NMpJWZG3hSuFU='");
+}
+
+TEST(PackedRun, StaysWithinItsBudget) {
+  TempFolder temp;
+  write_made_run(temp.path());
+  write_made_frames(temp.path());
+  const std::vector<Vec3f> points = sheet(40'000);
+  write_cloud_ply(points, temp.path() / "cloud.ply");
+  RunRecord record = read_run(temp.path());
+  record.views.back().cloud_points = points.size();
+  for (int i = 0; i < 20'000; ++i) record.path.push_back(made_sample(5.0 + i, {0, 0, 0.001 * i}));
+  std::size_t before = 0;
+  for (const std::size_t bytes : {20'000U, 100'000U, 300'000U}) {
+    const PackedRun run = pack_run(record, {.bytes = bytes, .points = 100'000}, 1, [](double) {});
+    EXPECT_LE(run.bytes.bytes().size(), bytes);
+    EXPECT_GT(run.bytes.bytes().size(), std::max(before, bytes / 4));  // and uses it
+    before = run.bytes.bytes().size();
+    EXPECT_TRUE(run.cloud && run.voxels && run.path && run.missing.empty());
+    // thinned or not, a path begins and ends where it did
+    const auto* time_s =
+        reinterpret_cast<const float*>(run.bytes.bytes().data() + run.path->time_s.at);
+    EXPECT_EQ(time_s[0], 0.0F);
+    EXPECT_EQ(time_s[run.path->time_s.count - 1], 20'004.0F);
+  }
+}
+
+TEST(Report, StructuresStayWithinTheirBudget) {
+  const TriangleMesh whole = make_builtin_structure("aircraft");
+  for (const std::size_t bytes : {20'000U, 200'000U}) {
+    BytePack pack;
+    mesh_json(whole, bytes, pack);
+    EXPECT_LE(pack.bytes().size(), bytes);
+    EXPECT_GT(pack.bytes().size(), bytes / 4);
+  }
+}
+
+}  // namespace
+}  // namespace gnbv
