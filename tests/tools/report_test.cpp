@@ -141,6 +141,16 @@ TEST(Report, AStructureThatWasMovedCostsTheStructureAlone) {
   EXPECT_EQ(data["runs"][0]["cloud"]["points"]["steps"][1], 18);
 }
 
+TEST(Report, TheTitleIsTheUsersOrAHeadingOfTheRuns) {
+  TempFolder temp;
+  write_made_run(temp.path());
+  RunRecord record = read_run(temp.path());
+  record.scenario.name = "power_plant";
+  EXPECT_EQ(data_of(report_of({record}))["title"], "Power plant, proposed");
+  const Report titled = make_report({record}, {.title = "my_run"}, [](double) {});
+  EXPECT_EQ(data_of(titled)["title"], "my_run");
+}
+
 TEST(Report, HasTheColoursOfThePictures) {
   TempFolder temp;
   write_made_run(temp.path());

@@ -114,20 +114,24 @@ Structures pack_structures(const std::vector<RunRecord>& records) {
   return out;
 }
 
-std::string with_blanks(std::string name) {
+/// Names of scenarios as a heading: "Power plant" of "power_plant".
+std::string as_heading(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
+  if (!name.empty() && name[0] >= 'a' && name[0] <= 'z') {
+    name[0] = static_cast<char>(name[0] - 'a' + 'A');
+  }
   return name;
 }
 
 std::string title_of(const std::vector<RunRecord>& records) {
-  if (records.size() == 1) return with_blanks(run_title(records[0]));
+  if (records.size() == 1) return as_heading(run_title(records[0]));
   std::vector<std::string> scenarios;
   for (const RunRecord& r : records) {
     if (std::find(scenarios.begin(), scenarios.end(), r.scenario.name) == scenarios.end()) {
       scenarios.push_back(r.scenario.name);
     }
   }
-  return with_blanks(fmt::format("{}: {} runs", fmt::join(scenarios, ", "), records.size()));
+  return as_heading(fmt::format("{}: {} runs", fmt::join(scenarios, ", "), records.size()));
 }
 
 /// 256 sRGB colours, three bytes each: those of the pictures of the same run.

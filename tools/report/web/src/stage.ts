@@ -12,7 +12,7 @@ import type { Colouring } from "./surfaces";
 /** In the place of the view, where the browser cannot draw it. */
 class NoStage implements View3d {
   readonly canDraw = false;
-  readonly element = make("div", { class: "stage" }, make("p", { class: "nothing" },
+  readonly element = make("div", { class: "stage none" }, make("p", { class: "nothing" },
     "3D needs WebGL, which this browser or its settings do not offer."));
   setShown() {}
   setLayers() {}
