@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <set>
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
@@ -10,6 +9,7 @@
 #include "tools/plots/coverage_plot.hpp"
 #include "tools/plots/gnuplot.hpp"
 #include "tools/plots/run_plots.hpp"
+#include "tools/record/run_names.hpp"
 
 namespace gnbv {
 namespace {
@@ -36,7 +36,7 @@ std::vector<fs::path> runs_in(const fs::path& folder) {
   std::vector<fs::path> runs;
   const fs::path cells = folder / "cells";
   for (const auto& entry : fs::directory_iterator(fs::is_directory(cells) ? cells : folder)) {
-    if (fs::exists(entry.path() / "summary.json")) runs.push_back(entry.path());
+    if (fs::exists(entry.path() / "scenario.yaml")) runs.push_back(entry.path());
   }
   std::sort(runs.begin(), runs.end());
   return runs.empty() ? std::vector{folder} : runs;
@@ -45,11 +45,22 @@ std::vector<fs::path> runs_in(const fs::path& folder) {
 std::vector<RunRecord> read_runs(const PlotOptions& options) {
   std::vector<RunRecord> records;
   for (const fs::path& given : options.runs) {
-    for (const fs::path& run : runs_in(given)) {
-      records.push_back(read_run(run));
+    const std::vector<fs::path> runs = runs_in(given);
+    for (const fs::path& run : runs) {
+      try {
+        records.push_back(read_run(run));
+      } catch (const BadInput& error) {
+        if (run == given) throw;  // one damaged run of a folder does not spoil the others
+        fmt::print(stderr, "gnbv: {}: left out\n", error.what());
+        continue;
+      }
       for (const std::string& missing : records.back().missing) {
         fmt::print(stderr, "gnbv: {}\n", missing);
       }
+    }
+    if (records.empty()) {
+      throw BadInput(
+          fmt::format("{}: none of its {} runs can be read", given.string(), runs.size()));
     }
   }
   return records;
@@ -59,31 +70,30 @@ bool wants(const PlotOptions& options, const std::string& plot) {
   return std::find(options.plots.begin(), options.plots.end(), plot) != options.plots.end();
 }
 
-/// "NAME", or "NAME-RUN" where there are several runs; a number follows where two are named alike.
-std::string file_name(const std::string& plot, const RunRecord& record, std::size_t run_count,
-                      std::set<std::string>& taken) {
-  std::string name = plot;
-  if (run_count > 1)
-    name += "-" + fs::absolute(record.folder / ".").parent_path().filename().string();
-  std::string free = name;
-  for (int i = 2; !taken.insert(free).second; ++i) free = fmt::format("{}-{}", name, i);
-  return free;
+/// What follows the names of plots: nothing for a single run, else "-RUN".
+std::vector<std::string> name_ends(const std::vector<RunRecord>& records) {
+  if (records.size() == 1) return {""};
+  std::vector<fs::path> folders;
+  for (const RunRecord& record : records) folders.push_back(record.folder);
+  std::vector<std::string> ends = run_names(folders);
+  for (std::string& end : ends) end.insert(0, "-");
+  return ends;
 }
 
 std::vector<Plot> plots_of_runs(const PlotOptions& options, const std::vector<RunRecord>& records) {
   std::vector<Plot> plots;
-  std::set<std::string> taken;
-  const auto add = [&](const char* what, const RunRecord& record, std::optional<Plot> plot) {
+  const std::vector<std::string> ends = name_ends(records);
+  const auto add = [&](const char* what, std::size_t run, std::optional<Plot> plot) {
     if (plot) {
-      plot->name = file_name(what, record, records.size(), taken);
+      plot->name = what + ends[run];
       plots.push_back(std::move(*plot));
     } else {
-      fmt::print(stderr, "gnbv: {}: no views to plot as {}\n", record.folder.string(), what);
+      fmt::print(stderr, "gnbv: {}: no views to plot as {}\n", records[run].folder.string(), what);
     }
   };
-  for (const RunRecord& record : records) {
-    if (wants(options, "density")) add("density", record, density_entropy_plot(record));
-    if (wants(options, "terms")) add("terms", record, terms_plot(record));
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    if (wants(options, "density")) add("density", i, density_entropy_plot(records[i]));
+    if (wants(options, "terms")) add("terms", i, terms_plot(records[i]));
   }
   return plots;
 }

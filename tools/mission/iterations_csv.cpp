@@ -8,6 +8,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/shell_word.hpp"
 
 namespace gnbv {
 namespace {
@@ -152,8 +153,8 @@ std::vector<ViewRecord> read_view_records(const std::filesystem::path& csv) {
     } else if (text != kHeader) {
       throw BadInput(
           fmt::format("{}:1: is not the header that this version writes: of another version, and "
-                      "`gnbv run SCENARIO.yaml --out NEW` flies its mission again",
-                      csv.string()));
+                      "`gnbv run {} --out NEW` flies its mission again",
+                      csv.string(), shell_word((csv.parent_path() / "scenario.yaml").string())));
     }
   }
   return views;

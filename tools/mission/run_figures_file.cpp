@@ -6,6 +6,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/shell_word.hpp"
 #include "tools/mission/summary_file.hpp"
 
 namespace gnbv {
@@ -122,7 +123,7 @@ RunFigures read_run_figures(const fs::path& run) {
     throw BadInput(
         fmt::format("{}: schema {} of another version; `gnbv score {} --update` scores "
                     "the run anew and makes it {}",
-                    path.string(), schema, run.string(), kSummarySchema));
+                    path.string(), schema, shell_word(run.string()), kSummarySchema));
   }
   RunFigures figures{
       .scenario = summary.text("/scenario"),

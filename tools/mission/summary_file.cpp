@@ -4,6 +4,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/shell_word.hpp"
 #include "tools/mission/load_world.hpp"
 
 namespace gnbv {
@@ -145,11 +146,10 @@ std::string summary_json(const Scenario& scenario, const MissionResult& r,
 std::string read_summary(const std::filesystem::path& run) {
   const std::filesystem::path path = run / "summary.json";
   if (std::filesystem::exists(path)) return read_file(path);
-  const std::string folder = run.string();
-  throw BadInput(
-      fmt::format("{}: holds no summary.json: no run, or one that is not finished; `gnbv run "
-                  "{}/scenario.yaml --resume --out {}` finishes it",
-                  folder, folder, folder));
+  throw BadInput(fmt::format(
+      "{}: holds no summary.json: no run, or one that is not finished; `gnbv run {} "
+      "--resume --out {}` finishes it",
+      run.string(), shell_word((run / "scenario.yaml").string()), shell_word(run.string())));
 }
 
 std::string score_json(const MissionScore& score, bool is_run) {
