@@ -4,9 +4,9 @@
 #include <assimp/scene.h>
 
 #include <assimp/Exporter.hpp>
-#include <bit>
 #include <limits>
 
+#include "sim/core/append_bytes.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/core/srgb.hpp"
@@ -80,12 +80,6 @@ void write_glb(const TriangleMesh& mesh, const std::filesystem::path& path) {
       throw BadInput(fmt::format("{}: cannot write: {}", path.string(), exporter.GetErrorString()));
     }
   });
-}
-
-template <typename T>
-void append_bytes(std::string& out, T value) {
-  const auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);
-  out.append(bytes.data(), bytes.size());
 }
 
 /// Own writer: assimp's binary PLY with colours is corrupt (found with 5.2.4). Little-endian;

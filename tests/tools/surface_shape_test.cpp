@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "bench/surface_reference.hpp"
+#include "sim/core/error.hpp"
 #include "tests/support/made_run.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/surface/mesh_edges.hpp"
@@ -53,6 +54,26 @@ TEST(PointTree, FindsWhatASearchOfAllFindsNearestFirst) {
   }
   std::array<Neighbour, 3> found{};
   EXPECT_EQ(PointTree(std::span(points).first(2)).nearest(Vec3f::Zero(), found).size(), 2U);
+}
+
+TEST(PointTree, OfPointsEquallyFarItFindsTheFirstOnes) {
+  std::vector<Vec3f> grid;
+  for (int i = 0; i < 1000; ++i) {  // the lower index is not always the one the tree meets first
+    const int j = (i * 387) % 1000;
+    grid.emplace_back(j % 10, j / 10 % 10, j / 100);
+  }
+  const PointTree tree(grid);
+  for (std::uint32_t i = 0; i < grid.size(); i += 7) {
+    const Vec3f query = grid[i] + Vec3f(i % 2 == 0 ? 0.0F : 0.5F, 0.0F, 0.0F);
+    std::array<Neighbour, 9> found{};
+    ASSERT_EQ(tree.nearest(query, found).size(), found.size());
+    std::vector<std::pair<float, std::uint32_t>> all;
+    for (std::uint32_t k = 0; k < grid.size(); ++k) {
+      all.emplace_back((grid[k] - query).squaredNorm(), k);
+    }
+    std::sort(all.begin(), all.end());
+    for (std::size_t k = 0; k < found.size(); ++k) EXPECT_EQ(found[k].point, all[k].second) << i;
+  }
 }
 
 TEST(OrientedCloud, NormalsOfASpherePointOutToTheSensors) {
@@ -183,6 +204,42 @@ TEST(SeenPoints, ViewsPointsComeFromTheViewsAndCoveredProfilePointsGo) {
   }
 }
 
+TEST(SeenPoints, WhatAFlyingCameraSawCameFromTheNearestPoseOfItsLeg) {
+  TempFolder temp;
+  write_made_run(temp.path());
+  RunRecord record = read_run(temp.path());
+  RunCloud cloud = read_run_cloud(record);
+  cloud.points_world_m = {{0, 0, 1}, {1, 0, 1}, {-2, 4, 2}, {-4, 2, 2.1F}, {-3, -4, 3}, {2, 2, 2}};
+  const auto sensor = [&](std::size_t point) {
+    const SeenPoints seen = seen_points(record, cloud, 2);
+    return seen.sensors_world_m.at(point - cloud.points_world_m.size() +
+                                   seen.points_world_m.size());
+  };
+  const auto at_view = [&](std::size_t view) {
+    return Vec3f(record.views[view].decision.view.p_world_m.cast<float>());
+  };
+  EXPECT_LT((sensor(4) - at_view(1)).norm(), 0.5F);
+  record.scenario.cameras[0].rate_hz = 10.0;
+  EXPECT_EQ(sensor(4), Vec3f(-4, -4, 3));  // at 4 s, on the leg from 3 s to there
+  EXPECT_EQ(sensor(2), Vec3f(-4, 4, 2));   // at 3 s, where the first leg ends
+}
+
+TEST(SeenPoints, WhatCameAfterTheLastViewIsSeenFromThere) {
+  TempFolder temp;
+  write_made_run(temp.path());
+  RunRecord record = read_run(temp.path());
+  RunCloud cloud = read_run_cloud(record);
+  record.path.push_back(made_sample(6, {4, 4, 4}));
+  cloud.points_world_m.emplace_back(3.0F, 3.0F, 3.0F);
+  EXPECT_EQ(seen_points(record, cloud, 1).sensors_world_m.back(), Vec3f(4, 4, 4));
+  record.views.clear();  // it ended on its way to the first view
+  cloud.view_points.clear();
+  record.profile_end_s = 1.0;
+  const SeenPoints seen = seen_points(record, cloud, 1);
+  EXPECT_EQ(seen.sensors_world_m.size(), seen.points_world_m.size());
+  EXPECT_EQ(seen.sensors_world_m.back(), Vec3f(4, 4, 4));
+}
+
 TEST(SurfaceScore, TheTrueSurfaceIsPerfectAndHalfOfItHasHalfTheRecall) {
   World truth{.structure = poisson(oriented(seen_sphere(), 2), 5), .has_ground = false};
   for (Vec3f& p_m : truth.structure.vertices_m) p_m.z() += 2.0F;
@@ -208,6 +265,37 @@ TEST(SurfaceScore, SamplesLieEvenlyByArea) {
   EXPECT_NEAR(mean_m.x(), 0.0F, 0.01F);  // centroid of both triangles
   EXPECT_NEAR(mean_m.y(), 1.0F, 0.02F);
   EXPECT_EQ(samples, samples_by_area(mesh, 20000, 7));
+}
+
+/// What shape_of() says of points seen from above; empty when it makes a surface of them.
+std::string refusal_of(std::vector<Vec3f> points_m, double leaf_m) {
+  SeenPoints seen{std::move(points_m), {}};
+  seen.sensors_world_m.assign(seen.points_world_m.size(), Vec3f(0, 0, 9));
+  try {
+    shape_of(oriented(seen, 1), leaf_m, {}, "cloud.ply", 1, [](double, const std::string&) {});
+  } catch (const BadInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SurfaceShape, PointsThatHoldNoSurfaceAreBadInput) {
+  std::vector<Vec3f> line;
+  std::vector<Vec3f> patch;
+  for (int i = 0; i < 100; ++i) {
+    if (i < 5) line.emplace_back(i, 0, 0);
+    patch.emplace_back(0.01F * static_cast<float>(i % 10), 0.01F * static_cast<float>(i / 10), 0);
+  }
+  for (std::size_t count = 0; count <= line.size(); ++count) {
+    const std::string refusal =
+        refusal_of({line.begin(), line.begin() + static_cast<long>(count)}, 0.1);
+    EXPECT_NE(refusal.find("cloud.ply: its points lie on no surface"), std::string::npos);
+  }
+  // 0.1 m by 0.1 m are a part too small for leaves of 0.1 m: no --trim-m helps
+  const std::string refusal = refusal_of(patch, 0.1);
+  EXPECT_NE(refusal.find("scraps"), std::string::npos) << refusal;
+  EXPECT_EQ(refusal.find("--trim-m"), std::string::npos);
+  EXPECT_EQ(refusal_of(patch, 0.005), "");
 }
 
 TEST(SurfaceShape, IsTheSameAtAnyNumberOfThreads) {

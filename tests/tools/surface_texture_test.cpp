@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/core/file.hpp"
+#include "sim/core/srgb.hpp"
 #include "sim/mesh_file.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/surface/rectangle_packing.hpp"
@@ -179,8 +180,11 @@ TEST(Texture, APictureWhoseDepthDisagreesIsNotUsed) {
   EXPECT_TRUE(all_are(1, {view_at(1.5F, 1800, 8.0), view_at(1.8F, 1800, 8.0)}));
   EXPECT_TRUE(all_are(kNoView, {view_at(1.5F, 1800, 8.0)}));
   EXPECT_TRUE(all_are(kNoView, {view_at(1.5F, 0, 8.0)}));  // sky
-  // beyond the range nothing is measured: better than none, but no more
-  EXPECT_EQ(chosen_views(mesh, {view_at(1.5F, 0, 1.0)})[2 * (10 * 20 + 10)], 0);
+  // beyond the range nothing is measured: better than none, but no more, and nothing at the edge
+  const auto beyond = chosen_views(mesh, {view_at(1.5F, 0, 1.0)});
+  for (std::size_t face = 0; face < mesh.faces.size(); ++face) {
+    EXPECT_EQ(beyond[face], is_at_edge(mesh, face) ? kNoView : 0);
+  }
   EXPECT_TRUE(all_are(1, {view_at(1.5F, 0, 1.0), view_at(1.8F, 1800, 8.0)}));
 }
 
@@ -239,6 +243,7 @@ TEST(Packing, RectanglesKeepApart) {
       }
     }
   }
+  EXPECT_EQ(packed(std::vector<RectangleSize>{{90, 90}}, 100).value().width, 100);
   EXPECT_FALSE(packed(sizes, 128).has_value());
   EXPECT_FALSE(packed(std::vector<RectangleSize>{{70, 1}}, 64).has_value());
 }
@@ -310,18 +315,50 @@ TEST(SurfaceFiles, EachReadsBackWithTheSameFaces) {
   }
 }
 
+template <typename T>
+T value_at(const std::string& bytes, std::size_t at) {
+  T value{};
+  std::memcpy(&value, bytes.data() + at, sizeof value);
+  return value;
+}
+
+TEST(SurfaceFiles, WithoutATextureTheGlbShowsTheColoursOfTheVerticesUnlit) {
+  TexturedMesh mesh = with_height_colours(sheet(1.0F, 2));
+  for (std::size_t i = 0; i < mesh.vertex_rgb.size(); ++i) {
+    const auto level = static_cast<std::uint8_t>(i);  // dark
+    mesh.vertex_rgb[i] = {level, static_cast<std::uint8_t>(2 * level), 255};
+  }
+  const std::string glb = glb_of(mesh, "");
+  const auto json_bytes = value_at<std::uint32_t>(glb, 12);
+  const auto json = nlohmann::json::parse(glb.substr(20, json_bytes));
+  EXPECT_TRUE(json["materials"][0]["extensions"].contains("KHR_materials_unlit"));
+  EXPECT_EQ(json["extensionsUsed"][0], "KHR_materials_unlit");
+  const auto& attributes = json["meshes"][0]["primitives"][0]["attributes"];
+  const auto& accessor = json["accessors"][attributes["COLOR_0"].get<std::size_t>()];
+  EXPECT_EQ(accessor["componentType"], 5123);  // unsigned short
+  EXPECT_EQ(accessor["normalized"], true);
+  const auto& view = json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+  const std::size_t begin = 28 + json_bytes + view["byteOffset"].get<std::size_t>();
+  const DistinctCorners corners = distinct_corners(mesh);
+  for (std::size_t i = 0; i < corners.vertex.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const float linear =
+          static_cast<float>(value_at<std::uint16_t>(glb, begin + 8 * i + 2 * k)) / 65535.0F;
+      EXPECT_NEAR(255.0F * linear_to_srgb(linear), mesh.vertex_rgb[corners.vertex[i]][k], 0.1F);
+    }
+    EXPECT_EQ(value_at<std::uint16_t>(glb, begin + 8 * i + 6), 65535);
+  }
+}
+
 TEST(SurfaceFiles, TheGlbHoldsTheAtlasAndItsCoordinates) {
   const TexturedMesh mesh = textured();
   const std::string png(37, 'p');
   const std::string glb = glb_of(mesh, png);
-  const auto word = [&](std::size_t at) {
-    std::uint32_t value = 0;
-    std::memcpy(&value, glb.data() + at, sizeof value);
-    return value;
-  };
+  const auto word = [&](std::size_t at) { return value_at<std::uint32_t>(glb, at); };
   ASSERT_EQ(glb.substr(0, 4), "glTF");
   ASSERT_EQ(word(8), glb.size());
   const auto json = nlohmann::json::parse(glb.substr(20, word(12)));
+  EXPECT_TRUE(json["materials"][0]["extensions"].contains("KHR_materials_unlit"));
   const std::size_t data = 20 + word(12) + 8;
   const auto view_at = [&](std::size_t view) {
     return data + json.at("bufferViews").at(view).at("byteOffset").get<std::size_t>();

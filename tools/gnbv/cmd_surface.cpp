@@ -1,8 +1,10 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <charconv>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
@@ -42,12 +44,58 @@ int depth_of(const std::string& text) {
   return depth;
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    throw BadInput(fmt::format("{}: cannot make the folder: {}", folder.string(), error.message()));
+/// A folder made before the work, so that one that cannot be made costs no time. It goes again when
+/// nothing was written into it.
+class OutFolder {
+ public:
+  explicit OutFolder(fs::path path) : path_(std::move(path)) {
+    std::error_code error;
+    is_new_ = fs::create_directories(path_, error);
+    if (error) {
+      throw BadInput(
+          fmt::format("{}: cannot make the folder: {}", path_.string(), error.message()));
+    }
+    if (::access(path_.c_str(), W_OK | X_OK) != 0) {
+      throw BadInput(fmt::format("{}: cannot write into the folder", path_.string()));
+    }
   }
+  ~OutFolder() {
+    std::error_code not_empty;
+    if (is_new_) fs::remove(path_, not_empty);
+  }
+  OutFolder(const OutFolder&) = delete;
+  OutFolder& operator=(const OutFolder&) = delete;
+
+ private:
+  fs::path path_;
+  bool is_new_ = false;
+};
+
+/// What the surface is scored against; nothing, and a note, when its mesh cannot be loaded.
+std::optional<World> truth_of(const RunRecord& record, std::vector<std::string>& notes) {
+  std::vector<std::string> told_by_run;  // the mesh's faults were told when it was flown
+  try {
+    return load_world(record.scenario, told_by_run);
+  } catch (const BadInput& error) {
+    notes.push_back(fmt::format("{}; without the true structure there is no score", error.what()));
+    return std::nullopt;
+  }
+}
+
+/// The paths of what is written. Without a score, that of an earlier call goes.
+std::vector<fs::path> write_all(const TexturedMesh& mesh, const std::optional<SurfaceScore>& score,
+                                const fs::path& folder) {
+  std::vector<fs::path> paths = write_surface(mesh, folder);
+  paths.push_back(folder / "preview.png");
+  write_png(surface_picture(mesh, 1280, 720), paths.back());
+  if (score) {
+    paths.push_back(folder / "score.json");
+    write_file_atomically(paths.back(), score_json(*score));
+  } else {
+    std::error_code ignored;
+    fs::remove(folder / "score.json", ignored);
+  }
+  return paths;
 }
 
 void surface(const SurfaceOptions& options) {
@@ -57,35 +105,33 @@ void surface(const SurfaceOptions& options) {
   const int threads = thread_count(options.threads);
   const RunRecord record = read_run(options.run);
   for (const std::string& missing : record.missing) fmt::print(stderr, "gnbv: {}\n", missing);
-  std::vector<std::string> told_by_run;  // the mesh's faults were told when it was flown
-  const World truth = load_world(record.scenario, told_by_run);
-  const fs::path folder = options.out.empty() ? options.run / "surface" : options.out;
-
   std::vector<std::string> notes;
+  const std::optional<World> truth = truth_of(record, notes);
+  if (options.json && !truth) throw BadInput("--json: " + notes.back());
+  const fs::path folder = options.out.empty() ? options.run / "surface" : options.out;
+  const OutFolder made(folder);
+
   std::vector<fs::path> paths;
-  SurfaceScore score;
+  std::optional<SurfaceScore> score;
   {
     ProgressBar bar("surface", options.quiet);
     const auto progress = [&](double share, const std::string& note) { bar.show(share, note); };
     const TexturedMesh mesh = reconstruct_surface(record, settings, threads, progress, notes);
     progress(0.9, "scoring");
-    score = score_surface(mesh.shape, truth, record.scenario.planner.floor_z_m, threads);
+    if (truth) {
+      score = score_surface(mesh.shape, *truth, record.scenario.planner.floor_z_m, threads);
+    }
     progress(0.95, "writing");
-    make_folder(folder);
-    paths = write_surface(mesh, folder);
-    paths.push_back(folder / "preview.png");
-    write_png(surface_picture(mesh, 1280, 720), paths.back());
-    paths.push_back(folder / "score.json");
-    write_file_atomically(paths.back(), score_json(score));
+    paths = write_all(mesh, score, folder);
     progress(1.0, "done");
   }
   for (const std::string& note : notes) fmt::print(stderr, "gnbv: {}\n", note);
   if (options.json) {
-    fmt::print("{}", score_json(score));
+    fmt::print("{}", score_json(*score));
     return;
   }
   for (const fs::path& path : paths) fmt::print("{}\n", path.string());
-  fmt::print("\n{}", score_text(score, run_title(record)));
+  if (score) fmt::print("\n{}", score_text(*score, run_title(record)));
 }
 
 }  // namespace
@@ -104,7 +150,9 @@ void add_surface_command(CLI::App& app) {
                    "surface farther than this from any point is cut off (default: 2 spacings of "
                    "the points there, at most 6 leaves)")
       ->check(CLI::PositiveNumber);
-  command->add_option("--texture-px", options->settings.texture_px, "longest side of the texture")
+  command
+      ->add_option("--texture-px", options->settings.texture_px,
+                   "longest side of the texture, at most")
       ->check(CLI::Range(128, 16384))
       ->capture_default_str();
   command->add_flag("--no-texture", options->no_texture, "colours at the vertices alone");

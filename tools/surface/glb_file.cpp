@@ -1,31 +1,23 @@
 // glb_of() of textured_mesh.hpp: glTF 2.0 in its binary form (Khronos, section 4.4). Own writer:
 // one mesh with one material is less text than the importer library's scene.
-#include <bit>
 #include <nlohmann/json.hpp>
 
+#include "sim/core/append_bytes.hpp"
 #include "sim/core/srgb.hpp"
 #include "tools/surface/textured_mesh.hpp"
 
 namespace gnbv {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "GLB is little-endian");
-
 // values of the specification
 constexpr int kFloat = 5126;
 constexpr int kUnsignedInt = 5125;
-constexpr int kUnsignedByte = 5121;
+constexpr int kUnsignedShort = 5123;
 constexpr int kVertexBuffer = 34962;
 constexpr int kIndexBuffer = 34963;
 constexpr std::uint32_t kMagic = 0x46546C67;      // glTF
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A;  // JSON
 constexpr std::uint32_t kBinChunk = 0x004E4942;   // BIN
-
-template <typename T>
-void append_bytes(std::string& out, T value) {
-  const auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);
-  out.append(bytes.data(), bytes.size());
-}
 
 Vec3f y_up(const Vec3f& z_up) { return {z_up.x(), z_up.z(), -z_up.y()}; }
 
@@ -90,12 +82,13 @@ nlohmann::ordered_json add_triangles(const TexturedMesh& mesh, Buffer& buffer) {
       [&](std::size_t i, auto& out) { append_vec3(y_up(normals[corners.vertex[i]]), out); });
   if (corners.uv.empty()) {
     attributes["COLOR_0"] =
-        buffer.add(count, "VEC4", kUnsignedByte, kVertexBuffer, [&](std::size_t i, auto& out) {
-          for (const std::uint8_t level : mesh.vertex_rgb[corners.vertex[i]]) {  // linear in glTF
+        buffer.add(count, "VEC4", kUnsignedShort, kVertexBuffer, [&](std::size_t i, auto& out) {
+          // linear in glTF, where 8 bits would be too few for the darks
+          for (const std::uint8_t level : mesh.vertex_rgb[corners.vertex[i]]) {
             const float linear = srgb_to_linear(static_cast<float>(level) / 255.0F);
-            append_bytes(out, static_cast<std::uint8_t>(std::lround(255.0F * linear)));
+            append_bytes(out, static_cast<std::uint16_t>(std::lround(65535.0F * linear)));
           }
-          append_bytes(out, std::uint8_t{255});
+          append_bytes(out, std::uint16_t{65535});
         });
     buffer.accessor(attributes["COLOR_0"])["normalized"] = true;
   } else {
@@ -127,9 +120,14 @@ std::string glb_of(const TexturedMesh& mesh, std::string_view png) {
   Buffer buffer;
   const nlohmann::ordered_json primitive = add_triangles(mesh, buffer);
   nlohmann::ordered_json surface = {{"metallicFactor", 0.0}, {"roughnessFactor", 1.0}};
-  nlohmann::ordered_json material = {{"name", "surface"}, {"doubleSided", true}};
+  // unlit: the pictures' light is in the colours already
+  nlohmann::ordered_json material = {
+      {"name", "surface"},
+      {"doubleSided", true},
+      {"extensions", {{"KHR_materials_unlit", nlohmann::ordered_json::object()}}}};
   nlohmann::ordered_json json = {
       {"asset", {{"version", "2.0"}, {"generator", "gnbv"}}},
+      {"extensionsUsed", {"KHR_materials_unlit"}},
       {"scene", 0},
       {"scenes", {{{"nodes", {0}}}}},
       {"nodes", {{{"name", "surface"}, {"mesh", 0}}}},
@@ -137,8 +135,6 @@ std::string glb_of(const TexturedMesh& mesh, std::string_view png) {
   };
   if (!png.empty()) {
     surface["baseColorTexture"] = {{"index", 0}};
-    material["extensions"]["KHR_materials_unlit"] = nlohmann::ordered_json::object();
-    json["extensionsUsed"] = {"KHR_materials_unlit"};
     json["textures"] = {{{"sampler", 0}, {"source", 0}}};
     // linear, no mipmaps: those of an atlas mix charts
     json["samplers"] = {

@@ -15,10 +15,11 @@ struct SeenPoints {
 };
 
 /// The points of a run. Those of a view were seen by the camera of the view's pose that has them in
-/// its picture. Those of the profile, whose leaves are coarse, are used only where no view's point
-/// lies within a leaf; each was seen from the nearest pose of the profile's flight between which
-/// and the point no other point lies. Throws BadInput, naming the command that helps, for a cloud
-/// without points, and for a profile without a flight.
+/// its picture; or, when cameras run in flight, from somewhere on the leg that leads there. Those
+/// of the profile, whose leaves are coarse, are used only where no view's point lies within a leaf.
+/// Which pose of a profile, a leg, or the way after the last view saw a point is not on record: it
+/// is taken for the nearest one between which and the point no other point lies. Throws BadInput,
+/// naming the command that helps, for a cloud without points, and for points without a flight.
 SeenPoints seen_points(const RunRecord& record, const RunCloud& cloud, int threads);
 
 struct OrientedCloud {

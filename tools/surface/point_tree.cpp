@@ -42,7 +42,9 @@ class NearestSet {
     return true;  // go on
   }
   float worstDist() const {
-    return full() ? found_.back().distance_m : std::numeric_limits<float>::max();
+    constexpr float kFarthest = std::numeric_limits<float>::max();
+    // the search leaves out what is not nearer than this: a tie with the last has to be
+    return full() ? std::nextafter(found_.back().distance_m, kFarthest) : kFarthest;
   }
   bool full() const { return count_ == found_.size(); }
   std::size_t count() const { return count_; }

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <type_traits>
 
 #include "tools/surface/poisson_module.hpp"
 
@@ -83,5 +84,8 @@ extern "C" __attribute__((visibility("default"))) void gnbv_poisson_surface(
     mesh.faces.push_back({corner(0), corner(1), corner(2)});
   }
 }
+
+// what poisson_module() takes it for
+static_assert(std::is_same_v<decltype(gnbv_poisson_surface), PoissonSurface>);
 
 }  // namespace gnbv

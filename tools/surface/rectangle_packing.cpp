@@ -36,12 +36,13 @@ std::optional<Packing> packed(std::span<const RectangleSize> rectangles, int max
   });
   int widest = 1;
   for (const RectangleSize& size : rectangles) widest = std::max(widest, size.width);
-  for (int width = 64; width <= max_side; width *= 2) {
-    if (width < widest) continue;
-    Packing packing = on_shelves(rectangles, order, width);
-    if (packing.height <= width) return packing;
+  for (int width = std::min(64, max_side);; width = std::min(2 * width, max_side)) {
+    if (width >= widest) {
+      Packing packing = on_shelves(rectangles, order, width);
+      if (packing.height <= width) return packing;
+    }
+    if (width == max_side) return std::nullopt;
   }
-  return std::nullopt;
 }
 
 }  // namespace gnbv

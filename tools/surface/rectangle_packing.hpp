@@ -13,7 +13,7 @@ struct RectangleSize {
 };
 
 struct Packing {
-  int width = 0;  // of the sheet; a power of two
+  int width = 0;  // of the sheet; a power of two, or the widest that is allowed
   int height = 0;
   struct Corner {
     int x = 0;

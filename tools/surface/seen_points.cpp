@@ -1,6 +1,7 @@
 // seen_points() of oriented_cloud.hpp.
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "sensors/camera_model.hpp"
 #include "sim/core/error.hpp"
@@ -34,11 +35,16 @@ Vec3f sensor_of(const Vec3f& p_world_m, const ViewPose& view,
   return (T_world_body(view) * p_sensor_body_m).cast<float>();
 }
 
-/// Where the profile was flown, a pose each metre.
-std::vector<Vec3f> profile_poses(const RunRecord& record) {
+struct TimeSpan {
+  double begin_s;
+  double end_s;
+};
+
+/// Where the run was then, a pose each metre.
+std::vector<Vec3f> poses_in(const RunRecord& record, const TimeSpan& span) {
   std::vector<Vec3f> poses_world_m;
   for (const TrajectorySample& sample : record.path) {
-    if (record.profile_end_s && sample.time_s > *record.profile_end_s) break;
+    if (sample.time_s < span.begin_s || sample.time_s > span.end_s) continue;
     const Vec3f p_m = sample.T_world_body.translation().cast<float>();
     if (poses_world_m.empty() || (p_m - poses_world_m.back()).norm() >= 1.0F) {
       poses_world_m.push_back(p_m);
@@ -60,30 +66,31 @@ bool is_hidden(const Vec3f& p_m, const Vec3f& sensor_m, const PointTree& cloud, 
   return false;
 }
 
-struct ProfileSensors {
-  std::span<const Vec3f> cloud_world_m;
-  std::span<const Vec3f> poses_world_m;
-  float leaf_m;
+/// Points [begin, end) of the cloud, seen while it flew along the poses.
+struct Stretch {
+  std::size_t begin;
+  std::size_t end;
+  std::vector<Vec3f> poses_world_m;
 };
 
-/// Of each of the first `count` points of the cloud.
-std::vector<Vec3f> sensors_of_profile(const ProfileSensors& in, std::size_t count, int threads) {
-  const PointTree cloud(in.cloud_world_m);
-  const PointTree poses(in.poses_world_m);
-  std::vector<Vec3f> sensors_world_m(count);
+/// For each of them the nearest pose between which and the point no other point lies.
+void find_sensors(const PointTree& cloud, const Stretch& stretch, float leaf_m, int threads,
+                  SeenPoints& seen) {
+  const PointTree poses(stretch.poses_world_m);
+  const std::size_t count = stretch.end - stretch.begin;
   parallel_for(threads, (count + kChunk - 1) / kChunk, [&](std::size_t chunk) {
     std::array<Neighbour, 32> near_poses{};
-    for (std::size_t i = chunk * kChunk; i < std::min(count, (chunk + 1) * kChunk); ++i) {
-      const Vec3f& p_m = in.cloud_world_m[i];
+    for (std::size_t n = chunk * kChunk; n < std::min(count, (chunk + 1) * kChunk); ++n) {
+      const std::size_t i = stretch.begin + n;
+      const Vec3f& p_m = seen.points_world_m[i];
       const auto found = poses.nearest(p_m, near_poses);
       const auto seeing = std::find_if(found.begin(), found.end(), [&](const Neighbour& pose) {
-        return !is_hidden(p_m, in.poses_world_m[pose.point], cloud, in.leaf_m);
+        return !is_hidden(p_m, stretch.poses_world_m[pose.point], cloud, leaf_m);
       });
       const Neighbour& chosen = seeing == found.end() ? found.front() : *seeing;
-      sensors_world_m[i] = in.poses_world_m[chosen.point];
+      seen.sensors_world_m[i] = stretch.poses_world_m[chosen.point];
     }
   });
-  return sensors_world_m;
 }
 
 /// The profile's points that are not within a leaf of a view's point.
@@ -106,6 +113,43 @@ std::vector<Vec3f> uncovered_profile(const RunCloud& cloud, float leaf_m, int th
   return kept;
 }
 
+bool cameras_run_in_flight(const RunRecord& record) {
+  return std::any_of(record.scenario.cameras.begin(), record.scenario.cameras.end(),
+                     [](const CameraConfig& camera) { return camera.rate_hz > 0.0; });
+}
+
+/// The points of each part of the flight in which cameras or LIDARs ran: the profile, the legs, and
+/// what came after the last view. `from_profile` of the seen points are the profile's.
+std::vector<Stretch> stretches_of(const RunRecord& record, const RunCloud& cloud,
+                                  std::size_t from_profile) {
+  constexpr double kEnd_s = std::numeric_limits<double>::infinity();
+  const double profile_end_s = record.profile_end_s.value_or(kEnd_s);
+  std::vector<Stretch> stretches = {{0, from_profile, poses_in(record, {0.0, profile_end_s})}};
+  if (stretches[0].poses_world_m.empty()) {
+    for (const ViewRecord& view : record.views) {
+      stretches[0].poses_world_m.push_back(view.decision.view.p_world_m.cast<float>());
+    }
+  }
+  const auto add = [&](std::size_t cloud_end, double end_s) {
+    const std::size_t before = stretches.size() - 1;  // views
+    const double begin_s =
+        before == 0 ? record.profile_end_s.value_or(0.0) : record.views[before - 1].time_s;
+    Stretch leg{.begin = stretches.back().end,
+                .end = from_profile + cloud_end - cloud.profile_points,
+                .poses_world_m = poses_in(record, {begin_s, end_s})};
+    const std::size_t view = std::min(before, record.views.size() - 1);  // where it leads, or led
+    if (!record.views.empty()) {
+      leg.poses_world_m.push_back(record.views[view].decision.view.p_world_m.cast<float>());
+    }
+    stretches.push_back(std::move(leg));
+  };
+  for (std::size_t i = 0; i < record.views.size(); ++i) {
+    add(cloud.view_points[i], record.views[i].time_s);
+  }
+  add(cloud.points_world_m.size(), kEnd_s);
+  return stretches;
+}
+
 }  // namespace
 
 SeenPoints seen_points(const RunRecord& record, const RunCloud& cloud, int threads) {
@@ -117,40 +161,35 @@ SeenPoints seen_points(const RunRecord& record, const RunCloud& cloud, int threa
   const auto leaf_m = static_cast<float>(record.scenario.planner.cloud.profile_leaf_m);
   SeenPoints seen{.points_world_m = uncovered_profile(cloud, leaf_m, threads),
                   .sensors_world_m = {}};
+  const std::vector<Stretch> stretches = stretches_of(record, cloud, seen.points_world_m.size());
   seen.points_world_m.insert(
       seen.points_world_m.end(),
       cloud.points_world_m.begin() + static_cast<std::ptrdiff_t>(cloud.profile_points),
       cloud.points_world_m.end());
-  const std::size_t from_views =
-      record.views.empty() ? 0 : cloud.points_world_m.size() - cloud.profile_points;
-  const std::size_t from_path = seen.points_world_m.size() - from_views;
-  std::vector<Vec3f> poses_world_m = profile_poses(record);
-  if (poses_world_m.empty()) {
-    for (const ViewRecord& view : record.views) {
-      poses_world_m.push_back(view.decision.view.p_world_m.cast<float>());
-    }
-  }
-  if (from_path > 0 && poses_world_m.empty()) {
-    throw BadInput(
-        fmt::format("{}: nobody knows where its points were seen from: neither trajectory.tum nor "
-                    "iterations.csv holds a pose; {}",
-                    file.string(), command_to_fly_again(record.folder, "")));
-  }
-  if (from_path > 0) {
-    seen.sensors_world_m =
-        sensors_of_profile({seen.points_world_m, poses_world_m, leaf_m}, from_path, threads);
-  }
+  seen.sensors_world_m.resize(seen.points_world_m.size());
   std::vector<CameraModel> cameras;
   for (const CameraConfig& camera : record.scenario.cameras) {
     cameras.push_back(make_camera_model(camera));
   }
-  for (std::size_t i = cloud.points_world_m.size() - from_views; i < cloud.points_world_m.size();
-       ++i) {
-    // what came after the last view, while it flew on, was seen from near there
-    const std::size_t view =
-        std::min(static_cast<std::size_t>(cloud.view_of(i)), record.views.size() - 1);
-    seen.sensors_world_m.push_back(
-        sensor_of(cloud.points_world_m[i], record.views[view].decision.view, cameras));
+  const PointTree tree(seen.points_world_m);
+  for (std::size_t part = 0; part < stretches.size(); ++part) {
+    const Stretch& stretch = stretches[part];
+    if (stretch.begin == stretch.end) continue;
+    const bool is_of_view = part > 0 && part <= record.views.size();
+    if (is_of_view && !cameras_run_in_flight(record)) {
+      for (std::size_t i = stretch.begin; i < stretch.end; ++i) {
+        seen.sensors_world_m[i] =
+            sensor_of(seen.points_world_m[i], record.views[part - 1].decision.view, cameras);
+      }
+      continue;
+    }
+    if (stretch.poses_world_m.empty()) {
+      throw BadInput(fmt::format(
+          "{}: nobody knows where its points were seen from: neither trajectory.tum nor "
+          "iterations.csv holds a pose; {}",
+          file.string(), command_to_fly_again(record.folder, "")));
+    }
+    find_sensors(tree, stretch, leaf_m, threads, seen);
   }
   return seen;
 }

@@ -21,6 +21,21 @@ void drop_texture(TexturedMesh& mesh) {
   mesh.atlas = {};
 }
 
+/// What is wrong with the pictures, and how to come by better ones.
+std::string without_pictures(const RunRecord& record, std::string_view why) {
+  return fmt::format("{}; colours show the height; {} flies it again and keeps its frames", why,
+                     command_to_fly_again(record.folder, "--frames"));
+}
+
+Image picture_of(const RunPictures& pictures, std::size_t view) {
+  const RecordedFrame& frame = pictures.frames.frames[view];
+  const FrameCamera& camera = pictures.views[view].camera;
+  Image image = read_png(frame.colour);
+  if (image.width_px == camera.width_px && image.height_px == camera.height_px) return image;
+  throw BadInput(fmt::format("{}: is {} x {} px, cameras.json says {} x {}", frame.colour.string(),
+                             image.width_px, image.height_px, camera.width_px, camera.height_px));
+}
+
 }  // namespace
 
 int depth_for(const Box3& points_m, double cell_m) {
@@ -32,6 +47,15 @@ int depth_for(const Box3& points_m, double cell_m) {
 
 TriangleMesh shape_of(const OrientedCloud& cloud, double leaf_m, const SurfaceSettings& settings,
                       const std::string& name, int threads, const SurfaceProgress& progress) {
+  if (cloud.points_world_m.empty()) {
+    throw BadInput(
+        fmt::format("{}: its points lie on no surface: they are fewer than 3, or on one "
+                    "line; a run of more views sees more",
+                    name));
+  }
+  GNBV_CHECK(cloud.points_world_m.size() == cloud.normals_world.size() &&
+                 cloud.points_world_m.size() == cloud.spacing_m.size(),
+             "{} points", cloud.points_world_m.size());
   Box3 box;
   for (const Vec3f& p_m : cloud.points_world_m) box.extend(p_m.cast<double>());
   const int depth = settings.depth > 0 ? settings.depth : depth_for(box, kCell_leaves * leaf_m);
@@ -39,31 +63,45 @@ TriangleMesh shape_of(const OrientedCloud& cloud, double leaf_m, const SurfaceSe
   TriangleMesh closed;
   poisson_module()(cloud.points_world_m, cloud.normals_world, {.depth = depth}, closed);
   progress(0.6, "trimming");
-  const double scrap_m = kScrapSide_leaves * leaf_m;
-  TriangleMesh shape = trimmed(
-      closed, cloud,
-      {.reach_m = settings.trim_m, .reach_max_m = 6.0 * leaf_m, .part_min_m2 = scrap_m * scrap_m},
-      threads);
-  if (shape.faces.empty()) {
+  const TriangleMesh near =
+      trimmed(closed, cloud, {.reach_m = settings.trim_m, .reach_max_m = 6.0 * leaf_m}, threads);
+  if (near.faces.empty()) {
     throw BadInput(
         fmt::format("{}: {} points hold no surface together; a larger --trim-m keeps more of it",
                     name, cloud.points_world_m.size()));
   }
+  const double scrap_m2 = kScrapSide_leaves * leaf_m * kScrapSide_leaves * leaf_m;
+  TriangleMesh shape = without_scraps(near, scrap_m2);
+  if (shape.faces.empty()) {
+    throw BadInput(
+        fmt::format("{}: {} points hold nothing but scraps of less than {:.2g} m2 "
+                    "together; a run of more views sees more",
+                    name, cloud.points_world_m.size(), scrap_m2));
+  }
   return shape;
 }
 
-TexturedMesh dressed(TriangleMesh shape, const RunRecord& record, const SurfaceSettings& settings,
-                     int threads, const SurfaceProgress& progress,
-                     std::vector<std::string>& notes) {
+std::optional<RunPictures> read_pictures(const RunRecord& record, int threads,
+                                         std::vector<std::string>& notes) {
   if (!has_frames(record.folder)) {
     notes.push_back(
-        fmt::format("{}: has no frames, so that colours show the height; {} flies it "
-                    "again and keeps them",
-                    record.folder.string(), command_to_fly_again(record.folder, "--frames")));
-    return with_height_colours(std::move(shape));
+        without_pictures(record, fmt::format("{}: has no frames", record.folder.string())));
+    return std::nullopt;
   }
-  const FrameRecord frames = read_frames(record.folder);
-  const std::vector<TextureView> views = texture_views(frames, record.scenario.cameras, threads);
+  try {
+    FrameRecord frames = read_frames(record.folder);
+    std::vector<TextureView> views = texture_views(frames, record.scenario.cameras, threads);
+    return RunPictures{std::move(frames), std::move(views)};
+  } catch (const BadInput& error) {
+    notes.push_back(without_pictures(record, error.what()));
+    return std::nullopt;
+  }
+}
+
+TexturedMesh dressed(TriangleMesh shape, const RunRecord& record, const RunPictures& pictures,
+                     const SurfaceSettings& settings, int threads, const SurfaceProgress& progress,
+                     std::vector<std::string>& notes) {
+  const std::vector<TextureView>& views = pictures.views;
   const double texels_per_m = kTexelsPerLeaf / record.scenario.planner.cloud.leaf_m;
   progress(0.65, fmt::format("choosing among {} pictures for {} faces", views.size(),
                              shape.faces.size()));
@@ -79,8 +117,15 @@ TexturedMesh dressed(TriangleMesh shape, const RunRecord& record, const SurfaceS
   }
   progress(0.85, fmt::format("texture of {} x {} px, {} charts", layout.width, layout.height,
                              layout.charts.size()));
-  const auto picture = [&](std::uint32_t view) { return read_png(frames.frames[view].colour); };
-  TexturedMesh mesh = with_texture(std::move(shape), layout, bake_atlas(layout, picture, threads));
+  Image baked;
+  try {
+    baked = bake_atlas(
+        layout, [&](std::uint32_t view) { return picture_of(pictures, view); }, threads);
+  } catch (const BadInput& error) {
+    notes.push_back(without_pictures(record, error.what()));
+    return with_height_colours(std::move(shape));
+  }
+  TexturedMesh mesh = with_texture(std::move(shape), layout, std::move(baked));
   if (!settings.has_texture) drop_texture(mesh);
   return mesh;
 }
@@ -90,10 +135,12 @@ TexturedMesh reconstruct_surface(const RunRecord& record, const SurfaceSettings&
                                  std::vector<std::string>& notes) {
   progress(0.0, "normals");
   const RunCloud cloud = read_run_cloud(record);
+  const std::optional<RunPictures> pictures = read_pictures(record, threads, notes);
   const OrientedCloud points = oriented(seen_points(record, cloud, threads), threads);
   TriangleMesh shape = shape_of(points, record.scenario.planner.cloud.leaf_m, settings,
                                 (record.folder / "cloud.ply").string(), threads, progress);
-  return dressed(std::move(shape), record, settings, threads, progress, notes);
+  if (!pictures) return with_height_colours(std::move(shape));
+  return dressed(std::move(shape), record, *pictures, settings, threads, progress, notes);
 }
 
 }  // namespace gnbv

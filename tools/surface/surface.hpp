@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,17 +29,30 @@ using SurfaceProgress = std::function<void(double share_done, const std::string&
 /// Poisson's depth for cells of about `cell_m`, from kMinDepth to 10.
 int depth_for(const Box3& points_m, double cell_m);
 
-/// The trimmed surface of a cloud. Throws BadInput when nothing of it holds, naming `name`.
+/// The trimmed surface of a cloud. Throws BadInput, naming `name`, for a cloud without points and
+/// when nothing of the surface holds.
 TriangleMesh shape_of(const OrientedCloud& cloud, double leaf_m, const SurfaceSettings& settings,
                       const std::string& name, int threads, const SurfaceProgress& progress);
 
-/// The shape with the run's pictures on it; with colours by height when the run has no frames, or
-/// none shows any of it, which `notes` then says with the command that helps. Deterministic at any
-/// number of threads.
-TexturedMesh dressed(TriangleMesh shape, const RunRecord& record, const SurfaceSettings& settings,
-                     int threads, const SurfaceProgress& progress, std::vector<std::string>& notes);
+/// The frames of a run, and each as a view of the surface.
+struct RunPictures {
+  FrameRecord frames;
+  std::vector<TextureView> views;
+};
 
-/// Both, from the files of the run. Throws BadInput as read_run_cloud() and read_frames() do.
+/// Nothing when the run has no frames, or one is damaged, which `notes` then says with the command
+/// that helps. Depth images are read, pictures not yet.
+std::optional<RunPictures> read_pictures(const RunRecord& record, int threads,
+                                         std::vector<std::string>& notes);
+
+/// The shape with the run's pictures on it; with colours by height when none shows any of it or a
+/// picture is damaged, which `notes` then says. Deterministic at any number of threads.
+TexturedMesh dressed(TriangleMesh shape, const RunRecord& record, const RunPictures& pictures,
+                     const SurfaceSettings& settings, int threads, const SurfaceProgress& progress,
+                     std::vector<std::string>& notes);
+
+/// All of it, from the files of the run. Throws BadInput as read_run_cloud() does; without frames,
+/// or with damaged ones, colours show the height.
 TexturedMesh reconstruct_surface(const RunRecord& record, const SurfaceSettings& settings,
                                  int threads, const SurfaceProgress& progress,
                                  std::vector<std::string>& notes);

@@ -1,8 +1,7 @@
 // write_surface() of textured_mesh.hpp.
 #include <fmt/format.h>
 
-#include <bit>
-
+#include "sim/core/append_bytes.hpp"
 #include "sim/core/file.hpp"
 #include "tools/surface/textured_mesh.hpp"
 
@@ -10,12 +9,6 @@ namespace gnbv {
 namespace {
 
 namespace fs = std::filesystem;
-
-template <typename T>
-void append_bytes(std::string& out, T value) {
-  const auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);
-  out.append(bytes.data(), bytes.size());
-}
 
 std::string ply_of(const TexturedMesh& mesh) {
   std::string out = fmt::format(

@@ -12,7 +12,10 @@ Image surface_picture(const TexturedMesh& mesh, int width_px, int height_px,
   RenderScene scene;
   scene.surfaces.push_back(std::move(item));
   scene.ground = GroundItem{};
-  const RenderView view = frame_box(bounds_m(mesh.shape), angles, width_px, height_px);
+  std::vector<Vec3> points_m;  // its box would leave much of the picture empty
+  points_m.reserve(mesh.shape.vertices_m.size());
+  for (const Vec3f& p_m : mesh.shape.vertices_m) points_m.push_back(p_m.cast<double>());
+  const RenderView view = frame_points(points_m, angles, width_px, height_px);
   return render(scene, view);
 }
 

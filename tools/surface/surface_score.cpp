@@ -7,6 +7,7 @@
 #include "bench/text_table.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
+#include "sim/mesh_lint.hpp"
 
 namespace gnbv {
 namespace {
@@ -20,11 +21,8 @@ std::vector<Vec3f> samples_by_area(const TriangleMesh& mesh, std::size_t count,
                                    std::uint64_t seed) {
   std::vector<double> area_until_m2;
   double total_m2 = 0.0;
-  for (const auto& face : mesh.faces) {
-    const Vec3 a = mesh.vertices_m[face[0]].cast<double>();
-    total_m2 += 0.5 * (mesh.vertices_m[face[1]].cast<double>() - a)
-                          .cross(mesh.vertices_m[face[2]].cast<double>() - a)
-                          .norm();
+  for (std::size_t face = 0; face < mesh.faces.size(); ++face) {
+    total_m2 += face_area_m2(mesh, face);
     area_until_m2.push_back(total_m2);
   }
   std::vector<Vec3f> samples;

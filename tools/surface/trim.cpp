@@ -8,6 +8,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
+#include "sim/mesh_lint.hpp"
 #include "tools/surface/point_tree.hpp"
 
 namespace gnbv {
@@ -19,13 +20,6 @@ constexpr std::size_t kChunk = 4096;
 constexpr float kReach_spacings = 2.0F;
 constexpr int kSmoothings = 3;
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-
-double area_m2(const TriangleMesh& mesh, const Face& face) {
-  const Vec3 a = mesh.vertices_m[face[0]].cast<double>();
-  const Vec3 b = mesh.vertices_m[face[1]].cast<double>();
-  const Vec3 c = mesh.vertices_m[face[2]].cast<double>();
-  return 0.5 * (b - a).cross(c - a).norm();
-}
 
 /// Distance of each vertex to its nearest point, in multiples of that point's reach.
 std::vector<float> distance_in_reaches(const TriangleMesh& mesh, const OrientedCloud& cloud,
@@ -139,12 +133,12 @@ TriangleMesh without_scraps(const TriangleMesh& mesh, double part_min_m2) {
   const std::vector<std::uint32_t> parts = parts_of(mesh);
   std::vector<double> part_m2(mesh.vertices_m.size(), 0.0);
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
-    part_m2[parts[i]] += area_m2(mesh, mesh.faces[i]);
+    part_m2[parts[i]] += face_area_m2(mesh, i);
   }
   TriangleMesh kept;
   std::vector<std::uint32_t> new_index(mesh.vertices_m.size(), kNone);
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
-    if (part_m2[parts[i]] < part_min_m2 || !(area_m2(mesh, mesh.faces[i]) > 0.0)) continue;
+    if (part_m2[parts[i]] < part_min_m2 || !(face_area_m2(mesh, i) > 0.0)) continue;
     kept.faces.push_back(mesh.faces[i]);
     for (const std::uint32_t vertex : mesh.faces[i]) new_index[vertex] = 0;
   }
@@ -164,7 +158,7 @@ TriangleMesh trimmed(const TriangleMesh& closed, const OrientedCloud& cloud,
   GNBV_CHECK(!cloud.points_world_m.empty(), "no points");
   std::vector<float> field = distance_in_reaches(closed, cloud, settings, threads);
   for (int i = 0; i < kSmoothings; ++i) smooth(closed, field);
-  return without_scraps(cut_at_level(closed, field, 1.0F), settings.part_min_m2);
+  return without_scraps(cut_at_level(closed, field, 1.0F), 0.0);
 }
 
 }  // namespace gnbv

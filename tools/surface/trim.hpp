@@ -11,13 +11,12 @@ namespace gnbv {
 struct TrimSettings {
   double reach_m = 0.0;      // of every point; 0: by the spacing of the points there
   double reach_max_m = 0.3;  // at most, by spacing
-  double part_min_m2 = 0.0;  // smaller parts that hang on nothing are dropped
 };
 
 /// The surface within reach of the points: each vertex's distance to its nearest point, over that
 /// point's reach (2 spacings), is smoothed along the edges (as Kazhdan's SurfaceTrimmer does with
-/// its densities, so that the rim is smooth) and faces are cut where it is 1. Then without small
-/// parts and unused vertices. Deterministic at any number of threads.
+/// its densities, so that the rim is smooth) and faces are cut where it is 1. Without faces
+/// that have no area, and without unused vertices. Deterministic at any number of threads.
 TriangleMesh trimmed(const TriangleMesh& closed, const OrientedCloud& cloud,
                      const TrimSettings& settings, int threads);
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kBlock_m = 1.0F;
 constexpr float kGoodShare = 0.6F;
-constexpr std::size_t kMostTried = 24;  // rays are cast for this many views of a face
+constexpr std::size_t kMostTried = 24;  // once one is kept, rays for no more views of the face
 constexpr std::size_t kMostKept = 12;   // candidates of a face
 constexpr float kBorder_px = 1.0F;      // of the picture, not used
 constexpr float kOutline_px = 1.5F;     // rays pass this far outside of a face's corners
