@@ -103,6 +103,34 @@ TEST(Replay, ProfileEndsAsTheMissionsDid) {
   EXPECT_LT(stages[1].path_world_m.size(), stages[2].path_world_m.size());
 }
 
+TEST(Replay, CircularProfileEndsAsTheMissionsDid) {
+  Watched circular(
+      smoke({"planner.profiling.method=circular", "planner.profiling.circle_stations=4",
+             "planner.termination.max_iterations=1"}));
+  const std::size_t waypoints[] = {1, 3, 8};
+  const auto stages = replay_profile(circular.recorded(), waypoints);
+  ASSERT_EQ(stages.size(), 3U);  // stations, not the climbs at them; each number once
+  EXPECT_EQ(stages[0].waypoints, 1U);
+  EXPECT_EQ(stages[1].waypoints, 3U);
+  EXPECT_EQ(stages[2].waypoints, 4U);
+  EXPECT_EQ(stages[2].points_world_m, circular.flown.result.profile_points_world_m);
+  // up there at the end of the first station: nothing is left to see
+  EXPECT_GT(stages[0].path_world_m.back().z(), stages[0].path_world_m.front().z());
+}
+
+TEST(Replay, ProfileNeedsNoViewsEvenOfAnOracle) {
+  const Scenario scenario =
+      smoke({"planner.utility.name=oracle_views", "planner.profiling.method=circular",
+             "planner.profiling.circle_stations=1"});
+  const Flown& flown = watched().flown;
+  const std::size_t waypoints[] = {1, 3};
+  const auto stages = replay_profile(
+      {.scenario = scenario, .world = flown.world, .scene = flown.scene, .views = {}}, waypoints);
+  ASSERT_EQ(stages.size(), 1U);
+  EXPECT_EQ(stages[0].waypoints, 1U);
+  EXPECT_FALSE(stages[0].points_world_m.empty());
+}
+
 TEST(CandidatesRecord, RoundTripsAndNamesDamage) {
   const TempFolder temp;
   EXPECT_FALSE(read_candidates(temp.path(), 1).has_value());
@@ -114,14 +142,20 @@ TEST(CandidatesRecord, RoundTripsAndNamesDamage) {
     ASSERT_TRUE(plan.has_value());
     EXPECT_TRUE(same_plan(*plan, watched().plans[i])) << i;
   }
-  EXPECT_THROW(read_candidates(temp.path(), 99), BadInput);
+  const auto complaint = [&](std::size_t iteration) -> std::string {
+    try {
+      read_candidates(temp.path(), iteration);
+    } catch (const BadInput& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(complaint(99).find("--candidates --out NEW"), std::string::npos);
   write_file_atomically(temp.path() / "candidates.jsonl", "{\"iteration\":1,\"x_m\":\n");
-  try {
-    read_candidates(temp.path(), 1);
-    FAIL() << "no error";
-  } catch (const BadInput& error) {
-    EXPECT_NE(std::string(error.what()).find("candidates.jsonl:1"), std::string::npos);
-  }
+  EXPECT_NE(complaint(1).find("candidates.jsonl:1"), std::string::npos);
+  EXPECT_NE(complaint(1).find("--candidates --out NEW"), std::string::npos);
+  write_file_atomically(temp.path() / "candidates.jsonl", "");  // an oracle's: it samples none
+  EXPECT_FALSE(read_candidates(temp.path(), 1).has_value());
 }
 
 TEST(VoxelsPicture, HoldsACubeForEachVoxelOfTheMap) {
@@ -157,29 +191,43 @@ TEST(CoveragePicture, CoversTheShareThatTheScoreSays) {
 
 TEST(CandidatesPicture, HoldsAPinForEachCandidate) {
   const TempFolder temp;
-  RunSource planned = source(temp.path());
   PictureOptions options;
   options.iteration = kAsked;
-  const auto tubes_without_rays = [&](RunSource& run) {
-    std::size_t pins = 0;
-    const RenderScene scene = kCandidatesPicture.draw(run, options, {}).panels.at(0).scene;
-    for (const Candidate& candidate : watched().plans[kAsked - 1].candidates) {
-      const Vec3f p = candidate.view.p_world_m.cast<float>();
-      pins += static_cast<std::size_t>(
-          std::any_of(scene.tubes.begin(), scene.tubes.end(),
-                      [&](const TubeItem& tube) { return tube.points_m.front() == p; }));
-    }
-    EXPECT_GE(scene.tubes.size(), pins);
-    return pins;
+  const auto tubes = [&](RunSource& run) {
+    return kCandidatesPicture.draw(run, options, {}).panels.at(0).scene.tubes;
   };
-  const std::size_t sampled = watched().plans[kAsked - 1].candidates.size();
-  EXPECT_EQ(tubes_without_rays(planned), sampled);
+  const auto same_pins = [](const std::vector<TubeItem>& scene, const Plan& plan) {
+    // before the rays: one each, in their order, from where it stands towards where it looks
+    if (scene.size() < plan.candidates.size()) return false;
+    for (std::size_t i = 0; i < plan.candidates.size(); ++i) {
+      const ViewPose& view = plan.candidates[i].view;
+      const Vec3f ahead = scene[i].points_m.back() - scene[i].points_m.front();
+      const double yaw_rad = std::atan2(ahead.y(), ahead.x());
+      if (scene[i].points_m.front() != view.p_world_m.cast<float>()) return false;
+      if (std::abs(wrap_angle_rad(yaw_rad - view.yaw_rad)) > 1e-3) return false;
+    }
+    return true;
+  };
+  const Plan& plan = watched().plans[kAsked - 1];
+  RunSource planned = source(temp.path());
+  const auto drawn = tubes(planned);
+  EXPECT_TRUE(same_pins(drawn, plan));
+  Plan fewer = plan;
+  fewer.candidates.pop_back();
   // the same from the file
-  CandidatesFile file(temp.path(), 1);
-  for (std::size_t i = 0; i < watched().plans.size(); ++i) file.write(i + 1, watched().plans[i]);
-  file.finish();
-  RunSource read = source(temp.path());
-  EXPECT_EQ(tubes_without_rays(read), sampled);
+  const auto draw_from_file = [&](const Plan& of_asked) {
+    CandidatesFile file(temp.path(), 1);
+    for (std::size_t i = 0; i < watched().plans.size(); ++i) {
+      file.write(i + 1, i + 1 == kAsked ? of_asked : watched().plans[i]);
+    }
+    file.finish();
+    RunSource read = source(temp.path());
+    return tubes(read);
+  };
+  EXPECT_EQ(draw_from_file(plan).size(), drawn.size());
+  const auto less = draw_from_file(fewer);
+  EXPECT_TRUE(same_pins(less, fewer));
+  EXPECT_EQ(less.size() + 1, drawn.size());  // nothing but the pin is gone
 }
 
 }  // namespace

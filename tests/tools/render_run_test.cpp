@@ -115,6 +115,38 @@ TEST(Pictures, HaveTheSizeAskedForAndRepeat) {
   }
 }
 
+TEST(Pictures, OfEachKindFindALayoutAtAnySize) {
+  RunSource run(made_record(), cube());
+  RunSource* const runs[] = {&run};
+  for (const auto& [width, height] : {std::pair{480, 270},
+                                      {320, 240},
+                                      {240, 320},
+                                      {320, 2000},
+                                      {2000, 240},
+                                      {40, 30},
+                                      {16, 16},
+                                      {1280, 720}}) {
+    for (const bool has_caption : {true, false}) {
+      for (const PictureKind* kind : picture_kinds()) {
+        PictureOptions options;
+        options.width_px = width;
+        options.height_px = height;
+        options.has_caption = has_caption;
+        const PanelLayout layout = lay_out(*kind, runs, options);
+        EXPECT_GE(layout.columns * layout.rows, kind->panels);
+        EXPECT_GE(layout.columns * layout.view.width_px, width);
+        EXPECT_GE(layout.rows * layout.view.height_px, height);
+        for (const Vec3f& v : run.world().structure.vertices_m) {
+          const Vec3 p = project(layout.view, v.cast<double>()).value();
+          EXPECT_TRUE(p.x() > 0 && p.x() < layout.view.width_px && p.y() > 0 &&
+                      p.y() < layout.view.height_px)
+              << kind->name << ' ' << width << ' ' << height;
+        }
+      }
+    }
+  }
+}
+
 TEST(Pictures, SheetHoldsEveryImageWhereItBelongs) {
   std::vector<Image> images;
   for (std::uint8_t i = 0; i < 3; ++i) images.push_back({2, 1, std::vector<std::uint8_t>(6, i)});
@@ -125,6 +157,10 @@ TEST(Pictures, SheetHoldsEveryImageWhereItBelongs) {
   EXPECT_EQ(sheet.at(2, 0)[0], 1);
   EXPECT_EQ(sheet.at(0, 1)[0], 2);
   EXPECT_EQ(sheet.at(3, 1)[0], 255);  // empty
+  images[0] = {};                     // could not be drawn
+  const Image rest = contact_sheet(images, 2);
+  EXPECT_EQ(rest.at(1, 0)[0], 255);
+  EXPECT_EQ(rest.at(2, 0)[0], 1);
 }
 
 TEST(Pictures, UnknownKindsAndViewsAreNamed) {
@@ -167,6 +203,40 @@ TEST(Snapshots, ShowWhatWasFlownAndSeenUpToTheView) {
   }
 }
 
+TEST(Snapshots, VehicleIsBetweenSamplesWhereTheViewIs) {
+  const TempFolder temp;
+  write_made_run(temp.path());
+  RunRecord record = read_run(temp.path());
+  record.views[1].time_s = 4.25;  // samples at 4 s and 5 s would be half a second off
+  record.path.push_back(made_sample(5, {-4, 0, 3}));
+  RunSource run(record, cube());
+  RunSource* const runs[] = {&run};
+  const RenderView view = lay_out(kSnapshotFraming, runs, {}).view;
+  const RenderScene scene = Snapshots(run, {}, view, false).picture(1, view).panels.at(0).scene;
+  EXPECT_TRUE(std::any_of(scene.balls.begin(), scene.balls.end(), [&](const BallItem& ball) {
+    return ball.casts_shadow && (ball.centre_m - Vec3f(-4, -3, 3)).norm() < 1e-5F;
+  }));
+}
+
+TEST(CloudPicture, ColoursRunFromOnePointToTheLegendsTop) {
+  const TempFolder temp;
+  write_made_run(temp.path());  // six points, each alone in its voxel
+  RunSource lone(temp.path(), 1, [](double, const std::string&) {});
+  for (const Rgb& colour : kCloudPicture.draw(lone, {}, {}).panels.at(0).scene.dots.at(0).colours) {
+    EXPECT_EQ(colour, amount_ramp(0.0));
+  }
+  std::vector<Vec3f> points = {{0, 0, 1}};
+  for (int i = 0; i < 40; ++i) points.push_back({3.01F + 0.001F * static_cast<float>(i), 3.01F, 1});
+  write_cloud_ply(points, temp.path() / "cloud.ply");
+  RunRecord record = read_run(temp.path());
+  record.views.back().cloud_points = points.size();
+  write_cloud_ply(std::span(points).first(2), temp.path() / "profile.ply");
+  RunSource dense(record, cube());
+  const auto dots = kCloudPicture.draw(dense, {}, {}).panels.at(0).scene.dots.at(0);
+  EXPECT_EQ(dots.colours.front(), amount_ramp(0.0));  // what the low end of the legend says
+  EXPECT_EQ(dots.colours.back(), amount_ramp(1.0));
+}
+
 TEST(CloudPicture, DrawsEveryPointOfTheCloudUpToTheView) {
   const TempFolder temp;
   write_made_run(temp.path());
@@ -191,6 +261,15 @@ TEST(CameraChoice, FileIsReadAndFaultsAreNamed) {
   const Vec3 centre = project(view, {0, 0, 3}).value();
   EXPECT_NEAR(centre.x(), 640.0, 1e-9);
   EXPECT_NEAR(centre.y(), 360.0, 1e-9);
+  // lit as the same view of a preset's direction is
+  const std::vector<Vec3> points = {{0, 0, 0}, {1, 1, 1}};
+  const RenderView south = frame_points(points, {deg_to_rad(-90.0), 0.0}, 100, 100);
+  EXPECT_LT((view.to_light_world - south.to_light_world).norm(), 1e-9);
+  RunSource run(made_record(), cube());
+  RunSource* const runs[] = {&run};
+  PictureOptions options;
+  options.camera = view;
+  EXPECT_EQ(lay_out(kPathPicture, runs, options).view.to_light_world, view.to_light_world);
   EXPECT_FALSE(choose_camera("top").camera.has_value());
   EXPECT_THROW(choose_camera("behind"), BadInput);
   write_file_atomically(file, R"({"position_m": [0, -9], "target_m": [0, 0, 3]})");

@@ -8,7 +8,6 @@
 
 #include "sim/core/error.hpp"
 #include "tools/render/geometry.hpp"
-#include "tools/render/lettering.hpp"
 #include "tools/render/scene.hpp"
 
 namespace gnbv {
@@ -192,6 +191,15 @@ TEST(Render, ImpossibleSizesAreRefused) {
   }
 }
 
+TEST(Render, HugeAreasAreRefusedByTheOptionsThatAskForThem) {
+  try {
+    render({}, view_from({-9, 0, 0}, Vec3::Zero(), kMaxSide_px, kMaxSide_px));
+    FAIL() << "no error";
+  } catch (const BadInput& error) {
+    EXPECT_NE(std::string(error.what()).find("--width and --height"), std::string::npos);
+  }
+}
+
 TEST(Framing, HoldsEveryPointAndIsTight) {
   const std::vector<Vec3> points = {{-3, 1, 0}, {4, 2, 1}, {0, -6, 2}, {1, 1, 7}, {-2, -2, 3}};
   const FrameMargins margins{0.02, 0.05, 0.10, 0.08};
@@ -274,40 +282,6 @@ TEST(Png, KeepsEveryValueOfASixteenBitPicture) {
   write_png(Image{1, 1, {1, 2, 3}}, path);
   EXPECT_THROW(read_png_grey16(path), BadInput);
   std::filesystem::remove_all(path.parent_path());
-}
-
-TEST(Lettering, InkStaysWithinItsWidthAndThePicture) {
-  const Image blank{200, 40, std::vector<std::uint8_t>(200 * 40 * 3, 255)};
-  std::string all;
-  for (char c = ' '; c <= '~'; ++c) all += c;
-  for (const char c : all) {
-    Image image = blank;
-    const std::string text(1, c);
-    const double end = draw_text(image, text, 50.0, 30.0, 20.0, {0, 0, 0});
-    EXPECT_NEAR(end, 50.0 + text_width_px(text, 20.0), 1e-9);
-    int inked = 0;
-    for (int y = 0; y < 40; ++y) {
-      for (int x = 0; x < 200; ++x) {
-        if (image.at(x, y)[0] == 255) continue;
-        ++inked;
-        EXPECT_TRUE(x >= 47 && x < end) << text;  // a pen's half width (1.2 px) to the left
-      }
-    }
-    EXPECT_EQ(inked == 0, c == ' ') << text;
-  }
-  Image image = blank;
-  draw_text(image, "clipped, \xc3\xa9", 185.0, 5.0, 30.0,
-            {0, 0, 0});  // must not touch other memory
-  draw_line(image, {-50.0, -50.0}, {500.0, 90.0}, 3.0, {0, 0, 0});
-  EXPECT_NE(image.rgb, blank.rgb);
-}
-
-TEST(Colour, RampsRunFromFirstToLastAndSrgbRoundTrips) {
-  EXPECT_EQ(path_ramp(-1.0), path_ramp(0.0));
-  EXPECT_EQ(path_ramp(2.0), path_ramp(1.0));
-  EXPECT_EQ(to_rgb8(path_ramp(0.0)), (Rgb8{0x2b, 0x0f, 0x8a}));
-  EXPECT_EQ(to_rgb8(path_ramp(1.0)), (Rgb8{0xf9, 0xa0, 0x1f}));
-  EXPECT_EQ(to_rgb8(srgb(0x0180fe)), (Rgb8{0x01, 0x80, 0xfe}));
 }
 
 }  // namespace

@@ -1,14 +1,17 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <functional>
+#include <map>
 #include <memory>
-#include <set>
 
 #include "sim/core/error.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/execute.hpp"
 #include "tools/gnbv/progress.hpp"
-#include "tools/render/camera_choice.hpp"
+#include "tools/gnbv/render_options.hpp"
+#include "tools/record/run_names.hpp"
 #include "tools/render/movie.hpp"
 #include "tools/render/pictures.hpp"
 #include "tools/render/snapshots.hpp"
@@ -18,120 +21,82 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct RenderOptions {
-  std::vector<fs::path> runs;
-  std::vector<std::string> what = {"path"};
-  fs::path out;
-  fs::path sheet;
-  std::string camera = "iso";
-  std::optional<double> azimuth_deg;
-  std::optional<double> elevation_deg;
-  PictureOptions picture;
-  bool follows = false;
-  int images_per_s = 24;
-  int threads = 0;
-};
-
 constexpr std::size_t kSnapshots = 12;  // about as many, without --every
 constexpr std::size_t kFilmImages = 240;
-
-bool is_film_name(const fs::path& path) {
-  return path.extension() == ".mp4" || path.extension() == ".gif";
-}
-
-bool is_file_name(const fs::path& path) { return path.extension() == ".png" || is_film_name(path); }
-
-/// The kinds asked for, each once; movies last, since they take longest.
-std::vector<std::string> kinds_asked(const RenderOptions& options) {
-  std::vector<std::string> names;
-  for (const std::string& what : options.what) {
-    if (what == "all") {
-      for (const PictureKind* kind : picture_kinds()) names.emplace_back(kind->name);
-      names.insert(names.end(), {"snapshots", "movie"});
-    } else {
-      if (what != "snapshots" && what != "movie") picture_kind(what);
-      names.push_back(what);
-    }
-  }
-  std::set<std::string> seen;
-  std::erase_if(names, [&](const std::string& name) { return !seen.insert(name).second; });
-  std::stable_partition(names.begin(), names.end(),
-                        [](const std::string& name) { return name != "movie"; });
-  return names;
-}
 
 class RenderCommand {
  public:
   explicit RenderCommand(const RenderOptions& options)
       : options_(options), kinds_(kinds_asked(options)), progress_("render", false) {
-    const bool is_one_file = is_file_name(options.out);
-    if (is_one_file && (options.runs.size() > 1 || kinds_.size() > 1)) {
-      throw BadInput(
-          fmt::format("--out {}: one file for {} runs and {} kinds of pictures: give a "
-                      "folder",
-                      options.out.string(), options.runs.size(), kinds_.size()));
-    }
-    if (is_one_file && (kinds_.front() == "snapshots" ||
-                        is_film_name(options.out) != (kinds_.front() == "movie"))) {
-      throw BadInput(
-          fmt::format("--out {}: {} is no such file", options.out.string(), kinds_.front()));
-    }
+    need_consistent(options, kinds_);
+    set_camera(options_);
+    const std::vector<std::string> names = run_names(options.runs);
     for (const fs::path& run : options.runs) {
       sources_.push_back(std::make_unique<RunSource>(
           run, thread_count(options.threads),
           [this](double share, const std::string& note) { progress_.show(share, note); }));
       runs_.push_back(sources_.back().get());
+      names_[runs_.back()] = names[runs_.size() - 1];
       for (const std::string& missing : runs_.back()->record().missing) {
         fmt::print(stderr, "gnbv: {}\n", missing);
       }
     }
-    const CameraChoice choice = choose_camera(options.camera);
-    options_.picture.angles = choice.angles;
-    options_.picture.camera = choice.camera;
-    if (options.azimuth_deg) options_.picture.angles.azimuth_rad = deg_to_rad(*options.azimuth_deg);
-    if (options.elevation_deg) {
-      options_.picture.angles.elevation_rad = deg_to_rad(*options.elevation_deg);
-    }
   }
 
+  /// Draws what can be drawn, and says what cannot. Throws BadInput when that is everything.
   void draw() {
-    const bool is_all = std::count(options_.what.begin(), options_.what.end(), "all") > 0;
-    std::size_t drawn = 0;
-    std::string reason;
-    for (const std::string& name : kinds_) {
-      try {
-        draw_kind(name);
-        ++drawn;
-      } catch (const BadInput& error) {
-        if (!is_all) throw;
-        reason = error.what();
-        fmt::print(stderr, "gnbv: {}: {}\n", name, reason);
-      }
-    }
-    if (drawn == 0) throw BadInput(reason);
-    if (!options_.sheet.empty() && !images_.empty()) {
+    for (const std::string& name : kinds_) draw_kind(name);
+    if (drawn_ == 0) throw BadInput(fmt::format("{}", fmt::join(reasons_, "\n")));
+    for (const std::string& reason : reasons_) fmt::print(stderr, "gnbv: {}\n", reason);
+    const bool has_any = std::any_of(images_.begin(), images_.end(),
+                                     [](const Image& image) { return !image.rgb.empty(); });
+    if (!options_.sheet.empty() && has_any) {
       written(options_.sheet, contact_sheet(images_, static_cast<int>(runs_.size())));
     }
   }
 
  private:
-  void draw_kind(const std::string& name) {
-    if (name == "snapshots" || name == "movie") {
-      const PanelLayout layout = lay_out(kSnapshotFraming, runs_, options_.picture);
-      for (RunSource* const run : runs_) {
-        name == "movie" ? film(*run, layout) : shoot(*run, layout);
-      }
-      return;
+  /// Whether that came to its end; if not, the reason is kept.
+  bool tried(const std::string& name, const RunSource& run, const std::function<void()>& action) {
+    try {
+      action();
+      return true;
+    } catch (const BadInput& error) {
+      reasons_.push_back(
+          fmt::format("{} of {}: {}", name, run.record().folder.string(), error.what()));
+      return false;
     }
-    const PictureKind& kind = picture_kind(name);
-    const PanelLayout layout = lay_out(kind, runs_, options_.picture);
-    std::vector<Image> images;
+  }
+
+  /// The runs that have what has to be seen in such a picture.
+  std::vector<RunSource*> runs_with(const std::string& name, const PictureKind& kind) {
+    std::vector<RunSource*> able;
     for (RunSource* const run : runs_) {
-      images.push_back(draw_picture(kind, *run, options_.picture, layout, renderer_));
-      written(path_of(*run, name, ".png"), images.back());
+      std::vector<Vec3> points;
+      if (tried(name, *run, [&] { kind.frame(*run, options_.picture, points); }))
+        able.push_back(run);
     }
-    if (!options_.sheet.empty())
-      std::move(images.begin(), images.end(), std::back_inserter(images_));
+    return able;
+  }
+
+  void draw_kind(const std::string& name) {
+    const PictureKind& kind = is_series(name) ? kSnapshotFraming : picture_kind(name);
+    const std::vector<RunSource*> able = runs_with(name, kind);
+    if (able.empty()) return;
+    const PanelLayout layout = lay_out(kind, able, options_.picture);
+    for (RunSource* const run : runs_) {
+      Image image;
+      const auto draw_one = [&] {
+        if (name == "movie") return film(*run, layout);
+        if (name == "snapshots") return shoot(*run, layout);
+        image = draw_picture(kind, *run, options_.picture, layout, renderer_);
+        written(path_of(*run, name, ".png"), image);
+      };
+      const bool is_able = std::count(able.begin(), able.end(), run) > 0;
+      if (is_able && tried(name, *run, draw_one)) ++drawn_;
+      if (runs_.size() > 1) run->forget();
+      if (!options_.sheet.empty() && !is_series(name)) images_.push_back(std::move(image));
+    }
   }
 
   Image snapshot(const Snapshots& snapshots, RunSource& run, const PanelLayout& fixed,
@@ -176,9 +141,7 @@ class RenderCommand {
     if (options_.out.empty()) return folder / (name + ending);
     if (is_file_name(options_.out)) return options_.out;
     if (runs_.size() == 1) return options_.out / (name + ending);
-    const fs::path plain = fs::absolute(folder).lexically_normal();
-    const std::string run_name = (plain.has_filename() ? plain : plain.parent_path()).filename();
-    return options_.out / fmt::format("{}-{}{}", run_name, name, ending);
+    return options_.out / fmt::format("{}-{}{}", names_.at(&run), name, ending);
   }
 
   static void make_folder_of(const fs::path& path) {
@@ -196,39 +159,12 @@ class RenderCommand {
   ProgressBar progress_;
   std::vector<std::unique_ptr<RunSource>> sources_;
   std::vector<RunSource*> runs_;
+  std::map<const RunSource*, std::string> names_;  // of runs, for files
+  std::size_t drawn_ = 0;
+  std::vector<std::string> reasons_;  // why something was not
   Renderer renderer_;
-  std::vector<Image> images_;  // for the sheet
+  std::vector<Image> images_;  // for the sheet: a run a column; empty where one was not drawn
 };
-
-std::string help_on_what() {
-  std::string help = "what to draw, separated by commas, or all:";
-  for (const PictureKind* kind : picture_kinds()) {
-    help += fmt::format("\n{} = {}", kind->name, kind->shows);
-  }
-  return help + "\nsnapshots = third-person images each --every views" +
-         "\nmovie = the same as a film, by ffmpeg";
-}
-
-void add_camera_options(CLI::App& command, RenderOptions& options) {
-  command
-      .add_option(
-          "--camera", options.camera,
-          "iso, front, back, left, right, top, or a JSON file with position_m, target_m and "
-          "fov_y_deg; presets frame the picture by themselves")
-      ->capture_default_str();
-  command.add_option("--azimuth-deg", options.azimuth_deg,
-                     "from where to look: 0 east, 90 north (default: the camera's)");
-  command.add_option("--elevation-deg", options.elevation_deg, "above the horizon")
-      ->check(CLI::Range(-89.0, 90.0));
-  command.add_option("--width", options.picture.width_px, "width in pixels")
-      ->check(CLI::Range(16, 8192))
-      ->capture_default_str();
-  command.add_option("--height", options.picture.height_px, "height in pixels")
-      ->check(CLI::Range(16, 8192))
-      ->capture_default_str();
-  command.add_flag("--follow", options.follows,
-                   "snapshots, movie: the camera flies behind and above the vehicle");
-}
 
 }  // namespace
 
@@ -236,34 +172,7 @@ void add_render_command(CLI::App& app) {
   auto options = std::make_shared<RenderOptions>();
   CLI::App* const command =
       app.add_subcommand("render", "draw runs: path, profile, cloud, coverage, voxels, candidates");
-  command->add_option("RUN", options->runs, "run directories; all get the same camera")->required();
-  command->add_option("--what", options->what, help_on_what())
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->capture_default_str();
-  command->add_option("-o,--out", options->out,
-                      "PNG, MP4 or GIF to write, or a folder (default: the run directory)");
-  command->add_option("--sheet", options->sheet,
-                      "also a PNG with all pictures side by side: a column a run, a row a kind");
-  add_camera_options(*command, *options);
-  command
-      ->add_option("--iteration", options->picture.iteration,
-                   "cloud, coverage, voxels: after this view (default: the last); candidates: the "
-                   "decision that chose it (default: half way)")
-      ->check(CLI::NonNegativeNumber);
-  command
-      ->add_option("--every", options->picture.every,
-                   "path: frusta of each n-th view; snapshots, movie: an image each n views")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--fps", options->images_per_s, "movie: images a second")
-      ->check(CLI::Range(1, 120))
-      ->capture_default_str();
-  command->add_option("--title", options->picture.title, "(default: scenario and utility)");
-  command->add_flag("--with-profile", options->picture.has_profile,
-                    "path: the profile's flight, too, wide around the structure");
-  command->add_flag("!--no-caption", options->picture.has_caption, "no title, legend and scale");
-  command->add_option("--threads", options->threads, "0 = all; the pictures do not depend on it")
-      ->check(CLI::Range(0, 1024));
+  add_render_options(*command, *options);
   command->callback([options] { RenderCommand(*options).draw(); });
 }
 

@@ -17,7 +17,7 @@ namespace gnbv {
 
 struct MissionHooks {
   std::function<void(double share_done)> on_profile = [](double) {};  // 0 to 1
-  /// All sweeps so far, after each leg of the profile that is there to scan.
+  /// All sweeps so far, when the profile leaves a station where it scanned, and at its end.
   std::function<void(double time_s, std::span<const LidarScan>)> on_profile_sweeps =
       [](double, std::span<const LidarScan>) {};
   std::function<void(const Belief&)> on_profile_belief = [](const Belief&) {};  // at its end
@@ -33,7 +33,8 @@ struct MissionHooks {
   /// it chooses. Not called for replayed decisions.
   std::function<void(std::size_t iteration, const Plan&)> on_candidates = [](std::size_t,
                                                                              const Plan&) {};
-  std::function<bool()> should_stop = [] { return false; };  // asked after each view
+  /// Asked after each leg of the profile, at its end, and after each view.
+  std::function<bool()> should_stop = [] { return false; };
   std::vector<Decision> replay;  // decisions of an interrupted run: flown again, not planned again
   /// Views that someone else chose, flown after the start instead of planning. The mission ends as
   /// route_flown after the last of them; of the rules of termination only max_iterations holds.

@@ -12,12 +12,17 @@ std::optional<Termination> scan_profile(Mission& m, ProfileScanner& scanner) {
   const GuidanceConfig& guidance = m.scenario.guidance;
   ProfileRoute route(profiling, m.planner.navigation_m, m.current);
   std::size_t looked_at = 0;  // of the sweeps
+  bool was_scan = false;
   for (bool is_first = true;; is_first = false) {
     const auto fresh = std::span(scanner.scans()).subspan(looked_at);
     looked_at = scanner.scans().size();
     const bool saw_surface = profiling.method == ProfilingMethod::circular &&
                              sees_surface(fresh, m.planner.lidars, m.planner.config.floor_z_m);
     const auto leg = route.next(saw_surface);
+    const bool is_scan = leg && leg->is_scan;
+    // a station of a circular profile takes several legs
+    if (was_scan && !is_scan) m.hooks.on_profile_sweeps(time_s(*m.flight), scanner.scans());
+    was_scan = is_scan;
     if (!leg) return std::nullopt;
     const bool scanning = leg->is_scan || (profiling.scan_in_transit && !is_first);
     const double speed_m_s = leg->is_scan ? guidance.profile_speed_m_s : guidance.path_speed_m_s;
@@ -25,7 +30,6 @@ std::optional<Termination> scan_profile(Mission& m, ProfileScanner& scanner) {
     const auto over = fly_leg(m, leg->goal, speed_m_s,
                               [&](const Flight& flight) { scanner.tick(flight, scanning); });
     if (over) return over;
-    if (leg->is_scan) m.hooks.on_profile_sweeps(time_s(*m.flight), scanner.scans());
     m.hooks.on_profile(route.share_done());
     if (should_stop(m)) return Termination::interrupted;
   }
@@ -100,6 +104,7 @@ void lay_route(Mission& m) {
 
 std::optional<Termination> fly_profile(Mission& m) {
   if (const auto over = take_profile(m)) return over;
+  if (should_stop(m)) return Termination::interrupted;
   predict(m);
   if (const auto over = fly_to_first_view(m)) return over;
   lay_route(m);

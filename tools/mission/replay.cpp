@@ -24,14 +24,18 @@ MissionHooks hooks_for(const RecordedMission& mission, std::size_t count) {
   MissionHooks hooks;
   for (const ViewRecord& view : mission.views.first(count)) hooks.replay.push_back(view.decision);
   if (is_oracle(mission.scenario.planner.utility.name)) {
-    hooks.route.emplace();
-    for (const ViewRecord& view : mission.views.subspan(1)) hooks.route->push_back(view.decision);
+    hooks.route.emplace();  // may be empty: a profile needs no views
+    for (std::size_t i = 1; i < mission.views.size(); ++i) {
+      hooks.route->push_back(mission.views[i].decision);
+    }
   }
   // a profile takes about as long as sixty views
   const double steps = 60.0 + static_cast<double>(count);
   hooks.on_profile = [&mission, steps](double share) { mission.on_progress(60.0 * share / steps); };
   hooks.on_view = [&mission, steps](const ViewRecord& view) {
-    need_same(view, mission.views[static_cast<std::size_t>(view.iteration)]);
+    const auto i = static_cast<std::size_t>(view.iteration);
+    GNBV_CHECK(i < mission.views.size(), "view {} of {}", i, mission.views.size());
+    need_same(view, mission.views[i]);
     mission.on_progress(std::min(1.0, (61.0 + view.iteration) / steps));
   };
   hooks.should_stop = [] { return true; };  // asked when the replayed views are flown
@@ -53,14 +57,12 @@ std::vector<ProfileStage> replay_profile(const RecordedMission& mission,
     double time_s;
     std::size_t sweeps;
   };
-  std::vector<Mark> marks;  // after each waypoint
+  std::vector<Mark> marks;  // at the end of each waypoint
   std::vector<LidarScan> sweeps;
   bool is_over = false;
   MissionHooks hooks = hooks_for(mission, 0);
-  hooks.on_profile = [&](double share) {
-    mission.on_progress(share);
-    is_over = share >= 1.0;
-  };
+  hooks.on_profile = mission.on_progress;
+  hooks.on_profile_belief = [&](const Belief&) { is_over = true; };
   hooks.should_stop = [&] { return is_over; };
   hooks.on_profile_sweeps = [&](double time_s, std::span<const LidarScan> so_far) {
     marks.push_back({time_s, so_far.size()});
@@ -73,10 +75,13 @@ std::vector<ProfileStage> replay_profile(const RecordedMission& mission,
   const PlannerModel model(scenario.planner, scenario.workspace_m, camera_models(scenario), lidars,
                            scenario.seed);
   Workbench bench(model, mission.threads);
+  std::vector<std::size_t> counts;
+  for (const std::size_t count : waypoints) {
+    if (count < marks.size()) counts.push_back(count);
+  }
+  if (!marks.empty()) counts.push_back(marks.size());
   std::vector<ProfileStage> stages;
-  for (const std::size_t waypoint : waypoints) {
-    const std::size_t count = std::min(waypoint, marks.size());
-    if (count == 0) continue;
+  for (const std::size_t count : counts) {
     Belief belief(model);
     integrate_profile(model, std::span(sweeps).first(marks[count - 1].sweeps), bench, belief);
     const auto points = belief.cloud.points_world_m();

@@ -21,15 +21,16 @@ struct RecordedMission {
   std::function<void(double share_done)> on_progress = [](double) {};  // 0 to 1
 };
 
-/// The profile after some of its waypoints: descents, or stations of a circular one.
+/// The profile after some of its waypoints: the stations where it scans up or down.
 struct ProfileStage {
   std::size_t waypoints = 0;
   std::vector<Vec3f> points_world_m = {};  // of all sweeps so far, as the cloud takes them
   std::vector<Vec3> path_world_m = {};     // flown so far, from the start of the mission
 };
 
-/// The profile after each of those numbers of waypoints, or after all it has where it has fewer;
-/// nothing for a mission that took up a saved profile, or flew none. No view is flown.
+/// The profile after each of those numbers of waypoints (ascending, from 1) as far as they are less
+/// than it has, and after its last one. Nothing for a mission that took up a saved profile, flew
+/// none, or ended before its first waypoint. No view is flown.
 std::vector<ProfileStage> replay_profile(const RecordedMission& mission,
                                          std::span<const std::size_t> waypoints);
 

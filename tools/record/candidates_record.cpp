@@ -8,6 +8,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "tools/record/run_record.hpp"
 #include "tools/record/separated_text.hpp"
 
 namespace gnbv {
@@ -63,6 +64,8 @@ std::optional<Plan> read_candidates(const std::filesystem::path& run, std::size_
   const std::filesystem::path path = run / "candidates.jsonl";
   if (!std::filesystem::exists(path)) return std::nullopt;
   const std::string text = read_file(path);
+  if (text.empty()) return std::nullopt;  // an oracle's mission samples none
+  const std::string again = command_to_fly_again(run, "--candidates");
   const std::string beginning = beginning_of(iteration);
   std::string_view rest = text;
   Plan plan;
@@ -74,11 +77,13 @@ std::optional<Plan> read_candidates(const std::filesystem::path& run, std::size_
       if (json.value("chosen", false)) plan.chosen = plan.candidates.size();
       plan.candidates.push_back(candidate_of(json));
     } catch (const std::exception& error) {
-      throw BadInput(fmt::format("{}: {}", to_string(TextPlace{path, line}), error.what()));
+      throw BadInput(fmt::format("{}: {}; {} writes it anew", to_string(TextPlace{path, line}),
+                                 error.what(), again));
     }
   }
   if (plan.candidates.empty()) {
-    throw BadInput(fmt::format("{}: holds no candidate of iteration {}", path.string(), iteration));
+    throw BadInput(fmt::format("{}: holds no candidate of iteration {}; {} writes them",
+                               path.string(), iteration, again));
   }
   return plan;
 }

@@ -41,6 +41,7 @@ RenderView read_camera(const std::filesystem::path& path) {
     view.focus_m = (target_m - position_m).norm();
     if (view.focus_m < 1e-6) throw BadInput("target_m: is where position_m is");
     view.T_world_camera = look_at(position_m, target_m);
+    view.to_light_world = key_light(view.T_world_camera);
   } catch (const std::exception& error) {
     throw BadInput(fmt::format("{}: {}", path.string(), error.what()));
   }

@@ -132,8 +132,11 @@ double px_per_m_at_focus(const RenderView& view) {
 void draw_caption(Image& image, const Caption& caption, const RenderView& view) {
   const double u = layout_unit_px(image.width_px, image.height_px);
   const double bottom = image.height_px - 24.0 * u;
-  draw_text(image, caption.title, kBorder * u, 40.0 * u, 15.0 * u, kInk, kHalo * u);
-  draw_text(image, caption.detail, kBorder * u, 64.0 * u, kLetter * u, kPaleInk, kHalo * u);
+  const double width = image.width_px - 2.0 * kBorder * u;
+  draw_text(image, caption.title, kBorder * u, 40.0 * u,
+            fitting_height_px(caption.title, 15.0 * u, width), kInk, kHalo * u);
+  draw_text(image, caption.detail, kBorder * u, 64.0 * u,
+            fitting_height_px(caption.detail, kLetter * u, width), kPaleInk, kHalo * u);
   const double scale_end = caption.has_scale ? draw_scale(image, view, u, bottom) : 0.0;
   draw_legend(image, caption.legend, u, bottom, scale_end);
 }

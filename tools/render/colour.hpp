@@ -33,26 +33,36 @@ inline Rgb ramp(std::span<const Rgb> colours, double t) {
   return out;
 }
 
+/// A run of colours, evenly spaced, from its low end to its high end; each 0xRRGGBB, so that pages
+/// can take them over as they are.
+using ColourTable = std::span<const std::uint32_t>;
+
 /// Order along a path: dark violet to orange, monotone in lightness, never as light as the paper
 /// white of the background.
-inline std::vector<Rgb> path_colours() {
-  return {srgb(0x2b0f8a), srgb(0x6a0fb0), srgb(0xa3209c),
-          srgb(0xd03b76), srgb(0xee6a45), srgb(0xf9a01f)};
-}
-inline Rgb path_ramp(double t) {
-  static const std::vector<Rgb> colours = path_colours();
-  return ramp(colours, t);
-}
+inline constexpr std::array<std::uint32_t, 6> kPathTable = {0x2b0f8a, 0x6a0fb0, 0xa3209c,
+                                                            0xd03b76, 0xee6a45, 0xf9a01f};
 
 /// Amounts: viridis (van der Walt and Smith, CC0), even in lightness and safe for colour-blind
 /// eyes, without its lightest end.
-inline std::vector<Rgb> amount_colours() {
-  return {srgb(0x440154), srgb(0x472d7b), srgb(0x3b528b), srgb(0x2c728e),
-          srgb(0x21918c), srgb(0x28ae80), srgb(0x5ec962), srgb(0xaddc30)};
+inline constexpr std::array<std::uint32_t, 8> kAmountTable = {
+    0x440154, 0x472d7b, 0x3b528b, 0x2c728e, 0x21918c, 0x28ae80, 0x5ec962, 0xaddc30};
+
+inline std::vector<Rgb> linear_colours(ColourTable table) {
+  std::vector<Rgb> colours;
+  for (const std::uint32_t rrggbb : table) colours.push_back(srgb(rrggbb));
+  return colours;
 }
-inline Rgb amount_ramp(double t) {
-  static const std::vector<Rgb> colours = amount_colours();
-  return ramp(colours, t);
+
+inline const std::vector<Rgb>& path_colours() {
+  static const std::vector<Rgb> colours = linear_colours(kPathTable);
+  return colours;
 }
+inline Rgb path_ramp(double t) { return ramp(path_colours(), t); }
+
+inline const std::vector<Rgb>& amount_colours() {
+  static const std::vector<Rgb> colours = linear_colours(kAmountTable);
+  return colours;
+}
+inline Rgb amount_ramp(double t) { return ramp(amount_colours(), t); }
 
 }  // namespace gnbv

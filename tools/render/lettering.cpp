@@ -143,6 +143,15 @@ Stroke smooth(const Stroke& control) {
 }
 
 // In glyph units, x from 0, y up from the baseline.
+// One a code point: of UTF-8, bytes that go on with one count for nothing.
+std::vector<std::string_view> glyphs(std::string_view text) {
+  std::vector<std::string_view> codes;
+  for (const char c : text) {
+    if ((static_cast<unsigned char>(c) & 0xc0U) != 0x80U) codes.push_back(glyph(c));
+  }
+  return codes;
+}
+
 std::vector<Stroke> strokes_of(std::string_view code) {
   std::vector<Stroke> strokes;
   while (!code.empty()) {
@@ -241,8 +250,7 @@ double draw_text(Image& image, std::string_view text, double x_px, double baseli
   for (const bool is_halo : {true, false}) {
     if (is_halo && halo_px <= 0.0) continue;
     double x = x_px;
-    for (const char c : text) {
-      const std::string_view code = glyph(c);
+    for (const std::string_view code : glyphs(text)) {
       std::vector<Stroke> strokes = strokes_of(code);
       for (Stroke& stroke : strokes) {
         for (Point& p : stroke) p = {x + unit_px * p[0], baseline_px - unit_px * p[1]};
@@ -257,8 +265,12 @@ double draw_text(Image& image, std::string_view text, double x_px, double baseli
 
 double text_width_px(std::string_view text, double height_px) {
   double units = 0.0;
-  for (const char c : text) units += width_of(glyph(c)) + kGap;
+  for (const std::string_view code : glyphs(text)) units += width_of(code) + kGap;
   return units * height_px / kCap;
+}
+
+double fitting_height_px(std::string_view text, double height_px, double width_px) {
+  return std::min(height_px, height_px * std::max(width_px, 0.0) / text_width_px(text, height_px));
 }
 
 }  // namespace gnbv

@@ -20,12 +20,16 @@ Rgb8 to_rgb8(const Rgb& linear);
 void draw_line(Image& image, const std::array<double, 2>& from_px,
                const std::array<double, 2>& to_px, double width_px, const Rgb8& colour);
 
-/// Printable ASCII; anything else appears as '?'. `height_px` is that of a capital. A halo of that
-/// width keeps it legible on a busy picture. Returns the x where the text ends.
+/// Printable ASCII; every other code point of UTF-8 appears as '?'. `height_px` is that of a
+/// capital. A halo of that width keeps it legible on a busy picture. Returns the x where the text
+/// ends.
 double draw_text(Image& image, std::string_view text, double x_px, double baseline_px,
                  double height_px, const Rgb8& colour, double halo_px = 0.0);
 
 /// Width of what draw_text() would draw.
 double text_width_px(std::string_view text, double height_px);
+
+/// `height_px`, or as much less as makes the text no wider than `width_px`.
+double fitting_height_px(std::string_view text, double height_px, double width_px);
 
 }  // namespace gnbv

@@ -50,7 +50,8 @@ std::vector<std::string> ffmpeg_command(const std::string& format, const std::st
                                      "-pix_fmt",  "yuv420p",
                                      "-movflags", "+faststart"};
   words.insert(words.end(), last.begin(), last.end());
-  words.insert(words.end(), {"-f", format, out});
+  // plain, "a:b" would be a protocol to ffmpeg, and "-a" an option
+  words.insert(words.end(), {"-f", format, "file:" + out});
   return words;
 }
 

@@ -50,7 +50,7 @@ Picture draw(RunSource& run, const PictureOptions& options, const RenderView&) {
   std::sort(sorted.begin(), sorted.end());
   const std::uint32_t top = sorted.empty() ? 1 : sorted[sorted.size() * 95 / 100];
   for (const std::uint32_t density : counts) {
-    dots.colours.push_back(amount_ramp(static_cast<double>(density) / top));
+    dots.colours.push_back(amount_ramp((density - 1.0) / std::max(1.0, top - 1.0)));
   }
   Picture picture{.panels = std::vector<Panel>(1)};
   RenderScene& scene = picture.panels.front().scene;

@@ -35,7 +35,8 @@ Picture draw(RunSource& run, const PictureOptions&, const RenderView& view) {
                              stage.waypoints == 1 ? "" : "s", stage.points_world_m.size());
     picture.panels.push_back(std::move(panel));
   }
-  picture.detail = fmt::format("profile of {} waypoints, {:.1f} s", stages.back().waypoints,
+  picture.detail = fmt::format("profile of {} waypoint{}, {:.1f} s", stages.back().waypoints,
+                               stages.back().waypoints == 1 ? "" : "s",
                                run.record().profile_end_s.value_or(0.0));
   picture.legend = {
       {"flown", {path_ramp(0.75)}, LegendItem::Mark::line},
@@ -46,7 +47,7 @@ Picture draw(RunSource& run, const PictureOptions&, const RenderView& view) {
 }  // namespace
 
 const PictureKind kProfilePicture = {.name = "profile",
-                                     .shows = "profile after 1, 3 and 8 waypoints (Fig. 4)",
+                                     .shows = "profile after 1, 3 and all waypoints (Fig. 4)",
                                      .panels = 3,
                                      .frame = frame,
                                      .draw = draw};

@@ -46,6 +46,10 @@ FrameMargins margins_of(const PictureKind& kind, const PictureOptions& options,
   return margins;
 }
 
+bool leaves_room(const FrameMargins& margins) {
+  return margins.left + margins.right < 1.0 && margins.top + margins.bottom < 1.0;
+}
+
 // Whether something that has to be seen lies behind the title.
 bool meets_title(const RenderView& view, const std::vector<Vec3>& points_world_m) {
   const double u = layout_unit_px(view.width_px, view.height_px);
@@ -56,16 +60,20 @@ bool meets_title(const RenderView& view, const std::vector<Vec3>& points_world_m
 }
 
 RenderView frame(const PictureOptions& options, const std::vector<Vec3>& points_world_m,
-                 FrameMargins margins, int width_px, int height_px) {
+                 const FrameMargins& margins, int width_px, int height_px) {
   RenderView view = frame_points(points_world_m, options.angles, width_px, height_px, margins);
   if (has_caption(options) && meets_title(view, points_world_m)) {
-    margins.top = std::max(margins.top, 82.0 * layout_unit_px(width_px, height_px) / height_px);
-    view = frame_points(points_world_m, options.angles, width_px, height_px, margins);
+    FrameMargins below = margins;
+    below.top = std::max(margins.top, 82.0 * layout_unit_px(width_px, height_px) / height_px);
+    if (leaves_room(below)) {
+      view = frame_points(points_world_m, options.angles, width_px, height_px, below);
+    }
   }
   if (!options.camera) return view;
   view.T_world_camera = options.camera->T_world_camera;
   view.fov_y_rad = options.camera->fov_y_rad;
   view.focus_m = options.camera->focus_m;
+  view.to_light_world = options.camera->to_light_world;
   return view;
 }
 
@@ -87,19 +95,21 @@ PanelLayout lay_out(const PictureKind& kind, std::span<RunSource* const> runs,
                     const PictureOptions& options) {
   std::vector<Vec3> points;
   for (RunSource* const run : runs) kind.frame(*run, options, points);
-  PanelLayout best;
+  std::optional<PanelLayout> best;
   for (int columns = 1; columns <= kind.panels; ++columns) {
     PanelLayout layout{
         .columns = columns, .rows = (kind.panels + columns - 1) / columns, .view = {}};
     layout.view.width_px = (options.width_px + columns - 1) / columns;
     layout.view.height_px = (options.height_px + layout.rows - 1) / layout.rows;
-    layout.view = frame(options, points, margins_of(kind, options, layout), layout.view.width_px,
-                        layout.view.height_px);
-    const bool is_larger =
-        columns == 1 || px_per_m_at_focus(layout.view) > px_per_m_at_focus(best.view);
+    const FrameMargins margins = margins_of(kind, options, layout);
+    if (!leaves_room(margins)) continue;
+    layout.view = frame(options, points, margins, layout.view.width_px, layout.view.height_px);
+    const bool is_larger = !best || px_per_m_at_focus(layout.view) > px_per_m_at_focus(best->view);
     if (is_larger) best = layout;
   }
-  return best;
+  GNBV_CHECK(best.has_value(), "{} px: one row of panels is as high as the picture",
+             options.height_px);
+  return *best;
 }
 
 Image draw_picture(const PictureKind& kind, RunSource& run, const PictureOptions& options,
@@ -116,7 +126,10 @@ Image draw_picture(const Picture& picture, const RunSource& run, const PictureOp
     const int y = static_cast<int>(i) / layout.columns * layout.view.height_px;
     Image panel = renderer.render(picture.panels[i].scene, layout.view);
     if (has_caption(options)) {
-      draw_text(panel, picture.panels[i].note, 26.0 * u, 92.0 * u, 11.0 * u, kInk, 2.5 * u);
+      const double x_note = 26.0 * u;
+      const double height =
+          fitting_height_px(picture.panels[i].note, 11.0 * u, panel.width_px - 1.5 * x_note);
+      draw_text(panel, picture.panels[i].note, x_note, 92.0 * u, height, kInk, 2.5 * u);
     }
     if (x > 0) draw_line(panel, {0.0, 0.0}, {0.0, 1.0 * panel.height_px}, 3.0 * u, {255, 255, 255});
     if (y > 0) draw_line(panel, {0.0, 0.0}, {1.0 * panel.width_px, 0.0}, 3.0 * u, {255, 255, 255});
@@ -132,12 +145,16 @@ Image draw_picture(const Picture& picture, const RunSource& run, const PictureOp
 }
 
 Image contact_sheet(std::span<const Image> images, int columns) {
-  GNBV_CHECK(!images.empty() && columns > 0, "{} images in {} columns", images.size(), columns);
+  const auto is_there = [](const Image& image) { return !image.rgb.empty(); };
+  const auto first = std::find_if(images.begin(), images.end(), is_there);
+  GNBV_CHECK(first != images.end() && columns > 0, "{} images in {} columns", images.size(),
+             columns);
   const int rows = (static_cast<int>(images.size()) + columns - 1) / columns;
-  const int width_px = images.front().width_px;
-  const int height_px = images.front().height_px;
+  const int width_px = first->width_px;
+  const int height_px = first->height_px;
   Image sheet = blank(columns * width_px, rows * height_px);
   for (std::size_t i = 0; i < images.size(); ++i) {
+    if (!is_there(images[i])) continue;
     GNBV_CHECK(images[i].width_px == width_px && images[i].height_px == height_px,
                "image {} is of another size", i);
     paste(images[i], static_cast<int>(i) % columns * width_px,

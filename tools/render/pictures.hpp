@@ -35,7 +35,8 @@ Image draw_picture(const PictureKind& kind, RunSource& run, const PictureOptions
 Image draw_picture(const Picture& picture, const RunSource& run, const PictureOptions& options,
                    const PanelLayout& layout, Renderer& renderer);
 
-/// Images of one size on one sheet, `columns` of them in each row.
+/// Images of one size on one sheet, `columns` of them in each row; an empty one leaves its place
+/// white. Requires one that is not empty.
 Image contact_sheet(std::span<const Image> images, int columns);
 
 }  // namespace gnbv

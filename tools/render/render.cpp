@@ -230,6 +230,12 @@ Image Renderer::Impl::render(const RenderScene& scene, const RenderView& view) {
     throw BadInput(fmt::format("picture size {} x {} px: both must be from 1 to {}", width, height,
                                kMaxSide_px));
   }
+  if (std::int64_t{width} * height > kMaxArea_px) {
+    throw BadInput(
+        fmt::format("picture size {} x {} px: more than {} pixels; ask for less with "
+                    "--width and --height",
+                    width, height, kMaxArea_px));
+  }
   context.make_current();
   const DrawLists lists = make_draw_lists(scene);
   upload(lists, make_frame_block(scene, view, lists));
@@ -247,6 +253,12 @@ Image Renderer::Impl::render(const RenderScene& scene, const RenderView& view) {
   gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
   gl.ReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, image.rgb.data());
   const GLenum error = gl.GetError();
+  if (error == GL_OUT_OF_MEMORY) {
+    throw BadInput(
+        fmt::format("picture size {} x {} px: too little memory; ask for less with --width and "
+                    "--height",
+                    width, height));
+  }
   GNBV_CHECK(error == GL_NO_ERROR, "OpenGL error {:#x} at {} x {} px", error, width, height);
   return image;
 }

@@ -8,6 +8,21 @@
 #include "tools/record/candidates_record.hpp"
 
 namespace gnbv {
+namespace {
+
+std::string why_no_profile(const RunRecord& record) {
+  const ProfilingMethod method = record.scenario.planner.profiling.method;
+  if (method != ProfilingMethod::none && method != ProfilingMethod::saved) {
+    return fmt::format("{}: its profile ended before its first waypoint: nothing to draw",
+                       record.folder.string());
+  }
+  return fmt::format(
+      "{}: flew no profile of its own: planner.profiling.method is {}; {} flies one",
+      record.folder.string(), method == ProfilingMethod::none ? "none" : "saved",
+      command_to_fly_again(record.folder, "--set planner.profiling.method=bounding_box"));
+}
+
+}  // namespace
 
 RunSource::RunSource(const std::filesystem::path& folder, int threads, SourceProgress on_progress)
     : record_(read_run(folder)), threads_(threads), on_progress_(std::move(on_progress)) {}
@@ -53,22 +68,17 @@ RecordedMission RunSource::mission(const std::string& note) {
 
 const std::vector<ProfileStage>& RunSource::profile() {
   if (!profile_) {
-    constexpr std::array<std::size_t, 3> kWaypoints = {1, 3, 8};
+    constexpr std::array<std::size_t, 2> kWaypoints = {1, 3};
     profile_ = replay_profile(mission("flying the profile again"), kWaypoints);
-    if (profile_->empty()) {
-      throw BadInput(
-          fmt::format("{}: flew no profile of its own: planner.profiling.method is none "
-                      "or saved; `gnbv run {} --set "
-                      "planner.profiling.method=bounding_box --out NEW` flies one",
-                      record_.folder.string(), (record_.folder / "scenario.yaml").string()));
-    }
   }
+  if (profile_->empty()) throw BadInput(why_no_profile(record_));
   return *profile_;
 }
 
 const Belief& RunSource::belief_after(std::size_t iteration) {
   if (!belief_ || belief_->first != iteration) {
-    belief_.reset();  // two maps at once may be too large
+    belief_.reset();
+    decision_.reset();
     belief_.emplace(
         iteration,
         replay_belief(mission(fmt::format("flying again to view {}", iteration)), iteration));
@@ -78,6 +88,7 @@ const Belief& RunSource::belief_after(std::size_t iteration) {
 
 const ReplayedDecision& RunSource::decision(std::size_t iteration) {
   if (!decision_ || decision_->first != iteration) {
+    belief_.reset();
     decision_.reset();
     std::optional<Plan> plan = read_candidates(record_.folder, iteration);
     const RecordedMission again = mission(fmt::format("flying again to view {}", iteration));
@@ -86,6 +97,15 @@ const ReplayedDecision& RunSource::decision(std::size_t iteration) {
                            : replay_decision(again, iteration));
   }
   return decision_->second;
+}
+
+void RunSource::forget() {
+  scene_.reset();
+  cloud_.reset();
+  reference_.reset();
+  profile_.reset();
+  belief_.reset();
+  decision_.reset();
 }
 
 }  // namespace gnbv

@@ -31,13 +31,17 @@ class RunSource {
   /// What coverage is measured against.
   const SurfaceReference& reference();
 
-  /// The profile after 1, 3 and 8 waypoints (Fig. 4). Throws BadInput for a run that flew none.
+  /// The profile after 1, 3 and all waypoints (Fig. 4: all are 8), each once. Throws BadInput for a
+  /// run that flew none.
   const std::vector<ProfileStage>& profile();
   /// What was believed after a view. Throws BadInput as replay_belief().
   const Belief& belief_after(std::size_t iteration);
   /// The decision that chose a view: its candidates are those of candidates.jsonl where the run has
   /// one, or else planned again. Throws BadInput as replay_decision().
   const ReplayedDecision& decision(std::size_t iteration);
+
+  /// Lets go of what is large and can be had again: everything but record and structure.
+  void forget();
 
  private:
   RecordedMission mission(const std::string& note);
@@ -50,7 +54,8 @@ class RunSource {
   std::optional<RunCloud> cloud_;
   std::optional<SurfaceReference> reference_;
   std::optional<std::vector<ProfileStage>> profile_;
-  std::optional<std::pair<std::size_t, Belief>> belief_;  // the one last asked for
+  // of belief and decision only the one last asked for: maps may be large
+  std::optional<std::pair<std::size_t, Belief>> belief_;
   std::optional<std::pair<std::size_t, ReplayedDecision>> decision_;
 };
 

@@ -32,6 +32,12 @@ Isometry look_at(const Vec3& eye_world_m, const Vec3& target_world_m) {
   return camera_pose(eye_world_m, (target_world_m - eye_world_m).normalized());
 }
 
+Vec3 key_light(const Isometry& T_world_camera) {
+  const Vec3 right = T_world_camera.linear().col(0);  // level, even of a plumb view
+  const double behind_rad = std::atan2(right.y(), right.x()) - 0.5 * kPi;
+  return from_angles(behind_rad - deg_to_rad(50.0), deg_to_rad(52.0));
+}
+
 RenderView frame_points(std::span<const Vec3> points_world_m, const ViewAngles& angles,
                         int width_px, int height_px, const FrameMargins& margins,
                         double fov_y_rad) {
@@ -56,7 +62,7 @@ RenderView frame_points(std::span<const Vec3> points_world_m, const ViewAngles& 
   view.height_px = height_px;
   view.fov_y_rad = fov_y_rad;
   view.T_world_camera = camera_pose(Vec3::Zero(), -to_camera);
-  view.to_light_world = from_angles(angles.azimuth_rad - deg_to_rad(50.0), deg_to_rad(52.0));
+  view.to_light_world = key_light(view.T_world_camera);
 
   // In the turned frame, (x, y, z) is left of the right side while x - ex <= right (z - ez), and so
   // on: linear in the eye (ex, ey, ez), so that one extreme a side decides.

@@ -21,6 +21,9 @@ struct RenderView {
 /// Camera at `eye` looking at `target` with world z up in the picture (north up for a plumb view).
 Isometry look_at(const Vec3& eye_world_m, const Vec3& target_world_m);
 
+/// Towards a key light over the camera's left shoulder, 52 degrees above the horizon.
+Vec3 key_light(const Isometry& T_world_camera);
+
 /// From where to look, as seen from the subject: azimuth about z from east (+x), elevation above
 /// the horizon.
 struct ViewAngles {

@@ -1,0 +1,142 @@
+#include "tools/gnbv/render_options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "sim/core/error.hpp"
+#include "tools/render/camera_choice.hpp"
+#include "tools/render/pictures.hpp"
+
+namespace gnbv {
+namespace {
+
+bool is_film_name(const std::filesystem::path& path) {
+  return path.extension() == ".mp4" || path.extension() == ".gif";
+}
+
+std::string help_on_what() {
+  std::string help = "what to draw, separated by commas, or all:";
+  for (const PictureKind* kind : picture_kinds()) {
+    help += fmt::format("\n{} = {}", kind->name, kind->shows);
+  }
+  return help + "\nsnapshots = third-person images each --every views" +
+         "\nmovie = the same as a film, by ffmpeg";
+}
+
+void add_camera_options(CLI::App& command, RenderOptions& options) {
+  command
+      .add_option(
+          "--camera", options.camera,
+          "iso, front, back, left, right, top, or a JSON file with position_m, target_m and "
+          "fov_y_deg; presets frame the picture by themselves")
+      ->capture_default_str();
+  command.add_option("--azimuth-deg", options.azimuth_deg,
+                     "from where to look: 0 east, 90 north (default: the camera's)");
+  command.add_option("--elevation-deg", options.elevation_deg, "above the horizon")
+      ->check(CLI::Range(-89.0, 90.0));
+  command.add_option("--width", options.picture.width_px, "width in pixels")
+      ->check(CLI::Range(16, 8192))
+      ->capture_default_str();
+  command.add_option("--height", options.picture.height_px, "height in pixels")
+      ->check(CLI::Range(16, 8192))
+      ->capture_default_str();
+  command.add_flag("--follow", options.follows,
+                   "snapshots, movie: the camera flies behind and above the vehicle");
+}
+
+}  // namespace
+
+bool is_file_name(const std::filesystem::path& path) {
+  return path.extension() == ".png" || is_film_name(path);
+}
+
+bool is_series(const std::string& kind) { return kind == "snapshots" || kind == "movie"; }
+
+std::vector<std::string> kinds_asked(const RenderOptions& options) {
+  std::vector<std::string> names;
+  for (const std::string& what : options.what) {
+    if (what == "all") {
+      for (const PictureKind* kind : picture_kinds()) names.emplace_back(kind->name);
+      names.insert(names.end(), {"snapshots", "movie"});
+    } else {
+      if (!is_series(what)) picture_kind(what);
+      names.push_back(what);
+    }
+  }
+  std::set<std::string> seen;
+  std::erase_if(names, [&](const std::string& name) { return !seen.insert(name).second; });
+  std::stable_partition(names.begin(), names.end(),
+                        [](const std::string& name) { return name != "movie"; });
+  return names;
+}
+
+void need_consistent(const RenderOptions& options, const std::vector<std::string>& kinds) {
+  const bool is_one_file = is_file_name(options.out);
+  if (is_one_file && (options.runs.size() > 1 || kinds.size() > 1)) {
+    throw BadInput(
+        fmt::format("--out {}: one file for {} runs and {} kinds of pictures: give a "
+                    "folder",
+                    options.out.string(), options.runs.size(), kinds.size()));
+  }
+  if (is_one_file &&
+      (kinds.front() == "snapshots" || is_film_name(options.out) != (kinds.front() == "movie"))) {
+    throw BadInput(
+        fmt::format("--out {}: {} is no such file", options.out.string(), kinds.front()));
+  }
+  if (!options.sheet.empty() && std::all_of(kinds.begin(), kinds.end(), is_series)) {
+    throw BadInput(
+        fmt::format("--sheet {}: snapshots and movies have no place on a sheet: name other "
+                    "pictures with --what",
+                    options.sheet.string()));
+  }
+}
+
+void set_camera(RenderOptions& options) {
+  PictureOptions& picture = options.picture;
+  const CameraChoice choice = choose_camera(options.camera);
+  if (choice.camera && (options.azimuth_deg || options.elevation_deg)) {
+    throw BadInput(
+        fmt::format("--camera {}: the file says from where to look; leave out --azimuth-deg and "
+                    "--elevation-deg, or the file",
+                    options.camera));
+  }
+  picture.angles = choice.angles;
+  picture.camera = choice.camera;
+  if (options.azimuth_deg) picture.angles.azimuth_rad = deg_to_rad(*options.azimuth_deg);
+  if (options.elevation_deg) picture.angles.elevation_rad = deg_to_rad(*options.elevation_deg);
+}
+
+void add_render_options(CLI::App& command, RenderOptions& options) {
+  command.add_option("RUN", options.runs, "run directories; all get the same camera")->required();
+  command.add_option("--what", options.what, help_on_what())
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->capture_default_str();
+  command.add_option("-o,--out", options.out,
+                     "PNG, MP4 or GIF to write, or a folder (default: the run directory)");
+  command.add_option("--sheet", options.sheet,
+                     "also a PNG with all pictures side by side: a column a run, a row a kind");
+  add_camera_options(command, options);
+  command
+      .add_option("--iteration", options.picture.iteration,
+                  "cloud, coverage, voxels: after this view (default: the last); candidates: the "
+                  "decision that chose it (default: half way)")
+      ->check(CLI::NonNegativeNumber);
+  command
+      .add_option("--every", options.picture.every,
+                  "path: frusta of each n-th view; snapshots, movie: an image each n views")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--fps", options.images_per_s, "movie: images a second")
+      ->check(CLI::Range(1, 120))
+      ->capture_default_str();
+  command.add_option("--title", options.picture.title, "(default: scenario and utility)");
+  command.add_flag("--with-profile", options.picture.has_profile,
+                   "path: the profile's flight, too, wide around the structure");
+  command.add_flag("!--no-caption", options.picture.has_caption, "no title, legend and scale");
+  command.add_option("--threads", options.threads, "0 = all; the pictures do not depend on it")
+      ->check(CLI::Range(0, 1024));
+}
+
+}  // namespace gnbv

@@ -1,0 +1,46 @@
+// What `gnbv render` is asked for.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/render/picture.hpp"
+
+namespace gnbv {
+
+struct RenderOptions {
+  std::vector<std::filesystem::path> runs;
+  std::vector<std::string> what = {"path"};
+  std::filesystem::path out;
+  std::filesystem::path sheet;
+  std::string camera = "iso";
+  std::optional<double> azimuth_deg;
+  std::optional<double> elevation_deg;
+  PictureOptions picture;
+  bool follows = false;
+  int images_per_s = 24;
+  int threads = 0;
+};
+
+void add_render_options(CLI::App& command, RenderOptions& options);
+
+/// Whether a path names one image or film, not a folder.
+bool is_file_name(const std::filesystem::path& path);
+/// Many images of a run instead of one.
+bool is_series(const std::string& kind);
+
+/// The kinds asked for, each once; movies last, since they take longest. Throws BadInput naming all
+/// kinds for another one.
+std::vector<std::string> kinds_asked(const RenderOptions& options);
+
+/// Throws BadInput for files that cannot be made of what is asked for.
+void need_consistent(const RenderOptions& options, const std::vector<std::string>& kinds);
+
+/// Sets the picture's camera; angles of the options replace those of a preset. Throws BadInput as
+/// choose_camera(), and for angles beside a file.
+void set_camera(RenderOptions& options);
+
+}  // namespace gnbv
