@@ -18,7 +18,7 @@ constexpr const char* kReadme =
 trajectory.txt           true path of the body (x forward, y left, z up) in the world (ENU, metres)
                          at 10 Hz: time_s x y z qx qy qz qw, as `evo_traj tum` opens it
 CAMERA/groundtruth.txt   true path of the camera (x right, y down, z forward), the same columns,
-                         at 10 Hz and at every frame
+                         at 10 Hz and at the frames in between
 CAMERA/estimate.txt      where the vehicle believed the camera to be, at every frame;
                          `evo_ape tum groundtruth.txt estimate.txt` measures the difference
 CAMERA/rgb.txt           time and name of every colour image
