@@ -94,6 +94,27 @@ TEST(OrientedCloud, FromInsideTheyPointIn) {
   }
 }
 
+TEST(OrientedCloud, TheFacesOfAThinWedgeKeepTheirNormals) {
+  // two planes through the y axis, 6 degrees from level, seen from above and from below
+  const auto slope = static_cast<float>(std::tan(deg_to_rad(6.0)));
+  SeenPoints seen;
+  for (int i = 1; i <= 40; ++i) {
+    for (int j = 0; j < 40; ++j) {
+      const float x_m = 0.02F * static_cast<float>(i);
+      for (const float side : {1.0F, -1.0F}) {
+        seen.points_world_m.emplace_back(x_m, 0.02F * static_cast<float>(j), side * slope * x_m);
+        seen.sensors_world_m.emplace_back(0.5F, 0.4F, side * 3.0F);
+      }
+    }
+  }
+  const OrientedCloud cloud = oriented(seen, 1);
+  for (std::size_t i = 0; i < cloud.points_world_m.size(); ++i) {
+    const float side = cloud.points_world_m[i].z() > 0.0F ? 1.0F : -1.0F;
+    const Vec3f normal = Vec3f(-slope, 0.0F, side).normalized();
+    EXPECT_GT(cloud.normals_world[i].dot(normal), 0.9999F);
+  }
+}
+
 TEST(OrientedCloud, PointsOnALineHaveNoNormal) {
   SeenPoints seen;
   for (int i = 0; i < 30; ++i) {
@@ -114,14 +135,6 @@ TEST(Poisson, SurfaceOfASphereIsTheSphereWatertightAndOutward) {
   }
   EXPECT_NEAR(volume_m3, 4.0 / 3.0 * kPi, 0.02);
   for (const Vec3f& p_m : mesh.vertices_m) EXPECT_NEAR(p_m.norm(), kRadius_m, 0.005F);
-}
-
-TEST(Poisson, KeepsStdoutForTheProgram) {
-  testing::internal::CaptureStdout();
-  std::printf("before ");
-  poisson(oriented(seen_sphere(), 2), 7);
-  std::printf("after");
-  EXPECT_EQ(testing::internal::GetCapturedStdout(), "before after");
 }
 
 TEST(Trim, AHalfSphereEndsAtItsRim) {

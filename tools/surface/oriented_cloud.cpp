@@ -28,6 +28,21 @@ float spacing_of(std::span<const Neighbour> found) {
   return found.back().distance_m * std::sqrt(static_cast<float>(kPi) / n);
 }
 
+/// Those of the neighbours that were seen from the same side as the point itself: the other face of
+/// a thin wing has a normal of its own. All of them where too few are.
+std::size_t keep_same_side(const SeenPoints& seen, std::size_t point, std::span<Neighbour> found) {
+  constexpr std::ptrdiff_t kFewest = 6;
+  const auto to_sensor = [&](std::size_t i) {
+    return Vec3f(seen.sensors_world_m[i] - seen.points_world_m[i]);
+  };
+  const Vec3f own = to_sensor(point);
+  const auto end = std::stable_partition(found.begin(), found.end(), [&](const Neighbour& other) {
+    return own.dot(to_sensor(other.point)) > 0.0F;
+  });
+  const std::ptrdiff_t kept = end - found.begin();
+  return kept >= kFewest ? static_cast<std::size_t>(kept) : found.size();
+}
+
 Normal normal_at(std::span<const Vec3f> points_m, std::span<const Neighbour> found) {
   Normal normal;
   if (found.size() < 3) return normal;
@@ -44,7 +59,6 @@ Normal normal_at(std::span<const Vec3f> points_m, std::span<const Neighbour> fou
   const Vec3f& spread_m2 = solver.eigenvalues();              // ascending
   if (!(spread_m2[1] > 1e-4F * spread_m2[2])) return normal;  // one line has no normal
   normal.unit = solver.eigenvectors().col(0);
-  normal.spacing_m = spacing_of(found);
   return normal;
 }
 
@@ -79,7 +93,11 @@ OrientedCloud oriented(const SeenPoints& seen, int threads) {
   std::vector<Normal> normals(points_m.size());
   for_each_point([&](std::size_t i) {
     std::array<Neighbour, kNeighbours> neighbours{};
-    Normal normal = normal_at(points_m, tree.nearest(points_m[i], neighbours));
+    const std::size_t count = tree.nearest(points_m[i], neighbours).size();
+    const std::span<Neighbour> found = std::span(neighbours).first(count);
+    const float spacing_m = spacing_of(found);
+    Normal normal = normal_at(points_m, found.first(keep_same_side(seen, i, found)));
+    normal.spacing_m = spacing_m;
     const Vec3f to_sensor = (seen.sensors_world_m[i] - points_m[i]).normalized();
     normal.cosine = normal.unit.dot(to_sensor);
     if (normal.cosine < 0.0F) {

@@ -28,9 +28,10 @@ struct OrientedCloud {
   std::vector<float> spacing_m;      // (points), between neighbours there
 };
 
-/// Normals by principal components of the 16 nearest points (Hoppe et al. 1992), pointing to the
-/// sensor; where they are nearly square to it, to the side of the neighbours that are not. Points
-/// whose neighbours lie on one line are left out. Deterministic at any number of threads.
+/// Normals by principal components (Hoppe et al. 1992) of those of the 16 nearest points that were
+/// seen from the same side, so that the two faces of a thin wing keep apart; pointing to the sensor
+/// or, where they are nearly square to it, to the side of the neighbours that are not. Points whose
+/// neighbours lie on one line are left out. Deterministic at any number of threads.
 OrientedCloud oriented(const SeenPoints& seen, int threads);
 
 }  // namespace gnbv
