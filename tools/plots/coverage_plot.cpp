@@ -59,21 +59,30 @@ std::string label_of(const RunGroup& group) {
   return fmt::format("{} ({} seeds)", group.label, group.runs.size());
 }
 
-/// Whether the lower right corner, where `entries` lines of a key would stand, is free of curves.
-bool is_corner_free(std::span<const RunGroup> groups, Effort effort, std::size_t size,
-                    std::size_t entries) {
-  constexpr double kEntry = 0.07;   // of the plot's height
-  constexpr double kCorner = 0.35;  // begins here, as a share of the plot's width
+double longest_effort(std::span<const RunGroup> groups, Effort effort) {
   double longest = 0.0;
   for (const RunGroup& group : groups) {
     for (const RunRecord* run : group.runs) {
       longest = std::max(longest, whole_effort(run->figures->curve, effort));
     }
   }
+  return longest;
+}
+
+constexpr int kHeight_px = 1050;  // of the picture, whose width is 1512
+constexpr int kKeyLine_px = 60;
+
+/// Whether the lower right corner is free of curves: there a key of so many lines would stand, as
+/// wide as its longest one, of so many characters.
+bool is_corner_free(std::span<const RunGroup> groups, Effort effort, std::size_t size,
+                    std::size_t entries, std::size_t characters) {
+  const double height = static_cast<double>((entries + 1) * kKeyLine_px) / (0.8 * kHeight_px);
+  const double left = 0.9 - 0.022 * static_cast<double>(characters);  // of the plot's width
+  if (left < 0.0) return false;
+  const double longest = longest_effort(groups, effort);
   return std::all_of(groups.begin(), groups.end(), [&](const RunGroup& group) {
     return std::all_of(group.runs.begin(), group.runs.end(), [&](const RunRecord* run) {
-      return coverage_at(run->figures->curve, effort, size, kCorner * longest) >
-             kEntry * static_cast<double>(entries + 1);
+      return coverage_at(run->figures->curve, effort, size, left * longest) > height;
     });
   });
 }
@@ -82,7 +91,14 @@ bool is_corner_free(std::span<const RunGroup> groups, Effort effort, std::size_t
 struct Layers {
   std::string bands = {}, levels = {}, lines = {}, keys = {};
   std::size_t entries = 0;
+  std::size_t characters = 0;  // of the longest entry
 };
+
+void add_key(Layers& layers, std::string_view style, std::string_view text) {
+  layers.keys += fmt::format("keyentry with {} title {}, ", style, gnuplot_text(text));
+  layers.characters = std::max(layers.characters, text.size());
+  ++layers.entries;
+}
 
 Layers layers_of(std::span<const RunGroup> groups, std::size_t size) {
   Layers layers{.entries = groups.size()};
@@ -95,6 +111,7 @@ Layers layers_of(std::span<const RunGroup> groups, std::size_t size) {
           "notitle, ",
           i, colour);
     }
+    layers.characters = std::max(layers.characters, label_of(groups[i]).size());
     layers.lines +=
         fmt::format("$group{} using 1:2 with lines lw 1.3 dt {} lc rgb '{}' title {}, ", i,
                     1 + i / kPalette.size(), colour, gnuplot_text(label_of(groups[i])));
@@ -105,16 +122,11 @@ Layers layers_of(std::span<const RunGroup> groups, std::size_t size) {
     }
   }
   if (!layers.bands.empty()) {
-    layers.keys += "keyentry with boxes fs solid noborder fc rgb '#d5d9de' title ";
-    layers.keys += "'95 % interval of the mean', ";
-    ++layers.entries;
+    add_key(layers, "boxes fs solid noborder fc rgb '#d5d9de'", "95 % interval of the mean");
   }
   if (!layers.levels.empty()) {
-    layers.keys +=
-        fmt::format("keyentry with lines lw 0.9 dt (6,5) lc rgb '#5c6470' title {}, ",
-                    gnuplot_text(has_doubtful ? "paper, at the end (its column is doubtful)"
-                                              : "paper, at the end"));
-    ++layers.entries;
+    add_key(layers, "lines lw 0.9 dt (6,5) lc rgb '#5c6470'",
+            has_doubtful ? "paper, at the end (doubtful)" : "paper, at the end");
   }
   return layers;
 }
@@ -127,14 +139,23 @@ Plot coverage_plot(std::span<const RunGroup> groups, Effort effort, std::size_t 
   const Layers layers = layers_of(groups, size);
   std::string entries = layers.bands + layers.levels + layers.lines + layers.keys;
   entries.resize(entries.size() - 2);
-  const char* const key = is_corner_free(groups, effort, size, layers.entries)
-                              ? "set key inside bottom right vertical\n"
-                              : "set key outside top center vertical\n";
+  const bool is_inside = is_corner_free(groups, effort, size, layers.entries, layers.characters);
+  const int key_px = is_inside ? 0 : kKeyLine_px * static_cast<int>(layers.entries);
+  const int height_px = kHeight_px + key_px;
+  const std::string key = is_inside
+                              ? std::string("set key inside bottom right vertical\n")
+                              : fmt::format(
+                                    "set key at screen 0.1,0.99 left top vertical maxcols 1\n"
+                                    "set tmargin at screen {:.4f}\n",
+                                    1.0 - static_cast<double>(key_px + kKeyLine_px) / height_px);
   const std::string y_label = fmt::format("coverage at {:.2f} m (%)", kCoverageSizes_m[size]);
   return {fmt::format("coverage-{}", name_of(effort)),
           data + key + "set yrange [0:100]\nset xrange [0:*] noextend\nset rmargin 3\n" +
+              fmt::format("set xtics {:g}\n",
+                          even_step(std::max(longest_effort(groups, effort), 1e-6))) +
               fmt::format("set xlabel {}\nset ylabel {} offset 0.6,0\nplot {}\n",
-                          gnuplot_text(x_label(effort)), gnuplot_text(y_label), entries)};
+                          gnuplot_text(x_label(effort)), gnuplot_text(y_label), entries),
+          height_px};
 }
 
 }  // namespace gnbv

@@ -51,7 +51,9 @@ std::vector<std::string> differing_keys(const std::vector<Values>& groups) {
 /// Names first; other keys only as far as names leave groups alike.
 std::vector<std::string> labels_of(const std::vector<Values>& groups) {
   std::vector<std::string> labels(groups.size());
-  if (groups.size() == 1) return {value_of(groups.front(), "planner.utility.name")};
+  if (groups.size() == 1) {
+    return {value_of(groups[0], "name") + ", " + value_of(groups[0], "planner.utility.name")};
+  }
   const std::vector<std::string> keys = differing_keys(groups);
   for (const std::string& key : keys) {
     const bool is_name = key == "name" || key == "planner.utility.name" || key == "planner.preset";

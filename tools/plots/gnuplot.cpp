@@ -145,23 +145,22 @@ std::string plot_script(const Plot& plot, PlotFormat format, const PlotSize& siz
   switch (format) {
     case PlotFormat::svg:
       terminal = fmt::format(
-          "svg noenhanced rounded size {},{} fixed background rgb 'white' font "
-          "'Helvetica,Arial,sans-serif' "
-          "fontscale {:.4f} linewidth {:.4f}",
-          size.width_px, height_px, 3.5 * scale, 4.5 * scale);
+          "svg noenhanced rounded size {},{} fixed background rgb 'white' font 'Arial,{:.2f}' "
+          "linewidth {:.4f}",
+          size.width_px, height_px, 42.0 * scale, 4.5 * scale);
       break;
     case PlotFormat::png:
       terminal = fmt::format(
           "pngcairo noenhanced rounded size {},{} background rgb 'white' font 'Sans,12' fontscale "
           "{:.4f} "
           "linewidth {:.4f} pointscale {:.4f}",
-          size.width_px, height_px, 2.625 * scale, 4.5 * scale, 4.0 * scale);
+          size.width_px, height_px, 3.0 * scale, 4.5 * scale, 4.0 * scale);
       break;
     case PlotFormat::pdf:
       terminal = fmt::format(
-          "pdfcairo noenhanced rounded size {:.4f}in,{:.4f}in background rgb 'white' font 'Sans,7' "
+          "pdfcairo noenhanced rounded size {:.4f}in,{:.4f}in background rgb 'white' font 'Sans,8' "
           "fontscale {:.4f} linewidth {:.4f}",
-          kColumn_in * scale, kColumn_in * height_px / kColumn_px, scale, scale);
+          kColumn_in * scale, kColumn_in * height_px / kColumn_px, 0.8 * scale, scale);
       break;
   }
   return "set terminal " + terminal + "\n" + kStyle + plot.body;

@@ -10,7 +10,7 @@ namespace gnbv {
 enum class PlotFormat { svg, png, pdf };
 
 /// A width of 1512 pixels is one column of a paper: 3.5 inches at 432 dots an inch, with letters of
-/// 7 points. Letters and lines grow with the width.
+/// 6 to 7 points. Letters and lines grow with the width.
 struct PlotSize {
   int width_px = 1512;
   int height_px = 0;  // 0: what the plot asks for

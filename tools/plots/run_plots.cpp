@@ -13,6 +13,9 @@ namespace {
 
 using Columns = std::vector<std::vector<double>>;
 
+// palette colours on white, as large areas want them
+constexpr std::string_view kDensityArea = "#66abd1";
+constexpr std::string_view kPredictionArea = "#e69e66";
 constexpr std::size_t kManyViews = 100;
 constexpr std::size_t kWindow = 15;  // views that a mean is taken over, when there are many
 
@@ -91,15 +94,15 @@ Columns columns_of(const std::vector<ViewRecord>& views) {
           column_of(views, [](const Score& s) { return s.distance; })};
 }
 
-std::string line(std::string_view data, int column, std::size_t colour, std::string_view title) {
-  return fmt::format("${} using 1:{} with lines lw 1.2 lc rgb '{}' title {}", data, column,
-                     kPalette[colour], gnuplot_text(title));
+std::string line(std::string_view data, int column, std::size_t colour) {
+  return fmt::format("${} using 1:{} with lines lw 1.2 lc rgb '{}'", data, column,
+                     kPalette[colour]);
 }
 
 /// The single values behind their means, where means are drawn.
 std::string raw_line(int column, std::size_t colour, bool is_smooth) {
   if (!is_smooth) return "";
-  return fmt::format("$raw using 1:{} with lines lw 0.35 lc rgb '#b0{}' notitle, ", column,
+  return fmt::format("$raw using 1:{} with lines lw 0.35 lc rgb '#b0{}', ", column,
                      kPalette[colour].substr(1));
 }
 
@@ -112,26 +115,33 @@ std::string heading_of_utility(bool is_smooth) {
   return is_smooth ? fmt::format("utility (means over {} views)", kWindow) : "utility";
 }
 
-std::string proposed_panels(Panels& panels, const Columns& columns, const std::string& shade_key,
-                            const std::string& heading, bool is_smooth) {
+std::string utility_panel(Panels& panels, const Columns& columns, const std::vector<Phase>& phases,
+                          bool is_smooth) {
+  return panels.next(heading_of_utility(is_smooth), key_of_phases(phases)) + axis_of(columns[0]) +
+         "plot " + raw_line(2, 6, is_smooth) + line("mean", 2, 6) + "\n";
+}
+
+std::string factor_panels(Panels& panels, const Columns& columns, bool is_smooth) {
   std::vector<double> quality = columns[1];
   std::vector<double> factors = columns[3];
   for (std::size_t i = 0; i < quality.size(); ++i) {
     quality[i] += columns[2][i];
     factors[i] = std::max({factors[i], columns[4][i], columns[5][i]});
   }
-  std::string text = panels.next(heading) + axis_of(columns[0]) + "plot " +
-                     raw_line(2, 6, is_smooth) + line("mean", 2, 6, "") + shade_key + "\n";
-  text += panels.next("quality, the sum of") + axis_of(quality);
+  std::string text = panels.next("quality, the sum of",
+                                 {{kDensityArea, "density"}, {kPredictionArea, "prediction"}}) +
+                     axis_of(quality);
+  // the sum behind the density: no prediction leaves no hair of its colour
   text += fmt::format(
-      "plot $mean using 1:(0):3 with filledcurves fc rgb '{}' fs solid 0.6 noborder title "
-      "'density', $mean using 1:3:($3+$4) with filledcurves fc rgb '{}' fs solid 0.6 noborder "
-      "title 'prediction'\n",
-      kPalette[0], kPalette[1]);
-  text += panels.next("times") + axis_of(factors) + "plot " + raw_line(5, 2, is_smooth) +
-          raw_line(6, 3, is_smooth) + raw_line(7, 4, is_smooth);
-  return text + line("mean", 5, 2, "information") + ", " + line("mean", 6, 3, "distance") + ", " +
-         line("mean", 7, 4, "log10 voxels") + "\n";
+      "plot $mean using 1:(0):($3+$4) with filledcurves fc rgb '{}' fs solid noborder, "
+      "$mean using 1:(0):3 with filledcurves fc rgb '{}' fs solid noborder\n",
+      kPredictionArea, kDensityArea);
+  text += panels.next("times", {{kPalette[2], "information"},
+                                {kPalette[3], "distance"},
+                                {kPalette[4], "log10 voxels"}}) +
+          axis_of(factors) + "plot " + raw_line(5, 2, is_smooth) + raw_line(6, 3, is_smooth) +
+          raw_line(7, 4, is_smooth);
+  return text + line("mean", 5, 2) + ", " + line("mean", 6, 3) + ", " + line("mean", 7, 4) + "\n";
 }
 
 /// Whether the last column, the distance factor, ever says anything.
@@ -140,15 +150,11 @@ bool is_discounted(const Columns& columns) {
                      [](double factor) { return factor != 1.0; });
 }
 
-std::string other_panels(Panels& panels, const Columns& columns, const std::string& shade_key,
-                         const std::string& heading, bool is_smooth) {
-  std::string text = panels.next(heading) + axis_of(columns[0]) + "plot " +
-                     raw_line(2, 6, is_smooth) + line("mean", 2, 6, "") + shade_key + "\n";
-  if (!is_discounted(columns)) return text;
-  text += panels.next("the product of gain") + axis_of(columns[1]) + "plot " +
-          raw_line(3, 0, is_smooth) + line("mean", 3, 0, "") + "\n";
-  return text + panels.next("and distance factor") + y_axis(0.0, 1.0) + "plot " +
-         raw_line(4, 3, is_smooth) + line("mean", 4, 3, "") + "\n";
+std::string discount_panels(Panels& panels, const Columns& columns, bool is_smooth) {
+  return panels.next("the product of gain") + axis_of(columns[1]) + "plot " +
+         raw_line(3, 0, is_smooth) + line("mean", 3, 0) + "\n" +
+         panels.next("and distance factor") + y_axis(0.0, 1.0) + "plot " +
+         raw_line(4, 3, is_smooth) + line("mean", 4, 3) + "\n";
 }
 
 }  // namespace
@@ -168,12 +174,13 @@ std::optional<Plot> density_entropy_plot(const RunRecord& record) {
   const std::vector<Phase> phases = frontier_phases(record.views);
   Panels panels(2, title_of(record), "iteration");
   std::string text = data_block("views", rows) + x_range(record.views) + shaded_phases(phases);
-  text += panels.next(unit_nat > 1.0 ? "entropy (1000 nat)" : "entropy (nat)");
+  text +=
+      panels.next(unit_nat > 1.0 ? "entropy (1000 nat)" : "entropy (nat)", key_of_phases(phases));
   text += y_axis(*low / unit_nat, *high / unit_nat);
-  text += fmt::format("plot $views using 1:($2/{}) with lines lw 1.3 lc rgb '{}' notitle{}\n",
-                      unit_nat, kPalette[0], key_of_phases(phases));
+  text += fmt::format("plot $views using 1:($2/{}) with lines lw 1.3 lc rgb '{}'\n", unit_nat,
+                      kPalette[0]);
   text += panels.next("density (points/voxel)") + axis_of(columns[1]);
-  text += fmt::format("plot $views using 1:3 with lines lw 1.3 lc rgb '{}' notitle\n", kPalette[1]);
+  text += fmt::format("plot $views using 1:3 with lines lw 1.3 lc rgb '{}'\n", kPalette[1]);
   return Plot{"density", text + "unset multiplot\n", panels_height_px(2)};
 }
 
@@ -187,13 +194,15 @@ std::optional<Plot> terms_plot(const RunRecord& record) {
   const std::size_t count = is_proposed || is_discounted(columns) ? 3 : 1;
   const std::vector<Phase> phases = frontier_phases(record.views);
   Panels panels(count, title_of(record), "iteration");
-  const std::string heading = heading_of_utility(is_smooth);
-  const std::string text =
-      data_block("raw", rows_of(views, columns, 1)) +
-      data_block("mean", rows_of(views, columns, is_smooth ? kWindow : 1)) + x_range(record.views) +
-      shaded_phases(phases) +
-      (is_proposed ? proposed_panels(panels, columns, key_of_phases(phases), heading, is_smooth)
-                   : other_panels(panels, columns, key_of_phases(phases), heading, is_smooth));
+  std::string text = data_block("raw", rows_of(views, columns, 1)) +
+                     data_block("mean", rows_of(views, columns, is_smooth ? kWindow : 1)) +
+                     x_range(record.views) + shaded_phases(phases) +
+                     utility_panel(panels, columns, phases, is_smooth);
+  if (is_proposed) {
+    text += factor_panels(panels, columns, is_smooth);
+  } else if (count > 1) {
+    text += discount_panels(panels, columns, is_smooth);
+  }
   return Plot{"terms", text + "unset multiplot\n", panels_height_px(count)};
 }
 

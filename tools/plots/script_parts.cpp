@@ -15,7 +15,29 @@ namespace {
 constexpr std::string_view kPhaseColour = "#dcebf5";
 constexpr double kLeft = 0.115;  // edges of all panels, as shares of the width
 constexpr double kRight = 0.975;
-constexpr double kTextLine = 50.0;  // of a picture as wide as PlotSize is at first, in pixels
+constexpr double kTextLine = 54.0;  // of a picture as wide as PlotSize is at first, in pixels
+
+/// A key in one row that ends at the right edge of the panels.
+std::string key_row(const std::vector<KeyEntry>& key, double screen_y) {
+  constexpr double kLetter = 0.0172;  // shares of the width, with some room to spare
+  constexpr double kSquare = 0.036;
+  const auto width_of = [](const KeyEntry& entry) {
+    return kLetter * static_cast<double>(entry.text.size()) + 2.0 * kSquare;
+  };
+  double x = kRight + kSquare;
+  for (const KeyEntry& entry : key) x -= width_of(entry);
+  std::string text;
+  int label = 10;
+  for (const KeyEntry& entry : key) {
+    text += fmt::format("set label {} '\u25a0' at screen {:.4f},{:.4f} left textcolor rgb '{}'\n",
+                        label, x, screen_y, entry.colour);
+    text += fmt::format("set label {} {} at screen {:.4f},{:.4f} left textcolor rgb '#262c36'\n",
+                        label + 1, gnuplot_text(entry.text), x + kSquare, screen_y);
+    x += width_of(entry);
+    label += 2;
+  }
+  return text;
+}
 
 }  // namespace
 
@@ -39,10 +61,17 @@ std::string shaded_phases(const std::vector<Phase>& phases) {
   return text;
 }
 
-std::string key_of_phases(const std::vector<Phase>& phases) {
-  if (phases.empty()) return "";
-  return fmt::format(", keyentry with boxes fs solid noborder fc rgb '{}' title 'frontier views'",
-                     kPhaseColour);
+std::vector<KeyEntry> key_of_phases(const std::vector<Phase>& phases) {
+  if (phases.empty()) return {};
+  return {{kPhaseColour, "frontier views"}};
+}
+
+double even_step(double span) {
+  const double power = std::pow(10.0, std::floor(std::log10(span / 4.0)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (span / (factor * power) <= 5.0) return factor * power;
+  }
+  return 10.0 * power;
 }
 
 std::string y_axis(double low, double high) {
@@ -52,12 +81,7 @@ std::string y_axis(double low, double high) {
     low -= 0.05 * size;
     high += 0.05 * size;
   }
-  const double span = high - low;
-  const double power = std::pow(10.0, std::floor(std::log10(span / 4.0)));
-  double step = 10.0 * power;
-  for (const double factor : {5.0, 2.0, 1.0}) {
-    if (span / (factor * power) <= 5.0) step = factor * power;
-  }
+  const double step = even_step(high - low);
   return fmt::format("set yrange [{:.12g}:{:.12g}]\nset ytics {:.12g}\n",
                      step * std::floor(low / step), step * std::ceil(high / step), step);
 }
@@ -65,11 +89,11 @@ std::string y_axis(double low, double high) {
 Panels::Panels(std::size_t count, std::string_view title, std::string_view x_label)
     : count_(count), title_(title), x_label_(x_label) {}
 
-std::string Panels::next(std::string_view heading) {
+std::string Panels::next(std::string_view heading, const std::vector<KeyEntry>& key) {
   const auto n = static_cast<double>(count_);
   // a line of letters, as a share of a picture that has its natural height
   const double text_line = kTextLine / panels_height_px(count_);
-  const double bottom = 3.1 * text_line;
+  const double bottom = 2.9 * text_line;
   const double heading_height = 1.9 * text_line;
   const double height = (1.0 - 1.5 * text_line - bottom) / n - heading_height;
   const double top = 1.0 - 1.5 * text_line - heading_height -
@@ -77,23 +101,27 @@ std::string Panels::next(std::string_view heading) {
   const bool is_last = drawn_ + 1 == count_;
   std::string text;
   if (drawn_ == 0) {
-    text += fmt::format("set multiplot\nset lmargin at screen {}\nset rmargin at screen {}\n",
-                        kLeft, kRight);
+    text += fmt::format(
+        "set multiplot\nunset key\nunset xlabel\nset lmargin at screen {}\nset rmargin at screen "
+        "{}\n",
+        kLeft, kRight);
     text += fmt::format("set label 1 {} at screen 0.02,{:.4f} left textcolor rgb '#262c36'\n",
                         gnuplot_text(title_), 1.0 - text_line);
   } else {
-    text += "unset label 1\n";
+    text += "unset label\n";
   }
   text += fmt::format("set tmargin at screen {:.4f}\nset bmargin at screen {:.4f}\n", top,
                       top - height);
   const double heading_middle = top + 0.75 * text_line;
   text += fmt::format("set label 2 {} at screen {},{:.4f} left textcolor rgb '#5c6470'\n",
                       gnuplot_text(heading), kLeft, heading_middle);
-  text += fmt::format("set key at screen {},{:.4f} right center horizontal maxrows 1 width -2\n",
-                      kRight, heading_middle);
-  text += is_last ? fmt::format("set format x '%g'\nset xlabel {} textcolor rgb '#262c36'\n",
-                                gnuplot_text(x_label_))
-                  : "set format x ''\nunset xlabel\n";
+  text += key_row(key, heading_middle);
+  text += is_last ? "set format x '%g'\n" : "set format x ''\n";
+  if (is_last) {
+    text +=
+        fmt::format("set label 3 {} at graph 0.5,screen {:.4f} center textcolor rgb '#262c36'\n",
+                    gnuplot_text(x_label_), 0.6 * text_line);
+  }
   drawn_ += 1;
   return text;
 }

@@ -20,8 +20,17 @@ std::string data_block(std::string_view name, const std::vector<std::vector<doub
 /// Rectangles behind the plot that mark the phases, from half an iteration before to half after.
 std::string shaded_phases(const std::vector<Phase>& phases);
 
-/// The entry that explains them, to follow other entries of a plot command; empty without phases.
-std::string key_of_phases(const std::vector<Phase>& phases);
+/// A square of a colour and what it stands for.
+struct KeyEntry {
+  std::string_view colour;
+  std::string_view text;
+};
+
+/// What explains the shades; nothing without phases.
+std::vector<KeyEntry> key_of_phases(const std::vector<Phase>& phases);
+
+/// 1, 2 or 5 times a power of ten, of which `span` holds at most five. Requires span > 0.
+double even_step(double span);
 
 /// Settings of a y axis: from `low` to `high`, widened to whole steps, of which there are some
 /// four. Requires low <= high.
@@ -31,12 +40,13 @@ std::string y_axis(double low, double high);
 int panels_height_px(std::size_t count);
 
 /// Panels one above the other with the same width and one x axis, labelled below the last one. Each
-/// has a heading, and beside that a key of one row.
+/// has a heading, and beside that a key of one row: gnuplot's own would be laid out by the widths
+/// that each terminal takes letters for, and differ from format to format.
 class Panels {
  public:
   Panels(std::size_t count, std::string_view title, std::string_view x_label);
   /// The settings of the next panel, to stand before its plot command.
-  std::string next(std::string_view heading);
+  std::string next(std::string_view heading, const std::vector<KeyEntry>& key = {});
 
  private:
   std::size_t count_;
