@@ -222,9 +222,9 @@ TEST(Atlas, IsNeverLargerThanAllowedButCoarser) {
   const std::vector<TextureView> views = {view_from(0.0F, 2.0F)};
   const auto chosen = chosen_views(mesh, views);
   const AtlasLayout fine = lay_out_atlas(mesh, chosen, views, {.max_side_px = 512});
-  const AtlasLayout coarse = lay_out_atlas(mesh, chosen, views, {.max_side_px = 96});
-  EXPECT_LE(coarse.height + swatches_height_px(152, coarse.width), 96);  // those at the edge
-  EXPECT_LE(coarse.width, 96);
+  const AtlasLayout coarse = lay_out_atlas(mesh, chosen, views, {.max_side_px = 64});
+  EXPECT_LE(coarse.height + swatches_height_px(152, coarse.width), 64);  // those at the edge
+  EXPECT_LE(coarse.width, 64);
   EXPECT_LT(coarse.texels_per_m, fine.texels_per_m);
 }
 
