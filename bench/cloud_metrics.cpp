@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <memory>
-#include <nanoflann.hpp>
+#include <optional>
 #include <vector>
 
+#include "bench/point_tree.hpp"
 #include "bench/voxel_set.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
@@ -16,48 +16,11 @@ namespace {
 
 constexpr std::size_t kChunk = 8192;
 
-/// What nanoflann asks of a point set.
-struct TreePoints {
-  std::span<const Vec3f> points_m;
-  std::size_t kdtree_get_point_count() const { return points_m.size(); }
-  float kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    return points_m[i][static_cast<Eigen::Index>(axis)];
-  }
-  template <typename Box>
-  bool kdtree_get_bbox(Box& /*box*/) const {
-    return false;  // let it look itself
-  }
-};
-
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, TreePoints>,
-                                                 TreePoints, 3, std::uint32_t>;
-
-/// The nearest point within kFarthest_m, as nanoflann wants its result sets.
-class Nearest {
- public:
-  bool addPoint(float distance_m2, std::uint32_t index) {
-    if (distance_m2 < worst_m2_) {
-      worst_m2_ = distance_m2;
-      index_ = index;
-    }
-    return true;  // go on
-  }
-  float worstDist() const { return worst_m2_; }
-  bool full() const { return true; }  // worstDist() bounds the search from the start
-  std::uint32_t index() const { return index_; }
-
-  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-
- private:
-  float worst_m2_ = static_cast<float>(kFarthest_m * kFarthest_m);
-  std::uint32_t index_ = kNone;
-};
-
-double nearest_m(const Tree& tree, std::span<const Vec3f> cloud_m, const Vec3f& p_m) {
-  Nearest nearest;
-  tree.findNeighbors(nearest, p_m.data(), nanoflann::SearchParams());
-  if (nearest.index() == Nearest::kNone) return kFarthest_m;
-  const double distance_m = (cloud_m[nearest.index()] - p_m).cast<double>().norm();
+double nearest_m(const PointTree& cloud, std::span<const Vec3f> cloud_m, const Vec3f& p_m) {
+  std::array<Neighbour, 1> room;
+  const auto found = cloud.nearest(p_m, room, static_cast<float>(kFarthest_m));
+  if (found.empty()) return kFarthest_m;
+  const double distance_m = (cloud_m[found[0].point] - p_m).cast<double>().norm();
   return std::min(distance_m, kFarthest_m);
 }
 
@@ -115,14 +78,12 @@ std::size_t chunks_of(std::span<const Vec3f> points_m) {
 
 CloudDistances cloud_distances(const RayScene& scene, std::span<const Vec3f> cloud_world_m,
                                std::span<const Vec3f> samples_world_m, int threads) {
-  GNBV_CHECK(cloud_world_m.size() < Nearest::kNone, "{} points", cloud_world_m.size());
-  const TreePoints points{cloud_world_m};
-  std::unique_ptr<Tree> tree;
+  std::optional<PointTree> tree;
   std::vector<Tally> precise(chunks_of(cloud_world_m));
   // the tree is one task beside those that need none
   parallel_for(threads, precise.size() + 1, [&](std::size_t task) {
     if (task == 0) {
-      tree = std::make_unique<Tree>(3, points, nanoflann::KDTreeSingleIndexAdaptorParams(16));
+      tree.emplace(cloud_world_m);
       return;
     }
     precise[task - 1] = tally_of(cloud_world_m, task - 1,

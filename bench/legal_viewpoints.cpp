@@ -89,9 +89,8 @@ struct Search {
   template <typename Task>
   void for_each_node(const Task& task) const {
     constexpr std::size_t kChunk = 256;
-    parallel_for(threads, (lattice.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
-      const std::size_t end = std::min(lattice.size(), (chunk + 1) * kChunk);
-      for (std::size_t node = chunk * kChunk; node < end; ++node) task(node);
+    parallel_for_chunks(threads, lattice.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t node = begin; node < end; ++node) task(node);
     });
   }
 

@@ -273,10 +273,9 @@ std::vector<std::uint8_t> samples_seeing_out(const World& world, const RayScene&
   constexpr std::size_t kChunk = 16384;
   const EscapeSearch search(world.structure, scene, config);
   std::vector<std::uint8_t> seen(samples.size(), 0);
-  parallel_for(threads, (samples.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
-    const std::size_t begin = chunk * kChunk;
+  parallel_for_chunks(threads, samples.size(), kChunk, [&](std::size_t begin, std::size_t end) {
     Groups groups;
-    groups.samples = samples.subspan(begin, std::min(kChunk, samples.size() - begin));
+    groups.samples = samples.subspan(begin, end - begin);
     groups.first.resize(groups.samples.size() + 1);
     std::iota(groups.first.begin(), groups.first.end(), std::size_t{0});
     const std::vector<std::size_t> part = search.settle(groups);

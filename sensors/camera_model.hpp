@@ -53,6 +53,14 @@ struct CameraModel {
   }
 };
 
+/// Where a point in the optical frame of a pinhole camera appears, x to the right and y down; only
+/// for points before the camera. Any type of camera with focal lengths and centre does.
+template <typename Camera>
+Eigen::Vector2d pixel_of(const Camera& camera, const Vec3& p_camera_m) {
+  return {camera.fx_px * p_camera_m.x() / p_camera_m.z() + camera.cx_px,
+          camera.fy_px * p_camera_m.y() / p_camera_m.z() + camera.cy_px};
+}
+
 /// Rotation whose columns are the optical axes of a level, forward-looking camera in the body.
 inline Eigen::Matrix3d R_body_optical() {
   Eigen::Matrix3d R;

@@ -35,4 +35,10 @@ void parallel_for(int threads, std::size_t count, const std::function<void(std::
   }
 }
 
+void parallel_for_chunks(int threads, std::size_t count, std::size_t chunk,
+                         const std::function<void(std::size_t begin, std::size_t end)>& task) {
+  parallel_for(threads, (count + chunk - 1) / chunk,
+               [&](std::size_t i) { task(i * chunk, std::min(count, (i + 1) * chunk)); });
+}
+
 }  // namespace gnbv

@@ -83,6 +83,20 @@ TEST(Parallel, EveryTaskRunsOnceAtAnyNumberOfThreads) {
   }
 }
 
+TEST(Parallel, ChunksAreOfTheSizeAskedForAndTogetherTheWhole) {
+  for (const std::size_t count : {0U, 1U, 10U, 99U, 100U, 101U}) {
+    std::vector<std::atomic<int>> runs(count);
+    std::atomic<int> short_ones{0};
+    parallel_for_chunks(4, count, 10, [&](std::size_t begin, std::size_t end) {
+      EXPECT_EQ(begin % 10, 0U);
+      if (end - begin != 10) ++short_ones;
+      for (std::size_t i = begin; i < end; ++i) ++runs[i];
+    });
+    for (const auto& each : runs) EXPECT_EQ(each.load(), 1);
+    EXPECT_EQ(short_ones, count % 10 == 0 ? 0 : 1);
+  }
+}
+
 TEST(Parallel, TheFirstFailureByIndexIsThrown) {
   for (const int threads : {1, 4}) {
     try {

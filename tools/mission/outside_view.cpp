@@ -66,10 +66,8 @@ class SideSearch {
 std::vector<std::uint8_t> seen_sides(const SideSearch& search,
                                      std::span<const SurfaceSample> samples, int threads) {
   std::vector<std::uint8_t> seen(samples.size(), kNone);
-  parallel_for(threads, (samples.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
-    const std::size_t begin = chunk * kChunk;
-    const std::size_t count = std::min(kChunk, samples.size() - begin);
-    search.sides(samples.subspan(begin, count), std::span(seen).subspan(begin, count));
+  parallel_for_chunks(threads, samples.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    search.sides(samples.subspan(begin, end - begin), std::span(seen).subspan(begin, end - begin));
   });
   return seen;
 }

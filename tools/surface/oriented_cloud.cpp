@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 
+#include "bench/point_tree.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
-#include "tools/surface/point_tree.hpp"
 
 namespace gnbv {
 namespace {
@@ -82,11 +82,8 @@ OrientedCloud oriented(const SeenPoints& seen, int threads) {
              points_m.size(), seen.sensors_world_m.size());
   const PointTree tree(points_m);
   const auto for_each_point = [&](const auto& task) {
-    parallel_for(threads, (points_m.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
-      for (std::size_t i = chunk * kChunk; i < std::min(points_m.size(), (chunk + 1) * kChunk);
-           ++i) {
-        task(i);
-      }
+    parallel_for_chunks(threads, points_m.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) task(i);
     });
   };
 

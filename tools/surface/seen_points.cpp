@@ -3,11 +3,11 @@
 #include <array>
 #include <limits>
 
+#include "bench/point_tree.hpp"
 #include "sensors/camera_model.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
 #include "tools/surface/oriented_cloud.hpp"
-#include "tools/surface/point_tree.hpp"
 
 namespace gnbv {
 namespace {
@@ -16,10 +16,9 @@ constexpr std::size_t kChunk = 4096;
 
 bool shows(const CameraModel& camera, const Vec3& p_camera_m) {
   if (p_camera_m.z() <= 0.0) return false;
-  const double u_px = camera.fx_px * p_camera_m.x() / p_camera_m.z() + camera.cx_px;
-  const double v_px = camera.fy_px * p_camera_m.y() / p_camera_m.z() + camera.cy_px;
-  return u_px >= 0.0 && u_px <= camera.config.width_px && v_px >= 0.0 &&
-         v_px <= camera.config.height_px;
+  const Eigen::Vector2d px = pixel_of(camera, p_camera_m);
+  return px.x() >= 0.0 && px.x() <= camera.config.width_px && px.y() >= 0.0 &&
+         px.y() <= camera.config.height_px;
 }
 
 /// The cameras of a view in the world; the first that shows the point saw it.
@@ -78,10 +77,9 @@ void find_sensors(const PointTree& cloud, const Stretch& stretch, float leaf_m, 
                   SeenPoints& seen) {
   const PointTree poses(stretch.poses_world_m);
   const std::size_t count = stretch.end - stretch.begin;
-  parallel_for(threads, (count + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+  parallel_for_chunks(threads, count, kChunk, [&](std::size_t begin, std::size_t end) {
     std::array<Neighbour, 32> near_poses{};
-    for (std::size_t n = chunk * kChunk; n < std::min(count, (chunk + 1) * kChunk); ++n) {
-      const std::size_t i = stretch.begin + n;
+    for (std::size_t i = stretch.begin + begin; i < stretch.begin + end; ++i) {
       const Vec3f& p_m = seen.points_world_m[i];
       const auto found = poses.nearest(p_m, near_poses);
       const auto seeing = std::find_if(found.begin(), found.end(), [&](const Neighbour& pose) {
@@ -98,10 +96,9 @@ std::vector<Vec3f> uncovered_profile(const RunCloud& cloud, float leaf_m, int th
   const std::span<const Vec3f> all = cloud.points_world_m;
   const PointTree tree(all.subspan(cloud.profile_points));
   std::vector<std::uint8_t> is_covered(cloud.profile_points);
-  parallel_for(threads, (is_covered.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+  parallel_for_chunks(threads, is_covered.size(), kChunk, [&](std::size_t begin, std::size_t end) {
     std::array<Neighbour, 1> nearest{};
-    for (std::size_t i = chunk * kChunk; i < std::min(is_covered.size(), (chunk + 1) * kChunk);
-         ++i) {
+    for (std::size_t i = begin; i < end; ++i) {
       const auto found = tree.nearest(all[i], nearest);
       is_covered[i] = !found.empty() && found[0].distance_m < leaf_m ? 1 : 0;
     }

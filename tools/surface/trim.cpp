@@ -6,10 +6,10 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "bench/point_tree.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
 #include "sim/mesh_lint.hpp"
-#include "tools/surface/point_tree.hpp"
 
 namespace gnbv {
 namespace {
@@ -26,9 +26,9 @@ std::vector<float> distance_in_reaches(const TriangleMesh& mesh, const OrientedC
                                        const TrimSettings& settings, int threads) {
   const PointTree tree(cloud.points_world_m);
   std::vector<float> field(mesh.vertices_m.size());
-  parallel_for(threads, (field.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+  parallel_for_chunks(threads, field.size(), kChunk, [&](std::size_t begin, std::size_t end) {
     std::array<Neighbour, 1> nearest{};
-    for (std::size_t i = chunk * kChunk; i < std::min(field.size(), (chunk + 1) * kChunk); ++i) {
+    for (std::size_t i = begin; i < end; ++i) {
       const Neighbour& found = tree.nearest(mesh.vertices_m[i], nearest).front();
       const float reach_m = settings.reach_m > 0.0
                                 ? static_cast<float>(settings.reach_m)

@@ -1,8 +1,10 @@
-#include "tools/surface/point_tree.hpp"
+#include "bench/point_tree.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <nanoflann.hpp>
+
+#include "sim/core/error.hpp"
 
 namespace gnbv {
 namespace {
@@ -27,7 +29,8 @@ using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<fl
 /// index, so that the answer does not depend on the tree.
 class NearestSet {
  public:
-  explicit NearestSet(std::span<Neighbour> found) : found_(found) {}
+  NearestSet(std::span<Neighbour> found, float below_m)
+      : found_(found), worst_m2_(below_m * below_m) {}
 
   bool addPoint(float distance_m2, std::uint32_t point) {
     const auto is_before = [&](const Neighbour& other) {
@@ -39,19 +42,20 @@ class NearestSet {
     std::size_t slot = count_ - 1;
     for (; slot > 0 && is_before(found_[slot - 1]); --slot) found_[slot] = found_[slot - 1];
     found_[slot] = {point, distance_m2};
+    // the search leaves out what is not nearer than this: a tie with the last must not be
+    if (full())
+      worst_m2_ = std::min(worst_m2_, std::nextafter(found_.back().distance_m, kFarthest));
     return true;  // go on
   }
-  float worstDist() const {
-    constexpr float kFarthest = std::numeric_limits<float>::max();
-    // the search leaves out what is not nearer than this: a tie with the last has to be
-    return full() ? std::nextafter(found_.back().distance_m, kFarthest) : kFarthest;
-  }
+  float worstDist() const { return worst_m2_; }
   bool full() const { return count_ == found_.size(); }
   std::size_t count() const { return count_; }
 
  private:
+  static constexpr float kFarthest = std::numeric_limits<float>::infinity();
   std::span<Neighbour> found_;  // their distances are squared until the search is over
   std::size_t count_ = 0;
+  float worst_m2_;
 };
 
 }  // namespace
@@ -63,14 +67,19 @@ struct PointTree::Impl {
   Tree tree;
 };
 
-PointTree::PointTree(std::span<const Vec3f> points_m) : impl_(std::make_unique<Impl>(points_m)) {}
+PointTree::PointTree(std::span<const Vec3f> points_m) {
+  GNBV_CHECK(points_m.size() <= std::numeric_limits<std::uint32_t>::max(), "{} points",
+             points_m.size());
+  impl_ = std::make_unique<Impl>(points_m);
+}
 PointTree::~PointTree() = default;
 PointTree::PointTree(PointTree&&) noexcept = default;
 PointTree& PointTree::operator=(PointTree&&) noexcept = default;
 
-std::span<const Neighbour> PointTree::nearest(const Vec3f& p_m, std::span<Neighbour> found) const {
+std::span<const Neighbour> PointTree::nearest(const Vec3f& p_m, std::span<Neighbour> found,
+                                              float below_m) const {
   if (found.empty() || impl_->points.points_m.empty()) return found.first(0);
-  NearestSet set(found);
+  NearestSet set(found, below_m);
   impl_->tree.findNeighbors(set, p_m.data(), nanoflann::SearchParams());
   for (Neighbour& neighbour : found.first(set.count())) {
     neighbour.distance_m = std::sqrt(neighbour.distance_m);

@@ -1,7 +1,8 @@
-// Nearest neighbours in a point set. The only file of the room that knows nanoflann is its .cpp.
+// Nearest neighbours in a point set. The only file that knows nanoflann is its .cpp.
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 
@@ -23,9 +24,11 @@ class PointTree {
   PointTree(PointTree&&) noexcept;
   PointTree& operator=(PointTree&&) noexcept;
 
-  /// Fills `found` with the nearest points, nearest first; returns the part of it that is filled,
-  /// which is less than asked for only when there are fewer points.
-  std::span<const Neighbour> nearest(const Vec3f& p_m, std::span<Neighbour> found) const;
+  /// Fills `found` with the nearest points, nearest first and the lower index first among equals;
+  /// returns the part of it that is filled, which is less than asked for only when fewer points lie
+  /// nearer than `below_m`.
+  std::span<const Neighbour> nearest(const Vec3f& p_m, std::span<Neighbour> found,
+                                     float below_m = std::numeric_limits<float>::infinity()) const;
 
  private:
   struct Impl;
