@@ -132,6 +132,27 @@ try {
   assert.equal(await browser.evaluate("document.querySelector('.play').ariaLabel"), "Play");
   await key(" ", box);
 
+  // playing goes on by itself, rests at a view, and ends where the mission ends
+  await chooseEffort("Views");
+  await browser.evaluate("gnbv.seek(1)");
+  const play = "document.querySelector('.play')";
+  await browser.evaluate(`${play}.click()`);
+  await browser.until(`Number(${slider}.value) >= 2`);
+  await browser.evaluate(`${play}.click()`);
+  const rest = Number(await browser.evaluate(`${slider}.value`));
+  await drawn();
+  assert.ok(Number.isInteger(rest) && rest < views[0].length, `rests at ${rest}`);
+  assertPose(await pose(0), views[0][rest - 1], "after a pause");
+  await browser.evaluate(`(() => {
+    const speed = document.querySelector(".transport select");
+    speed.value = "4";
+    speed.dispatchEvent(new Event("change", { bubbles: true }));
+  })()`);
+  await browser.evaluate(`${play}.click()`);
+  await browser.until(`${play}.ariaLabel === "Play"`);
+  await drawn();
+  assertPose(await pose(0), views[0].at(-1), "when all was played");
+
   // what is drawn stands out from the background, and changes with the replay
   const clip = await browser.evaluate(`(() => {
     const canvas = document.querySelector(".stage canvas");
@@ -148,7 +169,33 @@ try {
   const last = await pictureAfter(views[0].length);
   const all = clip.width * clip.height;
   assert.ok(await differentPixels(first) > 0.02 * all, "the 3D view is empty");
-  assert.ok(await differentPixels(last, first) > 0.005 * all, "the 3D view does not follow");
+  assert.ok(await differentPixels(last, first) > 0.005 * all, "the 3D view does not change");
+
+  // a camera that follows shows the vehicle in the same place, and so the world in another
+  const toggleFollow = () => browser.evaluate(`[...document.querySelectorAll(".layers label")]
+    .find((label) => label.textContent.includes("Follow")).click()`);
+  const camera = () => browser.evaluate("gnbv.camera()");
+  const beside = async (n) => {
+    await pictureAfter(n);
+    const [at, from] = [await pose(0), await camera()];
+    return from.map((x, i) => x - at[i]);
+  };
+  await toggleFollow();
+  const [near, still] = [await beside(1), await beside(views[0].length)];
+  for (let i = 0; i < 3; ++i) assert.ok(Math.abs(near[i] - still[i]) < 1e-6, `${near}, ${still}`);
+  await toggleFollow();
+  const before = await camera();
+  await pictureAfter(1);
+  assert.deepEqual(await camera(), before, "nobody is followed any more");
+
+  // at night the page is dark, all of it
+  const setTheme = (value) => browser.call("Emulation.setEmulatedMedia",
+    { features: [{ name: "prefers-color-scheme", value }] });
+  const day = await pictureAfter(2);
+  await setTheme("dark");
+  const night = await pictureAfter(2);
+  assert.ok(await differentPixels(night, day) > 0.5 * all, "the 3D view stays bright");
+  await setTheme("light");
 
   assert.equal(await browser.evaluate("window.hacked"), undefined);
   assert.deepEqual(await browser.evaluate("[...document.querySelectorAll('svg, #app script')].length"), 0);

@@ -5,7 +5,8 @@ import { lastAtMost, type Flight } from "./flight";
 import type { Layers, RunScene } from "./run_scene";
 import type { Colouring } from "./surfaces";
 
-const kMissionLasts_s = 60; // a whole replay, at speed 1
+/** A whole replay at speed 1: half a second a view, but neither a flash nor an evening. */
+const replayLasts_s = (views: number) => Math.min(Math.max(0.5 * views, 8), 60);
 
 /** The replay itself: playing, stepping, and the way from one effort to another. */
 export class Replay {
@@ -68,10 +69,11 @@ export class Replay {
     }
     clock.set({ isPlaying: true, at: clock.at >= this.last() ? this.begin() : clock.at });
     const playing = ++this.playing;
+    const lasts_s = replayLasts_s(this.last("views"));
     let before = performance.now();
     const advance = (now: number) => {
       if (!clock.isPlaying || playing !== this.playing) return;
-      const at = clock.at + this.speed * this.last() * (now - before) / 1000 / kMissionLasts_s;
+      const at = clock.at + this.speed * this.last() * (now - before) / 1000 / lasts_s;
       before = now;
       if (at >= this.last()) { this.moveTo(this.last()); return; }
       clock.set({ at });
@@ -144,6 +146,7 @@ export interface View3d {
   colour(by: Colouring): void;
   setFollows(follows: boolean): void;
   frame(): void;
+  cameraPosition(): number[]; // x, y, z in the world; empty where nothing is drawn
 }
 
 const kColourings: [Colouring, string][] = [["real", "Camera colours"], ["height", "Height"],

@@ -84,10 +84,11 @@ function build() {
     plots.rebuild();
   });
   // for scripts and tests: gnbv.seek(views), gnbv.pose(run) as x, y, z, yaw of what is drawn,
-  // gnbv.views(run) at the present place of the replay
+  // gnbv.views(run) at the present place of the replay, gnbv.camera() where the 3D view is seen from
   Object.assign(window, { gnbv: {
     seek: (views: number) => { replay.setEffort("views"); replay.moveTo(views); },
     views: (run: number) => flights[run].viewsAt(clock),
+    camera: () => stage.cameraPosition(),
     pose: (run: number) => {
       const { position: p, quaternion: q } = scenes[run].vehicle;
       return [p.x, p.y, p.z, 2 * Math.atan2(q.z, q.w)];

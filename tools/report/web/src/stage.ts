@@ -20,6 +20,7 @@ class NoStage implements View3d {
   setFollows() {}
   setTheme() {}
   frame() {}
+  cameraPosition() { return []; }
 }
 
 export function makeStage(scenes: RunScene[], clock: Clock): View3d {
@@ -105,6 +106,8 @@ class Stage implements View3d {
     this.shading.background.setHex(isDark() ? 0x14181e : 0xf4f6f9);
     this.invalidate();
   }
+
+  cameraPosition() { return this.camera.position.toArray(); }
 
   /** Puts the camera where it sees all of the structure. */
   frame() {
