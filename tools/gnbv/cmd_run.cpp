@@ -7,6 +7,7 @@
 #include "sim/core/file.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/execute.hpp"
+#include "tools/mission/run_directory.hpp"
 #include "tools/mission/run_figures_file.hpp"
 
 namespace gnbv {
@@ -29,11 +30,9 @@ void run(const RunOptions& options) {
     throw CommandFailed("the vehicle hit something; the run directory shows where");
   }
   if (mission.result.termination == Termination::interrupted) {
-    throw CommandFailed(
-        fmt::format("interrupted after {} views; `gnbv run {} --resume --out {}{}{}` continues it",
-                    mission.result.views.size(), (mission.folder / "scenario.yaml").string(),
-                    mission.folder.string(), options.frames ? " --frames" : "",
-                    options.candidates ? " --candidates" : ""));
+    throw CommandFailed(fmt::format("interrupted after {} views; {} continues it",
+                                    mission.result.views.size(),
+                                    command_to_resume(mission.folder)));
   }
 }
 

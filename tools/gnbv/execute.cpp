@@ -9,6 +9,7 @@
 #include "planner/map/memory.hpp"
 #include "planner/symmetry_module.hpp"
 #include "sim/core/error.hpp"
+#include "sim/core/shell_word.hpp"
 #include "tools/gnbv/interrupt.hpp"
 #include "tools/gnbv/progress.hpp"
 #include "tools/mission/candidates_file.hpp"
@@ -139,7 +140,7 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
     return {directory.path(), std::move(result), score, seconds_since(begin)};
   } catch (const BrokenInvariant& broken) {
     throw BrokenInvariant(fmt::format("{}\nreplay with: gnbv run {} --out REPLAY", broken.what(),
-                                      (directory.path() / "scenario.yaml").string()));
+                                      shell_word((directory.path() / "scenario.yaml").string())));
   }
 }
 

@@ -5,6 +5,7 @@
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/shell_word.hpp"
 #include "tools/mission/cloud_file.hpp"
 #include "tools/mission/iterations_csv.hpp"
 #include "tools/mission/summary_file.hpp"
@@ -52,6 +53,15 @@ void need_usable(const fs::path& folder, const Scenario& scenario, bool resume) 
                     "can be resumed",
                     (folder / kScenario).string()));
   }
+}
+
+std::string command_to_resume(const fs::path& folder) {
+  std::error_code ignored;
+  const auto keeps = [&](const char* name) { return fs::exists(folder / name, ignored); };
+  return fmt::format(
+      "`gnbv run {} --resume --out {}{}{}`", shell_word((folder / kScenario).string()),
+      shell_word(folder.string()), keeps("frames") ? " --frames" : "",
+      keeps("candidates.jsonl") || keeps("candidates.jsonl.part") ? " --candidates" : "");
 }
 
 RunDirectory::RunDirectory(fs::path folder, const Scenario& scenario, bool resume)

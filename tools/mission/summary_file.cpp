@@ -4,8 +4,8 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "sim/core/shell_word.hpp"
 #include "tools/mission/load_world.hpp"
+#include "tools/mission/run_directory.hpp"
 
 namespace gnbv {
 namespace {
@@ -146,10 +146,9 @@ std::string summary_json(const Scenario& scenario, const MissionResult& r,
 std::string read_summary(const std::filesystem::path& run) {
   const std::filesystem::path path = run / "summary.json";
   if (std::filesystem::exists(path)) return read_file(path);
-  throw BadInput(fmt::format(
-      "{}: holds no summary.json: no run, or one that is not finished; `gnbv run {} "
-      "--resume --out {}` finishes it",
-      run.string(), shell_word((run / "scenario.yaml").string()), shell_word(run.string())));
+  throw BadInput(
+      fmt::format("{}: holds no summary.json: no run, or one that is not finished; {} finishes it",
+                  run.string(), command_to_resume(run)));
 }
 
 std::string score_json(const MissionScore& score, bool is_run) {

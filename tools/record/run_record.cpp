@@ -10,6 +10,7 @@
 #include "sim/core/shell_word.hpp"
 #include "tools/mission/cloud_file.hpp"
 #include "tools/mission/iterations_csv.hpp"
+#include "tools/mission/run_directory.hpp"
 #include "tools/mission/run_figures_file.hpp"
 #include "tools/mission/summary_file.hpp"
 #include "tools/record/separated_text.hpp"
@@ -20,8 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string command_to_finish(const fs::path& folder) {
-  return fmt::format("`gnbv run {} --resume --out {}` ends the run",
-                     shell_word((folder / "scenario.yaml").string()), shell_word(folder.string()));
+  return command_to_resume(folder) + " ends the run";
 }
 
 /// Without "./", "..", or a slash at its end; "." itself by its name.
