@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace gnbv {
@@ -32,6 +33,27 @@ TEST(CloudFile, ReadsBackWhatItWrote) {
   EXPECT_EQ(read_cloud(temp.path() / "a.ply"), kPoints);
   write_cloud_ply({}, temp.path() / "empty.ply");
   EXPECT_TRUE(read_cloud(temp.path() / "empty.ply").empty());
+}
+
+TEST(CloudFile, ColoursAndViewsFollowEachPoint) {
+  TempFolder temp;
+  const std::vector<Rgb8> colours = {{1, 2, 3}, {4, 5, 6}, {250, 251, 252}};
+  const std::vector<std::int32_t> views = {-1, 0, 70'000};
+  const fs::path path = temp.path() / "a.ply";
+  write_cloud_ply(kPoints, path, {.colours = colours, .views = views});
+  EXPECT_EQ(read_cloud(path), kPoints);
+  std::string records;
+  for (std::size_t i = 0; i < kPoints.size(); ++i) {
+    for (const float x : kPoints[i]) records += bytes_of(x);
+    records += bytes_of(colours[i]) + bytes_of(views[i]);
+  }
+  const std::string content = read_file(path);
+  EXPECT_TRUE(content.ends_with(
+      "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+      "property int view\nend_header\n" +
+      records));
+  EXPECT_THROW(write_cloud_ply(kPoints, path, {.colours = std::span(colours).first(2)}),
+               BrokenInvariant);
 }
 
 TEST(CloudFile, EveryLayoutGivesTheSamePoints) {

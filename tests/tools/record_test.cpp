@@ -5,6 +5,7 @@
 #include "sim/core/error.hpp"
 #include "tests/support/made_run.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tools/mission/run_directory.hpp"
 #include "tools/record/frame_record.hpp"
 
 namespace gnbv {
@@ -145,6 +146,19 @@ TEST_F(Record, WhatIsMissingIsNamedWithTheCommandThatMakesIt) {
   EXPECT_NE(run_complaint().find("gnbv run SCENARIO"), std::string::npos) << run_complaint();
 }
 
+TEST_F(Record, WhoGoesOnWithARunKeepsWhatItKept) {
+  const auto command = [&] { return command_to_resume(temp_.path()); };
+  const auto has = [&](const char* option) { return command().find(option) != std::string::npos; };
+  EXPECT_FALSE(has("--frames") || has("--candidates")) << command();
+  fs::create_directories(temp_.path() / "frames");
+  EXPECT_TRUE(has("--frames`") && !has("--candidates")) << command();
+  write("candidates.jsonl.part", "");
+  EXPECT_TRUE(has("--frames --candidates`")) << command();
+  remove("frames");
+  fs::rename(temp_.path() / "candidates.jsonl.part", temp_.path() / "candidates.jsonl");
+  EXPECT_TRUE(has("--candidates`") && !has("--frames")) << command();
+}
+
 TEST_F(Record, DamagedFilesAreNamedWithTheLine) {
   const auto expect_complaint = [&](const std::string& path, const std::string& words) {
     write("trajectory.tum", path);
@@ -170,6 +184,28 @@ TEST_F(Record, ACloudOfAnotherRunIsRefused) {
   EXPECT_NE(cloud_complaint().find("files of two runs"), std::string::npos) << cloud_complaint();
   remove("cloud.ply");
   EXPECT_NE(cloud_complaint().find("--resume"), std::string::npos) << cloud_complaint();
+}
+
+TEST_F(Record, ImagesThatAreNotOfTheirCamerasSizeAreRefused) {
+  write_frames();
+  const FrameRecord frames = read_frames(temp_.path());
+  const auto said_of = [&](const auto& image, const fs::path& file, const auto& read) {
+    write_png(image, file);
+    return complaint([&](const fs::path&) { read(frames, 0); });
+  };
+  Image colour{.width_px = 640, .height_px = 480, .rgb = std::vector<std::uint8_t>(3 * 640 * 480)};
+  GreyImage16 depth{640, 480, std::vector<std::uint16_t>(640 * 480)};
+  const RecordedFrame& frame = frames.frames[0];
+  EXPECT_EQ(said_of(colour, frame.colour, read_colour), "");
+  EXPECT_EQ(said_of(depth, frame.depth, read_depth), "");
+  std::swap(colour.width_px, colour.height_px);
+  std::swap(depth.width_px, depth.height_px);
+  for (const std::string& said :
+       {said_of(colour, frame.colour, read_colour), said_of(depth, frame.depth, read_depth)}) {
+    EXPECT_NE(said.find("0007_rgbd."), std::string::npos) << said;
+    EXPECT_NE(said.find("480 x 640 px, but cameras.json says 640 x 480 px"), std::string::npos)
+        << said;
+  }
 }
 
 TEST_F(Record, FramesHoldPosesAndIntrinsics) {

@@ -106,7 +106,7 @@ std::string points_text(const SparseModel& model, const std::vector<std::size_t>
   auto out = std::back_inserter(text);
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     const Vec3f& p = model.points_world_m[i];
-    const Rgb24& c = model.colours[i];
+    const Rgb8& c = model.colours[i];
     fmt::format_to(out, "{} {} {} {} {} {} {} 0", i + 1, p.x(), p.y(), p.z(), c[0], c[1], c[2]);
     for (const auto& [image, index] : tracks[i]) fmt::format_to(out, " {} {}", image, index);
     text += '\n';

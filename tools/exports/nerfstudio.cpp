@@ -5,7 +5,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/exports/export_folder.hpp"
-#include "tools/exports/point_ply.hpp"
+#include "tools/mission/cloud_file.hpp"
 
 namespace gnbv {
 namespace {
@@ -75,7 +75,7 @@ void write_nerfstudio(const FrameRecord& frames, const SparseModel& model, const
     link_or_copy(frame.colour, folder / "images" / name);
     link_or_copy(frame.depth, folder / "depth" / name);
   }
-  write_point_ply(model.points_world_m, model.colours, {}, folder / "points.ply");
+  write_cloud_ply(model.points_world_m, folder / "points.ply", {.colours = model.colours});
   write_file_atomically(folder / "transforms.json", json.dump(1) + "\n");
   write_file_atomically(folder / "README.txt", kReadme);
 }

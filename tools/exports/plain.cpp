@@ -9,7 +9,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/exports/export_folder.hpp"
-#include "tools/exports/point_ply.hpp"
+#include "tools/mission/cloud_file.hpp"
 #include "tools/record/run_poses.hpp"
 
 namespace gnbv {
@@ -171,16 +171,16 @@ void link_images(const FrameRecord& frames, const fs::path& folder) {
   }
 }
 
-void write_cloud(const RunCloud& cloud, const std::vector<Rgb24>& colours, const fs::path& path) {
+void write_cloud(const RunCloud& cloud, const std::vector<Rgb8>& colours, const fs::path& path) {
   std::vector<std::int32_t> views;
   views.reserve(cloud.points_world_m.size());
   for (std::size_t i = 0; i < cloud.points_world_m.size(); ++i) views.push_back(cloud.view_of(i));
-  write_point_ply(cloud.points_world_m, colours, views, path);
+  write_cloud_ply(cloud.points_world_m, path, {.colours = colours, .views = views});
 }
 
 void write_map(const fs::path& octomap, const fs::path& folder) {
   const MeasuredVoxels voxels = read_octomap(octomap);
-  write_point_ply(voxels.occupied_world_m, {}, {}, folder / "voxels.ply");
+  write_cloud_ply(voxels.occupied_world_m, folder / "voxels.ply");
   const Json json = {{"voxel_m", voxels.voxel_m},
                      {"occupied_voxels", voxels.occupied_world_m.size()},
                      {"free_voxels", voxels.free_voxels}};

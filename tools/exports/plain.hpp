@@ -14,7 +14,7 @@ namespace gnbv {
 struct PlainParts {
   std::optional<FrameRecord> frames = {};
   std::optional<RunCloud> cloud = {};
-  std::vector<Rgb24> colours = {};  // of the cloud's points; empty without frames
+  std::vector<Rgb8> colours = {};  // of the cloud's points; empty without frames
 };
 
 /// Writes into the folder what there is of trajectory.csv, views.csv, intrinsics.json, cloud.ply,

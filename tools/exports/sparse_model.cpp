@@ -10,7 +10,7 @@ namespace {
 struct ColouredSighting {
   std::uint32_t point = 0;
   Sighting at;
-  Rgb24 rgb{};
+  Rgb8 rgb{};
 };
 
 std::vector<Vec3f> thinned(std::span<const Vec3f> points_world_m, std::size_t max_points) {
@@ -52,7 +52,7 @@ SparseModel make_sparse_model(std::span<const Vec3f> points_world_m, const Frame
 
   std::vector<std::uint32_t> times_seen(candidates.size(), 0);
   std::vector<double> nearest_m(candidates.size(), std::numeric_limits<double>::infinity());
-  std::vector<Rgb24> colours(candidates.size());
+  std::vector<Rgb8> colours(candidates.size());
   for (const auto& of_frame : seen) {
     for (const ColouredSighting& s : of_frame) {
       ++times_seen[s.point];

@@ -18,7 +18,7 @@ struct Observation {
 
 struct SparseModel {
   std::vector<Vec3f> points_world_m;
-  std::vector<Rgb24> colours;                          // of the nearest frame that shows the point
+  std::vector<Rgb8> colours;                           // of the nearest frame that shows the point
   std::vector<std::vector<Observation>> observations;  // by frame, points ascending
 
   std::size_t observation_count() const;

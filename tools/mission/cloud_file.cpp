@@ -1,7 +1,6 @@
 #include "tools/mission/cloud_file.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
@@ -10,13 +9,13 @@
 #include <string>
 #include <string_view>
 
+#include "sim/core/append_bytes.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/ply_file.hpp"
 
 namespace gnbv {
 
-static_assert(std::endian::native == std::endian::little);
 static_assert(sizeof(Vec3f) == 3 * sizeof(float));
 
 namespace {
@@ -136,12 +135,29 @@ std::vector<Vec3f> read_xyz_cloud(const std::filesystem::path& path, std::string
 
 }  // namespace
 
-void write_cloud_ply(std::span<const Vec3f> points_world_m, const std::filesystem::path& path) {
+void write_cloud_ply(std::span<const Vec3f> points_world_m, const std::filesystem::path& path,
+                     const CloudColumns& columns) {
+  const auto& [colours, views] = columns;
+  const std::size_t count = points_world_m.size();
+  GNBV_CHECK(colours.empty() || colours.size() == count, "{} of {} colours", colours.size(), count);
+  GNBV_CHECK(views.empty() || views.size() == count, "{} of {} views", views.size(), count);
   std::string content = fmt::format(
       "ply\nformat binary_little_endian 1.0\ncomment gnbv, world ENU, metres\n"
-      "element vertex {}\nproperty float x\nproperty float y\nproperty float z\nend_header\n",
-      points_world_m.size());
-  content.append(reinterpret_cast<const char*>(points_world_m.data()), points_world_m.size_bytes());
+      "element vertex {}\nproperty float x\nproperty float y\nproperty float z\n",
+      count);
+  if (!colours.empty()) {
+    content += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  }
+  if (!views.empty()) content += "property int view\n";
+  content += "end_header\n";
+  content.reserve(content.size() + 19 * count);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (const float x : points_world_m[i]) append_bytes(content, x);
+    if (!colours.empty()) {
+      for (const std::uint8_t level : colours[i]) append_bytes(content, level);
+    }
+    if (!views.empty()) append_bytes(content, views[i]);
+  }
   write_file_atomically(path, content);
 }
 

@@ -6,11 +6,20 @@
 #include <vector>
 
 #include "sim/core/pose.hpp"
+#include "sim/core/srgb.hpp"
 
 namespace gnbv {
 
-/// Binary little-endian PLY of float32 x y z in metres, by rename.
-void write_cloud_ply(std::span<const Vec3f> points_world_m, const std::filesystem::path& path);
+/// What is known of points beside their places: a value a point, or none at all.
+struct CloudColumns {
+  std::span<const Rgb8> colours = {};
+  std::span<const std::int32_t> views = {};
+};
+
+/// Binary little-endian PLY, by rename: float x y z in metres, and where there are colours or
+/// views, uchar red green blue and int view.
+void write_cloud_ply(std::span<const Vec3f> points_world_m, const std::filesystem::path& path,
+                     const CloudColumns& columns = {});
 
 /// The vertices of a .ply file, whatever else it holds, or the first three numbers of each line of
 /// an .xyz file, in which empty lines and those that begin with # are none. Coordinates may be NaN

@@ -8,7 +8,7 @@ namespace {
 struct ColouredPoint {
   std::size_t point = 0;
   double z_m = 0.0;
-  Rgb24 rgb{};
+  Rgb8 rgb{};
 };
 
 /// The points [begin, end) of the cloud.
@@ -22,9 +22,9 @@ void look_at(const RunCloud& cloud, std::size_t begin, std::size_t end, const Fr
 
 }  // namespace
 
-std::vector<Rgb24> colours_of_cloud(const RunRecord& record, const RunCloud& cloud,
-                                    const FrameRecord& frames, double blur_m, int threads,
-                                    const ShareDone& progress) {
+std::vector<Rgb8> colours_of_cloud(const RunRecord& record, const RunCloud& cloud,
+                                   const FrameRecord& frames, double blur_m, int threads,
+                                   const ShareDone& progress) {
   std::vector<std::vector<ColouredPoint>> seen(frames.frames.size());
   for_each_frame(frames, threads, progress, [&](std::size_t frame, const FrameSight& sight) {
     const std::size_t by_views =
@@ -37,7 +37,7 @@ std::vector<Rgb24> colours_of_cloud(const RunRecord& record, const RunCloud& clo
       look_at(cloud, begin, cloud.view_points[view], sight, blur_m, seen[frame]);
     }
   });
-  std::vector<Rgb24> colours(cloud.points_world_m.size(), kNoColour);
+  std::vector<Rgb8> colours(cloud.points_world_m.size(), kNoColour);
   std::vector<double> nearest_m(colours.size(), std::numeric_limits<double>::infinity());
   for (const auto& of_frame : seen) {
     for (const ColouredPoint& s : of_frame) {

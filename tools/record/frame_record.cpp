@@ -84,6 +84,15 @@ RecordedFrame frame_of(std::string_view row, const std::vector<FrameCamera>& cam
   return frame;
 }
 
+/// The image, which `file` holds, of a camera of its size.
+template <typename AnyImage>
+AnyImage of_size(AnyImage image, const FrameCamera& camera, const fs::path& file) {
+  if (image.width_px == camera.width_px && image.height_px == camera.height_px) return image;
+  throw BadInput(fmt::format("{}: {} x {} px, but cameras.json says {} x {} px of camera `{}`",
+                             file.string(), image.width_px, image.height_px, camera.width_px,
+                             camera.height_px, camera.name));
+}
+
 }  // namespace
 
 bool has_frames(const fs::path& run) {
@@ -113,6 +122,16 @@ FrameRecord read_frames(const fs::path& run) {
   }
   if (record.frames.empty()) throw BadInput(fmt::format("{}: holds no frame", poses.string()));
   return record;
+}
+
+Image read_colour(const FrameRecord& record, std::size_t frame) {
+  const RecordedFrame& f = record.frames[frame];
+  return of_size(read_png(f.colour), record.cameras[f.camera], f.colour);
+}
+
+GreyImage16 read_depth(const FrameRecord& record, std::size_t frame) {
+  const RecordedFrame& f = record.frames[frame];
+  return of_size(read_png_grey16(f.depth), record.cameras[f.camera], f.depth);
 }
 
 }  // namespace gnbv

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/core/pose.hpp"
+#include "tools/render/image.hpp"
 
 namespace gnbv {
 
@@ -40,5 +41,9 @@ bool has_frames(const std::filesystem::path& run);
 /// Throws BadInput, naming the command that flies the mission once more and keeps its frames, for a
 /// run without them, and naming file and line of whatever is damaged or missing.
 FrameRecord read_frames(const std::filesystem::path& run);
+
+/// The images of a frame. Throw BadInput naming one that is damaged or not of its camera's size.
+Image read_colour(const FrameRecord& record, std::size_t frame);
+GreyImage16 read_depth(const FrameRecord& record, std::size_t frame);
 
 }  // namespace gnbv

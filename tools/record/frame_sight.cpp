@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sensors/camera_model.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
 
@@ -11,30 +12,20 @@ namespace {
 
 constexpr double kSteepest_rad = deg_to_rad(80.0);
 
-void need_size(int width_px, int height_px, const FrameCamera& camera,
-               const std::filesystem::path& path) {
-  if (width_px == camera.width_px && height_px == camera.height_px) return;
-  throw BadInput(fmt::format("{}: {} x {} pixels, cameras.json says {} x {}", path.string(),
-                             width_px, height_px, camera.width_px, camera.height_px));
-}
-
 }  // namespace
 
 FrameSight::FrameSight(const FrameRecord& record, std::size_t frame)
     : camera_(record.cameras[record.frames[frame].camera]),
       T_camera_world_(record.frames[frame].T_world_camera.inverse()),
-      colour_(read_png(record.frames[frame].colour)),
-      depth_(read_png_grey16(record.frames[frame].depth)) {
-  need_size(colour_.width_px, colour_.height_px, camera_, record.frames[frame].colour);
-  need_size(depth_.width_px, depth_.height_px, camera_, record.frames[frame].depth);
-}
+      colour_(read_colour(record, frame)),
+      depth_(read_depth(record, frame)) {}
 
 std::optional<Sighting> FrameSight::sees(const Vec3& p_world_m, double blur_m) const {
   const Vec3 p_camera_m = T_camera_world_ * p_world_m;
   const double z_m = p_camera_m.z();
   if (!(z_m > 0.0)) return std::nullopt;
-  const Sighting sighting{camera_.fx_px * p_camera_m.x() / z_m + camera_.cx_px,
-                          camera_.fy_px * p_camera_m.y() / z_m + camera_.cy_px, z_m};
+  const Eigen::Vector2d px = pixel_of(camera_, p_camera_m);
+  const Sighting sighting{px.x(), px.y(), z_m};
   const bool is_inside = sighting.u_px >= 0.0 && sighting.u_px < camera_.width_px &&
                          sighting.v_px >= 0.0 && sighting.v_px < camera_.height_px;
   if (!is_inside) return std::nullopt;
@@ -50,7 +41,7 @@ std::optional<Sighting> FrameSight::sees(const Vec3& p_world_m, double blur_m) c
   return sighting;
 }
 
-Rgb24 FrameSight::colour_at(const Sighting& sighting) const {
+Rgb8 FrameSight::colour_at(const Sighting& sighting) const {
   return colour_.at(static_cast<int>(sighting.u_px), static_cast<int>(sighting.v_px));
 }
 

@@ -11,8 +11,6 @@
 
 namespace gnbv {
 
-using Rgb24 = std::array<std::uint8_t, 3>;  // sRGB
-
 /// Where a frame shows a point.
 struct Sighting {
   double u_px = 0.0;  // the centre of the first pixel is at (0.5, 0.5)
@@ -31,7 +29,7 @@ class FrameSight {
   /// half a pixel, `blur_m` and the image's own rounding.
   std::optional<Sighting> sees(const Vec3& p_world_m, double blur_m) const;
 
-  Rgb24 colour_at(const Sighting& sighting) const;
+  Rgb8 colour_at(const Sighting& sighting) const;
 
  private:
   FrameCamera camera_;

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "sim/core/srgb.hpp"
+
 namespace gnbv {
 
 /// RGB8, sRGB-encoded, rows from top to bottom without padding.
@@ -15,7 +17,7 @@ struct Image {
   int height_px = 0;
   std::vector<std::uint8_t> rgb;  // (height, width, 3)
 
-  std::array<std::uint8_t, 3> at(int x, int y) const {
+  Rgb8 at(int x, int y) const {
     const std::size_t i = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) +
                                static_cast<std::size_t>(x));
     return {rgb[i], rgb[i + 1], rgb[i + 2]};

@@ -11,8 +11,6 @@
 
 namespace gnbv {
 
-using Rgb8 = std::array<std::uint8_t, 3>;  // sRGB as in Image
-
 Rgb8 to_rgb8(const Rgb& linear);
 
 /// A round-ended line between two points (px, 0, 0 is the top left corner), `width_px` wide,

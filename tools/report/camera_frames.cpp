@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "sensors/camera_model.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
 #include "tools/report/jpeg.hpp"
@@ -12,23 +13,22 @@
 namespace gnbv {
 namespace {
 
-using Rgb24 = std::array<std::uint8_t, 3>;
-
 constexpr int kThumbnailWidth_px = 320;
 constexpr int kJpegQuality = 72;
-constexpr Rgb24 kNoColour = {150, 156, 164};
+constexpr Rgb8 kNoColour = {150, 156, 164};
 constexpr float kNear_m = 0.2F;
 constexpr std::size_t kFramesAtOnce = 64;  // read between two steps of the progress bar
 
 /// Of a point in the world, if the camera has it in its picture.
-std::optional<Rgb24> colour_in(const Image& image, const FrameCamera& camera,
-                               const Isometry& T_camera_world, const Vec3f& p_world_m) {
+std::optional<Rgb8> colour_in(const Image& image, const FrameCamera& camera,
+                              const Isometry& T_camera_world, const Vec3f& p_world_m) {
   const Vec3 p = T_camera_world * p_world_m.cast<double>();
   if (p.z() <= 0.0) return std::nullopt;
-  const double u = std::floor(camera.fx_px * p.x() / p.z() + camera.cx_px);
-  const double v = std::floor(camera.fy_px * p.y() / p.z() + camera.cy_px);
-  if (!(u >= 0.0 && v >= 0.0 && u < image.width_px && v < image.height_px)) return std::nullopt;
-  return image.at(static_cast<int>(u), static_cast<int>(v));
+  const Eigen::Vector2d px = pixel_of(camera, p);
+  const bool is_inside =
+      px.minCoeff() >= 0.0 && px.x() < image.width_px && px.y() < image.height_px;
+  if (!is_inside) return std::nullopt;
+  return image.at(static_cast<int>(px.x()), static_cast<int>(px.y()));
 }
 
 /// The points asked for that a view brought: a range of `points`.
@@ -52,19 +52,14 @@ PointRange points_of_view(const RunCloud& cloud, std::span<const std::size_t> po
 struct FrameYield {
   Thumbnail thumbnail;
   PointRange range;
-  std::vector<std::optional<Rgb24>> colours;  // of the range
+  std::vector<std::optional<Rgb8>> colours;  // of the range
 };
 
 FrameYield read_frame(const FrameRecord& frames, std::size_t index, const RunCloud& cloud,
                       std::span<const std::size_t> points) {
   const RecordedFrame& frame = frames.frames[index];
   const FrameCamera& camera = frames.cameras[frame.camera];
-  const Image image = read_png(frame.colour);
-  if (image.width_px != camera.width_px || image.height_px != camera.height_px) {
-    throw BadInput(fmt::format("{}: {} x {} px, but cameras.json says {} x {} px of camera `{}`",
-                               frame.colour.string(), image.width_px, image.height_px,
-                               camera.width_px, camera.height_px, camera.name));
-  }
+  const Image image = read_colour(frames, index);
   const Image small = shrunk(image, std::max(1, image.width_px / kThumbnailWidth_px));
   FrameYield yield{
       .thumbnail = {index, small.width_px, small.height_px, jpeg_bytes(small, kJpegQuality)},
@@ -80,7 +75,7 @@ FrameYield read_frame(const FrameRecord& frames, std::size_t index, const RunClo
 
 /// Points without a colour take that of the first coloured one in their own or a neighbouring cell.
 void colour_from_neighbours(const RunCloud& cloud, std::span<const std::size_t> points,
-                            const std::vector<bool>& has_colour, std::vector<Rgb24>& colour) {
+                            const std::vector<bool>& has_colour, std::vector<Rgb8>& colour) {
   using Cell = std::array<int, 3>;
   const auto cell_of = [&](std::size_t i) {
     const Vec3f p = cloud.points_world_m[points[i]] / kNear_m;

@@ -27,15 +27,6 @@ std::string without_pictures(const RunRecord& record, std::string_view why) {
                      command_to_fly_again(record.folder, "--frames"));
 }
 
-Image picture_of(const RunPictures& pictures, std::size_t view) {
-  const RecordedFrame& frame = pictures.frames.frames[view];
-  const FrameCamera& camera = pictures.views[view].camera;
-  Image image = read_png(frame.colour);
-  if (image.width_px == camera.width_px && image.height_px == camera.height_px) return image;
-  throw BadInput(fmt::format("{}: is {} x {} px, cameras.json says {} x {}", frame.colour.string(),
-                             image.width_px, image.height_px, camera.width_px, camera.height_px));
-}
-
 }  // namespace
 
 int depth_for(const Box3& points_m, double cell_m) {
@@ -120,7 +111,7 @@ TexturedMesh dressed(TriangleMesh shape, const RunRecord& record, const RunPictu
   Image baked;
   try {
     baked = bake_atlas(
-        layout, [&](std::uint32_t view) { return picture_of(pictures, view); }, threads);
+        layout, [&](std::uint32_t view) { return read_colour(pictures.frames, view); }, threads);
   } catch (const BadInput& error) {
     notes.push_back(without_pictures(record, error.what()));
     return with_height_colours(std::move(shape));

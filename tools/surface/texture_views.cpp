@@ -59,9 +59,7 @@ void join_islands(const TriangleMesh& mesh, const Candidates& candidates,
 }  // namespace
 
 Vec2f TextureView::pixel_of(const Vec3f& p_world_m_) const {
-  const Vec3 p_m = T_camera_world * p_world_m_.cast<double>();
-  return {static_cast<float>(camera.fx_px * p_m.x() / p_m.z() + camera.cx_px),
-          static_cast<float>(camera.fy_px * p_m.y() / p_m.z() + camera.cy_px)};
+  return gnbv::pixel_of(camera, T_camera_world * p_world_m_.cast<double>()).cast<float>();
 }
 
 std::vector<TextureView> texture_views(const FrameRecord& record,
@@ -72,17 +70,10 @@ std::vector<TextureView> texture_views(const FrameRecord& record,
     views[i] = {.T_camera_world = frame.T_world_camera.inverse(),
                 .p_world_m = frame.T_world_camera.translation().cast<float>(),
                 .camera = record.cameras[frame.camera],
-                .depth_steps = read_png_grey16(frame.depth)};
+                .depth_steps = read_depth(record, i)};
     TextureView& view = views[i];
     for (const CameraConfig& camera : cameras) {
       if (camera.name == view.camera.name) view.range_max_m = camera.range_max_m;
-    }
-    if (view.depth_steps.width_px != view.camera.width_px ||
-        view.depth_steps.height_px != view.camera.height_px) {
-      throw BadInput(fmt::format("{}: is {} x {} px, cameras.json says {} x {}",
-                                 frame.depth.string(), view.depth_steps.width_px,
-                                 view.depth_steps.height_px, view.camera.width_px,
-                                 view.camera.height_px));
     }
   });
   return views;

@@ -8,8 +8,6 @@
 
 namespace gnbv {
 
-using Rgb8 = std::array<std::uint8_t, 3>;  // sRGB
-
 struct TexturedMesh {
   TriangleMesh shape;                // world, metres, z up
   std::vector<Rgb8> vertex_rgb;      // (vertices)
