@@ -6,6 +6,7 @@
 #include <unordered_set>
 
 #include "bench/voxel_set.hpp"
+#include "tools/record/run_poses.hpp"
 #include "tools/render/flight_items.hpp"
 #include "tools/render/point_normals.hpp"
 #include "tools/render/vehicle_item.hpp"
@@ -55,20 +56,7 @@ Snapshots::Snapshots(RunSource& run, const PictureOptions& options, const Render
 
 Isometry Snapshots::T_world_body(std::size_t iteration) const {
   const ViewRecord& view = run_.record().views[iteration];
-  const auto& path = run_.record().path;
-  const auto after =
-      std::lower_bound(path.begin(), path.end(), view.time_s,
-                       [](const TrajectorySample& s, double time_s) { return s.time_s < time_s; });
-  if (after == path.end()) return gnbv::T_world_body(view.decision.view);
-  if (after->time_s == view.time_s || after == path.begin()) return after->T_world_body;
-  const TrajectorySample& before = *std::prev(after);
-  const double share = (view.time_s - before.time_s) / (after->time_s - before.time_s);
-  const Vec3 from = before.T_world_body.translation();
-  const Eigen::Quaterniond turn(before.T_world_body.linear());
-  Isometry T = Isometry::Identity();
-  T.translate(from + share * (after->T_world_body.translation() - from));
-  T.rotate(turn.slerp(share, Eigen::Quaterniond(after->T_world_body.linear())));
-  return T;
+  return true_pose_at(run_.record(), view.time_s).value_or(gnbv::T_world_body(view.decision.view));
 }
 
 RenderView Snapshots::view(std::size_t iteration) const {
