@@ -45,6 +45,7 @@ TEST_F(RenderProgram, DrawsTheRunsThatCanBeDrawnAndNamesTheOthers) {
   EXPECT_FALSE(exists("pics/less-cloud.png"));
   EXPECT_TRUE(exists("sheet.png"));
   EXPECT_TRUE(has(outcome, "gnbv: cloud of less: "));
+  EXPECT_EQ(render("whole less --what cloud -o pics --quiet").output, "pics/whole-cloud.png\n");
   EXPECT_EQ(render("less --what cloud").exit_code, 2);
 }
 

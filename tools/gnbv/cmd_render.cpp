@@ -27,7 +27,7 @@ constexpr std::size_t kFilmImages = 240;
 class RenderCommand {
  public:
   explicit RenderCommand(const RenderOptions& options)
-      : options_(options), kinds_(kinds_asked(options)), progress_("render", false) {
+      : options_(options), kinds_(kinds_asked(options)), progress_("render", options.quiet) {
     need_consistent(options, kinds_);
     set_camera(options_);
     const std::vector<std::string> names = run_names(options.runs);
@@ -37,9 +37,7 @@ class RenderCommand {
           [this](double share, const std::string& note) { progress_.show(share, note); }));
       runs_.push_back(sources_.back().get());
       names_[runs_.back()] = names[runs_.size() - 1];
-      for (const std::string& missing : runs_.back()->record().missing) {
-        fmt::print(stderr, "gnbv: {}\n", missing);
-      }
+      for (const std::string& missing : runs_.back()->record().missing) note(missing);
     }
   }
 
@@ -47,7 +45,7 @@ class RenderCommand {
   void draw() {
     for (const std::string& name : kinds_) draw_kind(name);
     if (drawn_ == 0) throw BadInput(fmt::format("{}", fmt::join(reasons_, "\n")));
-    for (const std::string& reason : reasons_) fmt::print(stderr, "gnbv: {}\n", reason);
+    for (const std::string& reason : reasons_) note(reason);
     const bool has_any = std::any_of(images_.begin(), images_.end(),
                                      [](const Image& image) { return !image.rgb.empty(); });
     if (!options_.sheet.empty() && has_any) {
@@ -56,6 +54,10 @@ class RenderCommand {
   }
 
  private:
+  void note(const std::string& sentence) const {
+    if (!options_.quiet) fmt::print(stderr, "gnbv: {}\n", sentence);
+  }
+
   /// Whether that came to its end; if not, the reason is kept.
   bool tried(const std::string& name, const RunSource& run, const std::function<void()>& action) {
     try {

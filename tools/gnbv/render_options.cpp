@@ -137,6 +137,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   command.add_flag("!--no-caption", options.picture.has_caption, "no title, legend and scale");
   command.add_option("--threads", options.threads, "0 = all; the pictures do not depend on it")
       ->check(CLI::Range(0, 1024));
+  command.add_flag("--quiet", options.quiet, "no progress, no notes");
 }
 
 }  // namespace gnbv

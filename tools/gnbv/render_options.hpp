@@ -23,6 +23,7 @@ struct RenderOptions {
   bool follows = false;
   int images_per_s = 24;
   int threads = 0;
+  bool quiet = false;
 };
 
 void add_render_options(CLI::App& command, RenderOptions& options);
