@@ -70,6 +70,28 @@ TEST_F(Export, ClearsUpAfterAnExportThatWasKilled) {
   EXPECT_FALSE(fs::exists(part));
 }
 
+TEST_F(Export, ACameraThatCannotNameFilesIsRefused) {
+  const fs::path named = folder_ / "named";
+  fs::copy(run(), named, fs::copy_options::recursive);
+  fs::remove_all(named / "export");
+  for (const char* file : {"cameras.json", "poses.csv"}) {
+    std::string text = read_file(named / "frames" / file);
+    for (const char mark : {'"', ','}) {
+      const std::string name = std::string(1, mark) + "rgbd" + mark;
+      for (std::size_t at; (at = text.find(name)) != std::string::npos;) {
+        text.replace(at + 1, 4, "a/b");
+      }
+    }
+    write_file_atomically(named / "frames" / file, text);
+  }
+  for (const char* format : {"tum", "colmap"}) {
+    const Outcome refused = gnbv("export " + named.string() + " --quiet --format " + format);
+    EXPECT_EQ(refused.exit_code, 2) << format;
+    EXPECT_TRUE(has(refused, "camera 'a/b' cannot name files")) << refused.output;
+    EXPECT_FALSE(fs::exists(named / "export" / format));
+  }
+}
+
 /// As many points as are allowed are taken.
 TEST_F(Export, TakesAsManyPointsAsItMay) {
   const std::size_t count = read_cloud(run() / "cloud.ply").size();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -10,12 +11,24 @@
 #include "sensors/ray_scene.hpp"
 #include "sim/core/file.hpp"
 #include "tests/support/exported_run.hpp"
+#include "tools/mission/cloud_file.hpp"
+#include "tools/mission/iterations_csv.hpp"
 #include "tools/mission/load_world.hpp"
+#include "tools/record/run_record.hpp"
 
 namespace gnbv {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// What is exported is read from the run; of a whole one nothing is missing.
+TEST_F(Export, AWholeRunIsReadWithItsFigures) {
+  const RunRecord record = read_run(run());
+  EXPECT_TRUE(record.missing.empty());
+  ASSERT_TRUE(record.figures.has_value());
+  EXPECT_EQ(record.figures->curve.views(), record.views.size());
+  EXPECT_GT(*record.views_begin_s, *record.profile_end_s - 1e-9);
+}
 
 TEST_F(Export, ColmapPointsProjectWhereTheImagesShowThem) {
   const Numbers k = intrinsics();
@@ -166,6 +179,30 @@ TEST_F(Export, PlainFilesHoldBodyAndCamera) {
     const auto cells = cells_of(rows[i], ',');
     EXPECT_TRUE((pose_of(cells, 3) * T_body_camera).isApprox(pose_of(cells, 10), 1e-6));
     EXPECT_TRUE(pose_of(cells, 10).isApprox(T_world_camera_[i - 1], 1e-6));
+  }
+  // each point of the cloud with its colour and the view that brought it
+  const std::string ply = read_file(out("plain") / "cloud.ply");
+  constexpr std::string_view kLast = "property int view\nend_header\n";
+  const std::size_t header = ply.find(kLast);
+  ASSERT_NE(header, std::string::npos);
+  const std::vector<ViewRecord> views = read_view_records(run() / "iterations.csv");
+  const std::size_t count = views.back().cloud_points;
+  const std::size_t begin = header + kLast.size();
+  constexpr std::size_t kPointBytes = 3 * 4 + 3 + 4;
+  ASSERT_EQ(ply.size() - begin, kPointBytes * count);
+  std::size_t before = read_cloud(run() / "profile.ply").size();
+  const auto view_of = [&](std::size_t point) {
+    std::int32_t view = 0;
+    std::memcpy(&view, ply.data() + begin + (point + 1) * kPointBytes - 4, sizeof view);
+    return view;
+  };
+  EXPECT_EQ(view_of(0), -1);
+  EXPECT_EQ(view_of(before - 1), -1);
+  for (const ViewRecord& view : views) {
+    if (view.cloud_points == before) continue;
+    EXPECT_EQ(view_of(before), view.iteration);
+    EXPECT_EQ(view_of(view.cloud_points - 1), view.iteration);
+    before = view.cloud_points;
   }
   const std::string readme = read_file(out("plain") / "README.txt");
   for (const auto& entry : fs::directory_iterator(out("plain"))) {

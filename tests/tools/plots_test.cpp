@@ -2,9 +2,12 @@
 // mean nothing to gnuplot, and every format is what its name says.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <functional>
+#include <map>
 #include <sstream>
 #include <thread>
 
@@ -155,8 +158,47 @@ TEST(Plots, RunsOfOneMethodAreOneGroup) {
   EXPECT_EQ(groups[0].label, "leaf_m=0.05");
   EXPECT_EQ(groups[1].label, "leaf_m=0.07");
   EXPECT_EQ(notes.size(), 1U);
+  runs.push_back(made_record());  // never scored
+  notes.clear();
+  EXPECT_EQ(group_runs(runs, notes).size(), 2U);
+  ASSERT_EQ(notes.size(), 2U);
+  EXPECT_NE(notes[1].find("has no figures"), std::string::npos) << notes[1];
   runs[3].scenario.planner.utility.name = "isler";
   EXPECT_EQ(group_runs(runs, notes)[1].label, "isler");
+}
+
+/// A key hides no curve: it stands in the corner where that is free, and over the plot where a
+/// curve runs through it or a name is too long for it.
+TEST(Plots, TheKeyOfCoverageStandsWhereNothingIs) {
+  const auto has_key_inside = [](const std::vector<double>& coverage, const std::string& label) {
+    const std::vector<RunRecord> runs = {covered_record(1, coverage)};
+    const RunGroup group{.label = label, .runs = {&runs[0]}};
+    const std::string body = coverage_plot({&group, 1}, Effort::views, 0).body;
+    return body.find("set key inside bottom right") != std::string::npos;
+  };
+  EXPECT_TRUE(has_key_inside({0.6, 0.7, 0.8, 0.9}, "isler"));
+  EXPECT_FALSE(has_key_inside({0.0, 0.01, 0.02, 0.03}, "isler"));
+  EXPECT_FALSE(has_key_inside({0.6, 0.7, 0.8, 0.9}, std::string(60, 'i')));
+}
+
+TEST(Plots, TheKeyOfTermsStandsInThePicture) {
+  const std::string body = terms_plot(scored_record())->body;
+  std::map<std::string, std::vector<double>> rows;  // where marks and words begin, by their height
+  std::istringstream lines(body);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t at = line.find(" at screen ");
+    if (!line.starts_with("set label 1") || at == std::string::npos) continue;  // 10 to 19
+    std::istringstream place(line.substr(at + 11));
+    double x = 0.0;
+    std::string y;
+    if (place >> x && place.get() == ',' && place >> y) rows[y].push_back(x);
+  }
+  ASSERT_GE(rows.size(), 3U);  // phases, terms of the sum, factors
+  for (const auto& [y, begins] : rows) {
+    EXPECT_TRUE(std::is_sorted(begins.begin(), begins.end(), std::less_equal<>())) << y;
+    EXPECT_GT(begins.front(), 0.0);
+    EXPECT_LT(begins.back(), 0.95);
+  }
 }
 
 TEST(Plots, TextsMeanNothingToGnuplot) {

@@ -7,6 +7,7 @@
 #include "tests/support/temp_folder.hpp"
 #include "tools/mission/run_directory.hpp"
 #include "tools/record/frame_record.hpp"
+#include "tools/record/run_poses.hpp"
 
 namespace gnbv {
 namespace {
@@ -177,6 +178,22 @@ TEST_F(Record, DamagedFilesAreNamedWithTheLine) {
   remove("summary.json");
   write("iterations.csv", "iteration,x,y,yaw\n");
   EXPECT_NE(run_complaint().find("iterations.csv:1"), std::string::npos) << run_complaint();
+}
+
+TEST_F(Record, BetweenSamplesThePoseIsInterpolated) {
+  RunRecord record = made_record();
+  const auto p_world_m = [&](double time_s) {
+    const auto T_world_body = true_pose_at(record, time_s);
+    return T_world_body ? Vec3(T_world_body->translation()) : Vec3(Vec3::Constant(-99.0));
+  };
+  EXPECT_TRUE(p_world_m(3.25).isApprox(Vec3(-4, 2, 2.25)));
+  EXPECT_EQ(p_world_m(3.0), Vec3(-4, 4, 2));
+  EXPECT_EQ(p_world_m(4.05), Vec3(-4, -4, 3)) << "it hovers where it ends";
+  EXPECT_FALSE(true_pose_at(record, 4.2) || true_pose_at(record, -0.1));
+  record.path[3].T_world_body.rotate(Eigen::AngleAxisd(deg_to_rad(170.0), Vec3::UnitZ()));
+  record.path[4].T_world_body.rotate(Eigen::AngleAxisd(deg_to_rad(-170.0), Vec3::UnitZ()));
+  const Eigen::AngleAxisd turn(true_pose_at(record, 3.25)->linear());
+  EXPECT_NEAR(turn.angle(), deg_to_rad(175.0), 1e-9) << "the shorter way round";
 }
 
 TEST_F(Record, ACloudOfAnotherRunIsRefused) {

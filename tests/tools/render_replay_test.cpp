@@ -230,5 +230,47 @@ TEST(CandidatesPicture, HoldsAPinForEachCandidate) {
   EXPECT_EQ(less.size() + 1, drawn.size());  // nothing but the pin is gone
 }
 
+TEST(CandidatesPicture, RaysLieInsideTheViewAndReachAllAround) {
+  const TempFolder temp;
+  RunSource run = source(temp.path());
+  PictureOptions options;
+  options.iteration = kAsked;
+  const RenderScene scene = kCandidatesPicture.draw(run, options, {}).panels.at(0).scene;
+  const Scenario& scenario = watched().flown.scenario;
+  const CameraModel camera = make_camera_model(scenario.cameras.front());
+  const ViewPose& view = watched().flown.result.views[kAsked].decision.view;
+  const Isometry T_world_camera = T_world_body(view) * camera.T_body_camera;
+  const std::size_t pins = watched().plans[kAsked - 1].candidates.size();
+  Eigen::AlignedBox2d reached_px;
+  ASSERT_GT(scene.tubes.size(), pins + 2);
+  for (std::size_t i = pins; i + 1 < scene.tubes.size(); ++i) {  // the last one is the way there
+    const Vec3 end = T_world_camera.inverse() * scene.tubes[i].points_m.back().cast<double>();
+    ASSERT_GT(end.z(), 0.0);
+    EXPECT_LE(end.z(), camera.config.range_max_m + 1e-3);
+    reached_px.extend(pixel_of(camera, end));
+  }
+  const Eigen::AlignedBox2d whole_px(
+      Eigen::Vector2d::Zero(), Eigen::Vector2d(camera.config.width_px, camera.config.height_px));
+  EXPECT_TRUE(whole_px.contains(reached_px));
+  EXPECT_GT(reached_px.volume(), 0.5 * whole_px.volume());
+}
+
+TEST(CandidatesPicture, TheLegendNamesFrontiersOnlyWhereAFrontierWasLookedAt) {
+  const TempFolder temp;
+  PictureOptions options;
+  options.iteration = kAsked;
+  const auto names_frontiers = [&](std::string_view sampler) {
+    const Flown& flown = watched().flown;
+    std::vector<ViewRecord> views = flown.result.views;
+    views[kAsked].decision.sampler = sampler;
+    RunSource run{{.folder = temp.path(), .scenario = flown.scenario, .views = views}, flown.world};
+    const auto legend = kCandidatesPicture.draw(run, options, {}).legend;
+    return std::any_of(legend.begin(), legend.end(),
+                       [](const LegendItem& item) { return item.label == "frontier"; });
+  };
+  EXPECT_FALSE(names_frontiers("agvs"));
+  EXPECT_TRUE(names_frontiers("fvs"));
+}
+
 }  // namespace
 }  // namespace gnbv

@@ -150,14 +150,20 @@ TEST(Pictures, OfEachKindFindALayoutAtAnySize) {
 
 TEST(Pictures, SheetHoldsEveryImageWhereItBelongs) {
   std::vector<Image> images;
-  for (std::uint8_t i = 0; i < 3; ++i) images.push_back({2, 1, std::vector<std::uint8_t>(6, i)});
+  for (std::uint8_t i = 0; i < 3; ++i) {
+    images.push_back({2, 2, std::vector<std::uint8_t>(6, i)});
+    images.back().rgb.resize(12, static_cast<std::uint8_t>(100 + i));  // the second row
+  }
   const Image sheet = contact_sheet(images, 2);
   EXPECT_EQ(sheet.width_px, 4);
-  EXPECT_EQ(sheet.height_px, 2);
+  EXPECT_EQ(sheet.height_px, 4);
   EXPECT_EQ(sheet.at(1, 0)[0], 0);
+  EXPECT_EQ(sheet.at(1, 1)[0], 100);
   EXPECT_EQ(sheet.at(2, 0)[0], 1);
-  EXPECT_EQ(sheet.at(0, 1)[0], 2);
-  EXPECT_EQ(sheet.at(3, 1)[0], 255);  // empty
+  EXPECT_EQ(sheet.at(3, 1)[0], 101);
+  EXPECT_EQ(sheet.at(0, 2)[0], 2);
+  EXPECT_EQ(sheet.at(0, 3)[0], 102);
+  EXPECT_EQ(sheet.at(3, 2)[0], 255);  // empty
   images[0] = {};                     // could not be drawn
   const Image rest = contact_sheet(images, 2);
   EXPECT_EQ(rest.at(1, 0)[0], 255);

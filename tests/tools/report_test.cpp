@@ -47,6 +47,51 @@ TEST(Report, HoldsTheViewsAndWhatGrewWithThem) {
   EXPECT_EQ(run["voxels"]["count"][1], 6);            // no two in one
   EXPECT_EQ(run["path"]["time"][1], 5);
   EXPECT_EQ(run["figures"], nullptr);
+  EXPECT_EQ(run["command"],
+            fmt::format("gnbv run {}/scenario.yaml --out NEW", temp.path().string()));
+}
+
+TEST(Report, HoldsTheCamerasAsTheyAreMounted) {
+  TempFolder temp;
+  write_made_run(temp.path());
+  const RunRecord record = read_run(temp.path());
+  const nlohmann::json cameras = data_of(report_of({record}))["runs"][0]["cameras"];
+  ASSERT_EQ(cameras.size(), record.scenario.cameras.size());
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const CameraModel model = make_camera_model(record.scenario.cameras[i]);
+    EXPECT_EQ(cameras[i]["name"], model.config.name);
+    EXPECT_EQ(cameras[i]["fov_x"], model.config.fov_x_rad);
+    EXPECT_EQ(cameras[i]["range_m"], model.config.range_max_m);
+    ASSERT_EQ(cameras[i]["T_body_camera"].size(), 16U);
+    for (std::size_t k = 0; k < 16; ++k) {  // column by column, as three.js has them
+      EXPECT_EQ(cameras[i]["T_body_camera"][k], model.T_body_camera.data()[k]);
+    }
+  }
+}
+
+/// A page is as large as it may be, and no larger, however much there is to show.
+TEST(Report, UsesItsSizeAndKeepsIt) {
+  TempFolder temp;
+  write_made_run(temp.path());
+  std::vector<Vec3f> points;
+  for (int i = 0; i < 900 * 900; ++i) {
+    points.push_back(Vec3(0.05 * (i % 900), 0.05 * (i / 900), 1.0).cast<float>());
+  }
+  write_cloud_ply(points, temp.path() / "cloud.ply");
+  RunRecord record = read_run(temp.path());
+  record.views.back().cloud_points = points.size();
+  for (const std::size_t runs : {1U, 8U}) {
+    const Report report = report_of(std::vector<RunRecord>(runs, record), 2);
+    EXPECT_LE(report.html.size(), kMaxReportBytes);
+    const nlohmann::json data = data_of(report);
+    ASSERT_EQ(data["runs"].size(), runs);
+    for (const nlohmann::json& run : data["runs"]) {
+      // a lattice a bit coarser keeps a part: half a million points for one, or 100,000 for each
+      const double drawn = run["cloud"]["points"]["steps"][1].get<double>() / 3.0;
+      EXPECT_GT(drawn, runs == 1 ? 150'000.0 : 30'000.0);
+      EXPECT_LE(drawn, runs == 1 ? 500'000.0 : 100'000.0);
+    }
+  }
 }
 
 TEST(PackedRun, PointsAndVoxelsAreThereAfterTheViewThatBroughtThem) {
@@ -102,7 +147,11 @@ TEST(Report, TheSameBytesAtAnyNumberOfThreads) {
   write_made_frames(temp.path());
   const RunRecord record = read_run(temp.path());
   const Report one = report_of({record, record}, 1);
-  EXPECT_EQ(data_of(one)["runs"][0]["frames"].size(), 3U);
+  const nlohmann::json run = data_of(one)["runs"][0];
+  EXPECT_EQ(run["frames"].size(), 3U);
+  EXPECT_EQ(run["cloud"]["colour"][1], 18);  // of six points
+  EXPECT_EQ(run["command"],
+            fmt::format("gnbv run {}/scenario.yaml --frames --out NEW", temp.path().string()));
   EXPECT_EQ(one.html, report_of({record, record}, 4).html);
 }
 

@@ -198,6 +198,21 @@ TEST(SeenPoints, WhatAFlyingCameraSawCameFromTheNearestPoseOfItsLeg) {
   EXPECT_EQ(sensor(2), Vec3f(-4, 4, 2));   // at 3 s, where the first leg ends
 }
 
+TEST(SeenPoints, WhatLiesBehindAPoseHidesNothingFromIt) {
+  TempFolder temp;
+  write_made_run(temp.path());
+  RunRecord record = read_run(temp.path());
+  RunCloud cloud = read_run_cloud(record);
+  // the first point was seen on the profile, 1 m away; another one lies 2 m beyond that pose
+  cloud.points_world_m = {{0, -3, 1}, {0, -6, 1}};
+  cloud.profile_points = 2;
+  cloud.view_points = {2, 2, 2};
+  record.path = {made_sample(0, {0, -4, 1}), made_sample(1, {0, 1.5, 1})};
+  EXPECT_EQ(seen_points(record, cloud, 1).sensors_world_m[0], Vec3f(0, -4, 1));
+  cloud.points_world_m[1] = {0, -3.5F, 1};  // between them it does
+  EXPECT_EQ(seen_points(record, cloud, 1).sensors_world_m[0], Vec3f(0, 1.5F, 1));
+}
+
 TEST(SeenPoints, WhatCameAfterTheLastViewIsSeenFromThere) {
   TempFolder temp;
   write_made_run(temp.path());

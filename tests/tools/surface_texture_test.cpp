@@ -162,6 +162,18 @@ TEST(Texture, AFaceThatTurnsAwayOrLeavesThePictureHasNoView) {
   }
 }
 
+TEST(Texture, TheNearerAndTheMoreFrontalPictureServesAFace) {
+  const TriangleMesh mesh = sheet();
+  const auto inner = [&](const std::vector<TextureView>& views) {
+    const auto chosen = chosen_views(mesh, views);
+    return chosen[mesh.faces.size() / 2 + 20];  // in the middle of the sheet
+  };
+  EXPECT_EQ(inner({view_from(0.0F, 4.0F), view_from(0.0F, 2.0F)}), 1);
+  EXPECT_EQ(inner({view_from(0.0F, 2.0F), view_from(0.0F, 4.0F)}), 0);
+  // both 2.5 m away, one of them 37 degrees off
+  EXPECT_EQ(inner({view_from(-1.5F, 2.0F), view_from(0.0F, 2.5F)}), 1);
+}
+
 TEST(Texture, APictureWhoseDepthDisagreesIsNotUsed) {
   const TriangleMesh mesh = sheet();
   const auto view_at = [](float z_m, std::uint16_t depth_mm, double range_max_m) {
