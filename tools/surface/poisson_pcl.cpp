@@ -14,28 +14,30 @@
 namespace gnbv {
 namespace {
 
-/// While it lives, what is written to stdout goes nowhere: PCL's octree prints a line for each
-/// edge that it cannot close, and has no switch for it.
-class SilentStdout {
+/// While it lives, what is written to the stream goes nowhere: PCL's octree prints a line for each
+/// edge that it cannot close, its solver one for each system that is solved already, and there is no
+/// switch for either.
+class Silenced {
  public:
-  SilentStdout() {
-    std::fflush(stdout);
-    kept_ = ::dup(STDOUT_FILENO);
+  explicit Silenced(std::FILE* stream) : stream_(stream) {
+    std::fflush(stream_);
+    kept_ = ::dup(::fileno(stream_));
     const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
     if (nowhere < 0) return;
-    ::dup2(nowhere, STDOUT_FILENO);
+    ::dup2(nowhere, ::fileno(stream_));
     ::close(nowhere);
   }
-  ~SilentStdout() {
-    std::fflush(stdout);
-    if (kept_ < 0) return;  // there was no stdout
-    ::dup2(kept_, STDOUT_FILENO);
+  ~Silenced() {
+    std::fflush(stream_);
+    if (kept_ < 0) return;  // it was closed
+    ::dup2(kept_, ::fileno(stream_));
     ::close(kept_);
   }
-  SilentStdout(const SilentStdout&) = delete;
-  SilentStdout& operator=(const SilentStdout&) = delete;
+  Silenced(const Silenced&) = delete;
+  Silenced& operator=(const Silenced&) = delete;
 
  private:
+  std::FILE* stream_;
   int kept_ = -1;
 };
 
@@ -70,7 +72,8 @@ extern "C" __attribute__((visibility("default"))) void gnbv_poisson_surface(
   pcl::PointCloud<pcl::PointNormal> vertices;
   std::vector<pcl::Vertices> polygons;
   {
-    const SilentStdout silent;
+    const Silenced no_edges(stdout);
+    const Silenced no_residuals(stderr);
     poisson.reconstruct(vertices, polygons);
   }
   mesh.vertices_m.reserve(vertices.size());
