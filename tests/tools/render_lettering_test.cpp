@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/render/caption.hpp"
 #include "tools/render/lettering.hpp"
 
 namespace gnbv {
@@ -45,6 +46,31 @@ TEST(Lettering, CodePointsCountOnceAndLongTextsFit) {
   EXPECT_NEAR(text_width_px(title, height_px), 500.0, 1e-9);
   EXPECT_EQ(fitting_height_px("short", 15.0, 500.0), 15.0);
   EXPECT_EQ(fitting_height_px("", 15.0, 500.0), 15.0);
+}
+
+/// However small the picture and long the words, the scale can be read.
+TEST(Caption, NoLegendLiesOnTheScale) {
+  const auto drawn = [](int width_px, const std::vector<LegendItem>& legend) {
+    Image image{width_px, 240, {}};
+    image.rgb.assign(static_cast<std::size_t>(3 * width_px * image.height_px), 255);
+    RenderView view;
+    view.width_px = width_px;
+    view.height_px = image.height_px;
+    draw_caption(image, {.title = "t", .detail = "d", .legend = legend}, view);
+    return image;
+  };
+  const LegendItem bar{
+      .label = "216 or more points a voxel", .colours = path_colours(), .label_before = "1"};
+  for (const int width_px : {320, 330, 340, 420, 640}) {
+    const Image scale = drawn(width_px, {});
+    const Image both = drawn(width_px, {bar, {"covered", {srgb(0x123456)}}, bar});
+    for (int y = 120; y < 240; ++y) {
+      for (int x = 0; x < width_px; ++x) {
+        if (scale.at(x, y) == Rgb8{255, 255, 255}) continue;
+        EXPECT_EQ(both.at(x, y), scale.at(x, y)) << width_px << ": " << x << ' ' << y;
+      }
+    }
+  }
 }
 
 TEST(Colour, RampsRunFromFirstToLastAndSrgbRoundTrips) {

@@ -81,7 +81,7 @@ void draw_mark(Image& image, const LegendItem& item, double x, double y, double 
   }
 }
 
-// From the right, the last item lowest; a row that meets the scale makes room above.
+// From the right, the last item lowest; what meets the scale goes above it.
 void draw_legend(Image& image, const std::vector<LegendItem>& legend, double u, double bottom,
                  double left_limit) {
   double right = image.width_px - kBorder * u;
@@ -91,7 +91,8 @@ void draw_legend(Image& image, const std::vector<LegendItem>& legend, double u, 
     const LegendItem& item = legend[i];
     const double width = item_width(item) * u;
     const double limit = y == bottom ? left_limit + kGap * u : kBorder * u;
-    if (!is_row_empty && right - width < limit) {
+    const bool may_move = !is_row_empty || y == bottom;
+    if (may_move && right - width < limit) {
       right = image.width_px - kBorder * u;
       y -= kRow * u;
     }
