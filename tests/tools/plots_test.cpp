@@ -167,6 +167,33 @@ TEST(Plots, RunsOfOneMethodAreOneGroup) {
   EXPECT_EQ(group_runs(runs, notes)[1].label, "isler");
 }
 
+/// Only what tells it from others of its name is said of a group, and a label is never a list.
+TEST(Plots, LabelsSayNoMoreThanIsNeeded) {
+  std::vector<RunRecord> runs(4, covered_record(1, {0.2}));
+  runs[1].scenario.planner.cloud.leaf_m = 0.07;
+  runs[2].scenario.name = "lab";
+  runs[2].scenario.planner.map.resolution_m = 0.1;
+  runs[2].scenario.planner.floor_z_m = 0.4;
+  const auto labels = [&] {
+    std::vector<std::string> notes;
+    std::vector<std::string> all;
+    for (const RunGroup& group : group_runs(runs, notes)) all.push_back(group.label);
+    return all;
+  };
+  EXPECT_EQ(labels(),
+            (std::vector<std::string>{"smoke, leaf_m=0.05", "smoke, leaf_m=0.07", "lab"}));
+  runs[1].scenario.planner.map.resolution_m = 0.1;
+  runs[1].scenario.planner.floor_z_m = 0.4;
+  runs[0].folder = "runs/a";
+  runs[1].folder = "runs/b";
+  EXPECT_EQ(labels(), (std::vector<std::string>{"smoke, a", "smoke, b", "lab"}));
+  runs.resize(2);
+  runs[1].scenario = runs[0].scenario;
+  runs[0].scenario.cameras[0].rate_hz = runs[0].scenario.lidars[0].rate_hz = 1.0;
+  runs[1].scenario.cameras[0].rate_hz = runs[1].scenario.lidars[0].rate_hz = 2.0;
+  EXPECT_EQ(labels()[1], "cameras.0.rate_hz=2, lidars.0.rate_hz=2");
+}
+
 /// A key hides no curve: it stands in the corner where that is free, and over the plot where a
 /// curve runs through it or a name is too long for it.
 TEST(Plots, TheKeyOfCoverageStandsWhereNothingIs) {

@@ -36,7 +36,8 @@ std::vector<fs::path> runs_in(const fs::path& folder) {
   std::vector<fs::path> runs;
   const fs::path cells = folder / "cells";
   for (const auto& entry : fs::directory_iterator(fs::is_directory(cells) ? cells : folder)) {
-    if (fs::exists(entry.path() / "scenario.yaml")) runs.push_back(entry.path());
+    const bool is_export = fs::exists(entry.path() / "gnbv-export.json");
+    if (fs::exists(entry.path() / "scenario.yaml") && !is_export) runs.push_back(entry.path());
   }
   std::sort(runs.begin(), runs.end());
   return runs.empty() ? std::vector{folder} : runs;
@@ -88,7 +89,8 @@ std::vector<Plot> plots_of_runs(const PlotOptions& options, const std::vector<Ru
       plot->name = what + ends[run];
       plots.push_back(std::move(*plot));
     } else {
-      fmt::print(stderr, "gnbv: {}: no views to plot as {}\n", records[run].folder.string(), what);
+      fmt::print(stderr, "gnbv: {}: no scored views to plot as {}\n", records[run].folder.string(),
+                 what);
     }
   };
   for (std::size_t i = 0; i < records.size(); ++i) {
@@ -138,10 +140,15 @@ void plot(const PlotOptions& options) {
   fs::path folder = options.out;
   if (folder.empty()) folder = records.size() == 1 ? records.front().folder / "plots" : "plots";
   std::error_code error;
-  fs::create_directories(folder, error);
+  const bool is_new = fs::create_directories(folder, error);
   if (error)
     throw BadInput(fmt::format("{}: cannot make it: {}", folder.string(), error.message()));
-  for (const Plot& each : plots) draw(options, each, folder);
+  try {
+    for (const Plot& each : plots) draw(options, each, folder);
+  } catch (const BadInput&) {
+    if (is_new) fs::remove(folder, error);  // when nothing came into it
+    throw;
+  }
 }
 
 }  // namespace

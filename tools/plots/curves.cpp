@@ -1,10 +1,14 @@
 #include "tools/plots/curves.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
-#include <set>
+#include <array>
+#include <iterator>
 
 #include "scenarios/write.hpp"
 #include "sim/core/error.hpp"
+#include "tools/record/run_names.hpp"
 
 namespace gnbv {
 namespace {
@@ -32,38 +36,69 @@ std::string value_of(const Values& values, std::string_view key) {
   return at == values.end() ? "" : at->second;
 }
 
-/// The keys in which any two of the groups differ; what everybody knows a method by comes first.
+constexpr std::array<std::string_view, 3> kNames = {"name", "planner.utility.name",
+                                                    "planner.preset"};
+
+bool differ_in(const std::vector<Values>& groups, std::string_view key) {
+  return std::any_of(groups.begin(), groups.end(), [&](const Values& values) {
+    return value_of(values, key) != value_of(groups.front(), key);
+  });
+}
+
+/// The keys, names apart, in which any two of the groups differ.
 std::vector<std::string> differing_keys(const std::vector<Values>& groups) {
-  std::vector<std::string> keys = {"name", "planner.utility.name", "planner.preset"};
+  std::vector<std::string> keys;
   for (const Values& values : groups) {
     for (const auto& [key, value] : values) {
-      if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+      const bool is_known = std::find(keys.begin(), keys.end(), key) != keys.end() ||
+                            std::find(kNames.begin(), kNames.end(), key) != kNames.end();
+      if (!is_known && differ_in(groups, key)) keys.push_back(key);
     }
   }
-  std::erase_if(keys, [&](const std::string& key) {
-    return std::all_of(groups.begin(), groups.end(), [&](const Values& values) {
-      return value_of(values, key) == value_of(groups.front(), key);
-    });
-  });
   return keys;
 }
 
-/// Names first; other keys only as far as names leave groups alike.
-std::vector<std::string> labels_of(const std::vector<Values>& groups) {
-  std::vector<std::string> labels(groups.size());
+/// What everybody knows methods by, as far as they differ in it.
+std::string names_of(const Values& values, const std::vector<Values>& groups) {
+  std::string names;
+  for (const std::string_view key : kNames) {
+    if (!differ_in(groups, key)) continue;
+    names += (names.empty() ? "" : ", ") + value_of(values, key);
+  }
+  return names;
+}
+
+/// The last part of a key, or all of it where others end alike.
+std::string short_key(const std::string& key, const std::vector<std::string>& keys) {
+  const auto last = [](const std::string& k) { return k.substr(k.rfind('.') + 1); };
+  const auto alike = std::count_if(keys.begin(), keys.end(),
+                                   [&](const std::string& k) { return last(k) == last(key); });
+  return alike > 1 ? key : last(key);
+}
+
+/// By names; those that have them in common by the keys in which they differ, or by their folders
+/// where these are too many to read.
+std::vector<std::string> labels_of(const std::vector<Values>& groups,
+                                   const std::vector<std::string>& folders) {
+  constexpr std::size_t kReadable = 2;
   if (groups.size() == 1) {
     return {value_of(groups[0], "name") + ", " + value_of(groups[0], "planner.utility.name")};
   }
-  const std::vector<std::string> keys = differing_keys(groups);
-  for (const std::string& key : keys) {
-    const bool is_name = key == "name" || key == "planner.utility.name" || key == "planner.preset";
-    if (!is_name && std::set(labels.begin(), labels.end()).size() == groups.size()) break;
-    const std::string last = key.substr(key.rfind('.') + 1);
-    for (std::size_t i = 0; i < groups.size(); ++i) {
-      const std::string value = value_of(groups[i], key);
-      if (!labels[i].empty()) labels[i] += ", ";
-      labels[i] += is_name ? value : last + "=" + value;
+  std::vector<std::string> labels;
+  for (const Values& own : groups) {
+    const std::string names = names_of(own, groups);
+    std::vector<Values> namesakes;
+    std::copy_if(groups.begin(), groups.end(), std::back_inserter(namesakes),
+                 [&](const Values& other) { return names_of(other, groups) == names; });
+    const std::vector<std::string> keys = differing_keys(namesakes);
+    std::vector<std::string> words;
+    if (!names.empty()) words.push_back(names);
+    if (keys.size() > kReadable) words.push_back(folders[labels.size()]);
+    for (const std::string& key : keys) {
+      if (keys.size() > kReadable) break;
+      words.push_back(short_key(key, keys) + "=" + value_of(own, key));
     }
+    labels.push_back(fmt::format("{}", fmt::join(words, ", ")));
   }
   return labels;
 }
@@ -133,7 +168,9 @@ std::vector<RunGroup> group_runs(std::span<const RunRecord> runs, std::vector<st
     group.runs.push_back(&run);
   }
   if (groups.empty()) return groups;
-  const std::vector<std::string> labels = labels_of(values);
+  std::vector<std::filesystem::path> folders;
+  for (const RunGroup& group : groups) folders.push_back(group.runs.front()->folder);
+  const std::vector<std::string> labels = labels_of(values, run_names(folders));
   for (std::size_t i = 0; i < groups.size(); ++i) groups[i].label = labels[i];
   return groups;
 }

@@ -34,7 +34,7 @@ double whole_effort(const CoverageCurve& curve, Effort effort);
 
 /// Runs that differ in their seeds alone.
 struct RunGroup {
-  std::string label;  // scenario, utility, preset and other keys, as far as groups differ in them
+  std::string label;  // what tells it from the other groups: scenario, utility, preset; then keys
   std::vector<const RunRecord*> runs;
 };
 
