@@ -2,6 +2,8 @@
 // command that makes it, what is damaged is named with its line.
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "sim/core/error.hpp"
 #include "tests/support/made_run.hpp"
 #include "tests/support/temp_folder.hpp"
@@ -171,6 +173,8 @@ TEST_F(Record, DamagedFilesAreNamedWithTheLine) {
   expect_complaint("1 1 2 3 0 0 0 1\n0 1 2 3 0 0 0 1\n", "goes back");
   expect_complaint("0 1 2 3 0 0 0 2\n", "unit quaternion");
   expect_complaint("", "holds no pose");
+  expect_complaint("0 1 2 3 0 0 0 1\n1 1e30 2 3 0 0 0 1\n",
+                   "trajectory.tum:2: stands at 1e+30 2 3");
   write("trajectory.tum", "0 1 2 3 0 0 0 1\n");
   EXPECT_EQ(run_complaint(), "");
   write("summary.json", "{\"schema\": ");
@@ -178,6 +182,20 @@ TEST_F(Record, DamagedFilesAreNamedWithTheLine) {
   remove("summary.json");
   write("iterations.csv", "iteration,x,y,yaw\n");
   EXPECT_NE(run_complaint().find("iterations.csv:1"), std::string::npos) << run_complaint();
+  write("iterations.csv",
+        iterations_csv_header() + iterations_csv_row(made_view(0, {Vec3(0, -1e30, 1), 0.0}, 3)));
+  EXPECT_NE(run_complaint().find("iterations.csv:2: stands at 0 -1e+30 1"), std::string::npos)
+      << run_complaint();
+  EXPECT_NE(complaint([](const fs::path&) { read_run(""); }).find("empty name"), std::string::npos);
+}
+
+TEST_F(Record, APointThatIsNoneIsNamedWithItsFile) {
+  for (const float x : {std::numeric_limits<float>::quiet_NaN(), 1e30F}) {
+    std::vector<Vec3f> points(6, Vec3f(0, 0, 1));
+    points[4].x() = x;
+    write_cloud_ply(points, temp_.path() / "cloud.ply");
+    EXPECT_NE(cloud_complaint().find("cloud.ply: point 4"), std::string::npos) << cloud_complaint();
+  }
 }
 
 TEST_F(Record, BetweenSamplesThePoseIsInterpolated) {
@@ -228,6 +246,14 @@ TEST_F(Record, ImagesThatAreNotOfTheirCamerasSizeAreRefused) {
 TEST_F(Record, FramesHoldPosesAndIntrinsics) {
   EXPECT_FALSE(has_frames(temp_.path()));
   EXPECT_NE(frames_complaint().find("--frames"), std::string::npos) << frames_complaint();
+  for (const char* const name : {"poses.csv", "cameras.json"}) {
+    write_frames();
+    remove(std::string("frames/") + name);
+    EXPECT_TRUE(has_frames(temp_.path()));
+    EXPECT_NE(frames_complaint().find(std::string(name) + ": is missing; `gnbv run"),
+              std::string::npos)
+        << frames_complaint();
+  }
   write_frames();
   const FrameRecord record = read_frames(temp_.path());
   ASSERT_EQ(record.frames.size(), 1U);

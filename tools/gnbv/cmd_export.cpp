@@ -46,8 +46,10 @@ SparseModel sparse_model(const Export& e, const FrameRecord& frames) {
                                          .threads = e.threads,
                                          .progress = e.progress});
   if (!e.options.quiet) {
-    fmt::print(stderr, "gnbv: {} frames show {} of the cloud's {} points, {} observations\n",
-               frames.frames.size(), model.points_world_m.size(), cloud.points_world_m.size(),
+    fmt::print(stderr,
+               "gnbv: {} of the cloud's {} points are shown by two of the {} frames or more, in {} "
+               "observations\n",
+               model.points_world_m.size(), cloud.points_world_m.size(), frames.frames.size(),
                model.observation_count());
   }
   return model;
@@ -116,7 +118,6 @@ const std::map<std::string, Fill> kFormats = {{"colmap", fill_colmap},
 
 void export_run(const ExportOptions& options) {
   const RunRecord record = read_run(options.run);
-  for (const std::string& missing : record.missing) fmt::print(stderr, "gnbv: {}\n", missing);
   const fs::path folder =
       options.out.empty() ? record.folder / "export" / options.format : options.out;
   ProgressBar bar("export " + options.format, options.quiet);
@@ -124,6 +125,7 @@ void export_run(const ExportOptions& options) {
                  [&](double share) { bar.show(share, "frames"); }};
   write_export_folder(record, options.format, folder,
                       [&](const fs::path& part) { kFormats.at(options.format)(e, part); });
+  for (const std::string& missing : record.missing) note(missing);
   fmt::print("{}\n", folder.string());
 }
 

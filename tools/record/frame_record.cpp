@@ -96,7 +96,7 @@ AnyImage of_size(AnyImage image, const FrameCamera& camera, const fs::path& file
 }  // namespace
 
 bool has_frames(const fs::path& run) {
-  return fs::exists(run / "frames" / "poses.csv") && fs::exists(run / "frames" / "cameras.json");
+  return fs::exists(run / "frames" / "poses.csv") || fs::exists(run / "frames" / "cameras.json");
 }
 
 FrameRecord read_frames(const fs::path& run) {
@@ -104,6 +104,11 @@ FrameRecord read_frames(const fs::path& run) {
   if (!has_frames(run)) {
     throw BadInput(fmt::format("{}: the run has no frames; {} flies it again and keeps them",
                                (run / "frames").string(), command_to_fly_again(run, "--frames")));
+  }
+  for (const fs::path& file : {poses, run / "frames" / "cameras.json"}) {
+    if (fs::exists(file)) continue;
+    throw BadInput(fmt::format("{}: is missing; {} flies it again and writes it", file.string(),
+                               command_to_fly_again(run, "--frames")));
   }
   FrameRecord record{.cameras = read_cameras(run / "frames" / "cameras.json"), .frames = {}};
   const std::string text = read_file(poses);

@@ -8,6 +8,7 @@ namespace gnbv {
 namespace {
 
 std::string name_of_folder(const std::filesystem::path& folder) {
+  if (folder.empty()) return "";
   // the end of "x/run/" is an empty name, that of "." is no name
   return (std::filesystem::absolute(folder) / ".").lexically_normal().parent_path().filename();
 }

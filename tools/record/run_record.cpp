@@ -4,6 +4,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "bench/cloud_faults.hpp"
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
@@ -35,7 +36,15 @@ fs::path plain_folder(const fs::path& given) {
   return is_nameless ? normal(fs::absolute(given)) : plain;
 }
 
-std::vector<TrajectorySample> read_path(const fs::path& path) {
+/// Throws BadInput for a place that no vehicle of this scenario can have been at: farther from the
+/// workspace than that is wide, which no drift of an estimate explains.
+void need_near_workspace(const Vec3& p_world_m, const Box3& workspace_m, const TextPlace& place) {
+  if (workspace_m.exteriorDistance(p_world_m) < workspace_m.diagonal().norm()) return;
+  throw BadInput(fmt::format("{}: stands at {:g} {:g} {:g} m, far out of the workspace",
+                             to_string(place), p_world_m.x(), p_world_m.y(), p_world_m.z()));
+}
+
+std::vector<TrajectorySample> read_path(const fs::path& path, const Box3& workspace_m) {
   const std::string text = read_file(path);
   std::string_view rest = text;
   std::vector<TrajectorySample> samples;
@@ -45,6 +54,7 @@ std::vector<TrajectorySample> read_path(const fs::path& path) {
     const TextPlace place{path, line};
     std::array<double, 8> values{};  // time x y z qx qy qz qw
     for (double& value : values) {
+      if (row.empty()) throw BadInput(fmt::format("{}: fewer than 8 values", to_string(place)));
       value = to_number(next_part(row, ' '), place, "one of the 8 values");
       row = trimmed(row);
     }
@@ -58,6 +68,7 @@ std::vector<TrajectorySample> read_path(const fs::path& path) {
     }
     TrajectorySample sample{.time_s = values[0]};
     sample.T_world_body.translate(Vec3(values[1], values[2], values[3]));
+    need_near_workspace(sample.T_world_body.translation(), workspace_m, place);
     sample.T_world_body.rotate(q.normalized());
     samples.push_back(sample);
   }
@@ -68,14 +79,27 @@ std::vector<TrajectorySample> read_path(const fs::path& path) {
 void read_views(RunRecord& record) {
   const fs::path csv = record.folder / "iterations.csv";
   const fs::path journal = record.folder / "iterations.csv.part";
-  if (fs::exists(csv)) {
-    record.views = read_view_records(csv);
-    return;
+  const fs::path& file = fs::exists(csv) ? csv : journal;
+  if (fs::exists(file)) record.views = read_view_records(file);
+  for (const ViewRecord& view : record.views) {
+    need_near_workspace(view.decision.view.p_world_m, record.scenario.workspace_m,
+                        {file, view.iteration + 2});
   }
-  if (fs::exists(journal)) record.views = read_view_records(journal);
+  if (fs::exists(csv)) return;
   record.missing.push_back(fmt::format("{}: is missing, {} views are in its journal; {}",
                                        csv.string(), record.views.size(),
                                        command_to_finish(record.folder)));
+}
+
+/// Throws BadInput when iterations.csv holds fewer or more views than the run ended with.
+void need_all_views(const RunRecord& record) {
+  const fs::path csv = record.folder / "iterations.csv";
+  const auto ended_with = static_cast<std::size_t>(record.figures->iterations);
+  if (record.views.size() == ended_with || !fs::exists(csv)) return;
+  throw BadInput(fmt::format(
+      "{}: holds {} views, and the run of summary.json has {}: damaged, or "
+      "files of two runs? {} flies it again",
+      csv.string(), record.views.size(), ended_with, command_to_fly_again(record.folder, "")));
 }
 
 void read_figures(RunRecord& record) {
@@ -96,20 +120,24 @@ void read_figures(RunRecord& record) {
     if (summary.at("schema").get<unsigned>() == kSummarySchema &&
         fs::exists(record.folder / "coverage.csv")) {
       record.figures = read_run_figures(record.folder);
+      need_all_views(record);
       return;
     }
   } catch (const nlohmann::json::exception& error) {
     throw BadInput(fmt::format("{}: {}", path.string(), error.what()));
   }
-  record.missing.push_back(fmt::format(
-      "{}: is of another version, or coverage.csv is missing; `gnbv score {} --update` scores the "
-      "run anew",
-      path.string(), shell_word(record.folder.string())));
+  const fs::path curve = record.folder / "coverage.csv";
+  record.missing.push_back(fmt::format("{}; `gnbv score {} --update` scores the run anew",
+                                       fs::exists(curve)
+                                           ? fmt::format("{}: is of another version", path.string())
+                                           : fmt::format("{}: is missing", curve.string()),
+                                       shell_word(record.folder.string())));
 }
 
 }  // namespace
 
 RunRecord read_run(const fs::path& given) {
+  if (given.empty()) throw BadInput("RUN is an empty name: a variable of the shell without value?");
   const fs::path folder = plain_folder(given);
   const fs::path yaml = folder / "scenario.yaml";
   if (!fs::exists(yaml)) {
@@ -121,7 +149,7 @@ RunRecord read_run(const fs::path& given) {
   RunRecord record{.folder = folder, .scenario = load_flown_scenario(yaml.string())};
   const fs::path trajectory = folder / "trajectory.tum";
   if (fs::exists(trajectory)) {
-    record.path = read_path(trajectory);
+    record.path = read_path(trajectory, record.scenario.workspace_m);
   } else {
     record.missing.push_back(
         fmt::format("{}: is missing; {}", trajectory.string(), command_to_finish(folder)));
@@ -147,6 +175,7 @@ RunCloud read_run_cloud(const RunRecord& record) {
   RunCloud cloud{.points_world_m = read_cloud(record.folder / "cloud.ply"),
                  .profile_points = read_cloud(record.folder / "profile.ply").size(),
                  .view_points = {}};
+  need_voxels((record.folder / "cloud.ply").string(), cloud.points_world_m);
   std::size_t before = cloud.profile_points;
   for (const ViewRecord& view : record.views) {
     if (view.cloud_points < before) break;
@@ -168,7 +197,9 @@ std::string run_title(const RunRecord& record) {
 }
 
 std::string run_detail(const RunRecord& record) {
-  std::string detail = fmt::format("{} views", record.views.size());
+  const auto views =
+      record.figures ? static_cast<std::size_t>(record.figures->iterations) : record.views.size();
+  std::string detail = fmt::format("{} view{}", views, views == 1 ? "" : "s");
   if (!record.views.empty()) {
     detail += fmt::format(", {:.1f} m", record.views.back().flown_m);
   }
