@@ -49,6 +49,30 @@ TEST_F(RenderProgram, DrawsTheRunsThatCanBeDrawnAndNamesTheOthers) {
   EXPECT_EQ(render("less --what cloud").exit_code, 2);
 }
 
+TEST_F(RenderProgram, NumbersAndNamesThatMakeNoPictureAreRefused) {
+  made_run("run");
+  write_file_atomically(temp_.path() / "camera.json",
+                        R"({"position_m": [0, 1], "target_m": [0, 0, 1]})");
+  write_file_atomically(temp_.path() / "typo.json", R"({"position": [0, 1, 2]})");
+  for (const auto& [options, words] : std::vector<std::pair<std::string, std::string>>{
+           {"run --azimuth-deg nan", "'nan' must be a finite number"},
+           {"run --elevation-deg nan", "'nan' must be from -89 to 90"},
+           {"run --iteration -1", "--iteration: Value -1 not in range"},
+           {"run --camera camera.json", "camera.json: position_m: [0,1] is not three numbers"},
+           {"run --camera typo.json", "typo.json: position: no such key"},
+           {"run -o picture.jpg", "--out picture.jpg: pictures are .png"},
+           {"run -o film.mp4", "--out film.mp4: the name of a path ends in .png"},
+           {"run -o run/cloud.ply/deeper", "run/cloud.ply"},
+           {"run --sheet sheet.jpg", "--sheet sheet.jpg: a sheet is a .png"},
+           {"''", "RUN is an empty name"}}) {
+    const Outcome refused = render(options);
+    EXPECT_EQ(refused.exit_code, 2) << options;
+    EXPECT_TRUE(has(refused, words)) << refused.output;
+    EXPECT_EQ(refused.output.find("internal error"), std::string::npos) << refused.output;
+    EXPECT_LT(refused.output.size(), 300U) << refused.output;
+  }
+}
+
 TEST_F(RenderProgram, DrawsWhatAnIncompleteRunHas) {
   for (const bool has_views : {false, true}) {
     const fs::path run = made_run(has_views ? "some" : "none");

@@ -42,6 +42,9 @@ void check_can_be_written(const fs::path& page) {
   if (fs::is_directory(page)) {
     throw BadInput(fmt::format("{}: is a directory; --out names the page itself", page.string()));
   }
+  if (extension_of(page) != ".html" && extension_of(page) != ".htm") {
+    throw BadInput(fmt::format("{}: a page's name ends in .html", page.string()));
+  }
 }
 
 void report(ReportCommandOptions options) {

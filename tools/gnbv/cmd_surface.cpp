@@ -10,6 +10,7 @@
 #include "sim/core/file.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/execute.hpp"
+#include "tools/gnbv/number_checks.hpp"
 #include "tools/gnbv/progress.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/surface/surface.hpp"
@@ -149,7 +150,7 @@ void add_surface_command(CLI::App& app) {
       ->add_option("--trim-m", options->settings.trim_m,
                    "surface farther than this from any point is cut off (default: 2 spacings of "
                    "the points there, at most 6 leaves)")
-      ->check(CLI::PositiveNumber);
+      ->check(is_positive());
   command
       ->add_option("--texture-px", options->settings.texture_px,
                    "longest side of the texture, at most")

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <new>
 
 #include "sim/core/error.hpp"
@@ -52,6 +53,9 @@ int main(int argc, char** argv) {
     return 1;
   } catch (const gnbv::BadInput& error) {
     fmt::print(stderr, "gnbv: {}\n", error.what());
+    return 2;
+  } catch (const std::filesystem::filesystem_error& error) {
+    fmt::print(stderr, "gnbv: {}: {}\n", error.path1().string(), error.code().message());
     return 2;
   } catch (const gnbv::CommandFailed& failed) {
     fmt::print(stderr, "gnbv: {}\n", failed.what());

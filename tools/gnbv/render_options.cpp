@@ -6,6 +6,8 @@
 #include <set>
 
 #include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "tools/gnbv/number_checks.hpp"
 #include "tools/render/camera_choice.hpp"
 #include "tools/render/pictures.hpp"
 
@@ -32,10 +34,12 @@ void add_camera_options(CLI::App& command, RenderOptions& options) {
           "iso, front, back, left, right, top, or a JSON file with position_m, target_m and "
           "fov_y_deg; presets frame the picture by themselves")
       ->capture_default_str();
-  command.add_option("--azimuth-deg", options.azimuth_deg,
-                     "from where to look: 0 east, 90 north (default: the camera's)");
+  command
+      .add_option("--azimuth-deg", options.azimuth_deg,
+                  "from where to look: 0 east, 90 north (default: the camera's)")
+      ->check(is_finite());
   command.add_option("--elevation-deg", options.elevation_deg, "above the horizon")
-      ->check(CLI::Range(-89.0, 90.0));
+      ->check(is_elevation_deg());
   command.add_option("--width", options.picture.width_px, "width in pixels")
       ->check(CLI::Range(16, 8192))
       ->capture_default_str();
@@ -82,8 +86,20 @@ void need_consistent(const RenderOptions& options, const std::vector<std::string
   }
   if (is_one_file &&
       (kinds.front() == "snapshots" || is_film_name(options.out) != (kinds.front() == "movie"))) {
+    const char* const endings = kinds.front() == "movie" ? "ends in .mp4 or .gif" : "ends in .png";
+    throw BadInput(fmt::format("--out {}: {}", options.out.string(),
+                               kinds.front() == "snapshots"
+                                   ? "snapshots are many files: name a folder"
+                                   : fmt::format("the name of a {} {}", kinds.front(), endings)));
+  }
+  for (const char* other : {".jpg", ".jpeg", ".svg", ".pdf", ".tif", ".tiff", ".bmp", ".webp",
+                            ".webm", ".avi", ".mov", ".mkv"}) {
+    if (extension_of(options.out) != other) continue;
     throw BadInput(
-        fmt::format("--out {}: {} is no such file", options.out.string(), kinds.front()));
+        fmt::format("--out {}: pictures are .png, movies .mp4 or .gif", options.out.string()));
+  }
+  if (!options.sheet.empty() && extension_of(options.sheet) != ".png") {
+    throw BadInput(fmt::format("--sheet {}: a sheet is a .png", options.sheet.string()));
   }
   if (!options.sheet.empty() && std::all_of(kinds.begin(), kinds.end(), is_series)) {
     throw BadInput(
@@ -123,11 +139,11 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
       .add_option("--iteration", options.picture.iteration,
                   "cloud, coverage, voxels: after this view (default: the last); candidates: the "
                   "decision that chose it (default: half way)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0, 1'000'000));
   command
       .add_option("--every", options.picture.every,
                   "path: frusta of each n-th view; snapshots, movie: an image each n views")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, 1'000'000));
   command.add_option("--fps", options.images_per_s, "movie: images a second")
       ->check(CLI::Range(1, 120))
       ->capture_default_str();

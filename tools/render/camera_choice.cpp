@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -26,8 +27,16 @@ constexpr std::array<Preset, 6> kPresets = {{{"iso", -120.0, 28.0},
                                              {"top", -90.0, 90.0}}};
 
 Vec3 vector_at(const nlohmann::json& json, const char* key) {
-  const auto values = json.at(key).get<std::array<double, 3>>();
-  return {values[0], values[1], values[2]};
+  const nlohmann::json values = json.value(key, nlohmann::json());
+  const bool are_numbers =
+      values.is_array() && values.size() == 3 &&
+      std::all_of(values.begin(), values.end(), [](const auto& v) { return v.is_number(); });
+  const Vec3 p_m = are_numbers ? Vec3(values[0], values[1], values[2]) : Vec3(Vec3::Zero());
+  constexpr double kFarthest_m = 1e6;
+  if (!are_numbers || !(p_m.cwiseAbs().maxCoeff() < kFarthest_m)) {
+    throw BadInput(fmt::format("{}: {} is not three numbers of metres", key, values.dump()));
+  }
+  return p_m;
 }
 
 RenderView read_camera(const std::filesystem::path& path) {
@@ -35,9 +44,18 @@ RenderView read_camera(const std::filesystem::path& path) {
   double fov_y_deg = 30.0;
   try {
     const nlohmann::json json = nlohmann::json::parse(read_file(path));
+    if (!json.is_object()) throw BadInput("is no object of keys and values");
+    for (const auto& [key, value] : json.items()) {
+      if (key == "position_m" || key == "target_m" || key == "fov_y_deg") continue;
+      throw BadInput(
+          fmt::format("{}: no such key; there are position_m, target_m and fov_y_deg", key));
+    }
     const Vec3 position_m = vector_at(json, "position_m");
     const Vec3 target_m = vector_at(json, "target_m");
-    fov_y_deg = json.value("fov_y_deg", fov_y_deg);
+    if (json.contains("fov_y_deg")) {
+      if (!json["fov_y_deg"].is_number()) throw BadInput("fov_y_deg: is not a number");
+      fov_y_deg = json["fov_y_deg"];
+    }
     view.focus_m = (target_m - position_m).norm();
     if (view.focus_m < 1e-6) throw BadInput("target_m: is where position_m is");
     view.T_world_camera = look_at(position_m, target_m);

@@ -15,8 +15,8 @@ namespace gnbv {
 namespace {
 
 /// While it lives, what is written to the stream goes nowhere: PCL's octree prints a line for each
-/// edge that it cannot close, its solver one for each system that is solved already, and there is no
-/// switch for either.
+/// edge that it cannot close, its solver one for each system that is solved already, and there is
+/// no switch for either.
 class Silenced {
  public:
   explicit Silenced(std::FILE* stream) : stream_(stream) {
