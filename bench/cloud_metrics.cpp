@@ -1,6 +1,7 @@
 #include "bench/cloud_metrics.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>

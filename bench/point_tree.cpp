@@ -43,8 +43,9 @@ class NearestSet {
     for (; slot > 0 && is_before(found_[slot - 1]); --slot) found_[slot] = found_[slot - 1];
     found_[slot] = {point, distance_m2};
     // the search leaves out what is not nearer than this: a tie with the last must not be
-    if (full())
+    if (full()) {
       worst_m2_ = std::min(worst_m2_, std::nextafter(found_.back().distance_m, kFarthest));
+    }
     return true;  // go on
   }
   float worstDist() const { return worst_m2_; }
