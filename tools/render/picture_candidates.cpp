@@ -40,7 +40,7 @@ const std::array<Reason, 8>& reasons() {
        {Rejection::recently_visited, "visited", srgb(0x8c6d3f)},
        {Rejection::cluster_outside_fov, "cluster outside view", srgb(0x4f7f86)},
        {Rejection::cluster_hidden, "cluster hidden", srgb(0x3f5b8c)},
-       {Rejection::sees_no_surface, "sees no surface", srgb(0x626a75)}}};
+       {Rejection::sees_no_surface, "sees no surface", srgb(0x6f8f2a)}}};
   return all;
 }
 
@@ -53,8 +53,12 @@ std::size_t iteration_asked(const RunRecord& record, const PictureOptions& optio
                   record.folder.string()));
 }
 
-double camera_range_m(const RunRecord& record) {
-  return record.scenario.cameras.front().range_max_m;
+/// How far a camera's view is drawn: to its range, but not far beyond a small structure.
+double reach_m(const World& world, const CameraConfig& camera, const ViewPose& view) {
+  const Box3 box_m = bounds_m(world.structure);
+  const Vec3 half_m = 0.5 * box_m.sizes();
+  const Vec3 away_m = (view.p_world_m - box_m.center()).cwiseAbs() + half_m;  // farthest corner
+  return std::min(camera.range_max_m, 1.2 * away_m.norm());
 }
 
 void frame(RunSource& run, const PictureOptions& options, std::vector<Vec3>& points_world_m) {
@@ -67,7 +71,8 @@ void frame(RunSource& run, const PictureOptions& options, std::vector<Vec3>& poi
   points_world_m.push_back(record.views[iteration - 1].decision.view.p_world_m);
   points_world_m.push_back(chosen.p_world_m);
   for (const CameraConfig& camera : record.scenario.cameras) {
-    const FrustumItem f = frustum_of(camera, T_world_body(chosen), camera_range_m(record), kChosen);
+    const FrustumItem f =
+        frustum_of(camera, T_world_body(chosen), reach_m(run.world(), camera, chosen), kChosen);
     for (const double x : {-1.0, 1.0}) {
       for (const double y : {-1.0, 1.0}) {
         const Vec3 corner(x * std::tan(0.5 * f.fov_x_rad), y * std::tan(0.5 * f.fov_y_rad), 1.0);
@@ -105,11 +110,12 @@ void add_ray(const OccupancyGrid& grid, const Vec3& from, const Vec3& to, double
   }
 }
 
-void add_chosen(const RunRecord& record, const Belief& belief, std::size_t iteration, double unit_m,
-                RenderScene& scene) {
+void add_chosen(const RunRecord& record, const World& world, const Belief& belief,
+                std::size_t iteration, double unit_m, RenderScene& scene) {
   const ViewPose& view = record.views[iteration].decision.view;
   for (const CameraConfig& camera : record.scenario.cameras) {
-    FrustumItem frustum = frustum_of(camera, T_world_body(view), camera.range_max_m, kChosen);
+    const double length_m = reach_m(world, camera, view);
+    FrustumItem frustum = frustum_of(camera, T_world_body(view), length_m, kChosen);
     frustum.edge_radius_m = static_cast<float>(1.2 * unit_m);
     frustum.face_opacity = 0.06F;
     scene.frusta.push_back(frustum);
@@ -117,8 +123,8 @@ void add_chosen(const RunRecord& record, const Belief& belief, std::size_t itera
       for (int column = 0; column < kRaysAcross; ++column) {
         const double x = 2.0 * (column + 0.5) / kRaysAcross - 1.0;
         const double y = 2.0 * (row + 0.5) / kRaysDown - 1.0;
-        const Vec3 end = camera.range_max_m * Vec3(x * std::tan(0.5 * camera.fov_x_rad),
-                                                   y * std::tan(0.5 * camera.fov_y_rad), 1.0);
+        const Vec3 end = length_m * Vec3(x * std::tan(0.5 * camera.fov_x_rad),
+                                         y * std::tan(0.5 * camera.fov_y_rad), 1.0);
         add_ray(belief.grid, frustum.T_world_camera.translation(), frustum.T_world_camera * end,
                 unit_m, scene);
       }
@@ -242,7 +248,7 @@ Picture draw(RunSource& run, const PictureOptions& options, const RenderView& vi
     add_frontiers(record, decision, record.views[iteration - 1].decision.view, unit_m, scene);
   }
   add_candidates(decision.plan, all, unit_m, scene);
-  add_chosen(record, decision.belief, iteration, unit_m, scene);
+  add_chosen(record, run.world(), decision.belief, iteration, unit_m, scene);
   picture.detail = fmt::format(
       "decision {}: {} candidates by {}, {} valid, the chosen one scores {:.4g}", iteration,
       decision.plan.candidates.size(), chosen.sampler, all.valid, chosen.score.value);

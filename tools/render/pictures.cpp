@@ -40,7 +40,7 @@ FrameMargins margins_of(const PictureKind& kind, const PictureOptions& options,
   FrameMargins margins = caption_margins(options.width_px, options.height_px, kind.legend_rows);
   if (kind.panels > 1) {  // a note over each panel, the title over the first row's
     const double u = layout_unit_px(options.width_px, options.height_px);
-    margins.top = 100.0 * u / layout.view.height_px;
+    margins.top = 116.0 * u / layout.view.height_px;
     margins.bottom *= static_cast<double>(options.height_px) / layout.view.height_px;
   }
   return margins;
