@@ -107,6 +107,13 @@ TEST_F(Record, CommandsAreWordsForAShell) {
             std::string::npos);
 }
 
+TEST_F(Record, TheTitleNamesAnUnusualReadingOfThePaper) {
+  RunRecord record = made_record();
+  EXPECT_EQ(run_title(record), "smoke, proposed");
+  record.scenario.planner.preset = "released";
+  EXPECT_EQ(run_title(record), "smoke, proposed, released");
+}
+
 TEST_F(Record, AFolderHasItsOneName) {
   const fs::path before = fs::current_path();
   for (const char* given : {".", "./", "frames/..", "frames/../."}) {

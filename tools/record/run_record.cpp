@@ -193,7 +193,9 @@ RunCloud read_run_cloud(const RunRecord& record) {
 }
 
 std::string run_title(const RunRecord& record) {
-  return fmt::format("{}, {}", record.scenario.name, record.scenario.planner.utility.name);
+  const PlannerConfig& planner = record.scenario.planner;
+  const std::string title = fmt::format("{}, {}", record.scenario.name, planner.utility.name);
+  return planner.preset == PlannerConfig{}.preset ? title : title + ", " + planner.preset;
 }
 
 std::string run_detail(const RunRecord& record) {

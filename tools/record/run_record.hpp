@@ -45,7 +45,7 @@ struct RunCloud {
 /// and the record's views do not belong together.
 RunCloud read_run_cloud(const RunRecord& record);
 
-/// Who flew where: "aircraft, proposed".
+/// Who flew where: "aircraft, proposed"; and by which reading of the paper, if not the usual one.
 std::string run_title(const RunRecord& record);
 /// The main figures in one line, as far as they are there.
 std::string run_detail(const RunRecord& record);
