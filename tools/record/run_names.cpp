@@ -8,7 +8,7 @@ namespace gnbv {
 namespace {
 
 std::string name_of_folder(const std::filesystem::path& folder) {
-  if (folder.empty()) return "";
+  if (folder.empty()) return "";  // absolute() throws; read_run() will say what is wrong
   // the end of "x/run/" is an empty name, that of "." is no name
   return (std::filesystem::absolute(folder) / ".").lexically_normal().parent_path().filename();
 }
