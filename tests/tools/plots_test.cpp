@@ -111,6 +111,33 @@ TEST(Plots, TermsMultiplyToTheUtility) {
   EXPECT_FALSE(terms_plot(unscored).has_value());
 }
 
+/// Panels lie from top to bottom in the order in which they are said, of any utility.
+TEST(Plots, PanelsFollowEachOtherDownwards) {
+  RunRecord discounted = scored_record();
+  discounted.scenario.planner.utility.name = "bircher";
+  for (ViewRecord& view : discounted.views) view.decision.score.value *= 1e5;
+  for (const RunRecord& record : {scored_record(), discounted}) {
+    std::istringstream lines(terms_plot(record)->body);
+    std::vector<double> tops;
+    for (std::string line; std::getline(lines, line);) {
+      const std::size_t at = line.find("set tmargin at screen ");
+      if (at != std::string::npos) tops.push_back(std::stod(line.substr(at + 22)));
+    }
+    ASSERT_EQ(tops.size(), 3U);
+    EXPECT_GT(tops[0], tops[1]);
+    EXPECT_GT(tops[1], tops[2]);
+  }
+}
+
+TEST(Plots, LongNumbersAreSaidInThousands) {
+  EXPECT_NE(y_axis(0.0, 183'000.0).find("set format y '%.0s%c'"), std::string::npos);
+  EXPECT_NE(y_axis(0.0, 1'830'000.0).find("set format y '%.1s%c'"), std::string::npos);
+  for (const double high : {0.5, 9000.0}) {
+    EXPECT_NE(y_axis(0.0, high).find("set format y '% h'"), std::string::npos) << high;
+  }
+  EXPECT_NE(y_axis(123'456.0, 123'460.0).find("set format y '% h'"), std::string::npos);
+}
+
 TEST(Plots, MovingMeansShrinkAtTheEnds) {
   const std::vector<double> values = {1, 2, 4, 8, 16};
   EXPECT_EQ(moving_mean(values, 3), (std::vector<double>{1, 7.0 / 3, 14.0 / 3, 28.0 / 3, 16}));

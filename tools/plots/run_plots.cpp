@@ -151,10 +151,11 @@ bool is_discounted(const Columns& columns) {
 }
 
 std::string discount_panels(Panels& panels, const Columns& columns, bool is_smooth) {
-  return panels.next("the product of gain") + axis_of(columns[1]) + "plot " +
-         raw_line(3, 0, is_smooth) + line("mean", 3, 0) + "\n" +
-         panels.next("and distance factor") + y_axis(0.0, 1.0) + "plot " +
-         raw_line(4, 3, is_smooth) + line("mean", 4, 3) + "\n";
+  std::string text = panels.next("the product of gain");  // one after the other: next() counts
+  text += axis_of(columns[1]) + "plot " + raw_line(3, 0, is_smooth) + line("mean", 3, 0) + "\n";
+  text += panels.next("and distance factor");
+  text += y_axis(0.0, 1.0) + "plot " + raw_line(4, 3, is_smooth) + line("mean", 4, 3) + "\n";
+  return text;
 }
 
 }  // namespace

@@ -82,8 +82,11 @@ std::string y_axis(double low, double high) {
     high += 0.05 * size;
   }
   const double step = even_step(high - low);
-  return fmt::format("set yrange [{:.12g}:{:.12g}]\nset ytics {:.12g}\n",
-                     step * std::floor(low / step), step * std::ceil(high / step), step);
+  // longer numbers would be cut off at the left: 200k
+  const bool is_in_thousands = high >= 10'000.0 && std::fmod(step, 1000.0) == 0.0;
+  const char* const format = !is_in_thousands ? "% h" : high < 1e6 ? "%.0s%c" : "%.1s%c";
+  return fmt::format("set yrange [{:.12g}:{:.12g}]\nset ytics {:.12g}\nset format y '{}'\n",
+                     step * std::floor(low / step), step * std::ceil(high / step), step, format);
 }
 
 Panels::Panels(std::size_t count, std::string_view title, std::string_view x_label)
