@@ -1,7 +1,7 @@
 // An A340-like airliner at half scale, the paper's Scenario 1, generated.
 #pragma once
 
-#include "sim/triangle_mesh.hpp"
+#include "sim/mesh/triangle_mesh.hpp"
 
 namespace gnbv {
 

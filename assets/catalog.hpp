@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "sim/triangle_mesh.hpp"
+#include "sim/mesh/triangle_mesh.hpp"
 
 namespace gnbv {
 

@@ -1,7 +1,7 @@
 // The airplane model of the paper's Scenario 4, generated.
 #pragma once
 
-#include "sim/triangle_mesh.hpp"
+#include "sim/mesh/triangle_mesh.hpp"
 
 namespace gnbv {
 

@@ -1,7 +1,7 @@
 // The representative model of the paper's Scenario 3, generated.
 #pragma once
 
-#include "sim/triangle_mesh.hpp"
+#include "sim/mesh/triangle_mesh.hpp"
 
 namespace gnbv {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "sim/core/pose.hpp"
-#include "sim/triangle_mesh.hpp"
+#include "sim/mesh/triangle_mesh.hpp"
 
 namespace gnbv {
 

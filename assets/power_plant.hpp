@@ -1,7 +1,7 @@
 // A coal-fired power plant at quarter scale, the paper's Scenario 2, generated.
 #pragma once
 
-#include "sim/triangle_mesh.hpp"
+#include "sim/mesh/triangle_mesh.hpp"
 
 namespace gnbv {
 

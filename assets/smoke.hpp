@@ -1,7 +1,7 @@
 // A small structure for missions of a few seconds.
 #pragma once
 
-#include "sim/triangle_mesh.hpp"
+#include "sim/mesh/triangle_mesh.hpp"
 
 namespace gnbv {
 

@@ -1,6 +1,6 @@
 #include "planner/candidate_stats.hpp"
 
-#include "planner/released_slips.hpp"
+#include "planner/view/released_slips.hpp"
 
 namespace gnbv {
 

@@ -13,12 +13,12 @@
 #include "planner/map/surface_cloud.hpp"
 #include "planner/profiling.hpp"
 #include "planner/routes.hpp"
-#include "planner/symmetry.hpp"
+#include "planner/symmetry/symmetry.hpp"
 #include "planner/termination.hpp"
 #include "planner/utility.hpp"
+#include "planner/view/visibility.hpp"
 #include "planner/view_sampling.hpp"
 #include "planner/view_validity.hpp"
-#include "planner/visibility.hpp"
 
 namespace gnbv {
 

@@ -18,8 +18,8 @@ namespace gnbv {
 constexpr std::array<std::string_view, 2> kRouteNames = {"uniform_hemisphere", "lawnmower"};
 bool is_route(std::string_view utility_name);
 
-/// Routes by someone who knows the true structure (bench/oracle.hpp): fewest views, fewest metres.
-/// The planner only knows their names; the mission is given their views.
+/// Routes by someone who knows the true structure (bench/limits/oracle.hpp): fewest views, fewest
+/// metres. The planner only knows their names; the mission is given their views.
 constexpr std::array<std::string_view, 2> kOracleNames = {"oracle_views", "oracle_metres"};
 bool is_oracle(std::string_view utility_name);
 

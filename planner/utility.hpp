@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/visibility.hpp"
+#include "planner/view/visibility.hpp"
 
 namespace gnbv {
 

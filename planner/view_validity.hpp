@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/clearance.hpp"
-#include "planner/path_search.hpp"
+#include "planner/map/clearance.hpp"
+#include "planner/map/path_search.hpp"
 
 namespace gnbv {
 

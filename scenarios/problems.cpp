@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "planner/map/memory.hpp"
-#include "sim/rotors.hpp"
+#include "sim/flight/rotors.hpp"
 
 namespace gnbv {
 namespace {

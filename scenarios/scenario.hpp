@@ -10,9 +10,9 @@
 #include "planner/planner.hpp"
 #include "sensors/camera_model.hpp"
 #include "sensors/lidar_model.hpp"
-#include "sim/guidance.hpp"
-#include "sim/mesh_file.hpp"
-#include "sim/vehicle_config.hpp"
+#include "sim/flight/guidance.hpp"
+#include "sim/flight/vehicle_config.hpp"
+#include "sim/mesh/mesh_file.hpp"
 
 namespace gnbv {
 
@@ -25,6 +25,11 @@ struct StructureConfig {
   MeshFileConfig file;
   bool ground = true;
 };
+
+/// The built-in name, or the path of the mesh file.
+inline const std::string& structure_name(const StructureConfig& structure) {
+  return structure.file.path.empty() ? structure.builtin : structure.file.path;
+}
 
 /// Where the views begin; the paper is silent, the default is the authors' batch configuration.
 /// A seed moves it uniformly within +- jitter, clipped to the navigation box.

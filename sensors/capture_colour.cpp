@@ -6,7 +6,7 @@
 #include "sensors/light.hpp"
 #include "sensors/pixel_tiles.hpp"
 #include "sim/core/error.hpp"
-#include "sim/texture.hpp"
+#include "sim/mesh/texture.hpp"
 
 namespace gnbv {
 namespace {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "sim/triangle_mesh.hpp"
+#include "sim/mesh/triangle_mesh.hpp"
 
 namespace gnbv {
 

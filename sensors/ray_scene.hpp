@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "sim/core/pose.hpp"
-#include "sim/world.hpp"
+#include "sim/mesh/world.hpp"
 
 namespace gnbv {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <span>
 
-#include "sim/world.hpp"
+#include "sim/mesh/world.hpp"
 
 namespace gnbv {
 

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "planner/visibility.hpp"
+#include "planner/view/visibility.hpp"
 
 namespace gnbv {
 

@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "planner/map/frame_kernels.hpp"
 #include "planner/map/frame_rays.hpp"
 #include "planner/map/occupancy_grid.hpp"
-#include "planner/map/simd/frame_kernels.hpp"
 #include "sim/core/zeroed_array.hpp"
 
 namespace gnbv {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "planner/map/frame_kernels.hpp"
 #include "planner/map/frame_view.hpp"
-#include "planner/map/simd/frame_kernels.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {

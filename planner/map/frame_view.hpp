@@ -1,8 +1,8 @@
 // A depth frame as the loops over voxels see it: where its pixels look, and what they can reach.
 #pragma once
 
+#include "planner/map/frame_kernels.hpp"
 #include "planner/map/grid_geometry.hpp"
-#include "planner/map/simd/frame_kernels.hpp"
 #include "sensors/camera_model.hpp"
 #include "sensors/frames.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <variant>
 
-#include "sim/flight.hpp"
+#include "sim/flight/flight.hpp"
 #include "sim/mavlink/messages.hpp"
 
 namespace gnbv::mavlink {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/flight/quadrotor.hpp"
 #include "sim/mavlink/link.hpp"
-#include "sim/quadrotor.hpp"
 
 namespace gnbv::mavlink {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "sim/flight/px4.hpp"
 #include "sim/mavlink/messages.hpp"
-#include "sim/px4.hpp"
 
 namespace gnbv::mavlink {
 

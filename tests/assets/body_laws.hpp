@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "sim/triangle_mesh.hpp"
+#include "sim/mesh/triangle_mesh.hpp"
 #include "tests/assets/mesh_laws.hpp"
 
 namespace gnbv {

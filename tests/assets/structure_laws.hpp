@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "sim/core/sha256.hpp"
-#include "sim/triangle_mesh.hpp"
+#include "sim/mesh/triangle_mesh.hpp"
 #include "tests/assets/mesh_laws.hpp"
 
 namespace gnbv {

@@ -1,7 +1,7 @@
 // Boxes and sheets whose voxels can be counted on paper.
 #pragma once
 
-#include "sim/world.hpp"
+#include "sim/mesh/world.hpp"
 
 namespace gnbv::test {
 

@@ -11,10 +11,10 @@
 #include "sensors/ray_scene.hpp"
 #include "sim/core/file.hpp"
 #include "tests/support/exported_run.hpp"
-#include "tools/mission/cloud_file.hpp"
-#include "tools/mission/iterations_csv.hpp"
 #include "tools/mission/load_world.hpp"
-#include "tools/record/run_record.hpp"
+#include "tools/run_files/cloud_file.hpp"
+#include "tools/run_files/iterations_csv.hpp"
+#include "tools/run_files/run_record.hpp"
 
 namespace gnbv {
 namespace {

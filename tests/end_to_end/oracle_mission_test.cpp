@@ -4,13 +4,13 @@
 #include <cstdlib>
 #include <map>
 
-#include "bench/oracle.hpp"
+#include "bench/limits/oracle.hpp"
 #include "sim/core/error.hpp"
 #include "tests/support/flown.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tools/mission/iterations_csv.hpp"
-#include "tools/mission/run_directory.hpp"
 #include "tools/mission/start_pose.hpp"
+#include "tools/run_files/iterations_csv.hpp"
+#include "tools/run_files/run_directory.hpp"
 
 namespace gnbv {
 namespace {

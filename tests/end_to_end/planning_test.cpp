@@ -14,8 +14,8 @@
 #include "sim/core/simd.hpp"
 #include "tests/support/flown.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tools/mission/candidates_file.hpp"
-#include "tools/mission/iterations_csv.hpp"
+#include "tools/run_files/candidates_file.hpp"
+#include "tools/run_files/iterations_csv.hpp"
 
 namespace gnbv {
 namespace {

@@ -8,11 +8,11 @@
 #include <set>
 
 #include "sim/core/file.hpp"
-#include "sim/rotors.hpp"
+#include "sim/core/image.hpp"
+#include "sim/flight/rotors.hpp"
 #include "tests/support/flown.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tools/mission/frame_files.hpp"
-#include "tools/render/image.hpp"
+#include "tools/run_files/frame_files.hpp"
 
 namespace gnbv {
 namespace {

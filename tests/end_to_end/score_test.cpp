@@ -11,8 +11,8 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tests/end_to_end/scored_mission.hpp"
-#include "tools/mission/cloud_file.hpp"
-#include "tools/mission/run_figures_file.hpp"
+#include "tools/run_files/cloud_file.hpp"
+#include "tools/run_files/run_figures_file.hpp"
 
 namespace gnbv {
 namespace {

@@ -6,15 +6,15 @@
 #include <set>
 
 #include "bench/reference/octomap_twin.hpp"
-#include "bench/surface_reference.hpp"
+#include "bench/score/mission_score.hpp"
+#include "bench/score/surface_reference.hpp"
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tests/support/flown.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tools/mission/iterations_csv.hpp"
-#include "tools/mission/run_directory.hpp"
-#include "tools/mission/score.hpp"
+#include "tools/run_files/iterations_csv.hpp"
+#include "tools/run_files/run_directory.hpp"
 
 namespace gnbv {
 namespace {

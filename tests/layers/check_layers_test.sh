@@ -9,7 +9,7 @@ set -euo pipefail
 check=$1
 root=$(mktemp -d)
 trap 'rm -rf "$root"' EXIT
-mkdir "$root/allowed" "$root/forbidden" "$root/empty"
+mkdir -p "$root"/{allowed,forbidden,empty,roomless/tools/attic,circle/planner/{map,view}}
 declare -A lines=()     # how many a file of the forbidden tree has
 declare -A expected=()  # "file:line" -> the include to be named there
 
@@ -28,41 +28,52 @@ forbidden() {  # forbidden FILE LINE
 }
 
 # ---- the planner cannot see the ground truth --------------------------------------------------
-for truth in sim/world.hpp sim/triangle_mesh.hpp sim/mesh_file.hpp sim/flight.hpp \
-  sim/vehicle_config.hpp sensors/ray_scene.hpp sensors/capture.hpp assets/aircraft.hpp \
-  scenarios/scenario.hpp bench/coverage.hpp tools/mission/mission.hpp; do
+for truth in sim/mesh/world.hpp sim/mesh/triangle_mesh.hpp sim/mesh/mesh_file.hpp sim/flight/flight.hpp \
+  sim/flight/vehicle_config.hpp sensors/ray_scene.hpp sensors/capture.hpp assets/aircraft.hpp \
+  scenarios/scenario.hpp bench/score/coverage.hpp tools/mission/mission.hpp; do
   forbidden planner/planner.cpp "#include \"$truth\""
   forbidden planner/map/occupancy_grid.hpp "#include \"$truth\""
 done
-for believed in planner/visibility.hpp sim/core/pose.hpp sensors/camera_model.hpp \
+for believed in planner/view/visibility.hpp sim/core/pose.hpp sensors/camera_model.hpp \
   sensors/lidar_model.hpp sensors/frames.hpp; do
   allowed planner/planner.cpp "#include \"$believed\""
 done
 # nor by way of the sensor types it reads
 for type in camera_model lidar_model frames; do
-  forbidden "sensors/$type.hpp" '#include "sim/world.hpp"'
+  forbidden "sensors/$type.hpp" '#include "sim/mesh/world.hpp"'
   forbidden "sensors/$type.hpp" '#include "sensors/ray_scene.hpp"'
   allowed "sensors/$type.hpp" '#include "sim/core/pose.hpp"'
 done
 
 # ---- the other rooms --------------------------------------------------------------------------
-forbidden sim/core/pose.hpp '#include "sim/world.hpp"'
-forbidden sim/world.cpp '#include "sensors/frames.hpp"'
-forbidden sim/world.cpp '#include "planner/planner.hpp"'
+forbidden sim/core/pose.hpp '#include "sim/mesh/world.hpp"'
+forbidden sim/mesh/world.hpp '#include "sim/flight/flight.hpp"'
+forbidden sim/flight/px4.cpp '#include "sim/mavlink/messages.hpp"'
+forbidden planner/map/clearance.cpp '#include "planner/planner.hpp"'
+forbidden planner/map/clearance.cpp '#include "planner/view/visibility.hpp"'
+forbidden planner/symmetry/symmetry.cpp '#include "planner/view/visibility.hpp"'
+forbidden bench/score/coverage.cpp '#include "bench/limits/ceiling.hpp"'
+forbidden bench/limits/ceiling.cpp '#include "bench/compare/statistics.hpp"'
+forbidden tools/run_files/run_directory.cpp '#include "tools/mission/mission.hpp"'
+forbidden tools/mission/mission.cpp '#include "tools/render/picture.hpp"'
+forbidden tools/sweep/run_cells.cpp '#include "tools/gnbv/commands.hpp"'
+forbidden tools/terminal/progress.cpp '#include "scenarios/scenario.hpp"'
+forbidden sim/mesh/world.cpp '#include "sensors/frames.hpp"'
+forbidden sim/mesh/world.cpp '#include "planner/planner.hpp"'
 forbidden assets/aircraft.cpp '#include "sensors/frames.hpp"'
 forbidden sensors/capture.cpp '#include "planner/planner.hpp"'
 forbidden sensors/capture.cpp '#include "assets/aircraft.hpp"'
-forbidden scenarios/load.cpp '#include "sim/world.hpp"'
+forbidden scenarios/load.cpp '#include "sim/mesh/world.hpp"'
 forbidden scenarios/load.cpp '#include "sensors/ray_scene.hpp"'
-forbidden scenarios/load.cpp '#include "bench/coverage.hpp"'
-forbidden bench/coverage.cpp '#include "tools/mission/mission.hpp"'
+forbidden scenarios/load.cpp '#include "bench/score/coverage.hpp"'
+forbidden bench/score/coverage.cpp '#include "tools/mission/mission.hpp"'
 forbidden tools/mission/mission.cpp '#include "tests/support/scenes.hpp"'
-allowed sim/world.cpp '#include "sim/core/pose.hpp"'
-allowed assets/aircraft.cpp '#include "sim/triangle_mesh.hpp"'
-allowed sensors/capture.cpp '#include "sim/world.hpp"'
+allowed sim/mesh/world.cpp '#include "sim/core/pose.hpp"'
+allowed assets/aircraft.cpp '#include "sim/mesh/triangle_mesh.hpp"'
+allowed sensors/capture.cpp '#include "sim/mesh/world.hpp"'
 allowed scenarios/scenario.hpp '#include "planner/planner.hpp"'
-allowed bench/coverage.cpp '#include "sensors/ray_scene.hpp"'
-allowed tools/mission/mission.cpp '#include "bench/coverage.hpp"'
+allowed bench/score/coverage.cpp '#include "sensors/ray_scene.hpp"'
+allowed tools/mission/mission.cpp '#include "bench/score/coverage.hpp"'
 allowed tests/end_to_end/smoke_test.cpp '#include "tools/mission/mission.hpp"'
 
 # ---- libraries stop at their one file ---------------------------------------------------------
@@ -73,13 +84,13 @@ library() {  # library HEADER FILE_THAT_MAY FILE_THAT_MAY_NOT...
     forbidden "$file" "#include <$1>"
   done
 }
-library embree3/rtcore.h sensors/ray_scene.cpp sensors/ray_scene.hpp bench/ceiling.cpp
-library btBulletDynamicsCommon.h sim/vehicle.cpp sim/vehicle.hpp sim/world.cpp
-library bullet/btBulletCollisionCommon.h sim/vehicle.cpp sim/flight.hpp
-library LinearMath/btTransform.h sim/vehicle.cpp sim/flight.hpp
-library assimp/Importer.hpp sim/mesh_file.cpp sim/mesh_file.hpp tools/mission/load_world.cpp
+library embree3/rtcore.h sensors/ray_scene.cpp sensors/ray_scene.hpp bench/limits/ceiling.cpp
+library btBulletDynamicsCommon.h sim/flight/vehicle.cpp sim/flight/vehicle.hpp sim/world.cpp
+library bullet/btBulletCollisionCommon.h sim/flight/vehicle.cpp sim/flight/flight.hpp
+library LinearMath/btTransform.h sim/flight/vehicle.cpp sim/flight/flight.hpp
+library assimp/Importer.hpp sim/mesh/mesh_file.cpp sim/mesh/mesh_file.hpp tools/mission/load_world.cpp
 library octomap/OcTree.h planner/map/octomap_io.cpp planner/map/octomap_io.hpp planner/map/occupancy_grid.cpp
-library pcl/point_types.h planner/symmetry_pcl.cpp planner/symmetry.cpp planner/symmetry_module.hpp bench/coverage.cpp
+library pcl/point_types.h planner/symmetry/symmetry_pcl.cpp planner/symmetry/symmetry.cpp planner/symmetry/symmetry_module.hpp bench/score/coverage.cpp
 library yaml-cpp/yaml.h scenarios/document.cpp tools/gnbv/main.cpp
 library GL/osmesa.h tools/render/render.cpp tools/render/view.cpp tools/mission/mission.cpp
 library CLI/CLI.hpp tools/gnbv/main.cpp tools/mission/mission.cpp
@@ -88,20 +99,20 @@ forbidden bench/reference/bare_embree.hpp '#include <embree3/rtcore.h>'
 allowed bench/reference/slow_cloud.cpp '#include <pcl/point_types.h>'
 allowed bench/reference/slow_map.cpp '#include <octomap/octomap.h>'
 allowed sim/core/sha256.cpp '#include <openssl/evp.h>'
-forbidden tools/mission/run_directory.cpp '#include <openssl/evp.h>'
-forbidden sim/world.cpp '#include <gtest/gtest.h>'
-forbidden sim/world.cpp '#include <benchmark/benchmark.h>'
+forbidden tools/run_files/run_directory.cpp '#include <openssl/evp.h>'
+forbidden sim/mesh/world.cpp '#include <gtest/gtest.h>'
+forbidden sim/mesh/world.cpp '#include <benchmark/benchmark.h>'
 
 # ---- spellings that would slip past -----------------------------------------------------------
-forbidden planner/planner.cpp '  #  include <sim/world.hpp>'
-forbidden planner/planner.cpp '#include"sim/world.hpp"'
+forbidden planner/planner.cpp '  #  include <sim/mesh/world.hpp>'
+forbidden planner/planner.cpp '#include"sim/mesh/world.hpp"'
 forbidden planner/planner.cpp '#include "../sim/world.hpp"'
 forbidden planner/planner.cpp '#include "sim/core/../world.hpp"'
 forbidden planner/planner.cpp '#include "planner/../sim/world.hpp"'
 forbidden planner/planner.cpp '#include "world.hpp"'
 forbidden sensors/ray_scene.cpp '#include "embree3/rtcore.h"'
 allowed planner/planner.cpp '#include <vector>'
-allowed planner/planner.cpp '// as #include "sim/world.hpp" would'
+allowed planner/planner.cpp '// as #include "sim/mesh/world.hpp" would'
 forbidden planner/planner.cpp '#include GROUND_TRUTH'
 
 # ---- what the check says ----------------------------------------------------------------------
@@ -125,6 +136,25 @@ done
 
 run_check empty
 [[ $status == 2 ]] || complain "status $status, not 2, on a tree without sources"
+
+# a folder nobody gave a row, without one include
+echo >"$root/roomless/tools/attic/box.cpp"
+run_check roomless
+[[ $status == 1 && $output == *"tools/attic/: a room needs a row"* ]] ||
+  complain "a room without a row passed: $output"
+
+# the rows allow each of these, together they are a circle
+echo '#include "planner/map/grid.hpp"' >"$root/circle/planner/planner.hpp"
+echo '#include "sim/core/pose.hpp"' >"$root/circle/planner/map/grid.hpp"
+run_check circle
+[[ $status == 0 ]] || complain "no circle was refused (status $status): $output"
+sed 's#^planner/map/ .*#planner/map/ planner/ sim/core/#' "$check" >"$root/lax_check"
+chmod +x "$root/lax_check"
+echo '#include "planner/planner.hpp"' >>"$root/circle/planner/map/grid.hpp"
+status=0
+output=$("$root/lax_check" "$root/circle" 2>&1) || status=$?
+[[ $status == 1 && $output == *"in a circle"*$'\n'planner$'\n'* ]] ||
+  complain "a circle passed (status $status): $output"
 
 echo "${#expected[@]} forbidden includes, $failed failures"
 ((failed == 0))

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "planner/candidate_stats.hpp"
-#include "tests/planner/view_scene.hpp"
+#include "tests/planner/view/view_scene.hpp"
 
 namespace gnbv {
 namespace {

@@ -8,7 +8,7 @@
 #include <random>
 #include <utility>
 
-#include "sim/world.hpp"
+#include "sim/mesh/world.hpp"
 
 namespace gnbv::test {
 

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "sim/core/file.hpp"
+#include "sim/core/image.hpp"
 #include "tests/support/export_text.hpp"
 #include "tests/support/program.hpp"
-#include "tools/render/image.hpp"
 
 namespace gnbv {
 

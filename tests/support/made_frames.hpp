@@ -7,8 +7,8 @@
 #include <string>
 
 #include "sim/core/file.hpp"
+#include "sim/core/image.hpp"
 #include "sim/core/rng.hpp"
-#include "tools/render/image.hpp"
 
 namespace gnbv {
 

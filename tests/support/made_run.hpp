@@ -8,9 +8,9 @@
 
 #include "scenarios/load.hpp"
 #include "sim/core/file.hpp"
-#include "tools/mission/cloud_file.hpp"
-#include "tools/mission/iterations_csv.hpp"
-#include "tools/record/run_record.hpp"
+#include "tools/run_files/cloud_file.hpp"
+#include "tools/run_files/iterations_csv.hpp"
+#include "tools/run_files/run_record.hpp"
 
 namespace gnbv {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "sim/flight.hpp"
+#include "sim/flight/flight.hpp"
 
 namespace gnbv {
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "sim/core/pose.hpp"
-#include "sim/triangle_mesh.hpp"
+#include "sim/mesh/triangle_mesh.hpp"
 
 namespace gnbv {
 

@@ -5,8 +5,8 @@
 #include <functional>
 #include <string_view>
 
-#include "tools/record/frame_record.hpp"
-#include "tools/record/run_record.hpp"
+#include "tools/run_files/frame_record.hpp"
+#include "tools/run_files/run_record.hpp"
 
 namespace gnbv {
 

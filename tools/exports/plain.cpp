@@ -9,8 +9,8 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/exports/export_folder.hpp"
-#include "tools/mission/cloud_file.hpp"
-#include "tools/record/run_poses.hpp"
+#include "tools/run_files/cloud_file.hpp"
+#include "tools/run_files/run_poses.hpp"
 
 namespace gnbv {
 namespace {

@@ -5,7 +5,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/exports/export_folder.hpp"
-#include "tools/record/run_poses.hpp"
+#include "tools/run_files/run_poses.hpp"
 
 namespace gnbv {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
-#include "tools/record/frame_record.hpp"
-#include "tools/record/run_record.hpp"
+#include "tools/run_files/frame_record.hpp"
+#include "tools/run_files/run_record.hpp"
 
 namespace gnbv {
 

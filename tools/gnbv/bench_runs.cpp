@@ -11,8 +11,8 @@
 #include "sim/core/error.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/mission/load_world.hpp"
-#include "tools/mission/run_figures_file.hpp"
 #include "tools/mission/start_pose.hpp"
+#include "tools/run_files/run_figures_file.hpp"
 #include "tools/sweep/run_cells.hpp"
 
 namespace gnbv {

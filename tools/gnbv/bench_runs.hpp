@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "bench/ceiling.hpp"
-#include "bench/comparison.hpp"
-#include "bench/text_table.hpp"
-#include "tools/gnbv/execute.hpp"
+#include "bench/compare/comparison.hpp"
+#include "bench/compare/text_table.hpp"
+#include "bench/limits/ceiling.hpp"
+#include "tools/mission/execute.hpp"
 #include "tools/sweep/sweep.hpp"
 
 namespace gnbv {

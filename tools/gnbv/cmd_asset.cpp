@@ -9,7 +9,7 @@
 #include "scenarios/scenario.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "sim/mesh_file.hpp"
+#include "sim/mesh/mesh_file.hpp"
 #include "tools/gnbv/commands.hpp"
 
 namespace gnbv {

@@ -4,12 +4,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "bench/ceiling.hpp"
-#include "bench/voxel_set.hpp"
+#include "bench/limits/ceiling.hpp"
+#include "bench/score/voxel_set.hpp"
 #include "tools/gnbv/commands.hpp"
-#include "tools/gnbv/progress.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/start_pose.hpp"
+#include "tools/terminal/progress.hpp"
 
 namespace gnbv {
 namespace {

@@ -4,11 +4,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "bench/baseline.hpp"
+#include "bench/compare/baseline.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/gnbv/commands.hpp"
-#include "tools/mission/run_figures_file.hpp"
+#include "tools/run_files/run_figures_file.hpp"
 
 namespace gnbv {
 namespace {

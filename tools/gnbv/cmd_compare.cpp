@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "bench/comparison_text.hpp"
+#include "bench/compare/comparison_text.hpp"
 #include "sim/core/error.hpp"
 #include "tools/gnbv/bench_runs.hpp"
 #include "tools/gnbv/commands.hpp"

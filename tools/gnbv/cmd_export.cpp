@@ -10,8 +10,8 @@
 #include "tools/exports/plain.hpp"
 #include "tools/exports/tum.hpp"
 #include "tools/gnbv/commands.hpp"
-#include "tools/gnbv/progress.hpp"
-#include "tools/record/cloud_colours.hpp"
+#include "tools/run_files/cloud_colours.hpp"
+#include "tools/terminal/progress.hpp"
 
 namespace gnbv {
 namespace {

@@ -7,10 +7,10 @@
 
 #include "sim/core/error.hpp"
 #include "tools/gnbv/commands.hpp"
-#include "tools/gnbv/interrupt.hpp"
 #include "tools/gnbv/serve.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/start_pose.hpp"
+#include "tools/terminal/interrupt.hpp"
 
 namespace gnbv {
 namespace {

@@ -7,7 +7,7 @@
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "tools/gnbv/commands.hpp"
-#include "tools/mission/mesh_report.hpp"
+#include "tools/mesh_lint/mesh_report.hpp"
 
 namespace gnbv {
 namespace {

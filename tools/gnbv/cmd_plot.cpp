@@ -9,7 +9,7 @@
 #include "tools/plots/coverage_plot.hpp"
 #include "tools/plots/gnuplot.hpp"
 #include "tools/plots/run_plots.hpp"
-#include "tools/record/run_names.hpp"
+#include "tools/run_files/run_names.hpp"
 
 namespace gnbv {
 namespace {

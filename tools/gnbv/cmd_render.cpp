@@ -8,13 +8,13 @@
 
 #include "sim/core/error.hpp"
 #include "tools/gnbv/commands.hpp"
-#include "tools/gnbv/execute.hpp"
-#include "tools/gnbv/progress.hpp"
 #include "tools/gnbv/render_options.hpp"
-#include "tools/record/run_names.hpp"
+#include "tools/mission/execute.hpp"
 #include "tools/render/movie.hpp"
 #include "tools/render/pictures.hpp"
 #include "tools/render/snapshots.hpp"
+#include "tools/run_files/run_names.hpp"
+#include "tools/terminal/progress.hpp"
 
 namespace gnbv {
 namespace {

@@ -8,8 +8,8 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/gnbv/commands.hpp"
-#include "tools/gnbv/progress.hpp"
 #include "tools/report/report.hpp"
+#include "tools/terminal/progress.hpp"
 
 namespace gnbv {
 namespace {

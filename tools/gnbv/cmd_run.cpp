@@ -3,12 +3,12 @@
 #include <cstdio>
 #include <memory>
 
-#include "bench/paper_table.hpp"
+#include "bench/compare/paper_table.hpp"
 #include "sim/core/file.hpp"
 #include "tools/gnbv/commands.hpp"
-#include "tools/gnbv/execute.hpp"
-#include "tools/mission/run_directory.hpp"
-#include "tools/mission/run_figures_file.hpp"
+#include "tools/mission/execute.hpp"
+#include "tools/run_files/run_directory.hpp"
+#include "tools/run_files/run_figures_file.hpp"
 
 namespace gnbv {
 namespace {

@@ -7,10 +7,10 @@
 
 #include "sim/core/error.hpp"
 #include "tools/gnbv/commands.hpp"
-#include "tools/gnbv/execute.hpp"
-#include "tools/mission/cloud_file.hpp"
+#include "tools/mission/execute.hpp"
 #include "tools/mission/rescore.hpp"
-#include "tools/mission/summary_file.hpp"
+#include "tools/run_files/cloud_file.hpp"
+#include "tools/run_files/summary_file.hpp"
 
 namespace gnbv {
 namespace {

@@ -9,13 +9,13 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/gnbv/commands.hpp"
-#include "tools/gnbv/execute.hpp"
 #include "tools/gnbv/number_checks.hpp"
-#include "tools/gnbv/progress.hpp"
+#include "tools/mission/execute.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/surface/surface.hpp"
 #include "tools/surface/surface_picture.hpp"
 #include "tools/surface/surface_score.hpp"
+#include "tools/terminal/progress.hpp"
 
 namespace gnbv {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "bench/paper_table.hpp"
+#include "bench/compare/paper_table.hpp"
 #include "planner/routes.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/shell_word.hpp"

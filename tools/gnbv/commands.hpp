@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <stdexcept>
 
-#include "tools/gnbv/execute.hpp"
+#include "tools/mission/execute.hpp"
 
 namespace gnbv {
 

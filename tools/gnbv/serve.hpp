@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <functional>
 
+#include "sim/flight/quadrotor.hpp"
 #include "sim/mavlink/endpoint.hpp"
 #include "sim/mavlink/udp.hpp"
-#include "sim/quadrotor.hpp"
 
 namespace gnbv {
 

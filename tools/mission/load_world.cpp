@@ -5,10 +5,6 @@
 
 namespace gnbv {
 
-std::string structure_name(const StructureConfig& structure) {
-  return structure.file.path.empty() ? structure.builtin : structure.file.path;
-}
-
 TriangleMesh load_structure(const Scenario& scenario, std::vector<std::string>& warnings) {
   const StructureConfig& structure = scenario.structure;
   return structure.file.path.empty() ? make_builtin_structure(structure.builtin)

@@ -5,12 +5,9 @@
 #include <vector>
 
 #include "scenarios/scenario.hpp"
-#include "sim/world.hpp"
+#include "sim/mesh/world.hpp"
 
 namespace gnbv {
-
-/// The built-in name, or the path of the mesh file.
-std::string structure_name(const StructureConfig& structure);
 
 /// Generates the built-in structure or reads the mesh file, wherever it lies; what the file's
 /// reader had to leave out is appended to `warnings`, a sentence each. Throws BadInput when the

@@ -10,8 +10,8 @@
 #include "scenarios/scenario.hpp"
 #include "sensors/frames.hpp"
 #include "sensors/ray_scene.hpp"
-#include "sim/world.hpp"
-#include "tools/mission/mission_result.hpp"
+#include "sim/mesh/world.hpp"
+#include "tools/run_files/mission_result.hpp"
 
 namespace gnbv {
 

@@ -1,7 +1,7 @@
 #include "tools/mission/mission_state.hpp"
 
-#include "sim/guidance.hpp"
-#include "sim/rotors.hpp"
+#include "sim/flight/guidance.hpp"
+#include "sim/flight/rotors.hpp"
 #include "tools/mission/start_pose.hpp"
 
 namespace gnbv {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "sim/flight.hpp"
+#include "sim/flight/flight.hpp"
 #include "tools/mission/mission.hpp"
 
 namespace gnbv {

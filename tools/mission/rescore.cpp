@@ -4,14 +4,14 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
-#include "bench/cloud_faults.hpp"
+#include "bench/score/cloud_faults.hpp"
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "tools/mission/cloud_file.hpp"
-#include "tools/mission/iterations_csv.hpp"
 #include "tools/mission/load_world.hpp"
-#include "tools/mission/summary_file.hpp"
+#include "tools/run_files/cloud_file.hpp"
+#include "tools/run_files/iterations_csv.hpp"
+#include "tools/run_files/summary_file.hpp"
 
 namespace gnbv {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
+#include "bench/score/mission_score.hpp"
 #include "scenarios/scenario.hpp"
-#include "tools/mission/score.hpp"
 
 namespace gnbv {
 
@@ -21,7 +21,7 @@ struct Scored {
 
 /// Any cloud against the scenario's structure, wherever that lies, without its points below the
 /// floor. Throws BadInput, beginning with
-/// `name`, for a cloud that cannot be scored (bench/cloud_faults.hpp).
+/// `name`, for a cloud that cannot be scored (bench/score/cloud_faults.hpp).
 Scored score_any_cloud(const std::string& name, std::span<const Vec3f> cloud_world_m,
                        const Scenario& scenario, int threads);
 

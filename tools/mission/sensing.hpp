@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sensors/capture.hpp"
-#include "sim/flight.hpp"
+#include "sim/flight/flight.hpp"
 
 namespace gnbv {
 

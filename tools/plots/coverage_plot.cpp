@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "bench/paper_figures.hpp"
-#include "bench/voxel_set.hpp"
+#include "bench/compare/paper_figures.hpp"
+#include "bench/score/voxel_set.hpp"
 #include "tools/plots/gnuplot.hpp"
 #include "tools/plots/script_parts.hpp"
 

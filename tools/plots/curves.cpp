@@ -8,7 +8,7 @@
 
 #include "scenarios/write.hpp"
 #include "sim/core/error.hpp"
-#include "tools/record/run_names.hpp"
+#include "tools/run_files/run_names.hpp"
 
 namespace gnbv {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "bench/run_figures.hpp"
-#include "bench/statistics.hpp"
-#include "tools/record/run_record.hpp"
+#include "bench/compare/statistics.hpp"
+#include "bench/score/run_figures.hpp"
+#include "tools/run_files/run_record.hpp"
 
 namespace gnbv {
 

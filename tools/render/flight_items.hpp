@@ -3,8 +3,8 @@
 
 #include <limits>
 
-#include "tools/record/run_record.hpp"
 #include "tools/render/scene.hpp"
+#include "tools/run_files/run_record.hpp"
 
 namespace gnbv {
 

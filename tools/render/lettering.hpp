@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "sim/core/image.hpp"
 #include "tools/render/colour.hpp"
-#include "tools/render/image.hpp"
 
 namespace gnbv {
 

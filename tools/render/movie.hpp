@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "tools/render/image.hpp"
+#include "sim/core/image.hpp"
 
 namespace gnbv {
 

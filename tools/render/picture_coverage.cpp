@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "bench/voxel_set.hpp"
+#include "bench/score/voxel_set.hpp"
 #include "tools/render/picture.hpp"
 #include "tools/render/point_normals.hpp"
 

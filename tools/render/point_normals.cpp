@@ -3,7 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
-#include "bench/voxel_set.hpp"
+#include "bench/score/voxel_set.hpp"
 
 namespace gnbv {
 namespace {

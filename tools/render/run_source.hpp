@@ -4,9 +4,9 @@
 #include <functional>
 #include <optional>
 
-#include "bench/surface_reference.hpp"
+#include "bench/score/surface_reference.hpp"
 #include "tools/mission/replay.hpp"
-#include "tools/record/run_record.hpp"
+#include "tools/run_files/run_record.hpp"
 
 namespace gnbv {
 

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "sim/triangle_mesh.hpp"
+#include "sim/core/image.hpp"
+#include "sim/mesh/triangle_mesh.hpp"
 #include "tools/render/colour.hpp"
-#include "tools/render/image.hpp"
 #include "tools/render/view.hpp"
 
 namespace gnbv {

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <unordered_set>
 
-#include "bench/voxel_set.hpp"
-#include "tools/record/run_poses.hpp"
+#include "bench/score/voxel_set.hpp"
 #include "tools/render/flight_items.hpp"
 #include "tools/render/point_normals.hpp"
 #include "tools/render/vehicle_item.hpp"
+#include "tools/run_files/run_poses.hpp"
 
 namespace gnbv {
 namespace {

@@ -1,7 +1,7 @@
 // The vehicle as a thing to draw.
 #pragma once
 
-#include "sim/vehicle_config.hpp"
+#include "sim/flight/vehicle_config.hpp"
 #include "tools/render/scene.hpp"
 
 namespace gnbv {

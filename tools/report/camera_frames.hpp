@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/record/frame_record.hpp"
-#include "tools/record/run_record.hpp"
+#include "tools/run_files/frame_record.hpp"
+#include "tools/run_files/run_record.hpp"
 
 namespace gnbv {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tools/render/image.hpp"
+#include "sim/core/image.hpp"
 
 namespace gnbv {
 

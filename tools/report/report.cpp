@@ -6,7 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "bench/paper_table.hpp"
+#include "bench/compare/paper_table.hpp"
 #include "sim/core/error.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/render/colour.hpp"

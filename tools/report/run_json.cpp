@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "bench/paper_figures.hpp"
+#include "bench/compare/paper_figures.hpp"
 #include "sim/core/file.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/report/thinning.hpp"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/text_table.hpp"
-#include "sim/triangle_mesh.hpp"
+#include "bench/compare/text_table.hpp"
+#include "sim/mesh/triangle_mesh.hpp"
 #include "tools/report/run_pack.hpp"
 
 namespace gnbv {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "tools/record/run_record.hpp"
 #include "tools/report/byte_pack.hpp"
 #include "tools/report/camera_frames.hpp"
+#include "tools/run_files/run_record.hpp"
 
 namespace gnbv {
 

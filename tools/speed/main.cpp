@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "bench/cloud_speed.hpp"
-#include "bench/map_speed.hpp"
-#include "bench/view_speed.hpp"
+#include "bench/speed/cloud_speed.hpp"
+#include "bench/speed/map_speed.hpp"
+#include "bench/speed/view_speed.hpp"
 #include "scenarios/load.hpp"
 #include "sim/core/simd.hpp"
 #include "tools/mission/load_world.hpp"

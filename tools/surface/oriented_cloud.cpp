@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "bench/point_tree.hpp"
+#include "bench/score/point_tree.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <limits>
 
-#include "bench/point_tree.hpp"
+#include "bench/score/point_tree.hpp"
 #include "sensors/camera_model.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"

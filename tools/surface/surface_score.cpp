@@ -4,10 +4,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bench/text_table.hpp"
+#include "bench/compare/text_table.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
-#include "sim/mesh_lint.hpp"
+#include "sim/mesh/mesh_lint.hpp"
 
 namespace gnbv {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "bench/cloud_metrics.hpp"
-#include "bench/surface_reference.hpp"
+#include "bench/score/cloud_metrics.hpp"
+#include "bench/score/surface_reference.hpp"
 
 namespace gnbv {
 
@@ -20,8 +20,8 @@ struct SurfaceScore {
 std::vector<Vec3f> samples_by_area(const TriangleMesh& mesh, std::size_t count, std::uint64_t seed);
 
 /// Scores the surface above the floor: samples by area against the true structure, and the samples
-/// of the true surface that see out (bench/surface_reference.hpp) against the reconstructed one.
-/// Deterministic at any number of threads.
+/// of the true surface that see out (bench/score/surface_reference.hpp) against the reconstructed
+/// one. Deterministic at any number of threads.
 SurfaceScore score_surface(const TriangleMesh& surface, const World& truth, double floor_z_m,
                            int threads);
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "tools/render/image.hpp"
+#include "sim/core/image.hpp"
 #include "tools/surface/texture_views.hpp"
 
 namespace gnbv {

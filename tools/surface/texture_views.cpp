@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bench/set_cover.hpp"
+#include "bench/limits/set_cover.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
 #include "tools/surface/mesh_edges.hpp"

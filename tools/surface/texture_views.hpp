@@ -8,8 +8,8 @@
 
 #include "sensors/camera_model.hpp"
 #include "sensors/ray_scene.hpp"
-#include "tools/record/frame_record.hpp"
-#include "tools/render/image.hpp"
+#include "sim/core/image.hpp"
+#include "tools/run_files/frame_record.hpp"
 
 namespace gnbv {
 

@@ -6,10 +6,10 @@
 #include <numeric>
 #include <unordered_map>
 
-#include "bench/point_tree.hpp"
+#include "bench/score/point_tree.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
-#include "sim/mesh_lint.hpp"
+#include "sim/mesh/mesh_lint.hpp"
 
 namespace gnbv {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "sim/triangle_mesh.hpp"
+#include "sim/mesh/triangle_mesh.hpp"
 #include "tools/surface/oriented_cloud.hpp"
 
 namespace gnbv {

@@ -5,7 +5,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "bench/text_table.hpp"
+#include "bench/compare/text_table.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/sweep/source_id.hpp"

@@ -13,11 +13,11 @@
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "tools/gnbv/interrupt.hpp"
-#include "tools/gnbv/progress.hpp"
 #include "tools/sweep/cell_files.hpp"
 #include "tools/sweep/child.hpp"
 #include "tools/sweep/failure.hpp"
+#include "tools/terminal/interrupt.hpp"
+#include "tools/terminal/progress.hpp"
 
 namespace gnbv {
 namespace {

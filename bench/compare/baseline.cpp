@@ -1,0 +1,248 @@
+#include "bench/compare/baseline.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+
+namespace gnbv {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+constexpr std::string_view kSchema = "gnbv-baseline-1";
+constexpr std::size_t kScoreIndex = 1;  // 0.05 m of kScoreDistances_m
+
+/// A metric by name: how to read it from a run, and its tolerance in a new baseline.
+struct Metric {
+  std::string_view name;
+  double (*of)(const RunFigures& run);
+  Better better;
+  double tolerance;        // absolute,
+  double tolerance_share;  // and this share of the value besides
+};
+
+constexpr double kShareTolerance = 0.02;
+constexpr double kRelativeTolerance = 0.1;
+
+constexpr std::array<Metric, 12> kMetrics = {{
+    {"coverage_0.05", [](const RunFigures& r) { return r.coverage_final[0]; }, Better::higher,
+     kShareTolerance, 0.0},
+    {"coverage_0.10", [](const RunFigures& r) { return r.coverage_final[1]; }, Better::higher,
+     kShareTolerance, 0.0},
+    {"coverage_0.50", [](const RunFigures& r) { return r.coverage_final[2]; }, Better::higher,
+     kShareTolerance, 0.0},
+    {"precision", [](const RunFigures& r) { return r.distances.at[kScoreIndex].precision; },
+     Better::higher, kShareTolerance, 0.0},
+    {"recall", [](const RunFigures& r) { return r.distances.at[kScoreIndex].recall; },
+     Better::higher, kShareTolerance, 0.0},
+    {"f", [](const RunFigures& r) { return r.distances.at[kScoreIndex].f; }, Better::higher,
+     kShareTolerance, 0.0},
+    {"chamfer_m", [](const RunFigures& r) { return r.distances.chamfer_m; }, Better::lower, 0.001,
+     0.0},
+    {"density", [](const RunFigures& r) { return r.density.mean_points; }, Better::higher, 0.0,
+     kRelativeTolerance},
+    {"straight_m", [](const RunFigures& r) { return r.straight_m; }, Better::lower, 0.0,
+     kRelativeTolerance},
+    {"flight_time_s", [](const RunFigures& r) { return r.flight_time_s; }, Better::lower, 0.0,
+     kRelativeTolerance},
+    {"iterations", [](const RunFigures& r) { return static_cast<double>(r.iterations); },
+     Better::lower, 0.0, kRelativeTolerance},
+    {"entropy_reduction_nat", [](const RunFigures& r) { return r.entropy_reduction_nat; },
+     Better::higher, 0.0, kRelativeTolerance},
+}};
+
+constexpr std::array<std::string_view, 3> kBetterNames = {"higher", "lower", "same"};
+
+BaselineSubject subject_of(const RunFigures& run) {
+  return {run.scenario, fs::path(run.structure).filename().string(),
+          run.utility,  run.preset,
+          run.seed,     run.version};
+}
+
+/// One baseline file, for messages.
+class File {
+ public:
+  explicit File(const fs::path& path)
+      : path_(path), json_(Json::parse(read_file(path), nullptr, false)) {
+    if (!json_.is_object()) throw BadInput(fmt::format("{}: is no JSON object", path_.string()));
+    const Json& schema = at(json_, "schema", "schema");
+    if (schema != kSchema) refuse("schema", schema, fmt::format("must be \"{}\"", kSchema));
+  }
+
+  BaselineSubject subject() const {
+    const Json& of = at(json_, "of", "of");
+    const Json& seed = at(of, "seed", "of.seed");
+    if (!seed.is_number_unsigned()) refuse("of.seed", seed, "is no count");
+    return {text(of, "scenario"), text(of, "structure"),     text(of, "utility"),
+            text(of, "preset"),   seed.get<std::uint64_t>(), text(of, "version")};
+  }
+
+  std::string termination() const {
+    return text_of(at(json_, "termination", "termination"), "termination");
+  }
+
+  std::vector<BaselineMetric> metrics() const {
+    const Json& all = at(json_, "metrics", "metrics");
+    std::vector<BaselineMetric> out;
+    for (const Metric& metric : kMetrics) out.push_back(metric_of(all, std::string(metric.name)));
+    for (const auto& [name, value] : all.items()) {
+      const auto is_it = [&](const Metric& metric) { return metric.name == name; };
+      if (std::none_of(kMetrics.begin(), kMetrics.end(), is_it)) {
+        throw BadInput(fmt::format("{}: metrics.{}: is no metric", path_.string(), name));
+      }
+    }
+    return out;
+  }
+
+  std::optional<std::string> result_sha256() const {
+    if (!json_.contains("result_sha256")) return std::nullopt;
+    return text_of(json_.at("result_sha256"), "result_sha256");
+  }
+
+ private:
+  BaselineMetric metric_of(const Json& all, const std::string& name) const {
+    const std::string key = "metrics." + name;
+    const Json& entry = at(all, name, key);
+    BaselineMetric metric{.name = name,
+                          .value = number(entry, "value", key),
+                          .tolerance = number(entry, "tolerance", key)};
+    if (metric.tolerance < 0.0) {
+      refuse(key + ".tolerance", entry.at("tolerance"), "is below 0");
+    }
+    const std::string better = text_of(at(entry, "better", key + ".better"), key + ".better");
+    const auto* const found = std::find(kBetterNames.begin(), kBetterNames.end(), better);
+    if (found == kBetterNames.end()) {
+      refuse(key + ".better", better, "must be \"higher\", \"lower\" or \"same\"");
+    }
+    metric.better = static_cast<Better>(found - kBetterNames.begin());
+    return metric;
+  }
+
+  const Json& at(const Json& object, const std::string& name, const std::string& key) const {
+    if (!object.is_object() || !object.contains(name)) {
+      throw BadInput(fmt::format("{}: {}: is missing", path_.string(), key));
+    }
+    return object.at(name);
+  }
+  double number(const Json& entry, const std::string& name, const std::string& key) const {
+    const Json& value = at(entry, name, key + "." + name);
+    if (!value.is_number() || !std::isfinite(value.get<double>())) {
+      refuse(key + "." + name, value, "is no number");
+    }
+    return value.get<double>();
+  }
+  std::string text_of(const Json& value, const std::string& key) const {
+    if (!value.is_string()) refuse(key, value, "is no text");
+    return value.get<std::string>();
+  }
+  std::string text(const Json& of, const std::string& name) const {
+    return text_of(at(of, name, "of." + name), "of." + name);
+  }
+  [[noreturn]] void refuse(const std::string& key, const Json& value,
+                           const std::string& what) const {
+    throw BadInput(fmt::format("{}: {}: {} {}", path_.string(), key, value.dump(), what));
+  }
+
+  fs::path path_;
+  Json json_;
+};
+
+void need_same(const BaselineSubject& baseline, const BaselineSubject& run, bool needs_version,
+               const fs::path& path) {
+  std::string differences;
+  const auto compare = [&](const char* what, const auto& of_baseline, const auto& of_run) {
+    if (of_baseline == of_run) return;
+    differences += fmt::format("{} {} {}, the run's is {}", differences.empty() ? "" : ";", what,
+                               of_baseline, of_run);
+  };
+  compare("scenario", baseline.scenario, run.scenario);
+  compare("structure", baseline.structure, run.structure);
+  compare("utility", baseline.utility, run.utility);
+  compare("preset", baseline.preset, run.preset);
+  compare("seed", baseline.seed, run.seed);
+  if (needs_version) compare("version", baseline.version, run.version);
+  if (differences.empty()) return;
+  throw BadInput(fmt::format("{}: is of something else:{}", path.string(), differences));
+}
+
+GateVerdict judge(const BaselineMetric& metric, double now) {
+  const double gain = metric.better == Better::lower ? metric.value - now : now - metric.value;
+  if (std::abs(gain) <= metric.tolerance) return GateVerdict::kept;
+  return gain > 0.0 && metric.better != Better::same ? GateVerdict::better : GateVerdict::regressed;
+}
+
+}  // namespace
+
+Baseline read_baseline(const fs::path& path) {
+  const File file(path);
+  return {file.subject(), file.termination(), file.metrics(), file.result_sha256()};
+}
+
+std::string to_json(const Baseline& baseline) {
+  Json metrics;
+  for (const BaselineMetric& metric : baseline.metrics) {
+    metrics[metric.name] = {{"value", metric.value},
+                            {"tolerance", metric.tolerance},
+                            {"better", kBetterNames[static_cast<std::size_t>(metric.better)]}};
+  }
+  const BaselineSubject& of = baseline.of;
+  Json json = {{"schema", kSchema},
+               {"of",
+                {{"scenario", of.scenario},
+                 {"structure", of.structure},
+                 {"utility", of.utility},
+                 {"preset", of.preset},
+                 {"seed", of.seed},
+                 {"version", of.version}}},
+               {"termination", baseline.termination},
+               {"metrics", metrics}};
+  if (baseline.result_sha256) json["result_sha256"] = *baseline.result_sha256;
+  return json.dump(2) + "\n";
+}
+
+Baseline make_baseline(const RunFigures& run) {
+  Baseline baseline{.of = subject_of(run),
+                    .termination = run.termination,
+                    .metrics = {},
+                    .result_sha256 = std::nullopt};
+  for (const Metric& metric : kMetrics) {
+    const double value = metric.of(run);
+    baseline.metrics.push_back(
+        {.name = std::string(metric.name),
+         .value = value,
+         .tolerance = metric.tolerance + metric.tolerance_share * std::abs(value),
+         .better = metric.better});
+  }
+  return baseline;
+}
+
+Baseline updated_baseline(const RunFigures& run, const Baseline& before, const fs::path& path) {
+  need_same(before.of, subject_of(run), false, path);
+  Baseline baseline = make_baseline(run);
+  if (before.result_sha256) baseline.result_sha256 = run.result_sha256;
+  for (std::size_t i = 0; i < kMetrics.size(); ++i) {
+    baseline.metrics[i].tolerance = before.metrics[i].tolerance;
+    baseline.metrics[i].better = before.metrics[i].better;
+  }
+  return baseline;
+}
+
+BaselineCheck check_against(const Baseline& baseline, const fs::path& path, const RunFigures& run) {
+  need_same(baseline.of, subject_of(run), true, path);
+  BaselineCheck check{.metrics = {}, .termination = run.termination};
+  for (std::size_t i = 0; i < kMetrics.size(); ++i) {
+    const double now = kMetrics[i].of(run);
+    check.metrics.push_back({baseline.metrics[i], now, judge(baseline.metrics[i], now)});
+  }
+  check.is_termination_wrong =
+      run.termination == "collision" || run.termination != baseline.termination;
+  check.is_hash_wrong = baseline.result_sha256 && *baseline.result_sha256 != run.result_sha256;
+  return check;
+}
+
+}  // namespace gnbv

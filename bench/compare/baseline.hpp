@@ -1,0 +1,78 @@
+// The regression gate: what a mission has to reach again, within stated tolerances.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/score/run_figures.hpp"
+
+namespace gnbv {
+
+/// Which way a metric gets better; `same`: any change beyond the tolerance is for the worse.
+enum class Better { higher, lower, same };
+
+struct BaselineMetric {
+  std::string name;
+  double value = 0.0;
+  double tolerance = 0.0;  // absolute, in the metric's unit
+  Better better = Better::same;
+};
+
+/// What a baseline is of. Figures of anything else are not comparable.
+struct BaselineSubject {
+  std::string scenario;
+  std::string structure;  // built-in name, or name of the mesh file without its folders
+  std::string utility;
+  std::string preset;
+  std::uint64_t seed = 0;
+  std::string version;  // of the program
+};
+
+struct Baseline {
+  BaselineSubject of;
+  std::string termination;                   // how the mission ended
+  std::vector<BaselineMetric> metrics;       // all that there are, in make_baseline()'s order
+  std::optional<std::string> result_sha256;  // when it has to be the same: on one machine only
+};
+
+/// A baseline file. Throws BadInput naming file and key: other schema, metric missing or unknown,
+/// a value that is no number, a tolerance that is none or below 0, `better` that is none of the
+/// three.
+Baseline read_baseline(const std::filesystem::path& path);
+std::string to_json(const Baseline& baseline);
+
+/// Of a run: coverage_0.05, coverage_0.10, coverage_0.50 (seen from outside), precision, recall and
+/// f (at 0.05 m), chamfer_m, density (points a voxel), straight_m, flight_time_s, iterations,
+/// entropy_reduction_nat. Tolerances are 0.02 for shares, 0.001 m for Chamfer, a tenth of the value
+/// for all other metrics.
+Baseline make_baseline(const RunFigures& run);
+
+/// The same with the tolerances of `before`, its `better`, and what it asks of the hash. Throws
+/// BadInput naming `path`, where `before` stands, and every difference when the run is of something
+/// else; of another version it may be.
+Baseline updated_baseline(const RunFigures& run, const Baseline& before,
+                          const std::filesystem::path& path);
+
+enum class GateVerdict { kept, better, regressed };
+
+struct MetricChange {
+  BaselineMetric baseline;
+  double now = 0.0;
+  GateVerdict verdict = GateVerdict::kept;
+};
+
+struct BaselineCheck {
+  std::vector<MetricChange> metrics;  // in the baseline's order
+  std::string termination;            // of the run
+  bool is_termination_wrong = false;  // not the baseline's, or a collision, which never is right
+  bool is_hash_wrong = false;
+};
+
+/// Throws BadInput naming `path` and every difference when the run is of something else.
+BaselineCheck check_against(const Baseline& baseline, const std::filesystem::path& path,
+                            const RunFigures& run);
+
+}  // namespace gnbv

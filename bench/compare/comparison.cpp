@@ -1,0 +1,190 @@
+#include "bench/compare/comparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/error.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr double kLevel = 0.05;
+constexpr std::uint64_t kBootstrapSeed = 1;
+
+/// The values of one metric in one scenario: by method, then by seed.
+using Values = std::vector<std::map<std::uint64_t, double>>;
+
+std::size_t index_in(std::vector<std::string>& names, const std::string& name) {
+  const auto at = std::find(names.begin(), names.end(), name);
+  if (at != names.end()) return static_cast<std::size_t>(at - names.begin());
+  names.push_back(name);
+  return names.size() - 1;
+}
+
+Values values_of(const Comparison& comparison, std::span<const ComparedRun> runs,
+                 const Ceilings& ceilings, std::size_t scenario, const RunMetric& metric) {
+  Values values(comparison.methods.size());
+  for (const ComparedRun& run : runs) {
+    if (run.scenario != comparison.scenarios[scenario]) continue;
+    MetricContext context{.ceiling = {}, .budgets = comparison.budgets[scenario]};
+    const auto ceiling = ceilings.find({run.scenario, run.method});
+    if (ceiling != ceilings.end()) context.ceiling = ceiling->second;
+    const auto value = metric.value(run.figures, context);
+    if (!value) continue;
+    const auto method =
+        std::find(comparison.methods.begin(), comparison.methods.end(), run.method) -
+        comparison.methods.begin();
+    const bool is_new = values[static_cast<std::size_t>(method)].emplace(run.seed, *value).second;
+    GNBV_CHECK(is_new, "two runs of {}, {}, seed {}", run.scenario, run.method, run.seed);
+  }
+  return values;
+}
+
+/// Ranks of the methods, a row a seed that all of them have.
+std::vector<std::vector<double>> rank_blocks(const Values& values, bool higher_is_better) {
+  std::vector<std::vector<double>> blocks;
+  for (const auto& [seed, first] : values[0]) {
+    std::vector<double> costs;
+    for (const auto& of_method : values) {
+      const auto at = of_method.find(seed);
+      if (at != of_method.end()) costs.push_back(higher_is_better ? -at->second : at->second);
+    }
+    if (costs.size() == values.size()) blocks.push_back(ranks_of(costs));
+  }
+  return blocks;
+}
+
+std::optional<Contrast> contrast_of(const std::map<std::uint64_t, double>& method,
+                                    const std::map<std::uint64_t, double>& baseline) {
+  std::vector<double> differences;
+  std::vector<double> base;
+  for (const auto& [seed, value] : method) {
+    const auto at = baseline.find(seed);
+    if (at == baseline.end()) continue;
+    differences.push_back(value - at->second);
+    base.push_back(at->second);
+  }
+  if (differences.empty()) return std::nullopt;
+  Contrast contrast;
+  contrast.pairs = differences.size();
+  contrast.baseline_mean = mean_of(base);
+  contrast.difference = estimate_mean(differences);
+  contrast.bootstrap = bootstrap_mean_interval(differences, kBootstrapSeed);
+  const SignedRankTest test = wilcoxon_signed_rank(differences);
+  contrast.differing = test.n;
+  contrast.p = test.p;
+  if (contrast.pairs > 1 && contrast.differing == 0) contrast.verdict = Verdict::equal;
+  return contrast;
+}
+
+bool intervals_exclude_zero(const Contrast& contrast) {
+  const MeanEstimate& d = contrast.difference;
+  return d.half_width && std::abs(d.mean) > *d.half_width && !contrast.bootstrap.contains(0.0);
+}
+
+/// Holm's adjustment over the family, and what follows.
+void judge(std::vector<Contrast*>& family) {
+  std::vector<double> p;
+  for (const Contrast* contrast : family) p.push_back(contrast->p);
+  const std::vector<double> adjusted = holm_adjusted(p);
+  for (std::size_t i = 0; i < family.size(); ++i) {
+    Contrast& contrast = *family[i];
+    contrast.p_holm = adjusted[i];
+    contrast.family = family.size();
+    if (contrast.verdict == Verdict::equal || contrast.pairs < 2) continue;
+    contrast.verdict = contrast.p_holm <= kLevel ? Verdict::significant
+                       : least_p_holm(contrast) > kLevel && intervals_exclude_zero(contrast)
+                           ? Verdict::interval_only
+                           : Verdict::not_significant;
+  }
+}
+
+std::vector<double> all_values(const std::map<std::uint64_t, double>& by_seed) {
+  std::vector<double> values;
+  for (const auto& [seed, value] : by_seed) values.push_back(value);
+  return values;
+}
+
+std::optional<double> mean_rank(const std::vector<std::vector<double>>& blocks,
+                                std::size_t method) {
+  std::vector<double> ranks;
+  for (const auto& block : blocks) ranks.push_back(block[method]);
+  return ranks.empty() ? std::nullopt : std::optional(mean_of(ranks));
+}
+
+void add_figures(Comparison& comparison, std::size_t scenario, std::size_t metric,
+                 const Values& values) {
+  const auto blocks = rank_blocks(values, run_metrics()[metric].higher_is_better);
+  const std::size_t first = comparison.figures.size();
+  for (std::size_t method = 0; method < values.size(); ++method) {
+    if (values[method].empty()) continue;
+    MethodFigure figure{.scenario = scenario,
+                        .metric = metric,
+                        .method = method,
+                        .estimate = estimate_mean(all_values(values[method])),
+                        .rank = mean_rank(blocks, method),
+                        .contrast = {}};
+    if (method != comparison.baseline) {
+      figure.contrast = contrast_of(values[method], values[comparison.baseline]);
+    }
+    comparison.figures.push_back(figure);
+  }
+  std::vector<Contrast*> family;
+  for (std::size_t i = first; i < comparison.figures.size(); ++i) {
+    if (comparison.figures[i].contrast) family.push_back(&*comparison.figures[i].contrast);
+  }
+  judge(family);
+}
+
+}  // namespace
+
+double least_p_holm(const Contrast& contrast) {
+  // Holm's first step asks for the smallest p times the size of the family
+  return static_cast<double>(contrast.family) * least_wilcoxon_p(contrast.differing);
+}
+
+Comparison compare(std::span<const ComparedRun> runs, const std::string& baseline,
+                   const Ceilings& ceilings) {
+  Comparison comparison;
+  std::vector<std::vector<const RunFigures*>> by_scenario;
+  for (const ComparedRun& run : runs) {
+    const std::size_t scenario = index_in(comparison.scenarios, run.scenario);
+    by_scenario.resize(comparison.scenarios.size());
+    by_scenario[scenario].push_back(&run.figures);
+    index_in(comparison.methods, run.method);
+  }
+  const auto base = std::find(comparison.methods.begin(), comparison.methods.end(), baseline);
+  GNBV_CHECK(base != comparison.methods.end(), "no run of the baseline '{}'", baseline);
+  comparison.baseline = static_cast<std::size_t>(base - comparison.methods.begin());
+  for (const auto& of_scenario : by_scenario) {
+    comparison.budgets.push_back(common_budgets(of_scenario));
+  }
+  for (std::size_t metric = 0; metric < run_metrics().size(); ++metric) {
+    std::vector<std::vector<double>> blocks;
+    for (std::size_t s = 0; s < comparison.scenarios.size(); ++s) {
+      const Values values = values_of(comparison, runs, ceilings, s, run_metrics()[metric]);
+      add_figures(comparison, s, metric, values);
+      for (auto& block : rank_blocks(values, run_metrics()[metric].higher_is_better)) {
+        blocks.push_back(std::move(block));
+      }
+    }
+    for (std::size_t method = 0; method < comparison.methods.size() && !blocks.empty(); ++method) {
+      comparison.ranks.push_back({metric, method, blocks.size(), *mean_rank(blocks, method)});
+    }
+  }
+  std::stable_sort(comparison.figures.begin(), comparison.figures.end(),
+                   [](const auto& a, const auto& b) { return a.scenario < b.scenario; });
+  return comparison;
+}
+
+const MethodFigure* find_figure(const Comparison& comparison, std::size_t scenario,
+                                std::string_view metric, std::size_t method) {
+  const std::size_t wanted = metric_index(metric);
+  const auto figure = std::find_if(
+      comparison.figures.begin(), comparison.figures.end(), [&](const MethodFigure& f) {
+        return f.scenario == scenario && f.metric == wanted && f.method == method;
+      });
+  return figure == comparison.figures.end() ? nullptr : &*figure;
+}
+
+}  // namespace gnbv

@@ -1,0 +1,93 @@
+// Is A better than B here? Methods over seeds, with intervals and paired tests.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/compare/run_metrics.hpp"
+#include "bench/compare/statistics.hpp"
+#include "bench/score/run_figures.hpp"
+
+namespace gnbv {
+
+/// One mission in a comparison.
+struct ComparedRun {
+  std::string scenario;  // as the comparison names it
+  std::string method;
+  std::uint64_t seed = 0;
+  RunFigures figures;
+};
+
+/// What the seeds say about a difference.
+enum class Verdict {
+  untested,         // one seed, or none, that both methods have
+  equal,            // none of several seeds makes a difference
+  not_significant,  // neither of the following
+  interval_only,    // so few seeds that no test could reject; yet Student's and the bootstrap
+                    // interval of the mean difference both exclude 0
+  significant       // the signed-rank test rejects at 5 %, after Holm
+};
+
+/// A method against the baseline, over the seeds that both have.
+struct Contrast {
+  std::size_t pairs = 0;
+  std::size_t differing = 0;   // of these, whose difference is not 0: those the test ranks
+  std::size_t family = 1;      // methods of this scenario and metric that Holm adjusts for
+  double baseline_mean = 0.0;  // over these seeds
+  MeanEstimate difference;     // method - baseline
+  Interval bootstrap;          // 95 %, of the mean difference
+  double p = 1.0;              // two-sided signed-rank test
+  double p_holm = 1.0;         // adjusted over the methods of this scenario and metric
+  Verdict verdict = Verdict::untested;
+};
+
+/// The least p that a contrast could have had, after Holm's first step; above 5 % its test cannot
+/// reject, whatever the values.
+double least_p_holm(const Contrast& contrast);
+
+/// A method in a scenario by a metric.
+struct MethodFigure {
+  std::size_t scenario = 0;  // indices into Comparison's lists
+  std::size_t metric = 0;    // of run_metrics()
+  std::size_t method = 0;
+  MeanEstimate estimate;
+  std::optional<double> rank;  // mean over the seeds that all methods have; 1 is best, ties share
+  std::optional<Contrast> contrast;  // none for the baseline
+};
+
+/// Mean rank of a method by a metric over all scenarios and seeds that all methods have.
+struct OverallRank {
+  std::size_t metric = 0;
+  std::size_t method = 0;
+  std::size_t blocks = 0;
+  double rank = 0.0;
+};
+
+struct Comparison {
+  std::vector<std::string> scenarios;
+  std::vector<std::string> methods;
+  std::size_t baseline = 0;
+  std::vector<std::array<double, 3>> budgets;  // by scenario: common_budgets()
+  std::vector<MethodFigure> figures;  // by scenario, metric, method; without what nobody measured
+  std::vector<OverallRank> ranks;
+};
+
+/// By scenario and method: a method that changes a camera, the leaf or the workspace has a ceiling
+/// of its own.
+using Ceilings = std::map<std::pair<std::string, std::string>, Ceiling>;
+
+/// Scenarios and methods in the order of their first runs. The ceilings as far as they are known.
+/// Requires a run of the baseline, and no two runs of one scenario, method and seed.
+Comparison compare(std::span<const ComparedRun> runs, const std::string& baseline,
+                   const Ceilings& ceilings);
+
+/// The figure of a method, if it has one.
+const MethodFigure* find_figure(const Comparison& comparison, std::size_t scenario,
+                                std::string_view metric, std::size_t method);
+
+}  // namespace gnbv

@@ -1,0 +1,296 @@
+#include "bench/compare/paper_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "bench/compare/statistics.hpp"
+#include "sim/core/error.hpp"
+
+namespace gnbv {
+namespace {
+
+using Runs = std::vector<const RunFigures*>;
+using Row = std::vector<TableCell>;
+
+/// What a row shows, each estimated over its runs or printed by the paper.
+struct RowFigures {
+  std::string label;
+  std::string kind;  // ours, paper, ...
+  std::optional<std::size_t> runs = {};
+  std::optional<MeanEstimate> iterations = {};
+  std::optional<MeanEstimate> entropy_reduction = {};
+  std::optional<MeanEstimate> distance_m = {};
+  std::optional<MeanEstimate> time_min = {};
+  std::array<std::optional<MeanEstimate>, 3> coverage = {};
+  std::optional<MeanEstimate> share_of_ceiling = {};
+  std::optional<MeanEstimate> density = {};
+  std::string mark = {};  // of the finest two coverages
+};
+
+MeanEstimate printed(double value) { return {.n = 1, .mean = value, .half_width = {}}; }
+
+template <typename Value>
+MeanEstimate estimate(const Runs& runs, const Value& value_of) {
+  std::vector<double> values;
+  for (const RunFigures* run : runs) values.push_back(value_of(*run));
+  return estimate_mean(values);
+}
+
+/// "92.8 ±0.6%" of 0.928 and 0.006 with factor 100 and unit "%".
+TableCell cell(const std::optional<MeanEstimate>& e, int decimals, double factor = 1.0,
+               const std::string& unit = "") {
+  if (!e) return {.text = "-"};
+  std::string text = grouped_number(factor * e->mean, decimals);
+  if (e->half_width) text += " ±" + grouped_number(factor * *e->half_width, decimals);
+  return {.text = text + unit, .values = {e->mean, e->half_width}};
+}
+
+std::vector<TableColumn> all_columns() {
+  using enum ColumnKind;
+  return {{"Utility", "utility", text},
+          {"Row", "row", text},
+          {"Runs", "runs", number},
+          {"Iterations", "iterations", estimate},
+          {"Entropy reduction", "entropy_reduction", estimate},
+          {"Distance (m)", "distance_m", estimate},
+          {"Time (min)", "time_min", estimate},
+          {"0.05 m", "coverage_0.05", estimate},
+          {"0.10 m", "coverage_0.10", estimate},
+          {"0.50 m", "coverage_0.50", estimate},
+          {"Of ceiling", "share_of_ceiling", estimate},
+          {"Points/voxel", "density_points_per_voxel", estimate}};
+}
+
+Row all_cells(const RowFigures& f) {
+  Row row = {{.text = f.label}, {.text = f.kind}, {.text = "-"}};
+  if (f.runs) row[2] = {std::to_string(*f.runs), {static_cast<double>(*f.runs), std::nullopt}};
+  row.push_back(cell(f.iterations, 0));
+  row.push_back(cell(f.entropy_reduction, 0));
+  row.push_back(cell(f.distance_m, 1));
+  row.push_back(cell(f.time_min, 1));
+  for (std::size_t size = 0; size < f.coverage.size(); ++size) {
+    row.push_back(cell(f.coverage[size], 1, 100.0, "%"));
+    if (size < 2) row.back().text += f.mark;
+  }
+  row.push_back(cell(f.share_of_ceiling, 1, 100.0, "%"));
+  row.push_back(cell(f.density, 0));
+  return row;
+}
+
+void drop_column(TextTable& table, std::string_view key) {
+  const auto column = std::find_if(table.columns.begin(), table.columns.end(),
+                                   [&](const TableColumn& c) { return c.key == key; });
+  GNBV_CHECK(column != table.columns.end(), "no column '{}'", key);
+  const auto at = column - table.columns.begin();
+  table.columns.erase(column);
+  for (Row& row : table.rows) row.erase(row.begin() + at);
+}
+
+RowFigures paper_figures(const PaperRow& row) {
+  RowFigures f{.label = std::string(row.label), .kind = "paper"};
+  if (row.iterations) f.iterations = printed(*row.iterations);
+  if (row.entropy_reduction) f.entropy_reduction = printed(*row.entropy_reduction);
+  if (row.distance_m) f.distance_m = printed(*row.distance_m);
+  if (row.time_min) f.time_min = printed(*row.time_min);
+  if (row.density_points_per_voxel) f.density = printed(*row.density_points_per_voxel);
+  for (std::size_t size = 0; row.coverage_percent && size < 3; ++size) {
+    f.coverage[size] = printed((*row.coverage_percent)[size] / 100.0);
+  }
+  if (is_doubtful(row)) f.mark = "†";
+  return f;
+}
+
+void add_share(RowFigures& f, const std::optional<Ceiling>& ceiling) {
+  if (!ceiling || ceiling->leaf_outside[0] <= 0.0) return;
+  MeanEstimate share = *f.coverage[0];
+  share.mean /= ceiling->leaf_outside[0];
+  if (share.half_width) *share.half_width /= ceiling->leaf_outside[0];
+  f.share_of_ceiling = share;
+}
+
+RowFigures our_figures(const std::string& label, const Runs& runs,
+                       const std::optional<Ceiling>& ceiling) {
+  RowFigures f{.label = label, .kind = "ours", .runs = runs.size()};
+  f.iterations = estimate(runs, [](const RunFigures& r) { return r.iterations; });
+  f.entropy_reduction = estimate(runs, [](const RunFigures& r) { return r.entropy_reduction_nat; });
+  f.distance_m = estimate(runs, [](const RunFigures& r) { return r.straight_m; });
+  f.density = estimate(runs, [](const RunFigures& r) { return r.density_points_per_voxel; });
+  const auto has_time = [](const RunFigures* r) { return !r->curve.seconds.empty(); };
+  if (std::all_of(runs.begin(), runs.end(), has_time)) {
+    f.time_min = estimate(runs, [](const RunFigures& r) { return r.curve.seconds.back() / 60.0; });
+  }
+  for (std::size_t size = 0; size < 3; ++size) {
+    f.coverage[size] = estimate(runs, [&](const RunFigures& r) { return r.coverage_final[size]; });
+  }
+  add_share(f, ceiling);
+  return f;
+}
+
+/// The profile does not depend on the utility: one run a seed.
+RowFigures our_profile(const Runs& runs, const std::optional<Ceiling>& ceiling) {
+  std::map<std::uint64_t, const RunFigures*> by_seed;
+  for (const RunFigures* run : runs) by_seed.emplace(run->seed, run);
+  Runs profiles;
+  for (const auto& [seed, run] : by_seed) profiles.push_back(run);
+  RowFigures f{.label = "Profile", .kind = "ours", .runs = profiles.size()};
+  f.distance_m = estimate(profiles, [](const RunFigures& r) { return r.profile_m; });
+  for (std::size_t size = 0; size < 3; ++size) {
+    f.coverage[size] =
+        estimate(profiles, [&](const RunFigures& r) { return r.coverage_profile[size]; });
+  }
+  add_share(f, ceiling);
+  return f;
+}
+
+RowFigures ceiling_figures(const std::string& kind, const std::array<double, 3>& coverage) {
+  RowFigures f{.label = "Ceiling", .kind = kind};
+  for (std::size_t size = 0; size < 3; ++size) f.coverage[size] = printed(coverage[size]);
+  return f;
+}
+
+/// Utilities in the order of their first run.
+std::vector<std::pair<std::string, Runs>> by_utility(std::span<const RunFigures> runs) {
+  std::vector<std::pair<std::string, Runs>> groups;
+  for (const RunFigures& run : runs) {
+    auto group = std::find_if(groups.begin(), groups.end(),
+                              [&](const auto& g) { return g.first == run.utility; });
+    if (group == groups.end()) group = groups.insert(groups.end(), {run.utility, {}});
+    group->second.push_back(&run);
+  }
+  return groups;
+}
+
+std::string label_of(const std::string& utility) {
+  if (utility == "oracle_views") return "Oracle, few views";
+  if (utility == "oracle_metres") return "Oracle, few metres";
+  return utility;
+}
+
+std::string three_percent(const std::array<double, 3>& fractions) {
+  return fmt::format("{:.1f} / {:.1f} / {:.1f} %", 100.0 * fractions[0], 100.0 * fractions[1],
+                     100.0 * fractions[2]);
+}
+
+/// "max_iterations", or "max_iterations (4), collision (1)".
+std::string terminations(const Runs& runs) {
+  std::map<std::string, int> counts;
+  for (const RunFigures* run : runs) ++counts[run->termination];
+  if (counts.size() == 1) return counts.begin()->first;
+  std::string text;
+  for (const auto& [name, count] : counts) {
+    text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", name, count);
+  }
+  return text;
+}
+
+/// What the columns have no room for.
+std::string runs_note(const std::string& utility, const Runs& runs) {
+  const auto mean = [&](const auto& value_of) { return estimate(runs, value_of).mean; };
+  std::array<double, 3> raw{};
+  double least = 1.0;
+  double most = 0.0;
+  for (const RunFigures* run : runs) {
+    for (std::size_t size = 0; size < 3; ++size) {
+      raw[size] += run->coverage_final_raw[size] / static_cast<double>(runs.size());
+    }
+    least = std::min(least, run->coverage_final[0]);
+    most = std::max(most, run->coverage_final[0]);
+  }
+  std::string note = fmt::format(
+      "{}: ended by {} after {:.0f} views; flown {:.1f} m; all surface, also inner: {}; {:.1f} s "
+      "of wall time",
+      utility, terminations(runs), mean([](const RunFigures& r) { return r.iterations; }),
+      mean([](const RunFigures& r) { return r.flown_m; }), three_percent(raw),
+      mean([](const RunFigures& r) { return r.wall_s; }));
+  if (runs.size() > 1) {
+    note += fmt::format(", each a mean of {}; at 0.05 m from {:.1f} to {:.1f} %", runs.size(),
+                        100.0 * least, 100.0 * most);
+  }
+  return note;
+}
+
+void add_notes(TextTable& table, const PaperTable& paper, bool several_runs,
+               const std::optional<Ceiling>& ceiling) {
+  table.notes.emplace_back(
+      "0.05, 0.10, 0.50 m: coverage at that voxel size, ours of the surface seen from outside");
+  table.notes.emplace_back(
+      "ours: entropy reduction in nat; distance in straight lines between views, profile apart");
+  if (several_runs) {
+    table.notes.emplace_back(
+        "±: half width of the 95 % interval of the mean over the seeds (Student's t)");
+  }
+  if (ceiling) {
+    table.notes.push_back(fmt::format(
+        "ceiling: what legal viewpoints see, and what of it the cloud's leaf filter lets through "
+        "({} positions, {} frames), of exact cameras alone: the profile's LIDAR, noise and views "
+        "between can lift a mission above it; of ceiling: coverage at 0.05 m over the latter's; "
+        "all surface, also inner: {}, behind the leaf filter {}",
+        ceiling->positions, ceiling->frames, three_percent(ceiling->raw),
+        three_percent(ceiling->leaf_raw)));
+  }
+  if (std::any_of(paper.rows.begin(), paper.rows.end(), is_doubtful)) {
+    table.notes.emplace_back(
+        "† as printed: more coverage at 0.05 m than at 0.10 m is hardly possible by the paper's "
+        "own definition; the two columns may have changed places");
+  }
+}
+
+}  // namespace
+
+TextTable comparison_table(const PaperTable& paper, std::span<const RunFigures> runs,
+                           const std::optional<Ceiling>& ceiling) {
+  TextTable table;
+  table.title = std::string(paper.source);
+  table.columns = all_columns();
+  const auto add = [&](const RowFigures& f) { table.rows.push_back(all_cells(f)); };
+  const auto groups = by_utility(runs);
+  Runs all;
+  bool several_runs = false;
+  for (const PaperRow& row : paper.rows) {
+    for (const auto& [utility, group] : groups) {
+      if (utility == row.utility) add(our_figures(std::string(row.label), group, ceiling));
+    }
+    add(paper_figures(row));
+  }
+  for (const auto& [utility, group] : groups) {
+    if (find_row(paper, utility) == nullptr) add(our_figures(label_of(utility), group, ceiling));
+    all.insert(all.end(), group.begin(), group.end());
+    several_runs = several_runs || group.size() > 1;
+  }
+  if (!all.empty()) add(our_profile(all, ceiling));
+  if (paper.profile) add(paper_figures(*paper.profile));
+  if (ceiling) {
+    add(ceiling_figures("physical", ceiling->outside));
+    add(ceiling_figures("leaf filter", ceiling->leaf_outside));
+  }
+  const bool prints_time = std::any_of(paper.rows.begin(), paper.rows.end(),
+                                       [](const PaperRow& r) { return r.time_min.has_value(); });
+  if (!prints_time) drop_column(table, "time_min");
+  add_notes(table, paper, several_runs, ceiling);
+  for (const auto& [utility, group] : groups) table.notes.push_back(runs_note(utility, group));
+  return table;
+}
+
+std::string one_row_summary(const RunFigures& run) {
+  const PaperTable* const paper = find_paper_table(run.scenario);
+  const PaperRow* const row = paper == nullptr ? nullptr : find_row(*paper, run.utility);
+  TextTable table;
+  table.columns = all_columns();
+  table.rows.push_back(all_cells(our_figures(run.utility, {&run}, {})));
+  if (row != nullptr && is_papers_structure(*paper, run.structure)) {
+    RowFigures printed_row = paper_figures(*row);
+    printed_row.label = run.utility;
+    table.rows.push_back(all_cells(printed_row));
+    if (is_doubtful(*row)) table.notes.emplace_back("† as printed; hardly possible");
+  }
+  // no ceiling here: finding it may take longer than the mission
+  for (const std::string_view key : {"runs", "time_min", "share_of_ceiling"}) {
+    drop_column(table, key);
+  }
+  table.notes.push_back(runs_note(run.utility, {&run}));
+  return terminal_text(table);
+}
+
+}  // namespace gnbv

@@ -1,0 +1,27 @@
+// Missions beside the paper's figures, the oracles and the ceiling.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "bench/compare/paper_figures.hpp"
+#include "bench/compare/text_table.hpp"
+#include "bench/limits/ceiling.hpp"
+#include "bench/score/run_figures.hpp"
+
+namespace gnbv {
+
+/// Ours beside the paper's: per utility a row of the mean over its runs (with 95 % intervals if
+/// there are several) and the paper's row, in the paper's order; then utilities the paper lacks,
+/// the profile, and the ceilings. Distances are straight_m, times end with the last view and begin
+/// with the end of the profile. `runs` may hold any utilities and seeds of one scenario; none at
+/// all gives the paper alone.
+TextTable comparison_table(const PaperTable& paper, std::span<const RunFigures> runs,
+                           const std::optional<Ceiling>& ceiling);
+
+/// The mission's row as a small aligned table; below it the paper's, if the paper has one for this
+/// scenario, utility and structure.
+std::string one_row_summary(const RunFigures& run);
+
+}  // namespace gnbv

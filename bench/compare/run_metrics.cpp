@@ -1,0 +1,92 @@
+#include "bench/compare/run_metrics.hpp"
+
+#include <algorithm>
+
+#include "bench/score/voxel_set.hpp"
+#include "sim/core/error.hpp"
+
+namespace gnbv {
+namespace {
+
+using Value = std::optional<double>;
+
+template <std::size_t size>
+Value coverage_percent(const RunFigures& run, const MetricContext&) {
+  return 100.0 * run.coverage_final[size];
+}
+
+Value share_percent(const RunFigures& run, const MetricContext& context) {
+  if (!context.ceiling || context.ceiling->leaf_outside[0] <= 0.0) return std::nullopt;
+  return 100.0 * run.coverage_final[0] / context.ceiling->leaf_outside[0];
+}
+
+template <Effort effort>
+Value area_percent(const RunFigures& run, const MetricContext& context) {
+  const double budget = context.budgets[static_cast<std::size_t>(effort)];
+  if (budget <= 0.0) return std::nullopt;
+  return 100.0 * area_under_coverage(run.curve, effort, 0, budget);
+}
+
+/// Runs that were scored by an older version have no distances.
+bool has_distances(const RunFigures& run) { return run.distances.at[1].distance_m > 0.0; }
+
+Value f_percent(const RunFigures& run, const MetricContext&) {
+  return has_distances(run) ? Value(100.0 * run.distances.at[1].f) : std::nullopt;
+}
+
+Value chamfer_mm(const RunFigures& run, const MetricContext&) {
+  return has_distances(run) ? Value(1000.0 * run.distances.chamfer_m) : std::nullopt;
+}
+
+static_assert(kCoverageSizes_m == std::array<double, 3>{0.05, 0.10, 0.50});
+static_assert(kScoreDistances_m[1] == 0.05);
+
+constexpr std::array<RunMetric, 14> kMetrics = {{
+    {kCoverageMetric, true, 1, coverage_percent<0>},
+    {"coverage at 0.10 m (%)", true, 1, coverage_percent<1>},
+    {"coverage at 0.50 m (%)", true, 1, coverage_percent<2>},
+    {"share of ceiling at 0.05 m (%)", true, 1, share_percent},
+    {"AUC over views (%)", true, 1, area_percent<Effort::views>},
+    {"AUC over metres (%)", true, 1, area_percent<Effort::metres>},
+    {"AUC over seconds (%)", true, 1, area_percent<Effort::seconds>},
+    {"F at 0.05 m (%)", true, 1, f_percent},
+    {"Chamfer distance (mm)", false, 2, chamfer_mm},
+    {"density (points/voxel)", true, 1,
+     [](const RunFigures& run, const MetricContext&) -> Value {
+       return run.density_points_per_voxel;
+     }},
+    {"entropy reduction (nat)", true, 0,
+     [](const RunFigures& run, const MetricContext&) -> Value {
+       return run.entropy_reduction_nat;
+     }},
+    {"views", false, 1,
+     [](const RunFigures& run, const MetricContext&) -> Value { return run.iterations; }},
+    {kDistanceMetric, false, 1,
+     [](const RunFigures& run, const MetricContext&) -> Value { return run.straight_m; }},
+    {"flight time (s)", false, 1,
+     [](const RunFigures& run, const MetricContext&) -> Value { return run.flight_time_s; }},
+}};
+
+}  // namespace
+
+std::span<const RunMetric> run_metrics() { return kMetrics; }
+
+std::size_t metric_index(std::string_view name) {
+  const auto metric = std::find_if(kMetrics.begin(), kMetrics.end(),
+                                   [&](const RunMetric& m) { return m.name == name; });
+  GNBV_CHECK(metric != kMetrics.end(), "no metric '{}'", name);
+  return static_cast<std::size_t>(metric - kMetrics.begin());
+}
+
+std::array<double, 3> common_budgets(std::span<const RunFigures* const> runs) {
+  std::array<double, 3> budgets{};
+  for (const RunFigures* run : runs) {
+    if (run->curve.coverage.empty()) return {};
+    budgets[0] = std::max(budgets[0], static_cast<double>(run->curve.views()));
+    budgets[1] = std::max(budgets[1], run->curve.metres.back());
+    budgets[2] = std::max(budgets[2], run->curve.seconds.back());
+  }
+  return budgets;
+}
+
+}  // namespace gnbv

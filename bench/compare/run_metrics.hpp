@@ -1,0 +1,41 @@
+// The figures of a run that methods are compared by, each with its unit and which way is better.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "bench/limits/ceiling.hpp"
+#include "bench/score/run_figures.hpp"
+
+namespace gnbv {
+
+/// What a figure is relative to: the ceiling is that of the run's scenario and method, the budgets
+/// are the same for all runs of a scenario.
+struct MetricContext {
+  std::optional<Ceiling> ceiling;
+  std::array<double, 3> budgets{};  // of views, metres, seconds: the longest run's; 0 for none
+};
+
+struct RunMetric {
+  std::string_view name;  // with the unit of the value
+  bool higher_is_better = true;
+  int decimals = 1;
+  std::optional<double> (*value)(const RunFigures& run, const MetricContext& context) = nullptr;
+};
+
+/// In the order of tables. Coverage at 0.05 m is the first of them.
+std::span<const RunMetric> run_metrics();
+
+/// The index of a metric in run_metrics(). Requires a name of them.
+std::size_t metric_index(std::string_view name);
+
+constexpr std::string_view kCoverageMetric = "coverage at 0.05 m (%)";
+constexpr std::string_view kDistanceMetric = "distance (m)";
+
+/// The budgets common to all runs: the longest of them by each effort. 0 where a run has no curve,
+/// since nothing can be compared then.
+std::array<double, 3> common_budgets(std::span<const RunFigures* const> runs);
+
+}  // namespace gnbv

@@ -1,0 +1,177 @@
+#include "bench/compare/text_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/error.hpp"
+
+namespace gnbv {
+namespace {
+
+using Lines = std::vector<std::vector<std::string>>;  // cells as they are printed, header first
+
+bool is_right(const TableColumn& column) { return column.kind != ColumnKind::text; }
+
+template <typename Escape>
+Lines printed_cells(const TextTable& table, const Escape& escaped) {
+  Lines lines(1);
+  for (const TableColumn& column : table.columns) lines[0].push_back(escaped(column.head));
+  for (const auto& row : table.rows) {
+    GNBV_CHECK(row.size() == table.columns.size(), "{} cells in {} columns", row.size(),
+               table.columns.size());
+    std::vector<std::string>& line = lines.emplace_back();
+    for (const TableCell& cell : row) line.push_back(escaped(cell.text));
+  }
+  return lines;
+}
+
+// Width on a terminal of UTF-8 text: its code points.
+std::size_t width_of(std::string_view text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+  }));
+}
+
+std::vector<std::size_t> column_widths(const Lines& lines, std::size_t least) {
+  std::vector<std::size_t> widths(lines[0].size(), least);
+  for (const auto& line : lines) {
+    for (std::size_t c = 0; c < line.size(); ++c) {
+      widths[c] = std::max(widths[c], width_of(line[c]));
+    }
+  }
+  return widths;
+}
+
+std::string joined(const std::vector<std::string>& cells, const TextTable& table,
+                   const std::vector<std::size_t>& widths, std::string_view separator) {
+  std::string line;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const std::string fill(widths[c] - width_of(cells[c]), ' ');
+    line += c > 0 ? separator : "";
+    line += is_right(table.columns[c]) ? fill + cells[c] : cells[c] + fill;
+  }
+  return line;
+}
+
+std::string without_trailing_blanks(std::string line) {
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line;
+}
+
+bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
+
+/// What Markdown would take for markup. An underscore within a word is none.
+std::string markdown_escaped(std::string_view text) {
+  std::string escaped;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool within_word =
+        i > 0 && i + 1 < text.size() && is_word(text[i - 1]) && is_word(text[i + 1]);
+    const bool is_markup = std::string_view("\\|*`<").find(text[i]) != std::string_view::npos ||
+                           (text[i] == '_' && !within_word);
+    if (is_markup) escaped += '\\';
+    escaped += text[i] == '\n' ? ' ' : text[i];
+  }
+  return escaped;
+}
+
+/// LaTeX's ten special characters, and the signs of ours that its default fonts lack or, in the old
+/// encoding, have others in the place of.
+std::string latex_escaped(std::string_view text) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 17> kEscapes = {
+      {{"\\", "\\textbackslash{}"},
+       {"&", "\\&"},
+       {"%", "\\%"},
+       {"_", "\\_"},
+       {"#", "\\#"},
+       {"$", "\\$"},
+       {"{", "\\{"},
+       {"}", "\\}"},
+       {"~", "\\textasciitilde{}"},
+       {"^", "\\textasciicircum{}"},
+       {"<", "\\textless{}"},
+       {">", "\\textgreater{}"},
+       {"|", "\\textbar{}"},
+       {"--", "-{}-"},  // else a dash
+       {"±", "$\\pm$"},
+       {"†", "$^\\dagger$"},
+       {"\n", " "}}};
+  std::string escaped;
+  while (!text.empty()) {
+    const auto escape = std::find_if(kEscapes.begin(), kEscapes.end(),
+                                     [&](const auto& e) { return text.starts_with(e.first); });
+    escaped += escape == kEscapes.end() ? text.substr(0, 1) : escape->second;
+    text.remove_prefix(escape == kEscapes.end() ? 1 : escape->first.size());
+  }
+  return escaped;
+}
+
+}  // namespace
+
+std::string grouped_number(double value, int decimals) {
+  std::string digits = fmt::format("{:.{}f}", std::abs(value), decimals);
+  const bool is_zero = digits.find_first_of("123456789") == std::string::npos;
+  const std::size_t point = std::min(digits.find('.'), digits.size());
+  for (std::size_t i = point; i > 3; i -= 3) digits.insert(i - 3, ",");
+  return value < 0.0 && !is_zero ? "-" + digits : digits;
+}
+
+std::string terminal_text(const TextTable& table) {
+  const Lines lines = printed_cells(table, [](const std::string& text) { return text; });
+  const std::vector<std::size_t> widths = column_widths(lines, 0);
+  std::string text = table.title.empty() ? "" : table.title + "\n";
+  for (const auto& line : lines) {
+    const std::string whole = joined(line, table, widths, "  ");
+    text += without_trailing_blanks(whole) + "\n";
+    if (&line == &lines[0]) text += std::string(width_of(whole), '-') + "\n";
+  }
+  for (const std::string& note : table.notes) text += note + "\n";
+  return text;
+}
+
+std::string markdown_text(const TextTable& table) {
+  const Lines lines = printed_cells(table, markdown_escaped);
+  const std::vector<std::size_t> widths = column_widths(lines, 3);
+  std::string rule = "|";
+  for (std::size_t c = 0; c < widths.size(); ++c) {
+    rule += " " + std::string(widths[c] - 1, '-') + (is_right(table.columns[c]) ? ":" : "-") + " |";
+  }
+  std::string text = table.title.empty() ? "" : "**" + markdown_escaped(table.title) + "**\n\n";
+  for (const auto& line : lines) {
+    text += "| " + joined(line, table, widths, " | ") + " |\n";
+    if (&line == &lines[0]) text += rule + "\n";
+  }
+  if (!table.notes.empty()) text += "\n";
+  for (const std::string& note : table.notes) text += "- " + markdown_escaped(note) + "\n";
+  return text;
+}
+
+std::string latex_text(const TextTable& table) {
+  const Lines lines = printed_cells(table, latex_escaped);
+  std::string text = "% needs \\usepackage{booktabs}\n\\begin{table}\n\\centering\n";
+  if (!table.title.empty()) text += "\\caption{" + latex_escaped(table.title) + "}\n";
+  text += "\\begin{tabular}{";
+  for (const TableColumn& column : table.columns) text += is_right(column) ? "r" : "l";
+  text += "}\n\\toprule\n";
+  for (const auto& line : lines) {
+    text += fmt::format("{} \\\\\n", fmt::join(line, " & "));
+    if (&line == &lines[0]) text += "\\midrule\n";
+  }
+  text += "\\bottomrule\n\\end{tabular}\n";
+  for (const std::string& note : table.notes) {
+    text += "\n\\par\\footnotesize " + latex_escaped(note) + "\n";
+  }
+  return text + "\\end{table}\n";
+}
+
+std::string formatted_text(const TextTable& table, std::string_view format) {
+  if (format == "terminal") return terminal_text(table);
+  if (format == "markdown") return markdown_text(table);
+  if (format == "csv") return csv_text(table);
+  if (format == "latex") return latex_text(table);
+  GNBV_CHECK(format == "json", "no table format '{}'", format);
+  return json_text(table);
+}
+
+}  // namespace gnbv

@@ -1,0 +1,30 @@
+// The ceiling's results on disk, and what they depend on.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "bench/limits/ceiling.hpp"
+#include "bench/limits/view_survey.hpp"
+
+namespace gnbv {
+
+/// SHA-256 over all that ceiling and survey depend on: structure, ground, cameras (without their
+/// noise), workspace and voxels, floor, leaf, and the legal positions with their cells, which
+/// stand for start, navigation box and collision radius.
+std::string ceiling_key(const Scenario& scenario, const World& world, const LegalViewpoints& legal);
+
+std::string text_of(const Ceiling& ceiling);
+std::optional<Ceiling> ceiling_from(std::string_view text);
+
+/// About a byte and a half a voxel that a view finds.
+std::string bytes_of(const ViewSurvey& survey);
+std::optional<ViewSurvey> survey_from(std::string_view bytes);
+
+/// survey_views(), from the cache when it is there.
+ViewSurvey cached_survey(const std::string& key, const Scenario& scenario, const RayScene& scene,
+                         const LegalViewpoints& legal, const SurfaceReference& reference,
+                         int threads);
+
+}  // namespace gnbv

@@ -1,0 +1,55 @@
+// Collision-free ways between legal viewpoints, by someone who knows where the structure is.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "bench/limits/legal_viewpoints.hpp"
+
+namespace gnbv {
+
+struct Way {
+  double length_m = 0.0;
+  std::vector<Vec3> via_world_m = {};  // points between the ends; none: straight
+};
+
+/// Ways from place to place. A place is a legal viewpoint by its index, or start() itself. Shortest
+/// ways over the lattice's legs from a place are found once (Dijkstra 1959) and kept.
+class LatticeWays {
+ public:
+  /// Keeps references to both.
+  LatticeWays(const RayScene& scene, const LegalViewpoints& legal, double radius_m);
+
+  std::size_t start() const { return legal_.size(); }
+  const Vec3& p_world_m(std::size_t place) const;
+
+  /// Finds what the questions below need, for these places.
+  void prepare(const std::vector<std::size_t>& from, int threads);
+
+  /// A quick guess of the way's length from a prepared place: straight, unless the lattice's way is
+  /// so much longer that something must be in between.
+  double guess_m(std::size_t from, std::size_t to) const;
+
+  /// Straight when that keeps the radius; else along the lattice from `from`, a prepared place, cut
+  /// short where a leg between its points keeps the radius, too.
+  Way way(std::size_t from, std::size_t to) const;
+
+  /// The length of way() before it is cut short, in the same sense straight only if it may be.
+  double distance_m(std::size_t from, std::size_t to) const;
+
+ private:
+  struct Tree {
+    std::vector<double> length_m;
+    std::vector<std::uint32_t> before;
+  };
+  Tree grow(std::size_t from) const;
+  bool is_straight_clear(std::size_t from, std::size_t to) const;
+
+  const RayScene& scene_;
+  const LegalViewpoints& legal_;
+  double radius_m_;
+  std::map<std::size_t, Tree> trees_;
+};
+
+}  // namespace gnbv

@@ -1,0 +1,49 @@
+// Which of the reference's voxels any legal viewpoint sees, at any yaw: the physical ceiling.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "bench/score/surface_reference.hpp"
+#include "sensors/camera_model.hpp"
+
+namespace gnbv {
+
+/// Where a camera on a level vehicle that turns freely has to have a point for it to be in the
+/// image: a set of bearings is tried, from the image's middle column to its edges, since the middle
+/// reaches the steepest rows and the edges, with depth measured along the optical axis, the
+/// farthest.
+class FreeYawCamera {
+ public:
+  explicit FreeYawCamera(const CameraModel& camera);
+
+  /// No point farther from the vehicle's position is in the image.
+  double reach_m() const { return reach_m_; }
+
+  /// Where the camera is when it has the point within its image and range, at the first yaw tried
+  /// that does it; nothing when none does. Nothing is said about what is in between.
+  std::optional<Vec3> origin_world_m(const Vec3& vehicle_world_m, const Vec3& point_world_m) const;
+
+ private:
+  /// The point's place in the optical frame is linear in its level distance and its height.
+  struct Bearing {
+    double rad = 0.0;  // of the point, from the body's x axis
+    Vec3 per_level = Vec3::Zero();
+    Vec3 per_height = Vec3::Zero();
+  };
+  double tan_x_ = 0.0, tan_y_ = 0.0, range_min_m_ = 0.0, range_max_m_ = 0.0, reach_m_ = 0.0;
+  Vec3 p_body_m_ = Vec3::Zero();
+  Vec3 offset_camera_m_ = Vec3::Zero();
+  std::vector<Bearing> bearings_;
+};
+
+/// The finest raw voxels of the reference of which some sample is seen from one of the positions:
+/// in the image of one of the cameras at some yaw, with nothing of the structure or the ground in
+/// between. Up to four samples of a voxel are asked, evenly spaced among its own. The same at any
+/// number of threads.
+VoxelSet seen_voxels(const World& world, const RayScene& scene,
+                     std::span<const CameraModel> cameras, std::span<const Vec3> positions_world_m,
+                     const ReferenceConfig& config, int threads);
+
+}  // namespace gnbv

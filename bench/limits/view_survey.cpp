@@ -1,0 +1,112 @@
+#include "bench/limits/view_survey.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bench/limits/cloud_of_views.hpp"
+#include "sim/core/parallel.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr int kYaws = 8;
+constexpr double kFewestPixels = 0.05;  // share of the images that has to show structure
+constexpr std::size_t kViewsAtOnce = 16;
+
+/// Cameras that look the same way with few pixels.
+std::vector<CameraModel> coarse(std::span<const CameraModel> cameras) {
+  std::vector<CameraModel> out;
+  for (const CameraModel& camera : cameras) {
+    CameraConfig config = camera.config;
+    config.width_px = 40;
+    config.height_px = 32;
+    out.push_back(make_camera_model(config));
+  }
+  return out;
+}
+
+double reach_m(std::span<const CameraModel> cameras) {
+  double farthest_m = 0.0;
+  for (const CameraModel& camera : cameras) {
+    const CameraConfig& c = camera.config;
+    const double corner = std::hypot(1.0, std::tan(0.5 * c.fov_x_rad), std::tan(0.5 * c.fov_y_rad));
+    farthest_m = std::max(farthest_m, c.p_body_m.norm() + c.range_max_m * corner);
+  }
+  return farthest_m;
+}
+
+/// Lattice steps between surveyed positions: one where two are more than half of what the most
+/// short-sighted camera reaches, since nobody would see what lies between them.
+std::int32_t stride_of(const LegalViewpoints& legal, std::span<const CameraModel> cameras) {
+  double reach_m = std::numeric_limits<double>::infinity();
+  for (const CameraModel& camera : cameras) {
+    reach_m = std::min(reach_m, camera.config.range_max_m);
+  }
+  return 2.0 * legal.step_m > 0.5 * reach_m ? 1 : 2;
+}
+
+double share_of_hits(std::span<const FrameRays> view) {
+  std::ptrdiff_t hits = 0;
+  std::size_t pixels = 0;
+  for (const FrameRays& frame : view) {
+    hits += std::count(frame.kind.begin(), frame.kind.end(), PixelRay::hits);
+    pixels += frame.kind.size();
+  }
+  return static_cast<double>(hits) / static_cast<double>(std::max<std::size_t>(pixels, 1));
+}
+
+std::vector<SurveyedView> worthwhile_views(const RayScene& scene, const LegalViewpoints& legal,
+                                           std::span<const CameraModel> cameras, double floor_z_m,
+                                           int threads) {
+  const std::vector<CameraModel> quick = coarse(cameras);
+  const double far_m = reach_m(cameras);
+  const std::int32_t stride = stride_of(legal, cameras);
+  std::vector<std::vector<SurveyedView>> at(legal.size());
+  parallel_for(threads, legal.size(), [&](std::size_t i) {
+    const auto& cell = legal.cell[i];
+    if (cell[0] % stride != 0 || cell[1] % stride != 0 || cell[2] % stride != 0) return;
+    if (std::isinf(scene.distance_to_structure_m(legal.p_world_m[i], far_m))) return;
+    std::vector<FrameRays> rays;
+    for (int k = 0; k < kYaws; ++k) {
+      const SurveyedView view{.position = static_cast<std::uint32_t>(i),
+                              .yaw_rad = wrap_angle_rad(2.0 * kPi * k / kYaws)};
+      take_view(scene, quick, pose_of(legal, view), floor_z_m, 1, rays);
+      if (share_of_hits(rays) >= kFewestPixels) at[i].push_back(view);
+    }
+  });
+  std::vector<SurveyedView> views;
+  for (const auto& some : at) views.insert(views.end(), some.begin(), some.end());
+  return views;
+}
+
+}  // namespace
+
+ViewPose pose_of(const LegalViewpoints& legal, const SurveyedView& view) {
+  return {legal.p_world_m[view.position], view.yaw_rad};
+}
+
+ViewSurvey survey_views(const Scenario& scenario, const RayScene& scene,
+                        const LegalViewpoints& legal, const SurfaceReference& reference,
+                        int threads) {
+  const std::vector<CameraModel> cameras = exact_cameras(scenario);
+  const double floor_z_m = scenario.planner.floor_z_m;
+  ViewSurvey survey;
+  survey.views = worthwhile_views(scene, legal, cameras, floor_z_m, threads);
+  CloudOfViews cloud(scenario, reference.outside[0]);
+  std::vector<std::vector<FrameRays>> rays(kViewsAtOnce);
+  for (std::size_t begin = 0; begin < survey.views.size(); begin += kViewsAtOnce) {
+    const std::size_t count = std::min(kViewsAtOnce, survey.views.size() - begin);
+    parallel_for(threads, count, [&](std::size_t i) {
+      SurveyedView& view = survey.views[begin + i];
+      take_view(scene, cameras, pose_of(legal, view), floor_z_m, 1, rays[i]);
+      view.finds = finds_alone(reference.outside[0], rays[i], scenario.planner.cloud.leaf_m);
+    });
+    for (std::size_t i = 0; i < count; ++i) cloud.add(rays[i]);
+  }
+  survey.leaf_raw = coverage_at_all_sizes(reference.raw, cloud.points_world_m());
+  survey.leaf_outside = coverage_at_all_sizes(reference.outside, cloud.points_world_m());
+  return survey;
+}
+
+}  // namespace gnbv

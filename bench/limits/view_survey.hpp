@@ -1,0 +1,37 @@
+// What the cloud keeps of every view of a coarse lattice: the leaf ceiling, and what the oracle
+// chooses from.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "bench/limits/legal_viewpoints.hpp"
+#include "bench/score/surface_reference.hpp"
+
+namespace gnbv {
+
+struct SurveyedView {
+  std::uint32_t position = 0;             // of the legal viewpoints
+  double yaw_rad = 0.0;                   // a multiple of 45 degrees, in (-pi, pi]
+  std::vector<std::uint32_t> finds = {};  // finds_alone() of the finest outside voxels
+};
+
+ViewPose pose_of(const LegalViewpoints& legal, const SurveyedView& view);
+
+struct ViewSurvey {
+  std::vector<SurveyedView> views;
+  std::array<double, 3> leaf_raw{};  // coverage of the cloud of all views, by kCoverageSizes_m
+  std::array<double, 3> leaf_outside{};
+};
+
+/// Every second legal position along each axis (every one where two steps are more than half the
+/// least range_max_m of the cameras), by eight yaws, as far as the structure fills a twentieth of
+/// the images at least. All views, in the order of `views`, go through one cloud
+/// (CloudOfViews). A leaf of it keeps the centroid that reached it first, as a mission's does:
+/// another order gives a slightly different cloud. The same at any number of threads.
+ViewSurvey survey_views(const Scenario& scenario, const RayScene& scene,
+                        const LegalViewpoints& legal, const SurfaceReference& reference,
+                        int threads);
+
+}  // namespace gnbv

@@ -1,0 +1,28 @@
+// Coverage as a cloud grows, all of it in one pass.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "bench/score/surface_reference.hpp"
+
+namespace gnbv {
+
+/// Coverage as fractions, by kCoverageSizes_m.
+struct CoverageShares {
+  std::array<double, 3> raw{};
+  std::array<double, 3> outside{};
+};
+
+/// What the first prefixes[i] points of the cloud cover, for each i: the same as coverage() of
+/// their voxels, but every point is looked at once a size. Requires that prefixes never shrink and
+/// end within the cloud, and that `outside` is part of `raw`. Throws BrokenInvariant for a point
+/// that has no voxel.
+std::vector<CoverageShares> coverage_of_prefixes(const SurfaceReference& reference,
+                                                 std::span<const Vec3f> cloud_world_m,
+                                                 std::span<const std::size_t> prefixes,
+                                                 int threads);
+
+}  // namespace gnbv

@@ -1,0 +1,32 @@
+#include "bench/score/mission_score.hpp"
+
+namespace gnbv {
+
+MissionScore score_cloud(const SurfaceReference& reference, const RayScene& scene,
+                         const ScoredCloud& cloud, double density_voxel_m, int threads) {
+  // the profile, what each view left, and the whole cloud: the curve ends with the last view
+  std::vector<std::size_t> prefixes = {cloud.profile_points};
+  for (const ViewMark& view : cloud.views) prefixes.push_back(view.cloud_points);
+  prefixes.push_back(cloud.points_world_m.size());
+  const std::vector<CoverageShares> shares =
+      coverage_of_prefixes(reference, cloud.points_world_m, prefixes, threads);
+
+  MissionScore score{.profile = shares.front().outside,
+                     .final = shares.back().outside,
+                     .profile_raw = shares.front().raw,
+                     .final_raw = shares.back().raw};
+  score.curve.coverage.push_back(shares.front().outside);
+  score.curve.metres.push_back(0.0);
+  score.curve.seconds.push_back(0.0);
+  for (std::size_t i = 0; i < cloud.views.size(); ++i) {
+    score.curve.coverage.push_back(shares[i + 1].outside);
+    score.curve.metres.push_back(cloud.views[i].straight_m);
+    score.curve.seconds.push_back(cloud.views[i].time_s - cloud.profile_end_s);
+  }
+  score.distances =
+      cloud_distances(scene, cloud.points_world_m, reference.samples_world_m, threads);
+  score.density = cloud_density(cloud.points_world_m, density_voxel_m);
+  return score;
+}
+
+}  // namespace gnbv

@@ -1,0 +1,45 @@
+// How good a mission was, against the truth that the planner never saw.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "bench/score/cloud_metrics.hpp"
+#include "bench/score/coverage_curve.hpp"
+#include "bench/score/run_figures.hpp"
+#include "bench/score/surface_reference.hpp"
+
+namespace gnbv {
+
+/// Where a mission was after a view.
+struct ViewMark {
+  std::size_t cloud_points = 0;
+  double straight_m = 0.0;  // from the first view on
+  double time_s = 0.0;      // since the start of the mission
+};
+
+/// All of a mission that its score depends on; a run directory holds it, too.
+struct ScoredCloud {
+  std::span<const Vec3f> points_world_m;
+  std::size_t profile_points = 0;  // the first ones
+  double profile_end_s = 0.0;
+  std::vector<ViewMark> views = {};
+};
+
+/// Coverage as fractions, by kCoverageSizes_m.
+struct MissionScore {
+  std::array<double, 3> profile{};  // outside-visible reference
+  std::array<double, 3> final{};
+  std::array<double, 3> profile_raw{};  // raw reference
+  std::array<double, 3> final_raw{};
+  CloudDistances distances = {};
+  CloudDensity density = {};  // over voxels of the map's size
+  CoverageCurve curve = {};
+};
+
+/// Deterministic at any number of threads. `density_voxel_m` is planner.map.resolution_m.
+MissionScore score_cloud(const SurfaceReference& reference, const RayScene& scene,
+                         const ScoredCloud& cloud, double density_voxel_m, int threads);
+
+}  // namespace gnbv

@@ -1,0 +1,95 @@
+// The surface reference as bytes, and back from the cache.
+#include <bit>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "bench/score/content_cache.hpp"
+#include "bench/score/packed_counts.hpp"
+#include "bench/score/surface_reference.hpp"
+#include "sim/core/sha256.hpp"
+
+namespace gnbv {
+namespace {
+
+static_assert(std::endian::native == std::endian::little);
+static_assert(sizeof(Vec3f) == 3 * sizeof(float));
+
+// Another number whenever make_surface_reference() or the bytes below change.
+constexpr std::string_view kKind = "surface_reference-1";
+
+std::string key_of(const TriangleMesh& mesh, const ReferenceConfig& config) {
+  Sha256 sha;
+  add_mesh(sha, mesh);
+  for (const double value : {config.floor_z_m, config.sample_spacing_m, config.escape_near_m}) {
+    sha.add(value);
+  }
+  sha.add(config.directions);
+  return sha.hex();
+}
+
+/// The gaps between sorted codes are small: neighbours along z differ by one.
+void put_voxels(const VoxelSet& voxels, std::string& bytes) {
+  put_count(voxels.size(), bytes);
+  std::uint64_t before = 0;
+  for (const std::uint64_t code : voxels) {
+    put_count(code - before, bytes);
+    before = code;
+  }
+}
+
+std::optional<VoxelSet> take_voxels(std::string_view& bytes) {
+  const auto count = take_count(bytes);
+  if (!count || *count > bytes.size()) return std::nullopt;  // a byte a voxel at least
+  VoxelSet voxels;
+  voxels.reserve(*count);
+  std::uint64_t code = 0;
+  for (std::uint64_t i = 0; i < *count; ++i) {
+    const auto gap = take_count(bytes);
+    if (!gap) return std::nullopt;
+    voxels.push_back(code += *gap);
+  }
+  return voxels;
+}
+
+std::string bytes_of(const SurfaceReference& reference) {
+  std::string bytes;
+  for (const auto* const sizes : {&reference.raw, &reference.outside}) {
+    for (const VoxelSet& voxels : *sizes) put_voxels(voxels, bytes);
+  }
+  const std::span<const Vec3f> samples = reference.samples_world_m;
+  bytes.append(reinterpret_cast<const char*>(samples.data()), samples.size_bytes());
+  return bytes;
+}
+
+std::optional<SurfaceReference> reference_in(std::string_view bytes) {
+  SurfaceReference reference;
+  for (auto* const sizes : {&reference.raw, &reference.outside}) {
+    for (VoxelSet& voxels : *sizes) {
+      std::optional<VoxelSet> taken = take_voxels(bytes);
+      if (!taken) return std::nullopt;
+      voxels = *std::move(taken);
+    }
+  }
+  std::vector<Vec3f>& samples = reference.samples_world_m;
+  samples.resize(reference.outside[0].size());
+  if (bytes.size() != std::span(samples).size_bytes()) return std::nullopt;
+  if (!bytes.empty()) std::memcpy(samples.data()->data(), bytes.data(), bytes.size());
+  return reference;
+}
+
+}  // namespace
+
+SurfaceReference cached_surface_reference(const World& world, const RayScene& scene,
+                                          const ReferenceConfig& config, int threads) {
+  const std::string key = key_of(world.structure, config);
+  if (const auto bytes = load_cached(kKind, key)) {
+    if (auto reference = reference_in(*bytes)) return *std::move(reference);
+  }
+  SurfaceReference reference = make_surface_reference(world, scene, config, threads);
+  store_cached(kKind, key, bytes_of(reference));
+  return reference;
+}
+
+}  // namespace gnbv

@@ -1,0 +1,60 @@
+// What one mission reached: what tables, statistics and gates are made of.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bench/score/cloud_metrics.hpp"
+
+namespace gnbv {
+
+/// Coverage as the mission went on. Entry 0 is the profile alone (0 views, 0 m, 0 s), entry n what
+/// the first n views left. Metres are planned straight legs from the first view on, seconds are
+/// simulated, from the end of the profile on.
+struct CoverageCurve {
+  std::vector<std::array<double, 3>> coverage;  // outside-visible reference, by kCoverageSizes_m
+  std::vector<double> metres;
+  std::vector<double> seconds;
+
+  std::size_t views() const { return coverage.empty() ? 0 : coverage.size() - 1; }
+};
+
+/// The abscissa of a curve.
+enum class Effort { views, metres, seconds };
+
+/// Mean coverage (size index `size`) over [0, budget] of the effort, by the trapezoidal rule;
+/// after the last view coverage stays what it is. In [0, 1]. Requires budget > 0 and a curve.
+double area_under_coverage(const CoverageCurve& curve, Effort effort, std::size_t size,
+                           double budget);
+
+/// Coverage as fractions by kCoverageSizes_m.
+struct RunFigures {
+  std::string scenario;
+  std::string structure;  // built-in name, or path of the mesh
+  std::string utility;
+  std::string preset;
+  std::uint64_t seed = 0;
+  std::string version;
+  std::string termination;
+  std::string result_sha256;
+  int iterations = 0;
+  double entropy_reduction_nat = 0.0;
+  double straight_m = 0.0;  // between consecutive views, without the profile
+  double flown_m = 0.0;     // the same as the vehicle flew it
+  double profile_m = 0.0;
+  double flight_time_s = 0.0;
+  double energy_wh = 0.0;
+  std::array<double, 3> coverage_final{};      // of the surface seen from outside
+  std::array<double, 3> coverage_profile{};    // the same, after the profile
+  std::array<double, 3> coverage_final_raw{};  // of all surface
+  std::array<double, 3> coverage_profile_raw{};
+  double density_points_per_voxel = 0.0;  // cloud points per occupied voxel (Fig. 9)
+  CloudDistances distances;               // precision, recall, F, Chamfer
+  CloudDensity density;
+  CoverageCurve curve;  // may be empty
+  double wall_s = 0.0;
+};
+
+}  // namespace gnbv

@@ -1,0 +1,208 @@
+#include "bench/speed/cloud_speed.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <ctime>
+
+#include "assets/aircraft.hpp"
+#include "bench/reference/pcl_twin.hpp"
+#include "planner/map/surface_cloud.hpp"
+#include "sensors/capture.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr double kFloor_m = 0.3;
+constexpr int kViewsBefore = 90;  // 1.4 million points, as halfway through the paper's mission
+constexpr int kViewsTimed = 15;
+const Box3 kWorkspace_m(Vec3(-20, -20, 0), Vec3(20, 20, 20));
+
+double thread_time_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The paper's pair: one camera looks down by 20 degrees, the other up.
+std::array<CameraModel, 2> camera_pair() {
+  CameraConfig config;
+  config.pitch_rad = deg_to_rad(20.0);
+  const CameraModel down = make_camera_model(config);
+  config.pitch_rad = -config.pitch_rad;
+  return {down, make_camera_model(config)};
+}
+
+/// Views all over the structure, a few metres off its faces and towards them.
+class Views {
+ public:
+  Views() : world_{make_aircraft(), true}, scene_(world_), cameras_(camera_pair()) {}
+
+  std::vector<FrameRays> take(int view) const {
+    const ViewPose pose = pose_of(view);
+    std::vector<FrameRays> rays(cameras_.size());
+    for (std::size_t c = 0; c < cameras_.size(); ++c) {
+      const DepthFrame frame =
+          capture_depth(scene_, cameras_[c], static_cast<int>(c), T_world_body(pose), {}, 1);
+      compute_frame_rays(frame, cameras_[c], kFloor_m, rays[c]);
+    }
+    return rays;
+  }
+
+ private:
+  ViewPose pose_of(int view) const {
+    constexpr std::size_t kStride = 7919;  // a prime: every face in turn, far from the last one
+    const TriangleMesh& mesh = world_.structure;
+    const auto& face = mesh.faces[static_cast<std::size_t>(view) * kStride % mesh.faces.size()];
+    const Vec3 a = mesh.vertices_m[face[0]].cast<double>();
+    const Vec3 b = mesh.vertices_m[face[1]].cast<double>();
+    const Vec3 c = mesh.vertices_m[face[2]].cast<double>();
+    const Vec3 normal = (b - a).cross(c - a).normalized();
+    const Vec3 level(normal.x(), normal.y(), 0.0);
+    const Vec3 away = level.norm() > 1e-3 ? Vec3(level.normalized()) : Vec3::UnitX();
+    Vec3 p_m = (a + b + c) / 3.0 + 4.5 * away + 2.0 * normal.z() * Vec3::UnitZ();
+    p_m.z() = std::max(p_m.z(), 1.0);
+    return {p_m, std::atan2(-away.y(), -away.x())};
+  }
+
+  World world_;
+  RayScene scene_;
+  std::array<CameraModel, 2> cameras_;
+};
+
+struct VoxelSums {
+  std::vector<std::uint32_t> points;
+  std::vector<std::uint64_t> neighbours;
+};
+
+VoxelSums sums_of(const SurfaceCloud& cloud, const GridGeometry& grid) {
+  VoxelSums sums;
+  for (VoxelIndex v = 0; v < grid.voxel_count(); ++v) {
+    sums.points.push_back(cloud.point_count(v));
+    sums.neighbours.push_back(cloud.neighbour_sum(v));
+  }
+  return sums;
+}
+
+std::vector<Vec3f> hits_of(std::span<const FrameRays> frames) {
+  std::vector<Vec3f> hits_m;
+  for (const FrameRays& rays : frames) {
+    for (std::size_t i = 0; i < rays.kind.size(); ++i) {
+      if (rays.kind[i] != PixelRay::hits) continue;
+      hits_m.emplace_back(rays.x_m[i], rays.y_m[i], rays.z_m[i]);
+    }
+  }
+  return hits_m;
+}
+
+/// SurfaceCloud and PCL side by side.
+class Race {
+ public:
+  Race() : grid_(kWorkspace_m, 0.2), cloud_(CloudConfig{}, grid_), pcl_(cloud_.search_radius_m()) {}
+
+  void prepare(std::span<const FrameRays> frames) { cloud_.add(frames, leaf_m_); }
+
+  void run(std::span<const FrameRays> frames) {
+    const VoxelSums before = sums_of(cloud_, grid_);
+    const std::size_t points_before = cloud_.points_world_m().size();
+    const double began_ms = thread_time_ms();
+    cloud_.add(frames, leaf_m_);
+    ours_ms_.push_back(thread_time_ms() - began_ms);
+    pcl_.append(cloud_.points_world_m().subspan(pcl_.size()));
+
+    const VoxelSums after = sums_of(cloud_, grid_);
+    std::vector<bool> is_changed(grid_.voxel_count(), false);
+    for (std::size_t v = 0; v < is_changed.size(); ++v) {
+      is_changed[v] =
+          after.points[v] != before.points[v] || after.neighbours[v] != before.neighbours[v];
+    }
+    std::vector<std::uint32_t> asked;
+    for (std::size_t i = 0; i < pcl_.size(); ++i) {
+      if (is_changed[voxel_of(i)]) asked.push_back(static_cast<std::uint32_t>(i));
+    }
+    const std::vector<std::uint32_t> counts = time_reference(hits_of(frames), asked);
+    compare(is_changed, after, asked, counts);
+    need_no_reach_beyond(is_changed, points_before);
+  }
+
+  SpeedRow row() const {
+    const double ours_ms = median(ours_ms_);
+    const double reference_ms = median(reference_ms_);
+    return {.name = "leaf_filter_and_density",
+            .ours = ours_ms,
+            .reference = reference_ms,
+            .unit = "ms",
+            .ratio = reference_ms / ours_ms,
+            .identical = is_identical_,
+            .target = 50.0};
+  }
+
+ private:
+  VoxelIndex voxel_of(std::size_t point) const {
+    return grid_.index_of(grid_.key_of(cloud_.points_world_m()[point]));
+  }
+
+  std::vector<std::uint32_t> time_reference(const std::vector<Vec3f>& hits_m,
+                                            const std::vector<std::uint32_t>& asked) {
+    std::vector<std::uint32_t> counts;
+    counts.reserve(asked.size());
+    const double began_ms = thread_time_ms();
+    const std::vector<Vec3f> filtered_m = pcl_leaf_filter(hits_m, leaf_m_);
+    pcl_.build();
+    for (const std::uint32_t i : asked) counts.push_back(pcl_.count(i));
+    reference_ms_.push_back(thread_time_ms() - began_ms);
+    is_identical_ = is_identical_ && filtered_m.size() == leaf_filter(hits_m, leaf_m_).size();
+    return counts;
+  }
+
+  void compare(const std::vector<bool>& is_changed, const VoxelSums& after,
+               const std::vector<std::uint32_t>& asked, const std::vector<std::uint32_t>& counts) {
+    VoxelSums by_pcl{.points = std::vector<std::uint32_t>(is_changed.size(), 0),
+                     .neighbours = std::vector<std::uint64_t>(is_changed.size(), 0)};
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      const VoxelIndex v = voxel_of(asked[i]);
+      ++by_pcl.points[v];
+      by_pcl.neighbours[v] += counts[i];
+    }
+    for (std::size_t v = 0; v < is_changed.size(); ++v) {
+      if (!is_changed[v]) continue;
+      is_identical_ = is_identical_ && by_pcl.points[v] == after.points[v] &&
+                      by_pcl.neighbours[v] == after.neighbours[v];
+    }
+  }
+
+  void need_no_reach_beyond(const std::vector<bool>& is_changed, std::size_t points_before) {
+    for (std::size_t i = points_before; i < pcl_.size(); ++i) {
+      for (const int near : pcl_.near(i)) {
+        is_identical_ = is_identical_ && is_changed[voxel_of(static_cast<std::size_t>(near))];
+      }
+    }
+  }
+
+  double leaf_m_ = CloudConfig{}.leaf_m;
+  GridGeometry grid_;
+  SurfaceCloud cloud_;
+  PclNeighbours pcl_;
+  std::vector<double> ours_ms_, reference_ms_;
+  bool is_identical_ = true;
+};
+
+}  // namespace
+
+std::vector<SpeedRow> cloud_speed() {
+  const Views views;
+  Race race;
+  for (int view = 0; view < kViewsBefore; ++view) race.prepare(views.take(view));
+  for (int view = kViewsBefore; view < kViewsBefore + kViewsTimed; ++view) {
+    race.run(views.take(view));
+  }
+  return {race.row()};
+}
+
+}  // namespace gnbv

@@ -1,0 +1,11 @@
+#include "planner/map/pixel_loops.hpp"
+#include "planner/map/voxel_loops.hpp"
+
+namespace gnbv {
+
+const FrameKernels kFrameKernelsSse2 = {.rays_of_row = rays_of_row,
+                                        .ends_of_row = ends_of_row,
+                                        .invert_row = invert_row,
+                                        .project_layer = project_layer};
+
+}  // namespace gnbv

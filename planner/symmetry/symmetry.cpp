@@ -1,0 +1,185 @@
+#include "planner/symmetry/symmetry.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/symmetry/mirror_support.hpp"
+#include "planner/symmetry/symmetry_module.hpp"
+
+namespace gnbv {
+namespace {
+
+// of pairs of keypoints
+constexpr double kMinDistance_m = 1.0;  // nearer ones say little about the direction
+constexpr double kMaxTilt_rad = deg_to_rad(10.0);
+constexpr double kMaxNormalError_rad = deg_to_rad(30.0);
+// of planes
+constexpr double kBandwidth_m = 0.6;
+constexpr std::size_t kMaxRefined = 5;
+constexpr double kRefineReach_m = 1.5;
+constexpr double kMaxGainOfRefining = 0.3;  // of support, with room: 0.15 on the aircraft
+constexpr double kMinMoved = 0.25;          // else nearly everything stays where it is
+constexpr std::size_t kMaxWitnesses = 4000;
+
+/// Points the way to free space around the point, two voxels each way; zero where nothing is free.
+Vec3f outward(const OccupancyGrid& grid, const Vec3f& p_world_m) {
+  const GridGeometry& geometry = grid.geometry();
+  const Key key = geometry.key_of(p_world_m);
+  Vec3f sum = Vec3f::Zero();
+  for (std::int32_t dz = -2; dz <= 2; ++dz) {
+    for (std::int32_t dy = -2; dy <= 2; ++dy) {
+      for (std::int32_t dx = -2; dx <= 2; ++dx) {
+        const Key near = {key[0] + dx, key[1] + dy, key[2] + dz};
+        if (!geometry.contains(near)) continue;
+        if (grid.state(geometry.index_of(near)) != VoxelState::free) continue;
+        sum += Eigen::Vector3i(dx, dy, dz).cast<float>();
+      }
+    }
+  }
+  return sum;
+}
+
+std::vector<ProfilePoint> oriented(std::span<const Vec3f> profile_world_m,
+                                   const OccupancyGrid& grid) {
+  std::vector<ProfilePoint> out;
+  for (const Vec3f& p : profile_world_m) {
+    if (p.allFinite()) out.push_back({p, outward(grid, p)});
+  }
+  return out;
+}
+
+/// Points whose voxel has kept its surface (a quarter of a profile's points on thin wings lie in
+/// voxels that other rays have cleared), at most so many, evenly chosen.
+std::vector<Vec3f> witnesses(std::span<const Vec3f> profile_world_m, const OccupancyGrid& grid) {
+  std::vector<Vec3f> all;
+  for (const Vec3f& p : profile_world_m) {
+    if (grid.state_at(p.cast<double>()) == VoxelState::occupied) all.push_back(p);
+  }
+  if (all.size() <= kMaxWitnesses) return all;
+  std::vector<Vec3f> chosen;
+  for (std::size_t i = 0; i < kMaxWitnesses; ++i) {
+    chosen.push_back(all[i * all.size() / kMaxWitnesses]);
+  }
+  return chosen;
+}
+
+/// Root mean square distance from the centroid.
+Extent extent_of(std::span<const Vec3f> points_world_m) {
+  const auto count = static_cast<double>(points_world_m.size());
+  Extent extent;
+  for (const Vec3f& p : points_world_m) extent.center_world_m += p.cast<double>() / count;
+  double sum_m2 = 0.0;
+  for (const Vec3f& p : points_world_m) {
+    sum_m2 += (p.cast<double>() - extent.center_world_m).squaredNorm();
+  }
+  extent.radius_m = std::sqrt(sum_m2 / count);
+  return extent;
+}
+
+bool is_upright(const MirrorPlane& plane) {
+  return std::fabs(plane.normal_world.z()) <= std::sin(kMaxTilt_rad);
+}
+
+/// The plane in the middle of each pair whose surfaces, too, mirror each other in it.
+std::vector<MirrorPlane> mid_planes(std::span<const KeypointPair> pairs) {
+  std::vector<MirrorPlane> planes;
+  for (const KeypointPair& pair : pairs) {
+    const Vec3 a_m = pair.a_world_m.cast<double>();
+    const Vec3 b_m = pair.b_world_m.cast<double>();
+    if ((b_m - a_m).norm() < kMinDistance_m) continue;
+    const MirrorPlane plane = plane_through(0.5 * (a_m + b_m), b_m - a_m);
+    const Vec3 image = mirrored({plane.normal_world, 0.0}, pair.a_normal_world.cast<double>());
+    if (image.dot(pair.b_normal_world.cast<double>()) < std::cos(kMaxNormalError_rad)) continue;
+    if (is_upright(plane)) planes.push_back(plane);
+  }
+  return planes;
+}
+
+struct Candidate {
+  MirrorPlane plane;
+  MirrorSupport support;
+};
+
+/// Those that mirror enough of the profile onto measured surface, and not onto itself; best
+/// supported first.
+std::vector<Candidate> judged(std::span<const MirrorPlane> planes,
+                              std::span<const Vec3f> witnesses_world_m, const OccupancyGrid& grid,
+                              double min_confirmed) {
+  std::vector<Candidate> out;
+  for (const MirrorPlane& plane : planes) {
+    if (!is_upright(plane)) continue;
+    const MirrorSupport support = mirror_support(grid, witnesses_world_m, plane);
+    if (support.moved < kMinMoved || support.confirmed < min_confirmed) continue;
+    out.push_back({plane, support});
+  }
+  std::stable_sort(out.begin(), out.end(), [](const Candidate& a, const Candidate& b) {
+    return a.support.support > b.support.support;
+  });
+  return out;
+}
+
+/// The best of the candidates, each the only one within the reach of its refinement.
+std::vector<MirrorPlane> worth_refining(std::span<const Candidate> candidates, double min_support,
+                                        const Extent& extent) {
+  std::vector<MirrorPlane> chosen;
+  for (const Candidate& candidate : candidates) {
+    if (candidate.support.support < min_support || chosen.size() == kMaxRefined) break;
+    const bool is_new = std::none_of(chosen.begin(), chosen.end(), [&](const MirrorPlane& other) {
+      return distance_m(candidate.plane, other, extent) < kRefineReach_m;
+    });
+    if (is_new) chosen.push_back(candidate.plane);
+  }
+  return chosen;
+}
+
+/// The clusters of mid-planes of all pairs of keypoints.
+std::vector<MirrorPlane> rough_planes(std::span<const ProfilePoint> profile, const Extent& extent) {
+  std::vector<KeypointPair> pairs;
+  symmetry_module().match_keypoints(profile, pairs);
+  std::vector<MirrorPlane> planes;
+  for (const PlaneCluster& cluster : cluster_planes(mid_planes(pairs), extent, kBandwidth_m)) {
+    planes.push_back(cluster.plane);
+  }
+  return planes;
+}
+
+}  // namespace
+
+Symmetry find_symmetry(const SymmetryConfig& config, std::span<const Vec3f> profile_world_m,
+                       const OccupancyGrid& grid) {
+  Symmetry symmetry;
+  if (!config.enabled) return symmetry;
+  const std::vector<Vec3f> witnesses_world_m = witnesses(profile_world_m, grid);
+  if (witnesses_world_m.empty()) return symmetry;
+  const std::vector<ProfilePoint> profile = oriented(profile_world_m, grid);
+  const Extent extent = extent_of(witnesses_world_m);
+  // a plane found roughly misses thin wings: less is asked of it
+  const std::vector<Candidate> rough =
+      judged(rough_planes(profile, extent), witnesses_world_m, grid, 0.5 * config.min_confirmed);
+  std::vector<MirrorPlane> planes =
+      worth_refining(rough, config.min_support - kMaxGainOfRefining, extent);
+  symmetry_module().refine_planes(profile, planes);
+  const std::vector<Candidate> refined =
+      judged(planes, witnesses_world_m, grid, config.min_confirmed);
+
+  if (rough.empty()) return symmetry;
+  const Candidate& best = refined.empty() ? rough.front() : refined.front();
+  symmetry.support = best.support.support;
+  symmetry.confirmed = best.support.confirmed;
+  if (refined.empty() || symmetry.support < config.min_support) return symmetry;
+  symmetry.plane = best.plane;
+  for (const Vec3f& p : profile_world_m) {
+    symmetry.mirrored_world_m.push_back(mirrored(best.plane, p.cast<double>()).cast<float>());
+  }
+  return symmetry;
+}
+
+std::size_t predict_surface(const Symmetry& symmetry, OccupancyGrid& grid) {
+  for (const Vec3f& p : symmetry.mirrored_world_m) {
+    const Key key = grid.geometry().key_of(p);
+    if (grid.geometry().contains(key)) grid.predict(grid.geometry().index_of(key));
+  }
+  return grid.predicted_count();
+}
+
+}  // namespace gnbv

@@ -1,0 +1,40 @@
+// Whether the profile is one half of a mirror-symmetric structure (paper section 2.3): the plane,
+// and the other half.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "planner/map/occupancy_grid.hpp"
+#include "planner/symmetry/mirror_plane.hpp"
+
+namespace gnbv {
+
+/// Defaults: the released configuration where it works on the two structures of the paper, our own
+/// choice elsewhere (FIDELITY.md).
+struct SymmetryConfig {
+  bool enabled = true;
+  double min_support = 0.985;  // share of mirrored points not contradicted by measured free space
+  double min_confirmed = 0.4;  // share of them that falls on measured surface
+};
+
+struct Symmetry {
+  std::optional<MirrorPlane> plane;  // nothing: the structure is not symmetric, or not known to be
+  double support = 0.0;              // of the best plane, accepted or not
+  double confirmed = 0.0;            // of the same plane
+  std::vector<Vec3f> mirrored_world_m;  // the profile seen in the mirror; empty without a plane
+};
+
+/// Finds the plane from the points of the profile and what the map knows of the space between.
+/// Structures stand on the ground, so that only planes within 10 degrees of upright are looked
+/// for. Deterministic; nothing for few or no points, and when disabled. Throws BadInput when the
+/// module that looks for it (planner/symmetry/symmetry_module.hpp) cannot be loaded.
+Symmetry find_symmetry(const SymmetryConfig& config, std::span<const Vec3f> profile_world_m,
+                       const OccupancyGrid& grid);
+
+/// Marks the mirrored points in the map where it knows nothing; returns how many voxels of the map
+/// are marked then.
+std::size_t predict_surface(const Symmetry& symmetry, OccupancyGrid& grid);
+
+}  // namespace gnbv

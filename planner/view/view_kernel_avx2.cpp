@@ -1,0 +1,20 @@
+// The view kernels for processors with AVX2.
+#include "planner/view/view_kernel.hpp"
+
+// the lanes first
+#include "sim/core/lanes_avx2.hpp"
+// then what is written in terms of them, in this order
+#include "planner/map/voxel_word.hpp"
+#include "planner/view/view_prepare.inl"
+#include "planner/view/view_tally.inl"
+#include "planner/view/view_walk.inl"
+#include "sim/core/wide_sums.inl"
+
+namespace gnbv {
+
+extern const ViewKernels kViewKernelsAvx2 = {.prepare = prepare_rays,
+                                             .walk_voxels = walk_rays<false>,
+                                             .walk_full = walk_rays<true>,
+                                             .tally_plane = tally_plane};
+
+}  // namespace gnbv

@@ -1,0 +1,167 @@
+#include "sim/flight/auto_modes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gnbv {
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+using Stage = AutoFlight::Stage;
+
+constexpr double kAltitudeArrival_m = 0.8;  // NAV_MC_ALT_RAD; the rest of the way is flown as well
+constexpr double kHomeArrival_m = 0.5;      // of RTL, before it descends and still comes nearer
+
+Stage first_stage(NavState mode) {
+  switch (mode) {
+    case NavState::takeoff:
+    case NavState::rtl:
+      return Stage::climb;
+    case NavState::land:
+      return Stage::land;
+    case NavState::descend:
+      return Stage::descend;
+    default:
+      return Stage::hold;
+  }
+}
+
+/// Near home RTL climbs no higher than a cone of 45 deg above it.
+double return_altitude_m(const CommanderParameters& parameters, double distance_m) {
+  if (distance_m > parameters.return_distance_min_m) return parameters.return_altitude_m;
+  return std::min(parameters.return_altitude_m, distance_m);
+}
+
+/// MPC_Z_V_AUTO_DN far above the ground, MPC_LAND_SPEED near it.
+double landing_speed_m_s(const CommanderParameters& parameters, double height_m) {
+  const double range_m = parameters.land_slow_from_m - parameters.land_slow_below_m;
+  const double above_m = height_m - parameters.land_slow_below_m;
+  const double share =
+      range_m > 0.0 ? std::clamp(above_m / range_m, 0.0, 1.0) : (above_m > 0.0 ? 1.0 : 0.0);
+  return parameters.land_speed_m_s +
+         share * (parameters.descent_speed_m_s - parameters.land_speed_m_s);
+}
+
+AxisLimits vertical_limits(const CommanderParameters& parameters, bool is_upwards) {
+  return {is_upwards ? parameters.acceleration_up_m_s2 : parameters.acceleration_down_m_s2,
+          parameters.jerk_m_s3};
+}
+
+double speed_to_altitude_m_s(const CommanderParameters& parameters, NavState mode, double rise_m) {
+  const bool is_upwards = rise_m > 0.0;
+  double limit_m_s = is_upwards ? parameters.climb_speed_m_s : parameters.descent_speed_m_s;
+  if (mode == NavState::takeoff) limit_m_s = std::min(limit_m_s, parameters.takeoff_speed_m_s);
+  const double speed_m_s =
+      braking_speed_m_s(std::abs(rise_m), vertical_limits(parameters, is_upwards));
+  return std::copysign(std::min(speed_m_s, limit_m_s), rise_m);
+}
+
+Vec3 position(const AutoFlight& flight) {
+  return {flight.axes[0].x_m, flight.axes[1].x_m, flight.axes[2].x_m};
+}
+
+/// The velocity that the trajectory is to take up. Across a stage that has no place to go to, it
+/// brakes and stays.
+Vec3 wanted_velocity(const AutoFlight& flight, const CommanderParameters& parameters,
+                     double height_m) {
+  const Vec3 p_world_m = position(flight);
+  Vec3 v_m_s = Vec3::Zero();
+  if (flight.stage == Stage::climb || flight.stage == Stage::go_home) {
+    v_m_s.z() = speed_to_altitude_m_s(parameters, flight.mode, flight.altitude_m - p_world_m.z());
+  } else if (flight.stage == Stage::land) {
+    v_m_s.z() = -landing_speed_m_s(parameters, height_m);
+  }
+  if (flight.stage == Stage::go_home ||
+      (flight.stage == Stage::land && flight.mode == NavState::rtl)) {
+    const Vec2 way_m = flight.home_world_m - p_world_m.head<2>();
+    const double speed_m_s = std::min(
+        parameters.cruise_speed_m_s,
+        braking_speed_m_s(way_m.norm(), {parameters.acceleration_m_s2, parameters.jerk_m_s3}));
+    v_m_s.head<2>() = speed_m_s * way_m.normalized();
+  }
+  return v_m_s;
+}
+
+void move_trajectory(AutoFlight& flight, const CommanderParameters& parameters,
+                     const VehicleState& estimate, double dt_s) {
+  const Vec3 p_world_m = estimate.T_world_body.translation();
+  const Vec3 wanted = wanted_velocity(flight, parameters, p_world_m.z());
+  // the trajectory waits for a vehicle that is left behind
+  const double error_m = (position(flight) - p_world_m).head<2>().norm();
+  const double pace = std::max(0.0, 1.0 - error_m / parameters.path_error_max_m);
+  const AxisLimits level{parameters.acceleration_m_s2, parameters.jerk_m_s3};
+  const bool is_upwards = wanted.z() > 0.0;
+  flight.axes =
+      advance_together(flight.axes, {wanted.x(), wanted.y(), wanted.z()},
+                       {level, level, vertical_limits(parameters, is_upwards)}, pace * dt_s);
+}
+
+bool is_at_altitude(const AutoFlight& flight, const VehicleState& estimate) {
+  return std::abs(flight.altitude_m - estimate.T_world_body.translation().z()) < kAltitudeArrival_m;
+}
+
+void enter_next_stage(AutoFlight& flight, const VehicleState& estimate) {
+  if (flight.mode != NavState::rtl) return;
+  const Vec2 p_world_m = estimate.T_world_body.translation().head<2>();
+  if (flight.stage == Stage::climb && is_at_altitude(flight, estimate)) {
+    flight.stage = Stage::go_home;
+  } else if (flight.stage == Stage::go_home &&
+             (flight.home_world_m - p_world_m).norm() < kHomeArrival_m) {
+    flight.stage = Stage::land;
+  }
+}
+
+}  // namespace
+
+AutoFlight begin_auto(NavState mode, const CommanderParameters& parameters,
+                      const VehicleState& estimate, const Eigen::Vector2d& home_world_m,
+                      double altitude_m) {
+  const Vec3 p_world_m = estimate.T_world_body.translation();
+  AutoFlight flight;
+  flight.mode = mode;
+  flight.stage = first_stage(mode);
+  for (int i = 0; i < 3; ++i) {
+    flight.axes[static_cast<std::size_t>(i)] = {p_world_m[i], estimate.v_world_m_s[i], 0.0};
+  }
+  flight.yaw_rad = yaw_of(estimate.T_world_body);
+  flight.home_world_m = home_world_m;
+  const double wanted_m =
+      mode == NavState::rtl
+          ? return_altitude_m(parameters, (p_world_m.head<2>() - home_world_m).norm())
+          : altitude_m;
+  flight.altitude_m = std::max(p_world_m.z(), wanted_m);
+  return flight;
+}
+
+Setpoint step_auto(AutoFlight& flight, const CommanderParameters& parameters,
+                   const VehicleState& estimate, double dt_s) {
+  Setpoint setpoint;
+  setpoint.yaw_rad = flight.yaw_rad;
+  if (flight.stage == Stage::descend) {  // level, wherever that leads
+    setpoint.a_world_m_s2.head<2>().setZero();
+    setpoint.v_world_m_s.z() = -parameters.land_speed_m_s;
+    return setpoint;
+  }
+  enter_next_stage(flight, estimate);
+  move_trajectory(flight, parameters, estimate, dt_s);
+  setpoint.p_world_m = position(flight);
+  setpoint.v_world_m_s = {flight.axes[0].v_m_s, flight.axes[1].v_m_s, flight.axes[2].v_m_s};
+  setpoint.a_world_m_s2 = {flight.axes[0].a_m_s2, flight.axes[1].a_m_s2, flight.axes[2].a_m_s2};
+  if (flight.stage == Stage::land) {  // the ground is where it is found
+    setpoint.p_world_m.z() = std::numeric_limits<double>::quiet_NaN();
+  }
+  return setpoint;
+}
+
+bool is_finished(const AutoFlight& flight, const VehicleState& estimate) {
+  return flight.mode == NavState::takeoff && is_at_altitude(flight, estimate);
+}
+
+AutoFlight hold_after_takeoff(const AutoFlight& takeoff) {
+  AutoFlight flight = takeoff;
+  flight.mode = NavState::hold;
+  return flight;
+}
+
+}  // namespace gnbv

@@ -1,0 +1,67 @@
+// What flies: setpoints in, true motion out. Two implementations live behind it: the quadrotor in
+// Bullet behind PX4, and an ideal vehicle that moves as commanded.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "sim/core/pose.hpp"
+#include "sim/flight/vehicle_config.hpp"
+#include "sim/mesh/world.hpp"
+
+namespace gnbv {
+
+/// Physics and control tick: 4 ms, as Gazebo's worlds/empty.world. Time is a count of ticks.
+constexpr std::int64_t kTicksPerSecond = 250;
+constexpr double kTick_s = 1.0 / static_cast<double>(kTicksPerSecond);
+/// Within a tick, the rate loop and the rotors run at 1 kHz.
+constexpr int kRateStepsPerTick = 4;
+constexpr double kRateStep_s = kTick_s / kRateStepsPerTick;
+
+/// PX4's TrajectorySetpoint in our world frame (ENU, FLU): NaN means "not controlled".
+/// Position together with velocity uses the velocity as feed-forward, likewise the acceleration.
+/// Each axis needs one of the three, x and y come in pairs; otherwise the vehicle stops and holds.
+struct Setpoint {
+  Vec3 p_world_m = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+  Vec3 v_world_m_s = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+  Vec3 a_world_m_s2 = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+  double yaw_rad = std::numeric_limits<double>::quiet_NaN();
+  double yaw_rate_rad_s = std::numeric_limits<double>::quiet_NaN();
+};
+
+struct VehicleState {
+  Isometry T_world_body = Isometry::Identity();
+  Vec3 v_world_m_s = Vec3::Zero();
+  Vec3 omega_body_rad_s = Vec3::Zero();
+};
+
+class Flight {
+ public:
+  virtual ~Flight() = default;
+  /// Ticks since the start.
+  virtual std::int64_t tick() const = 0;
+  /// The truth.
+  virtual VehicleState state() const = 0;
+  /// What the autopilot, the guidance and the map believe (VehicleConfig::estimate).
+  virtual VehicleState estimate() const = 0;
+  /// Holds until the next call; a quadrotor gives it up when no other comes for
+  /// CommanderParameters::offboard_loss_s, and then stays where it is.
+  virtual void command(const Setpoint& setpoint) = 0;
+  /// Advances one tick. Throws BrokenInvariant when the state becomes NaN.
+  virtual void step() = 0;
+  /// Whether the vehicle has touched the structure or the ground since the start.
+  virtual bool has_collided() const = 0;
+  /// Energy drawn since the start, by the cited power model.
+  virtual double energy_wh() const = 0;
+};
+
+/// An airborne vehicle hovering at `start` (rotors at hover speed), in a world rebuilt for it.
+/// VehicleKind::quadrotor: sim/flight/quadrotor.hpp, armed and in OFFBOARD.
+/// VehicleKind::ideal: moves exactly as commanded, level, draws hover power and never collides.
+/// `seed` keys the errors of the estimate.
+std::unique_ptr<Flight> make_flight(const VehicleConfig& config, const World& world,
+                                    const ViewPose& start, std::uint64_t seed);
+
+}  // namespace gnbv

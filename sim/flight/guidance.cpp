@@ -1,0 +1,135 @@
+#include "sim/flight/guidance.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/error.hpp"
+#include "sim/flight/feed_forward.hpp"
+#include "sim/flight/rest_to_rest.hpp"
+#include "sim/flight/rotors.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr int kTicksPerSetpoint = 5;   // 20 ms
+constexpr double kShareOfLimit = 0.8;  // of the autopilot's, so that its loops can still correct
+
+/// A quadrotor is led below its autopilot's limits.
+double speed_along(const Vec3& direction, double speed_m_s, const VehicleConfig& vehicle) {
+  if (vehicle.kind == VehicleKind::ideal) return speed_m_s;
+  const AutopilotParameters& autopilot = vehicle.autopilot;
+  const auto limited = [&](double speed, double share, double limit_m_s) {
+    return share > 0.0 ? std::min(speed, kShareOfLimit * limit_m_s / share) : speed;
+  };
+  double speed = limited(speed_m_s, direction.head<2>().norm(), autopilot.speed_max_m_s);
+  speed = limited(speed, direction.z(), autopilot.climb_speed_max_m_s);
+  return limited(speed, -direction.z(), autopilot.descent_speed_max_m_s);
+}
+
+/// A quadrotor turns by unequal rotors: a tenth of their command is left for it, of the 0.15 beyond
+/// which the mixer gives yaw up first.
+RestToRest::Limits turn_limits(const GuidanceConfig& config, const VehicleConfig& vehicle) {
+  if (vehicle.kind == VehicleKind::ideal) {
+    return {config.yaw_rate_rad_s, config.yaw_acceleration_rad_s2, config.yaw_jerk_rad_s3};
+  }
+  const double authority_rad_s2 = 0.1 * yaw_authority_rad_s2(vehicle.airframe);
+  const double share = std::min(1.0, authority_rad_s2 / config.yaw_acceleration_rad_s2);
+  return {std::min(config.yaw_rate_rad_s, kShareOfLimit * vehicle.autopilot.rate_max_rad_s.z()),
+          share * config.yaw_acceleration_rad_s2, share * config.yaw_jerk_rad_s3};
+}
+
+Vec3 direction_between(const Vec3& from, const Vec3& to) {
+  const double length_m = (to - from).norm();
+  return length_m > 0.0 ? Vec3((to - from) / length_m) : Vec3(Vec3::Zero());
+}
+
+/// The reference of one leg: the straight line, and the short way round to the heading.
+class Leg {
+ public:
+  Leg(const ViewPose& start, const ViewPose& goal, double speed_m_s, const GuidanceConfig& config,
+      const VehicleConfig& vehicle)
+      : vehicle_(vehicle),
+        start_(start),
+        goal_(goal),
+        turn_rad_(wrap_angle_rad(goal.yaw_rad - start.yaw_rad)),
+        direction_(direction_between(start.p_world_m, goal.p_world_m)),
+        path_((goal.p_world_m - start.p_world_m).norm(),
+              {speed_along(direction_, speed_m_s, vehicle), config.acceleration_m_s2,
+               config.jerk_m_s3}),
+        turn_(std::abs(turn_rad_), turn_limits(config, vehicle)) {}
+
+  double duration_s() const { return std::max(path_.duration_s(), turn_.duration_s()); }
+
+  Setpoint at(double time_s) const {
+    const RestToRest::Sample path = path_.at(time_s);
+    const RestToRest::Sample turn = turn_.at(time_s);
+    Setpoint setpoint;
+    setpoint.p_world_m = start_.p_world_m + path.position * direction_;
+    setpoint.v_world_m_s = path.speed * direction_;
+    setpoint.yaw_rad = wrap_angle_rad(start_.yaw_rad + std::copysign(turn.position, turn_rad_));
+    setpoint.yaw_rate_rad_s = std::copysign(turn.speed, turn_rad_);
+    setpoint.a_world_m_s2 = acceleration_ahead(time_s, setpoint.yaw_rate_rad_s);
+    if (time_s >= path_.duration_s()) setpoint.p_world_m = goal_.p_world_m;
+    if (time_s >= turn_.duration_s()) setpoint.yaw_rad = goal_.yaw_rad;
+    return setpoint;
+  }
+
+ private:
+  /// What the tilt needs is sent ahead of it by its lag, what the rotors need at once.
+  Vec3 acceleration_ahead(double time_s, double yaw_rate_rad_s) const {
+    const double lag_s = attitude_lag_s(vehicle_.autopilot);
+    const auto wanted_at = [&](double t_s) {
+      const RestToRest::Sample path = path_.at(t_s);
+      return acceleration_setpoint(vehicle_.airframe, vehicle_.autopilot, path.speed * direction_,
+                                   path.acceleration * direction_);
+    };
+    const Vec3 ahead = wanted_at(time_s + lag_s);
+    const Vec3 tilt_part(ahead.x(), ahead.y(), wanted_at(time_s).z());
+    // a tilt that lags is carried round by the turning body
+    return Eigen::AngleAxisd(-yaw_rate_rad_s * lag_s, Vec3::UnitZ()) * tilt_part;
+  }
+
+  const VehicleConfig& vehicle_;
+  ViewPose start_;
+  ViewPose goal_;
+  double turn_rad_;
+  Vec3 direction_;
+  RestToRest path_;
+  RestToRest turn_;
+};
+
+ViewPose level_pose(const VehicleState& state) {
+  return {state.T_world_body.translation(), yaw_of(state.T_world_body)};
+}
+
+bool has_arrived(const VehicleState& state, const ViewPose& goal, const GuidanceConfig& config) {
+  const ViewPose pose = level_pose(state);
+  return (pose.p_world_m - goal.p_world_m).norm() <= config.arrival_distance_m &&
+         std::abs(wrap_angle_rad(pose.yaw_rad - goal.yaw_rad)) <= config.arrival_yaw_rad &&
+         state.v_world_m_s.norm() <= config.arrival_speed_m_s;
+}
+
+}  // namespace
+
+LegEnd fly_leg(Flight& flight, const ViewPose& goal, double speed_m_s, const GuidanceConfig& config,
+               const VehicleConfig& vehicle, const std::function<bool(const Flight&)>& on_tick) {
+  GNBV_CHECK(goal.p_world_m.allFinite() && std::isfinite(goal.yaw_rad) && speed_m_s > 0.0,
+             "the goal must be finite and the speed, {} m/s, positive", speed_m_s);
+  const Leg leg(level_pose(flight.estimate()), goal, speed_m_s, config, vehicle);
+  for (int sent = 0;; ++sent) {
+    const double time_s = sent * kTicksPerSetpoint * kTick_s;
+    if (time_s > leg.duration_s() + config.timeout_s) return LegEnd::timeout;
+    flight.command(leg.at(time_s));
+    for (int i = 0; i < kTicksPerSetpoint; ++i) {
+      flight.step();
+      const bool goes_on = !on_tick || on_tick(flight);
+      if (flight.has_collided()) return LegEnd::collision;
+      if (!goes_on) return LegEnd::stopped;
+    }
+    if (time_s >= leg.duration_s() && has_arrived(flight.estimate(), goal, config)) {
+      return LegEnd::arrived;
+    }
+  }
+}
+
+}  // namespace gnbv

@@ -1,0 +1,161 @@
+#include "sim/flight/position_control.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnbv {
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+
+/// base + term where both are given, whichever is given otherwise (ControlMath::addIfNotNan).
+Vec3 add_given(const Vec3& base, const Vec3& term) {
+  Vec3 sum = base;
+  for (int i = 0; i < 3; ++i) {
+    if (!std::isfinite(base[i]))
+      sum[i] = term[i];
+    else if (std::isfinite(term[i]))
+      sum[i] += term[i];
+  }
+  return sum;
+}
+
+Vec3 zero_where_nan(const Vec3& v) {
+  return v.unaryExpr([](double x) { return std::isfinite(x) ? x : 0.0; });
+}
+
+/// The unit vector, turned towards world z until no more than `tilt_max_rad` from it.
+Vec3 limit_tilt(const Vec3& body_z_world, double tilt_max_rad) {
+  if (body_z_world.z() >= std::cos(tilt_max_rad)) return body_z_world;
+  const Vec2 side = body_z_world.head<2>().normalized() * std::sin(tilt_max_rad);
+  return {side.x(), side.y(), std::cos(tilt_max_rad)};
+}
+
+/// BlockDerivative with its first-order low-pass.
+void update_derivative(PositionControlMemory& memory, const Vec3& v_world_m_s, double cutoff_hz,
+                       double dt_s) {
+  const double b = 2.0 * kPi * cutoff_hz * dt_s;
+  const double weight = b / (1.0 + b);
+  const Vec3 raw = (v_world_m_s - memory.v_previous_world_m_s) / dt_s;
+  memory.v_dot_world_m_s2 += weight * (raw - memory.v_dot_world_m_s2);
+  memory.v_previous_world_m_s = v_world_m_s;
+}
+
+Vec3 velocity_setpoint(const AutopilotParameters& parameters, const VehicleState& state,
+                       const Setpoint& setpoint) {
+  const Vec3 from_position = parameters.position_p_per_s.cwiseProduct(
+      setpoint.p_world_m - Vec3(state.T_world_body.translation()));
+  const Vec3 sum = add_given(setpoint.v_world_m_s, from_position);
+  const Vec3 priority = zero_where_nan(from_position);
+  const Vec3 rest = sum - priority;
+  Vec3 limited;
+  limited.head<2>() = constrain_xy(priority.head<2>(), rest.head<2>(), parameters.speed_max_m_s);
+  limited.z() = std::isfinite(sum.z()) ? std::clamp(sum.z(), -parameters.descent_speed_max_m_s,
+                                                    parameters.climb_speed_max_m_s)
+                                       : sum.z();
+  return limited;
+}
+
+/// Thrust command vector for an acceleration, assuming that `hover_thrust` gives one g. The
+/// vertical part is met by lengthening the tilted vector.
+Vec3 thrust_for(const AutopilotParameters& parameters, double gravity_m_s2, double hover_thrust,
+                const Vec3& a_world_m_s2) {
+  const Vec3 body_z_world = limit_tilt(
+      Vec3(a_world_m_s2.x(), a_world_m_s2.y(), gravity_m_s2).normalized(), parameters.tilt_max_rad);
+  const double thrust = (a_world_m_s2.z() / gravity_m_s2 + 1.0) * hover_thrust / body_z_world.z();
+  return std::max(thrust, parameters.thrust_min) * body_z_world;
+}
+
+/// Saturates the thrust vector: vertical first, but with a margin kept for the horizontal part.
+Vec3 saturated(const AutopilotParameters& parameters, const Vec3& thrust) {
+  const double max_squared = parameters.thrust_max * parameters.thrust_max;
+  const double norm_xy = thrust.head<2>().norm();
+  const double kept_xy = std::min(norm_xy, parameters.thrust_margin_xy);
+  Vec3 limited = thrust;
+  limited.z() = std::min(thrust.z(), std::sqrt(max_squared - kept_xy * kept_xy));
+  const double max_xy = std::sqrt(std::max(0.0, max_squared - limited.z() * limited.z()));
+  if (norm_xy > max_xy) limited.head<2>() *= max_xy / norm_xy;
+  return limited;
+}
+
+/// Body z along the thrust, body x as near to the heading as that allows (bodyzToAttitude).
+Eigen::Quaterniond attitude_for(const Vec3& thrust, double yaw_rad) {
+  const Vec3 z = thrust.normalized();
+  const Vec3 y_heading(-std::sin(yaw_rad), std::cos(yaw_rad), 0.0);
+  Eigen::Matrix3d R;
+  R.col(2) = z;
+  R.col(0) = y_heading.cross(z).normalized();  // tilt stays below 90 deg: never zero
+  R.col(1) = z.cross(R.col(0));
+  return Eigen::Quaterniond(R);
+}
+
+}  // namespace
+
+bool is_valid(const Setpoint& setpoint) {
+  const auto is_paired = [](const Vec3& v) { return std::isfinite(v.x()) == std::isfinite(v.y()); };
+  bool is_every_axis_given = true;
+  for (int i = 0; i < 3; ++i) {
+    is_every_axis_given &= std::isfinite(setpoint.p_world_m[i]) ||
+                           std::isfinite(setpoint.v_world_m_s[i]) ||
+                           std::isfinite(setpoint.a_world_m_s2[i]);
+  }
+  return is_every_axis_given && is_paired(setpoint.p_world_m) && is_paired(setpoint.v_world_m_s) &&
+         is_paired(setpoint.a_world_m_s2);
+}
+
+Eigen::Vector2d constrain_xy(const Eigen::Vector2d& priority, const Eigen::Vector2d& rest,
+                             double max_m_s) {
+  const Vec2 sum = priority + rest;
+  if (!(sum.norm() > max_m_s)) return sum;  // NaN passes: the axes are not controlled
+  if (priority.norm() >= max_m_s) return priority.normalized() * max_m_s;
+  // priority + s * direction of length max, s > 0
+  const Vec2 direction = rest.normalized();
+  const double along = direction.dot(priority);
+  const double inside = priority.squaredNorm() - max_m_s * max_m_s;
+  return priority + direction * (-along + std::sqrt(along * along - inside));
+}
+
+AttitudeSetpoint position_control(const AutopilotParameters& parameters, double gravity_m_s2,
+                                  double hover_thrust, PositionControlMemory& memory,
+                                  const VehicleState& state, const Setpoint& given, double dt_s) {
+  Setpoint setpoint = given;
+  if (!is_valid(given)) {
+    setpoint = Setpoint{};
+    setpoint.v_world_m_s = Vec3::Zero();
+    setpoint.yaw_rad = given.yaw_rad;
+  }
+  update_derivative(memory, state.v_world_m_s, parameters.velocity_derivative_cutoff_hz, dt_s);
+
+  const Vec3 v_setpoint = velocity_setpoint(parameters, state, setpoint);
+  Vec3 error_m_s = v_setpoint - state.v_world_m_s;
+  const Vec3 a_setpoint =
+      add_given(setpoint.a_world_m_s2,
+                parameters.velocity_p_per_s.cwiseProduct(error_m_s) + memory.integral_m_s2 -
+                    parameters.velocity_d.cwiseProduct(memory.v_dot_world_m_s2));
+  const Vec3 wanted = thrust_for(parameters, gravity_m_s2, hover_thrust, a_setpoint);
+  const Vec3 thrust = saturated(parameters, wanted);
+
+  // anti-windup: the vertical integral waits at the limits, the horizontal one tracks what is
+  // produced (Rundqwist 1990)
+  if ((wanted.z() <= parameters.thrust_min && error_m_s.z() <= 0.0) ||
+      (wanted.z() >= parameters.thrust_max && error_m_s.z() >= 0.0)) {
+    error_m_s.z() = 0.0;
+  }
+  const Vec2 a_wanted = a_setpoint.head<2>();
+  const Vec2 a_produced = thrust.head<2>() * (gravity_m_s2 / hover_thrust);
+  if (a_wanted.squaredNorm() > a_produced.squaredNorm()) {
+    error_m_s.head<2>() -= 2.0 / parameters.velocity_p_per_s.x() * (a_wanted - a_produced);
+  }
+  memory.integral_m_s2 +=
+      dt_s * parameters.velocity_i_per_s2.cwiseProduct(zero_where_nan(error_m_s));
+  memory.integral_m_s2.z() = std::clamp(memory.integral_m_s2.z(), -gravity_m_s2, gravity_m_s2);
+
+  const bool has_yaw = std::isfinite(setpoint.yaw_rad);
+  AttitudeSetpoint out;
+  out.q_world_body = attitude_for(thrust, has_yaw ? setpoint.yaw_rad : yaw_of(state.T_world_body));
+  out.thrust = thrust.norm();
+  out.yaw_rate_rad_s = std::isfinite(setpoint.yaw_rate_rad_s) ? setpoint.yaw_rate_rad_s : 0.0;
+  return out;
+}
+
+}  // namespace gnbv

@@ -1,0 +1,124 @@
+// PX4 as an external client meets it: commands with acknowledgements, modes, arming, the offboard
+// stream and its failsafe, takeoff ramp, landing detection. Simulation time only, no input or
+// output: the same calls at the same ticks give the same flight, bit by bit. Source of every rule:
+// PX4-Autopilot, as listed in the tests (Commander.cpp, UserModeIntention.cpp, offboardCheck.cpp,
+// failsafe.cpp, Takeoff.cpp, MulticopterLandDetector.cpp).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/flight/auto_modes.hpp"
+#include "sim/flight/autopilot.hpp"
+#include "sim/flight/failsafe.hpp"
+#include "sim/flight/land_detector.hpp"
+#include "sim/flight/takeoff.hpp"
+
+namespace gnbv {
+
+/// MAV_RESULT.
+enum class Ack : std::uint8_t {
+  accepted = 0,
+  temporarily_rejected = 1,
+  denied = 2,
+  unsupported = 3
+};
+
+/// A MAV_CMD with its seven parameters, as COMMAND_LONG carries them. Known: 400
+/// COMPONENT_ARM_DISARM (21196 in param2 forces), 176 DO_SET_MODE (param2 main mode, param3 sub
+/// mode, PX4's custom modes), 22 NAV_TAKEOFF (param7: altitude above the ground in metres, NaN for
+/// the default), 21 NAV_LAND, 20 NAV_RETURN_TO_LAUNCH.
+struct Px4Command {
+  std::uint16_t id = 0;
+  std::array<float, 7> param{};
+};
+
+/// MAV_SEVERITY: 0 emergency ... 4 warning, 6 info.
+struct StatusText {
+  int severity = 6;
+  std::string text;
+};
+
+class Px4 {
+ public:
+  enum class Start {
+    on_ground,         // disarmed, in HOLD
+    airborne_offboard  // armed, flying, in OFFBOARD with a stream just received: a mission begins
+                       // here
+  };
+  Px4(const AutopilotParameters& parameters, const AirframeParameters& airframe,
+      const VehicleState& start, Start how);
+
+  Ack command(const Px4Command& command);
+  Ack arm(bool armed, bool force = false);
+  Ack set_mode(NavState mode);
+  /// A setpoint of the offboard stream (world ENU). A valid one refreshes the heartbeat in any
+  /// mode, but only those that come in OFFBOARD are flown: until the first of them the vehicle
+  /// stops and holds. An invalid one (Setpoint) does so too, with a warning.
+  void offboard_setpoint(const Setpoint& setpoint);
+
+  /// Advances one tick: rotor references, 0 when disarmed.
+  RotorSpeeds step(const VehicleState& estimate);
+  /// The rate loop alone, for the other kRateStepsPerTick - 1 steps within the tick.
+  RotorSpeeds rate_step(const Vec3& omega_body_rad_s);
+
+  std::int64_t tick() const;
+  NavState nav_state() const;  // what runs
+  NavState intention() const;  // what was asked for
+  bool is_armed() const;
+  bool is_landed() const;
+  bool is_in_failsafe() const;
+  /// What the position loop asks of the attitude loop.
+  const AttitudeSetpoint& attitude_setpoint() const;
+  /// What was said since the last call, oldest first.
+  std::vector<StatusText> take_messages();
+
+ private:
+  double offboard_silence_s() const;
+  Health health() const;
+  void say(int severity, std::string text);
+  void disarm();
+  void disarm_when_due();
+  void update_mode();
+  void enter(NavState mode);
+  bool wants_takeoff() const;
+  Setpoint setpoint_to_fly();
+  void run_position_loop();
+  void detect_landing();
+
+  AutopilotParameters parameters_;
+  AirframeParameters airframe_;
+  std::int64_t tick_ = 0;
+  VehicleState estimate_;
+
+  NavState intention_ = NavState::hold;
+  NavState intention_after_disarming_ = NavState::hold;
+  NavState nav_state_ = NavState::hold;
+  bool is_in_failsafe_ = false;
+  bool is_armed_ = false;
+  bool has_flown_ = false;  // since arming
+  std::int64_t landed_ticks_ = 0;
+  Eigen::Vector2d home_world_m_ = Eigen::Vector2d::Zero();  // where it was armed
+
+  Setpoint offboard_setpoint_;
+  bool has_warned_of_setpoint_ = false;  // the last one was invalid
+  std::optional<std::int64_t> heartbeat_tick_;
+
+  double takeoff_altitude_m_ = 0.0;
+  AutoFlight auto_;
+  Takeoff takeoff_;
+  LandDetector land_ = kOnGround;
+  Setpoint setpoint_;  // what is flown now
+  double tilt_limit_rad_ = 0.0;
+  PositionControlMemory position_;
+  AttitudeSetpoint attitude_setpoint_;
+  Vec3 omega_setpoint_body_rad_s_ = Vec3::Zero();
+  RateControlMemory rate_;
+  std::vector<StatusText> messages_;
+};
+
+}  // namespace gnbv

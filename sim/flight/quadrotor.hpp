@@ -1,0 +1,45 @@
+// The quadrotor with its autopilot in its world: what `gnbv fly` serves and what missions fly.
+#pragma once
+
+#include "sim/flight/px4.hpp"
+#include "sim/flight/state_estimator.hpp"
+#include "sim/flight/vehicle.hpp"
+
+namespace gnbv {
+
+class Quadrotor final : public Flight {
+ public:
+  /// Rebuilds the physics world. on_ground: at rest on its hull at start.p_world_m with z ignored;
+  /// airborne_offboard: hovering at `start` with rotors at hover speed.
+  Quadrotor(const VehicleConfig& config, const World& world, const ViewPose& start,
+            std::uint64_t seed, Px4::Start how);
+
+  std::int64_t tick() const override;
+  VehicleState state() const override;
+  VehicleState estimate() const override;
+  /// A setpoint of the offboard stream.
+  void command(const Setpoint& setpoint) override;
+  void step() override;
+  /// The structure always counts; the ground counts only for a vehicle that started airborne.
+  bool has_collided() const override;
+  double energy_wh() const override;
+  /// Electrical power at the last tick.
+  double power_w() const;
+
+  Px4& px4() { return px4_; }
+  const Px4& px4() const { return px4_; }
+
+ private:
+  Quadrotor(const VehicleConfig& config, const World& world, const VehicleState& start,
+            std::uint64_t seed, Px4::Start how);
+
+  VehicleConfig config_;
+  Px4::Start how_;
+  RigidVehicle vehicle_;
+  StateEstimator estimator_;
+  VehicleState estimate_;
+  Px4 px4_;
+  double energy_j_ = 0.0;
+};
+
+}  // namespace gnbv

@@ -1,0 +1,118 @@
+// The vehicle by name and the parameters of its rigid body, rotors, autopilot and battery drain.
+// Sources: PX4-SITL_gazebo-classic@807b67b models/iris/iris.sdf.jinja and
+// src/gazebo_motor_model.cpp for the airframe; PX4-Autopilot parameter defaults for the autopilot
+// (names in capitals are PX4's).
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "sim/core/pose.hpp"
+#include "sim/flight/commander_parameters.hpp"
+
+namespace gnbv {
+
+constexpr std::size_t kRotors = 4;
+
+/// Where a rotor sits, and which way it turns seen from above: +1 counter-clockwise, -1 clockwise.
+struct RotorMount {
+  Vec3 p_body_m = Vec3::Zero();
+  double spin = 1.0;
+};
+
+/// What of the velocity takes thrust from a rotor: the plugin has changed its mind over the years.
+enum class ThrustLoss { none, axial_speed, whole_speed };
+
+/// Iris: one rigid body, its 5 g rotors added as point masses; the centre of mass is the origin.
+struct AirframeParameters {
+  double mass_kg = 1.55;
+  Vec3 inertia_kg_m2 = {0.0300, 0.0295, 0.0564};  // diagonal, body axes
+  std::array<RotorMount, kRotors> rotors = {{{{0.13, -0.22, 0.023}, +1.0},
+                                             {{-0.13, 0.20, 0.023}, +1.0},
+                                             {{0.13, 0.22, 0.023}, -1.0},
+                                             {{-0.13, -0.20, 0.023}, -1.0}}};
+  double thrust_coefficient_n_s2 = 5.84e-6;      // thrust at rest = coefficient * speed^2
+  double moment_per_thrust_m = 0.06;             // reaction torque = this * thrust at rest
+  double drag_coefficient_n_s2_per_m = 1.75e-4;  // drag = coefficient * speed * in-plane velocity
+  double rolling_coefficient_n_s2 = 1.0e-6;      // rolling moment, same law
+  bool rolling_follows_spin = true;              // the rolling moment changes sign with the spin
+  ThrustLoss thrust_loss = ThrustLoss::axial_speed;
+  double thrust_loss_limit_m_s = 25.0;  // thrust falls linearly to 0 at this speed
+  double time_constant_up_s = 0.0125;
+  double time_constant_down_s = 0.025;
+  double idle_speed_rad_s = 100.0;     // armed, command 0
+  double command_gain_rad_s = 1000.0;  // speed = idle + gain * command, command in [0, 1]
+  double gravity_m_s2 = 9.8066;
+  // Collision hull: an upright cylinder around the four rotor disks, because its clearance does not
+  // change with yaw. Radius = farthest rotor axis (hypot(0.13, 0.22)) + rotor radius 0.128, that is
+  // 0.77 m from tip to tip; height as the box in iris.sdf.jinja.
+  double hull_radius_m = 0.384;
+  double hull_height_m = 0.11;
+};
+
+/// PX4's multicopter cascade, "today's" defaults, in our frames (world ENU, body FLU).
+struct AutopilotParameters {
+  Vec3 position_p_per_s = {0.95, 0.95, 1.0};   // MPC_XY_P, MPC_Z_P
+  Vec3 velocity_p_per_s = {1.8, 1.8, 4.0};     // MPC_XY_VEL_P_ACC, MPC_Z_VEL_P_ACC
+  Vec3 velocity_i_per_s2 = {0.4, 0.4, 2.0};    // MPC_XY_VEL_I_ACC, MPC_Z_VEL_I_ACC
+  Vec3 velocity_d = {0.2, 0.2, 0.0};           // MPC_XY_VEL_D_ACC, MPC_Z_VEL_D_ACC
+  double velocity_derivative_cutoff_hz = 5.0;  // MPC_VELD_LP
+  double speed_max_m_s = 12.0;                 // MPC_XY_VEL_MAX
+  double climb_speed_max_m_s = 3.0;            // MPC_Z_VEL_MAX_UP
+  double descent_speed_max_m_s = 1.5;          // MPC_Z_VEL_MAX_DN
+  double tilt_max_rad = deg_to_rad(45.0);      // MPC_TILTMAX_AIR
+  double thrust_min = 0.12;                    // MPC_THR_MIN, of full command
+  double thrust_max = 1.0;                     // MPC_THR_MAX
+  double thrust_margin_xy = 0.3;               // MPC_THR_XY_MARG
+  Vec3 attitude_p_per_s = {6.5, 6.5, 2.8};     // MC_ROLL_P, MC_PITCH_P, MC_YAW_P
+  double yaw_weight = 0.4;                     // MC_YAW_WEIGHT
+  Vec3 rate_max_rad_s = {deg_to_rad(220.0), deg_to_rad(220.0), deg_to_rad(200.0)};
+  Vec3 rate_p = {0.15, 0.15, 0.2};  // MC_ROLLRATE_P, ...: command per rad/s
+  Vec3 rate_i = {0.2, 0.2, 0.1};
+  Vec3 rate_d = {0.003, 0.003, 0.0};
+  double rate_integral_max = 0.3;                       // MC_RR_INT_LIM, ...
+  double rate_integral_fade_rad_s = deg_to_rad(400.0);  // rate_control.cpp: no I beyond this error
+  CommanderParameters commander;
+};
+
+/// Liu et al. 2017, fitted on an IRIS+:
+/// P = k1 T [V/2 + sqrt((V/2)^2 + T/k2^2)] + c2 T^1.5 + c4 V_h^3, T thrust, V climb speed.
+/// Every preset keeps these coefficients: nobody has published them for the other airframes.
+struct PowerParameters {
+  double k1 = 0.8554;
+  double k2 = 0.3051;
+  double c2 = 0.3177;
+  double c4 = 0.0296;
+  double battery_wh = 0.0;  // usable energy; 0: never empty
+};
+
+/// Error of the state estimate by name; the laws and their sources are in
+/// sim/flight/state_estimator.hpp.
+enum class EstimateModel { none, mocap, gnss, vio };
+
+struct EstimateConfig {
+  EstimateModel model = EstimateModel::none;
+};
+
+enum class VehicleKind { quadrotor, ideal };
+
+struct VehicleConfig {
+  std::string preset = "iris";  // names the parameters that all below are the defaults of
+  VehicleKind kind = VehicleKind::quadrotor;
+  EstimateConfig estimate;
+  AirframeParameters airframe;
+  AutopilotParameters autopilot;
+  PowerParameters power;
+};
+
+/// iris: today's PX4 SITL (the defaults of the structs above); iris_sitl_2019: the SITL of the
+/// paper's year; authors: what the authors' package pins (RotorS, 2015 firmware); f450: the
+/// quadrotor of the paper's lab. Sources beside each.
+constexpr std::array<std::string_view, 4> kVehiclePresets = {"iris", "iris_sitl_2019", "authors",
+                                                             "f450"};
+
+/// The parameters by that name; it has to be one of kVehiclePresets.
+VehicleConfig vehicle_preset(std::string_view name);
+
+}  // namespace gnbv

@@ -1,0 +1,239 @@
+#include "bench/compare/comparison.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bench/compare/comparison_text.hpp"
+
+namespace gnbv {
+namespace {
+
+ComparedRun run(const std::string& method, std::uint64_t seed, double coverage, double metres,
+                const std::string& scenario = "aircraft") {
+  ComparedRun r{scenario, method, seed, {}};
+  r.figures.coverage_final = {coverage, coverage, coverage};
+  r.figures.straight_m = metres;
+  r.figures.iterations = 2;
+  r.figures.curve = {.coverage = {{0.0, 0.0, 0.0}, {coverage, 0.0, 0.0}},
+                     .metres = {0.0, metres},
+                     .seconds = {0.0, 10.0}};
+  return r;
+}
+
+/// `better` covers 2 points more than `base` in every seed, give or take a little.
+std::vector<ComparedRun> clear_cut(int seeds) {
+  std::vector<ComparedRun> runs;
+  for (const std::string method : {"base", "better"}) {
+    for (int s = 0; s < seeds; ++s) {
+      const double spread = 0.01 * (s % 3) + 0.0001 * s * (method == "better" ? 1 : 0);
+      const double gain = method == "better" ? 0.02 : 0.0;
+      runs.push_back(run(method, static_cast<std::uint64_t>(s), 0.9 + spread + gain,
+                         method == "better" ? 500.0 - s : 1000.0));
+    }
+  }
+  return runs;
+}
+
+const Contrast& coverage_contrast(const Comparison& c, std::size_t method) {
+  return *find_figure(c, 0, kCoverageMetric, method)->contrast;
+}
+
+std::string all_notes(const TextTable& table) {
+  std::string text;
+  for (const std::string& note : table.notes) text += note + "\n";
+  return text;
+}
+
+TEST(Compare, MeansDifferencesAndIntervalsAreTheTextbooks) {
+  const std::vector<ComparedRun> runs = {run("a", 1, 0.90, 100), run("a", 2, 0.92, 100),
+                                         run("b", 1, 0.91, 90), run("b", 2, 0.95, 80),
+                                         run("b", 3, 0.50, 70)};  // a seed that `a` lacks
+  const Comparison c = compare(runs, "a", {});
+  const MethodFigure& b = *find_figure(c, 0, kCoverageMetric, 1);
+  EXPECT_EQ(b.estimate.n, 3U);
+  EXPECT_NEAR(b.estimate.mean, 100.0 * (0.91 + 0.95 + 0.50) / 3, 1e-9);
+  ASSERT_TRUE(b.contrast);
+  EXPECT_EQ(b.contrast->pairs, 2U);
+  EXPECT_NEAR(b.contrast->difference.mean, 2.0, 1e-9);             // of 1 and 3 points
+  EXPECT_NEAR(*b.contrast->difference.half_width, 12.7062, 1e-3);  // deviation sqrt 2, over sqrt 2
+  EXPECT_NEAR(b.contrast->baseline_mean, 91.0, 1e-9);
+  EXPECT_NEAR(b.contrast->bootstrap.low, 1.0, 1e-9);
+  EXPECT_NEAR(b.contrast->bootstrap.high, 3.0, 1e-9);
+  EXPECT_EQ(b.contrast->p, 0.5);  // two of two positive
+  EXPECT_EQ(b.contrast->verdict, Verdict::not_significant);
+  EXPECT_FALSE(find_figure(c, 0, kCoverageMetric, 0)->contrast);
+}
+
+TEST(Compare, FiveSeedsAreTooFewForTheTestAndSaySo) {
+  const Comparison c = compare(clear_cut(5), "base", {});
+  EXPECT_EQ(coverage_contrast(c, 1).p, 0.0625);
+  EXPECT_EQ(coverage_contrast(c, 1).verdict, Verdict::interval_only);
+  const TextTable table = comparison_table(c);
+  EXPECT_NE(all_notes(table).find("n = 5: no p of the signed-rank test can be below 0.0625"),
+            std::string::npos);
+  EXPECT_NE(all_notes(table).find("6 seeds could"), std::string::npos);
+  EXPECT_NE(table.notes[0].find("5 seeds are too few for the test"), std::string::npos);
+}
+
+TEST(Compare, SixSeedsThatAgreeAreSignificant) {
+  const Comparison c = compare(clear_cut(6), "base", {});
+  EXPECT_EQ(coverage_contrast(c, 1).p, 0.03125);
+  EXPECT_EQ(coverage_contrast(c, 1).verdict, Verdict::significant);
+  EXPECT_EQ(all_notes(comparison_table(c)).find("cannot reject"), std::string::npos);
+}
+
+TEST(Compare, HolmCountsTheMethodsAndSoDoesWhatTheTestCanReach) {
+  std::vector<ComparedRun> runs = clear_cut(6);
+  for (int s = 0; s < 6; ++s) {
+    const auto seed = static_cast<std::uint64_t>(s);
+    runs.push_back(run("noise", seed, 0.9 + 0.01 * (s % 3) + (s % 2 == 0 ? 0.01 : -0.012), 1000.0));
+  }
+  const Comparison c = compare(runs, "base", {});
+  EXPECT_DOUBLE_EQ(coverage_contrast(c, 1).p_holm, 0.0625);
+  // with two methods six seeds cannot reach 5 % any more
+  EXPECT_EQ(coverage_contrast(c, 1).verdict, Verdict::interval_only);
+  EXPECT_EQ(coverage_contrast(c, 2).verdict, Verdict::not_significant);
+  const std::string notes = all_notes(comparison_table(c));
+  EXPECT_NE(notes.find("7 seeds could"), std::string::npos);
+  EXPECT_NE(notes.find("; the intervals are not adjusted for several methods"), std::string::npos);
+}
+
+TEST(Compare, MethodsThatDoTheSameAreEqual) {
+  std::vector<ComparedRun> runs;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    for (const std::string method : {"a", "b"}) runs.push_back(run(method, seed, 0.9, 100));
+  }
+  const Comparison c = compare(runs, "a", {});
+  EXPECT_EQ(coverage_contrast(c, 1).verdict, Verdict::equal);
+  EXPECT_EQ(answers(c)[0], "aircraft: b covers as much as a in as many metres");
+  EXPECT_EQ(find_figure(c, 0, kCoverageMetric, 0)->rank, 1.5);
+}
+
+TEST(Compare, OneSeedIsNotTested) {
+  const std::vector<ComparedRun> runs = {run("a", 1, 0.9, 100), run("b", 1, 0.92, 50)};
+  const Comparison c = compare(runs, "a", {});
+  EXPECT_EQ(coverage_contrast(c, 1).verdict, Verdict::untested);
+  EXPECT_EQ(answers(c)[0],
+            "aircraft: b covers 2.0 points more than a at 0.05 m (one seed: no test) in 50.0 m "
+            "less, 50 % (one seed: no test)");
+}
+
+TEST(Compare, OneSeedWithoutADifferenceIsNotTestedEither) {
+  const std::vector<ComparedRun> runs = {run("a", 1, 0.9, 100), run("b", 1, 0.9, 100)};
+  const Comparison c = compare(runs, "a", {});
+  EXPECT_EQ(coverage_contrast(c, 1).verdict, Verdict::untested);
+  EXPECT_EQ(answers(c)[0],
+            "aircraft: b covers as much as a (one seed: no test) in as many metres (one seed: no "
+            "test)");
+}
+
+TEST(Compare, SeedsWithoutADifferenceGiveTheTestNoPower) {
+  std::vector<ComparedRun> runs = clear_cut(6);
+  runs[6].figures.coverage_final = runs[0].figures.coverage_final;  // the first seed of `better`
+  const Comparison c = compare(runs, "base", {});
+  const Contrast& contrast = coverage_contrast(c, 1);
+  EXPECT_EQ(contrast.pairs, 6U);
+  EXPECT_EQ(contrast.differing, 5U);
+  EXPECT_EQ(contrast.p, 0.0625);  // two of 2^5 signs
+  EXPECT_EQ(contrast.verdict, Verdict::interval_only);
+  const std::string notes = all_notes(comparison_table(c));
+  EXPECT_NE(notes.find("n = 6, 5 of them with a difference: no p of the signed-rank test can be "
+                       "below 0.0625, so"),
+            std::string::npos);
+}
+
+TEST(Compare, EveryNumberOfSeedsHasItsOwnPowerNote) {
+  std::vector<ComparedRun> runs = clear_cut(5);
+  for (ComparedRun more : clear_cut(8)) {
+    more.scenario = "plant";
+    runs.push_back(more);
+  }
+  const std::string notes = all_notes(comparison_table(compare(runs, "base", {})));
+  EXPECT_NE(notes.find("n = 5: no p of the signed-rank test"), std::string::npos);
+  EXPECT_EQ(notes.find("n = 8: no p"), std::string::npos);
+  EXPECT_EQ(notes.find("not adjusted"), std::string::npos);  // one method against the baseline
+}
+
+TEST(Compare, BudgetsOfAreasAreTheLongestRuns) {
+  const std::vector<ComparedRun> runs = {run("short", 1, 0.8, 50), run("long", 1, 0.8, 200)};
+  const Comparison c = compare(runs, "short", {});
+  EXPECT_EQ(c.budgets[0][1], 200.0);
+  // linear up to 0.8 at 50 m, then 0.8: mean over 200 m is 0.8 (1 - 25/200)
+  EXPECT_NEAR(find_figure(c, 0, "AUC over metres (%)", 0)->estimate.mean, 70.0, 1e-9);
+  EXPECT_NEAR(find_figure(c, 0, "AUC over metres (%)", 1)->estimate.mean, 40.0, 1e-9);
+}
+
+TEST(Compare, WhatWasNotMeasuredIsNotCompared) {
+  std::vector<ComparedRun> runs = clear_cut(2);
+  runs[0].figures.curve = {};
+  const Comparison c = compare(runs, "base", {});
+  EXPECT_EQ(find_figure(c, 0, "AUC over views (%)", 0), nullptr);
+  EXPECT_EQ(find_figure(c, 0, "F at 0.05 m (%)", 0), nullptr);
+  EXPECT_EQ(find_figure(c, 0, "share of ceiling at 0.05 m (%)", 0), nullptr);
+  Ceiling ceiling;
+  ceiling.leaf_outside = {0.95, 1.0, 1.0};
+  const Comparison with = compare(runs, "base", {{{"aircraft", "base"}, ceiling}});
+  EXPECT_NEAR(find_figure(with, 0, "share of ceiling at 0.05 m (%)", 0)->estimate.mean,
+              100.0 * (0.90 + 0.91) / 2 / 0.95, 1e-9);
+  EXPECT_EQ(find_figure(with, 0, "share of ceiling at 0.05 m (%)", 1), nullptr);  // `better`
+}
+
+TEST(Compare, EachMethodIsDividedByItsOwnCeiling) {
+  const std::vector<ComparedRun> runs = {run("coarse", 1, 0.4, 50), run("fine", 1, 0.8, 50)};
+  Ceiling low;
+  low.leaf_outside = {0.5, 1.0, 1.0};
+  Ceiling high;
+  high.leaf_outside = {1.0, 1.0, 1.0};
+  const Comparison c =
+      compare(runs, "coarse", {{{"aircraft", "coarse"}, low}, {{"aircraft", "fine"}, high}});
+  for (const std::size_t method : {0, 1}) {  // 0.4 of 0.5, 0.8 of 1
+    EXPECT_NEAR(find_figure(c, 0, "share of ceiling at 0.05 m (%)", method)->estimate.mean, 80.0,
+                1e-9);
+  }
+}
+
+TEST(Compare, RanksAreMeansOverScenariosAndSeeds) {
+  std::vector<ComparedRun> runs;
+  for (const auto& [scenario, a, b, c] :
+       std::vector<std::tuple<std::string, double, double, double>>{{"x", 0.9, 0.8, 0.7},
+                                                                    {"y", 0.5, 0.5, 0.6}}) {
+    runs.push_back(run("a", 1, a, 10, scenario));
+    runs.push_back(run("b", 1, b, 20, scenario));
+    runs.push_back(run("c", 1, c, 30, scenario));
+  }
+  const Comparison c = compare(runs, "a", {});
+  const auto rank_of = [&](std::string_view metric, std::size_t method) {
+    for (const OverallRank& rank : c.ranks) {
+      if (rank.metric == metric_index(metric) && rank.method == method) return rank.rank;
+    }
+    return std::nan("");
+  };
+  EXPECT_DOUBLE_EQ(rank_of(kCoverageMetric, 0), (1 + 2.5) / 2);
+  EXPECT_DOUBLE_EQ(rank_of(kCoverageMetric, 1), (2 + 2.5) / 2);
+  EXPECT_DOUBLE_EQ(rank_of(kCoverageMetric, 2), (3 + 1) / 2.0);
+  EXPECT_DOUBLE_EQ(rank_of(kDistanceMetric, 0), 1.0);  // fewer metres are better
+  const TextTable table = comparison_table(c);
+  EXPECT_EQ(table.rows.back()[0].text, "all scenarios");
+}
+
+TEST(Compare, AnswerNamesSizeIntervalAndVerdict) {
+  const std::string answer = answers(compare(clear_cut(6), "base", {}))[0];
+  // differences 2.00, 2.01, ... 2.05 points: mean 2.025, and 500 to 505 m
+  EXPECT_EQ(
+      answer,
+      "aircraft: better covers 2.0 points more than base at 0.05 m (95 % CI 2.0 to 2.0, p = "
+      "0.031, n = 6: significant) in 502.5 m less, 50 % (95 % CI 500.5 to 504.5 m, p = 0.031, "
+      "n = 6: significant)");
+}
+
+TEST(Compare, TableHasAllFormsAndOneCellAColumn) {
+  const TextTable table = comparison_table(compare(clear_cut(3), "base", {}));
+  for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size());
+  for (const std::string_view format : kTableFormats) {
+    EXPECT_NE(formatted_text(table, format).find("AUC"), std::string::npos) << format;
+  }
+}
+
+}  // namespace
+}  // namespace gnbv

@@ -1,0 +1,224 @@
+#include "bench/compare/statistics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+
+#include "sim/core/rng.hpp"
+
+namespace gnbv {
+namespace {
+
+/// P of a rank sum at least as far from its centre, by laying out all sign patterns.
+double brute_force_p(const std::vector<double>& differences) {
+  std::vector<double> sizes;
+  double w = 0.0;
+  for (const double d : differences) {
+    if (d != 0.0) sizes.push_back(std::abs(d));
+  }
+  const std::vector<double> ranks = ranks_of(sizes);
+  double total = 0.0;
+  for (std::size_t i = 0, k = 0; i < differences.size(); ++i) {
+    if (differences[i] == 0.0) continue;
+    total += ranks[k];
+    w += differences[i] > 0.0 ? ranks[k] : 0.0;
+    ++k;
+  }
+  unsigned as_far = 0;
+  for (unsigned signs = 0; signs < (1U << sizes.size()); ++signs) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < sizes.size(); ++i) sum += (signs >> i & 1U) != 0 ? ranks[i] : 0.0;
+    if (std::abs(sum - total / 2) >= std::abs(w - total / 2)) ++as_far;
+  }
+  return as_far / std::ldexp(1.0, static_cast<int>(sizes.size()));
+}
+
+std::vector<double> normal_values(std::size_t n, std::uint64_t seed, double mean = 0.0) {
+  std::vector<double> values(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    values[i] = mean + standard_normal({seed, Stream::bench, 0, i});
+  }
+  return values;
+}
+
+// Fisher and Yates 1963, Table III, and NIST's e-Handbook 1.3.6.7.2.
+TEST(Student, QuantilesAreThoseOfThePublishedTables) {
+  const std::vector<std::array<double, 3>> table = {
+      {1, 0.975, 12.706}, {2, 0.975, 4.303},  {3, 0.975, 3.182},
+      {4, 0.975, 2.776},  {9, 0.975, 2.262},  {30, 0.975, 2.042},
+      {4, 0.95, 2.132},   {10, 0.995, 3.169}, {120, 0.975, 1.980}};
+  for (const auto& [dof, p, t] : table) {
+    EXPECT_NEAR(student_t_quantile(p, dof), t, 5.1e-4) << dof;  // printed to three places
+    EXPECT_NEAR(student_t_quantile(1.0 - p, dof), -t, 5.1e-4) << dof;
+  }
+}
+
+TEST(Student, OneAndTwoDegreesOfFreedomHaveClosedForms) {
+  for (const double t : {-30.0, -2.0, -0.1, 0.0, 0.5, 1.0, 7.0, 100.0}) {
+    EXPECT_NEAR(student_t_cdf(t, 1), 0.5 + std::atan(t) / M_PI, 1e-13) << t;
+    EXPECT_NEAR(student_t_cdf(t, 2), 0.5 + t / (2.0 * std::sqrt(2.0 + t * t)), 1e-13) << t;
+  }
+}
+
+TEST(IncompleteBeta, ClosedFormsAndSymmetry) {
+  for (const double x : {0.0, 0.01, 0.3, 0.5, 0.77, 1.0}) {
+    EXPECT_NEAR(incomplete_beta(1.0, 1.0, x), x, 1e-14);
+    EXPECT_NEAR(incomplete_beta(3.0, 1.0, x), x * x * x, 1e-14);
+    EXPECT_NEAR(incomplete_beta(1.0, 4.0, x), 1.0 - std::pow(1.0 - x, 4), 1e-14);
+    EXPECT_NEAR(incomplete_beta(2.5, 7.0, x) + incomplete_beta(7.0, 2.5, 1.0 - x), 1.0, 1e-13);
+  }
+}
+
+TEST(MeanEstimate, IsTheTextbooks) {
+  const std::vector<double> values = {1.0, 2.0, 3.0, 4.0, 5.0};
+  EXPECT_DOUBLE_EQ(sample_deviation(values), std::sqrt(2.5));
+  const MeanEstimate estimate = estimate_mean(values);
+  EXPECT_EQ(estimate.n, 5U);
+  EXPECT_DOUBLE_EQ(estimate.mean, 3.0);
+  EXPECT_NEAR(*estimate.half_width, 2.776445 * std::sqrt(0.5), 1e-6);
+  EXPECT_FALSE(estimate_mean(std::vector<double>{7.0}).half_width.has_value());
+}
+
+// 4,000 samples: the share that contains the truth has a standard error of 0.35 points.
+TEST(MeanEstimate, ContainsTheTruthIn95OfHundredSamples) {
+  for (const std::size_t n : {2U, 5U, 12U}) {
+    int hits = 0;
+    for (std::uint64_t seed = 0; seed < 4000; ++seed) {
+      const MeanEstimate e = estimate_mean(normal_values(n, seed, 3.0));
+      hits += std::abs(e.mean - 3.0) <= *e.half_width ? 1 : 0;
+    }
+    EXPECT_NEAR(hits / 4000.0, 0.95, 0.012) << n;
+  }
+}
+
+TEST(Wilcoxon, ExactPIsThatOfAllSignPatternsTiesAndZerosIncluded) {
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const std::size_t n = 1 + seed % 10;
+    std::vector<double> differences = normal_values(n, seed, 0.4);
+    // every other sample is rounded, so that sizes are equal and some differences 0
+    if (seed % 2 == 1) {
+      for (double& d : differences) d = std::round(2.0 * d);
+    }
+    EXPECT_NEAR(wilcoxon_signed_rank(differences).p, brute_force_p(differences), 1e-12) << seed;
+  }
+}
+
+// Wilcoxon and Wilcox 1964: the greatest smaller rank sum with two-sided p <= 0.05.
+TEST(Wilcoxon, CriticalValuesAreThoseOfThePublishedTable) {
+  const std::vector<std::pair<int, int>> table = {{6, 0},   {7, 2},   {8, 3},   {9, 5},  {10, 8},
+                                                  {12, 13}, {15, 25}, {20, 52}, {25, 89}};
+  for (const auto& [n, critical] : table) {
+    // negative where the greatest ranks that still fit into the wanted sum are
+    const auto p_of_sum = [n](int sum) {
+      std::vector<double> differences;
+      for (int rank = n; rank >= 1; --rank) {
+        const bool negative = rank <= sum;
+        if (negative) sum -= rank;
+        differences.push_back(negative ? -rank : rank);
+      }
+      EXPECT_EQ(sum, 0);
+      return wilcoxon_signed_rank(differences).p;
+    };
+    EXPECT_LE(p_of_sum(critical), 0.05) << n;
+    EXPECT_GT(p_of_sum(critical + 1), 0.05) << n;
+  }
+}
+
+TEST(Wilcoxon, FiveSeedsNeverReachFivePercent) {
+  EXPECT_DOUBLE_EQ(wilcoxon_signed_rank(std::vector<double>{1, 2, 3, 4, 5}).p, 0.0625);
+  EXPECT_DOUBLE_EQ(least_wilcoxon_p(5), 0.0625);
+  EXPECT_DOUBLE_EQ(least_wilcoxon_p(6), 0.03125);
+  EXPECT_DOUBLE_EQ(least_wilcoxon_p(1), 1.0);
+  EXPECT_DOUBLE_EQ(least_wilcoxon_p(0), 1.0);
+}
+
+TEST(Wilcoxon, NothingButZerosSaysNothing) {
+  const SignedRankTest test = wilcoxon_signed_rank(std::vector<double>{0.0, 0.0});
+  EXPECT_EQ(test.n, 0U);
+  EXPECT_EQ(test.p, 1.0);
+}
+
+// Oracle: random sign patterns of 26 ranks, the first n that is not enumerated.
+TEST(Wilcoxon, NormalLawGoesOnWhereTheExactOneEnds) {
+  for (const double mean : {0.0, 0.3, 0.6}) {
+    const std::vector<double> many = normal_values(26, 11, mean);
+    const SignedRankTest normal = wilcoxon_signed_rank(many);
+    EXPECT_FALSE(normal.is_exact);
+    // 40,000 random sign patterns: standard error of p at most 0.0025
+    const double centre = 26.0 * 27.0 / 4.0;
+    int as_far = 0;
+    for (std::uint64_t pattern = 0; pattern < 40000; ++pattern) {
+      const std::uint64_t signs = random_bits({5, Stream::bench, pattern, 0});
+      double sum = 0.0;
+      for (unsigned rank = 1; rank <= 26; ++rank) sum += (signs >> rank & 1U) != 0 ? rank : 0.0;
+      as_far += std::abs(sum - centre) >= std::abs(normal.w_plus - centre) ? 1 : 0;
+    }
+    EXPECT_NEAR(normal.p, as_far / 40000.0, 0.01) << mean;
+  }
+}
+
+TEST(Wilcoxon, RefusesATrueHypothesisAsRarelyAsItSays) {
+  int refused = 0;
+  for (std::uint64_t seed = 0; seed < 4000; ++seed) {
+    refused += wilcoxon_signed_rank(normal_values(8, seed)).p <= 0.05 ? 1 : 0;
+  }
+  // exact test of n = 8: p <= 0.05 has probability 10/256 = 0.039, standard error 0.003
+  EXPECT_NEAR(refused / 4000.0, 10.0 / 256.0, 0.01);
+}
+
+TEST(Bootstrap, IsKeyedAndMovesWithTheValues) {
+  const std::vector<double> values = normal_values(9, 1);
+  const Interval one = bootstrap_mean_interval(values, 1);
+  EXPECT_EQ(one.low, bootstrap_mean_interval(values, 1).low);
+  EXPECT_NE(one.low, bootstrap_mean_interval(values, 2).low);
+  std::vector<double> moved = values;
+  for (double& v : moved) v += 100.0;
+  EXPECT_NEAR(bootstrap_mean_interval(moved, 1).high, one.high + 100.0, 1e-9);
+  const Interval same = bootstrap_mean_interval(std::vector<double>{4.0, 4.0}, 1);
+  EXPECT_EQ(same.low, 4.0);
+  EXPECT_EQ(same.high, 4.0);
+}
+
+// Oracle: all n^n resamples of three values.
+TEST(Bootstrap, PercentilesAreThoseOfAllResamples) {
+  const std::vector<double> values = {0.0, 1.0, 5.0};
+  const Interval interval = bootstrap_mean_interval(values, 3);
+  // P(mean = 0) = P(mean = 5) = 1/27 > 0.025: both ends are the extremes
+  EXPECT_EQ(interval.low, 0.0);
+  EXPECT_DOUBLE_EQ(interval.high, 5.0);
+}
+
+// Known to be too narrow for few values, which is why a verdict also asks Student's interval.
+TEST(Bootstrap, CoversLessThanItSaysWithFiveValuesAndNearlyThatWithForty) {
+  const auto share = [](std::size_t n, int samples) {
+    int hits = 0;
+    for (int seed = 0; seed < samples; ++seed) {
+      const auto key = static_cast<std::uint64_t>(seed);
+      hits += bootstrap_mean_interval(normal_values(n, key), key).contains(0.0) ? 1 : 0;
+    }
+    return static_cast<double>(hits) / samples;
+  };
+  EXPECT_NEAR(share(5, 400), 0.83, 0.06);  // three standard errors of 0.019
+  EXPECT_NEAR(share(40, 200), 0.94, 0.055);
+}
+
+TEST(Holm, StepsDownAndNeverDecreases) {
+  // ordered: 0.01 x 4, 0.013 x 3, 0.03 x 2, 0.04 x 1 -> not below the one before
+  const std::vector<double> adjusted = holm_adjusted(std::vector<double>{0.03, 0.01, 0.04, 0.013});
+  EXPECT_DOUBLE_EQ(adjusted[1], 0.04);
+  EXPECT_DOUBLE_EQ(adjusted[3], 0.04);
+  EXPECT_DOUBLE_EQ(adjusted[0], 0.06);
+  EXPECT_DOUBLE_EQ(adjusted[2], 0.06);
+  EXPECT_EQ(holm_adjusted(std::vector<double>{0.7, 0.8}), (std::vector<double>{1.0, 1.0}));
+  EXPECT_EQ(holm_adjusted(std::vector<double>{0.2}), (std::vector<double>{0.2}));
+}
+
+TEST(Ranks, EqualValuesShareTheirs) {
+  EXPECT_EQ(ranks_of(std::vector<double>{3.0, 1.0, 3.0, 2.0}),
+            (std::vector<double>{3.5, 1.0, 3.5, 2.0}));
+  EXPECT_EQ(ranks_of(std::vector<double>{5.0, 5.0, 5.0}), (std::vector<double>{2.0, 2.0, 2.0}));
+}
+
+}  // namespace
+}  // namespace gnbv

@@ -1,0 +1,130 @@
+#include "bench/compare/text_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+namespace gnbv {
+namespace {
+
+using enum ColumnKind;
+
+TextTable example() {
+  return {.title = "T & co",
+          .columns = {{"Name", "name", text},
+                      {"Runs", "runs", number},
+                      {"Coverage", "coverage", estimate},
+                      {"Difference", "difference", interval}},
+          .rows = {{{"a, \"b\""},
+                    {"5", {5.0, std::nullopt}},
+                    {"92.8 ±0.6%", {0.9279255027467871, 0.006}},
+                    {"-2.1 to -0.7", {-2.1, -0.7}}},
+                   {{"éé"}, {"-"}, {"50.0%†", {0.5, std::nullopt}}, {"-"}}},
+          .notes = {"one, two"}};
+}
+
+/// The oracle: RFC 4180 read back, character by character.
+std::vector<std::vector<std::string>> read_csv(const std::string& text) {
+  std::vector<std::vector<std::string>> records(1, {""});
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    std::string& field = records.back().back();
+    if (quoted && text[i] == '"' && text[i + 1] == '"') {
+      field += text[++i];
+    } else if (text[i] == '"') {
+      quoted = !quoted;
+    } else if (quoted) {
+      field += text[i];
+    } else if (text[i] == ',') {
+      records.back().emplace_back();
+    } else if (text.substr(i, 2) == "\r\n") {
+      records.push_back({""});
+      ++i;
+    } else {
+      field += text[i];
+    }
+  }
+  records.pop_back();
+  return records;
+}
+
+TEST(TextTable, TerminalTextIsAlignedByCodePoints) {
+  EXPECT_EQ(terminal_text(example()),
+            "T & co\n"
+            "Name    Runs    Coverage    Difference\n"
+            "--------------------------------------\n"
+            "a, \"b\"     5  92.8 ±0.6%  -2.1 to -0.7\n"
+            "éé         -      50.0%†             -\n"
+            "one, two\n");
+}
+
+TEST(TextTable, MarkdownHasOneCellAColumnAndNoMarkupOfItsText) {
+  TextTable table;
+  table.title = "T";
+  table.columns = {{"a", "a", text}, {"b|c", "b", number}};
+  table.rows = {{{"x_y_ *<z>`"}, {"1"}}, {{"line\nfeed"}, {"22"}}};
+  table.notes = {"n"};
+  EXPECT_EQ(markdown_text(table),
+            "**T**\n\n"
+            "| a              | b\\|c |\n"
+            "| -------------- | ---: |\n"
+            "| x_y\\_ \\*\\<z>\\` |    1 |\n"
+            "| line feed      |   22 |\n"
+            "\n"
+            "- n\n");
+}
+
+TEST(TextTable, CsvReadsBackWithTheSameNumbers) {
+  const auto records = read_csv(csv_text(example()));
+  ASSERT_EQ(records.size(), 4U);
+  EXPECT_EQ(records[0], (std::vector<std::string>{"name", "runs", "coverage", "coverage_ci95",
+                                                  "difference_low", "difference_high"}));
+  EXPECT_EQ(records[1][0], "a, \"b\"");
+  EXPECT_EQ(std::strtod(records[1][2].c_str(), nullptr), 0.9279255027467871);
+  EXPECT_EQ(records[1][4], "-2.1");
+  EXPECT_EQ(records[2], (std::vector<std::string>{"éé", "", "0.5", "", "", ""}));
+  EXPECT_EQ(records[3], (std::vector<std::string>{"note: one, two", "", "", "", "", ""}));
+}
+
+TEST(TextTable, JsonReadsBackWithTheSameNumbers) {
+  const auto json = nlohmann::json::parse(json_text(example()));
+  EXPECT_EQ(json.at("title"), "T & co");
+  EXPECT_EQ(json.at("notes").at(0), "one, two");
+  EXPECT_EQ(json.at("columns").size(), 6U);
+  EXPECT_EQ(json.at("rows").at(0).at("name"), "a, \"b\"");
+  EXPECT_EQ(json.at("rows").at(0).at("coverage"), 0.9279255027467871);
+  EXPECT_EQ(json.at("rows").at(0).at("coverage_ci95"), 0.006);
+  EXPECT_TRUE(json.at("rows").at(1).at("difference_low").is_null());
+}
+
+TEST(TextTable, LatexEscapesAllThatItWouldRead) {
+  TextTable table = example();
+  table.rows = {{{"\\&%_#${}~^--x<y>|"}, {"1"}, {"92.8 ±0.6%†"}, {"-"}}};
+  EXPECT_EQ(latex_text(table),
+            "% needs \\usepackage{booktabs}\n"
+            "\\begin{table}\n\\centering\n\\caption{T \\& co}\n"
+            "\\begin{tabular}{lrrr}\n\\toprule\n"
+            "Name & Runs & Coverage & Difference \\\\\n\\midrule\n"
+            "\\textbackslash{}\\&\\%\\_\\#\\$\\{\\}\\textasciitilde{}\\textasciicircum{}-{}-"
+            "x\\textless{}y\\textgreater{}\\textbar{} & 1 & "
+            "92.8 $\\pm$0.6\\%$^\\dagger$ & - \\\\\n"
+            "\\bottomrule\n\\end{tabular}\n"
+            "\n\\par\\footnotesize one, two\n\\end{table}\n");
+}
+
+TEST(TextTable, EveryFormCarriesEveryNote) {
+  for (const std::string_view format : kTableFormats) {
+    EXPECT_NE(formatted_text(example(), format).find("one, two"), std::string::npos) << format;
+  }
+}
+
+TEST(GroupedNumber, GroupsThousandsAndHasNoNegativeZero) {
+  EXPECT_EQ(grouped_number(10969.6, 0), "10,970");
+  EXPECT_EQ(grouped_number(-1234567.25, 1), "-1,234,567.2");
+  EXPECT_EQ(grouped_number(999.0, 2), "999.00");
+  EXPECT_EQ(grouped_number(-0.04, 1), "0.0");
+}
+
+}  // namespace
+}  // namespace gnbv

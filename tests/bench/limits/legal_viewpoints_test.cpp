@@ -1,0 +1,135 @@
+#include "bench/limits/legal_viewpoints.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "bench/limits/lattice_ways.hpp"
+#include "tests/bench/shapes.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr double kRadius_m = 0.5;
+const Box3 kRoom(Vec3(-4, -4, 0), Vec3(4, 4, 4));
+
+/// A wall across the room at x = 0 with a door in its middle, from the floor to the ceiling and
+/// beyond.
+TriangleMesh wall_with_door(double door_m) {
+  TriangleMesh mesh;
+  const double half_m = 0.5 * door_m;
+  test::add_sheet(mesh, Vec3(0, -9, -9), Vec3(0, 9 - half_m, 0), Vec3(0, 0, 18));
+  test::add_sheet(mesh, Vec3(0, half_m, -9), Vec3(0, 9 - half_m, 0), Vec3(0, 0, 18));
+  return mesh;
+}
+
+LegalViewpoints legal_in(const TriangleMesh& mesh, const Vec3& start, int threads = 2) {
+  const World world{mesh, true};
+  return find_legal_viewpoints(RayScene(world), kRoom, kRadius_m, 0.4, start, threads);
+}
+
+bool any_beyond_the_wall(const LegalViewpoints& legal) {
+  return std::any_of(legal.p_world_m.begin(), legal.p_world_m.end(),
+                     [](const Vec3& p) { return p.x() > 0.0; });
+}
+
+TEST(LegalViewpoints, LeadThroughADoorWiderThanTheSphereAndNoOther) {
+  const Vec3 start(-2, 0, 2);
+  EXPECT_TRUE(any_beyond_the_wall(legal_in(wall_with_door(2.0 * kRadius_m + 0.2), start)));
+  EXPECT_FALSE(any_beyond_the_wall(legal_in(wall_with_door(2.0 * kRadius_m - 0.1), start)));
+}
+
+TEST(LegalViewpoints, LeaveOutARoomThatIsClosed) {
+  TriangleMesh closed;
+  const Box3 inner(Vec3(-2, -2, 1), Vec3(2, 2, 3.5));
+  test::add_box(closed, inner.min(), inner.sizes());
+  const LegalViewpoints outside = legal_in(closed, Vec3(-3.5, -3.5, 0.5));
+  const LegalViewpoints inside = legal_in(closed, Vec3(0, 0, 2));
+  EXPECT_GT(outside.size(), 0U);
+  EXPECT_GT(inside.size(), 0U);
+  for (const Vec3& p : outside.p_world_m) EXPECT_FALSE(inner.contains(p)) << p.transpose();
+  for (const Vec3& p : inside.p_world_m) EXPECT_TRUE(inner.contains(p)) << p.transpose();
+}
+
+TEST(LegalViewpoints, FillAnEmptyRoomToItsFaces) {
+  TriangleMesh far_away;
+  test::add_sheet(far_away, Vec3(50, 50, 50), Vec3(1, 0, 0), Vec3(0, 1, 0));
+  const LegalViewpoints legal = legal_in(far_away, Vec3(0, 0, 1));
+  EXPECT_EQ(legal.size(), 21U * 21U * 11U);  // 8 x 8 x 4 m in steps of 0.4 m, both ends included
+  std::size_t inner = 0;
+  for (const auto& neighbours : legal.neighbours) inner += neighbours.size() == 26 ? 1 : 0;
+  EXPECT_EQ(inner, 19U * 19U * 9U);
+}
+
+TEST(LegalViewpoints, KeepTheRadiusOnEveryLeg) {
+  // a pole in the middle between positions that are clear of it themselves
+  TriangleMesh pole;
+  test::add_box(pole, Vec3(0.18, 0.18, 0.0), Vec3(0.04, 0.04, 4.0));
+  const World world{pole, true};
+  const RayScene scene(world);
+  const LegalViewpoints legal =
+      find_legal_viewpoints(scene, kRoom, kRadius_m, 1.2, Vec3(-2, 0, 2), 2);
+  ASSERT_EQ(legal.size(), 7U * 7U * 4U);
+  for (std::size_t i = 0; i < legal.size(); ++i) {
+    for (const std::uint32_t j : legal.neighbours[i]) {
+      for (double t = 0.0; t <= 1.0; t += 0.05) {
+        const Vec3 p = (1.0 - t) * legal.p_world_m[i] + t * legal.p_world_m[j];
+        ASSERT_GE(scene.distance_to_structure_m(p, 10.0), kRadius_m - 1e-9);
+      }
+    }
+  }
+}
+
+TEST(LegalViewpoints, AreTheSameOnAnyNumberOfThreads) {
+  const TriangleMesh mesh = wall_with_door(1.5);
+  const LegalViewpoints one = legal_in(mesh, Vec3(-2, 0, 2), 1);
+  const LegalViewpoints many = legal_in(mesh, Vec3(-2, 0, 2), 5);
+  EXPECT_EQ(one.p_world_m, many.p_world_m);
+  EXPECT_EQ(one.neighbours, many.neighbours);
+}
+
+TEST(LegClearance, IsTheDistanceOfTheLegFromTheWall) {
+  // along a wall the distance is known; what is within a centimetre of the radius may be refused
+  const World world{wall_with_door(0.2), true};
+  const RayScene scene(world);
+  for (const double off_m : {-0.3, -0.02, 0.02, 0.3}) {
+    const double x = -(kRadius_m + off_m);
+    EXPECT_EQ(is_leg_clear(scene, Vec3(x, -3, 1), Vec3(x, 3, 3), kRadius_m), off_m > 0.0) << off_m;
+  }
+  EXPECT_FALSE(is_leg_clear(scene, Vec3(-3, 1, 1), Vec3(3, 1, 1), kRadius_m));  // through it
+}
+
+TEST(LatticeWays, GoRoundTheWallByTheDoor) {
+  const World world{wall_with_door(1.4), true};
+  const RayScene scene(world);
+  const LegalViewpoints legal =
+      find_legal_viewpoints(scene, kRoom, kRadius_m, 0.4, Vec3(-2, -3, 2), 2);
+  LatticeWays ways(scene, legal, kRadius_m);
+  ways.prepare({ways.start()}, 1);
+  // the place that mirrors the start: the straight way is through the wall
+  std::size_t goal = 0;
+  const Vec3 wanted(2, -3, 2);
+  for (std::size_t i = 1; i < legal.size(); ++i) {
+    if ((legal.p_world_m[i] - wanted).norm() < (legal.p_world_m[goal] - wanted).norm()) goal = i;
+  }
+  const Way way = ways.way(ways.start(), goal);
+  ASSERT_FALSE(way.via_world_m.empty());
+  std::vector<Vec3> points = {legal.start_world_m};
+  points.insert(points.end(), way.via_world_m.begin(), way.via_world_m.end());
+  points.push_back(legal.p_world_m[goal]);
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    length_m += (points[i] - points[i - 1]).norm();
+    EXPECT_TRUE(is_leg_clear(scene, points[i - 1], points[i], kRadius_m));
+  }
+  EXPECT_NEAR(way.length_m, length_m, 1e-9);
+  // a thread pulled round the door's edge at y = -0.7, half a metre away from it, is no shorter
+  // than to the middle of its bend; the lattice's corners make it a little longer
+  const double shortest_m = 2.0 * (Vec3(-2, -3, 2) - Vec3(0, -0.2, 2)).norm();
+  EXPECT_GE(length_m, shortest_m - 2.0 * legal.step_m);
+  EXPECT_LE(length_m, 1.15 * shortest_m);
+  EXPECT_LE(length_m, ways.distance_m(ways.start(), goal) + 1e-9);  // that one is uncut
+}
+
+}  // namespace
+}  // namespace gnbv

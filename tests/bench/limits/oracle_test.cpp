@@ -1,0 +1,239 @@
+#include "bench/limits/oracle.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdlib>
+#include <set>
+
+#include "bench/limits/ceiling_cache.hpp"
+#include "bench/limits/cloud_of_views.hpp"
+#include "scenarios/load.hpp"
+#include "tools/mission/load_world.hpp"
+#include "tools/mission/start_pose.hpp"
+
+namespace gnbv {
+namespace {
+
+/// The smoke scenario as the oracle sees it; nothing comes from a cache.
+struct Smoke {
+  Smoke() { setenv("GNBV_CACHE", "", 1); }
+
+  std::vector<Decision> plan(OracleAim aim, int threads = 2) const {
+    return plan_oracle(scenario, world, scene, start, aim, threads);
+  }
+
+  std::vector<std::string> warnings;
+  Scenario scenario = load_scenario("smoke", {});
+  World world = load_world(scenario, warnings);
+  RayScene scene{world};
+  ViewPose start = start_pose(scenario, scene);
+  LegalViewpoints legal = find_legal_viewpoints(scenario, scene, start, 2);
+  SurfaceReference reference =
+      make_surface_reference(world, scene, {.floor_z_m = scenario.planner.floor_z_m}, 2);
+};
+
+const Smoke& smoke() {
+  static const Smoke made;
+  return made;
+}
+
+const std::vector<Decision>& route(OracleAim aim) {
+  static const std::array<std::vector<Decision>, 2> routes = {smoke().plan(OracleAim::views),
+                                                              smoke().plan(OracleAim::metres)};
+  return routes[aim == OracleAim::views ? 0 : 1];
+}
+
+const ViewSurvey& survey() {
+  static const ViewSurvey made =
+      survey_views(smoke().scenario, smoke().scene, smoke().legal, smoke().reference, 2);
+  return made;
+}
+
+double length_m(const std::vector<Decision>& views) {
+  double total_m = 0.0;
+  Vec3 at_m = smoke().start.p_world_m;
+  for (const Decision& view : views) {
+    total_m += path_length_m(at_m, view.via_world_m, view.view.p_world_m);
+    at_m = view.view.p_world_m;
+  }
+  return total_m;
+}
+
+TEST(Oracle, KeepsTheRadiusAllTheWay) {
+  const Smoke& s = smoke();
+  const ValidityConfig& validity = s.scenario.planner.validity;
+  const Box3 box = navigation_box_m(validity, s.scenario.workspace_m);
+  for (const OracleAim aim : {OracleAim::views, OracleAim::metres}) {
+    Vec3 at_m = s.start.p_world_m;
+    for (const Decision& view : route(aim)) {
+      std::vector<Vec3> points_m = view.via_world_m;
+      points_m.push_back(view.view.p_world_m);
+      for (const Vec3& next_m : points_m) {
+        for (double t = 0.0; t <= 1.0; t += 0.01) {
+          const Vec3 p = (1.0 - t) * at_m + t * next_m;
+          ASSERT_GE(s.scene.distance_to_structure_m(p, 100.0), validity.collision_radius_m - 1e-9);
+          ASSERT_LT(box.squaredExteriorDistance(p), 1e-12);
+        }
+        at_m = next_m;
+      }
+    }
+  }
+}
+
+TEST(Oracle, FindsItsShareOfWhatAllViewsTogetherKeep) {
+  const Smoke& s = smoke();
+  const std::vector<CameraModel> cameras = exact_cameras(s.scenario);
+  for (const OracleAim aim : {OracleAim::views, OracleAim::metres}) {
+    CloudOfViews cloud(s.scenario, s.reference.outside[0]);
+    std::vector<FrameRays> rays;
+    const auto add = [&](const ViewPose& view) {
+      take_view(s.scene, cameras, view, s.scenario.planner.floor_z_m, 1, rays);
+      cloud.add(rays);
+    };
+    add(s.start);
+    for (const Decision& view : route(aim)) add(view.view);
+    const double coverage_now =
+        coverage_at_all_sizes(s.reference.outside, cloud.points_world_m())[0];
+    EXPECT_DOUBLE_EQ(coverage_now, static_cast<double>(cloud.found()) /
+                                       static_cast<double>(s.reference.outside[0].size()));
+    // flown in another order than chosen, leaves keep other centroids: a few voxels either way
+    EXPECT_GE(coverage_now, (kOracleShare - 0.01) * survey().leaf_outside[0]);
+    EXPECT_LE(coverage_now, survey().leaf_outside[0] + 0.01);
+  }
+}
+
+TEST(Oracle, ForFewerViewsFliesFartherAndForFewerMetresLooksMoreOften) {
+  EXPECT_LE(route(OracleAim::views).size(), route(OracleAim::metres).size());
+  EXPECT_GE(length_m(route(OracleAim::views)), length_m(route(OracleAim::metres)));
+}
+
+TEST(Oracle, TakesNoViewTwiceAndPlacesOneAfterTheOther) {
+  for (const OracleAim aim : {OracleAim::views, OracleAim::metres}) {
+    std::set<std::array<double, 4>> views;
+    std::set<std::array<double, 3>> left;  // places, once flown on from
+    Vec3 at_m = smoke().start.p_world_m;
+    for (const Decision& view : route(aim)) {
+      const Vec3& p = view.view.p_world_m;
+      EXPECT_TRUE(views.insert({p.x(), p.y(), p.z(), view.view.yaw_rad}).second);
+      if (p != at_m) {
+        EXPECT_FALSE(left.contains({p.x(), p.y(), p.z()}));
+        left.insert({at_m.x(), at_m.y(), at_m.z()});
+      }
+      at_m = p;
+      EXPECT_EQ(view.sampler, "oracle");
+    }
+  }
+}
+
+TEST(Oracle, PlansTheSameOnAnyNumberOfThreads) {
+  const std::vector<Decision> one = smoke().plan(OracleAim::metres, 1);
+  const std::vector<Decision>& two = route(OracleAim::metres);
+  ASSERT_EQ(one.size(), two.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].view.p_world_m, two[i].view.p_world_m);
+    EXPECT_EQ(one[i].view.yaw_rad, two[i].view.yaw_rad);
+    EXPECT_EQ(one[i].via_world_m, two[i].via_world_m);
+    EXPECT_EQ(one[i].score.value, two[i].score.value);
+  }
+}
+
+TEST(ViewSurvey, FindsNoMoreAloneThanThereIsAndTogetherWhatTheCloudKeeps) {
+  const std::size_t voxels = smoke().reference.outside[0].size();
+  std::vector<bool> found(voxels, false);
+  ASSERT_FALSE(survey().views.empty());
+  for (const SurveyedView& view : survey().views) {
+    EXPECT_TRUE(std::is_sorted(view.finds.begin(), view.finds.end()));
+    for (const std::uint32_t voxel : view.finds) found.at(voxel) = true;
+  }
+  const auto together = static_cast<double>(std::count(found.begin(), found.end(), true));
+  // a leaf of the common cloud keeps one view's centroid, of all that the views alone would keep
+  EXPECT_LE(survey().leaf_outside[0], together / static_cast<double>(voxels) + 1e-12);
+}
+
+TEST(ViewSurvey, SkipsNoPositionWhereCamerasReachNoFartherThanFourSteps) {
+  const Scenario near_sighted = load_scenario("smoke", {"cameras.0.range_max_m=2.5"});
+  const auto looks_from_odd_cells = [&](double step_m) {
+    const Smoke& s = smoke();
+    const ValidityConfig& validity = near_sighted.planner.validity;
+    const LegalViewpoints legal =
+        find_legal_viewpoints(s.scene, navigation_box_m(validity, near_sighted.workspace_m),
+                              validity.collision_radius_m, step_m, s.start.p_world_m, 2);
+    const ViewSurvey found = survey_views(near_sighted, s.scene, legal, s.reference, 2);
+    EXPECT_FALSE(found.views.empty());
+    return std::any_of(found.views.begin(), found.views.end(), [&](const SurveyedView& view) {
+      const auto& cell = legal.cell[view.position];
+      return cell[0] % 2 != 0 || cell[1] % 2 != 0 || cell[2] % 2 != 0;
+    });
+  };
+  EXPECT_FALSE(looks_from_odd_cells(0.6));
+  EXPECT_TRUE(looks_from_odd_cells(0.65));
+}
+
+TEST(Ceiling, OfWhatIsSeenIsNoLowerThanOfWhatTheCloudKeeps) {
+  const Smoke& s = smoke();
+  const Ceiling ceiling = find_ceiling(s.scenario, s.world, s.scene, s.start, 2);
+  for (std::size_t size = 0; size < 3; ++size) {
+    EXPECT_GT(ceiling.leaf_raw[size], 0.0);
+    EXPECT_LE(ceiling.leaf_raw[size], ceiling.raw[size]);
+    EXPECT_LE(ceiling.leaf_outside[size], ceiling.outside[size]);
+    EXPECT_LE(ceiling.outside[size], 1.0);
+  }
+}
+
+TEST(CeilingCache, GivesBackWhatWasPutIn) {
+  const std::string bytes = bytes_of(survey());
+  const auto read = survey_from(bytes);
+  ASSERT_TRUE(read.has_value());
+  EXPECT_EQ(bytes_of(*read), bytes);
+  ASSERT_EQ(read->views.size(), survey().views.size());
+  for (std::size_t i = 0; i < read->views.size(); ++i) {
+    EXPECT_EQ(read->views[i].position, survey().views[i].position);
+    EXPECT_EQ(read->views[i].yaw_rad, survey().views[i].yaw_rad);
+    EXPECT_EQ(read->views[i].finds, survey().views[i].finds);
+  }
+  EXPECT_FALSE(survey_from(bytes.substr(0, bytes.size() - 1)));
+  EXPECT_FALSE(survey_from(bytes + "x"));
+
+  Ceiling ceiling{.raw = {0.1, 1.0 / 3.0, 1.0},
+                  .outside = {0.7, 0.8, 0.9},
+                  .leaf_raw = {0.2, 0.3, 0.4},
+                  .leaf_outside = {0.5, 0.6, 0.7},
+                  .positions = 12,
+                  .frames = 34};
+  const auto again = ceiling_from(text_of(ceiling));
+  ASSERT_TRUE(again.has_value());
+  EXPECT_EQ(again->raw, ceiling.raw);
+  EXPECT_EQ(again->leaf_outside, ceiling.leaf_outside);
+  EXPECT_EQ(again->frames, ceiling.frames);
+  EXPECT_FALSE(ceiling_from("12 34 0.5"));
+}
+
+TEST(CeilingCache, KeyChangesWithAllThatTheResultDependsOnAndWithNothingElse) {
+  const Smoke& s = smoke();
+  std::set<std::string> keys = {ceiling_key(s.scenario, s.world, s.legal)};
+  const auto expect_new = [&](const std::vector<std::string>& overrides) {
+    const Scenario other = load_scenario("smoke", overrides);
+    const LegalViewpoints legal = find_legal_viewpoints(other, s.scene, s.start, 2);
+    EXPECT_TRUE(keys.insert(ceiling_key(other, s.world, legal)).second) << overrides.front();
+  };
+  for (const std::string key :
+       {"cameras.0.fov_y_deg=50", "cameras.0.range_max_m=4", "cameras.0.width_px=80",
+        "planner.floor_z_m=0.2", "planner.cloud.leaf_m=0.06", "workspace_m.max=[4,4,6]",
+        "planner.validity.collision_radius_m=0.9", "planner.validity.z_min_m=0.8"}) {
+    expect_new({key});
+  }
+  LegalViewpoints shifted = s.legal;
+  for (auto& cell : shifted.cell) ++cell[0];
+  EXPECT_TRUE(keys.insert(ceiling_key(s.scenario, s.world, shifted)).second);
+  World moved = s.world;
+  moved.structure.vertices_m[0].x() += 0.01F;
+  EXPECT_TRUE(keys.insert(ceiling_key(s.scenario, moved, s.legal)).second);
+  const Scenario same = load_scenario(
+      "smoke", {"planner.utility.name=isler", "seed=7", "cameras.0.noise.model=released",
+                "planner.agvs.step_m=1", "vehicle.kind=ideal"});
+  EXPECT_FALSE(keys.insert(ceiling_key(same, s.world, s.legal)).second);
+}
+
+}  // namespace
+}  // namespace gnbv

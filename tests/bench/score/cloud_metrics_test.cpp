@@ -1,0 +1,178 @@
+#include "bench/score/cloud_metrics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "bench/score/surface_samples.hpp"
+#include "sim/core/error.hpp"
+#include "tests/bench/shapes.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr double kSide_m = 4.0;
+
+World sheet() {
+  World world;
+  test::add_sheet(world.structure, Vec3(0, 0, 1), Vec3(kSide_m, 0, 0), Vec3(0, kSide_m, 0));
+  return world;
+}
+
+/// A grid of points every `spacing_m`, `height_m` above the sheet, in the middles of their cells.
+std::vector<Vec3f> points_above_sheet(double spacing_m, double height_m, double x_end_m = kSide_m) {
+  std::vector<Vec3f> points;
+  for (double x = 0.5 * spacing_m; x < x_end_m; x += spacing_m) {
+    for (double y = 0.5 * spacing_m; y < kSide_m; y += spacing_m) {
+      points.push_back(Vec3(x, y, 1.0 + height_m).cast<float>());
+    }
+  }
+  return points;
+}
+
+TEST(CloudDistances, OfAParallelSheetAreItsHeight) {
+  const World world = sheet();
+  const RayScene scene(world);
+  const std::vector<Vec3f> samples = points_above_sheet(0.05, 0.0);
+  for (const double height_m : {0.0, 0.01, 0.03, 0.07, 0.2, 0.9}) {
+    const CloudDistances d = cloud_distances(scene, points_above_sheet(0.05, height_m), samples, 2);
+    // coordinates are floats
+    EXPECT_NEAR(d.accuracy_m, height_m, 1e-6);
+    EXPECT_NEAR(d.completeness_m, height_m, 1e-6);
+    EXPECT_NEAR(d.chamfer_m, height_m, 1e-6);
+    for (const DistanceScore& at : d.at) {
+      const double expected = height_m < at.distance_m ? 1.0 : 0.0;
+      EXPECT_EQ(at.precision, expected) << height_m << " " << at.distance_m;
+      EXPECT_EQ(at.recall, expected);
+      EXPECT_EQ(at.f, expected);
+    }
+  }
+}
+
+TEST(CloudDistances, HalfASheetHasAllPrecisionAndHalfTheRecall) {
+  const World world = sheet();
+  const RayScene scene(world);
+  const CloudDistances d = cloud_distances(scene, points_above_sheet(0.02, 0.0, 0.5 * kSide_m),
+                                           points_above_sheet(0.05, 0.0), 2);
+  // at 0.05 m the first row of samples beyond the edge is 0.035 m from the last row of points: one
+  // of the 80
+  EXPECT_NEAR(d.at[1].recall, 0.5 + 1.0 / 80.0, 1e-9);
+  EXPECT_NEAR(d.at[0].recall, 0.5, 1e-9);
+  EXPECT_EQ(d.at[0].precision, 1.0);
+  EXPECT_NEAR(d.at[0].f, 2.0 / 3.0, 1e-9);
+  // the missing half: mean distance to its edge, counted as 1 m beyond 1 m
+  EXPECT_NEAR(d.completeness_m, 0.5 * (0.5 * 0.5 + 0.5 * 1.0), 0.01);
+}
+
+TEST(CloudDistances, BeyondAMetreCountsAsAMetre) {
+  const World world = sheet();
+  const RayScene scene(world);
+  const std::vector<Vec3f> samples = points_above_sheet(0.05, 0.0);
+  for (const double height_m : {1.5, 50.0, 5000.0}) {
+    const CloudDistances d = cloud_distances(scene, points_above_sheet(0.1, height_m), samples, 2);
+    EXPECT_EQ(d.accuracy_m, kFarthest_m);
+    EXPECT_EQ(d.completeness_m, kFarthest_m);
+    EXPECT_EQ(d.at[2].f, 0.0);
+  }
+}
+
+TEST(CloudDistances, OfNothingAreTheFarthest) {
+  const World world = sheet();
+  const RayScene scene(world);
+  const std::vector<Vec3f> points = points_above_sheet(0.5, 0.0);
+  const CloudDistances no_cloud = cloud_distances(scene, {}, points, 2);
+  EXPECT_EQ(no_cloud.at[2].precision, 0.0);
+  EXPECT_EQ(no_cloud.at[2].recall, 0.0);
+  EXPECT_EQ(no_cloud.chamfer_m, kFarthest_m);
+  const CloudDistances no_surface = cloud_distances(scene, points, {}, 2);
+  EXPECT_EQ(no_surface.at[2].precision, 1.0);
+  EXPECT_EQ(no_surface.at[2].recall, 0.0);
+}
+
+/// Points around a box with a lid missing, some on it, some far away.
+std::vector<Vec3f> random_points(std::size_t count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> coordinate(-1.5F, 3.5F);
+  std::vector<Vec3f> points;
+  for (std::size_t i = 0; i < count; ++i) {
+    points.emplace_back(coordinate(random), coordinate(random), coordinate(random));
+  }
+  return points;
+}
+
+TEST(CloudDistances, EqualBruteForce) {
+  World world;
+  test::add_box(world.structure, Vec3(0, 0, 0), Vec3(2, 1, 1.5), false);
+  const RayScene scene(world);
+  const std::vector<Vec3f> cloud = random_points(20000, 7);
+  const std::vector<Vec3f> samples = random_points(1500, 8);
+
+  // to the surface: its samples are at most 1.2 spacings from any point of it
+  constexpr double kSpacing_m = 0.02;
+  const auto dense = sample_surface(world.structure, kSpacing_m);
+  double accuracy_m = 0.0;
+  constexpr std::size_t kSome = 300;
+  for (std::size_t i = 0; i < kSome; ++i) {
+    double nearest_m = kFarthest_m;
+    for (const SurfaceSample& s : dense) {
+      nearest_m = std::min(nearest_m, static_cast<double>((s.p_world_m - cloud[i]).norm()));
+    }
+    accuracy_m += nearest_m / kSome;
+  }
+  const std::span<const Vec3f> some = std::span(cloud).first(kSome);
+  EXPECT_NEAR(cloud_distances(scene, some, samples, 2).accuracy_m, accuracy_m, 1.2 * kSpacing_m);
+
+  // to the cloud: exactly
+  double completeness_m = 0.0;
+  std::array<std::size_t, 3> near{};
+  for (const Vec3f& sample : samples) {
+    double nearest_m = kFarthest_m;
+    for (const Vec3f& p : cloud) {
+      nearest_m = std::min(nearest_m, (p - sample).cast<double>().norm());
+    }
+    completeness_m += nearest_m / static_cast<double>(samples.size());
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (nearest_m < kScoreDistances_m[i]) ++near[i];
+    }
+  }
+  const CloudDistances d = cloud_distances(scene, cloud, samples, 2);
+  EXPECT_NEAR(d.completeness_m, completeness_m, 1e-6);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(d.at[i].recall, static_cast<double>(near[i]) / static_cast<double>(samples.size()));
+  }
+  EXPECT_GT(near[2], near[1]);
+  EXPECT_GT(near[1], 0U);
+}
+
+TEST(CloudDistances, AreTheSameAtAnyNumberOfThreads) {
+  const World world = sheet();
+  const RayScene scene(world);
+  const std::vector<Vec3f> cloud = random_points(30000, 1);
+  const std::vector<Vec3f> samples = random_points(30000, 2);
+  const CloudDistances one = cloud_distances(scene, cloud, samples, 1);
+  for (const int threads : {2, 5}) {
+    const CloudDistances many = cloud_distances(scene, cloud, samples, threads);
+    EXPECT_EQ(many.accuracy_m, one.accuracy_m);
+    EXPECT_EQ(many.completeness_m, one.completeness_m);
+    EXPECT_EQ(many.at[1].f, one.at[1].f);
+  }
+}
+
+TEST(CloudDensity, OfTwoVoxelsIsTheirMeanAndSpread) {
+  std::vector<Vec3f> points(3, Vec3f(0.1F, 0.1F, 0.1F));
+  points.insert(points.end(), 5, Vec3f(-0.1F, 0.1F, 0.1F));
+  const CloudDensity density = cloud_density(points, 0.2);
+  EXPECT_EQ(density.voxel_m, 0.2);
+  EXPECT_EQ(density.mean_points, 4.0);
+  EXPECT_NEAR(density.variation, 1.0 / 4.0, 1e-12);
+}
+
+TEST(CloudDensity, OfAnEvenGridHasNoVariation) {
+  const CloudDensity density = cloud_density(points_above_sheet(0.05, 0.01), 0.2);
+  EXPECT_EQ(density.mean_points, 16.0);
+  EXPECT_NEAR(density.variation, 0.0, 1e-7);
+  EXPECT_EQ(cloud_density({}, 0.2).mean_points, 0.0);
+}
+
+}  // namespace
+}  // namespace gnbv

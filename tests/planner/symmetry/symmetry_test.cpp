@@ -1,0 +1,356 @@
+// Mirror planes: found where they are, declined where there are none, believed no further than
+// measurements reach.
+#include "planner/symmetry/symmetry.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "planner/symmetry/mirror_support.hpp"
+#include "planner/symmetry/symmetry_module.hpp"
+#include "tests/planner/symmetry/blobs.hpp"
+
+namespace gnbv {
+namespace {
+
+using namespace test;
+
+bool everywhere(const Vec3&) { return true; }
+
+MirrorPlane plane_at(double azimuth_deg, double offset_m) {
+  const double azimuth_rad = deg_to_rad(azimuth_deg);
+  const Vec3 normal(std::cos(azimuth_rad), std::sin(azimuth_rad), 0.0);
+  return plane_through(offset_m * normal, normal);
+}
+
+/// Turns about z and moves, so that what was at the plane x = 0 is at `plane`.
+Blobs moved_to(Blobs blobs, const MirrorPlane& plane) {
+  const double azimuth_rad = std::atan2(plane.normal_world.y(), plane.normal_world.x());
+  for (Sphere& sphere : blobs) {
+    sphere.center_m = Eigen::AngleAxisd(azimuth_rad, Vec3::UnitZ()) * sphere.center_m +
+                      plane.offset_m * plane.normal_world;
+  }
+  return blobs;
+}
+
+Blobs mirror_pair(std::uint64_t seed, const MirrorPlane& plane) {
+  return with_images(moved_to(l_shaped_half(seed), plane),
+                     [&](const Vec3& p_m) { return mirrored(plane, p_m); });
+}
+
+/// The half and itself, half a turn about z further: a body that turns into itself, but into no
+/// mirror image.
+Blobs turned_pair(std::uint64_t seed) {
+  return with_images(l_shaped_half(seed),
+                     [](const Vec3& p_m) { return Vec3(-p_m.x(), -p_m.y(), p_m.z()); });
+}
+
+Symmetry symmetry_of(const Blobs& blobs, const SymmetryConfig& config = {}) {
+  const std::vector<Vec3f> points_m = surface_points_m(blobs, 0.12);
+  return find_symmetry(config, points_m, measured_grid(blobs, points_m, everywhere));
+}
+
+void expect_plane(const Symmetry& symmetry, const MirrorPlane& truth) {
+  ASSERT_TRUE(symmetry.plane) << "support " << symmetry.support;
+  const double cosine = std::fabs(symmetry.plane->normal_world.dot(truth.normal_world));
+  EXPECT_LT(rad_to_deg(std::acos(std::min(cosine, 1.0))), 1.0);
+  // where the structure is: at the foot of the workspace's centre
+  EXPECT_LT(std::fabs(truth.normal_world.dot(mirrored(*symmetry.plane, Vec3::Zero())) -
+                      2.0 * truth.offset_m),
+            0.2);
+}
+
+TEST(MirrorPlane, MirrorsTwiceIntoItself) {
+  const MirrorPlane plane = plane_through(Vec3(1, 2, 3), Vec3(-3, 1, 2));
+  const Vec3 p_m(0.3, -4.0, 5.0);
+  const Vec3 image_m = mirrored(plane, p_m);
+  EXPECT_LT((mirrored(plane, image_m) - p_m).norm(), 1e-12);
+  EXPECT_NEAR(plane.normal_world.dot(0.5 * (p_m + image_m)), plane.offset_m, 1e-12);
+  EXPECT_LT((image_m - p_m).cross(plane.normal_world).norm(), 1e-12);
+}
+
+TEST(MirrorPlane, HasOneNormalFromEitherSide) {
+  for (const Vec3& normal : {Vec3(1, -2, 3), Vec3(0, 2, -1), Vec3(0, 0, 4)}) {
+    const MirrorPlane plane = plane_through(Vec3(1, 2, 3), normal);
+    const MirrorPlane opposite = plane_through(Vec3(1, 2, 3), -normal);
+    EXPECT_EQ(plane.normal_world, opposite.normal_world);
+    EXPECT_EQ(plane.offset_m, opposite.offset_m);
+    EXPECT_LT((plane.normal_world - normal.normalized()).norm(), 1e-12);
+    EXPECT_NEAR(plane.normal_world.dot(Vec3(1, 2, 3)), plane.offset_m, 1e-12);
+  }
+}
+
+TEST(ClusterPlanes, FindsTheBundlesAmongNoise) {
+  Random random(5);
+  // the second stands at the border of the half space that normals point into
+  const std::vector<MirrorPlane> bundles = {plane_at(30.0, 2.0), plane_at(90.0, -3.0)};
+  const Extent extent = {Vec3(2, -1, 3), 10.0};
+  std::vector<MirrorPlane> planes;
+  for (std::size_t i = 0; i < 120; ++i) {
+    const MirrorPlane& bundle = bundles[i < 70 ? 0 : 1];
+    const Vec3 through_m =
+        extent.center_world_m +
+        (bundle.offset_m - bundle.normal_world.dot(extent.center_world_m)) * bundle.normal_world;
+    const double turn_rad = random.uniform(-0.02, 0.02);
+    planes.push_back(
+        plane_through(through_m + random.uniform(-0.2, 0.2) * bundle.normal_world,
+                      Eigen::AngleAxisd(turn_rad, Vec3::UnitZ()) * bundle.normal_world));
+  }
+  for (int i = 0; i < 200; ++i) {
+    planes.push_back(plane_at(random.uniform(-90.0, 90.0), random.uniform(-10.0, 10.0)));
+  }
+  const std::vector<PlaneCluster> clusters = cluster_planes(planes, extent, 0.6);
+  ASSERT_GE(clusters.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_LT(distance_m(clusters[i].plane, bundles[i], extent), 0.15);
+    EXPECT_GE(clusters[i].votes, i == 0 ? 70U : 50U);
+  }
+}
+
+TEST(ClusterPlanes, OfNothingAreNone) { EXPECT_TRUE(cluster_planes({}, {}, 0.6).empty()); }
+
+TEST(MirrorSupport, CountsWhatFallsOnSurfaceAmidFreeSpaceAndOutside) {
+  // voxels of 0.2 m from x = -2 to 2: free, but for surface at x = -1.1 and nothing known at -1.7
+  OccupancyGrid grid({}, Box3(Vec3(-2, -1, 0), Vec3(2, 1, 2)));
+  const GridGeometry& geometry = grid.geometry();
+  ScanUpdate update;
+  for (VoxelIndex v = 0; v < geometry.voxel_count(); ++v) {
+    const double x_m = geometry.center_m(geometry.key_at(v)).x();
+    if (std::fabs(x_m + 1.7) < 0.01) continue;
+    (std::fabs(x_m + 1.1) < 0.01 ? update.occupied : update.free).push_back(v);
+  }
+  grid.apply(update);
+  const std::vector<Vec3f> points_m = {
+      {1.1F, 0.1F, 1.1F},  // onto the surface
+      {0.9F, 0.1F, 1.1F},  // a voxel beside it
+      {0.7F, 0.1F, 1.1F},  // two voxels beside it: amid free space
+      {1.7F, 0.1F, 1.1F},  // where nothing is known
+      {1.5F, 0.1F, 1.1F},  // a voxel beside that
+      {2.5F, 0.1F, 1.1F},  // outside
+      {0.3F, 0.1F, 1.1F},  // nearly onto itself: no witness
+      {0.1F, 0.1F, 1.1F},
+  };
+  const MirrorSupport support = mirror_support(grid, points_m, {});
+  EXPECT_DOUBLE_EQ(support.moved, 6.0 / 8.0);
+  EXPECT_DOUBLE_EQ(support.support, 4.0 / 6.0);
+  EXPECT_DOUBLE_EQ(support.confirmed, 2.0 / 6.0);
+}
+
+TEST(FindSymmetry, FindsTheObliquePlaneOfAMirroredPair) {
+  for (const auto& [seed, azimuth_deg, offset_m] :
+       {std::tuple(1U, 0.0, 0.0), {2U, 37.0, 1.3}, {3U, -64.0, -0.9}}) {
+    const MirrorPlane truth = plane_at(azimuth_deg, offset_m);
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    expect_plane(symmetry_of(mirror_pair(seed, truth)), truth);
+  }
+}
+
+TEST(FindSymmetry, DeclinesWhatOnlyTurnsIntoItself) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    const Symmetry symmetry = symmetry_of(turned_pair(seed));
+    EXPECT_FALSE(symmetry.plane) << "seed " << seed << ", support " << symmetry.support;
+    EXPECT_LT(symmetry.support, 0.9);
+    EXPECT_TRUE(symmetry.mirrored_world_m.empty());
+  }
+}
+
+TEST(FindSymmetry, DeclinesALevelMirror) {
+  const MirrorPlane level = {Vec3::UnitZ(), 2.9};
+  Blobs half = l_shaped_half(4);
+  for (Sphere& sphere : half)
+    sphere.center_m.z() = 0.3 + 0.4 * sphere.center_m.z() + sphere.radius_m;
+  std::erase_if(half, [](const Sphere& s) { return s.center_m.z() + s.radius_m > 2.8; });
+  ASSERT_GE(half.size(), 5U);
+  EXPECT_FALSE(
+      symmetry_of(with_images(half, [&](const Vec3& p_m) { return mirrored(level, p_m); })).plane);
+}
+
+TEST(FindSymmetry, DeclinesToMirrorIntoTheUnknown) {
+  const Blobs half = l_shaped_half(1);
+  const std::vector<Vec3f> points_m = surface_points_m(half, 0.12);
+  const OccupancyGrid grid = measured_grid(half, points_m, [](const Vec3&) { return false; });
+  // nothing speaks against any plane, only too little for it
+  const Symmetry gullible = find_symmetry({.min_confirmed = 0.0}, points_m, grid);
+  EXPECT_TRUE(gullible.plane);
+  EXPECT_LT(gullible.confirmed, 0.6);
+  EXPECT_FALSE(find_symmetry({.min_confirmed = 0.6}, points_m, grid).plane);
+}
+
+TEST(MatchKeypoints, PairsKeypointsWithTheirImages) {
+  const MirrorPlane truth = plane_at(37.0, 1.3);
+  std::vector<ProfilePoint> profile;
+  for (const Sphere& sphere : mirror_pair(2, truth)) {
+    for (const Vec3f& p_m : surface_points_m({sphere}, 0.12)) {
+      profile.push_back({p_m, p_m - sphere.center_m.cast<float>()});
+    }
+  }
+  std::vector<KeypointPair> pairs;
+  symmetry_module().match_keypoints(profile, pairs);
+  std::size_t images = 0;
+  for (const KeypointPair& pair : pairs) {
+    const Vec3 image_m = mirrored(truth, pair.a_world_m.cast<double>());
+    images += (image_m - pair.b_world_m.cast<double>()).norm() < 0.3;
+  }
+  // by chance one pair in a hundred, as there are that many keypoints
+  EXPECT_GT(pairs.size(), 400U);
+  EXPECT_GT(static_cast<double>(images), 0.05 * static_cast<double>(pairs.size()));
+}
+
+TEST(RefinePlanes, BringsAPlaneBack) {
+  const MirrorPlane truth = plane_at(37.0, 1.3);
+  std::vector<ProfilePoint> profile;
+  for (const Vec3f& p_m : surface_points_m(mirror_pair(2, truth), 0.12)) {
+    profile.push_back({p_m, Vec3f::UnitZ()});
+  }
+  const Extent extent = {Vec3::Zero(), 5.0};
+  std::vector<MirrorPlane> planes = {truth, plane_at(38.5, 1.5), plane_at(36.0, 1.0)};
+  planes.push_back(
+      plane_through(1.3 * truth.normal_world, truth.normal_world + 0.03 * Vec3::UnitZ()));
+  symmetry_module().refine_planes(profile, planes);
+  for (const MirrorPlane& plane : planes) EXPECT_LT(distance_m(plane, truth, extent), 0.02);
+}
+
+TEST(FindSymmetry, MirrorsEveryPointOfTheProfile) {
+  const Blobs blobs = mirror_pair(2, plane_at(37.0, 1.3));
+  const std::vector<Vec3f> points_m = surface_points_m(blobs, 0.12);
+  const Symmetry symmetry = find_symmetry({}, points_m, measured_grid(blobs, points_m, everywhere));
+  ASSERT_TRUE(symmetry.plane);
+  ASSERT_EQ(symmetry.mirrored_world_m.size(), points_m.size());
+  for (std::size_t i = 0; i < points_m.size(); ++i) {
+    const Vec3 expected_m = mirrored(*symmetry.plane, points_m[i].cast<double>());
+    EXPECT_EQ(symmetry.mirrored_world_m[i], Vec3f(expected_m.cast<float>()));
+  }
+}
+
+TEST(FindSymmetry, IsTheSameEachTime) {
+  const Blobs blobs = mirror_pair(3, plane_at(-64.0, -0.9));
+  const Symmetry once = symmetry_of(blobs);
+  const Symmetry again = symmetry_of(blobs);
+  ASSERT_TRUE(once.plane);
+  EXPECT_EQ(once.support, again.support);
+  EXPECT_EQ(once.plane->normal_world, again.plane->normal_world);
+  EXPECT_EQ(once.plane->offset_m, again.plane->offset_m);
+  EXPECT_EQ(once.mirrored_world_m, again.mirrored_world_m);
+}
+
+TEST(FindSymmetry, AsksForTheConfiguredSupport) {
+  const Blobs blobs = mirror_pair(1, plane_at(0.0, 0.0));
+  EXPECT_FALSE(symmetry_of(blobs, {.enabled = false}).plane);
+  const Symmetry symmetry = symmetry_of(blobs);
+  ASSERT_TRUE(symmetry.plane);
+  EXPECT_GE(symmetry.support, SymmetryConfig{}.min_support);
+  // more than there can be
+  const Symmetry declined = symmetry_of(blobs, {.min_support = 1.01});
+  EXPECT_FALSE(declined.plane);
+  EXPECT_EQ(declined.support, symmetry.support);
+}
+
+TEST(FindSymmetry, FindsNothingInPoorProfiles) {
+  const auto line = [](int count, const Vec3f& step_m) {
+    std::vector<Vec3f> points_m;
+    for (int i = 0; i < count; ++i) {
+      points_m.push_back(Vec3f(-5, -5, 3) + static_cast<float>(i) * step_m);
+    }
+    return points_m;
+  };
+  std::vector<Vec3f> wall;
+  for (int i = 0; i < 60; ++i) {
+    for (const Vec3f& p_m : line(60, Vec3f(0.1F, 0, 0))) {
+      wall.push_back(p_m + static_cast<float>(i) * Vec3f(0, 0, 0.04F));
+    }
+  }
+  std::vector<Vec3f> broken = line(100, Vec3f(0.1F, 0.05F, 0.0F));
+  broken.push_back(Vec3f::Constant(std::numeric_limits<float>::quiet_NaN()));
+  broken.push_back(Vec3f::Constant(std::numeric_limits<float>::infinity()));
+  broken.push_back(Vec3f(1e30F, -1e30F, 0.0F));
+  const std::vector<std::vector<Vec3f>> profiles = {
+      {},
+      line(1, Vec3f::Zero()),
+      line(10, Vec3f(0.1F, 0.2F, 0.1F)),
+      line(3000, Vec3f::Zero()),  // all the same point
+      line(100, Vec3f(0.1F, 0, 0)),
+      broken,
+  };
+  for (const std::vector<Vec3f>& points_m : profiles) {
+    const OccupancyGrid unknown({}, kBlobSpace);
+    EXPECT_FALSE(find_symmetry({}, points_m, unknown).plane);
+    std::vector<Vec3f> inside_m = points_m;
+    std::erase_if(inside_m, [](const Vec3f& p) { return !kBlobSpace.contains(p.cast<double>()); });
+    const OccupancyGrid known = measured_grid({}, inside_m, everywhere);
+    EXPECT_FALSE(find_symmetry({}, points_m, known).plane) << points_m.size() << " points";
+  }
+  // a wall mirrors into itself in many planes, but must not break anything
+  find_symmetry({}, wall, measured_grid({}, wall, everywhere));
+}
+
+/// A mirrored pair of which one arm has not been seen: no points, nothing known around it.
+struct OneArmUnseen {
+  MirrorPlane truth = plane_at(0.0, 0.0);
+  Blobs blobs = mirror_pair(2, truth);
+  std::vector<Vec3f> seen_m = surface_points_m(blobs, 0.12);
+  std::vector<Vec3f> unseen_m = seen_m;
+  OccupancyGrid grid = [this] {
+    std::erase_if(seen_m, [](const Vec3f& p_m) { return !is_seen(p_m.cast<double>()); });
+    std::erase_if(unseen_m, [](const Vec3f& p_m) { return is_seen(p_m.cast<double>()); });
+    return measured_grid(blobs, seen_m, is_seen);
+  }();
+
+  static bool is_seen(const Vec3& p_m) { return p_m.x() > 0.0 || p_m.y() < -3.4; }
+};
+
+TEST(PredictSurface, MarksTheUnseenArmAndNothingMeasured) {
+  OneArmUnseen scene;
+  const OccupancyGrid before = scene.grid;
+  const Symmetry symmetry = find_symmetry({}, scene.seen_m, scene.grid);
+  expect_plane(symmetry, scene.truth);
+  EXPECT_GT(predict_surface(symmetry, scene.grid), 0U);
+
+  const GridGeometry& geometry = scene.grid.geometry();
+  for (VoxelIndex v = 0; v < geometry.voxel_count(); ++v) {
+    EXPECT_EQ(scene.grid.log_odds(v), before.log_odds(v));
+    EXPECT_EQ(scene.grid.is_measured(v), before.is_measured(v));
+    if (!scene.grid.is_predicted(v)) continue;
+    EXPECT_FALSE(before.is_measured(v));
+    // a plane within its tolerance, and half of a voxel's diagonal
+    const Vec3 center_m = geometry.center_m(geometry.key_at(v));
+    EXPECT_TRUE(is_inside(scene.blobs, center_m, 0.25));
+    EXPECT_FALSE(is_inside(scene.blobs, center_m, -0.25));
+  }
+  std::size_t predicted = 0;
+  for (const Vec3f& p_m : scene.unseen_m) {
+    predicted += scene.grid.is_predicted(geometry.index_of(geometry.key_of(p_m)));
+  }
+  // the images of other points: some of their voxels are the neighbours
+  EXPECT_GT(static_cast<double>(predicted), 0.9 * static_cast<double>(scene.unseen_m.size()));
+}
+
+TEST(PredictSurface, HoldsUntilTheFirstMeasurement) {
+  OneArmUnseen scene;
+  predict_surface(find_symmetry({}, scene.seen_m, scene.grid), scene.grid);
+  std::vector<VoxelIndex> predicted;
+  for (VoxelIndex v = 0; v < scene.grid.geometry().voxel_count(); ++v) {
+    if (scene.grid.is_predicted(v)) predicted.push_back(v);
+  }
+  ASSERT_GE(predicted.size(), 3U);
+  scene.grid.apply({.free = {predicted[0]}, .occupied = {predicted[1]}});
+  EXPECT_FALSE(scene.grid.is_predicted(predicted[0]));
+  EXPECT_FALSE(scene.grid.is_predicted(predicted[1]));
+  EXPECT_TRUE(scene.grid.is_predicted(predicted[2]));
+  EXPECT_EQ(scene.grid.predicted_count(), predicted.size() - 2);
+}
+
+TEST(PredictSurface, CountsEachVoxelOnceAndLeavesTheOutsideAlone) {
+  OccupancyGrid grid({}, Box3(Vec3(0, 0, 0), Vec3(2, 2, 2)));
+  const VoxelIndex measured = grid.geometry().index_of(grid.geometry().key_of(Vec3(1.5, 1.5, 1.5)));
+  grid.apply({.free = {measured}, .occupied = {}});
+  Symmetry symmetry;
+  symmetry.mirrored_world_m = {{0.5F, 0.5F, 0.5F}, {0.51F, 0.5F, 0.5F}, {1.5F, 1.5F, 1.5F},
+                               {1.1F, 0.5F, 0.5F}, {-0.1F, 0.5F, 0.5F}, {2.1F, 0.5F, 0.5F}};
+  EXPECT_EQ(predict_surface(symmetry, grid), 2U);
+  EXPECT_EQ(predict_surface(symmetry, grid), 2U);
+}
+
+}  // namespace
+}  // namespace gnbv

@@ -1,0 +1,143 @@
+// The two slips of the released code on hand-drawn maps.
+#include "planner/view/released_slips.hpp"
+
+#include <gtest/gtest.h>
+
+#include "planner/candidate_stats.hpp"
+#include "tests/planner/view/view_scene.hpp"
+
+namespace gnbv {
+namespace {
+
+/// Free up to a plane of occupied voxels: x + slope y = 1.1 m.
+struct WallScene {
+  explicit WallScene(double slope) {
+    ScanUpdate update;
+    for (VoxelIndex v = 0; v < grid.geometry().voxel_count(); ++v) {
+      const Vec3 c_m = grid.geometry().center_m(grid.geometry().key_at(v));
+      const double depth_m = c_m.x() + slope * c_m.y() - 1.1;
+      if (depth_m > -0.1 && depth_m < 0.3) update.occupied.push_back(v);
+      if (depth_m <= -0.1) update.free.push_back(v);
+    }
+    grid.apply(update);
+  }
+  ViewStats look(const ReleasedSlips& slips) const {
+    return evaluate_view_with_slips(grid, cloud, rays, pose, slips, 0.0);
+  }
+
+  OccupancyGrid grid{OccupancyConfig{}, Box3(Vec3(-5, -5, 0), Vec3(5, 5, 5))};
+  SurfaceCloud cloud{CloudConfig{}, grid.geometry()};
+  ShadowBand shadow{ShadowConfig{}, grid.geometry()};
+  CameraModel camera = make_camera_model({.range_max_m = 4.0});
+  ViewRays rays = make_view_rays({&camera, 1}, 0.2);
+  ViewPose pose = {Vec3(-1.03, 0.03, 2.53), 0.0};
+};
+
+TEST(WithoutSlips, TheSlowPathIsTheFastOne) {
+  const RandomScene scene;
+  const CameraModel camera = make_camera_model({.range_max_m = 4.0});
+  const ViewRays rays = make_view_rays({&camera, 1}, 0.2);
+  VisitMarks marks(scene.grid.geometry().voxel_count());
+  for (std::uint64_t i = 0; i < 10; ++i) {
+    const ViewPose pose = RandomScene::pose(i);
+    const ViewStats slow = evaluate_view_with_slips(scene.grid, scene.cloud, rays, pose, {}, 1.5);
+    const ViewStats fast =
+        evaluate_view(scene.grid, scene.cloud, rays, pose, marks, {.sparse_below = 1.5});
+    EXPECT_EQ(slow.free_voxels, fast.free_voxels);
+    EXPECT_EQ(slow.unknown_voxels, fast.unknown_voxels);
+    EXPECT_EQ(slow.occupied_voxels, fast.occupied_voxels);
+    EXPECT_EQ(slow.predicted_voxels, fast.predicted_voxels);
+    EXPECT_EQ(slow.sparse_voxels, fast.sparse_voxels);
+    EXPECT_NEAR(slow.entropy_nat, fast.entropy_nat, 1e-6);
+    EXPECT_NEAR(slow.entropy_per_ray_nat, fast.entropy_per_ray_nat, 1e-5);
+    EXPECT_NEAR(slow.density_sum, fast.density_sum, 1e-3);
+  }
+}
+
+TEST(ExcludedHitVoxel, AFlatWallHeadOnIsNotSeen) {
+  const WallScene flat(0.0);
+  EXPECT_GT(flat.look({}).occupied_voxels, 90U);
+  EXPECT_EQ(flat.look({.excludes_hit_voxel = true}).occupied_voxels, 0U);
+}
+
+TEST(ExcludedHitVoxel, ATiltedWallIsSeenWhereItsVoxelsAreClipped) {
+  const WallScene tilted(0.6);
+  const auto right = tilted.look({}).occupied_voxels;
+  const auto slipped = tilted.look({.excludes_hit_voxel = true}).occupied_voxels;
+  EXPECT_GT(slipped, 0U);
+  EXPECT_LT(slipped, right / 2);
+}
+
+TEST(ExcludedHitVoxel, LeavesTheVoxelsBeforeIt) {
+  Corridor corridor(8);
+  corridor.miss(0);
+  corridor.hit(2);
+  const ViewStats stats =
+      evaluate_view_with_slips(corridor.grid, corridor.cloud, Corridor::one_ray(1.2),
+                               {Vec3(0.1, 0.1, 0.1), 0.0}, {.excludes_hit_voxel = true}, 0.0);
+  const auto entropy_nat = [&](VoxelIndex v) {
+    return static_cast<double>(corridor.grid.entropy_nat(v));
+  };
+  EXPECT_EQ(stats.entropy_per_ray_nat, entropy_nat(0) + entropy_nat(1));
+  EXPECT_EQ(stats.free_voxels, 1U);
+  EXPECT_EQ(stats.unknown_voxels, 1U);
+  EXPECT_EQ(stats.occupied_voxels, 0U);
+}
+
+TEST(ExcludedHitVoxel, IsForTheBaselinesAlone) {
+  const WallScene flat(0.0);
+  VisitMarks marks(flat.grid.geometry().voxel_count());
+  const auto occupied = [&](const char* name) {
+    UtilityConfig config;
+    config.name = name;
+    config.hit_voxel = HitVoxel::excluded;
+    return candidate_stats(config, flat.grid, flat.cloud, flat.shadow, 0.0, flat.rays, flat.pose,
+                           marks)
+        .occupied_voxels;
+  };
+  EXPECT_EQ(occupied("isler"), 0U);
+  EXPECT_EQ(occupied("bircher"), 0U);
+  EXPECT_GT(occupied("proposed"), 90U);
+  EXPECT_GT(occupied("aep"), 90U);
+}
+
+TEST(PredictionThatHidesHits, CountsAHitOnlyWhereAPredictionWasHitToo) {
+  Corridor corridor(8);
+  corridor.miss(0);
+  corridor.hit(2);
+  const ViewPose pose = {Vec3(0.1, 0.1, 0.1), 0.0};
+  const auto occupied = [&](bool hides) {
+    return evaluate_view_with_slips(corridor.grid, corridor.cloud, Corridor::one_ray(1.2), pose,
+                                    {.prediction_hides_hits = hides}, 0.0)
+        .occupied_voxels;
+  };
+  EXPECT_EQ(occupied(false), 1U);
+  EXPECT_EQ(occupied(true), 0U);
+  corridor.grid.predict(7);  // beyond range
+  EXPECT_EQ(occupied(true), 0U);
+  corridor.grid.predict(4);  // behind the hit
+  EXPECT_EQ(occupied(true), 1U);
+}
+
+TEST(PredictionThatHidesHits, NeedsAWeightForPrediction) {
+  Corridor corridor(8);
+  corridor.hit(2);
+  const ShadowBand shadow({}, corridor.grid.geometry());
+  UtilityConfig config;
+  config.name = "isler";
+  config.prediction_hides_hits = true;
+  const auto occupied = [&] {
+    return candidate_stats(config, corridor.grid, corridor.cloud, shadow, 0.0,
+                           Corridor::one_ray(1.2), {Vec3(0.1, 0.1, 0.1), 0.0}, corridor.marks)
+        .occupied_voxels;
+  };
+  EXPECT_EQ(occupied(), 0U);
+  config.gamma = 0.0;
+  EXPECT_EQ(occupied(), 1U);
+  config.gamma = 0.5;
+  config.name = "proposed";  // a slip of the baselines alone
+  EXPECT_EQ(occupied(), 1U);
+}
+
+}  // namespace
+}  // namespace gnbv

@@ -1,0 +1,205 @@
+// Laws of the pieces that Px4 is made of: trajectories, takeoff ramp, land detector.
+#include <gtest/gtest.h>
+
+#include "sim/core/rng.hpp"
+#include "sim/flight/land_detector.hpp"
+#include "sim/flight/takeoff.hpp"
+#include "sim/flight/vehicle.hpp"
+#include "sim/flight/velocity_smoothing.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr AxisLimits kLimits;  // PX4's 3 m/s^2 and 4 m/s^3
+
+double uniform(std::uint64_t draw, double min, double max) {
+  return min + (max - min) * uniform01({7, Stream::bench, 0, draw});
+}
+
+TEST(VelocitySmoothing, BrakingSpeedIsPx4s) {  // the sheet's values, four digits
+  EXPECT_NEAR(braking_speed_m_s(1.0, kLimits), 0.6235, 5e-5);
+  EXPECT_NEAR(braking_speed_m_s(5.0, kLimits), 2.589, 5e-4);
+  EXPECT_NEAR(braking_speed_m_s(10.0, kLimits), 4.458, 5e-4);
+  EXPECT_EQ(braking_speed_m_s(0.0, kLimits), 0.0);
+}
+
+TEST(VelocitySmoothing, EveryChangeEndsAtItsSpeedWithinItsLimits) {
+  for (std::uint64_t i = 0; i < 3000; ++i) {
+    const SmoothedAxis start{0.0, uniform(3 * i, -5, 5), uniform(3 * i + 1, -3, 3)};
+    const double wanted_m_s = uniform(3 * i + 2, -5, 5);
+    const SpeedChange change = fastest_change(start, wanted_m_s, kLimits);
+    const SmoothedAxis end = advance(start, change, change.duration_s());
+    ASSERT_NEAR(end.v_m_s, wanted_m_s, 1e-12);
+    ASSERT_EQ(end.a_m_s2, 0.0);
+    for (int k = 1; k < 20; ++k) {
+      const double share = 0.05 * k;
+      ASSERT_LE(std::abs(advance(start, change, share * change.duration_s()).a_m_s2), 3.0 + 1e-12);
+    }
+  }
+}
+
+TEST(VelocitySmoothing, FromRestItTakesTheClosedFormsTime) {
+  for (const double dv : {0.5, 2.0, -2.0, 5.0, -12.0}) {
+    // below a^2 / j the limit is not reached: 2 sqrt(dv / j); above: dv / a + a / j
+    const double size = std::abs(dv);
+    const double time_s = size < 9.0 / 4.0 ? 2.0 * std::sqrt(size / 4.0) : size / 3.0 + 3.0 / 4.0;
+    EXPECT_NEAR(fastest_change({}, dv, kLimits).duration_s(), time_s, 1e-12) << dv;
+    for (const double longer : {1.0, 1.5, 4.0}) {
+      const SpeedChange slow = stretched_change({}, dv, kLimits, longer * time_s);
+      EXPECT_NEAR(slow.duration_s(), longer * time_s, 1e-9);
+      EXPECT_NEAR(advance({}, slow, slow.duration_s()).v_m_s, dv, 1e-12);
+    }
+  }
+}
+
+TEST(VelocitySmoothing, StepsOfADifferentLengthGoTheSameWay) {
+  const SmoothedAxis start{1.0, -2.0, 0.5};
+  const SpeedChange change = fastest_change(start, 3.0, kLimits);
+  const SmoothedAxis once = advance(start, change, change.duration_s());
+  SmoothedAxis replanned = start;  // as the Auto modes do
+  for (int i = 0; i < 1000; ++i) {
+    replanned =
+        advance(replanned, fastest_change(replanned, 3.0, kLimits), change.duration_s() / 1000);
+  }
+  EXPECT_NEAR(replanned.x_m, once.x_m, 1e-6);  // a thousand roundings
+  EXPECT_NEAR(replanned.v_m_s, once.v_m_s, 1e-6);
+}
+
+TEST(VelocitySmoothing, ShorterAxesWaitForTheLongest) {
+  std::array<SmoothedAxis, 3> axes{};
+  for (int i = 0; i < 50; ++i) {
+    axes = advance_together(axes, {4.0, 2.0, 0.0}, {kLimits, kLimits, kLimits}, 0.02);
+    EXPECT_EQ(axes[2].x_m, 0.0);
+  }
+  // same time, half the change: the accelerations keep near that ratio, not both at the limit
+  EXPECT_LT(axes[1].a_m_s2, 0.7 * axes[0].a_m_s2);
+  const double before_s = fastest_change(axes[0], 4.0, kLimits).duration_s();
+  for (int i = 0; 0.02 * i < before_s + 0.02; ++i) {
+    axes = advance_together(axes, {4.0, 2.0, 0.0}, {kLimits, kLimits, kLimits}, 0.02);
+  }
+  EXPECT_NEAR(axes[0].v_m_s, 4.0, 1e-9);
+  EXPECT_NEAR(axes[1].v_m_s, 2.0, 1e-9);
+}
+
+TEST(VelocitySmoothing, BrakingSpeedArrivesWithoutPassingTheGoal) {
+  for (const double goal_m : {1.0, 5.0, 30.0}) {
+    SmoothedAxis axis;
+    for (int i = 0; i < 1500; ++i) {
+      const double way_m = goal_m - axis.x_m;
+      const double wanted = std::min(5.0, braking_speed_m_s(std::max(0.0, way_m), kLimits));
+      axis = advance(axis, fastest_change(axis, wanted, kLimits), 0.02);
+      ASSERT_LT(axis.x_m, goal_m + 0.01);
+      ASSERT_LE(axis.v_m_s, 5.0 + 1e-9);
+      ASSERT_LE(std::abs(axis.a_m_s2), 3.0 + 1e-9);
+    }
+    EXPECT_NEAR(axis.x_m, goal_m, 0.01) << goal_m;
+  }
+}
+
+TEST(RateSteps, SeeTheBodyRateGrowEvenlyUnderConstantTorque) {
+  AirframeParameters airframe;
+  airframe.drag_coefficient_n_s2_per_m = 0.0;
+  airframe.rolling_coefficient_n_s2 = 0.0;
+  World world;
+  world.has_ground = false;
+  const RotorSpeeds speeds = {800, 800, 810, 810};  // yaw only
+  const double alpha_rad_s2 =
+      rotor_wrench(airframe, speeds, Vec3::Zero(), Vec3::Zero()).torque_body_n_m.z() /
+      airframe.inertia_kg_m2.z();
+  RigidVehicle vehicle(airframe, world, VehicleState{}, speeds);
+  int calls = 0;
+  for (int tick = 0; tick < 50; ++tick) {
+    vehicle.step([&](const Vec3& omega_body_rad_s) {
+      // the unequal arms let it roll and pitch a little, which turns it at second order
+      EXPECT_NEAR(omega_body_rad_s.z(), calls * kRateStep_s * alpha_rad_s2, 1e-9);
+      ++calls;
+      return speeds;
+    });
+  }
+  EXPECT_EQ(calls, 50 * kRateStepsPerTick);
+}
+
+TEST(Takeoff, ClimbLimitIsLinearOverTheRamp) {  // 19
+  const CommanderParameters commander;
+  const double dt_s = 0.02;
+  Takeoff takeoff;
+  int spool = 0;
+  while (takeoff.phase < TakeoffPhase::ramp) {
+    takeoff = next(takeoff, commander, true, true, true, dt_s);
+    EXPECT_NEAR(climb_limit_m_s(takeoff, 9.8066, 4.0, 3.0), -9.8066 / 4.0, 1e-12);
+    ASSERT_LT(++spool, 1000);
+  }
+  EXPECT_NEAR(spool * dt_s, 1.0, dt_s + 1e-12);
+  for (int i = 1; i < 150; ++i) {
+    takeoff = next(takeoff, commander, true, false, true, dt_s);
+    ASSERT_NEAR(climb_limit_m_s(takeoff, 9.8066, 4.0, 3.0),
+                -9.8066 / 4.0 + i / 150.0 * (3.0 + 9.8066 / 4.0), 1e-12);
+  }
+  takeoff = next(takeoff, commander, true, false, true, dt_s);
+  takeoff = next(takeoff, commander, true, false, true, dt_s);
+  EXPECT_EQ(takeoff.phase, TakeoffPhase::flight);
+  EXPECT_EQ(climb_limit_m_s(takeoff, 9.8066, 4.0, 3.0), 3.0);
+}
+
+TEST(Takeoff, WaitsUntilSomebodyWantsToFly) {
+  const CommanderParameters commander;
+  Takeoff takeoff;
+  for (int i = 0; i < 500; ++i) takeoff = next(takeoff, commander, true, true, false, 0.02);
+  EXPECT_EQ(takeoff.phase, TakeoffPhase::ready);
+  EXPECT_EQ(next(takeoff, commander, true, true, true, 0.02).phase, TakeoffPhase::ramp);
+  EXPECT_EQ(next(takeoff, commander, false, true, true, 0.02).phase, TakeoffPhase::disarmed);
+}
+
+TEST(LandDetector, ThreeStagesTakeOneSecond) {
+  const CommanderParameters commander;
+  const LandEvidence touching{.is_armed = true,
+                              .is_told_to_descend = true,
+                              .thrust = 0.12,
+                              .thrust_min = 0.12,
+                              .hover_thrust = 0.7};
+  LandDetector detector;
+  int steps = 0;
+  while (!detector.is_landed && steps < 1000) {
+    detector = next(detector, commander, touching, VehicleState{}, kTick_s);
+    ++steps;
+    EXPECT_FALSE(steps * kTick_s < 0.33 && detector.has_ground_contact);
+    EXPECT_FALSE(steps * kTick_s < 0.66 && detector.is_maybe_landed);
+  }
+  EXPECT_NEAR(steps * kTick_s, 1.0, 3.5 * kTick_s);  // each stage is counted in whole ticks
+}
+
+TEST(LandDetector, AnyMotionOrThrustIsNoLanding) {
+  const CommanderParameters commander;
+  const LandEvidence touching{.is_armed = true,
+                              .is_told_to_descend = true,
+                              .thrust = 0.12,
+                              .thrust_min = 0.12,
+                              .hover_thrust = 0.7};
+  const auto lands = [&](const LandEvidence& evidence, const VehicleState& state) {
+    LandDetector detector;
+    for (int i = 0; i < 1000; ++i) detector = next(detector, commander, evidence, state, kTick_s);
+    return detector.is_landed;
+  };
+  EXPECT_TRUE(lands(touching, VehicleState{}));
+  VehicleState moving;
+  moving.v_world_m_s = Vec3(0, 0, -0.3);
+  EXPECT_FALSE(lands(touching, moving));
+  moving.v_world_m_s = Vec3(1.6, 0, 0);
+  EXPECT_FALSE(lands(touching, moving));
+  moving.v_world_m_s = Vec3(0.5, 0, 0.1);
+  EXPECT_TRUE(lands(touching, moving));
+  VehicleState turning;
+  turning.omega_body_rad_s = Vec3(deg_to_rad(21.0), 0, 0);
+  EXPECT_FALSE(lands(touching, turning));
+  LandEvidence hovering = touching;
+  hovering.thrust = 0.7;
+  EXPECT_FALSE(lands(hovering, VehicleState{}));
+  LandEvidence staying = touching;
+  staying.is_told_to_descend = false;
+  EXPECT_FALSE(lands(staying, VehicleState{}));
+  staying.is_armed = false;
+  EXPECT_TRUE(lands(staying, moving));
+}
+
+}  // namespace
+}  // namespace gnbv

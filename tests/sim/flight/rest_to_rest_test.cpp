@@ -1,0 +1,134 @@
+// Laws of the time-optimal reference.
+#include "sim/flight/rest_to_rest.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "sim/core/error.hpp"
+
+namespace gnbv {
+namespace {
+
+const RestToRest::Limits kPx4 = {5.0, 3.0, 4.0};  // MPC_XY_CRUISE, MPC_ACC_HOR, MPC_JERK_AUTO
+
+struct Motion {
+  double distance;
+  RestToRest::Limits limits;
+};
+
+/// All shapes: with and without cruise, with and without constant acceleration.
+std::vector<Motion> motions() {
+  return {{0.05, {2.0, 1.0, 4.0}},
+          {0.3, {2.0, 1.0, 4.0}},
+          {1.0, {2.0, 1.0, 4.0}},
+          {20.0, {2.0, 1.0, 4.0}},
+          {5.0, {0.2, 1.0, 4.0}},
+          {0.02, {0.2, 1.0, 4.0}},
+          {1e-6, kPx4},
+          {3.375, kPx4},
+          {50.0, kPx4}};
+}
+
+TEST(RestToRest, TakesTheClosedFormsTime) {
+  // sheet, section 4: two without cruise (the second just reaches the acceleration limit), one with
+  // constant acceleration, one that cruises
+  EXPECT_NEAR(RestToRest(1.0, kPx4).duration_s(), 2.000, 5e-4);
+  EXPECT_NEAR(RestToRest(3.375, kPx4).duration_s(), 3.000, 5e-4);
+  EXPECT_NEAR(RestToRest(10.0, kPx4).duration_s(), 4.478, 5e-4);
+  EXPECT_NEAR(RestToRest(20.0, kPx4).duration_s(), 6.417, 5e-4);
+  EXPECT_NEAR(RestToRest(2.5, kPx4).duration_s(), 4.0 * std::cbrt(2.5 / 8.0), 1e-12);
+  // too slow to reach the acceleration limit: D / v + 2 sqrt(v / j)
+  EXPECT_NEAR(RestToRest(5.0, {0.2, 1.0, 4.0}).duration_s(), 25.0 + 2.0 * std::sqrt(0.05), 1e-12);
+}
+
+TEST(RestToRest, EndsExactlyAtTheDistanceAtRest) {
+  for (const auto& [distance, limits] : motions()) {
+    const RestToRest motion(distance, limits);
+    for (const double time_s : {motion.duration_s(), motion.duration_s() + 1.0}) {
+      EXPECT_EQ(motion.at(time_s).position, distance);
+      EXPECT_EQ(motion.at(time_s).speed, 0.0);
+      EXPECT_EQ(motion.at(time_s).acceleration, 0.0);
+    }
+    EXPECT_EQ(motion.at(0.0).position, 0.0);
+    EXPECT_EQ(motion.at(0.0).speed, 0.0);
+  }
+  EXPECT_EQ(RestToRest(0.0, kPx4).duration_s(), 0.0);
+}
+
+TEST(RestToRest, ObeysEveryLimitAndMovesForward) {
+  for (const auto& [distance, limits] : motions()) {
+    const RestToRest motion(distance, limits);
+    const double h_s = motion.duration_s() / 5000.0;
+    for (int i = 1; i < 5000; ++i) {
+      const auto before = motion.at((i - 1) * h_s);
+      const auto now = motion.at(i * h_s);
+      const double rounding = 1e-9;
+      EXPECT_LE(now.speed, limits.speed + rounding);
+      EXPECT_LE(std::abs(now.acceleration), limits.acceleration + rounding);
+      EXPECT_LE(std::abs(now.acceleration - before.acceleration),
+                limits.jerk * h_s + rounding);  // no jump either
+      EXPECT_GE(now.position, before.position - rounding);
+    }
+  }
+}
+
+TEST(RestToRest, PositionSpeedAndAccelerationAreIntegralsOfEachOther) {
+  for (const auto& [distance, limits] : motions()) {
+    const RestToRest motion(distance, limits);
+    constexpr int kSteps = 20000;
+    const double h_s = motion.duration_s() / kSteps;
+    double speed = 0.0;
+    double position = 0.0;
+    for (int i = 0; i < kSteps; ++i) {  // trapezoidal rule
+      const auto a = motion.at(i * h_s);
+      const auto b = motion.at((i + 1) * h_s);
+      speed += 0.5 * h_s * (a.acceleration + b.acceleration);
+      position += 0.5 * h_s * (a.speed + b.speed);
+      // its error is at most T h^2 / 12 times the jerk, and six corners cut by at most j h^2 each
+      const double h2_jerk = limits.jerk * h_s * h_s;
+      EXPECT_NEAR(speed, b.speed, 6.0 * h2_jerk + 1e-12);
+      EXPECT_NEAR(position, b.position, motion.duration_s() * h2_jerk + 1e-12);
+    }
+    EXPECT_NEAR(position, distance, 1e-6 * distance);
+  }
+}
+
+TEST(RestToRest, UsesALimitAtEveryMoment) {
+  // time-optimal (bang-bang): jerk, acceleration or speed is at its limit
+  for (const auto& [distance, limits] : motions()) {
+    const RestToRest motion(distance, limits);
+    const double h_s = motion.duration_s() / 5000.0;
+    int idle = 0;
+    for (int i = 1; i < 5000; ++i) {
+      const auto before = motion.at((i - 0.5) * h_s);
+      const auto now = motion.at((i + 0.5) * h_s);
+      const double jerk = (now.acceleration - before.acceleration) / h_s;
+      const bool is_at_limit = std::abs(jerk) > 0.999 * limits.jerk ||
+                               std::abs(now.acceleration) > 0.999 * limits.acceleration ||
+                               now.speed > 0.999 * limits.speed;
+      idle += is_at_limit ? 0 : 1;
+    }
+    EXPECT_LE(idle, 6);  // the steps across a change of jerk
+  }
+}
+
+TEST(RestToRest, IsSymmetricInTime) {
+  for (const auto& [distance, limits] : motions()) {
+    const RestToRest motion(distance, limits);
+    for (int i = 0; i <= 100; ++i) {
+      const double time_s = 0.01 * i * motion.duration_s();
+      EXPECT_NEAR(motion.at(time_s).position + motion.at(motion.duration_s() - time_s).position,
+                  distance, 1e-12 * (1.0 + distance));
+    }
+  }
+}
+
+TEST(RestToRest, WantsPositiveLimits) {
+  EXPECT_THROW(RestToRest(-1.0, kPx4), BrokenInvariant);
+  EXPECT_THROW(RestToRest(1.0, {1.0, 1.0, 0.0}), BrokenInvariant);
+}
+
+}  // namespace
+}  // namespace gnbv

@@ -1,0 +1,146 @@
+// The error of each source against its own law, over many missions at once.
+#include "sim/flight/state_estimator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gnbv {
+namespace {
+
+constexpr int kMissions = 600;
+
+VehicleState moving(double x_m, double speed_m_s) {
+  VehicleState state;
+  state.T_world_body = T_world_body({Vec3(x_m, 2.0, 3.0), 0.7});
+  state.v_world_m_s = Vec3(speed_m_s, 0.0, 0.0);
+  return state;
+}
+
+Vec3 position_error_m(const VehicleState& estimate, const VehicleState& truth) {
+  return estimate.T_world_body.translation() - truth.T_world_body.translation();
+}
+
+/// Sigma of `samples` lies within 4 standard errors of the wanted one, 4 / sqrt(2 n) of it.
+void expect_sigma(double sum_of_squares, int samples, double sigma) {
+  EXPECT_NEAR(std::sqrt(sum_of_squares / samples) / sigma, 1.0, 4.0 / std::sqrt(2.0 * samples));
+}
+
+TEST(StateEstimate, NoneIsTheTruth) {
+  const VehicleState truth = moving(1.0, 2.0);
+  StateEstimator estimator({EstimateModel::none}, 1, truth);
+  const VehicleState estimate = estimator.step(truth);
+  EXPECT_EQ(estimate.T_world_body.matrix(), truth.T_world_body.matrix());
+  EXPECT_EQ(estimate.v_world_m_s, truth.v_world_m_s);
+}
+
+TEST(StateEstimate, MocapErrsByAMillimetreAndATenthOfADegreeAfreshAtEveryTick) {
+  const VehicleState truth = moving(0.0, 0.0);
+  StateEstimator estimator({EstimateModel::mocap}, 1, truth);
+  double position = 0.0, angle = 0.0, lagged = 0.0, before = 0.0;
+  constexpr int kTicks = 20000;
+  for (int i = 0; i < kTicks; ++i) {
+    const VehicleState estimate = estimator.step(truth);
+    const Vec3 error_m = position_error_m(estimate, truth);
+    const Eigen::AngleAxisd turn(
+        Eigen::Matrix3d(estimate.T_world_body.linear() * truth.T_world_body.linear().transpose()));
+    position += error_m.squaredNorm();
+    angle += turn.angle() * turn.angle();
+    lagged += before * error_m.x();
+    before = error_m.x();
+  }
+  expect_sigma(position, 3 * kTicks, 0.001);
+  expect_sigma(angle, 3 * kTicks, deg_to_rad(0.1));
+  EXPECT_LT(std::abs(lagged / kTicks), 4.0 * 1e-6 / std::sqrt(kTicks));
+}
+
+TEST(StateEstimate, GnssErrsByHalfAMetreAndTwoDegreesFromTheStartOn) {
+  const VehicleState truth = moving(0.0, 0.0);
+  for (const int ticks : {1, 10000}) {  // a stationary law holds at any time
+    double position = 0.0, heading = 0.0;
+    for (int seed = 0; seed < kMissions / (ticks == 1 ? 1 : 3); ++seed) {
+      StateEstimator estimator({EstimateModel::gnss}, static_cast<std::uint64_t>(seed), truth);
+      VehicleState estimate;
+      for (int i = 0; i < ticks; ++i) estimate = estimator.step(truth);
+      position += position_error_m(estimate, truth).squaredNorm();
+      const double yaw_rad = wrap_angle_rad(yaw_of(estimate.T_world_body) - 0.7);
+      heading += yaw_rad * yaw_rad;
+    }
+    const int missions = kMissions / (ticks == 1 ? 1 : 3);
+    expect_sigma(position, 3 * missions, 0.5);
+    expect_sigma(heading, missions, deg_to_rad(2.0));
+  }
+}
+
+TEST(StateEstimate, GnssVelocityErrorIsThePositionErrorsDerivative) {
+  const VehicleState truth = moving(0.0, 0.0);
+  StateEstimator estimator({EstimateModel::gnss}, 5, truth);
+  VehicleState before = estimator.step(truth);
+  for (int i = 0; i < 1000; ++i) {
+    const VehicleState now = estimator.step(truth);
+    const Vec3 rate_m_s =
+        (position_error_m(now, truth) - position_error_m(before, truth)) / kTick_s;
+    ASSERT_LT((rate_m_s - now.v_world_m_s).norm(), 1e-9);  // rounding of a 4 ms difference
+    before = now;
+  }
+}
+
+/// Mean square error of one axis after a path of length L under a drift of sigma a metre that
+/// forgets itself over l metres: 2 sigma^2 l^2 (L/l - 1 + exp(-L/l)).
+double drift_sigma_m(double path_m) {
+  constexpr double kForget_m = 100.0;
+  const double sigma = 0.01 / std::sqrt(3.0);
+  const double x = path_m / kForget_m;
+  return sigma * kForget_m * std::sqrt(2.0 * (x - 1.0 + std::exp(-x)));
+}
+
+TEST(StateEstimate, VioDriftsByAPercentOfTheShortPathAndByLessOfTheLongOne) {
+  for (const double path_m : {10.0, 300.0}) {
+    double sum = 0.0;
+    for (int seed = 0; seed < kMissions; ++seed) {
+      StateEstimator estimator({EstimateModel::vio}, static_cast<std::uint64_t>(seed),
+                               moving(0.0, 2.0));
+      constexpr int kSteps = 500;
+      VehicleState truth, estimate;
+      for (int i = 0; i <= kSteps; ++i) {
+        truth = moving(path_m * i / kSteps, 2.0);
+        estimate = estimator.step(truth);
+      }
+      sum += position_error_m(estimate, truth).squaredNorm();
+    }
+    expect_sigma(sum, 3 * kMissions, drift_sigma_m(path_m));
+  }
+  EXPECT_NEAR(std::sqrt(3.0) * drift_sigma_m(10.0), 0.1, 0.002);  // one percent of ten metres
+}
+
+TEST(StateEstimate, VioStandsStillWithTheVehicleAndKeepsRollAndPitch) {
+  VehicleState truth = moving(0.0, 0.0);
+  truth.T_world_body.rotate(Eigen::AngleAxisd(0.3, Vec3::UnitX()));
+  StateEstimator estimator({EstimateModel::vio}, 3, truth);
+  EXPECT_EQ(position_error_m(estimator.step(truth), truth), Vec3(Vec3::Zero()));
+  for (int i = 1; i < 200; ++i) {
+    truth.T_world_body.translation().x() += 0.1;
+    const VehicleState estimate = estimator.step(truth);
+    const Vec3 down_body = truth.T_world_body.linear().transpose() * Vec3::UnitZ();
+    const Vec3 down_seen = estimate.T_world_body.linear().transpose() * Vec3::UnitZ();
+    ASSERT_LT((down_body - down_seen).norm(), 1e-12);  // rounding
+  }
+}
+
+TEST(StateEstimate, IsKeyedByTheSeed) {
+  const VehicleState truth = moving(0.0, 1.0);
+  const auto first = [&](EstimateModel model, std::uint64_t seed) {
+    return StateEstimator({model}, seed, moving(-1.0, 1.0))
+        .step(truth)
+        .T_world_body.matrix()
+        .eval();
+  };
+  for (const EstimateModel model :
+       {EstimateModel::mocap, EstimateModel::gnss, EstimateModel::vio}) {
+    EXPECT_EQ(first(model, 1), first(model, 1));
+    EXPECT_NE(first(model, 1), first(model, 2));
+  }
+}
+
+}  // namespace
+}  // namespace gnbv

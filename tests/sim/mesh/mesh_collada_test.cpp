@@ -1,0 +1,105 @@
+#include <gtest/gtest.h>
+
+#include "tests/sim/mesh/mesh_files.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace test;
+
+/// One triangle (1,0,0) (0,2,0) (0,0,3), instanced by two nodes: moved by 10 along the file's x,
+/// and mirrored in x.
+std::string collada(const std::string& unit, const std::string& up_axis) {
+  return R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset>)" +
+         unit + up_axis + R"(</asset>
+<library_effects><effect id="paint"><profile_COMMON><technique sid="t"><lambert>
+<diffuse><color>0.25 0.5 0.75 1</color></diffuse></lambert></technique></profile_COMMON></effect>
+</library_effects>
+<library_materials><material id="red" name="red"><instance_effect url="#paint"/></material>
+</library_materials>
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="a" count="9">1 0 0 0 2 0 0 0 3</float_array><technique_common>
+<accessor source="#a" count="3" stride="3"><param name="X" type="float"/>
+<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="1" material="m"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p>
+</triangles></mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s">
+<node id="outer"><translate>10 0 0</translate><node id="inner"><instance_geometry url="#g">
+<bind_material><technique_common><instance_material symbol="m" target="#red"/></technique_common>
+</bind_material></instance_geometry></node></node>
+<node id="mirror"><scale>-1 1 1</scale><instance_geometry url="#g"><bind_material>
+<technique_common><instance_material symbol="m" target="#red"/></technique_common></bind_material>
+</instance_geometry></node>
+</visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+}
+
+const char* const kCentimetres = R"(<unit name="centimetre" meter="0.01"/>)";
+
+/// The six corners of collada() in file units.
+std::vector<Vec3> collada_corners() {
+  return {{11, 0, 0}, {10, 2, 0}, {10, 0, 3}, {-1, 0, 0}, {0, 2, 0}, {0, 0, 3}};
+}
+
+template <typename Turn>
+void expect_collada(const TriangleMesh& mesh, double factor, const Turn& turn) {
+  ASSERT_EQ(mesh.faces.size(), 2U);
+  const std::vector<Vec3> corners = collada_corners();
+  for (std::size_t instance = 0; instance < 2; ++instance) {
+    std::array<Vec3, 3> expected;
+    for (std::size_t k = 0; k < 3; ++k) expected[k] = factor * turn(corners[3 * instance + k]);
+    // the mirrored instance keeps its outside by turning round
+    if (instance == 1) std::swap(expected[1], expected[2]);
+    std::array<Vec3, 3> found;
+    for (std::size_t k = 0; k < 3; ++k) {
+      found[k] = mesh.vertices_m[mesh.faces[instance][k]].cast<double>();
+    }
+    double best = 1e9;  // over the corner the face starts with
+    for (std::size_t shift = 0; shift < 3; ++shift) {
+      double worst = 0.0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        worst = std::max(worst, (found[(k + shift) % 3] - expected[k]).norm());
+      }
+      best = std::min(best, worst);
+    }
+    EXPECT_LT(best, 2e-6 * factor * 11) << "instance " << instance;  // float transforms
+  }
+}
+
+Vec3 z_stays(const Vec3& p) { return p; }
+Vec3 y_to_z(const Vec3& p) { return {p.x(), -p.z(), p.y()}; }
+Vec3 x_to_z(const Vec3& p) { return {-p.y(), -p.z(), p.x()}; }
+
+TEST_F(MeshFile, ColladaUnitUpAxisAndInstancesAreHonoured) {
+  const std::string z_up = "<up_axis>Z_UP</up_axis>";
+  const TriangleMesh z = load_mesh(file(write("z.dae", collada(kCentimetres, z_up))));
+  expect_collada(z, 0.01, z_stays);
+  EXPECT_EQ(z.materials.at(0).name, "red");
+  EXPECT_EQ(z.materials.at(0).rgb, (std::array<float, 3>{0.25F, 0.5F, 0.75F}));
+  expect_collada(load_mesh(file(write("y.dae", collada("", "<up_axis>Y_UP</up_axis>")))), 1.0,
+                 y_to_z);
+  expect_collada(load_mesh(file(write("silent.dae", collada("", "")))), 1.0, y_to_z);
+  expect_collada(load_mesh(file(write("x.dae", collada("", "<up_axis>X_UP</up_axis>")))), 1.0,
+                 x_to_z);
+}
+
+TEST_F(MeshFile, ConfigOverridesUnitAndUpAxis) {
+  MeshFileConfig config = file(write("z.dae", collada(kCentimetres, "<up_axis>Z_UP</up_axis>")));
+  config.unit_m = 0.5;
+  expect_collada(load_mesh(config), 0.5, z_stays);
+  config.scale = 3.0;
+  expect_collada(load_mesh(config), 1.5, z_stays);
+  config.up_axis = "y";
+  expect_collada(load_mesh(config), 1.5, y_to_z);
+  config.up_axis = "x";
+  config.unit_m = 0.0;
+  config.scale = 1.0;
+  expect_collada(load_mesh(config), 0.01, x_to_z);
+}
+
+}  // namespace
+}  // namespace gnbv

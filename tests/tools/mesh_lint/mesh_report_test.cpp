@@ -1,0 +1,203 @@
+#include "tools/mesh_lint/mesh_report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "assets/catalog.hpp"
+#include "scenarios/load.hpp"
+#include "tests/bench/shapes.hpp"
+#include "tests/support/temp_folder.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+using test::add_box;
+using test::add_sheet;
+
+OutsideView view_of(const TriangleMesh& mesh, int threads = 2) {
+  return view_from_outside(mesh, lint_mesh(mesh).is_two_sided, threads);
+}
+
+void turn_faces(TriangleMesh& mesh, std::size_t first, std::size_t last) {
+  for (std::size_t i = first; i < last; ++i) std::swap(mesh.faces[i][1], mesh.faces[i][2]);
+}
+
+TEST(OutsideView, ABoxInABoxIsHidden) {
+  TriangleMesh mesh;
+  add_box(mesh, {0, 0, 0}, {4, 4, 4});  // 96 m2
+  add_box(mesh, {1, 1, 1}, {2, 2, 2});  // 24 m2
+  const OutsideView view = view_of(mesh);
+  EXPECT_NEAR(view.area_m2, 120.0, 1e-4);
+  EXPECT_NEAR(view.hidden_area_m2, 24.0, 1e-4);
+  EXPECT_EQ(view.from_behind.count, 0U);
+}
+
+TEST(OutsideView, FacesTurnedInwardsAreTheOnesThatWereTurned) {
+  TriangleMesh mesh;
+  add_box(mesh, {0, 0, 0}, {1, 2, 3});
+  EXPECT_EQ(view_of(mesh).from_behind.count, 0U);
+  turn_faces(mesh, 0, 2);  // the bottom
+  EXPECT_EQ(view_of(mesh).from_behind.count, 2U);
+  EXPECT_NEAR(view_of(mesh).from_behind.area_m2, 2.0, 1e-5);
+  turn_faces(mesh, 2, 12);  // and all others
+  EXPECT_EQ(view_of(mesh).from_behind.count, 12U);
+}
+
+TEST(OutsideView, SheetsSeenFromBothSidesPointNowhereWrong) {
+  TriangleMesh mesh;
+  add_sheet(mesh, {0, 0, 1}, {1, 0, 0}, {0, 1, 0});
+  EXPECT_EQ(view_of(mesh).from_behind.count, 0U);
+  // back to back on the floor of an open box, both senses
+  add_box(mesh, {0, 0, 3}, {1, 1, 1}, false);
+  const TriangleMesh once = mesh;
+  mesh.faces.insert(mesh.faces.end(), once.faces.begin(), once.faces.end());
+  turn_faces(mesh, once.faces.size(), mesh.faces.size());
+  EXPECT_EQ(view_of(mesh).from_behind.count, 0U);
+}
+
+TEST(OutsideView, DoesNotDependOnTheNumberOfThreads) {
+  TriangleMesh mesh = make_builtin_structure("smoke");
+  turn_faces(mesh, 0, mesh.faces.size() / 3);
+  const OutsideView one = view_of(mesh, 1);
+  const OutsideView three = view_of(mesh, 3);
+  EXPECT_GT(one.from_behind.count, 0U);
+  EXPECT_EQ(one.from_behind.count, three.from_behind.count);
+  EXPECT_EQ(one.from_behind.area_m2, three.from_behind.area_m2);
+  EXPECT_EQ(one.hidden_area_m2, three.hidden_area_m2);
+}
+
+class Report : public testing::Test {
+ protected:
+  /// Of the mesh as an OBJ file, with overrides of the scenario `aircraft`.
+  MeshReport of(const TriangleMesh& mesh, std::vector<std::string> overrides = {}) {
+    write_mesh(mesh, temp_.path() / "t.obj");
+    return of_file(temp_.path() / "t.obj", std::move(overrides));
+  }
+  MeshReport of_text(const std::string& obj) {
+    std::ofstream(temp_.path() / "t.obj") << obj;
+    return of_file(temp_.path() / "t.obj", {});
+  }
+  static MeshReport of_file(const fs::path& path, std::vector<std::string> overrides) {
+    overrides.insert(overrides.begin(), "structure.file.path=" + path.string());
+    return report_on_mesh(load_scenario("aircraft", overrides), 2);
+  }
+
+  TempFolder temp_;
+};
+
+Finding finding(const MeshReport& report, std::string_view check) {
+  for (const Finding& f : report.findings) {
+    if (f.check == check) return f;
+  }
+  ADD_FAILURE() << "no finding about " << check;
+  return {};
+}
+
+bool says(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// A tower of 4 x 6 x 8 m.
+TriangleMesh tower(const Vec3& at, double scale = 1.0) {
+  TriangleMesh mesh;
+  add_box(mesh, at, scale * Vec3(4, 6, 8));
+  return mesh;
+}
+
+TEST_F(Report, ASoundMeshHasOnlyGoodFindings) {
+  const MeshReport report = of(tower({-2, -3, 0}));
+  EXPECT_TRUE(report.is_usable());
+  for (const Finding& f : report.findings) {
+    if (f.check == "floor") continue;  // the bottom and 0.3 m of the walls
+    EXPECT_EQ(f.severity, Severity::ok) << f.check << ": " << f.what;
+  }
+  // 24 m2 of the bottom and 0.3 m of 20 m around, of 208 m2
+  EXPECT_TRUE(says(finding(report, "floor").what, "14.4 %")) << finding(report, "floor").what;
+}
+
+TEST_F(Report, MillimetresTakenAsMetresAreSuspectAndTheFlagPutsThemRight) {
+  const TriangleMesh big = tower({-2000, -3000, 0}, 1000.0);
+  const Finding size = finding(of(big), "size");
+  EXPECT_EQ(size.severity, Severity::warning);
+  EXPECT_TRUE(says(size.fix, "--set structure.file.unit_m=0.001 (8 m")) << size.fix;
+  const MeshReport right = of(big, {"structure.file.unit_m=0.001"});
+  EXPECT_EQ(finding(right, "size").severity, Severity::ok);
+  EXPECT_TRUE(right.is_usable());
+  EXPECT_EQ(finding(of(tower({0, 0, 0}, 0.001)), "size").severity, Severity::warning);
+}
+
+TEST_F(Report, AStructureOnItsSideIsSuspectAndTheFlagPutsItUpright) {
+  TriangleMesh lying = tower({-2, -3, 0});
+  for (Vec3f& v : lying.vertices_m) v = {v.x(), v.z(), -v.y()};  // y up
+  const Finding up = finding(of(lying), "up axis");
+  EXPECT_EQ(up.severity, Severity::warning);
+  EXPECT_TRUE(says(up.fix, "structure.file.up_axis=y")) << up.fix;
+  const Finding upright = finding(of(lying, {"structure.file.up_axis=y"}), "up axis");
+  EXPECT_EQ(upright.severity, Severity::ok) << upright.what;
+}
+
+TEST_F(Report, TheOffsetItAdvisesStandsTheStructureOnTheGround) {
+  const TriangleMesh sunk = tower({-2, -3, -1.5});
+  const Finding ground = finding(of(sunk), "ground");
+  EXPECT_EQ(ground.severity, Severity::warning);
+  // 24 m2 of the bottom and 1.5 m of 20 m around, of 208 m2
+  EXPECT_TRUE(says(ground.what, "26.0 %")) << ground.what;
+  EXPECT_TRUE(says(ground.fix, "structure.file.offset_m=[0, 0, 1.5]")) << ground.fix;
+  EXPECT_EQ(finding(of(sunk, {"structure.file.offset_m=[0, 0, 1.5]"}), "ground").severity,
+            Severity::ok);
+  EXPECT_EQ(finding(of(tower({0, 0, 30})), "ground").severity, Severity::note);
+}
+
+TEST_F(Report, FarFromTheOriginNoMapReaches) {
+  const MeshReport far = of(tower({500000, 0, 0}));
+  EXPECT_FALSE(far.is_usable());
+  EXPECT_TRUE(says(finding(far, "place").fix, "offset_m=[-500002, -3, 0]"))
+      << finding(far, "place").fix;
+  const MeshReport near = of(tower({50, 0, 0}));
+  EXPECT_TRUE(near.is_usable());
+  EXPECT_TRUE(says(finding(near, "place").fix, "--bounds auto"));
+}
+
+TEST_F(Report, WhatLoadMeshRefusesIsStillReported) {
+  const MeshReport nan = of_text("v 0 0 0\nv 1 0 0\nv 0 nan 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\n");
+  EXPECT_FALSE(nan.is_usable());
+  EXPECT_TRUE(says(finding(nan, "coordinates").what, "t.obj:3: vertex 3"));
+  EXPECT_EQ(nan.lint.sound.count, 1U);
+  const MeshReport flat = of_text("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+  EXPECT_FALSE(flat.is_usable());
+  const MeshReport empty = of_text("");
+  EXPECT_FALSE(empty.is_usable());
+  EXPECT_TRUE(says(finding(empty, "file").what, "is empty"));
+  for (const MeshReport& report : {nan, flat, empty}) {
+    EXPECT_TRUE(says(terminal_text(report), "not usable"));
+    EXPECT_EQ(nlohmann::json::parse(json_text(report)).at("usable"), false);
+  }
+}
+
+TEST_F(Report, EveryFlawHasItsFinding) {
+  TriangleMesh mesh = tower({-2, -3, 0});
+  const auto faces = mesh.faces;
+  mesh.faces.push_back(faces[0]);                                 // twice
+  mesh.faces.push_back({faces[4][0], faces[4][2], faces[4][1]});  // back to back
+  mesh.faces.push_back({faces[2][0], faces[2][0], faces[2][1]});  // flat
+  std::swap(mesh.faces[8][1], mesh.faces[8][2]);                  // inwards
+  add_sheet(mesh, {5, 5, 1}, {1, 0, 0}, {0, 1, 0});               // open
+  mesh.vertices_m.emplace_back(100.0F, 0.0F, 0.0F);               // astray
+  const MeshReport report = of(mesh);
+  EXPECT_TRUE(report.is_usable());
+  for (const char* check :
+       {"duplicates", "two-sided", "flat faces", "facing", "edges", "vertices"}) {
+    EXPECT_NE(finding(report, check).severity, Severity::ok) << check;
+  }
+  EXPECT_EQ(finding(report, "vertices").severity, Severity::warning);  // it widens the box
+  const auto json = nlohmann::json::parse(json_text(report));
+  EXPECT_EQ(json.at("faces"), 16);
+  EXPECT_EQ(json.at("findings").size(), report.findings.size());
+}
+
+}  // namespace
+}  // namespace gnbv

@@ -1,0 +1,276 @@
+// Laws of pictures for which a mission is flown again: they show what the mission believed.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "bench/score/surface_reference.hpp"
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "tests/support/flown.hpp"
+#include "tests/support/temp_folder.hpp"
+#include "tools/mission/replay.hpp"
+#include "tools/render/picture.hpp"
+#include "tools/run_files/candidates_file.hpp"
+#include "tools/run_files/candidates_record.hpp"
+#include "tools/run_files/cloud_file.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr std::size_t kAsked = 3;
+
+/// A mission of five views, with what was believed and planned on the way.
+struct Watched {
+  explicit Watched(const Scenario& scenario) : flown(scenario, hooks()) {}
+
+  MissionHooks hooks() {
+    MissionHooks hooks;
+    hooks.on_view_belief = [this](const Belief& belief) { beliefs.push_back(belief); };
+    hooks.on_candidates = [this](std::size_t, const Plan& plan) { plans.push_back(plan); };
+    return hooks;
+  }
+  RecordedMission recorded() const {
+    return {.scenario = flown.scenario,
+            .world = flown.world,
+            .scene = flown.scene,
+            .views = flown.result.views,
+            .threads = 2};
+  }
+
+  std::vector<Belief> beliefs = {};
+  std::vector<Plan> plans = {};
+  Flown flown;
+};
+
+const Watched& watched() {
+  static const Watched all(smoke({"planner.termination.max_iterations=5"}));
+  return all;
+}
+
+bool same_belief(const Belief& a, const Belief& b) {
+  const auto same = [](auto x, auto y) {
+    return std::equal(x.begin(), x.end(), y.begin(), y.end());
+  };
+  return same(a.grid.all_log_odds(), b.grid.all_log_odds()) &&
+         same(a.grid.words(), b.grid.words()) &&
+         same(a.cloud.points_world_m(), b.cloud.points_world_m());
+}
+
+bool same_plan(const Plan& a, const Plan& b) {
+  return a.chosen == b.chosen &&
+         std::equal(a.candidates.begin(), a.candidates.end(), b.candidates.begin(),
+                    b.candidates.end(), [](const Candidate& x, const Candidate& y) {
+                      return x.view.p_world_m == y.view.p_world_m &&
+                             x.view.yaw_rad == y.view.yaw_rad && x.sampler == y.sampler &&
+                             x.scale == y.scale && x.cluster == y.cluster &&
+                             x.rejected == y.rejected && x.path_m == y.path_m &&
+                             x.score.value == y.score.value;
+                    });
+}
+
+RunSource source(const std::filesystem::path& folder = {}) {
+  const Flown& flown = watched().flown;
+  return {RunRecord{.folder = folder, .scenario = flown.scenario, .views = flown.result.views},
+          flown.world};
+}
+
+TEST(Replay, BelievesWhatTheMissionBelieved) {
+  EXPECT_TRUE(same_belief(replay_belief(watched().recorded(), kAsked), watched().beliefs[kAsked]));
+  EXPECT_FALSE(same_belief(watched().beliefs[kAsked - 1], watched().beliefs[kAsked]));
+}
+
+TEST(Replay, PlansWhatTheMissionPlanned) {
+  const ReplayedDecision decision = replay_decision(watched().recorded(), kAsked);
+  EXPECT_TRUE(same_belief(decision.belief, watched().beliefs[kAsked - 1]));
+  EXPECT_TRUE(same_plan(decision.plan, watched().plans[kAsked - 1]));  // the start is no decision
+}
+
+TEST(Replay, RefusesAnotherMissionsRecord) {
+  std::vector<ViewRecord> views = watched().flown.result.views;
+  ++views[1].cloud_points;
+  RecordedMission mission = watched().recorded();
+  mission.views = views;
+  EXPECT_THROW(replay_belief(mission, kAsked), BadInput);
+}
+
+TEST(Replay, ProfileEndsAsTheMissionsDid) {
+  const std::size_t waypoints[] = {1, 3, 8};
+  const auto stages = replay_profile(watched().recorded(), waypoints);
+  ASSERT_EQ(stages.size(), 3U);
+  EXPECT_EQ(stages[2].points_world_m, watched().flown.result.profile_points_world_m);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(stages[i].waypoints, waypoints[i]);
+  EXPECT_LT(stages[0].path_world_m.size(), stages[1].path_world_m.size());
+  EXPECT_LT(stages[1].path_world_m.size(), stages[2].path_world_m.size());
+}
+
+TEST(Replay, CircularProfileEndsAsTheMissionsDid) {
+  Watched circular(
+      smoke({"planner.profiling.method=circular", "planner.profiling.circle_stations=4",
+             "planner.termination.max_iterations=1"}));
+  const std::size_t waypoints[] = {1, 3, 8};
+  const auto stages = replay_profile(circular.recorded(), waypoints);
+  ASSERT_EQ(stages.size(), 3U);  // stations, not the climbs at them; each number once
+  EXPECT_EQ(stages[0].waypoints, 1U);
+  EXPECT_EQ(stages[1].waypoints, 3U);
+  EXPECT_EQ(stages[2].waypoints, 4U);
+  EXPECT_EQ(stages[2].points_world_m, circular.flown.result.profile_points_world_m);
+  // up there at the end of the first station: nothing is left to see
+  EXPECT_GT(stages[0].path_world_m.back().z(), stages[0].path_world_m.front().z());
+}
+
+TEST(Replay, ProfileNeedsNoViewsEvenOfAnOracle) {
+  const Scenario scenario =
+      smoke({"planner.utility.name=oracle_views", "planner.profiling.method=circular",
+             "planner.profiling.circle_stations=1"});
+  const Flown& flown = watched().flown;
+  const std::size_t waypoints[] = {1, 3};
+  const auto stages = replay_profile(
+      {.scenario = scenario, .world = flown.world, .scene = flown.scene, .views = {}}, waypoints);
+  ASSERT_EQ(stages.size(), 1U);
+  EXPECT_EQ(stages[0].waypoints, 1U);
+  EXPECT_FALSE(stages[0].points_world_m.empty());
+}
+
+TEST(CandidatesRecord, RoundTripsAndNamesDamage) {
+  const TempFolder temp;
+  EXPECT_FALSE(read_candidates(temp.path(), 1).has_value());
+  CandidatesFile file(temp.path(), 1);
+  for (std::size_t i = 0; i < watched().plans.size(); ++i) file.write(i + 1, watched().plans[i]);
+  file.finish();
+  for (std::size_t i = 0; i < watched().plans.size(); ++i) {
+    const auto plan = read_candidates(temp.path(), i + 1);
+    ASSERT_TRUE(plan.has_value());
+    EXPECT_TRUE(same_plan(*plan, watched().plans[i])) << i;
+  }
+  const auto complaint = [&](std::size_t iteration) -> std::string {
+    try {
+      read_candidates(temp.path(), iteration);
+    } catch (const BadInput& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(complaint(99).find("--candidates --out NEW"), std::string::npos);
+  write_file_atomically(temp.path() / "candidates.jsonl", "{\"iteration\":1,\"x_m\":\n");
+  EXPECT_NE(complaint(1).find("candidates.jsonl:1"), std::string::npos);
+  EXPECT_NE(complaint(1).find("--candidates --out NEW"), std::string::npos);
+  write_file_atomically(temp.path() / "candidates.jsonl", "");  // an oracle's: it samples none
+  EXPECT_FALSE(read_candidates(temp.path(), 1).has_value());
+}
+
+TEST(VoxelsPicture, HoldsACubeForEachVoxelOfTheMap) {
+  RunSource run = source();
+  PictureOptions options;
+  options.iteration = kAsked;
+  const RenderScene scene = kVoxelsPicture.draw(run, options, {}).panels.at(0).scene;
+  const OccupancyGrid& grid = watched().beliefs[kAsked].grid;
+  ASSERT_EQ(scene.surfaces.size(), 3U);  // occupied, predicted, unknown
+  EXPECT_EQ(scene.surfaces[0].mesh.faces.size(), 12U * grid.occupied_count());
+  EXPECT_EQ(scene.surfaces[1].mesh.faces.size(), 12U * grid.predicted_count());
+}
+
+TEST(CoveragePicture, CoversTheShareThatTheScoreSays) {
+  const TempFolder temp;
+  const auto points = watched().flown.result.belief.cloud.points_world_m();
+  write_cloud_ply(points, temp.path() / "cloud.ply");
+  write_cloud_ply(watched().flown.result.profile_points_world_m, temp.path() / "profile.ply");
+  RunSource run = source(temp.path());
+  const auto dots = kCoveragePicture.draw(run, {}, {}).panels.at(0).scene.dots;
+  ASSERT_EQ(dots.size(), 2U);  // covered, missed
+  const auto covered = static_cast<double>(dots[0].points_m.size());
+  const auto missed = static_cast<double>(dots[1].points_m.size());
+  const auto scored = coverage_at_all_sizes(run.reference().outside, points);
+  EXPECT_DOUBLE_EQ(covered / (covered + missed), scored[0]);
+  // every covered sample has a point in its voxel
+  const VoxelSet seen = voxels_of(points, kCoverageSizes_m[0]);
+  for (const Vec3f& sample : dots[0].points_m) {
+    EXPECT_TRUE(
+        std::binary_search(seen.begin(), seen.end(), voxel_code(sample, kCoverageSizes_m[0])));
+  }
+}
+
+TEST(CandidatesPicture, HoldsAPinForEachCandidate) {
+  const TempFolder temp;
+  PictureOptions options;
+  options.iteration = kAsked;
+  const auto tubes = [&](RunSource& run) {
+    return kCandidatesPicture.draw(run, options, {}).panels.at(0).scene.tubes;
+  };
+  const auto same_pins = [](const std::vector<TubeItem>& scene, const Plan& plan) {
+    // before the rays: one each, in their order, from where it stands towards where it looks
+    if (scene.size() < plan.candidates.size()) return false;
+    for (std::size_t i = 0; i < plan.candidates.size(); ++i) {
+      const ViewPose& view = plan.candidates[i].view;
+      const Vec3f ahead = scene[i].points_m.back() - scene[i].points_m.front();
+      const double yaw_rad = std::atan2(ahead.y(), ahead.x());
+      if (scene[i].points_m.front() != view.p_world_m.cast<float>()) return false;
+      if (std::abs(wrap_angle_rad(yaw_rad - view.yaw_rad)) > 1e-3) return false;
+    }
+    return true;
+  };
+  const Plan& plan = watched().plans[kAsked - 1];
+  RunSource planned = source(temp.path());
+  const auto drawn = tubes(planned);
+  EXPECT_TRUE(same_pins(drawn, plan));
+  Plan fewer = plan;
+  fewer.candidates.pop_back();
+  // the same from the file
+  const auto draw_from_file = [&](const Plan& of_asked) {
+    CandidatesFile file(temp.path(), 1);
+    for (std::size_t i = 0; i < watched().plans.size(); ++i) {
+      file.write(i + 1, i + 1 == kAsked ? of_asked : watched().plans[i]);
+    }
+    file.finish();
+    RunSource read = source(temp.path());
+    return tubes(read);
+  };
+  EXPECT_EQ(draw_from_file(plan).size(), drawn.size());
+  const auto less = draw_from_file(fewer);
+  EXPECT_TRUE(same_pins(less, fewer));
+  EXPECT_EQ(less.size() + 1, drawn.size());  // nothing but the pin is gone
+}
+
+TEST(CandidatesPicture, RaysLieInsideTheViewAndReachAllAround) {
+  const TempFolder temp;
+  RunSource run = source(temp.path());
+  PictureOptions options;
+  options.iteration = kAsked;
+  const RenderScene scene = kCandidatesPicture.draw(run, options, {}).panels.at(0).scene;
+  const Scenario& scenario = watched().flown.scenario;
+  const CameraModel camera = make_camera_model(scenario.cameras.front());
+  const ViewPose& view = watched().flown.result.views[kAsked].decision.view;
+  const Isometry T_world_camera = T_world_body(view) * camera.T_body_camera;
+  const std::size_t pins = watched().plans[kAsked - 1].candidates.size();
+  Eigen::AlignedBox2d reached_px;
+  ASSERT_GT(scene.tubes.size(), pins + 2);
+  for (std::size_t i = pins; i + 1 < scene.tubes.size(); ++i) {  // the last one is the way there
+    const Vec3 end = T_world_camera.inverse() * scene.tubes[i].points_m.back().cast<double>();
+    ASSERT_GT(end.z(), 0.0);
+    EXPECT_LE(end.z(), camera.config.range_max_m + 1e-3);
+    reached_px.extend(pixel_of(camera, end));
+  }
+  const Eigen::AlignedBox2d whole_px(
+      Eigen::Vector2d::Zero(), Eigen::Vector2d(camera.config.width_px, camera.config.height_px));
+  EXPECT_TRUE(whole_px.contains(reached_px));
+  EXPECT_GT(reached_px.volume(), 0.5 * whole_px.volume());
+}
+
+TEST(CandidatesPicture, TheLegendNamesFrontiersOnlyWhereAFrontierWasLookedAt) {
+  const TempFolder temp;
+  PictureOptions options;
+  options.iteration = kAsked;
+  const auto names_frontiers = [&](std::string_view sampler) {
+    const Flown& flown = watched().flown;
+    std::vector<ViewRecord> views = flown.result.views;
+    views[kAsked].decision.sampler = sampler;
+    RunSource run{{.folder = temp.path(), .scenario = flown.scenario, .views = views}, flown.world};
+    const auto legend = kCandidatesPicture.draw(run, options, {}).legend;
+    return std::any_of(legend.begin(), legend.end(),
+                       [](const LegendItem& item) { return item.label == "frontier"; });
+  };
+  EXPECT_FALSE(names_frontiers("agvs"));
+  EXPECT_TRUE(names_frontiers("fvs"));
+}
+
+}  // namespace
+}  // namespace gnbv

@@ -1,0 +1,77 @@
+// Laws of what the report takes from camera frames: the colours of points, and thumbnails.
+#include "tools/report/camera_frames.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "sensors/camera_model.hpp"
+#include "sim/core/error.hpp"
+#include "sim/core/image.hpp"
+#include "tests/support/temp_folder.hpp"
+#include "tools/report/jpeg.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One camera that looks along +x from the origin. Its picture is red left and blue right, that of
+/// view 1 the other way round.
+TEST(CameraFrames, APointHasTheColourOfItsPixelAndThumbnailsKeepTheirBudget) {
+  TempFolder temp;
+  Image image{64, 48, {}};
+  Image other{64, 48, {}};
+  for (int y = 0; y < 48; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      constexpr Rgb8 kRed = {200, 0, 0};
+      constexpr Rgb8 kBlue = {0, 0, 200};
+      const Rgb8& left = x < 32 ? kRed : kBlue;
+      const Rgb8& right = x < 32 ? kBlue : kRed;
+      image.rgb.insert(image.rgb.end(), left.begin(), left.end());
+      other.rgb.insert(other.rgb.end(), right.begin(), right.end());
+    }
+  }
+  FrameRecord frames;
+  frames.cameras = {{.name = "c",
+                     .width_px = 64,
+                     .height_px = 48,
+                     .fx_px = 32.0,
+                     .fy_px = 32.0,
+                     .cx_px = 32.0,
+                     .cy_px = 24.0}};
+  for (int view = 0; view < 8; ++view) {
+    const fs::path png = temp.path() / fmt::format("{}.png", view);
+    write_png(view == 1 ? other : image, png);
+    frames.frames.push_back({.iteration = view, .colour = png});
+    frames.frames.back().T_world_camera.linear() = R_body_optical();
+  }
+  // profile: near the left one, near none; view 0: left (+y), right; view 1: left
+  const RunCloud cloud{
+      .points_world_m = {{4, 1.1F, 0}, {4, 3, 9}, {4, 1, 0}, {4, -1, 0}, {4, 1, 1}},
+      .profile_points = 2,
+      .view_points = {4, 5, 5, 5, 5, 5, 5, 5}};
+  const std::vector<std::size_t> all = {0, 1, 2, 3, 4};
+  const auto read = [&](std::size_t max_bytes, int threads) {
+    return read_camera_frames(frames, cloud, all, max_bytes, threads, [](double) {});
+  };
+  const CameraFrames seen = read(1'000'000, 1);
+  EXPECT_EQ(seen.colour[2], (Rgb8{200, 0, 0}));
+  EXPECT_EQ(seen.colour[3], (Rgb8{0, 0, 200}));
+  EXPECT_EQ(seen.colour[4], (Rgb8{0, 0, 200}));
+  EXPECT_EQ(seen.colour[0], seen.colour[2]);
+  EXPECT_EQ(seen.colour[1][0], 150);  // the grey of what no camera saw
+  ASSERT_EQ(seen.thumbnails.size(), 8U);
+  const std::size_t each = seen.thumbnails[0].jpeg.size();
+  const CameraFrames few = read(3 * each, 3);
+  ASSERT_EQ(few.thumbnails.size(), 3U);  // views 0, 3, 6
+  EXPECT_EQ(few.thumbnails[1].frame, 3U);
+  EXPECT_EQ(few.colour, seen.colour);
+  EXPECT_TRUE(few == read(3 * each, 1));
+  EXPECT_TRUE(read(each / 2, 1).thumbnails.empty());
+  for (const int threads : {2, 4, 7}) EXPECT_TRUE(read(1'000'000, threads) == seen) << threads;
+  write_png(shrunk(image, 2), frames.frames[5].colour);
+  EXPECT_THROW(read(1'000'000, 2), BadInput);
+}
+
+}  // namespace
+}  // namespace gnbv

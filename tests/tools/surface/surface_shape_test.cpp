@@ -1,0 +1,303 @@
+// Laws of turning a cloud into a surface: normals face the sensor, the surface lies where the
+// points lie, and nothing is left where there are none.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "bench/score/surface_reference.hpp"
+#include "sim/core/error.hpp"
+#include "tests/support/made_run.hpp"
+#include "tests/support/temp_folder.hpp"
+#include "tools/surface/mesh_edges.hpp"
+#include "tools/surface/poisson_module.hpp"
+#include "tools/surface/surface.hpp"
+#include "tools/surface/surface_score.hpp"
+#include "tools/surface/trim.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr float kRadius_m = 1.0F;
+
+/// A unit sphere seen from all around, about 4.5 cm between points.
+SeenPoints seen_sphere(float z_min_m = -2.0F) {
+  SeenPoints seen;
+  for (const Vec3f& direction : spread_directions(6000)) {
+    if (direction.z() < z_min_m) continue;
+    seen.points_world_m.push_back(kRadius_m * direction);
+    seen.sensors_world_m.push_back(4.0F * direction + Vec3f(0.5F, 0.0F, 0.0F));
+  }
+  return seen;
+}
+
+TriangleMesh poisson(const OrientedCloud& cloud, int depth) {
+  TriangleMesh mesh;
+  poisson_module()(cloud.points_world_m, cloud.normals_world, {.depth = depth}, mesh);
+  return mesh;
+}
+
+TEST(OrientedCloud, NormalsOfASpherePointOutToTheSensors) {
+  const OrientedCloud cloud = oriented(seen_sphere(), 2);
+  ASSERT_EQ(cloud.points_world_m.size(), 6000U);
+  for (std::size_t i = 0; i < cloud.points_world_m.size(); ++i) {
+    EXPECT_GT(cloud.normals_world[i].dot(cloud.points_world_m[i]), 0.99F);
+    EXPECT_NEAR(cloud.spacing_m[i], std::sqrt(4.0 * kPi / 6000.0), 0.01);
+  }
+}
+
+TEST(OrientedCloud, FromInsideTheyPointIn) {
+  SeenPoints seen = seen_sphere();
+  std::fill(seen.sensors_world_m.begin(), seen.sensors_world_m.end(), Vec3f(0.1F, 0, 0));
+  const OrientedCloud cloud = oriented(seen, 1);
+  for (std::size_t i = 0; i < cloud.points_world_m.size(); ++i) {
+    EXPECT_LT(cloud.normals_world[i].dot(cloud.points_world_m[i]), -0.99F);
+  }
+}
+
+TEST(OrientedCloud, TheFacesOfAThinWedgeKeepTheirNormals) {
+  // two planes through the y axis, 6 degrees from level, seen from above and from below
+  const auto slope = static_cast<float>(std::tan(deg_to_rad(6.0)));
+  SeenPoints seen;
+  for (int i = 1; i <= 40; ++i) {
+    for (int j = 0; j < 40; ++j) {
+      const float x_m = 0.02F * static_cast<float>(i);
+      for (const float side : {1.0F, -1.0F}) {
+        seen.points_world_m.emplace_back(x_m, 0.02F * static_cast<float>(j), side * slope * x_m);
+        seen.sensors_world_m.emplace_back(0.5F, 0.4F, side * 3.0F);
+      }
+    }
+  }
+  const OrientedCloud cloud = oriented(seen, 1);
+  for (std::size_t i = 0; i < cloud.points_world_m.size(); ++i) {
+    const float side = cloud.points_world_m[i].z() > 0.0F ? 1.0F : -1.0F;
+    const Vec3f normal = Vec3f(-slope, 0.0F, side).normalized();
+    EXPECT_GT(cloud.normals_world[i].dot(normal), 0.9999F);
+  }
+}
+
+TEST(OrientedCloud, PointsOnALineHaveNoNormal) {
+  SeenPoints seen;
+  for (int i = 0; i < 30; ++i) {
+    seen.points_world_m.emplace_back(0.1F * static_cast<float>(i), 0.0F, 0.0F);
+    seen.sensors_world_m.emplace_back(0.0F, 0.0F, 5.0F);
+  }
+  EXPECT_TRUE(oriented(seen, 1).points_world_m.empty());
+}
+
+TEST(Poisson, SurfaceOfASphereIsTheSphereWatertightAndOutward) {
+  const TriangleMesh mesh = poisson(oriented(seen_sphere(), 2), 6);
+  ASSERT_GT(mesh.faces.size(), 1000U);
+  EXPECT_EQ(open_edges(mesh), 0U);
+  double volume_m3 = 0.0;
+  for (const auto& f : mesh.faces) {
+    const auto p = [&](std::size_t k) { return mesh.vertices_m[f[k]].cast<double>(); };
+    volume_m3 += p(0).dot(p(1).cross(p(2))) / 6.0;  // positive where faces turn outwards
+  }
+  EXPECT_NEAR(volume_m3, 4.0 / 3.0 * kPi, 0.02);
+  for (const Vec3f& p_m : mesh.vertices_m) EXPECT_NEAR(p_m.norm(), kRadius_m, 0.005F);
+}
+
+TEST(Trim, AHalfSphereEndsAtItsRim) {
+  const OrientedCloud cloud = oriented(seen_sphere(0.0F), 2);
+  const TriangleMesh closed = poisson(cloud, 6);
+  const TriangleMesh open = trimmed(closed, cloud, {}, 2);
+  EXPECT_GT(surface_area_m2(closed), 2.5 * kPi);  // Poisson spans the opening
+  EXPECT_GT(open_edges(open), 100U);              // the rim is 6.3 m of cells of 4 cm
+  double lowest_m = 1.0;
+  std::size_t near = 0;
+  for (const Vec3f& p_m : open.vertices_m) {
+    lowest_m = std::min(lowest_m, static_cast<double>(p_m.z()));
+    // 2 spacings of 4.6 cm, which look larger by sqrt(2) at a rim, where half of them are missing
+    EXPECT_NEAR(p_m.norm(), kRadius_m, 0.135F);
+    near += std::abs(p_m.norm() - kRadius_m) < 0.01F ? 1 : 0;
+  }
+  EXPECT_GT(near, open.vertices_m.size() * 9 / 10);
+  EXPECT_LT(lowest_m, 0.03);
+  EXPECT_GT(lowest_m, -0.135);
+  EXPECT_NEAR(surface_area_m2(open), 2.0 * kPi, 0.135 * 2.0 * kPi);
+  const TriangleMesh tight = trimmed(closed, cloud, {.reach_m = 0.05}, 2);
+  EXPECT_LT(surface_area_m2(tight), surface_area_m2(open));
+}
+
+/// Two triangles of the unit square.
+TriangleMesh square() {
+  TriangleMesh mesh;
+  mesh.vertices_m = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  mesh.faces = {{0, 1, 2}, {0, 2, 3}};
+  return mesh;
+}
+
+TEST(Trim, CutsExactlyAlongTheLevelOfALinearField) {
+  const std::vector<float> x = {0.0F, 1.0F, 1.0F, 0.0F};
+  for (const float level : {0.25F, 0.5F, 0.8F}) {
+    const TriangleMesh cut = cut_at_level(square(), x, level);
+    EXPECT_NEAR(surface_area_m2(cut), level, 1e-6);
+    for (const auto& f : cut.faces) {
+      for (const std::uint32_t v : f) EXPECT_LE(cut.vertices_m[v].x(), level + 1e-6F);
+      const Vec3f a = cut.vertices_m[f[0]];
+      EXPECT_GT((cut.vertices_m[f[1]] - a).cross(cut.vertices_m[f[2]] - a).z(), 0.0F);
+    }
+  }
+  EXPECT_EQ(cut_at_level(square(), x, 2.0F).faces, square().faces);
+  EXPECT_TRUE(cut_at_level(square(), x, -1.0F).faces.empty());
+}
+
+TEST(Trim, SmallPartsGoTheRestKeepsItsOrder) {
+  TriangleMesh mesh = square();
+  mesh.vertices_m.insert(mesh.vertices_m.begin(), {{5, 5, 5}, {5.1F, 5, 5}, {5, 5.1F, 5}});
+  mesh.faces = {{0, 1, 2}, {3, 4, 5}, {3, 5, 6}, {4, 4, 5}};
+  const TriangleMesh kept = without_scraps(mesh, 0.01);
+  EXPECT_EQ(kept.faces, square().faces);
+  EXPECT_EQ(kept.vertices_m, square().vertices_m);
+  EXPECT_EQ(without_scraps(mesh, 0.0).faces.size(), 3U);  // but the one without area
+}
+
+TEST(SurfaceDepth, HasCellsOfTheWantedSize) {
+  const Box3 box(Vec3::Zero(), Vec3(30, 10, 5));
+  EXPECT_EQ(depth_for(box, 33.0 / 256), 8);
+  EXPECT_EQ(depth_for(box, 1e-4), 10);
+  EXPECT_EQ(depth_for(box, 100.0), kMinDepth);
+}
+
+TEST(SeenPoints, ViewsPointsComeFromTheViewsAndCoveredProfilePointsGo) {
+  TempFolder temp;
+  write_made_run(temp.path());
+  const std::vector<Vec3f> points = {{0, 0, 1}, {3, 0, 1}, {0.05F, 0, 1},
+                                     {1, 1, 1}, {0, 0, 2}, {1, 1, 2}};
+  write_cloud_ply(points, temp.path() / "cloud.ply");
+  const RunRecord record = read_run(temp.path());
+  const SeenPoints seen = seen_points(record, read_run_cloud(record), 2);
+  ASSERT_EQ(seen.points_world_m.size(), 5U);  // the first lies within a leaf of the third
+  EXPECT_EQ(seen.points_world_m[0], points[1]);
+  EXPECT_EQ(seen.sensors_world_m[0], Vec3f(4, -4, 1));  // nearest pose of the profile
+  for (std::size_t i = 1; i < 5; ++i) {
+    const std::size_t view = i == 1 ? 0 : (i == 4 ? 2 : 1);
+    const Vec3f at_m = record.views[view].decision.view.p_world_m.cast<float>();
+    EXPECT_LT((seen.sensors_world_m[i] - at_m).norm(), 0.5F) << i;
+  }
+}
+
+TEST(SeenPoints, WhatAFlyingCameraSawCameFromTheNearestPoseOfItsLeg) {
+  TempFolder temp;
+  write_made_run(temp.path());
+  RunRecord record = read_run(temp.path());
+  RunCloud cloud = read_run_cloud(record);
+  cloud.points_world_m = {{0, 0, 1}, {1, 0, 1}, {-2, 4, 2}, {-4, 2, 2.1F}, {-3, -4, 3}, {2, 2, 2}};
+  const auto sensor = [&](std::size_t point) {
+    const SeenPoints seen = seen_points(record, cloud, 2);
+    return seen.sensors_world_m.at(point - cloud.points_world_m.size() +
+                                   seen.points_world_m.size());
+  };
+  const auto at_view = [&](std::size_t view) {
+    return Vec3f(record.views[view].decision.view.p_world_m.cast<float>());
+  };
+  EXPECT_LT((sensor(4) - at_view(1)).norm(), 0.5F);
+  record.scenario.cameras[0].rate_hz = 10.0;
+  EXPECT_EQ(sensor(4), Vec3f(-4, -4, 3));  // at 4 s, on the leg from 3 s to there
+  EXPECT_EQ(sensor(2), Vec3f(-4, 4, 2));   // at 3 s, where the first leg ends
+}
+
+TEST(SeenPoints, WhatLiesBehindAPoseHidesNothingFromIt) {
+  TempFolder temp;
+  write_made_run(temp.path());
+  RunRecord record = read_run(temp.path());
+  RunCloud cloud = read_run_cloud(record);
+  // the first point was seen on the profile, 1 m away; another one lies 2 m beyond that pose
+  cloud.points_world_m = {{0, -3, 1}, {0, -6, 1}};
+  cloud.profile_points = 2;
+  cloud.view_points = {2, 2, 2};
+  record.path = {made_sample(0, {0, -4, 1}), made_sample(1, {0, 1.5, 1})};
+  EXPECT_EQ(seen_points(record, cloud, 1).sensors_world_m[0], Vec3f(0, -4, 1));
+  cloud.points_world_m[1] = {0, -3.5F, 1};  // between them it does
+  EXPECT_EQ(seen_points(record, cloud, 1).sensors_world_m[0], Vec3f(0, 1.5F, 1));
+}
+
+TEST(SeenPoints, WhatCameAfterTheLastViewIsSeenFromThere) {
+  TempFolder temp;
+  write_made_run(temp.path());
+  RunRecord record = read_run(temp.path());
+  RunCloud cloud = read_run_cloud(record);
+  record.path.push_back(made_sample(6, {4, 4, 4}));
+  cloud.points_world_m.emplace_back(3.0F, 3.0F, 3.0F);
+  EXPECT_EQ(seen_points(record, cloud, 1).sensors_world_m.back(), Vec3f(4, 4, 4));
+  record.views.clear();  // it ended on its way to the first view
+  cloud.view_points.clear();
+  record.profile_end_s = 1.0;
+  const SeenPoints seen = seen_points(record, cloud, 1);
+  EXPECT_EQ(seen.sensors_world_m.size(), seen.points_world_m.size());
+  EXPECT_EQ(seen.sensors_world_m.back(), Vec3f(4, 4, 4));
+}
+
+TEST(SurfaceScore, TheTrueSurfaceIsPerfectAndHalfOfItHasHalfTheRecall) {
+  World truth{.structure = poisson(oriented(seen_sphere(), 2), 5), .has_ground = false};
+  for (Vec3f& p_m : truth.structure.vertices_m) p_m.z() += 2.0F;
+  const SurfaceScore all = score_surface(truth.structure, truth, 0.3, 2);
+  for (const DistanceScore& at : all.distances.at) EXPECT_EQ(at.f, 1.0);
+  EXPECT_LT(all.distances.chamfer_m, 1e-4);
+  std::vector<float> z_m;
+  for (const Vec3f& p_m : truth.structure.vertices_m) z_m.push_back(p_m.z());
+  const SurfaceScore half = score_surface(cut_at_level(truth.structure, z_m, 2.0F), truth, 0.3, 1);
+  EXPECT_EQ(half.distances.at[0].precision, 1.0);
+  EXPECT_NEAR(half.distances.at[0].recall, 0.51, 0.01);  // and 2 cm of 2 m
+}
+
+TEST(SurfaceScore, SamplesLieEvenlyByArea) {
+  TriangleMesh mesh = square();
+  mesh.vertices_m[2] = mesh.vertices_m[3] = Vec3f(0, 3, 0);  // areas 1.5 and 0
+  mesh.faces = {{0, 1, 2}, {0, 2, 3}};
+  mesh.vertices_m.push_back({-1, 0, 0});
+  mesh.faces.push_back({0, 3, 4});  // area 1.5
+  const std::vector<Vec3f> samples = samples_by_area(mesh, 20000, 7);
+  Vec3f mean_m = Vec3f::Zero();
+  for (const Vec3f& p : samples) mean_m += p / 20000.0F;
+  EXPECT_NEAR(mean_m.x(), 0.0F, 0.01F);  // centroid of both triangles
+  EXPECT_NEAR(mean_m.y(), 1.0F, 0.02F);
+  EXPECT_EQ(samples, samples_by_area(mesh, 20000, 7));
+}
+
+/// What shape_of() says of points seen from above; empty when it makes a surface of them.
+std::string refusal_of(std::vector<Vec3f> points_m, double leaf_m) {
+  SeenPoints seen{std::move(points_m), {}};
+  seen.sensors_world_m.assign(seen.points_world_m.size(), Vec3f(0, 0, 9));
+  try {
+    shape_of(oriented(seen, 1), leaf_m, {}, "cloud.ply", 1, [](double, const std::string&) {});
+  } catch (const BadInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SurfaceShape, PointsThatHoldNoSurfaceAreBadInput) {
+  std::vector<Vec3f> line;
+  std::vector<Vec3f> patch;
+  for (int i = 0; i < 100; ++i) {
+    if (i < 5) line.emplace_back(i, 0, 0);
+    patch.emplace_back(0.01F * static_cast<float>(i % 10), 0.01F * static_cast<float>(i / 10), 0);
+  }
+  for (std::size_t count = 0; count <= line.size(); ++count) {
+    const std::string refusal =
+        refusal_of({line.begin(), line.begin() + static_cast<long>(count)}, 0.1);
+    EXPECT_NE(refusal.find("cloud.ply: its points lie on no surface"), std::string::npos);
+  }
+  // 0.1 m by 0.1 m are a part too small for leaves of 0.1 m: no --trim-m helps
+  const std::string refusal = refusal_of(patch, 0.1);
+  EXPECT_NE(refusal.find("scraps"), std::string::npos) << refusal;
+  EXPECT_EQ(refusal.find("--trim-m"), std::string::npos);
+  EXPECT_EQ(refusal_of(patch, 0.005), "");
+}
+
+TEST(SurfaceShape, IsTheSameAtAnyNumberOfThreads) {
+  const SeenPoints seen = seen_sphere(-0.5F);
+  const auto shape = [&](int threads) {
+    return shape_of(oriented(seen, threads), 0.03, {}, "sphere", threads,
+                    [](double, const std::string&) {});
+  };
+  const TriangleMesh one = shape(1);
+  const TriangleMesh three = shape(3);
+  EXPECT_EQ(one.vertices_m, three.vertices_m);
+  EXPECT_EQ(one.faces, three.faces);
+}
+
+}  // namespace
+}  // namespace gnbv

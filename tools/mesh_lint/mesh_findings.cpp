@@ -1,0 +1,296 @@
+#include "tools/mesh_lint/mesh_findings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "sim/mesh/mesh_units.hpp"
+
+namespace gnbv {
+namespace {
+
+using Findings = std::vector<Finding>;
+
+struct Unit {
+  std::string_view name;
+  double unit_m;
+};
+constexpr std::array kUnits = {Unit{"millimetres", 0.001}, Unit{"centimetres", 0.01},
+                               Unit{"inches", 0.0254}, Unit{"feet", 0.3048}, Unit{"metres", 1.0}};
+constexpr double kSmallest_m = 0.2;
+constexpr double kLargest_m = 500.0;
+
+std::string name_of_unit(double unit_m) {
+  for (const Unit& unit : kUnits) {
+    if (std::abs(unit_m / unit.unit_m - 1.0) < 1e-6) return std::string(unit.name);
+  }
+  return fmt::format("units of {:.4g} m", unit_m);
+}
+
+std::string percent(double share) { return fmt::format("{:.1f} %", 100.0 * share); }
+
+std::string size_text(const Vec3& size_m) {
+  const auto text = [](double x_m) {
+    return x_m < 1e4 ? fmt::format("{:.4g}", x_m) : fmt::format("{:.0f}", x_m);
+  };
+  return fmt::format("{} x {} x {} m", text(size_m.x()), text(size_m.y()), text(size_m.z()));
+}
+
+/// The flag that moves the structure by `shift_m` from where it is placed now.
+std::string offset_flag(const Scenario& scenario, const Vec3& shift_m) {
+  Vec3 offset_m = scenario.structure.file.offset_m + shift_m;
+  for (double& x : offset_m) x = std::round(x * 1000.0) / 1000.0 + 0.0;
+  return fmt::format("--set 'structure.file.offset_m=[{}, {}, {}]'", offset_m.x(), offset_m.y(),
+                     offset_m.z());
+}
+
+/// Two decimals, and no minus before a zero.
+std::string metres(double x_m) {
+  return fmt::format("{:.2f}", std::round(x_m * 100.0) / 100.0 + 0.0);
+}
+
+Finding tallied(std::string_view check, std::size_t count, Severity if_any, std::string_view none,
+                std::string what, std::string fix) {
+  if (count == 0) return {check, Severity::ok, std::string(none), ""};
+  return {check, if_any, std::move(what), std::move(fix)};
+}
+
+Finding units_finding(const MeshReading& reading, const Scenario& scenario) {
+  const MeshFileConfig& file = scenario.structure.file;
+  const std::string unit = name_of_unit(reading.unit_m);
+  std::string what = file.unit_m > 0.0         ? fmt::format("{}, by structure.file.unit_m", unit)
+                     : reading.declared_unit_m ? fmt::format("{}, as the file declares", unit)
+                                               : "the file declares none: taken as metres";
+  if (file.unit_m > 0.0 && reading.declared_unit_m && *reading.declared_unit_m != reading.unit_m) {
+    what += fmt::format("; the file declares {}", name_of_unit(*reading.declared_unit_m));
+  }
+  if (file.scale != 1.0) what += fmt::format("; scaled by {}", file.scale);
+  return {"units", Severity::ok, what, ""};
+}
+
+Finding size_finding(const MeshReport& report, const Scenario& scenario) {
+  const Vec3 size_m = report.lint.box_m.sizes();
+  const double largest_m = size_m.maxCoeff();
+  if (largest_m >= kSmallest_m && largest_m <= kLargest_m) {
+    return {"size", Severity::ok, size_text(size_m), ""};
+  }
+  const double in_units = largest_m / report.reading.unit_m;
+  std::string fix;
+  for (const Unit& unit : kUnits) {
+    const double would_be_m = in_units * unit.unit_m;
+    // what one flies around with a drone
+    if (would_be_m < 1.0 || would_be_m > 150.0) continue;
+    fix += fmt::format("{}--set structure.file.unit_m={} ({:.3g} m, if the file is in {})",
+                       fix.empty() ? "" : ", or ", unit.unit_m, would_be_m, unit.name);
+  }
+  if (fix.empty()) {
+    const double factor = std::pow(10.0, std::round(std::log10(30.0 / largest_m)));
+    fix = fmt::format("--set structure.file.scale={} ({:.3g} m)",
+                      scenario.structure.file.scale * factor, largest_m * factor);
+  }
+  return {"size", Severity::warning,
+          fmt::format("{}: suspiciously {}; is the unit right?", size_text(size_m),
+                      largest_m > kLargest_m ? "large" : "small"),
+          fix};
+}
+
+Finding up_axis_finding(const MeshReport& report, const Scenario& scenario) {
+  const MeshReading& reading = report.reading;
+  const bool is_set = scenario.structure.file.up_axis != "auto";
+  const std::string_view origin = is_set                     ? "by structure.file.up_axis"
+                                  : reading.declared_up_axis ? "as the file declares"
+                                                             : "as assumed, the file declares none";
+  std::string what = fmt::format("{} is up, {}", reading.up_axis, origin);
+  // back into the axes of the file
+  TriangleMesh in_file = reading.mesh;
+  const Eigen::Matrix3d R_file_world = R_z_up(reading.up_axis).transpose();
+  for (Vec3f& v : in_file.vertices_m) {
+    v = (R_file_world * (v.cast<double>() - scenario.structure.file.offset_m)).cast<float>();
+  }
+  const std::optional<char> likely = likely_up_axis(in_file);
+  if (!likely) return {"up axis", Severity::ok, what + "; its shape does not tell", ""};
+  if (*likely == reading.up_axis) return {"up axis", Severity::ok, what + "; its shape agrees", ""};
+  return {"up axis", is_set ? Severity::note : Severity::warning,
+          fmt::format("{}, but by its shape it stands on {} = 0 or is flat there", what, *likely),
+          fmt::format("if it lies on its side: --set structure.file.up_axis={}", *likely)};
+}
+
+Finding place_finding(const MeshReport& report, const Scenario& scenario) {
+  const Box3& box = report.lint.box_m;
+  const Vec3 lo = box.min();
+  const Vec3 hi = box.max();
+  const std::string span =
+      fmt::format("x {} to {}, y {} to {}, z {} to {} m", metres(lo.x()), metres(hi.x()),
+                  metres(lo.y()), metres(hi.y()), metres(lo.z()), metres(hi.z()));
+  const Vec3 to_origin(-box.center().x(), -box.center().y(), -lo.z());
+  const double farthest_m = std::max(lo.cwiseAbs().maxCoeff(), hi.cwiseAbs().maxCoeff());
+  // OctoMap's keys, and the ground that the sensors see
+  const double reach_m = 32767.0 * scenario.planner.map.resolution_m;
+  constexpr double kGround_m = 1000.0;
+  if (farthest_m > reach_m) {
+    return {"place", Severity::error,
+            fmt::format("{}: the map reaches only {:.0f} m from the origin", span, reach_m),
+            box.sizes().maxCoeff() > kLargest_m ? "put the size right first"
+                                                : offset_flag(scenario, to_origin)};
+  }
+  if (farthest_m > kGround_m) {
+    return {"place", Severity::warning,
+            fmt::format("{}: the ground ends {:.0f} m from the origin, and float coordinates are "
+                        "{:.1g} m apart there",
+                        span, kGround_m, farthest_m * 0x1p-23),
+            offset_flag(scenario, to_origin)};
+  }
+  if (!scenario.workspace_m.contains(box)) {
+    const Vec3 room_m = scenario.workspace_m.sizes();
+    const bool would_fit = (box.sizes().array() <= room_m.array()).all();
+    return {"place", Severity::note,
+            fmt::format("{}: outside the workspace of the scenario '{}'", span, scenario.name),
+            "--bounds auto, which lays the workspace around it" +
+                (would_fit ? "; or at the origin: " + offset_flag(scenario, to_origin) : "")};
+  }
+  return {"place", Severity::ok, span, ""};
+}
+
+double share_below(const MeshReport& report, double z_m) {
+  double below_m2 = 0.0;
+  for (std::size_t i = 0; i < report.lint.is_sound.size(); ++i) {
+    if (report.lint.is_sound[i]) below_m2 += area_below_m2(report.reading.mesh, i, z_m);
+  }
+  return below_m2 / report.lint.sound.area_m2;
+}
+
+Finding ground_finding(const MeshReport& report, const Scenario& scenario) {
+  const double lowest_m = report.lint.box_m.min().z();
+  const double height_m = report.lint.box_m.sizes().z();
+  const double tolerance_m = std::max(0.01, 0.002 * height_m);
+  const double floating_m = std::max(1.0, 0.2 * height_m);
+  const auto flag = [&] { return offset_flag(scenario, {0.0, 0.0, -lowest_m}); };
+  if (!scenario.structure.ground) {
+    return {"ground", Severity::ok, "structure.ground is off", ""};
+  }
+  if (lowest_m < -tolerance_m) {
+    return {"ground", Severity::warning,
+            fmt::format("reaches {:.3g} m below the ground (z = 0), with {} of its surface",
+                        -lowest_m, percent(share_below(report, 0.0))),
+            flag()};
+  }
+  if (lowest_m > floating_m) {
+    return {"ground", Severity::note, fmt::format("floats {:.3g} m above the ground", lowest_m),
+            "if it should stand: " + flag()};
+  }
+  return {"ground", Severity::ok, fmt::format("lowest point at z = {} m", metres(lowest_m)), ""};
+}
+
+Finding floor_finding(const MeshReport& report, const Scenario& scenario) {
+  const double floor_m = scenario.planner.floor_z_m;
+  const double share = share_below(report, floor_m);
+  const std::string what = fmt::format(
+      "{} of the surface lies below planner.floor_z_m = {} m, where nothing is mapped "
+      "or counted",
+      percent(share), floor_m);
+  if (share < 0.01) return {"floor", Severity::ok, what, ""};
+  if (share < 0.5) return {"floor", Severity::note, what, ""};
+  return {"floor", share < 1.0 ? Severity::warning : Severity::error, what,
+          "raise it with structure.file.offset_m, or lower planner.floor_z_m"};
+}
+
+void add_face_findings(const MeshReport& report, Findings& out) {
+  const MeshLint& lint = report.lint;
+  const double area_m2 = std::max(lint.sound.area_m2, 1e-300);
+  const std::size_t flat = lint.repeated_corners + lint.flat_faces;
+  out.push_back(tallied("flat faces", flat, Severity::note, "every face has an area",
+                        fmt::format("{} faces without area ({} name a point twice); they are left "
+                                    "out when the file is read",
+                                    flat, lint.repeated_corners),
+                        ""));
+  out.push_back(
+      tallied("duplicates", lint.duplicate.count, Severity::note, "no face is there twice",
+              fmt::format("{} faces repeat another one ({} of the surface)", lint.duplicate.count,
+                          percent(lint.duplicate.area_m2 / area_m2)),
+              "none needed; MeshLab: Filters > Cleaning and Repairing > Remove Duplicate "
+              "Faces"));
+  out.push_back(tallied(
+      "two-sided", lint.two_sided.count, Severity::note, "no face lies back to back with another",
+      fmt::format("{} faces lie back to back ({} of the surface): the sheet counts twice in the "
+                  "area, once in the coverage",
+                  lint.two_sided.count, percent(lint.two_sided.area_m2 / area_m2)),
+      ""));
+  out.push_back(tallied("edges", lint.open_edges + lint.crowded_edges, Severity::note,
+                        "closed: every edge joins two faces",
+                        fmt::format("{} of {} edges are open, {} join more than two faces; nothing "
+                                    "here needs a closed mesh",
+                                    lint.open_edges, lint.edges, lint.crowded_edges),
+                        ""));
+}
+
+Finding vertices_finding(const MeshReport& report) {
+  const MeshLint& lint = report.lint;
+  const double slack_m = 1e-3;  // as in load_world()
+  const Box3 around(Vec3(lint.box_m.min() - Vec3::Constant(slack_m)),
+                    Vec3(lint.box_m.max() + Vec3::Constant(slack_m)));
+  const bool widens =
+      lint.unreferenced_vertices > 0 && !around.contains(bounds_m(report.reading.mesh));
+  return tallied("vertices", lint.unreferenced_vertices,
+                 widens ? Severity::warning : Severity::note, "every vertex belongs to a face",
+                 fmt::format("{} vertices belong to no face{}", lint.unreferenced_vertices,
+                             widens ? ", and they widen the box of the structure" : ""),
+                 "Blender: Mesh > Clean Up > Delete Loose; MeshLab: Filters > Cleaning and "
+                 "Repairing > Remove Unreferenced Vertices");
+}
+
+void add_view_findings(const MeshReport& report, Findings& out) {
+  const OutsideView& view = report.outside;
+  const FaceTally& behind = view.from_behind;
+  const double share = behind.area_m2 / view.area_m2;
+  out.push_back(tallied(
+      "facing", behind.count, share > 0.05 ? Severity::warning : Severity::note,
+      "no face shows only its back to the outside",
+      fmt::format("{} faces ({} of the surface) show only their back to the outside; the sensors "
+                  "see both sides, other programs may not",
+                  behind.count, percent(share)),
+      "Blender: Edit Mode, Mesh > Normals > Recalculate Outside"));
+  const double hidden = view.hidden_area_m2 / view.area_m2;
+  const std::string what =
+      fmt::format("{} of the surface cannot be seen from anywhere outside{}", percent(hidden),
+                  hidden < 0.01 ? "" : "; only the raw reference counts it");
+  if (hidden < 0.5) {
+    out.push_back({"hidden", hidden < 0.01 ? Severity::ok : Severity::note, what, ""});
+  } else {
+    out.push_back({"hidden", Severity::warning, what,
+                   "if the inside is not wanted, delete it (MeshLab: ambient occlusion, then "
+                   "select the dark faces)"});
+  }
+}
+
+}  // namespace
+
+std::vector<Finding> findings_of(const MeshReport& report, const Scenario& scenario) {
+  Findings out;
+  for (const std::string& warning : report.reading.warnings) {
+    out.push_back({"file", Severity::warning, warning, "export the mesh again, if it matters"});
+  }
+  const MeshLint& lint = report.lint;
+  out.push_back(tallied(
+      "coordinates", lint.not_finite_vertices, Severity::error, "all are finite numbers",
+      fmt::format("{} vertices of {} faces are NaN or infinite: {}", lint.not_finite_vertices,
+                  lint.not_finite_faces, report.reading.not_finite),
+      "export the mesh again, or delete these vertices"));
+  if (lint.sound.count == 0) {
+    out.push_back({"faces", Severity::error, "no face has an area", ""});
+    return out;
+  }
+  out.push_back(units_finding(report.reading, scenario));
+  out.push_back(size_finding(report, scenario));
+  out.push_back(up_axis_finding(report, scenario));
+  out.push_back(place_finding(report, scenario));
+  out.push_back(ground_finding(report, scenario));
+  out.push_back(floor_finding(report, scenario));
+  out.push_back(vertices_finding(report));
+  add_face_findings(report, out);
+  add_view_findings(report, out);
+  return out;
+}
+
+}  // namespace gnbv

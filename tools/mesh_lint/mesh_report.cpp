@@ -1,0 +1,116 @@
+#include "tools/mesh_lint/mesh_report.hpp"
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "sim/core/error.hpp"
+#include "tools/mesh_lint/mesh_findings.hpp"
+
+namespace gnbv {
+namespace {
+
+/// The sound faces alone, which is what a mission would fly around.
+TriangleMesh sound_part(const TriangleMesh& mesh, const MeshLint& lint, std::vector<bool>& twins) {
+  TriangleMesh out;
+  out.vertices_m = mesh.vertices_m;
+  // no face reaches these, but a ray tracer wants numbers
+  for (Vec3f& v : out.vertices_m) {
+    if (!v.allFinite()) v = Vec3f::Zero();
+  }
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
+    if (!lint.is_sound[i]) continue;
+    out.faces.push_back(mesh.faces[i]);
+    twins.push_back(lint.is_two_sided[i]);
+  }
+  return out;
+}
+
+std::string count_of(std::size_t count, std::string_view one, std::string_view many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+std::string verdict(const MeshReport& report) {
+  const auto count = [&](Severity severity) {
+    return static_cast<std::size_t>(
+        std::count_if(report.findings.begin(), report.findings.end(),
+                      [&](const Finding& f) { return f.severity == severity; }));
+  };
+  return fmt::format("{}: {}, {}, {}", report.is_usable() ? "usable" : "not usable as it is",
+                     count_of(count(Severity::error), "error", "errors"),
+                     count_of(count(Severity::warning), "warning", "warnings"),
+                     count_of(count(Severity::note), "note", "notes"));
+}
+
+std::array<double, 3> array_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+}  // namespace
+
+std::string_view name_of(Severity severity) {
+  constexpr std::array<std::string_view, 4> kNames = {"ok", "note", "warning", "error"};
+  return kNames[static_cast<std::size_t>(severity)];
+}
+
+bool MeshReport::is_usable() const {
+  return std::none_of(findings.begin(), findings.end(),
+                      [](const Finding& f) { return f.severity == Severity::error; });
+}
+
+MeshReport report_on_mesh(const Scenario& scenario, int threads) {
+  MeshReport report;
+  report.path = scenario.structure.file.path;
+  try {
+    report.reading = read_mesh(scenario.structure.file);
+  } catch (const BadInput& error) {
+    report.findings.push_back({"file", Severity::error, error.what(), ""});
+    return report;
+  }
+  report.lint = lint_mesh(report.reading.mesh);
+  std::vector<bool> twins;
+  const TriangleMesh sound = sound_part(report.reading.mesh, report.lint, twins);
+  report.outside = view_from_outside(sound, twins, threads);
+  report.findings = findings_of(report, scenario);
+  std::stable_sort(report.findings.begin(), report.findings.end(),
+                   [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
+  return report;
+}
+
+std::string terminal_text(const MeshReport& report) {
+  std::string out = fmt::format("{}: {}\n", report.path, verdict(report));
+  if (report.lint.sound.count > 0) {
+    out += fmt::format("{} faces with an area, {:.4g} m2; {} vertices\n", report.lint.sound.count,
+                       report.lint.sound.area_m2, report.reading.mesh.vertices_m.size());
+  }
+  out += '\n';
+  for (const Finding& finding : report.findings) {
+    out += fmt::format("{:<9}{:<13}{}\n", name_of(finding.severity), finding.check, finding.what);
+    if (!finding.fix.empty()) out += fmt::format("{:<22}fix: {}\n", "", finding.fix);
+  }
+  return out;
+}
+
+std::string json_text(const MeshReport& report) {
+  nlohmann::ordered_json out = {
+      {"schema", 1}, {"path", report.path}, {"usable", report.is_usable()}};
+  if (report.lint.sound.count > 0) {
+    const Box3& box = report.lint.box_m;
+    out["unit_m"] = report.reading.unit_m;
+    out["up_axis"] = std::string(1, report.reading.up_axis);
+    out["vertices"] = report.reading.mesh.vertices_m.size();
+    out["faces"] = report.lint.sound.count;
+    out["area_m2"] = report.lint.sound.area_m2;
+    out["bounds_m"] = {{"min", array_of(box.min())}, {"max", array_of(box.max())}};
+    out["two_sided_share"] = report.lint.two_sided.area_m2 / report.lint.sound.area_m2;
+    out["hidden_share"] = report.outside.hidden_area_m2 / report.outside.area_m2;
+  }
+  out["findings"] = nlohmann::ordered_json::array();
+  for (const Finding& finding : report.findings) {
+    out["findings"].push_back({{"check", finding.check},
+                               {"severity", name_of(finding.severity)},
+                               {"what", finding.what},
+                               {"fix", finding.fix}});
+  }
+  return out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
+}
+
+}  // namespace gnbv

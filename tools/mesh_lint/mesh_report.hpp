@@ -1,0 +1,47 @@
+// What is wrong with a user's mesh, and how to put it right: `gnbv lint`.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenarios/scenario.hpp"
+#include "sim/mesh/mesh_file.hpp"
+#include "sim/mesh/mesh_lint.hpp"
+#include "tools/mesh_lint/outside_view.hpp"
+
+namespace gnbv {
+
+/// ok: as it should be. note: good to know, nothing to do. warning: a mission flies, but perhaps
+/// not around what was meant. error: no mission flies around it as it is.
+enum class Severity { ok, note, warning, error };
+std::string_view name_of(Severity severity);
+
+struct Finding {
+  std::string_view check;  // what was looked at, one word or two
+  Severity severity = Severity::ok;
+  std::string what;
+  std::string fix;  // flags of `gnbv run`, or what to do in Blender or MeshLab; empty: nothing
+};
+
+struct MeshReport {
+  std::string path;
+  MeshReading reading;  // empty when the file could not be read
+  MeshLint lint;
+  OutsideView outside;
+  std::vector<Finding> findings;  // the worst first
+
+  bool is_usable() const;  // no finding is an error
+};
+
+/// Reads the file of the scenario's structure, placed as the scenario says, and looks at all there
+/// is to look at. A file that cannot be read is a finding. Throws BadInput only for a config that
+/// read_mesh() refuses by itself.
+MeshReport report_on_mesh(const Scenario& scenario, int threads);
+
+/// A line for each finding, with its fix below it.
+std::string terminal_text(const MeshReport& report);
+/// The same for programs.
+std::string json_text(const MeshReport& report);
+
+}  // namespace gnbv

@@ -1,0 +1,147 @@
+#include "tools/mission/execute.hpp"
+
+#include <chrono>
+#include <optional>
+#include <thread>
+
+#include "bench/limits/oracle.hpp"
+#include "planner/belief_file.hpp"
+#include "planner/map/memory.hpp"
+#include "planner/symmetry/symmetry_module.hpp"
+#include "sim/core/error.hpp"
+#include "sim/core/shell_word.hpp"
+#include "tools/mission/load_world.hpp"
+#include "tools/mission/mission.hpp"
+#include "tools/mission/start_pose.hpp"
+#include "tools/run_files/candidates_file.hpp"
+#include "tools/run_files/frame_files.hpp"
+#include "tools/run_files/run_directory.hpp"
+#include "tools/terminal/interrupt.hpp"
+#include "tools/terminal/progress.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// Memory that grows with the threads is not in the scenario's own budget.
+void need_memory_for(const Scenario& scenario, int threads) {
+  const GridGeometry grid(scenario.workspace_m, scenario.planner.map.resolution_m);
+  const auto bytes = static_cast<double>(map_bytes(grid, threads, scenario.cameras.size()));
+  if (bytes <= kMapBudget_bytes) return;
+  throw BadInput(
+      fmt::format("--threads {}: a map of {} voxels needs {:.1f} GiB with so many, the "
+                  "budget is {:.0f} GiB",
+                  threads, grid.voxel_count(), bytes / 0x1p30, kMapBudget_bytes / 0x1p30));
+}
+
+/// A saved profile that cannot be used is found before anything is written.
+void need_saved_profile(const Scenario& scenario) {
+  const ProfilingConfig& profiling = scenario.planner.profiling;
+  if (profiling.method != ProfilingMethod::saved) return;
+  read_belief(profiling.file,
+              PlannerModel(scenario.planner, scenario.workspace_m, camera_models(scenario), {}));
+}
+
+/// The views of an oracle, which knows the structure; nothing for those who have to find out.
+std::optional<std::vector<Decision>> oracle_route(const Scenario& scenario, const World& world,
+                                                  const RayScene& scene, ProgressBar& progress,
+                                                  int threads) {
+  const std::string& utility = scenario.planner.utility.name;
+  if (!is_oracle(utility)) return std::nullopt;
+  progress.show(0.0, "planning on the true structure");
+  return plan_oracle(scenario, world, scene, start_pose(scenario, scene), aim_of(utility), threads);
+}
+
+MissionHooks make_hooks(const Scenario& scenario, RunDirectory& directory, ProgressBar& progress) {
+  MissionHooks hooks;
+  hooks.on_profile = [&progress](double share) { progress.show(0.1 * share, "profile"); };
+  hooks.on_profile_belief = [&](const Belief& belief) { directory.write_profile(belief); };
+  hooks.on_view = [&](const ViewRecord& view) {
+    directory.append(view);
+    const int last = scenario.planner.termination.max_iterations;
+    progress.show(0.1 + 0.9 * (view.iteration + 1) / last,
+                  fmt::format("view {}/{}  {:.0f} m  {} points", view.iteration + 1, last,
+                              view.straight_m, view.cloud_points));
+  };
+  hooks.should_stop = InterruptGuard::requested;
+  hooks.replay = directory.recorded();
+  return hooks;
+}
+
+}  // namespace
+
+int thread_count(int threads) {
+  if (threads > 0) return threads;
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+fs::path free_folder(const std::string& name) {
+  fs::path folder = fs::path("runs") / name;
+  for (int n = 2; fs::exists(folder); ++n)
+    folder = fs::path("runs") / fmt::format("{}-{}", name, n);
+  return folder;
+}
+
+ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& options) {
+  const auto begin = Clock::now();
+  if (options.resume && options.out.empty()) {
+    throw BadInput("--resume: needs --out, the run directory to continue");
+  }
+  const int threads = thread_count(options.threads);
+  need_memory_for(scenario, threads);
+  // all that can be wrong with the input is found before the first file is written
+  std::vector<std::string> warnings;
+  const World world = load_world(scenario, warnings);
+  for (const std::string& warning : warnings) fmt::print(stderr, "gnbv: {}\n", warning);
+  const RayScene scene(world);
+  start_pose(scenario, scene);
+  need_saved_profile(scenario);
+  if (scenario.planner.symmetry.enabled) symmetry_module();  // throws when it is missing
+  const fs::path folder =
+      options.out.empty() ? free_folder(fmt::format("{}-{}-seed{}", scenario.name,
+                                                    scenario.planner.utility.name, scenario.seed))
+                          : options.out;
+  need_usable(folder, scenario, options.resume);  // an oracle may think for minutes before it flies
+  ProgressBar progress(fmt::format("{} {}", scenario.name, scenario.planner.utility.name),
+                       options.quiet);
+  std::optional<std::vector<Decision>> route =
+      oracle_route(scenario, world, scene, progress, threads);
+  RunDirectory directory(folder, scenario, options.resume);
+  const InterruptGuard interrupt;
+  try {
+    MissionHooks hooks = make_hooks(scenario, directory, progress);
+    hooks.route = std::move(route);
+    std::optional<FrameFiles> frames;
+    if (options.frames) {
+      frames.emplace(directory.path() / "frames", camera_models(scenario));
+      hooks.on_frames = [&](const auto&... all) { frames->write(all...); };
+    }
+    std::optional<CandidatesFile> candidates;
+    if (options.candidates) {
+      candidates.emplace(directory.path(), directory.recorded().size());
+      hooks.on_candidates = [&](const auto&... all) { candidates->write(all...); };
+    }
+    MissionResult result = run_mission(scenario, world, scene, hooks, threads);
+    const auto scoring = Clock::now();
+    progress.show(1.0, "scoring");
+    const SurfaceReference reference =
+        cached_surface_reference(world, scene, {.floor_z_m = scenario.planner.floor_z_m}, threads);
+    const MissionScore score = score_cloud(reference, scene, scored_cloud(result),
+                                           scenario.planner.map.resolution_m, threads);
+    result.wall.score_s = seconds_since(scoring);
+    directory.finish(scenario, result, score, seconds_since(begin));
+    if (candidates) candidates->finish();
+    return {directory.path(), std::move(result), score, seconds_since(begin)};
+  } catch (const BrokenInvariant& broken) {
+    throw BrokenInvariant(fmt::format("{}\nreplay with: gnbv run {} --out REPLAY", broken.what(),
+                                      shell_word((directory.path() / "scenario.yaml").string())));
+  }
+}
+
+}  // namespace gnbv

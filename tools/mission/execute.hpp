@@ -1,0 +1,42 @@
+// One mission from the command line to its run directory; and the options that commands about one
+// share.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "bench/score/mission_score.hpp"
+#include "scenarios/scenario.hpp"
+#include "tools/mission/resolve.hpp"
+#include "tools/run_files/mission_result.hpp"
+
+namespace gnbv {
+
+/// What the command line may say about a mission beside its scenario.
+struct MissionOptions : ScenarioOptions {
+  std::filesystem::path out;  // "" chooses a free folder under runs/
+  int threads = 0;            // 0 = as many as the machine has
+  bool resume = false;
+  bool quiet = false;
+  bool candidates = false;  // also write candidates.jsonl
+  bool frames = false;      // also write frames/
+};
+
+/// `threads`, or as many as the machine has for 0.
+int thread_count(int threads);
+
+/// runs/NAME, or runs/NAME-2 and so on: the first that does not exist.
+std::filesystem::path free_folder(const std::string& name);
+
+struct ExecutedMission {
+  std::filesystem::path folder;
+  MissionResult result;
+  MissionScore score;
+  double total_wall_s = 0.0;
+};
+
+/// Checks everything that can be wrong with the input, flies the mission, scores it and writes the
+/// run directory. Ctrl-C ends it after the view at hand, with a complete directory.
+ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& options);
+
+}  // namespace gnbv

@@ -1,0 +1,49 @@
+// The frames/ folder of a run read back: what the cameras saw, from where.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sim/core/image.hpp"
+#include "sim/core/pose.hpp"
+
+namespace gnbv {
+
+/// Pinhole without distortion; pixel (0, 0) is top left, its centre at (0.5, 0.5).
+struct FrameCamera {
+  std::string name;
+  int width_px = 0;
+  int height_px = 0;
+  double fx_px = 0.0;
+  double fy_px = 0.0;
+  double cx_px = 0.0;
+  double cy_px = 0.0;
+  double depth_scale_m = 0.001;  // metres a step of the depth image
+};
+
+struct RecordedFrame {
+  int iteration = 0;
+  std::size_t camera = 0;                          // into FrameRecord::cameras
+  double time_s = 0.0;                             // since the start of the mission
+  Isometry T_world_camera = Isometry::Identity();  // optical frame: x right, y down, z forward
+  std::filesystem::path colour = {};               // PNG, sRGB
+  std::filesystem::path depth = {};  // PNG, 16 bits along the optical axis, 0 where there is none
+};
+
+struct FrameRecord {
+  std::vector<FrameCamera> cameras;
+  std::vector<RecordedFrame> frames;  // as they were taken: by iteration, then by camera
+};
+
+bool has_frames(const std::filesystem::path& run);
+
+/// Throws BadInput, naming the command that flies the mission once more and keeps its frames, for a
+/// run without them, and naming file and line of whatever is damaged or missing.
+FrameRecord read_frames(const std::filesystem::path& run);
+
+/// The images of a frame. Throw BadInput naming one that is damaged or not of its camera's size.
+Image read_colour(const FrameRecord& record, std::size_t frame);
+GreyImage16 read_depth(const FrameRecord& record, std::size_t frame);
+
+}  // namespace gnbv

@@ -1,0 +1,83 @@
+// What a mission leaves behind.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/score/mission_score.hpp"
+#include "planner/planner.hpp"
+#include "sim/flight/flight.hpp"
+
+namespace gnbv {
+
+/// Wall time spent, by what it was spent on. Never part of a result.
+struct WallTimes {
+  double profile_s = 0.0;
+  double symmetry_s = 0.0;
+  double sense_s = 0.0;
+  double map_s = 0.0;
+  double plan_s = 0.0;
+  double fly_s = 0.0;
+  double score_s = 0.0;
+};
+
+struct TrajectorySample {
+  double time_s = 0.0;
+  Isometry T_world_body = Isometry::Identity();
+};
+
+/// One view that was taken; a row of iterations.csv.
+struct ViewRecord {
+  int iteration = 0;  // from 0, the start
+  Decision decision = {};
+  double entropy_nat = 0.0;  // total, after the view
+  double density_points_per_voxel = 0.0;
+  std::size_t cloud_points = 0;
+  double straight_m = 0.0;  // from the first view to this one, along the planned legs
+  double flown_m = 0.0;     // the same, as flown
+  double time_s = 0.0;      // simulated, since the start of the mission
+  WallTimes wall = {};      // of this view alone
+};
+
+struct MissionDistances {
+  double profile_m = 0.0;  // planned legs of the profile, its approach included
+  double profile_flown_m = 0.0;
+  double transfer_m = 0.0;  // from the end of the profile to the first view, planned
+  double straight_m = 0.0;  // planned legs from view to view
+  double flown_m = 0.0;     // the same legs, as flown
+};
+
+/// Whether the profile has a mirror image, and what it predicts.
+struct Prediction {
+  Symmetry symmetry;  // its mirrored points are dropped
+  std::size_t predicted_voxels = 0;
+};
+
+struct MissionResult {
+  MissionResult(const ViewPose& start_pose, const PlannerModel& planner)
+      : start(start_pose), belief(planner) {}
+
+  ViewPose start;  // of the mission, and of the first view
+  Termination termination = Termination::interrupted;
+  std::vector<ViewRecord> views;
+  std::vector<TrajectorySample> trajectory;  // true motion at 10 Hz
+  MissionDistances distance;
+  double profile_end_s = 0.0;
+  double flight_time_s = 0.0;
+  double energy_wh = 0.0;
+  VehicleState final_state;  // true, when the mission ended: after a collision, where and how fast
+  double entropy_after_profile_nat = 0.0;
+  Prediction prediction;
+  int legs_timed_out = 0;
+  std::vector<Vec3f> profile_points_world_m;
+  Belief belief;
+  WallTimes wall;
+};
+
+/// What a score needs of a mission.
+ScoredCloud scored_cloud(const MissionResult& result);
+
+/// SHA-256 over all that the mission measured, decided and believed: flight, views, map, cloud.
+std::string result_sha256(const MissionResult& result);
+
+}  // namespace gnbv

@@ -1,0 +1,63 @@
+#include "tools/terminal/progress.hpp"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+#include <utility>
+
+namespace gnbv {
+namespace {
+
+bool is_terminal() {
+  const char* const term = std::getenv("TERM");
+  return isatty(STDERR_FILENO) != 0 && term != nullptr && std::string_view(term) != "dumb";
+}
+
+std::size_t terminal_columns() {
+  winsize size{};
+  const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return known ? size.ws_col : 80;
+}
+
+}  // namespace
+
+ProgressBar::ProgressBar(std::string label, bool quiet)
+    : label_(std::move(label)),
+      style_(quiet || std::getenv("NO_PROGRESS") != nullptr ? Style::silent
+             : is_terminal()                                ? Style::bar
+                                                            : Style::lines),
+      begin_(std::chrono::steady_clock::now()),
+      last_drawn_(begin_ - std::chrono::hours(1)) {}
+
+ProgressBar::~ProgressBar() {
+  if (bar_is_open_) fmt::print(stderr, "\n");
+}
+
+void ProgressBar::show(double share_done, const std::string& note) {
+  const double share = std::clamp(share_done, 0.0, 1.0);
+  const auto now = std::chrono::steady_clock::now();
+  if (style_ == Style::lines) {
+    const int quarter = static_cast<int>(share * 4.0);
+    if (quarter == last_quarter_) return;
+    last_quarter_ = quarter;
+    fmt::print(stderr, "{} {:3.0f} % {}\n", label_, 100.0 * share, note);
+  } else if (style_ == Style::bar) {
+    if (now - last_drawn_ < std::chrono::milliseconds(50) && share < 1.0) return;
+    last_drawn_ = now;
+    constexpr std::size_t kWidth = 24;
+    const auto filled = static_cast<std::size_t>(share * kWidth);
+    const double spent_s = std::chrono::duration<double>(now - begin_).count();
+    const std::string line = fmt::format("{} [{:#<{}}{:.<{}}] {:3.0f} % {:.0f} s  {}", label_, "",
+                                         filled, "", kWidth - filled, 100.0 * share, spent_s, note);
+    fmt::print(stderr, "\r\x1b[K{}", line.substr(0, terminal_columns() - 1));
+    std::fflush(stderr);
+    bar_is_open_ = true;
+  }
+}
+
+}  // namespace gnbv
