@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <numeric>
 
-#include "planner/candidate_stats.hpp"
-#include "planner/cluster_view.hpp"
-#include "planner/routes.hpp"
+#include "planner/belief.hpp"
+#include "planner/history.hpp"
+#include "planner/model.hpp"
+#include "planner/workbench.hpp"
 #include "sim/core/parallel.hpp"
 
 namespace gnbv {
@@ -21,16 +22,11 @@ class Decider {
         history_(history),
         current_(current),
         bench_(bench),
-        recent_(recent_views()),
+        recent_(recent_views(history, model.config.validity.recent_poses)),
         progress_(progress()),
-        frontier_density_(model.config.fvs.frontier.density_share * belief.cloud.density_max()),
-        validity_(validity()) {}
+        frontier_density_(model.config.fvs.frontier.density_share * belief.cloud.density_max()) {}
 
   Plan decide() {
-    if (is_route(model_.config.utility.name)) {
-      follow_route();
-      return std::move(plan_);
-    }
     const FvsConfig& fvs = model_.config.fvs;
     const bool is_stuck =
         fvs.enabled && is_entropy_still(fvs.entropy_threshold_nat, fvs.entropy_window, progress_);
@@ -40,24 +36,6 @@ class Decider {
   }
 
  private:
-  std::vector<ViewPose> recent_views() const {
-    const std::vector<Decision>& all = history_.decisions;
-    const auto count =
-        std::min(all.size(), static_cast<std::size_t>(model_.config.validity.recent_poses));
-    std::vector<ViewPose> recent;
-    for (std::size_t i = all.size() - count; i < all.size(); ++i) recent.push_back(all[i].view);
-    return recent;
-  }
-
-  /// A route flies around what is in its way: it has nowhere else to go.
-  ValidityConfig validity() const {
-    ValidityConfig config = model_.config.validity;
-    if (is_route(model_.config.utility.name) && config.path == PathCheck::straight) {
-      config.path = PathCheck::astar;
-    }
-    return config;
-  }
-
   Progress progress() const {
     Progress made{.utilities = {},
                   .positions_m = positions_of(history_),
@@ -67,33 +45,6 @@ class Decider {
       if (decision.sampler != "start") made.utilities.push_back(decision.score.value);
     }
     return made;
-  }
-
-  /// The first valid view of the route after the one that was taken last.
-  void follow_route() {
-    const auto is_last = [&](const ViewPose& view) {
-      const ViewPose& last = history_.decisions.back().view;
-      return view.p_world_m == last.p_world_m && view.yaw_rad == last.yaw_rad;
-    };
-    const bool has_begun =
-        !history_.decisions.empty() && history_.decisions.back().sampler == "route";
-    auto view = has_begun ? std::find_if(history_.route.begin(), history_.route.end(), is_last)
-                          : history_.route.begin();
-    if (has_begun && view != history_.route.end()) ++view;
-    ViewChecker checker(validity_, model_.navigation_m, belief_.grid, recent_, current_);
-    for (; view != history_.route.end() && !plan_.next; ++view) {
-      Candidate candidate{.view = *view, .sampler = "route"};
-      check(checker, candidate);
-      if (!candidate.rejected) {
-        plan_.next = Decision{.view = *view,
-                              .sampler = "route",
-                              .candidates = 1,
-                              .valid = 1,
-                              .via_world_m = candidate.via_world_m};
-        plan_.chosen = plan_.candidates.size();
-      }
-      plan_.candidates.push_back(std::move(candidate));
-    }
   }
 
   /// The nearest cluster that has a valid view, or all of the nearest together.
@@ -159,23 +110,16 @@ class Decider {
 
   /// Each thread takes its share in one piece, since neighbours often share their position.
   void check_all(std::span<Candidate> candidates) {
-    const std::size_t lanes = bench_.marks.size();
-    parallel_for(bench_.threads, lanes, [&](std::size_t lane) {
-      ViewChecker checker(validity_, model_.navigation_m, belief_.grid, recent_, current_);
-      const std::size_t begin = candidates.size() * lane / lanes;
-      const std::size_t end = candidates.size() * (lane + 1) / lanes;
+    const std::size_t shares = bench_.marks.size();
+    parallel_for(bench_.threads, shares, [&](std::size_t share) {
+      ViewChecker checker(model_.config.validity, model_.navigation_m, belief_.grid, recent_,
+                          current_);
+      const std::size_t begin = candidates.size() * share / shares;
+      const std::size_t end = candidates.size() * (share + 1) / shares;
       for (Candidate& candidate : candidates.subspan(begin, end - begin)) {
-        check(checker, candidate);
+        checker.check(candidate);
       }
     });
-  }
-
-  void check(ViewChecker& checker, Candidate& candidate) const {
-    const Reachability& reachability = checker.check(candidate.view);
-    candidate.rejected = reachability.rejected;
-    candidate.via_world_m = reachability.via_world_m;
-    candidate.path_m =
-        path_length_m(current_.p_world_m, candidate.via_world_m, candidate.view.p_world_m);
   }
 
   /// Scores the candidates not rejected, each alone: which thread did it leaves no trace.
@@ -184,13 +128,13 @@ class Decider {
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       if (!candidates[i].rejected) valid.push_back(i);
     }
-    const std::size_t lanes = bench_.marks.size();
-    parallel_for(bench_.threads, lanes, [&](std::size_t lane) {
-      for (std::size_t i = lane; i < valid.size(); i += lanes) {
+    const std::size_t shares = bench_.marks.size();
+    parallel_for(bench_.threads, shares, [&](std::size_t share) {
+      for (std::size_t i = share; i < valid.size(); i += shares) {
         Candidate& candidate = candidates[valid[i]];
         ViewStats stats = candidate_stats(model_.config.utility, belief_.grid, belief_.cloud,
                                           belief_.shadow, frontier_density_, model_.view_rays,
-                                          candidate.view, bench_.marks[lane]);
+                                          candidate.view, bench_.marks[share]);
         stats.density_max = belief_.cloud.density_max();
         stats.path_m = candidate.path_m;
         const ScoreContext context = {
@@ -237,7 +181,6 @@ class Decider {
   const std::vector<ViewPose> recent_;
   const Progress progress_;
   const double frontier_density_;
-  const ValidityConfig validity_;
   Plan plan_;
 };
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "planner/map/scan_insertion.hpp"
+
 namespace gnbv {
 namespace {
 
@@ -107,6 +109,15 @@ std::vector<ProfileLeg> bounding_box_profile(const Box3& navigation_m, const Vie
     legs.push_back({{Vec3(p.x(), p.y(), navigation_m.min().z()), yaw_rad}, true});
   }
   return legs;
+}
+
+bool sees_surface(std::span<const LidarScan> scans, std::span<const LidarModel> lidars,
+                  double floor_z_m) {
+  return std::any_of(scans.begin(), scans.end(), [&](const LidarScan& scan) {
+    const std::vector<ScanRay> rays =
+        rays_of(scan, lidars[static_cast<std::size_t>(scan.lidar)], floor_z_m);
+    return std::any_of(rays.begin(), rays.end(), [](const ScanRay& ray) { return ray.hit; });
+  });
 }
 
 }  // namespace gnbv

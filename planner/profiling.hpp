@@ -2,12 +2,16 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "sim/core/pose.hpp"
 
 namespace gnbv {
+
+struct LidarModel;
+struct LidarScan;
 
 /// bounding_box: the paper's eight descents. circular: the released "circular adaptive": climbs on
 /// a circle while surface is seen. saved: reads the map of an earlier profile. none: no profile.
@@ -58,5 +62,9 @@ class ProfileRoute {
   int arc_ = 0;  // of the way to the station, in steps that stay outside the structure
   double z_m_ = 0.0;
 };
+
+/// Whether any of the sweeps had a return above the floor.
+bool sees_surface(std::span<const LidarScan> scans, std::span<const LidarModel> lidars,
+                  double floor_z_m);
 
 }  // namespace gnbv

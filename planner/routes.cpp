@@ -4,7 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
+#include "planner/map/occupancy_grid.hpp"
+#include "sensors/camera_model.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {

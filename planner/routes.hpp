@@ -3,14 +3,15 @@
 #pragma once
 
 #include <array>
-#include <span>
 #include <string_view>
 #include <vector>
 
-#include "planner/map/occupancy_grid.hpp"
-#include "sensors/camera_model.hpp"
+#include "sim/core/pose.hpp"
 
 namespace gnbv {
+
+struct CameraModel;
+class OccupancyGrid;
 
 /// uniform_hemisphere: directions spread evenly over the upper half space, each view where a line
 /// from the structure's centre comes out of its surroundings. lawnmower: rows back and forth on

@@ -7,9 +7,17 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/view/visibility.hpp"
+#include "planner/view/config.hpp"
+#include "sim/core/pose.hpp"
 
 namespace gnbv {
+
+class OccupancyGrid;
+class ShadowBand;
+class SurfaceCloud;
+struct ViewRays;
+struct ViewStats;
+struct VisitMarks;
 
 /// Eq. (2)'s reward for density: of sparse regions (released code, fits the text's aim) or of dense
 /// ones (the formula to the letter).
@@ -65,7 +73,7 @@ struct Score {
 
 /// What a formula asks of evaluate_view().
 struct UtilityNeeds {
-  ViewDetail detail = ViewDetail::voxels;
+  bool rays = false;               // ViewDetail::rays
   bool shadow = false;             // a ShadowBand
   bool refuses_blind = false;      // no score for views that see nothing occupied (released code)
   bool released_baseline = false;  // hit_voxel is for it
@@ -76,6 +84,13 @@ std::vector<std::string_view> utility_names();
 
 /// Requires a name of utility_names().
 UtilityNeeds needs_of(const UtilityConfig& config);
+
+/// Evaluates the view at the detail that the utility needs, with the released slips where the
+/// configuration asks for them. `shadow` is read only by utilities that need it; `sparse_below` is
+/// the density below which a voxel is a frontier. density_max and path_m stay 0.
+ViewStats candidate_stats(const UtilityConfig& config, const OccupancyGrid& grid,
+                          const SurfaceCloud& cloud, const ShadowBand& shadow, double sparse_below,
+                          const ViewRays& rays, const ViewPose& candidate, VisitMarks& marks);
 
 /// Scores with the formula that `config` names. Nothing for a view that sees no occupied voxel and
 /// a formula that refuses those. Requires a name of utility_names().

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "planner/frontiers.hpp"
+#include "planner/map/config.hpp"
 #include "sim/core/pose.hpp"
 
 namespace gnbv {

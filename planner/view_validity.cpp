@@ -3,6 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/decision.hpp"
+#include "planner/map/clearance.hpp"
+#include "planner/map/frontiers.hpp"
+#include "planner/map/path_search.hpp"
+#include "planner/map/ray_walk.hpp"
+#include "sensors/camera_model.hpp"
+
 namespace gnbv {
 namespace {
 
@@ -12,6 +19,32 @@ bool is_recent(const ValidityConfig& config, std::span<const ViewPose> recent,
     return (pose.p_world_m - view.p_world_m).norm() < config.recent_distance_m &&
            std::fabs(wrap_angle_rad(pose.yaw_rad - view.yaw_rad)) < config.recent_yaw_rad;
   });
+}
+
+/// Whether the point lies in the camera's frustum, between its ranges.
+bool is_in_frustum(const CameraModel& camera, const Isometry& T_world_body, const Vec3& p_world_m) {
+  const CameraConfig& config = camera.config;
+  const Vec3 p_camera_m = (T_world_body * camera.T_body_camera).inverse() * p_world_m;
+  const double depth_m = p_camera_m.z();
+  return depth_m >= config.range_min_m && depth_m <= config.range_max_m &&
+         std::fabs(p_camera_m.x()) <= depth_m * std::tan(0.5 * config.fov_x_rad) &&
+         std::fabs(p_camera_m.y()) <= depth_m * std::tan(0.5 * config.fov_y_rad);
+}
+
+/// Whether the camera sees the voxel's centre: in the frustum, no occupied voxel before it.
+bool sees_voxel(const CameraModel& camera, const Isometry& T_world_body, const OccupancyGrid& grid,
+                VoxelIndex v) {
+  const GridGeometry& geometry = grid.geometry();
+  const Vec3 center_m = geometry.center_m(geometry.key_at(v));
+  if (!is_in_frustum(camera, T_world_body, center_m)) return false;
+  const Vec3 origin_m = T_world_body * camera.T_body_camera.translation();
+  bool is_clear = true;  // the walk ends before the voxel itself
+  walk_ray(geometry, origin_m.cast<float>(), center_m.cast<float>(), [&](const Key& key) {
+    is_clear =
+        !geometry.contains(key) || grid.state(geometry.index_of(key)) != VoxelState::occupied;
+    return is_clear;
+  });
+  return is_clear;
 }
 
 }  // namespace
@@ -44,7 +77,7 @@ Box3 navigation_box_m(const ValidityConfig& config, const Box3& workspace_m) {
   return box;
 }
 
-Reachability ViewChecker::check_position(const Vec3& p_world_m) const {
+ViewChecker::Reachability ViewChecker::check_position(const Vec3& p_world_m) const {
   if (grid_.state_at(grid_.geometry().nearest_inside(p_world_m)) != VoxelState::free) {
     return {Rejection::not_free, {}};
   }
@@ -60,11 +93,11 @@ Reachability ViewChecker::check_position(const Vec3& p_world_m) const {
   return {Rejection::path_blocked, {}};
 }
 
-const Reachability& ViewChecker::check(const ViewPose& candidate) {
+const ViewChecker::Reachability& ViewChecker::reachability(const ViewPose& view) {
   // a lattice walked in steps ends on the box's faces but for rounding
   constexpr double kRounding_m = 1e-6;
-  const Vec3& p = candidate.p_world_m;
-  if (is_recent(config_, recent_, candidate)) return recently_visited_;
+  const Vec3& p = view.p_world_m;
+  if (is_recent(config_, recent_, view)) return recently_visited_;
   if (checked_m_ != p) {
     checked_m_ = p;
     at_position_ = navigation_m_.squaredExteriorDistance(p) > kRounding_m * kRounding_m
@@ -74,10 +107,32 @@ const Reachability& ViewChecker::check(const ViewPose& candidate) {
   return at_position_;
 }
 
-std::optional<Rejection> rejection(const ValidityConfig& config, const Box3& navigation_m,
-                                   const OccupancyGrid& grid, std::span<const ViewPose> recent,
-                                   const ViewPose& current, const ViewPose& candidate) {
-  return ViewChecker(config, navigation_m, grid, recent, current).check(candidate).rejected;
+void ViewChecker::check(Candidate& candidate) {
+  const Reachability& found = reachability(candidate.view);
+  candidate.rejected = found.rejected;
+  candidate.via_world_m = found.via_world_m;
+  candidate.path_m =
+      path_length_m(current_.p_world_m, candidate.via_world_m, candidate.view.p_world_m);
+}
+
+std::optional<Rejection> cluster_rejection(std::span<const CameraModel> cameras,
+                                           const OccupancyGrid& grid,
+                                           const FrontierCluster& cluster, const ViewPose& view,
+                                           bool needs_visible_cluster) {
+  const Isometry T = T_world_body(view);
+  const auto has_centroid = [&](const CameraModel& camera) {
+    return is_in_frustum(camera, T, cluster.centroid_world_m);
+  };
+  if (std::none_of(cameras.begin(), cameras.end(), has_centroid)) {
+    return Rejection::cluster_outside_fov;
+  }
+  if (!needs_visible_cluster) return std::nullopt;
+  for (const CameraModel& camera : cameras) {
+    for (const VoxelIndex v : cluster.voxels) {
+      if (sees_voxel(camera, T, grid, v)) return std::nullopt;
+    }
+  }
+  return Rejection::cluster_hidden;
 }
 
 }  // namespace gnbv

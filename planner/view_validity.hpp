@@ -6,10 +6,15 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/map/clearance.hpp"
-#include "planner/map/path_search.hpp"
+#include "planner/map/config.hpp"
+#include "sim/core/pose.hpp"
 
 namespace gnbv {
+
+struct CameraModel;
+struct Candidate;
+struct FrontierCluster;
+class OccupancyGrid;
 
 /// How the way to a view is checked: straight against the map, which holds the profile (the
 /// paper); straight, or else around what blocks it (ours); or not at all (released code).
@@ -41,12 +46,6 @@ std::string_view name_of(Rejection reason);
 /// The workspace, with its floor raised to z_min_m.
 Box3 navigation_box_m(const ValidityConfig& config, const Box3& workspace_m);
 
-/// Whether a view may be flown to, and the way there.
-struct Reachability {
-  std::optional<Rejection> rejected;  // nothing: it may
-  std::vector<Vec3> via_world_m;      // points between here and there; empty: straight
-};
-
 /// Checks views from one place, one after another; those of one position share its checks.
 class ViewChecker {
  public:
@@ -59,9 +58,15 @@ class ViewChecker {
         recent_(recent),
         current_(current) {}
 
-  const Reachability& check(const ViewPose& candidate);
+  /// Fills in whether the candidate may be flown to, and the way there.
+  void check(Candidate& candidate);
 
  private:
+  struct Reachability {
+    std::optional<Rejection> rejected;  // nothing: it may
+    std::vector<Vec3> via_world_m;      // points between here and there; empty: straight
+  };
+  const Reachability& reachability(const ViewPose& view);
   Reachability check_position(const Vec3& p_world_m) const;
 
   const ValidityConfig& config_;
@@ -74,9 +79,11 @@ class ViewChecker {
   Reachability recently_visited_ = {Rejection::recently_visited, {}};
 };
 
-/// Why the view may not be flown to from `current`; nothing when it may.
-std::optional<Rejection> rejection(const ValidityConfig& config, const Box3& navigation_m,
-                                   const OccupancyGrid& grid, std::span<const ViewPose> recent,
-                                   const ViewPose& current, const ViewPose& candidate);
+/// cluster_outside_fov when no camera has the centroid in its frustum; cluster_hidden when none
+/// sees a voxel of the cluster, if `needs_visible_cluster`; else nothing.
+std::optional<Rejection> cluster_rejection(std::span<const CameraModel> cameras,
+                                           const OccupancyGrid& grid,
+                                           const FrontierCluster& cluster, const ViewPose& view,
+                                           bool needs_visible_cluster);
 
 }  // namespace gnbv

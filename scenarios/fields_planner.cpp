@@ -1,4 +1,3 @@
-#include "planner/presets.hpp"
 #include "scenarios/fields.hpp"
 
 namespace gnbv {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/planner.hpp"
+#include "planner/config.hpp"
 #include "sensors/camera_model.hpp"
 #include "sensors/lidar_model.hpp"
 #include "sim/flight/guidance.hpp"

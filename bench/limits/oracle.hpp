@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/planner.hpp"
+#include "planner/decision.hpp"
 #include "scenarios/scenario.hpp"
 #include "sensors/ray_scene.hpp"
 #include "sim/mesh/world.hpp"

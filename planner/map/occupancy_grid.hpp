@@ -6,23 +6,12 @@
 #include <span>
 #include <vector>
 
+#include "planner/map/config.hpp"
 #include "planner/map/grid_geometry.hpp"
 #include "planner/map/voxel_word.hpp"
 #include "sim/core/zeroed_array.hpp"
 
 namespace gnbv {
-
-/// Defaults: OctoMap's sensor model, and the thresholds of the released configuration. Thresholds
-/// are compared as float32 log-odds, so one miss (0.4) is free and one hit (0.7) occupied.
-struct OccupancyConfig {
-  double resolution_m = 0.2;
-  double prob_hit = 0.7;
-  double prob_miss = 0.4;
-  double clamp_min = 0.1192;
-  double clamp_max = 0.971;
-  double occupied_min = 0.6;  // p >= this is occupied
-  double free_max = 0.4;      // p <= this is free, between is unknown
-};
 
 /// The voxels one scan touches, each once, occupied before free (OctoMap's computeUpdate).
 struct ScanUpdate {

@@ -4,13 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include "planner/map/config.hpp"
 #include "planner/map/occupancy_grid.hpp"
 
 namespace gnbv {
-
-struct PathSearchConfig {
-  int max_expansions = 2000;  // nodes looked at before the search gives up: a work budget
-};
 
 /// A* (Hart, Nilsson, Raphael 1968) on a lattice through `from` with a step of the radius (at
 /// least a voxel), 26 neighbours a node, through voxels known to be free, the sphere clear all the

@@ -7,18 +7,13 @@
 #include <vector>
 
 #include "planner/map/cloud_kernels.hpp"
+#include "planner/map/config.hpp"
 #include "planner/map/frame_rays.hpp"
 #include "planner/map/grid_geometry.hpp"
 #include "planner/map/leaf_filter.hpp"
 #include "sim/core/zeroed_array.hpp"
 
 namespace gnbv {
-
-/// Defaults: the released filter sizes.
-struct CloudConfig {
-  double leaf_m = 0.02;         // RGBD points
-  double profile_leaf_m = 0.1;  // LIDAR points
-};
 
 /// Points with at most one a leaf. Leaves are cubes [k leaf, (k + 1) leaf). A leaf gets the
 /// centroid of the points that the first batch to reach it put there, and keeps it.

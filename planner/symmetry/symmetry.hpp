@@ -7,17 +7,10 @@
 #include <vector>
 
 #include "planner/map/occupancy_grid.hpp"
+#include "planner/symmetry/config.hpp"
 #include "planner/symmetry/mirror_plane.hpp"
 
 namespace gnbv {
-
-/// Defaults: the released configuration where it works on the two structures of the paper, our own
-/// choice elsewhere (FIDELITY.md).
-struct SymmetryConfig {
-  bool enabled = true;
-  double min_support = 0.985;  // share of mirrored points not contradicted by measured free space
-  double min_confirmed = 0.4;  // share of them that falls on measured surface
-};
 
 struct Symmetry {
   std::optional<MirrorPlane> plane;  // nothing: the structure is not symmetric, or not known to be

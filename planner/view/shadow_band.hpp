@@ -6,17 +6,9 @@
 
 #include "planner/map/frame_rays.hpp"
 #include "planner/map/occupancy_grid.hpp"
+#include "planner/view/config.hpp"
 
 namespace gnbv {
-
-/// Depth of the band behind a hit, along its ray. Default: the launch file of the released code of
-/// Delmerico et al.
-struct ShadowConfig {
-  double shadow_depth_m = 0.3;
-};
-
-/// The band is no deeper: three axes of so many steps fit a byte.
-constexpr double kMaxShadow_voxels = 80.0;
 
 /// For each voxel the smallest number of steps, 1 or more, from the voxel of a hit along the ray
 /// through it. Only voxels that are unmeasured count; the grid keeps which (is_shaded).

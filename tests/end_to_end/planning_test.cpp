@@ -7,7 +7,7 @@
 #include <set>
 #include <sstream>
 
-#include "planner/belief_file.hpp"
+#include "tools/run_files/profile_map.hpp"
 #include "planner/utility.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"

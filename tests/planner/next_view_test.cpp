@@ -4,8 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+
+#include "planner/belief.hpp"
+#include "planner/follow_route.hpp"
+#include "planner/history.hpp"
+#include "planner/model.hpp"
+#include "planner/workbench.hpp"
 
 namespace gnbv {
 namespace {
@@ -67,12 +74,13 @@ TEST(PlanNextView, ChoosesTheHighestUtilityAndTheFirstOfEquals) {
   ASSERT_TRUE(decision);
   // the same search, written out
   VisitMarks marks(belief.grid.geometry().voxel_count());
+  ViewChecker checker(model.config.validity, model.navigation_m, belief.grid, {}, kCurrent);
   std::optional<ViewPose> best;
   double best_value = 0.0;
   for (const ViewPose& view : sample_agvs(model.config.agvs, kCurrent, 1.0)) {
-    if (rejection(model.config.validity, model.navigation_m, belief.grid, {}, kCurrent, view)) {
-      continue;
-    }
+    Candidate candidate{.view = view, .sampler = "agvs"};
+    checker.check(candidate);
+    if (candidate.rejected) continue;
     ViewStats stats = evaluate_view(belief.grid, belief.cloud, model.view_rays, view, marks);
     stats.density_max = belief.cloud.density_max();
     stats.path_m = (view.p_world_m - kCurrent.p_world_m).norm();
@@ -241,25 +249,27 @@ TEST(PlanNextView, EveryCandidateIsEitherScoredOrRejectedForAReason) {
   EXPECT_EQ(valid, plan.next->valid);
 }
 
-TEST(PlanNextView, FollowsItsRouteAndSkipsWhatIsNotValid) {
-  const PlannerModel model = model_with([](PlannerConfig& c) { c.utility.name = "lawnmower"; });
+TEST(FollowRoute, TakesViewAfterViewAndSkipsWhatIsNotValid) {
+  const PlannerModel model = small_model();
   const Belief belief = wall_ahead(model, everywhere);
-  History history;
   const ViewPose first{Vec3(-3, 0, 4), 0.0};
   const ViewPose in_the_wall{Vec3(6.1, 0, 4), 0.0};
   const ViewPose last{Vec3(3, 0, 4), 0.0};
-  history.route = {first, in_the_wall, last};
-  const auto next = full_plan(model, belief, history).next;
+  const std::array route = {first, in_the_wall, last};
+  History history;
+  const auto follow = [&] { return follow_route(model, belief, history, route, kCurrent); };
+  const auto next = follow().next;
   ASSERT_TRUE(next);
   EXPECT_EQ(next->view.p_world_m, first.p_world_m);
   EXPECT_EQ(next->sampler, "route");
   history.decisions.push_back(*next);
-  const Plan second = full_plan(model, belief, history);
+  const Plan second = follow();
   ASSERT_TRUE(second.next);
   EXPECT_EQ(second.next->view.p_world_m, last.p_world_m);
+  EXPECT_EQ(second.chosen, 1U);
   EXPECT_TRUE(second.candidates.front().rejected.has_value());
   history.decisions.push_back(*second.next);
-  EXPECT_FALSE(full_plan(model, belief, history).next);  // the route is over
+  EXPECT_FALSE(follow().next);  // the route is over
 }
 
 }  // namespace

@@ -5,6 +5,9 @@
 
 #include <cmath>
 
+#include "planner/map/occupancy_grid.hpp"
+#include "sensors/camera_model.hpp"
+
 namespace gnbv {
 namespace {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/candidate_stats.hpp"
+#include "planner/utility.hpp"
 #include "tests/planner/view/view_scene.hpp"
 
 namespace gnbv {

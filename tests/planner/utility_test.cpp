@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/view/visibility.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {
@@ -150,8 +151,8 @@ TEST(EveryUtility, HasAFormulaAndAnUnknownNameHasNone) {
 }
 
 TEST(EveryUtility, AsksForWhatItReads) {
-  EXPECT_EQ(needs_of(named("proposed")).detail, ViewDetail::voxels);
-  EXPECT_EQ(needs_of(named("aep")).detail, ViewDetail::rays);
+  EXPECT_FALSE(needs_of(named("proposed")).rays);
+  EXPECT_TRUE(needs_of(named("aep")).rays);
   EXPECT_TRUE(needs_of(named("area_factor")).shadow);
   EXPECT_TRUE(needs_of(named("proximity_count")).shadow);
   EXPECT_FALSE(needs_of(named("kriegel")).shadow);

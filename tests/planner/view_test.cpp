@@ -5,6 +5,8 @@
 #include <cmath>
 #include <set>
 
+#include "planner/decision.hpp"
+#include "planner/map/clearance.hpp"
 #include "planner/map/ray_walk.hpp"
 #include "planner/view_validity.hpp"
 #include "sim/core/rng.hpp"
@@ -86,6 +88,14 @@ TEST(PathCheck, WhatIsTooCloseAlreadyMayBeLeftButNotApproached) {
   EXPECT_FALSE(is_path_clear(grid, here, here + Vec3(2, -0.5, 0), 1.5));
 }
 
+std::optional<Rejection> rejection(const ValidityConfig& config, const OccupancyGrid& grid,
+                                   std::span<const ViewPose> recent, const ViewPose& current,
+                                   const ViewPose& view) {
+  Candidate candidate{.view = view, .sampler = "test"};
+  ViewChecker(config, kNavigation, grid, recent, current).check(candidate);
+  return candidate.rejected;
+}
+
 TEST(ViewValidity, NamesTheReason) {
   OccupancyGrid probe = empty_grid();
   const OccupancyGrid grid = free_grid_with({voxel_at(probe, Vec3(0.1, 0.1, 2.1))});
@@ -93,7 +103,7 @@ TEST(ViewValidity, NamesTheReason) {
   const ViewPose current{Vec3(-2, 0.1, 2.1), 0};
   const std::vector<ViewPose> recent = {{Vec3(-2, 2, 2), 1.0}};
   const auto reason = [&](const ViewPose& candidate) {
-    return rejection(config, kNavigation, grid, recent, current, candidate);
+    return rejection(config, grid, recent, current, candidate);
   };
   EXPECT_EQ(reason({Vec3(-2, 1, 2), 0}), std::nullopt);
   EXPECT_EQ(reason({Vec3(-2, 1, 0.6), 0}), Rejection::out_of_bounds);
@@ -106,14 +116,13 @@ TEST(ViewValidity, NamesTheReason) {
 
 TEST(ViewValidity, UnknownSpaceIsNotFree) {
   const OccupancyGrid grid = empty_grid();
-  EXPECT_EQ(rejection({}, kNavigation, grid, {}, {Vec3(0, 0, 2), 0}, {Vec3(1, 0, 2), 0}),
-            Rejection::not_free);
+  EXPECT_EQ(rejection({}, grid, {}, {Vec3(0, 0, 2), 0}, {Vec3(1, 0, 2), 0}), Rejection::not_free);
 }
 
 TEST(ViewValidity, TheFacesOfTheNavigationBoxAreInside) {
   const OccupancyGrid grid = free_grid_with({});
   for (const Vec3& p : {Vec3(5, 5, 5), Vec3(-5, -5, 0.7), Vec3(5, -5, 0.7)}) {
-    EXPECT_EQ(rejection({}, kNavigation, grid, {}, {Vec3(0, 0, 2), 0}, {p, 0}), std::nullopt);
+    EXPECT_EQ(rejection({}, grid, {}, {Vec3(0, 0, 2), 0}, {p, 0}), std::nullopt);
   }
 }
 

@@ -4,7 +4,9 @@
 #include <array>
 #include <vector>
 
-#include "planner/planner.hpp"
+#include "planner/belief.hpp"
+#include "planner/model.hpp"
+#include "planner/workbench.hpp"
 #include "sensors/capture.hpp"
 #include "sensors/ray_scene.hpp"
 

@@ -5,7 +5,6 @@
 #include <thread>
 
 #include "bench/limits/oracle.hpp"
-#include "planner/belief_file.hpp"
 #include "planner/map/memory.hpp"
 #include "planner/symmetry/symmetry_module.hpp"
 #include "sim/core/error.hpp"
@@ -15,6 +14,7 @@
 #include "tools/mission/start_pose.hpp"
 #include "tools/run_files/candidates_file.hpp"
 #include "tools/run_files/frame_files.hpp"
+#include "tools/run_files/profile_map.hpp"
 #include "tools/run_files/run_directory.hpp"
 #include "tools/terminal/interrupt.hpp"
 #include "tools/terminal/progress.hpp"

@@ -2,6 +2,9 @@
 
 #include <utility>
 
+#include "planner/follow_route.hpp"
+#include "planner/map/path_search.hpp"
+#include "planner/next_view.hpp"
 #include "sim/core/error.hpp"
 #include "tools/mission/mission_state.hpp"
 #include "tools/mission/sensing.hpp"
@@ -109,7 +112,9 @@ std::optional<Decision> decide(Mission& m) {
   const std::size_t next = m.history.decisions.size();
   if (next < m.hooks.replay.size()) return m.hooks.replay[next];
   if (m.hooks.route) return m.hooks.route->at(next - 1);  // decision 0 is the start
-  Plan plan = plan_next_view(m.planner, m.out.belief, m.history, m.current, m.bench);
+  Plan plan = m.laid_route
+                  ? follow_route(m.planner, m.out.belief, m.history, *m.laid_route, m.current)
+                  : plan_next_view(m.planner, m.out.belief, m.history, m.current, m.bench);
   m.hooks.on_candidates(next, plan);
   return std::move(plan.next);
 }

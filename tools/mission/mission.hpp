@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "planner/next_view.hpp"
+#include "planner/decision.hpp"
 #include "scenarios/scenario.hpp"
 #include "sensors/frames.hpp"
 #include "sensors/ray_scene.hpp"

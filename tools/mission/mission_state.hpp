@@ -6,6 +6,9 @@
 #include <memory>
 #include <optional>
 
+#include "planner/history.hpp"
+#include "planner/model.hpp"
+#include "planner/workbench.hpp"
 #include "sim/flight/flight.hpp"
 #include "tools/mission/mission.hpp"
 
@@ -40,11 +43,12 @@ struct Mission {
   MissionResult out;
   std::unique_ptr<Flight> flight;
   History history;
-  ViewPose current;                 // where the planner believes to be
-  Vec3 last_p_world_m;              // truth, one tick ago
-  double flown_m = 0.0;             // truth, since the start
-  double entropy_before_nat = 0.0;  // of the view at hand
-  WallTimes view_wall;              // of the view at hand
+  std::optional<std::vector<ViewPose>> laid_route;  // of a baseline that plans all views at once
+  ViewPose current;                                 // where the planner believes to be
+  Vec3 last_p_world_m;                              // truth, one tick ago
+  double flown_m = 0.0;                             // truth, since the start
+  double entropy_before_nat = 0.0;                  // of the view at hand
+  WallTimes view_wall;                              // of the view at hand
 };
 
 double time_s(const Flight& flight);

@@ -1,7 +1,7 @@
 // The first stage of a mission: the profile, and what is made of it before the first view.
-#include "planner/belief_file.hpp"
 #include "tools/mission/mission_state.hpp"
 #include "tools/mission/sensing.hpp"
+#include "tools/run_files/profile_map.hpp"
 
 namespace gnbv {
 namespace {
@@ -92,12 +92,12 @@ std::optional<Termination> fly_to_first_view(Mission& m) {
 void lay_route(Mission& m) {
   const PlannerConfig& config = m.planner.config;
   if (!is_route(config.utility.name)) return;
-  m.history.route = plan_route(config.utility.name, config.routes,
-                               {.grid = m.out.belief.grid,
-                                .navigation_m = m.planner.navigation_m,
-                                .camera = m.planner.cameras.front(),
-                                .start = m.out.start,
-                                .views = config.termination.max_iterations});
+  m.laid_route = plan_route(config.utility.name, config.routes,
+                            {.grid = m.out.belief.grid,
+                             .navigation_m = m.planner.navigation_m,
+                             .camera = m.planner.cameras.front(),
+                             .start = m.out.start,
+                             .views = config.termination.max_iterations});
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <array>
 #include <limits>
 
-#include "planner/frontiers.hpp"
+#include "planner/map/frontiers.hpp"
 #include "sim/core/error.hpp"
 #include "tools/render/flight_items.hpp"
 #include "tools/render/picture.hpp"

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "planner/next_view.hpp"
+#include "planner/decision.hpp"
 
 namespace gnbv {
 

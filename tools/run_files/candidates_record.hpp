@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "planner/next_view.hpp"
+#include "planner/decision.hpp"
 
 namespace gnbv {
 

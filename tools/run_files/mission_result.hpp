@@ -5,7 +5,10 @@
 #include <vector>
 
 #include "bench/score/mission_score.hpp"
-#include "planner/planner.hpp"
+#include "planner/belief.hpp"
+#include "planner/decision.hpp"
+#include "planner/symmetry/symmetry.hpp"
+#include "planner/termination.hpp"
 #include "sim/flight/flight.hpp"
 
 namespace gnbv {

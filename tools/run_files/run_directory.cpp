@@ -1,6 +1,5 @@
 #include "tools/run_files/run_directory.hpp"
 
-#include "planner/belief_file.hpp"
 #include "planner/map/octomap_io.hpp"
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
@@ -8,6 +7,7 @@
 #include "sim/core/shell_word.hpp"
 #include "tools/run_files/cloud_file.hpp"
 #include "tools/run_files/iterations_csv.hpp"
+#include "tools/run_files/profile_map.hpp"
 #include "tools/run_files/summary_file.hpp"
 
 namespace gnbv {

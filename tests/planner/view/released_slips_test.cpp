@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/candidate_stats.hpp"
+#include "planner/utility.hpp"
 #include "tests/planner/view/view_scene.hpp"
 
 namespace gnbv {

@@ -1,4 +1,4 @@
-#include "planner/belief_file.hpp"
+#include "tools/run_files/profile_map.hpp"
 
 #include <bit>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "planner/presets.hpp"
+#include "planner/config.hpp"
 
 #include "sim/core/error.hpp"
 

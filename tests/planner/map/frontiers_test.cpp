@@ -1,5 +1,5 @@
 // Density frontiers: which voxels, how they cluster, and how large clusters are cut.
-#include "planner/frontiers.hpp"
+#include "planner/map/frontiers.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "planner/frontiers.hpp"
+#include "planner/map/frontiers.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,9 +1,11 @@
 // What a view sees of the cluster it was sampled for.
-#include "planner/cluster_view.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "planner/map/frontiers.hpp"
+#include "planner/view_validity.hpp"
+#include "sensors/camera_model.hpp"
 
 namespace gnbv {
 namespace {
@@ -30,9 +32,9 @@ const ViewPose kFacing{Vec3(0.1, 0.1, 4.1), 0.0};
 
 TEST(Frustum, IsBoundedByFieldOfViewAndRange) {
   const CameraModel camera = make_camera_model({});  // 60 x 45 degrees, 0.3 to 8 m
-  const Isometry T = T_world_body({Vec3::Zero(), 0.0});
+  const OccupancyGrid grid = grid_with({});
   const auto sees = [&](double x, double y, double z) {
-    return is_in_frustum(camera, T, Vec3(x, y, z));
+    return !cluster_rejection({&camera, 1}, grid, {{}, Vec3(x, y, z)}, {}, false);
   };
   EXPECT_TRUE(sees(4, 0, 0));
   EXPECT_FALSE(sees(-4, 0, 0));

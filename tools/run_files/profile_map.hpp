@@ -3,7 +3,8 @@
 
 #include <filesystem>
 
-#include "planner/planner.hpp"
+#include "planner/belief.hpp"
+#include "planner/model.hpp"
 
 namespace gnbv {
 

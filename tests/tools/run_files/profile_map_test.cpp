@@ -1,5 +1,5 @@
 // A belief that was saved and loaded is the one that was not, and nothing else is ever loaded.
-#include "planner/belief_file.hpp"
+#include "tools/run_files/profile_map.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,6 +7,7 @@
 #include <bit>
 
 #include "bench/reference/analytic_scans.hpp"
+#include "planner/workbench.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/core/sha256.hpp"

@@ -1,0 +1,63 @@
+#include "planner/belief.hpp"
+
+#include <algorithm>
+
+#include "planner/model.hpp"
+#include "planner/workbench.hpp"
+#include "sim/core/error.hpp"
+#include "sim/core/parallel.hpp"
+
+namespace gnbv {
+
+Belief::Belief(const PlannerModel& model)
+    : grid(model.config.map, model.workspace_m),
+      cloud(model.config.cloud, grid.geometry()),
+      shadow(model.config.utility.shadow, grid.geometry()),
+      floor_z_m(model.config.floor_z_m) {}
+
+void integrate_profile(const PlannerModel& model, std::span<const LidarScan> scans,
+                       Workbench& bench, Belief& belief) {
+  bench.inserters.front().insert_scans(belief.grid, scans, model.lidars, model.config.floor_z_m,
+                                       bench.threads);
+  std::vector<Vec3f> points;
+  for (const LidarScan& scan : scans) {
+    const LidarModel& lidar = model.lidars[static_cast<std::size_t>(scan.lidar)];
+    const std::vector<Vec3f> hits =
+        surface_points_world_m(rays_of(scan, lidar, model.config.floor_z_m));
+    points.insert(points.end(), hits.begin(), hits.end());
+  }
+  belief.cloud.add(points, model.config.cloud.profile_leaf_m);
+}
+
+void integrate_view(const PlannerModel& model, std::span<const DepthFrame> frames, Workbench& bench,
+                    Belief& belief) {
+  if (frames.empty()) return;
+  GNBV_CHECK(frames.size() <= bench.inserters.size(), "{} frames of {} cameras", frames.size(),
+             bench.inserters.size());
+  bench.frame_rays.resize(frames.size());
+  std::vector<ScanUpdate> updates(frames.size());
+  const int threads_per_frame = std::max(bench.threads / static_cast<int>(frames.size()), 1);
+  parallel_for(bench.threads, frames.size(), [&](std::size_t i) {
+    const CameraModel& camera = model.cameras[static_cast<std::size_t>(frames[i].camera)];
+    compute_frame_rays(frames[i], camera, model.config.floor_z_m, bench.frame_rays[i]);
+    updates[i] = bench.inserters[i].compute_update(bench.frame_rays[i], frames[i], camera,
+                                                   threads_per_frame);
+  });
+  const auto update_map = [&] {
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      belief.grid.apply(updates[i]);
+      if (model.needs_shadow) belief.shadow.add(bench.frame_rays[i], belief.grid);
+    }
+  };
+  const auto update_cloud = [&] { belief.cloud.add(bench.frame_rays, model.config.cloud.leaf_m); };
+  parallel_for(bench.threads, 2, [&](std::size_t task) {  // neither reads the other
+    task == 0 ? update_map() : update_cloud();
+  });
+  const auto has_hit = [](const FrameRays& rays) {
+    return std::find(rays.kind.begin(), rays.kind.end(), PixelRay::hits) != rays.kind.end();
+  };
+  belief.has_depth_return = belief.has_depth_return ||
+                            std::any_of(bench.frame_rays.begin(), bench.frame_rays.end(), has_hit);
+}
+
+}  // namespace gnbv

@@ -1,0 +1,50 @@
+#include "planner/follow_route.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "planner/belief.hpp"
+#include "planner/history.hpp"
+#include "planner/model.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr std::string_view kSampler = "route";
+
+/// What of the route is left.
+std::span<const ViewPose> ahead(std::span<const ViewPose> route, const History& history) {
+  if (history.decisions.empty() || history.decisions.back().sampler != kSampler) return route;
+  const ViewPose& last = history.decisions.back().view;
+  const auto at = std::find_if(route.begin(), route.end(), [&](const ViewPose& view) {
+    return view.p_world_m == last.p_world_m && view.yaw_rad == last.yaw_rad;
+  });
+  return at == route.end() ? std::span<const ViewPose>() : std::span(at + 1, route.end());
+}
+
+}  // namespace
+
+Plan follow_route(const PlannerModel& model, const Belief& belief, const History& history,
+                  std::span<const ViewPose> route, const ViewPose& current) {
+  ValidityConfig validity = model.config.validity;
+  if (validity.path == PathCheck::straight) validity.path = PathCheck::astar;
+  const std::vector<ViewPose> recent = recent_views(history, validity.recent_poses);
+  ViewChecker checker(validity, model.navigation_m, belief.grid, recent, current);
+  Plan plan;
+  for (const ViewPose& view : ahead(route, history)) {
+    plan.candidates.push_back({.view = view, .sampler = kSampler});
+    Candidate& candidate = plan.candidates.back();
+    checker.check(candidate);
+    if (candidate.rejected) continue;
+    plan.chosen = plan.candidates.size() - 1;
+    plan.next = Decision{.view = view,
+                         .sampler = kSampler,
+                         .candidates = 1,
+                         .valid = 1,
+                         .via_world_m = candidate.via_world_m};
+    break;
+  }
+  return plan;
+}
+
+}  // namespace gnbv

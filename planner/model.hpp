@@ -1,0 +1,31 @@
+// What the planner is given once: its settings, and what it knows of vehicle and workspace.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "planner/config.hpp"
+#include "planner/view/visibility.hpp"
+#include "sensors/camera_model.hpp"
+#include "sensors/lidar_model.hpp"
+
+namespace gnbv {
+
+struct PlannerModel {
+  PlannerModel(const PlannerConfig& config, const Box3& workspace_m,
+               std::span<const CameraModel> cameras, std::span<const LidarModel> lidars,
+               std::uint64_t seed = 0);
+
+  PlannerConfig config;
+  std::uint64_t seed;  // of what the planner leaves to chance
+  Box3 workspace_m;
+  Box3 navigation_m;
+  std::vector<CameraModel> cameras;
+  std::vector<LidarModel> lidars;
+  ViewRays view_rays;
+  double view_voxels;  // of the cameras' frusta together
+  bool needs_shadow;   // whether the utility asks for Belief::shadow
+};
+
+}  // namespace gnbv
