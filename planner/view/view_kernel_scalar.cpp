@@ -3,12 +3,12 @@
 
 // the lanes first
 #include "sim/core/lanes_scalar.hpp"
+#include "sim/core/wide_sums.inl"
 // then what is written in terms of them, in this order
 #include "planner/map/voxel_word.hpp"
 #include "planner/view/view_prepare.inl"
 #include "planner/view/view_tally.inl"
 #include "planner/view/view_walk.inl"
-#include "sim/core/wide_sums.inl"
 
 namespace gnbv {
 
