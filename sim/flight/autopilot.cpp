@@ -4,10 +4,6 @@
 
 namespace gnbv {
 
-FlightEnvelope full_envelope(const AutopilotParameters& parameters) {
-  return {parameters.climb_speed_max_m_s, parameters.tilt_max_rad, parameters.thrust_min};
-}
-
 AttitudeSetpoint position_loop(const AutopilotParameters& parameters,
                                const AirframeParameters& airframe, const FlightEnvelope& envelope,
                                PositionControlMemory& memory, const VehicleState& state,

@@ -18,8 +18,6 @@ struct FlightEnvelope {
   double tilt_max_rad;
   double thrust_min;
 };
-/// What the parameters themselves allow. Only tests of the bare cascade need it.
-FlightEnvelope full_envelope(const AutopilotParameters& parameters);
 
 /// Position and velocity loops. Hover thrust is the true hover command, held constant: PX4's hover
 /// thrust estimator would converge to it.

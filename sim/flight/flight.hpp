@@ -9,9 +9,10 @@
 
 #include "sim/core/pose.hpp"
 #include "sim/flight/vehicle_config.hpp"
-#include "sim/mesh/world.hpp"
 
 namespace gnbv {
+
+struct World;
 
 /// Physics and control tick: 4 ms, as Gazebo's worlds/empty.world. Time is a count of ticks.
 constexpr std::int64_t kTicksPerSecond = 250;

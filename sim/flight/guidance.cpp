@@ -5,6 +5,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/flight/feed_forward.hpp"
+#include "sim/flight/flight.hpp"
 #include "sim/flight/rest_to_rest.hpp"
 #include "sim/flight/rotors.hpp"
 

@@ -3,9 +3,12 @@
 
 #include <functional>
 
-#include "sim/flight/flight.hpp"
+#include "sim/core/pose.hpp"
 
 namespace gnbv {
+
+class Flight;
+struct VehicleConfig;
 
 /// Acceleration and arrival are those of the released vehicle_control_iris.cpp, arrival tighter.
 struct GuidanceConfig {

@@ -79,7 +79,7 @@ class Px4 {
 
  private:
   double offboard_silence_s() const;
-  Health health() const;
+  bool can_run_now(NavState mode) const;
   void say(int severity, std::string text);
   void disarm();
   void disarm_when_due();

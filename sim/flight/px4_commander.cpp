@@ -84,10 +84,8 @@ double Px4::offboard_silence_s() const {
   return static_cast<double>(tick_ - *heartbeat_tick_) * kTick_s;
 }
 
-Health Px4::health() const {
-  Health health;
-  health.has_offboard_stream = offboard_silence_s() < parameters_.commander.offboard_loss_s;
-  return health;
+bool Px4::can_run_now(NavState mode) const {
+  return can_run(mode, has_offboard_stream(offboard_silence_s(), parameters_.commander));
 }
 
 Ack Px4::arm(bool armed, bool force) {
@@ -101,7 +99,7 @@ Ack Px4::arm(bool armed, bool force) {
     return Ack::accepted;
   }
   // force skips no check here: PX4 runs them for any arming from outside
-  if (!can_run(intention_, health()) || prevents_arming(nav_state_)) {
+  if (!can_run_now(intention_) || prevents_arming(nav_state_)) {
     say(2, "Arming denied: not in " + std::string(name_of(intention_)));
     return Ack::temporarily_rejected;
   }
@@ -135,7 +133,7 @@ void Px4::disarm_when_due() {
 
 Ack Px4::set_mode(NavState mode) {
   // LAND is always taken: where it cannot run, the fallback descends
-  const bool is_allowed = !is_armed_ || mode == NavState::land || can_run(mode, health());
+  const bool is_allowed = !is_armed_ || mode == NavState::land || can_run_now(mode);
   if (nav_state_ == NavState::terminate || !is_allowed) {
     say(2, "Switching to " + std::string(name_of(mode)) + " is not possible now");
     return Ack::temporarily_rejected;
@@ -157,7 +155,7 @@ void Px4::update_mode() {
   }
   ModeChoice choice{intention_, false, false};
   if (is_armed_) {
-    choice = choose_mode(intention_, health(), offboard_silence_s(), parameters_.commander);
+    choice = choose_mode(intention_, offboard_silence_s(), parameters_.commander);
   }
   if (choice.disarms) {
     say(2, "Failsafe: offboard stream lost, disarming");

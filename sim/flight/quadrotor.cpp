@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "sim/core/error.hpp"
+#include "sim/mesh/world.hpp"
 
 namespace gnbv {
 namespace {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/core/error.hpp"
+#include "sim/mesh/world.hpp"
 
 namespace gnbv {
 namespace {
@@ -200,10 +201,6 @@ Wrench RigidVehicle::Scene::turn_rotors(const RateControl& control) {
     }
   }
   return mean;
-}
-
-void RigidVehicle::step(const RotorSpeeds& reference_rad_s) {
-  step([&](const Vec3&) { return reference_rad_s; });
 }
 
 void RigidVehicle::step(const RateControl& control) {

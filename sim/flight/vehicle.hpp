@@ -26,8 +26,6 @@ class RigidVehicle {
   /// forward with the rotors' torque; Bullet then moves the body with the mean of the pushes.
   /// Throws BrokenInvariant when the state becomes NaN or infinite.
   void step(const RateControl& control);
-  /// The same with references that hold for the whole tick, for tests of the bare physics.
-  void step(const RotorSpeeds& reference_rad_s);
 
   const VehicleState& state() const;
   const RotorSpeeds& rotor_speeds_rad_s() const;  // for tests: nothing flown measures them
@@ -36,8 +34,6 @@ class RigidVehicle {
   /// Whether the hull has touched the structure, or the ground, since the start.
   bool has_touched_structure() const;
   bool has_touched_ground() const;
-  /// Either of them, for tests; what counts in a flight is Quadrotor::has_collided.
-  bool has_collided() const { return has_touched_structure() || has_touched_ground(); }
 
  private:
   struct Scene;

@@ -86,9 +86,9 @@ std::array<SmoothedAxis, 3> advance_together(const std::array<SmoothedAxis, 3>& 
   return after;
 }
 
-double braking_speed_m_s(double distance_m, const AxisLimits& limits, double v_end_m_s) {
+double braking_speed_m_s(double distance_m, const AxisLimits& limits) {
   const double b = 4.0 * limits.a_max_m_s2 * limits.a_max_m_s2 / limits.jerk_m_s3;
-  const double c = 8.0 * limits.a_max_m_s2 * distance_m + 4.0 * v_end_m_s * v_end_m_s;
+  const double c = 8.0 * limits.a_max_m_s2 * distance_m;
   return 0.5 * (std::sqrt(b * b + c) - b);
 }
 

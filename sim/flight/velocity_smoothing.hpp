@@ -45,8 +45,8 @@ std::array<SmoothedAxis, 3> advance_together(const std::array<SmoothedAxis, 3>& 
                                              const std::array<double, 3>& v_m_s,
                                              const std::array<AxisLimits, 3>& limits, double dt_s);
 
-/// The speed from which a vehicle can still come to `v_end_m_s` within `distance_m`; the jerk is
-/// granted 4 a^2 / j of speed times half the distance (TrajMath.hpp, computeMaxSpeedFromDistance).
-double braking_speed_m_s(double distance_m, const AxisLimits& limits, double v_end_m_s = 0.0);
+/// The speed from which a vehicle can still come to rest within `distance_m`; the jerk is granted 4
+/// a^2 / j of speed times half the distance (TrajMath.hpp, computeMaxSpeedFromDistance).
+double braking_speed_m_s(double distance_m, const AxisLimits& limits);
 
 }  // namespace gnbv

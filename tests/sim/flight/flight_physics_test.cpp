@@ -4,25 +4,13 @@
 #include <limits>
 
 #include "sim/core/error.hpp"
-#include "sim/flight/vehicle.hpp"
+#include "tests/sim/flight/bare_vehicle.hpp"
 
 namespace gnbv {
 namespace {
 
 const AirframeParameters kIris;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-World empty_world() {
-  World world;
-  world.has_ground = false;
-  return world;
-}
-
-RotorSpeeds all(double speed_rad_s) {
-  RotorSpeeds speeds{};
-  speeds.fill(speed_rad_s);
-  return speeds;
-}
 
 VehicleState at_height(double z_m) {
   VehicleState state;
@@ -84,7 +72,7 @@ TEST(Rotors, DragOpposesInPlaneMotionOnly) {
 
 TEST(RigidVehicle, FallsFreelyWithMotorsOff) {
   RigidVehicle vehicle(kIris, empty_world(), at_height(0.0), all(0.0));
-  for (int i = 0; i < 500; ++i) vehicle.step(all(0.0));
+  step(vehicle, all(0.0), 500);
   // the integration is exact under constant force: only rounding remains
   EXPECT_NEAR(vehicle.state().T_world_body.translation().z(), -19.6132, 1e-9);
   EXPECT_NEAR(vehicle.state().v_world_m_s.z(), -19.6132, 1e-9);
@@ -92,14 +80,14 @@ TEST(RigidVehicle, FallsFreelyWithMotorsOff) {
 
 TEST(RigidVehicle, HoversWhereItIsAtHoverSpeed) {
   RigidVehicle vehicle(kIris, empty_world(), at_height(3.0), all(hover_speed_rad_s(kIris)));
-  for (int i = 0; i < 2500; ++i) vehicle.step(all(hover_speed_rad_s(kIris)));
+  step(vehicle, all(hover_speed_rad_s(kIris)), 2500);
   EXPECT_NEAR((vehicle.state().T_world_body.translation() - Vec3(0, 0, 3)).norm(), 0.0, 1e-9);
 }
 
 TEST(RigidVehicle, RotorsLagTheirReferences) {
   RigidVehicle vehicle(kIris, empty_world(), at_height(0.0), all(0.0));
   for (int i = 1; i <= 10; ++i) {
-    vehicle.step(all(1000.0));
+    step(vehicle, all(1000.0));
     EXPECT_NEAR(vehicle.rotor_speeds_rad_s()[0], 1000.0 * (1.0 - std::exp(-i * kTick_s / 0.0125)),
                 1e-9);
   }
@@ -114,7 +102,7 @@ TEST(RigidVehicle, TorqueFreeRotationConservesAngularMomentumAndEnergy) {
   double worst_L = 0.0;
   double worst_E = 0.0;
   for (int i = 0; i < 10 * kTicksPerSecond; ++i) {
-    vehicle.step(all(0.0));
+    step(vehicle, all(0.0));
     worst_L = std::max(worst_L, (angular_momentum(vehicle.state()) - L0).norm() / L0.norm());
     worst_E = std::max(worst_E, std::abs(energy_j(vehicle.state()) - E0) / E0);
   }
@@ -126,7 +114,7 @@ TEST(RigidVehicle, SpinAboutAPrincipalAxisTurnsByRateTimesTime) {
   VehicleState start = at_height(0.0);
   start.omega_body_rad_s = Vec3(0.0, 0.0, 1.5);
   RigidVehicle vehicle(kIris, empty_world(), start, all(0.0));
-  for (int i = 0; i < kTicksPerSecond; ++i) vehicle.step(all(0.0));
+  step(vehicle, all(0.0), kTicksPerSecond);
   EXPECT_NEAR(yaw_of(vehicle.state().T_world_body), 1.5, 1e-12);  // rounding
 }
 
@@ -139,15 +127,15 @@ TEST(RigidVehicle, TouchesAWallWhereItsHullEnds) {
   weightless.gravity_m_s2 = 0.0;
   RigidVehicle vehicle(weightless, world, start, all(0.0));
   double x_touch_m = 0.0;
-  for (int i = 0; i < 500 && !vehicle.has_collided(); ++i) {
-    vehicle.step(all(0.0));
+  for (int i = 0; i < 500 && !has_collided(vehicle); ++i) {
+    step(vehicle, all(0.0));
     x_touch_m = vehicle.state().T_world_body.translation().x();
   }
-  ASSERT_TRUE(vehicle.has_collided());
+  ASSERT_TRUE(has_collided(vehicle));
   // 20 mm a tick, and Bullet may see the contact one tick early or late
   EXPECT_NEAR(x_touch_m, 3.0 - kIris.hull_radius_m, 0.041);
-  for (int i = 0; i < 500; ++i) vehicle.step(all(0.0));
-  EXPECT_TRUE(vehicle.has_collided());
+  step(vehicle, all(0.0), 500);
+  EXPECT_TRUE(has_collided(vehicle));
   EXPECT_LT(vehicle.state().T_world_body.translation().x(), 3.0);  // not through it
 }
 
@@ -160,25 +148,25 @@ TEST(RigidVehicle, PassesAWallOneMillimetreAwayButNotOneMillimetreInside) {
     VehicleState start = at_height(0.0);
     start.v_world_m_s = Vec3(0.0, 2.0, 0.0);
     RigidVehicle vehicle(weightless, world, start, all(0.0));
-    for (int i = 0; i < 500; ++i) vehicle.step(all(0.0));
-    EXPECT_EQ(vehicle.has_collided(), gap_m < 0.0F);
+    step(vehicle, all(0.0), 500);
+    EXPECT_EQ(has_collided(vehicle), gap_m < 0.0F);
   }
 }
 
 TEST(RigidVehicle, LandsOnTheGroundPlaneAndStaysAboveIt) {
   RigidVehicle vehicle(kIris, World{}, at_height(1.0), all(0.0));
-  for (int i = 0; i < 1000; ++i) vehicle.step(all(0.0));
-  EXPECT_TRUE(vehicle.has_collided());
+  step(vehicle, all(0.0), 1000);
+  EXPECT_TRUE(has_collided(vehicle));
   // Bullet lets a resting body sink by a few mm
   EXPECT_NEAR(vehicle.state().T_world_body.translation().z(), 0.5 * kIris.hull_height_m, 0.01);
   RigidVehicle groundless(kIris, empty_world(), at_height(1.0), all(0.0));
-  for (int i = 0; i < 1000; ++i) groundless.step(all(0.0));
-  EXPECT_FALSE(groundless.has_collided());
+  step(groundless, all(0.0), 1000);
+  EXPECT_FALSE(has_collided(groundless));
 }
 
 TEST(RigidVehicle, NanThrowsBrokenInvariant) {
   RigidVehicle vehicle(kIris, empty_world(), at_height(0.0), all(0.0));
-  EXPECT_THROW(vehicle.step(all(kNan)), BrokenInvariant);
+  EXPECT_THROW(step(vehicle, all(kNan)), BrokenInvariant);
   EXPECT_THROW(RigidVehicle(kIris, empty_world(), at_height(kNan), all(0.0)), BrokenInvariant);
 }
 

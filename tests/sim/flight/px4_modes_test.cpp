@@ -195,24 +195,29 @@ TEST(Px4Modes, ALossCanBeHeldBeforeItIsActedOn) {  // PX4 1.9: two stages
   EXPECT_EQ(quadrotor.px4().nav_state(), NavState::offboard);
 }
 
-TEST(Px4Modes, InfeasibleModesFallDownTheChain) {
-  Health health;
-  const auto from_top = [&] { return feasible(NavState::position, health); };
-  health.has_remote_control = true;
-  EXPECT_EQ(from_top(), NavState::position);
-  health.has_position = false;
-  EXPECT_EQ(from_top(), NavState::altitude);
-  health.has_altitude = false;
-  EXPECT_EQ(from_top(), NavState::stabilized);
-  health.has_remote_control = false;
-  EXPECT_EQ(from_top(), NavState::descend);  // hold, rtl and land need a position
-  health.has_attitude = false;
-  EXPECT_EQ(from_top(), NavState::terminate);
-  health = Health{};
-  EXPECT_EQ(from_top(), NavState::hold);
-  EXPECT_EQ(feasible(NavState::rtl, health), NavState::rtl);
-  EXPECT_EQ(feasible(NavState::land, health), NavState::land);
-  EXPECT_EQ(feasible(NavState::mission, health), NavState::hold);
+TEST(Px4Modes, ModesThatCannotRunFallBackToHold) {
+  CommanderParameters commander;
+  const auto choice = [&](NavState intention, double silence_s) {
+    const ModeChoice chosen = choose_mode(intention, silence_s, commander);
+    EXPECT_EQ(chosen.is_failsafe, chosen.mode != intention);
+    EXPECT_FALSE(chosen.disarms);
+    return chosen.mode;
+  };
+  for (const NavState mode : {NavState::manual, NavState::stabilized, NavState::altitude,
+                              NavState::position, NavState::mission}) {
+    EXPECT_EQ(choice(mode, 0.0), NavState::hold) << name_of(mode);
+  }
+  for (const NavState mode : {NavState::hold, NavState::rtl, NavState::takeoff, NavState::land,
+                              NavState::descend, NavState::terminate}) {
+    EXPECT_EQ(choice(mode, 100.0), mode) << name_of(mode);
+  }
+  EXPECT_EQ(choice(NavState::offboard, 0.0), NavState::offboard);
+  for (const auto& [action, mode] : {std::pair(OffboardLossAction::position, NavState::hold),
+                                     std::pair(OffboardLossAction::rtl, NavState::rtl),
+                                     std::pair(OffboardLossAction::land, NavState::land)}) {
+    commander.offboard_loss_action = action;
+    EXPECT_EQ(choice(NavState::offboard, 100.0), mode);
+  }
 }
 
 TEST(Px4Modes, AcknowledgementsAreMavResults) {

@@ -4,6 +4,7 @@
 
 #include <cstring>
 
+#include "tests/sim/flight/bare_vehicle.hpp"
 #include "tests/sim/flight/px4_client.hpp"
 
 namespace gnbv {

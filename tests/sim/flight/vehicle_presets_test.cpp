@@ -5,25 +5,12 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
-#include "sim/flight/autopilot.hpp"
 #include "sim/flight/feed_forward.hpp"
-#include "sim/flight/vehicle.hpp"
+#include "tests/sim/flight/bare_vehicle.hpp"
 #include "tests/support/streaming_flight.hpp"
 
 namespace gnbv {
 namespace {
-
-World empty_world() {
-  World world;
-  world.has_ground = false;
-  return world;
-}
-
-RotorSpeeds all(double speed_rad_s) {
-  RotorSpeeds speeds{};
-  speeds.fill(speed_rad_s);
-  return speeds;
-}
 
 double thrust_to_weight(const VehicleConfig& vehicle) {
   const AirframeParameters& a = vehicle.airframe;
@@ -161,7 +148,7 @@ TEST(Presets, FullThrottleClimbsAtTheAxialLimit) {
        {std::pair("iris", 11.56), std::pair("iris_sitl_2019", 15.9)}) {
     const VehicleConfig vehicle = vehicle_preset(preset);
     RigidVehicle body(vehicle.airframe, empty_world(), VehicleState{}, all(1100.0));
-    for (int i = 0; i < 20 * kTicksPerSecond; ++i) body.step(all(1100.0));
+    step(body, all(1100.0), 20 * kTicksPerSecond);
     // 25 (1 - 1/TW) is a fixed point of the integration too; 20 s leave nothing of the approach
     EXPECT_NEAR(body.state().v_world_m_s.z(), 25.0 * (1.0 - 1.0 / thrust_to_weight(vehicle)), 1e-4);
     EXPECT_NEAR(body.state().v_world_m_s.z(), limit_m_s, 0.02) << "the sheet's digits";
