@@ -62,28 +62,14 @@ Part fan_blade(double turn_rad) {
 
 /// Horizontal cuts from inside the core up into the wing; y and z from the middle of the lip.
 Part pylon() {
-  struct Row {
-    double z_m, front_m, back_m, half_thickness_m;
-    std::size_t steps;
-  };
   constexpr std::size_t kPoints = 9;
-  constexpr std::array<Row, 6> kRows = {{{0.31, 1.62, 2.55, 0.100, 0},
-                                         {0.55, 1.35, 3.20, 0.115, 1},
-                                         {0.735, 0.72, 3.75, 0.120, 1},
-                                         {0.800, 0.95, 4.00, 0.120, 1},
-                                         {0.890, 1.75, 4.25, 0.115, 1},
-                                         {0.953, 2.72, 4.35, 0.100, 1}}};
-  const auto cut = [](const Row& row) {
-    return AerofoilSection{{0.0, row.front_m, row.z_m},
-                           {0.0, row.back_m, row.z_m},
-                           Vec3::UnitX(),
-                           row.half_thickness_m,
-                           0.0};
-  };
-  std::vector<Ring> rings = {aerofoil_ring(cut(kRows.front()), kPoints)};
-  for (std::size_t i = 1; i < kRows.size(); ++i)
-    add_span(rings, cut(kRows[i - 1]), cut(kRows[i]), kRows[i].steps, kPoints);
-  return loft(rings, {}, {}, uniform(kFairingGrey));
+  constexpr std::array<UprightRow, 6> kRows = {{{0.31, 1.62, 2.55, 0.100, 0},
+                                                {0.55, 1.35, 3.20, 0.115, 1},
+                                                {0.735, 0.72, 3.75, 0.120, 1},
+                                                {0.800, 0.95, 4.00, 0.120, 1},
+                                                {0.890, 1.75, 4.25, 0.115, 1},
+                                                {0.953, 2.72, 4.35, 0.100, 1}}};
+  return loft(upright_rings(kRows, kPoints), {}, {}, uniform(kFairingGrey));
 }
 
 std::uint16_t cowl_paint(std::size_t segment) {

@@ -1,7 +1,9 @@
 // The parts of the airliner. World axes: x to port, y aft, z up, at half scale.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "assets/mesh_builder.hpp"
@@ -28,6 +30,14 @@ enum Paint : std::uint16_t {
   kPaintCount
 };
 std::vector<Material> materials();
+
+/// A horizontal cut of a part that stands upright on the plane x = 0.
+struct UprightRow {
+  double z_m, front_y_m, back_y_m, half_thickness_m;
+  std::size_t steps;  // rings up to it from the row below
+};
+/// Its rings of 2 `points` points.
+std::vector<Ring> upright_rings(std::span<const UprightRow> rows, std::size_t points);
 
 // On the plane x = 0, each its own mirror image.
 Part fuselage();

@@ -68,20 +68,15 @@ constexpr std::array<Span, 4> kTailplane = {{
     {{5.21, 16.42, 17.325, 3.805, 0.020, 0.0, 6.2, 0.0}, 1},
 }};
 
-/// Horizontal cuts of the fin.
-struct FinRow {
-  double z_m, leading_y_m, trailing_y_m, half_thickness_m;
-  std::size_t steps;
-};
 constexpr std::size_t kFinPoints = 13;
-constexpr std::array<FinRow, 8> kFin = {{{3.42, 9.55, 15.70, 0.155, 0},
-                                         {3.93, 10.95, 15.93, 0.150, 1},
-                                         {4.16, 11.78, 16.03, 0.146, 1},
-                                         {4.45, 12.40, 16.16, 0.141, 1},
-                                         {4.85, 12.92, 16.335, 0.135, 1},
-                                         {7.83, 15.84, 17.61, 0.062, 10},
-                                         {8.02, 16.09, 17.675, 0.046, 1},
-                                         {8.09, 16.36, 17.69, 0.016, 1}}};
+constexpr std::array<UprightRow, 8> kFin = {{{3.42, 9.55, 15.70, 0.155, 0},
+                                             {3.93, 10.95, 15.93, 0.150, 1},
+                                             {4.16, 11.78, 16.03, 0.146, 1},
+                                             {4.45, 12.40, 16.16, 0.141, 1},
+                                             {4.85, 12.92, 16.335, 0.135, 1},
+                                             {7.83, 15.84, 17.61, 0.062, 10},
+                                             {8.02, 16.09, 17.675, 0.046, 1},
+                                             {8.09, 16.36, 17.69, 0.016, 1}}};
 
 /// A canoe of elliptic sections about the line from nose to tail; half sizes are of the fullest
 /// one.
@@ -118,6 +113,20 @@ WingRow wing_at(double x_m) {
 }
 
 }  // namespace
+
+std::vector<Ring> upright_rings(std::span<const UprightRow> rows, std::size_t points) {
+  const auto cut = [](const UprightRow& row) {
+    return AerofoilSection{{0.0, row.front_y_m, row.z_m},
+                           {0.0, row.back_y_m, row.z_m},
+                           Vec3::UnitX(),
+                           row.half_thickness_m,
+                           0.0};
+  };
+  std::vector<Ring> rings = {aerofoil_ring(cut(rows.front()), points)};
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    add_span(rings, cut(rows[i - 1]), cut(rows[i]), rows[i].steps, points);
+  return rings;
+}
 
 Part wing() {
   const std::vector<Ring> rings = wing_rings(kWing, kWingPoints);
@@ -163,16 +172,7 @@ Part tailplane() {
 }
 
 Part fin() {
-  const auto cut = [](const FinRow& row) {
-    return AerofoilSection{{0.0, row.leading_y_m, row.z_m},
-                           {0.0, row.trailing_y_m, row.z_m},
-                           Vec3::UnitX(),
-                           row.half_thickness_m,
-                           0.0};
-  };
-  std::vector<Ring> rings = {aerofoil_ring(cut(kFin.front()), kFinPoints)};
-  for (std::size_t i = 1; i < kFin.size(); ++i)
-    add_span(rings, cut(kFin[i - 1]), cut(kFin[i]), kFin[i].steps, kFinPoints);
+  std::vector<Ring> rings = upright_rings(kFin, kFinPoints);
   for (Ring& ring : rings)
     ring = mirror_ring(std::vector<Vec3>(ring.begin(), ring.begin() + kFinPoints + 1));
 

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "assets/lab_airplane_parts.hpp"
-#include "assets/lab_shapes.hpp"
 #include "assets/section_curves.hpp"
+#include "assets/solids.hpp"
 
 namespace gnbv::lab_airplane {
 namespace {
@@ -55,10 +55,6 @@ std::vector<Part> wheel(const Vec3& axle_m, double radius_m, double half_width_m
                           {0.6 * half_width_m, 0.65 * rim_m},
                           {0.45 * half_width_m, 0.0}},
                          16, uniform(kSpinner)))};
-}
-
-void append_all(std::vector<Part>& parts, const std::vector<Part>& more) {
-  parts.insert(parts.end(), more.begin(), more.end());
 }
 
 Part propeller_blade(double turn_rad) {
@@ -113,8 +109,8 @@ std::vector<Part> landing_gear() {
           10, kStrut),
       straight_rod({0.012, -1.372, nose_m.z()}, {0.057, -1.372, nose_m.z()}, 0.008, kStrut),
       straight_rod({0.026, -1.135, 0.345}, {0.019, -1.346, 0.178}, 0.006, kStrut)};
-  append_all(parts, wheel(main_m, kMainRadius_m, 0.026));
-  append_all(parts, wheel(nose_m, kNoseRadius_m, 0.015));
+  add(parts, wheel(main_m, kMainRadius_m, 0.026));
+  add(parts, wheel(nose_m, kNoseRadius_m, 0.015));
   // doors of the nose leg's bay, hanging
   Isometry T_world_door = Isometry::Identity();
   T_world_door.translate(Vec3(0.088, -1.27, 0.352));
@@ -134,11 +130,11 @@ std::vector<Part> fittings() {
                           0.0},
                          kPylonPoints);
   };
-  return {pipe({{{0.115, -1.580, 0.506}, 0.030},
-                {{0.172, -1.535, 0.500}, 0.030},
-                {{0.208, -1.455, 0.488}, 0.029},
-                {{0.222, -1.300, 0.474}, 0.028}},
-               14, 0.004, 0.10, kExhaust, kDuct),
+  return {open_rod({{{0.115, -1.580, 0.506}, 0.030},
+                    {{0.172, -1.535, 0.500}, 0.030},
+                    {{0.208, -1.455, 0.488}, 0.029},
+                    {{0.222, -1.300, 0.474}, 0.028}},
+                   14, 0.004, 0.10, kExhaust, kDuct),
           drop(tank_nose_m, 0.63, 0.052, 0.052, kTank),
           loft({pylon_cut(0.325, -0.45, -0.17), pylon_cut(0.368, -0.43, -0.14),
                 pylon_cut(0.404, -0.40, -0.10)},

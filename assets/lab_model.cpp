@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "assets/lab_shapes.hpp"
 #include "assets/mesh_builder.hpp"
+#include "assets/solids.hpp"
 
 namespace gnbv {
 namespace {
@@ -120,10 +120,10 @@ void add_tower(TriangleMesh& mesh) {
                                   turned(90.0 - flap.tilt_deg, Vec3::UnitY());
     append(mesh, box(T_world_flap, {0.009, flap.width_m, flap.length_m}, kCartonInside));
   }
-  append(mesh, pipe({{{-0.137, 0.061, 0.776}, 0.082},
-                     {{-0.181, 0.104, 1.131}, 0.082},
-                     {{-0.225, 0.147, 1.4848}, 0.082}},
-                    24, 0.013, 0.27, kRollPaper, kCartonInside));
+  append(mesh, open_rod({{{-0.137, 0.061, 0.776}, 0.082},
+                         {{-0.181, 0.104, 1.131}, 0.082},
+                         {{-0.225, 0.147, 1.4848}, 0.082}},
+                        24, 0.013, 0.27, kRollPaper, kCartonInside));
 }
 
 }  // namespace
@@ -141,8 +141,8 @@ TriangleMesh make_lab_model() {
                    {0.27, 0.031, 1.06}, kBoardPainted));
   append(mesh, arch(frame(0.4705, 0.033, kFloor_m, 6.0)));
   append(mesh, rod({{{0.525, 0.227, 0.556}, 0.014}, {{0.02, 0.186, 0.951}, 0.014}}, 10, kRodTape));
-  append(mesh, pipe({{{-0.548, -0.398, kFloor_m}, 0.1}, {{-0.548, -0.398, 0.523}, 0.1}}, 24, 0.009,
-                    0.183, kDrumSteel, kCartonInside));
+  append(mesh, open_rod({{{-0.548, -0.398, kFloor_m}, 0.1}, {{-0.548, -0.398, 0.523}, 0.1}}, 24,
+                        0.009, 0.183, kDrumSteel, kCartonInside));
   return mesh;
 }
 

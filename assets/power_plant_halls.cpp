@@ -49,12 +49,12 @@ std::vector<Part> annex() {
   std::vector<Part> parts = {
       prism(walls, (kEast_m - kWest_m) * Vec3::UnitX(), uniform(kBrickRed)),
       prism(roof, (kEast_m - kWest_m + 2.0 * kOverhang_m) * Vec3::UnitX(), uniform(kRoofing)),
-      box({-0.13, 0.67, -5.98, -5.36, 0.0, 0.34}, kConcrete),   // doorstep
-      box({-0.44, -0.07, -5.93, -5.33, 0.0, 0.17}, kConcrete),  // step
-      box({0.06, 0.52, -5.47, -5.34, 0.28, 1.27}, kDoorBlue)};
+      block({-0.13, 0.67, -5.98, -5.36, 0.0, 0.34}, kConcrete),   // doorstep
+      block({-0.44, -0.07, -5.93, -5.33, 0.0, 0.17}, kConcrete),  // step
+      block({0.06, 0.52, -5.47, -5.34, 0.28, 1.27}, kDoorBlue)};
   for (int i = 0; i < 3; ++i) {
     const double west_m = -6.91 + 2.17 * i;
-    parts.push_back(box({west_m, west_m + 1.68, -5.464, -5.36, 0.92, 1.54}, kGlass));
+    parts.push_back(block({west_m, west_m + 1.68, -5.464, -5.36, 0.92, 1.54}, kGlass));
   }
   return parts;
 }
@@ -74,17 +74,18 @@ std::vector<Part> turbine_hall() {
       prism(monitor, {7.8, 0.0, 0.0}, [](std::size_t, std::size_t side) -> std::uint16_t {
         return side == 2 || side == 3 ? kRoofing : kCladdingLight;
       }));
-  parts.push_back(box({-8.33, 1.87, -3.97, -0.03, 0.0, 0.42}, kConcrete));  // plinth
-  parts.push_back(box({-6.93, 0.49, -2.67, -1.33, 4.61, 4.98}, kGlass));    // of the monitor
+  parts.push_back(block({-8.33, 1.87, -3.97, -0.03, 0.0, 0.42}, kConcrete));  // plinth
+  parts.push_back(block({-6.93, 0.49, -2.67, -1.33, 4.61, 4.98}, kGlass));    // of the monitor
   for (int i = 0; i < 7; ++i) {
     const double x_m = -8.11 + 1.626 * i;
-    parts.push_back(box({x_m - 0.1, x_m + 0.1, -3.98, -3.79, 0.06, 3.87}, kBrickRed));  // pilaster
-    if (i < 6) parts.push_back(box({x_m + 0.29, x_m + 1.336, -3.907, -3.79, 2.72, 3.66}, kGlass));
+    parts.push_back(
+        block({x_m - 0.1, x_m + 0.1, -3.98, -3.79, 0.06, 3.87}, kBrickRed));  // pilaster
+    if (i < 6) parts.push_back(block({x_m + 0.29, x_m + 1.336, -3.907, -3.79, 2.72, 3.66}, kGlass));
   }
-  parts.push_back(box({-7.79, 1.21, -0.21, -0.088, 2.93, 3.62}, kGlass));      // over the alley
-  parts.push_back(box({-8.274, -8.12, -1.83, -0.47, 0.37, 2.04}, kDoorBlue));  // west gable
-  parts.push_back(box({-8.268, -8.12, -2.92, -1.08, 2.51, 3.98}, kGlass));
-  parts.push_back(box({1.68, 1.812, -2.92, -1.08, 2.28, 3.98}, kGlass));  // east gable
+  parts.push_back(block({-7.79, 1.21, -0.21, -0.088, 2.93, 3.62}, kGlass));      // over the alley
+  parts.push_back(block({-8.274, -8.12, -1.83, -0.47, 0.37, 2.04}, kDoorBlue));  // west gable
+  parts.push_back(block({-8.268, -8.12, -2.92, -1.08, 2.51, 3.98}, kGlass));
+  parts.push_back(block({1.68, 1.812, -2.92, -1.08, 2.28, 3.98}, kGlass));  // east gable
   add(parts, annex());
   return parts;
 }
@@ -94,11 +95,11 @@ std::vector<Part> control_building() {
   std::vector<Part> parts = {
       parapet_block({-7.83, -3.47, -7.93, -6.63, 0.0, 1.93}, 0.16, buff),
       parapet_block({-7.31, -5.12, -7.68, -6.88, 1.69, 2.68}, 0.14, buff),
-      box({-7.52, -4.63, -7.966, -7.84, 0.93, 1.49}, kGlass),
-      box({-4.31, -3.86, -7.972, -7.84, 0.0, 1.13}, kDoorBlue),
-      box({-4.46, -3.71, -8.04, -7.86, 1.22, 1.29}, kConcrete),  // canopy
-      box({-7.08, -5.34, -7.72, -7.58, 2.03, 2.41}, kGlass),
-      box({-4.77, -4.23, -7.41, -6.97, 1.71, 2.18}, kGalvanised)};  // air conditioning
+      block({-7.52, -4.63, -7.966, -7.84, 0.93, 1.49}, kGlass),
+      block({-4.31, -3.86, -7.972, -7.84, 0.0, 1.13}, kDoorBlue),
+      block({-4.46, -3.71, -8.04, -7.86, 1.22, 1.29}, kConcrete),  // canopy
+      block({-7.08, -5.34, -7.72, -7.58, 2.03, 2.41}, kGlass),
+      block({-4.77, -4.23, -7.41, -6.97, 1.71, 2.18}, kGalvanised)};  // air conditioning
   return parts;
 }
 

@@ -86,8 +86,9 @@ std::vector<Part> tank_farm() {
       domed_tank(high_m, 1.38, 4.27, 0.48, 13, kTankGreen, kTankWhite),
       domed_tank({2.88, -7.02, 0.0}, 0.78, 2.26, 0.39, 11, kTankWhite, kTankGreen),
       domed_tank({-0.67, -7.01, 0.0}, 0.87, 1.87, 0.34, 12, kTankWhite, kTankWhite),
-      pipe({{6.08, -6.62, 0.36}, {6.08, -7.62, 0.36}, {8.92, -7.62, 0.36}, {9.52, -6.87, 0.36}},
-           0.11, 6, kRustyPipe)};
+      bent_pipe(
+          {{6.08, -6.62, 0.36}, {6.08, -7.62, 0.36}, {8.92, -7.62, 0.36}, {9.52, -6.87, 0.36}},
+          0.11, 6, kRustyPipe)};
   add(parts, spiral_stairs(large_m, 1.66, 3.19));
   return parts;
 }
@@ -115,32 +116,32 @@ std::vector<Part> pipe_rack() {
 
   // what the tanks send to the houses: x, y and z from south to north, then west
   const double low_m = kLow_m + 0.06, high_m = kHigh_m + 0.06;
-  parts.push_back(pipe({{2.88, -6.63, low_m + 0.12},
-                        {3.12, -5.93, low_m + 0.12},
-                        {3.12, 0.31, low_m + 0.12},
-                        {-2.58, 0.31, low_m + 0.12},
-                        {-2.58, -0.23, low_m + 0.12}},
-                       0.13, 6, kRustyPipe));
-  parts.push_back(pipe(eased({{4.97, -5.92, low_m + 0.15},
-                              {3.52, -5.92, low_m + 0.15},
-                              {3.52, 0.78, low_m + 0.15},
-                              {-3.47, 0.78, low_m + 0.15},
-                              {-3.47, 1.41, low_m + 0.15}},
-                             0.2),
-                       0.16, 6, kInsulatedPipe));
-  parts.push_back(pipe({{6.93, -2.13, 1.14},
-                        {6.93, -2.13, high_m + 0.07},
-                        {3.07, -2.13, high_m + 0.07},
-                        {3.07, 0.46, high_m + 0.07},
-                        {1.07, 0.46, high_m + 0.07},
-                        {1.07, -0.22, high_m + 0.07}},
-                       0.07, 5, kGasYellow));
-  parts.push_back(pipe({{4.94, -5.53, high_m + 0.1},
-                        {3.56, -5.53, high_m + 0.1},
-                        {3.56, 1.62, high_m + 0.1},
-                        {3.56, 1.62, 4.37},
-                        {1.98, 1.62, 4.37}},
-                       0.1, 6, kTankGreen));
+  parts.push_back(bent_pipe({{2.88, -6.63, low_m + 0.12},
+                             {3.12, -5.93, low_m + 0.12},
+                             {3.12, 0.31, low_m + 0.12},
+                             {-2.58, 0.31, low_m + 0.12},
+                             {-2.58, -0.23, low_m + 0.12}},
+                            0.13, 6, kRustyPipe));
+  parts.push_back(bent_pipe(eased({{4.97, -5.92, low_m + 0.15},
+                                   {3.52, -5.92, low_m + 0.15},
+                                   {3.52, 0.78, low_m + 0.15},
+                                   {-3.47, 0.78, low_m + 0.15},
+                                   {-3.47, 1.41, low_m + 0.15}},
+                                  0.2),
+                            0.16, 6, kInsulatedPipe));
+  parts.push_back(bent_pipe({{6.93, -2.13, 1.14},
+                             {6.93, -2.13, high_m + 0.07},
+                             {3.07, -2.13, high_m + 0.07},
+                             {3.07, 0.46, high_m + 0.07},
+                             {1.07, 0.46, high_m + 0.07},
+                             {1.07, -0.22, high_m + 0.07}},
+                            0.07, 5, kGasYellow));
+  parts.push_back(bent_pipe({{4.94, -5.53, high_m + 0.1},
+                             {3.56, -5.53, high_m + 0.1},
+                             {3.56, 1.62, high_m + 0.1},
+                             {3.56, 1.62, 4.37},
+                             {1.98, 1.62, 4.37}},
+                            0.1, 6, kTankGreen));
   return parts;
 }
 

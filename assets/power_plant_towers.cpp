@@ -41,9 +41,9 @@ std::vector<Part> tower_legs() {
   for (int i = 0; i < kPairs; ++i)
     for (const double lean : {-0.32, 0.32})
       parts.push_back(
-          translated(pipe({on_circle(kFootRadius_m, (i + 0.25 * lean) / kPairs, kFootHeight_m),
-                           on_circle(head_radius_m, (i + lean) / kPairs, kHeadHeight_m)},
-                          0.085, 3, kConcrete),
+          translated(bent_pipe({on_circle(kFootRadius_m, (i + 0.25 * lean) / kPairs, kFootHeight_m),
+                                on_circle(head_radius_m, (i + lean) / kPairs, kHeadHeight_m)},
+                               0.085, 3, kConcrete),
                      kTowerFoot_m));
   return parts;
 }

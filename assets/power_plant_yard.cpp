@@ -12,13 +12,13 @@ namespace {
 std::vector<Part> transformer(double y_m, double wall_x_m) {
   constexpr double kWest_m = -11.38, kEast_m = -9.97, kTop_m = 1.57;
   std::vector<Part> parts = {
-      box({-11.79, -9.58, y_m - 0.94, y_m + 0.94, 0.0, 0.23}, kConcrete),
-      box({kWest_m, kEast_m, y_m - 0.44, y_m + 0.44, 0.17, kTop_m}, kTransformerGreen),
+      block({-11.79, -9.58, y_m - 0.94, y_m + 0.94, 0.0, 0.23}, kConcrete),
+      block({kWest_m, kEast_m, y_m - 0.44, y_m + 0.44, 0.17, kTop_m}, kTransformerGreen),
       beam({-10.21, y_m, 1.41}, {wall_x_m + 0.09, y_m, 1.41}, 0.31, 0.26, kInsulatedPipe)};
   for (int i = 0; i < 3; ++i) {
     const double x_m = -11.13 + 0.45 * i;
     parts.push_back(
-        box({x_m - 0.09, x_m + 0.09, y_m - 0.71, y_m + 0.71, 0.43, 1.38}, kTransformerGreen));
+        block({x_m - 0.09, x_m + 0.09, y_m - 0.71, y_m + 0.71, 0.43, 1.38}, kTransformerGreen));
   }
   const std::vector<ProfilePoint> bushing = {{0.0, 0.0}, {0.0, 0.095}, {0.61, 0.045}, {0.64, 0.0}};
   for (const double x_m : {-11.16, -10.83, -10.5})
@@ -43,7 +43,7 @@ std::vector<Part> line_gantry() {
   parts.push_back(beam({kX_m, -7.27, kTop_m}, {kX_m, -0.63, kTop_m}, 0.17, 0.17, kGalvanised));
   for (const double y_m : {-5.78, -3.93, -2.09})
     parts.push_back(
-        pipe({{kX_m, y_m, kTop_m - 0.84}, {kX_m, y_m, kTop_m - 0.04}}, 0.07, 4, kCeramic));
+        bent_pipe({{kX_m, y_m, kTop_m - 0.84}, {kX_m, y_m, kTop_m - 0.04}}, 0.07, 4, kCeramic));
   return parts;
 }
 
@@ -78,7 +78,7 @@ std::vector<Part> ash_silo(const Vec3& foot_m) {
                                      foot_m)};
   for (const double x : {-1.0, 1.0})
     for (const double y : {-1.0, 1.0})
-      parts.push_back(pipe(
+      parts.push_back(bent_pipe(
           {foot_m + Vec3(x * kLeg_m, y * kLeg_m, 0.0), foot_m + Vec3(x * kLeg_m, y * kLeg_m, 1.67)},
           0.09, 3, kConcrete));
   return parts;
@@ -117,7 +117,7 @@ std::vector<Part> conveyor() {
 std::vector<Part> transformer_yard() {
   std::vector<Part> parts = transformer(-2.23, -8.23);
   add(parts, transformer(-5.07, -7.43));
-  parts.push_back(box({-11.63, -9.37, -3.76, -3.57, 0.0, 2.42}, kConcrete));  // fire wall
+  parts.push_back(block({-11.63, -9.37, -3.76, -3.57, 0.0, 2.42}, kConcrete));  // fire wall
   add(parts, line_gantry());
   return parts;
 }
@@ -126,15 +126,15 @@ std::vector<Part> coal_handling() {
   std::vector<Part> parts = {
       coal_heap(),
       parapet_block({10.58, 12.23, 5.43, 7.19, 0.0, 2.57}, 0.13, {kBrickBuff, kConcrete, kRoofing}),
-      box({11.03, 11.79, 5.388, 5.52, 0.0, 1.27}, kDoorBlue),
-      box({12.14, 12.272, 5.92, 6.71, 1.27, 1.93}, kGlass)};
+      block({11.03, 11.79, 5.388, 5.52, 0.0, 1.27}, kDoorBlue),
+      block({12.14, 12.272, 5.92, 6.71, 1.27, 1.93}, kGlass)};
   add(parts, conveyor());
   add(parts, ash_silo({11.42, -2.41, 0.0}));
   add(parts, ash_silo({11.42, -0.38, 0.0}));
   // ash comes over from the precipitator
   parts.push_back(
-      pipe({{6.17, 2.37, 0.97}, {7.42, 1.08, 0.97}, {11.42, 1.08, 0.97}, {11.42, -0.38, 0.97}},
-           0.08, 4, kRustyPipe));
+      bent_pipe({{6.17, 2.37, 0.97}, {7.42, 1.08, 0.97}, {11.42, 1.08, 0.97}, {11.42, -0.38, 0.97}},
+                0.08, 4, kRustyPipe));
   return parts;
 }
 

@@ -48,9 +48,48 @@ std::vector<Vec3> raised(std::vector<Vec3> line_m, double by_m) {
   return line_m;
 }
 
+Ring rectangle(const Isometry& T_world_box, double x_m, double y_m, double z_m) {
+  Ring ring;
+  for (const auto& [side_x, side_y] :
+       {std::array{-0.5, -0.5}, std::array{0.5, -0.5}, std::array{0.5, 0.5}, std::array{-0.5, 0.5}})
+    ring.emplace_back(T_world_box * Vec3(side_x * x_m, side_y * y_m, z_m));
+  return ring;
+}
+
+/// Direction of the path at point i: the mean of its segments.
+Vec3 tangent(const std::vector<TubePoint>& path, std::size_t i) {
+  Vec3 sum = Vec3::Zero();
+  if (i > 0) sum += (path[i].centre_m - path[i - 1].centre_m).normalized();
+  if (i + 1 < path.size()) sum += (path[i + 1].centre_m - path[i].centre_m).normalized();
+  return sum.normalized();
+}
+
+/// Circles across the mean direction of the path at each of its points.
+std::vector<Ring> tube_rings(const std::vector<TubePoint>& path, std::size_t sides) {
+  GNBV_CHECK(path.size() >= 2 && sides >= 3, "a tube of {} points and {} sides", path.size(),
+             sides);
+  const Vec3 along = tangent(path, 0);
+  Vec3 across = along.cross(std::abs(along.x()) < 0.9 ? Vec3::UnitX() : Vec3::UnitY()).normalized();
+  std::vector<Ring> rings;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    // Parallel transport: the rings do not twist against each other.
+    const Vec3 direction = tangent(path, i);
+    across = (across - across.dot(direction) * direction).normalized();
+    const Vec3 third = direction.cross(across);
+    Ring ring;
+    for (std::size_t k = 0; k < sides; ++k) {
+      const double turn_rad = 2.0 * kPi * static_cast<double>(k) / static_cast<double>(sides);
+      ring.emplace_back(path[i].centre_m + path[i].radius_m * (std::cos(turn_rad) * across +
+                                                               std::sin(turn_rad) * third));
+    }
+    rings.push_back(ring);
+  }
+  return rings;
+}
+
 }  // namespace
 
-Part box(const Extent& e, std::uint16_t paint) {
+Part block(const Extent& e, std::uint16_t paint) {
   return loft({rectangle(e, 0.0, e.z0_m), rectangle(e, 0.0, e.z1_m)}, {}, {}, uniform(paint));
 }
 
@@ -61,6 +100,45 @@ Part parapet_block(const Extent& e, double parapet_height_m, const ParapetPaint&
       {rectangle(e, 0.0, e.z0_m), rectangle(e, 0.0, e.z1_m), rectangle(e, kThickness_m, e.z1_m),
        rectangle(e, kThickness_m, e.z1_m - parapet_height_m)},
       {}, {}, [&](std::size_t ring, std::size_t) { return by_ring[ring]; });
+}
+
+Part box(const Isometry& T_world_box, const Vec3& size_m, std::uint16_t material) {
+  return loft({rectangle(T_world_box, size_m.x(), size_m.y(), 0.0),
+               rectangle(T_world_box, size_m.x(), size_m.y(), size_m.z())},
+              {}, {}, uniform(material));
+}
+
+Part open_box(const Isometry& T_world_box, const Vec3& size_m, double wall_m, double depth_m,
+              std::uint16_t material, std::uint16_t inside) {
+  const double x_m = size_m.x(), y_m = size_m.y(), z_m = size_m.z();
+  const double pit_x_m = x_m - 2.0 * wall_m, pit_y_m = y_m - 2.0 * wall_m;
+  return loft({rectangle(T_world_box, x_m, y_m, 0.0), rectangle(T_world_box, x_m, y_m, z_m),
+               rectangle(T_world_box, pit_x_m, pit_y_m, z_m),
+               rectangle(T_world_box, pit_x_m, pit_y_m, z_m - depth_m)},
+              {}, {}, [=](std::size_t ring, std::size_t) { return ring < 2 ? material : inside; });
+}
+
+Part rod(const std::vector<TubePoint>& path, std::size_t sides, std::uint16_t material) {
+  return loft(tube_rings(path, sides), {path.front().centre_m}, {path.back().centre_m},
+              uniform(material));
+}
+
+Part open_rod(const std::vector<TubePoint>& path, std::size_t sides, double wall_m, double depth_m,
+              std::uint16_t material, std::uint16_t inside) {
+  std::vector<Ring> rings = tube_rings(path, sides);
+  const std::size_t rim = rings.size() - 1;
+  const TubePoint& end = path.back();
+  const Vec3 floor_m = end.centre_m - depth_m * tangent(path, rim);
+  Ring mouth, bottom;
+  for (const Vec3& p : rings[rim]) {
+    const Vec3 arm_m = (1.0 - wall_m / end.radius_m) * (p - end.centre_m);
+    mouth.emplace_back(end.centre_m + arm_m);
+    bottom.emplace_back(floor_m + arm_m);
+  }
+  rings.push_back(mouth);
+  rings.push_back(bottom);
+  return loft(rings, {path.front().centre_m}, {floor_m},
+              [=](std::size_t ring, std::size_t) { return ring <= rim ? material : inside; });
 }
 
 Part prism(const Ring& outline, const Vec3& along_m, const Painter& painter) {
@@ -98,8 +176,8 @@ Part bent_beam(const std::vector<Vec3>& line_m, double width_m, double height_m,
   return swept({at - a - b, at + a - b, at + a + b, at - a + b}, line_m, paint);
 }
 
-Part pipe(const std::vector<Vec3>& line_m, double radius_m, std::size_t sides,
-          std::uint16_t paint) {
+Part bent_pipe(const std::vector<Vec3>& line_m, double radius_m, std::size_t sides,
+               std::uint16_t paint) {
   const auto [side, up] = across(line_m.at(0), line_m.at(1));
   Ring ring;
   for (std::size_t k = 0; k < sides; ++k) {
@@ -125,8 +203,8 @@ std::vector<Part> railing(const std::vector<Vec3>& line_m, double height_m, std:
   constexpr double kPost_m = 0.034, kRail_m = 0.026, kPostSpacing_m = 1.46, kFoot_m = 0.04;
   std::vector<Part> parts;
   const auto add_post = [&](const Vec3& at_m) {
-    parts.push_back(
-        pipe({at_m - kFoot_m * Vec3::UnitZ(), at_m + height_m * Vec3::UnitZ()}, kPost_m, 3, paint));
+    parts.push_back(bent_pipe({at_m - kFoot_m * Vec3::UnitZ(), at_m + height_m * Vec3::UnitZ()},
+                              kPost_m, 3, paint));
   };
   for (std::size_t i = 0; i + 1 < line_m.size(); ++i) {
     const Vec3 way_m = line_m[i + 1] - line_m[i];
@@ -134,7 +212,7 @@ std::vector<Part> railing(const std::vector<Vec3>& line_m, double height_m, std:
     for (int k = 0; k < bays; ++k) add_post(line_m[i] + way_m * k / bays);
   }
   if (line_m.front() != line_m.back()) add_post(line_m.back());
-  parts.push_back(pipe(raised(line_m, height_m), kRail_m, 3, paint));
+  parts.push_back(bent_pipe(raised(line_m, height_m), kRail_m, 3, paint));
   return parts;
 }
 

@@ -8,16 +8,36 @@
 
 namespace gnbv {
 
+/// Along the axes.
 struct Extent {
   double x0_m, x1_m, y0_m, y1_m, z0_m, z1_m;
 };
-Part box(const Extent& extent, std::uint16_t paint);
+Part block(const Extent& extent, std::uint16_t paint);
 
 /// A block whose flat roof lies behind a parapet: `extent` reaches up to the coping.
 struct ParapetPaint {
   std::uint16_t wall, coping, roof;
 };
 Part parapet_block(const Extent& extent, double parapet_height_m, const ParapetPaint& paint);
+
+/// Box of `size_m` in any attitude, whose bottom's middle is the frame's origin.
+Part box(const Isometry& T_world_box, const Vec3& size_m, std::uint16_t material);
+
+/// The same with a pit of `depth_m` from the top, walls of `wall_m`, a floor of another material.
+Part open_box(const Isometry& T_world_box, const Vec3& size_m, double wall_m, double depth_m,
+              std::uint16_t material, std::uint16_t inside);
+
+struct TubePoint {
+  Vec3 centre_m;
+  double radius_m = 0.0;
+};
+
+/// Circles across the mean direction of the path at each of its points, at least two; ends flat.
+Part rod(const std::vector<TubePoint>& path, std::size_t sides, std::uint16_t material);
+
+/// A rod whose last end is open: a bore of `depth_m` that leaves `wall_m`.
+Part open_rod(const std::vector<TubePoint>& path, std::size_t sides, double wall_m, double depth_m,
+              std::uint16_t material, std::uint16_t inside);
 
 /// The outline moved along: painted by side of the outline, its ends as side 0. An outline that is
 /// not convex has to suit the zipper of a Cap.
@@ -38,7 +58,8 @@ Part post(const Vec3& foot_m, const Vec3& head_m, double width_m, std::uint16_t 
 /// A bar of the same section along a line of at least two points, mitred at its corners.
 Part bent_beam(const std::vector<Vec3>& line_m, double width_m, double height_m,
                std::uint16_t paint);
-Part pipe(const std::vector<Vec3>& line_m, double radius_m, std::size_t sides, std::uint16_t paint);
+Part bent_pipe(const std::vector<Vec3>& line_m, double radius_m, std::size_t sides,
+               std::uint16_t paint);
 
 /// The line with each inner corner cut off `cut_m` before and after it: a bend of two mitres.
 std::vector<Vec3> eased(const std::vector<Vec3>& line_m, double cut_m);
