@@ -182,7 +182,7 @@ std::string number_text(const Field& field, double value) {
 }
 
 /// Plain where every YAML reader sees the same text in it, else in double quotes.
-std::string quoted_text(const std::string& text) {
+std::string plain_or_quoted(const std::string& text) {
   // yes, no, on and off are bools of YAML 1.1; whatever starts with a digit may become a number
   static constexpr std::array<std::string_view, 10> kBools = {
       "y", "n", "yes", "no", "on", "off", "true", "false", "null", "nan"};
@@ -230,8 +230,8 @@ std::string yaml_text(const Field& field, const FieldValue& value) {
                              number_text(field, v->z()));
         } else if constexpr (std::is_same_v<T, std::string>) {
           const bool is_relative = field.kind == FieldKind::path && !v->empty();
-          return quoted_text(is_relative ? std::filesystem::absolute(*v).lexically_normal().string()
-                                         : *v);
+          return plain_or_quoted(
+              is_relative ? std::filesystem::absolute(*v).lexically_normal().string() : *v);
         } else {
           return fmt::format("{}", *v);
         }

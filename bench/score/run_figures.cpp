@@ -4,8 +4,6 @@
 #include "sim/core/error.hpp"
 
 namespace gnbv {
-namespace {
-
 double effort_at(const CoverageCurve& curve, Effort effort, std::size_t entry) {
   switch (effort) {
     case Effort::views:
@@ -17,8 +15,6 @@ double effort_at(const CoverageCurve& curve, Effort effort, std::size_t entry) {
   }
   GNBV_CHECK(false, "effort {}", static_cast<int>(effort));
 }
-
-}  // namespace
 
 double area_under_coverage(const CoverageCurve& curve, Effort effort, std::size_t size,
                            double budget) {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ctime>
 
 #include "assets/aircraft.hpp"
 #include "bench/reference/pcl_twin.hpp"
+#include "bench/speed/measure.hpp"
 #include "planner/map/surface_cloud.hpp"
 #include "sensors/capture.hpp"
 
@@ -17,27 +17,6 @@ constexpr double kFloor_m = 0.3;
 constexpr int kViewsBefore = 90;  // 1.4 million points, as halfway through the paper's mission
 constexpr int kViewsTimed = 15;
 const Box3 kWorkspace_m(Vec3(-20, -20, 0), Vec3(20, 20, 20));
-
-double thread_time_ms() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-/// The paper's pair: one camera looks down by 20 degrees, the other up.
-std::array<CameraModel, 2> camera_pair() {
-  CameraConfig config;
-  config.pitch_rad = deg_to_rad(20.0);
-  const CameraModel down = make_camera_model(config);
-  config.pitch_rad = -config.pitch_rad;
-  return {down, make_camera_model(config)};
-}
 
 /// Views all over the structure, a few metres off its faces and towards them.
 class Views {

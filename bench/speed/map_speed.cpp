@@ -1,13 +1,11 @@
 #include "bench/speed/map_speed.hpp"
 
-#include <time.h>
-
-#include <algorithm>
 #include <bit>
 #include <cmath>
 
 #include "bench/reference/analytic_scans.hpp"
 #include "bench/reference/octomap_twin.hpp"
+#include "bench/speed/measure.hpp"
 #include "planner/map/scan_insertion.hpp"
 #include "sim/core/simd.hpp"
 
@@ -18,23 +16,11 @@ constexpr double kFloor_m = 0.3;
 constexpr double kNoFloor_m = -1e9;
 const Box3 kWorkspace_m(Vec3(-20, -20, 0), Vec3(20, 20, 20));
 
-double thread_time_ms() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
-}
-
 template <typename Task>
 double time_ms(Task&& task) {
   const double start_ms = thread_time_ms();
   task();
   return thread_time_ms() - start_ms;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Ours at one SIMD level: a map of the frames, and one of the same frames with all rays hits.

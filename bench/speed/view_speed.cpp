@@ -1,14 +1,14 @@
 #include "bench/speed/view_speed.hpp"
 
-#include <time.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "bench/reference/analytic_scans.hpp"
 #include "bench/reference/paper_view_twin.hpp"
+#include "bench/speed/measure.hpp"
 #include "planner/map/scan_insertion.hpp"
 #include "planner/utility.hpp"
+#include "planner/view/visibility.hpp"
 #include "sim/core/rng.hpp"
 #include "sim/core/simd.hpp"
 
@@ -23,29 +23,6 @@ const Box3 kWorkspace_m(Vec3(-20, -20, 0), Vec3(20, 20, 20));
 
 double draw(std::uint64_t frame, std::uint64_t index) {
   return uniform01({7, Stream::bench, frame, index});
-}
-
-double thread_cpu_s() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                   values.end());
-  return values[values.size() / 2];
-}
-
-/// The paper's pair: one camera looks 20 degrees up, one down.
-std::vector<CameraModel> camera_pair() {
-  std::vector<CameraModel> cameras;
-  for (const double pitch_deg : {20.0, -20.0}) {
-    CameraConfig config;
-    config.pitch_rad = deg_to_rad(pitch_deg);
-    cameras.push_back(make_camera_model(config));
-  }
-  return cameras;
 }
 
 /// A mission half done: map and cloud of frames on a circle that leaves a third of it unseen.
@@ -66,7 +43,7 @@ void integrate(const DepthFrame& frame, const CameraModel& camera, ScanInserter&
   belief.shadow.add(columns, belief.grid);
 }
 
-BenchBelief make_belief(const std::vector<CameraModel>& cameras) {
+BenchBelief make_belief(std::span<const CameraModel> cameras) {
   BenchBelief belief;
   ScanInserter inserter(belief.grid.geometry());
   for (int i = 0; i < kFrames; ++i) {
@@ -104,9 +81,9 @@ double median_us(const std::vector<ViewPose>& candidates, int rounds, Work&& wor
   for (int round = 0; round < rounds; ++round) {
     std::vector<double> times_us;
     for (const ViewPose& candidate : candidates) {
-      const double before_s = thread_cpu_s();
+      const double before_ms = thread_time_ms();
       work(candidate);
-      times_us.push_back(1e6 * (thread_cpu_s() - before_s));
+      times_us.push_back(1e3 * (thread_time_ms() - before_ms));
     }
     best_us = std::min(best_us, median(times_us));
   }
@@ -186,7 +163,7 @@ class ViewBench {
     return static_cast<double>(difference) <= 1e-5 * static_cast<double>(voxels);
   }
 
-  std::vector<CameraModel> cameras_ = camera_pair();
+  std::array<CameraModel, 2> cameras_ = camera_pair();
   BenchBelief belief_ = make_belief(cameras_);
   ViewRays rays_ = make_view_rays(cameras_, belief_.grid.geometry().resolution_m());
   std::vector<ViewPose> candidates_ = make_candidates();

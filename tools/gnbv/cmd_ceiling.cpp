@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
-#include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "bench/limits/ceiling.hpp"
 #include "bench/score/voxel_set.hpp"
+#include "sim/core/stopwatch.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/start_pose.hpp"
@@ -62,7 +62,7 @@ std::string terminal_text(const Ceiling& ceiling, double wall_s) {
 }
 
 void ceiling(const CeilingOptions& options) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const Scenario scenario = resolve_scenario(options);
   const int threads = thread_count(options.threads);
   std::vector<std::string> warnings;
@@ -73,8 +73,7 @@ void ceiling(const CeilingOptions& options) {
   progress.show(0.0, "looking from every legal viewpoint");
   const Ceiling found = find_ceiling(scenario, world, scene, start_pose(scenario, scene), threads);
   progress.show(1.0, "done");
-  const double wall_s =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const double wall_s = watch.elapsed_s();
   fmt::print("{}",
              options.json ? json_text(scenario, found, wall_s) : terminal_text(found, wall_s));
 }

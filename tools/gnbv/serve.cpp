@@ -1,21 +1,16 @@
 #include "tools/gnbv/serve.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
+
+#include "sim/core/stopwatch.hpp"
 
 namespace gnbv {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// Datagrams a turn, so that a flood cannot stop the simulation.
 constexpr int kDatagramsPerTurn = 256;
-
-double seconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 void hear(mavlink::Endpoint& endpoint, mavlink::UdpSocket& socket, Quadrotor& vehicle,
           double now_s) {
@@ -66,7 +61,7 @@ bool Pace::give_up_lag(std::int64_t tick, double now_s) {
 
 ServeResult serve(Quadrotor& vehicle, mavlink::Endpoint& endpoint, mavlink::UdpSocket& socket,
                   const ServeOptions& options) {
-  const Clock::time_point begin = Clock::now();
+  const Stopwatch watch;
   const std::int64_t last_tick = last_tick_of(options.duration_s);
   Pace pace(options.speed);
   bool has_lagged = false;
@@ -76,21 +71,21 @@ ServeResult serve(Quadrotor& vehicle, mavlink::Endpoint& endpoint, mavlink::UdpS
     return std::nullopt;
   };
   while (!options.should_stop()) {
-    socket.wait(std::min(pace.due_s(vehicle.tick() + 1) - seconds_since(begin), kTurn_s));
-    const double now_s = seconds_since(begin);
+    socket.wait(std::min(pace.due_s(vehicle.tick() + 1) - watch.elapsed_s(), kTurn_s));
+    const double now_s = watch.elapsed_s();
     hear(endpoint, socket, vehicle, now_s);
     const std::int64_t turn_end = pace.turn_end(vehicle.tick(), now_s);
-    while (!end() && vehicle.tick() < turn_end && seconds_since(begin) < now_s + kTurn_s) {
+    while (!end() && vehicle.tick() < turn_end && watch.elapsed_s() < now_s + kTurn_s) {
       vehicle.step();
     }
     speak(endpoint, socket, vehicle, now_s);
-    if (end()) return {*end(), seconds_since(begin)};
+    if (end()) return {*end(), watch.elapsed_s()};
     if (pace.give_up_lag(vehicle.tick(), now_s) && !has_lagged) {
       has_lagged = true;
       options.on_lag();
     }
   }
-  return {ServeEnd::stopped, seconds_since(begin)};
+  return {ServeEnd::stopped, watch.elapsed_s()};
 }
 
 }  // namespace gnbv

@@ -1,6 +1,5 @@
 #include "tools/mission/execute.hpp"
 
-#include <chrono>
 #include <optional>
 #include <thread>
 
@@ -9,6 +8,7 @@
 #include "planner/symmetry/symmetry_module.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/shell_word.hpp"
+#include "sim/core/stopwatch.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/mission.hpp"
 #include "tools/mission/start_pose.hpp"
@@ -23,11 +23,6 @@ namespace gnbv {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 /// Memory that grows with the threads is not in the scenario's own budget.
 void need_memory_for(const Scenario& scenario, int threads) {
@@ -89,7 +84,7 @@ fs::path free_folder(const std::string& name) {
 }
 
 ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& options) {
-  const auto begin = Clock::now();
+  const Stopwatch watch;
   if (options.resume && options.out.empty()) {
     throw BadInput("--resume: needs --out, the run directory to continue");
   }
@@ -128,16 +123,16 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
       hooks.on_candidates = [&](const auto&... all) { candidates->write(all...); };
     }
     MissionResult result = run_mission(scenario, world, scene, hooks, threads);
-    const auto scoring = Clock::now();
+    const Stopwatch scoring;
     progress.show(1.0, "scoring");
     const SurfaceReference reference =
         cached_surface_reference(world, scene, {.floor_z_m = scenario.planner.floor_z_m}, threads);
     const MissionScore score = score_cloud(reference, scene, scored_cloud(result),
                                            scenario.planner.map.resolution_m, threads);
-    result.wall.score_s = seconds_since(scoring);
-    directory.finish(scenario, result, score, seconds_since(begin));
+    result.wall.score_s = scoring.elapsed_s();
+    directory.finish(scenario, result, score, watch.elapsed_s());
     if (candidates) candidates->finish();
-    return {directory.path(), std::move(result), score, seconds_since(begin)};
+    return {directory.path(), std::move(result), score, watch.elapsed_s()};
   } catch (const BrokenInvariant& broken) {
     throw BrokenInvariant(fmt::format("{}\nreplay with: gnbv run {} --out REPLAY", broken.what(),
                                       shell_word((directory.path() / "scenario.yaml").string())));

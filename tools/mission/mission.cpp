@@ -20,7 +20,7 @@ DepthFrame depth_frame(const Mission& m, std::size_t camera) {
 /// Flies to the view; cameras that run in flight are believed on the way. A frame is believed one
 /// tick late, so that one due on arrival is left to the view itself.
 std::optional<Termination> fly_to_view(Mission& m, const Decision& next) {
-  const Stopwatch watch(m.view_wall.fly_s);
+  const ScopeTimer timer(m.view_wall.fly_s);
   m.entropy_before_nat = m.out.belief.grid.total_entropy_nat();
   m.out.distance.straight_m +=
       path_length_m(m.current.p_world_m, next.via_world_m, next.view.p_world_m);
@@ -46,7 +46,7 @@ std::optional<Termination> fly_to_view(Mission& m, const Decision& next) {
 }
 
 std::vector<DepthFrame> sense(Mission& m) {
-  const Stopwatch watch(m.view_wall.sense_s);
+  const ScopeTimer timer(m.view_wall.sense_s);
   std::vector<DepthFrame> frames;
   for (std::size_t i = 0; i < m.planner.cameras.size(); ++i) frames.push_back(depth_frame(m, i));
   if (!m.hooks.on_frames) return frames;
@@ -60,7 +60,7 @@ std::vector<DepthFrame> sense(Mission& m) {
 }
 
 void integrate(Mission& m, std::span<const DepthFrame> frames) {
-  const Stopwatch watch(m.view_wall.map_s);
+  const ScopeTimer timer(m.view_wall.map_s);
   integrate_view(m.planner, frames, m.bench, m.out.belief);
   remember_entropy(m.out.belief, m.entropy_before_nat, m.history);
 }
@@ -108,7 +108,7 @@ std::optional<Termination> termination(const Mission& m) {
 }
 
 std::optional<Decision> decide(Mission& m) {
-  const Stopwatch watch(m.view_wall.plan_s);
+  const ScopeTimer timer(m.view_wall.plan_s);
   const std::size_t next = m.history.decisions.size();
   if (next < m.hooks.replay.size()) return m.hooks.replay[next];
   if (m.hooks.route) return m.hooks.route->at(next - 1);  // decision 0 is the start

@@ -1,7 +1,6 @@
 // What the stages of a mission share: its state, and how a leg is flown. For tools/mission/ only.
 #pragma once
 
-#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -9,24 +8,11 @@
 #include "planner/history.hpp"
 #include "planner/model.hpp"
 #include "planner/workbench.hpp"
+#include "sim/core/stopwatch.hpp"
 #include "sim/flight/flight.hpp"
 #include "tools/mission/mission.hpp"
 
 namespace gnbv {
-
-/// Adds the wall time of its scope to a counter.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& total_s) : total_s_(total_s), begin_(Clock::now()) {}
-  ~Stopwatch() { total_s_ += std::chrono::duration<double>(Clock::now() - begin_).count(); }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  using Clock = std::chrono::steady_clock;
-  double& total_s_;
-  Clock::time_point begin_;
-};
 
 /// All that changes while the mission runs, beside what never does.
 struct Mission {

@@ -37,7 +37,7 @@ std::optional<Termination> scan_profile(Mission& m, ProfileScanner& scanner) {
 
 /// Flies and believes the profile, or takes up a saved one.
 std::optional<Termination> take_profile(Mission& m) {
-  const Stopwatch watch(m.out.wall.profile_s);
+  const ScopeTimer timer(m.out.wall.profile_s);
   const ProfilingConfig& profiling = m.planner.config.profiling;
   std::optional<Termination> over;
   if (profiling.method == ProfilingMethod::saved) {
@@ -58,7 +58,7 @@ std::optional<Termination> take_profile(Mission& m) {
 
 /// Predicts the other half of a symmetric structure (section 2.3).
 void predict(Mission& m) {
-  const Stopwatch watch(m.out.wall.symmetry_s);
+  const ScopeTimer timer(m.out.wall.symmetry_s);
   Prediction& prediction = m.out.prediction;
   prediction.symmetry =
       find_symmetry(m.planner.config.symmetry, m.out.profile_points_world_m, m.out.belief.grid);
@@ -68,7 +68,7 @@ void predict(Mission& m) {
 
 /// Back to where the views begin: straight when that is clear, else over the top of the workspace.
 std::optional<Termination> fly_to_first_view(Mission& m) {
-  const Stopwatch watch(m.out.wall.fly_s);
+  const ScopeTimer timer(m.out.wall.fly_s);
   const ViewPose& goal = m.out.start;
   const double radius_m = m.planner.config.validity.collision_radius_m;
   std::vector<ViewPose> legs = {goal};

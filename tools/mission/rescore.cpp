@@ -1,13 +1,13 @@
 #include "tools/mission/rescore.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "bench/score/cloud_faults.hpp"
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/stopwatch.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/run_files/cloud_file.hpp"
 #include "tools/run_files/iterations_csv.hpp"
@@ -17,27 +17,22 @@ namespace gnbv {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 Scored score(const Scenario& scenario, const World& world, const RayScene& scene,
              const ScoredCloud& cloud, int threads) {
-  const auto begin = Clock::now();
+  const Stopwatch watch;
   const double floor_z_m = scenario.planner.floor_z_m;
   const SurfaceReference reference =
       cached_surface_reference(world, scene, {.floor_z_m = floor_z_m}, threads);
-  const auto scoring = Clock::now();
+  const double reference_s = watch.elapsed_s();
   const MissionScore found =
       score_cloud(reference, scene, cloud, scenario.planner.map.resolution_m, threads);
   return {.score = found,
           .structure = structure_name(scenario.structure),
           .points = cloud.points_world_m.size(),
           .floor_z_m = floor_z_m,
-          .reference_s = std::chrono::duration<double>(scoring - begin).count(),
-          .score_s = seconds_since(scoring)};
+          .reference_s = reference_s,
+          .score_s = watch.elapsed_s() - reference_s};
 }
 
 World world_of(const Scenario& scenario) {

@@ -4,23 +4,14 @@
 
 #include <filesystem>
 
+#include "scenarios/flow_yaml.hpp"
 #include "sim/core/file.hpp"
 #include "tools/mission/auto_bounds.hpp"
 #include "tools/mission/load_world.hpp"
 
 namespace gnbv {
-namespace {
 
 namespace fs = std::filesystem;
-
-/// The value as a YAML scalar, whatever it holds.
-std::string quoted(const std::string& value) {
-  std::string out = "'";
-  for (const char c : value) out += c == '\'' ? "''" : std::string(1, c);
-  return out + "'";
-}
-
-}  // namespace
 
 Box3 structure_bounds_m(const Scenario& scenario) {
   std::vector<std::string> warnings;  // repeated when the mission loads the structure
@@ -36,7 +27,7 @@ Scenario resolve_scenario(const ScenarioOptions& options, const std::vector<Over
   // absolute, since a relative path in a scenario file is relative to that file
   if (!options.mesh.empty()) {
     if (!fs::is_regular_file(options.mesh)) read_file(options.mesh);  // throws, with the cause
-    add(fmt::format("structure.file.path={}", quoted(fs::absolute(options.mesh).string())));
+    add(fmt::format("structure.file.path={}", yaml_in_quotes(fs::absolute(options.mesh).string())));
   }
   if (!options.utility.empty()) add(fmt::format("planner.utility.name={}", options.utility));
   if (!options.preset.empty()) add("planner.preset=" + options.preset);

@@ -15,15 +15,6 @@ namespace {
 
 using Values = std::vector<std::pair<std::string, std::string>>;
 
-const std::vector<double>& metres_or_seconds(const CoverageCurve& curve, Effort effort) {
-  return effort == Effort::metres ? curve.metres : curve.seconds;
-}
-
-double effort_at(const CoverageCurve& curve, Effort effort, std::size_t view) {
-  return effort == Effort::views ? static_cast<double>(view)
-                                 : metres_or_seconds(curve, effort)[view];
-}
-
 Values values_without_seed(const RunRecord& run) {
   Scenario scenario = run.scenario;
   scenario.seed = 0;

@@ -13,6 +13,7 @@
 #include "bench/speed/view_speed.hpp"
 #include "scenarios/load.hpp"
 #include "sim/core/simd.hpp"
+#include "sim/core/stopwatch.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/mission.hpp"
 
@@ -43,12 +44,12 @@ struct TimedMission {
 
 /// The aircraft mission of 600 views, without scoring and pictures.
 TimedMission fly(const Scenario& scenario, const World& world, const RayScene& scene, int threads) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const MissionResult result = run_mission(scenario, world, scene, {}, threads);
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
+  const double wall_s = watch.elapsed_s();
   const std::span<const ViewRecord> views = result.views;
   const std::size_t window = std::min(kWindow, views.size());
-  return {views.size(), wall.count(), mean_s(views.first(window)), mean_s(views.last(window)),
+  return {views.size(), wall_s, mean_s(views.first(window)), mean_s(views.last(window)),
           result_sha256(result)};
 }
 

@@ -1,0 +1,20 @@
+// What the rows of the speed table are measured with.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "sensors/camera_model.hpp"
+
+namespace gnbv {
+
+/// Processor time of the calling thread.
+double thread_time_ms();
+
+/// The upper one of two middle values. Requires a value.
+double median(std::vector<double> values);
+
+/// The paper's pair: one camera looks down by 20 degrees, the other up.
+std::array<CameraModel, 2> camera_pair();
+
+}  // namespace gnbv
