@@ -1,8 +1,8 @@
 #include "bench/compare/statistics.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "sim/core/error.hpp"
@@ -13,29 +13,6 @@ namespace {
 
 /// The greatest number of differences whose sign patterns are all counted.
 constexpr std::size_t kExactMax = 25;
-
-/// The continued fraction of DLMF 8.17.22 by Lentz's method; converges fast for
-/// x < (a + 1) / (a + b + 2).
-double beta_fraction(double a, double b, double x) {
-  constexpr double kTiny = std::numeric_limits<double>::min();
-  const auto away_from_zero = [](double v) { return std::abs(v) < kTiny ? kTiny : v; };
-  double c = 1.0;
-  double d = 1.0 / away_from_zero(1.0 - (a + b) * x / (a + 1.0));
-  double fraction = d;
-  for (int m = 1; m < 10000; ++m) {
-    const double even = m * (b - m) * x / ((a + 2 * m - 1.0) * (a + 2 * m));
-    const double odd = -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1.0));
-    double factor = 1.0;
-    for (const double term : {even, odd}) {
-      d = 1.0 / away_from_zero(1.0 + term * d);
-      c = away_from_zero(1.0 + term / c);
-      factor = c * d;
-      fraction *= factor;
-    }
-    if (std::abs(factor - 1.0) < 1e-15) break;
-  }
-  return fraction;
-}
 
 double normal_upper_tail(double z) { return 0.5 * std::erfc(z / std::sqrt(2.0)); }
 
@@ -99,32 +76,9 @@ double sample_deviation(std::span<const double> values) {
   return std::sqrt(squares / static_cast<double>(values.size() - 1));
 }
 
-double incomplete_beta(double a, double b, double x) {
-  GNBV_CHECK(a > 0.0 && b > 0.0 && x >= 0.0 && x <= 1.0, "I_{}({}, {})", x, a, b);
-  if (x == 0.0 || x == 1.0) return x;
-  if (x > (a + 1.0) / (a + b + 2.0)) return 1.0 - incomplete_beta(b, a, 1.0 - x);
-  const double front = std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) +
-                                a * std::log(x) + b * std::log1p(-x));
-  return front * beta_fraction(a, b, x) / a;
-}
-
-double student_t_cdf(double t, double degrees_of_freedom) {
-  const double tail = 0.5 * incomplete_beta(degrees_of_freedom / 2.0, 0.5,
-                                            degrees_of_freedom / (degrees_of_freedom + t * t));
-  return t > 0.0 ? 1.0 - tail : tail;
-}
-
 double student_t_quantile(double p, double degrees_of_freedom) {
   GNBV_CHECK(p > 0.0 && p < 1.0, "quantile {}", p);
-  if (p < 0.5) return -student_t_quantile(1.0 - p, degrees_of_freedom);
-  double low = 0.0;
-  double high = 1.0;
-  while (student_t_cdf(high, degrees_of_freedom) < p) high *= 2.0;
-  for (int i = 0; i < 100; ++i) {  // halving: to the last bit, whatever the shape of the tail
-    const double middle = 0.5 * (low + high);
-    (student_t_cdf(middle, degrees_of_freedom) < p ? low : high) = middle;
-  }
-  return high;
+  return boost::math::quantile(boost::math::students_t(degrees_of_freedom), p);
 }
 
 MeanEstimate estimate_mean(std::span<const double> values) {

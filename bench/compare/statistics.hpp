@@ -22,14 +22,8 @@ struct Interval {
   bool contains(double value) const { return low <= value && value <= high; }
 };
 
-/// I_x(a, b), the regularised incomplete beta function, by its continued fraction (DLMF 8.17.22).
-/// Requires a, b > 0 and x in [0, 1].
-double incomplete_beta(double a, double b, double x);
-
-/// P(T <= t) of Student's t with so many degrees of freedom (Abramowitz and Stegun 26.7.1).
-double student_t_cdf(double t, double degrees_of_freedom);
-
-/// The t that student_t_cdf takes to `p`. Requires p in (0, 1).
+/// The t below which Student's t of so many degrees of freedom stays with probability `p`. Requires
+/// p in (0, 1).
 double student_t_quantile(double p, double degrees_of_freedom);
 
 /// A mean and how far the true one may be from it.

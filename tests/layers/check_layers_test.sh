@@ -49,7 +49,7 @@ done
 forbidden sim/core/pose.hpp '#include "sim/mesh/world.hpp"'
 forbidden sim/mesh/world.hpp '#include "sim/flight/flight.hpp"'
 forbidden sim/flight/px4.cpp '#include "sim/mavlink/messages.hpp"'
-forbidden planner/map/clearance.cpp '#include "planner/planner.hpp"'
+forbidden planner/map/clearance.cpp '#include "planner/model.hpp"'
 forbidden planner/map/clearance.cpp '#include "planner/view/visibility.hpp"'
 forbidden planner/symmetry/symmetry.cpp '#include "planner/view/visibility.hpp"'
 forbidden bench/score/coverage.cpp '#include "bench/limits/ceiling.hpp"'
@@ -59,9 +59,9 @@ forbidden tools/mission/mission.cpp '#include "tools/render/picture.hpp"'
 forbidden tools/sweep/run_cells.cpp '#include "tools/gnbv/commands.hpp"'
 forbidden tools/terminal/progress.cpp '#include "scenarios/scenario.hpp"'
 forbidden sim/mesh/world.cpp '#include "sensors/frames.hpp"'
-forbidden sim/mesh/world.cpp '#include "planner/planner.hpp"'
+forbidden sim/mesh/world.cpp '#include "planner/model.hpp"'
 forbidden assets/aircraft.cpp '#include "sensors/frames.hpp"'
-forbidden sensors/capture.cpp '#include "planner/planner.hpp"'
+forbidden sensors/capture.cpp '#include "planner/model.hpp"'
 forbidden sensors/capture.cpp '#include "assets/aircraft.hpp"'
 forbidden scenarios/load.cpp '#include "sim/mesh/world.hpp"'
 forbidden scenarios/load.cpp '#include "sensors/ray_scene.hpp"'
@@ -71,7 +71,7 @@ forbidden tools/mission/mission.cpp '#include "tests/support/scenes.hpp"'
 allowed sim/mesh/world.cpp '#include "sim/core/pose.hpp"'
 allowed assets/aircraft.cpp '#include "sim/mesh/triangle_mesh.hpp"'
 allowed sensors/capture.cpp '#include "sim/mesh/world.hpp"'
-allowed scenarios/scenario.hpp '#include "planner/planner.hpp"'
+allowed scenarios/scenario.hpp '#include "planner/model.hpp"'
 allowed bench/score/coverage.cpp '#include "sensors/ray_scene.hpp"'
 allowed tools/mission/mission.cpp '#include "bench/score/coverage.hpp"'
 allowed tests/end_to_end/smoke_test.cpp '#include "tools/mission/mission.hpp"'
@@ -88,6 +88,7 @@ library embree3/rtcore.h sensors/ray_scene.cpp sensors/ray_scene.hpp bench/limit
 library btBulletDynamicsCommon.h sim/flight/vehicle.cpp sim/flight/vehicle.hpp sim/world.cpp
 library bullet/btBulletCollisionCommon.h sim/flight/vehicle.cpp sim/flight/flight.hpp
 library LinearMath/btTransform.h sim/flight/vehicle.cpp sim/flight/flight.hpp
+library boost/math/distributions/students_t.hpp bench/compare/statistics.cpp bench/compare/statistics.hpp bench/score/coverage_curve.cpp
 library assimp/Importer.hpp sim/mesh/mesh_file.cpp sim/mesh/mesh_file.hpp tools/mission/load_world.cpp
 library octomap/OcTree.h planner/map/octomap_io.cpp planner/map/octomap_io.hpp planner/map/occupancy_grid.cpp
 library pcl/point_types.h planner/symmetry/symmetry_pcl.cpp planner/symmetry/symmetry.cpp planner/symmetry/symmetry_module.hpp bench/score/coverage.cpp
@@ -144,13 +145,13 @@ run_check roomless
   complain "a room without a row passed: $output"
 
 # the rows allow each of these, together they are a circle
-echo '#include "planner/map/grid.hpp"' >"$root/circle/planner/planner.hpp"
+echo '#include "planner/map/grid.hpp"' >"$root/circle/planner/model.hpp"
 echo '#include "sim/core/pose.hpp"' >"$root/circle/planner/map/grid.hpp"
 run_check circle
 [[ $status == 0 ]] || complain "no circle was refused (status $status): $output"
 sed 's#^planner/map/ .*#planner/map/ planner/ sim/core/#' "$check" >"$root/lax_check"
 chmod +x "$root/lax_check"
-echo '#include "planner/planner.hpp"' >>"$root/circle/planner/map/grid.hpp"
+echo '#include "planner/model.hpp"' >>"$root/circle/planner/map/grid.hpp"
 status=0
 output=$("$root/lax_check" "$root/circle" 2>&1) || status=$?
 [[ $status == 1 && $output == *"in a circle"*$'\n'planner$'\n'* ]] ||

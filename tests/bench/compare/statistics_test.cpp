@@ -55,18 +55,10 @@ TEST(Student, QuantilesAreThoseOfThePublishedTables) {
 }
 
 TEST(Student, OneAndTwoDegreesOfFreedomHaveClosedForms) {
+  constexpr double kTolerance = 1e-9;  // p is rounded to 1e-16, of which t = 100 makes a million
   for (const double t : {-30.0, -2.0, -0.1, 0.0, 0.5, 1.0, 7.0, 100.0}) {
-    EXPECT_NEAR(student_t_cdf(t, 1), 0.5 + std::atan(t) / M_PI, 1e-13) << t;
-    EXPECT_NEAR(student_t_cdf(t, 2), 0.5 + t / (2.0 * std::sqrt(2.0 + t * t)), 1e-13) << t;
-  }
-}
-
-TEST(IncompleteBeta, ClosedFormsAndSymmetry) {
-  for (const double x : {0.0, 0.01, 0.3, 0.5, 0.77, 1.0}) {
-    EXPECT_NEAR(incomplete_beta(1.0, 1.0, x), x, 1e-14);
-    EXPECT_NEAR(incomplete_beta(3.0, 1.0, x), x * x * x, 1e-14);
-    EXPECT_NEAR(incomplete_beta(1.0, 4.0, x), 1.0 - std::pow(1.0 - x, 4), 1e-14);
-    EXPECT_NEAR(incomplete_beta(2.5, 7.0, x) + incomplete_beta(7.0, 2.5, 1.0 - x), 1.0, 1e-13);
+    EXPECT_NEAR(student_t_quantile(0.5 + std::atan(t) / M_PI, 1), t, kTolerance);
+    EXPECT_NEAR(student_t_quantile(0.5 + t / (2.0 * std::sqrt(2.0 + t * t)), 2), t, kTolerance);
   }
 }
 
