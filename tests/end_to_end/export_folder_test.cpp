@@ -104,6 +104,8 @@ TEST_F(Export, TakesAsManyPointsAsItMay) {
     return colmap_points(folder / "sparse/0").size();
   };
   EXPECT_EQ(points_of(count), points().size());
+  EXPECT_EQ(gnbv("export " + run().string() + " --quiet --format tum --points 9").exit_code, 2)
+      << "which has none";
   EXPECT_LT(points_of(count - 1), 0.6 * static_cast<double>(points().size()));
 }
 

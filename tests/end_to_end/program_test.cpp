@@ -204,6 +204,7 @@ TEST(Program, WritesItsStructuresAndFindsThemSound) {
     EXPECT_EQ(report.at("bounds_m"), facts.at("bounds_m"));
   }
   EXPECT_TRUE(has(gnbv("asset --list"), "smoke\n"));
+  EXPECT_EQ(gnbv("asset smoke --list").exit_code, 2) << "a list is of all";
 }
 
 TEST(Program, LintExitsWith1OnAMeshThatNoMissionTakes) {

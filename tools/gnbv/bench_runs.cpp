@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <map>
 #include <set>
@@ -10,9 +11,12 @@
 #include "sensors/ray_scene.hpp"
 #include "sim/core/error.hpp"
 #include "tools/gnbv/commands.hpp"
+#include "tools/gnbv/shared_options.hpp"
+#include "tools/mission/execute.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/start_pose.hpp"
-#include "tools/run_files/run_figures_file.hpp"
+#include "tools/run_files/file_names.hpp"
+#include "tools/run_files/summary_json.hpp"
 #include "tools/sweep/run_cells.hpp"
 
 namespace gnbv {
@@ -86,9 +90,11 @@ std::string without_choice_of_views(Scenario scenario) {
 }  // namespace
 
 void add_bench_options(CLI::App& command, BenchOptions& options) {
-  add_work_options(command, options);
-  command.get_option("--out")->description(
+  command.add_option(
+      "--out", options.out,
       "folder of the missions (default: runs/bench); those it holds are not flown again");
+  add_threads_option(command, options.threads);
+  add_quiet_option(command, options.quiet);
   command.add_option("--seeds", options.seed_count, "how many seeds, from --seed on")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
@@ -149,7 +155,7 @@ Ceilings ceilings_of(const BenchRuns& runs, const BenchOptions& options,
     const ComparedRun& run = runs.runs[i];
     if (!asked.insert({run.scenario, run.method}).second) continue;
     try {
-      const Scenario scenario = load_scenario((runs.folders[i] / "scenario.yaml").string(), {});
+      const Scenario scenario = load_scenario((runs.folders[i] / kScenarioFile).string(), {});
       const std::string content = without_choice_of_views(scenario);
       if (!by_content.contains(content)) {
         by_content.emplace(content, ceiling_of(scenario, options));

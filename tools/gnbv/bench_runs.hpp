@@ -1,20 +1,26 @@
 // Cells flown and read back: what `table` and `compare` share.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "bench/compare/comparison.hpp"
 #include "bench/compare/text_table.hpp"
 #include "bench/limits/ceiling.hpp"
-#include "tools/mission/execute.hpp"
 #include "tools/sweep/sweep.hpp"
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace gnbv {
 
 /// What the command line says about many missions.
-struct BenchOptions : MissionOptions {
+struct BenchOptions {
+  std::filesystem::path out = {};  // "" is runs/bench
+  int threads = 0;                 // 0 = as many as the machine has
+  bool quiet = false;
   int seed_count = 1;
   int jobs = 1;
   std::string format = "terminal";

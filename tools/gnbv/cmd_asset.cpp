@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -90,11 +91,14 @@ void add_asset_command(CLI::App& app) {
   auto options = std::make_shared<AssetOptions>();
   CLI::App* const command =
       app.add_subcommand("asset", "write a built-in structure as a mesh file");
-  command->add_option("NAME", options->name, "structure; --list names them");
-  command->add_option(
+  CLI::Option* const name =
+      command->add_option("NAME", options->name, "structure; --list names them");
+  CLI::Option* const out = command->add_option(
       "-o,--out", options->out,
       "file to write: .obj (with its .mtl), .ply or .glb; metres, z up (.glb: y up)");
-  command->add_flag("--list", options->list, "print the names of the structures");
+  command->add_flag("--list", options->list, "print the names of the structures")
+      ->excludes(name)
+      ->excludes(out);
   command->add_flag("--json", options->json, "print JSON instead of text");
   command->callback([options] { asset(*options); });
 }

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -7,6 +8,8 @@
 #include "bench/score/voxel_set.hpp"
 #include "sim/core/stopwatch.hpp"
 #include "tools/gnbv/commands.hpp"
+#include "tools/gnbv/shared_options.hpp"
+#include "tools/mission/execute.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/start_pose.hpp"
 #include "tools/terminal/progress.hpp"
@@ -14,7 +17,10 @@
 namespace gnbv {
 namespace {
 
-struct CeilingOptions : MissionOptions {
+struct CeilingOptions {
+  ScenarioOptions scenario;
+  int threads = 0;
+  bool quiet = false;
   bool json = false;
 };
 
@@ -63,7 +69,7 @@ std::string terminal_text(const Ceiling& ceiling, double wall_s) {
 
 void ceiling(const CeilingOptions& options) {
   const Stopwatch watch;
-  const Scenario scenario = resolve_scenario(options);
+  const Scenario scenario = resolve_scenario(options.scenario);
   const int threads = thread_count(options.threads);
   std::vector<std::string> warnings;
   const World world = load_world(scenario, warnings);
@@ -84,10 +90,9 @@ void add_ceiling_command(CLI::App& app) {
   auto options = std::make_shared<CeilingOptions>();
   CLI::App* const command =
       app.add_subcommand("ceiling", "print the most that any legal viewpoint can see");
-  add_scenario_options(*command, *options);
-  command->add_option("--threads", options->threads, "0 = all; the result does not depend on it")
-      ->check(CLI::Range(0, 1024));
-  command->add_flag("--quiet", options->quiet, "no progress on stderr");
+  add_scenario_options(*command, options->scenario);
+  add_threads_option(*command, options->threads);
+  add_quiet_option(*command, options->quiet);
   command->add_flag("--json", options->json, "print JSON instead of a table");
   command->callback([options] { ceiling(*options); });
 }

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -8,7 +9,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/gnbv/commands.hpp"
-#include "tools/run_files/run_figures_file.hpp"
+#include "tools/run_files/summary_json.hpp"
 
 namespace gnbv {
 namespace {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 
@@ -7,17 +8,20 @@
 #include "sim/core/error.hpp"
 #include "tools/gnbv/bench_runs.hpp"
 #include "tools/gnbv/commands.hpp"
+#include "tools/gnbv/shared_options.hpp"
+#include "tools/sweep/manifest.hpp"
 #include "tools/sweep/method_options.hpp"
-#include "tools/sweep/read_manifest.hpp"
 
 namespace gnbv {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct CompareOptions : BenchOptions {
+struct CompareOptions {
+  ScenarioOptions structure;  // of every scenario
   std::vector<std::string> scenarios;
   MethodOptions methods;
+  BenchOptions bench = {.seed_count = 5};
   std::string baseline;  // "" is the first method
   fs::path from;         // of a sweep; "" flies
 };
@@ -30,9 +34,9 @@ struct Plan {
 
 std::vector<SweepScenario> scenarios_of(const CompareOptions& options) {
   if (options.scenarios.empty()) throw BadInput("compare: needs a SCENARIO, or --from");
-  if (options.scenarios.size() > 1 && !options.mesh.empty()) {
+  if (options.scenarios.size() > 1 && !options.structure.mesh.empty()) {
     throw BadInput(fmt::format("--mesh {}: one structure for {} scenarios; compare them one by one",
-                               options.mesh, options.scenarios.size()));
+                               options.structure.mesh, options.scenarios.size()));
   }
   std::vector<SweepScenario> scenarios;
   for (const std::string& given : options.scenarios) {
@@ -42,9 +46,9 @@ std::vector<SweepScenario> scenarios_of(const CompareOptions& options) {
     if (!is_new) throw BadInput(fmt::format("{}: two scenarios are named '{}'", given, name));
     scenarios.push_back({.name = name,
                          .scenario = given,
-                         .mesh = options.mesh,
-                         .bounds_auto = options.bounds_auto,
-                         .overrides = options.overrides});
+                         .mesh = options.structure.mesh,
+                         .bounds_auto = options.structure.bounds_auto,
+                         .overrides = options.structure.overrides});
   }
   return scenarios;
 }
@@ -57,7 +61,7 @@ std::string chosen_baseline(const std::vector<std::string>& methods, const std::
 }
 
 std::uint64_t first_seed(const CompareOptions& options) {
-  ScenarioOptions first = options;  // as `run` reads it, with its faults
+  ScenarioOptions first = options.structure;  // as `run` reads it, with its faults
   first.scenario = options.scenarios.front();
   return resolve_scenario(first).seed;
 }
@@ -68,7 +72,7 @@ Plan plan_of(const CompareOptions& options) {
   std::vector<std::string> names;
   for (const SweepMethod& method : sweep.methods) names.push_back(method.name);
   Plan plan{.cells = {}, .baseline = chosen_baseline(names, options.baseline)};
-  sweep.seeds = seeds_from(first_seed(options), options.seed_count);
+  sweep.seeds = seeds_from(first_seed(options), options.bench.seed_count);
   plan.cells = cells_of(sweep);
   return plan;
 }
@@ -93,7 +97,7 @@ void compare_command(const CompareOptions& options) {
   const bool flies = options.from.empty();
   const Plan plan = flies ? plan_of(options) : plan_of_sweep(options);
   const BenchRuns collected =
-      flies ? fly_cells(plan.cells, options) : read_cells(plan.cells, options.from);
+      flies ? fly_cells(plan.cells, options.bench) : read_cells(plan.cells, options.from);
   const bool has_baseline =
       std::any_of(collected.runs.begin(), collected.runs.end(),
                   [&](const ComparedRun& run) { return run.method == plan.baseline; });
@@ -102,22 +106,21 @@ void compare_command(const CompareOptions& options) {
     throw CommandFailed(fmt::format("no mission of the baseline, {}, is done", plan.baseline));
   }
   std::vector<std::string> more_notes = collected.notes;
-  const Ceilings ceilings = ceilings_of(collected, options, more_notes);
+  const Ceilings ceilings = ceilings_of(collected, options.bench, more_notes);
   TextTable table = comparison_table(compare(collected.runs, plan.baseline, ceilings));
   table.notes.insert(table.notes.end(), more_notes.begin(), more_notes.end());
-  print_bench(table, options.format, collected.has_failures);
+  print_bench(table, options.bench.format, collected.has_failures);
 }
 
 }  // namespace
 
 void add_compare_command(CLI::App& app) {
   auto options = std::make_shared<CompareOptions>();
-  options->seed_count = 5;
   CLI::App* const command =
       app.add_subcommand("compare", "fly methods over seeds: is one better than another here?");
   CLI::Option* const scenarios =
       command->add_option("SCENARIO", options->scenarios, "built-in names or YAML files");
-  add_structure_options(*command, *options);
+  add_structure_options(*command, options->structure);
   MethodOptions& methods = options->methods;
   std::vector<CLI::Option*> what_to_fly = {
       scenarios,
@@ -137,7 +140,7 @@ void add_compare_command(CLI::App& app) {
           ->allow_extra_args(false)};
   command->add_option("--baseline", options->baseline,
                       "method the others are tested against (default: the first)");
-  add_bench_options(*command, *options);
+  add_bench_options(*command, options->bench);
   CLI::Option* const from =
       command->add_option("--from", options->from, "folder of a sweep: compare what it flew");
   for (const char* name : {"--mesh", "--seed", "--set", "--bounds", "--seeds", "--jobs", "--out"}) {

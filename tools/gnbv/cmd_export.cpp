@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <map>
 #include <memory>
 
@@ -10,7 +11,10 @@
 #include "tools/exports/plain.hpp"
 #include "tools/exports/tum.hpp"
 #include "tools/gnbv/commands.hpp"
+#include "tools/gnbv/shared_options.hpp"
+#include "tools/mission/execute.hpp"
 #include "tools/run_files/cloud_colours.hpp"
+#include "tools/run_files/file_names.hpp"
 #include "tools/terminal/progress.hpp"
 
 namespace gnbv {
@@ -22,7 +26,7 @@ struct ExportOptions {
   fs::path run;
   fs::path out;
   std::string format;
-  std::size_t points = 100'000;
+  std::optional<std::size_t> points;
   int threads = 0;
   bool quiet = false;
 };
@@ -33,18 +37,16 @@ struct Export {
   const RunRecord& record;
   int threads;
   ShareDone progress;
-
-  /// Points of the cloud are centroids of leaves, off the surface by less than half of one.
-  double blur_m() const { return 0.5 * record.scenario.planner.cloud.leaf_m; }
 };
 
 SparseModel sparse_model(const Export& e, const FrameRecord& frames) {
   const RunCloud cloud = read_run_cloud(e.record);
-  SparseModel model = make_sparse_model(cloud.points_world_m, frames,
-                                        {.max_points = e.options.points,
-                                         .blur_m = e.blur_m(),
-                                         .threads = e.threads,
-                                         .progress = e.progress});
+  SparseModel model =
+      make_sparse_model(cloud.points_world_m, frames,
+                        {.max_points = e.options.points.value_or(SparseModelOptions{}.max_points),
+                         .blur_m = cloud_blur_m(e.record),
+                         .threads = e.threads,
+                         .progress = e.progress});
   if (!e.options.quiet) {
     fmt::print(stderr,
                "gnbv: {} of the cloud's {} points are shown by two of the {} frames or more, in {} "
@@ -71,7 +73,7 @@ void note(const std::string& sentence) { fmt::print(stderr, "gnbv: {}\n", senten
 std::optional<FrameRecord> frames_if_kept(const RunRecord& record) {
   if (has_frames(record.folder)) return read_frames(record.folder);
   note(fmt::format("{}: no frames were kept, so that no images are written; {} keeps them",
-                   (record.folder / "frames").string(),
+                   (record.folder / kFramesFolder).string(),
                    command_to_fly_again(record.folder, "--frames")));
   return std::nullopt;
 }
@@ -79,7 +81,7 @@ std::optional<FrameRecord> frames_if_kept(const RunRecord& record) {
 /// Says so, with the command that makes it, when it is not all there. Throws for a damaged one.
 std::optional<RunCloud> cloud_if_there(const RunRecord& record) {
   const bool is_there =
-      fs::exists(record.folder / "cloud.ply") && fs::exists(record.folder / "profile.ply");
+      fs::exists(record.folder / kCloudFile) && fs::exists(record.folder / kProfileCloudFile);
   try {
     return read_run_cloud(record);
   } catch (const BadInput& error) {
@@ -98,14 +100,12 @@ void fill_plain(const Export& e, const fs::path& folder) {
   PlainParts parts;
   parts.frames = frames_if_kept(e.record);
   parts.cloud = cloud_if_there(e.record);
-  if (!fs::exists(e.record.folder / "map.bt")) {
+  if (!fs::exists(e.record.folder / kMapFile)) {
     note(fmt::format("{}: is missing, so that no voxels are written; {} makes one",
-                     (e.record.folder / "map.bt").string(),
-                     command_to_fly_again(e.record.folder, "")));
+                     (e.record.folder / kMapFile).string(), command_to_fly_again(e.record.folder)));
   }
   if (parts.frames && parts.cloud) {
-    parts.colours =
-        colours_of_cloud(e.record, *parts.cloud, *parts.frames, e.blur_m(), e.threads, e.progress);
+    parts.colours = colours_of_cloud(e.record, *parts.cloud, *parts.frames, e.threads, e.progress);
   }
   write_plain(e.record, parts, folder);
 }
@@ -117,6 +117,9 @@ const std::map<std::string, Fill> kFormats = {{"colmap", fill_colmap},
                                               {"tum", fill_tum}};
 
 void export_run(const ExportOptions& options) {
+  if (options.points && (options.format == "plain" || options.format == "tum")) {
+    throw BadInput(fmt::format("--points: {} has no sparse model", options.format));
+  }
   const RunRecord record = read_run(options.run);
   const fs::path folder =
       options.out.empty() ? record.folder / "export" / options.format : options.out;
@@ -146,12 +149,10 @@ void add_export_command(CLI::App& app) {
       "folder to write (default: RUN/export/FORMAT); an earlier export is replaced");
   command
       ->add_option("--points", options->points,
-                   "most points of the sparse model (colmap, nerfstudio)")
-      ->check(CLI::Range(1, 100'000'000))
-      ->capture_default_str();
-  command->add_option("--threads", options->threads, "0 = all; the result does not depend on it")
-      ->check(CLI::Range(0, 1024));
-  command->add_flag("--quiet", options->quiet, "no progress, no notes");
+                   "most points of the sparse model (colmap, nerfstudio; default: 100000)")
+      ->check(CLI::Range(1, 100'000'000));
+  add_threads_option(*command, options->threads);
+  add_quiet_option(*command, options->quiet, "progress, no notes");
   command->callback([options] { export_run(*options); });
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -8,6 +9,7 @@
 #include "sim/core/error.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/serve.hpp"
+#include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/start_pose.hpp"
 #include "tools/terminal/interrupt.hpp"
@@ -15,7 +17,8 @@
 namespace gnbv {
 namespace {
 
-struct FlyOptions : MissionOptions {
+struct FlyOptions {
+  ScenarioOptions scenario;
   std::string url = "udp://127.0.0.1:14540";
   double speed = 1.0;
   double duration_s = 0.0;
@@ -106,7 +109,7 @@ ViewPose ground_start(const Scenario& scenario, const RayScene& scene) {
 }
 
 void fly(const FlyOptions& options) {
-  const Scenario scenario = resolve_scenario(options);
+  const Scenario scenario = resolve_scenario(options.scenario);
   need_ground_and_rotors(scenario);
   const mavlink::Address address = mavlink::resolve_udp_url(options.url);
   std::vector<std::string> warnings;
@@ -154,7 +157,7 @@ void add_fly_command(CLI::App& app) {
       "and speaks like PX4. It listens at the URL and answers the first client that sends it a\n"
       "good frame; other addresses are dropped until that client was silent for 5 s. NED\n"
       "coordinates count from the scenario's origin: north is y, east is x.");
-  add_scenario_options(*command, *options);
+  add_scenario_options(*command, options->scenario);
   command
       ->add_option("--mavlink", options->url,
                    "udp://HOST:PORT to listen at; port 0 finds a free one")

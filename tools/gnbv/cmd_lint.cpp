@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -7,17 +8,20 @@
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "tools/gnbv/commands.hpp"
+#include "tools/gnbv/shared_options.hpp"
 #include "tools/mesh_lint/mesh_report.hpp"
+#include "tools/mission/execute.hpp"
 
 namespace gnbv {
 namespace {
 
-struct LintOptions : MissionOptions {
+struct LintOptions {
+  ScenarioOptions scenario;
   bool json = false;
 };
 
 void lint(const LintOptions& options) {
-  const Scenario scenario = resolve_scenario(options);
+  const Scenario scenario = resolve_scenario(options.scenario);
   const MeshReport report = report_on_mesh(scenario, thread_count(0));
   fmt::print("{}", options.json ? json_text(report) : terminal_text(report));
   if (!report.is_usable()) {
@@ -29,16 +33,16 @@ void lint(const LintOptions& options) {
 
 void add_lint_command(CLI::App& app) {
   auto options = std::make_shared<LintOptions>();
-  options->scenario = "aircraft";
+  options->scenario.scenario = "aircraft";
   CLI::App* const command =
       app.add_subcommand("lint", "say what is wrong with a mesh and how to put it right");
-  command->add_option("MESH", options->mesh, "mesh file")->required();
+  command->add_option("MESH", options->scenario.mesh, "mesh file")->required();
   command
-      ->add_option("--scenario", options->scenario,
+      ->add_option("--scenario", options->scenario.scenario,
                    "scenario it is meant for: built-in name or YAML file")
       ->capture_default_str();
   command
-      ->add_option("--set", options->overrides,
+      ->add_option("--set", options->scenario.overrides,
                    "KEY=VALUE of the scenario file, as for `run`; repeatable "
                    "(structure.file.scale, .unit_m, .up_axis, .offset_m)")
       ->allow_extra_args(false);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 
@@ -9,6 +10,7 @@
 #include "tools/plots/coverage_plot.hpp"
 #include "tools/plots/gnuplot.hpp"
 #include "tools/plots/run_plots.hpp"
+#include "tools/run_files/file_names.hpp"
 #include "tools/run_files/run_names.hpp"
 
 namespace gnbv {
@@ -32,12 +34,12 @@ struct PlotOptions {
 /// The runs in a folder of runs (a sweep's are in cells/), by name; the folder itself when it is a
 /// run, or holds none.
 std::vector<fs::path> runs_in(const fs::path& folder) {
-  if (fs::exists(folder / "scenario.yaml") || !fs::is_directory(folder)) return {folder};
+  if (fs::exists(folder / kScenarioFile) || !fs::is_directory(folder)) return {folder};
   std::vector<fs::path> runs;
   const fs::path cells = folder / "cells";
   for (const auto& entry : fs::directory_iterator(fs::is_directory(cells) ? cells : folder)) {
     const bool is_export = fs::exists(entry.path() / "gnbv-export.json");
-    if (fs::exists(entry.path() / "scenario.yaml") && !is_export) runs.push_back(entry.path());
+    if (fs::exists(entry.path() / kScenarioFile) && !is_export) runs.push_back(entry.path());
   }
   std::sort(runs.begin(), runs.end());
   return runs.empty() ? std::vector{folder} : runs;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cstring>
 #include <memory>
@@ -8,6 +9,8 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/gnbv/commands.hpp"
+#include "tools/gnbv/shared_options.hpp"
+#include "tools/mission/execute.hpp"
 #include "tools/report/report.hpp"
 #include "tools/terminal/progress.hpp"
 
@@ -79,17 +82,15 @@ void report(ReportCommandOptions options) {
 
 void add_report_command(CLI::App& app) {
   auto options = std::make_shared<ReportCommandOptions>();
+  options->report.threads = 0;
   CLI::App* const command = app.add_subcommand(
       "report", "one offline page of runs: figures beside the paper's, plots, the mission in 3D");
   command->add_option("RUN", options->runs, "run directories, to compare if several")->required();
   command->add_option("-o,--out", options->out,
                       "HTML to write (default: RUN/report.html, of several runs report.html here)");
   command->add_option("--title", options->report.title, "instead of the runs' own");
-  command
-      ->add_option("--threads", options->report.threads, "0 = all; the page does not depend on it")
-      ->default_val(0)
-      ->check(CLI::Range(0, 1024));
-  command->add_flag("--quiet", options->quiet, "no progress");
+  add_threads_option(*command, options->report.threads, "the page does");
+  add_quiet_option(*command, options->quiet, "progress");
   command->callback([options] { report(*options); });
 }
 

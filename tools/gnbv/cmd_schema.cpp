@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+
 #include "scenarios/load.hpp"
 #include "tools/gnbv/commands.hpp"
 

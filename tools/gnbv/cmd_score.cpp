@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -7,19 +8,22 @@
 
 #include "sim/core/error.hpp"
 #include "tools/gnbv/commands.hpp"
+#include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/mission/rescore.hpp"
 #include "tools/run_files/cloud_file.hpp"
-#include "tools/run_files/summary_file.hpp"
+#include "tools/run_files/summary_json.hpp"
 
 namespace gnbv {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct ScoreOptions : MissionOptions {
+struct ScoreOptions {
+  ScenarioOptions scenario;
   std::string target;
   std::string floor_z_m;
+  int threads = 0;
   bool update = false;
   bool json = false;
 };
@@ -82,15 +86,15 @@ Scored score_file(ScoreOptions options, int threads) {
   if (options.update) {
     throw BadInput(fmt::format("--update: {} is no run directory", options.target));
   }
-  if (options.mesh.empty() && options.scenario.empty()) {
+  if (options.scenario.mesh.empty() && options.scenario.scenario.empty()) {
     throw BadInput("score: needs --mesh FILE or --scenario NAME, whose surface is the true one");
   }
-  if (options.scenario.empty()) options.scenario = "aircraft";
+  if (options.scenario.scenario.empty()) options.scenario.scenario = "aircraft";
   if (!options.floor_z_m.empty()) {
-    options.overrides.push_back("planner.floor_z_m=" + options.floor_z_m);
+    options.scenario.overrides.push_back("planner.floor_z_m=" + options.floor_z_m);
   }
   const Scored scored = score_any_cloud(options.target, read_cloud(options.target),
-                                        resolve_scenario(options), threads);
+                                        resolve_scenario(options.scenario), threads);
   const DistanceScore& widest = scored.score.distances.at.back();
   if (widest.precision < 0.5) {
     fmt::print(stderr,
@@ -102,8 +106,8 @@ Scored score_file(ScoreOptions options, int threads) {
 }
 
 Scored score_folder(const ScoreOptions& options, int threads) {
-  const bool says_more = !options.mesh.empty() || !options.scenario.empty() ||
-                         !options.floor_z_m.empty() || !options.overrides.empty();
+  const bool says_more = !options.scenario.mesh.empty() || !options.scenario.scenario.empty() ||
+                         !options.floor_z_m.empty() || !options.scenario.overrides.empty();
   if (says_more) {
     throw BadInput(
         fmt::format("{}: a run is scored by its own scenario.yaml: --mesh, --scenario, "
@@ -111,7 +115,7 @@ Scored score_folder(const ScoreOptions& options, int threads) {
                     options.target));
   }
   Scored scored = score_run(options.target, threads);
-  if (options.update) update_run(options.target, scored.score);
+  if (options.update) rescore_summary(options.target, scored.score);
   return scored;
 }
 
@@ -131,19 +135,18 @@ void add_score_command(CLI::App& app) {
       app.add_subcommand("score", "measure any cloud, or a run, against the true surface");
   command->add_option("CLOUD|RUN", options->target, ".ply or .xyz cloud (m), or a run directory")
       ->required();
-  command->add_option("--mesh", options->mesh, "mesh file that holds the true surface");
-  command->add_option("--scenario", options->scenario,
+  command->add_option("--mesh", options->scenario.mesh, "mesh file that holds the true surface");
+  command->add_option("--scenario", options->scenario.scenario,
                       "its structure instead; built-in name or YAML file");
   command->add_option("--floor-z", options->floor_z_m,
                       "surface below this height (m) is not asked for, and points there are left "
                       "out (default: the scenario's, 0.3)");
   command
-      ->add_option("--set", options->overrides,
+      ->add_option("--set", options->scenario.overrides,
                    "KEY=VALUE of the scenario file; repeatable (structure.file.scale, .unit_m, "
                    ".up_axis, .offset_m; planner.map.resolution_m for the density)")
       ->allow_extra_args(false);
-  command->add_option("--threads", options->threads, "0 = all; the result does not depend on it")
-      ->check(CLI::Range(0, 1024));
+  add_threads_option(*command, options->threads);
   command->add_flag("--update", options->update,
                     "put the score into the run's summary.json and coverage.csv");
   command->add_flag("--json", options->json, "print JSON instead of a table");

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <charconv>
 #include <filesystem>
 #include <memory>
@@ -9,7 +10,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/gnbv/commands.hpp"
-#include "tools/gnbv/number_checks.hpp"
+#include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/surface/surface.hpp"
@@ -157,9 +158,8 @@ void add_surface_command(CLI::App& app) {
       ->check(CLI::Range(128, 16384))
       ->capture_default_str();
   command->add_flag("--no-texture", options->no_texture, "colours at the vertices alone");
-  command->add_option("--threads", options->threads, "0 = all; the result does not depend on it")
-      ->check(CLI::Range(0, 1024));
-  command->add_flag("--quiet", options->quiet, "no progress on stderr");
+  add_threads_option(*command, options->threads);
+  add_quiet_option(*command, options->quiet);
   command->add_flag("--json", options->json, "print the score as JSON instead of paths and table");
   command->callback([options] { surface(*options); });
 }

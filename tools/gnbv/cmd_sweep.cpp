@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -9,6 +10,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/gnbv/commands.hpp"
+#include "tools/gnbv/shared_options.hpp"
 #include "tools/sweep/manifest.hpp"
 #include "tools/sweep/slurm.hpp"
 
@@ -247,7 +249,7 @@ void add_sweep_command(CLI::App& app) {
       ->excludes(index)
       ->excludes(list)
       ->excludes(status);
-  command->add_flag("--quiet", o->quiet, "no progress on stderr");
+  add_quiet_option(*command, o->quiet);
   command->add_flag("--json", o->json, "print the cells as JSON instead of a table");
   CLI::Option* const slurm =
       command->add_flag("--slurm", o->slurm, "write OUT/sweep.sbatch, submit it, print the job id")

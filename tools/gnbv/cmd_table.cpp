@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 
@@ -9,12 +10,15 @@
 #include "sim/core/shell_word.hpp"
 #include "tools/gnbv/bench_runs.hpp"
 #include "tools/gnbv/commands.hpp"
+#include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/load_world.hpp"
 
 namespace gnbv {
 namespace {
 
-struct TableOptions : BenchOptions {
+struct TableOptions {
+  ScenarioOptions scenario;
+  BenchOptions bench;
   bool no_oracle = false;
 };
 
@@ -40,13 +44,15 @@ bool sets_max_iterations(const std::vector<std::string>& overrides) {
 Sweep sweep_of(const TableOptions& options, const PaperTable& paper, std::uint64_t first_seed) {
   Sweep sweep;
   SweepScenario scenario{.name = std::string(paper.scenario),
-                         .scenario = options.scenario,
-                         .mesh = options.mesh,
-                         .bounds_auto = options.bounds_auto,
+                         .scenario = options.scenario.scenario,
+                         .mesh = options.scenario.mesh,
+                         .bounds_auto = options.scenario.bounds_auto,
                          .overrides = {}};
-  if (!options.preset.empty()) scenario.overrides.push_back("planner.preset=" + options.preset);
-  scenario.overrides.insert(scenario.overrides.end(), options.overrides.begin(),
-                            options.overrides.end());
+  if (!options.scenario.preset.empty()) {
+    scenario.overrides.push_back("planner.preset=" + options.scenario.preset);
+  }
+  scenario.overrides.insert(scenario.overrides.end(), options.scenario.overrides.begin(),
+                            options.scenario.overrides.end());
   sweep.scenarios = {scenario};
   // after the scenario's, so that it is the row's whatever the user set
   const auto add_row = [&](std::string_view utility) {
@@ -57,32 +63,33 @@ Sweep sweep_of(const TableOptions& options, const PaperTable& paper, std::uint64
   if (!options.no_oracle) {
     for (const std::string_view oracle : kOracleNames) {
       add_row(oracle);
-      if (!sets_max_iterations(options.overrides)) {
+      if (!sets_max_iterations(options.scenario.overrides)) {
         sweep.methods.back().overrides.push_back(kToTheEnd);
       }
     }
   }
-  sweep.seeds = seeds_from(first_seed, options.seed_count);
+  sweep.seeds = seeds_from(first_seed, options.bench.seed_count);
   return sweep;
 }
 
 /// What the table depends on; neither where it was made nor by how many processors.
 std::string command_of(const TableOptions& options, std::uint64_t first_seed) {
-  std::string command = fmt::format("gnbv table {} --seed {} --seeds {}",
-                                    shell_word(options.scenario), first_seed, options.seed_count);
-  if (!options.mesh.empty()) command += " --mesh " + shell_word(options.mesh);
-  if (options.bounds_auto) command += " --bounds auto";
-  if (!options.preset.empty()) command += " --preset " + shell_word(options.preset);
-  for (const std::string& set : options.overrides) command += " --set " + shell_word(set);
+  const ScenarioOptions& of = options.scenario;
+  std::string command = fmt::format("gnbv table {} --seed {} --seeds {}", shell_word(of.scenario),
+                                    first_seed, options.bench.seed_count);
+  if (!of.mesh.empty()) command += " --mesh " + shell_word(of.mesh);
+  if (of.bounds_auto) command += " --bounds auto";
+  if (!of.preset.empty()) command += " --preset " + shell_word(of.preset);
+  for (const std::string& set : of.overrides) command += " --set " + shell_word(set);
   return command + (options.no_oracle ? " --no-oracle" : "");
 }
 
 void table(const TableOptions& options) {
-  const Scenario first = resolve_scenario(options);
-  const PaperTable& paper = paper_table_of(first, options.scenario);
+  const Scenario first = resolve_scenario(options.scenario);
+  const PaperTable& paper = paper_table_of(first, options.scenario.scenario);
   const std::vector<Cell> cells = cells_of(sweep_of(options, paper, first.seed));
-  const Ceiling ceiling = ceiling_of(cells.front().resolved, options);
-  const BenchRuns flown = fly_cells(cells, options);
+  const Ceiling ceiling = ceiling_of(cells.front().resolved, options.bench);
+  const BenchRuns flown = fly_cells(cells, options.bench);
   std::vector<RunFigures> runs;
   for (const ComparedRun& run : flown.runs) runs.push_back(run.figures);
   TextTable text = comparison_table(paper, runs, ceiling);
@@ -90,12 +97,12 @@ void table(const TableOptions& options) {
   if (!is_papers_structure(paper, structure)) {
     text.notes.push_back(fmt::format(
         "ours is of {}, which is not known to be the structure that the paper's figures are of",
-        options.mesh.empty() ? structure : options.mesh));
+        options.scenario.mesh.empty() ? structure : options.scenario.mesh));
   }
   text.notes.insert(text.notes.end(), flown.notes.begin(), flown.notes.end());
   text.notes.push_back(
       fmt::format("{}, version {}", command_of(options, first.seed), GNBV_VERSION));
-  print_bench(text, options.format, flown.has_failures);
+  print_bench(text, options.bench.format, flown.has_failures);
 }
 
 }  // namespace
@@ -104,9 +111,9 @@ void add_table_command(CLI::App& app) {
   auto options = std::make_shared<TableOptions>();
   CLI::App* const command =
       app.add_subcommand("table", "fly every row of the paper's table and print both");
-  add_scenario_options(*command, *options);
-  command->add_option("--preset", options->preset, "paper, or released: the authors' own code");
-  add_bench_options(*command, *options);
+  add_scenario_options(*command, options->scenario);
+  add_preset_option(*command, options->scenario);
+  add_bench_options(*command, options->bench);
   command->add_flag("--no-oracle", options->no_oracle,
                     "without the rows of planners that know the mesh");
   command->callback([options] { table(*options); });

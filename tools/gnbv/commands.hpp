@@ -1,10 +1,11 @@
 // The commands of the program: each adds its options to the command line and runs when chosen.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <stdexcept>
 
-#include "tools/mission/execute.hpp"
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace gnbv {
 
@@ -13,18 +14,6 @@ class CommandFailed : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
-
-/// What a scenario is changed by: --mesh, --seed, --set, --bounds.
-void add_structure_options(CLI::App& command, MissionOptions& options);
-
-/// SCENARIO and those.
-void add_scenario_options(CLI::App& command, MissionOptions& options);
-
-/// --out, --threads and --quiet.
-void add_work_options(CLI::App& command, MissionOptions& options);
-
-/// All of them: what every command which flies a mission has.
-void add_mission_options(CLI::App& command, MissionOptions& options);
 
 void add_compare_command(CLI::App& app);
 void add_fly_command(CLI::App& app);

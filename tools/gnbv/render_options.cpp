@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <set>
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "tools/gnbv/number_checks.hpp"
+#include "tools/gnbv/shared_options.hpp"
 #include "tools/render/camera_choice.hpp"
 #include "tools/render/pictures.hpp"
 
@@ -151,9 +152,8 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   command.add_flag("--with-profile", options.picture.has_profile,
                    "path: the profile's flight, too, wide around the structure");
   command.add_flag("!--no-caption", options.picture.has_caption, "no title, legend and scale");
-  command.add_option("--threads", options.threads, "0 = all; the pictures do not depend on it")
-      ->check(CLI::Range(0, 1024));
-  command.add_flag("--quiet", options.quiet, "no progress, no notes");
+  add_threads_option(command, options.threads, "the pictures do");
+  add_quiet_option(command, options.quiet, "progress, no notes");
 }
 
 }  // namespace gnbv

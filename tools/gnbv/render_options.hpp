@@ -1,13 +1,16 @@
 // What `gnbv render` is asked for.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "tools/render/picture.hpp"
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace gnbv {
 

@@ -1,0 +1,64 @@
+#include "tools/gnbv/shared_options.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+namespace gnbv {
+namespace {
+
+CLI::Validator number_check(const std::string& must_be, bool (*is_good)(double)) {
+  return {[=](std::string& text) {
+            double value = 0.0;
+            const bool is_number = CLI::detail::lexical_cast(text, value);
+            return is_number && is_good(value) ? "" : fmt::format("'{}' must be {}", text, must_be);
+          },
+          must_be};
+}
+
+}  // namespace
+
+void add_structure_options(CLI::App& command, ScenarioOptions& options) {
+  command.add_option("--mesh", options.mesh, "a mesh file instead of the scenario's structure");
+  command.add_option("--seed", options.seed, "moves the start pose and keys all noise");
+  command.add_option("--set", options.overrides, "KEY=VALUE of the scenario file; repeatable")
+      ->allow_extra_args(false);
+  command
+      .add_option_function<std::string>(
+          "--bounds",
+          [&options](const std::string& bounds) { options.bounds_auto = bounds == "auto"; },
+          "auto: lay workspace and start around the structure, wherever it is; scenario: as it "
+          "says")
+      ->check(CLI::IsMember({"auto", "scenario"}));
+}
+
+void add_scenario_options(CLI::App& command, ScenarioOptions& options) {
+  command.add_option("SCENARIO", options.scenario, "built-in name or YAML file")->required();
+  add_structure_options(command, options);
+}
+
+void add_preset_option(CLI::App& command, ScenarioOptions& options) {
+  command.add_option("--preset", options.preset, "paper, or released: the authors' own code");
+}
+
+void add_threads_option(CLI::App& command, int& threads, const std::string& what) {
+  command.add_option("--threads", threads, fmt::format("0 = all; {} not depend on it", what))
+      ->check(CLI::Range(0, 1024));
+}
+
+void add_quiet_option(CLI::App& command, bool& quiet, const std::string& what) {
+  command.add_flag("--quiet", quiet, "no " + what);
+}
+
+CLI::Validator is_finite() {
+  return number_check("a finite number", [](double x) { return std::isfinite(x); });
+}
+CLI::Validator is_positive() {
+  return number_check("a number above 0", [](double x) { return std::isfinite(x) && x > 0.0; });
+}
+CLI::Validator is_elevation_deg() {
+  return number_check("from -89 to 90", [](double x) { return x >= -89.0 && x <= 90.0; });
+}
+
+}  // namespace gnbv

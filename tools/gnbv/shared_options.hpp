@@ -1,0 +1,38 @@
+// Options that several commands have, each added only where it is read.
+#pragma once
+
+#include <string>
+
+#include "tools/mission/resolve.hpp"
+
+namespace CLI {
+class App;
+class Option;
+class Validator;
+}  // namespace CLI
+
+namespace gnbv {
+
+/// What a scenario is changed by: --mesh, --seed, --set, --bounds.
+void add_structure_options(CLI::App& command, ScenarioOptions& options);
+
+/// SCENARIO and those.
+void add_scenario_options(CLI::App& command, ScenarioOptions& options);
+
+/// --preset of the planner.
+void add_preset_option(CLI::App& command, ScenarioOptions& options);
+
+/// --threads. `what` does not depend on it.
+void add_threads_option(CLI::App& command, int& threads,
+                        const std::string& what = "the result does");
+
+/// --quiet: without `what`.
+void add_quiet_option(CLI::App& command, bool& quiet,
+                      const std::string& what = "progress on stderr");
+
+// Checks of numbers; those of CLI11 let NaN pass, and print 300 digits.
+CLI::Validator is_finite();
+CLI::Validator is_positive();
+CLI::Validator is_elevation_deg();
+
+}  // namespace gnbv
