@@ -150,16 +150,58 @@ RowFigures ceiling_figures(const std::string& kind, const std::array<double, 3>&
   return f;
 }
 
-/// Utilities in the order of their first run.
-std::vector<std::pair<std::string, Runs>> by_utility(std::span<const RunFigures> runs) {
-  std::vector<std::pair<std::string, Runs>> groups;
-  for (const RunFigures& run : runs) {
-    auto group = std::find_if(groups.begin(), groups.end(),
-                              [&](const auto& g) { return g.first == run.utility; });
-    if (group == groups.end()) group = groups.insert(groups.end(), {run.utility, {}});
-    group->second.push_back(&run);
+/// Runs that differ in their seeds alone.
+struct Group {
+  std::string utility;
+  std::string setting;
+  Runs runs = {};
+
+  /// "Proposed, leaf_m=0.07" of the row's name.
+  std::string label(const std::string& name) const {
+    return setting.empty() ? name : name + ", " + setting;
+  }
+};
+
+/// In the order of their first runs.
+std::vector<Group> grouped(std::span<const RunFigures> runs,
+                           std::span<const std::string> settings) {
+  GNBV_CHECK(settings.empty() || settings.size() == runs.size(), "{} settings of {} runs",
+             settings.size(), runs.size());
+  std::vector<Group> groups;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const std::string setting = settings.empty() ? "" : settings[i];
+    auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& g) {
+      return g.utility == runs[i].utility && g.setting == setting;
+    });
+    if (group == groups.end()) group = groups.insert(groups.end(), {runs[i].utility, setting});
+    group->runs.push_back(&runs[i]);
   }
   return groups;
+}
+
+/// A row a setting, and one for all settings that had the same profiles.
+std::vector<RowFigures> our_profiles(const std::vector<Group>& groups,
+                                     const std::optional<Ceiling>& ceiling) {
+  std::vector<Group> by_setting;
+  for (const Group& group : groups) {
+    auto same = std::find_if(by_setting.begin(), by_setting.end(),
+                             [&](const Group& g) { return g.setting == group.setting; });
+    if (same == by_setting.end()) same = by_setting.insert(same, {"", group.setting});
+    same->runs.insert(same->runs.end(), group.runs.begin(), group.runs.end());
+  }
+  std::vector<RowFigures> rows;
+  std::vector<std::string> labels;
+  for (const Group& group : by_setting) {
+    const RowFigures row = our_profile(group.runs, ceiling);
+    const auto is_same = [&](const RowFigures& other) {
+      return all_cells(other) == all_cells(row);
+    };
+    if (std::any_of(rows.begin(), rows.end(), is_same)) continue;
+    rows.push_back(row);
+    labels.push_back(group.label(row.label));
+  }
+  for (std::size_t i = 0; i < rows.size() && rows.size() > 1; ++i) rows[i].label = labels[i];
+  return rows;
 }
 
 std::string label_of(const std::string& utility) {
@@ -240,26 +282,26 @@ void add_notes(TextTable& table, const PaperTable& paper, bool several_runs,
 }  // namespace
 
 TextTable comparison_table(const PaperTable& paper, std::span<const RunFigures> runs,
-                           const std::optional<Ceiling>& ceiling) {
+                           const std::optional<Ceiling>& ceiling,
+                           std::span<const std::string> settings) {
   TextTable table;
   table.title = std::string(paper.source);
   table.columns = all_columns();
   const auto add = [&](const RowFigures& f) { table.rows.push_back(all_cells(f)); };
-  const auto groups = by_utility(runs);
-  Runs all;
-  bool several_runs = false;
+  const std::vector<Group> groups = grouped(runs, settings);
+  const auto add_ours = [&](const Group& group, const std::string& name) {
+    add(our_figures(group.label(name), group.runs, ceiling));
+  };
   for (const PaperRow& row : paper.rows) {
-    for (const auto& [utility, group] : groups) {
-      if (utility == row.utility) add(our_figures(std::string(row.label), group, ceiling));
+    for (const Group& group : groups) {
+      if (group.utility == row.utility) add_ours(group, std::string(row.label));
     }
     add(paper_figures(row));
   }
-  for (const auto& [utility, group] : groups) {
-    if (find_row(paper, utility) == nullptr) add(our_figures(label_of(utility), group, ceiling));
-    all.insert(all.end(), group.begin(), group.end());
-    several_runs = several_runs || group.size() > 1;
+  for (const Group& group : groups) {
+    if (find_row(paper, group.utility) == nullptr) add_ours(group, label_of(group.utility));
   }
-  if (!all.empty()) add(our_profile(all, ceiling));
+  for (const RowFigures& profile : our_profiles(groups, ceiling)) add(profile);
   if (paper.profile) add(paper_figures(*paper.profile));
   if (ceiling) {
     add(ceiling_figures("physical", ceiling->outside));
@@ -268,8 +310,12 @@ TextTable comparison_table(const PaperTable& paper, std::span<const RunFigures> 
   const bool prints_time = std::any_of(paper.rows.begin(), paper.rows.end(),
                                        [](const PaperRow& r) { return r.time_min.has_value(); });
   if (!prints_time) drop_column(table, "time_min");
+  const bool several_runs = std::any_of(groups.begin(), groups.end(),
+                                        [](const Group& group) { return group.runs.size() > 1; });
   add_notes(table, paper, several_runs, ceiling);
-  for (const auto& [utility, group] : groups) table.notes.push_back(runs_note(utility, group));
+  for (const Group& group : groups) {
+    table.notes.push_back(runs_note(group.label(group.utility), group.runs));
+  }
   return table;
 }
 

@@ -16,9 +16,11 @@ namespace gnbv {
 /// there are several) and the paper's row, in the paper's order; then utilities the paper lacks,
 /// the profile, and the ceilings. Distances are straight_m, times end with the last view and begin
 /// with the end of the profile. `runs` may hold any utilities and seeds of one scenario; none at
-/// all gives the paper alone.
+/// all gives the paper alone. `settings` names, for each run, what tells its configuration from
+/// others of its utility: runs of two settings are two rows. None: all runs have the same.
 TextTable comparison_table(const PaperTable& paper, std::span<const RunFigures> runs,
-                           const std::optional<Ceiling>& ceiling);
+                           const std::optional<Ceiling>& ceiling,
+                           std::span<const std::string> settings = {});
 
 /// The mission's row as a small aligned table; below it the paper's, if the paper has one for this
 /// scenario, utility and structure.

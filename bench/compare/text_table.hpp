@@ -25,6 +25,8 @@ struct TableColumn {
 struct TableCell {
   std::string text;
   std::array<std::optional<double>, 2> values{};
+
+  bool operator==(const TableCell&) const = default;
 };
 
 struct TextTable {

@@ -1,14 +1,12 @@
 // What plots are made of: series over views and coverage over effort, as numbers.
 #pragma once
 
-#include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "bench/compare/statistics.hpp"
 #include "bench/score/run_figures.hpp"
-#include "tools/run_files/run_record.hpp"
+#include "tools/run_files/run_groups.hpp"
 
 namespace gnbv {
 
@@ -31,16 +29,6 @@ double coverage_at(const CoverageCurve& curve, Effort effort, std::size_t size, 
 
 /// How much effort the whole curve took. Requires a curve.
 double whole_effort(const CoverageCurve& curve, Effort effort);
-
-/// Runs that differ in their seeds alone.
-struct RunGroup {
-  std::string label;  // what tells it from the other groups: scenario, utility, preset; then keys
-  std::vector<const RunRecord*> runs;
-};
-
-/// Runs with figures, grouped by their whole configuration without the seed, in the order of their
-/// first ones. A run of a group and seed that is there already is left out and named in `notes`.
-std::vector<RunGroup> group_runs(std::span<const RunRecord> runs, std::vector<std::string>& notes);
 
 /// One point of a mean curve.
 struct CoveragePoint {

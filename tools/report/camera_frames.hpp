@@ -1,15 +1,14 @@
 // What the cameras of a run saw, small enough for a page: thumbnails, and the colours of points.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <string>
 #include <vector>
 
-#include "tools/run_files/frame_record.hpp"
+#include "sim/core/srgb.hpp"
+#include "tools/run_files/frames_folder.hpp"
 #include "tools/run_files/run_record.hpp"
 
 namespace gnbv {
@@ -24,8 +23,8 @@ struct Thumbnail {
 };
 
 struct CameraFrames {
-  std::vector<Thumbnail> thumbnails;                // in the order of the frames
-  std::vector<std::array<std::uint8_t, 3>> colour;  // sRGB, of each point asked for; may be empty
+  std::vector<Thumbnail> thumbnails;  // in the order of the frames
+  std::vector<Rgb8> colour;           // of each point asked for; may be empty
 
   bool operator==(const CameraFrames&) const = default;
 };
@@ -33,14 +32,12 @@ struct CameraFrames {
 /// What is done of 1.0.
 using ReportProgress = std::function<void(double)>;
 
-/// Reads every colour frame once. Thumbnails are of every view, or of every second, third ... one,
-/// so that together they stay within `max_bytes`. A point of the cloud (`points`, ascending) has
-/// the colour of the pixel it falls on in the frames of the view that brought it; one of the
-/// profile has that of the nearest such point within 0.2 m or so, else a grey. The same at any
-/// number of threads. Throws BadInput naming an image that cannot be read, or is not of its
-/// camera's size.
-CameraFrames read_camera_frames(const FrameRecord& frames, const RunCloud& cloud,
-                                std::span<const std::size_t> points, std::size_t max_bytes,
-                                int threads, const ReportProgress& progress);
+/// Reads every frame once. Thumbnails are of every view, or of every second, third ... one, so that
+/// together they stay within `max_bytes`. Points of the cloud (`points`, ascending) are coloured as
+/// CloudColours says; a grey where no frame shows them. The same at any number of threads. Throws
+/// BadInput naming an image that cannot be read, or is not of its camera's size.
+CameraFrames read_camera_frames(const RunRecord& record, const FrameRecord& frames,
+                                const RunCloud& cloud, std::span<const std::size_t> points,
+                                std::size_t max_bytes, int threads, const ReportProgress& progress);
 
 }  // namespace gnbv

@@ -13,6 +13,8 @@
 #include "tools/report/page_parts.hpp"
 #include "tools/report/page_text.hpp"
 #include "tools/report/run_json.hpp"
+#include "tools/run_files/file_names.hpp"
+#include "tools/run_files/run_groups.hpp"
 
 namespace gnbv {
 namespace {
@@ -31,7 +33,7 @@ RunBudget budget_of(const std::vector<RunRecord>& records, std::size_t mesh_byte
   std::size_t text = page_template().size() + page_style().size() + page_script().size();
   for (const RunRecord& record : records) {
     std::error_code ignored;
-    const auto yaml = fs::file_size(record.folder / "scenario.yaml", ignored);
+    const auto yaml = fs::file_size(record.folder / kScenarioFile, ignored);
     text += 50'000 + 600 * record.views.size() + (ignored ? 0 : yaml);  // JSON, with tables
   }
   // base64 makes four bytes of three
@@ -41,34 +43,48 @@ RunBudget budget_of(const std::vector<RunRecord>& records, std::size_t mesh_byte
           .points = std::min(kMaxPoints, kAllPoints / records.size())};
 }
 
-/// A table a scenario, of the runs that were scored; of the paper's figures only where the
-/// structure is the paper's.
-Json tables_json(const std::vector<RunRecord>& records) {
-  Json tables = Json::array();
-  std::vector<std::string> done;
-  for (const RunRecord& first : records) {
-    if (!first.figures) continue;
-    const std::string group = first.figures->scenario + "\n" + first.figures->structure;
-    if (std::find(done.begin(), done.end(), group) != done.end()) continue;
-    done.push_back(group);
-    std::vector<RunFigures> runs;
-    for (const RunRecord& r : records) {
-      if (r.figures && r.figures->scenario + "\n" + r.figures->structure == group) {
-        runs.push_back(*r.figures);
-      }
+/// Runs of one scenario and structure, beside the paper's figures only where the structure is the
+/// paper's.
+TextTable table_of(std::span<const RunRecord* const> records) {
+  std::vector<std::string> notes;
+  const std::vector<RunGroup> groups = group_runs(records, notes);
+  const std::vector<std::string> labels = setting_labels(groups);
+  std::vector<RunFigures> runs;
+  std::vector<std::string> settings;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    for (const RunRecord* const record : groups[i].runs) {
+      runs.push_back(*record->figures);
+      settings.push_back(labels[i]);
     }
-    const PaperTable* const paper = find_paper_table(first.figures->scenario);
-    const std::string title = fmt::format("{}, {}", first.figures->scenario, runs[0].structure);
-    const PaperTable none{
-        .scenario = first.figures->scenario,
-        .source = runs[0].structure == runs[0].scenario ? runs[0].scenario : title,
-        .rows = {},
-        .profile = {},
-        .mesh_sha256 = ""};
-    const bool is_papers = paper != nullptr && is_papers_structure(*paper, runs[0].structure);
-    tables.push_back(table_json(comparison_table(is_papers ? *paper : none, runs, {})));
   }
-  return tables;
+  const std::string& scenario = runs.at(0).scenario;
+  const std::string& structure = runs.at(0).structure;
+  const PaperTable* const paper = find_paper_table(scenario);
+  const std::string title = structure == scenario ? scenario : scenario + ", " + structure;
+  const PaperTable none{
+      .scenario = scenario, .source = title, .rows = {}, .profile = {}, .mesh_sha256 = ""};
+  const bool is_papers = paper != nullptr && is_papers_structure(*paper, structure);
+  TextTable table = comparison_table(is_papers ? *paper : none, runs, {}, settings);
+  table.notes.insert(table.notes.end(), notes.begin(), notes.end());
+  return table;
+}
+
+/// A table a scenario and structure, of the runs that were scored.
+Json tables_json(const std::vector<RunRecord>& records) {
+  std::vector<std::vector<const RunRecord*>> tables;
+  for (const RunRecord& record : records) {
+    if (!record.figures || record.figures->curve.coverage.empty()) continue;
+    auto table = std::find_if(tables.begin(), tables.end(), [&](const auto& runs) {
+      const RunFigures& first = *runs.front()->figures;
+      return first.scenario == record.figures->scenario &&
+             first.structure == record.figures->structure;
+    });
+    if (table == tables.end()) table = tables.emplace(tables.end());
+    table->push_back(&record);
+  }
+  Json json = Json::array();
+  for (const auto& table : tables) json.push_back(table_json(table_of(table)));
+  return json;
 }
 
 /// Equal for runs of the same structure.

@@ -9,6 +9,7 @@
 #include "sim/core/file.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/report/thinning.hpp"
+#include "tools/run_files/file_names.hpp"
 
 namespace gnbv {
 namespace {
@@ -158,27 +159,6 @@ Json packed_json(const PackedRun& packed) {
 
 }  // namespace
 
-std::vector<std::string> run_labels(const std::vector<RunRecord>& records) {
-  std::vector<std::string> labels;
-  const auto label_of = [](const RunRecord& r, int detail) {
-    std::string label = run_title(r);
-    if (detail > 0) label += fmt::format(", seed {}", r.scenario.seed);
-    if (detail > 1) label += fmt::format(" ({})", r.folder.lexically_normal().string());
-    return label;
-  };
-  const auto is_shared = [&](const RunRecord& r, int detail) {
-    return std::count_if(records.begin(), records.end(), [&](const RunRecord& other) {
-             return label_of(other, detail) == label_of(r, detail);
-           }) > 1;
-  };
-  for (const RunRecord& r : records) {
-    int detail = 0;
-    while (detail < 2 && is_shared(r, detail)) ++detail;
-    labels.push_back(label_of(r, detail));
-  }
-  return labels;
-}
-
 Json table_json(const TextTable& table) {
   Json json = {{"title", table.title}, {"columns", Json::array()}, {"rows", Json::array()}};
   for (const TableColumn& c : table.columns) {
@@ -236,7 +216,7 @@ Json run_json(const RunRecord& record, const std::string& label, const PackedRun
       {"folder", record.folder.string()},
       {"command",
        bare_command_to_fly_again(record.folder, packed.cameras.empty() ? "" : "--frames")},
-      {"yaml", read_file(record.folder / "scenario.yaml")},
+      {"yaml", read_file(record.folder / kScenarioFile)},
       {"missing", missing},
       {"workspace",
        {{"min", vector_json(scenario.workspace_m.min().cast<float>())},

@@ -11,9 +11,6 @@
 
 namespace gnbv {
 
-/// Names by which people tell the runs apart: title, with seed and folder as far as they need it.
-std::vector<std::string> run_labels(const std::vector<RunRecord>& records);
-
 /// Title, columns, rows and notes as printed.
 nlohmann::ordered_json table_json(const TextTable& table);
 

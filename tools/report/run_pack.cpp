@@ -6,6 +6,7 @@
 
 #include "sim/core/error.hpp"
 #include "tools/report/thinning.hpp"
+#include "tools/run_files/file_names.hpp"
 
 namespace gnbv {
 namespace {
@@ -115,14 +116,15 @@ void pack_frames(const RunRecord& record, const RunCloud& cloud, const ThinnedPo
                  PackedRun& out) {
   if (!has_frames(record.folder)) {
     out.missing.push_back(fmt::format("{}: colour images were not kept; {} keeps them",
-                                      (record.folder / "frames").string(),
+                                      (record.folder / kFramesFolder).string(),
                                       command_to_fly_again(record.folder, "--frames")));
     return;
   }
   const FrameRecord frames = read_frames(record.folder);
   const std::size_t colours = kColourBytes * thin.kept.size() + kPaddingBytes;
-  const CameraFrames seen = read_camera_frames(
-      frames, cloud, thin.kept, max_bytes - std::min(max_bytes, colours), threads, progress);
+  const CameraFrames seen =
+      read_camera_frames(record, frames, cloud, thin.kept, max_bytes - std::min(max_bytes, colours),
+                         threads, progress);
   for (const FrameCamera& camera : frames.cameras) out.cameras.push_back(camera.name);
   for (const Thumbnail& t : seen.thumbnails) {
     const RecordedFrame& frame = frames.frames[t.frame];

@@ -13,7 +13,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "tests/support/made_run.hpp"
+#include "tests/support/covered_record.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/plots/coverage_plot.hpp"
 #include "tools/plots/run_plots.hpp"
@@ -49,21 +49,6 @@ RunRecord scored_record() {
     s = {.value = 0.0, .information = 0.01 * i, .density = 0.8, .prediction = 0.3, .distance = 0.9};
     if (i > 0) s.value = (1.0 + 10.0 * s.information) * 0.55 * 0.9 * std::log10(50.0 + i);
     record.views.push_back(view);
-  }
-  return record;
-}
-
-/// A run whose coverage after `views` views is given; each view takes 2 m and 5 s.
-RunRecord covered_record(std::uint64_t seed, const std::vector<double>& coverage) {
-  RunRecord record = made_record();
-  record.scenario.seed = seed;
-  record.figures.emplace();
-  record.figures->scenario = "smoke";
-  record.figures->utility = record.scenario.planner.utility.name;
-  for (std::size_t i = 0; i < coverage.size(); ++i) {
-    record.figures->curve.coverage.push_back({coverage[i], 1.0, 1.0});
-    record.figures->curve.metres.push_back(2.0 * static_cast<double>(i));
-    record.figures->curve.seconds.push_back(5.0 * static_cast<double>(i));
   }
   return record;
 }
@@ -172,53 +157,6 @@ TEST(Plots, OneRunsCurveIsItsOwnAndAnEndedRunKeepsItsCoverage) {
   const auto metres = mean_coverage(both, Effort::metres, 0);
   ASSERT_EQ(metres.size(), 201U);
   EXPECT_NEAR(metres[25].coverage.mean, 0.5 * (0.25 + 0.35), 1e-12);  // at 0.5 m of 4
-}
-
-TEST(Plots, RunsOfOneMethodAreOneGroup) {
-  std::vector<RunRecord> runs = {covered_record(1, {0.2}), covered_record(2, {0.2}),
-                                 covered_record(1, {0.2}), covered_record(1, {0.2})};
-  runs[3].scenario.planner.cloud.leaf_m = 0.07;
-  std::vector<std::string> notes;
-  const std::vector<RunGroup> groups = group_runs(runs, notes);
-  ASSERT_EQ(groups.size(), 2U);
-  EXPECT_EQ(groups[0].runs.size(), 2U);
-  EXPECT_EQ(groups[0].label, "leaf_m=0.05");
-  EXPECT_EQ(groups[1].label, "leaf_m=0.07");
-  EXPECT_EQ(notes.size(), 1U);
-  runs.push_back(made_record());  // never scored
-  notes.clear();
-  EXPECT_EQ(group_runs(runs, notes).size(), 2U);
-  ASSERT_EQ(notes.size(), 2U);
-  EXPECT_NE(notes[1].find("has no figures"), std::string::npos) << notes[1];
-  runs[3].scenario.planner.utility.name = "isler";
-  EXPECT_EQ(group_runs(runs, notes)[1].label, "isler");
-}
-
-/// Only what tells it from others of its name is said of a group, and a label is never a list.
-TEST(Plots, LabelsSayNoMoreThanIsNeeded) {
-  std::vector<RunRecord> runs(4, covered_record(1, {0.2}));
-  runs[1].scenario.planner.cloud.leaf_m = 0.07;
-  runs[2].scenario.name = "lab";
-  runs[2].scenario.planner.map.resolution_m = 0.1;
-  runs[2].scenario.planner.floor_z_m = 0.4;
-  const auto labels = [&] {
-    std::vector<std::string> notes;
-    std::vector<std::string> all;
-    for (const RunGroup& group : group_runs(runs, notes)) all.push_back(group.label);
-    return all;
-  };
-  EXPECT_EQ(labels(),
-            (std::vector<std::string>{"smoke, leaf_m=0.05", "smoke, leaf_m=0.07", "lab"}));
-  runs[1].scenario.planner.map.resolution_m = 0.1;
-  runs[1].scenario.planner.floor_z_m = 0.4;
-  runs[0].folder = "runs/a";
-  runs[1].folder = "runs/b";
-  EXPECT_EQ(labels(), (std::vector<std::string>{"smoke, a", "smoke, b", "lab"}));
-  runs.resize(2);
-  runs[1].scenario = runs[0].scenario;
-  runs[0].scenario.cameras[0].rate_hz = runs[0].scenario.lidars[0].rate_hz = 1.0;
-  runs[1].scenario.cameras[0].rate_hz = runs[1].scenario.lidars[0].rate_hz = 2.0;
-  EXPECT_EQ(labels()[1], "cameras.0.rate_hz=2, lidars.0.rate_hz=2");
 }
 
 /// A key hides no curve: it stands in the corner where that is free, and over the plot where a

@@ -41,25 +41,34 @@ TEST(CameraFrames, APointHasTheColourOfItsPixelAndThumbnailsKeepTheirBudget) {
                      .cy_px = 24.0}};
   for (int view = 0; view < 8; ++view) {
     const fs::path png = temp.path() / fmt::format("{}.png", view);
+    const fs::path depth = temp.path() / fmt::format("{}.depth.png", view);
     write_png(view == 1 ? other : image, png);
-    frames.frames.push_back({.iteration = view, .colour = png});
+    write_png(GreyImage16{64, 48, std::vector<std::uint16_t>(64 * 48, 4000)}, depth);
+    frames.frames.push_back({.iteration = view, .colour = png, .depth = depth});
     frames.frames.back().T_world_camera.linear() = R_body_optical();
   }
-  // profile: near the left one, near none; view 0: left (+y), right; view 1: left
+  // profile: left (+y), beside every picture; view 0: left, right, left but hidden; view 1: left
   const RunCloud cloud{
-      .points_world_m = {{4, 1.1F, 0}, {4, 3, 9}, {4, 1, 0}, {4, -1, 0}, {4, 1, 1}},
+      .points_world_m = {{4, 1.1F, 0}, {4, 3, 9}, {4, 1, 0}, {4, -1, 0}, {5, 1, 0}, {4, 1, 1}},
       .profile_points = 2,
-      .view_points = {4, 5, 5, 5, 5, 5, 5, 5}};
-  const std::vector<std::size_t> all = {0, 1, 2, 3, 4};
+      .view_points = {5, 6, 6, 6, 6, 6, 6, 6}};
+  const std::vector<std::size_t> all = {0, 1, 2, 3, 4, 5};
+  RunRecord record;
+  for (int view = 0; view < 8; ++view) record.views.push_back({.iteration = view});
   const auto read = [&](std::size_t max_bytes, int threads) {
-    return read_camera_frames(frames, cloud, all, max_bytes, threads, [](double) {});
+    return read_camera_frames(record, frames, cloud, all, max_bytes, threads, [](double) {});
   };
   const CameraFrames seen = read(1'000'000, 1);
   EXPECT_EQ(seen.colour[2], (Rgb8{200, 0, 0}));
   EXPECT_EQ(seen.colour[3], (Rgb8{0, 0, 200}));
-  EXPECT_EQ(seen.colour[4], (Rgb8{0, 0, 200}));
+  EXPECT_EQ(seen.colour[5], (Rgb8{0, 0, 200}));
   EXPECT_EQ(seen.colour[0], seen.colour[2]);
   EXPECT_EQ(seen.colour[1][0], 150);  // the grey of what no camera saw
+  EXPECT_EQ(seen.colour[4][0], 150) << "its pixel shows what is before it";
+  const std::vector<std::size_t> some = {0, 3, 5};
+  const CameraFrames of_some =
+      read_camera_frames(record, frames, cloud, some, 1'000'000, 1, [](double) {});
+  EXPECT_EQ(of_some.colour, (std::vector{seen.colour[0], seen.colour[3], seen.colour[5]}));
   ASSERT_EQ(seen.thumbnails.size(), 8U);
   const std::size_t each = seen.thumbnails[0].jpeg.size();
   const CameraFrames few = read(3 * each, 3);

@@ -12,7 +12,6 @@
 #include "tests/support/made_run.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/render/colour.hpp"
-#include "tools/report/run_json.hpp"
 
 namespace gnbv {
 namespace {
@@ -216,19 +215,30 @@ TEST(Report, HasTheColoursOfThePictures) {
   }
 }
 
-TEST(Report, RunsAreToldApartByAsMuchAsItTakes) {
-  RunRecord a = made_record();
-  a.folder = "runs/a";
+/// A released run is no second seed of a run by the paper.
+TEST(Report, RunsOfTwoConfigurationsAreTwoRows) {
+  TempFolder temp;
+  write_made_run(temp.path());
+  RunRecord a = read_run(temp.path());
+  a.figures = RunFigures{.scenario = "smoke", .structure = "smoke", .utility = "proposed"};
+  a.figures->curve = {.coverage = {{}}, .metres = {0.0}, .seconds = {0.0}};
   RunRecord b = a;
-  b.folder = "runs/b";
-  RunRecord c = a;
-  c.scenario.planner.utility.name = "bircher";
-  RunRecord d = c;
-  d.scenario.seed = 2;
-  EXPECT_EQ(run_labels({a, c}), (std::vector<std::string>{"smoke, proposed", "smoke, bircher"}));
-  EXPECT_EQ(run_labels({c, d}),
-            (std::vector<std::string>{"smoke, bircher, seed 1", "smoke, bircher, seed 2"}));
-  EXPECT_EQ(run_labels({a, b})[1], "smoke, proposed, seed 1 (runs/b)");
+  b.scenario.planner.preset = "released";
+  b.figures->coverage_final[0] = b.figures->coverage_profile[0] = 0.5;
+  RunRecord other_seed = a;
+  other_seed.scenario.seed = 2;
+  const auto labels = [](const std::vector<RunRecord>& records) {
+    std::vector<std::string> firsts;
+    for (const nlohmann::json& row : data_of(report_of(records))["tables"][0]["rows"]) {
+      firsts.push_back(fmt::format("{}: {}", row[0].get<std::string>(), row[2].get<std::string>()));
+    }
+    return firsts;
+  };
+  using Labels = std::vector<std::string>;
+  EXPECT_EQ(labels({a, other_seed}), (Labels{"proposed: 2", "Profile: 1"}));
+  EXPECT_EQ(labels({a, b, other_seed}), (Labels{"proposed, paper: 2", "proposed, released: 1",
+                                                "Profile, paper: 1", "Profile, released: 1"}));
+  EXPECT_EQ(labels({a, a}), (Labels{"proposed: 1", "Profile: 1"})) << "one mission, told twice";
 }
 
 }  // namespace
