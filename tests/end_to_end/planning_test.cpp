@@ -14,7 +14,7 @@
 #include "sim/core/simd.hpp"
 #include "tests/support/flown.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tools/run_files/candidates_file.hpp"
+#include "tools/run_files/candidates_jsonl.hpp"
 #include "tools/run_files/iterations_csv.hpp"
 
 namespace gnbv {

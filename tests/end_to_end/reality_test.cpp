@@ -12,7 +12,7 @@
 #include "sim/flight/rotors.hpp"
 #include "tests/support/flown.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tools/run_files/frame_files.hpp"
+#include "tools/run_files/frames_folder.hpp"
 
 namespace gnbv {
 namespace {
@@ -108,10 +108,10 @@ TEST(HittingTheStructure, EndsTheMissionWhereItHappened) {
   EXPECT_GT(flight.result.flight_time_s, 0.0);
 }
 
-TEST(FrameFilesOfARun, HoldWhatTheCamerasSaw) {
+TEST(FramesOfARun, HoldWhatTheCamerasSaw) {
   TempFolder temp;
   const Scenario scenario = smoke(short_mission({}));
-  FrameFiles files(temp.path() / "frames", camera_models(scenario));
+  FramesFolder files(temp.path(), camera_models(scenario));
   std::vector<float> first_depth_m;
   MissionHooks hooks;
   hooks.on_frames = [&](std::size_t iteration, double time_s, std::span<const DepthFrame> depth,

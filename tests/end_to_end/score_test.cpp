@@ -12,7 +12,7 @@
 #include "sim/core/file.hpp"
 #include "tests/end_to_end/scored_mission.hpp"
 #include "tools/run_files/cloud_file.hpp"
-#include "tools/run_files/run_figures_file.hpp"
+#include "tools/run_files/summary_json.hpp"
 
 namespace gnbv {
 namespace {
@@ -192,7 +192,7 @@ TEST_F(Score, OfARunWhoseFilesDoNotFitNamesTheFile) {
   expect_refused("iterations.csv", rows.substr(0, last), "11 views, 12 in summary.json");
   Json summary = summary_of(run);
   summary["iterations"] = "12";
-  expect_refused("summary.json", summary.dump(), "iterations: is missing or no count");
+  expect_refused("summary.json", summary.dump(), "/iterations: \"12\" is no count");
   for (const Json& schema : {Json(3), Json(-1), Json("2"), Json(1.5)}) {
     summary = summary_of(run);
     summary["schema"] = schema;

@@ -12,7 +12,7 @@
 
 namespace gnbv {
 
-/// A frame of 64 x 48 px of one camera for each view of the made run.
+/// A frame of 64 x 48 px of one camera for each view of the made run, 2 m from what it sees.
 inline void write_made_frames(const std::filesystem::path& run) {
   const std::filesystem::path folder = run / "frames";
   std::filesystem::create_directories(folder);
@@ -25,7 +25,9 @@ inline void write_made_frames(const std::filesystem::path& run) {
     }
     const std::string name = fmt::format("{}.png", view);
     write_png(image, folder / name);
-    poses += fmt::format("{},c,{},4,4,{},0,0,0,1,{},{}\n", view, 3 + view, view, name, name);
+    const GreyImage16 depth{64, 48, std::vector<std::uint16_t>(64 * 48, 2000)};
+    write_png(depth, folder / ("depth_" + name));
+    poses += fmt::format("{},c,{},4,4,{},0,0,0,1,{},depth_{}\n", view, 3 + view, view, name, name);
   }
   write_file_atomically(folder / "poses.csv", poses);
   write_file_atomically(folder / "cameras.json",

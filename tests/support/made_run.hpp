@@ -9,8 +9,10 @@
 #include "scenarios/load.hpp"
 #include "sim/core/file.hpp"
 #include "tools/run_files/cloud_file.hpp"
+#include "tools/run_files/file_names.hpp"
 #include "tools/run_files/iterations_csv.hpp"
 #include "tools/run_files/run_record.hpp"
+#include "tools/run_files/trajectory_tum.hpp"
 
 namespace gnbv {
 
@@ -44,20 +46,13 @@ inline RunRecord made_record() {
 /// The record as a directory without a summary: two points of the profile, six in all.
 inline void write_made_run(const std::filesystem::path& folder) {
   const RunRecord record = made_record();
-  std::string path = "# time x y z qx qy qz qw\n";
-  for (const TrajectorySample& s : record.path) {
-    const Vec3 p = s.T_world_body.translation();
-    path += fmt::format("{} {} {} {} 0 0 0 1\n", s.time_s, p.x(), p.y(), p.z());
-  }
-  std::string views = iterations_csv_header();
-  for (const ViewRecord& view : record.views) views += iterations_csv_row(view);
-  write_file_atomically(folder / "scenario.yaml", to_yaml(record.scenario));
-  write_file_atomically(folder / "trajectory.tum", path);
-  write_file_atomically(folder / "iterations.csv", views);
+  write_file_atomically(folder / kScenarioFile, to_yaml(record.scenario));
+  write_file_atomically(folder / kTrajectoryFile, trajectory_tum(record.path));
+  write_file_atomically(folder / kIterationsFile, iterations_csv(record.views));
   const std::vector<Vec3f> points = {{0, 0, 1}, {1, 0, 1}, {0, 1, 1},
                                      {1, 1, 1}, {0, 0, 2}, {1, 1, 2}};
-  write_cloud_ply(points, folder / "cloud.ply");
-  write_cloud_ply(std::span(points).first(2), folder / "profile.ply");
+  write_cloud_ply(points, folder / kCloudFile);
+  write_cloud_ply(std::span(points).first(2), folder / kProfileCloudFile);
 }
 
 }  // namespace gnbv

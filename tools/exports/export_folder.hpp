@@ -5,7 +5,7 @@
 #include <functional>
 #include <string_view>
 
-#include "tools/run_files/frame_record.hpp"
+#include "tools/run_files/frames_folder.hpp"
 #include "tools/run_files/run_record.hpp"
 
 namespace gnbv {

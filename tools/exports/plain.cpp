@@ -10,7 +10,10 @@
 #include "sim/core/file.hpp"
 #include "tools/exports/export_folder.hpp"
 #include "tools/run_files/cloud_file.hpp"
+#include "tools/run_files/file_names.hpp"
+#include "tools/run_files/iterations_csv.hpp"
 #include "tools/run_files/run_poses.hpp"
+#include "tools/run_files/separated_text.hpp"
 
 namespace gnbv {
 namespace {
@@ -53,13 +56,6 @@ std::string pose_header(std::string_view frame) {
   return fmt::format("{0}_x_m,{0}_y_m,{0}_z_m,{0}_qx,{0}_qy,{0}_qz,{0}_qw", frame);
 }
 
-std::string pose_cells(const Isometry& T) {
-  const Vec3 p = T.translation();
-  const Eigen::Quaterniond q(T.linear());
-  return fmt::format("{:.6f},{:.6f},{:.6f},{:.9f},{:.9f},{:.9f},{:.9f}", p.x(), p.y(), p.z(), q.x(),
-                     q.y(), q.z(), q.w());
-}
-
 std::string_view phase_at(const RunRecord& record, double time_s) {
   if (!record.profile_end_s || !record.views_begin_s) return "";
   if (time_s <= *record.profile_end_s) return "profile";
@@ -69,19 +65,10 @@ std::string_view phase_at(const RunRecord& record, double time_s) {
 std::string trajectory_text(const RunRecord& record) {
   std::string text = fmt::format("time_s,{},phase\n", pose_header("body"));
   for (const TrajectorySample& s : record.path) {
-    text += fmt::format("{:.3f},{},{}\n", s.time_s, pose_cells(s.T_world_body),
+    text += fmt::format("{:.3f},{},{}\n", s.time_s, pose_text(s.T_world_body, ','),
                         phase_at(record, s.time_s));
   }
   return text;
-}
-
-std::string decision_cells(const ViewRecord& view) {
-  const Decision& d = view.decision;
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", d.sampler, d.scale,
-                     d.candidates, d.valid, d.score.value, d.score.information, d.score.density,
-                     d.score.prediction, d.score.distance, view.entropy_nat,
-                     view.density_points_per_voxel, view.cloud_points, view.straight_m,
-                     view.flown_m, view.time_s);
 }
 
 std::string image_name(const FrameCamera& camera, const RecordedFrame& frame) {
@@ -108,17 +95,14 @@ std::string view_row(const ViewRecord& view, const CameraModel& camera,
       frame != nullptr ? fmt::format("{}_{}.png", frame_number(*frame), camera.config.name) : "";
   return fmt::format("{},{},{},{},{},{},{},{}\n", view.iteration, camera.config.name,
                      frame != nullptr ? "believed" : "planned",
-                     pose_cells(T_world_camera * camera.T_body_camera.inverse()),
-                     pose_cells(T_world_camera), decision_cells(view),
+                     pose_text(T_world_camera * camera.T_body_camera.inverse(), ','),
+                     pose_text(T_world_camera, ','), decision_cells(view),
                      name.empty() ? "" : "images/" + name, name.empty() ? "" : "depth/" + name);
 }
 
 std::string views_text(const RunRecord& record, const PlainParts& parts) {
-  std::string text = fmt::format(
-      "iteration,camera,pose,{},{},sampler,scale,candidates,valid,utility,information,density_term,"
-      "prediction,distance_factor,entropy_nat,density_points_per_voxel,cloud_points,straight_m,"
-      "flown_m,time_s,image,depth\n",
-      pose_header("body"), pose_header("camera"));
+  std::string text = fmt::format("iteration,camera,pose,{},{},{},image,depth\n",
+                                 pose_header("body"), pose_header("camera"), decision_header());
   for (const ViewRecord& view : record.views) {
     for (const CameraConfig& config : record.scenario.cameras) {
       text +=
@@ -194,11 +178,11 @@ void write_plain(const RunRecord& record, const PlainParts& parts, const fs::pat
     write_file_atomically(folder / "trajectory.csv", trajectory_text(record));
   if (!record.views.empty()) write_file_atomically(folder / "views.csv", views_text(record, parts));
   write_file_atomically(folder / "intrinsics.json", intrinsics_text(record, parts));
-  write_file_atomically(folder / "scenario.yaml", to_yaml(record.scenario));
+  write_file_atomically(folder / kScenarioFile, to_yaml(record.scenario));
   write_file_atomically(folder / "README.txt", kReadme);
   if (parts.frames) link_images(*parts.frames, folder);
-  if (parts.cloud) write_cloud(*parts.cloud, parts.colours, folder / "cloud.ply");
-  const fs::path octomap = record.folder / "map.bt";
+  if (parts.cloud) write_cloud(*parts.cloud, parts.colours, folder / kCloudFile);
+  const fs::path octomap = record.folder / kMapFile;
   if (fs::exists(octomap)) write_map(octomap, folder);
 }
 

@@ -6,6 +6,7 @@
 #include "sim/core/file.hpp"
 #include "tools/exports/export_folder.hpp"
 #include "tools/run_files/run_poses.hpp"
+#include "tools/run_files/trajectory_tum.hpp"
 
 namespace gnbv {
 namespace {
@@ -33,30 +34,23 @@ The folders of cameras are there for runs that were flown with --frames. Time is
 begins with the mission.
 )";
 
-std::string pose_line(double time_s, const Isometry& T) {
-  const Vec3 p = T.translation();
-  const Eigen::Quaterniond q(T.linear());
-  return fmt::format("{:.3f} {:.6f} {:.6f} {:.6f} {:.9f} {:.9f} {:.9f} {:.9f}\n", time_s, p.x(),
-                     p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
-}
-
 /// The camera's true poses: those of the path, and between them where frames were taken.
 std::string groundtruth_text(const RunRecord& record, const Isometry& T_body_camera,
                              const std::vector<double>& frame_times_s) {
-  std::string text = "# time_s x_m y_m z_m qx qy qz qw, optical frame in world ENU, true\n";
+  std::string text = tum_text("optical frame in world ENU, true", {});
   auto frame = frame_times_s.begin();
   for (const TrajectorySample& sample : record.path) {
     for (; frame != frame_times_s.end() && *frame < sample.time_s; ++frame) {
       if (*frame < record.path.front().time_s) continue;
-      text += pose_line(*frame, *true_pose_at(record, *frame) * T_body_camera);
+      text += tum_line(*frame, *true_pose_at(record, *frame) * T_body_camera);
     }
     // a frame at the very time of a sample stands once
     if (frame != frame_times_s.end() && *frame == sample.time_s) ++frame;
-    text += pose_line(sample.time_s, sample.T_world_body * T_body_camera);
+    text += tum_line(sample.time_s, sample.T_world_body * T_body_camera);
   }
   for (; frame != frame_times_s.end(); ++frame) {  // of the last view, after the last sample
     const std::optional<Isometry> T_world_body = true_pose_at(record, *frame);
-    if (T_world_body) text += pose_line(*frame, *T_world_body * T_body_camera);
+    if (T_world_body) text += tum_line(*frame, *T_world_body * T_body_camera);
   }
   return text;
 }
@@ -66,7 +60,7 @@ void write_camera(const RunRecord& record, const FrameRecord& frames, std::size_
   std::string rgb = "# time_s file\n";
   std::string depth = rgb;
   std::string associations;
-  std::string estimate = "# time_s x_m y_m z_m qx qy qz qw, optical frame in world ENU, believed\n";
+  std::string estimate = tum_text("optical frame in world ENU, believed", {});
   std::vector<double> times_s;
   for (const RecordedFrame& frame : frames.frames) {
     if (frame.camera != camera) continue;
@@ -75,7 +69,7 @@ void write_camera(const RunRecord& record, const FrameRecord& frames, std::size_
     depth += fmt::format("{:.3f} depth/{}\n", frame.time_s, name);
     associations +=
         fmt::format("{:.3f} rgb/{} {:.3f} depth/{}\n", frame.time_s, name, frame.time_s, name);
-    estimate += pose_line(frame.time_s, frame.T_world_camera);
+    estimate += tum_line(frame.time_s, frame.T_world_camera);
     times_s.push_back(frame.time_s);
     link_or_copy(frame.colour, folder / "rgb" / name);
     link_or_copy(frame.depth, folder / "depth" / name);
@@ -98,9 +92,8 @@ void write_camera(const RunRecord& record, const FrameRecord& frames, std::size_
 
 void write_tum(const RunRecord& record, const FrameRecord* frames, const fs::path& folder) {
   need_path(record);
-  std::string text = "# time_s x_m y_m z_m qx qy qz qw, body FLU in world ENU, true\n";
-  for (const TrajectorySample& s : record.path) text += pose_line(s.time_s, s.T_world_body);
-  write_file_atomically(folder / "trajectory.txt", text);
+  write_file_atomically(folder / "trajectory.txt",
+                        tum_text("body FLU in world ENU, true", record.path));
   double steps_per_m = 1000.0;
   if (frames != nullptr) {
     steps_per_m = 1.0 / frames->cameras.front().depth_scale_m;

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "tools/run_files/frame_record.hpp"
+#include "tools/run_files/frames_folder.hpp"
 #include "tools/run_files/run_record.hpp"
 
 namespace gnbv {

@@ -12,8 +12,9 @@
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/mission.hpp"
 #include "tools/mission/start_pose.hpp"
-#include "tools/run_files/candidates_file.hpp"
-#include "tools/run_files/frame_files.hpp"
+#include "tools/run_files/candidates_jsonl.hpp"
+#include "tools/run_files/file_names.hpp"
+#include "tools/run_files/frames_folder.hpp"
 #include "tools/run_files/profile_map.hpp"
 #include "tools/run_files/run_directory.hpp"
 #include "tools/terminal/interrupt.hpp"
@@ -112,9 +113,9 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
   try {
     MissionHooks hooks = make_hooks(scenario, directory, progress);
     hooks.route = std::move(route);
-    std::optional<FrameFiles> frames;
+    std::optional<FramesFolder> frames;
     if (options.frames) {
-      frames.emplace(directory.path() / "frames", camera_models(scenario));
+      frames.emplace(directory.path(), camera_models(scenario));
       hooks.on_frames = [&](const auto&... all) { frames->write(all...); };
     }
     std::optional<CandidatesFile> candidates;
@@ -135,7 +136,7 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
     return {directory.path(), std::move(result), score, watch.elapsed_s()};
   } catch (const BrokenInvariant& broken) {
     throw BrokenInvariant(fmt::format("{}\nreplay with: gnbv run {} --out REPLAY", broken.what(),
-                                      shell_word((directory.path() / "scenario.yaml").string())));
+                                      shell_word((directory.path() / kScenarioFile).string())));
   }
 }
 

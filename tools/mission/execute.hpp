@@ -1,5 +1,4 @@
-// One mission from the command line to its run directory; and the options that commands about one
-// share.
+// One mission from the command line to its run directory.
 #pragma once
 
 #include <filesystem>
@@ -7,13 +6,12 @@
 
 #include "bench/score/mission_score.hpp"
 #include "scenarios/scenario.hpp"
-#include "tools/mission/resolve.hpp"
 #include "tools/run_files/mission_result.hpp"
 
 namespace gnbv {
 
 /// What the command line may say about a mission beside its scenario.
-struct MissionOptions : ScenarioOptions {
+struct MissionOptions {
   std::filesystem::path out;  // "" chooses a free folder under runs/
   int threads = 0;            // 0 = as many as the machine has
   bool resume = false;

@@ -29,8 +29,4 @@ Scored score_any_cloud(const std::string& name, std::span<const Vec3f> cloud_wor
 /// itself found. Throws BadInput naming the file that is missing or does not fit the others.
 Scored score_run(const std::filesystem::path& run, int threads);
 
-/// Puts the score into coverage.csv and summary.json, each by rename; whatever else they hold, and
-/// all other files, stay as they are. Upgrades runs of schema 1.
-void update_run(const std::filesystem::path& run, const MissionScore& score);
-
 }  // namespace gnbv

@@ -5,10 +5,6 @@
 #include "sim/core/error.hpp"
 
 namespace gnbv {
-namespace {
-
-
-}  // namespace
 
 std::vector<Phase> frontier_phases(std::span<const ViewRecord> views) {
   std::vector<Phase> phases;

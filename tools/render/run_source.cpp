@@ -5,7 +5,7 @@
 
 #include "sim/core/error.hpp"
 #include "tools/mission/load_world.hpp"
-#include "tools/run_files/candidates_record.hpp"
+#include "tools/run_files/candidates_jsonl.hpp"
 
 namespace gnbv {
 namespace {

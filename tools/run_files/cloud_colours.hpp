@@ -1,6 +1,7 @@
 // The colours of a run's cloud, from the frames that brought its points.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "tools/run_files/frame_sight.hpp"
@@ -8,14 +9,46 @@
 
 namespace gnbv {
 
-/// Of a point that no frame shows, as of a run without frames.
+/// How far off the surface a point of the cloud may lie, as FrameSight::sees() wants it: points are
+/// centroids of leaves.
+double cloud_blur_m(const RunRecord& record);
+
+/// Gathers the colours of some points, frame by frame. A point that a view brought has that of the
+/// nearest frame of this view which shows it, a point of the profile, or from after the last view,
+/// that of the nearest frame of all.
+class CloudColours {
+ public:
+  /// `points`: indices into the cloud, ascending. Everything stays with the caller.
+  CloudColours(const RunRecord& record, const RunCloud& cloud, const FrameRecord& frames,
+               std::span<const std::size_t> points);
+
+  /// Each frame once, from any thread.
+  void look(std::size_t frame, const FrameSight& sight);
+
+  /// A colour a point; `unseen` for one that no frame shows.
+  std::vector<Rgb8> colours(const Rgb8& unseen) const;
+
+ private:
+  struct Seen {
+    std::size_t point = 0;  // into points_
+    double z_m = 0.0;
+    Rgb8 rgb{};
+  };
+
+  const RunRecord& record_;
+  const RunCloud& cloud_;
+  const FrameRecord& frames_;
+  std::span<const std::size_t> points_;
+  double blur_m_ = 0.0;
+  std::vector<std::vector<Seen>> seen_;  // by frame
+};
+
+/// Of a point that no frame shows.
 constexpr Rgb8 kNoColour = {128, 128, 128};
 
-/// A colour a point. A point that a view brought has that of the nearest frame of this view, a
-/// point of the profile, or from after the last view, that of the nearest frame of all. `blur_m` as
-/// for FrameSight::sees(). No result depends on `threads`.
+/// Of the whole cloud. No result depends on `threads`.
 std::vector<Rgb8> colours_of_cloud(const RunRecord& record, const RunCloud& cloud,
-                                   const FrameRecord& frames, double blur_m, int threads,
+                                   const FrameRecord& frames, int threads,
                                    const ShareDone& progress);
 
 }  // namespace gnbv

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "sim/core/image.hpp"
-#include "tools/run_files/frame_record.hpp"
+#include "tools/run_files/frames_folder.hpp"
 
 namespace gnbv {
 
@@ -29,6 +29,7 @@ class FrameSight {
   /// half a pixel, `blur_m` and the image's own rounding.
   std::optional<Sighting> sees(const Vec3& p_world_m, double blur_m) const;
 
+  const Image& colour() const { return colour_; }
   Rgb8 colour_at(const Sighting& sighting) const;
 
  private:

@@ -1,161 +1,196 @@
 #include "tools/run_files/iterations_csv.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdlib>
-#include <sstream>
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "sim/core/shell_word.hpp"
+#include "tools/run_files/run_commands.hpp"
+#include "tools/run_files/separated_text.hpp"
 
 namespace gnbv {
 namespace {
 
-constexpr std::string_view kHeader =
-    "iteration,x,y,z,yaw,sampler,scale,candidates,valid,utility,information,density_term,"
-    "prediction,distance_factor,entropy_nat,density_points_per_voxel,cloud_points,straight_m,"
-    "flown_m,time_s,wall_sense_s,wall_map_s,wall_plan_s,wall_fly_s,via";
-constexpr std::size_t kColumns = 25;
+/// Wall time: no result depends on it, and nobody needs all its digits.
+template <typename Seconds>
+struct Wall {
+  Seconds& s;
+};
+template <typename Seconds>
+Wall(Seconds&) -> Wall<Seconds>;
 
-/// The samplers a row may name, with storage that outlives every Decision.
-constexpr std::array<std::string_view, 5> kSamplers = {"start", "agvs", "fvs", "route", "oracle"};
+// Every column in its order, for whoever writes its name, writes its value or reads it: `View` is a
+// ViewRecord, const for writers.
 
-/// One row's cells, read left to right.
-class Row {
- public:
-  Row(const std::filesystem::path& csv, std::size_t line, const std::string& text)
-      : csv_(csv), line_(line) {
-    std::istringstream in(text);
-    for (std::string cell; std::getline(in, cell, ',');) cells_.push_back(cell);
-    if (text.ends_with(',')) cells_.emplace_back();
-    if (cells_.size() != kColumns) fail(text, fmt::format("must have {} columns", kColumns));
-  }
+template <typename View, typename Column>
+void visit_decision(View& view, Column&& column) {
+  auto& d = view.decision;
+  column("sampler", d.sampler);
+  column("scale", d.scale);
+  column("candidates", d.candidates);
+  column("valid", d.valid);
+  column("utility", d.score.value);
+  column("information", d.score.information);
+  column("density_term", d.score.density);
+  column("prediction", d.score.prediction);
+  column("distance_factor", d.score.distance);
+  column("entropy_nat", view.entropy_nat);
+  column("density_points_per_voxel", view.density_points_per_voxel);
+  column("cloud_points", view.cloud_points);
+  column("straight_m", view.straight_m);
+  column("flown_m", view.flown_m);
+  column("time_s", view.time_s);
+}
 
-  const std::string& text() { return cells_[next_++]; }
-  double number() { return number_in(text()); }
-  int count() {
-    const double value = number();
-    if (value < 0.0 || value > 1e9 || value != std::floor(value)) {
-      fail(fmt::format("{}", value), "is not a count");
-    }
-    return static_cast<int>(value);
-  }
-  void skip(std::size_t cells) { next_ += cells; }
-  /// Points as "x:y:z;x:y:z"; none when the cell is empty.
-  std::vector<Vec3> points() {
-    const std::string& cell = text();
-    std::vector<Vec3> points;
-    std::istringstream in(cell);
-    for (std::string point; std::getline(in, point, ';');) {
-      std::istringstream coordinates(point);
-      std::vector<double> values;
-      for (std::string value; std::getline(coordinates, value, ':');) {
-        values.push_back(number_in(value));
-      }
-      if (values.size() != 3) fail(cell, "is no list of x:y:z");
-      points.emplace_back(values[0], values[1], values[2]);
-    }
-    return points;
-  }
-  void expect_iteration(std::size_t expected) {
-    const int iteration = count();
-    if (static_cast<std::size_t>(iteration) != expected) {
-      fail(fmt::format("{}", iteration), fmt::format("must be iteration {}", expected));
-    }
-  }
-  std::string_view sampler() {
-    const std::string& cell = text();
-    const auto* const known = std::find(kSamplers.begin(), kSamplers.end(), cell);
-    if (known == kSamplers.end()) fail(cell, "is no sampler");
-    return *known;
-  }
+template <typename View, typename Column>
+void visit_columns(View& view, Column&& column) {
+  auto& d = view.decision;
+  column("iteration", view.iteration);
+  column("x", d.view.p_world_m.x());
+  column("y", d.view.p_world_m.y());
+  column("z", d.view.p_world_m.z());
+  column("yaw", d.view.yaw_rad);
+  visit_decision(view, column);
+  column("wall_sense_s", Wall{view.wall.sense_s});
+  column("wall_map_s", Wall{view.wall.map_s});
+  column("wall_plan_s", Wall{view.wall.plan_s});
+  column("wall_fly_s", Wall{view.wall.fly_s});
+  column("via", d.via_world_m);
+}
 
- private:
-  double number_in(const std::string& cell) const {
-    char* end = nullptr;
-    const double value = std::strtod(cell.c_str(), &end);
-    if (cell.empty() || *end != '\0' || !std::isfinite(value)) fail(cell, "is not a number");
-    return value;
+/// The names of the columns.
+struct Names {
+  std::string text;
+  void operator()(std::string_view name, const auto&) {
+    text += (text.empty() ? "" : ",") + std::string(name);
   }
-  [[noreturn]] void fail(const std::string& value, const std::string& what) const {
-    throw BadInput(fmt::format("{}:{}: '{}' {}", csv_.string(), line_, value, what));
-  }
-
-  const std::filesystem::path& csv_;
-  std::size_t line_;
-  std::vector<std::string> cells_;
-  std::size_t next_ = 0;
 };
 
-ViewRecord record_of(Row row, std::size_t iteration) {
-  row.expect_iteration(iteration);
-  ViewRecord view{.iteration = static_cast<int>(iteration)};
-  Decision& d = view.decision;
-  d.view.p_world_m.x() = row.number();
-  d.view.p_world_m.y() = row.number();
-  d.view.p_world_m.z() = row.number();
-  d.view.yaw_rad = row.number();
-  d.sampler = row.sampler();
-  d.scale = row.number();
-  d.candidates = row.count();
-  d.valid = row.count();
-  d.score.value = row.number();
-  d.score.information = row.number();
-  d.score.density = row.number();
-  d.score.prediction = row.number();
-  d.score.distance = row.number();
-  view.entropy_nat = row.number();
-  view.density_points_per_voxel = row.number();
-  view.cloud_points = static_cast<std::size_t>(row.count());
-  view.straight_m = row.number();
-  view.flown_m = row.number();
-  view.time_s = row.number();
-  constexpr std::size_t kWallTimes = 4;
-  row.skip(kWallTimes);
-  d.via_world_m = row.points();
+/// The values of a view.
+struct Cells {
+  std::string text;
+  bool is_first = true;
+
+  void operator()(std::string_view, const auto& value) { add(fmt::format("{}", value)); }
+  void operator()(std::string_view, const Wall<const double>& wall) {
+    add(fmt::format("{:.6f}", wall.s));
+  }
+  /// "x:y:z;x:y:z"; an empty cell for none.
+  void operator()(std::string_view, const std::vector<Vec3>& points_m) {
+    std::string cell;
+    for (const Vec3& p : points_m) {
+      cell += fmt::format("{}{}:{}:{}", cell.empty() ? "" : ";", p.x(), p.y(), p.z());
+    }
+    add(cell);
+  }
+  void add(const std::string& cell) {
+    text += (is_first ? "" : ",") + cell;
+    is_first = false;
+  }
+};
+
+/// A row's cells, read left to right.
+struct Row {
+  std::string_view rest;
+  const TextPlace& place;
+
+  void operator()(std::string_view name, double& value) {
+    value = to_number(next_part(rest, ','), place, name);
+  }
+  void operator()(std::string_view name, int& count) {
+    count = to_count(next_part(rest, ','), place, name);
+  }
+  void operator()(std::string_view name, std::size_t& count) {
+    count = static_cast<std::size_t>(to_count(next_part(rest, ','), place, name));
+  }
+  void operator()(std::string_view name, Wall<double> wall) { (*this)(name, wall.s); }
+  void operator()(std::string_view, std::string_view& sampler) {
+    const std::string_view cell = next_part(rest, ',');
+    const auto known = sampler_named(cell);
+    if (!known) throw BadInput(fmt::format("{}: '{}' is no sampler", to_string(place), cell));
+    sampler = *known;
+  }
+  void operator()(std::string_view name, std::vector<Vec3>& points_m) {
+    std::string_view points = next_part(rest, ',');
+    while (!points.empty()) {
+      std::string_view point = next_part(points, ';');
+      if (std::count(point.begin(), point.end(), ':') != 2) {
+        throw BadInput(
+            fmt::format("{}: {} '{}' is no list of x:y:z", to_string(place), name, point));
+      }
+      Vec3& p_m = points_m.emplace_back();
+      for (double& x : p_m) x = to_number(next_part(point, ':'), place, name);
+    }
+  }
+};
+
+std::string header_text() {
+  Names names;
+  const ViewRecord view;
+  visit_columns(view, names);
+  return names.text;
+}
+
+ViewRecord record_of(std::string_view row, int iteration, const TextPlace& place) {
+  const auto commas = [](std::string_view text) {
+    return std::count(text.begin(), text.end(), ',');
+  };
+  static const auto kCommas = commas(header_text());
+  if (commas(row) != kCommas) {
+    throw BadInput(
+        fmt::format("{}: '{}' must have {} columns", to_string(place), row, kCommas + 1));
+  }
+  ViewRecord view;
+  visit_columns(view, Row{row, place});
+  if (view.iteration != iteration) {
+    throw BadInput(
+        fmt::format("{}: '{}' must be iteration {}", to_string(place), view.iteration, iteration));
+  }
   return view;
 }
 
 }  // namespace
 
-std::string iterations_csv_header() { return fmt::format("{}\n", kHeader); }
+std::string iterations_csv_header() { return header_text() + "\n"; }
 
 std::string iterations_csv_row(const ViewRecord& view) {
-  const Decision& d = view.decision;
-  const Vec3& p = d.view.p_world_m;
-  std::string via;
-  for (const Vec3& via_m : d.via_world_m) {
-    via += fmt::format("{}{}:{}:{}", via.empty() ? "" : ";", via_m.x(), via_m.y(), via_m.z());
-  }
-  return fmt::format(
-      "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{:.6f},{:.6f},"
-      "{:.6f},{:.6f},{}\n",
-      view.iteration, p.x(), p.y(), p.z(), d.view.yaw_rad, d.sampler, d.scale, d.candidates,
-      d.valid, d.score.value, d.score.information, d.score.density, d.score.prediction,
-      d.score.distance, view.entropy_nat, view.density_points_per_voxel, view.cloud_points,
-      view.straight_m, view.flown_m, view.time_s, view.wall.sense_s, view.wall.map_s,
-      view.wall.plan_s, view.wall.fly_s, via);
+  Cells cells;
+  visit_columns(view, cells);
+  return cells.text + "\n";
+}
+
+std::string iterations_csv(std::span<const ViewRecord> views) {
+  std::string csv = iterations_csv_header();
+  for (const ViewRecord& view : views) csv += iterations_csv_row(view);
+  return csv;
+}
+
+std::string decision_header() {
+  Names names;
+  const ViewRecord view;
+  visit_decision(view, names);
+  return names.text;
+}
+
+std::string decision_cells(const ViewRecord& view) {
+  Cells cells;
+  visit_decision(view, cells);
+  return cells.text;
 }
 
 std::vector<ViewRecord> read_view_records(const std::filesystem::path& csv) {
-  const std::string content = read_file(csv);
+  const std::string text = read_file(csv);
+  std::string_view rest(text.data(), text.rfind('\n') + 1);  // npos + 1: none
   std::vector<ViewRecord> views;
-  std::size_t line = 0;
-  for (std::size_t begin = 0; begin < content.size();) {
-    const std::size_t end = content.find('\n', begin);
-    if (end == std::string::npos) break;
-    const std::string text = content.substr(begin, end - begin);
-    begin = end + 1;
-    if (++line > 1) {
-      views.push_back(record_of(Row(csv, line, text), line - 2));
-    } else if (text != kHeader) {
-      throw BadInput(
-          fmt::format("{}:1: is not the header that this version writes: of another version, and "
-                      "`gnbv run {} --out NEW` flies its mission again",
-                      csv.string(), shell_word((csv.parent_path() / "scenario.yaml").string())));
+  for (int line = 1; !rest.empty(); ++line) {
+    const std::string_view row = next_part(rest, '\n');
+    const TextPlace place{csv, line};
+    if (line > 1) {
+      views.push_back(record_of(row, line - 2, place));
+      continue;
     }
+    need_header(row, header_text(), place,
+                fmt::format(": of another version, and {} flies its mission again",
+                            command_to_fly_again(csv.parent_path())));
   }
   return views;
 }
@@ -164,14 +199,6 @@ std::vector<Decision> read_decisions(const std::filesystem::path& csv) {
   std::vector<Decision> decisions;
   for (ViewRecord& view : read_view_records(csv)) decisions.push_back(std::move(view.decision));
   return decisions;
-}
-
-std::vector<ViewMark> read_view_marks(const std::filesystem::path& csv) {
-  std::vector<ViewMark> marks;
-  for (const ViewRecord& view : read_view_records(csv)) {
-    marks.push_back({view.cloud_points, view.straight_m, view.time_s});
-  }
-  return marks;
 }
 
 }  // namespace gnbv

@@ -4,14 +4,26 @@
 
 namespace gnbv {
 
-ScoredCloud scored_cloud(const MissionResult& result) {
-  ScoredCloud cloud{.points_world_m = result.belief.cloud.points_world_m(),
-                    .profile_points = result.profile_points_world_m.size(),
-                    .profile_end_s = result.profile_end_s};
-  for (const ViewRecord& view : result.views) {
-    cloud.views.push_back({view.cloud_points, view.straight_m, view.time_s});
+std::optional<std::string_view> sampler_named(std::string_view text) {
+  for (const std::string_view name : {"start", "agvs", "fvs", "route", "oracle"}) {
+    if (name == text) return name;
   }
-  return cloud;
+  return std::nullopt;
+}
+
+std::vector<ViewMark> view_marks(std::span<const ViewRecord> views) {
+  std::vector<ViewMark> marks;
+  for (const ViewRecord& view : views) {
+    marks.push_back({view.cloud_points, view.straight_m, view.time_s});
+  }
+  return marks;
+}
+
+ScoredCloud scored_cloud(const MissionResult& result) {
+  return {.points_world_m = result.belief.cloud.points_world_m(),
+          .profile_points = result.profile_points_world_m.size(),
+          .profile_end_s = result.profile_end_s,
+          .views = view_marks(result.views)};
 }
 
 std::string result_sha256(const MissionResult& result) {

@@ -42,6 +42,9 @@ struct ViewRecord {
   WallTimes wall = {};      // of this view alone
 };
 
+/// A sampler's name with storage that outlives every Decision; nothing for any other text.
+std::optional<std::string_view> sampler_named(std::string_view text);
+
 struct MissionDistances {
   double profile_m = 0.0;  // planned legs of the profile, its approach included
   double profile_flown_m = 0.0;
@@ -76,6 +79,9 @@ struct MissionResult {
   Belief belief;
   WallTimes wall;
 };
+
+/// How far the mission was after each view.
+std::vector<ViewMark> view_marks(std::span<const ViewRecord> views);
 
 /// What a score needs of a mission.
 ScoredCloud scored_cloud(const MissionResult& result);

@@ -17,10 +17,6 @@ namespace gnbv {
 /// scenario, or anything else that is no run. Writes nothing.
 void need_usable(const std::filesystem::path& folder, const Scenario& scenario, bool resume);
 
-/// `gnbv run FOLDER/scenario.yaml --resume --out FOLDER` as a shell takes it, keeping what the run
-/// in the folder keeps.
-std::string command_to_resume(const std::filesystem::path& folder);
-
 class RunDirectory {
  public:
   /// Makes the folder and writes scenario.yaml. Throws BadInput when it cannot be written, and as
@@ -44,6 +40,8 @@ class RunDirectory {
               double total_wall_s);
 
  private:
+  std::filesystem::path journal_file() const;
+
   std::filesystem::path folder_;
   std::vector<Decision> recorded_;
   std::string pending_;  // rows of recorded views that are being flown again

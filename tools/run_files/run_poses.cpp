@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sim/core/error.hpp"
+#include "tools/run_files/file_names.hpp"
 
 namespace gnbv {
 namespace {
@@ -14,7 +15,7 @@ constexpr double kHeld_s =
 
 void need_path(const RunRecord& record) {
   if (!record.path.empty()) return;
-  const std::string file = (record.folder / "trajectory.tum").string();
+  const std::string file = (record.folder / kTrajectoryFile).string();
   for (const std::string& sentence : record.missing) {
     if (sentence.find(file) != std::string::npos) throw BadInput(sentence);
   }
@@ -47,7 +48,7 @@ CameraModel camera_named(const RunRecord& record, std::string_view name) {
     if (camera.name == name) return make_camera_model(camera);
   }
   throw BadInput(fmt::format("{}: cameras.json names '{}', which scenario.yaml does not have",
-                             (record.folder / "frames").string(), name));
+                             (record.folder / kFramesFolder).string(), name));
 }
 
 }  // namespace gnbv

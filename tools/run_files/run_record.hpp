@@ -9,6 +9,7 @@
 #include "bench/score/run_figures.hpp"
 #include "scenarios/scenario.hpp"
 #include "tools/run_files/mission_result.hpp"
+#include "tools/run_files/run_commands.hpp"
 
 namespace gnbv {
 
@@ -49,8 +50,5 @@ RunCloud read_run_cloud(const RunRecord& record);
 std::string run_title(const RunRecord& record);
 /// The main figures in one line, as far as they are there.
 std::string run_detail(const RunRecord& record);
-
-/// `gnbv run FOLDER/scenario.yaml OPTIONS --out NEW`: flies the same mission once more.
-std::string command_to_fly_again(const std::filesystem::path& folder, const std::string& options);
 
 }  // namespace gnbv

@@ -44,4 +44,29 @@ int to_count(std::string_view text, const TextPlace& place, std::string_view wha
   return static_cast<int>(value);
 }
 
+void need_header(std::string_view row, std::string_view header, const TextPlace& place,
+                 std::string_view help) {
+  if (row == header) return;
+  throw BadInput(
+      fmt::format("{}: is not the header that this version writes{}", to_string(place), help));
+}
+
+std::string pose_text(const Isometry& T, char separator) {
+  const Vec3 p = T.translation();
+  const Eigen::Quaterniond q(T.linear());
+  return fmt::format("{1:.6f}{0}{2:.6f}{0}{3:.6f}{0}{4:.9f}{0}{5:.9f}{0}{6:.9f}{0}{7:.9f}",
+                     separator, p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
+}
+
+Isometry to_pose(std::span<const double, 7> numbers, const TextPlace& place) {
+  const Eigen::Quaterniond q(numbers[6], numbers[3], numbers[4], numbers[5]);
+  if (std::abs(q.norm() - 1.0) > 1e-3) {
+    throw BadInput(fmt::format("{}: qx qy qz qw are no unit quaternion", to_string(place)));
+  }
+  Isometry T = Isometry::Identity();
+  T.translate(Vec3(numbers[0], numbers[1], numbers[2]));
+  T.rotate(q.normalized());
+  return T;
+}
+
 }  // namespace gnbv

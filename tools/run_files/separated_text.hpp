@@ -2,8 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
+
+#include "sim/core/pose.hpp"
 
 namespace gnbv {
 
@@ -25,5 +28,15 @@ double to_number(std::string_view text, const TextPlace& place, std::string_view
 
 /// The same for a count: whole, and from 0 to 10^9.
 int to_count(std::string_view text, const TextPlace& place, std::string_view what);
+
+/// Throws BadInput naming the place, and `help`, for a first row that is not `header`.
+void need_header(std::string_view row, std::string_view header, const TextPlace& place,
+                 std::string_view help = "");
+
+/// "x y z qx qy qz qw" of a pose, with `separator` between them: micrometres, unit quaternion.
+std::string pose_text(const Isometry& T, char separator);
+
+/// The pose of these seven numbers. Throws BadInput naming the place for no unit quaternion.
+Isometry to_pose(std::span<const double, 7> numbers, const TextPlace& place);
 
 }  // namespace gnbv

@@ -7,6 +7,7 @@
 #include "sensors/camera_model.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
+#include "tools/run_files/file_names.hpp"
 #include "tools/surface/oriented_cloud.hpp"
 
 namespace gnbv {
@@ -150,10 +151,10 @@ std::vector<Stretch> stretches_of(const RunRecord& record, const RunCloud& cloud
 }  // namespace
 
 SeenPoints seen_points(const RunRecord& record, const RunCloud& cloud, int threads) {
-  const std::filesystem::path file = record.folder / "cloud.ply";
+  const std::filesystem::path file = record.folder / kCloudFile;
   if (cloud.points_world_m.empty()) {
-    throw BadInput(fmt::format("{}: holds no point; {}", file.string(),
-                               command_to_fly_again(record.folder, "")));
+    throw BadInput(
+        fmt::format("{}: holds no point; {}", file.string(), command_to_fly_again(record.folder)));
   }
   const auto leaf_m = static_cast<float>(record.scenario.planner.cloud.profile_leaf_m);
   SeenPoints seen{.points_world_m = uncovered_profile(cloud, leaf_m, threads),
@@ -184,7 +185,7 @@ SeenPoints seen_points(const RunRecord& record, const RunCloud& cloud, int threa
       throw BadInput(fmt::format(
           "{}: nobody knows where its points were seen from: neither trajectory.tum nor "
           "iterations.csv holds a pose; {}",
-          file.string(), command_to_fly_again(record.folder, "")));
+          file.string(), command_to_fly_again(record.folder)));
     }
     find_sensors(tree, stretch, leaf_m, threads, seen);
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/core/error.hpp"
+#include "tools/run_files/file_names.hpp"
 #include "tools/surface/poisson_module.hpp"
 #include "tools/surface/trim.hpp"
 
@@ -103,7 +104,7 @@ TexturedMesh dressed(TriangleMesh shape, const RunRecord& record, const RunPictu
       shape, chosen, views, {.texels_per_m = texels_per_m, .max_side_px = settings.texture_px});
   if (layout.charts.empty()) {
     notes.push_back(fmt::format("{}: no picture shows the surface; colours show the height",
-                                (record.folder / "frames").string()));
+                                (record.folder / kFramesFolder).string()));
     return with_height_colours(std::move(shape));
   }
   progress(0.85, fmt::format("texture of {} x {} px, {} charts", layout.width, layout.height,
@@ -129,7 +130,7 @@ TexturedMesh reconstruct_surface(const RunRecord& record, const SurfaceSettings&
   const std::optional<RunPictures> pictures = read_pictures(record, threads, notes);
   const OrientedCloud points = oriented(seen_points(record, cloud, threads), threads);
   TriangleMesh shape = shape_of(points, record.scenario.planner.cloud.leaf_m, settings,
-                                (record.folder / "cloud.ply").string(), threads, progress);
+                                (record.folder / kCloudFile).string(), threads, progress);
   if (!pictures) return with_height_colours(std::move(shape));
   return dressed(std::move(shape), record, *pictures, settings, threads, progress, notes);
 }

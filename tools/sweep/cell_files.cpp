@@ -8,11 +8,10 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "sim/core/error.hpp"
-#include "sim/core/file.hpp"
+#include "tools/run_files/summary_json.hpp"
 
 namespace gnbv {
 
@@ -53,12 +52,11 @@ bool is_locked(const fs::path& path) {
 }
 
 std::optional<std::string> termination_of(const fs::path& run) {
-  std::error_code ignored;
-  if (!fs::exists(run / "summary.json", ignored)) return std::nullopt;
-  const auto summary = nlohmann::json::parse(read_file(run / "summary.json"), nullptr, false);
-  const auto value = summary.is_object() ? summary.find("termination") : summary.end();
-  if (value == summary.end() || !value->is_string()) return std::nullopt;
-  return value->get<std::string>();
+  try {
+    return read_summary(run).termination;
+  } catch (const BadInput&) {  // none, or one that a killed process left
+    return std::nullopt;
+  }
 }
 
 }  // namespace gnbv

@@ -4,10 +4,13 @@
 
 #include <array>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <tuple>
 
 #include "bench/compare/text_table.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "tools/run_files/summary_json.hpp"
 #include "tools/sweep/source_id.hpp"
 
 namespace gnbv {
@@ -26,6 +29,19 @@ Json described(const Cell& cell, std::size_t index) {
           {"seed", cell.seed}};
 }
 
+Cell cell_from(const Json& json, const fs::path& manifest) {
+  Cell cell;
+  json.at("scenario").get_to(cell.scenario);
+  json.at("method").get_to(cell.method);
+  if (!json.at("seed").is_number_unsigned()) {
+    throw BadInput(fmt::format("{}: seed: value '{}': expects a whole number, 0 or more",
+                               manifest.string(), json.at("seed").dump()));
+  }
+  json.at("seed").get_to(cell.seed);
+  json.at("id").get_to(cell.id);
+  return cell;
+}
+
 /// A list with one item a line: readable, and small with many of them.
 std::string by_line(const std::vector<Json>& items) {
   std::string text = "[";
@@ -36,40 +52,25 @@ std::string by_line(const std::vector<Json>& items) {
   return text + "\n]";
 }
 
-struct Column {
-  std::string_view name;
-  std::string_view pointer;  // into summary.json
-};
-
-constexpr std::array kColumns = {
-    Column{"termination", "/termination"},
-    Column{"iterations", "/iterations"},
-    Column{"straight_m", "/distance_m/straight"},
-    Column{"flown_m", "/distance_m/flown"},
-    Column{"profile_m", "/distance_m/profile"},
-    Column{"flight_time_s", "/flight_time_s"},
-    Column{"energy_wh", "/energy_wh"},
-    Column{"entropy_reduction_nat", "/entropy_nat/reduction"},
-    Column{"coverage_0.05", "/coverage/final/0.05"},
-    Column{"coverage_0.10", "/coverage/final/0.10"},
-    Column{"coverage_0.50", "/coverage/final/0.50"},
-    Column{"coverage_raw_0.05", "/coverage/final_raw_reference/0.05"},
-    Column{"coverage_raw_0.10", "/coverage/final_raw_reference/0.10"},
-    Column{"coverage_raw_0.50", "/coverage/final_raw_reference/0.50"},
-    Column{"coverage_profile_0.05", "/coverage/profile/0.05"},
-    Column{"coverage_profile_0.10", "/coverage/profile/0.10"},
-    Column{"coverage_profile_0.50", "/coverage/profile/0.50"},
-    Column{"density_points_per_voxel", "/density_points_per_voxel"},
-    Column{"wall_s", "/wall_s/total"},
-    Column{"result_sha256", "/result_sha256"},
-};
-
-/// Empty where the summary has no such value.
-std::string csv_value(const nlohmann::json& summary, std::string_view pointer) {
-  const nlohmann::json::json_pointer place{std::string(pointer)};
-  if (!summary.is_object() || !summary.contains(place)) return "";
-  const nlohmann::json& value = summary.at(place);
-  return value.is_string() ? csv_field(value.get<std::string>()) : value.dump();
+/// The columns of a mission's figures. Numbers as JSON has them, which read back exactly.
+std::vector<std::pair<std::string, Json>> columns_of(const RunFigures& f) {
+  std::vector<std::pair<std::string, Json>> columns = {
+      {"termination", f.termination}, {"iterations", f.iterations},
+      {"straight_m", f.straight_m},   {"flown_m", f.flown_m},
+      {"profile_m", f.profile_m},     {"flight_time_s", f.flight_time_s},
+      {"energy_wh", f.energy_wh},     {"entropy_reduction_nat", f.entropy_reduction_nat}};
+  const auto add_sizes = [&](const std::string& name, const std::array<double, 3>& coverage) {
+    for (std::size_t size = 0; size < 3; ++size) {
+      columns.emplace_back(fmt::format("{}_{:.2f}", name, kCoverageSizes_m[size]), coverage[size]);
+    }
+  };
+  add_sizes("coverage", f.coverage_final);
+  add_sizes("coverage_raw", f.coverage_final_raw);
+  add_sizes("coverage_profile", f.coverage_profile);
+  columns.emplace_back("density_points_per_voxel", f.density_points_per_voxel);
+  columns.emplace_back("wall_s", f.wall_s);
+  columns.emplace_back("result_sha256", f.result_sha256);
+  return columns;
 }
 
 }  // namespace
@@ -110,14 +111,39 @@ std::optional<ManifestHead> read_manifest_head(const fs::path& folder) {
   const fs::path path = folder / kManifest;
   if (!fs::exists(path, ignored)) return std::nullopt;
   try {
-    const auto manifest = nlohmann::json::parse(read_file(path));
+    const auto manifest = Json::parse(read_file(path));
     ManifestHead head{.file = manifest.at("file").get<std::string>(), .ids = {}};
     for (const auto& cell : manifest.at("cells"))
       head.ids.push_back(cell.at("id").get<std::string>());
     return head;
-  } catch (const nlohmann::json::exception& error) {
+  } catch (const Json::exception& error) {
     throw BadInput(fmt::format("{}: is no manifest of a sweep: {}", path.string(), error.what()));
   }
+}
+
+std::vector<Cell> cells_of_manifest(const fs::path& folder) {
+  const fs::path path = folder / kManifest;
+  std::vector<Cell> cells;
+  std::set<std::tuple<std::string, std::string, std::uint64_t>> seen;
+  try {
+    const Json manifest = Json::parse(read_file(path));
+    if (manifest.at("schema") != 1) {
+      throw BadInput(fmt::format("{}: schema: value '{}': expects 1", path.string(),
+                                 manifest.at("schema").dump()));
+    }
+    for (const Json& json : manifest.at("cells")) {
+      cells.push_back(cell_from(json, path));
+      const Cell& cell = cells.back();
+      if (!seen.insert({cell.scenario, cell.method, cell.seed}).second) {
+        throw BadInput(fmt::format("{}: two cells of {}, {}, seed {}", path.string(), cell.scenario,
+                                   cell.method, cell.seed));
+      }
+    }
+  } catch (const Json::exception& error) {
+    throw BadInput(fmt::format("{}: is no manifest of a sweep: {}", path.string(), error.what()));
+  }
+  if (cells.empty()) throw BadInput(fmt::format("{}: has no cells", path.string()));
+  return cells;
 }
 
 void require_folder_of(const fs::path& folder, const fs::path& yaml) {
@@ -134,19 +160,20 @@ std::string results_csv(std::span<const Cell> cells, std::span<const CellOutcome
   GNBV_CHECK(cells.size() == outcomes.size(), "{} cells, {} outcomes", cells.size(),
              outcomes.size());
   std::string csv = "index,id,scenario,method,seed,status";
-  for (const Column& column : kColumns) csv += fmt::format(",{}", column.name);
+  const auto names = columns_of({});
+  for (const auto& [name, value] : names) csv += ',' + name;
   csv += '\n';
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Cell& cell = cells[i];
-    nlohmann::json summary;
-    if (outcomes[i].status == CellStatus::done) {
-      const fs::path file = outcomes[i].run / "summary.json";
-      summary = nlohmann::json::parse(read_file(file), nullptr, false);
-      if (!summary.is_object()) throw BadInput(fmt::format("{}: is no JSON", file.string()));
-    }
     csv += fmt::format("{},{},{},{},{},{}", i, cell.id, csv_field(cell.scenario),
                        csv_field(cell.method), cell.seed, name_of(outcomes[i].status));
-    for (const Column& column : kColumns) csv += ',' + csv_value(summary, column.pointer);
+    if (outcomes[i].status != CellStatus::done) {
+      csv.append(names.size(), ',');
+    } else {
+      for (const auto& [name, value] : columns_of(read_run_figures(outcomes[i].run))) {
+        csv += ',' + (value.is_string() ? csv_field(value.get<std::string>()) : value.dump());
+      }
+    }
     csv += '\n';
   }
   return csv;

@@ -26,6 +26,10 @@ struct ManifestHead {
 /// Nothing when there is no manifest; throws BadInput naming it when it is none.
 std::optional<ManifestHead> read_manifest_head(const std::filesystem::path& folder);
 
+/// The cells of the manifest, in its order; their scenarios are not resolved. Throws BadInput
+/// naming the file for a folder that is none of a sweep, or whose manifest is damaged.
+std::vector<Cell> cells_of_manifest(const std::filesystem::path& folder);
+
 /// Throws BadInput naming both files when the folder is that of another sweep file.
 void require_folder_of(const std::filesystem::path& folder, const std::filesystem::path& yaml);
 

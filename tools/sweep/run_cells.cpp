@@ -13,6 +13,7 @@
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "tools/run_files/file_names.hpp"
 #include "tools/sweep/cell_files.hpp"
 #include "tools/sweep/child.hpp"
 #include "tools/sweep/failure.hpp"
@@ -146,15 +147,15 @@ class Pool {
 
   void start(std::size_t index, const CellFiles& files, CellLock lock) {
     fs::create_directories(files.part);
-    fs::remove(files.part / "summary.json");  // of an interruption: the next one is of this run
+    fs::remove(files.part / kSummaryFile);  // of an interruption: the next one is of this run
     // the same cell may have been begun where its mesh had another path
-    write_file_atomically(files.part / "scenario.yaml", to_yaml(cells_[index].resolved));
+    write_file_atomically(files.part / kScenarioFile, to_yaml(cells_[index].resolved));
     std::error_code no_log;
     const std::uintmax_t size = fs::file_size(files.log, no_log);
     Running one = {.index = index,
                    .files = files,
                    .lock = std::move(lock),
-                   .command = {name_of_program(), "run", (files.part / "scenario.yaml").string(),
+                   .command = {name_of_program(), "run", (files.part / kScenarioFile).string(),
                                "--out", files.part.string(), "--resume", "--quiet", "--threads",
                                fmt::format("{}", threads_)},
                    .log_begin = no_log ? 0 : size};

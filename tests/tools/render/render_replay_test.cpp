@@ -10,8 +10,7 @@
 #include "tests/support/temp_folder.hpp"
 #include "tools/mission/replay.hpp"
 #include "tools/render/picture.hpp"
-#include "tools/run_files/candidates_file.hpp"
-#include "tools/run_files/candidates_record.hpp"
+#include "tools/run_files/candidates_jsonl.hpp"
 #include "tools/run_files/cloud_file.hpp"
 
 namespace gnbv {

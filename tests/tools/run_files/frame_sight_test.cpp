@@ -119,7 +119,7 @@ TEST_F(FrameSightTest, APointHasTheColourOfTheNearestFrameOfItsView) {
       .profile_points = 1,
       .view_points = {2, 3}};
   for (const int threads : {1, 3}) {
-    const auto colours = colours_of_cloud(record, cloud, frames_, 0.0, threads, [](double) {});
+    const auto colours = colours_of_cloud(record, cloud, frames_, threads, [](double) {});
     EXPECT_EQ(colours,
               (std::vector<Rgb8>{{30, 0, 0}, {20, 0, 0}, {30, 0, 0}, {30, 0, 0}, kNoColour}));
   }

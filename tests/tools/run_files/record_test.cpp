@@ -7,7 +7,7 @@
 #include "sim/core/error.hpp"
 #include "tests/support/made_run.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tools/run_files/frame_record.hpp"
+#include "tools/run_files/frames_folder.hpp"
 #include "tools/run_files/run_directory.hpp"
 #include "tools/run_files/run_poses.hpp"
 
@@ -189,8 +189,7 @@ TEST_F(Record, DamagedFilesAreNamedWithTheLine) {
   remove("summary.json");
   write("iterations.csv", "iteration,x,y,yaw\n");
   EXPECT_NE(run_complaint().find("iterations.csv:1"), std::string::npos) << run_complaint();
-  write("iterations.csv",
-        iterations_csv_header() + iterations_csv_row(made_view(0, {Vec3(0, -1e30, 1), 0.0}, 3)));
+  write("iterations.csv", iterations_csv(std::vector{made_view(0, {Vec3(0, -1e30, 1), 0.0}, 3)}));
   EXPECT_NE(run_complaint().find("iterations.csv:2: stands at 0 -1e+30 1"), std::string::npos)
       << run_complaint();
   EXPECT_NE(complaint([](const fs::path&) { read_run(""); }).find("empty name"), std::string::npos);

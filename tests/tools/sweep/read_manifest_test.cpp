@@ -1,11 +1,10 @@
-#include "tools/sweep/read_manifest.hpp"
-
 #include <gtest/gtest.h>
 
 #include <fstream>
 
 #include "sim/core/error.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tools/sweep/manifest.hpp"
 
 namespace gnbv {
 namespace {

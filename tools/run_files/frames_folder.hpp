@@ -1,14 +1,35 @@
-// The frames/ folder of a run read back: what the cameras saw, from where.
+// The frames/ folder of a run: what the cameras saw at each view, and from where.
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "sensors/camera_model.hpp"
+#include "sensors/frames.hpp"
 #include "sim/core/image.hpp"
-#include "sim/core/pose.hpp"
 
 namespace gnbv {
+
+/// Writes ITERATION_CAMERA.rgb.png (sRGB) and ITERATION_CAMERA.depth.png (16 bits, millimetres
+/// along the optical axis, 0 where there is none) of each view, cameras.json (pinhole intrinsics in
+/// pixels, pixel centres at half pixels) and poses.csv, which grows with the views (T_world_camera
+/// as believed: metres, unit quaternion; optical frame, world ENU). Every file appears by rename.
+class FramesFolder {
+ public:
+  /// Makes the folder of the run and writes cameras.json. Throws BadInput naming it when that
+  /// fails.
+  FramesFolder(const std::filesystem::path& run, std::vector<CameraModel> cameras);
+
+  void write(std::size_t iteration, double time_s, std::span<const DepthFrame> depth,
+             std::span<const ColourFrame> colour);
+
+ private:
+  std::filesystem::path folder_;
+  std::vector<CameraModel> cameras_;
+  std::string poses_;
+};
 
 /// Pinhole without distortion; pixel (0, 0) is top left, its centre at (0.5, 0.5).
 struct FrameCamera {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 #include "planner/decision.hpp"
 
@@ -25,5 +26,11 @@ class CandidatesFile {
   std::filesystem::path path_;
   std::ofstream part_;
 };
+
+/// The candidates of the decision that chose view `iteration`, in the order they were sampled, and
+/// which of them was chosen; `next` stays empty, and so do the points on their ways. Nothing for a
+/// run that wrote no candidates, or had none to write. Throws BadInput naming file and line of
+/// whatever is damaged, or a decision that the file does not hold, and the command that writes it.
+std::optional<Plan> read_candidates(const std::filesystem::path& run, std::size_t iteration);
 
 }  // namespace gnbv

@@ -1,0 +1,26 @@
+// What lies in a run directory, by name; the README says what each holds.
+#pragma once
+
+#include <filesystem>
+
+namespace gnbv {
+
+constexpr const char* kScenarioFile = "scenario.yaml";
+constexpr const char* kSummaryFile = "summary.json";
+constexpr const char* kCoverageFile = "coverage.csv";
+constexpr const char* kIterationsFile = "iterations.csv";
+constexpr const char* kTrajectoryFile = "trajectory.tum";
+constexpr const char* kCloudFile = "cloud.ply";
+constexpr const char* kProfileCloudFile = "profile.ply";  // the first points of the cloud
+constexpr const char* kProfileMapFile = "profile.map";
+constexpr const char* kMapStem = "map";  // OctoMap: map.ot with log-odds, map.bt without
+constexpr const char* kMapFile = "map.bt";
+constexpr const char* kCandidatesFile = "candidates.jsonl";
+constexpr const char* kFramesFolder = "frames";
+
+/// A file that is still being written, line by line.
+inline std::filesystem::path part_of(const std::filesystem::path& file) {
+  return file.string() + ".part";
+}
+
+}  // namespace gnbv

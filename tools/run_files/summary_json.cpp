@@ -1,0 +1,298 @@
+#include "tools/run_files/summary_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "sim/core/shell_word.hpp"
+#include "tools/run_files/coverage_csv.hpp"
+#include "tools/run_files/file_names.hpp"
+#include "tools/run_files/run_commands.hpp"
+
+namespace gnbv {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+Json by_size(const std::array<double, 3>& coverage) {
+  return {{"0.05", coverage[0]}, {"0.10", coverage[1]}, {"0.50", coverage[2]}};
+}
+
+/// Mean coverage at 0.05 m over the run's own length; null for a run that has none.
+Json area_under(const CoverageCurve& curve) {
+  const auto mean = [&](Effort effort, double length) {
+    return length > 0.0 ? Json(area_under_coverage(curve, effort, 0, length)) : Json(nullptr);
+  };
+  return {{"views", mean(Effort::views, static_cast<double>(curve.views()))},
+          {"metres", mean(Effort::metres, curve.metres.back())},
+          {"seconds", mean(Effort::seconds, curve.seconds.back())}};
+}
+
+Json symmetry_of(const Prediction& prediction) {
+  const Symmetry& symmetry = prediction.symmetry;
+  Json plane = nullptr;
+  if (symmetry.plane) {
+    const Vec3& n = symmetry.plane->normal_world;
+    plane = {{"normal", std::vector<double>(n.begin(), n.end())},
+             {"offset_m", symmetry.plane->offset_m}};
+  }
+  return {{"plane", plane},
+          {"support", symmetry.support},
+          {"confirmed", symmetry.confirmed},
+          {"predicted_voxels", prediction.predicted_voxels}};
+}
+
+/// The part of the summary that score_cloud() made.
+Json score_part(const MissionScore& score) {
+  Json at = Json::array();
+  for (const DistanceScore& d : score.distances.at) {
+    at.push_back({{"distance_m", d.distance_m},
+                  {"precision", d.precision},
+                  {"recall", d.recall},
+                  {"f", d.f}});
+  }
+  return {
+      {"coverage",
+       {{"profile", by_size(score.profile)},
+        {"final", by_size(score.final)},
+        {"profile_raw_reference", by_size(score.profile_raw)},
+        {"final_raw_reference", by_size(score.final_raw)}}},
+      {"precision_recall", at},
+      {"accuracy_m", score.distances.accuracy_m},
+      {"completeness_m", score.distances.completeness_m},
+      {"chamfer_m", score.distances.chamfer_m},
+      {"density",
+       {{"voxel_m", score.density.voxel_m},
+        {"mean_points", score.density.mean_points},
+        {"variation", score.density.variation}}},
+      {"auc", area_under(score.curve)},
+  };
+}
+
+/// The summary with this score instead of the one it has, and this schema. `coverage` is where the
+/// score stands.
+Json with_score(const Json& summary, const MissionScore& score) {
+  const Json part = score_part(score);
+  Json out;
+  for (const auto& [key, value] : summary.items()) {
+    if (key == "schema") {
+      out[key] = kSummarySchema;
+    } else if (key == "coverage") {
+      for (const auto& [score_key, score_value] : part.items()) out[score_key] = score_value;
+    } else if (!part.contains(key)) {
+      out[key] = value;
+    }
+  }
+  return out;
+}
+
+/// summary.json, whose values are named by pointers: "/coverage/final/0.05".
+class SummaryReader {
+ public:
+  explicit SummaryReader(const fs::path& run) : path_(run / kSummaryFile) {
+    if (!fs::exists(path_)) {
+      throw BadInput(fmt::format(
+          "{}: holds no summary.json: no run, or one that is not finished; {} finishes it",
+          run.string(), command_to_resume(run)));
+    }
+    json_ = Json::parse(read_file(path_), nullptr, false);
+    if (!json_.is_object()) throw BadInput(fmt::format("{}: is no JSON object", path_.string()));
+  }
+
+  double number(const std::string& pointer) const {
+    const Json& value = at(pointer);
+    if (!value.is_number()) refuse(pointer, value, "is no number");
+    return value.get<double>();
+  }
+  std::uint64_t count(const std::string& pointer) const {
+    const Json& value = at(pointer);
+    if (!value.is_number_unsigned()) refuse(pointer, value, "is no count");
+    return value.get<std::uint64_t>();
+  }
+  std::string text(const std::string& pointer) const {
+    const Json& value = at(pointer);
+    if (!value.is_string()) refuse(pointer, value, "is no text");
+    return value.get<std::string>();
+  }
+  std::array<double, 3> by_size(const std::string& pointer) const {
+    return {number(pointer + "/0.05"), number(pointer + "/0.10"), number(pointer + "/0.50")};
+  }
+  /// Nothing where the summary has no such value.
+  template <typename Value>
+  std::optional<Value> if_there(Value (SummaryReader::*read)(const std::string&) const,
+                                const std::string& pointer) const {
+    return json_.contains(Json::json_pointer(pointer)) ? std::optional((this->*read)(pointer))
+                                                       : std::nullopt;
+  }
+
+ private:
+  const Json& at(const std::string& pointer) const {
+    const Json::json_pointer where(pointer);
+    if (!json_.contains(where)) {
+      throw BadInput(fmt::format("{}: {}: is missing", path_.string(), pointer));
+    }
+    return json_.at(where);
+  }
+  [[noreturn]] void refuse(const std::string& pointer, const Json& value, const char* what) const {
+    throw BadInput(fmt::format("{}: {}: {} {}", path_.string(), pointer, value.dump(), what));
+  }
+
+  fs::path path_;
+  Json json_;
+};
+
+CloudDistances distances_of(const SummaryReader& summary) {
+  CloudDistances distances;
+  for (std::size_t i = 0; i < distances.at.size(); ++i) {
+    const std::string entry = fmt::format("/precision_recall/{}", i);
+    distances.at[i] = {summary.number(entry + "/distance_m"), summary.number(entry + "/precision"),
+                       summary.number(entry + "/recall"), summary.number(entry + "/f")};
+  }
+  distances.accuracy_m = summary.number("/accuracy_m");
+  distances.completeness_m = summary.number("/completeness_m");
+  distances.chamfer_m = summary.number("/chamfer_m");
+  return distances;
+}
+
+}  // namespace
+
+std::string summary_json(const Scenario& scenario, const MissionResult& r,
+                         const MissionScore& score, double total_wall_s) {
+  const double entropy_nat = r.belief.grid.total_entropy_nat();
+  const double battery_wh = scenario.vehicle.power.battery_wh;
+  const Json battery = battery_wh > 0.0 ? Json(battery_wh) : Json(nullptr);  // null: never empty
+  const Vec3 p = r.final_state.T_world_body.translation();
+  const Eigen::Quaterniond q(r.final_state.T_world_body.linear());
+  const Vec3& v = r.final_state.v_world_m_s;
+  Json json = {
+      {"schema", kSummarySchema},
+      {"scenario", scenario.name},
+      {"structure", structure_name(scenario.structure)},
+      {"utility", scenario.planner.utility.name},
+      {"preset", scenario.planner.preset},
+      {"vehicle", scenario.vehicle.kind == VehicleKind::ideal ? "ideal" : scenario.vehicle.preset},
+      {"seed", scenario.seed},
+      {"version", GNBV_VERSION},
+      {"iterations", r.views.size()},
+      {"termination", name_of(r.termination)},
+      {"distance_m",
+       {{"straight", r.distance.straight_m},
+        {"flown", r.distance.flown_m},
+        {"profile", r.distance.profile_m},
+        {"profile_flown", r.distance.profile_flown_m},
+        {"transfer", r.distance.transfer_m}}},
+      {"profile_end_s", r.profile_end_s},
+      {"views_begin_s", r.views.empty() ? r.profile_end_s : r.views.front().time_s},
+      {"flight_time_s", r.flight_time_s},
+      {"energy_wh", r.energy_wh},
+      {"battery_wh", battery},
+      {"entropy_nat",
+       {{"after_profile", r.entropy_after_profile_nat},
+        {"final", entropy_nat},
+        {"reduction", r.entropy_after_profile_nat - entropy_nat}}},
+      {"symmetry", symmetry_of(r.prediction)},
+      {"coverage", nullptr},
+      {"density_points_per_voxel", r.views.empty() ? 0.0 : r.views.back().density_points_per_voxel},
+      {"collisions", r.termination == Termination::collision ? 1 : 0},
+      {"legs_timed_out", r.legs_timed_out},
+      {"final_state",
+       {{"position_m", std::vector<double>(p.begin(), p.end())},
+        {"quaternion_xyzw", std::vector<double>{q.x(), q.y(), q.z(), q.w()}},
+        {"velocity_m_s", std::vector<double>(v.begin(), v.end())}}},
+      {"wall_s",
+       {{"total", total_wall_s},
+        {"profile", r.wall.profile_s},
+        {"symmetry", r.wall.symmetry_s},
+        {"sense", r.wall.sense_s},
+        {"map", r.wall.map_s},
+        {"plan", r.wall.plan_s},
+        {"fly", r.wall.fly_s},
+        {"score", r.wall.score_s}}},
+      {"result_sha256", result_sha256(r)},
+  };
+  return with_score(json, score).dump(2) + "\n";
+}
+
+RunSummary read_summary(const fs::path& run) {
+  using R = SummaryReader;
+  const SummaryReader summary(run);
+  return {.schema = summary.count("/schema"),
+          .termination = summary.if_there(&R::text, "/termination"),
+          .iterations = summary.if_there(&R::count, "/iterations"),
+          .profile_end_s = summary.if_there(&R::number, "/profile_end_s"),
+          .views_begin_s = summary.if_there(&R::number, "/views_begin_s")};
+}
+
+RunFigures read_run_figures(const fs::path& run) {
+  const SummaryReader summary(run);
+  const std::uint64_t schema = summary.count("/schema");
+  if (schema != kSummarySchema) {
+    throw BadInput(fmt::format(
+        "{}: schema {} of another version; `gnbv score {} --update` scores "
+        "the run anew and makes it {}",
+        (run / kSummaryFile).string(), schema, shell_word(run.string()), kSummarySchema));
+  }
+  RunFigures figures{
+      .scenario = summary.text("/scenario"),
+      .structure = summary.text("/structure"),
+      .utility = summary.text("/utility"),
+      .preset = summary.text("/preset"),
+      .seed = summary.count("/seed"),
+      .version = summary.text("/version"),
+      .termination = summary.text("/termination"),
+      .result_sha256 = summary.text("/result_sha256"),
+      .iterations = static_cast<int>(summary.count("/iterations")),
+      .entropy_reduction_nat = summary.number("/entropy_nat/reduction"),
+      .straight_m = summary.number("/distance_m/straight"),
+      .flown_m = summary.number("/distance_m/flown"),
+      .profile_m = summary.number("/distance_m/profile"),
+      .flight_time_s = summary.number("/flight_time_s"),
+      .energy_wh = summary.number("/energy_wh"),
+      .coverage_final = summary.by_size("/coverage/final"),
+      .coverage_profile = summary.by_size("/coverage/profile"),
+      .coverage_final_raw = summary.by_size("/coverage/final_raw_reference"),
+      .coverage_profile_raw = summary.by_size("/coverage/profile_raw_reference"),
+      .density_points_per_voxel = summary.number("/density_points_per_voxel"),
+      .distances = distances_of(summary),
+      .density = {.voxel_m = summary.number("/density/voxel_m"),
+                  .mean_points = summary.number("/density/mean_points"),
+                  .variation = summary.number("/density/variation")},
+      .curve = read_coverage_csv(run / kCoverageFile),
+      .wall_s = summary.number("/wall_s/total"),
+  };
+  if (figures.curve.coverage.size() != static_cast<std::size_t>(figures.iterations) + 1) {
+    throw BadInput(fmt::format("{}: {} rows for the profile and {} views",
+                               (run / kCoverageFile).string(), figures.curve.coverage.size(),
+                               figures.iterations));
+  }
+  return figures;
+}
+
+std::string score_json(const MissionScore& score, bool is_run) {
+  Json json = score_part(score);
+  if (!is_run) {
+    json.erase("auc");
+    json["coverage"].erase("profile");
+    json["coverage"].erase("profile_raw_reference");
+  }
+  return json.dump(2);
+}
+
+void rescore_summary(const fs::path& run, const MissionScore& score) {
+  const fs::path path = run / kSummaryFile;
+  const Json json = Json::parse(read_file(path), nullptr, false);
+  if (!json.is_object() || !json.contains("schema") || !json.contains("coverage")) {
+    throw BadInput(fmt::format("{}: is not the summary of a run", path.string()));
+  }
+  const Json& schema = json.at("schema");
+  if (!schema.is_number_unsigned() || schema.get<std::uint64_t>() > kSummarySchema) {
+    throw BadInput(fmt::format("{}: schema: {} is none that this version knows, 1 to {}",
+                               path.string(), schema.dump(), kSummarySchema));
+  }
+  const std::string summary = with_score(json, score).dump(2) + "\n";
+  write_file_atomically(run / kCoverageFile, coverage_csv(score.curve));
+  write_file_atomically(path, summary);
+}
+
+}  // namespace gnbv
