@@ -132,9 +132,9 @@ class Decider {
     parallel_for(bench_.threads, shares, [&](std::size_t share) {
       for (std::size_t i = share; i < valid.size(); i += shares) {
         Candidate& candidate = candidates[valid[i]];
-        ViewStats stats = candidate_stats(model_.config.utility, belief_.grid, belief_.cloud,
-                                          belief_.shadow, frontier_density_, model_.view_rays,
-                                          candidate.view, bench_.marks[share]);
+        ViewStats stats = evaluate_view(
+            belief_.grid, belief_.cloud, model_.view_rays, candidate.view, bench_.marks[share],
+            view_options(model_.config.utility, belief_.shadow, frontier_density_));
         stats.density_max = belief_.cloud.density_max();
         stats.path_m = candidate.path_m;
         const ScoreContext context = {

@@ -85,12 +85,11 @@ std::vector<std::string_view> utility_names();
 /// Requires a name of utility_names().
 UtilityNeeds needs_of(const UtilityConfig& config);
 
-/// Evaluates the view at the detail that the utility needs, with the released slips where the
-/// configuration asks for them. `shadow` is read only by utilities that need it; `sparse_below` is
-/// the density below which a voxel is a frontier. density_max and path_m stay 0.
-ViewStats candidate_stats(const UtilityConfig& config, const OccupancyGrid& grid,
-                          const SurfaceCloud& cloud, const ShadowBand& shadow, double sparse_below,
-                          const ViewRays& rays, const ViewPose& candidate, VisitMarks& marks);
+/// How evaluate_view() has to look for this utility, and no more closely: with the released slips
+/// where the configuration asks for them. `shadow` is kept only where it is needed; `sparse_below`
+/// is the density below which a voxel is a frontier.
+ViewOptions view_options(const UtilityConfig& config, const ShadowBand& shadow,
+                         double sparse_below);
 
 /// Scores with the formula that `config` names. Nothing for a view that sees no occupied voxel and
 /// a formula that refuses those. Requires a name of utility_names().

@@ -23,6 +23,10 @@ octomap::OcTreeKey octomap_key(const Key& key) {
 
 }  // namespace
 
+double probability(const OccupancyGrid& grid, VoxelIndex v) {
+  return octomap::probability(static_cast<double>(grid.log_odds(v)));
+}
+
 struct OctomapTwin::Tree {
   explicit Tree(double resolution_m) : octree(resolution_m) {}
   octomap::OcTree octree;

@@ -7,9 +7,13 @@
 #include <span>
 #include <vector>
 
-#include "planner/map/scan_insertion.hpp"
+#include "planner/map/fan_walker.hpp"
+#include "planner/map/occupancy_grid.hpp"
 
 namespace gnbv {
+
+/// octomap::probability of the voxel: 0.5 while unmeasured.
+double probability(const OccupancyGrid& grid, VoxelIndex v);
 
 class OctomapTwin {
  public:

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bench/reference/analytic_scans.hpp"
+#include "bench/reference/depth_rays.hpp"
 #include "bench/reference/octomap_twin.hpp"
 #include "bench/speed/measure.hpp"
 #include "planner/map/scan_insertion.hpp"
@@ -89,7 +90,7 @@ const std::vector<DepthFrame>& circle_frames() {
 
 std::vector<SpeedRow> map_speed() {
   const SimdLevel level_before = simd_level();
-  constexpr std::array kLevels = {SimdLevel::avx512, SimdLevel::avx2, SimdLevel::scalar};
+  constexpr std::array kLevels = {SimdLevel::avx512, SimdLevel::avx2, SimdLevel::baseline};
   std::vector<Ours> ours;
   for (const SimdLevel level : kLevels) ours.emplace_back(level);
   OctomapTwin ray_by_ray{OccupancyConfig{}};
@@ -112,7 +113,7 @@ std::vector<SpeedRow> map_speed() {
   set_simd_level(level_before);
 
   constexpr std::array kNames = {"depth_frame_into_map", "depth_frame_into_map_avx2",
-                                 "depth_frame_into_map_scalar"};
+                                 "depth_frame_into_map_baseline"};
   constexpr std::array kTargets = {60.0, 10.0, 10.0};
   std::vector<SpeedRow> rows;
   for (std::size_t i = 0; i < ours.size(); ++i) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bench/reference/analytic_scans.hpp"
+#include "bench/reference/depth_rays.hpp"
 #include "bench/reference/paper_view_twin.hpp"
 #include "bench/speed/measure.hpp"
 #include "planner/map/scan_insertion.hpp"
@@ -32,11 +33,11 @@ struct BenchBelief {
   ShadowBand shadow{ShadowConfig{}, grid.geometry()};
 };
 
-void integrate(const DepthFrame& frame, const CameraModel& camera, ScanInserter& inserter,
+void integrate(const DepthFrame& frame, const CameraModel& camera, FanWalker& walker,
                BenchBelief& belief) {
   const std::vector<ScanRay> rays = rays_of(frame, camera, kFloor_m);
   const Vec3f origin_m = frame.T_world_camera.translation().cast<float>();
-  belief.grid.apply(inserter.compute_update(origin_m, rays, 1));
+  belief.grid.apply(walker.compute_update(origin_m, rays));
   belief.cloud.add(surface_points_world_m(rays), CloudConfig{}.leaf_m);
   FrameRays columns;
   compute_frame_rays(frame, camera, kFloor_m, columns);
@@ -45,7 +46,7 @@ void integrate(const DepthFrame& frame, const CameraModel& camera, ScanInserter&
 
 BenchBelief make_belief(std::span<const CameraModel> cameras) {
   BenchBelief belief;
-  ScanInserter inserter(belief.grid.geometry());
+  FanWalker walker(belief.grid.geometry());
   for (int i = 0; i < kFrames; ++i) {
     const double angle_rad = i * (4.0 / 3.0) * kPi / kFrames;
     const double radius_m = 8.0 + 2.0 * draw(0, static_cast<std::uint64_t>(i));
@@ -53,7 +54,7 @@ BenchBelief make_belief(std::span<const CameraModel> cameras) {
         Vec3(radius_m * std::cos(angle_rad), radius_m * std::sin(angle_rad), 3.0 + i % 3),
         angle_rad + kPi};
     for (const CameraModel& camera : cameras) {
-      integrate(analytic_depth(example_scene(), camera, T_world_body(pose)), camera, inserter,
+      integrate(analytic_depth(example_scene(), camera, T_world_body(pose)), camera, walker,
                 belief);
     }
   }
@@ -103,7 +104,7 @@ class ViewBench {
     rows.push_back(all_over_one_row());
     for (const auto& [name, level, target] :
          {std::tuple{"candidate_avx2", SimdLevel::avx2, 40.0},
-          std::tuple{"candidate_scalar", SimdLevel::scalar, 0.0}}) {
+          std::tuple{"candidate_baseline", SimdLevel::baseline, 0.0}}) {
       if (level > best) continue;
       set_simd_level(level);
       rows.push_back(candidate_row(name, twin_us, target));

@@ -10,7 +10,7 @@ namespace gnbv {
 /// Rows, in thread CPU time on one thread:
 /// - candidate: one candidate (two cameras of 47 x 34 rays) at the best level this processor has,
 ///   against the paper's way on an octomap::OcTree; ratio = reference / ours;
-/// - candidate_avx2, candidate_scalar: the same at that level, if the processor has it;
+/// - candidate_avx2, candidate_baseline: the same at that level, if the processor has it;
 /// - all_utilities_over_one: `ours` is what the metrics of all utilities cost and scoring them all,
 ///   `reference` what one utility of voxel counts costs; ratio = ours / reference, to stay below
 ///   its target.

@@ -1,5 +1,5 @@
-// The two hot loops of SurfaceCloud, compiled once for each SimdLevel; all give the same bits.
-// Plain structs and pointers only: a unit compiled for AVX must not share inline code with others.
+// The two hot loops of SurfaceCloud, compiled once for each SimdLevel (cloud_loops.cpp). Plain
+// structs and pointers only, see sim/core/lanes.hpp.
 #pragma once
 
 #include <cstddef>
@@ -44,8 +44,7 @@ struct LeafTable {
 /// The points of a frame, column by column.
 struct PixelColumns {
   const float *x_m, *y_m, *z_m;
-  const std::uint8_t* kind;
-  std::uint8_t hits;  // the kind that is a point
+  const std::uint8_t* kind;  // PixelRay
 };
 
 /// The points of the cloud, found by cells.
@@ -67,7 +66,7 @@ struct CellBox {
 /// workspace in leaves not taken; `out` has room for `end` - `begin`, rounded up to 16, numbers.
 /// Returns how many.
 using FindUntaken = std::size_t (*)(const LeafTable& table, const PixelColumns& pixels,
-                                    std::size_t begin, std::size_t end, std::uint32_t* out);
+                                    std::size_t begin, std::size_t end, std::int32_t* out);
 
 /// Counts the points of the cells within the radius of a point (SurfaceCloud's float32 comparison)
 /// and adds 1 to neighbour_sum of the voxel of each, in `voxels` by slot.
@@ -79,14 +78,14 @@ struct CloudKernels {
   CountNeighbours count_neighbours;
 };
 
-namespace cloud_scalar {
-extern const CloudKernels kKernels;
+namespace at_baseline {
+extern const CloudKernels kCloudKernels;
 }
-namespace cloud_avx2 {
-extern const CloudKernels kKernels;
+namespace at_avx2 {
+extern const CloudKernels kCloudKernels;
 }
-namespace cloud_avx512 {
-extern const CloudKernels kKernels;
+namespace at_avx512 {
+extern const CloudKernels kCloudKernels;
 }
 
 }  // namespace gnbv

@@ -1,9 +1,9 @@
 // Which pixels' rays pass a voxel: its outline in the image, and how deep a ray must go to leave
-// it. For frame_kernels_*.cpp alone.
+// it. For frame_loops.cpp alone.
 #pragma once
 
 #include "planner/map/frame_kernels.hpp"
-#include "planner/map/lanes.hpp"
+#include "sim/core/lanes.hpp"
 
 namespace gnbv {
 namespace {
@@ -172,7 +172,7 @@ inline ConeRow row_of(const Cone& cone, const SeenVoxel& voxel, float v) {
 inline Mask passing(const Cone& cone, const ConeRow& row, Floats u, Floats inverse_depth) {
   Floats exit = all(cone.least_exit);
   for (int i = 0; i < cone.exits; ++i) {
-    exit = greater(exit, all(row.exit_at[i]) + all(cone.exit_u[i]) * u);
+    exit = max(exit, all(row.exit_at[i]) + all(cone.exit_u[i]) * u);
   }
   return less(inverse_depth, exit) & less_equal(all(row.first_u), u) &
          less_equal(u, all(row.last_u));
@@ -189,10 +189,10 @@ inline Spans spans_of(const Cone& cone, const SeenVoxel& voxel, int first_v) {
   Floats first_u = all(static_cast<float>(voxel.first_u));
   Floats last_u = all(static_cast<float>(voxel.last_u));
   for (int i = 0; i < cone.lowers; ++i) {
-    first_u = greater(first_u, all(cone.lower_at[i]) + all(cone.lower_slope[i]) * v);
+    first_u = max(first_u, all(cone.lower_at[i]) + all(cone.lower_slope[i]) * v);
   }
   for (int i = 0; i < cone.uppers; ++i) {
-    last_u = lesser(last_u, all(cone.upper_at[i]) + all(cone.upper_slope[i]) * v);
+    last_u = min(last_u, all(cone.upper_at[i]) + all(cone.upper_slope[i]) * v);
   }
   Spans spans;
   store(spans.first_u, first_u);

@@ -1,10 +1,8 @@
 #include "planner/map/fan_walker.hpp"
 
-#include <algorithm>
-
-#ifdef __SSE2__
 #include <emmintrin.h>
-#endif
+
+#include <algorithm>
 
 namespace gnbv {
 namespace {
@@ -13,27 +11,27 @@ constexpr std::uint8_t kUnmarked = 0;
 constexpr std::uint8_t kMarked = 1;
 constexpr std::uint8_t kFrame = 2;
 
-constexpr std::size_t kLanes = 4;  // rays walked side by side, in pairs
-constexpr VoxelPlace kNowhere = -1;
+constexpr std::size_t kRays = 4;  // walked side by side, in pairs
+constexpr std::int64_t kNowhere = -1;
 
 }  // namespace
 
 /// Rays under way, in memory.
-struct FanWalker::Lanes {
+struct FanWalker::Rays {
   struct alignas(16) Pair {
     double t_next[3][2];
     double t_voxel[3][2];
     double length_m[2];
-    VoxelPlace place[2];
-    VoxelPlace move[3][2];
-    VoxelPlace end[2];
+    Place place[2];
+    Place move[3][2];
+    Place end[2];
   };
-  Pair pair[kLanes / 2];
+  Pair pair[kRays / 2];
 
-  void set(std::size_t lane, const RaySteps& ray, const std::array<VoxelPlace, 3>& move,
-           VoxelPlace place, VoxelPlace end) {
-    Pair& p = pair[lane / 2];
-    const std::size_t l = lane % 2;
+  void set(std::size_t which, const RaySteps& ray, const std::array<Place, 3>& move, Place place,
+           Place end) {
+    Pair& p = pair[which / 2];
+    const std::size_t l = which % 2;
     for (std::size_t a = 0; a < 3; ++a) {
       p.t_next[a][l] = ray.t_next[a];
       p.t_voxel[a][l] = ray.t_voxel[a];
@@ -61,24 +59,42 @@ FanWalker::FanWalker(const GridGeometry& grid) : grid_(grid) {
       std::fill(row, row + size[0], kUnmarked);
     }
   }
-  marks_.back() = kMarked;  // where lanes without a ray rest
+  marks_.back() = kMarked;  // where nothing is left to walk
 }
 
-VoxelPlace FanWalker::place_of(const Key& key) const {
+FanWalker::Place FanWalker::place_of(const Key& key) const {
   const Key& min = grid_.min_key();
   return first_ + (key[0] - min[0]) * move_[0] + (key[1] - min[1]) * move_[1] +
          (key[2] - min[2]) * move_[2];
 }
 
-bool FanWalker::mark(VoxelPlace place) {
+void FanWalker::list(Place place, std::vector<Place>& places) {
   std::uint8_t& m = marks_[static_cast<std::uint32_t>(place)];
-  const bool is_new = m == kUnmarked;
+  if (m == kUnmarked) places.push_back(place);
   m = kMarked;
-  return is_new;
 }
 
-void FanWalker::clear(std::span<const VoxelPlace> places) {
-  for (const VoxelPlace place : places) marks_[static_cast<std::uint32_t>(place)] = kUnmarked;
+std::vector<VoxelIndex> FanWalker::take(const std::vector<Place>& places) {
+  std::vector<VoxelIndex> voxels;
+  voxels.reserve(places.size());
+  for (const Place place : places) {
+    marks_[static_cast<std::uint32_t>(place)] = kUnmarked;
+    voxels.push_back(static_cast<VoxelIndex>(place >> 32));
+  }
+  return voxels;
+}
+
+ScanUpdate FanWalker::compute_update(const Vec3f& origin_world_m, std::span<const ScanRay> rays) {
+  occupied_.clear();
+  free_.clear();
+  for (const ScanRay& ray : rays) {
+    if (!ray.hit) continue;
+    const Key key = grid_.key_of(ray.end_world_m);
+    if (grid_.contains(key)) list(place_of(key), occupied_);
+  }
+  // occupied wins: its voxels are marked, so no walk lists them
+  walk(make_ray_origin(grid_, origin_world_m), rays);
+  return {.free = take(free_), .occupied = take(occupied_)};
 }
 
 bool FanWalker::enter(const Key& key_end, RaySteps& ray, Key& key) const {
@@ -99,36 +115,35 @@ bool FanWalker::enter(const Key& key_end, RaySteps& ray, Key& key) const {
   return true;
 }
 
-bool FanWalker::start_ray(const RayOrigin& origin, const Vec3f& end_m, Lanes& lanes,
-                          std::size_t lane, std::vector<VoxelPlace>& places) {
+bool FanWalker::start_ray(const RayOrigin& origin, const Vec3f& end_m, Rays& under_way,
+                          std::size_t which) {
   const Key key_end = grid_.key_of(end_m);
   if (key_end == origin.key) return false;
   RaySteps ray = make_ray_steps(grid_, origin, end_m);
   Key key = origin.key;
   if (!grid_.contains(key) && (!(ray.length_m > 0.0) || !enter(key_end, ray, key))) return false;
-  const VoxelPlace start = place_of(key);
-  if (mark(start)) places.push_back(start);
+  const Place start = place_of(key);
+  list(start, free_);
   if (!(ray.length_m > 0.0)) return false;
-  lanes.set(lane, ray, move_, start, grid_.contains(key_end) ? place_of(key_end) : kNowhere);
+  under_way.set(which, ray, move_, start, grid_.contains(key_end) ? place_of(key_end) : kNowhere);
   return true;
 }
 
-bool FanWalker::start_next(const RayOrigin& origin, std::span<const ScanRay>& rays, Lanes& lanes,
-                           std::size_t lane, std::vector<VoxelPlace>& places) {
+bool FanWalker::start_next(const RayOrigin& origin, std::span<const ScanRay>& rays, Rays& under_way,
+                           std::size_t which) {
   while (!rays.empty()) {
     const Vec3f end_m = rays.front().end_world_m;
     rays = rays.subspan(1);
-    if (start_ray(origin, end_m, lanes, lane, places)) return true;
+    if (start_ray(origin, end_m, under_way, which)) return true;
   }
   RaySteps rest;  // steps nowhere, for ever
   rest.t_next = {0.0, 0.0, 0.0};
   rest.t_voxel = {0.0, 0.0, 0.0};
   rest.length_m = RaySteps::kNever;
-  lanes.set(lane, rest, move_, static_cast<VoxelPlace>(marks_.size() - 1), kNowhere);
+  under_way.set(which, rest, move_, static_cast<Place>(marks_.size() - 1), kNowhere);
   return false;
 }
 
-#ifdef __SSE2__
 namespace {
 
 /// Two rays in registers. The same comparisons and additions as walk_ray, without its branches:
@@ -139,7 +154,7 @@ struct PairOfRays {
 
   template <typename Memory>
   void load(const Memory& memory) {
-    const auto integers = [](const VoxelPlace* from) {
+    const auto integers = [](const std::int64_t* from) {
       return _mm_load_si128(reinterpret_cast<const __m128i*>(from));
     };
     for (int a = 0; a < 3; ++a) {
@@ -174,7 +189,7 @@ struct PairOfRays {
     place = _mm_add_epi64(place, _mm_or_si128(x_or_y, z));
     const __m128d nearest_m = _mm_min_pd(t_next[0], _mm_min_pd(t_next[1], t_next[2]));
     const __m128d is_beyond = _mm_cmpgt_pd(nearest_m, length_m);
-    // the low half of a place is unique; its verdict moves to the sign of the lane
+    // the low half of a place is unique; its verdict moves to the sign of the whole
     const __m128i is_end = _mm_slli_epi64(_mm_cmpeq_epi32(place, end), 32);
     return static_cast<unsigned>(_mm_movemask_pd(_mm_or_pd(is_beyond, _mm_castsi128_pd(is_end))));
   }
@@ -182,74 +197,53 @@ struct PairOfRays {
 
 }  // namespace
 
-void FanWalker::walk(const RayOrigin& origin, std::span<const ScanRay> rays,
-                     std::vector<VoxelPlace>& places) {
-  Lanes lanes;
+void FanWalker::walk(const RayOrigin& origin, std::span<const ScanRay> rays) {
+  Rays under_way;
   std::size_t active = 0;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    if (start_next(origin, rays, lanes, lane, places)) ++active;
+  for (std::size_t which = 0; which < kRays; ++which) {
+    if (start_next(origin, rays, under_way, which)) ++active;
   }
   std::uint8_t* const marks = marks_.data();
-  const auto mark_of = [marks](VoxelPlace place) -> std::uint8_t& {
+  const auto mark_of = [marks](Place place) -> std::uint8_t& {
     return marks[static_cast<std::uint32_t>(place)];
   };
   // new places gather here, so that the loop calls nothing and keeps its registers
-  std::array<VoxelPlace, 256> fresh;
+  std::array<Place, 256> fresh;
   while (active > 0) {
     PairOfRays a;
     PairOfRays b;
-    a.load(lanes.pair[0]);
-    b.load(lanes.pair[1]);
+    a.load(under_way.pair[0]);
+    b.load(under_way.pair[1]);
     unsigned at_end = 0;
     std::size_t fresh_count = 0;
     bool is_at_frame = false;
     do {
       at_end = a.step() | b.step() << 2;
-      const std::array<VoxelPlace, kLanes> place = {
+      const std::array<Place, kRays> place = {
           _mm_cvtsi128_si64(a.place), _mm_cvtsi128_si64(_mm_unpackhi_epi64(a.place, a.place)),
           _mm_cvtsi128_si64(b.place), _mm_cvtsi128_si64(_mm_unpackhi_epi64(b.place, b.place))};
       if (at_end != 0) break;
       const int all = mark_of(place[0]) & mark_of(place[1]) & mark_of(place[2]) & mark_of(place[3]);
       if ((all & kMarked) != 0) continue;
-      for (const VoxelPlace p : place) {
+      for (const Place p : place) {
         std::uint8_t& m = mark_of(p);
         is_at_frame |= m == kFrame;
         if (m != kUnmarked) continue;
         m = kMarked;
         fresh[fresh_count++] = p;
       }
-    } while (!is_at_frame && fresh_count + kLanes <= fresh.size());
-    places.insert(places.end(), fresh.data(), fresh.data() + fresh_count);
-    a.store(lanes.pair[0]);
-    b.store(lanes.pair[1]);
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const VoxelPlace place = lanes.pair[lane / 2].place[lane % 2];
-      if ((at_end >> lane & 1U) != 0 || mark_of(place) == kFrame) {
-        if (!start_next(origin, rays, lanes, lane, places)) --active;
-      } else if (mark(place)) {
-        places.push_back(place);
+    } while (!is_at_frame && fresh_count + kRays <= fresh.size());
+    free_.insert(free_.end(), fresh.data(), fresh.data() + fresh_count);
+    a.store(under_way.pair[0]);
+    b.store(under_way.pair[1]);
+    for (std::size_t which = 0; which < kRays; ++which) {
+      const Place place = under_way.pair[which / 2].place[which % 2];
+      if ((at_end >> which & 1U) != 0 || mark_of(place) == kFrame) {
+        if (!start_next(origin, rays, under_way, which)) --active;
+      } else {
+        list(place, free_);
       }
     }
-  }
-}
-#else
-void FanWalker::walk(const RayOrigin& origin, std::span<const ScanRay> rays,
-                     std::vector<VoxelPlace>& places) {
-  walk_one_by_one(origin, rays, places);
-}
-#endif
-
-void FanWalker::walk_one_by_one(const RayOrigin& origin, std::span<const ScanRay> rays,
-                                std::vector<VoxelPlace>& places) {
-  for (const ScanRay& ray : rays) {
-    bool was_inside = false;
-    walk_ray(grid_, origin, ray.end_world_m, [&](const Key& key) {
-      if (!grid_.contains(key)) return !was_inside;  // straight: once out, never in again
-      was_inside = true;
-      const VoxelPlace place = place_of(key);
-      if (mark(place)) places.push_back(place);
-      return true;
-    });
   }
 }
 

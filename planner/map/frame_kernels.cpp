@@ -5,15 +5,8 @@
 namespace gnbv {
 
 const FrameKernels& frame_kernels() {
-  switch (simd_level()) {
-    case SimdLevel::avx512:
-      return kFrameKernelsAvx512;
-    case SimdLevel::avx2:
-      return kFrameKernelsAvx2;
-    case SimdLevel::scalar:
-      break;
-  }
-  return kFrameKernelsSse2;
+  return at_simd_level(at_baseline::kFrameKernels, at_avx2::kFrameKernels,
+                       at_avx512::kFrameKernels);
 }
 
 }  // namespace gnbv

@@ -1,5 +1,5 @@
-// The loops of map insertion that exist once for every SIMD level: plain pointers in, plain
-// pointers out. Whoever calls them owns the memory and knows the frames.
+// The loops of map insertion, compiled once for each SimdLevel (frame_loops.cpp): plain pointers
+// in, plain pointers out. Whoever calls them owns the memory and knows the frames.
 #pragma once
 
 #include <cstddef>
@@ -88,8 +88,14 @@ struct FrameKernels {
 /// The loops for simd_level().
 const FrameKernels& frame_kernels();
 
-extern const FrameKernels kFrameKernelsSse2;
-extern const FrameKernels kFrameKernelsAvx2;
-extern const FrameKernels kFrameKernelsAvx512;
+namespace at_baseline {
+extern const FrameKernels kFrameKernels;
+}
+namespace at_avx2 {
+extern const FrameKernels kFrameKernels;
+}
+namespace at_avx512 {
+extern const FrameKernels kFrameKernels;
+}
 
 }  // namespace gnbv

@@ -54,10 +54,6 @@ VoxelState OccupancyGrid::state_at(const Vec3& p_world_m) const {
   return geometry_.contains(key) ? state(geometry_.index_of(key)) : VoxelState::unknown;
 }
 
-double OccupancyGrid::probability(VoxelIndex v) const {
-  return 1.0 - 1.0 / (1.0 + std::exp(static_cast<double>(log_odds_[v])));
-}
-
 double OccupancyGrid::total_entropy_nat() const {
   return static_cast<double>(total_entropy_) / kTotalUnits;
 }

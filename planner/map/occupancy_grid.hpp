@@ -35,7 +35,6 @@ class OccupancyGrid {
   VoxelState state(VoxelIndex v) const { return state_of(words_[v]); }
   /// State outside the grid is unknown.
   VoxelState state_at(const Vec3& p_world_m) const;
-  double probability(VoxelIndex v) const;
 
   /// Eq. (1) in nat; ln 2 while unmeasured, 0 at a clamping bound (released code: "ignore entropies
   /// at clamping points").

@@ -1,24 +1,12 @@
-// Loops over the pixels of a frame. For frame_kernels_*.cpp alone.
+// Loops over the pixels of a frame. For frame_loops.cpp alone.
 #pragma once
 
 #include "planner/map/frame_kernels.hpp"
-#include "planner/map/lanes.hpp"
+#include "planner/map/pixel_ray.hpp"
+#include "sim/core/lanes.hpp"
 
 namespace gnbv {
 namespace {
-
-/// The first `count` of kLanes elements, the others zero: a vector over the end of an array.
-template <typename T>
-struct Tail {
-  T at[kLanes] = {};
-  Tail() = default;
-  Tail(const T* from, int count) {
-    for (int i = 0; i < count; ++i) at[i] = from[i];
-  }
-  void copy_to(T* to, int count) const {
-    for (int i = 0; i < count; ++i) to[i] = at[i];
-  }
-};
 
 inline Mask has_ray(const PixelRow& row, Floats depth_m) {
   return less_equal(all(row.range_min_m), depth_m);
@@ -39,8 +27,9 @@ inline void rays_of_pixels(const PixelRow& row, int u, Floats depth_m, float* co
     p_m = all(row.origin_m[a]) + along_m * (load(row.across[a] + u) + all(row.down[a]));
     store(end_m[a], narrow(p_m));
   }
-  const Mask hits = and_not(is_return, less(p_m, all(row.floor_z_m)));
-  const Ints says = select(hits, all(2), all(1));
+  const Mask hits = without(is_return, less(p_m, all(row.floor_z_m)));
+  const Ints says =
+      select(hits, all(static_cast<int>(PixelRay::hits)), all(static_cast<int>(PixelRay::clears)));
   store_bytes(kind, select(has_ray(row, depth_m), says, all(0)));
 }
 
@@ -64,12 +53,12 @@ void rays_of_row(const PixelRow& row) {
 /// Index of each lane's voxel; -1 without a hit in the grid.
 inline Ints voxels_of_ends(const EndRow& row, const float* const end_m[3],
                            const std::uint8_t* kind) {
-  Mask inside = equal(load_bytes(kind), all(2));
+  Mask inside = equal_bytes(kind, static_cast<std::uint8_t>(PixelRay::hits));
   Doubles index = all(0.0);
   for (int a = 2; a >= 0; --a) {
     const Doubles key = floor_of(widen(load(end_m[a])) * all(row.inverse_resolution));
     const Doubles from_min = key - all(row.min_key[a]);
-    inside = and_not(inside, less(from_min, all(0.0))) & less(from_min, all(row.size[a]));
+    inside = without(inside, less(from_min, all(0.0))) & less(from_min, all(row.size[a]));
     index = index * all(row.size[a]) + from_min;
   }
   return select(inside, truncated(index), all(-1));

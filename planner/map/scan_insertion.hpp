@@ -15,11 +15,6 @@
 
 namespace gnbv {
 
-/// Rays of a depth frame in row-major pixel order: kInvalidRange, or nearer than range_min_m, gives
-/// no ray; kNoReturn, or beyond range_max_m, a clearing ray to the plane at range_max_m; a return
-/// below `floor_z_m` clears but marks nothing.
-std::vector<ScanRay> rays_of(const DepthFrame& frame, const CameraModel& camera, double floor_z_m);
-
 /// Rays of a sweep in beam order; the maximum range is a sphere.
 std::vector<ScanRay> rays_of(const LidarScan& scan, const LidarModel& lidar, double floor_z_m);
 
@@ -31,15 +26,9 @@ class ScanInserter {
  public:
   explicit ScanInserter(const GridGeometry& grid) : grid_(grid), frames_(grid) {}
 
-  /// The voxels the rays touch inside the grid. Oracle: octomap::OcTree::computeUpdate.
-  /// Rays are walked in fixed bands on `threads` threads; the result, order included, does not
-  /// depend on how many. Points must be finite.
-  ScanUpdate compute_update(const Vec3f& origin_world_m, std::span<const ScanRay> rays,
-                            int threads);
-
   /// The voxels a frame touches, each list in ascending order; `rays` is compute_frame_rays() of
-  /// it. As compute_update() of its rays, but voxel by voxel where can_project() allows it and the
-  /// pixels are many.
+  /// it. Voxel by voxel where can_project() allows it and the pixels are many, else ray by ray on
+  /// one thread; the same voxels.
   ScanUpdate compute_update(const FrameRays& rays, const DepthFrame& frame,
                             const CameraModel& camera, int threads);
 
@@ -53,15 +42,7 @@ class ScanInserter {
 
   GridGeometry grid_;
   FrameInserter frames_;
-  std::vector<FanWalker> walkers_;                 // one a thread, unmarked between calls
-  std::vector<std::vector<VoxelPlace>> occupied_;  // of each band
-  std::vector<std::vector<VoxelPlace>> free_;      // of each band
+  std::vector<FanWalker> walkers_;  // one a thread
 };
-
-/// The same, once, without memory to reuse.
-ScanUpdate compute_update(const GridGeometry& grid, const Vec3f& origin_world_m,
-                          std::span<const ScanRay> rays, int threads);
-void insert_scans(OccupancyGrid& grid, std::span<const LidarScan> scans,
-                  std::span<const LidarModel> lidars, double floor_z_m, int threads);
 
 }  // namespace gnbv

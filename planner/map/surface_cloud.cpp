@@ -28,15 +28,8 @@ float first_of_voxel(const GridGeometry& voxels, std::int32_t key) {
 }
 
 const CloudKernels& kernels() {
-  switch (simd_level()) {
-    case SimdLevel::avx512:
-      return cloud_avx512::kKernels;
-    case SimdLevel::avx2:
-      return cloud_avx2::kKernels;
-    case SimdLevel::scalar:
-      break;
-  }
-  return cloud_scalar::kKernels;
+  return at_simd_level(at_baseline::kCloudKernels, at_avx2::kCloudKernels,
+                       at_avx512::kCloudKernels);
 }
 
 }  // namespace
@@ -177,15 +170,15 @@ void SurfaceCloud::add_untaken(const FrameRays& frame) {
   const PixelColumns pixels{.x_m = frame.x_m.data(),
                             .y_m = frame.y_m.data(),
                             .z_m = frame.z_m.data(),
-                            .kind = reinterpret_cast<const std::uint8_t*>(frame.kind.data()),
-                            .hits = static_cast<std::uint8_t>(PixelRay::hits)};
+                            .kind = reinterpret_cast<const std::uint8_t*>(frame.kind.data())};
   const FindUntaken find_untaken = kernels().find_untaken;
   const std::size_t count = frame.kind.size();
   untaken_.resize(kPixelsAtOnce);
   for (std::size_t begin = 0; begin < count; begin += kPixelsAtOnce) {
     const std::size_t end = std::min(begin + kPixelsAtOnce, count);
     const std::size_t found = find_untaken(table, pixels, begin, end, untaken_.data());
-    for (const std::uint32_t i : std::span(untaken_).first(found)) {
+    for (const std::int32_t pixel : std::span(untaken_).first(found)) {
+      const auto i = static_cast<std::size_t>(pixel);
       const Vec3f p_m(frame.x_m[i], frame.y_m[i], frame.z_m[i]);
       batch_.add(lattice_.key_of(p_m), p_m);
     }

@@ -101,7 +101,7 @@ class SurfaceCloud {
   std::vector<PointBlock> blocks_;        // the first one is none
   std::vector<std::uint32_t> next_block_;
   LeafSums batch_;
-  std::vector<std::uint32_t> untaken_;  // pixels of a frame
+  std::vector<std::int32_t> untaken_;  // pixels of a frame
 };
 
 }  // namespace gnbv

@@ -1,4 +1,4 @@
-// Loops over the voxels that a frame can reach. For frame_kernels_*.cpp alone.
+// Loops over the voxels that a frame can reach. For frame_loops.cpp alone.
 #pragma once
 
 #include "planner/map/cone_loops.hpp"
@@ -26,6 +26,8 @@ inline Centers make_centers(const FrameView& view, const double first_m[3]) {
   return c;
 }
 
+inline Floats magnitude(Floats a) { return as_floats(as_ints(a) & all(0x7fffffff)); }
+
 /// Lanes whose voxel is passed by the ray of the pixel at its centre.
 inline Mask passed_at_center(const FrameView& view, const Centers& c) {
   constexpr float kNearest_m = 0.01F;
@@ -37,18 +39,19 @@ inline Mask passed_at_center(const FrameView& view, const Centers& c) {
   const float last[2] = {static_cast<float>(view.width - 1), static_cast<float>(view.height - 1)};
   for (int k = 0; k < 2; ++k) {
     const Floats at = c.camera_m[k] / z_m * all(view.focal_px[k]) + all(view.center_px[k]);
-    const Floats within = lesser(greater(at, all(0.0F)), all(last[k]));
+    const Floats within = min(max(at, all(0.0F)), all(last[k]));
     is_seen = is_seen & less_equal(all(-0.5F), at) & less_equal(at, all(last[k] + 0.5F));
-    pixel[k] = floats(nearest(within));
+    pixel[k] = to_floats(nearest(within));
   }
   const Floats stride = all(static_cast<float>(view.row_stride));
-  const Floats inverse = gather(view.inverse_depth, truncated(pixel[1] * stride + pixel[0]));
+  const Floats inverse =
+      gather(every_lane(), view.inverse_depth, truncated(pixel[1] * stride + pixel[0]));
   const Floats depth_m = all(1.0F) / inverse;
   Floats away_m = all(0.0F);
   for (int a = 0; a < 3; ++a) {
     const Floats direction =
         all(view.toward[a]) + pixel[0] * all(view.right[a]) + pixel[1] * all(view.down[a]);
-    away_m = greater(away_m, magnitude(depth_m * direction - c.world_m[a]));
+    away_m = max(away_m, magnitude(depth_m * direction - c.world_m[a]));
   }
   return is_seen & less(z_m, depth_m) & less(all(view.half_voxel_m + view.margin_m), away_m);
 }
@@ -82,32 +85,35 @@ inline PixelBox pixel_box(const FrameView& view, const Centers& c) {
     const Floats last =
         select(is_ahead, high * all(view.focal_px[k]) + all(view.center_px[k]), end);
     box.is_empty = box.is_empty | less(last, zero) | less(end, first);
-    box.first[k] = floats(truncated(lesser(greater(first, zero), end)));
-    box.last[k] = floats(truncated(lesser(greater(last, zero), end)));
+    box.first[k] = to_floats(truncated(min(max(first, zero), end)));
+    box.last[k] = to_floats(truncated(min(max(last, zero), end)));
   }
   return box;
 }
 
 /// Lanes before whose voxel every ray ends: four windows of tiles cover the pixels.
 inline Mask hidden(const FrameView& view, const PixelBox& box) {
+  constexpr int kExponentBits = 0x7f800000;  // of a float32
   Floats first[2];
   Floats last[2];
   for (int k = 0; k < 2; ++k) {
-    first[k] = floats(truncated(box.first[k] * all(1.0F / kTile_px)));
-    last[k] = floats(truncated(box.last[k] * all(1.0F / kTile_px)));
+    first[k] = to_floats(truncated(box.first[k] * all(1.0F / kTile_px)));
+    last[k] = to_floats(truncated(box.last[k] * all(1.0F / kTile_px)));
   }
-  const Floats tiles = greater(last[0] - first[0], last[1] - first[1]);
-  const Floats window = power_of_two_at_most(greater(tiles, all(1.0F)));
+  const Floats tiles = max(last[0] - first[0], last[1] - first[1]);
+  const Ints window_bits = as_ints(max(tiles, all(1.0F)));
+  const Floats window = as_floats(window_bits & all(kExponentBits));  // 2^floor(log2)
   const Floats back = window - all(1.0F);
-  for (int k = 0; k < 2; ++k) last[k] = greater(last[k] - back, first[k]);
-  const Floats level = floats(exponent(window)) * all(static_cast<float>(view.level_stride));
+  for (int k = 0; k < 2; ++k) last[k] = max(last[k] - back, first[k]);
+  const Floats log2 = to_floats(shift_right<23>(window_bits) - all(127));
+  const Floats level = log2 * all(static_cast<float>(view.level_stride));
   const Floats stride = all(static_cast<float>(view.tile_stride));
   const auto least = [&](Floats tx, Floats ty) {
-    return gather(view.tile_windows, truncated(level + ty * stride + tx));
+    return gather(every_lane(), view.tile_windows, truncated(level + ty * stride + tx));
   };
-  const Floats upper = lesser(least(first[0], first[1]), least(last[0], first[1]));
-  const Floats lower = lesser(least(first[0], last[1]), least(last[0], last[1]));
-  return less_equal(box.inverse_nearest, lesser(upper, lower));
+  const Floats upper = min(least(first[0], first[1]), least(last[0], first[1]));
+  const Floats lower = min(least(first[0], last[1]), least(last[0], last[1]));
+  return less_equal(box.inverse_nearest, min(upper, lower));
 }
 
 /// Tests lane by lane, ray by ray.
@@ -186,7 +192,7 @@ void project_row(const FrameView& view, int y, int z, const FrameMarks& marks) {
     std::uint8_t tail[kLanes] = {};
     for (int i = 0; left < kLanes && i < left; ++i) tail[i] = voxel[i];
     const std::uint8_t* const seen = left < kLanes ? tail : voxel;
-    const std::uint32_t open = in_run & bits(equal(load_bytes(seen), all(0)));
+    const std::uint32_t open = in_run & bits(equal_bytes(seen, kUntouched));
     if (open == 0) continue;
     center_m[0] = row_start_m + x * view.resolution_m;
     const Centers c = make_centers(view, center_m);

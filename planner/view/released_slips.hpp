@@ -2,7 +2,10 @@
 // can be measured. Scalar and slow: nothing else uses it.
 #pragma once
 
-#include "planner/view/visibility.hpp"
+#include "planner/map/occupancy_grid.hpp"
+#include "planner/map/surface_cloud.hpp"
+#include "planner/view/view_rays.hpp"
+#include "planner/view/view_stats.hpp"
 
 namespace gnbv {
 
@@ -14,9 +17,11 @@ struct ReleasedSlips {
   /// A ray that hits a surface counts the voxel it hit only when a ray cast among the predicted
   /// voxels hits one too, at any distance within range.
   bool prediction_hides_hits = false;
+
+  bool any() const { return excludes_hit_voxel || prediction_hides_hits; }
 };
 
-/// As evaluate_view() with ViewDetail::voxels, with the slips.
+/// What evaluate_view() gives with the slips.
 ViewStats evaluate_view_with_slips(const OccupancyGrid& grid, const SurfaceCloud& cloud,
                                    const ViewRays& rays, const ViewPose& candidate,
                                    const ReleasedSlips& slips, double sparse_below);

@@ -1,8 +1,9 @@
+#include "planner/view/view_rays.hpp"
+
 #include <algorithm>
 #include <cmath>
 
-#include "planner/view/view_kernel.hpp"
-#include "planner/view/visibility.hpp"
+#include "planner/view/view_kernels.hpp"
 
 namespace gnbv {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "planner/map/ray_walk.hpp"
-#include "planner/view/view_kernel.hpp"
+#include "planner/view/view_kernels.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/simd.hpp"
 
@@ -16,9 +16,7 @@ constexpr double kDensityUnit = 0x1p-32;      // densities are summed as integer
 constexpr std::size_t kPreparedColumns = 11;  // of PreparedRays
 
 const ViewKernels& kernels() {
-  if (simd_level() == SimdLevel::avx512) return kViewKernelsAvx512;
-  if (simd_level() == SimdLevel::avx2) return kViewKernelsAvx2;
-  return kViewKernelsScalar;
+  return at_simd_level(at_baseline::kViewKernels, at_avx2::kViewKernels, at_avx512::kViewKernels);
 }
 
 RayFanFrame make_frame(const GridGeometry& grid, const Isometry& T_world_body,
@@ -167,6 +165,10 @@ VisitMarks::VisitMarks(std::size_t voxels) : marks(voxels + kMarkPadding) {}
 
 ViewStats evaluate_view(const OccupancyGrid& grid, const SurfaceCloud& cloud, const ViewRays& rays,
                         const ViewPose& candidate, VisitMarks& marks, const ViewOptions& options) {
+  if (options.slips.any()) {
+    return evaluate_view_with_slips(grid, cloud, rays, candidate, options.slips,
+                                    options.sparse_below);
+  }
   const GridGeometry& geometry = grid.geometry();
   GNBV_CHECK(marks.marks.size() == geometry.voxel_count() + kMarkPadding,
              "marks of {} bytes for {} voxels", marks.marks.size(), geometry.voxel_count());
@@ -174,7 +176,7 @@ ViewStats evaluate_view(const OccupancyGrid& grid, const SurfaceCloud& cloud, co
              rays.resolution_m, geometry.resolution_m());
   const bool full = options.detail == ViewDetail::rays;
   const Isometry T = T_world_body(candidate);
-  marks.predicted_ends.resize(rays.count());
+  marks.predicted_ends.resize(rays.count() + kMarkPadding);
   marks.occupied.resize(rays.count() + kMarkPadding);
   ViewMaps maps = {
       .words = grid.words().data(),

@@ -1,23 +1,12 @@
-// Sixteen rays side by side. For one translation unit compiled with AVX-512, see view_kernel.hpp.
+// Sixteen lanes with AVX-512 (F, BW, DQ, VL): what lanes.hpp leaves to the level, and masks that
+// are registers of their own. Included there, and nowhere else.
 #pragma once
-
-#include <immintrin.h>
-
-#include <cstdint>
 
 namespace gnbv {
 namespace {
 
-constexpr int kLanes = 16;
-
 struct Mask {
   __mmask16 m;
-};
-struct Ints {
-  __m512i v;
-};
-struct Floats {
-  __m512 v;
 };
 
 inline Mask no_lane() { return {0}; }
@@ -25,68 +14,87 @@ inline Mask every_lane() { return {0xffff}; }
 inline Mask operator&(Mask a, Mask b) { return {_kand_mask16(a.m, b.m)}; }
 inline Mask operator|(Mask a, Mask b) { return {_kor_mask16(a.m, b.m)}; }
 inline Mask without(Mask a, Mask b) { return {_kandn_mask16(b.m, a.m)}; }
-inline bool any(Mask a) { return a.m != 0; }
 inline std::uint32_t bits(Mask a) { return a.m; }
+inline bool any(Mask a) { return a.m != 0; }
 inline int count(Mask a) { return __builtin_popcount(a.m); }
-
-inline Ints all(std::int32_t x) { return {_mm512_set1_epi32(x)}; }
-inline Ints load(const std::int32_t* p) { return {_mm512_loadu_si512(p)}; }
-inline void store(std::int32_t* p, Ints a) { _mm512_storeu_si512(p, a.v); }
-inline Ints add(Ints a, Ints b) { return {_mm512_add_epi32(a.v, b.v)}; }
-inline Ints sub(Ints a, Ints b) { return {_mm512_sub_epi32(a.v, b.v)}; }
-inline Ints add_where(Mask m, Ints a, Ints b) {
-  return {_mm512_mask_add_epi32(a.v, m.m, a.v, b.v)};
-}
-inline Ints select(Mask m, Ints a, Ints b) { return {_mm512_mask_mov_epi32(b.v, m.m, a.v)}; }
-inline Ints min(Ints a, Ints b) { return {_mm512_min_epi32(a.v, b.v)}; }
-template <unsigned kBits>
-Ints shift_right(Ints a) {
-  return {_mm512_srli_epi32(a.v, kBits)};
-}
-template <unsigned kBits>
-Ints shift_left(Ints a) {
-  return {_mm512_slli_epi32(a.v, kBits)};
-}
 inline Mask equal(Mask m, Ints a, Ints b) { return {_mm512_mask_cmpeq_epi32_mask(m.m, a.v, b.v)}; }
 inline Mask less(Mask m, Ints a, Ints b) { return {_mm512_mask_cmplt_epi32_mask(m.m, a.v, b.v)}; }
-inline Mask has_bits(Mask m, Ints a, std::uint32_t mask_bits) {
-  return {_mm512_mask_test_epi32_mask(m.m, a.v, _mm512_set1_epi32(static_cast<int>(mask_bits)))};
+inline Mask less(Mask m, Floats a, Floats b) {
+  return {_mm512_mask_cmp_ps_mask(m.m, a.v, b.v, _CMP_LT_OQ)};
 }
-inline Mask has_not_bits(Mask m, Ints a, std::uint32_t mask_bits) {
-  return {_mm512_mask_testn_epi32_mask(m.m, a.v, _mm512_set1_epi32(static_cast<int>(mask_bits)))};
+inline Mask less_equal(Mask m, Floats a, Floats b) {
+  return {_mm512_mask_cmp_ps_mask(m.m, a.v, b.v, _CMP_LE_OQ)};
 }
-/// 0 where not asked for.
+inline Mask has_bits(Mask m, Ints a, Ints b) {
+  return {_mm512_mask_test_epi32_mask(m.m, a.v, b.v)};
+}
+inline Mask has_not_bits(Mask m, Ints a, Ints b) {
+  return {_mm512_mask_testn_epi32_mask(m.m, a.v, b.v)};
+}
+inline Ints add_where(Mask m, Ints a, Ints b) {
+  return ints(_mm512_mask_add_epi32(a.v, m.m, a.v, b.v));
+}
+inline Floats add_where(Mask m, Floats a, Floats b) {
+  return {_mm512_mask_add_ps(a.v, m.m, a.v, b.v)};
+}
+inline Ints select(Mask m, Ints a, Ints b) { return ints(_mm512_mask_mov_epi32(b.v, m.m, a.v)); }
+inline Floats select(Mask m, Floats a, Floats b) { return {_mm512_mask_mov_ps(b.v, m.m, a.v)}; }
+inline Mask equal_bytes(const std::uint8_t* p, std::uint8_t b) {
+  const __m128i bytes = _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
+  return {_mm_cmpeq_epi8_mask(bytes, _mm_set1_epi8(static_cast<char>(b)))};
+}
+inline void store_bytes(std::uint8_t* p, Ints a) {
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm512_cvtepi32_epi8(a.v));
+}
 inline Ints gather(Mask m, const std::uint32_t* p, Ints at) {
-  return {_mm512_mask_i32gather_epi32(_mm512_setzero_si512(), m.m, at.v, p, 4)};
+  return ints(_mm512_mask_i32gather_epi32(_mm512_setzero_si512(), m.m, at.v, p, 4));
 }
 inline Floats gather(Mask m, const float* p, Ints at) {
   return {_mm512_mask_i32gather_ps(_mm512_setzero_ps(), m.m, at.v, p, 4)};
 }
-inline Mask nonzero_bytes(const std::uint8_t* p) {
-  const __m128i bytes = _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
-  return {_mm_test_epi8_mask(bytes, bytes)};
-}
 inline Ints load_where(Mask m, const std::uint32_t* p) {
-  return {_mm512_maskz_loadu_epi32(m.m, p)};
+  return ints(_mm512_maskz_loadu_epi32(m.m, p));
 }
+// packed in a register first: a packing store is slow on some processors
+inline int pack(Mask which, Ints a, std::int32_t* to) {
+  store(to, ints(_mm512_maskz_compress_epi32(which.m, a.v)));
+  return count(which);
+}
+inline int pack(Mask which, std::int32_t first, std::int32_t* to) {
+  const __m512i lane = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  return pack(which, all(first) + ints(lane), to);
+}
+inline Ints power_of_two(Ints n) { return ints(_mm512_sllv_epi32(_mm512_set1_epi32(1), n.v)); }
 
-inline Floats all(float x) { return {_mm512_set1_ps(x)}; }
-inline void store(float* p, Floats a) { _mm512_storeu_ps(p, a.v); }
-inline Floats add(Floats a, Floats b) { return {_mm512_add_ps(a.v, b.v)}; }
-inline Floats sub(Floats a, Floats b) { return {_mm512_sub_ps(a.v, b.v)}; }
-inline Floats mul(Floats a, Floats b) { return {_mm512_mul_ps(a.v, b.v)}; }
-inline Floats div(Floats a, Floats b) { return {_mm512_div_ps(a.v, b.v)}; }
+inline Ints min(Ints a, Ints b) { return ints(_mm512_min_epi32(a.v, b.v)); }
 inline Floats min(Floats a, Floats b) { return {_mm512_min_ps(a.v, b.v)}; }
 inline Floats max(Floats a, Floats b) { return {_mm512_max_ps(a.v, b.v)}; }
-inline Floats add_where(Mask m, Floats a, Floats b) {
-  return {_mm512_mask_add_ps(a.v, m.m, a.v, b.v)};
+inline Ints nearest(Floats a) { return ints(_mm512_cvtps_epi32(a.v)); }
+inline Ints truncated(Floats a) { return ints(_mm512_cvttps_epi32(a.v)); }
+constexpr int kDown = _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC;
+inline Ints floored(Floats a) {
+  return ints(_mm512_cvttps_epi32(_mm512_roundscale_ps(a.v, kDown)));
 }
-inline Floats select(Mask m, Floats a, Floats b) { return {_mm512_mask_mov_ps(b.v, m.m, a.v)}; }
-inline Floats to_floats(Ints a) { return {_mm512_cvtepi32_ps(a.v)}; }
-/// To nearest, ties to even.
-inline Ints to_ints(Floats a) { return {_mm512_cvtps_epi32(a.v)}; }
-inline Ints bits_of(Floats a) { return {_mm512_castps_si512(a.v)}; }
-inline Floats floats_of(Ints a) { return {_mm512_castsi512_ps(a.v)}; }
+
+inline Doubles widen(Floats a) {
+  return {_mm512_cvtps_pd(_mm512_castps512_ps256(a.v)),
+          _mm512_cvtps_pd(_mm512_extractf32x8_ps(a.v, 1))};
+}
+inline Floats narrow(Doubles a) {
+  return {_mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(a.low)),
+                             _mm512_cvtpd_ps(a.high), 1)};
+}
+inline Doubles floor_of(Doubles a) {
+  return {_mm512_roundscale_pd(a.low, kDown), _mm512_roundscale_pd(a.high, kDown)};
+}
+inline Mask less(Doubles a, Doubles b) {
+  return {static_cast<__mmask16>(_mm512_cmp_pd_mask(a.low, b.low, _CMP_LT_OQ) |
+                                 _mm512_cmp_pd_mask(a.high, b.high, _CMP_LT_OQ) << 8)};
+}
+inline Ints truncated(Doubles a) {
+  return ints(_mm512_inserti32x8(_mm512_castsi256_si512(_mm512_cvttpd_epi32(a.low)),
+                                 _mm512_cvttpd_epi32(a.high), 1));
+}
 
 }  // namespace
 }  // namespace gnbv

@@ -7,7 +7,7 @@
 namespace gnbv {
 namespace {
 
-constexpr std::array kLevels = {SimdLevel::scalar, SimdLevel::avx2, SimdLevel::avx512};
+constexpr std::array kLevels = {SimdLevel::baseline, SimdLevel::avx2, SimdLevel::avx512};
 
 SimdLevel level_of_processor() {
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -18,7 +18,7 @@ SimdLevel level_of_processor() {
   }
   if (__builtin_cpu_supports("avx2")) return SimdLevel::avx2;
 #endif
-  return SimdLevel::scalar;
+  return SimdLevel::baseline;
 }
 
 SimdLevel level_asked_for() {
@@ -26,6 +26,7 @@ SimdLevel level_asked_for() {
   for (const SimdLevel level : kLevels) {
     if (asked != nullptr && name_of(level) == asked) return level;
   }
+  if (asked != nullptr && asked == std::string_view("scalar")) return SimdLevel::baseline;  // once
   return SimdLevel::avx512;
 }
 
@@ -38,8 +39,8 @@ SimdLevel& current_level() {
 
 std::string_view name_of(SimdLevel level) {
   switch (level) {
-    case SimdLevel::scalar:
-      return "scalar";
+    case SimdLevel::baseline:
+      return "baseline";
     case SimdLevel::avx2:
       return "avx2";
     case SimdLevel::avx512:

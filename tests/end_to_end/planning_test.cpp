@@ -4,14 +4,13 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <sstream>
 
 #include "tools/run_files/profile_map.hpp"
 #include "planner/utility.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "sim/core/simd.hpp"
+#include "tests/support/at_simd_level.hpp"
 #include "tests/support/flown.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/run_files/candidates_jsonl.hpp"
@@ -33,15 +32,15 @@ TEST(PlannerMission, EveryUtilityFliesWithoutACollision) {
   }
 }
 
-TEST(PlannerMission, IsTheSameOnEverySimdLevel) {
-  std::set<std::string> hashes;
-  for (const SimdLevel level : {SimdLevel::scalar, SimdLevel::avx2, SimdLevel::avx512}) {
-    set_simd_level(level);
-    hashes.insert(result_sha256(Flown(smoke()).result));
-  }
-  set_simd_level(SimdLevel::avx512);
-  EXPECT_EQ(hashes.size(), 1U);
+class PlannerMissionAt : public AtSimdLevel {};
+
+TEST_P(PlannerMissionAt, IsThatOfTheBaseline) {
+  const std::string ours = result_sha256(Flown(smoke()).result);
+  set_simd_level(SimdLevel::baseline);
+  EXPECT_EQ(ours, result_sha256(Flown(smoke()).result));
 }
+
+GNBV_ABOVE_THE_BASELINE(PlannerMissionAt);
 
 TEST(PlannerMission, ThePresetsFlyDifferently) {
   const Flown paper(smoke());

@@ -4,11 +4,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "planner/map/octomap_io.hpp"
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/exports/export_folder.hpp"
+#include "tools/exports/octomap_voxels.hpp"
 #include "tools/run_files/cloud_file.hpp"
 #include "tools/run_files/file_names.hpp"
 #include "tools/run_files/iterations_csv.hpp"

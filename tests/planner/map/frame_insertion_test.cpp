@@ -6,11 +6,13 @@
 #include <algorithm>
 
 #include "bench/reference/analytic_scans.hpp"
+#include "bench/reference/depth_rays.hpp"
 #include "bench/reference/octomap_twin.hpp"
 #include "planner/map/frame_view.hpp"
 #include "planner/map/ray_walk.hpp"
 #include "planner/map/scan_insertion.hpp"
 #include "tests/planner/map/frames.hpp"
+#include "tests/support/at_simd_level.hpp"
 
 namespace gnbv {
 namespace {
@@ -51,26 +53,22 @@ std::string difference(const std::vector<VoxelIndex>& ours, const std::vector<Vo
                   : fmt::format("voxel {} missing", *other);
 }
 
-class FrameInsertion : public ::testing::Test {
+class FrameInsertion : public AtSimdLevel {
  protected:
-  /// At every level and some numbers of threads, with memory used before.
+  /// On some numbers of threads, with memory used before.
   void expect_equal(const DepthFrame& frame, const CameraModel& camera, const char* what) {
     const ScanUpdate expected = expected_update(grid_, twin_, frame, camera);
     touched_ += expected.free.size() + expected.occupied.size();
     FrameRays rays;
     const auto expect = [&](const ScanUpdate& update, int threads) {
       ASSERT_EQ(difference(update.free, expected.free), "")
-          << what << ", " << name_of(simd_level()) << ", " << threads << " threads";
+          << what << ", " << threads << " threads";
       ASSERT_EQ(difference(update.occupied, expected.occupied), "")
-          << what << ", " << name_of(simd_level()) << ", " << threads << " threads";
+          << what << ", " << threads << " threads";
     };
     const bool is_projected = can_project(grid_, frame, camera);
-    for (const SimdLevel level : kSimdLevels) {
-      set_simd_level(level);
-      compute_frame_rays(frame, camera, kFloor_m, rays);
-      if (is_projected) expect(frames_.compute_update(rays, frame, camera, 1), 1);
-    }
-    for (const int threads : {2, 5}) {
+    compute_frame_rays(frame, camera, kFloor_m, rays);
+    for (const int threads : {1, 2, 5}) {
       if (is_projected) expect(frames_.compute_update(rays, frame, camera, threads), threads);
     }
     expect(inserter_.compute_update(rays, frame, camera, 2), 2);
@@ -83,7 +81,6 @@ class FrameInsertion : public ::testing::Test {
     twin_ = OctomapTwin(config_);
   }
 
-  SimdLevelGuard guard_;
   OccupancyConfig config_;
   GridGeometry grid_ = GridGeometry(kBox_m, 0.2);
   ScanInserter inserter_ = ScanInserter(grid_);
@@ -100,7 +97,7 @@ const std::vector<CameraModel>& cameras() {
   return all;
 }
 
-TEST_F(FrameInsertion, EqualsOctomapForScenesSeenFromAnyPose) {
+TEST_P(FrameInsertion, EqualsOctomapForScenesSeenFromAnyPose) {
   const AnalyticScene scene = {.spheres = {{Vec3(0.5, 0.2, 2.0), 1.5}, {Vec3(-3.0, 3.0, 1.0), 1.0}},
                                .ground_z_m = 0.0,
                                .wall_x_m = 5.0};
@@ -118,7 +115,7 @@ TEST_F(FrameInsertion, EqualsOctomapForScenesSeenFromAnyPose) {
   EXPECT_GT(touched_, 100000U);
 }
 
-TEST_F(FrameInsertion, EqualsOctomapForPlanesAndNoise) {
+TEST_P(FrameInsertion, EqualsOctomapForPlanesAndNoise) {
   for (const double resolution_m : {0.2, 0.07}) {
     use_resolution(resolution_m);
     Random random(43);
@@ -140,7 +137,7 @@ TEST_F(FrameInsertion, EqualsOctomapForPlanesAndNoise) {
   }
 }
 
-TEST_F(FrameInsertion, EqualsOctomapWhereEverythingLiesOnVoxelBorders) {
+TEST_P(FrameInsertion, EqualsOctomapWhereEverythingLiesOnVoxelBorders) {
   const std::array<Vec3, 4> directions = {Vec3::UnitX(), -Vec3::UnitY(), Vec3::UnitZ(),
                                           Vec3(1, 1, 0).normalized()};
   for (const double resolution_m : {0.2, 0.1, 0.25}) {
@@ -171,7 +168,7 @@ TEST_F(FrameInsertion, EqualsOctomapWhereEverythingLiesOnVoxelBorders) {
   }
 }
 
-TEST_F(FrameInsertion, EqualsOctomapForCamerasAtTheBorderAndOutside) {
+TEST_P(FrameInsertion, EqualsOctomapForCamerasAtTheBorderAndOutside) {
   Random random(53);
   const CameraModel& camera = cameras()[1];
   const std::array<Vec3, 6> positions = {Vec3(-6.0, 0.0, 2.0), Vec3(-5.99995, 0.0, 2.0),
@@ -193,7 +190,7 @@ TEST_F(FrameInsertion, EqualsOctomapForCamerasAtTheBorderAndOutside) {
 
 /// A camera on an edge of its voxel, as far as float32 can tell, whose rays leave by both faces of
 /// that edge at once: which comes first is decided by OctoMap's distances of nanometres.
-TEST_F(FrameInsertion, EqualsOctomapForCamerasOnAnEdgeWhoseRaysLeaveByBothFaces) {
+TEST_P(FrameInsertion, EqualsOctomapForCamerasOnAnEdgeWhoseRaysLeaveByBothFaces) {
   Random random(61);
   const std::vector<CameraModel> narrow = {camera_of(1, 1, 0.1, 0.1), camera_of(5, 3, 0.1, 0.1),
                                            camera_of(20, 1, 90.0, 0.1)};
@@ -217,7 +214,7 @@ TEST_F(FrameInsertion, EqualsOctomapForCamerasOnAnEdgeWhoseRaysLeaveByBothFaces)
   }
 }
 
-TEST_F(FrameInsertion, AFullFrameEqualsOctomapAndWalksFewRays) {
+TEST_P(FrameInsertion, AFullFrameEqualsOctomapAndWalksFewRays) {
   const CameraModel camera = camera_of(640, 480, 60.0, 45.0);
   const AnalyticScene scene = {
       .spheres = {{Vec3(0.5, 0.2, 2.0), 1.5}}, .ground_z_m = 0.0, .wall_x_m = 5.0};
@@ -232,7 +229,7 @@ TEST_F(FrameInsertion, AFullFrameEqualsOctomapAndWalksFewRays) {
   EXPECT_LT(frames.walked_count(), 3072U);  // a hundredth of them
 }
 
-TEST_F(FrameInsertion, FramesThatCannotBeProjectedEqualOctomapToo) {
+TEST_P(FrameInsertion, FramesThatCannotBeProjectedEqualOctomapToo) {
   Random random(59);
   DepthFrame frame;
   frame.T_world_camera = random_pose(random, Box3(Vec3(-1, -1, 2), Vec3(1, 1, 3)));
@@ -247,6 +244,8 @@ TEST_F(FrameInsertion, FramesThatCannotBeProjectedEqualOctomapToo) {
   EXPECT_FALSE(can_project(grid_, frame, camera));
   expect_equal(frame, camera, "no rotation");
 }
+
+GNBV_AT_EVERY_SIMD_LEVEL(FrameInsertion);
 
 }  // namespace
 }  // namespace gnbv

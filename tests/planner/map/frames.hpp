@@ -1,26 +1,13 @@
 // Depth frames of the map tests, most of them such as no scene would give.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "sensors/camera_model.hpp"
 #include "sensors/frames.hpp"
-#include "sim/core/simd.hpp"
 #include "tests/planner/map/random_points.hpp"
 
 namespace gnbv {
-
-constexpr std::array kSimdLevels = {SimdLevel::scalar, SimdLevel::avx2, SimdLevel::avx512};
-
-/// Gives the level back at the end of a test.
-struct SimdLevelGuard {
-  SimdLevelGuard() : before(simd_level()) {}
-  ~SimdLevelGuard() { set_simd_level(before); }
-  SimdLevelGuard(const SimdLevelGuard&) = delete;
-  SimdLevelGuard& operator=(const SimdLevelGuard&) = delete;
-  const SimdLevel before;
-};
 
 inline CameraModel camera_of(int width_px, int height_px, double fov_x_deg, double fov_y_deg) {
   CameraConfig config;

@@ -9,9 +9,8 @@
 #include <fstream>
 
 #include "bench/reference/octomap_twin.hpp"
-#include "planner/map/scan_insertion.hpp"
+#include "planner/map/fan_walker.hpp"
 #include "sim/core/error.hpp"
-#include "sim/core/file.hpp"
 #include "tests/planner/map/random_points.hpp"
 
 namespace gnbv {
@@ -32,7 +31,7 @@ class OctomapFiles : public ::testing::Test {
       for (int i = 0; i < 500; ++i) {
         rays.push_back({random.point_in(Box3(Vec3(-3, -2, 0), Vec3(3, 2, 2))), random.chance(0.5)});
       }
-      grid_.apply(compute_update(grid_.geometry(), origin_m, rays, 1));
+      grid_.apply(FanWalker(grid_.geometry()).compute_update(origin_m, rays));
     }
   }
   ~OctomapFiles() override {
@@ -76,55 +75,6 @@ TEST_F(OctomapFiles, BtHoldsOccupiedAgainstNot) {
     ASSERT_EQ(*is_occupied, grid_.state(v) == VoxelState::occupied);
   }
   EXPECT_EQ(read.voxel_count(), measured_count());
-}
-
-TEST_F(OctomapFiles, BtReadsBackAsTheVoxelsOfTheMap) {
-  // a whole cube of occupied voxels is pruned to one node, and has to come apart again
-  ScanUpdate update;
-  for (VoxelIndex v = 0; v < grid_.geometry().voxel_count(); ++v) {
-    const Key key = grid_.geometry().key_at(v);
-    const bool is_in = std::ranges::all_of(key, [](std::int32_t k) { return k >= 0 && k < 4; });
-    if (is_in) update.occupied.push_back(v);
-  }
-  grid_.apply(update);
-  write_octomap(grid_, folder_ / "map");
-  const MeasuredVoxels read = read_octomap(folder_ / "map.bt");
-  EXPECT_EQ(read.voxel_m, 0.2);
-  std::vector<VoxelIndex> occupied;
-  for (const Vec3f& centre_m : read.occupied_world_m) {
-    const Vec3 scaled = centre_m.cast<double>() / read.voxel_m - Vec3::Constant(0.5);
-    EXPECT_LT((scaled - scaled.array().round().matrix()).norm(), 1e-4);
-    const Key key = {static_cast<std::int32_t>(std::lround(scaled.x())),
-                     static_cast<std::int32_t>(std::lround(scaled.y())),
-                     static_cast<std::int32_t>(std::lround(scaled.z()))};
-    occupied.push_back(grid_.geometry().index_of(key));
-  }
-  std::ranges::sort(occupied);
-  std::vector<VoxelIndex> expected;
-  for (VoxelIndex v = 0; v < grid_.geometry().voxel_count(); ++v) {
-    if (grid_.state(v) == VoxelState::occupied) expected.push_back(v);
-  }
-  EXPECT_EQ(occupied, expected);
-  EXPECT_EQ(read.free_voxels + expected.size(), measured_count());
-}
-
-TEST_F(OctomapFiles, DamagedFilesAreRefused) {
-  write_octomap(grid_, folder_ / "map");
-  const std::string whole = read_file(folder_ / "map.bt");
-  for (const std::string& text : {std::string("some words"), whole.substr(0, whole.size() / 2),
-                                  whole.substr(0, 40), read_file(folder_ / "map.ot")}) {
-    write_file_atomically(folder_ / "damaged.bt", text);
-    EXPECT_THROW(read_octomap(folder_ / "damaged.bt"), BadInput);
-  }
-  EXPECT_THROW(read_octomap(folder_ / "none.bt"), BadInput);
-  const std::string header = "# Octomap OcTree binary file\nid OcTree\nsize 2\nres 0.1\ndata\n";
-  const auto write_tree = [&](const std::string& data) {
-    write_file_atomically(folder_ / "made.bt", header + data);
-    return folder_ / "made.bt";
-  };
-  EXPECT_THROW(read_octomap(write_tree({2, 0})), BadInput);  // an eighth of all there can be
-  EXPECT_EQ(read_octomap(write_tree({1, 0})).free_voxels, std::size_t{1} << 45U);
-  EXPECT_THROW(read_octomap(write_tree({5, 0})), BadInput);  // three nodes
 }
 
 TEST_F(OctomapFiles, EqualVoxelsArePrunedToOneNode) {
@@ -187,7 +137,7 @@ TEST_F(OctomapFiles, AMapThatNothingTouchedIsAValidFile) {
   const OccupancyGrid empty(OccupancyConfig{}, Box3(Vec3(0, 0, 0), Vec3(1, 1, 1)));
   write_octomap(empty, folder_ / "empty");
   EXPECT_EQ(OctomapTwin::read(folder_ / "empty.ot").node_count(), 0U);
-  EXPECT_TRUE(read_octomap(folder_ / "empty.bt").occupied_world_m.empty());
+  EXPECT_EQ(OctomapTwin::read(folder_ / "empty.bt").node_count(), 0U);
 }
 
 TEST_F(OctomapFiles, AFolderThatIsNotThereIsNamed) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "bench/reference/depth_rays.hpp"
 #include "planner/map/scan_insertion.hpp"
 #include "sim/core/error.hpp"
 

@@ -6,6 +6,7 @@
 #include <bit>
 
 #include "bench/reference/analytic_scans.hpp"
+#include "bench/reference/depth_rays.hpp"
 #include "bench/reference/octomap_twin.hpp"
 #include "tests/planner/map/random_points.hpp"
 
@@ -45,17 +46,12 @@ std::vector<ScanRay> random_rays(Random& random, const Vec3f& origin_m, int coun
   return rays;
 }
 
-void insert(OccupancyGrid& grid, ScanInserter& inserter, const Vec3f& origin_m,
-            std::span<const ScanRay> rays) {
-  grid.apply(inserter.compute_update(origin_m, rays, 2));
-}
-
 TEST(ScanInsertion, GridEqualsOctomapVoxelByVoxel) {
   for (const double resolution_m : {0.2, 0.07, 0.05}) {
     OccupancyConfig config;
     config.resolution_m = resolution_m;
     OccupancyGrid grid(config, kBox_m);
-    ScanInserter inserter(grid.geometry());
+    FanWalker walker(grid.geometry());
     OctomapTwin twin(config);
     Random random(23);
     for (int scan = 0; scan < 9; ++scan) {
@@ -63,7 +59,7 @@ TEST(ScanInsertion, GridEqualsOctomapVoxelByVoxel) {
       if (scan == 3) origin_m = {-4.0F, 0.0F, 1.0F};  // outside, looking in
       if (scan == 5) origin_m = {0.0F, 0.2F, 1.0F};   // on voxel borders
       const std::vector<ScanRay> rays = random_rays(random, origin_m, 400);
-      insert(grid, inserter, origin_m, rays);
+      grid.apply(walker.compute_update(origin_m, rays));
       twin.insert(origin_m, rays);
     }
     expect_equal(grid, twin);
@@ -72,7 +68,7 @@ TEST(ScanInsertion, GridEqualsOctomapVoxelByVoxel) {
 
 TEST(ScanInsertion, RaysFromOutsideTheGridEqualOctomapVoxelByVoxel) {
   OccupancyGrid grid(OccupancyConfig{}, kBox_m);
-  ScanInserter inserter(grid.geometry());
+  FanWalker walker(grid.geometry());
   OctomapTwin twin(grid.config());
   Random random(29);
   const Box3 around_m(kBox_m.min() - Vec3::Constant(1.0), kBox_m.max() + Vec3::Constant(1.0));
@@ -84,7 +80,7 @@ TEST(ScanInsertion, RaysFromOutsideTheGridEqualOctomapVoxelByVoxel) {
     if (kBox_m.contains(origin_m.cast<double>())) continue;
     ++outside;
     const std::vector<ScanRay> rays = random_rays(random, origin_m, 200);
-    insert(grid, inserter, origin_m, rays);
+    grid.apply(walker.compute_update(origin_m, rays));
     twin.insert(origin_m, rays);
   }
   expect_equal(grid, twin);
@@ -98,7 +94,7 @@ TEST(ScanInsertion, DepthFramesEqualOctomapVoxelByVoxel) {
   const CameraModel camera = make_camera_model(camera_config);
   const AnalyticScene scene = example_scene();
   OccupancyGrid grid(OccupancyConfig{}, Box3(Vec3(-10, -10, 0), Vec3(10, 10, 8)));
-  ScanInserter inserter(grid.geometry());
+  FanWalker walker(grid.geometry());
   OctomapTwin twin(grid.config());
   for (int view = 0; view < 12; ++view) {
     const double angle_rad = view * kPi / 6.0;
@@ -107,7 +103,7 @@ TEST(ScanInsertion, DepthFramesEqualOctomapVoxelByVoxel) {
     const DepthFrame frame = analytic_depth(scene, camera, T_world_body(pose));
     const Vec3f origin_m = frame.T_world_camera.translation().cast<float>();
     const std::vector<ScanRay> rays = rays_of(frame, camera, 0.3);
-    insert(grid, inserter, origin_m, rays);
+    grid.apply(walker.compute_update(origin_m, rays));
     twin.insert(origin_m, rays);
   }
   EXPECT_GT(grid.occupied_count(), 300U);
@@ -131,7 +127,7 @@ TEST(ScanInsertion, LidarSweepsEqualOctomapVoxelByVoxel) {
   const std::vector<LidarScan> scans = example_scans(lidar, 70);  // more than one batch
   OccupancyGrid grid(OccupancyConfig{}, Box3(Vec3(-10, -10, 0), Vec3(10, 10, 8)));
   OctomapTwin twin(grid.config());
-  insert_scans(grid, scans, {&model, 1}, 0.3, 2);
+  ScanInserter(grid.geometry()).insert_scans(grid, scans, {&model, 1}, 0.3, 2);
   for (const LidarScan& scan : scans) {
     twin.insert(scan.T_world_lidar.translation().cast<float>(), rays_of(scan, model, 0.3));
   }
@@ -145,29 +141,27 @@ TEST(ScanInsertion, BatchOfSweepsIsTheSameAtAnyThreadCount) {
   const std::vector<LidarScan> scans = example_scans(lidar, 130);  // more than one batch
   const Box3 box_m(Vec3(-10, -10, 0), Vec3(10, 10, 8));
   OccupancyGrid one(OccupancyConfig{}, box_m);
-  insert_scans(one, scans, {&model, 1}, 0.3, 1);
+  ScanInserter(one.geometry()).insert_scans(one, scans, {&model, 1}, 0.3, 1);
   for (const int threads : {2, 5}) {
     OccupancyGrid many(OccupancyConfig{}, box_m);
-    insert_scans(many, scans, {&model, 1}, 0.3, threads);
+    ScanInserter(many.geometry()).insert_scans(many, scans, {&model, 1}, 0.3, threads);
     EXPECT_TRUE(std::ranges::equal(one.all_log_odds(), many.all_log_odds()));
     EXPECT_EQ(one.total_entropy_nat(), many.total_entropy_nat());
   }
 }
 
-TEST(ScanInsertion, UpdateIsTheSameAtAnyThreadCountAndWithUsedMemory) {
+TEST(ScanInsertion, UpdateIsTheSameWithUsedMemory) {
   const GridGeometry grid(kBox_m, 0.1);
   Random random(31);
   const Vec3f origin_m(0.3F, -0.2F, 1.1F);
-  const std::vector<ScanRay> rays = random_rays(random, origin_m, 60000);  // four bands
-  const ScanUpdate one = compute_update(grid, origin_m, rays, 1);
+  const std::vector<ScanRay> rays = random_rays(random, origin_m, 60000);
+  FanWalker walker(grid);
+  const ScanUpdate one = walker.compute_update(origin_m, rays);
   EXPECT_GT(one.free.size(), 10000U);
   EXPECT_GT(one.occupied.size(), 1000U);
-  ScanInserter used(grid);
-  for (const int threads : {1, 2, 5, 2}) {
-    const ScanUpdate again = used.compute_update(origin_m, rays, threads);
-    EXPECT_EQ(again.free, one.free) << threads << " threads";
-    EXPECT_EQ(again.occupied, one.occupied) << threads << " threads";
-  }
+  const ScanUpdate again = walker.compute_update(origin_m, rays);
+  EXPECT_EQ(again.free, one.free);
+  EXPECT_EQ(again.occupied, one.occupied);
 }
 
 TEST(ScanInsertion, EachVoxelIsListedOnceAndOccupiedWins) {
@@ -175,7 +169,7 @@ TEST(ScanInsertion, EachVoxelIsListedOnceAndOccupiedWins) {
   Random random(37);
   const Vec3f origin_m(0.3F, -0.2F, 1.1F);
   const std::vector<ScanRay> rays = random_rays(random, origin_m, 40000);
-  const ScanUpdate update = compute_update(grid, origin_m, rays, 2);
+  const ScanUpdate update = FanWalker(grid).compute_update(origin_m, rays);
   std::vector<int> listed(grid.voxel_count(), 0);
   for (const VoxelIndex v : update.free) ++listed[v];
   for (const VoxelIndex v : update.occupied) ++listed[v];
@@ -187,7 +181,7 @@ TEST(ScanInsertion, ARayThroughAnotherHitLeavesItOccupied) {
   const Vec3f origin_m(0.1F, 0.1F, 1.1F);
   const std::vector<ScanRay> rays = {{Vec3f(1.9F, 0.1F, 1.1F), false},
                                      {Vec3f(0.9F, 0.1F, 1.1F), true}};
-  const ScanUpdate update = compute_update(grid, origin_m, rays, 1);
+  const ScanUpdate update = FanWalker(grid).compute_update(origin_m, rays);
   ASSERT_EQ(update.occupied.size(), 1U);
   EXPECT_EQ(grid.key_at(update.occupied[0]), (Key{4, 0, 5}));
   EXPECT_EQ(update.free.size(), 8U);  // x keys 0 to 8 without 4, and without the end's 9
@@ -197,14 +191,14 @@ TEST(ScanInsertion, RaysThatLeaveTheGridSideBySideStopThere) {
   const GridGeometry grid(kBox_m, 0.2);
   const Vec3f origin_m(0.1F, 0.1F, 1.1F);
   const std::vector<ScanRay> rays(8, {Vec3f(0.1F, 0.1F, 50.0F), false});
-  const ScanUpdate update = compute_update(grid, origin_m, rays, 1);
+  const ScanUpdate update = FanWalker(grid).compute_update(origin_m, rays);
   std::vector<VoxelIndex> expected;
   for (std::int32_t z = 5; z < 10; ++z) expected.push_back(grid.index_of({0, 0, z}));
   EXPECT_EQ(update.free, expected);
 }
 
 TEST(ScanInsertion, NoRaysTouchNothing) {
-  const ScanUpdate update = compute_update(GridGeometry(kBox_m, 0.2), Vec3f::Zero(), {}, 2);
+  const ScanUpdate update = FanWalker(GridGeometry(kBox_m, 0.2)).compute_update(Vec3f::Zero(), {});
   EXPECT_TRUE(update.free.empty());
   EXPECT_TRUE(update.occupied.empty());
 }

@@ -8,22 +8,15 @@
 #include <limits>
 
 #include "planner/map/surface_cloud.hpp"
-#include "sim/core/simd.hpp"
 #include "tests/planner/map/random_points.hpp"
+#include "tests/support/at_simd_level.hpp"
 
 namespace gnbv {
 namespace {
 
 const Box3 kBox_m(Vec3(-2, -2, 0), Vec3(2, 2, 2));
 
-/// What a level may choose is set back when a test ends.
-class SurfaceCloudLevels : public testing::Test {
- protected:
-  void TearDown() override { set_simd_level(at_first_); }
-
- private:
-  SimdLevel at_first_ = simd_level();
-};
+class SurfaceCloudAt : public AtSimdLevel {};
 
 /// Pixels in the box and a little beyond it, many on leaf borders, some on the box's faces.
 FrameRays random_frame(Random& random, const Box3& box_m, double leaf_m, std::size_t pixels) {
@@ -75,7 +68,7 @@ void expect_equal(const SurfaceCloud& a, const SurfaceCloud& b, const GridGeomet
   }
 }
 
-TEST_F(SurfaceCloudLevels, FramesGiveWhatTheirPointsGive) {
+TEST_P(SurfaceCloudAt, FramesGiveWhatTheirPointsGive) {
   struct Case {
     Box3 box_m;
     double voxel_m, leaf_m;
@@ -89,39 +82,35 @@ TEST_F(SurfaceCloudLevels, FramesGiveWhatTheirPointsGive) {
                                                                 {corridor_m, 0.2, 0.2 / 61}}) {
     const GridGeometry grid(box_m, voxel_m);
     SurfaceCloud by_points({.leaf_m = leaf_m, .profile_leaf_m = 0.1}, grid);
-    std::vector<SurfaceCloud> by_frames(3, by_points);
+    SurfaceCloud by_frames = by_points;
     Random random(47);
     for (int batch = 0; batch < 4; ++batch) {
       // longer than what is looked at in one piece, and not a multiple of any vector
       const std::vector<FrameRays> frames = {random_frame(random, box_m, leaf_m, 9005),
                                              random_frame(random, box_m, leaf_m, 333)};
       const double batch_leaf_m = batch == 2 ? 0.1 : leaf_m;
-      set_simd_level(SimdLevel::scalar);
+      set_simd_level(SimdLevel::baseline);
       const std::size_t gained = by_points.add(hits_of(frames), batch_leaf_m);
-      for (const SimdLevel level : {SimdLevel::scalar, SimdLevel::avx2, SimdLevel::avx512}) {
-        set_simd_level(level);
-        ASSERT_EQ(by_frames[static_cast<std::size_t>(level)].add(frames, batch_leaf_m), gained)
-            << name_of(level) << ", batch " << batch;
-      }
+      set_simd_level(GetParam());
+      ASSERT_EQ(by_frames.add(frames, batch_leaf_m), gained) << "batch " << batch;
     }
     EXPECT_GT(by_points.points_world_m().size(), 5000U);
-    for (const SurfaceCloud& cloud : by_frames) expect_equal(cloud, by_points, grid);
+    expect_equal(by_frames, by_points, grid);
   }
 }
 
-TEST_F(SurfaceCloudLevels, APointAtExactlyTheRadiusCounts) {
+TEST_P(SurfaceCloudAt, APointAtExactlyTheRadiusCounts) {
   const GridGeometry grid(Box3(Vec3(-8, -8, 0), Vec3(8, 8, 8)), 2.0);  // radius^2 2
-  for (const SimdLevel level : {SimdLevel::scalar, SimdLevel::avx2, SimdLevel::avx512}) {
-    set_simd_level(level);
-    SurfaceCloud cloud({.leaf_m = 0.25, .profile_leaf_m = 0.25}, grid);
-    cloud.add(std::vector<Vec3f>{Vec3f(0.5F, 0.5F, 0.5F), Vec3f(1.5F, 1.5F, 0.5F)}, 0.25);
-    EXPECT_EQ(cloud.neighbour_sum(grid.index_of(grid.key_of(Vec3(1, 1, 1)))), 4U);
-    const float beyond_m = std::nextafter(1.5F, 2.0F);
-    SurfaceCloud apart({.leaf_m = 0.25, .profile_leaf_m = 0.25}, grid);
-    apart.add(std::vector<Vec3f>{Vec3f(0.5F, 0.5F, 0.5F), Vec3f(beyond_m, 1.5F, 0.5F)}, 0.25);
-    EXPECT_EQ(apart.neighbour_sum(grid.index_of(grid.key_of(Vec3(1, 1, 1)))), 2U);
-  }
+  SurfaceCloud cloud({.leaf_m = 0.25, .profile_leaf_m = 0.25}, grid);
+  cloud.add(std::vector<Vec3f>{Vec3f(0.5F, 0.5F, 0.5F), Vec3f(1.5F, 1.5F, 0.5F)}, 0.25);
+  EXPECT_EQ(cloud.neighbour_sum(grid.index_of(grid.key_of(Vec3(1, 1, 1)))), 4U);
+  const float beyond_m = std::nextafter(1.5F, 2.0F);
+  SurfaceCloud apart({.leaf_m = 0.25, .profile_leaf_m = 0.25}, grid);
+  apart.add(std::vector<Vec3f>{Vec3f(0.5F, 0.5F, 0.5F), Vec3f(beyond_m, 1.5F, 0.5F)}, 0.25);
+  EXPECT_EQ(apart.neighbour_sum(grid.index_of(grid.key_of(Vec3(1, 1, 1)))), 2U);
 }
+
+GNBV_AT_EVERY_SIMD_LEVEL(SurfaceCloudAt);
 
 TEST(SurfaceCloud, RestoredFromItsPointsItIsTheSameAndStaysSo) {
   const GridGeometry grid(kBox_m, 0.17);

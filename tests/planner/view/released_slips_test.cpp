@@ -91,8 +91,8 @@ TEST(ExcludedHitVoxel, IsForTheBaselinesAlone) {
     UtilityConfig config;
     config.name = name;
     config.hit_voxel = HitVoxel::excluded;
-    return candidate_stats(config, flat.grid, flat.cloud, flat.shadow, 0.0, flat.rays, flat.pose,
-                           marks)
+    return evaluate_view(flat.grid, flat.cloud, flat.rays, flat.pose, marks,
+                         view_options(config, flat.shadow, 0.0))
         .occupied_voxels;
   };
   EXPECT_EQ(occupied("isler"), 0U);
@@ -127,8 +127,9 @@ TEST(PredictionThatHidesHits, NeedsAWeightForPrediction) {
   config.name = "isler";
   config.prediction_hides_hits = true;
   const auto occupied = [&] {
-    return candidate_stats(config, corridor.grid, corridor.cloud, shadow, 0.0,
-                           Corridor::one_ray(1.2), {Vec3(0.1, 0.1, 0.1), 0.0}, corridor.marks)
+    return evaluate_view(corridor.grid, corridor.cloud, Corridor::one_ray(1.2),
+                         {Vec3(0.1, 0.1, 0.1), 0.0}, corridor.marks,
+                         view_options(config, shadow, 0.0))
         .occupied_voxels;
   };
   EXPECT_EQ(occupied(), 0U);

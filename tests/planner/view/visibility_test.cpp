@@ -5,9 +5,10 @@
 #include <numbers>
 #include <set>
 
+#include "bench/reference/octomap_twin.hpp"
 #include "bench/reference/paper_view_twin.hpp"
-#include "sim/core/simd.hpp"
 #include "tests/planner/view/view_scene.hpp"
+#include "tests/support/at_simd_level.hpp"
 
 namespace gnbv {
 namespace {
@@ -91,7 +92,7 @@ void look_along(const RandomScene& scene, const Vec3& from_m, const Vec3& to_m, 
     }
     after_unknown = grid.state(v) == VoxelState::unknown;
     after_free = grid.state(v) == VoxelState::free;
-    visibility *= legacy ? grid.probability(v) : 1.0 - grid.probability(v);
+    visibility *= legacy ? probability(grid, v) : 1.0 - probability(grid, v);
     enter = exit;
     return true;
   });
@@ -131,7 +132,7 @@ ViewStats brute_force(const RandomScene& scene, const ViewRays& rays, const View
   return s;
 }
 
-class EvaluateView : public testing::Test {
+class EvaluateView : public AtSimdLevel {
  protected:
   ViewStats look(const ViewPose& pose, const ViewOptions& options) {
     return evaluate_view(scene_.grid, scene_.cloud, rays_, pose, marks_, options);
@@ -139,9 +140,7 @@ class EvaluateView : public testing::Test {
   ViewOptions full() const {
     return {.detail = ViewDetail::rays, .sparse_below = 1.5, .shadow = &scene_.shadow};
   }
-  ~EvaluateView() override { set_simd_level(best_); }
 
-  SimdLevel best_ = simd_level();
   RandomScene scene_;
   std::vector<CameraModel> cameras_ = {
       make_camera_model({.range_max_m = 4.0, .pitch_rad = 0.3}),
@@ -150,7 +149,7 @@ class EvaluateView : public testing::Test {
   VisitMarks marks_{scene_.grid.geometry().voxel_count()};
 };
 
-TEST_F(EvaluateView, EqualsBruteForceInEveryNumber) {
+TEST_P(EvaluateView, EqualsBruteForceInEveryNumber) {
   ViewStats least{};  // that every number was put to the test
   std::vector<double> largest(numbers(least).size(), 0.0);
   for (std::uint64_t i = 0; i < 20; ++i) {
@@ -174,28 +173,25 @@ TEST_F(EvaluateView, EqualsBruteForceInEveryNumber) {
   }
 }
 
-TEST_F(EvaluateView, SameBitsAtEverySimdLevel) {
+TEST_P(EvaluateView, GivesTheBitsOfTheBaseline) {
   for (const bool legacy : {false, true}) {
     ViewOptions options = full();
     options.legacy_visibility = legacy;
     for (std::uint64_t i = 0; i < 40; ++i) {
-      set_simd_level(SimdLevel::scalar);
-      const auto scalar = numbers(look(RandomScene::pose(i), options));
-      const auto scalar_voxels = numbers(look(RandomScene::pose(i), {}));
-      for (const SimdLevel level : {SimdLevel::avx2, SimdLevel::avx512}) {
-        set_simd_level(level);
-        const auto fast = numbers(look(RandomScene::pose(i), options));
-        const auto fast_voxels = numbers(look(RandomScene::pose(i), {}));
-        for (std::size_t n = 0; n < fast.size(); ++n) {
-          EXPECT_EQ(fast[n].second, scalar[n].second) << fast[n].first << " " << name_of(level);
-          EXPECT_EQ(fast_voxels[n].second, scalar_voxels[n].second) << fast[n].first;
+      for (const ViewOptions& each : {options, ViewOptions{}}) {
+        const auto ours = numbers(look(RandomScene::pose(i), each));
+        set_simd_level(SimdLevel::baseline);
+        const auto baseline = numbers(look(RandomScene::pose(i), each));
+        set_simd_level(GetParam());
+        for (std::size_t n = 0; n < ours.size(); ++n) {
+          EXPECT_EQ(ours[n].second, baseline[n].second) << ours[n].first << " " << i;
         }
       }
     }
   }
 }
 
-TEST_F(EvaluateView, LeavesNoTraceInTheMarks) {
+TEST_P(EvaluateView, LeavesNoTraceInTheMarks) {
   const auto first = numbers(look(RandomScene::pose(0), full()));
   for (std::uint64_t i = 1; i < 10; ++i)
     look(RandomScene::pose(i), i % 2 == 0 ? full() : ViewOptions{});
@@ -205,7 +201,7 @@ TEST_F(EvaluateView, LeavesNoTraceInTheMarks) {
   for (std::size_t v = 0; v < voxels; ++v) ASSERT_EQ(marks_.marks[v], 0) << v;
 }
 
-TEST_F(EvaluateView, CheapDetailAgreesWithTheFullOne) {
+TEST_P(EvaluateView, CheapDetailAgreesWithTheFullOne) {
   for (std::uint64_t i = 0; i < 10; ++i) {
     const ViewStats full_stats = look(RandomScene::pose(i), full());
     ViewOptions cheap = full();
@@ -219,7 +215,7 @@ TEST_F(EvaluateView, CheapDetailAgreesWithTheFullOne) {
   }
 }
 
-TEST_F(EvaluateView, CountsTheVoxelsOfTheExactWalkFromPosesOnTheLatticeToo) {
+TEST_P(EvaluateView, CountsTheVoxelsOfTheExactWalkFromPosesOnTheLatticeToo) {
   // rays along the axes and diagonals, cameras on borders: every tie there is
   std::int64_t difference = 0;
   std::int64_t voxels = 0;
@@ -256,7 +252,7 @@ TEST(RaysThatEndOnABorder, StopWhereTheExactWalkStops) {
   }
 }
 
-TEST_F(EvaluateView, SeesWhatThePapersWaySees) {
+TEST_P(EvaluateView, SeesWhatThePapersWaySees) {
   const PaperViewTwin twin(scene_.grid);
   for (std::uint64_t i = 0; i < 5; ++i) {
     const ViewStats ours = look(RandomScene::pose(i), {});
@@ -269,6 +265,8 @@ TEST_F(EvaluateView, SeesWhatThePapersWaySees) {
                 0.15 * ours.occupied_voxels);
   }
 }
+
+GNBV_AT_EVERY_SIMD_LEVEL(EvaluateView);
 
 TEST(ViewRays, AreTheLatticeOfTheReleasedCode) {
   const CameraModel camera = make_camera_model({});
@@ -339,7 +337,7 @@ TEST(VisibilityProbability, IsThatOfTheMapWithin1e5) {
         if (corridor.grid.state(0) == VoxelState::occupied) continue;
         const double first_nat = static_cast<double>(corridor.grid.entropy_nat(0));
         const double seen_nat = corridor.look(0.3).occlusion_aware_nat - first_nat;
-        EXPECT_NEAR(1.0 - seen_nat / std::numbers::ln2, corridor.grid.probability(0), 1e-5)
+        EXPECT_NEAR(1.0 - seen_nat / std::numbers::ln2, probability(corridor.grid, 0), 1e-5)
             << prob_hit << " " << misses << " " << hits;
       }
     }

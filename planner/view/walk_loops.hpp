@@ -1,5 +1,10 @@
-// The walk of a view's rays in terms of lanes, see view_kernel.hpp. Every level does the same
-// float32 operations in the same order per ray.
+// The walk of a view's rays: the same float32 operations in the same order per ray at every level.
+// For view_loops.cpp alone.
+#pragma once
+
+#include "planner/map/voxel_word.hpp"
+#include "planner/view/view_kernels.hpp"
+#include "planner/view/wide_sums.hpp"
 
 namespace gnbv {
 namespace {
@@ -41,7 +46,7 @@ inline Ints exit_time(const Bundle& b) { return min(b.t_next[0], min(b.t_next[1]
 /// Takes every moving ray into its next voxel. Of equal times the later axis goes first, as in
 /// walk_ray().
 inline void take_step(Bundle& b, Ints t_exit) {
-  b.voxels_left = sub(b.voxels_left, all(1));
+  b.voxels_left = b.voxels_left - all(1);
   b.moving = less(less(b.moving, all(0), b.voxels_left), t_exit, b.t_leave);
   const Mask z = equal(b.moving, b.t_next[2], t_exit);
   const Mask not_z = without(b.moving, z);
@@ -61,15 +66,7 @@ inline void mark(std::uint8_t* marks, Mask seeing, Ints voxel, Ints resting_voxe
   // through memory: the compiler would take the lanes out of the register, at twice the cost
   __asm__("" : "+m"(at));
   for (std::size_t lane = 0; lane < kLaneCount; ++lane) {
-    marks[static_cast<std::uint32_t>(at[lane])] = 1;
-  }
-}
-
-inline void list_voxels(Mask which, Ints voxel, std::int32_t* list, std::size_t& count) {
-  alignas(64) std::int32_t at[kLaneCount];
-  store(at, voxel);
-  for (std::uint32_t left = bits(which); left != 0; left &= left - 1) {
-    list[count++] = at[__builtin_ctz(left)];
+    marks[static_cast<std::uint32_t>(at[lane])] = kMarked;
   }
 }
 
@@ -94,27 +91,27 @@ struct RayMetrics {
 inline Floats free_probability(Floats x) {
   constexpr float kRounder = 12582912.0F;  // 1.5 * 2^23: its neighbours are the integers
   const Floats bounded = min(max(x, all(-100.0F)), all(100.0F));
-  const Floats shifted = add(bounded, all(kRounder));
-  const Floats r = sub(bounded, sub(shifted, all(kRounder)));
+  const Floats shifted = bounded + all(kRounder);
+  const Floats r = bounded - (shifted - all(kRounder));
   // 2^r for |r| <= 0.5, relative error 3e-6
   Floats power = all(0.00958285388F);
-  power = add(mul(power, r), all(0.0559064336F));
-  power = add(mul(power, r), all(0.240240991F));
-  power = add(mul(power, r), all(0.693124175F));
-  power = add(mul(power, r), all(1.0F));
-  const Floats odds = floats_of(add(bits_of(power), shift_left<23>(bits_of(shifted))));
-  return div(all(1.0F), add(all(1.0F), odds));
+  power = power * r + all(0.0559064336F);
+  power = power * r + all(0.240240991F);
+  power = power * r + all(0.693124175F);
+  power = power * r + all(1.0F);
+  const Floats odds = as_floats(as_ints(power) + shift_left<23>(as_ints(shifted)));
+  return all(1.0F) / (all(1.0F) + odds);
 }
 
 inline Floats cube(Ints t) {
   const Floats f = to_floats(t);
-  return mul(mul(f, f), f);
+  return f * f * f;
 }
 
 /// Rays that meet a surface at their voxel number `step`, from 0.
 inline void measure_hits(Mask occupied, Floats visible, int step, RayMetrics& m) {
   const Mask rear = occupied & m.after_unknown;
-  m.rear_side = select(rear, add(m.unknown_run, visible), m.rear_side);
+  m.rear_side = select(rear, m.unknown_run + visible, m.rear_side);
   m.rear_hit = m.rear_hit | rear;
   if (step > 0) m.front_hit = m.front_hit | without(occupied, rear);
   m.hit = m.hit | occupied;
@@ -123,17 +120,17 @@ inline void measure_hits(Mask occupied, Floats visible, int step, RayMetrics& m)
 
 inline void measure_unknown(Mask unknown, Ints word, Floats visible, Ints t_exit, RayMetrics& m) {
   m.unobserved = add_where(unknown, m.unobserved, visible);
-  m.unknown_run = select(unknown, add(m.unknown_run, visible), all(0.0F));
-  m.volume = add_where(unknown, m.volume, sub(cube(t_exit), cube(m.t_enter)));
-  m.shadow = m.shadow | has_bits(unknown, word, kShadowBit);
+  m.unknown_run = select(unknown, m.unknown_run + visible, all(0.0F));
+  m.volume = add_where(unknown, m.volume, cube(t_exit) - cube(m.t_enter));
+  m.shadow = m.shadow | has_bits(unknown, word, all(kShadowBit));
 }
 
 /// Adds the voxels at hand. The branches only skip what would change nothing.
 inline void measure(const ViewMaps& maps, const Bundle& b, Ints word, Ints known, Mask occupied,
                     Ints t_exit, float odds_power, int step, RayMetrics& m) {
-  const Mask unknown = has_not_bits(b.seeing, word, kStateMask);
-  const Floats entropy = to_floats(sub(all(static_cast<std::int32_t>(kLn2Units)), known));
-  const Floats visible = mul(m.visibility, entropy);
+  const Mask unknown = has_not_bits(b.seeing, word, all(kStateMask));
+  const Floats entropy = to_floats(all(kLn2Units) - known);
+  const Floats visible = m.visibility * entropy;
   m.occlusion_aware = add_where(b.seeing, m.occlusion_aware, visible);
   if (any(occupied)) measure_hits(occupied, visible, step, m);
   if (any(unknown)) {
@@ -143,14 +140,14 @@ inline void measure(const ViewMaps& maps, const Bundle& b, Ints word, Ints known
   }
   m.after_unknown = unknown;
   m.t_enter = t_exit;
-  const Mask measured = has_bits(b.seeing, word, kMeasuredBit);
+  const Mask measured = has_bits(b.seeing, word, all(kMeasuredBit));
   Floats factor = all(0.5F);  // of log-odds 0
   if (any(measured)) {
     const Floats log_odds = gather(measured, maps.log_odds, b.voxel);
-    factor = free_probability(mul(log_odds, all(odds_power)));
+    factor = free_probability(log_odds * all(odds_power));
   }
   // below 2^-60 it adds nothing, and what follows from it would be denormal and slow
-  m.visibility = max(mul(m.visibility, factor), all(0x1p-60F));
+  m.visibility = max(m.visibility * factor, all(0x1p-60F));
 }
 
 /// Sums over bundles, lane by lane. No term is negative.
@@ -165,7 +162,7 @@ struct LaneTotals {
 
 inline void add_to(WideLanes& total, Ints part) { flush(part, total); }
 /// Rounded ray by ray, so that their order leaves no trace.
-inline void add_to(WideLanes& total, Floats part) { add_to(total, to_ints(part)); }
+inline void add_to(WideLanes& total, Floats part) { add_to(total, nearest(part)); }
 
 void add_rays(const RayMetrics& m, const WideLanes& known, LaneTotals& totals, RaySums& sums) {
   constexpr float kCubeShare = 0x1p-57F;  // times are 2^-29 of the ray, shares 2^-30
@@ -177,7 +174,7 @@ void add_rays(const RayMetrics& m, const WideLanes& known, LaneTotals& totals, R
   add_to(totals.occlusion_aware, m.occlusion_aware);
   add_to(totals.unobserved, m.unobserved);
   add_to(totals.rear_side, m.rear_side);
-  add_to(totals.unknown_share, mul(m.volume, all(kCubeShare)));
+  add_to(totals.unknown_share, m.volume * all(kCubeShare));
   for (std::uint32_t left = bits(m.hit); left != 0; left &= left - 1) {
     sums.known_occupied += known.lane[__builtin_ctz(left)];
   }
@@ -199,11 +196,11 @@ void walk_bundle(Bundle b, float odds_power, ViewMaps& maps, LaneTotals& totals,
     const Ints known = shift_right<kKnownShift>(word);
     known_sum = add_where(b.seeing, known_sum, known);
     visits += count(b.seeing);
-    const Mask occupied =
-        has_bits(b.seeing, word, static_cast<std::uint32_t>(VoxelState::occupied));
-    const Mask predicted = has_bits(b.seeing & foresees, word, kPredictedBit);
+    const Mask occupied = has_bits(b.seeing, word, all(static_cast<int>(VoxelState::occupied)));
+    const Mask predicted = has_bits(b.seeing & foresees, word, all(kPredictedBit));
     if (any(predicted)) {
-      list_voxels(predicted, b.voxel, maps.predicted, maps.predicted_count);
+      maps.predicted_count +=
+          static_cast<std::size_t>(pack(predicted, b.voxel, maps.predicted + maps.predicted_count));
       foresees = without(foresees, predicted);
     }
     const Ints t_exit = exit_time(b);

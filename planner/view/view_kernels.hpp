@@ -1,6 +1,5 @@
-// The hot loops of visibility.cpp, compiled once for each SimdLevel. Plain structs and raw pointers
-// only: a unit compiled for AVX that emitted a shared inline function could hand it to processors
-// without AVX.
+// The hot loops of visibility.cpp, compiled once for each SimdLevel (view_loops.cpp). Plain structs
+// and raw pointers only, see sim/core/lanes.hpp.
 #pragma once
 
 #include <cstddef>
@@ -45,8 +44,9 @@ using PrepareRays = void (*)(const RayFanFrame& frame, const double* const end_b
                              const PreparedRays& rays);
 
 /// What the walk reads and writes. `marks` has kMarkPadding bytes beyond the voxels, and is zero
-/// between views.
+/// between views; lists have as much room beyond what can be in them.
 constexpr std::size_t kMarkPadding = 128;
+constexpr std::uint8_t kMarked = 1;
 struct ViewMaps {
   const std::uint32_t* words;  // VoxelWord
   const float* log_odds;
@@ -110,8 +110,14 @@ struct ViewKernels {
   TallyPlane tally_plane;
 };
 
-extern const ViewKernels kViewKernelsScalar;
-extern const ViewKernels kViewKernelsAvx2;
-extern const ViewKernels kViewKernelsAvx512;
+namespace at_baseline {
+extern const ViewKernels kViewKernels;
+}
+namespace at_avx2 {
+extern const ViewKernels kViewKernels;
+}
+namespace at_avx512 {
+extern const ViewKernels kViewKernels;
+}
 
 }  // namespace gnbv

@@ -1,4 +1,9 @@
-// The voxels a view has marked, counted and unmarked, see view_kernel.hpp.
+// The voxels a view has marked, counted and unmarked. For view_loops.cpp alone.
+#pragma once
+
+#include "planner/map/voxel_word.hpp"
+#include "planner/view/view_kernels.hpp"
+#include "planner/view/wide_sums.hpp"
 
 namespace gnbv {
 namespace {
@@ -9,19 +14,17 @@ constexpr int kChunksPerFlush = 256 * kLanes / 64;  // as kStepsPerFlush
 void tally_group(const ViewMaps& maps, std::size_t first, Mask marked, VoxelSums& sums,
                  Ints& known_sum) {
   const Ints word = load_where(marked, maps.words + first);
-  known_sum = add(known_sum, shift_right<kKnownShift>(word));
+  known_sum = known_sum + shift_right<kKnownShift>(word);
   sums.visited += count(marked);
-  sums.free += count(has_bits(marked, word, static_cast<std::uint32_t>(VoxelState::free)));
+  const auto has = [&](std::uint32_t word_bits) { return has_bits(marked, word, all(word_bits)); };
   const auto list = [&](Mask which, std::int32_t* out, std::size_t& out_count) {
-    for (std::uint32_t left = bits(which); left != 0; left &= left - 1) {
-      out[out_count++] = static_cast<std::int32_t>(first) + __builtin_ctz(left);
-    }
+    if (!any(which)) return;  // mostly
+    out_count +=
+        static_cast<std::size_t>(pack(which, static_cast<std::int32_t>(first), out + out_count));
   };
-  list(has_bits(marked, word, static_cast<std::uint32_t>(VoxelState::occupied)), sums.occupied,
-       sums.occupied_count);
-  if (sums.shadow != nullptr) {
-    list(has_bits(marked, word, kShadowBit), sums.shadow, sums.shadow_count);
-  }
+  sums.free += count(has(static_cast<std::uint32_t>(VoxelState::free)));
+  list(has(static_cast<std::uint32_t>(VoxelState::occupied)), sums.occupied, sums.occupied_count);
+  if (sums.shadow != nullptr) list(has(kShadowBit), sums.shadow, sums.shadow_count);
 }
 
 inline bool is_blank(const std::uint8_t* marks) {
@@ -41,7 +44,7 @@ void tally_plane(const ViewMaps& maps, const VoxelRows& rows, VoxelSums& sums) {
     for (std::size_t at = first; at < first + rows.length; at += kTallyChunk) {
       if (is_blank(maps.marks + at)) continue;
       for (std::size_t group = at; group < at + kTallyChunk; group += kLaneCount) {
-        const Mask marked = nonzero_bytes(maps.marks + group);
+        const Mask marked = equal_bytes(maps.marks + group, kMarked);
         if (any(marked)) tally_group(maps, group, marked, sums, known_sum);
       }
       __builtin_memset(maps.marks + at, 0, kTallyChunk);

@@ -1,11 +1,15 @@
-// Sums of 32-bit lanes that may not overflow. Included after the lanes of a SimdLevel.
+// Sums of 32-bit lanes that may not overflow. For view_loops.cpp alone.
+#pragma once
+
+#include <cstddef>
+
+#include "sim/core/lanes.hpp"
 
 namespace gnbv {
 namespace {
 
 constexpr std::size_t kLaneCount = static_cast<std::size_t>(kLanes);
 
-/// Sums of 32-bit lanes that may not overflow.
 struct WideLanes {
   std::int64_t lane[kLaneCount] = {};
 };

@@ -1,4 +1,7 @@
-// Rays made ready to walk, see view_kernel.hpp: plain loops that the compiler vectorises.
+// Rays made ready to walk: plain loops that the compiler vectorises. For view_loops.cpp alone.
+#pragma once
+
+#include "planner/view/view_kernels.hpp"
 
 namespace gnbv {
 namespace {
