@@ -17,6 +17,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/utf8.hpp"
 
 namespace gnbv {
 namespace {
@@ -33,21 +34,6 @@ set key textcolor rgb '#262c36' samplen 1.4 spacing 1.05 reverse Left
 set xlabel textcolor rgb '#262c36' offset 0,0.4
 set ylabel textcolor rgb '#262c36'
 )";
-
-/// Length of the UTF-8 character that the text begins with; 0 when it begins with none.
-std::size_t character_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const std::size_t length = byte(0) < 0x80             ? 1
-                             : (byte(0) & 0xe0) == 0xc0 ? 2
-                             : (byte(0) & 0xf0) == 0xe0 ? 3
-                             : (byte(0) & 0xf8) == 0xf0 ? 4
-                                                        : 0;
-  if (length > text.size()) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xc0) != 0x80) return 0;
-  }
-  return length;
-}
 
 /// A file without a name, that is gone when it is closed.
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
@@ -121,18 +107,17 @@ void fix_date(const std::filesystem::path& picture) {
 std::string gnuplot_text(std::string_view text) {
   std::string quoted = "'";
   while (!text.empty()) {
-    const std::size_t length = character_length(text);
-    const auto first = static_cast<unsigned char>(text.front());
-    if (length == 0) {
-      quoted += '?';
-    } else if (first < 0x20 || first == 0x7f) {
+    const std::string_view before = text;
+    const char32_t code = take_code_point(text);
+    if (code == U'\ufffd') {
+      quoted += "\ufffd";
+    } else if (code < 0x20 || code == 0x7f) {
       quoted += ' ';
-    } else if (first == '\'') {
+    } else if (code == U'\'') {
       quoted += "''";
     } else {
-      quoted += text.substr(0, length);
+      quoted += before.substr(0, before.size() - text.size());
     }
-    text.remove_prefix(std::max<std::size_t>(length, 1));
   }
   return quoted + "'";
 }

@@ -24,8 +24,8 @@ struct Plot {
 };
 
 /// The text as a string of gnuplot's language that means nothing but itself: in single quotes,
-/// control characters as blanks, bytes that are no UTF-8 as question marks. Expects that enhanced
-/// text is off, as plot_script() has it.
+/// control characters as blanks, bytes that are no UTF-8 as the replacement character. Expects that
+/// enhanced text is off, as plot_script() has it.
 std::string gnuplot_text(std::string_view text);
 
 /// A whole script: terminal, style, body. It prints the picture to stdout.

@@ -2,24 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 namespace gnbv {
-
-std::string base64(std::span<const std::uint8_t> bytes) {
-  constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text((bytes.size() + 2) / 3 * 4, '=');
-  std::size_t out = 0;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t three = 0;  // 24 bits, the missing ones 0
-    for (std::size_t k = 0; k < 3; ++k) three = three << 8U | (k < count ? bytes[i + k] : 0U);
-    for (std::size_t k = 0; k <= count; ++k) text[out + k] = kDigits[three >> (18 - 6 * k) & 63U];
-    out += 4;
-  }
-  return text;
-}
 
 QuantisedPoints quantised(std::span<const Vec3f> points_m) {
   QuantisedPoints out;

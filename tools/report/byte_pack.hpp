@@ -1,11 +1,10 @@
-// Arrays of numbers as one block of bytes, and a block of bytes as text.
+// Arrays of numbers as one block of bytes.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <span>
-#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -39,9 +38,6 @@ class BytePack {
  private:
   std::vector<std::uint8_t> bytes_;
 };
-
-/// RFC 4648, padded.
-std::string base64(std::span<const std::uint8_t> bytes);
 
 /// Points as 16-bit steps between the corners of their bounding box: off by at most
 /// size / 131070 an axis.

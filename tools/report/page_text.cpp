@@ -4,9 +4,9 @@
 #include <array>
 #include <cstdint>
 
+#include "sim/core/base64.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/sha256.hpp"
-#include "tools/report/byte_pack.hpp"
 
 namespace gnbv {
 namespace {

@@ -33,18 +33,6 @@ std::vector<Vec3f> sheet(std::size_t count) {
   return points;
 }
 
-std::vector<std::uint8_t> bytes_of(std::string_view text) { return {text.begin(), text.end()}; }
-
-// RFC 4648, section 10
-TEST(Base64, IsThatOfTheStandard) {
-  EXPECT_EQ(base64(bytes_of("")), "");
-  EXPECT_EQ(base64(bytes_of("f")), "Zg==");
-  EXPECT_EQ(base64(bytes_of("fo")), "Zm8=");
-  EXPECT_EQ(base64(bytes_of("foo")), "Zm9v");
-  EXPECT_EQ(base64(bytes_of("foobar")), "Zm9vYmFy");
-  EXPECT_EQ(base64(std::vector<std::uint8_t>{0xff, 0xfe, 0xfb}), "//77");
-}
-
 TEST(BytePack, EveryArrayBeginsWhereABrowserMayReadIt) {
   BytePack pack;
   const std::vector<std::uint8_t> odd = {1, 2, 3};

@@ -1,0 +1,12 @@
+// Text as code points.
+#pragma once
+
+#include <string_view>
+
+namespace gnbv {
+
+/// Takes the first code point off `text`, which is not empty. Of bytes that are no UTF-8 (RFC 3629)
+/// it takes one, and U+FFFD, the replacement character, stands for it.
+char32_t take_code_point(std::string_view& text);
+
+}  // namespace gnbv

@@ -1,0 +1,49 @@
+// Laws of bytes as text, and of text as code points.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "sim/core/base64.hpp"
+#include "sim/core/utf8.hpp"
+
+namespace gnbv {
+namespace {
+
+// RFC 4648, section 10
+TEST(Base64, IsThatOfTheStandard) {
+  const auto bytes_of = [](std::string_view text) {
+    return std::vector<std::uint8_t>(text.begin(), text.end());
+  };
+  EXPECT_EQ(base64(bytes_of("")), "");
+  EXPECT_EQ(base64(bytes_of("f")), "Zg==");
+  EXPECT_EQ(base64(bytes_of("fo")), "Zm8=");
+  EXPECT_EQ(base64(bytes_of("foo")), "Zm9v");
+  EXPECT_EQ(base64(bytes_of("foobar")), "Zm9vYmFy");
+  EXPECT_EQ(base64(std::vector<std::uint8_t>{0xff, 0xfe, 0xfb}), "//77");
+}
+
+std::u32string code_points(std::string_view text) {
+  std::u32string codes;
+  while (!text.empty()) codes += take_code_point(text);
+  return codes;
+}
+
+TEST(Utf8, CodePointsOfOneToFourBytesComeOutInOrder) {
+  EXPECT_EQ(code_points("K\xc3\xbchl \xe2\x82\xac\xf0\x9f\x9a\x81."),
+            U"K\u00fchl \u20ac\U0001f681.");
+  EXPECT_EQ(code_points(std::string_view("\0a", 2)), std::u32string(U"\0a", 2));
+}
+
+TEST(Utf8, BytesThatAreNoneAreReplacedOneByOne) {
+  EXPECT_EQ(code_points("a\xff\xc3"), U"a\ufffd\ufffd");          // no lead, cut off
+  EXPECT_EQ(code_points("\xc3\xc3\xbc"), U"\ufffd\u00fc");        // cut off by the next
+  EXPECT_EQ(code_points("\xc0\xaf"), U"\ufffd\ufffd");            // longer than it must be
+  EXPECT_EQ(code_points("\xed\xa0\x80"), U"\ufffd\ufffd\ufffd");  // a surrogate
+  EXPECT_EQ(code_points("\xf4\x90\x80\x80")[0], U'\ufffd');       // beyond the last
+  EXPECT_EQ(code_points("\xe2\x82"), U"\ufffd\ufffd");            // at the end of the text
+}
+
+}  // namespace
+}  // namespace gnbv
