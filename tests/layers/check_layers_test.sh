@@ -95,6 +95,9 @@ library pcl/point_types.h planner/symmetry/symmetry_pcl.cpp planner/symmetry/sym
 library yaml-cpp/yaml.h scenarios/document.cpp tools/gnbv/main.cpp
 library GL/osmesa.h tools/render/render.cpp tools/render/view.cpp tools/mission/mission.cpp
 library CLI/CLI.hpp tools/gnbv/main.cpp tools/mission/mission.cpp
+library freetype/freetype.h tools/render/lettering.cpp tools/render/lettering.hpp tools/plots/gnuplot.cpp
+library ft2build.h tools/render/lettering.cpp tools/render/caption.cpp
+library stb/stb_rect_pack.h tools/surface/rectangle_packing.cpp tools/surface/rectangle_packing.hpp
 allowed bench/reference/bare_embree.cpp '#include <embree3/rtcore.h>'
 forbidden bench/reference/bare_embree.hpp '#include <embree3/rtcore.h>'
 allowed bench/reference/slow_cloud.cpp '#include <pcl/point_types.h>'

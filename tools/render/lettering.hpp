@@ -1,5 +1,6 @@
-// Words and plain marks on a finished picture: a stroke font of our own, so that captions need no
-// font files.
+// Words and plain marks on a finished picture. The letters are those of the font file that the
+// environment's GNBV_FONT names, else of DejaVu Sans where systems have it; without one, what draws
+// or measures words throws BadInput.
 #pragma once
 
 #include <array>
@@ -18,9 +19,9 @@ Rgb8 to_rgb8(const Rgb& linear);
 void draw_line(Image& image, const std::array<double, 2>& from_px,
                const std::array<double, 2>& to_px, double width_px, const Rgb8& colour);
 
-/// Printable ASCII; every other code point of UTF-8 appears as '?'. `height_px` is that of a
-/// capital. A halo of that width keeps it legible on a busy picture. Returns the x where the text
-/// ends.
+/// UTF-8, each code point its own letter; bytes that are none appear as the replacement character.
+/// `height_px` is that of a capital. A halo of that width keeps it legible on a busy picture.
+/// Returns the x where the text ends.
 double draw_text(Image& image, std::string_view text, double x_px, double baseline_px,
                  double height_px, const Rgb8& colour, double halo_px = 0.0);
 

@@ -1,47 +1,50 @@
 #include "tools/surface/rectangle_packing.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <cstdint>
+
+// equal rectangles stay in their order on every system
+#define STBRP_SORT(first, count, size, compare) \
+  std::stable_sort(first, first + count,        \
+                   [](const auto& a, const auto& b) { return compare(&a, &b) < 0; })
+#define STBRP_STATIC
+#define STB_RECT_PACK_IMPLEMENTATION
+#include <stb/stb_rect_pack.h>
 
 namespace gnbv {
 namespace {
 
-/// All rectangles on shelves of a sheet of that width, in the given order, the tallest first.
-Packing on_shelves(std::span<const RectangleSize> rectangles,
-                   std::span<const std::size_t> tallest_first, int width) {
-  Packing packing{.width = width, .height = 0, .corners = {}};
-  packing.corners.resize(rectangles.size());
-  int x = 0;
-  int shelf_y = 0;
-  for (const std::size_t i : tallest_first) {
-    const RectangleSize& size = rectangles[i];
-    if (x + size.width > width) {
-      x = 0;
-      shelf_y = packing.height;
-    }
-    packing.corners[i] = {x, shelf_y};
-    packing.height = std::max(packing.height, shelf_y + size.height);
-    x += size.width;
+std::optional<Packing> in_sheet(std::vector<stbrp_rect> rectangles, int side) {
+  std::vector<stbrp_node> skyline(static_cast<std::size_t>(side));  // fewer would be coarser
+  stbrp_context context;
+  stbrp_init_target(&context, side, side, skyline.data(), side);
+  const auto count = static_cast<int>(rectangles.size());
+  if (stbrp_pack_rects(&context, rectangles.data(), count) == 0) return std::nullopt;
+  Packing packing{.width = side, .height = 0, .corners = {}};
+  packing.corners.reserve(rectangles.size());
+  for (const stbrp_rect& r : rectangles) {
+    packing.corners.push_back({r.x, r.y});
+    packing.height = std::max(packing.height, r.y + r.h);
   }
   return packing;
 }
 
 }  // namespace
 
-std::optional<Packing> packed(std::span<const RectangleSize> rectangles, int max_side) {
-  std::vector<std::size_t> order(rectangles.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return rectangles[a].height > rectangles[b].height;
-  });
-  int widest = 1;
-  for (const RectangleSize& size : rectangles) widest = std::max(widest, size.width);
-  for (int width = std::min(64, max_side);; width = std::min(2 * width, max_side)) {
-    if (width >= widest) {
-      Packing packing = on_shelves(rectangles, order, width);
-      if (packing.height <= width) return packing;
+std::optional<Packing> packed(std::span<const RectangleSize> sizes, int max_side) {
+  std::vector<stbrp_rect> rectangles;
+  rectangles.reserve(sizes.size());
+  std::int64_t area = 0;
+  for (const RectangleSize& size : sizes) {
+    rectangles.push_back(
+        {.id = 0, .w = size.width, .h = size.height, .x = 0, .y = 0, .was_packed = 0});
+    area += std::int64_t{size.width} * size.height;
+  }
+  for (int side = std::min(64, max_side);; side = std::min(2 * side, max_side)) {
+    if (area <= std::int64_t{side} * side) {
+      if (auto packing = in_sheet(rectangles, side)) return packing;
     }
-    if (width == max_side) return std::nullopt;
+    if (side == max_side) return std::nullopt;
   }
 }
 

@@ -22,9 +22,8 @@ struct Packing {
   std::vector<Corner> corners;  // (rectangles) top left
 };
 
-/// Shelves of rectangles, the tallest first, in the narrowest sheet that is no taller than wide.
-/// None overlaps another. Nothing when even a sheet of `max_side` is too small, or one rectangle is
-/// wider. Deterministic.
-std::optional<Packing> packed(std::span<const RectangleSize> rectangles, int max_side);
+/// In the narrowest sheet that is no taller than wide. None overlaps another. Nothing when they do
+/// not fit into a sheet of `max_side`. Deterministic.
+std::optional<Packing> packed(std::span<const RectangleSize> sizes, int max_side);
 
 }  // namespace gnbv

@@ -1,51 +1,133 @@
 // Laws of words and colours on pictures.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "tests/support/temp_folder.hpp"
 #include "tools/render/caption.hpp"
 #include "tools/render/lettering.hpp"
 
 namespace gnbv {
 namespace {
 
+const Image kBlank{200, 40, std::vector<std::uint8_t>(200 * 40 * 3, 255)};
+
+Image drawn(std::string_view text, double halo_px = 0.0) {
+  Image image = kBlank;
+  draw_text(image, text, 50.0, 30.0, 20.0, {0, 0, 0}, halo_px);
+  return image;
+}
+
+/// visit(x, y) where the two are not the same.
+void for_each_difference(const Image& a, const Image& b,
+                         const std::function<void(int, int)>& visit) {
+  for (int y = 0; y < a.height_px; ++y) {
+    for (int x = 0; x < a.width_px; ++x) {
+      if (a.at(x, y) != b.at(x, y)) visit(x, y);
+    }
+  }
+}
+
 TEST(Lettering, InkStaysWithinItsWidthAndThePicture) {
-  const Image blank{200, 40, std::vector<std::uint8_t>(200 * 40 * 3, 255)};
-  std::string all;
-  for (char c = ' '; c <= '~'; ++c) all += c;
-  for (const char c : all) {
-    Image image = blank;
+  for (char c = ' '; c <= '~'; ++c) {
+    Image image = kBlank;
     const std::string text(1, c);
     const double end = draw_text(image, text, 50.0, 30.0, 20.0, {0, 0, 0});
     EXPECT_NEAR(end, 50.0 + text_width_px(text, 20.0), 1e-9);
     int inked = 0;
-    for (int y = 0; y < 40; ++y) {
-      for (int x = 0; x < 200; ++x) {
-        if (image.at(x, y)[0] == 255) continue;
-        ++inked;
-        EXPECT_TRUE(x >= 47 && x < end) << text;  // a pen's half width (1.2 px) to the left
-      }
-    }
+    for_each_difference(image, kBlank, [&](int x, int) {
+      ++inked;
+      EXPECT_TRUE(x >= 48 && x < end + 1.0) << text;  // a j and an f reach beyond
+    });
     EXPECT_EQ(inked == 0, c == ' ') << text;
   }
-  Image image = blank;
-  draw_text(image, "clipped, \xc3\xa9", 185.0, 5.0, 30.0,
-            {0, 0, 0});  // must not touch other memory
+  Image image = kBlank;
+  draw_text(image, "clipped, \xc3\xa9", 185.0, 5.0, 30.0, {0, 0, 0}, 3.0);  // no other memory
+  draw_text(image, "above and to the left", -40.0, -3.0, 30.0, {0, 0, 0}, 3.0);
   draw_line(image, {-50.0, -50.0}, {500.0, 90.0}, 3.0, {0, 0, 0});
-  EXPECT_NE(image.rgb, blank.rgb);
+  EXPECT_NE(image.rgb, kBlank.rgb);
 }
 
-TEST(Lettering, CodePointsCountOnceAndLongTextsFit) {
-  // one '?' for each of two, three and four bytes
-  for (const char* const letter : {"\xc3\xa9", "\xe2\x82\xac", "\xf0\x9f\x9a\x81"}) {
-    EXPECT_EQ(text_width_px(letter, 20.0), text_width_px("?", 20.0));
+TEST(Lettering, ACapitalIsAsHighAsAskedFor) {
+  int top = 40;
+  int bottom = 0;
+  for_each_difference(drawn("H"), kBlank, [&](int, int y) {
+    top = std::min(top, y);
+    bottom = std::max(bottom, y);
+  });
+  EXPECT_EQ(top, 10);
+  EXPECT_EQ(bottom, 29);  // the last row above the baseline
+}
+
+TEST(Lettering, EveryCodePointIsItsOwnLetter) {
+  const double u_begins = 50.0 + text_width_px("K", 20.0);
+  const double u_ends = 50.0 + text_width_px("Ku", 20.0);
+  int dots = 0;
+  for_each_difference(drawn("K\xc3\xbchlturm"), drawn("Kuhlturm"), [&](int x, int y) {
+    ++dots;
+    EXPECT_TRUE(x >= u_begins && x <= u_ends && y < 16) << x << ' ' << y;  // above the u
+  });
+  EXPECT_GT(dots, 4);
+  EXPECT_NE(drawn("\xc2\xb2").rgb, drawn("\xc2\xb5").rgb);
+  // bytes that are none, one by one
+  EXPECT_EQ(drawn("a\xff\xc3").rgb, drawn("a\xef\xbf\xbd\xef\xbf\xbd").rgb);
+  EXPECT_NE(drawn("a\xff").rgb, drawn("a").rgb);
+}
+
+TEST(Lettering, TheHaloIsWhereALetterIsNearAndNowhereElse) {
+  constexpr double kHalo_px = 6.0;
+  const Image letter = drawn("K");
+  const Image both = drawn("K", kHalo_px);
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 35; x < 95; ++x) {
+      double distance_px = 100.0;  // to a pixel that is more than half covered
+      for_each_difference(letter, kBlank, [&](int u, int v) {
+        if (letter.at(u, v)[0] < 128) distance_px = std::min(distance_px, std::hypot(u - x, v - y));
+      });
+      const int grey = both.at(x, y)[0];
+      const bool is_near = distance_px > 1.5 && distance_px < kHalo_px - 1.0;
+      EXPECT_TRUE(distance_px <= kHalo_px + 2.0 || grey == 255) << x << ' ' << y << ' ' << grey;
+      EXPECT_TRUE(!is_near || (grey > 200 && grey < 240))
+          << x << ' ' << y << ' ' << grey;  // of 228
+      EXPECT_TRUE(distance_px > 0.0 || grey < 128) << x << ' ' << y << ' ' << grey;
+    }
   }
+}
+
+TEST(Lettering, LongTextsFit) {
   const std::string title(200, 'W');
   const double height_px = fitting_height_px(title, 15.0, 500.0);
   EXPECT_NEAR(text_width_px(title, height_px), 500.0, 1e-9);
   EXPECT_EQ(fitting_height_px("short", 15.0, 500.0), 15.0);
   EXPECT_EQ(fitting_height_px("", 15.0, 500.0), 15.0);
+}
+
+TEST(Lettering, WhatIsNoFontIsNamed) {
+  TempFolder temp;
+  const std::string text_file = temp.path() / "letters.ttf";
+  write_file_atomically(text_file, "these are no letters");
+  for (const std::string& file : {text_file, std::string("/nowhere/sans.ttf")}) {
+    setenv("GNBV_FONT", file.c_str(), 1);
+    std::thread([&] {  // a thread reads its font when it draws its first letter
+      try {
+        draw_text(*std::make_unique<Image>(kBlank), "a", 50.0, 30.0, 20.0, {0, 0, 0});
+        ADD_FAILURE() << file;
+      } catch (const BadInput& error) {
+        EXPECT_NE(std::string(error.what()).find(file), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("GNBV_FONT"), std::string::npos);
+      }
+    })
+        .join();
+  }
+  unsetenv("GNBV_FONT");
 }
 
 /// However small the picture and long the words, the scale can be read.

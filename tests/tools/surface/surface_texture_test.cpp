@@ -10,7 +10,6 @@
 #include "sim/core/srgb.hpp"
 #include "sim/mesh/mesh_file.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tools/surface/rectangle_packing.hpp"
 #include "tools/surface/textured_mesh.hpp"
 
 namespace gnbv {
@@ -238,26 +237,6 @@ TEST(Atlas, IsNeverLargerThanAllowedButCoarser) {
   EXPECT_LE(coarse.height + swatches_height_px(152, coarse.width), 64);  // those at the edge
   EXPECT_LE(coarse.width, 64);
   EXPECT_LT(coarse.texels_per_m, fine.texels_per_m);
-}
-
-TEST(Packing, RectanglesKeepApart) {
-  std::vector<RectangleSize> sizes;
-  for (int i = 0; i < 300; ++i) sizes.push_back({3 + (i * 37) % 50, 2 + (i * 53) % 40});
-  const std::optional<Packing> packing = packed(sizes, 1024);
-  ASSERT_TRUE(packing.has_value());
-  std::vector<int> owners(static_cast<std::size_t>(packing->width * packing->height));
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
-    for (int y = 0; y < sizes[i].height; ++y) {
-      for (int x = 0; x < sizes[i].width; ++x) {
-        ASSERT_LT(packing->corners[i].x + x, packing->width);
-        const int at = (packing->corners[i].y + y) * packing->width + packing->corners[i].x + x;
-        ASSERT_EQ(owners.at(static_cast<std::size_t>(at))++, 0);
-      }
-    }
-  }
-  EXPECT_EQ(packed(std::vector<RectangleSize>{{90, 90}}, 100).value().width, 100);
-  EXPECT_FALSE(packed(sizes, 128).has_value());
-  EXPECT_FALSE(packed(std::vector<RectangleSize>{{70, 1}}, 64).has_value());
 }
 
 /// The sheet textured from one picture, its right third unseen.
