@@ -12,12 +12,9 @@
 
 namespace gnbv {
 
-class OccupancyGrid;
 class ShadowBand;
-class SurfaceCloud;
-struct ViewRays;
+struct ViewOptions;
 struct ViewStats;
-struct VisitMarks;
 
 /// Eq. (2)'s reward for density: of sparse regions (released code, fits the text's aim) or of dense
 /// ones (the formula to the letter).

@@ -11,6 +11,7 @@
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/execute.hpp"
+#include "tools/report/page_parts.hpp"
 #include "tools/report/report.hpp"
 #include "tools/terminal/progress.hpp"
 
@@ -50,7 +51,17 @@ void check_can_be_written(const fs::path& page) {
   }
 }
 
+void check_page_is_built_in() {
+  if (why_no_page().empty()) return;
+  throw CommandFailed(
+      fmt::format("report: this gnbv was built without its page: {}; build it again where npm and "
+                  "its registry can be reached, or use a gnbv of another machine: the run "
+                  "directory is all that it needs",
+                  why_no_page()));
+}
+
 void report(ReportCommandOptions options) {
+  check_page_is_built_in();
   if (options.runs.size() > kMaxReportRuns) {
     throw BadInput(
         fmt::format("report: {} runs, and a page has room for {}; `gnbv compare --from` "

@@ -10,9 +10,10 @@
   extern "C" const char label##_begin;                                         \
   extern "C" const char label##_end
 
-GNBV_EMBED(gnbv_page_template, GNBV_WEB_FOLDER "/page.html");
+GNBV_EMBED(gnbv_page_template, GNBV_PAGE_TEMPLATE);
 GNBV_EMBED(gnbv_page_style, GNBV_WEB_FOLDER "/bundle.css");
 GNBV_EMBED(gnbv_page_script, GNBV_WEB_FOLDER "/bundle.js");
+GNBV_EMBED(gnbv_page_missing, GNBV_WEB_FOLDER "/missing.txt");
 
 namespace gnbv {
 namespace {
@@ -28,5 +29,10 @@ std::string_view page_template() {
 }
 std::string_view page_style() { return between(gnbv_page_style_begin, gnbv_page_style_end); }
 std::string_view page_script() { return between(gnbv_page_script_begin, gnbv_page_script_end); }
+
+std::string_view why_no_page() {
+  const std::string_view line = between(gnbv_page_missing_begin, gnbv_page_missing_end);
+  return line.substr(0, line.find('\n'));
+}
 
 }  // namespace gnbv

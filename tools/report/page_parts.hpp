@@ -10,4 +10,7 @@ std::string_view page_template();
 std::string_view page_style();
 std::string_view page_script();
 
+/// Why style and script are empty in this program; empty where they are not.
+std::string_view why_no_page();
+
 }  // namespace gnbv

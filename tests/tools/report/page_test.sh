@@ -1,11 +1,15 @@
 #!/usr/bin/env bash
 # Two short missions with hostile names, their report, and a browser that opens it.
-# usage: page_test.sh GNBV      exit: 0 as it should be, 1 not, 77 no Chromium
+# usage: page_test.sh GNBV      exit: 0 as it should be, 1 not, 77 no Chromium or no npm
 set -euo pipefail
 gnbv=$1
 here=$(cd "$(dirname "$0")" && pwd)
 chromium=$(command -v chromium || command -v chromium-browser || command -v google-chrome) || {
   echo "page_test.sh: no Chromium: skipped" >&2
+  exit 77
+}
+command -v npm >/dev/null || {
+  echo "page_test.sh: no npm, hence no page: skipped" >&2
   exit 77
 }
 folder=$(mktemp -d)
