@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <openssl/evp.h>
 
-#include <array>
-
 #include "sim/core/error.hpp"
 
 namespace gnbv {
@@ -24,12 +22,12 @@ void Sha256::add_bytes(std::span<const std::byte> bytes) {
   GNBV_CHECK(EVP_DigestUpdate(state_->context, bytes.data(), bytes.size()) == 1, "OpenSSL");
 }
 
-std::string Sha256::hex() {
-  std::array<unsigned char, 32> digest{};
+std::array<std::uint8_t, 32> Sha256::digest() {
+  std::array<std::uint8_t, 32> digest{};
   GNBV_CHECK(EVP_DigestFinal_ex(state_->context, digest.data(), nullptr) == 1, "OpenSSL");
-  std::string text;
-  for (const unsigned char byte : digest) text += fmt::format("{:02x}", byte);
-  return text;
+  return digest;
 }
+
+std::string Sha256::hex() { return fmt::format("{:02x}", fmt::join(digest(), "")); }
 
 }  // namespace gnbv

@@ -1,7 +1,9 @@
 // SHA-256 over typed data; the run's result_sha256 is made with it.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -27,8 +29,9 @@ class Sha256 {
   requires std::is_arithmetic_v<T>
   void add(T value) { add(std::span<const T>(&value, 1)); }
 
-  /// 64 lower-case hexadecimal digits. Call once, last.
-  std::string hex();
+  /// Call one of the two once, last.
+  std::array<std::uint8_t, 32> digest();
+  std::string hex();  // 64 lower-case digits
 
  private:
   struct State;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <regex>
 
 #include "scenarios/load.hpp"
 #include "sim/core/file.hpp"
@@ -33,9 +32,8 @@ std::string colmap(const std::string& arguments) {
 }
 
 double figure(const std::string& report, const std::string& name) {
-  std::smatch match;
-  if (std::regex_search(report, match, std::regex(name + ": *([0-9.]+)")))
-    return std::stod(match[1]);
+  const std::size_t at = report.find(name + ":");
+  if (at != std::string::npos) return std::stod(report.substr(at + name.size() + 1));
   ADD_FAILURE() << "no " << name << " in:\n" << report;
   return 0.0;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 
 #include "sim/core/base64.hpp"
 #include "sim/core/error.hpp"
@@ -43,12 +42,7 @@ std::string script_json(std::string_view json) {
 std::string policy_hash(std::string_view text) {
   Sha256 hash;
   hash.add(text);
-  const std::string hex = hash.hex();
-  std::vector<std::uint8_t> digest;
-  for (std::size_t i = 0; i < hex.size(); i += 2) {
-    digest.push_back(static_cast<std::uint8_t>(std::stoi(hex.substr(i, 2), nullptr, 16)));
-  }
-  return "'sha256-" + base64(digest) + "'";
+  return "'sha256-" + base64(hash.digest()) + "'";
 }
 
 std::string filled(std::string_view page, const std::vector<Escape>& values) {

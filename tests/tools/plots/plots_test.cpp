@@ -198,8 +198,7 @@ TEST(Plots, TheKeyOfTermsStandsInThePicture) {
 TEST(Plots, TextsMeanNothingToGnuplot) {
   EXPECT_EQ(gnuplot_text("it's"), "'it''s'");
   EXPECT_EQ(gnuplot_text("a\nset output \"x\""), "'a set output \"x\"'");
-  EXPECT_EQ(gnuplot_text("caf\xc3\xa9 \xff\xc3"),
-            "'caf\xc3\xa9 \xef\xbf\xbd\xef\xbf\xbd'");
+  EXPECT_EQ(gnuplot_text("caf\xc3\xa9 \xff\xc3"), "'caf\xc3\xa9 \xef\xbf\xbd\xef\xbf\xbd'");
 }
 
 /// The axis holds the values, and two marks at least, however close to each other these are.

@@ -1,5 +1,5 @@
-// The law of a program that was built without the bundle: it says why. The parts are those that this
-// folder's CMakeLists.txt writes.
+// The law of a program that was built without the bundle: it says why. The parts are those that
+// this folder's CMakeLists.txt writes.
 #include "tools/report/page_parts.hpp"
 
 #include <gtest/gtest.h>
