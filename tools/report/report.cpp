@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/compare/paper_table.hpp"
+#include "sim/core/base64.hpp"
 #include "sim/core/error.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/render/colour.hpp"
