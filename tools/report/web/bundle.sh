@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Bundles the page into FOLDER: bundle.js, bundle.css. Needs npm and the network only when
 # package-lock.json has changed since the last time. Without them the bundle is empty, missing.txt
-# says why, and bundle.d has the next build try again.
+# says why, and bundle.d, which names what the bundle depends on, has the next build try again.
 # usage: bundle.sh FOLDER
 # exit: 0 bundled, or empty and missing.txt says why; 1 the sources are wrong
 set -euo pipefail
@@ -16,7 +16,7 @@ without() {  # without REASON: of one line
   for part in bundle.js bundle.css; do
     [[ -e $part && ! -s $part ]] || : >"$part"
   done
-  # what the bundle depends on is never there: the next build asks again
+  # never there: the next build asks again
   echo "$PWD/missing.txt: $PWD/npm" >bundle.d
   exit 0
 }
@@ -30,7 +30,7 @@ if ! cmp -s package-lock.json node_modules/installed-package-lock.json; then
   npm ci --no-audit --no-fund --prefer-offline --loglevel=error --fetch-retries=$retries \
     --fetch-timeout=30000 >npm.log 2>&1 ||
     without "npm could not fetch three.js, uPlot and esbuild into $PWD/node_modules: $(
-      grep -m 1 'reason:' npm.log || head -n 1 npm.log)"
+      grep -m 1 -o 'request to .*reason:.*' npm.log || head -n 1 npm.log)"
   cp package-lock.json node_modules/installed-package-lock.json
 fi
 
@@ -39,4 +39,4 @@ node_modules/.bin/esbuild src/main.ts --bundle --minify --format=iife --target=e
 node_modules/.bin/esbuild src/report.css --bundle --minify --log-level=warning \
   --outfile=bundle.css
 : >missing.txt
-: >bundle.d
+echo "$PWD/missing.txt: $source/bundle.sh" >bundle.d  # Ninja takes an empty one for a missing one
