@@ -73,13 +73,27 @@ std::size_t find_untaken(const LeafTable& table, const PixelColumns& pixels, std
   return static_cast<std::size_t>(next - out);
 }
 
-/// Points of kLanes that are within the radius.
-inline Mask near(const PointBlock& block, std::uint32_t first, const Floats p_m[3],
-                 Floats radius2_m2) {
-  const Floats dx = load(block.x_m + first) - p_m[0];
-  const Floats dy = load(block.y_m + first) - p_m[1];
-  const Floats dz = load(block.z_m + first) - p_m[2];
-  return less_equal(dx * dx + dy * dy + dz * dz, radius2_m2);
+/// A bit for each point within the radius.
+inline std::uint32_t near_bits(const PointBlock& block, const Floats p_m[3], Floats radius2_m2) {
+  std::uint32_t near = 0;
+  for (std::uint32_t first = 0; first < kPointsPerBlock; first += kLanes) {
+    const Floats dx = load(block.x_m + first) - p_m[0];
+    const Floats dy = load(block.y_m + first) - p_m[1];
+    const Floats dz = load(block.z_m + first) - p_m[2];
+    near |= bits(less_equal(dx * dx + dy * dy + dz * dz, radius2_m2)) << first;
+  }
+  return near;
+}
+
+inline std::uint32_t bit_count(std::uint32_t near) {
+#ifdef __POPCNT__
+  return static_cast<std::uint32_t>(__builtin_popcount(near));
+#else  // of 16 bits; the baseline would call a library
+  near = near - (near >> 1 & 0x5555U);
+  near = (near & 0x3333U) + (near >> 2 & 0x3333U);
+  near = (near + (near >> 4)) & 0x0f0fU;
+  return (near + (near >> 8)) & 0x1fU;
+#endif
 }
 
 /// Of one bucket.
@@ -88,14 +102,11 @@ inline std::uint64_t count_in_bucket(const PointTable& t, const CloudBucket& buc
   const Floats radius2_m2 = all(t.radius2_m2);
   std::uint64_t near_count = 0;
   for (std::uint32_t b = bucket.last_block; b != 0; b = t.next_block[b]) {
-    for (std::uint32_t first = 0; first < kPointsPerBlock; first += kLanes) {
-      const Mask is_near = near(t.blocks[b], first, p_m, radius2_m2);
-      near_count += static_cast<std::uint64_t>(count(is_near));
-      if (bucket.has_one_voxel) continue;
-      for (std::uint32_t left = bits(is_near); left != 0; left &= left - 1) {
-        ++voxels[t.blocks[b].slot[first + static_cast<std::uint32_t>(__builtin_ctz(left))]]
-              .neighbour_sum;
-      }
+    std::uint32_t near = near_bits(t.blocks[b], p_m, radius2_m2);
+    near_count += bit_count(near);
+    if (bucket.has_one_voxel) continue;
+    for (; near != 0; near &= near - 1) {
+      ++voxels[t.blocks[b].slot[__builtin_ctz(near)]].neighbour_sum;
     }
   }
   if (bucket.has_one_voxel) voxels[bucket.slot].neighbour_sum += near_count;
