@@ -15,7 +15,7 @@ struct EngineMount {
 };
 const std::array<EngineMount, 2> kMounts = {{{{4.600, -4.45, 1.183}}, {{9.340, -1.44, 1.645}}}};
 
-constexpr std::size_t kSides = 28;
+constexpr std::size_t kEngineSides = 28;
 constexpr std::size_t kBlades = 26;
 
 std::vector<ProfilePoint> cowl_profile() {
@@ -88,9 +88,9 @@ std::uint16_t core_paint(std::size_t segment) {
 
 std::vector<Part> engines() {
   std::vector<Part> engine = {
-      revolve_loop(cowl_profile(), kSides,
+      revolve_loop(cowl_profile(), kEngineSides,
                    [](std::size_t segment, std::size_t) { return cowl_paint(segment); }),
-      revolve(core_profile(), kSides,
+      revolve(core_profile(), kEngineSides,
               [](std::size_t segment, std::size_t) { return core_paint(segment); }),
       pylon()};
   for (std::size_t i = 0; i < kBlades; ++i)

@@ -6,7 +6,7 @@ namespace gnbv {
 namespace lab_airplane {
 
 /// Patterns of 2 to 10 cm: tens of pixels at 1 to 3 m.
-std::vector<Material> materials() {
+std::vector<Material> lab_airplane_materials() {
   using enum Pattern;
   std::vector<Material> list(kPaintCount);
   list[kSkinWhite] = {"skin_white", {0.82F, 0.82F, 0.80F}, panels, {0.34F, 0.35F, 0.37F}, 0.097F};
@@ -48,7 +48,7 @@ Part quarter_turned(Part part) {
 TriangleMesh make_lab_airplane() {
   using namespace lab_airplane;
   TriangleMesh mesh;
-  mesh.materials = materials();
+  mesh.materials = lab_airplane_materials();
   for (const auto& parts : {body(), centre_fins()})
     for (const Part& part : parts) append(mesh, quarter_turned(part));
   for (const auto& parts : {wings(), propeller_blades(), landing_gear(), fittings()}) {

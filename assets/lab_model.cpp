@@ -9,7 +9,7 @@
 namespace gnbv {
 namespace {
 
-/// Indices into materials().
+/// Indices into lab_model_materials().
 enum Paint : std::uint16_t {
   kCarton,
   kCartonPrinted,
@@ -27,7 +27,7 @@ enum Paint : std::uint16_t {
 };
 
 /// Patterns of 3 to 10 cm: tens of pixels at 1 to 3 m.
-std::vector<Material> materials() {
+std::vector<Material> lab_model_materials() {
   using enum Pattern;
   std::vector<Material> list(kPaintCount);
   list[kCarton] = {"carton", {0.42F, 0.27F, 0.14F}, panels, {0.20F, 0.12F, 0.06F}, 0.093F};
@@ -130,7 +130,7 @@ void add_tower(TriangleMesh& mesh) {
 
 TriangleMesh make_lab_model() {
   TriangleMesh mesh;
-  mesh.materials = materials();
+  mesh.materials = lab_model_materials();
   add_tower(mesh);
   append(mesh, box(frame(-0.367, -0.137, 0.391, 24.0), {0.19, 0.15, 0.207}, kCrate));
   // the shelf reaches out over the gate, a ball at its end, and the board leans against it

@@ -5,7 +5,7 @@
 namespace gnbv {
 namespace power_plant {
 
-std::vector<Material> materials() {
+std::vector<Material> power_plant_materials() {
   using enum Pattern;
   std::vector<Material> list(kPaintCount);
   list[kConcrete] = {"concrete", {0.34F, 0.33F, 0.30F}, noise, {0.23F, 0.22F, 0.20F}, 0.45F};
@@ -44,7 +44,7 @@ std::vector<Material> materials() {
 TriangleMesh make_power_plant() {
   using namespace power_plant;
   TriangleMesh mesh;
-  mesh.materials = materials();
+  mesh.materials = power_plant_materials();
   for (const auto& parts : {turbine_hall(), control_building(), boiler_house(), stair_tower(),
                             flue_gas_path(), cooling_tower(), chimneys(), tank_farm(), drums(),
                             pipe_rack(), transformer_yard(), coal_handling()})

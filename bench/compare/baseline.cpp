@@ -29,7 +29,7 @@ struct Metric {
 constexpr double kShareTolerance = 0.02;
 constexpr double kRelativeTolerance = 0.1;
 
-constexpr std::array<Metric, 12> kMetrics = {{
+constexpr std::array<Metric, 12> kGatedMetrics = {{
     {"coverage_0.05", [](const RunFigures& r) { return r.coverage_final[0]; }, Better::higher,
      kShareTolerance, 0.0},
     {"coverage_0.10", [](const RunFigures& r) { return r.coverage_final[1]; }, Better::higher,
@@ -89,10 +89,11 @@ class File {
   std::vector<BaselineMetric> metrics() const {
     const Json& all = at(json_, "metrics", "metrics");
     std::vector<BaselineMetric> out;
-    for (const Metric& metric : kMetrics) out.push_back(metric_of(all, std::string(metric.name)));
+    for (const Metric& metric : kGatedMetrics)
+      out.push_back(metric_of(all, std::string(metric.name)));
     for (const auto& [name, value] : all.items()) {
       const auto is_it = [&](const Metric& metric) { return metric.name == name; };
-      if (std::none_of(kMetrics.begin(), kMetrics.end(), is_it)) {
+      if (std::none_of(kGatedMetrics.begin(), kGatedMetrics.end(), is_it)) {
         throw BadInput(fmt::format("{}: metrics.{}: is no metric", path_.string(), name));
       }
     }
@@ -210,7 +211,7 @@ Baseline make_baseline(const RunFigures& run) {
                     .termination = run.termination,
                     .metrics = {},
                     .result_sha256 = std::nullopt};
-  for (const Metric& metric : kMetrics) {
+  for (const Metric& metric : kGatedMetrics) {
     const double value = metric.of(run);
     baseline.metrics.push_back(
         {.name = std::string(metric.name),
@@ -225,7 +226,7 @@ Baseline updated_baseline(const RunFigures& run, const Baseline& before, const f
   need_same(before.of, subject_of(run), false, path);
   Baseline baseline = make_baseline(run);
   if (before.result_sha256) baseline.result_sha256 = run.result_sha256;
-  for (std::size_t i = 0; i < kMetrics.size(); ++i) {
+  for (std::size_t i = 0; i < kGatedMetrics.size(); ++i) {
     baseline.metrics[i].tolerance = before.metrics[i].tolerance;
     baseline.metrics[i].better = before.metrics[i].better;
   }
@@ -235,8 +236,8 @@ Baseline updated_baseline(const RunFigures& run, const Baseline& before, const f
 BaselineCheck check_against(const Baseline& baseline, const fs::path& path, const RunFigures& run) {
   need_same(baseline.of, subject_of(run), true, path);
   BaselineCheck check{.metrics = {}, .termination = run.termination};
-  for (std::size_t i = 0; i < kMetrics.size(); ++i) {
-    const double now = kMetrics[i].of(run);
+  for (std::size_t i = 0; i < kGatedMetrics.size(); ++i) {
+    const double now = kGatedMetrics[i].of(run);
     check.metrics.push_back({baseline.metrics[i], now, judge(baseline.metrics[i], now)});
   }
   check.is_termination_wrong =

@@ -41,7 +41,7 @@ Value chamfer_mm(const RunFigures& run, const MetricContext&) {
 static_assert(kCoverageSizes_m == std::array<double, 3>{0.05, 0.10, 0.50});
 static_assert(kScoreDistances_m[1] == 0.05);
 
-constexpr std::array<RunMetric, 14> kMetrics = {{
+constexpr std::array<RunMetric, 14> kRunMetrics = {{
     {kCoverageMetric, true, 1, coverage_percent<0>},
     {"coverage at 0.10 m (%)", true, 1, coverage_percent<1>},
     {"coverage at 0.50 m (%)", true, 1, coverage_percent<2>},
@@ -69,13 +69,13 @@ constexpr std::array<RunMetric, 14> kMetrics = {{
 
 }  // namespace
 
-std::span<const RunMetric> run_metrics() { return kMetrics; }
+std::span<const RunMetric> run_metrics() { return kRunMetrics; }
 
 std::size_t metric_index(std::string_view name) {
-  const auto metric = std::find_if(kMetrics.begin(), kMetrics.end(),
+  const auto metric = std::find_if(kRunMetrics.begin(), kRunMetrics.end(),
                                    [&](const RunMetric& m) { return m.name == name; });
-  GNBV_CHECK(metric != kMetrics.end(), "no metric '{}'", name);
-  return static_cast<std::size_t>(metric - kMetrics.begin());
+  GNBV_CHECK(metric != kRunMetrics.end(), "no metric '{}'", name);
+  return static_cast<std::size_t>(metric - kRunMetrics.begin());
 }
 
 std::array<double, 3> common_budgets(std::span<const RunFigures* const> runs) {

@@ -13,10 +13,8 @@
 namespace gnbv {
 namespace {
 
-constexpr double kFloor_m = 0.3;
 constexpr int kViewsBefore = 90;  // 1.4 million points, as halfway through the paper's mission
 constexpr int kViewsTimed = 15;
-const Box3 kWorkspace_m(Vec3(-20, -20, 0), Vec3(20, 20, 20));
 
 /// Views all over the structure, a few metres off its faces and towards them.
 class Views {

@@ -6,15 +6,13 @@
 #include "bench/reference/octomap_twin.hpp"
 #include "bench/reference/pcl_twin.hpp"
 #include "bench/speed/map_speed.hpp"
+#include "bench/speed/measure.hpp"
 #include "planner/map/scan_insertion.hpp"
 #include "planner/map/surface_cloud.hpp"
 #include "sim/core/simd.hpp"
 
 namespace gnbv {
 namespace {
-
-constexpr double kFloor_m = 0.3;
-const Box3 kWorkspace_m(Vec3(-20, -20, 0), Vec3(20, 20, 20));
 
 struct View {
   Vec3f origin_m;

@@ -13,9 +13,7 @@
 namespace gnbv {
 namespace {
 
-constexpr double kFloor_m = 0.3;
 constexpr double kNoFloor_m = -1e9;
-const Box3 kWorkspace_m(Vec3(-20, -20, 0), Vec3(20, 20, 20));
 
 template <typename Task>
 double time_ms(Task&& task) {

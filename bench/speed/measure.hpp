@@ -5,8 +5,13 @@
 #include <vector>
 
 #include "sensors/camera_model.hpp"
+#include "sim/core/pose.hpp"
 
 namespace gnbv {
+
+/// The paper's workspace and floor rule.
+inline const Box3 kWorkspace_m(Vec3(-20, -20, 0), Vec3(20, 20, 20));
+constexpr double kFloor_m = 0.3;
 
 /// Processor time of the calling thread.
 double thread_time_ms();

@@ -16,11 +16,9 @@
 namespace gnbv {
 namespace {
 
-constexpr double kFloor_m = 0.3;
 constexpr int kFrames = 36;
 constexpr int kCandidates = 60;
 constexpr int kRounds = 3;
-const Box3 kWorkspace_m(Vec3(-20, -20, 0), Vec3(20, 20, 20));
 
 double draw(std::uint64_t frame, std::uint64_t index) {
   return uniform01({7, Stream::bench, frame, index});

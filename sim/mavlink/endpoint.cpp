@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint8_t kSystem = 1;
 constexpr std::uint8_t kComponent = 1;  // MAV_COMP_ID_AUTOPILOT1
 constexpr std::uint8_t kEverybody = 0;
-constexpr int kCritical = 2;  // MAV_SEVERITY
+constexpr int kSeverityCritical = 2;  // MAV_SEVERITY
 
 // messages a second of PX4's onboard link (mavlink_main.cpp)
 constexpr double kHeartbeat_hz = 1.0;
@@ -97,7 +97,7 @@ void Endpoint::obey(const SetPositionTargetLocalNed& message, double now_s, Quad
   if (reason == refusal_told_ && now_s - refusal_told_s_ < kRefusalRepeat_s) return;
   refusal_told_ = reason;
   refusal_told_s_ = now_s;
-  say({.severity = kCritical, .text = reason});
+  say({.severity = kSeverityCritical, .text = reason});
 }
 
 void Endpoint::say(const gnbv::StatusText& text) {

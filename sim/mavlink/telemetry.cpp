@@ -14,7 +14,7 @@ constexpr std::uint8_t kCustomModeEnabled = 1;  // MAV_MODE_FLAG
 constexpr std::uint8_t kSafetyArmed = 128;
 constexpr std::uint8_t kStandby = 3;  // MAV_STATE
 constexpr std::uint8_t kActive = 4;
-constexpr std::uint8_t kCritical = 5;
+constexpr std::uint8_t kStateCritical = 5;
 constexpr std::uint8_t kOnGround = 1;  // MAV_LANDED_STATE
 constexpr std::uint8_t kInAir = 2;
 constexpr std::uint8_t kLithiumPolymer = 1;  // MAV_BATTERY_TYPE
@@ -61,7 +61,7 @@ Heartbeat heartbeat_of(const Px4& px4) {
           .type = kQuadrotor,
           .autopilot = kPx4,
           .base_mode = static_cast<std::uint8_t>(kCustomModeEnabled | armed),
-          .system_status = px4.is_in_failsafe() ? kCritical
+          .system_status = px4.is_in_failsafe() ? kStateCritical
                            : px4.is_armed()     ? kActive
                                                 : kStandby};
 }

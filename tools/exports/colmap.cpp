@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kReadme =
+constexpr const char* kColmapReadme =
     R"(A gnbv run as a COLMAP model with known poses.
 
 sparse/0/cameras.txt   PINHOLE fx fy cx cy in pixels; the centre of the first pixel is (0.5, 0.5)
@@ -124,7 +124,7 @@ void write_colmap(const FrameRecord& frames, const SparseModel& model, const fs:
   write_file_atomically(sparse / "cameras.txt", cameras_text(frames, ids));
   write_file_atomically(sparse / "images.txt", images_text(frames, model, order, ids));
   write_file_atomically(sparse / "points3D.txt", points_text(model, order));
-  write_file_atomically(folder / "README.txt", kReadme);
+  write_file_atomically(folder / "README.txt", kColmapReadme);
   for (const RecordedFrame& frame : frames.frames) {
     link_or_copy(frame.colour, folder / "images" / image_name(frames, frame));
   }

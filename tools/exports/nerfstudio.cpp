@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kReadme =
+constexpr const char* kNerfstudioReadme =
     R"(A gnbv run as a nerfstudio data set, for example: ns-train depth-nerfacto --data .
 
 transforms.json  camera to world (x right, y up, z back), world ENU in metres as in the run;
@@ -77,7 +77,7 @@ void write_nerfstudio(const FrameRecord& frames, const SparseModel& model, const
   }
   write_cloud_ply(model.points_world_m, folder / "points.ply", {.colours = model.colours});
   write_file_atomically(folder / "transforms.json", json.dump(1) + "\n");
-  write_file_atomically(folder / "README.txt", kReadme);
+  write_file_atomically(folder / "README.txt", kNerfstudioReadme);
 }
 
 }  // namespace gnbv

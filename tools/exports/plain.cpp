@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kReadme =
+constexpr const char* kPlainReadme =
     R"(A gnbv run as plain files. What the run did not keep is not here.
 
 Frames. World: east, north, up; metres. Body: x forward, y left, z up. Camera: optical frame, x
@@ -179,7 +179,7 @@ void write_plain(const RunRecord& record, const PlainParts& parts, const fs::pat
   if (!record.views.empty()) write_file_atomically(folder / "views.csv", views_text(record, parts));
   write_file_atomically(folder / "intrinsics.json", intrinsics_text(record, parts));
   write_file_atomically(folder / kScenarioFile, to_yaml(record.scenario));
-  write_file_atomically(folder / "README.txt", kReadme);
+  write_file_atomically(folder / "README.txt", kPlainReadme);
   if (parts.frames) link_images(*parts.frames, folder);
   if (parts.cloud) write_cloud(*parts.cloud, parts.colours, folder / kCloudFile);
   const fs::path octomap = record.folder / kMapFile;

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kReadme =
+constexpr const char* kTumReadme =
     R"(A gnbv run in the text formats of the TUM RGB-D benchmark.
 
 trajectory.txt           true path of the body (x forward, y left, z up) in the world (ENU, metres)
@@ -101,7 +101,7 @@ void write_tum(const RunRecord& record, const FrameRecord* frames, const fs::pat
       write_camera(record, *frames, i, folder / file_word(frames->cameras[i]));
     }
   }
-  write_file_atomically(folder / "README.txt", fmt::format(fmt::runtime(kReadme), steps_per_m));
+  write_file_atomically(folder / "README.txt", fmt::format(fmt::runtime(kTumReadme), steps_per_m));
 }
 
 }  // namespace gnbv

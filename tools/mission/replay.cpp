@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "planner/belief.hpp"
+#include "planner/model.hpp"
 #include "planner/routes.hpp"
+#include "planner/workbench.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {

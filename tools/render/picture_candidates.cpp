@@ -61,7 +61,8 @@ double reach_m(const World& world, const CameraConfig& camera, const ViewPose& v
   return std::min(camera.range_max_m, 1.2 * away_m.norm());
 }
 
-void frame(RunSource& run, const PictureOptions& options, std::vector<Vec3>& points_world_m) {
+void frame_candidates(RunSource& run, const PictureOptions& options,
+                      std::vector<Vec3>& points_world_m) {
   const RunRecord& record = run.record();
   const std::size_t iteration = iteration_asked(record, options);
   for (const Candidate& candidate : run.decision(iteration).plan.candidates) {
@@ -230,7 +231,7 @@ std::vector<LegendItem> legend_of(const Tally& all, bool is_fvs) {
   return legend;
 }
 
-Picture draw(RunSource& run, const PictureOptions& options, const RenderView& view) {
+Picture draw_candidates(RunSource& run, const PictureOptions& options, const RenderView& view) {
   const RunRecord& record = run.record();
   const std::size_t iteration = iteration_asked(record, options);
   const ReplayedDecision& decision = run.decision(iteration);
@@ -262,7 +263,7 @@ const PictureKind kCandidatesPicture = {
     .name = "candidates",
     .shows = "candidate views of one decision, and rays of the chosen one (Figs. 2, 5, 6)",
     .legend_rows = 2,
-    .frame = frame,
-    .draw = draw};
+    .frame = frame_candidates,
+    .draw = draw_candidates};
 
 }  // namespace gnbv

@@ -10,7 +10,7 @@
 namespace gnbv {
 namespace {
 
-void frame(RunSource& run, const PictureOptions&, std::vector<Vec3>& points_world_m) {
+void frame_cloud(RunSource& run, const PictureOptions&, std::vector<Vec3>& points_world_m) {
   frame_structure(run, points_world_m);
 }
 
@@ -28,7 +28,7 @@ std::vector<std::uint32_t> densities(std::span<const Vec3f> points_world_m, doub
   return counts;
 }
 
-Picture draw(RunSource& run, const PictureOptions& options, const RenderView&) {
+Picture draw_cloud(RunSource& run, const PictureOptions& options, const RenderView&) {
   const RunRecord& record = run.record();
   const RunCloud& cloud = run.cloud();
   std::size_t count = cloud.points_world_m.size();
@@ -65,7 +65,9 @@ Picture draw(RunSource& run, const PictureOptions& options, const RenderView&) {
 
 }  // namespace
 
-const PictureKind kCloudPicture = {
-    .name = "cloud", .shows = "point cloud coloured by density", .frame = frame, .draw = draw};
+const PictureKind kCloudPicture = {.name = "cloud",
+                                   .shows = "point cloud coloured by density",
+                                   .frame = frame_cloud,
+                                   .draw = draw_cloud};
 
 }  // namespace gnbv

@@ -13,11 +13,11 @@ namespace {
 const Rgb kCovered = srgb(0x8fb4cf);
 const Rgb kMissed = srgb(0xd5420a);
 
-void frame(RunSource& run, const PictureOptions&, std::vector<Vec3>& points_world_m) {
+void frame_coverage(RunSource& run, const PictureOptions&, std::vector<Vec3>& points_world_m) {
   frame_structure(run, points_world_m);
 }
 
-Picture draw(RunSource& run, const PictureOptions& options, const RenderView&) {
+Picture draw_coverage(RunSource& run, const PictureOptions& options, const RenderView&) {
   const RunCloud& cloud = run.cloud();
   std::size_t count = cloud.points_world_m.size();
   std::string when;
@@ -57,7 +57,7 @@ Picture draw(RunSource& run, const PictureOptions& options, const RenderView&) {
 
 const PictureKind kCoveragePicture = {.name = "coverage",
                                       .shows = "true surface: covered by the cloud, or missed",
-                                      .frame = frame,
-                                      .draw = draw};
+                                      .frame = frame_coverage,
+                                      .draw = draw_coverage};
 
 }  // namespace gnbv

@@ -5,7 +5,7 @@
 namespace gnbv {
 namespace {
 
-void frame(RunSource& run, const PictureOptions& options, std::vector<Vec3>& points_world_m) {
+void frame_path(RunSource& run, const PictureOptions& options, std::vector<Vec3>& points_world_m) {
   frame_structure(run, points_world_m);
   const RunRecord& record = run.record();
   const double begin_s = options.has_profile ? 0.0 : record.views_begin_s.value_or(0.0);
@@ -16,7 +16,7 @@ void frame(RunSource& run, const PictureOptions& options, std::vector<Vec3>& poi
     points_world_m.push_back(view.decision.view.p_world_m);
 }
 
-Picture draw(RunSource& run, const PictureOptions& options, const RenderView& view) {
+Picture draw_path(RunSource& run, const PictureOptions& options, const RenderView& view) {
   const RunRecord& record = run.record();
   Picture picture{.panels = std::vector<Panel>(1), .detail = run_detail(record)};
   RenderScene& scene = picture.panels.front().scene;
@@ -36,7 +36,7 @@ Picture draw(RunSource& run, const PictureOptions& options, const RenderView& vi
 
 const PictureKind kPathPicture = {.name = "path",
                                   .shows = "structure, flown path and views (Figs. 8, 10)",
-                                  .frame = frame,
-                                  .draw = draw};
+                                  .frame = frame_path,
+                                  .draw = draw_path};
 
 }  // namespace gnbv

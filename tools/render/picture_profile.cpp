@@ -10,11 +10,11 @@ namespace {
 
 const Rgb kPoints = srgb(0x0b6fa8);
 
-void frame(RunSource& run, const PictureOptions&, std::vector<Vec3>& points_world_m) {
+void frame_profile(RunSource& run, const PictureOptions&, std::vector<Vec3>& points_world_m) {
   frame_structure(run, points_world_m);  // the flight runs wide around it
 }
 
-Picture draw(RunSource& run, const PictureOptions&, const RenderView& view) {
+Picture draw_profile(RunSource& run, const PictureOptions&, const RenderView& view) {
   const std::vector<ProfileStage>& stages = run.profile();
   const double unit_m = layout_unit_m(view);
   const double leaf_m = run.record().scenario.planner.cloud.profile_leaf_m;
@@ -49,7 +49,7 @@ Picture draw(RunSource& run, const PictureOptions&, const RenderView& view) {
 const PictureKind kProfilePicture = {.name = "profile",
                                      .shows = "profile after 1, 3 and all waypoints (Fig. 4)",
                                      .panels = 3,
-                                     .frame = frame,
-                                     .draw = draw};
+                                     .frame = frame_profile,
+                                     .draw = draw_profile};
 
 }  // namespace gnbv

@@ -12,11 +12,11 @@ namespace {
 const Rgb kPredicted = srgb(0xd5309c);
 const Rgb kUnknown = srgb(0xffffff);
 
-void frame(RunSource& run, const PictureOptions&, std::vector<Vec3>& points_world_m) {
+void frame_voxels(RunSource& run, const PictureOptions&, std::vector<Vec3>& points_world_m) {
   frame_structure(run, points_world_m);
 }
 
-Picture draw(RunSource& run, const PictureOptions& options, const RenderView&) {
+Picture draw_voxels(RunSource& run, const PictureOptions& options, const RenderView&) {
   const std::size_t last = run.record().views.empty() ? 0 : run.record().views.size() - 1;
   const std::size_t iteration = iteration_of(run.record(), options, last);
   const OccupancyGrid& grid = run.belief_after(iteration).grid;
@@ -62,7 +62,7 @@ Picture draw(RunSource& run, const PictureOptions& options, const RenderView&) {
 
 const PictureKind kVoxelsPicture = {.name = "voxels",
                                     .shows = "OctoMap voxels: occupied, predicted, unknown",
-                                    .frame = frame,
-                                    .draw = draw};
+                                    .frame = frame_voxels,
+                                    .draw = draw_voxels};
 
 }  // namespace gnbv

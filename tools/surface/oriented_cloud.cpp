@@ -13,7 +13,6 @@ namespace gnbv {
 namespace {
 
 constexpr std::size_t kNeighbours = 16;
-constexpr std::size_t kChunk = 4096;
 constexpr float kSureCosine = 0.15F;  // below it, a normal is nearly square to the line of sight
 
 struct Normal {
@@ -82,9 +81,10 @@ OrientedCloud oriented(const SeenPoints& seen, int threads) {
              points_m.size(), seen.sensors_world_m.size());
   const PointTree tree(points_m);
   const auto for_each_point = [&](const auto& task) {
-    parallel_for_chunks(threads, points_m.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) task(i);
-    });
+    parallel_for_chunks(threads, points_m.size(), kPointsAtOnce,
+                        [&](std::size_t begin, std::size_t end) {
+                          for (std::size_t i = begin; i < end; ++i) task(i);
+                        });
   };
 
   std::vector<Normal> normals(points_m.size());

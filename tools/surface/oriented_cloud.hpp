@@ -8,6 +8,9 @@
 
 namespace gnbv {
 
+/// How many points a task of this room takes at once.
+constexpr std::size_t kPointsAtOnce = 4096;
+
 /// Points with the place of the sensor that saw each.
 struct SeenPoints {
   std::vector<Vec3f> points_world_m;

@@ -13,8 +13,6 @@
 namespace gnbv {
 namespace {
 
-constexpr std::size_t kChunk = 4096;
-
 bool shows(const CameraModel& camera, const Vec3& p_camera_m) {
   if (p_camera_m.z() <= 0.0) return false;
   const Eigen::Vector2d px = pixel_of(camera, p_camera_m);
@@ -78,7 +76,7 @@ void find_sensors(const PointTree& cloud, const Stretch& stretch, float leaf_m, 
                   SeenPoints& seen) {
   const PointTree poses(stretch.poses_world_m);
   const std::size_t count = stretch.end - stretch.begin;
-  parallel_for_chunks(threads, count, kChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_for_chunks(threads, count, kPointsAtOnce, [&](std::size_t begin, std::size_t end) {
     std::array<Neighbour, 32> near_poses{};
     for (std::size_t i = stretch.begin + begin; i < stretch.begin + end; ++i) {
       const Vec3f& p_m = seen.points_world_m[i];
@@ -97,13 +95,14 @@ std::vector<Vec3f> uncovered_profile(const RunCloud& cloud, float leaf_m, int th
   const std::span<const Vec3f> all = cloud.points_world_m;
   const PointTree tree(all.subspan(cloud.profile_points));
   std::vector<std::uint8_t> is_covered(cloud.profile_points);
-  parallel_for_chunks(threads, is_covered.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-    std::array<Neighbour, 1> nearest{};
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto found = tree.nearest(all[i], nearest);
-      is_covered[i] = !found.empty() && found[0].distance_m < leaf_m ? 1 : 0;
-    }
-  });
+  parallel_for_chunks(threads, is_covered.size(), kPointsAtOnce,
+                      [&](std::size_t begin, std::size_t end) {
+                        std::array<Neighbour, 1> nearest{};
+                        for (std::size_t i = begin; i < end; ++i) {
+                          const auto found = tree.nearest(all[i], nearest);
+                          is_covered[i] = !found.empty() && found[0].distance_m < leaf_m ? 1 : 0;
+                        }
+                      });
   std::vector<Vec3f> kept;
   for (std::size_t i = 0; i < is_covered.size(); ++i) {
     if (is_covered[i] == 0) kept.push_back(all[i]);

@@ -16,7 +16,6 @@ namespace {
 
 using Face = std::array<std::uint32_t, 3>;
 
-constexpr std::size_t kChunk = 4096;
 constexpr float kReach_spacings = 2.0F;
 constexpr int kSmoothings = 3;
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
@@ -26,17 +25,18 @@ std::vector<float> distance_in_reaches(const TriangleMesh& mesh, const OrientedC
                                        const TrimSettings& settings, int threads) {
   const PointTree tree(cloud.points_world_m);
   std::vector<float> field(mesh.vertices_m.size());
-  parallel_for_chunks(threads, field.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-    std::array<Neighbour, 1> nearest{};
-    for (std::size_t i = begin; i < end; ++i) {
-      const Neighbour& found = tree.nearest(mesh.vertices_m[i], nearest).front();
-      const float reach_m = settings.reach_m > 0.0
-                                ? static_cast<float>(settings.reach_m)
-                                : std::min(kReach_spacings * cloud.spacing_m[found.point],
-                                           static_cast<float>(settings.reach_max_m));
-      field[i] = found.distance_m / reach_m;
-    }
-  });
+  parallel_for_chunks(
+      threads, field.size(), kPointsAtOnce, [&](std::size_t begin, std::size_t end) {
+        std::array<Neighbour, 1> nearest{};
+        for (std::size_t i = begin; i < end; ++i) {
+          const Neighbour& found = tree.nearest(mesh.vertices_m[i], nearest).front();
+          const float reach_m = settings.reach_m > 0.0
+                                    ? static_cast<float>(settings.reach_m)
+                                    : std::min(kReach_spacings * cloud.spacing_m[found.point],
+                                               static_cast<float>(settings.reach_max_m));
+          field[i] = found.distance_m / reach_m;
+        }
+      });
   return field;
 }
 
