@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "planner/belief.hpp"
 #include "planner/model.hpp"
 #include "planner/routes.hpp"
 #include "planner/workbench.hpp"

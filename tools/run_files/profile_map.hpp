@@ -1,4 +1,4 @@
-// A belief on disk, so that a mission can go on where it stopped.
+// profile.map: what was believed after the profile, so that another mission can begin there.
 #pragma once
 
 #include <filesystem>
