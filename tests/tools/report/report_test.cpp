@@ -8,10 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/core/file.hpp"
+#include "tests/support/covered_record.hpp"
 #include "tests/support/made_frames.hpp"
-#include "tests/support/made_run.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/render/colour.hpp"
+#include "tools/report/run_pack.hpp"
 
 namespace gnbv {
 namespace {
@@ -219,9 +220,9 @@ TEST(Report, HasTheColoursOfThePictures) {
 TEST(Report, RunsOfTwoConfigurationsAreTwoRows) {
   TempFolder temp;
   write_made_run(temp.path());
-  RunRecord a = read_run(temp.path());
-  a.figures = RunFigures{.scenario = "smoke", .structure = "smoke", .utility = "proposed"};
-  a.figures->curve = {.coverage = {{}}, .metres = {0.0}, .seconds = {0.0}};
+  RunRecord a = covered_record(1, {0.2});
+  a.folder = temp.path();
+  a.figures->structure = "smoke";
   RunRecord b = a;
   b.scenario.planner.preset = "released";
   b.figures->coverage_final[0] = b.figures->coverage_profile[0] = 0.5;
@@ -229,7 +230,8 @@ TEST(Report, RunsOfTwoConfigurationsAreTwoRows) {
   other_seed.scenario.seed = 2;
   const auto labels = [](const std::vector<RunRecord>& records) {
     std::vector<std::string> firsts;
-    for (const nlohmann::json& row : data_of(report_of(records))["tables"][0]["rows"]) {
+    const nlohmann::json data = data_of(report_of(records));
+    for (const nlohmann::json& row : data["tables"][0]["rows"]) {
       firsts.push_back(fmt::format("{}: {}", row[0].get<std::string>(), row[2].get<std::string>()));
     }
     return firsts;
