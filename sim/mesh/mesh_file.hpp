@@ -1,5 +1,5 @@
-// Mesh files: PLY by our own reader, all other formats by assimp, which only mesh_file.cpp and
-// mesh_write.cpp know.
+// Mesh files: OBJ and PLY by our own readers, STL, COLLADA and glTF by assimp, which only
+// mesh_import.cpp and mesh_write.cpp know.
 #pragma once
 
 #include <filesystem>
@@ -33,12 +33,12 @@ struct MeshReading {
   std::vector<std::string> warnings;  // what had to be left out, a sentence each
 };
 
-/// Reads, instances nodes and triangulates. The vertices of OBJ and PLY files stay as the file
-/// numbers them; those of formats that repeat a vertex per face, normal or material are joined
-/// where their positions are equal, nowhere else. Materials carry the diffuse colours of the file;
-/// those of a PLY file are the colours of its faces or vertices (sim/mesh/ply_file.hpp). Throws
-/// BadInput naming the file (and what is wrong with it) when it is missing or unreadable, and when
-/// the config itself is not usable.
+/// Reads .obj, .ply, .stl, .dae, .gltf and .glb, instances nodes and triangulates. The vertices of
+/// OBJ and PLY files stay as the file numbers them; those of formats that repeat a vertex per face,
+/// normal or material are joined where their positions are equal, nowhere else. Materials carry the
+/// diffuse colours of the file; those of a PLY file are the colours of its faces or vertices
+/// (sim/mesh/ply_file.hpp). Throws BadInput naming the file (and what is wrong with it) when it is
+/// missing or unreadable, and when the config itself is not usable.
 MeshReading read_mesh(const MeshFileConfig& config);
 
 /// read_mesh() without the faces that have no area (is_flat() of sim/mesh/mesh_lint.hpp). What had

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <string>
+#include <string_view>
 
 namespace gnbv {
 
@@ -14,7 +14,7 @@ struct DeclaredAxes {
 };
 
 /// Of a COLLADA text, which by specification is in metres with y up where it is silent.
-DeclaredAxes declared_by_collada(const std::string& content);
+DeclaredAxes declared_by_collada(std::string_view content);
 
 /// Turns the axis `up` (x, y or z) to z; the right-handed turns of COLLADA 1.4's up_axis table.
 Eigen::Matrix3d R_z_up(char up);

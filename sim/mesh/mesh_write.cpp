@@ -1,17 +1,17 @@
-// The writers of sim/mesh/mesh_file.hpp; the readers are in mesh_file.cpp.
+// The writers of sim/mesh/mesh_file.hpp; OBJ and PLY texts are those of obj_file and ply_file.
 #include <assimp/material.h>
 #include <assimp/mesh.h>
 #include <assimp/scene.h>
 
 #include <assimp/Exporter.hpp>
-#include <limits>
+#include <unordered_map>
 
-#include "sim/core/append_bytes.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "sim/core/srgb.hpp"
 #include "sim/mesh/mesh_file.hpp"
-#include "sim/mesh/obj_text.hpp"
+#include "sim/mesh/obj_file.hpp"
+#include "sim/mesh/obj_materials.hpp"
+#include "sim/mesh/ply_file.hpp"
 
 namespace gnbv {
 namespace {
@@ -82,29 +82,6 @@ void write_glb(const TriangleMesh& mesh, const std::filesystem::path& path) {
   });
 }
 
-/// Own writer: assimp's binary PLY with colours is corrupt (found with 5.2.4). Little-endian;
-/// each face has the sRGB bytes of its material, as MeshLab shows them.
-std::string ply_of(const TriangleMesh& mesh) {
-  std::string out = fmt::format(
-      "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float "
-      "y\n"
-      "property float z\nelement face {}\nproperty list uchar int vertex_indices\n"
-      "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n",
-      mesh.vertices_m.size(), mesh.faces.size());
-  for (const Vec3f& v : mesh.vertices_m) {
-    for (const float x : v) append_bytes(out, x);
-  }
-  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
-    append_bytes(out, std::uint8_t{3});
-    for (const std::uint32_t index : mesh.faces[i]) append_bytes(out, index);
-    const std::size_t material = mesh.face_material.empty() ? 0 : mesh.face_material[i];
-    for (const float channel : mesh.materials[material].rgb) {
-      append_bytes(out, static_cast<std::uint8_t>(std::lround(255.0F * linear_to_srgb(channel))));
-    }
-  }
-  return out;
-}
-
 }  // namespace
 
 void write_mesh(const TriangleMesh& mesh, const std::filesystem::path& path) {
@@ -114,7 +91,7 @@ void write_mesh(const TriangleMesh& mesh, const std::filesystem::path& path) {
     write_file_atomically(mtl, mtl_text_of(mesh));
     write_file_atomically(path, obj_text_of(mesh, mtl.filename().string()));
   } else if (extension == ".ply") {
-    write_file_atomically(path, ply_of(mesh));
+    write_file_atomically(path, ply_bytes_of(mesh));
   } else if (extension == ".glb") {
     write_glb(mesh, path);
   } else {

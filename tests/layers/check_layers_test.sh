@@ -89,7 +89,7 @@ library btBulletDynamicsCommon.h sim/flight/vehicle.cpp sim/flight/vehicle.hpp s
 library bullet/btBulletCollisionCommon.h sim/flight/vehicle.cpp sim/flight/flight.hpp
 library LinearMath/btTransform.h sim/flight/vehicle.cpp sim/flight/flight.hpp
 library boost/math/distributions/students_t.hpp bench/compare/statistics.cpp bench/compare/statistics.hpp bench/score/coverage_curve.cpp
-library assimp/Importer.hpp sim/mesh/mesh_file.cpp sim/mesh/mesh_file.hpp tools/mission/load_world.cpp
+library assimp/Importer.hpp sim/mesh/mesh_import.cpp sim/mesh/mesh_import.hpp sim/mesh/mesh_file.cpp tools/mission/load_world.cpp
 library octomap/OcTree.h planner/map/octomap_io.cpp planner/map/octomap_io.hpp planner/map/occupancy_grid.cpp
 library pcl/point_types.h planner/symmetry/symmetry_pcl.cpp planner/symmetry/symmetry.cpp planner/symmetry/symmetry_module.hpp bench/score/coverage.cpp
 library yaml-cpp/yaml.h scenarios/document.cpp tools/gnbv/main.cpp

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "sim/mesh/mesh_units.hpp"
 #include "tests/sim/mesh/mesh_files.hpp"
 
 namespace gnbv {
@@ -99,6 +100,26 @@ TEST_F(MeshFile, ConfigOverridesUnitAndUpAxis) {
   config.unit_m = 0.0;
   config.scale = 1.0;
   expect_collada(load_mesh(config), 0.01, x_to_z);
+}
+
+TEST(ColladaAxes, TheUnitIsTheNumberOfItsMeterAttribute) {
+  const auto unit_m = [](const std::string& tag) {
+    return declared_by_collada("<COLLADA><asset>" + tag + "</asset><unit meter='7'/>").unit_m;
+  };
+  EXPECT_EQ(unit_m("<unit meter=\"0.0254\" name=\"inch\"/>"), 0.0254);
+  EXPECT_EQ(unit_m("<unit name='meter' meter = ' 2e-3 '/>"), 2e-3);
+  EXPECT_EQ(unit_m("<unit name='a meter'\n\tmeter='3'></unit>"), 3.0);
+  for (const char* silent : {"", "<unit name='inch'/>", "<unit meter='0'/>", "<unit meter='-1'/>",
+                             "<unit meter='one'/>", "<unit meter='", "<unit", "<units x=''/>"}) {
+    EXPECT_EQ(unit_m(silent), 1.0) << silent;
+  }
+}
+
+TEST(ColladaAxes, NoHeaderIsTooLong) {
+  const std::string name(5'000'000, 'a');
+  EXPECT_EQ(declared_by_collada("<unit name='" + name + "' meter='0.5'/>").unit_m, 0.5);
+  EXPECT_EQ(declared_by_collada("<unit " + name).unit_m, 1.0);
+  EXPECT_EQ(declared_by_collada("<up_axis>" + std::string(5'000'000, ' ') + "Z_UP").up_axis, 'z');
 }
 
 }  // namespace

@@ -52,6 +52,13 @@ TEST_F(MeshFile, BadFilesAreNamedWithTheirFault) {
   EXPECT_TRUE(says(complaint(file("")), "path is empty"));
 }
 
+TEST_F(MeshFile, OtherFormatsAreRefusedWithTheNamesOfOurs) {
+  for (const char* name : {"a.fbx", "a.x3d", "a.3ds", "a.off", "a.blend", "a.ifc", "a.obj.gz"}) {
+    EXPECT_TRUE(says(complaint(file(write(name, "1 2 3"))), ".obj, .ply, .stl, .dae, .gltf, .glb"))
+        << name;
+  }
+}
+
 TEST_F(MeshFile, CoordinatesThatAreNotFiniteAreNamed) {
   for (const char* bad : {"nan", "inf", "-inf", "1e999"}) {
     const std::string text = std::string("v 0 0 0\nv 1 0 0\nv 0 ") + bad + " 0\nf 1 2 3\n";
@@ -63,6 +70,20 @@ TEST_F(MeshFile, CoordinatesThatAreNotFiniteAreNamed) {
     mesh.vertices_m[5].y() = bad;
     write_mesh(mesh, folder_ / "n.ply");
     EXPECT_TRUE(says(complaint(file(folder_ / "n.ply")), "n.ply: vertex 5")) << bad;
+  }
+}
+
+TEST_F(MeshFile, CoordinatesTooSmallForADoubleAreZero) {
+  const std::string rows = "1e-400 0 0\n1 -1e-999999999999 0\n0 1 0.00000e-320\n";
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uchar int vertex_index\nend_header\n";
+  std::string obj = "v " + rows;
+  for (std::size_t at = 0; (at = obj.find('\n', at)) + 1 < obj.size();) obj.insert(++at, "v ");
+  for (const fs::path& path :
+       {write("t.obj", obj + "f 1 2 3\n"), write("t.ply", ply + rows + "3 0 1 2\n")}) {
+    const TriangleMesh mesh = load_mesh(file(path));
+    EXPECT_EQ(mesh.vertices_m, (std::vector<Vec3f>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})) << path;
   }
 }
 

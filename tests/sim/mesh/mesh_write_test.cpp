@@ -26,7 +26,7 @@ TEST_F(MeshFile, ObjRoundTripKeepsEveryVertexFaceAndMaterial) {
 }
 
 TEST_F(MeshFile, ObjNumbersOfManyVerticesSurvive) {
-  TriangleMesh strip;  // more vertices than kObjNumberBase, so that both parts of a number count
+  TriangleMesh strip;
   for (std::uint32_t i = 0; i < 9000; ++i) {
     strip.vertices_m.emplace_back(0.1F * static_cast<float>(i / 2), i % 2 == 0 ? 0.0F : 1.0F, 0.0F);
     if (i >= 2) strip.faces.push_back({i - 2, i - 1, i});

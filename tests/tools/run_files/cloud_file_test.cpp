@@ -8,6 +8,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/mesh/mesh_file.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace gnbv {
@@ -89,11 +90,26 @@ TEST(CloudFile, EveryLayoutGivesTheSamePoints) {
             kPoints);
 }
 
+TEST(CloudFile, AMeshGivesItsVerticesWhateverItsFacesAre) {
+  TempFolder temp;
+  TriangleMesh mesh;
+  mesh.vertices_m = kPoints;
+  mesh.faces = {{0, 1, 2}, {2, 1, 0}};
+  write_mesh(mesh, temp.path() / "mesh.ply");
+  EXPECT_EQ(read_cloud(temp.path() / "mesh.ply"), kPoints);
+  EXPECT_EQ(load_mesh({.path = temp.path() / "mesh.ply"}).vertices_m, kPoints);
+  const std::string whole = read_file(temp.path() / "mesh.ply");
+  const fs::path cut = written(temp, "cut.ply", whole.substr(0, whole.size() - 1));
+  EXPECT_EQ(read_cloud(cut), kPoints);
+  EXPECT_THROW(load_mesh({.path = cut}), BadInput);
+}
+
 TEST(CloudFile, WhatIsNotANumberStaysForTheJudge) {
   TempFolder temp;
   const std::vector<Vec3f> points =
-      read_cloud(written(temp, "a.xyz", "1 nan 3\n1 2 inf\n1 2 1e999\n"));
-  ASSERT_EQ(points.size(), 3U);
+      read_cloud(written(temp, "a.xyz", "1 nan 3\n1 2 inf\n1 2 1e999\n1 2 1e-999\n"));
+  ASSERT_EQ(points.size(), 4U);
+  EXPECT_EQ(points[3].z(), 0.0F);
   EXPECT_TRUE(std::isnan(points[0].y()));
   EXPECT_TRUE(std::isinf(points[1].z()));
   EXPECT_TRUE(std::isinf(points[2].z()));
