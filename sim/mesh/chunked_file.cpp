@@ -10,7 +10,7 @@ namespace gnbv {
 namespace {
 
 constexpr std::size_t kChunk_bytes = 1 << 20;
-constexpr std::string_view kBlanks = " \t\r\n";
+constexpr std::string_view kSeparators = " \t\r\n";
 
 }  // namespace
 
@@ -54,13 +54,13 @@ std::optional<std::string_view> ChunkedFile::line() {
 
 std::string_view ChunkedFile::word() {
   do {
-    at_ += std::min(ahead().find_first_not_of(kBlanks), end_ - at_);
+    at_ += std::min(ahead().find_first_not_of(kSeparators), end_ - at_);
   } while (at_ == end_ && read_more());
-  std::size_t length = ahead().find_first_of(kBlanks);
+  std::size_t length = ahead().find_first_of(kSeparators);
   while (length == std::string_view::npos) {
     const std::size_t searched = end_ - at_;
     if (!read_more()) return {bytes(searched), searched};
-    length = ahead().find_first_of(kBlanks, searched);
+    length = ahead().find_first_of(kSeparators, searched);
   }
   return {bytes(length), length};
 }

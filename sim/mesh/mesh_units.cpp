@@ -8,10 +8,10 @@
 namespace gnbv {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\v\f\r\n";
+constexpr std::string_view kXmlBlanks = " \t\v\f\r\n";
 
 std::string_view without_blanks(std::string_view text) {
-  return text.substr(std::min(text.find_first_not_of(kBlanks), text.size()));
+  return text.substr(std::min(text.find_first_not_of(kXmlBlanks), text.size()));
 }
 
 /// The number in meter="0.01"; nothing where the tag has none.
