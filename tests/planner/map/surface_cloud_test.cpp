@@ -7,6 +7,7 @@
 #include <map>
 
 #include "bench/reference/analytic_scans.hpp"
+#include "bench/reference/depth_rays.hpp"
 #include "bench/reference/pcl_twin.hpp"
 #include "planner/map/scan_insertion.hpp"
 #include "sim/core/error.hpp"
