@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "sim/core/error.hpp"
+#include "sim/mesh/world.hpp"
 #include "tests/support/streaming_flight.hpp"
 
 namespace gnbv {

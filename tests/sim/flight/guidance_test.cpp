@@ -5,6 +5,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/flight/rest_to_rest.hpp"
+#include "sim/mesh/world.hpp"
 #include "tests/support/streaming_flight.hpp"
 
 namespace gnbv {

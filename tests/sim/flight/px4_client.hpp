@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "sim/flight/quadrotor.hpp"
+#include "sim/mesh/world.hpp"
 
 namespace gnbv {
 

@@ -6,6 +6,7 @@
 #include "sim/flight/takeoff.hpp"
 #include "sim/flight/vehicle.hpp"
 #include "sim/flight/velocity_smoothing.hpp"
+#include "sim/mesh/world.hpp"
 
 namespace gnbv {
 namespace {

@@ -10,6 +10,7 @@
 #include "sim/mavlink/border.hpp"
 #include "sim/mavlink/endpoint.hpp"
 #include "sim/mavlink/telemetry.hpp"
+#include "sim/mesh/world.hpp"
 
 namespace gnbv::mavlink {
 namespace {
