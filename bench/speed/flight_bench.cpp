@@ -1,7 +1,10 @@
 // How much faster than time one vehicle flies, sensors off: rates at 1 kHz, physics at 250 Hz.
 #include <benchmark/benchmark.h>
 
+#include "sim/flight/flight.hpp"
 #include "sim/flight/guidance.hpp"
+#include "sim/flight/vehicle_config.hpp"
+#include "sim/mesh/world.hpp"
 
 namespace gnbv {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "bench/limits/ceiling_cache.hpp"
 #include "bench/limits/cloud_of_views.hpp"
+#include "planner/map/path_search.hpp"
 #include "scenarios/load.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/start_pose.hpp"

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "planner/model.hpp"
 #include "sim/core/error.hpp"
 #include "tests/support/made_run.hpp"
 #include "tests/support/temp_folder.hpp"
