@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tools/run_files/profile_map.hpp"
 #include "planner/utility.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
@@ -15,6 +14,7 @@
 #include "tests/support/temp_folder.hpp"
 #include "tools/run_files/candidates_jsonl.hpp"
 #include "tools/run_files/iterations_csv.hpp"
+#include "tools/run_files/profile_map.hpp"
 
 namespace gnbv {
 namespace {

@@ -196,7 +196,7 @@ TEST_F(Score, OfARunWhoseFilesDoNotFitNamesTheFile) {
   for (const Json& schema : {Json(3), Json(-1), Json("2"), Json(1.5)}) {
     summary = summary_of(run);
     summary["schema"] = schema;
-    expect_refused("summary.json", summary.dump(), "schema: " + schema.dump(), " --update");
+    expect_refused("summary.json", summary.dump(), "/schema: " + schema.dump(), " --update");
   }
   summary = summary_of(run);
   summary.erase("coverage");

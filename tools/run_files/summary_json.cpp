@@ -287,7 +287,7 @@ void rescore_summary(const fs::path& run, const MissionScore& score) {
   }
   const Json& schema = json.at("schema");
   if (!schema.is_number_unsigned() || schema.get<std::uint64_t>() > kSummarySchema) {
-    throw BadInput(fmt::format("{}: schema: {} is none that this version knows, 1 to {}",
+    throw BadInput(fmt::format("{}: /schema: {} is none that this version knows, 1 to {}",
                                path.string(), schema.dump(), kSummarySchema));
   }
   const std::string summary = with_score(json, score).dump(2) + "\n";
