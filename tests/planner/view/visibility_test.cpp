@@ -173,7 +173,9 @@ TEST_P(EvaluateView, EqualsBruteForceInEveryNumber) {
   }
 }
 
-TEST_P(EvaluateView, GivesTheBitsOfTheBaseline) {
+class EvaluateViewAbove : public EvaluateView {};
+
+TEST_P(EvaluateViewAbove, GivesTheBitsOfTheBaseline) {
   for (const bool legacy : {false, true}) {
     ViewOptions options = full();
     options.legacy_visibility = legacy;
@@ -267,6 +269,7 @@ TEST_P(EvaluateView, SeesWhatThePapersWaySees) {
 }
 
 GNBV_AT_EVERY_SIMD_LEVEL(EvaluateView);
+GNBV_ABOVE_THE_BASELINE(EvaluateViewAbove);
 
 TEST(ViewRays, AreTheLatticeOfTheReleasedCode) {
   const CameraModel camera = make_camera_model({});
