@@ -15,7 +15,7 @@ const CameraModel& circle_camera();
 /// 16 frames on a circle around the scene of analytic_scans.hpp, looking inwards.
 const std::vector<DepthFrame>& circle_frames();
 
-/// Medians over the frames of the thread's CPU time, ms, of the best, the AVX2 and the scalar
+/// Medians over the frames of the thread's CPU time, ms, of the best, the AVX2 and the baseline
 /// level. Ours is everything from the depths to the updated grid; the reference is plain
 /// insertPointCloud with the cloud ready. Identical: every voxel's log-odds, bit for bit, after all
 /// frames, against OctoMap's rule ray by ray, and against insertPointCloud itself on the same

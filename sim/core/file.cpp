@@ -64,4 +64,11 @@ void write_file_atomically(const std::filesystem::path& path,
   }
 }
 
+bool make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  const bool is_new = std::filesystem::create_directories(folder, error);
+  if (!error) return is_new;
+  throw BadInput(fmt::format("{}: cannot make the folder: {}", folder.string(), error.message()));
+}
+
 }  // namespace gnbv

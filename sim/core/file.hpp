@@ -22,4 +22,7 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
 void write_file_atomically(const std::filesystem::path& path,
                            const std::function<void(const std::filesystem::path&)>& write);
 
+/// Makes the folder and those above it; whether it is new. Throws BadInput naming it.
+bool make_folder(const std::filesystem::path& folder);
+
 }  // namespace gnbv

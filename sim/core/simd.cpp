@@ -51,6 +51,8 @@ std::string_view name_of(SimdLevel level) {
 
 SimdLevel simd_level() { return current_level(); }
 
-void set_simd_level(SimdLevel most) { current_level() = std::min(level_of_processor(), most); }
+void set_simd_level(SimdLevel most) {
+  current_level() = std::min({level_of_processor(), level_asked_for(), most});
+}
 
 }  // namespace gnbv

@@ -17,7 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kMarker = "gnbv-export.json";
 constexpr const char* kSchema = "gnbv-export-1";
 
 /// All that is in the folder, by the path from there; folders only as far as they hold something.
@@ -33,10 +32,10 @@ std::vector<std::string> files_in(const fs::path& folder) {
 
 /// The files that an export wrote there, ascending; nothing when the folder is no export.
 std::optional<std::vector<std::string>> exported_files(const fs::path& folder) {
-  if (!fs::is_regular_file(folder / kMarker)) return std::nullopt;
-  const auto marker = nlohmann::json::parse(read_file(folder / kMarker), nullptr, false);
+  if (!fs::is_regular_file(folder / kExportMarker)) return std::nullopt;
+  const auto marker = nlohmann::json::parse(read_file(folder / kExportMarker), nullptr, false);
   if (!marker.is_object() || marker.value("schema", "") != kSchema) return std::nullopt;
-  std::vector<std::string> files = {kMarker};
+  std::vector<std::string> files = {kExportMarker};
   for (const auto& file : marker.value("files", nlohmann::json::array())) {
     if (file.is_string()) files.push_back(file.get<std::string>());
   }
@@ -118,7 +117,7 @@ void write_export_folder(const RunRecord& record, std::string_view format, const
     need_place_for(place);
     fs::create_directories(part);
     fill(part);
-    write_file_atomically(part / kMarker, marker_text(record, format, files_in(part)));
+    write_file_atomically(part / kExportMarker, marker_text(record, format, files_in(part)));
     take_place(part, place);
   } catch (const fs::filesystem_error& error) {
     std::error_code ignored;

@@ -10,6 +10,9 @@
 
 namespace gnbv {
 
+/// The file by which a folder is known as an export.
+constexpr const char* kExportMarker = "gnbv-export.json";
+
 /// Fills a folder beside `folder`, which then takes that name: nobody sees a part of it. It also
 /// gets gnbv-export.json, which says what it is and lists its files. Takes the place of an earlier
 /// export or of an empty folder; throws BadInput naming `folder` when anything else is there, also

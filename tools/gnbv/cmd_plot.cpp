@@ -6,12 +6,14 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "tools/exports/export_folder.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/plots/coverage_plot.hpp"
 #include "tools/plots/gnuplot.hpp"
 #include "tools/plots/run_plots.hpp"
 #include "tools/run_files/file_names.hpp"
 #include "tools/run_files/run_names.hpp"
+#include "tools/sweep/cell_files.hpp"
 
 namespace gnbv {
 namespace {
@@ -36,9 +38,9 @@ struct PlotOptions {
 std::vector<fs::path> runs_in(const fs::path& folder) {
   if (fs::exists(folder / kScenarioFile) || !fs::is_directory(folder)) return {folder};
   std::vector<fs::path> runs;
-  const fs::path cells = folder / "cells";
+  const fs::path cells = folder / kCellsFolder;
   for (const auto& entry : fs::directory_iterator(fs::is_directory(cells) ? cells : folder)) {
-    const bool is_export = fs::exists(entry.path() / "gnbv-export.json");
+    const bool is_export = fs::exists(entry.path() / kExportMarker);
     if (fs::exists(entry.path() / kScenarioFile) && !is_export) runs.push_back(entry.path());
   }
   std::sort(runs.begin(), runs.end());
@@ -141,14 +143,12 @@ void plot(const PlotOptions& options) {
   }
   fs::path folder = options.out;
   if (folder.empty()) folder = records.size() == 1 ? records.front().folder / "plots" : "plots";
-  std::error_code error;
-  const bool is_new = fs::create_directories(folder, error);
-  if (error)
-    throw BadInput(fmt::format("{}: cannot make it: {}", folder.string(), error.message()));
+  const bool is_new = make_folder(folder);
   try {
     for (const Plot& each : plots) draw(options, each, folder);
   } catch (const BadInput&) {
-    if (is_new) fs::remove(folder, error);  // when nothing came into it
+    std::error_code ignored;
+    if (is_new) fs::remove(folder, ignored);  // when nothing came into it
     throw;
   }
 }

@@ -51,12 +51,7 @@ int depth_of(const std::string& text) {
 class OutFolder {
  public:
   explicit OutFolder(fs::path path) : path_(std::move(path)) {
-    std::error_code error;
-    is_new_ = fs::create_directories(path_, error);
-    if (error) {
-      throw BadInput(
-          fmt::format("{}: cannot make the folder: {}", path_.string(), error.message()));
-    }
+    is_new_ = make_folder(path_);
     if (::access(path_.c_str(), W_OK | X_OK) != 0) {
       throw BadInput(fmt::format("{}: cannot write into the folder", path_.string()));
     }

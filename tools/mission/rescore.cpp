@@ -83,8 +83,8 @@ Scored score_run(const fs::path& run, int threads) {
   const auto need = [&](bool is_there, const char* what) {
     if (!is_there) throw BadInput(fmt::format("{}: {}", (run / kSummaryFile).string(), what));
   };
-  need(summary.profile_end_s.has_value(), "profile_end_s: is missing");
-  need(summary.iterations.has_value(), "iterations: is missing");
+  need(summary.profile_end_s.has_value(), "/profile_end_s: is missing");
+  need(summary.iterations.has_value(), "/iterations: is missing");
   const Scenario scenario = load_scenario((run / kScenarioFile).string(), {});
   const fs::path cloud_path = run / kCloudFile;
   const std::vector<Vec3f> points = read_cloud(cloud_path);

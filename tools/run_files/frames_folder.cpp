@@ -136,12 +136,7 @@ FramesFolder::FramesFolder(const fs::path& run, std::vector<CameraModel> cameras
     : folder_(run / kFramesFolder),
       cameras_(std::move(cameras)),
       poses_(fmt::format("{}\n", kPosesHeader)) {
-  std::error_code error;
-  fs::create_directories(folder_, error);
-  if (error) {
-    throw BadInput(
-        fmt::format("{}: cannot make the folder: {}", folder_.string(), error.message()));
-  }
+  make_folder(folder_);
   Json intrinsics = Json::array();
   for (const CameraModel& camera : cameras_) intrinsics.push_back(json_of(camera));
   write_file_atomically(folder_ / kCamerasFile, intrinsics.dump(2) + "\n");

@@ -42,11 +42,7 @@ RunDirectory::RunDirectory(fs::path folder, const Scenario& scenario, bool resum
   need_usable(folder_, scenario, resume);
   std::error_code error;
   const bool holds_a_run = fs::exists(folder_ / kScenarioFile, error);
-  fs::create_directories(folder_, error);
-  if (error) {
-    throw BadInput(
-        fmt::format("{}: cannot make the folder: {}", folder_.string(), error.message()));
-  }
+  make_folder(folder_);
   for (const fs::path& file : {journal_file(), folder_ / kIterationsFile}) {
     if (holds_a_run && recorded_.empty() && fs::exists(file)) recorded_ = read_decisions(file);
   }

@@ -18,7 +18,7 @@ namespace gnbv {
 namespace fs = std::filesystem;
 
 CellFiles cell_files(const fs::path& folder, const std::string& id) {
-  const fs::path cells = folder / "cells";
+  const fs::path cells = folder / kCellsFolder;
   return {cells / id, cells / (id + ".part"), cells / (id + ".log"), cells / (id + ".lock"),
           cells / (id + ".failed.json")};
 }

@@ -8,6 +8,8 @@
 
 namespace gnbv {
 
+constexpr const char* kCellsFolder = "cells";  // of a sweep's folder
+
 struct CellFiles {
   std::filesystem::path run;     // the run directory; there as soon as, and only when, it is done
   std::filesystem::path part;    // the run directory of a mission that is not done

@@ -13,6 +13,7 @@
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "tools/mission/execute.hpp"
 #include "tools/run_files/file_names.hpp"
 #include "tools/sweep/cell_files.hpp"
 #include "tools/sweep/child.hpp"
@@ -85,10 +86,7 @@ class Pool {
     pid_t child = 0;
   };
 
-  static int shared_threads(int jobs) {
-    const int all = static_cast<int>(std::thread::hardware_concurrency());
-    return std::max(1, all / std::max(1, jobs));
-  }
+  static int shared_threads(int jobs) { return std::max(1, thread_count(0) / std::max(1, jobs)); }
 
   std::string name_of_program() const {
     return program_ == kThisProgram ? fs::read_symlink(program_).string() : program_.string();
@@ -248,12 +246,7 @@ CellOutcome look_up(const fs::path& folder, const Cell& cell) {
 
 std::vector<CellOutcome> run_cells(std::span<const Cell> cells, const RunCellsOptions& options) {
   GNBV_CHECK(options.jobs > 0, "{} jobs", options.jobs);
-  std::error_code error;
-  fs::create_directories(options.folder / "cells", error);
-  if (error) {
-    throw BadInput(
-        fmt::format("{}: cannot make the folder: {}", options.folder.string(), error.message()));
-  }
+  make_folder(options.folder / kCellsFolder);
   try {
     return Pool(cells, options).run();
   } catch (const fs::filesystem_error& failed) {
