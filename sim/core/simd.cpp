@@ -26,7 +26,8 @@ SimdLevel level_asked_for() {
   for (const SimdLevel level : kLevels) {
     if (asked != nullptr && name_of(level) == asked) return level;
   }
-  if (asked != nullptr && asked == std::string_view("scalar")) return SimdLevel::baseline;  // once
+  // what baseline was called before
+  if (asked != nullptr && asked == std::string_view("scalar")) return SimdLevel::baseline;
   return SimdLevel::avx512;
 }
 
