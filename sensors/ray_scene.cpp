@@ -317,7 +317,7 @@ void RayScene::first_hits(std::span<const Vec3f> origins_world_m,
 
 void RayScene::structure_blocks(std::span<const Vec3f> origins_world_m,
                                 std::span<const Vec3f> directions_world, float near_m,
-                                std::span<std::uint8_t> blocked) const {
+                                float far_m, std::span<std::uint8_t> blocked) const {
   GNBV_CHECK(origins_world_m.size() == blocked.size() && directions_world.size() == blocked.size(),
              "{} origins and {} directions for {} answers", origins_world_m.size(),
              directions_world.size(), blocked.size());
@@ -338,7 +338,7 @@ void RayScene::structure_blocks(std::span<const Vec3f> origins_world_m,
       packet.dir_y[i] = directions_world[ray].y();
       packet.dir_z[i] = directions_world[ray].z();
       packet.tnear[i] = near_m;
-      packet.tfar[i] = kInfinity;
+      packet.tfar[i] = far_m;
       packet.mask[i] = kStructureMask;
     }
     rtcOccluded16(valid.data(), impl_->scene.get(), &context, &packet);

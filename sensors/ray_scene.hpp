@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -12,6 +13,9 @@
 #include "sim/mesh/world.hpp"
 
 namespace gnbv {
+
+/// The far end of a ray that has none.
+constexpr float kEndless = std::numeric_limits<float>::infinity();
 
 constexpr std::int32_t kNoFace = -1;
 constexpr std::int32_t kGroundFace = -2;
@@ -62,9 +66,9 @@ class RayScene {
                   float near_m, float far_m, std::span<RayHit> hits) const;
 
   /// For each ray from its own origin: whether anything of the structure (never the ground) lies in
-  /// (near_m, infinity). Sizes equal. blocked[i] is 0 or 1.
+  /// (near_m, far_m), in units of the direction's length. Sizes equal. blocked[i] is 0 or 1.
   void structure_blocks(std::span<const Vec3f> origins_world_m,
-                        std::span<const Vec3f> directions_world, float near_m,
+                        std::span<const Vec3f> directions_world, float near_m, float far_m,
                         std::span<std::uint8_t> blocked) const;
 
   /// Unit normal of a face of the structure, on the side its corners run counter-clockwise, or of

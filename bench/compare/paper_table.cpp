@@ -265,12 +265,11 @@ void add_notes(TextTable& table, const PaperTable& paper, bool several_runs,
   }
   if (ceiling) {
     table.notes.push_back(fmt::format(
-        "ceiling: what legal viewpoints see, and what of it the cloud's leaf filter lets through "
-        "({} positions, {} frames), of exact cameras alone: the profile's LIDAR, noise and views "
-        "between can lift a mission above it; of ceiling: coverage at 0.05 m over the latter's; "
-        "all surface, also inner: {}, behind the leaf filter {}",
-        ceiling->positions, ceiling->frames, three_percent(ceiling->raw),
-        three_percent(ceiling->leaf_raw)));
+        "ceiling: what legal viewpoints and the profile see, and what of it the cloud's leaf "
+        "filter can keep, of exact sensors: noise can lift a mission above it; of ceiling: "
+        "coverage at 0.05 m over the latter's; all surface, also inner: {}, behind the leaf filter "
+        "{}",
+        three_percent(ceiling->raw), three_percent(ceiling->leaf_raw)));
   }
   if (std::any_of(paper.rows.begin(), paper.rows.end(), is_doubtful)) {
     table.notes.emplace_back(

@@ -1,36 +1,35 @@
 #include "bench/limits/ceiling.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "bench/limits/ceiling_cache.hpp"
-#include "bench/limits/cloud_of_views.hpp"
-#include "bench/limits/seen_voxels.hpp"
+#include "bench/limits/seen_surface.hpp"
 #include "bench/score/content_cache.hpp"
 
 namespace gnbv {
 namespace {
 
-constexpr std::string_view kKind = "ceiling-2";
+constexpr std::string_view kKind = "ceiling-3";
 
-Ceiling compute(const std::string& key, const Scenario& scenario, const World& world,
-                const RayScene& scene, const LegalViewpoints& legal, int threads) {
+Ceiling compute(const Scenario& scenario, const World& world, const RayScene& scene,
+                const LegalViewpoints& legal, const ViewPose& start, int threads,
+                const std::function<void(double)>& on_progress) {
   const ReferenceConfig config{.floor_z_m = scenario.planner.floor_z_m};
   const SurfaceReference reference = cached_surface_reference(world, scene, config, threads);
-  const VoxelSet seen =
-      seen_voxels(world, scene, exact_cameras(scenario), legal.p_world_m, config, threads);
-  const ViewSurvey survey = cached_survey(key, scenario, scene, legal, reference, threads);
-  Ceiling ceiling{.leaf_raw = survey.leaf_raw,
-                  .leaf_outside = survey.leaf_outside,
-                  .positions = legal.size(),
-                  .frames = survey.views.size() * scenario.cameras.size()};
+  const SeenSurface seen =
+      find_seen_surface(scenario, world, scene, legal, start, reference, threads, on_progress);
+  Ceiling ceiling{.positions = legal.size()};
   for (std::size_t size = 0; size < kCoverageSizes_m.size(); ++size) {
-    const VoxelSet seen_of_size = coarser(seen, kCoverageFactors[size]);
-    // a leaf's centroid may lie in a voxel beside those that its points are in, and what is seen
-    // goes by few samples a voxel: what the cloud holds is seen in any case
-    ceiling.raw[size] =
-        std::max(coverage(reference.raw[size], seen_of_size), ceiling.leaf_raw[size]);
-    ceiling.outside[size] =
-        std::max(coverage(reference.outside[size], seen_of_size), ceiling.leaf_outside[size]);
+    const VoxelSet seen_of_size = coarser(seen.voxels, kCoverageFactors[size]);
+    const VoxelSet kept = voxels_of(seen.kept_world_m, kCoverageSizes_m[size]);
+    VoxelSet kept_and_seen;  // a centroid of a curved surface may lie where there is none
+    std::set_intersection(kept.begin(), kept.end(), seen_of_size.begin(), seen_of_size.end(),
+                          std::back_inserter(kept_and_seen));
+    ceiling.raw[size] = coverage(reference.raw[size], seen_of_size);
+    ceiling.outside[size] = coverage(reference.outside[size], seen_of_size);
+    ceiling.leaf_raw[size] = coverage(reference.raw[size], kept_and_seen);
+    ceiling.leaf_outside[size] = coverage(reference.outside[size], kept_and_seen);
   }
   return ceiling;
 }
@@ -38,13 +37,14 @@ Ceiling compute(const std::string& key, const Scenario& scenario, const World& w
 }  // namespace
 
 Ceiling find_ceiling(const Scenario& scenario, const World& world, const RayScene& scene,
-                     const ViewPose& start, int threads) {
+                     const ViewPose& start, int threads,
+                     const std::function<void(double)>& on_progress) {
   const LegalViewpoints legal = find_legal_viewpoints(scenario, scene, start, threads);
   const std::string key = ceiling_key(scenario, world, legal);
   if (const auto stored = load_cached(kKind, key)) {
     if (const auto ceiling = ceiling_from(*stored)) return *ceiling;
   }
-  const Ceiling ceiling = compute(key, scenario, world, scene, legal, threads);
+  const Ceiling ceiling = compute(scenario, world, scene, legal, start, threads, on_progress);
   store_cached(kKind, key, text_of(ceiling));
   return ceiling;
 }

@@ -55,6 +55,14 @@ void add(Sha256& sha, const Vec3& v) {
   for (const double x : v) sha.add(x);
 }
 
+void add(Sha256& sha, const LidarConfig& c) {
+  for (const double x :
+       {c.fov_rad, c.range_min_m, c.range_max_m, c.roll_rad, c.pitch_rad, c.yaw_rad}) {
+    sha.add(x);
+  }
+  add(sha, c.p_body_m);
+}
+
 void add(Sha256& sha, const CameraConfig& c) {
   sha.add(c.width_px);
   sha.add(c.height_px);
@@ -74,6 +82,13 @@ std::string ceiling_key(const Scenario& scenario, const World& world,
   sha.add(world.has_ground);
   sha.add(std::uint64_t{scenario.cameras.size()});
   for (const CameraConfig& camera : scenario.cameras) add(sha, camera);
+  sha.add(std::uint64_t{scenario.lidars.size()});
+  for (const LidarConfig& lidar : scenario.lidars) add(sha, lidar);
+  const ProfilingConfig& profiling = scenario.planner.profiling;
+  sha.add(static_cast<std::uint64_t>(profiling.method));
+  sha.add(profiling.scan_in_transit);
+  sha.add(std::uint64_t{static_cast<unsigned>(profiling.circle_stations)});
+  sha.add(profiling.climb_step_m);
   add(sha, scenario.workspace_m.min());
   add(sha, scenario.workspace_m.max());
   sha.add(scenario.planner.map.resolution_m);
@@ -87,7 +102,7 @@ std::string ceiling_key(const Scenario& scenario, const World& world,
 }
 
 std::string text_of(const Ceiling& ceiling) {
-  std::string text = fmt::format("{} {}", ceiling.positions, ceiling.frames);
+  std::string text = fmt::format("{}", ceiling.positions);
   for (const auto* shares :
        {&ceiling.raw, &ceiling.outside, &ceiling.leaf_raw, &ceiling.leaf_outside}) {
     for (const double share : *shares) text += fmt::format(" {}", share);
@@ -98,7 +113,7 @@ std::string text_of(const Ceiling& ceiling) {
 std::optional<Ceiling> ceiling_from(std::string_view text) {
   std::istringstream in{std::string(text)};
   Ceiling ceiling;
-  in >> ceiling.positions >> ceiling.frames;
+  in >> ceiling.positions;
   for (auto* shares : {&ceiling.raw, &ceiling.outside, &ceiling.leaf_raw, &ceiling.leaf_outside}) {
     for (double& share : *shares) in >> share;
   }

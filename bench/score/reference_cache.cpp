@@ -17,7 +17,7 @@ static_assert(std::endian::native == std::endian::little);
 static_assert(sizeof(Vec3f) == 3 * sizeof(float));
 
 // Another number whenever make_surface_reference() or the bytes below change.
-constexpr std::string_view kKind = "surface_reference-1";
+constexpr std::string_view kKind = "surface_reference-2";
 
 std::string key_of(const TriangleMesh& mesh, const ReferenceConfig& config) {
   Sha256 sha;
@@ -26,6 +26,7 @@ std::string key_of(const TriangleMesh& mesh, const ReferenceConfig& config) {
     sha.add(value);
   }
   sha.add(config.directions);
+  sha.add(std::uint64_t{config.fewest_samples});
   return sha.hex();
 }
 
@@ -58,8 +59,10 @@ std::string bytes_of(const SurfaceReference& reference) {
   for (const auto* const sizes : {&reference.raw, &reference.outside}) {
     for (const VoxelSet& voxels : *sizes) put_voxels(voxels, bytes);
   }
-  const std::span<const Vec3f> samples = reference.samples_world_m;
-  bytes.append(reinterpret_cast<const char*>(samples.data()), samples.size_bytes());
+  put_count(reference.samples_world_m.size(), bytes);
+  for (const auto* const points : {&reference.points_world_m, &reference.samples_world_m}) {
+    bytes.append(reinterpret_cast<const char*>(points->data()), std::span(*points).size_bytes());
+  }
   return bytes;
 }
 
@@ -72,10 +75,17 @@ std::optional<SurfaceReference> reference_in(std::string_view bytes) {
       voxels = *std::move(taken);
     }
   }
-  std::vector<Vec3f>& samples = reference.samples_world_m;
-  samples.resize(reference.outside[0].size());
-  if (bytes.size() != std::span(samples).size_bytes()) return std::nullopt;
-  if (!bytes.empty()) std::memcpy(samples.data()->data(), bytes.data(), bytes.size());
+  const auto samples = take_count(bytes);
+  if (!samples || *samples > bytes.size()) return std::nullopt;
+  reference.points_world_m.resize(reference.outside[0].size());
+  reference.samples_world_m.resize(*samples);
+  for (auto* const points : {&reference.points_world_m, &reference.samples_world_m}) {
+    const std::size_t size = std::span(*points).size_bytes();
+    if (bytes.size() < size) return std::nullopt;
+    if (size > 0) std::memcpy(points->data()->data(), bytes.data(), size);
+    bytes.remove_prefix(size);
+  }
+  if (!bytes.empty()) return std::nullopt;
   return reference;
 }
 

@@ -5,16 +5,12 @@
 #include <limits>
 #include <numeric>
 
+#include "bench/score/surface_pieces.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
 
 namespace gnbv {
 namespace {
-
-// Work is cut into slabs along x that no voxel of any size straddles: each slab owns its voxels,
-// and slabs in order give sorted codes. Half metres are exact in binary.
-constexpr double kSlab_m = 0.5;
-static_assert(kCoverageSizes_m[2] == kSlab_m);
 
 // Unit normals, tilted by two degrees: built structures have edges straight opposite each other,
 // and a ray should not aim at one.
@@ -33,96 +29,55 @@ std::vector<Vec3f> tilted_normals(const TriangleMesh& mesh) {
   return normals;
 }
 
-// Groups of samples, of which one that sees out settles the group. Group g: [first[g], first[g +
-// 1]).
-struct Groups {
-  std::span<const SurfaceSample> samples;
-  std::vector<std::size_t> first;
-  std::size_t size() const { return first.size() - 1; }
-};
-
 class EscapeSearch {
  public:
-  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-
   EscapeSearch(const TriangleMesh& mesh, const RayScene& scene, const ReferenceConfig& config)
       : scene_(scene),
         near_m_(static_cast<float>(config.escape_near_m)),
         normals_(tilted_normals(mesh)),
         directions_(spread_directions(config.directions)) {}
 
-  // For each group the sample found to see out, kNone without one.
-  std::vector<std::size_t> settle(const Groups& groups) const {
-    std::vector<std::size_t> seen(groups.size(), kNone);
-    std::vector<std::size_t> open(groups.size());
+  /// 1 for each sample that sees out.
+  std::vector<std::uint8_t> ask(std::span<const SurfaceSample> samples) const {
+    std::vector<std::uint8_t> sees_out(samples.size(), 0);
+    std::vector<std::uint32_t> lines(samples.size(), 0);  // that leave the structure
+    std::vector<std::size_t> open(samples.size());        // what is not decided
     std::iota(open.begin(), open.end(), std::size_t{0});
-    Batch batch;
-    along_normals(groups, open, seen, batch);
-    along_directions(groups, open, seen, batch);
-    return seen;
+    const auto ask = [&](std::uint32_t needed, std::size_t left, const auto& direction_of) {
+      count_lines(samples, open, direction_of, lines);
+      std::erase_if(open, [&](std::size_t i) {
+        sees_out[i] = lines[i] >= needed ? 1 : 0;
+        return lines[i] >= needed || lines[i] + left < needed;
+      });
+    };
+    for (const float side : {1.0F, -1.0F}) {  // most surface is decided by these
+      ask(1, 1, [&](std::size_t i) -> Vec3f { return side * normals_[samples[i].face]; });
+    }
+    // one direction at a time for all that is left: neighbours in space with equal directions trace
+    // fast
+    const auto needed = static_cast<std::uint32_t>(
+        std::ceil(kLeastOpenShare * static_cast<double>(directions_.size())));
+    for (std::size_t d = 0; d < directions_.size(); ++d) {
+      ask(needed, directions_.size() - d - 1, [&](std::size_t) -> Vec3f { return directions_[d]; });
+    }
+    return sees_out;
   }
 
  private:
-  struct Batch {
+  /// Adds one to `lines` of each of the samples that a line leaves from.
+  template <typename Direction>
+  void count_lines(std::span<const SurfaceSample> samples, std::span<const std::size_t> of,
+                   const Direction& direction_of, std::vector<std::uint32_t>& lines) const {
     std::vector<Vec3f> origins, directions;
-    std::vector<std::size_t> group, sample;
-    std::vector<std::uint8_t> blocked;
-    void add(std::size_t g, std::size_t s, const Vec3f& origin, const Vec3f& direction) {
-      group.push_back(g);
-      sample.push_back(s);
-      origins.push_back(origin);
-      directions.push_back(direction);
+    origins.reserve(of.size());
+    directions.reserve(of.size());
+    for (const std::size_t i : of) {
+      origins.push_back(samples[i].p_world_m);
+      directions.push_back(direction_of(i));
     }
-  };
-
-  // Traces the batch, empties it and drops the groups it settled from `open`.
-  void trace(Batch& batch, std::vector<std::size_t>& open, std::vector<std::size_t>& seen) const {
-    batch.blocked.assign(batch.group.size(), 0);
-    scene_.structure_blocks(batch.origins, batch.directions, near_m_, batch.blocked);
-    for (std::size_t i = 0; i < batch.group.size(); ++i) {
-      std::size_t& found = seen[batch.group[i]];
-      if (batch.blocked[i] == 0 && found == kNone) found = batch.sample[i];
-    }
-    std::erase_if(open, [&](std::size_t g) { return seen[g] != kNone; });
-    batch.group.clear();
-    batch.sample.clear();
-    batch.origins.clear();
-    batch.directions.clear();
-  }
-
-  // Round r asks the r-th sample of every open group: most surface is settled by its first.
-  void along_normals(const Groups& groups, std::vector<std::size_t>& open,
-                     std::vector<std::size_t>& seen, Batch& batch) const {
-    std::size_t longest = 0;
-    for (const std::size_t g : open) {
-      longest = std::max(longest, groups.first[g + 1] - groups.first[g]);
-    }
-    for (std::size_t r = 0; r < longest && !open.empty(); ++r) {
-      for (const float side : {1.0F, -1.0F}) {
-        for (const std::size_t g : open) {
-          const std::size_t i = groups.first[g] + r;
-          if (i >= groups.first[g + 1]) continue;
-          const SurfaceSample& s = groups.samples[i];
-          batch.add(g, i, s.p_world_m, side * normals_[s.face]);
-        }
-        trace(batch, open, seen);
-      }
-    }
-  }
-
-  // One direction at a time for all samples left: neighbours in space with equal directions trace
-  // fast.
-  void along_directions(const Groups& groups, std::vector<std::size_t>& open,
-                        std::vector<std::size_t>& seen, Batch& batch) const {
-    for (const Vec3f& direction : directions_) {
-      if (open.empty()) return;
-      for (const std::size_t g : open) {
-        for (std::size_t i = groups.first[g]; i < groups.first[g + 1]; ++i) {
-          batch.add(g, i, groups.samples[i].p_world_m, direction);
-        }
-      }
-      trace(batch, open, seen);
-    }
+    std::vector<std::uint8_t> blocked(of.size());
+    scene_.structure_blocks(origins, directions, near_m_, kEndless, blocked);
+    for (std::size_t k = 0; k < of.size(); ++k) lines[of[k]] += blocked[k] == 0 ? 1 : 0;
   }
 
   const RayScene& scene_;
@@ -137,94 +92,131 @@ void check(const ReferenceConfig& config) {
   GNBV_CHECK(config.escape_near_m >= 0.0, "escape distance {} m", config.escape_near_m);
 }
 
-// Slabs of the mesh, and for each the faces whose box touches it and reaches above the floor.
-struct Slabs {
-  std::int64_t first = 0;
-  std::vector<std::vector<std::uint32_t>> faces;
+/// A sample that sees out.
+struct OutsideSample {
+  Vec3f p_world_m;
+  double area_m2;  // that it stands for
 };
 
-Slabs make_slabs(const TriangleMesh& mesh, double floor_z_m) {
-  const auto slab_of = [](float x_m) {
-    return static_cast<std::int64_t>(std::floor(static_cast<double>(x_m) / kSlab_m));
-  };
-  const Box3 box = bounds_m(mesh);
-  Slabs slabs;
-  if (box.isEmpty()) return slabs;
-  // throws for what has no voxel
-  voxel_code(box.min().cast<float>(), kCoverageSizes_m[0]);
-  voxel_code(box.max().cast<float>(), kCoverageSizes_m[0]);
-  slabs.first = slab_of(static_cast<float>(box.min().x()));
-  const std::int64_t last = slab_of(static_cast<float>(box.max().x()));
-  slabs.faces.resize(static_cast<std::size_t>(last - slabs.first + 1));
-  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
-    Eigen::AlignedBox3f face;
-    for (const std::uint32_t v : mesh.faces[f]) face.extend(mesh.vertices_m[v]);
-    if (static_cast<double>(face.max().z()) < floor_z_m) continue;
-    for (std::int64_t s = slab_of(face.min().x()); s <= slab_of(face.max().x()); ++s) {
-      slabs.faces[static_cast<std::size_t>(s - slabs.first)].push_back(f);
-    }
-  }
-  return slabs;
-}
-
-std::vector<SurfaceSample> slab_samples(const TriangleMesh& mesh, const Slabs& slabs,
-                                        std::size_t slab, const ReferenceConfig& config) {
-  const double x_min_m =
-      static_cast<double>(slabs.first + static_cast<std::int64_t>(slab)) * kSlab_m;
-  std::vector<SurfaceSample> samples;
-  for (const std::uint32_t face : slabs.faces[slab]) {
-    sample_face(mesh, face, config.sample_spacing_m, x_min_m, x_min_m + kSlab_m, samples);
-  }
-  std::erase_if(samples, [&](const SurfaceSample& s) {
-    return static_cast<double>(s.p_world_m.z()) < config.floor_z_m;
-  });
-  return samples;
-}
-
-struct SlabVoxels {
-  VoxelSet raw, outside;  // of the finest size
-  std::vector<Vec3f> samples_world_m;
-};
-
-/// Samples by voxel, those of a voxel by their distance from its centre.
-struct InVoxel {
+/// What a voxel of the finest size holds.
+struct VoxelSurface {
   std::uint64_t code = 0;
-  float from_centre_m2 = 0.0F;
-  std::uint32_t sample = 0;
-  auto operator<=>(const InVoxel&) const = default;
+  double area_m2 = 0.0;
+  double outside_m2 = 0.0;
+  Vec3f point_world_m = Vec3f::Zero();  // of those that see out the nearest to the centre
+  float from_centre_m2 = std::numeric_limits<float>::infinity();
 };
 
-SlabVoxels slab_voxels(const std::vector<SurfaceSample>& samples, const EscapeSearch& search) {
-  std::vector<InVoxel> order;
-  order.reserve(samples.size());
-  for (std::uint32_t i = 0; i < samples.size(); ++i) {
-    const Vec3f& p_m = samples[i].p_world_m;
-    const std::uint64_t code = voxel_code(p_m, kCoverageSizes_m[0]);
-    const Vec3 off_m = p_m.cast<double>() - voxel_centre_m(code, kCoverageSizes_m[0]);
-    order.push_back({code, static_cast<float>(off_m.squaredNorm()), i});
-  }
-  std::sort(order.begin(), order.end());
+/// The samples of the pieces of a slab.
+struct SlabSamples {
+  struct Piece {
+    std::uint64_t voxel = 0;
+    double area_m2 = 0.0;
+    std::size_t first = 0;  // its samples are [first, first + count)
+    std::size_t count = 0;
+  };
+  std::vector<Piece> pieces;
+  std::vector<SurfaceSample> samples;
+};
 
-  SlabVoxels voxels;
-  std::vector<SurfaceSample> sorted;
-  sorted.reserve(samples.size());
-  Groups groups;
-  for (const auto& [code, from_centre_m2, i] : order) {
-    if (voxels.raw.empty() || voxels.raw.back() != code) {
-      voxels.raw.push_back(code);
-      groups.first.push_back(sorted.size());
+SlabSamples slab_samples(const TriangleMesh& mesh, const Slabs& slabs, std::size_t index,
+                         double floor_z_m, double spacing_m) {
+  SlabSamples slab;
+  for (const std::uint32_t face : slabs.faces[index]) {
+    for_each_piece(mesh, face, slabs.slab(index), floor_z_m, [&](const SurfacePiece& piece) {
+      const std::size_t count = points_on(piece, spacing_m);
+      slab.pieces.push_back({piece.voxel, piece.area_m2, slab.samples.size(), count});
+      for (std::size_t k = 0; k < count; ++k) slab.samples.push_back({point_on(piece, k), face});
+    });
+  }
+  return slab;
+}
+
+/// Both in the order of the voxels' codes, which is that of the slabs. Sums run in this order, too.
+struct SlabSurface {
+  std::vector<VoxelSurface> voxels;
+  std::vector<OutsideSample> samples;
+};
+
+SlabSurface slab_surface(SlabSamples slab, const EscapeSearch& search) {
+  const std::vector<std::uint8_t> sees_out = search.ask(slab.samples);
+  std::stable_sort(slab.pieces.begin(), slab.pieces.end(),
+                   [](const auto& a, const auto& b) { return a.voxel < b.voxel; });
+  SlabSurface out;
+  for (const SlabSamples::Piece& piece : slab.pieces) {
+    if (out.voxels.empty() || out.voxels.back().code != piece.voxel) {
+      out.voxels.push_back({piece.voxel});
     }
-    sorted.push_back(samples[i]);
+    VoxelSurface& voxel = out.voxels.back();
+    voxel.area_m2 += piece.area_m2;
+    const Vec3f centre_m = voxel_centre_m(piece.voxel, kCoverageSizes_m[0]).cast<float>();
+    const double area_m2 = piece.area_m2 / static_cast<double>(piece.count);
+    for (std::size_t i = piece.first; i < piece.first + piece.count; ++i) {
+      if (sees_out[i] == 0) continue;
+      const Vec3f& p_m = slab.samples[i].p_world_m;
+      voxel.outside_m2 += area_m2;
+      out.samples.push_back({p_m, area_m2});
+      const float from_centre_m2 = (p_m - centre_m).squaredNorm();
+      if (from_centre_m2 >= voxel.from_centre_m2) continue;
+      voxel.from_centre_m2 = from_centre_m2;
+      voxel.point_world_m = p_m;
+    }
   }
-  groups.first.push_back(sorted.size());
-  groups.samples = sorted;
-  const std::vector<std::size_t> seen = search.settle(groups);
-  for (std::size_t g = 0; g < seen.size(); ++g) {
-    if (seen[g] == EscapeSearch::kNone) continue;
-    voxels.outside.push_back(voxels.raw[g]);
-    voxels.samples_world_m.push_back(sorted[seen[g]].p_world_m);
+  return out;
+}
+
+/// `count` of them, one wherever the area that was passed by grows by a count-th of all: the
+/// samples' order runs through space, so that these lie as evenly as they do.
+std::vector<Vec3f> of_equal_areas(std::span<const SlabSurface> slabs, std::size_t count) {
+  double all_m2 = 0.0;
+  std::size_t samples = 0;
+  for (const SlabSurface& slab : slabs) {
+    for (const OutsideSample& sample : slab.samples) all_m2 += sample.area_m2;
+    samples += slab.samples.size();
   }
-  return voxels;
+  count = std::min(count, samples);
+  std::vector<Vec3f> out;
+  double passed_m2 = 0.0;
+  for (const SlabSurface& slab : slabs) {
+    for (const OutsideSample& sample : slab.samples) {
+      passed_m2 += sample.area_m2;
+      const double due = passed_m2 / all_m2 * static_cast<double>(count);
+      while (static_cast<double>(out.size()) + 0.5 <= due) out.push_back(sample.p_world_m);
+    }
+  }
+  return out;
+}
+
+/// So close that `fewest_samples` are about reached.
+double spacing_for(const TriangleMesh& mesh, const ReferenceConfig& config) {
+  const double area_m2 = surface_area_m2(mesh);
+  const double few = static_cast<double>(config.fewest_samples);
+  return area_m2 > 0.0 && few > 0.0 ? std::min(config.sample_spacing_m, std::sqrt(area_m2 / few))
+                                    : config.sample_spacing_m;
+}
+
+/// The voxels of one size that have surface enough.
+VoxelSet rich_voxels(std::span<const VoxelSurface> finest, std::size_t size,
+                     double VoxelSurface::*area_m2) {
+  constexpr double kRounding = 1.0 - 1e-9;
+  const double least_m2 =
+      kRounding * kLeastFaceShare * kCoverageSizes_m[size] * kCoverageSizes_m[size];
+  std::vector<std::pair<std::uint64_t, double>> areas_m2;
+  areas_m2.reserve(finest.size());
+  for (const VoxelSurface& voxel : finest) {
+    areas_m2.emplace_back(coarser_code(voxel.code, kCoverageFactors[size]), voxel.*area_m2);
+  }
+  std::stable_sort(areas_m2.begin(), areas_m2.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  VoxelSet rich;
+  for (std::size_t begin = 0, end = 0; begin < areas_m2.size(); begin = end) {
+    double sum_m2 = 0.0;
+    for (; end < areas_m2.size() && areas_m2[end].first == areas_m2[begin].first; ++end) {
+      sum_m2 += areas_m2[end].second;
+    }
+    if (sum_m2 >= least_m2) rich.push_back(areas_m2[begin].first);
+  }
+  return rich;
 }
 
 }  // namespace
@@ -251,19 +243,29 @@ SurfaceReference make_surface_reference(const World& world, const RayScene& scen
   check(config);
   const EscapeSearch search(world.structure, scene, config);
   const Slabs slabs = make_slabs(world.structure, config.floor_z_m);
-  std::vector<SlabVoxels> parts(slabs.faces.size());
+  const double spacing_m = spacing_for(world.structure, config);
+  std::vector<SlabSurface> parts(slabs.faces.size());
   parallel_for(threads, parts.size(), [&](std::size_t slab) {
-    parts[slab] = slab_voxels(slab_samples(world.structure, slabs, slab, config), search);
+    parts[slab] = slab_surface(
+        slab_samples(world.structure, slabs, slab, config.floor_z_m, spacing_m), search);
   });
-  SlabVoxels all;
-  for (const SlabVoxels& part : parts) {
-    all.raw.insert(all.raw.end(), part.raw.begin(), part.raw.end());
-    all.outside.insert(all.outside.end(), part.outside.begin(), part.outside.end());
-    all.samples_world_m.insert(all.samples_world_m.end(), part.samples_world_m.begin(),
-                               part.samples_world_m.end());
+  std::vector<VoxelSurface> all;
+  for (const SlabSurface& part : parts) {
+    all.insert(all.end(), part.voxels.begin(), part.voxels.end());
   }
-  return {at_all_sizes(std::move(all.raw)), at_all_sizes(std::move(all.outside)),
-          std::move(all.samples_world_m)};
+
+  SurfaceReference reference;
+  for (std::size_t size = 0; size < kCoverageSizes_m.size(); ++size) {
+    reference.raw[size] = rich_voxels(all, size, &VoxelSurface::area_m2);
+    reference.outside[size] = rich_voxels(all, size, &VoxelSurface::outside_m2);
+  }
+  auto voxel = all.begin();
+  for (const std::uint64_t code : reference.outside[0]) {
+    while (voxel->code != code) ++voxel;
+    reference.points_world_m.push_back(voxel->point_world_m);
+  }
+  reference.samples_world_m = of_equal_areas(parts, kAreaSamples);
+  return reference;
 }
 
 std::vector<std::uint8_t> samples_seeing_out(const World& world, const RayScene& scene,
@@ -274,14 +276,8 @@ std::vector<std::uint8_t> samples_seeing_out(const World& world, const RayScene&
   const EscapeSearch search(world.structure, scene, config);
   std::vector<std::uint8_t> seen(samples.size(), 0);
   parallel_for_chunks(threads, samples.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-    Groups groups;
-    groups.samples = samples.subspan(begin, end - begin);
-    groups.first.resize(groups.samples.size() + 1);
-    std::iota(groups.first.begin(), groups.first.end(), std::size_t{0});
-    const std::vector<std::size_t> part = search.settle(groups);
-    for (std::size_t i = 0; i < part.size(); ++i) {
-      seen[begin + i] = part[i] != EscapeSearch::kNone ? 1 : 0;
-    }
+    const std::vector<std::uint8_t> part = search.ask(samples.subspan(begin, end - begin));
+    std::copy(part.begin(), part.end(), seen.begin() + static_cast<std::ptrdiff_t>(begin));
   });
   return seen;
 }

@@ -14,30 +14,45 @@
 namespace gnbv {
 
 struct ReferenceConfig {
-  double floor_z_m = 0.3;  // surface below is never mapped, so it is never asked for
-  double sample_spacing_m = 0.0125;
-  int directions = 128;         // over the sphere, per sample, until one escapes
+  double floor_z_m = 0.3;           // surface below is never mapped, so it is never asked for
+  double sample_spacing_m = 0.025;  // at most: one sample to each spacing^2, one a piece at least
+  std::size_t fewest_samples = 100000;  // about; a small structure is sampled more closely
+  int directions = 512;                 // tried over the sphere, per sample
   double escape_near_m = 1e-4;  // what lies nearer to the sample on such a line does not block it
 };
 
-/// The samples of the surface (surface_samples.hpp) put into voxels, by kCoverageSizes_m. The two
-/// coarser sizes are derived from the finest, which is exact: a voxel holds a sample if one of the
-/// finest voxels in it does.
+/// A voxel of size s belongs to the reference if the surface in it has at least this share of s^2.
+/// Less is a sliver at an edge, which hardly a pixel hits and the cloud's leaves give away; how
+/// many of them there are would depend on how densely one looks.
+constexpr double kLeastFaceShare = 0.1;
+
+/// A point sees out if straight lines leave the structure along its face's normal, on either side,
+/// or in at least this share of all directions: a tenth of a steradian. With fewer asked for, the
+/// longer one looks the more narrow gaps one would find.
+constexpr double kLeastOpenShare = 1.0 / 128.0;
+
+/// How many samples recall is a mean over: enough for a hundredth of a point.
+constexpr std::size_t kAreaSamples = 100000;
+
+/// By kCoverageSizes_m. A coarse voxel has the surface of all the fine ones in it, also of those
+/// that are too poor to count themselves.
 struct SurfaceReference {
   std::array<VoxelSet, 3> raw;      // any surface
   std::array<VoxelSet, 3> outside;  // surface from which some straight line leaves the structure
-  // One sample of each voxel of outside[0], in its order, that sees out: the nearest to the voxel's
-  // centre of those found first. They lie evenly whatever the triangles are; recall and
-  // completeness are of them.
+  // A point of each voxel of outside[0], in its order, that sees out: of the samples the nearest to
+  // the voxel's centre.
+  std::vector<Vec3f> points_world_m;
+  // Samples of the surface that sees out, each of which stands for as much area as any other, so
+  // that a mean over them is one over the area: recall and completeness. At most kAreaSamples.
   std::vector<Vec3f> samples_world_m;
 
   bool operator==(const SurfaceReference&) const = default;
 };
 
-/// Deterministic at any number of threads. A voxel belongs to `outside` if one of its samples sees
-/// out: two degrees off the face's normal, off its opposite, or in one of `directions`
-/// directions. The ground never blocks. Openings narrower than the directions resolve (about
-/// 4 pi / directions steradian) are found only by luck.
+/// Deterministic at any number of threads. The area of the surface in a voxel is exact
+/// (surface_pieces.hpp); which part of it sees out is estimated by its samples, and what share of
+/// the directions is open by `directions`, evenly spread, of which none but the last few decide on
+/// most points. Normals are tilted by two degrees. The ground never blocks.
 SurfaceReference make_surface_reference(const World& world, const RayScene& scene,
                                         const ReferenceConfig& config, int threads);
 
@@ -46,8 +61,7 @@ SurfaceReference make_surface_reference(const World& world, const RayScene& scen
 SurfaceReference cached_surface_reference(const World& world, const RayScene& scene,
                                           const ReferenceConfig& config, int threads);
 
-/// 1 for each sample that sees out by the rule above, 0 for the others. make_surface_reference asks
-/// less, since a voxel's first such sample settles it.
+/// 1 for each sample that sees out by the rule above, 0 for the others.
 std::vector<std::uint8_t> samples_seeing_out(const World& world, const RayScene& scene,
                                              std::span<const SurfaceSample> samples,
                                              const ReferenceConfig& config, int threads);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "sim/core/error.hpp"
 
@@ -50,35 +49,11 @@ std::int64_t parts(double length_m, double spacing_m) {
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(length_m / spacing_m)));
 }
 
-struct Range {
-  std::int64_t first = 0, last = 0;  // half open
-};
-
-// The cells of a strip that may lie in the x range, which is widened by `margin_m`: a superset.
-Range cells_near(double x_start_m, double x_step_m, std::int64_t n, double x_min_m, double x_max_m,
-                 double margin_m) {
-  const double lo_m = x_min_m - margin_m - x_start_m;
-  const double hi_m = x_max_m + margin_m - x_start_m;
-  const double x_end_m = x_step_m * static_cast<double>(n);
-  if (std::max(0.0, x_end_m) < lo_m || std::min(0.0, x_end_m) > hi_m) return {};
-  if (std::min(0.0, x_end_m) >= lo_m && std::max(0.0, x_end_m) <= hi_m) return {0, n};
-  const double c0 = lo_m / x_step_m;
-  const double c1 = hi_m / x_step_m;
-  const double limit = static_cast<double>(n);
-  return {static_cast<std::int64_t>(std::clamp(std::floor(std::min(c0, c1)), 0.0, limit)),
-          static_cast<std::int64_t>(std::clamp(std::ceil(std::max(c0, c1)), 0.0, limit))};
-}
-
-}  // namespace
-
-void sample_face(const TriangleMesh& mesh, std::uint32_t face, double spacing_m, double x_min_m,
-                 double x_max_m, std::vector<SurfaceSample>& samples) {
-  GNBV_CHECK(spacing_m > 0.0, "sample spacing {} m", spacing_m);
+void sample_face(const TriangleMesh& mesh, std::uint32_t face, double spacing_m,
+                 std::vector<SurfaceSample>& samples) {
   const OnBase t = on_longest_edge(mesh, face);
   const std::int64_t strips = parts(t.height_m, spacing_m);
   const double strip_m = t.height_m / static_cast<double>(strips);
-  // a sample lies up to a strip above the strip's lower side, and is rounded to float
-  const double margin_m = strip_m + 0.01;
   for (std::int64_t r = 0; r < strips; ++r) {
     const double v0_m = static_cast<double>(r) * strip_m;
     const double share = static_cast<double>(r) / static_cast<double>(strips);
@@ -86,23 +61,21 @@ void sample_face(const TriangleMesh& mesh, std::uint32_t face, double spacing_m,
     const double length_m = (1.0 - share) * t.base_m;
     const std::int64_t n = parts(length_m, spacing_m);
     const double step_m = length_m / static_cast<double>(n);
-    const Vec3 start = t.origin + u0_m * t.u_axis + v0_m * t.v_axis;
-    const Range cells = cells_near(start.x(), step_m * t.u_axis.x(), n, x_min_m, x_max_m, margin_m);
-    for (std::int64_t c = cells.first; c < cells.last; ++c) {
+    for (std::int64_t c = 0; c < n; ++c) {
       const double u_m = u0_m + (static_cast<double>(c) + 0.5) * step_m;
       const double v_m = 0.5 * (v0_m + std::min(v0_m + strip_m, std::max(v0_m, t.top_m(u_m))));
-      const Vec3f p = (t.origin + u_m * t.u_axis + v_m * t.v_axis).cast<float>();
-      const double x_m = static_cast<double>(p.x());
-      if (x_m >= x_min_m && x_m < x_max_m) samples.push_back({p, face});
+      samples.push_back({(t.origin + u_m * t.u_axis + v_m * t.v_axis).cast<float>(), face});
     }
   }
 }
 
+}  // namespace
+
 std::vector<SurfaceSample> sample_surface(const TriangleMesh& mesh, double spacing_m) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  GNBV_CHECK(spacing_m > 0.0, "sample spacing {} m", spacing_m);
   std::vector<SurfaceSample> samples;
   for (std::uint32_t face = 0; face < mesh.faces.size(); ++face) {
-    sample_face(mesh, face, spacing_m, -kInfinity, kInfinity, samples);
+    sample_face(mesh, face, spacing_m, samples);
   }
   return samples;
 }

@@ -13,16 +13,12 @@ struct SurfaceSample {
   std::uint32_t face = 0;
 };
 
-/// Appends those samples of one face whose x lies in [x_min_m, x_max_m).
+/// The samples of all faces, by face. About area / spacing^2 of them, 16 bytes each.
 ///
-/// The face is cut into strips along its longest edge and each strip into cells, neither wider than
+/// A face is cut into strips along its longest edge and each strip into cells, neither wider than
 /// `spacing_m`; a sample sits in the middle of each cell's part of the face. So every face has a
 /// sample, no point of it is farther than 1.2 spacings from one, and slivers cost no more than
-/// their length. The samples do not depend on the x range.
-void sample_face(const TriangleMesh& mesh, std::uint32_t face, double spacing_m, double x_min_m,
-                 double x_max_m, std::vector<SurfaceSample>& samples);
-
-/// The samples of all faces, by face. About area / spacing^2 of them, 16 bytes each.
+/// their length.
 std::vector<SurfaceSample> sample_surface(const TriangleMesh& mesh, double spacing_m);
 
 }  // namespace gnbv

@@ -16,22 +16,6 @@ constexpr std::uint64_t kAxisMask = (std::uint64_t{1} << kAxisBits) - 1;
 // A float times 20, 10 or 2 is exact in double; times the rounded 0.05 or over it, it is not.
 static_assert(1.0 / 0.05 == 20.0 && 1.0 / 0.10 == 10.0 && 1.0 / 0.50 == 2.0);
 
-std::uint64_t pack(const std::array<std::int64_t, 3>& index) {
-  std::uint64_t code = 0;
-  for (const std::int64_t i : index) {
-    code = (code << kAxisBits) | static_cast<std::uint64_t>(i + kBias);
-  }
-  return code;
-}
-
-std::array<std::int64_t, 3> unpack(std::uint64_t code) {
-  std::array<std::int64_t, 3> index{};
-  for (std::size_t axis = 3; axis-- > 0; code >>= kAxisBits) {
-    index[axis] = static_cast<std::int64_t>(code & kAxisMask) - kBias;
-  }
-  return index;
-}
-
 std::optional<std::uint64_t> find_code(const Vec3f& p_world_m, double per_m) {
   std::array<std::int64_t, 3> index{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -40,7 +24,7 @@ std::optional<std::uint64_t> find_code(const Vec3f& p_world_m, double per_m) {
     if (!(std::abs(cell) < static_cast<double>(kBias))) return std::nullopt;
     index[axis] = static_cast<std::int64_t>(cell);
   }
-  return pack(index);
+  return code_of(index);
 }
 
 void sort_unique(VoxelSet& codes) {
@@ -50,6 +34,31 @@ void sort_unique(VoxelSet& codes) {
 
 }  // namespace
 
+std::uint64_t code_of(const std::array<std::int64_t, 3>& index) {
+  std::uint64_t code = 0;
+  for (const std::int64_t i : index) {
+    code = (code << kAxisBits) | static_cast<std::uint64_t>(i + kBias);
+  }
+  return code;
+}
+
+std::array<std::int64_t, 3> index_of(std::uint64_t code) {
+  std::array<std::int64_t, 3> index{};
+  for (std::size_t axis = 3; axis-- > 0; code >>= kAxisBits) {
+    index[axis] = static_cast<std::int64_t>(code & kAxisMask) - kBias;
+  }
+  return index;
+}
+
+std::uint64_t coarser_code(std::uint64_t code, int factor) {
+  std::array<std::int64_t, 3> index = index_of(code);
+  for (std::int64_t& i : index) {
+    const std::int64_t towards_zero = i / factor;
+    i = towards_zero * factor > i ? towards_zero - 1 : towards_zero;
+  }
+  return code_of(index);
+}
+
 std::uint64_t voxel_code(const Vec3f& p_world_m, double size_m) {
   const std::optional<std::uint64_t> code = find_code(p_world_m, 1.0 / size_m);
   GNBV_CHECK(code.has_value(), "no voxel of {} m at ({}, {}, {}) m", size_m, p_world_m.x(),
@@ -58,7 +67,7 @@ std::uint64_t voxel_code(const Vec3f& p_world_m, double size_m) {
 }
 
 Vec3 voxel_centre_m(std::uint64_t code, double size_m) {
-  const std::array<std::int64_t, 3> index = unpack(code);
+  const std::array<std::int64_t, 3> index = index_of(code);
   Vec3 centre_m;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     centre_m[static_cast<Eigen::Index>(axis)] = (static_cast<double>(index[axis]) + 0.5) * size_m;
@@ -89,14 +98,7 @@ VoxelSet coarser(const VoxelSet& fine, int factor) {
   GNBV_CHECK(factor >= 1, "factor {}", factor);
   VoxelSet codes;
   codes.reserve(fine.size());
-  for (const std::uint64_t code : fine) {
-    std::array<std::int64_t, 3> index = unpack(code);
-    for (std::int64_t& i : index) {
-      const std::int64_t towards_zero = i / factor;
-      i = towards_zero * factor > i ? towards_zero - 1 : towards_zero;
-    }
-    codes.push_back(pack(index));
-  }
+  for (const std::uint64_t code : fine) codes.push_back(coarser_code(code, factor));
   sort_unique(codes);
   return codes;
 }

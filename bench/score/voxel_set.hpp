@@ -24,6 +24,13 @@ using VoxelSet = std::vector<std::uint64_t>;
 /// farther than 2^20 voxels from the origin.
 std::uint64_t voxel_code(const Vec3f& p_world_m, double size_m);
 
+/// Code of a voxel by its index along x, y, z, each of less than 2^20.
+std::uint64_t code_of(const std::array<std::int64_t, 3>& index);
+std::array<std::int64_t, 3> index_of(std::uint64_t code);
+
+/// The voxel `factor` times as large that holds it. factor >= 1.
+std::uint64_t coarser_code(std::uint64_t code, int factor);
+
 /// Centre of a voxel.
 Vec3 voxel_centre_m(std::uint64_t code, double size_m);
 

@@ -43,8 +43,7 @@ std::string json_text(const Scenario& scenario, const Ceiling& ceiling, double w
                                 {"scenario", scenario.name},
                                 {"structure", structure_name(scenario.structure)},
                                 {"seed", scenario.seed},
-                                {"positions", ceiling.positions},
-                                {"frames", ceiling.frames}};
+                                {"positions", ceiling.positions}};
   for (const Row& row : rows_of(ceiling)) {
     out[row.key] = {{"0.05", row.share[0]}, {"0.10", row.share[1]}, {"0.50", row.share[2]}};
   }
@@ -61,10 +60,10 @@ std::string terminal_text(const Ceiling& ceiling, double wall_s) {
   }
   return text +
          fmt::format(
-             "{} legal positions, {} frames through the cloud, {:.1f} s\n"
-             "of exact cameras alone: the profile's LIDAR and noise can lift a mission above "
-             "it\n",
-             ceiling.positions, ceiling.frames, wall_s);
+             "{} legal positions and the places between them, {:.1f} s\n"
+             "of exact sensors, the profile's LIDAR among them: noise can lift a mission above it\n"
+             "a voxel counts with surface of a tenth of its face\n",
+             ceiling.positions, wall_s);
 }
 
 void ceiling(const CeilingOptions& options) {
@@ -76,8 +75,10 @@ void ceiling(const CeilingOptions& options) {
   for (const std::string& warning : warnings) fmt::print(stderr, "gnbv: {}\n", warning);
   const RayScene scene(world);
   ProgressBar progress(fmt::format("{} ceiling", scenario.name), options.quiet);
-  progress.show(0.0, "looking from every legal viewpoint");
-  const Ceiling found = find_ceiling(scenario, world, scene, start_pose(scenario, scene), threads);
+  progress.show(0.0, "where viewpoints are legal");
+  const Ceiling found =
+      find_ceiling(scenario, world, scene, start_pose(scenario, scene), threads,
+                   [&](double share) { progress.show(share, "of the surface searched for"); });
   progress.show(1.0, "done");
   const double wall_s = watch.elapsed_s();
   fmt::print("{}",

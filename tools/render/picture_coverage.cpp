@@ -30,13 +30,13 @@ Picture draw_coverage(RunSource& run, const PictureOptions& options, const Rende
   const VoxelSet& surface = reference.outside.front();
   const double size_m = kCoverageSizes_m.front();
   const VoxelSet seen = voxels_of(std::span(cloud.points_world_m).first(count), size_m);
-  // a sample a voxel, in the order of the voxels; dots as wide as the voxels close the surface
-  const std::vector<Vec3f> normals = point_normals(reference.samples_world_m, size_m);
+  // a point a voxel, in the order of the voxels; dots as wide as the voxels close the surface
+  const std::vector<Vec3f> normals = point_normals(reference.points_world_m, size_m);
   DotsItem covered{.colours = {kCovered}, .radius_m = static_cast<float>(0.75 * size_m)};
   DotsItem missed{.colours = {kMissed}, .radius_m = static_cast<float>(0.8 * size_m)};
   for (std::size_t i = 0; i < surface.size(); ++i) {
     DotsItem& dots = std::binary_search(seen.begin(), seen.end(), surface[i]) ? covered : missed;
-    dots.points_m.push_back(reference.samples_world_m[i]);
+    dots.points_m.push_back(reference.points_world_m[i]);
     dots.normals.push_back(normals[i]);
   }
   Picture picture{.panels = std::vector<Panel>(1)};

@@ -60,26 +60,48 @@ TEST(CoverageOfPrefixes, RefusesPrefixesThatShrinkOrEndBeyondTheCloud) {
   EXPECT_THROW(coverage_of_prefixes({}, cloud, beyond, 1), BrokenInvariant);
 }
 
-TEST(ReferenceSamples, OneLiesInEachVoxelSeenFromOutsideInItsOrder) {
+TEST(ReferencePoints, OneLiesInEachVoxelSeenFromOutsideInItsOrder) {
   const SurfaceReference reference = box_in_a_box();
-  ASSERT_EQ(reference.samples_world_m.size(), reference.outside[0].size());
-  for (std::size_t i = 0; i < reference.samples_world_m.size(); ++i) {
-    ASSERT_EQ(voxel_code(reference.samples_world_m[i], kCoverageSizes_m[0]),
+  ASSERT_EQ(reference.points_world_m.size(), reference.outside[0].size());
+  for (std::size_t i = 0; i < reference.points_world_m.size(); ++i) {
+    ASSERT_EQ(voxel_code(reference.points_world_m[i], kCoverageSizes_m[0]),
               reference.outside[0][i]);
     // on the outer box, never on the inner one
-    const Vec3f from_centre_m = reference.samples_world_m[i] - Vec3f(0, 0, 1.5F);
+    const Vec3f from_centre_m = reference.points_world_m[i] - Vec3f(0, 0, 1.5F);
     ASSERT_NEAR(from_centre_m.cwiseAbs().maxCoeff(), 1.0F, 1e-5F);
   }
 }
 
-TEST(ReferenceSamples, OfADoubleWallLieOnTheOuterOne) {
+TEST(ReferenceSamples, StandForEqualAreasOfWhatSeesOut) {
+  // the part of the outer box above the floor: a lid of 4 m2, walls of 2 m x 2 m and a bottom; any
+  // tenth of a wall's height has a tenth of the wall's samples, whatever its triangles are
+  World world;
+  test::add_box(world.structure, Vec3(-1, -1, 0.5), Vec3(2, 2, 2));
+  test::add_box(world.structure, Vec3(-0.6, -0.6, 0.9), Vec3(1.2, 1.2, 1.2));
+  const SurfaceReference reference = make_surface_reference(world, RayScene(world), {}, 2);
+  const auto all = static_cast<double>(reference.samples_world_m.size());
+  EXPECT_NEAR(all, kAreaSamples, 0.25 * kAreaSamples);
+  for (int tenth = 0; tenth < 10; ++tenth) {
+    const auto low_m = static_cast<float>(0.5 + 0.2 * tenth);
+    const auto in_tenth = std::count_if(
+        reference.samples_world_m.begin(), reference.samples_world_m.end(), [&](const Vec3f& p_m) {
+          return p_m.x() > 0.9999F && p_m.z() >= low_m && p_m.z() < low_m + 0.2F;
+        });
+    EXPECT_NEAR(static_cast<double>(in_tenth) / all, 0.4 / 24.0, 0.02 * 0.4 / 24.0) << tenth;
+  }
+  for (const Vec3f& p_m : reference.samples_world_m) {
+    ASSERT_NEAR((p_m - Vec3f(0, 0, 1.5F)).cwiseAbs().maxCoeff(), 1.0F, 1e-5F);
+  }
+}
+
+TEST(ReferencePoints, OfADoubleWallLieOnTheOuterOne) {
   // both walls in the same voxels, the hidden one through their middle
   World world;
   test::add_box(world.structure, Vec3(-1.04, -1.04, 0.46), Vec3(2.08, 2.08, 2.08));
   test::add_box(world.structure, Vec3(-1.02, -1.02, 0.48), Vec3(2.04, 2.04, 2.04));
   const SurfaceReference reference = make_surface_reference(world, RayScene(world), {}, 2);
-  ASSERT_FALSE(reference.samples_world_m.empty());
-  for (const Vec3f& p_m : reference.samples_world_m) {
+  ASSERT_FALSE(reference.points_world_m.empty());
+  for (const Vec3f& p_m : reference.points_world_m) {
     ASSERT_NEAR((p_m - Vec3f(0, 0, 1.5F)).cwiseAbs().maxCoeff(), 1.04F, 1e-5F);
   }
 }

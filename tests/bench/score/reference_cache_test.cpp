@@ -44,12 +44,11 @@ TEST_F(ReferenceCache, GivesBackWhatWasComputedAndIsReallyAsked) {
   EXPECT_EQ(cached(world_), made);
   ASSERT_EQ(files().size(), 1U);
   EXPECT_EQ(cached(world_), made);
-  // compact: less than half of its codes and samples as they lie in memory
-  std::size_t bytes = made.samples_world_m.size() * sizeof(Vec3f);
-  for (std::size_t i = 0; i < 3; ++i) {
-    bytes += (made.raw[i].size() + made.outside[i].size()) * sizeof(std::uint64_t);
-  }
-  EXPECT_LT(fs::file_size(files()[0]), bytes / 2 + made.samples_world_m.size() * sizeof(Vec3f) / 2);
+  // compact: the points as they lie in memory, of the codes less than half
+  const std::size_t points = made.points_world_m.size() + made.samples_world_m.size();
+  std::size_t codes = 0;
+  for (std::size_t i = 0; i < 3; ++i) codes += made.raw[i].size() + made.outside[i].size();
+  EXPECT_LT(fs::file_size(files()[0]), points * sizeof(Vec3f) + codes * sizeof(std::uint64_t) / 2);
   // what it holds is what is returned: put another structure's reference under this key
   World other = world_;
   other.structure.vertices_m[0].x() -= 0.3F;
@@ -75,11 +74,12 @@ TEST_F(ReferenceCache, EveryInputHasAKeyOfItsOwn) {
   cached(world_, {.sample_spacing_m = 0.02});
   cached(world_, {.directions = 64});
   cached(world_, {.escape_near_m = 1e-3});
-  EXPECT_EQ(files().size(), 7U);
+  cached(world_, {.fewest_samples = 1000});
+  EXPECT_EQ(files().size(), 8U);
   World coloured = world_;
   coloured.structure.materials[0].rgb = {0.1F, 0.2F, 0.3F};
   cached(coloured);
-  EXPECT_EQ(files().size(), 7U);
+  EXPECT_EQ(files().size(), 8U);
 }
 
 TEST_F(ReferenceCache, ComputesAnewWhatIsDamagedOrOfAnotherForm) {

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -95,29 +94,6 @@ TEST(SurfaceSamples, AreAsManyAsTheAreaAsks) {
   const auto count = static_cast<double>(sample_surface(square, 0.02).size());
   EXPECT_GE(count, expected);
   EXPECT_LE(count, 1.05 * expected);
-}
-
-TEST(SurfaceSamples, SlabsTogetherGiveEverySampleOnce) {
-  const TriangleMesh mesh = triangles();
-  const double spacing_m = 0.02;
-  const std::vector<SurfaceSample> all = sample_surface(mesh, spacing_m);
-  std::size_t next = 0;
-  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
-    std::vector<SurfaceSample> slabs;
-    for (int k = -10; k < 20; ++k) sample_face(mesh, f, spacing_m, 0.25 * k, 0.25 * (k + 1), slabs);
-    std::vector<SurfaceSample> whole;
-    for (; next < all.size() && all[next].face == f; ++next) whole.push_back(all[next]);
-    const auto before = [](const SurfaceSample& a, const SurfaceSample& b) {
-      return std::lexicographical_compare(a.p_world_m.begin(), a.p_world_m.end(),
-                                          b.p_world_m.begin(), b.p_world_m.end());
-    };
-    std::sort(slabs.begin(), slabs.end(), before);
-    std::sort(whole.begin(), whole.end(), before);
-    ASSERT_EQ(slabs.size(), whole.size()) << "face " << f;
-    for (std::size_t i = 0; i < whole.size(); ++i) {
-      EXPECT_EQ(slabs[i].p_world_m, whole[i].p_world_m);
-    }
-  }
 }
 
 }  // namespace

@@ -1,11 +1,9 @@
-// Which of the reference's voxels any legal viewpoint sees, at any yaw: the physical ceiling.
+// A camera on a level vehicle that may turn as it likes.
 #pragma once
 
 #include <optional>
-#include <span>
 #include <vector>
 
-#include "bench/score/surface_reference.hpp"
 #include "sensors/camera_model.hpp"
 
 namespace gnbv {
@@ -37,13 +35,5 @@ class FreeYawCamera {
   Vec3 offset_camera_m_ = Vec3::Zero();
   std::vector<Bearing> bearings_;
 };
-
-/// The finest raw voxels of the reference of which some sample is seen from one of the positions:
-/// in the image of one of the cameras at some yaw, with nothing of the structure or the ground in
-/// between. Up to four samples of a voxel are asked, evenly spaced among its own. The same at any
-/// number of threads.
-VoxelSet seen_voxels(const World& world, const RayScene& scene,
-                     std::span<const CameraModel> cameras, std::span<const Vec3> positions_world_m,
-                     const ReferenceConfig& config, int threads);
 
 }  // namespace gnbv

@@ -1,0 +1,94 @@
+#include "bench/limits/lidar_sight.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "planner/profiling.hpp"
+#include "planner/view_validity.hpp"
+#include "sensors/lidar_model.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr float kSightEnd = 0.9999F;
+constexpr double kLean_rad = deg_to_rad(4.0);
+
+struct Leg {
+  Vec3 from_m, to_m;
+  double yaw_rad;
+};
+
+std::vector<Leg> scanned_legs(const Scenario& scenario, const ViewPose& start) {
+  ProfilingConfig profiling = scenario.planner.profiling;
+  if (profiling.method == ProfilingMethod::none) return {};
+  if (profiling.method == ProfilingMethod::saved) profiling.method = ProfilingMethod::bounding_box;
+  const Box3 navigation_m = navigation_box_m(scenario.planner.validity, scenario.workspace_m);
+  ProfileRoute route(profiling, navigation_m, start);
+  std::vector<Leg> legs;
+  ViewPose at = start;
+  bool is_first = true;
+  while (const auto leg = route.next(true)) {
+    if (leg->is_scan || (profiling.scan_in_transit && !is_first)) {
+      legs.push_back({at.p_world_m, leg->goal.p_world_m, leg->goal.yaw_rad});
+      if (at.yaw_rad != leg->goal.yaw_rad)
+        legs.push_back({at.p_world_m, leg->goal.p_world_m, at.yaw_rad});
+    }
+    at = leg->goal;
+    is_first = false;
+  }
+  return legs;
+}
+
+}  // namespace
+
+LidarSight::LidarSight(const Scenario& scenario, const RayScene& scene, const ViewPose& start)
+    : scene_(scene) {
+  constexpr std::array<double, 3> kLeans_rad = {0.0, -kLean_rad, kLean_rad};
+  for (const Leg& leg : scanned_legs(scenario, start)) {
+    for (const LidarConfig& config : scenario.lidars) {
+      for (const double pitch_rad : kLeans_rad) {
+        for (const double roll_rad : kLeans_rad) {
+          const Eigen::Matrix3d R_world_body = (Eigen::AngleAxisd(leg.yaw_rad, Vec3::UnitZ()) *
+                                                Eigen::AngleAxisd(pitch_rad, Vec3::UnitY()) *
+                                                Eigen::AngleAxisd(roll_rad, Vec3::UnitX()))
+                                                   .toRotationMatrix();
+          const Isometry T_body = T_body_lidar(config);
+          sweeps_.push_back({.from_m = leg.from_m + R_world_body * T_body.translation(),
+                             .along_m = leg.to_m - leg.from_m,
+                             .R_lidar_world = (R_world_body * T_body.linear()).transpose(),
+                             .range_min_m = config.range_min_m,
+                             .range_max_m = config.range_max_m,
+                             .half_fov_rad = 0.5 * config.fov_rad});
+        }
+      }
+    }
+  }
+}
+
+bool LidarSight::is_seen(const Vec3f& point_world_m) const {
+  const Vec3 point_m = point_world_m.cast<double>();
+  std::vector<Vec3f> origins, directions;
+  for (const Sweep& sweep : sweeps_) {
+    // where on the leg the fan's plane passes through the point
+    const Vec3 normal = sweep.R_lidar_world.row(2).transpose();
+    const double speed = normal.dot(sweep.along_m);
+    const double share = normal.dot(point_m - sweep.from_m) / speed;
+    if (!(share >= 0.0 && share <= 1.0)) continue;  // never for a leg within the plane, either
+    const Vec3 origin_m = sweep.from_m + share * sweep.along_m;
+    const Vec3 to_m = point_m - origin_m;
+    const double range_m = to_m.norm();
+    const Vec3 in_fan_m = sweep.R_lidar_world * to_m;
+    if (range_m < sweep.range_min_m || range_m > sweep.range_max_m ||
+        std::abs(std::atan2(in_fan_m.y(), in_fan_m.x())) > sweep.half_fov_rad) {
+      continue;
+    }
+    origins.emplace_back(origin_m.cast<float>());
+    directions.emplace_back(to_m.cast<float>());
+  }
+  std::vector<std::uint8_t> blocked(origins.size());
+  scene_.structure_blocks(origins, directions, 0.0F, kSightEnd, blocked);
+  return std::find(blocked.begin(), blocked.end(), 0) != blocked.end();
+}
+
+}  // namespace gnbv

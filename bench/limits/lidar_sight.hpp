@@ -1,0 +1,34 @@
+// Whether the LIDARs see a point of the surface while the profile is flown.
+#pragma once
+
+#include <vector>
+
+#include "scenarios/scenario.hpp"
+#include "sensors/ray_scene.hpp"
+
+namespace gnbv {
+
+/// The fan of a LIDAR sweeps space as the vehicle moves along a leg. The vehicle is level, or leans
+/// by a few degrees as it does in flight. Const after construction.
+class LidarSight {
+ public:
+  /// The legs of the scenario's profile: none without one; of a saved one those of the bounding
+  /// box, of an adaptive one those of the tallest structure. Keeps the reference.
+  LidarSight(const Scenario& scenario, const RayScene& scene, const ViewPose& start);
+
+  bool is_seen(const Vec3f& point_world_m) const;
+
+ private:
+  /// One straight leg with one LIDAR at one lean of the vehicle.
+  struct Sweep {
+    Vec3 from_m = Vec3::Zero();  // of the LIDAR
+    Vec3 along_m = Vec3::Zero();
+    Eigen::Matrix3d R_lidar_world = Eigen::Matrix3d::Identity();
+    double range_min_m = 0.0, range_max_m = 0.0, half_fov_rad = 0.0;
+  };
+
+  const RayScene& scene_;
+  std::vector<Sweep> sweeps_;
+};
+
+}  // namespace gnbv

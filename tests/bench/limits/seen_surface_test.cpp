@@ -1,0 +1,331 @@
+#include "bench/limits/seen_surface.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <deque>
+
+#include "bench/limits/ceiling.hpp"
+#include "bench/limits/cloud_of_views.hpp"
+#include "bench/limits/lidar_sight.hpp"
+#include "bench/limits/sight_search.hpp"
+#include "planner/view_validity.hpp"
+#include "scenarios/load.hpp"
+#include "sim/core/rng.hpp"
+#include "tests/bench/shapes.hpp"
+#include "tests/support/flown.hpp"
+#include "tools/mission/start_pose.hpp"
+
+namespace gnbv {
+namespace {
+
+CameraModel camera(double pitch_rad) {
+  CameraConfig config;
+  config.pitch_rad = pitch_rad;
+  config.range_max_m = 5.0;
+  return make_camera_model(config);
+}
+
+/// The nodes of a lattice from `corner` on, all legal and connected.
+LegalViewpoints lattice_of(const Vec3& corner, double step_m, const std::array<int, 3>& nodes) {
+  LegalViewpoints legal{.step_m = step_m, .start_world_m = corner};
+  for (int z = 0; z < nodes[2]; ++z) {
+    for (int y = 0; y < nodes[1]; ++y) {
+      for (int x = 0; x < nodes[0]; ++x) {
+        legal.p_world_m.push_back(corner + step_m * Vec3(x, y, z));
+        legal.cell.push_back({x, y, z});
+        legal.neighbours.emplace_back();
+      }
+    }
+  }
+  return legal;
+}
+
+/// A wall of 2 x 2 m at x = 2, and the same behind it at x = 2.5.
+TriangleMesh two_walls() {
+  TriangleMesh mesh;
+  for (const double x : {2.025, 2.525}) {
+    test::add_sheet(mesh, Vec3(x, -1.0, 1.0), Vec3(0, 2, 0), Vec3(0, 0, 2));
+  }
+  return mesh;
+}
+
+struct Sight {
+  Sight(TriangleMesh mesh, const LegalViewpoints& positions, double pitch_rad)
+      : world{std::move(mesh), true},
+        scene(world),
+        legal(positions),
+        cameras{camera(pitch_rad)},
+        search(scene, cameras, legal, Box3(Vec3(-9, -9, 0), Vec3(9, 9, 9)), 0.2) {}
+
+  bool from_lattice(const Vec3& point_m, SightSearch::Positions which) const {
+    const std::vector<Vec3f> points = {point_m.cast<float>()};
+    std::vector<SightItem> items = {{.points_world_m = points}};
+    const Eigen::AlignedBox3d box_m(point_m);
+    search.look_from_lattice(search.positions_near(box_m), which, items);
+    return items[0].is_seen();
+  }
+
+  World world;
+  RayScene scene;
+  LegalViewpoints legal;
+  std::vector<CameraModel> cameras;
+  SightSearch search;
+};
+
+constexpr auto kFew = SightSearch::Positions::first_few;
+
+TEST(SightSearch, SeesTheNearerOfTwoWalls) {
+  const Sight sight(two_walls(), lattice_of(Vec3(-1, 0, 2), 1.0, {1, 1, 1}), 0.0);
+  for (double y = -0.9; y < 1.0; y += 0.3) {
+    EXPECT_TRUE(sight.from_lattice(Vec3(2.025, y, 2.1), kFew)) << y;
+    EXPECT_FALSE(sight.from_lattice(Vec3(2.525, y, 2.1), kFew)) << y;
+    EXPECT_NE(sight.search.look_out(Vec3f(2.525F, static_cast<float>(y), 2.1F), 0),
+              SightSearch::Look::seen);
+  }
+}
+
+TEST(SightSearch, EndsWhereImageAndRangeEnd) {
+  // depth is measured along the axis: at the image's edge, 30 degrees aside, 5 m reach 5.77 m
+  const auto sees_from = [](double x) {
+    const Sight sight(two_walls(), lattice_of(Vec3(x, 0, 2), 1.0, {1, 1, 1}), 0.0);
+    return sight.from_lattice(Vec3(2.025, 0, 2), kFew);
+  };
+  EXPECT_TRUE(sees_from(-3.6));
+  EXPECT_FALSE(sees_from(-3.8));
+  // 22.5 degrees up and down: at 1 m, 0.41 m
+  const Sight near(two_walls(), lattice_of(Vec3(1.025, 0, 2), 1.0, {1, 1, 1}), 0.0);
+  EXPECT_TRUE(near.from_lattice(Vec3(2.025, 0, 2.40), kFew));
+  EXPECT_FALSE(near.from_lattice(Vec3(2.025, 0, 2.43), kFew));
+}
+
+TEST(SightSearch, AllPositionsTogetherSeeWhatEachDoes) {
+  TriangleMesh mesh = two_walls();
+  test::add_box(mesh, Vec3(0.3, -2.2, 0.6), Vec3(0.7, 0.8, 1.9));
+  const LegalViewpoints many = lattice_of(Vec3(-3, -3, 0.5), 0.9, {7, 8, 4});
+  ASSERT_GT(many.size(), 200U);
+  const Sight all(mesh, many, 0.35);
+  std::deque<Sight> each;
+  for (const Vec3& p : many.p_world_m) each.emplace_back(mesh, lattice_of(p, 1.0, {1, 1, 1}), 0.35);
+  int seen = 0;
+  for (double z = 1.1; z < 3.0; z += 0.4) {
+    for (double y = -0.9; y < 1.0; y += 0.4) {
+      for (const double x : {2.025, 2.525}) {
+        const Vec3 point_m(x, y, z);
+        const bool any = std::any_of(each.begin(), each.end(), [&](const Sight& one) {
+          return one.from_lattice(point_m, kFew);
+        });
+        EXPECT_EQ(all.from_lattice(point_m, kFew) ||
+                      all.from_lattice(point_m, SightSearch::Positions::others),
+                  any);
+        seen += any ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(seen, 10);
+}
+
+TEST(SightSearch, FindsPlacesBetweenThePositionsOfTheLattice) {
+  // a slit of 0.1 m in a wall in front of a plate: the nodes, 2 m apart, look at it from aside
+  TriangleMesh mesh;
+  test::add_sheet(mesh, Vec3(3, -0.05, 1.95), Vec3(0, 0.1, 0), Vec3(0, 0, 0.1));
+  for (const double y : {-4.05, 0.05}) {
+    test::add_sheet(mesh, Vec3(2.5, y, 0.5), Vec3(0, 4, 0), Vec3(0, 0, 3));
+  }
+  const Sight sight(mesh, lattice_of(Vec3(-1, -1, 2), 2.0, {2, 2, 1}), 0.0);
+  const Vec3 plate_m(3, 0, 2);
+  EXPECT_FALSE(sight.from_lattice(plate_m, kFew));
+  bool is_seen = false;
+  for (std::size_t turn = 0; turn < SightSearch::kTurns; ++turn) {
+    is_seen =
+        is_seen || sight.search.look_out(plate_m.cast<float>(), turn) == SightSearch::Look::seen;
+  }
+  EXPECT_TRUE(is_seen);
+}
+
+TEST(SightSearch, FromAClosedBoxNothingIsOpen) {
+  TriangleMesh box;
+  test::add_box(box, Vec3(-1, -1, 1), Vec3(2, 2, 2));
+  const Sight sight(box, lattice_of(Vec3(-4, -4, 2), 1.0, {9, 2, 2}), 0.0);
+  for (std::size_t turn = 0; turn < SightSearch::kTurns; ++turn) {
+    EXPECT_EQ(sight.search.look_out(Vec3f(0.3F, 0.2F, 1.5F), turn), SightSearch::Look::closed);
+    EXPECT_NE(sight.search.look_out(Vec3f(-1.2F, 0.2F, 1.5F), turn), SightSearch::Look::closed);
+  }
+}
+
+/// A mission of the scenario without noise, and its ceiling.
+struct NoiseFree {
+  explicit NoiseFree(const Scenario& made) : scenario(made), flown(made) {
+    setenv("GNBV_CACHE", "", 1);
+    start = start_pose(scenario, flown.scene);
+    legal = find_legal_viewpoints(scenario, flown.scene, start, 2);
+    reference = make_surface_reference(flown.world, flown.scene,
+                                       {.floor_z_m = scenario.planner.floor_z_m}, 2);
+    seen = find_seen_surface(scenario, flown.world, flown.scene, legal, start, reference, 2, {});
+    ceiling = find_ceiling(scenario, flown.world, flown.scene, start, 2);
+  }
+
+  Scenario scenario;
+  Flown flown;
+  ViewPose start;
+  LegalViewpoints legal;
+  SurfaceReference reference;
+  SeenSurface seen;
+  Ceiling ceiling;
+};
+
+Scenario noise_free(const std::string& name, const std::string& utility, int views) {
+  Scenario scenario =
+      load_scenario(name, {"planner.utility.name=" + utility, "vehicle.estimate.model=none",
+                           "planner.termination.max_iterations=" + std::to_string(views)});
+  for (CameraConfig& camera : scenario.cameras) camera.noise.model = DepthNoise::none;
+  for (LidarConfig& lidar : scenario.lidars) lidar.range_sigma_m = 0.0;
+  return scenario;
+}
+
+TEST(SeenSurface, IsNoLessThanWhatNoiseFreeMissionsCover) {
+  for (const auto& [name, utility, views] :
+       {std::tuple("smoke", "bircher", 12), std::tuple("lab_model", "isler", 15),
+        std::tuple("lab_airplane", "bircher", 15)}) {
+    const NoiseFree m(noise_free(name, utility, views));
+    const auto cloud = m.flown.result.belief.cloud.points_world_m();
+    const auto covered = coverage_at_all_sizes(m.reference.outside, cloud);
+    for (std::size_t size = 0; size < 3; ++size) {
+      EXPECT_LE(covered[size], m.ceiling.outside[size]) << name << " " << size;
+      EXPECT_LE(covered[size], m.ceiling.leaf_outside[size]) << name << " " << size;
+    }
+    // and voxel by voxel, but for the few where the leaf's centroid lies beside the surface
+    const VoxelSet voxels = voxels_of(cloud, kCoverageSizes_m[0]);
+    std::size_t in_reference = 0;
+    std::size_t unseen = 0;
+    for (const std::uint64_t code : m.reference.outside[0]) {
+      if (!std::binary_search(voxels.begin(), voxels.end(), code)) continue;
+      ++in_reference;
+      unseen += std::binary_search(m.seen.voxels.begin(), m.seen.voxels.end(), code) ? 0 : 1;
+    }
+    EXPECT_GT(in_reference, 1000U);
+    EXPECT_LE(static_cast<double>(unseen), 0.005 * static_cast<double>(in_reference)) << name;
+  }
+}
+
+TEST(SeenSurface, HasWhatViewsFromLegalPositionsShow) {
+  setenv("GNBV_CACHE", "", 1);
+  const Scenario scenario = load_scenario("lab_airplane", {});
+  std::vector<std::string> warnings;
+  const World world = load_world(scenario, warnings);
+  const RayScene scene(world);
+  const ViewPose start = start_pose(scenario, scene);
+  const LegalViewpoints legal = find_legal_viewpoints(scenario, scene, start, 2);
+  const SurfaceReference reference =
+      make_surface_reference(world, scene, {.floor_z_m = scenario.planner.floor_z_m}, 2);
+  const SeenSurface seen =
+      find_seen_surface(scenario, world, scene, legal, start, reference, 2, {});
+  const std::vector<CameraModel> cameras = exact_cameras(scenario);
+  const Vec3 centre_m = bounds_m(world.structure).center();
+  VoxelSet shown;
+  std::vector<FrameRays> rays;
+  for (std::uint64_t i = 0; i < 300; ++i) {
+    const auto at = static_cast<std::size_t>(uniform01({3, Stream::bench, i, 0}) *
+                                             static_cast<double>(legal.size()));
+    const Vec3 to_m = centre_m - legal.p_world_m[at];
+    const double yaw_rad =
+        std::atan2(to_m.y(), to_m.x()) + 0.5 * uniform01({3, Stream::bench, i, 1}) - 0.25;
+    take_view(scene, cameras, {legal.p_world_m[at], yaw_rad}, scenario.planner.floor_z_m, 2, rays);
+    for (const std::uint32_t voxel : finds_alone(reference.outside[0], rays, 0.02)) {
+      shown.push_back(reference.outside[0][voxel]);
+    }
+  }
+  std::sort(shown.begin(), shown.end());
+  shown.erase(std::unique(shown.begin(), shown.end()), shown.end());
+  ASSERT_GT(shown.size(), 3000U);
+  const auto missed = std::count_if(shown.begin(), shown.end(), [&](std::uint64_t code) {
+    return !std::binary_search(seen.voxels.begin(), seen.voxels.end(), code);
+  });
+  EXPECT_LE(static_cast<double>(missed), 0.002 * static_cast<double>(shown.size()));
+}
+
+TEST(SeenSurface, AVoxelKeepsAPointOfALeafThatItHasAQuarterOf) {
+  setenv("GNBV_CACHE", "", 1);
+  Scenario scenario = load_scenario("smoke", {});
+  scenario.planner.cloud.leaf_m = 0.02;
+  for (const double width_m : {0.005, 0.002}) {
+    // a wall whose last bit reaches into another voxel, beyond x = 1.05, in the middle of a leaf:
+    // a third of the leaf's surface, or a sixth
+    World world{TriangleMesh{}, true};
+    test::add_sheet(world.structure, Vec3(1.05 - width_m, 0.01, 1.0), Vec3(0.5, 0, 0),
+                    Vec3(0, 0, 0.6));
+    const RayScene scene(world);
+    const ViewPose start = start_pose(scenario, scene);
+    const LegalViewpoints legal = find_legal_viewpoints(scenario, scene, start, 2);
+    const SurfaceReference reference = make_surface_reference(world, scene, {}, 2);
+    const SeenSurface seen =
+        find_seen_surface(scenario, world, scene, legal, start, reference, 2, {});
+    const VoxelSet kept = voxels_of(seen.kept_world_m, kCoverageSizes_m[0]);
+    const std::uint64_t last = voxel_code(Vec3f(1.049F, 0.01F, 1.23F), kCoverageSizes_m[0]);
+    EXPECT_TRUE(std::binary_search(seen.voxels.begin(), seen.voxels.end(), last));
+    EXPECT_EQ(std::binary_search(kept.begin(), kept.end(), last), width_m > 0.004) << width_m;
+    EXPECT_TRUE(std::includes(seen.voxels.begin(), seen.voxels.end(), kept.begin(), kept.end()));
+  }
+}
+
+TEST(Ceiling, LeavesLoseNothingOfSizesThatTheyDivide) {
+  setenv("GNBV_CACHE", "", 1);
+  for (const auto& [name, leaf_m] :
+       {std::pair("smoke", 0.05), std::pair("smoke", 0.02), std::pair("lab_model", 0.02)}) {
+    Scenario scenario = load_scenario(name, {});
+    scenario.planner.cloud.leaf_m = leaf_m;
+    std::vector<std::string> warnings;
+    const World world = load_world(scenario, warnings);
+    const RayScene scene(world);
+    const Ceiling ceiling = find_ceiling(scenario, world, scene, start_pose(scenario, scene), 2);
+    EXPECT_LE(ceiling.leaf_outside[0], ceiling.outside[0]) << name;
+    for (const std::size_t size : {1U, 2U}) {
+      EXPECT_EQ(ceiling.leaf_outside[size], ceiling.outside[size]) << name << " " << size;
+      EXPECT_EQ(ceiling.leaf_raw[size], ceiling.raw[size]) << name << " " << size;
+    }
+    EXPECT_LT(ceiling.raw[0], ceiling.outside[0]) << name;
+  }
+}
+
+TEST(SeenSurface, IsTheSameOnAnyNumberOfThreads) {
+  setenv("GNBV_CACHE", "", 1);
+  const Scenario scenario = load_scenario("smoke", {});
+  std::vector<std::string> warnings;
+  const World world = load_world(scenario, warnings);
+  const RayScene scene(world);
+  const ViewPose start = start_pose(scenario, scene);
+  const LegalViewpoints legal = find_legal_viewpoints(scenario, scene, start, 2);
+  const SurfaceReference reference =
+      make_surface_reference(world, scene, {.floor_z_m = scenario.planner.floor_z_m}, 2);
+  const auto found = [&](int threads) {
+    return find_seen_surface(scenario, world, scene, legal, start, reference, threads, {});
+  };
+  const SeenSurface one = found(1);
+  const SeenSurface many = found(5);
+  EXPECT_EQ(one.voxels, many.voxels);
+  EXPECT_EQ(one.kept_world_m, many.kept_world_m);
+}
+
+TEST(LidarSight, SeesAFaceOfTheBoxAndNotItsInside) {
+  Scenario scenario = load_scenario("smoke", {});
+  TriangleMesh mesh;
+  test::add_box(mesh, Vec3(-1, -1, 0.5), Vec3(2, 2, 2));
+  test::add_box(mesh, Vec3(-0.5, -0.5, 1), Vec3(1, 1, 1));
+  const World world{mesh, true};
+  const RayScene scene(world);
+  const ViewPose start = start_pose(scenario, scene);
+  const LidarSight lidars(scenario, scene, start);
+  for (const double z : {0.8, 1.5, 2.2}) {
+    const auto up = static_cast<float>(z);
+    EXPECT_TRUE(lidars.is_seen(Vec3f(1.0F, 0.3F, up))) << z;
+    EXPECT_TRUE(lidars.is_seen(Vec3f(0.2F, -1.0F, up))) << z;
+    EXPECT_FALSE(lidars.is_seen(Vec3f(0.5F, 0.1F, up))) << z;
+  }
+  scenario.planner.profiling.method = ProfilingMethod::none;
+  EXPECT_FALSE(LidarSight(scenario, scene, start).is_seen(Vec3f(1.0F, 0.3F, 1.5F)));
+}
+
+}  // namespace
+}  // namespace gnbv
