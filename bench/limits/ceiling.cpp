@@ -10,7 +10,7 @@
 namespace gnbv {
 namespace {
 
-constexpr std::string_view kKind = "ceiling-3";
+constexpr std::string_view kKind = "ceiling";
 
 Ceiling compute(const Scenario& scenario, const World& world, const RayScene& scene,
                 const LegalViewpoints& legal, const ViewPose& start, int threads,
@@ -23,7 +23,7 @@ Ceiling compute(const Scenario& scenario, const World& world, const RayScene& sc
   for (std::size_t size = 0; size < kCoverageSizes_m.size(); ++size) {
     const VoxelSet seen_of_size = coarser(seen.voxels, kCoverageFactors[size]);
     const VoxelSet kept = voxels_of(seen.kept_world_m, kCoverageSizes_m[size]);
-    VoxelSet kept_and_seen;  // a centroid of a curved surface may lie where there is none
+    VoxelSet kept_and_seen;  // the neighbour that gets a leaf need not be seen
     std::set_intersection(kept.begin(), kept.end(), seen_of_size.begin(), seen_of_size.end(),
                           std::back_inserter(kept_and_seen));
     ceiling.raw[size] = coverage(reference.raw[size], seen_of_size);

@@ -11,7 +11,7 @@
 namespace gnbv {
 namespace {
 
-constexpr std::string_view kSurveyKind = "view_survey-2";
+constexpr std::string_view kSurveyKind = "view_survey";
 
 /// Numbers one after the other, counts packed.
 class Writer {

@@ -14,12 +14,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kFirstWords = "gnbv cache 1 ";
+constexpr std::string_view kFirstWords = "gnbv cache 2 ";
 constexpr std::size_t kDigestLength = 64;
 constexpr std::size_t kHeaderLength = kFirstWords.size() + kDigestLength + 1;
 
-std::string header_of(std::string_view content) {
+std::string header_of(std::string_view program, std::string_view content) {
   Sha256 sha;
+  sha.add(program);
+  sha.add("\n");
   sha.add(content);
   return fmt::format("{}{}\n", kFirstWords, sha.hex());
 }
@@ -58,7 +60,8 @@ void add_mesh(Sha256& sha, const TriangleMesh& mesh) {
   sha.add_bytes(std::as_bytes(std::span(mesh.faces)));
 }
 
-std::optional<std::string> load_cached(std::string_view kind, std::string_view key) {
+std::optional<std::string> load_cached(std::string_view kind, std::string_view key,
+                                       std::string_view program) {
   const fs::path folder = cache_folder();
   if (folder.empty()) return std::nullopt;
   const fs::path path = path_of(folder, kind, key);
@@ -71,11 +74,12 @@ std::optional<std::string> load_cached(std::string_view kind, std::string_view k
   if (content.size() < kHeaderLength) return std::nullopt;
   const std::string header = content.substr(0, kHeaderLength);
   content.erase(0, kHeaderLength);
-  if (header != header_of(content)) return std::nullopt;
+  if (header != header_of(program, content)) return std::nullopt;
   return content;
 }
 
-void store_cached(std::string_view kind, std::string_view key, std::string_view content) {
+void store_cached(std::string_view kind, std::string_view key, std::string_view content,
+                  std::string_view program) {
   const fs::path folder = cache_folder();
   if (folder.empty()) return;
   const fs::path path = path_of(folder, kind, key);
@@ -84,7 +88,7 @@ void store_cached(std::string_view kind, std::string_view key, std::string_view 
   fs::create_directories(path.parent_path(), error);
   if (error) return;
   std::ofstream out(part, std::ios::binary | std::ios::trunc);
-  out << header_of(content);
+  out << header_of(program, content);
   out.write(content.data(), static_cast<std::streamsize>(content.size()));
   out.close();
   if (out) fs::rename(part, path, error);

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "bench/sources/source_ids.hpp"
 #include "sim/core/sha256.hpp"
 #include "sim/mesh/triangle_mesh.hpp"
 
@@ -18,12 +19,16 @@ std::filesystem::path cache_folder();
 /// Adds a mesh to a key.
 void add_mesh(Sha256& sha, const TriangleMesh& mesh);
 
-/// What was stored under the key; nothing when there is none, or when it is damaged (its SHA-256 is
-/// checked). `kind` names the computation and its version ("surface_reference-1"), `key` is the
-/// SHA-256 of all that it depends on.
-std::optional<std::string> load_cached(std::string_view kind, std::string_view key);
+/// What this program stored under the key; nothing when there is none, when another program stored
+/// it, or when it is damaged (a SHA-256 over program and content is checked). `kind` names the
+/// computation ("surface_reference"), `key` is the SHA-256 of all input that it depends on. What
+/// computes it is `program`: no number has to be raised when that changes.
+std::optional<std::string> load_cached(std::string_view kind, std::string_view key,
+                                       std::string_view program = scoring_source_id());
 
-/// Stores by rename. A cache that cannot be written is no error: the result is just not kept.
-void store_cached(std::string_view kind, std::string_view key, std::string_view content);
+/// Stores by rename, in the place of another program's result. A cache that cannot be written is no
+/// error: the result is just not kept.
+void store_cached(std::string_view kind, std::string_view key, std::string_view content,
+                  std::string_view program = scoring_source_id());
 
 }  // namespace gnbv

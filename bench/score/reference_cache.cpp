@@ -16,8 +16,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 static_assert(sizeof(Vec3f) == 3 * sizeof(float));
 
-// Another number whenever make_surface_reference() or the bytes below change.
-constexpr std::string_view kKind = "surface_reference-2";
+constexpr std::string_view kKind = "surface_reference";
 
 std::string key_of(const TriangleMesh& mesh, const ReferenceConfig& config) {
   Sha256 sha;

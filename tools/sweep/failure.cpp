@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "bench/sources/source_ids.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "tools/sweep/source_id.hpp"
 
 namespace gnbv {
 namespace {
@@ -61,7 +61,7 @@ CellOutcome record_failure(const Cell& cell, const CellFiles& files, const Child
                        {"command", command},
                        {"host", host_name()},
                        {"version", GNBV_VERSION},
-                       {"source_id", source_id()}};
+                       {"source_id", flying_source_id()}};
   // what a program prints need not be UTF-8
   write_file_atomically(files.failed,
                         record.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");

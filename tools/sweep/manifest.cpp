@@ -8,10 +8,10 @@
 #include <tuple>
 
 #include "bench/compare/text_table.hpp"
+#include "bench/sources/source_ids.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/run_files/summary_json.hpp"
-#include "tools/sweep/source_id.hpp"
 
 namespace gnbv {
 namespace {
@@ -102,8 +102,9 @@ void write_manifest(const fs::path& folder, const fs::path& yaml, std::span<cons
       fmt::format("{{\n\"schema\": 1,\n\"version\": \"{}\",\n\"source_id\": \"{}\",\n\"file\": "
                   "{},\n\"text\": {},\n"
                   "\"cells\": {}\n}}\n",
-                  GNBV_VERSION, source_id(), quoted(fs::absolute(yaml).lexically_normal().string()),
-                  quoted(read_file(yaml)), by_line(items)));
+                  GNBV_VERSION, flying_source_id(),
+                  quoted(fs::absolute(yaml).lexically_normal().string()), quoted(read_file(yaml)),
+                  by_line(items)));
 }
 
 std::optional<ManifestHead> read_manifest_head(const fs::path& folder) {

@@ -12,8 +12,8 @@
 
 namespace gnbv {
 
-/// Writes DIR/sweep.json, by rename: version and source_id(), the sweep file's path and text, and
-/// the cells.
+/// Writes DIR/sweep.json, by rename: version and flying_source_id(), the sweep file's path and
+/// text, and the cells.
 void write_manifest(const std::filesystem::path& folder, const std::filesystem::path& yaml,
                     std::span<const Cell> cells);
 

@@ -42,6 +42,15 @@ TEST_F(ContentCache, TwoKindsDoNotCollide) {
   EXPECT_EQ(load_cached("kind-2", "00"), "two");
 }
 
+TEST_F(ContentCache, WhatAnotherProgramStoredIsNotReturned) {
+  store_cached("kind-1", "00", "old", "old sources");
+  EXPECT_EQ(load_cached("kind-1", "00"), std::nullopt);
+  store_cached("kind-1", "00", "new");
+  EXPECT_EQ(load_cached("kind-1", "00"), "new");
+  EXPECT_EQ(load_cached("kind-1", "00", scoring_source_id()), "new");
+  EXPECT_EQ(load_cached("kind-1", "00", "old sources"), std::nullopt);
+}
+
 TEST_F(ContentCache, AFileWithAnyByteWrongMissingOrAddedIsNotReturned) {
   store_cached("kind-1", "00", kBytes);
   const fs::path file = temp_.path() / "kind-1" / "00";

@@ -1,5 +1,5 @@
 // The name of what a program is made of.
-#include "tools/sweep/source_id.hpp"
+#include "bench/sources/source_ids.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 std::string id_from(const fs::path& root, const std::string& build) {
   std::ofstream(root / "list.txt") << "b.cpp\na.cpp\n";
   const std::string command = fmt::format(
-      "cmake -DROOT='{0}' -DSOURCES='{0}/list.txt' -DBUILD='{1}' -DOUTPUT='{0}/id' -P {2}",
+      "cmake -DROOT='{0}' -DSOURCES='{0}/list.txt' -DBUILD='{1}' -DFUNCTION=f -DOUTPUT='{0}/id' -P "
+      "{2}",
       root.string(), build, GNBV_SOURCE_ID_SCRIPT);
   EXPECT_EQ(std::system(command.c_str()), 0);
   return read_file(root / "id");
@@ -37,7 +38,8 @@ TEST(SourceId, IsThatOfNamesContentsAndBuild) {
   std::ofstream(temp.path() / "a.cpp") << "two";
   std::ofstream(temp.path() / "b.cpp") << "one";
   EXPECT_NE(id_from(temp.path(), "g++ 12, flags -O3"), first);
-  EXPECT_EQ(source_id().size(), 64U);
+  for (const std::string& id : {flying_source_id(), scoring_source_id()}) EXPECT_EQ(id.size(), 64U);
+  EXPECT_NE(flying_source_id(), scoring_source_id());
 }
 
 }  // namespace

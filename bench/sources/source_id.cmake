@@ -1,8 +1,9 @@
 # Writes the SHA-256 over sources and build as a C++ file; run by cmake -P while building.
-#   ROOT     of the repository
-#   SOURCES  a file with a path a line, relative to ROOT
-#   BUILD    what else the program is made of: compiler, flags, libraries
-#   OUTPUT   the file to write
+#   ROOT      of the repository
+#   SOURCES   a file with a path a line, relative to ROOT
+#   BUILD     what else the program is made of: compiler, flags, libraries
+#   FUNCTION  of source_ids.hpp, that is to return it
+#   OUTPUT    the file to write
 file(STRINGS "${SOURCES}" paths)
 list(SORT paths)
 set(content "${BUILD}\n")
@@ -11,11 +12,11 @@ foreach(path IN LISTS paths)
   string(APPEND content "${path} ${digest}\n")
 endforeach()
 string(SHA256 id "${content}")
-file(WRITE "${OUTPUT}" "#include \"tools/sweep/source_id.hpp\"
+file(WRITE "${OUTPUT}" "#include \"bench/sources/source_ids.hpp\"
 
 namespace gnbv {
 
-std::string source_id() { return \"${id}\"; }
+std::string ${FUNCTION}() { return \"${id}\"; }
 
 }  // namespace gnbv
 ")
