@@ -49,4 +49,12 @@ Ceiling find_ceiling(const Scenario& scenario, const World& world, const RayScen
   return ceiling;
 }
 
+std::optional<Ceiling> known_ceiling(const Scenario& scenario, const World& world,
+                                     const RayScene& scene, const ViewPose& start, int threads) {
+  if (!has_cached(kKind)) return std::nullopt;
+  const LegalViewpoints legal = find_legal_viewpoints(scenario, scene, start, threads);
+  const auto stored = load_cached(kKind, ceiling_key(scenario, world, legal));
+  return stored ? ceiling_from(*stored) : std::nullopt;
+}
+
 }  // namespace gnbv

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <optional>
 
 #include "scenarios/scenario.hpp"
 #include "sensors/ray_scene.hpp"
@@ -28,5 +29,10 @@ struct Ceiling {
 Ceiling find_ceiling(const Scenario& scenario, const World& world, const RayScene& scene,
                      const ViewPose& start, int threads,
                      const std::function<void(double share_done)>& on_progress = {});
+
+/// The same when the cache has it; nothing otherwise. Costs the search for legal viewpoints, unless
+/// no ceiling at all is cached.
+std::optional<Ceiling> known_ceiling(const Scenario& scenario, const World& world,
+                                     const RayScene& scene, const ViewPose& start, int threads);
 
 }  // namespace gnbv

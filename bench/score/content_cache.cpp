@@ -78,6 +78,12 @@ std::optional<std::string> load_cached(std::string_view kind, std::string_view k
   return content;
 }
 
+bool has_cached(std::string_view kind) {
+  const fs::path folder = cache_folder();
+  std::error_code error;
+  return !folder.empty() && fs::exists(folder / kind, error);
+}
+
 void store_cached(std::string_view kind, std::string_view key, std::string_view content,
                   std::string_view program) {
   const fs::path folder = cache_folder();

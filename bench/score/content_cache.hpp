@@ -26,6 +26,9 @@ void add_mesh(Sha256& sha, const TriangleMesh& mesh);
 std::optional<std::string> load_cached(std::string_view kind, std::string_view key,
                                        std::string_view program = scoring_source_id());
 
+/// Whether anything of the kind is stored, by whatever program.
+bool has_cached(std::string_view kind);
+
 /// Stores by rename, in the place of another program's result. A cache that cannot be written is no
 /// error: the result is just not kept.
 void store_cached(std::string_view kind, std::string_view key, std::string_view content,

@@ -14,14 +14,15 @@ MissionScore score_cloud(const SurfaceReference& reference, const RayScene& scen
   MissionScore score{.profile = shares.front().outside,
                      .final = shares.back().outside,
                      .profile_raw = shares.front().raw,
-                     .final_raw = shares.back().raw};
+                     .final_raw = shares.back().raw,
+                     .before = cloud.before};
   score.curve.coverage.push_back(shares.front().outside);
   score.curve.metres.push_back(0.0);
   score.curve.seconds.push_back(0.0);
   for (std::size_t i = 0; i < cloud.views.size(); ++i) {
     score.curve.coverage.push_back(shares[i + 1].outside);
     score.curve.metres.push_back(cloud.views[i].straight_m);
-    score.curve.seconds.push_back(cloud.views[i].time_s - cloud.profile_end_s);
+    score.curve.seconds.push_back(cloud.views[i].time_s - cloud.before.profile_end_s);
   }
   score.distances =
       cloud_distances(scene, cloud.points_world_m, reference.samples_world_m, threads);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,7 +24,7 @@ struct ViewMark {
 struct ScoredCloud {
   std::span<const Vec3f> points_world_m;
   std::size_t profile_points = 0;  // the first ones
-  double profile_end_s = 0.0;
+  BeforeViews before = {};
   std::vector<ViewMark> views = {};
 };
 
@@ -36,6 +37,10 @@ struct MissionScore {
   CloudDistances distances = {};
   CloudDensity density = {};  // over voxels of the map's size
   CoverageCurve curve = {};
+  BeforeViews before = {};
+  // ceiling of the coverage at 0.05 m (leaf_outside of bench/limits/ceiling.hpp), for those who
+  // know
+  std::optional<double> ceiling = {};
 };
 
 /// Deterministic at any number of threads. `density_voxel_m` is planner.map.resolution_m.

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,13 @@ struct CoverageCurve {
   std::vector<double> seconds;
 
   std::size_t views() const { return coverage.empty() ? 0 : coverage.size() - 1; }
+};
+
+/// What a mission spends before its curve begins.
+struct BeforeViews {
+  double profile_m = 0.0;      // planned legs of the profile, its approach included
+  double transfer_m = 0.0;     // planned, from the end of the profile to the first view
+  double profile_end_s = 0.0;  // simulated, since the mission began
 };
 
 /// The abscissa of a curve.
@@ -46,7 +54,7 @@ struct RunFigures {
   double entropy_reduction_nat = 0.0;
   double straight_m = 0.0;  // between consecutive views, without the profile
   double flown_m = 0.0;     // the same as the vehicle flew it
-  double profile_m = 0.0;
+  BeforeViews before;
   double flight_time_s = 0.0;
   double energy_wh = 0.0;
   std::array<double, 3> coverage_final{};      // of the surface seen from outside
@@ -56,7 +64,8 @@ struct RunFigures {
   double density_points_per_voxel = 0.0;  // cloud points per occupied voxel (Fig. 9)
   CloudDistances distances;               // precision, recall, F, Chamfer
   CloudDensity density;
-  CoverageCurve curve;  // may be empty
+  CoverageCurve curve;            // may be empty
+  std::optional<double> ceiling;  // coverage at 0.05 m that the cloud can reach, when it is known
   double wall_s = 0.0;
 };
 

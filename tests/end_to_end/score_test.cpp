@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -22,8 +23,9 @@ using Json = nlohmann::ordered_json;
 
 using test::Score;
 
-constexpr std::array kScored = {"precision_recall", "accuracy_m", "completeness_m",
-                                "chamfer_m",        "density",    "auc"};
+constexpr std::array kScored = {"precision_recall", "accuracy_m",     "completeness_m",
+                                "chamfer_m",        "density",        "mean_coverage_over_own",
+                                "ceiling_at_0.05",  "effort_to_reach"};
 
 TEST_F(Score, UpdatesARunToTheVeryBytesThatItWroteItself) {
   const std::string summary = read_file(original() / "summary.json");
@@ -61,6 +63,33 @@ TEST_F(Score, UpdatesARunToTheVeryBytesThatItWroteItself) {
   }
 }
 
+TEST_F(Score, TheCeilingGivesARunItsEfforts) {
+  const fs::path run = copy();
+  EXPECT_TRUE(summary_of(run).at("effort_to_reach").is_null());
+  const fs::path cache = temp_.path() / "cache";
+  const auto score = [&](const std::string& options) {
+    const Outcome outcome = gnbv("score " + run.string() + " --update" + options);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    return summary_of(run);
+  };
+  const std::string shared = std::getenv("GNBV_CACHE");
+  setenv("GNBV_CACHE", cache.c_str(), 1);
+  const Json without = score("");
+  EXPECT_TRUE(without.at("ceiling_at_0.05").is_null());
+  const Json found = score(" --ceiling");
+  const Json again = score("");  // by the cache
+  setenv("GNBV_CACHE", shared.c_str(), 1);
+  EXPECT_EQ(again, found);
+  EXPECT_GT(found.at("ceiling_at_0.05"), 0.5);
+  const RunFigures figures = read_run_figures(run);
+  const Json& at_80 = found.at("effort_to_reach").at("0.80");
+  ASSERT_FALSE(at_80.is_null());
+  const auto view = at_80.at("views").get<std::size_t>();
+  EXPECT_GE(figures.curve.coverage[view][0], 0.8 * *figures.ceiling);
+  EXPECT_EQ(at_80.at("metres"), figures.curve.metres[view]);
+  EXPECT_TRUE(score("").at("effort_to_reach").is_null());  // nobody knows it any more
+}
+
 TEST_F(Score, OfARunReadsBackAsItsFigures) {
   const RunFigures figures = read_run_figures(original());
   const Json summary = summary_of(original());
@@ -85,7 +114,7 @@ TEST_F(Score, OfARunReadsBackAsItsFigures) {
     EXPECT_GT(figures.curve.seconds[view], figures.curve.seconds[view - 1]);
   }
   EXPECT_EQ(area_under_coverage(figures.curve, Effort::metres, 0, figures.straight_m),
-            summary.at("auc").at("metres"));
+            summary.at("mean_coverage_over_own").at("metres"));
 }
 
 TEST_F(Score, FiguresOfADamagedRunAreRefusedByFileAndKey) {
@@ -132,7 +161,9 @@ TEST_F(Score, OfTheRunsCloudIsTheRuns) {
   const Json cloud = Json::parse(outcome.output);
   const Json run = summary_of(original());
   EXPECT_EQ(cloud.at("coverage").at("final"), run.at("coverage").at("final"));
-  EXPECT_FALSE(cloud.contains("auc"));
+  for (const char* key : {"mean_coverage_over_own", "ceiling_at_0.05", "effort_to_reach"}) {
+    EXPECT_FALSE(cloud.contains(key));
+  }
   for (const char* key : {"precision_recall", "chamfer_m", "density"}) {
     EXPECT_EQ(cloud.at(key), run.at(key)) << key;
   }
@@ -193,7 +224,7 @@ TEST_F(Score, OfARunWhoseFilesDoNotFitNamesTheFile) {
   Json summary = summary_of(run);
   summary["iterations"] = "12";
   expect_refused("summary.json", summary.dump(), "/iterations: \"12\" is no count");
-  for (const Json& schema : {Json(3), Json(-1), Json("2"), Json(1.5)}) {
+  for (const Json& schema : {Json(kSummarySchema + 1), Json(-1), Json("2"), Json(1.5)}) {
     summary = summary_of(run);
     summary["schema"] = schema;
     expect_refused("summary.json", summary.dump(), "/schema: " + schema.dump(), " --update");

@@ -57,6 +57,9 @@ void add_run_command(CLI::App& app) {
   command->add_flag("--frames", mission.frames, "also write what the cameras saw, to frames/");
   command->add_flag("--candidates", mission.candidates,
                     "also write every candidate's terms or reason of rejection");
+  command->add_flag_callback(
+      "--ceiling", [options] { options->mission.ceiling = CeilingFrom::search; },
+      "find the ceiling, where no earlier command did, for the effort to reach it in summary.json");
   command->add_flag("--json", options->json, "print summary.json instead of a table");
   command->callback([options] { run(*options); });
 }

@@ -12,6 +12,7 @@
 #include "tools/mission/execute.hpp"
 #include "tools/mission/rescore.hpp"
 #include "tools/run_files/cloud_file.hpp"
+#include "tools/run_files/score_json.hpp"
 #include "tools/run_files/summary_json.hpp"
 
 namespace gnbv {
@@ -25,6 +26,7 @@ struct ScoreOptions {
   std::string floor_z_m;
   int threads = 0;
   bool update = false;
+  CeilingFrom ceiling = CeilingFrom::cache;
   bool json = false;
 };
 
@@ -86,6 +88,9 @@ Scored score_file(ScoreOptions options, int threads) {
   if (options.update) {
     throw BadInput(fmt::format("--update: {} is no run directory", options.target));
   }
+  if (options.ceiling == CeilingFrom::search) {
+    throw BadInput(fmt::format("--ceiling: {} is no run directory", options.target));
+  }
   if (options.scenario.mesh.empty() && options.scenario.scenario.empty()) {
     throw BadInput("score: needs --mesh FILE or --scenario NAME, whose surface is the true one");
   }
@@ -114,7 +119,7 @@ Scored score_folder(const ScoreOptions& options, int threads) {
                     "--floor-z and --set are for clouds",
                     options.target));
   }
-  Scored scored = score_run(options.target, threads);
+  Scored scored = score_run(options.target, options.ceiling, threads);
   if (options.update) rescore_summary(options.target, scored.score);
   return scored;
 }
@@ -149,6 +154,9 @@ void add_score_command(CLI::App& app) {
   add_threads_option(*command, options->threads);
   command->add_flag("--update", options->update,
                     "put the score into the run's summary.json and coverage.csv");
+  command->add_flag_callback(
+      "--ceiling", [options] { options->ceiling = CeilingFrom::search; },
+      "of a run: find the ceiling, where no earlier command did, for the effort to reach it");
   command->add_flag("--json", options->json, "print JSON instead of a table");
   command->callback([options] { score(*options); });
 }

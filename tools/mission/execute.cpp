@@ -128,8 +128,9 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
     progress.show(1.0, "scoring");
     const SurfaceReference reference =
         cached_surface_reference(world, scene, {.floor_z_m = scenario.planner.floor_z_m}, threads);
-    const MissionScore score = score_cloud(reference, scene, scored_cloud(result),
-                                           scenario.planner.map.resolution_m, threads);
+    MissionScore score = score_cloud(reference, scene, scored_cloud(result),
+                                     scenario.planner.map.resolution_m, threads);
+    score.ceiling = run_ceiling(scenario, world, scene, options.ceiling, threads);
     result.wall.score_s = scoring.elapsed_s();
     directory.finish(scenario, result, score, watch.elapsed_s());
     if (candidates) candidates->finish();

@@ -6,6 +6,7 @@
 
 #include "bench/score/mission_score.hpp"
 #include "scenarios/scenario.hpp"
+#include "tools/mission/run_ceiling.hpp"
 #include "tools/run_files/mission_result.hpp"
 
 namespace gnbv {
@@ -18,6 +19,7 @@ struct MissionOptions {
   bool quiet = false;
   bool candidates = false;  // also write candidates.jsonl
   bool frames = false;      // also write frames/
+  CeilingFrom ceiling = CeilingFrom::cache;
 };
 
 /// `threads`, or as many as the machine has for 0.

@@ -78,12 +78,14 @@ Scored score_any_cloud(const std::string& name, std::span<const Vec3f> cloud_wor
   return scored;
 }
 
-Scored score_run(const fs::path& run, int threads) {
+Scored score_run(const fs::path& run, CeilingFrom ceiling, int threads) {
   const RunSummary summary = read_summary(run);
   const auto need = [&](bool is_there, const char* what) {
     if (!is_there) throw BadInput(fmt::format("{}: {}", (run / kSummaryFile).string(), what));
   };
   need(summary.profile_end_s.has_value(), "/profile_end_s: is missing");
+  need(summary.profile_m.has_value(), "/distance_m/profile: is missing");
+  need(summary.transfer_m.has_value(), "/distance_m/transfer: is missing");
   need(summary.iterations.has_value(), "/iterations: is missing");
   const Scenario scenario = load_scenario((run / kScenarioFile).string(), {});
   const fs::path cloud_path = run / kCloudFile;
@@ -92,12 +94,16 @@ Scored score_run(const fs::path& run, int threads) {
   const std::vector<Vec3f> profile = read_cloud(run / kProfileCloudFile);
   const ScoredCloud cloud{.points_world_m = points,
                           .profile_points = profile.size(),
-                          .profile_end_s = *summary.profile_end_s,
+                          .before = {.profile_m = *summary.profile_m,
+                                     .transfer_m = *summary.transfer_m,
+                                     .profile_end_s = *summary.profile_end_s},
                           .views = view_marks(read_view_records(run / kIterationsFile))};
   need_matching(run, cloud, profile, *summary.iterations);
   const World world = world_of(scenario);
   const RayScene scene(world);
-  return score(scenario, world, scene, cloud, threads);
+  Scored scored = score(scenario, world, scene, cloud, threads);
+  scored.score.ceiling = run_ceiling(scenario, world, scene, ceiling, threads);
+  return scored;
 }
 
 }  // namespace gnbv

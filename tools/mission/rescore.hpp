@@ -5,6 +5,7 @@
 
 #include "bench/score/mission_score.hpp"
 #include "scenarios/scenario.hpp"
+#include "tools/mission/run_ceiling.hpp"
 
 namespace gnbv {
 
@@ -27,6 +28,6 @@ Scored score_any_cloud(const std::string& name, std::span<const Vec3f> cloud_wor
 
 /// Scores cloud.ply, profile.ply and iterations.csv by scenario.yaml: bit for bit what the run
 /// itself found. Throws BadInput naming the file that is missing or does not fit the others.
-Scored score_run(const std::filesystem::path& run, int threads);
+Scored score_run(const std::filesystem::path& run, CeilingFrom ceiling, int threads);
 
 }  // namespace gnbv

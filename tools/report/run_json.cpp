@@ -68,7 +68,7 @@ Json figures_json(const RunFigures& f) {
       {"iterations", f.iterations},
       {"entropy_reduction", f.entropy_reduction_nat},
       {"straight_m", f.straight_m},
-      {"profile_m", f.profile_m},
+      {"profile_m", f.before.profile_m},
       {"flight_time_s", f.flight_time_s},
       {"energy_wh", f.energy_wh},
       {"coverage", f.coverage_final},

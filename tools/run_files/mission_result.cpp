@@ -22,7 +22,9 @@ std::vector<ViewMark> view_marks(std::span<const ViewRecord> views) {
 ScoredCloud scored_cloud(const MissionResult& result) {
   return {.points_world_m = result.belief.cloud.points_world_m(),
           .profile_points = result.profile_points_world_m.size(),
-          .profile_end_s = result.profile_end_s,
+          .before = {.profile_m = result.distance.profile_m,
+                     .transfer_m = result.distance.transfer_m,
+                     .profile_end_s = result.profile_end_s},
           .views = view_marks(result.views)};
 }
 

@@ -1,5 +1,7 @@
 #include "tools/run_files/summary_json.hpp"
 
+#include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "sim/core/error.hpp"
@@ -8,26 +10,13 @@
 #include "tools/run_files/coverage_csv.hpp"
 #include "tools/run_files/file_names.hpp"
 #include "tools/run_files/run_commands.hpp"
+#include "tools/run_files/score_json.hpp"
 
 namespace gnbv {
 namespace {
 
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
-
-Json by_size(const std::array<double, 3>& coverage) {
-  return {{"0.05", coverage[0]}, {"0.10", coverage[1]}, {"0.50", coverage[2]}};
-}
-
-/// Mean coverage at 0.05 m over the run's own length; null for a run that has none.
-Json area_under(const CoverageCurve& curve) {
-  const auto mean = [&](Effort effort, double length) {
-    return length > 0.0 ? Json(area_under_coverage(curve, effort, 0, length)) : Json(nullptr);
-  };
-  return {{"views", mean(Effort::views, static_cast<double>(curve.views()))},
-          {"metres", mean(Effort::metres, curve.metres.back())},
-          {"seconds", mean(Effort::seconds, curve.seconds.back())}};
-}
 
 Json symmetry_of(const Prediction& prediction) {
   const Symmetry& symmetry = prediction.symmetry;
@@ -43,32 +32,8 @@ Json symmetry_of(const Prediction& prediction) {
           {"predicted_voxels", prediction.predicted_voxels}};
 }
 
-/// The part of the summary that score_cloud() made.
-Json score_part(const MissionScore& score) {
-  Json at = Json::array();
-  for (const DistanceScore& d : score.distances.at) {
-    at.push_back({{"distance_m", d.distance_m},
-                  {"precision", d.precision},
-                  {"recall", d.recall},
-                  {"f", d.f}});
-  }
-  return {
-      {"coverage",
-       {{"profile", by_size(score.profile)},
-        {"final", by_size(score.final)},
-        {"profile_raw_reference", by_size(score.profile_raw)},
-        {"final_raw_reference", by_size(score.final_raw)}}},
-      {"precision_recall", at},
-      {"accuracy_m", score.distances.accuracy_m},
-      {"completeness_m", score.distances.completeness_m},
-      {"chamfer_m", score.distances.chamfer_m},
-      {"density",
-       {{"voxel_m", score.density.voxel_m},
-        {"mean_points", score.density.mean_points},
-        {"variation", score.density.variation}}},
-      {"auc", area_under(score.curve)},
-  };
-}
+/// Keys of earlier schemas that this one has under another name.
+constexpr std::array<std::string_view, 1> kRetiredKeys = {"auc"};
 
 /// The summary with this score instead of the one it has, and this schema. `coverage` is where the
 /// score stands.
@@ -80,7 +45,8 @@ Json with_score(const Json& summary, const MissionScore& score) {
       out[key] = kSummarySchema;
     } else if (key == "coverage") {
       for (const auto& [score_key, score_value] : part.items()) out[score_key] = score_value;
-    } else if (!part.contains(key)) {
+    } else if (std::find(kRetiredKeys.begin(), kRetiredKeys.end(), key) == kRetiredKeys.end() &&
+               !part.contains(key)) {
       out[key] = value;
     }
   }
@@ -104,6 +70,9 @@ class SummaryReader {
     const Json& value = at(pointer);
     if (!value.is_number()) refuse(pointer, value, "is no number");
     return value.get<double>();
+  }
+  std::optional<double> number_or_null(const std::string& pointer) const {
+    return at(pointer).is_null() ? std::nullopt : std::optional(number(pointer));
   }
   std::uint64_t count(const std::string& pointer) const {
     const Json& value = at(pointer);
@@ -221,7 +190,9 @@ RunSummary read_summary(const fs::path& run) {
           .termination = summary.if_there(&R::text, "/termination"),
           .iterations = summary.if_there(&R::count, "/iterations"),
           .profile_end_s = summary.if_there(&R::number, "/profile_end_s"),
-          .views_begin_s = summary.if_there(&R::number, "/views_begin_s")};
+          .views_begin_s = summary.if_there(&R::number, "/views_begin_s"),
+          .profile_m = summary.if_there(&R::number, "/distance_m/profile"),
+          .transfer_m = summary.if_there(&R::number, "/distance_m/transfer")};
 }
 
 RunFigures read_run_figures(const fs::path& run) {
@@ -246,7 +217,9 @@ RunFigures read_run_figures(const fs::path& run) {
       .entropy_reduction_nat = summary.number("/entropy_nat/reduction"),
       .straight_m = summary.number("/distance_m/straight"),
       .flown_m = summary.number("/distance_m/flown"),
-      .profile_m = summary.number("/distance_m/profile"),
+      .before = {.profile_m = summary.number("/distance_m/profile"),
+                 .transfer_m = summary.number("/distance_m/transfer"),
+                 .profile_end_s = summary.number("/profile_end_s")},
       .flight_time_s = summary.number("/flight_time_s"),
       .energy_wh = summary.number("/energy_wh"),
       .coverage_final = summary.by_size("/coverage/final"),
@@ -259,6 +232,7 @@ RunFigures read_run_figures(const fs::path& run) {
                   .mean_points = summary.number("/density/mean_points"),
                   .variation = summary.number("/density/variation")},
       .curve = read_coverage_csv(run / kCoverageFile),
+      .ceiling = summary.number_or_null("/ceiling_at_0.05"),
       .wall_s = summary.number("/wall_s/total"),
   };
   if (figures.curve.coverage.size() != static_cast<std::size_t>(figures.iterations) + 1) {
@@ -267,16 +241,6 @@ RunFigures read_run_figures(const fs::path& run) {
                                figures.iterations));
   }
   return figures;
-}
-
-std::string score_json(const MissionScore& score, bool is_run) {
-  Json json = score_part(score);
-  if (!is_run) {
-    json.erase("auc");
-    json["coverage"].erase("profile");
-    json["coverage"].erase("profile_raw_reference");
-  }
-  return json.dump(2);
 }
 
 void rescore_summary(const fs::path& run, const MissionScore& score) {

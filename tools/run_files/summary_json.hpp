@@ -13,7 +13,8 @@
 namespace gnbv {
 
 /// 2: precision_recall, accuracy_m, completeness_m, chamfer_m, density, auc; coverage.csv.
-constexpr unsigned kSummarySchema = 2;
+/// 3: auc is mean_coverage_over_own; ceiling_at_0.05, effort_to_reach.
+constexpr unsigned kSummarySchema = 3;
 
 std::string summary_json(const Scenario& scenario, const MissionResult& result,
                          const MissionScore& score, double total_wall_s);
@@ -25,6 +26,8 @@ struct RunSummary {
   std::optional<std::uint64_t> iterations = {};
   std::optional<double> profile_end_s = {};  // since the start of the mission,
   std::optional<double> views_begin_s = {};  // as is where the planned views begin
+  std::optional<double> profile_m = {};      // planned legs: of the profile,
+  std::optional<double> transfer_m = {};     // and from there to the first view
 };
 
 /// Throws BadInput naming the folder when it holds no finished run, and file and key of whatever is
@@ -35,10 +38,6 @@ RunSummary read_summary(const std::filesystem::path& run);
 /// naming file and key for a run that is not finished, or that another version wrote (the message
 /// names the command that scores it anew).
 RunFigures read_run_figures(const std::filesystem::path& run);
-
-/// The scoring part of a summary as an object of its own; without the run's curve and profile when
-/// it is only a cloud that was scored.
-std::string score_json(const MissionScore& score, bool is_run);
 
 /// Puts a score into coverage.csv and summary.json, of this schema or an earlier one, each by
 /// rename; all else stays as it is. With the score it has, a summary of this schema stays the same,

@@ -55,10 +55,10 @@ std::string by_line(const std::vector<Json>& items) {
 /// The columns of a mission's figures. Numbers as JSON has them, which read back exactly.
 std::vector<std::pair<std::string, Json>> columns_of(const RunFigures& f) {
   std::vector<std::pair<std::string, Json>> columns = {
-      {"termination", f.termination}, {"iterations", f.iterations},
-      {"straight_m", f.straight_m},   {"flown_m", f.flown_m},
-      {"profile_m", f.profile_m},     {"flight_time_s", f.flight_time_s},
-      {"energy_wh", f.energy_wh},     {"entropy_reduction_nat", f.entropy_reduction_nat}};
+      {"termination", f.termination},    {"iterations", f.iterations},
+      {"straight_m", f.straight_m},      {"flown_m", f.flown_m},
+      {"profile_m", f.before.profile_m}, {"flight_time_s", f.flight_time_s},
+      {"energy_wh", f.energy_wh},        {"entropy_reduction_nat", f.entropy_reduction_nat}};
   const auto add_sizes = [&](const std::string& name, const std::array<double, 3>& coverage) {
     for (std::size_t size = 0; size < 3; ++size) {
       columns.emplace_back(fmt::format("{}_{:.2f}", name, kCoverageSizes_m[size]), coverage[size]);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "planner/model.hpp"
 #include "sim/core/error.hpp"
@@ -233,7 +234,8 @@ struct MadeMission {
     result.views = {odd_view(0), odd_view(1)};
     for (ViewRecord& view : result.views) view.decision.view.p_world_m = Vec3(1.0 / 3.0, 0, 1);
     result.trajectory = made_record().path;
-    result.distance = {.profile_m = 1.0 / 3.0, .straight_m = 1e-9, .flown_m = 2.0 / 3.0};
+    result.distance = {
+        .profile_m = 1.0 / 3.0, .transfer_m = 2.0 / 7.0, .straight_m = 1e-9, .flown_m = 2.0 / 3.0};
     result.profile_end_s = 0.1 + 0.2;
     result.flight_time_s = 1e20;
     result.energy_wh = 5e-324;
@@ -281,7 +283,9 @@ TEST(RoundTrip, RunDirectory) {
   EXPECT_EQ(f.entropy_reduction_nat, 0.5);
   EXPECT_EQ(f.straight_m, 1e-9);
   EXPECT_EQ(f.flown_m, 2.0 / 3.0);
-  EXPECT_EQ(f.profile_m, 1.0 / 3.0);
+  EXPECT_EQ(f.before.profile_m, 1.0 / 3.0);
+  EXPECT_EQ(f.before.transfer_m, 2.0 / 7.0);
+  EXPECT_EQ(f.before.profile_end_s, 0.1 + 0.2);
   EXPECT_EQ(f.flight_time_s, 1e20);
   EXPECT_EQ(f.energy_wh, 5e-324);
   EXPECT_EQ(f.coverage_final, made.score.final);
@@ -311,6 +315,46 @@ TEST(RoundTrip, AScoreTakesThePlaceOfAnotherAndOfNothingElse) {
   rescore_summary(run, made.score);
   EXPECT_EQ(read_run_figures(run).coverage_final[0], 0.123);
   EXPECT_EQ(read_run_figures(run).energy_wh, 5e-324);
+}
+
+TEST(RoundTrip, EffortsAreThereWhenTheCeilingIsKnown) {
+  TempFolder temp;
+  const fs::path run = temp.path() / "run";
+  MadeMission made;
+  RunDirectory(run, made.scenario, false).finish(made.scenario, made.result, made.score, 61.5);
+  const auto json = [&] { return nlohmann::json::parse(read_file(run / kSummaryFile)); };
+  EXPECT_TRUE(json().at("ceiling_at_0.05").is_null());
+  EXPECT_TRUE(json().at("effort_to_reach").is_null());
+  EXPECT_EQ(read_run_figures(run).ceiling, std::nullopt);
+
+  made.score.ceiling = 0.42;  // 0.95 of it is 0.399
+  made.score.before = {.profile_m = 10.0, .transfer_m = 2.0, .profile_end_s = 30.0};
+  rescore_summary(run, made.score);
+  EXPECT_EQ(read_run_figures(run).ceiling, 0.42);
+  const nlohmann::json efforts = json().at("effort_to_reach");
+  EXPECT_EQ(efforts.at("0.95"), nlohmann::json::parse(R"({"views": 2, "metres": 1.0,
+    "metres_with_profile": 13.0, "seconds": 2.0, "seconds_with_profile": 32.0})"));
+  EXPECT_EQ(efforts.at("0.80").at("views"), 2);
+  EXPECT_TRUE(efforts.at("0.98").is_null());  // 0.4116 of the final 0.4
+  EXPECT_EQ(efforts.size(), 5U);
+}
+
+TEST(RoundTrip, AnOlderScoreLeavesNothingBehind) {
+  TempFolder temp;
+  const fs::path run = temp.path() / "run";
+  const MadeMission made;
+  RunDirectory(run, made.scenario, false).finish(made.scenario, made.result, made.score, 61.5);
+  const std::string whole = read_file(run / kSummaryFile);
+  auto old = nlohmann::ordered_json::parse(whole);
+  old["schema"] = 2;
+  old["auc"] = {{"views", 0.5}};  // of schema 2, where mean_coverage_over_own has that name
+  for (const char* key : {"mean_coverage_over_own", "ceiling_at_0.05", "effort_to_reach"}) {
+    old.erase(key);
+  }
+  write_file_atomically(run / kSummaryFile, old.dump(2) + "\n");
+  EXPECT_TRUE(has(complaint_of([&] { read_run_figures(run); }), "schema 2 of another version"));
+  rescore_summary(run, made.score);
+  EXPECT_EQ(read_file(run / kSummaryFile), whole);
 }
 
 }  // namespace
