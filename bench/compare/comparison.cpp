@@ -9,7 +9,6 @@ namespace gnbv {
 namespace {
 
 constexpr double kLevel = 0.05;
-constexpr std::uint64_t kBootstrapSeed = 1;
 
 /// The values of one metric in one scenario: by method, then by seed.
 using Values = std::vector<std::map<std::uint64_t, double>>;
@@ -57,29 +56,36 @@ std::vector<std::vector<double>> rank_blocks(const Values& values, bool higher_i
 std::optional<Contrast> contrast_of(const std::map<std::uint64_t, double>& method,
                                     const std::map<std::uint64_t, double>& baseline) {
   std::vector<double> differences;
-  std::vector<double> base;
+  std::vector<double> finite;
+  std::vector<double> base;  // of the finite ones
   for (const auto& [seed, value] : method) {
     const auto at = baseline.find(seed);
     if (at == baseline.end()) continue;
-    differences.push_back(value - at->second);
+    differences.push_back(value == at->second ? 0.0
+                                              : value - at->second);  // inf - inf is no number
+    if (std::isinf(value) || std::isinf(at->second)) continue;
+    finite.push_back(differences.back());
     base.push_back(at->second);
   }
   if (differences.empty()) return std::nullopt;
   Contrast contrast;
   contrast.pairs = differences.size();
-  contrast.baseline_mean = mean_of(base);
-  contrast.difference = estimate_mean(differences);
-  contrast.bootstrap = bootstrap_mean_interval(differences, kBootstrapSeed);
+  if (!finite.empty()) {
+    contrast.baseline_mean = mean_of(base);
+    contrast.difference = estimate_mean(finite);
+  }
   const SignedRankTest test = wilcoxon_signed_rank(differences);
   contrast.differing = test.n;
+  contrast.is_above = test.w_plus > 0.25 * static_cast<double>(test.n * (test.n + 1));
   contrast.p = test.p;
   if (contrast.pairs > 1 && contrast.differing == 0) contrast.verdict = Verdict::equal;
   return contrast;
 }
 
-bool intervals_exclude_zero(const Contrast& contrast) {
+/// Of all pairs: a mean over those where both got there says nothing of the others.
+bool interval_excludes_zero(const Contrast& contrast) {
   const MeanEstimate& d = contrast.difference;
-  return d.half_width && std::abs(d.mean) > *d.half_width && !contrast.bootstrap.contains(0.0);
+  return d.n == contrast.pairs && d.half_width && std::abs(d.mean) > *d.half_width;
 }
 
 /// Holm's adjustment over the family, and what follows.
@@ -93,16 +99,18 @@ void judge(std::vector<Contrast*>& family) {
     contrast.family = family.size();
     if (contrast.verdict == Verdict::equal || contrast.pairs < 2) continue;
     contrast.verdict = contrast.p_holm <= kLevel ? Verdict::significant
-                       : least_p_holm(contrast) > kLevel && intervals_exclude_zero(contrast)
+                       : least_p_holm(contrast) > kLevel && interval_excludes_zero(contrast)
                            ? Verdict::interval_only
                            : Verdict::not_significant;
   }
 }
 
-std::vector<double> all_values(const std::map<std::uint64_t, double>& by_seed) {
+MeanEstimate estimate_of_finite(const std::map<std::uint64_t, double>& by_seed) {
   std::vector<double> values;
-  for (const auto& [seed, value] : by_seed) values.push_back(value);
-  return values;
+  for (const auto& [seed, value] : by_seed) {
+    if (std::isfinite(value)) values.push_back(value);
+  }
+  return values.empty() ? MeanEstimate{} : estimate_mean(values);
 }
 
 std::optional<double> mean_rank(const std::vector<std::vector<double>>& blocks,
@@ -121,7 +129,8 @@ void add_figures(Comparison& comparison, std::size_t scenario, std::size_t metri
     MethodFigure figure{.scenario = scenario,
                         .metric = metric,
                         .method = method,
-                        .estimate = estimate_mean(all_values(values[method])),
+                        .runs = values[method].size(),
+                        .estimate = estimate_of_finite(values[method]),
                         .rank = mean_rank(blocks, method),
                         .contrast = {}};
     if (method != comparison.baseline) {

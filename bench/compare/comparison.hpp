@@ -28,20 +28,21 @@ enum class Verdict {
   untested,         // one seed, or none, that both methods have
   equal,            // none of several seeds makes a difference
   not_significant,  // neither of the following
-  interval_only,    // so few seeds that no test could reject; yet Student's and the bootstrap
-                    // interval of the mean difference both exclude 0
+  interval_only,    // so few seeds that no test could reject; yet Student's interval of the mean
+                    // difference excludes 0
   significant       // the signed-rank test rejects at 5 %, after Holm
 };
 
-/// A method against the baseline, over the seeds that both have.
+/// A method against the baseline, over the seeds that both have. Where a run did not reach what the
+/// metric asks for, it is worse than any that did, and as good as another that did not.
 struct Contrast {
   std::size_t pairs = 0;
   std::size_t differing = 0;   // of these, whose difference is not 0: those the test ranks
   std::size_t family = 1;      // methods of this scenario and metric that Holm adjusts for
-  double baseline_mean = 0.0;  // over these seeds
-  MeanEstimate difference;     // method - baseline
-  Interval bootstrap;          // 95 %, of the mean difference
-  double p = 1.0;              // two-sided signed-rank test
+  double baseline_mean = 0.0;  // over the seeds of `difference`
+  MeanEstimate difference;     // method - baseline, where both are finite; n = 0: nowhere
+  bool is_above = false;       // whether the ranks of positive differences weigh more
+  double p = 1.0;              // two-sided signed-rank test, over all pairs
   double p_holm = 1.0;         // adjusted over the methods of this scenario and metric
   Verdict verdict = Verdict::untested;
 };
@@ -55,7 +56,8 @@ struct MethodFigure {
   std::size_t scenario = 0;  // indices into Comparison's lists
   std::size_t metric = 0;    // of run_metrics()
   std::size_t method = 0;
-  MeanEstimate estimate;
+  std::size_t runs = 0;
+  MeanEstimate estimate;       // over those that are finite; n = 0: none
   std::optional<double> rank;  // mean over the seeds that all methods have; 1 is best, ties share
   std::optional<Contrast> contrast;  // none for the baseline
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace gnbv {
@@ -20,7 +21,7 @@ std::string verdict_words(const Contrast& contrast) {
     case Verdict::significant:
       return "significant";
     case Verdict::interval_only:
-      return fmt::format("both intervals exclude 0, but {} seeds{} are too few for the test",
+      return fmt::format("the interval excludes 0, but {} seeds{} are too few for the test",
                          contrast.differing,
                          contrast.differing < contrast.pairs ? " with a difference" : "");
     case Verdict::untested:
@@ -69,7 +70,9 @@ std::string distance_answer(const Contrast& contrast) {
 }
 
 std::string verdict_cell(const Contrast& contrast, bool higher_is_better) {
-  const bool is_better = (contrast.difference.mean > 0.0) == higher_is_better;
+  const bool is_above =
+      contrast.verdict == Verdict::significant ? contrast.is_above : contrast.difference.mean > 0.0;
+  const bool is_better = is_above == higher_is_better;
   switch (contrast.verdict) {
     case Verdict::significant:
       return is_better ? "better" : "worse";
@@ -90,6 +93,7 @@ using Row = std::vector<TableCell>;
 TableCell nothing() { return {.text = "-"}; }
 
 TableCell estimate_cell(const MeanEstimate& e, int decimals) {
+  if (e.n == 0) return nothing();
   std::string text = number(e.mean, decimals);
   if (e.half_width) text += " ±" + number(*e.half_width, decimals);
   return {.text = text, .values = {e.mean, e.half_width}};
@@ -97,23 +101,29 @@ TableCell estimate_cell(const MeanEstimate& e, int decimals) {
 
 void add_contrast(Row& row, const MethodFigure& figure, bool is_baseline) {
   if (!figure.contrast) {
-    row.insert(row.end(), 4, nothing());
+    row.insert(row.end(), 3, nothing());
     row.push_back({.text = is_baseline ? "baseline" : "no common seed"});
     return;
   }
   const RunMetric& metric = run_metrics()[figure.metric];
   const Contrast& c = *figure.contrast;
   row.push_back(estimate_cell(c.difference, metric.decimals));
+  if (c.difference.n > 0 && c.difference.n < c.pairs) {
+    row.back().text += fmt::format(" (n = {})", c.difference.n);
+  }
   if (c.pairs < 2) {
-    row.insert(row.end(), 3, nothing());
+    row.insert(row.end(), 2, nothing());
   } else {
-    row.push_back({.text = fmt::format("{} to {}", number(c.bootstrap.low, metric.decimals),
-                                       number(c.bootstrap.high, metric.decimals)),
-                   .values = {c.bootstrap.low, c.bootstrap.high}});
     row.push_back({.text = p_text(c.p), .values = {c.p, std::nullopt}});
     row.push_back({.text = p_text(c.p_holm), .values = {c.p_holm, std::nullopt}});
   }
   row.push_back({.text = verdict_cell(c, metric.higher_is_better)});
+}
+
+/// "8", or "5 of 8" where the others did not get there.
+TableCell count_cell(std::size_t n, std::size_t runs) {
+  return {.text = n == runs ? std::to_string(n) : fmt::format("{} of {}", n, runs),
+          .values = {static_cast<double>(n), static_cast<double>(runs)}};
 }
 
 Row figure_row(const Comparison& comparison, const MethodFigure& figure) {
@@ -122,21 +132,55 @@ Row figure_row(const Comparison& comparison, const MethodFigure& figure) {
       {.text = comparison.scenarios[figure.scenario]},
       {.text = std::string(metric.name)},
       {.text = comparison.methods[figure.method]},
-      {std::to_string(figure.estimate.n), {static_cast<double>(figure.estimate.n), std::nullopt}},
+      count_cell(figure.estimate.n, figure.runs),
       estimate_cell(figure.estimate, metric.decimals),
       figure.rank ? TableCell{fmt::format("{:.2f}", *figure.rank), {figure.rank, {}}} : nothing()};
   add_contrast(row, figure, figure.method == comparison.baseline);
   return row;
 }
 
+/// Whether any run of any method has a finite value of this metric in this scenario.
+bool is_reached(const Comparison& comparison, const MethodFigure& figure) {
+  return std::any_of(comparison.figures.begin(), comparison.figures.end(),
+                     [&](const MethodFigure& other) {
+                       return other.scenario == figure.scenario && other.metric == figure.metric &&
+                              other.estimate.n > 0;
+                     });
+}
+
+/// What the efforts to reach a share of the ceiling are, and which of them nobody did.
+void add_effort_notes(std::vector<std::string>& notes, const Comparison& comparison) {
+  std::map<std::size_t, std::vector<std::string>> missed;  // by scenario
+  bool has_efforts = false;
+  for (const MethodFigure& figure : comparison.figures) {
+    const RunMetric& metric = run_metrics()[figure.metric];
+    has_efforts = has_efforts || metric.may_be_missed;
+    if (!metric.name.starts_with("views to ") || is_reached(comparison, figure)) continue;
+    std::vector<std::string>& names = missed[figure.scenario];
+    const std::string share = metric.name.substr(std::string_view("views to ").size());
+    if (std::find(names.begin(), names.end(), share) == names.end()) names.push_back(share);
+  }
+  if (!has_efforts) return;
+  notes.emplace_back(
+      "to N % of ceiling: until the cloud first covered so much at 0.05 m of what it can hold; n: "
+      "how many runs got there, the mean is over these; difference: over the seeds where both "
+      "methods did; rank, p and verdict: over all, where a run that did not get there is worse "
+      "than "
+      "any that did. Distance and flight time of a mission that ended early are small for that "
+      "reason alone: these efforts are not");
+  for (const auto& [scenario, names] : missed) {
+    notes.push_back(fmt::format("{}: no run got to {}", comparison.scenarios[scenario],
+                                fmt::join(names, ", ")));
+  }
+}
+
 Row rank_row(const Comparison& comparison, const OverallRank& rank) {
   return {{.text = "all scenarios"},
           {.text = std::string(run_metrics()[rank.metric].name)},
           {.text = comparison.methods[rank.method]},
-          {std::to_string(rank.blocks), {static_cast<double>(rank.blocks), std::nullopt}},
+          count_cell(rank.blocks, rank.blocks),
           nothing(),
           {fmt::format("{:.2f}", rank.rank), {rank.rank, std::nullopt}},
-          nothing(),
           nothing(),
           nothing(),
           nothing(),
@@ -156,8 +200,8 @@ void add_power_notes(std::vector<std::string>& notes, const Comparison& comparis
     while (least_p_holm(c) > 0.05) ++c.differing;
     notes.push_back(fmt::format(
         "n = {}{}: no p of the signed-rank test can be below {:.4g}{}, so it cannot reject at 5 %; "
-        "{} seeds could. \"By interval only\" means that Student's and the bootstrap interval both "
-        "exclude 0: an indication that rests on differences being about normal, not a test "
+        "{} seeds could. \"By interval only\" means that Student's interval excludes 0: an "
+        "indication that rests on differences being about normal, not a test "
         "passed{}",
         c.pairs,
         differing < c.pairs ? fmt::format(", {} of them with a difference", differing) : "", least,
@@ -174,14 +218,14 @@ std::vector<std::string> notes(const Comparison& comparison) {
   all.push_back(fmt::format(
       "mean: over the seeds, ± its 95 % interval (Student's t); rank: mean over the seeds that all "
       "methods have, 1 is best; difference: against {} over the seeds that both have, ± its 95 % "
-      "interval (Student's t); bootstrap: 95 % percentile interval of the mean difference, {} "
-      "resamples, too narrow for few seeds; p: two-sided signed-rank test (Wilcoxon); Holm: over "
+      "interval (Student's t); p: two-sided signed-rank test (Wilcoxon); Holm: over "
       "the methods of a scenario and metric, not over metrics",
-      comparison.methods[comparison.baseline], kBootstrapResamples));
+      comparison.methods[comparison.baseline]));
   all.emplace_back(
       "coverage of the surface seen from outside; share of ceiling: over what the leaf filter lets "
       "through of all that legal viewpoints see; distance in straight lines between views, profile "
       "apart; flight time of the whole mission");
+  add_effort_notes(all, comparison);
   for (std::size_t s = 0; s < comparison.scenarios.size(); ++s) {
     const std::array<double, 3>& b = comparison.budgets[s];
     if (b[0] <= 0.0) continue;
@@ -225,16 +269,15 @@ TextTable comparison_table(const Comparison& comparison) {
   table.columns = {{"Scenario", "scenario", text},
                    {"Metric", "metric", text},
                    {"Method", "method", text},
-                   {"n", "n", number},
+                   {"n", "n", counted},
                    {"Mean", "mean", estimate},
                    {"Rank", "rank", number},
                    {"Difference", "difference", estimate},
-                   {"Bootstrap", "bootstrap", interval},
                    {"p", "p", number},
                    {"Holm", "p_holm", number},
                    {"Verdict", "verdict", text}};
   for (const MethodFigure& figure : comparison.figures) {
-    table.rows.push_back(figure_row(comparison, figure));
+    if (is_reached(comparison, figure)) table.rows.push_back(figure_row(comparison, figure));
   }
   if (comparison.scenarios.size() > 1) {
     for (const OverallRank& rank : comparison.ranks) {

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "bench/compare/statistics.hpp"
+#include "bench/compare/table_groups.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {
@@ -135,7 +136,7 @@ RowFigures our_profile(const Runs& runs, const std::optional<Ceiling>& ceiling) 
   Runs profiles;
   for (const auto& [seed, run] : by_seed) profiles.push_back(run);
   RowFigures f{.label = "Profile", .kind = "ours", .runs = profiles.size()};
-  f.distance_m = estimate(profiles, [](const RunFigures& r) { return r.profile_m; });
+  f.distance_m = estimate(profiles, [](const RunFigures& r) { return r.before.profile_m; });
   for (std::size_t size = 0; size < 3; ++size) {
     f.coverage[size] =
         estimate(profiles, [&](const RunFigures& r) { return r.coverage_profile[size]; });
@@ -150,48 +151,19 @@ RowFigures ceiling_figures(const std::string& kind, const std::array<double, 3>&
   return f;
 }
 
-/// Runs that differ in their seeds alone.
-struct Group {
-  std::string utility;
-  std::string setting;
-  Runs runs = {};
-
-  /// "Proposed, leaf_m=0.07" of the row's name.
-  std::string label(const std::string& name) const {
-    return setting.empty() ? name : name + ", " + setting;
-  }
-};
-
-/// In the order of their first runs.
-std::vector<Group> grouped(std::span<const RunFigures> runs,
-                           std::span<const std::string> settings) {
-  GNBV_CHECK(settings.empty() || settings.size() == runs.size(), "{} settings of {} runs",
-             settings.size(), runs.size());
-  std::vector<Group> groups;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const std::string setting = settings.empty() ? "" : settings[i];
-    auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& g) {
-      return g.utility == runs[i].utility && g.setting == setting;
-    });
-    if (group == groups.end()) group = groups.insert(groups.end(), {runs[i].utility, setting});
-    group->runs.push_back(&runs[i]);
-  }
-  return groups;
-}
-
 /// A row a setting, and one for all settings that had the same profiles.
-std::vector<RowFigures> our_profiles(const std::vector<Group>& groups,
+std::vector<RowFigures> our_profiles(const std::vector<TableGroup>& groups,
                                      const std::optional<Ceiling>& ceiling) {
-  std::vector<Group> by_setting;
-  for (const Group& group : groups) {
+  std::vector<TableGroup> by_setting;
+  for (const TableGroup& group : groups) {
     auto same = std::find_if(by_setting.begin(), by_setting.end(),
-                             [&](const Group& g) { return g.setting == group.setting; });
+                             [&](const TableGroup& g) { return g.setting == group.setting; });
     if (same == by_setting.end()) same = by_setting.insert(same, {"", group.setting});
     same->runs.insert(same->runs.end(), group.runs.begin(), group.runs.end());
   }
   std::vector<RowFigures> rows;
   std::vector<std::string> labels;
-  for (const Group& group : by_setting) {
+  for (const TableGroup& group : by_setting) {
     const RowFigures row = our_profile(group.runs, ceiling);
     const auto is_same = [&](const RowFigures& other) {
       return all_cells(other) == all_cells(row);
@@ -202,12 +174,6 @@ std::vector<RowFigures> our_profiles(const std::vector<Group>& groups,
   }
   for (std::size_t i = 0; i < rows.size() && rows.size() > 1; ++i) rows[i].label = labels[i];
   return rows;
-}
-
-std::string label_of(const std::string& utility) {
-  if (utility == "oracle_views") return "Oracle, few views";
-  if (utility == "oracle_metres") return "Oracle, few metres";
-  return utility;
 }
 
 std::string three_percent(const std::array<double, 3>& fractions) {
@@ -287,18 +253,19 @@ TextTable comparison_table(const PaperTable& paper, std::span<const RunFigures> 
   table.title = std::string(paper.source);
   table.columns = all_columns();
   const auto add = [&](const RowFigures& f) { table.rows.push_back(all_cells(f)); };
-  const std::vector<Group> groups = grouped(runs, settings);
-  const auto add_ours = [&](const Group& group, const std::string& name) {
+  const std::vector<TableGroup> groups = table_groups(runs, settings);
+  const auto add_ours = [&](const TableGroup& group, const std::string& name) {
     add(our_figures(group.label(name), group.runs, ceiling));
   };
   for (const PaperRow& row : paper.rows) {
-    for (const Group& group : groups) {
+    for (const TableGroup& group : groups) {
       if (group.utility == row.utility) add_ours(group, std::string(row.label));
     }
     add(paper_figures(row));
   }
-  for (const Group& group : groups) {
-    if (find_row(paper, group.utility) == nullptr) add_ours(group, label_of(group.utility));
+  for (const TableGroup& group : groups) {
+    if (find_row(paper, group.utility) == nullptr)
+      add_ours(group, name_in_table(paper, group.utility));
   }
   for (const RowFigures& profile : our_profiles(groups, ceiling)) add(profile);
   if (paper.profile) add(paper_figures(*paper.profile));
@@ -309,10 +276,10 @@ TextTable comparison_table(const PaperTable& paper, std::span<const RunFigures> 
   const bool prints_time = std::any_of(paper.rows.begin(), paper.rows.end(),
                                        [](const PaperRow& r) { return r.time_min.has_value(); });
   if (!prints_time) drop_column(table, "time_min");
-  const bool several_runs = std::any_of(groups.begin(), groups.end(),
-                                        [](const Group& group) { return group.runs.size() > 1; });
+  const bool several_runs = std::any_of(
+      groups.begin(), groups.end(), [](const TableGroup& group) { return group.runs.size() > 1; });
   add_notes(table, paper, several_runs, ceiling);
-  for (const Group& group : groups) {
+  for (const TableGroup& group : groups) {
     table.notes.push_back(runs_note(group.label(group.utility), group.runs));
   }
   return table;

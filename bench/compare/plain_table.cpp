@@ -12,7 +12,7 @@ namespace {
 /// The plain columns that one of ours becomes.
 std::vector<std::string> keys_of(const TableColumn& column) {
   if (column.kind == ColumnKind::estimate) return {column.key, column.key + "_ci95"};
-  if (column.kind == ColumnKind::interval) return {column.key + "_low", column.key + "_high"};
+  if (column.kind == ColumnKind::counted) return {column.key, column.key + "_runs"};
   return {column.key};
 }
 

@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "sim/core/error.hpp"
-#include "sim/core/rng.hpp"
 
 namespace gnbv {
 namespace {
@@ -117,23 +116,6 @@ double least_wilcoxon_p(std::size_t n) {
   return std::min(1.0, std::ldexp(2.0, -static_cast<int>(n)));
 }
 
-Interval bootstrap_mean_interval(std::span<const double> values, std::uint64_t seed) {
-  GNBV_CHECK(!values.empty(), "a mean of nothing");
-  const auto n = static_cast<double>(values.size());
-  std::vector<double> means(kBootstrapResamples, 0.0);
-  for (std::size_t resample = 0; resample < means.size(); ++resample) {
-    for (std::size_t draw = 0; draw < values.size(); ++draw) {
-      const double u = uniform01({seed, Stream::bootstrap, resample, draw});
-      means[resample] += values[static_cast<std::size_t>(u * n)] / n;
-    }
-  }
-  std::sort(means.begin(), means.end());
-  const auto at = [&](double share) {
-    return means[static_cast<std::size_t>(std::lround(share * (kBootstrapResamples - 1)))];
-  };
-  return {.low = at(0.025), .high = at(0.975)};
-}
-
 std::vector<double> holm_adjusted(std::span<const double> p) {
   std::vector<double> adjusted(p.size());
   double so_far = 0.0;
@@ -143,6 +125,15 @@ std::vector<double> holm_adjusted(std::span<const double> p) {
     adjusted[i] = so_far;
   }
   return adjusted;
+}
+
+std::optional<double> median_effort(std::span<const double> values) {
+  GNBV_CHECK(!values.empty(), "a median of nothing");
+  std::vector<double> sorted(values.begin(), values.end());
+  std::sort(sorted.begin(), sorted.end());
+  const double upper = sorted[sorted.size() / 2];
+  if (std::isinf(upper)) return std::nullopt;
+  return 0.5 * (sorted[(sorted.size() - 1) / 2] + upper);
 }
 
 std::vector<double> ranks_of(std::span<const double> values) {

@@ -15,13 +15,6 @@ double mean_of(std::span<const double> values);
 /// With n - 1 in the denominator. Requires two values.
 double sample_deviation(std::span<const double> values);
 
-struct Interval {
-  double low = 0.0;
-  double high = 0.0;
-
-  bool contains(double value) const { return low <= value && value <= high; }
-};
-
 /// The t below which Student's t of so many degrees of freedom stays with probability `p`. Requires
 /// p in (0, 1).
 double student_t_quantile(double p, double degrees_of_freedom);
@@ -36,7 +29,8 @@ struct MeanEstimate {
 /// Requires a value.
 MeanEstimate estimate_mean(std::span<const double> values);
 
-/// Wilcoxon's signed-rank test (Wilcoxon 1945) that differences are symmetric about 0.
+/// Wilcoxon's signed-rank test (Wilcoxon 1945) that differences are symmetric about 0. They may be
+/// infinite: the largest of all, of equal size.
 struct SignedRankTest {
   std::size_t n = 0;     // differences that are not 0; the others are dropped
   double w_plus = 0.0;   // sum of the ranks of positive differences; equal sizes share their ranks
@@ -50,12 +44,10 @@ SignedRankTest wilcoxon_signed_rank(std::span<const double> differences);
 /// The smallest p that `n` differences can have: all of one sign, none 0, none equal in size.
 double least_wilcoxon_p(std::size_t n);
 
-constexpr int kBootstrapResamples = 10000;
-
-/// 95 % percentile interval of the mean (Efron, Tibshirani 1993, chapter 13). Deterministic: the
-/// draws are keyed by `seed`. Too narrow for few values: see statistics_test.cpp for how much.
-/// Requires a value.
-Interval bootstrap_mean_interval(std::span<const double> values, std::uint64_t seed);
+/// The middle of values that are infinite where something was not reached; nothing when it is
+/// infinite, too. Unlike a mean over those that reached it, it does not get better when slow ones
+/// fail. Requires a value.
+std::optional<double> median_effort(std::span<const double> values);
 
 /// Holm's step-down adjustment (Holm 1979): p values of one family, in their order.
 std::vector<double> holm_adjusted(std::span<const double> p);

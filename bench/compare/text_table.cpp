@@ -109,6 +109,24 @@ std::string latex_escaped(std::string_view text) {
 
 }  // namespace
 
+TextTable with_columns_of(TextTable table, const TextTable& more, std::size_t shared) {
+  const auto from = static_cast<std::ptrdiff_t>(shared);
+  table.columns.insert(table.columns.end(), more.columns.begin() + from, more.columns.end());
+  for (auto& row : table.rows) {
+    const auto same = std::find_if(more.rows.begin(), more.rows.end(), [&](const auto& other) {
+      return std::equal(other.begin(), other.begin() + from, row.begin(),
+                        [](const TableCell& a, const TableCell& b) { return a.text == b.text; });
+    });
+    if (same != more.rows.end()) {
+      row.insert(row.end(), same->begin() + from, same->end());
+    } else {
+      row.resize(table.columns.size(), {.text = "-"});
+    }
+  }
+  table.notes.insert(table.notes.end(), more.notes.begin(), more.notes.end());
+  return table;
+}
+
 std::string grouped_number(double value, int decimals) {
   std::string digits = fmt::format("{:.{}f}", std::abs(value), decimals);
   const bool is_zero = digits.find_first_of("123456789") == std::string::npos;

@@ -12,8 +12,8 @@ namespace gnbv {
 
 /// What the cells of a column are, and which plain columns CSV and JSON make of it: `text` and
 /// `number` one named by the key, `estimate` (a mean and the half width of its 95 % interval) KEY
-/// and KEY_ci95, `interval` KEY_low and KEY_high.
-enum class ColumnKind { text, number, estimate, interval };
+/// and KEY_ci95, `counted` (a number and the runs that go with it) KEY and KEY_runs.
+enum class ColumnKind { text, number, estimate, counted };
 
 struct TableColumn {
   std::string head;  // for people
@@ -35,6 +35,10 @@ struct TextTable {
   std::vector<std::vector<TableCell>> rows;
   std::vector<std::string> notes;
 };
+
+/// The table with the last columns of `more`, those after its first `shared`: a row gets the cells
+/// of the row that agrees with it in the texts of the shared columns, or dashes. Notes of both.
+TextTable with_columns_of(TextTable table, const TextTable& more, std::size_t shared);
 
 /// A number as people read it: with `decimals`, thousands grouped as the paper does ("10,970").
 std::string grouped_number(double value, int decimals);

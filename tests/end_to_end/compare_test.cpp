@@ -52,6 +52,9 @@ TEST(Compare, FliesWhatIsMissingAndJudgesTheRunsThatItsFolderHolds) {
   EXPECT_NEAR(coverage[1].at("difference"),
               (bircher.at(1) - proposed.at(1) + bircher.at(2) - proposed.at(2)) / 2, 1e-9);
   EXPECT_FALSE(rows(table, "metric", "AUC over metres (%)").empty());
+  const std::vector<Json> efforts = rows(table, "metric", "metres to 80 % of ceiling");
+  ASSERT_EQ(efforts.size(), 2U);
+  for (const Json& row : efforts) EXPECT_EQ(row.at("n_runs"), 2);
   EXPECT_FALSE(rows(table, "metric", "share of ceiling at 0.05 m (%)").empty());
 
   // a run that is there is not flown again: a doctored one is believed
@@ -64,7 +67,7 @@ TEST(Compare, FliesWhatIsMissingAndJudgesTheRunsThatItsFolderHolds) {
   }
   const Outcome second = gnbv(compare + "csv 2>/dev/null");
   ASSERT_EQ(second.exit_code, 0) << second.output;
-  EXPECT_TRUE(has(second, "smoke,distance (m),bircher,2,123,0,1.5,0,0,0,0,1,1,equal"))
+  EXPECT_TRUE(has(second, "smoke,distance (m),bircher,2,2,123,0,1.5,0,0,1,1,equal"))
       << second.output;
 }
 
@@ -193,12 +196,17 @@ TEST(Table, HasThePapersRowOursTheOraclesAndTheCeiling) {
   EXPECT_EQ(parsed.at("rows").at(1).at("entropy_reduction"), 30140);
   EXPECT_TRUE(parsed.at("rows").at(0).at("time_min").is_number());
   EXPECT_TRUE(parsed.at("rows").at(0).at("share_of_ceiling").is_number());
+  for (const int oracle : {2, 3}) {
+    EXPECT_TRUE(parsed.at("rows").at(oracle).at("metres_to_90").is_number());
+    EXPECT_EQ(parsed.at("rows").at(oracle).at("metres_to_90_runs"), 2);
+  }
   // every other form has the same rows and the command that repeats it
   for (const std::string format : {"terminal", "markdown", "csv", "latex"}) {
     const Outcome other = gnbv(table + format);
     EXPECT_EQ(other.exit_code, 0) << format;
     EXPECT_TRUE(has(other, "gnbv table smoke") && has(other, "seeds 2")) << other.output;
     EXPECT_TRUE(has(other, "Oracle, few metres")) << format;
+    EXPECT_TRUE(has(other, "how many runs got there")) << format;
     EXPECT_TRUE(has(other, "ours is of smoke, which is not known to be")) << format;
   }
 }

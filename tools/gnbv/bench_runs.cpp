@@ -169,8 +169,11 @@ Ceilings ceilings_of(const BenchRuns& runs, const BenchOptions& options,
   return ceilings;
 }
 
-void print_bench(const TextTable& table, const std::string& format, bool has_failures) {
-  fmt::print("{}", formatted_text(table, format));
+void print_bench(const std::vector<TextTable>& tables, const std::string& format,
+                 bool has_failures) {
+  for (const TextTable& table : tables) {
+    fmt::print("{}{}", &table == &tables.front() ? "" : "\n", formatted_text(table, format));
+  }
   if (has_failures) throw CommandFailed("not every mission came to its end; the notes say which");
 }
 

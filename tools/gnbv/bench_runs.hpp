@@ -58,7 +58,8 @@ Ceiling ceiling_of(const Scenario& scenario, const BenchOptions& options);
 Ceilings ceilings_of(const BenchRuns& runs, const BenchOptions& options,
                      std::vector<std::string>& notes);
 
-/// Prints the table, then throws CommandFailed if something failed.
-void print_bench(const TextTable& table, const std::string& format, bool has_failures);
+/// Prints the tables, an empty line between them, then throws CommandFailed if something failed.
+void print_bench(const std::vector<TextTable>& tables, const std::string& format,
+                 bool has_failures);
 
 }  // namespace gnbv

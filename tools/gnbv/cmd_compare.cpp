@@ -21,7 +21,7 @@ struct CompareOptions {
   ScenarioOptions structure;  // of every scenario
   std::vector<std::string> scenarios;
   MethodOptions methods;
-  BenchOptions bench = {.seed_count = 5};
+  BenchOptions bench = {.seed_count = 8};
   std::string baseline;  // "" is the first method
   fs::path from;         // of a sweep; "" flies
 };
@@ -109,7 +109,7 @@ void compare_command(const CompareOptions& options) {
   const Ceilings ceilings = ceilings_of(collected, options.bench, more_notes);
   TextTable table = comparison_table(compare(collected.runs, plan.baseline, ceilings));
   table.notes.insert(table.notes.end(), more_notes.begin(), more_notes.end());
-  print_bench(table, options.bench.format, collected.has_failures);
+  print_bench({table}, options.bench.format, collected.has_failures);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "tools/gnbv/commands.hpp"
 #include "tools/plots/coverage_plot.hpp"
 #include "tools/plots/gnuplot.hpp"
+#include "tools/plots/reach_plot.hpp"
 #include "tools/plots/run_plots.hpp"
 #include "tools/run_files/file_names.hpp"
 #include "tools/run_files/run_names.hpp"
@@ -27,7 +28,8 @@ struct PlotOptions {
   std::vector<fs::path> runs;
   fs::path out;
   std::vector<std::string> formats = {"svg"};
-  std::vector<std::string> plots = {"density", "coverage", "terms"};
+  std::vector<std::string> plots = {"density", "coverage", "terms", "reach"};
+  int reach_percent = 95;
   std::string voxel_m = "0.05";
   PlotSize size;
   bool keep = false;
@@ -104,15 +106,38 @@ std::vector<Plot> plots_of_runs(const PlotOptions& options, const std::vector<Ru
   return plots;
 }
 
-std::vector<Plot> plots_of_coverage(const PlotOptions& options,
-                                    const std::vector<RunRecord>& records) {
+std::vector<Plot> plots_of_reach(const PlotOptions& options, std::span<const RunGroup> groups) {
+  std::vector<Plot> plots;
+  for (const Effort effort : {Effort::views, Effort::metres, Effort::seconds}) {
+    if (auto plot = reach_plot(groups, effort, options.reach_percent / 100.0)) {
+      plots.push_back(std::move(*plot));
+    }
+  }
+  if (plots.empty()) {
+    fmt::print(stderr,
+               "gnbv: no run's ceiling is known, so not how far they got; `gnbv score RUN --update "
+               "--ceiling` finds it\n");
+  }
+  return plots;
+}
+
+std::vector<Plot> plots_of_groups(const PlotOptions& options,
+                                  const std::vector<RunRecord>& records) {
   std::vector<std::string> notes;
   const std::vector<RunGroup> groups = group_runs(records, notes);
   for (const std::string& note : notes) fmt::print(stderr, "gnbv: {}\n", note);
   if (groups.empty()) return {};
   const std::size_t size = options.voxel_m == "0.05" ? 0 : options.voxel_m == "0.10" ? 1 : 2;
-  return {coverage_plot(groups, Effort::views, size), coverage_plot(groups, Effort::metres, size),
-          coverage_plot(groups, Effort::seconds, size)};
+  std::vector<Plot> plots;
+  if (wants(options, "coverage")) {
+    for (const Effort effort : {Effort::views, Effort::metres, Effort::seconds}) {
+      plots.push_back(coverage_plot(groups, effort, size));
+    }
+  }
+  if (wants(options, "reach")) {
+    for (Plot& reach : plots_of_reach(options, groups)) plots.push_back(std::move(reach));
+  }
+  return plots;
 }
 
 void draw(const PlotOptions& options, const Plot& plot, const fs::path& folder) {
@@ -135,8 +160,8 @@ void draw(const PlotOptions& options, const Plot& plot, const fs::path& folder) 
 void plot(const PlotOptions& options) {
   const std::vector<RunRecord> records = read_runs(options);
   std::vector<Plot> plots = plots_of_runs(options, records);
-  if (wants(options, "coverage")) {
-    for (Plot& coverage : plots_of_coverage(options, records)) plots.push_back(std::move(coverage));
+  if (wants(options, "coverage") || wants(options, "reach")) {
+    for (Plot& each : plots_of_groups(options, records)) plots.push_back(std::move(each));
   }
   if (plots.empty()) {
     throw BadInput(fmt::format("{}: nothing to plot", records.front().folder.string()));
@@ -167,10 +192,16 @@ void add_plot_command(CLI::App& app) {
       ->allow_extra_args(false)
       ->check(CLI::IsMember({"svg", "png", "pdf"}))
       ->capture_default_str();
-  command->add_option("--plots", options->plots, "which: density, coverage, terms, with commas")
+  command
+      ->add_option("--plots", options->plots, "which: density, coverage, terms, reach, with commas")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::IsMember({"density", "coverage", "terms"}))
+      ->check(CLI::IsMember({"density", "coverage", "terms", "reach"}))
+      ->capture_default_str();
+  command
+      ->add_option("--reach", options->reach_percent,
+                   "percent of the ceiling that the reach plots ask for")
+      ->check(CLI::Range(1, 100))
       ->capture_default_str();
   command->add_option("--voxel", options->voxel_m, "edge of the voxels that are covered (m)")
       ->check(CLI::IsMember({"0.05", "0.10", "0.50"}))

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "bench/compare/effort_table.hpp"
 #include "bench/compare/paper_table.hpp"
 #include "planner/routes.hpp"
 #include "sim/core/error.hpp"
@@ -93,6 +94,7 @@ void table(const TableOptions& options) {
   std::vector<RunFigures> runs;
   for (const ComparedRun& run : flown.runs) runs.push_back(run.figures);
   TextTable text = comparison_table(paper, runs, ceiling);
+  const TextTable effort = effort_table(paper, runs, ceiling);
   const std::string structure = structure_name(first.structure);
   if (!is_papers_structure(paper, structure)) {
     text.notes.push_back(fmt::format(
@@ -102,7 +104,13 @@ void table(const TableOptions& options) {
   text.notes.insert(text.notes.end(), flown.notes.begin(), flown.notes.end());
   text.notes.push_back(
       fmt::format("{}, version {}", command_of(options, first.seed), GNBV_VERSION));
-  print_bench(text, options.bench.format, flown.has_failures);
+  // people read two narrow tables, machines one wide one
+  const std::string& format = options.bench.format;
+  if (format == "csv" || format == "json") {
+    print_bench({with_columns_of(text, effort, kSharedColumns)}, format, flown.has_failures);
+  } else {
+    print_bench({text, effort}, format, flown.has_failures);
+  }
 }
 
 }  // namespace

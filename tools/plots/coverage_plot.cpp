@@ -13,22 +13,6 @@
 namespace gnbv {
 namespace {
 
-std::string_view x_label(Effort effort) {
-  switch (effort) {
-    case Effort::views:
-      return "views";
-    case Effort::metres:
-      return "path between views (m)";
-    case Effort::seconds:
-      return "time after the profile (s)";
-  }
-  return "";
-}
-
-std::string_view name_of(Effort effort) {
-  return effort == Effort::views ? "views" : effort == Effort::metres ? "metres" : "seconds";
-}
-
 struct PaperLevel {
   double percent = 0.0;
   bool is_doubtful = false;
@@ -149,12 +133,12 @@ Plot coverage_plot(std::span<const RunGroup> groups, Effort effort, std::size_t 
                                     "set tmargin at screen {:.4f}\n",
                                     1.0 - static_cast<double>(key_px + kKeyLine_px) / height_px);
   const std::string y_label = fmt::format("coverage at {:.2f} m (%)", kCoverageSizes_m[size]);
-  return {fmt::format("coverage-{}", name_of(effort)),
+  return {fmt::format("coverage-{}", effort_name(effort)),
           data + key + "set yrange [0:100]\nset xrange [0:*] noextend\nset rmargin 3\n" +
               fmt::format("set xtics {:g}\n",
                           even_step(std::max(longest_effort(groups, effort), 1e-6))) +
               fmt::format("set xlabel {}\nset ylabel {} offset 0.6,0\nplot {}\n",
-                          gnuplot_text(x_label(effort)), gnuplot_text(y_label), entries),
+                          gnuplot_text(effort_label(effort)), gnuplot_text(y_label), entries),
           height_px};
 }
 

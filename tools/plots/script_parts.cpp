@@ -41,6 +41,22 @@ std::string key_row(const std::vector<KeyEntry>& key, double screen_y) {
 
 }  // namespace
 
+std::string_view effort_label(Effort effort) {
+  switch (effort) {
+    case Effort::views:
+      return "views";
+    case Effort::metres:
+      return "path between views (m)";
+    case Effort::seconds:
+      return "time after the profile (s)";
+  }
+  return "";
+}
+
+std::string_view effort_name(Effort effort) {
+  return effort == Effort::views ? "views" : effort == Effort::metres ? "metres" : "seconds";
+}
+
 int panels_height_px(std::size_t count) { return count < 3 ? 1150 : 1450; }
 
 std::string data_block(std::string_view name, const std::vector<std::vector<double>>& rows) {

@@ -14,6 +14,11 @@ namespace gnbv {
 constexpr std::array<std::string_view, 7> kPalette = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                       "#e69f00", "#56b4e9", "#000000"};
 
+/// Of the axis that this effort is on: "path between views (m)".
+std::string_view effort_label(Effort effort);
+/// In the names of plots: "metres".
+std::string_view effort_name(Effort effort);
+
 /// A block of data by name: a row of numbers a line, as they are.
 std::string data_block(std::string_view name, const std::vector<std::vector<double>>& rows);
 

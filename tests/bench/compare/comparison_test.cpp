@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "bench/compare/comparison_text.hpp"
@@ -58,8 +59,6 @@ TEST(Compare, MeansDifferencesAndIntervalsAreTheTextbooks) {
   EXPECT_NEAR(b.contrast->difference.mean, 2.0, 1e-9);             // of 1 and 3 points
   EXPECT_NEAR(*b.contrast->difference.half_width, 12.7062, 1e-3);  // deviation sqrt 2, over sqrt 2
   EXPECT_NEAR(b.contrast->baseline_mean, 91.0, 1e-9);
-  EXPECT_NEAR(b.contrast->bootstrap.low, 1.0, 1e-9);
-  EXPECT_NEAR(b.contrast->bootstrap.high, 3.0, 1e-9);
   EXPECT_EQ(b.contrast->p, 0.5);  // two of two positive
   EXPECT_EQ(b.contrast->verdict, Verdict::not_significant);
   EXPECT_FALSE(find_figure(c, 0, kCoverageMetric, 0)->contrast);
@@ -191,6 +190,95 @@ TEST(Compare, EachMethodIsDividedByItsOwnCeiling) {
     EXPECT_NEAR(find_figure(c, 0, "share of ceiling at 0.05 m (%)", method)->estimate.mean, 80.0,
                 1e-9);
   }
+}
+
+/// A run that covers a tenth of the ceiling more with each of its views of 10 m.
+ComparedRun climbing(const std::string& method, std::uint64_t seed, int views, double metres) {
+  ComparedRun r = run(method, seed, 0.1 * views, metres * views);
+  r.figures.curve = {};
+  for (int view = 0; view <= views; ++view) {
+    r.figures.curve.coverage.push_back({0.1 * view + 1e-9, 0.0, 0.0});
+    r.figures.curve.metres.push_back(metres * view);
+    r.figures.curve.seconds.push_back(view);
+  }
+  r.figures.before = {.profile_m = 100.0, .transfer_m = 5.0, .profile_end_s = 60.0};
+  return r;
+}
+
+Ceilings ceiling_for(const std::vector<std::string>& methods) {
+  Ceiling ceiling;
+  ceiling.leaf_outside = {1.0, 1.0, 1.0};
+  Ceilings all;
+  for (const std::string& method : methods) all[{"aircraft", method}] = ceiling;
+  return all;
+}
+
+constexpr std::string_view kTo90 = "metres to 90 % of ceiling";
+
+TEST(Compare, AMissionThatDiesEarlyWinsMetresButNotTheEffortToReach) {
+  std::vector<ComparedRun> runs;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    runs.push_back(climbing("whole", seed, 9, 10.0 + 0.1 * static_cast<double>(seed)));
+    // half the metres a view, but most crash after two
+    runs.push_back(climbing("dies", seed, seed == 3 ? 9 : 2, 5.0));
+  }
+  const Comparison c = compare(runs, "whole", ceiling_for({"whole", "dies"}));
+  EXPECT_LT(find_figure(c, 0, kDistanceMetric, 1)->contrast->difference.mean, 0.0);
+  const MethodFigure& whole = *find_figure(c, 0, kTo90, 0);
+  const MethodFigure& dies = *find_figure(c, 0, kTo90, 1);
+  EXPECT_EQ(whole.estimate.n, 8U);
+  EXPECT_EQ(dies.runs, 8U);
+  EXPECT_EQ(dies.estimate.n, 1U);
+  EXPECT_EQ(dies.estimate.mean, 45.0);
+  // ranks: worst in seven seeds, best in the one where it got there
+  EXPECT_DOUBLE_EQ(*dies.rank, (7 * 2 + 1) / 8.0);
+  const Contrast& contrast = *dies.contrast;
+  EXPECT_EQ(contrast.pairs, 8U);
+  EXPECT_EQ(contrast.difference.n, 1U);
+  EXPECT_NEAR(contrast.difference.mean, 45.0 - 9 * 10.3, 1e-9);  // of seed 3 alone
+  EXPECT_EQ(contrast.p, 2.0 * 2 / 256);  // the one negative difference is the smallest in size
+  EXPECT_EQ(contrast.verdict, Verdict::significant);
+  const TextTable table = comparison_table(c);
+  const auto row = std::find_if(table.rows.begin(), table.rows.end(), [](const auto& r) {
+    return r[1].text == kTo90 && r[2].text == "dies";
+  });
+  ASSERT_NE(row, table.rows.end());
+  EXPECT_EQ((*row)[3].text, "1 of 8");
+  EXPECT_EQ(row->back().text, "worse");
+  EXPECT_NE(all_notes(table).find("aircraft: no run got to 95 % of ceiling, 98 % of ceiling, 99 %"),
+            std::string::npos)
+      << all_notes(table);
+}
+
+TEST(Compare, EffortsWithTheProfileAddIt) {
+  const std::vector<ComparedRun> runs = {climbing("a", 1, 10, 10.0), climbing("b", 1, 10, 20.0)};
+  const Comparison c = compare(runs, "a", ceiling_for({"a", "b"}));
+  const auto mean = [&](std::string_view metric) {
+    return find_figure(c, 0, metric, 0)->estimate.mean;
+  };
+  EXPECT_EQ(mean("views to 80 % of ceiling"), 8.0);
+  EXPECT_EQ(mean("metres to 80 % of ceiling"), 80.0);
+  EXPECT_EQ(mean("metres to 80 % of ceiling, with profile"), 185.0);
+  EXPECT_EQ(mean("seconds to 80 % of ceiling, with profile"), 68.0);
+  EXPECT_EQ(mean("views to 99 % of ceiling"), 10.0);
+}
+
+TEST(Compare, TwoThatNeverGetThereAreEqual) {
+  std::vector<ComparedRun> runs;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    runs.push_back(climbing("a", seed, 2, 10.0));
+    runs.push_back(climbing("b", seed, 3, 10.0));
+  }
+  const Comparison c = compare(runs, "a", ceiling_for({"a", "b"}));
+  EXPECT_EQ(find_figure(c, 0, kTo90, 1)->contrast->verdict, Verdict::equal);
+  EXPECT_EQ(find_figure(c, 0, kTo90, 1)->rank, 1.5);
+  EXPECT_EQ(find_figure(c, 0, kTo90, 1)->estimate.n, 0U);
+}
+
+TEST(Compare, WithoutACeilingThereIsNothingToReach) {
+  const Comparison c = compare(clear_cut(2), "base", {});
+  EXPECT_EQ(find_figure(c, 0, kTo90, 0), nullptr);
+  EXPECT_EQ(all_notes(comparison_table(c)).find("of ceiling: until"), std::string::npos);
 }
 
 TEST(Compare, RanksAreMeansOverScenariosAndSeeds) {

@@ -20,7 +20,7 @@ RunFigures example() {
   r.entropy_reduction_nat = 3702.4;
   r.straight_m = 504.26;
   r.flown_m = 530.0;
-  r.profile_m = 349.0;
+  r.before.profile_m = 349.0;
   r.coverage_final = {0.852, 0.95, 0.9951};
   r.coverage_profile = {0.167, 0.666, 0.896};
   r.coverage_final_raw = {0.75, 0.85, 0.95};

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "sim/core/rng.hpp"
 
@@ -159,40 +161,28 @@ TEST(Wilcoxon, RefusesATrueHypothesisAsRarelyAsItSays) {
   EXPECT_NEAR(refused / 4000.0, 10.0 / 256.0, 0.01);
 }
 
-TEST(Bootstrap, IsKeyedAndMovesWithTheValues) {
-  const std::vector<double> values = normal_values(9, 1);
-  const Interval one = bootstrap_mean_interval(values, 1);
-  EXPECT_EQ(one.low, bootstrap_mean_interval(values, 1).low);
-  EXPECT_NE(one.low, bootstrap_mean_interval(values, 2).low);
-  std::vector<double> moved = values;
-  for (double& v : moved) v += 100.0;
-  EXPECT_NEAR(bootstrap_mean_interval(moved, 1).high, one.high + 100.0, 1e-9);
-  const Interval same = bootstrap_mean_interval(std::vector<double>{4.0, 4.0}, 1);
-  EXPECT_EQ(same.low, 4.0);
-  EXPECT_EQ(same.high, 4.0);
+// What is infinite is the largest of all: any finite stand-in that is large enough gives the same.
+TEST(Wilcoxon, InfiniteDifferencesAreTheLargest) {
+  const double never = std::numeric_limits<double>::infinity();
+  for (const auto& differences : {std::vector{never, 3.0, -1.0, never, 2.5, 4.0},
+                                  std::vector{-never, 3.0, 1.0, never, 2.5}}) {
+    std::vector<double> finite = differences;
+    for (double& d : finite) d = std::clamp(d, -1e6, 1e6);
+    EXPECT_EQ(wilcoxon_signed_rank(differences).p, wilcoxon_signed_rank(finite).p);
+    EXPECT_EQ(wilcoxon_signed_rank(differences).w_plus, wilcoxon_signed_rank(finite).w_plus);
+    EXPECT_DOUBLE_EQ(wilcoxon_signed_rank(differences).p, brute_force_p(differences));
+  }
 }
 
-// Oracle: all n^n resamples of three values.
-TEST(Bootstrap, PercentilesAreThoseOfAllResamples) {
-  const std::vector<double> values = {0.0, 1.0, 5.0};
-  const Interval interval = bootstrap_mean_interval(values, 3);
-  // P(mean = 0) = P(mean = 5) = 1/27 > 0.025: both ends are the extremes
-  EXPECT_EQ(interval.low, 0.0);
-  EXPECT_DOUBLE_EQ(interval.high, 5.0);
-}
-
-// Known to be too narrow for few values, which is why a verdict also asks Student's interval.
-TEST(Bootstrap, CoversLessThanItSaysWithFiveValuesAndNearlyThatWithForty) {
-  const auto share = [](std::size_t n, int samples) {
-    int hits = 0;
-    for (int seed = 0; seed < samples; ++seed) {
-      const auto key = static_cast<std::uint64_t>(seed);
-      hits += bootstrap_mean_interval(normal_values(n, key), key).contains(0.0) ? 1 : 0;
-    }
-    return static_cast<double>(hits) / samples;
-  };
-  EXPECT_NEAR(share(5, 400), 0.83, 0.06);  // three standard errors of 0.019
-  EXPECT_NEAR(share(40, 200), 0.94, 0.055);
+TEST(MedianEffort, IsTheMiddleWhateverTheFailuresWouldHaveCost) {
+  const double never = std::numeric_limits<double>::infinity();
+  const auto median = [](std::vector<double> values) { return median_effort(values); };
+  EXPECT_EQ(median({7.0}), 7.0);
+  EXPECT_EQ(median({never, 1.0, 5.0}), 5.0);
+  EXPECT_EQ(median({4.0, 1.0, never, 2.0}), 3.0);
+  EXPECT_EQ(median({4.0, never, never}), std::nullopt);
+  EXPECT_EQ(median({4.0, 1.0, never, never}), std::nullopt);  // the upper of the middle two
+  EXPECT_EQ(median({never}), std::nullopt);
 }
 
 TEST(Holm, StepsDownAndNeverDecreases) {

@@ -15,11 +15,11 @@ TextTable example() {
           .columns = {{"Name", "name", text},
                       {"Runs", "runs", number},
                       {"Coverage", "coverage", estimate},
-                      {"Difference", "difference", interval}},
+                      {"Metres", "metres", counted}},
           .rows = {{{"a, \"b\""},
                     {"5", {5.0, std::nullopt}},
                     {"92.8 ±0.6%", {0.9279255027467871, 0.006}},
-                    {"-2.1 to -0.7", {-2.1, -0.7}}},
+                    {"-2.1 (4 of 5)", {-2.1, 4.0}}},
                    {{"éé"}, {"-"}, {"50.0%†", {0.5, std::nullopt}}, {"-"}}},
           .notes = {"one, two"}};
 }
@@ -52,10 +52,10 @@ std::vector<std::vector<std::string>> read_csv(const std::string& text) {
 TEST(TextTable, TerminalTextIsAlignedByCodePoints) {
   EXPECT_EQ(terminal_text(example()),
             "T & co\n"
-            "Name    Runs    Coverage    Difference\n"
-            "--------------------------------------\n"
-            "a, \"b\"     5  92.8 ±0.6%  -2.1 to -0.7\n"
-            "éé         -      50.0%†             -\n"
+            "Name    Runs    Coverage         Metres\n"
+            "---------------------------------------\n"
+            "a, \"b\"     5  92.8 ±0.6%  -2.1 (4 of 5)\n"
+            "éé         -      50.0%†              -\n"
             "one, two\n");
 }
 
@@ -79,7 +79,7 @@ TEST(TextTable, CsvReadsBackWithTheSameNumbers) {
   const auto records = read_csv(csv_text(example()));
   ASSERT_EQ(records.size(), 4U);
   EXPECT_EQ(records[0], (std::vector<std::string>{"name", "runs", "coverage", "coverage_ci95",
-                                                  "difference_low", "difference_high"}));
+                                                  "metres", "metres_runs"}));
   EXPECT_EQ(records[1][0], "a, \"b\"");
   EXPECT_EQ(std::strtod(records[1][2].c_str(), nullptr), 0.9279255027467871);
   EXPECT_EQ(records[1][4], "-2.1");
@@ -95,7 +95,7 @@ TEST(TextTable, JsonReadsBackWithTheSameNumbers) {
   EXPECT_EQ(json.at("rows").at(0).at("name"), "a, \"b\"");
   EXPECT_EQ(json.at("rows").at(0).at("coverage"), 0.9279255027467871);
   EXPECT_EQ(json.at("rows").at(0).at("coverage_ci95"), 0.006);
-  EXPECT_TRUE(json.at("rows").at(1).at("difference_low").is_null());
+  EXPECT_TRUE(json.at("rows").at(1).at("metres").is_null());
 }
 
 TEST(TextTable, LatexEscapesAllThatItWouldRead) {
@@ -105,12 +105,26 @@ TEST(TextTable, LatexEscapesAllThatItWouldRead) {
             "% needs \\usepackage{booktabs}\n"
             "\\begin{table}\n\\centering\n\\caption{T \\& co}\n"
             "\\begin{tabular}{lrrr}\n\\toprule\n"
-            "Name & Runs & Coverage & Difference \\\\\n\\midrule\n"
+            "Name & Runs & Coverage & Metres \\\\\n\\midrule\n"
             "\\textbackslash{}\\&\\%\\_\\#\\$\\{\\}\\textasciitilde{}\\textasciicircum{}-{}-"
             "x\\textless{}y\\textgreater{}\\textbar{} & 1 & "
             "92.8 $\\pm$0.6\\%$^\\dagger$ & - \\\\\n"
             "\\bottomrule\n\\end{tabular}\n"
             "\n\\par\\footnotesize one, two\n\\end{table}\n");
+}
+
+TEST(TextTable, ColumnsOfAnotherTableGoToTheRowsOfTheSameName) {
+  const TextTable more = {.title = "",
+                          .columns = {{"Name", "name", text}, {"More", "more", number}},
+                          .rows = {{{"éé"}, {"7", {7.0, std::nullopt}}}, {{"zz"}, {"8"}}},
+                          .notes = {"three"}};
+  const TextTable both = with_columns_of(example(), more, 1);
+  EXPECT_EQ(both.columns.back().key, "more");
+  EXPECT_EQ(both.rows[0].back().text, "-");
+  EXPECT_EQ(both.rows[1].back().text, "7");
+  EXPECT_EQ(both.rows.size(), 2U);
+  EXPECT_EQ(both.notes, (std::vector<std::string>{"one, two", "three"}));
+  for (const auto& row : both.rows) EXPECT_EQ(row.size(), both.columns.size());
 }
 
 TEST(TextTable, EveryFormCarriesEveryNote) {

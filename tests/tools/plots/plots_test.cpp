@@ -16,6 +16,7 @@
 #include "tests/support/covered_record.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/plots/coverage_plot.hpp"
+#include "tools/plots/reach_plot.hpp"
 #include "tools/plots/run_plots.hpp"
 #include "tools/plots/script_parts.hpp"
 
@@ -262,6 +263,28 @@ TEST(Plots, EveryFormatIsWhatItSaysEvenWithHostileNames) {
     }
   }
   EXPECT_FALSE(std::filesystem::exists(touched));
+}
+
+TEST(ReachPlot, StepsUpWhereEachRunGetsThereAndStaysBelowForThoseThatDoNot) {
+  std::vector<RunRecord> runs = {covered_record(1, {0.1, 0.5, 0.96}),
+                                 covered_record(2, {0.1, 0.96, 0.97, 1.0}),
+                                 covered_record(3, {0.1, 0.9}), covered_record(4, {0.96, 1.0})};
+  for (const std::size_t i : {0, 1, 2}) runs[i].figures->ceiling = 1.0;  // not of the last
+  const RunGroup group = group_of(runs);
+  const auto plot = reach_plot({&group, 1}, Effort::metres, 0.95);
+  ASSERT_TRUE(plot.has_value());
+  EXPECT_EQ(plot->name, "reach-metres");
+  // 2 m a view: seed 2 after one view, seed 1 after two, seed 3 never; the longest has three views
+  EXPECT_NE(plot->body.find(fmt::format("$reach0 << EOD\n0 0\n2 {}\n4 {}\n6 {}\nEOD\n", 100.0 / 3.0,
+                                        200.0 / 3.0, 200.0 / 3.0)),
+            std::string::npos)
+      << plot->body;
+  EXPECT_NE(plot->body.find("(2 of 3)"), std::string::npos);
+  for (RunRecord& run : runs) run.figures->ceiling.reset();
+  EXPECT_FALSE(reach_plot({&group, 1}, Effort::metres, 0.95));
+  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  TempFolder temp;
+  EXPECT_NO_THROW(draw_plot(plot_script(*plot, PlotFormat::svg, {}), temp.path() / "reach.svg"));
 }
 
 TEST(Plots, OneViewIsEnough) {

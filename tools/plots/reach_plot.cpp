@@ -1,0 +1,90 @@
+#include "tools/plots/reach_plot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bench/score/effort_to_reach.hpp"
+#include "tools/plots/script_parts.hpp"
+
+namespace gnbv {
+namespace {
+
+/// A group's runs whose ceiling is known: how many, and what those that got there had spent.
+struct Arrivals {
+  std::string label;
+  std::size_t runs = 0;
+  std::vector<double> efforts = {};  // ascending
+};
+
+double spent_of(const EffortSpent& spent, Effort effort) {
+  return effort == Effort::views    ? spent.views
+         : effort == Effort::metres ? spent.metres
+                                    : spent.seconds;
+}
+
+std::vector<Arrivals> arrivals_of(std::span<const RunGroup> groups, Effort effort, double share) {
+  std::vector<Arrivals> all;
+  for (const RunGroup& group : groups) {
+    Arrivals arrivals{.label = group.label};
+    for (const RunRecord* run : group.runs) {
+      const RunFigures& figures = *run->figures;
+      if (!figures.ceiling) continue;
+      ++arrivals.runs;
+      const auto spent = effort_to_reach(figures.curve, figures.before, share * *figures.ceiling);
+      if (spent) arrivals.efforts.push_back(spent_of(*spent, effort));
+    }
+    std::sort(arrivals.efforts.begin(), arrivals.efforts.end());
+    if (arrivals.runs > 0) all.push_back(std::move(arrivals));
+  }
+  return all;
+}
+
+/// Corners of the step curve in percent, up to the end of the axis.
+std::string steps_of(const Arrivals& arrivals, std::size_t index, double longest) {
+  std::vector<std::vector<double>> rows = {{0.0, 0.0}};
+  double percent = 0.0;
+  for (std::size_t i = 0; i < arrivals.efforts.size(); ++i) {
+    percent = 100.0 * static_cast<double>(i + 1) / static_cast<double>(arrivals.runs);
+    rows.push_back({arrivals.efforts[i], percent});
+  }
+  rows.push_back({longest, percent});
+  return data_block(fmt::format("reach{}", index), rows);
+}
+
+}  // namespace
+
+std::optional<Plot> reach_plot(std::span<const RunGroup> groups, Effort effort, double share) {
+  const std::vector<Arrivals> all = arrivals_of(groups, effort, share);
+  if (all.empty()) return std::nullopt;
+  double longest = 1e-6;
+  for (const RunGroup& group : groups) {
+    for (const RunRecord* run : group.runs) {
+      longest = std::max(longest, whole_effort(run->figures->curve, effort));
+    }
+  }
+  constexpr int kKeyLine_px = 60;
+  constexpr int kCurves_px = 1050;
+  const int key_px = kKeyLine_px * static_cast<int>(all.size());
+  const int height_px = kCurves_px + key_px;
+  std::string body;
+  std::string entries;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    body += steps_of(all[i], i, longest);
+    entries +=
+        fmt::format("{}$reach{} using 1:2 with steps lw 1.3 dt {} lc rgb '{}' title {}",
+                    i > 0 ? ", " : "", i, 1 + i / kPalette.size(), kPalette[i % kPalette.size()],
+                    gnuplot_text(fmt::format("{} ({} of {})", all[i].label, all[i].efforts.size(),
+                                             all[i].runs)));
+  }
+  body += fmt::format(
+      "set key at screen 0.1,0.99 left top vertical maxcols 1\nset tmargin at screen {:.4f}\n"
+      "set yrange [0:103]\nset ytics 20\nset xrange [0:{}] noextend\nset rmargin 3\n"
+      "set xtics {:g}\nset xlabel {}\nset ylabel {} offset 0.6,0\nplot {}\n",
+      1.0 - static_cast<double>(key_px + kKeyLine_px) / height_px, longest, even_step(longest),
+      gnuplot_text(effort_label(effort)),
+      gnuplot_text(fmt::format("runs at {:.0f} % of the ceiling (%)", 100.0 * share)), entries);
+  return Plot{fmt::format("reach-{}", effort_name(effort)), body, height_px};
+}
+
+}  // namespace gnbv
