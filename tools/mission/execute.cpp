@@ -130,8 +130,8 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
         cached_surface_reference(world, scene, {.floor_z_m = scenario.planner.floor_z_m}, threads);
     MissionScore score = score_cloud(reference, scene, scored_cloud(result),
                                      scenario.planner.map.resolution_m, threads);
-    score.ceiling = run_ceiling(scenario, world, scene, options.ceiling, threads);
     result.wall.score_s = scoring.elapsed_s();
+    score.ceiling = run_ceiling(scenario, world, scene, options.ceiling, threads);
     directory.finish(scenario, result, score, watch.elapsed_s());
     if (candidates) candidates->finish();
     return {directory.path(), std::move(result), score, watch.elapsed_s()};
