@@ -17,7 +17,6 @@ enum class Stream : std::uint64_t {
   pose_noise = 5,
   lateral_noise = 6,
   random_view = 7,
-  bootstrap = 8,
   surface_sample = 9,
 };
 
