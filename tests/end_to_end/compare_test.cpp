@@ -52,9 +52,10 @@ TEST(Compare, FliesWhatIsMissingAndJudgesTheRunsThatItsFolderHolds) {
   EXPECT_NEAR(coverage[1].at("difference"),
               (bircher.at(1) - proposed.at(1) + bircher.at(2) - proposed.at(2)) / 2, 1e-9);
   EXPECT_FALSE(rows(table, "metric", "AUC over metres (%)").empty());
-  const std::vector<Json> efforts = rows(table, "metric", "metres to 80 % of ceiling");
-  ASSERT_EQ(efforts.size(), 2U);
-  for (const Json& row : efforts) EXPECT_EQ(row.at("n_runs"), 2);
+  // four views are too few for any share of the ceiling
+  EXPECT_TRUE(rows(table, "metric", "metres to 80 % of ceiling").empty());
+  EXPECT_NE(table.at("notes").dump().find("smoke: no run got to 80 % of ceiling"),
+            std::string::npos);
   EXPECT_FALSE(rows(table, "metric", "share of ceiling at 0.05 m (%)").empty());
 
   // a run that is there is not flown again: a doctored one is believed
@@ -196,10 +197,10 @@ TEST(Table, HasThePapersRowOursTheOraclesAndTheCeiling) {
   EXPECT_EQ(parsed.at("rows").at(1).at("entropy_reduction"), 30140);
   EXPECT_TRUE(parsed.at("rows").at(0).at("time_min").is_number());
   EXPECT_TRUE(parsed.at("rows").at(0).at("share_of_ceiling").is_number());
-  for (const int oracle : {2, 3}) {
-    EXPECT_TRUE(parsed.at("rows").at(oracle).at("metres_to_90").is_number());
-    EXPECT_EQ(parsed.at("rows").at(oracle).at("metres_to_90_runs"), 2);
+  for (const int ours : {0, 2, 3}) {  // and how many of the two runs got there
+    EXPECT_TRUE(parsed.at("rows").at(ours).at("metres_to_90_runs").is_number()) << ours;
   }
+  EXPECT_TRUE(parsed.at("rows").at(1).at("metres_to_90_runs").is_null());  // the paper's
   // every other form has the same rows and the command that repeats it
   for (const std::string format : {"terminal", "markdown", "csv", "latex"}) {
     const Outcome other = gnbv(table + format);
