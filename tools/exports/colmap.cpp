@@ -50,13 +50,16 @@ std::vector<std::size_t> frames_by_name(const FrameRecord& frames) {
   return order;
 }
 
-/// Of each camera, from 1: by the names of their folders.
+/// Of each camera, from 1: in the order in which the names of its images come, which is that in
+/// which COLMAP's programs meet the folders. The slash counts: "rgbd-down/" comes before "rgbd/".
 std::vector<std::size_t> camera_ids(const FrameRecord& frames) {
+  std::vector<std::string> folders;
+  for (const FrameCamera& camera : frames.cameras) folders.push_back(file_word(camera) + "/");
   std::vector<std::size_t> ids;
-  for (const FrameCamera& camera : frames.cameras) {
-    ids.push_back(1 + static_cast<std::size_t>(std::count_if(
-                          frames.cameras.begin(), frames.cameras.end(),
-                          [&](const FrameCamera& c) { return c.name < camera.name; })));
+  for (const std::string& folder : folders) {
+    ids.push_back(
+        1 + static_cast<std::size_t>(std::count_if(
+                folders.begin(), folders.end(), [&](const std::string& f) { return f < folder; })));
   }
   return ids;
 }
