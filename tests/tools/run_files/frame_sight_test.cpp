@@ -125,5 +125,30 @@ TEST_F(FrameSightTest, APointHasTheColourOfTheNearestFrameOfItsView) {
   }
 }
 
+/// Cameras that run in flight bring points that the view at the end of the leg may not show.
+TEST_F(FrameSightTest, APointSeenInFlightHasTheColourOfTheNearestFrameWhoseDepthAgrees) {
+  add(0, Vec3(0, 0, 0), {10, 0, 0}, 4000, 4000);
+  add(1, Vec3(8, 0, 0), {20, 0, 0}, 4000, 4000);  // beyond the points of its own leg
+  add(2, Vec3(2, 0, 0), {30, 0, 0}, 1000, 1000);  // nearest, but something is before them
+  add(3, Vec3(1, 0, 0), {40, 0, 0}, 3000, 3000);
+  RunRecord record;
+  record.views.resize(4);
+  for (int view = 0; view < 4; ++view)
+    record.views[static_cast<std::size_t>(view)].iteration = view;
+  record.scenario.cameras.resize(1);
+  // of view 0, seen by it and nearer by view 3; two of the leg to view 1, one of them hidden to all
+  const RunCloud cloud{.points_world_m = {{4, 0.1F, 0}, {4, 0.2F, 0}, {6, 0.3F, 0}},
+                       .profile_points = 0,
+                       .view_points = {1, 3, 3, 3}};
+  const auto colours = [&](double rate_hz, int threads) {
+    record.scenario.cameras[0].rate_hz = rate_hz;
+    return colours_of_cloud(record, cloud, frames_, threads, [](double) {});
+  };
+  EXPECT_EQ(colours(0.0, 1), (std::vector<Rgb8>{{10, 0, 0}, kNoColour, kNoColour}));
+  for (const int threads : {1, 3}) {
+    EXPECT_EQ(colours(2.0, threads), (std::vector<Rgb8>{{10, 0, 0}, {40, 0, 0}, kNoColour}));
+  }
+}
+
 }  // namespace
 }  // namespace gnbv
