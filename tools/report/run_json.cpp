@@ -141,7 +141,9 @@ Json packed_json(const PackedRun& packed) {
     json["voxels"] = {{"size_m", packed.voxels->size_m},
                       {"index", slice_json(packed.voxels->index)},
                       {"after", slice_json(packed.voxels->after)},
-                      {"count", slice_json(packed.voxels->count)}};
+                      {"gain_step", slice_json(packed.voxels->gain_step)},
+                      {"gain_points", slice_json(packed.voxels->gain_points)},
+                      {"gains_after", slice_json(packed.voxels->gains_after)}};
   }
   if (packed.path) {
     json["path"] = {{"points", points_json(packed.path->points)},

@@ -2,19 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 #include "sim/core/error.hpp"
 #include "tools/report/thinning.hpp"
+#include "tools/report/voxel_growth.hpp"
 #include "tools/run_files/file_names.hpp"
 
 namespace gnbv {
 namespace {
 
-// What the page needs of each, see PackedCloud, PackedVoxels and PackedPath.
+// What the page needs of each, see PackedCloud and PackedPath.
 constexpr std::size_t kPointBytes = 6;
 constexpr std::size_t kColourBytes = 3;
-constexpr std::size_t kVoxelBytes = 10;
 constexpr std::size_t kSampleBytes = 18;
 constexpr std::size_t kLeast = 16;        // elements, whatever the budget is
 constexpr std::size_t kPaddingBytes = 3;  // at most, before each array
@@ -47,38 +46,19 @@ PackedCloud pack_cloud(const RunCloud& cloud, const ThinnedPoints& thin, std::si
   return out;
 }
 
-PackedVoxels pack_voxels(const RunCloud& cloud, double size_m, std::size_t views,
-                         std::size_t max_bytes, BytePack& bytes) {
-  std::vector<std::size_t> first = first_points(cloud.points_world_m, size_m);
-  while (kVoxelBytes * first.size() > max_bytes && first.size() > kLeast) {
+PackedVoxels pack_voxels(const RunCloud& cloud, double size_m, std::size_t max_bytes,
+                         BytePack& bytes) {
+  VoxelGrowth growth = voxel_growth(cloud, size_m);
+  while (growth.bytes() > max_bytes && growth.after.back() > kLeast) {
     size_m *= 2.0;
-    first = first_points(cloud.points_world_m, size_m);
+    growth = voxel_growth(cloud, size_m);
   }
-  const auto index_of = [&](const Vec3f& p, int axis) {
-    return static_cast<std::int16_t>(std::floor(static_cast<double>(p[axis]) / size_m));
-  };
-  const auto code_of = [&](const Vec3f& p) {
-    std::uint64_t code = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      code = code << 16U | static_cast<std::uint16_t>(index_of(p, axis));
-    }
-    return code;
-  };
-  std::vector<std::int16_t> index;
-  std::vector<int> first_views;
-  std::unordered_map<std::uint64_t, std::size_t> place;
-  for (const std::size_t i : first) {
-    const Vec3f& p = cloud.points_world_m[i];
-    place.emplace(code_of(p), place.size());
-    for (int axis = 0; axis < 3; ++axis) index.push_back(index_of(p, axis));
-    first_views.push_back(cloud.view_of(i));
-  }
-  std::vector<std::uint32_t> count(first.size(), 0);
-  for (const Vec3f& p : cloud.points_world_m) ++count[place.at(code_of(p))];
   return {.size_m = size_m,
-          .index = bytes.add(index),
-          .after = bytes.add(counts_after(first_views, views)),
-          .count = bytes.add(count)};
+          .index = bytes.add(growth.index),
+          .after = bytes.add(growth.after),
+          .gain_step = bytes.add(growth.gain_step),
+          .gain_points = bytes.add(growth.gain_points),
+          .gains_after = bytes.add(growth.gains_after)};
 }
 
 /// Every n-th sample and the last one, with the least n that fits.
@@ -160,8 +140,8 @@ PackedRun pack_run(const RunRecord& record, const RunBudget& budget, int threads
   if (!record.path.empty()) out.path = pack_path(record.path, budget.bytes / 8, out.bytes);
   try {
     cloud = read_run_cloud(record);
-    out.voxels = pack_voxels(cloud, record.scenario.planner.map.resolution_m, views,
-                             budget.bytes / 4, out.bytes);
+    out.voxels =
+        pack_voxels(cloud, record.scenario.planner.map.resolution_m, budget.bytes / 4, out.bytes);
     thin = thinned(cloud.points_world_m, point_count(budget, left(), has_frames(record.folder)),
                    std::max(record.scenario.planner.cloud.leaf_m, 1e-3));
     out.cloud = pack_cloud(cloud, thin, views, out.bytes);

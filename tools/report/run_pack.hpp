@@ -27,12 +27,16 @@ struct PackedCloud {
   double cell_m = 0.0;                   // of the thinning; 0: none
 };
 
-/// The map's voxels that hold points of the cloud, in the order in which they first did.
+/// The map's voxels that hold points of the cloud, in the order in which they first did, and how
+/// many of the whole cloud's points each held after every view.
 struct PackedVoxels {
   double size_m = 0.0;  // the map's, or twice, four times ... that, so that the page can carry them
-  ByteSlice index;      // int16 (n, 3): the voxel covers [index, index + 1) * size
-  ByteSlice after;      // uint32 (views + 1), as PackedCloud
-  ByteSlice count;      // uint32 (n): points of the whole cloud in it, in the end
+  // see VoxelGrowth
+  ByteSlice index;        // int16 (n, 3)
+  ByteSlice after;        // uint32 (views + 1)
+  ByteSlice gain_step;    // uint16 (gains)
+  ByteSlice gain_points;  // uint8 (gains)
+  ByteSlice gains_after;  // uint32 (views + 1)
 };
 
 struct PackedPath {

@@ -9,12 +9,13 @@ import { Browser } from "./browser.mjs";
 
 const [chromium, page, ...runs] = process.argv.slice(2);
 
-/** x, y, z, yaw of each view as iterations.csv has them. */
-function recordedViews(run) {
+/** Columns of each view as iterations.csv has them. */
+function recorded(run, names) {
   const [head, ...rows] = readFileSync(join(run, "iterations.csv"), "utf8").trim().split("\n");
-  const columns = ["x", "y", "z", "yaw"].map((name) => head.split(",").indexOf(name));
+  const columns = names.map((name) => head.split(",").indexOf(name));
   return rows.map((row) => columns.map((column) => Number(row.split(",")[column])));
 }
+const recordedViews = (run) => recorded(run, ["x", "y", "z", "yaw"]);
 
 function assertPose(pose, view, what) {
   const turn = Math.abs(pose[3] - view[3]) % (2 * Math.PI);
@@ -177,6 +178,20 @@ try {
   const all = clip.width * clip.height;
   assert.ok(await differentPixels(first) > 0.02 * all, "the 3D view is empty");
   assert.ok(await differentPixels(last, first) > 0.005 * all, "the 3D view does not change");
+
+  // voxels are as dense as they were at the view, on the way back, too
+  await browser.evaluate(`(() => {
+    const by = document.querySelector("select[aria-label='Colour of points and voxels']");
+    by.value = "density";
+    by.dispatchEvent(new Event("change", { bubbles: true }));
+  })()`);
+  for (const n of [1, views[0].length, 2]) {
+    await pictureAfter(n);
+    for (const [run, folder] of runs.entries()) {
+      const points = recorded(folder, ["cloud_points"])[n - 1][0];
+      assert.equal(await browser.evaluate(`gnbv.points(${run})`), points, `points at view ${n}`);
+    }
+  }
 
   // a camera that follows shows the vehicle in the same place, and so the world in another
   const toggleFollow = () => browser.evaluate(`[...document.querySelectorAll(".layers label")]

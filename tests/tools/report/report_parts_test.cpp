@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -17,6 +19,7 @@
 #include "tools/report/page_text.hpp"
 #include "tools/report/run_json.hpp"
 #include "tools/report/thinning.hpp"
+#include "tools/report/voxel_growth.hpp"
 
 namespace gnbv {
 namespace {
@@ -159,6 +162,69 @@ TEST(PackedRun, StaysWithinItsBudget) {
     EXPECT_EQ(time_s[0], 0.0F);
     EXPECT_EQ(time_s[run.path->time_s.count - 1], 20'004.0F);
   }
+}
+
+/// The counts after `state`, as the page adds them up.
+std::vector<std::uint32_t> counts_at(const VoxelGrowth& growth, std::size_t state) {
+  std::vector<std::uint32_t> counts(growth.index.size() / 3, 0);
+  std::size_t gain = 0;
+  for (std::size_t s = 0; s <= state; ++s) {
+    for (std::size_t voxel = 0; gain < growth.gains_after[s]; ++gain) {
+      voxel += growth.gain_step[gain];
+      counts.at(voxel) += growth.gain_points[gain];
+    }
+  }
+  return counts;
+}
+
+/// In each voxel of 1 m, among the first `end` points.
+std::map<std::array<int, 3>, std::uint32_t> brute_counts(const RunCloud& cloud, std::size_t end) {
+  std::map<std::array<int, 3>, std::uint32_t> counts;
+  for (std::size_t i = 0; i < end; ++i) {
+    const Vec3f& p = cloud.points_world_m[i];
+    ++counts[{static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y())),
+              static_cast<int>(std::floor(p.z()))}];
+  }
+  return counts;
+}
+
+void expect_brute_counts(const RunCloud& cloud) {
+  const VoxelGrowth growth = voxel_growth(cloud, 1.0);
+  ASSERT_EQ(growth.after.size(), cloud.view_points.size() + 1);
+  for (std::size_t state = 0; state < growth.after.size(); ++state) {
+    const bool is_last = state + 1 == growth.after.size();
+    const std::size_t end = is_last      ? cloud.points_world_m.size()
+                            : state == 0 ? cloud.profile_points
+                                         : cloud.view_points[state - 1];
+    const auto expected = brute_counts(cloud, end);
+    EXPECT_EQ(growth.after[state], expected.size());
+    const std::vector<std::uint32_t> counts = counts_at(growth, state);
+    for (std::size_t v = 0; v < counts.size(); ++v) {
+      const std::array<int, 3> key = {growth.index[3 * v], growth.index[3 * v + 1],
+                                      growth.index[3 * v + 2]};
+      const auto at = expected.find(key);
+      ASSERT_EQ(counts[v], at == expected.end() ? 0 : at->second) << "state " << state;
+      EXPECT_EQ(v < growth.after[state], at != expected.end());
+    }
+  }
+}
+
+TEST(VoxelGrowth, TheCountsAfterEachViewAreThoseOfItsPoints) {
+  // the last points came after the last view and count to it
+  expect_brute_counts(
+      {.points_world_m = sheet(6000), .profile_points = 900, .view_points = {900, 4000, 5900}});
+  expect_brute_counts({.points_world_m = sheet(50), .profile_points = 20, .view_points = {}});
+}
+
+TEST(VoxelGrowth, NoGapAndNoGainIsTooLarge) {
+  RunCloud cloud;
+  for (int i = 0; i < 70'000; ++i) {
+    cloud.points_world_m.emplace_back(static_cast<float>(i % 300), static_cast<float>(i / 300), 0);
+  }
+  cloud.profile_points = cloud.points_world_m.size();
+  cloud.points_world_m.insert(cloud.points_world_m.end(), 511, cloud.points_world_m.back());
+  cloud.view_points = {cloud.points_world_m.size()};
+  expect_brute_counts(cloud);
 }
 
 TEST(Report, StructuresStayWithinTheirBudget) {

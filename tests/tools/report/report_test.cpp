@@ -44,7 +44,10 @@ TEST(Report, HoldsTheViewsAndWhatGrewWithThem) {
   EXPECT_EQ(run["views"]["yaw"], nlohmann::json({3.0, 1.5, 0.8}));
   EXPECT_EQ(run["cloud"]["points"]["steps"][1], 18);  // six points
   EXPECT_EQ(run["cloud"]["after"][1], 4);             // the profile and three views
-  EXPECT_EQ(run["voxels"]["count"][1], 6);            // no two in one
+  EXPECT_EQ(run["voxels"]["index"][1], 18);           // no two in one voxel
+  EXPECT_EQ(run["voxels"]["gain_step"][1], 6);
+  EXPECT_EQ(run["voxels"]["gain_points"][1], 6);
+  EXPECT_EQ(run["voxels"]["gains_after"][1], 4);
   EXPECT_EQ(run["path"]["time"][1], 5);
   EXPECT_EQ(run["figures"], nullptr);
   EXPECT_EQ(run["command"],
@@ -107,7 +110,7 @@ TEST(PackedRun, PointsAndVoxelsAreThereAfterTheViewThatBroughtThem) {
   ASSERT_TRUE(run.cloud && run.voxels);
   EXPECT_EQ(counts(run.cloud->after), (std::vector<std::uint32_t>{2, 3, 5, 6}));
   EXPECT_EQ(counts(run.voxels->after), (std::vector<std::uint32_t>{2, 3, 5, 6}));
-  EXPECT_EQ(counts(run.voxels->count), (std::vector<std::uint32_t>(6, 1)));
+  EXPECT_EQ(counts(run.voxels->gains_after), (std::vector<std::uint32_t>{2, 3, 5, 6}));
 }
 
 TEST(Report, SaysWhatIsMissingAndShowsTheRest) {

@@ -68,6 +68,16 @@ export interface Figures {
   curve: { coverage: Vec3[]; metres: number[]; seconds: number[] };
 }
 
+/** What tools/report/voxel_growth.hpp says. */
+export interface VoxelData {
+  size_m: number;
+  index: Slice;
+  after: Slice;
+  gain_step: Slice;
+  gain_points: Slice;
+  gains_after: Slice;
+}
+
 /** Where the paper's mission ended. */
 export interface PaperEnd {
   label: string;
@@ -104,7 +114,7 @@ export interface RunData {
   paper: PaperEnd | null;
   cloud: { points: PackedPoints; after: Slice; all_points: number; cell_m: number; colour?: Slice }
     | null;
-  voxels: { size_m: number; index: Slice; after: Slice; count: Slice } | null;
+  voxels: VoxelData | null;
   path: { points: PackedPoints; time: Slice; quaternion: Slice } | null;
   frames: Thumbnail[];
 }

@@ -84,10 +84,12 @@ function build() {
     plots.rebuild();
   });
   // for scripts and tests: gnbv.seek(views), gnbv.pose(run) as x, y, z, yaw of what is drawn,
-  // gnbv.views(run) at the present place of the replay, gnbv.camera() where the 3D view is seen from
+  // gnbv.views(run) at the present place of the replay, gnbv.points(run) that the voxels hold there,
+  // gnbv.camera() where the 3D view is seen from
   Object.assign(window, { gnbv: {
     seek: (views: number) => { replay.setEffort("views"); replay.moveTo(views); },
     views: (run: number) => flights[run].viewsAt(clock),
+    points: (run: number) => scenes[run].model.countedPoints(),
     camera: () => stage.cameraPosition(),
     pose: (run: number) => {
       const { position: p, quaternion: q } = scenes[run].vehicle;

@@ -2,7 +2,7 @@
 import * as three from "three";
 import { ramp, rampTable } from "./colours";
 import { kMarkLayer, kSurfaceLayer } from "./depth_shading";
-import type { Bytes, MeshData, RampName, RunData } from "./data";
+import type { Bytes, MeshData, RampName, RunData, VoxelData } from "./data";
 
 /** Colours by what the point is like; `real` is what the cameras saw. */
 export type Colouring = "height" | "density" | "iteration" | "real";
@@ -41,17 +41,49 @@ function firstStates(after: Uint32Array, count: number): Uint16Array {
   return first;
 }
 
-/** Counts of the cloud's points, with a ceiling that leaves out the densest few. */
+/**
+ * How many of the cloud's points each voxel holds at a state of the mission, with a ceiling that
+ * leaves out the densest few of the last one.
+ */
 class Densities {
+  readonly size: number;
+  readonly index: Int16Array;
+  readonly count: Uint32Array; // at this state
   readonly most: number;
+  private state = 0; // of how many the gains are in `count`
+  private readonly step: Uint16Array;
+  private readonly points: Uint8Array;
+  private readonly gainsAfter: Uint32Array;
   private readonly cells = new Map<number, number>();
 
-  constructor(readonly index: Int16Array, readonly count: Uint32Array, readonly size: number) {
-    for (let i = 0; i < count.length; ++i) {
-      this.cells.set(Densities.key(index[3 * i], index[3 * i + 1], index[3 * i + 2]), count[i]);
+  constructor(voxels: VoxelData, bytes: Bytes) {
+    this.size = voxels.size_m;
+    this.index = bytes.i16(voxels.index);
+    this.step = bytes.u16(voxels.gain_step);
+    this.points = bytes.u8(voxels.gain_points);
+    this.gainsAfter = bytes.u32(voxels.gains_after);
+    this.count = new Uint32Array(this.index.length / 3);
+    for (let i = 0; i < this.count.length; ++i) {
+      const [x, y, z] = this.index.subarray(3 * i, 3 * i + 3);
+      this.cells.set(Densities.key(x, y, z), i);
     }
-    const sorted = Uint32Array.from(count).sort();
+    this.seek(this.gainsAfter.length - 1);
+    const sorted = Uint32Array.from(this.count).sort();
     this.most = sorted[Math.floor(0.98 * (sorted.length - 1))] || 1;
+  }
+
+  /** To the counts after `views` views. */
+  seek(views: number) {
+    for (; this.state <= views; ++this.state) this.add(this.state, 1);
+    for (; this.state > views + 1; --this.state) this.add(this.state - 1, -1);
+  }
+
+  private add(state: number, sign: number) {
+    let voxel = 0;
+    for (let i = state > 0 ? this.gainsAfter[state - 1] : 0; i < this.gainsAfter[state]; ++i) {
+      voxel += this.step[i];
+      this.count[voxel] += sign * this.points[i];
+    }
   }
 
   /** Exact in a double: 16 bits an axis. */
@@ -59,9 +91,10 @@ class Densities {
     return ((i + 32768) * 65536 + j + 32768) * 65536 + k + 32768;
   }
 
-  at(x: number, y: number, z: number): number {
+  /** Of the voxel in which the point lies; -1 where rounding put it into one without points. */
+  voxelAt(x: number, y: number, z: number): number {
     const cell = (c: number) => Math.floor(c / this.size);
-    return this.cells.get(Densities.key(cell(x), cell(y), cell(z))) ?? 0;
+    return this.cells.get(Densities.key(cell(x), cell(y), cell(z))) ?? -1;
   }
 }
 
@@ -100,12 +133,14 @@ export class Model {
   private readonly points: Float32Array = new Float32Array();
   private readonly cloudAfter: Uint32Array = new Uint32Array();
   private readonly voxelsAfter: Uint32Array = new Uint32Array();
+  private pointVoxels: Int32Array | null = null; // of each point, once asked for
+  private by: Colouring = "height";
+  private views = -1; // shown
 
   constructor(readonly data: RunData, private readonly bytes: Bytes) {
     if (data.voxels) {
-      const { index, count, after, size_m } = data.voxels;
-      this.densities = new Densities(bytes.i16(index), bytes.u32(count), size_m);
-      this.voxelsAfter = bytes.u32(after);
+      this.densities = new Densities(data.voxels, bytes);
+      this.voxelsAfter = bytes.u32(data.voxels.after);
       this.voxels = this.makeVoxels();
     }
     if (data.cloud) {
@@ -118,7 +153,8 @@ export class Model {
   }
 
   colour(by: Colouring) {
-    if (this.cloud) this.cloud.geometry.setAttribute("rgb", this.cloudColours(by));
+    this.by = by;
+    if (this.cloud) this.colourCloud(by);
     if (!this.voxels || !this.densities) return;
     const { index, count, size } = this.densities;
     const [name, share] = this.ramp(by);
@@ -131,8 +167,16 @@ export class Model {
     this.voxels.instanceColor!.needsUpdate = true;
   }
 
+  /** Points of the whole cloud in the voxels, as they are shown. */
+  countedPoints(): number { return this.densities?.count.reduce((a, b) => a + b, 0) ?? 0; }
+
   /** After `n` views; the points of the last one are marked. */
   show(n: number, pxPerTan: number) {
+    if (n !== this.views) {
+      this.views = n;
+      this.densities?.seek(n);
+      if (this.by === "density") this.colour(this.by); // as dense as it was then
+    }
     if (this.cloud) {
       this.cloud.geometry.setDrawRange(0, this.cloudAfter[n]);
       const { uniforms } = this.cloud.material as three.ShaderMaterial;
@@ -152,31 +196,39 @@ export class Model {
     return ["amount", (height) => (height - low) / (high - low)];
   }
 
-  private cloudColours(by: Colouring): three.BufferAttribute {
+  private colourCloud(by: Colouring) {
     const points = this.points;
     const count = points.length / 3;
-    const rgb = new Uint8Array(3 * count);
+    const attribute = this.cloud!.geometry.getAttribute("rgb") as three.BufferAttribute;
+    const rgb = attribute.array as Uint8Array;
     if (by === "real" && this.data.cloud?.colour) {
-      const seen = this.bytes.u8(this.data.cloud.colour);
-      rgb.set(seen);
+      rgb.set(this.bytes.u8(this.data.cloud.colour));
     } else {
       const [name, share] = this.ramp(by);
       const table = rampTable(name);
       const first = firstStates(this.cloudAfter, count);
+      const voxels = by === "density" ? this.voxelsOfPoints() : null;
       for (let i = 0; i < count; ++i) {
-        const z = points[3 * i + 2];
-        const density = by === "density"
-          ? this.densities?.at(points[3 * i], points[3 * i + 1], z) ?? 0 : 0;
-        const at = 3 * Math.round(255 * Math.min(Math.max(share(z, density, first[i]), 0), 1));
+        const density = voxels ? this.densities?.count[voxels[i]] ?? 0 : 0;
+        const at = 3 * Math.round(
+          255 * Math.min(Math.max(share(points[3 * i + 2], density, first[i]), 0), 1));
         for (let k = 0; k < 3; ++k) rgb[3 * i + k] = table[at + k];
       }
     }
-    return new three.BufferAttribute(rgb, 3, true);
+    attribute.needsUpdate = true;
+  }
+
+  private voxelsOfPoints(): Int32Array {
+    const points = this.points;
+    return this.pointVoxels ??= Int32Array.from({ length: points.length / 3 }, (_, i) =>
+      this.densities?.voxelAt(points[3 * i], points[3 * i + 1], points[3 * i + 2]) ?? -1);
   }
 
   private makeCloud(): three.Points {
     const geometry = new three.BufferGeometry();
     geometry.setAttribute("position", new three.BufferAttribute(this.points, 3));
+    geometry.setAttribute("rgb",
+      new three.BufferAttribute(new Uint8Array(this.points.length), 3, true));
     const spacing = Math.max(this.data.cloud!.cell_m, 0.02);
     const material = new three.ShaderMaterial({
       vertexShader: kPointVertex,
