@@ -28,7 +28,7 @@ struct Candidate {
   ViewPose view;
   std::string_view sampler;
   double scale = 1.0;                      // of the AGVS grid
-  int cluster = -1;                        // FVS: the cluster it looks at, 0 = the nearest
+  int cluster = -1;                        // FVS: the cluster it looks at, 0 = the first tried
   std::optional<Rejection> rejected = {};  // nothing: it competed with `score`
   std::vector<Vec3> via_world_m = {};      // points on the way there
   double path_m = 0.0;                     // length of the way

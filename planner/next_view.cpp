@@ -1,7 +1,6 @@
 #include "planner/next_view.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "planner/belief.hpp"
 #include "planner/history.hpp"
@@ -47,24 +46,35 @@ class Decider {
     return made;
   }
 
-  /// The nearest cluster that has a valid view, or all of the nearest together.
+  /// The clusters as FVS is to look at them, no more than it may try.
+  std::vector<FrontierCluster> clusters_to_try() const {
+    const FvsConfig& fvs = model_.config.fvs;
+    std::vector<FrontierCluster> clusters =
+        find_frontiers(fvs.frontier, belief_.grid, belief_.cloud, bench_.frontier_marks);
+    const auto is_nearer = [&](const FrontierCluster& a, const FrontierCluster& b) {
+      return (a.centroid_world_m - current_.p_world_m).squaredNorm() <
+             (b.centroid_world_m - current_.p_world_m).squaredNorm();
+    };
+    std::stable_sort(clusters.begin(), clusters.end(), is_nearer);
+    if (fvs.order == ClusterOrder::largest) {
+      std::stable_sort(clusters.begin(), clusters.end(),
+                       [](const FrontierCluster& a, const FrontierCluster& b) {
+                         return a.voxels.size() > b.voxels.size();
+                       });
+    }
+    clusters.resize(std::min(clusters.size(), static_cast<std::size_t>(fvs.tries)));
+    return clusters;
+  }
+
+  /// The first cluster that has a valid view, or all of them together.
   bool try_fvs() {
     const FvsConfig& fvs = model_.config.fvs;
-    const std::vector<FrontierCluster> clusters =
-        find_frontiers(fvs.frontier, belief_.grid, belief_.cloud, bench_.frontier_marks);
-    std::vector<std::size_t> nearest(clusters.size());
-    std::iota(nearest.begin(), nearest.end(), std::size_t{0});
-    const auto distance2 = [&](std::size_t i) {
-      return (clusters[i].centroid_world_m - current_.p_world_m).squaredNorm();
-    };
-    std::stable_sort(nearest.begin(), nearest.end(),
-                     [&](std::size_t a, std::size_t b) { return distance2(a) < distance2(b); });
-    nearest.resize(std::min(nearest.size(), static_cast<std::size_t>(fvs.tries)));
+    const std::vector<FrontierCluster> clusters = clusters_to_try();
     std::vector<Candidate> pool;
-    for (std::size_t rank = 0; rank < nearest.size(); ++rank) {
-      std::vector<Candidate> views = views_of(clusters[nearest[rank]], static_cast<int>(rank));
+    for (std::size_t rank = 0; rank < clusters.size(); ++rank) {
+      std::vector<Candidate> views = views_of(clusters[rank], static_cast<int>(rank));
       std::move(views.begin(), views.end(), std::back_inserter(pool));
-      const bool is_last = rank + 1 == nearest.size();
+      const bool is_last = rank + 1 == clusters.size();
       if (fvs.pool_clusters && !is_last) continue;
       if (choose_among(std::move(pool))) return true;
       pool.clear();
@@ -136,7 +146,9 @@ class Decider {
             belief_.grid, belief_.cloud, model_.view_rays, candidate.view, bench_.marks[share],
             view_options(model_.config.utility, belief_.shadow, frontier_density_));
         stats.density_max = belief_.cloud.density_max();
-        stats.path_m = candidate.path_m;
+        stats.path_m = model_.config.utility.distance == DistanceAlong::path
+                           ? candidate.path_m
+                           : (candidate.view.p_world_m - current_.p_world_m).norm();
         const ScoreContext context = {
             .seed = model_.seed, .iteration = history_.decisions.size(), .candidate = valid[i]};
         const std::optional<Score> utility = score(model_.config.utility, stats, context);

@@ -27,6 +27,10 @@ enum class IgCounting { per_ray, unique };
 /// see released_slips.hpp.
 enum class HitVoxel { counted, excluded };
 
+/// The distance d that formulas discount by: of the way that is flown, or from here to there. They
+/// differ only where the way leads around something (PathCheck::astar).
+enum class DistanceAlong { path, straight };
+
 /// What bircher_volume pays for a cubic metre of visible space.
 struct VolumeWeights {
   double unmapped = 1.0;
@@ -42,6 +46,7 @@ struct UtilityConfig {
   double gamma = 0.5;
   double lambda_per_m = 0.2;          // proposed, bircher_volume, aep
   double bircher_lambda_per_m = 0.2;  // bircher; 0.5 in the released configuration
+  DistanceAlong distance = DistanceAlong::path;
   DensityTerm density_term = DensityTerm::sparse;
   bool normalise_weights = true;  // beta and gamma divided by their sum (released code)
   IgCounting ig_counting = IgCounting::per_ray;

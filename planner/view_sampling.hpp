@@ -25,6 +25,9 @@ struct AgvsConfig {
   int entropy_window = 4;              // ... over this many views; threshold 0 = never
 };
 
+/// Which clusters FVS looks at first; the nearer of equals.
+enum class ClusterOrder { nearest, largest };
+
 /// Frontier Viewpoint Sampling. Defaults: the paper, with the released figures where it has none;
 /// `tries` and `agvs_when_stuck` are our own, see FIDELITY.md.
 struct FvsConfig {
@@ -32,7 +35,8 @@ struct FvsConfig {
   double entropy_threshold_nat = 0.002;  // local minimum: largest entropy change per voxel below
   int entropy_window = 4;                // this over so many views
   FrontierConfig frontier;
-  int tries = 50;              // clusters, nearest first, until one has a valid view
+  ClusterOrder order = ClusterOrder::nearest;
+  int tries = 50;              // clusters, in this order, until one has a valid view
   bool pool_clusters = false;  // the views of all these clusters compete (released code)
   int views_per_layer = 4;
   double radius_m = 3.5;              // of the cylinder around the centroid

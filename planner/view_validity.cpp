@@ -78,7 +78,8 @@ Box3 navigation_box_m(const ValidityConfig& config, const Box3& workspace_m) {
 }
 
 ViewChecker::Reachability ViewChecker::check_position(const Vec3& p_world_m) const {
-  if (grid_.state_at(grid_.geometry().nearest_inside(p_world_m)) != VoxelState::free) {
+  const VoxelState state = grid_.state_at(grid_.geometry().nearest_inside(p_world_m));
+  if (state == VoxelState::occupied || (state == VoxelState::unknown && !config_.allow_unknown)) {
     return {Rejection::not_free, {}};
   }
   const double radius_m = config_.collision_radius_m;

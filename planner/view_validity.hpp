@@ -27,6 +27,7 @@ struct ValidityConfig {
   int recent_poses = 50;
   double recent_distance_m = 0.05;
   double recent_yaw_rad = 0.1;
+  bool allow_unknown = false;  // positions in unknown space
   PathCheck path = PathCheck::straight;
   PathSearchConfig path_search = {};
 };

@@ -11,6 +11,10 @@ constexpr std::array<Named<ProfilingMethod>, 4> kProfilingMethods = {
 constexpr std::array<Named<PathCheck>, 3> kPathChecks = {{{PathCheck::straight, "straight"},
                                                           {PathCheck::astar, "astar"},
                                                           {PathCheck::unchecked, "unchecked"}}};
+constexpr std::array<Named<ClusterOrder>, 2> kClusterOrders = {
+    {{ClusterOrder::nearest, "nearest"}, {ClusterOrder::largest, "largest"}}};
+constexpr std::array<Named<DistanceAlong>, 2> kDistances = {
+    {{DistanceAlong::path, "path"}, {DistanceAlong::straight, "straight"}}};
 constexpr std::array<Named<DensityTerm>, 2> kDensityTerms = {
     {{DensityTerm::sparse, "sparse"}, {DensityTerm::literal, "literal"}}};
 constexpr std::array<Named<IgCounting>, 2> kIgCountings = {
@@ -68,12 +72,14 @@ void fields(FieldVisitor& v, AgvsConfig& c) {
 void fields(FieldVisitor& v, FrontierConfig& c) {
   v.number("density_share", c.density_share, between(0, 10),
            "Frontier: less dense than this share of a fully scanned plane.");
+  v.flag("occupied_only", c.occupied_only,
+         "And it is occupied; false: points in it will do, as those of thin parts.");
   v.integer("neighbour_voxels", c.neighbour_voxels, between(1, 100),
             "Frontier voxels so near along each axis are one cluster.");
   v.integer("min_cluster_voxels", c.min_cluster_voxels, between(1, 1e6),
             "Smaller clusters are left out.");
   v.number("max_extent_m", c.max_extent_m, between(0, 1e4),
-           "Larger clusters are cut; 0: never, the paper to the letter.");
+           "Larger clusters are cut, into parts of any size; 0: never, the paper to the letter.");
 }
 
 void fields(FieldVisitor& v, FvsConfig& c) {
@@ -82,8 +88,9 @@ void fields(FieldVisitor& v, FvsConfig& c) {
            "Local minimum: no view changed the total entropy by more, per voxel of its frusta,");
   v.integer("entropy_window", c.entropy_window, between(1, 1000), "over this many views.");
   v.section("frontier", c.frontier, "Which voxels are frontiers, and how they cluster.");
+  v.choice("order", c.order, kClusterOrders, "Which clusters come first.");
   v.integer("tries", c.tries, between(1, 1e6),
-            "Clusters, nearest first, until one has a valid view; 1: the paper.");
+            "Clusters, in this order, until one has a valid view; 1: the paper.");
   v.flag("pool_clusters", c.pool_clusters, "The views of all these clusters compete.");
   v.integer("views_per_layer", c.views_per_layer, between(1, 360), "Around the cluster.");
   v.number("radius_m", c.radius_m, above_upto(0, 1e3), "Of the cylinder of views.");
@@ -106,6 +113,8 @@ void fields(FieldVisitor& v, ValidityConfig& c) {
   v.number("recent_distance_m", c.recent_distance_m, between(0, 100),
            "The same view: nearer than this");
   v.angle("recent_yaw_deg", c.recent_yaw_rad, between(0, 180), "and turned by less than this.");
+  v.flag("allow_unknown", c.allow_unknown,
+         "Views in unknown space, too; false, the paper: in free space only.");
   v.choice("path", c.path, kPathChecks,
            "straight: a view behind an obstacle is discarded; astar: unless there is a way around "
            "it; unchecked: flown to all the same.");
@@ -138,6 +147,8 @@ void fields(FieldVisitor& v, UtilityConfig& c) {
            "sparse: reward thinly sampled surface; literal: Eq. (2) as printed.");
   v.number("bircher_lambda_per_m", c.bircher_lambda_per_m, kWeight,
            "bircher: decay with distance; 0.5 in the released configuration.");
+  v.choice("distance", c.distance, kDistances,
+           "By which gains are discounted: along the way that is flown, or straight.");
   v.flag("normalise_weights", c.normalise_weights, "Divide beta and gamma by their sum.");
   v.choice("ig_counting", c.ig_counting, kIgCountings,
            "bircher, isler: a voxel counts once a ray that crosses it, or once.");

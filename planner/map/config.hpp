@@ -25,6 +25,7 @@ struct CloudConfig {
 /// at least 5 voxels); cutting is our own, see FIDELITY.md.
 struct FrontierConfig {
   double density_share = 1.0 / 3.0;  // frontier: 0 < density < this share of density_max()
+  bool occupied_only = true;         // and the voxel is occupied, not only full of points
   int neighbour_voxels = 2;          // Chebyshev distance that joins two voxels
   int min_cluster_voxels = 5;
   double max_extent_m = 2.0;  // clusters larger along any axis are cut; 0: never

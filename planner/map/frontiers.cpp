@@ -77,7 +77,7 @@ Vec3 centroid_m(std::span<const VoxelIndex> voxels, const GridGeometry& geometry
 
 bool is_frontier(const FrontierConfig& config, const OccupancyGrid& grid, const SurfaceCloud& cloud,
                  VoxelIndex v) {
-  if (grid.state(v) != VoxelState::occupied) return false;
+  if (config.occupied_only && grid.state(v) != VoxelState::occupied) return false;
   const double density = cloud.density(v);
   return density > 0.0 && density < config.density_share * cloud.density_max();
 }
@@ -100,12 +100,12 @@ std::vector<FrontierCluster> find_frontiers(const FrontierConfig& config, const 
     if (marks[seed] != kUnvisited) continue;
     std::vector<std::vector<VoxelIndex>> pieces = {
         connected_to(seed, config.neighbour_voxels, geometry, marks)};
+    if (pieces.front().size() < min_voxels) continue;  // before the cut: no sliver of a large one
     if (config.max_extent_m > 0.0 &&
         largest_extent_m(pieces.front(), geometry) > config.max_extent_m) {
       pieces = cut(pieces.front(), config.max_extent_m, geometry);
     }
     for (std::vector<VoxelIndex>& piece : pieces) {
-      if (piece.size() < min_voxels) continue;
       const Vec3 center_m = centroid_m(piece, geometry);
       clusters.push_back({std::move(piece), center_m});
     }

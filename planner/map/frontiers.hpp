@@ -9,7 +9,8 @@
 
 namespace gnbv {
 
-/// Whether the voxel is occupied and its density below the bound, but not 0.
+/// Whether the voxel's density is below the bound, but not 0, and it is occupied. Without
+/// `occupied_only` points will do: those of thin parts lie in voxels that other rays cleared.
 bool is_frontier(const FrontierConfig& config, const OccupancyGrid& grid, const SurfaceCloud& cloud,
                  VoxelIndex v);
 
@@ -22,8 +23,9 @@ struct FrontierCluster {
 /// Memory of find_frontiers(), a byte a voxel; all zero between calls.
 using FrontierMarks = ZeroedArray<std::uint8_t>;
 
-/// The clusters in the order of their first voxels. One larger than max_extent_m along any axis is
-/// cut along the world lattice of that size; pieces of fewer than min_cluster_voxels are dropped.
+/// The clusters in the order of their first voxels. Those of fewer than min_cluster_voxels are left
+/// out; of the others, one larger than max_extent_m along any axis is cut along the world lattice
+/// of that size, into pieces of any size: no voxel is lost.
 std::vector<FrontierCluster> find_frontiers(const FrontierConfig& config, const OccupancyGrid& grid,
                                             const SurfaceCloud& cloud, FrontierMarks& marks);
 

@@ -41,7 +41,7 @@ struct ViewStats {
   std::uint32_t front_rays = 0;   // that enter an occupied voxel from a free one: "occupied"
   // ---- filled in by the planner: what the view is measured against
   double density_max = 0.0;  // SurfaceCloud::density_max()
-  double path_m = 0.0;       // length of the path from the current position
+  double path_m = 0.0;       // distance from the current position, as UtilityConfig::distance says
 };
 
 }  // namespace gnbv

@@ -6,46 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 
-#include "planner/belief.hpp"
 #include "planner/follow_route.hpp"
-#include "planner/history.hpp"
-#include "planner/model.hpp"
-#include "planner/workbench.hpp"
+#include "tests/planner/wall_world.hpp"
 
 namespace gnbv {
 namespace {
-
-const Box3 kWorkspace(Vec3(-8, -8, 0), Vec3(8, 8, 8));
-const ViewPose kCurrent{Vec3(0.1, 0.1, 4.1), 0.0};
-
-PlannerModel small_model() {
-  PlannerConfig config;
-  config.validity.collision_radius_m = 0.5;
-  const CameraModel camera = make_camera_model({});
-  return PlannerModel(config, kWorkspace, {&camera, 1}, {});
-}
-
-/// A wall at x = 6, all else free where `is_known` says so and unmeasured elsewhere.
-template <typename IsKnown>
-Belief wall_ahead(const PlannerModel& model, const IsKnown& is_known) {
-  Belief belief(model);
-  const GridGeometry& grid = belief.grid.geometry();
-  ScanUpdate update;
-  for (VoxelIndex v = 0; v < grid.voxel_count(); ++v) {
-    const Vec3 center_m = grid.center_m(grid.key_at(v));
-    if (std::fabs(center_m.x() - 6.1) < 0.05) {
-      update.occupied.push_back(v);
-    } else if (is_known(center_m)) {
-      update.free.push_back(v);
-    }
-  }
-  belief.grid.apply(update);
-  return belief;
-}
-
-bool everywhere(const Vec3&) { return true; }
 
 std::optional<Decision> plan(const PlannerModel& model, const Belief& belief,
                              const History& history = {}, int threads = 2) {
@@ -140,100 +106,50 @@ TEST(PlanNextView, TheStartIsNoUtilityToLearnFrom) {
   EXPECT_EQ(plan(model, belief, history)->scale, 1.5);
 }
 
-/// The wall of `wall_ahead`, seen as a few points a voxel: all of it a frontier.
-void sample_thinly(Belief& belief) {
-  std::vector<Vec3f> points_m;
-  const GridGeometry& grid = belief.grid.geometry();
-  for (VoxelIndex v = 0; v < grid.voxel_count(); ++v) {
-    if (belief.grid.state(v) != VoxelState::occupied) continue;
-    points_m.push_back(grid.center_m(grid.key_at(v)).cast<float>());
-  }
-  belief.cloud.add(points_m, 0.02);
-}
-
-/// As after five views without any change.
-History still_history() {
-  History history;
-  history.entropies_nat.assign(6, 1000.0);
-  return history;
-}
-
-Plan full_plan(const PlannerModel& model, const Belief& belief, const History& history) {
-  Workbench bench(model, 2);
-  return plan_next_view(model, belief, history, kCurrent, bench);
-}
-
-PlannerModel model_with(const std::function<void(PlannerConfig&)>& change) {
-  PlannerConfig config;
-  config.validity.collision_radius_m = 0.5;
-  change(config);
-  const CameraModel camera = make_camera_model({});
-  return PlannerModel(config, kWorkspace, {&camera, 1}, {});
-}
-
-TEST(PlanNextView, LooksAtTheNearestFrontierWhereEntropyStandsStill) {
-  const PlannerModel model = small_model();
-  Belief belief = wall_ahead(model, everywhere);
-  sample_thinly(belief);
-  const Plan at_minimum = full_plan(model, belief, still_history());
-  ASSERT_TRUE(at_minimum.next);
-  EXPECT_EQ(at_minimum.next->sampler, "fvs");
-  // before the wall, at the cylinder's radius, looking at it
-  EXPECT_NEAR(at_minimum.next->view.p_world_m.x(), 6.1 - 3.5, 1e-6);
-  EXPECT_NEAR(at_minimum.next->view.yaw_rad, 0.0, 1e-9);
-  EXPECT_EQ(full_plan(model, belief, {}).next->sampler, "agvs");  // and back
-}
-
-TEST(PlanNextView, FvsTriesOneClusterAfterTheOther) {
-  // a lone frontier behind the view's back in a corner where no view is legal, nearer than the wall
-  const PlannerModel model = small_model();
-  Belief belief = wall_ahead(model, everywhere);
-  sample_thinly(belief);
-  const Plan plan = full_plan(model, belief, still_history());
-  ASSERT_TRUE(plan.next);
-  int best_rank = -1;
-  for (const Candidate& c : plan.candidates) best_rank = std::max(best_rank, c.cluster);
-  EXPECT_EQ(plan.candidates.size(), 12U * static_cast<std::size_t>(best_rank + 1));
-  for (const Candidate& c : plan.candidates) {
-    EXPECT_TRUE(c.cluster == best_rank || c.rejected.has_value());
-  }
-}
-
-TEST(PlanNextView, FallsBackToTheGridWhenFvsFindsNothing) {
-  Belief belief = wall_ahead(small_model(), everywhere);  // no points: no frontier
-  const Plan fallback = full_plan(small_model(), belief, still_history());
-  ASSERT_TRUE(fallback.next);
-  EXPECT_EQ(fallback.next->sampler, "agvs");
-  // the paper to the letter: the mission is over
-  const PlannerModel literal = model_with([](PlannerConfig& c) { c.fvs.agvs_when_stuck = false; });
-  EXPECT_FALSE(full_plan(literal, belief, still_history()).next);
-}
-
-TEST(PlanNextView, LiteralClustersAreOneAndItsCentroidMayBeUnreachable) {
-  // frontiers all around the current position: cut, some cluster has a view; uncut, the centroid
-  // is in the middle of a closed box and every view around it is inside or beyond the wall
-  const auto in_shell = [](const Vec3& p_m) {
-    const double distance_m = (p_m - Vec3(0.1, 0.1, 4.1)).cwiseAbs().maxCoeff();
-    return distance_m > 2.9 && distance_m < 3.15;
+TEST(PlanNextView, UnknownSpaceIsRefusedUnlessAllowed) {
+  const auto plan_with = [](bool allow) {
+    const PlannerModel model =
+        model_with([&](PlannerConfig& c) { c.validity.allow_unknown = allow; });
+    return full_plan(model, wall_ahead(model, [](const Vec3&) { return false; }), {});
   };
-  const auto belief_of = [&](const PlannerModel& model) {
-    Belief belief(model);
-    ScanUpdate update;
+  const Plan refused = plan_with(false);
+  EXPECT_FALSE(refused.next);
+  for (const Candidate& c : refused.candidates) EXPECT_TRUE(c.rejected.has_value());
+  const Plan allowed = plan_with(true);
+  ASSERT_TRUE(allowed.next);
+  for (const Candidate& c : allowed.candidates) EXPECT_NE(c.rejected, Rejection::not_free);
+}
+
+TEST(PlanNextView, GainsAreDiscountedAlongTheWayOrStraight) {
+  // a post stands in the straight way of some views of the grid
+  const auto plan_with = [](DistanceAlong distance) {
+    const PlannerModel model = model_with([&](PlannerConfig& c) {
+      c.agvs.step_m = 3.0;
+      c.validity.path = PathCheck::astar;
+      c.utility.distance = distance;
+    });
+    Belief belief = wall_ahead(model, everywhere);
     const GridGeometry& grid = belief.grid.geometry();
-    for (VoxelIndex v = 0; v < grid.voxel_count(); ++v) {
-      (in_shell(grid.center_m(grid.key_at(v))) ? update.occupied : update.free).push_back(v);
+    ScanUpdate post;
+    for (double z_m = 0.1; z_m < 8.0; z_m += 0.2) {
+      post.occupied.push_back(grid.index_of(grid.key_of(Vec3(1.7, 0.1, z_m))));
     }
-    belief.grid.apply(update);
-    sample_thinly(belief);
-    return belief;
+    for (int hits = 0; hits < 8; ++hits) belief.grid.apply(post);
+    return full_plan(model, belief, {});
   };
-  const PlannerModel cut = small_model();
-  const PlannerModel uncut = model_with([](PlannerConfig& c) {
-    c.fvs.frontier.max_extent_m = 0.0;
-    c.fvs.agvs_when_stuck = false;
-  });
-  EXPECT_TRUE(full_plan(cut, belief_of(cut), still_history()).next);
-  EXPECT_FALSE(full_plan(uncut, belief_of(uncut), still_history()).next);
+  const Plan along_path = plan_with(DistanceAlong::path);
+  const Plan straight = plan_with(DistanceAlong::straight);
+  ASSERT_EQ(along_path.candidates.size(), straight.candidates.size());
+  int around = 0;
+  for (std::size_t i = 0; i < straight.candidates.size(); ++i) {
+    const Candidate& c = straight.candidates[i];
+    if (c.rejected) continue;
+    const double straight_m = (c.view.p_world_m - kCurrent.p_world_m).norm();
+    EXPECT_DOUBLE_EQ(c.score.distance, std::exp(-0.2 * straight_m));
+    EXPECT_DOUBLE_EQ(along_path.candidates[i].score.distance, std::exp(-0.2 * c.path_m));
+    if (c.path_m > straight_m + 0.01) ++around;
+  }
+  EXPECT_GT(around, 0);
 }
 
 TEST(PlanNextView, EveryCandidateIsEitherScoredOrRejectedForAReason) {

@@ -62,6 +62,25 @@ TEST(Frontier, IsOccupiedAndThinlySampledButNotEmpty) {
   EXPECT_EQ(map.cloud.density_max() / 3.0, 100.0);  // the released bound is a third of it
 }
 
+TEST(Frontier, PointsInClearedVoxelsCountWhereAsked) {
+  Map map;
+  for (int i = 0; i < 5; ++i) {
+    const Vec3 p_m(0.1 + 0.2 * i, 0.1, 1.1);
+    map.occupy(p_m, 3);
+    if (i == 2) continue;
+    // as rays that pass a thin part do
+    const VoxelIndex v = map.grid.geometry().index_of(map.grid.geometry().key_of(p_m));
+    for (int miss = 0; miss < 8; ++miss) map.grid.apply({.free = {v}, .occupied = {}});
+  }
+  FrontierConfig config;
+  config.min_cluster_voxels = 1;
+  ASSERT_EQ(map.clusters(config).size(), 1U);
+  EXPECT_EQ(map.clusters(config)[0].voxels.size(), 1U);
+  config.occupied_only = false;
+  ASSERT_EQ(map.clusters(config).size(), 1U);
+  EXPECT_EQ(map.clusters(config)[0].voxels.size(), 5U);
+}
+
 TEST(Frontier, ClustersJoinUpToTwoVoxelsApart) {
   FrontierConfig config;
   config.max_extent_m = 0.0;
@@ -99,6 +118,27 @@ TEST(Frontier, LargeClustersAreCutAndNothingIsLost) {
   EXPECT_EQ(voxels.size(), 80U);
   config.max_extent_m = 0.0;  // the paper to the letter
   EXPECT_EQ(map.clusters(config).size(), 1U);
+}
+
+TEST(Frontier, CutsLoseNoVoxelOfAClusterThatIsLargeEnough) {
+  // the lattice cuts 10, 10 and 2 voxels; four others, apart from them, are too few
+  Map map = row(22);
+  for (int i = 0; i < 4; ++i) map.occupy(Vec3(0.1 + 0.2 * i, 5.1, 1.1));
+  FrontierConfig config;
+  for (const double extent_m : {0.4, 1.0, 2.0, 3.0}) {
+    config.max_extent_m = extent_m;
+    std::multiset<VoxelIndex> voxels;
+    for (const FrontierCluster& cluster : map.clusters(config)) {
+      voxels.insert(cluster.voxels.begin(), cluster.voxels.end());
+    }
+    std::multiset<VoxelIndex> expected;
+    config.max_extent_m = 0.0;
+    for (const FrontierCluster& cluster : map.clusters(config)) {
+      expected.insert(cluster.voxels.begin(), cluster.voxels.end());
+    }
+    EXPECT_EQ(expected.size(), 22U);
+    EXPECT_EQ(voxels, expected) << extent_m;
+  }
 }
 
 TEST(Frontier, ClustersAreTheComponentsOfTheNeighbourhoodGraph) {

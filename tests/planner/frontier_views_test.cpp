@@ -1,0 +1,166 @@
+// Frontier views at a local minimum: which clusters are looked at, and in which order.
+#include <gtest/gtest.h>
+
+#include "tests/planner/wall_world.hpp"
+
+namespace gnbv {
+namespace {
+
+TEST(FrontierViews, LooksAtTheNearestFrontierWhereEntropyStandsStill) {
+  const PlannerModel model = small_model();
+  Belief belief = wall_ahead(model, everywhere);
+  sample_thinly(belief);
+  const Plan at_minimum = full_plan(model, belief, still_history());
+  ASSERT_TRUE(at_minimum.next);
+  EXPECT_EQ(at_minimum.next->sampler, "fvs");
+  // before the wall, at the cylinder's radius, looking at it
+  EXPECT_NEAR(at_minimum.next->view.p_world_m.x(), 6.1 - 3.5, 1e-6);
+  EXPECT_NEAR(at_minimum.next->view.yaw_rad, 0.0, 1e-9);
+  EXPECT_EQ(full_plan(model, belief, {}).next->sampler, "agvs");  // and back
+}
+
+/// A wall ahead, all of it a frontier, and a lone frontier of five voxels at `lone_m`, nearer.
+Belief wall_and_lone_frontier(const PlannerModel& model, const Vec3& lone_m,
+                              const std::function<bool(const Vec3&)>& is_known) {
+  Belief belief = wall_ahead(model, is_known);
+  const GridGeometry& grid = belief.grid.geometry();
+  ScanUpdate update;
+  for (int i = -2; i <= 2; ++i) {
+    update.occupied.push_back(
+        grid.index_of(grid.key_of(Vec3(lone_m.x(), lone_m.y(), lone_m.z() + 0.2 * i))));
+  }
+  for (int hits = 0; hits < 8; ++hits) belief.grid.apply(update);  // whatever was free there
+  sample_thinly(belief);
+  return belief;
+}
+
+/// Where nothing but the frontiers' own views may be taken.
+PlannerModel model_with_fvs(const std::function<void(FvsConfig&)>& change) {
+  return model_with([&](PlannerConfig& c) {
+    c.fvs.agvs_when_stuck = false;
+    change(c.fvs);
+  });
+}
+
+TEST(FrontierViews, FvsTriesOneClusterAfterTheOther) {
+  // all views of the lone frontier stand in unmeasured space; those of the wall do not
+  const auto plan_with = [](int tries) {
+    const PlannerModel model = model_with_fvs([&](FvsConfig& fvs) { fvs.tries = tries; });
+    const Belief belief = wall_and_lone_frontier(model, Vec3(-2.1, 0.1, 4.1),
+                                                 [](const Vec3& p_m) { return p_m.x() > 2.0; });
+    return full_plan(model, belief, still_history());
+  };
+  const Plan one = plan_with(1);
+  EXPECT_FALSE(one.next);
+  ASSERT_EQ(one.candidates.size(), 12U);
+  for (const Candidate& c : one.candidates) EXPECT_EQ(c.rejected, Rejection::not_free);
+  for (const int tries : {2, 50}) {
+    const Plan more = plan_with(tries);
+    ASSERT_TRUE(more.next);
+    ASSERT_EQ(more.candidates.size(), 24U);  // and no third cluster
+    EXPECT_EQ(more.candidates[*more.chosen].cluster, 1);
+    EXPECT_EQ(more.next->candidates, 12);
+    EXPECT_NEAR(more.next->view.p_world_m.x(), 6.1 - 3.5, 1e-6);
+  }
+}
+
+TEST(FrontierViews, PooledClustersCompeteAndOthersTakeTheirTurn) {
+  // the lone frontier is nearer, the wall the better view
+  const auto plan_with = [](bool pool) {
+    const PlannerModel model = model_with([&](PlannerConfig& c) {
+      c.utility.lambda_per_m = 0.0;
+      c.fvs.pool_clusters = pool;
+      c.fvs.tries = 2;
+    });
+    const Belief belief = wall_and_lone_frontier(model, Vec3(-3.9, 0.1, 4.1), everywhere);
+    return full_plan(model, belief, still_history());
+  };
+  const Plan in_turn = plan_with(false);
+  ASSERT_TRUE(in_turn.next);
+  EXPECT_EQ(in_turn.candidates.size(), 12U);
+  EXPECT_EQ(in_turn.candidates[*in_turn.chosen].cluster, 0);
+  const Plan pooled = plan_with(true);
+  ASSERT_TRUE(pooled.next);
+  EXPECT_EQ(pooled.candidates.size(), 24U);
+  EXPECT_EQ(pooled.next->candidates, 24);
+  EXPECT_EQ(pooled.candidates[*pooled.chosen].cluster, 1);
+  EXPECT_GT(pooled.next->score.value, in_turn.next->score.value);
+  for (const Candidate& c : pooled.candidates) {
+    EXPECT_TRUE(c.rejected || c.score.value <= pooled.next->score.value);
+  }
+}
+
+TEST(FrontierViews, LargestClustersFirstIsASwitch) {
+  const auto looked_at_from = [](ClusterOrder order) {
+    const PlannerModel model = model_with_fvs([&](FvsConfig& fvs) {
+      fvs.order = order;
+      fvs.frontier.max_extent_m = 0.0;  // the wall is one cluster
+    });
+    const Belief belief = wall_and_lone_frontier(model, Vec3(-3.9, 0.1, 4.1), everywhere);
+    const Plan plan = full_plan(model, belief, still_history());
+    EXPECT_TRUE(plan.next);
+    EXPECT_EQ(plan.candidates.size(), 12U);
+    return plan.next->view.p_world_m.x();
+  };
+  EXPECT_LT(looked_at_from(ClusterOrder::nearest), 0.0);
+  EXPECT_NEAR(looked_at_from(ClusterOrder::largest), 6.1 - 3.5, 1e-6);
+}
+
+TEST(FrontierViews, WithoutFrontierViewsEveryUtilityStaysOnTheGrid) {
+  for (const char* name : {"proposed", "bircher", "isler"}) {
+    const auto sampler = [&](bool has_fvs) {
+      const PlannerModel model = model_with([&](PlannerConfig& c) {
+        c.utility.name = name;
+        c.fvs.enabled = has_fvs;
+      });
+      Belief belief = wall_ahead(model, everywhere);
+      sample_thinly(belief);
+      const Plan plan = full_plan(model, belief, still_history());
+      EXPECT_TRUE(plan.next) << name;
+      for (const Candidate& c : plan.candidates) EXPECT_EQ(c.sampler == "agvs", !has_fvs) << name;
+      return plan.next->sampler;
+    };
+    EXPECT_EQ(sampler(false), "agvs") << name;
+    EXPECT_EQ(sampler(true), "fvs") << name;
+  }
+}
+
+TEST(FrontierViews, FallsBackToTheGridWhenFvsFindsNothing) {
+  Belief belief = wall_ahead(small_model(), everywhere);  // no points: no frontier
+  const Plan fallback = full_plan(small_model(), belief, still_history());
+  ASSERT_TRUE(fallback.next);
+  EXPECT_EQ(fallback.next->sampler, "agvs");
+  // the paper to the letter: the mission is over
+  const PlannerModel literal = model_with([](PlannerConfig& c) { c.fvs.agvs_when_stuck = false; });
+  EXPECT_FALSE(full_plan(literal, belief, still_history()).next);
+}
+
+TEST(FrontierViews, LiteralClustersAreOneAndItsCentroidMayBeUnreachable) {
+  // frontiers all around the current position: cut, some cluster has a view; uncut, the centroid
+  // is in the middle of a closed box and every view around it is inside or beyond the wall
+  const auto in_shell = [](const Vec3& p_m) {
+    const double distance_m = (p_m - Vec3(0.1, 0.1, 4.1)).cwiseAbs().maxCoeff();
+    return distance_m > 2.9 && distance_m < 3.15;
+  };
+  const auto belief_of = [&](const PlannerModel& model) {
+    Belief belief(model);
+    ScanUpdate update;
+    const GridGeometry& grid = belief.grid.geometry();
+    for (VoxelIndex v = 0; v < grid.voxel_count(); ++v) {
+      (in_shell(grid.center_m(grid.key_at(v))) ? update.occupied : update.free).push_back(v);
+    }
+    belief.grid.apply(update);
+    sample_thinly(belief);
+    return belief;
+  };
+  const PlannerModel cut = small_model();
+  const PlannerModel uncut = model_with([](PlannerConfig& c) {
+    c.fvs.frontier.max_extent_m = 0.0;
+    c.fvs.agvs_when_stuck = false;
+  });
+  EXPECT_TRUE(full_plan(cut, belief_of(cut), still_history()).next);
+  EXPECT_FALSE(full_plan(uncut, belief_of(uncut), still_history()).next);
+}
+
+}  // namespace
+}  // namespace gnbv
