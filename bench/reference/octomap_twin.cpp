@@ -1,28 +1,9 @@
 #include "bench/reference/octomap_twin.hpp"
 
-#include <octomap/octomap.h>
-
+#include "bench/reference/octomap_copy.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {
-namespace {
-
-constexpr int kOctomapKeyOffset = 32768;
-
-octomap::point3d octomap_point(const Vec3f& p) { return {p.x(), p.y(), p.z()}; }
-
-Key key_of(const octomap::OcTreeKey& key) {
-  return {key[0] - kOctomapKeyOffset, key[1] - kOctomapKeyOffset, key[2] - kOctomapKeyOffset};
-}
-
-octomap::OcTreeKey octomap_key(const Key& key) {
-  return {static_cast<octomap::key_type>(key[0] + kOctomapKeyOffset),
-          static_cast<octomap::key_type>(key[1] + kOctomapKeyOffset),
-          static_cast<octomap::key_type>(key[2] + kOctomapKeyOffset)};
-}
-
-}  // namespace
-
 double probability(const OccupancyGrid& grid, VoxelIndex v) {
   return octomap::probability(static_cast<double>(grid.log_odds(v)));
 }
@@ -85,13 +66,25 @@ void OctomapTwin::insert(const Vec3f& origin_world_m, std::span<const ScanRay> r
   for (const octomap::OcTreeKey& key : occupied) octree.updateNode(key, true);
 }
 
-void OctomapTwin::insert_point_cloud(const Vec3f& origin_world_m,
-                                     std::span<const Vec3f> ends_world_m, bool lazy) {
-  octomap::Pointcloud cloud;
-  cloud.reserve(ends_world_m.size());
-  for (const Vec3f& end_m : ends_world_m) cloud.push_back(octomap_point(end_m));
+struct OctomapScan::Cloud {
+  octomap::point3d origin;
+  octomap::Pointcloud ends;
+};
+
+OctomapScan::OctomapScan(const Vec3f& origin_world_m, std::span<const Vec3f> ends_world_m)
+    : cloud_(std::make_unique<Cloud>()) {
+  cloud_->origin = octomap_point(origin_world_m);
+  cloud_->ends.reserve(ends_world_m.size());
+  for (const Vec3f& end_m : ends_world_m) cloud_->ends.push_back(octomap_point(end_m));
+}
+OctomapScan::~OctomapScan() = default;
+OctomapScan::OctomapScan(OctomapScan&&) noexcept = default;
+OctomapScan& OctomapScan::operator=(OctomapScan&&) noexcept = default;
+
+void OctomapTwin::insert_point_cloud(const OctomapScan& scan, bool lazy, bool discretize) {
   constexpr double kNoMaximumRange = -1.0;
-  tree_->octree.insertPointCloud(cloud, octomap_point(origin_world_m), kNoMaximumRange, lazy);
+  tree_->octree.insertPointCloud(scan.cloud_->ends, scan.cloud_->origin, kNoMaximumRange, lazy,
+                                 discretize);
 }
 
 std::vector<Key> OctomapTwin::ray_keys(const Vec3f& origin_m, const Vec3f& end_m) const {
@@ -99,7 +92,7 @@ std::vector<Key> OctomapTwin::ray_keys(const Vec3f& origin_m, const Vec3f& end_m
   if (!tree_->octree.computeRayKeys(octomap_point(origin_m), octomap_point(end_m), tree_->ray)) {
     return keys;
   }
-  for (const octomap::OcTreeKey& key : tree_->ray) keys.push_back(key_of(key));
+  for (const octomap::OcTreeKey& key : tree_->ray) keys.push_back(our_key(key));
   return keys;
 }
 

@@ -15,6 +15,20 @@ namespace gnbv {
 /// octomap::probability of the voxel: 0.5 while unmeasured.
 double probability(const OccupancyGrid& grid, VoxelIndex v);
 
+/// Ends of rays from one place as OctoMap wants them: made ahead, so that nobody times the copy.
+class OctomapScan {
+ public:
+  OctomapScan(const Vec3f& origin_world_m, std::span<const Vec3f> ends_world_m);
+  ~OctomapScan();
+  OctomapScan(OctomapScan&&) noexcept;
+  OctomapScan& operator=(OctomapScan&&) noexcept;
+
+ private:
+  friend class OctomapTwin;
+  struct Cloud;
+  std::unique_ptr<Cloud> cloud_;
+};
+
 class OctomapTwin {
  public:
   explicit OctomapTwin(const OccupancyConfig& config);
@@ -27,9 +41,10 @@ class OctomapTwin {
 
   /// computeRayKeys of every ray, ends of hits, occupied before free, updateNode once a voxel.
   void insert(const Vec3f& origin_world_m, std::span<const ScanRay> rays);
-  /// octomap's own insertPointCloud, for which every ray is a hit; `lazy` as there.
-  void insert_point_cloud(const Vec3f& origin_world_m, std::span<const Vec3f> ends_world_m,
-                          bool lazy);
+  /// octomap's own insertPointCloud, for which every ray is a hit; `lazy` and `discretize` as
+  /// there: inner nodes are left for later, and rays go to the centres of the voxels that were hit,
+  /// one to each.
+  void insert_point_cloud(const OctomapScan& scan, bool lazy, bool discretize);
 
   /// computeRayKeys. Keys are ours (OctoMap's minus 32768).
   std::vector<Key> ray_keys(const Vec3f& origin_m, const Vec3f& end_m) const;

@@ -1,5 +1,6 @@
 // Candidate evaluation as the paper's code does it, on a plain octomap::OcTree: cast the ray, list
-// its keys, keep them in a set, search the tree for every voxel. Slow, and trusted.
+// its keys, keep them in a sorted set, search the tree for every voxel that is new to it. Slow, and
+// trusted.
 #pragma once
 
 #include <memory>
@@ -13,6 +14,8 @@ struct ViewCounts {
   std::int64_t free = 0;
   std::int64_t occupied = 0;
   std::int64_t unknown = 0;
+
+  bool operator==(const ViewCounts&) const = default;
 };
 
 class PaperViewTwin {

@@ -22,17 +22,38 @@ Cloud::Ptr pcl_cloud(std::span<const Vec3f> points_m) {
 
 }  // namespace
 
-std::vector<Vec3f> pcl_leaf_filter(std::span<const Vec3f> points_m, double leaf_m) {
+struct PclCloud::Points {
+  Cloud::Ptr cloud;
+};
+
+PclCloud::PclCloud(std::unique_ptr<Points> points) : points_(std::move(points)) {}
+PclCloud::PclCloud(std::span<const Vec3f> points_m)
+    : points_(std::make_unique<Points>(Points{pcl_cloud(points_m)})) {}
+PclCloud::~PclCloud() = default;
+PclCloud::PclCloud(PclCloud&&) noexcept = default;
+PclCloud& PclCloud::operator=(PclCloud&&) noexcept = default;
+
+std::size_t PclCloud::size() const { return points_->cloud->size(); }
+
+std::vector<Vec3f> PclCloud::points_m() const {
+  std::vector<Vec3f> points;
+  points.reserve(size());
+  for (const pcl::PointXYZ& p : *points_->cloud) points.emplace_back(p.x, p.y, p.z);
+  return points;
+}
+
+PclCloud PclCloud::filtered(double leaf_m) const {
   pcl::VoxelGrid<pcl::PointXYZ> filter;
-  filter.setInputCloud(pcl_cloud(points_m));
+  filter.setInputCloud(points_->cloud);
   const auto leaf = static_cast<float>(leaf_m);
   filter.setLeafSize(leaf, leaf, leaf);
-  Cloud filtered;
-  filter.filter(filtered);
-  std::vector<Vec3f> centroids_m;
-  centroids_m.reserve(filtered.size());
-  for (const pcl::PointXYZ& p : filtered) centroids_m.emplace_back(p.x, p.y, p.z);
-  return centroids_m;
+  Cloud::Ptr centroids(new Cloud);
+  filter.filter(*centroids);
+  return PclCloud(std::make_unique<Points>(Points{std::move(centroids)}));
+}
+
+std::vector<Vec3f> pcl_leaf_filter(std::span<const Vec3f> points_m, double leaf_m) {
+  return PclCloud(points_m).filtered(leaf_m).points_m();
 }
 
 struct PclNeighbours::State {

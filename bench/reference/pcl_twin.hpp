@@ -10,7 +10,26 @@
 
 namespace gnbv {
 
-/// pcl::VoxelGrid: one centroid a leaf, in PCL's order.
+/// Points as PCL wants them: made ahead, so that nobody times the copy.
+class PclCloud {
+ public:
+  explicit PclCloud(std::span<const Vec3f> points_m);
+  ~PclCloud();
+  PclCloud(PclCloud&&) noexcept;
+  PclCloud& operator=(PclCloud&&) noexcept;
+
+  std::size_t size() const;
+  std::vector<Vec3f> points_m() const;
+  /// pcl::VoxelGrid: one centroid a leaf, in PCL's order.
+  PclCloud filtered(double leaf_m) const;
+
+ private:
+  struct Points;
+  explicit PclCloud(std::unique_ptr<Points> points);
+  std::unique_ptr<Points> points_;
+};
+
+/// The same from our points to ours.
 std::vector<Vec3f> pcl_leaf_filter(std::span<const Vec3f> points_m, double leaf_m);
 
 /// For each point, how many of the points lie within `radius_m` of it, itself included

@@ -83,22 +83,25 @@ BENCHMARK(BM_GridInsertFrame)->Unit(benchmark::kMillisecond);
 
 void BM_OctomapInsertPointCloud(benchmark::State& state) {
   const bool lazy = state.range(0) != 0;
+  const bool discretize = state.range(1) != 0;
   OctomapTwin twin{OccupancyConfig{}};
-  std::vector<std::vector<Vec3f>> ends_m;
+  std::vector<OctomapScan> scans;
   for (const View& view : views()) {
-    ends_m.emplace_back();
-    for (const ScanRay& ray : view.rays) ends_m.back().push_back(ray.end_world_m);
+    std::vector<Vec3f> ends_m;
+    for (const ScanRay& ray : view.rays) ends_m.push_back(ray.end_world_m);
+    scans.emplace_back(view.origin_m, ends_m);
   }
   std::size_t frame = 0;
   for (auto _ : state) {
     const std::size_t v = frame++ % views().size();
-    twin.insert_point_cloud(views()[v].origin_m, ends_m[v], lazy);
+    twin.insert_point_cloud(scans[v], lazy, discretize);
   }
 }
 BENCHMARK(BM_OctomapInsertPointCloud)
-    ->ArgName("lazy")
-    ->Arg(0)
-    ->Arg(1)
+    ->ArgNames({"lazy", "discretize"})
+    ->Args({0, 0})
+    ->Args({1, 0})
+    ->Args({1, 1})
     ->Unit(benchmark::kMillisecond)
     ->Iterations(16);
 

@@ -17,7 +17,9 @@ const std::vector<DepthFrame>& circle_frames();
 
 /// Medians over the frames of the thread's CPU time, ms, of the best, the AVX2 and the baseline
 /// level. Ours is everything from the depths to the updated grid; the reference is plain
-/// insertPointCloud with the cloud ready. Identical: every voxel's log-odds, bit for bit, after all
+/// insertPointCloud with the cloud ready, and the competent way OctoMap's own faster one: one ray a
+/// voxel that was hit (discretize, hence another map: frame_insertion_test.cpp says which) and
+/// inner nodes left alone (lazy_eval). Identical: every voxel's log-odds, bit for bit, after all
 /// frames, against OctoMap's rule ray by ray, and against insertPointCloud itself on the same
 /// frames with each pixel without a return made a hit at maximum range. Takes some 10 s.
 std::vector<SpeedRow> map_speed();

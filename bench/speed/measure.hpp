@@ -16,6 +16,14 @@ constexpr double kFloor_m = 0.3;
 /// Processor time of the calling thread.
 double thread_time_ms();
 
+/// What the task took of it.
+template <typename Task>
+double time_ms(Task&& task) {
+  const double start_ms = thread_time_ms();
+  task();
+  return thread_time_ms() - start_ms;
+}
+
 /// The upper one of two middle values. Requires a value.
 double median(std::vector<double> values);
 

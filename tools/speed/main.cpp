@@ -64,11 +64,25 @@ std::vector<SpeedRow> mission_speed() {
   const TimedMission two = fly(scenario, world, scene, 2);
   const TimedMission one = fly(scenario, world, scene, 1);
   const bool same = one.sha256 == two.sha256 && two.views == kViews;
-  return {{"mission_600_views", two.wall_s, kLimit_s, "s", kLimit_s / two.wall_s, same, 1.0},
-          {"mission_two_threads_over_one", two.wall_s, one.wall_s, "s", one.wall_s / two.wall_s,
-           same, 1.5},
-          {"mission_last_50_over_first_50", 1e3 * two.last_s, 1e3 * two.first_s, "ms per view",
-           two.last_s / two.first_s, same, 1.3, true}};
+  return {{.name = "mission_600_views",
+           .ours = two.wall_s,
+           .reference = kLimit_s,
+           .unit = "s",
+           .identical = same,
+           .target = 1.0},
+          {.name = "mission_two_threads_over_one",
+           .ours = two.wall_s,
+           .reference = one.wall_s,
+           .unit = "s",
+           .identical = same,
+           .target = 1.5},
+          {.name = "mission_last_50_over_first_50",
+           .ours = 1e3 * two.last_s,
+           .reference = 1e3 * two.first_s,
+           .unit = "ms per view",
+           .identical = same,
+           .target = 1.3,
+           .is_limit = true}};
 }
 
 std::vector<SpeedRow> all_rows() {
@@ -79,8 +93,9 @@ std::vector<SpeedRow> all_rows() {
   return rows;
 }
 
-bool is_met(const SpeedRow& row) {
-  return row.identical && (row.is_limit ? row.ratio <= row.target : row.ratio >= row.target);
+nlohmann::ordered_json or_null(const std::optional<double>& value) {
+  if (!value) return nullptr;
+  return *value;
 }
 
 void print_json(const std::vector<SpeedRow>& rows) {
@@ -89,8 +104,10 @@ void print_json(const std::vector<SpeedRow>& rows) {
     json["rows"].push_back({{"name", row.name},
                             {"ours", row.ours},
                             {"reference", row.reference},
+                            {"competent", or_null(row.competent)},
                             {"unit", row.unit},
-                            {"ratio", row.ratio},
+                            {"ratio", ratio(row)},
+                            {"competent_ratio", or_null(competent_ratio(row))},
                             {"identical", row.identical},
                             {"target", row.target},
                             {"met", is_met(row)}});
@@ -98,14 +115,22 @@ void print_json(const std::vector<SpeedRow>& rows) {
   fmt::print("{}\n", json.dump(2));
 }
 
+std::string or_dash(const std::optional<double>& value, int digits) {
+  return value ? fmt::format("{:.{}f}", *value, digits) : "-";
+}
+
 void print_table(const std::vector<SpeedRow>& rows) {
-  fmt::print("{:<32}{:>12}{:>12}  {:<12}{:>8}{:>8}  {}\n", "", "ours", "reference", "unit", "ratio",
-             "target", "identical");
+  fmt::print("{:<32}{:>12}{:>12}{:>12}  {:<12}{:>8}{:>8}{:>11}  {}\n", "", "ours", "reference",
+             "competent", "unit", "ratio", "target", "competent", "identical");
   for (const SpeedRow& row : rows) {
-    fmt::print("{:<32}{:>12.3f}{:>12.3f}  {:<12}{:>8.2f}{:>8.1f}  {}{}\n", row.name, row.ours,
-               row.reference, row.unit, row.ratio, row.target, row.identical ? "yes" : "NO",
+    fmt::print("{:<32}{:>12.3f}{:>12.3f}{:>12}  {:<12}{:>8.2f}{:>8.1f}{:>11}  {}{}\n", row.name,
+               row.ours, row.reference, or_dash(row.competent, 3), row.unit, ratio(row), row.target,
+               or_dash(competent_ratio(row), 2), row.identical ? "yes" : "NO",
                is_met(row) ? "" : "  missed");
   }
+  fmt::print(
+      "\nreference: the paper's way; competent: that of somebody who knows the libraries, with its "
+      "own ratio\n");
 }
 
 }  // namespace
