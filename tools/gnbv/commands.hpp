@@ -22,6 +22,7 @@ void add_sweep_command(CLI::App& app);
 void add_table_command(CLI::App& app);
 void add_ceiling_command(CLI::App& app);
 void add_export_command(CLI::App& app);
+void add_paper_command(CLI::App& app);
 void add_plot_command(CLI::App& app);
 void add_render_command(CLI::App& app);
 void add_report_command(CLI::App& app);

@@ -28,6 +28,7 @@ int run(int argc, char** argv) {
   gnbv::add_render_command(app);
   gnbv::add_export_command(app);
   gnbv::add_plot_command(app);
+  gnbv::add_paper_command(app);
   gnbv::add_report_command(app);
   gnbv::add_asset_command(app);
   gnbv::add_lint_command(app);

@@ -157,6 +157,8 @@ class Pool {
                                "--out", files.part.string(), "--resume", "--quiet", "--threads",
                                fmt::format("{}", threads_)},
                    .log_begin = no_log ? 0 : size};
+    one.command.insert(one.command.end(), options_.run_arguments.begin(),
+                       options_.run_arguments.end());
     one.child = start_child(program_, one.command, files.log, one.lock.descriptor());
     running_.push_back(std::move(one));
   }

@@ -18,7 +18,8 @@ struct RunCellsOptions {
   bool retry_failed = false;     // failed cells are run again
   bool wait_for_locked = true;   // cells that another process runs: wait for them, or leave them
   bool quiet = false;
-  std::filesystem::path program{};  // that flies them; empty: this one
+  std::filesystem::path program{};           // that flies them; empty: this one
+  std::vector<std::string> run_arguments{};  // of `gnbv run` beside its own, such as --frames
 };
 
 enum class CellStatus { done, failed, locked, missing };

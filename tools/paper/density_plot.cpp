@@ -1,0 +1,56 @@
+#include "tools/paper/density_plot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sim/core/error.hpp"
+#include "tools/plots/script_parts.hpp"
+
+namespace gnbv {
+
+Plot mean_density_plot(std::span<const MeanSeries> series) {
+  std::string data;
+  std::string bands;
+  std::string lines;
+  double highest = 0.0;
+  std::size_t most_views = 0;
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    std::vector<std::vector<double>> rows;
+    bool has_band = false;
+    for (const MeanEstimate& density : series[i].by_view) {
+      const double half = density.half_width.value_or(0.0);
+      has_band = has_band || density.half_width;
+      highest = std::max(highest, density.mean);
+      rows.push_back({static_cast<double>(rows.size()), density.mean, density.mean - half,
+                      density.mean + half});
+    }
+    most_views = std::max(most_views, rows.size());
+    data += data_block(fmt::format("series{}", i), rows);
+    const std::string_view colour = kPalette[i % kPalette.size()];
+    if (has_band) {
+      bands += fmt::format(
+          "$series{} using 1:3:4 with filledcurves fc rgb '{}' fs transparent solid 0.18 noborder "
+          "notitle, ",
+          i, colour);
+    }
+    lines += fmt::format("{}$series{} using 1:2 with lines lw 1.3 lc rgb '{}' title {}",
+                         i == 0 ? "" : ", ", i, colour, gnuplot_text(series[i].label));
+  }
+  GNBV_CHECK(most_views > 0, "no density of {} series", series.size());
+  if (!bands.empty()) {
+    lines +=
+        ", keyentry with boxes fs solid noborder fc rgb '#d5d9de' title '95 % interval of the "
+        "mean'";
+  }
+  return {
+      "density",
+      data + "set key inside bottom right vertical\n" + y_axis(0.0, 1.15 * highest) +
+          fmt::format("set xrange [0:{}] noextend\nset rmargin 3\nset xtics {:g}\n",
+                      std::max<std::size_t>(most_views - 1, 1),
+                      even_step(static_cast<double>(std::max<std::size_t>(most_views - 1, 1)))) +
+          "set xlabel 'iteration'\nset ylabel 'density (points/voxel)' offset 0.6,0\nplot " +
+          bands + lines + "\n"};
+}
+
+}  // namespace gnbv

@@ -1,0 +1,202 @@
+// Each figure as pictures and plots of the rooms that draw runs.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "bench/compare/paper_figures.hpp"
+#include "sim/core/error.hpp"
+#include "tools/paper/comparisons.hpp"
+#include "tools/paper/density_plot.hpp"
+#include "tools/paper/figures.hpp"
+#include "tools/plots/run_plots.hpp"
+#include "tools/render/camera_choice.hpp"
+#include "tools/render/flight_items.hpp"
+#include "tools/surface/surface.hpp"
+#include "tools/surface/surface_picture.hpp"
+
+namespace gnbv {
+namespace {
+
+/// For a place beside others, whose words stand below it.
+PictureOptions plain_options() {
+  PictureOptions options;
+  options.width_px = 960;
+  options.height_px = 600;
+  options.has_caption = false;
+  return options;
+}
+
+Image picture_of(FigureDesk& desk, const PictureKind& kind, RunSource& run,
+                 const PictureOptions& options) {
+  RunSource* const runs[] = {&run};
+  return draw_picture(kind, run, options, lay_out(kind, runs, options), desk.renderer());
+}
+
+/// The first view, from 1 on, that a sampler of that name chose at that scale.
+std::optional<int> first_view(const RunRecord& record, std::string_view sampler,
+                              std::optional<double> scale = {}) {
+  for (std::size_t i = 1; i < record.views.size(); ++i) {
+    const Decision& decision = record.views[i].decision;
+    if (decision.sampler == sampler && (!scale || decision.scale == *scale)) {
+      return static_cast<int>(i);
+    }
+  }
+  return std::nullopt;
+}
+
+void add_decision(FigureDesk& desk, int view, const std::string& what, const std::string& label) {
+  PictureOptions options;
+  options.iteration = view;
+  desk.add(what, label, picture_of(desk, kCandidatesPicture, desk.source("proposed"), options));
+}
+
+std::vector<double> scales_of(const RunRecord& record) {
+  std::vector<double> scales;
+  for (const ViewRecord& view : record.views) {
+    if (view.decision.sampler == "agvs") scales.push_back(view.decision.scale);
+  }
+  std::sort(scales.begin(), scales.end());
+  scales.erase(std::unique(scales.begin(), scales.end()), scales.end());
+  return scales;
+}
+
+/// What the paper calls a utility.
+std::string label_of(const std::string& scenario, std::string_view utility) {
+  return std::string(find_row(*find_paper_table(scenario), utility)->label);
+}
+
+/// Two directions of a lab flight, as the paper has them.
+constexpr std::array<std::array<const char*, 2>, 2> kDirections = {
+    {{"front", "from the side"}, {"top", "from above"}}};
+
+const Rgb kImagePlace = srgb(0x12a150);
+
+}  // namespace
+
+void draw_rays_figure(FigureDesk& desk) {
+  const std::optional<int> view = first_view(desk.mission("proposed").record, "agvs");
+  if (!view) throw BadInput("the mission planned no view from the grid");
+  add_decision(desk, *view, "rays", "");
+}
+
+void draw_profile_figure(FigureDesk& desk) {
+  PictureOptions options;
+  options.height_px = 480;
+  desk.add("profile", "", picture_of(desk, kProfilePicture, desk.source("proposed"), options));
+}
+
+void draw_scales_figure(FigureDesk& desk) {
+  const RunRecord& record = desk.mission("proposed").record;
+  constexpr std::size_t kShown = 3;
+  const std::vector<double> scales = scales_of(record);
+  for (std::size_t i = 0; i < std::min(kShown, scales.size()); ++i) {
+    add_decision(desk, *first_view(record, "agvs", scales[i]), fmt::format("scale-{}", i),
+                 fmt::format("scale {:g}", scales[i]));
+  }
+  if (scales.size() < kShown) {
+    desk.miss(fmt::format("this mission chose views at {} scale{} only", scales.size(),
+                          scales.size() == 1 ? "" : "s"));
+  }
+}
+
+void draw_frontiers_figure(FigureDesk& desk) {
+  const std::optional<int> view = first_view(desk.mission("proposed").record, "fvs");
+  if (!view) throw BadInput("this mission chose no view at frontiers");
+  add_decision(desk, *view, "frontiers", "");
+}
+
+void draw_paths_figure(FigureDesk& desk) {
+  const std::array<const char*, 3> utilities = {"proposed", "isler", "bircher"};  // as the paper
+  for (const PictureKind* const kind : {&kPathPicture, &kCoveragePicture}) {
+    std::vector<RunSource*> runs;
+    std::vector<std::string> names;
+    for (const char* const utility : utilities) {
+      try {
+        runs.push_back(&desk.source(utility));
+        names.emplace_back(utility);
+      } catch (const BadInput& error) {
+        if (kind == &kPathPicture) desk.miss(error.what());  // once is enough
+      }
+    }
+    if (runs.empty()) return;
+    const PictureOptions options = plain_options();
+    const PanelLayout layout = lay_out(*kind, runs, options);  // one camera for all
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      const RunFigures& figures = *runs[i]->record().figures;
+      const std::string name = label_of(desk.figure().scenario, names[i]);
+      const std::string label =
+          kind == &kPathPicture
+              ? fmt::format("{}: {} views, {:.0f} m", name, runs[i]->record().views.size(),
+                            figures.straight_m)
+              : fmt::format("{}: {:.1f} % at 0.05 m", name, 100.0 * figures.coverage_final[0]);
+      desk.add(fmt::format("{}-{}", kind->name, names[i]), label,
+               draw_picture(*kind, *runs[i], options, layout, desk.renderer()));
+      runs[i]->forget();
+    }
+  }
+}
+
+void draw_densities_figure(FigureDesk& desk) {
+  const std::vector<MeanSeries> series =
+      mean_densities(desk.material(), *find_paper_table(desk.figure().scenario));
+  if (series.empty()) throw BadInput("no mission came to its end");
+  desk.add("density", "", mean_density_plot(series));
+}
+
+void draw_entropy_figure(FigureDesk& desk) {
+  const std::optional<Plot> plot = density_entropy_plot(desk.mission("proposed").record);
+  if (!plot) throw BadInput("the mission took no view");
+  desk.add("density-entropy", "", *plot);
+}
+
+void draw_path_in_map_figure(FigureDesk& desk) {
+  RunSource& run = desk.source("proposed");
+  const RunRecord& record = run.record();
+  for (const auto& [camera, label] : kDirections) {
+    PictureOptions options = plain_options();
+    options.angles = choose_camera(camera).angles;
+    options.has_profile = true;
+    RunSource* const runs[] = {&run};
+    const PanelLayout layout = lay_out(kPathPicture, runs, options);
+    Picture picture = kVoxelsPicture.draw(run, options, layout.view);
+    const FlightLook look{.unit_m = layout_unit_m(layout.view), .has_profile = true};
+    add_flight(record, look, picture.panels.front().scene);
+    add_views(record, record.views.size(), options.every, look, picture.panels.front().scene);
+    desk.add(fmt::format("path-{}", camera), label,
+             draw_picture(picture, run, options, layout, desk.renderer()));
+  }
+}
+
+void draw_reconstruction_figure(FigureDesk& desk) {
+  const auto& pictured = desk.material().with_images;
+  const auto mission = std::find_if(pictured.begin(), pictured.end(), [&](const PaperMission& m) {
+    return m.scenario == desk.figure().scenario;
+  });
+  if (mission == pictured.end()) throw BadInput("no mission that kept its images came to its end");
+  const RunRecord& record = mission->record;
+  std::vector<std::string> notes;
+  const SurfaceSettings settings{.has_texture = false};  // vertices get the images' colours alike
+  const TexturedMesh mesh = reconstruct_surface(
+      record, settings, desk.threads(), [](double, const std::string&) {}, notes);
+  for (const std::string& note : notes) desk.miss(note);
+  const PictureOptions options = plain_options();
+  for (const auto& [camera, label] : kDirections) {
+    RenderScene scene;
+    scene.surfaces.push_back(surface_item(mesh));
+    scene.ground = GroundItem{};
+    std::vector<Vec3> points_m;
+    for (const Vec3f& p_m : mesh.shape.vertices_m) points_m.push_back(p_m.cast<double>());
+    for (const ViewRecord& view : record.views) points_m.push_back(view.decision.view.p_world_m);
+    const RenderView view =
+        frame_points(points_m, choose_camera(camera).angles, options.width_px, options.height_px);
+    const auto radius_m = static_cast<float>(5.0 * layout_unit_m(view));
+    for (const ViewRecord& taken : record.views) {
+      scene.balls.push_back({taken.decision.view.p_world_m.cast<float>(), radius_m, kImagePlace});
+    }
+    desk.add(fmt::format("surface-{}", camera), label, desk.renderer().render(scene, view));
+  }
+}
+
+}  // namespace gnbv

@@ -1,0 +1,191 @@
+// The top of the page: what agrees and what does not.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "bench/compare/text_table.hpp"
+#include "tools/paper/page_parts.hpp"
+#include "tools/report/page_text.hpp"
+
+namespace gnbv {
+namespace {
+
+std::string_view colour_of(Agreement agreement) {
+  constexpr std::array<std::string_view, 4> kinds = {"good", "near", "open", "bad"};
+  return kinds[static_cast<std::size_t>(agreement)];
+}
+
+std::string_view colour_of(PairOrder order) {
+  constexpr std::array<std::string_view, 4> kinds = {"good", "bad", "open", "open"};
+  return kinds[static_cast<std::size_t>(order)];
+}
+
+std::string_view colour_of(ClaimVerdict verdict) {
+  constexpr std::array<std::string_view, 3> kinds = {"good", "open", "bad"};
+  return kinds[static_cast<std::size_t>(verdict)];
+}
+
+/// "+1.4 points", "-12 %", or of what is not of the same size "x 0.21".
+std::string deviation(const PaperFigure& figure, const ComparedFigure& both) {
+  const double away = both.ours->mean - *both.printed;
+  if (figure.is_coverage) return fmt::format("{:+.1f} points", away);
+  const double ratio = both.ours->mean / *both.printed;
+  if (ratio < 0.5 || ratio > 2.0) return fmt::format("× {:.2g}", ratio);
+  return fmt::format("{:+.0f} %", 100.0 * (ratio - 1.0));
+}
+
+std::string cell_of(const PaperFigure& figure, const ComparedFigure& both) {
+  if (!both.agreement) return both.printed ? "<td class=pale>not flown</td>" : "<td></td>";
+  return fmt::format("<td>{}</td>", chip(colour_of(*both.agreement), deviation(figure, both)));
+}
+
+std::string head_row(std::string_view first) {
+  std::string html = fmt::format("<tr><th>{}</th><th>Views</th>", first);
+  for (const PaperFigure& figure : compared_figures()) {
+    html += fmt::format("<th>{}</th>", html_escaped(figure.head));
+  }
+  return html + "</tr>\n";
+}
+
+/// "162 of 360", or where ours took fewer "10 of 635 (paper)".
+std::string views_text(const ComparedRow& row) {
+  if (row.missions == 0) return "-";
+  if (!row.printed_views) return row.utility.empty() ? "" : fmt::format("{}", row.views);
+  if (row.views < *row.printed_views) {
+    return fmt::format("{} (paper {})", row.views, *row.printed_views);
+  }
+  return fmt::format("{}", row.views);
+}
+
+std::string numbers_html(const PaperPage& page) {
+  std::string html =
+      "<h3>Numbers: how far ours are from the paper's</h3>\n<div class=scroll><table>\n" +
+      head_row("Utility");
+  for (const ShownTable& table : page.tables) {
+    html += fmt::format("<tr class=group><td colspan=9>{}</td></tr>\n",
+                        html_escaped(table.paper->source));
+    for (const ComparedRow& row : table.rows) {
+      html += fmt::format("<tr><td>{}{}</td><td>{}</td>", html_escaped(row.label),
+                          row.is_doubtful ? " †" : "", views_text(row));
+      for (std::size_t i = 0; i < row.figures.size(); ++i) {
+        html += cell_of(compared_figures()[i], row.figures[i]);
+      }
+      html += "</tr>\n";
+    }
+  }
+  html += "</table></div>\n<p class=pale>" + chip("good", "agrees") +
+          " the paper's number lies in our 95 % interval, whose half width is at most 10 points of "
+          "coverage or 20 % of the number. " +
+          chip("near", "close") + " within 2 points, or 5 %. " + chip("open", "undecided") +
+          " in our interval, which is wider than that. " + chip("bad", "differs") +
+          " otherwise. Ours is taken after as many views as the paper's row took. The paper names "
+          "no unit of entropy; ours is in nat. † printed with more coverage at 0.05 m than at "
+          "0.10 m, which is hardly possible: the two columns may have changed places.</p>\n";
+  return html;
+}
+
+std::string order_cell(const ShownTable& table, const std::string& first, const std::string& second,
+                       std::size_t figure) {
+  for (const ComparedPair& pair : table.pairs) {
+    if (pair.first != first || pair.second != second || pair.figure != figure) continue;
+    const int decimals = compared_figures()[figure].decimals;
+    std::string ours = grouped_number(pair.ours.mean, decimals);
+    if (pair.ours.mean > 0.0) ours.insert(0, "+");
+    if (pair.ours.half_width) ours += " ±" + grouped_number(*pair.ours.half_width, decimals);
+    return fmt::format("<td title='{}; the paper: {}'>{}</td>", html_escaped(ours),
+                       grouped_number(pair.printed, decimals),
+                       chip(colour_of(pair.order), name_of(pair.order)));
+  }
+  return "<td></td>";
+}
+
+std::string orders_html(const PaperPage& page) {
+  std::string rows;
+  for (const ShownTable& table : page.tables) {
+    if (table.pairs.empty()) continue;
+    rows += fmt::format("<tr class=group><td colspan=9>{}</td></tr>\n",
+                        html_escaped(table.paper->source));
+    const ComparedPair* last = nullptr;
+    for (const ComparedPair& pair : table.pairs) {  // in runs of one pair each
+      if (last != nullptr && last->first == pair.first && last->second == pair.second) continue;
+      last = &pair;
+      rows += fmt::format("<tr><td>{} against {}</td><td></td>", html_escaped(pair.first),
+                          html_escaped(pair.second));
+      for (std::size_t i = 0; i < compared_figures().size(); ++i) {
+        rows += order_cell(table, pair.first, pair.second, i);
+      }
+      rows += "</tr>\n";
+    }
+  }
+  if (rows.empty()) return "";
+  return "<h3>Order: which of two planners has more</h3>\n<div class=scroll><table>\n" +
+         head_row("Pair") + rows + "</table></div>\n<p class=pale>" + chip("good", "same") +
+         " our 95 % interval of the difference, paired by seed, excludes 0 on the paper's side. " +
+         chip("bad", "reversed") + " on the other side. " + chip("open", "undecided") +
+         " it holds 0, or one seed was flown.</p>\n";
+}
+
+std::string claims_html(const PaperPage& page) {
+  if (page.claims.empty()) return "";
+  std::string html =
+      "<h3>Sentences on figures</h3>\n<div class=scroll><table>\n<tr><th>Figure</th><th "
+      "class=text>The paper</th><th class=text>Ours</th><th></th></tr>\n";
+  for (const CheckedClaim& claim : page.claims) {
+    html += fmt::format(
+        "<tr><td><a href='#fig{0}'>{0}</a></td><td class=text>{1}</td><td class=text>{2}</td>"
+        "<td>{3}</td></tr>\n",
+        claim.figure, html_escaped(claim.sentence), html_escaped(claim.finding),
+        chip(colour_of(claim.verdict), name_of(claim.verdict)));
+  }
+  return html + "</table></div>\n";
+}
+
+/// How often each verdict was given.
+template <typename Verdict, std::size_t N>
+std::string count_html(std::string_view what, const std::array<std::size_t, N>& counts) {
+  std::string html;
+  std::size_t all = 0;
+  for (std::size_t i = 0; i < N; ++i) {
+    if (counts[i] == 0) continue;
+    all += counts[i];
+    html +=
+        fmt::format("{} ", chip(colour_of(static_cast<Verdict>(i)),
+                                fmt::format("{} {}", counts[i], name_of(static_cast<Verdict>(i)))));
+  }
+  if (all == 0) return "";
+  return fmt::format("<div class=count><b>{} {}</b>{}</div>\n", all, what, html);
+}
+
+std::string counts_html(const PaperPage& page) {
+  std::array<std::size_t, 4> numbers{};
+  std::array<std::size_t, 4> orders{};
+  std::array<std::size_t, 3> sentences{};
+  for (const ShownTable& table : page.tables) {
+    for (const ComparedRow& row : table.rows) {
+      for (const ComparedFigure& figure : row.figures) {
+        if (figure.agreement) ++numbers[static_cast<std::size_t>(*figure.agreement)];
+      }
+    }
+    for (const ComparedPair& pair : table.pairs) ++orders[static_cast<std::size_t>(pair.order)];
+  }
+  for (const CheckedClaim& claim : page.claims) {
+    ++sentences[static_cast<std::size_t>(claim.verdict)];
+  }
+  return "<div class=counts>\n" + count_html<Agreement>("numbers", numbers) +
+         count_html<PairOrder>("orders of two planners", orders) +
+         count_html<ClaimVerdict>("sentences", sentences) + "</div>\n";
+}
+
+}  // namespace
+
+std::string chip(std::string_view kind, std::string_view text) {
+  return fmt::format("<span class='chip {}'>{}</span>", kind, html_escaped(text));
+}
+
+std::string summary_html(const PaperPage& page) {
+  return "<section id=summary>\n<h2>What agrees, what does not</h2>\n" + counts_html(page) +
+         numbers_html(page) + orders_html(page) + claims_html(page) + "</section>\n";
+}
+
+}  // namespace gnbv
