@@ -84,7 +84,10 @@ void draw_rays_figure(FigureDesk& desk) {
 void draw_profile_figure(FigureDesk& desk) {
   PictureOptions options;
   options.height_px = 480;
-  desk.add("profile", "", picture_of(desk, kProfilePicture, desk.source("proposed"), options));
+  options.has_profile = true;
+  PictureKind wide = kProfilePicture;  // the paper shows the flight around the workspace, too
+  wide.frame = kPathPicture.frame;
+  desk.add("profile", "", picture_of(desk, wide, desk.source("proposed"), options));
 }
 
 void draw_scales_figure(FigureDesk& desk) {

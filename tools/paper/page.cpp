@@ -89,7 +89,7 @@ std::string beyond_html(const ShownTable& table) {
                           html_escaped(row.label), row.views, row.flown_views);
     } else if (row.printed_views && row.views < *row.printed_views) {
       html += fmt::format(
-          "<li>{}: compared after {} views, where ours ended; the paper's took "
+          "<li>{}: compared after {} views, where ours ended; the paper&#39;s took "
           "{}</li>\n",
           html_escaped(row.label), row.views, *row.printed_views);
     }

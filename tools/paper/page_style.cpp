@@ -22,11 +22,14 @@ nav a { margin-right: 14px; font-size: 13px; }
 table { border-collapse: collapse; font-size: 13px; width: 100%; font-variant-numeric: tabular-nums; }
 th, td { text-align: right; padding: 4px 8px; border-bottom: 1px solid var(--line);
   vertical-align: baseline; white-space: nowrap; }
-th { font-weight: 500; color: var(--pale); border-bottom-color: #aab3bf; }
+th { font-weight: 500; color: var(--pale); border-bottom-color: #aab3bf; white-space: normal;
+  vertical-align: bottom; line-height: 1.25; }
 th:first-child, td:first-child, td.text, th.text { text-align: left; }
 td.text { white-space: normal; }
 tr.group td { font-weight: 600; padding-top: 14px; }
-.sides { display: grid; grid-template-columns: minmax(0, 3fr) minmax(0, 2fr); gap: 30px; }
+.sides { display: grid; grid-template-columns: minmax(0, 8fr) minmax(0, 7fr); gap: 24px; }
+.sides table { font-size: 12px; }
+.sides th, .sides td { padding: 4px 5px; }
 .sides.figure { grid-template-columns: minmax(0, 7fr) minmax(0, 3fr); }
 .side > h3 { margin-top: 6px; }
 .paper { border-left: 3px solid var(--line); padding-left: 18px; }

@@ -1,8 +1,8 @@
 // The top of the page: what agrees and what does not.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "bench/compare/text_table.hpp"
 #include "tools/paper/page_parts.hpp"
@@ -40,10 +40,24 @@ std::string cell_of(const PaperFigure& figure, const ComparedFigure& both) {
   return fmt::format("<td>{}</td>", chip(colour_of(*both.agreement), deviation(figure, both)));
 }
 
-std::string head_row(std::string_view first) {
+/// The columns that the paper prints of any row of the page.
+std::vector<std::size_t> printed_columns(const PaperPage& page) {
+  std::vector<std::size_t> columns;
+  for (std::size_t i = 0; i < compared_figures().size(); ++i) {
+    const bool is_printed =
+        std::any_of(page.tables.begin(), page.tables.end(), [&](const ShownTable& table) {
+          return std::any_of(table.rows.begin(), table.rows.end(),
+                             [&](const ComparedRow& row) { return row.figures[i].printed; });
+        });
+    if (is_printed) columns.push_back(i);
+  }
+  return columns;
+}
+
+std::string head_row(std::string_view first, const std::vector<std::size_t>& columns) {
   std::string html = fmt::format("<tr><th>{}</th><th>Views</th>", first);
-  for (const PaperFigure& figure : compared_figures()) {
-    html += fmt::format("<th>{}</th>", html_escaped(figure.head));
+  for (const std::size_t i : columns) {
+    html += fmt::format("<th>{}</th>", html_escaped(compared_figures()[i].head));
   }
   return html + "</tr>\n";
 }
@@ -59,16 +73,17 @@ std::string views_text(const ComparedRow& row) {
 }
 
 std::string numbers_html(const PaperPage& page) {
+  const std::vector<std::size_t> columns = printed_columns(page);
   std::string html =
       "<h3>Numbers: how far ours are from the paper's</h3>\n<div class=scroll><table>\n" +
-      head_row("Utility");
+      head_row("Utility", columns);
   for (const ShownTable& table : page.tables) {
     html += fmt::format("<tr class=group><td colspan=9>{}</td></tr>\n",
                         html_escaped(table.paper->source));
     for (const ComparedRow& row : table.rows) {
       html += fmt::format("<tr><td>{}{}</td><td>{}</td>", html_escaped(row.label),
                           row.is_doubtful ? " †" : "", views_text(row));
-      for (std::size_t i = 0; i < row.figures.size(); ++i) {
+      for (const std::size_t i : columns) {
         html += cell_of(compared_figures()[i], row.figures[i]);
       }
       html += "</tr>\n";
@@ -101,6 +116,7 @@ std::string order_cell(const ShownTable& table, const std::string& first, const 
 }
 
 std::string orders_html(const PaperPage& page) {
+  const std::vector<std::size_t> columns = printed_columns(page);
   std::string rows;
   for (const ShownTable& table : page.tables) {
     if (table.pairs.empty()) continue;
@@ -112,7 +128,7 @@ std::string orders_html(const PaperPage& page) {
       last = &pair;
       rows += fmt::format("<tr><td>{} against {}</td><td></td>", html_escaped(pair.first),
                           html_escaped(pair.second));
-      for (std::size_t i = 0; i < compared_figures().size(); ++i) {
+      for (const std::size_t i : columns) {
         rows += order_cell(table, pair.first, pair.second, i);
       }
       rows += "</tr>\n";
@@ -120,7 +136,8 @@ std::string orders_html(const PaperPage& page) {
   }
   if (rows.empty()) return "";
   return "<h3>Order: which of two planners has more</h3>\n<div class=scroll><table>\n" +
-         head_row("Pair") + rows + "</table></div>\n<p class=pale>" + chip("good", "same") +
+         head_row("Pair", columns) + rows + "</table></div>\n<p class=pale>" +
+         chip("good", "same") +
          " our 95 % interval of the difference, paired by seed, excludes 0 on the paper's side. " +
          chip("bad", "reversed") + " on the other side. " + chip("open", "undecided") +
          " it holds 0, or one seed was flown.</p>\n";
