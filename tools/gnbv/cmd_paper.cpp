@@ -95,7 +95,12 @@ PaperMaterial fly(const PaperOptions& options, bool& has_failures) {
       .missions = {},
       .with_images = {},
       .notes = {}};
-  const BenchRuns flown = fly_cells(paper_cells(material.request), options.bench);
+  std::vector<Cell> cells = paper_cells(material.request);
+  // those that are there come first: what is left then takes what the flown ones took
+  std::stable_partition(cells.begin(), cells.end(), [&](const Cell& cell) {
+    return look_up(bench_folder(options.bench), cell).status == CellStatus::done;
+  });
+  const BenchRuns flown = fly_cells(cells, options.bench);
   for (std::size_t i = 0; i < flown.runs.size(); ++i) {
     const ComparedRun& run = flown.runs[i];
     material.missions.push_back({run.scenario, run.method, run.seed, read_run(flown.folders[i])});
