@@ -185,15 +185,16 @@ std::vector<DrawnFigure> draw_figures(
     const std::function<void(std::size_t, std::size_t, const std::string&)>& progress) {
   make_folder(folder / kFiguresFolder);
   FigureDesk desk(material, folder, threads);
+  std::vector<const FigureKind*> asked;
+  for (const FigureKind& kind : figure_kinds()) {
+    if (!scenario_of(kind, material.request).empty()) asked.push_back(&kind);
+  }
   std::vector<DrawnFigure> drawn;
-  const std::vector<FigureKind>& kinds = figure_kinds();
-  for (std::size_t i = 0; i < kinds.size(); ++i) {
-    progress(i, kinds.size(), fmt::format("Figure {}", kinds[i].number));
-    const std::string scenario = scenario_of(kinds[i], material.request);
-    if (scenario.empty()) continue;
-    desk.begin(kinds[i], scenario);
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    progress(i, asked.size(), fmt::format("Figure {}", asked[i]->number));
+    desk.begin(*asked[i], scenario_of(*asked[i], material.request));
     try {
-      kinds[i].draw(desk);
+      asked[i]->draw(desk);
     } catch (const BadInput& error) {
       desk.miss(error.what());
     }
