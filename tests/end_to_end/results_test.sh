@@ -16,7 +16,7 @@ tiny() {
   "$results" --seeds 1 --jobs 1 --threads 1 --set planner.termination.max_iterations=2 \
     --out "$folder/out" --to "$folder/to" "$@" 2>/dev/null
 }
-made() { find "$folder/out/cells" -name summary.json -printf '%p %T@\n' | sort; }
+made() { find "$folder/out" -name summary.json -printf '%p %T@\n' | sort; }
 
 printed=$(tiny --only lab_model --only a340 --only compare-powerplant-dae --only ledger) ||
   complain "exit code $?"

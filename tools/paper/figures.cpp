@@ -49,7 +49,8 @@ const std::vector<FigureKind>& figure_kinds() {
       {"6", any,
        "Low-density frontier voxels, the centroids of their clusters, the field of view of two "
        "cameras, and three layers of views around a cluster.",
-       "The first decision at frontiers: voxels of little density, centroids, the candidates "
+       "A decision at frontiers half way through a mission: voxels of little density, centroids, "
+       "the candidates "
        "around the nearest clusters, and the cameras of the chosen one.",
        draw_frontiers_figure},
       {"8",
@@ -57,7 +58,7 @@ const std::vector<FigureKind>& figure_kinds() {
        "Path and coverage of the aircraft by three utilities: Proposed, Isler, Bircher.",
        "First seed: the path from its first view (dark) to its last (bright), and below it the "
        "true "
-       "surface, covered or missed (orange) in voxels of 0.05 m.",
+       "surface, covered or missed (red) in voxels of 0.05 m.",
        draw_paths_figure},
       {"9",
        {"aircraft"},
@@ -69,7 +70,7 @@ const std::vector<FigureKind>& figure_kinds() {
        "Path and coverage of the power plant by three utilities: Proposed, Isler, Bircher.",
        "First seed: the path from its first view (dark) to its last (bright), and below it the "
        "true "
-       "surface, covered or missed (orange) in voxels of 0.05 m.",
+       "surface, covered or missed (red) in voxels of 0.05 m.",
        draw_paths_figure},
       {"11",
        {"power_plant"},

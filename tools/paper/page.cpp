@@ -110,9 +110,9 @@ std::string figure_html(const DrawnFigure& figure, const PaperPage& page, const 
   }
   const std::size_t across = std::clamp<std::size_t>(figure.files.size(), 1, 3);
   std::string html = fmt::format(
-      "<section id=fig{0}>\n<h2>Figure {0}</h2>\n<div class='sides figure'>\n<div "
+      "<section id=fig{0}>\n<h2>Figure {0}</h2>\n<div class='sides figure{3}'>\n<div "
       "class=side>\n<div class='pictures n{1}'>\n{2}</div>\n",
-      figure.kind->number, across, pictures);
+      figure.kind->number, across, pictures, across > 2 ? " wide" : "");
   for (const std::string& missing : figure.missing) {
     html += fmt::format("<p class=missing>Not shown: {}</p>\n", html_escaped(missing));
   }
@@ -127,7 +127,7 @@ std::string figure_html(const DrawnFigure& figure, const PaperPage& page, const 
                                     : claim.verdict == ClaimVerdict::partly ? "open"
                                                                             : "bad";
     html +=
-        fmt::format("<p>“{}” {}<br><span class=pale>{}</span></p>\n", html_escaped(claim.sentence),
+        fmt::format("<p>{} {}<br><span class=pale>{}</span></p>\n", html_escaped(claim.sentence),
                     chip(colour, name_of(claim.verdict)), html_escaped(claim.finding));
   }
   return html + "</div>\n</div>\n</section>\n";

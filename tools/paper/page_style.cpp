@@ -31,6 +31,7 @@ tr.group td { font-weight: 600; padding-top: 14px; }
 .sides table { font-size: 12px; }
 .sides th, .sides td { padding: 4px 5px; }
 .sides.figure { grid-template-columns: minmax(0, 7fr) minmax(0, 3fr); }
+.sides.figure.wide { grid-template-columns: minmax(0, 1fr); }
 .side > h3 { margin-top: 6px; }
 .paper { border-left: 3px solid var(--line); padding-left: 18px; }
 .scroll { overflow-x: auto; }

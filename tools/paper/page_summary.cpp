@@ -31,6 +31,7 @@ std::string deviation(const PaperFigure& figure, const ComparedFigure& both) {
   const double away = both.ours->mean - *both.printed;
   if (figure.is_coverage) return fmt::format("{:+.1f} points", away);
   const double ratio = both.ours->mean / *both.printed;
+  if (ratio < 0.0) return (away > 0.0 ? "+" : "") + grouped_number(away, figure.decimals);
   if (ratio < 0.5 || ratio > 2.0) return fmt::format("× {:.2g}", ratio);
   return fmt::format("{:+.0f} %", 100.0 * (ratio - 1.0));
 }
@@ -55,7 +56,7 @@ std::vector<std::size_t> printed_columns(const PaperPage& page) {
 }
 
 std::string head_row(std::string_view first, const std::vector<std::size_t>& columns) {
-  std::string html = fmt::format("<tr><th>{}</th><th>Views</th>", first);
+  std::string html = fmt::format("<tr>{}", first);
   for (const std::size_t i : columns) {
     html += fmt::format("<th>{}</th>", html_escaped(compared_figures()[i].head));
   }
@@ -76,7 +77,7 @@ std::string numbers_html(const PaperPage& page) {
   const std::vector<std::size_t> columns = printed_columns(page);
   std::string html =
       "<h3>Numbers: how far ours are from the paper's</h3>\n<div class=scroll><table>\n" +
-      head_row("Utility", columns);
+      head_row("<th>Utility</th><th>Views</th>", columns);
   for (const ShownTable& table : page.tables) {
     html += fmt::format("<tr class=group><td colspan=9>{}</td></tr>\n",
                         html_escaped(table.paper->source));
@@ -108,9 +109,11 @@ std::string order_cell(const ShownTable& table, const std::string& first, const 
     std::string ours = grouped_number(pair.ours.mean, decimals);
     if (pair.ours.mean > 0.0) ours.insert(0, "+");
     if (pair.ours.half_width) ours += " ±" + grouped_number(*pair.ours.half_width, decimals);
-    return fmt::format("<td title='{}; the paper: {}'>{}</td>", html_escaped(ours),
-                       grouped_number(pair.printed, decimals),
-                       chip(colour_of(pair.order), name_of(pair.order)));
+    std::string printed = grouped_number(pair.printed, decimals);
+    if (pair.printed > 0.0) printed.insert(0, "+");
+    return fmt::format("<td>{}<br><span class=pale>{}<br>paper {}</span></td>",
+                       chip(colour_of(pair.order), name_of(pair.order)), html_escaped(ours),
+                       printed);
   }
   return "<td></td>";
 }
@@ -126,7 +129,7 @@ std::string orders_html(const PaperPage& page) {
     for (const ComparedPair& pair : table.pairs) {  // in runs of one pair each
       if (last != nullptr && last->first == pair.first && last->second == pair.second) continue;
       last = &pair;
-      rows += fmt::format("<tr><td>{} against {}</td><td></td>", html_escaped(pair.first),
+      rows += fmt::format("<tr><td>{} minus {}</td>", html_escaped(pair.first),
                           html_escaped(pair.second));
       for (const std::size_t i : columns) {
         rows += order_cell(table, pair.first, pair.second, i);
@@ -136,7 +139,7 @@ std::string orders_html(const PaperPage& page) {
   }
   if (rows.empty()) return "";
   return "<h3>Order: which of two planners has more</h3>\n<div class=scroll><table>\n" +
-         head_row("Pair", columns) + rows + "</table></div>\n<p class=pale>" +
+         head_row("<th>Pair</th>", columns) + rows + "</table></div>\n<p class=pale>" +
          chip("good", "same") +
          " our 95 % interval of the difference, paired by seed, excludes 0 on the paper's side. " +
          chip("bad", "reversed") + " on the other side. " + chip("open", "undecided") +
@@ -171,7 +174,7 @@ std::string count_html(std::string_view what, const std::array<std::size_t, N>& 
                                 fmt::format("{} {}", counts[i], name_of(static_cast<Verdict>(i)))));
   }
   if (all == 0) return "";
-  return fmt::format("<div class=count><b>{} {}</b>{}</div>\n", all, what, html);
+  return fmt::format("<div class=count><b>{}: {}</b>{}</div>\n", what, all, html);
 }
 
 std::string counts_html(const PaperPage& page) {
@@ -189,9 +192,9 @@ std::string counts_html(const PaperPage& page) {
   for (const CheckedClaim& claim : page.claims) {
     ++sentences[static_cast<std::size_t>(claim.verdict)];
   }
-  return "<div class=counts>\n" + count_html<Agreement>("numbers", numbers) +
-         count_html<PairOrder>("orders of two planners", orders) +
-         count_html<ClaimVerdict>("sentences", sentences) + "</div>\n";
+  return "<div class=counts>\n" + count_html<Agreement>("Numbers", numbers) +
+         count_html<PairOrder>("Orders of two planners", orders) +
+         count_html<ClaimVerdict>("Sentences on figures", sentences) + "</div>\n";
 }
 
 }  // namespace
