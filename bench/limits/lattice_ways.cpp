@@ -82,18 +82,45 @@ Way LatticeWays::way(std::size_t from, std::size_t to) const {
   return way;
 }
 
-double LatticeWays::guess_m(std::size_t from, std::size_t to) const {
+double LatticeWays::straight_m(std::size_t from, std::size_t to) const {
+  return (p_world_m(to) - p_world_m(from)).norm();
+}
+
+double LatticeWays::guess_m(double straight_m, double lattice_m) const {
   constexpr double kMostDetour = 1.13;  // of steps to 26 neighbours in free space
-  const double straight_m = (p_world_m(to) - p_world_m(from)).norm();
-  const double lattice_m = trees_.at(from).length_m[to];
   return lattice_m > kMostDetour * straight_m + 2.0 * legal_.step_m ? lattice_m : straight_m;
 }
 
-double LatticeWays::distance_m(std::size_t from, std::size_t to) const {
-  const double guess_m = this->guess_m(from, to);
-  const double straight_m = (p_world_m(to) - p_world_m(from)).norm();
+double LatticeWays::guess_m(std::size_t from, std::size_t to) const {
+  return guess_m(straight_m(from, to), trees_.at(from).length_m[to]);
+}
+
+double LatticeWays::distance_m(const Tree& tree, std::size_t from, std::size_t to) const {
+  const double straight_m = this->straight_m(from, to);
+  const double guess_m = this->guess_m(straight_m, tree.length_m[to]);
   if (guess_m > straight_m || from == to || is_straight_clear(from, to)) return guess_m;
-  return std::max(trees_.at(from).length_m[to], straight_m);
+  return std::max(tree.length_m[to], straight_m);
+}
+
+double LatticeWays::distance_m(std::size_t from, std::size_t to) const {
+  return distance_m(trees_.at(from), from, to);
+}
+
+std::vector<float> LatticeWays::distances_m(std::size_t from, std::span<const std::size_t> to,
+                                            int threads) const {
+  constexpr double kFar_m = 12.0;  // few legs of a short tour are longer
+  constexpr std::size_t kChunk = 64;
+  const Tree tree = grow(from);
+  std::vector<float> distances_m(to.size());
+  parallel_for_chunks(threads, to.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const double straight_m = this->straight_m(from, to[i]);
+      distances_m[i] =
+          static_cast<float>(straight_m > kFar_m ? guess_m(straight_m, tree.length_m[to[i]])
+                                                 : distance_m(tree, from, to[i]));
+    }
+  });
+  return distances_m;
 }
 
 }  // namespace gnbv

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "bench/limits/legal_viewpoints.hpp"
@@ -38,12 +39,20 @@ class LatticeWays {
   /// The length of way() before it is cut short, in the same sense straight only if it may be.
   double distance_m(std::size_t from, std::size_t to) const;
 
+  /// From a place, prepared or not, to each of the others: distance_m() as far as 12 m, beyond it
+  /// guess_m().
+  std::vector<float> distances_m(std::size_t from, std::span<const std::size_t> to,
+                                 int threads) const;
+
  private:
   struct Tree {
     std::vector<double> length_m;
     std::vector<std::uint32_t> before;
   };
   Tree grow(std::size_t from) const;
+  double straight_m(std::size_t from, std::size_t to) const;
+  double guess_m(double straight_m, double lattice_m) const;
+  double distance_m(const Tree& tree, std::size_t from, std::size_t to) const;
   bool is_straight_clear(std::size_t from, std::size_t to) const;
 
   const RayScene& scene_;

@@ -2,80 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "bench/limits/ceiling_cache.hpp"
 #include "bench/limits/cloud_of_views.hpp"
-#include "bench/limits/lattice_ways.hpp"
-#include "bench/limits/set_cover.hpp"
-#include "bench/limits/tour.hpp"
+#include "bench/limits/survey_task.hpp"
 #include "sim/core/error.hpp"
-#include "sim/core/parallel.hpp"
 
 namespace gnbv {
 namespace {
 
-constexpr int kKicks = 2000;
+constexpr int kIterations = 6000;  // of a search: more gain less than a percent
 
-/// The places of the tour so far, the start first, with guessed distances between them.
-class GrowingTour {
- public:
-  GrowingTour(LatticeWays& ways, int threads) : ways_(ways), threads_(threads) {
-    append(ways.start());
-  }
+// price of a view, so that few views come first whatever the metres
+constexpr double kMetresPerViewOfFew = 1000.0;
 
-  const std::vector<std::size_t>& places() const { return places_; }
-  const std::vector<std::size_t>& tour() const { return tour_; }
+CoverAim cover_aim(OracleAim aim, std::size_t wanted) {
+  return {wanted, aim == OracleAim::views ? kMetresPerViewOfFew : kMetresPerView};
+}
 
-  Insertion insertion(std::size_t place) const {
-    std::vector<double> to_m;
-    for (const std::size_t stop : tour_) to_m.push_back(ways_.guess_m(places_[stop], place));
-    return cheapest_insertion(to_m, leg_m_);
-  }
-
-  /// Metres that views at each of the places would add: nothing where the tour stops already.
-  std::vector<double> extra_m(std::span<const std::size_t> places) const {
-    std::vector<double> extra_m(places.size());
-    parallel_for(threads_, places.size(), [&](std::size_t i) {
-      extra_m[i] = is_stop(places[i]) ? 0.0 : std::max(0.0, insertion(places[i]).extra_m);
-    });
-    return extra_m;
-  }
-
-  void add(std::size_t place) {
-    if (is_stop(place)) return;
-    const std::size_t at = insertion(place).at;
-    append(place);
-    std::rotate(tour_.begin() + static_cast<std::ptrdiff_t>(at), tour_.end() - 1, tour_.end());
-    improve_tour(guess_m_, tour_);
-    leg_m_.clear();
-    for (std::size_t i = 1; i < tour_.size(); ++i) {
-      leg_m_.push_back(guess_m_[tour_[i - 1]][tour_[i]]);
-    }
-  }
-
- private:
-  bool is_stop(std::size_t place) const {
-    return std::find(places_.begin(), places_.end(), place) != places_.end();
-  }
-  void append(std::size_t place) {
-    ways_.prepare({place}, 1);
-    tour_.push_back(places_.size());
-    places_.push_back(place);
-    std::vector<double> row_m;
-    for (const std::size_t other : places_) row_m.push_back(ways_.guess_m(place, other));
-    for (std::size_t i = 0; i + 1 < places_.size(); ++i) guess_m_[i].push_back(row_m[i]);
-    guess_m_.push_back(std::move(row_m));
-  }
-
-  LatticeWays& ways_;
-  int threads_;
-  std::vector<std::size_t> places_;
-  std::vector<std::size_t> tour_;  // indices into places_
-  Distances guess_m_;              // between places_
-  std::vector<double> leg_m_;      // along the tour
-};
-
-/// What the oracle knows, and one run of it.
+/// What the oracle knows, and its tours.
 class Oracle {
  public:
   Oracle(const Scenario& scenario, const RayScene& scene, const LegalViewpoints& legal,
@@ -84,19 +30,27 @@ class Oracle {
       : scenario_(scenario),
         scene_(scene),
         legal_(legal),
-        reference_(reference),
+        voxels_(reference.outside[0]),
         survey_(survey),
         start_(start),
         threads_(threads),
         cameras_(exact_cameras(scenario)),
-        ways_(scene, legal, scenario.planner.validity.collision_radius_m) {}
+        ways_(scene, legal, scenario.planner.validity.collision_radius_m),
+        start_finds_(finds_alone(voxels_, take(start), scenario.planner.cloud.leaf_m)),
+        places_(survey, voxels_.size(), ways_, threads),
+        task_(places_.task(start_finds_)) {}
 
   std::vector<Decision> plan(OracleAim aim) {
-    GrowingTour growing(ways_, threads_);
-    const std::vector<std::size_t> chosen = choose(aim, growing);
-    std::vector<std::size_t> places;
-    for (const std::size_t stop : growing.tour()) places.push_back(growing.places()[stop]);
-    return decisions(chosen, shortened(places));
+    return decisions(best_tour(aim, kOracleShare).searched);
+  }
+
+  OracleReach reach(double share) {
+    const Tours tours = best_tour(OracleAim::metres, share);
+    return {.share = share,
+            .views = tours.searched.views.size(),
+            .length_m = flown_m(tours.searched),
+            .greedy_views = tours.greedy.views.size(),
+            .greedy_m = flown_m(tours.greedy)};
   }
 
  private:
@@ -105,94 +59,127 @@ class Oracle {
     return rays_;
   }
 
-  /// Views of the survey in the order of choice; `tour` gets their places.
-  std::vector<std::size_t> choose(OracleAim aim, GrowingTour& tour) {
-    std::vector<const std::vector<std::uint32_t>*> finds;
-    std::vector<std::size_t> places;
-    for (const SurveyedView& view : survey_.views) {
-      finds.push_back(&view.finds);
-      places.push_back(view.position);
+  /// Two that find as much of the survey's voxels.
+  struct Tours {
+    CoveringTour greedy, searched;
+  };
+
+  /// The searched one's cloud holds that share of what the cloud of all views does. How many of the
+  /// voxels that single views find it takes for that depends on the tour: the more views overlap,
+  /// the more of them the common leaves lose. So the tour is searched again for what the last one
+  /// lacked, or had too much, until it is right within a few voxels; the cheapest is kept.
+  Tours best_tour(OracleAim aim, double share) {
+    constexpr int kRounds = 6;
+    constexpr double kTooMuch = 3e-4;
+    constexpr double kUsualLoss = 0.99;  // of the cloud of all views beyond that of a tour
+    constexpr double kYield = 0.65;      // of a voxel more that is found, to the share held so far
+    const double wanted = share * survey_.leaf_outside[0] * static_cast<double>(voxels_.size());
+    const std::size_t all = found_by_all();
+    CoverAim target = cover_aim(aim, part_of(all, kUsualLoss * share));
+    CoveringTour tour = cheaper_tour(task_, target, greedy(target), kIterations);
+    std::optional<CoveringTour> best;
+    for (int round = 1;; ++round) {
+      const double more = wanted / static_cast<double>(held_by(tour)) - 1.0;
+      const bool is_enough = more <= 0.0;
+      if (is_enough && (!best || cost_m(tour, target) < cost_m(*best, target))) best = tour;
+      if ((is_enough && more >= -kTooMuch) || (best && round >= kRounds)) break;
+      if (!is_enough && tour.covered >= all) break;
+      target.wanted = part_of(tour.covered, 1.0 + more / kYield);
+      if (!is_enough) target.wanted = std::max(target.wanted, tour.covered + 1);
+      target.wanted = std::min(target.wanted, all);
+      tour = cheaper_tour(task_, target, tour, kIterations / 2);
     }
-    const VoxelSet& voxels = reference_.outside[0];
-    const double wanted =
-        kOracleShare * survey_.leaf_outside[0] * static_cast<double>(voxels.size());
-    LazyGreedy greedy(finds, voxels.size());
-    CloudOfViews cloud(scenario_, voxels);
+    target.wanted = best ? best->covered : all;
+    return {.greedy = greedy(target), .searched = best.value_or(std::move(tour))};
+  }
+
+  CoveringTour greedy(const CoverAim& aim) const {
+    return greedy_tour(task_, {aim.wanted, std::max(aim.metres_per_view, kGreedyMetresPerView)});
+  }
+  std::size_t found_by_all() const {
+    CoverCounts all(task_.views, task_.given);
+    for (std::uint32_t view = 0; view < task_.views.size(); ++view) all.add(view);
+    return all.covered();
+  }
+  static std::size_t part_of(std::size_t items, double share) {
+    return static_cast<std::size_t>(std::ceil(share * static_cast<double>(items)));
+  }
+
+  /// How many voxels the cloud of the tour holds.
+  std::size_t held_by(const CoveringTour& tour) {
+    CloudOfViews cloud(scenario_, voxels_);
     cloud.add(take(start_));
-    start_finds_ = finds_alone(voxels, rays_, scenario_.planner.cloud.leaf_m);
-    greedy.take(start_finds_);
-    std::vector<std::size_t> chosen;
-    std::vector<double> costs(finds.size(), 1.0);
-    while (static_cast<double>(cloud.found()) < wanted) {
-      if (aim == OracleAim::metres) {
-        costs = tour.extra_m(places);
-        for (double& cost : costs) cost += kMetresPerView;
-      }
-      const auto next = greedy.best(costs);
-      if (!next) break;
-      greedy.take(survey_.views[*next].finds);
-      cloud.add(take(pose_of(legal_, survey_.views[*next])));
-      tour.add(places[*next]);
-      chosen.push_back(*next);
+    for (const std::uint32_t view : flown_order(tour)) {
+      cloud.add(take(pose_of(legal_, survey_.views[view])));
     }
-    return chosen;
+    return cloud.found();
   }
 
-  /// The places, of which the first stays, in the order of a short tour.
-  std::vector<std::size_t> shortened(const std::vector<std::size_t>& places) const {
-    Distances distance_m(places.size(), std::vector<double>(places.size(), 0.0));
-    parallel_for(threads_, places.size(), [&](std::size_t i) {
-      for (std::size_t j = 0; j < i; ++j) distance_m[i][j] = ways_.distance_m(places[i], places[j]);
-    });
-    std::vector<std::size_t> tour;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) distance_m[j][i] = distance_m[i][j];
-      tour.push_back(i);
-    }
-    improve_tour_with_kicks(distance_m, tour, kKicks);
-    std::vector<std::size_t> out;
-    for (const std::size_t stop : tour) out.push_back(places[stop]);
-    return out;
-  }
-
-  /// The chosen views of a place, turning on from `yaw_rad` to the left.
-  std::vector<std::size_t> views_at(std::size_t place, std::span<const std::size_t> chosen,
-                                    double yaw_rad) const {
-    std::vector<std::size_t> views;
-    for (const std::size_t view : chosen) {
-      if (survey_.views[view].position == place) views.push_back(view);
-    }
-    const auto turn_rad = [&](std::size_t view) {
-      constexpr double kRounding_rad = 1e-9;
-      const double turn = survey_.views[view].yaw_rad - yaw_rad + kRounding_rad;
-      return turn - 2.0 * kPi * std::floor(turn / (2.0 * kPi));
-    };
-    std::sort(views.begin(), views.end(),
-              [&](std::size_t a, std::size_t b) { return turn_rad(a) < turn_rad(b); });
-    return views;
-  }
-
-  std::vector<Decision> decisions(std::span<const std::size_t> chosen,
-                                  std::span<const std::size_t> places) const {
-    LazyGreedy found({}, reference_.outside[0].size());
-    found.take(start_finds_);
-    std::vector<Decision> route;
+  /// Place after place, at each of them turning on to the left.
+  std::vector<std::uint32_t> flown_order(const CoveringTour& tour) const {
+    std::vector<std::uint32_t> order;
     double yaw_rad = start_.yaw_rad;
-    for (std::size_t i = 1; i < places.size(); ++i) {
-      std::vector<Vec3> via_m = ways_.way(places[i - 1], places[i]).via_world_m;
-      for (const std::size_t view : views_at(places[i], chosen, yaw_rad)) {
-        const SurveyedView& surveyed = survey_.views[view];
-        const auto gain = static_cast<double>(found.take(surveyed.finds));
-        const int views = static_cast<int>(survey_.views.size());
-        route.push_back({.view = pose_of(legal_, surveyed),
-                         .sampler = "oracle",
-                         .candidates = views,
-                         .valid = views,
-                         .score = {.value = gain, .information = gain},
-                         .via_world_m = std::move(via_m)});
-        via_m = {};
-        yaw_rad = surveyed.yaw_rad;
+    for (const std::uint32_t place : tour.places) {
+      std::vector<std::uint32_t> views;
+      for (const std::uint32_t view : tour.views) {
+        if (task_.place[view] == place) views.push_back(view);
       }
+      const auto turn_rad = [&](std::uint32_t view) {
+        constexpr double kRounding_rad = 1e-9;
+        const double turn = survey_.views[view].yaw_rad - yaw_rad + kRounding_rad;
+        return turn - 2.0 * kPi * std::floor(turn / (2.0 * kPi));
+      };
+      std::sort(views.begin(), views.end(),
+                [&](std::uint32_t a, std::uint32_t b) { return turn_rad(a) < turn_rad(b); });
+      order.insert(order.end(), views.begin(), views.end());
+      if (!views.empty()) yaw_rad = survey_.views[views.back()].yaw_rad;
+    }
+    return order;
+  }
+
+  /// The tour's places as LatticeWays knows them, prepared.
+  std::vector<std::size_t> lattice_places(const CoveringTour& tour) {
+    std::vector<std::size_t> places;
+    for (const std::uint32_t place : tour.places) places.push_back(places_.lattice_place(place));
+    ways_.prepare(places, threads_);
+    return places;
+  }
+
+  /// With every way cut as short as it is flown.
+  double flown_m(const CoveringTour& tour) {
+    const std::vector<std::size_t> places = lattice_places(tour);
+    double length_m = 0.0;
+    for (std::size_t i = 1; i < places.size(); ++i) {
+      length_m += ways_.way(places[i - 1], places[i]).length_m;
+    }
+    return length_m;
+  }
+
+  std::vector<Decision> decisions(const CoveringTour& tour) {
+    const std::vector<std::size_t> places = lattice_places(tour);
+    std::vector<std::uint8_t> is_found(voxels_.size(), 0);
+    const auto find = [&](std::span<const std::uint32_t> voxels) {
+      double count = 0.0;
+      for (const std::uint32_t voxel : voxels) {
+        count += is_found[voxel] == 0 ? 1.0 : 0.0;
+        is_found[voxel] = 1;
+      }
+      return count;
+    };
+    find(start_finds_);
+    std::vector<Decision> route;
+    std::size_t at = 0;  // of the tour
+    for (const std::uint32_t view : flown_order(tour)) {
+      const std::size_t from = at;
+      while (tour.places[at] != task_.place[view]) ++at;
+      const double gain = find(survey_.views[view].finds);
+      const int views = static_cast<int>(survey_.views.size());
+      route.push_back({.view = pose_of(legal_, survey_.views[view]),
+                       .sampler = "oracle",
+                       .candidates = views,
+                       .valid = views,
+                       .score = {.value = gain, .information = gain},
+                       .via_world_m = ways_.way(places[from], places[at]).via_world_m});
     }
     return route;
   }
@@ -200,14 +187,16 @@ class Oracle {
   const Scenario& scenario_;
   const RayScene& scene_;
   const LegalViewpoints& legal_;
-  const SurfaceReference& reference_;
+  const VoxelSet& voxels_;
   const ViewSurvey& survey_;
   const ViewPose start_;
   const int threads_;
   std::vector<CameraModel> cameras_;
-  LatticeWays ways_;
   std::vector<FrameRays> rays_;  // of the view that was taken last
+  LatticeWays ways_;
   std::vector<std::uint32_t> start_finds_;
+  SurveyTask places_;
+  CoverTask task_;
 };
 
 }  // namespace
@@ -217,9 +206,12 @@ OracleAim aim_of(std::string_view utility_name) {
   return utility_name == "oracle_views" ? OracleAim::views : OracleAim::metres;
 }
 
-std::vector<Decision> plan_oracle(const Scenario& scenario, const World& world,
-                                  const RayScene& scene, const ViewPose& start, OracleAim aim,
-                                  int threads) {
+namespace {
+
+/// Calls use(oracle) with what it has to know.
+template <typename Use>
+auto ask_oracle(const Scenario& scenario, const World& world, const RayScene& scene,
+                const ViewPose& start, int threads, const Use& use) {
   const LegalViewpoints legal = find_legal_viewpoints(scenario, scene, start, threads);
   if (legal.size() == 0) {
     throw BadInput(fmt::format(
@@ -232,7 +224,26 @@ std::vector<Decision> plan_oracle(const Scenario& scenario, const World& world,
       cached_surface_reference(world, scene, {.floor_z_m = scenario.planner.floor_z_m}, threads);
   const ViewSurvey survey = cached_survey(ceiling_key(scenario, world, legal), scenario, scene,
                                           legal, reference, threads);
-  return Oracle(scenario, scene, legal, reference, survey, start, threads).plan(aim);
+  Oracle oracle(scenario, scene, legal, reference, survey, start, threads);
+  return use(oracle);
+}
+
+}  // namespace
+
+std::vector<Decision> plan_oracle(const Scenario& scenario, const World& world,
+                                  const RayScene& scene, const ViewPose& start, OracleAim aim,
+                                  int threads) {
+  return ask_oracle(scenario, world, scene, start, threads,
+                    [&](Oracle& oracle) { return oracle.plan(aim); });
+}
+
+std::vector<OracleReach> oracle_reaches(const Scenario& scenario, const World& world,
+                                        const RayScene& scene, const ViewPose& start, int threads) {
+  return ask_oracle(scenario, world, scene, start, threads, [&](Oracle& oracle) {
+    std::vector<OracleReach> reaches;
+    for (const double share : kReachShares) reaches.push_back(oracle.reach(share));
+    return reaches;
+  });
 }
 
 }  // namespace gnbv

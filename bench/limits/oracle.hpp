@@ -1,6 +1,7 @@
 // A planner that knows the true structure: how far any other is from what is possible.
 #pragma once
 
+#include <array>
 #include <string_view>
 #include <vector>
 
@@ -19,19 +20,37 @@ OracleAim aim_of(std::string_view utility_name);
 /// Which share of the leaf ceiling's finest outside voxels the views are to find.
 constexpr double kOracleShare = 0.99;
 
-/// What a view costs beside its metres, for the aim metres.
-constexpr double kMetresPerView = 1.0;
+/// What a view costs beside its metres, for the aim metres, and what it does to the greedy choice
+/// that the search begins with: there a low price wastes views.
+constexpr double kMetresPerView = 0.3;
+constexpr double kGreedyMetresPerView = 1.0;
 
 /// The views after the first one, which is `start`, in the order in which they are to be flown,
 /// with the ways there, every one of which keeps the collision radius from the structure.
 ///
-/// Views of the survey (view_survey.hpp) are taken greedily, those that find the most new voxels
-/// first, or the most per metre of detour and kMetresPerView, until the cloud they leave
-/// (CloudOfViews, in the order of choice) holds kOracleShare of what that of all views holds, or no
-/// view finds anything new. Their positions then make a short tour (tour.hpp). Deterministic at
-/// any number of threads. A bound it is not: greedy choices are at best near the fewest.
+/// The cheapest tour that a large-neighbourhood search finds (covering_tour.hpp) among the views of
+/// the survey (view_survey.hpp), begun with the greedy tour: fewest metres and kMetresPerView, or
+/// fewest views, whose cloud (CloudOfViews, in the order of flight) holds kOracleShare of what that
+/// of all views holds. Deterministic at any number of threads. The best we know; no bound.
 std::vector<Decision> plan_oracle(const Scenario& scenario, const World& world,
                                   const RayScene& scene, const ViewPose& start, OracleAim aim,
                                   int threads);
+
+/// Shares of what the cloud of all views holds that are asked of an oracle.
+constexpr std::array<double, 4> kReachShares = {0.90, 0.95, 0.98, 0.99};
+
+/// A tour with few metres to one such share, planned for this share alone, and the greedy one that
+/// finds as much of the survey. Lengths in m, of the ways as they would be flown.
+struct OracleReach {
+  double share = 0.0;
+  std::size_t views = 0;  // after the first
+  double length_m = 0.0;
+  std::size_t greedy_views = 0;
+  double greedy_m = 0.0;
+};
+
+/// By kReachShares. Takes as long as so many calls of plan_oracle.
+std::vector<OracleReach> oracle_reaches(const Scenario& scenario, const World& world,
+                                        const RayScene& scene, const ViewPose& start, int threads);
 
 }  // namespace gnbv

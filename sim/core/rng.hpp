@@ -18,6 +18,7 @@ enum class Stream : std::uint64_t {
   lateral_noise = 6,
   random_view = 7,
   surface_sample = 9,
+  cover_search = 10,
 };
 
 struct RandomKey {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/limits/ceiling.hpp"
+#include "bench/limits/oracle.hpp"
 #include "bench/score/voxel_set.hpp"
 #include "sim/core/stopwatch.hpp"
 #include "tools/gnbv/commands.hpp"
@@ -22,6 +23,7 @@ struct CeilingOptions {
   int threads = 0;
   bool quiet = false;
   bool json = false;
+  bool oracle = false;
 };
 
 /// The rows of the report: a name for readers, one for programs, and the shares.
@@ -38,7 +40,8 @@ std::array<Row, 4> rows_of(const Ceiling& ceiling) {
            {"kept by the cloud, of all surface", "leaf_raw", ceiling.leaf_raw}}};
 }
 
-std::string json_text(const Scenario& scenario, const Ceiling& ceiling, double wall_s) {
+std::string json_text(const Scenario& scenario, const Ceiling& ceiling,
+                      const nlohmann::ordered_json& oracle, double wall_s) {
   nlohmann::ordered_json out = {{"schema", "gnbv-ceiling-1"},
                                 {"scenario", scenario.name},
                                 {"structure", structure_name(scenario.structure)},
@@ -47,6 +50,7 @@ std::string json_text(const Scenario& scenario, const Ceiling& ceiling, double w
   for (const Row& row : rows_of(ceiling)) {
     out[row.key] = {{"0.05", row.share[0]}, {"0.10", row.share[1]}, {"0.50", row.share[2]}};
   }
+  if (!oracle.empty()) out["oracle"] = oracle;
   out["wall_s"] = wall_s;
   return out.dump(2) + "\n";
 }
@@ -66,6 +70,30 @@ std::string terminal_text(const Ceiling& ceiling, double wall_s) {
              ceiling.positions, wall_s);
 }
 
+std::string oracle_text(std::span<const OracleReach> reaches) {
+  std::string text =
+      "known the structure, metres and views planned for that share of the cloud's "
+      "0.05 m voxels alone:\n";
+  for (const OracleReach& reach : reaches) {
+    text += fmt::format("{:>4.0f} %{:>9.1f} m in {} views; greedily {:.1f} m in {}\n",
+                        100.0 * reach.share, reach.length_m, reach.views, reach.greedy_m,
+                        reach.greedy_views);
+  }
+  return text;
+}
+
+nlohmann::ordered_json oracle_json(std::span<const OracleReach> reaches) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (const OracleReach& reach : reaches) {
+    out.push_back({{"share", reach.share},
+                   {"views", reach.views},
+                   {"length_m", reach.length_m},
+                   {"greedy_views", reach.greedy_views},
+                   {"greedy_m", reach.greedy_m}});
+  }
+  return out;
+}
+
 void ceiling(const CeilingOptions& options) {
   const Stopwatch watch;
   const Scenario scenario = resolve_scenario(options.scenario);
@@ -76,13 +104,23 @@ void ceiling(const CeilingOptions& options) {
   const RayScene scene(world);
   ProgressBar progress(fmt::format("{} ceiling", scenario.name), options.quiet);
   progress.show(0.0, "where viewpoints are legal");
+  const ViewPose start = start_pose(scenario, scene);
   const Ceiling found =
-      find_ceiling(scenario, world, scene, start_pose(scenario, scene), threads,
+      find_ceiling(scenario, world, scene, start, threads,
                    [&](double share) { progress.show(share, "of the surface searched for"); });
+  std::vector<OracleReach> reaches;
+  if (options.oracle) {
+    progress.show(0.99, "planning on the true structure");
+    reaches = oracle_reaches(scenario, world, scene, start, threads);
+  }
   progress.show(1.0, "done");
   const double wall_s = watch.elapsed_s();
-  fmt::print("{}",
-             options.json ? json_text(scenario, found, wall_s) : terminal_text(found, wall_s));
+  if (options.json) {
+    fmt::print("{}", json_text(scenario, found, oracle_json(reaches), wall_s));
+    return;
+  }
+  fmt::print("{}", terminal_text(found, wall_s));
+  if (options.oracle) fmt::print("{}", oracle_text(reaches));
 }
 
 }  // namespace
@@ -95,6 +133,8 @@ void add_ceiling_command(CLI::App& app) {
   add_threads_option(*command, options->threads);
   add_quiet_option(*command, options->quiet);
   command->add_flag("--json", options->json, "print JSON instead of a table");
+  command->add_flag("--oracle", options->oracle,
+                    "also plan with the structure known: metres to 90, 95, 98 and 99 %; minutes");
   command->callback([options] { ceiling(*options); });
 }
 

@@ -1,0 +1,85 @@
+#include "bench/limits/survey_task.hpp"
+
+#include <algorithm>
+
+#include "sim/core/rng.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr std::uint32_t kNone = 0xffffffffU;
+
+/// The items of a sample, in the order of the voxels; kNone for all others.
+std::vector<std::uint32_t> sample_of(std::size_t voxels) {
+  constexpr std::size_t kMany = 100000;
+  const std::size_t one_of = (voxels + kMany - 1) / kMany;
+  std::vector<std::uint32_t> item(voxels, kNone);
+  std::uint32_t items = 0;
+  for (std::size_t v = 0; v < voxels; ++v) {
+    if (one_of == 1 || mix_bits(v) % one_of == 0) item[v] = items++;
+  }
+  return item;
+}
+
+std::vector<const std::vector<std::uint32_t>*> pointers(
+    const std::vector<std::vector<std::uint32_t>>& sets) {
+  std::vector<const std::vector<std::uint32_t>*> out;
+  for (const auto& set : sets) out.push_back(&set);
+  return out;
+}
+
+}  // namespace
+
+SurveyTask::SurveyTask(const ViewSurvey& survey, std::size_t voxels, const LatticeWays& ways,
+                       int threads)
+    : ways_(ways),
+      threads_(threads),
+      item_(sample_of(voxels)),
+      items_(voxels - static_cast<std::size_t>(std::count(item_.begin(), item_.end(), kNone))),
+      finds_(sampled_finds(survey)),
+      sets_(pointers(finds_), items_) {
+  std::vector<std::uint32_t> index(ways.start(), kNone);
+  for (const SurveyedView& view : survey.views) {
+    if (index[view.position] == kNone) {
+      index[view.position] = static_cast<std::uint32_t>(lattice_place_.size());
+      lattice_place_.push_back(view.position);
+    }
+    place_.push_back(index[view.position]);
+  }
+  lattice_place_.push_back(ways.start());
+  rows_m_.resize(lattice_place_.size());
+}
+
+std::vector<std::uint32_t> SurveyTask::sampled(std::span<const std::uint32_t> voxels) const {
+  std::vector<std::uint32_t> items;
+  for (const std::uint32_t voxel : voxels) {
+    if (item_[voxel] != kNone) items.push_back(item_[voxel]);
+  }
+  return items;
+}
+
+std::vector<std::vector<std::uint32_t>> SurveyTask::sampled_finds(const ViewSurvey& survey) const {
+  std::vector<std::vector<std::uint32_t>> finds;
+  for (const SurveyedView& view : survey.views) finds.push_back(sampled(view.finds));
+  return finds;
+}
+
+CoverTask SurveyTask::task(std::span<const std::uint32_t> found_at_start) {
+  return {.views = sets_,
+          .place = place_,
+          .start = static_cast<std::uint32_t>(lattice_place_.size() - 1),
+          .given = sampled(found_at_start),
+          .row_m = [this](std::uint32_t place) { return row_m(place); }};
+}
+
+std::span<const float> SurveyTask::row_m(std::uint32_t place) {
+  std::vector<float>& row_m = rows_m_[place];
+  if (!row_m.empty()) return row_m;
+  row_m = ways_.distances_m(lattice_place_[place], lattice_place_, threads_);
+  for (std::size_t other = 0; other < rows_m_.size(); ++other) {  // one length both ways
+    if (other != place && !rows_m_[other].empty()) row_m[other] = rows_m_[other][place];
+  }
+  return row_m;
+}
+
+}  // namespace gnbv
