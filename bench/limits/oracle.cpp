@@ -69,8 +69,9 @@ class Oracle {
   /// the more of them the common leaves lose. So the tour is searched again for what the last one
   /// lacked, or had too much, until it is right within a few voxels; the cheapest is kept.
   Tours best_tour(OracleAim aim, double share) {
-    constexpr int kRounds = 6;
-    constexpr double kTooMuch = 3e-4;
+    constexpr int kRounds = 5;
+    constexpr double kTooMuch = 8.0;  // voxels, and a share of those wanted
+    constexpr double kTooMuchShare = 3e-4;
     constexpr double kUsualLoss = 0.99;  // of the cloud of all views beyond that of a tour
     constexpr double kYield = 0.65;      // of a voxel more that is found, to the share held so far
     const double wanted = share * survey_.leaf_outside[0] * static_cast<double>(voxels_.size());
@@ -79,12 +80,13 @@ class Oracle {
     CoveringTour tour = cheaper_tour(task_, target, greedy(target), kIterations);
     std::optional<CoveringTour> best;
     for (int round = 1;; ++round) {
-      const double more = wanted / static_cast<double>(held_by(tour)) - 1.0;
-      const bool is_enough = more <= 0.0;
+      const auto held = static_cast<double>(held_by(tour));
+      const bool is_enough = held >= wanted;
       if (is_enough && (!best || cost_m(tour, target) < cost_m(*best, target))) best = tour;
-      if ((is_enough && more >= -kTooMuch) || (best && round >= kRounds)) break;
+      const bool is_right = is_enough && held <= wanted * (1.0 + kTooMuchShare) + kTooMuch;
+      if (is_right || (best && round >= kRounds)) break;
       if (!is_enough && tour.covered >= all) break;
-      target.wanted = part_of(tour.covered, 1.0 + more / kYield);
+      target.wanted = part_of(tour.covered, 1.0 + (wanted / held - 1.0) / kYield);
       if (!is_enough) target.wanted = std::max(target.wanted, tour.covered + 1);
       target.wanted = std::min(target.wanted, all);
       tour = cheaper_tour(task_, target, tour, kIterations / 2);
