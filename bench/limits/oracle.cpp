@@ -12,7 +12,12 @@
 namespace gnbv {
 namespace {
 
-constexpr int kIterations = 6000;  // of a search: more gain less than a percent
+/// Of a search that begins with this tour: more gain less than a percent.
+int iterations_of(const CoveringTour& tour) {
+  constexpr std::size_t kPerView = 60;
+  constexpr std::size_t kMost = 10000;
+  return static_cast<int>(std::min(kMost, kPerView * tour.views.size()));
+}
 
 // price of a view, so that few views come first whatever the metres
 constexpr double kMetresPerViewOfFew = 1000.0;
@@ -77,7 +82,9 @@ class Oracle {
     const double wanted = share * survey_.leaf_outside[0] * static_cast<double>(voxels_.size());
     const std::size_t all = found_by_all();
     CoverAim target = cover_aim(aim, part_of(all, kUsualLoss * share));
-    CoveringTour tour = cheaper_tour(task_, target, greedy(target), kIterations);
+    const CoveringTour first = greedy(target);
+    const int iterations = iterations_of(first);
+    CoveringTour tour = cheaper_tour(task_, target, first, iterations);
     std::optional<CoveringTour> best;
     for (int round = 1;; ++round) {
       const auto held = static_cast<double>(held_by(tour));
@@ -89,7 +96,7 @@ class Oracle {
       target.wanted = part_of(tour.covered, 1.0 + (wanted / held - 1.0) / kYield);
       if (!is_enough) target.wanted = std::max(target.wanted, tour.covered + 1);
       target.wanted = std::min(target.wanted, all);
-      tour = cheaper_tour(task_, target, tour, kIterations / 2);
+      tour = cheaper_tour(task_, target, tour, iterations / 2);
     }
     target.wanted = best ? best->covered : all;
     return {.greedy = greedy(target), .searched = best.value_or(std::move(tour))};
