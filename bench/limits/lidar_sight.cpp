@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "bench/limits/sight_search.hpp"
 #include "planner/profiling.hpp"
 #include "planner/view_validity.hpp"
 #include "sensors/lidar_model.hpp"
@@ -11,7 +12,6 @@
 namespace gnbv {
 namespace {
 
-constexpr float kSightEnd = 0.9999F;
 constexpr double kLean_rad = deg_to_rad(4.0);
 
 struct Leg {

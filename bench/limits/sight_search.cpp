@@ -13,8 +13,6 @@ namespace {
 constexpr std::uint32_t kNoPosition = 0xffffffffU;
 constexpr std::size_t kFewPositions = 96;  // of the lattice
 constexpr std::size_t kPointsOfFew = 2;    // asked from each of them, of an item
-// a line of sight ends this share of its length before the point, which lies on the surface
-constexpr float kSightEnd = 0.9999F;
 // what is nearer to the point is its own face
 constexpr float kOwnFace_m = 1e-3F;
 

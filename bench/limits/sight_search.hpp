@@ -12,6 +12,9 @@
 
 namespace gnbv {
 
+/// A line of sight ends this share of its length before the point, which lies on the surface.
+constexpr float kSightEnd = 0.9999F;
+
 /// Some points of which one that is seen settles it: those of a voxel, say.
 struct SightItem {
   std::span<const Vec3f> points_world_m;

@@ -59,7 +59,7 @@ const std::array<PaperFigure, 7> kFigures = {{
     {"Entropy reduction", 0, false, [](const PaperRow& r) { return r.entropy_reduction; },
      entropy_reduction, none_of},
     {"Distance (m)", 1, false, [](const PaperRow& r) { return r.distance_m; }, metres,
-     [](const PaperMission& m) { return Value(m.record.figures->profile_m); }},
+     [](const PaperMission& m) { return Value(m.record.figures->before.profile_m); }},
     {"Time (min)", 1, false, [](const PaperRow& r) { return r.time_min; }, minutes, none_of},
     {"0.05 m (%)", 1, true, printed_coverage<0>, coverage_percent<0>, profile_coverage<0>},
     {"0.10 m (%)", 1, true, printed_coverage<1>, coverage_percent<1>, profile_coverage<1>},

@@ -29,7 +29,7 @@ PaperMission made_mission(const std::string& utility, std::uint64_t seed, int vi
     mission.record.views.push_back(view);
   }
   mission.record.figures->entropy_reduction_nat = views;
-  mission.record.figures->profile_m = 500.0 + static_cast<double>(seed);
+  mission.record.figures->before.profile_m = 500.0 + static_cast<double>(seed);
   mission.record.figures->coverage_final = {0.9 + ahead, 0.9, 0.9};
   return mission;
 }
