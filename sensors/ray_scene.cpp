@@ -316,8 +316,8 @@ void RayScene::first_hits(std::span<const Vec3f> origins_world_m,
 }
 
 void RayScene::structure_blocks(std::span<const Vec3f> origins_world_m,
-                                std::span<const Vec3f> directions_world, float near_m,
-                                float far_m, std::span<std::uint8_t> blocked) const {
+                                std::span<const Vec3f> directions_world, float near_m, float far_m,
+                                std::span<std::uint8_t> blocked) const {
   GNBV_CHECK(origins_world_m.size() == blocked.size() && directions_world.size() == blocked.size(),
              "{} origins and {} directions for {} answers", origins_world_m.size(),
              directions_world.size(), blocked.size());

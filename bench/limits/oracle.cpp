@@ -251,6 +251,13 @@ std::vector<OracleReach> oracle_reaches(const Scenario& scenario, const World& w
   return ask_oracle(scenario, world, scene, start, threads, [&](Oracle& oracle) {
     std::vector<OracleReach> reaches;
     for (const double share : kReachShares) reaches.push_back(oracle.reach(share));
+    // a tour that finds more finds less, too
+    for (std::size_t i = reaches.size() - 1; i-- > 0;) {
+      const OracleReach& more = reaches[i + 1];
+      if (more.length_m >= reaches[i].length_m) continue;
+      reaches[i].length_m = more.length_m;
+      reaches[i].views = more.views;
+    }
     return reaches;
   });
 }

@@ -39,8 +39,9 @@ std::vector<Decision> plan_oracle(const Scenario& scenario, const World& world,
 /// Shares of what the cloud of all views holds that are asked of an oracle.
 constexpr std::array<double, 4> kReachShares = {0.90, 0.95, 0.98, 0.99};
 
-/// A tour with few metres to one such share, planned for this share alone, and the greedy one that
-/// finds as much of the survey. Lengths in m, of the ways as they would be flown.
+/// A tour with few metres to one such share, planned for this share alone unless that for a larger
+/// one is shorter, and the greedy one that finds as much of the survey. Lengths in m, of the ways
+/// as they would be flown.
 struct OracleReach {
   double share = 0.0;
   std::size_t views = 0;  // after the first

@@ -105,9 +105,9 @@ void ceiling(const CeilingOptions& options) {
   ProgressBar progress(fmt::format("{} ceiling", scenario.name), options.quiet);
   progress.show(0.0, "where viewpoints are legal");
   const ViewPose start = start_pose(scenario, scene);
-  const Ceiling found =
-      find_ceiling(scenario, world, scene, start, threads,
-                   [&](double share) { progress.show(share, "of the surface searched for"); });
+  const Ceiling found = find_ceiling(scenario, world, scene, start, threads, [&](double share) {
+    progress.show(share, "of the surface searched for");
+  });
   std::vector<OracleReach> reaches;
   if (options.oracle) {
     progress.show(0.99, "planning on the true structure");
