@@ -22,8 +22,8 @@ constexpr double kSpacing_m = 0.0125;     // of the samples
 constexpr std::size_t kPointsAsked = 24;  // of a voxel, of either kind
 
 /// Of a voxel that the lattice does not show so many points are searched for closely.
-constexpr std::size_t kPointsOfOutside = 8;
-constexpr std::size_t kPointsOfRaw = 2;  // most of this is buried
+constexpr std::size_t kPointsOfOutside = 6;
+constexpr std::size_t kPointsOfRaw = 1;  // most of this is buried
 constexpr std::size_t kPointsOfLidar = 4;
 constexpr std::size_t kFewestOfPiece = 6;
 
@@ -107,6 +107,7 @@ class SlabSearch {
       std::vector<Voxel> voxels = voxels_of(block);
       settle(near_m, voxels, 0, out.kept_world_m);
       settle(near_m, voxels, 1, in_shared_leaves_m);
+      settle_rest(near_m, voxels, {&out.kept_world_m, &in_shared_leaves_m});
       for (const Voxel& voxel : voxels) {
         if (voxel.is_seen) out.voxels.push_back(voxel.code);
       }
@@ -140,24 +141,39 @@ class SlabSearch {
       of.push_back(&voxel);
     }
     cameras_.look_from_lattice(near_m, SightSearch::Positions::first_few, items);
-    std::vector<SightItem> rest;
-    std::vector<std::size_t> rest_of;
     for (std::size_t i = 0; i < items.size(); ++i) {
       const bool is_outside = has(reference_.outside[0], of[i]->code);
       // buried surface is asked once, by the better kind of its points
       const bool is_worth = is_outside || (has(reference_.raw[0], of[i]->code) &&
                                            (kind == 0 || of[i]->points_m[0].empty()));
       if (!items[i].is_seen() && is_worth) search_closely(is_outside, items[i]);
-      if (items[i].is_seen() || !is_outside) continue;
-      rest.push_back(items[i]);
-      rest_of.push_back(i);
-    }
-    cameras_.look_from_lattice(near_m, SightSearch::Positions::others, rest);
-    for (std::size_t k = 0; k < rest.size(); ++k) items[rest_of[k]] = rest[k];
-    for (std::size_t i = 0; i < items.size(); ++i) {
       if (!items[i].is_seen()) continue;
       of[i]->is_seen = true;
       seen_m.push_back(items[i].points_world_m[items[i].seen]);
+    }
+  }
+
+  /// Asks all samples of the voxels of the outside that are still not seen from all positions.
+  /// `seen_m` gets one of each that is, by kind.
+  void settle_rest(std::span<const Vec3> near_m, std::vector<Voxel>& voxels,
+                   std::array<std::vector<Vec3f>*, 2> seen_m) const {
+    std::vector<Voxel*> of;
+    std::vector<std::vector<Vec3f>> points_m;
+    for (Voxel& voxel : voxels) {
+      if (voxel.is_seen || !has(reference_.outside[0], voxel.code)) continue;
+      of.push_back(&voxel);
+      points_m.push_back(voxel.points_m[0]);
+      points_m.back().insert(points_m.back().end(), voxel.points_m[1].begin(),
+                             voxel.points_m[1].end());
+    }
+    std::vector<SightItem> items;
+    for (const auto& some_m : points_m) items.push_back({.points_world_m = some_m});
+    cameras_.look_from_lattice(near_m, SightSearch::Positions::others, items);
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      if (!items[i].is_seen()) continue;
+      of[i]->is_seen = true;
+      const std::size_t kind = items[i].seen < of[i]->points_m[0].size() ? 0 : 1;
+      seen_m[kind]->push_back(points_m[i][items[i].seen]);
     }
   }
 

@@ -11,7 +11,7 @@ namespace gnbv {
 namespace {
 
 constexpr std::uint32_t kNoPosition = 0xffffffffU;
-constexpr std::size_t kFewPositions = 96;  // of the lattice
+constexpr std::size_t kFewPositions = 48;  // of the lattice
 constexpr std::size_t kPointsOfFew = 2;    // asked from each of them, of an item
 // what is nearer to the point is its own face
 constexpr float kOwnFace_m = 1e-3F;
