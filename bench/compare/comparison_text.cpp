@@ -222,7 +222,8 @@ std::vector<std::string> notes(const Comparison& comparison) {
       "the methods of a scenario and metric, not over metrics",
       comparison.methods[comparison.baseline]));
   all.emplace_back(
-      "coverage of the surface seen from outside; share of ceiling: over what the leaf filter lets "
+      "coverage of voxels with visible surface of a tenth of their face; share of ceiling: over "
+      "what the leaf filter lets "
       "through of all that legal viewpoints see; distance in straight lines between views, profile "
       "apart; flight time of the whole mission");
   add_effort_notes(all, comparison);

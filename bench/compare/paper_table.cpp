@@ -222,7 +222,8 @@ std::string runs_note(const std::string& utility, const Runs& runs) {
 void add_notes(TextTable& table, const PaperTable& paper, bool several_runs,
                const std::optional<Ceiling>& ceiling) {
   table.notes.emplace_back(
-      "0.05, 0.10, 0.50 m: coverage at that voxel size, ours of the surface seen from outside");
+      "0.05, 0.10, 0.50 m: coverage at that voxel size, ours of voxels with visible surface of a "
+      "tenth of their face");
   table.notes.emplace_back(
       "ours: entropy reduction in nat; distance in straight lines between views, profile apart");
   if (several_runs) {

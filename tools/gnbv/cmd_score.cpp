@@ -59,6 +59,7 @@ std::string terminal_text(const Scored& scored, const std::string& name, bool is
   coverage_row("seen from outside", score.final);
   coverage_row("all surface, also inner", score.final_raw);
   if (is_run) coverage_row("profile, from outside", score.profile);
+  text += "a voxel counts with such surface of a tenth of its face\n";
   text += "\n" + heading("Within", kScoreDistances_m);
   const auto& at = score.distances.at;
   text += percent_row("precision", [&](std::size_t i) { return at[i].precision; });

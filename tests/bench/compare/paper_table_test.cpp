@@ -165,7 +165,7 @@ Proposed      ours      1         635              3,702         504.3   85.2%  
 Proposed      paper     -         635             10,970       1,396.5   94.1%   97.2%   99.8%           -             -
 Profile       ours      1           -                  -         349.0   16.7%   66.6%   89.6%           -             -
 Profile       paper     -           -                  -         370.0   15.3%   63.9%   87.3%           -             -
-0.05, 0.10, 0.50 m: coverage at that voxel size, ours of the surface seen from outside
+0.05, 0.10, 0.50 m: coverage at that voxel size, ours of voxels with visible surface of a tenth of their face
 ours: entropy reduction in nat; distance in straight lines between views, profile apart
 proposed: ended by max_iterations after 635 views; flown 530.0 m; all surface, also inner: 75.0 / 85.0 / 95.0 %; 61.0 s of wall time
 )";
