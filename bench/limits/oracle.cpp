@@ -250,7 +250,7 @@ std::vector<OracleReach> oracle_reaches(const Scenario& scenario, const World& w
                                         const RayScene& scene, const ViewPose& start, int threads) {
   return ask_oracle(scenario, world, scene, start, threads, [&](Oracle& oracle) {
     std::vector<OracleReach> reaches;
-    for (const double share : kReachShares) reaches.push_back(oracle.reach(share));
+    for (const double share : kOracleReachShares) reaches.push_back(oracle.reach(share));
     // a tour that finds more finds less, too
     for (std::size_t i = reaches.size() - 1; i-- > 0;) {
       const OracleReach& more = reaches[i + 1];

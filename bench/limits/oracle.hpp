@@ -37,7 +37,7 @@ std::vector<Decision> plan_oracle(const Scenario& scenario, const World& world,
                                   int threads);
 
 /// Shares of what the cloud of all views holds that are asked of an oracle.
-constexpr std::array<double, 4> kReachShares = {0.90, 0.95, 0.98, 0.99};
+constexpr std::array<double, 4> kOracleReachShares = {0.90, 0.95, 0.98, 0.99};
 
 /// A tour with few metres to one such share, planned for this share alone unless that for a larger
 /// one is shorter, and the greedy one that finds as much of the survey. Lengths in m, of the ways
@@ -50,7 +50,7 @@ struct OracleReach {
   double greedy_m = 0.0;
 };
 
-/// By kReachShares. Takes as long as so many calls of plan_oracle.
+/// By kOracleReachShares. Takes as long as so many calls of plan_oracle.
 std::vector<OracleReach> oracle_reaches(const Scenario& scenario, const World& world,
                                         const RayScene& scene, const ViewPose& start, int threads);
 

@@ -142,9 +142,9 @@ TEST(Oracle, PlansTheSameOnAnyNumberOfThreads) {
 TEST(Oracle, NeedsMoreForMoreAndNeverAsManyMetresAsTheGreedyTour) {
   const Smoke& s = smoke();
   const auto reaches = oracle_reaches(s.scenario, s.world, s.scene, s.start, 2);
-  ASSERT_EQ(reaches.size(), kReachShares.size());
+  ASSERT_EQ(reaches.size(), kOracleReachShares.size());
   for (std::size_t i = 0; i < reaches.size(); ++i) {
-    EXPECT_EQ(reaches[i].share, kReachShares[i]);
+    EXPECT_EQ(reaches[i].share, kOracleReachShares[i]);
     EXPECT_GE(reaches[i].length_m, i == 0 ? 0.1 : reaches[i - 1].length_m);
     EXPECT_LT(reaches[i].length_m, reaches[i].greedy_m);
   }

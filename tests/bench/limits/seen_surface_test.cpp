@@ -155,6 +155,25 @@ TEST(SightSearch, FromAClosedBoxNothingIsOpen) {
   }
 }
 
+/// What a ceiling is found from; nothing comes from a cache.
+struct Setting {
+  explicit Setting(const char* name) : scenario(load_scenario(name, {})) {
+    setenv("GNBV_CACHE", "", 1);
+  }
+  SeenSurface seen(int threads = 2) const {
+    return find_seen_surface(scenario, world, scene, legal, start, reference, threads, {});
+  }
+
+  Scenario scenario;
+  std::vector<std::string> warnings;
+  World world = load_world(scenario, warnings);
+  RayScene scene{world};
+  ViewPose start = start_pose(scenario, scene);
+  LegalViewpoints legal = find_legal_viewpoints(scenario, scene, start, 2);
+  SurfaceReference reference =
+      make_surface_reference(world, scene, {.floor_z_m = scenario.planner.floor_z_m}, 2);
+};
+
 /// A mission of the scenario without noise, and its ceiling.
 struct NoiseFree {
   explicit NoiseFree(const Scenario& made) : scenario(made), flown(made) {
@@ -211,17 +230,9 @@ TEST(SeenSurface, IsNoLessThanWhatNoiseFreeMissionsCover) {
 }
 
 TEST(SeenSurface, HasWhatViewsFromLegalPositionsShow) {
-  setenv("GNBV_CACHE", "", 1);
-  const Scenario scenario = load_scenario("lab_airplane", {});
-  std::vector<std::string> warnings;
-  const World world = load_world(scenario, warnings);
-  const RayScene scene(world);
-  const ViewPose start = start_pose(scenario, scene);
-  const LegalViewpoints legal = find_legal_viewpoints(scenario, scene, start, 2);
-  const SurfaceReference reference =
-      make_surface_reference(world, scene, {.floor_z_m = scenario.planner.floor_z_m}, 2);
-  const SeenSurface seen =
-      find_seen_surface(scenario, world, scene, legal, start, reference, 2, {});
+  const Setting lab("lab_airplane");
+  const auto& [scenario, warnings, world, scene, start, legal, reference] = lab;
+  const SeenSurface seen = lab.seen();
   const std::vector<CameraModel> cameras = exact_cameras(scenario);
   const Vec3 centre_m = bounds_m(world.structure).center();
   VoxelSet shown;
@@ -290,20 +301,9 @@ TEST(Ceiling, LeavesLoseNothingOfSizesThatTheyDivide) {
 }
 
 TEST(SeenSurface, IsTheSameOnAnyNumberOfThreads) {
-  setenv("GNBV_CACHE", "", 1);
-  const Scenario scenario = load_scenario("smoke", {});
-  std::vector<std::string> warnings;
-  const World world = load_world(scenario, warnings);
-  const RayScene scene(world);
-  const ViewPose start = start_pose(scenario, scene);
-  const LegalViewpoints legal = find_legal_viewpoints(scenario, scene, start, 2);
-  const SurfaceReference reference =
-      make_surface_reference(world, scene, {.floor_z_m = scenario.planner.floor_z_m}, 2);
-  const auto found = [&](int threads) {
-    return find_seen_surface(scenario, world, scene, legal, start, reference, threads, {});
-  };
-  const SeenSurface one = found(1);
-  const SeenSurface many = found(5);
+  const Setting smoke_setting("smoke");
+  const SeenSurface one = smoke_setting.seen(1);
+  const SeenSurface many = smoke_setting.seen(5);
   EXPECT_EQ(one.voxels, many.voxels);
   EXPECT_EQ(one.kept_world_m, many.kept_world_m);
 }
