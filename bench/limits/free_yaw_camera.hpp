@@ -24,14 +24,14 @@ class FreeYawCamera {
   std::optional<Vec3> origin_world_m(const Vec3& vehicle_world_m, const Vec3& point_world_m) const;
 
  private:
-  /// The point's place in the optical frame is linear in its level distance and its height.
+  /// Of the point, from the body's x axis. The point's place in the optical frame is linear in its
+  /// level distance and its height.
   struct Bearing {
-    double rad = 0.0;  // of the point, from the body's x axis
     Vec3 per_level = Vec3::Zero();
     Vec3 per_height = Vec3::Zero();
+    Vec3 p_turned_m = Vec3::Zero();  // the camera, on a vehicle that has a point at bearing 0 here
   };
   double tan_x_ = 0.0, tan_y_ = 0.0, range_min_m_ = 0.0, range_max_m_ = 0.0, reach_m_ = 0.0;
-  Vec3 p_body_m_ = Vec3::Zero();
   Vec3 offset_camera_m_ = Vec3::Zero();
   std::vector<Bearing> bearings_;
 };

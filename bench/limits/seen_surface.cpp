@@ -22,7 +22,7 @@ constexpr double kSpacing_m = 0.0125;     // of the samples
 constexpr std::size_t kPointsAsked = 24;  // of a voxel, of either kind
 
 /// Of a voxel that the lattice does not show so many points are searched for closely.
-constexpr std::size_t kPointsOfOutside = 6;
+constexpr std::size_t kPointsOfOutside = 4;
 constexpr std::size_t kPointsOfRaw = 1;  // most of this is buried
 constexpr std::size_t kPointsOfLidar = 4;
 constexpr std::size_t kFewestOfPiece = 6;

@@ -161,10 +161,16 @@ SightSearch::Look SightSearch::look_out(const Vec3f& point_world_m, std::size_t 
 
 bool SightSearch::is_seen_along(const Vec3f& point_m, const Vec3f& direction, double free_m) const {
   const Vec3 from_m = point_m.cast<double>();
+  const Vec3 along = direction.cast<double>();
   const double step_m = 0.5 * legal_.step_m;
-  for (double at_m = step_m; at_m < free_m; at_m += step_m) {
-    const Vec3 vehicle_m = from_m + at_m * direction.cast<double>();
-    if (!is_lattice_near(vehicle_m)) continue;
+  // the lattice's cells passed by, in cells
+  const Vec3 first = (from_m - corner_m_) / legal_.step_m;
+  // no place within the radius of the point is legal
+  const double first_m = step_m * std::max(1.0, std::ceil(radius_m_ / step_m));
+  for (double at_m = first_m; at_m < free_m; at_m += step_m) {
+    if (!is_lattice_near(first + at_m / legal_.step_m * along)) continue;
+    const Vec3 vehicle_m = from_m + at_m * along;
+    if (!navigation_m_.contains(vehicle_m)) continue;
     for (const FreeYawCamera& camera : cameras_) {
       const auto origin_m = camera.origin_world_m(vehicle_m, from_m);
       if (!origin_m || !is_legal(vehicle_m)) continue;
@@ -202,13 +208,14 @@ bool SightSearch::any_corner(const std::array<std::int32_t, 3>& low, const Use& 
   return false;
 }
 
-bool SightSearch::is_lattice_near(const Vec3& vehicle_m) const {
-  if (!navigation_m_.contains(vehicle_m)) return false;
-  const auto low = cell_below(vehicle_m);
+bool SightSearch::is_lattice_near(const Vec3& at_cells) const {
+  std::array<std::int32_t, 3> above{};
   for (std::size_t a = 0; a < 3; ++a) {
-    if (low[a] < -1 || low[a] >= cells_[a]) return false;
+    const double cell = at_cells[static_cast<Eigen::Index>(a)] + 1.0;  // the map begins one before
+    if (!(cell >= 0.0 && cell < cells_[a] + 1.0)) return false;
+    above[a] = static_cast<std::int32_t>(cell);
   }
-  return is_near_[node({low[0] + 1, low[1] + 1, low[2] + 1}, 1)] != 0;
+  return is_near_[node(above, 1)] != 0;
 }
 
 bool SightSearch::is_legal(const Vec3& vehicle_m) const {

@@ -60,7 +60,8 @@ class SightSearch {
             std::span<SightItem> items) const;
   bool is_seen_along(const Vec3f& point_m, const Vec3f& direction, double free_m) const;
   bool is_legal(const Vec3& vehicle_m) const;
-  bool is_lattice_near(const Vec3& vehicle_m) const;
+  /// Of a place in cells from the lattice's corner: whether a legal position is at its cell.
+  bool is_lattice_near(const Vec3& at_cells) const;
   template <typename Use>
   bool any_corner(const std::array<std::int32_t, 3>& low, const Use& use) const;
   std::array<std::int32_t, 3> cell_below(const Vec3& p_world_m) const;
