@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <mutex>
 #include <span>
 #include <tuple>
@@ -21,25 +20,26 @@ namespace {
 constexpr double kSpacing_m = 0.0125;     // of the samples
 constexpr std::size_t kPointsAsked = 24;  // of a voxel, of either kind
 
-/// Of a voxel that the lattice does not show so many points are searched for closely.
-constexpr std::size_t kPointsOfOutside = 4;
-constexpr std::size_t kPointsOfRaw = 1;  // most of this is buried
+/// Of a voxel that the lattice does not show so many points are searched for closely: what a
+/// power plant's voxels get within a minute, more where there are few.
+constexpr std::size_t kLeastPointsOfOutside = 4;
+constexpr std::size_t kPointsOfAllOutside = 1000000;
+constexpr std::size_t kFewerOfRaw = 4;  // times: most of this is buried
 constexpr std::size_t kPointsOfLidar = 4;
 constexpr std::size_t kFewestOfPiece = 6;
 
-// A frame puts a handful of pixels into a leaf, and the first frame's centroid stays: it may lie in
-// a voxel that has less than half of the leaf. The cloud of a survey of 3,000 frames keeps 93.8 %
-// of the lab airplane and 90.4 % of the lab model, where the rule says 93.8 and 90.8 with this
-// share.
+// A leaf keeps one point, the centroid of what its first frame puts there: a handful of pixels,
+// which may lie in a voxel that has less than half of the leaf's surface. What has less than this
+// share of it is not credited with the leaf.
 constexpr double kLeastLeafShare = 0.25;
 
 struct Sample {
   Vec3f p_world_m;
   std::uint64_t voxel;
   LeafKey leaf;
-  bool is_leaf_inside;  // the voxel
-  std::uint32_t rank;   // in its piece
-  double area_m2;       // that it stands for
+  bool may_keep_leaf;  // the voxel has its share of the leaf
+  Vec3f kept_world_m;  // in a voxel that has, if this one has not
+  std::uint32_t rank;  // in its piece
   std::uint64_t block = 0;
 };
 
@@ -58,24 +58,82 @@ bool is_inside(const LeafKey& leaf, std::uint64_t voxel, double leaf_m) {
   return true;
 }
 
+/// The surface that a voxel has of a leaf that reaches beyond it.
+struct LeafPart {
+  LeafKey leaf;
+  std::uint64_t voxel;
+  double area_m2;
+};
+
+/// The middle of what a leaf and a voxel have in common.
+Vec3f middle_m(const LeafPart& part, double leaf_m) {
+  const std::array<std::int64_t, 3> index = index_of(part.voxel);
+  Vec3f middle;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double leaf_low_m = leaf_m * static_cast<double>(part.leaf[a]);
+    const double voxel_low_m = kCoverageSizes_m[0] * static_cast<double>(index[a]);
+    const double low_m = std::max(leaf_low_m, voxel_low_m);
+    const double high_m = std::min(leaf_low_m + leaf_m, voxel_low_m + kCoverageSizes_m[0]);
+    middle[static_cast<Eigen::Index>(a)] = static_cast<float>(0.5 * (low_m + high_m));
+  }
+  return middle;
+}
+
+/// Decides who keeps the samples in leaves that reach beyond a voxel.
+void share_leaves(std::vector<LeafPart> parts, double leaf_m, std::span<Sample> samples) {
+  std::stable_sort(parts.begin(), parts.end(), [](const LeafPart& a, const LeafPart& b) {
+    return std::tie(a.leaf, a.voxel) < std::tie(b.leaf, b.voxel);
+  });
+  std::vector<LeafPart> merged;  // one of each leaf and voxel
+  for (const LeafPart& part : parts) {
+    const bool is_more =
+        !merged.empty() && merged.back().leaf == part.leaf && merged.back().voxel == part.voxel;
+    if (is_more) {
+      merged.back().area_m2 += part.area_m2;
+    } else {
+      merged.push_back(part);
+    }
+  }
+  const auto is_before = [](const LeafPart& part, const LeafKey& leaf) { return part.leaf < leaf; };
+  for (Sample& sample : samples) {
+    if (sample.may_keep_leaf) continue;
+    double all_m2 = 0.0, own_m2 = 0.0;
+    const LeafPart* most = nullptr;
+    for (auto part = std::lower_bound(merged.begin(), merged.end(), sample.leaf, is_before);
+         part != merged.end() && part->leaf == sample.leaf; ++part) {
+      all_m2 += part->area_m2;
+      if (part->voxel == sample.voxel) own_m2 = part->area_m2;
+      if (most == nullptr || part->area_m2 > most->area_m2) most = &*part;
+    }
+    sample.may_keep_leaf = own_m2 >= kLeastLeafShare * all_m2;
+    if (!sample.may_keep_leaf) sample.kept_world_m = middle_m(*most, leaf_m);
+  }
+}
+
 /// Of one slab, by blocks of the coarsest voxels, in them by voxels, in these one of each piece
 /// before the next of any: it may be one small face that is seen.
 std::vector<Sample> samples_of(const TriangleMesh& mesh, const Slabs& slabs, std::size_t index,
                                double floor_z_m, double leaf_m) {
   const LeafLattice lattice(leaf_m);
   std::vector<Sample> samples;
+  std::vector<LeafPart> parts;
   for (const std::uint32_t face : slabs.faces[index]) {
     for_each_piece(mesh, face, slabs.slab(index), floor_z_m, [&](const SurfacePiece& piece) {
       const std::size_t count = std::max(points_on(piece, kSpacing_m), kFewestOfPiece);
       for (std::size_t k = 0; k < count; ++k) {
         const Vec3f p_m = point_on(piece, k);
         const LeafKey leaf = lattice.key_of(p_m);
-        samples.push_back({p_m, piece.voxel, leaf, is_inside(leaf, piece.voxel, leaf_m),
-                           static_cast<std::uint32_t>(k),
-                           piece.area_m2 / static_cast<double>(count)});
+        samples.push_back({p_m, piece.voxel, leaf, is_inside(leaf, piece.voxel, leaf_m), p_m,
+                           static_cast<std::uint32_t>(k)});
       }
+      for_each_part(piece, leaf_m, [&](const std::array<std::int64_t, 3>& cell, double area_m2) {
+        const auto at = [&](std::size_t a) { return static_cast<std::int32_t>(cell[a]); };
+        const LeafKey leaf = {at(0), at(1), at(2)};
+        if (!is_inside(leaf, piece.voxel, leaf_m)) parts.push_back({leaf, piece.voxel, area_m2});
+      });
     });
   }
+  share_leaves(std::move(parts), leaf_m, samples);
   for (Sample& sample : samples) sample.block = coarser_code(sample.voxel, kCoverageFactors[2]);
   const auto order = [](const Sample& s) { return std::tuple(s.block, s.voxel, s.rank); };
   std::stable_sort(samples.begin(), samples.end(),
@@ -83,22 +141,27 @@ std::vector<Sample> samples_of(const TriangleMesh& mesh, const Slabs& slabs, std
   return samples;
 }
 
-/// A voxel's samples: those in leaves that lie in it, and the others.
+/// A voxel's samples: those in leaves that it may keep, and the others.
 struct Voxel {
   std::uint64_t code = 0;
-  std::array<std::vector<Vec3f>, 2> points_m;  // inside first; of each kind not too many
+  std::array<std::vector<Vec3f>, 2> points_m;  // the former first; of each kind not too many
+  std::array<std::vector<Vec3f>, 2> kept_m;    // where the cloud keeps each
   bool is_seen = false;
 };
 
 class SlabSearch {
  public:
   SlabSearch(const SightSearch& cameras, const LidarSight& lidars,
-             const SurfaceReference& reference, double leaf_m)
-      : cameras_(cameras), lidars_(lidars), reference_(reference), lattice_(leaf_m) {}
+             const SurfaceReference& reference)
+      : cameras_(cameras),
+        lidars_(lidars),
+        reference_(reference),
+        points_of_outside_(std::max(
+            kLeastPointsOfOutside,
+            kPointsOfAllOutside / std::max<std::size_t>(1, reference.outside[0].size()))) {}
 
   SeenSurface search(std::span<const Sample> samples) const {
     SeenSurface out;
-    std::vector<Vec3f> in_shared_leaves_m;
     for (std::size_t begin = 0, end = 0; begin < samples.size(); begin = end) {
       while (end < samples.size() && samples[end].block == samples[begin].block) ++end;
       const std::span<const Sample> block = samples.subspan(begin, end - begin);
@@ -107,14 +170,12 @@ class SlabSearch {
       const std::vector<Vec3> near_m = cameras_.positions_near(box_m);
       std::vector<Voxel> voxels = voxels_of(block);
       settle(near_m, voxels, 0, out.kept_world_m);
-      settle(near_m, voxels, 1, in_shared_leaves_m);
-      settle_rest(near_m, voxels, {&out.kept_world_m, &in_shared_leaves_m});
+      settle(near_m, voxels, 1, out.kept_world_m);
+      settle_rest(near_m, voxels, out.kept_world_m);
       for (const Voxel& voxel : voxels) {
         if (voxel.is_seen) out.voxels.push_back(voxel.code);
       }
     }
-    const std::vector<Vec3f> kept = kept_of(in_shared_leaves_m, samples);
-    out.kept_world_m.insert(out.kept_world_m.end(), kept.begin(), kept.end());
     return out;
   }
 
@@ -123,17 +184,20 @@ class SlabSearch {
     std::vector<Voxel> voxels;
     for (const Sample& sample : block) {
       if (voxels.empty() || voxels.back().code != sample.voxel)
-        voxels.push_back({sample.voxel, {}});
-      auto& points_m = voxels.back().points_m[sample.is_leaf_inside ? 0 : 1];
-      if (points_m.size() < kPointsAsked) points_m.push_back(sample.p_world_m);
+        voxels.push_back({sample.voxel, {}, {}});
+      const std::size_t kind = sample.may_keep_leaf ? 0 : 1;
+      auto& points_m = voxels.back().points_m[kind];
+      if (points_m.size() == kPointsAsked) continue;
+      points_m.push_back(sample.p_world_m);
+      voxels.back().kept_m[kind].push_back(sample.kept_world_m);
     }
     return voxels;
   }
 
-  /// Asks the samples of one kind of all voxels that are not seen yet; `seen_m` gets one of each
-  /// that is.
+  /// Asks the samples of one kind of all voxels that are not seen yet; `kept_m` gets where the
+  /// cloud keeps one of each that is.
   void settle(std::span<const Vec3> near_m, std::vector<Voxel>& voxels, std::size_t kind,
-              std::vector<Vec3f>& seen_m) const {
+              std::vector<Vec3f>& kept_m) const {
     std::vector<SightItem> items;
     std::vector<Voxel*> of;
     for (Voxel& voxel : voxels) {
@@ -150,22 +214,24 @@ class SlabSearch {
       if (!items[i].is_seen() && is_worth) search_closely(is_outside, items[i]);
       if (!items[i].is_seen()) continue;
       of[i]->is_seen = true;
-      seen_m.push_back(items[i].points_world_m[items[i].seen]);
+      kept_m.push_back(of[i]->kept_m[kind][items[i].seen]);
     }
   }
 
   /// Asks all samples of the voxels of the outside that are still not seen from all positions.
-  /// `seen_m` gets one of each that is, by kind.
   void settle_rest(std::span<const Vec3> near_m, std::vector<Voxel>& voxels,
-                   std::array<std::vector<Vec3f>*, 2> seen_m) const {
+                   std::vector<Vec3f>& kept_m) const {
+    const auto all = [](const std::array<std::vector<Vec3f>, 2>& kinds_m) {
+      std::vector<Vec3f> both_m = kinds_m[0];
+      both_m.insert(both_m.end(), kinds_m[1].begin(), kinds_m[1].end());
+      return both_m;
+    };
     std::vector<Voxel*> of;
     std::vector<std::vector<Vec3f>> points_m;
     for (Voxel& voxel : voxels) {
       if (voxel.is_seen || !has(reference_.outside[0], voxel.code)) continue;
       of.push_back(&voxel);
-      points_m.push_back(voxel.points_m[0]);
-      points_m.back().insert(points_m.back().end(), voxel.points_m[1].begin(),
-                             voxel.points_m[1].end());
+      points_m.push_back(all(voxel.points_m));
     }
     std::vector<SightItem> items;
     for (const auto& some_m : points_m) items.push_back({.points_world_m = some_m});
@@ -173,8 +239,7 @@ class SlabSearch {
     for (std::size_t i = 0; i < items.size(); ++i) {
       if (!items[i].is_seen()) continue;
       of[i]->is_seen = true;
-      const std::size_t kind = items[i].seen < of[i]->points_m[0].size() ? 0 : 1;
-      seen_m[kind]->push_back(points_m[i][items[i].seen]);
+      kept_m.push_back(all(of[i]->kept_m)[items[i].seen]);
     }
   }
 
@@ -184,7 +249,8 @@ class SlabSearch {
 
   void search_closely(bool is_outside, SightItem& item) const {
     const std::size_t points = item.points_world_m.size();
-    const std::size_t by_cameras = is_outside ? kPointsOfOutside : kPointsOfRaw;
+    const std::size_t by_cameras =
+        is_outside ? points_of_outside_ : points_of_outside_ / kFewerOfRaw;
     bool is_open = is_outside;
     for (std::size_t k = 0; k < std::min(by_cameras, points) && !item.is_seen(); ++k) {
       const SightSearch::Look look = cameras_.look_out(item.points_world_m[k], k);
@@ -197,43 +263,10 @@ class SlabSearch {
     }
   }
 
-  /// What the filter makes of points in leaves that reach beyond their voxels: the point itself
-  /// where its voxel has kLeastLeafShare of the leaf's surface, else one of the voxel that has
-  /// most.
-  std::vector<Vec3f> kept_of(std::span<const Vec3f> points_m,
-                             std::span<const Sample> samples) const {
-    struct Part {
-      double area_m2 = 0.0;
-      Vec3f some_m = Vec3f::Zero();
-    };
-    std::map<LeafKey, std::map<std::uint64_t, Part>> leaves;
-    for (const Vec3f& p_m : points_m) leaves.try_emplace(lattice_.key_of(p_m));
-    for (const Sample& sample : samples) {
-      const auto leaf = sample.is_leaf_inside ? leaves.end() : leaves.find(sample.leaf);
-      if (leaf == leaves.end()) continue;
-      Part& part = leaf->second[sample.voxel];
-      part.area_m2 += sample.area_m2;
-      part.some_m = sample.p_world_m;
-    }
-    std::vector<Vec3f> kept;
-    for (const Vec3f& p_m : points_m) {
-      const auto& parts = leaves.at(lattice_.key_of(p_m));
-      double all_m2 = 0.0;
-      const Part* most = nullptr;
-      for (const auto& [voxel, part] : parts) {
-        all_m2 += part.area_m2;
-        if (most == nullptr || part.area_m2 > most->area_m2) most = &part;
-      }
-      const Part& own = parts.at(voxel_code(p_m, kCoverageSizes_m[0]));
-      kept.push_back(own.area_m2 >= kLeastLeafShare * all_m2 ? p_m : most->some_m);
-    }
-    return kept;
-  }
-
   const SightSearch& cameras_;
   const LidarSight& lidars_;
   const SurfaceReference& reference_;
-  LeafLattice lattice_;
+  std::size_t points_of_outside_;
 };
 
 }  // namespace
@@ -249,7 +282,7 @@ SeenSurface find_seen_surface(const Scenario& scenario, const World& world, cons
                             navigation_box_m(validity, scenario.workspace_m),
                             validity.collision_radius_m);
   const LidarSight lidars(scenario, scene, start);
-  const SlabSearch search(cameras, lidars, reference, leaf_m);
+  const SlabSearch search(cameras, lidars, reference);
   const Slabs slabs = make_slabs(world.structure, floor_z_m);
   std::vector<SeenSurface> parts(slabs.faces.size());
   std::mutex progress;

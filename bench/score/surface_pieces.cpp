@@ -13,10 +13,12 @@ namespace {
 
 constexpr double kVoxelsPerMetre = 20.0;
 constexpr std::int64_t kVoxelsPerSlab = 10;
+constexpr std::int64_t kAll = std::int64_t{1} << 40;  // farther than any cell
 static_assert(kCoverageSizes_m[0] * kVoxelsPerMetre == 1.0);
 static_assert(kCoverageSizes_m[2] == kSlab_m && kSlab_m * kVoxelsPerMetre == kVoxelsPerSlab);
 
-/// A convex polygon: a triangle that up to seven planes have cut.
+/// A convex polygon: a triangle that planes have cut, seven of a voxel and the floor, six of a
+/// leaf.
 class Polygon {
  public:
   std::span<const Vec3> corners() const { return {p_.data(), size_}; }
@@ -61,35 +63,53 @@ class Polygon {
     return best;
   }
 
-  std::array<Vec3, 12> p_;
+  std::array<Vec3, 16> p_;
   std::size_t size_ = 0;
 };
 
-std::int64_t cell_of(double x_m) {
-  return static_cast<std::int64_t>(std::floor(x_m * kVoxelsPerMetre));
+std::int64_t cell_of(double x_m, double cells_per_metre = kVoxelsPerMetre) {
+  return static_cast<std::int64_t>(std::floor(x_m * cells_per_metre));
 }
 
-/// Calls use(cell, part) for each voxel along the axis that the polygon has a part in.
+/// Calls use(cell, part) for each cell along the axis that the polygon has a part in.
 template <typename Use>
-void for_each_cell(const Polygon& polygon, Eigen::Index axis, std::int64_t from, std::int64_t to,
-                   const Use& use) {
+void for_each_cell(const Polygon& polygon, double cells_per_metre, Eigen::Index axis,
+                   std::int64_t from, std::int64_t to, const Use& use) {
   if (polygon.corners().size() < 3) return;
-  const std::int64_t first = cell_of(polygon.min(axis));
-  const std::int64_t last = cell_of(polygon.max(axis));
+  const std::int64_t first = cell_of(polygon.min(axis), cells_per_metre);
+  const std::int64_t last = cell_of(polygon.max(axis), cells_per_metre);
   Polygon rest = polygon;
   for (std::int64_t cell = std::max(first, from); cell <= std::min(last, to); ++cell) {
     if (cell > first && cell == from) {
-      rest = rest.cut(axis, static_cast<double>(cell) / kVoxelsPerMetre, 1.0);
+      rest = rest.cut(axis, static_cast<double>(cell) / cells_per_metre, 1.0);
     }
     if (cell == last) {
       use(cell, rest);
       return;
     }
-    const double end_m = static_cast<double>(cell + 1) / kVoxelsPerMetre;
+    const double end_m = static_cast<double>(cell + 1) / cells_per_metre;
     use(cell, rest.cut(axis, end_m, -1.0));
     rest = rest.cut(axis, end_m, 1.0);
     if (rest.corners().size() < 3) return;
   }
+}
+
+/// Calls use({x, y, z}, part) for each cube that the polygon has a part in, x within bounds.
+template <typename Use>
+void for_each_cube(const Polygon& polygon, double cells_per_metre, std::int64_t from_x,
+                   std::int64_t to_x, const Use& use) {
+  const auto along = [&](const Polygon& part, Eigen::Index axis, const auto& use_cell) {
+    for_each_cell(part, cells_per_metre, axis, -kAll, kAll, use_cell);
+  };
+  for_each_cell(polygon, cells_per_metre, 0, from_x, to_x,
+                [&](std::int64_t x, const Polygon& slice) {
+                  along(slice, 1, [&](std::int64_t y, const Polygon& bar) {
+                    along(bar, 2, [&](std::int64_t z, const Polygon& part) {
+                      if (part.corners().size() >= 3)
+                        use(std::array<std::int64_t, 3>{x, y, z}, part);
+                    });
+                  });
+                });
 }
 
 Polygon above_floor(const TriangleMesh& mesh, std::uint32_t face, double floor_z_m) {
@@ -139,21 +159,25 @@ Slabs make_slabs(const TriangleMesh& mesh, double floor_z_m) {
 void for_each_piece(const TriangleMesh& mesh, std::uint32_t face, std::int64_t slab,
                     double floor_z_m, const std::function<void(const SurfacePiece&)>& use) {
   const std::int64_t first = slab * kVoxelsPerSlab;
-  constexpr std::int64_t kAll = std::int64_t{1} << 40;
-  const Polygon whole = above_floor(mesh, face, floor_z_m);
-  for_each_cell(whole, 0, first, first + kVoxelsPerSlab - 1,
-                [&](std::int64_t x, const Polygon& slice) {
-                  for_each_cell(slice, 1, -kAll, kAll, [&](std::int64_t y, const Polygon& bar) {
-                    for_each_cell(bar, 2, -kAll, kAll, [&](std::int64_t z, const Polygon& part) {
-                      if (part.corners().size() < 3) return;
-                      const double area_m2 = part.area_m2();
-                      if (area_m2 <= 0.0) return;
-                      use({.voxel = code_of({x, y, z}),
-                           .face = face,
-                           .area_m2 = area_m2,
-                           .corners_world_m = part.corners()});
-                    });
-                  });
+  for_each_cube(above_floor(mesh, face, floor_z_m), kVoxelsPerMetre, first,
+                first + kVoxelsPerSlab - 1,
+                [&](const std::array<std::int64_t, 3>& cell, const Polygon& part) {
+                  const double area_m2 = part.area_m2();
+                  if (area_m2 <= 0.0) return;
+                  use({.voxel = code_of(cell),
+                       .face = face,
+                       .area_m2 = area_m2,
+                       .corners_world_m = part.corners()});
+                });
+}
+
+void for_each_part(const SurfacePiece& piece, double cell_m,
+                   const std::function<void(const std::array<std::int64_t, 3>&, double)>& use) {
+  Polygon whole;
+  for (const Vec3& corner_m : piece.corners_world_m) whole.add(corner_m);
+  for_each_cube(whole, 1.0 / cell_m, -kAll, kAll,
+                [&](const std::array<std::int64_t, 3>& cell, const Polygon& part) {
+                  use(cell, part.area_m2());
                 });
 }
 

@@ -1,6 +1,7 @@
 // The surface cut into what lies in each voxel: exact areas, and points spread evenly over them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -38,6 +39,10 @@ Slabs make_slabs(const TriangleMesh& mesh, double floor_z_m);
 /// double precision. Pieces without area are left out.
 void for_each_piece(const TriangleMesh& mesh, std::uint32_t face, std::int64_t slab,
                     double floor_z_m, const std::function<void(const SurfacePiece&)>& use);
+
+/// Calls use(k, area_m2) for each cube [k, k + 1) cell_m that has a part of the piece.
+void for_each_part(const SurfacePiece& piece, double cell_m,
+                   const std::function<void(const std::array<std::int64_t, 3>&, double)>& use);
 
 /// How many points a piece gets: one for each spacing_m^2 of it, rounded, but at least one.
 std::size_t points_on(const SurfacePiece& piece, double spacing_m);

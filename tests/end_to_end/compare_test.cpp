@@ -212,5 +212,26 @@ TEST(Table, HasThePapersRowOursTheOraclesAndTheCeiling) {
   }
 }
 
+TEST(Table, FliesAgainWithoutNoiseWhatLiesAboveTheCeiling) {
+  TempFolder temp;
+  // noise of some decimetres fills voxels that a point a leaf of 0.04 m cannot
+  const Outcome json = gnbv(
+      "table smoke --set name=lab_model --no-oracle --quiet"
+      " --set cameras.0.noise.model=stereo --set cameras.0.noise.disparity_noise_px=2"
+      " --set cameras.0.width_px=640 --set cameras.0.height_px=480"
+      " --set planner.cloud.leaf_m=0.04 --set planner.validity.collision_radius_m=1.3"
+      " --set planner.termination.max_iterations=30 --format json --out " +
+      temp.path().string() + " 2>/dev/null");
+  ASSERT_EQ(json.exit_code, 0) << json.output;
+  const Json parsed = Json::parse(json.output);
+  const Json& noisy = parsed.at("rows").at(0);
+  const Json& exact = parsed.at("rows").at(1);
+  EXPECT_EQ(noisy.at("utility"), "Proposed");
+  EXPECT_EQ(exact.at("utility"), "Proposed, exact sensors");
+  EXPECT_GT(noisy.at("share_of_ceiling").get<double>(), 1.0);
+  EXPECT_LT(exact.at("share_of_ceiling").get<double>(), 1.0);
+  EXPECT_TRUE(exact.at("metres_to_90_runs").is_number());
+}
+
 }  // namespace
 }  // namespace gnbv

@@ -205,10 +205,20 @@ Scenario noise_free(const std::string& name, const std::string& utility, int vie
 }
 
 TEST(SeenSurface, IsNoLessThanWhatNoiseFreeMissionsCover) {
-  for (const auto& [name, utility, views] :
-       {std::tuple("smoke", "bircher", 12), std::tuple("lab_model", "isler", 15),
-        std::tuple("lab_airplane", "bircher", 15)}) {
-    const NoiseFree m(noise_free(name, utility, views));
+  constexpr double kOneOfVoxel_m = 0.05;
+  constexpr double kBeyondVoxels_m = 0.04;
+  for (const auto& [name, utility, views, leaf_m] :
+       {std::tuple("smoke", "bircher", 12, kOneOfVoxel_m),
+        std::tuple("smoke", "proposed", 60, kBeyondVoxels_m),
+        std::tuple("lab_model", "isler", 15, 0.02),
+        std::tuple("lab_airplane", "bircher", 15, 0.02)}) {
+    Scenario scenario = noise_free(name, utility, views);
+    scenario.planner.cloud.leaf_m = leaf_m;
+    if (leaf_m == kBeyondVoxels_m) {  // enough pixels and views to fill the leaves
+      scenario.cameras[0].width_px = 640;
+      scenario.cameras[0].height_px = 480;
+    }
+    const NoiseFree m(scenario);
     const auto cloud = m.flown.result.belief.cloud.points_world_m();
     const auto covered = coverage_at_all_sizes(m.reference.outside, cloud);
     for (std::size_t size = 0; size < 3; ++size) {
