@@ -30,7 +30,8 @@ void fields(FieldVisitor& v, MeshFileConfig& c) {
   v.path("path", c.path,
          "Mesh file (OBJ, STL, PLY, DAE, GLTF, GLB); empty: the built-in structure.");
   v.number("scale", c.scale, above_upto(0, 1e6), "Factor on the file's coordinates.");
-  v.number("offset_m", c.offset_m, between(-1e4, 1e4), "Added after scaling, world axes.");
+  v.number("offset_m", c.offset_m, between(-1e8, 1e8),
+           "Added after scaling, world axes; survey coordinates are millions of metres.");
   v.choice("up_axis", c.up_axis, kUpAxes,
            "Axis of the file that points up; auto: as the file says, z when it is silent.");
   v.number("unit_m", c.unit_m, between(0, 1e6),

@@ -21,8 +21,11 @@ struct LintOptions {
 };
 
 void lint(const LintOptions& options) {
-  const Scenario scenario = resolve_scenario(options.scenario);
-  const MeshReport report = report_on_mesh(scenario, thread_count(0));
+  // not resolve_scenario()'s bounds: a mesh that has none is what this is to find out
+  ScenarioOptions as_it_lies = options.scenario;
+  as_it_lies.bounds_auto = false;
+  const MeshReport report = report_on_mesh(resolve_scenario(as_it_lies),
+                                           options.scenario.bounds_auto, thread_count(0));
   fmt::print("{}", options.json ? json_text(report) : terminal_text(report));
   if (!report.is_usable()) {
     throw CommandFailed(fmt::format("{}: not usable as it is", report.path));
@@ -46,6 +49,7 @@ void add_lint_command(CLI::App& app) {
                    "KEY=VALUE of the scenario file, as for `run`; repeatable "
                    "(structure.file.scale, .unit_m, .up_axis, .offset_m)")
       ->allow_extra_args(false);
+  add_bounds_option(*command, options->scenario);
   command->add_flag("--json", options->json, "print JSON instead of text");
   command->callback([options] { lint(*options); });
 }

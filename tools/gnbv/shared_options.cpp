@@ -19,11 +19,7 @@ CLI::Validator number_check(const std::string& must_be, bool (*is_good)(double))
 
 }  // namespace
 
-void add_structure_options(CLI::App& command, ScenarioOptions& options) {
-  command.add_option("--mesh", options.mesh, "a mesh file instead of the scenario's structure");
-  command.add_option("--seed", options.seed, "moves the start pose and keys all noise");
-  command.add_option("--set", options.overrides, "KEY=VALUE of the scenario file; repeatable")
-      ->allow_extra_args(false);
+void add_bounds_option(CLI::App& command, ScenarioOptions& options) {
   command
       .add_option_function<std::string>(
           "--bounds",
@@ -31,6 +27,14 @@ void add_structure_options(CLI::App& command, ScenarioOptions& options) {
           "auto: lay workspace and start around the structure, wherever it is; scenario: as it "
           "says")
       ->check(CLI::IsMember({"auto", "scenario"}));
+}
+
+void add_structure_options(CLI::App& command, ScenarioOptions& options) {
+  command.add_option("--mesh", options.mesh, "a mesh file instead of the scenario's structure");
+  command.add_option("--seed", options.seed, "moves the start pose and keys all noise");
+  command.add_option("--set", options.overrides, "KEY=VALUE of the scenario file; repeatable")
+      ->allow_extra_args(false);
+  add_bounds_option(command, options);
 }
 
 void add_scenario_options(CLI::App& command, ScenarioOptions& options) {

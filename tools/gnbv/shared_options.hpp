@@ -13,6 +13,9 @@ class Validator;
 
 namespace gnbv {
 
+/// --bounds.
+void add_bounds_option(CLI::App& command, ScenarioOptions& options);
+
 /// What a scenario is changed by: --mesh, --seed, --set, --bounds.
 void add_structure_options(CLI::App& command, ScenarioOptions& options);
 

@@ -3,24 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "sim/mesh/mesh_units.hpp"
+#include "sim/core/shell_word.hpp"
+#include "tools/mesh_lint/mesh_places.hpp"
+#include "tools/mission/load_world.hpp"
 
 namespace gnbv {
 namespace {
 
 using Findings = std::vector<Finding>;
-
-struct Unit {
-  std::string_view name;
-  double unit_m;
-};
-constexpr std::array kUnits = {Unit{"millimetres", 0.001}, Unit{"centimetres", 0.01},
-                               Unit{"inches", 0.0254}, Unit{"feet", 0.3048}, Unit{"metres", 1.0}};
-constexpr double kSmallest_m = 0.2;
-constexpr double kLargest_m = 500.0;
 
 std::string name_of_unit(double unit_m) {
   for (const Unit& unit : kUnits) {
@@ -38,12 +30,8 @@ std::string size_text(const Vec3& size_m) {
   return fmt::format("{} x {} x {} m", text(size_m.x()), text(size_m.y()), text(size_m.z()));
 }
 
-/// The flag that moves the structure by `shift_m` from where it is placed now.
-std::string offset_flag(const Scenario& scenario, const Vec3& shift_m) {
-  Vec3 offset_m = scenario.structure.file.offset_m + shift_m;
-  for (double& x : offset_m) x = std::round(x * 1000.0) / 1000.0 + 0.0;
-  return fmt::format("--set 'structure.file.offset_m=[{}, {}, {}]'", offset_m.x(), offset_m.y(),
-                     offset_m.z());
+std::string flag(const std::string& set) {
+  return set.empty() ? "" : fmt::format("--set {}", shell_word(set));
 }
 
 /// Two decimals, and no minus before a zero.
@@ -70,130 +58,107 @@ Finding units_finding(const MeshReading& reading, const Scenario& scenario) {
   return {"units", Severity::ok, what, ""};
 }
 
-Finding size_finding(const MeshReport& report, const Scenario& scenario) {
+Finding size_finding(const MeshReport& report, const Advice& advice) {
   const Vec3 size_m = report.lint.box_m.sizes();
-  const double largest_m = size_m.maxCoeff();
-  if (largest_m >= kSmallest_m && largest_m <= kLargest_m) {
-    return {"size", Severity::ok, size_text(size_m), ""};
-  }
-  const double in_units = largest_m / report.reading.unit_m;
-  std::string fix;
-  for (const Unit& unit : kUnits) {
-    const double would_be_m = in_units * unit.unit_m;
-    // what one flies around with a drone
-    if (would_be_m < 1.0 || would_be_m > 150.0) continue;
-    fix += fmt::format("{}--set structure.file.unit_m={} ({:.3g} m, if the file is in {})",
-                       fix.empty() ? "" : ", or ", unit.unit_m, would_be_m, unit.name);
-  }
-  if (fix.empty()) {
-    const double factor = std::pow(10.0, std::round(std::log10(30.0 / largest_m)));
-    fix = fmt::format("--set structure.file.scale={} ({:.3g} m)",
-                      scenario.structure.file.scale * factor, largest_m * factor);
-  }
+  if (!advice.resize) return {"size", Severity::ok, size_text(size_m), ""};
   return {"size", Severity::warning,
           fmt::format("{}: suspiciously {}; is the unit right?", size_text(size_m),
-                      largest_m > kLargest_m ? "large" : "small"),
-          fix};
+                      size_m.maxCoeff() > kLargest_m ? "large" : "small"),
+          advice.resize->text};
 }
 
-Finding up_axis_finding(const MeshReport& report, const Scenario& scenario) {
+Finding up_axis_finding(const MeshReport& report, const Scenario& scenario, const Advice& advice) {
   const MeshReading& reading = report.reading;
   const bool is_set = scenario.structure.file.up_axis != "auto";
   const std::string_view origin = is_set                     ? "by structure.file.up_axis"
                                   : reading.declared_up_axis ? "as the file declares"
                                                              : "as assumed, the file declares none";
   std::string what = fmt::format("{} is up, {}", reading.up_axis, origin);
-  // back into the axes of the file
-  TriangleMesh in_file = reading.mesh;
-  const Eigen::Matrix3d R_file_world = R_z_up(reading.up_axis).transpose();
-  for (Vec3f& v : in_file.vertices_m) {
-    v = (R_file_world * (v.cast<double>() - scenario.structure.file.offset_m)).cast<float>();
-  }
-  const std::optional<char> likely = likely_up_axis(in_file);
+  const std::optional<char> likely = likely_up_axis(in_file_axes(report, scenario));
   if (!likely) return {"up axis", Severity::ok, what + "; its shape does not tell", ""};
   if (*likely == reading.up_axis) return {"up axis", Severity::ok, what + "; its shape agrees", ""};
   return {"up axis", is_set ? Severity::note : Severity::warning,
           fmt::format("{}, but by its shape it stands on {} = 0 or is flat there", what, *likely),
-          fmt::format("if it lies on its side: --set structure.file.up_axis={}", *likely)};
+          advice.up_axis.empty() ? "" : "if it lies on its side: " + flag(advice.up_axis)};
 }
 
-Finding place_finding(const MeshReport& report, const Scenario& scenario) {
+Finding place_finding(const MeshReport& report, const Scenario& scenario, const Advice& advice,
+                      bool bounds_auto) {
   const Box3& box = report.lint.box_m;
   const Vec3 lo = box.min();
   const Vec3 hi = box.max();
   const std::string span =
       fmt::format("x {} to {}, y {} to {}, z {} to {} m", metres(lo.x()), metres(hi.x()),
                   metres(lo.y()), metres(hi.y()), metres(lo.z()), metres(hi.z()));
-  const Vec3 to_origin(-box.center().x(), -box.center().y(), -lo.z());
-  const double farthest_m = std::max(lo.cwiseAbs().maxCoeff(), hi.cwiseAbs().maxCoeff());
-  // OctoMap's keys, and the ground that the sensors see
-  const double reach_m = 32767.0 * scenario.planner.map.resolution_m;
-  constexpr double kGround_m = 1000.0;
-  if (farthest_m > reach_m) {
-    return {"place", Severity::error,
-            fmt::format("{}: the map reaches only {:.0f} m from the origin", span, reach_m),
-            box.sizes().maxCoeff() > kLargest_m ? "put the size right first"
-                                                : offset_flag(scenario, to_origin)};
+  const double away_m = farthest_m(box);
+  const std::string nearer = advice.is_far ? flag(advice.offset) : "put the size right first";
+  if (away_m > reach_m(scenario)) {
+    return {
+        "place", Severity::error,
+        fmt::format("{}: the map reaches only {:.0f} m from the origin", span, reach_m(scenario)),
+        nearer};
   }
-  if (farthest_m > kGround_m) {
+  if (away_m > kGroundReach_m) {
     return {"place", Severity::warning,
             fmt::format("{}: the ground ends {:.0f} m from the origin, and float coordinates are "
                         "{:.1g} m apart there",
-                        span, kGround_m, farthest_m * 0x1p-23),
-            offset_flag(scenario, to_origin)};
+                        span, kGroundReach_m, away_m * 0x1p-23),
+            nearer};
   }
-  if (!scenario.workspace_m.contains(box)) {
-    const Vec3 room_m = scenario.workspace_m.sizes();
-    const bool would_fit = (box.sizes().array() <= room_m.array()).all();
+  if (bounds_auto) return {"place", Severity::ok, span + ", a workspace around it", ""};
+  if (!is_inside_workspace(scenario, bounds_m(report.reading.mesh))) {
     return {"place", Severity::note,
             fmt::format("{}: outside the workspace of the scenario '{}'", span, scenario.name),
-            "--bounds auto, which lays the workspace around it" +
-                (would_fit ? "; or at the origin: " + offset_flag(scenario, to_origin) : "")};
+            advice.needs_bounds ? "--bounds auto, which lays the workspace around it" : ""};
   }
   return {"place", Severity::ok, span, ""};
 }
 
-double share_below(const MeshReport& report, double z_m) {
-  double below_m2 = 0.0;
-  for (std::size_t i = 0; i < report.lint.is_sound.size(); ++i) {
-    if (report.lint.is_sound[i]) below_m2 += area_below_m2(report.reading.mesh, i, z_m);
+/// What stands in the way of a workspace around it, or of the scenario's start.
+void add_flight_findings(const Advice& advice, bool bounds_auto, Findings& out) {
+  if (!advice.start_fault.empty()) {
+    out.push_back({"start", Severity::warning, advice.start_fault, "--bounds auto"});
   }
-  return below_m2 / report.lint.sound.area_m2;
+  const Severity severity = bounds_auto ? Severity::error : Severity::warning;
+  if (!advice.bounds_fault.empty()) {
+    out.push_back({"map", severity, advice.bounds_fault, ""});
+  } else if (!advice.resolution.empty()) {
+    out.push_back(
+        {"map", severity, "too large for the memory in voxels so small", flag(advice.resolution)});
+  }
 }
 
-Finding ground_finding(const MeshReport& report, const Scenario& scenario) {
-  const double lowest_m = report.lint.box_m.min().z();
-  const double height_m = report.lint.box_m.sizes().z();
-  const double tolerance_m = std::max(0.01, 0.002 * height_m);
-  const double floating_m = std::max(1.0, 0.2 * height_m);
-  const auto flag = [&] { return offset_flag(scenario, {0.0, 0.0, -lowest_m}); };
+Finding ground_finding(const MeshReport& report, const Scenario& scenario, const Advice& advice) {
+  const Box3& box_m = report.lint.box_m;
+  const double lowest_m = box_m.min().z();
   if (!scenario.structure.ground) {
     return {"ground", Severity::ok, "structure.ground is off", ""};
   }
-  if (lowest_m < -tolerance_m) {
+  if (lowest_m < -may_sink_m(box_m)) {
     return {"ground", Severity::warning,
             fmt::format("reaches {:.3g} m below the ground (z = 0), with {} of its surface",
-                        -lowest_m, percent(share_below(report, 0.0))),
-            flag()};
+                        -lowest_m, percent(share_below(report.lint, report.reading.mesh, 0.0))),
+            flag(advice.offset)};
   }
-  if (lowest_m > floating_m) {
+  if (lowest_m > may_float_m(box_m)) {
     return {"ground", Severity::note, fmt::format("floats {:.3g} m above the ground", lowest_m),
-            "if it should stand: " + flag()};
+            advice.offset.empty() ? "" : "if it should stand: " + flag(advice.offset)};
   }
   return {"ground", Severity::ok, fmt::format("lowest point at z = {} m", metres(lowest_m)), ""};
 }
 
-Finding floor_finding(const MeshReport& report, const Scenario& scenario) {
+Finding floor_finding(const MeshReport& report, const Scenario& scenario, const Advice& advice) {
   const double floor_m = scenario.planner.floor_z_m;
-  const double share = share_below(report, floor_m);
+  const double share = share_below(report.lint, report.reading.mesh, floor_m);
   const std::string what = fmt::format(
       "{} of the surface lies below planner.floor_z_m = {} m, where nothing is mapped "
       "or counted",
       percent(share), floor_m);
-  if (share < 0.01) return {"floor", Severity::ok, what, ""};
-  if (share < 0.5) return {"floor", Severity::note, what, ""};
-  return {"floor", share < 1.0 ? Severity::warning : Severity::error, what,
-          "raise it with structure.file.offset_m, or lower planner.floor_z_m"};
+  const std::string fix =
+      advice.floor.empty() ? "" : flag(advice.floor) + ", or raise it with structure.file.offset_m";
+  if (share < 0.01) return {"floor", Severity::ok, what, fix};
+  if (share < 0.5) return {"floor", Severity::note, what, fix};
+  return {"floor", share < 1.0 ? Severity::warning : Severity::error, what, fix};
 }
 
 void add_face_findings(const MeshReport& report, Findings& out) {
@@ -266,7 +231,8 @@ void add_view_findings(const MeshReport& report, Findings& out) {
 
 }  // namespace
 
-std::vector<Finding> findings_of(const MeshReport& report, const Scenario& scenario) {
+std::vector<Finding> findings_of(const MeshReport& report, const Scenario& scenario,
+                                 bool bounds_auto) {
   Findings out;
   for (const std::string& warning : report.reading.warnings) {
     out.push_back({"file", Severity::warning, warning, "export the mesh again, if it matters"});
@@ -282,11 +248,13 @@ std::vector<Finding> findings_of(const MeshReport& report, const Scenario& scena
     return out;
   }
   out.push_back(units_finding(report.reading, scenario));
-  out.push_back(size_finding(report, scenario));
-  out.push_back(up_axis_finding(report, scenario));
-  out.push_back(place_finding(report, scenario));
-  out.push_back(ground_finding(report, scenario));
-  out.push_back(floor_finding(report, scenario));
+  const Advice& advice = report.advice;
+  out.push_back(size_finding(report, advice));
+  out.push_back(up_axis_finding(report, scenario, advice));
+  out.push_back(place_finding(report, scenario, advice, bounds_auto));
+  out.push_back(ground_finding(report, scenario, advice));
+  out.push_back(floor_finding(report, scenario, advice));
+  add_flight_findings(advice, bounds_auto, out);
   out.push_back(vertices_finding(report));
   add_face_findings(report, out);
   add_view_findings(report, out);

@@ -8,6 +8,7 @@
 namespace gnbv {
 
 /// What the figures mean for a mission of this scenario; `report.findings` is not looked at.
-std::vector<Finding> findings_of(const MeshReport& report, const Scenario& scenario);
+std::vector<Finding> findings_of(const MeshReport& report, const Scenario& scenario,
+                                 bool bounds_auto);
 
 }  // namespace gnbv

@@ -5,25 +5,20 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/core/error.hpp"
+#include "sim/core/shell_word.hpp"
 #include "tools/mesh_lint/mesh_findings.hpp"
+#include "tools/mesh_lint/mesh_places.hpp"
 
 namespace gnbv {
 namespace {
 
-/// The sound faces alone, which is what a mission would fly around.
-TriangleMesh sound_part(const TriangleMesh& mesh, const MeshLint& lint, std::vector<bool>& twins) {
-  TriangleMesh out;
-  out.vertices_m = mesh.vertices_m;
-  // no face reaches these, but a ray tracer wants numbers
-  for (Vec3f& v : out.vertices_m) {
-    if (!v.allFinite()) v = Vec3f::Zero();
+/// Of the sound faces, in their order.
+std::vector<bool> twins_of(const MeshLint& lint) {
+  std::vector<bool> twins;
+  for (std::size_t i = 0; i < lint.is_sound.size(); ++i) {
+    if (lint.is_sound[i]) twins.push_back(lint.is_two_sided[i]);
   }
-  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
-    if (!lint.is_sound[i]) continue;
-    out.faces.push_back(mesh.faces[i]);
-    twins.push_back(lint.is_two_sided[i]);
-  }
-  return out;
+  return twins;
 }
 
 std::string count_of(std::size_t count, std::string_view one, std::string_view many) {
@@ -56,7 +51,7 @@ bool MeshReport::is_usable() const {
                       [](const Finding& f) { return f.severity == Severity::error; });
 }
 
-MeshReport report_on_mesh(const Scenario& scenario, int threads) {
+MeshReport report_on_mesh(const Scenario& scenario, bool bounds_auto, int threads) {
   MeshReport report;
   report.path = scenario.structure.file.path;
   try {
@@ -66,10 +61,11 @@ MeshReport report_on_mesh(const Scenario& scenario, int threads) {
     return report;
   }
   report.lint = lint_mesh(report.reading.mesh);
-  std::vector<bool> twins;
-  const TriangleMesh sound = sound_part(report.reading.mesh, report.lint, twins);
-  report.outside = view_from_outside(sound, twins, threads);
-  report.findings = findings_of(report, scenario);
+  report.outside = view_from_outside(sound_part(report.reading.mesh, report.lint),
+                                     twins_of(report.lint), threads);
+  const bool can_fly = report.lint.sound.count > 0 && report.lint.not_finite_vertices == 0;
+  if (can_fly) report.advice = advise(report, scenario, bounds_auto);
+  report.findings = findings_of(report, scenario, bounds_auto);
   std::stable_sort(report.findings.begin(), report.findings.end(),
                    [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
   return report;
@@ -86,6 +82,10 @@ std::string terminal_text(const MeshReport& report) {
     out += fmt::format("{:<9}{:<13}{}\n", name_of(finding.severity), finding.check, finding.what);
     if (!finding.fix.empty()) out += fmt::format("{:<22}fix: {}\n", "", finding.fix);
   }
+  std::string flags;
+  for (const std::string& set : report.advice.sets()) flags += " --set " + shell_word(set);
+  if (report.advice.needs_bounds) flags += " --bounds auto";
+  if (!flags.empty()) out += fmt::format("\nall of it:{}\n", flags);
   return out;
 }
 
@@ -110,6 +110,8 @@ std::string json_text(const MeshReport& report) {
                                {"what", finding.what},
                                {"fix", finding.fix}});
   }
+  out["advice"] = {{"set", report.advice.sets()},
+                   {"bounds", report.advice.needs_bounds ? "auto" : "scenario"}};
   return out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
 }
 

@@ -8,6 +8,7 @@
 #include "scenarios/scenario.hpp"
 #include "sim/mesh/mesh_file.hpp"
 #include "sim/mesh/mesh_lint.hpp"
+#include "tools/mesh_lint/advice.hpp"
 #include "tools/mesh_lint/outside_view.hpp"
 
 namespace gnbv {
@@ -29,17 +30,19 @@ struct MeshReport {
   MeshReading reading;  // empty when the file could not be read
   MeshLint lint;
   OutsideView outside;
+  Advice advice;                  // nothing when there is no mesh to fly around
   std::vector<Finding> findings;  // the worst first
 
   bool is_usable() const;  // no finding is an error
 };
 
 /// Reads the file of the scenario's structure, placed as the scenario says, and looks at all there
-/// is to look at. A file that cannot be read is a finding. Throws BadInput only for a config that
+/// is to look at. A file that cannot be read is a finding. With `bounds_auto` the workspace is laid
+/// around the structure instead of the scenario's. Throws BadInput only for a config that
 /// read_mesh() refuses by itself.
-MeshReport report_on_mesh(const Scenario& scenario, int threads);
+MeshReport report_on_mesh(const Scenario& scenario, bool bounds_auto, int threads);
 
-/// A line for each finding, with its fix below it.
+/// A line for each finding, with its fix below it; last all flags that the fixes come to.
 std::string terminal_text(const MeshReport& report);
 /// The same for programs.
 std::string json_text(const MeshReport& report);

@@ -11,14 +11,18 @@ TriangleMesh load_structure(const Scenario& scenario, std::vector<std::string>& 
                                      : load_mesh(structure.file, &warnings);
 }
 
+bool is_inside_workspace(const Scenario& scenario, const Box3& mesh_m) {
+  constexpr double kRounding_m = 1e-3;
+  const Box3 allowed_m(scenario.workspace_m.min() - Vec3::Constant(kRounding_m),
+                       scenario.workspace_m.max() + Vec3::Constant(kRounding_m));
+  return allowed_m.contains(mesh_m);
+}
+
 World load_world(const Scenario& scenario, std::vector<std::string>& warnings) {
   const StructureConfig& structure = scenario.structure;
   World world{.structure = load_structure(scenario, warnings), .has_ground = structure.ground};
   const Box3 mesh_m = bounds_m(world.structure);
-  // written coordinates are rounded: a millimetre outside is no fault
-  const Box3 allowed_m(scenario.workspace_m.min() - Vec3::Constant(1e-3),
-                       scenario.workspace_m.max() + Vec3::Constant(1e-3));
-  if (!allowed_m.contains(mesh_m)) {
+  if (!is_inside_workspace(scenario, mesh_m)) {
     const Vec3 lo = mesh_m.min();
     const Vec3 hi = mesh_m.max();
     throw BadInput(fmt::format(

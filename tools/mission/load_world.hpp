@@ -14,6 +14,10 @@ namespace gnbv {
 /// structure cannot be had.
 TriangleMesh load_structure(const Scenario& scenario, std::vector<std::string>& warnings);
 
+/// Whether a mesh lies in the scenario's workspace. Written coordinates are rounded: a millimetre
+/// outside is no fault.
+bool is_inside_workspace(const Scenario& scenario, const Box3& mesh_m);
+
 /// The world with that structure. Throws BadInput, too, when it does not lie inside the workspace.
 World load_world(const Scenario& scenario, std::vector<std::string>& warnings);
 

@@ -83,7 +83,7 @@ class Report : public testing::Test {
   }
   static MeshReport of_file(const fs::path& path, std::vector<std::string> overrides) {
     overrides.insert(overrides.begin(), "structure.file.path=" + path.string());
-    return report_on_mesh(load_scenario("aircraft", overrides), 2);
+    return report_on_mesh(load_scenario("aircraft", overrides), false, 2);
   }
 
   TempFolder temp_;

@@ -1,0 +1,142 @@
+#include "tools/mesh_lint/advice.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "assets/catalog.hpp"
+#include "scenarios/load.hpp"
+#include "sensors/ray_scene.hpp"
+#include "sim/core/rng.hpp"
+#include "sim/mesh/mesh_units.hpp"
+#include "tests/bench/shapes.hpp"
+#include "tests/support/temp_folder.hpp"
+#include "tools/mesh_lint/mesh_report.hpp"
+#include "tools/mission/auto_bounds.hpp"
+#include "tools/mission/load_world.hpp"
+#include "tools/mission/resolve.hpp"
+#include "tools/mission/start_pose.hpp"
+
+namespace gnbv {
+namespace {
+
+/// What a user has typed after `gnbv lint MESH`.
+struct Typed {
+  std::vector<std::string> sets;
+  bool bounds_auto = false;
+};
+
+MeshReport report_on(const std::string& path, const std::string& scenario, const Typed& typed) {
+  std::vector<std::string> sets = {"structure.file.path=" + path};
+  sets.insert(sets.end(), typed.sets.begin(), typed.sets.end());
+  return report_on_mesh(load_scenario(scenario, sets), typed.bounds_auto, 2);
+}
+
+/// As `gnbv run` begins: throws what it would refuse.
+void begin_run(const std::string& path, const std::string& scenario_name, const Typed& typed) {
+  ScenarioOptions options;
+  options.scenario = scenario_name;
+  options.mesh = path;
+  options.overrides = typed.sets;
+  options.bounds_auto = typed.bounds_auto;
+  const Scenario scenario = resolve_scenario(options);
+  std::vector<std::string> warnings;
+  const World world = load_world(scenario, warnings);
+  const RayScene scene(world);
+  start_pose(scenario, scene);
+}
+
+double between(double low, double high, std::uint64_t key, std::uint64_t i) {
+  return low + (high - low) * uniform01({key, Stream::bench, 7, i});
+}
+
+/// The mesh in other units, on another axis, elsewhere.
+TriangleMesh moved(TriangleMesh mesh, std::uint64_t key) {
+  const double scale = std::pow(10.0, between(-3.0, 3.0, key, 0));
+  const double turn = between(0.0, 3.0, key, 1);
+  const char up = turn < 1.0 ? 'x' : turn < 2.0 ? 'y' : 'z';
+  // farther off, float coordinates would not hold its shape
+  const double spread_m = std::min(std::pow(10.0, between(-4.0, 6.0, key, 2)), 1e4 * scale);
+  const bool is_moved = between(0.0, 1.0, key, 6) < 0.7;
+  const Vec3 offset_m =
+      (is_moved ? spread_m : 0.0) *
+      Vec3(between(-1, 1, key, 3), between(-1, 1, key, 4), between(-1, 1, key, 5));
+  const Eigen::Matrix3d R_file_world = R_z_up(up).transpose();
+  for (Vec3f& v : mesh.vertices_m) {
+    v = (scale * (R_file_world * v.cast<double>()) + offset_m).cast<float>();
+  }
+  return mesh;
+}
+
+/// Looks, does all it is told, looks again, does that, too; after which there is nothing to say
+/// that keeps a mission from flying.
+void expect_two_rounds_do(const std::string& path, const std::string& scenario,
+                          const std::string& what) {
+  Typed typed;
+  for (int round = 0; round < 2; ++round) {
+    const MeshReport report = report_on(path, scenario, typed);
+    for (const std::string& set : report.advice.sets()) typed.sets.push_back(set);
+    typed.bounds_auto = typed.bounds_auto || report.advice.needs_bounds;
+  }
+  const MeshReport last = report_on(path, scenario, typed);
+  EXPECT_TRUE(last.is_usable()) << what << "\n" << terminal_text(last);
+  EXPECT_TRUE(last.advice.sets().empty()) << what << "\n" << terminal_text(last);
+  EXPECT_NO_THROW(begin_run(path, scenario, typed)) << what << "\n" << terminal_text(last);
+}
+
+TEST(Advice, TwoRoundsOfItMakeAnyTransformOfAMeshUsable) {
+  TempFolder temp;
+  const std::string path = (temp.path() / "t.obj").string();
+  std::vector<std::pair<std::string, TriangleMesh>> meshes;
+  for (const char* name : {"smoke", "lab_model", "lab_airplane", "aircraft"}) {
+    meshes.emplace_back(name, make_builtin_structure(name));
+  }
+  TriangleMesh plate;
+  test::add_sheet(plate, {0, 0, 0}, {4, 0, 0}, {0, 4, 0});
+  meshes.emplace_back("plate", plate);
+  TriangleMesh mast;
+  test::add_box(mast, {0, 0, 0}, {0.2, 0.2, 40});
+  meshes.emplace_back("mast", mast);
+  TriangleMesh tower;
+  test::add_box(tower, {-2, -3, 0}, {4, 6, 8});
+  meshes.emplace_back("tower", tower);
+  std::uint64_t key = 0;
+  for (const auto& [name, mesh] : meshes) {
+    const int transforms = mesh.faces.size() > 1000 ? 2 : 20;
+    for (int i = 0; i < transforms; ++i) {
+      write_mesh(moved(mesh, ++key), path);
+      const std::string scenario = i % 2 == 0 ? "aircraft" : "lab_model";
+      expect_two_rounds_do(path, scenario,
+                           fmt::format("{}, transform {}, {}", name, key, scenario));
+    }
+  }
+}
+
+TEST(Advice, AHairBelowTheFloorIsNoFault) {
+  TempFolder temp;
+  const std::string path = (temp.path() / "t.obj").string();
+  TriangleMesh tower;
+  test::add_box(tower, {-2, -3, -1e-4}, {4, 6, 8});
+  write_mesh(tower, path);
+  const MeshReport report = report_on(path, "aircraft", {});
+  EXPECT_TRUE(report.advice.sets().empty()) << terminal_text(report);
+  EXPECT_FALSE(report.advice.needs_bounds);
+  EXPECT_EQ(terminal_text(report).find("all of it"), std::string::npos);
+}
+
+TEST(Advice, AStartWithinTheStructureNeedsOtherBounds) {
+  TempFolder temp;
+  const std::string path = (temp.path() / "t.obj").string();
+  TriangleMesh hall;
+  test::add_box(hall, {-20, -24, 0}, {40, 48, 8});  // around the aircraft's start
+  write_mesh(hall, path);
+  const MeshReport report = report_on(path, "aircraft", {});
+  EXPECT_TRUE(report.advice.needs_bounds);
+  EXPECT_NE(terminal_text(report).find("all of it: --bounds auto"), std::string::npos)
+      << terminal_text(report);
+  expect_two_rounds_do(path, "aircraft", "hall");
+}
+
+}  // namespace
+}  // namespace gnbv

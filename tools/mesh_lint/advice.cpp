@@ -1,0 +1,183 @@
+#include "tools/mesh_lint/advice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "sensors/ray_scene.hpp"
+#include "sim/core/error.hpp"
+#include "sim/mesh/mesh_units.hpp"
+#include "tools/mesh_lint/mesh_places.hpp"
+#include "tools/mission/auto_bounds.hpp"
+#include "tools/mission/load_world.hpp"
+#include "tools/mission/start_pose.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr double kLikelySmallest_m = 1.0;
+constexpr double kLikelyLargest_m = 150.0;
+constexpr double kLikely_m = 30.0;
+
+/// The structure as the scenario places it, and as it would be otherwise.
+class Placement {
+ public:
+  Placement(const MeshReport& report, const Scenario& scenario)
+      : report_(report), file_(scenario.structure.file), up_(report.reading.up_axis) {}
+
+  void resize(double factor) { factor_ *= factor; }
+  void turn_up(char axis) { up_ = axis; }
+  void move(const Vec3& shift_m) { shift_m_ += shift_m; }
+
+  TriangleMesh mesh() const {
+    const Eigen::Matrix3d R = R_z_up(up_) * R_z_up(report_.reading.up_axis).transpose();
+    TriangleMesh out = report_.reading.mesh;
+    for (Vec3f& v : out.vertices_m) {
+      const Vec3 p_m = factor_ * (R * (v.cast<double>() - file_.offset_m));
+      v = (p_m + file_.offset_m + shift_m_).cast<float>();
+    }
+    return out;
+  }
+  /// Around its sound faces.
+  Box3 box_m() const {
+    const TriangleMesh placed = mesh();
+    Box3 box_m;
+    for (std::size_t i = 0; i < placed.faces.size(); ++i) {
+      if (!report_.lint.is_sound[i]) continue;
+      for (const std::uint32_t v : placed.faces[i]) {
+        box_m.extend(placed.vertices_m[v].cast<double>());
+      }
+    }
+    return box_m;
+  }
+  Vec3 offset_m() const { return file_.offset_m + shift_m_; }
+
+ private:
+  const MeshReport& report_;
+  const MeshFileConfig& file_;
+  double factor_ = 1.0;
+  char up_;
+  Vec3 shift_m_ = Vec3::Zero();
+};
+
+std::optional<Resize> resize(const MeshReport& report, const Scenario& scenario,
+                             Placement& placement) {
+  const double largest_m = report.lint.box_m.sizes().maxCoeff();
+  if (is_likely_size(largest_m)) return std::nullopt;
+  const double in_units = largest_m / report.reading.unit_m;
+  Resize advised;
+  for (const Unit& unit : kUnits) {
+    const double would_be_m = in_units * unit.unit_m;
+    if (would_be_m < kLikelySmallest_m || would_be_m > kLikelyLargest_m) continue;
+    const std::string set = fmt::format("structure.file.unit_m={}", unit.unit_m);
+    if (advised.set.empty()) {
+      advised.set = set;
+      placement.resize(unit.unit_m / report.reading.unit_m);
+    }
+    advised.text += fmt::format("{}--set {} ({:.3g} m, if the file is in {})",
+                                advised.text.empty() ? "" : ", or ", set, would_be_m, unit.name);
+  }
+  if (!advised.set.empty()) return advised;
+  const double factor = std::pow(10.0, std::round(std::log10(kLikely_m / largest_m)));
+  placement.resize(factor);
+  advised.set = fmt::format("structure.file.scale={}", scenario.structure.file.scale * factor);
+  advised.text = fmt::format("--set {} ({:.3g} m)", advised.set, largest_m * factor);
+  return advised;
+}
+
+/// Where it should be moved: to the origin from afar, onto the ground from below or above.
+void place(const Scenario& scenario, Placement& placement, Advice& advice) {
+  const Box3 box_m = placement.box_m();
+  advice.is_far = farthest_m(box_m) > std::min(kGroundReach_m, reach_m(scenario));
+  const Vec3 to_origin_m(-box_m.center().x(), -box_m.center().y(), -box_m.min().z());
+  if (advice.is_far) {
+    placement.move(to_origin_m);
+  } else if (scenario.structure.ground && !stands_on_ground(box_m)) {
+    placement.move({0.0, 0.0, to_origin_m.z()});
+  } else {
+    return;
+  }
+  constexpr double kRounding = 1000.0;  // to millimetres
+  Vec3 offset_m = (placement.offset_m() * kRounding).array().round() / kRounding;
+  placement.move(offset_m - placement.offset_m());
+  for (double& x : offset_m) x += 0.0;  // no minus before a zero
+  if (offset_m == scenario.structure.file.offset_m) return;
+  advice.offset =
+      fmt::format("structure.file.offset_m=[{}, {}, {}]", offset_m.x(), offset_m.y(), offset_m.z());
+}
+
+std::string fault_of(const std::function<void()>& attempt) {
+  try {
+    attempt();
+  } catch (const BadInput& fault) {
+    return fault.what();
+  }
+  return "";
+}
+
+/// A workspace around it, with a map so coarse that it can be held.
+void lay_bounds(Scenario& scenario, const Box3& box_m, Advice& advice) {
+  constexpr int kTries = 40;
+  constexpr double kStep = 1.15;
+  Scenario laid = scenario;
+  const auto fault = [&] { return fault_of([&] { with_bounds_around(laid, box_m); }); };
+  advice.bounds_fault = fault();
+  for (int i = 0; i < kTries && !advice.bounds_fault.empty(); ++i) {
+    double& resolution_m = laid.planner.map.resolution_m;
+    resolution_m = std::ceil(resolution_m * kStep * 100.0) / 100.0;
+    if (!fault().empty()) continue;
+    advice.bounds_fault.clear();
+    advice.resolution = fmt::format("planner.map.resolution_m={}", resolution_m);
+  }
+  if (advice.bounds_fault.empty()) scenario = with_bounds_around(laid, box_m);
+}
+
+}  // namespace
+
+std::vector<std::string> Advice::sets() const {
+  std::vector<std::string> all;
+  for (const std::string& set :
+       {resize ? resize->set : std::string(), up_axis, offset, floor, resolution}) {
+    if (!set.empty()) all.push_back(set);
+  }
+  return all;
+}
+
+Advice advise(const MeshReport& report, const Scenario& scenario, bool bounds_auto) {
+  Advice advice;
+  Placement placement(report, scenario);
+  advice.resize = resize(report, scenario, placement);
+  const std::optional<char> up = likely_up_axis(in_file_axes(report, scenario));
+  if (up && *up != report.reading.up_axis && scenario.structure.file.up_axis == "auto") {
+    placement.turn_up(*up);
+    advice.up_axis = fmt::format("structure.file.up_axis={}", *up);
+  }
+  place(scenario, placement, advice);
+
+  World world{.structure = placement.mesh(), .has_ground = scenario.structure.ground};
+  const Box3 box_m = placement.box_m();
+  Scenario flown = scenario;
+  constexpr double kMostBelow = 0.5;
+  if (share_below(report.lint, world.structure, flown.planner.floor_z_m) >= kMostBelow) {
+    constexpr double kShareOfHeight = 0.05;
+    constexpr double kRounding = 1e4;
+    const double floor_m = box_m.min().z() + kShareOfHeight * box_m.sizes().z();
+    flown.planner.floor_z_m = std::floor(floor_m * kRounding) / kRounding + 0.0;
+    advice.floor = fmt::format("planner.floor_z_m={}", flown.planner.floor_z_m);
+  }
+  const Box3 whole_m = bounds_m(world.structure);
+  const bool is_outside = !is_inside_workspace(flown, whole_m);
+  if (!is_outside && !bounds_auto) {
+    world.structure = sound_part(world.structure, report.lint);
+    const RayScene scene(world);
+    advice.start_fault = fault_of([&] { start_pose(flown, scene); });
+  }
+  advice.needs_bounds = bounds_auto || is_outside || !advice.start_fault.empty();
+  if (advice.needs_bounds) lay_bounds(flown, whole_m, advice);
+  return advice;
+}
+
+}  // namespace gnbv
