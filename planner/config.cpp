@@ -14,6 +14,7 @@ void set_paper(PlannerConfig& config) {
   config.fvs.views_per_layer = paper.fvs.views_per_layer;
   config.fvs.needs_visible_cluster = paper.fvs.needs_visible_cluster;
   config.fvs.agvs_when_stuck = paper.fvs.agvs_when_stuck;
+  config.fvs.when_grid_finds_nothing = paper.fvs.when_grid_finds_nothing;
   config.utility.bircher_lambda_per_m = paper.utility.bircher_lambda_per_m;
   config.utility.hit_voxel = paper.utility.hit_voxel;
   config.utility.prediction_hides_hits = paper.utility.prediction_hides_hits;
@@ -27,6 +28,7 @@ void set_released(PlannerConfig& config) {
   config.fvs.views_per_layer = 8;
   config.fvs.needs_visible_cluster = false;
   config.fvs.agvs_when_stuck = false;
+  config.fvs.when_grid_finds_nothing = false;
   config.utility.bircher_lambda_per_m = 0.5;
   config.utility.hit_voxel = HitVoxel::excluded;
   config.utility.prediction_hides_hits = true;

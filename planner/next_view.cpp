@@ -21,6 +21,7 @@ class Decider {
         history_(history),
         current_(current),
         bench_(bench),
+        validity_(model.config.validity),
         recent_(recent_views(history, model.config.validity.recent_poses)),
         progress_(progress()),
         frontier_density_(model.config.fvs.frontier.density_share * belief.cloud.density_max()) {}
@@ -30,7 +31,12 @@ class Decider {
     const bool is_stuck =
         fvs.enabled && is_entropy_still(fvs.entropy_threshold_nat, fvs.entropy_window, progress_);
     if (is_stuck && (try_fvs() || !fvs.agvs_when_stuck)) return std::move(plan_);
-    try_agvs();
+    if (try_agvs() || !fvs.enabled || !fvs.when_grid_finds_nothing) return std::move(plan_);
+    if (!is_stuck && try_fvs()) return std::move(plan_);
+    if (validity_.path == PathCheck::straight) {
+      validity_.path = PathCheck::astar;
+      try_fvs();
+    }
     return std::move(plan_);
   }
 
@@ -122,8 +128,7 @@ class Decider {
   void check_all(std::span<Candidate> candidates) {
     const std::size_t shares = bench_.marks.size();
     parallel_for(bench_.threads, shares, [&](std::size_t share) {
-      ViewChecker checker(model_.config.validity, model_.navigation_m, belief_.grid, recent_,
-                          current_);
+      ViewChecker checker(validity_, model_.navigation_m, belief_.grid, recent_, current_);
       const std::size_t begin = candidates.size() * share / shares;
       const std::size_t end = candidates.size() * (share + 1) / shares;
       for (Candidate& candidate : candidates.subspan(begin, end - begin)) {
@@ -190,6 +195,7 @@ class Decider {
   const History& history_;
   const ViewPose& current_;
   Workbench& bench_;
+  ValidityConfig validity_;  // the configured one, but for the last way out
   const std::vector<ViewPose> recent_;
   const Progress progress_;
   const double frontier_density_;

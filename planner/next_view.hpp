@@ -11,7 +11,9 @@ struct PlannerModel;
 struct Workbench;
 
 /// The next best view from `current`. `next` is empty when no sampled view is valid: at a local
-/// minimum FVS is asked first, then (FvsConfig::agvs_when_stuck) AGVS at growing scales.
+/// minimum FVS is asked first, then (FvsConfig::agvs_when_stuck) AGVS at growing scales. Where AGVS
+/// finds nothing (FvsConfig::when_grid_finds_nothing) FVS is asked, too, at last for views that can
+/// be reached on a way around.
 Plan plan_next_view(const PlannerModel& model, const Belief& belief, const History& history,
                     const ViewPose& current, Workbench& bench);
 

@@ -29,7 +29,7 @@ struct AgvsConfig {
 enum class ClusterOrder { nearest, largest };
 
 /// Frontier Viewpoint Sampling. Defaults: the paper, with the released figures where it has none;
-/// `tries` and `agvs_when_stuck` are our own, see FIDELITY.md.
+/// `tries`, `agvs_when_stuck` and `when_grid_finds_nothing` are our own, see FIDELITY.md.
 struct FvsConfig {
   bool enabled = true;
   double entropy_threshold_nat = 0.002;  // local minimum: largest entropy change per voxel below
@@ -43,6 +43,7 @@ struct FvsConfig {
   double layer_step_m = 1.0;          // three layers: this below, at and above the centroid
   bool needs_visible_cluster = true;  // a view must see a voxel of the cluster (occlusion culling)
   bool agvs_when_stuck = true;        // where no cluster has a valid view; else the mission ends
+  bool when_grid_finds_nothing = true;  // else the mission ends without having looked for any
 };
 
 /// 3 x 3 x 3 positions in the body-yaw frame at step_m * scale, times 3 yaws, yaws innermost, in a

@@ -99,6 +99,9 @@ void fields(FieldVisitor& v, FvsConfig& c) {
          "A view must see part of the cluster unoccluded.");
   v.flag("agvs_when_stuck", c.agvs_when_stuck,
          "Where no cluster has a valid view, sample the grid; false: the mission ends.");
+  v.flag("when_grid_finds_nothing", c.when_grid_finds_nothing,
+         "Where the grid has no valid view, sample frontier views, at last by a way around; false: "
+         "the mission ends.");
 }
 
 void fields(FieldVisitor& v, PathSearchConfig& c) {

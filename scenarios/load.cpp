@@ -105,8 +105,24 @@ void add_problems(const Scenario& scenario, MeshFile mesh_file, const Origin& so
   }
 }
 
+/// What was not given and is another afterwards is the filling's.
+void fill_in(const Filling& filling, Scenario& scenario, Origins& origins) {
+  const auto is_given = [&](std::string_view key) {
+    return std::any_of(origins.begin(), origins.end(), [&](const auto& given) {
+      return given.second.rank > 0 && is_at_or_below(given.first, key);
+    });
+  };
+  const auto before = scenario_values(scenario);
+  filling.fill(scenario, is_given);
+  const auto after = scenario_values(scenario);
+  GNBV_CHECK(before.size() == after.size(), "a filling made keys");
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    if (after[i] != before[i]) origins[after[i].first] = {filling.source, 0, 1};
+  }
+}
+
 Scenario load(const std::string& name_or_path, const std::vector<Override>& overrides,
-              MeshFile mesh_file) {
+              MeshFile mesh_file, const Filling& filling) {
   const Source source = open_source(name_or_path);
   const Origin origin = {source.label, 1, 0};
   Faults faults;
@@ -123,6 +139,7 @@ Scenario load(const std::string& name_or_path, const std::vector<Override>& over
     const auto picks = parse_override(text, given, faults);
     if (picks) read_scenario(*picks, folder.empty() ? here() : folder, scenario, faults, origins);
   }
+  if (filling.fill && faults.empty()) fill_in(filling, scenario, origins);
   if (root->kind == YamlNode::Kind::map) {
     add_problems(scenario, mesh_file, origin, origins, faults);
   }
@@ -145,12 +162,12 @@ Scenario load_scenario(const std::string& name_or_path, const std::vector<std::s
 }
 
 Scenario load_flown_scenario(const std::string& path) {
-  return load(path, {}, MeshFile::may_be_missing);
+  return load(path, {}, MeshFile::may_be_missing, {});
 }
 
 Scenario load_with_overrides(const std::string& name_or_path,
-                             const std::vector<Override>& overrides) {
-  return load(name_or_path, overrides, MeshFile::has_to_be_there);
+                             const std::vector<Override>& overrides, const Filling& filling) {
+  return load(name_or_path, overrides, MeshFile::has_to_be_there, filling);
 }
 
 }  // namespace gnbv

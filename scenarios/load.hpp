@@ -1,7 +1,9 @@
 // Scenario files: YAML in, typed values out, nothing guessed.
 #pragma once
 
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scenarios/scenario.hpp"
@@ -30,9 +32,17 @@ struct Override {
   std::string folder{};  // where its relative paths begin; "" = the current folder
 };
 
-/// load_scenario() with overrides that were not given on the command line.
+/// Fills in values of a scenario that was read, before they are checked against each other.
+/// `is_given` says whether an override, rather than the file, gave a key or one below it.
+struct Filling {
+  std::string source;  // as faults of what was filled in show it
+  std::function<void(Scenario&, const std::function<bool(std::string_view)>& is_given)> fill;
+};
+
+/// load_scenario() with overrides that were not given on the command line, and perhaps with values
+/// that depend on the rest: a filling's come last, and throw BadInput when they cannot be had.
 Scenario load_with_overrides(const std::string& name_or_path,
-                             const std::vector<Override>& overrides);
+                             const std::vector<Override>& overrides, const Filling& filling = {});
 
 /// The resolved configuration as YAML, every key with its value and absolute paths: load_scenario
 /// on it gives the same Scenario, bit for bit, if load_scenario made it. (An angle set by other

@@ -1,6 +1,8 @@
 // Frontier views at a local minimum: which clusters are looked at, and in which order.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/planner/wall_world.hpp"
 
 namespace gnbv {
@@ -160,6 +162,61 @@ TEST(FrontierViews, LiteralClustersAreOneAndItsCentroidMayBeUnreachable) {
   });
   EXPECT_TRUE(full_plan(cut, belief_of(cut), still_history()).next);
   EXPECT_FALSE(full_plan(uncut, belief_of(uncut), still_history()).next);
+}
+
+/// Far from the wall, looking away from it: no view nearby sees any surface.
+const ViewPose kTurnedAway{Vec3(-7.5, 0.1, 4.1), kPi};
+
+Plan plan_turned_away(const PlannerModel& model, const Belief& belief) {
+  Workbench bench(model, 2);
+  return plan_next_view(model, belief, {}, kTurnedAway, bench);
+}
+
+PlannerModel model_of_grid_that_fails(const std::function<void(FvsConfig&)>& change) {
+  return model_with([&](PlannerConfig& c) {
+    c.agvs.scales = false;
+    change(c.fvs);
+  });
+}
+
+TEST(FrontierViews, AreTriedWhereTheGridFindsNothing) {
+  const auto plan_with = [](bool are_tried) {
+    const PlannerModel model =
+        model_of_grid_that_fails([&](FvsConfig& fvs) { fvs.when_grid_finds_nothing = are_tried; });
+    Belief belief = wall_ahead(model, everywhere);
+    sample_thinly(belief);
+    return plan_turned_away(model, belief);
+  };
+  EXPECT_FALSE(plan_with(false).next);
+  const Plan plan = plan_with(true);
+  ASSERT_TRUE(plan.next);
+  EXPECT_EQ(plan.next->sampler, "fvs");
+  EXPECT_TRUE(plan.next->via_world_m.empty());
+  // the record has the grid's candidates, too
+  EXPECT_EQ(plan.candidates.front().rejected, Rejection::sees_no_surface);
+}
+
+TEST(FrontierViews, AreReachedOnAWayAroundBeforeTheMissionEnds) {
+  const PlannerModel model = model_of_grid_that_fails([](FvsConfig&) {});
+  Belief belief = wall_ahead(model, everywhere);
+  sample_thinly(belief);
+  const GridGeometry& grid = belief.grid.geometry();
+  ScanUpdate screen;  // with a gap far to the side, through which no straight way leads
+  for (VoxelIndex v = 0; v < grid.voxel_count(); ++v) {
+    const Vec3 center_m = grid.center_m(grid.key_at(v));
+    if (std::fabs(center_m.x() + 4.1) < 0.05 && center_m.y() < 4.0) screen.occupied.push_back(v);
+  }
+  for (int hits = 0; hits < 8; ++hits) belief.grid.apply(screen);
+  const Plan plan = plan_turned_away(model, belief);
+  ASSERT_TRUE(plan.next);
+  EXPECT_EQ(plan.next->sampler, "fvs");
+  EXPECT_GT(plan.next->view.p_world_m.x(), -4.0);
+  EXPECT_FALSE(plan.next->via_world_m.empty());
+  // straight ways were tried first, and each was blocked
+  const auto straight = std::find_if(plan.candidates.begin(), plan.candidates.end(),
+                                     [](const Candidate& c) { return c.sampler == "fvs"; });
+  ASSERT_NE(straight, plan.candidates.end());
+  EXPECT_TRUE(straight->rejected);
 }
 
 }  // namespace

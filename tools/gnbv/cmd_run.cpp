@@ -7,6 +7,7 @@
 #include "bench/compare/paper_table.hpp"
 #include "sim/core/file.hpp"
 #include "tools/gnbv/commands.hpp"
+#include "tools/gnbv/early_end.hpp"
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/run_files/file_names.hpp"
@@ -30,6 +31,9 @@ void run(const RunOptions& options) {
   } else {
     fmt::print("{}\n{}\n", one_row_summary(read_run_figures(mission.folder)),
                mission.folder.string());
+  }
+  if (const std::string note = early_end_note(mission.result); !note.empty()) {
+    fmt::print(stderr, "gnbv: {}", note);
   }
   if (mission.result.termination == Termination::collision) {
     throw CommandFailed("the vehicle hit something; the run directory shows where");

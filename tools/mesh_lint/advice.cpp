@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 
+#include "scenarios/problems.hpp"
 #include "sensors/ray_scene.hpp"
 #include "sim/core/error.hpp"
 #include "sim/mesh/mesh_units.hpp"
@@ -119,11 +120,15 @@ std::string fault_of(const std::function<void()>& attempt) {
 }
 
 /// A workspace around it, with a map so coarse that it can be held.
-void lay_bounds(Scenario& scenario, const Box3& box_m, Advice& advice) {
+void lay_bounds(const Scenario& scenario, const TriangleMesh& mesh, Advice& advice) {
   constexpr int kTries = 40;
   constexpr double kStep = 1.15;
   Scenario laid = scenario;
-  const auto fault = [&] { return fault_of([&] { with_bounds_around(laid, box_m); }); };
+  const StructureExtent extent = extent_of(mesh);
+  const auto fault = [&]() -> std::string {
+    const std::vector<Problem> all = problems(with_bounds_around(laid, extent));
+    return all.empty() ? "" : all.front().what;
+  };
   advice.bounds_fault = fault();
   for (int i = 0; i < kTries && !advice.bounds_fault.empty(); ++i) {
     double& resolution_m = laid.planner.map.resolution_m;
@@ -132,7 +137,6 @@ void lay_bounds(Scenario& scenario, const Box3& box_m, Advice& advice) {
     advice.bounds_fault.clear();
     advice.resolution = fmt::format("planner.map.resolution_m={}", resolution_m);
   }
-  if (advice.bounds_fault.empty()) scenario = with_bounds_around(laid, box_m);
 }
 
 }  // namespace
@@ -176,7 +180,7 @@ Advice advise(const MeshReport& report, const Scenario& scenario, bool bounds_au
     advice.start_fault = fault_of([&] { start_pose(flown, scene); });
   }
   advice.needs_bounds = bounds_auto || is_outside || !advice.start_fault.empty();
-  if (advice.needs_bounds) lay_bounds(flown, whole_m, advice);
+  if (advice.needs_bounds) lay_bounds(flown, world.structure, advice);
   return advice;
 }
 

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
+#include "bench/score/surface_samples.hpp"
 #include "planner/view_validity.hpp"
-#include "scenarios/problems.hpp"
 #include "sim/core/error.hpp"
+#include "sim/mesh/mesh_lint.hpp"
 
 namespace gnbv {
 namespace {
@@ -28,6 +30,50 @@ Box3 rounded(const Box3& box_m, double resolution_m) {
   return {low * resolution_m, high * resolution_m};
 }
 
+/// How much of the surface is before a camera that looks north from there.
+std::size_t in_view(const Scenario& scenario, const Vec3& p_m, std::span<const Vec3f> surface_m) {
+  const auto is_in_view = [&](const Vec3f& at_m) {
+    const Vec3 to_m = at_m.cast<double>() - p_m;
+    return std::any_of(
+        scenario.cameras.begin(), scenario.cameras.end(), [&](const CameraConfig& camera) {
+          const double tan_x = std::tan(0.5 * camera.fov_x_rad);
+          const double tan_up = std::tan(0.5 * camera.fov_y_rad - camera.pitch_rad);
+          const double tan_down = std::tan(0.5 * camera.fov_y_rad + camera.pitch_rad);
+          return to_m.y() > 0.0 && to_m.norm() <= camera.range_max_m &&
+                 std::abs(to_m.x()) <= tan_x * to_m.y() && to_m.z() <= tan_up * to_m.y() &&
+                 -to_m.z() <= tan_down * to_m.y();
+        });
+  };
+  return static_cast<std::size_t>(std::count_if(surface_m.begin(), surface_m.end(), is_in_view));
+}
+
+/// On the navigation box's south face, on a lattice that begins at its middle.
+Vec3 start_on_south_face(const Scenario& scenario, const StructureExtent& structure) {
+  constexpr int kSteps = 12;  // to either side
+  const Box3 navigation_m = navigation_box_m(scenario.planner.validity, scenario.workspace_m);
+  const Vec3 low_m = structure.box_m.min().cwiseMax(navigation_m.min());
+  const Vec3 high_m = structure.box_m.max().cwiseMin(navigation_m.max());
+  const Vec3 middle_m =
+      (0.5 * (low_m + high_m)).cwiseMax(navigation_m.min()).cwiseMin(navigation_m.max());
+  const Vec3 step_m = ((high_m - low_m) / (2.0 * kSteps)).cwiseMax(0.0);
+  Vec3 best_m(middle_m.x(), navigation_m.min().y(), middle_m.z());
+  std::size_t most = in_view(scenario, best_m, structure.surface_world_m);
+  for (int ring = 1; ring <= kSteps; ++ring) {
+    for (int i = -ring; i <= ring; ++i) {
+      for (int k = -ring; k <= ring; ++k) {
+        if (std::max(std::abs(i), std::abs(k)) != ring) continue;
+        const Vec3 p_m(middle_m.x() + i * step_m.x(), navigation_m.min().y(),
+                       middle_m.z() + k * step_m.z());
+        const std::size_t seen = in_view(scenario, p_m, structure.surface_world_m);
+        if (seen <= most) continue;
+        most = seen;
+        best_m = p_m;
+      }
+    }
+  }
+  return best_m;
+}
+
 }  // namespace
 
 double flight_margin_m(const Scenario& scenario) {
@@ -39,33 +85,38 @@ double flight_margin_m(const Scenario& scenario) {
                   scenario.planner.validity.collision_radius_m + kClearance_m);
 }
 
-Scenario with_bounds_around(const Scenario& scenario, const Box3& structure_m) {
-  GNBV_CHECK(!structure_m.isEmpty(), "the structure has no box");
-  const double margin_m = flight_margin_m(scenario);
-  const ValidityConfig& validity = scenario.planner.validity;
-  const double lowest_m = structure_m.min().z();
-  const double floor_m = floor_of_m(scenario, lowest_m, margin_m);
-  const double top_m = std::max(structure_m.max().z(), validity.z_min_m) + margin_m;
-  const Vec3 sides_m(margin_m, margin_m, 0.0);
-  Box3 box(Vec3(structure_m.min() - sides_m), Vec3(structure_m.max() + sides_m));
-  box.min().z() = floor_m;
-  box.max().z() = top_m;
-
-  Scenario out = scenario;
-  out.workspace_m = rounded(box, scenario.planner.map.resolution_m);
-  const Box3 navigation_m = navigation_box_m(validity, out.workspace_m);
-  const double height_m = scenario.start.pose.p_world_m.z() - scenario.workspace_m.min().z();
-  out.start.pose.p_world_m = {structure_m.center().x(), out.workspace_m.min().y(),
-                              std::clamp(out.workspace_m.min().z() + height_m,
-                                         navigation_m.min().z(), navigation_m.max().z())};
-  out.start.pose.yaw_rad = 0.5 * kPi;
-
-  std::string faults;
-  for (const Problem& problem : problems(out)) {
-    faults += fmt::format("{}--bounds auto: {}: {}", faults.empty() ? "" : "\n",
-                          problem.keys.front(), problem.what);
+StructureExtent extent_of(const TriangleMesh& structure) {
+  constexpr double kSamples = 2000.0;
+  StructureExtent extent{.box_m = bounds_m(structure), .surface_world_m = {}};
+  const double area_m2 = surface_area_m2(structure);
+  if (area_m2 <= 0.0) return extent;
+  for (const SurfaceSample& s : sample_surface(structure, std::sqrt(area_m2 / kSamples))) {
+    extent.surface_world_m.push_back(s.p_world_m);
   }
-  if (!faults.empty()) throw BadInput(faults);
+  return extent;
+}
+
+Scenario with_bounds_around(const Scenario& scenario, const StructureExtent& structure,
+                            const GivenBounds& given) {
+  const Box3& structure_m = structure.box_m;
+  GNBV_CHECK(!structure_m.isEmpty(), "the structure has no box");
+  Scenario out = scenario;
+  const ValidityConfig& validity = scenario.planner.validity;
+  if (!given.workspace) {
+    const double margin_m = flight_margin_m(scenario);
+    const Vec3 sides_m(margin_m, margin_m, 0.0);
+    Box3 box(Vec3(structure_m.min() - sides_m), Vec3(structure_m.max() + sides_m));
+    box.min().z() = floor_of_m(scenario, structure_m.min().z(), margin_m);
+    box.max().z() = std::max(structure_m.max().z(), validity.z_min_m) + margin_m;
+    if (given.position) box.extend(scenario.start.pose.p_world_m);
+    out.workspace_m = rounded(box, scenario.planner.map.resolution_m);
+  }
+  if (!given.position) out.start.pose.p_world_m = start_on_south_face(out, structure);
+  if (!given.yaw) {
+    const Vec3 to_m = structure_m.center() - out.start.pose.p_world_m;
+    const bool is_north = !given.position;
+    out.start.pose.yaw_rad = is_north ? 0.5 * kPi : std::atan2(to_m.y(), to_m.x());
+  }
   return out;
 }
 

@@ -1,7 +1,10 @@
 // `--bounds auto`: a workspace and a start for a structure that nobody wrote a scenario for.
 #pragma once
 
+#include <vector>
+
 #include "scenarios/scenario.hpp"
+#include "sim/mesh/triangle_mesh.hpp"
 
 namespace gnbv {
 
@@ -10,15 +13,30 @@ namespace gnbv {
 /// collision radius and 2 m more, so that the vehicle can pass on every side.
 double flight_margin_m(const Scenario& scenario);
 
+/// Where a structure is, for whom no more needs to be known.
+struct StructureExtent {
+  Box3 box_m;
+  std::vector<Vec3f> surface_world_m = {};  // points spread over it
+};
+StructureExtent extent_of(const TriangleMesh& structure);
+
+/// What the user said, which is left alone.
+struct GivenBounds {
+  bool workspace = false;
+  bool position = false;
+  bool yaw = false;
+};
+
 /// The scenario with its workspace laid around the structure, wherever that is, and its start
-/// moved there. The workspace is the structure's box grown by the margin to the sides and above,
-/// its faces on multiples of the map's resolution. Its floor is the ground, z = 0; the structure's
-/// lowest point where it sinks below; and the margin below its lowest point where it floats higher
-/// than that, or where there is no ground. The top is high enough to fly at z_min_m, whatever the
-/// structure's height. The start is the middle of the workspace's south face, looking north at the
-/// structure, as high above the floor as the scenario's own, within the navigation box; its jitter
-/// stays. Throws BadInput with all faults of the resulting scenario (problems()): a map too large,
-/// or too far from the origin for OctoMap's keys.
-Scenario with_bounds_around(const Scenario& scenario, const Box3& structure_m);
+/// moved there. The workspace is the structure's box, and a start that is given, grown by the
+/// margin to the sides and above (the start only as far as it needs), its faces on multiples of
+/// the map's resolution. Its floor is the ground, z = 0; the structure's lowest point where it
+/// sinks below; and the margin below its lowest point where it floats higher than that, or where
+/// there is no ground. The top is high enough to fly at z_min_m, whatever the structure's height.
+/// The start is on the workspace's south face, looking north, where most of the surface is in
+/// front of a camera and within its range, near the middle of equals; its jitter stays. What comes
+/// of it may not be flyable: ask problems().
+Scenario with_bounds_around(const Scenario& scenario, const StructureExtent& structure,
+                            const GivenBounds& given = {});
 
 }  // namespace gnbv

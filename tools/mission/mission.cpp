@@ -116,6 +116,11 @@ std::optional<Decision> decide(Mission& m) {
                   ? follow_route(m.planner, m.out.belief, m.history, *m.laid_route, m.current)
                   : plan_next_view(m.planner, m.out.belief, m.history, m.current, m.bench);
   m.hooks.on_candidates(next, plan);
+  if (!plan.next) {
+    for (const Candidate& candidate : plan.candidates) {
+      if (candidate.rejected) ++m.out.last_rejections[*candidate.rejected];
+    }
+  }
   return std::move(plan.next);
 }
 

@@ -13,15 +13,15 @@ namespace gnbv {
 
 namespace fs = std::filesystem;
 
-Box3 structure_bounds_m(const Scenario& scenario) {
+StructureExtent structure_extent(const Scenario& scenario) {
   std::vector<std::string> warnings;  // repeated when the mission loads the structure
-  return bounds_m(load_structure(scenario, warnings));
+  return extent_of(load_structure(scenario, warnings));
 }
 
 Scenario resolve_scenario(const ScenarioOptions& options) { return resolve_scenario(options, {}); }
 
 Scenario resolve_scenario(const ScenarioOptions& options, const std::vector<Override>& overrides,
-                          const std::function<Box3(const Scenario&)>& bounds_m) {
+                          const std::function<StructureExtent(const Scenario&)>& extent) {
   std::vector<Override> all;
   const auto add = [&all](std::string text) { all.push_back({.text = std::move(text)}); };
   // absolute, since a relative path in a scenario file is relative to that file
@@ -34,8 +34,16 @@ Scenario resolve_scenario(const ScenarioOptions& options, const std::vector<Over
   if (!options.seed.empty()) add("seed=" + options.seed);
   for (const std::string& text : options.overrides) add(text);
   all.insert(all.end(), overrides.begin(), overrides.end());
-  const Scenario scenario = load_with_overrides(options.scenario, all);
-  return options.bounds_auto ? with_bounds_around(scenario, bounds_m(scenario)) : scenario;
+  Filling bounds{.source = "--bounds auto", .fill = {}};
+  if (options.bounds_auto) {
+    bounds.fill = [&](Scenario& scenario, const auto& is_given) {
+      scenario = with_bounds_around(scenario, extent(scenario),
+                                    {.workspace = is_given("workspace_m"),
+                                     .position = is_given("start.position_m"),
+                                     .yaw = is_given("start.yaw_deg")});
+    };
+  }
+  return load_with_overrides(options.scenario, all, bounds);
 }
 
 }  // namespace gnbv

@@ -7,6 +7,7 @@
 
 #include "scenarios/load.hpp"
 #include "scenarios/scenario.hpp"
+#include "tools/mission/auto_bounds.hpp"
 
 namespace gnbv {
 
@@ -21,17 +22,18 @@ struct ScenarioOptions {
   bool bounds_auto = false;            // lay the workspace and the start around the structure
 };
 
-/// The box of the scenario's structure; throws BadInput when the structure cannot be had.
-Box3 structure_bounds_m(const Scenario& scenario);
+/// Of the scenario's structure; throws BadInput when the structure cannot be had.
+StructureExtent structure_extent(const Scenario& scenario);
 
-/// The scenario with the options applied: --mesh, --utility, --preset, --seed, then --set.
+/// The scenario with the options applied: --mesh, --utility, --preset, --seed, then --set, then
+/// --bounds auto, which leaves alone what --set gave.
 Scenario resolve_scenario(const ScenarioOptions& options);
 
 /// The same for overrides that say where they come from; they are applied after those of the
-/// options. `bounds_m` is asked only for bounds_auto: whoever resolves many scenarios of one
+/// options. `extent` is asked only for bounds_auto: whoever resolves many scenarios of one
 /// structure can answer from memory.
 Scenario resolve_scenario(
     const ScenarioOptions& options, const std::vector<Override>& overrides,
-    const std::function<Box3(const Scenario&)>& bounds_m = structure_bounds_m);
+    const std::function<StructureExtent(const Scenario&)>& extent = structure_extent);
 
 }  // namespace gnbv

@@ -1,6 +1,7 @@
 // What a mission leaves behind.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,7 @@ struct MissionResult {
 
   ViewPose start;  // of the mission, and of the first view
   Termination termination = Termination::interrupted;
+  std::map<Rejection, int> last_rejections;  // of the decision that found no valid view
   std::vector<ViewRecord> views;
   std::vector<TrajectorySample> trajectory;  // true motion at 10 Hz
   MissionDistances distance;

@@ -124,6 +124,14 @@ CloudDistances distances_of(const SummaryReader& summary) {
   return distances;
 }
 
+/// How many candidates of the decision that found no valid view were rejected, and why.
+Json rejections_of(const std::map<Rejection, int>& rejections) {
+  if (rejections.empty()) return nullptr;
+  Json counts = Json::object();
+  for (const auto& [reason, count] : rejections) counts[std::string(name_of(reason))] = count;
+  return counts;
+}
+
 }  // namespace
 
 std::string summary_json(const Scenario& scenario, const MissionResult& r,
@@ -145,6 +153,7 @@ std::string summary_json(const Scenario& scenario, const MissionResult& r,
       {"version", GNBV_VERSION},
       {"iterations", r.views.size()},
       {"termination", name_of(r.termination)},
+      {"last_rejections", rejections_of(r.last_rejections)},
       {"distance_m",
        {{"straight", r.distance.straight_m},
         {"flown", r.distance.flown_m},

@@ -10,7 +10,7 @@
 namespace gnbv {
 namespace {
 
-/// Resolves scenarios; the boxes of their structures are found once each.
+/// Resolves scenarios; the extents of their structures are found once each.
 class Resolver {
  public:
   explicit Resolver(const Sweep& sweep) : sweep_(sweep) {}
@@ -29,7 +29,7 @@ class Resolver {
     options.mesh = scenario.mesh;
     options.bounds_auto = scenario.bounds_auto;
     return resolve_scenario(options, overrides,
-                            [this](const Scenario& resolved) { return bounds_of(resolved); });
+                            [this](const Scenario& resolved) { return extent_of(resolved); });
   }
 
  private:
@@ -42,19 +42,19 @@ class Resolver {
     }
   }
 
-  Box3 bounds_of(const Scenario& scenario) {
+  StructureExtent extent_of(const Scenario& scenario) {
     const StructureConfig& s = scenario.structure;
     const Vec3& offset_m = s.file.offset_m;
     const std::string key =
         fmt::format("{}|{}|{}|{} {} {}|{}|{}", s.builtin, s.file.path, s.file.scale, offset_m.x(),
                     offset_m.y(), offset_m.z(), s.file.up_axis, s.file.unit_m);
-    const auto known = bounds_m_.find(key);
-    if (known != bounds_m_.end()) return known->second;
-    return bounds_m_[key] = structure_bounds_m(scenario);
+    const auto known = extents_.find(key);
+    if (known != extents_.end()) return known->second;
+    return extents_[key] = structure_extent(scenario);
   }
 
   const Sweep& sweep_;
-  std::map<std::string, Box3> bounds_m_;
+  std::map<std::string, StructureExtent> extents_;
 };
 
 Cell make_cell(const SweepScenario& scenario, const SweepMethod& method, std::uint64_t seed,

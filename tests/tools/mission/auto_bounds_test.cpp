@@ -7,6 +7,10 @@
 #include "scenarios/problems.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
+#include "sim/mesh/mesh_file.hpp"
+#include "tests/bench/shapes.hpp"
+#include "tests/support/temp_folder.hpp"
+#include "tools/mission/resolve.hpp"
 
 namespace gnbv {
 namespace {
@@ -25,17 +29,17 @@ TEST(AutoBounds, MarginFollowsTheLongestRangeAndTheRadius) {
 }
 
 TEST(AutoBounds, ThePapersAircraftKeepsAboutItsOwnWorkspace) {
-  const Scenario out =
-      with_bounds_around(aircraft(), Box3(Vec3(-14.93, -17.68, 0.42), Vec3(14.93, 17.69, 8.09)));
+  const Scenario out = with_bounds_around(
+      aircraft(), {Box3(Vec3(-14.93, -17.68, 0.42), Vec3(14.93, 17.69, 8.09)), {}});
   EXPECT_TRUE(out.workspace_m.min().isApprox(Vec3(-20.0, -22.8, 0.0)));
   EXPECT_TRUE(out.workspace_m.max().isApprox(Vec3(20.0, 22.8, 13.2)));
-  EXPECT_TRUE(out.start.pose.p_world_m.isApprox(Vec3(0.0, -22.8, 5.0)));
+  EXPECT_TRUE(out.start.pose.p_world_m.isApprox(Vec3(0.0, -22.8, 0.5 * (0.7 + 8.09))));
   EXPECT_DOUBLE_EQ(out.start.pose.yaw_rad, 0.5 * kPi);
 }
 
 /// What has to hold around any structure.
 void expect_sound(const Scenario& from, const Box3& structure_m) {
-  const Scenario out = with_bounds_around(from, structure_m);
+  const Scenario out = with_bounds_around(from, {structure_m, {}});
   const double margin_m = flight_margin_m(from);
   const double step_m = from.planner.map.resolution_m;
   const Box3& room = out.workspace_m;
@@ -79,7 +83,8 @@ TEST(AutoBounds, EveryStructureGetsRoomOnTheLatticeAndALegalStart) {
 TEST(AutoBounds, FloorIsTheGroundUnlessTheStructureSinksOrFloatsAway) {
   Scenario scenario = aircraft();
   const auto floor_of = [&](double lowest_m) {
-    return with_bounds_around(scenario, Box3(Vec3(-1, -1, lowest_m), Vec3(1, 1, lowest_m + 2)))
+    return with_bounds_around(scenario,
+                              {Box3(Vec3(-1, -1, lowest_m), Vec3(1, 1, lowest_m + 2)), {}})
         .workspace_m.min()
         .z();
   };
@@ -93,14 +98,64 @@ TEST(AutoBounds, FloorIsTheGroundUnlessTheStructureSinksOrFloatsAway) {
   EXPECT_NEAR(floor_of(0.0), -5.0, 1e-9);
 }
 
-TEST(AutoBounds, WhatNoMapCanHoldIsRefusedWithItsReason) {
+/// A slender mast with a cabin on top, 28 m above the ground.
+TriangleMesh lookout() {
+  TriangleMesh mesh;
+  test::add_box(mesh, {-0.15, -0.15, 0}, {0.3, 0.3, 28});
+  test::add_box(mesh, {-5, -5, 28}, {10, 10, 4});
+  return mesh;
+}
+
+TEST(AutoBounds, TheStartIsWhereMostIsToBeSeen) {
+  const Scenario out = with_bounds_around(aircraft(), extent_of(lookout()));
+  EXPECT_GT(out.start.pose.p_world_m.z(), 26.0);
+  EXPECT_LE(std::abs(out.start.pose.p_world_m.x()), 5.0);
+  EXPECT_EQ(out.start.pose.p_world_m.y(), out.workspace_m.min().y());
+}
+
+class GivenBoundsTest : public testing::Test {
+ protected:
+  GivenBoundsTest() { write_mesh(lookout(), temp_.path() / "t.obj"); }
+  Scenario resolved(const std::vector<std::string>& sets) const {
+    ScenarioOptions options;
+    options.scenario = "aircraft";
+    options.mesh = (temp_.path() / "t.obj").string();
+    options.overrides = sets;
+    options.bounds_auto = true;
+    return resolve_scenario(options);
+  }
+  TempFolder temp_;
+};
+
+TEST_F(GivenBoundsTest, WhatTheUserSaysWins) {
+  // outside the scenario's own workspace, and outside what would be laid around the structure
+  const Scenario start = resolved({"start.position_m=[0, -30, 35]"});
+  EXPECT_EQ(start.start.pose.p_world_m, Vec3(0, -30, 35));
+  EXPECT_LE(start.workspace_m.min().y(), -30.0);
+  EXPECT_GE(start.workspace_m.max().y(), 10.0);
+  EXPECT_NEAR(start.start.pose.yaw_rad, 0.5 * kPi, 1e-9);
+  EXPECT_NEAR(resolved({"start={yaw_deg: 10}"}).start.pose.yaw_rad, deg_to_rad(10.0), 1e-12);
+  const Scenario room = resolved({"workspace_m={min: [-9, -9, 0], max: [9, 9, 40]}"});
+  EXPECT_EQ(room.workspace_m.min(), Vec3(-9, -9, 0));
+  EXPECT_EQ(room.workspace_m.max(), Vec3(9, 9, 40));
+  EXPECT_TRUE(room.workspace_m.contains(room.start.pose.p_world_m));
+  EXPECT_GT(room.start.pose.p_world_m.z(), 26.0);
+}
+
+TEST_F(GivenBoundsTest, WhatDoesNotFitIsRefusedByItsOwnName) {
+  try {
+    resolved({"workspace_m={min: [-9, -9, 0], max: [9, 9, 40]}", "start.position_m=[0, -30, 35]"});
+    FAIL() << "accepted";
+  } catch (const BadInput& error) {
+    EXPECT_NE(std::string(error.what()).find("--set start.position_m"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(AutoBounds, WhatNoMapCanHoldIsSaidByItsProblems) {
   const auto complaint = [](const Box3& structure_m) -> std::string {
-    try {
-      with_bounds_around(aircraft(), structure_m);
-    } catch (const BadInput& error) {
-      return error.what();
-    }
-    return "";
+    const auto all = problems(with_bounds_around(aircraft(), {structure_m, {}}));
+    return all.empty() ? "" : all.front().keys.front() + all.front().what;
   };
   // 32767 voxels of 0.2 m reach 6553 m
   EXPECT_EQ(complaint(Box3(Vec3(6540, 0, 0), Vec3(6548, 1, 1))), "");

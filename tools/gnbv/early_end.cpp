@@ -1,0 +1,97 @@
+#include "tools/gnbv/early_end.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace gnbv {
+namespace {
+
+constexpr std::size_t kFewViews = 20;
+
+std::string_view meaning_of(Rejection reason) {
+  switch (reason) {
+    case Rejection::out_of_bounds:
+      return "outside the workspace";
+    case Rejection::not_free:
+      return "in space that is occupied or was never measured";
+    case Rejection::collision:
+      return "within planner.validity.collision_radius_m of the structure";
+    case Rejection::path_blocked:
+      return "behind something: no clear way there";
+    case Rejection::recently_visited:
+      return "visited already";
+    case Rejection::cluster_outside_fov:
+      return "not looking at their frontier: it is out of the cameras' range or opening";
+    case Rejection::cluster_hidden:
+      return "not seeing their frontier: something is in between";
+    case Rejection::sees_no_surface:
+      return "without any surface in sight";
+  }
+  return "";
+}
+
+std::string_view remedy_for(Rejection reason) {
+  switch (reason) {
+    case Rejection::out_of_bounds:
+      return "give it room: workspace_m, or --bounds auto";
+    case Rejection::not_free:
+      return "measure more first (planner.profiling.method: bounding_box), or "
+             "planner.validity.allow_unknown: true";
+    case Rejection::collision:
+      return "a smaller planner.validity.collision_radius_m, or a larger workspace_m";
+    case Rejection::path_blocked:
+      return "planner.validity.path: astar";
+    case Rejection::recently_visited:
+      return "a larger planner.agvs.step_m or planner.fvs.radius_m";
+    case Rejection::cluster_outside_fov:
+    case Rejection::cluster_hidden:
+      return "a planner.fvs.radius_m that suits the cameras' range, and more "
+             "planner.fvs.views_per_layer";
+    case Rejection::sees_no_surface:
+      return "begin where the structure can be seen (start.position_m, or --bounds auto), with "
+             "planner.fvs.enabled: true";
+  }
+  return "";
+}
+
+std::string of_no_valid_view(const std::map<Rejection, int>& rejections) {
+  int all = 0;
+  std::vector<std::pair<Rejection, int>> by_count(rejections.begin(), rejections.end());
+  std::stable_sort(by_count.begin(), by_count.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  for (const auto& [reason, count] : by_count) all += count;
+  if (all == 0) return "no view was sampled; what helps: planner.fvs.enabled: true\n";
+  std::string text = fmt::format("none of {} views that were tried will do:\n", all);
+  for (const auto& [reason, count] : by_count) {
+    text += fmt::format("  {:5} {}\n", count, meaning_of(reason));
+  }
+  return text + fmt::format("what helps: {}\n", remedy_for(by_count.front().first));
+}
+
+}  // namespace
+
+std::string early_end_note(const MissionResult& result) {
+  const std::size_t views = result.views.size();
+  if (views >= kFewViews) return "";
+  const std::string after = fmt::format(
+      "the mission ended after {} view{}, before it explored: ", views, views == 1 ? "" : "s");
+  switch (result.termination) {
+    case Termination::no_valid_view:
+      return after + of_no_valid_view(result.last_rejections);
+    case Termination::repeated_motion:
+      return after +
+             "it went back and forth between two places; what helps: planner.fvs.enabled: true, or "
+             "planner.termination.repeated_moves: 0\n";
+    case Termination::entropy_change:
+      return after +
+             "views changed the map too little; what helps: a smaller "
+             "planner.termination.entropy_change_percent (0: never)\n";
+    case Termination::battery:
+      return after + "the battery was empty; what helps: vehicle.power.battery_wh\n";
+    default:
+      return "";
+  }
+}
+
+}  // namespace gnbv
