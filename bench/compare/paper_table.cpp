@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "bench/compare/statistics.hpp"
 #include "bench/compare/table_groups.hpp"
+#include "sim/core/counted.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {
@@ -206,10 +208,12 @@ std::string runs_note(const std::string& utility, const Runs& runs) {
     least = std::min(least, run->coverage_final[0]);
     most = std::max(most, run->coverage_final[0]);
   }
+  const auto views =
+      static_cast<std::size_t>(std::lround(mean([](const RunFigures& r) { return r.iterations; })));
   std::string note = fmt::format(
-      "{}: ended by {} after {:.0f} views; flown {:.1f} m; all surface, also inner: {}; {:.1f} s "
+      "{}: ended by {} after {}; flown {:.1f} m; all surface, also inner: {}; {:.1f} s "
       "of wall time",
-      utility, terminations(runs), mean([](const RunFigures& r) { return r.iterations; }),
+      utility, terminations(runs), counted(views, "view", "views"),
       mean([](const RunFigures& r) { return r.flown_m; }), three_percent(raw),
       mean([](const RunFigures& r) { return r.wall_s; }));
   if (runs.size() > 1) {
@@ -286,8 +290,8 @@ TextTable comparison_table(const PaperTable& paper, std::span<const RunFigures> 
   return table;
 }
 
-std::string one_row_summary(const RunFigures& run) {
-  const PaperTable* const paper = find_paper_table(run.scenario);
+std::string one_row_summary(const RunFigures& run, bool has_papers_setting) {
+  const PaperTable* const paper = has_papers_setting ? find_paper_table(run.scenario) : nullptr;
   const PaperRow* const row = paper == nullptr ? nullptr : find_row(*paper, run.utility);
   TextTable table;
   table.columns = all_columns();

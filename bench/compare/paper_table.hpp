@@ -22,8 +22,8 @@ TextTable comparison_table(const PaperTable& paper, std::span<const RunFigures> 
                            const std::optional<Ceiling>& ceiling,
                            std::span<const std::string> settings = {});
 
-/// The mission's row as a small aligned table; below it the paper's, if the paper has one for this
-/// scenario, utility and structure.
-std::string one_row_summary(const RunFigures& run);
+/// The mission's row as a small aligned table; below it, if the mission's setting is the paper's,
+/// the paper's row for its scenario, utility and structure, where it has one.
+std::string one_row_summary(const RunFigures& run, bool has_papers_setting);
 
 }  // namespace gnbv

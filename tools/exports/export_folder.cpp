@@ -104,6 +104,13 @@ void take_place(const fs::path& part, const fs::path& folder) {
   fs::remove_all(old);
 }
 
+/// The topmost of a path's folders that is not there; "" when all are.
+fs::path first_missing(fs::path folder) {
+  fs::path missing;
+  for (; !folder.empty() && !fs::exists(folder); folder = folder.parent_path()) missing = folder;
+  return missing;
+}
+
 }  // namespace
 
 void write_export_folder(const RunRecord& record, std::string_view format, const fs::path& folder,
@@ -112,6 +119,15 @@ void write_export_folder(const RunRecord& record, std::string_view format, const
   fs::path place = fs::absolute(folder).lexically_normal();
   if (!place.has_filename()) place = place.parent_path();
   const fs::path part = beside(place, "part");
+  const fs::path made = first_missing(place.parent_path());
+  const auto undo = [&] {
+    std::error_code ignored;
+    fs::remove_all(part, ignored);
+    // the folders above, which stay as soon as they hold anything
+    for (fs::path above = place.parent_path(); !made.empty(); above = above.parent_path()) {
+      if (!fs::remove(above, ignored) || above == made) break;
+    }
+  };
   try {
     clear_up(place);
     need_place_for(place);
@@ -120,12 +136,10 @@ void write_export_folder(const RunRecord& record, std::string_view format, const
     write_file_atomically(part / kExportMarker, marker_text(record, format, files_in(part)));
     take_place(part, place);
   } catch (const fs::filesystem_error& error) {
-    std::error_code ignored;
-    fs::remove_all(part, ignored);
+    undo();
     throw BadInput(fmt::format("{}: cannot write: {}", folder.string(), error.code().message()));
   } catch (...) {
-    std::error_code ignored;
-    fs::remove_all(part, ignored);
+    undo();
     throw;
   }
 }

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "bench/compare/comparison_text.hpp"
+#include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "tools/gnbv/bench_runs.hpp"
 #include "tools/gnbv/commands.hpp"
@@ -40,10 +41,13 @@ std::vector<SweepScenario> scenarios_of(const CompareOptions& options) {
   }
   std::vector<SweepScenario> scenarios;
   for (const std::string& given : options.scenarios) {
-    const std::string name = fs::path(given).stem().string();
-    const bool is_new = std::none_of(scenarios.begin(), scenarios.end(),
-                                     [&](const SweepScenario& s) { return s.name == name; });
-    if (!is_new) throw BadInput(fmt::format("{}: two scenarios are named '{}'", given, name));
+    const auto is_new = [&](const std::string& name) {
+      return std::none_of(scenarios.begin(), scenarios.end(),
+                          [&](const SweepScenario& s) { return s.name == name; });
+    };
+    std::string name = load_flown_scenario(given).name;
+    if (!is_new(name)) name = fs::path(given).stem().string();  // two files may make one scenario
+    if (!is_new(name)) throw BadInput(fmt::format("{}: two scenarios are named '{}'", given, name));
     scenarios.push_back({.name = name,
                          .scenario = given,
                          .mesh = options.structure.mesh,

@@ -24,8 +24,8 @@ void lint(const LintOptions& options) {
   // not resolve_scenario()'s bounds: a mesh that has none is what this is to find out
   ScenarioOptions as_it_lies = options.scenario;
   as_it_lies.bounds_auto = false;
-  const MeshReport report = report_on_mesh(resolve_scenario(as_it_lies),
-                                           options.scenario.bounds_auto, thread_count(0));
+  const MeshReport report =
+      report_on_mesh(resolve_scenario(as_it_lies), options.scenario.bounds_auto, thread_count(0));
   fmt::print("{}", options.json ? json_text(report) : terminal_text(report));
   if (!report.is_usable()) {
     throw CommandFailed(fmt::format("{}: not usable as it is", report.path));

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "bench/compare/paper_table.hpp"
+#include "scenarios/papers_setting.hpp"
 #include "sim/core/file.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/early_end.hpp"
@@ -29,7 +30,8 @@ void run(const RunOptions& options) {
   if (options.json) {
     fmt::print("{}", read_file(mission.folder / kSummaryFile));
   } else {
-    fmt::print("{}\n{}\n", one_row_summary(read_run_figures(mission.folder)),
+    fmt::print("{}\n{}\n",
+               one_row_summary(read_run_figures(mission.folder), has_papers_setting(scenario)),
                mission.folder.string());
   }
   if (const std::string note = early_end_note(mission.result); !note.empty()) {

@@ -8,6 +8,7 @@
 #include "bench/compare/paper_table.hpp"
 #include "bench/compare/statistics.hpp"
 #include "planner/routes.hpp"
+#include "scenarios/papers_setting.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/shell_word.hpp"
 #include "tools/gnbv/bench_runs.hpp"
@@ -148,6 +149,10 @@ void table(const TableOptions& options) {
     text.notes.push_back(fmt::format(
         "ours is of {}, which is not known to be the structure that the paper's figures are of",
         options.scenario.mesh.empty() ? structure : options.scenario.mesh));
+  }
+  if (!has_papers_setting(cells.front().resolved)) {
+    text.notes.emplace_back(
+        "ours has other sensors, views, resolution, profile or room than the paper's");
   }
   text.notes.insert(text.notes.end(), flown.notes.begin(), flown.notes.end());
   text.notes.push_back(

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "sim/core/counted.hpp"
+
 namespace gnbv {
 namespace {
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/core/counted.hpp"
 #include "sim/core/shell_word.hpp"
 #include "tools/mesh_lint/mesh_places.hpp"
 #include "tools/mission/load_world.hpp"
@@ -165,29 +166,34 @@ void add_face_findings(const MeshReport& report, Findings& out) {
   const MeshLint& lint = report.lint;
   const double area_m2 = std::max(lint.sound.area_m2, 1e-300);
   const std::size_t flat = lint.repeated_corners + lint.flat_faces;
-  out.push_back(tallied("flat faces", flat, Severity::note, "every face has an area",
-                        fmt::format("{} faces without area ({} name a point twice); they are left "
-                                    "out when the file is read",
-                                    flat, lint.repeated_corners),
-                        ""));
-  out.push_back(
-      tallied("duplicates", lint.duplicate.count, Severity::note, "no face is there twice",
-              fmt::format("{} faces repeat another one ({} of the surface)", lint.duplicate.count,
-                          percent(lint.duplicate.area_m2 / area_m2)),
-              "none needed; MeshLab: Filters > Cleaning and Repairing > Remove Duplicate "
-              "Faces"));
+  out.push_back(tallied(
+      "flat faces", flat, Severity::note, "every face has an area",
+      fmt::format("{} without area ({} a point twice), left out when "
+                  "the file is read",
+                  counted(flat, "face", "faces"), counted(lint.repeated_corners, "names", "name")),
+      ""));
+  out.push_back(tallied("duplicates", lint.duplicate.count, Severity::note,
+                        "no face is there twice",
+                        fmt::format("{} another one ({} of the surface)",
+                                    counted(lint.duplicate.count, "face repeats", "faces repeat"),
+                                    percent(lint.duplicate.area_m2 / area_m2)),
+                        "none needed; MeshLab: Filters > Cleaning and Repairing > Remove Duplicate "
+                        "Faces"));
   out.push_back(tallied(
       "two-sided", lint.two_sided.count, Severity::note, "no face lies back to back with another",
-      fmt::format("{} faces lie back to back ({} of the surface): the sheet counts twice in the "
+      fmt::format("{} back to back ({} of the surface): the sheet counts twice in the "
                   "area, once in the coverage",
-                  lint.two_sided.count, percent(lint.two_sided.area_m2 / area_m2)),
+                  counted(lint.two_sided.count, "face lies", "faces lie"),
+                  percent(lint.two_sided.area_m2 / area_m2)),
       ""));
-  out.push_back(tallied("edges", lint.open_edges + lint.crowded_edges, Severity::note,
-                        "closed: every edge joins two faces",
-                        fmt::format("{} of {} edges are open, {} join more than two faces; nothing "
-                                    "here needs a closed mesh",
-                                    lint.open_edges, lint.edges, lint.crowded_edges),
-                        ""));
+  out.push_back(tallied(
+      "edges", lint.open_edges + lint.crowded_edges, Severity::note,
+      "closed: every edge joins two faces",
+      fmt::format("of {} {} open, {} more than two faces; nothing "
+                  "here needs a closed mesh",
+                  counted(lint.edges, "edge", "edges"), counted(lint.open_edges, "is", "are"),
+                  counted(lint.crowded_edges, "joins", "join")),
+      ""));
 }
 
 Finding vertices_finding(const MeshReport& report) {
@@ -197,12 +203,14 @@ Finding vertices_finding(const MeshReport& report) {
                     Vec3(lint.box_m.max() + Vec3::Constant(slack_m)));
   const bool widens =
       lint.unreferenced_vertices > 0 && !around.contains(bounds_m(report.reading.mesh));
-  return tallied("vertices", lint.unreferenced_vertices,
-                 widens ? Severity::warning : Severity::note, "every vertex belongs to a face",
-                 fmt::format("{} vertices belong to no face{}", lint.unreferenced_vertices,
-                             widens ? ", and they widen the box of the structure" : ""),
-                 "Blender: Mesh > Clean Up > Delete Loose; MeshLab: Filters > Cleaning and "
-                 "Repairing > Remove Unreferenced Vertices");
+  return tallied(
+      "vertices", lint.unreferenced_vertices, widens ? Severity::warning : Severity::note,
+      "every vertex belongs to a face",
+      fmt::format("{} to no face{}",
+                  counted(lint.unreferenced_vertices, "vertex belongs", "vertices belong"),
+                  widens ? ", which widens the box of the structure" : ""),
+      "Blender: Mesh > Clean Up > Delete Loose; MeshLab: Filters > Cleaning and "
+      "Repairing > Remove Unreferenced Vertices");
 }
 
 void add_view_findings(const MeshReport& report, Findings& out) {
@@ -212,9 +220,9 @@ void add_view_findings(const MeshReport& report, Findings& out) {
   out.push_back(tallied(
       "facing", behind.count, share > 0.05 ? Severity::warning : Severity::note,
       "no face shows only its back to the outside",
-      fmt::format("{} faces ({} of the surface) show only their back to the outside; the sensors "
-                  "see both sides, other programs may not",
-                  behind.count, percent(share)),
+      fmt::format("{} only the back to the outside ({} of the surface); the sensors see both "
+                  "sides, other programs may not",
+                  counted(behind.count, "face shows", "faces show"), percent(share)),
       "Blender: Edit Mode, Mesh > Normals > Recalculate Outside"));
   const double hidden = view.hidden_area_m2 / view.area_m2;
   const std::string what =
@@ -240,8 +248,9 @@ std::vector<Finding> findings_of(const MeshReport& report, const Scenario& scena
   const MeshLint& lint = report.lint;
   out.push_back(tallied(
       "coordinates", lint.not_finite_vertices, Severity::error, "all are finite numbers",
-      fmt::format("{} vertices of {} faces are NaN or infinite: {}", lint.not_finite_vertices,
-                  lint.not_finite_faces, report.reading.not_finite),
+      fmt::format(
+          "{} of {} NaN or infinite: {}", counted(lint.not_finite_vertices, "vertex", "vertices"),
+          counted(lint.not_finite_faces, "face is", "faces are"), report.reading.not_finite),
       "export the mesh again, or delete these vertices"));
   if (lint.sound.count == 0) {
     out.push_back({"faces", Severity::error, "no face has an area", ""});

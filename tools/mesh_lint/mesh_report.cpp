@@ -4,6 +4,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "sim/core/counted.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/shell_word.hpp"
 #include "tools/mesh_lint/mesh_findings.hpp"
@@ -21,10 +22,6 @@ std::vector<bool> twins_of(const MeshLint& lint) {
   return twins;
 }
 
-std::string count_of(std::size_t count, std::string_view one, std::string_view many) {
-  return fmt::format("{} {}", count, count == 1 ? one : many);
-}
-
 std::string verdict(const MeshReport& report) {
   const auto count = [&](Severity severity) {
     return static_cast<std::size_t>(
@@ -32,9 +29,9 @@ std::string verdict(const MeshReport& report) {
                       [&](const Finding& f) { return f.severity == severity; }));
   };
   return fmt::format("{}: {}, {}, {}", report.is_usable() ? "usable" : "not usable as it is",
-                     count_of(count(Severity::error), "error", "errors"),
-                     count_of(count(Severity::warning), "warning", "warnings"),
-                     count_of(count(Severity::note), "note", "notes"));
+                     counted(count(Severity::error), "error", "errors"),
+                     counted(count(Severity::warning), "warning", "warnings"),
+                     counted(count(Severity::note), "note", "notes"));
 }
 
 std::array<double, 3> array_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
@@ -74,8 +71,9 @@ MeshReport report_on_mesh(const Scenario& scenario, bool bounds_auto, int thread
 std::string terminal_text(const MeshReport& report) {
   std::string out = fmt::format("{}: {}\n", report.path, verdict(report));
   if (report.lint.sound.count > 0) {
-    out += fmt::format("{} faces with an area, {:.4g} m2; {} vertices\n", report.lint.sound.count,
-                       report.lint.sound.area_m2, report.reading.mesh.vertices_m.size());
+    out += fmt::format("{} with an area, {:.4g} m2; {}\n",
+                       counted(report.lint.sound.count, "face", "faces"), report.lint.sound.area_m2,
+                       counted(report.reading.mesh.vertices_m.size(), "vertex", "vertices"));
   }
   out += '\n';
   for (const Finding& finding : report.findings) {

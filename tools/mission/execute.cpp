@@ -11,6 +11,7 @@
 #include "sim/core/stopwatch.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/mission.hpp"
+#include "tools/mission/reference.hpp"
 #include "tools/mission/start_pose.hpp"
 #include "tools/run_files/candidates_jsonl.hpp"
 #include "tools/run_files/file_names.hpp"
@@ -96,7 +97,7 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
   const World world = load_world(scenario, warnings);
   for (const std::string& warning : warnings) fmt::print(stderr, "gnbv: {}\n", warning);
   const RayScene scene(world);
-  start_pose(scenario, scene);
+  need_way_out(scenario, scene, bounds_m(world.structure), start_pose(scenario, scene), threads);
   need_saved_profile(scenario);
   if (scenario.planner.symmetry.enabled) symmetry_module();  // throws when it is missing
   const fs::path folder =
@@ -106,6 +107,8 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
   need_usable(folder, scenario, options.resume);  // an oracle may think for minutes before it flies
   ProgressBar progress(fmt::format("{} {}", scenario.name, scenario.planner.utility.name),
                        options.quiet);
+  progress.show(0.0, "finding what there is to see");
+  const SurfaceReference reference = reference_of(scenario, world, scene, threads);
   std::optional<std::vector<Decision>> route =
       oracle_route(scenario, world, scene, progress, threads);
   RunDirectory directory(folder, scenario, options.resume);
@@ -126,8 +129,6 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
     MissionResult result = run_mission(scenario, world, scene, hooks, threads);
     const Stopwatch scoring;
     progress.show(1.0, "scoring");
-    const SurfaceReference reference =
-        cached_surface_reference(world, scene, {.floor_z_m = scenario.planner.floor_z_m}, threads);
     MissionScore score = score_cloud(reference, scene, scored_cloud(result),
                                      scenario.planner.map.resolution_m, threads);
     result.wall.score_s = scoring.elapsed_s();

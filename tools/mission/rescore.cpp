@@ -7,6 +7,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/stopwatch.hpp"
 #include "tools/mission/load_world.hpp"
+#include "tools/mission/reference.hpp"
 #include "tools/run_files/cloud_file.hpp"
 #include "tools/run_files/file_names.hpp"
 #include "tools/run_files/iterations_csv.hpp"
@@ -20,16 +21,14 @@ namespace fs = std::filesystem;
 Scored score(const Scenario& scenario, const World& world, const RayScene& scene,
              const ScoredCloud& cloud, int threads) {
   const Stopwatch watch;
-  const double floor_z_m = scenario.planner.floor_z_m;
-  const SurfaceReference reference =
-      cached_surface_reference(world, scene, {.floor_z_m = floor_z_m}, threads);
+  const SurfaceReference reference = reference_of(scenario, world, scene, threads);
   const double reference_s = watch.elapsed_s();
   const MissionScore found =
       score_cloud(reference, scene, cloud, scenario.planner.map.resolution_m, threads);
   return {.score = found,
           .structure = structure_name(scenario.structure),
           .points = cloud.points_world_m.size(),
-          .floor_z_m = floor_z_m,
+          .floor_z_m = scenario.planner.floor_z_m,
           .reference_s = reference_s,
           .score_s = watch.elapsed_s() - reference_s};
 }

@@ -1,5 +1,9 @@
 #include "tools/mission/start_pose.hpp"
 
+#include <algorithm>
+
+#include "bench/limits/legal_viewpoints.hpp"
+#include "bench/score/surface_reference.hpp"
 #include "planner/view_validity.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
@@ -25,6 +29,40 @@ ViewPose start_pose(const Scenario& scenario, const RayScene& scene) {
       "start.position_m: [{}, {}, {}] and its jitter lie within planner.validity."
       "collision_radius_m = {} of the structure: move the start away from it",
       start.pose.p_world_m.x(), start.pose.p_world_m.y(), start.pose.p_world_m.z(), radius_m));
+}
+
+void need_way_out(const Scenario& scenario, const RayScene& scene, const Box3& structure_m,
+                  const ViewPose& start, int threads) {
+  const ProfilingMethod profiling = scenario.planner.profiling.method;
+  const bool is_flown =
+      profiling == ProfilingMethod::bounding_box || profiling == ProfilingMethod::circular;
+  const Box3 box = navigation_box_m(scenario.planner.validity, scenario.workspace_m);
+  if (!is_flown || structure_m.contains(box) || !structure_m.contains(start.p_world_m)) return;
+  const double radius_m = scenario.planner.validity.collision_radius_m;
+  const auto is_way_out = [&](const Vec3& direction) {
+    const double length_m = structure_m.diagonal().norm();
+    for (double t = 0.05; t <= 1.0; t += 0.05) {
+      const Vec3 end_m = start.p_world_m + t * length_m * direction;
+      if (!box.contains(end_m)) return false;
+      if (!structure_m.contains(end_m)) {
+        return is_leg_clear(scene, start.p_world_m, end_m, radius_m);
+      }
+    }
+    return false;
+  };
+  for (const Vec3f& direction : spread_directions(64)) {
+    if (is_way_out(direction.cast<double>())) return;
+  }
+  const LegalViewpoints legal = find_legal_viewpoints(scenario, scene, start, threads);
+  if (std::any_of(legal.p_world_m.begin(), legal.p_world_m.end(),
+                  [&](const Vec3& p_m) { return !structure_m.contains(p_m); })) {
+    return;
+  }
+  throw BadInput(fmt::format(
+      "start.position_m: the start [{:.2f}, {:.2f}, {:.2f}] is enclosed by the structure: no way "
+      "leads out for a sphere of planner.validity.collision_radius_m = {}, and the profile is "
+      "flown outside; move the start, try `--bounds auto`, or set planner.profiling.method: none",
+      start.p_world_m.x(), start.p_world_m.y(), start.p_world_m.z(), radius_m));
 }
 
 }  // namespace gnbv

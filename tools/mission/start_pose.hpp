@@ -10,4 +10,9 @@ namespace gnbv {
 /// the structure. Throws BadInput when no such pose is found.
 ViewPose start_pose(const Scenario& scenario, const RayScene& scene);
 
+/// Throws BadInput when the structure encloses the start, so that a profile around the structure
+/// cannot be flown. A workspace that lies within the structure has no outside: all is well.
+void need_way_out(const Scenario& scenario, const RayScene& scene, const Box3& structure_m,
+                  const ViewPose& start, int threads);
+
 }  // namespace gnbv

@@ -7,6 +7,7 @@
 
 #include "bench/compare/paper_figures.hpp"
 #include "bench/score/voxel_set.hpp"
+#include "scenarios/papers_setting.hpp"
 #include "tools/plots/gnuplot.hpp"
 #include "tools/plots/script_parts.hpp"
 
@@ -21,7 +22,10 @@ struct PaperLevel {
 std::optional<PaperLevel> paper_level(const RunGroup& group, std::size_t size) {
   const RunFigures& figures = *group.runs.front()->figures;
   const PaperTable* const table = find_paper_table(figures.scenario);
-  if (table == nullptr || !is_papers_structure(*table, figures.structure)) return std::nullopt;
+  if (table == nullptr || !is_papers_structure(*table, figures.structure) ||
+      !has_papers_setting(group.runs.front()->scenario)) {
+    return std::nullopt;
+  }
   const PaperRow* const row = find_row(*table, figures.utility);
   if (row == nullptr || !row->coverage_percent) return std::nullopt;
   return PaperLevel{(*row->coverage_percent)[size], is_doubtful(*row)};

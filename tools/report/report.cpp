@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/compare/paper_table.hpp"
+#include "scenarios/papers_setting.hpp"
 #include "sim/core/base64.hpp"
 #include "sim/core/error.hpp"
 #include "tools/mission/load_world.hpp"
@@ -64,7 +65,10 @@ TextTable table_of(std::span<const RunRecord* const> records) {
   const std::string title = structure == scenario ? scenario : scenario + ", " + structure;
   const PaperTable none{
       .scenario = scenario, .source = title, .rows = {}, .profile = {}, .mesh_sha256 = ""};
-  const bool is_papers = paper != nullptr && is_papers_structure(*paper, structure);
+  const bool is_papers = paper != nullptr && is_papers_structure(*paper, structure) &&
+                         std::any_of(records.begin(), records.end(), [](const RunRecord* record) {
+                           return has_papers_setting(record->scenario);
+                         });
   TextTable table = comparison_table(is_papers ? *paper : none, runs, {}, settings);
   table.notes.insert(table.notes.end(), notes.begin(), notes.end());
   return table;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/compare/paper_figures.hpp"
+#include "scenarios/papers_setting.hpp"
 #include "sim/core/file.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/report/thinning.hpp"
@@ -82,7 +83,7 @@ Json figures_json(const RunFigures& f) {
 
 /// Where the paper's mission of this utility ended, to mark it in the plots; null without one.
 Json paper_json(const RunRecord& record) {
-  if (!record.figures) return nullptr;
+  if (!record.figures || !has_papers_setting(record.scenario)) return nullptr;
   const PaperTable* const paper = find_paper_table(record.scenario.name);
   if (paper == nullptr || !is_papers_structure(*paper, record.figures->structure)) return nullptr;
   const PaperRow* const row = find_row(*paper, record.scenario.planner.utility.name);

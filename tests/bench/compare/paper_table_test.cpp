@@ -187,7 +187,7 @@ proposed  ours          635              3,702         504.3   85.2%   95.0%   9
 proposed  paper         635             10,970       1,396.5   94.1%   97.2%   99.8%             -
 proposed: ended by max_iterations after 635 views; flown 530.0 m; all surface, also inner: 75.0 / 85.0 / 95.0 %; 61.0 s of wall time
 )";
-  EXPECT_EQ(one_row_summary(example()), with_paper);
+  EXPECT_EQ(one_row_summary(example(), true), with_paper);
 }
 
 TEST(OneRowSummary, StandsAloneWhereThePaperHasNoRow) {
@@ -198,7 +198,8 @@ TEST(OneRowSummary, StandsAloneWhereThePaperHasNoRow) {
   RunFigures own_mesh = example();
   own_mesh.structure = "/somewhere/bridge.obj";
   for (const std::string& text :
-       {one_row_summary(tour), one_row_summary(smoke), one_row_summary(own_mesh)}) {
+       {one_row_summary(tour, true), one_row_summary(smoke, true), one_row_summary(own_mesh, true),
+        one_row_summary(example(), false)}) {
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4) << text;
     EXPECT_EQ(text.find("paper"), std::string::npos) << text;
     EXPECT_NE(text.find("504.3"), std::string::npos) << text;

@@ -1,0 +1,78 @@
+// What is refused before a mission begins.
+#include <gtest/gtest.h>
+
+#include "scenarios/load.hpp"
+#include "sim/core/error.hpp"
+#include "tests/bench/shapes.hpp"
+#include "tools/mission/reference.hpp"
+#include "tools/mission/start_pose.hpp"
+
+namespace gnbv {
+namespace {
+
+/// A hall of thin walls around the aircraft scenario's middle, with its north wall from x = -8 to
+/// `wall_to_m`.
+World hall(double wall_to_m) {
+  World world{TriangleMesh{}, true};
+  test::add_sheet(world.structure, {-8, -8, 0}, {16, 0, 0}, {0, 0, 10});
+  test::add_sheet(world.structure, {-8, -8, 0}, {0, 16, 0}, {0, 0, 10});
+  test::add_sheet(world.structure, {8, -8, 0}, {0, 16, 0}, {0, 0, 10});
+  test::add_sheet(world.structure, {-8, -8, 10}, {16, 0, 0}, {0, 16, 0});
+  test::add_sheet(world.structure, {-8, -8, 0}, {16, 0, 0}, {0, 16, 0});
+  test::add_sheet(world.structure, {-8, 8, 0}, {wall_to_m + 8, 0, 0}, {0, 0, 10});
+  return world;
+}
+
+std::string fault_of(const Scenario& scenario, const World& world, const Vec3& start_m) {
+  const RayScene scene(world);
+  try {
+    need_way_out(scenario, scene, bounds_m(world.structure), {start_m, 0.0}, 2);
+  } catch (const BadInput& fault) {
+    return fault.what();
+  }
+  return "";
+}
+
+TEST(WayOut, AStartWithinAClosedHallIsRefused) {
+  const Scenario scenario = load_scenario("aircraft", {});
+  EXPECT_NE(fault_of(scenario, hall(8.0), {0, 0, 4}).find("enclosed"), std::string::npos);
+  EXPECT_EQ(fault_of(scenario, hall(8.0), {0, -12, 4}), "");
+}
+
+TEST(WayOut, AGateWillDoIfTheVehicleFitsThrough) {
+  const Scenario scenario = load_scenario("aircraft", {});
+  EXPECT_EQ(fault_of(scenario, hall(0.0), {0, 0, 4}), "");   // straight
+  EXPECT_EQ(fault_of(scenario, hall(4.4), {-5, 5, 4}), "");  // around the wall's end
+  EXPECT_NE(fault_of(scenario, hall(6.0), {0, 0, 4}), "");   // 2 m wide, for a sphere of 1.5 m
+}
+
+TEST(WayOut, NoneIsNeededWhereNoProfileIsFlownOutside) {
+  EXPECT_EQ(
+      fault_of(load_scenario("aircraft", {"planner.profiling.method=none"}), hall(8.0), {0, 0, 4}),
+      "");
+  // a room within the hall is all there is
+  EXPECT_EQ(fault_of(load_scenario("aircraft", {"workspace_m={min: [-7, -7, 0], max: [7, 7, 9]}",
+                                                "start.position_m=[0, 0, 4]"}),
+                     hall(8.0), {0, 0, 4}),
+            "");
+}
+
+TEST(Reference, OfNothingToMeasureIsRefused) {
+  setenv("GNBV_CACHE", "", 1);
+  const Scenario scenario = load_scenario("aircraft", {});
+  World low{TriangleMesh{}, true};
+  test::add_box(low.structure, {0, 0, 0}, {4, 4, 0.2});  // floor_z_m is 0.3
+  World wire{TriangleMesh{}, true};  // too little surface for any voxel to count
+  test::add_box(wire.structure, {0, 0, 0.5}, {4e-4, 4e-4, 4});
+  World high = low;
+  test::add_box(high.structure, {0, 0, 1}, {1, 1, 1});
+  for (const World& world : {low, wire}) {
+    const RayScene scene(world);
+    EXPECT_THROW(reference_of(scenario, world, scene, 2), BadInput);
+  }
+  const RayScene scene(high);
+  EXPECT_FALSE(reference_of(scenario, high, scene, 2).outside[0].empty());
+}
+
+}  // namespace
+}  // namespace gnbv

@@ -1,0 +1,22 @@
+#include "tools/mission/reference.hpp"
+
+#include "bench/score/surface_reference.hpp"
+#include "sim/core/error.hpp"
+
+namespace gnbv {
+
+SurfaceReference reference_of(const Scenario& scenario, const World& world, const RayScene& scene,
+                              int threads) {
+  const double floor_z_m = scenario.planner.floor_z_m;
+  SurfaceReference reference =
+      cached_surface_reference(world, scene, {.floor_z_m = floor_z_m}, threads);
+  if (reference.outside[0].empty()) {
+    throw BadInput(fmt::format(
+        "{}: nothing to measure: of its surface above planner.floor_z_m = {} m none can be seen "
+        "from outside; `gnbv lint` says more of a mesh",
+        structure_name(scenario.structure), floor_z_m));
+  }
+  return reference;
+}
+
+}  // namespace gnbv
