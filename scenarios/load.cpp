@@ -117,7 +117,12 @@ void fill_in(const Filling& filling, Scenario& scenario, Origins& origins) {
   const auto after = scenario_values(scenario);
   GNBV_CHECK(before.size() == after.size(), "a filling made keys");
   for (std::size_t i = 0; i < after.size(); ++i) {
-    if (after[i] != before[i]) origins[after[i].first] = {filling.source, 0, 1};
+    if (after[i] == before[i]) continue;
+    const Origin origin = {filling.source, 0, 1};
+    const std::string& key = after[i].first;
+    origins[key] = origin;
+    // problems may name the section
+    origins.insert_or_assign(key.substr(0, key.find('.')), origin);
   }
 }
 

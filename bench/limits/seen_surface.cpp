@@ -105,7 +105,8 @@ void share_leaves(std::vector<LeafPart> parts, double leaf_m, std::span<Sample> 
       if (part->voxel == sample.voxel) own_m2 = part->area_m2;
       if (most == nullptr || part->area_m2 > most->area_m2) most = &*part;
     }
-    sample.may_keep_leaf = own_m2 >= kLeastLeafShare * all_m2;
+    constexpr double kRounding = 1.0 - 1e-6;  // four equal parts are a quarter each
+    sample.may_keep_leaf = own_m2 >= kRounding * kLeastLeafShare * all_m2;
     if (!sample.may_keep_leaf) sample.kept_world_m = middle_m(*most, leaf_m);
   }
 }

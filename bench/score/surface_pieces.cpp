@@ -22,7 +22,10 @@ static_assert(kCoverageSizes_m[2] == kSlab_m && kSlab_m * kVoxelsPerMetre == kVo
 class Polygon {
  public:
   std::span<const Vec3> corners() const { return {p_.data(), size_}; }
-  void add(const Vec3& p) { p_[size_++] = p; }
+  void add(const Vec3& p) {
+    GNBV_CHECK(size_ < p_.size(), "a polygon of more than {} corners", p_.size());
+    p_[size_++] = p;
+  }
 
   double min(Eigen::Index axis) const { return extreme(axis, std::less<>{}); }
   double max(Eigen::Index axis) const { return extreme(axis, std::greater<>{}); }
@@ -63,7 +66,7 @@ class Polygon {
     return best;
   }
 
-  std::array<Vec3, 16> p_;
+  std::array<Vec3, 20> p_;  // rounding may add a few
   std::size_t size_ = 0;
 };
 

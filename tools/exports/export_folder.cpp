@@ -107,7 +107,8 @@ void take_place(const fs::path& part, const fs::path& folder) {
 /// The topmost of a path's folders that is not there; "" when all are.
 fs::path first_missing(fs::path folder) {
   fs::path missing;
-  for (; !folder.empty() && !fs::exists(folder); folder = folder.parent_path()) missing = folder;
+  for (; !folder.empty() && !fs::exists(fs::symlink_status(folder)); folder = folder.parent_path())
+    missing = folder;
   return missing;
 }
 
@@ -119,16 +120,18 @@ void write_export_folder(const RunRecord& record, std::string_view format, const
   fs::path place = fs::absolute(folder).lexically_normal();
   if (!place.has_filename()) place = place.parent_path();
   const fs::path part = beside(place, "part");
-  const fs::path made = first_missing(place.parent_path());
+  fs::path made;
   const auto undo = [&] {
     std::error_code ignored;
     fs::remove_all(part, ignored);
     // the folders above, which stay as soon as they hold anything
     for (fs::path above = place.parent_path(); !made.empty(); above = above.parent_path()) {
-      if (!fs::remove(above, ignored) || above == made) break;
+      if (fs::is_directory(fs::symlink_status(above, ignored))) fs::remove(above, ignored);
+      if (above == made) break;
     }
   };
   try {
+    made = first_missing(place.parent_path());
     clear_up(place);
     need_place_for(place);
     fs::create_directories(part);

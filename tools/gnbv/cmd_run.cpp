@@ -34,7 +34,8 @@ void run(const RunOptions& options) {
                one_row_summary(read_run_figures(mission.folder), has_papers_setting(scenario)),
                mission.folder.string());
   }
-  if (const std::string note = early_end_note(mission.result); !note.empty()) {
+  if (const std::string note = early_end_note(mission.result, mission.score.final[0]);
+      !note.empty()) {
     fmt::print(stderr, "gnbv: {}", note);
   }
   if (mission.result.termination == Termination::collision) {

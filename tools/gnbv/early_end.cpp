@@ -10,6 +10,7 @@ namespace gnbv {
 namespace {
 
 constexpr std::size_t kFewViews = 20;
+constexpr double kExplored = 0.8;  // coverage at 0.05 m
 
 std::string_view meaning_of(Rejection reason) {
   switch (reason) {
@@ -43,7 +44,7 @@ std::string_view remedy_for(Rejection reason) {
     case Rejection::collision:
       return "a smaller planner.validity.collision_radius_m, or a larger workspace_m";
     case Rejection::path_blocked:
-      return "planner.validity.path: astar";
+      return "planner.validity.path: astar, or a smaller planner.validity.collision_radius_m";
     case Rejection::recently_visited:
       return "a larger planner.agvs.step_m or planner.fvs.radius_m";
     case Rejection::cluster_outside_fov:
@@ -63,7 +64,6 @@ std::string of_no_valid_view(const std::map<Rejection, int>& rejections) {
   std::stable_sort(by_count.begin(), by_count.end(),
                    [](const auto& a, const auto& b) { return a.second > b.second; });
   for (const auto& [reason, count] : by_count) all += count;
-  if (all == 0) return "no view was sampled; what helps: planner.fvs.enabled: true\n";
   std::string text = fmt::format("none of {} views that were tried will do:\n", all);
   for (const auto& [reason, count] : by_count) {
     text += fmt::format("  {:5} {}\n", count, meaning_of(reason));
@@ -73,9 +73,11 @@ std::string of_no_valid_view(const std::map<Rejection, int>& rejections) {
 
 }  // namespace
 
-std::string early_end_note(const MissionResult& result) {
+std::string early_end_note(const MissionResult& result, double coverage) {
   const std::size_t views = result.views.size();
-  if (views >= kFewViews) return "";
+  const bool has_route = result.termination == Termination::no_valid_view &&
+                         result.last_rejections.empty();  // and flew all of it
+  if (views >= kFewViews || coverage >= kExplored || has_route) return "";
   const std::string after = fmt::format(
       "the mission ended after {} view{}, before it explored: ", views, views == 1 ? "" : "s");
   switch (result.termination) {

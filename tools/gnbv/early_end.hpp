@@ -7,8 +7,8 @@
 
 namespace gnbv {
 
-/// Why the mission ended and what to change, a few lines; empty for one that saw what there was to
-/// see, or was to end.
-std::string early_end_note(const MissionResult& result);
+/// Why the mission ended and what to change, a few lines; empty for one of 20 views or more, one
+/// that covered most of the surface (`coverage` at 0.05 m), and one that was told to end.
+std::string early_end_note(const MissionResult& result, double coverage);
 
 }  // namespace gnbv

@@ -130,12 +130,14 @@ void lay_bounds(const Scenario& scenario, const TriangleMesh& mesh, Advice& advi
     return all.empty() ? "" : all.front().what;
   };
   advice.bounds_fault = fault();
+  const std::string first_fault = advice.bounds_fault;
   for (int i = 0; i < kTries && !advice.bounds_fault.empty(); ++i) {
     double& resolution_m = laid.planner.map.resolution_m;
     resolution_m = std::ceil(resolution_m * kStep * 100.0) / 100.0;
     if (!fault().empty()) continue;
     advice.bounds_fault.clear();
     advice.resolution = fmt::format("planner.map.resolution_m={}", resolution_m);
+    advice.resolution_fault = first_fault;
   }
 }
 
@@ -165,19 +167,28 @@ Advice advise(const MeshReport& report, const Scenario& scenario, bool bounds_au
   const Box3 box_m = placement.box_m();
   Scenario flown = scenario;
   constexpr double kMostBelow = 0.5;
-  if (share_below(report.lint, world.structure, flown.planner.floor_z_m) >= kMostBelow) {
+  double& floor_z_m = flown.planner.floor_z_m;
+  if (share_below(report.lint, world.structure, floor_z_m) >= kMostBelow) {
     constexpr double kShareOfHeight = 0.05;
     constexpr double kRounding = 1e4;
-    const double floor_m = box_m.min().z() + kShareOfHeight * box_m.sizes().z();
-    flown.planner.floor_z_m = std::floor(floor_m * kRounding) / kRounding + 0.0;
-    advice.floor = fmt::format("planner.floor_z_m={}", flown.planner.floor_z_m);
+    const auto rounded = [](double z_m) { return std::floor(z_m * kRounding) / kRounding + 0.0; };
+    double floor_m = rounded(box_m.min().z() + kShareOfHeight * box_m.sizes().z());
+    // much of it may lie flat on the ground
+    if (share_below(report.lint, world.structure, floor_m) >= kMostBelow) {
+      floor_m = rounded(box_m.min().z());
+    }
+    if (floor_m < floor_z_m) {
+      floor_z_m = floor_m;
+      advice.floor = fmt::format("planner.floor_z_m={}", floor_m);
+    }
   }
   const Box3 whole_m = bounds_m(world.structure);
   const bool is_outside = !is_inside_workspace(flown, whole_m);
   if (!is_outside && !bounds_auto) {
     world.structure = sound_part(world.structure, report.lint);
     const RayScene scene(world);
-    advice.start_fault = fault_of([&] { start_pose(flown, scene); });
+    advice.start_fault =
+        fault_of([&] { need_way_out(flown, scene, whole_m, start_pose(flown, scene), 1); });
   }
   advice.needs_bounds = bounds_auto || is_outside || !advice.start_fault.empty();
   if (advice.needs_bounds) lay_bounds(flown, world.structure, advice);

@@ -29,6 +29,7 @@ struct Advice {
   std::string bounds_fault;   // why no workspace can be laid around it
   std::string floor;          // KEY=VALUE, as the next
   std::string resolution;
+  std::string resolution_fault;  // why the scenario's own will not do
 
   /// All that is to be set, KEY=VALUE each.
   std::vector<std::string> sets() const;

@@ -124,8 +124,7 @@ void add_flight_findings(const Advice& advice, bool bounds_auto, Findings& out) 
   if (!advice.bounds_fault.empty()) {
     out.push_back({"map", severity, advice.bounds_fault, ""});
   } else if (!advice.resolution.empty()) {
-    out.push_back(
-        {"map", severity, "too large for the memory in voxels so small", flag(advice.resolution)});
+    out.push_back({"map", severity, advice.resolution_fault, flag(advice.resolution)});
   }
 }
 

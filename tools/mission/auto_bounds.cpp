@@ -30,15 +30,21 @@ Box3 rounded(const Box3& box_m, double resolution_m) {
   return {low * resolution_m, high * resolution_m};
 }
 
-/// How much of the surface is before a camera that looks north from there.
+/// Of an angle that may pass the vertical.
+double steep_tan(double rad) {
+  constexpr double kSteepest_rad = 1.55;
+  return std::tan(std::clamp(rad, -kSteepest_rad, kSteepest_rad));
+}
+
+/// How much of the surface is before a camera that looks north from there, its yaw left aside.
 std::size_t in_view(const Scenario& scenario, const Vec3& p_m, std::span<const Vec3f> surface_m) {
   const auto is_in_view = [&](const Vec3f& at_m) {
     const Vec3 to_m = at_m.cast<double>() - p_m;
     return std::any_of(
         scenario.cameras.begin(), scenario.cameras.end(), [&](const CameraConfig& camera) {
           const double tan_x = std::tan(0.5 * camera.fov_x_rad);
-          const double tan_up = std::tan(0.5 * camera.fov_y_rad - camera.pitch_rad);
-          const double tan_down = std::tan(0.5 * camera.fov_y_rad + camera.pitch_rad);
+          const double tan_up = steep_tan(0.5 * camera.fov_y_rad - camera.pitch_rad);
+          const double tan_down = steep_tan(0.5 * camera.fov_y_rad + camera.pitch_rad);
           return to_m.y() > 0.0 && to_m.norm() <= camera.range_max_m &&
                  std::abs(to_m.x()) <= tan_x * to_m.y() && to_m.z() <= tan_up * to_m.y() &&
                  -to_m.z() <= tan_down * to_m.y();

@@ -12,8 +12,8 @@ SurfaceReference reference_of(const Scenario& scenario, const World& world, cons
       cached_surface_reference(world, scene, {.floor_z_m = floor_z_m}, threads);
   if (reference.outside[0].empty()) {
     throw BadInput(fmt::format(
-        "{}: nothing to measure: of its surface above planner.floor_z_m = {} m none can be seen "
-        "from outside; `gnbv lint` says more of a mesh",
+        "{}: nothing to measure: above planner.floor_z_m = {} m there is no voxel with surface "
+        "enough that can be seen from outside; `gnbv lint` says more of a mesh",
         structure_name(scenario.structure), floor_z_m));
   }
   return reference;

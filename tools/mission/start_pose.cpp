@@ -60,7 +60,7 @@ void need_way_out(const Scenario& scenario, const RayScene& scene, const Box3& s
   }
   throw BadInput(fmt::format(
       "start.position_m: the start [{:.2f}, {:.2f}, {:.2f}] is enclosed by the structure: no way "
-      "leads out for a sphere of planner.validity.collision_radius_m = {}, and the profile is "
+      "out was found for a sphere of planner.validity.collision_radius_m = {}, and the profile is "
       "flown outside; move the start, try `--bounds auto`, or set planner.profiling.method: none",
       start.p_world_m.x(), start.p_world_m.y(), start.p_world_m.z(), radius_m));
 }

@@ -44,7 +44,7 @@ void begin_run(const std::string& path, const std::string& scenario_name, const 
   std::vector<std::string> warnings;
   const World world = load_world(scenario, warnings);
   const RayScene scene(world);
-  start_pose(scenario, scene);
+  need_way_out(scenario, scene, bounds_m(world.structure), start_pose(scenario, scene), 1);
 }
 
 double between(double low, double high, std::uint64_t key, std::uint64_t i) {
@@ -123,6 +123,18 @@ TEST(Advice, AHairBelowTheFloorIsNoFault) {
   EXPECT_TRUE(report.advice.sets().empty()) << terminal_text(report);
   EXPECT_FALSE(report.advice.needs_bounds);
   EXPECT_EQ(terminal_text(report).find("all of it"), std::string::npos);
+}
+
+TEST(Advice, AFloorIsNeverRaised) {
+  TempFolder temp;
+  const std::string path = (temp.path() / "t.obj").string();
+  TriangleMesh site;  // most of it flat, with a tower
+  test::add_box(site, {-50, -50, 0}, {100, 100, 0.2});
+  test::add_box(site, {-2, -2, 0}, {4, 4, 50});
+  write_mesh(site, path);
+  const MeshReport report = report_on(path, "aircraft", {});
+  EXPECT_EQ(report.advice.floor, "planner.floor_z_m=0") << terminal_text(report);
+  expect_two_rounds_do(path, "aircraft", "site");
 }
 
 TEST(Advice, AStartWithinTheStructureNeedsOtherBounds) {
