@@ -153,6 +153,30 @@ INSTANTIATE_TEST_SUITE_P(
         BadInputCase{"RenderOfNothing", "render @/out", {"out"}}),
     [](const auto& refused) { return std::string(refused.param.name); });
 
+TEST(Program, AMissionThatEndsBeforeItExploredSaysWhy) {
+  TempFolder temp;
+  const fs::path out = temp.path() / "out";
+  // in a corner, looking away, and without frontier views
+  const Outcome run = gnbv(
+      "run smoke --quiet --set 'start={position_m: [0, -3.9, 4.5], yaw_deg: -90, jitter_m: [0, 0, "
+      "0]}' --set planner.fvs.enabled=false --set planner.agvs.scales=false "
+      "--set planner.profiling.method=none --out " +
+      out.string());
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_TRUE(has(run, "ended after 1 view, before it explored")) << run.output;
+  EXPECT_TRUE(has(run, "outside the workspace") && has(run, "what helps: ")) << run.output;
+  const auto summary = nlohmann::json::parse(read_file(out / "summary.json"));
+  EXPECT_GT(summary.at("last_rejections").at("out_of_bounds"), 0);
+}
+
+TEST(Program, AFailedExportLeavesNoFolder) {
+  TempFolder temp;
+  const fs::path out = temp.path() / "out";
+  ASSERT_EQ(gnbv(one_view(out)).exit_code, 0);
+  EXPECT_EQ(gnbv("export " + out.string() + " --format colmap").exit_code, 2);  // no frames
+  EXPECT_FALSE(fs::exists(out / "export"));
+}
+
 TEST(Program, AKilledRunGoesOnToTheSameResult) {
   TempFolder temp;
   const fs::path whole = temp.path() / "whole";
