@@ -121,8 +121,9 @@ void fill_in(const Filling& filling, Scenario& scenario, Origins& origins) {
     const Origin origin = {filling.source, 0, 1};
     const std::string& key = after[i].first;
     origins[key] = origin;
-    // problems may name the section
-    origins.insert_or_assign(key.substr(0, key.find('.')), origin);
+    // problems may name the section, which is the user's if it was given
+    Origin& section = origins[key.substr(0, key.find('.'))];
+    if (section.rank == 0) section = origin;
   }
 }
 
