@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "assets/catalog.hpp"
+#include "assets/random/random_structure.hpp"
 #include "scenarios/faults.hpp"
 #include "scenarios/scenario.hpp"
 #include "sim/core/error.hpp"
@@ -18,21 +19,49 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view kRandom = "random";
+
 struct AssetOptions {
   std::string name;
+  std::optional<std::uint64_t> seed;  // of a random one
+  std::string kind;                   // of it; empty: the seed chooses
   fs::path out;
   bool list = false;
   bool json = false;
 };
 
+template <class Names>
+std::string did_you_mean(std::string_view name, const Names& known) {
+  const auto near = nearest_name(name, known, slip_limit(name));
+  return near ? fmt::format("did you mean '{}'? ", *near) : "";
+}
+
+/// The built-in ones, and random ones.
+std::vector<std::string_view> structure_names() {
+  std::vector<std::string_view> names(kStructureNames.begin(), kStructureNames.end());
+  names.push_back(kRandom);
+  return names;
+}
+
+void check_random_options(const AssetOptions& options) {
+  if (options.name != kRandom && (options.seed || !options.kind.empty())) {
+    throw BadInput(fmt::format("{}: --seed and --kind are for `asset random`", options.name));
+  }
+  const auto& kinds = kRandomKinds;
+  if (!options.kind.empty() && std::find(kinds.begin(), kinds.end(), options.kind) == kinds.end()) {
+    throw BadInput(fmt::format("--kind {}: no kind of random structure ({}they are: {})",
+                               options.kind, did_you_mean(options.kind, kinds), join(kinds)));
+  }
+}
+
 void check(const AssetOptions& options) {
-  const auto& known = kStructureNames;
+  const std::vector<std::string_view> known = structure_names();
   if (std::find(known.begin(), known.end(), options.name) == known.end()) {
-    const auto near = nearest_name(options.name, known, slip_limit(options.name));
     throw BadInput(fmt::format("{}: no built-in structure ({}they are: {})",
                                options.name.empty() ? "asset" : options.name,
-                               near ? fmt::format("did you mean '{}'? ", *near) : "", join(known)));
+                               did_you_mean(options.name, known), join(known)));
   }
+  check_random_options(options);
   if (options.out.empty()) {
     throw BadInput("asset: -o FILE is missing; its extension, .obj, .ply or .glb, is the format");
   }
@@ -52,7 +81,7 @@ void print_facts(const AssetOptions& options, const TriangleMesh& mesh) {
   const Vec3 lo = box.min();
   const Vec3 hi = box.max();
   if (options.json) {
-    const nlohmann::ordered_json facts = {
+    nlohmann::ordered_json facts = {
         {"name", options.name},
         {"files", files},
         {"vertices", mesh.vertices_m.size()},
@@ -60,27 +89,43 @@ void print_facts(const AssetOptions& options, const TriangleMesh& mesh) {
         {"materials", mesh.materials.size()},
         {"area_m2", surface_area_m2(mesh)},
         {"bounds_m", {{"min", {lo.x(), lo.y(), lo.z()}}, {"max", {hi.x(), hi.y(), hi.z()}}}}};
+    if (options.seed) facts.update({{"kind", options.kind}, {"seed", *options.seed}});
     fmt::print("{}\n", facts.dump(2));
     return;
   }
   for (const std::string& file : files) fmt::print("{}\n", file);
+  if (options.seed) fmt::print("random {}, seed {}\n", options.kind, *options.seed);
   fmt::print("{} vertices, {} faces, {} materials, {:.0f} m2\n", mesh.vertices_m.size(),
              mesh.faces.size(), mesh.materials.size(), surface_area_m2(mesh));
   fmt::print("x {:.2f} to {:.2f}, y {:.2f} to {:.2f}, z {:.2f} to {:.2f} m\n", lo.x(), hi.x(),
              lo.y(), hi.y(), lo.z(), hi.z());
 }
 
-void asset(const AssetOptions& options) {
+void print_list(bool json) {
+  if (json) {
+    const nlohmann::ordered_json all = {{"structures", structure_names()},
+                                        {"random_kinds", kRandomKinds}};
+    fmt::print("{}\n", all.dump());
+    return;
+  }
+  for (const std::string_view name : kStructureNames) fmt::print("{}\n", name);
+  for (const std::string_view kind : kRandomKinds) fmt::print("{} --kind {}\n", kRandom, kind);
+}
+
+TriangleMesh make(AssetOptions& options) {
+  if (options.name != kRandom) return make_builtin_structure(options.name);
+  if (!options.seed) options.seed = 1;
+  if (options.kind.empty()) options.kind = random_kind(*options.seed);
+  return make_random_structure(*options.seed, options.kind);
+}
+
+void asset(AssetOptions options) {
   if (options.list) {
-    if (options.json) {
-      fmt::print("{}\n", nlohmann::json(kStructureNames).dump());
-    } else {
-      for (const std::string_view name : kStructureNames) fmt::print("{}\n", name);
-    }
+    print_list(options.json);
     return;
   }
   check(options);
-  const TriangleMesh mesh = make_builtin_structure(options.name);
+  const TriangleMesh mesh = make(options);
   write_mesh(mesh, options.out);
   print_facts(options, mesh);
 }
@@ -90,15 +135,21 @@ void asset(const AssetOptions& options) {
 void add_asset_command(CLI::App& app) {
   auto options = std::make_shared<AssetOptions>();
   CLI::App* const command =
-      app.add_subcommand("asset", "write a built-in structure as a mesh file");
+      app.add_subcommand("asset", "write a built-in or a random structure as a mesh file");
   CLI::Option* const name =
-      command->add_option("NAME", options->name, "structure; --list names them");
+      command->add_option("NAME", options->name, "structure, or `random`; --list names them");
   CLI::Option* const out = command->add_option(
       "-o,--out", options->out,
       "file to write: .obj (with its .mtl), .ply or .glb; metres, z up (.glb: y up)");
+  CLI::Option* const seed = command->add_option("--seed", options->seed, "of `random`: which (1)");
+  CLI::Option* const kind =
+      command->add_option("--kind", options->kind,
+                          "of `random`: hall, tower, ...; --list names them, else by the seed");
   command->add_flag("--list", options->list, "print the names of the structures")
       ->excludes(name)
-      ->excludes(out);
+      ->excludes(out)
+      ->excludes(seed)
+      ->excludes(kind);
   command->add_flag("--json", options->json, "print JSON instead of text");
   command->callback([options] { asset(*options); });
 }

@@ -36,19 +36,29 @@ double steep_tan(double rad) {
   return std::tan(std::clamp(rad, -kSteepest_rad, kSteepest_rad));
 }
 
-/// How much of the surface is before a camera that looks north from there, its yaw left aside.
-std::size_t in_view(const Scenario& scenario, const Vec3& p_m, std::span<const Vec3f> surface_m) {
+/// What is before a camera that looks north, its yaw left aside.
+struct NorthernView {
+  explicit NorthernView(const CameraConfig& camera)
+      : range_m(camera.range_max_m),
+        tan_side(std::tan(0.5 * camera.fov_x_rad)),
+        tan_up(steep_tan(0.5 * camera.fov_y_rad - camera.pitch_rad)),
+        tan_down(steep_tan(0.5 * camera.fov_y_rad + camera.pitch_rad)) {}
+
+  bool has(const Vec3& to_m) const {
+    return to_m.y() > 0.0 && to_m.norm() <= range_m && std::abs(to_m.x()) <= tan_side * to_m.y() &&
+           to_m.z() <= tan_up * to_m.y() && -to_m.z() <= tan_down * to_m.y();
+  }
+
+  double range_m, tan_side, tan_up, tan_down;
+};
+
+/// How much of the surface some camera sees from there.
+std::size_t in_view(std::span<const NorthernView> views, const Vec3& p_m,
+                    std::span<const Vec3f> surface_m) {
   const auto is_in_view = [&](const Vec3f& at_m) {
     const Vec3 to_m = at_m.cast<double>() - p_m;
-    return std::any_of(
-        scenario.cameras.begin(), scenario.cameras.end(), [&](const CameraConfig& camera) {
-          const double tan_x = std::tan(0.5 * camera.fov_x_rad);
-          const double tan_up = steep_tan(0.5 * camera.fov_y_rad - camera.pitch_rad);
-          const double tan_down = steep_tan(0.5 * camera.fov_y_rad + camera.pitch_rad);
-          return to_m.y() > 0.0 && to_m.norm() <= camera.range_max_m &&
-                 std::abs(to_m.x()) <= tan_x * to_m.y() && to_m.z() <= tan_up * to_m.y() &&
-                 -to_m.z() <= tan_down * to_m.y();
-        });
+    return std::any_of(views.begin(), views.end(),
+                       [&](const NorthernView& view) { return view.has(to_m); });
   };
   return static_cast<std::size_t>(std::count_if(surface_m.begin(), surface_m.end(), is_in_view));
 }
@@ -62,15 +72,19 @@ Vec3 start_on_south_face(const Scenario& scenario, const StructureExtent& struct
   const Vec3 middle_m =
       (0.5 * (low_m + high_m)).cwiseMax(navigation_m.min()).cwiseMin(navigation_m.max());
   const Vec3 step_m = ((high_m - low_m) / (2.0 * kSteps)).cwiseMax(0.0);
+  const std::vector<NorthernView> views(scenario.cameras.begin(), scenario.cameras.end());
   Vec3 best_m(middle_m.x(), navigation_m.min().y(), middle_m.z());
-  std::size_t most = in_view(scenario, best_m, structure.surface_world_m);
+  std::size_t most = in_view(views, best_m, structure.surface_world_m);
   for (int ring = 1; ring <= kSteps; ++ring) {
     for (int i = -ring; i <= ring; ++i) {
       for (int k = -ring; k <= ring; ++k) {
         if (std::max(std::abs(i), std::abs(k)) != ring) continue;
-        const Vec3 p_m(middle_m.x() + i * step_m.x(), navigation_m.min().y(),
-                       middle_m.z() + k * step_m.z());
-        const std::size_t seen = in_view(scenario, p_m, structure.surface_world_m);
+        // steps to the box's face may pass it by a rounding, which would be outside
+        const Vec3 p_m = Vec3(middle_m.x() + i * step_m.x(), navigation_m.min().y(),
+                              middle_m.z() + k * step_m.z())
+                             .cwiseMax(navigation_m.min())
+                             .cwiseMin(navigation_m.max());
+        const std::size_t seen = in_view(views, p_m, structure.surface_world_m);
         if (seen <= most) continue;
         most = seen;
         best_m = p_m;
