@@ -19,6 +19,8 @@ enum class Stream : std::uint64_t {
   random_view = 7,
   surface_sample = 9,
   cover_search = 10,
+  gust = 11,
+  dropped_frame = 12,
 };
 
 struct RandomKey {
