@@ -19,8 +19,9 @@ enum class Termination {
   entropy_change,
   no_valid_view,
   repeated_motion,  // goes back and forth between two places
-  battery,          // what is left is needed to land
+  battery,          // what is left is needed to land, or to come home and land
   route_flown,      // every view of a given route was taken
+  off_course,       // carried out of the workspace
   interrupted,
   collision
 };

@@ -163,9 +163,11 @@ void fields(FieldVisitor& v, AirframeParameters& c);
 void fields(FieldVisitor& v, AutopilotParameters& c);
 void fields(FieldVisitor& v, CommanderParameters& c);
 void fields(FieldVisitor& v, PowerParameters& c);
+void fields(FieldVisitor& v, GnssOutage& c);
 void fields(FieldVisitor& v, EstimateConfig& c);
 void fields(FieldVisitor& v, VehicleConfig& c);
 void fields(FieldVisitor& v, GuidanceConfig& c);
+void fields(FieldVisitor& v, WindConfig& c);
 // fields_sensors.cpp
 void fields(FieldVisitor& v, DepthNoiseConfig& c);
 void fields(FieldVisitor& v, CameraConfig& c);

@@ -30,6 +30,7 @@ void fields(FieldVisitor& v, Scenario& c) {
   v.list("lidars", c.lidars, {0, 16}, "The LIDARs that scan the profile.");
   v.section("vehicle", c.vehicle, "What flies.");
   v.section("guidance", c.guidance, "How it flies from view to view.");
+  v.section("wind", c.wind, "The air it flies in.");
   v.section("start", c.start, "Where the views begin.");
   v.section("planner", c.planner, "What is believed and decided.");
 }

@@ -52,6 +52,8 @@ void fields(FieldVisitor& v, CameraConfig& c) {
            "Along the optical axis; beyond there is no return.");
   v.number("rate_hz", c.rate_hz, between(0, 250),
            "Frames a second in flight, at most one a tick; 0: one at each view, none between.");
+  v.number("drop_probability", c.drop_probability, between(0, 1),
+           "That a frame is lost, at a view and in flight alike.");
   mounting(v, c);
   v.section("noise", c.noise, "Noise of the depth.");
 }

@@ -149,11 +149,23 @@ void fields(FieldVisitor& v, PowerParameters& c) {
   v.number("c2", c.c2, kAny, "Profile power (Liu et al. 2017).");
   v.number("c4", c.c4, kAny, "Parasitic power (Liu et al. 2017).");
   v.number("battery_wh", c.battery_wh, between(0, 1e5), "Usable energy; 0: never empty.");
+  v.flag("return_home", c.return_home,
+         "Whether the mission ends at the start, landed: in time, if there is a battery.");
+  v.number("reserve_share", c.reserve_share, between(0, 0.9),
+           "return_home: of the battery, kept beside what the way home takes.");
+}
+
+void fields(FieldVisitor& v, GnssOutage& c) {
+  v.number("start_s", c.start_s, between(0, 1e6), "Of the mission's time.");
+  v.number("duration_s", c.duration_s, above_upto(0, 1e6), "How long no satellite is received.");
 }
 
 void fields(FieldVisitor& v, EstimateConfig& c) {
   v.choice("model", c.model, kEstimateModels,
            "none: the truth; otherwise with the errors of motion capture, satellites or vision.");
+  v.list("outages", c.outages, {0, 1000}, "gnss: times without satellites.");
+  v.number("outage_drift_m_per_sqrt_s", c.outage_drift_m_per_sqrt_s, between(0, 100),
+           "gnss: then each axis walks at random by this in a second, by twice this in four.");
 }
 
 void fields(FieldVisitor& v, VehicleConfig& c) {
@@ -189,6 +201,14 @@ void fields(FieldVisitor& v, GuidanceConfig& c) {
            "Arrived: slower than this.");
   v.number("timeout_s", c.timeout_s, above_upto(0, 1e5),
            "A leg is given up when it takes this much longer than its reference.");
+}
+
+void fields(FieldVisitor& v, WindConfig& c) {
+  v.number("mean_m_s", c.mean_world_m_s, between(-100, 100),
+           "Velocity of the air, world ENU: [3, 0, 0] blows towards the east.");
+  v.number("gust_w20_m_s", c.gust_w20_m_s, between(0, 100),
+           "Wind 20 ft above the ground that makes Dryden's gusts: 7.7 light, 15.4 moderate, 23.2 "
+           "severe; 0: none.");
 }
 
 }  // namespace gnbv

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "planner/map/memory.hpp"
+#include "scenarios/adversities.hpp"
 #include "sim/flight/rotors.hpp"
 
 namespace gnbv {
@@ -254,6 +255,7 @@ std::vector<Problem> problems(const Scenario& scenario) {
   check_vehicle(scenario.vehicle, out);
   check_guidance(scenario, out);
   check_offboard(scenario.vehicle, out);
+  check_adversities(scenario, out);
   check_cloud(scenario.planner, out);
   check_lengths(scenario.planner, out);
   check_view_rays(scenario, out);

@@ -12,6 +12,7 @@
 #include "sensors/lidar_model.hpp"
 #include "sim/flight/guidance.hpp"
 #include "sim/flight/vehicle_config.hpp"
+#include "sim/flight/wind.hpp"
 #include "sim/mesh/mesh_file.hpp"
 
 namespace gnbv {
@@ -48,6 +49,7 @@ struct Scenario {
   std::vector<LidarConfig> lidars = {LidarConfig{}};
   VehicleConfig vehicle;
   GuidanceConfig guidance;
+  WindConfig wind;
   StartConfig start;
   PlannerConfig planner;
 };

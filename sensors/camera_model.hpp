@@ -27,9 +27,10 @@ struct CameraConfig {
   int height_px = 480;
   double fov_x_rad = deg_to_rad(60.0);
   double fov_y_rad = deg_to_rad(45.0);
-  double range_min_m = 0.3;  // along the optical axis; nearer returns are invalid
-  double range_max_m = 8.0;  // along the optical axis (a plane, not a sphere)
-  double rate_hz = 0.0;      // frames a second in flight; 0: one at each view and none between
+  double range_min_m = 0.3;       // along the optical axis; nearer returns are invalid
+  double range_max_m = 8.0;       // along the optical axis (a plane, not a sphere)
+  double rate_hz = 0.0;           // frames a second in flight; 0: one at each view and none between
+  double drop_probability = 0.0;  // of a frame: lost on its way, nothing is believed of it
   Vec3 p_body_m = Vec3::Zero();
   double roll_rad = 0.0;   // about body x, applied first
   double pitch_rad = 0.0;  // about body y: positive looks down; applied second

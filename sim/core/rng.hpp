@@ -20,6 +20,8 @@ enum class Stream : std::uint64_t {
   surface_sample = 9,
   cover_search = 10,
   random_structure = 11,
+  gust = 12,
+  dropped_frame = 13,
 };
 
 struct RandomKey {

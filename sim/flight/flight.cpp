@@ -7,10 +7,12 @@
 namespace gnbv {
 
 std::unique_ptr<Flight> make_flight(const VehicleConfig& config, const World& world,
-                                    const ViewPose& start, std::uint64_t seed) {
+                                    const ViewPose& start, std::uint64_t seed,
+                                    const WindConfig& wind) {
   switch (config.kind) {
     case VehicleKind::quadrotor:
-      return std::make_unique<Quadrotor>(config, world, start, seed, Px4::Start::airborne_offboard);
+      return std::make_unique<Quadrotor>(config, world, start, seed, Px4::Start::airborne_offboard,
+                                         wind);
     case VehicleKind::ideal:
       return make_ideal_flight(config, start);
   }

@@ -9,6 +9,7 @@
 
 #include "sim/core/pose.hpp"
 #include "sim/flight/vehicle_config.hpp"
+#include "sim/flight/wind.hpp"
 
 namespace gnbv {
 
@@ -50,6 +51,11 @@ class Flight {
   /// Holds until the next call; a quadrotor gives it up when no other comes for
   /// CommanderParameters::offboard_loss_s, and then stays where it is.
   virtual void command(const Setpoint& setpoint) = 0;
+  /// From now on the vehicle lands where it is, whatever is commanded, and the ground may be
+  /// touched.
+  virtual void land() = 0;
+  /// Whether it has, and has switched its rotors off. A world without ground is never landed on.
+  virtual bool has_landed() const = 0;
   /// Advances one tick. Throws BrokenInvariant when the state becomes NaN.
   virtual void step() = 0;
   /// Whether the vehicle has touched the structure or the ground since the start.
@@ -61,8 +67,10 @@ class Flight {
 /// An airborne vehicle hovering at `start` (rotors at hover speed), in a world rebuilt for it.
 /// VehicleKind::quadrotor: sim/flight/quadrotor.hpp, armed and in OFFBOARD.
 /// VehicleKind::ideal: moves exactly as commanded, level, draws hover power and never collides.
-/// `seed` keys the errors of the estimate.
+/// `seed` keys the errors of the estimate and the gusts. In a mean wind the quadrotor begins
+/// leaning against it; the ideal vehicle feels none.
 std::unique_ptr<Flight> make_flight(const VehicleConfig& config, const World& world,
-                                    const ViewPose& start, std::uint64_t seed);
+                                    const ViewPose& start, std::uint64_t seed,
+                                    const WindConfig& wind = {});
 
 }  // namespace gnbv

@@ -112,6 +112,11 @@ bool has_arrived(const VehicleState& state, const ViewPose& goal, const Guidance
 
 }  // namespace
 
+double leg_duration_s(const ViewPose& from, const ViewPose& goal, double speed_m_s,
+                      const GuidanceConfig& config, const VehicleConfig& vehicle) {
+  return Leg(from, goal, speed_m_s, config, vehicle).duration_s();
+}
+
 LegEnd fly_leg(Flight& flight, const ViewPose& goal, double speed_m_s, const GuidanceConfig& config,
                const VehicleConfig& vehicle, const std::function<bool(const Flight&)>& on_tick) {
   GNBV_CHECK(goal.p_world_m.allFinite() && std::isfinite(goal.yaw_rad) && speed_m_s > 0.0,

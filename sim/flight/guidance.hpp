@@ -27,6 +27,10 @@ struct GuidanceConfig {
 
 enum class LegEnd { arrived, timeout, collision, stopped };
 
+/// How long the reference of such a leg takes; the vehicle arrives a little later.
+double leg_duration_s(const ViewPose& from, const ViewPose& goal, double speed_m_s,
+                      const GuidanceConfig& config, const VehicleConfig& vehicle);
+
 /// Flies the straight line to `goal` at up to `speed_m_s`, turning the short way meanwhile, and
 /// streams setpoints every 20 ms. Returns when the reference has come to rest and the vehicle has
 /// arrived (position, yaw and speed), on contact, or on timeout; the last setpoint stays in force.

@@ -13,13 +13,24 @@ class IdealFlight final : public Flight {
   IdealFlight(const VehicleConfig& config, const ViewPose& start)
       : hover_power_w_(power_w(config.power, config.airframe.mass_kg * config.airframe.gravity_m_s2,
                                Vec3::Zero())),
+        land_speed_m_s_(config.autopilot.commander.land_speed_m_s),
         pose_(start) {
     check();
   }
 
   std::int64_t tick() const override { return tick_; }
   bool has_collided() const override { return false; }
-  void command(const Setpoint& setpoint) override { setpoint_ = setpoint; }
+  void command(const Setpoint& setpoint) override {
+    if (!is_landing_) setpoint_ = setpoint;
+  }
+
+  void land() override {
+    is_landing_ = true;
+    setpoint_ = {};
+    setpoint_.v_world_m_s = Vec3(0.0, 0.0, -land_speed_m_s_);
+  }
+
+  bool has_landed() const override { return is_landing_ && pose_.p_world_m.z() <= 0.0; }
 
   VehicleState state() const override {
     VehicleState state;
@@ -59,6 +70,8 @@ class IdealFlight final : public Flight {
   }
 
   double hover_power_w_;
+  double land_speed_m_s_;
+  bool is_landing_ = false;
   ViewPose pose_;
   Vec3 v_world_m_s_ = Vec3::Zero();
   double yaw_rate_rad_s_ = 0.0;

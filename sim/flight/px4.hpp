@@ -53,6 +53,10 @@ class Px4 {
   Px4(const AutopilotParameters& parameters, const AirframeParameters& airframe,
       const VehicleState& start, Start how);
 
+  /// As if the vehicle had hovered for long against what takes this acceleration: the velocity
+  /// integral begins there.
+  void trim(const Vec3& a_world_m_s2) { position_.integral_m_s2 = a_world_m_s2; }
+
   Ack command(const Px4Command& command);
   Ack arm(bool armed, bool force = false);
   Ack set_mode(NavState mode);

@@ -4,23 +4,27 @@
 #include "sim/flight/px4.hpp"
 #include "sim/flight/state_estimator.hpp"
 #include "sim/flight/vehicle.hpp"
+#include "sim/flight/wind.hpp"
 
 namespace gnbv {
 
 class Quadrotor final : public Flight {
  public:
   /// Rebuilds the physics world. on_ground: at rest on its hull at start.p_world_m with z ignored;
-  /// airborne_offboard: hovering at `start` with rotors at hover speed.
+  /// airborne_offboard: hovering at `start`, in the mean wind, with rotors at hover speed.
   Quadrotor(const VehicleConfig& config, const World& world, const ViewPose& start,
-            std::uint64_t seed, Px4::Start how);
+            std::uint64_t seed, Px4::Start how, const WindConfig& wind = {});
 
   std::int64_t tick() const override;
   VehicleState state() const override;
   VehicleState estimate() const override;
   /// A setpoint of the offboard stream.
   void command(const Setpoint& setpoint) override;
+  void land() override;
+  bool has_landed() const override { return !px4_.is_armed(); }
   void step() override;
-  /// The structure always counts; the ground counts only for a vehicle that started airborne.
+  /// The structure always counts; the ground counts only for a vehicle that started airborne and
+  /// was not told to land.
   bool has_collided() const override;
   double energy_wh() const override;
   /// Electrical power at the last tick.
@@ -31,10 +35,12 @@ class Quadrotor final : public Flight {
 
  private:
   Quadrotor(const VehicleConfig& config, const World& world, const VehicleState& start,
-            std::uint64_t seed, Px4::Start how);
+            std::uint64_t seed, Px4::Start how, const WindConfig& wind, const HoverTrim& trim);
 
   VehicleConfig config_;
-  Px4::Start how_;
+  bool may_touch_ground_;
+  Wind wind_;
+  Vec3 wind_world_m_s_;  // at the last tick
   RigidVehicle vehicle_;
   StateEstimator estimator_;
   VehicleState estimate_;

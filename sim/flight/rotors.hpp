@@ -28,7 +28,8 @@ double yaw_authority_rad_s2(const AirframeParameters& airframe);
 /// What is left of a rotor's thrust at rest when it moves through the air, in [0, 1].
 double thrust_share(const AirframeParameters& airframe, const Vec3& v_rotor_body_m_s);
 
-/// Sum over the rotors, about the centre of mass, gravity not included.
+/// Sum over the rotors, about the centre of mass, gravity not included. The velocity is that of
+/// the body through the air.
 struct Wrench {
   Vec3 force_body_n = Vec3::Zero();
   Vec3 torque_body_n_m = Vec3::Zero();
@@ -39,7 +40,7 @@ Wrench rotor_wrench(const AirframeParameters& airframe, const RotorSpeeds& speed
 
 constexpr double kJoulesPerWattHour = 3600.0;
 
-/// Electrical power by PowerParameters' law.
+/// Electrical power by PowerParameters' law at that velocity through the air.
 double power_w(const PowerParameters& power, double thrust_n, const Vec3& v_world_m_s);
 
 /// Energy of a descent straight down from `height_m` at PX4's slow landing speed, and of the

@@ -1,5 +1,6 @@
 #include "sim/flight/state_estimator.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/core/error.hpp"
@@ -52,12 +53,28 @@ StateEstimator::Vec4 StateEstimator::normals() const {
   return {normal(0), normal(1), normal(2), normal(3)};
 }
 
+bool StateEstimator::is_in_outage() const {
+  const double time_s = static_cast<double>(tick_) * kTick_s;
+  return std::any_of(config_.outages.begin(), config_.outages.end(), [&](const GnssOutage& outage) {
+    return time_s > outage.start_s && time_s <= outage.start_s + outage.duration_s;
+  });
+}
+
 void StateEstimator::wander() {
   // e'' + 2 w e' + w^2 e = noise of spectral density 4 w^3 sigma^2
   const double w = kGnssFrequency_rad_s;
-  const Vec4 kick = std::sqrt(4.0 * w * w * w * kTick_s) * gnss_sigma().cwiseProduct(normals());
-  error_rate_per_s_ += kick - kTick_s * (2.0 * w * error_rate_per_s_ + w * w * error_);
+  const Vec4 noise = normals();
+  const Vec4 kick = std::sqrt(4.0 * w * w * w * kTick_s) * gnss_sigma().cwiseProduct(noise);
+  Vec4 rate_per_s =
+      error_rate_per_s_ + (kick - kTick_s * (2.0 * w * error_rate_per_s_ + w * w * error_));
+  const bool is_out = is_in_outage();
+  if (is_out) {
+    rate_per_s.head<3>().setZero();
+    walk_m_ += config_.outage_drift_m_per_sqrt_s * std::sqrt(kTick_s) * noise.head<3>();
+  }
+  error_rate_per_s_ = rate_per_s;
   error_ += kTick_s * error_rate_per_s_;
+  if (!is_out) walk_m_ *= std::exp(-kTick_s / kOutageFade_s);
 }
 
 void StateEstimator::drift(const VehicleState& truth) {
@@ -74,6 +91,14 @@ VehicleState StateEstimator::with_error(const VehicleState& truth) const {
       Eigen::AngleAxisd(error_[3], Vec3::UnitZ()) * truth.T_world_body.linear();
   estimate.T_world_body.translation() += error_.head<3>();
   estimate.v_world_m_s += error_rate_per_s_.head<3>();
+  return estimate;
+}
+
+VehicleState StateEstimator::with_outage(const VehicleState& wandered) const {
+  if (config_.outages.empty()) return wandered;
+  VehicleState estimate = wandered;
+  estimate.T_world_body.translation() += walk_m_;
+  if (!is_in_outage()) estimate.v_world_m_s -= walk_m_ / kOutageFade_s;  // it fades
   return estimate;
 }
 
@@ -95,7 +120,7 @@ VehicleState StateEstimator::step(const VehicleState& truth) {
       return with_jitter(truth);
     case EstimateModel::gnss:
       wander();
-      return with_error(truth);
+      return with_outage(with_error(truth));
     case EstimateModel::vio:
       drift(truth);
       error_rate_per_s_ = truth.v_world_m_s.norm() * drift_per_m_;

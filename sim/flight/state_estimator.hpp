@@ -13,12 +13,19 @@ namespace gnbv {
 /// deg
 ///   that wander as critically damped second-order Gauss-Markov processes of 0.05 rad/s (a
 ///   correlation time of some 40 s, own choice); the velocity error is the position error's
-///   derivative. Both begin at their stationary law.
+///   derivative. Both begin at their stationary law. In an outage (EstimateConfig::outages) the
+///   position error stands still and a random walk of variance outage_drift^2 t grows on it, with
+///   no error of the velocity: dead reckoning by a velocity whose error is white. When the
+///   satellites are back the walk fades within seconds (kOutageFade_s, own choice), as a filter
+///   that trusts them again would have it; the heading, of a compass, wanders on.
 /// vio: position drifts by 1 % of the path flown (root mean square over missions, while the path is
 ///   short against the 100 m after which the drift forgets its direction, own choice), heading by
 ///   0.01 deg a metre; roll and pitch are observable and stay true. Begins without error.
 /// The body rate is always true. Errors are keyed by seed and tick: a flight flown again is the
 /// same flight.
+/// After an outage, what it has left fades by exp(-t / kOutageFade_s).
+constexpr double kOutageFade_s = 2.0;
+
 class StateEstimator {
  public:
   StateEstimator(const EstimateConfig& config, std::uint64_t seed, const VehicleState& start);
@@ -31,9 +38,11 @@ class StateEstimator {
 
   double normal(std::uint64_t index) const;
   Vec4 normals() const;
+  bool is_in_outage() const;
   void wander();
   void drift(const VehicleState& truth);
   VehicleState with_error(const VehicleState& truth) const;
+  VehicleState with_outage(const VehicleState& wandered) const;
   VehicleState with_jitter(const VehicleState& truth) const;
 
   EstimateConfig config_;
@@ -42,6 +51,7 @@ class StateEstimator {
   Vec3 p_last_world_m_;
   Vec4 error_ = Vec4::Zero();
   Vec4 error_rate_per_s_ = Vec4::Zero();  // gnss
+  Vec3 walk_m_ = Vec3::Zero();            // gnss: what outages have left
   Vec4 drift_per_m_ = Vec4::Zero();       // vio
 };
 

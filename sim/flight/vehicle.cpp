@@ -55,7 +55,7 @@ struct RigidVehicle::Scene {
   /// Notes what the hull touches, and takes away the part of the velocity that leads into it.
   Vec3 feel_contacts(const Vec3& v_world_m_s);
   /// Turns the rotors through one tick; their mean wrench.
-  Wrench turn_rotors(const RateControl& control);
+  Wrench turn_rotors(const RateControl& control, const Vec3& wind_world_m_s);
   /// Angular velocity, in world axes, of a body at attitude R with this angular momentum.
   Vec3 omega_world(const Eigen::Matrix3d& R_world_body, const Vec3& L_world) const {
     return R_world_body *
@@ -182,8 +182,10 @@ double RigidVehicle::thrust_n() const { return scene_->thrust_n; }
 bool RigidVehicle::has_touched_structure() const { return scene_->has_touched_structure; }
 bool RigidVehicle::has_touched_ground() const { return scene_->has_touched_ground; }
 
-Wrench RigidVehicle::Scene::turn_rotors(const RateControl& control) {
-  const Vec3 v_body_m_s = state.T_world_body.linear().transpose() * state.v_world_m_s;
+Wrench RigidVehicle::Scene::turn_rotors(const RateControl& control, const Vec3& wind_world_m_s) {
+  // through the air, as gazebo_motor_model.cpp has it
+  const Vec3 v_body_m_s =
+      state.T_world_body.linear().transpose() * (state.v_world_m_s - wind_world_m_s);
   Vec3 omega = state.omega_body_rad_s;
   Wrench mean;
   for (int k = 0; k < kRateStepsPerTick; ++k) {
@@ -203,12 +205,12 @@ Wrench RigidVehicle::Scene::turn_rotors(const RateControl& control) {
   return mean;
 }
 
-void RigidVehicle::step(const RateControl& control) {
+void RigidVehicle::step(const RateControl& control, const Vec3& wind_world_m_s) {
   Scene& s = *scene_;
   const Eigen::Matrix3d R0 = s.state.T_world_body.linear();
   const Vec3 omega0_world = R0 * s.state.omega_body_rad_s;
 
-  const Wrench wrench = s.turn_rotors(control);
+  const Wrench wrench = s.turn_rotors(control, wind_world_m_s);
   const Vec3 a_world =
       R0 * wrench.force_body_n / s.airframe.mass_kg - s.airframe.gravity_m_s2 * Vec3::UnitZ();
   const Vec3 torque_world = R0 * wrench.torque_body_n_m;

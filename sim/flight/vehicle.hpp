@@ -21,11 +21,12 @@ class RigidVehicle {
   /// Rotor references (0 = disarmed) for a body rate, in body axes.
   using RateControl = std::function<RotorSpeeds(const Vec3& omega_body_rad_s)>;
 
-  /// Advances one tick in kRateStepsPerTick steps: the rotors push with the speeds they have, then
-  /// follow the references, as in Gazebo. The body rate that `control` sees at each step is carried
-  /// forward with the rotors' torque; Bullet then moves the body with the mean of the pushes.
-  /// Throws BrokenInvariant when the state becomes NaN or infinite.
-  void step(const RateControl& control);
+  /// Advances one tick in kRateStepsPerTick steps, in air that moves with that velocity: the rotors
+  /// push with the speeds they have, then follow the references, as in Gazebo. The body rate that
+  /// `control` sees at each step is carried forward with the rotors' torque; Bullet then moves the
+  /// body with the mean of the pushes. Throws BrokenInvariant when the state becomes NaN or
+  /// infinite.
+  void step(const RateControl& control, const Vec3& wind_world_m_s = Vec3::Zero());
 
   const VehicleState& state() const;
   const RotorSpeeds& rotor_speeds_rad_s() const;  // for tests: nothing flown measures them

@@ -7,6 +7,7 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "sim/core/pose.hpp"
 #include "sim/flight/commander_parameters.hpp"
@@ -85,14 +86,26 @@ struct PowerParameters {
   double c2 = 0.3177;
   double c4 = 0.0296;
   double battery_wh = 0.0;  // usable energy; 0: never empty
+  // Whether the mission ends at home, landed, and what of the battery is kept for that besides what
+  // the way home takes.
+  bool return_home = false;
+  double reserve_share = 0.2;
 };
 
 /// Error of the state estimate by name; the laws and their sources are in
 /// sim/flight/state_estimator.hpp.
 enum class EstimateModel { none, mocap, gnss, vio };
 
+/// From start_s on, so long, the receiver has no satellites. Simulated time of the mission.
+struct GnssOutage {
+  double start_s = 0.0;
+  double duration_s = 10.0;
+};
+
 struct EstimateConfig {
   EstimateModel model = EstimateModel::none;
+  std::vector<GnssOutage> outages = {};  // gnss only
+  double outage_drift_m_per_sqrt_s = 0.3;
 };
 
 enum class VehicleKind { quadrotor, ideal };

@@ -97,5 +97,26 @@ TEST(Problems, TheStreamOfTheGuidanceHasToKeepTheVehicleInOffboard) {
   EXPECT_THAT(complaint(kMinimal, {key + "=0.02"}), StartsWith("--set " + key + "=0.02: " + key));
 }
 
+TEST(Problems, AWindIsOneTheVehicleCanHoverIn) {
+  EXPECT_EQ(complaint(kMinimal + "wind: {mean_m_s: [12, -9, 0], gust_w20_m_s: 15.4}"), "");
+  EXPECT_THAT(complaint(kMinimal + "wind: {mean_m_s: [0, 40, 0]}"),
+              AllOf(StartsWith("s.yaml:2: wind.mean_m_s: value '[0, 40, 0]': "),
+                    HasSubstr("hovering in a wind of 40 m/s takes a tilt of "),
+                    HasSubstr("the autopilot allows less than 45 deg")));
+  EXPECT_THAT(complaint(kMinimal + "vehicle: {kind: ideal}\nwind: {gust_w20_m_s: 5}"),
+              HasSubstr("an ideal vehicle moves exactly as commanded"));
+}
+
+TEST(Problems, OnlySatellitesAreLostAndOneOutageAfterAnother) {
+  const std::string outages = "outages: [{start_s: 5, duration_s: 10}, {start_s: 20}]";
+  EXPECT_EQ(complaint(kMinimal + "vehicle: {estimate: {model: gnss, " + outages + "}}"), "");
+  EXPECT_THAT(complaint(kMinimal + "vehicle: {estimate: {model: vio, " + outages + "}}"),
+              HasSubstr("only an estimate by satellites, `gnss`, can lose them"));
+  EXPECT_THAT(complaint(kMinimal + "vehicle: {estimate: {model: gnss, " + outages + "}}",
+                        {"vehicle.estimate.outages.1.start_s=14"}),
+              AllOf(StartsWith("--set vehicle.estimate.outages.1.start_s=14: "),
+                    HasSubstr("begins before that at 5 s has ended")));
+}
+
 }  // namespace
 }  // namespace gnbv

@@ -20,6 +20,8 @@ class StreamingFlight final : public Flight {
   void command(const Setpoint& setpoint) override { setpoint_ = setpoint; }
   bool has_collided() const override { return flight_->has_collided(); }
   double energy_wh() const override { return flight_->energy_wh(); }
+  void land() override { flight_->land(); }
+  bool has_landed() const override { return flight_->has_landed(); }
   void step() override {
     if (setpoint_) flight_->command(*setpoint_);
     flight_->step();

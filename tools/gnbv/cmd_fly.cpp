@@ -116,7 +116,8 @@ void fly(const FlyOptions& options) {
   const World world = load_world(scenario, warnings);
   for (const std::string& warning : warnings) fmt::print(stderr, "gnbv: {}\n", warning);
   const ViewPose start = ground_start(scenario, RayScene(world));
-  Quadrotor vehicle(scenario.vehicle, world, start, scenario.seed, Px4::Start::on_ground);
+  Quadrotor vehicle(scenario.vehicle, world, start, scenario.seed, Px4::Start::on_ground,
+                    scenario.wind);
   mavlink::Endpoint endpoint(scenario.vehicle.power.battery_wh);
   mavlink::UdpSocket socket(address);
 

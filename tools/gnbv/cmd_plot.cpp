@@ -12,6 +12,7 @@
 #include "tools/plots/gnuplot.hpp"
 #include "tools/plots/reach_plot.hpp"
 #include "tools/plots/run_plots.hpp"
+#include "tools/plots/tracking_plot.hpp"
 #include "tools/run_files/file_names.hpp"
 #include "tools/run_files/run_names.hpp"
 #include "tools/sweep/cell_files.hpp"
@@ -95,13 +96,13 @@ std::vector<Plot> plots_of_runs(const PlotOptions& options, const std::vector<Ru
       plot->name = what + ends[run];
       plots.push_back(std::move(*plot));
     } else {
-      fmt::print(stderr, "gnbv: {}: no scored views to plot as {}\n", records[run].folder.string(),
-                 what);
+      fmt::print(stderr, "gnbv: {}: no views to plot as {}\n", records[run].folder.string(), what);
     }
   };
   for (std::size_t i = 0; i < records.size(); ++i) {
     if (wants(options, "density")) add("density", i, density_entropy_plot(records[i]));
     if (wants(options, "terms")) add("terms", i, terms_plot(records[i]));
+    if (wants(options, "tracking")) add("tracking", i, tracking_plot(records[i]));
   }
   return plots;
 }
@@ -193,10 +194,11 @@ void add_plot_command(CLI::App& app) {
       ->check(CLI::IsMember({"svg", "png", "pdf"}))
       ->capture_default_str();
   command
-      ->add_option("--plots", options->plots, "which: density, coverage, terms, reach, with commas")
+      ->add_option("--plots", options->plots,
+                   "which: density, coverage, terms, reach, tracking, with commas")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::IsMember({"density", "coverage", "terms", "reach"}))
+      ->check(CLI::IsMember({"density", "coverage", "terms", "reach", "tracking"}))
       ->capture_default_str();
   command
       ->add_option("--reach", options->reach_percent,

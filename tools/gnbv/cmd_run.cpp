@@ -9,6 +9,7 @@
 #include "sim/core/file.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/early_end.hpp"
+#include "tools/gnbv/margin_note.hpp"
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/run_files/file_names.hpp"
@@ -37,6 +38,13 @@ void run(const RunOptions& options) {
   if (const std::string note = early_end_note(mission.result, mission.score.final[0]);
       !note.empty()) {
     fmt::print(stderr, "gnbv: {}", note);
+  }
+  if (const std::string note = margin_note(scenario, mission.result.path_error); !note.empty()) {
+    fmt::print(stderr, "gnbv: {}", note);
+  }
+  if (mission.result.termination == Termination::off_course) {
+    throw CommandFailed(
+        "the vehicle was carried out of the workspace; the run directory shows where");
   }
   if (mission.result.termination == Termination::collision) {
     throw CommandFailed("the vehicle hit something; the run directory shows where");

@@ -6,13 +6,20 @@
 #include "planner/map/path_search.hpp"
 #include "planner/next_view.hpp"
 #include "sim/core/error.hpp"
+#include "tools/mission/homing.hpp"
 #include "tools/mission/mission_state.hpp"
 #include "tools/mission/sensing.hpp"
 
 namespace gnbv {
 namespace {
 
-DepthFrame depth_frame(const Mission& m, std::size_t camera) {
+/// The camera's depth frame now, counted; nothing when it is lost.
+std::optional<DepthFrame> take_frame(Mission& m, std::size_t camera) {
+  if (is_dropped(m.planner.cameras[camera].config, camera, m.flight->tick(), m.scenario.seed)) {
+    ++m.out.frames.dropped;
+    return std::nullopt;
+  }
+  ++m.out.frames.taken;
   return sense_depth(m.scene, m.planner.cameras[camera], static_cast<int>(camera), *m.flight,
                      m.scenario.seed, m.bench.threads);
 }
@@ -29,9 +36,8 @@ std::optional<Termination> fly_to_view(Mission& m, const Decision& next) {
     integrate_view(m.planner, pending, m.bench, m.out.belief);
     pending.clear();
     for (std::size_t i = 0; i < m.planner.cameras.size(); ++i) {
-      if (is_due(m.planner.cameras[i].config.rate_hz, flight.tick())) {
-        pending.push_back(depth_frame(m, i));
-      }
+      if (!is_due(m.planner.cameras[i].config.rate_hz, flight.tick())) continue;
+      if (auto frame = take_frame(m, i)) pending.push_back(std::move(*frame));
     }
   };
   std::vector<ViewPose> legs;
@@ -48,12 +54,15 @@ std::optional<Termination> fly_to_view(Mission& m, const Decision& next) {
 std::vector<DepthFrame> sense(Mission& m) {
   const ScopeTimer timer(m.view_wall.sense_s);
   std::vector<DepthFrame> frames;
-  for (std::size_t i = 0; i < m.planner.cameras.size(); ++i) frames.push_back(depth_frame(m, i));
+  for (std::size_t i = 0; i < m.planner.cameras.size(); ++i) {
+    if (auto frame = take_frame(m, i)) frames.push_back(std::move(*frame));
+  }
   if (!m.hooks.on_frames) return frames;
   std::vector<ColourFrame> colours;
-  for (std::size_t i = 0; i < m.planner.cameras.size(); ++i) {
-    colours.push_back(sense_colour(m.scene, m.planner.cameras[i], static_cast<int>(i), *m.flight,
-                                   m.bench.threads));
+  for (const DepthFrame& frame : frames) {
+    colours.push_back(sense_colour(m.scene,
+                                   m.planner.cameras[static_cast<std::size_t>(frame.camera)],
+                                   frame.camera, *m.flight, m.bench.threads));
   }
   m.hooks.on_frames(m.out.views.size(), time_s(*m.flight), frames, colours);
   return frames;
@@ -88,6 +97,7 @@ void record(Mission& m, const Decision& decision) {
   m.view_wall = {};
   m.hooks.on_view(m.out.views.back());
   m.hooks.on_view_belief(belief);
+  m.exits = exits_here(m);
 }
 
 std::optional<Termination> termination(const Mission& m) {
@@ -126,6 +136,7 @@ std::optional<Decision> decide(Mission& m) {
 
 MissionResult finish(Mission& m, Termination reason) {
   m.out.termination = reason;
+  if (ends_at_home(m, reason)) fly_home(m);
   m.out.flight_time_s = time_s(*m.flight);
   m.out.energy_wh = m.flight->energy_wh();
   m.out.final_state = m.flight->state();
@@ -148,6 +159,7 @@ MissionResult run_mission(const Scenario& scenario, const World& world, const Ra
     if (const auto over = termination(m)) return finish(m, *over);
     const std::optional<Decision> decision = decide(m);
     if (!decision) return finish(m, Termination::no_valid_view);
+    if (!can_afford(m, *decision)) return finish(m, Termination::battery);
     next = *decision;
   }
 }

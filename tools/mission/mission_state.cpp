@@ -1,7 +1,9 @@
 #include "tools/mission/mission_state.hpp"
 
+#include <algorithm>
+
 #include "sim/flight/guidance.hpp"
-#include "sim/flight/rotors.hpp"
+#include "tools/mission/homing.hpp"
 #include "tools/mission/start_pose.hpp"
 
 namespace gnbv {
@@ -13,12 +15,18 @@ std::vector<LidarModel> lidar_models(const Scenario& scenario) {
   return models;
 }
 
-/// Whether what is left in the battery is more than a straight descent to the ground takes.
-bool has_energy_to_go_on(const Mission& m) {
-  const VehicleConfig& vehicle = m.scenario.vehicle;
-  if (vehicle.power.battery_wh <= 0.0) return true;
-  const double z_m = m.flight->estimate().T_world_body.translation().z();
-  return m.flight->energy_wh() + landing_energy_wh(vehicle, z_m) < vehicle.power.battery_wh;
+double distance_to_segment_m(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 along = b - a;
+  const double length2 = along.squaredNorm();
+  const double share = length2 > 0.0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
+  return (p - a - share * along).norm();
+}
+
+/// Believed to be where no leg leads, and no vehicle that is in command of itself comes to.
+bool is_off_course(const Mission& m) {
+  constexpr double kFence_m = 3.0;  // own choice: an overshoot stays within decimetres
+  const Vec3 p_m = m.flight->estimate().T_world_body.translation();
+  return m.scenario.workspace_m.squaredExteriorDistance(p_m) > kFence_m * kFence_m;
 }
 
 }  // namespace
@@ -38,7 +46,7 @@ Mission::Mission(const Scenario& mission_scenario, const World& world, const Ray
               lidar_models(scenario), scenario.seed),
       bench(planner, threads),
       out(start_pose(scenario, scene), planner),
-      flight(make_flight(scenario.vehicle, world, out.start, scenario.seed)),
+      flight(make_flight(scenario.vehicle, world, out.start, scenario.seed, scenario.wind)),
       current(out.start),
       last_p_world_m(out.start.p_world_m) {}
 
@@ -48,21 +56,29 @@ bool should_stop(const Mission& m) {
 
 double time_s(const Flight& flight) { return static_cast<double>(flight.tick()) * kTick_s; }
 
+void keep_track(Mission& m) {
+  constexpr std::int64_t kTicksPerSample = kTicksPerSecond / 10;
+  const Isometry T = m.flight->state().T_world_body;
+  m.flown_m += (T.translation() - m.last_p_world_m).norm();
+  m.last_p_world_m = T.translation();
+  if (m.flight->tick() % kTicksPerSample == 0) m.out.trajectory.push_back({time_s(*m.flight), T});
+}
+
 std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal, double speed_m_s,
                                    const std::function<void(const Flight&)>& on_tick) {
-  constexpr std::int64_t kTicksPerSample = kTicksPerSecond / 10;
-  const LegEnd end = fly_leg(*m.flight, goal, speed_m_s, m.scenario.guidance, m.scenario.vehicle,
-                             [&](const Flight& flight) {
-                               const Isometry T = flight.state().T_world_body;
-                               m.flown_m += (T.translation() - m.last_p_world_m).norm();
-                               m.last_p_world_m = T.translation();
-                               if (flight.tick() % kTicksPerSample == 0)
-                                 m.out.trajectory.push_back({time_s(flight), T});
-                               on_tick(flight);
-                               return has_energy_to_go_on(m);
-                             });
+  const Vec3 from_m = m.flight->estimate().T_world_body.translation();
+  const LegEnd end = fly_leg(
+      *m.flight, goal, speed_m_s, m.scenario.guidance, m.scenario.vehicle,
+      [&](const Flight& flight) {
+        keep_track(m);
+        m.out.path_error.add(distance_to_segment_m(m.last_p_world_m, from_m, goal.p_world_m));
+        on_tick(flight);
+        return !is_off_course(m) && has_energy_to_go_on(m);
+      });
   if (end == LegEnd::collision) return Termination::collision;
-  if (end == LegEnd::stopped) return Termination::battery;
+  if (end == LegEnd::stopped) {
+    return is_off_course(m) ? Termination::off_course : Termination::battery;
+  }
   m.current = goal;
   if (end == LegEnd::timeout) {
     ++m.out.legs_timed_out;

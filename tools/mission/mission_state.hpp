@@ -14,6 +14,12 @@
 
 namespace gnbv {
 
+/// A place on the leg at hand from which the way home is known.
+struct Exit {
+  Vec3 p_world_m;
+  std::vector<Vec3> way_world_m;  // the points after it; the last one is home
+};
+
 /// All that changes while the mission runs, beside what never does.
 struct Mission {
   Mission(const Scenario& mission_scenario, const World& world, const RayScene& ray_scene,
@@ -33,6 +39,8 @@ struct Mission {
   ViewPose current;                                 // where the planner believes to be
   Vec3 last_p_world_m;                              // truth, one tick ago
   double flown_m = 0.0;                             // truth, since the start
+  std::vector<Exit> exits;                          // none: home leads over the top
+  bool is_homing = false;                           // on the last way, with energy for it
   double entropy_before_nat = 0.0;                  // of the view at hand
   WallTimes view_wall;                              // of the view at hand
 };
@@ -41,6 +49,9 @@ double time_s(const Flight& flight);
 
 /// A resumed run goes on until it has caught up: stopping earlier would lose recorded views.
 bool should_stop(const Mission& m);
+
+/// After each tick: keeps the true track.
+void keep_track(Mission& m);
 
 /// Flies one leg and keeps its track; `on_tick` runs after each tick.
 std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal, double speed_m_s,

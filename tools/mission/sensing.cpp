@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/core/rng.hpp"
+
 namespace gnbv {
 namespace {
 
@@ -18,6 +20,12 @@ bool is_due(double rate_hz, std::int64_t tick) {
     return std::floor(static_cast<double>(t) * rate_hz / static_cast<double>(kTicksPerSecond));
   };
   return count(tick) != count(tick - 1);
+}
+
+bool is_dropped(const CameraConfig& camera, std::size_t camera_index, std::int64_t tick,
+                std::uint64_t seed) {
+  return uniform01({seed, Stream::dropped_frame, static_cast<std::uint64_t>(tick),
+                    static_cast<std::uint64_t>(camera_index)}) < camera.drop_probability;
 }
 
 DepthFrame sense_depth(const RayScene& scene, const CameraModel& camera, int camera_index,

@@ -14,6 +14,10 @@ namespace gnbv {
 /// Whether something that happens `rate_hz` times a second happens at this tick; never at rate 0.
 bool is_due(double rate_hz, std::int64_t tick);
 
+/// Whether the camera's frame of this tick is lost on its way.
+bool is_dropped(const CameraConfig& camera, std::size_t camera_index, std::int64_t tick,
+                std::uint64_t seed);
+
 /// One depth frame of the camera, now.
 DepthFrame sense_depth(const RayScene& scene, const CameraModel& camera, int camera_index,
                        const Flight& flight, std::uint64_t seed, int threads);

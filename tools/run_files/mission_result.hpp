@@ -1,7 +1,10 @@
 // What a mission leaves behind.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,6 +57,35 @@ struct MissionDistances {
   double flown_m = 0.0;     // the same legs, as flown
 };
 
+/// How far the vehicle truly was from the straight legs it was to fly, tick by tick.
+struct PathError {
+  double squares_m2 = 0.0;
+  std::int64_t ticks = 0;
+  double max_m = 0.0;
+
+  void add(double distance_m) {
+    squares_m2 += distance_m * distance_m;
+    ++ticks;
+    max_m = std::max(max_m, distance_m);
+  }
+  double rms_m() const {
+    return ticks == 0 ? 0.0 : std::sqrt(squares_m2 / static_cast<double>(ticks));
+  }
+};
+
+/// Camera frames that were due, at views and in flight.
+struct FrameCounts {
+  std::int64_t taken = 0;
+  std::int64_t dropped = 0;  // not among the taken
+};
+
+/// How the mission came home.
+struct HomeFlight {
+  bool reached = false;  // home, in the air
+  bool landed = false;   // there, or where the battery left off
+  double flown_m = 0.0;  // with the landing
+};
+
 /// Whether the profile has a mirror image, and what it predicts.
 struct Prediction {
   Symmetry symmetry;  // its mirrored points are dropped
@@ -77,6 +109,9 @@ struct MissionResult {
   double entropy_after_profile_nat = 0.0;
   Prediction prediction;
   int legs_timed_out = 0;
+  PathError path_error;
+  FrameCounts frames;
+  std::optional<HomeFlight> home;  // of missions that end there
   std::vector<Vec3f> profile_points_world_m;
   Belief belief;
   WallTimes wall;

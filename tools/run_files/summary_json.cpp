@@ -132,6 +132,11 @@ Json rejections_of(const std::map<Rejection, int>& rejections) {
   return counts;
 }
 
+Json home_of(const std::optional<HomeFlight>& home) {
+  if (!home) return nullptr;
+  return {{"reached", home->reached}, {"landed", home->landed}, {"flown_m", home->flown_m}};
+}
+
 }  // namespace
 
 std::string summary_json(const Scenario& scenario, const MissionResult& r,
@@ -139,6 +144,7 @@ std::string summary_json(const Scenario& scenario, const MissionResult& r,
   const double entropy_nat = r.belief.grid.total_entropy_nat();
   const double battery_wh = scenario.vehicle.power.battery_wh;
   const Json battery = battery_wh > 0.0 ? Json(battery_wh) : Json(nullptr);  // null: never empty
+  const WindConfig& wind = scenario.wind;
   const Vec3 p = r.final_state.T_world_body.translation();
   const Eigen::Quaterniond q(r.final_state.T_world_body.linear());
   const Vec3& v = r.final_state.v_world_m_s;
@@ -165,6 +171,8 @@ std::string summary_json(const Scenario& scenario, const MissionResult& r,
       {"flight_time_s", r.flight_time_s},
       {"energy_wh", r.energy_wh},
       {"battery_wh", battery},
+      {"battery_left_wh", battery_wh > 0.0 ? Json(battery_wh - r.energy_wh) : Json(nullptr)},
+      {"home", home_of(r.home)},
       {"entropy_nat",
        {{"after_profile", r.entropy_after_profile_nat},
         {"final", entropy_nat},
@@ -174,6 +182,11 @@ std::string summary_json(const Scenario& scenario, const MissionResult& r,
       {"density_points_per_voxel", r.views.empty() ? 0.0 : r.views.back().density_points_per_voxel},
       {"collisions", r.termination == Termination::collision ? 1 : 0},
       {"legs_timed_out", r.legs_timed_out},
+      {"path_error_m", {{"rms", r.path_error.rms_m()}, {"max", r.path_error.max_m}}},
+      {"frames", {{"taken", r.frames.taken}, {"dropped", r.frames.dropped}}},
+      {"wind",
+       {{"mean_m_s", std::vector<double>(wind.mean_world_m_s.begin(), wind.mean_world_m_s.end())},
+        {"gust_w20_m_s", wind.gust_w20_m_s}}},
       {"final_state",
        {{"position_m", std::vector<double>(p.begin(), p.end())},
         {"quaternion_xyzw", std::vector<double>{q.x(), q.y(), q.z(), q.w()}},

@@ -225,6 +225,8 @@ class Recorder final : public Flight {
   void step() override { flight_->step(); }
   bool has_collided() const override { return flight_->has_collided(); }
   double energy_wh() const override { return flight_->energy_wh(); }
+  void land() override { flight_->land(); }
+  bool has_landed() const override { return flight_->has_landed(); }
   std::vector<std::int64_t> commanded_ticks;
   Setpoint first;
   Vec3 error_m = Vec3::Zero();

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace gnbv {
 namespace {
@@ -125,6 +126,48 @@ TEST(StateEstimate, VioStandsStillWithTheVehicleAndKeepsRollAndPitch) {
     const Vec3 down_seen = estimate.T_world_body.linear().transpose() * Vec3::UnitZ();
     ASSERT_LT((down_body - down_seen).norm(), 1e-12);  // rounding
   }
+}
+
+/// The gnss errors of one mission with an outage from 4 s to 12 s, each tick to 16 s.
+std::vector<Vec3> errors_with_outage_m(std::uint64_t seed, std::vector<GnssOutage> outages,
+                                       double drift) {
+  const VehicleState truth = moving(0.0, 0.0);
+  StateEstimator estimator({EstimateModel::gnss, std::move(outages), drift}, seed, truth);
+  std::vector<Vec3> errors_m;
+  for (int i = 0; i < 16 * kTicksPerSecond; ++i) {
+    errors_m.push_back(position_error_m(estimator.step(truth), truth));
+  }
+  return errors_m;
+}
+
+TEST(GnssOutage, WalksAtRandomWithAVarianceThatGrowsAsTheTime) {
+  constexpr double kDrift = 0.4;
+  for (const int seconds : {1, 2, 8}) {
+    double sum = 0.0;
+    for (std::uint64_t seed = 0; seed < kMissions; ++seed) {
+      const auto errors_m = errors_with_outage_m(seed, {{4.0, 8.0}}, kDrift);
+      const std::size_t begin = 4 * kTicksPerSecond - 1;  // the first estimate is that of tick 1
+      sum +=
+          (errors_m[begin + static_cast<std::size_t>(seconds * kTicksPerSecond)] - errors_m[begin])
+              .squaredNorm();
+    }
+    expect_sigma(sum, 3 * kMissions, kDrift * std::sqrt(seconds));
+  }
+}
+
+TEST(GnssOutage, ChangesNothingBeforeItAndFadesAfterIt) {
+  const auto calm_m = errors_with_outage_m(7, {}, 0.4);
+  const auto still_m = errors_with_outage_m(7, {{4.0, 8.0}}, 0.0);
+  const auto walk_m = errors_with_outage_m(7, {{4.0, 8.0}}, 0.4);
+  const auto at = [](double time_s) { return static_cast<std::size_t>(time_s / kTick_s) - 1; };
+  EXPECT_EQ(walk_m[at(4.0)], calm_m[at(4.0)]);
+  EXPECT_NE(walk_m[at(5.0)], calm_m[at(5.0)]);
+  EXPECT_LT((still_m[at(12.0)] - still_m[at(4.0)]).norm(), 1e-12);  // stands still but for the walk
+  // from then on only the walk tells them apart, and it fades
+  const Vec3 left_m = walk_m[at(12.0)] - still_m[at(12.0)];
+  const Vec3 later_m = walk_m[at(15.0)] - still_m[at(15.0)];
+  EXPECT_GT(left_m.norm(), 0.1);
+  EXPECT_LT((later_m - std::exp(-3.0 / kOutageFade_s) * left_m).norm(), 1e-9);
 }
 
 TEST(StateEstimate, IsKeyedByTheSeed) {

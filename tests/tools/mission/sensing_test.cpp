@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/sensors/shapes.hpp"
 
 namespace gnbv {
@@ -28,6 +30,8 @@ class Sliding final : public Flight {
   void step() override { ++tick_; }
   bool has_collided() const override { return false; }
   double energy_wh() const override { return 0.0; }
+  void land() override {}
+  bool has_landed() const override { return false; }
 
  private:
   double speed_m_s_;
@@ -134,6 +138,32 @@ TEST(DepthFrames, AreSeenFromTheTruePoseAndCarryTheBelievedOne) {
   const DepthFrame frame = sense_depth(scene, camera, 0, flight, 1, 1);
   EXPECT_EQ(frame.T_world_camera.translation(), Vec3(0.0, 1.0, 0.0));
   EXPECT_NEAR(frame.depth_m[10 * 31 + 15], 5.0, 0.02);  // the sphere's centre is the true place
+}
+
+TEST(DroppedFrames, AreAsManyAsTheyShouldBeAndCameraByCameraTheirOwn) {
+  CameraConfig camera;
+  camera.drop_probability = 0.3;
+  constexpr int kFrames = 20000;
+  int dropped = 0, both = 0;
+  for (int tick = 0; tick < kFrames; ++tick) {
+    const bool first = is_dropped(camera, 0, tick, 1);
+    dropped += first;
+    both += first && is_dropped(camera, 1, tick, 1);
+    EXPECT_EQ(first, is_dropped(camera, 0, tick, 1));
+  }
+  const auto tolerance = [](double p) { return 4.0 * std::sqrt(p * (1.0 - p) / kFrames); };
+  EXPECT_NEAR(dropped / double{kFrames}, 0.3, tolerance(0.3));  // binomial
+  EXPECT_NEAR(both / double{kFrames}, 0.09, tolerance(0.09));
+}
+
+TEST(DroppedFrames, AreNoneAtZeroAndAllAtOne) {
+  CameraConfig camera;
+  for (int tick = 0; tick < 1000; ++tick) {
+    camera.drop_probability = 0.0;
+    EXPECT_FALSE(is_dropped(camera, 0, tick, 1));
+    camera.drop_probability = 1.0;
+    EXPECT_TRUE(is_dropped(camera, 0, tick, 1));
+  }
 }
 
 }  // namespace

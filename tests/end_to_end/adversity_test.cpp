@@ -1,0 +1,134 @@
+// Missions in wind, with cameras that lose frames, without satellites, and home on one battery.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/support/flown.hpp"
+
+namespace gnbv {
+namespace {
+
+using Overrides = std::vector<std::string>;
+
+/// All adversities at once.
+Overrides adversities() {
+  return {"wind.mean_m_s=[3,2,0]",
+          "wind.gust_w20_m_s=5",
+          "cameras.0.drop_probability=0.3",
+          "cameras.0.rate_hz=1",
+          "vehicle.estimate.model=gnss",
+          "vehicle.estimate.outages=[{start_s: 30, duration_s: 10}]",
+          "vehicle.power.return_home=true",
+          "planner.validity.collision_radius_m=1.0",
+          "planner.termination.max_iterations=6"};
+}
+
+TEST(AdverseMission, IsTheSameAtAnyNumberOfThreadsAndResumed) {
+  const Scenario scenario = smoke(adversities());
+  const Flown whole(scenario, {}, 1);
+  const std::string hash = result_sha256(whole.result);
+  EXPECT_EQ(result_sha256(Flown(scenario, {}, 3).result), hash);
+  ASSERT_GE(whole.result.views.size(), 4U);
+  MissionHooks resumed;
+  for (std::size_t i = 0; i < 3; ++i) {
+    resumed.replay.push_back(whole.result.views[i].decision);
+  }
+  EXPECT_EQ(result_sha256(Flown(scenario, resumed).result), hash);
+}
+
+TEST(WindyMission, LeavesItsPathInGustsAndLittleOtherwise) {
+  const Overrides few = {"planner.termination.max_iterations=4"};
+  const auto error_of = [&](const Overrides& wind) {
+    Overrides all = few;
+    all.insert(all.end(), wind.begin(), wind.end());
+    const Flown flown(smoke(all));
+    EXPECT_EQ(flown.result.termination, Termination::max_iterations);
+    return flown.result.path_error;
+  };
+  const PathError calm = error_of({});
+  const PathError steady = error_of({"wind.mean_m_s=[4,0,0]"});
+  const PathError gusty = error_of({"wind.mean_m_s=[4,0,0]", "wind.gust_w20_m_s=7.7"});
+  EXPECT_LT(calm.max_m, 0.1);
+  EXPECT_LT(steady.max_m, 0.15);  // trimmed from the start
+  EXPECT_GT(gusty.rms_m(), 3.0 * calm.rms_m());
+}
+
+TEST(StormyMission, EndsForAStatedReason) {
+  // near the limit of the tilt, with severe gusts: blown away, or against the structure
+  const Flown flown(smoke({"wind.mean_m_s=[0,-22,0]", "wind.gust_w20_m_s=23.2"}));
+  const std::set<Termination> ends = {Termination::off_course, Termination::collision};
+  EXPECT_TRUE(ends.contains(flown.result.termination)) << name_of(flown.result.termination);
+  EXPECT_TRUE(flown.result.final_state.v_world_m_s.allFinite());
+}
+
+TEST(CameraThatDropsFrames, LeavesTheViewsWithoutThem) {
+  const Flown blind(
+      smoke({"cameras.0.drop_probability=1", "planner.termination.entropy_change_percent=0",
+             "planner.termination.max_iterations=4"}));
+  const MissionResult& result = blind.result;
+  EXPECT_EQ(result.frames.taken, 0);
+  EXPECT_EQ(result.frames.dropped, static_cast<std::int64_t>(result.views.size()));
+  EXPECT_EQ(result.belief.cloud.points_world_m().size(), result.profile_points_world_m.size());
+
+  const Flown lossy(smoke({"cameras.0.drop_probability=0.5"}));
+  const FrameCounts& frames = lossy.result.frames;
+  EXPECT_EQ(frames.taken + frames.dropped, static_cast<std::int64_t>(lossy.result.views.size()));
+  EXPECT_GT(frames.taken, 0);
+  EXPECT_GT(frames.dropped, 0);
+}
+
+void expect_home(const Flown& flown) {
+  const MissionResult& result = flown.result;
+  ASSERT_TRUE(result.home.has_value());
+  EXPECT_TRUE(result.home->reached);
+  EXPECT_TRUE(result.home->landed);
+  const Vec3 p_m = result.final_state.T_world_body.translation();
+  EXPECT_LT((p_m - result.start.p_world_m).head<2>().norm(), 0.3);
+  EXPECT_LT(p_m.z(), 0.1);  // on its hull, 0.11 m high
+}
+
+TEST(Battery, BringsTheVehicleHomeBeforeItIsEmpty) {
+  const Overrides home = {"vehicle.power.return_home=true"};
+  const double whole_wh = Flown(smoke(home)).result.energy_wh;
+  for (const double reserve_share : {0.0, 0.2}) {
+    for (const double share : {0.35, 0.6, 0.8}) {  // in the profile, and among the views
+      const double battery_wh = share * whole_wh / (1.0 - reserve_share);
+      const Flown flown(smoke({"vehicle.power.return_home=true",
+                               fmt::format("vehicle.power.reserve_share={}", reserve_share),
+                               fmt::format("vehicle.power.battery_wh={}", battery_wh)}));
+      SCOPED_TRACE(fmt::format("{} Wh, reserve {}", battery_wh, reserve_share));
+      EXPECT_EQ(flown.result.termination, Termination::battery);
+      expect_home(flown);
+      EXPECT_LE(flown.result.energy_wh, (1.0 - reserve_share) * battery_wh);
+      // and not long before: what is left beside the reserve is the allowance of a few legs
+      EXPECT_GT(flown.result.energy_wh, (0.6 - reserve_share) * battery_wh);
+    }
+  }
+}
+
+TEST(Battery, ThatIsLargeEnoughEndsNoMission) {
+  const Flown flown(smoke({"vehicle.power.return_home=true", "vehicle.power.battery_wh=100"}));
+  EXPECT_EQ(flown.result.termination, Termination::max_iterations);
+  expect_home(flown);
+  const Flown endless(smoke({"vehicle.power.return_home=true"}));
+  EXPECT_EQ(result_sha256(flown.result), result_sha256(endless.result));
+}
+
+TEST(Battery, ThatDoesNotReachHomeLandsTheVehicleWhereItIs) {
+  // a wind against which the way home takes more than was foretold, and no reserve
+  const Flown flown(smoke({"vehicle.power.return_home=true", "vehicle.power.reserve_share=0",
+                           "vehicle.power.battery_wh=0.3"}));
+  const MissionResult& result = flown.result;
+  EXPECT_EQ(result.termination, Termination::battery);
+  ASSERT_TRUE(result.home.has_value());
+  EXPECT_TRUE(result.home->landed);
+}
+
+TEST(IdealVehicle, ComesHomeAndLands) {
+  expect_home(Flown(smoke({"vehicle.kind=ideal", "vehicle.power.return_home=true",
+                           "planner.termination.max_iterations=3"})));
+}
+
+}  // namespace
+}  // namespace gnbv

@@ -1,0 +1,56 @@
+// What a flight was foretold to draw against what it drew.
+#include "sim/flight/endurance.hpp"
+
+#include <gtest/gtest.h>
+
+#include "sim/flight/guidance.hpp"
+#include "sim/flight/rotors.hpp"
+#include "sim/mesh/world.hpp"
+#include "tests/support/streaming_flight.hpp"
+
+namespace gnbv {
+namespace {
+
+TEST(HoverPower, IsLiusLawAtTheWeight) {
+  const VehicleConfig iris;
+  const double weight_n = 1.55 * 9.8066;
+  EXPECT_NEAR(hover_power_w(iris), (0.8554 / 0.3051 + 0.3177) * std::pow(weight_n, 1.5), 1e-9);
+}
+
+TEST(HoverPower, IsWhatAHoverDraws) {
+  const VehicleConfig iris;
+  const auto flight = streaming(make_flight(iris, World{}, {Vec3(0, 0, 5), 0.0}, 1));
+  Setpoint hold;
+  hold.p_world_m = Vec3(0, 0, 5);
+  hold.yaw_rad = 0.0;
+  flight->command(hold);
+  for (int i = 0; i < 10 * kTicksPerSecond; ++i) flight->step();
+  EXPECT_NEAR(flight->energy_wh() * kJoulesPerWattHour / 10.0 / hover_power_w(iris), 1.0, 1e-4);
+}
+
+TEST(LegEnergy, IsWhatALegDrawsAndNeverLess) {
+  const VehicleConfig iris;
+  const GuidanceConfig guidance;
+  const Vec3 from_m(0, 0, 10);
+  for (const Vec3& to_m : {Vec3(0.5, 0, 10), Vec3(30, 0, 10), Vec3(0, 0, 40), Vec3(-10, 4, 4)}) {
+    const auto flight = make_flight(iris, World{}, {from_m, 0.0}, 1);
+    ASSERT_EQ(fly_leg(*flight, {to_m, 0.0}, guidance.path_speed_m_s, guidance, iris, {}),
+              LegEnd::arrived);
+    const double foretold_wh = leg_energy_wh(iris, guidance, from_m, to_m);
+    const double allowance_wh = hover_power_w(iris) * kArrival_s / kJoulesPerWattHour;
+    EXPECT_LT(flight->energy_wh(), foretold_wh) << to_m.transpose();
+    EXPECT_GT(flight->energy_wh(), 0.97 * (foretold_wh - allowance_wh)) << to_m.transpose();
+  }
+}
+
+TEST(LegEnergy, OfAnIdealVehicleIsHoverPowerTimesTheTime) {
+  VehicleConfig ideal;
+  ideal.kind = VehicleKind::ideal;
+  const GuidanceConfig guidance;
+  // 30 m at 2 m/s, 1 m/s^2 and 4 m/s^3: 30 / 2 + 2 / 1 + 1 / 4 seconds
+  EXPECT_NEAR(leg_energy_wh(ideal, guidance, Vec3(0, 0, 1), Vec3(0, 0, 31)) * kJoulesPerWattHour,
+              hover_power_w(ideal) * (15.0 + 2.0 + 0.25 + kArrival_s), 1e-6);
+}
+
+}  // namespace
+}  // namespace gnbv

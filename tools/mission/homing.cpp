@@ -1,0 +1,177 @@
+#include "tools/mission/homing.hpp"
+
+#include <algorithm>
+
+#include "planner/map/path_search.hpp"
+#include "sim/flight/endurance.hpp"
+#include "sim/flight/rotors.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr PathSearchConfig kSearch = {.max_expansions = 20000};  // a mission asks twice a view
+constexpr double kNoLeg_m = 0.01;
+
+bool has_battery(const Mission& m) { return m.scenario.vehicle.power.battery_wh > 0.0; }
+
+/// Up to the top of the workspace, across, and down: as after the profile.
+std::vector<Vec3> over_the_top(const Mission& m, const Vec3& from_world_m) {
+  const Vec3& home_m = m.out.start.p_world_m;
+  const double top_z_m = m.planner.navigation_m.max().z();
+  return {{from_world_m.x(), from_world_m.y(), top_z_m}, {home_m.x(), home_m.y(), top_z_m}, home_m};
+}
+
+/// Back through all views to the first one, which is home.
+std::vector<Vec3> as_it_came(const Mission& m) {
+  std::vector<Vec3> way_m;
+  const std::vector<Decision>& decisions = m.history.decisions;
+  for (std::size_t i = decisions.size(); i-- > 1;) {
+    const std::vector<Vec3>& via_m = decisions[i].via_world_m;
+    way_m.insert(way_m.end(), via_m.rbegin(), via_m.rend());
+    way_m.push_back(decisions[i - 1].view.p_world_m);
+  }
+  way_m.push_back(m.out.start.p_world_m);
+  return way_m;
+}
+
+std::optional<std::vector<Vec3>> found_way(const Mission& m, const Vec3& from_world_m) {
+  const Vec3& home_m = m.out.start.p_world_m;
+  auto way_m = find_path(kSearch, m.out.belief.grid, m.planner.navigation_m, from_world_m, home_m,
+                         m.planner.config.validity.collision_radius_m);
+  if (way_m) way_m->push_back(home_m);
+  return way_m;
+}
+
+double energy_along_wh(const Mission& m, const Vec3& from_world_m, std::span<const Vec3> way_m) {
+  double sum_wh = 0.0;
+  Vec3 from_m = from_world_m;
+  for (const Vec3& to_m : way_m) {
+    if ((to_m - from_m).norm() < kNoLeg_m) continue;
+    sum_wh += leg_energy_wh(m.scenario.vehicle, m.scenario.guidance, from_m, to_m);
+    from_m = to_m;
+  }
+  return sum_wh;
+}
+
+/// How much more than a still hover the flight has drawn so far: a wind costs on the way home, too.
+double measured_excess(const Mission& m) {
+  const double hover_wh =
+      hover_power_w(m.scenario.vehicle) * time_s(*m.flight) / kJoulesPerWattHour;
+  return hover_wh > 0.0 ? std::max(1.0, m.flight->energy_wh() / hover_wh) : 1.0;
+}
+
+/// The shortest known way home, in energy, and what it takes.
+struct BestWay {
+  std::vector<Vec3> points_world_m;
+  double energy_wh = 0.0;
+};
+
+BestWay best_way_home(const Mission& m, const Vec3& from_world_m) {
+  std::vector<BestWay> ways;
+  for (const Exit& exit : m.exits) {
+    BestWay& way = ways.emplace_back();
+    way.points_world_m = {exit.p_world_m};
+    way.points_world_m.insert(way.points_world_m.end(), exit.way_world_m.begin(),
+                              exit.way_world_m.end());
+  }
+  if (ways.empty()) ways.push_back({over_the_top(m, from_world_m)});
+  for (BestWay& way : ways) {
+    way.energy_wh = measured_excess(m) * energy_along_wh(m, from_world_m, way.points_world_m);
+  }
+  return *std::min_element(ways.begin(), ways.end(), [](const BestWay& a, const BestWay& b) {
+    return a.energy_wh < b.energy_wh;
+  });
+}
+
+/// What coming home with `way_wh` and landing there would leave, beside the reserve.
+bool is_enough(const Mission& m, double way_wh) {
+  const PowerParameters& power = m.scenario.vehicle.power;
+  const double landing_wh =
+      measured_excess(m) * landing_energy_wh(m.scenario.vehicle, m.out.start.p_world_m.z());
+  return m.flight->energy_wh() + way_wh + landing_wh + power.reserve_share * power.battery_wh <
+         power.battery_wh;
+}
+
+Vec3 believed_p_world_m(const Mission& m) {
+  return m.flight->estimate().T_world_body.translation();
+}
+
+/// Until the rotors stand still, the structure is hit, or much more time has gone by than it takes.
+bool land(Mission& m) {
+  const double z_m = std::max(0.0, believed_p_world_m(m).z());
+  const CommanderParameters& commander = m.scenario.vehicle.autopilot.commander;
+  const double limit_s = 2.0 * z_m / commander.land_speed_m_s + m.scenario.guidance.timeout_s;
+  const double end_s = time_s(*m.flight) + limit_s;
+  m.flight->land();
+  while (!m.flight->has_landed() && !m.flight->has_collided() && time_s(*m.flight) < end_s) {
+    m.flight->step();
+    keep_track(m);
+  }
+  if (m.flight->has_collided()) m.out.termination = Termination::collision;
+  return m.flight->has_landed();
+}
+
+}  // namespace
+
+bool has_energy_to_go_on(const Mission& m) {
+  if (!has_battery(m)) return true;
+  const VehicleConfig& vehicle = m.scenario.vehicle;
+  const Vec3 p_m = believed_p_world_m(m);
+  if (vehicle.power.return_home && !m.is_homing) {
+    return is_enough(m, best_way_home(m, p_m).energy_wh);
+  }
+  return m.flight->energy_wh() + landing_energy_wh(vehicle, p_m.z()) < vehicle.power.battery_wh;
+}
+
+std::vector<Exit> exits_here(const Mission& m) {
+  if (!m.scenario.vehicle.power.return_home) return {};
+  const auto way_m = found_way(m, m.current.p_world_m);
+  return {{m.current.p_world_m, way_m ? *way_m : as_it_came(m)}};
+}
+
+bool can_afford(Mission& m, const Decision& next) {
+  if (!m.scenario.vehicle.power.return_home) return true;
+  const Exit here = m.exits.front();
+  Exit there = {next.view.p_world_m, {}};
+  if (auto way_m = found_way(m, there.p_world_m)) {
+    there.way_world_m = std::move(*way_m);
+  } else {  // back to here, and on
+    there.way_world_m.assign(next.via_world_m.rbegin(), next.via_world_m.rend());
+    there.way_world_m.push_back(here.p_world_m);
+    there.way_world_m.insert(there.way_world_m.end(), here.way_world_m.begin(),
+                             here.way_world_m.end());
+  }
+  std::vector<Vec3> all_m = next.via_world_m;
+  all_m.push_back(there.p_world_m);
+  all_m.insert(all_m.end(), there.way_world_m.begin(), there.way_world_m.end());
+  const double way_wh = measured_excess(m) * energy_along_wh(m, here.p_world_m, all_m);
+  if (has_battery(m) && !is_enough(m, way_wh)) return false;
+  m.exits.push_back(std::move(there));
+  return true;
+}
+
+bool ends_at_home(const Mission& m, Termination reason) {
+  return m.scenario.vehicle.power.return_home && reason != Termination::collision &&
+         reason != Termination::off_course && reason != Termination::interrupted;
+}
+
+void fly_home(Mission& m) {
+  m.is_homing = true;
+  const double flown_before_m = m.flown_m;
+  const ViewPose from = m.current;
+  const Vec3 start_m = believed_p_world_m(m);
+  HomeFlight home = {.reached = true};
+  for (const Vec3& point_m : best_way_home(m, start_m).points_world_m) {
+    if ((point_m - believed_p_world_m(m)).norm() < m.scenario.guidance.arrival_distance_m) continue;
+    const auto over = fly_leg(m, {point_m, from.yaw_rad});
+    if (over) home.reached = false;
+    if (over && *over != Termination::battery) m.out.termination = *over;
+    if (over) break;
+  }
+  const bool may_land = m.scenario.structure.ground && !m.flight->has_collided();
+  if (may_land) home.landed = land(m);
+  home.flown_m = m.flown_m - flown_before_m;
+  m.out.home = home;
+}
+
+}  // namespace gnbv

@@ -1,0 +1,89 @@
+#include "tools/plots/tracking_plot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/plots/script_parts.hpp"
+
+namespace gnbv {
+namespace {
+
+/// From the view before to that view.
+std::vector<Vec3> way_to(const std::vector<ViewRecord>& views, std::size_t view) {
+  std::vector<Vec3> way_m = {views[view - 1].decision.view.p_world_m};
+  const Decision& decision = views[view].decision;
+  way_m.insert(way_m.end(), decision.via_world_m.begin(), decision.via_world_m.end());
+  way_m.push_back(decision.view.p_world_m);
+  return way_m;
+}
+
+double tilt_rad(const Isometry& T_world_body) {
+  return std::acos(std::clamp(T_world_body.linear()(2, 2), -1.0, 1.0));
+}
+
+/// Time, distance from the leg (m) and tilt (deg) of every sample between first and last view.
+std::vector<std::vector<double>> tracking_rows(const RunRecord& record) {
+  std::vector<std::vector<double>> rows;
+  std::size_t view = 1;
+  for (const TrajectorySample& sample : record.path) {
+    if (sample.time_s < record.views.front().time_s) continue;
+    while (view < record.views.size() && record.views[view].time_s < sample.time_s) ++view;
+    if (view == record.views.size()) break;
+    const std::vector<Vec3> way_m = way_to(record.views, view);
+    rows.push_back({sample.time_s, distance_to_way_m(sample.T_world_body.translation(), way_m),
+                    rad_to_deg(tilt_rad(sample.T_world_body))});
+  }
+  return rows;
+}
+
+double column_max(const std::vector<std::vector<double>>& rows, std::size_t column) {
+  double max = 0.0;
+  for (const auto& row : rows) max = std::max(max, row[column]);
+  return max;
+}
+
+std::string tracking_title(const RunRecord& record) {
+  const WindConfig& wind = record.scenario.wind;
+  return fmt::format("{}, seed {}: wind {:.3g} m/s, W20 {:.3g} m/s", run_title(record),
+                     record.scenario.seed, wind.mean_world_m_s.norm(), wind.gust_w20_m_s);
+}
+
+}  // namespace
+
+double distance_to_way_m(const Vec3& p_world_m, std::span<const Vec3> way_world_m) {
+  double least_m = (p_world_m - way_world_m.front()).norm();
+  for (std::size_t i = 1; i < way_world_m.size(); ++i) {
+    const Vec3 leg_m = way_world_m[i] - way_world_m[i - 1];
+    const Vec3 from_m = p_world_m - way_world_m[i - 1];
+    const double length2 = leg_m.squaredNorm();
+    const double share = length2 > 0.0 ? std::clamp(from_m.dot(leg_m) / length2, 0.0, 1.0) : 0.0;
+    least_m = std::min(least_m, (from_m - share * leg_m).norm());
+  }
+  return least_m;
+}
+
+std::optional<Plot> tracking_plot(const RunRecord& record) {
+  if (record.views.size() < 2) return std::nullopt;
+  const std::vector<std::vector<double>> rows = tracking_rows(record);
+  if (rows.empty()) return std::nullopt;
+  const double margin_m = record.scenario.planner.validity.collision_radius_m -
+                          record.scenario.vehicle.airframe.hull_radius_m;
+  Panels panels(2, tracking_title(record), "time (s)");
+  std::string text =
+      data_block("samples", rows) +
+      fmt::format("set xrange [{}:{}]\n", rows.front()[0], rows.back()[0]) +
+      panels.next("distance from the leg (m)",
+                  {{kPalette[1], "margin: collision radius less hull"}}) +
+      y_axis(0.0, std::max(margin_m, column_max(rows, 1))) +
+      fmt::format(
+          "plot {} with lines lw 1.0 dt 2 lc rgb '{}', $samples using 1:2 with lines lw "
+          "1.2 lc rgb '{}'\n",
+          margin_m, kPalette[1], kPalette[0]);
+  text += panels.next("tilt (deg)") + y_axis(0.0, column_max(rows, 2)) +
+          fmt::format("plot $samples using 1:3 with lines lw 1.2 lc rgb '{}'\n", kPalette[2]);
+  return Plot{"tracking", text + "unset multiplot\n", panels_height_px(2)};
+}
+
+}  // namespace gnbv

@@ -1,0 +1,19 @@
+// How well the vehicle kept to its legs, for runs in wind.
+#pragma once
+
+#include <optional>
+
+#include "tools/plots/gnuplot.hpp"
+#include "tools/run_files/run_record.hpp"
+
+namespace gnbv {
+
+/// "tracking": over the time of the views, how far the vehicle truly was from the straight legs
+/// that were checked for it, beside what the collision radius leaves beyond the hull; and its tilt.
+/// Nothing for a run without two views, or without its path.
+std::optional<Plot> tracking_plot(const RunRecord& record);
+
+/// Distance to the nearest point of the way through these points. Requires one at least.
+double distance_to_way_m(const Vec3& p_world_m, std::span<const Vec3> way_world_m);
+
+}  // namespace gnbv
