@@ -70,7 +70,8 @@ void check_region(const Scenario& s, std::vector<Problem>& out) {
   const std::string key = "score.region_m";
   if (!check_box(region_m.min(), region_m.max(), key + ".min", key + ".max", out)) return;
   if (region_m.intersects(s.workspace_m)) return;
-  out.push_back({{key, "workspace_m"}, "has nothing of the workspace in it"});
+  out.push_back({{key + ".max", key + ".min", "workspace_m.max", "workspace_m.min"},
+                 "score.region_m has nothing of the workspace in it"});
 }
 
 }  // namespace

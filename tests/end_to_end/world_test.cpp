@@ -98,9 +98,11 @@ TEST(ObstacleMission, AStartBesideOneIsRefused) {
 
 TEST(ObstacleMission, BoundsAutoStartsBesideAnObstacleNotInIt) {
   const auto start_with = [&](const std::string& obstacles) {
-    return resolve_scenario({.scenario = "smoke",
-                             .overrides = {obstacles, "start.jitter_m=[0, 0, 0]"},
-                             .bounds_auto = true});
+    ScenarioOptions options;
+    options.scenario = "smoke";
+    options.overrides = {obstacles, "start.jitter_m=[0, 0, 0]"};
+    options.bounds_auto = true;
+    return resolve_scenario(options);
   };
   const Scenario open = start_with("obstacles=[]");
   const Vec3 p_m = open.start.pose.p_world_m;
@@ -118,7 +120,7 @@ TEST(ObstacleMission, BoundsAutoStartsBesideAnObstacleNotInIt) {
 
 TEST(NoFlyMission, NoPoseAndNoLegLiesInABox) {
   const Box3 box_m(Vec3(2.6, -0.8, 0), Vec3(4.5, 0.8, 3));
-  for (const std::string& utility : {"proposed", "lawnmower"}) {
+  for (const std::string utility : {"proposed", "lawnmower"}) {
     const Flown flown(smoke({kNoFlyEast, "planner.utility.name=" + utility}));
     EXPECT_NE(flown.result.termination, Termination::collision);
     EXPECT_GE(flown.result.views.size(), 2U);

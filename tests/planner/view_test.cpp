@@ -7,6 +7,7 @@
 
 #include "planner/decision.hpp"
 #include "planner/map/clearance.hpp"
+#include "planner/map/no_fly.hpp"
 #include "planner/map/ray_walk.hpp"
 #include "planner/view_validity.hpp"
 #include "sim/core/rng.hpp"

@@ -61,7 +61,8 @@ bool is_room_at(const Scenario& scenario, const StructureExtent& structure, cons
 
 /// On the navigation box's south face, on a lattice that begins at its middle.
 Vec3 start_on_south_face(const Scenario& scenario, const StructureExtent& structure) {
-  constexpr int kSteps = 12;  // to either side
+  constexpr int kSteps = 12;         // to either side, before the structure
+  constexpr int kMost = 6 * kSteps;  // beside it, where all places before it are taken
   const Box3 navigation_m = navigation_box_m(scenario.planner.validity, scenario.workspace_m);
   const Vec3 low_m = structure.box_m.min().cwiseMax(navigation_m.min());
   const Vec3 high_m = structure.box_m.max().cwiseMin(navigation_m.max());
@@ -71,7 +72,7 @@ Vec3 start_on_south_face(const Scenario& scenario, const StructureExtent& struct
   Vec3 best_m(middle_m.x(), navigation_m.min().y(), middle_m.z());
   std::size_t most = in_view(scenario, best_m, structure.surface_world_m);
   bool is_room = is_room_at(scenario, structure, best_m);
-  for (int ring = 1; ring <= kSteps; ++ring) {
+  for (int ring = 1; ring <= (is_room ? kSteps : kMost); ++ring) {
     for (int i = -ring; i <= ring; ++i) {
       for (int k = -ring; k <= ring; ++k) {
         if (std::max(std::abs(i), std::abs(k)) != ring) continue;
@@ -79,7 +80,7 @@ Vec3 start_on_south_face(const Scenario& scenario, const StructureExtent& struct
                        middle_m.z() + k * step_m.z());
         const std::size_t seen = in_view(scenario, p_m, structure.surface_world_m);
         if (is_room && seen <= most) continue;
-        if (!is_room_at(scenario, structure, p_m)) continue;
+        if (!navigation_m.contains(p_m) || !is_room_at(scenario, structure, p_m)) continue;
         most = seen;
         best_m = p_m;
         is_room = true;
