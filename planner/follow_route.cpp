@@ -29,7 +29,7 @@ Plan follow_route(const PlannerModel& model, const Belief& belief, const History
   ValidityConfig validity = model.config.validity;
   if (validity.path == PathCheck::straight) validity.path = PathCheck::astar;
   const std::vector<ViewPose> recent = recent_views(history, validity.recent_poses);
-  ViewChecker checker(validity, model.navigation_m, belief.grid, recent, current);
+  ViewChecker checker(validity, model.navigation_m, model.no_fly, belief.grid, recent, current);
   Plan plan;
   for (const ViewPose& view : ahead(route, history)) {
     plan.candidates.push_back({.view = view, .sampler = kSampler});

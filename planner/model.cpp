@@ -1,6 +1,7 @@
 #include "planner/model.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace gnbv {
 namespace {
@@ -20,11 +21,13 @@ double frustum_voxels(std::span<const CameraModel> cameras, double resolution_m)
 
 PlannerModel::PlannerModel(const PlannerConfig& planner_config, const Box3& workspace,
                            std::span<const CameraModel> camera_models,
-                           std::span<const LidarModel> lidar_models, std::uint64_t mission_seed)
+                           std::span<const LidarModel> lidar_models, std::uint64_t mission_seed,
+                           NoFly mission_no_fly)
     : config(planner_config),
       seed(mission_seed),
       workspace_m(workspace),
       navigation_m(navigation_box_m(planner_config.validity, workspace)),
+      no_fly(std::move(mission_no_fly)),
       cameras(camera_models.begin(), camera_models.end()),
       lidars(lidar_models.begin(), lidar_models.end()),
       view_rays(make_view_rays(cameras, planner_config.map.resolution_m)),

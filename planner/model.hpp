@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "planner/config.hpp"
+#include "planner/map/no_fly.hpp"
 #include "planner/view/visibility.hpp"
 #include "sensors/camera_model.hpp"
 #include "sensors/lidar_model.hpp"
@@ -15,12 +16,13 @@ namespace gnbv {
 struct PlannerModel {
   PlannerModel(const PlannerConfig& config, const Box3& workspace_m,
                std::span<const CameraModel> cameras, std::span<const LidarModel> lidars,
-               std::uint64_t seed = 0);
+               std::uint64_t seed = 0, NoFly no_fly = {});
 
   PlannerConfig config;
   std::uint64_t seed;  // of what the planner leaves to chance
   Box3 workspace_m;
   Box3 navigation_m;
+  NoFly no_fly;
   std::vector<CameraModel> cameras;
   std::vector<LidarModel> lidars;
   ViewRays view_rays;

@@ -128,7 +128,8 @@ class Decider {
   void check_all(std::span<Candidate> candidates) {
     const std::size_t shares = bench_.marks.size();
     parallel_for(bench_.threads, shares, [&](std::size_t share) {
-      ViewChecker checker(validity_, model_.navigation_m, belief_.grid, recent_, current_);
+      ViewChecker checker(validity_, model_.navigation_m, model_.no_fly, belief_.grid, recent_,
+                          current_);
       const std::size_t begin = candidates.size() * share / shares;
       const std::size_t end = candidates.size() * (share + 1) / shares;
       for (Candidate& candidate : candidates.subspan(begin, end - begin)) {

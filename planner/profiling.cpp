@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "planner/map/scan_insertion.hpp"
 
@@ -24,13 +25,48 @@ std::array<Eigen::Vector2d, 8> stations_m(const Box3& box) {
            {lo.x(), mid.y()}}};
 }
 
+struct Heights {
+  double low_m, high_m;
+};
+
+/// The longest piece of the vertical line through p that the sphere may fly, up to a millimetre.
+std::optional<Heights> allowed_heights(const NoFly& no_fly, const Eigen::Vector2d& p,
+                                       const Heights& whole) {
+  constexpr double kRounding_m = 1e-3;
+  std::vector<Heights> forbidden;
+  for (const Box3& box_m : no_fly.boxes_m) {
+    const Box3 at_level_m(Vec3(box_m.min().x(), box_m.min().y(), 0.0),
+                          Vec3(box_m.max().x(), box_m.max().y(), 0.0));
+    const double across2_m2 = at_level_m.squaredExteriorDistance(Vec3(p.x(), p.y(), 0.0));
+    const double reach2_m2 = no_fly.margin_m * no_fly.margin_m - across2_m2;
+    if (reach2_m2 < 0.0) continue;
+    const double reach_m = std::sqrt(reach2_m2) + kRounding_m;
+    forbidden.push_back({box_m.min().z() - reach_m, box_m.max().z() + reach_m});
+  }
+  std::sort(forbidden.begin(), forbidden.end(),
+            [](const Heights& a, const Heights& b) { return a.low_m < b.low_m; });
+  forbidden.push_back({whole.high_m, whole.high_m});
+  std::optional<Heights> longest;
+  double low_m = whole.low_m;
+  for (const Heights& gap : forbidden) {
+    const Heights piece = {low_m, std::min(gap.low_m, whole.high_m)};
+    const double longest_m = longest ? longest->high_m - longest->low_m : 0.0;
+    if (piece.high_m - piece.low_m > longest_m) longest = piece;
+    low_m = std::max(low_m, gap.high_m);
+  }
+  return longest;
+}
+
 }  // namespace
 
 ProfileRoute::ProfileRoute(const ProfilingConfig& config, const Box3& navigation_m,
-                           const ViewPose& start)
-    : config_(config), navigation_m_(navigation_m) {
+                           const ViewPose& start, NoFly no_fly)
+    : config_(config),
+      navigation_m_(navigation_m),
+      no_fly_(std::move(no_fly)),
+      at_m_(start.p_world_m) {
   if (config.method == ProfilingMethod::bounding_box) {
-    legs_ = bounding_box_profile(navigation_m, start);
+    legs_ = bounding_box_profile(navigation_m, start, no_fly_);
   }
   radius_m_ = 0.5 * std::min(navigation_m.sizes().x(), navigation_m.sizes().y());
   const Vec3 from_center_m = start.p_world_m - navigation_m.center();
@@ -39,6 +75,24 @@ ProfileRoute::ProfileRoute(const ProfilingConfig& config, const Box3& navigation
 }
 
 std::optional<ProfileLeg> ProfileRoute::next(bool saw_surface) {
+  while (detour_.empty()) {
+    const auto leg = next_of_method(saw_surface);
+    if (!leg) return std::nullopt;
+    const Vec3& to_m = leg->goal.p_world_m;
+    if (!no_fly_.allows(to_m)) continue;
+    auto via_m = way_around(no_fly_, navigation_m_, at_m_, to_m);
+    if (!via_m) continue;
+    detour_ = {*leg};
+    std::reverse(via_m->begin(), via_m->end());
+    for (const Vec3& p_m : *via_m) detour_.push_back({{p_m, leg->goal.yaw_rad}, false});
+  }
+  const ProfileLeg leg = detour_.back();
+  detour_.pop_back();
+  at_m_ = leg.goal.p_world_m;
+  return leg;
+}
+
+std::optional<ProfileLeg> ProfileRoute::next_of_method(bool saw_surface) {
   if (config_.method == ProfilingMethod::circular) return next_on_circle(saw_surface);
   if (next_leg_ >= legs_.size()) return std::nullopt;
   return legs_[next_leg_++];
@@ -89,7 +143,8 @@ std::optional<ProfileLeg> ProfileRoute::next_on_circle(bool saw_surface) {
   return next_on_circle(false);
 }
 
-std::vector<ProfileLeg> bounding_box_profile(const Box3& navigation_m, const ViewPose& start) {
+std::vector<ProfileLeg> bounding_box_profile(const Box3& navigation_m, const ViewPose& start,
+                                             const NoFly& no_fly) {
   const std::array<Eigen::Vector2d, 8> stations = stations_m(navigation_m);
   const auto distance_m = [&](std::size_t i) {
     return (stations[i % 8] - start.p_world_m.head<2>()).norm();
@@ -105,8 +160,11 @@ std::vector<ProfileLeg> bounding_box_profile(const Box3& navigation_m, const Vie
     const Eigen::Vector2d& p = stations[(nearest + (counter_clockwise ? k : 8 - k)) % 8];
     const Eigen::Vector2d to_center = navigation_m.center().head<2>() - p;
     const double yaw_rad = std::atan2(to_center.y(), to_center.x());
-    legs.push_back({{Vec3(p.x(), p.y(), navigation_m.max().z()), yaw_rad}, false});
-    legs.push_back({{Vec3(p.x(), p.y(), navigation_m.min().z()), yaw_rad}, true});
+    const auto heights =
+        allowed_heights(no_fly, p, {navigation_m.min().z(), navigation_m.max().z()});
+    if (!heights) continue;
+    legs.push_back({{Vec3(p.x(), p.y(), heights->high_m), yaw_rad}, false});
+    legs.push_back({{Vec3(p.x(), p.y(), heights->low_m), yaw_rad}, true});
   }
   return legs;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "planner/map/no_fly.hpp"
 #include "sim/core/pose.hpp"
 
 namespace gnbv {
@@ -33,13 +34,17 @@ struct ProfileLeg {
 
 /// Eight descents on the faces of the navigation box: four corners and four side middles, from top
 /// to bottom, facing the centre, in order around the box from the one nearest to `start`, in the
-/// direction of the nearer neighbour.
-std::vector<ProfileLeg> bounding_box_profile(const Box3& navigation_m, const ViewPose& start);
+/// direction of the nearer neighbour. A descent that `no_fly` cuts keeps its longest piece.
+std::vector<ProfileLeg> bounding_box_profile(const Box3& navigation_m, const ViewPose& start,
+                                             const NoFly& no_fly = {});
 
-/// Hands out the legs of a profile, one after the other.
+/// Hands out the legs of a profile, one after the other. Where `no_fly` forbids a leg, transits
+/// lead around it (way_around()); a leg whose end is forbidden, or that no way leads to, is left
+/// out.
 class ProfileRoute {
  public:
-  ProfileRoute(const ProfilingConfig& config, const Box3& navigation_m, const ViewPose& start);
+  ProfileRoute(const ProfilingConfig& config, const Box3& navigation_m, const ViewPose& start,
+               NoFly no_fly = {});
 
   /// The next leg; nothing when the profile is over. `saw_surface`: whether the LIDARs had returns
   /// above the floor since the leg before was handed out.
@@ -48,12 +53,16 @@ class ProfileRoute {
   double share_done() const;
 
  private:
+  std::optional<ProfileLeg> next_of_method(bool saw_surface);
   std::optional<ProfileLeg> next_on_circle(bool saw_surface);
   ViewPose on_circle(double bearing_rad, double z_m) const;
 
   ProfilingConfig config_;
   Box3 navigation_m_;
-  std::vector<ProfileLeg> legs_;  // bounding_box: all of them
+  NoFly no_fly_;
+  Vec3 at_m_;                       // where the legs so far end
+  std::vector<ProfileLeg> detour_;  // legs to hand out before the method's next, the last one first
+  std::vector<ProfileLeg> legs_;    // bounding_box: all of them
   std::size_t next_leg_ = 0;
   // circular: the inscribed circle of the navigation box
   double radius_m_ = 0.0;

@@ -6,6 +6,7 @@
 #include "planner/decision.hpp"
 #include "planner/map/clearance.hpp"
 #include "planner/map/frontiers.hpp"
+#include "planner/map/no_fly.hpp"
 #include "planner/map/path_search.hpp"
 #include "planner/map/ray_walk.hpp"
 #include "sensors/camera_model.hpp"
@@ -67,6 +68,8 @@ std::string_view name_of(Rejection reason) {
       return "cluster_hidden";
     case Rejection::sees_no_surface:
       return "sees_no_surface";
+    case Rejection::no_fly:
+      return "no_fly";
   }
   return "unknown";
 }
@@ -78,17 +81,20 @@ Box3 navigation_box_m(const ValidityConfig& config, const Box3& workspace_m) {
 }
 
 ViewChecker::Reachability ViewChecker::check_position(const Vec3& p_world_m) const {
+  if (!no_fly_.allows(p_world_m)) return {Rejection::no_fly, {}};
   const VoxelState state = grid_.state_at(grid_.geometry().nearest_inside(p_world_m));
   if (state == VoxelState::occupied || (state == VoxelState::unknown && !config_.allow_unknown)) {
     return {Rejection::not_free, {}};
   }
   const double radius_m = config_.collision_radius_m;
   if (!is_sphere_clear(grid_, p_world_m, radius_m)) return {Rejection::collision, {}};
-  if (config_.path == PathCheck::unchecked) return {};
   const Vec3& from_m = current_.p_world_m;
-  if (is_path_clear(grid_, from_m, p_world_m, radius_m)) return {};
+  const bool is_allowed = no_fly_.allows_leg(from_m, p_world_m);
+  if (is_allowed && config_.path == PathCheck::unchecked) return {};
+  if (is_allowed && is_path_clear(grid_, from_m, p_world_m, radius_m)) return {};
   if (config_.path == PathCheck::astar) {
-    auto via_m = find_path(config_.path_search, grid_, navigation_m_, from_m, p_world_m, radius_m);
+    auto via_m =
+        find_path(config_.path_search, grid_, navigation_m_, from_m, p_world_m, radius_m, no_fly_);
     if (via_m) return {std::nullopt, std::move(*via_m)};
   }
   return {Rejection::path_blocked, {}};

@@ -14,6 +14,7 @@ namespace gnbv {
 struct CameraModel;
 struct Candidate;
 struct FrontierCluster;
+struct NoFly;
 class OccupancyGrid;
 
 /// How the way to a view is checked: straight against the map, which holds the profile (the
@@ -41,6 +42,7 @@ enum class Rejection {
   cluster_outside_fov,  // FVS: the centroid of the cluster is in no camera's frustum
   cluster_hidden,       // FVS: no voxel of the cluster is visible
   sees_no_surface,      // refused by the utility
+  no_fly,               // in or too near to a box where nobody may fly
 };
 std::string_view name_of(Rejection reason);
 
@@ -51,10 +53,11 @@ Box3 navigation_box_m(const ValidityConfig& config, const Box3& workspace_m);
 class ViewChecker {
  public:
   /// Keeps references to all of them.
-  ViewChecker(const ValidityConfig& config, const Box3& navigation_m, const OccupancyGrid& grid,
-              std::span<const ViewPose> recent, const ViewPose& current)
+  ViewChecker(const ValidityConfig& config, const Box3& navigation_m, const NoFly& no_fly,
+              const OccupancyGrid& grid, std::span<const ViewPose> recent, const ViewPose& current)
       : config_(config),
         navigation_m_(navigation_m),
+        no_fly_(no_fly),
         grid_(grid),
         recent_(recent),
         current_(current) {}
@@ -72,6 +75,7 @@ class ViewChecker {
 
   const ValidityConfig& config_;
   const Box3& navigation_m_;
+  const NoFly& no_fly_;
   const OccupancyGrid& grid_;
   std::span<const ViewPose> recent_;
   const ViewPose& current_;

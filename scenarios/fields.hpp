@@ -190,6 +190,9 @@ void fields(FieldVisitor& v, TerminationConfig& c);
 void fields(FieldVisitor& v, PlannerConfig& c);
 // fields_scenario.cpp
 void fields(FieldVisitor& v, StructureConfig& c);
+void fields(FieldVisitor& v, ObstacleConfig& c);
+void fields(FieldVisitor& v, NoFlyConfig& c);
+void fields(FieldVisitor& v, ScoreConfig& c);
 void fields(FieldVisitor& v, StartConfig& c);
 void fields(FieldVisitor& v, Scenario& c);
 

@@ -10,7 +10,23 @@ constexpr Range kCoordinate_m = between(-1e4, 1e4);
 void fields(FieldVisitor& v, StructureConfig& c) {
   v.choice("builtin", c.builtin, kStructureNames, "Built-in structure, unless file.path is given.");
   v.section("file", c.file, "A mesh of your own.");
-  v.flag("ground", c.ground, "Whether there is a solid ground at z = 0.");
+  v.list("files", c.files, {0, 256}, "More meshes of the same structure, each placed by itself.");
+  v.flag("ground", c.ground,
+         "Whether there is a solid ground at z = 0, where no terrain is given.");
+}
+
+void fields(FieldVisitor& v, ObstacleConfig& c) {
+  v.section("file", c.file, "A mesh.");
+  v.box("box_m", c.box_m, kCoordinate_m, "Without one, a box, world ENU.");
+}
+
+void fields(FieldVisitor& v, NoFlyConfig& c) {
+  v.number("min", c.min_m, kCoordinate_m, "Lowest x, y and z, world ENU.");
+  v.number("max", c.max_m, kCoordinate_m, "Highest x, y and z.");
+}
+
+void fields(FieldVisitor& v, ScoreConfig& c) {
+  v.box("region_m", c.region_m, kCoordinate_m, "What of the structure is scored, world ENU.");
 }
 
 void fields(FieldVisitor& v, StartConfig& c) {
@@ -26,6 +42,10 @@ void fields(FieldVisitor& v, Scenario& c) {
   v.integer("seed", c.seed, "Moves the start pose and keys all noise.");
   v.box("workspace_m", c.workspace_m, kCoordinate_m, "What is mapped and flown in, world ENU.");
   v.section("structure", c.structure, "What stands there.");
+  v.section("terrain", c.terrain, "A mesh in the place of the plane ground; not scored.");
+  v.list("obstacles", c.obstacles, {0, 256}, "What is seen, solid, unknown and not scored.");
+  v.list("no_fly", c.no_fly, {0, 256}, "Boxes that the collision sphere keeps out of; unseen.");
+  v.section("score", c.score, "What is scored.");
   v.list("cameras", c.cameras, {1, 16}, "The depth cameras on the vehicle.");
   v.list("lidars", c.lidars, {0, 16}, "The LIDARs that scan the profile.");
   v.section("vehicle", c.vehicle, "What flies.");

@@ -27,9 +27,10 @@ constexpr std::array<Named<OffboardLossAction>, 8> kOffboardLossActions = {
 }  // namespace
 
 void fields(FieldVisitor& v, MeshFileConfig& c) {
-  v.path("path", c.path,
-         "Mesh file (OBJ, STL, PLY, DAE, GLTF, GLB); empty: the built-in structure.");
+  v.path("path", c.path, "Mesh file (OBJ, STL, PLY, DAE, GLTF, GLB); empty: none.");
   v.number("scale", c.scale, above_upto(0, 1e6), "Factor on the file's coordinates.");
+  v.angle("yaw_deg", c.yaw_rad, between(-360, 360),
+          "Turned by this about the file's origin, counter-clockwise seen from above.");
   v.number("offset_m", c.offset_m, between(-1e8, 1e8),
            "Added after scaling, world axes; survey coordinates are millions of metres.");
   v.choice("up_axis", c.up_axis, kUpAxes,

@@ -86,6 +86,12 @@ Culprit culprit_of(const std::vector<std::string>& keys, const Origins& origins,
   return culprit;
 }
 
+/// Of any key of mesh_files().
+bool is_mesh_path(std::string_view key) {
+  return key.ends_with(".path") && (key.starts_with("structure.file") || key == "terrain.path" ||
+                                    key.starts_with("obstacles."));
+}
+
 enum class MeshFile { has_to_be_there, may_be_missing };
 
 /// Adds what does not go together. Keys already at fault are left out: it would only repeat them.
@@ -93,7 +99,7 @@ void add_problems(const Scenario& scenario, MeshFile mesh_file, const Origin& so
                   const Origins& origins, Faults& faults) {
   const Faults given = faults;
   for (const Problem& problem : problems(scenario)) {
-    if (mesh_file == MeshFile::may_be_missing && problem.keys.front() == "structure.file.path") {
+    if (mesh_file == MeshFile::may_be_missing && is_mesh_path(problem.keys.front())) {
       continue;
     }
     if (std::any_of(problem.keys.begin(), problem.keys.end(),

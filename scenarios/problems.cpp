@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
-#include <filesystem>
 
 #include "planner/map/memory.hpp"
 #include "scenarios/adversities.hpp"
+#include "scenarios/problems_world.hpp"
 #include "sim/flight/rotors.hpp"
 
 namespace gnbv {
@@ -16,7 +15,6 @@ namespace {
 using Problems = std::vector<Problem>;
 
 constexpr double kGiB = 1024.0 * 1024 * 1024;
-constexpr std::array<char, 3> kAxes = {'x', 'y', 'z'};
 
 std::string text_of(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z()); }
 
@@ -86,18 +84,10 @@ void check_map_size(const Scenario& s, Problems& out) {
 }
 
 void check_workspace(const Scenario& s, Problems& out) {
-  bool is_box = true;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double low_m = s.workspace_m.min()[axis];
-    const double high_m = s.workspace_m.max()[axis];
-    if (low_m < high_m) continue;
-    is_box = false;
-    out.push_back({{"workspace_m.max", "workspace_m.min"},
-                   fmt::format("min {} = {} has to be below max {} = {}",
-                               kAxes[static_cast<std::size_t>(axis)], low_m,
-                               kAxes[static_cast<std::size_t>(axis)], high_m)});
+  if (!check_box(s.workspace_m.min(), s.workspace_m.max(), "workspace_m.min", "workspace_m.max",
+                 out)) {
+    return;
   }
-  if (!is_box) return;
   check_map_size(s, out);
 
   const double top_m = s.workspace_m.max().z();
@@ -230,15 +220,6 @@ void check_offboard(const VehicleConfig& vehicle, Problems& out) {
                              kStream_s)});
 }
 
-void check_structure(const StructureConfig& structure, Problems& out) {
-  const std::string& path = structure.file.path;
-  std::error_code ignored;
-  if (path.empty() || std::filesystem::is_regular_file(path, ignored)) return;
-  out.push_back({{"structure.file.path"},
-                 std::filesystem::is_directory(path, ignored) ? "is a folder, not a mesh file"
-                                                              : "there is no such file"});
-}
-
 void check_utility(const UtilityConfig& utility, Problems& out) {
   if (utility.name != "proposed" || utility.beta + utility.gamma > 0.0) return;
   out.push_back({{"planner.utility.beta", "planner.utility.gamma"},
@@ -250,7 +231,7 @@ void check_utility(const UtilityConfig& utility, Problems& out) {
 std::vector<Problem> problems(const Scenario& scenario) {
   Problems out;
   check_workspace(scenario, out);
-  check_structure(scenario.structure, out);
+  check_world(scenario, out);
   check_sensors(scenario, out);
   check_vehicle(scenario.vehicle, out);
   check_guidance(scenario, out);

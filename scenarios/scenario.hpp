@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "planner/config.hpp"
+#include "planner/map/no_fly.hpp"
 #include "sensors/camera_model.hpp"
 #include "sensors/lidar_model.hpp"
 #include "sim/flight/guidance.hpp"
@@ -21,16 +22,40 @@ namespace gnbv {
 constexpr std::array<std::string_view, 5> kStructureNames = {"aircraft", "power_plant", "lab_model",
                                                              "lab_airplane", "smoke"};
 
+/// One shape: `file`, with all of `files`, or, where both are empty, a built-in one.
 struct StructureConfig {
-  std::string builtin = "aircraft";  // used when file.path is empty
+  std::string builtin = "aircraft";
   MeshFileConfig file;
-  bool ground = true;
+  std::vector<MeshFileConfig> files;
+  bool ground = true;  // the plane z = 0, where no terrain is given
 };
 
-/// The built-in name, or the path of the mesh file.
-inline const std::string& structure_name(const StructureConfig& structure) {
-  return structure.file.path.empty() ? structure.builtin : structure.file.path;
+inline bool is_builtin(const StructureConfig& structure) {
+  return structure.file.path.empty() && structure.files.empty();
 }
+
+/// The built-in name, or the path of the (first) mesh file.
+inline const std::string& structure_name(const StructureConfig& structure) {
+  if (is_builtin(structure)) return structure.builtin;
+  return structure.file.path.empty() ? structure.files.front().path : structure.file.path;
+}
+
+/// What is flown around and not scored: a mesh, or without one a box. World ENU.
+struct ObstacleConfig {
+  MeshFileConfig file;
+  Box3 box_m = Box3(Vec3::Zero(), Vec3::Zero());
+};
+
+/// A box that may not be flown in. World ENU.
+struct NoFlyConfig {
+  Vec3 min_m = Vec3::Zero();
+  Vec3 max_m = Vec3::Zero();
+};
+
+/// What of the structure counts.
+struct ScoreConfig {
+  Box3 region_m = Box3(Vec3::Constant(-1e4), Vec3::Constant(1e4));
+};
 
 /// Where the views begin; the paper is silent, the default is the authors' batch configuration.
 /// A seed moves it uniformly within +- jitter, clipped to the navigation box.
@@ -45,6 +70,10 @@ struct Scenario {
   std::uint64_t seed = 1;
   Box3 workspace_m = Box3(Vec3(-20, -20, 0), Vec3(20, 20, 20));
   StructureConfig structure;
+  MeshFileConfig terrain;  // the ground as a mesh; no path: none
+  std::vector<ObstacleConfig> obstacles;
+  std::vector<NoFlyConfig> no_fly;
+  ScoreConfig score;
   std::vector<CameraConfig> cameras;
   std::vector<LidarConfig> lidars = {LidarConfig{}};
   VehicleConfig vehicle;
@@ -53,5 +82,23 @@ struct Scenario {
   StartConfig start;
   PlannerConfig planner;
 };
+
+inline bool has_flat_ground(const Scenario& scenario) {
+  return scenario.structure.ground && scenario.terrain.path.empty();
+}
+
+/// The scenario's no_fly boxes, kept clear of by the collision radius.
+inline NoFly no_fly_of(const Scenario& scenario) {
+  NoFly no_fly{.boxes_m = {}, .margin_m = scenario.planner.validity.collision_radius_m};
+  for (const NoFlyConfig& box : scenario.no_fly) no_fly.boxes_m.emplace_back(box.min_m, box.max_m);
+  return no_fly;
+}
+
+/// All mesh files that a scenario may name, each with its key; those without a path too.
+struct MeshFileKey {
+  std::string key;
+  MeshFileConfig* file;
+};
+std::vector<MeshFileKey> mesh_files(Scenario& scenario);
 
 }  // namespace gnbv

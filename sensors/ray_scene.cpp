@@ -17,9 +17,14 @@ namespace {
 
 constexpr std::size_t kPacket = RayPacket::kRays;
 constexpr float kGroundHalfWidth_m = 1000.0F;
-// ray masks: sensors see both, questions about the structure leave the ground out
+// ray masks: sensors see all, questions about one part leave the others out
 constexpr unsigned kStructureMask = 1;
 constexpr unsigned kGroundMask = 2;
+constexpr unsigned kObstacleMask = 4;
+constexpr unsigned kTerrainMask = 8;
+constexpr unsigned kAllMask = kStructureMask | kGroundMask | kObstacleMask | kTerrainMask;
+// of faces that are asked for their distance only where they rise above the terrain's floor
+constexpr unsigned kRisenTerrainMask = 16;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// Owns one reference of an Embree handle.
@@ -99,16 +104,38 @@ RTCRayHit16 packet_from(const Vec3f& origin_world_m, float near_m) {
   std::fill_n(packet.ray.org_y, kPacket, origin_world_m.y());
   std::fill_n(packet.ray.org_z, kPacket, origin_world_m.z());
   std::fill_n(packet.ray.tnear, kPacket, near_m);
-  std::fill_n(packet.ray.mask, kPacket, kStructureMask | kGroundMask);
+  std::fill_n(packet.ray.mask, kPacket, kAllMask);
   return packet;
 }
 
+/// One mesh of the world: a geometry of the scene, and a run of the faces of all meshes together.
+struct ScenePart {
+  unsigned mask = 0;
+  unsigned geometry = RTC_INVALID_GEOMETRY_ID;  // none where the mesh has no faces
+  std::uint32_t first_face = 0;
+};
+
 struct NearestQuery {
-  const std::vector<Vec3f>* vertices_m;
-  const std::vector<std::array<std::uint32_t, 3>>* faces;
-  unsigned structure_id;
+  const TriangleMesh* meshes;
+  std::span<const ScenePart> parts;
+  unsigned asked;  // masks
+  float terrain_floor_z_m;
   Vec3 p_world_m;
   double distance_m;
+
+  /// The face among those of all meshes; nothing for one that is not asked for.
+  const std::array<std::uint32_t, 3>* face(unsigned geometry, unsigned face_of_it) const {
+    for (const ScenePart& part : parts) {
+      if (part.geometry != geometry) continue;
+      const auto& found = meshes->faces[part.first_face + face_of_it];
+      const bool is_risen = part.mask == kTerrainMask && (asked & kRisenTerrainMask) != 0 &&
+                            std::any_of(found.begin(), found.end(), [&](std::uint32_t vertex) {
+                              return meshes->vertices_m[vertex].z() > terrain_floor_z_m;
+                            });
+      return (asked & part.mask) != 0 || is_risen ? &found : nullptr;
+    }
+    return nullptr;
+  }
 };
 
 /// Embree searches in float around the rounded point: the ball is kept a little larger than the
@@ -119,10 +146,10 @@ float search_radius_m(double distance_m) {
 
 bool visit_nearest(RTCPointQueryFunctionArguments* arguments) {
   auto& query = *static_cast<NearestQuery*>(arguments->userPtr);
-  if (arguments->geomID != query.structure_id) return false;
-  const auto& face = (*query.faces)[arguments->primID];
-  const auto corner = [&](int i) -> Vec3 {
-    return (*query.vertices_m)[face[static_cast<std::size_t>(i)]].cast<double>();
+  const auto* const face = query.face(arguments->geomID, arguments->primID);
+  if (face == nullptr) return false;
+  const auto corner = [&](std::size_t i) -> Vec3 {
+    return query.meshes->vertices_m[(*face)[i]].cast<double>();
   };
   const Vec3 nearest = closest_on_triangle(query.p_world_m, corner(0), corner(1), corner(2));
   const double distance_m = (nearest - query.p_world_m).norm();
@@ -139,36 +166,20 @@ struct RayScene::Impl {
   // a build happened to be shared out among threads.
   Owner<RTCDevice, rtcReleaseDevice> device{rtcNewDevice("threads=1")};
   Owner<RTCScene, rtcReleaseScene> scene{new_scene(device.get())};
-  std::vector<Vec3f> vertices_m;
-  std::vector<std::array<std::uint32_t, 3>> faces;
-  std::vector<Material> materials;
-  std::vector<std::uint16_t> face_material;
-  unsigned structure_id = RTC_INVALID_GEOMETRY_ID;
+  TriangleMesh meshes;             // structure, obstacles and terrain, one after the other
+  std::array<ScenePart, 3> parts;  // theirs
+  float terrain_floor_z_m = 0.0F;
   unsigned ground_id = RTC_INVALID_GEOMETRY_ID;
 
   explicit Impl(const World& world)
-      : vertices_m(world.structure.vertices_m),
-        faces(world.structure.faces),
-        materials(world.structure.materials),
-        face_material(world.structure.face_material) {
+      : meshes(world.structure), terrain_floor_z_m(static_cast<float>(world.terrain_floor_z_m)) {
     GNBV_CHECK(rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) != 0,
                "this Embree was built without ray masks");
-    for (const auto& face : faces) {
-      for (const std::uint32_t i : face) {
-        GNBV_CHECK(i < vertices_m.size(), "face vertex {} of {}", i, vertices_m.size());
-      }
-    }
-    GNBV_CHECK(face_material.empty() || face_material.size() == faces.size(),
-               "{} materials of {} faces", face_material.size(), faces.size());
-    for (const std::uint16_t i : face_material) {
-      GNBV_CHECK(i < materials.size(), "material {} of {}", i, materials.size());
-    }
-    GNBV_CHECK(!materials.empty() || faces.empty(), "a structure without materials");
     rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_HIGH);
-    if (!faces.empty()) {
-      structure_id = attach_triangles(device.get(), scene.get(), vertices_m, faces, kStructureMask);
-    }
+    parts[0] = attach(world.structure, kStructureMask, 0);
+    parts[1] = attach_next(world.obstacles, kObstacleMask);
+    parts[2] = attach_next(world.terrain, kTerrainMask);
     if (world.has_ground) {
       constexpr float w = kGroundHalfWidth_m;
       const std::array<Vec3f, 4> corners = {Vec3f(-w, -w, 0), Vec3f(w, -w, 0), Vec3f(w, w, 0),
@@ -178,6 +189,33 @@ struct RayScene::Impl {
     }
     rtcCommitScene(scene.get());
     check_device(device.get(), "building the scene");
+  }
+
+  ScenePart attach(const TriangleMesh& mesh, unsigned mask, std::size_t first_face) const {
+    need_indices(mesh);
+    ScenePart part{.mask = mask, .first_face = static_cast<std::uint32_t>(first_face)};
+    if (mesh.faces.empty()) return part;
+    part.geometry = attach_triangles(device.get(), scene.get(), mesh.vertices_m, mesh.faces, mask);
+    return part;
+  }
+  ScenePart attach_next(const TriangleMesh& mesh, unsigned mask) {
+    const ScenePart part = attach(mesh, mask, meshes.faces.size());
+    if (!mesh.faces.empty()) append(meshes, mesh);
+    return part;
+  }
+
+  static void need_indices(const TriangleMesh& mesh) {
+    for (const auto& face : mesh.faces) {
+      for (const std::uint32_t i : face) {
+        GNBV_CHECK(i < mesh.vertices_m.size(), "face vertex {} of {}", i, mesh.vertices_m.size());
+      }
+    }
+    GNBV_CHECK(mesh.face_material.empty() || mesh.face_material.size() == mesh.faces.size(),
+               "{} materials of {} faces", mesh.face_material.size(), mesh.faces.size());
+    for (const std::uint16_t i : mesh.face_material) {
+      GNBV_CHECK(i < mesh.materials.size(), "material {} of {}", i, mesh.materials.size());
+    }
+    GNBV_CHECK(!mesh.materials.empty() || mesh.faces.empty(), "a mesh without materials");
   }
 
   static RTCScene new_scene(RTCDevice device) {
@@ -247,6 +285,9 @@ struct RayScene::Impl {
     trace((hits.size() + kPacket - 1) / kPacket, packet, far_m, load, store);
   }
 
+  /// To the nearest face of the masks, up to `limit_m`; infinity beyond.
+  double distance_m(unsigned asked, const Vec3& p_world_m, double limit_m) const;
+
   // Written so that 16 lanes at a time can be computed: everything is read, then chosen from.
   static float distance_m(const RTCRayHit16& answer, std::size_t lane) {
     const float tfar = answer.ray.tfar[lane];
@@ -254,7 +295,9 @@ struct RayScene::Impl {
   }
   std::int32_t face(const RTCRayHit16& answer, std::size_t lane) const {
     const unsigned id = answer.hit.geomID[lane];
-    const auto hit = static_cast<std::int32_t>(answer.hit.primID[lane]);
+    const std::uint32_t obstacle = id == parts[1].geometry ? parts[1].first_face : 0;
+    const std::uint32_t terrain = id == parts[2].geometry ? parts[2].first_face : 0;
+    const auto hit = static_cast<std::int32_t>(answer.hit.primID[lane] + obstacle + terrain);
     const std::int32_t of_something = id == ground_id ? kGroundFace : hit;
     return id == RTC_INVALID_GEOMETRY_ID ? kNoFace : of_something;
   }
@@ -315,9 +358,12 @@ void RayScene::first_hits(std::span<const Vec3f> origins_world_m,
   impl_->trace_each(packet, set_origin, directions_world, far_m, hits);
 }
 
-void RayScene::structure_blocks(std::span<const Vec3f> origins_world_m,
-                                std::span<const Vec3f> directions_world, float near_m, float far_m,
-                                std::span<std::uint8_t> blocked) const {
+namespace {
+
+/// Whether anything of the masks lies on each ray; blocked[i] is 0 or 1.
+void find_blocked(RTCScene scene, unsigned mask, std::span<const Vec3f> origins_world_m,
+                  std::span<const Vec3f> directions_world, float near_m, float far_m,
+                  std::span<std::uint8_t> blocked) {
   GNBV_CHECK(origins_world_m.size() == blocked.size() && directions_world.size() == blocked.size(),
              "{} origins and {} directions for {} answers", origins_world_m.size(),
              directions_world.size(), blocked.size());
@@ -339,30 +385,56 @@ void RayScene::structure_blocks(std::span<const Vec3f> origins_world_m,
       packet.dir_z[i] = directions_world[ray].z();
       packet.tnear[i] = near_m;
       packet.tfar[i] = far_m;
-      packet.mask[i] = kStructureMask;
+      packet.mask[i] = mask;
     }
-    rtcOccluded16(valid.data(), impl_->scene.get(), &context, &packet);
+    rtcOccluded16(valid.data(), scene, &context, &packet);
     // Embree marks an occluded ray with tfar = -infinity
     for (std::size_t i = 0; i < count; ++i) blocked[begin + i] = packet.tfar[i] < 0.0F ? 1 : 0;
   }
 }
 
+}  // namespace
+
+void RayScene::structure_blocks(std::span<const Vec3f> origins_world_m,
+                                std::span<const Vec3f> directions_world, float near_m, float far_m,
+                                std::span<std::uint8_t> blocked) const {
+  find_blocked(impl_->scene.get(), kStructureMask, origins_world_m, directions_world, near_m, far_m,
+               blocked);
+}
+
+void RayScene::obstacles_block(std::span<const Vec3f> origins_world_m,
+                               std::span<const Vec3f> directions_world, float near_m, float far_m,
+                               std::span<std::uint8_t> blocked) const {
+  find_blocked(impl_->scene.get(), kObstacleMask, origins_world_m, directions_world, near_m, far_m,
+               blocked);
+}
+
+void RayScene::terrain_blocks(std::span<const Vec3f> origins_world_m,
+                              std::span<const Vec3f> directions_world, float near_m, float far_m,
+                              std::span<std::uint8_t> blocked) const {
+  find_blocked(impl_->scene.get(), kTerrainMask, origins_world_m, directions_world, near_m, far_m,
+               blocked);
+}
+
+bool RayScene::has_obstacles() const { return impl_->parts[1].geometry != RTC_INVALID_GEOMETRY_ID; }
+bool RayScene::has_terrain() const { return impl_->parts[2].geometry != RTC_INVALID_GEOMETRY_ID; }
+
 Vec3f RayScene::normal_world(std::int32_t face) const {
   if (face == kGroundFace) return Vec3f::UnitZ();
   GNBV_CHECK(face >= 0, "the normal of nothing");
-  const auto& [a, b, c] = impl_->faces[static_cast<std::size_t>(face)];
-  const std::vector<Vec3f>& p = impl_->vertices_m;
+  const auto& [a, b, c] = impl_->meshes.faces[static_cast<std::size_t>(face)];
+  const std::vector<Vec3f>& p = impl_->meshes.vertices_m;
   return (p[b] - p[a]).cross(p[c] - p[a]).stableNormalized();
 }
 
 const Material& RayScene::material(std::int32_t face) const {
-  const std::vector<std::uint16_t>& of_face = impl_->face_material;
-  return impl_->materials[of_face.empty() ? 0 : of_face[static_cast<std::size_t>(face)]];
+  const std::vector<std::uint16_t>& of_face = impl_->meshes.face_material;
+  return impl_->meshes.materials[of_face.empty() ? 0 : of_face[static_cast<std::size_t>(face)]];
 }
 
-double RayScene::distance_to_structure_m(const Vec3& p_world_m, double limit_m) const {
-  NearestQuery nearest{&impl_->vertices_m, &impl_->faces, impl_->structure_id, p_world_m,
-                       std::numeric_limits<double>::infinity()};
+double RayScene::Impl::distance_m(unsigned asked, const Vec3& p_world_m, double limit_m) const {
+  NearestQuery nearest{&meshes,           parts,     asked,
+                       terrain_floor_z_m, p_world_m, std::numeric_limits<double>::infinity()};
   RTCPointQuery query{};
   query.x = static_cast<float>(p_world_m.x());
   query.y = static_cast<float>(p_world_m.y());
@@ -370,9 +442,21 @@ double RayScene::distance_to_structure_m(const Vec3& p_world_m, double limit_m) 
   query.radius = search_radius_m(limit_m);
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
-  rtcPointQuery(impl_->scene.get(), &query, &context, visit_nearest, &nearest);
+  rtcPointQuery(scene.get(), &query, &context, visit_nearest, &nearest);
   return nearest.distance_m <= limit_m ? nearest.distance_m
                                        : std::numeric_limits<double>::infinity();
+}
+
+double RayScene::distance_to_structure_m(const Vec3& p_world_m, double limit_m) const {
+  return impl_->distance_m(kStructureMask, p_world_m, limit_m);
+}
+
+double RayScene::distance_to_surroundings_m(const Vec3& p_world_m, double limit_m) const {
+  return impl_->distance_m(kObstacleMask | kTerrainMask, p_world_m, limit_m);
+}
+
+double RayScene::clearance_m(const Vec3& p_world_m, double limit_m) const {
+  return impl_->distance_m(kStructureMask | kObstacleMask | kRisenTerrainMask, p_world_m, limit_m);
 }
 
 }  // namespace gnbv

@@ -21,8 +21,9 @@ constexpr std::int32_t kNoFace = -1;
 constexpr std::int32_t kGroundFace = -2;
 
 struct RayHit {
-  float distance_m = 0.0F;      // in units of the ray's direction length; kNoReturn when nothing
-  std::int32_t face = kNoFace;  // index into World::structure.faces, or one of the two above
+  float distance_m = 0.0F;  // in units of the ray's direction length; kNoReturn when nothing
+  // index into the faces of World::structure, then obstacles, then terrain; or one of the two above
+  std::int32_t face = kNoFace;
 };
 
 /// Directions of 16 rays that are traced at once: neighbours in space.
@@ -41,8 +42,9 @@ struct HitPacket {
   std::array<std::int32_t, RayPacket::kRays> face{};
 };
 
-/// Ray queries against the structure and the ground. Const after construction: any number of
-/// threads may query at once, and each query's answer depends on its rays alone.
+/// Ray queries against the structure, what stands around it, and the ground. Const after
+/// construction: any number of threads may query at once, and each query's answer depends on its
+/// rays alone.
 class RayScene {
  public:
   explicit RayScene(const World& world);
@@ -71,15 +73,32 @@ class RayScene {
                         std::span<const Vec3f> directions_world, float near_m, float far_m,
                         std::span<std::uint8_t> blocked) const;
 
-  /// Unit normal of a face of the structure, on the side its corners run counter-clockwise, or of
-  /// the ground. Zero for a face without area.
+  /// The same of the obstacles alone, and of the terrain alone.
+  void obstacles_block(std::span<const Vec3f> origins_world_m,
+                       std::span<const Vec3f> directions_world, float near_m, float far_m,
+                       std::span<std::uint8_t> blocked) const;
+  void terrain_blocks(std::span<const Vec3f> origins_world_m,
+                      std::span<const Vec3f> directions_world, float near_m, float far_m,
+                      std::span<std::uint8_t> blocked) const;
+
+  /// Unit normal of a face of a mesh, on the side its corners run counter-clockwise, or of the
+  /// ground. Zero for a face without area.
   Vec3f normal_world(std::int32_t face) const;
 
-  /// What a face of the structure is made of.
+  /// What a face of a mesh is made of.
   const Material& material(std::int32_t face) const;
+
+  bool has_obstacles() const;
+  bool has_terrain() const;
 
   /// Distance from a point to the structure's surface, up to `limit_m`; infinity beyond.
   double distance_to_structure_m(const Vec3& p_world_m, double limit_m) const;
+  /// To what is seen and not scored: obstacles and terrain.
+  double distance_to_surroundings_m(const Vec3& p_world_m, double limit_m) const;
+  /// To what the vehicle has to keep clear of: the structure, the obstacles, and what of the
+  /// terrain rises above World::terrain_floor_z_m; a face of it that does so anywhere does so
+  /// everywhere.
+  double clearance_m(const Vec3& p_world_m, double limit_m) const;
 
  private:
   struct Impl;

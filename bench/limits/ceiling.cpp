@@ -15,7 +15,8 @@ constexpr std::string_view kKind = "ceiling";
 Ceiling compute(const Scenario& scenario, const World& world, const RayScene& scene,
                 const LegalViewpoints& legal, const ViewPose& start, int threads,
                 const std::function<void(double)>& on_progress) {
-  const ReferenceConfig config{.floor_z_m = scenario.planner.floor_z_m};
+  const ReferenceConfig config{.floor_z_m = scenario.planner.floor_z_m,
+                               .region_m = scenario.score.region_m};
   const SurfaceReference reference = cached_surface_reference(world, scene, config, threads);
   const SeenSurface seen =
       find_seen_surface(scenario, world, scene, legal, start, reference, threads, on_progress);

@@ -78,8 +78,18 @@ void add(Sha256& sha, const CameraConfig& c) {
 std::string ceiling_key(const Scenario& scenario, const World& world,
                         const LegalViewpoints& legal) {
   Sha256 sha;
-  add_mesh(sha, world.structure);
+  for (const TriangleMesh* mesh : {&world.structure, &world.obstacles, &world.terrain}) {
+    add_mesh(sha, *mesh);
+  }
   sha.add(world.has_ground);
+  add(sha, scenario.score.region_m.min());
+  add(sha, scenario.score.region_m.max());
+  const NoFly no_fly = no_fly_of(scenario);
+  sha.add(std::uint64_t{no_fly.boxes_m.size()});
+  for (const Box3& box_m : no_fly.boxes_m) {
+    add(sha, box_m.min());
+    add(sha, box_m.max());
+  }
   sha.add(std::uint64_t{scenario.cameras.size()});
   for (const CameraConfig& camera : scenario.cameras) add(sha, camera);
   sha.add(std::uint64_t{scenario.lidars.size()});

@@ -60,7 +60,8 @@ void LatticeWays::prepare(const std::vector<std::size_t>& from, int threads) {
 bool LatticeWays::is_straight_clear(std::size_t from, std::size_t to) const {
   // the same answer in both directions
   const auto [a, b] = std::minmax(from, to);
-  return is_leg_clear(scene_, p_world_m(a), p_world_m(b), radius_m_);
+  return legal_.no_fly.allows_leg(p_world_m(a), p_world_m(b)) &&
+         is_leg_clear(scene_, p_world_m(a), p_world_m(b), radius_m_);
 }
 
 Way LatticeWays::way(std::size_t from, std::size_t to) const {

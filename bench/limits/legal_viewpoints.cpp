@@ -17,7 +17,7 @@ constexpr std::uint32_t kNone = 0xffffffffU;
 bool is_piece_clear(const RayScene& scene, const Vec3& a_m, const Vec3& b_m, double radius_m) {
   const Vec3 middle_m = 0.5 * (a_m + b_m);
   const double half_m = 0.5 * (b_m - a_m).norm();
-  const double clear_m = scene.distance_to_structure_m(middle_m, radius_m + half_m);
+  const double clear_m = scene.clearance_m(middle_m, radius_m + half_m);
   if (clear_m - half_m >= radius_m) return true;
   if (clear_m < radius_m || half_m <= kFinest_m) return false;
   return is_piece_clear(scene, a_m, middle_m, radius_m) &&
@@ -83,6 +83,7 @@ class Lattice {
 struct Search {
   const RayScene& scene;
   const Lattice& lattice;
+  const NoFly& no_fly;
   double radius_m;
   int threads;
 
@@ -97,7 +98,8 @@ struct Search {
   std::vector<double> clearances_m(double limit_m) const {
     std::vector<double> clear_m(lattice.size());
     for_each_node([&](std::size_t node) {
-      clear_m[node] = scene.distance_to_structure_m(lattice.p_world_m(node), limit_m);
+      const Vec3 p_m = lattice.p_world_m(node);
+      clear_m[node] = no_fly.allows(p_m) ? scene.clearance_m(p_m, limit_m) : 0.0;
     });
     return clear_m;
   }
@@ -112,6 +114,7 @@ struct Search {
         // from the lower end, so that both directions get one answer
         const Vec3 q_m = lattice.p_world_m(other);
         const double length_m = (q_m - p_m).norm();
+        if (!(node < other ? no_fly.allows_leg(p_m, q_m) : no_fly.allows_leg(q_m, p_m))) return;
         const bool is_far_off = clear_m[node] + clear_m[other] >= 2.0 * radius_m + length_m;
         if (is_far_off || (node < other ? is_leg_clear(scene, p_m, q_m, radius_m)
                                         : is_leg_clear(scene, q_m, p_m, radius_m))) {
@@ -140,10 +143,10 @@ double lattice_step_m(const Box3& navigation_m) {
 
 LegalViewpoints find_legal_viewpoints(const RayScene& scene, const Box3& navigation_m,
                                       double radius_m, double step_m, const Vec3& start_world_m,
-                                      int threads) {
+                                      int threads, const NoFly& no_fly) {
   GNBV_CHECK(step_m > 0.0, "a lattice step of {} m", step_m);
   const Lattice lattice(navigation_m, step_m);
-  const Search search{scene, lattice, radius_m, threads};
+  const Search search{scene, lattice, no_fly, radius_m, threads};
   const std::vector<double> clear_m = search.clearances_m(radius_m + std::sqrt(3.0) * step_m);
   const std::vector<std::vector<std::size_t>> legs = search.legs(clear_m);
 
@@ -152,7 +155,10 @@ LegalViewpoints find_legal_viewpoints(const RayScene& scene, const Box3& navigat
   for (std::size_t node = 0; node < lattice.size(); ++node) {
     const Vec3 p_m = lattice.p_world_m(node);
     if (clear_m[node] < radius_m || (p_m - start_world_m).norm() > 2.0 * step_m) continue;
-    if (is_leg_clear(scene, start_world_m, p_m, radius_m)) open.push_back(node);
+    if (no_fly.allows_leg(start_world_m, p_m) &&
+        is_leg_clear(scene, start_world_m, p_m, radius_m)) {
+      open.push_back(node);
+    }
   }
   const std::vector<std::size_t> near_start = open;
   std::vector<bool> is_reached(lattice.size(), false);
@@ -167,7 +173,7 @@ LegalViewpoints find_legal_viewpoints(const RayScene& scene, const Box3& navigat
     }
   }
 
-  LegalViewpoints legal{.step_m = step_m, .start_world_m = start_world_m};
+  LegalViewpoints legal{.step_m = step_m, .start_world_m = start_world_m, .no_fly = no_fly};
   for (std::size_t node = 0; node < lattice.size(); ++node) {
     if (!is_reached[node]) continue;
     index[node] = static_cast<std::uint32_t>(legal.p_world_m.size());
@@ -188,7 +194,8 @@ LegalViewpoints find_legal_viewpoints(const Scenario& scenario, const RayScene& 
   const ValidityConfig& validity = scenario.planner.validity;
   const Box3 navigation_m = navigation_box_m(validity, scenario.workspace_m);
   return find_legal_viewpoints(scene, navigation_m, validity.collision_radius_m,
-                               lattice_step_m(navigation_m), start.p_world_m, threads);
+                               lattice_step_m(navigation_m), start.p_world_m, threads,
+                               no_fly_of(scenario));
 }
 
 }  // namespace gnbv

@@ -11,7 +11,8 @@
 
 namespace gnbv {
 
-/// Whether every point of the straight leg keeps `radius_m` from the structure. The distance to it
+/// Whether every point of the straight leg keeps `radius_m` from the structure and what else is in
+/// the way (RayScene::clearance_m()). The distance to it
 /// changes by at most a metre a metre, so a clear middle clears its surroundings; halves that this
 /// does not decide are asked again, down to 1 cm. What is then still open counts as not clear: a
 /// true answer is certain, a false one may be 1 cm too strict.
@@ -23,8 +24,8 @@ bool is_leg_clear(const RayScene& scene, const Vec3& a_world_m, const Vec3& b_wo
 double lattice_step_m(const Box3& navigation_m);
 
 /// A regular lattice from the lowest corner of the navigation box up, without the positions that
-/// are nearer to the structure than the collision radius, and without those that no clear way leads
-/// to. Ordered by z, then y, then x.
+/// are nearer to the structure, an obstacle or a no_fly box than the collision radius, and without
+/// those that no clear way leads to. Ordered by z, then y, then x.
 struct LegalViewpoints {
   double step_m = 0.0;
   Vec3 start_world_m = Vec3::Zero();
@@ -33,6 +34,7 @@ struct LegalViewpoints {
   std::vector<std::vector<std::uint32_t>> neighbours =
       {};                                      // of each: where clear straight legs lead
   std::vector<std::uint32_t> near_start = {};  // where clear legs from the start lead
+  NoFly no_fly = {};                           // that was kept clear of, too
 
   std::size_t size() const { return p_world_m.size(); }
 };
@@ -42,9 +44,10 @@ struct LegalViewpoints {
 /// The same at any number of threads.
 LegalViewpoints find_legal_viewpoints(const RayScene& scene, const Box3& navigation_m,
                                       double radius_m, double step_m, const Vec3& start_world_m,
-                                      int threads);
+                                      int threads, const NoFly& no_fly = {});
 
-/// Those of a scenario: its navigation box, its collision radius, lattice_step_m().
+/// Those of a scenario: its navigation box, its collision radius, its no_fly boxes,
+/// lattice_step_m().
 LegalViewpoints find_legal_viewpoints(const Scenario& scenario, const RayScene& scene,
                                       const ViewPose& start, int threads);
 

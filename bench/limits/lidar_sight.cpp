@@ -24,7 +24,7 @@ std::vector<Leg> scanned_legs(const Scenario& scenario, const ViewPose& start) {
   if (profiling.method == ProfilingMethod::none) return {};
   if (profiling.method == ProfilingMethod::saved) profiling.method = ProfilingMethod::bounding_box;
   const Box3 navigation_m = navigation_box_m(scenario.planner.validity, scenario.workspace_m);
-  ProfileRoute route(profiling, navigation_m, start);
+  ProfileRoute route(profiling, navigation_m, start, no_fly_of(scenario));
   std::vector<Leg> legs;
   ViewPose at = start;
   bool is_first = true;

@@ -229,8 +229,9 @@ auto ask_oracle(const Scenario& scenario, const World& world, const RayScene& sc
         start.p_world_m.x(), start.p_world_m.y(), start.p_world_m.z(),
         scenario.planner.validity.collision_radius_m));
   }
-  const SurfaceReference reference =
-      cached_surface_reference(world, scene, {.floor_z_m = scenario.planner.floor_z_m}, threads);
+  const SurfaceReference reference = cached_surface_reference(
+      world, scene, {.floor_z_m = scenario.planner.floor_z_m, .region_m = scenario.score.region_m},
+      threads);
   const ViewSurvey survey = cached_survey(ceiling_key(scenario, world, legal), scenario, scene,
                                           legal, reference, threads);
   Oracle oracle(scenario, scene, legal, reference, survey, start, threads);

@@ -219,9 +219,11 @@ bool SightSearch::is_lattice_near(const Vec3& at_cells) const {
 }
 
 bool SightSearch::is_legal(const Vec3& vehicle_m) const {
-  return scene_.distance_to_structure_m(vehicle_m, radius_m_) >= radius_m_ &&
+  const NoFly& no_fly = legal_.no_fly;
+  return no_fly.allows(vehicle_m) && scene_.clearance_m(vehicle_m, radius_m_) >= radius_m_ &&
          any_corner(cell_below(vehicle_m), [&](const Vec3& position_m) {
-           return is_leg_clear(scene_, vehicle_m, position_m, radius_m_);
+           return no_fly.allows_leg(vehicle_m, position_m) &&
+                  is_leg_clear(scene_, vehicle_m, position_m, radius_m_);
          });
 }
 

@@ -79,15 +79,21 @@ std::size_t chunks_of(std::span<const Vec3f> points_m) {
 
 CloudDistances cloud_distances(const RayScene& scene, std::span<const Vec3f> cloud_world_m,
                                std::span<const Vec3f> samples_world_m, int threads) {
+  return cloud_distances(scene, cloud_world_m, cloud_world_m, samples_world_m, threads);
+}
+
+CloudDistances cloud_distances(const RayScene& scene, std::span<const Vec3f> cloud_world_m,
+                               std::span<const Vec3f> judged_world_m,
+                               std::span<const Vec3f> samples_world_m, int threads) {
   std::optional<PointTree> tree;
-  std::vector<Tally> precise(chunks_of(cloud_world_m));
+  std::vector<Tally> precise(chunks_of(judged_world_m));
   // the tree is one task beside those that need none
   parallel_for(threads, precise.size() + 1, [&](std::size_t task) {
     if (task == 0) {
       tree.emplace(cloud_world_m);
       return;
     }
-    precise[task - 1] = tally_of(cloud_world_m, task - 1,
+    precise[task - 1] = tally_of(judged_world_m, task - 1,
                                  [&](const Vec3f& p_m) { return to_surface_m(scene, p_m); });
   });
   std::vector<Tally> recalled(chunks_of(samples_world_m));
@@ -97,7 +103,7 @@ CloudDistances cloud_distances(const RayScene& scene, std::span<const Vec3f> clo
     });
   });
 
-  const Shares precision = shares_of(precise, cloud_world_m.size());
+  const Shares precision = shares_of(precise, judged_world_m.size());
   const Shares recall = shares_of(recalled, samples_world_m.size());
   CloudDistances out;
   for (std::size_t i = 0; i < out.at.size(); ++i) {

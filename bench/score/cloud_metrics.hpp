@@ -48,6 +48,12 @@ struct CloudDensity {
 CloudDistances cloud_distances(const RayScene& scene, std::span<const Vec3f> cloud_world_m,
                                std::span<const Vec3f> samples_world_m, int threads);
 
+/// The same where only `judged_world_m` of the cloud are asked for their distance to the structure;
+/// the samples look for the nearest of all.
+CloudDistances cloud_distances(const RayScene& scene, std::span<const Vec3f> cloud_world_m,
+                               std::span<const Vec3f> judged_world_m,
+                               std::span<const Vec3f> samples_world_m, int threads);
+
 /// Zero for an empty cloud. Voxels are those of voxel_code().
 CloudDensity cloud_density(std::span<const Vec3f> cloud_world_m, double voxel_m);
 

@@ -1,15 +1,45 @@
 #include "bench/score/mission_score.hpp"
 
+#include "bench/score/scored_points.hpp"
+
 namespace gnbv {
+namespace {
+
+/// A cloud without the points that belong to what stands around the structure.
+struct OwnCloud {
+  std::vector<Vec3f> points_world_m = {};
+  std::vector<std::size_t> until = {0};  // of the first i points of the whole so many are kept
+};
+
+OwnCloud own_cloud(const RayScene& scene, std::span<const Vec3f> points_world_m, int threads) {
+  const std::vector<std::uint8_t> is_kept = points_of_structure(scene, points_world_m, threads);
+  OwnCloud own;
+  for (std::size_t i = 0; i < points_world_m.size(); ++i) {
+    if (is_kept[i] != 0) own.points_world_m.push_back(points_world_m[i]);
+    own.until.push_back(own.points_world_m.size());
+  }
+  return own;
+}
+
+std::vector<Vec3f> points_in(const Box3& region_m, std::span<const Vec3f> points_world_m) {
+  std::vector<Vec3f> inside;
+  for (const Vec3f& p_m : points_world_m) {
+    if (region_m.contains(p_m.cast<double>())) inside.push_back(p_m);
+  }
+  return inside;
+}
+
+}  // namespace
 
 MissionScore score_cloud(const SurfaceReference& reference, const RayScene& scene,
                          const ScoredCloud& cloud, double density_voxel_m, int threads) {
+  const OwnCloud own = own_cloud(scene, cloud.points_world_m, threads);
   // the profile, what each view left, and the whole cloud: the curve ends with the last view
-  std::vector<std::size_t> prefixes = {cloud.profile_points};
-  for (const ViewMark& view : cloud.views) prefixes.push_back(view.cloud_points);
-  prefixes.push_back(cloud.points_world_m.size());
+  std::vector<std::size_t> prefixes = {own.until[cloud.profile_points]};
+  for (const ViewMark& view : cloud.views) prefixes.push_back(own.until[view.cloud_points]);
+  prefixes.push_back(own.points_world_m.size());
   const std::vector<CoverageShares> shares =
-      coverage_of_prefixes(reference, cloud.points_world_m, prefixes, threads);
+      coverage_of_prefixes(reference, own.points_world_m, prefixes, threads);
 
   MissionScore score{.profile = shares.front().outside,
                      .final = shares.back().outside,
@@ -24,9 +54,10 @@ MissionScore score_cloud(const SurfaceReference& reference, const RayScene& scen
     score.curve.metres.push_back(cloud.views[i].straight_m);
     score.curve.seconds.push_back(cloud.views[i].time_s - cloud.before.profile_end_s);
   }
+  const std::vector<Vec3f> judged = points_in(cloud.region_m, own.points_world_m);
   score.distances =
-      cloud_distances(scene, cloud.points_world_m, reference.samples_world_m, threads);
-  score.density = cloud_density(cloud.points_world_m, density_voxel_m);
+      cloud_distances(scene, own.points_world_m, judged, reference.samples_world_m, threads);
+  score.density = cloud_density(judged, density_voxel_m);
   return score;
 }
 

@@ -26,6 +26,7 @@ struct ScoredCloud {
   std::size_t profile_points = 0;  // the first ones
   BeforeViews before = {};
   std::vector<ViewMark> views = {};
+  Box3 region_m = ReferenceConfig{}.region_m;  // as of the reference
 };
 
 /// Coverage as fractions, by kCoverageSizes_m.
@@ -43,6 +44,9 @@ struct MissionScore {
   std::optional<double> ceiling = {};
 };
 
+/// Points that belong to what stands around the structure (points_of_structure()) count nowhere.
+/// Distances to the structure and density are those of points in the region; coverage and recall
+/// ask all points for voxels and samples in it.
 /// Deterministic at any number of threads. `density_voxel_m` is planner.map.resolution_m.
 MissionScore score_cloud(const SurfaceReference& reference, const RayScene& scene,
                          const ScoredCloud& cloud, double density_voxel_m, int threads);

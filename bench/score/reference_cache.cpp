@@ -18,9 +18,14 @@ static_assert(sizeof(Vec3f) == 3 * sizeof(float));
 
 constexpr std::string_view kKind = "surface_reference";
 
-std::string key_of(const TriangleMesh& mesh, const ReferenceConfig& config) {
+std::string key_of(const World& world, const ReferenceConfig& config) {
   Sha256 sha;
-  add_mesh(sha, mesh);
+  for (const TriangleMesh* mesh : {&world.structure, &world.obstacles, &world.terrain}) {
+    add_mesh(sha, *mesh);
+  }
+  for (const Vec3& corner_m : {config.region_m.min(), config.region_m.max()}) {
+    for (const double value : corner_m) sha.add(value);
+  }
   for (const double value : {config.floor_z_m, config.sample_spacing_m, config.escape_near_m}) {
     sha.add(value);
   }
@@ -92,7 +97,7 @@ std::optional<SurfaceReference> reference_in(std::string_view bytes) {
 
 SurfaceReference cached_surface_reference(const World& world, const RayScene& scene,
                                           const ReferenceConfig& config, int threads) {
-  const std::string key = key_of(world.structure, config);
+  const std::string key = key_of(world, config);
   if (const auto bytes = load_cached(kKind, key)) {
     if (auto reference = reference_in(*bytes)) return *std::move(reference);
   }

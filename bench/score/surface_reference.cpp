@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "bench/score/surface_pieces.hpp"
 #include "sim/core/error.hpp"
@@ -43,6 +44,7 @@ class EscapeSearch {
     std::vector<std::uint32_t> lines(samples.size(), 0);  // that leave the structure
     std::vector<std::size_t> open(samples.size());        // what is not decided
     std::iota(open.begin(), open.end(), std::size_t{0});
+    leave_out_buried(samples, open);
     const auto ask = [&](std::uint32_t needed, std::size_t left, const auto& direction_of) {
       count_lines(samples, open, direction_of, lines);
       std::erase_if(open, [&](std::size_t i) {
@@ -64,6 +66,30 @@ class EscapeSearch {
   }
 
  private:
+  /// Of the samples those under the terrain.
+  void leave_out_buried(std::span<const SurfaceSample> samples,
+                        std::vector<std::size_t>& open) const {
+    if (!scene_.has_terrain()) return;
+    std::vector<Vec3f> origins;
+    for (const SurfaceSample& sample : samples) origins.push_back(sample.p_world_m);
+    const std::vector<Vec3f> up(samples.size(), Vec3f::UnitZ());
+    std::vector<std::uint8_t> is_buried(samples.size());
+    scene_.terrain_blocks(origins, up, near_m_, kEndless, is_buried);
+    std::erase_if(open, [&](std::size_t i) { return is_buried[i] != 0; });
+  }
+
+  /// Ends the lines that an obstacle meets. They begin a little before their sample, so that one
+  /// that touches it does.
+  void end_at_obstacles(std::vector<Vec3f> origins, std::span<const Vec3f> directions,
+                        std::vector<std::uint8_t>& blocked) const {
+    if (!scene_.has_obstacles()) return;
+    for (std::size_t k = 0; k < origins.size(); ++k) origins[k] -= near_m_ * directions[k];
+    std::vector<std::uint8_t> by_obstacle(blocked.size());
+    scene_.obstacles_block(origins, directions, 0.0F, static_cast<float>(kObstacleReach_m),
+                           by_obstacle);
+    for (std::size_t k = 0; k < blocked.size(); ++k) blocked[k] |= by_obstacle[k];
+  }
+
   /// Adds one to `lines` of each of the samples that a line leaves from.
   template <typename Direction>
   void count_lines(std::span<const SurfaceSample> samples, std::span<const std::size_t> of,
@@ -77,6 +103,7 @@ class EscapeSearch {
     }
     std::vector<std::uint8_t> blocked(of.size());
     scene_.structure_blocks(origins, directions, near_m_, kEndless, blocked);
+    end_at_obstacles(std::move(origins), directions, blocked);
     for (std::size_t k = 0; k < of.size(); ++k) lines[of[k]] += blocked[k] == 0 ? 1 : 0;
   }
 
@@ -195,6 +222,25 @@ double spacing_for(const TriangleMesh& mesh, const ReferenceConfig& config) {
                                     : config.sample_spacing_m;
 }
 
+/// Leaves what lies in the region.
+void restrict_to(const Box3& region_m, SurfaceReference& reference) {
+  const auto is_outside = [&](const Vec3& p_m) { return !region_m.contains(p_m); };
+  const VoxelSet finest = reference.outside[0];
+  std::size_t i = 0;  // points_world_m are in the order of the finest voxels
+  std::erase_if(reference.points_world_m, [&](const Vec3f&) {
+    return is_outside(voxel_centre_m(finest[i++], kCoverageSizes_m[0]));
+  });
+  for (auto* const sizes : {&reference.raw, &reference.outside}) {
+    for (std::size_t size = 0; size < kCoverageSizes_m.size(); ++size) {
+      std::erase_if((*sizes)[size], [&](std::uint64_t code) {
+        return is_outside(voxel_centre_m(code, kCoverageSizes_m[size]));
+      });
+    }
+  }
+  std::erase_if(reference.samples_world_m,
+                [&](const Vec3f& p_m) { return is_outside(p_m.cast<double>()); });
+}
+
 /// The voxels of one size that have surface enough.
 VoxelSet rich_voxels(std::span<const VoxelSurface> finest, std::size_t size,
                      double VoxelSurface::*area_m2) {
@@ -265,6 +311,7 @@ SurfaceReference make_surface_reference(const World& world, const RayScene& scen
     reference.points_world_m.push_back(voxel->point_world_m);
   }
   reference.samples_world_m = of_equal_areas(parts, kAreaSamples);
+  restrict_to(config.region_m, reference);
   return reference;
 }
 

@@ -16,23 +16,6 @@ double squared_distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) 
   return (p - (a + t * ab)).squaredNorm();
 }
 
-/// Squared distance between a segment and a box: convex along the segment, so a ternary search
-/// finds its minimum (to 2^-24 of the segment's length after 42 thirds).
-double squared_distance_to_segment(const Box3& box, const Vec3& a, const Vec3& b) {
-  double lo = 0.0;
-  double hi = 1.0;
-  const auto at = [&](double t) { return box.squaredExteriorDistance(Vec3(a + t * (b - a))); };
-  for (int i = 0; i < 42; ++i) {
-    const double third = (hi - lo) / 3.0;
-    if (at(lo + third) <= at(hi - third)) {
-      hi -= third;
-    } else {
-      lo += third;
-    }
-  }
-  return at(0.5 * (lo + hi));
-}
-
 /// Whether `is_hit` says so of the cube of any occupied voxel within `margin_m` of the box.
 template <typename IsHit>
 bool any_occupied_near(const OccupancyGrid& grid, const Box3& box, double margin_m,
@@ -63,6 +46,24 @@ bool any_occupied_near(const OccupancyGrid& grid, const Box3& box, double margin
 
 }  // namespace
 
+// Convex along the segment, so a ternary search finds the minimum.
+double box_to_segment_m2(const Box3& box_m, const Vec3& a_m, const Vec3& b_m) {
+  double lo = 0.0;
+  double hi = 1.0;
+  const auto at = [&](double t) {
+    return box_m.squaredExteriorDistance(Vec3(a_m + t * (b_m - a_m)));
+  };
+  for (int i = 0; i < 42; ++i) {
+    const double third = (hi - lo) / 3.0;
+    if (at(lo + third) <= at(hi - third)) {
+      hi -= third;
+    } else {
+      lo += third;
+    }
+  }
+  return at(0.5 * (lo + hi));
+}
+
 bool is_sphere_clear(const OccupancyGrid& grid, const Vec3& p_world_m, double radius_m) {
   return !any_occupied_near(grid, Box3(p_world_m), radius_m, [&](const Box3& cube) {
     return cube.squaredExteriorDistance(p_world_m) < radius_m * radius_m;
@@ -78,7 +79,7 @@ bool is_path_clear(const OccupancyGrid& grid, const Vec3& from_world_m, const Ve
   return !any_occupied_near(grid, span, radius_m, [&](const Box3& cube) {
     const double to_center2 = squared_distance_to_segment(cube.center(), from_world_m, to_world_m);
     if (to_center2 > reach_m * reach_m) return false;
-    const double nearest2 = squared_distance_to_segment(cube, from_world_m, to_world_m);
+    const double nearest2 = box_to_segment_m2(cube, from_world_m, to_world_m);
     // the search for the nearest point is good to rounding: the start itself is no approach
     constexpr double kRounding_m2 = 1e-9;
     return nearest2 < radius2 &&

@@ -6,6 +6,9 @@
 
 namespace gnbv {
 
+/// Squared distance between a box and a segment, to 2^-24 of the segment's length.
+double box_to_segment_m2(const Box3& box_m, const Vec3& a_m, const Vec3& b_m);
+
 /// Whether a sphere at the point touches no occupied voxel (a cube).
 bool is_sphere_clear(const OccupancyGrid& grid, const Vec3& p_world_m, double radius_m);
 

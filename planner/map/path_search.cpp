@@ -17,8 +17,9 @@ using Node = std::array<int, 3>;  // steps from the start along the world axes
 class Search {
  public:
   Search(const OccupancyGrid& grid, const Box3& navigation_m, const Vec3& from_world_m,
-         const Vec3& to_world_m, double radius_m)
+         const Vec3& to_world_m, double radius_m, const NoFly& no_fly)
       : grid_(grid),
+        no_fly_(no_fly),
         navigation_m_(navigation_m),
         from_m_(from_world_m),
         to_m_(to_world_m),
@@ -64,7 +65,8 @@ class Search {
   bool is_leg_clear(const Vec3& a_m, const Vec3& b_m) const {
     constexpr double kRounding_m = 1e-6;
     return navigation_m_.squaredExteriorDistance(b_m) <= kRounding_m * kRounding_m &&
-           is_line_free(grid_, a_m, b_m) && is_path_clear(grid_, a_m, b_m, radius_m_);
+           no_fly_.allows_leg(a_m, b_m) && is_line_free(grid_, a_m, b_m) &&
+           is_path_clear(grid_, a_m, b_m, radius_m_);
   }
 
   void expand(const Node& node, const Vec3& p_m) {
@@ -106,6 +108,7 @@ class Search {
   }
 
   const OccupancyGrid& grid_;
+  const NoFly& no_fly_;
   Box3 navigation_m_;
   Vec3 from_m_, to_m_;
   double radius_m_, step_m_;
@@ -120,8 +123,9 @@ class Search {
 std::optional<std::vector<Vec3>> find_path(const PathSearchConfig& config,
                                            const OccupancyGrid& grid, const Box3& navigation_m,
                                            const Vec3& from_world_m, const Vec3& to_world_m,
-                                           double radius_m) {
-  return Search(grid, navigation_m, from_world_m, to_world_m, radius_m).run(config.max_expansions);
+                                           double radius_m, const NoFly& no_fly) {
+  return Search(grid, navigation_m, from_world_m, to_world_m, radius_m, no_fly)
+      .run(config.max_expansions);
 }
 
 double path_length_m(const Vec3& from_world_m, std::span<const Vec3> via_world_m,

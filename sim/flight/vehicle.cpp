@@ -42,6 +42,34 @@ Eigen::Matrix3d rotation(const Vec3& rotation_vector_rad) {
   return Eigen::AngleAxisd(angle_rad, rotation_vector_rad / angle_rad).toRotationMatrix();
 }
 
+/// Triangles that never move; Bullet keeps pointers to the numbers.
+struct StaticMesh {
+  explicit StaticMesh(const TriangleMesh& mesh) {
+    for (const Vec3f& v : mesh.vertices_m) {
+      coordinates_m.insert(coordinates_m.end(), {v.x(), v.y(), v.z()});
+    }
+    for (const auto& face : mesh.faces) {
+      for (const std::uint32_t vertex : face) indices.push_back(static_cast<int>(vertex));
+    }
+    btIndexedMesh part;
+    part.m_numTriangles = static_cast<int>(mesh.faces.size());
+    part.m_triangleIndexBase = reinterpret_cast<const unsigned char*>(indices.data());
+    part.m_triangleIndexStride = 3 * sizeof(int);
+    part.m_numVertices = static_cast<int>(mesh.vertices_m.size());
+    part.m_vertexBase = reinterpret_cast<const unsigned char*>(coordinates_m.data());
+    part.m_vertexStride = 3 * sizeof(float);
+    part.m_vertexType = PHY_FLOAT;
+    triangles.addIndexedMesh(part, PHY_INTEGER);
+    shape = std::make_unique<btBvhTriangleMeshShape>(&triangles, true);
+    shape->setMargin(0.0);  // contact where the triangles are, not 4 cm before
+  }
+
+  std::vector<int> indices;
+  std::vector<float> coordinates_m;
+  btTriangleIndexVertexArray triangles;
+  std::unique_ptr<btBvhTriangleMeshShape> shape;
+};
+
 }  // namespace
 
 struct RigidVehicle::Scene {
@@ -52,6 +80,9 @@ struct RigidVehicle::Scene {
   Scene& operator=(const Scene&) = delete;
 
   void add_static(btCollisionShape* shape);
+  /// The shape of a mesh that was added; none for one without faces.
+  const btCollisionShape* add_static(const TriangleMesh& mesh);
+  bool is_ground(const btCollisionShape* shape) const;
   /// Notes what the hull touches, and takes away the part of the velocity that leads into it.
   Vec3 feel_contacts(const Vec3& v_world_m_s);
   /// Turns the rotors through one tick; their mean wrench.
@@ -74,10 +105,8 @@ struct RigidVehicle::Scene {
   bool has_touched_ground = false;
 
   // Bullet keeps pointers: declared in order of need, so destroyed in reverse.
-  std::vector<int> indices;
-  std::vector<float> coordinates_m;
-  btTriangleIndexVertexArray triangles;
-  std::unique_ptr<btBvhTriangleMeshShape> structure_shape;
+  std::vector<std::unique_ptr<StaticMesh>> meshes;
+  const btCollisionShape* terrain_shape = nullptr;
   btStaticPlaneShape ground_shape{btVector3(0, 0, 1), 0.0};
   btCylinderShapeZ hull_shape;
   btDefaultCollisionConfiguration configuration;
@@ -98,30 +127,12 @@ RigidVehicle::Scene::Scene(const AirframeParameters& airframe_in, const World& w
       hull_shape(btVector3(airframe_in.hull_radius_m, airframe_in.hull_radius_m,
                            0.5 * airframe_in.hull_height_m)) {
   world.setGravity(btVector3(0, 0, 0));
-  world.setForceUpdateAllAabbs(false);  // the structure's box never changes
+  world.setForceUpdateAllAabbs(false);  // the boxes of what stands there never change
   if (world_in.has_ground) add_static(&ground_shape);
 
-  const TriangleMesh& mesh = world_in.structure;
-  if (!mesh.faces.empty()) {
-    for (const Vec3f& v : mesh.vertices_m) {
-      coordinates_m.insert(coordinates_m.end(), {v.x(), v.y(), v.z()});
-    }
-    for (const auto& face : mesh.faces) {
-      for (const std::uint32_t vertex : face) indices.push_back(static_cast<int>(vertex));
-    }
-    btIndexedMesh part;
-    part.m_numTriangles = static_cast<int>(mesh.faces.size());
-    part.m_triangleIndexBase = reinterpret_cast<const unsigned char*>(indices.data());
-    part.m_triangleIndexStride = 3 * sizeof(int);
-    part.m_numVertices = static_cast<int>(mesh.vertices_m.size());
-    part.m_vertexBase = reinterpret_cast<const unsigned char*>(coordinates_m.data());
-    part.m_vertexStride = 3 * sizeof(float);
-    part.m_vertexType = PHY_FLOAT;
-    triangles.addIndexedMesh(part, PHY_INTEGER);
-    structure_shape = std::make_unique<btBvhTriangleMeshShape>(&triangles, true);
-    structure_shape->setMargin(0.0);  // contact where the triangles are, not 4 cm before
-    add_static(structure_shape.get());
-  }
+  add_static(world_in.structure);
+  add_static(world_in.obstacles);
+  terrain_shape = add_static(world_in.terrain);
 
   btRigidBody::btRigidBodyConstructionInfo info(airframe.mass_kg, nullptr, &hull_shape,
                                                 to_bullet(airframe.inertia_kg_m2));
@@ -147,6 +158,17 @@ void RigidVehicle::Scene::add_static(btCollisionShape* shape) {
   world.addRigidBody(statics.back().get());
 }
 
+const btCollisionShape* RigidVehicle::Scene::add_static(const TriangleMesh& mesh) {
+  if (mesh.faces.empty()) return nullptr;
+  meshes.push_back(std::make_unique<StaticMesh>(mesh));
+  add_static(meshes.back()->shape.get());
+  return meshes.back()->shape.get();
+}
+
+bool RigidVehicle::Scene::is_ground(const btCollisionShape* shape) const {
+  return shape == &ground_shape || shape == terrain_shape;
+}
+
 Vec3 RigidVehicle::Scene::feel_contacts(const Vec3& v_free_world_m_s) {
   Vec3 v = v_free_world_m_s;
   for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
@@ -154,7 +176,7 @@ Vec3 RigidVehicle::Scene::feel_contacts(const Vec3& v_free_world_m_s) {
     const bool is_first = manifold.getBody0() == body.get();
     const btCollisionObject* other = is_first ? manifold.getBody1() : manifold.getBody0();
     bool& has_touched =
-        other->getCollisionShape() == &ground_shape ? has_touched_ground : has_touched_structure;
+        is_ground(other->getCollisionShape()) ? has_touched_ground : has_touched_structure;
     for (int k = 0; k < manifold.getNumContacts(); ++k) {
       const btManifoldPoint& point = manifold.getContactPoint(k);
       has_touched = has_touched || point.getDistance() <= 0.0;

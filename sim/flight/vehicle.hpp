@@ -32,7 +32,8 @@ class RigidVehicle {
   const RotorSpeeds& rotor_speeds_rad_s() const;  // for tests: nothing flown measures them
   /// Sum of the rotors' thrust during the last tick.
   double thrust_n() const;
-  /// Whether the hull has touched the structure, or the ground, since the start.
+  /// Whether the hull has touched the structure or an obstacle, or the ground or terrain, since the
+  /// start.
   bool has_touched_structure() const;
   bool has_touched_ground() const;
 

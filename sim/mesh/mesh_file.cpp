@@ -29,6 +29,7 @@ void check_config(const MeshFileConfig& config) {
     fail(fmt::format("unit_m = {} is neither positive nor 0", config.unit_m));
   }
   if (!config.offset_m.allFinite()) fail("offset_m is not finite");
+  if (!std::isfinite(config.yaw_rad)) fail("yaw is not finite");
   const auto& up = config.up_axis;
   if (up != "auto" && up != "x" && up != "y" && up != "z") {
     fail(fmt::format("up_axis = {} is none of auto, x, y, z", up));
@@ -49,7 +50,7 @@ Matrix4 T_world_imported(const MeshFileConfig& config, const MeshReading& readin
   const double unit_m = reading.unit_m / (is_collada ? reading.declared_unit_m.value() : 1.0);
   const char up = is_collada && config.up_axis == "auto" ? 'y' : reading.up_axis;
   Matrix4 T = Matrix4::Identity();
-  T.topLeftCorner<3, 3>() = unit_m * config.scale * R_z_up(up);
+  T.topLeftCorner<3, 3>() = unit_m * config.scale * R_yaw(config.yaw_rad) * R_z_up(up);
   T.topRightCorner<3, 1>() = config.offset_m;
   return T;
 }

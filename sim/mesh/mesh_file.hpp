@@ -12,10 +12,11 @@
 namespace gnbv {
 
 /// How a file's coordinates become world coordinates:
-/// p_world = R(up_axis -> z) * p_file * unit_m * scale + offset_m.
+/// p_world = R(yaw about z) * R(up_axis -> z) * p_file * unit_m * scale + offset_m.
 struct MeshFileConfig {
   std::string path;  // empty: no file
   double scale = 1.0;
+  double yaw_rad = 0.0;  // about the file's origin, counter-clockwise seen from above
   Vec3 offset_m = Vec3::Zero();
   std::string up_axis = "auto";  // auto (as the file says, z when it is silent), x, y or z
   double unit_m = 0.0;           // metres per file unit; 0 = as the file says, metres when silent

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include "sim/mesh/plain_text.hpp"
 
@@ -59,6 +60,14 @@ Eigen::Matrix3d R_z_up(char up) {
         0, 0, -1,   //
         1, 0, 0;
   }
+  return R;
+}
+
+Eigen::Matrix3d R_yaw(double yaw_rad) {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  const double c = std::cos(yaw_rad);
+  const double s = std::sin(yaw_rad);
+  R.topLeftCorner<2, 2>() << c, -s, s, c;
   return R;
 }
 

@@ -19,4 +19,7 @@ DeclaredAxes declared_by_collada(std::string_view content);
 /// Turns the axis `up` (x, y or z) to z; the right-handed turns of COLLADA 1.4's up_axis table.
 Eigen::Matrix3d R_z_up(char up);
 
+/// Turns about z, counter-clockwise seen from above.
+Eigen::Matrix3d R_yaw(double yaw_rad);
+
 }  // namespace gnbv

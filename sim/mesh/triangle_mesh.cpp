@@ -1,6 +1,41 @@
 #include "sim/mesh/triangle_mesh.hpp"
 
+#include <limits>
+
+#include "sim/core/error.hpp"
+
 namespace gnbv {
+
+void append(TriangleMesh& mesh, const TriangleMesh& more) {
+  constexpr std::size_t kMostMaterials = std::numeric_limits<std::uint16_t>::max() + std::size_t{1};
+  if (mesh.materials.size() + more.materials.size() > kMostMaterials) {
+    throw BadInput(fmt::format("the meshes have more than {} materials together", kMostMaterials));
+  }
+  const auto first_vertex = static_cast<std::uint32_t>(mesh.vertices_m.size());
+  const auto first_material = static_cast<std::uint16_t>(mesh.materials.size());
+  mesh.face_material.resize(mesh.faces.size(), 0);
+  mesh.vertices_m.insert(mesh.vertices_m.end(), more.vertices_m.begin(), more.vertices_m.end());
+  mesh.materials.insert(mesh.materials.end(), more.materials.begin(), more.materials.end());
+  for (std::size_t i = 0; i < more.faces.size(); ++i) {
+    const auto& [a, b, c] = more.faces[i];
+    mesh.faces.push_back({first_vertex + a, first_vertex + b, first_vertex + c});
+    const std::uint16_t material =
+        more.face_material.empty() ? std::uint16_t{0} : more.face_material[i];
+    mesh.face_material.push_back(static_cast<std::uint16_t>(first_material + material));
+  }
+}
+
+TriangleMesh box_mesh(const Box3& box_m, const Material& material) {
+  TriangleMesh mesh;
+  mesh.materials = {material};
+  for (int corner = 0; corner < 8; ++corner) {  // bit 0: high x, bit 1: high y, bit 2: high z
+    mesh.vertices_m.push_back(box_m.corner(static_cast<Box3::CornerType>(corner)).cast<float>());
+  }
+  mesh.faces = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  mesh.face_material.assign(mesh.faces.size(), 0);
+  return mesh;
+}
 
 Box3 bounds_m(const TriangleMesh& mesh) {
   Box3 box;

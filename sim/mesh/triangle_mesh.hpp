@@ -36,6 +36,13 @@ struct TriangleMesh {
   std::vector<std::uint16_t> face_material;  // (m), index into materials; empty = all 0
 };
 
+/// Adds another mesh with its materials, behind what is there: the first vertices, faces and
+/// materials keep their numbers. Throws BadInput where the materials become too many to number.
+void append(TriangleMesh& mesh, const TriangleMesh& more);
+
+/// The closed surface of a box: 8 vertices, 12 faces.
+TriangleMesh box_mesh(const Box3& box_m, const Material& material = {});
+
 /// Smallest box around the vertices; empty for a mesh without vertices.
 Box3 bounds_m(const TriangleMesh& mesh);
 

@@ -40,7 +40,8 @@ TEST(PlanNextView, ChoosesTheHighestUtilityAndTheFirstOfEquals) {
   ASSERT_TRUE(decision);
   // the same search, written out
   VisitMarks marks(belief.grid.geometry().voxel_count());
-  ViewChecker checker(model.config.validity, model.navigation_m, belief.grid, {}, kCurrent);
+  ViewChecker checker(model.config.validity, model.navigation_m, model.no_fly, belief.grid, {},
+                      kCurrent);
   std::optional<ViewPose> best;
   double best_value = 0.0;
   for (const ViewPose& view : sample_agvs(model.config.agvs, kCurrent, 1.0)) {

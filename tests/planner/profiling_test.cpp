@@ -126,5 +126,57 @@ TEST(CircularProfile, GoesAlongTheCircleFromStationToStation) {
   }
 }
 
+// Over the middle of the south face, beside the middle of the east face up to half the height, and
+// all of the corner in the north-west.
+const NoFly kNoFly{
+    {Box3(Vec3(-4, -22, 16), Vec3(4, -17, 25)), Box3(Vec3(17, -3, 0), Vec3(19, 3, 9)),
+     Box3(Vec3(-30, 18, -5), Vec3(-18, 30, 40))},
+    1.5};
+
+TEST(ProfileWithNoFly, KeepsEveryLegOutOfTheBoxes) {
+  for (const ProfilingMethod method : {ProfilingMethod::bounding_box, ProfilingMethod::circular}) {
+    ProfilingConfig config;
+    config.method = method;
+    const ViewPose start{Vec3(-10, -20, 5), 0};
+    ProfileRoute route(config, kBox, start, kNoFly);
+    Vec3 at_m = start.p_world_m;
+    int scans = 0;
+    while (const auto leg = route.next(true)) {
+      EXPECT_TRUE(kBox.contains(leg->goal.p_world_m));
+      for (const Box3& box_m : kNoFly.boxes_m) {
+        for (int i = 0; i <= 500; ++i) {
+          const Vec3 p_m = at_m + 0.002 * i * (leg->goal.p_world_m - at_m);
+          ASSERT_GT(box_m.exteriorDistance(p_m), kNoFly.margin_m - 1e-3) << p_m.transpose();
+        }
+      }
+      scans += leg->is_scan ? 1 : 0;
+      at_m = leg->goal.p_world_m;
+      ASSERT_LT(scans, 1000);
+    }
+    EXPECT_GE(scans, 7);
+    EXPECT_EQ(route.share_done(), 1.0);
+  }
+}
+
+TEST(ProfileWithNoFly, ADescentKeepsTheLongestPieceThatIsLeft) {
+  const auto legs = bounding_box_profile(kBox, {Vec3(-10, -20, 5), 0}, kNoFly);
+  const auto heights = [&](double x_m, double y_m) {
+    std::vector<double> z_m;
+    for (const ProfileLeg& leg : legs) {
+      const Vec3& p = leg.goal.p_world_m;
+      if (p.x() == x_m && p.y() == y_m) z_m.push_back(p.z());
+    }
+    return z_m;
+  };
+  ASSERT_EQ(heights(0, -20).size(), 2U);  // under the first box: its floor less the margin
+  EXPECT_NEAR(heights(0, -20)[0], 16.0 - 1.5, 2e-3);
+  EXPECT_EQ(heights(0, -20)[1], 0.7);
+  ASSERT_EQ(heights(20, 0).size(), 2U);  // a metre beside the second: over it
+  EXPECT_EQ(heights(20, 0)[0], 20.0);
+  EXPECT_NEAR(heights(20, 0)[1], 9.0 + std::sqrt(1.5 * 1.5 - 1.0), 2e-3);
+  EXPECT_TRUE(heights(-20, 20).empty());
+  EXPECT_EQ(heights(-20, -20), (std::vector<double>{20.0, 0.7}));
+}
+
 }  // namespace
 }  // namespace gnbv

@@ -7,6 +7,7 @@
 
 #include "planner/decision.hpp"
 #include "planner/map/clearance.hpp"
+#include "planner/map/no_fly.hpp"
 #include "planner/map/ray_walk.hpp"
 #include "planner/view_validity.hpp"
 #include "sim/core/rng.hpp"
@@ -92,7 +93,7 @@ std::optional<Rejection> rejection(const ValidityConfig& config, const Occupancy
                                    std::span<const ViewPose> recent, const ViewPose& current,
                                    const ViewPose& view) {
   Candidate candidate{.view = view, .sampler = "test"};
-  ViewChecker(config, kNavigation, grid, recent, current).check(candidate);
+  ViewChecker(config, kNavigation, {}, grid, recent, current).check(candidate);
   return candidate.rejected;
 }
 
@@ -112,6 +113,37 @@ TEST(ViewValidity, NamesTheReason) {
   EXPECT_EQ(reason({Vec3(0.1, 0.1, 2.1), 0}), Rejection::not_free);
   EXPECT_EQ(reason({Vec3(0.1, 0.1, 2.6), 0}), Rejection::collision);
   EXPECT_EQ(reason({Vec3(2, 0.1, 2.1), 0}), Rejection::path_blocked);
+}
+
+TEST(ViewValidity, NoViewInANoFlyBoxAndNoWayThroughOne) {
+  const OccupancyGrid grid = free_grid_with({});
+  const NoFly no_fly{{Box3(Vec3(-0.5, -1, 0), Vec3(0.5, 1, 5))}, 0.5};
+  const ViewPose current{Vec3(-3, 0, 2), 0};
+  for (const PathCheck path : {PathCheck::straight, PathCheck::unchecked, PathCheck::astar}) {
+    const ValidityConfig config{.collision_radius_m = 0.5, .path = path};
+    const auto checked = [&](const Vec3& p_m) {
+      Candidate candidate{.view = {p_m, 0}, .sampler = "test"};
+      ViewChecker(config, kNavigation, no_fly, grid, {}, current).check(candidate);
+      return candidate;
+    };
+    EXPECT_EQ(checked({0, 0, 2}).rejected, Rejection::no_fly);
+    EXPECT_EQ(checked({-0.8, 0, 2}).rejected, Rejection::no_fly);  // nearer than the radius
+    EXPECT_EQ(checked({-1.5, 0, 2}).rejected, std::nullopt);
+    const Candidate beyond = checked({3, 0, 2});
+    if (path != PathCheck::astar) {
+      EXPECT_EQ(beyond.rejected, Rejection::path_blocked);
+      continue;
+    }
+    EXPECT_EQ(beyond.rejected, std::nullopt);
+    Vec3 at_m = current.p_world_m;
+    std::vector<Vec3> points_m = beyond.via_world_m;
+    points_m.emplace_back(3, 0, 2);
+    EXPECT_GE(points_m.size(), 2U);
+    for (const Vec3& next_m : points_m) {
+      EXPECT_TRUE(no_fly.allows_leg(at_m, next_m));
+      at_m = next_m;
+    }
+  }
 }
 
 TEST(ViewValidity, UnknownSpaceIsNotFree) {

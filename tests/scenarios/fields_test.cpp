@@ -90,6 +90,9 @@ TEST(Fields, EveryFieldOfEveryConfigHasAKey) {
   EXPECT_EQ(key_count<TerminationConfig>(), field_count<TerminationConfig>());
   EXPECT_EQ(key_count<PlannerConfig>(), field_count<PlannerConfig>());
   EXPECT_EQ(key_count<StructureConfig>(), field_count<StructureConfig>());
+  EXPECT_EQ(key_count<ObstacleConfig>(), field_count<ObstacleConfig>());
+  EXPECT_EQ(key_count<NoFlyConfig>(), field_count<NoFlyConfig>());
+  EXPECT_EQ(key_count<ScoreConfig>(), field_count<ScoreConfig>());
   EXPECT_EQ(key_count<StartConfig>(), field_count<StartConfig>() + 1) << "pose is two keys";
   EXPECT_EQ(key_count<Scenario>(), field_count<Scenario>());
 }

@@ -91,6 +91,9 @@ void need_ground_and_rotors(const Scenario& scenario) {
   if (!scenario.structure.ground) {
     throw BadInput("structure.ground: `gnbv fly` starts on the ground; set it to true");
   }
+  if (!scenario.terrain.path.empty()) {
+    throw BadInput("terrain.path: `gnbv fly` starts on the plane ground; set it to \"\"");
+  }
 }
 
 /// Where a mission of this scenario would begin, for a vehicle that stands on the ground below.
@@ -100,7 +103,7 @@ ViewPose ground_start(const Scenario& scenario, const RayScene& scene) {
   const double half_height_m = 0.5 * airframe.hull_height_m;
   const double clearance_m = std::hypot(airframe.hull_radius_m, half_height_m);
   const Vec3 on_ground_world_m(start.p_world_m.x(), start.p_world_m.y(), half_height_m);
-  if (scene.distance_to_structure_m(on_ground_world_m, clearance_m) >= clearance_m) return start;
+  if (scene.clearance_m(on_ground_world_m, clearance_m) >= clearance_m) return start;
   throw BadInput(
       fmt::format("start.position_m: a vehicle on the ground at x {:.2f} y {:.2f} m, below the "
                   "start, is within "

@@ -116,7 +116,10 @@ void surface(const SurfaceOptions& options) {
     const TexturedMesh mesh = reconstruct_surface(record, settings, threads, progress, notes);
     progress(0.9, "scoring");
     if (truth) {
-      score = score_surface(mesh.shape, *truth, record.scenario.planner.floor_z_m, threads);
+      score = score_surface(mesh.shape, *truth,
+                            {.floor_z_m = record.scenario.planner.floor_z_m,
+                             .region_m = record.scenario.score.region_m},
+                            threads);
     }
     progress(0.95, "writing");
     paths = write_all(mesh, score, folder);

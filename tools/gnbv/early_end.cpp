@@ -30,6 +30,8 @@ std::string_view meaning_of(Rejection reason) {
       return "not seeing their frontier: something is in between";
     case Rejection::sees_no_surface:
       return "without any surface in sight";
+    case Rejection::no_fly:
+      return "within planner.validity.collision_radius_m of a no_fly box";
   }
   return "";
 }
@@ -54,6 +56,8 @@ std::string_view remedy_for(Rejection reason) {
     case Rejection::sees_no_surface:
       return "begin where the structure can be seen (start.position_m, or --bounds auto), with "
              "planner.fvs.enabled: true";
+    case Rejection::no_fly:
+      return "smaller no_fly boxes, or a larger workspace_m";
   }
   return "";
 }

@@ -34,7 +34,9 @@ class Placement {
   void move(const Vec3& shift_m) { shift_m_ += shift_m; }
 
   TriangleMesh mesh() const {
-    const Eigen::Matrix3d R = R_z_up(up_) * R_z_up(report_.reading.up_axis).transpose();
+    const Eigen::Matrix3d R_turned = R_yaw(file_.yaw_rad);
+    const Eigen::Matrix3d R =
+        R_turned * R_z_up(up_) * R_z_up(report_.reading.up_axis).transpose() * R_turned.transpose();
     TriangleMesh out = report_.reading.mesh;
     for (Vec3f& v : out.vertices_m) {
       const Vec3 p_m = factor_ * (R * (v.cast<double>() - file_.offset_m));
@@ -96,7 +98,7 @@ void place(const Scenario& scenario, Placement& placement, Advice& advice) {
   const Vec3 to_origin_m(-box_m.center().x(), -box_m.center().y(), -box_m.min().z());
   if (advice.is_far) {
     placement.move(to_origin_m);
-  } else if (scenario.structure.ground && !stands_on_ground(box_m)) {
+  } else if (has_flat_ground(scenario) && !stands_on_ground(box_m)) {
     placement.move({0.0, 0.0, to_origin_m.z()});
   } else {
     return;
@@ -124,7 +126,8 @@ void lay_bounds(const Scenario& scenario, const TriangleMesh& mesh, Advice& advi
   constexpr int kTries = 40;
   constexpr double kStep = 1.15;
   Scenario laid = scenario;
-  const StructureExtent extent = extent_of(mesh);
+  StructureExtent extent = extent_of(mesh);
+  extent.around = scene_around(scenario);
   const auto fault = [&]() -> std::string {
     const std::vector<Problem> all = problems(with_bounds_around(laid, extent));
     return all.empty() ? "" : all.front().what;
@@ -163,7 +166,9 @@ Advice advise(const MeshReport& report, const Scenario& scenario, bool bounds_au
   }
   place(scenario, placement, advice);
 
-  World world{.structure = placement.mesh(), .has_ground = scenario.structure.ground};
+  World world{.structure = placement.mesh()};
+  std::vector<std::string> not_of_this_mesh;  // what is wrong with the files of obstacles
+  load_surroundings(scenario, world, not_of_this_mesh);
   const Box3 box_m = placement.box_m();
   Scenario flown = scenario;
   constexpr double kMostBelow = 0.5;

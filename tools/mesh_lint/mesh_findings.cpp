@@ -131,6 +131,9 @@ void add_flight_findings(const Advice& advice, bool bounds_auto, Findings& out) 
 Finding ground_finding(const MeshReport& report, const Scenario& scenario, const Advice& advice) {
   const Box3& box_m = report.lint.box_m;
   const double lowest_m = box_m.min().z();
+  if (!scenario.terrain.path.empty()) {
+    return {"ground", Severity::ok, "the terrain takes its place", ""};
+  }
   if (!scenario.structure.ground) {
     return {"ground", Severity::ok, "structure.ground is off", ""};
   }

@@ -28,7 +28,8 @@ double share_below(const MeshLint& lint, const TriangleMesh& mesh, double z_m) {
 
 TriangleMesh in_file_axes(const MeshReport& report, const Scenario& scenario) {
   TriangleMesh in_file = report.reading.mesh;
-  const Eigen::Matrix3d R_file_world = R_z_up(report.reading.up_axis).transpose();
+  const Eigen::Matrix3d R_file_world = R_z_up(report.reading.up_axis).transpose() *
+                                       R_yaw(scenario.structure.file.yaw_rad).transpose();
   for (Vec3f& v : in_file.vertices_m) {
     v = (R_file_world * (v.cast<double>() - scenario.structure.file.offset_m)).cast<float>();
   }

@@ -17,7 +17,7 @@ constexpr double kRounding_m = 1e-3;  // as load_world() allows a mesh outside t
 constexpr double kClearance_m = 2.0;  // between the collision sphere and the workspace's face
 
 double floor_of_m(const Scenario& scenario, double lowest_m, double margin_m) {
-  const bool stands = scenario.structure.ground && lowest_m <= margin_m;
+  const bool stands = has_flat_ground(scenario) && lowest_m <= margin_m;
   if (!stands) return lowest_m - margin_m;
   return lowest_m < -kRounding_m ? lowest_m : 0.0;
 }
@@ -63,9 +63,16 @@ std::size_t in_view(std::span<const NorthernView> views, const Vec3& p_m,
   return static_cast<std::size_t>(std::count_if(surface_m.begin(), surface_m.end(), is_in_view));
 }
 
+bool is_room_at(const Scenario& scenario, const StructureExtent& structure, const Vec3& p_m) {
+  const double radius_m = scenario.planner.validity.collision_radius_m;
+  return no_fly_of(scenario).allows(p_m) &&
+         (!structure.around || structure.around->clearance_m(p_m, radius_m) >= radius_m);
+}
+
 /// On the navigation box's south face, on a lattice that begins at its middle.
 Vec3 start_on_south_face(const Scenario& scenario, const StructureExtent& structure) {
-  constexpr int kSteps = 12;  // to either side
+  constexpr int kSteps = 12;         // to either side, before the structure
+  constexpr int kMost = 6 * kSteps;  // beside it, where all places before it are taken
   const Box3 navigation_m = navigation_box_m(scenario.planner.validity, scenario.workspace_m);
   const Vec3 low_m = structure.box_m.min().cwiseMax(navigation_m.min());
   const Vec3 high_m = structure.box_m.max().cwiseMin(navigation_m.max());
@@ -75,7 +82,8 @@ Vec3 start_on_south_face(const Scenario& scenario, const StructureExtent& struct
   const std::vector<NorthernView> views(scenario.cameras.begin(), scenario.cameras.end());
   Vec3 best_m(middle_m.x(), navigation_m.min().y(), middle_m.z());
   std::size_t most = in_view(views, best_m, structure.surface_world_m);
-  for (int ring = 1; ring <= kSteps; ++ring) {
+  bool is_room = is_room_at(scenario, structure, best_m);
+  for (int ring = 1; ring <= (is_room ? kSteps : kMost); ++ring) {
     for (int i = -ring; i <= ring; ++i) {
       for (int k = -ring; k <= ring; ++k) {
         if (std::max(std::abs(i), std::abs(k)) != ring) continue;
@@ -85,9 +93,11 @@ Vec3 start_on_south_face(const Scenario& scenario, const StructureExtent& struct
                              .cwiseMax(navigation_m.min())
                              .cwiseMin(navigation_m.max());
         const std::size_t seen = in_view(views, p_m, structure.surface_world_m);
-        if (seen <= most) continue;
+        if (is_room && seen <= most) continue;
+        if (!is_room_at(scenario, structure, p_m)) continue;
         most = seen;
         best_m = p_m;
+        is_room = true;
       }
     }
   }

@@ -1,9 +1,11 @@
 // `--bounds auto`: a workspace and a start for a structure that nobody wrote a scenario for.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "scenarios/scenario.hpp"
+#include "sensors/ray_scene.hpp"
 #include "sim/mesh/triangle_mesh.hpp"
 
 namespace gnbv {
@@ -16,7 +18,8 @@ double flight_margin_m(const Scenario& scenario);
 /// Where a structure is, for whom no more needs to be known.
 struct StructureExtent {
   Box3 box_m;
-  std::vector<Vec3f> surface_world_m = {};  // points spread over it
+  std::vector<Vec3f> surface_world_m = {};      // points spread over it
+  std::shared_ptr<const RayScene> around = {};  // obstacles and terrain; none where there are none
 };
 StructureExtent extent_of(const TriangleMesh& structure);
 
@@ -34,8 +37,9 @@ struct GivenBounds {
 /// sinks below; and the margin below its lowest point where it floats higher than that, or where
 /// there is no ground. The top is high enough to fly at z_min_m, whatever the structure's height.
 /// The start is on the workspace's south face, looking north, where most of the surface is in
-/// front of a camera and within its range, near the middle of equals; its jitter stays. What comes
-/// of it may not be flyable: ask problems().
+/// front of a camera and within its range, near the middle of equals, and no obstacle and no no_fly
+/// box is within the collision radius, as far as such a place is found; its jitter stays. What
+/// comes of it may not be flyable: ask problems().
 Scenario with_bounds_around(const Scenario& scenario, const StructureExtent& structure,
                             const GivenBounds& given = {});
 

@@ -129,8 +129,10 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
     MissionResult result = run_mission(scenario, world, scene, hooks, threads);
     const Stopwatch scoring;
     progress.show(1.0, "scoring");
-    MissionScore score = score_cloud(reference, scene, scored_cloud(result),
-                                     scenario.planner.map.resolution_m, threads);
+    ScoredCloud cloud = scored_cloud(result);
+    cloud.region_m = scenario.score.region_m;
+    MissionScore score =
+        score_cloud(reference, scene, cloud, scenario.planner.map.resolution_m, threads);
     result.wall.score_s = scoring.elapsed_s();
     score.ceiling = run_ceiling(scenario, world, scene, options.ceiling, threads);
     directory.finish(scenario, result, score, watch.elapsed_s());

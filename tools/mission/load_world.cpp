@@ -5,10 +5,58 @@
 
 namespace gnbv {
 
+namespace {
+
+void add(const TriangleMesh& more, TriangleMesh& mesh) {
+  if (mesh.faces.empty()) {
+    mesh = more;
+  } else {
+    append(mesh, more);
+  }
+}
+
+TriangleMesh load_obstacles(const Scenario& scenario, std::vector<std::string>& warnings) {
+  const Material material{.name = "obstacle", .rgb = {0.6F, 0.6F, 0.6F}};
+  TriangleMesh all;
+  for (const ObstacleConfig& obstacle : scenario.obstacles) {
+    add(obstacle.file.path.empty() ? box_mesh(obstacle.box_m, material)
+                                   : load_mesh(obstacle.file, &warnings),
+        all);
+  }
+  return all;
+}
+
+}  // namespace
+
 TriangleMesh load_structure(const Scenario& scenario, std::vector<std::string>& warnings) {
   const StructureConfig& structure = scenario.structure;
-  return structure.file.path.empty() ? make_builtin_structure(structure.builtin)
-                                     : load_mesh(structure.file, &warnings);
+  if (is_builtin(structure)) return make_builtin_structure(structure.builtin);
+  TriangleMesh mesh;
+  if (!structure.file.path.empty()) add(load_mesh(structure.file, &warnings), mesh);
+  for (const MeshFileConfig& file : structure.files) add(load_mesh(file, &warnings), mesh);
+  return mesh;
+}
+
+void load_surroundings(const Scenario& scenario, World& world, std::vector<std::string>& warnings) {
+  world.has_ground = has_flat_ground(scenario);
+  world.obstacles = load_obstacles(scenario, warnings);
+  if (!scenario.terrain.path.empty()) world.terrain = load_mesh(scenario.terrain, &warnings);
+  world.terrain_floor_z_m = scenario.planner.floor_z_m;
+}
+
+std::shared_ptr<const RayScene> scene_around(const Scenario& scenario) {
+  std::vector<std::string> warnings;  // told where the world is loaded
+  World around;
+  load_surroundings(scenario, around, warnings);
+  around.has_ground = false;
+  if (around.obstacles.faces.empty() && around.terrain.faces.empty()) return nullptr;
+  return std::make_shared<const RayScene>(around);
+}
+
+World load_world_anywhere(const Scenario& scenario, std::vector<std::string>& warnings) {
+  World world{.structure = load_structure(scenario, warnings)};
+  load_surroundings(scenario, world, warnings);
+  return world;
 }
 
 bool is_inside_workspace(const Scenario& scenario, const Box3& mesh_m) {
@@ -20,7 +68,7 @@ bool is_inside_workspace(const Scenario& scenario, const Box3& mesh_m) {
 
 World load_world(const Scenario& scenario, std::vector<std::string>& warnings) {
   const StructureConfig& structure = scenario.structure;
-  World world{.structure = load_structure(scenario, warnings), .has_ground = structure.ground};
+  World world = load_world_anywhere(scenario, warnings);
   const Box3 mesh_m = bounds_m(world.structure);
   if (!is_inside_workspace(scenario, mesh_m)) {
     const Vec3 lo = mesh_m.min();

@@ -43,7 +43,7 @@ Mission::Mission(const Scenario& mission_scenario, const World& world, const Ray
       scene(ray_scene),
       hooks(mission_hooks),
       planner(scenario.planner, scenario.workspace_m, camera_models(scenario),
-              lidar_models(scenario), scenario.seed),
+              lidar_models(scenario), scenario.seed, no_fly_of(scenario)),
       bench(planner, threads),
       out(start_pose(scenario, scene), planner),
       flight(make_flight(scenario.vehicle, world, out.start, scenario.seed, scenario.wind)),

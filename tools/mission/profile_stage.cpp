@@ -11,7 +11,7 @@ namespace {
 std::optional<Termination> scan_profile(Mission& m, ProfileScanner& scanner) {
   const ProfilingConfig& profiling = m.planner.config.profiling;
   const GuidanceConfig& guidance = m.scenario.guidance;
-  ProfileRoute route(profiling, m.planner.navigation_m, m.current);
+  ProfileRoute route(profiling, m.planner.navigation_m, m.current, m.planner.no_fly);
   std::size_t looked_at = 0;  // of the sweeps
   bool was_scan = false;
   for (bool is_first = true;; is_first = false) {
@@ -67,21 +67,40 @@ void predict(Mission& m) {
   prediction.symmetry.mirrored_world_m = {};
 }
 
-/// Back to where the views begin: straight when that is clear, else over the top of the workspace.
+/// Back to where the views begin: straight when that is clear, else over the top of the workspace,
+/// or, where nobody may fly there, around what forbids it.
+std::vector<ViewPose> legs_to_first_view(const Mission& m) {
+  const ViewPose& goal = m.out.start;
+  const NoFly& no_fly = m.planner.no_fly;
+  const auto is_clear = [&](const Vec3& from_m, const Vec3& to_m) {
+    return is_path_clear(m.out.belief.grid, from_m, to_m,
+                         m.planner.config.validity.collision_radius_m);
+  };
+  const Vec3& from_m = m.current.p_world_m;
+  if (is_clear(from_m, goal.p_world_m) && no_fly.allows_leg(from_m, goal.p_world_m)) return {goal};
+  const double top_z_m = m.planner.navigation_m.max().z();
+  ViewPose climb = m.current;
+  climb.p_world_m.z() = top_z_m;
+  ViewPose across = goal;
+  across.p_world_m.z() = top_z_m;
+  if (no_fly.allows_leg(from_m, climb.p_world_m) &&
+      no_fly.allows_leg(climb.p_world_m, across.p_world_m) &&
+      no_fly.allows_leg(across.p_world_m, goal.p_world_m)) {
+    return {climb, across, goal};
+  }
+  const Box3& box_m = m.planner.navigation_m;
+  auto via_m = way_around(no_fly, box_m, from_m, goal.p_world_m, is_clear);
+  // it came from there: but for drift there is a way, if perhaps not one that is known to be clear
+  if (!via_m) via_m = way_around(no_fly, box_m, from_m, goal.p_world_m);
+  std::vector<ViewPose> legs;
+  for (const Vec3& p_m : via_m.value_or(std::vector<Vec3>{})) legs.push_back({p_m, goal.yaw_rad});
+  legs.push_back(goal);
+  return legs;
+}
+
 std::optional<Termination> fly_to_first_view(Mission& m) {
   const ScopeTimer timer(m.out.wall.fly_s);
-  const ViewPose& goal = m.out.start;
-  const double radius_m = m.planner.config.validity.collision_radius_m;
-  std::vector<ViewPose> legs = {goal};
-  if (!is_path_clear(m.out.belief.grid, m.current.p_world_m, goal.p_world_m, radius_m)) {
-    const double top_z_m = m.planner.navigation_m.max().z();
-    ViewPose climb = m.current;
-    climb.p_world_m.z() = top_z_m;
-    ViewPose across = goal;
-    across.p_world_m.z() = top_z_m;
-    legs = {climb, across, goal};
-  }
-  for (const ViewPose& leg : legs) {
+  for (const ViewPose& leg : legs_to_first_view(m)) {
     m.out.distance.transfer_m += (leg.p_world_m - m.current.p_world_m).norm();
     if (const auto over = fly_leg(m, leg)) return over;
   }

@@ -75,7 +75,7 @@ std::vector<ProfileStage> replay_profile(const RecordedMission& mission,
   std::vector<LidarModel> lidars;
   for (const LidarConfig& lidar : scenario.lidars) lidars.push_back(make_lidar_model(lidar));
   const PlannerModel model(scenario.planner, scenario.workspace_m, camera_models(scenario), lidars,
-                           scenario.seed);
+                           scenario.seed, no_fly_of(scenario));
   Workbench bench(model, mission.threads);
   std::vector<std::size_t> counts;
   for (const std::size_t count : waypoints) {

@@ -18,11 +18,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Scored score(const Scenario& scenario, const World& world, const RayScene& scene,
-             const ScoredCloud& cloud, int threads) {
+Scored score(const Scenario& scenario, const World& world, const RayScene& scene, ScoredCloud cloud,
+             int threads) {
   const Stopwatch watch;
   const SurfaceReference reference = reference_of(scenario, world, scene, threads);
   const double reference_s = watch.elapsed_s();
+  cloud.region_m = scenario.score.region_m;
   const MissionScore found =
       score_cloud(reference, scene, cloud, scenario.planner.map.resolution_m, threads);
   return {.score = found,
@@ -35,7 +36,7 @@ Scored score(const Scenario& scenario, const World& world, const RayScene& scene
 
 World world_of(const Scenario& scenario) {
   std::vector<std::string> warnings;  // the mission told them
-  return {.structure = load_structure(scenario, warnings), .has_ground = scenario.structure.ground};
+  return load_world_anywhere(scenario, warnings);
 }
 
 /// Files of two runs in one directory would score as neither.

@@ -15,7 +15,9 @@ namespace fs = std::filesystem;
 
 StructureExtent structure_extent(const Scenario& scenario) {
   std::vector<std::string> warnings;  // repeated when the mission loads the structure
-  return extent_of(load_structure(scenario, warnings));
+  StructureExtent extent = extent_of(load_structure(scenario, warnings));
+  extent.around = scene_around(scenario);
+  return extent;
 }
 
 Scenario resolve_scenario(const ScenarioOptions& options) { return resolve_scenario(options, {}); }
@@ -27,6 +29,7 @@ Scenario resolve_scenario(const ScenarioOptions& options, const std::vector<Over
   // absolute, since a relative path in a scenario file is relative to that file
   if (!options.mesh.empty()) {
     if (!fs::is_regular_file(options.mesh)) read_file(options.mesh);  // throws, with the cause
+    add("structure.files=[]");
     add(fmt::format("structure.file.path={}", yaml_in_quotes(fs::absolute(options.mesh).string())));
   }
   if (!options.utility.empty()) add(fmt::format("planner.utility.name={}", options.utility));

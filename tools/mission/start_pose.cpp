@@ -9,11 +9,19 @@
 #include "sim/core/rng.hpp"
 
 namespace gnbv {
+namespace {
+
+bool is_surrounded(const Scenario& scenario) {
+  return !scenario.obstacles.empty() || !scenario.no_fly.empty() || !scenario.terrain.path.empty();
+}
+
+}  // namespace
 
 ViewPose start_pose(const Scenario& scenario, const RayScene& scene) {
   const StartConfig& start = scenario.start;
   const Box3 box = navigation_box_m(scenario.planner.validity, scenario.workspace_m);
   const double radius_m = scenario.planner.validity.collision_radius_m;
+  const NoFly no_fly = no_fly_of(scenario);
   constexpr std::uint64_t kTries = 100;
   for (std::uint64_t attempt = 0; attempt < kTries; ++attempt) {
     const auto offset = [&](std::uint64_t axis) {
@@ -23,12 +31,17 @@ ViewPose start_pose(const Scenario& scenario, const RayScene& scene) {
     pose.p_world_m += start.jitter_m.cwiseProduct(Vec3(offset(0), offset(1), offset(2)));
     pose.p_world_m = pose.p_world_m.cwiseMax(box.min()).cwiseMin(box.max());
     pose.yaw_rad = wrap_angle_rad(pose.yaw_rad + start.jitter_yaw_rad * offset(3));
-    if (scene.distance_to_structure_m(pose.p_world_m, radius_m) >= radius_m) return pose;
+    if (!no_fly.allows(pose.p_world_m)) continue;
+    if (scene.clearance_m(pose.p_world_m, radius_m) >= radius_m) return pose;
   }
+  const bool is_structure =
+      scene.distance_to_structure_m(start.pose.p_world_m, radius_m) < radius_m;
   throw BadInput(fmt::format(
       "start.position_m: [{}, {}, {}] and its jitter lie within planner.validity."
-      "collision_radius_m = {} of the structure: move the start away from it",
-      start.pose.p_world_m.x(), start.pose.p_world_m.y(), start.pose.p_world_m.z(), radius_m));
+      "collision_radius_m = {} of {}: move the start away from it",
+      start.pose.p_world_m.x(), start.pose.p_world_m.y(), start.pose.p_world_m.z(), radius_m,
+      is_structure || !is_surrounded(scenario) ? "the structure"
+                                               : "an obstacle, the terrain or a no_fly box"));
 }
 
 void need_way_out(const Scenario& scenario, const RayScene& scene, const Box3& structure_m,
@@ -39,13 +52,15 @@ void need_way_out(const Scenario& scenario, const RayScene& scene, const Box3& s
   const Box3 box = navigation_box_m(scenario.planner.validity, scenario.workspace_m);
   if (!is_flown || structure_m.contains(box) || !structure_m.contains(start.p_world_m)) return;
   const double radius_m = scenario.planner.validity.collision_radius_m;
+  const NoFly no_fly = no_fly_of(scenario);
   const auto is_way_out = [&](const Vec3& direction) {
     const double length_m = structure_m.diagonal().norm();
     for (double t = 0.05; t <= 1.0; t += 0.05) {
       const Vec3 end_m = start.p_world_m + t * length_m * direction;
       if (!box.contains(end_m)) return false;
       if (!structure_m.contains(end_m)) {
-        return is_leg_clear(scene, start.p_world_m, end_m, radius_m);
+        return no_fly.allows_leg(start.p_world_m, end_m) &&
+               is_leg_clear(scene, start.p_world_m, end_m, radius_m);
       }
     }
     return false;

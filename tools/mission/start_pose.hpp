@@ -7,7 +7,8 @@
 namespace gnbv {
 
 /// Where the mission starts: the scenario's start, moved within its region by the seed, clear of
-/// the structure. Throws BadInput when no such pose is found.
+/// the structure, of what stands around it and of the no_fly boxes. Throws BadInput when no such
+/// pose is found.
 ViewPose start_pose(const Scenario& scenario, const RayScene& scene);
 
 /// Throws BadInput when the structure encloses the start, so that a profile around the structure

@@ -29,8 +29,36 @@ void frame_structure(RunSource& run, std::vector<Vec3>& points_world_m) {
   }
 }
 
+namespace {
+
+const Rgb kObstacleColour = srgb(0xb59a7a);
+const Rgb kTerrainColour = srgb(0xa9b39a);
+const Rgb kNoFlyColour = srgb(0xc8375d);
+
+void add_in_one_colour(const TriangleMesh& mesh, const Rgb& colour, float opacity,
+                       RenderScene& scene) {
+  if (mesh.faces.empty()) return;
+  SurfaceItem surface;
+  surface.mesh = mesh;
+  surface.vertex_colours.assign(mesh.vertices_m.size(), colour);
+  surface.opacity = opacity;
+  scene.surfaces.push_back(std::move(surface));
+}
+
+}  // namespace
+
 void add_ground(RunSource& run, RenderScene& scene) {
-  if (run.record().scenario.structure.ground) scene.ground = GroundItem{};
+  if (has_flat_ground(run.record().scenario)) scene.ground = GroundItem{};
+  if (run.record().scenario.terrain.path.empty()) return;
+  add_in_one_colour(run.world().terrain, kTerrainColour, 1.0F, scene);
+}
+
+std::vector<LegendItem> legend_of_surroundings(RunSource& run) {
+  const Scenario& scenario = run.record().scenario;
+  std::vector<LegendItem> legend;
+  if (!scenario.obstacles.empty()) legend.push_back({"obstacle", {kObstacleColour}});
+  if (!scenario.no_fly.empty()) legend.push_back({"no-fly box", {kNoFlyColour}});
+  return legend;
 }
 
 void add_structure(RunSource& run, RenderScene& scene) {
@@ -39,16 +67,19 @@ void add_structure(RunSource& run, RenderScene& scene) {
   SurfaceItem surface;
   surface.mesh = run.world().structure;
   scene.surfaces.push_back(std::move(surface));
+  add_in_one_colour(run.world().obstacles, kObstacleColour, 1.0F, scene);
+  TriangleMesh boxes;
+  for (const NoFlyConfig& box : run.record().scenario.no_fly) {
+    append(boxes, box_mesh(Box3(box.min_m, box.max_m)));
+  }
+  constexpr float kNoFlyOpacity = 0.3F;
+  add_in_one_colour(boxes, kNoFlyColour, kNoFlyOpacity, scene);
 }
 
 void add_ghost(RunSource& run, float opacity, RenderScene& scene) {
   add_ground(run, scene);
-  if (run.world().structure.faces.empty()) return;
-  SurfaceItem surface;
-  surface.mesh = run.world().structure;
-  surface.vertex_colours.assign(surface.mesh.vertices_m.size(), srgb(0xc9d1da));
-  surface.opacity = opacity;
-  scene.surfaces.push_back(std::move(surface));
+  add_in_one_colour(run.world().structure, srgb(0xc9d1da), opacity, scene);
+  add_in_one_colour(run.world().obstacles, kObstacleColour, opacity, scene);
 }
 
 }  // namespace gnbv

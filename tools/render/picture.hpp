@@ -68,9 +68,12 @@ std::size_t iteration_of(const RunRecord& record, const PictureOptions& options,
 /// Frames the structure.
 void frame_structure(RunSource& run, std::vector<Vec3>& points_world_m);
 
-/// The structure's surface in its own colours, and the ground if the scenario has one.
+/// The structure's surface in its own colours, the obstacles in one, the no_fly boxes as ghosts,
+/// and the ground or the terrain if the scenario has one.
 void add_structure(RunSource& run, RenderScene& scene);
-/// The same as a pale ghost.
+/// Of what add_structure() puts around the structure.
+std::vector<LegendItem> legend_of_surroundings(RunSource& run);
+/// Structure and obstacles as pale ghosts, with the ground.
 void add_ghost(RunSource& run, float opacity, RenderScene& scene);
 void add_ground(RunSource& run, RenderScene& scene);
 

@@ -31,8 +31,8 @@ struct Reason {
 };
 
 // Dark and muted: rejected views are context.
-const std::array<Reason, 8>& reasons() {
-  static const std::array<Reason, 8> all = {
+const std::array<Reason, 9>& reasons() {
+  static const std::array<Reason, 9> all = {
       {{Rejection::out_of_bounds, "out of bounds", srgb(0x9aa3ae)},
        {Rejection::not_free, "not free", srgb(0x2f3640)},
        {Rejection::collision, "collision", srgb(0xa3321f)},
@@ -40,7 +40,8 @@ const std::array<Reason, 8>& reasons() {
        {Rejection::recently_visited, "visited", srgb(0x8c6d3f)},
        {Rejection::cluster_outside_fov, "cluster outside view", srgb(0x4f7f86)},
        {Rejection::cluster_hidden, "cluster hidden", srgb(0x3f5b8c)},
-       {Rejection::sees_no_surface, "sees no surface", srgb(0x6f8f2a)}}};
+       {Rejection::sees_no_surface, "sees no surface", srgb(0x6f8f2a)},
+       {Rejection::no_fly, "no-fly box", srgb(0xb03a6b)}}};
   return all;
 }
 

@@ -27,6 +27,7 @@ Picture draw_path(RunSource& run, const PictureOptions& options, const RenderVie
   if (record.views_begin_s && options.has_profile) {
     picture.legend.push_back({"profile", {kProfileColour}, LegendItem::Mark::line});
   }
+  for (const LegendItem& item : legend_of_surroundings(run)) picture.legend.push_back(item);
   picture.legend.push_back(
       {.label = "last", .colours = path_colours(), .label_before = "first view"});
   return picture;

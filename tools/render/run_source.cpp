@@ -51,8 +51,10 @@ const RunCloud& RunSource::cloud() {
 const SurfaceReference& RunSource::reference() {
   if (!reference_) {
     on_progress_(0.0, "true surface");
-    reference_ = cached_surface_reference(
-        world(), scene(), {.floor_z_m = record_.scenario.planner.floor_z_m}, threads_);
+    reference_ = cached_surface_reference(world(), scene(),
+                                          {.floor_z_m = record_.scenario.planner.floor_z_m,
+                                           .region_m = record_.scenario.score.region_m},
+                                          threads_);
   }
   return *reference_;
 }

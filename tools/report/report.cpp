@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/compare/paper_table.hpp"
+#include "scenarios/load.hpp"
 #include "scenarios/papers_setting.hpp"
 #include "sim/core/base64.hpp"
 #include "sim/core/error.hpp"
@@ -92,12 +93,24 @@ Json tables_json(const std::vector<RunRecord>& records) {
   return json;
 }
 
-/// Equal for runs of the same structure.
+/// Equal for runs of the same structure among the same obstacles on the same terrain.
 std::string structure_key(const Scenario& scenario) {
-  const MeshFileConfig& file = scenario.structure.file;
-  return fmt::format("{}\n{} {} {} {} {} {} {}", structure_name(scenario.structure), file.scale,
-                     file.offset_m.x(), file.offset_m.y(), file.offset_m.z(), file.up_axis,
-                     file.unit_m, file.path.empty() ? "built in" : "file");
+  Scenario only;
+  only.structure = scenario.structure;
+  only.terrain = scenario.terrain;
+  only.obstacles = scenario.obstacles;
+  return to_yaml(only);
+}
+
+/// What stands there, as one mesh.
+TriangleMesh all_meshes(const Scenario& scenario) {
+  std::vector<std::string> told_by_run;  // the mesh's faults were told when it was flown
+  const World world = load_world_anywhere(scenario, told_by_run);
+  TriangleMesh all = world.structure;
+  for (const TriangleMesh* more : {&world.obstacles, &world.terrain}) {
+    if (!more->faces.empty()) append(all, *more);
+  }
+  return all;
 }
 
 /// The structures of the runs, each once.
@@ -121,9 +134,8 @@ Structures pack_structures(const std::vector<RunRecord>& records) {
     const auto [entry, is_new] = known.try_emplace(structure_key(record.scenario));
     Structures::OfRun& structure = entry->second;
     try {
-      std::vector<std::string> told_by_run;  // the mesh's faults were told when it was flown
       if (is_new) {
-        const TriangleMesh mesh = load_structure(record.scenario, told_by_run);
+        const TriangleMesh mesh = all_meshes(record.scenario);
         structure.number = static_cast<int>(out.json.size());
         out.json.push_back(mesh_json(mesh, max_bytes, out.bytes));
       }

@@ -224,7 +224,7 @@ Json run_json(const RunRecord& record, const std::string& label, const PackedRun
       {"workspace",
        {{"min", vector_json(scenario.workspace_m.min().cast<float>())},
         {"max", vector_json(scenario.workspace_m.max().cast<float>())}}},
-      {"has_ground", scenario.structure.ground},
+      {"has_ground", has_flat_ground(scenario)},
       {"profile_end_s", record.profile_end_s ? Json(*record.profile_end_s) : Json(nullptr)},
       {"views_begin_s", record.views_begin_s ? Json(*record.views_begin_s) : Json(nullptr)},
       {"mesh", mesh},

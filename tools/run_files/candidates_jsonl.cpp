@@ -47,7 +47,7 @@ std::optional<Rejection> rejection_of(const std::string& name) {
   for (const Rejection reason :
        {Rejection::out_of_bounds, Rejection::not_free, Rejection::collision,
         Rejection::path_blocked, Rejection::recently_visited, Rejection::cluster_outside_fov,
-        Rejection::cluster_hidden, Rejection::sees_no_surface}) {
+        Rejection::cluster_hidden, Rejection::sees_no_surface, Rejection::no_fly}) {
     if (name_of(reason) == name) return reason;
   }
   return std::nullopt;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/compare/text_table.hpp"
+#include "bench/score/scored_points.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
 #include "sim/mesh/mesh_lint.hpp"
@@ -49,21 +50,24 @@ std::vector<Vec3f> samples_by_area(const TriangleMesh& mesh, std::size_t count,
   return samples;
 }
 
-SurfaceScore score_surface(const TriangleMesh& surface, const World& truth, double floor_z_m,
-                           int threads) {
+SurfaceScore score_surface(const TriangleMesh& surface, const World& truth,
+                           const ReferenceConfig& config, int threads) {
   std::vector<Vec3f> samples_m = samples_by_area(surface, kSamples, kSeed);
-  std::erase_if(samples_m,
-                [&](const Vec3f& p_m) { return static_cast<double>(p_m.z()) < floor_z_m; });
   const RayScene true_scene(truth);
-  const SurfaceReference reference =
-      cached_surface_reference(truth, true_scene, {.floor_z_m = floor_z_m}, threads);
+  const std::vector<std::uint8_t> is_own = points_of_structure(true_scene, samples_m, threads);
+  std::size_t i = 0;
+  std::erase_if(samples_m, [&](const Vec3f& p_m) {
+    return is_own[i++] == 0 || static_cast<double>(p_m.z()) < config.floor_z_m ||
+           !config.region_m.contains(p_m.cast<double>());
+  });
+  const SurfaceReference reference = cached_surface_reference(truth, true_scene, config, threads);
   const CloudDistances precise = cloud_distances(true_scene, samples_m, {}, threads);
   // a point's distance to a surface is exact, so that the reference takes the part of the cloud
   const RayScene found_scene(World{.structure = surface, .has_ground = false});
   const CloudDistances recalled =
       cloud_distances(found_scene, reference.samples_world_m, {}, threads);
 
-  SurfaceScore score{.samples = samples_m.size(), .floor_z_m = floor_z_m};
+  SurfaceScore score{.samples = samples_m.size(), .floor_z_m = config.floor_z_m};
   for (std::size_t i = 0; i < score.distances.at.size(); ++i) {
     const double p = precise.at[i].precision;
     const double r = recalled.at[i].precision;

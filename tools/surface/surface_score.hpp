@@ -21,9 +21,10 @@ std::vector<Vec3f> samples_by_area(const TriangleMesh& mesh, std::size_t count, 
 
 /// Scores the surface above the floor: samples by area against the true structure, and the samples
 /// of the true surface that see out (bench/score/surface_reference.hpp) against the reconstructed
-/// one. Deterministic at any number of threads.
-SurfaceScore score_surface(const TriangleMesh& surface, const World& truth, double floor_z_m,
-                           int threads);
+/// one. What belongs to obstacles or terrain, or lies outside the region, is left out.
+/// Deterministic at any number of threads.
+SurfaceScore score_surface(const TriangleMesh& surface, const World& truth,
+                           const ReferenceConfig& config, int threads);
 
 /// A table for people, and a JSON object for machines.
 std::string score_text(const SurfaceScore& score, const std::string& name);

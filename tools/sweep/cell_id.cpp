@@ -19,9 +19,8 @@ std::string CellNamer::content_path(const std::string& path) {
 
 std::string CellNamer::id_of(const Scenario& scenario) {
   Scenario named = scenario;
-  std::string& mesh = named.structure.file.path;
+  for (const MeshFileKey& mesh : mesh_files(named)) mesh.file->path = content_path(mesh.file->path);
   std::string& profile = named.planner.profiling.file;
-  mesh = content_path(mesh);
   profile = content_path(profile);
   Sha256 hash;
   hash.add("gnbv cell 2\n" + version_ + "\n" + source_ + "\n");

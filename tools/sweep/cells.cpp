@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 
+#include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "tools/mission/resolve.hpp"
 #include "tools/sweep/cell_id.hpp"
@@ -43,11 +44,12 @@ class Resolver {
   }
 
   StructureExtent extent_of(const Scenario& scenario) {
-    const StructureConfig& s = scenario.structure;
-    const Vec3& offset_m = s.file.offset_m;
-    const std::string key =
-        fmt::format("{}|{}|{}|{} {} {}|{}|{}", s.builtin, s.file.path, s.file.scale, offset_m.x(),
-                    offset_m.y(), offset_m.z(), s.file.up_axis, s.file.unit_m);
+    Scenario only;  // what the extent depends on
+    only.structure = scenario.structure;
+    only.terrain = scenario.terrain;
+    only.obstacles = scenario.obstacles;
+    only.planner.floor_z_m = scenario.planner.floor_z_m;
+    const std::string key = to_yaml(only);
     const auto known = extents_.find(key);
     if (known != extents_.end()) return known->second;
     return extents_[key] = structure_extent(scenario);

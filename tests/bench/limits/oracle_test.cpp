@@ -258,7 +258,9 @@ TEST(CeilingCache, KeyChangesWithAllThatTheResultDependsOnAndWithNothingElse) {
         "planner.floor_z_m=0.2", "planner.cloud.leaf_m=0.06", "workspace_m.max=[4,4,6]",
         "planner.validity.collision_radius_m=0.9", "planner.validity.z_min_m=0.8",
         "lidars.0.pitch_deg=5", "lidars.0.range_max_m=12", "planner.profiling.method=none",
-        "planner.profiling.scan_in_transit=false"}) {
+        "planner.profiling.scan_in_transit=false", "score.region_m={max: [0, 5, 5]}",
+        "no_fly=[{min: [3, 3, 3], max: [4, 4, 4]}]",
+        "no_fly=[{min: [30, 3, 3], max: [40, 4, 4]}]"}) {
     expect_new({key});
   }
   LegalViewpoints shifted = s.legal;
@@ -267,6 +269,11 @@ TEST(CeilingCache, KeyChangesWithAllThatTheResultDependsOnAndWithNothingElse) {
   World moved = s.world;
   moved.structure.vertices_m[0].x() += 0.01F;
   EXPECT_TRUE(keys.insert(ceiling_key(s.scenario, moved, s.legal)).second);
+  for (TriangleMesh World::*const around : {&World::obstacles, &World::terrain}) {
+    World more = s.world;
+    more.*around = box_mesh(Box3(Vec3(3, 3, 0), Vec3(4, 4, 1)));
+    EXPECT_TRUE(keys.insert(ceiling_key(s.scenario, more, s.legal)).second);
+  }
   const Scenario same = load_scenario(
       "smoke", {"planner.utility.name=isler", "seed=7", "cameras.0.noise.model=released",
                 "planner.agvs.step_m=1", "vehicle.kind=ideal"});

@@ -75,11 +75,19 @@ TEST_F(ReferenceCache, EveryInputHasAKeyOfItsOwn) {
   cached(world_, {.directions = 64});
   cached(world_, {.escape_near_m = 1e-3});
   cached(world_, {.fewest_samples = 1000});
-  EXPECT_EQ(files().size(), 8U);
+  World around = world_;
+  around.obstacles = world_.structure;
+  cached(around);
+  std::swap(around.obstacles, around.terrain);
+  cached(around);
+  ReferenceConfig half;
+  half.region_m.max().x() = 0.1;
+  cached(world_, half);
+  EXPECT_EQ(files().size(), 11U);
   World coloured = world_;
   coloured.structure.materials[0].rgb = {0.1F, 0.2F, 0.3F};
   cached(coloured);
-  EXPECT_EQ(files().size(), 8U);
+  EXPECT_EQ(files().size(), 11U);
 }
 
 TEST_F(ReferenceCache, ComputesAnewWhatIsDamagedOrOfAnotherForm) {

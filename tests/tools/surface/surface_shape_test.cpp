@@ -232,12 +232,13 @@ TEST(SeenPoints, WhatCameAfterTheLastViewIsSeenFromThere) {
 TEST(SurfaceScore, TheTrueSurfaceIsPerfectAndHalfOfItHasHalfTheRecall) {
   World truth{.structure = poisson(oriented(seen_sphere(), 2), 5), .has_ground = false};
   for (Vec3f& p_m : truth.structure.vertices_m) p_m.z() += 2.0F;
-  const SurfaceScore all = score_surface(truth.structure, truth, 0.3, 2);
+  const SurfaceScore all = score_surface(truth.structure, truth, {.floor_z_m = 0.3}, 2);
   for (const DistanceScore& at : all.distances.at) EXPECT_EQ(at.f, 1.0);
   EXPECT_LT(all.distances.chamfer_m, 1e-4);
   std::vector<float> z_m;
   for (const Vec3f& p_m : truth.structure.vertices_m) z_m.push_back(p_m.z());
-  const SurfaceScore half = score_surface(cut_at_level(truth.structure, z_m, 2.0F), truth, 0.3, 1);
+  const SurfaceScore half =
+      score_surface(cut_at_level(truth.structure, z_m, 2.0F), truth, {.floor_z_m = 0.3}, 1);
   EXPECT_EQ(half.distances.at[0].precision, 1.0);
   EXPECT_NEAR(half.distances.at[0].recall, 0.51, 0.01);  // and 2 cm of 2 m
 }
