@@ -41,6 +41,7 @@ enum class Rejection {
   cluster_outside_fov,  // FVS: the centroid of the cluster is in no camera's frustum
   cluster_hidden,       // FVS: no voxel of the cluster is visible
   sees_no_surface,      // refused by the utility
+  beyond_gimbal         // a given view: no gimbal reaches its pitch
 };
 std::string_view name_of(Rejection reason);
 

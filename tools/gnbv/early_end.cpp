@@ -30,6 +30,8 @@ std::string_view meaning_of(Rejection reason) {
       return "not seeing their frontier: something is in between";
     case Rejection::sees_no_surface:
       return "without any surface in sight";
+    case Rejection::beyond_gimbal:
+      return "with a pitch that no gimbal reaches";
   }
   return "";
 }
@@ -54,6 +56,8 @@ std::string_view remedy_for(Rejection reason) {
     case Rejection::sees_no_surface:
       return "begin where the structure can be seen (start.position_m, or --bounds auto), with "
              "planner.fvs.enabled: true";
+    case Rejection::beyond_gimbal:
+      return "pitches within cameras.N.pitch_deg: {min, max, step}";
   }
   return "";
 }
@@ -72,6 +76,23 @@ std::string of_no_valid_view(const std::map<Rejection, int>& rejections) {
 }
 
 }  // namespace
+
+std::string refused_views_note(const MissionResult& result) {
+  std::map<Rejection, int> counts;
+  int refused = 0;
+  for (const GivenView& view : result.given_views) {
+    if (!view.rejected) continue;
+    ++counts[*view.rejected];
+    ++refused;
+  }
+  if (refused == 0) return "";
+  std::string text = fmt::format("{} of {} given views refused, views.csv says which:\n", refused,
+                                 result.given_views.size());
+  for (const auto& [reason, count] : counts) {
+    text += fmt::format("  {:5} {}\n", count, meaning_of(reason));
+  }
+  return text;
+}
 
 std::string early_end_note(const MissionResult& result, double coverage) {
   const std::size_t views = result.views.size();

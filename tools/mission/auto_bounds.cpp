@@ -43,8 +43,10 @@ std::size_t in_view(const Scenario& scenario, const Vec3& p_m, std::span<const V
     return std::any_of(
         scenario.cameras.begin(), scenario.cameras.end(), [&](const CameraConfig& camera) {
           const double tan_x = std::tan(0.5 * camera.fov_x_rad);
-          const double tan_up = steep_tan(0.5 * camera.fov_y_rad - camera.pitch_rad);
-          const double tan_down = steep_tan(0.5 * camera.fov_y_rad + camera.pitch_rad);
+          const double highest_rad = camera.gimbal ? camera.gimbal->min_rad : camera.pitch_rad;
+          const double lowest_rad = camera.gimbal ? camera.gimbal->max_rad : camera.pitch_rad;
+          const double tan_up = steep_tan(0.5 * camera.fov_y_rad - highest_rad);
+          const double tan_down = steep_tan(0.5 * camera.fov_y_rad + lowest_rad);
           return to_m.y() > 0.0 && to_m.norm() <= camera.range_max_m &&
                  std::abs(to_m.x()) <= tan_x * to_m.y() && to_m.z() <= tan_up * to_m.y() &&
                  -to_m.z() <= tan_down * to_m.y();

@@ -32,6 +32,8 @@ struct Mission {
   std::optional<std::vector<ViewPose>> laid_route;  // of a baseline that plans all views at once
   ViewPose current;                                 // where the planner believes to be
   Vec3 last_p_world_m;                              // truth, one tick ago
+  std::size_t next_given = 0;                       // of out.given_views
+  double gimbal_pitch_rad = 0.0;                    // where it is
   double flown_m = 0.0;                             // truth, since the start
   double entropy_before_nat = 0.0;                  // of the view at hand
   WallTimes view_wall;                              // of the view at hand
