@@ -16,25 +16,25 @@ constexpr std::string_view kSampler = "route";
 std::span<const ViewPose> ahead(std::span<const ViewPose> route, const History& history) {
   if (history.decisions.empty() || history.decisions.back().sampler != kSampler) return route;
   const ViewPose& last = history.decisions.back().view;
-  const auto at = std::find_if(route.begin(), route.end(), [&](const ViewPose& view) {
-    return view.p_world_m == last.p_world_m && view.yaw_rad == last.yaw_rad;
-  });
+  const auto at = std::find_if(route.begin(), route.end(),
+                               [&](const ViewPose& view) { return is_same_view(view, last); });
   return at == route.end() ? std::span<const ViewPose>() : std::span(at + 1, route.end());
 }
 
 }  // namespace
 
-Plan follow_route(const PlannerModel& model, const Belief& belief, const History& history,
-                  std::span<const ViewPose> route, const ViewPose& current) {
+Plan first_flyable(const PlannerModel& model, const Belief& belief,
+                   std::span<const ViewPose> recent, std::span<const ViewPose> views,
+                   const ViewPose& current) {
   ValidityConfig validity = model.config.validity;
   if (validity.path == PathCheck::straight) validity.path = PathCheck::astar;
-  const std::vector<ViewPose> recent = recent_views(history, validity.recent_poses);
   ViewChecker checker(validity, model.navigation_m, model.no_fly, belief.grid, recent, current);
   Plan plan;
-  for (const ViewPose& view : ahead(route, history)) {
+  for (const ViewPose& view : views) {
     plan.candidates.push_back({.view = view, .sampler = kSampler});
     Candidate& candidate = plan.candidates.back();
     checker.check(candidate);
+    if (!model.can_pitch(view.gimbal_pitch_rad)) candidate.rejected = Rejection::beyond_gimbal;
     if (candidate.rejected) continue;
     plan.chosen = plan.candidates.size() - 1;
     plan.next = Decision{.view = view,
@@ -45,6 +45,12 @@ Plan follow_route(const PlannerModel& model, const Belief& belief, const History
     break;
   }
   return plan;
+}
+
+Plan follow_route(const PlannerModel& model, const Belief& belief, const History& history,
+                  std::span<const ViewPose> route, const ViewPose& current) {
+  return first_flyable(model, belief, recent_views(history, model.config.validity.recent_poses),
+                       ahead(route, history), current);
 }
 
 }  // namespace gnbv

@@ -1,4 +1,4 @@
-// The decision of a baseline that has planned all its views: which of its route comes next.
+// The decision where the views are laid out or given: which of them comes next.
 #pragma once
 
 #include <span>
@@ -11,8 +11,15 @@ struct Belief;
 struct History;
 struct PlannerModel;
 
-/// The first view of the route (plan_route()) after the one taken last that may be flown to. A
-/// route has nowhere else to go: what blocks the straight way is flown around.
+/// The first of the views, in their order, that may be flown to; all before it are candidates with
+/// their reason of rejection. Those that are as good as one of `recent` are rejected, too. Whoever
+/// flies given views has nowhere else to go: what blocks the straight way is flown around.
+Plan first_flyable(const PlannerModel& model, const Belief& belief,
+                   std::span<const ViewPose> recent, std::span<const ViewPose> views,
+                   const ViewPose& current);
+
+/// The same of a route (plan_route()) after the view taken last, and of all that were taken
+/// recently (ValidityConfig::recent_poses).
 Plan follow_route(const PlannerModel& model, const Belief& belief, const History& history,
                   std::span<const ViewPose> route, const ViewPose& current);
 

@@ -1,5 +1,6 @@
 #include "planner/model.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -17,6 +18,15 @@ double frustum_voxels(std::span<const CameraModel> cameras, double resolution_m)
   return volume_m3 / std::pow(resolution_m, 3);
 }
 
+std::vector<ViewRays> rays_by_pitch(std::span<const CameraModel> cameras,
+                                    std::span<const double> pitches_rad, double resolution_m) {
+  std::vector<ViewRays> rays;
+  for (const double pitch_rad : pitches_rad) {
+    rays.push_back(make_view_rays(turned(cameras, pitch_rad), resolution_m));
+  }
+  return rays;
+}
+
 }  // namespace
 
 PlannerModel::PlannerModel(const PlannerConfig& planner_config, const Box3& workspace,
@@ -30,9 +40,25 @@ PlannerModel::PlannerModel(const PlannerConfig& planner_config, const Box3& work
       no_fly(std::move(mission_no_fly)),
       cameras(camera_models.begin(), camera_models.end()),
       lidars(lidar_models.begin(), lidar_models.end()),
-      view_rays(make_view_rays(cameras, planner_config.map.resolution_m)),
+      gimbal(gimbal_of(cameras)),
+      pitches_rad(gimbal ? gnbv::pitches_rad(*gimbal) : std::vector<double>{0.0}),
+      view_rays(rays_by_pitch(cameras, pitches_rad, planner_config.map.resolution_m)),
       view_voxels(frustum_voxels(cameras, planner_config.map.resolution_m)),
-      needs_shadow(!is_route(config.utility.name) && !is_oracle(config.utility.name) &&
-                   needs_of(config.utility).shadow) {}
+      needs_shadow(!asks_no_utility(config.utility.name) && needs_of(config.utility).shadow) {}
+
+const ViewRays& PlannerModel::rays_at(double gimbal_pitch_rad) const {
+  const auto nearest =
+      std::min_element(pitches_rad.begin(), pitches_rad.end(), [&](double a, double b) {
+        return std::abs(a - gimbal_pitch_rad) < std::abs(b - gimbal_pitch_rad);
+      });
+  return view_rays[static_cast<std::size_t>(nearest - pitches_rad.begin())];
+}
+
+bool PlannerModel::can_pitch(double gimbal_pitch_rad) const {
+  constexpr double kRounding_rad = 1e-9;
+  if (!gimbal) return gimbal_pitch_rad == 0.0;
+  return gimbal_pitch_rad >= gimbal->min_rad - kRounding_rad &&
+         gimbal_pitch_rad <= gimbal->max_rad + kRounding_rad;
+}
 
 }  // namespace gnbv

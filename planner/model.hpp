@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,9 +26,16 @@ struct PlannerModel {
   NoFly no_fly;
   std::vector<CameraModel> cameras;
   std::vector<LidarModel> lidars;
-  ViewRays view_rays;
-  double view_voxels;  // of the cameras' frusta together
-  bool needs_shadow;   // whether the utility asks for Belief::shadow
+  std::optional<GimbalConfig> gimbal;  // of the cameras that have one
+  std::vector<double> pitches_rad;     // that it offers; without one only 0
+  std::vector<ViewRays> view_rays;     // by those pitches
+  double view_voxels;                  // of the cameras' frusta together
+  bool needs_shadow;                   // whether the utility asks for Belief::shadow
+
+  /// The rays of a view whose gimbal has this pitch, or the nearest that it offers.
+  const ViewRays& rays_at(double gimbal_pitch_rad) const;
+  /// Whether the gimbal reaches this pitch; without one, only 0 means anything.
+  bool can_pitch(double gimbal_pitch_rad) const;
 };
 
 }  // namespace gnbv

@@ -91,7 +91,7 @@ class Decider {
   std::vector<Candidate> views_of(const FrontierCluster& cluster, int rank) {
     const FvsConfig& fvs = model_.config.fvs;
     std::vector<Candidate> views;
-    for (const ViewPose& view : sample_fvs(fvs, cluster.centroid_world_m)) {
+    for (const ViewPose& view : sample_fvs(fvs, cluster.centroid_world_m, model_.pitches_rad)) {
       views.push_back({.view = view, .sampler = "fvs", .cluster = rank});
     }
     check_all(views);
@@ -117,7 +117,8 @@ class Decider {
 
   bool try_agvs_at(double scale) {
     std::vector<Candidate> candidates;
-    for (const ViewPose& view : sample_agvs(model_.config.agvs, current_, scale)) {
+    for (const ViewPose& view :
+         sample_agvs(model_.config.agvs, current_, scale, model_.pitches_rad)) {
       candidates.push_back({.view = view, .sampler = "agvs", .scale = scale});
     }
     check_all(candidates);
@@ -149,7 +150,8 @@ class Decider {
       for (std::size_t i = share; i < valid.size(); i += shares) {
         Candidate& candidate = candidates[valid[i]];
         ViewStats stats = evaluate_view(
-            belief_.grid, belief_.cloud, model_.view_rays, candidate.view, bench_.marks[share],
+            belief_.grid, belief_.cloud, model_.rays_at(candidate.view.gimbal_pitch_rad),
+            candidate.view, bench_.marks[share],
             view_options(model_.config.utility, belief_.shadow, frontier_density_));
         stats.density_max = belief_.cloud.density_max();
         stats.path_m = model_.config.utility.distance == DistanceAlong::path

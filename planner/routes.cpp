@@ -28,6 +28,13 @@ double yaw_towards(const Vec3& from_m, const Vec3& to_m) {
   return std::atan2(to_m.y() - from_m.y(), to_m.x() - from_m.x());
 }
 
+/// The gimbal's pitch that looks most nearly from one point at the other; 0 without a gimbal.
+double pitch_towards(const CameraModel& camera, const Vec3& from_m, const Vec3& to_m) {
+  if (!camera.config.gimbal) return 0.0;
+  const Vec3 to = to_m - from_m;
+  return nearest_pitch_rad(*camera.config.gimbal, std::atan2(-to.z(), to.head<2>().norm()));
+}
+
 /// Where the ray from `center` leaves the last ball of radius `standoff` around an obstacle.
 double exit_m(const Vec3& center_m, const Vec3& direction, std::span<const Vec3> obstacles_m,
               double standoff_m) {
@@ -72,7 +79,8 @@ std::vector<ViewPose> hemisphere(const RouteConfig& config, const RouteProblem& 
         center_m + exit_m(center_m, direction, obstacles_m, config.standoff_m) * direction;
     const Vec3 inside_m =
         p_m.cwiseMax(problem.navigation_m.min()).cwiseMin(problem.navigation_m.max());
-    views.push_back({inside_m, yaw_towards(inside_m, center_m)});
+    views.push_back({inside_m, yaw_towards(inside_m, center_m),
+                     pitch_towards(problem.camera, inside_m, center_m)});
   }
   order_by_nearest(problem.start.p_world_m, views);
   return views;
@@ -111,6 +119,8 @@ std::vector<ViewPose> lawnmower(const RouteConfig& config, const RouteProblem& p
        {{{hi.x(), lo.y()}, {hi.x(), hi.y()}}},
        {{{hi.x(), hi.y()}, {lo.x(), hi.y()}}},
        {{{lo.x(), hi.y()}, {lo.x(), lo.y()}}}}};
+  const double level_rad = pitch_towards(problem.camera, Vec3::Zero(), Vec3::UnitX());
+  const double down_rad = pitch_towards(problem.camera, Vec3::Zero(), -Vec3::UnitZ());
   std::vector<ViewPose> views;
   for (const auto& [from, to] : sides) {
     const Eigen::Vector2d along = to - from;
@@ -119,7 +129,7 @@ std::vector<ViewPose> lawnmower(const RouteConfig& config, const RouteProblem& p
       std::vector<ViewPose> row;
       for (const double share : steps(0.0, 1.0, column_m / along.norm())) {
         const Eigen::Vector2d p = from + share * along;
-        row.push_back({Vec3(p.x(), p.y(), std::min(z_m, hi.z())), inwards_rad});
+        row.push_back({Vec3(p.x(), p.y(), std::min(z_m, hi.z())), inwards_rad, level_rad});
       }
       append_row(std::move(row), problem.start.p_world_m, views);
     }
@@ -127,7 +137,7 @@ std::vector<ViewPose> lawnmower(const RouteConfig& config, const RouteProblem& p
   for (const double y_m : steps(hi.y(), lo.y(), column_m)) {
     std::vector<ViewPose> row;
     for (const double x_m : steps(lo.x(), hi.x(), row_m)) {
-      row.push_back({Vec3(x_m, y_m, hi.z()), 0.0});
+      row.push_back({Vec3(x_m, y_m, hi.z()), 0.0, down_rad});
     }
     append_row(std::move(row), problem.start.p_world_m, views);
   }
@@ -144,6 +154,12 @@ bool is_oracle(std::string_view utility_name) {
   return std::find(kOracleNames.begin(), kOracleNames.end(), utility_name) != kOracleNames.end();
 }
 
+bool is_given_route(std::string_view utility_name) { return utility_name == kGivenRouteName; }
+
+bool asks_no_utility(std::string_view utility_name) {
+  return is_route(utility_name) || is_oracle(utility_name) || is_given_route(utility_name);
+}
+
 std::vector<ViewPose> plan_route(std::string_view name, const RouteConfig& config,
                                  const RouteProblem& problem) {
   GNBV_CHECK(is_route(name), "'{}' is no route", name);
@@ -155,10 +171,7 @@ std::vector<ViewPose> plan_route(std::string_view name, const RouteConfig& confi
                                     ? lawnmower(config, problem, structure_m)
                                     : hemisphere(config, problem, obstacles_m, structure_m);
   // views clamped to a corner of the navigation box may be the same
-  const auto is_same = [](const ViewPose& a, const ViewPose& b) {
-    return a.p_world_m == b.p_world_m && a.yaw_rad == b.yaw_rad;
-  };
-  views.erase(std::unique(views.begin(), views.end(), is_same), views.end());
+  views.erase(std::unique(views.begin(), views.end(), is_same_view), views.end());
   return views;
 }
 

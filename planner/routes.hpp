@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -24,9 +25,18 @@ bool is_route(std::string_view utility_name);
 constexpr std::array<std::string_view, 2> kOracleNames = {"oracle_views", "oracle_metres"};
 bool is_oracle(std::string_view utility_name);
 
+/// The user's own views: RouteConfig::views, and what comes through the pipe.
+constexpr std::string_view kGivenRouteName = "route";
+bool is_given_route(std::string_view utility_name);
+constexpr std::size_t kMostGivenViews = 100000;
+
+/// Whether no candidate is ever scored: the views are laid out, known or given.
+bool asks_no_utility(std::string_view utility_name);
+
 struct RouteConfig {
   double standoff_m = 4.0;  // from the occupied voxels of the profile: half of the cameras' range
   double overlap = 0.3;     // lawnmower: of neighbouring images
+  std::vector<ViewPose> views = {};  // route: body poses, in the order in which they are flown
 };
 
 /// What a route is laid around.
@@ -38,7 +48,9 @@ struct RouteProblem {
   int views = 1;  // uniform_hemisphere: how many, 10,000 at most
 };
 
-/// The views in the order in which they are to be flown; empty where nothing is occupied.
+/// The views in the order in which they are to be flown; empty where nothing is occupied. A gimbal
+/// looks at what the view does: on a hemisphere at its centre, of a lawnmower level from the sides
+/// and down from above.
 /// Requires is_route(name).
 std::vector<ViewPose> plan_route(std::string_view name, const RouteConfig& config,
                                  const RouteProblem& problem);

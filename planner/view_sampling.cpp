@@ -14,9 +14,31 @@ bool is_utility_low(const AgvsConfig& config, std::span<const double> utilities)
   return *std::max_element(recent.begin(), recent.end()) < config.utility_threshold;
 }
 
+constexpr double kSamePitch_rad = 1e-9;
+
+/// Adds the view with every pitch, or with the one it has where there are none to choose from.
+void add_pitched(ViewPose view, std::span<const double> pitches_rad, std::vector<ViewPose>& views) {
+  if (pitches_rad.empty()) views.push_back(view);
+  for (const double pitch_rad : pitches_rad) {
+    view.gimbal_pitch_rad = pitch_rad;
+    views.push_back(view);
+  }
+}
+
+/// The current pose is no candidate, but for another pitch of the gimbal.
+void add_other_pitches(ViewPose current, std::span<const double> pitches_rad,
+                       std::vector<ViewPose>& views) {
+  const double had_rad = current.gimbal_pitch_rad;
+  for (const double pitch_rad : pitches_rad) {
+    current.gimbal_pitch_rad = pitch_rad;
+    if (std::fabs(pitch_rad - had_rad) > kSamePitch_rad) views.push_back(current);
+  }
+}
+
 }  // namespace
 
-std::vector<ViewPose> sample_agvs(const AgvsConfig& config, const ViewPose& current, double scale) {
+std::vector<ViewPose> sample_agvs(const AgvsConfig& config, const ViewPose& current, double scale,
+                                  std::span<const double> pitches_rad) {
   const double step_m = config.step_m * scale;
   const Eigen::AngleAxisd R_world_yaw(current.yaw_rad, Vec3::UnitZ());
   std::vector<ViewPose> views;
@@ -27,9 +49,13 @@ std::vector<ViewPose> sample_agvs(const AgvsConfig& config, const ViewPose& curr
         if (same_position && !(config.rotation_only && scale <= 1.0)) continue;
         const Vec3 p_world_m = current.p_world_m + R_world_yaw * (step_m * Vec3(ix, iy, iz));
         for (int turn = -1; turn <= 1; ++turn) {
-          if (same_position && turn == 0) continue;
-          views.push_back(
-              {p_world_m, wrap_angle_rad(current.yaw_rad + turn * config.yaw_step_rad)});
+          if (same_position && turn == 0) {
+            add_other_pitches(current, pitches_rad, views);
+            continue;
+          }
+          add_pitched({p_world_m, wrap_angle_rad(current.yaw_rad + turn * config.yaw_step_rad),
+                       current.gimbal_pitch_rad},
+                      pitches_rad, views);
         }
       }
     }
@@ -37,7 +63,8 @@ std::vector<ViewPose> sample_agvs(const AgvsConfig& config, const ViewPose& curr
   return views;
 }
 
-std::vector<ViewPose> sample_fvs(const FvsConfig& config, const Vec3& centroid_world_m) {
+std::vector<ViewPose> sample_fvs(const FvsConfig& config, const Vec3& centroid_world_m,
+                                 std::span<const double> pitches_rad) {
   std::vector<ViewPose> views;
   for (int layer = -1; layer <= 1; ++layer) {
     for (int i = 0; i < config.views_per_layer; ++i) {
@@ -45,7 +72,7 @@ std::vector<ViewPose> sample_fvs(const FvsConfig& config, const Vec3& centroid_w
       const Vec3 outwards(std::cos(bearing_rad), std::sin(bearing_rad), 0.0);
       const Vec3 p_world_m = centroid_world_m + config.radius_m * outwards +
                              layer * config.layer_step_m * Vec3::UnitZ();
-      views.push_back({p_world_m, wrap_angle_rad(bearing_rad + kPi)});
+      add_pitched({p_world_m, wrap_angle_rad(bearing_rad + kPi)}, pitches_rad, views);
     }
   }
   return views;

@@ -48,11 +48,15 @@ struct FvsConfig {
 
 /// 3 x 3 x 3 positions in the body-yaw frame at step_m * scale, times 3 yaws, yaws innermost, in a
 /// fixed order; the current position only as AgvsConfig says, and never the current pose itself.
-std::vector<ViewPose> sample_agvs(const AgvsConfig& config, const ViewPose& current, double scale);
+/// Each with all `pitches_rad` of the gimbal, pitches innermost; by default the one it has.
+std::vector<ViewPose> sample_agvs(const AgvsConfig& config, const ViewPose& current, double scale,
+                                  std::span<const double> pitches_rad = {});
 
 /// Three layers of views_per_layer views on a cylinder around the vertical through the centroid,
-/// looking at that axis; the first stands to the east (+x) of it.
-std::vector<ViewPose> sample_fvs(const FvsConfig& config, const Vec3& centroid_world_m);
+/// looking at that axis; the first stands to the east (+x) of it. Each with all pitches as above,
+/// by default 0.
+std::vector<ViewPose> sample_fvs(const FvsConfig& config, const Vec3& centroid_world_m,
+                                 std::span<const double> pitches_rad = {});
 
 /// What a local minimum shows in, oldest first.
 struct Progress {

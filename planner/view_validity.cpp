@@ -18,7 +18,8 @@ bool is_recent(const ValidityConfig& config, std::span<const ViewPose> recent,
                const ViewPose& view) {
   return std::any_of(recent.begin(), recent.end(), [&](const ViewPose& pose) {
     return (pose.p_world_m - view.p_world_m).norm() < config.recent_distance_m &&
-           std::fabs(wrap_angle_rad(pose.yaw_rad - view.yaw_rad)) < config.recent_yaw_rad;
+           std::fabs(wrap_angle_rad(pose.yaw_rad - view.yaw_rad)) < config.recent_yaw_rad &&
+           std::fabs(pose.gimbal_pitch_rad - view.gimbal_pitch_rad) < config.recent_yaw_rad;
   });
 }
 
@@ -70,6 +71,8 @@ std::string_view name_of(Rejection reason) {
       return "sees_no_surface";
     case Rejection::no_fly:
       return "no_fly";
+    case Rejection::beyond_gimbal:
+      return "beyond_gimbal";
   }
   return "unknown";
 }
@@ -127,14 +130,15 @@ std::optional<Rejection> cluster_rejection(std::span<const CameraModel> cameras,
                                            const FrontierCluster& cluster, const ViewPose& view,
                                            bool needs_visible_cluster) {
   const Isometry T = T_world_body(view);
+  const std::vector<CameraModel> looking = turned(cameras, view.gimbal_pitch_rad);
   const auto has_centroid = [&](const CameraModel& camera) {
     return is_in_frustum(camera, T, cluster.centroid_world_m);
   };
-  if (std::none_of(cameras.begin(), cameras.end(), has_centroid)) {
+  if (std::none_of(looking.begin(), looking.end(), has_centroid)) {
     return Rejection::cluster_outside_fov;
   }
   if (!needs_visible_cluster) return std::nullopt;
-  for (const CameraModel& camera : cameras) {
+  for (const CameraModel& camera : looking) {
     for (const VoxelIndex v : cluster.voxels) {
       if (sees_voxel(camera, T, grid, v)) return std::nullopt;
     }

@@ -43,6 +43,7 @@ enum class Rejection {
   cluster_hidden,       // FVS: no voxel of the cluster is visible
   sees_no_surface,      // refused by the utility
   no_fly,               // in or too near to a box where nobody may fly
+  beyond_gimbal         // a given view: no gimbal reaches its pitch
 };
 std::string_view name_of(Rejection reason);
 

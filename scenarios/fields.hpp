@@ -112,6 +112,12 @@ class FieldVisitor {
               std::string_view meaning);
   void box(std::string_view key, Box3& value, const Range& allowed, std::string_view meaning);
 
+  /// An angle, or a section in its place: whichever the file gives, or the config holds.
+  template <typename Config>
+  void angle_or_section(std::string_view key_deg, double& value_rad, const Range& allowed_deg,
+                        std::optional<Config>& config, std::string_view meaning,
+                        std::string_view section_meaning);
+
   template <typename Config>
   void section(std::string_view key, Config& config, std::string_view meaning) {
     begin_section(key, meaning);
@@ -133,7 +139,14 @@ class FieldVisitor {
     visit_items(items);
   }
 
+ protected:
+  enum class Form { leaf, section, both };
+
  private:
+  /// Which of the two the visitor looks at; both: one after the other.
+  virtual Form form_of(std::string_view, bool holds_section) {
+    return holds_section ? Form::section : Form::leaf;
+  }
   virtual void leaf(const Field& field, const FieldValue& value) = 0;
   virtual void begin_section(std::string_view key, std::string_view meaning) = 0;
   virtual void end_section() = 0;
@@ -170,6 +183,7 @@ void fields(FieldVisitor& v, GuidanceConfig& c);
 void fields(FieldVisitor& v, WindConfig& c);
 // fields_sensors.cpp
 void fields(FieldVisitor& v, DepthNoiseConfig& c);
+void fields(FieldVisitor& v, GimbalConfig& c);
 void fields(FieldVisitor& v, CameraConfig& c);
 void fields(FieldVisitor& v, LidarConfig& c);
 // fields_planner.cpp
@@ -184,6 +198,7 @@ void fields(FieldVisitor& v, ValidityConfig& c);
 void fields(FieldVisitor& v, VolumeWeights& c);
 void fields(FieldVisitor& v, ShadowConfig& c);
 void fields(FieldVisitor& v, UtilityConfig& c);
+void fields(FieldVisitor& v, ViewPose& c);
 void fields(FieldVisitor& v, RouteConfig& c);
 void fields(FieldVisitor& v, SymmetryConfig& c);
 void fields(FieldVisitor& v, TerminationConfig& c);
@@ -195,6 +210,17 @@ void fields(FieldVisitor& v, NoFlyConfig& c);
 void fields(FieldVisitor& v, ScoreConfig& c);
 void fields(FieldVisitor& v, StartConfig& c);
 void fields(FieldVisitor& v, Scenario& c);
+
+template <typename Config>
+void FieldVisitor::angle_or_section(std::string_view key_deg, double& value_rad,
+                                    const Range& allowed_deg, std::optional<Config>& config,
+                                    std::string_view meaning, std::string_view section_meaning) {
+  const Form form = form_of(key_deg, config.has_value());
+  if (form != Form::section) angle(key_deg, value_rad, allowed_deg, meaning);
+  if (form == Form::leaf) return config.reset();
+  if (!config) config.emplace();
+  section(key_deg, *config, section_meaning);
+}
 
 template <typename Enum, std::size_t count>
 void FieldVisitor::choice(std::string_view key, Enum& value,

@@ -140,8 +140,9 @@ void fields(FieldVisitor& v, UtilityConfig& c) {
   std::vector<std::string_view> names = utility_names();
   names.insert(names.end(), kRouteNames.begin(), kRouteNames.end());
   names.insert(names.end(), kOracleNames.begin(), kOracleNames.end());
+  names.push_back(kGivenRouteName);
   v.choice("name", c.name, names,
-           "What ranks the candidate views, a baseline's route, or an oracle's.");
+           "What ranks the candidate views, a baseline's route, an oracle's, or your own.");
   v.number("alpha", c.alpha, kWeight, "Weight of information, Eq. (2).");
   v.number("beta", c.beta, kWeight, "Weight of density, Eq. (2).");
   v.number("gamma", c.gamma, kWeight, "Weight of prediction, Eq. (2).");
@@ -165,9 +166,18 @@ void fields(FieldVisitor& v, UtilityConfig& c) {
   v.section("shadow", c.shadow, "proximity_count, area_factor: what lies behind seen surface.");
 }
 
+void fields(FieldVisitor& v, ViewPose& c) {
+  v.number("position_m", c.p_world_m, between(-1e6, 1e6), "Of the body, world ENU.");
+  v.angle("yaw_deg", c.yaw_rad, between(-360, 360), "Heading of the body, 0 = east, 90 = north.");
+  v.angle("pitch_deg", c.gimbal_pitch_rad, between(-90, 90),
+          "Of the cameras on a gimbal; positive looks down.");
+}
+
 void fields(FieldVisitor& v, RouteConfig& c) {
   v.number("standoff_m", c.standoff_m, between(0.1, 1e3), "From the surface of the profile.");
   v.number("overlap", c.overlap, between(0, 0.95), "lawnmower: of neighbouring images.");
+  v.list("views", c.views, {0, kMostGivenViews},
+         "route: body poses, in the order in which they are flown.");
 }
 
 void fields(FieldVisitor& v, SymmetryConfig& c) {

@@ -19,12 +19,24 @@ void preset(FieldVisitor& v, Config& c, const std::array<std::string_view, count
   if (c.preset != before) c = with_preset_values(c);
 }
 
+constexpr Range kPitch_deg = between(-90, 90);
+constexpr std::string_view kPitchMeaning = "Turn about body y, the second: positive tilts it down.";
+
+void pitch(FieldVisitor& v, LidarConfig& c) {
+  v.angle("pitch_deg", c.pitch_rad, kPitch_deg, kPitchMeaning);
+}
+
+void pitch(FieldVisitor& v, CameraConfig& c) {
+  v.angle_or_section("pitch_deg", c.pitch_rad, kPitch_deg, c.gimbal, kPitchMeaning,
+                     "A gimbal: the pitches that every view may choose from.");
+  if (c.gimbal) c.pitch_rad = nearest_pitch_rad(*c.gimbal, 0.0);
+}
+
 template <typename Config>
 void mounting(FieldVisitor& v, Config& c) {
   v.number("p_body_m", c.p_body_m, between(-10, 10), "Where it sits, body FLU.");
   v.angle("roll_deg", c.roll_rad, between(-180, 180), "Turn about body x, the first.");
-  v.angle("pitch_deg", c.pitch_rad, between(-90, 90),
-          "Turn about body y, the second: positive tilts it down.");
+  pitch(v, c);
   v.angle("yaw_deg", c.yaw_rad, between(-180, 180),
           "Turn about body z, the last: positive turns it left.");
 }
@@ -37,6 +49,12 @@ void fields(FieldVisitor& v, DepthNoiseConfig& c) {
   v.number("baseline_m", c.baseline_m, between(1e-3, 10), "stereo: between the two lenses.");
   v.number("disparity_noise_px", c.disparity_noise_px, between(0, 10),
            "stereo: standard deviation of a disparity.");
+}
+
+void fields(FieldVisitor& v, GimbalConfig& c) {
+  v.angle("min", c.min_rad, between(-90, 90), "The first pitch, degrees; negative looks up.");
+  v.angle("max", c.max_rad, between(-90, 90), "No pitch is above.");
+  v.angle("step", c.step_rad, between(1, 180), "From one pitch to the next.");
 }
 
 void fields(FieldVisitor& v, CameraConfig& c) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -43,6 +44,9 @@ struct Filling {
 /// that depend on the rest: a filling's come last, and throw BadInput when they cannot be had.
 Scenario load_with_overrides(const std::string& name_or_path,
                              const std::vector<Override>& overrides, const Filling& filling = {});
+
+/// The override that gives these views: `planner.routes.views=[...]`. They read back bit for bit.
+std::string views_override(std::span<const ViewPose> views);
 
 /// The resolved configuration as YAML, every key with its value and absolute paths: load_scenario
 /// on it gives the same Scenario, bit for bit, if load_scenario made it. (An angle set by other

@@ -7,6 +7,7 @@
 #include "planner/map/memory.hpp"
 #include "scenarios/adversities.hpp"
 #include "scenarios/problems_world.hpp"
+#include "scenarios/values.hpp"
 #include "sim/flight/rotors.hpp"
 
 namespace gnbv {
@@ -26,6 +27,25 @@ void require_below(double low, double high, const std::string& low_key, const st
                  fmt::format("{} = {} has to be below {} = {}", low_key, low, high_key, high)});
 }
 
+/// A vehicle has one gimbal; several cameras may hang on it.
+void check_gimbal(const std::vector<CameraConfig>& cameras, Problems& out) {
+  const std::optional<GimbalConfig> gimbal = gimbal_of(cameras);
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const std::string key = fmt::format("cameras.{}.pitch_deg", i);
+    const std::optional<GimbalConfig>& own = cameras[i].gimbal;
+    if (!own) continue;
+    require_below(degrees_of(own->min_rad), degrees_of(own->max_rad), key + ".min", key + ".max",
+                  out);
+    if (own->min_rad == gimbal->min_rad && own->max_rad == gimbal->max_rad &&
+        own->step_rad == gimbal->step_rad) {
+      continue;
+    }
+    out.push_back({{key},
+                   "another gimbal than that of the camera before: cameras that are not fixed hang "
+                   "on one gimbal, with the same min, max and step"});
+  }
+}
+
 void check_sensors(const Scenario& s, Problems& out) {
   if (s.cameras.empty()) out.push_back({{"cameras"}, "names no camera; at least one has to look"});
   for (std::size_t i = 0; i < s.cameras.size(); ++i) {
@@ -40,6 +60,7 @@ void check_sensors(const Scenario& s, Problems& out) {
       break;
     }
   }
+  check_gimbal(s.cameras, out);
   for (std::size_t i = 0; i < s.lidars.size(); ++i) {
     const std::string key = fmt::format("lidars.{}.", i);
     require_below(s.lidars[i].range_min_m, s.lidars[i].range_max_m, key + "range_min_m",

@@ -48,6 +48,13 @@ class Reader final : public FieldVisitor {
     if (faults.empty()) origins_[path] = entry->origin;
   }
 
+  Form form_of(std::string_view key, bool holds_section) override {
+    const YamlEntry* entry = entry_of(key);
+    if (entry == nullptr) return holds_section ? Form::section : Form::leaf;
+    const bool is_map = entry->value.kind == Kind::map || entry->value.kind == Kind::picks;
+    return is_map ? Form::section : Form::leaf;
+  }
+
   void begin_section(std::string_view key, std::string_view) override {
     const YamlEntry* entry = take(key);
     push(path_of(key), entry == nullptr ? nullptr : &entry->value);
@@ -107,8 +114,11 @@ class Reader final : public FieldVisitor {
 
   /// The key's entry in the current section, noting that the key is known.
   const YamlEntry* take(std::string_view key) {
-    Level& level = levels_.back();
-    level.known.push_back(key);
+    levels_.back().known.push_back(key);
+    return entry_of(key);
+  }
+  const YamlEntry* entry_of(std::string_view key) const {
+    const Level& level = levels_.back();
     if (level.node == nullptr) return nullptr;
     const auto entry = std::find_if(level.node->entries.begin(), level.node->entries.end(),
                                     [&](const YamlEntry& e) { return e.key == key; });

@@ -40,6 +40,8 @@ class SchemaWriter final : public FieldVisitor {
             {"properties", Json::object()}};
   }
 
+  Form form_of(std::string_view, bool) override { return Form::both; }
+
   void leaf(const Field& field, const FieldValue& value) override {
     Json schema = std::visit([&](const auto* v) { return schema_of(field, *v); }, value);
     schema["description"] = field.meaning;
@@ -112,7 +114,8 @@ class SchemaWriter final : public FieldVisitor {
   void close() {
     Json closed = std::move(open_.back());
     open_.pop_back();
-    open_.back()["properties"][keys_.back()] = std::move(closed);
+    Json& place = open_.back()["properties"][keys_.back()];
+    place = place.is_null() ? std::move(closed) : Json{{"oneOf", {place, std::move(closed)}}};
     keys_.pop_back();
   }
 

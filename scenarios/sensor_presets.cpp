@@ -76,7 +76,9 @@ Config mounted_as(Config sensor, const Config& on_vehicle) {
 }  // namespace
 
 CameraConfig with_preset_values(const CameraConfig& camera) {
-  return mounted_as(camera_of(camera.preset), camera);
+  CameraConfig config = mounted_as(camera_of(camera.preset), camera);
+  config.gimbal = camera.gimbal;
+  return config;
 }
 
 LidarConfig with_preset_values(const LidarConfig& lidar) {

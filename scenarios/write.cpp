@@ -84,6 +84,17 @@ std::string to_yaml(const Scenario& scenario) {
   return writer.text;
 }
 
+std::string views_override(std::span<const ViewPose> views) {
+  std::string text = "planner.routes.views=[";
+  for (const ViewPose& view : views) {
+    const Vec3& p = view.p_world_m;
+    text += fmt::format("{}{{position_m: [{}, {}, {}], yaw_deg: {}, pitch_deg: {}}}",
+                        text.back() == '[' ? "" : ", ", p.x(), p.y(), p.z(),
+                        degrees_of(view.yaw_rad), degrees_of(view.gimbal_pitch_rad));
+  }
+  return text + ']';
+}
+
 std::vector<std::pair<std::string, std::string>> scenario_values(const Scenario& scenario) {
   Scenario copy = scenario;
   ValueLister lister;

@@ -2,8 +2,12 @@
 // ray tracer behind it.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "sim/core/pose.hpp"
 
@@ -19,6 +23,34 @@ struct DepthNoiseConfig {
   double disparity_noise_px = 0.1;
 };
 
+/// A gimbal turns its camera about body y: the pitches that a view may choose from are min_rad,
+/// min_rad + step_rad and so on up to max_rad; positive looks down.
+struct GimbalConfig {
+  double min_rad = deg_to_rad(-30.0);
+  double max_rad = deg_to_rad(60.0);
+  double step_rad = deg_to_rad(30.0);
+};
+
+/// Ascending; min_rad at least. One that rounding puts beyond max_rad by less than a nanoradian is
+/// max_rad.
+inline std::vector<double> pitches_rad(const GimbalConfig& gimbal) {
+  constexpr double kRounding_rad = 1e-9;
+  std::vector<double> pitches = {gimbal.min_rad};
+  for (int i = 1;; ++i) {
+    const double pitch_rad = gimbal.min_rad + i * gimbal.step_rad;
+    if (pitch_rad > gimbal.max_rad + kRounding_rad) return pitches;
+    pitches.push_back(std::min(pitch_rad, gimbal.max_rad));
+  }
+}
+
+/// Of the gimbal's pitches the nearest to the one wanted, the lower of equals.
+inline double nearest_pitch_rad(const GimbalConfig& gimbal, double wanted_rad) {
+  const std::vector<double> pitches = pitches_rad(gimbal);
+  return *std::min_element(pitches.begin(), pitches.end(), [&](double a, double b) {
+    return std::abs(a - wanted_rad) < std::abs(b - wanted_rad);
+  });
+}
+
 /// Defaults: the forward camera of the paper's simulated RGBD pair (section 3.1.1, Table 1).
 struct CameraConfig {
   std::string preset = "rgbd_sim";  // the sensor whose values these began as; a label, no more
@@ -32,10 +64,12 @@ struct CameraConfig {
   double rate_hz = 0.0;           // frames a second in flight; 0: one at each view and none between
   double drop_probability = 0.0;  // of a frame: lost on its way, nothing is believed of it
   Vec3 p_body_m = Vec3::Zero();
-  double roll_rad = 0.0;   // about body x, applied first
-  double pitch_rad = 0.0;  // about body y: positive looks down; applied second
-  double yaw_rad = 0.0;    // about body z: positive looks left; applied last
+  double roll_rad = 0.0;  // about body x, applied first
+  double pitch_rad =
+      0.0;               // about body y: positive looks down; applied second. On a gimbal: at rest
+  double yaw_rad = 0.0;  // about body z: positive looks left; applied last
   DepthNoiseConfig noise = {};
+  std::optional<GimbalConfig> gimbal = {};  // nothing: fixed at pitch_rad
 };
 
 /// Pinhole geometry derived from a CameraConfig; pixel (0, 0) is top left, centres at half pixels.
@@ -71,6 +105,17 @@ inline Eigen::Matrix3d R_body_optical() {
   return R;
 }
 
+/// The camera's mounting at this pitch.
+inline Isometry T_body_camera_at(const CameraConfig& config, double pitch_rad) {
+  Isometry T = Isometry::Identity();
+  T.translate(config.p_body_m);
+  T.rotate(Eigen::AngleAxisd(config.yaw_rad, Vec3::UnitZ()));
+  T.rotate(Eigen::AngleAxisd(pitch_rad, Vec3::UnitY()));
+  T.rotate(Eigen::AngleAxisd(config.roll_rad, Vec3::UnitX()));
+  T.rotate(R_body_optical());
+  return T;
+}
+
 inline CameraModel make_camera_model(const CameraConfig& config) {
   CameraModel model;
   model.config = config;
@@ -78,12 +123,35 @@ inline CameraModel make_camera_model(const CameraConfig& config) {
   model.fy_px = 0.5 * config.height_px / std::tan(0.5 * config.fov_y_rad);
   model.cx_px = 0.5 * config.width_px;
   model.cy_px = 0.5 * config.height_px;
-  model.T_body_camera.translate(config.p_body_m);
-  model.T_body_camera.rotate(Eigen::AngleAxisd(config.yaw_rad, Vec3::UnitZ()));
-  model.T_body_camera.rotate(Eigen::AngleAxisd(config.pitch_rad, Vec3::UnitY()));
-  model.T_body_camera.rotate(Eigen::AngleAxisd(config.roll_rad, Vec3::UnitX()));
-  model.T_body_camera.rotate(R_body_optical());
+  model.T_body_camera = T_body_camera_at(config, config.pitch_rad);
   return model;
+}
+
+/// The camera as it is mounted while the vehicle's gimbal has this pitch: a fixed one as ever.
+inline CameraModel turned(CameraModel camera, double gimbal_pitch_rad) {
+  if (camera.config.gimbal) {
+    camera.T_body_camera = T_body_camera_at(camera.config, gimbal_pitch_rad);
+  }
+  return camera;
+}
+inline std::vector<CameraModel> turned(std::span<const CameraModel> cameras,
+                                       double gimbal_pitch_rad) {
+  std::vector<CameraModel> all;
+  for (const CameraModel& camera : cameras) all.push_back(turned(camera, gimbal_pitch_rad));
+  return all;
+}
+
+/// The gimbal of the cameras, which move together (scenarios/problems.cpp: all have the same).
+template <typename Cameras>
+std::optional<GimbalConfig> gimbal_of(const Cameras& cameras) {
+  for (const auto& camera : cameras) {
+    if constexpr (requires { camera.config; }) {
+      if (camera.config.gimbal) return camera.config.gimbal;
+    } else {
+      if (camera.gimbal) return camera.gimbal;
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace gnbv

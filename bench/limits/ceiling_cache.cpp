@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 #include <sstream>
 
@@ -71,6 +72,8 @@ void add(Sha256& sha, const CameraConfig& c) {
     sha.add(x);
   }
   add(sha, c.p_body_m);
+  if (!c.gimbal) return;
+  for (const double x : {c.gimbal->min_rad, c.gimbal->max_rad, c.gimbal->step_rad}) sha.add(x);
 }
 
 }  // namespace
@@ -147,6 +150,12 @@ std::string bytes_of(const ViewSurvey& survey) {
       last = voxel;
     }
   }
+  const bool has_gimbal =
+      std::any_of(survey.views.begin(), survey.views.end(),
+                  [](const SurveyedView& view) { return view.gimbal_pitch_rad != 0.0; });
+  if (has_gimbal) {  // at the end, so that surveys without one are as they ever were
+    for (const SurveyedView& view : survey.views) out.put(view.gimbal_pitch_rad);
+  }
   return std::move(out.bytes);
 }
 
@@ -165,6 +174,9 @@ std::optional<ViewSurvey> survey_from(std::string_view bytes) {
       voxel += static_cast<std::uint32_t>(in.get_count());
       view.finds.push_back(voxel);
     }
+  }
+  if (in.is_good() && !in.is_at_end()) {
+    for (SurveyedView& view : survey.views) view.gimbal_pitch_rad = in.get<double>();
   }
   if (!in.is_good() || !in.is_at_end()) return std::nullopt;
   return survey;

@@ -34,8 +34,8 @@ void take_view(const RayScene& scene, std::span<const CameraModel> cameras, cons
                double floor_z_m, int threads, std::vector<FrameRays>& rays) {
   rays.resize(cameras.size());
   for (std::size_t i = 0; i < cameras.size(); ++i) {
-    const DepthFrame frame =
-        capture_depth(scene, cameras[i], static_cast<int>(i), T_world_body(view), {}, threads);
+    const DepthFrame frame = capture_depth(scene, turned(cameras[i], view.gimbal_pitch_rad),
+                                           static_cast<int>(i), T_world_body(view), {}, threads);
     compute_frame_rays(frame, cameras[i], floor_z_m, rays[i]);
   }
 }

@@ -21,7 +21,9 @@ constexpr float kOwnFace_m = 1e-3F;
 SightSearch::SightSearch(const RayScene& scene, std::span<const CameraModel> cameras,
                          const LegalViewpoints& legal, const Box3& navigation_m, double radius_m)
     : scene_(scene), legal_(legal), navigation_m_(navigation_m), radius_m_(radius_m) {
-  for (const CameraModel& camera : cameras) cameras_.emplace_back(camera);
+  for (const CameraModel& camera : cameras) {
+    for (const CameraModel& fixed : at_all_pitches(camera)) cameras_.emplace_back(fixed);
+  }
   for (const FreeYawCamera& camera : cameras_) reach_m_ = std::max(reach_m_, camera.reach_m());
   map_lattice();
   std::vector<std::size_t> order(legal.size());

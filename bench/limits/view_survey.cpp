@@ -60,6 +60,8 @@ std::vector<SurveyedView> worthwhile_views(const RayScene& scene, const LegalVie
                                            std::span<const CameraModel> cameras, double floor_z_m,
                                            int threads) {
   const std::vector<CameraModel> quick = coarse(cameras);
+  const std::optional<GimbalConfig> gimbal = gimbal_of(cameras);
+  const std::vector<double> pitches = gimbal ? pitches_rad(*gimbal) : std::vector<double>{0.0};
   const double far_m = reach_m(cameras);
   const std::int32_t stride = stride_of(legal, cameras);
   std::vector<std::vector<SurveyedView>> at(legal.size());
@@ -69,10 +71,13 @@ std::vector<SurveyedView> worthwhile_views(const RayScene& scene, const LegalVie
     if (std::isinf(scene.distance_to_structure_m(legal.p_world_m[i], far_m))) return;
     std::vector<FrameRays> rays;
     for (int k = 0; k < kYaws; ++k) {
-      const SurveyedView view{.position = static_cast<std::uint32_t>(i),
-                              .yaw_rad = wrap_angle_rad(2.0 * kPi * k / kYaws)};
-      take_view(scene, quick, pose_of(legal, view), floor_z_m, 1, rays);
-      if (share_of_hits(rays) >= kFewestPixels) at[i].push_back(view);
+      for (const double pitch_rad : pitches) {
+        const SurveyedView view{.position = static_cast<std::uint32_t>(i),
+                                .yaw_rad = wrap_angle_rad(2.0 * kPi * k / kYaws),
+                                .gimbal_pitch_rad = pitch_rad};
+        take_view(scene, quick, pose_of(legal, view), floor_z_m, 1, rays);
+        if (share_of_hits(rays) >= kFewestPixels) at[i].push_back(view);
+      }
     }
   });
   std::vector<SurveyedView> views;
@@ -83,7 +88,7 @@ std::vector<SurveyedView> worthwhile_views(const RayScene& scene, const LegalVie
 }  // namespace
 
 ViewPose pose_of(const LegalViewpoints& legal, const SurveyedView& view) {
-  return {legal.p_world_m[view.position], view.yaw_rad};
+  return {legal.p_world_m[view.position], view.yaw_rad, view.gimbal_pitch_rad};
 }
 
 ViewSurvey survey_views(const Scenario& scenario, const RayScene& scene,

@@ -14,6 +14,7 @@ namespace gnbv {
 struct SurveyedView {
   std::uint32_t position = 0;             // of the legal viewpoints
   double yaw_rad = 0.0;                   // a multiple of 45 degrees, in (-pi, pi]
+  double gimbal_pitch_rad = 0.0;          // one of the gimbal's
   std::vector<std::uint32_t> finds = {};  // finds_alone() of the finest outside voxels
 };
 
@@ -26,10 +27,11 @@ struct ViewSurvey {
 };
 
 /// Every second legal position along each axis (every one where two steps are more than half the
-/// least range_max_m of the cameras), by eight yaws, as far as the structure fills a twentieth of
-/// the images at least. All views, in the order of `views`, go through one cloud
-/// (CloudOfViews). A leaf of it keeps the centroid that reached it first, as a mission's does:
-/// another order gives a slightly different cloud. The same at any number of threads.
+/// least range_max_m of the cameras), by eight yaws and all pitches of a gimbal, as far as the
+/// structure fills a twentieth of the images at least. All views, in the order of `views`, go
+/// through one cloud (CloudOfViews). A leaf of it keeps the centroid that reached it first, as a
+/// mission's does: another order gives a slightly different cloud. The same at any number of
+/// threads.
 ViewSurvey survey_views(const Scenario& scenario, const RayScene& scene,
                         const LegalViewpoints& legal, const SurfaceReference& reference,
                         int threads);

@@ -28,7 +28,13 @@ inline double wrap_angle_rad(double angle_rad) {
 struct ViewPose {
   Vec3 p_world_m = Vec3::Zero();
   double yaw_rad = 0.0;
+  double gimbal_pitch_rad = 0.0;  // of cameras on a gimbal, positive looks down; 0 without one
 };
+
+inline bool is_same_view(const ViewPose& a, const ViewPose& b) {
+  return a.p_world_m == b.p_world_m && a.yaw_rad == b.yaw_rad &&
+         a.gimbal_pitch_rad == b.gimbal_pitch_rad;
+}
 
 inline Isometry T_world_body(const ViewPose& pose) {
   Isometry T = Isometry::Identity();

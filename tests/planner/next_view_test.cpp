@@ -48,7 +48,7 @@ TEST(PlanNextView, ChoosesTheHighestUtilityAndTheFirstOfEquals) {
     Candidate candidate{.view = view, .sampler = "agvs"};
     checker.check(candidate);
     if (candidate.rejected) continue;
-    ViewStats stats = evaluate_view(belief.grid, belief.cloud, model.view_rays, view, marks);
+    ViewStats stats = evaluate_view(belief.grid, belief.cloud, model.view_rays[0], view, marks);
     stats.density_max = belief.cloud.density_max();
     stats.path_m = (view.p_world_m - kCurrent.p_world_m).norm();
     const auto utility = score(model.config.utility, stats);

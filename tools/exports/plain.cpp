@@ -35,7 +35,7 @@ views.csv        a row for each view and camera: where body and camera were, why
                  no frame was kept. entropy_nat: of the whole map; straight_m, flown_m: since the
                  first view; image, depth: files here
 intrinsics.json  of each camera: pinhole, pixels, the centre of the first pixel at (0.5, 0.5);
-                 T_body_camera row by row; ranges along the optical axis; depth_scale_m: metres a
+                 T_body_camera row by row, of a camera on a gimbal with the gimbal level; ranges along the optical axis; depth_scale_m: metres a
                  step of its depth images
 images/*.png     colour, sRGB, 8 bits
 depth/*.png      16 bits, steps of depth_scale_m along the optical axis, 0 where there is none
@@ -105,8 +105,9 @@ std::string views_text(const RunRecord& record, const PlainParts& parts) {
                                  pose_header("body"), pose_header("camera"), decision_header());
   for (const ViewRecord& view : record.views) {
     for (const CameraConfig& config : record.scenario.cameras) {
-      text +=
-          view_row(view, make_camera_model(config), find_frame(parts, view.iteration, config.name));
+      const CameraModel camera =
+          turned(make_camera_model(config), view.decision.view.gimbal_pitch_rad);
+      text += view_row(view, camera, find_frame(parts, view.iteration, config.name));
     }
   }
   return text;

@@ -19,8 +19,9 @@ constexpr const char* kTumReadme =
 trajectory.txt           true path of the body (x forward, y left, z up) in the world (ENU, metres)
                          at 10 Hz: time_s x y z qx qy qz qw, as `evo_traj tum` opens it
 CAMERA/groundtruth.txt   true path of the camera (x right, y down, z forward), the same columns,
-                         at 10 Hz and at every frame; up to 0.1 s after the last sample of the
-                         path, where the last view may be, that sample holds
+                         at 10 Hz and at every frame, of a camera on a gimbal at frames only; up to
+                         0.1 s after the last sample of the path, where the last view may be, that
+                         sample holds
 CAMERA/estimate.txt      where the vehicle believed the camera to be, at every frame;
                          `evo_ape tum groundtruth.txt estimate.txt` measures the difference
 CAMERA/calibration.txt   fx fy cx cy width height in pixels, no distortion; the centre of the
@@ -55,6 +56,20 @@ std::string groundtruth_text(const RunRecord& record, const Isometry& T_body_cam
   return text;
 }
 
+/// Of a camera on a gimbal: how it turned on the way stands in no file, so only where it looked.
+std::string groundtruth_at_frames(const RunRecord& record, const CameraModel& camera,
+                                  const FrameRecord& frames, std::size_t index) {
+  std::string text = tum_text("optical frame in world ENU, true, where frames were taken", {});
+  for (const RecordedFrame& frame : frames.frames) {
+    const auto view = static_cast<std::size_t>(frame.iteration);
+    const std::optional<Isometry> T_world_body = true_pose_at(record, frame.time_s);
+    if (frame.camera != index || view >= record.views.size() || !T_world_body) continue;
+    const double pitch_rad = record.views[view].decision.view.gimbal_pitch_rad;
+    text += tum_line(frame.time_s, *T_world_body * turned(camera, pitch_rad).T_body_camera);
+  }
+  return text;
+}
+
 void write_camera(const RunRecord& record, const FrameRecord& frames, std::size_t camera,
                   const fs::path& folder) {
   std::string rgb = "# time_s file\n";
@@ -75,7 +90,7 @@ void write_camera(const RunRecord& record, const FrameRecord& frames, std::size_
     link_or_copy(frame.depth, folder / "depth" / name);
   }
   if (times_s.empty()) return;
-  const Isometry T_body_camera = camera_named(record, frames.cameras[camera].name).T_body_camera;
+  const CameraModel model = camera_named(record, frames.cameras[camera].name);
   const FrameCamera& c = frames.cameras[camera];
   write_file_atomically(folder / "calibration.txt",
                         fmt::format("# fx fy cx cy width height\n{} {} {} {} {} {}\n", c.fx_px,
@@ -85,7 +100,9 @@ void write_camera(const RunRecord& record, const FrameRecord& frames, std::size_
   write_file_atomically(folder / "associations.txt", associations);
   write_file_atomically(folder / "estimate.txt", estimate);
   write_file_atomically(folder / "groundtruth.txt",
-                        groundtruth_text(record, T_body_camera, times_s));
+                        model.config.gimbal
+                            ? groundtruth_at_frames(record, model, frames, camera)
+                            : groundtruth_text(record, model.T_body_camera, times_s));
 }
 
 }  // namespace

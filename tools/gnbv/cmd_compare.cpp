@@ -5,11 +5,13 @@
 #include <memory>
 
 #include "bench/compare/comparison_text.hpp"
+#include "planner/routes.hpp"
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "tools/gnbv/bench_runs.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/shared_options.hpp"
+#include "tools/run_files/given_views.hpp"
 #include "tools/sweep/manifest.hpp"
 #include "tools/sweep/method_options.hpp"
 
@@ -22,6 +24,7 @@ struct CompareOptions {
   ScenarioOptions structure;  // of every scenario
   std::vector<std::string> scenarios;
   MethodOptions methods;
+  fs::path views;  // of the method `route`
   BenchOptions bench = {.seed_count = 8};
   std::string baseline;  // "" is the first method
   fs::path from;         // of a sweep; "" flies
@@ -70,9 +73,26 @@ std::uint64_t first_seed(const CompareOptions& options) {
   return resolve_scenario(first).seed;
 }
 
+/// The methods, the one named `route` with its views.
+std::vector<SweepMethod> methods_with_views(const CompareOptions& options) {
+  std::vector<SweepMethod> methods = methods_of(options.methods);
+  if (options.views.empty()) return methods;
+  const auto route = std::find_if(methods.begin(), methods.end(), [](const SweepMethod& method) {
+    return method.name == kGivenRouteName;
+  });
+  if (route == methods.end()) {
+    throw BadInput(fmt::format("--views {}: goes with {} among --utilities", options.views.string(),
+                               kGivenRouteName));
+  }
+  route->sources.resize(route->overrides.size());
+  route->overrides.push_back(views_override(read_given_views(options.views)));
+  route->sources.push_back(fmt::format("--views {}", options.views.string()));
+  return methods;
+}
+
 Plan plan_of(const CompareOptions& options) {
   Sweep sweep{.scenarios = scenarios_of(options), .methods = {}, .seeds = {}, .folder = {}};
-  sweep.methods = methods_of(options.methods);
+  sweep.methods = methods_with_views(options);
   std::vector<std::string> names;
   for (const SweepMethod& method : sweep.methods) names.push_back(method.name);
   Plan plan{.cells = {}, .baseline = chosen_baseline(names, options.baseline)};
@@ -142,6 +162,8 @@ void add_compare_command(CLI::App& app) {
           ->add_option("--vary", methods.varies,
                        "KEY=VALUE[,VALUE]...: a method a value; repeatable")
           ->allow_extra_args(false)};
+  what_to_fly.push_back(command->add_option(
+      "--views", options->views, "body poses that the utility `route` flies, CSV or TUM"));
   command->add_option("--baseline", options->baseline,
                       "method the others are tested against (default: the first)");
   add_bench_options(*command, options->bench);

@@ -5,13 +5,16 @@
 #include <memory>
 
 #include "bench/compare/paper_table.hpp"
+#include "planner/routes.hpp"
 #include "scenarios/papers_setting.hpp"
+#include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/early_end.hpp"
 #include "tools/gnbv/margin_note.hpp"
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/execute.hpp"
+#include "tools/mission/view_pipe.hpp"
 #include "tools/run_files/file_names.hpp"
 #include "tools/run_files/run_commands.hpp"
 #include "tools/run_files/summary_json.hpp"
@@ -25,15 +28,36 @@ struct RunOptions {
   bool json = false;
 };
 
+void need_route(const RunOptions& options, const Scenario& scenario) {
+  const std::string& utility = scenario.planner.utility.name;
+  if (options.mission.coverage && !options.mission.piped_views) {
+    throw BadInput("--coverage: tells it to whoever sends views: --views -");
+  }
+  if (options.scenario.views.empty() || is_given_route(utility)) return;
+  throw BadInput(fmt::format("--views {}: goes with --utility {}, not {}", options.scenario.views,
+                             kGivenRouteName, utility));
+}
+
+void set_views(const std::string& file, RunOptions& options) {
+  options.mission.piped_views = file == "-";
+  options.scenario.views = file == "-" ? "" : file;
+}
+
 void run(const RunOptions& options) {
   const Scenario scenario = resolve_scenario(options.scenario);
+  need_route(options, scenario);
   const ExecutedMission mission = execute_mission(scenario, options.mission);
-  if (options.json) {
+  if (options.mission.piped_views) {
+    fmt::print("{}", pipe_end_line(mission.result, mission.folder.string()));
+  } else if (options.json) {
     fmt::print("{}", read_file(mission.folder / kSummaryFile));
   } else {
     fmt::print("{}\n{}\n",
                one_row_summary(read_run_figures(mission.folder), has_papers_setting(scenario)),
                mission.folder.string());
+  }
+  if (const std::string note = refused_views_note(mission.result); !note.empty()) {
+    fmt::print(stderr, "gnbv: {}", note);
   }
   if (const std::string note = early_end_note(mission.result, mission.score.final[0]);
       !note.empty()) {
@@ -64,6 +88,12 @@ void add_run_command(CLI::App& app) {
   MissionOptions& mission = options->mission;
   add_scenario_options(*command, options->scenario);
   command->add_option("--utility", options->scenario.utility, "utility by name");
+  command->add_option_function<std::string>(
+      "--views", [options](const std::string& file) { set_views(file, *options); },
+      "with --utility route: body poses to fly, CSV or TUM; -: one a line from stdin, each "
+      "answered "
+      "by a line of JSON on stdout");
+  command->add_flag("--coverage", mission.coverage, "--views -: answers tell the true coverage");
   add_preset_option(*command, options->scenario);
   command->add_option("--out", mission.out, "run directory (default: a new one under runs/)");
   add_threads_option(*command, mission.threads);

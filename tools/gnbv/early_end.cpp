@@ -32,6 +32,8 @@ std::string_view meaning_of(Rejection reason) {
       return "without any surface in sight";
     case Rejection::no_fly:
       return "within planner.validity.collision_radius_m of a no_fly box";
+    case Rejection::beyond_gimbal:
+      return "with a pitch that no gimbal reaches";
   }
   return "";
 }
@@ -58,6 +60,8 @@ std::string_view remedy_for(Rejection reason) {
              "planner.fvs.enabled: true";
     case Rejection::no_fly:
       return "smaller no_fly boxes, or a larger workspace_m";
+    case Rejection::beyond_gimbal:
+      return "pitches within cameras.N.pitch_deg: {min, max, step}";
   }
   return "";
 }
@@ -76,6 +80,23 @@ std::string of_no_valid_view(const std::map<Rejection, int>& rejections) {
 }
 
 }  // namespace
+
+std::string refused_views_note(const MissionResult& result) {
+  std::map<Rejection, int> counts;
+  int refused = 0;
+  for (const GivenView& view : result.given_views) {
+    if (!view.rejected) continue;
+    ++counts[*view.rejected];
+    ++refused;
+  }
+  if (refused == 0) return "";
+  std::string text = fmt::format("{} of {} given views refused, views.csv says which:\n", refused,
+                                 result.given_views.size());
+  for (const auto& [reason, count] : counts) {
+    text += fmt::format("  {:5} {}\n", count, meaning_of(reason));
+  }
+  return text;
+}
 
 std::string early_end_note(const MissionResult& result, double coverage) {
   const std::size_t views = result.views.size();

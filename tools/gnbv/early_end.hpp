@@ -11,4 +11,7 @@ namespace gnbv {
 /// that covered most of the surface (`coverage` at 0.05 m), and one that was told to end.
 std::string early_end_note(const MissionResult& result, double coverage);
 
+/// How many given views were refused, and why, a few lines; empty for none.
+std::string refused_views_note(const MissionResult& result);
+
 }  // namespace gnbv

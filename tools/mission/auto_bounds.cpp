@@ -36,13 +36,15 @@ double steep_tan(double rad) {
   return std::tan(std::clamp(rad, -kSteepest_rad, kSteepest_rad));
 }
 
-/// What is before a camera that looks north, its yaw left aside.
+/// What is before a camera that looks north, its yaw left aside, at any pitch of its gimbal.
 struct NorthernView {
   explicit NorthernView(const CameraConfig& camera)
       : range_m(camera.range_max_m),
         tan_side(std::tan(0.5 * camera.fov_x_rad)),
-        tan_up(steep_tan(0.5 * camera.fov_y_rad - camera.pitch_rad)),
-        tan_down(steep_tan(0.5 * camera.fov_y_rad + camera.pitch_rad)) {}
+        tan_up(steep_tan(0.5 * camera.fov_y_rad -
+                         (camera.gimbal ? camera.gimbal->min_rad : camera.pitch_rad))),
+        tan_down(steep_tan(0.5 * camera.fov_y_rad +
+                           (camera.gimbal ? camera.gimbal->max_rad : camera.pitch_rad))) {}
 
   bool has(const Vec3& to_m) const {
     return to_m.y() > 0.0 && to_m.norm() <= range_m && std::abs(to_m.x()) <= tan_side * to_m.y() &&

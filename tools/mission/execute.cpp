@@ -5,6 +5,7 @@
 
 #include "bench/limits/oracle.hpp"
 #include "planner/map/memory.hpp"
+#include "planner/routes.hpp"
 #include "planner/symmetry/symmetry_module.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/shell_word.hpp"
@@ -13,6 +14,7 @@
 #include "tools/mission/mission.hpp"
 #include "tools/mission/reference.hpp"
 #include "tools/mission/start_pose.hpp"
+#include "tools/mission/view_pipe.hpp"
 #include "tools/run_files/candidates_jsonl.hpp"
 #include "tools/run_files/file_names.hpp"
 #include "tools/run_files/frames_folder.hpp"
@@ -43,6 +45,20 @@ void need_saved_profile(const Scenario& scenario) {
   if (profiling.method != ProfilingMethod::saved) return;
   read_belief(profiling.file,
               PlannerModel(scenario.planner, scenario.workspace_m, camera_models(scenario), {}));
+}
+
+/// Given views go with the utility `route`, and it with them.
+void need_views(const Scenario& scenario, bool are_piped) {
+  const std::string& utility = scenario.planner.utility.name;
+  if (are_piped && !is_given_route(utility)) {
+    throw BadInput(
+        fmt::format("--views -: goes with --utility {}, not {}", kGivenRouteName, utility));
+  }
+  if (are_piped || !is_given_route(utility) || !scenario.planner.routes.views.empty()) return;
+  throw BadInput(fmt::format(
+      "planner.routes.views: holds no view, and planner.utility.name = {} flies what it holds; "
+      "--views FILE gives some",
+      kGivenRouteName));
 }
 
 /// The views of an oracle, which knows the structure; nothing for those who have to find out.
@@ -99,6 +115,7 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
   const RayScene scene(world);
   need_way_out(scenario, scene, bounds_m(world.structure), start_pose(scenario, scene), threads);
   need_saved_profile(scenario);
+  need_views(scenario, options.piped_views);
   if (scenario.planner.symmetry.enabled) symmetry_module();  // throws when it is missing
   const fs::path folder =
       options.out.empty() ? free_folder(fmt::format("{}-{}-seed{}", scenario.name,
@@ -126,6 +143,11 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
       candidates.emplace(directory.path(), directory.recorded().size());
       hooks.on_candidates = [&](const auto&... all) { candidates->write(all...); };
     }
+    std::optional<ViewPipe> pipe;
+    if (options.piped_views) {
+      pipe.emplace(scenario, directory, options.frames, options.coverage ? &reference : nullptr);
+      pipe->connect(hooks);
+    }
     MissionResult result = run_mission(scenario, world, scene, hooks, threads);
     const Stopwatch scoring;
     progress.show(1.0, "scoring");
@@ -135,7 +157,7 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
         score_cloud(reference, scene, cloud, scenario.planner.map.resolution_m, threads);
     result.wall.score_s = scoring.elapsed_s();
     score.ceiling = run_ceiling(scenario, world, scene, options.ceiling, threads);
-    directory.finish(scenario, result, score, watch.elapsed_s());
+    directory.finish(pipe ? pipe->scenario() : scenario, result, score, watch.elapsed_s());
     if (candidates) candidates->finish();
     return {directory.path(), std::move(result), score, watch.elapsed_s()};
   } catch (const BrokenInvariant& broken) {

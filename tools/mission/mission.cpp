@@ -1,17 +1,27 @@
 #include "tools/mission/mission.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "planner/follow_route.hpp"
 #include "planner/map/path_search.hpp"
 #include "planner/next_view.hpp"
 #include "sim/core/error.hpp"
+#include "tools/mission/given_route.hpp"
 #include "tools/mission/homing.hpp"
 #include "tools/mission/mission_state.hpp"
 #include "tools/mission/sensing.hpp"
 
 namespace gnbv {
 namespace {
+
+/// Of a gimbal: MAVLink's gimbal protocol leaves the rate to the device; small ones do 60 to 180.
+constexpr double kGimbalRate_rad_s = deg_to_rad(60.0);
+
+/// The camera as it looks now.
+CameraModel camera_now(const Mission& m, std::size_t camera) {
+  return turned(m.planner.cameras[camera], m.gimbal_pitch_rad);
+}
 
 /// The camera's depth frame now, counted; nothing when it is lost.
 std::optional<DepthFrame> take_frame(Mission& m, std::size_t camera) {
@@ -20,12 +30,22 @@ std::optional<DepthFrame> take_frame(Mission& m, std::size_t camera) {
     return std::nullopt;
   }
   ++m.out.frames.taken;
-  return sense_depth(m.scene, m.planner.cameras[camera], static_cast<int>(camera), *m.flight,
+  return sense_depth(m.scene, camera_now(m, camera), static_cast<int>(camera), *m.flight,
                      m.scenario.seed, m.bench.threads);
 }
 
-/// Flies to the view; cameras that run in flight are believed on the way. A frame is believed one
-/// tick late, so that one due on arrival is left to the view itself.
+/// One tick of the gimbal towards the view's pitch.
+void turn_gimbal(Mission& m, const ViewPose& view) {
+  constexpr double kStep_rad = kGimbalRate_rad_s * kTick_s;
+  const double to_go_rad = view.gimbal_pitch_rad - m.gimbal_pitch_rad;
+  m.gimbal_pitch_rad = std::abs(to_go_rad) <= kStep_rad
+                           ? view.gimbal_pitch_rad
+                           : m.gimbal_pitch_rad + std::copysign(kStep_rad, to_go_rad);
+}
+
+/// Flies to the view, the gimbal turning from the first tick on, and waits there until it has;
+/// cameras that run in flight are believed on the way. A frame is believed one tick late, so that
+/// one due on arrival is left to the view itself.
 std::optional<Termination> fly_to_view(Mission& m, const Decision& next) {
   const ScopeTimer timer(m.view_wall.fly_s);
   m.entropy_before_nat = m.out.belief.grid.total_entropy_nat();
@@ -35,17 +55,23 @@ std::optional<Termination> fly_to_view(Mission& m, const Decision& next) {
   const auto look = [&](const Flight& flight) {
     integrate_view(m.planner, pending, m.bench, m.out.belief);
     pending.clear();
+    turn_gimbal(m, next.view);
     for (std::size_t i = 0; i < m.planner.cameras.size(); ++i) {
       if (!is_due(m.planner.cameras[i].config.rate_hz, flight.tick())) continue;
       if (auto frame = take_frame(m, i)) pending.push_back(std::move(*frame));
     }
   };
   std::vector<ViewPose> legs;
-  for (const Vec3& via_m : next.via_world_m) legs.push_back({via_m, next.view.yaw_rad});
+  for (const Vec3& via_m : next.via_world_m) {
+    legs.push_back({via_m, next.view.yaw_rad, next.view.gimbal_pitch_rad});
+  }
   legs.push_back(next.view);
+  const double speed_m_s = m.scenario.guidance.path_speed_m_s;
   std::optional<Termination> over;
-  for (std::size_t i = 0; i < legs.size() && !over; ++i) {
-    over = fly_leg(m, legs[i], m.scenario.guidance.path_speed_m_s, look);
+  for (std::size_t i = 0; i < legs.size() && !over; ++i)
+    over = fly_leg(m, legs[i], speed_m_s, look);
+  while (!over && m.gimbal_pitch_rad != next.view.gimbal_pitch_rad) {
+    over = fly_leg(m, next.view, speed_m_s, look);
   }
   m.out.distance.flown_m = m.flown_m;
   return over;
@@ -57,11 +83,12 @@ std::vector<DepthFrame> sense(Mission& m) {
   for (std::size_t i = 0; i < m.planner.cameras.size(); ++i) {
     if (auto frame = take_frame(m, i)) frames.push_back(std::move(*frame));
   }
+  m.hooks.on_sensed(m.flight->estimate().T_world_body, frames);
   if (!m.hooks.on_frames) return frames;
   std::vector<ColourFrame> colours;
   for (const DepthFrame& frame : frames) {
     colours.push_back(sense_colour(m.scene,
-                                   m.planner.cameras[static_cast<std::size_t>(frame.camera)],
+                                   camera_now(m, static_cast<std::size_t>(frame.camera)),
                                    frame.camera, *m.flight, m.bench.threads));
   }
   m.hooks.on_frames(m.out.views.size(), time_s(*m.flight), frames, colours);
@@ -76,6 +103,7 @@ void integrate(Mission& m, std::span<const DepthFrame> frames) {
 
 void record(Mission& m, const Decision& decision) {
   m.history.decisions.push_back(decision);
+  if (m.next_given > 0) m.out.given_views[m.next_given - 1].iteration = m.out.views.size();
   const Belief& belief = m.out.belief;
   const std::size_t points = belief.cloud.points_world_m().size();
   const std::size_t occupied = belief.grid.occupied_count();
@@ -105,12 +133,12 @@ std::optional<Termination> termination(const Mission& m) {
   if (m.out.views.size() >= static_cast<std::size_t>(config.max_iterations)) {
     return Termination::max_iterations;
   }
-  if (!m.hooks.route) {
+  if (!m.hooks.route && !flies_given(m)) {
     if (entropy_has_settled(config, m.history.entropies_nat)) return Termination::entropy_change;
     if (is_back_and_forth(positions_of(m.history), config.repeated_moves)) {
       return Termination::repeated_motion;
     }
-  } else if (m.out.views.size() > m.hooks.route->size()) {
+  } else if (m.hooks.route && m.out.views.size() > m.hooks.route->size()) {
     return Termination::route_flown;
   }
   if (should_stop(m)) return Termination::interrupted;
@@ -120,6 +148,7 @@ std::optional<Termination> termination(const Mission& m) {
 std::optional<Decision> decide(Mission& m) {
   const ScopeTimer timer(m.view_wall.plan_s);
   const std::size_t next = m.history.decisions.size();
+  if (flies_given(m)) return next_given_view(m);
   if (next < m.hooks.replay.size()) return m.hooks.replay[next];
   if (m.hooks.route) return m.hooks.route->at(next - 1);  // decision 0 is the start
   Plan plan = m.laid_route
@@ -158,7 +187,7 @@ MissionResult run_mission(const Scenario& scenario, const World& world, const Ra
     record(m, next);
     if (const auto over = termination(m)) return finish(m, *over);
     const std::optional<Decision> decision = decide(m);
-    if (!decision) return finish(m, Termination::no_valid_view);
+    if (!decision) return finish(m, flies_given(m) ? end_of_given(m) : Termination::no_valid_view);
     if (!can_afford(m, *decision)) return finish(m, Termination::battery);
     next = *decision;
   }

@@ -33,6 +33,14 @@ struct MissionHooks {
   /// it chooses. Not called for replayed decisions.
   std::function<void(std::size_t iteration, const Plan&)> on_candidates = [](std::size_t,
                                                                              const Plan&) {};
+  /// What each view measured, as believed: the vehicle's pose and the frames, camera by camera.
+  std::function<void(const Isometry& T_world_body, std::span<const DepthFrame>)> on_sensed =
+      [](const Isometry&, std::span<const DepthFrame>) {};
+  /// One more view for a mission that flies given ones and has used up those of its scenario;
+  /// nothing: there are no more.
+  std::function<std::optional<ViewPose>()> next_given = [] { return std::nullopt; };
+  /// A given view, by its index, that cannot be flown.
+  std::function<void(std::size_t index, Rejection)> on_refused = [](std::size_t, Rejection) {};
   /// Asked after each leg of the profile, at its end, and after each view.
   std::function<bool()> should_stop = [] { return false; };
   std::vector<Decision> replay;  // decisions of an interrupted run: flown again, not planned again

@@ -48,7 +48,11 @@ Mission::Mission(const Scenario& mission_scenario, const World& world, const Ray
       out(start_pose(scenario, scene), planner),
       flight(make_flight(scenario.vehicle, world, out.start, scenario.seed, scenario.wind)),
       current(out.start),
-      last_p_world_m(out.start.p_world_m) {}
+      last_p_world_m(out.start.p_world_m),
+      gimbal_pitch_rad(out.start.gimbal_pitch_rad) {
+  if (!is_given_route(scenario.planner.utility.name)) return;
+  for (const ViewPose& view : scenario.planner.routes.views) out.given_views.push_back({view});
+}
 
 bool should_stop(const Mission& m) {
   return m.out.views.size() >= m.hooks.replay.size() && m.hooks.should_stop();
@@ -83,7 +87,7 @@ std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal, double spee
   if (end == LegEnd::timeout) {
     ++m.out.legs_timed_out;
     const Isometry T = m.flight->estimate().T_world_body;
-    m.current = {T.translation(), yaw_of(T)};
+    m.current = {T.translation(), yaw_of(T), goal.gimbal_pitch_rad};
   }
   return std::nullopt;
 }

@@ -38,6 +38,8 @@ struct Mission {
   std::optional<std::vector<ViewPose>> laid_route;  // of a baseline that plans all views at once
   ViewPose current;                                 // where the planner believes to be
   Vec3 last_p_world_m;                              // truth, one tick ago
+  std::size_t next_given = 0;                       // of out.given_views
+  double gimbal_pitch_rad = 0.0;                    // where it is
   double flown_m = 0.0;                             // truth, since the start
   std::vector<Exit> exits;                          // none: home leads over the top
   bool is_homing = false;                           // on the last way, with energy for it

@@ -8,6 +8,7 @@
 #include "sim/core/file.hpp"
 #include "tools/mission/auto_bounds.hpp"
 #include "tools/mission/load_world.hpp"
+#include "tools/run_files/given_views.hpp"
 
 namespace gnbv {
 
@@ -35,6 +36,10 @@ Scenario resolve_scenario(const ScenarioOptions& options, const std::vector<Over
   if (!options.utility.empty()) add(fmt::format("planner.utility.name={}", options.utility));
   if (!options.preset.empty()) add("planner.preset=" + options.preset);
   if (!options.seed.empty()) add("seed=" + options.seed);
+  if (!options.views.empty()) {
+    all.push_back({.text = views_override(read_given_views(options.views)),
+                   .source = fmt::format("--views {}", options.views)});
+  }
   for (const std::string& text : options.overrides) add(text);
   all.insert(all.end(), overrides.begin(), overrides.end());
   Filling bounds{.source = "--bounds auto", .fill = {}};

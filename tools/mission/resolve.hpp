@@ -19,6 +19,7 @@ struct ScenarioOptions {
   std::string preset;                  // "" keeps the scenario's
   std::string seed;                    // "" keeps the scenario's
   std::vector<std::string> overrides;  // --set key=value, in order
+  std::string views;                   // a file of body poses to fly; "" keeps the scenario\'s
   bool bounds_auto = false;            // lay the workspace and the start around the structure
 };
 

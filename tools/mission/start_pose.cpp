@@ -28,6 +28,9 @@ ViewPose start_pose(const Scenario& scenario, const RayScene& scene) {
       return 2.0 * uniform01({scenario.seed, Stream::start_pose, attempt, axis}) - 1.0;
     };
     ViewPose pose = start.pose;
+    if (const auto gimbal = gimbal_of(scenario.cameras)) {
+      pose.gimbal_pitch_rad = nearest_pitch_rad(*gimbal, 0.0);
+    }
     pose.p_world_m += start.jitter_m.cwiseProduct(Vec3(offset(0), offset(1), offset(2)));
     pose.p_world_m = pose.p_world_m.cwiseMax(box.min()).cwiseMin(box.max());
     pose.yaw_rad = wrap_angle_rad(pose.yaw_rad + start.jitter_yaw_rad * offset(3));

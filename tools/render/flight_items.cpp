@@ -83,7 +83,8 @@ void add_views(const RunRecord& record, std::size_t count, int every, const Flig
     scene.balls.push_back({pose.p_world_m.cast<float>(), static_cast<float>(3.2 * unit_m), colour});
     if (i % step != 0) continue;
     for (const CameraConfig& camera : record.scenario.cameras) {
-      FrustumItem frustum = frustum_of(camera, T_world_body(pose), 27.0 * look.unit_m, colour);
+      FrustumItem frustum =
+          frustum_of(camera, T_world_body(pose), pose.gimbal_pitch_rad, 27.0 * look.unit_m, colour);
       frustum.edge_radius_m = static_cast<float>(0.75 * unit_m);
       frustum.face_opacity = 0.25F;
       scene.frusta.push_back(frustum);
@@ -91,10 +92,11 @@ void add_views(const RunRecord& record, std::size_t count, int every, const Flig
   }
 }
 
-FrustumItem frustum_of(const CameraConfig& camera, const Isometry& T_world_body, double length_m,
-                       const Rgb& colour) {
+FrustumItem frustum_of(const CameraConfig& camera, const Isometry& T_world_body,
+                       double gimbal_pitch_rad, double length_m, const Rgb& colour) {
   FrustumItem frustum;
-  frustum.T_world_camera = T_world_body * make_camera_model(camera).T_body_camera;
+  frustum.T_world_camera =
+      T_world_body * turned(make_camera_model(camera), gimbal_pitch_rad).T_body_camera;
   frustum.fov_x_rad = camera.fov_x_rad;
   frustum.fov_y_rad = camera.fov_y_rad;
   frustum.length_m = length_m;

@@ -27,9 +27,10 @@ void add_flight(const RunRecord& record, const FlightLook& look, RenderScene& sc
 void add_views(const RunRecord& record, std::size_t count, int every, const FlightLook& look,
                RenderScene& scene);
 
-/// The pyramid of a camera on a body, `length_m` long.
-FrustumItem frustum_of(const CameraConfig& camera, const Isometry& T_world_body, double length_m,
-                       const Rgb& colour);
+/// The pyramid of a camera on a body whose gimbal, if that is what the camera hangs on, has this
+/// pitch; `length_m` long.
+FrustumItem frustum_of(const CameraConfig& camera, const Isometry& T_world_body,
+                       double gimbal_pitch_rad, double length_m, const Rgb& colour);
 
 /// A path in one colour, its straight parts as one piece each.
 TubeItem path_tube(const std::vector<Vec3>& path_world_m, double unit_m, const Rgb& colour);

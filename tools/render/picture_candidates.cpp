@@ -31,8 +31,9 @@ struct Reason {
 };
 
 // Dark and muted: rejected views are context.
-const std::array<Reason, 9>& reasons() {
-  static const std::array<Reason, 9> all = {
+constexpr std::size_t kReasons = 10;
+const std::array<Reason, kReasons>& reasons() {
+  static const std::array<Reason, kReasons> all = {
       {{Rejection::out_of_bounds, "out of bounds", srgb(0x9aa3ae)},
        {Rejection::not_free, "not free", srgb(0x2f3640)},
        {Rejection::collision, "collision", srgb(0xa3321f)},
@@ -41,7 +42,8 @@ const std::array<Reason, 9>& reasons() {
        {Rejection::cluster_outside_fov, "cluster outside view", srgb(0x4f7f86)},
        {Rejection::cluster_hidden, "cluster hidden", srgb(0x3f5b8c)},
        {Rejection::sees_no_surface, "sees no surface", srgb(0x6f8f2a)},
-       {Rejection::no_fly, "no-fly box", srgb(0xb03a6b)}}};
+       {Rejection::no_fly, "no-fly box", srgb(0xb03a6b)},
+       {Rejection::beyond_gimbal, "beyond the gimbal", srgb(0x8a5a6a)}}};
   return all;
 }
 
@@ -73,8 +75,8 @@ void frame_candidates(RunSource& run, const PictureOptions& options,
   points_world_m.push_back(record.views[iteration - 1].decision.view.p_world_m);
   points_world_m.push_back(chosen.p_world_m);
   for (const CameraConfig& camera : record.scenario.cameras) {
-    const FrustumItem f =
-        frustum_of(camera, T_world_body(chosen), reach_m(run.world(), camera, chosen), kChosen);
+    const FrustumItem f = frustum_of(camera, T_world_body(chosen), chosen.gimbal_pitch_rad,
+                                     reach_m(run.world(), camera, chosen), kChosen);
     for (const double x : {-1.0, 1.0}) {
       for (const double y : {-1.0, 1.0}) {
         const Vec3 corner(x * std::tan(0.5 * f.fov_x_rad), y * std::tan(0.5 * f.fov_y_rad), 1.0);
@@ -117,7 +119,8 @@ void add_chosen(const RunRecord& record, const World& world, const Belief& belie
   const ViewPose& view = record.views[iteration].decision.view;
   for (const CameraConfig& camera : record.scenario.cameras) {
     const double length_m = reach_m(world, camera, view);
-    FrustumItem frustum = frustum_of(camera, T_world_body(view), length_m, kChosen);
+    FrustumItem frustum =
+        frustum_of(camera, T_world_body(view), view.gimbal_pitch_rad, length_m, kChosen);
     frustum.edge_radius_m = static_cast<float>(1.2 * unit_m);
     frustum.face_opacity = 0.06F;
     scene.frusta.push_back(frustum);
@@ -146,7 +149,8 @@ void add_chosen(const RunRecord& record, const World& world, const Belief& belie
 // A pin: where it stands, and which way it looks.
 void add_pin(const ViewPose& view, double length_m, double radius_m, const Rgb& colour,
              RenderScene& scene) {
-  const Vec3 ahead(std::cos(view.yaw_rad), std::sin(view.yaw_rad), 0.0);
+  const Vec3 ahead = T_world_body(view).linear() *
+                     Vec3(std::cos(view.gimbal_pitch_rad), 0.0, -std::sin(view.gimbal_pitch_rad));
   scene.tubes.push_back(
       {{view.p_world_m.cast<float>(), (view.p_world_m + length_m * ahead).cast<float>()},
        {colour},
@@ -176,7 +180,7 @@ void add_frontiers(const RunRecord& record, const ReplayedDecision& decision, co
 }
 
 struct Tally {
-  std::array<std::size_t, 8> rejected{};
+  std::array<std::size_t, kReasons> rejected{};
   std::size_t valid = 0;
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();

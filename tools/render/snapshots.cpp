@@ -93,7 +93,8 @@ Picture Snapshots::picture(std::size_t iteration, const RenderView& view) const 
   const double scale = std::max(1.0, 42.0 * unit_m / rotor_span_m(airframe));
   add_vehicle(airframe, T, scale, scene);
   for (const CameraConfig& camera : record.scenario.cameras) {
-    FrustumItem frustum = frustum_of(camera, T, camera.range_max_m, kFrustum);
+    FrustumItem frustum =
+        frustum_of(camera, T, now.decision.view.gimbal_pitch_rad, camera.range_max_m, kFrustum);
     frustum.edge_radius_m = static_cast<float>(0.9 * unit_m);
     frustum.face_opacity = 0.10F;
     scene.frusta.push_back(frustum);

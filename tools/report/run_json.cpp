@@ -37,13 +37,31 @@ Json column(const std::vector<ViewRecord>& views, const Value& value_of) {
   return values;
 }
 
+Json matrix_json(const Isometry& T) {  // column by column
+  Json json = Json::array();
+  for (int c = 0; c < 4; ++c) {
+    for (int r = 0; r < 4; ++r) json.push_back(T(r, c));
+  }
+  return json;
+}
+
+/// Of all cameras, as the gimbal had them.
+Json mountings_json(const Scenario& scenario, const ViewRecord& view) {
+  Json all = Json::array();
+  for (const CameraConfig& camera : scenario.cameras) {
+    const double pitch_rad = view.decision.view.gimbal_pitch_rad;
+    all.push_back(matrix_json(turned(make_camera_model(camera), pitch_rad).T_body_camera));
+  }
+  return all;
+}
+
 /// A column a key; seconds since the profile's end, metres as planned.
 Json views_json(const RunRecord& record) {
   const std::vector<ViewRecord>& views = record.views;
   const double begin_s = record.profile_end_s.value_or(views.empty() ? 0.0 : views.front().time_s);
   const auto of = [&](const auto& value_of) { return column(views, value_of); };
   using V = const ViewRecord&;
-  return {{"x", of([](V v) { return v.decision.view.p_world_m.x(); })},
+  Json json = {{"x", of([](V v) { return v.decision.view.p_world_m.x(); })},
           {"y", of([](V v) { return v.decision.view.p_world_m.y(); })},
           {"z", of([](V v) { return v.decision.view.p_world_m.z(); })},
           {"yaw", of([](V v) { return v.decision.view.yaw_rad; })},
@@ -61,6 +79,10 @@ Json views_json(const RunRecord& record) {
           {"entropy", of([](V v) { return v.entropy_nat; })},
           {"density", of([](V v) { return v.density_points_per_voxel; })},
           {"points", of([](V v) { return v.cloud_points; })}};
+  if (gimbal_of(record.scenario.cameras)) {
+    json["T_body_camera"] = of([&](V v) { return mountings_json(record.scenario, v); });
+  }
+  return json;
 }
 
 Json figures_json(const RunFigures& f) {
@@ -100,16 +122,11 @@ Json paper_json(const RunRecord& record) {
 Json cameras_json(const Scenario& scenario) {
   Json cameras = Json::array();
   for (const CameraConfig& config : scenario.cameras) {
-    const CameraModel model = make_camera_model(config);
-    Json T = Json::array();  // column by column
-    for (int c = 0; c < 4; ++c) {
-      for (int r = 0; r < 4; ++r) T.push_back(model.T_body_camera(r, c));
-    }
     cameras.push_back({{"name", config.name},
                        {"fov_x", config.fov_x_rad},
                        {"fov_y", config.fov_y_rad},
                        {"range_m", config.range_max_m},
-                       {"T_body_camera", T}});
+                       {"T_body_camera", matrix_json(make_camera_model(config).T_body_camera)}});
   }
   return cameras;
 }

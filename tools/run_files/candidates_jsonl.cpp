@@ -25,6 +25,7 @@ Json json_of(std::size_t iteration, const Candidate& c, bool is_chosen) {
                {"y_m", c.view.p_world_m.y()}, {"z_m", c.view.p_world_m.z()},
                {"yaw_rad", c.view.yaw_rad},   {"sampler", c.sampler},
                {"path_m", c.path_m}};
+  if (c.view.gimbal_pitch_rad != 0.0) json["gimbal_pitch_rad"] = c.view.gimbal_pitch_rad;
   if (c.cluster >= 0) {
     json["cluster"] = c.cluster;
   } else {
@@ -47,7 +48,8 @@ std::optional<Rejection> rejection_of(const std::string& name) {
   for (const Rejection reason :
        {Rejection::out_of_bounds, Rejection::not_free, Rejection::collision,
         Rejection::path_blocked, Rejection::recently_visited, Rejection::cluster_outside_fov,
-        Rejection::cluster_hidden, Rejection::sees_no_surface, Rejection::no_fly}) {
+        Rejection::cluster_hidden, Rejection::sees_no_surface, Rejection::no_fly,
+         Rejection::beyond_gimbal}) {
     if (name_of(reason) == name) return reason;
   }
   return std::nullopt;
@@ -57,7 +59,8 @@ Candidate candidate_of(const Json& json) {
   const std::string& sampler = json.at("sampler").get_ref<const std::string&>();
   const auto known = sampler_named(sampler);
   if (!known) throw BadInput(fmt::format("sampler: no sampler is named {}", sampler));
-  Candidate c{.view = {Vec3(json.at("x_m"), json.at("y_m"), json.at("z_m")), json.at("yaw_rad")},
+  Candidate c{.view = {Vec3(json.at("x_m"), json.at("y_m"), json.at("z_m")), json.at("yaw_rad"),
+                       json.value("gimbal_pitch_rad", 0.0)},
               .sampler = *known,
               .scale = json.value("scale", 1.0),
               .cluster = json.value("cluster", -1),

@@ -10,9 +10,9 @@
 namespace gnbv {
 
 /// One JSON object a line and candidate, in the order they were sampled: `iteration` of the view
-/// that the decision chose, pose (m, rad), sampler, scale or cluster, path_m, then either
-/// `rejected` with its reason or `utility` with its terms; `chosen` marks the one that was flown
-/// to. Appended to candidates.jsonl.part, which finish() renames.
+/// that the decision chose, pose (m, rad; the gimbal's pitch unless it is 0), sampler, scale or
+/// cluster, path_m, then either `rejected` with its reason or `utility` with its terms; `chosen`
+/// marks the one that was flown to. Appended to candidates.jsonl.part, which finish() renames.
 class CandidatesFile {
  public:
   /// `first_iteration`: decisions from here on will be written; what an interrupted run wrote of

@@ -16,6 +16,7 @@ constexpr const char* kProfileMapFile = "profile.map";
 constexpr const char* kMapStem = "map";  // OctoMap: map.ot with log-odds, map.bt without
 constexpr const char* kMapFile = "map.bt";
 constexpr const char* kCandidatesFile = "candidates.jsonl";
+constexpr const char* kViewsFile = "views.csv";
 constexpr const char* kFramesFolder = "frames";
 
 /// A file that is still being written, line by line.

@@ -132,6 +132,10 @@ AnyImage of_size(AnyImage image, const FrameCamera& camera, const fs::path& file
 
 }  // namespace
 
+std::string frame_stem(std::size_t iteration, const std::string& camera) {
+  return fmt::format("{:04}_{}", iteration, camera);
+}
+
 FramesFolder::FramesFolder(const fs::path& run, std::vector<CameraModel> cameras)
     : folder_(run / kFramesFolder),
       cameras_(std::move(cameras)),
@@ -148,7 +152,7 @@ void FramesFolder::write(std::size_t iteration, double time_s, std::span<const D
              colour.size());
   for (std::size_t i = 0; i < depth.size(); ++i) {
     const CameraConfig& camera = cameras_[static_cast<std::size_t>(depth[i].camera)].config;
-    const std::string stem = fmt::format("{:04}_{}", iteration, camera.name);
+    const std::string stem = frame_stem(iteration, camera.name);
     write_png(image_of(colour[i], camera), folder_ / (stem + ".rgb.png"));
     write_png(image_of(depth[i], camera), folder_ / (stem + ".depth.png"));
     poses_ += row_of(iteration, time_s, camera.name, depth[i].T_world_camera, stem);

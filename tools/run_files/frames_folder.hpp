@@ -31,6 +31,9 @@ class FramesFolder {
   std::string poses_;
 };
 
+/// The names of a view's images in the folder, without `.rgb.png` and `.depth.png`.
+std::string frame_stem(std::size_t iteration, const std::string& camera);
+
 /// Pinhole without distortion; pixel (0, 0) is top left, its centre at (0.5, 0.5).
 struct FrameCamera {
   std::string name;

@@ -42,7 +42,7 @@ void visit_decision(View& view, Column&& column) {
 }
 
 template <typename View, typename Column>
-void visit_columns(View& view, Column&& column) {
+void visit_columns(View& view, Columns columns, Column&& column) {
   auto& d = view.decision;
   column("iteration", view.iteration);
   column("x", d.view.p_world_m.x());
@@ -55,6 +55,7 @@ void visit_columns(View& view, Column&& column) {
   column("wall_plan_s", Wall{view.wall.plan_s});
   column("wall_fly_s", Wall{view.wall.fly_s});
   column("via", d.via_world_m);
+  if (columns == Columns::with_gimbal) column("gimbal_pitch", d.view.gimbal_pitch_rad);
 }
 
 /// The names of the columns.
@@ -123,24 +124,23 @@ struct Row {
   }
 };
 
-std::string header_text() {
+std::string header_text(Columns columns) {
   Names names;
   const ViewRecord view;
-  visit_columns(view, names);
+  visit_columns(view, columns, names);
   return names.text;
 }
 
-ViewRecord record_of(std::string_view row, int iteration, const TextPlace& place) {
-  const auto commas = [](std::string_view text) {
-    return std::count(text.begin(), text.end(), ',');
+ViewRecord record_of(std::string_view row, Columns columns, int iteration, const TextPlace& place) {
+  const auto count = [](std::string_view text) {
+    return 1 + std::count(text.begin(), text.end(), ',');
   };
-  static const auto kCommas = commas(header_text());
-  if (commas(row) != kCommas) {
-    throw BadInput(
-        fmt::format("{}: '{}' must have {} columns", to_string(place), row, kCommas + 1));
+  const auto expected = count(header_text(columns));
+  if (count(row) != expected) {
+    throw BadInput(fmt::format("{}: '{}' must have {} columns", to_string(place), row, expected));
   }
   ViewRecord view;
-  visit_columns(view, Row{row, place});
+  visit_columns(view, columns, Row{row, place});
   if (view.iteration != iteration) {
     throw BadInput(
         fmt::format("{}: '{}' must be iteration {}", to_string(place), view.iteration, iteration));
@@ -150,17 +150,21 @@ ViewRecord record_of(std::string_view row, int iteration, const TextPlace& place
 
 }  // namespace
 
-std::string iterations_csv_header() { return header_text() + "\n"; }
+Columns columns_of(const Scenario& scenario) {
+  return gimbal_of(scenario.cameras) ? Columns::with_gimbal : Columns::usual;
+}
 
-std::string iterations_csv_row(const ViewRecord& view) {
+std::string iterations_csv_header(Columns columns) { return header_text(columns) + "\n"; }
+
+std::string iterations_csv_row(const ViewRecord& view, Columns columns) {
   Cells cells;
-  visit_columns(view, cells);
+  visit_columns(view, columns, cells);
   return cells.text + "\n";
 }
 
-std::string iterations_csv(std::span<const ViewRecord> views) {
-  std::string csv = iterations_csv_header();
-  for (const ViewRecord& view : views) csv += iterations_csv_row(view);
+std::string iterations_csv(std::span<const ViewRecord> views, Columns columns) {
+  std::string csv = iterations_csv_header(columns);
+  for (const ViewRecord& view : views) csv += iterations_csv_row(view, columns);
   return csv;
 }
 
@@ -181,14 +185,16 @@ std::vector<ViewRecord> read_view_records(const std::filesystem::path& csv) {
   const std::string text = read_file(csv);
   std::string_view rest(text.data(), text.rfind('\n') + 1);  // npos + 1: none
   std::vector<ViewRecord> views;
+  Columns columns = Columns::usual;
   for (int line = 1; !rest.empty(); ++line) {
     const std::string_view row = next_part(rest, '\n');
     const TextPlace place{csv, line};
     if (line > 1) {
-      views.push_back(record_of(row, line - 2, place));
+      views.push_back(record_of(row, columns, line - 2, place));
       continue;
     }
-    need_header(row, header_text(), place,
+    if (row == header_text(Columns::with_gimbal)) columns = Columns::with_gimbal;
+    need_header(row, header_text(columns), place,
                 fmt::format(": of another version, and {} flies its mission again",
                             command_to_fly_again(csv.parent_path())));
   }

@@ -6,13 +6,18 @@
 #include <string>
 #include <vector>
 
+#include "scenarios/scenario.hpp"
 #include "tools/run_files/mission_result.hpp"
 
 namespace gnbv {
 
-std::string iterations_csv_header();
-std::string iterations_csv_row(const ViewRecord& view);
-std::string iterations_csv(std::span<const ViewRecord> views);
+/// Runs of a vehicle with a gimbal have a column more, its pitch in radians.
+enum class Columns { usual, with_gimbal };
+Columns columns_of(const Scenario& scenario);
+
+std::string iterations_csv_header(Columns columns = Columns::usual);
+std::string iterations_csv_row(const ViewRecord& view, Columns columns = Columns::usual);
+std::string iterations_csv(std::span<const ViewRecord> views, Columns columns = Columns::usual);
 
 /// The columns from `sampler` to `time_s`, with commas between: why the view was chosen and how far
 /// the mission was after it.

@@ -42,6 +42,9 @@ std::string result_sha256(const MissionResult& result) {
                                view.decision.score.value, view.entropy_nat, view.flown_m}) {
       hash.add(value);
     }
+    if (view.decision.view.gimbal_pitch_rad != 0.0) {  // so that others keep their hash
+      hash.add(view.decision.view.gimbal_pitch_rad);
+    }
   }
   hash.add(result.energy_wh);
   hash.add(result.belief.grid.all_log_odds());

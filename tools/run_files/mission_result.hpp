@@ -46,6 +46,13 @@ struct ViewRecord {
   WallTimes wall = {};      // of this view alone
 };
 
+/// A view that a user gave, and what became of it. Neither: the mission ended before.
+struct GivenView {
+  ViewPose view;
+  std::optional<Rejection> rejected = {};
+  std::optional<std::size_t> iteration = {};  // that took it
+};
+
 /// A sampler's name with storage that outlives every Decision; nothing for any other text.
 std::optional<std::string_view> sampler_named(std::string_view text);
 
@@ -100,6 +107,7 @@ struct MissionResult {
   Termination termination = Termination::interrupted;
   std::map<Rejection, int> last_rejections;  // of the decision that found no valid view
   std::vector<ViewRecord> views;
+  std::vector<GivenView> given_views;        // in their order, of a mission that flies such
   std::vector<TrajectorySample> trajectory;  // true motion at 10 Hz
   MissionDistances distance;
   double profile_end_s = 0.0;

@@ -7,6 +7,7 @@
 #include "tools/run_files/cloud_file.hpp"
 #include "tools/run_files/coverage_csv.hpp"
 #include "tools/run_files/file_names.hpp"
+#include "tools/run_files/given_views.hpp"
 #include "tools/run_files/iterations_csv.hpp"
 #include "tools/run_files/profile_map.hpp"
 #include "tools/run_files/summary_json.hpp"
@@ -38,7 +39,7 @@ void need_usable(const fs::path& folder, const Scenario& scenario, bool resume) 
 }
 
 RunDirectory::RunDirectory(fs::path folder, const Scenario& scenario, bool resume)
-    : folder_(std::move(folder)) {
+    : folder_(std::move(folder)), columns_(columns_of(scenario)) {
   need_usable(folder_, scenario, resume);
   std::error_code error;
   const bool holds_a_run = fs::exists(folder_ / kScenarioFile, error);
@@ -59,15 +60,19 @@ void RunDirectory::write_profile(const Belief& belief) const {
 
 void RunDirectory::append(const ViewRecord& view) {
   if (!journal_.is_open() && static_cast<std::size_t>(view.iteration) + 1 < recorded_.size()) {
-    pending_ += iterations_csv_row(view);
+    pending_ += iterations_csv_row(view, columns_);
     return;
   }
   if (!journal_.is_open()) {
-    write_file_atomically(journal_file(), iterations_csv_header() + pending_);
+    write_file_atomically(journal_file(), iterations_csv_header(columns_) + pending_);
     journal_.open(journal_file(), std::ios::binary | std::ios::app);
   }
-  journal_ << iterations_csv_row(view) << std::flush;
+  journal_ << iterations_csv_row(view, columns_) << std::flush;
   if (!journal_) throw BadInput(fmt::format("{}: cannot write", journal_file().string()));
+}
+
+void RunDirectory::keep(const Scenario& scenario) const {
+  write_file_atomically(folder_ / kScenarioFile, to_yaml(scenario));
 }
 
 void RunDirectory::finish(const Scenario& scenario, const MissionResult& result,
@@ -76,7 +81,10 @@ void RunDirectory::finish(const Scenario& scenario, const MissionResult& result,
   write_cloud_ply(result.profile_points_world_m, folder_ / kProfileCloudFile);
   write_cloud_ply(result.belief.cloud.points_world_m(), folder_ / kCloudFile);
   write_octomap(result.belief.grid, folder_ / kMapStem);
-  write_file_atomically(folder_ / kIterationsFile, iterations_csv(result.views));
+  write_file_atomically(folder_ / kIterationsFile, iterations_csv(result.views, columns_));
+  if (is_given_route(scenario.planner.utility.name)) {
+    write_file_atomically(folder_ / kViewsFile, given_views_csv(result.given_views));
+  }
   write_file_atomically(folder_ / kCoverageFile, coverage_csv(score.curve));
   write_file_atomically(folder_ / kSummaryFile,
                         summary_json(scenario, result, score, total_wall_s));

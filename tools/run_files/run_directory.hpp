@@ -9,6 +9,7 @@
 
 #include "bench/score/mission_score.hpp"
 #include "scenarios/scenario.hpp"
+#include "tools/run_files/iterations_csv.hpp"
 #include "tools/run_files/mission_result.hpp"
 
 namespace gnbv {
@@ -35,6 +36,9 @@ class RunDirectory {
   /// with.
   void append(const ViewRecord& view);
 
+  /// Writes scenario.yaml anew, for a mission that learns its views on the way.
+  void keep(const Scenario& scenario) const;
+
   /// Writes every file, summary.json last, each by rename, and removes the journal.
   void finish(const Scenario& scenario, const MissionResult& result, const MissionScore& score,
               double total_wall_s);
@@ -43,6 +47,7 @@ class RunDirectory {
   std::filesystem::path journal_file() const;
 
   std::filesystem::path folder_;
+  Columns columns_;
   std::vector<Decision> recorded_;
   std::string pending_;  // rows of recorded views that are being flown again
   std::ofstream journal_;

@@ -174,9 +174,10 @@ SeenPoints seen_points(const RunRecord& record, const RunCloud& cloud, int threa
     if (stretch.begin == stretch.end) continue;
     const bool is_of_view = part > 0 && part <= record.views.size();
     if (is_of_view && !cameras_run_in_flight(record)) {
+      const ViewPose& view = record.views[part - 1].decision.view;
+      const std::vector<CameraModel> looking = turned(cameras, view.gimbal_pitch_rad);
       for (std::size_t i = stretch.begin; i < stretch.end; ++i) {
-        seen.sensors_world_m[i] =
-            sensor_of(seen.points_world_m[i], record.views[part - 1].decision.view, cameras);
+        seen.sensors_world_m[i] = sensor_of(seen.points_world_m[i], view, looking);
       }
       continue;
     }

@@ -87,6 +87,30 @@ TEST(SightSearch, SeesTheNearerOfTwoWalls) {
   }
 }
 
+TEST(SightSearch, AGimbalSeesWhatSomePitchOfItDoes) {
+  CameraConfig config = camera(0.0).config;
+  config.gimbal = GimbalConfig{.min_rad = -0.6, .max_rad = 0.6, .step_rad = 0.6};
+  const std::vector<CameraModel> on_gimbal = {make_camera_model(config)};
+  const LegalViewpoints one = lattice_of(Vec3(1.025, 0, 2), 1.0, {1, 1, 1});
+  Sight any(two_walls(), one, 0.0);
+  const SightSearch gimbal(any.scene, on_gimbal, any.legal, Box3(Vec3(-9, -9, 0), Vec3(9, 9, 9)),
+                           0.2);
+  int of_one_pitch = 0;
+  for (double z = 1.05; z < 3.0; z += 0.1) {
+    const Vec3 point_m(2.025, 0.1, z);
+    const std::vector<Vec3f> points = {point_m.cast<float>()};
+    std::vector<SightItem> items = {{.points_world_m = points}};
+    gimbal.look_from_lattice(gimbal.positions_near(Eigen::AlignedBox3d(point_m)), kFew, items);
+    int pitches = 0;
+    for (const double pitch_rad : {-0.6, 0.0, 0.6}) {
+      pitches += Sight(two_walls(), one, pitch_rad).from_lattice(point_m, kFew) ? 1 : 0;
+    }
+    EXPECT_EQ(items[0].is_seen(), pitches > 0) << z;
+    of_one_pitch += pitches == 1 ? 1 : 0;
+  }
+  EXPECT_GT(of_one_pitch, 5);
+}
+
 TEST(SightSearch, EndsWhereImageAndRangeEnd) {
   // depth is measured along the axis: at the image's edge, 30 degrees aside, 5 m reach 5.77 m
   const auto sees_from = [](double x) {

@@ -54,8 +54,17 @@ TEST(PathPicture, ProfileFlightIsGreyAndPlannedFlightRunsThroughTheRamp) {
 TEST(PathPicture, PyramidsLookWhereTheViewDoes) {
   const RunRecord record = made_record();
   const FrustumItem frustum =
-      frustum_of(CameraConfig{}, T_world_body(record.views[1].decision.view), 1.0, {});
+      frustum_of(CameraConfig{}, T_world_body(record.views[1].decision.view), 0.0, 1.0, {});
   EXPECT_NEAR(frustum.T_world_camera.linear().col(2).x(), std::cos(1.5), 1e-12);
+  // on a gimbal as low as that view had it, fixed at its own pitch
+  CameraConfig camera;
+  camera.pitch_rad = 0.1;
+  const auto down = [&] {
+    return -frustum_of(camera, Isometry::Identity(), 0.4, 1.0, {}).T_world_camera(2, 2);
+  };
+  EXPECT_NEAR(down(), std::sin(0.1), 1e-12);
+  camera.gimbal = GimbalConfig{};
+  EXPECT_NEAR(down(), std::sin(0.4), 1e-12);
 }
 
 TEST(PathPicture, WithoutSummaryTheWholeFlightIsOfOneKind) {

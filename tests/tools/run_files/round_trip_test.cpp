@@ -60,6 +60,18 @@ ViewRecord odd_view(int iteration) {
   return view;
 }
 
+TEST(RoundTrip, IterationsCsvOfAGimbal) {
+  TempFolder temp;
+  const fs::path csv = temp.path() / kIterationsFile;
+  ViewRecord view = odd_view(0);
+  view.decision.view.gimbal_pitch_rad = 0.1 + 0.2;
+  write_file_atomically(csv, iterations_csv(std::vector{view}, Columns::with_gimbal));
+  EXPECT_EQ(read_view_records(csv).at(0).decision.view.gimbal_pitch_rad, 0.1 + 0.2);
+  EXPECT_EQ(columns_of(load_scenario("smoke", {})), Columns::usual);
+  EXPECT_EQ(columns_of(load_scenario("smoke", {"cameras.0.pitch_deg={min: 0, max: 9, step: 3}"})),
+            Columns::with_gimbal);
+}
+
 TEST(RoundTrip, IterationsCsv) {
   TempFolder temp;
   const fs::path csv = temp.path() / kIterationsFile;

@@ -50,6 +50,7 @@ export interface Views {
   entropy: number[];
   density: number[];
   points: number[];
+  T_body_camera?: number[][][]; // of each camera, where a gimbal turns some
 }
 
 export interface Figures {

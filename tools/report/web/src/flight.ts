@@ -1,7 +1,7 @@
 // One run as a function of effort: how many views there were, and where the vehicle was.
 import { Quaternion, Vector3 } from "three";
 import type { Clock, Effort } from "./clock";
-import { Bytes, type RunData } from "./data";
+import { Bytes, type CameraData, type RunData } from "./data";
 
 export interface Pose {
   p: Vector3; // metres, world
@@ -67,6 +67,13 @@ export class Flight {
     const isBetween = n < this.count && clock.at > this.effort(n, clock.effort) + 1e-6;
     if (n > 0 && !(isBetween && this.pathTimes)) return this.viewPose(n - 1);
     return this.flownPose(this.timeAt(clock)) ?? (this.count > 0 ? this.viewPose(0) : null);
+  }
+
+  /** The cameras as the gimbal had them at a view; fixed ones as ever. */
+  camerasAt(view: number): CameraData[] {
+    const mountings = this.data.views.T_body_camera?.[view];
+    if (!mountings) return this.data.cameras;
+    return this.data.cameras.map((camera, i) => ({ ...camera, T_body_camera: mountings[i] }));
   }
 
   viewPose(view: number): Pose {

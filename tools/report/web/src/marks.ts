@@ -89,16 +89,17 @@ export class FrustaMark {
   private readonly perView: number;
 
   constructor(flight: Flight) {
-    const edges = flight.data.cameras.flatMap((camera) => pyramidEdges(camera, 0.9));
-    this.perView = edges.length;
-    const positions = new Float32Array(3 * edges.length * flight.count);
+    const edgesAt = (view: number) =>
+      flight.camerasAt(view).flatMap((camera) => pyramidEdges(camera, 0.9));
+    this.perView = edgesAt(0).length;
+    const positions = new Float32Array(3 * this.perView * flight.count);
     const colours = new Float32Array(positions.length);
     for (let view = 0; view < flight.count; ++view) {
       const { p, q } = flight.viewPose(view);
       const colour = orderColour(view / Math.max(1, flight.count - 1));
-      edges.forEach((edge, i) => {
-        const at = 3 * (view * edges.length + i);
-        edge.clone().applyQuaternion(q).add(p).toArray(positions, at);
+      edgesAt(view).forEach((edge, i) => {
+        const at = 3 * (view * this.perView + i);
+        edge.applyQuaternion(q).add(p).toArray(positions, at);
         colour.toArray(colours, at);
       });
     }

@@ -39,7 +39,8 @@ export class RunScene {
   readonly vehicle = new three.Group(); // at the vehicle's pose
   readonly model: Model;
   private readonly body: three.Group;
-  private readonly sight: three.Group;
+  private sight: three.Group;
+  private lookedAs = -1; // view
   private readonly structure: three.Group | null;
   private readonly path: PathMark;
   private readonly frusta: FrustaMark;
@@ -93,10 +94,22 @@ export class RunScene {
     if (!pose) return;
     this.vehicle.position.copy(pose.p);
     this.vehicle.quaternion.copy(pose.q);
+    if (n > 0) this.lookAs(n - 1);
     this.sight.visible = n > 0;
     // from afar larger than life, or it would be a speck
     const away = camera.position.distanceTo(pose.p);
     this.body.scale.setScalar(Math.max(1, 0.028 * away / this.flight.data.vehicle.radius_m));
+  }
+
+  /** What the cameras see at a view, where a gimbal turns them. */
+  private lookAs(view: number) {
+    if (view === this.lookedAs || !this.flight.data.views.T_body_camera) return;
+    this.lookedAs = view;
+    this.vehicle.remove(this.sight);
+    this.sight.traverse((part) => (part as three.Mesh).geometry?.dispose());
+    this.sight = makeSight(this.flight.camerasAt(view));
+    this.sight.traverse((part) => part.layers.set(kMarkLayer));
+    this.vehicle.add(this.sight);
   }
 
   /** Everything that can show: structure, points, and where the vehicle may fly. */

@@ -1,0 +1,54 @@
+// `--views -`: another planner sends views on stdin and gets one JSON line on stdout for each.
+// scenarios/README.md says what the lines hold.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "bench/score/surface_reference.hpp"
+#include "tools/mission/mission.hpp"
+#include "tools/run_files/given_views.hpp"
+#include "tools/run_files/run_directory.hpp"
+#include "tools/terminal/stdin_lines.hpp"
+
+namespace gnbv {
+
+class ViewPipe {
+ public:
+  /// `keeps_frames` and `reference` (may be null) say whether answers name images and tell the
+  /// coverage. Everything referred to stays with the caller.
+  ViewPipe(const Scenario& scenario, RunDirectory& directory, bool keeps_frames,
+           const SurfaceReference* reference);
+  ~ViewPipe();
+  ViewPipe(const ViewPipe&) = delete;
+  ViewPipe& operator=(const ViewPipe&) = delete;
+
+  /// Lets the mission ask for views here and tell what became of them. Keeps what the hooks did.
+  void connect(MissionHooks& hooks);
+
+  /// With all views that came: as soon as one comes, scenario.yaml holds it.
+  const Scenario& scenario() const { return scenario_; }
+
+ private:
+  std::optional<ViewPose> next(const std::function<bool()>& should_stop);
+  void tell_refused(std::size_t index, Rejection reason);
+  void tell_taken(const Belief& belief);
+
+  Scenario scenario_;
+  RunDirectory& directory_;
+  bool keeps_frames_;
+  const SurfaceReference* reference_;
+  StdinLines input_;
+  ViewLines lines_;
+  std::size_t answered_ = 0;  // every given view is, in its order
+  // of the view at hand
+  Isometry T_world_body_ = Isometry::Identity();
+  std::vector<Isometry> T_world_camera_;
+  ViewRecord view_;
+  std::size_t points_before_ = 0;
+};
+
+/// The last line: how the mission ended, and where its run directory is.
+std::string pipe_end_line(const MissionResult& result, const std::string& folder);
+
+}  // namespace gnbv
