@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "planner/tour_planner.hpp"
+
 namespace gnbv {
 namespace {
 
@@ -29,7 +31,7 @@ PlannerModel::PlannerModel(const PlannerConfig& planner_config, const Box3& work
       lidars(lidar_models.begin(), lidar_models.end()),
       view_rays(make_view_rays(cameras, planner_config.map.resolution_m)),
       view_voxels(frustum_voxels(cameras, planner_config.map.resolution_m)),
-      needs_shadow(!is_route(config.utility.name) && !is_oracle(config.utility.name) &&
+      needs_shadow(!is_tour(config.utility.name) && !is_route(config.utility.name) && !is_oracle(config.utility.name) &&
                    needs_of(config.utility).shadow) {}
 
 }  // namespace gnbv

@@ -19,6 +19,8 @@ std::string_view name_of(Termination reason) {
       return "battery";
     case Termination::route_flown:
       return "route_flown";
+    case Termination::tour_complete:
+      return "tour_complete";
     case Termination::interrupted:
       return "interrupted";
     case Termination::collision:

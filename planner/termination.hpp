@@ -21,6 +21,7 @@ enum class Termination {
   repeated_motion,  // goes back and forth between two places
   battery,          // what is left is needed to land
   route_flown,      // every view of a given route was taken
+  tour_complete,    // tour: no view pays any more
   interrupted,
   collision
 };

@@ -19,6 +19,7 @@ enum class Stream : std::uint64_t {
   random_view = 7,
   surface_sample = 9,
   cover_search = 10,
+  tour_search = 20,
 };
 
 struct RandomKey {

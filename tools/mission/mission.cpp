@@ -95,21 +95,30 @@ std::optional<Termination> termination(const Mission& m) {
   if (m.out.views.size() >= static_cast<std::size_t>(config.max_iterations)) {
     return Termination::max_iterations;
   }
-  if (!m.hooks.route) {
+  if (!m.hooks.route && !m.tour) {
     if (entropy_has_settled(config, m.history.entropies_nat)) return Termination::entropy_change;
     if (is_back_and_forth(positions_of(m.history), config.repeated_moves)) {
       return Termination::repeated_motion;
     }
-  } else if (m.out.views.size() > m.hooks.route->size()) {
+  } else if (m.hooks.route && m.out.views.size() > m.hooks.route->size()) {
     return Termination::route_flown;
   }
   if (should_stop(m)) return Termination::interrupted;
   return std::nullopt;
 }
 
+/// A tour learns from every view, so that it is asked again for the decisions of a replay.
+std::optional<Decision> decide_tour(Mission& m, std::size_t next) {
+  Plan plan = m.tour->next(m.out.belief, m.history, m.current, m.bench.threads);
+  if (next < m.hooks.replay.size()) return m.hooks.replay[next];
+  m.hooks.on_candidates(next, plan);
+  return std::move(plan.next);
+}
+
 std::optional<Decision> decide(Mission& m) {
   const ScopeTimer timer(m.view_wall.plan_s);
   const std::size_t next = m.history.decisions.size();
+  if (m.tour) return decide_tour(m, next);
   if (next < m.hooks.replay.size()) return m.hooks.replay[next];
   if (m.hooks.route) return m.hooks.route->at(next - 1);  // decision 0 is the start
   Plan plan = m.laid_route
@@ -147,7 +156,9 @@ MissionResult run_mission(const Scenario& scenario, const World& world, const Ra
     record(m, next);
     if (const auto over = termination(m)) return finish(m, *over);
     const std::optional<Decision> decision = decide(m);
-    if (!decision) return finish(m, Termination::no_valid_view);
+    if (!decision) {
+      return finish(m, m.tour ? Termination::tour_complete : Termination::no_valid_view);
+    }
     next = *decision;
   }
 }

@@ -40,7 +40,9 @@ Mission::Mission(const Scenario& mission_scenario, const World& world, const Ray
       out(start_pose(scenario, scene), planner),
       flight(make_flight(scenario.vehicle, world, out.start, scenario.seed)),
       current(out.start),
-      last_p_world_m(out.start.p_world_m) {}
+      last_p_world_m(out.start.p_world_m) {
+  if (is_tour(planner.config.utility.name)) tour.emplace(planner);
+}
 
 bool should_stop(const Mission& m) {
   return m.out.views.size() >= m.hooks.replay.size() && m.hooks.should_stop();
