@@ -11,6 +11,7 @@
 #include "planner/routes.hpp"
 #include "planner/symmetry/config.hpp"
 #include "planner/termination.hpp"
+#include "planner/tour/config.hpp"
 #include "planner/utility.hpp"
 #include "planner/view_sampling.hpp"
 #include "planner/view_validity.hpp"
@@ -28,6 +29,7 @@ struct PlannerConfig {
   ValidityConfig validity;
   UtilityConfig utility;
   RouteConfig routes;
+  TourConfig tour;
   SymmetryConfig symmetry;
   TerminationConfig termination;
 };

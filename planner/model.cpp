@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "planner/tour_planner.hpp"
+
 namespace gnbv {
 namespace {
 
@@ -44,7 +46,8 @@ PlannerModel::PlannerModel(const PlannerConfig& planner_config, const Box3& work
       pitches_rad(gimbal ? gnbv::pitches_rad(*gimbal) : std::vector<double>{0.0}),
       view_rays(rays_by_pitch(cameras, pitches_rad, planner_config.map.resolution_m)),
       view_voxels(frustum_voxels(cameras, planner_config.map.resolution_m)),
-      needs_shadow(!asks_no_utility(config.utility.name) && needs_of(config.utility).shadow) {}
+      needs_shadow(!asks_no_utility(config.utility.name) && !is_tour(config.utility.name) &&
+                   needs_of(config.utility).shadow) {}
 
 const ViewRays& PlannerModel::rays_at(double gimbal_pitch_rad) const {
   const auto nearest =

@@ -21,6 +21,8 @@ std::string_view name_of(Termination reason) {
       return "route_flown";
     case Termination::off_course:
       return "off_course";
+    case Termination::tour_complete:
+      return "tour_complete";
     case Termination::interrupted:
       return "interrupted";
     case Termination::collision:

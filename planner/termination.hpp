@@ -22,6 +22,7 @@ enum class Termination {
   battery,          // what is left is needed to land, or to come home and land
   route_flown,      // every view of a given route was taken
   off_course,       // carried out of the workspace
+  tour_complete,    // tour: no view pays any more
   interrupted,
   collision
 };

@@ -1,3 +1,4 @@
+#include "planner/tour_planner.hpp"
 #include "scenarios/fields.hpp"
 
 namespace gnbv {
@@ -21,6 +22,12 @@ constexpr std::array<Named<IgCounting>, 2> kIgCountings = {
     {{IgCounting::per_ray, "per_ray"}, {IgCounting::unique, "unique"}}};
 constexpr std::array<Named<HitVoxel>, 2> kHitVoxels = {
     {{HitVoxel::counted, "counted"}, {HitVoxel::excluded, "excluded"}}};
+constexpr std::array<Named<TourVisibility>, 2> kTourVisibilities = {
+    {{TourVisibility::splats, "splats"}, {TourVisibility::rays, "rays"}}};
+constexpr std::array<Named<TourSearch>, 2> kTourSearches = {
+    {{TourSearch::neighbourhood, "neighbourhood"}, {TourSearch::greedy, "greedy"}}};
+constexpr std::array<Named<TourSuccess>, 2> kTourSuccesses = {
+    {{TourSuccess::learned, "learned"}, {TourSuccess::fixed, "fixed"}}};
 
 }  // namespace
 
@@ -141,6 +148,7 @@ void fields(FieldVisitor& v, UtilityConfig& c) {
   names.insert(names.end(), kRouteNames.begin(), kRouteNames.end());
   names.insert(names.end(), kOracleNames.begin(), kOracleNames.end());
   names.push_back(kGivenRouteName);
+  names.push_back(kTourName);
   v.choice("name", c.name, names,
            "What ranks the candidate views, a baseline's route, an oracle's, or your own.");
   v.number("alpha", c.alpha, kWeight, "Weight of information, Eq. (2).");
@@ -180,6 +188,31 @@ void fields(FieldVisitor& v, RouteConfig& c) {
          "route: body poses, in the order in which they are flown.");
 }
 
+void fields(FieldVisitor& v, TourConfig& c) {
+  v.number("detail_m", c.detail_m, between(0.005, 1),
+           "Edge of the voxels that are to hold a point.");
+  v.number("lattice_step_m", c.lattice_step_m, between(0, 100),
+           "Between views of the lattice; 0: a quarter of the cameras' range.");
+  v.angle("yaw_step_deg", c.yaw_step_rad, between(5, 360), "Between views at one place.");
+  v.angle("incidence_max_deg", c.incidence_max_rad, between(10, 89), "Beyond, no look counts.");
+  v.choice("visibility", c.visibility, kTourVisibilities,
+           "splats: patches drawn into a depth buffer; rays: through the map's voxels.");
+  v.choice("search", c.search, kTourSearches, "Large neighbourhoods, or view by view.");
+  v.choice("success", c.success, kTourSuccesses, "Of a look: learned in flight, or assumed.");
+  v.number("price_per_m", c.price_per_m, above_upto(0, 1),
+           "Share of the structure's expected voxels that a metre has to bring.");
+  v.number("metres_per_view", c.metres_per_view, between(0, 100), "What a view costs as if way.");
+  v.integer("iterations", c.iterations, between(0, 1e6), "Of the search, each time.");
+  v.integer("views_per_replan", c.views_per_replan, between(1, 1e6), "Flown before the next tour.");
+  v.number("replan_below", c.replan_below, between(0, 1),
+           "A new tour when a view brings less than this share of its promise.");
+  v.integer("recasts", c.recasts, between(0, 1e6), "Places looked from again for each tour.");
+  v.integer("items_max", c.items_max, between(100, 1e7), "Patches weighed one by one.");
+  v.number("end_share", c.end_share, between(0, 1),
+           "Of the expected voxels, what may stay when no view pays.");
+  v.flag("surface_views", c.surface_views, "Views off the lattice for what two looks left.");
+}
+
 void fields(FieldVisitor& v, SymmetryConfig& c) {
   v.flag("enabled", c.enabled, "Whether a mirror-symmetric profile predicts its other half.");
   v.number("min_support", c.min_support, between(0, 1),
@@ -212,6 +245,7 @@ void fields(FieldVisitor& v, PlannerConfig& c) {
   v.section("validity", c.validity, "Which views may be flown to.");
   v.section("utility", c.utility, "What a view is worth.");
   v.section("routes", c.routes, "Baselines whose views are laid around the profile.");
+  v.section("tour", c.tour, "The tour of all that lacks points.");
   v.section("symmetry", c.symmetry, "The mirror image of the profile.");
   v.section("termination", c.termination, "When the mission is over.");
 }

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <optional>
 
-#include "bench/limits/tour.hpp"
+#include "planner/tour/short_tour.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
 

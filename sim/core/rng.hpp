@@ -22,6 +22,7 @@ enum class Stream : std::uint64_t {
   random_structure = 11,
   gust = 12,
   dropped_frame = 13,
+  tour_search = 20,
 };
 
 struct RandomKey {

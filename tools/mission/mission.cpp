@@ -87,8 +87,7 @@ std::vector<DepthFrame> sense(Mission& m) {
   if (!m.hooks.on_frames) return frames;
   std::vector<ColourFrame> colours;
   for (const DepthFrame& frame : frames) {
-    colours.push_back(sense_colour(m.scene,
-                                   camera_now(m, static_cast<std::size_t>(frame.camera)),
+    colours.push_back(sense_colour(m.scene, camera_now(m, static_cast<std::size_t>(frame.camera)),
                                    frame.camera, *m.flight, m.bench.threads));
   }
   m.hooks.on_frames(m.out.views.size(), time_s(*m.flight), frames, colours);
@@ -133,7 +132,7 @@ std::optional<Termination> termination(const Mission& m) {
   if (m.out.views.size() >= static_cast<std::size_t>(config.max_iterations)) {
     return Termination::max_iterations;
   }
-  if (!m.hooks.route && !flies_given(m)) {
+  if (!m.hooks.route && !flies_given(m) && !m.tour) {
     if (entropy_has_settled(config, m.history.entropies_nat)) return Termination::entropy_change;
     if (is_back_and_forth(positions_of(m.history), config.repeated_moves)) {
       return Termination::repeated_motion;
@@ -145,10 +144,19 @@ std::optional<Termination> termination(const Mission& m) {
   return std::nullopt;
 }
 
+/// A tour learns from every view, so that it is asked again for the decisions of a replay.
+std::optional<Decision> decide_tour(Mission& m, std::size_t next) {
+  Plan plan = m.tour->next(m.out.belief, m.history, m.current, m.bench.threads);
+  if (next < m.hooks.replay.size()) return m.hooks.replay[next];
+  m.hooks.on_candidates(next, plan);
+  return std::move(plan.next);
+}
+
 std::optional<Decision> decide(Mission& m) {
   const ScopeTimer timer(m.view_wall.plan_s);
   const std::size_t next = m.history.decisions.size();
   if (flies_given(m)) return next_given_view(m);
+  if (m.tour) return decide_tour(m, next);
   if (next < m.hooks.replay.size()) return m.hooks.replay[next];
   if (m.hooks.route) return m.hooks.route->at(next - 1);  // decision 0 is the start
   Plan plan = m.laid_route
@@ -161,6 +169,12 @@ std::optional<Decision> decide(Mission& m) {
     }
   }
   return std::move(plan.next);
+}
+
+/// Why there is no next view.
+Termination end_without_view(const Mission& m) {
+  if (flies_given(m)) return end_of_given(m);
+  return m.tour ? Termination::tour_complete : Termination::no_valid_view;
 }
 
 MissionResult finish(Mission& m, Termination reason) {
@@ -187,7 +201,7 @@ MissionResult run_mission(const Scenario& scenario, const World& world, const Ra
     record(m, next);
     if (const auto over = termination(m)) return finish(m, *over);
     const std::optional<Decision> decision = decide(m);
-    if (!decision) return finish(m, flies_given(m) ? end_of_given(m) : Termination::no_valid_view);
+    if (!decision) return finish(m, end_without_view(m));
     if (!can_afford(m, *decision)) return finish(m, Termination::battery);
     next = *decision;
   }

@@ -50,6 +50,7 @@ Mission::Mission(const Scenario& mission_scenario, const World& world, const Ray
       current(out.start),
       last_p_world_m(out.start.p_world_m),
       gimbal_pitch_rad(out.start.gimbal_pitch_rad) {
+  if (is_tour(planner.config.utility.name)) tour.emplace(planner);
   if (!is_given_route(scenario.planner.utility.name)) return;
   for (const ViewPose& view : scenario.planner.routes.views) out.given_views.push_back({view});
 }

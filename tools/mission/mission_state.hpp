@@ -7,6 +7,7 @@
 
 #include "planner/history.hpp"
 #include "planner/model.hpp"
+#include "planner/tour_planner.hpp"
 #include "planner/workbench.hpp"
 #include "sim/core/stopwatch.hpp"
 #include "sim/flight/flight.hpp"
@@ -35,6 +36,7 @@ struct Mission {
   MissionResult out;
   std::unique_ptr<Flight> flight;
   History history;
+  std::optional<TourPlanner> tour;                  // for the utility of that name
   std::optional<std::vector<ViewPose>> laid_route;  // of a baseline that plans all views at once
   ViewPose current;                                 // where the planner believes to be
   Vec3 last_p_world_m;                              // truth, one tick ago

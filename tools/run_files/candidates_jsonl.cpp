@@ -49,7 +49,7 @@ std::optional<Rejection> rejection_of(const std::string& name) {
        {Rejection::out_of_bounds, Rejection::not_free, Rejection::collision,
         Rejection::path_blocked, Rejection::recently_visited, Rejection::cluster_outside_fov,
         Rejection::cluster_hidden, Rejection::sees_no_surface, Rejection::no_fly,
-         Rejection::beyond_gimbal}) {
+        Rejection::beyond_gimbal}) {
     if (name_of(reason) == name) return reason;
   }
   return std::nullopt;

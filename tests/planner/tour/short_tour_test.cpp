@@ -1,4 +1,4 @@
-#include "bench/limits/tour.hpp"
+#include "planner/tour/short_tour.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,108 @@
+#include "planner/tour/catalogue.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/parallel.hpp"
+
+namespace gnbv {
+
+ViewCatalogue::ViewCatalogue(const TourConfig& config, std::span<const CameraModel> cameras,
+                             const Box3& workspace_m)
+    : config_(config),
+      cameras_(cameras),
+      blocks_(workspace_m, SurfaceCell::kSide * config.detail_m),
+      yaws_(std::max(1, static_cast<int>(std::lround(2.0 * kPi / config.yaw_step_rad)))) {
+  for (const CameraModel& camera : cameras) reach_m_ = std::max(reach_m_, camera_reach_m(camera));
+}
+
+void ViewCatalogue::look(const TourScene& scene, const ViewPose& view,
+                         std::span<const CellBlocks::Block* const> near, PatchViewer& viewer,
+                         std::vector<SeenPatch>& seen) const {
+  const Isometry T = T_world_body(view);
+  for (const CameraModel& camera : cameras_) {
+    viewer.look(scene, camera, T, near, blocks_.radius_m(), seen);
+  }
+  std::sort(seen.begin(), seen.end(), [](const SeenPatch& a, const SeenPatch& b) {
+    return a.patch != b.patch ? a.patch < b.patch : a.incidence < b.incidence;
+  });
+  const auto is_same = [](const SeenPatch& a, const SeenPatch& b) { return a.patch == b.patch; };
+  seen.erase(std::unique(seen.begin(), seen.end(), is_same), seen.end());
+}
+
+std::vector<SeenPatch> ViewCatalogue::look(const TourScene& scene, const ViewPose& view) {
+  blocks_.follow(scene.cells);
+  PatchViewer viewer;
+  std::vector<SeenPatch> seen;
+  look(scene, view, blocks_.near(view.p_world_m, reach_m_), viewer, seen);
+  return seen;
+}
+
+void ViewCatalogue::cast(const TourScene& scene, const Vec3& p_world_m, AtPlace& at,
+                         PatchViewer& viewer) const {
+  const auto near = blocks_.near(p_world_m, reach_m_);
+  at.is_cast = true;
+  at.update = scene.cells.updates();
+  at.seen.resize(static_cast<std::size_t>(yaws_));
+  for (int yaw = 0; yaw < yaws_; ++yaw) {
+    std::vector<SeenPatch>& seen = at.seen[static_cast<std::size_t>(yaw)];
+    seen.clear();
+    look(scene, {p_world_m, yaw_rad(yaw)}, near, viewer, seen);
+  }
+}
+
+void ViewCatalogue::follow(const TourScene& scene, const TourPlaces& places,
+                           std::span<const Place> first, int threads) {
+  blocks_.follow(scene.cells);
+  at_.resize(places.size());
+  struct Due {
+    Place place;
+    std::uint32_t changes;
+  };
+  std::vector<Due> never, again;
+  std::vector<std::uint8_t> is_first(places.size(), 0);
+  for (const Place place : first) is_first[place] = 1;
+  for (Place place = 1; place < places.size(); ++place) {
+    if (!places.is_reachable(place)) continue;
+    if (!at_[place].is_cast) {
+      never.push_back({place, 0});
+    } else {
+      again.push_back({place, 0});
+    }
+  }
+  const std::span<const SurfaceCell> cells = scene.cells.cells();
+  parallel_for_chunks(threads, again.size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t last = at_[again[i].place].update;
+      std::uint32_t changes = 0;
+      for (const CellBlocks::Block* block :
+           blocks_.near(places.p_world_m(again[i].place), reach_m_)) {
+        for (const std::uint32_t cell : block->cells) {
+          if (cells[cell].changed > last) ++changes;
+        }
+      }
+      again[i].changes = changes;
+    }
+  });
+  std::erase_if(again, [](const Due& due) { return due.changes == 0; });
+  std::stable_sort(again.begin(), again.end(), [&](const Due& a, const Due& b) {
+    if (is_first[a.place] != is_first[b.place]) return is_first[a.place] > is_first[b.place];
+    return a.changes > b.changes;
+  });
+  again.resize(std::min(again.size(), static_cast<std::size_t>(config_.recasts)));
+  never.insert(never.end(), again.begin(), again.end());
+  parallel_for_chunks(threads, never.size(), 4, [&](std::size_t begin, std::size_t end) {
+    PatchViewer viewer;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Place place = never[i].place;
+      cast(scene, places.p_world_m(place), at_[place], viewer);
+    }
+  });
+}
+
+std::span<const SeenPatch> ViewCatalogue::seen(Place place, int yaw) const {
+  if (place >= at_.size() || !at_[place].is_cast) return {};
+  return at_[place].seen[static_cast<std::size_t>(yaw)];
+}
+
+}  // namespace gnbv

@@ -1,0 +1,53 @@
+// What each view would see: worked out once, and again where the surface nearby has changed.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "planner/tour/patch_view.hpp"
+#include "planner/tour/places.hpp"
+
+namespace gnbv {
+
+class ViewCatalogue {
+ public:
+  using Place = TourPlaces::Place;
+
+  ViewCatalogue(const TourConfig& config, std::span<const CameraModel> cameras,
+                const Box3& workspace_m);
+
+  int yaws() const { return yaws_; }
+  double yaw_rad(int yaw) const { return 2.0 * kPi * yaw / yaws_; }
+
+  /// Looks from every reachable place that never was, and from `recasts` of those around which the
+  /// surface changed most since they were; `first` come before all others.
+  void follow(const TourScene& scene, const TourPlaces& places, std::span<const Place> first,
+              int threads);
+
+  /// What the last look from there saw at that yaw, in ascending order.
+  std::span<const SeenPatch> seen(Place place, int yaw) const;
+
+  /// What all cameras see from a pose, now.
+  std::vector<SeenPatch> look(const TourScene& scene, const ViewPose& view);
+
+ private:
+  struct AtPlace {
+    bool is_cast = false;
+    std::uint32_t update = 0;  // of the cells, at the last look
+    std::vector<std::vector<SeenPatch>> seen;
+  };
+  void cast(const TourScene& scene, const Vec3& p_world_m, AtPlace& at, PatchViewer& viewer) const;
+  void look(const TourScene& scene, const ViewPose& view,
+            std::span<const CellBlocks::Block* const> near, PatchViewer& viewer,
+            std::vector<SeenPatch>& seen) const;
+
+  const TourConfig& config_;
+  std::span<const CameraModel> cameras_;
+  CellBlocks blocks_;
+  double reach_m_ = 0.0;
+  int yaws_ = 1;
+  std::vector<AtPlace> at_;
+};
+
+}  // namespace gnbv

@@ -1,0 +1,38 @@
+// Settings of the tour planner. Each part is a switch, so that an ablation is a comparison.
+#pragma once
+
+#include "sim/core/pose.hpp"
+
+namespace gnbv {
+
+/// How it is judged what a view would see: patches drawn as discs into a depth buffer, or a ray
+/// through the voxels of the map to each patch.
+enum class TourVisibility { splats, rays };
+
+/// How the tour is made: by large-neighbourhood search, or view by view.
+enum class TourSearch { neighbourhood, greedy };
+
+/// Whether the share of a patch that a look brings is learned in flight.
+enum class TourSuccess { learned, fixed };
+
+struct TourConfig {
+  double detail_m = 0.05;       // edge of the voxels that are to hold a point
+  double lattice_step_m = 0.0;  // between views of the lattice; 0: a quarter of the cameras' range
+  double yaw_step_rad = deg_to_rad(45.0);
+  double incidence_max_rad = deg_to_rad(80.0);  // beyond, a look counts for nothing
+  TourVisibility visibility = TourVisibility::splats;
+  TourSearch search = TourSearch::neighbourhood;
+  TourSuccess success = TourSuccess::learned;
+  double price_per_m = 6e-4;     // of the structure's expected voxels: what a metre has to bring
+  double metres_per_view = 0.3;  // what a view costs beside its way
+  int iterations = 400;          // of the search, a replan
+  int views_per_replan = 6;
+  double replan_below =
+      0.5;                  // replans early when a view brings less than this share of its promise
+  int recasts = 200;        // places looked from again, a replan
+  int items_max = 12000;    // patches that the search weighs one by one; of more it takes a sample
+  double end_share = 0.01;  // of the expected voxels: what may stay when no view pays
+  bool surface_views = true;  // views off the lattice for what is left after two looks
+};
+
+}  // namespace gnbv

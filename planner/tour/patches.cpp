@@ -1,0 +1,82 @@
+#include "planner/tour/patches.hpp"
+
+#include <bit>
+
+#include "sim/core/parallel.hpp"
+
+namespace gnbv {
+namespace {
+
+// of the voxels of a side that nobody looked at, when the other one is known
+constexpr float kOppositeShare = 0.5F;
+
+// that a cell of unknown space is worth: a fifth of a plane through it
+constexpr float kFrontierVoxels = 0.2F * SurfaceCell::kSide * SurfaceCell::kSide;
+
+struct Gap {
+  Vec3f middle_m;
+  int voxels = 0;
+};
+
+/// What is expected and holds no point.
+Gap gap_of(const SurfaceCells& cells, const SurfaceCell& cell) {
+  Vec3 sum_m = Vec3::Zero();
+  const std::uint64_t missing = cell.expected & ~cell.covered;
+  for (std::uint64_t left = missing; left != 0; left &= left - 1) {
+    const Vec3 center_m = cells.voxel_center_m(cell, std::countr_zero(left));
+    const Vec3 normal = cell.normal.cast<double>();
+    sum_m += center_m - normal.dot(center_m - cell.on_plane_m.cast<double>()) * normal;
+  }
+  const int voxels = std::popcount(missing);
+  if (voxels == 0) return {cell.on_plane_m, 0};
+  return {(sum_m / voxels).cast<float>(), voxels};
+}
+
+}  // namespace
+
+std::vector<Patch> find_patches(const SurfaceCells& cells, const OccupancyGrid& grid, int threads) {
+  const std::span<const SurfaceCell> all = cells.cells();
+  std::vector<Patch> patches(2 * all.size());
+  const double before_m = 1.5 * std::max(cells.edge_m(), grid.geometry().resolution_m());
+  parallel_for_chunks(threads, all.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const SurfaceCell& cell = all[i];
+      if (cell.is_frontier) {
+        patches[2 * i] = {.target_m = cell.on_plane_m,
+                          .normal = cell.normal,
+                          .missing = kFrontierVoxels,
+                          .source = PatchSource::frontier,
+                          .looks = cell.looks[0]};
+      }
+      if (!cell.has_plane) continue;
+      const Gap gap = gap_of(cells, cell);
+      const auto state_before = [&](const Vec3f& normal) {
+        return grid.state_at(
+            (cell.on_plane_m + static_cast<float>(before_m) * normal).cast<double>());
+      };
+      const std::array<Vec3f, 2> normals = {cell.normal, -cell.normal};
+      const std::array<VoxelState, 2> before = {state_before(normals[0]), state_before(normals[1])};
+      const bool any_free = before[0] == VoxelState::free || before[1] == VoxelState::free;
+      for (std::size_t side = 0; side < 2; ++side) {
+        const VoxelState needed = any_free ? VoxelState::free : VoxelState::unknown;
+        if (before[side] != needed) continue;
+        Patch& patch = patches[2 * i + side];
+        patch.target_m = gap.middle_m;
+        patch.normal = normals[side];
+        patch.missing = static_cast<float>(gap.voxels);
+        patch.looks = cell.looks[side];
+        patch.source = cell.is_extrapolated() ? PatchSource::extrapolated : PatchSource::sampled;
+        const float expected = static_cast<float>(std::popcount(cell.expected));
+        const bool is_other_side = cell.looks[side] == 0 && cell.looks[1 - side] > 0;
+        if (is_other_side && patch.missing < kOppositeShare * expected) {
+          patch.missing = kOppositeShare * expected;
+          patch.target_m = cell.on_plane_m;
+          patch.source = PatchSource::opposite;
+        }
+      }
+    }
+  });
+  return patches;
+}
+
+}  // namespace gnbv

@@ -1,0 +1,127 @@
+#include "planner/tour/surface_cells.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+
+#include "planner/tour/patches.hpp"
+#include "sim/core/rng.hpp"
+
+namespace gnbv {
+namespace {
+
+const Box3 kBox(Vec3(-2, -2, 0), Vec3(2, 2, 2));
+
+OccupancyGrid unknown_grid() {
+  OccupancyConfig config;
+  config.resolution_m = 0.2;
+  return {config, kBox};
+}
+
+/// Points of a square with a side of 2 m about (0, 0, 1), `step_m` apart, on a plane.
+std::vector<Vec3f> square(const Vec3& normal, double step_m) {
+  const Vec3 u = normal.unitOrthogonal();
+  const Vec3 v = normal.cross(u);
+  std::vector<Vec3f> points;
+  for (double a = -1.0; a <= 1.0; a += step_m) {
+    for (double b = -1.0; b <= 1.0; b += step_m) {
+      points.push_back((Vec3(0.01, 0.02, 1.03) + a * u + b * v).cast<float>());
+    }
+  }
+  return points;
+}
+
+std::size_t expected_voxels(const SurfaceCells& cells) {
+  std::size_t sum = 0;
+  for (const SurfaceCell& cell : cells.cells()) {
+    sum += static_cast<std::size_t>(std::popcount(cell.expected));
+  }
+  return sum;
+}
+
+TEST(SurfaceCells, APlaneScannedDenselyIsExpectedWhereItsPointsAre) {
+  for (const Vec3& normal : {Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(1, 2, 3), Vec3(-1, 1, 0.2)}) {
+    SurfaceCells cells(kBox, 0.05);
+    cells.add(square(normal.normalized(), 0.01), unknown_grid(), 1);
+    std::size_t covered = 0, missing = 0;
+    for (const SurfaceCell& cell : cells.cells()) {
+      if (cell.is_extrapolated()) continue;
+      covered += static_cast<std::size_t>(std::popcount(cell.expected & cell.covered));
+      missing += static_cast<std::size_t>(std::popcount(cell.expected & ~cell.covered));
+      if (cell.has_plane) {
+        EXPECT_GT(std::fabs(cell.normal.dot(normal.normalized().cast<float>())), 0.99F);
+      }
+    }
+    EXPECT_GT(covered, 1000U);
+    EXPECT_LT(missing, covered / 4) << "the square's edges cut cells";
+  }
+}
+
+TEST(SurfaceCells, APlaneScannedThinlyIsExpectedWhole) {
+  SurfaceCells dense(kBox, 0.05), thin(kBox, 0.05);
+  dense.add(square(Vec3(1, 2, 3).normalized(), 0.01), unknown_grid(), 1);
+  thin.add(square(Vec3(1, 2, 3).normalized(), 0.15), unknown_grid(), 1);
+  const auto share =
+      static_cast<double>(expected_voxels(thin)) / static_cast<double>(expected_voxels(dense));
+  EXPECT_NEAR(share, 1.0, 0.15);
+}
+
+TEST(SurfaceCells, KnownFreeSpaceIsNotExtrapolatedInto) {
+  OccupancyGrid grid = unknown_grid();
+  SurfaceCells anywhere(kBox, 0.05);
+  anywhere.add(square(Vec3::UnitZ(), 0.05), grid, 1);
+  std::vector<VoxelIndex> outside;
+  for (VoxelIndex v = 0; v < grid.geometry().voxel_count(); ++v) {
+    const Vec3 center_m = grid.geometry().center_m(grid.geometry().key_at(v));
+    if (center_m.head<2>().cwiseAbs().maxCoeff() > 1.0) outside.push_back(v);
+  }
+  for (int i = 0; i < 5; ++i) grid.apply({.free = outside, .occupied = {}});
+  SurfaceCells within(kBox, 0.05);
+  within.add(square(Vec3::UnitZ(), 0.05), grid, 1);
+  EXPECT_LT(expected_voxels(within), expected_voxels(anywhere));
+  anywhere.follow_map(grid);
+  EXPECT_EQ(expected_voxels(anywhere), expected_voxels(within)) << "what is found free later goes";
+}
+
+TEST(SurfaceCells, PointsMayComeInAnyBatchesAndThreads) {
+  const std::vector<Vec3f> points = square(Vec3(1, 2, 3).normalized(), 0.03);
+  SurfaceCells at_once(kBox, 0.05), bit_by_bit(kBox, 0.05);
+  at_once.add(points, unknown_grid(), 1);
+  for (std::size_t i = 0; i < points.size(); i += 500) {
+    bit_by_bit.add(std::span(points).subspan(i, std::min<std::size_t>(500, points.size() - i)),
+                   unknown_grid(), 3);
+  }
+  std::size_t alike = 0;
+  for (const SurfaceCell& a : at_once.cells()) {
+    for (const SurfaceCell& b : bit_by_bit.cells()) {
+      if (a.key != b.key) continue;
+      EXPECT_EQ(a.covered, b.covered);
+      EXPECT_EQ(a.expected, b.expected);
+      ++alike;
+    }
+  }
+  EXPECT_EQ(alike, at_once.cells().size());
+}
+
+TEST(Patches, ASurfaceHasTheSidesThatSpaceIsFreeBefore) {
+  OccupancyGrid grid = unknown_grid();
+  std::vector<VoxelIndex> above;
+  for (VoxelIndex v = 0; v < grid.geometry().voxel_count(); ++v) {
+    if (grid.geometry().center_m(grid.geometry().key_at(v)).z() > 1.2) above.push_back(v);
+  }
+  for (int i = 0; i < 5; ++i) grid.apply({.free = above, .occupied = {}});
+  SurfaceCells cells(kBox, 0.05);
+  cells.add(square(Vec3::UnitZ(), 0.15), grid, 1);
+  int sides = 0;
+  for (const Patch& patch : find_patches(cells, grid, 2)) {
+    if (patch.missing == 0.0F) continue;
+    ++sides;
+    EXPECT_GT(patch.normal.z(), 0.9F);
+    EXPECT_EQ(patch.source == PatchSource::sampled || patch.source == PatchSource::extrapolated,
+              true);
+  }
+  EXPECT_GT(sides, 50);
+}
+
+}  // namespace
+}  // namespace gnbv
