@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <numeric>
 
 #include "planner/belief.hpp"
@@ -13,6 +14,7 @@
 #include "planner/map/clearance.hpp"
 #include "planner/model.hpp"
 #include "planner/tour/prize_tour.hpp"
+#include "planner/tour/surface_places.hpp"
 #include "sim/core/rng.hpp"
 #include "sim/core/stopwatch.hpp"
 
@@ -145,6 +147,59 @@ PrizeTask TourPlanner::make_task(std::vector<TourView>& views) const {
   return task;
 }
 
+/// For what no place sees: a few more, from the cubes of a metre that lack the most. Whether there
+/// are any.
+bool TourPlanner::add_surface_places(const Belief& belief) {
+  constexpr std::size_t kCubes = 24;  // a replan
+  constexpr std::size_t kPlaces = 2;  // for each
+  constexpr float kLeast = 8.0F;      // voxels, of a cube
+  std::vector<std::uint8_t> is_seen(patches_.size(), 0);
+  for (TourPlaces::Place place = 1; place < places_.size(); ++place) {
+    if (!places_.is_reachable(place)) continue;
+    for (int yaw = 0; yaw < catalogue_.yaws(); ++yaw) {
+      for (const SeenPatch& seen : catalogue_.seen(place, yaw)) is_seen[seen.patch] = 1;
+    }
+  }
+  struct Cube {
+    float missing = 0.0F;
+    PatchId heaviest = 0;
+  };
+  std::map<Key, Cube> cubes;
+  for (PatchId id = 0; id < patches_.size(); ++id) {
+    const Patch& patch = patches_[id];
+    if (patch.missing <= 0.0F || is_seen[id] != 0) continue;
+    const Vec3f at = patch.target_m.array().floor();
+    Cube& cube = cubes[{static_cast<std::int32_t>(at.x()), static_cast<std::int32_t>(at.y()),
+                        static_cast<std::int32_t>(at.z())}];
+    if (cube.missing == 0.0F || patch.missing > patches_[cube.heaviest].missing) {
+      cube.heaviest = id;
+    }
+    cube.missing += patch.missing;
+  }
+  std::vector<std::pair<float, Key>> order;
+  for (const auto& [key, cube] : cubes) {
+    if (cube.missing >= kLeast && !tried_.contains(key)) order.emplace_back(-cube.missing, key);
+  }
+  std::sort(order.begin(), order.end());
+  order.resize(std::min(order.size(), kCubes));
+  bool is_any = false;
+  for (const auto& [missing, key] : order) {
+    tried_.insert(key);
+    const Patch& patch = patches_[cubes[key].heaviest];
+    for (const Vec3& p_m : places_to_see({belief.grid, space_, model_.cameras}, patch, kPlaces)) {
+      places_.add(p_m);
+      is_any = true;
+    }
+  }
+  if (std::getenv("TOUR_DEBUG")) {
+    double unseen = 0;
+    for (const auto& [k, c] : cubes) unseen += c.missing;
+    fmt::print(stderr, "  unseen {:.0f} in {} cubes, {} tried now, places {}\n", unseen,
+               cubes.size(), order.size(), places_.size());
+  }
+  return is_any;
+}
+
 void TourPlanner::replan(const Belief& belief, const ViewPose& current, int threads) {
   const Stopwatch watch;
   auto lap = [&](const char* w) {
@@ -160,7 +215,11 @@ void TourPlanner::replan(const Belief& belief, const ViewPose& current, int thre
   lap("patches");
   std::vector<TourPlaces::Place> first;
   for (const TourView& view : tour_) first.push_back(view.place);
-  catalogue_.follow(scene(belief), places_, first, threads);
+  catalogue_.follow(scene(belief), places_, first, config_.recasts, threads);
+  if (config_.surface_views && add_surface_places(belief)) {
+    places_.follow(belief.grid, space_, current.p_world_m);
+    catalogue_.follow(scene(belief), places_, {}, 0, threads);
+  }
   lap("catalogue_.follow");
   while (true) {
     std::vector<TourView> views;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "planner/decision.hpp"
@@ -61,6 +62,7 @@ class TourPlanner {
   void learn();
   void replan(const Belief& belief, const ViewPose& current, int threads);
   PrizeTask make_task(std::vector<TourView>& views) const;
+  bool add_surface_places(const Belief& belief);
   std::optional<std::vector<Vec3>> way(const Belief& belief, const ViewPose& current,
                                        TourPlaces::Place to);
   void promise(const Belief& belief, const ViewPose& view);
@@ -79,6 +81,7 @@ class TourPlanner {
   int views_since_replan_ = 0;
   bool is_disappointed_ = true;  // the tour has to be made anew
   double price_factor_ = 1.0;
+  std::set<Key> tried_;  // cubes whose patches places were looked for
   std::uint64_t replans_ = 0;
   std::vector<Promise> promises_;  // of the view under way
   std::vector<LookOutcome> outcomes_;

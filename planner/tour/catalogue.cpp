@@ -9,8 +9,7 @@ namespace gnbv {
 
 ViewCatalogue::ViewCatalogue(const TourConfig& config, std::span<const CameraModel> cameras,
                              const Box3& workspace_m)
-    : config_(config),
-      cameras_(cameras),
+    : cameras_(cameras),
       blocks_(workspace_m, SurfaceCell::kSide * config.detail_m),
       yaws_(std::max(1, static_cast<int>(std::lround(2.0 * kPi / config.yaw_step_rad)))) {
   for (const CameraModel& camera : cameras) reach_m_ = std::max(reach_m_, camera_reach_m(camera));
@@ -52,7 +51,7 @@ void ViewCatalogue::cast(const TourScene& scene, const Vec3& p_world_m, AtPlace&
 }
 
 void ViewCatalogue::follow(const TourScene& scene, const TourPlaces& places,
-                           std::span<const Place> first, int threads) {
+                           std::span<const Place> first, int recasts, int threads) {
   blocks_.follow(scene.cells);
   at_.resize(places.size());
   struct Due {
@@ -89,7 +88,7 @@ void ViewCatalogue::follow(const TourScene& scene, const TourPlaces& places,
     if (is_first[a.place] != is_first[b.place]) return is_first[a.place] > is_first[b.place];
     return a.changes > b.changes;
   });
-  again.resize(std::min(again.size(), static_cast<std::size_t>(config_.recasts)));
+  again.resize(std::min(again.size(), static_cast<std::size_t>(recasts)));
   never.insert(never.end(), again.begin(), again.end());
   parallel_for_chunks(threads, never.size(), 4, [&](std::size_t begin, std::size_t end) {
     PatchViewer viewer;

@@ -20,10 +20,10 @@ class ViewCatalogue {
   int yaws() const { return yaws_; }
   double yaw_rad(int yaw) const { return 2.0 * kPi * yaw / yaws_; }
 
-  /// Looks from every reachable place that never was, and from `recasts` of those around which the
+  /// Looks from every reachable place that never was, and from so many of those around which the
   /// surface changed most since they were; `first` come before all others.
   void follow(const TourScene& scene, const TourPlaces& places, std::span<const Place> first,
-              int threads);
+              int recasts, int threads);
 
   /// What the last look from there saw at that yaw, in ascending order.
   std::span<const SeenPatch> seen(Place place, int yaw) const;
@@ -42,7 +42,6 @@ class ViewCatalogue {
             std::span<const CellBlocks::Block* const> near, PatchViewer& viewer,
             std::vector<SeenPatch>& seen) const;
 
-  const TourConfig& config_;
   std::span<const CameraModel> cameras_;
   CellBlocks blocks_;
   double reach_m_ = 0.0;

@@ -24,7 +24,9 @@ TourPlaces::TourPlaces(const GridGeometry& geometry, const Box3& navigation_m, d
     const double low_m = navigation_m.min()[axis];
     const double high_m = navigation_m.max()[axis];
     const double rest_m = std::fmod(high_m - low_m, step_m_);
-    for (double at_m = low_m + 0.5 * rest_m; at_m <= high_m + 1e-9; at_m += step_m_) {
+    // the lowest places see the undersides
+    for (double at_m = low_m + (a == 2 ? 0.0 : 0.5 * rest_m); at_m <= high_m + 1e-9;
+         at_m += step_m_) {
       const double inside_m = std::clamp(at_m, low_m + 0.5 * voxel_m, high_m - 0.5 * voxel_m);
       along_m[a].push_back(geometry.center_m(geometry.key_of(inside_m)));
     }
@@ -39,6 +41,7 @@ TourPlaces::TourPlaces(const GridGeometry& geometry, const Box3& navigation_m, d
 
 TourPlaces::Place TourPlaces::add(const Vec3& p_world_m) {
   p_world_m_.push_back(geometry_.center_m(geometry_.key_of(geometry_.nearest_inside(p_world_m))));
+  rows_.clear();
   return static_cast<Place>(p_world_m_.size() - 1);
 }
 

@@ -5,7 +5,7 @@
 namespace gnbv {
 
 std::optional<std::string_view> sampler_named(std::string_view text) {
-  for (const std::string_view name : {"start", "agvs", "fvs", "route", "oracle"}) {
+  for (const std::string_view name : {"start", "agvs", "fvs", "route", "oracle", "tour"}) {
     if (name == text) return name;
   }
   return std::nullopt;
