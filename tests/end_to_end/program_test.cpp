@@ -133,6 +133,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadInputCase{"CeilingOfNothing", "ceiling aircaft", {"aircaft", "aircraft"}},
         BadInputCase{"LintOfNothing", "lint @/absent.obj", {"absent.obj", "No such file"}},
         BadInputCase{"UnknownAsset", "asset aircrft -o @/out", {"aircrft", "'aircraft'"}},
+        BadInputCase{"UnknownRandomKind",
+                     "asset random --kind crain -o @/out",
+                     {"--kind crain", "did you mean 'crane'?", "hull"}},
+        BadInputCase{
+            "SeedOfABuiltin", "asset smoke --seed 2 -o @/out.obj", {"smoke", "asset random"}},
+        BadInputCase{"NegativeAssetSeed", "asset random --seed -1 -o @/out.obj", {"--seed"}},
         BadInputCase{"UnknownMeshFormat", "asset smoke -o @/out", {"out", ".obj, .ply or .glb"}},
         BadInputCase{"EmptyMesh", "run smoke --mesh @/empty.obj --out @/out", {"empty.obj"}},
         BadInputCase{"NanMesh", "run smoke --mesh @/nan.obj --out @/out", {"nan.obj"}},
@@ -229,6 +235,29 @@ TEST(Program, WritesItsStructuresAndFindsThemSound) {
   }
   EXPECT_TRUE(has(gnbv("asset --list"), "smoke\n"));
   EXPECT_EQ(gnbv("asset smoke --list").exit_code, 2) << "a list is of all";
+}
+
+TEST(Program, WritesRandomStructuresWhoseBytesAreThoseOfTheirSeed) {
+  TempFolder temp;
+  const auto written = [&](const std::string& file, const std::string& options) {
+    const std::string path = (temp.path() / file).string();
+    const Outcome asset = gnbv("asset random --json " + options + " 2>/dev/null -o " + path);
+    EXPECT_EQ(asset.exit_code, 0) << options;
+    const auto facts = nlohmann::json::parse(asset.output);
+    const std::string chosen =
+        fmt::format("--kind {} --seed {}", facts.at("kind").get<std::string>(),
+                    facts.at("seed").get<std::uint64_t>());
+    return std::pair(read_file(path), chosen);
+  };
+  for (const std::string extension : {".obj", ".ply", ".glb"}) {
+    const auto [bytes, chosen] = written("a" + extension, "--seed 9");
+    EXPECT_EQ(written("a" + extension, chosen).first, bytes) << "the seed chose that kind";
+    EXPECT_NE(written("a" + extension, "--seed 10").first, bytes);
+  }
+  EXPECT_EQ(written("a.obj", "").second, written("a.obj", "--seed 1").second);
+  const Outcome list = gnbv("asset --list");
+  for (const std::string kind : {"hall", "mixed"})
+    EXPECT_TRUE(has(list, "random --kind " + kind + "\n")) << list.output;
 }
 
 TEST(Program, LintExitsWith1OnAMeshThatNoMissionTakes) {

@@ -141,7 +141,8 @@ void add_asset_command(CLI::App& app) {
   CLI::Option* const out = command->add_option(
       "-o,--out", options->out,
       "file to write: .obj (with its .mtl), .ply or .glb; metres, z up (.glb: y up)");
-  CLI::Option* const seed = command->add_option("--seed", options->seed, "of `random`: which (1)");
+  CLI::Option* const seed = command->add_option("--seed", options->seed, "of `random`: which (1)")
+                                ->check(CLI::NonNegativeNumber);
   CLI::Option* const kind =
       command->add_option("--kind", options->kind,
                           "of `random`: hall, tower, ...; --list names them, else by the seed");

@@ -113,6 +113,20 @@ TEST(AutoBounds, TheStartIsWhereMostIsToBeSeen) {
   EXPECT_EQ(out.start.pose.p_world_m.y(), out.workspace_m.min().y());
 }
 
+TEST(AutoBounds, AStartAtTheBoxsLowestEdgeIsInTheBox) {
+  // a plate on the ground just within the cameras' range, if they are low, and wires of any height
+  int lowest = 0;
+  for (int round = 0; round < 60; ++round) {
+    TriangleMesh mesh;
+    test::add_box(mesh, {0, -3, 0}, {0.01, 0.01, 1.5 + 0.317 * round});
+    test::add_box(mesh, {-6, -0.6, 0}, {12, 3.6, 0.1});
+    const Scenario out = with_bounds_around(aircraft(), extent_of(mesh));
+    lowest += out.start.pose.p_world_m.z() < out.planner.validity.z_min_m + 1e-9;
+    EXPECT_TRUE(problems(out).empty()) << problems(out).front().what;
+  }
+  EXPECT_GT(lowest, 20) << "the test is about another start";
+}
+
 class GivenBoundsTest : public testing::Test {
  protected:
   GivenBoundsTest() { write_mesh(lookout(), temp_.path() / "t.obj"); }
