@@ -55,9 +55,9 @@ SurfaceScore score_surface(const TriangleMesh& surface, const World& truth,
   std::vector<Vec3f> samples_m = samples_by_area(surface, kSamples, kSeed);
   const RayScene true_scene(truth);
   const std::vector<std::uint8_t> is_own = points_of_structure(true_scene, samples_m, threads);
-  std::size_t i = 0;
+  std::size_t sample = 0;
   std::erase_if(samples_m, [&](const Vec3f& p_m) {
-    return is_own[i++] == 0 || static_cast<double>(p_m.z()) < config.floor_z_m ||
+    return is_own[sample++] == 0 || static_cast<double>(p_m.z()) < config.floor_z_m ||
            !config.region_m.contains(p_m.cast<double>());
   });
   const SurfaceReference reference = cached_surface_reference(truth, true_scene, config, threads);
