@@ -1,6 +1,7 @@
 // Missions that fly a user's views.
 #include <gtest/gtest.h>
 
+#include "sim/core/error.hpp"
 #include "tests/support/flown.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/run_files/iterations_csv.hpp"
