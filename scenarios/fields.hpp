@@ -189,6 +189,7 @@ void fields(FieldVisitor& v, PlannerConfig& c);
 // fields_scenario.cpp
 void fields(FieldVisitor& v, StructureConfig& c);
 void fields(FieldVisitor& v, StartConfig& c);
+void fields(FieldVisitor& v, BenchmarkConfig& c);
 void fields(FieldVisitor& v, Scenario& c);
 
 template <typename Enum, std::size_t count>

@@ -41,8 +41,11 @@ struct Filling {
 
 /// load_scenario() with overrides that were not given on the command line, and perhaps with values
 /// that depend on the rest: a filling's come last, and throw BadInput when they cannot be had.
+/// `idle_notes` gets a sentence for each key that was given and has no effect (idle_keys.hpp); the
+/// files that are built in give none.
 Scenario load_with_overrides(const std::string& name_or_path,
-                             const std::vector<Override>& overrides, const Filling& filling = {});
+                             const std::vector<Override>& overrides, const Filling& filling = {},
+                             std::vector<std::string>* idle_notes = nullptr);
 
 /// The resolved configuration as YAML, every key with its value and absolute paths: load_scenario
 /// on it gives the same Scenario, bit for bit, if load_scenario made it. (An angle set by other

@@ -68,6 +68,7 @@ void integrate(Mission& m, std::span<const DepthFrame> frames) {
 void record(Mission& m, const Decision& decision) {
   m.history.decisions.push_back(decision);
   const Belief& belief = m.out.belief;
+  remember_progress(belief, m.out.distance.straight_m, m.history);
   const std::size_t points = belief.cloud.points_world_m().size();
   const std::size_t occupied = belief.grid.occupied_count();
   m.out.views.push_back(
@@ -92,11 +93,14 @@ void record(Mission& m, const Decision& decision) {
 
 std::optional<Termination> termination(const Mission& m) {
   const TerminationConfig& config = m.planner.config.termination;
+  if (m.hooks.is_covered(m.out.belief)) return Termination::coverage_reached;
   if (m.out.views.size() >= static_cast<std::size_t>(config.max_iterations)) {
     return Termination::max_iterations;
   }
   if (!m.hooks.route) {
-    if (entropy_has_settled(config, m.history.entropies_nat)) return Termination::entropy_change;
+    if (const auto end = believed_end(config, m.history.entropies_nat, m.history.progress)) {
+      return end;
+    }
     if (is_back_and_forth(positions_of(m.history), config.repeated_moves)) {
       return Termination::repeated_motion;
     }
@@ -124,6 +128,12 @@ std::optional<Decision> decide(Mission& m) {
   return std::move(plan.next);
 }
 
+/// Whether the way to the view is longer than the mission may go on.
+bool is_too_far(const Mission& m, const Decision& next) {
+  return is_too_far(m.planner.config.termination, m.out.distance.straight_m,
+                    path_length_m(m.current.p_world_m, next.via_world_m, next.view.p_world_m));
+}
+
 MissionResult finish(Mission& m, Termination reason) {
   m.out.termination = reason;
   m.out.flight_time_s = time_s(*m.flight);
@@ -148,6 +158,7 @@ MissionResult run_mission(const Scenario& scenario, const World& world, const Ra
     if (const auto over = termination(m)) return finish(m, *over);
     const std::optional<Decision> decision = decide(m);
     if (!decision) return finish(m, Termination::no_valid_view);
+    if (is_too_far(m, *decision)) return finish(m, Termination::max_distance);
     next = *decision;
   }
 }

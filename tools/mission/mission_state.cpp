@@ -21,6 +21,12 @@ bool has_energy_to_go_on(const Mission& m) {
   return m.flight->energy_wh() + landing_energy_wh(vehicle, z_m) < vehicle.power.battery_wh;
 }
 
+/// Whether the mission may take longer.
+bool has_time_to_go_on(const Mission& m) {
+  const double max_s = m.planner.config.termination.max_flight_time_s;
+  return max_s <= 0.0 || time_s(*m.flight) < max_s;
+}
+
 }  // namespace
 
 std::vector<CameraModel> camera_models(const Scenario& scenario) {
@@ -59,10 +65,12 @@ std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal, double spee
                                if (flight.tick() % kTicksPerSample == 0)
                                  m.out.trajectory.push_back({time_s(flight), T});
                                on_tick(flight);
-                               return has_energy_to_go_on(m);
+                               return has_energy_to_go_on(m) && has_time_to_go_on(m);
                              });
   if (end == LegEnd::collision) return Termination::collision;
-  if (end == LegEnd::stopped) return Termination::battery;
+  if (end == LegEnd::stopped) {
+    return has_energy_to_go_on(m) ? Termination::max_flight_time : Termination::battery;
+  }
   m.current = goal;
   if (end == LegEnd::timeout) {
     ++m.out.legs_timed_out;
