@@ -37,7 +37,7 @@ TEST(Said, RunRepeatsWhatLintWarnsOfAndNoMore) {
   ASSERT_TRUE(has(lint, "below the ground")) << lint.output;
   const Outcome warned = gnbv(run + "/sunk" + sunk);
   EXPECT_EQ(warned.exit_code, 0) << warned.output;
-  EXPECT_TRUE(has(warned, "low.obj: ground: reaches 0.9 m below the ground")) << warned.output;
+  EXPECT_TRUE(has(warned, "low.obj: ground: reaches 0.888 m below the ground")) << warned.output;
   EXPECT_EQ(count_of(warned.output, "low.obj: "), count_of(lint.output, "\nwarning"))
       << warned.output;
 }
