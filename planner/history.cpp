@@ -28,4 +28,10 @@ void remember_entropy(const Belief& belief, double entropy_before_nat, History& 
   history.entropies_nat.push_back(belief.grid.total_entropy_nat());
 }
 
+void remember_progress(const Belief& belief, double straight_m, History& history) {
+  history.progress.push_back({.occupied_voxels = belief.grid.occupied_count(),
+                              .cloud_points = belief.cloud.points_world_m().size(),
+                              .straight_m = straight_m});
+}
+
 }  // namespace gnbv

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "planner/decision.hpp"
+#include "planner/termination.hpp"
 
 namespace gnbv {
 
@@ -14,6 +15,7 @@ struct Belief;
 struct History {
   std::vector<Decision> decisions;
   std::vector<double> entropies_nat;  // as entropy_has_settled() wants them
+  std::vector<MapProgress> progress;  // after each view
 };
 
 /// Where the views were taken.
@@ -24,5 +26,6 @@ std::vector<ViewPose> recent_views(const History& history, int count);
 
 /// Records the outcome of the latest decision's view.
 void remember_entropy(const Belief& belief, double entropy_before_nat, History& history);
+void remember_progress(const Belief& belief, double straight_m, History& history);
 
 }  // namespace gnbv

@@ -9,8 +9,16 @@ std::string_view name_of(Termination reason) {
   switch (reason) {
     case Termination::max_iterations:
       return "max_iterations";
+    case Termination::max_distance:
+      return "max_distance";
+    case Termination::max_flight_time:
+      return "max_flight_time";
     case Termination::entropy_change:
       return "entropy_change";
+    case Termination::low_gain:
+      return "low_gain";
+    case Termination::no_new_points:
+      return "no_new_points";
     case Termination::no_valid_view:
       return "no_valid_view";
     case Termination::repeated_motion:
@@ -23,6 +31,8 @@ std::string_view name_of(Termination reason) {
       return "off_course";
     case Termination::tour_complete:
       return "tour_complete";
+    case Termination::coverage_reached:
+      return "coverage_reached";
     case Termination::interrupted:
       return "interrupted";
     case Termination::collision:
@@ -42,6 +52,37 @@ bool entropy_has_settled(const TerminationConfig& config, std::span<const double
     if (change_percent >= config.entropy_change_percent) return false;
   }
   return true;
+}
+
+bool gain_is_low(const TerminationConfig& config, std::span<const MapProgress> progress) {
+  const auto window = static_cast<std::size_t>(config.new_voxels_window);
+  if (config.min_new_voxels_per_m <= 0.0 || progress.size() < window + 1) return false;
+  const MapProgress& from = progress[progress.size() - 1 - window];
+  const MapProgress& to = progress.back();
+  // noise can free a voxel again: the difference may be negative
+  const double voxels =
+      static_cast<double>(to.occupied_voxels) - static_cast<double>(from.occupied_voxels);
+  const double metres = to.straight_m - from.straight_m;
+  return metres > 0.0 && voxels < config.min_new_voxels_per_m * metres;
+}
+
+bool points_have_dried_up(const TerminationConfig& config, std::span<const MapProgress> progress) {
+  const auto views = static_cast<std::size_t>(config.max_views_without_new_points);
+  if (views == 0 || progress.size() < views + 1) return false;
+  return progress.back().cloud_points == progress[progress.size() - 1 - views].cloud_points;
+}
+
+bool is_too_far(const TerminationConfig& config, double straight_m, double leg_m) {
+  return config.max_distance_m > 0.0 && straight_m + leg_m > config.max_distance_m;
+}
+
+std::optional<Termination> believed_end(const TerminationConfig& config,
+                                        std::span<const double> entropies_nat,
+                                        std::span<const MapProgress> progress) {
+  if (entropy_has_settled(config, entropies_nat)) return Termination::entropy_change;
+  if (gain_is_low(config, progress)) return Termination::low_gain;
+  if (points_have_dried_up(config, progress)) return Termination::no_new_points;
+  return std::nullopt;
 }
 
 }  // namespace gnbv

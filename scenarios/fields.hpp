@@ -209,6 +209,7 @@ void fields(FieldVisitor& v, ObstacleConfig& c);
 void fields(FieldVisitor& v, NoFlyConfig& c);
 void fields(FieldVisitor& v, ScoreConfig& c);
 void fields(FieldVisitor& v, StartConfig& c);
+void fields(FieldVisitor& v, BenchmarkConfig& c);
 void fields(FieldVisitor& v, Scenario& c);
 
 template <typename Config>

@@ -228,6 +228,16 @@ void fields(FieldVisitor& v, TerminationConfig& c) {
   v.integer("entropy_window", c.entropy_window, between(1, 1e6), "For so many views in a row.");
   v.integer("repeated_moves", c.repeated_moves, between(0, 1e6),
             "Over after so many moves back and forth; 0: never.");
+  v.number("max_distance_m", c.max_distance_m, between(0, 1e9),
+           "Over when the way to the next view would make the planned way longer; 0: no limit.");
+  v.number("max_flight_time_s", c.max_flight_time_s, between(0, 1e9),
+           "Over in flight, so long after the mission's beginning; 0: no limit.");
+  v.number("min_new_voxels_per_m", c.min_new_voxels_per_m, between(0, 1e9),
+           "Over when fewer voxels of the map become occupied a planned metre; 0: never.");
+  v.integer("new_voxels_window", c.new_voxels_window, between(1, 1e6),
+            "That is asked of so many views together.");
+  v.integer("max_views_without_new_points", c.max_views_without_new_points, between(0, 1e6),
+            "Over after so many views in a row that add no point to the cloud; 0: never.");
 }
 
 void fields(FieldVisitor& v, PlannerConfig& c) {

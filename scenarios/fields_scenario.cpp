@@ -37,6 +37,12 @@ void fields(FieldVisitor& v, StartConfig& c) {
   v.angle("jitter_yaw_deg", c.jitter_yaw_rad, between(0, 180), "And turns it by up to this.");
 }
 
+void fields(FieldVisitor& v, BenchmarkConfig& c) {
+  v.number("stop_at_coverage", c.stop_at_coverage, between(0, 1),
+           "Over when the cloud covers this share of the voxels of 0.05 m with surface seen from "
+           "outside, summary.json's coverage.final at 0.05; 0: never.");
+}
+
 void fields(FieldVisitor& v, Scenario& c) {
   v.word("name", c.name, "Name of the scenario, for reports.");
   v.integer("seed", c.seed, "Moves the start pose and keys all noise.");
@@ -53,6 +59,7 @@ void fields(FieldVisitor& v, Scenario& c) {
   v.section("wind", c.wind, "The air it flies in.");
   v.section("start", c.start, "Where the views begin.");
   v.section("planner", c.planner, "What is believed and decided.");
+  v.section("benchmark", c.benchmark, "What the truth decides, which no real mission knows.");
 }
 
 }  // namespace gnbv

@@ -7,6 +7,7 @@
 #include "scenarios/builtin.hpp"
 #include "scenarios/document.hpp"
 #include "scenarios/faults.hpp"
+#include "scenarios/idle_keys.hpp"
 #include "scenarios/problems.hpp"
 #include "scenarios/reader.hpp"
 #include "scenarios/write.hpp"
@@ -22,6 +23,7 @@ struct Source {
   std::string text;
   std::string label;   // as faults show it
   std::string folder;  // where its relative paths begin
+  bool is_builtin = false;
 };
 
 std::string here() { return fs::current_path().string(); }
@@ -30,7 +32,7 @@ Source open_source(const std::string& name_or_path) {
   std::vector<std::string_view> names;
   for (const BuiltinScenario& builtin : builtin_scenarios()) {
     if (builtin.name == name_or_path) {
-      return {std::string(builtin.yaml), fmt::format("{} (built in)", builtin.name), here()};
+      return {std::string(builtin.yaml), fmt::format("{} (built in)", builtin.name), here(), true};
     }
     names.push_back(builtin.name);
   }
@@ -134,7 +136,7 @@ void fill_in(const Filling& filling, Scenario& scenario, Origins& origins) {
 }
 
 Scenario load(const std::string& name_or_path, const std::vector<Override>& overrides,
-              MeshFile mesh_file, const Filling& filling) {
+              MeshFile mesh_file, const Filling& filling, std::vector<std::string>* idle_notes) {
   const Source source = open_source(name_or_path);
   const Origin origin = {source.label, 1, 0};
   Faults faults;
@@ -151,11 +153,16 @@ Scenario load(const std::string& name_or_path, const std::vector<Override>& over
     const auto picks = parse_override(text, given, faults);
     if (picks) read_scenario(*picks, folder.empty() ? here() : folder, scenario, faults, origins);
   }
+  Origins given_by_user = origins;
+  if (source.is_builtin) {
+    std::erase_if(given_by_user, [](const auto& given) { return given.second.rank == 0; });
+  }
   if (filling.fill && faults.empty()) fill_in(filling, scenario, origins);
   if (root->kind == YamlNode::Kind::map) {
     add_problems(scenario, mesh_file, origin, origins, faults);
   }
   faults.throw_if_any();
+  if (idle_notes != nullptr) *idle_notes = idle_key_notes(scenario, given_by_user);
   return scenario;
 }
 
@@ -174,12 +181,13 @@ Scenario load_scenario(const std::string& name_or_path, const std::vector<std::s
 }
 
 Scenario load_flown_scenario(const std::string& path) {
-  return load(path, {}, MeshFile::may_be_missing, {});
+  return load(path, {}, MeshFile::may_be_missing, {}, nullptr);
 }
 
 Scenario load_with_overrides(const std::string& name_or_path,
-                             const std::vector<Override>& overrides, const Filling& filling) {
-  return load(name_or_path, overrides, MeshFile::has_to_be_there, filling);
+                             const std::vector<Override>& overrides, const Filling& filling,
+                             std::vector<std::string>* idle_notes) {
+  return load(name_or_path, overrides, MeshFile::has_to_be_there, filling, idle_notes);
 }
 
 }  // namespace gnbv

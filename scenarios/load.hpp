@@ -42,8 +42,11 @@ struct Filling {
 
 /// load_scenario() with overrides that were not given on the command line, and perhaps with values
 /// that depend on the rest: a filling's come last, and throw BadInput when they cannot be had.
+/// `idle_notes` gets a sentence for each key that was given and has no effect (idle_keys.hpp); the
+/// files that are built in give none.
 Scenario load_with_overrides(const std::string& name_or_path,
-                             const std::vector<Override>& overrides, const Filling& filling = {});
+                             const std::vector<Override>& overrides, const Filling& filling = {},
+                             std::vector<std::string>* idle_notes = nullptr);
 
 /// The override that gives these views: `planner.routes.views=[...]`. They read back bit for bit.
 std::string views_override(std::span<const ViewPose> views);

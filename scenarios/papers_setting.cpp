@@ -12,14 +12,20 @@ namespace {
 
 using Values = std::vector<std::pair<std::string, std::string>>;
 
-/// What the paper's figures depend on and the paper states.
+/// What the paper's figures depend on and the paper states, or does not have.
 Values stated_values(const Scenario& scenario) {
-  constexpr std::array<std::string_view, 6> kStated = {"cameras",
-                                                       "lidars",
-                                                       "workspace_m",
-                                                       "planner.map.resolution_m",
-                                                       "planner.profiling.method",
-                                                       "planner.termination.max_iterations"};
+  constexpr std::array<std::string_view, 11> kStated = {
+      "cameras",
+      "lidars",
+      "workspace_m",
+      "planner.map.resolution_m",
+      "planner.profiling.method",
+      "planner.termination.max_iterations",
+      "planner.termination.max_distance_m",
+      "planner.termination.max_flight_time_s",
+      "planner.termination.min_new_voxels_per_m",
+      "planner.termination.max_views_without_new_points",
+      "benchmark"};
   Values values = scenario_values(scenario);
   std::erase_if(values, [&](const auto& value) {
     return std::none_of(kStated.begin(), kStated.end(), [&](std::string_view stated) {

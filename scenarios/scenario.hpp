@@ -65,6 +65,11 @@ struct StartConfig {
   double jitter_yaw_rad = 0.0;
 };
 
+/// What only a benchmark may know: it is asked of the truth, never of the belief.
+struct BenchmarkConfig {
+  double stop_at_coverage = 0.0;  // of the surface seen from outside, at 0.05 m; 0 switches it off
+};
+
 struct Scenario {
   std::string name = "unnamed";
   std::uint64_t seed = 1;
@@ -81,6 +86,7 @@ struct Scenario {
   WindConfig wind;
   StartConfig start;
   PlannerConfig planner;
+  BenchmarkConfig benchmark;
 };
 
 inline bool has_flat_ground(const Scenario& scenario) {

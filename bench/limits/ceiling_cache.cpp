@@ -114,6 +114,30 @@ std::string ceiling_key(const Scenario& scenario, const World& world,
   return sha.hex();
 }
 
+Scenario what_a_ceiling_depends_on(const Scenario& scenario) {
+  Scenario out;
+  out.seed = scenario.seed;  // moves the start
+  out.workspace_m = scenario.workspace_m;
+  out.structure = scenario.structure;
+  out.start = scenario.start;
+  out.lidars = scenario.lidars;
+  out.cameras = scenario.cameras;
+  for (CameraConfig& camera : out.cameras) {
+    camera.preset = CameraConfig{}.preset;
+    camera.name = CameraConfig{}.name;
+    camera.rate_hz = CameraConfig{}.rate_hz;
+    camera.noise = {};
+  }
+  const PlannerConfig& planner = scenario.planner;
+  out.planner.map.resolution_m = planner.map.resolution_m;
+  out.planner.cloud.leaf_m = planner.cloud.leaf_m;
+  out.planner.floor_z_m = planner.floor_z_m;
+  out.planner.profiling = planner.profiling;
+  out.planner.validity.collision_radius_m = planner.validity.collision_radius_m;
+  out.planner.validity.z_min_m = planner.validity.z_min_m;
+  return out;
+}
+
 std::string text_of(const Ceiling& ceiling) {
   std::string text = fmt::format("{}", ceiling.positions);
   for (const auto* shares :

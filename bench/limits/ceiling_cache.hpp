@@ -15,6 +15,10 @@ namespace gnbv {
 /// stand for start, navigation box and collision radius.
 std::string ceiling_key(const Scenario& scenario, const World& world, const LegalViewpoints& legal);
 
+/// A scenario with all that the ceiling depends on, and the defaults elsewhere: scenarios of which
+/// this is the same have one ceiling.
+Scenario what_a_ceiling_depends_on(const Scenario& scenario);
+
 std::string text_of(const Ceiling& ceiling);
 std::optional<Ceiling> ceiling_from(std::string_view text);
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -24,5 +25,22 @@ std::vector<CoverageShares> coverage_of_prefixes(const SurfaceReference& referen
                                                  std::span<const Vec3f> cloud_world_m,
                                                  std::span<const std::size_t> prefixes,
                                                  int threads);
+
+/// Counts while a cloud grows what its points cover of one set of voxels.
+class CoverageMeter {
+ public:
+  CoverageMeter(const VoxelSet& reference, double size_m);
+  ~CoverageMeter();
+  CoverageMeter(const CoverageMeter&) = delete;
+  CoverageMeter& operator=(const CoverageMeter&) = delete;
+
+  /// Share that the cloud covers, equal to coverage() of its voxels. Looks at the points behind
+  /// those of the call before, which have to be the cloud's first.
+  double share_of(std::span<const Vec3f> cloud_world_m);
+
+ private:
+  struct Count;
+  std::unique_ptr<Count> count_;
+};
 
 }  // namespace gnbv

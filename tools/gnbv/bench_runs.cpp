@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "bench/limits/ceiling_cache.hpp"
 #include "scenarios/load.hpp"
 #include "sensors/ray_scene.hpp"
 #include "sim/core/error.hpp"
@@ -81,14 +82,6 @@ BenchRuns collect(const std::vector<Cell>& cells, const std::vector<CellOutcome>
   return collected;
 }
 
-/// The scenario's text without what only decides between legal viewpoints: methods that differ in
-/// nothing else have one ceiling. What differs in more is looked up in the cache of ceilings.
-std::string without_choice_of_views(Scenario scenario) {
-  scenario.planner.utility = {};
-  scenario.planner.termination = {};
-  return to_yaml(scenario);
-}
-
 }  // namespace
 
 void add_bench_options(CLI::App& command, BenchOptions& options) {
@@ -158,7 +151,7 @@ Ceilings ceilings_of(const BenchRuns& runs, const BenchOptions& options,
     if (!asked.insert({run.scenario, run.method}).second) continue;
     try {
       const Scenario scenario = load_scenario((runs.folders[i] / kScenarioFile).string(), {});
-      const std::string content = without_choice_of_views(scenario);
+      const std::string content = to_yaml(what_a_ceiling_depends_on(scenario));
       if (!by_content.contains(content)) {
         by_content.emplace(content, ceiling_of(scenario, options));
       }

@@ -1,18 +1,21 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "bench/limits/ceiling.hpp"
 #include "bench/limits/oracle.hpp"
 #include "bench/score/voxel_set.hpp"
+#include "sim/core/error.hpp"
 #include "sim/core/stopwatch.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/start_pose.hpp"
+#include "tools/run_files/file_names.hpp"
 #include "tools/terminal/progress.hpp"
 
 namespace gnbv {
@@ -94,9 +97,24 @@ nlohmann::ordered_json oracle_json(std::span<const OracleReach> reaches) {
   return out;
 }
 
+/// A run directory stands for its scenario.yaml.
+ScenarioOptions of_run(ScenarioOptions options) {
+  const std::filesystem::path run = options.scenario;
+  if (!std::filesystem::is_directory(run)) return options;
+  const std::filesystem::path yaml = run / kScenarioFile;
+  if (!std::filesystem::exists(yaml)) {
+    throw BadInput(
+        fmt::format("{}: no run directory: {} is missing; a scenario is a built-in name "
+                    "or a YAML file",
+                    run.string(), yaml.string()));
+  }
+  options.scenario = yaml.string();
+  return options;
+}
+
 void ceiling(const CeilingOptions& options) {
   const Stopwatch watch;
-  const Scenario scenario = resolve_scenario(options.scenario);
+  const Scenario scenario = resolve_scenario(of_run(options.scenario));
   const int threads = thread_count(options.threads);
   std::vector<std::string> warnings;
   const World world = load_world(scenario, warnings);
@@ -130,6 +148,7 @@ void add_ceiling_command(CLI::App& app) {
   CLI::App* const command =
       app.add_subcommand("ceiling", "print the most that any legal viewpoint can see");
   add_scenario_options(*command, options->scenario);
+  command->get_option("SCENARIO")->description("built-in name, YAML file or run directory");
   add_threads_option(*command, options->threads);
   add_quiet_option(*command, options->quiet);
   command->add_flag("--json", options->json, "print JSON instead of a table");

@@ -28,6 +28,7 @@ struct CompareOptions {
   BenchOptions bench = {.seed_count = 8};
   std::string baseline;  // "" is the first method
   fs::path from;         // of a sweep; "" flies
+  bool no_ceiling = false;
 };
 
 /// What is compared, before anything is flown.
@@ -130,7 +131,8 @@ void compare_command(const CompareOptions& options) {
     throw CommandFailed(fmt::format("no mission of the baseline, {}, is done", plan.baseline));
   }
   std::vector<std::string> more_notes = collected.notes;
-  const Ceilings ceilings = ceilings_of(collected, options.bench, more_notes);
+  const Ceilings ceilings =
+      options.no_ceiling ? Ceilings{} : ceilings_of(collected, options.bench, more_notes);
   TextTable table = comparison_table(compare(collected.runs, plan.baseline, ceilings));
   table.notes.insert(table.notes.end(), more_notes.begin(), more_notes.end());
   print_bench({table}, options.bench.format, collected.has_failures);
@@ -166,6 +168,9 @@ void add_compare_command(CLI::App& app) {
       "--views", options->views, "body poses that the utility `route` flies, CSV or TUM"));
   command->add_option("--baseline", options->baseline,
                       "method the others are tested against (default: the first)");
+  command->add_flag("--no-ceiling", options->no_ceiling,
+                    "leave out the shares of the ceiling and the efforts to reach them: where none "
+                    "is known yet, each takes a minute");
   add_bench_options(*command, options->bench);
   CLI::Option* const from =
       command->add_option("--from", options->from, "folder of a sweep: compare what it flew");

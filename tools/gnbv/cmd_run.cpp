@@ -13,6 +13,7 @@
 #include "tools/gnbv/early_end.hpp"
 #include "tools/gnbv/margin_note.hpp"
 #include "tools/gnbv/shared_options.hpp"
+#include "tools/mesh_lint/mesh_report.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/mission/view_pipe.hpp"
 #include "tools/run_files/file_names.hpp"
@@ -43,9 +44,24 @@ void set_views(const std::string& file, RunOptions& options) {
   options.scenario.views = file == "-" ? "" : file;
 }
 
+/// What a mission flies in spite of: keys that do nothing, and what lint warns of in a mesh. What
+/// its reader left out is said when the mission loads it.
+void say_doubts(const Scenario& scenario, const std::vector<std::string>& idle_notes) {
+  for (const std::string& note : idle_notes) fmt::print(stderr, "gnbv: {}\n", note);
+  if (scenario.structure.file.path.empty()) return;
+  const MeshReport report = report_on_mesh(scenario, false, thread_count(0));
+  for (const Finding& finding : report.findings) {
+    if (finding.severity < Severity::warning || finding.check == "file") continue;
+    fmt::print(stderr, "gnbv: {}: {}: {}{}\n", report.path, finding.check, finding.what,
+               finding.fix.empty() ? "" : fmt::format("; fix: {}", finding.fix));
+  }
+}
+
 void run(const RunOptions& options) {
-  const Scenario scenario = resolve_scenario(options.scenario);
+  std::vector<std::string> idle_notes;
+  const Scenario scenario = resolve_scenario(options.scenario, idle_notes);
   need_route(options, scenario);
+  say_doubts(scenario, idle_notes);
   const ExecutedMission mission = execute_mission(scenario, options.mission);
   if (options.mission.piped_views) {
     fmt::print("{}", pipe_end_line(mission.result, mission.folder.string()));

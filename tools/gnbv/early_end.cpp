@@ -116,6 +116,10 @@ std::string early_end_note(const MissionResult& result, double coverage) {
       return after +
              "views changed the map too little; what helps: a smaller "
              "planner.termination.entropy_change_percent (0: never)\n";
+    case Termination::low_gain:
+      return after +
+             "views found too little on their way; what helps: a smaller "
+             "planner.termination.min_new_voxels_per_m (0: never), or a longer new_voxels_window\n";
     case Termination::battery:
       return after + "the battery was empty; what helps: vehicle.power.battery_wh\n";
     default:

@@ -10,6 +10,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/shell_word.hpp"
 #include "sim/core/stopwatch.hpp"
+#include "tools/mission/coverage_goal.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/mission.hpp"
 #include "tools/mission/reference.hpp"
@@ -133,6 +134,7 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
   try {
     MissionHooks hooks = make_hooks(scenario, directory, progress);
     hooks.route = std::move(route);
+    hooks.is_covered = coverage_goal(scenario.benchmark, reference);
     std::optional<FramesFolder> frames;
     if (options.frames) {
       frames.emplace(directory.path(), camera_models(scenario));

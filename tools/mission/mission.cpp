@@ -104,6 +104,7 @@ void record(Mission& m, const Decision& decision) {
   m.history.decisions.push_back(decision);
   if (m.next_given > 0) m.out.given_views[m.next_given - 1].iteration = m.out.views.size();
   const Belief& belief = m.out.belief;
+  remember_progress(belief, m.out.distance.straight_m, m.history);
   const std::size_t points = belief.cloud.points_world_m().size();
   const std::size_t occupied = belief.grid.occupied_count();
   m.out.views.push_back(
@@ -129,12 +130,16 @@ void record(Mission& m, const Decision& decision) {
 
 std::optional<Termination> termination(const Mission& m) {
   const TerminationConfig& config = m.planner.config.termination;
+  if (m.hooks.is_covered(m.out.belief)) return Termination::coverage_reached;
   if (m.out.views.size() >= static_cast<std::size_t>(config.max_iterations)) {
     return Termination::max_iterations;
   }
-  if (!m.hooks.route && !flies_given(m) && !m.tour) {
-    if (entropy_has_settled(config, m.history.entropies_nat)) return Termination::entropy_change;
-    if (is_back_and_forth(positions_of(m.history), config.repeated_moves)) {
+  if (!m.hooks.route && !flies_given(m)) {
+    // a tour knows itself when the map has nothing more to tell
+    const std::span<const double> entropies_nat =
+        m.tour ? std::span<const double>() : std::span(m.history.entropies_nat);
+    if (const auto end = believed_end(config, entropies_nat, m.history.progress)) return end;
+    if (!m.tour && is_back_and_forth(positions_of(m.history), config.repeated_moves)) {
       return Termination::repeated_motion;
     }
   } else if (m.hooks.route && m.out.views.size() > m.hooks.route->size()) {
@@ -177,6 +182,12 @@ Termination end_without_view(const Mission& m) {
   return m.tour ? Termination::tour_complete : Termination::no_valid_view;
 }
 
+/// Whether the way to the view is longer than the mission may go on.
+bool is_too_far(const Mission& m, const Decision& next) {
+  return is_too_far(m.planner.config.termination, m.out.distance.straight_m,
+                    path_length_m(m.current.p_world_m, next.via_world_m, next.view.p_world_m));
+}
+
 MissionResult finish(Mission& m, Termination reason) {
   m.out.termination = reason;
   if (ends_at_home(m, reason)) fly_home(m);
@@ -202,6 +213,7 @@ MissionResult run_mission(const Scenario& scenario, const World& world, const Ra
     if (const auto over = termination(m)) return finish(m, *over);
     const std::optional<Decision> decision = decide(m);
     if (!decision) return finish(m, end_without_view(m));
+    if (is_too_far(m, *decision)) return finish(m, Termination::max_distance);
     if (!can_afford(m, *decision)) return finish(m, Termination::battery);
     next = *decision;
   }

@@ -43,9 +43,12 @@ struct MissionHooks {
   std::function<void(std::size_t index, Rejection)> on_refused = [](std::size_t, Rejection) {};
   /// Asked after each leg of the profile, at its end, and after each view.
   std::function<bool()> should_stop = [] { return false; };
+  /// Asked after each view, of the truth: whether a benchmark has seen enough of the structure.
+  std::function<bool(const Belief&)> is_covered = [](const Belief&) { return false; };
   std::vector<Decision> replay;  // decisions of an interrupted run: flown again, not planned again
   /// Views that someone else chose, flown after the start instead of planning. The mission ends as
-  /// route_flown after the last of them; of the rules of termination only max_iterations holds.
+  /// route_flown after the last of them; of the planner's rules of termination only the limits of
+  /// views, metres and seconds hold.
   std::optional<std::vector<Decision>> route;
 };
 

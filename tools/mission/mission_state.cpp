@@ -29,6 +29,12 @@ bool is_off_course(const Mission& m) {
   return m.scenario.workspace_m.squaredExteriorDistance(p_m) > kFence_m * kFence_m;
 }
 
+/// Whether the mission may take longer; the way home is no part of it.
+bool has_time_to_go_on(const Mission& m) {
+  const double max_s = m.planner.config.termination.max_flight_time_s;
+  return m.is_homing || max_s <= 0.0 || time_s(*m.flight) < max_s;
+}
+
 }  // namespace
 
 std::vector<CameraModel> camera_models(const Scenario& scenario) {
@@ -78,11 +84,12 @@ std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal, double spee
         keep_track(m);
         m.out.path_error.add(distance_to_segment_m(m.last_p_world_m, from_m, goal.p_world_m));
         on_tick(flight);
-        return !is_off_course(m) && has_energy_to_go_on(m);
+        return !is_off_course(m) && has_energy_to_go_on(m) && has_time_to_go_on(m);
       });
   if (end == LegEnd::collision) return Termination::collision;
   if (end == LegEnd::stopped) {
-    return is_off_course(m) ? Termination::off_course : Termination::battery;
+    if (is_off_course(m)) return Termination::off_course;
+    return has_energy_to_go_on(m) ? Termination::max_flight_time : Termination::battery;
   }
   m.current = goal;
   if (end == LegEnd::timeout) {

@@ -1,0 +1,131 @@
+// What ends a mission: the limits hold, the truth ends only what a benchmark told it to, and a
+// mission that was interrupted ends as it would have.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "bench/score/surface_reference.hpp"
+#include "sim/core/file.hpp"
+#include "tests/support/flown.hpp"
+#include "tests/support/temp_folder.hpp"
+#include "tools/mission/coverage_goal.hpp"
+#include "tools/mission/execute.hpp"
+#include "tools/mission/reference.hpp"
+#include "tools/run_files/summary_json.hpp"
+
+namespace gnbv {
+namespace {
+
+const MissionResult& whole() {
+  static const Flown kFlight(smoke());
+  return kFlight.result;
+}
+
+MissionResult fly(const std::string& set, const MissionHooks& hooks = {}) {
+  return Flown(smoke({set}), hooks).result;
+}
+
+/// Flies the same again with the first of the recorded views replayed.
+void expect_same_when_resumed(const std::string& set, const MissionResult& flown,
+                              MissionHooks hooks = {}) {
+  for (std::size_t i = 0; i < flown.views.size() / 2; ++i) {
+    hooks.replay.push_back(flown.views[i].decision);
+  }
+  const MissionResult resumed = fly(set, hooks);
+  EXPECT_EQ(resumed.termination, flown.termination);
+  EXPECT_EQ(result_sha256(resumed), result_sha256(flown));
+}
+
+TEST(MaxDistance, TheLastLegThatFitsIsTheLast) {
+  ASSERT_GE(whole().views.size(), 6U);
+  const double fits_m = whole().views[4].straight_m;  // that of the whole mission's fifth view
+  const std::string set = fmt::format("planner.termination.max_distance_m={}", fits_m);
+  const MissionResult flown = fly(set);
+  EXPECT_EQ(flown.termination, Termination::max_distance);
+  EXPECT_EQ(flown.views.size(), 5U);
+  EXPECT_EQ(flown.distance.straight_m, fits_m);
+  expect_same_when_resumed(set, flown);
+  const MissionResult shorter =
+      fly(fmt::format("planner.termination.max_distance_m={}", fits_m - 1e-6));
+  EXPECT_EQ(shorter.views.size(), 4U);
+}
+
+TEST(MaxFlightTime, EndsInFlightAtThatTick) {
+  const double end_s = 0.5 * (whole().views[4].time_s + whole().views[5].time_s);
+  const std::string set = fmt::format("planner.termination.max_flight_time_s={}", end_s);
+  const MissionResult flown = fly(set);
+  EXPECT_EQ(flown.termination, Termination::max_flight_time);
+  EXPECT_EQ(flown.views.size(), 5U);
+  EXPECT_NEAR(flown.flight_time_s, end_s, kTick_s);
+  expect_same_when_resumed(set, flown);
+  EXPECT_EQ(fly("planner.termination.max_flight_time_s=5").views.size(), 0U);  // in the profile
+}
+
+TEST(LowGain, EndsWhereTheRecordsMetresAndTheMapsVoxelsSaySo) {
+  std::vector<double> occupied;
+  MissionHooks hooks;
+  hooks.on_view_belief = [&](const Belief& belief) {
+    occupied.push_back(static_cast<double>(belief.grid.occupied_count()));
+  };
+  const std::string set =
+      "planner.termination={min_new_voxels_per_m: 10, new_voxels_window: 2, max_iterations: 12}";
+  const MissionResult flown = fly(set, hooks);
+  EXPECT_EQ(flown.termination, Termination::low_gain);
+  ASSERT_GT(flown.views.size(), 3U);
+  for (std::size_t i = 2; i < flown.views.size(); ++i) {
+    const double metres = flown.views[i].straight_m - flown.views[i - 2].straight_m;
+    const bool is_low = occupied[i] - occupied[i - 2] < 10.0 * metres;
+    EXPECT_EQ(is_low, i + 1 == flown.views.size()) << i;
+  }
+  expect_same_when_resumed(set, flown);
+}
+
+TEST(NoNewPoints, EndsAMissionWhoseCloudIsFull) {
+  // leaves as large as a voxel of half a metre are soon full
+  const std::string set =
+      "planner={map: {resolution_m: 0.5}, cloud: {leaf_m: 0.5, "
+      "profile_leaf_m: 0.5}, termination: {max_views_without_new_points: 2}}";
+  const MissionResult flown = fly(set);
+  EXPECT_EQ(flown.termination, Termination::no_new_points);
+  const std::size_t n = flown.views.size();
+  ASSERT_GE(n, 3U);
+  EXPECT_EQ(flown.views[n - 1].cloud_points, flown.views[n - 3].cloud_points);
+  expect_same_when_resumed(set, flown);
+}
+
+TEST(StopAtCoverage, EndsAtTheFirstViewAfterWhichTheScoreHasIt) {
+  const std::string set = "benchmark.stop_at_coverage=0.7";
+  const TempFolder temp;
+  const ExecutedMission mission =
+      execute_mission(smoke({set}), {.out = temp.path() / "run", .quiet = true});
+  EXPECT_EQ(mission.result.termination, Termination::coverage_reached);
+  const auto& curve = mission.score.curve.coverage;
+  ASSERT_GE(curve.size(), 3U);
+  EXPECT_GE(curve.back()[0], 0.7);
+  EXPECT_LT(curve[curve.size() - 2][0], 0.7);
+  const auto summary = nlohmann::json::parse(read_file(mission.folder / "summary.json"));
+  EXPECT_EQ(summary["termination"], "coverage_reached");
+  EXPECT_EQ(summary["ended_by_truth"], true);
+
+  const Scenario scenario = smoke({set});
+  std::vector<std::string> warnings;
+  const World world = load_world(scenario, warnings);
+  const SurfaceReference reference = reference_of(scenario, world, RayScene(world), 2);
+  MissionHooks hooks;
+  hooks.is_covered = coverage_goal(scenario.benchmark, reference);
+  expect_same_when_resumed(set, mission.result, hooks);
+}
+
+TEST(StopAtCoverage, IsOffByDefaultAndSoIsTheTruth) {
+  EXPECT_FALSE(coverage_goal({}, {})(whole().belief));
+  const TempFolder temp;
+  const ExecutedMission mission = execute_mission(smoke({"planner.termination.max_iterations=1"}),
+                                                  {.out = temp.path() / "run", .quiet = true});
+  const auto summary = nlohmann::json::parse(read_file(mission.folder / "summary.json"));
+  EXPECT_EQ(summary["termination"], "max_iterations");
+  EXPECT_EQ(summary["ended_by_truth"], false);
+}
+
+}  // namespace
+}  // namespace gnbv

@@ -1,0 +1,19 @@
+// benchmark.stop_at_coverage: the truth ends a mission, as only a benchmark can.
+#pragma once
+
+#include <functional>
+
+#include "bench/score/surface_reference.hpp"
+#include "planner/belief.hpp"
+#include "scenarios/scenario.hpp"
+
+namespace gnbv {
+
+/// Whether the believed cloud covers at least benchmark.stop_at_coverage of the voxels of 0.05 m
+/// with surface seen from outside: what score_cloud() will call `final` at that size. Never without
+/// the key. For MissionHooks::is_covered of one mission: each call has to have all points of the
+/// one before.
+std::function<bool(const Belief&)> coverage_goal(const BenchmarkConfig& benchmark,
+                                                 const SurfaceReference& reference);
+
+}  // namespace gnbv
