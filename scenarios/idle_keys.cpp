@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "planner/tour_planner.hpp"
 #include "scenarios/write.hpp"
 
 namespace gnbv {
@@ -19,11 +20,15 @@ void add(Idle& out, std::string_view section, std::initializer_list<std::string_
 
 void add_structure(const StructureConfig& c, Idle& out) {
   if (c.file.path.empty()) {
-    add(out, "structure.file", {"scale", "offset_m", "up_axis", "unit_m"},
-        fmt::format("the structure is built in, '{}'; structure.file.path is empty", c.builtin));
-  } else {
-    add(out, "structure", {"builtin"}, "structure.file.path names a mesh");
+    const std::string what = is_builtin(c)
+                                 ? fmt::format("the structure is built in, '{}'", c.builtin)
+                                 : "the meshes are those of structure.files";
+    add(out, "structure.file", {"scale", "offset_m", "up_axis", "unit_m", "yaw_deg"},
+        what + "; structure.file.path is empty");
   }
+  if (!is_builtin(c))
+    add(out, "structure", {"builtin"},
+        c.files.empty() ? "structure.file.path names a mesh" : "structure.files names meshes");
 }
 
 void add_profiling(const Scenario& s, Idle& out) {
@@ -92,9 +97,10 @@ void add_formulas(const UtilityConfig& c, Idle& out) {
 
 void add_decisions(const PlannerConfig& c, Idle& out) {
   const std::string& name = c.utility.name;
-  const bool has_route = is_route(name) || is_oracle(name);
-  if (has_route) {
-    const std::string why = fmt::format("the views of {} are laid all at once", name);
+  if (asks_no_utility(name) || is_tour(name)) {
+    const std::string why = is_tour(name)
+                                ? "a tour weighs what its views bring by itself"
+                                : fmt::format("the views of {} are laid all at once", name);
     add(out, "planner", {"agvs", "fvs"}, why);
     add(out, "planner.utility",
         {"alpha", "beta", "gamma", "lambda_per_m", "density_term", "bircher_lambda_per_m",
@@ -105,11 +111,11 @@ void add_decisions(const PlannerConfig& c, Idle& out) {
     add_sampling(c, out);
     add_formulas(c.utility, out);
   }
-  if (!is_route(name)) {
-    add(out, "planner", {"routes"}, fmt::format("planner.utility.name is {}", name));
-  } else if (name != "lawnmower") {
-    add(out, "planner.routes", {"overlap"}, fmt::format("planner.utility.name is {}", name));
-  }
+  const std::string why = fmt::format("planner.utility.name is {}", name);
+  if (!is_route(name)) add(out, "planner.routes", {"standoff_m"}, why);
+  if (name != "lawnmower") add(out, "planner.routes", {"overlap"}, why);
+  if (!is_given_route(name)) add(out, "planner.routes", {"views"}, why);
+  if (!is_tour(name)) add(out, "planner", {"tour"}, why);
   if (c.validity.path == PathCheck::unchecked) {
     add(out, "planner.validity", {"path_search"}, "planner.validity.path is unchecked");
   }
@@ -121,7 +127,10 @@ void add_decisions(const PlannerConfig& c, Idle& out) {
 
 void add_termination(const PlannerConfig& c, Idle& out) {
   constexpr const char* kSection = "planner.termination";
-  if (is_oracle(c.utility.name)) {
+  if (is_tour(c.utility.name)) {
+    add(out, kSection, {"entropy_change_percent", "entropy_window", "repeated_moves"},
+        "a tour ends by itself");
+  } else if (is_oracle(c.utility.name) || is_given_route(c.utility.name)) {
     add(out, kSection,
         {"entropy_change_percent", "entropy_window", "repeated_moves", "min_new_voxels_per_m",
          "new_voxels_window", "max_views_without_new_points"},
