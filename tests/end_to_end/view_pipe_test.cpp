@@ -112,7 +112,7 @@ TEST_F(ViewPipe, GoesOnWhereItWasInterrupted) {
                                             "cat first >&3\n"
                                             "{ read a; read b; read c; kill -TERM $!; cat; } <out\n"
                                             "wait $!; echo exit $?; cat said\n");
-  const Outcome cut = shell("cd " + temp_.path().string() + " && timeout 60 sh cut.sh");
+  const Outcome cut = shell("cd " + temp_.path().string() + " && timeout 300 sh cut.sh");
   EXPECT_TRUE(has(cut, "exit 1")) << cut.output;
   EXPECT_TRUE(has(cut, "interrupted after 2 views")) << cut.output;
   const auto answers = pipe(rest, "run " + file("cut/scenario.yaml").string() +

@@ -25,7 +25,7 @@ TEST(GimbalKeys, ANumberIsAFixedMountingAndAMapAGimbal) {
 }
 
 TEST(GimbalKeys, WrittenAndReadBackAreTheSame) {
-  for (const std::string text : {kGimbal, std::string("cameras: [{pitch_deg: 12.3}]\n")}) {
+  for (const std::string& text : {kGimbal, std::string("cameras: [{pitch_deg: 12.3}]\n")}) {
     const std::string yaml = to_yaml(load_text(text));
     EXPECT_EQ(to_yaml(load_text(yaml)), yaml);
   }
