@@ -40,7 +40,6 @@ struct Plan {
   std::optional<Decision> next;
   std::optional<std::size_t> chosen;  // of the candidates
   std::vector<Candidate> candidates;
-  bool is_complete = false;  // no next one, since none pays any more
 };
 
 }  // namespace gnbv

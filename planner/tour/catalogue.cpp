@@ -3,23 +3,35 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
 
 namespace gnbv {
 
 ViewCatalogue::ViewCatalogue(const TourConfig& config, std::span<const CameraModel> cameras,
-                             const Box3& workspace_m)
-    : cameras_(cameras),
-      blocks_(workspace_m, SurfaceCell::kSide * config.detail_m),
+                             std::span<const double> pitches_rad, const Box3& workspace_m)
+    : blocks_(workspace_m, SurfaceCell::kSide * config.detail_m),
       yaws_(std::max(1, static_cast<int>(std::lround(2.0 * kPi / config.yaw_step_rad)))) {
+  for (const double pitch_rad : pitches_rad) {
+    pitches_.push_back({pitch_rad, turned(cameras, pitch_rad)});
+  }
   for (const CameraModel& camera : cameras) reach_m_ = std::max(reach_m_, camera_reach_m(camera));
+}
+
+ViewPose ViewCatalogue::pose(const Vec3& p_world_m, int heading) const {
+  const auto pitch = static_cast<std::size_t>(heading / yaws_);
+  return {p_world_m, 2.0 * kPi * (heading % yaws_) / yaws_, pitches_[pitch].rad};
 }
 
 void ViewCatalogue::look(const TourScene& scene, const ViewPose& view,
                          std::span<const CellBlocks::Block* const> near, PatchViewer& viewer,
                          std::vector<SeenPatch>& seen) const {
   const Isometry T = T_world_body(view);
-  for (const CameraModel& camera : cameras_) {
+  const auto at_pitch = std::find_if(pitches_.begin(), pitches_.end(), [&](const Pitch& pitch) {
+    return pitch.rad == view.gimbal_pitch_rad;
+  });
+  GNBV_CHECK(at_pitch != pitches_.end(), "pitch of {} rad", view.gimbal_pitch_rad);
+  for (const CameraModel& camera : at_pitch->cameras) {
     viewer.look(scene, camera, T, near, blocks_.radius_m(), seen);
   }
   std::sort(seen.begin(), seen.end(), [](const SeenPatch& a, const SeenPatch& b) {
@@ -42,11 +54,11 @@ void ViewCatalogue::cast(const TourScene& scene, const Vec3& p_world_m, AtPlace&
   const auto near = blocks_.near(p_world_m, reach_m_);
   at.is_cast = true;
   at.update = scene.cells.updates();
-  at.seen.resize(static_cast<std::size_t>(yaws_));
-  for (int yaw = 0; yaw < yaws_; ++yaw) {
-    std::vector<SeenPatch>& seen = at.seen[static_cast<std::size_t>(yaw)];
+  at.seen.resize(static_cast<std::size_t>(headings()));
+  for (int heading = 0; heading < headings(); ++heading) {
+    std::vector<SeenPatch>& seen = at.seen[static_cast<std::size_t>(heading)];
     seen.clear();
-    look(scene, {p_world_m, yaw_rad(yaw)}, near, viewer, seen);
+    look(scene, pose(p_world_m, heading), near, viewer, seen);
   }
 }
 
@@ -99,9 +111,9 @@ void ViewCatalogue::follow(const TourScene& scene, const TourPlaces& places,
   });
 }
 
-std::span<const SeenPatch> ViewCatalogue::seen(Place place, int yaw) const {
+std::span<const SeenPatch> ViewCatalogue::seen(Place place, int heading) const {
   if (place >= at_.size() || !at_[place].is_cast) return {};
-  return at_[place].seen[static_cast<std::size_t>(yaw)];
+  return at_[place].seen[static_cast<std::size_t>(heading)];
 }
 
 }  // namespace gnbv

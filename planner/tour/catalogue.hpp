@@ -14,19 +14,21 @@ class ViewCatalogue {
  public:
   using Place = TourPlaces::Place;
 
+  /// `pitches_rad`: of the cameras' gimbal; one, whatever it is, without.
   ViewCatalogue(const TourConfig& config, std::span<const CameraModel> cameras,
-                const Box3& workspace_m);
+                std::span<const double> pitches_rad, const Box3& workspace_m);
 
-  int yaws() const { return yaws_; }
-  double yaw_rad(int yaw) const { return 2.0 * kPi * yaw / yaws_; }
+  /// Ways to look from a place: each yaw with each pitch.
+  int headings() const { return yaws_ * static_cast<int>(pitches_.size()); }
+  ViewPose pose(const Vec3& p_world_m, int heading) const;
 
   /// Looks from every reachable place that never was, and from so many of those around which the
   /// surface changed most since they were; `first` come before all others.
   void follow(const TourScene& scene, const TourPlaces& places, std::span<const Place> first,
               int recasts, int threads);
 
-  /// What the last look from there saw at that yaw, in ascending order.
-  std::span<const SeenPatch> seen(Place place, int yaw) const;
+  /// What the last look from there saw at that heading, in ascending order.
+  std::span<const SeenPatch> seen(Place place, int heading) const;
 
   /// What all cameras see from a pose, now.
   std::vector<SeenPatch> look(const TourScene& scene, const ViewPose& view);
@@ -34,15 +36,19 @@ class ViewCatalogue {
  private:
   struct AtPlace {
     bool is_cast = false;
-    std::uint32_t update = 0;  // of the cells, at the last look
-    std::vector<std::vector<SeenPatch>> seen;
+    std::uint32_t update = 0;                  // of the cells, at the last look
+    std::vector<std::vector<SeenPatch>> seen;  // by heading
+  };
+  struct Pitch {
+    double rad = 0.0;
+    std::vector<CameraModel> cameras;
   };
   void cast(const TourScene& scene, const Vec3& p_world_m, AtPlace& at, PatchViewer& viewer) const;
   void look(const TourScene& scene, const ViewPose& view,
             std::span<const CellBlocks::Block* const> near, PatchViewer& viewer,
             std::vector<SeenPatch>& seen) const;
 
-  std::span<const CameraModel> cameras_;
+  std::vector<Pitch> pitches_;
   CellBlocks blocks_;
   double reach_m_ = 0.0;
   int yaws_ = 1;

@@ -6,7 +6,8 @@
 
 namespace gnbv {
 
-OpenSpace::OpenSpace(const GridGeometry& geometry, const Box3& navigation_m, double radius_m)
+OpenSpace::OpenSpace(const GridGeometry& geometry, const Box3& navigation_m, const NoFly& no_fly,
+                     double radius_m)
     : geometry_(geometry),
       navigation_m_(navigation_m),
       near_occupied_(geometry.voxel_count()),
@@ -27,6 +28,10 @@ OpenSpace::OpenSpace(const GridGeometry& geometry, const Box3& navigation_m, dou
       }
     }
   }
+  if (no_fly.boxes_m.empty()) return;
+  for (VoxelIndex v = 0; v < geometry.voxel_count(); ++v) {
+    if (!no_fly.allows(geometry.center_m(geometry.key_at(v)))) near_occupied_[v] = 1;
+  }
 }
 
 void OpenSpace::follow(const OccupancyGrid& grid) {
@@ -39,8 +44,8 @@ void OpenSpace::follow(const OccupancyGrid& grid) {
     for (const Key& offset : ball_) {
       const Key key = {center[0] + offset[0], center[1] + offset[1], center[2] + offset[2]};
       if (!geometry_.contains(key)) continue;
-      std::uint16_t& count = near_occupied_[geometry_.index_of(key)];
-      count = static_cast<std::uint16_t>(is_occupied ? count + 1 : count - 1);
+      std::uint32_t& count = near_occupied_[geometry_.index_of(key)];
+      count = is_occupied ? count + 1 : count - 1;
     }
   }
 }

@@ -1,9 +1,11 @@
-// Where the vehicle may be: voxels known to be free, with no occupied one within its radius.
+// Where the vehicle may be: voxels known to be free, with no occupied one within its radius and
+// none where nobody may fly.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "planner/map/no_fly.hpp"
 #include "planner/map/occupancy_grid.hpp"
 #include "sim/core/zeroed_array.hpp"
 
@@ -11,7 +13,8 @@ namespace gnbv {
 
 class OpenSpace {
  public:
-  OpenSpace(const GridGeometry& geometry, const Box3& navigation_m, double radius_m);
+  OpenSpace(const GridGeometry& geometry, const Box3& navigation_m, const NoFly& no_fly,
+            double radius_m);
 
   /// Takes up what became occupied since the last call, or ceased to be.
   void follow(const OccupancyGrid& grid);
@@ -27,8 +30,8 @@ class OpenSpace {
  private:
   GridGeometry geometry_;
   Box3 navigation_m_;
-  std::vector<Key> ball_;  // offsets at which an occupied voxel is too near
-  ZeroedArray<std::uint16_t> near_occupied_;
+  std::vector<Key> ball_;                     // offsets at which an occupied voxel is too near
+  ZeroedArray<std::uint32_t> near_occupied_;  // so many, and one more where nobody may fly
   ZeroedArray<std::uint8_t> was_occupied_;
 };
 

@@ -34,6 +34,12 @@ Gap gap_of(const SurfaceCells& cells, const SurfaceCell& cell) {
 
 }  // namespace
 
+std::string_view name_of(PatchSource source) {
+  constexpr std::array<std::string_view, kPatchSources> kNames = {"sampled", "extrapolated",
+                                                                  "opposite", "frontier"};
+  return kNames[static_cast<std::size_t>(source)];
+}
+
 std::vector<Patch> find_patches(const SurfaceCells& cells, const OccupancyGrid& grid, int threads) {
   const std::span<const SurfaceCell> all = cells.cells();
   std::vector<Patch> patches(2 * all.size());

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "planner/map/occupancy_grid.hpp"
@@ -14,6 +15,7 @@ namespace gnbv {
 /// of something thin has been seen, or only that nothing is.
 enum class PatchSource : std::uint8_t { sampled, extrapolated, opposite, frontier };
 constexpr std::size_t kPatchSources = 4;
+std::string_view name_of(PatchSource source);
 
 /// One side of a cell: 2 cell + (0: the side its normal points to, 1: the other). The same for
 /// ever.

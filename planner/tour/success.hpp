@@ -13,7 +13,8 @@ namespace gnbv {
 constexpr std::size_t kIncidenceBins = 3;
 constexpr std::size_t kLookBins = 5;  // looks before; the last: that many or more
 
-/// 0 up to 45 deg, 1 up to 65 deg, 2 beyond.
+/// Where the bins begin.
+constexpr std::array<int, kIncidenceBins> kIncidenceFrom_deg = {0, 45, 65};
 constexpr std::size_t incidence_bin(float cos_incidence) {
   return cos_incidence >= 0.7071F ? 0 : (cos_incidence >= 0.4226F ? 1 : 2);
 }

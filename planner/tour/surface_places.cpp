@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "planner/map/ray_walk.hpp"
 
@@ -78,6 +79,39 @@ std::vector<Vec3> places_to_see(const PlaceSearch& search, const Patch& patch, s
     if (!is_taken) places.push_back(place.p_world_m);
   }
   return places;
+}
+
+std::vector<Vec3> places_for_unseen(const PlaceSearch& search, std::span<const Patch> patches,
+                                    std::span<const std::uint8_t> is_seen, std::set<Key>& tried) {
+  constexpr std::size_t kCubes = 24;
+  constexpr std::size_t kPlaces = 2;  // for each
+  constexpr float kLeast = 8.0F;      // voxels that a cube lacks
+  struct Cube {
+    float missing = 0.0F;
+    PatchId heaviest = 0;
+  };
+  std::map<Key, Cube> cubes;
+  for (PatchId id = 0; id < patches.size(); ++id) {
+    const Patch& patch = patches[id];
+    if (patch.missing <= 0.0F || is_seen[id] != 0) continue;
+    const Eigen::Vector3i at = patch.target_m.array().floor().cast<int>();
+    Cube& cube = cubes[{at.x(), at.y(), at.z()}];
+    if (cube.missing == 0.0F || patch.missing > patches[cube.heaviest].missing) cube.heaviest = id;
+    cube.missing += patch.missing;
+  }
+  std::vector<std::pair<float, Key>> order;  // the heaviest first
+  for (const auto& [key, cube] : cubes) {
+    if (cube.missing >= kLeast && !tried.contains(key)) order.emplace_back(-cube.missing, key);
+  }
+  std::sort(order.begin(), order.end());
+  order.resize(std::min(order.size(), kCubes));
+  std::vector<Vec3> places_m;
+  for (const auto& [missing, key] : order) {
+    tried.insert(key);
+    const auto found_m = places_to_see(search, patches[cubes[key].heaviest], kPlaces);
+    places_m.insert(places_m.end(), found_m.begin(), found_m.end());
+  }
+  return places_m;
 }
 
 }  // namespace gnbv

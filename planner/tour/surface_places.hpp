@@ -1,6 +1,8 @@
 // Places off the lattice, chosen from the surface: for patches that no place of the lattice sees.
 #pragma once
 
+#include <cstdint>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -22,5 +24,10 @@ struct PlaceSearch {
 /// nearby, the better. Tries bearings within 60 deg of the normal's, what elevations each camera
 /// has, and four distances up to its range.
 std::vector<Vec3> places_to_see(const PlaceSearch& search, const Patch& patch, std::size_t most);
+
+/// Places for what none sees: two for each of the cubes of a metre that lack the most, as far as
+/// they have not been tried, at most 24 cubes a call. `is_seen`: of each patch.
+std::vector<Vec3> places_for_unseen(const PlaceSearch& search, std::span<const Patch> patches,
+                                    std::span<const std::uint8_t> is_seen, std::set<Key>& tried);
 
 }  // namespace gnbv

@@ -152,6 +152,9 @@ std::optional<Termination> termination(const Mission& m) {
 /// A tour learns from every view, so that it is asked again for the decisions of a replay.
 std::optional<Decision> decide_tour(Mission& m, std::size_t next) {
   Plan plan = m.tour->next(m.out.belief, m.history, m.current, m.bench.threads);
+  for (const LookOutcome& look : m.tour->outcomes()) {
+    m.out.look_outcomes.push_back({next - 1, look});
+  }
   if (next < m.hooks.replay.size()) return m.hooks.replay[next];
   m.hooks.on_candidates(next, plan);
   return std::move(plan.next);

@@ -17,6 +17,7 @@ constexpr const char* kMapStem = "map";  // OctoMap: map.ot with log-odds, map.b
 constexpr const char* kMapFile = "map.bt";
 constexpr const char* kCandidatesFile = "candidates.jsonl";
 constexpr const char* kViewsFile = "views.csv";
+constexpr const char* kPredictionsFile = "predictions.csv";
 constexpr const char* kFramesFolder = "frames";
 
 /// A file that is still being written, line by line.

@@ -1,6 +1,7 @@
 #include "tools/run_files/run_directory.hpp"
 
 #include "planner/map/octomap_io.hpp"
+#include "planner/tour_planner.hpp"
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
@@ -9,6 +10,7 @@
 #include "tools/run_files/file_names.hpp"
 #include "tools/run_files/given_views.hpp"
 #include "tools/run_files/iterations_csv.hpp"
+#include "tools/run_files/predictions_csv.hpp"
 #include "tools/run_files/profile_map.hpp"
 #include "tools/run_files/summary_json.hpp"
 #include "tools/run_files/trajectory_tum.hpp"
@@ -84,6 +86,9 @@ void RunDirectory::finish(const Scenario& scenario, const MissionResult& result,
   write_file_atomically(folder_ / kIterationsFile, iterations_csv(result.views, columns_));
   if (is_given_route(scenario.planner.utility.name)) {
     write_file_atomically(folder_ / kViewsFile, given_views_csv(result.given_views));
+  }
+  if (is_tour(scenario.planner.utility.name)) {
+    write_file_atomically(folder_ / kPredictionsFile, predictions_csv(result.look_outcomes));
   }
   write_file_atomically(folder_ / kCoverageFile, coverage_csv(score.curve));
   write_file_atomically(folder_ / kSummaryFile,

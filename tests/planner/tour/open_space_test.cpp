@@ -29,7 +29,7 @@ OccupancyGrid scattered_grid(std::uint64_t seed) {
 
 TEST(OpenSpace, IsWhereASphereIsClear) {
   OccupancyGrid grid = scattered_grid(1);
-  OpenSpace space(grid.geometry(), kBox, kRadius_m);
+  OpenSpace space(grid.geometry(), kBox, {}, kRadius_m);
   for (int round = 0; round < 2; ++round) {  // the second after some of it has changed
     space.follow(grid);
     int open = 0;
@@ -55,7 +55,7 @@ TEST(OpenSpace, IsWhereASphereIsClear) {
 TEST(OpenSpace, NothingBeyondTheNavigationBoxIsOpen) {
   const OccupancyGrid grid = scattered_grid(2);
   const Box3 navigation_m(Vec3(-3, -3, 1), Vec3(3, 3, 3));
-  OpenSpace space(grid.geometry(), navigation_m, kRadius_m);
+  OpenSpace space(grid.geometry(), navigation_m, {}, kRadius_m);
   space.follow(grid);
   for (VoxelIndex v = 0; v < grid.geometry().voxel_count(); ++v) {
     const Key key = grid.geometry().key_at(v);
@@ -68,7 +68,7 @@ TEST(OpenSpace, NothingBeyondTheNavigationBoxIsOpen) {
 /// A line through open voxels keeps the radius but for what lies between a voxel and its centre.
 TEST(OpenSpace, AnOpenLineKeepsTheRadiusWithinHalfAVoxel) {
   const OccupancyGrid grid = scattered_grid(3);
-  OpenSpace space(grid.geometry(), kBox, kRadius_m);
+  OpenSpace space(grid.geometry(), kBox, {}, kRadius_m);
   space.follow(grid);
   const double slack_m = 0.5 * std::sqrt(3.0) * grid.geometry().resolution_m();
   int open = 0;

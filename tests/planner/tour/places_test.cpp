@@ -30,7 +30,7 @@ void fill(OccupancyGrid& grid, const Box3& box_m) {
 struct World {
   explicit World(OccupancyGrid occupancy)
       : grid(std::move(occupancy)),
-        space(grid.geometry(), kBox, 0.5),
+        space(grid.geometry(), kBox, {}, 0.5),
         places(grid.geometry(), kBox, 1.0) {
     space.follow(grid);
     places.follow(grid, space, Vec3(-5, -5, 1));

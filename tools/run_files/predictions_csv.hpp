@@ -1,0 +1,23 @@
+// predictions.csv: what each view of a tour promised and what it brought, by kind of look. How
+// anybody can see where a tour's metres go.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "planner/tour/look_ledger.hpp"
+
+namespace gnbv {
+
+/// Of one view; the look's kind and sums are LookOutcome's.
+struct ViewOutcome {
+  std::size_t iteration = 0;
+  LookOutcome look;
+};
+
+/// Columns: iteration, source (sampled, extrapolated, opposite, frontier), looks before (4: or
+/// more), incidence_deg (lower bound of its bin), patches, and in small voxels of
+/// planner.tour.detail_m: missing (expected to lack a point), promised, found.
+std::string predictions_csv(std::span<const ViewOutcome> outcomes);
+
+}  // namespace gnbv
