@@ -11,7 +11,7 @@ namespace gnbv {
 namespace {
 
 /// A chart before its scale is chosen.
-struct Patch {
+struct AtlasPatch {
   Chart chart;
   Vec2f extent_px = Vec2f::Zero();  // in the picture
   double pixels_per_m = 0.0;        // of the picture, over the whole patch
@@ -41,7 +41,7 @@ std::vector<Chart> connected_charts(const TriangleMesh& mesh,
   return charts;
 }
 
-Patch patch_of(const TriangleMesh& mesh, const TextureView& view, Chart chart) {
+AtlasPatch patch_of(const TriangleMesh& mesh, const TextureView& view, Chart chart) {
   Eigen::AlignedBox2f box;
   double picture_px2 = 0.0;
   double surface_m2 = 0.0;
@@ -65,7 +65,7 @@ Patch patch_of(const TriangleMesh& mesh, const TextureView& view, Chart chart) {
 }
 
 /// Scales the chart to that density and gives it its size in the atlas.
-void scale(Patch& patch, double texels_per_m) {
+void scale(AtlasPatch& patch, double texels_per_m) {
   Chart& chart = patch.chart;
   chart.scale =
       static_cast<float>(std::min(1.0, texels_per_m / std::max(patch.pixels_per_m, 1e-6)));
@@ -76,13 +76,13 @@ void scale(Patch& patch, double texels_per_m) {
 
 /// The finest scale, down from the wanted one, at which all patches and swatches fit into the
 /// largest atlas.
-Packing fit(std::vector<Patch>& patches, std::size_t swatches, double& texels_per_m,
+Packing fit(std::vector<AtlasPatch>& patches, std::size_t swatches, double& texels_per_m,
             int max_side_px) {
   constexpr double kStep = 0.93;
   for (; texels_per_m > 1e-3; texels_per_m *= kStep) {
     std::vector<RectangleSize> sizes;
     sizes.reserve(patches.size());
-    for (Patch& patch : patches) {
+    for (AtlasPatch& patch : patches) {
       scale(patch, texels_per_m);
       sizes.push_back({patch.chart.width, patch.chart.height});
     }
@@ -117,7 +117,7 @@ AtlasLayout lay_out_atlas(const TriangleMesh& mesh, std::span<const std::int32_t
                           std::span<const TextureView> views, const AtlasSettings& settings) {
   GNBV_CHECK(chosen.size() == mesh.faces.size(), "{} choices, {} faces", chosen.size(),
              mesh.faces.size());
-  std::vector<Patch> patches;
+  std::vector<AtlasPatch> patches;
   for (Chart& chart : connected_charts(mesh, chosen)) {
     const TextureView& view = views[chart.view];
     patches.push_back(patch_of(mesh, view, std::move(chart)));
