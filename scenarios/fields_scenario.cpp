@@ -27,6 +27,12 @@ void fields(FieldVisitor& v, BenchmarkConfig& c) {
            "outside, summary.json's coverage.final at 0.05; 0: never.");
 }
 
+void fields(FieldVisitor& v, ScoreConfig& c) {
+  v.numbers("sizes_m", c.sizes_m, between(0.01, 10),
+            "Edges of the voxels that coverage is told of, beside the paper's 0.05, 0.10 and "
+            "0.50, which are measured in any case.");
+}
+
 void fields(FieldVisitor& v, Scenario& c) {
   v.word("name", c.name, "Name of the scenario, for reports.");
   v.integer("seed", c.seed, "Moves the start pose and keys all noise.");
@@ -39,6 +45,7 @@ void fields(FieldVisitor& v, Scenario& c) {
   v.section("start", c.start, "Where the views begin.");
   v.section("planner", c.planner, "What is believed and decided.");
   v.section("benchmark", c.benchmark, "What the truth decides, which no real mission knows.");
+  v.section("score", c.score, "What missions are scored by.");
 }
 
 }  // namespace gnbv

@@ -44,6 +44,11 @@ struct BenchmarkConfig {
   double stop_at_coverage = 0.0;  // of the surface seen from outside, at 0.05 m; 0 switches it off
 };
 
+/// What missions are scored by.
+struct ScoreConfig {
+  std::vector<double> sizes_m = {0.05, 0.10, 0.50};  // the paper's are measured in any case
+};
+
 struct Scenario {
   std::string name = "unnamed";
   std::uint64_t seed = 1;
@@ -56,6 +61,7 @@ struct Scenario {
   StartConfig start;
   PlannerConfig planner;
   BenchmarkConfig benchmark;
+  ScoreConfig score;
 };
 
 }  // namespace gnbv

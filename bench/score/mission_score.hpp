@@ -9,6 +9,7 @@
 #include "bench/score/cloud_metrics.hpp"
 #include "bench/score/coverage_curve.hpp"
 #include "bench/score/run_figures.hpp"
+#include "bench/score/sized_coverage.hpp"
 #include "bench/score/surface_reference.hpp"
 
 namespace gnbv {
@@ -34,6 +35,7 @@ struct MissionScore {
   std::array<double, 3> final{};
   std::array<double, 3> profile_raw{};  // raw reference
   std::array<double, 3> final_raw{};
+  std::vector<SizedCoverage> more = {};  // at sizes beside those, ascending
   CloudDistances distances = {};
   CloudDensity density = {};  // over voxels of the map's size
   CoverageCurve curve = {};
@@ -42,6 +44,12 @@ struct MissionScore {
   // know
   std::optional<double> ceiling = {};
 };
+
+/// At the sizes that are not the paper's, ascending; of a box, where one is given
+/// (sized_coverage.hpp).
+std::vector<SizedCoverage> score_more_sizes(std::span<const double> sizes_m, const World& world,
+                                            double floor_z_m, const std::optional<Box3>& box_m,
+                                            const ScoredCloud& cloud, int threads);
 
 /// Deterministic at any number of threads. `density_voxel_m` is planner.map.resolution_m.
 MissionScore score_cloud(const SurfaceReference& reference, const RayScene& scene,

@@ -133,6 +133,8 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
     progress.show(1.0, "scoring");
     MissionScore score = score_cloud(reference, scene, scored_cloud(result),
                                      scenario.planner.map.resolution_m, threads);
+    score.more = score_more_sizes(scenario.score.sizes_m, world, scenario.planner.floor_z_m, {},
+                                  scored_cloud(result), threads);
     result.wall.score_s = scoring.elapsed_s();
     score.ceiling = run_ceiling(scenario, world, scene, options.ceiling, threads);
     directory.finish(scenario, result, score, watch.elapsed_s());

@@ -18,19 +18,61 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The part of the reference that lies in the box.
+void keep_within(const Box3& box_m, SurfaceReference& reference) {
+  for (std::size_t size = 0; size < kCoverageSizes_m.size(); ++size) {
+    for (auto* const sets : {&reference.raw, &reference.outside}) {
+      (*sets)[size] = voxels_within((*sets)[size], kCoverageSizes_m[size], box_m);
+    }
+  }
+  std::erase_if(reference.samples_world_m,
+                [&](const Vec3f& p_m) { return !box_m.contains(p_m.cast<double>()); });
+  if (!reference.outside[0].empty()) return;
+  const Vec3 lo = box_m.min(), hi = box_m.max();
+  throw BadInput(fmt::format(
+      "--box {},{},{},{},{},{}: nothing to measure: no surface in it that can be seen from outside",
+      lo.x(), lo.y(), lo.z(), hi.x(), hi.y(), hi.z()));
+}
+
+/// Precision, accuracy and density of the points in the box alone; what a point just outside it
+/// covers or is near to stays covered.
+void judge_points_within(const Box3& box_m, const RayScene& scene, const ScoredCloud& cloud,
+                         int threads, MissionScore& score) {
+  std::vector<Vec3f> inside;
+  for (const Vec3f& p_m : cloud.points_world_m) {
+    if (box_m.contains(p_m.cast<double>())) inside.push_back(p_m);
+  }
+  const CloudDistances own = cloud_distances(scene, inside, {}, threads);
+  CloudDistances& all = score.distances;
+  all.accuracy_m = own.accuracy_m;
+  all.chamfer_m = 0.5 * (all.accuracy_m + all.completeness_m);
+  for (std::size_t i = 0; i < all.at.size(); ++i) {
+    DistanceScore& at = all.at[i];
+    at.precision = own.at[i].precision;
+    const double sum = at.precision + at.recall;
+    at.f = sum > 0.0 ? 2.0 * at.precision * at.recall / sum : 0.0;
+  }
+  score.density = cloud_density(inside, score.density.voxel_m);
+}
+
 Scored score(const Scenario& scenario, const World& world, const RayScene& scene,
-             const ScoredCloud& cloud, int threads) {
+             const ScoredCloud& cloud, const ScoreWish& wish, int threads) {
   const Stopwatch watch;
-  const SurfaceReference reference = reference_of(scenario, world, scene, threads);
+  SurfaceReference reference = reference_of(scenario, world, scene, threads);
+  if (wish.box_m) keep_within(*wish.box_m, reference);
   const double reference_s = watch.elapsed_s();
-  const MissionScore found =
-      score_cloud(reference, scene, cloud, scenario.planner.map.resolution_m, threads);
-  return {.score = found,
-          .structure = structure_name(scenario.structure),
-          .points = cloud.points_world_m.size(),
-          .floor_z_m = scenario.planner.floor_z_m,
-          .reference_s = reference_s,
-          .score_s = watch.elapsed_s() - reference_s};
+  Scored scored{
+      .score = score_cloud(reference, scene, cloud, scenario.planner.map.resolution_m, threads),
+      .sizes_m = wish.sizes_m.empty() ? scenario.score.sizes_m : wish.sizes_m,
+      .structure = structure_name(scenario.structure),
+      .points = cloud.points_world_m.size(),
+      .floor_z_m = scenario.planner.floor_z_m,
+      .reference_s = reference_s};
+  scored.score.more = score_more_sizes(scored.sizes_m, world, scenario.planner.floor_z_m,
+                                       wish.box_m, cloud, threads);
+  if (wish.box_m) judge_points_within(*wish.box_m, scene, cloud, threads, scored.score);
+  scored.score_s = watch.elapsed_s() - reference_s;
+  return scored;
 }
 
 World world_of(const Scenario& scenario) {
@@ -67,17 +109,17 @@ void need_matching(const fs::path& run, const ScoredCloud& cloud, std::span<cons
 }  // namespace
 
 Scored score_any_cloud(const std::string& name, std::span<const Vec3f> cloud_world_m,
-                       const Scenario& scenario, int threads) {
+                       const Scenario& scenario, const ScoreWish& wish, int threads) {
   const World world = world_of(scenario);
   const RayScene scene(world);
   const std::vector<Vec3f> points_m = scorable_points(
       name, cloud_world_m, scenario.planner.floor_z_m, scene, bounds_m(world.structure));
-  Scored scored = score(scenario, world, scene, {.points_world_m = points_m}, threads);
+  Scored scored = score(scenario, world, scene, {.points_world_m = points_m}, wish, threads);
   scored.points_below_floor = cloud_world_m.size() - points_m.size();
   return scored;
 }
 
-Scored score_run(const fs::path& run, CeilingFrom ceiling, int threads) {
+Scored score_run(const fs::path& run, const ScoreWish& wish, int threads) {
   const RunSummary summary = read_summary(run);
   const auto need = [&](bool is_there, const char* what) {
     if (!is_there) throw BadInput(fmt::format("{}: {}", (run / kSummaryFile).string(), what));
@@ -100,8 +142,10 @@ Scored score_run(const fs::path& run, CeilingFrom ceiling, int threads) {
   need_matching(run, cloud, profile, *summary.iterations);
   const World world = world_of(scenario);
   const RayScene scene(world);
-  Scored scored = score(scenario, world, scene, cloud, threads);
-  scored.score.ceiling = run_ceiling(scenario, world, scene, ceiling, threads);
+  Scored scored = score(scenario, world, scene, cloud, wish, threads);
+  if (!wish.box_m) {
+    scored.score.ceiling = run_ceiling(scenario, world, scene, wish.ceiling, threads);
+  }
   return scored;
 }
 

@@ -77,7 +77,7 @@ void RunDirectory::finish(const Scenario& scenario, const MissionResult& result,
   write_cloud_ply(result.belief.cloud.points_world_m(), folder_ / kCloudFile);
   write_octomap(result.belief.grid, folder_ / kMapStem);
   write_file_atomically(folder_ / kIterationsFile, iterations_csv(result.views));
-  write_file_atomically(folder_ / kCoverageFile, coverage_csv(score.curve));
+  write_file_atomically(folder_ / kCoverageFile, coverage_csv(score.curve, score.more));
   write_file_atomically(folder_ / kSummaryFile,
                         summary_json(scenario, result, score, total_wall_s));
   journal_.close();
