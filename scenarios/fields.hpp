@@ -50,8 +50,12 @@ struct Field {
   std::string_view meaning;                   // one line, for the schema
 };
 
-/// The place of a field's value. Vec3: three numbers or angles, each in Field::allowed.
-using FieldValue = std::variant<double*, int*, std::uint64_t*, bool*, std::string*, Vec3*>;
+/// The place of a field's value. Vec3: three numbers or angles, each in Field::allowed; a vector:
+/// one to kMostNumbers of them, of which none is there twice.
+using FieldValue =
+    std::variant<double*, int*, std::uint64_t*, bool*, std::string*, Vec3*, std::vector<double>*>;
+
+constexpr std::size_t kMostNumbers = 16;
 
 /// How many items a list may have.
 struct ListSize {
@@ -79,6 +83,10 @@ class FieldVisitor {
   }
   void number(std::string_view key, Vec3& value, const Range& allowed, std::string_view meaning) {
     leaf({key, FieldKind::number, allowed, {}, meaning}, &value);
+  }
+  void numbers(std::string_view key, std::vector<double>& values, const Range& allowed,
+               std::string_view meaning) {
+    leaf({key, FieldKind::number, allowed, {}, meaning}, &values);
   }
   void angle(std::string_view key_deg, double& value_rad, const Range& allowed_deg,
              std::string_view meaning) {
@@ -210,6 +218,7 @@ void fields(FieldVisitor& v, NoFlyConfig& c);
 void fields(FieldVisitor& v, ScoreConfig& c);
 void fields(FieldVisitor& v, StartConfig& c);
 void fields(FieldVisitor& v, BenchmarkConfig& c);
+void fields(FieldVisitor& v, ScoreConfig& c);
 void fields(FieldVisitor& v, Scenario& c);
 
 template <typename Config>

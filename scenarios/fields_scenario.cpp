@@ -27,6 +27,9 @@ void fields(FieldVisitor& v, NoFlyConfig& c) {
 
 void fields(FieldVisitor& v, ScoreConfig& c) {
   v.box("region_m", c.region_m, kCoordinate_m, "What of the structure is scored, world ENU.");
+  v.numbers("sizes_m", c.sizes_m, between(0.01, 10),
+            "Edges of the voxels that coverage is told of, beside the paper's 0.05, 0.10 and "
+            "0.50, which are measured in any case.");
 }
 
 void fields(FieldVisitor& v, StartConfig& c) {

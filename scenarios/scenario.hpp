@@ -52,9 +52,10 @@ struct NoFlyConfig {
   Vec3 max_m = Vec3::Zero();
 };
 
-/// What of the structure counts.
+/// What of the structure counts, and at which sizes of voxels.
 struct ScoreConfig {
   Box3 region_m = Box3(Vec3::Constant(-1e4), Vec3::Constant(1e4));
+  std::vector<double> sizes_m = {0.05, 0.10, 0.50};  // the paper's are measured in any case
 };
 
 /// Where the views begin; the paper is silent, the default is the authors' batch configuration.

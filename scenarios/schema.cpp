@@ -64,6 +64,11 @@ class SchemaWriter final : public FieldVisitor {
             {"default",
              {written(field, value.x()), written(field, value.y()), written(field, value.z())}}};
   }
+  static Json schema_of(const Field& field, const std::vector<double>& values) {
+    return {{"type", "array"},     {"items", number_schema("number", field.allowed)},
+            {"minItems", 1},       {"maxItems", kMostNumbers},
+            {"uniqueItems", true}, {"default", values}};
+  }
   static Json schema_of(const Field& field, int value) {
     Json schema = number_schema("integer", field.allowed);
     schema["default"] = value;

@@ -171,6 +171,26 @@ std::vector<ValueFault> read_vector(const YamlNode& node, const Field& field, Ve
   return faults;
 }
 
+std::vector<ValueFault> read_numbers(const YamlNode& node, const Field& field,
+                                     std::vector<double>& values) {
+  if (node.kind != Kind::list || node.items.empty() || node.items.size() > kMostNumbers) {
+    return {{&node, expected(node, fmt::format("a list of 1 to {} numbers", kMostNumbers)), ""}};
+  }
+  std::vector<ValueFault> faults;
+  std::vector<double> read;
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    double number = 0.0;
+    std::string what = read_one(node.items[i], field, number);
+    if (what.empty() && std::find(read.begin(), read.end(), number) != read.end()) {
+      what = "is there twice";
+    }
+    if (!what.empty()) faults.push_back({&node.items[i], what, fmt::format(".{}", i)});
+    read.push_back(number);
+  }
+  if (faults.empty()) values = read;
+  return faults;
+}
+
 std::string number_text(const Field& field, double value) {
   const bool is_angle = field.kind == FieldKind::angle;
   std::string text = fmt::format("{}", is_angle ? degrees_of(written_angle_rad(value)) : value);
@@ -228,6 +248,12 @@ std::string yaml_text(const Field& field, const FieldValue& value) {
         } else if constexpr (std::is_same_v<T, Vec3>) {
           return fmt::format("[{}, {}, {}]", number_text(field, v->x()), number_text(field, v->y()),
                              number_text(field, v->z()));
+        } else if constexpr (std::is_same_v<T, std::vector<double>>) {
+          std::string text;
+          for (const double number : *v) {
+            text += (text.empty() ? "" : ", ") + number_text(field, number);
+          }
+          return '[' + text + ']';
         } else if constexpr (std::is_same_v<T, std::string>) {
           const bool is_relative = field.kind == FieldKind::path && !v->empty();
           return plain_or_quoted(
@@ -243,6 +269,9 @@ std::vector<ValueFault> read_value(const YamlNode& node, const Field& field,
                                    const std::string& folder, const FieldValue& value) {
   std::string what;
   if (auto* const* vector = std::get_if<Vec3*>(&value)) return read_vector(node, field, **vector);
+  if (auto* const* numbers = std::get_if<std::vector<double>*>(&value)) {
+    return read_numbers(node, field, **numbers);
+  }
   if (auto* const* text = std::get_if<std::string*>(&value)) {
     what = read_text(node, field, folder, **text);
   } else if (auto* const* number = std::get_if<double*>(&value)) {

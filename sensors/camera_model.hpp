@@ -64,10 +64,9 @@ struct CameraConfig {
   double rate_hz = 0.0;           // frames a second in flight; 0: one at each view and none between
   double drop_probability = 0.0;  // of a frame: lost on its way, nothing is believed of it
   Vec3 p_body_m = Vec3::Zero();
-  double roll_rad = 0.0;  // about body x, applied first
-  double pitch_rad =
-      0.0;               // about body y: positive looks down; applied second. On a gimbal: at rest
-  double yaw_rad = 0.0;  // about body z: positive looks left; applied last
+  double roll_rad = 0.0;   // about body x, applied first
+  double pitch_rad = 0.0;  // about body y: positive looks down; applied second. A gimbal's: at rest
+  double yaw_rad = 0.0;    // about body z: positive looks left; applied last
   DepthNoiseConfig noise = {};
   std::optional<GimbalConfig> gimbal = {};  // nothing: fixed at pitch_rad
 };

@@ -69,6 +69,20 @@ std::vector<Part> tower_crane(Draws& draws, double size_m) {
   return parts;
 }
 
+/// What stands between the legs.
+std::vector<Part> stacked_containers(Draws& draws, double span_m, double girder_m, double half_m) {
+  std::vector<Part> parts;
+  const int stacked = draws.whole(0, 4);
+  for (int i = 0; i < stacked; ++i) {
+    const double x_m = span_m * (0.8 * (i + 0.5) / stacked - 0.4),
+                 z_m = girder_m * draws.whole(1, 2);
+    parts.push_back(block(
+        {x_m - 0.08 * span_m, x_m + 0.08 * span_m, -0.35 * half_m, 0.3 * half_m, 0.0, 1.3 * z_m},
+        i % 2 == 0 ? kContainerBlue : kContainerRed));
+  }
+  return parts;
+}
+
 /// Two pairs of legs, two girders that reach over, a trolley, something to lift below.
 std::vector<Part> gantry_crane(Draws& draws, double size_m) {
   const double reach_m = 0.5 * size_m, span_m = size_m * draws.real(0.6, 0.75);
@@ -115,14 +129,7 @@ std::vector<Part> gantry_crane(Draws& draws, double size_m) {
   parts.push_back(block({at_m - 1.6 * girder_m, at_m + 1.6 * girder_m, -0.4 * half_m, 0.4 * half_m,
                          load_m - 1.2 * girder_m, load_m + 0.06},
                         kContainerRed));
-  const int stacked = draws.whole(0, 4);
-  for (int i = 0; i < stacked; ++i) {
-    const double x_m = span_m * (0.8 * (i + 0.5) / stacked - 0.4),
-                 z_m = girder_m * draws.whole(1, 2);
-    parts.push_back(block(
-        {x_m - 0.08 * span_m, x_m + 0.08 * span_m, -0.35 * half_m, 0.3 * half_m, 0.0, 1.3 * z_m},
-        i % 2 == 0 ? kContainerBlue : kContainerRed));
-  }
+  add(parts, stacked_containers(draws, span_m, girder_m, half_m));
   return parts;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "sim/core/error.hpp"
@@ -56,6 +57,24 @@ constexpr std::array<Metric, 12> kGatedMetrics = {{
      Better::higher, 0.0, kRelativeTolerance},
 }};
 
+constexpr std::string_view kCoverage = "coverage_";
+
+/// Of a run, beside the gated metrics: the coverage at each further size.
+std::string name_of_more(const SizedCoverage& at) {
+  return fmt::format("{}{}", kCoverage, size_name(at.size_m));
+}
+
+/// The value of any metric of a baseline; nothing when the run was not scored at that size.
+std::optional<double> value_of(const RunFigures& run, std::string_view name) {
+  for (const Metric& metric : kGatedMetrics) {
+    if (metric.name == name) return metric.of(run);
+  }
+  for (const SizedCoverage& at : run.more) {
+    if (name_of_more(at) == name) return at.final;
+  }
+  return std::nullopt;
+}
+
 constexpr std::array<std::string_view, 3> kBetterNames = {"higher", "lower", "same"};
 
 BaselineSubject subject_of(const RunFigures& run) {
@@ -93,7 +112,12 @@ class File {
       out.push_back(metric_of(all, std::string(metric.name)));
     for (const auto& [name, value] : all.items()) {
       const auto is_it = [&](const Metric& metric) { return metric.name == name; };
-      if (std::none_of(kGatedMetrics.begin(), kGatedMetrics.end(), is_it)) {
+      if (std::any_of(kGatedMetrics.begin(), kGatedMetrics.end(), is_it)) continue;
+      const double size_m =
+          name.starts_with(kCoverage) ? std::strtod(name.c_str() + kCoverage.size(), nullptr) : 0.0;
+      if (size_m > 0.0 && name == name_of_more({.size_m = size_m})) {
+        out.push_back(metric_of(all, name));
+      } else {
         throw BadInput(fmt::format("{}: metrics.{}: is no metric", path_.string(), name));
       }
     }
@@ -219,6 +243,12 @@ Baseline make_baseline(const RunFigures& run) {
          .tolerance = metric.tolerance + metric.tolerance_share * std::abs(value),
          .better = metric.better});
   }
+  for (const SizedCoverage& at : run.more) {
+    baseline.metrics.push_back({.name = name_of_more(at),
+                                .value = at.final,
+                                .tolerance = kShareTolerance,
+                                .better = Better::higher});
+  }
   return baseline;
 }
 
@@ -226,9 +256,12 @@ Baseline updated_baseline(const RunFigures& run, const Baseline& before, const f
   need_same(before.of, subject_of(run), false, path);
   Baseline baseline = make_baseline(run);
   if (before.result_sha256) baseline.result_sha256 = run.result_sha256;
-  for (std::size_t i = 0; i < kGatedMetrics.size(); ++i) {
-    baseline.metrics[i].tolerance = before.metrics[i].tolerance;
-    baseline.metrics[i].better = before.metrics[i].better;
+  for (BaselineMetric& metric : baseline.metrics) {
+    for (const BaselineMetric& known : before.metrics) {
+      if (known.name != metric.name) continue;
+      metric.tolerance = known.tolerance;
+      metric.better = known.better;
+    }
   }
   return baseline;
 }
@@ -236,9 +269,15 @@ Baseline updated_baseline(const RunFigures& run, const Baseline& before, const f
 BaselineCheck check_against(const Baseline& baseline, const fs::path& path, const RunFigures& run) {
   need_same(baseline.of, subject_of(run), true, path);
   BaselineCheck check{.metrics = {}, .termination = run.termination};
-  for (std::size_t i = 0; i < kGatedMetrics.size(); ++i) {
-    const double now = kGatedMetrics[i].of(run);
-    check.metrics.push_back({baseline.metrics[i], now, judge(baseline.metrics[i], now)});
+  for (const BaselineMetric& metric : baseline.metrics) {
+    const std::optional<double> now = value_of(run, metric.name);
+    if (!now) {
+      throw BadInput(
+          fmt::format("{}: metrics.{}: the run was not scored at that size; "
+                      "score.sizes_m names it",
+                      path.string(), metric.name));
+    }
+    check.metrics.push_back({metric, *now, judge(metric, *now)});
   }
   check.is_termination_wrong =
       run.termination == "collision" || run.termination != baseline.termination;

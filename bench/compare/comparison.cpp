@@ -122,7 +122,7 @@ std::optional<double> mean_rank(const std::vector<std::vector<double>>& blocks,
 
 void add_figures(Comparison& comparison, std::size_t scenario, std::size_t metric,
                  const Values& values) {
-  const auto blocks = rank_blocks(values, run_metrics()[metric].higher_is_better);
+  const auto blocks = rank_blocks(values, comparison.metrics[metric].higher_is_better);
   const std::size_t first = comparison.figures.size();
   for (std::size_t method = 0; method < values.size(); ++method) {
     if (values[method].empty()) continue;
@@ -155,6 +155,9 @@ double least_p_holm(const Contrast& contrast) {
 Comparison compare(std::span<const ComparedRun> runs, const std::string& baseline,
                    const Ceilings& ceilings) {
   Comparison comparison;
+  std::vector<const RunFigures*> all;
+  for (const ComparedRun& run : runs) all.push_back(&run.figures);
+  comparison.metrics = metrics_of(all);
   std::vector<std::vector<const RunFigures*>> by_scenario;
   for (const ComparedRun& run : runs) {
     const std::size_t scenario = index_in(comparison.scenarios, run.scenario);
@@ -168,12 +171,12 @@ Comparison compare(std::span<const ComparedRun> runs, const std::string& baselin
   for (const auto& of_scenario : by_scenario) {
     comparison.budgets.push_back(common_budgets(of_scenario));
   }
-  for (std::size_t metric = 0; metric < run_metrics().size(); ++metric) {
+  for (std::size_t metric = 0; metric < comparison.metrics.size(); ++metric) {
     std::vector<std::vector<double>> blocks;
     for (std::size_t s = 0; s < comparison.scenarios.size(); ++s) {
-      const Values values = values_of(comparison, runs, ceilings, s, run_metrics()[metric]);
+      const Values values = values_of(comparison, runs, ceilings, s, comparison.metrics[metric]);
       add_figures(comparison, s, metric, values);
-      for (auto& block : rank_blocks(values, run_metrics()[metric].higher_is_better)) {
+      for (auto& block : rank_blocks(values, comparison.metrics[metric].higher_is_better)) {
         blocks.push_back(std::move(block));
       }
     }

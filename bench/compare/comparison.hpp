@@ -71,6 +71,7 @@ struct OverallRank {
 };
 
 struct Comparison {
+  std::vector<RunMetric> metrics;  // metrics_of() all runs; figures and ranks hold indices of it
   std::vector<std::string> scenarios;
   std::vector<std::string> methods;
   std::size_t baseline = 0;

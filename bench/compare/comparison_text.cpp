@@ -99,13 +99,13 @@ TableCell estimate_cell(const MeanEstimate& e, int decimals) {
   return {.text = text, .values = {e.mean, e.half_width}};
 }
 
-void add_contrast(Row& row, const MethodFigure& figure, bool is_baseline) {
+void add_contrast(Row& row, const Comparison& comparison, const MethodFigure& figure) {
   if (!figure.contrast) {
     row.insert(row.end(), 3, nothing());
-    row.push_back({.text = is_baseline ? "baseline" : "no common seed"});
+    row.push_back({.text = figure.method == comparison.baseline ? "baseline" : "no common seed"});
     return;
   }
-  const RunMetric& metric = run_metrics()[figure.metric];
+  const RunMetric& metric = comparison.metrics[figure.metric];
   const Contrast& c = *figure.contrast;
   row.push_back(estimate_cell(c.difference, metric.decimals));
   if (c.difference.n > 0 && c.difference.n < c.pairs) {
@@ -127,7 +127,7 @@ TableCell count_cell(std::size_t n, std::size_t runs) {
 }
 
 Row figure_row(const Comparison& comparison, const MethodFigure& figure) {
-  const RunMetric& metric = run_metrics()[figure.metric];
+  const RunMetric& metric = comparison.metrics[figure.metric];
   Row row = {
       {.text = comparison.scenarios[figure.scenario]},
       {.text = std::string(metric.name)},
@@ -135,7 +135,7 @@ Row figure_row(const Comparison& comparison, const MethodFigure& figure) {
       count_cell(figure.estimate.n, figure.runs),
       estimate_cell(figure.estimate, metric.decimals),
       figure.rank ? TableCell{fmt::format("{:.2f}", *figure.rank), {figure.rank, {}}} : nothing()};
-  add_contrast(row, figure, figure.method == comparison.baseline);
+  add_contrast(row, comparison, figure);
   return row;
 }
 
@@ -153,7 +153,7 @@ void add_effort_notes(std::vector<std::string>& notes, const Comparison& compari
   std::map<std::size_t, std::vector<std::string>> missed;  // by scenario
   bool has_efforts = false;
   for (const MethodFigure& figure : comparison.figures) {
-    const RunMetric& metric = run_metrics()[figure.metric];
+    const RunMetric& metric = comparison.metrics[figure.metric];
     has_efforts = has_efforts || metric.may_be_missed;
     if (!metric.name.starts_with("views to ") || is_reached(comparison, figure)) continue;
     std::vector<std::string>& names = missed[figure.scenario];
@@ -176,7 +176,7 @@ void add_effort_notes(std::vector<std::string>& notes, const Comparison& compari
 
 Row rank_row(const Comparison& comparison, const OverallRank& rank) {
   return {{.text = "all scenarios"},
-          {.text = std::string(run_metrics()[rank.metric].name)},
+          {.text = std::string(comparison.metrics[rank.metric].name)},
           {.text = comparison.methods[rank.method]},
           count_cell(rank.blocks, rank.blocks),
           nothing(),

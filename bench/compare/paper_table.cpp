@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "bench/compare/statistics.hpp"
 #include "bench/compare/table_groups.hpp"
@@ -27,6 +28,7 @@ struct RowFigures {
   std::optional<MeanEstimate> distance_m = {};
   std::optional<MeanEstimate> time_min = {};
   std::array<std::optional<MeanEstimate>, 3> coverage = {};
+  std::map<double, MeanEstimate> more = {};  // by the size that all runs have beside these
   std::optional<MeanEstimate> share_of_ceiling = {};
   std::optional<MeanEstimate> density = {};
   std::string mark = {};  // of the finest two coverages
@@ -50,23 +52,54 @@ TableCell cell(const std::optional<MeanEstimate>& e, int decimals, double factor
   return {.text = text + unit, .values = {e->mean, e->half_width}};
 }
 
-std::vector<TableColumn> all_columns() {
-  using enum ColumnKind;
-  return {{"Utility", "utility", text},
-          {"Row", "row", text},
-          {"Runs", "runs", number},
-          {"Iterations", "iterations", estimate},
-          {"Entropy reduction", "entropy_reduction", estimate},
-          {"Distance (m)", "distance_m", estimate},
-          {"Time (min)", "time_min", estimate},
-          {"0.05 m", "coverage_0.05", estimate},
-          {"0.10 m", "coverage_0.10", estimate},
-          {"0.50 m", "coverage_0.50", estimate},
-          {"Of ceiling", "share_of_ceiling", estimate},
-          {"Points/voxel", "density_points_per_voxel", estimate}};
+/// Sizes beside the paper's that some of the runs have.
+std::set<double> more_sizes(std::span<const RunFigures> runs) {
+  std::set<double> sizes_m;
+  for (const RunFigures& run : runs) {
+    for (const SizedCoverage& at : run.more) sizes_m.insert(at.size_m);
+  }
+  return sizes_m;
 }
 
-Row all_cells(const RowFigures& f) {
+/// Over the runs, at the sizes that all of them have.
+std::map<double, MeanEstimate> estimate_more(const Runs& runs, double SizedCoverage::*share) {
+  std::map<double, std::vector<double>> values;
+  for (const RunFigures* run : runs) {
+    for (const SizedCoverage& at : run->more) values[at.size_m].push_back(at.*share);
+  }
+  std::map<double, MeanEstimate> estimates;
+  for (const auto& [size_m, shares] : values) {
+    if (shares.size() == runs.size()) estimates.emplace(size_m, estimate_mean(shares));
+  }
+  return estimates;
+}
+
+std::vector<TableColumn> all_columns(const std::set<double>& more_m) {
+  using enum ColumnKind;
+  std::vector<TableColumn> columns = {{"Utility", "utility", text},
+                                      {"Row", "row", text},
+                                      {"Runs", "runs", number},
+                                      {"Iterations", "iterations", estimate},
+                                      {"Entropy reduction", "entropy_reduction", estimate},
+                                      {"Distance (m)", "distance_m", estimate},
+                                      {"Time (min)", "time_min", estimate},
+                                      {"0.05 m", "coverage_0.05", estimate},
+                                      {"0.10 m", "coverage_0.10", estimate},
+                                      {"0.50 m", "coverage_0.50", estimate},
+                                      {"Of ceiling", "share_of_ceiling", estimate},
+                                      {"Points/voxel", "density_points_per_voxel", estimate}};
+  const auto after = std::find_if(columns.begin(), columns.end(),
+                                  [](const TableColumn& c) { return c.key == "share_of_ceiling"; });
+  std::vector<TableColumn> more;
+  for (const double size_m : more_m) {
+    const std::string name = size_name(size_m);
+    more.push_back({name + " m", "coverage_" + name, estimate});
+  }
+  columns.insert(after, more.begin(), more.end());
+  return columns;
+}
+
+Row all_cells(const RowFigures& f, const std::set<double>& more_m) {
   Row row = {{.text = f.label}, {.text = f.kind}, {.text = "-"}};
   if (f.runs) row[2] = {std::to_string(*f.runs), {static_cast<double>(*f.runs), std::nullopt}};
   row.push_back(cell(f.iterations, 0));
@@ -76,6 +109,10 @@ Row all_cells(const RowFigures& f) {
   for (std::size_t size = 0; size < f.coverage.size(); ++size) {
     row.push_back(cell(f.coverage[size], 1, 100.0, "%"));
     if (size < 2) row.back().text += f.mark;
+  }
+  for (const double size_m : more_m) {
+    const auto at = f.more.find(size_m);
+    row.push_back(at == f.more.end() ? TableCell{.text = "-"} : cell(at->second, 1, 100.0, "%"));
   }
   row.push_back(cell(f.share_of_ceiling, 1, 100.0, "%"));
   row.push_back(cell(f.density, 0));
@@ -127,6 +164,7 @@ RowFigures our_figures(const std::string& label, const Runs& runs,
   for (std::size_t size = 0; size < 3; ++size) {
     f.coverage[size] = estimate(runs, [&](const RunFigures& r) { return r.coverage_final[size]; });
   }
+  f.more = estimate_more(runs, &SizedCoverage::final);
   add_share(f, ceiling);
   return f;
 }
@@ -143,6 +181,7 @@ RowFigures our_profile(const Runs& runs, const std::optional<Ceiling>& ceiling) 
     f.coverage[size] =
         estimate(profiles, [&](const RunFigures& r) { return r.coverage_profile[size]; });
   }
+  f.more = estimate_more(profiles, &SizedCoverage::profile);
   add_share(f, ceiling);
   return f;
 }
@@ -168,7 +207,7 @@ std::vector<RowFigures> our_profiles(const std::vector<TableGroup>& groups,
   for (const TableGroup& group : by_setting) {
     const RowFigures row = our_profile(group.runs, ceiling);
     const auto is_same = [&](const RowFigures& other) {
-      return all_cells(other) == all_cells(row);
+      return all_cells(other, {}) == all_cells(row, {});
     };
     if (std::any_of(rows.begin(), rows.end(), is_same)) continue;
     rows.push_back(row);
@@ -256,8 +295,9 @@ TextTable comparison_table(const PaperTable& paper, std::span<const RunFigures> 
                            std::span<const std::string> settings) {
   TextTable table;
   table.title = std::string(paper.source);
-  table.columns = all_columns();
-  const auto add = [&](const RowFigures& f) { table.rows.push_back(all_cells(f)); };
+  const std::set<double> more_m = more_sizes(runs);
+  table.columns = all_columns(more_m);
+  const auto add = [&](const RowFigures& f) { table.rows.push_back(all_cells(f, more_m)); };
   const std::vector<TableGroup> groups = table_groups(runs, settings);
   const auto add_ours = [&](const TableGroup& group, const std::string& name) {
     add(our_figures(group.label(name), group.runs, ceiling));
@@ -294,12 +334,13 @@ std::string one_row_summary(const RunFigures& run, bool has_papers_setting) {
   const PaperTable* const paper = has_papers_setting ? find_paper_table(run.scenario) : nullptr;
   const PaperRow* const row = paper == nullptr ? nullptr : find_row(*paper, run.utility);
   TextTable table;
-  table.columns = all_columns();
-  table.rows.push_back(all_cells(our_figures(run.utility, {&run}, {})));
+  const std::set<double> more_m = more_sizes({&run, 1});
+  table.columns = all_columns(more_m);
+  table.rows.push_back(all_cells(our_figures(run.utility, {&run}, {}), more_m));
   if (row != nullptr && is_papers_structure(*paper, run.structure)) {
     RowFigures printed_row = paper_figures(*row);
     printed_row.label = run.utility;
-    table.rows.push_back(all_cells(printed_row));
+    table.rows.push_back(all_cells(printed_row, more_m));
     if (is_doubtful(*row)) table.notes.emplace_back("† as printed; hardly possible");
   }
   // no ceiling here: finding it may take longer than the mission

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -108,6 +109,24 @@ std::vector<RunMetric> make_metrics() {
 
 std::span<const RunMetric> run_metrics() {
   static const std::vector<RunMetric> metrics = make_metrics();
+  return metrics;
+}
+
+std::vector<RunMetric> metrics_of(std::span<const RunFigures* const> runs) {
+  std::vector<RunMetric> metrics(run_metrics().begin(), run_metrics().end());
+  std::set<double> sizes_m;
+  for (const RunFigures* run : runs) {
+    for (const SizedCoverage& at : run->more) sizes_m.insert(at.size_m);
+  }
+  for (const double size_m : sizes_m) {
+    metrics.push_back({fmt::format("coverage at {} m (%)", size_name(size_m)), true, 1,
+                       [size_m](const RunFigures& run, const MetricContext&) -> Value {
+                         for (const SizedCoverage& at : run.more) {
+                           if (at.size_m == size_m) return 100.0 * at.final;
+                         }
+                         return std::nullopt;
+                       }});
+  }
   return metrics;
 }
 

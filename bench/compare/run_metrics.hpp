@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,13 +24,17 @@ struct RunMetric {
   std::string name;  // with the unit of the value
   bool higher_is_better = true;
   int decimals = 1;
-  std::optional<double> (*value)(const RunFigures& run, const MetricContext& context) = nullptr;
+  std::function<std::optional<double>(const RunFigures& run, const MetricContext& context)> value;
   bool may_be_missed = false;  // an effort to reach: infinite for a run that did not get there
 };
 
 /// In the order of tables. Coverage at 0.05 m is the first of them, the efforts to reach
 /// kReachShares of the ceiling the last.
 std::span<const RunMetric> run_metrics();
+
+/// These, and then the coverage at each size that any of the runs has beside the paper's,
+/// ascending.
+std::vector<RunMetric> metrics_of(std::span<const RunFigures* const> runs);
 
 /// The index of a metric in run_metrics(). Requires a name of them.
 std::size_t metric_index(std::string_view name);

@@ -1,5 +1,7 @@
 #include "bench/score/mission_score.hpp"
 
+#include <algorithm>
+
 #include "bench/score/scored_points.hpp"
 
 namespace gnbv {
@@ -29,15 +31,46 @@ std::vector<Vec3f> points_in(const Box3& region_m, std::span<const Vec3f> points
   return inside;
 }
 
+/// The profile, what each view left, and the whole cloud: the curve ends with the last view.
+std::vector<std::size_t> prefixes_of(const ScoredCloud& cloud, const OwnCloud& own) {
+  std::vector<std::size_t> prefixes = {own.until[cloud.profile_points]};
+  for (const ViewMark& view : cloud.views) prefixes.push_back(own.until[view.cloud_points]);
+  prefixes.push_back(own.points_world_m.size());
+  return prefixes;
+}
+
 }  // namespace
+
+std::vector<SizedCoverage> score_more_sizes(std::span<const double> sizes_m, const World& world,
+                                            const RayScene& scene, double floor_z_m,
+                                            const ScoredCloud& cloud, int threads) {
+  std::vector<SizedCoverage> all;
+  if (std::all_of(sizes_m.begin(), sizes_m.end(), is_papers_size)) return all;
+  const OwnCloud own = own_cloud(scene, cloud.points_world_m, threads);
+  const std::vector<std::size_t> prefixes = prefixes_of(cloud, own);
+  for (const double size_m : sizes_m) {
+    if (is_papers_size(size_m)) continue;
+    SizedShares shares =
+        sized_shares(world, size_m, {.floor_z_m = floor_z_m, .region_m = cloud.region_m},
+                     own.points_world_m, prefixes, threads);
+    SizedCoverage at{.size_m = size_m,
+                     .profile = shares.outside.front(),
+                     .final = shares.outside.back(),
+                     .profile_raw = shares.raw.front(),
+                     .final_raw = shares.raw.back()};
+    shares.outside.pop_back();
+    at.curve = std::move(shares.outside);
+    all.push_back(std::move(at));
+  }
+  std::sort(all.begin(), all.end(),
+            [](const SizedCoverage& a, const SizedCoverage& b) { return a.size_m < b.size_m; });
+  return all;
+}
 
 MissionScore score_cloud(const SurfaceReference& reference, const RayScene& scene,
                          const ScoredCloud& cloud, double density_voxel_m, int threads) {
   const OwnCloud own = own_cloud(scene, cloud.points_world_m, threads);
-  // the profile, what each view left, and the whole cloud: the curve ends with the last view
-  std::vector<std::size_t> prefixes = {own.until[cloud.profile_points]};
-  for (const ViewMark& view : cloud.views) prefixes.push_back(own.until[view.cloud_points]);
-  prefixes.push_back(own.points_world_m.size());
+  const std::vector<std::size_t> prefixes = prefixes_of(cloud, own);
   const std::vector<CoverageShares> shares =
       coverage_of_prefixes(reference, own.points_world_m, prefixes, threads);
 

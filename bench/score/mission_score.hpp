@@ -9,6 +9,7 @@
 #include "bench/score/cloud_metrics.hpp"
 #include "bench/score/coverage_curve.hpp"
 #include "bench/score/run_figures.hpp"
+#include "bench/score/sized_coverage.hpp"
 #include "bench/score/surface_reference.hpp"
 
 namespace gnbv {
@@ -35,6 +36,7 @@ struct MissionScore {
   std::array<double, 3> final{};
   std::array<double, 3> profile_raw{};  // raw reference
   std::array<double, 3> final_raw{};
+  std::vector<SizedCoverage> more = {};  // at sizes beside those, ascending
   CloudDistances distances = {};
   CloudDensity density = {};  // over voxels of the map's size
   CoverageCurve curve = {};
@@ -43,6 +45,11 @@ struct MissionScore {
   // know
   std::optional<double> ceiling = {};
 };
+
+/// At the sizes that are not the paper's, ascending; of the cloud's region (sized_coverage.hpp).
+std::vector<SizedCoverage> score_more_sizes(std::span<const double> sizes_m, const World& world,
+                                            const RayScene& scene, double floor_z_m,
+                                            const ScoredCloud& cloud, int threads);
 
 /// Points that belong to what stands around the structure (points_of_structure()) count nowhere.
 /// Distances to the structure and density are those of points in the region; coverage and recall

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/score/cloud_metrics.hpp"
+#include "bench/score/sized_coverage.hpp"
 
 namespace gnbv {
 
@@ -61,6 +62,7 @@ struct RunFigures {
   std::array<double, 3> coverage_profile{};    // the same, after the profile
   std::array<double, 3> coverage_final_raw{};  // of all surface
   std::array<double, 3> coverage_profile_raw{};
+  std::vector<SizedCoverage> more = {};   // at sizes beside the paper's, ascending
   double density_points_per_voxel = 0.0;  // cloud points per occupied voxel (Fig. 9)
   CloudDistances distances;               // precision, recall, F, Chamfer
   CloudDensity density;

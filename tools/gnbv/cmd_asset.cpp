@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -23,8 +24,9 @@ constexpr std::string_view kRandom = "random";
 
 struct AssetOptions {
   std::string name;
-  std::optional<std::uint64_t> seed;  // of a random one
-  std::string kind;                   // of it; empty: the seed chooses
+  std::optional<std::string> seed_text;  // of a random one, as it was given
+  std::uint64_t seed = 1;
+  std::string kind;  // of it; empty: the seed chooses
   fs::path out;
   bool list = false;
   bool json = false;
@@ -44,7 +46,7 @@ std::vector<std::string_view> structure_names() {
 }
 
 void check_random_options(const AssetOptions& options) {
-  if (options.name != kRandom && (options.seed || !options.kind.empty())) {
+  if (options.name != kRandom && (options.seed_text || !options.kind.empty())) {
     throw BadInput(fmt::format("{}: --seed and --kind are for `asset random`", options.name));
   }
   const auto& kinds = kRandomKinds;
@@ -89,12 +91,14 @@ void print_facts(const AssetOptions& options, const TriangleMesh& mesh) {
         {"materials", mesh.materials.size()},
         {"area_m2", surface_area_m2(mesh)},
         {"bounds_m", {{"min", {lo.x(), lo.y(), lo.z()}}, {"max", {hi.x(), hi.y(), hi.z()}}}}};
-    if (options.seed) facts.update({{"kind", options.kind}, {"seed", *options.seed}});
+    if (options.name == kRandom) facts.update({{"kind", options.kind}, {"seed", options.seed}});
     fmt::print("{}\n", facts.dump(2));
     return;
   }
   for (const std::string& file : files) fmt::print("{}\n", file);
-  if (options.seed) fmt::print("random {}, seed {}\n", options.kind, *options.seed);
+  if (options.name == kRandom) {
+    fmt::print("random {}, seed {}\n", options.kind, options.seed);
+  }
   fmt::print("{} vertices, {} faces, {} materials, {:.0f} m2\n", mesh.vertices_m.size(),
              mesh.faces.size(), mesh.materials.size(), surface_area_m2(mesh));
   fmt::print("x {:.2f} to {:.2f}, y {:.2f} to {:.2f}, z {:.2f} to {:.2f} m\n", lo.x(), hi.x(),
@@ -112,11 +116,22 @@ void print_list(bool json) {
   for (const std::string_view kind : kRandomKinds) fmt::print("{} --kind {}\n", kRandom, kind);
 }
 
+std::uint64_t seed_of(const std::string& text) {
+  std::uint64_t seed = 0;
+  const char* const end = text.data() + text.size();
+  const auto [at, error] = std::from_chars(text.data(), end, seed);
+  if (error != std::errc() || at != end) {
+    throw BadInput(fmt::format("--seed {}: is no whole number from 0 to 2^64 - 1", text));
+  }
+  return seed;
+}
+
+/// Fills in what of a random one was not given.
 TriangleMesh make(AssetOptions& options) {
   if (options.name != kRandom) return make_builtin_structure(options.name);
-  if (!options.seed) options.seed = 1;
-  if (options.kind.empty()) options.kind = random_kind(*options.seed);
-  return make_random_structure(*options.seed, options.kind);
+  if (options.seed_text) options.seed = seed_of(*options.seed_text);
+  if (options.kind.empty()) options.kind = random_kind(options.seed);
+  return make_random_structure(options.seed, options.kind);
 }
 
 void asset(AssetOptions options) {
@@ -141,8 +156,8 @@ void add_asset_command(CLI::App& app) {
   CLI::Option* const out = command->add_option(
       "-o,--out", options->out,
       "file to write: .obj (with its .mtl), .ply or .glb; metres, z up (.glb: y up)");
-  CLI::Option* const seed = command->add_option("--seed", options->seed, "of `random`: which (1)")
-                                ->check(CLI::NonNegativeNumber);
+  CLI::Option* const seed =
+      command->add_option("--seed", options->seed_text, "of `random`: which (1)");
   CLI::Option* const kind =
       command->add_option("--kind", options->kind,
                           "of `random`: hall, tower, ...; --list names them, else by the seed");

@@ -31,7 +31,7 @@ struct PlotOptions {
   std::vector<std::string> formats = {"svg"};
   std::vector<std::string> plots = {"density", "coverage", "terms", "reach"};
   int reach_percent = 95;
-  std::string voxel_m = "0.05";
+  double voxel_m = 0.05;
   PlotSize size;
   bool keep = false;
 };
@@ -122,19 +122,56 @@ std::vector<Plot> plots_of_reach(const PlotOptions& options, std::span<const Run
   return plots;
 }
 
+/// The index of the size, if it is the paper's.
+std::optional<std::size_t> papers_size(double size_m) {
+  for (std::size_t size = 0; size < kCoverageSizes_m.size(); ++size) {
+    if (kCoverageSizes_m[size] == size_m) return size;
+  }
+  return std::nullopt;
+}
+
+/// The runs that were scored at the size, its curve in the place of the finest one's.
+std::vector<RunRecord> runs_at(std::vector<RunRecord> records, double size_m) {
+  std::erase_if(records, [&](RunRecord& record) {
+    if (!record.figures) return false;  // which the groups say
+    for (const SizedCoverage& at : record.figures->more) {
+      if (at.size_m != size_m) continue;
+      for (std::size_t i = 0; i < at.curve.size(); ++i) {
+        record.figures->curve.coverage[i][0] = at.curve[i];
+      }
+      return false;
+    }
+    fmt::print(stderr,
+               "gnbv: {}: not scored at {} m: left out; `gnbv score RUN --resolution {} --update` "
+               "scores it\n",
+               record.folder.string(), size_name(size_m), size_name(size_m));
+    return true;
+  });
+  return records;
+}
+
+std::vector<Plot> coverage_plots(const std::vector<RunRecord>& records, double size_m) {
+  const std::optional<std::size_t> size = papers_size(size_m);
+  const std::vector<RunRecord> own = size ? std::vector<RunRecord>{} : runs_at(records, size_m);
+  std::vector<std::string> notes;  // said of all groups
+  const std::vector<RunGroup> groups = group_runs(size ? records : own, notes);
+  std::vector<Plot> plots;
+  for (const Effort effort : {Effort::views, Effort::metres, Effort::seconds}) {
+    if (groups.empty()) break;
+    plots.push_back(size ? coverage_plot(groups, effort, *size)
+                         : coverage_plot_at(groups, effort, size_m));
+  }
+  return plots;
+}
+
 std::vector<Plot> plots_of_groups(const PlotOptions& options,
                                   const std::vector<RunRecord>& records) {
   std::vector<std::string> notes;
   const std::vector<RunGroup> groups = group_runs(records, notes);
   for (const std::string& note : notes) fmt::print(stderr, "gnbv: {}\n", note);
   if (groups.empty()) return {};
-  const std::size_t size = options.voxel_m == "0.05" ? 0 : options.voxel_m == "0.10" ? 1 : 2;
   std::vector<Plot> plots;
-  if (wants(options, "coverage")) {
-    for (const Effort effort : {Effort::views, Effort::metres, Effort::seconds}) {
-      plots.push_back(coverage_plot(groups, effort, size));
-    }
-  }
+  if (wants(options, "coverage")) plots = coverage_plots(records, options.voxel_m);
   if (wants(options, "reach")) {
     for (Plot& reach : plots_of_reach(options, groups)) plots.push_back(std::move(reach));
   }
@@ -206,7 +243,7 @@ void add_plot_command(CLI::App& app) {
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
   command->add_option("--voxel", options->voxel_m, "edge of the voxels that are covered (m)")
-      ->check(CLI::IsMember({"0.05", "0.10", "0.50"}))
+      ->check(is_positive())
       ->capture_default_str();
   command
       ->add_option("--width,--width-px", options->size.width_px,

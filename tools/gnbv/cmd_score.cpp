@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -26,21 +27,34 @@ struct ScoreOptions {
   std::string floor_z_m;
   int threads = 0;
   bool update = false;
-  CeilingFrom ceiling = CeilingFrom::cache;
+  ScoreWish wish;
+  std::vector<double> box_m;  // x0, y0, z0, x1, y1, z1
   bool json = false;
 };
 
 template <typename Value>
-std::string percent_row(const std::string& name, const Value& value_at) {
+std::string percent_row(const std::string& name, std::size_t columns, const Value& value_at) {
   std::string row = fmt::format("{:<26}", name);
-  for (std::size_t i = 0; i < 3; ++i) row += fmt::format("{:>9.1f}%", 100.0 * value_at(i));
+  for (std::size_t i = 0; i < columns; ++i) row += fmt::format("{:>9.1f}%", 100.0 * value_at(i));
   return row + "\n";
 }
 
-std::string heading(const std::string& name, const std::array<double, 3>& columns_m) {
+std::string heading(const std::string& name, std::span<const double> columns_m) {
   std::string row = fmt::format("{:<26}", name);
-  for (const double column_m : columns_m) row += fmt::format("{:>8.2f} m", column_m);
-  return row + "\n" + std::string(56, '-') + "\n";
+  for (const double column_m : columns_m) row += fmt::format("{:>8} m", size_name(column_m));
+  return row + "\n" + std::string(26 + 10 * columns_m.size(), '-') + "\n";
+}
+
+/// Of one of the sizes that were asked for.
+double share_at(const MissionScore& score, double size_m, const std::array<double, 3>& papers,
+                double SizedCoverage::*share) {
+  for (std::size_t i = 0; i < papers.size(); ++i) {
+    if (kCoverageSizes_m[i] == size_m) return papers[i];
+  }
+  const auto at = std::find_if(score.more.begin(), score.more.end(),
+                               [&](const SizedCoverage& c) { return c.size_m == size_m; });
+  GNBV_CHECK(at != score.more.end(), "no score at {} m", size_m);
+  return (*at).*share;
 }
 
 std::string terminal_text(const Scored& scored, const std::string& name, bool is_run) {
@@ -52,19 +66,23 @@ std::string terminal_text(const Scored& scored, const std::string& name, bool is
                         scored.floor_z_m);
   }
   text += "\n";
-  text += heading("Coverage, voxels of", kCoverageSizes_m);
-  const auto coverage_row = [&](const std::string& row, const std::array<double, 3>& shares) {
-    text += percent_row(row, [&](std::size_t i) { return shares[i]; });
+  text += heading("Coverage, voxels of", scored.sizes_m);
+  const auto coverage_row = [&](const std::string& row, const std::array<double, 3>& shares,
+                                double SizedCoverage::*share) {
+    text += percent_row(row, scored.sizes_m.size(), [&](std::size_t i) {
+      return share_at(score, scored.sizes_m[i], shares, share);
+    });
   };
-  coverage_row("seen from outside", score.final);
-  coverage_row("all surface, also inner", score.final_raw);
-  if (is_run) coverage_row("profile, from outside", score.profile);
+  coverage_row("seen from outside", score.final, &SizedCoverage::final);
+  coverage_row("all surface, also inner", score.final_raw, &SizedCoverage::final_raw);
+  if (is_run) coverage_row("profile, from outside", score.profile, &SizedCoverage::profile);
   text += "a voxel counts with such surface of a tenth of its face\n";
   text += "\n" + heading("Within", kScoreDistances_m);
   const auto& at = score.distances.at;
-  text += percent_row("precision", [&](std::size_t i) { return at[i].precision; });
-  text += percent_row("recall, from outside", [&](std::size_t i) { return at[i].recall; });
-  text += percent_row("F", [&](std::size_t i) { return at[i].f; });
+  text += percent_row("precision", at.size(), [&](std::size_t i) { return at[i].precision; });
+  text +=
+      percent_row("recall, from outside", at.size(), [&](std::size_t i) { return at[i].recall; });
+  text += percent_row("F", at.size(), [&](std::size_t i) { return at[i].f; });
   text += fmt::format(
       "\nChamfer distance {:.4f} m: accuracy {:.4f} m, completeness {:.4f} m; beyond {} m counts "
       "as that\nDensity {:.1f} points a voxel of {} m that holds any, variation {:.2f}\n",
@@ -89,7 +107,7 @@ Scored score_file(ScoreOptions options, int threads) {
   if (options.update) {
     throw BadInput(fmt::format("--update: {} is no run directory", options.target));
   }
-  if (options.ceiling == CeilingFrom::search) {
+  if (options.wish.ceiling == CeilingFrom::search) {
     throw BadInput(fmt::format("--ceiling: {} is no run directory", options.target));
   }
   if (options.scenario.mesh.empty() && options.scenario.scenario.empty()) {
@@ -100,7 +118,7 @@ Scored score_file(ScoreOptions options, int threads) {
     options.scenario.overrides.push_back("planner.floor_z_m=" + options.floor_z_m);
   }
   const Scored scored = score_any_cloud(options.target, read_cloud(options.target),
-                                        resolve_scenario(options.scenario), threads);
+                                        resolve_scenario(options.scenario), options.wish, threads);
   const DistanceScore& widest = scored.score.distances.at.back();
   if (widest.precision < 0.5) {
     fmt::print(stderr,
@@ -120,12 +138,41 @@ Scored score_folder(const ScoreOptions& options, int threads) {
                     "--floor-z and --set are for clouds",
                     options.target));
   }
-  Scored scored = score_run(options.target, options.ceiling, threads);
+  if (options.wish.box_m && (options.update || options.wish.ceiling == CeilingFrom::search)) {
+    throw BadInput("--box: the score of a part is not the run's: without --update and --ceiling");
+  }
+  Scored scored = score_run(options.target, options.wish, threads);
   if (options.update) rescore_summary(options.target, scored.score);
   return scored;
 }
 
-void score(const ScoreOptions& options) {
+/// Throws BadInput for what is no box, or no list of sizes that a scenario would take.
+ScoreWish wish_of(const ScoreOptions& options) {
+  ScoreWish wish = options.wish;
+  for (std::size_t i = 0; i < wish.sizes_m.size(); ++i) {
+    const double size_m = wish.sizes_m[i];
+    if (!(size_m >= 0.01 && size_m <= 10.0)) {
+      throw BadInput(fmt::format("--resolution {}: has to be from 0.01 to 10 m", size_m));
+    }
+    if (std::find(wish.sizes_m.begin(), wish.sizes_m.begin() + static_cast<std::ptrdiff_t>(i),
+                  size_m) != wish.sizes_m.begin() + static_cast<std::ptrdiff_t>(i)) {
+      throw BadInput(fmt::format("--resolution {}: is there twice", size_m));
+    }
+  }
+  if (options.box_m.empty()) return wish;
+  const std::vector<double>& b = options.box_m;
+  const bool is_box = b.size() == 6 && b[0] < b[3] && b[1] < b[4] && b[2] < b[5];
+  if (!is_box) {
+    throw BadInput(
+        fmt::format("--box {}: has to be x0,y0,z0,x1,y1,z1 (m), each lower than its upper end",
+                    fmt::join(b, ",")));
+  }
+  wish.box_m = Box3(Vec3(b[0], b[1], b[2]), Vec3(b[3], b[4], b[5]));
+  return wish;
+}
+
+void score(ScoreOptions options) {
+  options.wish = wish_of(options);
   const int threads = thread_count(options.threads);
   const bool is_run = fs::is_directory(options.target);
   const Scored scored = is_run ? score_folder(options, threads) : score_file(options, threads);
@@ -152,11 +199,19 @@ void add_score_command(CLI::App& app) {
                    "KEY=VALUE of the scenario file; repeatable (structure.file.scale, .unit_m, "
                    ".up_axis, .offset_m; planner.map.resolution_m for the density)")
       ->allow_extra_args(false);
+  command
+      ->add_option("--resolution", options->wish.sizes_m,
+                   "edges of the voxels of the coverage (m), with commas (default: score.sizes_m)")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--box", options->box_m, "x0,y0,z0,x1,y1,z1 (m): score only what lies inside")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   add_threads_option(*command, options->threads);
   command->add_flag("--update", options->update,
                     "put the score into the run's summary.json and coverage.csv");
   command->add_flag_callback(
-      "--ceiling", [options] { options->ceiling = CeilingFrom::search; },
+      "--ceiling", [options] { options->wish.ceiling = CeilingFrom::search; },
       "of a run: find the ceiling, where no earlier command did, for the effort to reach it");
   command->add_flag("--json", options->json, "print JSON instead of a table");
   command->callback([options] { score(*options); });

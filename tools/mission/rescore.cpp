@@ -18,20 +18,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Scored score(const Scenario& scenario, const World& world, const RayScene& scene, ScoredCloud cloud,
-             int threads) {
+/// By a scenario whose region is the wish's box, if it has one.
+Scored score(Scenario scenario, const World& world, const RayScene& scene, ScoredCloud cloud,
+             const ScoreWish& wish, int threads) {
   const Stopwatch watch;
+  if (wish.box_m) scenario.score.region_m = *wish.box_m;
+  cloud.region_m = scenario.score.region_m;
   const SurfaceReference reference = reference_of(scenario, world, scene, threads);
   const double reference_s = watch.elapsed_s();
-  cloud.region_m = scenario.score.region_m;
-  const MissionScore found =
-      score_cloud(reference, scene, cloud, scenario.planner.map.resolution_m, threads);
-  return {.score = found,
-          .structure = structure_name(scenario.structure),
-          .points = cloud.points_world_m.size(),
-          .floor_z_m = scenario.planner.floor_z_m,
-          .reference_s = reference_s,
-          .score_s = watch.elapsed_s() - reference_s};
+  Scored scored{
+      .score = score_cloud(reference, scene, cloud, scenario.planner.map.resolution_m, threads),
+      .sizes_m = wish.sizes_m.empty() ? scenario.score.sizes_m : wish.sizes_m,
+      .structure = structure_name(scenario.structure),
+      .points = cloud.points_world_m.size(),
+      .floor_z_m = scenario.planner.floor_z_m,
+      .reference_s = reference_s};
+  scored.score.more =
+      score_more_sizes(scored.sizes_m, world, scene, scenario.planner.floor_z_m, cloud, threads);
+  scored.score_s = watch.elapsed_s() - reference_s;
+  return scored;
 }
 
 World world_of(const Scenario& scenario) {
@@ -68,17 +73,17 @@ void need_matching(const fs::path& run, const ScoredCloud& cloud, std::span<cons
 }  // namespace
 
 Scored score_any_cloud(const std::string& name, std::span<const Vec3f> cloud_world_m,
-                       const Scenario& scenario, int threads) {
+                       const Scenario& scenario, const ScoreWish& wish, int threads) {
   const World world = world_of(scenario);
   const RayScene scene(world);
   const std::vector<Vec3f> points_m = scorable_points(
       name, cloud_world_m, scenario.planner.floor_z_m, scene, bounds_m(world.structure));
-  Scored scored = score(scenario, world, scene, {.points_world_m = points_m}, threads);
+  Scored scored = score(scenario, world, scene, {.points_world_m = points_m}, wish, threads);
   scored.points_below_floor = cloud_world_m.size() - points_m.size();
   return scored;
 }
 
-Scored score_run(const fs::path& run, CeilingFrom ceiling, int threads) {
+Scored score_run(const fs::path& run, const ScoreWish& wish, int threads) {
   const RunSummary summary = read_summary(run);
   const auto need = [&](bool is_there, const char* what) {
     if (!is_there) throw BadInput(fmt::format("{}: {}", (run / kSummaryFile).string(), what));
@@ -101,8 +106,10 @@ Scored score_run(const fs::path& run, CeilingFrom ceiling, int threads) {
   need_matching(run, cloud, profile, *summary.iterations);
   const World world = world_of(scenario);
   const RayScene scene(world);
-  Scored scored = score(scenario, world, scene, cloud, threads);
-  scored.score.ceiling = run_ceiling(scenario, world, scene, ceiling, threads);
+  Scored scored = score(scenario, world, scene, cloud, wish, threads);
+  if (!wish.box_m) {
+    scored.score.ceiling = run_ceiling(scenario, world, scene, wish.ceiling, threads);
+  }
   return scored;
 }
 

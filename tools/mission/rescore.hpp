@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <vector>
 
 #include "bench/score/mission_score.hpp"
 #include "scenarios/scenario.hpp"
@@ -9,9 +11,17 @@
 
 namespace gnbv {
 
+/// How to score, beside the scenario.
+struct ScoreWish {
+  std::vector<double> sizes_m = {};          // of voxels, instead of score.sizes_m
+  std::optional<Box3> box_m = {};            // only what lies in it
+  CeilingFrom ceiling = CeilingFrom::cache;  // of a run; of a part of it there is none
+};
+
 /// A score, and what it is of.
 struct Scored {
   MissionScore score;
+  std::vector<double> sizes_m;         // of the coverage that was asked for
   std::string structure;               // built-in name, or path of the mesh
   std::size_t points = 0;              // that were scored
   std::size_t points_below_floor = 0;  // that were left out
@@ -21,13 +31,14 @@ struct Scored {
 };
 
 /// Any cloud against the scenario's structure, wherever that lies, without its points below the
-/// floor. Throws BadInput, beginning with
-/// `name`, for a cloud that cannot be scored (bench/score/cloud_faults.hpp).
+/// floor. Of a box: voxels count whose centres lie in it, and for precision and density the points
+/// in it. Throws BadInput when there is nothing to measure in the box and, beginning with `name`,
+/// for a cloud that cannot be scored (bench/score/cloud_faults.hpp).
 Scored score_any_cloud(const std::string& name, std::span<const Vec3f> cloud_world_m,
-                       const Scenario& scenario, int threads);
+                       const Scenario& scenario, const ScoreWish& wish, int threads);
 
 /// Scores cloud.ply, profile.ply and iterations.csv by scenario.yaml: bit for bit what the run
 /// itself found. Throws BadInput naming the file that is missing or does not fit the others.
-Scored score_run(const std::filesystem::path& run, CeilingFrom ceiling, int threads);
+Scored score_run(const std::filesystem::path& run, const ScoreWish& wish, int threads);
 
 }  // namespace gnbv

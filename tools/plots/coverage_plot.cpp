@@ -88,7 +88,7 @@ void add_key(Layers& layers, std::string_view style, std::string_view text) {
   ++layers.entries;
 }
 
-Layers layers_of(std::span<const RunGroup> groups, std::size_t size) {
+Layers layers_of(std::span<const RunGroup> groups, std::optional<std::size_t> papers_size) {
   Layers layers{.entries = groups.size()};
   bool has_doubtful = false;
   for (std::size_t i = 0; i < groups.size(); ++i) {
@@ -103,7 +103,8 @@ Layers layers_of(std::span<const RunGroup> groups, std::size_t size) {
     layers.lines +=
         fmt::format("$group{} using 1:2 with lines lw 1.3 dt {} lc rgb '{}' title {}, ", i,
                     1 + i / kPalette.size(), colour, gnuplot_text(label_of(groups[i])));
-    if (const auto level = paper_level(groups[i], size)) {
+    if (!papers_size) continue;
+    if (const auto level = paper_level(groups[i], *papers_size)) {
       layers.levels += fmt::format("{} with lines lw 0.9 dt (6,5) lc rgb '{}' notitle, ",
                                    level->percent, colour);
       has_doubtful = has_doubtful || level->is_doubtful;
@@ -119,12 +120,12 @@ Layers layers_of(std::span<const RunGroup> groups, std::size_t size) {
   return layers;
 }
 
-}  // namespace
-
-Plot coverage_plot(std::span<const RunGroup> groups, Effort effort, std::size_t size) {
+/// `size` is an index of the curves' sizes; the paper has it when it is `papers_size`, too.
+Plot plot_of(std::span<const RunGroup> groups, Effort effort, std::size_t size,
+             std::optional<std::size_t> papers_size, const std::string& size_text) {
   std::string data;
   for (std::size_t i = 0; i < groups.size(); ++i) data += group_data(groups[i], i, effort, size);
-  const Layers layers = layers_of(groups, size);
+  const Layers layers = layers_of(groups, papers_size);
   std::string entries = layers.bands + layers.levels + layers.lines + layers.keys;
   entries.resize(entries.size() - 2);
   const bool is_inside = is_corner_free(groups, effort, size, layers.entries, layers.characters);
@@ -136,7 +137,7 @@ Plot coverage_plot(std::span<const RunGroup> groups, Effort effort, std::size_t 
                                     "set key at screen 0.1,0.99 left top vertical maxcols 1\n"
                                     "set tmargin at screen {:.4f}\n",
                                     1.0 - static_cast<double>(key_px + kKeyLine_px) / height_px);
-  const std::string y_label = fmt::format("coverage at {:.2f} m (%)", kCoverageSizes_m[size]);
+  const std::string y_label = fmt::format("coverage at {} m (%)", size_text);
   return {fmt::format("coverage-{}", effort_name(effort)),
           data + key + "set yrange [0:100]\nset xrange [0:*] noextend\nset rmargin 3\n" +
               fmt::format("set xtics {:g}\n",
@@ -144,6 +145,16 @@ Plot coverage_plot(std::span<const RunGroup> groups, Effort effort, std::size_t 
               fmt::format("set xlabel {}\nset ylabel {} offset 0.6,0\nplot {}\n",
                           gnuplot_text(effort_label(effort)), gnuplot_text(y_label), entries),
           height_px};
+}
+
+}  // namespace
+
+Plot coverage_plot(std::span<const RunGroup> groups, Effort effort, std::size_t size) {
+  return plot_of(groups, effort, size, size, size_name(kCoverageSizes_m[size]));
+}
+
+Plot coverage_plot_at(std::span<const RunGroup> groups, Effort effort, double size_m) {
+  return plot_of(groups, effort, 0, std::nullopt, size_name(size_m));
 }
 
 }  // namespace gnbv

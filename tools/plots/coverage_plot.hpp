@@ -14,4 +14,7 @@ namespace gnbv {
 /// Requires a group.
 Plot coverage_plot(std::span<const RunGroup> groups, Effort effort, std::size_t size);
 
+/// The same of runs whose curves hold, in the place of the finest size, the coverage at another.
+Plot coverage_plot_at(std::span<const RunGroup> groups, Effort effort, double size_m);
+
 }  // namespace gnbv

@@ -62,23 +62,23 @@ Json views_json(const RunRecord& record) {
   const auto of = [&](const auto& value_of) { return column(views, value_of); };
   using V = const ViewRecord&;
   Json json = {{"x", of([](V v) { return v.decision.view.p_world_m.x(); })},
-          {"y", of([](V v) { return v.decision.view.p_world_m.y(); })},
-          {"z", of([](V v) { return v.decision.view.p_world_m.z(); })},
-          {"yaw", of([](V v) { return v.decision.view.yaw_rad; })},
-          {"time", of([](V v) { return v.time_s; })},
-          {"seconds", of([&](V v) { return v.time_s - begin_s; })},
-          {"metres", of([](V v) { return v.straight_m; })},
-          {"sampler", of([](V v) { return v.decision.sampler; })},
-          {"candidates", of([](V v) { return v.decision.candidates; })},
-          {"valid", of([](V v) { return v.decision.valid; })},
-          {"utility", of([](V v) { return v.decision.score.value; })},
-          {"information", of([](V v) { return v.decision.score.information; })},
-          {"density_term", of([](V v) { return v.decision.score.density; })},
-          {"prediction", of([](V v) { return v.decision.score.prediction; })},
-          {"distance_factor", of([](V v) { return v.decision.score.distance; })},
-          {"entropy", of([](V v) { return v.entropy_nat; })},
-          {"density", of([](V v) { return v.density_points_per_voxel; })},
-          {"points", of([](V v) { return v.cloud_points; })}};
+               {"y", of([](V v) { return v.decision.view.p_world_m.y(); })},
+               {"z", of([](V v) { return v.decision.view.p_world_m.z(); })},
+               {"yaw", of([](V v) { return v.decision.view.yaw_rad; })},
+               {"time", of([](V v) { return v.time_s; })},
+               {"seconds", of([&](V v) { return v.time_s - begin_s; })},
+               {"metres", of([](V v) { return v.straight_m; })},
+               {"sampler", of([](V v) { return v.decision.sampler; })},
+               {"candidates", of([](V v) { return v.decision.candidates; })},
+               {"valid", of([](V v) { return v.decision.valid; })},
+               {"utility", of([](V v) { return v.decision.score.value; })},
+               {"information", of([](V v) { return v.decision.score.information; })},
+               {"density_term", of([](V v) { return v.decision.score.density; })},
+               {"prediction", of([](V v) { return v.decision.score.prediction; })},
+               {"distance_factor", of([](V v) { return v.decision.score.distance; })},
+               {"entropy", of([](V v) { return v.entropy_nat; })},
+               {"density", of([](V v) { return v.density_points_per_voxel; })},
+               {"points", of([](V v) { return v.cloud_points; })}};
   if (gimbal_of(record.scenario.cameras)) {
     json["T_body_camera"] = of([&](V v) { return mountings_json(record.scenario, v); });
   }

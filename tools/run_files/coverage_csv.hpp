@@ -2,16 +2,25 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "bench/score/run_figures.hpp"
 
 namespace gnbv {
 
-/// A row an entry of the curve. Numbers are written so that they read back exactly.
-std::string coverage_csv(const CoverageCurve& curve);
+/// A row an entry of the curve, a column a size: the paper's three, then the others. Numbers are
+/// written so that they read back exactly.
+std::string coverage_csv(const CoverageCurve& curve, std::span<const SizedCoverage> more = {});
+
+struct CoverageFile {
+  CoverageCurve curve;
+  std::vector<std::string> more_names;           // as size_name() has them
+  std::vector<std::vector<double>> more_curves;  // of each
+};
 
 /// Throws BadInput naming file and line of whatever is damaged.
-CoverageCurve read_coverage_csv(const std::filesystem::path& file);
+CoverageFile read_coverage_csv(const std::filesystem::path& file);
 
 }  // namespace gnbv

@@ -90,7 +90,7 @@ void RunDirectory::finish(const Scenario& scenario, const MissionResult& result,
   if (is_tour(scenario.planner.utility.name)) {
     write_file_atomically(folder_ / kPredictionsFile, predictions_csv(result.look_outcomes));
   }
-  write_file_atomically(folder_ / kCoverageFile, coverage_csv(score.curve));
+  write_file_atomically(folder_ / kCoverageFile, coverage_csv(score.curve, score.more));
   write_file_atomically(folder_ / kSummaryFile,
                         summary_json(scenario, result, score, total_wall_s));
   journal_.close();

@@ -9,8 +9,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json by_size(const std::array<double, 3>& coverage) {
-  return {{"0.05", coverage[0]}, {"0.10", coverage[1]}, {"0.50", coverage[2]}};
+/// The paper's sizes first.
+Json by_size(const std::array<double, 3>& coverage, std::span<const SizedCoverage> more,
+             double SizedCoverage::*share) {
+  Json json = {{"0.05", coverage[0]}, {"0.10", coverage[1]}, {"0.50", coverage[2]}};
+  for (const SizedCoverage& at : more) json[size_name(at.size_m)] = at.*share;
+  return json;
 }
 
 /// Mean coverage at 0.05 m over the run's own length; null for a run that has none.
@@ -52,10 +56,11 @@ nlohmann::ordered_json score_part(const MissionScore& score) {
   }
   return {
       {"coverage",
-       {{"profile", by_size(score.profile)},
-        {"final", by_size(score.final)},
-        {"profile_raw_reference", by_size(score.profile_raw)},
-        {"final_raw_reference", by_size(score.final_raw)}}},
+       {{"profile", by_size(score.profile, score.more, &SizedCoverage::profile)},
+        {"final", by_size(score.final, score.more, &SizedCoverage::final)},
+        {"profile_raw_reference",
+         by_size(score.profile_raw, score.more, &SizedCoverage::profile_raw)},
+        {"final_raw_reference", by_size(score.final_raw, score.more, &SizedCoverage::final_raw)}}},
       {"precision_recall", at},
       {"accuracy_m", score.distances.accuracy_m},
       {"completeness_m", score.distances.completeness_m},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "sim/core/error.hpp"
@@ -86,6 +87,22 @@ class SummaryReader {
   }
   std::array<double, 3> by_size(const std::string& pointer) const {
     return {number(pointer + "/0.05"), number(pointer + "/0.10"), number(pointer + "/0.50")};
+  }
+  /// At the sizes that stand in /coverage/final beside the paper's.
+  std::vector<SizedCoverage> more_sizes(const CoverageFile& file) const {
+    std::vector<SizedCoverage> more;
+    for (std::size_t i = 0; i < file.more_names.size(); ++i) {
+      const auto share = [&](const char* what) {
+        return number(fmt::format("/coverage/{}/{}", what, file.more_names[i]));
+      };
+      more.push_back({.size_m = std::strtod(file.more_names[i].c_str(), nullptr),
+                      .profile = share("profile"),
+                      .final = share("final"),
+                      .profile_raw = share("profile_raw_reference"),
+                      .final_raw = share("final_raw_reference"),
+                      .curve = file.more_curves[i]});
+    }
+    return more;
   }
   /// Nothing where the summary has no such value.
   template <typename Value>
@@ -227,6 +244,7 @@ RunFigures read_run_figures(const fs::path& run) {
         "the run anew and makes it {}",
         (run / kSummaryFile).string(), schema, shell_word(run.string()), kSummarySchema));
   }
+  CoverageFile coverage = read_coverage_csv(run / kCoverageFile);
   RunFigures figures{
       .scenario = summary.text("/scenario"),
       .structure = summary.text("/structure"),
@@ -249,12 +267,13 @@ RunFigures read_run_figures(const fs::path& run) {
       .coverage_profile = summary.by_size("/coverage/profile"),
       .coverage_final_raw = summary.by_size("/coverage/final_raw_reference"),
       .coverage_profile_raw = summary.by_size("/coverage/profile_raw_reference"),
+      .more = summary.more_sizes(coverage),
       .density_points_per_voxel = summary.number("/density_points_per_voxel"),
       .distances = distances_of(summary),
       .density = {.voxel_m = summary.number("/density/voxel_m"),
                   .mean_points = summary.number("/density/mean_points"),
                   .variation = summary.number("/density/variation")},
-      .curve = read_coverage_csv(run / kCoverageFile),
+      .curve = std::move(coverage.curve),
       .ceiling = summary.number_or_null("/ceiling_at_0.05"),
       .wall_s = summary.number("/wall_s/total"),
   };
@@ -278,7 +297,7 @@ void rescore_summary(const fs::path& run, const MissionScore& score) {
                                path.string(), schema.dump(), kSummarySchema));
   }
   const std::string summary = with_score(json, score).dump(2) + "\n";
-  write_file_atomically(run / kCoverageFile, coverage_csv(score.curve));
+  write_file_atomically(run / kCoverageFile, coverage_csv(score.curve, score.more));
   write_file_atomically(path, summary);
 }
 

@@ -117,8 +117,17 @@ TEST(RoundTrip, CoverageCsv) {
                             .metres = {0.0, 1e-9},
                             .seconds = {0.0, 12345.678901234567}};
   const fs::path csv = temp.path() / kCoverageFile;
+  const std::vector<SizedCoverage> more = {{.size_m = 0.2, .curve = {0.7, 1.0 / 7.0}},
+                                           {.size_m = 0.025, .curve = {0.0, 5e-324}}};
+  write_file_atomically(csv, coverage_csv(curve, more));
+  const CoverageFile wide = read_coverage_csv(csv);
+  EXPECT_EQ(wide.curve.coverage, curve.coverage);
+  EXPECT_EQ(wide.more_names, (std::vector<std::string>{"0.20", "0.025"}));
+  EXPECT_EQ(wide.more_curves[0], more[0].curve);
+  EXPECT_EQ(wide.more_curves[1], more[1].curve);
   write_file_atomically(csv, coverage_csv(curve));
-  const CoverageCurve read = read_coverage_csv(csv);
+  EXPECT_TRUE(read_coverage_csv(csv).more_names.empty());
+  const CoverageCurve read = read_coverage_csv(csv).curve;
   EXPECT_EQ(read.coverage, curve.coverage);
   EXPECT_EQ(read.metres, curve.metres);
   EXPECT_EQ(read.seconds, curve.seconds);

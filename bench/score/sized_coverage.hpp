@@ -1,0 +1,41 @@
+// Coverage at voxel sizes that the paper does not have.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/score/surface_reference.hpp"
+
+namespace gnbv {
+
+/// Coverage at one size, as fractions.
+struct SizedCoverage {
+  double size_m = 0.0;
+  double profile = 0.0;  // of the surface seen from outside
+  double final = 0.0;
+  double profile_raw = 0.0;  // of all surface
+  double final_raw = 0.0;
+  std::vector<double> curve = {};  // outside, by the entries of CoverageCurve
+};
+
+/// "0.05", "0.10", "0.025": two decimals at least, and as many as the size has.
+std::string size_name(double size_m);
+
+/// Whether it is one of kCoverageSizes_m, which every score has.
+bool is_papers_size(double size_m);
+
+/// How much of the surface the first prefixes[i] points of a cloud cover at one size, for each i.
+/// The cloud's voxels of size s are those of 0.05 m of everything scaled by 0.05 / s, cloud and
+/// world alike, so that all that is said of the paper's finest size (surface_reference.hpp) holds
+/// for any: what counts as surface enough, what sees out, how closely it is sampled. The reference
+/// is cached.
+struct SizedShares {
+  std::vector<double> raw;
+  std::vector<double> outside;
+};
+SizedShares sized_shares(const World& world, double size_m, const ReferenceConfig& config,
+                         std::span<const Vec3f> cloud_world_m,
+                         std::span<const std::size_t> prefixes, int threads);
+
+}  // namespace gnbv
