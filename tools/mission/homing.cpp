@@ -17,6 +17,7 @@ bool has_battery(const Mission& m) { return m.scenario.vehicle.power.battery_wh 
 /// Up to the top of the workspace, across, and down: as after the profile.
 std::vector<Vec3> over_the_top(const Mission& m, const Vec3& from_world_m) {
   const Vec3& home_m = m.out.start.p_world_m;
+  if ((home_m - from_world_m).norm() < m.scenario.guidance.arrival_distance_m) return {home_m};
   const double top_z_m = m.planner.navigation_m.max().z();
   return {{from_world_m.x(), from_world_m.y(), top_z_m}, {home_m.x(), home_m.y(), top_z_m}, home_m};
 }
@@ -160,14 +161,15 @@ void fly_home(Mission& m) {
   const double flown_before_m = m.flown_m;
   const ViewPose from = m.current;
   const Vec3 start_m = believed_p_world_m(m);
-  HomeFlight home = {.reached = true};
+  HomeFlight home;
   for (const Vec3& point_m : best_way_home(m, start_m).points_world_m) {
     if ((point_m - believed_p_world_m(m)).norm() < m.scenario.guidance.arrival_distance_m) continue;
     const auto over = fly_leg(m, {point_m, from.yaw_rad});
-    if (over) home.reached = false;
     if (over && *over != Termination::battery) m.out.termination = *over;
     if (over) break;
   }
+  home.reached = (believed_p_world_m(m) - m.out.start.p_world_m).norm() <
+                 m.scenario.planner.validity.collision_radius_m;
   const bool may_land = m.scenario.structure.ground && !m.flight->has_collided();
   if (may_land) home.landed = land(m);
   home.flown_m = m.flown_m - flown_before_m;

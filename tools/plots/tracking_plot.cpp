@@ -78,7 +78,7 @@ std::optional<Plot> tracking_plot(const RunRecord& record) {
                   {{kPalette[1], "margin: collision radius less hull"}}) +
       y_axis(0.0, std::max(margin_m, column_max(rows, 1))) +
       fmt::format(
-          "plot {} with lines lw 1.0 dt 2 lc rgb '{}', $samples using 1:2 with lines lw "
+          "plot {:.3f} with lines lw 1.0 dt 2 lc rgb '{}', $samples using 1:2 with lines lw "
           "1.2 lc rgb '{}'\n",
           margin_m, kPalette[1], kPalette[0]);
   text += panels.next("tilt (deg)") + y_axis(0.0, column_max(rows, 2)) +

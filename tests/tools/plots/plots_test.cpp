@@ -19,6 +19,7 @@
 #include "tools/plots/reach_plot.hpp"
 #include "tools/plots/run_plots.hpp"
 #include "tools/plots/script_parts.hpp"
+#include "tools/plots/tracking_plot.hpp"
 
 namespace gnbv {
 namespace {
@@ -328,6 +329,27 @@ TEST(Plots, ARefusedScriptLeavesNothing) {
     EXPECT_NE(std::string(error.what()).find("nonsense"), std::string::npos) << error.what();
   }
   EXPECT_TRUE(std::filesystem::is_empty(temp.path()));
+}
+
+TEST(TrackingPlot, ShowsTheDistanceFromEachLegAndTheTilt) {
+  RunRecord record = made_record();  // views at 3 s (4, 4, 1), 4 s (-4, 4, 2) and 5 s (-4, -4, 3)
+  record.views[1].decision.via_world_m = {Vec3(0, 4, 1)};
+  TrajectorySample leaning = made_sample(3.5, {2, 4.3, 1.4});  // 0.5 m beside the first leg
+  leaning.T_world_body.rotate(Eigen::AngleAxisd(deg_to_rad(12.0), Vec3(0.6, 0.8, 0.0)));
+  record.path = {made_sample(2.9, {9, 9, 9}), leaning, made_sample(4.5, {-4, 0, 2.5}),
+                 made_sample(5.1, {9, 9, 9})};
+  const auto plot = tracking_plot(record);
+  ASSERT_TRUE(plot.has_value());
+  const auto rows = block(plot->body, "samples");
+  ASSERT_EQ(rows.size(), 2U);  // only between the first view and the last
+  const std::vector<std::vector<double>> expected = {{3.5, 0.5, 12.0}, {4.5, 0.0, 0.0}};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(rows[i][k], expected[i][k], 1e-6) << i << k;
+  }
+  // 0.8 m less the hull's 0.384 m
+  EXPECT_NE(plot->body.find("plot 0.416 with lines"), std::string::npos);
+  record.views.resize(1);
+  EXPECT_FALSE(tracking_plot(record).has_value());
 }
 
 }  // namespace
