@@ -1,0 +1,85 @@
+// Missions of the tour: one result however they are flown, an end of their own, and more for less.
+#include <gtest/gtest.h>
+
+#include "planner/map/clearance.hpp"
+#include "tests/support/flown.hpp"
+
+namespace gnbv {
+namespace {
+
+Scenario tour(std::vector<std::string> overrides = {}) {
+  overrides.emplace_back("planner.utility.name=tour");
+  return smoke(overrides);
+}
+
+TEST(TourMission, IsTheSameAtAnyNumberOfThreadsAndResumed) {
+  const Scenario scenario = tour({"planner.termination.max_iterations=9"});
+  const Flown whole(scenario, {}, 1);
+  const std::string hash = result_sha256(whole.result);
+  EXPECT_EQ(result_sha256(Flown(scenario, {}, 3).result), hash);
+  ASSERT_GE(whole.result.views.size(), 6U) << name_of(whole.result.termination);
+  for (const std::size_t views : {2U, 5U}) {
+    MissionHooks resumed;
+    for (std::size_t i = 0; i < views; ++i) {
+      resumed.replay.push_back(whole.result.views[i].decision);
+    }
+    EXPECT_EQ(result_sha256(Flown(scenario, resumed).result), hash) << "after view " << views;
+  }
+}
+
+TEST(TourMission, EndsByItselfWithoutACollisionAndSaysWhatItsViewsBrought) {
+  const Flown flown(tour({"planner.termination.max_iterations=200"}));
+  const MissionResult& result = flown.result;
+  EXPECT_EQ(result.termination, Termination::tour_complete);
+  EXPECT_LT(result.views.size(), 100U);
+  double promised = 0.0;
+  double found = 0.0;
+  for (const ViewOutcome& outcome : result.look_outcomes) {
+    EXPECT_GE(outcome.look.missing, outcome.look.found);
+    promised += outcome.look.promised;
+    found += outcome.look.found;
+  }
+  EXPECT_GT(found, 0.0);
+  EXPECT_GT(promised, 0.3 * found);
+}
+
+TEST(TourMission, FliesEachLegThroughSpaceKnownToBeFree) {
+  const Scenario scenario = tour({"planner.termination.max_iterations=12"});
+  MissionHooks hooks;
+  std::size_t legs = 0;
+  const Belief* believed = nullptr;
+  Vec3 at_m = Vec3::Zero();
+  hooks.on_view = [&](const ViewRecord& view) { at_m = view.decision.view.p_world_m; };
+  hooks.on_view_belief = [&](const Belief& belief) { believed = &belief; };
+  hooks.on_candidates = [&](std::size_t, const Plan& plan) {
+    if (!plan.next || believed == nullptr) return;
+    std::vector<Vec3> points_m = plan.next->via_world_m;
+    points_m.push_back(plan.next->view.p_world_m);
+    Vec3 from_m = at_m;
+    for (const Vec3& to_m : points_m) {
+      EXPECT_TRUE(is_line_free(believed->grid, from_m, to_m));
+      EXPECT_TRUE(is_path_clear(believed->grid, from_m, to_m,
+                                scenario.planner.validity.collision_radius_m));
+      from_m = to_m;
+      ++legs;
+    }
+  };
+  const Flown flown(scenario, hooks);
+  EXPECT_GE(legs, 6U);
+}
+
+/// The parts are switches: each alone changes what is flown.
+TEST(TourMission, EachSwitchChangesTheTour) {
+  const std::vector<std::string> few = {"planner.termination.max_iterations=8"};
+  const std::string hash = result_sha256(Flown(tour(few)).result);
+  for (const char* change : {"planner.tour.visibility=rays", "planner.tour.search=greedy",
+                             "planner.tour.price_per_m=0.005", "planner.tour.metres_per_view=3",
+                             "planner.tour.yaw_step_deg=90"}) {
+    std::vector<std::string> overrides = few;
+    overrides.emplace_back(change);
+    EXPECT_NE(result_sha256(Flown(tour(overrides)).result), hash) << change;
+  }
+}
+
+}  // namespace
+}  // namespace gnbv
