@@ -33,7 +33,7 @@ TEST(AdverseMission, IsTheSameAtAnyNumberOfThreadsAndResumed) {
 
 TEST(AdverseMission, IsTheSameWithoutSatellites) {
   const Overrides outage = {"vehicle.estimate.model=gnss",
-                            "vehicle.estimate.outages=[{start_s: 20, duration_s: 10}]",
+                            "vehicle.estimate.outages=[{start_s: 2, duration_s: 10}]",
                             "vehicle.estimate.outage_drift_m_per_sqrt_s=0.05",
                             "planner.profiling.method=none",
                             "planner.validity.allow_unknown=true",

@@ -74,7 +74,8 @@ TEST(Schema, EveryKeyCanBeSet) {
   const ScenarioFile file(
       fmt::format("{}start: {{position_m: [0, 0, 5]}}\nstructure: {{files: [{{path: '{}'}}]}}\n"
                   "obstacles: [{{box_m: {{min: [-1, -1, -1], max: [1, 1, 1]}}}}]\n"
-                  "no_fly: [{{min: [-1, -1, -1], max: [1, 1, 1]}}]\n",
+                  "no_fly: [{{min: [-1, -1, -1], max: [1, 1, 1]}}]\n"
+                  "vehicle: {{estimate: {{outages: [{{}}]}}}}\n",
                   kOneOfEach, mesh.path().string()));
   const std::string path = file.path().string();
   const auto before = scenario_values(load_scenario(path, {}));
@@ -103,6 +104,7 @@ TEST(Schema, NamesTheKeysOfTheFileAndTheirDefaults) {
   scenario.structure.files.resize(1);
   scenario.obstacles.resize(1);
   scenario.no_fly.resize(1);
+  scenario.vehicle.estimate.outages.resize(1);
   for (const auto& [path, text] : scenario_values(scenario)) written[path] = text;
   std::size_t items_beyond_the_first = 0;
   for (const auto& [path, text] : written) {
