@@ -74,12 +74,14 @@ TEST(Schema, EveryKeyCanBeSet) {
   const ScenarioFile file(
       fmt::format("{}start: {{position_m: [0, 0, 5]}}\nstructure: {{files: [{{path: '{}'}}]}}\n"
                   "obstacles: [{{box_m: {{min: [-1, -1, -1], max: [1, 1, 1]}}}}]\n"
-                  "no_fly: [{{min: [-1, -1, -1], max: [1, 1, 1]}}]\n"
-                  "vehicle: {{estimate: {{outages: [{{}}]}}}}\n",
+                  "no_fly: [{{min: [-1, -1, -1], max: [1, 1, 1]}}]\n",
                   kOneOfEach, mesh.path().string()));
-  const std::string path = file.path().string();
-  const auto before = scenario_values(load_scenario(path, {}));
+  // only such an estimate can have them, and nothing but it
+  const ScenarioFile outages(kOneOfEach + "vehicle: {estimate: {model: gnss, outages: [{}]}}\n");
   for (const Leaf& leaf : leaves()) {
+    const bool is_of_outages = leaf.path.starts_with("vehicle.estimate.outages");
+    const std::string path = (is_of_outages ? outages : file).path().string();
+    const auto before = scenario_values(load_scenario(path, {}));
     if (leaf.path == "obstacles.0.file.path") continue;  // a box excludes it
     const std::string value = other_value(leaf, path);
     std::vector<std::pair<std::string, std::string>> after;
