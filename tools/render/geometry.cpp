@@ -65,7 +65,9 @@ void add_surface(const SurfaceItem& item, DrawLists& out) {
   GNBV_CHECK(item.vertex_colours.empty() || item.vertex_colours.size() == mesh.vertices_m.size(),
              "{} colours for {} vertices", item.vertex_colours.size(), mesh.vertices_m.size());
   const auto normals = corner_normals(mesh, item.crease_rad);
-  std::vector<std::uint32_t>& indices = item.opacity < 1.0F ? out.ghost : out.casting;
+  std::vector<std::uint32_t>& indices = item.opacity < 1.0F ? out.ghost
+                                        : item.casts_shadow ? out.casting
+                                                            : out.plain;
   constexpr std::uint32_t kNone = 0xffffffffU;
   std::vector<std::uint32_t> last(mesh.vertices_m.size(), kNone);  // latest copy of each vertex
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {

@@ -51,6 +51,7 @@ void add_ground(RunSource& run, RenderScene& scene) {
   if (has_flat_ground(run.record().scenario)) scene.ground = GroundItem{};
   if (run.record().scenario.terrain.path.empty()) return;
   add_in_one_colour(run.world().terrain, kTerrainColour, 1.0F, scene);
+  scene.surfaces.back().casts_shadow = false;
 }
 
 std::vector<LegendItem> legend_of_surroundings(RunSource& run) {

@@ -13,13 +13,14 @@
 
 namespace gnbv {
 
-/// Lit triangles, seen from both sides, casting shadows. Edges sharper than the crease stay sharp,
+/// Lit triangles, seen from both sides. Edges sharper than the crease stay sharp,
 /// others are smooth.
 struct SurfaceItem {
   TriangleMesh mesh;
   std::vector<Rgb> vertex_colours;  // (n) as mesh.vertices_m; empty = colours of the materials
   double crease_rad = deg_to_rad(35.0);
-  float opacity = 1.0F;  // under 1: a ghost, of which only the nearest layer is drawn
+  float opacity = 1.0F;      // under 1: a ghost, of which only the nearest layer is drawn
+  bool casts_shadow = true;  // terrain casts none: its size says nothing of the scene's
 };
 
 /// A lit tube along a polyline with round joints and ends.
