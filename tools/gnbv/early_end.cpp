@@ -121,7 +121,9 @@ std::string early_end_note(const MissionResult& result, double coverage) {
              "views found too little on their way; what helps: a smaller "
              "planner.termination.min_new_voxels_per_m (0: never), or a longer new_voxels_window\n";
     case Termination::battery:
-      return after + "the battery was empty; what helps: vehicle.power.battery_wh\n";
+      return after +
+             "what the battery had left was needed to come down; what helps: "
+             "vehicle.power.battery_wh\n";
     default:
       return "";
   }

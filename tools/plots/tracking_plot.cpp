@@ -74,8 +74,7 @@ std::optional<Plot> tracking_plot(const RunRecord& record) {
   std::string text =
       data_block("samples", rows) +
       fmt::format("set xrange [{}:{}]\n", rows.front()[0], rows.back()[0]) +
-      panels.next("distance from the leg (m)",
-                  {{kPalette[1], "margin: collision radius less hull"}}) +
+      panels.next("off the leg (m)", {{kPalette[1], "collision radius less hull"}}) +
       y_axis(0.0, std::max(margin_m, column_max(rows, 1))) +
       fmt::format(
           "plot {:.3f} with lines lw 1.0 dt 2 lc rgb '{}', $samples using 1:2 with lines lw "
