@@ -30,6 +30,9 @@ class TourPlanner {
   /// more. The same at any number of threads.
   Plan next(const Belief& belief, const History& history, const ViewPose& current, int threads);
 
+  /// Whether the last next() found no view because none pays, not because none can be flown to.
+  bool is_complete() const { return tour_.empty() && !is_due_; }
+
   /// Of the view before the last call of next(): what it promised and brought, by kind.
   std::span<const LookOutcome> outcomes() const { return ledger_.outcomes(); }
 

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "bench/limits/cover_counts.hpp"
+#include "planner/tour/stops.hpp"
 
 namespace gnbv {
 
@@ -16,8 +16,7 @@ struct CoverTask {
   std::vector<std::uint32_t> place;  // of each view
   std::uint32_t start = 0;           // the place where a tour begins
   std::vector<std::uint32_t> given;  // found before the first view
-  /// Metres from this place to each place, the same both ways. Asked again and again.
-  std::function<std::span<const float>(std::uint32_t place)> row_m;
+  RowOf row_m;                       // asked again and again
 };
 
 /// What a tour is to find, and what it costs: metres and metres_per_view for each view.

@@ -62,51 +62,59 @@ void ViewCatalogue::cast(const TourScene& scene, const Vec3& p_world_m, AtPlace&
   }
 }
 
+std::uint32_t ViewCatalogue::changes_near(const TourScene& scene, const Vec3& p_world_m,
+                                          std::uint32_t since) const {
+  std::uint32_t changes = 0;
+  for (const CellBlocks::Block* block : blocks_.near(p_world_m, reach_m_)) {
+    for (const std::uint32_t cell : block->cells) {
+      if (scene.cells.cells()[cell].changed > since) ++changes;
+    }
+  }
+  return changes;
+}
+
+std::vector<ViewCatalogue::Place> ViewCatalogue::changed_places(const TourScene& scene,
+                                                                const TourPlaces& places,
+                                                                std::span<const Place> first,
+                                                                int threads) const {
+  std::vector<Place> cast_before;
+  for (Place place = 1; place < places.size(); ++place) {
+    if (places.is_reachable(place) && at_[place].is_cast) cast_before.push_back(place);
+  }
+  std::vector<std::uint32_t> changes(places.size(), 0);
+  parallel_for_chunks(threads, cast_before.size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Place place = cast_before[i];
+      changes[place] = changes_near(scene, places.p_world_m(place), at_[place].update);
+    }
+  });
+  std::vector<std::uint8_t> is_first(places.size(), 0);
+  for (const Place place : first) is_first[place] = 1;
+  std::erase_if(cast_before, [&](Place place) { return changes[place] == 0; });
+  std::stable_sort(cast_before.begin(), cast_before.end(), [&](Place a, Place b) {
+    return std::pair(is_first[a], changes[a]) > std::pair(is_first[b], changes[b]);
+  });
+  return cast_before;
+}
+
 void ViewCatalogue::follow(const TourScene& scene, const TourPlaces& places,
                            std::span<const Place> first, int recasts, int threads) {
   blocks_.follow(scene.cells);
   at_.resize(places.size());
-  struct Due {
-    Place place;
-    std::uint32_t changes;
-  };
-  std::vector<Due> never, again;
-  std::vector<std::uint8_t> is_first(places.size(), 0);
-  for (const Place place : first) is_first[place] = 1;
+  std::vector<Place> due;
   for (Place place = 1; place < places.size(); ++place) {
-    if (!places.is_reachable(place)) continue;
-    if (!at_[place].is_cast) {
-      never.push_back({place, 0});
-    } else {
-      again.push_back({place, 0});
-    }
+    if (places.is_reachable(place) && !at_[place].is_cast) due.push_back(place);
   }
-  const std::span<const SurfaceCell> cells = scene.cells.cells();
-  parallel_for_chunks(threads, again.size(), 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::uint32_t last = at_[again[i].place].update;
-      std::uint32_t changes = 0;
-      for (const CellBlocks::Block* block :
-           blocks_.near(places.p_world_m(again[i].place), reach_m_)) {
-        for (const std::uint32_t cell : block->cells) {
-          if (cells[cell].changed > last) ++changes;
-        }
-      }
-      again[i].changes = changes;
-    }
-  });
-  std::erase_if(again, [](const Due& due) { return due.changes == 0; });
-  std::stable_sort(again.begin(), again.end(), [&](const Due& a, const Due& b) {
-    if (is_first[a.place] != is_first[b.place]) return is_first[a.place] > is_first[b.place];
-    return a.changes > b.changes;
-  });
-  again.resize(std::min(again.size(), static_cast<std::size_t>(recasts)));
-  never.insert(never.end(), again.begin(), again.end());
-  parallel_for_chunks(threads, never.size(), 4, [&](std::size_t begin, std::size_t end) {
+  if (recasts > 0) {
+    const std::vector<Place> again = changed_places(scene, places, first, threads);
+    const auto most = static_cast<std::size_t>(recasts);
+    due.insert(due.end(), again.begin(),
+               again.begin() + static_cast<std::ptrdiff_t>(std::min(again.size(), most)));
+  }
+  parallel_for_chunks(threads, due.size(), 4, [&](std::size_t begin, std::size_t end) {
     PatchViewer viewer;
     for (std::size_t i = begin; i < end; ++i) {
-      const Place place = never[i].place;
-      cast(scene, places.p_world_m(place), at_[place], viewer);
+      cast(scene, places.p_world_m(due[i]), at_[due[i]], viewer);
     }
   });
 }

@@ -43,6 +43,11 @@ class ViewCatalogue {
     double rad = 0.0;
     std::vector<CameraModel> cameras;
   };
+  std::uint32_t changes_near(const TourScene& scene, const Vec3& p_world_m,
+                             std::uint32_t since) const;
+  /// Of the places that were looked from, those around which something changed, most urgent first.
+  std::vector<Place> changed_places(const TourScene& scene, const TourPlaces& places,
+                                    std::span<const Place> first, int threads) const;
   void cast(const TourScene& scene, const Vec3& p_world_m, AtPlace& at, PatchViewer& viewer) const;
   void look(const TourScene& scene, const ViewPose& view,
             std::span<const CellBlocks::Block* const> near, PatchViewer& viewer,

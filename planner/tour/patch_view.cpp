@@ -11,6 +11,11 @@ namespace gnbv {
 namespace {
 
 constexpr double kPixel_rad = deg_to_rad(0.6);
+// of a disc, in the edge of a small voxel: 0.9 of the discs' spacing leaves no holes (this and the
+// bias: facts/tour.md, section 1, splats of 0.09 m with a bias of 0.08 m for a spacing of 0.1 m)
+constexpr float kDiscRadius = 1.8F;
+// what lies no deeper behind a disc is the disc's own surface
+constexpr float kBias = 1.6F;
 constexpr float kNoDepth = std::numeric_limits<float>::infinity();
 
 /// Whether the line from the camera meets no occupied voxel but the target's and its neighbours.
@@ -63,7 +68,7 @@ std::vector<const CellBlocks::Block*> CellBlocks::near(const Vec3& p_world_m,
   return found;
 }
 
-void PatchViewer::begin(const CameraModel& camera) {
+void PatchViewer::begin(const CameraModel& camera, const Isometry& T_world_camera) {
   const CameraConfig& c = camera.config;
   const double half_x = std::tan(0.5 * c.fov_x_rad);
   const double half_y = std::tan(0.5 * c.fov_y_rad);
@@ -73,6 +78,9 @@ void PatchViewer::begin(const CameraModel& camera) {
   image_.cy = 0.5F * static_cast<float>(image_.height);
   image_.fx = image_.cx / static_cast<float>(half_x);
   image_.fy = image_.cy / static_cast<float>(half_y);
+  image_.R_camera_world = T_world_camera.linear().transpose().cast<float>();
+  image_.origin_m = T_world_camera.translation().cast<float>();
+  image_.range_max_m = static_cast<float>(c.range_max_m);
   depth_m_.assign(static_cast<std::size_t>(image_.width * image_.height), kNoDepth);
 }
 
@@ -109,71 +117,64 @@ bool PatchViewer::is_before(const Vec3f& p, float cos_incidence, float bias_m) c
                       half_pixel * p.z() / cos_incidence;
 }
 
+bool PatchViewer::is_in_image(const Vec3f& p, float margin_m) const {
+  return p.z() > 0.05F && p.z() <= image_.range_max_m + margin_m && is_in_cone(p, margin_m);
+}
+
+bool PatchViewer::is_in_cone(const Vec3f& p, float margin_m) const {
+  return std::fabs(p.x()) <= image_.cx / image_.fx * p.z() + margin_m &&
+         std::fabs(p.y()) <= image_.cy / image_.fy * p.z() + margin_m;
+}
+
+void PatchViewer::draw_cell(const TourScene& scene, std::uint32_t index) {
+  const SurfaceCell& cell = scene.cells.cells()[index];
+  if (cell.discs_m.empty() && !cell.is_frontier) return;
+  const Vec3f& at_m = cell.is_frontier ? cell.on_plane_m : cell.discs_m.front();
+  const auto cell_m = static_cast<float>(scene.cells.edge_m());
+  if (!is_in_image(to_camera(at_m), slant() * 0.9F * cell_m)) return;
+  in_image_.push_back(index);
+  if (scene.config.visibility != TourVisibility::splats) return;
+  const float radius_m = kDiscRadius * static_cast<float>(scene.cells.detail_m());
+  const Vec3f normal = image_.R_camera_world * cell.normal;
+  for (const Vec3f& disc_m : cell.discs_m) {
+    const Vec3f p = to_camera(disc_m);
+    if (!is_in_image(p, radius_m)) continue;
+    draw(p, cell.has_plane ? normal : Vec3f(-p.normalized()), radius_m);
+  }
+}
+
+bool PatchViewer::is_seen(const TourScene& scene, const Patch& patch, float cosine) const {
+  const Vec3f p = to_camera(patch.target_m);
+  if (scene.config.visibility == TourVisibility::splats) {
+    return is_before(p, cosine, kBias * static_cast<float>(scene.cells.detail_m()));
+  }
+  return is_hit_first(scene.grid, image_.origin_m.cast<double>(), patch.target_m.cast<double>());
+}
+
 void PatchViewer::look(const TourScene& scene, const CameraModel& camera,
                        const Isometry& T_world_body,
                        std::span<const CellBlocks::Block* const> blocks, float block_radius_m,
                        std::vector<SeenPatch>& seen) {
-  begin(camera);
-  const CameraConfig& c = camera.config;
-  const Isometry T_world_camera = T_world_body * camera.T_body_camera;
-  const Eigen::Matrix3f R_camera_world = T_world_camera.linear().transpose().cast<float>();
-  const Vec3f origin_m = T_world_camera.translation().cast<float>();
-  const auto detail_m = static_cast<float>(scene.cells.detail_m());
-  const float radius_m = 1.8F * detail_m;  // 0.9 of the spacing
-  const float bias_m = 1.6F * detail_m;
-  const auto z_min_m = static_cast<float>(c.range_min_m);
-  const auto z_max_m = static_cast<float>(c.range_max_m);
-  const float half_x = image_.cx / image_.fx;
-  const float half_y = image_.cy / image_.fy;
-  const auto is_in_image = [&](const Vec3f& p, float margin_m) {
-    return p.z() > 0.05F && p.z() <= z_max_m + margin_m &&
-           std::fabs(p.x()) <= half_x * p.z() + margin_m &&
-           std::fabs(p.y()) <= half_y * p.z() + margin_m;
-  };
-  const bool splats = scene.config.visibility == TourVisibility::splats;
-  const auto cell_m = static_cast<float>(scene.cells.edge_m());
+  begin(camera, T_world_body * camera.T_body_camera);
   in_image_.clear();
-  // a sphere may reach into a cone from farther away than its radius across the image
-  const float slant = 1.0F + std::max(half_x, half_y);
-  const auto draw_cell = [&](std::uint32_t index) {
-    const SurfaceCell& cell = scene.cells.cells()[index];
-    if (cell.discs_m.empty() && !cell.is_frontier) return;
-    const Vec3f& at_m = cell.is_frontier ? cell.on_plane_m : cell.discs_m.front();
-    const Vec3f middle = R_camera_world * (at_m - origin_m);
-    if (!is_in_image(middle, slant * 0.9F * cell_m)) return;
-    in_image_.push_back(index);
-    if (!splats) return;
-    const Vec3f normal = R_camera_world * cell.normal;
-    for (const Vec3f& disc_m : cell.discs_m) {
-      const Vec3f p = R_camera_world * (disc_m - origin_m);
-      if (!is_in_image(p, radius_m)) continue;
-      draw(p, cell.has_plane ? normal : Vec3f(-p.normalized()), radius_m);
-    }
-  };
   for (const CellBlocks::Block* block : blocks) {
-    const Vec3f middle = R_camera_world * (block->center_m - origin_m);
-    const float margin_m = slant * block_radius_m;
-    if (middle.z() < -block_radius_m || middle.z() > z_max_m + block_radius_m ||
-        std::fabs(middle.x()) > half_x * middle.z() + margin_m ||
-        std::fabs(middle.y()) > half_y * middle.z() + margin_m) {
-      continue;
-    }
-    for (const std::uint32_t index : block->cells) draw_cell(index);
+    const Vec3f middle = to_camera(block->center_m);
+    const bool is_in_reach =
+        middle.z() >= -block_radius_m && middle.z() <= image_.range_max_m + block_radius_m;
+    if (!is_in_reach || !is_in_cone(middle, slant() * block_radius_m)) continue;
+    for (const std::uint32_t index : block->cells) draw_cell(scene, index);
   }
+  const auto range_min_m = static_cast<float>(camera.config.range_min_m);
   const auto cos_min = static_cast<float>(std::cos(scene.config.incidence_max_rad));
   for (const std::uint32_t index : in_image_) {
     for (std::uint32_t side = 0; side < 2; ++side) {
       const PatchId id = 2 * index + side;
       const Patch& patch = scene.patches[id];
       if (patch.missing <= 0.0F) continue;
-      const Vec3f p = R_camera_world * (patch.target_m - origin_m);
-      if (!is_in_image(p, 0.0F) || p.z() < z_min_m) continue;
-      const float cosine = patch.normal.dot(origin_m - patch.target_m) / p.norm();
-      if (cosine < cos_min) continue;
-      const bool is_seen = splats ? is_before(p, cosine, bias_m)
-                                  : is_hit_first(scene.grid, T_world_camera.translation(),
-                                                 patch.target_m.cast<double>());
-      if (!is_seen) continue;
+      const Vec3f p = to_camera(patch.target_m);
+      if (!is_in_image(p, 0.0F) || p.z() < range_min_m) continue;
+      const float cosine = patch.normal.dot(image_.origin_m - patch.target_m) / p.norm();
+      if (cosine < cos_min || !is_seen(scene, patch, cosine)) continue;
       seen.push_back({id, static_cast<std::uint8_t>(incidence_bin(cosine))});
     }
   }

@@ -1,6 +1,7 @@
 // Which patches a camera would see, by what is known of the surface.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -58,8 +59,20 @@ class PatchViewer {
   struct Image {
     int width = 0, height = 0;
     float fx = 0.0F, fy = 0.0F, cx = 0.0F, cy = 0.0F;
+    float range_max_m = 0.0F;
+    Eigen::Matrix3f R_camera_world = Eigen::Matrix3f::Identity();
+    Vec3f origin_m = Vec3f::Zero();  // world
   };
-  void begin(const CameraModel& camera);
+  void begin(const CameraModel& camera, const Isometry& T_world_camera);
+  Vec3f to_camera(const Vec3f& p_world_m) const {
+    return image_.R_camera_world * (p_world_m - image_.origin_m);
+  }
+  /// A ball reaches into a cone from farther beside it than its radius, at most by this factor.
+  float slant() const { return 1.0F + std::max(image_.cx / image_.fx, image_.cy / image_.fy); }
+  bool is_in_cone(const Vec3f& p_camera_m, float margin_m) const;
+  bool is_in_image(const Vec3f& p_camera_m, float margin_m) const;
+  void draw_cell(const TourScene& scene, std::uint32_t cell);
+  bool is_seen(const TourScene& scene, const Patch& patch, float cos_incidence) const;
   void draw(const Vec3f& p_camera_m, const Vec3f& normal, float radius_m);
   bool is_before(const Vec3f& p_camera_m, float cos_incidence, float bias_m) const;
 

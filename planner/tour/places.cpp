@@ -146,6 +146,7 @@ TourPlaces::Row TourPlaces::search(Place from) const {
       }
     }
     is_done[place] = 1;
+    if (place == here() && from != here()) continue;  // it moves on, while the row is kept
     const Place before = row.before[place];
     for (const Place next : legs_[place]) {
       if (is_done[next] != 0) continue;

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
+
+#include "planner/tour/stops.hpp"
 
 namespace gnbv {
 
@@ -22,8 +23,7 @@ struct PrizeTask {
   std::uint32_t start = 0;                   // the place where a tour begins
   double price_per_m = 0.0;                  // of way, in weight
   double metres_per_view = 0.0;              // what a view costs as if it were way
-  /// Metres from this place to each place, the same both ways. Asked again and again.
-  std::function<std::span<const float>(std::uint32_t place)> row_m;
+  RowOf row_m = {};                          // asked again and again
 };
 
 struct PrizeTour {

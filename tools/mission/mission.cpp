@@ -149,6 +149,17 @@ std::optional<Termination> termination(const Mission& m) {
   return std::nullopt;
 }
 
+/// Keeps the record of a decision.
+std::optional<Decision> chosen_of(Mission& m, std::size_t next, Plan plan) {
+  m.hooks.on_candidates(next, plan);
+  if (!plan.next) {
+    for (const Candidate& candidate : plan.candidates) {
+      if (candidate.rejected) ++m.out.last_rejections[*candidate.rejected];
+    }
+  }
+  return std::move(plan.next);
+}
+
 /// A tour learns from every view, so that it is asked again for the decisions of a replay.
 std::optional<Decision> decide_tour(Mission& m, std::size_t next) {
   Plan plan = m.tour->next(m.out.belief, m.history, m.current, m.bench.threads);
@@ -156,8 +167,7 @@ std::optional<Decision> decide_tour(Mission& m, std::size_t next) {
     m.out.look_outcomes.push_back({next - 1, look});
   }
   if (next < m.hooks.replay.size()) return m.hooks.replay[next];
-  m.hooks.on_candidates(next, plan);
-  return std::move(plan.next);
+  return chosen_of(m, next, std::move(plan));
 }
 
 std::optional<Decision> decide(Mission& m) {
@@ -170,19 +180,13 @@ std::optional<Decision> decide(Mission& m) {
   Plan plan = m.laid_route
                   ? follow_route(m.planner, m.out.belief, m.history, *m.laid_route, m.current)
                   : plan_next_view(m.planner, m.out.belief, m.history, m.current, m.bench);
-  m.hooks.on_candidates(next, plan);
-  if (!plan.next) {
-    for (const Candidate& candidate : plan.candidates) {
-      if (candidate.rejected) ++m.out.last_rejections[*candidate.rejected];
-    }
-  }
-  return std::move(plan.next);
+  return chosen_of(m, next, std::move(plan));
 }
 
 /// Why there is no next view.
 Termination end_without_view(const Mission& m) {
   if (flies_given(m)) return end_of_given(m);
-  return m.tour ? Termination::tour_complete : Termination::no_valid_view;
+  return m.tour && m.tour->is_complete() ? Termination::tour_complete : Termination::no_valid_view;
 }
 
 /// Whether the way to the view is longer than the mission may go on.

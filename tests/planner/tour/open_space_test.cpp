@@ -65,6 +65,29 @@ TEST(OpenSpace, NothingBeyondTheNavigationBoxIsOpen) {
   }
 }
 
+TEST(OpenSpace, NothingNearANoFlyBoxIsOpen) {
+  OccupancyGrid grid = scattered_grid(2);
+  const NoFly no_fly{.boxes_m = {Box3(Vec3(-1, -1, 0), Vec3(0, 1, 3))}, .margin_m = kRadius_m};
+  OpenSpace everywhere(grid.geometry(), kBox, {}, kRadius_m);
+  OpenSpace beside(grid.geometry(), kBox, no_fly, kRadius_m);
+  for (int round = 0; round < 2; ++round) {  // the second without anything occupied
+    everywhere.follow(grid);
+    beside.follow(grid);
+    int shut = 0;
+    for (VoxelIndex v = 0; v < grid.geometry().voxel_count(); ++v) {
+      const Key key = grid.geometry().key_at(v);
+      const bool may_fly = no_fly.allows(grid.geometry().center_m(key));
+      ASSERT_EQ(beside.is_open(grid, key), may_fly && everywhere.is_open(grid, key));
+      if (!may_fly && everywhere.is_open(grid, key)) ++shut;
+    }
+    EXPECT_GT(shut, 100);
+    for (VoxelIndex v = 0; v < grid.geometry().voxel_count(); ++v) {
+      const bool was_occupied = grid.state(v) == VoxelState::occupied;
+      for (int i = 0; i < 20 && was_occupied; ++i) grid.apply({.free = {v}, .occupied = {}});
+    }
+  }
+}
+
 /// A line through open voxels keeps the radius but for what lies between a voxel and its centre.
 TEST(OpenSpace, AnOpenLineKeepsTheRadiusWithinHalfAVoxel) {
   const OccupancyGrid grid = scattered_grid(3);

@@ -4,20 +4,12 @@
 
 #include <cmath>
 
+#include "tests/planner/tour/free_grid.hpp"
+
 namespace gnbv {
 namespace {
 
 const Box3 kBox(Vec3(-6, -6, 0), Vec3(6, 6, 6));
-
-OccupancyGrid free_grid() {
-  OccupancyConfig config;
-  config.resolution_m = 0.2;
-  OccupancyGrid grid(config, kBox);
-  std::vector<VoxelIndex> all(grid.geometry().voxel_count());
-  for (VoxelIndex v = 0; v < all.size(); ++v) all[v] = v;
-  for (int i = 0; i < 5; ++i) grid.apply({.free = all, .occupied = {}});
-  return grid;
-}
 
 /// Points of a wall at x that faces -x, `y` and `z` from the first to the second.
 void add_wall(double x, const Eigen::Vector2d& y, const Eigen::Vector2d& z,
@@ -35,7 +27,7 @@ struct Looked {
 };
 
 Looked look(const std::vector<Vec3f>& points, const ViewPose& view) {
-  const OccupancyGrid grid = free_grid();
+  const OccupancyGrid grid = free_grid(kBox);
   TourConfig config;
   SurfaceCells cells(kBox, config.detail_m);
   cells.add(points, grid, 1);

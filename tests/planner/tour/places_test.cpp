@@ -4,28 +4,12 @@
 
 #include <cmath>
 
+#include "tests/planner/tour/free_grid.hpp"
+
 namespace gnbv {
 namespace {
 
 const Box3 kBox(Vec3(-6, -6, 0), Vec3(6, 6, 4));
-
-OccupancyGrid free_grid() {
-  OccupancyConfig config;
-  config.resolution_m = 0.2;
-  OccupancyGrid grid(config, kBox);
-  std::vector<VoxelIndex> all(grid.geometry().voxel_count());
-  for (VoxelIndex v = 0; v < all.size(); ++v) all[v] = v;
-  for (int i = 0; i < 5; ++i) grid.apply({.free = all, .occupied = {}});
-  return grid;
-}
-
-void fill(OccupancyGrid& grid, const Box3& box_m) {
-  std::vector<VoxelIndex> voxels;
-  for (VoxelIndex v = 0; v < grid.geometry().voxel_count(); ++v) {
-    if (box_m.contains(grid.geometry().center_m(grid.geometry().key_at(v)))) voxels.push_back(v);
-  }
-  for (int i = 0; i < 20; ++i) grid.apply({.free = {}, .occupied = voxels});
-}
 
 struct World {
   explicit World(OccupancyGrid occupancy)
@@ -41,7 +25,7 @@ struct World {
 };
 
 TEST(TourPlaces, InEmptySpaceWaysAreNearlyStraight) {
-  World world(free_grid());
+  World world(free_grid(kBox));
   EXPECT_GT(world.places.size(), 13U * 13U * 4U);
   for (TourPlaces::Place from = 0; from < world.places.size(); from += 37) {
     const std::span<const float> row_m = world.places.row_m(from);
@@ -54,7 +38,7 @@ TEST(TourPlaces, InEmptySpaceWaysAreNearlyStraight) {
 }
 
 TEST(TourPlaces, AWallIsGoneAroundAndItsLegsAreOpen) {
-  OccupancyGrid grid = free_grid();
+  OccupancyGrid grid = free_grid(kBox);
   fill(grid, Box3(Vec3(-6, -0.2, 0), Vec3(4, 0.2, 4)));  // leaves a gap at large x
   World world(std::move(grid));
   const auto behind = world.places.add(Vec3(-5, 5, 1));
@@ -77,7 +61,7 @@ TEST(TourPlaces, AWallIsGoneAroundAndItsLegsAreOpen) {
 }
 
 TEST(TourPlaces, BehindAClosedWallNothingIsReached) {
-  OccupancyGrid grid = free_grid();
+  OccupancyGrid grid = free_grid(kBox);
   fill(grid, Box3(Vec3(-6, -0.2, 0), Vec3(6, 0.2, 4)));
   World world(std::move(grid));
   for (TourPlaces::Place place = 1; place < world.places.size(); ++place) {

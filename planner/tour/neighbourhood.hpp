@@ -1,0 +1,42 @@
+// The chances that a large-neighbourhood search over tours of views takes (Shaw 1998; Ropke,
+// Pisinger 2006).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "planner/tour/stops.hpp"
+#include "sim/core/rng.hpp"
+
+namespace gnbv {
+
+/// Numbers of one iteration.
+class Dice {
+ public:
+  Dice(std::uint64_t seed, Stream stream, int iteration)
+      : seed_(seed), stream_(stream), iteration_(static_cast<std::uint64_t>(iteration)) {}
+  double uniform() { return uniform01({seed_, stream_, iteration_, drawn_++}); }
+  /// In [0, count).
+  std::size_t below(std::size_t count) {
+    return static_cast<std::size_t>(random_bits({seed_, stream_, iteration_, drawn_++}) % count);
+  }
+
+ private:
+  std::uint64_t seed_;
+  Stream stream_;
+  std::uint64_t iteration_;
+  std::uint64_t drawn_ = 0;
+};
+
+/// 2 to 15 of the chosen views: some in a row, the nearest of one, or any. `place_of`: of each
+/// view; `chosen` is not empty.
+std::vector<std::uint32_t> views_to_remove(std::span<const std::uint32_t> chosen,
+                                           std::span<const std::uint32_t> place_of,
+                                           const Stops& stops, const RowOf& row_m, Dice& dice);
+
+/// What each view's bid is multiplied by; nothing, every other time: by 1. Without it the best bid
+/// always wins, and a tour of two views that a third one outbids is never found.
+std::vector<double> random_likings(std::size_t views, Dice& dice);
+
+}  // namespace gnbv

@@ -1,0 +1,67 @@
+#include "planner/tour/surface_places.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/planner/tour/free_grid.hpp"
+
+namespace gnbv {
+namespace {
+
+const Box3 kBox(Vec3(-8, -8, 0), Vec3(8, 8, 8));
+constexpr double kRadius_m = 0.7;
+
+struct World {
+  explicit World(OccupancyGrid occupancy)
+      : grid(std::move(occupancy)), space(grid.geometry(), kBox, {}, kRadius_m) {
+    space.follow(grid);
+  }
+  std::vector<Vec3> places(const Patch& patch) const {
+    return places_to_see({grid, space, cameras}, patch, 4);
+  }
+  OccupancyGrid grid;
+  OpenSpace space;
+  std::vector<CameraModel> cameras = {make_camera_model({})};
+};
+
+const Patch kFacingEast{
+    .target_m = Vec3f(0.1F, 0.1F, 4.1F), .normal = Vec3f(1, 0, 0), .missing = 10.0F};
+
+/// By the definition: before the patch, in a camera's image once the vehicle is turned to it.
+TEST(SurfacePlaces, SeeThePatchFromBeforeItWithinTheImage) {
+  OccupancyGrid grid = free_grid(kBox);
+  fill(grid, Box3(Vec3(-0.2, -0.6, 3.4), Vec3(0.2, 0.6, 4.8)));
+  const World world(std::move(grid));
+  const std::vector<Vec3> places = world.places(kFacingEast);
+  ASSERT_FALSE(places.empty());
+  const CameraConfig& camera = world.cameras.front().config;
+  for (const Vec3& p_m : places) {
+    const Vec3 to_m = p_m - kFacingEast.target_m.cast<double>();
+    EXPECT_GT(to_m.x(), 0.0);
+    EXPECT_LE(std::fabs(std::atan2(to_m.z(), to_m.head<2>().norm())),
+              0.5 * camera.fov_y_rad + 0.05);
+    EXPECT_LE(to_m.norm(), camera.range_max_m);
+    EXPECT_TRUE(world.space.is_open(world.grid, world.grid.geometry().key_of(p_m)));
+  }
+}
+
+TEST(SurfacePlaces, AreNoneBehindAWallAndFewerCubesEachTime) {
+  OccupancyGrid grid = free_grid(kBox);
+  fill(grid, Box3(Vec3(0.8, -8, 0), Vec3(1.2, 8, 8)));  // nearer than any place may be
+  const World walled(std::move(grid));
+  EXPECT_TRUE(walled.places(kFacingEast).empty());
+
+  const World open(free_grid(kBox));
+  const std::vector<Patch> patches = {kFacingEast};
+  const std::vector<std::uint8_t> unseen = {0}, seen = {1};
+  std::set<Key> tried;
+  const PlaceSearch search{open.grid, open.space, open.cameras};
+  EXPECT_TRUE(places_for_unseen(search, patches, seen, tried).empty());
+  EXPECT_EQ(places_for_unseen(search, patches, unseen, tried).size(), 2U);
+  EXPECT_TRUE(places_for_unseen(search, patches, unseen, tried).empty()) << "tried before";
+}
+
+}  // namespace
+}  // namespace gnbv
