@@ -12,7 +12,7 @@
 namespace gnbv {
 namespace {
 
-/// A quarter of the cameras' range, but at least eight steps across the workspace.
+/// A quarter of the cameras' range, but at least eight steps across the navigation box.
 double lattice_step_m(const TourConfig& config, std::span<const CameraModel> cameras,
                       const Box3& navigation_m) {
   if (config.lattice_step_m > 0.0) return config.lattice_step_m;
@@ -25,10 +25,10 @@ GridGeometry map_geometry(const PlannerModel& model) {
   return {model.workspace_m, model.config.map.resolution_m};
 }
 
-std::vector<CameraModel> at_all_pitches(const PlannerModel& model) {
+std::vector<CameraModel> at_all_pitches(std::span<const CameraModel> cameras) {
   std::vector<CameraModel> all;
-  for (const double pitch_rad : model.pitches_rad) {
-    for (CameraModel& camera : turned(model.cameras, pitch_rad)) all.push_back(std::move(camera));
+  for (const CameraModel& camera : cameras) {
+    for (CameraModel& fixed : at_all_pitches(camera)) all.push_back(std::move(fixed));
   }
   return all;
 }
@@ -39,7 +39,7 @@ TourPlanner::TourPlanner(const PlannerModel& model)
     : model_(model),
       config_(model.config.tour),
       cells_(model.workspace_m, config_.detail_m),
-      cameras_(at_all_pitches(model)),
+      cameras_(at_all_pitches(std::span(model.cameras))),
       space_(map_geometry(model), model.navigation_m, model.no_fly,
              model.config.validity.collision_radius_m),
       places_(map_geometry(model), model.navigation_m,

@@ -14,10 +14,17 @@ using Values = std::vector<std::pair<std::string, std::string>>;
 
 /// What the paper's figures depend on and the paper states, or does not have.
 Values stated_values(const Scenario& scenario) {
-  constexpr std::array<std::string_view, 11> kStated = {
+  constexpr std::array<std::string_view, 18> kStated = {
       "cameras",
       "lidars",
       "workspace_m",
+      "terrain",
+      "obstacles",
+      "no_fly",
+      "score.region_m",
+      "wind",
+      "vehicle.estimate.outages",
+      "vehicle.power.return_home",
       "planner.map.resolution_m",
       "planner.profiling.method",
       "planner.termination.max_iterations",

@@ -34,10 +34,13 @@ inline bool is_builtin(const StructureConfig& structure) {
   return structure.file.path.empty() && structure.files.empty();
 }
 
-/// The built-in name, or the path of the (first) mesh file.
-inline const std::string& structure_name(const StructureConfig& structure) {
+/// The built-in name, or the path of the mesh file; of several the first and how many more.
+inline std::string structure_name(const StructureConfig& structure) {
   if (is_builtin(structure)) return structure.builtin;
-  return structure.file.path.empty() ? structure.files.front().path : structure.file.path;
+  const bool has_first = !structure.file.path.empty();
+  const std::string& first = has_first ? structure.file.path : structure.files.front().path;
+  const std::size_t more = structure.files.size() - (has_first ? 0 : 1);
+  return more == 0 ? first : first + " and " + std::to_string(more) + " more";
 }
 
 /// What is flown around and not scored: a mesh, or without one a box. World ENU.

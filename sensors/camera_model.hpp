@@ -153,4 +153,18 @@ std::optional<GimbalConfig> gimbal_of(const Cameras& cameras) {
   return std::nullopt;
 }
 
+/// The camera fixed at each pitch of its gimbal: together they see what it sees. Without a gimbal
+/// itself.
+inline std::vector<CameraModel> at_all_pitches(const CameraModel& camera) {
+  if (!camera.config.gimbal) return {camera};
+  std::vector<CameraModel> fixed;
+  for (const double pitch_rad : pitches_rad(*camera.config.gimbal)) {
+    CameraConfig config = camera.config;
+    config.gimbal.reset();
+    config.pitch_rad = pitch_rad;
+    fixed.push_back(make_camera_model(config));
+  }
+  return fixed;
+}
+
 }  // namespace gnbv

@@ -119,6 +119,10 @@ Scenario what_a_ceiling_depends_on(const Scenario& scenario) {
   out.seed = scenario.seed;  // moves the start
   out.workspace_m = scenario.workspace_m;
   out.structure = scenario.structure;
+  out.terrain = scenario.terrain;
+  out.obstacles = scenario.obstacles;
+  out.no_fly = scenario.no_fly;
+  out.score.region_m = scenario.score.region_m;
   out.start = scenario.start;
   out.lidars = scenario.lidars;
   out.cameras = scenario.cameras;
@@ -126,6 +130,7 @@ Scenario what_a_ceiling_depends_on(const Scenario& scenario) {
     camera.preset = CameraConfig{}.preset;
     camera.name = CameraConfig{}.name;
     camera.rate_hz = CameraConfig{}.rate_hz;
+    camera.drop_probability = CameraConfig{}.drop_probability;
     camera.noise = {};
   }
   const PlannerConfig& planner = scenario.planner;

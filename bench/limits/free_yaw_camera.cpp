@@ -5,18 +5,6 @@
 
 namespace gnbv {
 
-std::vector<CameraModel> at_all_pitches(const CameraModel& camera) {
-  if (!camera.config.gimbal) return {camera};
-  std::vector<CameraModel> fixed;
-  for (const double pitch_rad : pitches_rad(*camera.config.gimbal)) {
-    CameraConfig config = camera.config;
-    config.gimbal.reset();
-    config.pitch_rad = pitch_rad;
-    fixed.push_back(make_camera_model(config));
-  }
-  return fixed;
-}
-
 FreeYawCamera::FreeYawCamera(const CameraModel& camera)
     : tan_x_(std::tan(0.5 * camera.config.fov_x_rad)),
       tan_y_(std::tan(0.5 * camera.config.fov_y_rad)),

@@ -8,10 +8,6 @@
 
 namespace gnbv {
 
-/// The camera fixed at each pitch of its gimbal: together they see what it sees. Without a gimbal
-/// itself.
-std::vector<CameraModel> at_all_pitches(const CameraModel& camera);
-
 /// Where a camera on a level vehicle that turns freely has to have a point for it to be in the
 /// image, its gimbal, if it has one, at rest: a set of bearings is tried, from the image's middle
 /// column to its edges, since the middle reaches the steepest rows and the edges, with depth

@@ -17,7 +17,8 @@ enum class TourSuccess { learned, fixed };
 
 struct TourConfig {
   double detail_m = 0.05;       // edge of the voxels that are to hold a point
-  double lattice_step_m = 0.0;  // between views of the lattice; 0: a quarter of the cameras' range
+  double lattice_step_m = 0.0;  // between views of the lattice; 0: a quarter of the
+  // cameras' range, at most an eighth of the navigation box's shorter side
   double yaw_step_rad = deg_to_rad(45.0);
   double incidence_max_rad = deg_to_rad(80.0);  // beyond, a look counts for nothing
   TourVisibility visibility = TourVisibility::splats;

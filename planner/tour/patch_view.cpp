@@ -18,21 +18,23 @@ constexpr float kDiscRadius = 1.8F;
 constexpr float kBias = 1.6F;
 constexpr float kNoDepth = std::numeric_limits<float>::infinity();
 
-/// Whether the line from the camera meets no occupied voxel but the target's and its neighbours.
-bool is_hit_first(const OccupancyGrid& grid, const Vec3& origin_m, const Vec3& target_m) {
+}  // namespace
+
+bool is_hit_first(const OccupancyGrid& grid, const Vec3& origin_world_m,
+                  const Vec3& target_world_m) {
   const GridGeometry& geometry = grid.geometry();
-  const Key target = geometry.key_of(target_m);
+  const Key target = geometry.key_of(target_world_m);
   bool is_clear = true;
-  walk_ray(geometry, origin_m.cast<float>(), target_m.cast<float>(), [&](const Key& key) {
-    if (!geometry.contains(key)) return true;
-    if (grid.state(geometry.index_of(key)) != VoxelState::occupied) return true;
-    for (std::size_t a = 0; a < 3; ++a) is_clear = is_clear && std::abs(key[a] - target[a]) <= 1;
-    return false;
-  });
+  walk_ray(geometry, origin_world_m.cast<float>(), target_world_m.cast<float>(),
+           [&](const Key& key) {
+             if (!geometry.contains(key)) return true;
+             if (grid.state(geometry.index_of(key)) != VoxelState::occupied) return true;
+             for (std::size_t a = 0; a < 3; ++a)
+               is_clear = is_clear && std::abs(key[a] - target[a]) <= 1;
+             return false;
+           });
   return is_clear;
 }
-
-}  // namespace
 
 double camera_reach_m(const CameraModel& camera) {
   const CameraConfig& c = camera.config;

@@ -81,6 +81,10 @@ class PatchViewer {
   std::vector<std::uint32_t> in_image_;  // cells
 };
 
+/// Whether the line from the origin meets no occupied voxel but the target's and its neighbours.
+bool is_hit_first(const OccupancyGrid& grid, const Vec3& origin_world_m,
+                  const Vec3& target_world_m);
+
 /// How far a camera reaches from the vehicle, in m.
 double camera_reach_m(const CameraModel& camera);
 

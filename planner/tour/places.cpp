@@ -23,6 +23,11 @@ TourPlaces::TourPlaces(const GridGeometry& geometry, const Box3& navigation_m, d
     const auto axis = static_cast<Eigen::Index>(a);
     const double low_m = navigation_m.min()[axis];
     const double high_m = navigation_m.max()[axis];
+    if (high_m - low_m < voxel_m) {  // thinner than a voxel
+      along_m[a].push_back(geometry.center_m(geometry.key_of(0.5 * (low_m + high_m))));
+      lattice_size_[a] = 1;
+      continue;
+    }
     const double rest_m = std::fmod(high_m - low_m, step_m_);
     // the lowest places see the undersides
     for (double at_m = low_m + (a == 2 ? 0.0 : 0.5 * rest_m); at_m <= high_m + 1e-9;
@@ -145,8 +150,8 @@ TourPlaces::Row TourPlaces::search(Place from) const {
         continue;
       }
     }
-    is_done[place] = 1;
     if (place == here() && from != here()) continue;  // it moves on, while the row is kept
+    is_done[place] = 1;
     const Place before = row.before[place];
     for (const Place next : legs_[place]) {
       if (is_done[next] != 0) continue;

@@ -35,7 +35,8 @@ class TourPlaces {
 
   void forget_ways() { rows_.clear(); }
 
-  /// Metres from the place to each one, along free space; infinite where no way leads.
+  /// Metres from the place to each one, along free space; infinite where no way leads. No way from
+  /// elsewhere leads by here() or to it.
   std::span<const float> row_m(Place from);
   /// The points between the two; requires a way.
   std::vector<Vec3> via_world_m(Place from, Place to);

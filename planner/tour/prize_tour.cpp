@@ -102,7 +102,7 @@ class OpenTour {
     for (std::uint32_t view = 0; view < gains.size(); ++view) {
       if (cover_.has(view)) continue;
       double bid = gains[view] / (static_cast<double>(extra_m[place_of(view)]) + metres_per_view);
-      if (!liking.empty()) bid *= liking[view];
+      if (!liking.empty()) bid *= static_cast<double>(static_cast<float>(liking[view]));
       if (bid <= most) continue;
       most = bid;
       best = view;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
 
 namespace gnbv {
@@ -101,17 +100,6 @@ double tour_length_m(const Distances& distances_m, const Tour& tour) {
   double length_m = 0.0;
   for (std::size_t i = 1; i < tour.size(); ++i) length_m += distances_m[tour[i - 1]][tour[i]];
   return length_m;
-}
-
-Insertion cheapest_insertion(std::span<const double> to_m, std::span<const double> leg_m) {
-  GNBV_CHECK(!to_m.empty() && leg_m.size() + 1 == to_m.size(), "{} stops and {} legs", to_m.size(),
-             leg_m.size());
-  Insertion best{to_m.back(), to_m.size()};
-  for (std::size_t i = 1; i < to_m.size(); ++i) {
-    const double extra_m = to_m[i - 1] + to_m[i] - leg_m[i - 1];
-    if (extra_m < best.extra_m) best = {extra_m, i};
-  }
-  return best;
 }
 
 void improve_tour(const Distances& distances_m, Tour& tour) { Improver(distances_m, tour).run(); }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 #include <vector>
 
 namespace gnbv {
@@ -12,16 +11,6 @@ using Distances = std::vector<std::vector<double>>;
 
 /// Along the stops in their order.
 double tour_length_m(const Distances& distances_m, const std::vector<std::size_t>& tour);
-
-/// What a further stop adds to a tour at the cheapest place, its end included, and the index it
-/// would get there; never 0, where the tour begins.
-struct Insertion {
-  double extra_m = 0.0;
-  std::size_t at = 0;
-};
-/// `to_m`: from the further stop to each stop of the tour, in its order; `leg_m`: from each stop of
-/// the tour to the next, one fewer.
-Insertion cheapest_insertion(std::span<const double> to_m, std::span<const double> leg_m);
 
 /// Shortens the tour, whose first stop stays, until neither reversing a part (2-opt, Croes 1958)
 /// nor moving up to three neighbours elsewhere (Or-opt, Or 1976) helps.

@@ -19,6 +19,8 @@ class Stops {
   Stops(std::vector<std::uint32_t> places, const RowOf& row_m)
       : row_m_(&row_m), places_(std::move(places)) {}
 
+  Stops(std::vector<std::uint32_t> places, RowOf&& row_m) = delete;  // it would not live on
+
   const std::vector<std::uint32_t>& places() const { return places_; }
   /// Which of the tour it is; requires that it is one.
   std::size_t index_of(std::uint32_t place) const;

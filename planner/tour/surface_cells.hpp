@@ -37,7 +37,7 @@ struct SurfaceCell {
   Vec3f normal = Vec3f::Zero();                // of no particular side, the same side for ever
   std::array<std::uint8_t, 2> looks = {0, 0};  // from the normal's side, and from the other
   std::vector<Vec3f> discs_m;                  // middles of discs that stand for the surface
-  std::uint32_t changed = 0;  // in which update what is expected of it last changed
+  std::uint32_t changed = 0;                   // in which add() what is expected of it last changed
 
   bool is_extrapolated() const { return moments.count == 0.0; }
 };

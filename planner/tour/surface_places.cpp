@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "planner/map/ray_walk.hpp"
+#include "planner/tour/patch_view.hpp"
 
 namespace gnbv {
 namespace {
@@ -20,19 +20,6 @@ struct Found {
   double score;
   Vec3 p_world_m;
 };
-
-bool is_in_sight(const OccupancyGrid& grid, const Vec3& from_m, const Vec3& target_m) {
-  const GridGeometry& geometry = grid.geometry();
-  const Key target = geometry.key_of(target_m);
-  bool is_clear = true;
-  walk_ray(geometry, from_m.cast<float>(), target_m.cast<float>(), [&](const Key& key) {
-    if (!geometry.contains(key)) return is_clear = false;
-    if (grid.state(geometry.index_of(key)) != VoxelState::occupied) return true;
-    for (std::size_t a = 0; a < 3; ++a) is_clear = is_clear && std::abs(key[a] - target[a]) <= 1;
-    return false;
-  });
-  return is_clear;
-}
 
 }  // namespace
 
@@ -62,7 +49,7 @@ std::vector<Vec3> places_to_see(const PlaceSearch& search, const Patch& patch, s
           const Key key = geometry.key_of(p_m);
           if (!search.space.is_open(search.grid, key)) continue;
           const Vec3 center_m = geometry.center_m(key);
-          if (!is_in_sight(search.grid, center_m, target_m)) continue;
+          if (!is_hit_first(search.grid, center_m, target_m)) continue;
           found.push_back({cosine * (1.2 - share), center_m});
         }
       }

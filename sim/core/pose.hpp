@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -46,6 +47,15 @@ inline Isometry T_world_body(const ViewPose& pose) {
 /// Heading of the body x axis in the world's horizontal plane, in (-pi, pi].
 inline double yaw_of(const Isometry& T_world_body) {
   return std::atan2(T_world_body.linear()(1, 0), T_world_body.linear()(0, 0));
+}
+
+/// From a point to the nearest of the straight leg between two others, in m.
+inline double distance_to_segment_m(const Vec3& p_m, const Vec3& from_m, const Vec3& to_m) {
+  const Vec3 along_m = to_m - from_m;
+  const double length2_m2 = along_m.squaredNorm();
+  const double share =
+      length2_m2 > 0.0 ? std::clamp((p_m - from_m).dot(along_m) / length2_m2, 0.0, 1.0) : 0.0;
+  return (p_m - from_m - share * along_m).norm();
 }
 
 }  // namespace gnbv

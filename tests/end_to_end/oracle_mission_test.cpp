@@ -6,7 +6,7 @@
 
 #include "bench/limits/oracle.hpp"
 #include "sim/core/error.hpp"
-#include "tests/support/flown.hpp"
+#include "tests/support/flown_into.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/mission/start_pose.hpp"
 #include "tools/run_files/iterations_csv.hpp"
@@ -76,24 +76,14 @@ TEST_P(OracleMission, ResumedEqualsTheUninterruptedOne) {
   const std::string utility = GetParam();
   TempFolder temp;
   const Scenario scenario = oracle_smoke(utility);
-  const auto fly = [&](std::size_t stop_after, bool resume) {
-    RunDirectory directory(temp.path() / "run", scenario, resume);
-    std::size_t views = 0;
-    MissionHooks hooks = with_route(utility);
-    hooks.on_view = [&](const ViewRecord& view) {
-      directory.append(view);
-      ++views;
-    };
-    hooks.should_stop = [&] { return views >= stop_after; };
-    hooks.replay = directory.recorded();
-    return Flown(scenario, hooks).result;
-  };
-  EXPECT_EQ(fly(4, false).termination, Termination::interrupted);
+  const auto run = temp.path() / "run";
+  EXPECT_EQ(fly_into(run, scenario, false, 4, with_route(utility)).termination,
+            Termination::interrupted);
   const std::vector<Decision> recorded = read_decisions(temp.path() / "run/iterations.csv.part");
   ASSERT_EQ(recorded.size(), 4U);
   EXPECT_EQ(recorded[3].sampler, "oracle");
   EXPECT_EQ(recorded[3].score.value, route_of(utility)[2].score.value);
-  const MissionResult resumed = fly(1000, true);
+  const MissionResult resumed = fly_into(run, scenario, true, kNeverStops, with_route(utility));
   EXPECT_EQ(result_sha256(resumed), result_sha256(Flown(scenario, with_route(utility), 1).result));
 }
 

@@ -93,7 +93,10 @@ std::optional<ViewPose> missed_view(const PlannerModel& planner, const MissionRe
 std::pair<std::uint64_t, std::uint64_t> seeds_to_fly() {
   const char* const text = std::getenv("GNBV_RANDOM_SEEDS");
   std::pair<std::uint64_t, std::uint64_t> seeds = {1, 1};
-  if (text != nullptr) std::sscanf(text, "%lu-%lu", &seeds.first, &seeds.second);
+  if (text != nullptr) {
+    EXPECT_EQ(std::sscanf(text, "%lu-%lu", &seeds.first, &seeds.second), 2) << text;
+    EXPECT_LE(seeds.first, seeds.second);
+  }
   return seeds;
 }
 

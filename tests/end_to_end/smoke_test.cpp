@@ -11,7 +11,7 @@
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "tests/support/flown.hpp"
+#include "tests/support/flown_into.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/run_files/iterations_csv.hpp"
 #include "tools/run_files/run_directory.hpp"
@@ -111,35 +111,20 @@ TEST(SmokeMission, TheIdealVehicleFliesExactlyThePlannedLegs) {
   EXPECT_NEAR(ideal.result.distance.flown_m, ideal.result.distance.straight_m, 1e-6);
 }
 
-/// Flies smoke into `folder`, asked to stop after some views of its own.
-MissionResult fly_into(const fs::path& folder, bool resume, std::size_t stop_after) {
-  const Scenario scenario = smoke();
-  RunDirectory directory(folder, scenario, resume);
-  std::size_t views = 0;
-  MissionHooks hooks;
-  hooks.on_view = [&](const ViewRecord& view) {
-    directory.append(view);
-    ++views;
-  };
-  hooks.should_stop = [&] { return views >= stop_after; };
-  hooks.replay = directory.recorded();
-  return Flown(scenario, hooks).result;
-}
-
 TEST(ResumedMission, EqualsTheUninterruptedOne) {
   TempFolder temp;
   const fs::path folder = temp.path() / "run";
   // the first one is "killed": its journal is all that it leaves behind
-  EXPECT_EQ(fly_into(folder, false, 5).termination, Termination::interrupted);
+  EXPECT_EQ(fly_into(folder, smoke(), false, 5).termination, Termination::interrupted);
   EXPECT_EQ(read_decisions(folder / "iterations.csv.part").size(), 5U);
-  EXPECT_EQ(result_sha256(fly_into(folder, true, 1000)), result_sha256(smoke_flight().result));
+  EXPECT_EQ(result_sha256(fly_into(folder, smoke(), true)), result_sha256(smoke_flight().result));
 }
 
 TEST(ResumedMission, LosesNoRecordedViewWhenItIsStoppedEarly) {
   TempFolder temp;
   const fs::path folder = temp.path() / "run";
-  fly_into(folder, false, 5);
-  EXPECT_EQ(fly_into(folder, true, 2).views.size(), 5U);
+  fly_into(folder, smoke(), false, 5);
+  EXPECT_EQ(fly_into(folder, smoke(), true, 2).views.size(), 5U);
   EXPECT_EQ(read_decisions(folder / "iterations.csv.part").size(), 5U);
 }
 

@@ -1,5 +1,7 @@
-// Missions of the tour: one result however they are flown, an end of their own, and more for less.
+// Missions of the tour: one result however they are flown, and an end of their own.
 #include <gtest/gtest.h>
+
+#include <set>
 
 #include "planner/map/clearance.hpp"
 #include "tests/support/flown.hpp"
@@ -25,6 +27,38 @@ TEST(TourMission, IsTheSameAtAnyNumberOfThreadsAndResumed) {
     }
     EXPECT_EQ(result_sha256(Flown(scenario, resumed).result), hash) << "after view " << views;
   }
+}
+
+TEST(TourMission, IsTheSameInAWorldWithAGimbalAndLostFrames) {
+  const Scenario scenario =
+      tour({"planner.termination.max_iterations=7", "cameras.0.drop_probability=0.3",
+            "cameras.0.pitch_deg={min: 0, max: 30, step: 30}", "wind.mean_m_s=[2, 1, 0]",
+            "no_fly=[{min: [2.2, -1, 0], max: [4, 1, 5]}]",
+            "obstacles=[{box_m: {min: [-2.6, 1.5, 0], max: [-2, 2.1, 1]}}]"});
+  const Flown whole(scenario, {}, 1);
+  ASSERT_GE(whole.result.views.size(), 5U) << name_of(whole.result.termination);
+  MissionHooks resumed;
+  for (std::size_t i = 0; i < 4; ++i) {
+    resumed.replay.push_back(whole.result.views[i].decision);
+  }
+  EXPECT_EQ(result_sha256(Flown(scenario, resumed).result), result_sha256(whole.result));
+  const NoFly no_fly = no_fly_of(scenario);
+  std::set<double> pitches_rad;
+  for (const ViewRecord& view : whole.result.views) {
+    EXPECT_TRUE(no_fly.allows(view.decision.view.p_world_m));
+    pitches_rad.insert(view.decision.view.gimbal_pitch_rad);
+  }
+  EXPECT_GT(pitches_rad.size(), 1U);
+}
+
+TEST(TourMission, ARecordOfOtherViewsIsNotResumed) {
+  const Scenario scenario = tour({"planner.termination.max_iterations=4"});
+  MissionHooks resumed;
+  for (const ViewRecord& view : Flown(scenario).result.views) {
+    resumed.replay.push_back(view.decision);
+  }
+  resumed.replay[2].view.yaw_rad += 0.5;
+  EXPECT_THROW(Flown(scenario, resumed), BadInput);
 }
 
 TEST(TourMission, EndsByItselfWithoutACollisionAndSaysWhatItsViewsBrought) {
@@ -74,7 +108,7 @@ TEST(TourMission, EachSwitchChangesTheTour) {
   const std::string hash = result_sha256(Flown(tour(few)).result);
   for (const char* change : {"planner.tour.visibility=rays", "planner.tour.search=greedy",
                              "planner.tour.price_per_m=0.005", "planner.tour.metres_per_view=3",
-                             "planner.tour.yaw_step_deg=90"}) {
+                             "planner.tour.yaw_step_deg=90", "planner.tour.success=fixed"}) {
     std::vector<std::string> overrides = few;
     overrides.emplace_back(change);
     EXPECT_NE(result_sha256(Flown(tour(overrides)).result), hash) << change;

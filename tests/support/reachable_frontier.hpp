@@ -1,5 +1,6 @@
 // Whether a frontier can still be reached, found out by brute force: an oracle for where missions
 // end.
+// For missions without no_fly boxes and gimbals.
 #pragma once
 
 #include <array>

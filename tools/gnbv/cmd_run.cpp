@@ -34,8 +34,13 @@ void need_route(const RunOptions& options, const Scenario& scenario) {
   if (options.mission.coverage && !options.mission.piped_views) {
     throw BadInput("--coverage: tells it to whoever sends views: --views -");
   }
-  if (options.scenario.views.empty() || is_given_route(utility)) return;
-  throw BadInput(fmt::format("--views {}: goes with --utility {}, not {}", options.scenario.views,
+  if (options.mission.piped_views && options.json) {
+    throw BadInput("--json: with --views -, stdout belongs to whoever sends views");
+  }
+  const bool has_views = options.mission.piped_views || !options.scenario.views.empty();
+  if (!has_views || is_given_route(utility)) return;
+  throw BadInput(fmt::format("--views {}: goes with --utility {}, not {}",
+                             options.mission.piped_views ? "-" : options.scenario.views,
                              kGivenRouteName, utility));
 }
 
@@ -44,17 +49,28 @@ void set_views(const std::string& file, RunOptions& options) {
   options.scenario.views = file == "-" ? "" : file;
 }
 
-/// What a mission flies in spite of: keys that do nothing, and what lint warns of in a mesh. What
-/// its reader left out is said when the mission loads it.
-void say_doubts(const Scenario& scenario, const std::vector<std::string>& idle_notes) {
-  for (const std::string& note : idle_notes) fmt::print(stderr, "gnbv: {}\n", note);
-  if (scenario.structure.file.path.empty()) return;
-  const MeshReport report = report_on_mesh(scenario, false, thread_count(0));
+/// What lint warns of in one mesh of the structure.
+void say_warnings(const Scenario& scenario, const MeshFileConfig& file) {
+  Scenario alone = scenario;
+  alone.structure.file = file;
+  alone.structure.files.clear();
+  const MeshReport report = report_on_mesh(alone, false, thread_count(0));
   for (const Finding& finding : report.findings) {
     if (finding.severity < Severity::warning || finding.check == "file") continue;
     fmt::print(stderr, "gnbv: {}: {}: {}{}\n", report.path, finding.check, finding.what,
                finding.fix.empty() ? "" : fmt::format("; fix: {}", finding.fix));
   }
+}
+
+/// What a mission flies in spite of: keys that do nothing, and what lint warns of in a mesh. What
+/// its reader left out is said when the mission loads it.
+void say_doubts(const Scenario& scenario, const std::vector<std::string>& idle_notes) {
+  for (const std::string& note : idle_notes) fmt::print(stderr, "gnbv: {}\n", note);
+  std::vector<MeshFileConfig> files = scenario.structure.files;
+  if (!scenario.structure.file.path.empty()) {
+    files.insert(files.begin(), scenario.structure.file);
+  }
+  for (const MeshFileConfig& file : files) say_warnings(scenario, file);
 }
 
 void run(const RunOptions& options) {
@@ -75,7 +91,8 @@ void run(const RunOptions& options) {
   if (const std::string note = refused_views_note(mission.result); !note.empty()) {
     fmt::print(stderr, "gnbv: {}", note);
   }
-  if (const std::string note = early_end_note(mission.result, mission.score.final[0]);
+  if (const std::string note =
+          early_end_note(mission.result, mission.score.final[0], scenario.planner.utility.name);
       !note.empty()) {
     fmt::print(stderr, "gnbv: {}", note);
   }

@@ -149,6 +149,9 @@ Scored score_folder(const ScoreOptions& options, int threads) {
 /// Throws BadInput for what is no box, or no list of sizes that a scenario would take.
 ScoreWish wish_of(const ScoreOptions& options) {
   ScoreWish wish = options.wish;
+  if (wish.sizes_m.size() > 16) {
+    throw BadInput(fmt::format("--resolution: {} sizes; at most 16", wish.sizes_m.size()));
+  }
   for (std::size_t i = 0; i < wish.sizes_m.size(); ++i) {
     const double size_m = wish.sizes_m[i];
     if (!(size_m >= 0.01 && size_m <= 10.0)) {

@@ -13,6 +13,7 @@
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/mission/load_world.hpp"
+#include "tools/mission/reference.hpp"
 #include "tools/surface/surface.hpp"
 #include "tools/surface/surface_picture.hpp"
 #include "tools/surface/surface_score.hpp"
@@ -116,10 +117,7 @@ void surface(const SurfaceOptions& options) {
     const TexturedMesh mesh = reconstruct_surface(record, settings, threads, progress, notes);
     progress(0.9, "scoring");
     if (truth) {
-      score = score_surface(mesh.shape, *truth,
-                            {.floor_z_m = record.scenario.planner.floor_z_m,
-                             .region_m = record.scenario.score.region_m},
-                            threads);
+      score = score_surface(mesh.shape, *truth, reference_config(record.scenario), threads);
     }
     progress(0.95, "writing");
     paths = write_all(mesh, score, folder);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "planner/routes.hpp"
 #include "sim/core/counted.hpp"
 
 namespace gnbv {
@@ -72,6 +73,7 @@ std::string of_no_valid_view(const std::map<Rejection, int>& rejections) {
   std::stable_sort(by_count.begin(), by_count.end(),
                    [](const auto& a, const auto& b) { return a.second > b.second; });
   for (const auto& [reason, count] : by_count) all += count;
+  if (all == 0) return "no view was sampled; what helps: planner.fvs.enabled: true\n";
   std::string text = fmt::format("none of {} views that were tried will do:\n", all);
   for (const auto& [reason, count] : by_count) {
     text += fmt::format("  {:5} {}\n", count, meaning_of(reason));
@@ -98,10 +100,11 @@ std::string refused_views_note(const MissionResult& result) {
   return text;
 }
 
-std::string early_end_note(const MissionResult& result, double coverage) {
+std::string early_end_note(const MissionResult& result, double coverage, std::string_view utility) {
   const std::size_t views = result.views.size();
-  const bool has_route = result.termination == Termination::no_valid_view &&
-                         result.last_rejections.empty();  // and flew all of it
+  // of a laid route no view that could be flown to is left: it was flown
+  const bool has_route = result.termination == Termination::no_valid_view && is_route(utility) &&
+                         result.last_rejections.empty();
   if (views >= kFewViews || coverage >= kExplored || has_route) return "";
   const std::string after = fmt::format(
       "the mission ended after {} view{}, before it explored: ", views, views == 1 ? "" : "s");

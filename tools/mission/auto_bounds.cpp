@@ -94,9 +94,9 @@ Vec3 start_on_south_face(const Scenario& scenario, const StructureExtent& struct
                               middle_m.z() + k * step_m.z())
                              .cwiseMax(navigation_m.min())
                              .cwiseMin(navigation_m.max());
+        if (!is_room && !is_room_at(scenario, structure, p_m)) continue;
         const std::size_t seen = in_view(views, p_m, structure.surface_world_m);
-        if (is_room && seen <= most) continue;
-        if (!is_room_at(scenario, structure, p_m)) continue;
+        if (is_room && (seen <= most || !is_room_at(scenario, structure, p_m))) continue;
         most = seen;
         best_m = p_m;
         is_room = true;

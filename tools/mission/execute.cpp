@@ -48,13 +48,9 @@ void need_saved_profile(const Scenario& scenario) {
               PlannerModel(scenario.planner, scenario.workspace_m, camera_models(scenario), {}));
 }
 
-/// Given views go with the utility `route`, and it with them.
+/// Who flies given views needs some.
 void need_views(const Scenario& scenario, bool are_piped) {
   const std::string& utility = scenario.planner.utility.name;
-  if (are_piped && !is_given_route(utility)) {
-    throw BadInput(
-        fmt::format("--views -: goes with --utility {}, not {}", kGivenRouteName, utility));
-  }
   if (are_piped || !is_given_route(utility) || !scenario.planner.routes.views.empty()) return;
   throw BadInput(fmt::format(
       "planner.routes.views: holds no view, and planner.utility.name = {} flies what it holds; "
@@ -107,6 +103,7 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
   if (options.resume && options.out.empty()) {
     throw BadInput("--resume: needs --out, the run directory to continue");
   }
+  need_views(scenario, options.piped_views);
   const int threads = thread_count(options.threads);
   need_memory_for(scenario, threads);
   // all that can be wrong with the input is found before the first file is written
@@ -116,7 +113,6 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
   const RayScene scene(world);
   need_way_out(scenario, scene, bounds_m(world.structure), start_pose(scenario, scene), threads);
   need_saved_profile(scenario);
-  need_views(scenario, options.piped_views);
   if (scenario.planner.symmetry.enabled) symmetry_module();  // throws when it is missing
   const fs::path folder =
       options.out.empty() ? free_folder(fmt::format("{}-{}-seed{}", scenario.name,

@@ -34,14 +34,6 @@ bool hears_another(Mission& m) {
   return view.has_value();
 }
 
-void need_as_recorded(const Mission& m, const std::optional<Decision>& now, std::size_t iteration) {
-  if (now && is_same_view(now->view, m.hooks.replay[iteration].view)) return;
-  throw BadInput(fmt::format(
-      "view {}: the given views lead to another one than was recorded: another version of the "
-      "program or another mesh made this run; fly it anew",
-      iteration));
-}
-
 }  // namespace
 
 bool flies_given(const Mission& m) { return is_given_route(m.scenario.planner.utility.name); }

@@ -14,12 +14,11 @@ constexpr double kNoLeg_m = 0.01;
 
 bool has_battery(const Mission& m) { return m.scenario.vehicle.power.battery_wh > 0.0; }
 
-/// Up to the top of the workspace, across, and down: as after the profile.
+/// As after the profile.
 std::vector<Vec3> over_the_top(const Mission& m, const Vec3& from_world_m) {
   const Vec3& home_m = m.out.start.p_world_m;
   if ((home_m - from_world_m).norm() < m.scenario.guidance.arrival_distance_m) return {home_m};
-  const double top_z_m = m.planner.navigation_m.max().z();
-  return {{from_world_m.x(), from_world_m.y(), top_z_m}, {home_m.x(), home_m.y(), top_z_m}, home_m};
+  return way_over_the_top(m, from_world_m, home_m);
 }
 
 /// Back through all views to the first one, which is home.
@@ -38,7 +37,7 @@ std::vector<Vec3> as_it_came(const Mission& m) {
 std::optional<std::vector<Vec3>> found_way(const Mission& m, const Vec3& from_world_m) {
   const Vec3& home_m = m.out.start.p_world_m;
   auto way_m = find_path(kSearch, m.out.belief.grid, m.planner.navigation_m, from_world_m, home_m,
-                         m.planner.config.validity.collision_radius_m);
+                         m.planner.config.validity.collision_radius_m, m.planner.no_fly);
   if (way_m) way_m->push_back(home_m);
   return way_m;
 }
@@ -82,6 +81,30 @@ BestWay best_way_home(const Mission& m, const Vec3& from_world_m) {
   return *std::min_element(ways.begin(), ways.end(), [](const BestWay& a, const BestWay& b) {
     return a.energy_wh < b.energy_wh;
   });
+}
+
+/// The points, then the exit's place and its way.
+std::vector<Vec3> joined(std::vector<Vec3> points_m, const Exit& exit) {
+  points_m.push_back(exit.p_world_m);
+  points_m.insert(points_m.end(), exit.way_world_m.begin(), exit.way_world_m.end());
+  return points_m;
+}
+
+/// Between two exits: at each point of the way the cheaper of back to the one and on to the other.
+std::vector<Exit> corners_between(const Mission& m, const Exit& here, std::span<const Vec3> via_m,
+                                  const Exit& there) {
+  std::vector<Exit> corners = {here};
+  for (std::size_t i = 0; i < via_m.size(); ++i) {
+    std::vector<Vec3> back_m(via_m.begin(), via_m.begin() + static_cast<std::ptrdiff_t>(i));
+    std::reverse(back_m.begin(), back_m.end());
+    back_m = joined(std::move(back_m), here);
+    std::vector<Vec3> on_m =
+        joined({via_m.begin() + static_cast<std::ptrdiff_t>(i) + 1, via_m.end()}, there);
+    const bool is_back = energy_along_wh(m, via_m[i], back_m) <= energy_along_wh(m, via_m[i], on_m);
+    corners.push_back({via_m[i], is_back ? std::move(back_m) : std::move(on_m)});
+  }
+  corners.push_back(there);
+  return corners;
 }
 
 /// What coming home with `way_wh` and landing there would leave, beside the reserve.
@@ -137,17 +160,14 @@ bool can_afford(Mission& m, const Decision& next) {
   if (auto way_m = found_way(m, there.p_world_m)) {
     there.way_world_m = std::move(*way_m);
   } else {  // back to here, and on
-    there.way_world_m.assign(next.via_world_m.rbegin(), next.via_world_m.rend());
-    there.way_world_m.push_back(here.p_world_m);
-    there.way_world_m.insert(there.way_world_m.end(), here.way_world_m.begin(),
-                             here.way_world_m.end());
+    there.way_world_m = joined({next.via_world_m.rbegin(), next.via_world_m.rend()}, here);
   }
   std::vector<Vec3> all_m = next.via_world_m;
   all_m.push_back(there.p_world_m);
   all_m.insert(all_m.end(), there.way_world_m.begin(), there.way_world_m.end());
   const double way_wh = measured_excess(m) * energy_along_wh(m, here.p_world_m, all_m);
   if (has_battery(m) && !is_enough(m, way_wh)) return false;
-  m.exits.push_back(std::move(there));
+  m.corners = corners_between(m, here, next.via_world_m, there);
   return true;
 }
 
@@ -170,7 +190,8 @@ void fly_home(Mission& m) {
   }
   home.reached = (believed_p_world_m(m) - m.out.start.p_world_m).norm() <
                  m.scenario.planner.validity.collision_radius_m;
-  const bool may_land = m.scenario.structure.ground && !m.flight->has_collided();
+  const bool has_ground = m.scenario.structure.ground || !m.scenario.terrain.path.empty();
+  const bool may_land = has_ground && !m.flight->has_collided();
   if (may_land) home.landed = land(m);
   home.flown_m = m.flown_m - flown_before_m;
   m.out.home = home;

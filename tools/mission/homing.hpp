@@ -15,8 +15,8 @@ bool has_energy_to_go_on(const Mission& m);
 /// else as it came. None for a mission that does not end at home.
 std::vector<Exit> exits_here(const Mission& m);
 
-/// Whether the view can be flown to and the vehicle come home from there; if so, the exits at both
-/// ends of the way are kept. Always, when there is no battery or no way home to think of.
+/// Whether the view can be flown to and the vehicle come home from there; if so, the exits at all
+/// corners of the way are kept. Always, when there is no battery or no way home to think of.
 bool can_afford(Mission& m, const Decision& next);
 
 /// Whether a mission that is over for this reason is still to come home: not one that has collided
@@ -24,7 +24,8 @@ bool can_afford(Mission& m, const Decision& next);
 bool ends_at_home(const Mission& m, Termination reason);
 
 /// Flies home by the shortest way known and lands there; lands where it is when no more than that
-/// is left. Notes how it went, and a collision as the mission's end.
+/// is left. Notes how it went, and a collision as the mission's end. The energy of a landing is
+/// that down to z = 0, which over a terrain below is too little.
 void fly_home(Mission& m);
 
 }  // namespace gnbv

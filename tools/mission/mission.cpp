@@ -68,8 +68,11 @@ std::optional<Termination> fly_to_view(Mission& m, const Decision& next) {
   legs.push_back(next.view);
   const double speed_m_s = m.scenario.guidance.path_speed_m_s;
   std::optional<Termination> over;
-  for (std::size_t i = 0; i < legs.size() && !over; ++i)
+  for (std::size_t i = 0; i < legs.size() && !over; ++i) {
+    // no nearer to home than the ends of the leg at hand: what lies beside it may be in the way
+    if (!m.corners.empty()) m.exits = {m.corners[i], m.corners[i + 1]};
     over = fly_leg(m, legs[i], speed_m_s, look);
+  }
   while (!over && m.gimbal_pitch_rad != next.view.gimbal_pitch_rad) {
     over = fly_leg(m, next.view, speed_m_s, look);
   }
@@ -126,6 +129,7 @@ void record(Mission& m, const Decision& decision) {
   m.hooks.on_view(m.out.views.back());
   m.hooks.on_view_belief(belief);
   m.exits = exits_here(m);
+  m.corners.clear();
 }
 
 std::optional<Termination> termination(const Mission& m) {
@@ -166,7 +170,10 @@ std::optional<Decision> decide_tour(Mission& m, std::size_t next) {
   for (const LookOutcome& look : m.tour->outcomes()) {
     m.out.look_outcomes.push_back({next - 1, look});
   }
-  if (next < m.hooks.replay.size()) return m.hooks.replay[next];
+  if (next < m.hooks.replay.size()) {
+    need_as_recorded(m, plan.next, next);
+    return m.hooks.replay[next];
+  }
   return chosen_of(m, next, std::move(plan));
 }
 

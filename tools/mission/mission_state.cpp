@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "planner/map/clearance.hpp"
+#include "sim/core/error.hpp"
 #include "sim/flight/guidance.hpp"
 #include "tools/mission/homing.hpp"
 #include "tools/mission/start_pose.hpp"
@@ -13,13 +15,6 @@ std::vector<LidarModel> lidar_models(const Scenario& scenario) {
   std::vector<LidarModel> models;
   for (const LidarConfig& lidar : scenario.lidars) models.push_back(make_lidar_model(lidar));
   return models;
-}
-
-double distance_to_segment_m(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 along = b - a;
-  const double length2 = along.squaredNorm();
-  const double share = length2 > 0.0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
-  return (p - a - share * along).norm();
 }
 
 /// Believed to be where no leg leads, and no vehicle that is in command of itself comes to.
@@ -73,6 +68,34 @@ void keep_track(Mission& m) {
   m.flown_m += (T.translation() - m.last_p_world_m).norm();
   m.last_p_world_m = T.translation();
   if (m.flight->tick() % kTicksPerSample == 0) m.out.trajectory.push_back({time_s(*m.flight), T});
+}
+
+std::vector<Vec3> way_over_the_top(const Mission& m, const Vec3& from_m, const Vec3& goal_m) {
+  const NoFly& no_fly = m.planner.no_fly;
+  const Box3& box_m = m.planner.navigation_m;
+  const Vec3 up_m(from_m.x(), from_m.y(), box_m.max().z());
+  const Vec3 across_m(goal_m.x(), goal_m.y(), box_m.max().z());
+  if (no_fly.allows_leg(from_m, up_m) && no_fly.allows_leg(up_m, across_m) &&
+      no_fly.allows_leg(across_m, goal_m)) {
+    return {up_m, across_m, goal_m};
+  }
+  const auto is_clear = [&](const Vec3& a_m, const Vec3& b_m) {
+    return is_path_clear(m.out.belief.grid, a_m, b_m, m.planner.config.validity.collision_radius_m);
+  };
+  auto way_m = way_around(no_fly, box_m, from_m, goal_m, is_clear);
+  // it came from there: but for drift there is a way, if perhaps not one that is known to be clear
+  if (!way_m) way_m = way_around(no_fly, box_m, from_m, goal_m);
+  if (!way_m) way_m.emplace();
+  way_m->push_back(goal_m);
+  return *std::move(way_m);
+}
+
+void need_as_recorded(const Mission& m, const std::optional<Decision>& now, std::size_t iteration) {
+  if (now && is_same_view(now->view, m.hooks.replay[iteration].view)) return;
+  throw BadInput(fmt::format(
+      "view {}: what is decided anew is another view than was recorded: another version of the "
+      "program or another mesh made this run; fly it anew",
+      iteration));
 }
 
 std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal, double speed_m_s,

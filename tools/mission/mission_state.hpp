@@ -44,6 +44,7 @@ struct Mission {
   double gimbal_pitch_rad = 0.0;                    // where it is
   double flown_m = 0.0;                             // truth, since the start
   std::vector<Exit> exits;                          // none: home leads over the top
+  std::vector<Exit> corners;                        // of the way to the next view, ends included
   bool is_homing = false;                           // on the last way, with energy for it
   double entropy_before_nat = 0.0;                  // of the view at hand
   WallTimes view_wall;                              // of the view at hand
@@ -56,6 +57,14 @@ bool should_stop(const Mission& m);
 
 /// After each tick: keeps the true track.
 void keep_track(Mission& m);
+
+/// The points from one place to another, the goal last: up to the top of the workspace, across and
+/// down; or, where nobody may fly there, around what forbids it.
+std::vector<Vec3> way_over_the_top(const Mission& m, const Vec3& from_m, const Vec3& goal_m);
+
+/// Refuses a decision that is another than the recorded one of a resumed mission: another program
+/// or another mesh made the record. Throws BadInput naming the view.
+void need_as_recorded(const Mission& m, const std::optional<Decision>& now, std::size_t iteration);
 
 /// Flies one leg and keeps its track; `on_tick` runs after each tick.
 std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal, double speed_m_s,

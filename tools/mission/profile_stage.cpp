@@ -68,33 +68,26 @@ void predict(Mission& m) {
 }
 
 /// Back to where the views begin: straight when that is clear, else over the top of the workspace,
-/// or, where nobody may fly there, around what forbids it.
+/// or around what nobody may fly in.
 std::vector<ViewPose> legs_to_first_view(const Mission& m) {
   const ViewPose& goal = m.out.start;
-  const NoFly& no_fly = m.planner.no_fly;
-  const auto is_clear = [&](const Vec3& from_m, const Vec3& to_m) {
-    return is_path_clear(m.out.belief.grid, from_m, to_m,
-                         m.planner.config.validity.collision_radius_m);
-  };
   const Vec3& from_m = m.current.p_world_m;
-  if (is_clear(from_m, goal.p_world_m) && no_fly.allows_leg(from_m, goal.p_world_m)) return {goal};
-  const double top_z_m = m.planner.navigation_m.max().z();
-  ViewPose climb = m.current;
-  climb.p_world_m.z() = top_z_m;
-  ViewPose across = goal;
-  across.p_world_m.z() = top_z_m;
-  if (no_fly.allows_leg(from_m, climb.p_world_m) &&
-      no_fly.allows_leg(climb.p_world_m, across.p_world_m) &&
-      no_fly.allows_leg(across.p_world_m, goal.p_world_m)) {
-    return {climb, across, goal};
+  if (is_path_clear(m.out.belief.grid, from_m, goal.p_world_m,
+                    m.planner.config.validity.collision_radius_m) &&
+      m.planner.no_fly.allows_leg(from_m, goal.p_world_m)) {
+    return {goal};
   }
-  const Box3& box_m = m.planner.navigation_m;
-  auto via_m = way_around(no_fly, box_m, from_m, goal.p_world_m, is_clear);
-  // it came from there: but for drift there is a way, if perhaps not one that is known to be clear
-  if (!via_m) via_m = way_around(no_fly, box_m, from_m, goal.p_world_m);
   std::vector<ViewPose> legs;
-  for (const Vec3& p_m : via_m.value_or(std::vector<Vec3>{})) legs.push_back({p_m, goal.yaw_rad});
-  legs.push_back(goal);
+  for (const Vec3& p_m : way_over_the_top(m, from_m, goal.p_world_m)) {
+    legs.push_back(goal);
+    legs.back().p_world_m = p_m;
+  }
+  // straight up, without a turn
+  if (legs.front().p_world_m.head<2>() == from_m.head<2>()) {
+    const Vec3 up_m = legs.front().p_world_m;
+    legs.front() = m.current;
+    legs.front().p_world_m = up_m;
+  }
   return legs;
 }
 

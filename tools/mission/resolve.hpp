@@ -19,14 +19,15 @@ struct ScenarioOptions {
   std::string preset;                  // "" keeps the scenario's
   std::string seed;                    // "" keeps the scenario's
   std::vector<std::string> overrides;  // --set key=value, in order
-  std::string views;                   // a file of body poses to fly; "" keeps the scenario\'s
+  std::string views;                   // a file of body poses to fly; "" keeps the scenario's
   bool bounds_auto = false;            // lay the workspace and the start around the structure
 };
 
 /// Of the scenario's structure; throws BadInput when the structure cannot be had.
 StructureExtent structure_extent(const Scenario& scenario);
 
-/// The scenario with the options applied: --mesh, --utility, --preset, --seed, then --set, then
+/// The scenario with the options applied: --mesh, --utility, --preset, --seed, --views, then --set,
+/// then
 /// --bounds auto, which leaves alone what --set gave.
 Scenario resolve_scenario(const ScenarioOptions& options);
 /// The same; `idle_notes` gets a sentence for each key that was given and has no effect.

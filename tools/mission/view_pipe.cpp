@@ -51,8 +51,10 @@ void ViewPipe::connect(MissionHooks& hooks) {
   hooks.on_refused = [this](std::size_t index, Rejection reason) { tell_refused(index, reason); };
   hooks.on_sensed = [this](const Isometry& T_world_body, std::span<const DepthFrame> frames) {
     T_world_body_ = T_world_body;
-    T_world_camera_.clear();
-    for (const DepthFrame& frame : frames) T_world_camera_.push_back(frame.T_world_camera);
+    frames_.clear();
+    for (const DepthFrame& frame : frames) {
+      frames_.push_back({static_cast<std::size_t>(frame.camera), frame.T_world_camera});
+    }
   };
   hooks.on_view = [this, before = hooks.on_view](const ViewRecord& view) {
     before(view);
@@ -99,10 +101,10 @@ void ViewPipe::tell_taken(const Belief& belief) {
   add_pose(T_world_body_, answer);
   answer["yaw_deg"] = rad_to_deg(yaw_of(T_world_body_));
   Json cameras = Json::array();
-  for (std::size_t i = 0; i < T_world_camera_.size(); ++i) {
-    const std::string& name = scenario_.cameras[i].name;
+  for (const TakenFrame& frame : frames_) {
+    const std::string& name = scenario_.cameras[frame.camera].name;
     Json camera = {{"name", name}};
-    add_pose(T_world_camera_[i], camera);
+    add_pose(frame.T_world_camera, camera);
     if (keeps_frames_) {
       const auto stem = directory_.path() / kFramesFolder /
                         frame_stem(static_cast<std::size_t>(view_.iteration), name);

@@ -43,7 +43,11 @@ class ViewPipe {
   std::size_t answered_ = 0;  // every given view is, in its order
   // of the view at hand
   Isometry T_world_body_ = Isometry::Identity();
-  std::vector<Isometry> T_world_camera_;
+  struct TakenFrame {
+    std::size_t camera = 0;  // of the scenario
+    Isometry T_world_camera = Isometry::Identity();
+  };
+  std::vector<TakenFrame> frames_;  // of the view at hand, without those that were lost
   ViewRecord view_;
   std::size_t points_before_ = 0;
 };

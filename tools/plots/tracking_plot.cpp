@@ -55,11 +55,8 @@ std::string tracking_title(const RunRecord& record) {
 double distance_to_way_m(const Vec3& p_world_m, std::span<const Vec3> way_world_m) {
   double least_m = (p_world_m - way_world_m.front()).norm();
   for (std::size_t i = 1; i < way_world_m.size(); ++i) {
-    const Vec3 leg_m = way_world_m[i] - way_world_m[i - 1];
-    const Vec3 from_m = p_world_m - way_world_m[i - 1];
-    const double length2 = leg_m.squaredNorm();
-    const double share = length2 > 0.0 ? std::clamp(from_m.dot(leg_m) / length2, 0.0, 1.0) : 0.0;
-    least_m = std::min(least_m, (from_m - share * leg_m).norm());
+    least_m =
+        std::min(least_m, distance_to_segment_m(p_world_m, way_world_m[i - 1], way_world_m[i]));
   }
   return least_m;
 }

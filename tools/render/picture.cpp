@@ -49,7 +49,7 @@ void add_in_one_colour(const TriangleMesh& mesh, const Rgb& colour, float opacit
 
 void add_ground(RunSource& run, RenderScene& scene) {
   if (has_flat_ground(run.record().scenario)) scene.ground = GroundItem{};
-  if (run.record().scenario.terrain.path.empty()) return;
+  if (run.world().terrain.faces.empty()) return;
   add_in_one_colour(run.world().terrain, kTerrainColour, 1.0F, scene);
   scene.surfaces.back().casts_shadow = false;
 }

@@ -5,6 +5,7 @@
 
 #include "sim/core/error.hpp"
 #include "tools/mission/load_world.hpp"
+#include "tools/mission/reference.hpp"
 #include "tools/run_files/candidates_jsonl.hpp"
 
 namespace gnbv {
@@ -51,10 +52,8 @@ const RunCloud& RunSource::cloud() {
 const SurfaceReference& RunSource::reference() {
   if (!reference_) {
     on_progress_(0.0, "true surface");
-    reference_ = cached_surface_reference(world(), scene(),
-                                          {.floor_z_m = record_.scenario.planner.floor_z_m,
-                                           .region_m = record_.scenario.score.region_m},
-                                          threads_);
+    reference_ =
+        cached_surface_reference(world(), scene(), reference_config(record_.scenario), threads_);
   }
   return *reference_;
 }

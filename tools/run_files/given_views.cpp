@@ -96,7 +96,12 @@ std::optional<ViewPose> ViewLines::read(std::string_view line) {
   if (!is_header) {
     columns_ = kTumColumns;
     form_ = Form::tum;
-    return read_row(row);
+    try {
+      return read_row(row);
+    } catch (const BadInput&) {
+      form_ = Form::unknown;  // a first line that is no view says nothing of those to come
+      throw;
+    }
   }
   columns_ = cells_of(row, true);
   need_columns(columns_, {source_, line_});

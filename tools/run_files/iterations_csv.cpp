@@ -131,12 +131,14 @@ std::string header_text(Columns columns) {
   return names.text;
 }
 
-ViewRecord record_of(std::string_view row, Columns columns, int iteration, const TextPlace& place) {
-  const auto count = [](std::string_view text) {
-    return 1 + std::count(text.begin(), text.end(), ',');
-  };
-  const auto expected = count(header_text(columns));
-  if (count(row) != expected) {
+std::ptrdiff_t cells_in(std::string_view row) {
+  return 1 + std::count(row.begin(), row.end(), ',');
+}
+
+/// `expected`: cells of the header.
+ViewRecord record_of(std::string_view row, Columns columns, std::ptrdiff_t expected, int iteration,
+                     const TextPlace& place) {
+  if (cells_in(row) != expected) {
     throw BadInput(fmt::format("{}: '{}' must have {} columns", to_string(place), row, expected));
   }
   ViewRecord view;
@@ -186,14 +188,16 @@ std::vector<ViewRecord> read_view_records(const std::filesystem::path& csv) {
   std::string_view rest(text.data(), text.rfind('\n') + 1);  // npos + 1: none
   std::vector<ViewRecord> views;
   Columns columns = Columns::usual;
+  std::ptrdiff_t cells = 0;
   for (int line = 1; !rest.empty(); ++line) {
     const std::string_view row = next_part(rest, '\n');
     const TextPlace place{csv, line};
     if (line > 1) {
-      views.push_back(record_of(row, columns, line - 2, place));
+      views.push_back(record_of(row, columns, cells, line - 2, place));
       continue;
     }
     if (row == header_text(Columns::with_gimbal)) columns = Columns::with_gimbal;
+    cells = cells_in(row);
     need_header(row, header_text(columns), place,
                 fmt::format(": of another version, and {} flies its mission again",
                             command_to_fly_again(csv.parent_path())));

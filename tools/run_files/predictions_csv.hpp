@@ -1,5 +1,5 @@
-// predictions.csv: what each view of a tour promised and what it brought, by kind of look. How
-// anybody can see where a tour's metres go.
+// predictions.csv: what each view of a tour but the last promised and what it brought, by kind of
+// look. How anybody can see where a tour's metres go.
 #pragma once
 
 #include <span>

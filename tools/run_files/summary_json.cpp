@@ -88,7 +88,7 @@ class SummaryReader {
   std::array<double, 3> by_size(const std::string& pointer) const {
     return {number(pointer + "/0.05"), number(pointer + "/0.10"), number(pointer + "/0.50")};
   }
-  /// At the sizes that stand in /coverage/final beside the paper's.
+  /// At the sizes that coverage.csv's header names beside the paper's.
   std::vector<SizedCoverage> more_sizes(const CoverageFile& file) const {
     std::vector<SizedCoverage> more;
     for (std::size_t i = 0; i < file.more_names.size(); ++i) {

@@ -90,27 +90,5 @@ TEST(Tour, ImprovedNoReversalAndNoMoveOfOneStopHelps) {
   }
 }
 
-TEST(Insertion, IsTheCheapestOfAllPlaces) {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const Distances distances_m = random_distances(seed, 9);
-    const std::vector<std::size_t> tour = in_order(8);
-    const std::vector<double> to_m(distances_m[8].begin(), distances_m[8].end() - 1);
-    std::vector<double> leg_m;
-    for (std::size_t i = 1; i < tour.size(); ++i) leg_m.push_back(distances_m[i - 1][i]);
-    const Insertion found = cheapest_insertion(to_m, leg_m);
-    double best_m = 1e9;
-    for (std::size_t at = 1; at <= tour.size(); ++at) {
-      std::vector<std::size_t> longer = tour;
-      longer.insert(longer.begin() + static_cast<std::ptrdiff_t>(at), 8);
-      const double extra_m = tour_length_m(distances_m, longer) - tour_length_m(distances_m, tour);
-      best_m = std::min(best_m, extra_m);
-      if (at == found.at) {
-        EXPECT_NEAR(extra_m, found.extra_m, 1e-9);
-      }
-    }
-    EXPECT_NEAR(found.extra_m, best_m, 1e-9);
-  }
-}
-
 }  // namespace
 }  // namespace gnbv

@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "tests/support/flown.hpp"
+#include "tests/support/flown_into.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/run_files/iterations_csv.hpp"
 #include "tools/run_files/run_directory.hpp"
@@ -96,25 +96,14 @@ TEST(GimbalMission, ChoosesPitchesTheSameAtAnyNumberOfThreads) {
 TEST(GimbalMission, ResumedEqualsTheUninterruptedOne) {
   TempFolder temp;
   const Scenario scenario = planned();
-  const auto fly = [&](std::size_t stop_after, bool resume) {
-    RunDirectory directory(temp.path() / "run", scenario, resume);
-    std::size_t views = 0;
-    MissionHooks hooks;
-    hooks.on_view = [&](const ViewRecord& view) {
-      directory.append(view);
-      ++views;
-    };
-    hooks.should_stop = [&] { return views >= stop_after; };
-    hooks.replay = directory.recorded();
-    return Flown(scenario, hooks).result;
-  };
-  const MissionResult cut = fly(5, false);
+  const auto run = temp.path() / "run";
+  const MissionResult cut = fly_into(run, scenario, false, 5);
   const auto recorded = read_decisions(temp.path() / "run/iterations.csv.part");
   ASSERT_EQ(recorded.size(), 5U);
   for (std::size_t i = 0; i < recorded.size(); ++i) {
     EXPECT_TRUE(is_same_view(recorded[i].view, cut.views[i].decision.view));
   }
-  EXPECT_EQ(result_sha256(fly(1000, true)), result_sha256(Flown(scenario).result));
+  EXPECT_EQ(result_sha256(fly_into(run, scenario, true)), result_sha256(Flown(scenario).result));
 }
 
 }  // namespace

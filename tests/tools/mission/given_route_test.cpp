@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/core/error.hpp"
-#include "tests/support/flown.hpp"
+#include "tests/support/flown_into.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/run_files/iterations_csv.hpp"
 #include "tools/run_files/run_directory.hpp"
@@ -104,21 +104,10 @@ TEST(GivenRoute, OneByOneIsAsAllAtOnceAtAnyNumberOfThreads) {
 TEST(GivenRoute, ResumedEqualsTheUninterruptedOne) {
   TempFolder temp;
   const Scenario scenario = route_of(mixed());
-  const auto fly = [&](std::size_t stop_after, bool resume) {
-    RunDirectory directory(temp.path() / "run", scenario, resume);
-    std::size_t views = 0;
-    MissionHooks hooks;
-    hooks.on_view = [&](const ViewRecord& view) {
-      directory.append(view);
-      ++views;
-    };
-    hooks.should_stop = [&] { return views >= stop_after; };
-    hooks.replay = directory.recorded();
-    return Flown(scenario, hooks).result;
-  };
-  EXPECT_EQ(fly(3, false).termination, Termination::interrupted);
+  const auto run = temp.path() / "run";
+  EXPECT_EQ(fly_into(run, scenario, false, 3).termination, Termination::interrupted);
   ASSERT_EQ(read_decisions(temp.path() / "run/iterations.csv.part").size(), 3U);
-  const MissionResult resumed = fly(1000, true);
+  const MissionResult resumed = fly_into(run, scenario, true);
   EXPECT_EQ(result_sha256(resumed), result_sha256(Flown(scenario).result));
   EXPECT_EQ(resumed.given_views[2].rejected.has_value(), true);  // reasons are found again
 }

@@ -39,7 +39,6 @@ ViewPose drawn_view(std::uint64_t i) {
 TEST(GivenViews, AQuaternionTurnsAsMuchAsItsYaw) {
   for (std::uint64_t i = 0; i < 100; ++i) {
     ViewPose view = drawn_view(i);
-    // a flying quadrotor is tilted: a lean about any level axis of its own changes no heading much
     const Eigen::Quaterniond q(Eigen::AngleAxisd(view.yaw_rad, Vec3::UnitZ()));
     const Vec3& p = view.p_world_m;
     const std::vector<ViewPose> tum =
