@@ -10,11 +10,6 @@
 
 namespace gnbv {
 
-inline double distance_to_segment_m(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
-  return (a + t * (b - a) - p).norm();
-}
-
 /// To the plane where the foot of the perpendicular lies within the triangle, else to its edges.
 inline double distance_to_triangle_m(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   Eigen::Matrix3d axes;
