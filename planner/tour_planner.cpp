@@ -8,6 +8,9 @@
 #include "planner/map/clearance.hpp"
 #include "planner/model.hpp"
 #include "planner/tour/surface_places.hpp"
+#include "planner/workbench.hpp"
+#include "sim/core/parallel.hpp"
+#include "sim/core/rng.hpp"
 
 namespace gnbv {
 namespace {
@@ -52,15 +55,30 @@ TourScene TourPlanner::scene(const Belief& belief) const {
 }
 
 TourKnowledge TourPlanner::knowledge() const {
-  return {config_, cells_, patches_, catalogue_, places_, ledger_.success()};
+  const bool learns = config_.success == TourSuccess::learned;
+  return {.config = config_,
+          .cells = cells_,
+          .patches = patches_,
+          .catalogue = catalogue_,
+          .places = places_,
+          .success = ledger_.success(),
+          .reality = learns ? ledger_.reality(price_factor_ * voxels_a_metre()) : 1.0,
+          .refused = refused_,
+          .tour = tour_};
 }
+
+double TourPlanner::voxels_a_metre() const { return config_.price_per_m * expected_voxels(cells_); }
 
 void TourPlanner::learn(const Belief& belief, int threads) {
   const std::span<const Vec3f> points = belief.cloud.points_world_m();
   cells_.add(points.subspan(points_taken_), belief.grid, threads);
   points_taken_ = points.size();
   ledger_.settle(cells_);
-  if (ledger_.found() < config_.replan_below * ledger_.promised()) is_due_ = true;
+  const double short_of = ledger_.promised() - ledger_.found();
+  const bool is_short = ledger_.found() < config_.replan_below * ledger_.promised();
+  if (is_short && short_of > voxels_a_metre()) {
+    is_due_ = true;
+  }
 }
 
 /// What each place would see, those included that the surface asks for.
@@ -69,15 +87,8 @@ void TourPlanner::look_around(const Belief& belief, const ViewPose& current, int
   for (const TourView& view : tour_) first.push_back(view.place);
   catalogue_.follow(scene(belief), places_, first, config_.recasts, threads);
   if (!config_.surface_views) return;
-  std::vector<std::uint8_t> is_seen(patches_.size(), 0);
-  for (TourPlaces::Place place = 1; place < places_.size(); ++place) {
-    if (!places_.is_reachable(place)) continue;
-    for (int heading = 0; heading < catalogue_.headings(); ++heading) {
-      for (const SeenPatch& seen : catalogue_.seen(place, heading)) is_seen[seen.patch] = 1;
-    }
-  }
-  const std::vector<Vec3> more_m =
-      places_for_unseen({belief.grid, space_, cameras_}, patches_, is_seen, tried_);
+  const std::vector<Vec3> more_m = places_for_unseen({belief.grid, space_, cameras_}, patches_,
+                                                     seen_from_anywhere(knowledge()), tried_);
   if (more_m.empty()) return;
   for (const Vec3& p_m : more_m) places_.add(p_m);
   places_.follow(belief.grid, space_, current.p_world_m);
@@ -104,21 +115,66 @@ bool TourPlanner::search_tour() {
   return !tour_.empty();
 }
 
-void TourPlanner::replan(const Belief& belief, const ViewPose& current, int threads) {
-  constexpr double kLeastFactor = 1e-3;
+/// A tour of one view: that which sees the most unknown space for its way.
+bool TourPlanner::explore(const Belief& belief, Workbench& bench) {
+  if (!config_.explore || model_.config.profiling.method != ProfilingMethod::none) return false;
+  constexpr std::size_t kMostPlaces = 160;
+  constexpr double kLeastShare = 0.02;  // of the cameras' frusta: less is not worth going
+  std::vector<TourPlaces::Place> places;
+  for (TourPlaces::Place place = 1; place < places_.size(); ++place) {
+    if (places_.is_reachable(place)) places.push_back(place);
+  }
+  const std::size_t one_in = (places.size() + kMostPlaces - 1) / kMostPlaces;
+  std::vector<TourView> views;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (mix_bits(places[i]) % one_in != 0) continue;
+    for (int heading = 0; heading < catalogue_.headings(); ++heading) {
+      views.push_back({places[i], catalogue_.pose(places_.p_world_m(places[i]), heading)});
+    }
+  }
+  std::vector<std::uint32_t> unknown(views.size(), 0);
+  const std::size_t shares = bench.marks.size();
+  parallel_for(bench.threads, shares, [&](std::size_t share) {
+    for (std::size_t i = share; i < views.size(); i += shares) {
+      const ViewPose& pose = views[i].pose;
+      unknown[i] = evaluate_view(belief.grid, belief.cloud, model_.rays_at(pose.gimbal_pitch_rad),
+                                 pose, bench.marks[share])
+                       .unknown_voxels;
+    }
+  });
+  const std::span<const float> row_m = places_.row_m(TourPlaces::here());
+  double most = 0.0;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const auto is_view = [&](const ViewPose& other) { return is_same_view(other, views[i].pose); };
+    if (std::any_of(refused_.begin(), refused_.end(), is_view)) continue;
+    if (unknown[i] < kLeastShare * model_.view_voxels) continue;
+    const double rate = unknown[i] / (static_cast<double>(row_m[views[i].place]) + 4.0);
+    if (rate <= most) continue;
+    most = rate;
+    tour_ = {views[i]};
+  }
+  if (tour_.empty()) return false;
+  price_factor_ = 1.0;  // of what it will find
+  return true;
+}
+
+void TourPlanner::replan(const Belief& belief, const ViewPose& current, Workbench& bench) {
+  const int threads = bench.threads;
   cells_.follow_map(belief.grid);
   space_.follow(belief.grid);
   places_.follow(belief.grid, space_, current.p_world_m);
   at_ = TourPlaces::here();
   patches_ = find_patches(cells_, belief.grid, threads);
   look_around(belief, current, threads);
-  while (!search_tour()) {
-    const double may_stay = config_.end_share * expected_voxels(cells_);
-    if (voxels_in_reach(knowledge()) <= may_stay || price_factor_ < kLeastFactor) break;
-    price_factor_ *= 0.5;
-  }
   views_since_replan_ = 0;
   is_due_ = false;
+  if (search_tour() || explore(belief, bench)) return;
+  do {
+    const double may_stay = config_.end_share * expected_voxels(cells_);
+    const bool is_lowest = 0.5 * price_factor_ < config_.end_price;
+    if (is_lowest || voxels_in_reach(knowledge()) <= may_stay) break;
+    price_factor_ *= 0.5;
+  } while (!search_tour());
 }
 
 /// Straight, or as the lattice knows it; nothing where some leg is not clear after all.
@@ -144,7 +200,7 @@ std::optional<std::vector<Vec3>> TourPlanner::way(const Belief& belief, const Vi
 
 /// Takes the tour's next view that can be flown to; those before it are rejected.
 bool TourPlanner::take_view(const Belief& belief, const ViewPose& current, ViewChecker& checker,
-                            Plan& plan) {
+                            int threads, Plan& plan) {
   while (!tour_.empty()) {
     const TourView view = tour_.front();
     tour_.erase(tour_.begin());
@@ -160,11 +216,12 @@ bool TourPlanner::take_view(const Belief& belief, const ViewPose& current, ViewC
       }
     }
     if (candidate.rejected) {
+      refused_.push_back(view.pose);
       is_due_ = true;
       continue;
     }
     const double promised =
-        ledger_.promise(catalogue_.look(scene(belief), view.pose), patches_, cells_);
+        ledger_.promise(catalogue_.look(scene(belief), view.pose, threads), patches_, cells_);
     candidate.score = {.value = promised, .information = promised};
     plan.chosen = plan.candidates.size() - 1;
     const int left = static_cast<int>(tour_.size()) + 1;
@@ -182,21 +239,23 @@ bool TourPlanner::take_view(const Belief& belief, const ViewPose& current, ViewC
 }
 
 Plan TourPlanner::next(const Belief& belief, const History& history, const ViewPose& current,
-                       int threads) {
+                       Workbench& bench) {
+  const int threads = bench.threads;
   learn(belief, threads);
   ValidityConfig validity = model_.config.validity;
   validity.path = PathCheck::unchecked;  // way() does
   const std::vector<ViewPose> recent = recent_views(history, validity.recent_poses);
+  refused_ = recent;
   ViewChecker checker(validity, model_.navigation_m, model_.no_fly, belief.grid, recent, current);
   Plan plan;
-  constexpr int kTries = 3;  // tours of which no view could be flown to
+  constexpr int kTries = 20;  // tours of which no view could be flown to; each refuses some
   for (int i = 0; i < kTries; ++i) {
     if (is_due_ || tour_.empty() || views_since_replan_ >= config_.views_per_replan) {
-      replan(belief, current, threads);
+      replan(belief, current, bench);
     } else {
       patches_ = find_patches(cells_, belief.grid, threads);
     }
-    if (tour_.empty() || take_view(belief, current, checker, plan)) break;
+    if (tour_.empty() || take_view(belief, current, checker, threads, plan)) break;
   }
   return plan;
 }

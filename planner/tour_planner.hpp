@@ -16,6 +16,7 @@ namespace gnbv {
 struct Belief;
 struct History;
 struct PlannerModel;
+struct Workbench;
 
 constexpr std::string_view kTourName = "tour";
 inline bool is_tour(std::string_view utility_name) { return utility_name == kTourName; }
@@ -28,10 +29,11 @@ class TourPlanner {
   /// The next view of the tour, made anew where that is due. Has to be asked after every view, of a
   /// replayed mission, too: it learns from what they brought. `next` is empty when no view pays any
   /// more. The same at any number of threads.
-  Plan next(const Belief& belief, const History& history, const ViewPose& current, int threads);
+  Plan next(const Belief& belief, const History& history, const ViewPose& current,
+            Workbench& bench);
 
   /// Whether the last next() found no view because none pays, not because none can be flown to.
-  bool is_complete() const { return tour_.empty() && !is_due_; }
+  bool is_complete() const { return tour_.empty(); }
 
   /// Of the view before the last call of next(): what it promised and brought, by kind.
   std::span<const LookOutcome> outcomes() const { return ledger_.outcomes(); }
@@ -39,11 +41,15 @@ class TourPlanner {
  private:
   TourScene scene(const Belief& belief) const;
   TourKnowledge knowledge() const;
+  /// What a metre has to bring, in small voxels.
+  double voxels_a_metre() const;
   void learn(const Belief& belief, int threads);
-  void replan(const Belief& belief, const ViewPose& current, int threads);
+  void replan(const Belief& belief, const ViewPose& current, Workbench& bench);
   void look_around(const Belief& belief, const ViewPose& current, int threads);
   bool search_tour();
-  bool take_view(const Belief& belief, const ViewPose& current, ViewChecker& checker, Plan& plan);
+  bool explore(const Belief& belief, Workbench& bench);
+  bool take_view(const Belief& belief, const ViewPose& current, ViewChecker& checker, int threads,
+                 Plan& plan);
   std::optional<std::vector<Vec3>> way(const Belief& belief, const ViewPose& current,
                                        TourPlaces::Place to);
 
@@ -59,6 +65,7 @@ class TourPlanner {
   std::size_t points_taken_ = 0;               // of the cloud
   std::set<Key> tried_;                        // cubes for which places were looked for
   std::vector<TourView> tour_;                 // what is left of it, in order
+  std::vector<ViewPose> refused_;              // taken lately, or found to be out of reach now
   TourPlaces::Place at_ = TourPlaces::here();  // where the last view was taken
   int views_since_replan_ = 0;
   bool is_due_ = true;         // the tour has to be made anew

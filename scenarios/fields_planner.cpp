@@ -199,6 +199,10 @@ void fields(FieldVisitor& v, TourConfig& c) {
            "splats: patches drawn into a depth buffer; rays: through the map's voxels.");
   v.choice("search", c.search, kTourSearches, "Large neighbourhoods, or view by view.");
   v.choice("success", c.success, kTourSuccesses, "Of a look: learned in flight, or assumed.");
+  v.flag("double_cover", c.double_cover,
+         "Whether a second look is worth what the first may miss; else it is worth nothing.");
+  v.flag("explore", c.explore,
+         "Without a profile: looks for unseen space where no surface pays any more.");
   v.number("price_per_m", c.price_per_m, above_upto(0, 1),
            "Share of the structure's expected voxels that a metre has to bring.");
   v.number("metres_per_view", c.metres_per_view, between(0, 100), "What a view costs as if way.");
@@ -208,8 +212,10 @@ void fields(FieldVisitor& v, TourConfig& c) {
            "A new tour when a view brings less than this share of its promise.");
   v.integer("recasts", c.recasts, between(0, 1e6), "Places looked from again for each tour.");
   v.integer("items_max", c.items_max, between(100, 1e7), "Patches weighed one by one.");
+  v.number("end_price", c.end_price, above_upto(0, 1),
+           "When no view pays, the price is halved, down to this share of it,");
   v.number("end_share", c.end_share, between(0, 1),
-           "Of the expected voxels, what may stay when no view pays.");
+           "or until no more than this share of the expected voxels is left.");
   v.flag("surface_views", c.surface_views, "Views off the lattice for what two looks left.");
 }
 

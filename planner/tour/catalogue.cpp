@@ -41,8 +41,9 @@ void ViewCatalogue::look(const TourScene& scene, const ViewPose& view,
   seen.erase(std::unique(seen.begin(), seen.end(), is_same), seen.end());
 }
 
-std::vector<SeenPatch> ViewCatalogue::look(const TourScene& scene, const ViewPose& view) {
-  blocks_.follow(scene.cells);
+std::vector<SeenPatch> ViewCatalogue::look(const TourScene& scene, const ViewPose& view,
+                                           int threads) {
+  blocks_.follow(scene.cells, threads);
   PatchViewer viewer;
   std::vector<SeenPatch> seen;
   look(scene, view, blocks_.near(view.p_world_m, reach_m_), viewer, seen);
@@ -62,19 +63,18 @@ void ViewCatalogue::cast(const TourScene& scene, const Vec3& p_world_m, AtPlace&
   }
 }
 
-std::uint32_t ViewCatalogue::changes_near(const TourScene& scene, const Vec3& p_world_m,
-                                          std::uint32_t since) const {
+std::uint32_t ViewCatalogue::changes_near(const Vec3& p_world_m, std::uint32_t since) const {
   std::uint32_t changes = 0;
   for (const CellBlocks::Block* block : blocks_.near(p_world_m, reach_m_)) {
-    for (const std::uint32_t cell : block->cells) {
-      if (scene.cells.cells()[cell].changed > since) ++changes;
+    if (block->changed <= since) continue;
+    for (const CellBlocks::Cell& cell : block->cells) {
+      if (cell.changed > since) ++changes;
     }
   }
   return changes;
 }
 
-std::vector<ViewCatalogue::Place> ViewCatalogue::changed_places(const TourScene& scene,
-                                                                const TourPlaces& places,
+std::vector<ViewCatalogue::Place> ViewCatalogue::changed_places(const TourPlaces& places,
                                                                 std::span<const Place> first,
                                                                 int threads) const {
   std::vector<Place> cast_before;
@@ -85,7 +85,7 @@ std::vector<ViewCatalogue::Place> ViewCatalogue::changed_places(const TourScene&
   parallel_for_chunks(threads, cast_before.size(), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Place place = cast_before[i];
-      changes[place] = changes_near(scene, places.p_world_m(place), at_[place].update);
+      changes[place] = changes_near(places.p_world_m(place), at_[place].update);
     }
   });
   std::vector<std::uint8_t> is_first(places.size(), 0);
@@ -99,14 +99,14 @@ std::vector<ViewCatalogue::Place> ViewCatalogue::changed_places(const TourScene&
 
 void ViewCatalogue::follow(const TourScene& scene, const TourPlaces& places,
                            std::span<const Place> first, int recasts, int threads) {
-  blocks_.follow(scene.cells);
+  blocks_.follow(scene.cells, threads);
   at_.resize(places.size());
   std::vector<Place> due;
   for (Place place = 1; place < places.size(); ++place) {
     if (places.is_reachable(place) && !at_[place].is_cast) due.push_back(place);
   }
   if (recasts > 0) {
-    const std::vector<Place> again = changed_places(scene, places, first, threads);
+    const std::vector<Place> again = changed_places(places, first, threads);
     const auto most = static_cast<std::size_t>(recasts);
     due.insert(due.end(), again.begin(),
                again.begin() + static_cast<std::ptrdiff_t>(std::min(again.size(), most)));

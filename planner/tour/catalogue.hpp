@@ -31,7 +31,7 @@ class ViewCatalogue {
   std::span<const SeenPatch> seen(Place place, int heading) const;
 
   /// What all cameras see from a pose, now.
-  std::vector<SeenPatch> look(const TourScene& scene, const ViewPose& view);
+  std::vector<SeenPatch> look(const TourScene& scene, const ViewPose& view, int threads);
 
  private:
   struct AtPlace {
@@ -43,11 +43,10 @@ class ViewCatalogue {
     double rad = 0.0;
     std::vector<CameraModel> cameras;
   };
-  std::uint32_t changes_near(const TourScene& scene, const Vec3& p_world_m,
-                             std::uint32_t since) const;
+  std::uint32_t changes_near(const Vec3& p_world_m, std::uint32_t since) const;
   /// Of the places that were looked from, those around which something changed, most urgent first.
-  std::vector<Place> changed_places(const TourScene& scene, const TourPlaces& places,
-                                    std::span<const Place> first, int threads) const;
+  std::vector<Place> changed_places(const TourPlaces& places, std::span<const Place> first,
+                                    int threads) const;
   void cast(const TourScene& scene, const Vec3& p_world_m, AtPlace& at, PatchViewer& viewer) const;
   void look(const TourScene& scene, const ViewPose& view,
             std::span<const CellBlocks::Block* const> near, PatchViewer& viewer,

@@ -24,15 +24,20 @@ struct TourConfig {
   TourVisibility visibility = TourVisibility::splats;
   TourSearch search = TourSearch::neighbourhood;
   TourSuccess success = TourSuccess::learned;
+  bool double_cover = true;      // a second look is worth what the first may miss; else nothing
+  bool explore = true;           // without a profile: where no surface pays, looks for space unseen
   double price_per_m = 6e-4;     // of the structure's expected voxels: what a metre has to bring
   double metres_per_view = 0.3;  // what a view costs beside its way
-  int iterations = 400;          // of the search, a replan
+  int iterations = 150;          // of the search, a replan
   int views_per_replan = 6;
   double replan_below =
-      0.5;                  // replans early when a view brings less than this share of its promise
-  int recasts = 200;        // places looked from again, a replan
-  int items_max = 12000;    // patches that the search weighs one by one; of more it takes a sample
-  double end_share = 0.01;  // of the expected voxels: what may stay when no view pays
+      0.5;                // replans early when a view brings less than this share of its promise
+  int recasts = 80;       // places looked from again, a replan
+  int items_max = 12000;  // patches that the search weighs one by one; of more it takes a sample
+  // when no view pays, the price is halved, but not below this share of it, and not when no more
+  // than so much of the expected voxels is left
+  double end_price = 0.125;
+  double end_share = 0.01;
   bool surface_views = true;  // views off the lattice for what is left after two looks
 };
 

@@ -6,11 +6,13 @@ namespace gnbv {
 
 LookTable::LookTable(const PrizeTask& task) : first_(task.weight.size() + 1, 0) {
   for (const auto& looks : task.looks) {
+    first_look_.push_back(odds_.size());
     for (const ItemLook& look : looks) {
       GNBV_CHECK(look.item < task.weight.size() && look.success >= 0.0F && look.success < 1.0F,
                  "look at item {} of {} with success {}", look.item, task.weight.size(),
                  look.success);
       ++first_[look.item + 1];
+      odds_.push_back(look.success / (1.0F - look.success));
     }
   }
   for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
@@ -63,10 +65,9 @@ void ExpectedCover::remove(std::uint32_t view) {
 
 double ExpectedCover::loss_without(std::uint32_t view) const {
   double loss = 0.0;
+  const float* odds = table_->odds(view);
   for (const ItemLook& look : task_->looks[view]) {
-    const auto success = static_cast<double>(look.success);
-    loss += static_cast<double>(task_->weight[look.item]) * missed_[look.item] * success /
-            (1.0 - success);
+    loss += static_cast<double>(task_->weight[look.item] * *odds++) * missed_[look.item];
   }
   return loss;
 }

@@ -21,10 +21,14 @@ class LookTable {
   std::span<const Holder> holders(std::uint32_t item) const {
     return std::span(holders_).subspan(first_[item], first_[item + 1] - first_[item]);
   }
+  /// success / (1 - success) of each look of the view.
+  const float* odds(std::uint32_t view) const { return &odds_[first_look_[view]]; }
 
  private:
   std::vector<std::size_t> first_;
   std::vector<Holder> holders_;
+  std::vector<std::size_t> first_look_;  // of each view
+  std::vector<float> odds_;
 };
 
 /// Expected weight found is the sum of weight (1 - product of the looks' failures). A view that

@@ -4,6 +4,11 @@
 #include <bit>
 
 namespace gnbv {
+namespace {
+
+constexpr double kFade = 0.9;  // a view: some ten count
+
+}  // namespace
 
 double LookLedger::promise(std::span<const SeenPatch> seen, std::span<const Patch> patches,
                            const SurfaceCells& cells) {
@@ -33,6 +38,13 @@ void LookLedger::settle(SurfaceCells& cells) {
     book(look, found);
   }
   promises_.clear();
+  lately_promised_ = kFade * lately_promised_ + promised();
+  lately_found_ = kFade * lately_found_ + found();
+}
+
+double LookLedger::reality(double doubt) const {
+  const double promised = lately_promised_ + doubt;
+  return promised > 0.0 ? std::min(1.0, (lately_found_ + doubt) / promised) : 1.0;
 }
 
 void LookLedger::book(const Promise& promise, double found) {

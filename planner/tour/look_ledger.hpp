@@ -34,6 +34,11 @@ class LookLedger {
   /// under way afterwards.
   void settle(SurfaceCells& cells);
 
+  /// What the views of late brought of what they promised, at most 1: the shares of LookSuccess are
+  /// of the whole flight, and what stays to the end is harder. `doubt`: small voxels that a promise
+  /// has to exceed to tell anything.
+  double reality(double doubt) const;
+
   /// Of the last settle(), by kind.
   std::span<const LookOutcome> outcomes() const { return outcomes_; }
   double promised() const;
@@ -51,6 +56,8 @@ class LookLedger {
   void book(const Promise& promise, double found);
 
   LookSuccess success_;
+  double lately_promised_ = 0.0;  // faded by each settle()
+  double lately_found_ = 0.0;
   std::vector<Promise> promises_;
   std::vector<LookOutcome> outcomes_;
 };

@@ -16,6 +16,10 @@ constexpr double kPixel_rad = deg_to_rad(0.6);
 constexpr float kDiscRadius = 1.8F;
 // what lies no deeper behind a disc is the disc's own surface
 constexpr float kBias = 1.6F;
+// from where on a cell of fewer pixels is drawn as one disc: half the diagonal of its square
+constexpr float kSmallCell_px = 4.0F;
+constexpr float kCellRadius = 0.71F;      // in the edge of a cell
+constexpr std::uint32_t kWholeDiscs = 3;  // so many at least, or most of the cell is empty
 constexpr float kNoDepth = std::numeric_limits<float>::infinity();
 
 }  // namespace
@@ -42,34 +46,6 @@ double camera_reach_m(const CameraModel& camera) {
   return c.range_max_m * std::sqrt(1.0 + across * across) + c.p_body_m.norm();
 }
 
-CellBlocks::CellBlocks(const Box3& workspace_m, double cell_m)
-    : lattice_(workspace_m, 8.0 * cell_m), slot_(lattice_.voxel_count()) {}
-
-void CellBlocks::follow(const SurfaceCells& cells) {
-  for (; taken_ < cells.cells().size(); ++taken_) {
-    const SurfaceCell& cell = cells.cells()[taken_];
-    const Key key = lattice_.key_of(cells.lattice().center_m(cell.key));
-    if (!lattice_.contains(key)) continue;  // half a cell beyond the workspace
-    const VoxelIndex block = lattice_.index_of(key);
-    if (slot_[block] == 0) {
-      blocks_.push_back({lattice_.center_m(key).cast<float>(), {}});
-      slot_[block] = static_cast<std::uint32_t>(blocks_.size());
-    }
-    blocks_[slot_[block] - 1].cells.push_back(static_cast<std::uint32_t>(taken_));
-  }
-}
-
-std::vector<const CellBlocks::Block*> CellBlocks::near(const Vec3& p_world_m,
-                                                       double reach_m) const {
-  const float within_m = static_cast<float>(reach_m) + radius_m();
-  std::vector<const Block*> found;
-  for (const Block& block : blocks_) {
-    const float distance2_m2 = (block.center_m - p_world_m.cast<float>()).squaredNorm();
-    if (distance2_m2 <= within_m * within_m) found.push_back(&block);
-  }
-  return found;
-}
-
 void PatchViewer::begin(const CameraModel& camera, const Isometry& T_world_camera) {
   const CameraConfig& c = camera.config;
   const double half_x = std::tan(0.5 * c.fov_x_rad);
@@ -84,6 +60,14 @@ void PatchViewer::begin(const CameraModel& camera, const Isometry& T_world_camer
   image_.origin_m = T_world_camera.translation().cast<float>();
   image_.range_max_m = static_cast<float>(c.range_max_m);
   depth_m_.assign(static_cast<std::size_t>(image_.width * image_.height), kNoDepth);
+  ray_x_.resize(static_cast<std::size_t>(image_.width));
+  ray_y_.resize(static_cast<std::size_t>(image_.height));
+  for (std::size_t x = 0; x < ray_x_.size(); ++x) {
+    ray_x_[x] = (static_cast<float>(x) + 0.5F - image_.cx) / image_.fx;
+  }
+  for (std::size_t y = 0; y < ray_y_.size(); ++y) {
+    ray_y_[y] = (static_cast<float>(y) + 0.5F - image_.cy) / image_.fy;
+  }
 }
 
 /// The disc as seen through each pixel that its bounding square covers.
@@ -97,15 +81,17 @@ void PatchViewer::draw(const Vec3f& p, const Vec3f& normal, float radius_m) {
   const int v0 = std::max(0, static_cast<int>(std::ceil(v - half - 0.5F)));
   const int v1 = std::min(image_.height - 1, static_cast<int>(std::floor(v + half - 0.5F)));
   for (int y = v0; y <= v1; ++y) {
+    const float ray_y = ray_y_[static_cast<std::size_t>(y)];
+    const float across_row = normal.y() * ray_y + normal.z();
+    float* const row_m = &depth_m_[static_cast<std::size_t>(y * image_.width)];
     for (int x = u0; x <= u1; ++x) {
-      const Vec3f ray((static_cast<float>(x) + 0.5F - image_.cx) / image_.fx,
-                      (static_cast<float>(y) + 0.5F - image_.cy) / image_.fy, 1.0F);
-      const float across = normal.dot(ray);
+      const float ray_x = ray_x_[static_cast<std::size_t>(x)];
+      const float across = normal.x() * ray_x + across_row;
       if (std::fabs(across) < 1e-3F) continue;
       const float z_m = along / across;
-      if (!((z_m * ray - p).squaredNorm() <= radius_m * radius_m)) continue;
-      float& depth_m = depth_m_[static_cast<std::size_t>(y * image_.width + x)];
-      depth_m = std::min(depth_m, z_m);
+      const Vec3f off_m(z_m * ray_x - p.x(), z_m * ray_y - p.y(), z_m - p.z());
+      if (!(off_m.squaredNorm() <= radius_m * radius_m)) continue;
+      row_m[x] = std::min(row_m[x], z_m);
     }
   }
 }
@@ -128,20 +114,25 @@ bool PatchViewer::is_in_cone(const Vec3f& p, float margin_m) const {
          std::fabs(p.y()) <= image_.cy / image_.fy * p.z() + margin_m;
 }
 
-void PatchViewer::draw_cell(const TourScene& scene, std::uint32_t index) {
-  const SurfaceCell& cell = scene.cells.cells()[index];
-  if (cell.discs_m.empty() && !cell.is_frontier) return;
-  const Vec3f& at_m = cell.is_frontier ? cell.on_plane_m : cell.discs_m.front();
+void PatchViewer::draw_cell(const TourScene& scene, const CellBlocks::Block& block,
+                            const CellBlocks::Cell& cell) {
   const auto cell_m = static_cast<float>(scene.cells.edge_m());
-  if (!is_in_image(to_camera(at_m), slant() * 0.9F * cell_m)) return;
-  in_image_.push_back(index);
+  const Vec3f middle = to_camera(cell.middle_m);
+  if (!is_in_image(middle, slant() * 0.9F * cell_m)) return;
+  in_image_.push_back(cell.index);
   if (scene.config.visibility != TourVisibility::splats) return;
-  const float radius_m = kDiscRadius * static_cast<float>(scene.cells.detail_m());
+  const bool has_plane = !cell.normal.isZero();
   const Vec3f normal = image_.R_camera_world * cell.normal;
-  for (const Vec3f& disc_m : cell.discs_m) {
-    const Vec3f p = to_camera(disc_m);
+  const bool is_small = cell_m * image_.fx < kSmallCell_px * middle.z();
+  if (is_small && has_plane && cell.discs >= kWholeDiscs) {
+    draw(middle, normal, kCellRadius * cell_m);
+    return;
+  }
+  const float radius_m = kDiscRadius * static_cast<float>(scene.cells.detail_m());
+  for (std::uint32_t i = 0; i < cell.discs; ++i) {
+    const Vec3f p = to_camera(block.discs_m[cell.first_disc + i]);
     if (!is_in_image(p, radius_m)) continue;
-    draw(p, cell.has_plane ? normal : Vec3f(-p.normalized()), radius_m);
+    draw(p, has_plane ? normal : Vec3f(-p.normalized()), radius_m);
   }
 }
 
@@ -164,7 +155,7 @@ void PatchViewer::look(const TourScene& scene, const CameraModel& camera,
     const bool is_in_reach =
         middle.z() >= -block_radius_m && middle.z() <= image_.range_max_m + block_radius_m;
     if (!is_in_reach || !is_in_cone(middle, slant() * block_radius_m)) continue;
-    for (const std::uint32_t index : block->cells) draw_cell(scene, index);
+    for (const CellBlocks::Cell& cell : block->cells) draw_cell(scene, *block, cell);
   }
   const auto range_min_m = static_cast<float>(camera.config.range_min_m);
   const auto cos_min = static_cast<float>(std::cos(scene.config.incidence_max_rad));

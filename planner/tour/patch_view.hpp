@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "planner/tour/cell_blocks.hpp"
 #include "planner/tour/config.hpp"
 #include "planner/tour/patches.hpp"
 #include "sensors/camera_model.hpp"
@@ -23,28 +24,6 @@ struct TourScene {
   const SurfaceCells& cells;
   std::span<const Patch> patches;
   const OccupancyGrid& grid;
-};
-
-/// The cells in cubes of the workspace, for those near a place.
-class CellBlocks {
- public:
-  CellBlocks(const Box3& workspace_m, double cell_m);
-  /// Takes up cells that are new since the last call.
-  void follow(const SurfaceCells& cells);
-  struct Block {
-    Vec3f center_m;
-    std::vector<std::uint32_t> cells;
-  };
-  /// Those within reach.
-  std::vector<const Block*> near(const Vec3& p_world_m, double reach_m) const;
-  /// Of the sphere around a block's cells.
-  float radius_m() const { return static_cast<float>(0.9 * lattice_.resolution_m()); }
-
- private:
-  GridGeometry lattice_;
-  ZeroedArray<std::uint32_t> slot_;  // 1 + index into blocks_
-  std::vector<Block> blocks_;
-  std::size_t taken_ = 0;
 };
 
 /// Works out what cameras see; memory of its own, so one a thread.
@@ -71,12 +50,14 @@ class PatchViewer {
   float slant() const { return 1.0F + std::max(image_.cx / image_.fx, image_.cy / image_.fy); }
   bool is_in_cone(const Vec3f& p_camera_m, float margin_m) const;
   bool is_in_image(const Vec3f& p_camera_m, float margin_m) const;
-  void draw_cell(const TourScene& scene, std::uint32_t cell);
+  void draw_cell(const TourScene& scene, const CellBlocks::Block& block,
+                 const CellBlocks::Cell& cell);
   bool is_seen(const TourScene& scene, const Patch& patch, float cos_incidence) const;
   void draw(const Vec3f& p_camera_m, const Vec3f& normal, float radius_m);
   bool is_before(const Vec3f& p_camera_m, float cos_incidence, float bias_m) const;
 
   Image image_;
+  std::vector<float> ray_x_, ray_y_;  // through the middles of columns and rows, at depth 1
   std::vector<float> depth_m_;
   std::vector<std::uint32_t> in_image_;  // cells
 };

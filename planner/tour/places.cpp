@@ -9,6 +9,7 @@ namespace gnbv {
 namespace {
 
 constexpr double kLongestLegSteps = 4.0;  // of the lattice: longer ones take long to check
+constexpr std::uint32_t kRowFollows = 6;  // that a row is kept for
 
 }  // namespace
 
@@ -46,7 +47,6 @@ TourPlaces::TourPlaces(const GridGeometry& geometry, const Box3& navigation_m, d
 
 TourPlaces::Place TourPlaces::add(const Vec3& p_world_m) {
   p_world_m_.push_back(geometry_.center_m(geometry_.key_of(geometry_.nearest_inside(p_world_m))));
-  rows_.clear();
   return static_cast<Place>(p_world_m_.size() - 1);
 }
 
@@ -90,12 +90,14 @@ void TourPlaces::follow(const OccupancyGrid& grid, const OpenSpace& space,
                         const Vec3& here_world_m) {
   grid_ = &grid;
   space_ = &space;
+  ++follows_;
   rows_.erase(here());
   p_world_m_[here()] = here_world_m;
   is_open_.resize(size(), 0);
+  opened_.resize(size(), 0);
   for (Place place = 1; place < size(); ++place) {
     const bool is_open = space.is_open(grid, geometry_.key_of(p_world_m_[place]));
-    if (is_open && is_open_[place] == 0) rows_.clear();
+    if (is_open && is_open_[place] == 0) opened_[place] = follows_;
     is_open_[place] = is_open ? 1 : 0;
   }
   legs_.assign(size(), {});
@@ -165,10 +167,36 @@ TourPlaces::Row TourPlaces::search(Place from) const {
   return row;
 }
 
+/// Ways to places that have opened since, over the legs to them.
+void TourPlaces::extend(Row& row) const {
+  row.length_m.resize(size(), std::numeric_limits<float>::infinity());
+  row.before.resize(size(), kNone);
+  for (bool has_more = true; has_more;) {
+    has_more = false;
+    for (Place place = 1; place < size(); ++place) {
+      if (opened_[place] <= row.followed || is_open_[place] == 0) continue;
+      for (const Place near : legs_[place]) {
+        if (near == here()) continue;
+        const auto leg_m = static_cast<float>((p_world_m_[near] - p_world_m_[place]).norm());
+        if (row.length_m[near] + leg_m >= row.length_m[place]) continue;
+        row.length_m[place] = row.length_m[near] + leg_m;
+        row.before[place] = near;
+        has_more = true;
+      }
+    }
+  }
+  row.followed = follows_;
+}
+
 const TourPlaces::Row& TourPlaces::row(Place from) {
   const auto [at, is_new] = rows_.try_emplace(from);
-  if (is_new) at->second = search(from);
-  return at->second;
+  Row& row = at->second;
+  if (is_new || row.made + kRowFollows < follows_) {
+    row = search(from);
+    row.made = row.followed = follows_;
+  }
+  if (row.followed < follows_) extend(row);
+  return row;
 }
 
 std::span<const float> TourPlaces::row_m(Place from) { return row(from).length_m; }

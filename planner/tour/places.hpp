@@ -25,7 +25,8 @@ class TourPlaces {
   Place add(const Vec3& p_world_m);
 
   /// Which places are open now and can be reached from `here_world_m`, and over which legs. Rows
-  /// are kept as long as no place opens; what has closed since may make them too short.
+  /// are kept for some calls: they learn of places that have opened, but not of shorter ways, and
+  /// what has closed since may make them too short.
   void follow(const OccupancyGrid& grid, const OpenSpace& space, const Vec3& here_world_m);
 
   std::size_t size() const { return p_world_m_.size(); }
@@ -45,21 +46,26 @@ class TourPlaces {
   struct Row {
     std::vector<float> length_m;
     std::vector<Place> before;
+    std::uint32_t made = 0;      // in which follow() it was searched,
+    std::uint32_t followed = 0;  // and up to which it knows the places
   };
   void link(Place a, Place b);
   void link_all();
   const Row& row(Place from);
   Row search(Place from) const;
+  void extend(Row& row) const;
 
   GridGeometry geometry_;
   double step_m_ = 0.0;
   std::array<std::int32_t, 3> lattice_size_ = {0, 0, 0};
   std::vector<Vec3> p_world_m_;
   std::vector<std::uint8_t> is_open_, is_reachable_;
+  std::vector<std::uint32_t> opened_;     // in which follow() each did, last
   std::vector<std::vector<Place>> legs_;  // from each place
   const OccupancyGrid* grid_ = nullptr;   // of the last follow()
   const OpenSpace* space_ = nullptr;
   std::map<Place, Row> rows_;
+  std::uint32_t follows_ = 0;
 };
 
 }  // namespace gnbv

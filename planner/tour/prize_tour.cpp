@@ -65,18 +65,14 @@ class OpenTour {
 
   /// Views that bring less than they cost go, those first that lose the most.
   void drop_unpaid() {
-    while (true) {
-      double worst = 0.0;
-      std::optional<std::uint32_t> unpaid;
-      for (const std::uint32_t view : chosen_) {
-        const double cost = task_->price_per_m * (task_->metres_per_view + saved_without_m(view));
-        const double gain = cover_.loss_without(view) - cost;
-        if (gain >= worst) continue;
-        worst = gain;
-        unpaid = view;
-      }
-      if (!unpaid) return;
-      remove(*unpaid);
+    std::vector<std::pair<double, std::uint32_t>> unpaid;
+    for (const std::uint32_t view : chosen_) {
+      const double worth = worth_of(view);
+      if (worth < 0.0) unpaid.emplace_back(worth, view);
+    }
+    std::sort(unpaid.begin(), unpaid.end());
+    for (const auto& [worth, view] : unpaid) {
+      if (worth_of(view) < 0.0) remove(view);  // not what has become worth more without others
     }
   }
 
@@ -91,6 +87,12 @@ class OpenTour {
   double saved_without_m(std::uint32_t view) const {
     const std::uint32_t place = place_of(view);
     return place == task_->start || views_at(place) > 1 ? 0.0 : stops_.saved_without_m(place);
+  }
+
+  /// Of a chosen view: what it brings beyond its cost.
+  double worth_of(std::uint32_t view) const {
+    return cover_.loss_without(view) -
+           task_->price_per_m * (task_->metres_per_view + saved_without_m(view));
   }
 
   std::optional<std::uint32_t> best_bid(double metres_per_view,

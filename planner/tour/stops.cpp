@@ -31,29 +31,65 @@ void Stops::remove(std::uint32_t place) {
   places_.erase(places_.begin() + static_cast<std::ptrdiff_t>(index_of(place)));
 }
 
+void Stops::find_rows() {
+  rows_m_.clear();
+  for (const std::uint32_t place : places_) rows_m_.push_back((*row_m_)(place).data());
+}
+
 void Stops::find_detours() {
-  const std::span<const float> last_m = (*row_m_)(places_.back());
-  extra_m_.assign(last_m.begin(), last_m.end());
-  at_.assign(last_m.size(), static_cast<std::int32_t>(places_.size()));
-  float* const extra_m = extra_m_.data();
+  find_rows();
+  const std::size_t places = (*row_m_)(places_.back()).size();
+  least_m_.assign(rows_m_.back(), rows_m_.back() + places);
+  at_.assign(places, static_cast<std::int32_t>(places_.size()));
+  float* const least_m = least_m_.data();
   std::int32_t* const at = at_.data();
   for (std::size_t i = 1; i < places_.size(); ++i) {
-    const std::span<const float> from_m = (*row_m_)(places_[i - 1]);
-    const std::span<const float> to_m = (*row_m_)(places_[i]);
-    const float leg = from_m[places_[i]];
-    for (std::size_t p = 0; p < from_m.size(); ++p) {
-      const float extra = from_m[p] + to_m[p] - leg;
-      at[p] = extra < extra_m[p] ? static_cast<std::int32_t>(i) : at[p];
-      extra_m[p] = std::min(extra, extra_m[p]);
+    for (std::size_t p = 0; p < places; ++p) {
+      const float extra = detour_m(i, p);
+      at[p] = extra < least_m[p] ? static_cast<std::int32_t>(i) : at[p];
+      least_m[p] = std::min(extra, least_m[p]);
     }
   }
-  for (float& extra : extra_m_) extra = std::max(extra, 0.0F);
+  extra_m_.resize(places);
+  for (std::size_t p = 0; p < places; ++p) give_extra(p);
   for (const std::uint32_t place : places_) extra_m_[place] = 0.0F;
 }
 
+/// Of one place, as find_detours() does of all.
+void Stops::find_detour(std::size_t place) {
+  least_m_[place] = rows_m_.back()[place];
+  at_[place] = static_cast<std::int32_t>(places_.size());
+  for (std::size_t i = 1; i < places_.size(); ++i) {
+    const float extra = detour_m(i, place);
+    if (extra >= least_m_[place]) continue;
+    least_m_[place] = extra;
+    at_[place] = static_cast<std::int32_t>(i);
+  }
+}
+
+/// Where the leg that the new stop breaks was the best, all are asked again; elsewhere the two that
+/// it makes.
 void Stops::insert(std::uint32_t place) {
-  places_.insert(places_.begin() + at_[place], place);
-  find_detours();
+  const std::int32_t broken = at_[place];
+  places_.insert(places_.begin() + broken, place);
+  find_rows();
+  const auto end = static_cast<std::int32_t>(places_.size());
+  for (std::size_t p = 0; p < least_m_.size(); ++p) {
+    if (at_[p] == broken) {
+      find_detour(p);
+    } else {
+      if (at_[p] > broken) ++at_[p];
+      for (std::int32_t i = broken; i <= std::min(broken + 1, end - 1); ++i) {
+        const float extra = detour_m(static_cast<std::size_t>(i), p);
+        const bool is_first_of_equals = extra == least_m_[p] && at_[p] != end && i < at_[p];
+        if (extra >= least_m_[p] && !is_first_of_equals) continue;
+        least_m_[p] = extra;
+        at_[p] = i;
+      }
+    }
+    give_extra(p);
+  }
+  for (const std::uint32_t stop : places_) extra_m_[stop] = 0.0F;
 }
 
 void Stops::shorten(int kicks) {

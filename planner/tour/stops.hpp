@@ -1,6 +1,7 @@
 // The stops of an open tour while a search changes it.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -34,7 +35,7 @@ class Stops {
   /// last find_detours().
   std::span<const float> extra_m() const { return extra_m_; }
   void find_detours();
-  /// At the cheapest position of the last find_detours(), which it calls again.
+  /// At the cheapest position as of the last find_detours(), and finds the detours of now.
   void insert(std::uint32_t place);
 
   /// 2-opt and Or-opt, with `kicks` in between (short_tour.hpp).
@@ -45,9 +46,19 @@ class Stops {
     return static_cast<double>((*row_m_)(from)[to]);
   }
 
+  float detour_m(std::size_t before, std::size_t place) const {
+    return rows_m_[before - 1][place] + rows_m_[before][place] -
+           rows_m_[before - 1][places_[before]];
+  }
+  void find_rows();
+  void find_detour(std::size_t place);
+  void give_extra(std::size_t place) { extra_m_[place] = std::max(least_m_[place], 0.0F); }
+
   const RowOf* row_m_;
   std::vector<std::uint32_t> places_;
-  std::vector<float> extra_m_;    // of each place
+  std::vector<const float*> rows_m_;  // of each stop
+  std::vector<float> least_m_;    // of each place, less than nothing where ways are not shortest
+  std::vector<float> extra_m_;    // the same, but never less than nothing
   std::vector<std::int32_t> at_;  // of each place: where among the stops it would come
 };
 

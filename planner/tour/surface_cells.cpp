@@ -174,6 +174,7 @@ void SurfaceCells::place_discs(SurfaceCell& cell) const {
 void SurfaceCells::add(std::span<const Vec3f> points_world_m, const OccupancyGrid& grid,
                        int threads) {
   ++updates_;
+  ++version_;
   std::vector<std::uint32_t> touched;
   for (const Vec3f& point_m : points_world_m) {
     const Key key = lattice_.key_of(point_m);
@@ -206,6 +207,7 @@ void SurfaceCells::add(std::span<const Vec3f> points_world_m, const OccupancyGri
 }
 
 void SurfaceCells::follow_map(const OccupancyGrid& grid) {
+  ++version_;
   for (SurfaceCell& cell : cells_) {
     cell.is_frontier = false;
     if (!cell.is_extrapolated() || !cell.has_plane) continue;

@@ -64,6 +64,8 @@ class SurfaceCells {
   std::span<const SurfaceCell> cells() const { return cells_; }
   /// Calls of add() so far.
   std::uint32_t updates() const { return updates_; }
+  /// Of add() and follow_map() so far.
+  std::uint64_t version() const { return version_; }
   void count_look(std::uint32_t cell, std::size_t side);
   /// Centre of a voxel of the cell, by its bit.
   Vec3 voxel_center_m(const SurfaceCell& cell, int bit) const;
@@ -82,6 +84,7 @@ class SurfaceCells {
   ZeroedArray<std::uint32_t> at_;  // of each cell of the lattice: 1 + index into cells_
   std::vector<SurfaceCell> cells_;
   std::uint32_t updates_ = 0;
+  std::uint64_t version_ = 0;
 };
 
 }  // namespace gnbv

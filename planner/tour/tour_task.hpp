@@ -23,6 +23,9 @@ struct TourKnowledge {
   const ViewCatalogue& catalogue;
   const TourPlaces& places;
   const LookSuccess& success;
+  double reality = 1.0;               // what looks brought lately, of what they promised
+  std::span<const ViewPose> refused;  // that no tour may hold now
+  std::span<const TourView> tour;     // that a tour has to be able to hold
 };
 
 struct TourTask {
@@ -33,8 +36,11 @@ struct TourTask {
 /// Small voxels that the surface is expected to fill, those that hold a point included.
 double expected_voxels(const SurfaceCells& cells);
 
-/// Small voxels that looks could bring, if every patch could be seen face on.
+/// Small voxels that one look at each patch that any view sees can be expected to bring.
 double voxels_in_reach(const TourKnowledge& knowledge);
+
+/// Of each patch, whether a view from any reachable place sees it.
+std::vector<std::uint8_t> seen_from_anywhere(const TourKnowledge& knowledge);
 
 /// All views of reachable places that may pay at `price_factor` times the configured price a metre.
 /// Of more patches than config.items_max, one in so many stands for its share. Its `row_m` is left

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "planner/map/clearance.hpp"
+#include "sim/core/error.hpp"
 #include "tests/support/flown.hpp"
 
 namespace gnbv {

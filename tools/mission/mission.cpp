@@ -166,7 +166,7 @@ std::optional<Decision> chosen_of(Mission& m, std::size_t next, Plan plan) {
 
 /// A tour learns from every view, so that it is asked again for the decisions of a replay.
 std::optional<Decision> decide_tour(Mission& m, std::size_t next) {
-  Plan plan = m.tour->next(m.out.belief, m.history, m.current, m.bench.threads);
+  Plan plan = m.tour->next(m.out.belief, m.history, m.current, m.bench);
   for (const LookOutcome& look : m.tour->outcomes()) {
     m.out.look_outcomes.push_back({next - 1, look});
   }

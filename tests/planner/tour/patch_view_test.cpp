@@ -34,7 +34,7 @@ Looked look(const std::vector<Vec3f>& points, const ViewPose& view) {
   Looked looked;
   looked.patches = find_patches(cells, grid, 1);
   CellBlocks blocks(kBox, cells.edge_m());
-  blocks.follow(cells);
+  blocks.follow(cells, 1);
   const CameraModel camera = make_camera_model({});
   const auto near = blocks.near(view.p_world_m, camera_reach_m(camera));
   std::vector<SeenPatch> seen;
