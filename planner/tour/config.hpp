@@ -28,7 +28,7 @@ struct TourConfig {
   bool explore = true;           // without a profile: where no surface pays, looks for space unseen
   double price_per_m = 6e-4;     // of the structure's expected voxels: what a metre has to bring
   double metres_per_view = 0.3;  // what a view costs beside its way
-  int iterations = 150;          // of the search, a replan
+  int iterations = 250;          // of the search, a replan
   int views_per_replan = 6;
   double replan_below =
       0.5;                // replans early when a view brings less than this share of its promise
@@ -36,8 +36,8 @@ struct TourConfig {
   int items_max = 12000;  // patches that the search weighs one by one; of more it takes a sample
   // when no view pays, the price is halved, but not below this share of it, and not when no more
   // than so much of the expected voxels is left
-  double end_price = 0.125;
-  double end_share = 0.01;
+  double end_price = 0.06;
+  double end_share = 0.003;
   bool surface_views = true;  // views off the lattice for what is left after two looks
 };
 
