@@ -115,6 +115,18 @@ TEST(Battery, BringsTheVehicleHomeBeforeItIsEmpty) {
   }
 }
 
+TEST(ReturnHome, LeadsAroundANoFlyBox) {
+  // between the start, at y = -2.8, and the structure
+  const Box3 box_m(Vec3(-1.6, -1.7, 0), Vec3(1.6, -1.6, 5));
+  const Flown flown(
+      smoke({"no_fly=[{min: [-1.6, -1.7, 0], max: [1.6, -1.6, 5]}]",
+             "vehicle.power.return_home=true", "planner.termination.max_iterations=4"}));
+  expect_home(flown);
+  for (const TrajectorySample& sample : flown.result.trajectory) {
+    EXPECT_FALSE(box_m.contains(Vec3(sample.T_world_body.translation()))) << sample.time_s;
+  }
+}
+
 TEST(Battery, ThatIsLargeEnoughEndsNoMission) {
   const Flown flown(smoke({"vehicle.power.return_home=true", "vehicle.power.battery_wh=100"}));
   EXPECT_EQ(flown.result.termination, Termination::max_iterations);
