@@ -27,7 +27,7 @@ std::string size_name(double size_m);
 /// Its index in kCoverageSizes_m, which every score has; nothing for other sizes.
 std::optional<std::size_t> papers_size(double size_m);
 
-/// Of a reference: some 6 GiB of them and their voxels.
+/// Of a reference: 7 GB of them and their voxels.
 constexpr double kMostSamples = 1e8;
 
 /// Samples grow with 1 / size^2: throws BadInput, naming the size that fits, for one that takes
