@@ -1,4 +1,4 @@
-// What contradicts itself in the adversities a scenario names: wind, outages, the battery.
+// What contradicts itself in the adversities a scenario names: wind and outages.
 #pragma once
 
 #include <vector>

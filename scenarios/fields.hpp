@@ -208,6 +208,7 @@ void fields(FieldVisitor& v, ShadowConfig& c);
 void fields(FieldVisitor& v, UtilityConfig& c);
 void fields(FieldVisitor& v, ViewPose& c);
 void fields(FieldVisitor& v, RouteConfig& c);
+void fields(FieldVisitor& v, TourConfig& c);
 void fields(FieldVisitor& v, SymmetryConfig& c);
 void fields(FieldVisitor& v, TerminationConfig& c);
 void fields(FieldVisitor& v, PlannerConfig& c);
@@ -218,7 +219,6 @@ void fields(FieldVisitor& v, NoFlyConfig& c);
 void fields(FieldVisitor& v, ScoreConfig& c);
 void fields(FieldVisitor& v, StartConfig& c);
 void fields(FieldVisitor& v, BenchmarkConfig& c);
-void fields(FieldVisitor& v, ScoreConfig& c);
 void fields(FieldVisitor& v, Scenario& c);
 
 template <typename Config>

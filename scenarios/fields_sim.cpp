@@ -209,7 +209,7 @@ void fields(FieldVisitor& v, WindConfig& c) {
            "Velocity of the air, world ENU: [3, 0, 0] blows towards the east.");
   v.number("gust_w20_m_s", c.gust_w20_m_s, between(0, 100),
            "Wind 20 ft above the ground that makes Dryden's gusts: 7.7 light, 15.4 moderate, 23.2 "
-           "severe; 0: none.");
+           "severe; 0: none. Height is z, over terrain too.");
 }
 
 }  // namespace gnbv

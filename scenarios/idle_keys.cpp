@@ -145,6 +145,21 @@ void add_termination(const PlannerConfig& c, Idle& out) {
   }
 }
 
+/// An ideal vehicle has no autopilot, but lands as fast as one would, and counts on what that
+/// takes.
+void add_autopilot(const Scenario& scenario, Idle& out) {
+  const std::string section = "vehicle.autopilot";
+  for (const auto& [key, text] : scenario_values(scenario)) {
+    if (!is_at_or_below(key, section)) continue;
+    if (is_one_of(key.substr(section.size() + 1),
+                  {"commander.land_speed_m_s", "commander.land_detection_s",
+                   "commander.disarm_after_landing_s"})) {
+      continue;
+    }
+    out.push_back({key, "vehicle.kind is ideal"});
+  }
+}
+
 /// What a file that names only its presets stands for.
 std::map<std::string, std::string> defaults_of(const Scenario& scenario) {
   Scenario plain;
@@ -173,9 +188,7 @@ std::vector<IdleKey> idle_keys(const Scenario& scenario) {
         "planner.symmetry.enabled is false");
   }
   add_termination(scenario.planner, out);
-  if (scenario.vehicle.kind == VehicleKind::ideal) {
-    add(out, "vehicle", {"autopilot"}, "vehicle.kind is ideal");
-  }
+  if (scenario.vehicle.kind == VehicleKind::ideal) add_autopilot(scenario, out);
   return out;
 }
 

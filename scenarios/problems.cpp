@@ -17,8 +17,6 @@ using Problems = std::vector<Problem>;
 
 constexpr double kGiB = 1024.0 * 1024 * 1024;
 
-std::string text_of(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z()); }
-
 /// The two have to be in order; the first key is the smaller one's.
 void require_below(double low, double high, const std::string& low_key, const std::string& high_key,
                    Problems& out) {

@@ -10,8 +10,6 @@ namespace {
 
 constexpr std::array<char, 3> kAxes = {'x', 'y', 'z'};
 
-std::string corner_text(const Vec3& p) { return fmt::format("[{}, {}, {}]", p.x(), p.y(), p.z()); }
-
 /// Every path that is given names a file; those of lists have to be given.
 void check_mesh_files(const Scenario& s, std::vector<Problem>& out) {
   Scenario copy = s;  // mesh_files() hands out what can be changed
@@ -56,12 +54,12 @@ void check_no_fly(const Scenario& s, std::vector<Problem>& out) {
     const double away_m = Box3(box.min_m, box.max_m).exteriorDistance(start_m);
     if (away_m >= radius_m) continue;
     out.push_back({{key, "start.position_m", "planner.validity.collision_radius_m"},
-                   fmt::format("the start {} is {} the box from {} to {}", corner_text(start_m),
+                   fmt::format("the start {} is {} the box from {} to {}", text_of(start_m),
                                away_m == 0.0 ? std::string("in")
                                              : fmt::format("{:.2f} m, less than collision_radius_m "
                                                            "= {}, from",
                                                            away_m, radius_m),
-                               corner_text(box.min_m), corner_text(box.max_m))});
+                               text_of(box.min_m), text_of(box.max_m))});
   }
 }
 
@@ -75,6 +73,10 @@ void check_region(const Scenario& s, std::vector<Problem>& out) {
 }
 
 }  // namespace
+
+std::string text_of(const Vec3& p_m) {
+  return fmt::format("[{}, {}, {}]", p_m.x(), p_m.y(), p_m.z());
+}
 
 bool check_box(const Vec3& low_m, const Vec3& high_m, const std::string& min_key,
                const std::string& max_key, std::vector<Problem>& out) {

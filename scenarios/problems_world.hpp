@@ -8,6 +8,9 @@
 
 namespace gnbv {
 
+/// "[1, 2.5, -3]"
+std::string text_of(const Vec3& p_m);
+
 /// Whether the box has a length along each axis; adds a problem for each along which it has none.
 bool check_box(const Vec3& low_m, const Vec3& high_m, const std::string& min_key,
                const std::string& max_key, std::vector<Problem>& out);

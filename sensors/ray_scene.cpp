@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "sensors/frames.hpp"
+#include "sensors/scene_faces.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {
@@ -17,14 +18,6 @@ namespace {
 
 constexpr std::size_t kPacket = RayPacket::kRays;
 constexpr float kGroundHalfWidth_m = 1000.0F;
-// ray masks: sensors see all, questions about one part leave the others out
-constexpr unsigned kStructureMask = 1;
-constexpr unsigned kGroundMask = 2;
-constexpr unsigned kObstacleMask = 4;
-constexpr unsigned kTerrainMask = 8;
-constexpr unsigned kAllMask = kStructureMask | kGroundMask | kObstacleMask | kTerrainMask;
-// of faces that are asked for their distance only where they rise above the terrain's floor
-constexpr unsigned kRisenTerrainMask = 16;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// Owns one reference of an Embree handle.
@@ -68,34 +61,6 @@ unsigned attach_triangles(RTCDevice device, RTCScene scene, std::span<const Vec3
   return rtcAttachGeometry(scene, geometry.get());
 }
 
-/// Closest point of triangle abc to p: the region of p among vertices, edges and face decides
-/// (Ericson, Real-Time Collision Detection 2005, section 5.1.5).
-Vec3 closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 ab = b - a;
-  const Vec3 ac = c - a;
-  const double d1 = ab.dot(p - a);
-  const double d2 = ac.dot(p - a);
-  if (d1 <= 0.0 && d2 <= 0.0) return a;
-  const double d3 = ab.dot(p - b);
-  const double d4 = ac.dot(p - b);
-  if (d3 >= 0.0 && d4 <= d3) return b;
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return a + d1 / (d1 - d3) * ab;
-  const double d5 = ab.dot(p - c);
-  const double d6 = ac.dot(p - c);
-  if (d6 >= 0.0 && d5 <= d6) return c;
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return a + d2 / (d2 - d6) * ac;
-  const double va = d3 * d6 - d5 * d4;
-  const double along_b = d4 - d3;
-  const double along_c = d5 - d6;
-  if (va <= 0.0 && along_b >= 0.0 && along_c >= 0.0) {
-    return b + along_b / (along_b + along_c) * (c - b);
-  }
-  const double scale = 1.0 / (va + vb + vc);
-  return a + vb * scale * ab + vc * scale * ac;
-}
-
 /// Rays that begin `near_m` from their origin and see everything; all else is still to be set.
 /// (Embree writes only tfar and the hit.)
 RTCRayHit16 packet_from(const Vec3f& origin_world_m, float near_m) {
@@ -108,51 +73,29 @@ RTCRayHit16 packet_from(const Vec3f& origin_world_m, float near_m) {
   return packet;
 }
 
-/// One mesh of the world: a geometry of the scene, and a run of the faces of all meshes together.
-struct ScenePart {
-  unsigned mask = 0;
-  unsigned geometry = RTC_INVALID_GEOMETRY_ID;  // none where the mesh has no faces
-  std::uint32_t first_face = 0;
-};
-
-struct NearestQuery {
-  const TriangleMesh* meshes;
-  std::span<const ScenePart> parts;
-  unsigned asked;  // masks
-  float terrain_floor_z_m;
-  Vec3 p_world_m;
-  double distance_m;
-
-  /// The face among those of all meshes; nothing for one that is not asked for.
-  const std::array<std::uint32_t, 3>* face(unsigned geometry, unsigned face_of_it) const {
-    for (const ScenePart& part : parts) {
-      if (part.geometry != geometry) continue;
-      const auto& found = meshes->faces[part.first_face + face_of_it];
-      const bool is_risen = part.mask == kTerrainMask && (asked & kRisenTerrainMask) != 0 &&
-                            std::any_of(found.begin(), found.end(), [&](std::uint32_t vertex) {
-                              return meshes->vertices_m[vertex].z() > terrain_floor_z_m;
-                            });
-      return (asked & part.mask) != 0 || is_risen ? &found : nullptr;
-    }
-    return nullptr;
-  }
-};
-
 /// Embree searches in float around the rounded point: the ball is kept a little larger than the
 /// distance found so far, which is measured in double.
 float search_radius_m(double distance_m) {
   return static_cast<float>(distance_m * 1.000001 + 1e-5);
 }
 
+struct NearestQuery {
+  const SceneFaces* faces;
+  std::span<const unsigned, SceneFaces::kParts> geometries;
+  unsigned asked;  // masks
+  Vec3 p_world_m;
+  double distance_m;
+};
+
 bool visit_nearest(RTCPointQueryFunctionArguments* arguments) {
   auto& query = *static_cast<NearestQuery*>(arguments->userPtr);
-  const auto* const face = query.face(arguments->geomID, arguments->primID);
-  if (face == nullptr) return false;
-  const auto corner = [&](std::size_t i) -> Vec3 {
-    return query.meshes->vertices_m[(*face)[i]].cast<double>();
-  };
-  const Vec3 nearest = closest_on_triangle(query.p_world_m, corner(0), corner(1), corner(2));
-  const double distance_m = (nearest - query.p_world_m).norm();
+  const auto geometry =
+      std::find(query.geometries.begin(), query.geometries.end(), arguments->geomID);
+  if (geometry == query.geometries.end()) return false;
+  const auto part = static_cast<std::size_t>(geometry - query.geometries.begin());
+  const std::uint32_t face = query.faces->first_face(part) + arguments->primID;
+  if (!query.faces->is_asked(part, face, query.asked)) return false;
+  const double distance_m = query.faces->distance_m(face, query.p_world_m);
   if (!(distance_m < query.distance_m)) return false;
   query.distance_m = distance_m;
   arguments->query->radius = search_radius_m(distance_m);
@@ -166,20 +109,17 @@ struct RayScene::Impl {
   // a build happened to be shared out among threads.
   Owner<RTCDevice, rtcReleaseDevice> device{rtcNewDevice("threads=1")};
   Owner<RTCScene, rtcReleaseScene> scene{new_scene(device.get())};
-  TriangleMesh meshes;             // structure, obstacles and terrain, one after the other
-  std::array<ScenePart, 3> parts;  // theirs
-  float terrain_floor_z_m = 0.0F;
+  SceneFaces faces;
+  std::array<unsigned, SceneFaces::kParts> geometries;  // none where a mesh has no faces
   unsigned ground_id = RTC_INVALID_GEOMETRY_ID;
 
-  explicit Impl(const World& world)
-      : meshes(world.structure), terrain_floor_z_m(static_cast<float>(world.terrain_floor_z_m)) {
+  explicit Impl(const World& world) : faces(world) {
     GNBV_CHECK(rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) != 0,
                "this Embree was built without ray masks");
     rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_HIGH);
-    parts[0] = attach(world.structure, kStructureMask, 0);
-    parts[1] = attach_next(world.obstacles, kObstacleMask);
-    parts[2] = attach_next(world.terrain, kTerrainMask);
+    geometries = {attach(world.structure, kStructureMask), attach(world.obstacles, kObstacleMask),
+                  attach(world.terrain, kTerrainMask)};
     if (world.has_ground) {
       constexpr float w = kGroundHalfWidth_m;
       const std::array<Vec3f, 4> corners = {Vec3f(-w, -w, 0), Vec3f(w, -w, 0), Vec3f(w, w, 0),
@@ -191,31 +131,9 @@ struct RayScene::Impl {
     check_device(device.get(), "building the scene");
   }
 
-  ScenePart attach(const TriangleMesh& mesh, unsigned mask, std::size_t first_face) const {
-    need_indices(mesh);
-    ScenePart part{.mask = mask, .first_face = static_cast<std::uint32_t>(first_face)};
-    if (mesh.faces.empty()) return part;
-    part.geometry = attach_triangles(device.get(), scene.get(), mesh.vertices_m, mesh.faces, mask);
-    return part;
-  }
-  ScenePart attach_next(const TriangleMesh& mesh, unsigned mask) {
-    const ScenePart part = attach(mesh, mask, meshes.faces.size());
-    if (!mesh.faces.empty()) append(meshes, mesh);
-    return part;
-  }
-
-  static void need_indices(const TriangleMesh& mesh) {
-    for (const auto& face : mesh.faces) {
-      for (const std::uint32_t i : face) {
-        GNBV_CHECK(i < mesh.vertices_m.size(), "face vertex {} of {}", i, mesh.vertices_m.size());
-      }
-    }
-    GNBV_CHECK(mesh.face_material.empty() || mesh.face_material.size() == mesh.faces.size(),
-               "{} materials of {} faces", mesh.face_material.size(), mesh.faces.size());
-    for (const std::uint16_t i : mesh.face_material) {
-      GNBV_CHECK(i < mesh.materials.size(), "material {} of {}", i, mesh.materials.size());
-    }
-    GNBV_CHECK(!mesh.materials.empty() || mesh.faces.empty(), "a mesh without materials");
+  unsigned attach(const TriangleMesh& mesh, unsigned mask) const {
+    if (mesh.faces.empty()) return RTC_INVALID_GEOMETRY_ID;
+    return attach_triangles(device.get(), scene.get(), mesh.vertices_m, mesh.faces, mask);
   }
 
   static RTCScene new_scene(RTCDevice device) {
@@ -295,8 +213,8 @@ struct RayScene::Impl {
   }
   std::int32_t face(const RTCRayHit16& answer, std::size_t lane) const {
     const unsigned id = answer.hit.geomID[lane];
-    const std::uint32_t obstacle = id == parts[1].geometry ? parts[1].first_face : 0;
-    const std::uint32_t terrain = id == parts[2].geometry ? parts[2].first_face : 0;
+    const std::uint32_t obstacle = id == geometries[1] ? faces.first_face(1) : 0;
+    const std::uint32_t terrain = id == geometries[2] ? faces.first_face(2) : 0;
     const auto hit = static_cast<std::int32_t>(answer.hit.primID[lane] + obstacle + terrain);
     const std::int32_t of_something = id == ground_id ? kGroundFace : hit;
     return id == RTC_INVALID_GEOMETRY_ID ? kNoFace : of_something;
@@ -416,25 +334,25 @@ void RayScene::terrain_blocks(std::span<const Vec3f> origins_world_m,
                blocked);
 }
 
-bool RayScene::has_obstacles() const { return impl_->parts[1].geometry != RTC_INVALID_GEOMETRY_ID; }
-bool RayScene::has_terrain() const { return impl_->parts[2].geometry != RTC_INVALID_GEOMETRY_ID; }
+void RayScene::anything_blocks(std::span<const Vec3f> origins_world_m,
+                               std::span<const Vec3f> directions_world, float near_m, float far_m,
+                               std::span<std::uint8_t> blocked) const {
+  find_blocked(impl_->scene.get(), kStructureMask | kObstacleMask | kTerrainMask, origins_world_m,
+               directions_world, near_m, far_m, blocked);
+}
+
+bool RayScene::has_obstacles() const { return impl_->geometries[1] != RTC_INVALID_GEOMETRY_ID; }
+bool RayScene::has_terrain() const { return impl_->geometries[2] != RTC_INVALID_GEOMETRY_ID; }
 
 Vec3f RayScene::normal_world(std::int32_t face) const {
-  if (face == kGroundFace) return Vec3f::UnitZ();
-  GNBV_CHECK(face >= 0, "the normal of nothing");
-  const auto& [a, b, c] = impl_->meshes.faces[static_cast<std::size_t>(face)];
-  const std::vector<Vec3f>& p = impl_->meshes.vertices_m;
-  return (p[b] - p[a]).cross(p[c] - p[a]).stableNormalized();
+  return face == kGroundFace ? Vec3f(Vec3f::UnitZ()) : impl_->faces.normal_world(face);
 }
 
-const Material& RayScene::material(std::int32_t face) const {
-  const std::vector<std::uint16_t>& of_face = impl_->meshes.face_material;
-  return impl_->meshes.materials[of_face.empty() ? 0 : of_face[static_cast<std::size_t>(face)]];
-}
+const Material& RayScene::material(std::int32_t face) const { return impl_->faces.material(face); }
 
 double RayScene::Impl::distance_m(unsigned asked, const Vec3& p_world_m, double limit_m) const {
-  NearestQuery nearest{&meshes,           parts,     asked,
-                       terrain_floor_z_m, p_world_m, std::numeric_limits<double>::infinity()};
+  NearestQuery nearest{&faces, geometries, asked, p_world_m,
+                       std::numeric_limits<double>::infinity()};
   RTCPointQuery query{};
   query.x = static_cast<float>(p_world_m.x());
   query.y = static_cast<float>(p_world_m.y());

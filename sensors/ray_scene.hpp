@@ -73,13 +73,16 @@ class RayScene {
                         std::span<const Vec3f> directions_world, float near_m, float far_m,
                         std::span<std::uint8_t> blocked) const;
 
-  /// The same of the obstacles alone, and of the terrain alone.
+  /// The same of the obstacles alone, of the terrain alone, and of all three.
   void obstacles_block(std::span<const Vec3f> origins_world_m,
                        std::span<const Vec3f> directions_world, float near_m, float far_m,
                        std::span<std::uint8_t> blocked) const;
   void terrain_blocks(std::span<const Vec3f> origins_world_m,
                       std::span<const Vec3f> directions_world, float near_m, float far_m,
                       std::span<std::uint8_t> blocked) const;
+  void anything_blocks(std::span<const Vec3f> origins_world_m,
+                       std::span<const Vec3f> directions_world, float near_m, float far_m,
+                       std::span<std::uint8_t> blocked) const;
 
   /// Unit normal of a face of a mesh, on the side its corners run counter-clockwise, or of the
   /// ground. Zero for a face without area.

@@ -25,7 +25,7 @@ struct HullLines {
   double x_m(double along) const { return 0.5 * length_m * along; }
 };
 
-HullLines draw_hull(Draws& draws, double size_m) {
+HullLines draw_hull(Dice& draws, double size_m) {
   HullLines h{};
   h.length_m = 0.96 * size_m;
   h.beam_m = size_m * draws.real(0.16, 0.26);
@@ -109,7 +109,7 @@ std::vector<Part> screw_and_rudder(const HullLines& h) {
 }
 
 /// Decks stacked from `from` to `to` along the ship, a bridge on top, the funnel behind it.
-std::vector<Part> superstructure(Draws& draws, const HullLines& h, double from, double to) {
+std::vector<Part> superstructure(Dice& draws, const HullLines& h, double from, double to) {
   std::vector<Part> parts;
   const int decks = std::clamp(static_cast<int>(h.length_m / 9.0) + draws.whole(0, 1), 1, 5);
   const double deck_m = std::clamp(0.28 * h.depth_m, 0.9, 2.6);
@@ -145,7 +145,7 @@ std::vector<Part> superstructure(Draws& draws, const HullLines& h, double from, 
 }
 
 /// Hatches, containers and derricks on the deck from `from` to `to`.
-std::vector<Part> cargo(Draws& draws, const HullLines& h, double from, double to) {
+std::vector<Part> cargo(Dice& draws, const HullLines& h, double from, double to) {
   std::vector<Part> parts;
   const int holds = draws.whole(1, 3);
   const bool has_containers = draws.chance(0.5);
@@ -166,7 +166,8 @@ std::vector<Part> cargo(Draws& draws, const HullLines& h, double from, double to
     const Vec3 head(foot_m, 0.0, z_m + 0.8 * h.beam_m);
     parts.push_back(
         bent_pipe({{foot_m, 0.0, z_m}, head}, 0.02 * h.beam_m + 0.05, 10, kMachineYellow));
-    const Vec3 tip(h.x_m(a), draws.real(-0.6, 0.6) * y_m, z_m + h.beam_m * draws.real(0.7, 1.0));
+    const double tip_z_m = z_m + h.beam_m * draws.real(0.7, 1.0);
+    const Vec3 tip(h.x_m(a), draws.real(-0.6, 0.6) * y_m, tip_z_m);
     parts.push_back(
         beam({foot_m - 0.1, 0.0, z_m + 0.5 * h.beam_m}, tip, 0.14, 0.18, kMachineYellow));
     parts.push_back(bent_pipe({head - Vec3(0, 0, 0.1), tip}, 0.03, 5, kGalvanised));
@@ -190,7 +191,7 @@ std::vector<Part> bulwark_rails(const HullLines& h) {
 
 }  // namespace
 
-std::vector<Part> hull(Draws& draws, double size_m) {
+std::vector<Part> hull(Dice& draws, double size_m) {
   const HullLines h = draw_hull(draws, size_m);
   std::vector<Part> parts = {hull_body(h)};
   add(parts, dock(h));

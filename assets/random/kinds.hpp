@@ -5,17 +5,17 @@
 #include <vector>
 
 #include "assets/mesh_builder.hpp"
-#include "assets/random/draws.hpp"
+#include "sim/core/dice.hpp"
 
 namespace gnbv::random_parts {
 
-std::vector<Part> hall(Draws& draws, double size_m);    // closed, open at an end, sawtooth
-std::vector<Part> tower(Draws& draws, double size_m);   // of masonry, tanks, silos, a chimney
-std::vector<Part> mast(Draws& draws, double size_m);    // free, guyed, for power lines
-std::vector<Part> truss(Draws& draws, double size_m);   // space frame, bare portals, gantry
-std::vector<Part> bridge(Draws& draws, double size_m);  // girder, truss, tied arch, stays
-std::vector<Part> hull(Draws& draws, double size_m);    // a ship on keel blocks
-std::vector<Part> crane(Draws& draws, double size_m);   // tower crane, gantry crane
-std::vector<Part> mixed(Draws& draws, double size_m);
+std::vector<Part> hall(Dice& draws, double size_m);    // closed, open at an end, sawtooth
+std::vector<Part> tower(Dice& draws, double size_m);   // of masonry, tanks, silos, a chimney
+std::vector<Part> mast(Dice& draws, double size_m);    // free, guyed, for power lines
+std::vector<Part> truss(Dice& draws, double size_m);   // space frame, bare portals, gantry
+std::vector<Part> bridge(Dice& draws, double size_m);  // girder, truss, tied arch, stays
+std::vector<Part> hull(Dice& draws, double size_m);    // a ship on keel blocks
+std::vector<Part> crane(Dice& draws, double size_m);   // tower crane, gantry crane
+std::vector<Part> mixed(Dice& draws, double size_m);
 
 }  // namespace gnbv::random_parts

@@ -64,12 +64,6 @@ Ring upright_rectangle(double x_m, double width_m, double z0_m, double z1_m) {
   return {{x_m, -h_m, z0_m}, {x_m, h_m, z0_m}, {x_m, h_m, z1_m}, {x_m, -h_m, z1_m}};
 }
 
-std::vector<Vec3> steps(const Vec3& a_m, const Vec3& b_m, int count) {
-  std::vector<Vec3> line_m;
-  for (int i = 0; i <= count; ++i) line_m.emplace_back(a_m + (b_m - a_m) * i / count);
-  return line_m;
-}
-
 Part drum(const Vec3& foot_m, double radius_m, double height_m, std::size_t sides, Paint paint) {
   return upright(revolve({{0.0, 0.0}, {0.0, radius_m}, {height_m, radius_m}, {height_m, 0.0}},
                          sides, uniform(paint)),

@@ -31,9 +31,6 @@ Ring square(double x_m, double y_m, double z_m, double width_m);
 /// A ring across x at `x_m`: `width_m` along y, from z0_m to z1_m.
 Ring upright_rectangle(double x_m, double width_m, double z0_m, double z1_m);
 
-/// Points from a to b in `count` equal steps, both included.
-std::vector<Vec3> steps(const Vec3& a_m, const Vec3& b_m, int count);
-
 /// A standing cylinder.
 Part drum(const Vec3& foot_m, double radius_m, double height_m, std::size_t sides, Paint paint);
 

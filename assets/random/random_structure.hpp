@@ -16,7 +16,7 @@ constexpr std::array<std::string_view, 8> kRandomKinds = {"hall",   "tower", "ma
 /// What the seed chooses among kRandomKinds, each as likely as the others.
 std::string_view random_kind(std::uint64_t seed);
 
-/// Closed parts, outwards-facing, standing on the ground z = 0 about the z axis, 6 to 58 m in its
+/// Closed parts, outwards-facing, standing on the ground z = 0 about the z axis, 8 to 58 m in its
 /// largest extent along an axis, turned about z as chance has it. The same for a seed and kind
 /// always; `kind` is one of kRandomKinds.
 TriangleMesh make_random_structure(std::uint64_t seed, std::string_view kind);

@@ -201,6 +201,15 @@ GateVerdict judge(const BaselineMetric& metric, double now) {
   return gain > 0.0 && metric.better != Better::same ? GateVerdict::better : GateVerdict::regressed;
 }
 
+/// Throws BadInput when the run has no such value.
+double gated_value(const RunFigures& run, const BaselineMetric& metric, const fs::path& path) {
+  const std::optional<double> value = value_of(run, metric.name);
+  if (value) return *value;
+  throw BadInput(
+      fmt::format("{}: metrics.{}: the run was not scored at that size; score.sizes_m names it",
+                  path.string(), metric.name));
+}
+
 }  // namespace
 
 Baseline read_baseline(const fs::path& path) {
@@ -256,6 +265,7 @@ Baseline updated_baseline(const RunFigures& run, const Baseline& before, const f
   need_same(before.of, subject_of(run), false, path);
   Baseline baseline = make_baseline(run);
   if (before.result_sha256) baseline.result_sha256 = run.result_sha256;
+  for (const BaselineMetric& known : before.metrics) gated_value(run, known, path);
   for (BaselineMetric& metric : baseline.metrics) {
     for (const BaselineMetric& known : before.metrics) {
       if (known.name != metric.name) continue;
@@ -270,14 +280,8 @@ BaselineCheck check_against(const Baseline& baseline, const fs::path& path, cons
   need_same(baseline.of, subject_of(run), true, path);
   BaselineCheck check{.metrics = {}, .termination = run.termination};
   for (const BaselineMetric& metric : baseline.metrics) {
-    const std::optional<double> now = value_of(run, metric.name);
-    if (!now) {
-      throw BadInput(
-          fmt::format("{}: metrics.{}: the run was not scored at that size; "
-                      "score.sizes_m names it",
-                      path.string(), metric.name));
-    }
-    check.metrics.push_back({metric, *now, judge(metric, *now)});
+    const double now = gated_value(run, metric, path);
+    check.metrics.push_back({metric, now, judge(metric, now)});
   }
   check.is_termination_wrong =
       run.termination == "collision" || run.termination != baseline.termination;

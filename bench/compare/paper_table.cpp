@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "bench/compare/statistics.hpp"
+#include "bench/compare/row_figures.hpp"
 #include "bench/compare/table_groups.hpp"
 #include "sim/core/counted.hpp"
 #include "sim/core/error.hpp"
@@ -15,33 +15,7 @@
 namespace gnbv {
 namespace {
 
-using Runs = std::vector<const RunFigures*>;
 using Row = std::vector<TableCell>;
-
-/// What a row shows, each estimated over its runs or printed by the paper.
-struct RowFigures {
-  std::string label;
-  std::string kind;  // ours, paper, ...
-  std::optional<std::size_t> runs = {};
-  std::optional<MeanEstimate> iterations = {};
-  std::optional<MeanEstimate> entropy_reduction = {};
-  std::optional<MeanEstimate> distance_m = {};
-  std::optional<MeanEstimate> time_min = {};
-  std::array<std::optional<MeanEstimate>, 3> coverage = {};
-  std::map<double, MeanEstimate> more = {};  // by the size that all runs have beside these
-  std::optional<MeanEstimate> share_of_ceiling = {};
-  std::optional<MeanEstimate> density = {};
-  std::string mark = {};  // of the finest two coverages
-};
-
-MeanEstimate printed(double value) { return {.n = 1, .mean = value, .half_width = {}}; }
-
-template <typename Value>
-MeanEstimate estimate(const Runs& runs, const Value& value_of) {
-  std::vector<double> values;
-  for (const RunFigures* run : runs) values.push_back(value_of(*run));
-  return estimate_mean(values);
-}
 
 /// "92.8 ±0.6%" of 0.928 and 0.006 with factor 100 and unit "%".
 TableCell cell(const std::optional<MeanEstimate>& e, int decimals, double factor = 1.0,
@@ -50,28 +24,6 @@ TableCell cell(const std::optional<MeanEstimate>& e, int decimals, double factor
   std::string text = grouped_number(factor * e->mean, decimals);
   if (e->half_width) text += " ±" + grouped_number(factor * *e->half_width, decimals);
   return {.text = text + unit, .values = {e->mean, e->half_width}};
-}
-
-/// Sizes beside the paper's that some of the runs have.
-std::set<double> more_sizes(std::span<const RunFigures> runs) {
-  std::set<double> sizes_m;
-  for (const RunFigures& run : runs) {
-    for (const SizedCoverage& at : run.more) sizes_m.insert(at.size_m);
-  }
-  return sizes_m;
-}
-
-/// Over the runs, at the sizes that all of them have.
-std::map<double, MeanEstimate> estimate_more(const Runs& runs, double SizedCoverage::*share) {
-  std::map<double, std::vector<double>> values;
-  for (const RunFigures* run : runs) {
-    for (const SizedCoverage& at : run->more) values[at.size_m].push_back(at.*share);
-  }
-  std::map<double, MeanEstimate> estimates;
-  for (const auto& [size_m, shares] : values) {
-    if (shares.size() == runs.size()) estimates.emplace(size_m, estimate_mean(shares));
-  }
-  return estimates;
 }
 
 std::vector<TableColumn> all_columns(const std::set<double>& more_m) {
@@ -128,73 +80,10 @@ void drop_column(TextTable& table, std::string_view key) {
   for (Row& row : table.rows) row.erase(row.begin() + at);
 }
 
-RowFigures paper_figures(const PaperRow& row) {
-  RowFigures f{.label = std::string(row.label), .kind = "paper"};
-  if (row.iterations) f.iterations = printed(*row.iterations);
-  if (row.entropy_reduction) f.entropy_reduction = printed(*row.entropy_reduction);
-  if (row.distance_m) f.distance_m = printed(*row.distance_m);
-  if (row.time_min) f.time_min = printed(*row.time_min);
-  if (row.density_points_per_voxel) f.density = printed(*row.density_points_per_voxel);
-  for (std::size_t size = 0; row.coverage_percent && size < 3; ++size) {
-    f.coverage[size] = printed((*row.coverage_percent)[size] / 100.0);
-  }
-  if (is_doubtful(row)) f.mark = "†";
-  return f;
-}
-
-void add_share(RowFigures& f, const std::optional<Ceiling>& ceiling) {
-  if (!ceiling || ceiling->leaf_outside[0] <= 0.0) return;
-  MeanEstimate share = *f.coverage[0];
-  share.mean /= ceiling->leaf_outside[0];
-  if (share.half_width) *share.half_width /= ceiling->leaf_outside[0];
-  f.share_of_ceiling = share;
-}
-
-RowFigures our_figures(const std::string& label, const Runs& runs,
-                       const std::optional<Ceiling>& ceiling) {
-  RowFigures f{.label = label, .kind = "ours", .runs = runs.size()};
-  f.iterations = estimate(runs, [](const RunFigures& r) { return r.iterations; });
-  f.entropy_reduction = estimate(runs, [](const RunFigures& r) { return r.entropy_reduction_nat; });
-  f.distance_m = estimate(runs, [](const RunFigures& r) { return r.straight_m; });
-  f.density = estimate(runs, [](const RunFigures& r) { return r.density_points_per_voxel; });
-  const auto has_time = [](const RunFigures* r) { return !r->curve.seconds.empty(); };
-  if (std::all_of(runs.begin(), runs.end(), has_time)) {
-    f.time_min = estimate(runs, [](const RunFigures& r) { return r.curve.seconds.back() / 60.0; });
-  }
-  for (std::size_t size = 0; size < 3; ++size) {
-    f.coverage[size] = estimate(runs, [&](const RunFigures& r) { return r.coverage_final[size]; });
-  }
-  f.more = estimate_more(runs, &SizedCoverage::final);
-  add_share(f, ceiling);
-  return f;
-}
-
-/// The profile does not depend on the utility: one run a seed.
-RowFigures our_profile(const Runs& runs, const std::optional<Ceiling>& ceiling) {
-  std::map<std::uint64_t, const RunFigures*> by_seed;
-  for (const RunFigures* run : runs) by_seed.emplace(run->seed, run);
-  Runs profiles;
-  for (const auto& [seed, run] : by_seed) profiles.push_back(run);
-  RowFigures f{.label = "Profile", .kind = "ours", .runs = profiles.size()};
-  f.distance_m = estimate(profiles, [](const RunFigures& r) { return r.before.profile_m; });
-  for (std::size_t size = 0; size < 3; ++size) {
-    f.coverage[size] =
-        estimate(profiles, [&](const RunFigures& r) { return r.coverage_profile[size]; });
-  }
-  f.more = estimate_more(profiles, &SizedCoverage::profile);
-  add_share(f, ceiling);
-  return f;
-}
-
-RowFigures ceiling_figures(const std::string& kind, const std::array<double, 3>& coverage) {
-  RowFigures f{.label = "Ceiling", .kind = kind};
-  for (std::size_t size = 0; size < 3; ++size) f.coverage[size] = printed(coverage[size]);
-  return f;
-}
-
 /// A row a setting, and one for all settings that had the same profiles.
 std::vector<RowFigures> our_profiles(const std::vector<TableGroup>& groups,
-                                     const std::optional<Ceiling>& ceiling) {
+                                     const std::optional<Ceiling>& ceiling,
+                                     const std::set<double>& more_m) {
   std::vector<TableGroup> by_setting;
   for (const TableGroup& group : groups) {
     auto same = std::find_if(by_setting.begin(), by_setting.end(),
@@ -207,7 +96,7 @@ std::vector<RowFigures> our_profiles(const std::vector<TableGroup>& groups,
   for (const TableGroup& group : by_setting) {
     const RowFigures row = our_profile(group.runs, ceiling);
     const auto is_same = [&](const RowFigures& other) {
-      return all_cells(other, {}) == all_cells(row, {});
+      return all_cells(other, more_m) == all_cells(row, more_m);
     };
     if (std::any_of(rows.begin(), rows.end(), is_same)) continue;
     rows.push_back(row);
@@ -223,7 +112,7 @@ std::string three_percent(const std::array<double, 3>& fractions) {
 }
 
 /// "max_iterations", or "max_iterations (4), collision (1)".
-std::string terminations(const Runs& runs) {
+std::string terminations(const RunsOfRow& runs) {
   std::map<std::string, int> counts;
   for (const RunFigures* run : runs) ++counts[run->termination];
   if (counts.size() == 1) return counts.begin()->first;
@@ -235,7 +124,7 @@ std::string terminations(const Runs& runs) {
 }
 
 /// What the columns have no room for.
-std::string runs_note(const std::string& utility, const Runs& runs) {
+std::string runs_note(const std::string& utility, const RunsOfRow& runs) {
   const auto mean = [&](const auto& value_of) { return estimate(runs, value_of).mean; };
   std::array<double, 3> raw{};
   double least = 1.0;
@@ -312,7 +201,7 @@ TextTable comparison_table(const PaperTable& paper, std::span<const RunFigures> 
     if (find_row(paper, group.utility) == nullptr)
       add_ours(group, name_in_table(paper, group.utility));
   }
-  for (const RowFigures& profile : our_profiles(groups, ceiling)) add(profile);
+  for (const RowFigures& profile : our_profiles(groups, ceiling, more_m)) add(profile);
   if (paper.profile) add(paper_figures(*paper.profile));
   if (ceiling) {
     add(ceiling_figures("physical", ceiling->outside));

@@ -172,18 +172,13 @@ std::string bytes_of(const ViewSurvey& survey) {
   for (const SurveyedView& view : survey.views) {
     out.put(view.position);
     out.put(view.yaw_rad);
+    out.put(view.gimbal_pitch_rad);
     out.put_count(view.finds.size());
     std::uint32_t last = 0;
     for (const std::uint32_t voxel : view.finds) {
       out.put_count(voxel - last);
       last = voxel;
     }
-  }
-  const bool has_gimbal =
-      std::any_of(survey.views.begin(), survey.views.end(),
-                  [](const SurveyedView& view) { return view.gimbal_pitch_rad != 0.0; });
-  if (has_gimbal) {  // at the end, so that surveys without one are as they ever were
-    for (const SurveyedView& view : survey.views) out.put(view.gimbal_pitch_rad);
   }
   return std::move(out.bytes);
 }
@@ -198,14 +193,12 @@ std::optional<ViewSurvey> survey_from(std::string_view bytes) {
     SurveyedView& view = survey.views.emplace_back();
     view.position = in.get<std::uint32_t>();
     view.yaw_rad = in.get<double>();
+    view.gimbal_pitch_rad = in.get<double>();
     std::uint32_t voxel = 0;
     for (std::uint64_t finds = in.get_count(); finds > 0 && in.is_good(); --finds) {
       voxel += static_cast<std::uint32_t>(in.get_count());
       view.finds.push_back(voxel);
     }
-  }
-  if (in.is_good() && !in.is_at_end()) {
-    for (SurveyedView& view : survey.views) view.gimbal_pitch_rad = in.get<double>();
   }
   if (!in.is_good() || !in.is_at_end()) return std::nullopt;
   return survey;

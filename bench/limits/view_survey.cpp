@@ -11,7 +11,7 @@ namespace gnbv {
 namespace {
 
 constexpr int kYaws = 8;
-constexpr double kFewestPixels = 0.05;  // share of the images that has to show structure
+constexpr double kFewestPixels = 0.05;  // share of the images that has to show a surface
 constexpr std::size_t kViewsAtOnce = 16;
 
 /// Cameras that look the same way with few pixels.

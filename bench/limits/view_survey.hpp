@@ -27,8 +27,9 @@ struct ViewSurvey {
 };
 
 /// Every second legal position along each axis (every one where two steps are more than half the
-/// least range_max_m of the cameras), by eight yaws and all pitches of a gimbal, as far as the
-/// structure fills a twentieth of the images at least. All views, in the order of `views`, go
+/// least range_max_m of the cameras) that has structure within reach, by eight yaws and all pitches
+/// of a gimbal, as far as surface above the floor, whosever it is, fills a twentieth of the images
+/// at least. All views, in the order of `views`, go
 /// through one cloud (CloudOfViews). A leaf of it keeps the centroid that reached it first, as a
 /// mission's does: another order gives a slightly different cloud. The same at any number of
 /// threads.

@@ -45,11 +45,13 @@ std::vector<SizedCoverage> score_more_sizes(std::span<const double> sizes_m, con
                                             const RayScene& scene, double floor_z_m,
                                             const ScoredCloud& cloud, int threads) {
   std::vector<SizedCoverage> all;
-  if (std::all_of(sizes_m.begin(), sizes_m.end(), is_papers_size)) return all;
+  if (std::all_of(sizes_m.begin(), sizes_m.end(),
+                  [](double m) { return papers_size(m).has_value(); }))
+    return all;
   const OwnCloud own = own_cloud(scene, cloud.points_world_m, threads);
   const std::vector<std::size_t> prefixes = prefixes_of(cloud, own);
   for (const double size_m : sizes_m) {
-    if (is_papers_size(size_m)) continue;
+    if (papers_size(size_m)) continue;
     SizedShares shares =
         sized_shares(world, size_m, {.floor_z_m = floor_z_m, .region_m = cloud.region_m},
                      own.points_world_m, prefixes, threads);

@@ -26,7 +26,8 @@ std::string key_of(const World& world, const ReferenceConfig& config) {
   for (const Vec3& corner_m : {config.region_m.min(), config.region_m.max()}) {
     for (const double value : corner_m) sha.add(value);
   }
-  for (const double value : {config.floor_z_m, config.sample_spacing_m, config.escape_near_m}) {
+  for (const double value :
+       {config.floor_z_m, config.sample_spacing_m, config.escape_near_m, config.obstacle_reach_m}) {
     sha.add(value);
   }
   sha.add(config.directions);

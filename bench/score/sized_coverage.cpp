@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "bench/score/coverage_curve.hpp"
+#include "sim/core/error.hpp"
 
 namespace gnbv {
 namespace {
@@ -25,9 +27,24 @@ std::string size_name(double size_m) {
                                                                : name;
 }
 
-bool is_papers_size(double size_m) {
-  return std::find(kCoverageSizes_m.begin(), kCoverageSizes_m.end(), size_m) !=
-         kCoverageSizes_m.end();
+std::optional<std::size_t> papers_size(double size_m) {
+  const auto* const at = std::find(kCoverageSizes_m.begin(), kCoverageSizes_m.end(), size_m);
+  if (at == kCoverageSizes_m.end()) return std::nullopt;
+  return static_cast<std::size_t>(at - kCoverageSizes_m.begin());
+}
+
+void need_room_for(std::span<const double> sizes_m, const TriangleMesh& structure) {
+  const double area_m2 = surface_area_m2(structure);
+  for (const double size_m : sizes_m) {
+    const double spacing_m = ReferenceConfig{}.sample_spacing_m * size_m / kCoverageSizes_m[0];
+    const double samples = area_m2 / (spacing_m * spacing_m);
+    if (samples <= kMostSamples || papers_size(size_m)) continue;
+    const double fits_m = std::ceil(1e3 * size_m * std::sqrt(samples / kMostSamples)) / 1e3;
+    throw BadInput(fmt::format(
+        "score.sizes_m or --resolution {}: {:.0f} m2 of surface take {:.0f} million samples at "
+        "voxels of that size, of which there is memory for {:.0f}: {} m fits",
+        size_m, area_m2, 1e-6 * samples, 1e-6 * kMostSamples, fits_m));
+  }
 }
 
 SizedShares sized_shares(const World& world, double size_m, const ReferenceConfig& config,
@@ -41,6 +58,7 @@ SizedShares sized_shares(const World& world, double size_m, const ReferenceConfi
   small.terrain_floor_z_m *= factor;
   ReferenceConfig scaled_config = config;
   scaled_config.floor_z_m *= factor;
+  scaled_config.obstacle_reach_m *= factor;
   scaled_config.region_m = Box3(factor * config.region_m.min(), factor * config.region_m.max());
   const SurfaceReference reference =
       cached_surface_reference(small, RayScene(small), scaled_config, threads);

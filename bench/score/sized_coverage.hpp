@@ -1,6 +1,8 @@
 // Coverage at voxel sizes that the paper does not have.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,8 +24,15 @@ struct SizedCoverage {
 /// "0.05", "0.10", "0.025": two decimals at least, and as many as the size has.
 std::string size_name(double size_m);
 
-/// Whether it is one of kCoverageSizes_m, which every score has.
-bool is_papers_size(double size_m);
+/// Its index in kCoverageSizes_m, which every score has; nothing for other sizes.
+std::optional<std::size_t> papers_size(double size_m);
+
+/// Of a reference: 7 GB of them and their voxels.
+constexpr double kMostSamples = 1e8;
+
+/// Samples grow with 1 / size^2: throws BadInput, naming the size that fits, for one that takes
+/// more than kMostSamples of the structure's surface. The paper's sizes are measured in any case.
+void need_room_for(std::span<const double> sizes_m, const TriangleMesh& structure);
 
 /// How much of the surface the first prefixes[i] points of a cloud cover at one size, for each i.
 /// The cloud's voxels of size s are those of 0.05 m of everything scaled by 0.05 / s, cloud and

@@ -35,6 +35,7 @@ class EscapeSearch {
   EscapeSearch(const TriangleMesh& mesh, const RayScene& scene, const ReferenceConfig& config)
       : scene_(scene),
         near_m_(static_cast<float>(config.escape_near_m)),
+        obstacle_reach_m_(static_cast<float>(config.obstacle_reach_m)),
         normals_(tilted_normals(mesh)),
         directions_(spread_directions(config.directions)) {}
 
@@ -85,8 +86,7 @@ class EscapeSearch {
     if (!scene_.has_obstacles()) return;
     for (std::size_t k = 0; k < origins.size(); ++k) origins[k] -= near_m_ * directions[k];
     std::vector<std::uint8_t> by_obstacle(blocked.size());
-    scene_.obstacles_block(origins, directions, 0.0F, static_cast<float>(kObstacleReach_m),
-                           by_obstacle);
+    scene_.obstacles_block(origins, directions, 0.0F, obstacle_reach_m_, by_obstacle);
     for (std::size_t k = 0; k < blocked.size(); ++k) blocked[k] |= by_obstacle[k];
   }
 
@@ -109,6 +109,7 @@ class EscapeSearch {
 
   const RayScene& scene_;
   float near_m_;
+  float obstacle_reach_m_;
   std::vector<Vec3f> normals_;
   std::vector<Vec3f> directions_;
 };
@@ -117,6 +118,7 @@ void check(const ReferenceConfig& config) {
   GNBV_CHECK(config.sample_spacing_m > 0.0, "sample spacing {} m", config.sample_spacing_m);
   GNBV_CHECK(config.directions >= 1, "{} directions", config.directions);
   GNBV_CHECK(config.escape_near_m >= 0.0, "escape distance {} m", config.escape_near_m);
+  GNBV_CHECK(config.obstacle_reach_m > 0.0, "reach of obstacles {} m", config.obstacle_reach_m);
 }
 
 /// A sample that sees out.
@@ -222,7 +224,7 @@ double spacing_for(const TriangleMesh& mesh, const ReferenceConfig& config) {
                                     : config.sample_spacing_m;
 }
 
-/// Leaves what lies in the region.
+/// Leaves the voxels that lie in the region.
 void restrict_to(const Box3& region_m, SurfaceReference& reference) {
   const auto is_outside = [&](const Vec3& p_m) { return !region_m.contains(p_m); };
   const VoxelSet finest = reference.outside[0];
@@ -237,8 +239,6 @@ void restrict_to(const Box3& region_m, SurfaceReference& reference) {
       });
     }
   }
-  std::erase_if(reference.samples_world_m,
-                [&](const Vec3f& p_m) { return is_outside(p_m.cast<double>()); });
 }
 
 /// The voxels of one size that have surface enough.
@@ -309,6 +309,11 @@ SurfaceReference make_surface_reference(const World& world, const RayScene& scen
   for (const std::uint64_t code : reference.outside[0]) {
     while (voxel->code != code) ++voxel;
     reference.points_world_m.push_back(voxel->point_world_m);
+  }
+  for (SlabSurface& part : parts) {
+    std::erase_if(part.samples, [&](const OutsideSample& sample) {
+      return !config.region_m.contains(sample.p_world_m.cast<double>());
+    });
   }
   reference.samples_world_m = of_equal_areas(parts, kAreaSamples);
   restrict_to(config.region_m, reference);

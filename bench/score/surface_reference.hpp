@@ -18,7 +18,8 @@ struct ReferenceConfig {
   double sample_spacing_m = 0.025;  // at most: one sample to each spacing^2, one a piece at least
   std::size_t fewest_samples = 100000;  // about; a small structure is sampled more closely
   int directions = 512;                 // tried over the sphere, per sample
-  double escape_near_m = 1e-4;  // what lies nearer to the sample on such a line does not block it
+  double escape_near_m = 1e-4;    // what lies nearer to the sample on such a line does not block it
+  double obstacle_reach_m = 1.0;  // an obstacle farther away along the line does not, either
   // Counted are voxels whose centre lies in it, and samples that do themselves.
   Box3 region_m = Box3(Vec3::Constant(-1e4), Vec3::Constant(1e4));
 };
@@ -31,11 +32,10 @@ constexpr double kLeastFaceShare = 0.1;
 /// A point sees out if straight lines leave the structure along its face's normal, on either side,
 /// or in at least this share of all directions: a tenth of a steradian. With fewer asked for, the
 /// longer one looks the more narrow gaps one would find. An obstacle blocks a line where it meets
-/// it within kObstacleReach_m of the point: it hides what it stands against, but a hall around the
+/// it within obstacle_reach_m of the point: it hides what it stands against, but a hall around the
 /// structure hides nothing. Terrain hides what lies under it, and like the plane ground nothing
 /// else.
 constexpr double kLeastOpenShare = 1.0 / 128.0;
-constexpr double kObstacleReach_m = 1.0;
 
 /// How many samples recall is a mean over: enough for a hundredth of a point.
 constexpr std::size_t kAreaSamples = 100000;

@@ -7,27 +7,9 @@
 #include <vector>
 
 #include "planner/tour/stops.hpp"
-#include "sim/core/rng.hpp"
+#include "sim/core/dice.hpp"
 
 namespace gnbv {
-
-/// Numbers of one iteration.
-class Dice {
- public:
-  Dice(std::uint64_t seed, Stream stream, int iteration)
-      : seed_(seed), stream_(stream), iteration_(static_cast<std::uint64_t>(iteration)) {}
-  double uniform() { return uniform01({seed_, stream_, iteration_, drawn_++}); }
-  /// In [0, count).
-  std::size_t below(std::size_t count) {
-    return static_cast<std::size_t>(random_bits({seed_, stream_, iteration_, drawn_++}) % count);
-  }
-
- private:
-  std::uint64_t seed_;
-  Stream stream_;
-  std::uint64_t iteration_;
-  std::uint64_t drawn_ = 0;
-};
 
 /// 2 to 15 of the chosen views: some in a row, the nearest of one, or any. `place_of`: of each
 /// view; `chosen` is not empty.

@@ -14,7 +14,7 @@ std::unique_ptr<Flight> make_flight(const VehicleConfig& config, const World& wo
       return std::make_unique<Quadrotor>(config, world, start, seed, Px4::Start::airborne_offboard,
                                          wind);
     case VehicleKind::ideal:
-      return make_ideal_flight(config, start);
+      return make_ideal_flight(config, world, start);
   }
   throw BrokenInvariant("vehicle kind outside its enumeration");
 }

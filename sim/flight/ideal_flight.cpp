@@ -1,6 +1,10 @@
 #include "sim/flight/ideal_flight.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "sim/core/error.hpp"
 #include "sim/flight/rotors.hpp"
@@ -8,12 +12,36 @@
 namespace gnbv {
 namespace {
 
+/// Of the face at (x, y), if it is there.
+std::optional<double> height_m(const std::array<Vec3, 3>& corners_m, const Vec3& at_m) {
+  const auto& [a, b, c] = corners_m;
+  Eigen::Matrix2d edges;
+  edges << (b - a).head<2>(), (c - a).head<2>();
+  if (edges.determinant() == 0.0) return std::nullopt;  // upright
+  const Eigen::Vector2d s = edges.inverse() * (at_m - a).head<2>();
+  if (!(s.minCoeff() >= 0.0 && s.sum() <= 1.0)) return std::nullopt;
+  return a.z() + s[0] * (b - a).z() + s[1] * (c - a).z();
+}
+
+/// Of the highest terrain at (x, y), else of the plane ground; -infinity where there is neither.
+double ground_height_m(const World& world, const Vec3& at_m) {
+  double highest_m = -std::numeric_limits<double>::infinity();
+  const std::vector<Vec3f>& p_m = world.terrain.vertices_m;
+  for (const auto& [a, b, c] : world.terrain.faces) {
+    const auto z_m =
+        height_m({p_m[a].cast<double>(), p_m[b].cast<double>(), p_m[c].cast<double>()}, at_m);
+    highest_m = std::max(highest_m, z_m.value_or(highest_m));
+  }
+  return std::isinf(highest_m) && world.has_ground ? 0.0 : highest_m;
+}
+
 class IdealFlight final : public Flight {
  public:
-  IdealFlight(const VehicleConfig& config, const ViewPose& start)
+  IdealFlight(const VehicleConfig& config, const World& world, const ViewPose& start)
       : hover_power_w_(power_w(config.power, config.airframe.mass_kg * config.airframe.gravity_m_s2,
                                Vec3::Zero())),
         land_speed_m_s_(config.autopilot.commander.land_speed_m_s),
+        ground_{.structure = {}, .has_ground = world.has_ground, .terrain = world.terrain},
         pose_(start) {
     check();
   }
@@ -26,11 +54,12 @@ class IdealFlight final : public Flight {
 
   void land() override {
     is_landing_ = true;
+    ground_z_m_ = ground_height_m(ground_, pose_.p_world_m);
     setpoint_ = {};
     setpoint_.v_world_m_s = Vec3(0.0, 0.0, -land_speed_m_s_);
   }
 
-  bool has_landed() const override { return is_landing_ && pose_.p_world_m.z() <= 0.0; }
+  bool has_landed() const override { return is_landing_ && pose_.p_world_m.z() <= ground_z_m_; }
 
   VehicleState state() const override {
     VehicleState state;
@@ -71,6 +100,8 @@ class IdealFlight final : public Flight {
 
   double hover_power_w_;
   double land_speed_m_s_;
+  World ground_;
+  double ground_z_m_ = 0.0;  // once it lands, below it
   bool is_landing_ = false;
   ViewPose pose_;
   Vec3 v_world_m_s_ = Vec3::Zero();
@@ -81,8 +112,9 @@ class IdealFlight final : public Flight {
 
 }  // namespace
 
-std::unique_ptr<Flight> make_ideal_flight(const VehicleConfig& config, const ViewPose& start) {
-  return std::make_unique<IdealFlight>(config, start);
+std::unique_ptr<Flight> make_ideal_flight(const VehicleConfig& config, const World& world,
+                                          const ViewPose& start) {
+  return std::make_unique<IdealFlight>(config, world, start);
 }
 
 }  // namespace gnbv

@@ -7,6 +7,9 @@
 
 namespace gnbv {
 
+/// After an outage, what it has left fades by exp(-t / kOutageFade_s).
+constexpr double kOutageFade_s = 2.0;
+
 /// none: the truth, as the paper assumes.
 /// mocap: 1 mm and 0.1 deg (sigma, each axis), fresh at every tick.
 /// gnss: a position error of 0.5 m (sigma, each axis; EKF2_GPS_P_NOISE) and a heading error of 2
@@ -23,9 +26,6 @@ namespace gnbv {
 ///   0.01 deg a metre; roll and pitch are observable and stay true. Begins without error.
 /// The body rate is always true. Errors are keyed by seed and tick: a flight flown again is the
 /// same flight.
-/// After an outage, what it has left fades by exp(-t / kOutageFade_s).
-constexpr double kOutageFade_s = 2.0;
-
 class StateEstimator {
  public:
   StateEstimator(const EstimateConfig& config, std::uint64_t seed, const VehicleState& start);

@@ -56,7 +56,7 @@ class Wind {
 
   /// Velocity of the air during the next tick at a vehicle with that true place and velocity.
   /// The gust field is frozen: it passes at the speed of the vehicle through the mean wind, at
-  /// least kGustSpeedMin_m_s.
+  /// least kGustSpeedMin_m_s. The height of its law is z, over terrain too.
   Vec3 step(const Vec3& p_world_m, const Vec3& v_world_m_s);
 
  private:

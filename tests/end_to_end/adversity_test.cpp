@@ -57,9 +57,9 @@ TEST(WindyMission, LeavesItsPathInGustsAndLittleOtherwise) {
   const PathError calm = error_of({});
   const PathError steady = error_of({"wind.mean_m_s=[4,0,0]"});
   const PathError gusty = error_of({"wind.mean_m_s=[4,0,0]", "wind.gust_w20_m_s=7.7"});
-  EXPECT_LT(calm.max_m, 0.1);
-  EXPECT_LT(steady.max_m, 0.15);  // trimmed from the start
-  EXPECT_GT(gusty.rms_m(), 3.0 * calm.rms_m());
+  EXPECT_LT(calm.max_m, 0.05);                   // 2 cm: what feed-forward leaves of a leg
+  EXPECT_LT(steady.max_m, 0.15);                 // 9 cm: trimmed from the start, not for each speed
+  EXPECT_GT(gusty.rms_m(), 3.0 * calm.rms_m());  // 29 cm, of 0.6
 }
 
 TEST(StormyMission, EndsForAStatedReason) {
@@ -92,8 +92,8 @@ void expect_home(const Flown& flown) {
   EXPECT_TRUE(result.home->reached);
   EXPECT_TRUE(result.home->landed);
   const Vec3 p_m = result.final_state.T_world_body.translation();
-  EXPECT_LT((p_m - result.start.p_world_m).head<2>().norm(), 0.3);
-  EXPECT_LT(p_m.z(), 0.1);  // on its hull, 0.11 m high
+  EXPECT_LT((p_m - result.start.p_world_m).head<2>().norm(), 0.1);  // arrived
+  EXPECT_LT(p_m.z(), 0.1);                                          // on its hull, 0.11 m high
 }
 
 TEST(Battery, BringsTheVehicleHomeBeforeItIsEmpty) {
@@ -109,9 +109,27 @@ TEST(Battery, BringsTheVehicleHomeBeforeItIsEmpty) {
       EXPECT_EQ(flown.result.termination, Termination::battery);
       expect_home(flown);
       EXPECT_LE(flown.result.energy_wh, (1.0 - reserve_share) * battery_wh);
-      // and not long before: what is left beside the reserve is the allowance of a few legs
+      // and not long before: what is left beside the reserve is the allowance of a few legs, a
+      // fifth of the smallest battery
       EXPECT_GT(flown.result.energy_wh, (0.6 - reserve_share) * battery_wh);
     }
+  }
+}
+
+TEST(ReturnHome, LeadsAroundANoFlyBox) {
+  // flown around the structure, the last view has the box between it and the start, 3 m away
+  const Box3 box_m(Vec3(1.4, -4, 0), Vec3(1.6, -1.9, 5));
+  const Flown flown(smoke({"no_fly=[{min: [1.4, -4, 0], max: [1.6, -1.9, 5]}]",
+                           "vehicle.power.return_home=true", "planner.utility.name=route",
+                           "planner.routes.views=[{position_m: [-3.1, 0, 2]}, {position_m: [0, "
+                           "3.1, 2]}, {position_m: [3.1, 0, 2]}, {position_m: [3.1, -2.8, 2]}]"}));
+  ASSERT_EQ(flown.result.views.size(), 5U);  // with the start's
+  expect_home(flown);
+  EXPECT_GT(flown.result.home->flown_m, 5.0);
+  // 0.8 m, but for what a flight in calm air errs
+  for (const TrajectorySample& sample : flown.result.trajectory) {
+    EXPECT_GT(box_m.exteriorDistance(Vec3(sample.T_world_body.translation())), 0.75)
+        << sample.time_s;
   }
 }
 

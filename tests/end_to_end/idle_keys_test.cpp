@@ -105,6 +105,11 @@ TEST(IdleKeys, AKeyOfWhatIsInUseIsNotAmongThem) {
             std::vector<std::string>{});
   EXPECT_EQ(notes_of({"planner.utility={name: isler, ig_counting: unique}"}),
             std::vector<std::string>{});
+  // an ideal vehicle lands
+  EXPECT_EQ(notes_of({"vehicle.kind=ideal", "vehicle.autopilot.commander.land_speed_m_s=0.2",
+                      "vehicle.autopilot.commander.land_detection_s=9",
+                      "vehicle.autopilot.commander.disarm_after_landing_s=9"}),
+            std::vector<std::string>{});
   // one note, though the name came later
   EXPECT_EQ(notes_of({"planner.utility.alpha=1", "planner.utility.name=isler"}),
             std::vector<std::string>{"planner.utility.alpha (--set planner.utility.alpha=1) has no "

@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "sim/mesh/mesh_file.hpp"
+#include "tests/bench/shapes.hpp"
 #include "tests/end_to_end/scored_mission.hpp"
 #include "tools/run_files/cloud_file.hpp"
 
@@ -68,10 +70,12 @@ TEST_F(Sizes, AreGatedComparedAndDrawn) {
   const Outcome worse = gnbv("check " + run + " --against " + gate);
   EXPECT_EQ(worse.exit_code, 1);
   EXPECT_TRUE(has(worse, "coverage_0.20")) << worse.output;
-  const Outcome without = gnbv("check " + original().string() + " --against " + gate);
-  EXPECT_EQ(without.exit_code, 2);
-  EXPECT_TRUE(has(without, "metrics.coverage_0.20: the run was not scored at that size"))
-      << without.output;
+  for (const char* const update : {"", " --update"}) {
+    const Outcome without = gnbv("check " + original().string() + " --against " + gate + update);
+    EXPECT_EQ(without.exit_code, 2) << update;
+    EXPECT_TRUE(has(without, "metrics.coverage_0.20: the run was not scored at that size"))
+        << without.output;
+  }
 
   const std::string plots = (temp_.path() / "plots").string();
   const Outcome drawn =
@@ -119,6 +123,23 @@ TEST_F(Sizes, ThatAreNoneAreRefused) {
     EXPECT_EQ(refused.exit_code, 2) << sizes;
     EXPECT_TRUE(has(refused, words)) << refused.output;
   }
+}
+
+TEST_F(Sizes, ThatNoMemoryHoldsAreRefusedBeforeAFileIsWritten) {
+  TriangleMesh field;  // 2,600 m2
+  test::add_sheet(field, Vec3(-25, -26, 1), Vec3(50, 0, 0), Vec3(0, 52, 0));
+  const std::string mesh = (temp_.path() / "field.ply").string();
+  write_mesh(field, mesh);
+  const fs::path out = temp_.path() / "none";
+  const Outcome run = gnbv("run smoke --bounds auto --mesh " + mesh + " --out " + out.string() +
+                           " --set planner.map.resolution_m=0.5 --set score.sizes_m=[0.01]");
+  const Outcome score = gnbv("score " + (original() / "cloud.ply").string() + " --mesh " + mesh +
+                             " --resolution 0.01");
+  for (const Outcome& refused : {run, score}) {
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_TRUE(has(refused, "0.011 m fits")) << refused.output;
+  }
+  EXPECT_FALSE(fs::exists(out));
 }
 
 TEST_F(Sizes, TheScoreOfABoxIsOfWhatLiesInIt) {

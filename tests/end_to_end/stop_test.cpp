@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/score/surface_reference.hpp"
+#include "planner/model.hpp"
 #include "sim/core/file.hpp"
+#include "tests/bench/shapes.hpp"
 #include "tests/support/flown.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/mission/coverage_goal.hpp"
@@ -111,14 +113,39 @@ TEST(StopAtCoverage, EndsAtTheFirstViewAfterWhichTheScoreHasIt) {
   const Scenario scenario = smoke({set});
   std::vector<std::string> warnings;
   const World world = load_world(scenario, warnings);
-  const SurfaceReference reference = reference_of(scenario, world, RayScene(world), 2);
+  const RayScene scene(world);
+  const SurfaceReference reference = reference_of(scenario, world, scene, 2);
   MissionHooks hooks;
-  hooks.is_covered = coverage_goal(scenario.benchmark, reference);
+  hooks.is_covered = coverage_goal(scenario.benchmark, reference, scene);
   expect_same_when_resumed(set, mission.result, hooks);
 }
 
+TEST(StopAtCoverage, CountsNoPointOfAnObstacle) {
+  // a fence 0.02 m before the wall, in its voxels, and terrain as near: nothing of it is covered
+  World world;
+  test::add_sheet(world.structure, Vec3(2.04, -1, 1), Vec3(0, 2, 0), Vec3(0, 0, 2));
+  const SurfaceReference reference = make_surface_reference(world, RayScene(world), {}, 2);
+  const PlannerModel model({}, Box3(Vec3(-4, -4, 0), Vec3(4, 4, 4)), {}, {});
+  const auto is_covered_by = [&](double x) {
+    Belief belief(model);
+    std::vector<Vec3f> points;
+    for (double z = 1.01; z < 3.0; z += 0.025) {
+      for (double y = -0.99; y < 1.0; y += 0.025) points.push_back(Vec3(x, y, z).cast<float>());
+    }
+    belief.cloud.add(points, model.config.cloud.leaf_m);
+    const RayScene scene(world);
+    return coverage_goal({.stop_at_coverage = 0.9}, reference, scene)(belief);
+  };
+  EXPECT_TRUE(is_covered_by(2.02));
+  test::add_sheet(world.obstacles, Vec3(2.015, -1, 1), Vec3(0, 2, 0), Vec3(0, 0, 2));
+  EXPECT_FALSE(is_covered_by(2.02));
+  EXPECT_TRUE(is_covered_by(2.04));
+  std::swap(world.obstacles, world.terrain);
+  EXPECT_FALSE(is_covered_by(2.02));
+}
+
 TEST(StopAtCoverage, IsOffByDefaultAndSoIsTheTruth) {
-  EXPECT_FALSE(coverage_goal({}, {})(whole().belief));
+  EXPECT_FALSE(coverage_goal({}, {}, RayScene(World{}))(whole().belief));
   const TempFolder temp;
   const ExecutedMission mission = execute_mission(smoke({"planner.termination.max_iterations=1"}),
                                                   {.out = temp.path() / "run", .quiet = true});

@@ -1,4 +1,5 @@
 // `--views`: a user's views in a file, and another planner at the other end of a pipe.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -115,12 +116,38 @@ TEST_F(ViewPipe, GoesOnWhereItWasInterrupted) {
   const Outcome cut = shell("cd " + temp_.path().string() + " && timeout 300 sh cut.sh");
   EXPECT_TRUE(has(cut, "exit 1")) << cut.output;
   EXPECT_TRUE(has(cut, "interrupted after 2 views")) << cut.output;
+  EXPECT_TRUE(has(cut, "gnbv run cut/scenario.yaml --views - --resume --out cut")) << cut.output;
   const auto answers = pipe(rest, "run " + file("cut/scenario.yaml").string() +
                                       " --quiet --views - --resume --out " + file("cut").string());
   ASSERT_EQ(answers.size(), 6U);  // those of before come again
   EXPECT_EQ(answers[2].at("event"), "refused");
   EXPECT_EQ(answers.back().at("termination"), "route_flown");
   EXPECT_EQ(sha_of(file("cut")), sha_of(file("whole")));
+}
+
+TEST_F(ViewPipe, FliesToTheEndWhoeverListens) {
+  std::string views = "x,y,z,yaw_deg\n";  // whose answers are more than a buffer holds
+  for (int i = 0; i < 30; ++i) views += fmt::format("3.2,0,2,{}\n", 170 + i % 2 * 20);
+  write_file_atomically(file("many"), views);
+  const Outcome first =
+      shell(std::string(GNBV_PROGRAM) + " " + kRun +
+            "- --set planner.termination.max_iterations=40 --out " + file("deaf").string() +
+            " 2>/dev/null <" + file("many").string() + " | head -n 1");
+  EXPECT_TRUE(has(first, "\"event\":\"start\"")) << first.output;
+  EXPECT_EQ(Json::parse(read_file(file("deaf/summary.json"))).at("termination"), "route_flown");
+}
+
+TEST_F(ViewPipe, NamesNoCameraWhoseFrameWasLost) {
+  const auto answers =
+      pipe(kViews, kRun + std::string("- --frames --set cameras.0.drop_probability=1 --out ") +
+                       file("blind").string());
+  ASSERT_EQ(answers.size(), 6U);
+  for (const Json& answer : answers) {
+    if (answer.at("event") != "start" && answer.at("event") != "flown") continue;
+    EXPECT_TRUE(answer.at("cameras").empty()) << answer;
+    EXPECT_EQ(answer.at("new_points"), 0) << answer;
+    EXPECT_EQ(answer.at("position_m").size(), 3U);
+  }
 }
 
 TEST_F(ViewPipe, RefusesWhatDoesNotGoTogether) {

@@ -44,7 +44,7 @@ void expect_clear_of(const Flown& flown, const Box3& box_m, double margin_m) {
     for (const Vec3& next_m : points_m) {
       for (int i = 0; i <= 200; ++i) {
         const Vec3 p_m = at_m + 0.005 * i * (next_m - at_m);
-        EXPECT_GE(box_m.exteriorDistance(p_m), margin_m - 1e-2) << view.iteration;
+        EXPECT_GE(box_m.exteriorDistance(p_m), margin_m - 1e-9) << view.iteration;
       }
       at_m = next_m;
     }
@@ -71,7 +71,9 @@ TEST(ObstacleMission, AScreenIsFlownAroundAndLeavesTheScoreItsMeaning) {
   EXPECT_GT(std::count(is_own.begin(), is_own.end(), 0), 100);
   const MissionScore score = score_of(screened, reference);
   EXPECT_GT(score.distances.at[1].precision, 0.99);
-  EXPECT_NEAR(score.final[1], score_of(open, reference).final[1], 0.15);
+  // two missions of twelve views, of which the screened one has to look from elsewhere: a point
+  // less
+  EXPECT_NEAR(score.final[1], score_of(open, reference).final[1], 0.03);
 }
 
 TEST(ObstacleMission, FlyingIntoAnObstacleIsACollision) {
@@ -220,8 +222,8 @@ TEST(Terrain, ThatIsFlatIsTheGround) {
   EXPECT_EQ(terrain.result.termination, plane.result.termination);
   const SurfaceReference reference = reference_of(plane);
   EXPECT_EQ(reference_of(terrain), reference);
-  // rays meet other triangles of the same plane: equal but for rounding
-  EXPECT_NEAR(score_of(terrain, reference).final[1], score_of(plane, reference).final[1], 0.05);
+  // rays meet other triangles of the same plane: equal but for what rounding makes of the views
+  EXPECT_NEAR(score_of(terrain, reference).final[1], score_of(plane, reference).final[1], 0.01);
   EXPECT_NEAR(terrain.result.distance.profile_m, plane.result.distance.profile_m, 1e-9);
 }
 

@@ -78,6 +78,9 @@ TEST(Fields, EveryFieldOfEveryConfigHasAKey) {
   EXPECT_EQ(key_count<EstimateConfig>(), field_count<EstimateConfig>());
   EXPECT_EQ(key_count<VehicleConfig>(), field_count<VehicleConfig>());
   EXPECT_EQ(key_count<GuidanceConfig>(), field_count<GuidanceConfig>());
+  EXPECT_EQ(key_count<WindConfig>(), field_count<WindConfig>());
+  EXPECT_EQ(key_count<GnssOutage>(), field_count<GnssOutage>());
+  EXPECT_EQ(key_count<GimbalConfig>(), field_count<GimbalConfig>());
   EXPECT_EQ(key_count<DepthNoiseConfig>(), field_count<DepthNoiseConfig>());
   EXPECT_EQ(key_count<CameraConfig>() + 1, field_count<CameraConfig>())
       << "pitch or gimbal: one key";
@@ -88,6 +91,8 @@ TEST(Fields, EveryFieldOfEveryConfigHasAKey) {
   EXPECT_EQ(key_count<AgvsConfig>(), field_count<AgvsConfig>());
   EXPECT_EQ(key_count<ValidityConfig>(), field_count<ValidityConfig>());
   EXPECT_EQ(key_count<UtilityConfig>(), field_count<UtilityConfig>());
+  EXPECT_EQ(key_count<TourConfig>(), field_count<TourConfig>());
+  EXPECT_EQ(key_count<RouteConfig>(), field_count<RouteConfig>());
   EXPECT_EQ(key_count<TerminationConfig>(), field_count<TerminationConfig>());
   EXPECT_EQ(key_count<PlannerConfig>(), field_count<PlannerConfig>());
   EXPECT_EQ(key_count<StructureConfig>(), field_count<StructureConfig>());
@@ -95,6 +100,7 @@ TEST(Fields, EveryFieldOfEveryConfigHasAKey) {
   EXPECT_EQ(key_count<NoFlyConfig>(), field_count<NoFlyConfig>());
   EXPECT_EQ(key_count<ScoreConfig>(), field_count<ScoreConfig>());
   EXPECT_EQ(key_count<StartConfig>(), field_count<StartConfig>() + 1) << "pose is two keys";
+  EXPECT_EQ(key_count<BenchmarkConfig>(), field_count<BenchmarkConfig>());
   EXPECT_EQ(key_count<Scenario>(), field_count<Scenario>());
 }
 

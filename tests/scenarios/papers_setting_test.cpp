@@ -16,6 +16,26 @@ TEST(PapersSetting, IsThatOfTheBuiltInScenariosWhateverTheReading) {
   }
 }
 
+TEST(PapersSetting, IsNoneInAnotherWorldNorWithAnotherEnd) {
+  for (const std::string set :
+       {"obstacles=[{box_m: {min: [20, 20, 0], max: [21, 21, 1]}}]",
+        "no_fly=[{min: [20, 20, 0], max: [21, 21, 1]}]",
+        "score.region_m={min: [-1, -1, 0], max: [1, 1, 9]}", "wind.gust_w20_m_s=1",
+        "vehicle.power.return_home=true", "planner.termination.max_distance_m=2000",
+        "planner.termination.max_flight_time_s=9000", "planner.termination.min_new_voxels_per_m=1",
+        "planner.termination.max_views_without_new_points=5", "benchmark.stop_at_coverage=0.9"}) {
+    EXPECT_FALSE(has_papers_setting(load_scenario("aircraft", {set}))) << set;
+  }
+  Scenario hilly = load_scenario("aircraft", {});
+  hilly.terrain.path = "/hill.ply";
+  EXPECT_FALSE(has_papers_setting(hilly));
+  EXPECT_FALSE(has_papers_setting(
+      load_scenario("aircraft", {"vehicle.estimate={model: gnss, outages: [{start_s: 9}]}"})));
+  // what is only told, and what a mission without it never notices
+  EXPECT_TRUE(has_papers_setting(
+      load_scenario("aircraft", {"score.sizes_m=[0.2]", "vehicle.estimate.model=gnss"})));
+}
+
 TEST(PapersSetting, IsNoneWithOtherViewsSensorsProfileRoomOrName) {
   for (const std::string set :
        {"planner.termination.max_iterations=20", "planner.profiling.method=none",

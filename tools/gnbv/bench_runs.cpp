@@ -25,10 +25,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool is_lost(const std::string& termination) {
+  return termination == "collision" || termination == "off_course";
+}
+
 /// Missions that did not end by the planner's own rules are counted as they are, and named.
 bool ended_early(const std::string& termination) {
-  return termination == "collision" || termination == "battery" || termination == "off_course" ||
-         termination == "interrupted";
+  return is_lost(termination) || termination == "battery" || termination == "interrupted";
 }
 
 std::string why_missing(const CellOutcome& outcome) {
@@ -73,8 +76,7 @@ BenchRuns collect(const std::vector<Cell>& cells, const std::vector<CellOutcome>
     if (ended_early(run.figures.termination)) {
       notes.add(cell, fmt::format("ended by {}, counted as it is", run.figures.termination));
     }
-    collected.has_failures = collected.has_failures || run.figures.termination == "collision" ||
-                             run.figures.termination == "off_course";
+    collected.has_failures = collected.has_failures || is_lost(run.figures.termination);
     collected.runs.push_back(std::move(run));
     collected.folders.push_back(outcomes[i].run);
   }

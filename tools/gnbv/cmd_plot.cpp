@@ -122,14 +122,6 @@ std::vector<Plot> plots_of_reach(const PlotOptions& options, std::span<const Run
   return plots;
 }
 
-/// The index of the size, if it is the paper's.
-std::optional<std::size_t> papers_size(double size_m) {
-  for (std::size_t size = 0; size < kCoverageSizes_m.size(); ++size) {
-    if (kCoverageSizes_m[size] == size_m) return size;
-  }
-  return std::nullopt;
-}
-
 /// The runs that were scored at the size, its curve in the place of the finest one's.
 std::vector<RunRecord> runs_at(std::vector<RunRecord> records, double size_m) {
   std::erase_if(records, [&](RunRecord& record) {

@@ -49,16 +49,22 @@ void set_views(const std::string& file, RunOptions& options) {
   options.scenario.views = file == "-" ? "" : file;
 }
 
-/// What lint warns of in one mesh of the structure.
-void say_warnings(const Scenario& scenario, const MeshFileConfig& file) {
+/// What lint warns of in one mesh of the structure, whose keys are those below `section`.
+void say_warnings(const Scenario& scenario, const MeshFileConfig& file,
+                  const std::string& section) {
+  constexpr std::string_view kAlone = "structure.file.";
   Scenario alone = scenario;
   alone.structure.file = file;
   alone.structure.files.clear();
   const MeshReport report = report_on_mesh(alone, false, thread_count(0));
   for (const Finding& finding : report.findings) {
     if (finding.severity < Severity::warning || finding.check == "file") continue;
-    fmt::print(stderr, "gnbv: {}: {}: {}{}\n", report.path, finding.check, finding.what,
-               finding.fix.empty() ? "" : fmt::format("; fix: {}", finding.fix));
+    std::string fix = finding.fix.empty() ? "" : "; fix: " + finding.fix;
+    for (std::size_t at = fix.find(kAlone); at != std::string::npos;
+         at = fix.find(kAlone, at + section.size())) {
+      fix.replace(at, kAlone.size(), section);
+    }
+    fmt::print(stderr, "gnbv: {}: {}: {}{}\n", report.path, finding.check, finding.what, fix);
   }
 }
 
@@ -66,11 +72,11 @@ void say_warnings(const Scenario& scenario, const MeshFileConfig& file) {
 /// its reader left out is said when the mission loads it.
 void say_doubts(const Scenario& scenario, const std::vector<std::string>& idle_notes) {
   for (const std::string& note : idle_notes) fmt::print(stderr, "gnbv: {}\n", note);
-  std::vector<MeshFileConfig> files = scenario.structure.files;
-  if (!scenario.structure.file.path.empty()) {
-    files.insert(files.begin(), scenario.structure.file);
+  const StructureConfig& structure = scenario.structure;
+  if (!structure.file.path.empty()) say_warnings(scenario, structure.file, "structure.file.");
+  for (std::size_t i = 0; i < structure.files.size(); ++i) {
+    say_warnings(scenario, structure.files[i], fmt::format("structure.files.{}.", i));
   }
-  for (const MeshFileConfig& file : files) say_warnings(scenario, file);
 }
 
 void run(const RunOptions& options) {
@@ -107,9 +113,9 @@ void run(const RunOptions& options) {
     throw CommandFailed("the vehicle hit something; the run directory shows where");
   }
   if (mission.result.termination == Termination::interrupted) {
-    throw CommandFailed(fmt::format("interrupted after {} views; {} continues it",
-                                    mission.result.views.size(),
-                                    command_to_resume(mission.folder)));
+    throw CommandFailed(fmt::format(
+        "interrupted after {} views; {} continues it", mission.result.views.size(),
+        command_to_resume(mission.folder, options.mission.piped_views ? "--views -" : "")));
   }
 }
 

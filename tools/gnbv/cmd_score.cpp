@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/shared_options.hpp"
@@ -48,9 +49,7 @@ std::string heading(const std::string& name, std::span<const double> columns_m) 
 /// Of one of the sizes that were asked for.
 double share_at(const MissionScore& score, double size_m, const std::array<double, 3>& papers,
                 double SizedCoverage::*share) {
-  for (std::size_t i = 0; i < papers.size(); ++i) {
-    if (kCoverageSizes_m[i] == size_m) return papers[i];
-  }
+  if (const auto size = papers_size(size_m)) return papers[*size];
   const auto at = std::find_if(score.more.begin(), score.more.end(),
                                [&](const SizedCoverage& c) { return c.size_m == size_m; });
   GNBV_CHECK(at != score.more.end(), "no score at {} m", size_m);
@@ -149,18 +148,11 @@ Scored score_folder(const ScoreOptions& options, int threads) {
 /// Throws BadInput for what is no box, or no list of sizes that a scenario would take.
 ScoreWish wish_of(const ScoreOptions& options) {
   ScoreWish wish = options.wish;
-  if (wish.sizes_m.size() > 16) {
-    throw BadInput(fmt::format("--resolution: {} sizes; at most 16", wish.sizes_m.size()));
-  }
-  for (std::size_t i = 0; i < wish.sizes_m.size(); ++i) {
-    const double size_m = wish.sizes_m[i];
-    if (!(size_m >= 0.01 && size_m <= 10.0)) {
-      throw BadInput(fmt::format("--resolution {}: has to be from 0.01 to 10 m", size_m));
-    }
-    if (std::find(wish.sizes_m.begin(), wish.sizes_m.begin() + static_cast<std::ptrdiff_t>(i),
-                  size_m) != wish.sizes_m.begin() + static_cast<std::ptrdiff_t>(i)) {
-      throw BadInput(fmt::format("--resolution {}: is there twice", size_m));
-    }
+  if (!wish.sizes_m.empty()) {
+    const std::string sizes = fmt::format("{}", fmt::join(wish.sizes_m, ","));
+    wish.sizes_m = load_with_overrides("smoke", {{.text = fmt::format("score.sizes_m=[{}]", sizes),
+                                                  .source = "--resolution " + sizes}})
+                       .score.sizes_m;
   }
   if (options.box_m.empty()) return wish;
   const std::vector<double>& b = options.box_m;

@@ -1,16 +1,49 @@
 #include "tools/mission/coverage_goal.hpp"
 
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "bench/score/coverage_curve.hpp"
+#include "bench/score/scored_points.hpp"
+#include "sim/core/error.hpp"
 
 namespace gnbv {
+namespace {
+
+/// Coverage of a cloud that grows, by the points that the score counts.
+class Meter {
+ public:
+  Meter(const SurfaceReference& reference, const RayScene& scene)
+      : meter_(reference.outside[0], kCoverageSizes_m[0]), scene_(scene) {}
+
+  double share_of(std::span<const Vec3f> cloud_world_m) {
+    GNBV_CHECK(cloud_world_m.size() >= looked_at_, "a cloud shrank from {} to {} points",
+               looked_at_, cloud_world_m.size());
+    const std::span<const Vec3f> fresh_m = cloud_world_m.subspan(looked_at_);
+    const std::vector<std::uint8_t> is_kept = points_of_structure(scene_, fresh_m, 1);
+    for (std::size_t i = 0; i < fresh_m.size(); ++i) {
+      if (is_kept[i] != 0) own_world_m_.push_back(fresh_m[i]);
+    }
+    looked_at_ = cloud_world_m.size();
+    return meter_.share_of(own_world_m_);
+  }
+
+ private:
+  CoverageMeter meter_;
+  const RayScene& scene_;
+  std::vector<Vec3f> own_world_m_;
+  std::size_t looked_at_ = 0;
+};
+
+}  // namespace
 
 std::function<bool(const Belief&)> coverage_goal(const BenchmarkConfig& benchmark,
-                                                 const SurfaceReference& reference) {
+                                                 const SurfaceReference& reference,
+                                                 const RayScene& scene) {
   const double goal = benchmark.stop_at_coverage;
   if (goal <= 0.0) return [](const Belief&) { return false; };
-  const auto meter = std::make_shared<CoverageMeter>(reference.outside[0], kCoverageSizes_m[0]);
+  const auto meter = std::make_shared<Meter>(reference, scene);
   return [meter, goal](const Belief& belief) {
     return meter->share_of(belief.cloud.points_world_m()) >= goal;
   };

@@ -12,8 +12,9 @@ namespace gnbv {
 /// Whether the believed cloud covers at least benchmark.stop_at_coverage of the voxels of 0.05 m
 /// with surface seen from outside: what score_cloud() will call `final` at that size. Never without
 /// the key. For MissionHooks::is_covered of one mission: each call has to have all points of the
-/// one before.
+/// one before. Keeps the scene's reference.
 std::function<bool(const Belief&)> coverage_goal(const BenchmarkConfig& benchmark,
-                                                 const SurfaceReference& reference);
+                                                 const SurfaceReference& reference,
+                                                 const RayScene& scene);
 
 }  // namespace gnbv

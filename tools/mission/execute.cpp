@@ -111,7 +111,12 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
   const World world = load_world(scenario, warnings);
   for (const std::string& warning : warnings) fmt::print(stderr, "gnbv: {}\n", warning);
   const RayScene scene(world);
-  need_way_out(scenario, scene, bounds_m(world.structure), start_pose(scenario, scene), threads);
+  need_room_for(scenario.score.sizes_m, world.structure);
+  const ViewPose start = start_pose(scenario, scene);
+  need_way_out(scenario, scene, bounds_m(world.structure), start, threads);
+  if (const std::string warning = profile_warning(scenario, scene, start); !warning.empty()) {
+    fmt::print(stderr, "gnbv: {}\n", warning);
+  }
   need_saved_profile(scenario);
   if (scenario.planner.symmetry.enabled) symmetry_module();  // throws when it is missing
   const fs::path folder =
@@ -130,7 +135,7 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
   try {
     MissionHooks hooks = make_hooks(scenario, directory, progress);
     hooks.route = std::move(route);
-    hooks.is_covered = coverage_goal(scenario.benchmark, reference);
+    hooks.is_covered = coverage_goal(scenario.benchmark, reference, scene);
     std::optional<FramesFolder> frames;
     if (options.frames) {
       frames.emplace(directory.path(), camera_models(scenario));

@@ -60,27 +60,29 @@ double measured_excess(const Mission& m) {
   return hover_wh > 0.0 ? std::max(1.0, m.flight->energy_wh() / hover_wh) : 1.0;
 }
 
-/// The shortest known way home, in energy, and what it takes.
-struct BestWay {
-  std::vector<Vec3> points_world_m;
-  double energy_wh = 0.0;
-};
+Exit make_exit(const Mission& m, const Vec3& p_world_m, std::vector<Vec3> way_world_m) {
+  const double way_wh = energy_along_wh(m, p_world_m, way_world_m);
+  return {p_world_m, std::move(way_world_m), way_wh};
+}
 
-BestWay best_way_home(const Mission& m, const Vec3& from_world_m) {
-  std::vector<BestWay> ways;
-  for (const Exit& exit : m.exits) {
-    BestWay& way = ways.emplace_back();
-    way.points_world_m = {exit.p_world_m};
-    way.points_world_m.insert(way.points_world_m.end(), exit.way_world_m.begin(),
-                              exit.way_world_m.end());
-  }
-  if (ways.empty()) ways.push_back({over_the_top(m, from_world_m)});
-  for (BestWay& way : ways) {
-    way.energy_wh = measured_excess(m) * energy_along_wh(m, from_world_m, way.points_world_m);
-  }
-  return *std::min_element(ways.begin(), ways.end(), [](const BestWay& a, const BestWay& b) {
-    return a.energy_wh < b.energy_wh;
-  });
+double energy_by_wh(const Mission& m, const Vec3& from_world_m, const Exit& exit) {
+  return energy_along_wh(m, from_world_m, {&exit.p_world_m, 1}) + exit.way_wh;
+}
+
+/// The one by which the way home takes the least; none: home leads over the top.
+const Exit* best_exit(const Mission& m, const Vec3& from_world_m) {
+  const auto best =
+      std::min_element(m.exits.begin(), m.exits.end(), [&](const Exit& a, const Exit& b) {
+        return energy_by_wh(m, from_world_m, a) < energy_by_wh(m, from_world_m, b);
+      });
+  return best == m.exits.end() ? nullptr : &*best;
+}
+
+double energy_home_wh(const Mission& m, const Vec3& from_world_m) {
+  const Exit* const exit = best_exit(m, from_world_m);
+  return measured_excess(m) *
+         (exit != nullptr ? energy_by_wh(m, from_world_m, *exit)
+                          : energy_along_wh(m, from_world_m, over_the_top(m, from_world_m)));
 }
 
 /// The points, then the exit's place and its way.
@@ -100,8 +102,9 @@ std::vector<Exit> corners_between(const Mission& m, const Exit& here, std::span<
     back_m = joined(std::move(back_m), here);
     std::vector<Vec3> on_m =
         joined({via_m.begin() + static_cast<std::ptrdiff_t>(i) + 1, via_m.end()}, there);
-    const bool is_back = energy_along_wh(m, via_m[i], back_m) <= energy_along_wh(m, via_m[i], on_m);
-    corners.push_back({via_m[i], is_back ? std::move(back_m) : std::move(on_m)});
+    Exit back = make_exit(m, via_m[i], std::move(back_m));
+    Exit on = make_exit(m, via_m[i], std::move(on_m));
+    corners.push_back(back.way_wh <= on.way_wh ? std::move(back) : std::move(on));
   }
   corners.push_back(there);
   return corners;
@@ -142,31 +145,27 @@ bool has_energy_to_go_on(const Mission& m) {
   const VehicleConfig& vehicle = m.scenario.vehicle;
   const Vec3 p_m = believed_p_world_m(m);
   if (vehicle.power.return_home && !m.is_homing) {
-    return is_enough(m, best_way_home(m, p_m).energy_wh);
+    return is_enough(m, energy_home_wh(m, p_m));
   }
   return m.flight->energy_wh() + landing_energy_wh(vehicle, p_m.z()) < vehicle.power.battery_wh;
 }
 
 std::vector<Exit> exits_here(const Mission& m) {
   if (!m.scenario.vehicle.power.return_home) return {};
-  const auto way_m = found_way(m, m.current.p_world_m);
-  return {{m.current.p_world_m, way_m ? *way_m : as_it_came(m)}};
+  auto way_m = found_way(m, m.current.p_world_m);
+  return {make_exit(m, m.current.p_world_m, way_m ? std::move(*way_m) : as_it_came(m))};
 }
 
 bool can_afford(Mission& m, const Decision& next) {
   if (!m.scenario.vehicle.power.return_home) return true;
   const Exit here = m.exits.front();
-  Exit there = {next.view.p_world_m, {}};
-  if (auto way_m = found_way(m, there.p_world_m)) {
-    there.way_world_m = std::move(*way_m);
-  } else {  // back to here, and on
-    there.way_world_m = joined({next.via_world_m.rbegin(), next.via_world_m.rend()}, here);
-  }
-  std::vector<Vec3> all_m = next.via_world_m;
-  all_m.push_back(there.p_world_m);
-  all_m.insert(all_m.end(), there.way_world_m.begin(), there.way_world_m.end());
-  const double way_wh = measured_excess(m) * energy_along_wh(m, here.p_world_m, all_m);
-  if (has_battery(m) && !is_enough(m, way_wh)) return false;
+  auto way_m = found_way(m, next.view.p_world_m);
+  if (!way_m) way_m = joined({next.via_world_m.rbegin(), next.via_world_m.rend()}, here);
+  const Exit there = make_exit(m, next.view.p_world_m, std::move(*way_m));
+  std::vector<Vec3> leg_m = next.via_world_m;
+  leg_m.push_back(there.p_world_m);
+  const double way_wh = energy_along_wh(m, here.p_world_m, leg_m) + there.way_wh;
+  if (has_battery(m) && !is_enough(m, measured_excess(m) * way_wh)) return false;
   m.corners = corners_between(m, here, next.via_world_m, there);
   return true;
 }
@@ -182,7 +181,8 @@ void fly_home(Mission& m) {
   const ViewPose from = m.current;
   const Vec3 start_m = believed_p_world_m(m);
   HomeFlight home;
-  for (const Vec3& point_m : best_way_home(m, start_m).points_world_m) {
+  const Exit* const exit = best_exit(m, start_m);
+  for (const Vec3& point_m : exit != nullptr ? joined({}, *exit) : over_the_top(m, start_m)) {
     if ((point_m - believed_p_world_m(m)).norm() < m.scenario.guidance.arrival_distance_m) continue;
     const auto over = fly_leg(m, {point_m, from.yaw_rad});
     if (over && *over != Termination::battery) m.out.termination = *over;

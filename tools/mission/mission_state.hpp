@@ -19,6 +19,7 @@ namespace gnbv {
 struct Exit {
   Vec3 p_world_m;
   std::vector<Vec3> way_world_m;  // the points after it; the last one is home
+  double way_wh = 0.0;            // what the way takes in still air
 };
 
 /// All that changes while the mission runs, beside what never does.

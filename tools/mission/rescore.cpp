@@ -23,12 +23,14 @@ Scored score(Scenario scenario, const World& world, const RayScene& scene, Score
              const ScoreWish& wish, int threads) {
   const Stopwatch watch;
   if (wish.box_m) scenario.score.region_m = *wish.box_m;
+  if (!wish.sizes_m.empty()) scenario.score.sizes_m = wish.sizes_m;
+  need_room_for(scenario.score.sizes_m, world.structure);
   cloud.region_m = scenario.score.region_m;
   const SurfaceReference reference = reference_of(scenario, world, scene, threads);
   const double reference_s = watch.elapsed_s();
   Scored scored{
       .score = score_cloud(reference, scene, cloud, scenario.planner.map.resolution_m, threads),
-      .sizes_m = wish.sizes_m.empty() ? scenario.score.sizes_m : wish.sizes_m,
+      .sizes_m = scenario.score.sizes_m,
       .structure = structure_name(scenario.structure),
       .points = cloud.points_world_m.size(),
       .floor_z_m = scenario.planner.floor_z_m,

@@ -4,6 +4,7 @@
 
 #include "bench/limits/legal_viewpoints.hpp"
 #include "bench/score/surface_reference.hpp"
+#include "planner/profiling.hpp"
 #include "planner/view_validity.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
@@ -81,6 +82,31 @@ void need_way_out(const Scenario& scenario, const RayScene& scene, const Box3& s
       "out was found for a sphere of planner.validity.collision_radius_m = {}, and the profile is "
       "flown outside; move the start, try `--bounds auto`, or set planner.profiling.method: none",
       start.p_world_m.x(), start.p_world_m.y(), start.p_world_m.z(), radius_m));
+}
+
+std::string profile_warning(const Scenario& scenario, const RayScene& scene,
+                            const ViewPose& start) {
+  const ProfilingConfig& profiling = scenario.planner.profiling;
+  if (scenario.vehicle.kind == VehicleKind::ideal || profiling.method == ProfilingMethod::saved) {
+    return "";
+  }
+  const Box3 box_m = navigation_box_m(scenario.planner.validity, scenario.workspace_m);
+  ProfileRoute route(profiling, box_m, start, no_fly_of(scenario));
+  Vec3 at_m = start.p_world_m;
+  while (const auto leg = route.next(true)) {
+    const Vec3& to_m = leg->goal.p_world_m;
+    const double hull_m = scenario.vehicle.airframe.hull_radius_m;
+    if (!is_leg_clear(scene, at_m, to_m, hull_m)) {
+      return fmt::format(
+          "the profile's leg from [{:.2f}, {:.2f}, {:.2f}] to [{:.2f}, {:.2f}, {:.2f}] comes "
+          "nearer "
+          "than the hull's {} m to something solid: the mission may end there as collision; "
+          "workspace_m, no_fly, start.position_m or planner.profiling.method lead it elsewhere",
+          at_m.x(), at_m.y(), at_m.z(), to_m.x(), to_m.y(), to_m.z(), hull_m);
+    }
+    at_m = to_m;
+  }
+  return "";
 }
 
 }  // namespace gnbv

@@ -1,6 +1,8 @@
 // Where a seed lets the mission begin.
 #pragma once
 
+#include <string>
+
 #include "scenarios/scenario.hpp"
 #include "sensors/ray_scene.hpp"
 
@@ -15,5 +17,9 @@ ViewPose start_pose(const Scenario& scenario, const RayScene& scene);
 /// cannot be flown. A workspace that lies within the structure has no outside: all is well.
 void need_way_out(const Scenario& scenario, const RayScene& scene, const Box3& structure_m,
                   const ViewPose& start, int threads);
+
+/// What to say when the structure or what stands around it is in the way of the profile's legs, of
+/// an adaptive one as far up as it may climb; "" otherwise, and for a vehicle without a body.
+std::string profile_warning(const Scenario& scenario, const RayScene& scene, const ViewPose& start);
 
 }  // namespace gnbv

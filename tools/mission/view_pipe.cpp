@@ -14,8 +14,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// Also to nobody: who no longer listens ends the mission by closing stdin.
 void tell(const Json& answer) {
-  fmt::print("{}\n", answer.dump());
+  std::fputs((answer.dump() + "\n").c_str(), stdout);
   std::fflush(stdout);  // the other side waits for it
 }
 
@@ -40,11 +41,10 @@ ViewPipe::ViewPipe(const Scenario& scenario, RunDirectory& directory, bool keeps
       directory_(directory),
       keeps_frames_(keeps_frames),
       reference_(reference),
-      lines_("stdin") {
-  std::signal(SIGPIPE, SIG_IGN);  // who no longer listens ends the mission by closing stdin
-}
+      lines_("stdin"),
+      on_sigpipe_(std::signal(SIGPIPE, SIG_IGN)) {}
 
-ViewPipe::~ViewPipe() { std::signal(SIGPIPE, SIG_DFL); }
+ViewPipe::~ViewPipe() { std::signal(SIGPIPE, on_sigpipe_); }
 
 void ViewPipe::connect(MissionHooks& hooks) {
   hooks.next_given = [this, should_stop = hooks.should_stop] { return next(should_stop); };

@@ -40,6 +40,7 @@ class ViewPipe {
   const SurfaceReference* reference_;
   StdinLines input_;
   ViewLines lines_;
+  void (*on_sigpipe_)(int);   // as it was before
   std::size_t answered_ = 0;  // every given view is, in its order
   // of the view at hand
   Isometry T_world_body_ = Isometry::Identity();

@@ -9,14 +9,14 @@ namespace gnbv {
 
 namespace fs = std::filesystem;
 
-std::string command_to_resume(const fs::path& folder) {
+std::string command_to_resume(const fs::path& folder, const std::string& options) {
   std::error_code ignored;
   const auto keeps = [&](const fs::path& name) { return fs::exists(folder / name, ignored); };
   const bool has_candidates = keeps(kCandidatesFile) || keeps(part_of(kCandidatesFile));
-  return fmt::format("`gnbv run {} --resume --out {}{}{}`",
-                     shell_word((folder / kScenarioFile).string()), shell_word(folder.string()),
-                     keeps(kFramesFolder) ? " --frames" : "",
-                     has_candidates ? " --candidates" : "");
+  return fmt::format(
+      "`gnbv run {} {}--resume --out {}{}{}`", shell_word((folder / kScenarioFile).string()),
+      options.empty() ? "" : options + " ", shell_word(folder.string()),
+      keeps(kFramesFolder) ? " --frames" : "", has_candidates ? " --candidates" : "");
 }
 
 std::string command_to_fly_again(const fs::path& folder, const std::string& options) {

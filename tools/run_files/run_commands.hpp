@@ -6,8 +6,9 @@
 
 namespace gnbv {
 
-/// `gnbv run FOLDER/scenario.yaml --resume --out FOLDER`, keeping what the run in the folder keeps.
-std::string command_to_resume(const std::filesystem::path& folder);
+/// `gnbv run FOLDER/scenario.yaml OPTIONS --resume --out FOLDER`, keeping what the run in the
+/// folder keeps.
+std::string command_to_resume(const std::filesystem::path& folder, const std::string& options = "");
 
 /// `gnbv run FOLDER/scenario.yaml OPTIONS --out NEW`: flies the same mission once more.
 std::string command_to_fly_again(const std::filesystem::path& folder,

@@ -144,6 +144,21 @@ TEST(ComparisonTable, SeveralSeedsGiveMeanAndInterval) {
   EXPECT_EQ(cell_of(table, 8, "coverage_0.05").text, "90.0%");
 }
 
+TEST(ComparisonTable, ProfilesThatDifferAtASizeOfOnesOwnAreTwoRows) {
+  const std::vector<std::string> settings = {"leaf_m=0.05", "leaf_m=0.07"};
+  std::vector<RunFigures> runs = {example(), example()};
+  for (RunFigures& run : runs) run.more = {{.size_m = 0.2, .profile = 0.7, .final = 0.97}};
+  const auto profiles = [&] {
+    const TextTable table = comparison_table(*find_paper_table("aircraft"), runs, {}, settings);
+    return std::count_if(table.rows.begin(), table.rows.end(), [](const auto& row) {
+      return row[0].text.starts_with("Profile") && row[1].text == "ours";
+    });
+  };
+  EXPECT_EQ(profiles(), 1);
+  runs[1].more[0].profile = 0.6;
+  EXPECT_EQ(profiles(), 2);
+}
+
 TEST(ComparisonTable, LabTimesEndWithTheLastView) {
   RunFigures run = example();
   run.scenario = run.structure = "lab_model";

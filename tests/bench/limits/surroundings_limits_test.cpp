@@ -5,7 +5,11 @@
 
 #include "bench/limits/lattice_ways.hpp"
 #include "bench/limits/legal_viewpoints.hpp"
+#include "bench/limits/lidar_sight.hpp"
+#include "bench/limits/sight_search.hpp"
+#include "scenarios/load.hpp"
 #include "tests/bench/shapes.hpp"
+#include "tools/mission/start_pose.hpp"
 
 namespace gnbv {
 namespace {
@@ -66,6 +70,65 @@ TEST(SurroundingsLimits, NoViewpointAndNoWayComesNearerToANoFlyBoxThanTheRadius)
     }
     at_m = next_m;
   }
+}
+
+/// A wall of 2 x 2 m at x = 2 and a lower fence of 1.2 m before it, which is nothing, an obstacle
+/// or terrain.
+enum class Fence { none, obstacle, terrain };
+World walled(Fence fence) {
+  World world;
+  test::add_sheet(world.structure, Vec3(2, -1, 1), Vec3(0, 2, 0), Vec3(0, 0, 2));
+  TriangleMesh mesh;
+  test::add_sheet(mesh, Vec3(1.5, -9, 0), Vec3(0, 18, 0), Vec3(0, 0, 2));
+  if (fence == Fence::obstacle) world.obstacles = mesh;
+  if (fence == Fence::terrain) world.terrain = mesh;
+  return world;
+}
+
+TEST(SurroundingsLimits, NobodySeesTheWallThroughAFence) {
+  const Vec3f low_m(2.0F, 0.1F, 1.4F);
+  const Vec3f high_m(2.0F, 0.1F, 2.6F);
+  CameraConfig config;
+  config.range_max_m = 5.0;
+  const std::vector<CameraModel> cameras = {make_camera_model(config)};
+  for (const Fence fence : {Fence::none, Fence::obstacle, Fence::terrain}) {
+    const World world = walled(fence);
+    const RayScene scene(world);
+    // a row before the fence, at the height of the low point and of the high one
+    LegalViewpoints legal{.step_m = 1.2};
+    for (const int up : {0, 1}) {
+      legal.p_world_m.emplace_back(-1.0, 0.1, 1.4 + 1.2 * up);
+      legal.cell.push_back({0, 0, up});
+      legal.neighbours.emplace_back();
+    }
+    const SightSearch search(scene, cameras, legal, Box3(Vec3(-9, -9, 0), Vec3(9, 9, 9)), 0.2);
+    const auto is_seen = [&](const Vec3f& point_m) {
+      const std::vector<Vec3f> points = {point_m};
+      std::vector<SightItem> items = {{.points_world_m = points}};
+      const Eigen::AlignedBox3d box_m(point_m.cast<double>());
+      search.look_from_lattice(search.positions_near(box_m), SightSearch::Positions::first_few,
+                               items);
+      return items[0].is_seen();
+    };
+    EXPECT_TRUE(is_seen(high_m));
+    EXPECT_EQ(is_seen(low_m), fence == Fence::none);
+  }
+}
+
+TEST(SurroundingsLimits, NoLidarSeesThroughAFence) {
+  const Scenario scenario = load_scenario("smoke", {});
+  // above the fence that stands around the structure of the workspace
+  World world;
+  test::add_box(world.structure, Vec3(-1, -1, 0.5), Vec3(2, 2, 2));
+  const auto is_seen = [&](double z) {
+    const RayScene scene(world);
+    return LidarSight(scenario, scene, start_pose(scenario, scene))
+        .is_seen(Vec3f(1.0F, 0.3F, static_cast<float>(z)));
+  };
+  EXPECT_TRUE(is_seen(0.8));
+  test::add_box(world.obstacles, Vec3(-1.2, -1.2, 0), Vec3(2.4, 2.4, 1.6), false);
+  EXPECT_FALSE(is_seen(0.8));
+  EXPECT_TRUE(is_seen(2.2));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "bench/score/coverage_curve.hpp"
 #include "bench/score/mission_score.hpp"
+#include "sim/core/error.hpp"
 #include "tests/bench/shapes.hpp"
 
 namespace gnbv {
@@ -56,6 +57,8 @@ TEST(SizedShares, OfABoxAreOfTheVoxelsWithTheirCentresInIt) {
 TEST(SizedShares, OfThePapersSizesAreThePapers) {
   World world = cube();
   test::add_box(world.structure, Vec3(1.2, 1.2, 1.2), Vec3(0.4, 0.4, 0.4));  // inside
+  // walls on all sides, 3 m off: an obstacle that hides nothing at any size
+  test::add_box(world.obstacles, Vec3(-1.98, -1.98, -1.98), Vec3(7, 7, 7));
   std::mt19937 random(5);
   std::uniform_real_distribution<float> coordinate(0.9F, 2.1F);
   std::vector<Vec3f> cloud;
@@ -65,6 +68,7 @@ TEST(SizedShares, OfThePapersSizesAreThePapers) {
   const SurfaceReference reference = make_surface_reference(world, RayScene(world), {}, 2);
   const std::vector<std::size_t> prefixes = {100, cloud.size()};
   const auto papers = coverage_of_prefixes(reference, cloud, prefixes, 2);
+  EXPECT_GT(papers[1].outside[2], 0.5);
   for (std::size_t size = 0; size < 3; ++size) {
     const SizedShares ours =
         sized_shares(world, kCoverageSizes_m[size], {.floor_z_m = 0.3}, cloud, prefixes, 2);
@@ -73,6 +77,25 @@ TEST(SizedShares, OfThePapersSizesAreThePapers) {
       EXPECT_NEAR(ours.outside[i], papers[i].outside[size], 1e-12) << size;
     }
   }
+}
+
+TEST(SizedRoom, IsRefusedByNameOfTheSizeThatFits) {
+  TriangleMesh field;
+  test::add_sheet(field, Vec3(0, 0, 1), Vec3(100, 0, 0), Vec3(0, 100, 0));
+  const auto fault_of = [&](const std::vector<double>& sizes_m) -> std::string {
+    try {
+      need_room_for(sizes_m, field);
+    } catch (const BadInput& fault) {
+      return fault.what();
+    }
+    return "";
+  };
+  // 10,000 m2 by (size / 2)^2 are a hundred million at 0.02 m
+  EXPECT_EQ(fault_of({0.05, 0.02}), "");
+  EXPECT_NE(fault_of({0.05, 0.0199}).find("0.0199: 10000 m2"), std::string::npos);
+  EXPECT_NE(fault_of({0.01}).find("0.02 m fits"), std::string::npos);
+  for (Vec3f& v : field.vertices_m) v *= 10.0F;
+  EXPECT_EQ(fault_of({0.05, 0.10, 0.50}), "");
 }
 
 TEST(ScoreMoreSizes, AscendWithoutThePapersAndEndTheirCurvesWithTheLastView) {

@@ -153,6 +153,15 @@ TEST(Region, HalvesShareTheReferenceBetweenThem) {
   for (const Vec3f& p_m : east.samples_world_m) EXPECT_GE(p_m.x(), 0.0F);
 }
 
+TEST(Region, OfOneSideIsSampledAsCloselyAsTheWhole) {
+  World world;
+  test::add_box(world.structure, {-5, -5, 0.5}, {10, 10, 10});
+  // 100 m2 at 0.025 m are 160,000 samples, of which recall takes what it takes of all six sides
+  const SurfaceReference top = reference_in(world, Box3(Vec3(-9, -9, 10.4), Vec3(9, 9, 11)));
+  EXPECT_EQ(top.samples_world_m.size(), kAreaSamples);
+  for (const Vec3f& p_m : top.samples_world_m) EXPECT_GE(p_m.z(), 10.4F);
+}
+
 TEST(Region, PrecisionIsThatOfThePointsInIt) {
   const World world = cube_and_fence();
   const RayScene scene(world);

@@ -117,5 +117,26 @@ TEST(IdealFlight, IntegratesVelocityAndYawRate) {
   EXPECT_EQ(flight->state().v_world_m_s, Vec3(1, -2, 0.5));
 }
 
+/// Where an ideal vehicle that lands from 3 m comes to rest, within a minute.
+double landed_z_m(const World& world) {
+  const auto flight = make_flight(kind(VehicleKind::ideal), world, {Vec3(0.2, 0.1, 3), 0.0}, 1);
+  flight->land();
+  for (int i = 0; i < 60 * kTicksPerSecond && !flight->has_landed(); ++i) flight->step();
+  return flight->has_landed() ? flight->state().T_world_body.translation().z()
+                              : std::numeric_limits<double>::quiet_NaN();
+}
+
+TEST(IdealFlight, LandsOnTheTerrainBelowIt) {
+  const double step_m = vehicle_preset("iris").autopilot.commander.land_speed_m_s * kTick_s;
+  EXPECT_NEAR(landed_z_m(World{}), 0.0, step_m);
+  World slope{.structure = {}, .has_ground = false};  // z = 1 + x / 2
+  slope.terrain.vertices_m = {{-2, -2, 0}, {2, -2, 2}, {2, 2, 2}, {-2, 2, 0}};
+  slope.terrain.faces = {{0, 1, 2}, {0, 2, 3}};
+  EXPECT_NEAR(landed_z_m(slope), 1.1, step_m);
+  for (Vec3f& v : slope.terrain.vertices_m) v.z() -= 3.0F;
+  EXPECT_NEAR(landed_z_m(slope), -1.9, step_m);
+  EXPECT_TRUE(std::isnan(landed_z_m(World{.structure = {}, .has_ground = false})));
+}
+
 }  // namespace
 }  // namespace gnbv

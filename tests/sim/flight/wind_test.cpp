@@ -111,6 +111,10 @@ TEST(LowAltitudeGusts, AreIsotropicAtAThousandFeetAndStrongerAlongTheGroundNearI
 TEST(Wind, IsTheMeanWithoutGustsAndBlowsItsGustsAlongIt) {
   const Vec3 mean_m_s(0.0, 6.0, 0.0);
   EXPECT_EQ(Wind({mean_m_s, 0.0}, 1).step(Vec3(1, 2, 3), Vec3::Zero()), mean_m_s);
+  // the same gusts, turned as their wind is
+  const Vec3 blown_m_s = Wind({{6.0, 0.0, 0.0}, 5.0}, 1).step(Vec3(1, 2, 3), Vec3::Zero());
+  const Vec3 turned_m_s = Wind({mean_m_s, 5.0}, 1).step(Vec3(1, 2, 3), Vec3::Zero());
+  EXPECT_LT((turned_m_s - Vec3(-blown_m_s.y(), blown_m_s.x(), blown_m_s.z())).norm(), 1e-12);
   // from the first tick on stationary, over many seeds
   constexpr int kSeeds = 4000;
   const Vec3 p_m(0.0, 0.0, 20.0 * kFoot_m);

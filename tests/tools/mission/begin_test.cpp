@@ -4,6 +4,8 @@
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "tests/bench/shapes.hpp"
+#include "tests/support/no_cache.hpp"
+#include "tools/mission/load_world.hpp"
 #include "tools/mission/reference.hpp"
 #include "tools/mission/start_pose.hpp"
 
@@ -57,8 +59,23 @@ TEST(WayOut, NoneIsNeededWhereNoProfileIsFlownOutside) {
             "");
 }
 
+TEST(ProfileWarning, NamesTheFirstLegThatIsBlocked) {
+  const auto warning_of = [](const std::vector<std::string>& sets) {
+    const Scenario scenario = load_scenario("smoke", sets);
+    std::vector<std::string> warnings;
+    const RayScene scene(load_world(scenario, warnings));
+    return profile_warning(scenario, scene, start_pose(scenario, scene));
+  };
+  // across the south face of the workspace, which the profile begins with
+  const std::string wall = "obstacles=[{box_m: {min: [-4, -4, 0], max: [4, -3.6, 5]}}]";
+  EXPECT_EQ(warning_of({}), "");
+  EXPECT_NE(warning_of({wall}).find("the profile's leg from ["), std::string::npos);
+  EXPECT_EQ(warning_of({wall, "vehicle.kind=ideal"}), "");
+  EXPECT_EQ(warning_of({wall, "planner.profiling.method=none"}), "");
+}
+
 TEST(Reference, OfNothingToMeasureIsRefused) {
-  setenv("GNBV_CACHE", "", 1);
+  const test::NoCache no_cache;
   const Scenario scenario = load_scenario("aircraft", {});
   World low{TriangleMesh{}, true};
   test::add_box(low.structure, {0, 0, 0}, {4, 4, 0.2});  // floor_z_m is 0.3
