@@ -44,8 +44,11 @@ void Stops::find_detours() {
   float* const least_m = least_m_.data();
   std::int32_t* const at = at_.data();
   for (std::size_t i = 1; i < places_.size(); ++i) {
+    const float leg_m = known_leg_m(i);
+    const float* const from_m = rows_m_[i - 1];
+    const float* const to_m = rows_m_[i];
     for (std::size_t p = 0; p < places; ++p) {
-      const float extra = detour_m(i, p);
+      const float extra = from_m[p] + to_m[p] - leg_m;
       at[p] = extra < least_m[p] ? static_cast<std::int32_t>(i) : at[p];
       least_m[p] = std::min(extra, least_m[p]);
     }
@@ -60,7 +63,7 @@ void Stops::find_detour(std::size_t place) {
   least_m_[place] = rows_m_.back()[place];
   at_[place] = static_cast<std::int32_t>(places_.size());
   for (std::size_t i = 1; i < places_.size(); ++i) {
-    const float extra = detour_m(i, place);
+    const float extra = detour_m(i, place, known_leg_m(i));
     if (extra >= least_m_[place]) continue;
     least_m_[place] = extra;
     at_[place] = static_cast<std::int32_t>(i);
@@ -80,11 +83,16 @@ void Stops::insert(std::uint32_t place) {
     } else {
       if (at_[p] > broken) ++at_[p];
       for (std::int32_t i = broken; i <= std::min(broken + 1, end - 1); ++i) {
-        const float extra = detour_m(static_cast<std::size_t>(i), p);
+        const auto stop = static_cast<std::size_t>(i);
+        const float extra = detour_m(stop, p, known_leg_m(stop));
         const bool is_first_of_equals = extra == least_m_[p] && at_[p] != end && i < at_[p];
         if (extra >= least_m_[p] && !is_first_of_equals) continue;
         least_m_[p] = extra;
         at_[p] = i;
+      }
+      if (broken + 1 == end && rows_m_.back()[p] <= least_m_[p]) {  // behind the new stop
+        least_m_[p] = rows_m_.back()[p];
+        at_[p] = end;
       }
     }
     give_extra(p);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -46,9 +47,13 @@ class Stops {
     return static_cast<double>((*row_m_)(from)[to]);
   }
 
-  float detour_m(std::size_t before, std::size_t place) const {
-    return rows_m_[before - 1][place] + rows_m_[before][place] -
-           rows_m_[before - 1][places_[before]];
+  /// From the stop before to this one; 0 where no way leads.
+  float known_leg_m(std::size_t stop) const {
+    const float leg_m = rows_m_[stop - 1][places_[stop]];
+    return std::isfinite(leg_m) ? leg_m : 0.0F;
+  }
+  float detour_m(std::size_t stop, std::size_t place, float known_leg_m) const {
+    return rows_m_[stop - 1][place] + rows_m_[stop][place] - known_leg_m;
   }
   void find_rows();
   void find_detour(std::size_t place);

@@ -109,11 +109,27 @@ TEST(TourMission, EachSwitchChangesTheTour) {
   const std::string hash = result_sha256(Flown(tour(few)).result);
   for (const char* change : {"planner.tour.visibility=rays", "planner.tour.search=greedy",
                              "planner.tour.price_per_m=0.005", "planner.tour.metres_per_view=3",
-                             "planner.tour.yaw_step_deg=90", "planner.tour.success=fixed"}) {
+                             "planner.tour.yaw_step_deg=90", "planner.tour.success=fixed",
+                             "planner.tour.double_cover=false"}) {
     std::vector<std::string> overrides = few;
     overrides.emplace_back(change);
     EXPECT_NE(result_sha256(Flown(tour(overrides)).result), hash) << change;
   }
+}
+
+TEST(TourMission, WithoutAProfileItLooksForTheStructureFirst) {
+  // begins with its back to the structure
+  std::vector<std::string> unknown = {"planner.profiling.method=none", "start.yaw_deg=-90",
+                                      "planner.termination.max_iterations=200"};
+  const auto points = [](const Flown& flown) {
+    return static_cast<double>(flown.result.belief.cloud.points_world_m().size());
+  };
+  const Flown explored(tour(unknown));
+  EXPECT_EQ(explored.result.termination, Termination::tour_complete);
+  EXPECT_GT(points(explored),
+            0.9 * points(Flown(tour({"planner.termination.max_iterations=200"}))));
+  unknown.emplace_back("planner.tour.explore=false");
+  EXPECT_LT(points(Flown(tour(unknown))), 0.1 * points(explored));
 }
 
 }  // namespace

@@ -72,5 +72,24 @@ TEST(LookLedger, FindsAllThatADenseScanBringsAndNothingThatNoneDoes) {
   }
 }
 
+TEST(LookLedger, RealityFallsWithPromisesThatFailAndComesBack) {
+  Thin thin;
+  LookLedger ledger(TourSuccess::learned);
+  EXPECT_EQ(ledger.reality(0.0), 1.0);
+  EXPECT_EQ(ledger.reality(100.0), 1.0);
+  for (int view = 0; view < 4; ++view) {
+    ledger.promise(thin.seen(), thin.patches(), thin.cells);
+    ledger.settle(thin.cells);  // nothing came
+  }
+  const double before = ledger.reality(100.0);
+  EXPECT_LT(before, 0.3);
+  EXPECT_GT(ledger.reality(1e6), 0.9) << "so little says nothing of so much";
+  ledger.promise(thin.seen(), thin.patches(), thin.cells);
+  thin.cells.add(plane(1.2, 0.01), thin.grid, 1);
+  ledger.settle(thin.cells);
+  EXPECT_GT(ledger.reality(100.0), before);
+  EXPECT_LE(ledger.reality(100.0), 1.0);
+}
+
 }  // namespace
 }  // namespace gnbv

@@ -77,5 +77,31 @@ TEST(TourPlaces, BehindAClosedWallNothingIsReached) {
   }
 }
 
+TEST(TourPlaces, AWayThatIsKeptLearnsOfPlacesThatOpen) {
+  OccupancyGrid grid = free_grid(kBox);
+  const Box3 block_m(Vec3(2, 2, 0), Vec3(6, 6, 4));
+  fill(grid, block_m);
+  World world(std::move(grid));
+  const TourPlaces::Place from = 1;
+  TourPlaces::Place within = 1;
+  while (!(world.places.p_world_m(within) - Vec3(4, 4, 2)).isZero(0.6)) ++within;
+  ASSERT_TRUE(std::isinf(world.places.row_m(from)[within]));
+  world.grid = free_grid(kBox);
+  world.space.follow(world.grid);
+  world.places.follow(world.grid, world.space, Vec3(-5, -5, 1));
+  const double straight_m = (world.places.p_world_m(from) - world.places.p_world_m(within)).norm();
+  const float length_m = world.places.row_m(from)[within];
+  EXPECT_GE(length_m, straight_m - 1e-4);
+  EXPECT_LE(length_m, 1.3 * straight_m);
+  double sum_m = 0.0;
+  Vec3 at_m = world.places.p_world_m(from);
+  for (const Vec3& p_m : world.places.via_world_m(from, within)) {
+    sum_m += (p_m - at_m).norm();
+    at_m = p_m;
+  }
+  sum_m += (world.places.p_world_m(within) - at_m).norm();
+  EXPECT_NEAR(sum_m, static_cast<double>(length_m), 1e-3);
+}
+
 }  // namespace
 }  // namespace gnbv
