@@ -119,6 +119,9 @@ void TourPlanner::replan(const Belief& belief, const ViewPose& current, int thre
   }
   views_since_replan_ = 0;
   is_due_ = false;
+  std::vector<ViewPose> views;
+  for (const TourView& view : tour_) views.push_back(view.pose);
+  plan_ = make_tour_plan(std::move(views), patches_, ledger_.success());
 }
 
 /// Straight, or as the lattice knows it; nothing where some leg is not clear after all.
@@ -183,6 +186,7 @@ bool TourPlanner::take_view(const Belief& belief, const ViewPose& current, ViewC
 
 Plan TourPlanner::next(const Belief& belief, const History& history, const ViewPose& current,
                        int threads) {
+  plan_.reset();
   learn(belief, threads);
   ValidityConfig validity = model_.config.validity;
   validity.path = PathCheck::unchecked;  // way() does

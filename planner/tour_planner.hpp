@@ -9,6 +9,7 @@
 
 #include "planner/decision.hpp"
 #include "planner/tour/look_ledger.hpp"
+#include "planner/tour/tour_plan.hpp"
 #include "planner/tour/tour_task.hpp"
 
 namespace gnbv {
@@ -35,6 +36,10 @@ class TourPlanner {
 
   /// Of the view before the last call of next(): what it promised and brought, by kind.
   std::span<const LookOutcome> outcomes() const { return ledger_.outcomes(); }
+
+  /// The tour as the last call of next() made it anew, its next view still among it; nothing where
+  /// the one before goes on.
+  const std::optional<TourPlan>& plan() const { return plan_; }
 
  private:
   TourScene scene(const Belief& belief) const;
@@ -64,6 +69,7 @@ class TourPlanner {
   bool is_due_ = true;         // the tour has to be made anew
   double price_factor_ = 1.0;  // halved while there is something left that does not pay
   std::uint64_t searches_ = 0;
+  std::optional<TourPlan> plan_;
 };
 
 }  // namespace gnbv
