@@ -26,7 +26,7 @@ struct TourPlan {
 /// cubes of kLeastCube_m, or twice, four times ... that, so that there are at most kMostCubes.
 TourPlan make_tour_plan(std::vector<ViewPose> views, std::span<const Patch> patches,
                         const LookSuccess& success);
-constexpr double kLeastCube_m = 0.5;
+constexpr double kLeastCube_m = 0.25;
 constexpr std::size_t kMostCubes = 3000;
 
 }  // namespace gnbv

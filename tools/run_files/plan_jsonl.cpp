@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "planner/tour_planner.hpp"
@@ -57,7 +58,11 @@ Vec3 checked_place_m(const Vec3& p_m, const RunRecord& record, const TextPlace& 
 
 MadePlan made_plan_of(const Json& json, const RunRecord& record, const TextPlace& place) {
   MadePlan made;
-  made.iteration = json.at("iteration").get<std::size_t>();
+  const double iteration = json.at("iteration");
+  if (iteration < 1.0 || iteration > 1e9 || iteration != std::floor(iteration)) {
+    throw BadInput(fmt::format("{}: iteration {} is none", to_string(place), iteration));
+  }
+  made.iteration = static_cast<std::size_t>(iteration);
   for (const Json& pose : json.at("tour")) {
     const Vec3 p_m(pose.at("x_m"), pose.at("y_m"), pose.at("z_m"));
     made.plan.views.push_back({checked_place_m(p_m, record, place), pose.at("yaw_rad"),
@@ -67,6 +72,9 @@ MadePlan made_plan_of(const Json& json, const RunRecord& record, const TextPlace
   for (const PatchSource source : kSources) {
     for (const Json& cube : json.at("cubes").at(std::string(name_of(source)))) {
       const auto numbers = cube.get<std::array<double, 4>>();
+      if (numbers[3] < 0.0) {
+        throw BadInput(fmt::format("{}: a cube of {} voxels", to_string(place), numbers[3]));
+      }
       const Vec3 p_m(numbers[0], numbers[1], numbers[2]);
       made.plan.cubes.push_back({source, checked_place_m(p_m, record, place), numbers[3]});
     }
