@@ -158,6 +158,16 @@ bool TourPlanner::explore(const Belief& belief, Workbench& bench) {
   return true;
 }
 
+/// What no view pays for may be worth going for in the end.
+void TourPlanner::search_at_lower_prices() {
+  do {
+    const double may_stay = config_.end_share * expected_voxels(cells_);
+    const bool is_lowest = 0.5 * price_factor_ < config_.end_price;
+    if (is_lowest || voxels_in_reach(knowledge()) <= may_stay) return;
+    price_factor_ *= 0.5;
+  } while (!search_tour());
+}
+
 void TourPlanner::replan(const Belief& belief, const ViewPose& current, Workbench& bench) {
   const int threads = bench.threads;
   cells_.follow_map(belief.grid);
@@ -168,13 +178,10 @@ void TourPlanner::replan(const Belief& belief, const ViewPose& current, Workbenc
   look_around(belief, current, threads);
   views_since_replan_ = 0;
   is_due_ = false;
-  if (search_tour() || explore(belief, bench)) return;
-  do {
-    const double may_stay = config_.end_share * expected_voxels(cells_);
-    const bool is_lowest = 0.5 * price_factor_ < config_.end_price;
-    if (is_lowest || voxels_in_reach(knowledge()) <= may_stay) break;
-    price_factor_ *= 0.5;
-  } while (!search_tour());
+  if (!search_tour() && !explore(belief, bench)) search_at_lower_prices();
+  std::vector<ViewPose> views;
+  for (const TourView& view : tour_) views.push_back(view.pose);
+  plan_ = make_tour_plan(std::move(views), patches_, ledger_.success());
 }
 
 /// Straight, or as the lattice knows it; nothing where some leg is not clear after all.
@@ -241,6 +248,7 @@ bool TourPlanner::take_view(const Belief& belief, const ViewPose& current, ViewC
 Plan TourPlanner::next(const Belief& belief, const History& history, const ViewPose& current,
                        Workbench& bench) {
   const int threads = bench.threads;
+  plan_.reset();
   learn(belief, threads);
   ValidityConfig validity = model_.config.validity;
   validity.path = PathCheck::unchecked;  // way() does

@@ -9,6 +9,7 @@
 
 #include "planner/decision.hpp"
 #include "planner/tour/look_ledger.hpp"
+#include "planner/tour/tour_plan.hpp"
 #include "planner/tour/tour_task.hpp"
 
 namespace gnbv {
@@ -38,6 +39,10 @@ class TourPlanner {
   /// Of the view before the last call of next(): what it promised and brought, by kind.
   std::span<const LookOutcome> outcomes() const { return ledger_.outcomes(); }
 
+  /// The tour as the last call of next() made it anew, its next view still among it; nothing where
+  /// the one before goes on.
+  const std::optional<TourPlan>& plan() const { return plan_; }
+
  private:
   TourScene scene(const Belief& belief) const;
   TourKnowledge knowledge() const;
@@ -47,6 +52,7 @@ class TourPlanner {
   void replan(const Belief& belief, const ViewPose& current, Workbench& bench);
   void look_around(const Belief& belief, const ViewPose& current, int threads);
   bool search_tour();
+  void search_at_lower_prices();
   bool explore(const Belief& belief, Workbench& bench);
   bool take_view(const Belief& belief, const ViewPose& current, ViewChecker& checker, int threads,
                  Plan& plan);
@@ -71,6 +77,7 @@ class TourPlanner {
   bool is_due_ = true;         // the tour has to be made anew
   double price_factor_ = 1.0;  // halved while there is something left that does not pay
   std::uint64_t searches_ = 0;
+  std::optional<TourPlan> plan_;
 };
 
 }  // namespace gnbv

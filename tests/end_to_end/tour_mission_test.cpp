@@ -1,11 +1,14 @@
 // Missions of the tour: one result however they are flown, and an end of their own.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "planner/map/clearance.hpp"
 #include "sim/core/error.hpp"
 #include "tests/support/flown.hpp"
+#include "tools/run_files/plan_jsonl.hpp"
+#include "tools/run_files/run_record.hpp"
 
 namespace gnbv {
 namespace {
@@ -26,7 +29,9 @@ TEST(TourMission, IsTheSameAtAnyNumberOfThreadsAndResumed) {
     for (std::size_t i = 0; i < views; ++i) {
       resumed.replay.push_back(whole.result.views[i].decision);
     }
-    EXPECT_EQ(result_sha256(Flown(scenario, resumed).result), hash) << "after view " << views;
+    const Flown again(scenario, resumed);
+    EXPECT_EQ(result_sha256(again.result), hash) << "after view " << views;
+    EXPECT_EQ(plan_jsonl(again.result.tour_plans), plan_jsonl(whole.result.tour_plans));
   }
 }
 
@@ -76,6 +81,25 @@ TEST(TourMission, EndsByItselfWithoutACollisionAndSaysWhatItsViewsBrought) {
   }
   EXPECT_GT(found, 0.0);
   EXPECT_GT(promised, 0.3 * found);
+}
+
+TEST(TourMission, FliesWhatItPlansAndSaysSoOutsideTheResult) {
+  Flown flown(tour({"planner.termination.max_iterations=12", "planner.tour.replan_below=0"}));
+  MissionResult& result = flown.result;
+  const RunRecord record{.folder = "", .scenario = flown.scenario, .views = result.views};
+  ASSERT_FALSE(result.tour_plans.empty());
+  EXPECT_LT(result.tour_plans.size() + 3, result.views.size());  // some views go on with a plan
+  for (std::size_t i = 0; i + 1 < result.views.size(); ++i) {
+    const StandingPlan standing = standing_plan(result.tour_plans, record, i).value();
+    const ViewPose& next = result.views[i + 1].decision.view;
+    EXPECT_TRUE(std::any_of(standing.views().begin(), standing.views().end(),
+                            [&](const ViewPose& view) { return is_same_view(view, next); }))
+        << i;
+    EXPECT_FALSE(standing.made->plan.cubes.empty());
+  }
+  const std::string hash = result_sha256(result);
+  result.tour_plans.clear();
+  EXPECT_EQ(result_sha256(result), hash);
 }
 
 TEST(TourMission, FliesEachLegThroughSpaceKnownToBeFree) {

@@ -10,6 +10,7 @@
 #include "tools/gnbv/commands.hpp"
 #include "tools/plots/coverage_plot.hpp"
 #include "tools/plots/gnuplot.hpp"
+#include "tools/plots/predictions_plot.hpp"
 #include "tools/plots/reach_plot.hpp"
 #include "tools/plots/run_plots.hpp"
 #include "tools/plots/tracking_plot.hpp"
@@ -102,6 +103,7 @@ std::vector<Plot> plots_of_runs(const PlotOptions& options, const std::vector<Ru
   for (std::size_t i = 0; i < records.size(); ++i) {
     if (wants(options, "density")) add("density", i, density_entropy_plot(records[i]));
     if (wants(options, "terms")) add("terms", i, terms_plot(records[i]));
+    if (wants(options, "predictions")) add("predictions", i, predictions_plot(records[i]));
     if (wants(options, "tracking")) add("tracking", i, tracking_plot(records[i]));
   }
   return plots;
@@ -224,10 +226,10 @@ void add_plot_command(CLI::App& app) {
       ->capture_default_str();
   command
       ->add_option("--plots", options->plots,
-                   "which: density, coverage, terms, reach, tracking, with commas")
+                   "which: density, coverage, terms, reach, tracking, predictions, with commas")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::IsMember({"density", "coverage", "terms", "reach", "tracking"}))
+      ->check(CLI::IsMember({"density", "coverage", "terms", "reach", "tracking", "predictions"}))
       ->capture_default_str();
   command
       ->add_option("--reach", options->reach_percent,

@@ -173,8 +173,8 @@ class RenderCommand {
 
 void add_render_command(CLI::App& app) {
   auto options = std::make_shared<RenderOptions>();
-  CLI::App* const command =
-      app.add_subcommand("render", "draw runs: path, profile, cloud, coverage, voxels, candidates");
+  CLI::App* const command = app.add_subcommand(
+      "render", "draw runs: path, profile, cloud, coverage, voxels, candidates, plan");
   add_render_options(*command, *options);
   command->callback([options] { RenderCommand(*options).draw(); });
 }

@@ -138,12 +138,12 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   add_camera_options(command, options);
   command
       .add_option("--iteration", options.picture.iteration,
-                  "cloud, coverage, voxels: after this view (default: the last); candidates: the "
-                  "decision that chose it (default: half way)")
+                  "cloud, coverage, voxels: after this view (default: the last); plan: the same, "
+                  "candidates: the decision that chose it (default: half way)")
       ->check(CLI::Range(0, 1'000'000));
   command
       .add_option("--every", options.picture.every,
-                  "path: frusta of each n-th view; snapshots, movie: an image each n views")
+                  "path, plan: frusta of each n-th view; snapshots, movie: an image each n views")
       ->check(CLI::Range(1, 1'000'000));
   command.add_option("--fps", options.images_per_s, "movie: images a second")
       ->check(CLI::Range(1, 120))

@@ -170,6 +170,7 @@ std::optional<Decision> decide_tour(Mission& m, std::size_t next) {
   for (const LookOutcome& look : m.tour->outcomes()) {
     m.out.look_outcomes.push_back({next - 1, look});
   }
+  if (m.tour->plan()) m.out.tour_plans.push_back({next, *m.tour->plan()});
   if (next < m.hooks.replay.size()) {
     need_as_recorded(m, plan.next, next);
     return m.hooks.replay[next];

@@ -17,28 +17,6 @@ constexpr double kLeft = 0.115;  // edges of all panels, as shares of the width
 constexpr double kRight = 0.975;
 constexpr double kTextLine = 54.0;  // of a picture as wide as PlotSize is at first, in pixels
 
-/// A key in one row that ends at the right edge of the panels.
-std::string key_row(const std::vector<KeyEntry>& key, double screen_y) {
-  constexpr double kLetter = 0.0172;  // shares of the width, with some room to spare
-  constexpr double kSquare = 0.036;
-  const auto width_of = [](const KeyEntry& entry) {
-    return kLetter * static_cast<double>(entry.text.size()) + 2.0 * kSquare;
-  };
-  double x = kRight + kSquare;
-  for (const KeyEntry& entry : key) x -= width_of(entry);
-  std::string text;
-  int label = 10;
-  for (const KeyEntry& entry : key) {
-    text += fmt::format("set label {} '\u25a0' at screen {:.4f},{:.4f} left textcolor rgb '{}'\n",
-                        label, x, screen_y, entry.colour);
-    text += fmt::format("set label {} {} at screen {:.4f},{:.4f} left textcolor rgb '#262c36'\n",
-                        label + 1, gnuplot_text(entry.text), x + kSquare, screen_y);
-    x += width_of(entry);
-    label += 2;
-  }
-  return text;
-}
-
 }  // namespace
 
 std::string_view effort_label(Effort effort) {
@@ -73,6 +51,27 @@ std::string shaded_phases(const std::vector<Phase>& phases) {
     text += fmt::format(
         "set object rectangle from {},graph 0 to {},graph 1 behind fc rgb '{}' fs solid noborder\n",
         phase.first - 0.5, phase.last + 0.5, kPhaseColour);
+  }
+  return text;
+}
+
+std::string key_row(const std::vector<KeyEntry>& key, double screen_y) {
+  constexpr double kLetter = 0.0172;  // shares of the width, with some room to spare
+  constexpr double kSquare = 0.036;
+  const auto width_of = [](const KeyEntry& entry) {
+    return kLetter * static_cast<double>(entry.text.size()) + 2.0 * kSquare;
+  };
+  double x = kRight + kSquare;
+  for (const KeyEntry& entry : key) x -= width_of(entry);
+  std::string text;
+  int label = 10;
+  for (const KeyEntry& entry : key) {
+    text += fmt::format("set label {} '\u25a0' at screen {:.4f},{:.4f} left textcolor rgb '{}'\n",
+                        label, x, screen_y, entry.colour);
+    text += fmt::format("set label {} {} at screen {:.4f},{:.4f} left textcolor rgb '#262c36'\n",
+                        label + 1, gnuplot_text(entry.text), x + kSquare, screen_y);
+    x += width_of(entry);
+    label += 2;
   }
   return text;
 }

@@ -31,6 +31,9 @@ struct KeyEntry {
   std::string_view text;
 };
 
+/// A key in one row that ends at the right edge of the panels.
+std::string key_row(const std::vector<KeyEntry>& key, double screen_y);
+
 /// What explains the shades; nothing without phases.
 std::vector<KeyEntry> key_of_phases(const std::vector<Phase>& phases);
 

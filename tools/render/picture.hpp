@@ -56,6 +56,7 @@ extern const PictureKind kCloudPicture;
 extern const PictureKind kCoveragePicture;
 extern const PictureKind kVoxelsPicture;
 extern const PictureKind kCandidatesPicture;
+extern const PictureKind kPlanPicture;
 
 /// Metres, at the view's subject, of a layout unit (caption.hpp).
 double layout_unit_m(const RenderView& view);

@@ -8,9 +8,9 @@
 namespace gnbv {
 namespace {
 
-constexpr std::array<const PictureKind*, 6> kKinds = {&kPathPicture,   &kProfilePicture,
-                                                      &kCloudPicture,  &kCoveragePicture,
-                                                      &kVoxelsPicture, &kCandidatesPicture};
+constexpr std::array<const PictureKind*, 7> kKinds = {
+    &kPathPicture,   &kProfilePicture,    &kCloudPicture, &kCoveragePicture,
+    &kVoxelsPicture, &kCandidatesPicture, &kPlanPicture};
 
 bool has_caption(const PictureOptions& options) {
   return options.has_caption && fits_caption(options.width_px, options.height_px);

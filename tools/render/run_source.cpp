@@ -49,6 +49,11 @@ const RunCloud& RunSource::cloud() {
   return *cloud_;
 }
 
+const std::vector<MadePlan>& RunSource::plans() {
+  if (!plans_) plans_ = read_plans(record_);
+  return *plans_;
+}
+
 const SurfaceReference& RunSource::reference() {
   if (!reference_) {
     on_progress_(0.0, "true surface");
@@ -103,6 +108,7 @@ const ReplayedDecision& RunSource::decision(std::size_t iteration) {
 void RunSource::forget() {
   scene_.reset();
   cloud_.reset();
+  plans_.reset();
   reference_.reset();
   profile_.reset();
   belief_.reset();

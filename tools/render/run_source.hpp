@@ -6,6 +6,7 @@
 
 #include "bench/score/surface_reference.hpp"
 #include "tools/mission/replay.hpp"
+#include "tools/run_files/plan_jsonl.hpp"
 #include "tools/run_files/run_record.hpp"
 
 namespace gnbv {
@@ -28,6 +29,8 @@ class RunSource {
   const RayScene& scene();
   /// Throws BadInput as read_run_cloud().
   const RunCloud& cloud();
+  /// Of a tour. Throws BadInput as read_plans().
+  const std::vector<MadePlan>& plans();
   /// What coverage is measured against.
   const SurfaceReference& reference();
 
@@ -52,6 +55,7 @@ class RunSource {
   std::optional<World> world_;
   std::optional<RayScene> scene_;
   std::optional<RunCloud> cloud_;
+  std::optional<std::vector<MadePlan>> plans_;
   std::optional<SurfaceReference> reference_;
   std::optional<std::vector<ProfileStage>> profile_;
   // of belief and decision only the one last asked for: maps may be large

@@ -147,7 +147,7 @@ std::string bare_command_to_fly_again(const std::filesystem::path& folder,
 }
 
 Json packed_json(const PackedRun& packed) {
-  Json json = {{"cloud", nullptr}, {"voxels", nullptr}, {"path", nullptr}};
+  Json json = {{"cloud", nullptr}, {"voxels", nullptr}, {"path", nullptr}, {"plan", nullptr}};
   if (packed.cloud) {
     json["cloud"] = {{"points", points_json(packed.cloud->points)},
                      {"after", slice_json(packed.cloud->after)},
@@ -167,6 +167,10 @@ Json packed_json(const PackedRun& packed) {
     json["path"] = {{"points", points_json(packed.path->points)},
                     {"time", slice_json(packed.path->time_s)},
                     {"quaternion", slice_json(packed.path->quaternion)}};
+  }
+  if (packed.plan) {
+    json["plan"] = {{"poses", slice_json(packed.plan->poses)},
+                    {"ranges", slice_json(packed.plan->ranges)}};
   }
   Json frames = Json::array();
   for (const PackedThumbnail& t : packed.thumbnails) {

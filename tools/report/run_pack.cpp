@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/tour_planner.hpp"
 #include "sim/core/error.hpp"
 #include "tools/report/thinning.hpp"
 #include "tools/report/voxel_growth.hpp"
 #include "tools/run_files/file_names.hpp"
+#include "tools/run_files/plan_jsonl.hpp"
 
 namespace gnbv {
 namespace {
@@ -15,6 +17,7 @@ namespace {
 constexpr std::size_t kPointBytes = 6;
 constexpr std::size_t kColourBytes = 3;
 constexpr std::size_t kSampleBytes = 18;
+constexpr std::size_t kPlannedBytes = 28;
 constexpr std::size_t kLeast = 16;        // elements, whatever the budget is
 constexpr std::size_t kPaddingBytes = 3;  // at most, before each array
 
@@ -84,6 +87,42 @@ PackedPath pack_path(const std::vector<TrajectorySample>& path, std::size_t max_
           .quaternion = bytes.add(quaternion)};
 }
 
+/// Of each plan as many views from its beginning as all of them have room for.
+PackedPlan pack_plan(const RunRecord& record, std::size_t max_bytes, BytePack& bytes) {
+  const std::vector<MadePlan> plans = read_plans(record);
+  const std::size_t room =
+      std::max(kLeast, max_bytes / kPlannedBytes / std::max<std::size_t>(1, plans.size()));
+  const CameraModel camera = make_camera_model(record.scenario.cameras.at(0));
+  std::vector<float> poses;
+  std::vector<std::uint32_t> begins;  // of each plan
+  for (const MadePlan& made : plans) {
+    begins.push_back(as_count(poses.size() / 7));
+    for (std::size_t i = 0; i < std::min(room, made.plan.views.size()); ++i) {
+      const ViewPose& view = made.plan.views[i];
+      const Isometry T_world_camera =
+          T_world_body(view) * turned(camera, view.gimbal_pitch_rad).T_body_camera;
+      const Eigen::Quaterniond q(T_world_camera.linear());
+      for (const double number : {view.p_world_m.x(), view.p_world_m.y(), view.p_world_m.z(), q.x(),
+                                  q.y(), q.z(), q.w()}) {
+        poses.push_back(static_cast<float>(number));
+      }
+    }
+  }
+  begins.push_back(as_count(poses.size() / 7));
+  std::vector<std::uint32_t> ranges;
+  for (std::size_t view = 0; view < record.views.size(); ++view) {
+    const auto standing = standing_plan(plans, record, view);
+    if (!standing) {
+      ranges.insert(ranges.end(), {0, 0});
+      continue;
+    }
+    const auto plan = static_cast<std::size_t>(standing->made - plans.data());
+    const std::uint32_t end = begins[plan + 1];
+    ranges.insert(ranges.end(), {std::min(begins[plan] + as_count(standing->next), end), end});
+  }
+  return {.poses = bytes.add(poses), .ranges = bytes.add(ranges)};
+}
+
 /// How many points of a cloud there is room for, when so many bytes are left.
 std::size_t point_count(const RunBudget& budget, std::size_t left, bool has_colours) {
   const std::size_t room =
@@ -138,6 +177,13 @@ PackedRun pack_run(const RunRecord& record, const RunBudget& budget, int threads
     return budget.bytes - std::min(budget.bytes, used);
   };
   if (!record.path.empty()) out.path = pack_path(record.path, budget.bytes / 8, out.bytes);
+  try {
+    if (is_tour(record.scenario.planner.utility.name)) {
+      out.plan = pack_plan(record, budget.bytes / 8, out.bytes);
+    }
+  } catch (const BadInput& error) {
+    out.missing.emplace_back(error.what());  // the page does without plans
+  }
   try {
     cloud = read_run_cloud(record);
     out.voxels =

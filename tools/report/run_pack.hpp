@@ -45,6 +45,14 @@ struct PackedPath {
   ByteSlice quaternion;  // int16 (n, 4): x y z w in steps of 1 / 32767, body in world
 };
 
+/// What of a tour is still to come. Each plan's views stand in a row, so that what is left of one
+/// is a range of them.
+struct PackedPlan {
+  ByteSlice
+      poses;  // float32 (n, 7): place of the body, then the first camera in the world, x y z w
+  ByteSlice ranges;  // uint32 (views, 2): begin and end of the poses to come after each view
+};
+
 struct PackedThumbnail {
   int view = 0;  // index of the view
   std::size_t camera = 0;
@@ -58,6 +66,7 @@ struct PackedRun {
   std::optional<PackedCloud> cloud = {};
   std::optional<PackedVoxels> voxels = {};
   std::optional<PackedPath> path = {};
+  std::optional<PackedPlan> plan = {};    // of tours
   std::vector<std::string> cameras = {};  // names, of the thumbnails
   std::vector<PackedThumbnail> thumbnails = {};
   std::vector<std::string> missing = {};  // beyond what the record says
@@ -72,8 +81,9 @@ struct RunBudget {
 PackedPoints pack_points(std::span<const Vec3f> points_m, BytePack& bytes);
 
 /// What of the run is there, thinned to the budget: voxels get a quarter of it, the path an eighth,
-/// points and frames share the rest. What is not there, or cannot be used, is named in `missing`,
-/// where a command makes it with that command.
+/// a tour's plans at most another one, of each its next views; points and frames share the rest.
+/// What is not there, or cannot be used, is named in `missing`, where a command makes it with that
+/// command.
 PackedRun pack_run(const RunRecord& record, const RunBudget& budget, int threads,
                    const ReportProgress& progress);
 

@@ -18,6 +18,7 @@ constexpr const char* kMapFile = "map.bt";
 constexpr const char* kCandidatesFile = "candidates.jsonl";
 constexpr const char* kViewsFile = "views.csv";
 constexpr const char* kPredictionsFile = "predictions.csv";
+constexpr const char* kPlanFile = "plan.jsonl";
 constexpr const char* kFramesFolder = "frames";
 
 /// A file that is still being written, line by line.

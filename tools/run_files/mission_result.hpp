@@ -14,6 +14,7 @@
 #include "planner/symmetry/symmetry.hpp"
 #include "planner/termination.hpp"
 #include "sim/flight/flight.hpp"
+#include "tools/run_files/plan_jsonl.hpp"
 #include "tools/run_files/predictions_csv.hpp"
 
 namespace gnbv {
@@ -110,6 +111,7 @@ struct MissionResult {
   std::vector<ViewRecord> views;
   std::vector<GivenView> given_views;        // in their order, of a mission that flies such
   std::vector<ViewOutcome> look_outcomes;    // of a tour
+  std::vector<MadePlan> tour_plans;          // likewise, each time it was made anew
   std::vector<TrajectorySample> trajectory;  // true motion at 10 Hz
   MissionDistances distance;
   double profile_end_s = 0.0;

@@ -2,16 +2,80 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "tools/run_files/separated_text.hpp"
+
 namespace gnbv {
+namespace {
+
+constexpr std::string_view kPredictionsHeader =
+    "iteration,source,looks,incidence_deg,patches,missing,promised,found";
+
+PatchSource patch_source_named(std::string_view name, const TextPlace& place) {
+  for (std::size_t i = 0; i < kPatchSources; ++i) {
+    if (name_of(static_cast<PatchSource>(i)) == name) return static_cast<PatchSource>(i);
+  }
+  throw BadInput(fmt::format("{}: '{}' is no source of patches", to_string(place), name));
+}
+
+std::size_t incidence_bin_from(int from_deg, const TextPlace& place) {
+  const auto* const bin = std::find(kIncidenceFrom_deg.begin(), kIncidenceFrom_deg.end(), from_deg);
+  if (bin != kIncidenceFrom_deg.end()) {
+    return static_cast<std::size_t>(bin - kIncidenceFrom_deg.begin());
+  }
+  throw BadInput(fmt::format("{}: no bin of incidence begins at {}", to_string(place), from_deg));
+}
+
+ViewOutcome outcome_of(std::string_view row, const TextPlace& place) {
+  if (std::count(row.begin(), row.end(), ',') !=
+      std::count(kPredictionsHeader.begin(), kPredictionsHeader.end(), ',')) {
+    throw BadInput(
+        fmt::format("{}: '{}' is no row of {}", to_string(place), row, kPredictionsHeader));
+  }
+  ViewOutcome outcome;
+  LookOutcome& look = outcome.look;
+  const auto count = [&](std::string_view what) {
+    return to_count(next_part(row, ','), place, what);
+  };
+  outcome.iteration = static_cast<std::size_t>(count("iteration"));
+  look.source = patch_source_named(next_part(row, ','), place);
+  look.looks = static_cast<std::size_t>(count("looks"));
+  if (look.looks >= kLookBins) {
+    throw BadInput(
+        fmt::format("{}: looks {} must be less than {}", to_string(place), look.looks, kLookBins));
+  }
+  look.incidence = incidence_bin_from(count("incidence_deg"), place);
+  look.patches = count("patches");
+  look.missing = to_number(next_part(row, ','), place, "missing");
+  look.promised = to_number(next_part(row, ','), place, "promised");
+  look.found = to_number(next_part(row, ','), place, "found");
+  return outcome;
+}
+
+}  // namespace
 
 std::string predictions_csv(std::span<const ViewOutcome> outcomes) {
-  std::string csv = "iteration,source,looks,incidence_deg,patches,missing,promised,found\n";
+  std::string csv = fmt::format("{}\n", kPredictionsHeader);
   for (const auto& [iteration, look] : outcomes) {
     csv += fmt::format("{},{},{},{},{},{:.1f},{:.1f},{:.1f}\n", iteration, name_of(look.source),
                        look.looks, kIncidenceFrom_deg[look.incidence], look.patches, look.missing,
                        look.promised, look.found);
   }
   return csv;
+}
+
+std::vector<ViewOutcome> read_predictions_csv(const std::filesystem::path& file) {
+  const std::string text = read_file(file);
+  std::string_view rest = text;
+  need_header(next_part(rest, '\n'), kPredictionsHeader, {file, 1});
+  std::vector<ViewOutcome> outcomes;
+  for (int line = 2; !rest.empty(); ++line) {
+    outcomes.push_back(outcome_of(next_part(rest, '\n'), {file, line}));
+  }
+  return outcomes;
 }
 
 }  // namespace gnbv

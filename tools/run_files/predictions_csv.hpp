@@ -2,8 +2,10 @@
 // look. How anybody can see where a tour's metres go.
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "planner/tour/look_ledger.hpp"
 
@@ -19,5 +21,8 @@ struct ViewOutcome {
 /// more), incidence_deg (lower bound of its bin), patches, and in small voxels of
 /// planner.tour.detail_m: missing (expected to lack a point), promised, found.
 std::string predictions_csv(std::span<const ViewOutcome> outcomes);
+
+/// Throws BadInput naming file and line of whatever is damaged.
+std::vector<ViewOutcome> read_predictions_csv(const std::filesystem::path& file);
 
 }  // namespace gnbv

@@ -10,6 +10,7 @@
 #include "tools/run_files/file_names.hpp"
 #include "tools/run_files/given_views.hpp"
 #include "tools/run_files/iterations_csv.hpp"
+#include "tools/run_files/plan_jsonl.hpp"
 #include "tools/run_files/predictions_csv.hpp"
 #include "tools/run_files/profile_map.hpp"
 #include "tools/run_files/summary_json.hpp"
@@ -89,6 +90,7 @@ void RunDirectory::finish(const Scenario& scenario, const MissionResult& result,
   }
   if (is_tour(scenario.planner.utility.name)) {
     write_file_atomically(folder_ / kPredictionsFile, predictions_csv(result.look_outcomes));
+    write_file_atomically(folder_ / kPlanFile, plan_jsonl(result.tour_plans));
   }
   write_file_atomically(folder_ / kCoverageFile, coverage_csv(score.curve, score.more));
   write_file_atomically(folder_ / kSummaryFile,

@@ -2,7 +2,7 @@
 // and the plots move the vehicle to the recorded views, and no name is ever run.
 // usage: node page_test.mjs CHROMIUM PAGE RUN...
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { existsSync, readFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { Browser } from "./browser.mjs";
@@ -16,6 +16,24 @@ function recorded(run, names) {
   return rows.map((row) => columns.map((column) => Number(row.split(",")[column])));
 }
 const recordedViews = (run) => recorded(run, ["x", "y", "z", "yaw"]);
+
+/** How many views a tour still had before it after each of its views; none for other runs. */
+function stillPlanned(run) {
+  const views = recordedViews(run);
+  const file = join(run, "plan.jsonl");
+  if (!existsSync(file)) return views.map(() => 0);
+  const plans = readFileSync(file, "utf8").trim().split("\n").map((line) => JSON.parse(line));
+  return views.map((_, view) => {
+    const plan = plans.filter((made) => made.iteration <= view + 1).at(-1);
+    let left = plan.tour;
+    for (const [x, y, z, yaw] of views.slice(plan.iteration, view + 1)) {
+      const at = left.findIndex((pose) => Math.hypot(pose.x_m - x, pose.y_m - y, pose.z_m - z,
+        pose.yaw_rad - yaw) < 1e-3);
+      left = left.slice(at + 1);
+    }
+    return left.length;
+  });
+}
 
 function assertPose(pose, view, what) {
   const turn = Math.abs(pose[3] - view[3]) % (2 * Math.PI);
@@ -178,6 +196,28 @@ try {
   const all = clip.width * clip.height;
   assert.ok(await differentPixels(first) > 0.02 * all, "the 3D view is empty");
   assert.ok(await differentPixels(last, first) > 0.005 * all, "the 3D view does not change");
+
+  // of a tour what it still meant to do, and only where its layer is chosen
+  const planned = runs.map(stillPlanned);
+  const hasTour = planned.some((counts) => counts.some((count) => count > 0));
+  for (let n = 1; n <= views[0].length; ++n) {
+    await pictureAfter(n);
+    for (const [run, counts] of planned.entries()) {
+      assert.equal(await browser.evaluate(`gnbv.plan(${run})`), counts[n - 1], `plan at view ${n}`);
+    }
+  }
+  const togglePlan = () => browser.evaluate(`(() => {
+    const label = [...document.querySelectorAll(".layers label")]
+      .find((each) => each.textContent === "Plan");
+    label?.click();
+    return !!label;
+  })()`);
+  const withPlan = await pictureAfter(2);
+  assert.equal(await togglePlan(), hasTour);
+  if (hasTour) {
+    assert.ok(await differentPixels(await pictureAfter(2), withPlan) > 100, "the plan stays");
+    await togglePlan();
+  }
 
   // voxels are as dense as they were at the view, on the way back, too
   await browser.evaluate(`(() => {

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Two short missions with hostile names, their report, and a browser that opens it.
+# Two short missions, one of a tour, with hostile names, their report, and a browser that opens it.
 # usage: page_test.sh GNBV      exit: 0 as it should be, 1 not, 77 no Chromium or no npm
 set -euo pipefail
 gnbv=$1
@@ -17,7 +17,7 @@ trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 
 evil='<img src=x onerror=window.hacked=1>'
-for utility in proposed bircher; do
+for utility in proposed tour; do
   "$gnbv" run smoke --quiet --frames --utility "$utility" --out "$evil$utility" \
     --set planner.termination.max_iterations=4 >/dev/null
 done
@@ -30,8 +30,8 @@ node -e '
     Object.assign(summary, { scenario: evil, structure: evil, utility: evil, version: evil });
     fs.writeFileSync(run + "/summary.json", JSON.stringify(summary));
     fs.appendFileSync(run + "/scenario.yaml", "# " + evil + "\n");
-  }' "${evil}proposed" "${evil}bircher"
+  }' "${evil}proposed" "${evil}tour"
 "$gnbv" report "${evil}proposed" --quiet -o one.html >/dev/null
-"$gnbv" report "${evil}proposed" "${evil}bircher" --quiet -o two.html >/dev/null
+"$gnbv" report "${evil}proposed" "${evil}tour" --quiet -o two.html >/dev/null
 node "$here/page_test.mjs" "$chromium" one.html "${evil}proposed"
-node "$here/page_test.mjs" "$chromium" two.html "${evil}proposed" "${evil}bircher"
+node "$here/page_test.mjs" "$chromium" two.html "${evil}proposed" "${evil}tour"

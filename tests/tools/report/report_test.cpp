@@ -13,6 +13,7 @@
 #include "tests/support/temp_folder.hpp"
 #include "tools/render/colour.hpp"
 #include "tools/report/run_pack.hpp"
+#include "tools/run_files/plan_jsonl.hpp"
 
 namespace gnbv {
 namespace {
@@ -52,6 +53,37 @@ TEST(Report, HoldsTheViewsAndWhatGrewWithThem) {
   EXPECT_EQ(run["figures"], nullptr);
   EXPECT_EQ(run["command"],
             fmt::format("gnbv run {}/scenario.yaml --out NEW", temp.path().string()));
+}
+
+/// What is left of each plan after each view, as long as it is; nothing for other runs.
+TEST(Report, HoldsWhatATourStillMeantToDo) {
+  TempFolder temp;
+  write_made_run(temp.path());
+  RunRecord record = read_run(temp.path());
+  EXPECT_EQ(data_of(report_of({record}))["runs"][0]["plan"], nullptr);
+  record.scenario.planner.utility.name = "tour";
+  const Report without = report_of({record});
+  EXPECT_EQ(data_of(without)["runs"][0]["plan"], nullptr);
+  EXPECT_NE(without.missing.at(0).find("plan.jsonl"), std::string::npos);
+
+  MadePlan first{.iteration = 1, .plan = {}};
+  first.plan.views = {record.views[1].decision.view, {Vec3(1, 2, 3), 0.5}};
+  MadePlan last{.iteration = 3, .plan = {}};
+  write_file_atomically(temp.path() / kPlanFile, plan_jsonl(std::vector{first, last}));
+  const PackedRun run = pack_run(record, {.bytes = 100'000, .points = 100}, 1, {});
+  ASSERT_TRUE(run.plan.has_value());
+  std::vector<std::uint32_t> ranges(run.plan->ranges.count);
+  std::memcpy(ranges.data(), run.bytes.bytes().data() + run.plan->ranges.at, 4 * ranges.size());
+  EXPECT_EQ(ranges, (std::vector<std::uint32_t>{0, 2, 1, 2, 2, 2}));
+  std::vector<float> poses(run.plan->poses.count);
+  std::memcpy(poses.data(), run.bytes.bytes().data() + run.plan->poses.at, 4 * poses.size());
+  ASSERT_EQ(poses.size(), 14U);
+  EXPECT_EQ(Vec3f(poses[7], poses[8], poses[9]), Vec3f(1, 2, 3));
+  const Eigen::Quaternionf q(poses[13], poses[10], poses[11], poses[12]);
+  const CameraModel camera = make_camera_model(record.scenario.cameras.at(0));
+  const Isometry T = T_world_body(first.plan.views[1]) * camera.T_body_camera;
+  EXPECT_TRUE(q.toRotationMatrix().isApprox(T.linear().cast<float>(), 1e-5F));
+  EXPECT_EQ(data_of(report_of({record}))["runs"][0]["plan"]["ranges"][1], 6);
 }
 
 TEST(Report, HoldsTheCamerasAsTheyAreMounted) {

@@ -153,9 +153,9 @@ const kColourings: [Colouring, string][] = [["real", "Camera colours"], ["height
   ["density", "Density"], ["iteration", "Order of views"]];
 
 export function makeLayerBar(view: View3d, has: { real: boolean; voxels: boolean; cloud: boolean;
-    structure: boolean }, coloured: (by: Colouring) => void): HTMLElement {
+    structure: boolean; plan: boolean }, coloured: (by: Colouring) => void): HTMLElement {
   const layers: Layers = { cloud: has.cloud, voxels: false, structure: has.structure, path: true,
-    profile: true, frusta: false, vehicle: true };
+    profile: true, frusta: false, plan: has.plan, vehicle: true };
   const layer = (key: keyof Layers, text: string) =>
     toggle(text, layers[key], (on) => { layers[key] = on; view.setLayers(layers); });
   const first: Colouring = has.real ? "real" : "height";
@@ -167,6 +167,7 @@ export function makeLayerBar(view: View3d, has: { real: boolean; voxels: boolean
     has.voxels ? layer("voxels", "Voxels") : null,
     has.structure ? layer("structure", "Structure") : null,
     layer("path", "Path"), layer("profile", "Profile"), layer("frusta", "All views"),
+    has.plan ? layer("plan", "Plan") : null,
     layer("vehicle", "Vehicle"),
     make("span", { class: "gap" }),
     select("Colour of points and voxels", kColourings.filter(([by]) => by !== "real" || has.real),

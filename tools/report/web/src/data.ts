@@ -117,6 +117,7 @@ export interface RunData {
     | null;
   voxels: VoxelData | null;
   path: { points: PackedPoints; time: Slice; quaternion: Slice } | null;
+  plan: { poses: Slice; ranges: Slice } | null; // of tours; see PackedPlan (run_pack.hpp)
   frames: Thumbnail[];
 }
 

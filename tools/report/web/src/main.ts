@@ -52,6 +52,7 @@ function build() {
     voxels: flights.some((flight) => flight.data.voxels),
     cloud: flights.some((flight) => flight.data.cloud),
     structure: page.meshes.length > 0,
+    plan: flights.some((flight) => flight.data.plan),
   };
   const layerBar = makeLayerBar(stage, has, (by) =>
     panels.showColourKey(key, by, scenes.find((scene) => scene.model.cloud)?.model));
@@ -85,11 +86,13 @@ function build() {
   });
   // for scripts and tests: gnbv.seek(views), gnbv.pose(run) as x, y, z, yaw of what is drawn,
   // gnbv.views(run) at the present place of the replay, gnbv.points(run) that the voxels hold there,
-  // gnbv.camera() where the 3D view is seen from
+  // gnbv.plan(run) of views that a tour's plan still has there, gnbv.camera() where the 3D view is
+  // seen from
   Object.assign(window, { gnbv: {
     seek: (views: number) => { replay.setEffort("views"); replay.moveTo(views); },
     views: (run: number) => flights[run].viewsAt(clock),
     points: (run: number) => scenes[run].model.countedPoints(),
+    plan: (run: number) => scenes[run].plan?.count ?? 0,
     camera: () => stage.cameraPosition(),
     pose: (run: number) => {
       const { position: p, quaternion: q } = scenes[run].vehicle;

@@ -3,12 +3,14 @@ import * as three from "three";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
-import { isDark, ramp } from "./colours";
+import { isDark, planColour as planHex, ramp } from "./colours";
 import type { CameraData } from "./data";
 import type { Flight } from "./flight";
 
 const srgb = (c: [number, number, number]) =>
   new three.Color().setRGB(c[0] / 255, c[1] / 255, c[2] / 255, three.SRGBColorSpace);
+
+const planColour = () => new three.Color(planHex());
 
 /** The colour of the view that is `t` of the way from the first to the last. */
 export const orderColour = (t: number) => srgb(ramp("path", t));
@@ -112,6 +114,80 @@ export class FrustaMark {
   }
 
   show(views: number) { this.object.geometry.setDrawRange(0, views * this.perView); }
+}
+
+/** What a tour still means to do: the line through its views, and what the next ones look at. */
+export class PlanMark {
+  readonly object = new three.Group();
+  count = 0; // of views drawn
+  private readonly poses: Float32Array; // place of the body and quaternion of the camera, a view
+  private readonly ranges: Uint32Array; // begin and end, a view that was taken
+  private shownAfter = -1; // view
+  private static readonly kSoon = 5; // views whose line and pyramids stand out
+  private static readonly kPoseNumbers = 7;
+
+  constructor(private readonly flight: Flight) {
+    const plan = flight.data.plan!;
+    this.poses = flight.bytes.f32(plan.poses);
+    this.ranges = flight.bytes.u32(plan.ranges);
+  }
+
+  /** After the first `views` views. */
+  show(views: number) {
+    if (views === this.shownAfter) return;
+    this.shownAfter = views;
+    for (const part of this.object.children) (part as three.Mesh).geometry.dispose();
+    this.object.clear();
+    const [begin, end] = views > 0 ? this.ranges.subarray(2 * views - 2, 2 * views) : [0, 0];
+    this.count = end - begin;
+    if (this.count === 0) return;
+    const soonEnd = Math.min(begin + PlanMark.kSoon, end);
+    const here = this.flight.viewPose(views - 1).p;
+    this.object.add(this.line(here, begin, soonEnd, 2.6, 1), this.pyramids(begin, soonEnd));
+    if (soonEnd < end) {
+      this.object.add(this.line(this.place(soonEnd - 1), soonEnd, end, 1.3, 0.6),
+        this.dots(soonEnd, end));
+    }
+    this.object.traverse((part) => part.layers.mask = this.object.layers.mask);
+  }
+
+  private place(pose: number) {
+    return new three.Vector3().fromArray(this.poses, PlanMark.kPoseNumbers * pose);
+  }
+
+  private line(from: three.Vector3, begin: number, end: number, width_px: number,
+      opacity: number) {
+    const positions = new Float32Array(6 * (end - begin));
+    const colours = new Float32Array(positions.length);
+    for (let i = begin; i < end; ++i) {
+      (i === begin ? from : this.place(i - 1)).toArray(positions, 6 * (i - begin));
+      this.place(i).toArray(positions, 6 * (i - begin) + 3);
+    }
+    for (let i = 0; i < colours.length; i += 3) planColour().toArray(colours, i);
+    return makeTube(positions, colours, width_px, opacity);
+  }
+
+  private dots(begin: number, end: number) {
+    const places = Array.from({ length: end - begin }, (_, i) => this.place(begin + i));
+    return new three.Points(new three.BufferGeometry().setFromPoints(places),
+      new three.PointsMaterial({ color: planColour(), size: 5, sizeAttenuation: false }));
+  }
+
+  private pyramids(begin: number, end: number) {
+    const { min, max } = this.flight.data.workspace;
+    const depth = 0.035 * new three.Vector3(...min).distanceTo(new three.Vector3(...max));
+    const camera = { ...this.flight.data.cameras[0], T_body_camera: new three.Matrix4().toArray() };
+    const edges = pyramidEdges(camera, depth);
+    const points: three.Vector3[] = [];
+    for (let i = begin; i < end; ++i) {
+      const q = new three.Quaternion().fromArray(this.poses, PlanMark.kPoseNumbers * i + 3);
+      for (const edge of edges) points.push(edge.clone().applyQuaternion(q).add(this.place(i)));
+    }
+    const lines = new three.LineSegments(new three.BufferGeometry().setFromPoints(points),
+      new three.LineBasicMaterial({ color: planColour() }));
+    lines.frustumCulled = false;
+    return lines;
+  }
 }
 
 /** What the cameras of the vehicle see now, out to their range; to be put on the vehicle's pose. */

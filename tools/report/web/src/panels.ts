@@ -136,7 +136,9 @@ export function readout(flight: Flight, clock: Clock): string {
     `${minutes(v.seconds[n - 1])} min`];
   const coverage = flight.data.figures?.curve.coverage[n];
   if (coverage) parts.push(`coverage ${number(100 * coverage[0], 1)} %`);
-  if (v.candidates[n - 1] > 0) {
+  if (v.sampler[n - 1] === "tour") {
+    parts.push(`the first of ${v.candidates[n - 1]} planned`);
+  } else if (v.candidates[n - 1] > 0) {
     parts.push(`${v.sampler[n - 1].toUpperCase()}, ${v.valid[n - 1]} valid of `
       + `${v.candidates[n - 1]} candidates`);
   }

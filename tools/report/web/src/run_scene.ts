@@ -5,7 +5,7 @@ import { kMarkLayer } from "./depth_shading";
 import type { Clock } from "./clock";
 import { Bytes, type MeshData } from "./data";
 import type { Flight } from "./flight";
-import { FrustaMark, PathMark, makeSight } from "./marks";
+import { FrustaMark, PathMark, PlanMark, makeSight } from "./marks";
 import { Model, makeStructure, setGhost, type Colouring } from "./surfaces";
 import { makeVehicle } from "./vehicle";
 
@@ -16,6 +16,7 @@ export interface Layers {
   path: boolean; // from the first view on
   profile: boolean; // and before
   frusta: boolean;
+  plan: boolean; // of a tour: what is still to come
   vehicle: boolean;
 }
 
@@ -44,6 +45,7 @@ export class RunScene {
   private readonly structure: three.Group | null;
   private readonly path: PathMark;
   private readonly frusta: FrustaMark;
+  readonly plan: PlanMark | null;
 
   constructor(readonly flight: Flight, mesh: MeshData | undefined, meshBytes: Bytes) {
     const data = flight.data;
@@ -51,6 +53,7 @@ export class RunScene {
     this.structure = mesh ? makeStructure(mesh, meshBytes) : null;
     this.path = new PathMark(flight);
     this.frusta = new FrustaMark(flight);
+    this.plan = data.plan && new PlanMark(flight);
     this.body = makeVehicle(data.vehicle);
     this.sight = makeSight(data.cameras);
     this.vehicle.add(this.body, this.sight);
@@ -60,6 +63,7 @@ export class RunScene {
     for (const light of [sun, sky]) light.layers.enable(kMarkLayer);
     this.scene.add(sun, sky);
     const marks: three.Object3D[] = [this.path.object, this.frusta.object, this.vehicle];
+    if (this.plan) marks.push(this.plan.object);
     if (data.has_ground) marks.unshift(makeGround(data.workspace.min, data.workspace.max));
     for (const part of [this.structure, this.model.cloud, this.model.voxels]) {
       if (part) this.scene.add(part);
@@ -79,6 +83,7 @@ export class RunScene {
     }
     this.path.setLayers(layers.path, layers.profile);
     this.frusta.object.visible = layers.frusta;
+    if (this.plan) this.plan.object.visible = layers.plan;
     this.vehicle.visible = layers.vehicle;
   }
 
@@ -90,6 +95,7 @@ export class RunScene {
     this.model.show(n, pxPerTan);
     this.path.show(this.flight.samplesBy(this.flight.timeAt(clock)));
     this.frusta.show(n);
+    this.plan?.show(n);
     const pose = this.flight.poseAt(clock);
     if (!pose) return;
     this.vehicle.position.copy(pose.p);
