@@ -24,6 +24,7 @@ std::vector<TableGroup> table_groups(std::span<const RunFigures> runs,
 
 std::string name_in_table(const PaperTable& paper, const std::string& utility) {
   if (const PaperRow* const row = find_row(paper, utility)) return std::string(row->label);
+  if (utility == "tour") return "Tour";
   if (utility == "oracle_views") return "Oracle, few views";
   if (utility == "oracle_metres") return "Oracle, few metres";
   return utility;

@@ -8,6 +8,7 @@
 #include "bench/compare/paper_table.hpp"
 #include "bench/compare/statistics.hpp"
 #include "planner/routes.hpp"
+#include "planner/tour_planner.hpp"
 #include "scenarios/papers_setting.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/shell_word.hpp"
@@ -34,8 +35,8 @@ const PaperTable& paper_table_of(const Scenario& scenario, const std::string& as
       fmt::format("{}: the paper has no table for this scenario; it has:{}", asked_for, known));
 }
 
-/// An oracle is to show what is possible: the paper's number of views is no bound for it, but one
-/// that the user sets is.
+/// The tour ends by itself, and an oracle is to show what is possible: the paper's number of views
+/// is no bound for them, but one that the user sets is.
 constexpr const char* kToTheEnd = "planner.termination.max_iterations=100000";
 
 bool sets_max_iterations(const std::vector<std::string>& overrides) {
@@ -62,14 +63,15 @@ Sweep sweep_of(const TableOptions& options, const PaperTable& paper, std::uint64
     sweep.methods.push_back(
         {std::string(utility), {fmt::format("planner.utility.name={}", utility)}});
   };
+  const auto add_row_to_the_end = [&](std::string_view utility) {
+    add_row(utility);
+    if (sets_max_iterations(options.scenario.overrides)) return;
+    sweep.methods.back().overrides.push_back(kToTheEnd);
+  };
   for (const PaperRow& row : paper.rows) add_row(row.utility);
+  add_row_to_the_end(kTourName);
   if (!options.no_oracle) {
-    for (const std::string_view oracle : kOracleNames) {
-      add_row(oracle);
-      if (!sets_max_iterations(options.scenario.overrides)) {
-        sweep.methods.back().overrides.push_back(kToTheEnd);
-      }
-    }
+    for (const std::string_view oracle : kOracleNames) add_row_to_the_end(oracle);
   }
   sweep.seeds = seeds_from(first_seed, options.bench.seed_count);
   return sweep;
@@ -170,8 +172,8 @@ void table(const TableOptions& options) {
 
 void add_table_command(CLI::App& app) {
   auto options = std::make_shared<TableOptions>();
-  CLI::App* const command =
-      app.add_subcommand("table", "fly every row of the paper's table and print both");
+  CLI::App* const command = app.add_subcommand(
+      "table", "fly every row of the paper's table, the tour and the oracles, and print all");
   add_scenario_options(*command, options->scenario);
   add_preset_option(*command, options->scenario);
   add_bench_options(*command, options->bench);
