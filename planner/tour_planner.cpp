@@ -8,8 +8,8 @@
 #include "planner/map/clearance.hpp"
 #include "planner/model.hpp"
 #include "planner/tour/surface_places.hpp"
+#include "planner/unseen_space.hpp"
 #include "planner/workbench.hpp"
-#include "sim/core/parallel.hpp"
 #include "sim/core/rng.hpp"
 
 namespace gnbv {
@@ -76,9 +76,7 @@ void TourPlanner::learn(const Belief& belief, int threads) {
   ledger_.settle(cells_);
   const double short_of = ledger_.promised() - ledger_.found();
   const bool is_short = ledger_.found() < config_.replan_below * ledger_.promised();
-  if (is_short && short_of > voxels_a_metre()) {
-    is_due_ = true;
-  }
+  if (is_short && short_of > voxels_a_metre()) is_due_ = true;
 }
 
 /// What each place would see, those included that the surface asks for.
@@ -119,41 +117,29 @@ bool TourPlanner::search_tour() {
 bool TourPlanner::explore(const Belief& belief, Workbench& bench) {
   if (!config_.explore || model_.config.profiling.method != ProfilingMethod::none) return false;
   constexpr std::size_t kMostPlaces = 160;
-  constexpr double kLeastShare = 0.02;  // of the cameras' frusta: less is not worth going
   std::vector<TourPlaces::Place> places;
   for (TourPlaces::Place place = 1; place < places_.size(); ++place) {
     if (places_.is_reachable(place)) places.push_back(place);
   }
   const std::size_t one_in = (places.size() + kMostPlaces - 1) / kMostPlaces;
-  std::vector<TourView> views;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (mix_bits(places[i]) % one_in != 0) continue;
-    for (int heading = 0; heading < catalogue_.headings(); ++heading) {
-      views.push_back({places[i], catalogue_.pose(places_.p_world_m(places[i]), heading)});
-    }
-  }
-  std::vector<std::uint32_t> unknown(views.size(), 0);
-  const std::size_t shares = bench.marks.size();
-  parallel_for(bench.threads, shares, [&](std::size_t share) {
-    for (std::size_t i = share; i < views.size(); i += shares) {
-      const ViewPose& pose = views[i].pose;
-      unknown[i] = evaluate_view(belief.grid, belief.cloud, model_.rays_at(pose.gimbal_pitch_rad),
-                                 pose, bench.marks[share])
-                       .unknown_voxels;
-    }
-  });
   const std::span<const float> row_m = places_.row_m(TourPlaces::here());
-  double most = 0.0;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    const auto is_view = [&](const ViewPose& other) { return is_same_view(other, views[i].pose); };
-    if (std::any_of(refused_.begin(), refused_.end(), is_view)) continue;
-    if (unknown[i] < kLeastShare * model_.view_voxels) continue;
-    const double rate = unknown[i] / (static_cast<double>(row_m[views[i].place]) + 4.0);
-    if (rate <= most) continue;
-    most = rate;
-    tour_ = {views[i]};
+  std::vector<TourPlaces::Place> place_of;
+  std::vector<ViewPose> views;
+  std::vector<double> way_m;
+  for (const TourPlaces::Place place : places) {
+    if (mix_bits(place) % one_in != 0) continue;
+    for (int heading = 0; heading < catalogue_.headings(); ++heading) {
+      const ViewPose pose = catalogue_.pose(places_.p_world_m(place), heading);
+      const auto is_pose = [&](const ViewPose& other) { return is_same_view(other, pose); };
+      if (std::any_of(refused_.begin(), refused_.end(), is_pose)) continue;
+      place_of.push_back(place);
+      views.push_back(pose);
+      way_m.push_back(static_cast<double>(row_m[place]));
+    }
   }
-  if (tour_.empty()) return false;
+  const std::optional<std::size_t> best = most_unseen(model_, belief, views, way_m, bench);
+  if (!best) return false;
+  tour_ = {{place_of[*best], views[*best]}};
   price_factor_ = 1.0;  // of what it will find
   return true;
 }
