@@ -48,26 +48,26 @@ TourPlanner::TourPlanner(const PlannerModel& model)
       places_(map_geometry(model), model.navigation_m,
               lattice_step_m(config_, model.cameras, model.navigation_m)),
       catalogue_(config_, model.cameras, model.pitches_rad, model.workspace_m),
-      ledger_(config_.success) {}
+      ledger_(config_.success, config_.detail_m) {}
 
 TourScene TourPlanner::scene(const Belief& belief) const {
   return {config_, cells_, patches_, belief.grid};
 }
 
 TourKnowledge TourPlanner::knowledge() const {
-  const bool learns = config_.success == TourSuccess::learned;
   return {.config = config_,
           .cells = cells_,
           .patches = patches_,
           .catalogue = catalogue_,
           .places = places_,
           .success = ledger_.success(),
-          .reality = learns ? ledger_.reality(price_factor_ * voxels_a_metre()) : 1.0,
           .refused = refused_,
           .tour = tour_};
 }
 
-double TourPlanner::voxels_a_metre() const { return config_.price_per_m * expected_voxels(cells_); }
+double TourPlanner::voxels_a_metre() const {
+  return config_.price * expected_surface(cells_).voxels_a_metre();
+}
 
 void TourPlanner::learn(const Belief& belief, int threads) {
   const std::span<const Vec3f> points = belief.cloud.points_world_m();
@@ -77,6 +77,11 @@ void TourPlanner::learn(const Belief& belief, int threads) {
   const double short_of = ledger_.promised() - ledger_.found();
   const bool is_short = ledger_.found() < config_.replan_below * ledger_.promised();
   if (is_short && short_of > voxels_a_metre()) is_due_ = true;
+}
+
+void TourPlanner::find_patches_now(const Belief& belief, int threads) {
+  patches_ = find_patches(cells_, belief.grid, threads);
+  ledger_.give_credit(patches_);
 }
 
 /// What each place would see, those included that the surface asks for.
@@ -95,7 +100,7 @@ void TourPlanner::look_around(const Belief& belief, const ViewPose& current, int
 
 /// Whether some view pays at the price of now.
 bool TourPlanner::search_tour() {
-  TourTask task = make_tour_task(knowledge(), price_factor_);
+  TourTask task = make_tour_task(knowledge(), price_factor_ * voxels_a_metre());
   task.prizes.row_m = [this](std::uint32_t place) { return places_.row_m(place); };
   std::vector<std::uint32_t> from;
   for (const TourView& left : tour_) {
@@ -147,7 +152,7 @@ bool TourPlanner::explore(const Belief& belief, Workbench& bench) {
 /// What no view pays for may be worth going for in the end.
 void TourPlanner::search_at_lower_prices() {
   do {
-    const double may_stay = config_.end_share * expected_voxels(cells_);
+    const double may_stay = config_.end_share * expected_surface(cells_).voxels;
     const bool is_lowest = 0.5 * price_factor_ < config_.end_price;
     if (is_lowest || voxels_in_reach(knowledge()) <= may_stay) return;
     price_factor_ *= 0.5;
@@ -160,7 +165,7 @@ void TourPlanner::replan(const Belief& belief, const ViewPose& current, Workbenc
   space_.follow(belief.grid);
   places_.follow(belief.grid, space_, current.p_world_m);
   at_ = TourPlaces::here();
-  patches_ = find_patches(cells_, belief.grid, threads);
+  find_patches_now(belief, threads);
   look_around(belief, current, threads);
   views_since_replan_ = 0;
   is_due_ = false;
@@ -247,7 +252,7 @@ Plan TourPlanner::next(const Belief& belief, const History& history, const ViewP
     if (is_due_ || tour_.empty() || views_since_replan_ >= config_.views_per_replan) {
       replan(belief, current, bench);
     } else {
-      patches_ = find_patches(cells_, belief.grid, threads);
+      find_patches_now(belief, threads);
     }
     if (tour_.empty() || take_view(belief, current, checker, threads, plan)) break;
   }

@@ -49,6 +49,7 @@ class TourPlanner {
   /// What a metre has to bring, in small voxels.
   double voxels_a_metre() const;
   void learn(const Belief& belief, int threads);
+  void find_patches_now(const Belief& belief, int threads);
   void replan(const Belief& belief, const ViewPose& current, Workbench& bench);
   void look_around(const Belief& belief, const ViewPose& current, int threads);
   bool search_tour();

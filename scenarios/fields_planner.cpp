@@ -203,8 +203,9 @@ void fields(FieldVisitor& v, TourConfig& c) {
          "Whether a second look is worth what the first may miss; else it is worth nothing.");
   v.flag("explore", c.explore,
          "Without a profile: looks for unseen space where no surface pays any more.");
-  v.number("price_per_m", c.price_per_m, above_upto(0, 1),
-           "Share of the structure's expected voxels that a metre has to bring.");
+  v.number("price", c.price, above_upto(0, 10),
+           "What a metre has to bring: as a share of what the mean metre would of a tour twice as "
+           "long as the sides of the structure's box together.");
   v.number("metres_per_view", c.metres_per_view, between(0, 100), "What a view costs as if way.");
   v.integer("iterations", c.iterations, between(0, 1e6), "Of the search, each time.");
   v.integer("views_per_replan", c.views_per_replan, between(1, 1e6), "Flown before the next tour.");

@@ -26,7 +26,7 @@ struct TourConfig {
   TourSuccess success = TourSuccess::learned;
   bool double_cover = true;      // a second look is worth what the first may miss; else nothing
   bool explore = true;           // without a profile: where no surface pays, looks for space unseen
-  double price_per_m = 6e-4;     // of the structure's expected voxels: what a metre has to bring
+  double price = 0.09;           // what a metre has to bring, of ExpectedSurface::voxels_a_metre()
   double metres_per_view = 0.3;  // what a view costs beside its way
   int iterations = 250;          // of the search, a replan
   int views_per_replan = 6;

@@ -1,6 +1,7 @@
 // What a view promised and what it brought: how the planner learns whom to believe.
 #pragma once
 
+#include <map>
 #include <span>
 #include <vector>
 
@@ -22,7 +23,12 @@ struct LookOutcome {
 
 class LookLedger {
  public:
-  explicit LookLedger(TourSuccess method) : success_(method) {}
+  /// Edge of the cubes of which each has a credit of its own, in edges of a small voxel.
+  static constexpr double kCreditCube = 20.0;
+
+  /// `detail_m`: edge of a small voxel.
+  LookLedger(TourSuccess method, double detail_m)
+      : method_(method), cube_m_(kCreditCube * detail_m), success_(method) {}
 
   const LookSuccess& success() const { return success_; }
 
@@ -34,10 +40,10 @@ class LookLedger {
   /// under way afterwards.
   void settle(SurfaceCells& cells);
 
-  /// What the views of late brought of what they promised, at most 1: the shares of LookSuccess are
-  /// of the whole flight, and what stays to the end is harder. `doubt`: small voxels that a promise
-  /// has to exceed to tell anything.
-  double reality(double doubt) const;
+  /// Sets each patch's credit: of what looks into its cube promised, what they brought, those of
+  /// late more than those long ago. The shares of LookSuccess are of the whole flight and of all
+  /// places; what stays to the end is harder, and hard places lie together.
+  void give_credit(std::vector<Patch>& patches) const;
 
   /// Of the last settle(), by kind.
   std::span<const LookOutcome> outcomes() const { return outcomes_; }
@@ -46,18 +52,22 @@ class LookLedger {
 
  private:
   struct Promise {
-    PatchId patch = 0;
-    PatchSource source = PatchSource::sampled;
-    std::uint8_t looks = 0, incidence = 0;
-    float missing = 0.0F;
+    SeenPatch look;
+    Patch patch;  // as it was
     float promised = 0.0F;
     std::uint64_t covered_before = 0;  // voxels of the cell that held a point
   };
   void book(const Promise& promise, double found);
 
+  struct Kept {
+    double promised = 0.0, found = 0.0;  // small voxels; the promises as they were without credit
+  };
+  Key cube_of(const Patch& patch) const;
+
+  TourSuccess method_;
+  double cube_m_;
   LookSuccess success_;
-  double lately_promised_ = 0.0;  // faded by each settle()
-  double lately_found_ = 0.0;
+  std::map<Key, Kept> kept_;  // by cube
   std::vector<Promise> promises_;
   std::vector<LookOutcome> outcomes_;
 };

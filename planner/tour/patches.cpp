@@ -1,5 +1,6 @@
 #include "planner/tour/patches.hpp"
 
+#include <algorithm>
 #include <bit>
 
 #include "sim/core/parallel.hpp"
@@ -40,6 +41,12 @@ std::string_view name_of(PatchSource source) {
   return kNames[static_cast<std::size_t>(source)];
 }
 
+std::uint8_t point_bin(double points_per_voxel) {
+  constexpr std::array<double, kPointBins - 1> kFrom = {0.25, 1.0, 2.0, 4.0};
+  return static_cast<std::uint8_t>(std::upper_bound(kFrom.begin(), kFrom.end(), points_per_voxel) -
+                                   kFrom.begin());
+}
+
 std::vector<Patch> find_patches(const SurfaceCells& cells, const OccupancyGrid& grid, int threads) {
   const std::span<const SurfaceCell> all = cells.cells();
   std::vector<Patch> patches(2 * all.size());
@@ -62,6 +69,10 @@ std::vector<Patch> find_patches(const SurfaceCells& cells, const OccupancyGrid& 
       };
       const std::array<Vec3f, 2> normals = {cell.normal, -cell.normal};
       const std::array<VoxelState, 2> before = {state_before(normals[0]), state_before(normals[1])};
+      const auto expected = static_cast<float>(std::popcount(cell.expected));
+      const std::uint8_t points = point_bin(cell.moments.count / static_cast<double>(expected));
+      // what a look at one side has left, one at the other will hardly find
+      const auto looks = static_cast<std::uint8_t>(std::min(0xff, cell.looks[0] + cell.looks[1]));
       const bool any_free = before[0] == VoxelState::free || before[1] == VoxelState::free;
       for (std::size_t side = 0; side < 2; ++side) {
         const VoxelState needed = any_free ? VoxelState::free : VoxelState::unknown;
@@ -70,14 +81,15 @@ std::vector<Patch> find_patches(const SurfaceCells& cells, const OccupancyGrid& 
         patch.target_m = gap.middle_m;
         patch.normal = normals[side];
         patch.missing = static_cast<float>(gap.voxels);
-        patch.looks = cell.looks[side];
+        patch.looks = looks;
+        patch.points = points;
         patch.source = cell.is_extrapolated() ? PatchSource::extrapolated : PatchSource::sampled;
-        const float expected = static_cast<float>(std::popcount(cell.expected));
         const bool is_other_side = cell.looks[side] == 0 && cell.looks[1 - side] > 0;
         if (is_other_side && patch.missing < kOppositeShare * expected) {
           patch.missing = kOppositeShare * expected;
           patch.target_m = cell.on_plane_m;
           patch.source = PatchSource::opposite;
+          patch.looks = 0;
         }
       }
     }

@@ -23,12 +23,19 @@ using PatchId = std::uint32_t;
 constexpr std::uint32_t cell_of(PatchId patch) { return patch / 2; }
 constexpr std::size_t side_of(PatchId patch) { return patch % 2; }
 
+/// How many points a cell holds for each small voxel expected of it; the last bin for 4 or more.
+/// What many points have left out is hard to get.
+constexpr std::size_t kPointBins = 5;
+std::uint8_t point_bin(double points_per_voxel);
+
 struct Patch {
   Vec3f target_m = Vec3f::Zero();  // the middle of what it lacks
   Vec3f normal = Vec3f::Zero();    // out of the surface
   float missing = 0.0F;            // small voxels expected to lack a point; 0: nothing to see here
   PatchSource source = PatchSource::sampled;
-  std::uint8_t looks = 0;
+  std::uint8_t looks = 0;   // at both sides of the cell
+  std::uint8_t points = 0;  // point_bin() of its cell
+  float credit = 1.0F;      // of what it promises: what was kept nearby of late (LookLedger)
 };
 
 /// By PatchId. A side is there if the space before it is not known to be surface.

@@ -16,23 +16,26 @@ constexpr double kPriorTries = 300.0;  // small voxels that the prior weighs as 
 }  // namespace
 
 LookSuccess::LookSuccess(TourSuccess method) : method_(method) {
+  Patch patch;
   for (std::size_t source = 0; source < kPatchSources; ++source) {
+    patch.source = static_cast<PatchSource>(source);
     double prior = kPrior[source];
-    for (std::size_t looks = 0; looks < kLookBins; ++looks, prior *= kPriorPerLook) {
+    for (patch.looks = 0; patch.looks < kLookBins; ++patch.looks, prior *= kPriorPerLook) {
       for (std::size_t incidence = 0; incidence < kIncidenceBins; ++incidence) {
-        const std::size_t at = index(static_cast<PatchSource>(source), looks, incidence);
-        tries_[at] = kPriorTries;
-        hits_[at] = kPriorTries * prior * kPriorOfIncidence[incidence];
-        shares_[at] = static_cast<float>(hits_[at] / tries_[at]);
+        for (patch.points = 0; patch.points < kPointBins; ++patch.points) {
+          const std::size_t at = index(patch, incidence);
+          tries_[at] = kPriorTries;
+          hits_[at] = kPriorTries * prior * kPriorOfIncidence[incidence];
+          shares_[at] = static_cast<float>(hits_[at] / tries_[at]);
+        }
       }
     }
   }
 }
 
-void LookSuccess::learn(PatchSource source, std::size_t looks, std::size_t incidence,
-                        double missing, double found) {
+void LookSuccess::learn(const Patch& patch, std::size_t incidence, double missing, double found) {
   if (method_ == TourSuccess::fixed) return;
-  const std::size_t at = index(source, looks, incidence);
+  const std::size_t at = index(patch, incidence);
   tries_[at] += missing;
   hits_[at] += std::min(found, missing);
   shares_[at] = static_cast<float>(hits_[at] / tries_[at]);

@@ -24,23 +24,20 @@ class LookSuccess {
  public:
   explicit LookSuccess(TourSuccess method);
 
-  /// Of the voxels that a patch lacks, the share that a look brings.
-  float share(PatchSource source, std::size_t looks, std::size_t incidence) const {
-    return shares_[index(source, looks, incidence)];
-  }
+  /// Of the voxels that a patch lacks, the share that a look can be expected to bring.
   float share(const Patch& patch, std::size_t incidence) const {
-    return share(patch.source, patch.looks, incidence);
+    return patch.credit * shares_[index(patch, incidence)];
   }
   /// What became of a look: `missing` voxels before, `found` of them after.
-  void learn(PatchSource source, std::size_t looks, std::size_t incidence, double missing,
-             double found);
+  void learn(const Patch& patch, std::size_t incidence, double missing, double found);
 
  private:
-  static std::size_t index(PatchSource source, std::size_t looks, std::size_t incidence) {
-    const std::size_t look_bin = looks < kLookBins ? looks : kLookBins - 1;
-    return (static_cast<std::size_t>(source) * kLookBins + look_bin) * kIncidenceBins + incidence;
+  static std::size_t index(const Patch& patch, std::size_t incidence) {
+    const std::size_t looks = patch.looks < kLookBins ? patch.looks : kLookBins - 1;
+    const std::size_t kind = static_cast<std::size_t>(patch.source) * kLookBins + looks;
+    return (kind * kIncidenceBins + incidence) * kPointBins + patch.points;
   }
-  static constexpr std::size_t kBins = kPatchSources * kLookBins * kIncidenceBins;
+  static constexpr std::size_t kBins = kPatchSources * kLookBins * kIncidenceBins * kPointBins;
 
   TourSuccess method_;
   std::array<double, kBins> tries_{};

@@ -27,8 +27,7 @@ std::vector<std::uint32_t> choose_items(const TourKnowledge& k, PrizeTask& task)
     if (one_in > 1 && mix_bits(id) % one_in != 0) continue;
     item_of[id] = static_cast<std::uint32_t>(task.weight.size());
     const Patch& patch = k.patches[id];
-    const float share =
-        k.config.double_cover ? 1.0F : k.success.share(patch, 0) * static_cast<float>(k.reality);
+    const float share = k.config.double_cover ? 1.0F : k.success.share(patch, 0);
     task.weight.push_back(patch.missing * share * static_cast<float>(one_in));
   }
   return item_of;
@@ -44,7 +43,6 @@ struct Offer {
 std::vector<Offer> find_offers(const TourKnowledge& k, const PrizeTask& task,
                                const std::vector<std::uint32_t>& item_of) {
   const double least = 0.5 * task.price_per_m * k.config.metres_per_view;
-  const auto reality = static_cast<float>(k.reality);
   const bool certain = !k.config.double_cover;  // what it may miss is in the weight
   std::vector<Offer> offers;
   std::vector<ItemLook> looks;
@@ -57,7 +55,7 @@ std::vector<Offer> find_offers(const TourKnowledge& k, const PrizeTask& task,
         const std::uint32_t item = item_of[seen.patch];
         if (item == kNoItem) continue;
         const float share = k.success.share(k.patches[seen.patch], seen.incidence);
-        looks.push_back({item, std::min(kSuccessMax, certain ? 1.0F : share * reality)});
+        looks.push_back({item, std::min(kSuccessMax, certain ? 1.0F : share)});
         gain += static_cast<double>(task.weight[item] * looks.back().success);
       }
       if (looks.empty() || gain < least) continue;
@@ -93,10 +91,20 @@ void keep_best(std::span<const TourView> tour, std::vector<Offer>& offers, std::
 
 }  // namespace
 
-double expected_voxels(const SurfaceCells& cells) {
-  double sum = 0.0;
-  for (const SurfaceCell& cell : cells.cells()) sum += std::popcount(cell.expected);
-  return sum;
+double ExpectedSurface::voxels_a_metre() const {
+  return box_m.isEmpty() ? 0.0 : voxels / (2.0 * box_m.sizes().sum());
+}
+
+ExpectedSurface expected_surface(const SurfaceCells& cells) {
+  ExpectedSurface surface;
+  const Vec3 half_m = Vec3::Constant(0.5 * cells.edge_m());
+  for (const SurfaceCell& cell : cells.cells()) {
+    if (cell.expected == 0) continue;
+    surface.voxels += std::popcount(cell.expected);
+    const Vec3 center_m = cells.lattice().center_m(cell.key);
+    surface.box_m.extend(Box3(center_m - half_m, center_m + half_m));
+  }
+  return surface;
 }
 
 std::vector<std::uint8_t> seen_from_anywhere(const TourKnowledge& k) {
@@ -117,14 +125,14 @@ double voxels_in_reach(const TourKnowledge& k) {
     const Patch& patch = k.patches[id];
     if (is_seen[id] != 0) sum += static_cast<double>(patch.missing * k.success.share(patch, 0));
   }
-  return k.reality * sum;
+  return sum;
 }
 
-TourTask make_tour_task(const TourKnowledge& k, double price_factor) {
+TourTask make_tour_task(const TourKnowledge& k, double price_per_m) {
   TourTask made;
   PrizeTask& task = made.prizes;
   task.start = TourPlaces::here();
-  task.price_per_m = k.config.price_per_m * expected_voxels(k.cells) * price_factor;
+  task.price_per_m = price_per_m;
   task.metres_per_view = k.config.metres_per_view;
   const std::vector<std::uint32_t> item_of = choose_items(k, task);
   std::vector<Offer> offers = find_offers(k, task, item_of);

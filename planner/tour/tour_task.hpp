@@ -23,7 +23,6 @@ struct TourKnowledge {
   const ViewCatalogue& catalogue;
   const TourPlaces& places;
   const LookSuccess& success;
-  double reality = 1.0;               // what looks brought lately, of what they promised
   std::span<const ViewPose> refused;  // that no tour may hold now
   std::span<const TourView> tour;     // that a tour has to be able to hold
 };
@@ -33,8 +32,15 @@ struct TourTask {
   std::vector<TourView> views;  // of the task, in its order
 };
 
-/// Small voxels that the surface is expected to fill, those that hold a point included.
-double expected_voxels(const SurfaceCells& cells);
+/// All surface that is believed to be there, seen or not.
+struct ExpectedSurface {
+  double voxels = 0.0;  // small ones, those that hold a point included
+  Box3 box_m;           // around their cells; empty without any
+  /// Of a tour twice as long as the box's sides together, which is what tours come to: 144 m for
+  /// the paper's aircraft, flown in 140 to 160 m. The same for a model of it on any scale.
+  double voxels_a_metre() const;
+};
+ExpectedSurface expected_surface(const SurfaceCells& cells);
 
 /// Small voxels that one look at each patch that any view sees can be expected to bring.
 double voxels_in_reach(const TourKnowledge& knowledge);
@@ -42,9 +48,9 @@ double voxels_in_reach(const TourKnowledge& knowledge);
 /// Of each patch, whether a view from any reachable place sees it.
 std::vector<std::uint8_t> seen_from_anywhere(const TourKnowledge& knowledge);
 
-/// All views of reachable places that may pay at `price_factor` times the configured price a metre.
+/// All views of reachable places that may pay when a metre has to bring `price_per_m` small voxels.
 /// Of more patches than config.items_max, one in so many stands for its share. Its `row_m` is left
 /// to the caller.
-TourTask make_tour_task(const TourKnowledge& knowledge, double price_factor);
+TourTask make_tour_task(const TourKnowledge& knowledge, double price_per_m);
 
 }  // namespace gnbv

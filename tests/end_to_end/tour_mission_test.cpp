@@ -37,7 +37,7 @@ TEST(TourMission, IsTheSameAtAnyNumberOfThreadsAndResumed) {
 
 TEST(TourMission, IsTheSameInAWorldWithAGimbalAndLostFrames) {
   const Scenario scenario =
-      tour({"planner.termination.max_iterations=7", "cameras.0.drop_probability=0.3",
+      tour({"planner.termination.max_iterations=24", "cameras.0.drop_probability=0.3",
             "cameras.0.pitch_deg={min: 0, max: 30, step: 30}", "wind.mean_m_s=[2, 1, 0]",
             "no_fly=[{min: [2.2, -1, 0], max: [4, 1, 5]}]",
             "obstacles=[{box_m: {min: [-2.6, 1.5, 0], max: [-2, 2.1, 1]}}]"});
@@ -132,7 +132,7 @@ TEST(TourMission, EachSwitchChangesTheTour) {
   const std::vector<std::string> few = {"planner.termination.max_iterations=8"};
   const std::string hash = result_sha256(Flown(tour(few)).result);
   for (const char* change : {"planner.tour.visibility=rays", "planner.tour.search=greedy",
-                             "planner.tour.price_per_m=0.005", "planner.tour.metres_per_view=3",
+                             "planner.tour.price=0.2", "planner.tour.metres_per_view=3",
                              "planner.tour.yaw_step_deg=90", "planner.tour.success=fixed",
                              "planner.tour.double_cover=false"}) {
     std::vector<std::string> overrides = few;

@@ -123,5 +123,42 @@ TEST(Patches, ASurfaceHasTheSidesThatSpaceIsFreeBefore) {
   EXPECT_GT(sides, 50);
 }
 
+TEST(Patches, LooksAtEitherSideCountForBoth) {
+  const OccupancyGrid grid = unknown_grid();
+  SurfaceCells cells(kBox, 0.05);
+  cells.add(square(Vec3::UnitZ(), 0.1), grid, 1);
+  for (std::uint32_t cell = 0; cell < cells.cells().size(); ++cell) {
+    cells.count_look(cell, 0);
+    cells.count_look(cell, 1);
+    cells.count_look(cell, 1);
+  }
+  const std::vector<Patch> patches = find_patches(cells, grid, 1);
+  int lacking = 0;
+  for (const Patch& patch : patches) {
+    if (patch.missing == 0.0F) continue;
+    ++lacking;
+    EXPECT_EQ(patch.looks, 3);
+  }
+  EXPECT_GT(lacking, 50);
+}
+
+TEST(Patches, KnowHowDenselyTheirCellWasScanned) {
+  EXPECT_EQ(point_bin(0.0), 0);
+  EXPECT_EQ(point_bin(0.25), 1);
+  EXPECT_EQ(point_bin(1.99), 2);
+  EXPECT_EQ(point_bin(4.0), kPointBins - 1);
+  EXPECT_EQ(point_bin(1e9), kPointBins - 1);
+  const OccupancyGrid grid = unknown_grid();
+  const auto most_points = [&](double step_m) {
+    SurfaceCells cells(kBox, 0.05);
+    cells.add(square(Vec3::UnitZ(), step_m), grid, 1);
+    std::uint8_t most = 0;
+    for (const Patch& patch : find_patches(cells, grid, 1)) most = std::max(most, patch.points);
+    return most;
+  };
+  EXPECT_EQ(most_points(0.01), kPointBins - 1);  // 400 points in a cell of 16 voxels
+  EXPECT_EQ(most_points(0.15), point_bin(4.0 / 16.0));
+}
+
 }  // namespace
 }  // namespace gnbv

@@ -20,14 +20,14 @@ TEST(TourPlan, GathersBySourceAndPlaceWhatCanBeExpected) {
   const TourPlan plan = make_tour_plan({}, patches, success);
   EXPECT_EQ(plan.cube_m, kLeastCube_m);
   ASSERT_EQ(plan.cubes.size(), 3U);
-  const double share = success.share(PatchSource::sampled, 0, 0);
+  const double share = success.share(patches[0], 0);
   EXPECT_EQ(plan.cubes[0].source, PatchSource::sampled);
   EXPECT_NEAR(plan.cubes[0].p_world_m.x(), -0.1, 1e-6);  // below 0 is another cube
   EXPECT_NEAR(plan.cubes[0].expected, 20.0 * share, 1e-5);
   EXPECT_NEAR(plan.cubes[1].p_world_m.x(), (30.0 * 0.1 + 10.0 * 0.2) / 40.0, 1e-6);
   EXPECT_NEAR(plan.cubes[1].expected, 40.0 * share, 1e-5);
   EXPECT_EQ(plan.cubes[2].source, PatchSource::frontier);
-  EXPECT_NEAR(plan.cubes[2].expected, 8.0 * success.share(PatchSource::frontier, 0, 0), 1e-5);
+  EXPECT_NEAR(plan.cubes[2].expected, 8.0 * success.share(patches[3], 0), 1e-5);
 }
 
 TEST(TourPlan, CubesGrowUntilTheyAreFew) {
