@@ -131,10 +131,10 @@ TEST(TourMission, FliesEachLegThroughSpaceKnownToBeFree) {
 TEST(TourMission, EachSwitchChangesTheTour) {
   const std::vector<std::string> few = {"planner.termination.max_iterations=8"};
   const std::string hash = result_sha256(Flown(tour(few)).result);
-  for (const char* change : {"planner.tour.visibility=rays", "planner.tour.search=greedy",
-                             "planner.tour.price=0.2", "planner.tour.metres_per_view=3",
-                             "planner.tour.yaw_step_deg=90", "planner.tour.success=fixed",
-                             "planner.tour.double_cover=false"}) {
+  for (const char* change :
+       {"planner.tour.visibility=rays", "planner.tour.search=greedy", "planner.tour.price=0.2",
+        "planner.tour.metres_per_view=3", "planner.tour.yaw_step_deg=90",
+        "planner.tour.success=fixed", "planner.tour.double_cover=false"}) {
     std::vector<std::string> overrides = few;
     overrides.emplace_back(change);
     EXPECT_NE(result_sha256(Flown(tour(overrides)).result), hash) << change;
