@@ -36,12 +36,11 @@ void integrate_view(const PlannerModel& model, std::span<const DepthFrame> frame
              bench.inserters.size());
   bench.frame_rays.resize(frames.size());
   std::vector<ScanUpdate> updates(frames.size());
-  const int threads_per_frame = std::max(bench.threads / static_cast<int>(frames.size()), 1);
   parallel_for(bench.threads, frames.size(), [&](std::size_t i) {
     const CameraModel& camera = model.cameras[static_cast<std::size_t>(frames[i].camera)];
     compute_frame_rays(frames[i], camera, model.config.floor_z_m, bench.frame_rays[i]);
-    updates[i] = bench.inserters[i].compute_update(bench.frame_rays[i], frames[i], camera,
-                                                   threads_per_frame);
+    updates[i] =
+        bench.inserters[i].compute_update(bench.frame_rays[i], frames[i], camera, bench.threads);
   });
   const auto update_map = [&] {
     for (std::size_t i = 0; i < frames.size(); ++i) {

@@ -1,6 +1,7 @@
 #include "planner/next_view.hpp"
 
 #include <algorithm>
+#include <atomic>
 
 #include "planner/belief.hpp"
 #include "planner/history.hpp"
@@ -125,17 +126,13 @@ class Decider {
     return choose_among(std::move(candidates));
   }
 
-  /// Each thread takes its share in one piece, since neighbours often share their position.
+  /// In pieces, since neighbours often share their position and what is known of it.
   void check_all(std::span<Candidate> candidates) {
-    const std::size_t shares = bench_.marks.size();
-    parallel_for(bench_.threads, shares, [&](std::size_t share) {
+    constexpr std::size_t kPiece = 32;
+    parallel_for_chunks(bench_.threads, candidates.size(), kPiece, [&](auto begin, auto end) {
       ViewChecker checker(validity_, model_.navigation_m, model_.no_fly, belief_.grid, recent_,
                           current_);
-      const std::size_t begin = candidates.size() * share / shares;
-      const std::size_t end = candidates.size() * (share + 1) / shares;
-      for (Candidate& candidate : candidates.subspan(begin, end - begin)) {
-        checker.check(candidate);
-      }
+      for (Candidate& candidate : candidates.subspan(begin, end - begin)) checker.check(candidate);
     });
   }
 
@@ -145,9 +142,9 @@ class Decider {
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       if (!candidates[i].rejected) valid.push_back(i);
     }
-    const std::size_t shares = bench_.marks.size();
-    parallel_for(bench_.threads, shares, [&](std::size_t share) {
-      for (std::size_t i = share; i < valid.size(); i += shares) {
+    std::atomic<std::size_t> next{0};
+    parallel_for(bench_.threads, bench_.marks.size(), [&](std::size_t share) {
+      for (std::size_t i = next++; i < valid.size(); i = next++) {
         Candidate& candidate = candidates[valid[i]];
         ViewStats stats = evaluate_view(
             belief_.grid, belief_.cloud, model_.rays_at(candidate.view.gimbal_pitch_rad),

@@ -1,38 +1,149 @@
 #include "sim/core/parallel.hpp"
 
+#include <pthread.h>
+
 #include <algorithm>
 #include <atomic>
+#include <condition_variable>
 #include <exception>
+#include <mutex>
+#include <new>
+#include <system_error>
 #include <thread>
 #include <vector>
 
 namespace gnbv {
+namespace {
 
-void parallel_for(int threads, std::size_t count, const std::function<void(std::size_t)>& task) {
-  const std::size_t workers = std::min(count, static_cast<std::size_t>(std::max(threads, 1)));
-  if (workers <= 1) {
+using Task = std::function<void(std::size_t)>;
+
+/// A fork under way: whoever takes part takes the next index until none is left.
+class Fork {
+ public:
+  Fork(const Task& task, std::size_t count, std::size_t helpers)
+      : to_come(helpers), task_(task), count_(count), failed_at_(count) {}
+
+  bool has_work() const { return next_.load(std::memory_order_relaxed) < count_; }
+  std::size_t take() { return next_++; }
+  void run_from(std::size_t i) {
+    for (; i < count_; i = take()) run(i);
+  }
+  void rethrow() const {
+    if (error_) std::rethrow_exception(error_);
+  }
+
+  // of the pool, under its lock
+  std::size_t to_come;      // helpers that may still join
+  std::size_t helping = 0;  // those that have joined and not left
+  std::condition_variable left;
+
+ private:
+  void run(std::size_t i) {
+    try {
+      task_(i);
+    } catch (...) {
+      const std::lock_guard lock(failing_);
+      if (i >= failed_at_) return;
+      failed_at_ = i;
+      error_ = std::current_exception();
+    }
+  }
+
+  const Task& task_;
+  const std::size_t count_;
+  std::atomic<std::size_t> next_{0};
+  std::mutex failing_;
+  std::size_t failed_at_;
+  std::exception_ptr error_;
+};
+
+/// Threads that wait for forks, as many as any call has asked for, for as long as the process
+/// lives. Who forks works too, and waits only for pieces that others have begun: a pool that is
+/// busy elsewhere, or has no core, delays nobody, and nested forks cannot lock each other out.
+class Pool {
+ public:
+  void run(Fork& fork) {
+    std::size_t to_wake = 0;
+    {
+      const std::lock_guard lock(mutex_);
+      add_workers(fork.to_come);
+      forks_.push_back(&fork);
+      to_wake = std::min(idle_, fork.to_come);
+    }
+    for (; to_wake > 0; --to_wake) wake_.notify_one();
+    fork.run_from(fork.take());
+    std::unique_lock lock(mutex_);
+    std::erase(forks_, &fork);
+    fork.left.wait(lock, [&] { return fork.helping == 0; });
+  }
+
+ private:
+  /// Fewer where the system gives no more threads.
+  void add_workers(std::size_t wanted) {
+    try {
+      for (; workers_ < wanted; ++workers_) std::thread([this] { work(); }).detach();
+    } catch (const std::system_error&) {
+    }
+  }
+
+  [[noreturn]] void work() {
+    std::unique_lock lock(mutex_);
+    while (true) {
+      // the youngest first: somebody waits for it who is needed elsewhere
+      const auto open = std::find_if(forks_.rbegin(), forks_.rend(), [](const Fork* fork) {
+        return fork->to_come > 0 && fork->has_work();
+      });
+      if (open == forks_.rend()) {
+        ++idle_;
+        wake_.wait(lock);
+        --idle_;
+        continue;
+      }
+      help(**open, lock);
+    }
+  }
+
+  void help(Fork& fork, std::unique_lock<std::mutex>& lock) {
+    --fork.to_come;
+    ++fork.helping;
+    const std::size_t first = fork.take();  // under the lock: who has joined has begun
+    lock.unlock();
+    fork.run_from(first);
+    lock.lock();
+    if (--fork.helping == 0) fork.left.notify_one();
+  }
+
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::vector<Fork*> forks_;
+  std::size_t workers_ = 0;
+  std::size_t idle_ = 0;
+};
+
+/// Never destroyed, since its threads wait in it until the process ends; made anew in a child
+/// process, which has none of them.
+Pool& the_pool() {
+  alignas(Pool) static std::byte memory[sizeof(Pool)];
+  static const bool is_made = [] {
+    const auto make = [] { new (memory) Pool; };
+    make();
+    return pthread_atfork(nullptr, nullptr, make) == 0;
+  }();
+  static_cast<void>(is_made);
+  return *std::launder(reinterpret_cast<Pool*>(memory));
+}
+
+}  // namespace
+
+void parallel_for(int threads, std::size_t count, const Task& task) {
+  const std::size_t takers = std::min(count, static_cast<std::size_t>(std::max(threads, 1)));
+  if (takers <= 1) {
     for (std::size_t i = 0; i < count; ++i) task(i);
     return;
   }
-  std::vector<std::exception_ptr> errors(count);
-  std::atomic<std::size_t> next{0};
-  const auto work = [&] {
-    for (std::size_t i = next++; i < count; i = next++) {
-      try {
-        task(i);
-      } catch (...) {
-        errors[i] = std::current_exception();
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> helpers;
-    for (std::size_t w = 1; w < workers; ++w) helpers.emplace_back(work);
-    work();
-  }
-  for (const std::exception_ptr& error : errors) {
-    if (error) std::rethrow_exception(error);
-  }
+  Fork fork(task, count, takers - 1);
+  the_pool().run(fork);
+  fork.rethrow();
 }
 
 void parallel_for_chunks(int threads, std::size_t count, std::size_t chunk,

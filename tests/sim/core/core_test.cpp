@@ -1,18 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <set>
-#include <stdexcept>
-#include <vector>
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "sim/core/parallel.hpp"
 #include "sim/core/pose.hpp"
 #include "sim/core/rng.hpp"
 #include "sim/core/sha256.hpp"
@@ -73,41 +69,6 @@ TEST(Rng, NormalHasMeanZeroAndVarianceOne) {
   // five sigma of the mean (1 / sqrt n) and of the variance (sqrt(2 / n))
   EXPECT_NEAR(sum / kDraws, 0.0, 0.016);
   EXPECT_NEAR(sum_of_squares / kDraws, 1.0, 0.0224);
-}
-
-TEST(Parallel, EveryTaskRunsOnceAtAnyNumberOfThreads) {
-  for (const int threads : {0, 1, 2, 5, 16}) {
-    std::vector<std::atomic<int>> runs(101);
-    parallel_for(threads, runs.size(), [&](std::size_t i) { ++runs[i]; });
-    for (const auto& count : runs) EXPECT_EQ(count.load(), 1);
-  }
-}
-
-TEST(Parallel, ChunksAreOfTheSizeAskedForAndTogetherTheWhole) {
-  for (const std::size_t count : {0U, 1U, 10U, 99U, 100U, 101U}) {
-    std::vector<std::atomic<int>> runs(count);
-    std::atomic<int> short_ones{0};
-    parallel_for_chunks(4, count, 10, [&](std::size_t begin, std::size_t end) {
-      EXPECT_EQ(begin % 10, 0U);
-      if (end - begin != 10) ++short_ones;
-      for (std::size_t i = begin; i < end; ++i) ++runs[i];
-    });
-    for (const auto& each : runs) EXPECT_EQ(each.load(), 1);
-    EXPECT_EQ(short_ones, count % 10 == 0 ? 0 : 1);
-  }
-}
-
-TEST(Parallel, TheFirstFailureByIndexIsThrown) {
-  for (const int threads : {1, 4}) {
-    try {
-      parallel_for(threads, 50, [](std::size_t i) {
-        if (i == 7 || i == 31) throw std::runtime_error(std::to_string(i));
-      });
-      FAIL() << "nothing was thrown";
-    } catch (const std::runtime_error& error) {
-      EXPECT_STREQ(error.what(), "7");
-    }
-  }
 }
 
 TEST(Sha256Hash, AgreesWithThePublishedVectors) {
