@@ -146,14 +146,14 @@ struct Utility {
   UtilityNeeds needs = {};
 };
 
-constexpr UtilityNeeds kReleased = {.refuses_blind = true};
+constexpr UtilityNeeds kProposed = {.refuses_blind = true, .prediction = true};
 constexpr UtilityNeeds kReleasedBaseline = {.refuses_blind = true, .released_baseline = true};
 constexpr UtilityNeeds kRays = {.rays = true};
 constexpr UtilityNeeds kShadow = {.rays = true, .shadow = true};
 
 /// The one table of utilities: adding one is a function above and a line here.
 constexpr std::array kUtilities = {
-    Utility{"proposed", proposed, kReleased},
+    Utility{"proposed", proposed, kProposed},
     Utility{"bircher", bircher, kReleasedBaseline},
     Utility{"isler", isler, kReleasedBaseline},
     Utility{"occlusion_aware", occlusion_aware, kRays},
@@ -183,6 +183,14 @@ std::vector<std::string_view> utility_names() {
   std::vector<std::string_view> names;
   for (const Utility& entry : kUtilities) names.push_back(entry.name);
   return names;
+}
+
+bool reads_prediction(const UtilityConfig& config) {
+  const auto reads = [&](const Utility& e) {
+    return e.name == config.name &&
+           (e.needs.prediction || (e.needs.released_baseline && config.prediction_hides_hits));
+  };
+  return config.gamma > 0.0 && std::any_of(kUtilities.begin(), kUtilities.end(), reads);
 }
 
 UtilityNeeds needs_of(const UtilityConfig& config) { return utility_named(config.name).needs; }

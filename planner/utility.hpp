@@ -79,6 +79,7 @@ struct UtilityNeeds {
   bool shadow = false;             // a ShadowBand
   bool refuses_blind = false;      // no score for views that see nothing occupied (released code)
   bool released_baseline = false;  // hit_voxel is for it
+  bool prediction = false;         // predicted surface
 };
 
 /// The formulas by name, those of the paper's tables first.
@@ -86,6 +87,10 @@ std::vector<std::string_view> utility_names();
 
 /// Requires a name of utility_names().
 UtilityNeeds needs_of(const UtilityConfig& config);
+
+/// Whether the choice of views depends on predicted surface (section 2.3): names that are no
+/// formula's do not ask for it.
+bool reads_prediction(const UtilityConfig& config);
 
 /// How evaluate_view() has to look for this utility, and no more closely: with the released slips
 /// where the configuration asks for them. `shadow` is kept only where it is needed; `sparse_below`

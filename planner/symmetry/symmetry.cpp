@@ -5,6 +5,7 @@
 
 #include "planner/symmetry/mirror_support.hpp"
 #include "planner/symmetry/symmetry_module.hpp"
+#include "sim/core/parallel.hpp"
 
 namespace gnbv {
 namespace {
@@ -40,11 +41,16 @@ Vec3f outward(const OccupancyGrid& grid, const Vec3f& p_world_m) {
 }
 
 std::vector<ProfilePoint> oriented(std::span<const Vec3f> profile_world_m,
-                                   const OccupancyGrid& grid) {
+                                   const OccupancyGrid& grid, int threads) {
   std::vector<ProfilePoint> out;
   for (const Vec3f& p : profile_world_m) {
     if (p.allFinite()) out.push_back({p, outward(grid, p)});
   }
+  // each call of the module indexes all points anew: few and large pieces
+  const std::size_t piece = out.size() / static_cast<std::size_t>(std::max(threads, 1)) + 1;
+  parallel_for_chunks(threads, out.size(), piece, [&](std::size_t begin, std::size_t end) {
+    symmetry_module().estimate_normals(out, begin, end);
+  });
   return out;
 }
 
@@ -146,19 +152,21 @@ std::vector<MirrorPlane> rough_planes(std::span<const ProfilePoint> profile, con
 }  // namespace
 
 Symmetry find_symmetry(const SymmetryConfig& config, std::span<const Vec3f> profile_world_m,
-                       const OccupancyGrid& grid) {
+                       const OccupancyGrid& grid, int threads) {
   Symmetry symmetry;
   if (!config.enabled) return symmetry;
   const std::vector<Vec3f> witnesses_world_m = witnesses(profile_world_m, grid);
   if (witnesses_world_m.empty()) return symmetry;
-  const std::vector<ProfilePoint> profile = oriented(profile_world_m, grid);
+  const std::vector<ProfilePoint> profile = oriented(profile_world_m, grid, threads);
   const Extent extent = extent_of(witnesses_world_m);
   // a plane found roughly misses thin wings: less is asked of it
   const std::vector<Candidate> rough =
       judged(rough_planes(profile, extent), witnesses_world_m, grid, 0.5 * config.min_confirmed);
   std::vector<MirrorPlane> planes =
       worth_refining(rough, config.min_support - kMaxGainOfRefining, extent);
-  symmetry_module().refine_planes(profile, planes);
+  parallel_for(threads, planes.size(), [&](std::size_t i) {
+    symmetry_module().refine_planes(profile, std::span(planes).subspan(i, 1));
+  });
   const std::vector<Candidate> refined =
       judged(planes, witnesses_world_m, grid, config.min_confirmed);
 

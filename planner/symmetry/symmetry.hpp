@@ -24,7 +24,7 @@ struct Symmetry {
 /// for. Deterministic; nothing for few or no points, and when disabled. Throws BadInput when the
 /// module that looks for it (planner/symmetry/symmetry_module.hpp) cannot be loaded.
 Symmetry find_symmetry(const SymmetryConfig& config, std::span<const Vec3f> profile_world_m,
-                       const OccupancyGrid& grid);
+                       const OccupancyGrid& grid, int threads = 1);
 
 /// Marks the mirrored points in the map where it knows nothing; returns how many voxels of the map
 /// are marked then.

@@ -2,6 +2,7 @@
 // every start 140 ms. The module is loaded when the first symmetry is looked for.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,8 @@ namespace gnbv {
 struct ProfilePoint {
   Vec3f p_world_m = Vec3f::Zero();
   Vec3f outward_world = Vec3f::Zero();
+  Vec3f normal_world = Vec3f::Zero();  // unit, outwards; zero where there is none
+  float curvature = 0.0F;
 };
 
 /// Two keypoints, each of which looks like the other in a mirror; unit normals of the surface.
@@ -22,14 +25,20 @@ struct KeypointPair {
   Vec3f a_normal_world, b_normal_world;
 };
 
-/// Finds keypoints and pairs them by feature, the best matches of each.
+/// Fills normals and curvatures of the points [begin, end) from their neighbours among all. Calls
+/// for other points may run at once.
+using EstimateNormals = void(std::span<ProfilePoint> profile, std::size_t begin, std::size_t end);
+/// Finds keypoints and pairs them by feature, the best matches of each. Needs the normals.
 using MatchKeypoints = void(std::span<const ProfilePoint> profile,
                             std::vector<KeypointPair>& pairs);
-/// Moves each plane to where the mirrored profile fits the profile best.
+/// Moves each plane to where the mirrored profile fits the profile best. Needs the normals; calls
+/// for other planes may run at once.
 using RefinePlanes = void(std::span<const ProfilePoint> profile, std::span<MirrorPlane> planes);
 
-/// The module's functions, by these names with C linkage: gnbv_match_keypoints, gnbv_refine_planes.
+/// The module's functions, by these names with C linkage: gnbv_estimate_normals,
+/// gnbv_match_keypoints, gnbv_refine_planes.
 struct SymmetryModule {
+  EstimateNormals* estimate_normals = nullptr;
   MatchKeypoints* match_keypoints = nullptr;
   RefinePlanes* refine_planes = nullptr;
 };

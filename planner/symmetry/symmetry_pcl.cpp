@@ -28,29 +28,16 @@ constexpr int kNeighbours = 50;          // released: of normals and of features
 constexpr float kRefineLeaf_m = 0.2F;    // of the cloud that ICP aligns
 constexpr std::size_t kMatchesEach = 5;  // best matches of a keypoint
 
-/// Points with normals (curvature in its field) that point outwards. Points without a normal, as
-/// among duplicates, are left out.
+/// Points with normals (curvature in its field). Points without a normal, as among duplicates, are
+/// left out.
 Cloud::Ptr with_normals(std::span<const ProfilePoint> profile) {
-  auto points = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
-  for (const ProfilePoint& point : profile) {
-    points->emplace_back(point.p_world_m.x(), point.p_world_m.y(), point.p_world_m.z());
-  }
-  pcl::NormalEstimation<pcl::PointXYZ, pcl::Normal> estimation;
-  estimation.setInputCloud(points);
-  estimation.setSearchMethod(pcl::make_shared<pcl::search::KdTree<pcl::PointXYZ>>());
-  estimation.setKSearch(kNeighbours);
-  pcl::PointCloud<pcl::Normal> normals;
-  estimation.compute(normals);
-
   auto cloud = pcl::make_shared<Cloud>();
-  for (std::size_t i = 0; i < profile.size(); ++i) {
-    Vec3f n = normals[i].getNormalVector3fMap();
-    if (!n.allFinite() || !(n.norm() > 0.5F)) continue;
-    if (n.dot(profile[i].outward_world) < 0.0F) n = -n;
+  for (const ProfilePoint& from : profile) {
+    if (from.normal_world.isZero()) continue;
     pcl::PointNormal point;
-    point.getVector3fMap() = profile[i].p_world_m;
-    point.getNormalVector3fMap() = n;
-    point.curvature = normals[i].curvature;
+    point.getVector3fMap() = from.p_world_m;
+    point.getNormalVector3fMap() = from.normal_world;
+    point.curvature = from.curvature;
     cloud->push_back(point);
   }
   return cloud;
@@ -191,6 +178,32 @@ Vec3 center_of(const Cloud& cloud) {
 }
 
 }  // namespace
+
+extern "C" __attribute__((visibility("default"))) void gnbv_estimate_normals(
+    std::span<ProfilePoint> profile, std::size_t begin, std::size_t end) {
+  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
+  if (profile.size() < kNeighbours) return;
+  auto points = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
+  for (const ProfilePoint& point : profile) {
+    points->emplace_back(point.p_world_m.x(), point.p_world_m.y(), point.p_world_m.z());
+  }
+  auto which = pcl::make_shared<pcl::Indices>();
+  for (std::size_t i = begin; i < end; ++i) which->push_back(static_cast<pcl::index_t>(i));
+  pcl::NormalEstimation<pcl::PointXYZ, pcl::Normal> estimation;
+  estimation.setInputCloud(points);
+  estimation.setIndices(which);
+  estimation.setSearchMethod(pcl::make_shared<pcl::search::KdTree<pcl::PointXYZ>>());
+  estimation.setKSearch(kNeighbours);
+  pcl::PointCloud<pcl::Normal> normals;
+  estimation.compute(normals);
+  for (std::size_t i = begin; i < end; ++i) {
+    const pcl::Normal& normal = normals[i - begin];
+    const Vec3f n = normal.getNormalVector3fMap();
+    if (!n.allFinite() || !(n.norm() > 0.5F)) continue;
+    profile[i].normal_world = n.dot(profile[i].outward_world) < 0.0F ? Vec3f(-n) : n;
+    profile[i].curvature = normal.curvature;
+  }
+}
 
 extern "C" __attribute__((visibility("default"))) void gnbv_match_keypoints(
     std::span<const ProfilePoint> profile, std::vector<KeypointPair>& pairs) {

@@ -2,6 +2,10 @@
 // fresh pages that the kernel fills on the first write, which a std::vector would do at once.
 #pragma once
 
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
@@ -24,6 +28,7 @@ class ZeroedArray {
     if (size == 0) return;
     data_.reset(static_cast<T*>(std::calloc(size, sizeof(T))));
     if (!data_) throw std::bad_alloc();
+    ask_for_large_pages();
   }
   ZeroedArray(const ZeroedArray& other) : ZeroedArray(other.size_) {
     if (size_ > 0) std::memcpy(data_.get(), other.data_.get(), size_ * sizeof(T));
@@ -47,6 +52,21 @@ class ZeroedArray {
   std::span<const T> span() const { return {data_.get(), size_}; }
 
  private:
+  /// Voxels that are neighbours in space lie pages apart: with pages of 2 MB a walk misses the
+  /// address cache less often. The largest arrays keep small ones, since most of theirs are never
+  /// written.
+  void ask_for_large_pages() const {
+    constexpr std::size_t kLeast = std::size_t{4} << 20;
+    constexpr std::size_t kMost = std::size_t{256} << 20;
+    const std::size_t bytes = size_ * sizeof(T);
+    if (bytes < kLeast || bytes > kMost) return;
+    const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+    const auto begin = (reinterpret_cast<std::uintptr_t>(data_.get()) + page - 1) / page * page;
+    const auto end = (reinterpret_cast<std::uintptr_t>(data_.get()) + bytes) / page * page;
+    // a hint: a kernel without such pages refuses it, and nothing is lost
+    static_cast<void>(madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE));
+  }
+
   struct Free {
     void operator()(T* data) const { std::free(data); }
   };

@@ -57,12 +57,13 @@ std::optional<Termination> take_profile(Mission& m) {
   return over;
 }
 
-/// Predicts the other half of a symmetric structure (section 2.3).
+/// Predicts the other half of a symmetric structure (section 2.3), for a utility that asks for it.
 void predict(Mission& m) {
+  if (!reads_prediction(m.planner.config.utility)) return;
   const ScopeTimer timer(m.out.wall.symmetry_s);
   Prediction& prediction = m.out.prediction;
-  prediction.symmetry =
-      find_symmetry(m.planner.config.symmetry, m.out.profile_points_world_m, m.out.belief.grid);
+  prediction.symmetry = find_symmetry(m.planner.config.symmetry, m.out.profile_points_world_m,
+                                      m.out.belief.grid, m.bench.threads);
   prediction.predicted_voxels = predict_surface(prediction.symmetry, m.out.belief.grid);
   prediction.symmetry.mirrored_world_m = {};
 }

@@ -186,6 +186,7 @@ TEST(MatchKeypoints, PairsKeypointsWithTheirImages) {
       profile.push_back({p_m, p_m - sphere.center_m.cast<float>()});
     }
   }
+  symmetry_module().estimate_normals(profile, 0, profile.size());
   std::vector<KeypointPair> pairs;
   symmetry_module().match_keypoints(profile, pairs);
   std::size_t images = 0;
@@ -198,12 +199,30 @@ TEST(MatchKeypoints, PairsKeypointsWithTheirImages) {
   EXPECT_GT(static_cast<double>(images), 0.05 * static_cast<double>(pairs.size()));
 }
 
+TEST(EstimateNormals, AreThoseOfTheWholeInAnyPieces) {
+  std::vector<ProfilePoint> whole;
+  for (const Vec3f& p_m : surface_points_m(mirror_pair(2, plane_at(37.0, 1.3)), 0.12)) {
+    whole.push_back({p_m, Vec3f::UnitZ()});
+  }
+  std::vector<ProfilePoint> pieces = whole;
+  symmetry_module().estimate_normals(whole, 0, whole.size());
+  symmetry_module().estimate_normals(pieces, pieces.size() / 3, pieces.size());
+  symmetry_module().estimate_normals(pieces, 0, pieces.size() / 3);
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    ASSERT_NEAR(whole[i].normal_world.norm(), 1.0F, 1e-5F);
+    ASSERT_GE(whole[i].normal_world.z(), 0.0F);  // outwards
+    ASSERT_EQ(whole[i].normal_world, pieces[i].normal_world);
+    ASSERT_EQ(whole[i].curvature, pieces[i].curvature);
+  }
+}
+
 TEST(RefinePlanes, BringsAPlaneBack) {
   const MirrorPlane truth = plane_at(37.0, 1.3);
   std::vector<ProfilePoint> profile;
   for (const Vec3f& p_m : surface_points_m(mirror_pair(2, truth), 0.12)) {
     profile.push_back({p_m, Vec3f::UnitZ()});
   }
+  symmetry_module().estimate_normals(profile, 0, profile.size());
   const Extent extent = {Vec3::Zero(), 5.0};
   std::vector<MirrorPlane> planes = {truth, plane_at(38.5, 1.5), plane_at(36.0, 1.0)};
   planes.push_back(
