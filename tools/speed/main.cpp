@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <thread>
 
 #include "bench/speed/cloud_speed.hpp"
 #include "bench/speed/map_speed.hpp"
@@ -53,8 +55,22 @@ TimedMission fly(const Scenario& scenario, const World& world, const RayScene& s
           result_sha256(result)};
 }
 
+/// Computes on one processor for as long as it lives, as somebody else's program would.
+class Neighbour {
+ public:
+  Neighbour()
+      : thread_([](const std::stop_token& stop) {
+          for (std::atomic<unsigned> turns{0}; !stop.stop_requested(); ++turns) {
+          }
+        }) {}
+
+ private:
+  std::jthread thread_;
+};
+
 std::vector<SpeedRow> mission_speed() {
-  constexpr double kLimit_s = 30.0;
+  // without AVX-512 1.6 times as long is asked for
+  const double kLimit_s = simd_level() == SimdLevel::avx512 ? 12.0 : 19.2;
   const std::vector<std::string> overrides = {
       fmt::format("planner.termination.max_iterations={}", kViews)};
   const Scenario scenario = load_scenario("aircraft", overrides);
@@ -63,7 +79,11 @@ std::vector<SpeedRow> mission_speed() {
   const RayScene scene(world);
   const TimedMission two = fly(scenario, world, scene, 2);
   const TimedMission one = fly(scenario, world, scene, 1);
-  const bool same = one.sha256 == two.sha256 && two.views == kViews;
+  const Neighbour neighbour;
+  const TimedMission two_beside = fly(scenario, world, scene, 2);
+  const TimedMission one_beside = fly(scenario, world, scene, 1);
+  const bool same =
+      two.views == kViews && one.sha256 == two.sha256 && two_beside.sha256 == two.sha256;
   return {{.name = "mission_600_views",
            .ours = two.wall_s,
            .reference = kLimit_s,
@@ -75,13 +95,19 @@ std::vector<SpeedRow> mission_speed() {
            .reference = one.wall_s,
            .unit = "s",
            .identical = same,
-           .target = 1.5},
+           .target = 1.7},
+          {.name = "the_same_beside_busy_process",
+           .ours = two_beside.wall_s,
+           .reference = one_beside.wall_s,
+           .unit = "s",
+           .identical = same,
+           .target = 1.0},
           {.name = "mission_last_50_over_first_50",
            .ours = 1e3 * two.last_s,
            .reference = 1e3 * two.first_s,
            .unit = "ms per view",
            .identical = same,
-           .target = 1.3,
+           .target = 1.1,
            .is_limit = true}};
 }
 
