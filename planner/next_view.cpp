@@ -58,6 +58,9 @@ class Decider {
     const FvsConfig& fvs = model_.config.fvs;
     std::vector<FrontierCluster> clusters =
         find_frontiers(fvs.frontier, belief_.grid, belief_.cloud, bench_.frontier_marks);
+    if (fvs.looks_max > 0) {
+      std::erase_if(clusters, [&](const FrontierCluster& c) { return is_looked_at_enough(c); });
+    }
     const auto is_nearer = [&](const FrontierCluster& a, const FrontierCluster& b) {
       return (a.centroid_world_m - current_.p_world_m).squaredNorm() <
              (b.centroid_world_m - current_.p_world_m).squaredNorm();
@@ -71,6 +74,19 @@ class Decider {
     }
     clusters.resize(std::min(clusters.size(), static_cast<std::size_t>(fvs.tries)));
     return clusters;
+  }
+
+  /// A cluster that is still there after so many views stays: glass, a slit, an edge.
+  bool is_looked_at_enough(const FrontierCluster& cluster) const {
+    constexpr double kSame_voxels = 3.0;
+    const FvsConfig& fvs = model_.config.fvs;
+    const double apart_m = kSame_voxels * model_.config.map.resolution_m;
+    const auto looks = std::count_if(
+        history_.decisions.begin(), history_.decisions.end(), [&](const Decision& decision) {
+          return decision.sampler == "fvs" &&
+                 looks_at(fvs, decision.view, cluster.centroid_world_m, apart_m);
+        });
+    return looks >= fvs.looks_max;
   }
 
   /// The first cluster that has a valid view, or all of them together.

@@ -78,6 +78,16 @@ std::vector<ViewPose> sample_fvs(const FvsConfig& config, const Vec3& centroid_w
   return views;
 }
 
+bool looks_at(const FvsConfig& config, const ViewPose& view, const Vec3& centroid_world_m,
+              double apart_m) {
+  const Vec3 ahead(std::cos(view.yaw_rad), std::sin(view.yaw_rad), 0.0);
+  Vec3 away_m = view.p_world_m + config.radius_m * ahead - centroid_world_m;
+  // of the three layers the one that is nearest
+  const double layer_m = std::clamp(away_m.z(), -config.layer_step_m, config.layer_step_m);
+  away_m.z() -= layer_m;
+  return away_m.norm() <= apart_m;
+}
+
 bool is_entropy_still(double threshold_nat, int window, const Progress& progress) {
   const auto changes = static_cast<std::size_t>(window);
   if (threshold_nat <= 0.0 || progress.entropies_nat.size() < changes + 1) return false;

@@ -38,6 +38,7 @@ struct FvsConfig {
   ClusterOrder order = ClusterOrder::nearest;
   int tries = 50;              // clusters, in this order, until one has a valid view
   bool pool_clusters = false;  // the views of all these clusters compete (released code)
+  int looks_max = 0;           // frontier views at a cluster before it is left; 0: any number
   int views_per_layer = 4;
   double radius_m = 3.5;              // of the cylinder around the centroid
   double layer_step_m = 1.0;          // three layers: this below, at and above the centroid
@@ -57,6 +58,11 @@ std::vector<ViewPose> sample_agvs(const AgvsConfig& config, const ViewPose& curr
 /// by default 0.
 std::vector<ViewPose> sample_fvs(const FvsConfig& config, const Vec3& centroid_world_m,
                                  std::span<const double> pitches_rad = {});
+
+/// Whether a view of sample_fvs() was one of this centroid's, or of one no further than
+/// `apart_m` from it.
+bool looks_at(const FvsConfig& config, const ViewPose& view, const Vec3& centroid_world_m,
+              double apart_m);
 
 /// What a local minimum shows in, oldest first.
 struct Progress {

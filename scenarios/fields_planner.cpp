@@ -99,6 +99,8 @@ void fields(FieldVisitor& v, FvsConfig& c) {
   v.integer("tries", c.tries, between(1, 1e6),
             "Clusters, in this order, until one has a valid view; 1: the paper.");
   v.flag("pool_clusters", c.pool_clusters, "The views of all these clusters compete.");
+  v.integer("looks_max", c.looks_max, between(0, 1e6),
+            "Frontier views at a cluster before it is left for what it is; 0: any number.");
   v.integer("views_per_layer", c.views_per_layer, between(1, 360), "Around the cluster.");
   v.number("radius_m", c.radius_m, above_upto(0, 1e3), "Of the cylinder of views.");
   v.number("layer_step_m", c.layer_step_m, between(0, 1e3), "Height between its three layers.");

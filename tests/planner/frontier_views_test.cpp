@@ -66,6 +66,32 @@ TEST(FrontierViews, FvsTriesOneClusterAfterTheOther) {
   }
 }
 
+TEST(FrontierViews, FvsLeavesWhatWasLookedAtOftenEnough) {
+  const PlannerModel model = model_with_fvs([](FvsConfig& fvs) { fvs.looks_max = 2; });
+  const Belief belief = wall_and_lone_frontier(
+      model, Vec3(-2.1, 0.1, 4.1), [](const Vec3& p_m) { return p_m.x() > 2.0; });
+  History history = still_history();
+  const auto last_cluster = [&] {
+    const Plan plan = full_plan(model, belief, history);
+    return plan.candidates.empty() ? -1 : plan.candidates.back().cluster;
+  };
+  EXPECT_EQ(last_cluster(), 1);  // the lone one has no valid view, the wall has
+  // views of the lone frontier, from other sides and layers
+  for (const double yaw_rad : {0.0, deg_to_rad(90.0)}) {
+    const Vec3 back(-std::cos(yaw_rad), -std::sin(yaw_rad), 0.0);
+    Decision decision;
+    decision.sampler = "fvs";
+    decision.view = {Vec3(-2.1, 0.1, 4.1) + model.config.fvs.radius_m * back +
+                         model.config.fvs.layer_step_m * Vec3::UnitZ(),
+                     yaw_rad};
+    EXPECT_EQ(last_cluster(), 1);
+    history.decisions.push_back(decision);
+  }
+  EXPECT_EQ(last_cluster(), 0);  // the wall is the only one left
+  history.decisions.back().sampler = "agvs";
+  EXPECT_EQ(last_cluster(), 1);  // a view of the grid is no look at a cluster
+}
+
 TEST(FrontierViews, PooledClustersCompeteAndOthersTakeTheirTurn) {
   // the lone frontier is nearer, the wall the better view
   const auto plan_with = [](bool pool) {
