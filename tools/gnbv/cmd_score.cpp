@@ -16,6 +16,7 @@
 #include "tools/run_files/cloud_file.hpp"
 #include "tools/run_files/score_json.hpp"
 #include "tools/run_files/summary_json.hpp"
+#include "tools/terminal/say.hpp"
 
 namespace gnbv {
 namespace {
@@ -120,9 +121,8 @@ Scored score_file(ScoreOptions options, int threads) {
                                         resolve_scenario(options.scenario), options.wish, threads);
   const DistanceScore& widest = scored.score.distances.at.back();
   if (widest.precision < 0.5) {
-    fmt::print(stderr,
-               "gnbv: {}: only {:.1f} % of the points lie within {} m of the mesh: another unit, "
-               "frame or mesh?\n",
+    say("{}: only {:.1f} % of the points lie within {} m of the mesh: another unit, "
+               "frame or mesh?",
                options.target, 100.0 * widest.precision, widest.distance_m);
   }
   return scored;

@@ -18,6 +18,7 @@
 #include "tools/surface/surface_picture.hpp"
 #include "tools/surface/surface_score.hpp"
 #include "tools/terminal/progress.hpp"
+#include "tools/terminal/say.hpp"
 
 namespace gnbv {
 namespace {
@@ -102,7 +103,7 @@ void surface(const SurfaceOptions& options) {
   settings.has_texture = !options.no_texture;
   const int threads = thread_count(options.threads);
   const RunRecord record = read_run(options.run);
-  for (const std::string& missing : record.missing) fmt::print(stderr, "gnbv: {}\n", missing);
+  for (const std::string& missing : record.missing) say(missing);
   std::vector<std::string> notes;
   const std::optional<World> truth = truth_of(record, notes);
   if (options.json && !truth) throw BadInput("--json: " + notes.back());
@@ -123,7 +124,7 @@ void surface(const SurfaceOptions& options) {
     paths = write_all(mesh, score, folder);
     progress(1.0, "done");
   }
-  for (const std::string& note : notes) fmt::print(stderr, "gnbv: {}\n", note);
+  for (const std::string& note : notes) say(note);
   if (options.json) {
     fmt::print("{}", score_json(*score));
     return;

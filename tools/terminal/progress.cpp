@@ -5,10 +5,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <string_view>
-#include <utility>
+
+#include "sim/core/utf8.hpp"
+#include "tools/terminal/say.hpp"
 
 namespace gnbv {
 namespace {
@@ -26,8 +27,8 @@ std::size_t terminal_columns() {
 
 }  // namespace
 
-ProgressBar::ProgressBar(std::string label, bool quiet)
-    : label_(std::move(label)),
+ProgressBar::ProgressBar(const std::string& label, bool quiet)
+    : label_(printable(label)),
       style_(quiet || std::getenv("NO_PROGRESS") != nullptr ? Style::silent
              : is_terminal()                                ? Style::bar
                                                             : Style::lines),
@@ -35,7 +36,7 @@ ProgressBar::ProgressBar(std::string label, bool quiet)
       last_drawn_(begin_ - std::chrono::hours(1)) {}
 
 ProgressBar::~ProgressBar() {
-  if (bar_is_open_) fmt::print(stderr, "\n");
+  if (bar_is_open_) print_to_stderr("\n");
 }
 
 void ProgressBar::show(double share_done, const std::string& note) {
@@ -45,7 +46,7 @@ void ProgressBar::show(double share_done, const std::string& note) {
     const int quarter = static_cast<int>(share * 4.0);
     if (quarter == last_quarter_) return;
     last_quarter_ = quarter;
-    fmt::print(stderr, "{} {:3.0f} % {}\n", label_, 100.0 * share, note);
+    print_to_stderr(fmt::format("{} {:3.0f} % {}\n", label_, 100.0 * share, printable(note)));
   } else if (style_ == Style::bar) {
     if (now - last_drawn_ < std::chrono::milliseconds(50) && share < 1.0) return;
     last_drawn_ = now;
@@ -54,8 +55,7 @@ void ProgressBar::show(double share_done, const std::string& note) {
     const double spent_s = std::chrono::duration<double>(now - begin_).count();
     const std::string line = fmt::format("{} [{:#<{}}{:.<{}}] {:3.0f} % {:.0f} s  {}", label_, "",
                                          filled, "", kWidth - filled, 100.0 * share, spent_s, note);
-    fmt::print(stderr, "\r\x1b[K{}", line.substr(0, terminal_columns() - 1));
-    std::fflush(stderr);
+    print_to_stderr("\r\x1b[K" + line.substr(0, terminal_columns() - 1));
     bar_is_open_ = true;
   }
 }

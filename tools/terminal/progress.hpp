@@ -9,7 +9,7 @@ namespace gnbv {
 class ProgressBar {
  public:
   /// `label` stands before the bar. Silent when `quiet` or NO_PROGRESS is set.
-  ProgressBar(std::string label, bool quiet);
+  ProgressBar(const std::string& label, bool quiet);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
