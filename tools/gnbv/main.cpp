@@ -12,6 +12,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/simd.hpp"
 #include "sim/core/utf8.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/terminal/say.hpp"
@@ -20,6 +21,7 @@
 namespace {
 
 int run(int argc, char** argv) {
+  gnbv::simd_level();  // refuses what GNBV_SIMD may not be
   CLI::App app("Next-best-view 3D reconstruction with a UAV: simulate, measure, compare.", "gnbv");
   app.set_version_flag("--version", GNBV_VERSION);
   app.require_subcommand(1);
