@@ -40,7 +40,7 @@ TEST(Sync, ARunIsOnTheDiskBeforeItsSummarySaysSo) {
   for (const auto& entry : fs::recursive_directory_iterator(run)) {
     if (!entry.is_regular_file()) continue;
     const std::string name = entry.path().filename();
-    if (name == "summary.json" || name == "candidates.jsonl") continue;
+    if (name == "summary.json") continue;
     // under its own name, or as the temporary file just before it got that name
     const auto own = place("sync " + entry.path().string());
     const auto renamed = place("rename " + entry.path().string());
@@ -48,7 +48,7 @@ TEST(Sync, ARunIsOnTheDiskBeforeItsSummarySaysSo) {
     const bool is_synced_before = renamed != calls.rend() && renamed > summary &&
                                   (renamed + 1) != calls.rend() &&
                                   (renamed + 1)->find("sync ") == 0 &&
-                                  (renamed + 1)->find(".part-") != std::string::npos;
+                                  (renamed + 1)->find(".part") != std::string::npos;
     EXPECT_TRUE(is_synced_later || is_synced_before) << entry.path();
   }
   EXPECT_LT(place("sync " + run.string()), summary) << "the folder after the last name in it";

@@ -202,7 +202,7 @@ void plot(const PlotOptions& options) {
   const bool is_new = make_folder(folder);
   try {
     for (const Plot& each : plots) draw(options, each, folder);
-  } catch (const BadInput&) {
+  } catch (...) {
     std::error_code ignored;
     if (is_new) fs::remove(folder, ignored);  // when nothing came into it
     throw;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
@@ -14,6 +15,7 @@
 #include "tools/mission/execute.hpp"
 #include "tools/mission/rescore.hpp"
 #include "tools/run_files/cloud_file.hpp"
+#include "tools/run_files/run_claim.hpp"
 #include "tools/run_files/score_json.hpp"
 #include "tools/run_files/summary_json.hpp"
 #include "tools/terminal/say.hpp"
@@ -140,6 +142,8 @@ Scored score_folder(const ScoreOptions& options, int threads) {
   if (options.wish.box_m && (options.update || options.wish.ceiling == CeilingFrom::search)) {
     throw BadInput("--box: the score of a part is not the run's: without --update and --ceiling");
   }
+  std::optional<RunClaim> claim;  // nobody resumes it meanwhile
+  if (options.update) claim.emplace(options.target);
   Scored scored = score_run(options.target, options.wish, threads);
   if (options.update) rescore_summary(options.target, scored.score);
   return scored;

@@ -14,6 +14,7 @@
 #include "tools/mission/execute.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/reference.hpp"
+#include "tools/run_files/run_inputs.hpp"
 #include "tools/surface/surface.hpp"
 #include "tools/surface/surface_picture.hpp"
 #include "tools/surface/surface_score.hpp"
@@ -74,7 +75,10 @@ class OutFolder {
 std::optional<World> truth_of(const RunRecord& record, std::vector<std::string>& notes) {
   std::vector<std::string> told_by_run;  // the mesh's faults were told when it was flown
   try {
-    return load_world(record.scenario, told_by_run);
+    World world = load_world(record.scenario, told_by_run);
+    need_same_inputs(record.folder, world_inputs(record.scenario, world),
+                     "another structure is none to score by");
+    return world;
   } catch (const BadInput& error) {
     notes.push_back(fmt::format("{}; without the true structure there is no score", error.what()));
     return std::nullopt;

@@ -176,8 +176,8 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
                                   cloud, threads);
     result.wall.score_s = scoring.elapsed_s();
     score.ceiling = run_ceiling(scenario, world, scene, options.ceiling, threads);
+    if (candidates) candidates->finish();  // before the summary, which says that all is there
     directory.finish(pipe ? pipe->scenario() : scenario, result, score, watch.elapsed_s());
-    if (candidates) candidates->finish();
     return {directory.path(), std::move(result), score, watch.elapsed_s()};
   } catch (const BrokenInvariant& broken) {
     throw BrokenInvariant(fmt::format("{}\nreplay with: gnbv run {} --out REPLAY", broken.what(),

@@ -254,7 +254,7 @@ std::vector<CellOutcome> run_cells(std::span<const Cell> cells, const RunCellsOp
   try {
     return Pool(cells, options).run();
   } catch (const fs::filesystem_error& failed) {
-    throw BadInput(failed.what());  // names the paths
+    refuse_to_write(failed.path1(), failed.code().value());
   }
 }
 
