@@ -4,6 +4,7 @@
 #include <fstream>
 #include <map>
 
+#include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tests/support/flown_into.hpp"
 #include "tests/support/program.hpp"
@@ -187,7 +188,7 @@ TEST_F(Resumed, NoticesAnEditedRowOfAFinishedRun) {
   const std::size_t sampler = csv.find(",agvs,");
   ASSERT_NE(sampler, std::string::npos);
   std::ofstream(run_ / "iterations.csv") << csv.replace(sampler, 6, ",fvs,");
-  for (const std::string command : {"score ", "report -o " + (temp_.path() / "r.html").string() + " ",
+  for (const std::string command : {std::string("score "), "report -o " + (temp_.path() / "r.html").string() + " ",
                                     "plot -o " + temp_.path().string() + " "}) {
     const Outcome refused = gnbv(command + run_.string());
     EXPECT_EQ(refused.exit_code, 2) << command << refused.output;
