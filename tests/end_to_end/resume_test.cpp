@@ -23,6 +23,7 @@ class Resumed : public testing::Test {
   /// A run that was killed after its fifth view, its record changed by hand and written as an
   /// earlier version did, without checks.
   void kill_and_change(const std::function<void(std::vector<ViewRecord>&)>& change) {
+    fs::remove_all(run_);
     fly_into(run_, smoke(), false, 5);
     std::vector<ViewRecord> views = read_view_records(journal_);
     change(views);
@@ -124,8 +125,8 @@ class ResumedMesh : public Resumed {
   /// Moves a vertex.
   void exchange_mesh() const {
     std::string text = read_file(mesh_);
-    text.insert(text.find("v ") + 2, "0");
-    text.replace(text.find("v 0") + 2, 2, "0.3");
+    const std::size_t vertex = text.find("\nv ") + 1;
+    text.replace(vertex, text.find('\n', vertex) - vertex, "v 0.1 0.2 0.9");
     std::ofstream(mesh_) << text;
   }
   const fs::path mesh_ = temp_.path() / "mesh.obj";
@@ -188,7 +189,7 @@ TEST_F(Resumed, NoticesAnEditedRowOfAFinishedRun) {
   const std::size_t sampler = csv.find(",agvs,");
   ASSERT_NE(sampler, std::string::npos);
   std::ofstream(run_ / "iterations.csv") << csv.replace(sampler, 6, ",fvs,");
-  for (const std::string command : {std::string("score "), "report -o " + (temp_.path() / "r.html").string() + " ",
+  for (const std::string& command : {std::string("score "), "report -o " + (temp_.path() / "r.html").string() + " ",
                                     "plot -o " + temp_.path().string() + " "}) {
     const Outcome refused = gnbv(command + run_.string());
     EXPECT_EQ(refused.exit_code, 2) << command << refused.output;
