@@ -100,6 +100,14 @@ void check_map_size(const Scenario& s, Problems& out) {
                                "voxels that OctoMap's keys reach",
                                farthest_m, resolution_m, kMaxKey)});
   }
+  // what is traced and seen is float32, exact to 0.06 mm there; and the ground goes no farther
+  constexpr double kFarthest_m = 1000.0;
+  if (farthest_m > kFarthest_m) {
+    out.push_back({{"workspace_m"},
+                   fmt::format("a workspace up to {} m from the origin: distances are right up to "
+                               "{} m; structure.file.offset_m moves a mesh there",
+                               farthest_m, kFarthest_m)});
+  }
 }
 
 void check_workspace(const Scenario& s, Problems& out) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <new>
 #include <utility>
 
 #include "sensors/frames.hpp"
@@ -38,6 +39,7 @@ class Owner {
 
 void check_device(RTCDevice device, const char* doing) {
   const RTCError error = rtcGetDeviceError(device);
+  if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
   GNBV_CHECK(error == RTC_ERROR_NONE, "Embree error {} while {}", static_cast<int>(error), doing);
 }
 
@@ -137,8 +139,11 @@ struct RayScene::Impl {
   }
 
   static RTCScene new_scene(RTCDevice device) {
-    GNBV_CHECK(device != nullptr, "Embree error {} while opening a device",
-               static_cast<int>(rtcGetDeviceError(nullptr)));
+    if (device == nullptr) {
+      const RTCError error = rtcGetDeviceError(nullptr);
+      if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+      GNBV_CHECK(false, "Embree error {} while opening a device", static_cast<int>(error));
+    }
     return rtcNewScene(device);
   }
 

@@ -2,12 +2,12 @@
 
 #include <octomap/octomap.h>
 
+#include <cerrno>
 #include <cstdint>
 #include <fstream>
 #include <string>
 #include <string_view>
 
-#include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 
 namespace gnbv {
@@ -58,10 +58,11 @@ void write_header(std::ostream& out, std::string_view first_line, const octomap:
 template <typename Write>
 void write_by_rename(const std::filesystem::path& path, const Write& write) {
   write_file_atomically(path, [&](const std::filesystem::path& part) {
+    errno = 0;
     std::ofstream out(part, std::ios::binary | std::ios::trunc);
     if (out) write(out);
     out.flush();
-    if (!out) throw BadInput(fmt::format("{}: cannot write", path.string()));
+    if (!out) refuse_to_write(path, errno);
   });
 }
 

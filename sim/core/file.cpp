@@ -1,18 +1,91 @@
 #include "sim/core/file.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstring>
 #include <fstream>
-#include <iterator>
+#include <initializer_list>
+#include <utility>
 
 #include "sim/core/error.hpp"
 
 namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kTemporary = ".part-";
+constexpr std::size_t kMostOfAPipe = std::size_t{1} << 30;  // bytes
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  gethostname(name.data(), name.size() - 1);
+  return name.data();
+}
+
+/// The extension stays last, since some libraries choose the format by it; the process and its
+/// machine are named, since others may write the same file.
+fs::path temporary_of(const fs::path& path) {
+  fs::path part = path;
+  part.replace_filename(fmt::format(".{}{}{}-{}{}", path.stem().string(), kTemporary, host_name(),
+                                    getpid(), path.extension().string()));
+  return part;
+}
+
+/// Whether its writer still runs. Of another machine's nobody knows: it is taken for dead.
+bool has_living_writer(const fs::path& temporary) {
+  const std::string name = temporary.filename().string();
+  const std::string host = std::string(kTemporary) + host_name() + "-";
+  const std::size_t at = name.rfind(host);
+  if (at == std::string::npos) return false;
+  pid_t process = 0;
+  const char* const first = name.data() + at + host.size();
+  const auto [end, error] = std::from_chars(first, name.data() + name.size(), process);
+  if (error != std::errc{} || process <= 0 || process == getpid()) return false;
+  return kill(process, 0) == 0 || errno == EPERM;
+}
+
+/// Writes all of it with the kernel's own calls, whose errors name their cause.
+void write_whole(const fs::path& part, const fs::path& path, std::string_view content) {
+  const int file = open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0) refuse_to_write(path, errno);
+  while (!content.empty()) {
+    const ssize_t count = write(file, content.data(), content.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) {
+      const int error = errno;
+      close(file);
+      refuse_to_write(path, error);
+    }
+    content.remove_prefix(static_cast<std::size_t>(count));
+  }
+  if (close(file) != 0) refuse_to_write(path, errno);
+}
+
+/// Some file systems cannot, and say so: no reason to give up.
+bool cannot_be_synced(int error) {
+  return error == EINVAL || error == ENOTSUP || error == EROFS || error == EBADF;
+}
+
+}  // namespace
+
+void refuse_to_write(const fs::path& path, int error_number) {
+  if (error_number == 0) throw OutputFailed(fmt::format("{}: cannot write", path.string()));
+  const std::string sentence =
+      fmt::format("{}: cannot write: {}", path.string(), std::strerror(error_number));
+  for (const int of_the_machine :
+       {ENOSPC, EDQUOT, EIO, EFBIG, EMFILE, ENFILE, ENOMEM, EPIPE, ESTALE}) {
+    if (error_number == of_the_machine) throw OutputFailed(sentence);
+  }
+  throw BadInput(sentence);
+}
 
 std::string extension_of(const std::filesystem::path& path) {
   std::string out = path.extension().string();
@@ -21,54 +94,86 @@ std::string extension_of(const std::filesystem::path& path) {
   return out;
 }
 
-std::string read_file(const std::filesystem::path& path) {
+std::string read_file(const fs::path& path) {
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
+  if (fs::is_directory(path, ignored)) {
     throw BadInput(fmt::format("{}: is a directory, not a file", path.string()));
+  }
+  if (fs::is_character_file(path, ignored)) {
+    throw BadInput(fmt::format("{}: is a device, not a file", path.string()));
   }
   std::ifstream in(path, std::ios::binary);
   if (!in) throw BadInput(fmt::format("{}: {}", path.string(), std::strerror(errno)));
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const bool is_pipe = !fs::is_regular_file(path, ignored);
+  std::string content;
+  std::array<char, std::size_t{1} << 16> block{};
+  while (in.read(block.data(), block.size()) || in.gcount() > 0) {
+    content.append(block.data(), static_cast<std::size_t>(in.gcount()));
+    if (is_pipe && content.size() > kMostOfAPipe) {
+      throw BadInput(fmt::format("{}: goes on after 1 GiB", path.string()));
+    }
+  }
+  if (in.bad()) throw BadInput(fmt::format("{}: {}", path.string(), std::strerror(errno)));
+  return content;
 }
 
-void write_file_atomically(const std::filesystem::path& path, std::string_view content) {
-  write_file_atomically(path, [&](const std::filesystem::path& part) {
-    std::ofstream out(part, std::ios::binary | std::ios::trunc);
-    out.write(content.data(), static_cast<std::streamsize>(content.size()));
-    out.flush();
-    if (!out)
-      throw BadInput(fmt::format("{}: cannot write: {}", path.string(), std::strerror(errno)));
-  });
+void write_file_atomically(const fs::path& path, std::string_view content, Lasting lasting) {
+  write_file_atomically(
+      path, [&](const fs::path& part) { write_whole(part, path, content); }, lasting);
 }
 
-void write_file_atomically(const std::filesystem::path& path,
-                           const std::function<void(const std::filesystem::path&)>& write) {
-  // the extension stays last, since some libraries choose the format by it; the process and its
-  // machine are named, since others may write the same file
-  std::array<char, 256> host{};
-  gethostname(host.data(), host.size() - 1);
-  std::filesystem::path part = path;
-  part.replace_filename(fmt::format(".{}.part-{}-{}{}", path.stem().string(), host.data(), getpid(),
-                                    path.extension().string()));
+void write_file_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write,
+                           Lasting lasting) {
+  const fs::path part = temporary_of(path);
   try {
     write(part);
-    std::filesystem::rename(part, path);
-  } catch (const std::filesystem::filesystem_error& error) {
+    if (lasting == Lasting::power_failures) sync_to_disk(part);
+    fs::rename(part, path);
+    if (lasting == Lasting::power_failures) sync_to_disk(path.parent_path());
+  } catch (const fs::filesystem_error& error) {
     std::error_code ignored;
-    std::filesystem::remove(part, ignored);
-    throw BadInput(fmt::format("{}: cannot write: {}", path.string(), error.code().message()));
+    fs::remove(part, ignored);
+    refuse_to_write(path, error.code().value());
   } catch (...) {
     std::error_code ignored;
-    std::filesystem::remove(part, ignored);
+    fs::remove(part, ignored);
     throw;
   }
 }
 
-bool make_folder(const std::filesystem::path& folder) {
+bool is_temporary(const fs::path& name) {
+  const std::string text = name.filename().string();
+  return text.starts_with('.') && text.find(kTemporary) != std::string::npos;
+}
+
+void remove_stale_temporaries(const fs::path& folder) {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    if (!is_temporary(entry.path()) || has_living_writer(entry.path())) continue;
+    fs::remove(entry.path(), ignored);
+  }
+}
+
+void sync_to_disk(const fs::path& path) {
+  const int file = open(path.empty() ? "." : path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) refuse_to_write(path, errno);
+  const int error = fsync(file) == 0 ? 0 : errno;
+  close(file);
+  if (error != 0 && !cannot_be_synced(error)) refuse_to_write(path, error);
+}
+
+void sync_all_to_disk(const fs::path& folder) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file() || entry.is_directory()) sync_to_disk(entry.path());
+  }
+  sync_to_disk(folder);
+}
+
+bool make_folder(const fs::path& folder) {
   std::error_code error;
-  const bool is_new = std::filesystem::create_directories(folder, error);
-  if (!error) return is_new;
-  throw BadInput(fmt::format("{}: cannot make the folder: {}", folder.string(), error.message()));
+  const bool is_new = fs::create_directories(folder, error);
+  if (error) refuse_to_write(folder, error.value());
+  return is_new;
 }
 
 }  // namespace gnbv

@@ -3,26 +3,57 @@
 
 #include <filesystem>
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
 namespace gnbv {
 
+/// What was written could not be kept: a full disk, a quota, a broken device, too many open files
+/// (exit code 1). A place that nobody can write to is BadInput.
+class OutputFailed : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Throws OutputFailed or BadInput for a file that cannot be written; `error_number` is errno's, 0
+/// when nobody knows.
+[[noreturn]] void refuse_to_write(const std::filesystem::path& path, int error_number);
+
 /// The extension in lower case, with its dot: ".obj"; empty without one.
 std::string extension_of(const std::filesystem::path& path);
 
-/// The whole file. Throws BadInput naming the path when it cannot be read.
+/// The whole file, or pipe of up to 1 GiB. Throws BadInput naming the path when it cannot be read,
+/// or is a device that has no end.
 std::string read_file(const std::filesystem::path& path);
 
+/// What a written file outlasts. To outlast a power failure takes some milliseconds a file.
+enum class Lasting { the_process, power_failures };
+
 /// Writes beside `path` and renames: a reader sees the old file or the new one, never a part.
-/// Throws BadInput naming the path when it cannot be written.
-void write_file_atomically(const std::filesystem::path& path, std::string_view content);
+/// Throws as refuse_to_write().
+void write_file_atomically(const std::filesystem::path& path, std::string_view content,
+                           Lasting lasting = Lasting::power_failures);
 
 /// The same for writers that want a path of their own: `write` fills the temporary file.
 void write_file_atomically(const std::filesystem::path& path,
-                           const std::function<void(const std::filesystem::path&)>& write);
+                           const std::function<void(const std::filesystem::path&)>& write,
+                           Lasting lasting = Lasting::power_failures);
 
-/// Makes the folder and those above it; whether it is new. Throws BadInput naming it.
+/// Whether a file of that name is one of write_file_atomically()'s on its way.
+bool is_temporary(const std::filesystem::path& name);
+
+/// Removes the temporary files that killed writers left in the folder, if it is there.
+void remove_stale_temporaries(const std::filesystem::path& folder);
+
+/// Lets a file or folder (its names, not what they name) outlast power failures. Throws as
+/// refuse_to_write().
+void sync_to_disk(const std::filesystem::path& path);
+
+/// The same for a folder with all that lies in it, folders included.
+void sync_all_to_disk(const std::filesystem::path& folder);
+
+/// Makes the folder and those above it; whether it is new. Throws as refuse_to_write().
 bool make_folder(const std::filesystem::path& folder);
 
 }  // namespace gnbv

@@ -2,6 +2,7 @@
 
 #include <png.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -61,15 +62,17 @@ bool encode(std::FILE* file, const Rows& rows, PngError& error) {
   return true;
 }
 
-void write_rows(const Rows& rows, const std::filesystem::path& path) {
-  write_file_atomically(path, [&](const std::filesystem::path& part) {
-    PngError error{"cannot open for writing"};
+void write_rows(const Rows& rows, const std::filesystem::path& path, Lasting lasting) {
+  const auto write = [&](const std::filesystem::path& part) {
+    PngError error;  // says "Write Error", where the system knows why
+    errno = 0;
     File file(std::fopen(part.c_str(), "wb"), &std::fclose);
     bool is_written = file && encode(file.get(), rows, error);
+    const int cause = errno;
     if (file && std::fclose(file.release()) != 0) is_written = false;
-    if (!is_written)
-      throw BadInput(fmt::format("{}: cannot write: {}", path.string(), error.message));
-  });
+    if (!is_written) refuse_to_write(path, cause != 0 ? cause : errno);
+  };
+  write_file_atomically(path, write, lasting);
 }
 
 std::size_t pixels_of(int width_px, int height_px) {
@@ -109,7 +112,7 @@ bool decode_grey16(std::FILE* file, GreyImage16& image, PngError& error) {
 
 }  // namespace
 
-void write_png(const Image& image, const std::filesystem::path& path) {
+void write_png(const Image& image, const std::filesystem::path& path, Lasting lasting) {
   GNBV_CHECK(image.rgb.size() == 3 * pixels_of(image.width_px, image.height_px),
              "{} bytes for {} x {} px", image.rgb.size(), image.width_px, image.height_px);
   write_rows({.width_px = image.width_px,
@@ -118,10 +121,10 @@ void write_png(const Image& image, const std::filesystem::path& path) {
               .colour_type = PNG_COLOR_TYPE_RGB,
               .stride = 3 * static_cast<std::size_t>(image.width_px),
               .bytes = image.rgb.data()},
-             path);
+             path, lasting);
 }
 
-void write_png(const GreyImage16& image, const std::filesystem::path& path) {
+void write_png(const GreyImage16& image, const std::filesystem::path& path, Lasting lasting) {
   GNBV_CHECK(image.values.size() == pixels_of(image.width_px, image.height_px),
              "{} values for {} x {} px", image.values.size(), image.width_px, image.height_px);
   write_rows({.width_px = image.width_px,
@@ -130,7 +133,7 @@ void write_png(const GreyImage16& image, const std::filesystem::path& path) {
               .colour_type = PNG_COLOR_TYPE_GRAY,
               .stride = 2 * static_cast<std::size_t>(image.width_px),
               .bytes = reinterpret_cast<const std::uint8_t*>(image.values.data())},
-             path);
+             path, lasting);
 }
 
 GreyImage16 read_png_grey16(const std::filesystem::path& path) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "sim/core/file.hpp"
 #include "sim/core/srgb.hpp"
 
 namespace gnbv {
@@ -31,9 +32,11 @@ struct GreyImage16 {
   std::vector<std::uint16_t> values;  // (height, width)
 };
 
-/// Write PNGs by rename. Throw BadInput naming the path when it cannot be written.
-void write_png(const Image& image, const std::filesystem::path& path);
-void write_png(const GreyImage16& image, const std::filesystem::path& path);
+/// Write PNGs by rename. Throw as refuse_to_write().
+void write_png(const Image& image, const std::filesystem::path& path,
+               Lasting lasting = Lasting::power_failures);
+void write_png(const GreyImage16& image, const std::filesystem::path& path,
+               Lasting lasting = Lasting::power_failures);
 
 /// Reads any PNG as RGB8. Throws BadInput naming the path.
 Image read_png(const std::filesystem::path& path);

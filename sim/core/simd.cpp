@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdlib>
 
+#include "sim/core/error.hpp"
+
 namespace gnbv {
 namespace {
 
@@ -23,12 +25,14 @@ SimdLevel level_of_processor() {
 
 SimdLevel level_asked_for() {
   const char* const asked = std::getenv("GNBV_SIMD");
+  if (asked == nullptr || *asked == '\0') return SimdLevel::avx512;
   for (const SimdLevel level : kLevels) {
-    if (asked != nullptr && name_of(level) == asked) return level;
+    if (name_of(level) == asked) return level;
   }
   // what baseline was called before
-  if (asked != nullptr && asked == std::string_view("scalar")) return SimdLevel::baseline;
-  return SimdLevel::avx512;
+  if (asked == std::string_view("scalar")) return SimdLevel::baseline;
+  throw BadInput(
+      fmt::format("GNBV_SIMD={}: has to be baseline, avx2 or avx512 (or not to be set)", asked));
 }
 
 SimdLevel& current_level() {

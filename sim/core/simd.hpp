@@ -10,7 +10,8 @@ enum class SimdLevel { baseline = 0, avx2 = 1, avx512 = 2 };
 std::string_view name_of(SimdLevel level);
 
 /// The best level this processor has (avx512: F, BW, DQ, VL and CD), or what set_simd_level() or
-/// the environment variable GNBV_SIMD (baseline, avx2, avx512) limits it to.
+/// the environment variable GNBV_SIMD (baseline, avx2, avx512) limits it to. Throws BadInput when
+/// that holds another word.
 SimdLevel simd_level();
 
 /// Of one thing made for each level, the one for simd_level().

@@ -1,5 +1,7 @@
 #include "sim/core/utf8.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -23,6 +25,26 @@ char32_t take_code_point(std::string_view& text) {
   const bool is_code = end != &code && (code < 0xd800 || code > 0xdfff);
   text.remove_prefix(is_code ? static_cast<std::size_t>(next - bytes.data()) : 1);
   return is_code ? code : U'\ufffd';
+}
+
+std::string printable(std::string_view text) {
+  std::string shown;
+  while (!text.empty()) {
+    const std::string_view before = text;
+    const char32_t code = take_code_point(text);
+    const std::string_view bytes = before.substr(0, before.size() - text.size());
+    const bool is_usual = code >= 0x20 || code == U'\n' || code == U'\t';
+    const bool is_control = !is_usual || (code >= 0x7f && code < 0xa0) ||
+                            (code == U'\ufffd' && bytes.size() == 1);
+    if (!is_control) {
+      shown += bytes;
+      continue;
+    }
+    for (const char byte : bytes) {
+      shown += fmt::format("\\x{:02x}", static_cast<unsigned char>(byte));
+    }
+  }
+  return shown;
 }
 
 }  // namespace gnbv

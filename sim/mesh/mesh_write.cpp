@@ -4,6 +4,7 @@
 #include <assimp/scene.h>
 
 #include <assimp/Exporter.hpp>
+#include <cerrno>
 #include <unordered_map>
 
 #include "sim/core/error.hpp"
@@ -76,7 +77,9 @@ void write_glb(const TriangleMesh& mesh, const std::filesystem::path& path) {
   }
   write_file_atomically(path, [&](const std::filesystem::path& part) {
     Assimp::Exporter exporter;
+    errno = 0;
     if (exporter.Export(&scene, "glb2", part.string()) != aiReturn_SUCCESS) {
+      if (errno != 0) refuse_to_write(path, errno);
       throw BadInput(fmt::format("{}: cannot write: {}", path.string(), exporter.GetErrorString()));
     }
   });

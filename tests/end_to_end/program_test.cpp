@@ -149,6 +149,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadInputCase{"LeafTooFine",
                      "run smoke --set planner.cloud.leaf_m=0.002 --out @/out",
                      {"--set", "leaf_m", "0.002"}},
+        BadInputCase{"WorkspaceTooFar",
+                     "run smoke --set 'workspace_m={min: [2530, -4, 0], max: [2540, 4, 5]}' "
+                     "--set 'start.position_m=[2532, -2.8, 1.2]' --out @/out",
+                     {"--set", "workspace_m", "2540", "1000 m"}},
         BadInputCase{"TooHeavyToFly",
                      "run smoke --set vehicle.airframe.mass_kg=5 --out @/out",
                      {"--set", "mass_kg", "thrust_max"}},

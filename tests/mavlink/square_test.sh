@@ -19,7 +19,7 @@ done
 [[ -n $url ]] || { echo "gnbv fly did not come up:" >&2; cat "$log" >&2; exit 1; }
 
 node square.mjs "$url" || { cat "$log" >&2; exit 1; }
-kill -INT "$vehicle"
+kill -TERM "$vehicle"
 wait "$vehicle" || { echo "gnbv fly ended with $?:" >&2; cat "$log" "$summary" >&2; exit 1; }
 cat "$summary"
 # a client on the loopback loses nothing and sends nothing bad

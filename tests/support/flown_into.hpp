@@ -22,7 +22,7 @@ inline MissionResult fly_into(const std::filesystem::path& folder, const Scenari
     ++views;
   };
   hooks.should_stop = [&] { return views >= stop_after; };
-  hooks.replay = directory.recorded();
+  hooks.replay = directory.recorded_decisions();
   return Flown(scenario, hooks).result;
 }
 

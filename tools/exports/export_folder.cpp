@@ -101,6 +101,7 @@ void take_place(const fs::path& part, const fs::path& folder) {
   fs::rename(part, folder, error);
   if (error && was_there) fs::rename(old, folder);
   if (error) throw fs::filesystem_error("rename", folder, error);
+  sync_to_disk(folder.parent_path());
   fs::remove_all(old);
 }
 
@@ -140,7 +141,7 @@ void write_export_folder(const RunRecord& record, std::string_view format, const
     take_place(part, place);
   } catch (const fs::filesystem_error& error) {
     undo();
-    throw BadInput(fmt::format("{}: cannot write: {}", folder.string(), error.code().message()));
+    refuse_to_write(folder, error.code().value());
   } catch (...) {
     undo();
     throw;
@@ -153,9 +154,7 @@ void link_or_copy(const fs::path& file, const fs::path& second_name) {
   if (!error) fs::create_hard_link(file, second_name, error);
   if (!error) return;
   fs::copy_file(file, second_name, error);
-  if (error) {
-    throw BadInput(fmt::format("{}: cannot write: {}", second_name.string(), error.message()));
-  }
+  if (error) refuse_to_write(second_name, error.value());
 }
 
 std::string frame_number(const RecordedFrame& frame) {

@@ -19,6 +19,7 @@
 #include "tools/run_files/file_names.hpp"
 #include "tools/run_files/summary_json.hpp"
 #include "tools/sweep/run_cells.hpp"
+#include "tools/terminal/say.hpp"
 
 namespace gnbv {
 namespace {
@@ -135,7 +136,7 @@ BenchRuns read_cells(const std::vector<Cell>& cells, const fs::path& folder) {
 }
 
 Ceiling ceiling_of(const Scenario& scenario, const BenchOptions& options) {
-  if (!options.quiet) fmt::print(stderr, "gnbv: ceiling of {}\n", scenario.name);
+  if (!options.quiet) say("ceiling of {}", scenario.name);
   std::vector<std::string> warnings;  // the missions' logs hold them
   const World world = load_world(scenario, warnings);
   const RayScene scene(world);

@@ -17,6 +17,7 @@
 #include "tools/mission/start_pose.hpp"
 #include "tools/run_files/file_names.hpp"
 #include "tools/terminal/progress.hpp"
+#include "tools/terminal/say.hpp"
 
 namespace gnbv {
 namespace {
@@ -118,7 +119,7 @@ void ceiling(const CeilingOptions& options) {
   const int threads = thread_count(options.threads);
   std::vector<std::string> warnings;
   const World world = load_world(scenario, warnings);
-  for (const std::string& warning : warnings) fmt::print(stderr, "gnbv: {}\n", warning);
+  for (const std::string& warning : warnings) say(warning);
   const RayScene scene(world);
   ProgressBar progress(fmt::format("{} ceiling", scenario.name), options.quiet);
   progress.show(0.0, "where viewpoints are legal");

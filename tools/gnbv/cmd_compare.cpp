@@ -14,6 +14,7 @@
 #include "tools/run_files/given_views.hpp"
 #include "tools/sweep/manifest.hpp"
 #include "tools/sweep/method_options.hpp"
+#include "tools/terminal/say.hpp"
 
 namespace gnbv {
 namespace {
@@ -127,7 +128,7 @@ void compare_command(const CompareOptions& options) {
       std::any_of(collected.runs.begin(), collected.runs.end(),
                   [&](const ComparedRun& run) { return run.method == plan.baseline; });
   if (!has_baseline) {
-    for (const std::string& note : collected.notes) fmt::print(stderr, "gnbv: {}\n", note);
+    for (const std::string& note : collected.notes) say(note);
     throw CommandFailed(fmt::format("no mission of the baseline, {}, is done", plan.baseline));
   }
   std::vector<std::string> more_notes = collected.notes;

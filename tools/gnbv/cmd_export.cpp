@@ -16,6 +16,7 @@
 #include "tools/run_files/cloud_colours.hpp"
 #include "tools/run_files/file_names.hpp"
 #include "tools/terminal/progress.hpp"
+#include "tools/terminal/say.hpp"
 
 namespace gnbv {
 namespace {
@@ -48,9 +49,8 @@ SparseModel sparse_model(const Export& e, const FrameRecord& frames) {
                          .threads = e.threads,
                          .progress = e.progress});
   if (!e.options.quiet) {
-    fmt::print(stderr,
-               "gnbv: {} of the cloud's {} points are shown by two of the {} frames or more, in {} "
-               "observations\n",
+    say("{} of the cloud's {} points are shown by two of the {} frames or more, in {} "
+               "observations",
                model.points_world_m.size(), cloud.points_world_m.size(), frames.frames.size(),
                model.observation_count());
   }
@@ -67,7 +67,7 @@ void fill_nerfstudio(const Export& e, const fs::path& folder) {
   write_nerfstudio(frames, sparse_model(e, frames), folder);
 }
 
-void note(const std::string& sentence) { fmt::print(stderr, "gnbv: {}\n", sentence); }
+void note(const std::string& sentence) { say(sentence); }
 
 /// Says so, with the command that keeps them, when there are none.
 std::optional<FrameRecord> frames_if_kept(const RunRecord& record) {

@@ -13,6 +13,7 @@
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/start_pose.hpp"
 #include "tools/terminal/interrupt.hpp"
+#include "tools/terminal/say.hpp"
 
 namespace gnbv {
 namespace {
@@ -117,7 +118,7 @@ void fly(const FlyOptions& options) {
   const mavlink::Address address = mavlink::resolve_udp_url(options.url);
   std::vector<std::string> warnings;
   const World world = load_world(scenario, warnings);
-  for (const std::string& warning : warnings) fmt::print(stderr, "gnbv: {}\n", warning);
+  for (const std::string& warning : warnings) say(warning);
   const ViewPose start = ground_start(scenario, RayScene(world));
   Quadrotor vehicle(scenario.vehicle, world, start, scenario.seed, Px4::Start::on_ground,
                     scenario.wind);
@@ -125,14 +126,12 @@ void fly(const FlyOptions& options) {
   mavlink::UdpSocket socket(address);
 
   const InterruptGuard interrupt;
-  fmt::print(stderr, "gnbv: listening on {}, {} at x {:.2f} y {:.2f} m, speed {}; Ctrl-C ends\n",
+  say("listening on {}, {} at x {:.2f} y {:.2f} m, speed {}; Ctrl-C ends",
              mavlink::url_of(socket.address()), scenario.vehicle.preset, start.p_world_m.x(),
              start.p_world_m.y(), options.speed);
   const auto on_lag = [&options] {
-    fmt::print(
-        stderr,
-        "gnbv: this machine does not always keep up with --speed {}: the time that it is late "
-        "is not made up for\n",
+    say("this machine does not always keep up with --speed {}: the time that it is late "
+        "is not made up for",
         options.speed);
   };
   const ServeResult result = serve(vehicle, endpoint, socket,

@@ -17,6 +17,7 @@
 #include "tools/run_files/file_names.hpp"
 #include "tools/run_files/run_names.hpp"
 #include "tools/sweep/cell_files.hpp"
+#include "tools/terminal/say.hpp"
 
 namespace gnbv {
 namespace {
@@ -60,11 +61,11 @@ std::vector<RunRecord> read_runs(const PlotOptions& options) {
         records.push_back(read_run(run));
       } catch (const BadInput& error) {
         if (run == given) throw;  // one damaged run of a folder does not spoil the others
-        fmt::print(stderr, "gnbv: {}: left out\n", error.what());
+        say("{}: left out", error.what());
         continue;
       }
       for (const std::string& missing : records.back().missing) {
-        fmt::print(stderr, "gnbv: {}\n", missing);
+        say(missing);
       }
     }
     if (records.empty()) {
@@ -97,7 +98,7 @@ std::vector<Plot> plots_of_runs(const PlotOptions& options, const std::vector<Ru
       plot->name = what + ends[run];
       plots.push_back(std::move(*plot));
     } else {
-      fmt::print(stderr, "gnbv: {}: no views to plot as {}\n", records[run].folder.string(), what);
+      say("{}: no views to plot as {}", records[run].folder.string(), what);
     }
   };
   for (std::size_t i = 0; i < records.size(); ++i) {
@@ -117,9 +118,8 @@ std::vector<Plot> plots_of_reach(const PlotOptions& options, std::span<const Run
     }
   }
   if (plots.empty()) {
-    fmt::print(stderr,
-               "gnbv: no run's ceiling is known, so not how far they got; `gnbv score RUN --update "
-               "--ceiling` finds it\n");
+    say("no run's ceiling is known, so not how far they got; `gnbv score RUN --update "
+               "--ceiling` finds it");
   }
   return plots;
 }
@@ -135,9 +135,8 @@ std::vector<RunRecord> runs_at(std::vector<RunRecord> records, double size_m) {
       }
       return false;
     }
-    fmt::print(stderr,
-               "gnbv: {}: not scored at {} m: left out; `gnbv score RUN --resolution {} --update` "
-               "scores it\n",
+    say("{}: not scored at {} m: left out; `gnbv score RUN --resolution {} --update` "
+               "scores it",
                record.folder.string(), size_name(size_m), size_name(size_m));
     return true;
   });
@@ -162,7 +161,7 @@ std::vector<Plot> plots_of_groups(const PlotOptions& options,
                                   const std::vector<RunRecord>& records) {
   std::vector<std::string> notes;
   const std::vector<RunGroup> groups = group_runs(records, notes);
-  for (const std::string& note : notes) fmt::print(stderr, "gnbv: {}\n", note);
+  for (const std::string& note : notes) say(note);
   if (groups.empty()) return {};
   std::vector<Plot> plots;
   if (wants(options, "coverage")) plots = coverage_plots(records, options.voxel_m);
@@ -203,7 +202,7 @@ void plot(const PlotOptions& options) {
   const bool is_new = make_folder(folder);
   try {
     for (const Plot& each : plots) draw(options, each, folder);
-  } catch (const BadInput&) {
+  } catch (...) {
     std::error_code ignored;
     if (is_new) fs::remove(folder, ignored);  // when nothing came into it
     throw;

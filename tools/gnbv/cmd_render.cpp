@@ -16,6 +16,7 @@
 #include "tools/render/snapshots.hpp"
 #include "tools/run_files/run_names.hpp"
 #include "tools/terminal/progress.hpp"
+#include "tools/terminal/say.hpp"
 
 namespace gnbv {
 namespace {
@@ -56,7 +57,7 @@ class RenderCommand {
 
  private:
   void note(const std::string& sentence) const {
-    if (!options_.quiet) fmt::print(stderr, "gnbv: {}\n", sentence);
+    if (!options_.quiet) say(sentence);
   }
 
   /// Whether that came to its end; if not, the reason is kept.

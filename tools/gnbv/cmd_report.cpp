@@ -14,6 +14,7 @@
 #include "tools/report/page_parts.hpp"
 #include "tools/report/report.hpp"
 #include "tools/terminal/progress.hpp"
+#include "tools/terminal/say.hpp"
 
 namespace gnbv {
 namespace {
@@ -74,7 +75,7 @@ void report(ReportCommandOptions options) {
   for (const fs::path& run : options.runs) {
     records.push_back(read_run(run));
     for (const std::string& missing : records.back().missing) {
-      fmt::print(stderr, "gnbv: {}\n", missing);
+      say(missing);
     }
   }
   check_can_be_written(page);
@@ -84,7 +85,7 @@ void report(ReportCommandOptions options) {
     made = make_report(records, options.report,
                        [&](double share) { bar.show(share, "reading runs and frames"); });
   }
-  for (const std::string& missing : made.missing) fmt::print(stderr, "gnbv: {}\n", missing);
+  for (const std::string& missing : made.missing) say(missing);
   write_file_atomically(page, made.html);
   fmt::print("{}\n", page.string());
 }

@@ -17,11 +17,16 @@
 #include "tools/mission/execute.hpp"
 #include "tools/mission/view_pipe.hpp"
 #include "tools/run_files/file_names.hpp"
+#include "tools/run_files/frames_folder.hpp"
 #include "tools/run_files/run_commands.hpp"
+#include "tools/run_files/run_directory.hpp"
 #include "tools/run_files/summary_json.hpp"
+#include "tools/terminal/say.hpp"
 
 namespace gnbv {
 namespace {
+
+namespace fs = std::filesystem;
 
 struct RunOptions {
   ScenarioOptions scenario;
@@ -64,14 +69,14 @@ void say_warnings(const Scenario& scenario, const MeshFileConfig& file,
          at = fix.find(kAlone, at + section.size())) {
       fix.replace(at, kAlone.size(), section);
     }
-    fmt::print(stderr, "gnbv: {}: {}: {}{}\n", report.path, finding.check, finding.what, fix);
+    say("{}: {}: {}{}", report.path, finding.check, finding.what, fix);
   }
 }
 
 /// What a mission flies in spite of: keys that do nothing, and what lint warns of in a mesh. What
 /// its reader left out is said when the mission loads it.
 void say_doubts(const Scenario& scenario, const std::vector<std::string>& idle_notes) {
-  for (const std::string& note : idle_notes) fmt::print(stderr, "gnbv: {}\n", note);
+  for (const std::string& note : idle_notes) say(note);
   const StructureConfig& structure = scenario.structure;
   if (!structure.file.path.empty()) say_warnings(scenario, structure.file, "structure.file.");
   for (std::size_t i = 0; i < structure.files.size(); ++i) {
@@ -79,31 +84,52 @@ void say_doubts(const Scenario& scenario, const std::vector<std::string>& idle_n
   }
 }
 
+void print_summary(const RunOptions& options, const Scenario& scenario, const fs::path& folder) {
+  if (options.json) {
+    fmt::print("{}", read_file(folder / kSummaryFile));
+  } else {
+    fmt::print("{}\n{}\n",
+               one_row_summary(read_run_figures(folder), has_papers_setting(scenario)),
+               folder.string());
+  }
+}
+
+/// Whether the run to be resumed has ended by itself, and all that is asked for is there: its
+/// summary is printed, and no file of it is touched.
+bool has_ended(const RunOptions& options, const Scenario& scenario) {
+  const MissionOptions& mission = options.mission;
+  if (!mission.resume || !is_finished(mission.out) || mission.piped_views) return false;
+  if (mission.frames && !has_frames(mission.out)) return false;
+  need_usable(mission.out, scenario, mission.resume);
+  const std::string ended = *read_summary(mission.out).termination;
+  say("{}: is finished already ({}): nothing to resume", mission.out.string(), ended);
+  print_summary(options, scenario, mission.out);
+  if (ended == "off_course" || ended == "collision") throw CommandFailed("it ended by " + ended);
+  return true;
+}
+
 void run(const RunOptions& options) {
   std::vector<std::string> idle_notes;
   const Scenario scenario = resolve_scenario(options.scenario, idle_notes);
   need_route(options, scenario);
+  if (has_ended(options, scenario)) return;
   say_doubts(scenario, idle_notes);
   const ExecutedMission mission = execute_mission(scenario, options.mission);
   if (options.mission.piped_views) {
     fmt::print("{}", pipe_end_line(mission.result, mission.folder.string()));
-  } else if (options.json) {
-    fmt::print("{}", read_file(mission.folder / kSummaryFile));
   } else {
-    fmt::print("{}\n{}\n",
-               one_row_summary(read_run_figures(mission.folder), has_papers_setting(scenario)),
-               mission.folder.string());
+    print_summary(options, scenario, mission.folder);
   }
   if (const std::string note = refused_views_note(mission.result); !note.empty()) {
-    fmt::print(stderr, "gnbv: {}", note);
+    say(note);
   }
   if (const std::string note =
           early_end_note(mission.result, mission.score.final[0], scenario.planner.utility.name);
       !note.empty()) {
-    fmt::print(stderr, "gnbv: {}", note);
+    say(note);
   }
   if (const std::string note = margin_note(scenario, mission.result.path_error); !note.empty()) {
-    fmt::print(stderr, "gnbv: {}", note);
+    say(note);
   }
   if (mission.result.termination == Termination::off_course) {
     throw CommandFailed(

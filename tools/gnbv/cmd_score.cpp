@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
@@ -14,8 +15,10 @@
 #include "tools/mission/execute.hpp"
 #include "tools/mission/rescore.hpp"
 #include "tools/run_files/cloud_file.hpp"
+#include "tools/run_files/run_claim.hpp"
 #include "tools/run_files/score_json.hpp"
 #include "tools/run_files/summary_json.hpp"
+#include "tools/terminal/say.hpp"
 
 namespace gnbv {
 namespace {
@@ -120,9 +123,8 @@ Scored score_file(ScoreOptions options, int threads) {
                                         resolve_scenario(options.scenario), options.wish, threads);
   const DistanceScore& widest = scored.score.distances.at.back();
   if (widest.precision < 0.5) {
-    fmt::print(stderr,
-               "gnbv: {}: only {:.1f} % of the points lie within {} m of the mesh: another unit, "
-               "frame or mesh?\n",
+    say("{}: only {:.1f} % of the points lie within {} m of the mesh: another unit, "
+               "frame or mesh?",
                options.target, 100.0 * widest.precision, widest.distance_m);
   }
   return scored;
@@ -140,6 +142,8 @@ Scored score_folder(const ScoreOptions& options, int threads) {
   if (options.wish.box_m && (options.update || options.wish.ceiling == CeilingFrom::search)) {
     throw BadInput("--box: the score of a part is not the run's: without --update and --ceiling");
   }
+  std::optional<RunClaim> claim;  // nobody resumes it meanwhile
+  if (options.update) claim.emplace(options.target);
   Scored scored = score_run(options.target, options.wish, threads);
   if (options.update) rescore_summary(options.target, scored.score);
   return scored;

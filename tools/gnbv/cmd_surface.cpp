@@ -14,10 +14,12 @@
 #include "tools/mission/execute.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/reference.hpp"
+#include "tools/run_files/run_inputs.hpp"
 #include "tools/surface/surface.hpp"
 #include "tools/surface/surface_picture.hpp"
 #include "tools/surface/surface_score.hpp"
 #include "tools/terminal/progress.hpp"
+#include "tools/terminal/say.hpp"
 
 namespace gnbv {
 namespace {
@@ -73,7 +75,10 @@ class OutFolder {
 std::optional<World> truth_of(const RunRecord& record, std::vector<std::string>& notes) {
   std::vector<std::string> told_by_run;  // the mesh's faults were told when it was flown
   try {
-    return load_world(record.scenario, told_by_run);
+    World world = load_world(record.scenario, told_by_run);
+    need_same_inputs(record.folder, world_inputs(record.scenario, world),
+                     "another structure is none to score by");
+    return world;
   } catch (const BadInput& error) {
     notes.push_back(fmt::format("{}; without the true structure there is no score", error.what()));
     return std::nullopt;
@@ -102,7 +107,7 @@ void surface(const SurfaceOptions& options) {
   settings.has_texture = !options.no_texture;
   const int threads = thread_count(options.threads);
   const RunRecord record = read_run(options.run);
-  for (const std::string& missing : record.missing) fmt::print(stderr, "gnbv: {}\n", missing);
+  for (const std::string& missing : record.missing) say(missing);
   std::vector<std::string> notes;
   const std::optional<World> truth = truth_of(record, notes);
   if (options.json && !truth) throw BadInput("--json: " + notes.back());
@@ -123,7 +128,7 @@ void surface(const SurfaceOptions& options) {
     paths = write_all(mesh, score, folder);
     progress(1.0, "done");
   }
-  for (const std::string& note : notes) fmt::print(stderr, "gnbv: {}\n", note);
+  for (const std::string& note : notes) say(note);
   if (options.json) {
     fmt::print("{}", score_json(*score));
     return;

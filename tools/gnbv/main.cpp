@@ -3,19 +3,25 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <sstream>
+#include <system_error>
 
 #include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "sim/core/simd.hpp"
+#include "sim/core/utf8.hpp"
 #include "tools/gnbv/commands.hpp"
+#include "tools/terminal/say.hpp"
+#include "tools/terminal/standard_streams.hpp"
 
 namespace {
 
 int run(int argc, char** argv) {
+  gnbv::simd_level();  // refuses what GNBV_SIMD may not be
   CLI::App app("Next-best-view 3D reconstruction with a UAV: simulate, measure, compare.", "gnbv");
   app.set_version_flag("--version", GNBV_VERSION);
   app.require_subcommand(1);
@@ -39,33 +45,58 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    std::ostringstream answer;
+    std::ostringstream complaint;
+    const bool is_answer = app.exit(error, answer, complaint) == 0;
+    fmt::print("{}", answer.str());
+    gnbv::print_to_stderr(gnbv::printable(complaint.str()));
+    return is_answer ? 0 : 2;
   }
   return 0;
+}
+
+/// Says it; the exit code. Of the exceptions that nobody threw on purpose those of the system are
+/// the machine's fault.
+int say_why(const std::exception& error) {
+  if (dynamic_cast<const gnbv::OutputFailed*>(&error) != nullptr) {
+    gnbv::say(error.what());
+    return 1;
+  }
+  if (const auto* const file = dynamic_cast<const std::filesystem::filesystem_error*>(&error)) {
+    try {
+      gnbv::refuse_to_write(file->path1(), file->code().value());
+    } catch (const gnbv::BadInput&) {
+      gnbv::say("{}: {}", file->path1().string(), file->code().message());
+      return 2;
+    } catch (const gnbv::OutputFailed& failed) {
+      gnbv::say(failed.what());
+      return 1;
+    }
+  }
+  if (const auto* const system = dynamic_cast<const std::system_error*>(&error)) {
+    if (std::ferror(stdout) == 0) gnbv::say("the system refuses: {}", system->what());
+    return 1;
+  }
+  gnbv::say("internal error: {}", error.what());
+  return 1;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  gnbv::prepare_standard_streams();
+  int exit_code = 1;
   try {
-    const int exit_code = run(argc, argv);
-    if (std::fflush(stdout) == 0) return exit_code;
-    fmt::print(stderr, "gnbv: stdout: {}\n", std::strerror(errno));
-    return 1;
+    exit_code = run(argc, argv);
   } catch (const gnbv::BadInput& error) {
-    fmt::print(stderr, "gnbv: {}\n", error.what());
-    return 2;
-  } catch (const std::filesystem::filesystem_error& error) {
-    fmt::print(stderr, "gnbv: {}: {}\n", error.path1().string(), error.code().message());
-    return 2;
+    gnbv::say(error.what());
+    exit_code = 2;
   } catch (const gnbv::CommandFailed& failed) {
-    fmt::print(stderr, "gnbv: {}\n", failed.what());
-    return 1;
+    gnbv::say(failed.what());
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "gnbv: out of memory\n");
-    return 1;
+    gnbv::say("out of memory");
   } catch (const std::exception& error) {
-    fmt::print(stderr, "gnbv: internal error: {}\n", error.what());
-    return 1;
+    exit_code = say_why(error);
   }
+  return gnbv::flush_stdout() ? exit_code : 1;
 }

@@ -20,9 +20,13 @@
 #include "tools/run_files/file_names.hpp"
 #include "tools/run_files/frames_folder.hpp"
 #include "tools/run_files/profile_map.hpp"
+#include "tools/run_files/run_claim.hpp"
+#include "tools/run_files/run_commands.hpp"
 #include "tools/run_files/run_directory.hpp"
+#include "tools/run_files/run_inputs.hpp"
 #include "tools/terminal/interrupt.hpp"
 #include "tools/terminal/progress.hpp"
+#include "tools/terminal/say.hpp"
 
 namespace gnbv {
 namespace {
@@ -73,6 +77,7 @@ MissionHooks make_hooks(const Scenario& scenario, RunDirectory& directory, Progr
   hooks.on_profile = [&progress](double share) { progress.show(0.1 * share, "profile"); };
   hooks.on_profile_belief = [&](const Belief& belief) { directory.write_profile(belief); };
   hooks.on_view = [&](const ViewRecord& view) {
+    directory.need_as_recorded(view);
     directory.append(view);
     const int last = scenario.planner.termination.max_iterations;
     progress.show(0.1 + 0.9 * (view.iteration + 1) / last,
@@ -80,8 +85,26 @@ MissionHooks make_hooks(const Scenario& scenario, RunDirectory& directory, Progr
                               view.straight_m, view.cloud_points));
   };
   hooks.should_stop = InterruptGuard::requested;
-  hooks.replay = directory.recorded();
+  hooks.replay = directory.recorded_decisions();
   return hooks;
+}
+
+/// The folder of the mission, which nobody else flies into until it is over.
+RunClaim claim_folder(const Scenario& scenario, const MissionOptions& options) {
+  if (options.out.empty()) {
+    return RunClaim::of_free_folder(fmt::format("{}-{}-seed{}", scenario.name,
+                                                scenario.planner.utility.name, scenario.seed));
+  }
+  need_usable(options.out, scenario, options.resume);
+  return RunClaim(options.out);
+}
+
+/// A run goes on in the world that it began in.
+void keep_inputs(const Scenario& scenario, const World& world, const RunDirectory& directory) {
+  const std::vector<RunInput> inputs = run_inputs(scenario, world);
+  need_same_inputs(directory.path(), inputs,
+                   "put it back, or fly anew: " + command_to_fly_again(directory.path()));
+  write_inputs(directory.path(), inputs);
 }
 
 }  // namespace
@@ -89,13 +112,6 @@ MissionHooks make_hooks(const Scenario& scenario, RunDirectory& directory, Progr
 int thread_count(int threads) {
   if (threads > 0) return threads;
   return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-}
-
-fs::path free_folder(const std::string& name) {
-  fs::path folder = fs::path("runs") / name;
-  for (int n = 2; fs::exists(folder); ++n)
-    folder = fs::path("runs") / fmt::format("{}-{}", name, n);
-  return folder;
 }
 
 ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& options) {
@@ -109,28 +125,25 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
   // all that can be wrong with the input is found before the first file is written
   std::vector<std::string> warnings;
   const World world = load_world(scenario, warnings);
-  for (const std::string& warning : warnings) fmt::print(stderr, "gnbv: {}\n", warning);
+  for (const std::string& warning : warnings) say(warning);
   const RayScene scene(world);
   need_room_for(scenario.score.sizes_m, world.structure);
   const ViewPose start = start_pose(scenario, scene);
   need_way_out(scenario, scene, bounds_m(world.structure), start, threads);
   if (const std::string warning = profile_warning(scenario, scene, start); !warning.empty()) {
-    fmt::print(stderr, "gnbv: {}\n", warning);
+    say(warning);
   }
   need_saved_profile(scenario);
   if (scenario.planner.symmetry.enabled) symmetry_module();  // throws when it is missing
-  const fs::path folder =
-      options.out.empty() ? free_folder(fmt::format("{}-{}-seed{}", scenario.name,
-                                                    scenario.planner.utility.name, scenario.seed))
-                          : options.out;
-  need_usable(folder, scenario, options.resume);  // an oracle may think for minutes before it flies
+  const RunClaim claim = claim_folder(scenario, options);  // an oracle may think for minutes
   ProgressBar progress(fmt::format("{} {}", scenario.name, scenario.planner.utility.name),
                        options.quiet);
   progress.show(0.0, "finding what there is to see");
   const SurfaceReference reference = reference_of(scenario, world, scene, threads);
   std::optional<std::vector<Decision>> route =
       oracle_route(scenario, world, scene, progress, threads);
-  RunDirectory directory(folder, scenario, options.resume);
+  RunDirectory directory(claim.folder(), scenario, options.resume);
+  keep_inputs(scenario, world, directory);
   const InterruptGuard interrupt;
   try {
     MissionHooks hooks = make_hooks(scenario, directory, progress);
@@ -152,6 +165,7 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
       pipe->connect(hooks);
     }
     MissionResult result = run_mission(scenario, world, scene, hooks, threads);
+    directory.need_as_recorded(result);
     const Stopwatch scoring;
     progress.show(1.0, "scoring");
     ScoredCloud cloud = scored_cloud(result);
@@ -162,8 +176,8 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
                                   cloud, threads);
     result.wall.score_s = scoring.elapsed_s();
     score.ceiling = run_ceiling(scenario, world, scene, options.ceiling, threads);
+    if (candidates) candidates->finish();  // before the summary, which says that all is there
     directory.finish(pipe ? pipe->scenario() : scenario, result, score, watch.elapsed_s());
-    if (candidates) candidates->finish();
     return {directory.path(), std::move(result), score, watch.elapsed_s()};
   } catch (const BrokenInvariant& broken) {
     throw BrokenInvariant(fmt::format("{}\nreplay with: gnbv run {} --out REPLAY", broken.what(),

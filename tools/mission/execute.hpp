@@ -27,9 +27,6 @@ struct MissionOptions {
 /// `threads`, or as many as the machine has for 0.
 int thread_count(int threads);
 
-/// runs/NAME, or runs/NAME-2 and so on: the first that does not exist.
-std::filesystem::path free_folder(const std::string& name);
-
 struct ExecutedMission {
   std::filesystem::path folder;
   MissionResult result;

@@ -5,12 +5,14 @@
 #include "bench/score/cloud_faults.hpp"
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
+#include "sim/core/shell_word.hpp"
 #include "sim/core/stopwatch.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/reference.hpp"
 #include "tools/run_files/cloud_file.hpp"
 #include "tools/run_files/file_names.hpp"
 #include "tools/run_files/iterations_csv.hpp"
+#include "tools/run_files/run_inputs.hpp"
 #include "tools/run_files/summary_json.hpp"
 
 namespace gnbv {
@@ -99,14 +101,20 @@ Scored score_run(const fs::path& run, const ScoreWish& wish, int threads) {
   const std::vector<Vec3f> points = read_cloud(cloud_path);
   need_voxels(cloud_path.string(), points);
   const std::vector<Vec3f> profile = read_cloud(run / kProfileCloudFile);
+  const std::vector<ViewRecord> views = read_view_records(run / kIterationsFile);
   const ScoredCloud cloud{.points_world_m = points,
                           .profile_points = profile.size(),
                           .before = {.profile_m = *summary.profile_m,
                                      .transfer_m = *summary.transfer_m,
                                      .profile_end_s = *summary.profile_end_s},
-                          .views = view_marks(read_view_records(run / kIterationsFile))};
+                          .views = view_marks(views)};
   need_matching(run, cloud, profile, *summary.iterations);
+  need_views_of_summary(run / kIterationsFile, summary, views);
   const World world = world_of(scenario);
+  need_same_inputs(run, world_inputs(scenario, world),
+                   fmt::format("its score would be of another structure; `gnbv score {} --mesh "
+                               "FILE` scores the cloud against any",
+                               shell_word(cloud_path.string())));
   const RayScene scene(world);
   Scored scored = score(scenario, world, scene, cloud, wish, threads);
   if (!wish.box_m) {

@@ -12,7 +12,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
 #include <memory>
 
 #include "sim/core/error.hpp"
@@ -42,7 +41,7 @@ File nameless_file(std::string_view content) {
   const bool is_written =
       file && std::fwrite(content.data(), 1, content.size(), file.get()) == content.size() &&
       std::fflush(file.get()) == 0;
-  if (!is_written) throw BadInput(fmt::format("a temporary file: {}", std::strerror(errno)));
+  if (!is_written) refuse_to_write("a temporary file", errno);
   std::rewind(file.get());
   return file;
 }
@@ -57,14 +56,26 @@ std::string content_of(std::FILE* file) {
   return content;
 }
 
-/// Runs gnuplot from script to picture. What it complains about, if it failed.
-std::string complaint_of_gnuplot(std::FILE* script, const std::filesystem::path& picture) {
+std::string all_from(int pipe) {
+  std::string content;
+  std::array<char, std::size_t{1} << 16> block{};
+  while (true) {
+    const ssize_t count = read(pipe, block.data(), block.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return content;
+    content.append(block.data(), static_cast<std::size_t>(count));
+  }
+}
+
+/// What gnuplot draws by the script. Through a pipe: on a full disk gnuplot itself ends well.
+std::string picture_by_gnuplot(std::FILE* script, const std::filesystem::path& picture) {
   const File errors = nameless_file("");
+  std::array<int, 2> ends{};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) refuse_to_write("a pipe", errno);
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
   posix_spawn_file_actions_adddup2(&files, fileno(script), STDIN_FILENO);
-  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, picture.c_str(),
-                                   O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  posix_spawn_file_actions_adddup2(&files, ends[1], STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&files, fileno(errors.get()), STDERR_FILENO);
   // -d: what the user's own configuration sets would change the picture
   std::array<char, 8> name = {"gnuplot"};
@@ -73,21 +84,25 @@ std::string complaint_of_gnuplot(std::FILE* script, const std::filesystem::path&
   pid_t child = 0;
   const int error = posix_spawnp(&child, "gnuplot", &files, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&files);
+  close(ends[1]);
+  std::string content = error == 0 ? all_from(ends[0]) : "";
+  close(ends[0]);
   if (error == ENOENT) {
     throw BadInput("gnuplot is not installed; `apt-get install gnuplot-nox`, or tools/setup, does");
   }
-  if (error != 0) throw BadInput(fmt::format("gnuplot: cannot start: {}", std::strerror(error)));
+  if (error != 0) refuse_to_write("gnuplot", error);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return "";
-  return fmt::format("status {}: {}", status, content_of(errors.get()));
+  GNBV_CHECK(WIFEXITED(status) && WEXITSTATUS(status) == 0,
+             "gnuplot refuses the script of {}: status {}: {}", picture.string(), status,
+             content_of(errors.get()));
+  return content;
 }
 
 /// Cairo writes the time of day into a PDF. As long a date, so that the file's offsets stay right.
-void fix_date(const std::filesystem::path& picture) {
+void fix_date(std::string& content) {
   constexpr std::string_view kKey = "/CreationDate (";
-  std::string content = read_file(picture);
   const std::size_t key = content.starts_with("%PDF") ? content.rfind(kKey) : std::string::npos;
   if (key == std::string::npos) return;
   const std::size_t end = std::min(content.find(')', key), content.size());
@@ -97,9 +112,6 @@ void fix_date(const std::filesystem::path& picture) {
     content[i] = date.empty() ? '0' : date.front();
     date.remove_prefix(std::min<std::size_t>(date.size(), 1));
   }
-  std::ofstream out(picture, std::ios::binary | std::ios::trunc);
-  out.write(content.data(), std::ssize(content)).flush();
-  if (!out) throw BadInput(fmt::format("{}: cannot write", picture.string()));
 }
 
 }  // namespace
@@ -153,12 +165,9 @@ std::string plot_script(const Plot& plot, PlotFormat format, const PlotSize& siz
 
 void draw_plot(const std::string& script, const std::filesystem::path& picture) {
   const File input = nameless_file(script);
-  write_file_atomically(picture, [&](const std::filesystem::path& part) {
-    const std::string complaint = complaint_of_gnuplot(input.get(), part);
-    GNBV_CHECK(complaint.empty(), "gnuplot refuses the script of {}: {}", picture.string(),
-               complaint);
-    fix_date(part);
-  });
+  std::string content = picture_by_gnuplot(input.get(), picture);
+  fix_date(content);
+  write_file_atomically(picture, content);
 }
 
 }  // namespace gnbv

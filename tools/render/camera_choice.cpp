@@ -9,6 +9,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "tools/run_files/separated_text.hpp"
 
 namespace gnbv {
 namespace {
@@ -61,7 +62,7 @@ RenderView read_camera(const std::filesystem::path& path) {
     view.T_world_camera = look_at(position_m, target_m);
     view.to_light_world = key_light(view.T_world_camera);
   } catch (const std::exception& error) {
-    throw BadInput(fmt::format("{}: {}", path.string(), error.what()));
+    throw BadInput(fmt::format("{}: {}", path.string(), json_reason(error)));
   }
   if (!(fov_y_deg > 0.0 && fov_y_deg < 180.0)) {
     throw BadInput(

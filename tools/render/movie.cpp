@@ -117,6 +117,7 @@ void Movie::finish() {
     std::filesystem::remove(part_, ignored);
     throw BadInput(fmt::format("{}: ffmpeg could not write it", path_.string()));
   }
+  sync_to_disk(part_);
   std::filesystem::rename(part_, path_);
 }
 

@@ -1,6 +1,7 @@
 #include "tools/run_files/candidates_jsonl.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -107,7 +108,11 @@ std::string lines_before(std::size_t iteration, const fs::path& part) {
     kept.append(row) += '\n';
     last = std::max(last, of);
   }
-  if (last + 1 < iteration) throw BadInput(fmt::format("{}: {}", part.string(), kNotWritten));
+  if (last + 1 < iteration) {
+    throw BadInput(fmt::format(
+        "{}: holds no candidates of iteration {}, which was flown: cut off, or {}", part.string(),
+        last + 1, kNotWritten));
+  }
   return kept;
 }
 
@@ -118,7 +123,7 @@ CandidatesFile::CandidatesFile(const fs::path& folder, std::size_t first_iterati
   const fs::path before = fs::exists(part_of(path_)) ? part_of(path_) : path_;
   write_file_atomically(part_of(path_), lines_before(first_iteration, before));
   part_.open(part_of(path_), std::ios::binary | std::ios::app);
-  if (!part_) throw BadInput(fmt::format("{}: cannot write", part_of(path_).string()));
+  if (!part_) refuse_to_write(part_of(path_), errno);
 }
 
 void CandidatesFile::write(std::size_t iteration, const Plan& plan) {
@@ -126,14 +131,16 @@ void CandidatesFile::write(std::size_t iteration, const Plan& plan) {
     part_ << json_of(iteration, plan.candidates[i], plan.chosen == i).dump() << '\n';
   }
   part_.flush();
-  if (!part_) throw BadInput(fmt::format("{}: cannot write", part_of(path_).string()));
+  if (!part_) refuse_to_write(part_of(path_), errno);
 }
 
 void CandidatesFile::finish() {
   part_.close();
   std::error_code error;
+  sync_to_disk(part_of(path_));
   fs::rename(part_of(path_), path_, error);
-  if (error) throw BadInput(fmt::format("{}: cannot write: {}", path_.string(), error.message()));
+  if (error) refuse_to_write(path_, error.value());
+  sync_to_disk(path_.parent_path());
 }
 
 std::optional<Plan> read_candidates(const fs::path& run, std::size_t iteration) {
@@ -154,7 +161,7 @@ std::optional<Plan> read_candidates(const fs::path& run, std::size_t iteration) 
       plan.candidates.push_back(candidate_of(json));
     } catch (const std::exception& error) {
       throw BadInput(fmt::format("{}: {}; {} writes it anew", to_string(TextPlace{path, line}),
-                                 error.what(), again));
+                                 json_reason(error), again));
     }
   }
   if (plan.candidates.empty()) {

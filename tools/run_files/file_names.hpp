@@ -6,6 +6,8 @@
 namespace gnbv {
 
 constexpr const char* kScenarioFile = "scenario.yaml";
+constexpr const char* kInputsFile = "inputs.json";
+constexpr const char* kLockFile = ".gnbv-lock";  // while a mission flies into the directory
 constexpr const char* kSummaryFile = "summary.json";
 constexpr const char* kCoverageFile = "coverage.csv";
 constexpr const char* kIterationsFile = "iterations.csv";

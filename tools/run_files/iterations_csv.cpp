@@ -4,6 +4,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/sha256.hpp"
 #include "tools/run_files/run_commands.hpp"
 #include "tools/run_files/separated_text.hpp"
 
@@ -89,6 +90,39 @@ struct Cells {
   }
 };
 
+/// Each column's name and value, without wall times.
+struct NamedCells {
+  std::vector<std::pair<std::string, std::string>> cells;
+
+  void operator()(std::string_view, const Wall<const double>&) {}
+  void operator()(std::string_view name, const auto& value) {
+    Cells text;
+    text(name, value);
+    cells.emplace_back(name, text.text);
+  }
+};
+
+constexpr std::string_view kCheckColumn = ",check";
+
+/// Of a row, with the check of the row before.
+std::string check_of(std::string_view before, std::string_view row) {
+  Sha256 sha;
+  sha.add(before);
+  sha.add(row);
+  return sha.hex().substr(0, 16);
+}
+
+/// Cuts off the row's check. Throws BadInput when it is another's.
+std::string take_check(std::string_view before, std::string_view& row, const TextPlace& place) {
+  const std::size_t comma = row.rfind(',');
+  const std::string_view cell = comma == row.npos ? row : row.substr(comma + 1);
+  row = row.substr(0, std::min(comma, row.size()));
+  const std::string check = check_of(before, row);
+  if (cell == check) return check;
+  throw BadInput(fmt::format("{}: is not the row that was written: edited or damaged",
+                             to_string(place)));
+}
+
 /// A row's cells, read left to right.
 struct Row {
   std::string_view rest;
@@ -170,6 +204,41 @@ std::string iterations_csv(std::span<const ViewRecord> views, Columns columns) {
   return csv;
 }
 
+std::string JournalRows::header() const {
+  return fmt::format("{}{}\n", header_text(columns_), kCheckColumn);
+}
+
+std::string JournalRows::row(const ViewRecord& view) {
+  Cells cells;
+  visit_columns(view, columns_, cells);
+  check_ = check_of(check_, cells.text);
+  return fmt::format("{},{}\n", cells.text, check_);
+}
+
+std::optional<Difference> first_difference(const ViewRecord& now, const ViewRecord& recorded) {
+  NamedCells of_now;
+  NamedCells of_recorded;
+  visit_columns(now, Columns::with_gimbal, of_now);
+  visit_columns(recorded, Columns::with_gimbal, of_recorded);
+  for (std::size_t i = 0; i < of_now.cells.size(); ++i) {
+    const auto& [name, value] = of_now.cells[i];
+    if (value != of_recorded.cells[i].second) {
+      return Difference{name, value, of_recorded.cells[i].second};
+    }
+  }
+  return std::nullopt;
+}
+
+std::string views_sha256(std::span<const ViewRecord> views) {
+  Sha256 sha;
+  for (const ViewRecord& view : views) {
+    NamedCells named;
+    visit_columns(view, Columns::with_gimbal, named);
+    for (const auto& [name, value] : named.cells) sha.add(value + ",");
+  }
+  return sha.hex();
+}
+
 std::string decision_header() {
   Names names;
   const ViewRecord view;
@@ -189,13 +258,18 @@ std::vector<ViewRecord> read_view_records(const std::filesystem::path& csv) {
   std::vector<ViewRecord> views;
   Columns columns = Columns::usual;
   std::ptrdiff_t cells = 0;
+  bool has_checks = false;
+  std::string check;
   for (int line = 1; !rest.empty(); ++line) {
-    const std::string_view row = next_part(rest, '\n');
+    std::string_view row = next_part(rest, '\n');
     const TextPlace place{csv, line};
     if (line > 1) {
+      if (has_checks) check = take_check(check, row, place);
       views.push_back(record_of(row, columns, cells, line - 2, place));
       continue;
     }
+    has_checks = row.ends_with(kCheckColumn);
+    if (has_checks) row.remove_suffix(kCheckColumn.size());
     if (row == header_text(Columns::with_gimbal)) columns = Columns::with_gimbal;
     cells = cells_in(row);
     need_header(row, header_text(columns), place,

@@ -136,7 +136,7 @@ std::vector<MadePlan> read_plans(const RunRecord& record) {
     try {
       plans.push_back(made_plan_of(Json::parse(row), record, place));
     } catch (const Json::exception& error) {
-      throw BadInput(fmt::format("{}: {}; {} writes it anew", to_string(place), error.what(),
+      throw BadInput(fmt::format("{}: {}; {} writes it anew", to_string(place), json_reason(error),
                                  command_to_write_plans(record)));
     }
     if (plans.size() > 1 && plans.back().iteration <= plans[plans.size() - 2].iteration) {

@@ -18,16 +18,29 @@ namespace gnbv {
 /// scenario, or anything else that is no run. Writes nothing.
 void need_usable(const std::filesystem::path& folder, const Scenario& scenario, bool resume);
 
+/// Whether the folder holds all files of a run that ended by itself: there is nothing to resume.
+bool is_finished(const std::filesystem::path& folder);
+
 class RunDirectory {
  public:
-  /// Makes the folder and writes scenario.yaml. Throws BadInput when it cannot be written, and as
-  /// need_usable().
+  /// Makes the folder, writes scenario.yaml and removes what killed writers left. Throws as
+  /// need_usable(), as refuse_to_write(), and BadInput naming file and line for a record of views
+  /// that is damaged, was edited, or leads out of the workspace.
   RunDirectory(std::filesystem::path folder, const Scenario& scenario, bool resume);
 
   const std::filesystem::path& path() const { return folder_; }
 
-  /// Decisions of the run that is resumed, oldest first; empty for a new one.
-  const std::vector<Decision>& recorded() const { return recorded_; }
+  /// Views of the run that is resumed, oldest first; none for a new one.
+  const std::vector<ViewRecord>& recorded() const { return recorded_; }
+  std::vector<Decision> recorded_decisions() const;
+
+  /// Throws BadInput naming view and quantity when a view flown again is another than its record:
+  /// another program, or another world, made the record.
+  void need_as_recorded(const ViewRecord& view) const;
+
+  /// Throws BadInput when a mission that flew the record again comes to another result: it ended
+  /// before the record did, or is not what the finished run was.
+  void need_as_recorded(const MissionResult& result) const;
 
   /// Writes profile.map, which another mission can begin with (planner.profiling.method: saved).
   void write_profile(const Belief& belief) const;
@@ -39,7 +52,8 @@ class RunDirectory {
   /// Writes scenario.yaml anew, for a mission that learns its views on the way.
   void keep(const Scenario& scenario) const;
 
-  /// Writes every file, summary.json last, each by rename, and removes the journal.
+  /// Removes the old summary.json and writes every file, summary.json last and when the others are
+  /// on the disk, each by rename, and removes the journal.
   void finish(const Scenario& scenario, const MissionResult& result, const MissionScore& score,
               double total_wall_s);
 
@@ -48,7 +62,9 @@ class RunDirectory {
 
   std::filesystem::path folder_;
   Columns columns_;
-  std::vector<Decision> recorded_;
+  std::vector<ViewRecord> recorded_;
+  std::string finished_sha256_;  // result_sha256 of a recorded run that was finished
+  JournalRows rows_;
   std::string pending_;  // rows of recorded views that are being flown again
   std::ofstream journal_;
 };

@@ -59,6 +59,13 @@ void need_all_views(const RunRecord& record) {
       csv.string(), record.views.size(), ended_with, command_to_fly_again(record.folder)));
 }
 
+/// As long as there is an iterations.csv: the journal of a run that goes on is ahead of an old
+/// summary.
+void need_views_of(const RunRecord& record, const RunSummary& summary) {
+  const fs::path csv = record.folder / kIterationsFile;
+  if (fs::exists(csv)) need_views_of_summary(csv, summary, record.views);
+}
+
 void read_figures(RunRecord& record) {
   const fs::path path = record.folder / kSummaryFile;
   if (!fs::exists(path)) {
@@ -73,6 +80,7 @@ void read_figures(RunRecord& record) {
   if (summary.schema == kSummarySchema && fs::exists(curve)) {
     record.figures = read_run_figures(record.folder);
     need_all_views(record);
+    need_views_of(record, summary);
     return;
   }
   record.missing.push_back(fmt::format("{}; `gnbv score {} --update` scores the run anew",

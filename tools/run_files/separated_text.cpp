@@ -44,6 +44,12 @@ int to_count(std::string_view text, const TextPlace& place, std::string_view wha
   return static_cast<int>(value);
 }
 
+std::string json_reason(const std::exception& error) {
+  const std::string_view what = error.what();
+  const std::size_t end = what.starts_with("[json.exception.") ? what.find("] ") : what.npos;
+  return std::string(end == what.npos ? what : what.substr(end + 2));
+}
+
 void need_header(std::string_view row, std::string_view header, const TextPlace& place,
                  std::string_view help) {
   if (row == header) return;

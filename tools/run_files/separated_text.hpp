@@ -1,6 +1,7 @@
 // Text files of numbers in columns, with errors that name file and line.
 #pragma once
 
+#include <exception>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -28,6 +29,9 @@ double to_number(std::string_view text, const TextPlace& place, std::string_view
 
 /// The same for a count: whole, and from 0 to 10^9.
 int to_count(std::string_view text, const TextPlace& place, std::string_view what);
+
+/// What is wrong with a JSON text, without the library's own number of the error.
+std::string json_reason(const std::exception& error);
 
 /// Throws BadInput naming the place, and `help`, for a first row that is not `header`.
 void need_header(std::string_view row, std::string_view header, const TextPlace& place,

@@ -10,6 +10,7 @@
 #include "sim/core/shell_word.hpp"
 #include "tools/run_files/coverage_csv.hpp"
 #include "tools/run_files/file_names.hpp"
+#include "tools/run_files/iterations_csv.hpp"
 #include "tools/run_files/run_commands.hpp"
 #include "tools/run_files/score_json.hpp"
 
@@ -218,6 +219,7 @@ std::string summary_json(const Scenario& scenario, const MissionResult& r,
         {"plan", r.wall.plan_s},
         {"fly", r.wall.fly_s},
         {"score", r.wall.score_s}}},
+      {"views_sha256", views_sha256(r.views)},
       {"result_sha256", result_sha256(r)},
   };
   return with_score(json, score).dump(2) + "\n";
@@ -232,7 +234,18 @@ RunSummary read_summary(const fs::path& run) {
           .profile_end_s = summary.if_there(&R::number, "/profile_end_s"),
           .views_begin_s = summary.if_there(&R::number, "/views_begin_s"),
           .profile_m = summary.if_there(&R::number, "/distance_m/profile"),
-          .transfer_m = summary.if_there(&R::number, "/distance_m/transfer")};
+          .transfer_m = summary.if_there(&R::number, "/distance_m/transfer"),
+          .result_sha256 = summary.if_there(&R::text, "/result_sha256"),
+          .views_sha256 = summary.if_there(&R::text, "/views_sha256")};
+}
+
+void need_views_of_summary(const fs::path& csv, const RunSummary& summary,
+                           std::span<const ViewRecord> views) {
+  if (!summary.views_sha256 || *summary.views_sha256 == views_sha256(views)) return;
+  throw BadInput(fmt::format(
+      "{}: holds other rows than the run of summary.json wrote: edited, damaged, or files of two "
+      "runs? {} flies it again",
+      csv.string(), command_to_fly_again(csv.parent_path())));
 }
 
 RunFigures read_run_figures(const fs::path& run) {

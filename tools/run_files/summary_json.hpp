@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "bench/score/mission_score.hpp"
@@ -28,11 +29,17 @@ struct RunSummary {
   std::optional<double> views_begin_s = {};  // as is where the planned views begin
   std::optional<double> profile_m = {};      // planned legs: of the profile,
   std::optional<double> transfer_m = {};     // and from there to the first view
+  std::optional<std::string> result_sha256 = {};
+  std::optional<std::string> views_sha256 = {};  // of iterations.csv
 };
 
 /// Throws BadInput naming the folder when it holds no finished run, and file and key of whatever is
 /// damaged.
 RunSummary read_summary(const std::filesystem::path& run);
+
+/// Throws BadInput when the views, those of the file, are not those that the run ended with.
+void need_views_of_summary(const std::filesystem::path& csv, const RunSummary& summary,
+                           std::span<const ViewRecord> views);
 
 /// The figures of a finished run directory, from summary.json and coverage.csv. Throws BadInput
 /// naming file and key for a run that is not finished, or that another version wrote (the message

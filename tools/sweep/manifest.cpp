@@ -11,6 +11,7 @@
 #include "bench/sources/source_ids.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "tools/run_files/separated_text.hpp"
 #include "tools/run_files/summary_json.hpp"
 
 namespace gnbv {
@@ -118,7 +119,7 @@ std::optional<ManifestHead> read_manifest_head(const fs::path& folder) {
       head.ids.push_back(cell.at("id").get<std::string>());
     return head;
   } catch (const Json::exception& error) {
-    throw BadInput(fmt::format("{}: is no manifest of a sweep: {}", path.string(), error.what()));
+    throw BadInput(fmt::format("{}: is no manifest of a sweep: {}", path.string(), json_reason(error)));
   }
 }
 
@@ -141,7 +142,7 @@ std::vector<Cell> cells_of_manifest(const fs::path& folder) {
       }
     }
   } catch (const Json::exception& error) {
-    throw BadInput(fmt::format("{}: is no manifest of a sweep: {}", path.string(), error.what()));
+    throw BadInput(fmt::format("{}: is no manifest of a sweep: {}", path.string(), json_reason(error)));
   }
   if (cells.empty()) throw BadInput(fmt::format("{}: has no cells", path.string()));
   return cells;

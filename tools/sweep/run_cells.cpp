@@ -13,6 +13,7 @@
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/file_lock.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/run_files/file_names.hpp"
 #include "tools/sweep/cell_files.hpp"
@@ -80,7 +81,7 @@ class Pool {
   struct Running {
     std::size_t index = 0;
     CellFiles files;
-    CellLock lock;
+    FileLock lock;
     std::vector<std::string> command;
     std::uintmax_t log_begin = 0;  // what is before it, another run printed
     pid_t child = 0;
@@ -118,7 +119,7 @@ class Pool {
     const CellFiles files = cell_files(options_.folder, cells_[index].id);
     CellOutcome known = on_disk(files);
     if (is_settled(known)) return settle(index, known);
-    std::optional<CellLock> lock = CellLock::take(files.lock);
+    std::optional<FileLock> lock = FileLock::take(files.lock);
     if (!lock) {
       if (!options_.wait_for_locked) return settle(index, {CellStatus::locked, {}, ""});
       locked_.push_back(index);
@@ -143,7 +144,7 @@ class Pool {
            (outcome.status == CellStatus::failed && !options_.retry_failed);
   }
 
-  void start(std::size_t index, const CellFiles& files, CellLock lock) {
+  void start(std::size_t index, const CellFiles& files, FileLock lock) {
     fs::create_directories(files.part);
     fs::remove(files.part / kSummaryFile);  // of an interruption: the next one is of this run
     // the same cell may have been begun where its mesh had another path
@@ -198,6 +199,7 @@ class Pool {
     }
     // where locks do not reach (two machines, NFS without locks) another may have been first
     if (error) fs::remove_all(files.part);
+    sync_to_disk(files.run.parent_path());
     // the cell is done: whoever still gets the lock sees that, so the file has served its purpose
     fs::remove(files.lock);
     return {CellStatus::done, files.run, ""};
@@ -252,7 +254,7 @@ std::vector<CellOutcome> run_cells(std::span<const Cell> cells, const RunCellsOp
   try {
     return Pool(cells, options).run();
   } catch (const fs::filesystem_error& failed) {
-    throw BadInput(failed.what());  // names the paths
+    refuse_to_write(failed.path1(), failed.code().value());
   }
 }
 

@@ -11,6 +11,8 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/core/shell_word.hpp"
+#include "sim/core/utf8.hpp"
+#include "tools/terminal/say.hpp"
 
 namespace gnbv {
 namespace {
@@ -114,7 +116,7 @@ std::string submit(const fs::path& script) {
     throw BadInput(fmt::format("sbatch {}: {}", script.string(),
                                words.substr(0, words.find_last_not_of('\n') + 1)));
   }
-  fmt::print(stderr, "{}", words);
+  print_to_stderr(printable(words));
   return sent.text;
 }
 

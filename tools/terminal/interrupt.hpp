@@ -1,10 +1,12 @@
 // Ctrl-C as a question that a loop can ask.
 #pragma once
 
+#include <array>
+
 namespace gnbv {
 
-/// While it lives, Ctrl-C (or SIGTERM) asks the work at hand to stop, `asks` times; the next one
-/// kills.
+/// While it lives, Ctrl-C (or SIGTERM, or the SIGHUP of a terminal that goes) asks the work at hand
+/// to stop, `asks` times; the next one kills. Signals that were ignored before stay so.
 class InterruptGuard {
  public:
   explicit InterruptGuard(int asks = 1);
@@ -14,6 +16,9 @@ class InterruptGuard {
   static bool requested() { return requests() > 0; }
   /// How often it was asked for, up to `asks`.
   static int requests();
+
+ private:
+  std::array<void (*)(int), 3> before_{};
 };
 
 }  // namespace gnbv

@@ -5,10 +5,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
+#include <cmath>
 #include <cstdlib>
 #include <string_view>
-#include <utility>
+
+#include "sim/core/utf8.hpp"
+#include "tools/terminal/say.hpp"
 
 namespace gnbv {
 namespace {
@@ -26,36 +28,56 @@ std::size_t terminal_columns() {
 
 }  // namespace
 
-ProgressBar::ProgressBar(std::string label, bool quiet)
-    : label_(std::move(label)),
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<long long>(std::llround(std::max(seconds, 0.0)));
+  const long long minutes = whole / 60;
+  if (minutes >= 60) return fmt::format("{} h {:02} min", minutes / 60, minutes % 60);
+  if (minutes > 0) return fmt::format("{} min {:02} s", minutes, whole % 60);
+  return fmt::format("{} s", whole);
+}
+
+std::optional<double> seconds_left(double spent_s, double share_done) {
+  constexpr double kLeastShare = 0.01;
+  constexpr double kLeast_s = 1.0;
+  if (!(share_done >= kLeastShare && share_done < 1.0) || !(spent_s >= kLeast_s)) return {};
+  return spent_s * (1.0 - share_done) / share_done;
+}
+
+ProgressBar::ProgressBar(const std::string& label, bool quiet)
+    : label_(printable(label)),
       style_(quiet || std::getenv("NO_PROGRESS") != nullptr ? Style::silent
              : is_terminal()                                ? Style::bar
                                                             : Style::lines),
       begin_(std::chrono::steady_clock::now()),
-      last_drawn_(begin_ - std::chrono::hours(1)) {}
+      last_drawn_(begin_ - std::chrono::hours(1)),
+      last_line_(begin_) {}
 
 ProgressBar::~ProgressBar() {
-  if (bar_is_open_) fmt::print(stderr, "\n");
+  if (bar_is_open_) print_to_stderr("\n");
 }
 
 void ProgressBar::show(double share_done, const std::string& note) {
   const double share = std::clamp(share_done, 0.0, 1.0);
   const auto now = std::chrono::steady_clock::now();
+  const double spent_s = std::chrono::duration<double>(now - begin_).count();
+  const std::optional<double> left_s = seconds_left(spent_s, share);
+  const std::string left = left_s ? ", " + duration_text(*left_s) + " left" : "";
   if (style_ == Style::lines) {
     const int quarter = static_cast<int>(share * 4.0);
-    if (quarter == last_quarter_) return;
+    if (quarter == last_quarter_ && now - last_line_ < std::chrono::minutes(1)) return;
     last_quarter_ = quarter;
-    fmt::print(stderr, "{} {:3.0f} % {}\n", label_, 100.0 * share, note);
+    last_line_ = now;
+    print_to_stderr(
+        fmt::format("{} {:3.0f} % {}{}\n", label_, 100.0 * share, printable(note), left));
   } else if (style_ == Style::bar) {
     if (now - last_drawn_ < std::chrono::milliseconds(50) && share < 1.0) return;
     last_drawn_ = now;
     constexpr std::size_t kWidth = 24;
     const auto filled = static_cast<std::size_t>(share * kWidth);
-    const double spent_s = std::chrono::duration<double>(now - begin_).count();
-    const std::string line = fmt::format("{} [{:#<{}}{:.<{}}] {:3.0f} % {:.0f} s  {}", label_, "",
-                                         filled, "", kWidth - filled, 100.0 * share, spent_s, note);
-    fmt::print(stderr, "\r\x1b[K{}", line.substr(0, terminal_columns() - 1));
-    std::fflush(stderr);
+    const std::string line =
+        fmt::format("{} [{:#<{}}{:.<{}}] {:3.0f} % {}{}  {}", label_, "", filled, "",
+                    kWidth - filled, 100.0 * share, duration_text(spent_s), left, note);
+    print_to_stderr("\r\x1b[K" + line.substr(0, terminal_columns() - 1));
     bar_is_open_ = true;
   }
 }

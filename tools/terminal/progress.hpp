@@ -1,15 +1,24 @@
-// Progress on stderr: one line that rewrites itself on a terminal, a line each quarter elsewhere.
+// Progress on stderr: one line that rewrites itself on a terminal; elsewhere a line each quarter,
+// and each minute in between.
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 namespace gnbv {
 
+/// "1 h 20 min", "3 min 05 s" or "12 s".
+std::string duration_text(double seconds);
+
+/// What is left where `spent_s` made `share_done`, at the same pace. Nothing before a share or a
+/// time says anything: the first hundredth, or the first second.
+std::optional<double> seconds_left(double spent_s, double share_done);
+
 class ProgressBar {
  public:
   /// `label` stands before the bar. Silent when `quiet` or NO_PROGRESS is set.
-  ProgressBar(std::string label, bool quiet);
+  ProgressBar(const std::string& label, bool quiet);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -23,6 +32,7 @@ class ProgressBar {
   Style style_;
   std::chrono::steady_clock::time_point begin_;
   std::chrono::steady_clock::time_point last_drawn_;
+  std::chrono::steady_clock::time_point last_line_;
   int last_quarter_ = 0;
   bool bar_is_open_ = false;
 };

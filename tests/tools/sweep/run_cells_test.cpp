@@ -12,6 +12,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/file_lock.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/sweep/cell_files.hpp"
 
@@ -143,7 +144,7 @@ TEST_F(RunCells, ALockedCellIsSkippedOrWaitedFor) {
   const std::vector<Cell> cells = cells_of(smoke_sweep(1, {1, 2}));
   const fs::path lock = cell_files(folder(), cells[0].id).lock;
   fs::create_directories(lock.parent_path());
-  std::optional<CellLock> held = CellLock::take(lock);
+  std::optional<FileLock> held = FileLock::take(lock);
   ASSERT_TRUE(held.has_value());
   RunCellsOptions all = options();
   all.wait_for_locked = false;

@@ -1,0 +1,120 @@
+#!/usr/bin/env python3
+"""Kills commands at random moments and starts them again: the same files, none half-written.
+
+A run is killed, perhaps killed while it is resumed, and resumed to its end; or asked to stop by
+SIGINT, SIGTERM or SIGHUP. A sweep is started again. Reports, surfaces and exports are made again.
+"""
+import random
+import shutil
+import signal
+import tempfile
+import time
+from pathlib import Path
+
+from run_attack import Gnbv, Table, arguments, complaint, difference, half_written, stopped
+
+SMOKE = ['smoke', '--set', 'planner.termination.max_iterations=30', '--frames', '--candidates',
+         '--quiet']
+SWEEP = """scenarios: smoke
+utilities: [proposed, bircher]
+seeds: 2
+"""
+
+
+def needs(table, kind, done):
+    """Counts a failure of a command that has to work."""
+    wrong = complaint(done)
+    if wrong is None and done.returncode != 0:
+        wrong = f'exit code {done.returncode}: {done.stderr.decode(errors="replace")[-300:]}'
+    if wrong:
+        table.count(kind, wrong)
+    return wrong is None
+
+
+def runs(table, gnbv, folder, options, dice):
+    whole = folder / 'whole'
+    begin = time.monotonic()
+    if not needs(table, 'run', gnbv('run', *SMOKE, '--out', whole)):
+        return
+    takes_s = time.monotonic() - begin
+    for end in ('SIGKILL', 'SIGINT', 'SIGTERM', 'SIGHUP'):
+        for attempt in range(options.tries):
+            run = folder / f'{end}-{attempt}'
+            command = ['run', *SMOKE, '--out', run, '--resume']
+            kills = 1 + dice.randrange(2)
+            for _ in range(kills):
+                code = stopped(gnbv.start(*command), dice.uniform(0.0, takes_s),
+                               signal.Signals[end])
+                wrong = half_written(run, whole) if run.exists() else None
+                if wrong is None and end != 'SIGKILL' and code not in (0, 1, -signal.Signals[end]):
+                    wrong = f'exit code {code}'
+                if wrong:
+                    break
+            kind = f'run, {end} and --resume'
+            if wrong is None and needs(table, kind, gnbv(*command)):
+                table.count(kind, difference(run, whole))
+            elif wrong:
+                table.count(kind, f'{wrong}, after {kills} kills')
+            shutil.rmtree(run, ignore_errors=True)
+
+
+def sweeps(table, gnbv, folder, options, dice):
+    (folder / 'sweep.yaml').write_text(SWEEP)
+    command = ['sweep', 'sweep.yaml', '--quiet', '--out']
+    whole = folder / 'whole-sweep'
+    begin = time.monotonic()
+    if not needs(table, 'sweep', gnbv(*command, whole)):
+        return
+    takes_s = time.monotonic() - begin
+    for attempt in range(options.tries):
+        out = folder / f'sweep-{attempt}'
+        stopped(gnbv.start(*command, out), dice.uniform(0.0, takes_s), signal.SIGKILL)
+        if needs(table, 'sweep, SIGKILL and again', gnbv(*command, out)):
+            wrong = None
+            for cell in sorted(p for p in (whole / 'cells').iterdir() if p.is_dir()):
+                wrong = wrong or difference(out / 'cells' / cell.name, cell)
+            left = [p.name for p in (out / 'cells').iterdir() if p.name.endswith('.part')]
+            table.count('sweep, SIGKILL and again', wrong or (f'left {left}' if left else None))
+        shutil.rmtree(out, ignore_errors=True)
+
+
+def made_of_a_run(table, gnbv, folder, options, dice):
+    run = folder / 'whole'
+    for kind, words, out in (('report', ['report', run, '-o'], 'page.html'),
+                             ('surface', ['surface', run, '-o'], 'surface'),
+                             ('export', ['export', run, '--format', 'tum', '-o'], 'tum')):
+        whole = folder / f'whole-{kind}' / out
+        whole.parent.mkdir()
+        begin = time.monotonic()
+        if not needs(table, kind, gnbv(*words, whole)):
+            continue
+        takes_s = time.monotonic() - begin
+        for attempt in range(options.tries):
+            place = folder / f'{kind}-{attempt}'
+            place.mkdir()
+            stopped(gnbv.start(*words, place / out), dice.uniform(0.0, takes_s), signal.SIGKILL)
+            wrong = half_written(place, whole.parent)
+            if wrong is None and needs(table, f'{kind}, SIGKILL and again',
+                                       gnbv(*words, place / out)):
+                left = [p.name for p in place.rglob('*')
+                        if p.is_file() and '.part' not in p.name and not p.stat().st_size]
+                table.count(f'{kind}, SIGKILL and again', f'empty: {left}' if left else None)
+            elif wrong:
+                table.count(f'{kind}, SIGKILL and again', wrong)
+            shutil.rmtree(place, ignore_errors=True)
+
+
+def main():
+    options = arguments(__doc__, tries=50)
+    table, dice = Table(), random.Random(options.seed)
+    with tempfile.TemporaryDirectory(prefix='gnbv_attack_') as name:
+        folder = Path(name)
+        gnbv = Gnbv(options.gnbv, folder)
+        runs(table, gnbv, folder, options, dice)
+        sweeps(table, gnbv, folder, options, dice)
+        made_of_a_run(table, gnbv, folder, options, dice)
+    return table.end()
+
+
+if __name__ == '__main__':
+    raise SystemExit(main())

@@ -1,0 +1,24 @@
+// Words for the user, on stderr. What cannot be printed there is lost, and nothing else.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string_view>
+#include <utility>
+
+namespace gnbv {
+
+/// As it is, flushed.
+void print_to_stderr(std::string_view text);
+
+/// The line "gnbv: SENTENCE". Control bytes, as a damaged file may hold them, are shown as \x1b.
+void say(std::string_view sentence);
+
+template <typename... Values>
+void say(fmt::format_string<Values...> words, Values&&... values)
+requires(sizeof...(Values) > 0)
+{
+  say(std::string_view(fmt::format(words, std::forward<Values>(values)...)));
+}
+
+}  // namespace gnbv
