@@ -65,6 +65,7 @@ class Pool {
         pass_on_interrupts();
         start_waiting();
         reap();
+        show_progress();
         if (!is_over()) std::this_thread::sleep_for(kPoll);
       }
     } catch (...) {  // a full disk: nobody would wait for the missions
@@ -210,15 +211,17 @@ class Pool {
     if (outcome.status == CellStatus::missing) return;
     settled_ += 1;
     failed_ += outcome.status == CellStatus::failed ? 1 : 0;
+  }
+
+  /// Cells that others flew are there at once: the pace is that of the ones flown here.
+  void show_progress() {
     const std::size_t all = first_of_id_.size();
-    std::string note = fmt::format("{}/{} cells, {} failed", settled_, all, failed_);
-    if (flown_ > 0 && settled_ < all) {
-      const double spent_s = std::chrono::duration<double>(Clock::now() - begin_).count();
-      const double left_s =
-          spent_s / static_cast<double>(flown_) * static_cast<double>(all - settled_);
-      note += fmt::format(", about {:.0f} min left", std::ceil(left_s / 60.0));
-    }
-    progress_.show(static_cast<double>(settled_) / static_cast<double>(all), note);
+    const double spent_s = std::chrono::duration<double>(Clock::now() - begin_).count();
+    const std::size_t left = all - settled_;
+    progress_.show(static_cast<double>(settled_) / static_cast<double>(all),
+                   fmt::format("{}/{} cells, {} failed", settled_, all, failed_),
+                   seconds_left(spent_s, static_cast<double>(flown_) /
+                                             static_cast<double>(flown_ + left)));
   }
 
   std::span<const Cell> cells_;

@@ -57,10 +57,15 @@ ProgressBar::~ProgressBar() {
 }
 
 void ProgressBar::show(double share_done, const std::string& note) {
+  const auto spent = std::chrono::steady_clock::now() - begin_;
+  show(share_done, note,
+       seconds_left(std::chrono::duration<double>(spent).count(), share_done));
+}
+
+void ProgressBar::show(double share_done, const std::string& note, std::optional<double> left_s) {
   const double share = std::clamp(share_done, 0.0, 1.0);
   const auto now = std::chrono::steady_clock::now();
   const double spent_s = std::chrono::duration<double>(now - begin_).count();
-  const std::optional<double> left_s = seconds_left(spent_s, share);
   const std::string left = left_s ? ", " + duration_text(*left_s) + " left" : "";
   if (style_ == Style::lines) {
     const int quarter = static_cast<int>(share * 4.0);

@@ -23,8 +23,10 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// `share_done` in [0, 1]; `note` says what is being done.
+  /// `share_done` in [0, 1]; `note` says what is being done. What is left is told by the pace so
+  /// far, or as `left_s` says.
   void show(double share_done, const std::string& note);
+  void show(double share_done, const std::string& note, std::optional<double> left_s);
 
  private:
   enum class Style { silent, lines, bar };
