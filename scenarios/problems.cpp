@@ -103,7 +103,7 @@ void check_map_size(const Scenario& s, Problems& out) {
   // what is traced and seen is float32, exact to 0.06 mm there; and the ground goes no farther
   constexpr double kFarthest_m = 1000.0;
   if (farthest_m > kFarthest_m) {
-    out.push_back({{"workspace_m"},
+    out.push_back({{"workspace_m.max", "workspace_m.min"},
                    fmt::format("a workspace up to {} m from the origin: distances are right up to "
                                "{} m; structure.file.offset_m moves a mesh there",
                                farthest_m, kFarthest_m)});

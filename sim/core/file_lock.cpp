@@ -19,8 +19,8 @@ namespace {
 
 /// Whether the path still names the open file: who held the lock may have removed it.
 bool is_still_there(int descriptor, const std::filesystem::path& path) {
-  struct stat open_file{};
-  struct stat named_file{};
+  struct stat open_file {};
+  struct stat named_file {};
   return fstat(descriptor, &open_file) == 0 && stat(path.c_str(), &named_file) == 0 &&
          open_file.st_dev == named_file.st_dev && open_file.st_ino == named_file.st_ino;
 }

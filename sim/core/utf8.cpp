@@ -34,8 +34,8 @@ std::string printable(std::string_view text) {
     const char32_t code = take_code_point(text);
     const std::string_view bytes = before.substr(0, before.size() - text.size());
     const bool is_usual = code >= 0x20 || code == U'\n' || code == U'\t';
-    const bool is_control = !is_usual || (code >= 0x7f && code < 0xa0) ||
-                            (code == U'\ufffd' && bytes.size() == 1);
+    const bool is_control =
+        !is_usual || (code >= 0x7f && code < 0xa0) || (code == U'\ufffd' && bytes.size() == 1);
     if (!is_control) {
       shown += bytes;
       continue;

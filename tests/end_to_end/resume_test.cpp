@@ -153,12 +153,12 @@ TEST_F(Resumed, RefusesAnExchangedProfile) {
   const fs::path first = temp_.path() / "first";
   const fs::path second = temp_.path() / "second";
   for (const fs::path& run : {first, second}) {
-    execute_mission(smoke({"planner.termination.max_iterations=1",
-                           run == first ? "seed=1" : "seed=2"}),
-                    {.out = run, .quiet = true});
+    execute_mission(
+        smoke({"planner.termination.max_iterations=1", run == first ? "seed=1" : "seed=2"}),
+        {.out = run, .quiet = true});
   }
-  const Scenario saved = smoke({"planner.profiling.method=saved", "planner.profiling.file=" +
-                                                                      (first / "profile.map").string()});
+  const Scenario saved = smoke({"planner.profiling.method=saved",
+                                "planner.profiling.file=" + (first / "profile.map").string()});
   execute_mission(saved, {.out = run_, .quiet = true});
   fs::remove(run_ / "summary.json");
   EXPECT_EQ(complaint(saved), "");
@@ -189,8 +189,9 @@ TEST_F(Resumed, NoticesAnEditedRowOfAFinishedRun) {
   const std::size_t sampler = csv.find(",agvs,");
   ASSERT_NE(sampler, std::string::npos);
   std::ofstream(run_ / "iterations.csv") << csv.replace(sampler, 6, ",fvs,");
-  for (const std::string& command : {std::string("score "), "report -o " + (temp_.path() / "r.html").string() + " ",
-                                    "plot -o " + temp_.path().string() + " "}) {
+  for (const std::string& command :
+       {std::string("score "), "report -o " + (temp_.path() / "r.html").string() + " ",
+        "plot -o " + temp_.path().string() + " "}) {
     const Outcome refused = gnbv(command + run_.string());
     EXPECT_EQ(refused.exit_code, 2) << command << refused.output;
     EXPECT_SAYS(refused.output, "iterations.csv: holds other rows");

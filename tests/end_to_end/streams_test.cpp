@@ -19,8 +19,7 @@ TEST(Streams, NoMessageEndsAMission) {
   int n = 0;
   for (const std::string stderr_to : {"2>/dev/full", "2>&-", "2>&- <&-"}) {
     const fs::path run = temp.path() / std::to_string(n++);
-    EXPECT_EQ(gnbv(kMission + run.string() + " >/dev/null " + stderr_to).exit_code, 0)
-        << stderr_to;
+    EXPECT_EQ(gnbv(kMission + run.string() + " >/dev/null " + stderr_to).exit_code, 0) << stderr_to;
     EXPECT_TRUE(fs::exists(run / "summary.json")) << stderr_to;
   }
   const fs::path run = temp.path() / "pipe";
@@ -81,7 +80,8 @@ TEST(Signals, AnIgnoredHangUpStaysIgnoredAndATermEndsInOrder) {
            " $p; wait $p";
   };
   const fs::path ignored = temp.path() / "ignored";
-  EXPECT_EQ(gnbv(run + ignored.string() + " 2>&1" + send(ignored, "HUP"), "trap '' HUP; ").exit_code, 0);
+  EXPECT_EQ(
+      gnbv(run + ignored.string() + " 2>&1" + send(ignored, "HUP"), "trap '' HUP; ").exit_code, 0);
   const fs::path ended = temp.path() / "ended";
   EXPECT_EQ(gnbv(run + ended.string() + " 2>&1" + send(ended, "HUP")).exit_code, 1);
   EXPECT_NE(read_file(ended / "summary.json").find("\"interrupted\""), std::string::npos);

@@ -1,5 +1,5 @@
-// What is final has reached the disk: nothing is renamed before it is synced, and the summary, which
-// says that a run is done, comes last. By the calls that the program makes (sync_log.cpp).
+// What is final has reached the disk: nothing is renamed before it is synced, and the summary,
+// which says that a run is done, comes last. By the calls that the program makes (sync_log.cpp).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,10 +45,9 @@ TEST(Sync, ARunIsOnTheDiskBeforeItsSummarySaysSo) {
     const auto own = place("sync " + entry.path().string());
     const auto renamed = place("rename " + entry.path().string());
     const bool is_synced_later = own != calls.rend() && own > summary;
-    const bool is_synced_before = renamed != calls.rend() && renamed > summary &&
-                                  (renamed + 1) != calls.rend() &&
-                                  (renamed + 1)->find("sync ") == 0 &&
-                                  (renamed + 1)->find(".part") != std::string::npos;
+    const bool is_synced_before =
+        renamed != calls.rend() && renamed > summary && (renamed + 1) != calls.rend() &&
+        (renamed + 1)->find("sync ") == 0 && (renamed + 1)->find(".part") != std::string::npos;
     EXPECT_TRUE(is_synced_later || is_synced_before) << entry.path();
   }
   EXPECT_LT(place("sync " + run.string()), summary) << "the folder after the last name in it";

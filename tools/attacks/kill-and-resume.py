@@ -45,7 +45,9 @@ def runs(table, gnbv, folder, options, dice):
             for _ in range(kills):
                 code = stopped(gnbv.start(*command), dice.uniform(0.0, takes_s),
                                signal.Signals[end])
-                wrong = half_written(run, whole) if run.exists() else None
+                # one that ended in order is whole, and shorter
+                is_killed = end == 'SIGKILL' and run.exists()
+                wrong = half_written(run, whole) if is_killed else None
                 if wrong is None and end != 'SIGKILL' and code not in (0, 1, -signal.Signals[end]):
                     wrong = f'exit code {code}'
                 if wrong:

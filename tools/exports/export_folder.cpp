@@ -153,8 +153,7 @@ void link_or_copy(const fs::path& file, const fs::path& second_name) {
   fs::create_directories(second_name.parent_path(), error);
   if (!error) fs::create_hard_link(file, second_name, error);
   if (!error) return;
-  fs::copy_file(file, second_name, error);
-  if (error) refuse_to_write(second_name, error.value());
+  write_file_atomically(second_name, read_file(file));
 }
 
 std::string frame_number(const RecordedFrame& frame) {

@@ -50,9 +50,9 @@ SparseModel sparse_model(const Export& e, const FrameRecord& frames) {
                          .progress = e.progress});
   if (!e.options.quiet) {
     say("{} of the cloud's {} points are shown by two of the {} frames or more, in {} "
-               "observations",
-               model.points_world_m.size(), cloud.points_world_m.size(), frames.frames.size(),
-               model.observation_count());
+        "observations",
+        model.points_world_m.size(), cloud.points_world_m.size(), frames.frames.size(),
+        model.observation_count());
   }
   return model;
 }

@@ -127,8 +127,8 @@ void fly(const FlyOptions& options) {
 
   const InterruptGuard interrupt;
   say("listening on {}, {} at x {:.2f} y {:.2f} m, speed {}; Ctrl-C ends",
-             mavlink::url_of(socket.address()), scenario.vehicle.preset, start.p_world_m.x(),
-             start.p_world_m.y(), options.speed);
+      mavlink::url_of(socket.address()), scenario.vehicle.preset, start.p_world_m.x(),
+      start.p_world_m.y(), options.speed);
   const auto on_lag = [&options] {
     say("this machine does not always keep up with --speed {}: the time that it is late "
         "is not made up for",

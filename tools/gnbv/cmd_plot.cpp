@@ -119,7 +119,7 @@ std::vector<Plot> plots_of_reach(const PlotOptions& options, std::span<const Run
   }
   if (plots.empty()) {
     say("no run's ceiling is known, so not how far they got; `gnbv score RUN --update "
-               "--ceiling` finds it");
+        "--ceiling` finds it");
   }
   return plots;
 }
@@ -136,8 +136,8 @@ std::vector<RunRecord> runs_at(std::vector<RunRecord> records, double size_m) {
       return false;
     }
     say("{}: not scored at {} m: left out; `gnbv score RUN --resolution {} --update` "
-               "scores it",
-               record.folder.string(), size_name(size_m), size_name(size_m));
+        "scores it",
+        record.folder.string(), size_name(size_m), size_name(size_m));
     return true;
   });
   return records;

@@ -88,8 +88,7 @@ void print_summary(const RunOptions& options, const Scenario& scenario, const fs
   if (options.json) {
     fmt::print("{}", read_file(folder / kSummaryFile));
   } else {
-    fmt::print("{}\n{}\n",
-               one_row_summary(read_run_figures(folder), has_papers_setting(scenario)),
+    fmt::print("{}\n{}\n", one_row_summary(read_run_figures(folder), has_papers_setting(scenario)),
                folder.string());
   }
 }

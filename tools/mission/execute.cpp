@@ -92,8 +92,8 @@ MissionHooks make_hooks(const Scenario& scenario, RunDirectory& directory, Progr
 /// The folder of the mission, which nobody else flies into until it is over.
 RunClaim claim_folder(const Scenario& scenario, const MissionOptions& options) {
   if (options.out.empty()) {
-    return RunClaim::of_free_folder(fmt::format("{}-{}-seed{}", scenario.name,
-                                                scenario.planner.utility.name, scenario.seed));
+    return RunClaim::of_free_folder(
+        fmt::format("{}-{}-seed{}", scenario.name, scenario.planner.utility.name, scenario.seed));
   }
   need_usable(options.out, scenario, options.resume);
   return RunClaim(options.out);
@@ -135,7 +135,7 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
   }
   need_saved_profile(scenario);
   if (scenario.planner.symmetry.enabled) symmetry_module();  // throws when it is missing
-  const RunClaim claim = claim_folder(scenario, options);  // an oracle may think for minutes
+  const RunClaim claim = claim_folder(scenario, options);    // an oracle may think for minutes
   ProgressBar progress(fmt::format("{} {}", scenario.name, scenario.planner.utility.name),
                        options.quiet);
   progress.show(0.0, "finding what there is to see");

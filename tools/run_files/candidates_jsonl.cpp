@@ -109,9 +109,9 @@ std::string lines_before(std::size_t iteration, const fs::path& part) {
     last = std::max(last, of);
   }
   if (last + 1 < iteration) {
-    throw BadInput(fmt::format(
-        "{}: holds no candidates of iteration {}, which was flown: cut off, or {}", part.string(),
-        last + 1, kNotWritten));
+    throw BadInput(
+        fmt::format("{}: holds no candidates of iteration {}, which was flown: cut off, or {}",
+                    part.string(), last + 1, kNotWritten));
   }
   return kept;
 }

@@ -153,10 +153,8 @@ void FramesFolder::write(std::size_t iteration, double time_s, std::span<const D
   for (std::size_t i = 0; i < depth.size(); ++i) {
     const CameraConfig& camera = cameras_[static_cast<std::size_t>(depth[i].camera)].config;
     const std::string stem = frame_stem(iteration, camera.name);
-    write_png(image_of(colour[i], camera), folder_ / (stem + ".rgb.png"),
-              Lasting::the_process);
-    write_png(image_of(depth[i], camera), folder_ / (stem + ".depth.png"),
-              Lasting::the_process);
+    write_png(image_of(colour[i], camera), folder_ / (stem + ".rgb.png"), Lasting::the_process);
+    write_png(image_of(depth[i], camera), folder_ / (stem + ".depth.png"), Lasting::the_process);
     poses_ += row_of(iteration, time_s, camera.name, depth[i].T_world_camera, stem);
   }
   write_file_atomically(folder_ / kPosesFile, poses_, Lasting::the_process);

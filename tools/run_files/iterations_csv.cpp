@@ -119,8 +119,8 @@ std::string take_check(std::string_view before, std::string_view& row, const Tex
   row = row.substr(0, std::min(comma, row.size()));
   const std::string check = check_of(before, row);
   if (cell == check) return check;
-  throw BadInput(fmt::format("{}: is not the row that was written: edited or damaged",
-                             to_string(place)));
+  throw BadInput(
+      fmt::format("{}: is not the row that was written: edited or damaged", to_string(place)));
 }
 
 /// A row's cells, read left to right.

@@ -20,8 +20,8 @@ std::string iterations_csv_header(Columns columns = Columns::usual);
 std::string iterations_csv_row(const ViewRecord& view, Columns columns = Columns::usual);
 std::string iterations_csv(std::span<const ViewRecord> views, Columns columns = Columns::usual);
 
-/// The rows of a run that goes on: a column more, `check`, is made of each row and of all before it,
-/// so that no change of them goes unnoticed.
+/// The rows of a run that goes on: a column more, `check`, is made of each row and of all before
+/// it, so that no change of them goes unnoticed.
 class JournalRows {
  public:
   explicit JournalRows(Columns columns) : columns_(columns) {}

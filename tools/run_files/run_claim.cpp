@@ -25,8 +25,7 @@ std::vector<fs::path> missing_folders(fs::path folder) {
 
 }  // namespace
 
-RunClaim::RunClaim(fs::path folder)
-    : folder_(std::move(folder)), made_(missing_folders(folder_)) {
+RunClaim::RunClaim(fs::path folder) : folder_(std::move(folder)), made_(missing_folders(folder_)) {
   make_folder(folder_);
   lock_ = FileLock::take(folder_ / kLockFile);
   if (lock_) return;

@@ -37,10 +37,9 @@ void need_inside(const ViewRecord& view, const Scenario& scenario, const fs::pat
   places_m.push_back(view.decision.view.p_world_m);
   for (const Vec3& p_m : places_m) {
     if (scenario.workspace_m.exteriorDistance(p_m) <= kRounding_m) continue;
-    throw BadInput(
-        fmt::format("{}:{}: view {} leads to {:g} {:g} {:g} m, outside the workspace: {}",
-                    file.string(), view.iteration + 2, view.iteration, p_m.x(), p_m.y(), p_m.z(),
-                    kOtherRecord));
+    throw BadInput(fmt::format(
+        "{}:{}: view {} leads to {:g} {:g} {:g} m, outside the workspace: {}", file.string(),
+        view.iteration + 2, view.iteration, p_m.x(), p_m.y(), p_m.z(), kOtherRecord));
   }
 }
 
@@ -122,10 +121,11 @@ void RunDirectory::need_as_recorded(const ViewRecord& view) const {
   if (i >= recorded_.size()) return;
   const std::optional<Difference> difference = first_difference(view, recorded_[i]);
   if (!difference) return;
-  throw BadInput(fmt::format("{}: view {}: {} is {} when it is flown again, recorded was {}: {}; {} "
-                             "flies it anew",
-                             folder_.string(), i, difference->column, difference->now,
-                             difference->recorded, kOtherRecord, command_to_fly_again(folder_)));
+  throw BadInput(
+      fmt::format("{}: view {}: {} is {} when it is flown again, recorded was {}: {}; {} "
+                  "flies it anew",
+                  folder_.string(), i, difference->column, difference->now, difference->recorded,
+                  kOtherRecord, command_to_fly_again(folder_)));
 }
 
 void RunDirectory::need_as_recorded(const MissionResult& result) const {

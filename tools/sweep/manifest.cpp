@@ -119,7 +119,8 @@ std::optional<ManifestHead> read_manifest_head(const fs::path& folder) {
       head.ids.push_back(cell.at("id").get<std::string>());
     return head;
   } catch (const Json::exception& error) {
-    throw BadInput(fmt::format("{}: is no manifest of a sweep: {}", path.string(), json_reason(error)));
+    throw BadInput(
+        fmt::format("{}: is no manifest of a sweep: {}", path.string(), json_reason(error)));
   }
 }
 
@@ -142,7 +143,8 @@ std::vector<Cell> cells_of_manifest(const fs::path& folder) {
       }
     }
   } catch (const Json::exception& error) {
-    throw BadInput(fmt::format("{}: is no manifest of a sweep: {}", path.string(), json_reason(error)));
+    throw BadInput(
+        fmt::format("{}: is no manifest of a sweep: {}", path.string(), json_reason(error)));
   }
   if (cells.empty()) throw BadInput(fmt::format("{}: has no cells", path.string()));
   return cells;

@@ -15,9 +15,7 @@ void print_to_stderr(std::string_view text);
 void say(std::string_view sentence);
 
 template <typename... Values>
-void say(fmt::format_string<Values...> words, Values&&... values)
-requires(sizeof...(Values) > 0)
-{
+void say(fmt::format_string<Values...> words, Values&&... values) requires(sizeof...(Values) > 0) {
   say(std::string_view(fmt::format(words, std::forward<Values>(values)...)));
 }
 
