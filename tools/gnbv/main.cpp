@@ -12,6 +12,7 @@
 
 #include "sim/core/error.hpp"
 #include "tools/gnbv/commands.hpp"
+#include "tools/gnbv/shared_options.hpp"
 
 namespace {
 
@@ -36,6 +37,7 @@ int run(int argc, char** argv) {
   gnbv::add_score_command(app);
   gnbv::add_check_command(app);
   gnbv::add_surface_command(app);
+  gnbv::refuse_what_is_not_finite(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
