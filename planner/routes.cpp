@@ -68,8 +68,7 @@ std::vector<ViewPose> hemisphere(const RouteConfig& config, const RouteProblem& 
                                  std::span<const Vec3> obstacles_m, const Box3& structure_m) {
   const Vec3 center_m(structure_m.center().x(), structure_m.center().y(), structure_m.min().z());
   std::vector<ViewPose> views;
-  constexpr int kMostViews = 10000;  // ordering them takes the square of it
-  const int count = std::min(problem.views, kMostViews);
+  const int count = std::min(problem.views, kMostLaidViews);
   for (int i = 0; i < count; ++i) {
     const double up = (i + 0.5) / count;
     const double bearing_rad = 2.0 * kPi * i / (std::numbers::phi * std::numbers::phi);
@@ -121,6 +120,16 @@ std::vector<ViewPose> lawnmower(const RouteConfig& config, const RouteProblem& p
        {{{lo.x(), hi.y()}, {lo.x(), lo.y()}}}}};
   const double level_rad = pitch_towards(problem.camera, Vec3::Zero(), Vec3::UnitX());
   const double down_rad = pitch_towards(problem.camera, Vec3::Zero(), -Vec3::UnitZ());
+  const Vec3 size_m = hi - lo;
+  const double rows = 2.0 * (size_m.x() + size_m.y() + 4.0 * column_m) / column_m *
+                          ((structure_m.max().z() - lo.z()) / row_m + 2.0) +
+                      (size_m.y() / column_m + 2.0) * (size_m.x() / row_m + 2.0);
+  if (rows > kMostLaidViews) {
+    throw BadInput(fmt::format(
+        "planner.routes.standoff_m, planner.routes.overlap: rows at {} m with an overlap of {} are "
+        "about {:.2g} views around this structure; at most {} are laid",
+        config.standoff_m, config.overlap, rows, kMostLaidViews));
+  }
   std::vector<ViewPose> views;
   for (const auto& [from, to] : sides) {
     const Eigen::Vector2d along = to - from;

@@ -45,13 +45,14 @@ struct RouteProblem {
   const Box3& navigation_m;
   const CameraModel& camera;  // whose footprint spaces the rows
   ViewPose start;
-  int views = 1;  // uniform_hemisphere: how many, 10,000 at most
+  int views = 1;  // uniform_hemisphere: how many, kMostLaidViews at most
 };
+constexpr int kMostLaidViews = 10'000;  // ordering them takes the square of it
 
 /// The views in the order in which they are to be flown; empty where nothing is occupied. A gimbal
 /// looks at what the view does: on a hemisphere at its centre, of a lawnmower level from the sides
 /// and down from above.
-/// Requires is_route(name).
+/// Requires is_route(name). Throws BadInput when a lawnmower would need more than kMostLaidViews.
 std::vector<ViewPose> plan_route(std::string_view name, const RouteConfig& config,
                                  const RouteProblem& problem);
 

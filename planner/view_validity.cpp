@@ -94,10 +94,12 @@ ViewChecker::Reachability ViewChecker::check_position(const Vec3& p_world_m) con
   const Vec3& from_m = current_.p_world_m;
   const bool is_allowed = no_fly_.allows_leg(from_m, p_world_m);
   if (is_allowed && config_.path == PathCheck::unchecked) return {};
-  if (is_allowed && is_path_clear(grid_, from_m, p_world_m, radius_m)) return {};
+  const bool is_known = config_.path != PathCheck::astar || config_.allow_unknown ||
+                        is_line_free(grid_, from_m, p_world_m);
+  if (is_allowed && is_known && is_path_clear(grid_, from_m, p_world_m, radius_m)) return {};
   if (config_.path == PathCheck::astar) {
-    auto via_m =
-        find_path(config_.path_search, grid_, navigation_m_, from_m, p_world_m, radius_m, no_fly_);
+    auto via_m = find_path(config_.path_search, grid_, navigation_m_, from_m, p_world_m, radius_m,
+                           no_fly_, config_.allow_unknown);
     if (via_m) return {std::nullopt, std::move(*via_m)};
   }
   return {Rejection::path_blocked, {}};

@@ -16,8 +16,9 @@
 namespace gnbv {
 namespace {
 
-// Aliases can repeat aliases: a short text may stand for more values than fit into memory.
-constexpr std::size_t kMaxAliasedNodes = 100'000;
+// Aliases can repeat aliases, and anchors can stand within anchors: a short text may ask for more
+// copies of its values than fit into memory.
+constexpr std::size_t kMaxCopiedNodes = 100'000;
 
 std::size_t node_count(const YamlNode& node) {
   std::size_t count = 1;
@@ -46,11 +47,7 @@ class TreeBuilder final : public YAML::EventHandler {
       faults_.add(at(mark), path(), "", "the alias stands inside the value it refers to");
       return finish({}, 0);
     }
-    aliased_nodes_ += node_count(known->second);
-    if (aliased_nodes_ > kMaxAliasedNodes) {
-      throw YAML::ParserException(
-          mark, fmt::format("aliases stand for more than {} values", kMaxAliasedNodes));
-    }
+    count_copies(known->second, mark);
     finish(known->second, 0);
   }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
@@ -109,8 +106,20 @@ class TreeBuilder final : public YAML::EventHandler {
     finish(std::move(closed.node), closed.anchor);
   }
 
+  void count_copies(const YamlNode& node, const YAML::Mark& mark) {
+    copied_nodes_ += node_count(node);
+    if (copied_nodes_ <= kMaxCopiedNodes) return;
+    throw YAML::ParserException(
+        mark, fmt::format("anchors and aliases stand for more than {} values", kMaxCopiedNodes));
+  }
+
   void finish(YamlNode node, YAML::anchor_t anchor) {
-    if (anchor != 0) anchors_[anchor] = node;
+    if (anchor != 0) {
+      YAML::Mark mark;
+      mark.line = std::max(0, node.origin.line - 1);
+      count_copies(node, mark);
+      anchors_[anchor] = node;
+    }
     if (open_.empty()) {
       root_ = std::move(node);
       return;
@@ -162,7 +171,7 @@ class TreeBuilder final : public YAML::EventHandler {
   YamlNode root_;
   std::vector<Open> open_;
   std::map<YAML::anchor_t, YamlNode> anchors_;
-  std::size_t aliased_nodes_ = 0;
+  std::size_t copied_nodes_ = 0;
 };
 
 /// Only tells where a further document begins.

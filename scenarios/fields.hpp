@@ -140,12 +140,6 @@ class FieldVisitor {
     if (given) items.assign(*given, Config{});
     visit_items(items);
   }
-  /// A list of fixed length: what an item leaves out keeps its value.
-  template <typename Config, std::size_t count>
-  void list(std::string_view key, std::array<Config, count>& items, std::string_view meaning) {
-    begin_list(key, count, {count, count}, meaning);
-    visit_items(items);
-  }
 
  protected:
   enum class Form { leaf, section, both };

@@ -125,11 +125,14 @@ void fields(FieldVisitor& v, ValidityConfig& c) {
   v.number("recent_distance_m", c.recent_distance_m, between(0, 100),
            "The same view: nearer than this");
   v.angle("recent_yaw_deg", c.recent_yaw_rad, between(0, 180), "and turned by less than this.");
-  v.flag("allow_unknown", c.allow_unknown,
-         "Views in unknown space, too; false, the paper: in free space only.");
-  v.choice("path", c.path, kPathChecks,
-           "straight: a view behind an obstacle is discarded; astar: unless there is a way around "
-           "it; unchecked: flown to all the same.");
+  v.flag(
+      "allow_unknown", c.allow_unknown,
+      "Views, and legs that path: astar checks, in unknown space, too; false, the paper: in free "
+      "space only.");
+  v.choice(
+      "path", c.path, kPathChecks,
+      "straight: a view behind what is known is discarded, the paper; astar: a view to which no "
+      "way leads through known space; unchecked: flown to all the same.");
   v.section("path_search", c.path_search, "The search for a way around.");
 }
 

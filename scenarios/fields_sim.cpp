@@ -48,14 +48,16 @@ void fields(FieldVisitor& v, RotorMount& c) {
 void fields(FieldVisitor& v, AirframeParameters& c) {
   v.number("mass_kg", c.mass_kg, above_upto(0, 1e3), "Of the whole vehicle.");
   v.number("inertia_kg_m2", c.inertia_kg_m2, above_upto(0, 1e3), "Diagonal, body axes.");
-  v.list("rotors", c.rotors, "The four rotors, in PX4's order.");
+  v.list(
+      "rotors", c.rotors, {kLeastRotors, kMostRotors},
+      "Four to eight rotors in any layout around the centre of mass; presets are in PX4's order.");
   v.number("thrust_coefficient_n_s2", c.thrust_coefficient_n_s2, above_upto(0, 1),
            "Thrust at rest over the square of the rotor speed.");
   v.number("moment_per_thrust_m", c.moment_per_thrust_m, between(0, 1),
            "Reaction torque over thrust at rest.");
   v.number("drag_coefficient_n_s2_per_m", c.drag_coefficient_n_s2_per_m, between(0, 1),
            "Rotor drag over rotor speed times in-plane velocity.");
-  v.number("rolling_coefficient_n_s2", c.rolling_coefficient_n_s2, between(0, 1),
+  v.number("rolling_coefficient_n_s2", c.rolling_coefficient_n_s2, between(0, 1e-4),
            "Rolling moment over rotor speed times in-plane velocity.");
   v.flag("rolling_follows_spin", c.rolling_follows_spin,
          "Whether the rolling moment changes sign with the rotor's spin.");
@@ -84,9 +86,9 @@ void fields(FieldVisitor& v, AutopilotParameters& c) {
   v.number("velocity_d", c.velocity_d, kGain, "MPC_XY_VEL_D_ACC, MPC_Z_VEL_D_ACC.");
   v.number("velocity_derivative_cutoff_hz", c.velocity_derivative_cutoff_hz, above_upto(0, 1e3),
            "MPC_VELD_LP.");
-  v.number("speed_max_m_s", c.speed_max_m_s, above_upto(0, 100), "MPC_XY_VEL_MAX.");
-  v.number("climb_speed_max_m_s", c.climb_speed_max_m_s, above_upto(0, 100), "MPC_Z_VEL_MAX_UP.");
-  v.number("descent_speed_max_m_s", c.descent_speed_max_m_s, above_upto(0, 100),
+  v.number("speed_max_m_s", c.speed_max_m_s, between(0.01, 100), "MPC_XY_VEL_MAX.");
+  v.number("climb_speed_max_m_s", c.climb_speed_max_m_s, between(0.01, 100), "MPC_Z_VEL_MAX_UP.");
+  v.number("descent_speed_max_m_s", c.descent_speed_max_m_s, between(0.01, 100),
            "MPC_Z_VEL_MAX_DN.");
   v.angle("tilt_max_deg", c.tilt_max_rad, inside(0, 90), "MPC_TILTMAX_AIR.");
   v.number("thrust_min", c.thrust_min, kShare, "MPC_THR_MIN, of the full command.");
@@ -94,7 +96,7 @@ void fields(FieldVisitor& v, AutopilotParameters& c) {
   v.number("thrust_margin_xy", c.thrust_margin_xy, kShare, "MPC_THR_XY_MARG.");
   v.number("attitude_p_per_s", c.attitude_p_per_s, kGain, "MC_ROLL_P, MC_PITCH_P, MC_YAW_P.");
   v.number("yaw_weight", c.yaw_weight, above_upto(0, 1), "MC_YAW_WEIGHT.");
-  v.angle("rate_max_deg_s", c.rate_max_rad_s, above_upto(0, 1e4),
+  v.angle("rate_max_deg_s", c.rate_max_rad_s, between(0.1, 1e4),
           "MC_ROLLRATE_MAX, MC_PITCHRATE_MAX, MC_YAWRATE_MAX.");
   v.number("rate_p", c.rate_p, kGain, "MC_ROLLRATE_P, MC_PITCHRATE_P, MC_YAWRATE_P.");
   v.number("rate_i", c.rate_i, kGain, "MC_ROLLRATE_I, MC_PITCHRATE_I, MC_YAWRATE_I.");
@@ -107,15 +109,16 @@ void fields(FieldVisitor& v, AutopilotParameters& c) {
 
 void fields(FieldVisitor& v, CommanderParameters& c) {
   constexpr Range kTime = between(0, 1e3);
-  constexpr Range kSpeed = above_upto(0, 100);
+  constexpr Range kSpeed = between(0.01, 100);
   constexpr Range kLength = between(0, 1e3);
   v.number("offboard_loss_s", c.offboard_loss_s, above_upto(0, 1e3), "COM_OF_LOSS_T.");
   v.number("offboard_loss_hold_s", c.offboard_loss_hold_s, kTime,
            "Held this long before the action; PX4 1.9's COM_OF_LOSS_T.");
   v.choice("offboard_loss_action", c.offboard_loss_action, kOffboardLossActions,
            "COM_OBL_RC_ACT; a mode that cannot run falls back, without a remote control to hold.");
-  v.number("disarm_after_landing_s", c.disarm_after_landing_s, kTime, "COM_DISARM_LAND.");
-  v.number("disarm_never_flown_s", c.disarm_never_flown_s, kTime, "COM_DISARM_PRFLT.");
+  v.number("disarm_after_landing_s", c.disarm_after_landing_s, kTime,
+           "COM_DISARM_LAND; 0: at once.");
+  v.number("disarm_never_flown_s", c.disarm_never_flown_s, kTime, "COM_DISARM_PRFLT; 0: never.");
   v.number("spool_up_s", c.spool_up_s, kTime, "COM_SPOOLUP_TIME.");
   v.number("takeoff_ramp_s", c.takeoff_ramp_s, kTime, "MPC_TKO_RAMP_T.");
   v.number("takeoff_altitude_m", c.takeoff_altitude_m, kLength, "MIS_TAKEOFF_ALT.");
@@ -183,16 +186,16 @@ void fields(FieldVisitor& v, VehicleConfig& c) {
 }
 
 void fields(FieldVisitor& v, GuidanceConfig& c) {
-  v.number("path_speed_m_s", c.path_speed_m_s, above_upto(0, 50), "Top speed between views.");
-  v.number("profile_speed_m_s", c.profile_speed_m_s, above_upto(0, 50),
+  v.number("path_speed_m_s", c.path_speed_m_s, between(0.01, 50), "Top speed between views.");
+  v.number("profile_speed_m_s", c.profile_speed_m_s, between(0.01, 50),
            "Top speed of the profile's descents.");
-  v.number("acceleration_m_s2", c.acceleration_m_s2, above_upto(0, 50),
+  v.number("acceleration_m_s2", c.acceleration_m_s2, between(0.01, 50),
            "Of speeding up and braking.");
-  v.number("jerk_m_s3", c.jerk_m_s3, above_upto(0, 1e3), "Top rate of change of acceleration.");
-  v.angle("yaw_rate_deg_s", c.yaw_rate_rad_s, above_upto(0, 1e3), "Top turning speed.");
-  v.angle("yaw_acceleration_deg_s2", c.yaw_acceleration_rad_s2, above_upto(0, 1e4),
+  v.number("jerk_m_s3", c.jerk_m_s3, between(0.01, 1e3), "Top rate of change of acceleration.");
+  v.angle("yaw_rate_deg_s", c.yaw_rate_rad_s, between(0.1, 1e3), "Top turning speed.");
+  v.angle("yaw_acceleration_deg_s2", c.yaw_acceleration_rad_s2, between(0.1, 1e4),
           "Of starting and ending a turn.");
-  v.angle("yaw_jerk_deg_s3", c.yaw_jerk_rad_s3, above_upto(0, 1e5),
+  v.angle("yaw_jerk_deg_s3", c.yaw_jerk_rad_s3, between(0.1, 1e5),
           "Top rate of change of the turn's acceleration.");
   v.number("arrival_distance_m", c.arrival_distance_m, above_upto(0, 10),
            "Arrived: nearer to the goal than this,");
@@ -200,7 +203,7 @@ void fields(FieldVisitor& v, GuidanceConfig& c) {
           "Arrived: turned to the goal's yaw up to this,");
   v.number("arrival_speed_m_s", c.arrival_speed_m_s, above_upto(0, 10),
            "Arrived: slower than this.");
-  v.number("timeout_s", c.timeout_s, above_upto(0, 1e5),
+  v.number("timeout_s", c.timeout_s, above_upto(0, 3600),
            "A leg is given up when it takes this much longer than its reference.");
 }
 

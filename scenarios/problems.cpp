@@ -6,9 +6,9 @@
 
 #include "planner/map/memory.hpp"
 #include "scenarios/adversities.hpp"
+#include "scenarios/problems_vehicle.hpp"
 #include "scenarios/problems_world.hpp"
 #include "scenarios/values.hpp"
-#include "sim/flight/rotors.hpp"
 
 namespace gnbv {
 namespace {
@@ -16,14 +16,6 @@ namespace {
 using Problems = std::vector<Problem>;
 
 constexpr double kGiB = 1024.0 * 1024 * 1024;
-
-/// The two have to be in order; the first key is the smaller one's.
-void require_below(double low, double high, const std::string& low_key, const std::string& high_key,
-                   Problems& out) {
-  if (low < high) return;
-  out.push_back({{high_key, low_key},
-                 fmt::format("{} = {} has to be below {} = {}", low_key, low, high_key, high)});
-}
 
 /// A vehicle has one gimbal; several cameras may hang on it.
 void check_gimbal(const std::vector<CameraConfig>& cameras, Problems& out) {
@@ -44,26 +36,35 @@ void check_gimbal(const std::vector<CameraConfig>& cameras, Problems& out) {
   }
 }
 
+/// Files and messages tell sensors of a list apart by their names.
+template <typename Sensor>
+void check_names(const std::vector<Sensor>& sensors, const std::string& list, Problems& out) {
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (sensors[i].name != sensors[j].name) continue;
+      out.push_back(
+          {{fmt::format("{}.{}.name", list, i), fmt::format("{}.{}.name", list, j)},
+           fmt::format("two {}, {} and {}, are named '{}'", list, j, i, sensors[i].name)});
+      break;
+    }
+  }
+}
+
 void check_sensors(const Scenario& s, Problems& out) {
   if (s.cameras.empty()) out.push_back({{"cameras"}, "names no camera; at least one has to look"});
   for (std::size_t i = 0; i < s.cameras.size(); ++i) {
     const std::string key = fmt::format("cameras.{}.", i);
     require_below(s.cameras[i].range_min_m, s.cameras[i].range_max_m, key + "range_min_m",
                   key + "range_max_m", out);
-    for (std::size_t j = 0; j < i; ++j) {
-      if (s.cameras[i].name != s.cameras[j].name) continue;
-      out.push_back(
-          {{key + "name", fmt::format("cameras.{}.name", j)},
-           fmt::format("two cameras, {} and {}, are named '{}'", j, i, s.cameras[i].name)});
-      break;
-    }
   }
+  check_names(s.cameras, "cameras", out);
   check_gimbal(s.cameras, out);
   for (std::size_t i = 0; i < s.lidars.size(); ++i) {
     const std::string key = fmt::format("lidars.{}.", i);
     require_below(s.lidars[i].range_min_m, s.lidars[i].range_max_m, key + "range_min_m",
                   key + "range_max_m", out);
   }
+  check_names(s.lidars, "lidars", out);
   const ProfilingMethod profiling = s.planner.profiling.method;
   const bool is_scanned = profiling != ProfilingMethod::none && profiling != ProfilingMethod::saved;
   if (s.lidars.empty() && is_scanned) {
@@ -197,56 +198,6 @@ void check_map_thresholds(const OccupancyConfig& map, Problems& out) {
   }
 }
 
-void check_vehicle(const VehicleConfig& vehicle, Problems& out) {
-  if (vehicle.kind == VehicleKind::ideal && vehicle.estimate.model != EstimateModel::none) {
-    out.push_back({{"vehicle.estimate.model", "vehicle.kind"},
-                   "an ideal vehicle knows where it is: its estimate is `none`"});
-  }
-  for (std::size_t i = 0; i < vehicle.airframe.rotors.size(); ++i) {
-    if (std::abs(vehicle.airframe.rotors[i].spin) == 1.0) continue;
-    out.push_back({{fmt::format("vehicle.airframe.rotors.{}.spin", i)}, "has to be 1 or -1"});
-  }
-  const AutopilotParameters& autopilot = vehicle.autopilot;
-  const std::string key = "vehicle.autopilot.";
-  require_below(autopilot.thrust_min, autopilot.thrust_max, key + "thrust_min", key + "thrust_max",
-                out);
-  require_below(autopilot.thrust_margin_xy, autopilot.thrust_max, key + "thrust_margin_xy",
-                key + "thrust_max", out);
-  const AirframeParameters& a = vehicle.airframe;
-  const double hover = (hover_speed_rad_s(a) - a.idle_speed_rad_s) / a.command_gain_rad_s;
-  if (autopilot.thrust_min < hover && hover < autopilot.thrust_max) return;
-  out.push_back({{"vehicle.airframe.mass_kg", "vehicle.airframe.thrust_coefficient_n_s2"},
-                 fmt::format("hovering takes the command {:.2f}, which is not between thrust_min = "
-                             "{} and thrust_max = {}",
-                             hover, autopilot.thrust_min, autopilot.thrust_max)});
-}
-
-/// A leg flown faster than the autopilot allows would only time out. Climb and descent are limited
-/// by the guidance itself.
-void check_guidance(const Scenario& s, Problems& out) {
-  if (s.vehicle.kind == VehicleKind::ideal) return;
-  const double limit_m_s = s.vehicle.autopilot.speed_max_m_s;
-  const auto check = [&](double speed_m_s, const std::string& key) {
-    if (speed_m_s <= limit_m_s) return;
-    out.push_back({{"guidance." + key, "vehicle.autopilot.speed_max_m_s"},
-                   fmt::format("{} = {} is above the autopilot's speed_max_m_s = {}", key,
-                               speed_m_s, limit_m_s)});
-  };
-  check(s.guidance.path_speed_m_s, "path_speed_m_s");
-  check(s.guidance.profile_speed_m_s, "profile_speed_m_s");
-}
-
-/// The guidance streams a setpoint every 20 ms.
-void check_offboard(const VehicleConfig& vehicle, Problems& out) {
-  constexpr double kStream_s = 0.02;
-  const double loss_s = vehicle.autopilot.commander.offboard_loss_s;
-  if (vehicle.kind == VehicleKind::ideal || loss_s > kStream_s) return;
-  out.push_back({{"vehicle.autopilot.commander.offboard_loss_s"},
-                 fmt::format("has to exceed the {} s between two setpoints of the guidance, or the "
-                             "vehicle never stays in OFFBOARD",
-                             kStream_s)});
-}
-
 void check_utility(const UtilityConfig& utility, Problems& out) {
   if (utility.name != "proposed" || utility.beta + utility.gamma > 0.0) return;
   out.push_back({{"planner.utility.beta", "planner.utility.gamma"},
@@ -260,9 +211,7 @@ std::vector<Problem> problems(const Scenario& scenario) {
   check_workspace(scenario, out);
   check_world(scenario, out);
   check_sensors(scenario, out);
-  check_vehicle(scenario.vehicle, out);
-  check_guidance(scenario, out);
-  check_offboard(scenario.vehicle, out);
+  check_vehicle(scenario, out);
   check_adversities(scenario, out);
   check_cloud(scenario.planner, out);
   check_lengths(scenario.planner, out);

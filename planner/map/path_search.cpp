@@ -17,13 +17,14 @@ using Node = std::array<int, 3>;  // steps from the start along the world axes
 class Search {
  public:
   Search(const OccupancyGrid& grid, const Box3& navigation_m, const Vec3& from_world_m,
-         const Vec3& to_world_m, double radius_m, const NoFly& no_fly)
+         const Vec3& to_world_m, double radius_m, const NoFly& no_fly, bool allow_unknown)
       : grid_(grid),
         no_fly_(no_fly),
         navigation_m_(navigation_m),
         from_m_(from_world_m),
         to_m_(to_world_m),
         radius_m_(radius_m),
+        allow_unknown_(allow_unknown),
         step_m_(std::max(radius_m, grid.geometry().resolution_m())) {}
 
   std::optional<std::vector<Vec3>> run(int max_expansions) {
@@ -65,7 +66,7 @@ class Search {
   bool is_leg_clear(const Vec3& a_m, const Vec3& b_m) const {
     constexpr double kRounding_m = 1e-6;
     return navigation_m_.squaredExteriorDistance(b_m) <= kRounding_m * kRounding_m &&
-           no_fly_.allows_leg(a_m, b_m) && is_line_free(grid_, a_m, b_m) &&
+           no_fly_.allows_leg(a_m, b_m) && (allow_unknown_ || is_line_free(grid_, a_m, b_m)) &&
            is_path_clear(grid_, a_m, b_m, radius_m_);
   }
 
@@ -111,7 +112,9 @@ class Search {
   const NoFly& no_fly_;
   Box3 navigation_m_;
   Vec3 from_m_, to_m_;
-  double radius_m_, step_m_;
+  double radius_m_;
+  bool allow_unknown_;
+  double step_m_;
   std::map<Node, Reached> reached_;
   std::set<Node> closed_;
   std::priority_queue<Open> open_;
@@ -123,8 +126,9 @@ class Search {
 std::optional<std::vector<Vec3>> find_path(const PathSearchConfig& config,
                                            const OccupancyGrid& grid, const Box3& navigation_m,
                                            const Vec3& from_world_m, const Vec3& to_world_m,
-                                           double radius_m, const NoFly& no_fly) {
-  return Search(grid, navigation_m, from_world_m, to_world_m, radius_m, no_fly)
+                                           double radius_m, const NoFly& no_fly,
+                                           bool allow_unknown) {
+  return Search(grid, navigation_m, from_world_m, to_world_m, radius_m, no_fly, allow_unknown)
       .run(config.max_expansions);
 }
 

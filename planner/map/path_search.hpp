@@ -15,10 +15,12 @@ namespace gnbv {
 /// way and inside the navigation box; then straightened greedily. Returns the points between the
 /// ends: none when the straight path will do. Nothing where no way was found. Deterministic: of
 /// equal nodes the one found first is expanded first. No leg of it is one that `no_fly` forbids.
+/// `allow_unknown`: through unknown voxels, too.
 std::optional<std::vector<Vec3>> find_path(const PathSearchConfig& config,
                                            const OccupancyGrid& grid, const Box3& navigation_m,
                                            const Vec3& from_world_m, const Vec3& to_world_m,
-                                           double radius_m, const NoFly& no_fly = {});
+                                           double radius_m, const NoFly& no_fly = {},
+                                           bool allow_unknown = false);
 
 /// Length of the way from one end by the points between them to the other.
 double path_length_m(const Vec3& from_world_m, std::span<const Vec3> via_world_m,

@@ -18,12 +18,12 @@ AttitudeSetpoint position_loop(const AutopilotParameters& parameters,
                           setpoint, kPositionLoop_s);
 }
 
-RotorCommands rate_loop(const AutopilotParameters& parameters, const AirframeParameters& airframe,
+RotorCommands rate_loop(const AutopilotParameters& parameters, const Allocation& allocation,
                         RateControlMemory& memory, const Vec3& omega_body_rad_s,
                         const Vec3& omega_setpoint_body_rad_s, double thrust) {
   const Vec3 torque =
       rate_control(parameters, memory, omega_body_rad_s, omega_setpoint_body_rad_s, kRateStep_s);
-  const MixerOutput mixed = mix(airframe, torque, thrust);
+  const MixerOutput mixed = mix(allocation, torque, thrust);
   for (int i = 0; i < 3; ++i) {
     const double missing = torque[i] - mixed.torque[i];
     constexpr double kRounding = 1e-7;  // FLT_EPSILON in PX4

@@ -27,7 +27,7 @@ AttitudeSetpoint position_loop(const AutopilotParameters& parameters,
                                const Setpoint& setpoint);
 
 /// Rate loop and mixer, kRateStep_s after the last.
-RotorCommands rate_loop(const AutopilotParameters& parameters, const AirframeParameters& airframe,
+RotorCommands rate_loop(const AutopilotParameters& parameters, const Allocation& allocation,
                         RateControlMemory& memory, const Vec3& omega_body_rad_s,
                         const Vec3& omega_setpoint_body_rad_s, double thrust);
 

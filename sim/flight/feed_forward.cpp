@@ -8,7 +8,7 @@ namespace gnbv {
 
 Vec3 acceleration_setpoint(const AirframeParameters& airframe, const AutopilotParameters& autopilot,
                            const Vec3& v_world_m_s, const Vec3& a_world_m_s2) {
-  constexpr double kCount = static_cast<double>(kRotors);
+  const auto rotors = static_cast<double>(airframe.rotors.size());
   Vec3 body_z_world = Vec3::UnitZ();
   double speed_rad_s = hover_speed_rad_s(airframe);
   // thrust and tilt depend on the drag, and the drag on both, but weakly: eight turns leave less
@@ -18,13 +18,13 @@ Vec3 acceleration_setpoint(const AirframeParameters& airframe, const AutopilotPa
     const Vec3 v_body_m_s = q.conjugate() * v_world_m_s;
     const Vec3 v_disk_m_s(v_body_m_s.x(), v_body_m_s.y(), 0.0);
     const double drag_per_s =
-        kCount * speed_rad_s * airframe.drag_coefficient_n_s2_per_m / airframe.mass_kg;
+        rotors * speed_rad_s * airframe.drag_coefficient_n_s2_per_m / airframe.mass_kg;
     const Vec3 thrust_m_s2 =
         a_world_m_s2 + airframe.gravity_m_s2 * Vec3::UnitZ() + drag_per_s * (q * v_disk_m_s);
     body_z_world = thrust_m_s2.normalized();
     const double thrust_at_rest_n =
         airframe.mass_kg * thrust_m_s2.norm() / thrust_share(airframe, v_body_m_s);
-    speed_rad_s = std::sqrt(thrust_at_rest_n / (kCount * airframe.thrust_coefficient_n_s2));
+    speed_rad_s = std::sqrt(thrust_at_rest_n / (rotors * airframe.thrust_coefficient_n_s2));
   }
   // position_control tilts by a_xy over g, and takes the command's vertical part for 1 + a_z / g
   // of the hover command

@@ -122,6 +122,7 @@ LegEnd fly_leg(Flight& flight, const ViewPose& goal, double speed_m_s, const Gui
   GNBV_CHECK(goal.p_world_m.allFinite() && std::isfinite(goal.yaw_rad) && speed_m_s > 0.0,
              "the goal must be finite and the speed, {} m/s, positive", speed_m_s);
   const Leg leg(level_pose(flight.estimate()), goal, speed_m_s, config, vehicle);
+  if (!(leg.duration_s() <= kLongestLeg_s)) return LegEnd::timeout;
   for (int sent = 0;; ++sent) {
     const double time_s = sent * kTicksPerSetpoint * kTick_s;
     if (time_s > leg.duration_s() + config.timeout_s) return LegEnd::timeout;

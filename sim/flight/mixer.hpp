@@ -1,8 +1,8 @@
-// PX4's allocation for a quad X with sequential desaturation and airmode off
-// (ControlAllocationSequentialDesaturation.cpp): thrust gives way first, then roll and pitch, and
-// before any of them yaw.
+// PX4's sequential desaturation with airmode off (ControlAllocationSequentialDesaturation.cpp):
+// thrust gives way first, then roll and pitch, and before any of them yaw.
 #pragma once
 
+#include "sim/flight/allocation.hpp"
 #include "sim/flight/rotors.hpp"
 
 namespace gnbv {
@@ -13,6 +13,6 @@ struct MixerOutput {
 };
 
 /// `torque`: normalised, body axes. `thrust` in [0, 1].
-MixerOutput mix(const AirframeParameters& airframe, const Vec3& torque, double thrust);
+MixerOutput mix(const Allocation& allocation, const Vec3& torque, double thrust);
 
 }  // namespace gnbv

@@ -31,6 +31,7 @@ Px4::Px4(const AutopilotParameters& parameters, const AirframeParameters& airfra
          const VehicleState& start, Start how)
     : parameters_(parameters),
       airframe_(airframe),
+      allocation_(allocation_of(airframe)),
       estimate_(start),
       home_world_m_(start.T_world_body.translation().head<2>()),
       tilt_limit_rad_(parameters.commander.tilt_max_on_ground_rad) {
@@ -80,7 +81,7 @@ RotorSpeeds Px4::step(const VehicleState& estimate) {
 RotorSpeeds Px4::rate_step(const Vec3& omega_body_rad_s) {
   if (!is_armed_ || nav_state_ == NavState::terminate) return {};
   const Vec3 integral = rate_.integral;
-  const RotorCommands commands = rate_loop(parameters_, airframe_, rate_, omega_body_rad_s,
+  const RotorCommands commands = rate_loop(parameters_, allocation_, rate_, omega_body_rad_s,
                                            omega_setpoint_body_rad_s_, attitude_setpoint_.thrust);
   if (land_.is_maybe_landed) rate_.integral = integral;  // the ground holds it, not we
   return reference_speeds(airframe_, commands);

@@ -96,6 +96,7 @@ class Px4 {
 
   AutopilotParameters parameters_;
   AirframeParameters airframe_;
+  Allocation allocation_;
   std::int64_t tick_ = 0;
   VehicleState estimate_;
 

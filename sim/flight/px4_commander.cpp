@@ -128,6 +128,7 @@ void Px4::disarm_when_due() {
   const CommanderParameters& commander = parameters_.commander;
   const double wait_s =
       has_flown_ ? commander.disarm_after_landing_s : commander.disarm_never_flown_s;
+  if (!land_.is_landed || (!has_flown_ && wait_s == 0.0)) return;
   if (static_cast<double>(landed_ticks_) * kTick_s >= wait_s) disarm();
 }
 

@@ -1,8 +1,10 @@
 #include "sim/flight/quadrotor.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "sim/core/error.hpp"
+#include "sim/flight/allocation.hpp"
 #include "sim/mesh/world.hpp"
 
 namespace gnbv {
@@ -37,13 +39,16 @@ VehicleState start_state(const VehicleConfig& config, const World& world, const 
 
 RotorSpeeds start_speeds_rad_s(const AirframeParameters& airframe, Px4::Start how,
                                const HoverTrim& trim) {
+  if (how == Px4::Start::on_ground) return {};
+  const Allocation allocation = allocation_of(airframe);
   RotorSpeeds speeds_rad_s{};
-  if (trim.command > 0.0) {
-    RotorCommands commands;
-    commands.fill(trim.command);
-    return reference_speeds(airframe, commands);
+  for (std::size_t i = 0; i < allocation.rotors; ++i) {
+    const double share = allocation.thrust[i];
+    speeds_rad_s[i] =
+        trim.command > 0.0
+            ? airframe.idle_speed_rad_s + airframe.command_gain_rad_s * (trim.command * share)
+            : std::lerp(airframe.idle_speed_rad_s, hover_speed_rad_s(airframe), share);
   }
-  if (how == Px4::Start::airborne_offboard) speeds_rad_s.fill(hover_speed_rad_s(airframe));
   return speeds_rad_s;
 }
 

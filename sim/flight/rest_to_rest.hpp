@@ -4,6 +4,9 @@
 
 namespace gnbv {
 
+/// A leg whose reference takes longer is not begun: fly_leg() gives it up as a timeout at once.
+constexpr double kLongestLeg_s = 3600.0;
+
 class RestToRest {
  public:
   /// In any unit of length: metres or radians. All above 0.

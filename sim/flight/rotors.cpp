@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/core/error.hpp"
+#include "sim/flight/allocation.hpp"
 
 namespace gnbv {
 
@@ -16,7 +17,7 @@ double rotor_speed_after(const AirframeParameters& airframe, double speed_rad_s,
 
 RotorSpeeds reference_speeds(const AirframeParameters& airframe, const RotorCommands& commands) {
   RotorSpeeds speeds_rad_s{};
-  for (std::size_t i = 0; i < kRotors; ++i) {
+  for (std::size_t i = 0; i < airframe.rotors.size(); ++i) {
     speeds_rad_s[i] = airframe.idle_speed_rad_s + airframe.command_gain_rad_s * commands[i];
   }
   return speeds_rad_s;
@@ -24,7 +25,8 @@ RotorSpeeds reference_speeds(const AirframeParameters& airframe, const RotorComm
 
 double hover_speed_rad_s(const AirframeParameters& airframe) {
   const double weight_n = airframe.mass_kg * airframe.gravity_m_s2;
-  return std::sqrt(weight_n / (static_cast<double>(kRotors) * airframe.thrust_coefficient_n_s2));
+  return std::sqrt(
+      weight_n / (static_cast<double>(airframe.rotors.size()) * airframe.thrust_coefficient_n_s2));
 }
 
 double hover_command(const AirframeParameters& airframe) {
@@ -37,8 +39,12 @@ double hover_command(const AirframeParameters& airframe) {
 double yaw_authority_rad_s2(const AirframeParameters& airframe) {
   const double thrust_per_command_n = 2.0 * airframe.thrust_coefficient_n_s2 *
                                       hover_speed_rad_s(airframe) * airframe.command_gain_rad_s;
-  return static_cast<double>(kRotors) * airframe.moment_per_thrust_m * thrust_per_command_n /
-         airframe.inertia_kg_m2.z();
+  const Allocation allocation = allocation_of(airframe);
+  double turning = 0.0;
+  for (std::size_t i = 0; i < allocation.rotors; ++i) {
+    turning -= airframe.rotors[i].spin * allocation.torque[2].command[i];
+  }
+  return turning * airframe.moment_per_thrust_m * thrust_per_command_n / airframe.inertia_kg_m2.z();
 }
 
 double thrust_share(const AirframeParameters& airframe, const Vec3& v_rotor_body_m_s) {
@@ -59,7 +65,7 @@ double thrust_share(const AirframeParameters& airframe, const Vec3& v_rotor_body
 Wrench rotor_wrench(const AirframeParameters& airframe, const RotorSpeeds& speeds_rad_s,
                     const Vec3& v_body_m_s, const Vec3& omega_body_rad_s) {
   Wrench sum;
-  for (std::size_t i = 0; i < kRotors; ++i) {
+  for (std::size_t i = 0; i < airframe.rotors.size(); ++i) {
     const RotorMount& rotor = airframe.rotors[i];
     const double speed_rad_s = speeds_rad_s[i];
     const Vec3 v_rotor_m_s = v_body_m_s + omega_body_rad_s.cross(rotor.p_body_m);

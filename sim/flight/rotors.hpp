@@ -2,14 +2,12 @@
 // functions, and the power a flight draws.
 #pragma once
 
-#include <array>
-
 #include "sim/flight/vehicle_config.hpp"
 
 namespace gnbv {
 
-using RotorSpeeds = std::array<double, kRotors>;    // rad/s, >= 0
-using RotorCommands = std::array<double, kRotors>;  // in [0, 1]
+using RotorSpeeds = RotorValues;    // rad/s, >= 0
+using RotorCommands = RotorValues;  // in [0, 1]
 
 /// Speed after `dt_s` of a constant reference: first order, exact, slower down than up.
 double rotor_speed_after(const AirframeParameters& airframe, double speed_rad_s,

@@ -219,7 +219,7 @@ Wrench RigidVehicle::Scene::turn_rotors(const RateControl& control, const Vec3& 
     const Vec3 L_body = airframe.inertia_kg_m2.cwiseProduct(omega);
     omega += kRateStep_s *
              (wrench.torque_body_n_m - omega.cross(L_body)).cwiseQuotient(airframe.inertia_kg_m2);
-    for (std::size_t i = 0; i < kRotors; ++i) {
+    for (std::size_t i = 0; i < airframe.rotors.size(); ++i) {
       speeds_rad_s[i] =
           rotor_speed_after(airframe, speeds_rad_s[i], reference_rad_s[i], kRateStep_s);
     }
@@ -263,8 +263,7 @@ void RigidVehicle::step(const RateControl& control, const Vec3& wind_world_m_s) 
   s.thrust_n = wrench.thrust_n;
   GNBV_CHECK(s.state.T_world_body.matrix().allFinite() && s.state.v_world_m_s.allFinite() &&
                  s.state.omega_body_rad_s.allFinite() &&
-                 std::isfinite(s.speeds_rad_s[0] + s.speeds_rad_s[1] + s.speeds_rad_s[2] +
-                               s.speeds_rad_s[3]),
+                 std::ranges::all_of(s.speeds_rad_s, [](double x) { return std::isfinite(x); }),
              "the vehicle's state became NaN or infinite");
 }
 

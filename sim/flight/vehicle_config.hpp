@@ -14,12 +14,15 @@
 
 namespace gnbv {
 
-constexpr std::size_t kRotors = 4;
+constexpr std::size_t kLeastRotors = 4;
+constexpr std::size_t kMostRotors = 8;
+/// One number a rotor, in the order of AirframeParameters::rotors; 0 beyond them.
+using RotorValues = std::array<double, kMostRotors>;
 
 /// Where a rotor sits, and which way it turns seen from above: +1 counter-clockwise, -1 clockwise.
 struct RotorMount {
   Vec3 p_body_m = Vec3::Zero();
-  double spin = 1.0;
+  double spin = 0.0;  // nothing until it is said
 };
 
 /// What of the velocity takes thrust from a rotor: the plugin has changed its mind over the years.
@@ -29,10 +32,10 @@ enum class ThrustLoss { none, axial_speed, whole_speed };
 struct AirframeParameters {
   double mass_kg = 1.55;
   Vec3 inertia_kg_m2 = {0.0300, 0.0295, 0.0564};  // diagonal, body axes
-  std::array<RotorMount, kRotors> rotors = {{{{0.13, -0.22, 0.023}, +1.0},
-                                             {{-0.13, 0.20, 0.023}, +1.0},
-                                             {{0.13, 0.22, 0.023}, -1.0},
-                                             {{-0.13, -0.20, 0.023}, -1.0}}};
+  std::vector<RotorMount> rotors = {{{0.13, -0.22, 0.023}, +1.0},
+                                    {{-0.13, 0.20, 0.023}, +1.0},
+                                    {{0.13, 0.22, 0.023}, -1.0},
+                                    {{-0.13, -0.20, 0.023}, -1.0}};
   double thrust_coefficient_n_s2 = 5.84e-6;      // thrust at rest = coefficient * speed^2
   double moment_per_thrust_m = 0.06;             // reaction torque = this * thrust at rest
   double drag_coefficient_n_s2_per_m = 1.75e-4;  // drag = coefficient * speed * in-plane velocity
@@ -45,7 +48,7 @@ struct AirframeParameters {
   double idle_speed_rad_s = 100.0;     // armed, command 0
   double command_gain_rad_s = 1000.0;  // speed = idle + gain * command, command in [0, 1]
   double gravity_m_s2 = 9.8066;
-  // Collision hull: an upright cylinder around the four rotor disks, because its clearance does not
+  // Collision hull: an upright cylinder around the rotor disks, because its clearance does not
   // change with yaw. Radius = farthest rotor axis (hypot(0.13, 0.22)) + rotor radius 0.128, that is
   // 0.77 m from tip to tip; height as the box in iris.sdf.jinja.
   double hull_radius_m = 0.384;

@@ -102,10 +102,10 @@ VehicleConfig f450() {
   a.inertia_kg_m2 = {0.0258, 0.0266, 0.0378};
   const double arm_m = 0.225 * std::sqrt(0.5);  // wheelbase 450 mm, square
   const double height_m = 0.023;                // MRS
-  a.rotors = {{{{arm_m, -arm_m, height_m}, +1.0},
-               {{-arm_m, arm_m, height_m}, +1.0},
-               {{arm_m, arm_m, height_m}, -1.0},
-               {{-arm_m, -arm_m, height_m}, -1.0}}};
+  a.rotors = {{{arm_m, -arm_m, height_m}, +1.0},
+              {{-arm_m, arm_m, height_m}, +1.0},
+              {{arm_m, arm_m, height_m}, -1.0},
+              {{-arm_m, -arm_m, height_m}, -1.0}};
   a.thrust_coefficient_n_s2 = 1.105e-5;         // RFL; MRS: 1.11e-5
   a.moment_per_thrust_m = 1.779e-7 / 1.105e-5;  // RFL
   a.drag_coefficient_n_s2_per_m = 1.0e-4;       // MRS

@@ -48,13 +48,11 @@ Vec3 world_from_level_frd(const Vec3& v_frd, double yaw_world_rad) {
   return Eigen::AngleAxisd(yaw_world_rad, Vec3::UnitZ()) * swap_flu_frd(v_frd);
 }
 
-/// Whether a number that is not NaN is beyond its bound; angles and their rates may be anything
-/// finite.
+/// Whether a number that is not NaN is beyond its bound.
 bool is_out_of_bounds(const Setpoint& s) {
   const auto any = [](const Vec3& v, double limit) { return (v.array().abs() > limit).any(); };
   return any(s.p_world_m, kPositionMax_m) || any(s.v_world_m_s, kSpeedMax_m_s) ||
-         any(s.a_world_m_s2, kAccelerationMax_m_s2) || std::isinf(s.yaw_rad) ||
-         std::isinf(s.yaw_rate_rad_s);
+         any(s.a_world_m_s2, kAccelerationMax_m_s2);
 }
 
 bool controls_something(const Setpoint& s) {
@@ -113,10 +111,12 @@ std::variant<Setpoint, Refusal> setpoint_of(const SetPositionTargetLocalNed& mes
     setpoint.v_world_m_s = world_from_level_frd(v_m_s, yaw_world_rad);
     setpoint.a_world_m_s2 = world_from_level_frd(a_m_s2, yaw_world_rad);
   }
-  // NaN passes through: std::remainder of NaN is NaN, and so is its negative
-  setpoint.yaw_rad = swap_yaw_enu_ned(unless_ignored(message.yaw_rad, mask, kIgnoreYaw));
+  // angles may be anything finite; of an infinite one wrapping would make NaN, "not controlled"
+  const double yaw_ned_rad = unless_ignored(message.yaw_rad, mask, kIgnoreYaw);
+  setpoint.yaw_rad = swap_yaw_enu_ned(yaw_ned_rad);
   setpoint.yaw_rate_rad_s = -unless_ignored(message.yaw_rate_rad_s, mask, kIgnoreYawRate);
-  if (is_out_of_bounds(setpoint)) return Refusal{"setpoint out of bounds"};
+  if (is_out_of_bounds(setpoint) || std::isinf(yaw_ned_rad) || std::isinf(setpoint.yaw_rate_rad_s))
+    return Refusal{"setpoint out of bounds"};
   if (!controls_something(setpoint)) return Refusal{"setpoint invalid: nothing to control"};
   return setpoint;
 }

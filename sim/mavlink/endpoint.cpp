@@ -8,9 +8,6 @@
 namespace gnbv::mavlink {
 namespace {
 
-constexpr std::uint8_t kSystem = 1;
-constexpr std::uint8_t kComponent = 1;  // MAV_COMP_ID_AUTOPILOT1
-constexpr std::uint8_t kEverybody = 0;
 constexpr int kSeverityCritical = 2;  // MAV_SEVERITY
 
 // messages a second of PX4's onboard link (mavlink_main.cpp)
@@ -21,11 +18,6 @@ constexpr double kBattery_hz = 0.5;
 constexpr double kExtendedState_hz = 5.0;
 /// The same refusal is not told more often: a stream of bad setpoints would drown the rest.
 constexpr double kRefusalRepeat_s = 1.0;
-
-bool is_for_us(std::uint8_t system, std::uint8_t component) {
-  return (system == kSystem || system == kEverybody) &&
-         (component == kComponent || component == kEverybody);
-}
 
 /// Whether a stream is due, and if so when next. Intervals that were missed are not made up for.
 bool take_due(double& due_s, double rate_hz, double now_s) {
@@ -50,30 +42,24 @@ void Endpoint::send(const Message& message) {
 void Endpoint::receive(std::span<const std::uint8_t> datagram, const Address& from, double now_s,
                        Quadrotor& vehicle) {
   const std::optional<Address> client_before = client();
-  for (const Frame& frame : link_.receive(datagram, from, now_s)) obey(frame, now_s, vehicle);
+  const bool is_armed = vehicle.px4().is_armed();
+  for (const Frame& frame : link_.receive(datagram, from, now_s, is_armed)) {
+    obey(frame, now_s, vehicle);
+  }
   if (client() != client_before) due_ = {};
 }
 
 void Endpoint::obey(const Frame& frame, double now_s, Quadrotor& vehicle) {
-  if (frame.message_id == CommandLong::kInfo.id) {
-    const auto message = message_of<CommandLong>(frame.payload);
-    if (is_for_us(message.target_system, message.target_component)) {
-      return obey(command_of(message), frame, vehicle);
-    }
+  if (frame.message_id == Heartbeat::kInfo.id) return;  // the link has taken note of it
+  if (!asks_for_something(frame)) {
+    ++counts_.ignored;
+  } else if (frame.message_id == CommandLong::kInfo.id) {
+    obey(command_of(message_of<CommandLong>(frame.payload)), frame, vehicle);
   } else if (frame.message_id == SetMode::kInfo.id) {
-    const auto message = message_of<SetMode>(frame.payload);
-    if (is_for_us(message.target_system, kComponent)) {
-      return obey(command_of(message), frame, vehicle);
-    }
-  } else if (frame.message_id == SetPositionTargetLocalNed::kInfo.id) {
-    const auto message = message_of<SetPositionTargetLocalNed>(frame.payload);
-    if (is_for_us(message.target_system, message.target_component)) {
-      return obey(message, now_s, vehicle);
-    }
-  } else if (frame.message_id == Heartbeat::kInfo.id) {
-    return;  // a sign of life, which the link has taken note of
+    obey(command_of(message_of<SetMode>(frame.payload)), frame, vehicle);
+  } else {
+    obey(message_of<SetPositionTargetLocalNed>(frame.payload), now_s, vehicle);
   }
-  ++counts_.ignored;
 }
 
 void Endpoint::obey(const Px4Command& command, const Frame& frame, Quadrotor& vehicle) {

@@ -15,6 +15,20 @@ constexpr std::size_t kCrcSize = 2;
 constexpr std::size_t kSignatureSize = 13;
 constexpr std::uint8_t kSignedFlag = 0x01;
 
+/// What eight bits of the reversed polynomial 0x8408 make of each byte.
+constexpr std::array<std::uint16_t, 256> crc_table() {
+  std::array<std::uint16_t, 256> table{};
+  for (std::size_t byte = 0; byte < table.size(); ++byte) {
+    auto crc = static_cast<std::uint16_t>(byte);
+    for (int bit = 0; bit < 8; ++bit) {
+      crc = static_cast<std::uint16_t>((crc >> 1) ^ ((crc & 1) != 0 ? 0x8408 : 0));
+    }
+    table[byte] = crc;
+  }
+  return table;
+}
+constexpr std::array<std::uint16_t, 256> kCrcTable = crc_table();
+
 bool is_start(std::uint8_t byte) { return byte == kStart1 || byte == kStart2; }
 
 /// A header as read, before anything about it is believed.
@@ -61,15 +75,16 @@ std::size_t read_frame(std::span<const std::uint8_t> bytes, ReadCounts& counts,
   }
   const MessageInfo* const info = find_message(h.frame.message_id);
   const std::size_t crc_at = h.header_size + h.payload_size;
+  // what costs least is asked first: the CRC of a wrong length is never computed
   if (info == nullptr || (h.incompatibility_flags & ~kSignedFlag) != 0) {
     ++counts.unknown;
-  } else if ((bytes[crc_at] | bytes[crc_at + 1] << 8) !=
-             frame_crc(bytes.subspan(1, crc_at - 1), info->crc_extra)) {
-    ++counts.bad_crc;
   } else if (h.payload_size > (h.is_version_1 ? info->base_size : info->size)) {
     ++counts.oversized;
   } else if (h.is_version_1 && h.payload_size < info->base_size) {
     ++counts.truncated;
+  } else if ((bytes[crc_at] | bytes[crc_at + 1] << 8) !=
+             frame_crc(bytes.subspan(1, crc_at - 1), info->crc_extra)) {
+    ++counts.bad_crc;
   } else {
     ++counts.read;
     const auto payload = bytes.subspan(h.header_size, h.payload_size);
@@ -87,10 +102,7 @@ std::size_t read_frame(std::span<const std::uint8_t> bytes, ReadCounts& counts,
 std::uint16_t frame_crc(std::span<const std::uint8_t> bytes_after_start, std::uint8_t crc_extra) {
   std::uint16_t crc = 0xffff;
   const auto accumulate = [&crc](std::uint8_t byte) {
-    crc = static_cast<std::uint16_t>(crc ^ byte);
-    for (int bit = 0; bit < 8; ++bit) {
-      crc = static_cast<std::uint16_t>((crc >> 1) ^ ((crc & 1) != 0 ? 0x8408 : 0));
-    }
+    crc = static_cast<std::uint16_t>(crc >> 8 ^ kCrcTable[(crc ^ byte) & 0xff]);
   };
   for (const std::uint8_t byte : bytes_after_start) accumulate(byte);
   accumulate(crc_extra);

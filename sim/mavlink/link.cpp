@@ -3,45 +3,52 @@
 #include <algorithm>
 
 namespace gnbv::mavlink {
+namespace {
 
-ReplayFilter::Sender& ReplayFilter::sender_of(const Frame& frame, double now_s) {
-  const auto known = std::ranges::find_if(senders_, [&](const Sender& s) {
-    return s.system_id == frame.system_id && s.component_id == frame.component_id;
-  });
-  if (known != senders_.end() && now_s - known->accepted_last_s <= kRestart_s) return *known;
-  const Sender fresh{.system_id = frame.system_id, .component_id = frame.component_id};
-  if (known != senders_.end()) return *known = fresh;
-  if (senders_.size() < kSendersMax) return senders_.emplace_back(fresh);
-  return *std::ranges::min_element(senders_, {}, &Sender::accepted_last_s) = fresh;
+constexpr std::uint8_t kEverybody = 0;
+
+}  // namespace
+
+bool is_for_us(std::uint8_t system, std::uint8_t component) {
+  return (system == kSystem || system == kEverybody) &&
+         (component == kComponent || component == kEverybody);
 }
 
-bool ReplayFilter::accept(const Frame& frame, double now_s) {
-  Sender& sender = sender_of(frame, now_s);
-  std::uint64_t& accepted_as = sender.accepted_as[frame.sequence];
-  if (accepted_as != 0 && sender.accepted_count - accepted_as < kWindow) return false;
-  accepted_as = ++sender.accepted_count;
-  sender.accepted_last_s = now_s;
-  return true;
+bool asks_for_something(const Frame& frame) {
+  if (frame.message_id == CommandLong::kInfo.id) {
+    const auto message = message_of<CommandLong>(frame.payload);
+    return is_for_us(message.target_system, message.target_component);
+  }
+  if (frame.message_id == SetMode::kInfo.id) {
+    return is_for_us(message_of<SetMode>(frame.payload).target_system, kComponent);
+  }
+  if (frame.message_id == SetPositionTargetLocalNed::kInfo.id) {
+    const auto message = message_of<SetPositionTargetLocalNed>(frame.payload);
+    return is_for_us(message.target_system, message.target_component);
+  }
+  return false;
 }
 
 std::vector<Frame> Link::receive(std::span<const std::uint8_t> datagram, const Address& from,
-                                 double now_s) {
+                                 double now_s, bool is_armed) {
   ++counts_.datagrams;
-  const bool is_taken = client_.has_value() && now_s - client_heard_s_ <= kClientSilence_s;
-  if (is_taken && *client_ != from) {
+  const bool is_foreign = client_.has_value() && *client_ != from;
+  const bool is_held = is_armed || now_s - asked_s_ <= kClientSilence_s;
+  if (is_foreign && is_held) {  // not even read: a flood from elsewhere costs little
     ++counts_.foreign_datagrams;
     return {};
   }
   std::vector<Frame> frames = read_frames(datagram, counts_.frames);
-  if (!frames.empty() && client_ != from) {
-    client_ = from;
-    replays_ = {};
+  if (frames.empty()) return {};
+  const bool asks = std::ranges::any_of(frames, asks_for_something);
+  if (is_foreign && !asks && now_s - heard_s_ <= kClientSilence_s) {
+    ++counts_.foreign_datagrams;
+    return {};
   }
-  const std::size_t read = frames.size();
-  std::erase_if(frames, [&](const Frame& frame) { return !replays_.accept(frame, now_s); });
-  counts_.replayed += read - frames.size();
+  if (asks || client_ != from) asked_s_ = now_s;
+  client_ = from;
+  heard_s_ = now_s;
   counts_.accepted += frames.size();
-  if (!frames.empty()) client_heard_s_ = now_s;
   return frames;
 }
 

@@ -60,6 +60,8 @@ std::string url_of(const Address& address) {
                      address.host >> 8 & 0xff, address.host & 0xff, address.port);
 }
 
+bool is_loopback(const Address& address) { return address.host >> 24 == 127; }
+
 Address resolve_udp_url(const std::string& url) {
   const std::size_t colon = url.rfind(':');
   if (!url.starts_with(kScheme) || colon < kScheme.size()) {

@@ -14,6 +14,9 @@ namespace gnbv::mavlink {
 /// udp://a.b.c.d:port
 std::string url_of(const Address& address);
 
+/// Whether only this machine can send to it: 127.0.0.0/8.
+bool is_loopback(const Address& address);
+
 /// The address that "udp://HOST:PORT" names. HOST may be left out and is then the loopback, never
 /// all interfaces; PORT 0 means any free one. Throws BadInput naming the URL.
 Address resolve_udp_url(const std::string& url);

@@ -8,7 +8,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <ostream>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "sim/core/file.hpp"
 #include "tests/support/temp_folder.hpp"
@@ -39,6 +41,33 @@ TEST(Program, BadUsageExitsWith2) {
   EXPECT_EQ(gnbv("fly-me-to-the-moon").exit_code, 2);
   EXPECT_EQ(gnbv("run").exit_code, 2);
   EXPECT_EQ(gnbv("run smoke --threads none").exit_code, 2);
+}
+
+/// The options of a command that --help calls numbers.
+std::vector<std::string> numbers_of(const std::string& command) {
+  std::vector<std::string> options;
+  std::istringstream help(gnbv(command + " --help").output);
+  for (std::string word, last; help >> word; last = word) {
+    if (word.starts_with("FLOAT") && last.starts_with("--")) options.push_back(last);
+  }
+  return options;
+}
+
+TEST(Program, NoNumberOnTheCommandLineMayBeNaNOrInfinite) {
+  std::size_t tried = 0;
+  for (const std::string command :
+       {"fly", "run", "sweep", "table", "compare", "ceiling", "render", "export", "plot", "paper",
+        "report", "asset", "lint", "schema", "score", "check", "surface"}) {
+    for (const std::string& option : numbers_of(command)) {
+      for (const std::string value : {"nan", "inf", "-inf", "1e999"}) {
+        const Outcome refused = gnbv(command + " " + option + "=" + value);
+        EXPECT_EQ(refused.exit_code, 2) << command << " " << option << "=" << value;
+        EXPECT_TRUE(has(refused, option)) << refused.output;
+        ++tried;
+      }
+    }
+  }
+  EXPECT_GE(tried, 4U * 8U);
 }
 
 /// An oracle plans for minutes in a large scene; what its plan needs would be in the cache.

@@ -39,6 +39,15 @@ void expect_same_when_resumed(const std::string& set, const MissionResult& flown
   EXPECT_EQ(result_sha256(resumed), result_sha256(flown));
 }
 
+TEST(Stop, IsHonouredWithinALeg) {
+  int asked = 0;
+  MissionHooks hooks;
+  hooks.should_stop = [&] { return ++asked > 25; };  // 0.1 s of flight
+  const MissionResult flown = fly("guidance.profile_speed_m_s=0.2", hooks);
+  EXPECT_EQ(flown.termination, Termination::interrupted);
+  EXPECT_LT(flown.flight_time_s, 1.0);
+}
+
 TEST(MaxDistance, TheLastLegThatFitsIsTheLast) {
   ASSERT_GE(whole().views.size(), 6U);
   const double fits_m = whole().views[4].straight_m;  // that of the whole mission's fifth view

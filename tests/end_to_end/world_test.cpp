@@ -79,8 +79,16 @@ TEST(ObstacleMission, AScreenIsFlownAroundAndLeavesTheScoreItsMeaning) {
 TEST(ObstacleMission, FlyingIntoAnObstacleIsACollision) {
   // across the first leg of the profile, which is flown on the faces of the workspace
   const Flown flown(smoke({"obstacles=[{box_m: {min: [-4, -4, 0], max: [4, -3.9, 5]}}]",
-                           "planner.validity.collision_radius_m=0.3"}));
+                           "planner.validity.collision_radius_m=0.4"}));
   EXPECT_EQ(flown.result.termination, Termination::collision);
+}
+
+TEST(ObstacleMission, AWallUpToTheTopIsFlownAroundAfterTheProfile) {
+  // between the last descent, in the corner at [-4, -4], and the start; over the top there is no
+  // way
+  const Flown flown(smoke({"obstacles=[{box_m: {min: [-2.2, -3.15, 0], max: [-2, -1, 5]}}]",
+                           "planner.termination.max_iterations=2"}));
+  EXPECT_EQ(flown.result.termination, Termination::max_iterations);
 }
 
 TEST(ObstacleMission, AStartBesideOneIsRefused) {

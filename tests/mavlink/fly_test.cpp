@@ -12,6 +12,7 @@
 #include <stop_token>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "sim/mavlink/messages.hpp"
 #include "sim/mavlink/udp.hpp"
@@ -110,6 +111,43 @@ TEST(Fly, TouchingTheStructureIsAFailureThatSaysWhere) {
   const Outcome outcome = fly(kFreePort + "--speed 2 --duration 60", "2>&1", "", connect);
   EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
   EXPECT_NE(outcome.output.find("hit the structure at ["), std::string::npos) << outcome.output;
+}
+
+/// As many datagrams as one thread can send, each of the bytes that take longest to refuse.
+void flood(const std::stop_token& stop, const mavlink::Address& vehicle) {
+  const mavlink::UdpSocket socket({0x7f000001, 0});
+  std::vector<std::uint8_t> datagram;
+  while (datagram.size() < 2046) {
+    for (const int byte : {0xfe, 0xff, 0x4c}) datagram.push_back(static_cast<std::uint8_t>(byte));
+  }
+  while (!stop.stop_requested()) {
+    for (int i = 0; i < 100; ++i) socket.send(datagram, vehicle);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));  // 20 MB/s
+  }
+}
+
+TEST(Fly, AFloodDoesNotStopTime) {
+  std::jthread attacker;
+  const auto attack = [&](const std::string& line) {
+    if (!line.starts_with(kListening)) return;
+    const std::size_t begin = kListening.size();
+    attacker =
+        std::jthread(flood, mavlink::resolve_udp_url(line.substr(begin, line.find(',') - begin)));
+  };
+  const Outcome outcome = fly(kFreePort + "--duration 3 --json", "2>&1", "timeout 60 ", attack);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const auto summary = nlohmann::json::parse(outcome.output.substr(outcome.output.find('{')));
+  EXPECT_GT(summary.at("datagrams"), 1000);
+  EXPECT_LT(summary.at("wall_s"), 6.0) << outcome.output;
+}
+
+TEST(Fly, WhoCanBeReachedByOtherMachinesIsTold) {
+  const std::string warning = "can be reached from other machines";
+  const Outcome open = fly("smoke --mavlink udp://0.0.0.0:0 --speed 20 --duration 0.1");
+  EXPECT_EQ(open.exit_code, 0) << open.output;
+  EXPECT_NE(open.output.find(warning), std::string::npos) << open.output;
+  const Outcome closed = fly(kFreePort + "--speed 20 --duration 0.1");
+  EXPECT_EQ(closed.output.find(warning), std::string::npos) << closed.output;
 }
 
 TEST(Fly, AStartAboveTheStructureIsBadInput) {

@@ -90,6 +90,16 @@ TEST(Lawnmower, PassesEverySideInRowsThatOverlap) {
   EXPECT_LE(jumps, 4);
 }
 
+TEST(Lawnmower, RefusesToLayMoreViewsThanAnybodyFlies) {
+  const OccupancyGrid grid = box_in_the_middle();
+  const CameraModel camera = make_camera_model({});
+  const RouteProblem problem = {
+      .grid = grid, .navigation_m = kWorkspace, .camera = camera, .start = {Vec3(0, -12, 2), 0}};
+  EXPECT_THROW(plan_route("lawnmower", {.standoff_m = 0.1, .overlap = 0.95}, problem), BadInput);
+  EXPECT_LT(plan_route("lawnmower", {.standoff_m = 1.0, .overlap = 0.5}, problem).size(),
+            std::size_t{kMostLaidViews});
+}
+
 TEST(Routes, AreEmptyWithoutAProfile) {
   const OccupancyGrid nothing(OccupancyConfig{}, kWorkspace);
   EXPECT_TRUE(route("lawnmower", nothing).empty());

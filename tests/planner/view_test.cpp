@@ -151,6 +151,28 @@ TEST(ViewValidity, UnknownSpaceIsNotFree) {
   EXPECT_EQ(rejection({}, grid, {}, {Vec3(0, 0, 2), 0}, {Vec3(1, 0, 2), 0}), Rejection::not_free);
 }
 
+TEST(ViewValidity, AWayThatIsCheckedByAStarLeadsThroughKnownSpaceWhereverItLeads) {
+  // free but for a slab of unknown voxels across the whole box: nothing occupied anywhere
+  OccupancyGrid grid = empty_grid();
+  ScanUpdate update;
+  const auto voxels = static_cast<VoxelIndex>(grid.geometry().voxel_count());
+  for (VoxelIndex v = 0; v < voxels; ++v) {
+    if (std::abs(grid.geometry().center_m(grid.geometry().key_at(v)).x()) > 0.3) {
+      update.free.push_back(v);
+    }
+  }
+  grid.apply(update);
+  ValidityConfig config{.collision_radius_m = 0.5, .path = PathCheck::astar};
+  const auto reason = [&] {
+    return rejection(config, grid, {}, {Vec3(-2, 0, 2), 0}, {Vec3(2, 0, 2), 0});
+  };
+  EXPECT_EQ(reason(), Rejection::path_blocked);
+  config.allow_unknown = true;
+  EXPECT_EQ(reason(), std::nullopt);
+  config = {.collision_radius_m = 0.5};  // the paper's own check asks for what is occupied alone
+  EXPECT_EQ(reason(), std::nullopt);
+}
+
 TEST(ViewValidity, TheFacesOfTheNavigationBoxAreInside) {
   const OccupancyGrid grid = free_grid_with({});
   for (const Vec3& p : {Vec3(5, 5, 5), Vec3(-5, -5, 0.7), Vec3(5, -5, 0.7)}) {

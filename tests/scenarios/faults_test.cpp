@@ -146,6 +146,17 @@ TEST(Syntax, AliasesRepeatTheirValueButCannotExplode) {
   EXPECT_THAT(complaint(bomb), HasSubstr("aliases stand for more than"));
 }
 
+TEST(Syntax, AnchorsWithinAnchorsCannotExplode) {
+  // each level keeps a copy of all below it: 450 levels of 90 values are 9 million
+  std::string nested;
+  for (int i = 0; i < 450; ++i) {
+    nested += fmt::format("&a{} [", i);
+    for (int k = 0; k < 90; ++k) nested += "0,";
+  }
+  nested += std::string(450, ']');
+  EXPECT_THAT(complaint("name: " + nested), HasSubstr("anchors and aliases stand for more than"));
+}
+
 TEST(Overrides, AreRefusedWithTheirText) {
   EXPECT_EQ(complaint(kMinimal, {"planner.utilty.name=x"}),
             "--set planner.utilty.name=x: planner.utilty: is no known key (did you mean "

@@ -81,6 +81,50 @@ TEST(Problems, OthersThatCannotRun) {
                     HasSubstr("none.obj': there is no such file")));
 }
 
+TEST(Problems, LidarsDiffer) {
+  EXPECT_THAT(complaint(kMinimal + "lidars:\n  - {}\n  - {}\n"),
+              HasSubstr("lidars.1.name: value 'lidar': two lidars, 0 and 1, are named"));
+}
+
+TEST(Problems, RotorsCanSteer) {
+  const std::string airframe = "vehicle.airframe.";
+  EXPECT_THAT(complaint(kMinimal, {airframe + "moment_per_thrust_m=0"}),
+              AllOf(HasSubstr(airframe + "moment_per_thrust_m: value '0'"),
+                    HasSubstr("nothing turns the vehicle")));
+  EXPECT_THAT(complaint(kMinimal, {airframe + "moment_per_thrust_m=1e-5"}),
+              HasSubstr("the rotors turn the vehicle about its vertical by"));
+  EXPECT_THAT(complaint(kMinimal, {airframe + "rotors.2.spin=1", airframe + "rotors.3.spin=1"}),
+              HasSubstr("cannot give yaw apart from thrust"));
+  EXPECT_THAT(complaint(kMinimal, {airframe + "rotors=[{spin: 1}, {spin: 1}, {spin: -1}]"}),
+              HasSubstr("has 3 items (allowed: from 4 to 8)"));
+  EXPECT_THAT(complaint(kMinimal, {airframe + "rotors=[{}, {}, {}, {}]"}),
+              HasSubstr("rotors.0.spin: has to be 1 or -1"));
+  EXPECT_THAT(complaint(kMinimal, {airframe + "drag_coefficient_n_s2_per_m=1"}),
+              HasSubstr("the rotors' drag at full command"));
+  EXPECT_EQ(complaint(kMinimal, {airframe + "rotors=[{p_body_m: [0.3, 0, 0], spin: 1}, "
+                                            "{p_body_m: [-0.3, 0, 0], spin: 1}, "
+                                            "{p_body_m: [0, 0.3, 0], spin: -1}, "
+                                            "{p_body_m: [0, -0.3, 0], spin: -1}]"}),
+            "");
+}
+
+TEST(Problems, TheHullFitsIntoWhatIsKeptFree) {
+  EXPECT_THAT(complaint(kMinimal, {"vehicle.airframe.hull_radius_m=1.6"}),
+              AllOf(HasSubstr("vehicle.airframe.hull_radius_m: value '1.6'"),
+                    HasSubstr("planner.validity.collision_radius_m has to be more")));
+  EXPECT_EQ(complaint(kMinimal, {"vehicle.kind=ideal", "vehicle.airframe.hull_radius_m=1.6"}), "");
+}
+
+TEST(Problems, NoLegTakesHours) {
+  EXPECT_THAT(complaint(kMinimal, {"guidance.yaw_rate_deg_s=0.001"}), HasSubstr("allowed: from"));
+  for (const std::string key : {"path_speed_m_s=0.01", "profile_speed_m_s=0.01"}) {
+    EXPECT_THAT(complaint(kMinimal, {"guidance." + key}), HasSubstr("leg through the workspace"));
+  }
+  EXPECT_THAT(complaint(kMinimal, {"vehicle.autopilot.rate_max_deg_s=[1, 1, 0.1]",
+                                   "guidance.yaw_rate_deg_s=0.1", "guidance.yaw_jerk_deg_s3=0.1"}),
+              testing::Not(HasSubstr("leg through")));
+}
+
 TEST(Problems, OfABuiltinScenarioAreNone) {
   for (const std::string& name : builtin_scenario_names()) {
     EXPECT_TRUE(problems(load_scenario(name, {})).empty()) << name;

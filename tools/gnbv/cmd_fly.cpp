@@ -62,7 +62,6 @@ nlohmann::ordered_json summary_of(const Scenario& scenario, const Quadrotor& veh
             {"truncated", link.frames.truncated},
             {"oversized", link.frames.oversized},
             {"unknown", link.frames.unknown},
-            {"replayed", link.replayed},
             {"oversized_datagrams", link.oversized_datagrams},
             {"foreign_datagrams", link.foreign_datagrams}}}};
 }
@@ -112,6 +111,14 @@ ViewPose ground_start(const Scenario& scenario, const RayScene& scene) {
                   start.p_world_m.x(), start.p_world_m.y(), clearance_m));
 }
 
+void warn_beyond_loopback(const mavlink::Address& address) {
+  if (mavlink::is_loopback(address)) return;
+  fmt::print(stderr,
+             "gnbv: warning: {} can be reached from other machines, and MAVLink asks for no key: "
+             "whoever speaks to it first flies the vehicle; 127.0.0.1 is this machine alone\n",
+             mavlink::url_of(address));
+}
+
 void fly(const FlyOptions& options) {
   const Scenario scenario = resolve_scenario(options.scenario);
   need_ground_and_rotors(scenario);
@@ -126,6 +133,7 @@ void fly(const FlyOptions& options) {
   mavlink::UdpSocket socket(address);
 
   const InterruptGuard interrupt;
+  warn_beyond_loopback(socket.address());
   say("listening on {}, {} at x {:.2f} y {:.2f} m, speed {}; Ctrl-C ends",
       mavlink::url_of(socket.address()), scenario.vehicle.preset, start.p_world_m.x(),
       start.p_world_m.y(), options.speed);
@@ -158,8 +166,10 @@ void add_fly_command(CLI::App& app) {
       "The vehicle stands on the ground at the scenario's start, disarmed, as system 1, component "
       "1,\n"
       "and speaks like PX4. It listens at the URL and answers the first client that sends it a\n"
-      "good frame; other addresses are dropped until that client was silent for 5 s. NED\n"
-      "coordinates count from the scenario's origin: north is y, east is x.");
+      "good frame. While the vehicle is armed nobody else is heard; while it is not, another\n"
+      "address is answered when that client was silent for 5 s, or asks for something when the\n"
+      "client asked for nothing in 5 s. NED coordinates count from the scenario's origin: north\n"
+      "is y, east is x.");
   add_scenario_options(*command, options->scenario);
   command
       ->add_option("--mavlink", options->url,

@@ -15,6 +15,7 @@
 #include "sim/core/simd.hpp"
 #include "sim/core/utf8.hpp"
 #include "tools/gnbv/commands.hpp"
+#include "tools/gnbv/shared_options.hpp"
 #include "tools/terminal/say.hpp"
 #include "tools/terminal/standard_streams.hpp"
 
@@ -42,6 +43,7 @@ int run(int argc, char** argv) {
   gnbv::add_score_command(app);
   gnbv::add_check_command(app);
   gnbv::add_surface_command(app);
+  gnbv::refuse_what_is_not_finite(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -35,10 +35,8 @@ void add_camera_options(CLI::App& command, RenderOptions& options) {
           "iso, front, back, left, right, top, or a JSON file with position_m, target_m and "
           "fov_y_deg; presets frame the picture by themselves")
       ->capture_default_str();
-  command
-      .add_option("--azimuth-deg", options.azimuth_deg,
-                  "from where to look: 0 east, 90 north (default: the camera's)")
-      ->check(is_finite());
+  command.add_option("--azimuth-deg", options.azimuth_deg,
+                     "from where to look: 0 east, 90 north (default: the camera's)");
   command.add_option("--elevation-deg", options.elevation_deg, "above the horizon")
       ->check(is_elevation_deg());
   command.add_option("--width", options.picture.width_px, "width in pixels")

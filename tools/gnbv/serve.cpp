@@ -9,12 +9,12 @@
 namespace gnbv {
 namespace {
 
-/// Datagrams a turn, so that a flood cannot stop the simulation.
-constexpr int kDatagramsPerTurn = 256;
+/// Reading ends after this part of a turn, so that a flood cannot stop the simulation.
+constexpr double kHear_s = 0.3 * kTurn_s;
 
 void hear(mavlink::Endpoint& endpoint, mavlink::UdpSocket& socket, Quadrotor& vehicle,
           double now_s) {
-  for (int i = 0; i < kDatagramsPerTurn; ++i) {
+  for (const Stopwatch watch; watch.elapsed_s() < kHear_s;) {
     const auto datagram = socket.receive();
     if (!datagram.has_value()) return;
     if (datagram->is_oversized) {
@@ -72,8 +72,8 @@ ServeResult serve(Quadrotor& vehicle, mavlink::Endpoint& endpoint, mavlink::UdpS
   };
   while (!options.should_stop()) {
     socket.wait(std::min(pace.due_s(vehicle.tick() + 1) - watch.elapsed_s(), kTurn_s));
-    const double now_s = watch.elapsed_s();
-    hear(endpoint, socket, vehicle, now_s);
+    hear(endpoint, socket, vehicle, watch.elapsed_s());
+    const double now_s = watch.elapsed_s();  // what was heard takes nothing of the steps' time
     const std::int64_t turn_end = pace.turn_end(vehicle.tick(), now_s);
     while (!end() && vehicle.tick() < turn_end && watch.elapsed_s() < now_s + kTurn_s) {
       vehicle.step();

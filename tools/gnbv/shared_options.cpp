@@ -55,9 +55,18 @@ void add_quiet_option(CLI::App& command, bool& quiet, const std::string& what) {
   command.add_flag("--quiet", quiet, "no " + what);
 }
 
-CLI::Validator is_finite() {
-  return number_check("a finite number", [](double x) { return std::isfinite(x); });
+void refuse_what_is_not_finite(CLI::App& app) {
+  const auto any = [](const auto*) { return true; };
+  for (CLI::App* const command : app.get_subcommands(any)) {
+    for (CLI::Option* const option : command->get_options(any)) {
+      if (!option->get_type_name().starts_with("FLOAT")) continue;
+      option->check(number_check("a finite number", [](double x) {
+                      return std::isfinite(x);
+                    }).description(""));
+    }
+  }
 }
+
 CLI::Validator is_positive() {
   return number_check("a number above 0", [](double x) { return std::isfinite(x) && x > 0.0; });
 }

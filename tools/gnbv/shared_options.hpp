@@ -33,8 +33,11 @@ void add_threads_option(CLI::App& command, int& threads,
 void add_quiet_option(CLI::App& command, bool& quiet,
                       const std::string& what = "progress on stderr");
 
-// Checks of numbers; those of CLI11 let NaN pass, and print 300 digits.
-CLI::Validator is_finite();
+/// No number on the command line of any command may be NaN or infinite: CLI11's ranges let NaN
+/// pass. To be called when all commands have their options.
+void refuse_what_is_not_finite(CLI::App& app);
+
+// Checks of numbers; those of CLI11 print 300 digits.
 CLI::Validator is_positive();
 CLI::Validator is_elevation_deg();
 

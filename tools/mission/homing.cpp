@@ -14,13 +14,6 @@ constexpr double kNoLeg_m = 0.01;
 
 bool has_battery(const Mission& m) { return m.scenario.vehicle.power.battery_wh > 0.0; }
 
-/// As after the profile.
-std::vector<Vec3> over_the_top(const Mission& m, const Vec3& from_world_m) {
-  const Vec3& home_m = m.out.start.p_world_m;
-  if ((home_m - from_world_m).norm() < m.scenario.guidance.arrival_distance_m) return {home_m};
-  return way_over_the_top(m, from_world_m, home_m);
-}
-
 /// Back through all views to the first one, which is home.
 std::vector<Vec3> as_it_came(const Mission& m) {
   std::vector<Vec3> way_m;
@@ -32,6 +25,14 @@ std::vector<Vec3> as_it_came(const Mission& m) {
   }
   way_m.push_back(m.out.start.p_world_m);
   return way_m;
+}
+
+/// As after the profile.
+std::vector<Vec3> over_the_top(const Mission& m, const Vec3& from_world_m, bool reads_map) {
+  const Vec3& home_m = m.out.start.p_world_m;
+  if ((home_m - from_world_m).norm() < m.scenario.guidance.arrival_distance_m) return {home_m};
+  auto way_m = way_over_the_top(m, from_world_m, home_m, reads_map);
+  return way_m ? *std::move(way_m) : as_it_came(m);
 }
 
 std::optional<std::vector<Vec3>> found_way(const Mission& m, const Vec3& from_world_m) {
@@ -82,7 +83,7 @@ double energy_home_wh(const Mission& m, const Vec3& from_world_m) {
   const Exit* const exit = best_exit(m, from_world_m);
   return measured_excess(m) *
          (exit != nullptr ? energy_by_wh(m, from_world_m, *exit)
-                          : energy_along_wh(m, from_world_m, over_the_top(m, from_world_m)));
+                          : energy_along_wh(m, from_world_m, over_the_top(m, from_world_m, false)));
 }
 
 /// The points, then the exit's place and its way.
@@ -182,7 +183,7 @@ void fly_home(Mission& m) {
   const Vec3 start_m = believed_p_world_m(m);
   HomeFlight home;
   const Exit* const exit = best_exit(m, start_m);
-  for (const Vec3& point_m : exit != nullptr ? joined({}, *exit) : over_the_top(m, start_m)) {
+  for (const Vec3& point_m : exit != nullptr ? joined({}, *exit) : over_the_top(m, start_m, true)) {
     if ((point_m - believed_p_world_m(m)).norm() < m.scenario.guidance.arrival_distance_m) continue;
     const auto over = fly_leg(m, {point_m, from.yaw_rad});
     if (over && *over != Termination::battery) m.out.termination = *over;

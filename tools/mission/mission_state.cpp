@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "planner/map/clearance.hpp"
+#include "planner/map/path_search.hpp"
 #include "sim/core/error.hpp"
 #include "sim/flight/guidance.hpp"
 #include "tools/mission/homing.hpp"
@@ -29,6 +30,9 @@ bool has_time_to_go_on(const Mission& m) {
   const double max_s = m.planner.config.termination.max_flight_time_s;
   return m.is_homing || max_s <= 0.0 || time_s(*m.flight) < max_s;
 }
+
+/// A leg can take minutes. The way home is flown to its end.
+bool stops_on_the_way(const Mission& m) { return !m.is_homing && should_stop(m); }
 
 }  // namespace
 
@@ -70,24 +74,29 @@ void keep_track(Mission& m) {
   if (m.flight->tick() % kTicksPerSample == 0) m.out.trajectory.push_back({time_s(*m.flight), T});
 }
 
-std::vector<Vec3> way_over_the_top(const Mission& m, const Vec3& from_m, const Vec3& goal_m) {
+std::optional<std::vector<Vec3>> way_over_the_top(const Mission& m, const Vec3& from_m,
+                                                  const Vec3& goal_m, bool reads_map) {
+  constexpr PathSearchConfig kSearch = {.max_expansions = 20000};
   const NoFly& no_fly = m.planner.no_fly;
   const Box3& box_m = m.planner.navigation_m;
+  const double radius_m = m.planner.config.validity.collision_radius_m;
+  const auto is_clear = [&](const Vec3& a_m, const Vec3& b_m) {
+    return !reads_map || is_path_clear(m.out.belief.grid, a_m, b_m, radius_m);
+  };
+  const auto is_flyable = [&](const Vec3& a_m, const Vec3& b_m) {
+    return no_fly.allows_leg(a_m, b_m) && is_clear(a_m, b_m);
+  };
   const Vec3 up_m(from_m.x(), from_m.y(), box_m.max().z());
   const Vec3 across_m(goal_m.x(), goal_m.y(), box_m.max().z());
-  if (no_fly.allows_leg(from_m, up_m) && no_fly.allows_leg(up_m, across_m) &&
-      no_fly.allows_leg(across_m, goal_m)) {
-    return {up_m, across_m, goal_m};
+  if (is_flyable(from_m, up_m) && is_flyable(up_m, across_m) && is_flyable(across_m, goal_m)) {
+    return {{up_m, across_m, goal_m}};
   }
-  const auto is_clear = [&](const Vec3& a_m, const Vec3& b_m) {
-    return is_path_clear(m.out.belief.grid, a_m, b_m, m.planner.config.validity.collision_radius_m);
-  };
   auto way_m = way_around(no_fly, box_m, from_m, goal_m, is_clear);
-  // it came from there: but for drift there is a way, if perhaps not one that is known to be clear
-  if (!way_m) way_m = way_around(no_fly, box_m, from_m, goal_m);
-  if (!way_m) way_m.emplace();
-  way_m->push_back(goal_m);
-  return *std::move(way_m);
+  if (!way_m && reads_map) {
+    way_m = find_path(kSearch, m.out.belief.grid, box_m, from_m, goal_m, radius_m, no_fly);
+  }
+  if (way_m) way_m->push_back(goal_m);
+  return way_m;
 }
 
 void need_as_recorded(const Mission& m, const std::optional<Decision>& now, std::size_t iteration) {
@@ -107,11 +116,13 @@ std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal, double spee
         keep_track(m);
         m.out.path_error.add(distance_to_segment_m(m.last_p_world_m, from_m, goal.p_world_m));
         on_tick(flight);
-        return !is_off_course(m) && has_energy_to_go_on(m) && has_time_to_go_on(m);
+        return !is_off_course(m) && has_energy_to_go_on(m) && has_time_to_go_on(m) &&
+               !stops_on_the_way(m);
       });
   if (end == LegEnd::collision) return Termination::collision;
   if (end == LegEnd::stopped) {
     if (is_off_course(m)) return Termination::off_course;
+    if (stops_on_the_way(m)) return Termination::interrupted;
     return has_energy_to_go_on(m) ? Termination::max_flight_time : Termination::battery;
   }
   m.current = goal;

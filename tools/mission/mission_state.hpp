@@ -60,8 +60,10 @@ bool should_stop(const Mission& m);
 void keep_track(Mission& m);
 
 /// The points from one place to another, the goal last: up to the top of the workspace, across and
-/// down; or, where nobody may fly there, around what forbids it.
-std::vector<Vec3> way_over_the_top(const Mission& m, const Vec3& from_m, const Vec3& goal_m);
+/// down; where nobody may fly there, or the map has something in the way, around that; nothing when
+/// no such way is known. `reads_map`: false asks of no-fly boxes alone, for an estimate.
+std::optional<std::vector<Vec3>> way_over_the_top(const Mission& m, const Vec3& from_m,
+                                                  const Vec3& goal_m, bool reads_map = true);
 
 /// Refuses a decision that is another than the recorded one of a resumed mission: another program
 /// or another mesh made the record. Throws BadInput naming the view.

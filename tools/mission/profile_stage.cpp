@@ -7,8 +7,9 @@
 namespace gnbv {
 namespace {
 
-/// Flies the legs of the profile while the LIDARs scan.
-std::optional<Termination> scan_profile(Mission& m, ProfileScanner& scanner) {
+/// Flies the legs of the profile while the LIDARs scan. `flown` gets where each began.
+std::optional<Termination> scan_profile(Mission& m, ProfileScanner& scanner,
+                                        std::vector<ViewPose>& flown) {
   const ProfilingConfig& profiling = m.planner.config.profiling;
   const GuidanceConfig& guidance = m.scenario.guidance;
   ProfileRoute route(profiling, m.planner.navigation_m, m.current, m.planner.no_fly);
@@ -28,6 +29,7 @@ std::optional<Termination> scan_profile(Mission& m, ProfileScanner& scanner) {
     const bool scanning = leg->is_scan || (profiling.scan_in_transit && !is_first);
     const double speed_m_s = leg->is_scan ? guidance.profile_speed_m_s : guidance.path_speed_m_s;
     m.out.distance.profile_m += (leg->goal.p_world_m - m.current.p_world_m).norm();
+    flown.push_back(m.current);
     const auto over = fly_leg(m, leg->goal, speed_m_s,
                               [&](const Flight& flight) { scanner.tick(flight, scanning); });
     if (over) return over;
@@ -37,7 +39,7 @@ std::optional<Termination> scan_profile(Mission& m, ProfileScanner& scanner) {
 }
 
 /// Flies and believes the profile, or takes up a saved one.
-std::optional<Termination> take_profile(Mission& m) {
+std::optional<Termination> take_profile(Mission& m, std::vector<ViewPose>& flown) {
   const ScopeTimer timer(m.out.wall.profile_s);
   const ProfilingConfig& profiling = m.planner.config.profiling;
   std::optional<Termination> over;
@@ -45,7 +47,7 @@ std::optional<Termination> take_profile(Mission& m) {
     m.out.belief = read_belief(profiling.file, m.planner);
   } else {
     ProfileScanner scanner(m.scene, m.planner.lidars, m.scenario.seed);
-    over = scan_profile(m, scanner);
+    over = scan_profile(m, scanner, flown);
     integrate_profile(m.planner, scanner.scans(), m.bench, m.out.belief);
   }
   const auto points = m.out.belief.cloud.points_world_m();
@@ -68,9 +70,9 @@ void predict(Mission& m) {
   prediction.symmetry.mirrored_world_m = {};
 }
 
-/// Back to where the views begin: straight when that is clear, else over the top of the workspace,
-/// or around what nobody may fly in.
-std::vector<ViewPose> legs_to_first_view(const Mission& m) {
+/// Back to where the views begin: straight when that is clear, else over the top of the workspace
+/// or around what is in the way; where nothing of that is known to be clear, as it came.
+std::vector<ViewPose> legs_to_first_view(const Mission& m, const std::vector<ViewPose>& flown) {
   const ViewPose& goal = m.out.start;
   const Vec3& from_m = m.current.p_world_m;
   if (is_path_clear(m.out.belief.grid, from_m, goal.p_world_m,
@@ -78,8 +80,14 @@ std::vector<ViewPose> legs_to_first_view(const Mission& m) {
       m.planner.no_fly.allows_leg(from_m, goal.p_world_m)) {
     return {goal};
   }
+  const auto way_m = way_over_the_top(m, from_m, goal.p_world_m);
   std::vector<ViewPose> legs;
-  for (const Vec3& p_m : way_over_the_top(m, from_m, goal.p_world_m)) {
+  if (!way_m) {
+    legs.assign(flown.rbegin(), flown.rend());
+    legs.push_back(goal);
+    return legs;
+  }
+  for (const Vec3& p_m : *way_m) {
     legs.push_back(goal);
     legs.back().p_world_m = p_m;
   }
@@ -92,9 +100,9 @@ std::vector<ViewPose> legs_to_first_view(const Mission& m) {
   return legs;
 }
 
-std::optional<Termination> fly_to_first_view(Mission& m) {
+std::optional<Termination> fly_to_first_view(Mission& m, const std::vector<ViewPose>& flown) {
   const ScopeTimer timer(m.out.wall.fly_s);
-  for (const ViewPose& leg : legs_to_first_view(m)) {
+  for (const ViewPose& leg : legs_to_first_view(m, flown)) {
     m.out.distance.transfer_m += (leg.p_world_m - m.current.p_world_m).norm();
     if (const auto over = fly_leg(m, leg)) return over;
   }
@@ -117,10 +125,11 @@ void lay_route(Mission& m) {
 }  // namespace
 
 std::optional<Termination> fly_profile(Mission& m) {
-  if (const auto over = take_profile(m)) return over;
+  std::vector<ViewPose> flown;
+  if (const auto over = take_profile(m, flown)) return over;
   if (should_stop(m)) return Termination::interrupted;
   predict(m);
-  if (const auto over = fly_to_first_view(m)) return over;
+  if (const auto over = fly_to_first_view(m, flown)) return over;
   lay_route(m);
   return std::nullopt;
 }

@@ -65,6 +65,14 @@ TEST(FindPath, FindsNothingThroughAClosedWallOrUnknownSpace) {
   EXPECT_FALSE(find_path({}, wall_up_to(2.0, false), kWorkspace, kFrom, kTo, kRadius_m));
 }
 
+TEST(FindPath, CrossesUnknownSpaceWhereThatIsAllowed) {
+  const OccupancyGrid grid = wall_up_to(2.0, false);
+  const auto via = find_path({}, grid, kWorkspace, kFrom, kTo, kRadius_m, {}, true);
+  ASSERT_TRUE(via);
+  EXPECT_FALSE(via->empty());
+  EXPECT_TRUE(is_path_clear(grid, kFrom, via->front(), kRadius_m));
+}
+
 TEST(FindPath, GivesUpWhenItsWorkIsSpent) {
   PathSearchConfig few;
   few.max_expansions = 5;

@@ -202,6 +202,12 @@ TEST(Guidance, NeverArrivingEndsInATimeout) {
   EXPECT_NEAR(static_cast<double>(flight->tick()) * kTick_s, leg_s + 5.0, 0.041);  // 2 setpoints
 }
 
+TEST(Guidance, ALegOfMoreThanAnHourIsNotBegun) {
+  const auto flight = make_flight(kind(VehicleKind::ideal), World{}, kStart, 1);
+  EXPECT_EQ(fly(*flight, {Vec3(1e10, 0, 10), 0.0}, 2.0), LegEnd::timeout);
+  EXPECT_EQ(flight->tick(), 0);
+}
+
 TEST(Guidance, NanGoalThrowsBrokenInvariant) {
   const auto flight = make_flight({}, World{}, kStart, 1);
   EXPECT_THROW(fly(*flight, {Vec3::Constant(std::nan("")), 0.0}, 2.0), BrokenInvariant);

@@ -9,9 +9,10 @@ namespace gnbv {
 namespace {
 
 const AirframeParameters kIris;
+const Allocation kQuad = allocation_of(kIris);
 
 TEST(Mixer, GivesWhatIsAskedBelowSaturation) {
-  const MixerOutput out = mix(kIris, Vec3(0.1, -0.05, 0.02), 0.5);
+  const MixerOutput out = mix(kQuad, Vec3(0.1, -0.05, 0.02), 0.5);
   EXPECT_LT((out.torque - Vec3(0.1, -0.05, 0.02)).norm(), 1e-12);
   double sum = 0.0;
   for (const double command : out.commands) sum += command;
@@ -20,7 +21,7 @@ TEST(Mixer, GivesWhatIsAskedBelowSaturation) {
 
 TEST(Mixer, PositiveTorqueIsPositiveOnTheBody) {
   for (int axis = 0; axis < 3; ++axis) {
-    const MixerOutput out = mix(kIris, 0.1 * Vec3::Unit(axis), 0.5);
+    const MixerOutput out = mix(kQuad, 0.1 * Vec3::Unit(axis), 0.5);
     const Wrench wrench =
         rotor_wrench(kIris, reference_speeds(kIris, out.commands), Vec3::Zero(), Vec3::Zero());
     EXPECT_GT(wrench.torque_body_n_m[axis], 0.0) << "axis " << axis;
@@ -28,11 +29,11 @@ TEST(Mixer, PositiveTorqueIsPositiveOnTheBody) {
 }
 
 TEST(Mixer, SacrificesYawBeforeRoll) {
-  const MixerOutput out = mix(kIris, Vec3(0.4, 0.0, 0.6), 1.0);
+  const MixerOutput out = mix(kQuad, Vec3(0.4, 0.0, 0.6), 1.0);
   EXPECT_NEAR(out.torque.x(), 0.4, 1e-12);
   EXPECT_NEAR(out.torque.z(), 0.15, 1e-12);  // what the headroom leaves
   // beyond the headroom's reach roll gives way a little, yaw most of itself
-  const MixerOutput extreme = mix(kIris, Vec3(0.6, 0.0, 0.6), 1.0);
+  const MixerOutput extreme = mix(kQuad, Vec3(0.6, 0.0, 0.6), 1.0);
   EXPECT_GT(extreme.torque.x(), 0.9 * 0.6);
   EXPECT_LT(extreme.torque.z(), 0.3 * 0.6);
   for (const double command : extreme.commands) {
@@ -42,7 +43,7 @@ TEST(Mixer, SacrificesYawBeforeRoll) {
 }
 
 TEST(Mixer, SacrificesThrustBeforeRoll) {
-  const MixerOutput out = mix(kIris, Vec3(0.5, 0.0, 0.0), 1.0);
+  const MixerOutput out = mix(kQuad, Vec3(0.5, 0.0, 0.0), 1.0);
   EXPECT_NEAR(out.torque.x(), 0.5, 1e-12);
   double mean = 0.0;
   for (const double command : out.commands) mean += 0.25 * command;
@@ -51,7 +52,7 @@ TEST(Mixer, SacrificesThrustBeforeRoll) {
 
 TEST(Mixer, NeverRaisesThrustForAttitude) {
   for (const double thrust : {0.0, 0.05, 0.1}) {  // airmode off
-    const MixerOutput out = mix(kIris, Vec3(0.4, 0.3, 0.2), thrust);
+    const MixerOutput out = mix(kQuad, Vec3(0.4, 0.3, 0.2), thrust);
     double mean = 0.0;
     for (const double command : out.commands) mean += 0.25 * command;
     EXPECT_LE(mean, thrust + 1e-12);

@@ -39,6 +39,7 @@ TEST_P(Preset, HoversAtItsHoverCommand) {
   const ViewPose start = {Vec3(0, 0, 10), 0.4};
   VehicleState state;
   state.T_world_body = T_world_body(start);
+  const Allocation allocation = allocation_of(vehicle.airframe);
   RigidVehicle body(vehicle.airframe, World{}, state, all(hover_speed_rad_s(vehicle.airframe)));
   PositionControlMemory position_memory;
   RateControlMemory rate_memory;
@@ -55,9 +56,9 @@ TEST_P(Preset, HoversAtItsHoverCommand) {
     const Vec3 omega_setpoint = attitude_control(
         vehicle.autopilot, Eigen::Quaterniond(body.state().T_world_body.linear()), attitude);
     body.step([&](const Vec3& omega_body_rad_s) {
-      const RotorCommands commands = rate_loop(vehicle.autopilot, vehicle.airframe, rate_memory,
+      const RotorCommands commands = rate_loop(vehicle.autopilot, allocation, rate_memory,
                                                omega_body_rad_s, omega_setpoint, attitude.thrust);
-      for (const double command : commands) EXPECT_NEAR(command, GetParam().hover_command, 1e-3);
+      for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(commands[i], GetParam().hover_command, 1e-3);
       return reference_speeds(vehicle.airframe, commands);
     });
   }

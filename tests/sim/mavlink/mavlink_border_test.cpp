@@ -131,6 +131,21 @@ TEST(MavlinkBorder, NothingToControlAndInfinityAreRefused) {
   }
 }
 
+TEST(MavlinkBorder, AnInfiniteYawOrYawRateIsRefused) {
+  for (const float sign : {1.0F, -1.0F}) {
+    SetPositionTargetLocalNed yaw = full_message(kPositionAndYaw);
+    yaw.yaw_rad = sign * std::numeric_limits<float>::infinity();
+    EXPECT_TRUE(is_refused(yaw));
+    yaw.type_mask = kVelocityAndYawRate;
+    EXPECT_FALSE(is_refused(yaw));
+    SetPositionTargetLocalNed rate = full_message(kVelocityAndYawRate);
+    rate.yaw_rate_rad_s = sign * std::numeric_limits<float>::infinity();
+    EXPECT_TRUE(is_refused(rate));
+    rate.type_mask = kPositionAndYaw;
+    EXPECT_FALSE(is_refused(rate));
+  }
+}
+
 TEST(MavlinkBorder, EveryAxisHasABound) {
   struct Group {
     std::array<float, 3> SetPositionTargetLocalNed::*field;

@@ -230,5 +230,32 @@ TEST(MavlinkFrame, AGoodFrameIsFoundBehindAnyGarbage) {
   }
 }
 
+TEST(MavlinkFrame, TheTableGivesWhatBitByBitGives) {
+  Bytes bytes;
+  for (int i = 0; i < 300; ++i) {
+    bytes.push_back(static_cast<std::uint8_t>(i * 37 + i / 7));
+    std::uint16_t crc = 0xffff;
+    for (std::size_t k = 0; k <= bytes.size(); ++k) {
+      const unsigned byte = k < bytes.size() ? bytes[k] : 152U;
+      crc = static_cast<std::uint16_t>(crc ^ byte);
+      for (int bit = 0; bit < 8; ++bit) {
+        crc = static_cast<std::uint16_t>((crc >> 1) ^ ((crc & 1) != 0 ? 0x8408 : 0));
+      }
+    }
+    ASSERT_EQ(frame_crc(bytes, 152), crc) << i;
+  }
+}
+
+TEST(MavlinkFrame, OfAWrongLengthNoCrcIsComputed) {
+  // every sixth byte begins a command of 255 bytes, 222 more than one has
+  const Bytes pattern = from_hex("feff0101014c");
+  Bytes flood;
+  while (flood.size() < 2046) flood.insert(flood.end(), pattern.begin(), pattern.end());
+  ReadCounts counts;
+  EXPECT_TRUE(read_frames(flood, counts).empty());
+  EXPECT_EQ(counts.bad_crc, 0U);
+  EXPECT_GT(counts.oversized, 200U);
+}
+
 }  // namespace
 }  // namespace gnbv::mavlink

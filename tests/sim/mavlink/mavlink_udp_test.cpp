@@ -71,5 +71,12 @@ TEST(MavlinkUdp, AClientThatIsGoneDoesNoHarm) {
   }
 }
 
+TEST(MavlinkUdp, TheLoopbackIsThisMachineAlone) {
+  EXPECT_TRUE(is_loopback(resolve_udp_url("udp://127.0.0.1:1")));
+  EXPECT_TRUE(is_loopback(resolve_udp_url("udp://127.3.2.1:1")));
+  EXPECT_FALSE(is_loopback(resolve_udp_url("udp://0.0.0.0:1")));
+  EXPECT_FALSE(is_loopback(resolve_udp_url("udp://192.168.0.7:1")));
+}
+
 }  // namespace
 }  // namespace gnbv::mavlink

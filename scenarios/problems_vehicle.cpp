@@ -1,0 +1,180 @@
+#include "scenarios/problems_vehicle.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/flight/allocation.hpp"
+#include "sim/flight/flight.hpp"
+#include "sim/flight/guidance.hpp"
+#include "sim/flight/rest_to_rest.hpp"
+#include "sim/flight/rotors.hpp"
+
+namespace gnbv {
+namespace {
+
+using Problems = std::vector<Problem>;
+
+/// The command of [0, 1] at which thrust equals weight, whether or not there is one.
+double hover_of(const AirframeParameters& a) {
+  return (hover_speed_rad_s(a) - a.idle_speed_rad_s) / a.command_gain_rad_s;
+}
+
+/// Whether the rotors can steer it at all.
+bool check_rotors(const AirframeParameters& a, Problems& out) {
+  const std::size_t before = out.size();
+  for (std::size_t i = 0; i < a.rotors.size(); ++i) {
+    if (std::abs(a.rotors[i].spin) == 1.0) continue;
+    out.push_back({{fmt::format("vehicle.airframe.rotors.{}.spin", i)}, "has to be 1 or -1"});
+  }
+  if (out.size() > before) return false;
+  const std::string fault = allocation_fault(a);
+  if (fault.empty()) return true;
+  const std::string rotors = "vehicle.airframe.rotors";
+  const std::string moment = "vehicle.airframe.moment_per_thrust_m";
+  out.push_back(
+      {a.moment_per_thrust_m == 0.0 ? std::vector{moment} : std::vector{rotors, moment}, fault});
+  return false;
+}
+
+/// A vehicle that turns slower than this would need minutes for a view.
+void check_yaw_authority(const AirframeParameters& a, Problems& out) {
+  constexpr double kLeast_rad_s2 = 0.1;
+  const double authority_rad_s2 = yaw_authority_rad_s2(a);
+  if (authority_rad_s2 >= kLeast_rad_s2) return;
+  out.push_back({{"vehicle.airframe.moment_per_thrust_m", "vehicle.airframe.inertia_kg_m2"},
+                 fmt::format("the rotors turn the vehicle about its vertical by {:.2g} rad/s^2 at "
+                             "full yaw command; at least {} is needed",
+                             authority_rad_s2, kLeast_rad_s2)});
+}
+
+/// The drag of the rotors is integrated in ticks of 4 ms, that of its turning in steps of 1 ms: it
+/// may take half of the motion in one, or the simulation would not be one.
+void check_drag(const AirframeParameters& a, Problems& out) {
+  constexpr double kShareMax = 0.5;
+  double arm_m = 0.0;
+  for (const RotorMount& rotor : a.rotors) arm_m = std::max(arm_m, rotor.p_body_m.norm());
+  const double top_rad_s = a.idle_speed_rad_s + a.command_gain_rad_s;
+  const double drag_n_s_per_m =
+      static_cast<double>(a.rotors.size()) * top_rad_s * a.drag_coefficient_n_s2_per_m;
+  const double share = drag_n_s_per_m * kTick_s / a.mass_kg;
+  const double turning_share =
+      drag_n_s_per_m * arm_m * arm_m * kTick_s / (kRateStepsPerTick * a.inertia_kg_m2.minCoeff());
+  if (std::max(share, turning_share) <= kShareMax) return;
+  out.push_back(
+      {{"vehicle.airframe.drag_coefficient_n_s2_per_m", "vehicle.airframe.mass_kg",
+        "vehicle.airframe.inertia_kg_m2"},
+       fmt::format("the rotors' drag at full command would take {:.2g} of the speed in a tick and "
+                   "{:.2g} of the rotation in a step of the rate loop; at most {} can be simulated",
+                   share, turning_share, kShareMax)});
+}
+
+/// What the planner keeps free has to hold the vehicle.
+void check_hull(const Scenario& s, Problems& out) {
+  const double hull_m = s.vehicle.airframe.hull_radius_m;
+  const double half_height_m = 0.5 * s.vehicle.airframe.hull_height_m;
+  const double free_m = s.planner.validity.collision_radius_m;
+  const double reach_m = std::hypot(hull_m, half_height_m);
+  if (reach_m < free_m) return;
+  out.push_back({{"vehicle.airframe.hull_radius_m", "vehicle.airframe.hull_height_m",
+                  "planner.validity.collision_radius_m"},
+                 fmt::format("the hull reaches {:.3g} m from the vehicle's centre, and the planner "
+                             "keeps only {:.3g} m free: planner.validity.collision_radius_m has "
+                             "to be more",
+                             reach_m, free_m)});
+}
+
+/// Nobody waits for hours until a leg is over: across the workspace, or half a turn.
+void check_leg_times(const Scenario& s, Problems& out) {
+  const ViewPose from = {s.workspace_m.min(), 0.0};
+  const auto check = [&](const ViewPose& to, double speed_m_s, std::vector<std::string> keys) {
+    const double leg_s = leg_duration_s(from, to, speed_m_s, s.guidance, s.vehicle);
+    if (leg_s <= kLongestLeg_s) return;
+    out.push_back(
+        {std::move(keys), fmt::format("the longest {} would take {:.2g} s; at most {} are flown",
+                                      to.yaw_rad == 0.0 ? "leg through the workspace" : "turn",
+                                      leg_s, kLongestLeg_s)});
+  };
+  const ViewPose across = {s.workspace_m.max(), 0.0};
+  check(across, s.guidance.path_speed_m_s,
+        {"guidance.path_speed_m_s", "guidance.acceleration_m_s2", "guidance.jerk_m_s3",
+         "vehicle.autopilot.climb_speed_max_m_s"});
+  check(across, s.guidance.profile_speed_m_s, {"guidance.profile_speed_m_s"});
+  check({from.p_world_m, kPi}, 1.0,
+        {"guidance.yaw_rate_deg_s", "guidance.yaw_acceleration_deg_s2", "guidance.yaw_jerk_deg_s3",
+         "vehicle.autopilot.rate_max_deg_s"});
+}
+
+void check_quadrotor(const Scenario& s, Problems& out) {
+  const AutopilotParameters& autopilot = s.vehicle.autopilot;
+  const std::string key = "vehicle.autopilot.";
+  require_below(autopilot.thrust_min, autopilot.thrust_max, key + "thrust_min", key + "thrust_max",
+                out);
+  require_below(autopilot.thrust_margin_xy, autopilot.thrust_max, key + "thrust_margin_xy",
+                key + "thrust_max", out);
+  const AirframeParameters& a = s.vehicle.airframe;
+  check_drag(a, out);
+  check_hull(s, out);
+  const double hover = hover_of(a);
+  if (autopilot.thrust_min < hover && hover < autopilot.thrust_max) {
+    if (!check_rotors(a, out)) return;
+    check_yaw_authority(a, out);
+    check_leg_times(s, out);
+    return;
+  }
+  out.push_back({{"vehicle.airframe.mass_kg", "vehicle.airframe.thrust_coefficient_n_s2"},
+                 fmt::format("hovering takes the command {:.2f}, which is not between thrust_min = "
+                             "{} and thrust_max = {}",
+                             hover, autopilot.thrust_min, autopilot.thrust_max)});
+}
+
+/// A leg flown faster than the autopilot allows would only time out. Climb and descent are limited
+/// by the guidance itself.
+void check_guidance(const Scenario& s, Problems& out) {
+  const double limit_m_s = s.vehicle.autopilot.speed_max_m_s;
+  const auto check = [&](double speed_m_s, const std::string& key) {
+    if (speed_m_s <= limit_m_s) return;
+    out.push_back({{"guidance." + key, "vehicle.autopilot.speed_max_m_s"},
+                   fmt::format("{} = {} is above the autopilot's speed_max_m_s = {}", key,
+                               speed_m_s, limit_m_s)});
+  };
+  check(s.guidance.path_speed_m_s, "path_speed_m_s");
+  check(s.guidance.profile_speed_m_s, "profile_speed_m_s");
+}
+
+/// The guidance streams a setpoint every 20 ms.
+void check_offboard(const VehicleConfig& vehicle, Problems& out) {
+  constexpr double kStream_s = 0.02;
+  const double loss_s = vehicle.autopilot.commander.offboard_loss_s;
+  if (loss_s > kStream_s) return;
+  out.push_back({{"vehicle.autopilot.commander.offboard_loss_s"},
+                 fmt::format("has to exceed the {} s between two setpoints of the guidance, or the "
+                             "vehicle never stays in OFFBOARD",
+                             kStream_s)});
+}
+
+}  // namespace
+
+void require_below(double low, double high, const std::string& low_key, const std::string& high_key,
+                   Problems& out) {
+  if (low < high) return;
+  out.push_back({{high_key, low_key},
+                 fmt::format("{} = {} has to be below {} = {}", low_key, low, high_key, high)});
+}
+
+void check_vehicle(const Scenario& scenario, Problems& out) {
+  const VehicleConfig& vehicle = scenario.vehicle;
+  if (vehicle.kind == VehicleKind::quadrotor) {
+    check_quadrotor(scenario, out);
+    check_guidance(scenario, out);
+    check_offboard(vehicle, out);
+    return;
+  }
+  check_leg_times(scenario, out);
+  if (vehicle.estimate.model == EstimateModel::none) return;
+  out.push_back({{"vehicle.estimate.model", "vehicle.kind"},
+                 "an ideal vehicle knows where it is: its estimate is `none`"});
+}
+
+}  // namespace gnbv
