@@ -185,7 +185,10 @@ std::vector<std::string_view> utility_names() {
   return names;
 }
 
-UtilityNeeds needs_of(const UtilityConfig& config) { return utility_named(config.name).needs; }
+UtilityNeeds needs_of(const UtilityConfig& config) {
+  if (!is_own_utility(config.name)) return utility_named(config.name).needs;
+  return {.rays = names_ray_fields(config.python), .shadow = names_shadow_fields(config.python)};
+}
 
 ViewOptions view_options(const UtilityConfig& config, const ShadowBand& shadow,
                          double sparse_below) {

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <set>
 #include <string_view>
 
 #include "sim/core/error.hpp"
+#include "tools/mission/own_utility.hpp"
 
 namespace gnbv {
 namespace {
@@ -41,6 +43,13 @@ bool is_assignment(std::string_view text) {
 bool sets_seed(std::string_view assignment) {
   const std::string_view key = assignment.substr(0, assignment.find('='));
   return key.substr(std::min(key.find_first_not_of(' '), key.size())) == "seed";
+}
+
+/// Of a function in a file, FUNCTION or the file's name: what a table has room for.
+std::string method_name(const std::string& utility) {
+  if (!is_utility_file(utility)) return utility;
+  return utility.ends_with(".py") ? std::filesystem::path(utility).stem().string()
+                                  : utility.substr(utility.rfind(':') + 1);
 }
 
 class Methods {
@@ -110,7 +119,9 @@ std::vector<SweepMethod> methods_of(const MethodOptions& options) {
                              options.varies.empty() && !options.variants.empty();
   if (only_variants) methods.add("default", {});
   for (const std::string& utility : options.utilities) {
-    methods.add(utility, {"planner.utility.name=" + utility});
+    std::vector<std::string> overrides;
+    for (const Override& set : utility_overrides(utility)) overrides.push_back(set.text);
+    methods.add(method_name(utility), std::move(overrides));
   }
   for (const std::string& preset : options.presets) {
     methods.add(preset, {"planner.preset=" + preset});
