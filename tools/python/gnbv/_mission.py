@@ -28,7 +28,7 @@ def run(
     preset: str | None = None,
     mesh: PathLike | None = None,
     bounds: str = "scenario",
-    set: Mapping[str, Any] | None = None,  # noqa: A002  (the name of the option)
+    set: Mapping[str, Any] | None = None,
     out: PathLike | None = None,
     threads: int = 0,
     resume: bool = False,

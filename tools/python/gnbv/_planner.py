@@ -197,7 +197,7 @@ class AskedPlanner:
 
     def kept(self) -> None:
         raise BufferError(
-            "planner: kept an array of the belief beyond its call, and it is about to change: copy it"
+            "planner: kept an array of the belief beyond its call, after which it changes: copy it"
         )
 
 

@@ -19,7 +19,9 @@ from gnbv._program import call
 Array = npt.NDArray[Any]
 _TEXT = {"sampler": "U8", "via": "U256"}
 _COUNTS = {"iteration", "candidates", "valid", "cloud_points", "view"}
-MAP_DTYPE = np.dtype([("x_m", "f8"), ("y_m", "f8"), ("z_m", "f8"), ("size_m", "f8"), ("log_odds", "f4")])
+MAP_DTYPE = np.dtype(
+    [("x_m", "f8"), ("y_m", "f8"), ("z_m", "f8"), ("size_m", "f8"), ("log_odds", "f4")]
+)
 
 
 class Run:
@@ -46,7 +48,9 @@ class Run:
         try:
             read: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
         except OSError as error:
-            raise BadInput(f"{file}: {error.strerror}: no run, or one that is not finished") from error
+            raise BadInput(
+                f"{file}: {error.strerror}: no run, or one that is not finished"
+            ) from error
         except json.JSONDecodeError as error:
             raise BadInput(f"{file}:{error.lineno}: {error.msg}") from error
         return read
@@ -82,7 +86,7 @@ class Run:
 
     @property
     def final_coverage(self) -> float:
-        """Share of the surface voxels of 0.05 m that the cloud covers, of those seen from outside."""
+        """Share of the voxels of 0.05 m with surface seen from outside that the cloud covers."""
         return float(self.summary["coverage"]["final"]["0.05"])
 
     @property
@@ -103,7 +107,9 @@ class Run:
     def render(self, *what: str, out: str | os.PathLike[str] | None = None) -> list[Path]:
         """Draws pictures ("path" by default; `gnbv render --help`), and returns their files."""
         target = Path(out) if out is not None else self.folder
-        said = call("render", str(self.folder), "--what", ",".join(what or ("path",)), "-o", str(target))
+        said = call(
+            "render", str(self.folder), "--what", ",".join(what or ("path",)), "-o", str(target)
+        )
         return [Path(line) for line in said.split("\n") if line]
 
     def report(self, out: str | os.PathLike[str] | None = None) -> Path:
@@ -118,11 +124,13 @@ class Run:
             from gnbv import _exports
 
             return _exports.export(self, form, Path(out) if out is not None else None)
-        said = call("export", str(self.folder), "--format", form, *(["-o", str(out)] if out else []))
+        said = call(
+            "export", str(self.folder), "--format", form, *(["-o", str(out)] if out else [])
+        )
         return Path(said.splitlines()[-1])
 
 
-def load(folder: Union[str, "os.PathLike[str]"]) -> Run:
+def load(folder: Union[str, os.PathLike[str]]) -> Run:
     """The run in a folder. Raises BadInput when it holds none that is finished."""
     run = Run(folder)
     run.summary  # noqa: B018  (says now what is wrong)
@@ -135,9 +143,7 @@ def _csv(file: Path) -> Array:
             header, *rows = list(csv.reader(text))
     except (OSError, ValueError) as error:
         raise BadInput(f"{file}: cannot be read: {error}") from error
-    columns = [
-        (name, _TEXT.get(name, "i8" if name in _COUNTS else "f8")) for name in header
-    ]
+    columns = [(name, _TEXT.get(name, "i8" if name in _COUNTS else "f8")) for name in header]
     out = np.empty(len(rows), dtype=columns)
     for line, row in enumerate(rows, start=2):
         try:

@@ -24,8 +24,8 @@ class Table:
 
     Attributes:
         title: what it is about.
-        rows: structured array, a row a line of the table; numbers that are missing are NaN. KEY_ci95
-            is the half width of the 95 % interval of KEY.
+        rows: structured array, a row a line of the table; numbers that are missing are NaN.
+            KEY_ci95 is the half width of the 95 % interval of KEY.
         notes: what has to be known to read it.
     """
 
@@ -36,9 +36,9 @@ class Table:
     def __str__(self) -> str:
         names = self.rows.dtype.names or ()
         cells = [[_text(row[name]) for name in names] for row in self.rows]
-        widths = [max(len(text) for text in column) for column in zip(names, *cells)]
+        widths = [max(len(text) for text in column) for column in zip(names, *cells, strict=True)]
         lines = [
-            "  ".join(text.ljust(width) for text, width in zip(line, widths)).rstrip()
+            "  ".join(text.ljust(width) for text, width in zip(line, widths, strict=True)).rstrip()
             for line in [list(names), *cells]
         ]
         return "\n".join([self.title, *lines, *self.notes])
@@ -97,7 +97,7 @@ def _tables(
     extra: list[str],
     utilities: Iterable[Utility] = (),
     seed: int | None = None,
-    set: Mapping[str, Any] | None = None,  # noqa: A002
+    set: Mapping[str, Any] | None = None,
     mesh: PathLike | None = None,
     jobs: int = 1,
     threads: int = 0,
@@ -134,7 +134,7 @@ def _table(read: dict[str, Any]) -> Table:
         width = max((len(str(value)) for value in values), default=1) or 1
         dtype.append((key, f"U{width}" if is_text else "f8"))
     rows = np.empty(len(read["rows"]), dtype=dtype)
-    for (key, kind), values in zip(dtype, columns.values()):
+    for (key, kind), values in zip(dtype, columns.values(), strict=True):
         missing: Any = "" if kind.startswith("U") else np.nan
         rows[key] = [missing if value is None else value for value in values]
     return Table(read["title"], rows, list(read.get("notes", [])))

@@ -64,7 +64,7 @@ def as_arguments(given: Sequence[Utility]) -> Iterator[list[str]]:
         raise BadInput(f"utility {double}: named twice")
     with tempfile.TemporaryDirectory(prefix="gnbv-utility-") as folder:
         arguments = []
-        for utility, name in zip(given, names):
+        for utility, name in zip(given, names, strict=True):
             if callable(utility):
                 file = Path(folder) / f"{name}.py"
                 file.write_text(source_of(utility), encoding="utf-8")
