@@ -112,7 +112,7 @@ class _Shown:
         self._bar: Any = None
         if progress is True and sys.stderr is not None and sys.stderr.isatty():
             try:
-                from tqdm import tqdm
+                from tqdm import tqdm  # type: ignore[import-untyped,unused-ignore]
             except ImportError:
                 return
             self._bar = tqdm(total=100, desc=label, unit="%", leave=False)

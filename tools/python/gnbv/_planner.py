@@ -61,7 +61,7 @@ class Belief:
     @property
     def is_predicted(self) -> npt.NDArray[np.bool_]:
         """Whether symmetry predicts surface there; shape (z, y, x)."""
-        return (self.words & 8) != 0
+        return np.not_equal(self.words & 8, 0)
 
     @property
     def entropy(self) -> npt.NDArray[np.float32]:
@@ -124,7 +124,8 @@ class Belief:
     def valid(self, views: Views) -> npt.NDArray[np.float64]:
         """Those that may be flown to."""
         rows = view_rows(views)
-        return rows[self.validate(rows)[0] == ""]
+        kept: npt.NDArray[np.float64] = rows[self.validate(rows)[0] == ""]
+        return kept
 
     def evaluate(self, views: Views) -> npt.NDArray[Any]:
         """What each view would see: ViewStats as a structured array, path_m the straight way."""

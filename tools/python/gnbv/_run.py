@@ -119,11 +119,7 @@ class Run:
         return file
 
     def export(self, form: str, out: str | os.PathLike[str] | None = None) -> Path:
-        """Writes the run for other tools: colmap, nerfstudio, tum, plain, rerun or mcap."""
-        if form in ("rerun", "mcap"):
-            from gnbv import _exports
-
-            return _exports.export(self, form, Path(out) if out is not None else None)
+        """Writes the run for other tools: colmap, nerfstudio, tum or plain."""
         said = call(
             "export", str(self.folder), "--format", form, *(["-o", str(out)] if out else [])
         )

@@ -86,7 +86,7 @@ def compare(
     for name, values in (variants or {}).items():
         settings = ",".join(f"{key}={_yaml(value)}" for key, value in values.items())
         extra += ["--variant", f"{name}:{settings}"]
-    command = ["compare", *map(os.fspath, scenarios)]
+    command = ["compare", *(os.fspath(scenario) for scenario in scenarios)]
     return _tables(command, seeds=seeds, extra=extra, utilities=utilities, **options)
 
 

@@ -11,7 +11,7 @@ gimbal, its pitch; `action="candidate"` the index of one of the sampled candidat
 info["action_mask"] says which may be taken. What cannot be flown to costs a step and moves nothing;
 info["refused"] says why.
 
-Observations: "map" (3, 8, 16, 16), shares of unknown, free and occupied voxels by coarse cell (z, y, x);
+Observations: "map" (3, 8, 16, 16), shares of unknown, free and occupied voxels by cell (z, y, x);
 "pose": x, y, z of the navigation box in [-1, 1], sine and cosine of the yaw; "progress": the
 entropy left and the share of the budget used; with candidates also "candidates": for each the
 logarithms of its free, unknown, occupied, predicted and thinly sampled voxels and of its entropy,
@@ -26,7 +26,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from typing import Any, ClassVar, Optional, Union
+from typing import Any, Optional, Union
 
 import gymnasium
 import numpy as np
@@ -165,7 +165,7 @@ class _Episode:
 class NbvEnv(gymnasium.Env[Observation, Any]):
     """One mission at a time; see the module's text."""
 
-    metadata: ClassVar[dict[str, Any]] = {"render_modes": []}
+    metadata: dict[str, Any] = {"render_modes": []}  # noqa: RUF012
 
     def __init__(
         self,
@@ -179,7 +179,7 @@ class NbvEnv(gymnasium.Env[Observation, Any]):
         self._stage = _Stage(scenario, action, goal, set, 1)
         self._episode = _Episode(self._stage)
         self.action_space = self._stage.action_space()
-        self.observation_space = self._stage.observation_space()
+        self.observation_space: spaces.Space[Any] = self._stage.observation_space()
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
@@ -203,10 +203,10 @@ class NbvEnv(gymnasium.Env[Observation, Any]):
 
 class NbvVectorEnv(VectorEnv[Any, Any, Any]):
     """Many missions at once, each on a C++ thread, `threads` of them flying at a time (0: as many
-    as the machine has). Results do not depend on it. An episode that is over begins anew with the next
-    step (AutoresetMode.NEXT_STEP)."""
+    as the machine has). Results do not depend on it. An episode that is over begins anew with the
+    next step (AutoresetMode.NEXT_STEP)."""
 
-    metadata: ClassVar[dict[str, Any]] = {
+    metadata: dict[str, Any] = {  # noqa: RUF012
         "render_modes": [],
         "autoreset_mode": AutoresetMode.NEXT_STEP,
     }
