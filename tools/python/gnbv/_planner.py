@@ -61,7 +61,7 @@ class Belief:
     @property
     def is_predicted(self) -> npt.NDArray[np.bool_]:
         """Whether symmetry predicts surface there; shape (z, y, x)."""
-        return np.not_equal(self.words & 8, 0)
+        return (self.words & 8).astype(np.bool_)
 
     @property
     def entropy(self) -> npt.NDArray[np.float32]:
