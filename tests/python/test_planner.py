@@ -3,9 +3,10 @@
 import gc
 import types
 
-import gnbv
 import numpy as np
 import pytest
+
+import gnbv
 
 
 def greedy(belief, history):

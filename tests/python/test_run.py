@@ -7,9 +7,10 @@ import subprocess
 import sys
 import time
 
-import gnbv
 import numpy as np
 import pytest
+
+import gnbv
 
 
 def test_import_is_fast():

@@ -4,8 +4,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-import gnbv
 import pytest
+
+import gnbv
 
 PACKAGE = Path(gnbv.__file__).parent
 SOURCES = Path(__file__).parents[2] / "tools" / "python" / "gnbv"

@@ -3,9 +3,10 @@
 import hashlib
 import subprocess
 
-import gnbv
 import numpy as np
 import pytest
+
+import gnbv
 from gnbv._program import PROGRAM, environment
 
 

@@ -10,7 +10,7 @@ import matplotlib
 import gnbv
 
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
+import matplotlib.pyplot as plt
 
 if __name__ == "__main__":
     figure, axes = plt.subplots(figsize=(6, 4))
