@@ -122,10 +122,10 @@ bool is_utility_file(std::string_view utility) {
   return utility.ends_with(".py") || file.ends_with(".py");
 }
 
-std::vector<Override> utility_overrides(const std::string& utility) {
+NamedUtility named_utility(const std::string& utility) {
   const std::string source = "--utility " + utility;
   if (!is_utility_file(utility)) {
-    return {{.text = "planner.utility.name=" + utility, .source = {}, .folder = {}}};
+    return {utility, {{.text = "planner.utility.name=" + utility, .source = {}, .folder = {}}}};
   }
   const std::size_t colon = utility.ends_with(".py") ? utility.size() : utility.rfind(':');
   const std::string file = utility.substr(0, colon);
@@ -147,9 +147,10 @@ std::vector<Override> utility_overrides(const std::string& utility) {
     return Override{
         .text = fmt::format("planner.utility.{}={}", key, value), .source = source, .folder = {}};
   };
-  return {set("name", std::string(kOwnUtilityName)),
-          set("python.function", yaml_in_quotes(function)),
-          set("python.source", yaml_in_quotes(text))};
+  return {
+      function,
+      {set("name", std::string(kOwnUtilityName)), set("python.function", yaml_in_quotes(function)),
+       set("python.source", yaml_in_quotes(text))}};
 }
 
 OwnScores start_own_utility(const UtilityConfig& config) {

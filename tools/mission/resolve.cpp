@@ -42,8 +42,8 @@ Scenario resolve_scenario(const ScenarioOptions& options, const std::vector<Over
     add(fmt::format("structure.file.path={}", yaml_in_quotes(fs::absolute(options.mesh).string())));
   }
   if (!options.utility.empty()) {
-    const std::vector<Override> utility = utility_overrides(options.utility);
-    all.insert(all.end(), utility.begin(), utility.end());
+    const NamedUtility utility = named_utility(options.utility);
+    all.insert(all.end(), utility.overrides.begin(), utility.overrides.end());
   }
   if (!options.preset.empty()) add("planner.preset=" + options.preset);
   if (!options.seed.empty()) add("seed=" + options.seed);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "planner/decision.hpp"
 #include "planner/map/frontiers.hpp"
 #include "planner/map/path_search.hpp"
 #include "planner/view/view_fields.hpp"
@@ -128,7 +129,7 @@ nb::bytes BeliefView::evaluate(const ViewRows& rows) const {
       }
     });
   }
-  return {reinterpret_cast<const char*>(stats.data()), stats.size() * sizeof(ViewStats)};
+  return nb::bytes(stats.data(), stats.size() * sizeof(ViewStats));
 }
 
 nb::object BeliefView::find_path(const Point& from_m, const Point& to_m) const {

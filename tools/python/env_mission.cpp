@@ -120,7 +120,7 @@ void EnvMission::fly(Scenario scenario) {
           observer_->observe(*belief_, state_.pose, taken, taken.size(), with_candidates_);
     };
     MissionHooks hooks;
-    hooks.should_stop = [this] { return is_closing_; };
+    hooks.should_stop = [this] { return is_closing_.load(); };
     hooks.on_view = [&](const ViewRecord& view) {
       state_.pose = view.decision.view;
       state_.flown_m = view.flown_m;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/decision.hpp"
 #include "planner/view_sampling.hpp"
 #include "planner/view_validity.hpp"
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <set>
 #include <string_view>
 
@@ -45,15 +44,9 @@ bool sets_seed(std::string_view assignment) {
   return key.substr(std::min(key.find_first_not_of(' '), key.size())) == "seed";
 }
 
-/// Of a function in a file, FUNCTION or the file's name: what a table has room for.
-std::string method_name(const std::string& utility) {
-  if (!is_utility_file(utility)) return utility;
-  return utility.ends_with(".py") ? std::filesystem::path(utility).stem().string()
-                                  : utility.substr(utility.rfind(':') + 1);
-}
-
 class Methods {
  public:
+  void add(SweepMethod method) { add(method.name, std::move(method.overrides)); }
   void add(const std::string& name, std::vector<std::string> overrides) {
     if (!names_.insert(name).second) add_fault(fmt::format("method '{}': named twice", name));
     methods_.push_back({name, std::move(overrides)});
@@ -113,15 +106,20 @@ class Methods {
 
 }  // namespace
 
+SweepMethod method_of_utility(const std::string& utility) {
+  NamedUtility named = named_utility(utility);
+  SweepMethod method{.name = std::move(named.label), .overrides = {}};
+  for (Override& set : named.overrides) method.overrides.push_back(std::move(set.text));
+  return method;
+}
+
 std::vector<SweepMethod> methods_of(const MethodOptions& options) {
   Methods methods;
   const bool only_variants = options.utilities.empty() && options.presets.empty() &&
                              options.varies.empty() && !options.variants.empty();
   if (only_variants) methods.add("default", {});
   for (const std::string& utility : options.utilities) {
-    std::vector<std::string> overrides;
-    for (const Override& set : utility_overrides(utility)) overrides.push_back(set.text);
-    methods.add(method_name(utility), std::move(overrides));
+    methods.add(method_of_utility(utility));
   }
   for (const std::string& preset : options.presets) {
     methods.add(preset, {"planner.preset=" + preset});
