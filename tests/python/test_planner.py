@@ -1,6 +1,5 @@
 """A planner of one's own, and what it can and cannot see."""
 
-import gc
 import types
 
 import numpy as np
@@ -112,22 +111,26 @@ def test_ways_lead_around():
     gnbv.run("smoke", planner=walks)
 
 
-def reachable(start, most=20000):
-    """All that can be had from an object by attributes, items, closures and what holds it."""
+def reachable(start):
+    """All that can be had from an object by attributes, items, bound methods and closures."""
     found, todo = {}, [start]
-    while todo and len(found) < most:
+    while todo:
         thing = todo.pop()
-        if id(thing) in found or isinstance(thing, (types.ModuleType, type)):
+        if id(thing) in found or isinstance(thing, types.ModuleType | type | str | bytes):
             continue
         found[id(thing)] = thing
-        if isinstance(thing, (str, bytes, int, float, np.ndarray, np.generic)):
-            continue
-        todo += [v for v in gc.get_referents(thing) if not isinstance(v, types.FrameType)]
-        for name in dir(thing):
-            try:
-                todo.append(getattr(thing, name))
-            except Exception:
-                pass
+        if isinstance(thing, np.ndarray):
+            todo.append(thing.base)
+        elif isinstance(thing, dict):
+            todo += [*thing.keys(), *thing.values()]
+        elif isinstance(thing, list | tuple | set):
+            todo += thing
+        elif isinstance(thing, types.MethodType | types.BuiltinMethodType):
+            todo.append(thing.__self__)
+        elif isinstance(thing, types.FunctionType):
+            todo += [cell.cell_contents for cell in thing.__closure__ or ()]
+        elif type(thing).__module__.startswith("gnbv"):
+            todo += [getattr(thing, name) for name in dir(thing)]
     return list(found.values())
 
 

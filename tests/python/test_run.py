@@ -13,13 +13,16 @@ import pytest
 import gnbv
 
 
-def test_import_is_fast():
-    code = "import time; t = time.perf_counter(); import gnbv; print(time.perf_counter() - t)"
+def test_import_adds_little_to_that_of_numpy():
+    """In CPU time, since others share the machine."""
+    code = (
+        "import time, numpy; t = time.process_time(); import gnbv; print(time.process_time() - t)"
+    )
     times = [
         float(subprocess.run([sys.executable, "-c", code], capture_output=True, check=True).stdout)
-        for _ in range(3)
+        for _ in range(5)
     ]
-    assert min(times) <= 0.3, times
+    assert min(times) <= 0.15, times
 
 
 def test_a_run_is_what_the_program_flies(smoke, short, tmp_path):
@@ -96,7 +99,7 @@ def test_progress_is_told_and_may_raise(short):
 
 def test_ctrl_c_ends_in_order_and_resume_goes_on(tmp_path):
     code = """
-import gnbv
+import gnbv, time
 def told(share, note):
     if note.startswith("view 2/"): print("flying", flush=True)
 try:
@@ -105,7 +108,7 @@ try:
 except gnbv.Interrupted as stopped:
     print("stopped", stopped.folder, flush=True)
 try:
-    while True: pass
+    time.sleep(20)
 except KeyboardInterrupt:
     print("python again", flush=True)
 """

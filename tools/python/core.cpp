@@ -43,6 +43,7 @@ void translate(const std::exception_ptr& thrown, void*) {
 }  // namespace
 
 NB_MODULE(_core, m) {
+  nb::set_leak_warnings(false);  // an array that a planner kept is never freed: run_mission.cpp
   m.attr("__version__") = GNBV_VERSION;
   nb::register_exception_translator(translate);
   gnbv::bind_belief(m);

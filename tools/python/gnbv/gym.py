@@ -103,12 +103,12 @@ class _Stage:
 
     def observation(self, state: dict[str, Any]) -> Observation:
         seen = {
-            "map": state["map"].reshape(self.about["map_shape"]),
-            "pose": state["pose"],
-            "progress": state["progress"],
+            "map": state["map"].reshape(self.about["map_shape"]).copy(),
+            "pose": state["pose"].copy(),
+            "progress": state["progress"].copy(),
         }
         if self.is_candidate:
-            seen["candidates"] = state["candidates"]
+            seen["candidates"] = state["candidates"].copy()
         return seen
 
 
@@ -121,6 +121,7 @@ class _Episode:
         self.state: dict[str, Any] = {}
         self.steps = 0
         self._refused = ""
+        self._acts = False
 
     def begin(self, seed: int) -> None:
         self.steps = 0
@@ -132,17 +133,19 @@ class _Episode:
         return self.stage.observation(self.state), self.info()
 
     def act(self, action: Any) -> None:
-        if not self.state or self.state["ended"]:
+        if not self.state or (self.state["ended"] and self.steps > 0):
             raise RuntimeError("step: the episode is over; call reset()")
         self.steps += 1
-        view = self.stage.view_of(action, self.state)
-        self._refused = "" if view is not None else "masked"
+        self._acts = not self.state["ended"]  # it may have ended with the profile
+        view = self.stage.view_of(action, self.state) if self._acts else None
+        self._refused = "masked" if view is None and self._acts else ""
+        self._acts = view is not None
         if view is not None:
             self.mission.act(view)
 
     def result(self) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
         before = self.state["coverage"]
-        if not self._refused:
+        if self._acts:
             self.state = self.mission.wait()
         reward = (self.state["coverage"] - before) / self.stage.about["ceiling"]
         ended = bool(self.state["ended"])
