@@ -34,7 +34,7 @@ std::vector<ViewRays> rays_by_pitch(std::span<const CameraModel> cameras,
 PlannerModel::PlannerModel(const PlannerConfig& planner_config, const Box3& workspace,
                            std::span<const CameraModel> camera_models,
                            std::span<const LidarModel> lidar_models, std::uint64_t mission_seed,
-                           NoFly mission_no_fly)
+                           NoFly mission_no_fly, OwnScores mission_own_scores)
     : config(planner_config),
       seed(mission_seed),
       workspace_m(workspace),
@@ -47,7 +47,8 @@ PlannerModel::PlannerModel(const PlannerConfig& planner_config, const Box3& work
       view_rays(rays_by_pitch(cameras, pitches_rad, planner_config.map.resolution_m)),
       view_voxels(frustum_voxels(cameras, planner_config.map.resolution_m)),
       needs_shadow(!asks_no_utility(config.utility.name) && !is_tour(config.utility.name) &&
-                   needs_of(config.utility).shadow) {}
+                   needs_of(config.utility).shadow),
+      own_scores(std::move(mission_own_scores)) {}
 
 const ViewRays& PlannerModel::rays_at(double gimbal_pitch_rad) const {
   const auto nearest =

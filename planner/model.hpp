@@ -17,7 +17,7 @@ namespace gnbv {
 struct PlannerModel {
   PlannerModel(const PlannerConfig& config, const Box3& workspace_m,
                std::span<const CameraModel> cameras, std::span<const LidarModel> lidars,
-               std::uint64_t seed = 0, NoFly no_fly = {});
+               std::uint64_t seed = 0, NoFly no_fly = {}, OwnScores own_scores = {});
 
   PlannerConfig config;
   std::uint64_t seed;  // of what the planner leaves to chance
@@ -31,6 +31,7 @@ struct PlannerModel {
   std::vector<ViewRays> view_rays;     // by those pitches
   double view_voxels;                  // of the cameras' frusta together
   bool needs_shadow;                   // whether the utility asks for Belief::shadow
+  OwnScores own_scores;                // asked where the utility is the user's own
 
   /// The rays of a view whose gimbal has this pitch, or the nearest that it offers.
   const ViewRays& rays_at(double gimbal_pitch_rad) const;

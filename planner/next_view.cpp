@@ -7,6 +7,7 @@
 #include "planner/history.hpp"
 #include "planner/model.hpp"
 #include "planner/workbench.hpp"
+#include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
 
 namespace gnbv {
@@ -158,6 +159,7 @@ class Decider {
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       if (!candidates[i].rejected) valid.push_back(i);
     }
+    std::vector<OwnCandidate> own(model_.own_scores ? valid.size() : 0);
     std::atomic<std::size_t> next{0};
     parallel_for(bench_.threads, bench_.marks.size(), [&](std::size_t share) {
       for (std::size_t i = next++; i < valid.size(); i = next++) {
@@ -170,6 +172,16 @@ class Decider {
         stats.path_m = model_.config.utility.distance == DistanceAlong::path
                            ? candidate.path_m
                            : (candidate.view.p_world_m - current_.p_world_m).norm();
+        if (model_.own_scores) {
+          const Vec3& p_m = candidate.view.p_world_m;
+          own[i] = {stats,
+                    p_m.x(),
+                    p_m.y(),
+                    p_m.z(),
+                    candidate.view.yaw_rad,
+                    candidate.view.gimbal_pitch_rad};
+          continue;
+        }
         const ScoreContext context = {
             .seed = model_.seed, .iteration = history_.decisions.size(), .candidate = valid[i]};
         const std::optional<Score> utility = score(model_.config.utility, stats, context);
@@ -180,6 +192,19 @@ class Decider {
         }
       }
     });
+    if (model_.own_scores) take_own_scores(candidates, valid, own);
+  }
+
+  /// All at once: the function sees a decision, never a share of it.
+  void take_own_scores(std::span<Candidate> candidates, std::span<const std::size_t> valid,
+                       std::span<const OwnCandidate> own) {
+    if (valid.empty()) return;
+    const std::vector<double> scores =
+        model_.own_scores({.iteration = history_.decisions.size(), .rows = own, .indices = valid});
+    GNBV_CHECK(scores.size() == valid.size(), "{} scores of {} views", scores.size(), valid.size());
+    for (std::size_t i = 0; i < valid.size(); ++i) {
+      candidates[valid[i]].score = {.value = scores[i], .information = scores[i]};
+    }
   }
 
   /// Takes the candidate of the highest utility, the first of equals, and keeps the record.

@@ -33,6 +33,8 @@ std::string_view name_of(Termination reason) {
       return "tour_complete";
     case Termination::coverage_reached:
       return "coverage_reached";
+    case Termination::utility_failed:
+      return "utility_failed";
     case Termination::interrupted:
       return "interrupted";
     case Termination::collision:

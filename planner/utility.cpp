@@ -186,6 +186,7 @@ std::vector<std::string_view> utility_names() {
 }
 
 bool reads_prediction(const UtilityConfig& config) {
+  if (is_own_utility(config.name)) return names_prediction(config.python);
   const auto reads = [&](const Utility& e) {
     return e.name == config.name &&
            (e.needs.prediction || (e.needs.released_baseline && config.prediction_hides_hits));
@@ -193,7 +194,10 @@ bool reads_prediction(const UtilityConfig& config) {
   return config.gamma > 0.0 && std::any_of(kUtilities.begin(), kUtilities.end(), reads);
 }
 
-UtilityNeeds needs_of(const UtilityConfig& config) { return utility_named(config.name).needs; }
+UtilityNeeds needs_of(const UtilityConfig& config) {
+  if (!is_own_utility(config.name)) return utility_named(config.name).needs;
+  return {.rays = names_ray_fields(config.python), .shadow = names_shadow_fields(config.python)};
+}
 
 ViewOptions view_options(const UtilityConfig& config, const ShadowBand& shadow,
                          double sparse_below) {

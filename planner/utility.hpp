@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "planner/own_utility.hpp"
 #include "planner/view/config.hpp"
 #include "sim/core/pose.hpp"
 
@@ -55,6 +56,7 @@ struct UtilityConfig {
   bool legacy_visibility = false;      // see ViewOptions
   VolumeWeights volume_weights = {};
   ShadowConfig shadow = {};
+  OwnUtilityConfig python = {};
 };
 
 /// What a random choice is keyed by. Nothing else reads it.
@@ -85,7 +87,12 @@ struct UtilityNeeds {
 /// The formulas by name, those of the paper's tables first.
 std::vector<std::string_view> utility_names();
 
-/// Requires a name of utility_names().
+/// What tables and files call it: its name, of an own one that of the function.
+inline std::string utility_label(const UtilityConfig& config) {
+  return is_own_utility(config.name) ? config.python.function : config.name;
+}
+
+/// Requires a name of utility_names(), or that of an own utility.
 UtilityNeeds needs_of(const UtilityConfig& config);
 
 /// Whether the choice of views depends on predicted surface (section 2.3): names that are no

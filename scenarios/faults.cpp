@@ -25,7 +25,11 @@ void Faults::add(const Origin& origin, std::string_view path, std::string_view v
   if (!path.empty()) message += fmt::format("{}: ", path);
   if (!value.empty()) message += fmt::format("value '{}': ", value);
   message += what;
-  faults_.push_back({origin, std::string(path), std::move(message)});
+  faults_.push_back(
+      {origin,
+       std::string(path),
+       std::move(message),
+       {origin.source, origin.line, std::string(path), std::string(value), std::string(what)}});
 }
 
 bool Faults::concerns(std::string_view path) const {
@@ -42,7 +46,9 @@ void Faults::throw_if_any() const {
   });
   std::string text;
   for (const Fault& fault : sorted) text += (text.empty() ? "" : "\n") + fault.message;
-  throw BadInput(text);
+  std::vector<FaultParts> parts;
+  for (const Fault& fault : sorted) parts.push_back(fault.parts);
+  throw BadScenario(text, std::move(parts));
 }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {

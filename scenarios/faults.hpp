@@ -6,7 +6,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
+
+#include "sim/core/error.hpp"
 
 namespace gnbv {
 
@@ -23,6 +26,23 @@ std::string text_of(const Origin& origin);
 /// By the path of a key ("cameras.0.name"): where its value was last given.
 using Origins = std::map<std::string, Origin>;
 
+/// One fault in its parts; those that are empty do not apply.
+struct FaultParts {
+  std::string source;  // a path, "--set a.b=c"
+  int line = 0;        // from 1; 0 = the source has no lines
+  std::string key;
+  std::string value;
+  std::string what;
+};
+
+/// All that is wrong with a scenario, for those who want more than text.
+class BadScenario : public BadInput {
+ public:
+  BadScenario(const std::string& text, std::vector<FaultParts> parts)
+      : BadInput(text), faults(std::move(parts)) {}
+  std::vector<FaultParts> faults;
+};
+
 class Faults {
  public:
   /// "source:line: path: value 'value': what", without the parts that are empty.
@@ -32,7 +52,8 @@ class Faults {
   bool empty() const { return faults_.empty(); }
   /// Whether the key, one above or one below it is at fault.
   bool concerns(std::string_view path) const;
-  /// Throws BadInput with one line per fault in the order of the input; returns if there are none.
+  /// Throws BadScenario with one line per fault in the order of the input; returns if there are
+  /// none.
   void throw_if_any() const;
 
  private:
@@ -40,6 +61,7 @@ class Faults {
     Origin origin;
     std::string path;
     std::string message;
+    FaultParts parts;
   };
   std::vector<Fault> faults_;
 };

@@ -38,6 +38,7 @@ enum class FieldKind {
   integer,
   flag,
   word,   // a name that may become part of a file name: letters, digits, '.', '_', '-'
+  text,   // anything, also of several lines
   path,   // relative ones mean: beside the file that names them
   choice  // one of a list of names
 };
@@ -107,6 +108,9 @@ class FieldVisitor {
   }
   void word(std::string_view key, std::string& value, std::string_view meaning) {
     leaf({key, FieldKind::word, {}, {}, meaning}, &value);
+  }
+  void text(std::string_view key, std::string& value, std::string_view meaning) {
+    leaf({key, FieldKind::text, {}, {}, meaning}, &value);
   }
   void path(std::string_view key, std::string& value, std::string_view meaning) {
     leaf({key, FieldKind::path, {}, {}, meaning}, &value);

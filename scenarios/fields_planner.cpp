@@ -147,6 +147,11 @@ void fields(FieldVisitor& v, ShadowConfig& c) {
   v.number("shadow_depth_m", c.shadow_depth_m, above_upto(0, 100), "Behind a hit, along its ray.");
 }
 
+void fields(FieldVisitor& v, OwnUtilityConfig& c) {
+  v.text("function", c.function, "Its name in the source.");
+  v.text("source", c.source, "Python, all of it: as `--utility FILE.py:FUNCTION` put it here.");
+}
+
 void fields(FieldVisitor& v, UtilityConfig& c) {
   constexpr Range kWeight = between(0, 1e9);
   std::vector<std::string_view> names = utility_names();
@@ -154,6 +159,7 @@ void fields(FieldVisitor& v, UtilityConfig& c) {
   names.insert(names.end(), kOracleNames.begin(), kOracleNames.end());
   names.push_back(kGivenRouteName);
   names.push_back(kTourName);
+  names.push_back(kOwnUtilityName);
   v.choice("name", c.name, names,
            "What ranks the candidate views, a baseline's route, an oracle's, or your own.");
   v.number("alpha", c.alpha, kWeight, "Weight of information, Eq. (2).");
@@ -177,6 +183,7 @@ void fields(FieldVisitor& v, UtilityConfig& c) {
          "Visibility multiplies P instead of 1 - P, as the released code of Delmerico et al.");
   v.section("volume_weights", c.volume_weights, "bircher_volume: worth of visible space.");
   v.section("shadow", c.shadow, "proximity_count, area_factor: what lies behind seen surface.");
+  v.section("python", c.python, "python: a function of yours.");
 }
 
 void fields(FieldVisitor& v, ViewPose& c) {

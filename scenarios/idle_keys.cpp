@@ -89,8 +89,9 @@ void add_formulas(const UtilityConfig& c, Idle& out) {
   only({"bircher"}, {"bircher_lambda_per_m"});
   only({"bircher", "isler"}, {"ig_counting", "hit_voxel", "prediction_hides_hits"});
   only({"bircher_volume"}, {"volume_weights"});
-  only({"proximity_count", "area_factor"}, {"shadow"});
-  only({"proposed", "bircher", "bircher_volume", "aep", "nearest_frontier"}, {"distance"});
+  only({"proximity_count", "area_factor", kOwnUtilityName}, {"shadow"});
+  only({"proposed", "bircher", "bircher_volume", "aep", "nearest_frontier", kOwnUtilityName},
+       {"distance"});
   const bool hides_hits = is_one_of(c.name, {"bircher", "isler"}) && c.prediction_hides_hits;
   if (!hides_hits) only({"proposed"}, {"gamma"});
 }
@@ -115,6 +116,7 @@ void add_decisions(const PlannerConfig& c, Idle& out) {
   if (!is_route(name)) add(out, "planner.routes", {"standoff_m"}, why);
   if (name != "lawnmower") add(out, "planner.routes", {"overlap"}, why);
   if (!is_given_route(name)) add(out, "planner.routes", {"views"}, why);
+  if (!is_own_utility(name)) add(out, "planner.utility", {"python"}, why);
   if (!is_tour(name)) add(out, "planner", {"tour"}, why);
   if (c.validity.path == PathCheck::unchecked) {
     add(out, "planner.validity", {"path_search"}, "planner.validity.path is unchecked");

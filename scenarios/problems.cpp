@@ -199,6 +199,12 @@ void check_map_thresholds(const OccupancyConfig& map, Problems& out) {
 }
 
 void check_utility(const UtilityConfig& utility, Problems& out) {
+  if (is_own_utility(utility.name) &&
+      (utility.python.function.empty() || utility.python.source.empty())) {
+    out.push_back(
+        {{"planner.utility.python", "planner.utility.name"},
+         "the utility python is a function of yours; --utility FILE.py:FUNCTION names it"});
+  }
   if (utility.name != "proposed" || utility.beta + utility.gamma > 0.0) return;
   out.push_back({{"planner.utility.beta", "planner.utility.gamma"},
                  "beta and gamma are both 0; Eq. (2) divides by their sum"});

@@ -17,6 +17,9 @@
 #include <cstddef>
 
 #include "planner/symmetry/symmetry_module.hpp"
+#include "sim/core/module.hpp"
+
+GNBV_MODULE(GNBV_VERSION)
 
 namespace gnbv {
 namespace {

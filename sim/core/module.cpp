@@ -1,15 +1,29 @@
 #include "sim/core/module.hpp"
 
 #include <dlfcn.h>
+#include <linux/limits.h>
+
+#include <array>
+#include <string_view>
 
 #include "sim/core/error.hpp"
 
 namespace gnbv {
+namespace {
+
+std::string path_of(void* library, const std::string& file) {
+  std::array<char, PATH_MAX> folder{};
+  if (::dlinfo(library, RTLD_DI_ORIGIN, folder.data()) != 0) return file;
+  return fmt::format("{}/{}", folder.data(), file);
+}
+
+}  // namespace
 
 void* function_in_module(const ModulePlace& place, const char* name) {
   void* library = nullptr;  // opened twice, it is the same one
   std::string reasons;
-  for (const std::string& path : {"$ORIGIN/" + place.file, place.as_built}) {
+  for (const std::string& path :
+       {"$ORIGIN/" + place.file, "$ORIGIN/../lib/gnbv/" + place.file, place.as_built}) {
     library = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (library != nullptr) break;
     const char* const reason = ::dlerror();
@@ -18,6 +32,14 @@ void* function_in_module(const ModulePlace& place, const char* name) {
   if (library == nullptr) {
     throw BadInput(fmt::format("this needs {} beside the program, and {}:{}", place.file,
                                place.needs, reasons));
+  }
+  using Version = const char*();
+  auto* const version = reinterpret_cast<Version*>(::dlsym(library, "gnbv_module_version"));
+  if (version == nullptr || std::string_view(version()) != GNBV_VERSION) {
+    throw BadInput(fmt::format("{} is of version {}, the program of " GNBV_VERSION
+                               ": two versions are installed in one place",
+                               path_of(library, place.file),
+                               version == nullptr ? "0.1.0 or older" : version()));
   }
   void* const function = ::dlsym(library, name);
   if (function == nullptr) {

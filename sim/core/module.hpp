@@ -8,13 +8,19 @@ namespace gnbv {
 
 /// A library of our own build.
 struct ModulePlace {
-  std::string file;      // its name, looked for beside the program
+  std::string file;      // its name, looked for beside the program and in ../lib/gnbv from there
   std::string as_built;  // its path in the build folder
   std::string needs;     // what it does not work without: "PCL, Debian package libpcl-dev"
 };
 
 /// A function of the module, by its name with C linkage. The module stays loaded. Throws BadInput,
-/// saying why, when it cannot be loaded or lacks the function.
+/// saying why, when it cannot be loaded, is of another version or lacks the function.
 void* function_in_module(const ModulePlace& place, const char* name);
 
 }  // namespace gnbv
+
+/// Stands once in each module, outside of namespaces: what function_in_module() checks.
+#define GNBV_MODULE(version)                                                            \
+  extern "C" __attribute__((visibility("default"))) const char* gnbv_module_version() { \
+    return version;                                                                     \
+  }

@@ -113,10 +113,9 @@ ViewPose ground_start(const Scenario& scenario, const RayScene& scene) {
 
 void warn_beyond_loopback(const mavlink::Address& address) {
   if (mavlink::is_loopback(address)) return;
-  fmt::print(stderr,
-             "gnbv: warning: {} can be reached from other machines, and MAVLink asks for no key: "
-             "whoever speaks to it first flies the vehicle; 127.0.0.1 is this machine alone\n",
-             mavlink::url_of(address));
+  say("warning: {} can be reached from other machines, and MAVLink asks for no key: whoever speaks "
+      "to it first flies the vehicle; 127.0.0.1 is this machine alone",
+      mavlink::url_of(address));
 }
 
 void fly(const FlyOptions& options) {

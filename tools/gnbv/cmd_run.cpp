@@ -130,6 +130,9 @@ void run(const RunOptions& options) {
   if (const std::string note = margin_note(scenario, mission.result.path_error); !note.empty()) {
     say(note);
   }
+  if (mission.result.termination == Termination::utility_failed) {
+    throw CommandFailed(mission.result.failure);
+  }
   if (mission.result.termination == Termination::off_course) {
     throw CommandFailed(
         "the vehicle was carried out of the workspace; the run directory shows where");
@@ -151,7 +154,8 @@ void add_run_command(CLI::App& app) {
   CLI::App* const command = app.add_subcommand("run", "fly one mission and score it");
   MissionOptions& mission = options->mission;
   add_scenario_options(*command, options->scenario);
-  command->add_option("--utility", options->scenario.utility, "utility by name");
+  command->add_option("--utility", options->scenario.utility,
+                      "utility by name, or a Python function of yours: FILE.py:FUNCTION");
   command->add_option_function<std::string>(
       "--views", [options](const std::string& file) { set_views(file, *options); },
       "with --utility route: body poses to fly, CSV or TUM; -: one a line from stdin, each "

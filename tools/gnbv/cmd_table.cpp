@@ -16,6 +16,7 @@
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/load_world.hpp"
+#include "tools/sweep/method_options.hpp"
 
 namespace gnbv {
 namespace {
@@ -23,6 +24,7 @@ namespace {
 struct TableOptions {
   ScenarioOptions scenario;
   BenchOptions bench;
+  std::vector<std::string> utilities = {};  // rows beside the paper's
   bool no_oracle = false;
 };
 
@@ -69,6 +71,9 @@ Sweep sweep_of(const TableOptions& options, const PaperTable& paper, std::uint64
     sweep.methods.back().overrides.push_back(kToTheEnd);
   };
   for (const PaperRow& row : paper.rows) add_row(row.utility);
+  for (const std::string& utility : options.utilities) {
+    sweep.methods.push_back(method_of_utility(utility));
+  }
   add_row_to_the_end(kTourName);
   if (!options.no_oracle) {
     for (const std::string_view oracle : kOracleNames) add_row_to_the_end(oracle);
@@ -114,6 +119,9 @@ std::string command_of(const TableOptions& options, std::uint64_t first_seed) {
   if (!of.mesh.empty()) command += " --mesh " + shell_word(of.mesh);
   if (of.bounds_auto) command += " --bounds auto";
   if (!of.preset.empty()) command += " --preset " + shell_word(of.preset);
+  for (const std::string& utility : options.utilities) {
+    command += " --utilities " + shell_word(utility);
+  }
   for (const std::string& set : of.overrides) command += " --set " + shell_word(set);
   return command + (options.no_oracle ? " --no-oracle" : "");
 }
@@ -177,6 +185,10 @@ void add_table_command(CLI::App& app) {
   add_scenario_options(*command, options->scenario);
   add_preset_option(*command, options->scenario);
   add_bench_options(*command, options->bench);
+  command
+      ->add_option("--utilities", options->utilities,
+                   "rows beside the paper's: utilities by name or FILE.py:FUNCTION, with commas")
+      ->delimiter(',');
   command->add_flag("--no-oracle", options->no_oracle,
                     "without the rows of planners that know the mesh");
   command->callback([options] { table(*options); });

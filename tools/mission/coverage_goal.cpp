@@ -38,14 +38,19 @@ class Meter {
 
 }  // namespace
 
+std::function<double(const Belief&)> coverage_meter(const SurfaceReference& reference,
+                                                    const RayScene& scene) {
+  const auto meter = std::make_shared<Meter>(reference, scene);
+  return [meter](const Belief& belief) { return meter->share_of(belief.cloud.points_world_m()); };
+}
+
 std::function<bool(const Belief&)> coverage_goal(const BenchmarkConfig& benchmark,
                                                  const SurfaceReference& reference,
                                                  const RayScene& scene) {
   const double goal = benchmark.stop_at_coverage;
   if (goal <= 0.0) return [](const Belief&) { return false; };
-  const auto meter = std::make_shared<Meter>(reference, scene);
-  return [meter, goal](const Belief& belief) {
-    return meter->share_of(belief.cloud.points_world_m()) >= goal;
+  return [share_of = coverage_meter(reference, scene), goal](const Belief& belief) {
+    return share_of(belief) >= goal;
   };
 }
 

@@ -9,6 +9,12 @@
 
 namespace gnbv {
 
+/// Share of the voxels of 0.05 m with surface seen from outside that the believed cloud covers:
+/// what score_cloud() will call `final` at that size. Each call has to have all points of the one
+/// before. Keeps reference and scene.
+std::function<double(const Belief&)> coverage_meter(const SurfaceReference& reference,
+                                                    const RayScene& scene);
+
 /// Whether the believed cloud covers at least benchmark.stop_at_coverage of the voxels of 0.05 m
 /// with surface seen from outside: what score_cloud() will call `final` at that size. Never without
 /// the key. For MissionHooks::is_covered of one mission: each call has to have all points of the

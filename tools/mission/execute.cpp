@@ -13,6 +13,7 @@
 #include "tools/mission/coverage_goal.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/mission.hpp"
+#include "tools/mission/own_utility.hpp"
 #include "tools/mission/reference.hpp"
 #include "tools/mission/start_pose.hpp"
 #include "tools/mission/view_pipe.hpp"
@@ -62,9 +63,23 @@ void need_views(const Scenario& scenario, bool are_piped) {
       kGivenRouteName));
 }
 
+/// On stderr, and to whoever wants to know.
+class Shown {
+ public:
+  Shown(ProgressBar& bar, const MissionOptions& options) : bar_(bar), options_(options) {}
+  void show(double share_done, const std::string& note) {
+    bar_.show(share_done, note);
+    if (options_.on_progress) options_.on_progress(share_done, note);
+  }
+
+ private:
+  ProgressBar& bar_;
+  const MissionOptions& options_;
+};
+
 /// The views of an oracle, which knows the structure; nothing for those who have to find out.
 std::optional<std::vector<Decision>> oracle_route(const Scenario& scenario, const World& world,
-                                                  const RayScene& scene, ProgressBar& progress,
+                                                  const RayScene& scene, Shown& progress,
                                                   int threads) {
   const std::string& utility = scenario.planner.utility.name;
   if (!is_oracle(utility)) return std::nullopt;
@@ -72,7 +87,7 @@ std::optional<std::vector<Decision>> oracle_route(const Scenario& scenario, cons
   return plan_oracle(scenario, world, scene, start_pose(scenario, scene), aim_of(utility), threads);
 }
 
-MissionHooks make_hooks(const Scenario& scenario, RunDirectory& directory, ProgressBar& progress) {
+MissionHooks make_hooks(const Scenario& scenario, RunDirectory& directory, Shown& progress) {
   MissionHooks hooks;
   hooks.on_profile = [&progress](double share) { progress.show(0.1 * share, "profile"); };
   hooks.on_profile_belief = [&](const Belief& belief) { directory.write_profile(belief); };
@@ -92,8 +107,8 @@ MissionHooks make_hooks(const Scenario& scenario, RunDirectory& directory, Progr
 /// The folder of the mission, which nobody else flies into until it is over.
 RunClaim claim_folder(const Scenario& scenario, const MissionOptions& options) {
   if (options.out.empty()) {
-    return RunClaim::of_free_folder(
-        fmt::format("{}-{}-seed{}", scenario.name, scenario.planner.utility.name, scenario.seed));
+    return RunClaim::of_free_folder(fmt::format(
+        "{}-{}-seed{}", scenario.name, utility_label(scenario.planner.utility), scenario.seed));
   }
   need_usable(options.out, scenario, options.resume);
   return RunClaim(options.out);
@@ -119,7 +134,7 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
   if (options.resume && options.out.empty()) {
     throw BadInput("--resume: needs --out, the run directory to continue");
   }
-  need_views(scenario, options.piped_views);
+  need_views(scenario, options.piped_views || options.planner != nullptr);
   const int threads = thread_count(options.threads);
   need_memory_for(scenario, threads);
   // all that can be wrong with the input is found before the first file is written
@@ -134,10 +149,12 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
     say(warning);
   }
   need_saved_profile(scenario);
+  const OwnScores own_scores = start_own_utility(scenario.planner.utility);
   if (scenario.planner.symmetry.enabled) symmetry_module();  // throws when it is missing
   const RunClaim claim = claim_folder(scenario, options);    // an oracle may think for minutes
-  ProgressBar progress(fmt::format("{} {}", scenario.name, scenario.planner.utility.name),
-                       options.quiet);
+  ProgressBar bar(fmt::format("{} {}", scenario.name, utility_label(scenario.planner.utility)),
+                  options.quiet);
+  Shown progress(bar, options);
   progress.show(0.0, "finding what there is to see");
   const SurfaceReference reference = reference_of(scenario, world, scene, threads);
   std::optional<std::vector<Decision>> route =
@@ -148,6 +165,7 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
   try {
     MissionHooks hooks = make_hooks(scenario, directory, progress);
     hooks.route = std::move(route);
+    hooks.own_scores = own_scores;
     hooks.is_covered = coverage_goal(scenario.benchmark, reference, scene);
     std::optional<FramesFolder> frames;
     if (options.frames) {
@@ -164,6 +182,11 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
       pipe.emplace(scenario, directory, options.frames, options.coverage ? &reference : nullptr);
       pipe->connect(hooks);
     }
+    std::optional<OwnPlannerHooks> planner;
+    if (options.planner != nullptr) {
+      planner.emplace(*options.planner, scenario, directory);
+      planner->connect(hooks);
+    }
     MissionResult result = run_mission(scenario, world, scene, hooks, threads);
     directory.need_as_recorded(result);
     const Stopwatch scoring;
@@ -177,7 +200,8 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
     result.wall.score_s = scoring.elapsed_s();
     score.ceiling = run_ceiling(scenario, world, scene, options.ceiling, threads);
     if (candidates) candidates->finish();  // before the summary, which says that all is there
-    directory.finish(pipe ? pipe->scenario() : scenario, result, score, watch.elapsed_s());
+    const Scenario& flown = pipe ? pipe->scenario() : planner ? planner->scenario() : scenario;
+    directory.finish(flown, result, score, watch.elapsed_s());
     return {directory.path(), std::move(result), score, watch.elapsed_s()};
   } catch (const BrokenInvariant& broken) {
     throw BrokenInvariant(fmt::format("{}\nreplay with: gnbv run {} --out REPLAY", broken.what(),

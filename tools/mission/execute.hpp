@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "bench/score/mission_score.hpp"
 #include "scenarios/scenario.hpp"
+#include "tools/mission/own_planner.hpp"
 #include "tools/mission/run_ceiling.hpp"
 #include "tools/run_files/mission_result.hpp"
 
@@ -22,6 +24,8 @@ struct MissionOptions {
   bool piped_views = false;  // views come on stdin, answers go to stdout: view_pipe.hpp
   bool coverage = false;     // which then tell the coverage
   CeilingFrom ceiling = CeilingFrom::cache;
+  const OwnPlanner* planner = nullptr;  // asked for the views; the utility is `route`
+  std::function<void(double share_done, const std::string& note)> on_progress;  // may be empty
 };
 
 /// `threads`, or as many as the machine has for 0.

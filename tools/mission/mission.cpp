@@ -226,7 +226,13 @@ MissionResult run_mission(const Scenario& scenario, const World& world, const Ra
     integrate(m, sense(m));
     record(m, next);
     if (const auto over = termination(m)) return finish(m, *over);
-    const std::optional<Decision> decision = decide(m);
+    std::optional<Decision> decision;
+    try {
+      decision = decide(m);
+    } catch (const OwnUtilityFailed& failed) {
+      m.out.failure = failed.what();
+      return finish(m, Termination::utility_failed);
+    }
     if (!decision) return finish(m, end_without_view(m));
     if (is_too_far(m, *decision)) return finish(m, Termination::max_distance);
     if (!can_afford(m, *decision)) return finish(m, Termination::battery);

@@ -41,6 +41,8 @@ struct MissionHooks {
   std::function<std::optional<ViewPose>()> next_given = [] { return std::nullopt; };
   /// A given view, by its index, that cannot be flown.
   std::function<void(std::size_t index, Rejection)> on_refused = [](std::size_t, Rejection) {};
+  /// Scores of an own utility; without it, it is started when first asked.
+  OwnScores own_scores;
   /// Asked at every tick of a leg but on the way home, after each leg of the profile, at its end,
   /// and after each view.
   std::function<bool()> should_stop = [] { return false; };

@@ -7,6 +7,7 @@
 #include "sim/core/error.hpp"
 #include "sim/flight/guidance.hpp"
 #include "tools/mission/homing.hpp"
+#include "tools/mission/own_utility.hpp"
 #include "tools/mission/start_pose.hpp"
 
 namespace gnbv {
@@ -48,7 +49,8 @@ Mission::Mission(const Scenario& mission_scenario, const World& world, const Ray
       scene(ray_scene),
       hooks(mission_hooks),
       planner(scenario.planner, scenario.workspace_m, camera_models(scenario),
-              lidar_models(scenario), scenario.seed, no_fly_of(scenario)),
+              lidar_models(scenario), scenario.seed, no_fly_of(scenario),
+              hooks.own_scores ? hooks.own_scores : lazy_own_utility(scenario.planner.utility)),
       bench(planner, threads),
       out(start_pose(scenario, scene), planner),
       flight(make_flight(scenario.vehicle, world, out.start, scenario.seed, scenario.wind)),

@@ -8,6 +8,7 @@
 #include "sim/core/file.hpp"
 #include "tools/mission/auto_bounds.hpp"
 #include "tools/mission/load_world.hpp"
+#include "tools/mission/own_utility.hpp"
 #include "tools/run_files/given_views.hpp"
 
 namespace gnbv {
@@ -40,7 +41,10 @@ Scenario resolve_scenario(const ScenarioOptions& options, const std::vector<Over
     add("structure.files=[]");
     add(fmt::format("structure.file.path={}", yaml_in_quotes(fs::absolute(options.mesh).string())));
   }
-  if (!options.utility.empty()) add(fmt::format("planner.utility.name={}", options.utility));
+  if (!options.utility.empty()) {
+    const NamedUtility utility = named_utility(options.utility);
+    all.insert(all.end(), utility.overrides.begin(), utility.overrides.end());
+  }
   if (!options.preset.empty()) add("planner.preset=" + options.preset);
   if (!options.seed.empty()) add("seed=" + options.seed);
   if (!options.views.empty()) {

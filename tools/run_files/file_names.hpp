@@ -20,6 +20,7 @@ constexpr const char* kMapFile = "map.bt";
 constexpr const char* kCandidatesFile = "candidates.jsonl";
 constexpr const char* kViewsFile = "views.csv";
 constexpr const char* kPredictionsFile = "predictions.csv";
+constexpr const char* kOwnUtilityFile = "utility.py";
 constexpr const char* kPlanFile = "plan.jsonl";
 constexpr const char* kFramesFolder = "frames";
 

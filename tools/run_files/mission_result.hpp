@@ -107,6 +107,7 @@ struct MissionResult {
 
   ViewPose start;  // of the mission, and of the first view
   Termination termination = Termination::interrupted;
+  std::string failure;                       // of utility_failed: what was wrong
   std::map<Rejection, int> last_rejections;  // of the decision that found no valid view
   std::vector<ViewRecord> views;
   std::vector<GivenView> given_views;        // in their order, of a mission that flies such

@@ -177,6 +177,9 @@ void RunDirectory::finish(const Scenario& scenario, const MissionResult& result,
   if (is_given_route(scenario.planner.utility.name)) {
     write_file_atomically(folder_ / kViewsFile, given_views_csv(result.given_views));
   }
+  if (is_own_utility(scenario.planner.utility.name)) {
+    write_file_atomically(folder_ / kOwnUtilityFile, scenario.planner.utility.python.source);
+  }
   if (is_tour(scenario.planner.utility.name)) {
     write_file_atomically(folder_ / kPredictionsFile, predictions_csv(result.look_outcomes));
     write_file_atomically(folder_ / kPlanFile, plan_jsonl(result.tour_plans));

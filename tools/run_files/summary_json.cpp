@@ -7,6 +7,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/sha256.hpp"
 #include "sim/core/shell_word.hpp"
 #include "tools/run_files/coverage_csv.hpp"
 #include "tools/run_files/file_names.hpp"
@@ -150,6 +151,14 @@ Json rejections_of(const std::map<Rejection, int>& rejections) {
   return counts;
 }
 
+/// Of an own utility.
+Json source_hash_of(const UtilityConfig& utility) {
+  if (!is_own_utility(utility.name)) return nullptr;
+  Sha256 hash;
+  hash.add(utility.python.source);
+  return hash.hex();
+}
+
 Json home_of(const std::optional<HomeFlight>& home) {
   if (!home) return nullptr;
   return {{"reached", home->reached}, {"landed", home->landed}, {"flown_m", home->flown_m}};
@@ -170,13 +179,15 @@ std::string summary_json(const Scenario& scenario, const MissionResult& r,
       {"schema", kSummarySchema},
       {"scenario", scenario.name},
       {"structure", structure_name(scenario.structure)},
-      {"utility", scenario.planner.utility.name},
+      {"utility", utility_label(scenario.planner.utility)},
+      {"utility_source_sha256", source_hash_of(scenario.planner.utility)},
       {"preset", scenario.planner.preset},
       {"vehicle", scenario.vehicle.kind == VehicleKind::ideal ? "ideal" : scenario.vehicle.preset},
       {"seed", scenario.seed},
       {"version", GNBV_VERSION},
       {"iterations", r.views.size()},
       {"termination", name_of(r.termination)},
+      {"failure", r.failure.empty() ? Json(nullptr) : Json(r.failure)},
       {"ended_by_truth", r.termination == Termination::coverage_reached},
       {"last_rejections", rejections_of(r.last_rejections)},
       {"distance_m",

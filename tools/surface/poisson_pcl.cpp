@@ -9,7 +9,10 @@
 #include <cstdio>
 #include <type_traits>
 
+#include "sim/core/module.hpp"
 #include "tools/surface/poisson_module.hpp"
+
+GNBV_MODULE(GNBV_VERSION)
 
 namespace gnbv {
 namespace {

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "sim/core/error.hpp"
+#include "tools/mission/own_utility.hpp"
 
 namespace gnbv {
 namespace {
@@ -45,6 +46,7 @@ bool sets_seed(std::string_view assignment) {
 
 class Methods {
  public:
+  void add(SweepMethod method) { add(method.name, std::move(method.overrides)); }
   void add(const std::string& name, std::vector<std::string> overrides) {
     if (!names_.insert(name).second) add_fault(fmt::format("method '{}': named twice", name));
     methods_.push_back({name, std::move(overrides)});
@@ -104,13 +106,20 @@ class Methods {
 
 }  // namespace
 
+SweepMethod method_of_utility(const std::string& utility) {
+  NamedUtility named = named_utility(utility);
+  SweepMethod method{.name = std::move(named.label), .overrides = {}};
+  for (Override& set : named.overrides) method.overrides.push_back(std::move(set.text));
+  return method;
+}
+
 std::vector<SweepMethod> methods_of(const MethodOptions& options) {
   Methods methods;
   const bool only_variants = options.utilities.empty() && options.presets.empty() &&
                              options.varies.empty() && !options.variants.empty();
   if (only_variants) methods.add("default", {});
   for (const std::string& utility : options.utilities) {
-    methods.add(utility, {"planner.utility.name=" + utility});
+    methods.add(method_of_utility(utility));
   }
   for (const std::string& preset : options.presets) {
     methods.add(preset, {"planner.preset=" + preset});

@@ -15,6 +15,9 @@ struct MethodOptions {
   std::vector<std::string> varies{};    // KEY=VALUE[,VALUE]...: a method a value
 };
 
+/// A utility by name, or FILE.py:FUNCTION. Throws BadInput for a file that defines none.
+SweepMethod method_of_utility(const std::string& utility);
+
 /// In the order of the options above: a utility and a preset are named as they are, a variant by
 /// its NAME or its text, a varied value by KEY=VALUE. When only variants are named, the scenario as
 /// it is, "default", stands first. Commas within brackets, braces or quotes separate nothing.

@@ -135,8 +135,12 @@ class Pool {
     }
     if (fs::remove(files.failed)) fs::remove_all(files.part);
     const auto termination = termination_of(files.part);
-    if (termination && *termination != "interrupted") return settle(index, publish(files));
+    if (is_result(termination)) return settle(index, publish(files));
     start(index, files, std::move(*lock));
+  }
+
+  static bool is_result(const std::optional<std::string>& termination) {
+    return termination && *termination != "interrupted" && *termination != "utility_failed";
   }
 
   /// Nothing is left to do for the cell.
@@ -181,7 +185,10 @@ class Pool {
 
   CellOutcome outcome_of(const Running& one, const ChildEnd& end) {
     const auto termination = termination_of(one.files.part);
-    if (termination && *termination != "interrupted") return publish(one.files);
+    if (is_result(termination)) return publish(one.files);
+    if (termination == "utility_failed") {
+      return record_failure(cells_[one.index], one.files, end, one.command, one.log_begin);
+    }
     if (termination || InterruptGuard::requested()) return {};  // a later call resumes it
     if (end.signal == SIGKILL) {
       // a scheduler that kills the job kills this process, too, and the cell has not failed

@@ -1,0 +1,49 @@
+"""The examples run as they are."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+EXAMPLES = Path(__file__).parents[2] / "tools" / "python" / "examples"
+
+
+def said(name, *arguments):
+    done = subprocess.run(
+        [sys.executable, EXAMPLES / name, *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def test_compare_utility():
+    assert "curious" in said("compare_utility.py", "smoke", 2)
+
+
+def test_greedy_planner():
+    assert "route_flown after 5 views" in said("greedy_planner.py", "smoke", 5)
+
+
+def test_random_agent():
+    pytest.importorskip("gymnasium")
+    assert said("random_agent.py").startswith("reward ")
+
+
+def test_plot_coverage(smoke, tmp_path):
+    pytest.importorskip("matplotlib")
+    said("plot_coverage.py", tmp_path / "c.png", smoke.folder, smoke.folder)
+    assert (tmp_path / "c.png").read_bytes()[:4] == b"\x89PNG"
+
+
+def test_the_notebook():
+    cells = json.loads((EXAMPLES / "sweep.ipynb").read_text())["cells"]
+    code = ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "code"]
+    space: dict = {}
+    for part in code:
+        exec(compile(part, "sweep.ipynb", "exec"), space)
+    assert len(space["runs"]) == 3

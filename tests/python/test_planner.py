@@ -1,0 +1,171 @@
+"""A planner of one's own, and what it can and cannot see."""
+
+import types
+
+import numpy as np
+import pytest
+
+import gnbv
+
+
+def greedy(belief, history):
+    """The sampled view that sees the most unknown voxels."""
+    if len(history) > 5:
+        return None
+    views = belief.valid(belief.sample())
+    return views[belief.evaluate(views)["unknown_voxels"].argmax()] if len(views) else None
+
+
+def test_a_planner_flies_and_its_run_repeats_without_it():
+    run = gnbv.run("smoke", planner=greedy, seed=4)
+    assert run.termination == "route_flown"
+    assert len(run.iterations) == 6
+    again = gnbv.run(run.folder / "scenario.yaml")
+    assert again.sha256 == run.sha256
+
+
+def test_arrays_are_views_of_the_map_that_nobody_can_write():
+    seen = []
+
+    def looks(belief, history):
+        for array in (belief.log_odds, belief.words, belief.cloud):
+            assert not array.flags.writeable and not array.flags.owndata
+            with pytest.raises(ValueError):
+                array[...] = 0
+        again = belief.log_odds
+        assert again.ctypes.data == belief.log_odds.ctypes.data  # the same memory: zero-copy
+        state, entropy = belief.state, belief.entropy
+        assert set(np.unique(state)) <= {0, 1, 2}
+        assert state.shape == belief.log_odds.shape == entropy.shape
+        assert entropy.astype(float).sum() == pytest.approx(belief.entropy_nat, rel=1e-6)
+        points = np.unique(voxel_of(belief, belief.cloud))
+        where, density = belief.density
+        assert set(points) == set(where) and (density >= 1).all()
+        seen.append((len(belief.cloud), belief.entropy_nat, len(history)))
+        return None
+
+    gnbv.run("smoke", planner=looks)
+    assert seen[0][0] > 0
+
+
+def voxel_of(belief, points):
+    key = np.floor((points - belief.origin_m) / belief.resolution_m + 1e-9).astype(int)
+    _, y, x = belief.log_odds.shape
+    return (key[:, 2] * y + key[:, 1]) * x + key[:, 0]
+
+
+def test_an_array_that_is_kept_ends_the_mission_and_stays_readable():
+    kept = []
+
+    def keeps(belief, history):
+        kept.append(belief.cloud)
+        return belief.valid(belief.sample())
+
+    with pytest.raises(BufferError, match="copy it"):
+        gnbv.run("smoke", planner=keeps)
+    assert np.isfinite(kept[0]).all()
+
+
+def test_what_a_planner_raises_comes_out_after_an_orderly_end(tmp_path):
+    def raises(belief, history):
+        if len(history) == 3:
+            raise LookupError("lost")
+        return belief.valid(belief.sample())
+
+    with pytest.raises(LookupError, match="lost"):
+        gnbv.run("smoke", planner=raises, out=tmp_path / "r")
+    assert len(gnbv.load(tmp_path / "r").iterations) == 3
+
+
+def test_a_refused_view_is_told_and_asked_again():
+    def stubborn(belief, history):
+        if not history.refused:
+            return gnbv.View(1e3, 0.0, 2.0, 0.0)
+        view, reason = history.refused[0]
+        assert view.x == 1e3 and reason == "out_of_bounds"
+        return None
+
+    gnbv.run("smoke", planner=stubborn)
+
+
+@pytest.mark.parametrize("answer", [[1.0, 2.0], [np.nan] * 4, "there"])
+def test_what_is_no_view_is_refused(answer):
+    with pytest.raises((gnbv.BadInput, ValueError)):
+        gnbv.run("smoke", planner=lambda belief, history: answer)
+
+
+def test_ways_lead_around():
+    def walks(belief, history):
+        low, high = belief.navigation_m
+        view = belief.current
+        assert (np.array(view[:3]) >= low - 1e-6).all() and (
+            np.array(view[:3]) <= high + 1e-6
+        ).all()
+        way = belief.find_path(view[:3], view[:3])
+        assert way is not None and way.shape == (0, 3)
+        assert belief.find_path(view[:3], high + 10.0) is None
+        reasons, path_m = belief.validate([gnbv.View(*(high + 1), 0.0), view])
+        assert reasons[0] == "out_of_bounds" and len(path_m) == 2
+        return None
+
+    gnbv.run("smoke", planner=walks)
+
+
+def reachable(start):
+    """All that can be had from an object by attributes, items, bound methods and closures."""
+    found, todo = {}, [start]
+    while todo:
+        thing = todo.pop()
+        if id(thing) in found or isinstance(thing, types.ModuleType | type | str | bytes):
+            continue
+        found[id(thing)] = thing
+        if isinstance(thing, np.ndarray):
+            todo.append(thing.base)
+        elif isinstance(thing, dict):
+            todo += [*thing.keys(), *thing.values()]
+        elif isinstance(thing, list | tuple | set):
+            todo += thing
+        elif isinstance(thing, types.MethodType | types.BuiltinMethodType):
+            todo.append(thing.__self__)
+        elif isinstance(thing, types.FunctionType):
+            todo += [cell.cell_contents for cell in thing.__closure__ or ()]
+        elif type(thing).__module__.startswith("gnbv"):
+            todo += [getattr(thing, name) for name in dir(thing)]
+    return list(found.values())
+
+
+TRUTH = (
+    "coverage",
+    "ceiling",
+    "scene",
+    "world",
+    "mesh",
+    "structure",
+    "truth",
+    "reference",
+    "score",
+    "vehicle",
+    "flight",
+)
+
+
+def test_no_truth_can_be_reached_from_what_a_planner_gets():
+    tried = []
+
+    def pries(belief, history):
+        for thing in reachable(belief) + reachable(history):
+            tried.append(type(thing).__name__)
+            names = [n for n in dir(thing) if not n.startswith("__")]
+            if type(thing).__module__.startswith("gnbv"):
+                assert not [n for n in names if any(t in n.lower() for t in TRUTH)], names
+        return None
+
+    run = gnbv.run("smoke", planner=pries)
+    assert "Belief" in tried and "BeliefView" in tried and "History" in tried
+    # the points it saw are those that were measured, not the structure's
+    assert run.summary["coverage"]["final"]["0.05"] < 1.0
+
+
+def test_a_planner_excludes_a_utility():
+    with pytest.raises(gnbv.BadInput, match="without a utility"):
+        gnbv.run("smoke", planner=greedy, utility="bircher")

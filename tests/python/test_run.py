@@ -1,0 +1,138 @@
+"""gnbv.run, gnbv.load and what they say of bad input."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+import gnbv
+
+
+def test_import_adds_little_to_that_of_numpy():
+    """In CPU time, since others share the machine."""
+    code = (
+        "import time, numpy; t = time.process_time(); import gnbv; print(time.process_time() - t)"
+    )
+    times = [
+        float(subprocess.run([sys.executable, "-c", code], capture_output=True, check=True).stdout)
+        for _ in range(5)
+    ]
+    assert min(times) <= 0.15, times
+
+
+def test_a_run_is_what_the_program_flies(smoke, short, tmp_path):
+    from gnbv._program import call
+
+    settings = [f"--set={key}={value}" for key, value in short.items()]
+    said = call("run", "smoke", "--seed", "3", *settings, "--out", str(tmp_path / "p"), "--json")
+    assert json.loads(said)["result_sha256"] == smoke.sha256
+
+
+def test_a_run_reads_back_as_arrays(smoke):
+    assert smoke.summary["iterations"] == len(smoke.iterations) == len(smoke.coverage) - 1
+    assert smoke.iterations["sampler"][0] == "start"
+    assert smoke.iterations["cloud_points"][-1] == len(smoke.cloud)
+    assert smoke.cloud.dtype == np.float32 and smoke.cloud.shape[1] == 3
+    assert smoke.coverage["coverage_0.05"][-1] == pytest.approx(smoke.final_coverage)
+    assert (np.diff(smoke.coverage["coverage_0.05"]) >= 0).all()
+    assert smoke.trajectory.shape[1] == 8
+    again = gnbv.load(smoke.folder)
+    assert again.sha256 == smoke.sha256
+    assert "smoke" in repr(again)
+
+
+def test_the_map_has_the_volume_and_the_entropy_that_the_summary_says(smoke):
+    """Leaves do not overlap, and each point of the cloud lies in one."""
+    leaves = smoke.map
+    cells = np.round((leaves["size_m"] / 0.2) ** 3)
+    p = 1 / (1 + np.exp(-leaves["log_odds"].astype(float)))
+    h = -(p * np.log(p) + (1 - p) * np.log(1 - p))
+    low, high = np.log(0.12 / 0.88), np.log(0.97 / 0.03)
+    clamped = (leaves["log_odds"] <= low + 1e-5) | (leaves["log_odds"] >= high - 1e-5)
+    assert len(leaves) > 100
+    assert (cells >= 1).all()
+    assert 0 < h[~clamped].max() <= np.log(2)
+
+
+def test_a_picture_and_a_report_are_drawn(smoke, tmp_path):
+    pictures = smoke.render(out=tmp_path / "path.png")
+    assert [p.read_bytes()[:4] for p in pictures] == [b"\x89PNG"]
+    assert b"<html" in smoke.report(tmp_path / "r.html").read_bytes()[:2000]
+
+
+def test_bad_input_says_where(tmp_path):
+    with pytest.raises(gnbv.BadInput) as bad:
+        gnbv.run("smoke", set={"planner.utility.alpha": "much", "planner.map.nme": 1})
+    assert bad.value.file == "--set planner.utility.alpha=much"
+    assert (bad.value.key, bad.value.value) == ("planner.utility.alpha", "much")
+    assert len(bad.value.faults) == 2
+
+    file = tmp_path / "bad.yaml"
+    file.write_text("name: x\nplanner:\n  utility:\n    alpha: [1]\n")
+    with pytest.raises(gnbv.BadInput) as bad:
+        gnbv.run(file)
+    fault = next(f for f in bad.value.faults if f.key == "planner.utility.alpha")
+    assert (fault.file, fault.line, fault.value) == (str(file), 4, "[1]")
+
+    with pytest.raises(gnbv.BadInput, match="no built-in scenario"):
+        gnbv.run("nowhere")
+    with pytest.raises(gnbv.BadInput, match=r"summary[.]json"):
+        gnbv.load(tmp_path)
+    (tmp_path / "summary.json").write_text("{\n]")
+    with pytest.raises(gnbv.BadInput) as bad:
+        gnbv.load(tmp_path)
+    assert bad.value.line == 2
+
+
+def test_progress_is_told_and_may_raise(short):
+    shares = []
+    gnbv.run("smoke", set=short, progress=lambda share, note: shares.append(share))
+    assert shares == sorted(shares) and shares[-1] == 1.0
+    with pytest.raises(ZeroDivisionError):
+        gnbv.run("smoke", set=short, progress=lambda share, note: 1 / 0)
+
+
+def test_ctrl_c_ends_in_order_and_resume_goes_on(tmp_path):
+    code = """
+import gnbv, time
+def told(share, note):
+    if note.startswith("view 2/"): print("flying", flush=True)
+try:
+    gnbv.run("smoke", seed=3, set={"planner.termination.max_iterations": 40}, out="r",
+             progress=told)
+except gnbv.Interrupted as stopped:
+    print("stopped", stopped.folder, flush=True)
+try:
+    time.sleep(20)
+except KeyboardInterrupt:
+    print("python again", flush=True)
+"""
+    child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
+    assert child.stdout is not None
+    assert child.stdout.readline() == "flying\n"
+    child.send_signal(signal.SIGINT)
+    assert child.stdout.readline() == "stopped r\n"
+    time.sleep(0.2)
+    child.send_signal(signal.SIGINT)
+    assert child.stdout.readline() == "python again\n"
+    assert child.wait() == 0
+    settings = {"planner.termination.max_iterations": 40}
+    resumed = gnbv.run("smoke", seed=3, set=settings, out="r", resume=True)
+    whole = gnbv.run("smoke", seed=3, set=settings, out=tmp_path / "whole")
+    assert resumed.sha256 == whole.sha256
+
+
+def test_the_command_is_the_program():
+    said = subprocess.run(
+        [sys.executable, "-c", "from gnbv._program import main; main()", "--version"],
+        capture_output=True,
+        text=True,
+        check=True,
+        env=os.environ,
+    )
+    assert said.stdout.strip() == gnbv.__version__

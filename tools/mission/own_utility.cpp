@@ -1,0 +1,171 @@
+#include "tools/mission/own_utility.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "planner/view/view_fields.hpp"
+#include "scenarios/flow_yaml.hpp"
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "tools/mission/child_pipe.hpp"
+
+namespace gnbv {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+asm(".pushsection .rodata\ngnbv_utility_child_begin:\n.incbin \"" GNBV_UTILITY_CHILD
+    "\"\ngnbv_utility_child_end:\n.popsection\n");
+extern "C" const char gnbv_utility_child_begin;
+extern "C" const char gnbv_utility_child_end;
+
+std::string child_script() {
+  return {&gnbv_utility_child_begin,
+          static_cast<std::size_t>(&gnbv_utility_child_end - &gnbv_utility_child_begin)};
+}
+
+/// NumPy's dtype of OwnCandidate, with the fields that are computed; the others are not there, so
+/// that nobody takes their zeros for counts.
+Json dtype_of(const OwnUtilityConfig& config) {
+  const ViewFieldNeeds computed = names_shadow_fields(config) ? ViewFieldNeeds::shadow
+                                  : names_ray_fields(config)  ? ViewFieldNeeds::rays
+                                                              : ViewFieldNeeds::voxels;
+  Json names = Json::array(), formats = Json::array(), offsets = Json::array();
+  const auto add = [&](std::string_view name, std::string_view format, std::size_t offset) {
+    names.push_back(name);
+    formats.push_back(format);
+    offsets.push_back(offset);
+  };
+  for (const ViewField& field : kViewFields) {
+    if (field.needs <= computed) {
+      add(field.name, field.format, offsetof(OwnCandidate, stats) + field.offset);
+    }
+  }
+  add("x_m", "<f8", offsetof(OwnCandidate, x_m));
+  add("y_m", "<f8", offsetof(OwnCandidate, y_m));
+  add("z_m", "<f8", offsetof(OwnCandidate, z_m));
+  add("yaw_rad", "<f8", offsetof(OwnCandidate, yaw_rad));
+  add("gimbal_pitch_rad", "<f8", offsetof(OwnCandidate, gimbal_pitch_rad));
+  return {{"names", names},
+          {"formats", formats},
+          {"offsets", offsets},
+          {"itemsize", sizeof(OwnCandidate)}};
+}
+
+std::string python_program() {
+  const char* const asked = std::getenv("GNBV_PYTHON");
+  return asked != nullptr && *asked != '\0' ? asked : "python3";
+}
+
+class PythonUtility {
+ public:
+  explicit PythonUtility(const OwnUtilityConfig& config)
+      : function_(config.function), child_({python_program(), "-c", child_script()}) {
+    const Json hello = {
+        {"function", config.function}, {"source", config.source}, {"dtype", dtype_of(config)}};
+    child_.write(hello.dump() + "\n");
+    const std::string line = child_.read_line();
+    const Json answer = Json::parse(line, nullptr, false);
+    if (!answer.is_object()) {
+      throw BadInput(fmt::format("utility {}: {} does not run ({}); GNBV_PYTHON names another",
+                                 function_, python_program(), child_.end()));
+    }
+    if (answer.contains("error")) {
+      throw BadInput(fmt::format("utility {}: {}", function_, answer["error"].get<std::string>()));
+    }
+  }
+
+  std::vector<double> operator()(const OwnQuestion& question) {
+    const std::size_t rows = question.rows.size();
+    child_.write_number(static_cast<std::int64_t>(rows));
+    child_.write(
+        {reinterpret_cast<const char*>(question.rows.data()), rows * sizeof(OwnCandidate)});
+    const std::int64_t answered = child_.read_number();
+    if (answered == static_cast<std::int64_t>(rows) && child_.is_open()) {
+      std::vector<double> scores(rows);
+      child_.read(reinterpret_cast<char*>(scores.data()), rows * sizeof(double));
+      if (child_.is_open()) return scores;
+    }
+    fail(question);
+  }
+
+ private:
+  [[noreturn]] void fail(const OwnQuestion& question) {
+    const std::int64_t row = child_.read_number();
+    std::string text(static_cast<std::size_t>(std::max<std::int64_t>(child_.read_number(), 0)),
+                     ' ');
+    child_.read(text.data(), text.size());
+    if (!child_.is_open()) {
+      throw OwnUtilityFailed(fmt::format("utility {}: iteration {}: its Python ended ({})",
+                                         function_, question.iteration, child_.end()));
+    }
+    const std::string who =
+        row < 0 ? fmt::format("all {} candidates together", question.rows.size())
+                : fmt::format("candidate {}", question.indices[static_cast<std::size_t>(row)]);
+    throw OwnUtilityFailed(
+        fmt::format("utility {}: iteration {}, {}: {}", function_, question.iteration, who, text));
+  }
+
+  std::string function_;
+  ChildPipe child_;
+};
+
+}  // namespace
+
+bool is_utility_file(std::string_view utility) {
+  const std::string_view file = utility.substr(0, utility.rfind(':'));
+  return utility.ends_with(".py") || file.ends_with(".py");
+}
+
+NamedUtility named_utility(const std::string& utility) {
+  const std::string source = "--utility " + utility;
+  if (!is_utility_file(utility)) {
+    return {utility, {{.text = "planner.utility.name=" + utility, .source = {}, .folder = {}}}};
+  }
+  const std::size_t colon = utility.ends_with(".py") ? utility.size() : utility.rfind(':');
+  const std::string file = utility.substr(0, colon);
+  std::string function = colon < utility.size() ? utility.substr(colon + 1) : "";
+  const std::string text = read_file(file);
+  std::vector<std::string> defined;
+  const std::regex definition(R"((?:^|\n)(?:def[ \t]+(\w+)[ \t]*\(|(\w+)[ \t]*=))");
+  for (auto it = std::sregex_iterator(text.begin(), text.end(), definition);
+       it != std::sregex_iterator(); ++it) {
+    const bool is_def = (*it)[1].matched;
+    defined.push_back((*it)[is_def ? 1 : 2]);
+    if (is_def && colon == utility.size()) function = defined.back();
+  }
+  if (std::find(defined.begin(), defined.end(), function) == defined.end()) {
+    throw BadInput(fmt::format("{}: defines no function{} at its top level", file,
+                               function.empty() ? "" : fmt::format(" '{}'", function)));
+  }
+  const auto set = [&](const char* key, const std::string& value) {
+    return Override{
+        .text = fmt::format("planner.utility.{}={}", key, value), .source = source, .folder = {}};
+  };
+  return {
+      function,
+      {set("name", std::string(kOwnUtilityName)), set("python.function", yaml_in_quotes(function)),
+       set("python.source", yaml_in_quotes(text))}};
+}
+
+OwnScores start_own_utility(const UtilityConfig& config) {
+  if (!is_own_utility(config.name)) return {};
+  auto utility = std::make_shared<PythonUtility>(config.python);
+  return [utility](const OwnQuestion& question) { return (*utility)(question); };
+}
+
+OwnScores lazy_own_utility(const UtilityConfig& config) {
+  if (!is_own_utility(config.name)) return {};
+  auto started = std::make_shared<OwnScores>();
+  return [started, config](const OwnQuestion& question) {
+    if (!*started) *started = start_own_utility(config);
+    return (*started)(question);
+  };
+}
+
+}  // namespace gnbv

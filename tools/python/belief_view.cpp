@@ -1,0 +1,183 @@
+#include "tools/python/belief_view.hpp"
+
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/string.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "planner/decision.hpp"
+#include "planner/map/frontiers.hpp"
+#include "planner/map/path_search.hpp"
+#include "planner/view/view_fields.hpp"
+#include "planner/view_sampling.hpp"
+#include "planner/view_validity.hpp"
+#include "sim/core/parallel.hpp"
+
+namespace gnbv {
+namespace {
+
+Vec3 vec3(const Point& p) { return {p[0], p[1], p[2]}; }
+
+}  // namespace
+
+BeliefView::BeliefView(const Belief& belief, BeliefTools& tools, const ViewPose& current,
+                       std::vector<ViewPose> recent)
+    : belief_(belief),
+      tools_(tools),
+      current_(current),
+      recent_(std::move(recent)),
+      lease_(nb::capsule(this)) {}
+
+bool BeliefView::is_shared() const { return Py_REFCNT(lease_.ptr()) > 1; }
+
+template <typename T>
+nb::object BeliefView::grid_array(std::span<const T> values) const {
+  const Key& size = belief_.grid.geometry().size();
+  const std::array<std::size_t, 3> shape = {static_cast<std::size_t>(size[2]),
+                                            static_cast<std::size_t>(size[1]),
+                                            static_cast<std::size_t>(size[0])};
+  return shared_array(values, shape, lease_);
+}
+
+nb::object BeliefView::log_odds() const { return grid_array(belief_.grid.all_log_odds()); }
+nb::object BeliefView::words() const { return grid_array(belief_.grid.words()); }
+
+nb::object BeliefView::cloud() const {
+  static_assert(sizeof(Vec3f) == 3 * sizeof(float));
+  const std::span<const Vec3f> points = belief_.cloud.points_world_m();
+  const std::array<std::size_t, 2> shape = {points.size(), 3};
+  const float* const first = points.empty() ? nullptr : points.front().data();
+  return shared_array(std::span<const float>(first, 3 * points.size()), shape, lease_);
+}
+
+nb::tuple BeliefView::density() const {
+  const std::span<const VoxelIndex> voxels = belief_.cloud.voxels();
+  std::vector<std::int64_t> indices(voxels.begin(), voxels.end());
+  std::vector<double> densities;
+  for (const VoxelIndex v : voxels) densities.push_back(belief_.cloud.density(v));
+  return nb::make_tuple(owned_array(std::move(indices)), owned_array(std::move(densities)));
+}
+
+Point BeliefView::origin_m() const {
+  const Key& low = belief_.grid.geometry().min_key();
+  return {low[0] * resolution_m(), low[1] * resolution_m(), low[2] * resolution_m()};
+}
+
+nb::object BeliefView::current() const { return array_of(std::span(&current_, 1)); }
+
+nb::object BeliefView::navigation_m() const {
+  const Box3& box_m = tools_.model.navigation_m;
+  return owned_array(std::vector<double>{box_m.min().x(), box_m.min().y(), box_m.min().z(),
+                                         box_m.max().x(), box_m.max().y(), box_m.max().z()},
+                     3);
+}
+
+nb::object BeliefView::sample(double scale) const {
+  return array_of(sample_agvs(tools_.model.config.agvs, current_, scale, tools_.model.pitches_rad));
+}
+
+nb::object BeliefView::sample_frontiers() const {
+  const FvsConfig& fvs = tools_.model.config.fvs;
+  std::vector<ViewPose> views;
+  for (const FrontierCluster& cluster :
+       find_frontiers(fvs.frontier, belief_.grid, belief_.cloud, tools_.bench.frontier_marks)) {
+    const std::vector<ViewPose> around =
+        sample_fvs(fvs, cluster.centroid_world_m, tools_.model.pitches_rad);
+    views.insert(views.end(), around.begin(), around.end());
+  }
+  return array_of(views);
+}
+
+nb::tuple BeliefView::validate(const ViewRows& rows) const {
+  const PlannerModel& model = tools_.model;
+  std::vector<Candidate> candidates;
+  for (const ViewPose& view : views_of(rows)) candidates.push_back({.view = view, .sampler = {}});
+  {
+    const nb::gil_scoped_release other_threads_run;
+    ViewChecker checker(model.config.validity, model.navigation_m, model.no_fly, belief_.grid,
+                        recent_, current_);
+    for (Candidate& candidate : candidates) checker.check(candidate);
+  }
+  nb::list reasons;
+  std::vector<double> path_m;
+  for (const Candidate& candidate : candidates) {
+    const std::string_view name = candidate.rejected ? name_of(*candidate.rejected) : "";
+    reasons.append(nb::str(name.data(), name.size()));
+    path_m.push_back(candidate.path_m);
+  }
+  return nb::make_tuple(reasons, owned_array(std::move(path_m)));
+}
+
+nb::bytes BeliefView::evaluate(const ViewRows& rows) const {
+  const PlannerModel& model = tools_.model;
+  const std::vector<ViewPose> views = views_of(rows);
+  std::vector<ViewStats> stats(views.size());
+  const ViewOptions options = {
+      .detail = ViewDetail::rays,
+      .sparse_below = model.config.fvs.frontier.density_share * density_max()};
+  {
+    const nb::gil_scoped_release other_threads_run;
+    std::vector<VisitMarks>& marks = tools_.bench.marks;
+    parallel_for(tools_.bench.threads, marks.size(), [&](std::size_t share) {
+      for (std::size_t i = share; i < views.size(); i += marks.size()) {
+        stats[i] =
+            evaluate_view(belief_.grid, belief_.cloud, model.rays_at(views[i].gimbal_pitch_rad),
+                          views[i], marks[share], options);
+        stats[i].density_max = density_max();
+        stats[i].path_m = (views[i].p_world_m - current_.p_world_m).norm();
+      }
+    });
+  }
+  return nb::bytes(stats.data(), stats.size() * sizeof(ViewStats));
+}
+
+nb::object BeliefView::find_path(const Point& from_m, const Point& to_m) const {
+  const ValidityConfig& validity = tools_.model.config.validity;
+  const auto way_m =
+      gnbv::find_path(validity.path_search, belief_.grid, tools_.model.navigation_m, vec3(from_m),
+                      vec3(to_m), validity.collision_radius_m, tools_.model.no_fly);
+  if (!way_m) return nb::none();
+  std::vector<double> rows;
+  for (const Vec3& p_m : *way_m) rows.insert(rows.end(), p_m.begin(), p_m.end());
+  return owned_array(std::move(rows), 3);
+}
+
+nb::dict view_stats_dtype() {
+  nb::list names, formats, offsets;
+  for (const ViewField& field : kViewFields) {
+    if (field.needs == ViewFieldNeeds::shadow) continue;
+    names.append(nb::str(field.name.data(), field.name.size()));
+    formats.append(nb::str(field.format.data(), field.format.size()));
+    offsets.append(field.offset);
+  }
+  nb::dict dtype;
+  dtype["names"] = names;
+  dtype["formats"] = formats;
+  dtype["offsets"] = offsets;
+  dtype["itemsize"] = sizeof(ViewStats);
+  return dtype;
+}
+
+void bind_belief(nb::module_& m) {
+  nb::class_<BeliefView>(m, "BeliefView")
+      .def_prop_ro("log_odds", &BeliefView::log_odds)
+      .def_prop_ro("words", &BeliefView::words)
+      .def_prop_ro("cloud", &BeliefView::cloud)
+      .def_prop_ro("density", &BeliefView::density)
+      .def_prop_ro("resolution_m", &BeliefView::resolution_m)
+      .def_prop_ro("origin_m", &BeliefView::origin_m)
+      .def_prop_ro("density_max", &BeliefView::density_max)
+      .def_prop_ro("entropy_nat", &BeliefView::entropy_nat)
+      .def_prop_ro("current", &BeliefView::current)
+      .def_prop_ro("navigation_m", &BeliefView::navigation_m)
+      .def("sample", &BeliefView::sample, nb::arg("scale"))
+      .def("sample_frontiers", &BeliefView::sample_frontiers)
+      .def("validate", &BeliefView::validate, nb::arg("views"))
+      .def("evaluate", &BeliefView::evaluate, nb::arg("views"))
+      .def("find_path", &BeliefView::find_path, nb::arg("from_m"), nb::arg("to_m"))
+      .def("is_shared", &BeliefView::is_shared);
+  m.def("view_stats_dtype", &view_stats_dtype);
+}
+
+}  // namespace gnbv

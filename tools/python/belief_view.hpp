@@ -1,0 +1,76 @@
+// What a planner written in Python sees: what is believed, and what the planner of C++ asks of it.
+// This file and its .cpp include nothing but the planner (tools/check_layers): no truth is in
+// reach.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "planner/belief.hpp"
+#include "planner/model.hpp"
+#include "planner/workbench.hpp"
+#include "tools/python/arrays.hpp"
+
+namespace gnbv {
+
+/// What questions need that are not about the belief alone. Kept for a mission.
+struct BeliefTools {
+  BeliefTools(const PlannerModel& planner_model, int threads)
+      : model(planner_model), bench(model, threads) {}
+  const PlannerModel model;
+  Workbench bench;
+};
+
+/// For one call of a planner. Its arrays share the belief's memory; who made them asks is_shared()
+/// before the belief changes.
+class BeliefView {
+ public:
+  BeliefView(const Belief& belief, BeliefTools& tools, const ViewPose& current,
+             std::vector<ViewPose> recent);
+
+  /// z, y, x; natural logarithm of the odds, float32.
+  nb::object log_odds() const;
+  /// z, y, x; voxel_word.hpp.
+  nb::object words() const;
+  /// points x 3, m, world ENU, float32.
+  nb::object cloud() const;
+  /// Flat indices (z, y, x) of the voxels that hold points, and the density of each.
+  nb::tuple density() const;
+
+  double resolution_m() const { return belief_.grid.geometry().resolution_m(); }
+  Point origin_m() const;
+  double density_max() const { return belief_.cloud.density_max(); }
+  double entropy_nat() const { return belief_.grid.total_entropy_nat(); }
+  nb::object current() const;
+  /// 2 x 3: the corners of where views may be.
+  nb::object navigation_m() const;
+
+  nb::object sample(double scale) const;
+  nb::object sample_frontiers() const;
+  /// For each view the name of what forbids it, or "", and the length of the way there (m).
+  nb::tuple validate(const ViewRows& rows) const;
+  /// A ViewStats a row, with rays, as bytes.
+  nb::bytes evaluate(const ViewRows& rows) const;
+  /// The points between the ends, or None.
+  nb::object find_path(const Point& from_m, const Point& to_m) const;
+
+  /// Whether any array that shares memory is still in use.
+  bool is_shared() const;
+
+ private:
+  template <typename T>
+  nb::object grid_array(std::span<const T> values) const;
+
+  const Belief& belief_;
+  BeliefTools& tools_;
+  ViewPose current_;
+  std::vector<ViewPose> recent_;
+  nb::object lease_;  // what the shared arrays keep alive
+};
+
+/// NumPy's dtype of ViewStats as evaluate() fills it.
+nb::dict view_stats_dtype();
+
+void bind_belief(nb::module_& m);
+
+}  // namespace gnbv

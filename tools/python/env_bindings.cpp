@@ -1,0 +1,93 @@
+#include "tools/python/env_bindings.hpp"
+
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "sim/core/error.hpp"
+#include "tools/python/arrays.hpp"
+#include "tools/python/env_mission.hpp"
+
+namespace gnbv {
+namespace {
+
+template <typename Values>
+nb::object floats(const Values& values) {
+  return owned_array(std::vector<float>(values.begin(), values.end()));
+}
+
+nb::dict dict_of(const EnvState& state) {
+  nb::dict out;
+  out["ended"] = state.ended;
+  out["termination"] = state.termination;
+  out["refused"] = state.refused;
+  out["coverage"] = state.coverage;
+  out["entropy_nat"] = state.entropy_nat;
+  out["cloud_points"] = state.cloud_points;
+  out["flown_m"] = state.flown_m;
+  out["time_s"] = state.time_s;
+  out["view"] = array_of(std::span(&state.pose, 1));
+  out["map"] = floats(state.seen.map);
+  out["pose"] = floats(state.seen.pose);
+  out["progress"] = floats(state.seen.progress);
+  out["views"] = owned_array(state.seen.views, 5);
+  out["mask"] = owned_array(state.seen.mask);
+  out["candidates"] = owned_array(state.seen.candidates, kCandidateFeatures);
+  return out;
+}
+
+nb::dict description(const EnvStage& stage) {
+  const Scenario& scenario = stage.scenario;
+  const PlannerModel model(scenario.planner, scenario.workspace_m, camera_models(scenario), {},
+                           scenario.seed, no_fly_of(scenario));
+  const EnvObserver observer(model, stage.scales);
+  const Box3& box_m = model.navigation_m;
+  nb::dict out;
+  out["name"] = scenario.name;
+  out["seed"] = scenario.seed;
+  out["ceiling"] = stage.ceiling;
+  out["goal_coverage"] = stage.goal_coverage;
+  out["max_iterations"] = scenario.planner.termination.max_iterations;
+  out["low_m"] = nb::make_tuple(box_m.min().x(), box_m.min().y(), box_m.min().z());
+  out["high_m"] = nb::make_tuple(box_m.max().x(), box_m.max().y(), box_m.max().z());
+  out["candidates"] = observer.candidate_count();
+  out["features"] = kCandidateFeatures;
+  out["map_shape"] = nb::make_tuple(3, kCoarseCells[0], kCoarseCells[1], kCoarseCells[2]);
+  if (model.gimbal)
+    out["gimbal_rad"] = nb::make_tuple(model.gimbal->min_rad, model.gimbal->max_rad);
+  return out;
+}
+
+void act(EnvMission& env, const ViewRows& rows) {
+  if (rows.shape(0) != 1) throw BadInput("env: expected one view");
+  env.act(views_of(rows).front());
+}
+
+nb::dict wait(EnvMission& env) {
+  const EnvState* state = nullptr;
+  {
+    const nb::gil_scoped_release other_threads_run;
+    state = &env.wait();
+  }
+  return dict_of(*state);
+}
+
+}  // namespace
+
+void bind_env(nb::module_& m) {
+  using Free = nb::call_guard<nb::gil_scoped_release>;
+  nb::class_<EnvStage>(m, "EnvStage")
+      .def(nb::init<const std::string&, const std::vector<std::string>&, double>(),
+           nb::arg("scenario"), nb::arg("overrides"), nb::arg("goal"), Free())
+      .def_prop_ro("description", &description);
+  nb::class_<Permits>(m, "Permits").def(nb::init<int>(), nb::arg("count"));
+  nb::class_<EnvMission>(m, "EnvMission")
+      .def(nb::init<std::shared_ptr<const EnvStage>, std::shared_ptr<Permits>, bool>(),
+           nb::arg("stage"), nb::arg("permits"), nb::arg("with_candidates"))
+      .def("begin", &EnvMission::begin, nb::arg("seed"), Free())
+      .def("act", &act, nb::arg("view"))
+      .def("wait", &wait)
+      .def("close", &EnvMission::close, Free());
+}
+
+}  // namespace gnbv

@@ -1,0 +1,10 @@
+// The environments of gnbv.gym.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+namespace gnbv {
+
+void bind_env(nanobind::module_& m);
+
+}  // namespace gnbv

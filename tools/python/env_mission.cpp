@@ -1,0 +1,153 @@
+#include "tools/python/env_mission.hpp"
+
+#include <utility>
+
+#include "bench/score/coverage_curve.hpp"
+#include "scenarios/load.hpp"
+#include "tools/mission/coverage_goal.hpp"
+#include "tools/mission/load_world.hpp"
+#include "tools/mission/reference.hpp"
+#include "tools/mission/run_ceiling.hpp"
+
+namespace gnbv {
+namespace {
+
+Scenario flown_by_agent(const std::string& name, std::vector<std::string> overrides) {
+  overrides.insert(overrides.begin(), "planner.utility.name=route");
+  return load_scenario(name, overrides);
+}
+
+World world_of(const Scenario& scenario) {
+  std::vector<std::string> warnings;
+  return load_world(scenario, warnings);
+}
+
+}  // namespace
+
+EnvStage::EnvStage(const std::string& scenario_name, const std::vector<std::string>& overrides,
+                   double goal)
+    : scenario(flown_by_agent(scenario_name, overrides)),
+      world(world_of(scenario)),
+      scene(world),
+      reference(reference_of(scenario, world, scene, 2)),
+      ceiling(goal > 0.0 ? run_ceiling(scenario, world, scene, CeilingFrom::search, 2).value_or(1.0)
+                         : 1.0),
+      goal_coverage(goal > 0.0 ? goal * ceiling : 2.0),
+      scales({1.0, 3.0}) {}
+
+void Permits::take() {
+  std::unique_lock lock(mutex_);
+  given_.wait(lock, [this] { return left_ > 0; });
+  --left_;
+}
+
+void Permits::give() {
+  const std::lock_guard lock(mutex_);
+  ++left_;
+  given_.notify_one();
+}
+
+EnvMission::EnvMission(std::shared_ptr<const EnvStage> stage, std::shared_ptr<Permits> permits,
+                       bool with_candidates)
+    : stage_(std::move(stage)), permits_(std::move(permits)), with_candidates_(with_candidates) {}
+
+EnvMission::~EnvMission() { close(); }
+
+void EnvMission::close() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_closing_ = true;
+    turned_.notify_all();
+  }
+  if (thread_.joinable()) thread_.join();
+  is_closing_ = false;
+}
+
+void EnvMission::begin(std::uint64_t seed) {
+  close();
+  Scenario scenario = stage_->scenario;
+  scenario.seed = seed;
+  const PlannerModel model(scenario.planner, scenario.workspace_m, camera_models(scenario), {},
+                           seed, no_fly_of(scenario));
+  observer_ = std::make_unique<EnvObserver>(model, stage_->scales);
+  state_ = {};
+  action_.reset();
+  failure_ = nullptr;
+  turn_ = Turn::mission;
+  thread_ = std::thread([this, scenario = std::move(scenario)] { fly(scenario); });
+}
+
+void EnvMission::act(const ViewPose& view) {
+  const std::lock_guard lock(mutex_);
+  action_ = view;
+  state_.refused.clear();
+  turn_ = Turn::mission;
+  turned_.notify_all();
+}
+
+const EnvState& EnvMission::wait() {
+  std::unique_lock lock(mutex_);
+  turned_.wait(lock, [this] { return turn_ != Turn::mission; });
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+  return state_;
+}
+
+void EnvMission::keep(const Belief& belief) {
+  belief_ = &belief;
+  state_.entropy_nat = belief.grid.total_entropy_nat();
+  state_.cloud_points = belief.cloud.points_world_m().size();
+}
+
+/// The mission's turn ends here, and begins again with the agent's view.
+std::optional<ViewPose> EnvMission::ask() {
+  permits_->give();
+  std::unique_lock lock(mutex_);
+  turn_ = Turn::agent;
+  turned_.notify_all();
+  turned_.wait(lock, [this] { return turn_ == Turn::mission || is_closing_; });
+  lock.unlock();
+  permits_->take();
+  return is_closing_ ? std::nullopt : std::exchange(action_, std::nullopt);
+}
+
+void EnvMission::fly(Scenario scenario) {
+  permits_->take();
+  try {
+    const auto coverage_of = coverage_meter(stage_->reference, stage_->scene);
+    std::vector<ViewPose> taken;
+    const auto observe = [&] {
+      state_.seen =
+          observer_->observe(*belief_, state_.pose, taken, taken.size(), with_candidates_);
+    };
+    MissionHooks hooks;
+    hooks.should_stop = [this] { return is_closing_.load(); };
+    hooks.on_view = [&](const ViewRecord& view) {
+      state_.pose = view.decision.view;
+      state_.flown_m = view.flown_m;
+      state_.time_s = view.time_s;
+      taken.push_back(state_.pose);
+    };
+    hooks.on_view_belief = [&](const Belief& belief) {
+      keep(belief);
+      state_.coverage = coverage_of(belief);
+      observe();
+    };
+    hooks.is_covered = [&](const Belief&) { return state_.coverage >= stage_->goal_coverage; };
+    hooks.on_refused = [&](std::size_t, Rejection reason) { state_.refused = name_of(reason); };
+    hooks.next_given = [this] { return ask(); };
+    const MissionResult result = run_mission(scenario, stage_->world, stage_->scene, hooks, 1);
+    state_.termination = name_of(result.termination);
+    keep(result.belief);
+    observe();
+  } catch (...) {
+    failure_ = std::current_exception();
+  }
+  permits_->give();
+  const std::lock_guard lock(mutex_);
+  state_.ended = true;
+  belief_ = nullptr;
+  turn_ = Turn::over;
+  turned_.notify_all();
+}
+
+}  // namespace gnbv

@@ -1,0 +1,102 @@
+// A mission as an environment: a thread of its own flies it and stops where it wants a view.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "bench/score/surface_reference.hpp"
+#include "tools/mission/mission.hpp"
+#include "tools/python/env_observation.hpp"
+
+namespace gnbv {
+
+/// What all missions of a scenario share; nothing in it changes.
+struct EnvStage {
+  /// `goal` is the share of the ceiling at which a mission ends; 0: never. Throws BadInput.
+  EnvStage(const std::string& scenario_name, const std::vector<std::string>& overrides,
+           double goal);
+
+  const Scenario scenario;
+  const World world;
+  const RayScene scene;
+  const SurfaceReference reference;
+  const double ceiling;        // share of the surface that can be covered; 1 where no goal asks
+  const double goal_coverage;  // share of the surface at which it ends; above 1: never
+  const std::vector<double> scales;
+};
+
+/// How many missions may fly at a time; the others wait. What they do does not depend on it.
+class Permits {
+ public:
+  explicit Permits(int count) : left_(count) {}
+  void take();
+  void give();
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable given_;
+  int left_;
+};
+
+struct EnvState {
+  bool ended = false;
+  std::string termination;  // of the mission, when it has ended
+  std::string refused;      // why the latest action was no view that can be flown; "" it was flown
+  double coverage = 0.0;    // share of the surface, at 0.05 m: the truth
+  double entropy_nat = 0.0;
+  std::size_t cloud_points = 0;
+  double flown_m = 0.0;
+  double time_s = 0.0;
+  ViewPose pose;
+  EnvObservation seen;
+};
+
+class EnvMission {
+ public:
+  EnvMission(std::shared_ptr<const EnvStage> stage, std::shared_ptr<Permits> permits,
+             bool with_candidates);
+  ~EnvMission();
+  EnvMission(const EnvMission&) = delete;
+  EnvMission& operator=(const EnvMission&) = delete;
+
+  /// Ends what flies and begins anew; wait() says when it wants a view.
+  void begin(std::uint64_t seed);
+  /// Requires that wait() has returned a state that has not ended.
+  void act(const ViewPose& view);
+  /// Throws what the mission threw.
+  const EnvState& wait();
+  void close();
+
+  const EnvStage& stage() const { return *stage_; }
+
+ private:
+  enum class Turn { mission, agent, over };
+  void fly(Scenario scenario);
+  std::optional<ViewPose> ask();
+  void keep(const Belief& belief);
+
+  std::shared_ptr<const EnvStage> stage_;
+  std::shared_ptr<Permits> permits_;
+  bool with_candidates_;
+  std::unique_ptr<EnvObserver> observer_;
+
+  std::mutex mutex_;
+  std::condition_variable turned_;
+  Turn turn_ = Turn::over;
+  std::atomic<bool> is_closing_ = false;
+  std::optional<ViewPose> action_;
+  std::exception_ptr failure_;
+  EnvState state_;
+  const Belief* belief_ = nullptr;  // the mission's
+  std::thread thread_;
+};
+
+}  // namespace gnbv

@@ -1,0 +1,52 @@
+// What an agent observes: the belief, as finite numbers of fixed shapes. Like belief_view.hpp it
+// includes nothing but the planner.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "planner/belief.hpp"
+#include "planner/model.hpp"
+#include "planner/workbench.hpp"
+
+namespace gnbv {
+
+constexpr std::array<std::size_t, 3> kCoarseCells = {8, 16, 16};  // z, y, x
+constexpr std::size_t kCandidateFeatures = 8;
+
+/// All in [-1, 1]; shares, logarithms and coordinates of the workspace.
+struct EnvObservation {
+  std::vector<float> map;           // 3 x kCoarseCells: shares of unknown, free and occupied voxels
+  std::array<float, 5> pose{};      // x, y, z of the navigation box, sine and cosine of the yaw
+  std::array<float, 2> progress{};  // entropy left of that at first, share of the views used
+  std::vector<double> views;        // candidates x 5, as ViewRows
+  std::vector<std::uint8_t> mask;   // whether it may be flown to
+  std::vector<float> candidates;    // x kCandidateFeatures; 0 where it may not
+};
+
+class EnvObserver {
+ public:
+  EnvObserver(const PlannerModel& model, std::vector<double> scales)
+      : model_(model), scales_(std::move(scales)), bench_(model_, 1) {}
+
+  EnvObservation observe(const Belief& belief, const ViewPose& current,
+                         std::span<const ViewPose> recent, std::size_t views_taken,
+                         bool with_candidates);
+  /// How many candidates there always are.
+  std::size_t candidate_count() const;
+  const PlannerModel& model() const { return model_; }
+
+ private:
+  void add_candidates(const Belief& belief, const ViewPose& current,
+                      std::span<const ViewPose> recent, EnvObservation& out);
+
+  const PlannerModel model_;
+  std::vector<double> scales_;
+  Workbench bench_;
+  double first_entropy_nat_ = 0.0;
+};
+
+}  // namespace gnbv

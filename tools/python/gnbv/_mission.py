@@ -1,0 +1,135 @@
+"""gnbv.run."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from collections.abc import Callable, Mapping
+from contextlib import ExitStack
+from typing import Any, Union
+
+from gnbv import _core
+from gnbv._errors import BadInput, Failed, Interrupted, UtilityFailed
+from gnbv._planner import AskedPlanner, Planner
+from gnbv._run import Run
+from gnbv._utility import Utility, as_arguments
+
+PathLike = Union[str, "os.PathLike[str]"]
+Progress = Callable[[float, str], None]
+
+
+def run(
+    scenario: PathLike,
+    *,
+    utility: Utility | None = None,
+    planner: Planner | None = None,
+    seed: int | None = None,
+    preset: str | None = None,
+    mesh: PathLike | None = None,
+    bounds: str = "scenario",
+    set: Mapping[str, Any] | None = None,
+    out: PathLike | None = None,
+    threads: int = 0,
+    resume: bool = False,
+    frames: bool = False,
+    candidates: bool = False,
+    ceiling: bool = False,
+    progress: bool | Progress = True,
+) -> Run:
+    """Flies one mission, scores it, and returns its run directory.
+
+    Args:
+        scenario: a built-in name ("aircraft", "smoke", ...) or a YAML file.
+        utility: what ranks the candidates: a name, 'FILE.py:FUNCTION', or a function of your own
+            from the candidates' ViewStats (a structured array) to a finite score each.
+        planner: a function plan(belief, history) -> View of your own, instead of a utility; None
+            ends the mission. The views are recorded, so that the run repeats without it.
+        seed, preset, mesh, bounds, out, threads, resume, frames, candidates, ceiling: as the
+            options of `gnbv run`.
+        set: values of the scenario by key: {"planner.cloud.leaf_m": 0.02}.
+        progress: False: none; True: by tqdm where it is installed and stderr is a terminal; or a
+            function of the share done (0 to 1) and a note.
+
+    Raises:
+        BadInput: with file, line, key and value of what is wrong; nothing was written.
+        UtilityFailed: with iteration, candidate and traceback; the run directory is complete.
+        Interrupted: Ctrl-C; the mission ended after the view at hand.
+        Failed: the vehicle hit something or was carried away; the run directory shows where.
+        Whatever the planner raised, after the mission has ended in order.
+    """
+    if planner is not None and utility is not None:
+        raise BadInput("planner: a planner chooses without a utility; give one of the two")
+    os.environ.setdefault("GNBV_PYTHON", sys.executable)
+    with ExitStack() as stack:
+        arguments = stack.enter_context(as_arguments([] if utility is None else [utility]))
+        chosen = "route" if planner is not None else arguments[0] if arguments else ""
+        given = {
+            "scenario": os.fspath(scenario),
+            "mesh": os.fspath(mesh) if mesh is not None else "",
+            "utility": chosen,
+            "preset": preset or "",
+            "seed": "" if seed is None else str(seed),
+            "overrides": [f"{key}={_yaml(value)}" for key, value in (set or {}).items()],
+            "views": "",
+            "bounds_auto": bounds == "auto",
+            "out": os.fspath(out) if out is not None else "",
+            "threads": threads,
+            "resume": resume,
+            "quiet": True,
+            "candidates": candidates,
+            "frames": frames,
+            "ceiling": ceiling,
+        }
+        shown = stack.enter_context(_Shown(progress, os.fspath(scenario)))
+        asked = None if planner is None else AskedPlanner(planner)
+        folder, termination, failure = _core.run(given, asked, shown.show if shown else None)
+    return _checked(folder, termination, failure)
+
+
+def _checked(folder: str, termination: str, failure: str) -> Run:
+    if termination == "interrupted":
+        raise Interrupted(folder)
+    if termination == "utility_failed":
+        raise UtilityFailed(failure, folder)
+    if termination in ("collision", "off_course"):
+        raise Failed(f"the mission ended as {termination}; {folder} shows where")
+    return Run(folder)
+
+
+def _yaml(value: Any) -> str:
+    """A value as YAML, of which JSON is a part; text stays text."""
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    return value if isinstance(value, str) else json.dumps(value)
+
+
+class _Shown:
+    """Progress by tqdm, by a function, or not at all. False when there is nobody to show it to."""
+
+    def __init__(self, progress: bool | Progress, label: str) -> None:
+        self._function: Progress | None = progress if callable(progress) else None
+        self._bar: Any = None
+        if progress is True and sys.stderr is not None and sys.stderr.isatty():
+            try:
+                from tqdm import tqdm  # type: ignore[import-untyped,unused-ignore]
+            except ImportError:
+                return
+            self._bar = tqdm(total=100, desc=label, unit="%", leave=False)
+
+    def __enter__(self) -> _Shown:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._bar is not None:
+            self._bar.close()
+
+    def __bool__(self) -> bool:
+        return self._bar is not None or self._function is not None
+
+    def show(self, share: float, note: str) -> None:
+        if self._function is not None:
+            self._function(share, note)
+        if self._bar is not None:
+            self._bar.set_postfix_str(note, refresh=False)
+            self._bar.update(round(100 * share, 1) - self._bar.n)

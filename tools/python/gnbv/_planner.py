@@ -1,0 +1,216 @@
+"""What a planner of your own sees: Belief and History. None of it knows the true structure."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any, NamedTuple, Optional, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from gnbv import _core
+from gnbv._errors import BadInput
+
+VIEW_STATS_DTYPE = np.dtype(_core.view_stats_dtype())
+HISTORY_DTYPE = np.dtype(
+    [("iteration", "i8"), ("x", "f8"), ("y", "f8"), ("z", "f8"), ("yaw", "f8")]
+    + [("gimbal_pitch", "f8"), ("entropy_nat", "f8"), ("cloud_points", "i8")]
+    + [("flown_m", "f8"), ("time_s", "f8")]
+)
+
+
+class View(NamedTuple):
+    """Where to look from: the body's position (m, world ENU), yaw and gimbal pitch (rad)."""
+
+    x: float
+    y: float
+    z: float
+    yaw: float
+    gimbal_pitch: float = 0.0
+
+
+Views = Union[View, npt.ArrayLike]
+
+
+class Belief:
+    """What the planner believes, for the call that it was handed to.
+
+    The arrays share the map's memory and cannot be written. Copy what is to outlast the call: a
+    planner that keeps one of them beyond it ends the mission with BufferError.
+    """
+
+    def __init__(self, view: Any) -> None:
+        self._view = view
+
+    @property
+    def log_odds(self) -> npt.NDArray[np.float32]:
+        """Of occupied, natural logarithm, 0 = unmeasured; shape (z, y, x); shared memory."""
+        return self._view.log_odds  # type: ignore[no-any-return]
+
+    @property
+    def words(self) -> npt.NDArray[np.uint32]:
+        """All that is known of each voxel, packed: bits 0-1 its state; bit 2 measured; bit 3
+        predicted by symmetry; bits 8-31 ln 2 minus its entropy, in 2^-24 nat. Shared memory."""
+        return self._view.words  # type: ignore[no-any-return]
+
+    @property
+    def state(self) -> npt.NDArray[np.uint8]:
+        """0 unknown, 1 free, 2 occupied; shape (z, y, x)."""
+        return (self.words & 3).astype(np.uint8)
+
+    @property
+    def is_predicted(self) -> npt.NDArray[np.bool_]:
+        """Whether symmetry predicts surface there; shape (z, y, x)."""
+        return (self.words & 8).astype(np.bool_)
+
+    @property
+    def entropy(self) -> npt.NDArray[np.float32]:
+        """Of each voxel, nat; ln 2 while unmeasured; shape (z, y, x)."""
+        return ((11629080 - (self.words >> 8)) * np.float32(2.0**-24)).astype(np.float32)
+
+    @property
+    def entropy_nat(self) -> float:
+        """Sum over all voxels, nat."""
+        return float(self._view.entropy_nat)
+
+    @property
+    def resolution_m(self) -> float:
+        return float(self._view.resolution_m)
+
+    @property
+    def origin_m(self) -> npt.NDArray[np.float64]:
+        """The lowest corner of voxel (0, 0, 0): x, y, z."""
+        return np.array(self._view.origin_m)
+
+    @property
+    def navigation_m(self) -> npt.NDArray[np.float64]:
+        """Where views may be: the lowest and the highest corner; shape (2, 3)."""
+        return self._view.navigation_m  # type: ignore[no-any-return]
+
+    @property
+    def cloud(self) -> npt.NDArray[np.float32]:
+        """Points of the surface so far, n x 3, m; shared memory."""
+        return self._view.cloud  # type: ignore[no-any-return]
+
+    @property
+    def density(self) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.float64]]:
+        """Flat indices (of shape z, y, x) of the voxels with points; their density: the mean
+        number of neighbours of a point within voxel / sqrt(2)."""
+        return self._view.density  # type: ignore[no-any-return]
+
+    @property
+    def density_max(self) -> float:
+        """The density of a fully scanned plane."""
+        return float(self._view.density_max)
+
+    @property
+    def current(self) -> View:
+        """The latest view."""
+        return View(*map(float, self._view.current[0]))
+
+    def sample(self, scale: float = 1.0) -> npt.NDArray[np.float64]:
+        """Views on the grid around the current one (AGVS); n x 5, as View."""
+        return self._view.sample(scale)  # type: ignore[no-any-return]
+
+    def sample_frontiers(self) -> npt.NDArray[np.float64]:
+        """Views of the thinly sampled surface (FVS); n x 5, as View."""
+        return self._view.sample_frontiers()  # type: ignore[no-any-return]
+
+    def validate(self, views: Views) -> tuple[npt.NDArray[np.str_], npt.NDArray[np.float64]]:
+        """For each view "" or the reason why nobody may fly there, and the way's length (m)."""
+        reasons, path_m = self._view.validate(view_rows(views))
+        return np.array(reasons, dtype="U24"), path_m
+
+    def valid(self, views: Views) -> npt.NDArray[np.float64]:
+        """Those that may be flown to."""
+        rows = view_rows(views)
+        kept: npt.NDArray[np.float64] = rows[self.validate(rows)[0] == ""]
+        return kept
+
+    def evaluate(self, views: Views) -> npt.NDArray[Any]:
+        """What each view would see: ViewStats as a structured array, path_m the straight way."""
+        rows = view_rows(views)
+        return np.frombuffer(self._view.evaluate(rows), VIEW_STATS_DTYPE)
+
+    def find_path(
+        self, start: Iterable[float], goal: Iterable[float]
+    ) -> npt.NDArray[np.float64] | None:
+        """Points (n x 3, m) between the two where the straight way is blocked; None: no way."""
+        a, b = (tuple(map(float, p))[:3] for p in (start, goal))
+        return self._view.find_path(a, b)  # type: ignore[no-any-return]
+
+
+class History:
+    """What was done so far.
+
+    Attributes:
+        views: structured array, a row a view that was taken, the latest last.
+        refused: (View, reason) of those that could not be flown since the latest view.
+    """
+
+    def __init__(self) -> None:
+        self._rows: list[tuple[Any, ...]] = []
+        self.refused: list[tuple[View, str]] = []
+
+    @property
+    def views(self) -> npt.NDArray[Any]:
+        return np.array(self._rows, dtype=HISTORY_DTYPE)
+
+    def __len__(self) -> int:
+        return len(self._rows)
+
+
+Answer = Optional[Views]
+Planner = Callable[[Belief, History], Answer]
+_MOST_REFUSED = 1000
+
+
+class AskedPlanner:
+    """A planner as the mission asks it. The names are those that _core.run calls."""
+
+    def __init__(self, planner: Planner) -> None:
+        self._planner = planner
+        self._history = History()
+        self._latest: View | None = None
+
+    def plan(self, view: Any) -> npt.NDArray[np.float64] | None:
+        if len(self._history.refused) >= _MOST_REFUSED:
+            raise BadInput(f"planner: {_MOST_REFUSED} views in a row could not be flown")
+        answer = self._planner(Belief(view), self._history)
+        if answer is None:
+            return None
+        rows = view_rows(answer)
+        if len(rows) > 1:  # candidates: the first that may be flown to
+            valid = Belief(view).valid(rows)
+            rows = valid if len(valid) else rows
+        if not len(rows):
+            return None
+        self._latest = View(*map(float, rows[0]))
+        return rows[:1]
+
+    def on_view(self, row: dict[str, Any]) -> None:
+        self._history._rows.append(tuple(row[name] for name in HISTORY_DTYPE.names or ()))
+        self._history.refused = []
+
+    def on_refused(self, reason: str) -> None:
+        if self._latest is not None:
+            self._history.refused.append((self._latest, reason))
+
+    def kept(self) -> None:
+        raise BufferError(
+            "planner: kept an array of the belief beyond its call, after which it changes: copy it"
+        )
+
+
+def view_rows(views: Any) -> npt.NDArray[np.float64]:
+    """Views as rows of five finite numbers. Raises BadInput for anything else."""
+    rows = np.atleast_2d(np.asarray(views, dtype=np.float64))
+    if rows.size == 0:
+        return np.empty((0, 5))
+    if rows.ndim != 2 or rows.shape[1] not in (4, 5) or not np.isfinite(rows).all():
+        raise BadInput(
+            f"view: expected finite x, y, z, yaw and perhaps gimbal_pitch, got {views!r:.200}"
+        )
+    if rows.shape[1] == 4:
+        rows = np.hstack([rows, np.zeros((len(rows), 1))])
+    return np.ascontiguousarray(rows)

@@ -1,0 +1,167 @@
+"""A run directory, read when asked."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from gnbv import _core
+from gnbv._errors import BadInput
+from gnbv._program import call
+
+Array = npt.NDArray[Any]
+_TEXT = {"sampler": "U8", "via": "U256"}
+_COUNTS = {"iteration", "candidates", "valid", "cloud_points", "view"}
+MAP_DTYPE = np.dtype(
+    [("x_m", "f8"), ("y_m", "f8"), ("z_m", "f8"), ("size_m", "f8"), ("log_odds", "f4")]
+)
+
+
+class Run:
+    """What a mission left behind. Arrays are read once, when they are first asked for.
+
+    Attributes:
+        folder: the run directory.
+    """
+
+    def __init__(self, folder: str | os.PathLike[str]) -> None:
+        self.folder = Path(folder)
+
+    def __repr__(self) -> str:
+        s = self.summary
+        return (
+            f"<gnbv.Run {s['scenario']} {s['utility']} seed {s['seed']}: {s['termination']} after "
+            f"{s['iterations']} views, {100 * self.final_coverage:.1f} % at 0.05 m, {self.folder}>"
+        )
+
+    @cached_property
+    def summary(self) -> dict[str, Any]:
+        """summary.json, as it is."""
+        file = self.folder / "summary.json"
+        try:
+            read: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
+        except OSError as error:
+            raise BadInput(
+                f"{file}: {error.strerror}: no run, or one that is not finished"
+            ) from error
+        except json.JSONDecodeError as error:
+            raise BadInput(f"{file}:{error.lineno}: {error.msg}") from error
+        return read
+
+    @cached_property
+    def iterations(self) -> Array:
+        """iterations.csv: a row a view; metres, radians, nat, seconds, by its column names."""
+        return _csv(self.folder / "iterations.csv")
+
+    @cached_property
+    def coverage(self) -> Array:
+        """coverage.csv: after the profile (row 0) and after each view; shares from 0 to 1."""
+        return _csv(self.folder / "coverage.csv")
+
+    @cached_property
+    def cloud(self) -> npt.NDArray[np.float32]:
+        """The model: points x 3, metres, world ENU."""
+        return read_ply(self.folder / "cloud.ply")
+
+    @cached_property
+    def map(self) -> Array:
+        """The occupancy map's leaves: centre and size (m), log-odds (natural logarithm)."""
+        leaves = _core.read_map(os.fspath(self.folder / "map.ot"))
+        out = np.empty(len(leaves), MAP_DTYPE)
+        for column, name in enumerate(MAP_DTYPE.names or ()):
+            out[name] = leaves[:, column]
+        return out
+
+    @cached_property
+    def trajectory(self) -> npt.NDArray[np.float64]:
+        """The true path at 10 Hz: time (s), x, y, z (m), qx, qy, qz, qw; body in world."""
+        return np.loadtxt(self.folder / "trajectory.tum", ndmin=2)
+
+    @property
+    def final_coverage(self) -> float:
+        """Share of the voxels of 0.05 m with surface seen from outside that the cloud covers."""
+        return float(self.summary["coverage"]["final"]["0.05"])
+
+    @property
+    def termination(self) -> str:
+        return str(self.summary["termination"])
+
+    @property
+    def sha256(self) -> str:
+        """Of all that was measured, decided and believed; the same seed and build repeat it."""
+        return str(self.summary["result_sha256"])
+
+    @property
+    def utility_source(self) -> str | None:
+        """The text of a utility of your own, as it was run."""
+        file = self.folder / "utility.py"
+        return file.read_text(encoding="utf-8") if file.exists() else None
+
+    def render(self, *what: str, out: str | os.PathLike[str] | None = None) -> list[Path]:
+        """Draws pictures ("path" by default; `gnbv render --help`), and returns their files."""
+        target = Path(out) if out is not None else self.folder
+        said = call(
+            "render", str(self.folder), "--what", ",".join(what or ("path",)), "-o", str(target)
+        )
+        return [Path(line) for line in said.split("\n") if line]
+
+    def report(self, out: str | os.PathLike[str] | None = None) -> Path:
+        """Writes the interactive page of this run, and returns its file."""
+        file = Path(out) if out is not None else self.folder / "report.html"
+        call("report", str(self.folder), "-o", str(file))
+        return file
+
+    def export(self, form: str, out: str | os.PathLike[str] | None = None) -> Path:
+        """Writes the run for other tools: colmap, nerfstudio, tum or plain."""
+        said = call(
+            "export", str(self.folder), "--format", form, *(["-o", str(out)] if out else [])
+        )
+        return Path(said.splitlines()[-1])
+
+
+def load(folder: Union[str, os.PathLike[str]]) -> Run:
+    """The run in a folder. Raises BadInput when it holds none that is finished."""
+    run = Run(folder)
+    run.summary  # noqa: B018  (says now what is wrong)
+    return run
+
+
+def _csv(file: Path) -> Array:
+    try:
+        with file.open(newline="", encoding="utf-8") as text:
+            header, *rows = list(csv.reader(text))
+    except (OSError, ValueError) as error:
+        raise BadInput(f"{file}: cannot be read: {error}") from error
+    columns = [(name, _TEXT.get(name, "i8" if name in _COUNTS else "f8")) for name in header]
+    out = np.empty(len(rows), dtype=columns)
+    for line, row in enumerate(rows, start=2):
+        try:
+            out[line - 2] = tuple(row)
+        except ValueError as error:
+            raise BadInput(f"{file}:{line}: {error}") from error
+    return out
+
+
+def read_ply(file: Path) -> npt.NDArray[np.float32]:
+    """The vertices of one of gnbv's own .ply files: rows x 3, m."""
+    try:
+        bytes_ = file.read_bytes()
+    except OSError as error:
+        raise BadInput(f"{file}: {error.strerror}") from error
+    head, found, body = bytes_.partition(b"end_header\n")
+    kinds = {b"float": "<f4", b"uchar": "u1", b"int": "<i4"}
+    words = [line.split() for line in head.splitlines()]
+    fields = [(w[2].decode(), kinds.get(w[1], "")) for w in words if w[:1] == [b"property"]]
+    count = next((int(w[2]) for w in words if w[:2] == [b"element", b"vertex"]), 0)
+    dtype = np.dtype(fields) if all(kind for _, kind in fields) else np.dtype([])
+    if not found or dtype.itemsize * count != len(body):
+        raise BadInput(f"{file}: is no cloud of gnbv's, or cut short")
+    points = np.frombuffer(body, dtype)
+    return np.stack([points["x"], points["y"], points["z"]], axis=1)

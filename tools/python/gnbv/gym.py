@@ -1,0 +1,297 @@
+"""Environments for Gymnasium; importing this registers them.
+
+    import gymnasium, gnbv.gym
+    env = gymnasium.make("gnbv/Aircraft-v0", action="candidate")
+    envs = gymnasium.make_vec("gnbv/Smoke-v0", num_envs=8)
+
+One step is one view: the vehicle flies there, looks, and believes what it saw.
+
+Actions: `action="view"` a box in [-1, 1]: x, y, z of the navigation box, yaw / pi and, with a
+gimbal, its pitch; `action="candidate"` the index of one of the sampled candidates, of which
+info["action_mask"] says which may be taken. What cannot be flown to costs a step and moves nothing;
+info["refused"] says why.
+
+Observations: "map" (3, 8, 16, 16), shares of unknown, free and occupied voxels by cell (z, y, x);
+"pose": x, y, z of the navigation box in [-1, 1], sine and cosine of the yaw; "progress": the
+entropy left and the share of the budget used; with candidates also "candidates": for each the
+logarithms of its free, unknown, occupied, predicted and thinly sampled voxels and of its entropy,
+its density and the length of the way, 0 for those that may not be taken. All of it is belief.
+
+Reward: the coverage gained, in shares of the ceiling (of what can be reached at all): the truth, as
+a benchmark knows it. An episode is terminated by the goal (95 % of the ceiling) or a collision, and
+truncated by the budget of steps or by the scenario's own (battery, metres, time).
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from typing import Any, Optional, Union
+
+import gymnasium
+import numpy as np
+import numpy.typing as npt
+from gymnasium import spaces
+from gymnasium.vector import AutoresetMode, VectorEnv
+from gymnasium.vector.utils import batch_space
+
+from gnbv import _core
+from gnbv._mission import _yaml
+
+SCENARIOS = {
+    "Aircraft": "aircraft",
+    "PowerPlant": "power_plant",
+    "LabModel": "lab_model",
+    "LabAirplane": "lab_airplane",
+    "Smoke": "smoke",
+}
+_OVER = ("coverage_reached", "collision", "off_course")
+Array = npt.NDArray[Any]
+Observation = dict[str, Array]
+
+
+class _Stage:
+    """What episodes share: the loaded world, the spaces, and what an action means."""
+
+    def __init__(
+        self, scenario: str, action: str, goal: float, set: Mapping[str, Any] | None, threads: int
+    ) -> None:
+        if action not in ("view", "candidate"):
+            raise ValueError(f"action={action!r}: expected 'view' or 'candidate'")
+        # the budget is counted here: what the mission refuses counts, too
+        overrides = [f"{key}={_yaml(value)}" for key, value in (set or {}).items()]
+        self.core = _core.EnvStage(scenario, overrides, goal)
+        self.permits = _core.Permits(max(1, threads or os.cpu_count() or 1))
+        self.about: dict[str, Any] = self.core.description
+        self.is_candidate = action == "candidate"
+        self.low = np.array(self.about["low_m"])
+        self.high = np.array(self.about["high_m"])
+        self.gimbal = self.about.get("gimbal_rad")
+
+    def mission(self) -> Any:
+        return _core.EnvMission(self.core, self.permits, self.is_candidate)
+
+    def action_space(self) -> spaces.Space[Any]:
+        if self.is_candidate:
+            return spaces.Discrete(self.about["candidates"])
+        return spaces.Box(-1.0, 1.0, (4 if self.gimbal is None else 5,), np.float32)
+
+    def observation_space(self) -> spaces.Dict:
+        parts: dict[str, spaces.Space[Any]] = {
+            "map": spaces.Box(0.0, 1.0, self.about["map_shape"], np.float32),
+            "pose": spaces.Box(-1.0, 1.0, (5,), np.float32),
+            "progress": spaces.Box(-1.0, 1.0, (2,), np.float32),
+        }
+        if self.is_candidate:
+            shape = (self.about["candidates"], self.about["features"])
+            parts["candidates"] = spaces.Box(-1.0, 1.0, shape, np.float32)
+        return spaces.Dict(parts)
+
+    def view_of(self, action: Any, state: dict[str, Any]) -> Array | None:
+        """The view (1 x 5) that an action means; None: a candidate that may not be taken."""
+        if self.is_candidate:
+            index = int(action)
+            return state["views"][index : index + 1] if state["mask"][index] else None
+        given = np.clip(np.asarray(action, np.float64), -1.0, 1.0)
+        view = np.zeros((1, 5))
+        view[0, :3] = self.low + 0.5 * (given[:3] + 1.0) * (self.high - self.low)
+        view[0, 3] = np.pi * given[3]
+        if self.gimbal is not None:
+            low, high = self.gimbal
+            view[0, 4] = low + 0.5 * (given[4] + 1.0) * (high - low)
+        return view
+
+    def observation(self, state: dict[str, Any]) -> Observation:
+        seen = {
+            "map": state["map"].reshape(self.about["map_shape"]).copy(),
+            "pose": state["pose"].copy(),
+            "progress": state["progress"].copy(),
+        }
+        if self.is_candidate:
+            seen["candidates"] = state["candidates"].copy()
+        return seen
+
+
+class _Episode:
+    """One mission, step by step: act() and then result()."""
+
+    def __init__(self, stage: _Stage) -> None:
+        self.stage = stage
+        self.mission = stage.mission()
+        self.state: dict[str, Any] = {}
+        self.steps = 0
+        self._refused = ""
+        self._acts = False
+
+    def begin(self, seed: int) -> None:
+        self.steps = 0
+        self.mission.begin(seed)
+
+    def begun(self) -> tuple[Observation, dict[str, Any]]:
+        self._refused = ""
+        self.state = self.mission.wait()
+        return self.stage.observation(self.state), self.info()
+
+    def act(self, action: Any) -> None:
+        if not self.state or (self.state["ended"] and self.steps > 0):
+            raise RuntimeError("step: the episode is over; call reset()")
+        self.steps += 1
+        self._acts = not self.state["ended"]  # it may have ended with the profile
+        view = self.stage.view_of(action, self.state) if self._acts else None
+        self._refused = "masked" if view is None and self._acts else ""
+        self._acts = view is not None
+        if view is not None:
+            self.mission.act(view)
+
+    def result(self) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
+        before = self.state["coverage"]
+        if self._acts:
+            self.state = self.mission.wait()
+        reward = (self.state["coverage"] - before) / self.stage.about["ceiling"]
+        ended = bool(self.state["ended"])
+        terminated = ended and self.state["termination"] in _OVER
+        truncated = not terminated and (ended or self.steps >= self.stage.about["max_iterations"])
+        return self.stage.observation(self.state), float(reward), terminated, truncated, self.info()
+
+    def info(self) -> dict[str, Any]:
+        names = ("coverage", "entropy_nat", "cloud_points", "flown_m", "time_s", "termination")
+        info = {name: self.state[name] for name in names}
+        info["refused"] = self._refused or self.state["refused"]
+        if self.stage.is_candidate:
+            info["action_mask"] = self.state["mask"].astype(np.int8)
+        return info
+
+    def close(self) -> None:
+        self.mission.close()
+
+
+class NbvEnv(gymnasium.Env[Observation, Any]):
+    """One mission at a time; see the module's text."""
+
+    metadata: dict[str, Any] = {"render_modes": []}  # noqa: RUF012
+
+    def __init__(
+        self,
+        scenario: str = "smoke",
+        action: str = "view",
+        goal: float = 0.95,
+        set: Mapping[str, Any] | None = None,
+    ) -> None:
+        """`goal`: share of the ceiling at which an episode ends, 0: never; `set`: values of the
+        scenario by key. Raises gnbv.BadInput."""
+        self._stage = _Stage(scenario, action, goal, set, 1)
+        self._episode = _Episode(self._stage)
+        self.action_space = self._stage.action_space()
+        self.observation_space: spaces.Space[Any] = self._stage.observation_space()
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Observation, dict[str, Any]]:
+        """A new mission: the same seed repeats it bit by bit."""
+        super().reset(seed=seed)
+        self._episode.begin(int(self.np_random.integers(2**31)))
+        return self._episode.begun()
+
+    def step(self, action: Any) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
+        self._episode.act(action)
+        return self._episode.result()
+
+    def action_masks(self) -> Array:
+        """As info["action_mask"], under the name that sb3-contrib asks for."""
+        return np.asarray(self._episode.state["mask"], dtype=bool)
+
+    def close(self) -> None:
+        self._episode.close()
+
+
+class NbvVectorEnv(VectorEnv[Any, Any, Any]):
+    """Many missions at once, each on a C++ thread, `threads` of them flying at a time (0: as many
+    as the machine has). Results do not depend on it. An episode that is over begins anew with the
+    next step (AutoresetMode.NEXT_STEP)."""
+
+    metadata: dict[str, Any] = {  # noqa: RUF012
+        "render_modes": [],
+        "autoreset_mode": AutoresetMode.NEXT_STEP,
+    }
+
+    def __init__(
+        self,
+        num_envs: int = 1,
+        scenario: str = "smoke",
+        action: str = "view",
+        goal: float = 0.95,
+        set: Mapping[str, Any] | None = None,
+        threads: int = 0,
+    ) -> None:
+        self.num_envs = num_envs
+        self._stage = _Stage(scenario, action, goal, set, threads)
+        self._episodes = [_Episode(self._stage) for _ in range(num_envs)]
+        self._over = np.zeros(num_envs, dtype=bool)
+        self._randoms: list[np.random.Generator] = []
+        self.single_action_space = self._stage.action_space()
+        self.single_observation_space = self._stage.observation_space()
+        self.action_space = batch_space(self.single_action_space, num_envs)
+        self.observation_space = batch_space(self.single_observation_space, num_envs)
+
+    def reset(
+        self,
+        *,
+        seed: Optional[Union[int, Sequence[Optional[int]]]] = None,
+        options: dict[str, Any] | None = None,
+    ) -> tuple[Observation, dict[str, Any]]:
+        """Environment i gets seed + i, and does what a single one with that seed does."""
+        seeds = (
+            [None if seed is None else seed + i for i in range(self.num_envs)]
+            if (seed is None or isinstance(seed, int))
+            else list(seed)
+        )
+        if seed is not None or not self._randoms:
+            self._randoms = [gymnasium.utils.seeding.np_random(s)[0] for s in seeds]
+        self._over[:] = False
+        for episode, random in zip(self._episodes, self._randoms, strict=True):
+            episode.begin(int(random.integers(2**31)))
+        seen, infos = zip(*(episode.begun() for episode in self._episodes), strict=True)
+        return self._stacked(seen), self._infos(infos)
+
+    def step(self, actions: Any) -> tuple[Observation, Array, Array, Array, dict[str, Any]]:
+        again = self._over.copy()
+        for i, episode in enumerate(self._episodes):
+            if again[i]:
+                episode.begin(int(self._randoms[i].integers(2**31)))
+            else:
+                episode.act(actions[i])
+        results = [
+            (*_opened(e.begun()),) if again[i] else e.result() for i, e in enumerate(self._episodes)
+        ]
+        seen, rewards, terminated, truncated, infos = zip(*results, strict=True)
+        ended, cut = np.array(terminated), np.array(truncated)
+        self._over = ended | cut
+        return self._stacked(seen), np.array(rewards), ended, cut, self._infos(infos)
+
+    def _stacked(self, seen: Sequence[Observation]) -> Observation:
+        return {key: np.stack([one[key] for one in seen]) for key in seen[0]}
+
+    def _infos(self, infos: Sequence[dict[str, Any]]) -> dict[str, Any]:
+        out: dict[str, Any] = {}
+        for i, info in enumerate(infos):
+            out = self._add_info(out, info, i)
+        return out
+
+    def close_extras(self, **kwargs: Any) -> None:
+        for episode in self._episodes:
+            episode.close()
+
+
+def _opened(
+    begun: tuple[Observation, dict[str, Any]],
+) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
+    return begun[0], 0.0, False, False, begun[1]
+
+
+for _name, _scenario in SCENARIOS.items():
+    gymnasium.register(
+        id=f"gnbv/{_name}-v0",
+        entry_point="gnbv.gym:NbvEnv",
+        vector_entry_point="gnbv.gym:NbvVectorEnv",
+        kwargs={"scenario": _scenario},
+    )

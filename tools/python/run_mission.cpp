@@ -1,0 +1,209 @@
+#include "tools/python/run_mission.hpp"
+
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <csignal>
+#include <memory>
+
+#include "scenarios/load.hpp"
+#include "sim/core/error.hpp"
+#include "tools/mission/execute.hpp"
+#include "tools/mission/resolve.hpp"
+#include "tools/python/belief_view.hpp"
+#include "tools/terminal/interrupt.hpp"
+
+namespace gnbv {
+namespace {
+
+/// The mission answers Ctrl-C by itself; afterwards Python does again.
+class KeptSignals {
+ public:
+  KeptSignals() {
+    ::sigaction(SIGINT, nullptr, &interrupt_);
+    ::sigaction(SIGTERM, nullptr, &terminate_);
+  }
+  ~KeptSignals() {
+    ::sigaction(SIGINT, &interrupt_, nullptr);
+    ::sigaction(SIGTERM, &terminate_, nullptr);
+  }
+  KeptSignals(const KeptSignals&) = delete;
+  KeptSignals& operator=(const KeptSignals&) = delete;
+
+ private:
+  struct sigaction interrupt_ = {};
+  struct sigaction terminate_ = {};
+};
+
+/// What Python says, to be raised when the mission has ended in order.
+struct Raised {
+  std::unique_ptr<nb::python_error> error;
+  void keep(nb::python_error& raised) {
+    if (!error) error = std::make_unique<nb::python_error>(std::move(raised));
+  }
+};
+
+nb::dict row_of(const ViewRecord& view) {
+  nb::dict row;
+  const ViewPose& pose = view.decision.view;
+  row["iteration"] = view.iteration;
+  row["x"] = pose.p_world_m.x();
+  row["y"] = pose.p_world_m.y();
+  row["z"] = pose.p_world_m.z();
+  row["yaw"] = pose.yaw_rad;
+  row["gimbal_pitch"] = pose.gimbal_pitch_rad;
+  row["entropy_nat"] = view.entropy_nat;
+  row["cloud_points"] = view.cloud_points;
+  row["flown_m"] = view.flown_m;
+  row["time_s"] = view.time_s;
+  return row;
+}
+
+/// Asks a Python object with the methods plan(belief), on_view(row) and on_refused(reason).
+class AskedPlanner {
+ public:
+  AskedPlanner(nb::object planner, const Scenario& scenario, int threads, Raised& raised)
+      : python_(std::move(planner)), raised_(raised) {
+    const PlannerModel model(scenario.planner, scenario.workspace_m, camera_models(scenario), {},
+                             scenario.seed, no_fly_of(scenario));
+    tools_ = std::make_unique<BeliefTools>(model, threads);
+  }
+
+  OwnPlanner hooks() {
+    return {.plan = [this](const Belief& belief) { return plan(belief); },
+            .on_view = [this](const ViewRecord& view) { tell_view(view); },
+            .on_refused = [this](Rejection reason) { tell_refused(reason); }};
+  }
+
+ private:
+  std::optional<ViewPose> plan(const Belief& belief) {
+    const nb::gil_scoped_acquire python_runs;
+    if (raised_.error) return std::nullopt;
+    try {
+      auto* const view = new BeliefView(belief, *tools_, current_, {});
+      nb::object held = nb::cast(view, nb::rv_policy::take_ownership);
+      nb::object answer = python_.attr("plan")(held);
+      if (view->is_shared()) nb::module_::import_("gc").attr("collect")();
+      if (view->is_shared()) {
+        // what is kept stays readable: the mission ends, and this is never freed
+        held.inc_ref();
+        python_.attr("kept")();
+      }
+      if (answer.is_none()) return std::nullopt;
+      const auto views = views_of(nb::cast<ViewRows>(answer));
+      return views.empty() ? std::nullopt : std::optional(views.front());
+    } catch (nb::python_error& error) {
+      raised_.keep(error);
+      return std::nullopt;
+    }
+  }
+
+  void tell_view(const ViewRecord& view) {
+    current_ = view.decision.view;
+    const nb::gil_scoped_acquire python_runs;
+    try {
+      python_.attr("on_view")(row_of(view));
+    } catch (nb::python_error& error) {
+      raised_.keep(error);
+    }
+  }
+
+  void tell_refused(Rejection reason) {
+    const nb::gil_scoped_acquire python_runs;
+    try {
+      const std::string_view name = name_of(reason);
+      python_.attr("on_refused")(nb::str(name.data(), name.size()));
+    } catch (nb::python_error& error) {
+      raised_.keep(error);
+    }
+  }
+
+  nb::object python_;
+  Raised& raised_;
+  std::unique_ptr<BeliefTools> tools_;
+  ViewPose current_;
+};
+
+struct RunArguments {
+  ScenarioOptions scenario;
+  MissionOptions mission;
+};
+
+RunArguments arguments_of(const nb::dict& given) {
+  const auto text = [&](const char* key) { return nb::cast<std::string>(given[key]); };
+  const auto flag = [&](const char* key) { return nb::cast<bool>(given[key]); };
+  RunArguments out;
+  out.scenario = {.scenario = text("scenario"),
+                  .mesh = text("mesh"),
+                  .utility = text("utility"),
+                  .preset = text("preset"),
+                  .seed = text("seed"),
+                  .overrides = nb::cast<std::vector<std::string>>(given["overrides"]),
+                  .views = text("views"),
+                  .bounds_auto = flag("bounds_auto")};
+  out.mission.out = text("out");
+  out.mission.threads = nb::cast<int>(given["threads"]);
+  out.mission.resume = flag("resume");
+  out.mission.quiet = flag("quiet");
+  out.mission.candidates = flag("candidates");
+  out.mission.frames = flag("frames");
+  if (flag("ceiling")) out.mission.ceiling = CeilingFrom::search;
+  return out;
+}
+
+/// folder, termination, failure.
+nb::tuple run(const nb::dict& given, nb::object planner, nb::object on_progress) {
+  RunArguments arguments = arguments_of(given);
+  MissionOptions& options = arguments.mission;
+  std::vector<std::string> idle_notes;
+  const Scenario scenario = resolve_scenario(arguments.scenario, idle_notes);
+  for (const std::string& note : idle_notes) fmt::print(stderr, "gnbv: {}\n", note);
+  Raised raised;
+  if (!on_progress.is_none()) {
+    options.on_progress = [&](double share, const std::string& note) {
+      const nb::gil_scoped_acquire python_runs;
+      try {
+        on_progress(share, note);
+      } catch (nb::python_error& error) {
+        raised.keep(error);
+      }
+    };
+  }
+  std::unique_ptr<AskedPlanner> asked;
+  OwnPlanner hooks;
+  if (!planner.is_none()) {
+    asked =
+        std::make_unique<AskedPlanner>(planner, scenario, thread_count(options.threads), raised);
+    hooks = asked->hooks();
+    options.planner = &hooks;
+  }
+  std::unique_ptr<ExecutedMission> mission;
+  {
+    const nb::gil_scoped_release other_threads_run;
+    const KeptSignals kept;
+    mission = std::make_unique<ExecutedMission>(execute_mission(scenario, options));
+  }
+  const MissionResult& result = mission->result;
+  const std::string_view ended = name_of(result.termination);
+  nb::tuple out = nb::make_tuple(mission->folder.string(), std::string(ended), result.failure);
+  if (raised.error) {
+    mission.release();  // arrays of its belief may have been kept: see AskedPlanner::plan()
+    throw nb::python_error(std::move(*raised.error));
+  }
+  return out;
+}
+
+}  // namespace
+
+void bind_run(nb::module_& m) {
+  m.def("run", &run, nb::arg("arguments"), nb::arg("planner").none(),
+        nb::arg("on_progress").none());
+  m.def("builtin_scenarios", &builtin_scenario_names);
+  m.def("utilities", [] {
+    std::vector<std::string> names;
+    for (const std::string_view name : utility_names()) names.emplace_back(name);
+    return names;
+  });
+}
+
+}  // namespace gnbv
