@@ -22,7 +22,7 @@ using RotorValues = std::array<double, kMostRotors>;
 /// Where a rotor sits, and which way it turns seen from above: +1 counter-clockwise, -1 clockwise.
 struct RotorMount {
   Vec3 p_body_m = Vec3::Zero();
-  double spin = 0.0;  // nothing until it is said
+  double spin = 1.0;
 };
 
 /// What of the velocity takes thrust from a rotor: the plugin has changed its mind over the years.

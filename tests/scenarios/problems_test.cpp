@@ -98,7 +98,7 @@ TEST(Problems, RotorsCanSteer) {
   EXPECT_THAT(complaint(kMinimal, {airframe + "rotors=[{spin: 1}, {spin: 1}, {spin: -1}]"}),
               HasSubstr("has 3 items (allowed: from 4 to 8)"));
   EXPECT_THAT(complaint(kMinimal, {airframe + "rotors=[{}, {}, {}, {}]"}),
-              HasSubstr("rotors.0.spin: has to be 1 or -1"));
+              HasSubstr("these rotors cannot give"));
   EXPECT_THAT(complaint(kMinimal, {airframe + "drag_coefficient_n_s2_per_m=1"}),
               HasSubstr("the rotors' drag at full command"));
   EXPECT_EQ(complaint(kMinimal, {airframe + "rotors=[{p_body_m: [0.3, 0, 0], spin: 1}, "

@@ -111,7 +111,8 @@ TEST_P(Layouts, GiveTheTorqueThatIsAskedAndNoOther) {
     const Vec3 torque_n_m = torque_of(out.commands);
     EXPECT_GT(torque_n_m[axis], 0.01);
     for (int other = 0; other < 3; ++other) {
-      if (other != axis) EXPECT_NEAR(torque_n_m[other] / torque_n_m[axis], 0.0, 1e-9);
+      if (other == axis) continue;
+      EXPECT_NEAR(torque_n_m[other] / torque_n_m[axis], 0.0, 1e-9);
     }
   }
 }

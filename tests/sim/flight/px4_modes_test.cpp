@@ -70,6 +70,27 @@ TEST(Px4Modes, HoveringJustAboveTheGroundIsNoLanding) {
   EXPECT_FALSE(quadrotor.has_collided());
 }
 
+TEST(Px4Modes, DisarmingAtOnceAfterLandingWaitsForTheLanding) {
+  CommanderParameters commander;
+  commander.disarm_after_landing_s = 0.0;
+  Quadrotor quadrotor = airborne(with(commander));
+  stream(quadrotor, go_to(Vec3(0, 0, 10)), 2.0);
+  EXPECT_TRUE(quadrotor.px4().is_armed());
+  EXPECT_NEAR(place(quadrotor).z(), 10.0, 0.1);
+  quadrotor.land();
+  EXPECT_GE(ticks_until(quadrotor, 60.0, [&] { return quadrotor.has_landed(); }), 0);
+  EXPECT_LT(place(quadrotor).z(), 0.1);
+}
+
+TEST(Px4Modes, ZeroNeverDisarmsAVehicleThatHasNotFlown) {
+  CommanderParameters commander;
+  commander.disarm_never_flown_s = 0.0;
+  Quadrotor quadrotor = on_ground(with(commander));
+  ASSERT_EQ(quadrotor.px4().arm(true), Ack::accepted);
+  wait(quadrotor, 20.0);
+  EXPECT_TRUE(quadrotor.px4().is_armed());
+}
+
 TEST(Px4Modes, OffboardDescentLandsAndAnotherSetpointTakesOffAgain) {
   Quadrotor quadrotor = airborne({}, {Vec3(0, 0, 1), 0.0});
   for (int i = 0; i < 1000 && !quadrotor.px4().is_landed(); ++i) {
