@@ -161,23 +161,38 @@ nb::dict view_stats_dtype() {
 
 void bind_belief(nb::module_& m) {
   nb::class_<BeliefView>(m, "BeliefView")
-      .def_prop_ro("log_odds", &BeliefView::log_odds)
-      .def_prop_ro("words", &BeliefView::words)
-      .def_prop_ro("cloud", &BeliefView::cloud)
-      .def_prop_ro("density", &BeliefView::density)
+      .def_prop_ro("log_odds", &BeliefView::log_odds,
+                   nb::sig("def log_odds(self) -> numpy.typing.NDArray[numpy.float32]"))
+      .def_prop_ro("words", &BeliefView::words,
+                   nb::sig("def words(self) -> numpy.typing.NDArray[numpy.uint32]"))
+      .def_prop_ro("cloud", &BeliefView::cloud,
+                   nb::sig("def cloud(self) -> numpy.typing.NDArray[numpy.float32]"))
+      .def_prop_ro("density", &BeliefView::density,
+                   nb::sig("def density(self) -> tuple[numpy.typing.NDArray[numpy.int64], "
+                           "numpy.typing.NDArray[numpy.float64]]"))
       .def_prop_ro("resolution_m", &BeliefView::resolution_m)
       .def_prop_ro("origin_m", &BeliefView::origin_m)
       .def_prop_ro("density_max", &BeliefView::density_max)
       .def_prop_ro("entropy_nat", &BeliefView::entropy_nat)
-      .def_prop_ro("current", &BeliefView::current)
-      .def_prop_ro("navigation_m", &BeliefView::navigation_m)
-      .def("sample", &BeliefView::sample, nb::arg("scale"))
-      .def("sample_frontiers", &BeliefView::sample_frontiers)
-      .def("validate", &BeliefView::validate, nb::arg("views"))
-      .def("evaluate", &BeliefView::evaluate, nb::arg("views"))
-      .def("find_path", &BeliefView::find_path, nb::arg("from_m"), nb::arg("to_m"))
+      .def_prop_ro("current", &BeliefView::current,
+                   nb::sig("def current(self) -> numpy.typing.NDArray[numpy.float64]"))
+      .def_prop_ro("navigation_m", &BeliefView::navigation_m,
+                   nb::sig("def navigation_m(self) -> numpy.typing.NDArray[numpy.float64]"))
+      .def("sample", &BeliefView::sample, nb::arg("scale"),
+           nb::sig("def sample(self, scale: float) -> numpy.typing.NDArray[numpy.float64]"))
+      .def("sample_frontiers", &BeliefView::sample_frontiers,
+           nb::sig("def sample_frontiers(self) -> numpy.typing.NDArray[numpy.float64]"))
+      .def("validate", &BeliefView::validate, nb::arg("views"),
+           nb::sig("def validate(self, views: numpy.typing.NDArray[numpy.float64]) -> "
+                   "tuple[list[str], numpy.typing.NDArray[numpy.float64]]"))
+      .def("evaluate", &BeliefView::evaluate, nb::arg("views"),
+           nb::sig("def evaluate(self, views: numpy.typing.NDArray[numpy.float64]) -> bytes"))
+      .def(
+          "find_path", &BeliefView::find_path, nb::arg("from_m"), nb::arg("to_m"),
+          nb::sig("def find_path(self, from_m: collections.abc.Sequence[float], to_m: "
+                  "collections.abc.Sequence[float]) -> numpy.typing.NDArray[numpy.float64] | None"))
       .def("is_shared", &BeliefView::is_shared);
-  m.def("view_stats_dtype", &view_stats_dtype);
+  m.def("view_stats_dtype", &view_stats_dtype, nb::sig("def view_stats_dtype() -> typing.Any"));
 }
 
 }  // namespace gnbv

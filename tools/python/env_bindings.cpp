@@ -79,14 +79,16 @@ void bind_env(nb::module_& m) {
   nb::class_<EnvStage>(m, "EnvStage")
       .def(nb::init<const std::string&, const std::vector<std::string>&, double>(),
            nb::arg("scenario"), nb::arg("overrides"), nb::arg("goal"), Free())
-      .def_prop_ro("description", &description);
+      .def_prop_ro("description", &description,
+                   nb::sig("def description(self) -> dict[str, typing.Any]"));
   nb::class_<Permits>(m, "Permits").def(nb::init<int>(), nb::arg("count"));
   nb::class_<EnvMission>(m, "EnvMission")
       .def(nb::init<std::shared_ptr<const EnvStage>, std::shared_ptr<Permits>, bool>(),
            nb::arg("stage"), nb::arg("permits"), nb::arg("with_candidates"))
       .def("begin", &EnvMission::begin, nb::arg("seed"), Free())
-      .def("act", &act, nb::arg("view"))
-      .def("wait", &wait)
+      .def("act", &act, nb::arg("view"),
+           nb::sig("def act(self, view: numpy.typing.NDArray[numpy.float64]) -> None"))
+      .def("wait", &wait, nb::sig("def wait(self) -> dict[str, typing.Any]"))
       .def("close", &EnvMission::close, Free());
 }
 

@@ -76,7 +76,7 @@ class OtReader {
 void bind_map_file(nanobind::module_& m) {
   m.def(
       "read_map", [](const std::string& path) { return owned_array(OtReader(path).rows, 5); },
-      nb::arg("path"));
+      nb::arg("path"), nb::sig("def read_map(path: str) -> numpy.typing.NDArray[numpy.float64]"));
 }
 
 }  // namespace gnbv

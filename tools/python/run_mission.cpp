@@ -196,8 +196,9 @@ nb::tuple run(const nb::dict& given, nb::object planner, nb::object on_progress)
 }  // namespace
 
 void bind_run(nb::module_& m) {
-  m.def("run", &run, nb::arg("arguments"), nb::arg("planner").none(),
-        nb::arg("on_progress").none());
+  m.def("run", &run, nb::arg("arguments"), nb::arg("planner").none(), nb::arg("on_progress").none(),
+        nb::sig("def run(arguments: dict[str, typing.Any], planner: object | None, on_progress: "
+                "collections.abc.Callable[[float, str], None] | None) -> tuple[str, str, str]"));
   m.def("builtin_scenarios", &builtin_scenario_names);
   m.def("utilities", [] {
     std::vector<std::string> names;
