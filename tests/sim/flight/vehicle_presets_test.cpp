@@ -72,6 +72,7 @@ TEST_P(Preset, TiltedFlightReachesItsTerminalSpeed) {
   VehicleState start;
   start.T_world_body.rotate(Eigen::AngleAxisd(tilt_rad, Vec3::UnitY()));
   const AirframeParameters& airframe = vehicle.airframe;
+  const Allocation allocation = allocation_of(airframe);
   RigidVehicle body(airframe, empty_world(), start, all(hover_speed_rad_s(airframe)));
   RateControlMemory memory;
   AttitudeSetpoint setpoint;
@@ -85,7 +86,7 @@ TEST_P(Preset, TiltedFlightReachesItsTerminalSpeed) {
     const Vec3 omega_setpoint = attitude_control(vehicle.autopilot, q, setpoint);
     body.step([&](const Vec3& omega_body_rad_s) {
       return reference_speeds(
-          airframe, rate_loop(vehicle.autopilot, airframe, memory, omega_body_rad_s, omega_setpoint,
+          airframe, rate_loop(vehicle.autopilot, allocation, memory, omega_body_rad_s, omega_setpoint,
                               setpoint.thrust));
     });
   }
