@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# A utility in a Python file flies, is recorded so that the run repeats from its record, and ends
+# the run in order when it fails.
+# usage: own_utility_test.sh GNBV       exit: 77 where python3 has no NumPy
+set -euo pipefail
+gnbv=$1
+"${GNBV_PYTHON:-python3}" -c 'import numpy' 2>/dev/null || { echo "skipped: python3 has no NumPy" >&2; exit 77; }
+work=$(mktemp -d "${TMPDIR:-/tmp}/gnbv-utility.XXXXXX")
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+fail() { echo "own_utility_test: $*" >&2; exit 1; }
+short=(--quiet --set planner.termination.max_iterations=5)
+hash_of() { grep -o '"result_sha256": "[0-9a-f]*"' "$1/summary.json"; }
+# expect STATUS TEXT COMMAND...: its exit code, and what its stderr holds
+expect() {
+  local status=0
+  "${@:3}" >/dev/null 2>said || status=$?
+  [[ $status == "$1" ]] && grep -qF -- "$2" said || fail "${*:3}: exit $status (expected $1 and '$2'), said: $(cat said)"
+}
+
+cat >mine.py <<'END'
+def other(views):
+    return views["path_m"]
+
+def mine(views):  # "quotes", a back\slash, Umläute
+    return views["unknown_voxels"] / (1.0 + views["path_m"])
+END
+"$gnbv" run smoke "${short[@]}" --utility mine.py --out first >/dev/null
+grep -q '"utility": "mine"' first/summary.json || fail "the last function is not the one that flew"
+cmp mine.py first/utility.py
+grep -q "\"utility_source_sha256\": \"$(sha256sum <mine.py | cut -d' ' -f1)\"" first/summary.json || fail "hash"
+rm mine.py
+"$gnbv" run first/scenario.yaml --quiet --threads 1 --out again >/dev/null
+[[ $(hash_of first) == "$(hash_of again)" ]] || fail "the record does not repeat the run"
+
+printf 'calls = []\ndef late(views):\n    calls.append(1)\n    return views["path_m"] * (1 if len(calls) < 3 else float("nan"))\n' >late.py
+expect 1 "utility late: iteration 3, candidate" "$gnbv" run smoke "${short[@]}" --utility late.py:late --out late
+grep -q '"termination": "utility_failed"' late/summary.json || fail "termination"
+[[ $(wc -l <late/iterations.csv) == 4 ]] || fail "the record is not complete up to there"
+expect 2 "defines no function 'none'" "$gnbv" run smoke --utility late.py:none --out none
+expect 2 "GNBV_PYTHON names another" env GNBV_PYTHON=/nowhere "$gnbv" run smoke --utility late.py --out none
+[[ ! -e none ]] || fail "something was written before the utility was known to run"
+"$gnbv" compare smoke "${short[@]}" --utilities proposed,first/utility.py:other --seeds 1 --no-ceiling --out cells | grep -q other ||
+  fail "compare does not name the function"
