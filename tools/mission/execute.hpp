@@ -25,7 +25,7 @@ struct MissionOptions {
   bool coverage = false;     // which then tell the coverage
   CeilingFrom ceiling = CeilingFrom::cache;
   const OwnPlanner* planner = nullptr;  // asked for the views; the utility is `route`
-  std::function<void(double share_done, const std::string& note)> on_progress;  // may be empty
+  std::function<void(double share_done, const std::string& note)> on_progress = {};  // may be empty
 };
 
 /// `threads`, or as many as the machine has for 0.
