@@ -62,8 +62,8 @@ void add_sampling(const PlannerConfig& c, Idle& out) {
   }
   if (!c.fvs.enabled) {
     add(out, kFvs,
-        {"entropy_threshold_nat", "entropy_window", "order", "tries", "pool_clusters",
-         "looks_max", "views_per_layer", "radius_m", "layer_step_m", "needs_visible_cluster", "agvs_when_stuck",
+        {"entropy_threshold_nat", "entropy_window", "order", "tries", "pool_clusters", "looks_max",
+         "views_per_layer", "radius_m", "layer_step_m", "needs_visible_cluster", "agvs_when_stuck",
          "when_grid_finds_nothing", "frontier.neighbour_voxels", "frontier.min_cluster_voxels",
          "frontier.max_extent_m"},
         "planner.fvs.enabled is false");

@@ -76,10 +76,10 @@ bool cannot_be_synced(int error) {
 
 }  // namespace
 
-void refuse_to_write(const fs::path& path, int error_number) {
-  if (error_number == 0) throw OutputFailed(fmt::format("{}: cannot write", path.string()));
+void refuse_to_write(const fs::path& path, int error_number, std::string_view what) {
+  if (error_number == 0) throw OutputFailed(fmt::format("{}: {}", path.string(), what));
   const std::string sentence =
-      fmt::format("{}: cannot write: {}", path.string(), std::strerror(error_number));
+      fmt::format("{}: {}: {}", path.string(), what, std::strerror(error_number));
   for (const int of_the_machine :
        {ENOSPC, EDQUOT, EIO, EFBIG, EMFILE, ENFILE, ENOMEM, EPIPE, ESTALE}) {
     if (error_number == of_the_machine) throw OutputFailed(sentence);
@@ -172,7 +172,7 @@ void sync_all_to_disk(const fs::path& folder) {
 bool make_folder(const fs::path& folder) {
   std::error_code error;
   const bool is_new = fs::create_directories(folder, error);
-  if (error) refuse_to_write(folder, error.value());
+  if (error) refuse_to_write(folder, error.value(), "cannot make the folder");
   return is_new;
 }
 

@@ -18,7 +18,8 @@ class OutputFailed : public std::runtime_error {
 
 /// Throws OutputFailed or BadInput for a file that cannot be written; `error_number` is errno's, 0
 /// when nobody knows.
-[[noreturn]] void refuse_to_write(const std::filesystem::path& path, int error_number);
+[[noreturn]] void refuse_to_write(const std::filesystem::path& path, int error_number,
+                                  std::string_view what = "cannot write");
 
 /// The extension in lower case, with its dot: ".obj"; empty without one.
 std::string extension_of(const std::filesystem::path& path);

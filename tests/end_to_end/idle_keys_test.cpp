@@ -47,7 +47,8 @@ const std::vector<Case>& cases() {
        {"planner.agvs={scale_factor: 3, scale_max: 1, utility_threshold: 99, utility_window: 1, "
         "repeated_moves: 1, entropy_threshold_nat: 1, entropy_window: 1}"}},
       {{"planner.fvs.enabled=false"},
-       {"planner.fvs={tries: 1, looks_max: 2, radius_m: 1, views_per_layer: 9, layer_step_m: 0.1, order: "
+       {"planner.fvs={tries: 1, looks_max: 2, radius_m: 1, views_per_layer: 9, layer_step_m: 0.1, "
+        "order: "
         "largest, pool_clusters: true, needs_visible_cluster: false, agvs_when_stuck: false, "
         "when_grid_finds_nothing: false, entropy_threshold_nat: 1, entropy_window: 1, frontier: "
         "{neighbour_voxels: 9, min_cluster_voxels: 99, max_extent_m: 9}}"}},

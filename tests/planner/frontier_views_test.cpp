@@ -68,8 +68,8 @@ TEST(FrontierViews, FvsTriesOneClusterAfterTheOther) {
 
 TEST(FrontierViews, FvsLeavesWhatWasLookedAtOftenEnough) {
   const PlannerModel model = model_with_fvs([](FvsConfig& fvs) { fvs.looks_max = 2; });
-  const Belief belief = wall_and_lone_frontier(
-      model, Vec3(-2.1, 0.1, 4.1), [](const Vec3& p_m) { return p_m.x() > 2.0; });
+  const Belief belief = wall_and_lone_frontier(model, Vec3(-2.1, 0.1, 4.1),
+                                               [](const Vec3& p_m) { return p_m.x() > 2.0; });
   History history = still_history();
   const auto last_cluster = [&] {
     const Plan plan = full_plan(model, belief, history);

@@ -225,10 +225,10 @@ class Pool {
     const std::size_t all = first_of_id_.size();
     const double spent_s = std::chrono::duration<double>(Clock::now() - begin_).count();
     const std::size_t left = all - settled_;
-    progress_.show(static_cast<double>(settled_) / static_cast<double>(all),
-                   fmt::format("{}/{} cells, {} failed", settled_, all, failed_),
-                   seconds_left(spent_s, static_cast<double>(flown_) /
-                                             static_cast<double>(flown_ + left)));
+    progress_.show(
+        static_cast<double>(settled_) / static_cast<double>(all),
+        fmt::format("{}/{} cells, {} failed", settled_, all, failed_),
+        seconds_left(spent_s, static_cast<double>(flown_) / static_cast<double>(flown_ + left)));
   }
 
   std::span<const Cell> cells_;

@@ -58,8 +58,7 @@ ProgressBar::~ProgressBar() {
 
 void ProgressBar::show(double share_done, const std::string& note) {
   const auto spent = std::chrono::steady_clock::now() - begin_;
-  show(share_done, note,
-       seconds_left(std::chrono::duration<double>(spent).count(), share_done));
+  show(share_done, note, seconds_left(std::chrono::duration<double>(spent).count(), share_done));
 }
 
 void ProgressBar::show(double share_done, const std::string& note, std::optional<double> left_s) {

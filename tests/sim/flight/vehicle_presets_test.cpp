@@ -85,9 +85,9 @@ TEST_P(Preset, TiltedFlightReachesItsTerminalSpeed) {
     const Eigen::Quaterniond q(state.T_world_body.linear());
     const Vec3 omega_setpoint = attitude_control(vehicle.autopilot, q, setpoint);
     body.step([&](const Vec3& omega_body_rad_s) {
-      return reference_speeds(
-          airframe, rate_loop(vehicle.autopilot, allocation, memory, omega_body_rad_s, omega_setpoint,
-                              setpoint.thrust));
+      return reference_speeds(airframe,
+                              rate_loop(vehicle.autopilot, allocation, memory, omega_body_rad_s,
+                                        omega_setpoint, setpoint.thrust));
     });
   }
   const VehicleState& state = body.state();
