@@ -7,6 +7,7 @@
 
 #include "planner/map/occupancy_grid.hpp"
 #include "sensors/camera_model.hpp"
+#include "sim/core/error.hpp"
 
 namespace gnbv {
 namespace {

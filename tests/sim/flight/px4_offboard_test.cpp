@@ -247,7 +247,7 @@ TEST(Offboard, VerticalSpeedSetpointKeepsItsLimits) {  // 21
 }
 
 TEST(Offboard, FullThrottleAndRollGiveUpYawFirst) {  // 22
-  const MixerOutput out = mix(AirframeParameters{}, Vec3(0.6, 0.0, 0.6), 1.0);
+  const MixerOutput out = mix(allocation_of({}), Vec3(0.6, 0.0, 0.6), 1.0);
   EXPECT_GT(out.torque.x(), 0.9 * 0.6);
   EXPECT_LT(out.torque.z(), 0.3 * 0.6);
 }
