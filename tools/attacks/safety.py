@@ -163,22 +163,36 @@ planner:
 """
 
 
-def read_points(path):
-    """Points of a binary PLY whose first properties are x, y, z (m)."""
+def read_surface(path):
+    """Centres of the voxels that a profile.map holds for occupied, metres (world). A point of the
+    profile is no surface where other rays have cleared its voxel."""
     with open(path, "rb") as file:
-        content = file.read()
-    head, body = content.split(b"end_header\n", 1)
-    count, stride, in_vertex = 0, 0, False
-    sizes = {b"float": 4, b"uchar": 1, b"double": 8, b"int": 4, b"uint": 4, b"float32": 4,
-             b"uint8": 1}
-    for line in head.split(b"\n"):
-        words = line.split()
-        if words[:1] == [b"element"]:
-            in_vertex = words[1] == b"vertex"
-            count = int(words[2]) if in_vertex else count
-        elif words[:1] == [b"property"] and in_vertex:
-            stride += sizes[words[1]]
-    return [struct.unpack_from("<3f", body, i * stride) for i in range(count)]
+        data = file.read()
+    at = data.index(b"\n") + 1
+    settings = struct.unpack_from("<16d", data, at)
+    resolution_m, first, size, occupied_min = settings[0], settings[1:4], settings[4:7], settings[11]
+    at += 16 * 8 + 1
+    (points,) = struct.unpack_from("<Q", data, at)
+    at += 8 + 12 * points
+    threshold = math.log(occupied_min / (1 - occupied_min))
+    nx, ny, nz = (int(n) for n in size)
+    surface, voxel = [], 0
+    while voxel < nx * ny * nz:
+        kind, at, length, shift = data[at], at + 1, 0, 0
+        while True:
+            length |= (data[at] & 0x7F) << shift
+            shift, at = shift + 7, at + 1
+            if data[at - 1] < 0x80:
+                break
+        if kind == 2:
+            (log_odds,) = struct.unpack_from("<f", data, at)
+            at += 4
+            if log_odds >= threshold:
+                for v in range(voxel, voxel + length):
+                    key = (v % nx, v // nx % ny, v // (nx * ny))
+                    surface.append([(first[i] + key[i] + 0.5) * resolution_m for i in range(3)])
+        voxel += length
+    return surface
 
 
 def nearest_m(points, p):
@@ -193,15 +207,14 @@ def fault_of(out, scenario):
     if end == "collision" or summary.get("collisions", 0):
         return end, "touched something"
     radius_m = float(scenario.split("collision_radius_m: ")[1].split(",")[0])
-    points = read_points(os.path.join(out, "profile.ply"))
+    surface = read_surface(os.path.join(out, "profile.map"))
     with open(os.path.join(out, "iterations.csv")) as file:
         rows = list(csv.DictReader(file))
     key = {name.split("_")[0]: name for name in rows[0]} if rows else {}
     for row in rows[1:]:  # the first is the start, which may be near
         p = tuple(float(row[key[axis]]) for axis in "xyz")
-        # a point may lie on the face of its voxel, but for rounding
-        if nearest_m(points, p) < radius_m - 0.02:
-            return end, f"view {row[key['iteration']]} is {nearest_m(points, p):.2f} m from the profile"
+        if nearest_m(surface, p) < radius_m - 1e-6:
+            return end, f"view {row[key['iteration']]} is {nearest_m(surface, p):.2f} m from the profile"
     return end, None
 
 

@@ -171,8 +171,9 @@ TEST(AutoBounds, WhatNoMapCanHoldIsSaidByItsProblems) {
     const auto all = problems(with_bounds_around(aircraft(), {structure_m, {}}));
     return all.empty() ? "" : all.front().keys.front() + all.front().what;
   };
-  // 32767 voxels of 0.2 m reach 6553 m
-  EXPECT_EQ(complaint(Box3(Vec3(6540, 0, 0), Vec3(6548, 1, 1))), "");
+  // distances are right up to 1000 m; 32767 voxels of 0.2 m would reach 6553 m
+  EXPECT_EQ(complaint(Box3(Vec3(900, 0, 0), Vec3(905, 1, 1))), "");
+  EXPECT_NE(complaint(Box3(Vec3(1000, 0, 0), Vec3(1005, 1, 1))).find("1000 m"), std::string::npos);
   EXPECT_NE(complaint(Box3(Vec3(6550, 0, 0), Vec3(6552, 1, 1))).find("OctoMap"), std::string::npos);
   EXPECT_NE(complaint(Box3(Vec3(0, 0, 0), Vec3(900, 900, 90))).find("resolution_m"),
             std::string::npos);
