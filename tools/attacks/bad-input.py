@@ -4,7 +4,7 @@ on the command line that is none, and meshes that are no structures. Each has to
 refused in one line a fault that names the key or the file (exit 2), or as a mission that failed for
 a stated reason (exit 1). Internal errors, signals, silence and more than the time given are failures.
 
-usage: bad_input.py [--gnbv FILE] [--part keys,options,meshes] [--every N] [--jobs N] [--timeout S]
+usage: bad-input.py [--gnbv FILE] [--part keys,options,meshes] [--every N] [--jobs N] [--timeout S]
   --every N    only each N-th try: the short version
 exit: 0 nothing found, 1 failures (named on stderr), 2 bad usage
 """
