@@ -22,6 +22,8 @@ double deviate(const NoiseKey& key, Stream stream, std::uint64_t sensor, std::ui
 
 }  // namespace
 
+bool asks_incidence(const DepthNoiseConfig& noise) { return noise.model == DepthNoise::nguyen; }
+
 double depth_sigma_m(const CameraModel& camera, double depth_m, double incidence_rad) {
   const DepthNoiseConfig& noise = camera.config.noise;
   switch (noise.model) {
@@ -44,13 +46,13 @@ double depth_sigma_m(const CameraModel& camera, double depth_m, double incidence
 }
 
 double lateral_sigma_px(const DepthNoiseConfig& noise, double incidence_rad) {
-  if (noise.model != DepthNoise::nguyen) return 0.0;
+  if (!asks_incidence(noise)) return 0.0;
   const double theta_rad = std::min(incidence_rad, kGrazing_rad);
   return 0.8 + 0.035 * theta_rad / (0.5 * kPi - theta_rad);
 }
 
 bool has_return(const DepthNoiseConfig& noise, double incidence_rad) {
-  return noise.model != DepthNoise::nguyen || incidence_rad <= kGrazing_rad;
+  return !asks_incidence(noise) || incidence_rad <= kGrazing_rad;
 }
 
 double farthest_m(const CameraModel& camera) {

@@ -16,6 +16,9 @@ struct NoiseKey {
   std::uint64_t tick = 0;
 };
 
+/// Whether a law of the model asks how slanted the surface is; else any incidence will do.
+bool asks_incidence(const DepthNoiseConfig& noise);
+
 /// Standard deviation of the depth of a surface at `depth_m`, whose normal is `incidence_rad` off
 /// the ray, in [0, pi / 2]. z is the depth, theta the incidence:
 /// none        0
