@@ -87,9 +87,8 @@ struct DepthCapture {
   float read(float true_m, std::int32_t face, const Vec3f& direction_world,
              std::size_t pixel) const {
     if (face == kNoFace) return kNoReturn;
-    const double theta_rad = asks_incidence(camera.config.noise)
-                                 ? incidence_rad(scene, face, direction_world)
-                                 : 0.0;
+    const double theta_rad =
+        asks_incidence(camera.config.noise) ? incidence_rad(scene, face, direction_world) : 0.0;
     if (!has_return(camera.config.noise, theta_rad)) return kInvalidRange;
     const double sigma_m = depth_sigma_m(camera, true_m, theta_rad);
     const double read_m = true_m + sigma_m * depth_deviate(key, frame.camera, pixel);

@@ -1,67 +1,20 @@
 #include "sensors/ray_scene.hpp"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <new>
 #include <utility>
 
+#include "sensors/embree_scene.hpp"
 #include "sensors/frames.hpp"
-#include "sensors/scene_faces.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {
 namespace {
 
 constexpr std::size_t kPacket = RayPacket::kRays;
-constexpr float kGroundHalfWidth_m = 1000.0F;
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-/// Owns one reference of an Embree handle.
-template <typename Handle, void (*Release)(Handle)>
-class Owner {
- public:
-  explicit Owner(Handle handle) : handle_(handle) {}
-  ~Owner() {
-    if (handle_ != nullptr) Release(handle_);
-  }
-  Owner(const Owner&) = delete;
-  Owner& operator=(const Owner&) = delete;
-  Handle get() const { return handle_; }
-
- private:
-  Handle handle_;
-};
-
-void check_device(RTCDevice device, const char* doing) {
-  const RTCError error = rtcGetDeviceError(device);
-  if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
-  GNBV_CHECK(error == RTC_ERROR_NONE, "Embree error {} while {}", static_cast<int>(error), doing);
-}
-
-/// Copies the triangles into a new geometry of `scene`; its id. Embree pads its own buffers.
-unsigned attach_triangles(RTCDevice device, RTCScene scene, std::span<const Vec3f> vertices_m,
-                          std::span<const std::array<std::uint32_t, 3>> faces, unsigned mask) {
-  const Owner<RTCGeometry, rtcReleaseGeometry> geometry(
-      rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
-  auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX,
-                                                             0, RTC_FORMAT_FLOAT3,
-                                                             3 * sizeof(float), vertices_m.size()));
-  auto* index = static_cast<std::uint32_t*>(
-      rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                              3 * sizeof(std::uint32_t), faces.size()));
-  check_device(device, "allocating geometry");
-  for (const Vec3f& v : vertices_m) vertex = std::copy_n(v.data(), 3, vertex);
-  for (const auto& face : faces) index = std::copy_n(face.data(), 3, index);
-  rtcSetGeometryBuildQuality(geometry.get(), RTC_BUILD_QUALITY_HIGH);
-  rtcSetGeometryMask(geometry.get(), mask);
-  rtcCommitGeometry(geometry.get());
-  return rtcAttachGeometry(scene, geometry.get());
-}
 
 /// Rays that begin `near_m` from their origin and see everything; all else is still to be set.
 /// (Embree writes only tfar and the hit.)
@@ -106,46 +59,10 @@ bool visit_nearest(RTCPointQueryFunctionArguments* arguments) {
 
 }  // namespace
 
-struct RayScene::Impl {
-  // One build thread: the tree, and with it the last bit of a distance, then never depends on how
-  // a build happened to be shared out among threads.
-  Owner<RTCDevice, rtcReleaseDevice> device{rtcNewDevice("threads=1")};
-  Owner<RTCScene, rtcReleaseScene> scene{new_scene(device.get())};
+struct RayScene::Impl : EmbreeScene {
   SceneFaces faces;
-  std::array<unsigned, SceneFaces::kParts> geometries;  // none where a mesh has no faces
-  unsigned ground_id = RTC_INVALID_GEOMETRY_ID;
 
-  explicit Impl(const World& world) : faces(world) {
-    GNBV_CHECK(rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) != 0,
-               "this Embree was built without ray masks");
-    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
-    rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_HIGH);
-    geometries = {attach(world.structure, kStructureMask), attach(world.obstacles, kObstacleMask),
-                  attach(world.terrain, kTerrainMask)};
-    if (world.has_ground) {
-      constexpr float w = kGroundHalfWidth_m;
-      const std::array<Vec3f, 4> corners = {Vec3f(-w, -w, 0), Vec3f(w, -w, 0), Vec3f(w, w, 0),
-                                            Vec3f(-w, w, 0)};
-      const std::array<std::array<std::uint32_t, 3>, 2> halves = {{{0, 1, 2}, {0, 2, 3}}};
-      ground_id = attach_triangles(device.get(), scene.get(), corners, halves, kGroundMask);
-    }
-    rtcCommitScene(scene.get());
-    check_device(device.get(), "building the scene");
-  }
-
-  unsigned attach(const TriangleMesh& mesh, unsigned mask) const {
-    if (mesh.faces.empty()) return RTC_INVALID_GEOMETRY_ID;
-    return attach_triangles(device.get(), scene.get(), mesh.vertices_m, mesh.faces, mask);
-  }
-
-  static RTCScene new_scene(RTCDevice device) {
-    if (device == nullptr) {
-      const RTCError error = rtcGetDeviceError(nullptr);
-      if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
-      GNBV_CHECK(false, "Embree error {} while opening a device", static_cast<int>(error));
-    }
-    return rtcNewScene(device);
-  }
+  explicit Impl(const World& world) : EmbreeScene(world), faces(world) {}
 
   /// Traces `count` packets: load(i, packet.ray, valid) sets directions, and origins unless they
   /// are set already, and clears the lanes of `valid` that hold no ray; store(i, packet) takes the

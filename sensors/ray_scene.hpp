@@ -1,4 +1,4 @@
-// The world as the sensors see it. The only file of the project that knows Embree is its .cpp.
+// The world as the sensors see it. What knows Embree is its .cpp, and embree_scene.hpp.
 #pragma once
 
 #include <array>

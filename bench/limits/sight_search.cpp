@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "bench/score/surface_reference.hpp"
+#include "bench/score/escape_search.hpp"
 #include "sim/core/rng.hpp"
 
 namespace gnbv {

@@ -67,14 +67,6 @@ SurfaceReference make_surface_reference(const World& world, const RayScene& scen
 SurfaceReference cached_surface_reference(const World& world, const RayScene& scene,
                                           const ReferenceConfig& config, int threads);
 
-/// 1 for each sample that sees out by the rule above, 0 for the others.
-std::vector<std::uint8_t> samples_seeing_out(const World& world, const RayScene& scene,
-                                             std::span<const SurfaceSample> samples,
-                                             const ReferenceConfig& config, int threads);
-
-/// Unit vectors spread evenly over the sphere, the first few of them too.
-std::vector<Vec3f> spread_directions(int count);
-
 /// {"0.05", "0.10", "0.50"} of the run directory.
 std::array<double, 3> coverage_at_all_sizes(const std::array<VoxelSet, 3>& reference,
                                             std::span<const Vec3f> points_world_m);

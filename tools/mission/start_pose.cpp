@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "bench/limits/legal_viewpoints.hpp"
-#include "bench/score/surface_reference.hpp"
+#include "bench/score/escape_search.hpp"
 #include "planner/profiling.hpp"
 #include "planner/view_validity.hpp"
 #include "sim/core/error.hpp"

@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "bench/score/surface_reference.hpp"
+#include "bench/score/escape_search.hpp"
 
 namespace gnbv {
 namespace {

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "assets/catalog.hpp"
+#include "bench/score/escape_search.hpp"
 #include "bench/score/surface_pieces.hpp"
 #include "tests/bench/shapes.hpp"
 

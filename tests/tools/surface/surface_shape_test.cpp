@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "bench/score/surface_reference.hpp"
+#include "bench/score/escape_search.hpp"
 #include "sim/core/error.hpp"
 #include "tests/support/made_run.hpp"
 #include "tests/support/temp_folder.hpp"
