@@ -162,7 +162,7 @@ void add_notes(TextTable& table, const PaperTable& paper, bool several_runs,
     table.notes.emplace_back(
         "±: half width of the 95 % interval of the mean over the seeds (Student's t)");
   }
-  if (ceiling) {
+  if (ceiling && !ceiling->is_given) {
     table.notes.push_back(fmt::format(
         "ceiling: what legal viewpoints and the profile see, and what of it the cloud's leaf "
         "filter can keep, of exact sensors: noise can lift a mission above it; of ceiling: "
@@ -203,7 +203,7 @@ TextTable comparison_table(const PaperTable& paper, std::span<const RunFigures> 
   }
   for (const RowFigures& profile : our_profiles(groups, ceiling, more_m)) add(profile);
   if (paper.profile) add(paper_figures(*paper.profile));
-  if (ceiling) {
+  if (ceiling && !ceiling->is_given) {
     add(ceiling_figures("physical", ceiling->outside));
     add(ceiling_figures("leaf filter", ceiling->leaf_outside));
   }

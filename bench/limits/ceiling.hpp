@@ -21,6 +21,7 @@ struct Ceiling {
   std::array<double, 3> leaf_raw{};      // what of it a cloud can hold after its leaf filter
   std::array<double, 3> leaf_outside{};  // "share of the ceiling" divides by this
   std::size_t positions = 0;             // legal lattice positions that are reachable
+  bool is_given = false;                 // leaf_outside[0] alone is known: somebody's yardstick
 };
 
 /// Cached by the content of everything it depends on (content_cache.hpp). Deterministic at any

@@ -99,6 +99,11 @@ void add_bench_options(CLI::App& command, BenchOptions& options) {
   command.add_option("--jobs", options.jobs, "missions at a time, each in a process of its own")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
+  command
+      .add_option("--ceiling-at", options.ceiling_percent,
+                  "take shares of this coverage at 0.05 m, in percent, instead of the ceiling that "
+                  "a search finds: what an oracle reached, say")
+      ->check(CLI::Range(1.0, 100.0));
   command.add_option("--format", options.format, "form of the table on stdout")
       ->check(CLI::IsMember(std::vector<std::string>(kTableFormats.begin(), kTableFormats.end())))
       ->capture_default_str();
@@ -136,6 +141,12 @@ BenchRuns read_cells(const std::vector<Cell>& cells, const fs::path& folder) {
 }
 
 Ceiling ceiling_of(const Scenario& scenario, const BenchOptions& options) {
+  if (options.ceiling_percent) {
+    Ceiling given;
+    given.leaf_outside[0] = 0.01 * *options.ceiling_percent;
+    given.is_given = true;
+    return given;
+  }
   if (!options.quiet) say("ceiling of {}", scenario.name);
   std::vector<std::string> warnings;  // the missions' logs hold them
   const World world = load_world(scenario, warnings);
@@ -165,6 +176,12 @@ Ceilings ceilings_of(const BenchRuns& runs, const BenchOptions& options,
     }
   }
   return ceilings;
+}
+
+void add_given_ceiling_note(const BenchOptions& options, std::vector<std::string>& notes) {
+  if (!options.ceiling_percent) return;
+  notes.push_back(fmt::format("ceiling: {:.4g} % at 0.05 m, as given by --ceiling-at",
+                              *options.ceiling_percent));
 }
 
 void print_bench(const std::vector<TextTable>& tables, const std::string& format,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,10 +25,11 @@ struct BenchOptions {
   int seed_count = 1;
   int jobs = 1;
   std::string format = "terminal";
+  std::optional<double> ceiling_percent = {};  // at 0.05 m, instead of what a search finds
 };
 
 /// What many missions share beside their scenario: --seeds, --jobs, --threads, --format, --out,
-/// --quiet.
+/// --quiet, --ceiling-at.
 void add_bench_options(CLI::App& command, BenchOptions& options);
 
 /// Where cells are kept when --out is not given: cells are named by their content, so that every
@@ -50,13 +52,16 @@ BenchRuns fly_cells(const std::vector<Cell>& cells, const BenchOptions& options)
 /// What is known of the cells in a folder, without flying anything.
 BenchRuns read_cells(const std::vector<Cell>& cells, const std::filesystem::path& folder);
 
-/// The ceiling of a scenario, with its structure loaded for the purpose.
+/// The ceiling of a scenario, with its structure loaded for the purpose, or the one that is given.
 Ceiling ceiling_of(const Scenario& scenario, const BenchOptions& options);
 
 /// The ceilings of every scenario and method, each as its first run resolved it. One that cannot be
 /// found, its mesh being gone, is left out, and the notes say why.
 Ceilings ceilings_of(const BenchRuns& runs, const BenchOptions& options,
                      std::vector<std::string>& notes);
+
+/// What shares of the ceiling are of, when it is given.
+void add_given_ceiling_note(const BenchOptions& options, std::vector<std::string>& notes);
 
 /// Prints the tables, an empty line between them, then throws CommandFailed if something failed.
 void print_bench(const std::vector<TextTable>& tables, const std::string& format,

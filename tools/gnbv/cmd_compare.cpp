@@ -134,6 +134,7 @@ void compare_command(const CompareOptions& options) {
   std::vector<std::string> more_notes = collected.notes;
   const Ceilings ceilings =
       options.no_ceiling ? Ceilings{} : ceilings_of(collected, options.bench, more_notes);
+  if (!options.no_ceiling) add_given_ceiling_note(options.bench, more_notes);
   TextTable table = comparison_table(compare(collected.runs, plan.baseline, ceilings));
   table.notes.insert(table.notes.end(), more_notes.begin(), more_notes.end());
   print_bench({table}, options.bench.format, collected.has_failures);
@@ -169,10 +170,12 @@ void add_compare_command(CLI::App& app) {
       "--views", options->views, "body poses that the utility `route` flies, CSV or TUM"));
   command->add_option("--baseline", options->baseline,
                       "method the others are tested against (default: the first)");
-  command->add_flag("--no-ceiling", options->no_ceiling,
-                    "leave out the shares of the ceiling and the efforts to reach them: where none "
-                    "is known yet, each takes a minute");
+  CLI::Option* const no_ceiling = command->add_flag(
+      "--no-ceiling", options->no_ceiling,
+      "leave out the shares of the ceiling and the efforts to reach them: where none "
+      "is known yet, each takes a minute");
   add_bench_options(*command, options->bench);
+  no_ceiling->excludes(command->get_option("--ceiling-at"));
   CLI::Option* const from =
       command->add_option("--from", options->from, "folder of a sweep: compare what it flew");
   for (const char* name : {"--mesh", "--seed", "--set", "--bounds", "--seeds", "--jobs", "--out"}) {

@@ -98,6 +98,7 @@ std::vector<std::string> exact_overrides(const Scenario& scenario) {
 Sweep exact_sweep(Sweep sweep, const Scenario& scenario, const std::vector<ComparedRun>& runs,
                   const Ceiling& ceiling) {
   std::erase_if(sweep.methods, [&](const SweepMethod& method) {
+    if (ceiling.is_given) return true;  // nobody said that it is a bound
     std::vector<double> covered;
     for (const ComparedRun& run : runs) {
       if (run.method == method.name) covered.push_back(run.figures.coverage_final[0]);
@@ -123,6 +124,9 @@ std::string command_of(const TableOptions& options, std::uint64_t first_seed) {
     command += " --utilities " + shell_word(utility);
   }
   for (const std::string& set : of.overrides) command += " --set " + shell_word(set);
+  if (options.bench.ceiling_percent) {
+    command += fmt::format(" --ceiling-at {:.4g}", *options.bench.ceiling_percent);
+  }
   return command + (options.no_oracle ? " --no-oracle" : "");
 }
 
@@ -154,6 +158,7 @@ void table(const TableOptions& options) {
         "exact sensors: the same missions without noise of depth, range and pose, flown where "
         "ours lies above the ceiling");
   }
+  add_given_ceiling_note(options.bench, text.notes);
   const std::string structure = structure_name(first.structure);
   if (!is_papers_structure(paper, structure)) {
     text.notes.push_back(fmt::format(

@@ -115,6 +115,17 @@ TEST(ComparisonTable, PutsOursAboveThePapersRowAndOthersAfter) {
                        "Profile: paper", "Ceiling: physical", "Ceiling: leaf filter"}));
 }
 
+TEST(ComparisonTable, AGivenCeilingDividesAndHasNoRow) {
+  Ceiling given;
+  given.leaf_outside[0] = 0.5;
+  given.is_given = true;
+  const std::vector<RunFigures> runs = {example()};
+  const TextTable table = comparison_table(*find_paper_table("aircraft"), runs, given);
+  EXPECT_DOUBLE_EQ(*cell_of(table, 2, "share_of_ceiling").values[0],
+                   example().coverage_final[0] / 0.5);
+  for (const auto& row : table.rows) EXPECT_NE(row[0].text, "Ceiling");
+}
+
 // Oracle: t(0.975, 2) = 4.303 and the deviation of -1, 0, 1 is 1, so the half width
 // is 4.303/sqrt 3.
 TEST(ComparisonTable, SeveralSeedsGiveMeanAndInterval) {
