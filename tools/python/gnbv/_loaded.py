@@ -13,9 +13,10 @@ except ImportError as error:
         f"{_HERE} is not built for {platform.python_implementation()} "
         f"{platform.python_version()} on this system: {error}"
     ) from None
-if _core.__version__ != VERSION:
+__version__: str = VERSION
+_built: str = vars(_core)["__version__"]  # of which stubs say nothing
+if _built != __version__:
     raise ImportError(
-        f"{_HERE}: the extension is of version {_core.__version__}, the package of {VERSION}: "
+        f"{_HERE}: the extension is of version {_built}, the package of {__version__}: "
         "two versions are installed in one place; remove it and install one"
     )
-__version__: str = VERSION
