@@ -1,5 +1,6 @@
 """gnbv.run, gnbv.load and what they say of bad input."""
 
+import io
 import json
 import os
 import signal
@@ -95,6 +96,18 @@ def test_progress_is_told_and_may_raise(short):
     assert shares == sorted(shares) and shares[-1] == 1.0
     with pytest.raises(ZeroDivisionError):
         gnbv.run("smoke", set=short, progress=lambda share, note: 1 / 0)
+
+
+def test_progress_on_a_terminal_is_by_tqdm(short, monkeypatch):
+    pytest.importorskip("tqdm")
+
+    class Terminal(io.StringIO):
+        def isatty(self):
+            return True
+
+    monkeypatch.setattr(sys, "stderr", Terminal())
+    gnbv.run("smoke", set=short)
+    assert "smoke: " in sys.stderr.getvalue() and "view 6/6" in sys.stderr.getvalue()
 
 
 def test_ctrl_c_ends_in_order_and_resume_goes_on(tmp_path):

@@ -155,6 +155,13 @@ def test_compare_says_what_it_compared(short, tmp_path):
     assert "mine" in str(tables[0])
 
 
+def test_a_function_is_a_row_of_the_papers_table(short, tmp_path):
+    tables = gnbv.table(
+        "lab_model", utilities=[mine], oracle=False, set=short, out=tmp_path / "c", jobs=2
+    )
+    assert "mine" in str(tables[0]) and "proposed" in str(tables[0])
+
+
 def test_a_failing_utility_is_a_failed_cell(short, tmp_path):
     def raises(views):
         raise RuntimeError("no")

@@ -17,10 +17,11 @@ extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa.so
 namespace gnbv {
 namespace {
 
-// Never closed: Mesa's threads and LLVM outlive a context.
+// Never closed: Mesa's threads and LLVM outlive a context. The Python wheel brings its own.
 OsMesa open_osmesa() {
   void* library = nullptr;
-  for (const char* name : {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"}) {
+  for (const char* name :
+       {"$ORIGIN/libOSMesa.so.8", "libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"}) {
     library = ::dlopen(name, RTLD_LAZY | RTLD_LOCAL);
     if (library != nullptr) break;
   }

@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "scenarios/flow_yaml.hpp"
+#include "sim/core/error.hpp"
+#include "tools/mission/own_utility.hpp"
 
 namespace gnbv {
 namespace {
@@ -18,7 +20,8 @@ struct NamedSettings {
 
 class MethodReader {
  public:
-  explicit MethodReader(SweepYaml& yaml) : yaml_(yaml) {}
+  MethodReader(const std::filesystem::path& folder, SweepYaml& yaml)
+      : folder_(folder), yaml_(yaml) {}
 
   std::vector<SweepMethod> read(const YamlNode& root) {
     std::vector<NamedSettings> bases = named_by_value(root, "utilities", "planner.utility.name");
@@ -59,14 +62,30 @@ class MethodReader {
     if (list == nullptr) return bases;
     int index = 0;
     for (const YamlNode* node : yaml_.items_of(*list, section)) {
-      const std::string name =
-          yaml_.text_of(node, fmt::format("{}.{}", section, index++), "a name");
+      const std::string path = fmt::format("{}.{}", section, index++);
+      const std::string name = yaml_.text_of(node, path, "a name");
       if (name.empty()) continue;
+      if (section == "utilities" && is_utility_file(name)) {
+        add_utility_file(*node, path, bases);
+        continue;
+      }
       NamedSettings base = {name, {}};
       base.settings.add(fmt::format("{}={}", key, flow_yaml(*node)), node->origin);
       bases.push_back(std::move(base));
     }
     return bases;
+  }
+
+  void add_utility_file(const YamlNode& node, const std::string& path,
+                        std::vector<NamedSettings>& bases) {
+    try {
+      NamedUtility named = named_utility((folder_ / node.text).lexically_normal().string());
+      NamedSettings base = {std::move(named.label), {}};
+      for (Override& set : named.overrides) base.settings.add(std::move(set.text), node.origin);
+      bases.push_back(std::move(base));
+    } catch (const BadInput& error) {
+      yaml_.fault(node, path, error.what());
+    }
   }
 
   std::vector<NamedSettings> read_variants(const YamlNode* list) {
@@ -152,13 +171,15 @@ class MethodReader {
     return is_unique ? last_word(key) : key;
   }
 
+  const std::filesystem::path& folder_;
   SweepYaml& yaml_;
 };
 
 }  // namespace
 
-std::vector<SweepMethod> read_methods(const YamlNode& root, SweepYaml& yaml) {
-  return MethodReader(yaml).read(root);
+std::vector<SweepMethod> read_methods(const YamlNode& root, const std::filesystem::path& folder,
+                                      SweepYaml& yaml) {
+  return MethodReader(folder, yaml).read(root);
 }
 
 }  // namespace gnbv

@@ -1,6 +1,7 @@
 // The methods of a sweep file.
 #pragma once
 
+#include <filesystem>
 #include <vector>
 
 #include "tools/sweep/sweep.hpp"
@@ -9,7 +10,9 @@
 namespace gnbv {
 
 /// Utilities, presets and variants side by side, each at every point of the grid, whose last key
-/// changes fastest; "default" where there is neither. What is wrong goes to the faults of `yaml`.
-std::vector<SweepMethod> read_methods(const YamlNode& root, SweepYaml& yaml);
+/// changes fastest; "default" where there is neither. A utility may be FILE.py:FUNCTION, beside
+/// `folder`. What is wrong goes to the faults of `yaml`.
+std::vector<SweepMethod> read_methods(const YamlNode& root, const std::filesystem::path& folder,
+                                      SweepYaml& yaml);
 
 }  // namespace gnbv

@@ -31,7 +31,7 @@ class SweepReader {
     if (values_.require_map(
             *root, "", {"scenarios", "utilities", "presets", "variants", "grid", "set", "seeds"})) {
       read_scenarios(*root);
-      sweep_.methods = read_methods(*root, values_);
+      sweep_.methods = read_methods(*root, folder_, values_);
       read_seeds(root->find("seeds"));
       refuse_too_many(*root);
     }

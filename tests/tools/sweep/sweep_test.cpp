@@ -105,6 +105,22 @@ TEST_F(SweepFile, UtilitiesPresetsAndVariantsStandSideBySideTimesTheGrid) {
   }
 }
 
+TEST_F(SweepFile, AUtilityMayBeAFunctionInAFileBesideIt) {
+  std::ofstream(temp_.path() / "u.py") << "def near(views):\n    return -views['path_m']\n\n"
+                                          "def far(views):\n    return views['path_m']\n";
+  const Sweep sweep = read("scenarios: smoke\nutilities: [isler, ./u.py:near, u.py]\n");
+  EXPECT_THAT(names_of(sweep.methods), ElementsAre("isler", "near", "far"));
+  const std::vector<Cell> cells = cells_of(sweep);
+  EXPECT_EQ(cells[1].resolved.planner.utility.python.function, "near");
+  EXPECT_EQ(cells[1].resolved.planner.utility.python.source, read_file(temp_.path() / "u.py"));
+  std::ofstream(temp_.path() / "u.py", std::ios::app) << "# changed\n";
+  EXPECT_NE(cells_of(read("scenarios: smoke\nutilities: u.py:near\n"))[0].id, cells[1].id);
+  EXPECT_EQ(
+      complaint("scenarios: smoke\nutilities:\n  - u.py:nobody\n  - none.py\n"),
+      "s.yaml:3: utilities.0: value 'u.py:nobody': u.py: defines no function 'nobody' at its "
+      "top level\ns.yaml:4: utilities.1: value 'none.py': none.py: No such file or directory");
+}
+
 TEST_F(SweepFile, APresetDoesNotUndoWhatIsSetBesideIt) {
   // fvs.tries is one of the switches that a preset sets
   for (const Cell& cell : cells_of(

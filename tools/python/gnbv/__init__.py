@@ -10,8 +10,8 @@ ViewStats to a score each; a planner of your own a function from Belief and Hist
 `gnbv.gym` has environments for Gymnasium.
 """
 
-from gnbv._core import __version__
 from gnbv._errors import BadInput, BrokenInvariant, Failed, Fault, Interrupted, UtilityFailed
+from gnbv._loaded import __version__
 from gnbv._mission import run
 from gnbv._planner import Belief, History, View
 from gnbv._run import Run, load

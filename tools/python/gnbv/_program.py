@@ -38,6 +38,7 @@ def call(*arguments: str) -> str:
             except KeyboardInterrupt:  # it has heard it, too, and ends in order
                 continue
     if child.returncode == 0:
+        sys.stderr.write(errors)
         return out
     lines = [line for line in errors.strip().splitlines() if line]
     message = "\n".join(lines).removeprefix("gnbv: ") or f"gnbv {arguments[0]}: failed"

@@ -13,13 +13,17 @@ info["refused"] says why.
 
 Observations: "map" (3, 8, 16, 16), shares of unknown, free and occupied voxels by cell (z, y, x);
 "pose": x, y, z of the navigation box in [-1, 1], sine and cosine of the yaw; "progress": the
-entropy left and the share of the budget used; with candidates also "candidates": for each the
-logarithms of its free, unknown, occupied, predicted and thinly sampled voxels and of its entropy,
-its density and the length of the way, 0 for those that may not be taken. All of it is belief.
+entropy left and the share of the budget of views used; with candidates also "candidates": for each
+the logarithms of its free, unknown, occupied, predicted and thinly sampled voxels and of its
+entropy, its density and the length of the way, 0 for those that may not be taken. All of it is
+belief.
 
 Reward: the coverage gained, in shares of the ceiling (of what can be reached at all): the truth, as
-a benchmark knows it. An episode is terminated by the goal (95 % of the ceiling) or a collision, and
-truncated by the budget of steps or by the scenario's own (battery, metres, time).
+a benchmark knows it. The ceiling is searched when a scenario is first made (up to minutes; the
+cache keeps it); with goal=0 nobody needs it, and rewards are shares of the whole surface. An
+episode is terminated by the goal (95 % of the ceiling) or a collision, and truncated by its budget:
+max_iterations views, the start's being the first and refused ones counted, or the scenario's own
+(battery, metres, time).
 """
 
 from __future__ import annotations
@@ -28,7 +32,10 @@ import os
 from collections.abc import Mapping, Sequence
 from typing import Any, Optional, Union
 
-import gymnasium
+try:
+    import gymnasium
+except ImportError as error:
+    raise ImportError(f"gnbv.gym needs Gymnasium ({error}): pip install 'gnbv[gym]'") from None
 import numpy as np
 import numpy.typing as npt
 from gymnasium import spaces
@@ -58,7 +65,6 @@ class _Stage:
     ) -> None:
         if action not in ("view", "candidate"):
             raise ValueError(f"action={action!r}: expected 'view' or 'candidate'")
-        # the budget is counted here: what the mission refuses counts, too
         overrides = [f"{key}={_yaml(value)}" for key, value in (set or {}).items()]
         self.core = _core.EnvStage(scenario, overrides, goal)
         self.permits = _core.Permits(max(1, threads or os.cpu_count() or 1))
@@ -101,11 +107,13 @@ class _Stage:
             view[0, 4] = low + 0.5 * (given[4] + 1.0) * (high - low)
         return view
 
-    def observation(self, state: dict[str, Any]) -> Observation:
+    def observation(self, state: dict[str, Any], steps: int) -> Observation:
+        progress = state["progress"].copy()
+        progress[1] = min(1.0, (1 + steps) / self.about["max_iterations"])
         seen = {
             "map": state["map"].reshape(self.about["map_shape"]).copy(),
             "pose": state["pose"].copy(),
-            "progress": state["progress"].copy(),
+            "progress": progress,
         }
         if self.is_candidate:
             seen["candidates"] = state["candidates"].copy()
@@ -130,7 +138,7 @@ class _Episode:
     def begun(self) -> tuple[Observation, dict[str, Any]]:
         self._refused = ""
         self.state = self.mission.wait()
-        return self.stage.observation(self.state), self.info()
+        return self.stage.observation(self.state, self.steps), self.info()
 
     def act(self, action: Any) -> None:
         if not self.state or (self.state["ended"] and self.steps > 0):
@@ -150,8 +158,11 @@ class _Episode:
         reward = (self.state["coverage"] - before) / self.stage.about["ceiling"]
         ended = bool(self.state["ended"])
         terminated = ended and self.state["termination"] in _OVER
-        truncated = not terminated and (ended or self.steps >= self.stage.about["max_iterations"])
-        return self.stage.observation(self.state), float(reward), terminated, truncated, self.info()
+        # the start's view is the first; what the mission refuses counts here
+        is_spent = 1 + self.steps >= self.stage.about["max_iterations"]
+        truncated = not terminated and (ended or is_spent)
+        seen = self.stage.observation(self.state, self.steps)
+        return seen, float(reward), terminated, truncated, self.info()
 
     def info(self) -> dict[str, Any]:
         names = ("coverage", "entropy_nat", "cloud_points", "flown_m", "time_s", "termination")
