@@ -25,37 +25,53 @@ std::string inner_text(const std::string& text) {
   return text.find_first_of(",[]{}:#\"'\n") == std::string::npos ? text : yaml_in_quotes(text);
 }
 
-std::string inner_yaml(const YamlNode& node) {
-  if (node.kind == YamlNode::Kind::null) return "~";
-  if (node.kind == YamlNode::Kind::scalar && !node.is_quoted) return inner_text(node.text);
-  return flow_yaml(node);
+/// Appends the value; no further than a little beyond `most` characters.
+void put_flow(const YamlNode& node, bool is_inside, std::size_t most, std::string& text) {
+  const bool is_list = node.kind == YamlNode::Kind::list;
+  switch (node.kind) {
+    case YamlNode::Kind::null:
+      if (is_inside) text += '~';
+      return;
+    case YamlNode::Kind::scalar:
+      if (node.is_quoted) {
+        text += yaml_in_quotes(node.text);
+      } else {
+        text += is_inside ? inner_text(node.text) : node.text;
+      }
+      return;
+    case YamlNode::Kind::list:
+    case YamlNode::Kind::map:
+    case YamlNode::Kind::picks:
+      break;
+  }
+  text += is_list ? '[' : '{';
+  const std::size_t begin = text.size();
+  for (const YamlNode& item : node.items) {
+    if (text.size() > most) break;
+    if (text.size() > begin) text += ", ";
+    put_flow(item, true, most, text);
+  }
+  for (const YamlEntry& entry : node.entries) {
+    if (text.size() > most) break;
+    if (text.size() > begin) text += ", ";
+    text += inner_text(entry.key) + ": ";
+    put_flow(entry.value, true, most, text);
+  }
+  text += is_list ? ']' : '}';
 }
 
 }  // namespace
 
 std::string flow_yaml(const YamlNode& node) {
   std::string text;
-  switch (node.kind) {
-    case YamlNode::Kind::null:
-      return "";
-    case YamlNode::Kind::scalar:
-      return node.is_quoted ? yaml_in_quotes(node.text) : node.text;
-    case YamlNode::Kind::list:
-      for (const YamlNode& item : node.items) text += (text.empty() ? "" : ", ") + inner_yaml(item);
-      return '[' + text + ']';
-    case YamlNode::Kind::map:
-    case YamlNode::Kind::picks:
-      for (const YamlEntry& entry : node.entries) {
-        text += (text.empty() ? "" : ", ") + inner_text(entry.key) + ": " + inner_yaml(entry.value);
-      }
-      return '{' + text + '}';
-  }
+  put_flow(node, false, std::string::npos, text);
   return text;
 }
 
 std::string excerpt(const YamlNode& node) {
   constexpr std::size_t kMaxLength = 60;
-  std::string text = flow_yaml(node);
+  std::string text;
+  put_flow(node, false, kMaxLength, text);
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
   }

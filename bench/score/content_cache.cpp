@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "bench/score/cache_limit.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {
@@ -14,16 +15,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kFirstWords = "gnbv cache 2 ";
+constexpr std::string_view kVersion = "2 ";
 constexpr std::size_t kDigestLength = 64;
-constexpr std::size_t kHeaderLength = kFirstWords.size() + kDigestLength + 1;
+constexpr std::size_t kHeaderLength = kCacheFirstWords.size() + kVersion.size() + kDigestLength + 1;
 
 std::string header_of(std::string_view program, std::string_view content) {
   Sha256 sha;
   sha.add(program);
   sha.add("\n");
   sha.add(content);
-  return fmt::format("{}{}\n", kFirstWords, sha.hex());
+  return fmt::format("{}{}{}\n", kCacheFirstWords, kVersion, sha.hex());
 }
 
 fs::path path_of(const fs::path& folder, std::string_view kind, std::string_view key) {
@@ -75,6 +76,7 @@ std::optional<std::string> load_cached(std::string_view kind, std::string_view k
   const std::string header = content.substr(0, kHeaderLength);
   content.erase(0, kHeaderLength);
   if (header != header_of(program, content)) return std::nullopt;
+  mark_used(path);
   return content;
 }
 
@@ -87,7 +89,10 @@ bool has_cached(std::string_view kind) {
 void store_cached(std::string_view kind, std::string_view key, std::string_view content,
                   std::string_view program) {
   const fs::path folder = cache_folder();
-  if (folder.empty()) return;
+  const std::uint64_t limit_bytes = cache_limit_bytes();
+  const std::uint64_t bytes = kHeaderLength + content.size();
+  if (folder.empty() || bytes > limit_bytes) return;
+  prune_cache(folder, limit_bytes - bytes);
   const fs::path path = path_of(folder, kind, key);
   const fs::path part = part_of(path);
   std::error_code error;

@@ -29,8 +29,9 @@ std::optional<std::string> load_cached(std::string_view kind, std::string_view k
 /// Whether anything of the kind is stored, by whatever program.
 bool has_cached(std::string_view kind);
 
-/// Stores by rename, in the place of another program's result. A cache that cannot be written is no
-/// error: the result is just not kept.
+/// Stores by rename, in the place of another program's result. Those that were not used for longest
+/// make room when the cache would exceed its limit (bench/score/cache_limit.hpp). A cache that
+/// cannot be written is no error: the result is just not kept.
 void store_cached(std::string_view kind, std::string_view key, std::string_view content,
                   std::string_view program = scoring_source_id());
 

@@ -149,6 +149,28 @@ TEST_F(ResumedMesh, IsNotScoredByAnExchangedMesh) {
   EXPECT_SAYS(scored.output, "is not what the run began with");
 }
 
+/// Refused by what shows or measures the mesh; said, and no more, by what does without it.
+TEST_F(ResumedMesh, EveryCommandSaysThatTheMeshWasExchanged) {
+  exchange_mesh();
+  const std::string out = " -o " + (temp_.path() / "out").string();
+  const std::string says = "structure: " + mesh_.string() + " is not what the run began with";
+  const std::vector<std::pair<std::string, int>> commands = {
+      {"render RUN" + out + ".png", 2},
+      {"render RUN --what candidates --iteration 2" + out + "2.png", 2},
+      {"ceiling RUN", 2},
+      {"report RUN" + out + ".html", 0},
+      {"surface RUN" + out, 0},
+      {"export RUN --format tum" + out + "-tum", 0}};
+  for (auto [command, exit_code] : commands) {
+    const Outcome told = gnbv(command.replace(command.find("RUN"), 3, run_.string()));
+    EXPECT_EQ(told.exit_code, exit_code) << command << ": " << told.output;
+    EXPECT_SAYS(told.output, says);
+  }
+  // asked for by name it is another question
+  const Outcome asked = gnbv("ceiling " + run_.string() + " --mesh " + mesh_.string());
+  EXPECT_EQ(asked.exit_code, 0) << asked.output;
+}
+
 TEST_F(Resumed, RefusesAnExchangedProfile) {
   const fs::path first = temp_.path() / "first";
   const fs::path second = temp_.path() / "second";
@@ -166,6 +188,8 @@ TEST_F(Resumed, RefusesAnExchangedProfile) {
   fs::copy_file(second / "profile.map", first / "profile.map",
                 fs::copy_options::overwrite_existing);
   EXPECT_SAYS(complaint(saved), "planner.profiling.file: ");
+  EXPECT_SAYS(gnbv("render " + run_.string() + " --what candidates").output,
+              "planner.profiling.file: ");
 }
 
 TEST_F(Resumed, LeavesAFinishedRunAsItIs) {

@@ -1,13 +1,8 @@
 // Whatever stands in a mesh file: it is read or refused as BadInput, and what was read keeps its
 // promises. The first byte chooses the format.
-#include <unistd.h>
-
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <filesystem>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -16,22 +11,10 @@
 #include "sim/mesh/obj_file.hpp"
 #include "sim/mesh/plain_text.hpp"
 #include "sim/mesh/ply_file.hpp"
+#include "tests/fuzz/written.hpp"
 
 namespace gnbv {
 namespace {
-
-/// In memory where the system has such a folder; one a process.
-std::filesystem::path written(std::string_view content) {
-  const std::filesystem::path memory = "/dev/shm";
-  const std::filesystem::path path =
-      (std::filesystem::exists(memory) ? memory : std::filesystem::temp_directory_path()) /
-      ("gnbv_mesh_fuzz_" + std::to_string(getpid()));
-  std::FILE* const file = std::fopen(path.c_str(), "wb");
-  GNBV_CHECK(file != nullptr, "{}", path.string());
-  std::fwrite(content.data(), 1, content.size(), file);
-  std::fclose(file);
-  return path;
-}
 
 void check_mesh(const PolygonMesh& mesh) {
   std::uint32_t begin = 0;
@@ -72,7 +55,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   std::vector<std::string> warnings;
   try {
-    const auto path = gnbv::written(content);
+    const auto path = gnbv::written(content, "mesh");
     gnbv::check_mesh(data[0] == 'p' ? gnbv::read_ply(path, warnings)
                                     : gnbv::read_obj(path, warnings));
   } catch (const gnbv::BadInput&) {

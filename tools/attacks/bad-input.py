@@ -33,7 +33,7 @@ def run(command, timeout_s):
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     try:
         done = subprocess.run(command, capture_output=True, timeout=timeout_s, preexec_fn=limit,
-                              stdin=subprocess.DEVNULL)
+                              stdin=subprocess.DEVNULL, env={**os.environ, "GNBV_CACHE": ""})
     except subprocess.TimeoutExpired:
         return None, ""
     said = (done.stdout + done.stderr).decode("utf-8", "replace")
@@ -139,7 +139,7 @@ def key_tries(gnbv, folder):
 
 
 # ---- options -----------------------------------------------------------------------------------
-COMMANDS = ("fly run sweep table compare ceiling render export plot paper report asset lint score "
+COMMANDS = ("cache fly run sweep table compare ceiling render export plot paper report asset lint score "
             "check surface").split()
 
 

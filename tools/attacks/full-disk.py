@@ -3,28 +3,15 @@
 
 Needs the right to mount a tmpfs in a namespace of its own (`unshare -rm`).
 """
-import os
 import random
 import shutil
 import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
-from run_attack import Gnbv, Table, arguments, complaint, difference
+from run_attack import Gnbv, Table, arguments, complaint, difference, in_a_namespace
 
 SMOKE = ['smoke', '--set', 'planner.termination.max_iterations=6', '--quiet']
-
-
-def in_a_namespace():
-    """Starts itself anew where it may mount."""
-    if os.environ.get('GNBV_ATTACK_INSIDE'):
-        return
-    if subprocess.run(['unshare', '-rm', 'true'], capture_output=True).returncode != 0:
-        print('full-disk: `unshare -rm` is not allowed here', file=sys.stderr)
-        raise SystemExit(77)
-    os.environ['GNBV_ATTACK_INSIDE'] = '1'
-    os.execvp('unshare', ['unshare', '-rm', sys.executable, *sys.argv])
 
 
 def on_disk(size_kib, disk, act):
@@ -79,7 +66,7 @@ def make_on(gnbv, words, size_kib, disk):
 
 def main():
     options = arguments(__doc__, tries=12)
-    in_a_namespace()
+    in_a_namespace('full-disk')
     table, dice = Table(), random.Random(options.seed)
     with tempfile.TemporaryDirectory(prefix='gnbv_attack_') as name:
         folder = Path(name)
@@ -95,7 +82,8 @@ def main():
         for kind, words in (
                 ('plot', ['plot', run, '--format', 'svg,png,pdf', '-o', disk / 'plots']),
                 ('report', ['report', run, '-o', disk / 'page.html']),
-                ('export', ['export', run, '--format', 'tum', '-o', disk / 'tum']),
+                *((f'export {form}', ['export', run, '--format', form, '-o', disk / form])
+                  for form in ('tum', 'plain', 'colmap', 'nerfstudio')),
                 ('surface', ['surface', run, '-o', disk / 'surface']),
                 ('render', ['render', run, '-o', disk / 'path.png']),
                 ('asset', ['asset', 'smoke', '-o', disk / 'smoke.glb']),

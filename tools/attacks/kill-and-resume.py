@@ -2,7 +2,8 @@
 """Kills commands at random moments and starts them again: the same files, none half-written.
 
 A run is killed, perhaps killed while it is resumed, and resumed to its end; or asked to stop by
-SIGINT, SIGTERM or SIGHUP. A sweep is started again. Reports, surfaces and exports are made again.
+SIGINT, SIGTERM or SIGHUP. A sweep, a table and the paper are started again. Reports, surfaces and
+exports are made again.
 """
 import random
 import shutil
@@ -11,7 +12,8 @@ import tempfile
 import time
 from pathlib import Path
 
-from run_attack import Gnbv, Table, arguments, complaint, difference, half_written, stopped
+from run_attack import (Gnbv, Table, arguments, complaint, difference, files_of, half_written,
+                        stopped)
 
 SMOKE = ['smoke', '--set', 'planner.termination.max_iterations=30', '--frames', '--candidates',
          '--quiet']
@@ -72,16 +74,72 @@ def sweeps(table, gnbv, folder, options, dice):
         out = folder / f'sweep-{attempt}'
         stopped(gnbv.start(*command, out), dice.uniform(0.0, takes_s), signal.SIGKILL)
         if needs(table, 'sweep, SIGKILL and again', gnbv(*command, out)):
-            wrong = None
-            for cell in sorted(p for p in (whole / 'cells').iterdir() if p.is_dir()):
-                wrong = wrong or difference(out / 'cells' / cell.name, cell)
-            left = [p.name for p in (out / 'cells').iterdir() if p.name.endswith('.part')]
-            table.count('sweep, SIGKILL and again', wrong or (f'left {left}' if left else None))
+            table.count('sweep, SIGKILL and again',
+                        cells_differ(out / 'cells', whole / 'cells'))
         shutil.rmtree(out, ignore_errors=True)
+
+
+def cells_differ(cells, whole):
+    """The first difference of missions that are flown by name, and what is left of killed ones."""
+    for cell in sorted(p for p in whole.iterdir() if p.is_dir()):
+        wrong = difference(cells / cell.name, cell)
+        if wrong:
+            return f'{cell.name}: {wrong}'
+    left = [p.name for p in cells.iterdir() if p.name.endswith('.part')]
+    return f'left {left}' if left else None
+
+
+def tables(table, gnbv, folder, options, dice):
+    """What is printed, and the missions that it is printed of."""
+    command = ['table', 'lab_model', '--set', 'planner.termination.max_iterations=3', '--no-oracle',
+               '--quiet', '--format', 'csv', '--out']
+    kind = 'table, SIGKILL and again'
+    begin = time.monotonic()
+    whole = gnbv(*command, folder / 'whole-table')
+    if not needs(table, kind, whole):
+        return
+    takes_s = time.monotonic() - begin
+    for attempt in range(options.tries):
+        out = folder / f'table-{attempt}'
+        for _ in range(1 + dice.randrange(2)):
+            stopped(gnbv.start(*command, out), dice.uniform(0.0, takes_s), signal.SIGKILL)
+        again = gnbv(*command, out)
+        if needs(table, kind, again):
+            wrong = cells_differ(out, folder / 'whole-table')
+            if wrong is None and again.stdout != whole.stdout:
+                wrong = 'another table'
+            table.count(kind, wrong)
+        shutil.rmtree(out, ignore_errors=True)
+
+
+def papers(table, gnbv, folder, options, dice):
+    """The page with its tables and pictures, and its missions."""
+    place = folder / 'paper'
+    command = ['paper', '--scenarios', 'lab_model', '--seeds', '1', '--quiet', '--set',
+               'planner.termination.max_iterations=3', '-o', place / 'page', '--cells',
+               place / 'cells']
+    kind = 'paper, SIGKILL and again'
+    begin = time.monotonic()
+    if not needs(table, kind, gnbv(*command)):
+        return
+    takes_s = time.monotonic() - begin
+    place.rename(folder / 'whole-paper')
+    for attempt in range(options.paper_tries):
+        stopped(gnbv.start(*command), dice.uniform(0.0, takes_s), signal.SIGKILL)
+        if needs(table, kind, gnbv(*command)):
+            wrong = cells_differ(place / 'cells', folder / 'whole-paper' / 'cells')
+            ours, theirs = (set(map(str, files_of(p / 'page'))) for p in
+                            (place, folder / 'whole-paper'))
+            if wrong is None and ours != theirs:
+                wrong = f'files {sorted(ours ^ theirs)}'
+            table.count(kind, wrong)
+        shutil.rmtree(place, ignore_errors=True)
 
 
 def made_of_a_run(table, gnbv, folder, options, dice):
     run = folder / 'whole'
+    if not run.exists():
+        gnbv('run', *SMOKE, '--out', run)
     for kind, words, out in (('report', ['report', run, '-o'], 'page.html'),
                              ('surface', ['surface', run, '-o'], 'surface'),
                              ('export', ['export', run, '--format', 'tum', '-o'], 'tum')):
@@ -106,15 +164,24 @@ def made_of_a_run(table, gnbv, folder, options, dice):
             shutil.rmtree(place, ignore_errors=True)
 
 
+ATTACKS = {'runs': runs, 'sweeps': sweeps, 'tables': tables, 'papers': papers,
+           'made': made_of_a_run}
+
+
 def main():
-    options = arguments(__doc__, tries=50)
+    def extra(parser):
+        parser.add_argument('--only', default='', help='only these, with commas: '
+                            + ', '.join(ATTACKS))
+        parser.add_argument('--paper-tries', type=int, help='of the paper (default: a fifth)')
+
+    options = arguments(__doc__, tries=50, extra=extra)
+    options.paper_tries = options.paper_tries or max(1, options.tries // 5)
     table, dice = Table(), random.Random(options.seed)
     with tempfile.TemporaryDirectory(prefix='gnbv_attack_') as name:
         folder = Path(name)
         gnbv = Gnbv(options.gnbv, folder)
-        runs(table, gnbv, folder, options, dice)
-        sweeps(table, gnbv, folder, options, dice)
-        made_of_a_run(table, gnbv, folder, options, dice)
+        for name in options.only.split(',') if options.only else ATTACKS:
+            ATTACKS[name](table, gnbv, folder, options, dice)
     return table.end()
 
 

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Safety of flight: random small worlds of boxes, spheres, poles, thin walls, wires and gaps, with
 random sensors, noise, estimates, starts, paths and profiles, flown by every utility. No mission may
-touch anything, every one has to end for a stated reason, and no view may be taken nearer than the
-collision radius to surface that the profile showed.
+touch what its map shows, every one has to end for a stated reason, and no view may be taken nearer
+than the collision radius to surface that the profile showed. Who touches a wire that no pixel or
+beam has met often enough for its map is counted by itself: the planner knows nothing of it.
 
 usage: safety.py [--gnbv FILE] [--worlds N] [--seed N] [--views N] [--jobs N] [--keep DIR]
   --keep DIR   the scenario and mesh of every world that failed
@@ -17,6 +18,7 @@ import math
 import os
 import random
 import shutil
+import signal
 import struct
 import subprocess
 import sys
@@ -195,17 +197,79 @@ def read_surface(path):
     return surface
 
 
+def read_occupied(path):
+    """(voxel in metres, keys of the occupied voxels) of a map.bt, pruned cubes as their voxels."""
+    with open(path, "rb") as file:
+        data = file.read()
+    head, _, tree = data.partition(b"data\n")
+    voxel_m = float(head.split(b"\nres ")[1].split()[0])
+    occupied, at = set(), 0
+
+    def children(first, level):
+        nonlocal at
+        states = [(tree[at + i // 4] >> (2 * (i % 4))) & 3 for i in range(8)]
+        at += 2
+        corners = [tuple(first[a] + ((i >> a & 1) << level) for a in range(3)) for i in range(8)]
+        for corner, state in zip(corners, states):
+            if state == 2:
+                occupied.update((corner[0] + x, corner[1] + y, corner[2] + z)
+                                for x in range(1 << level) for y in range(1 << level)
+                                for z in range(1 << level))
+        for corner, state in zip(corners, states):
+            if state == 3:
+                children(corner, level - 1)
+
+    if tree:
+        children((0, 0, 0), 15)
+    return voxel_m, occupied
+
+
+def read_mesh(path):
+    """Triangles of an OBJ file."""
+    vertices, triangles = [], []
+    with open(path) as file:
+        for words in map(str.split, file):
+            if words[0] == "v":
+                vertices.append(tuple(map(float, words[1:])))
+            else:
+                face = [vertices[int(word) - 1] for word in words[1:]]
+                triangles += [(face[0], face[i], face[i + 1]) for i in range(1, len(face) - 1)]
+    return triangles
+
+
+def nearest_surface(triangles, p, steps=60):
+    """The point of the mesh that is nearest to p, to a sixtieth of an edge."""
+    grid = [(i / steps, j / steps) for i in range(steps + 1) for j in range(steps + 1 - i)]
+    return min((tuple(a[k] + u * (b[k] - a[k]) + v * (c[k] - a[k]) for k in range(3))
+                for a, b, c in triangles for u, v in grid), key=lambda q: math.dist(p, q))
+
+
+def is_shown(place):
+    """Whether the map shows what the mission touched: an occupied voxel there or beside it."""
+    out = os.path.join(place, "out")
+    with open(os.path.join(out, "trajectory.tum")) as file:
+        p = tuple(map(float, file.read().split("\n")[-2].split()[1:4]))
+    touched = nearest_surface(read_mesh(os.path.join(place, "mesh.obj")), p)
+    voxel_m, occupied = read_occupied(os.path.join(out, "map.bt"))
+    key = tuple(math.floor(x / voxel_m) + 32768 for x in touched)
+    return any((key[0] + x, key[1] + y, key[2] + z) in occupied
+               for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1))
+
+
 def nearest_m(points, p):
     return min((math.dist(p, q) for q in points), default=math.inf)
 
 
-def fault_of(out, scenario):
+def fault_of(place, scenario):
     """(how it ended, fault or None) of a finished mission."""
+    out = os.path.join(place, "out")
     with open(os.path.join(out, "summary.json")) as file:
         summary = json.load(file)
     end = summary["termination"]
     if end == "collision" or summary.get("collisions", 0):
-        return end, "touched something"
+        if is_shown(place):
+            return end, "touched what its map shows"
+        end = "touched what its map does not show"
     radius_m = float(scenario.split("collision_radius_m: ")[1].split(",")[0])
     surface = read_surface(os.path.join(out, "profile.map"))
     with open(os.path.join(out, "iterations.csv")) as file:
@@ -237,10 +301,10 @@ def fly(number, options, folder):
     command = [options.gnbv, "run", path, "--quiet", "--threads", "1", "--out", out]
     try:
         done = subprocess.run(command, capture_output=True, timeout=options.timeout,
-                              stdin=subprocess.DEVNULL)
+                              stdin=subprocess.DEVNULL, env={**os.environ, "GNBV_CACHE": ""})
         said = done.stderr.decode("utf-8", "replace").strip().split("\n")[-1]
         if os.path.exists(os.path.join(out, "summary.json")):
-            end, fault = fault_of(out, scenario)
+            end, fault = fault_of(place, scenario)
             if done.returncode not in (0, 1):
                 fault = f"exit {done.returncode}: {said}"
         elif done.returncode == 2 and said.startswith("gnbv: "):
@@ -270,16 +334,21 @@ def main():
     options = parser.parse_args()
     options.gnbv = os.path.abspath(options.gnbv)
     ends, faults = collections.Counter(), []
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     with tempfile.TemporaryDirectory() as folder, \
             concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        for utility, end, fault in pool.map(lambda n: fly(n, options, folder),
-                                            range(options.worlds)):
-            ends[end] += 1
-            if fault:
-                faults.append(fault)
-                print(fault, file=sys.stderr, flush=True)
+        flights = [pool.submit(fly, n, options, folder) for n in range(options.worlds)]
+        try:
+            for flight in flights:
+                utility, end, fault = flight.result()
+                ends[end] += 1
+                if fault:
+                    faults.append(fault)
+                    print(fault, file=sys.stderr, flush=True)
+        except KeyboardInterrupt:  # what was flown so far counts
+            pool.shutdown(wait=True, cancel_futures=True)
     print(f"{'attack':<24}{'tries':>8}{'failures':>10}")
-    print(f"{'safety of flight':<24}{options.worlds:>8}{len(faults):>10}")
+    print(f"{'safety of flight':<24}{ends.total():>8}{len(faults):>10}")
     for end, count in ends.most_common():
         print(f"  {end:<42}{count:>6}")
     return 1 if faults else 0

@@ -16,6 +16,7 @@
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/start_pose.hpp"
 #include "tools/run_files/file_names.hpp"
+#include "tools/run_files/run_inputs.hpp"
 #include "tools/terminal/progress.hpp"
 #include "tools/terminal/say.hpp"
 
@@ -98,6 +99,15 @@ nlohmann::ordered_json oracle_json(std::span<const OracleReach> reaches) {
   return out;
 }
 
+/// Unless the user asks for another world than that of the run.
+void need_inputs_of_run(const ScenarioOptions& options, const Scenario& scenario,
+                        const World& world) {
+  const bool is_as_flown = options.mesh.empty() && options.overrides.empty();
+  if (!is_as_flown || !std::filesystem::is_directory(options.scenario)) return;
+  need_same_inputs(options.scenario, world_inputs(scenario, world),
+                   "the ceiling would be of another structure; put it back");
+}
+
 /// A run directory stands for its scenario.yaml.
 ScenarioOptions of_run(ScenarioOptions options) {
   const std::filesystem::path run = options.scenario;
@@ -120,6 +130,7 @@ void ceiling(const CeilingOptions& options) {
   std::vector<std::string> warnings;
   const World world = load_world(scenario, warnings);
   for (const std::string& warning : warnings) say(warning);
+  need_inputs_of_run(options.scenario, scenario, world);
   const RayScene scene(world);
   ProgressBar progress(fmt::format("{} ceiling", scenario.name), options.quiet);
   progress.show(0.0, "where viewpoints are legal");

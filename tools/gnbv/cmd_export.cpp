@@ -13,8 +13,10 @@
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/execute.hpp"
+#include "tools/mission/load_world.hpp"
 #include "tools/run_files/cloud_colours.hpp"
 #include "tools/run_files/file_names.hpp"
+#include "tools/run_files/run_inputs.hpp"
 #include "tools/terminal/progress.hpp"
 #include "tools/terminal/say.hpp"
 
@@ -110,11 +112,28 @@ void fill_plain(const Export& e, const fs::path& folder) {
   write_plain(e.record, parts, folder);
 }
 
+/// What is written is what was flown: of the structure's file, which is not read, only the change
+/// is told.
+void note_changed_inputs(const RunRecord& record) {
+  std::vector<std::string> told_by_run;
+  std::vector<RunInput> inputs;
+  try {
+    inputs = world_inputs(record.scenario, load_world_anywhere(record.scenario, told_by_run));
+  } catch (const BadInput&) {
+    return;  // moved, as it may be
+  }
+  try {
+    need_same_inputs(record.folder, inputs, "what is written is of the one that it flew around");
+  } catch (const BadInput& error) {
+    note(error.what());
+  }
+}
+
 using Fill = void (*)(const Export&, const fs::path&);
-const std::map<std::string, Fill> kFormats = {{"colmap", fill_colmap},
-                                              {"nerfstudio", fill_nerfstudio},
-                                              {"plain", fill_plain},
-                                              {"tum", fill_tum}};
+const std::map<std::string, Fill> kFills = {{"colmap", fill_colmap},
+                                            {"nerfstudio", fill_nerfstudio},
+                                            {"plain", fill_plain},
+                                            {"tum", fill_tum}};
 
 void export_run(const ExportOptions& options) {
   if (options.points && (options.format == "plain" || options.format == "tum")) {
@@ -127,8 +146,9 @@ void export_run(const ExportOptions& options) {
   const Export e{options, record, thread_count(options.threads),
                  [&](double share) { bar.show(share, "frames"); }};
   write_export_folder(record, options.format, folder,
-                      [&](const fs::path& part) { kFormats.at(options.format)(e, part); });
+                      [&](const fs::path& part) { kFills.at(options.format)(e, part); });
   for (const std::string& missing : record.missing) note(missing);
+  note_changed_inputs(record);
   fmt::print("{}\n", folder.string());
 }
 
@@ -143,7 +163,7 @@ void add_export_command(CLI::App& app) {
                    "of the folder that is written; images have the poses that the vehicle "
                    "believed, in tum the true ones, too")
       ->required()
-      ->check(CLI::IsMember(kFormats));
+      ->check(CLI::IsMember(kFills));
   command->add_option(
       "-o,--out", options->out,
       "folder to write (default: RUN/export/FORMAT); an earlier export is replaced");

@@ -32,5 +32,6 @@ void add_schema_command(CLI::App& app);
 void add_score_command(CLI::App& app);
 void add_check_command(CLI::App& app);
 void add_surface_command(CLI::App& app);
+void add_cache_command(CLI::App& app);
 
 }  // namespace gnbv

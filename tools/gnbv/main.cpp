@@ -10,6 +10,7 @@
 #include <sstream>
 #include <system_error>
 
+#include "bench/score/cache_limit.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/core/simd.hpp"
@@ -22,7 +23,8 @@
 namespace {
 
 int run(int argc, char** argv) {
-  gnbv::simd_level();  // refuses what GNBV_SIMD may not be
+  gnbv::simd_level();         // refuses what GNBV_SIMD may not be
+  gnbv::cache_limit_bytes();  // and GNBV_CACHE_LIMIT
   CLI::App app("Next-best-view 3D reconstruction with a UAV: simulate, measure, compare.", "gnbv");
   app.set_version_flag("--version", GNBV_VERSION);
   app.require_subcommand(1);
@@ -43,6 +45,7 @@ int run(int argc, char** argv) {
   gnbv::add_score_command(app);
   gnbv::add_check_command(app);
   gnbv::add_surface_command(app);
+  gnbv::add_cache_command(app);
   gnbv::refuse_what_is_not_finite(app);
   try {
     app.parse(argc, argv);

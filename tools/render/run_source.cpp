@@ -7,6 +7,7 @@
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/reference.hpp"
 #include "tools/run_files/candidates_jsonl.hpp"
+#include "tools/run_files/run_inputs.hpp"
 
 namespace gnbv {
 namespace {
@@ -34,7 +35,10 @@ RunSource::RunSource(RunRecord record, World world)
 const World& RunSource::world() {
   if (!world_) {
     std::vector<std::string> told_by_run;  // the mesh's faults were told when it was flown
-    world_ = load_world(record_.scenario, told_by_run);
+    World world = load_world(record_.scenario, told_by_run);
+    need_same_inputs(record_.folder, world_inputs(record_.scenario, world),
+                     "pictures would show another structure; put it back");
+    world_ = std::move(world);
   }
   return *world_;
 }
@@ -64,6 +68,8 @@ const SurfaceReference& RunSource::reference() {
 }
 
 RecordedMission RunSource::mission(const std::string& note) {
+  need_same_inputs(record_.folder, run_inputs(record_.scenario, world()),
+                   "the mission cannot be flown again; put it back");
   return {.scenario = record_.scenario,
           .world = world(),
           .scene = scene(),

@@ -18,6 +18,7 @@
 #include "tools/report/run_json.hpp"
 #include "tools/run_files/file_names.hpp"
 #include "tools/run_files/run_groups.hpp"
+#include "tools/run_files/run_inputs.hpp"
 
 namespace gnbv {
 namespace {
@@ -103,9 +104,7 @@ std::string structure_key(const Scenario& scenario) {
 }
 
 /// What stands there, as one mesh.
-TriangleMesh all_meshes(const Scenario& scenario) {
-  std::vector<std::string> told_by_run;  // the mesh's faults were told when it was flown
-  const World world = load_world_anywhere(scenario, told_by_run);
+TriangleMesh all_meshes(const World& world) {
   TriangleMesh all = world.structure;
   for (const TriangleMesh* more : {&world.obstacles, &world.terrain}) {
     if (!more->faces.empty()) append(all, *more);
@@ -116,13 +115,24 @@ TriangleMesh all_meshes(const Scenario& scenario) {
 /// The structures of the runs, each once.
 struct Structures {
   struct OfRun {
-    int number = -1;       // -1: it cannot be had
-    std::string why = {};  // not
+    int number = -1;                    // -1: it cannot be had
+    std::string why = {};               // not
+    std::vector<RunInput> inputs = {};  // that it is made of
   };
   BytePack bytes;
   Json json = Json::array();
   std::vector<OfRun> of_run;
 };
+
+/// None where the run was flown around another one.
+Structures::OfRun as_flown(const Structures::OfRun& structure, const RunRecord& record) {
+  try {
+    need_same_inputs(record.folder, structure.inputs, "the page shows the run without it");
+    return structure;
+  } catch (const BadInput& error) {
+    return {.number = -1, .why = error.what()};
+  }
+}
 
 Structures pack_structures(const std::vector<RunRecord>& records) {
   std::map<std::string, Structures::OfRun> known;
@@ -135,14 +145,16 @@ Structures pack_structures(const std::vector<RunRecord>& records) {
     Structures::OfRun& structure = entry->second;
     try {
       if (is_new) {
-        const TriangleMesh mesh = all_meshes(record.scenario);
+        std::vector<std::string> told_by_run;  // the mesh's faults were told when it was flown
+        const World world = load_world_anywhere(record.scenario, told_by_run);
+        structure.inputs = world_inputs(record.scenario, world);
         structure.number = static_cast<int>(out.json.size());
-        out.json.push_back(mesh_json(mesh, max_bytes, out.bytes));
+        out.json.push_back(mesh_json(all_meshes(world), max_bytes, out.bytes));
       }
     } catch (const BadInput& error) {
       structure.why = error.what();
     }
-    out.of_run.push_back(structure);
+    out.of_run.push_back(as_flown(structure, record));
   }
   return out;
 }

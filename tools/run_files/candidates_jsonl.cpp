@@ -56,6 +56,16 @@ std::optional<Rejection> rejection_of(const std::string& name) {
   return std::nullopt;
 }
 
+/// Of a candidate that was sampled around one; -1 without. A number that is no int is none at all.
+int cluster_of(const Json& json) {
+  if (!json.contains("cluster")) return -1;
+  const Json& cluster = json.at("cluster");
+  if (!cluster.is_number_unsigned() || cluster.get<std::uint64_t>() > 2'147'483'647) {
+    throw BadInput("cluster: is no number of one");
+  }
+  return cluster.get<int>();
+}
+
 Candidate candidate_of(const Json& json) {
   const std::string& sampler = json.at("sampler").get_ref<const std::string&>();
   const auto known = sampler_named(sampler);
@@ -64,7 +74,7 @@ Candidate candidate_of(const Json& json) {
                        json.value("gimbal_pitch_rad", 0.0)},
               .sampler = *known,
               .scale = json.value("scale", 1.0),
-              .cluster = json.value("cluster", -1),
+              .cluster = cluster_of(json),
               .path_m = json.at("path_m")};
   if (json.contains("rejected")) {
     c.rejected = rejection_of(json.at("rejected"));

@@ -259,6 +259,16 @@ TEST_F(SweepFile, AFlowTextReadsBackAsTheSameValue) {
   EXPECT_EQ(flow_yaml(*block), "[\"a, b\", \"c\", d, {e: f g}]");
 }
 
+TEST_F(SweepFile, AValueThatAGridHasTwiceIsToldInFewWords) {
+  std::string grid = "scenarios: smoke\ngrid:\n";
+  for (const char* key : {"planner.agvs.step_m", "planner.cloud.leaf_m", "start.jitter_yaw_deg"}) {
+    grid += fmt::format("  {}: [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.1]\n", key);
+  }
+  const std::string fault = complaint(grid);
+  EXPECT_THAT(fault, HasSubstr("is given twice"));
+  EXPECT_LT(fault.size(), 10'000U);
+}
+
 TEST_F(SweepFile, MoreCellsThanAnybodyMeansAreRefused) {
   EXPECT_THAT(complaint("scenarios: smoke\nutilities: [proposed, isler]\nseeds: 900000\n"),
               HasSubstr("s.yaml:3: seeds: value '900000': makes 1800000 cells"));

@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+"""Ten scenarios at several numbers of threads and every instruction set: one hash each.
+
+--tries is the number of views of each mission. An instruction set that the processor lacks is
+its next lower one, and counts all the same.
+"""
+import json
+import shutil
+import tempfile
+from pathlib import Path
+
+from run_attack import Gnbv, Table, arguments, complaint
+
+THREADS = (1, 2, 3, 8)
+SIMD = ('baseline', 'avx2', 'avx512')
+SCENARIOS = {
+    'smoke, proposed': ['smoke'],
+    'smoke, tour': ['smoke', '--utility', 'tour'],
+    'smoke, bircher_volume': ['smoke', '--utility', 'bircher_volume'],
+    'smoke, kriegel, A*': ['smoke', '--utility', 'kriegel', '--set', 'planner.validity.path=astar'],
+    'smoke, stereo noise': ['smoke', '--utility', 'isler',
+                            '--set', 'cameras.0.noise.model=stereo'],
+    'smoke, GNSS': ['smoke', '--set', 'vehicle.estimate.model=gnss'],
+    'smoke, gusts': ['smoke', '--set', 'wind.gust_w20_m_s=7.7'],
+    'smoke, frames in flight': ['smoke', '--set', 'cameras.0.rate_hz=5'],
+    'smoke, coarse': ['smoke', '--utility', 'random', '--set', 'planner.map.resolution_m=0.3'],
+    'lab_model': ['lab_model'],
+}
+
+
+def hash_of(gnbv, words, threads, simd, out):
+    gnbv.environment['GNBV_SIMD'] = simd
+    done = gnbv('run', *words, '--threads', threads, '--quiet', '--out', out)
+    wrong = complaint(done)
+    if wrong or done.returncode != 0:
+        return None, wrong or done.stderr.decode(errors='replace')[-300:]
+    found = json.loads((out / 'summary.json').read_text())['result_sha256']
+    shutil.rmtree(out)
+    return found, None
+
+
+def main():
+    options = arguments(__doc__, tries=6, extra=lambda parser: parser.add_argument(
+        '--scenarios', default='', help='only those whose name holds this'))
+    table = Table()
+    with tempfile.TemporaryDirectory(prefix='gnbv_attack_') as name:
+        folder = Path(name)
+        gnbv = Gnbv(options.gnbv, folder)
+        for kind, words in SCENARIOS.items():
+            if options.scenarios not in kind:
+                continue
+            words = [*words, '--set', f'planner.termination.max_iterations={options.tries}']
+            first = None
+            for threads in THREADS:
+                for simd in SIMD:
+                    found, wrong = hash_of(gnbv, words, threads, simd, folder / 'run')
+                    first = first or found
+                    if wrong is None and found != first:
+                        wrong = f'{found[:10]} instead of {first[:10]}'
+                    table.count(kind, wrong and f'{threads} threads, {simd}: {wrong}')
+    return table.end()
+
+
+if __name__ == '__main__':
+    raise SystemExit(main())
