@@ -18,7 +18,7 @@ cd "$folder"
 
 evil='<img src=x onerror=window.hacked=1>'
 for utility in proposed tour; do
-  "$gnbv" run smoke --quiet --frames --utility "$utility" --out "$evil$utility" \
+  "$gnbv" run smoke --quiet --frames --candidates --utility "$utility" --out "$evil$utility" \
     --set planner.termination.max_iterations=4 >/dev/null
 done
 # names that only files can hold
@@ -33,5 +33,7 @@ node -e '
   }' "${evil}proposed" "${evil}tour"
 "$gnbv" report "${evil}proposed" --quiet -o one.html >/dev/null
 "$gnbv" report "${evil}proposed" "${evil}tour" --quiet -o two.html >/dev/null
-node "$here/page_test.mjs" "$chromium" one.html "${evil}proposed"
-node "$here/page_test.mjs" "$chromium" two.html "${evil}proposed" "${evil}tour"
+for test in page_test page_layers_test; do
+  node "$here/$test.mjs" "$chromium" one.html "${evil}proposed"
+  node "$here/$test.mjs" "$chromium" two.html "${evil}proposed" "${evil}tour"
+done

@@ -70,7 +70,7 @@ TEST(Report, HoldsWhatATourStillMeantToDo) {
   first.plan.views = {record.views[1].decision.view, {Vec3(1, 2, 3), 0.5}};
   MadePlan last{.iteration = 3, .plan = {}};
   write_file_atomically(temp.path() / kPlanFile, plan_jsonl(std::vector{first, last}));
-  const PackedRun run = pack_run(record, {.bytes = 100'000, .points = 100}, 1, {});
+  const PackedRun run = pack_run(record, nullptr, {.bytes = 100'000, .points = 100}, 1, {});
   ASSERT_TRUE(run.plan.has_value());
   std::vector<std::uint32_t> ranges(run.plan->ranges.count);
   std::memcpy(ranges.data(), run.bytes.bytes().data() + run.plan->ranges.at, 4 * ranges.size());
@@ -132,7 +132,8 @@ TEST(Report, UsesItsSizeAndKeepsIt) {
 TEST(PackedRun, PointsAndVoxelsAreThereAfterTheViewThatBroughtThem) {
   TempFolder temp;
   write_made_run(temp.path());
-  const PackedRun run = pack_run(read_run(temp.path()), {.bytes = 100'000, .points = 100}, 1, {});
+  const PackedRun run =
+      pack_run(read_run(temp.path()), nullptr, {.bytes = 100'000, .points = 100}, 1, {});
   const auto counts = [&](const ByteSlice& slice) {
     std::vector<std::uint32_t> values(slice.count);
     std::memcpy(values.data(), run.bytes.bytes().data() + slice.at, 4 * slice.count);

@@ -1,14 +1,18 @@
 // The plots: one cursor for all, the replay's place in each; a click moves the replay there.
 import uPlot from "uplot";
 import type { Clock } from "./clock";
-import { hairline, nowLine, paleInk, phaseShade, runColour } from "./colours";
+import { hairline, paleInk, phaseShade, runColour } from "./colours";
 import { make, select } from "./dom";
 import { lastAtMost, type Flight } from "./flight";
 import * as specs from "./plot_specs";
+import { plotSvg } from "./plot_svg";
+import { fileName, saveText } from "./save";
 
 const kUnits = { views: "views", metres: "m", seconds: "s" };
+const kEffortNames = { views: "Views", metres: "Metres from view to view",
+  seconds: "Seconds since the profile" };
 const kFont = "11px system-ui, sans-serif";
-const kHeight = 132;
+const kHeight = 146;
 
 interface PlotKind {
   title: string;
@@ -70,7 +74,14 @@ export class Plots {
         make("span", { class: "unit" }, kind.unit(this.flights)), this.marksKey(kind, content),
         this.control(kind)),
       hasValues ? place : make("p", { class: "nothing" }, "Not recorded by this run.")));
-    if (hasValues) this.plots.push(new uPlot(this.options(kind, content), content.data, place));
+    if (!hasValues) return;
+    const plot = new uPlot(this.options(kind, content), content.data, place);
+    this.plots.push(plot);
+    const title = `${kind.title} ${kind.unit(this.flights)}`.trim();
+    place.before(make("button", { type: "button", class: "small save",
+      title: `${kind.title} as SVG`, click: () => saveText(
+        plotSvg(plot, content.lines, title, kEffortNames[this.clock.effort]), "image/svg+xml",
+        `${fileName(kind.title)}.svg`) }, "SVG"));
   }
 
   /** What the marks of a plot mean, where it has any. */
@@ -88,7 +99,7 @@ export class Plots {
   /** The line at the replay's place, and the values there while no cursor asks for others. */
   private followClock() {
     for (const plot of this.plots) {
-      plot.redraw(false);
+      this.placeNow(plot);
       if ((plot.cursor.left ?? -1) < 0) this.showValues(plot);
     }
   }
@@ -137,7 +148,8 @@ export class Plots {
       legend: { live: true },
       scales: { x: { time: false, range: [0, most] },
         y: { range: (_, low, high) => yRange(low, high, content.rings) } },
-      axes: [{ ...axis, size: 26, space: 60,
+      axes: [{ ...axis, size: 26, space: 60, label: kEffortNames[this.clock.effort], labelSize: 14,
+        labelFont: kFont, labelGap: -2,
         values: (_, ticks) => ticks.map((t) => t.toLocaleString("en-US")) },
         { ...axis, size: 54, space: 28, values: (_, ticks) => shortTicks(ticks) }],
       series: [{ label: unit, value: (_, v) => text2(v, unit) },
@@ -147,8 +159,8 @@ export class Plots {
             text(lastValue(plot.data[series], i)) }))],
       hooks: {
         drawClear: [(plot) => this.shadePhases(plot)],
-        draw: [(plot) => drawRings(plot, content.rings), (plot) => this.drawNow(plot)],
-        ready: [(plot) => this.followClicks(plot)],
+        draw: [(plot) => drawRings(plot, content.rings)],
+        ready: [(plot) => this.followClicks(plot), (plot) => this.addNow(plot)],
         setCursor: [(plot) => { if ((plot.cursor.left ?? -1) < 0) this.showValues(plot); }],
       },
     };
@@ -171,11 +183,16 @@ export class Plots {
     });
   }
 
-  private drawNow(plot: uPlot) {
-    const { ctx, bbox } = plot;
-    const x = Math.round(plot.valToPos(Math.max(0, this.clock.at), "x", true));
-    ctx.fillStyle = nowLine();
-    ctx.fillRect(x, bbox.top, Math.max(1, Math.round(1.5 * devicePixelRatio)), bbox.height);
+  /** An element of its own: moving it draws no plot anew. */
+  private addNow(plot: uPlot) {
+    plot.over.append(make("div", { class: "now" }));
+    this.placeNow(plot);
+  }
+
+  private placeNow(plot: uPlot) {
+    const x = plot.valToPos(Math.max(0, this.clock.at), "x");
+    const line = plot.over.querySelector<HTMLElement>(".now");
+    if (line && Number.isFinite(x)) line.style.transform = `translateX(${x.toFixed(1)}px)`;
   }
 
   private followClicks(plot: uPlot) {
@@ -192,6 +209,7 @@ export class Plots {
     for (const plot of this.plots) {
       const width = plot.root.parentElement!.clientWidth;
       if (width > 0 && width !== plot.width) plot.setSize({ width, height: kHeight });
+      this.placeNow(plot);
     }
   }
 }
