@@ -143,11 +143,14 @@ def main():
         tries = [(file, damage, command) for file in names if options.files in file
                  for damage in DAMAGES for command in options.commands.split(',')
                  for _ in range(options.tries)][::options.every]
-        with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        pool = concurrent.futures.ThreadPoolExecutor(options.jobs)
+        try:
             for command, wrong in pool.map(
                     lambda numbered: attack(gnbv, folder, numbered[0], *numbered[1], sha,
                                             options.seed), enumerate(tries)):
                 table.count(command, wrong)
+        finally:
+            pool.shutdown(cancel_futures=True)
     return table.end()
 
 

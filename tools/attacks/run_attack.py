@@ -6,6 +6,7 @@ import os
 import pathlib
 import random
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -47,6 +48,7 @@ class Table:
 
     def __init__(self):
         self.rows = {}
+        signal.signal(signal.SIGTERM, lambda *_: sys.exit(self.end()))  # what was tried counts
 
     def count(self, kind, failure=None):
         tries, failures = self.rows.get(kind, (0, 0))

@@ -1,5 +1,6 @@
 #include "tools/exports/octomap_voxels.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <fstream>
@@ -22,6 +23,17 @@ struct BtHeader {
   double voxel_m = 0.0;
   std::size_t nodes = 0;
 };
+
+/// Surface is thin: its voxels hardly ever fill cubes that are pruned to one leaf. Many times as
+/// many voxels as a file of that size has leaves are damage, not a map.
+std::size_t most_voxels_of(const std::filesystem::path& bt) {
+  constexpr std::size_t kLeavesPerByte = 4;
+  constexpr std::size_t kVoxelsPerLeaf = 64;
+  std::error_code error;
+  const auto bytes = std::filesystem::file_size(bt, error);
+  const std::size_t most = error ? 0 : bytes * kLeavesPerByte * kVoxelsPerLeaf;
+  return std::clamp<std::size_t>(most, 1'000'000, 100'000'000);
+}
 
 /// Leaves the data next. OctoMap's own readers print to stderr, too.
 BtHeader read_header(std::istream& in, const std::filesystem::path& path) {
@@ -47,6 +59,7 @@ struct BtReader {
   std::istream& in;
   const std::filesystem::path& path;
   MeasuredVoxels& voxels;
+  std::size_t most_voxels;
   std::size_t nodes = 1;  // that were read, the root among them
 
   /// The children of the node whose first voxel is `first`, each 2^`level` voxels wide.
@@ -72,10 +85,9 @@ struct BtReader {
   }
 
   void add_occupied(const std::array<std::int32_t, 3>& first, int level) {
-    constexpr std::size_t kMostVoxels = 100'000'000;  // more are a damaged file, not a map
     const std::int32_t edge = 1 << level;
     const std::size_t count = std::size_t{1} << (3 * level);
-    if (voxels.occupied_world_m.size() + count > kMostVoxels) {
+    if (voxels.occupied_world_m.size() + count > most_voxels) {
       throw BadInput(
           fmt::format("{}: is damaged: a cube of {} occupied voxels", path.string(), count));
     }
@@ -98,7 +110,7 @@ MeasuredVoxels read_octomap(const std::filesystem::path& bt) {
   const BtHeader header = read_header(in, bt);
   MeasuredVoxels voxels{.voxel_m = header.voxel_m};
   if (header.nodes == 0) return voxels;
-  BtReader reader{in, bt, voxels};
+  BtReader reader{in, bt, voxels, most_voxels_of(bt)};
   reader.read_children({}, kTreeDepth - 1);
   if (reader.nodes != header.nodes) {
     throw BadInput(fmt::format("{}: is damaged: {} nodes, its header says {}", bt.string(),

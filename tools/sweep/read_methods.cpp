@@ -13,7 +13,7 @@ namespace {
 
 using Kind = YamlNode::Kind;
 
-// One value that a grid has twice makes as many methods of one name as it has points.
+// What two methods of one name make with a grid of thousands of points is told in few words.
 constexpr std::size_t kMostNamed = 20;
 
 struct NamedSettings {
@@ -51,7 +51,7 @@ class MethodReader {
         std::string name = base.name;
         if (!point.name.empty()) name += (name.empty() ? "" : " ") + point.name;
         if (name.empty()) name = "default";
-        if (!names.insert(name).second && ++twice <= kMostNamed) {
+        if (!names.insert(name).second && twice++ < kMostNamed) {
           yaml_.fault(root, "", fmt::format("the name '{}' is given twice", name));
         }
         methods.push_back({name, std::move(settings.overrides), std::move(settings.sources)});
@@ -119,7 +119,7 @@ class MethodReader {
     }
     for (const YamlEntry& entry : grid->entries) {
       const std::string path = "grid." + entry.key;
-      const auto values = yaml_.items_of(entry.value, path);
+      const auto values = values_of(entry.value, path);
       if (entry.key == "seed") yaml_.fault(entry.value, path, "seeds are given by the key 'seeds'");
       if (values.empty() || entry.key == "seed") continue;
       if (points.size() * values.size() > kMaxCells) {
@@ -140,6 +140,19 @@ class MethodReader {
       points = std::move(next);
     }
     return points;
+  }
+
+  /// Each once.
+  std::vector<const YamlNode*> values_of(const YamlNode& list, const std::string& path) {
+    std::vector<const YamlNode*> values = yaml_.items_of(list, path);
+    std::set<std::string> texts;
+    std::erase_if(values, [&](const YamlNode* value) {
+      const std::string text = flow_yaml(*value);
+      if (texts.insert(text).second) return false;
+      yaml_.fault(*value, path, fmt::format("the value '{}' is given twice", text));
+      return true;
+    });
+    return values;
   }
 
   /// Whether setting one of the keys sets the other, or a part of it.

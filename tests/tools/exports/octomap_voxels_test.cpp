@@ -81,6 +81,11 @@ TEST_F(OctomapVoxels, OfDamagedFilesAreRefused) {
   EXPECT_THROW(read_octomap(write_tree({2, 0})), BadInput);  // an eighth of all there can be
   EXPECT_EQ(read_octomap(write_tree({1, 0})).free_voxels, std::size_t{1} << 45U);
   EXPECT_THROW(read_octomap(write_tree({5, 0})), BadInput);  // three nodes
+  // eight levels down a cube of two million voxels: some bytes that would take all memory
+  std::string cube = "# Octomap OcTree binary file\nid OcTree\nsize 10\nres 0.1\ndata\n";
+  for (int level = 0; level < 8; ++level) cube += std::string({3, 0});
+  write_file_atomically(folder_.path() / "cube.bt", cube + std::string({2, 0}));
+  EXPECT_THROW(read_octomap(folder_.path() / "cube.bt"), BadInput);
 }
 
 TEST_F(OctomapVoxels, OfAMapThatNothingTouchedAreNone) {

@@ -259,14 +259,18 @@ TEST_F(SweepFile, AFlowTextReadsBackAsTheSameValue) {
   EXPECT_EQ(flow_yaml(*block), "[\"a, b\", \"c\", d, {e: f g}]");
 }
 
-TEST_F(SweepFile, AValueThatAGridHasTwiceIsToldInFewWords) {
-  std::string grid = "scenarios: smoke\ngrid:\n";
+TEST_F(SweepFile, WhatAGridMultipliesIsToldInFewWords) {
+  std::string grid = "grid:\n";
   for (const char* key : {"planner.agvs.step_m", "planner.cloud.leaf_m", "start.jitter_yaw_deg"}) {
     grid += fmt::format("  {}: [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.1]\n", key);
   }
-  const std::string fault = complaint(grid);
-  EXPECT_THAT(fault, HasSubstr("is given twice"));
-  EXPECT_LT(fault.size(), 10'000U);
+  const std::string values = complaint("scenarios: smoke\n" + grid);
+  EXPECT_THAT(values,
+              HasSubstr("planner.cloud.leaf_m: value '0.1': the value '0.1' is given twice"));
+  EXPECT_LT(values.size(), 1'000U);
+  const std::string methods = complaint("scenarios: smoke\nutilities: [isler, isler]\n" + grid);
+  EXPECT_THAT(methods, HasSubstr("the name 'isler step_m=0.1 leaf_m=0.1 jitter_yaw_deg=0.1' is"));
+  EXPECT_LT(methods.size(), 10'000U);
 }
 
 TEST_F(SweepFile, MoreCellsThanAnybodyMeansAreRefused) {
