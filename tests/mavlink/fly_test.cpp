@@ -88,6 +88,21 @@ TEST(Fly, SaysWhereItListens) {
   EXPECT_NE(outcome.output.find("end: duration"), std::string::npos) << outcome.output;
 }
 
+TEST(Fly, SpeaksFirstToWhereItsClientWaits) {
+  mavlink::UdpSocket client({0x7f000001, 0});
+  const std::string url = mavlink::url_of(client.address());
+  const Outcome outcome = fly("smoke --speed 5 --duration 5 --mavlink udpout" + url.substr(3));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_EQ(outcome.output.find("gnbv: speaking to " + url + " from udp://127.0.0.1:"), 0U)
+      << outcome.output;
+  const auto datagram = client.receive();  // the first of those that wait in the socket
+  ASSERT_TRUE(datagram.has_value());
+  mavlink::ReadCounts counts;
+  const auto frames = mavlink::read_frames(datagram->bytes, counts);
+  ASSERT_EQ(frames.size(), 1U);
+  EXPECT_EQ(frames[0].message_id, mavlink::Heartbeat::kInfo.id);
+}
+
 TEST(Fly, CtrlCIsAnOrdinaryEnd) {
   // the shell says its process id and becomes the program
   pid_t process = 0;
@@ -165,6 +180,8 @@ TEST(Fly, WhatCannotBeServedIsBadInput) {
        {"smoke --mavlink " + mavlink::url_of(taken.address()),
         std::string("smoke --mavlink tcp://127.0.0.1:14540"),
         std::string("smoke --mavlink udp://127.0.0.1"),
+        std::string("smoke --mavlink udpout://127.0.0.1:0"),
+        std::string("smoke --mavlink udpout://0.0.0.0:14540"),
         std::string("smoke --mavlink udp://8.8.8.8:14540"),
         std::string("smoke --mavlink udp://no-such-host.invalid:14540"), kFreePort + "--speed 0",
         kFreePort + "--duration 0", kFreePort + "--set vehicle.kind=ideal",
