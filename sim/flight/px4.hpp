@@ -76,6 +76,11 @@ class Px4 {
   bool is_armed() const;
   bool is_landed() const;
   bool is_in_failsafe() const;
+  /// Where it was armed last; before that where it stood.
+  const Eigen::Vector2d& home_world_m() const { return home_world_m_; }
+  const CommanderParameters& commander() const { return parameters_.commander; }
+  /// From now on, as PX4 takes a changed parameter. A mode that runs keeps what it began with.
+  void set_commander(const CommanderParameters& commander) { parameters_.commander = commander; }
   /// What the position loop asks of the attitude loop.
   const AttitudeSetpoint& attitude_setpoint() const;
   /// What was said since the last call, oldest first.

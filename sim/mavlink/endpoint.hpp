@@ -10,6 +10,7 @@
 
 #include "sim/flight/quadrotor.hpp"
 #include "sim/mavlink/link.hpp"
+#include "sim/mavlink/streams.hpp"
 
 namespace gnbv::mavlink {
 
@@ -18,17 +19,26 @@ struct EndpointCounts {
   std::uint64_t setpoints = 0;
   std::uint64_t refused_setpoints = 0;
   std::uint64_t commands = 0;
-  std::uint64_t ignored = 0;  // for another system, or a message the vehicle has no ear for
+  std::uint64_t questions = 0;  // parameters, missions, time
+  std::uint64_t ignored = 0;    // for another system, or a message the vehicle has no ear for
+  std::uint64_t unsaid = 0;     // beyond kOutgoingMax
   std::uint64_t sent = 0;
 };
 
+/// Frames between two calls of Endpoint::take_outgoing; more are lost, as the network loses frames:
+/// whatever a client asks, the answers take a bounded time.
+constexpr std::size_t kOutgoingMax = 256;
+
 class Endpoint {
  public:
-  /// `battery_wh` as PowerParameters has it.
-  explicit Endpoint(double battery_wh) : battery_wh_(battery_wh) {}
+  /// `battery_wh` as PowerParameters has it. A partner is spoken to before it says anything, and is
+  /// the only one who is heard.
+  explicit Endpoint(double battery_wh, std::optional<Address> partner = std::nullopt)
+      : battery_wh_(battery_wh), link_(partner) {}
 
-  /// Does what the client asks for: COMMAND_LONG and SET_MODE, each acknowledged, and
-  /// SET_POSITION_TARGET_LOCAL_NED. `now_s` is wall time from any origin.
+  /// Does what the client asks for: COMMAND_LONG, COMMAND_INT and SET_MODE, each acknowledged, and
+  /// SET_POSITION_TARGET_LOCAL_NED; answers its questions (sim/mavlink/answers.hpp). `now_s` is
+  /// wall time from any origin.
   void receive(std::span<const std::uint8_t> datagram, const Address& from, double now_s,
                Quadrotor& vehicle);
   void count_oversized_datagram() { link_.count_oversized_datagram(); }
@@ -46,12 +56,14 @@ class Endpoint {
 
  private:
   void obey(const Frame& frame, double now_s, Quadrotor& vehicle);
+  void answer(const Frame& frame, Quadrotor& vehicle);
   void obey(const Px4Command& command, const Frame& frame, Quadrotor& vehicle);
   void obey(const SetPositionTargetLocalNed& message, double now_s, Quadrotor& vehicle);
+  /// The commands that are about messages, not about flight; nullopt for the others.
+  std::optional<Ack> obey_about_messages(const Px4Command& command, const Quadrotor& vehicle);
+  void refuse_setpoint(const std::string& reason, double now_s);
   void say(const gnbv::StatusText& text);
-  void send_telemetry(double now_s, const Quadrotor& vehicle);
-  template <typename Message>
-  void send(const Message& message);
+  void send(Packed message);
 
   double battery_wh_;
   Link link_;
@@ -61,16 +73,7 @@ class Endpoint {
   std::uint16_t text_id_ = 0;
   std::string refusal_told_;
   double refusal_told_s_ = 0.0;
-
-  /// When each message is to be sent next.
-  struct Due {
-    double heartbeat_s = 0.0;
-    double attitude_s = 0.0;
-    double local_position_s = 0.0;
-    double battery_s = 0.0;
-    double extended_state_s = 0.0;
-  };
-  Due due_;
+  Streams streams_;
 };
 
 }  // namespace gnbv::mavlink

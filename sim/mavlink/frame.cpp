@@ -78,7 +78,7 @@ std::size_t read_frame(std::span<const std::uint8_t> bytes, ReadCounts& counts,
   // what costs least is asked first: the CRC of a wrong length is never computed
   if (info == nullptr || (h.incompatibility_flags & ~kSignedFlag) != 0) {
     ++counts.unknown;
-  } else if (h.payload_size > (h.is_version_1 ? info->base_size : info->size)) {
+  } else if (h.is_version_1 && h.payload_size > info->base_size) {
     ++counts.oversized;
   } else if (h.is_version_1 && h.payload_size < info->base_size) {
     ++counts.truncated;
@@ -89,7 +89,7 @@ std::size_t read_frame(std::span<const std::uint8_t> bytes, ReadCounts& counts,
     ++counts.read;
     const auto payload = bytes.subspan(h.header_size, h.payload_size);
     h.frame.payload.assign(payload.begin(), payload.end());
-    h.frame.payload.resize(info->size, 0);
+    h.frame.payload.resize(info->size, 0);  // fields left off are 0, those of a later day unknown
     frames.push_back(std::move(h.frame));
     return h.frame_size;
   }

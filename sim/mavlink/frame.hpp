@@ -10,8 +10,9 @@
 
 namespace gnbv::mavlink {
 
-/// A frame whose CRC was right. `payload` has all the message's fields: what the sender left off
-/// (MAVLink 2 drops trailing zeros) is zero again.
+/// A frame whose CRC was right. `payload` has all the message's fields and no more: what the sender
+/// left off (MAVLink 2 drops trailing zeros) is zero again, and what a newer sender's message has
+/// behind them (extension fields) is left off.
 struct Frame {
   std::uint8_t sequence = 0;
   std::uint8_t system_id = 0;
@@ -26,7 +27,7 @@ struct ReadCounts {
   std::uint64_t bad_crc = 0;
   std::uint64_t truncated =
       0;  // the datagram ends before the frame, or MAVLink 1 with fields missing
-  std::uint64_t oversized = 0;  // a payload longer than its message
+  std::uint64_t oversized = 0;  // MAVLink 1 with a payload longer than its message
   std::uint64_t unknown = 0;  // a message or an incompatibility flag that is not ours to understand
 };
 

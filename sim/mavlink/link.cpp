@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sim/mavlink/query_messages.hpp"
+
 namespace gnbv::mavlink {
 namespace {
 
@@ -15,25 +17,25 @@ bool is_for_us(std::uint8_t system, std::uint8_t component) {
 }
 
 bool asks_for_something(const Frame& frame) {
-  if (frame.message_id == CommandLong::kInfo.id) {
-    const auto message = message_of<CommandLong>(frame.payload);
+  const auto is_ours = [&]<typename Message>() {
+    if (frame.message_id != Message::kInfo.id) return false;
+    const auto message = message_of<Message>(frame.payload);
     return is_for_us(message.target_system, message.target_component);
-  }
+  };
   if (frame.message_id == SetMode::kInfo.id) {
     return is_for_us(message_of<SetMode>(frame.payload).target_system, kComponent);
   }
-  if (frame.message_id == SetPositionTargetLocalNed::kInfo.id) {
-    const auto message = message_of<SetPositionTargetLocalNed>(frame.payload);
-    return is_for_us(message.target_system, message.target_component);
-  }
-  return false;
+  return is_ours.operator()<CommandLong>() || is_ours.operator()<CommandInt>() ||
+         is_ours.operator()<SetPositionTargetLocalNed>() ||
+         is_ours.operator()<SetPositionTargetGlobalInt>() ||
+         is_ours.operator()<SetAttitudeTarget>();
 }
 
 std::vector<Frame> Link::receive(std::span<const std::uint8_t> datagram, const Address& from,
                                  double now_s, bool is_armed) {
   ++counts_.datagrams;
   const bool is_foreign = client_.has_value() && *client_ != from;
-  const bool is_held = is_armed || now_s - asked_s_ <= kClientSilence_s;
+  const bool is_held = is_for_good_ || is_armed || now_s - asked_s_ <= kClientSilence_s;
   if (is_foreign && is_held) {  // not even read: a flood from elsewhere costs little
     ++counts_.foreign_datagrams;
     return {};

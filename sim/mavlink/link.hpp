@@ -31,7 +31,7 @@ constexpr std::uint8_t kSystem = 1;
 constexpr std::uint8_t kComponent = 1;  // MAV_COMP_ID_AUTOPILOT1
 bool is_for_us(std::uint8_t system, std::uint8_t component);
 
-/// A command, a mode or a setpoint for us; heartbeats ask for nothing.
+/// A command, a mode or a setpoint for us; heartbeats and questions ask for nothing.
 bool asks_for_something(const Frame& frame);
 
 /// The first address from which a good frame comes is the client's, for as long as the vehicle is
@@ -39,9 +39,13 @@ bool asks_for_something(const Frame& frame);
 /// good frame when the client was silent for kClientSilence_s, and by asking for something when
 /// the client asked for nothing that long. MAVLink 2 signatures are not checked: whoever can send
 /// from the client's address is the client.
+/// A partner, whom the vehicle speaks to first, has the place from the beginning and for good.
 class Link {
  public:
   static constexpr double kClientSilence_s = 5.0;
+
+  explicit Link(std::optional<Address> partner = std::nullopt)
+      : client_(partner), is_for_good_(partner.has_value()) {}
 
   /// The datagram's frames that are good and the client's. `now_s` is any clock that never goes
   /// back.
@@ -55,6 +59,7 @@ class Link {
 
  private:
   std::optional<Address> client_;
+  bool is_for_good_ = false;
   double heard_s_ = 0.0;  // the client's last good frame
   double asked_s_ = 0.0;  // its last that asked for something
   LinkCounts counts_;

@@ -23,7 +23,7 @@ struct MessageInfo {
   std::uint8_t size = 0;
 };
 
-/// nullptr for a message that is none of those below.
+/// nullptr for a message that is none of those below, of state_messages.hpp or query_messages.hpp.
 const MessageInfo* find_message(std::uint32_t id);
 
 struct Heartbeat {
@@ -101,6 +101,35 @@ struct CommandAck {
   static auto fields(auto& m) {
     return std::tie(m.command, m.result, m.progress, m.result_param2, m.target_system,
                     m.target_component);
+  }
+};
+
+/// Refused; of its fields only the target is of use.
+struct SetAttitudeTarget {
+  static constexpr MessageInfo kInfo = {82, 49, 39, 51};
+  std::array<float, 9> of_no_use{};  // time, quaternion, rates, thrust
+  std::uint8_t target_system = 0;
+  std::uint8_t target_component = 0;
+  std::uint8_t type_mask = 0;
+  std::array<float, 3> thrust_body{};
+
+  static auto fields(auto& m) {
+    return std::tie(m.of_no_use, m.target_system, m.target_component, m.type_mask, m.thrust_body);
+  }
+};
+
+/// Refused likewise: the vehicle's places are local.
+struct SetPositionTargetGlobalInt {
+  static constexpr MessageInfo kInfo = {86, 5, 53, 53};
+  std::array<float, 12> of_no_use{};
+  std::uint16_t type_mask = 0;
+  std::uint8_t target_system = 0;
+  std::uint8_t target_component = 0;
+  std::uint8_t coordinate_frame = 0;
+
+  static auto fields(auto& m) {
+    return std::tie(m.of_no_use, m.type_mask, m.target_system, m.target_component,
+                    m.coordinate_frame);
   }
 };
 

@@ -79,6 +79,26 @@ Address resolve_udp_url(const std::string& url) {
   return address;
 }
 
+Meeting resolve_meeting(const std::string& url) {
+  constexpr std::string_view kOut = "udpout://";
+  constexpr std::string_view kIn = "udpin://";
+  for (const std::string_view scheme : {kOut, kIn}) {
+    if (!url.starts_with(scheme)) continue;
+    const std::string rest = url.substr(scheme.size());
+    const Address address = resolve_udp_url(std::string(kScheme) + rest);
+    if (scheme == kOut && (address.host == INADDR_ANY || address.port == 0)) {
+      throw BadInput(fmt::format("{}: nobody waits there; name the client's own address", url));
+    }
+    return {address, scheme == kOut};
+  }
+  return {resolve_udp_url(url), false};
+}
+
+Address bound_for(const Meeting& meeting) {
+  if (!meeting.speaks_first) return meeting.address;
+  return {is_loopback(meeting.address) ? INADDR_LOOPBACK : INADDR_ANY, 0};
+}
+
 UdpSocket::UdpSocket(const Address& address)
     : descriptor_(socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {
   sockaddr_in system = to_system(address);

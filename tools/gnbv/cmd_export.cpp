@@ -9,6 +9,7 @@
 #include "tools/exports/export_folder.hpp"
 #include "tools/exports/nerfstudio.hpp"
 #include "tools/exports/plain.hpp"
+#include "tools/exports/timeline.hpp"
 #include "tools/exports/tum.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/shared_options.hpp"
@@ -129,14 +130,32 @@ void note_changed_inputs(const RunRecord& record) {
   }
 }
 
+std::optional<TriangleMesh> structure_if_there(const RunRecord& record) {
+  try {
+    std::vector<std::string> warnings;
+    return load_structure(record.scenario, warnings);
+  } catch (const BadInput& error) {
+    note(error.what());
+    return std::nullopt;
+  }
+}
+
+void fill_timeline(const Export& e, const fs::path& folder) {
+  const std::string written = write_timeline(e.record,
+                                             {.structure = structure_if_there(e.record),
+                                              .cloud = cloud_if_there(e.record),
+                                              .frames = frames_if_kept(e.record)},
+                                             e.options.format, folder);
+  if (!e.options.quiet) say("{}", written);
+}
+
 using Fill = void (*)(const Export&, const fs::path&);
-const std::map<std::string, Fill> kFills = {{"colmap", fill_colmap},
-                                            {"nerfstudio", fill_nerfstudio},
-                                            {"plain", fill_plain},
-                                            {"tum", fill_tum}};
+const std::map<std::string, Fill> kFills = {
+    {"colmap", fill_colmap}, {"mcap", fill_timeline},  {"nerfstudio", fill_nerfstudio},
+    {"plain", fill_plain},   {"rerun", fill_timeline}, {"tum", fill_tum}};
 
 void export_run(const ExportOptions& options) {
-  if (options.points && (options.format == "plain" || options.format == "tum")) {
+  if (options.points && options.format != "colmap" && options.format != "nerfstudio") {
     throw BadInput(fmt::format("--points: {} has no sparse model", options.format));
   }
   const RunRecord record = read_run(options.run);
@@ -161,7 +180,7 @@ void add_export_command(CLI::App& app) {
   command
       ->add_option("--format", options->format,
                    "of the folder that is written; images have the poses that the vehicle "
-                   "believed, in tum the true ones, too")
+                   "believed, in tum the true ones, too; rerun and mcap are written in Python")
       ->required()
       ->check(CLI::IsMember(kFills));
   command->add_option(

@@ -20,7 +20,7 @@ namespace {
 
 struct FlyOptions {
   ScenarioOptions scenario;
-  std::string url = "udp://127.0.0.1:14540";
+  std::string url = "udpout://127.0.0.1:14540";  // PX4's onboard link
   double speed = 1.0;
   double duration_s = 0.0;
   bool json = false;
@@ -55,6 +55,7 @@ nlohmann::ordered_json summary_of(const Scenario& scenario, const Quadrotor& veh
           {"setpoints", obeyed.setpoints},
           {"refused_setpoints", obeyed.refused_setpoints},
           {"commands", obeyed.commands},
+          {"questions", obeyed.questions},
           {"ignored", obeyed.ignored},
           {"sent", obeyed.sent},
           {"dropped",
@@ -76,12 +77,12 @@ std::string text_of(const nlohmann::ordered_json& s) {
   const auto count = [&](const char* key) { return s.at(key).get<std::uint64_t>(); };
   return fmt::format(
       "{}: {:.2f} s simulated in {:.2f} s, {:.2f} Wh, end: {}\n"
-      "frames: {} accepted ({} setpoints, {} refused, {} commands, {} ignored), {} sent; dropped: "
-      "{}\n",
+      "frames: {} accepted ({} setpoints, {} refused, {} commands, {} questions, {} ignored), {} "
+      "sent; dropped: {}\n",
       s.at("scenario").get<std::string>(), s.at("flight_time_s").get<double>(),
       s.at("wall_s").get<double>(), s.at("energy_wh").get<double>(), s.at("end").get<std::string>(),
       count("accepted"), count("setpoints"), count("refused_setpoints"), count("commands"),
-      count("ignored"), count("sent"), dropped);
+      count("questions"), count("ignored"), count("sent"), dropped);
 }
 
 void need_ground_and_rotors(const Scenario& scenario) {
@@ -111,31 +112,48 @@ ViewPose ground_start(const Scenario& scenario, const RayScene& scene) {
                   start.p_world_m.x(), start.p_world_m.y(), clearance_m));
 }
 
-void warn_beyond_loopback(const mavlink::Address& address) {
-  if (mavlink::is_loopback(address)) return;
-  say("warning: {} can be reached from other machines, and MAVLink asks for no key: whoever speaks "
-      "to it first flies the vehicle; 127.0.0.1 is this machine alone",
-      mavlink::url_of(address));
+void warn_beyond_loopback(const mavlink::Meeting& meeting) {
+  if (mavlink::is_loopback(meeting.address)) return;
+  const std::string url = mavlink::url_of(meeting.address);
+  if (meeting.speaks_first) {
+    say("warning: {} is another machine, and MAVLink asks for no key: whoever can send from there "
+        "flies the vehicle",
+        url);
+  } else {
+    say("warning: {} can be reached from other machines, and MAVLink asks for no key: whoever "
+        "speaks to it first flies the vehicle; 127.0.0.1 is this machine alone",
+        url);
+  }
+}
+
+/// Where, and what stands there, in the line that scripts wait for.
+void say_ready(const FlyOptions& options, const mavlink::Meeting& meeting,
+               const mavlink::Address& bound, const std::string& vehicle, const ViewPose& start) {
+  const std::string where =
+      meeting.speaks_first ? fmt::format("speaking to {} from {}", mavlink::url_of(meeting.address),
+                                         mavlink::url_of(bound))
+                           : fmt::format("listening on {}", mavlink::url_of(bound));
+  say("{}, {} at x {:.2f} y {:.2f} m, speed {}; Ctrl-C ends", where, vehicle, start.p_world_m.x(),
+      start.p_world_m.y(), options.speed);
 }
 
 void fly(const FlyOptions& options) {
   const Scenario scenario = resolve_scenario(options.scenario);
   need_ground_and_rotors(scenario);
-  const mavlink::Address address = mavlink::resolve_udp_url(options.url);
+  const mavlink::Meeting meeting = mavlink::resolve_meeting(options.url);
   std::vector<std::string> warnings;
   const World world = load_world(scenario, warnings);
   for (const std::string& warning : warnings) say(warning);
   const ViewPose start = ground_start(scenario, RayScene(world));
   Quadrotor vehicle(scenario.vehicle, world, start, scenario.seed, Px4::Start::on_ground,
                     scenario.wind);
-  mavlink::Endpoint endpoint(scenario.vehicle.power.battery_wh);
-  mavlink::UdpSocket socket(address);
+  mavlink::Endpoint endpoint(scenario.vehicle.power.battery_wh,
+                             meeting.speaks_first ? std::optional(meeting.address) : std::nullopt);
+  mavlink::UdpSocket socket(mavlink::bound_for(meeting));
 
   const InterruptGuard interrupt;
-  warn_beyond_loopback(socket.address());
-  say("listening on {}, {} at x {:.2f} y {:.2f} m, speed {}; Ctrl-C ends",
-      mavlink::url_of(socket.address()), scenario.vehicle.preset, start.p_world_m.x(),
-      start.p_world_m.y(), options.speed);
+  warn_beyond_loopback(meeting.speaks_first ? meeting : mavlink::Meeting{socket.address()});
+  say_ready(options, meeting, socket.address(), scenario.vehicle.preset, start);
   const auto on_lag = [&options] {
     say("this machine does not always keep up with --speed {}: the time that it is late "
         "is not made up for",
@@ -164,15 +182,20 @@ void add_fly_command(CLI::App& app) {
   command->footer(
       "The vehicle stands on the ground at the scenario's start, disarmed, as system 1, component "
       "1,\n"
-      "and speaks like PX4. It listens at the URL and answers the first client that sends it a\n"
-      "good frame. While the vehicle is armed nobody else is heard; while it is not, another\n"
-      "address is answered when that client was silent for 5 s, or asks for something when the\n"
-      "client asked for nothing in 5 s. NED coordinates count from the scenario's origin: north\n"
-      "is y, east is x.");
+      "and speaks like PX4: first, to port 14540 of this machine, where MAVSDK and pymavlink "
+      "wait,\n"
+      "and hears nobody else (QGroundControl waits at udpout://127.0.0.1:14550). With udpin:// it\n"
+      "waits itself, and answers the first client that sends it a good frame: while the vehicle "
+      "is\n"
+      "armed nobody else is heard; while it is not, another address is answered when that client\n"
+      "was silent for 5 s, or asks for something when the client asked for nothing in 5 s.\n"
+      "NED coordinates count from the scenario's origin: north is y, east is x; on the globe it\n"
+      "lies at 47.397742 N 8.545594 E, its z = 0 at sea level.");
   add_scenario_options(*command, options->scenario);
   command
       ->add_option("--mavlink", options->url,
-                   "udp://HOST:PORT to listen at; port 0 finds a free one")
+                   "udpout://HOST:PORT to speak to, or udpin://HOST:PORT to listen at (udp:// "
+                   "means the same), where port 0 finds a free one")
       ->capture_default_str();
   command
       ->add_option("--speed", options->speed,

@@ -9,11 +9,17 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 
 extern char** environ;
 
 namespace gnbv {
+
+std::string python_program() {
+  const char* const asked = std::getenv("GNBV_PYTHON");
+  return asked != nullptr && *asked != '\0' ? asked : "python3";
+}
 
 // a socket pair, so that writing to a child that has ended raises no signal
 ChildPipe::ChildPipe(const std::vector<std::string>& command) {

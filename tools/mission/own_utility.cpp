@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -55,11 +54,6 @@ Json dtype_of(const OwnUtilityConfig& config) {
           {"formats", formats},
           {"offsets", offsets},
           {"itemsize", sizeof(OwnCandidate)}};
-}
-
-std::string python_program() {
-  const char* const asked = std::getenv("GNBV_PYTHON");
-  return asked != nullptr && *asked != '\0' ? asked : "python3";
 }
 
 class PythonUtility {

@@ -1,99 +1,19 @@
 // The vehicle as a client meets it: frames in, frames out, no network and no wall clock.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <functional>
-#include <map>
+#include <array>
+#include <bit>
 #include <ostream>
 
 #include "sim/core/rng.hpp"
-#include "sim/mavlink/border.hpp"
-#include "sim/mavlink/endpoint.hpp"
-#include "sim/mavlink/telemetry.hpp"
-#include "sim/mesh/world.hpp"
+#include "tests/sim/mavlink/mavlink_session.hpp"
 
 namespace gnbv::mavlink {
 namespace {
 
-constexpr Address kClient = {0x7f000001, 40001};
-constexpr std::uint16_t kArmDisarm = 400;  // MAV_CMD
-constexpr std::uint16_t kDoSetMode = 176;
-constexpr std::uint16_t kNavLand = 21;
-constexpr std::uint16_t kRequestMessage = 512;
+constexpr std::uint16_t kNavLand = 21;  // MAV_CMD
+constexpr std::uint16_t kDoReposition = 192;
 constexpr std::uint8_t kArmedFlag = 128;
-
-/// A client and the vehicle on open ground, in step: wall time is simulation time.
-class Session {
- public:
-  explicit Session(double battery_wh = 0.0)
-      : vehicle_({}, World{}, ViewPose{}, 1, Px4::Start::on_ground), endpoint_(battery_wh) {}
-
-  template <typename Message>
-  void send(const Message& message) {
-    endpoint_.receive(write_frame({sequence_++, 255, 190, Message::kInfo.id, payload_of(message)}),
-                      kClient, now_s(), vehicle_);
-  }
-  void command(std::uint16_t id, float param1 = 0, float param2 = 0) {
-    send(CommandLong{
-        .param = {param1, param2}, .command = id, .target_system = 1, .target_component = 1});
-  }
-  /// Position and heading east, as an offboard stream repeats it.
-  void send_position(const Vec3& p_world_m) {
-    const Vec3 p_ned_m = swap_enu_ned(p_world_m);
-    send(SetPositionTargetLocalNed{
-        .p_m = {static_cast<float>(p_ned_m.x()), static_cast<float>(p_ned_m.y()),
-                static_cast<float>(p_ned_m.z())},
-        .type_mask = 2552,
-        .target_system = 1,
-        .target_component = 1,
-        .coordinate_frame = 1});
-  }
-
-  /// One tick, and what the vehicle says after it.
-  void step() {
-    vehicle_.step();
-    listen();
-  }
-  void listen() {
-    for (const auto& bytes : endpoint_.take_outgoing(now_s(), vehicle_)) {
-      ++frames_heard_;
-      ReadCounts counts;
-      const auto frames = read_frames(bytes, counts);
-      ASSERT_EQ(frames.size(), 1U);
-      heard_[frames[0].message_id].push_back(frames[0]);
-    }
-  }
-  /// Steps with a setpoint every 40 ms until it is so, at most this long.
-  bool fly_until(const Vec3& p_world_m, double limit_s, const std::function<bool()>& is_so) {
-    const double begin_s = now_s();
-    while (now_s() - begin_s < limit_s) {
-      if (is_so()) return true;
-      if (vehicle_.tick() % 10 == 0) send_position(p_world_m);
-      step();
-    }
-    return false;
-  }
-
-  template <typename Message>
-  std::size_t count() {
-    return heard_[Message::kInfo.id].size();
-  }
-  template <typename Message>
-  Message last() {
-    return message_of<Message>(heard_[Message::kInfo.id].back().payload);
-  }
-  std::uint64_t frames_heard() const { return frames_heard_; }
-  double now_s() const { return static_cast<double>(vehicle_.tick()) * kTick_s; }
-  Quadrotor& vehicle() { return vehicle_; }
-  Endpoint& endpoint() { return endpoint_; }
-
- private:
-  Quadrotor vehicle_;
-  Endpoint endpoint_;
-  std::uint8_t sequence_ = 0;
-  std::uint64_t frames_heard_ = 0;
-  std::map<std::uint32_t, std::vector<Frame>> heard_;
-};
 
 TEST(MavlinkEndpoint, NothingIsSentBeforeAClientSpeaks) {
   Session session;
@@ -136,10 +56,10 @@ TEST(MavlinkEndpoint, EveryCommandForUsIsAcknowledgedOnce) {
   EXPECT_EQ(session.last<CommandAck>().target_system, 255);
   EXPECT_EQ(session.last<CommandAck>().target_component, 190);
   EXPECT_EQ(session.last<Heartbeat>().base_mode & kArmedFlag, kArmedFlag);
-  session.command(kRequestMessage, 30);
+  session.command(kDoReposition);
   session.listen();
   ASSERT_EQ(session.count<CommandAck>(), 2U);
-  EXPECT_EQ(session.last<CommandAck>().command, kRequestMessage);
+  EXPECT_EQ(session.last<CommandAck>().command, kDoReposition);
   EXPECT_EQ(session.last<CommandAck>().result, static_cast<int>(Ack::unsupported));
 }
 

@@ -99,6 +99,17 @@ TEST(MavlinkLink, NobodyTakesOverAVehicleInFlight) {
   EXPECT_TRUE(ears.hears_command(1006.0, kOther));
 }
 
+TEST(MavlinkLink, WhoIsSpokenToFirstKeepsThePlaceForGood) {
+  Ears ears{.link = Link(kClient)};
+  EXPECT_EQ(ears.link.client(), kClient);
+  for (const double now_s : {0.0, 100.0}) {
+    EXPECT_FALSE(ears.hears_command(now_s, kOther)) << "however long the partner is silent";
+    EXPECT_TRUE(ears.hears_heartbeat(now_s));
+  }
+  EXPECT_EQ(ears.link.client(), kClient);
+  EXPECT_EQ(ears.link.counts().foreign_datagrams, 2U);
+}
+
 TEST(MavlinkLink, EveryDatagramIsAccountedFor) {
   Ears ears;
   ears.hears_heartbeat(0.0);

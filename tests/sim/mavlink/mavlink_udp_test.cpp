@@ -35,6 +35,23 @@ TEST(MavlinkUdp, EveryOtherUrlIsBadInputThatNamesIt) {
   }
 }
 
+TEST(MavlinkUdp, TheSchemeSaysWhoSpeaksFirst) {
+  const Meeting out = resolve_meeting("udpout://127.0.0.1:14540");
+  EXPECT_TRUE(out.speaks_first);
+  EXPECT_EQ(out.address, (Address{kLoopback, 14540}));
+  EXPECT_EQ(bound_for(out), (Address{kLoopback, 0})) << "never all interfaces";
+  EXPECT_EQ(bound_for(resolve_meeting("udpout://192.168.0.7:1")), (Address{0, 0}));
+  for (const std::string url : {"udp://127.0.0.1:7", "udpin://127.0.0.1:7"}) {
+    const Meeting in = resolve_meeting(url);
+    EXPECT_FALSE(in.speaks_first);
+    EXPECT_EQ(bound_for(in), (Address{kLoopback, 7}));
+  }
+  for (const std::string url : {"udpout://127.0.0.1:0", "udpout://0.0.0.0:14540", "udpout://",
+                                "udpin://127.0.0.1", "udpboth://127.0.0.1:7"}) {
+    EXPECT_THROW(resolve_meeting(url), BadInput) << url;
+  }
+}
+
 TEST(MavlinkUdp, APortInUseIsBadInput) {
   const UdpSocket first({kLoopback, 0});
   EXPECT_NE(first.address().port, 0);

@@ -1,0 +1,92 @@
+"""`gnbv fly` beside the clients that fly it, and a run to be read. GNBV names the program."""
+
+import json
+import os
+import re
+import signal
+import socket
+import subprocess
+from pathlib import Path
+
+import pytest
+
+
+def free_port() -> int:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+def gnbv(*arguments) -> subprocess.CompletedProcess[str]:
+    command = [os.environ["GNBV"], *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True)
+
+
+@pytest.fixture(scope="session")
+def run(tmp_path_factory) -> Path:
+    """A mission of `smoke` that kept its frames."""
+    folder = tmp_path_factory.mktemp("runs") / "run"
+    flown = gnbv("run", "smoke", "--quiet", "--frames", "--out", folder)
+    assert flown.returncode == 0, flown.stderr
+    return folder
+
+
+@pytest.fixture(scope="session")
+def export(run):
+    """export(format) -> the folder that `gnbv export` wrote."""
+
+    def written(kind: str) -> Path:
+        done = gnbv("export", run, "--format", kind)
+        assert done.returncode == 0, done.stderr
+        return Path(done.stdout.strip())
+
+    return written
+
+
+class Vehicle:
+    """A quadrotor on the ground of `smoke`, in real time."""
+
+    def __init__(self, port: int, *arguments: str):
+        self.port = port
+        # a client that this machine keeps waiting for a second is not a lost one
+        patience = ["--set", "vehicle.autopilot.commander.offboard_loss_s=4"]
+        self.process = subprocess.Popen(
+            [os.environ["GNBV"], "fly", "smoke", "--json", *patience, *arguments],
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.ready = ""
+        while not re.match(r"gnbv: (speaking to|listening on) ", self.ready):
+            self.ready = self.process.stderr.readline()
+            assert self.ready, "gnbv fly ended at once"
+
+    @property
+    def address(self) -> tuple[str, int]:
+        """Where it is spoken to."""
+        where = re.search(r"(?:from|on) udp://([0-9.]+):(\d+)", self.ready)
+        return where[1], int(where[2])
+
+    def end(self) -> dict:
+        """Its summary, after an ordinary end."""
+        self.process.send_signal(signal.SIGINT)
+        summary, complaints = self.process.communicate(timeout=30)
+        assert self.process.returncode == 0, complaints
+        print(summary)
+        return json.loads(summary)
+
+
+@pytest.fixture
+def fly():
+    """fly(*arguments, port=...) -> Vehicle that speaks first to that port of this machine."""
+    vehicles = []
+
+    def start(*arguments: str, port: int | None = None) -> Vehicle:
+        port = free_port() if port is None else port
+        if "--mavlink" not in arguments and port != 14540:  # which is the default
+            arguments += ("--mavlink", f"udpout://127.0.0.1:{port}")
+        vehicles.append(Vehicle(port, *arguments))
+        return vehicles[-1]
+
+    yield start
+    for vehicle in vehicles:
+        if vehicle.process.poll() is None:
+            vehicle.process.kill()
+            vehicle.process.communicate()

@@ -1,0 +1,288 @@
+// What a ground station asks at connection, and what it is answered.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "sim/core/rng.hpp"
+#include "sim/mavlink/parameters.hpp"
+#include "sim/mavlink/query_messages.hpp"
+#include "sim/mavlink/state_messages.hpp"
+#include "tests/sim/mavlink/mavlink_session.hpp"
+
+namespace gnbv::mavlink {
+namespace {
+
+enum Command : std::uint16_t {  // MAV_CMD
+  kGetMessageInterval = 510,
+  kSetMessageInterval = 511,
+  kRequestMessage = 512,
+  kRequestAutopilotCapabilities = 520
+};
+
+ParameterId id_of(std::string_view name) {
+  ParameterId id{};
+  std::ranges::copy(name, id.begin());
+  return id;
+}
+
+std::string name_of(const ParameterId& id) { return {id.begin(), std::ranges::find(id, '\0')}; }
+
+ParamSet set(std::string_view name, float value, std::uint8_t type = 9) {
+  return {value, 1, 1, id_of(name), type};
+}
+
+TEST(MavlinkQuestions, AVehicleThatSpeaksFirstDoesSo) {
+  Session session(0.0, kClient);
+  session.step();
+  EXPECT_EQ(session.count<Heartbeat>(), 1U);
+  EXPECT_EQ(session.count<LocalPositionNed>(), 1U);
+}
+
+TEST(MavlinkQuestions, TelemetryComesAtTheRatesAskedFor) {
+  Session session;
+  session.command(kSetMessageInterval, Attitude::kInfo.id, 100'000);
+  session.command(kSetMessageInterval, LocalPositionNed::kInfo.id, -1);
+  session.command(kSetMessageInterval, GlobalPositionInt::kInfo.id, 20'000);
+  session.command(kGetMessageInterval, Attitude::kInfo.id);
+  session.listen();
+  EXPECT_EQ(session.last<MessageInterval>().interval_us, 100'000);
+  EXPECT_EQ(session.last<MessageInterval>().message_id, Attitude::kInfo.id);
+  for (const auto& ack : session.all<CommandAck>()) EXPECT_EQ(ack.result, 0);
+  session.forget();
+  for (int i = 0; i < 10 * kTicksPerSecond; ++i) session.step();
+  EXPECT_NEAR(static_cast<double>(session.count<Attitude>()), 100, 2);
+  EXPECT_EQ(session.count<LocalPositionNed>(), 0U);
+  EXPECT_NEAR(static_cast<double>(session.count<GlobalPositionInt>()), 500, 2);
+  session.command(kSetMessageInterval, LocalPositionNed::kInfo.id, 0);
+  session.forget();
+  for (int i = 0; i < 10 * kTicksPerSecond; ++i) session.step();
+  EXPECT_NEAR(static_cast<double>(session.count<LocalPositionNed>()), 300, 2) << "the default";
+}
+
+TEST(MavlinkQuestions, AnIntervalThatIsNoneIsUnsupported) {
+  Session session;
+  for (const float id : {-1.0F, 12345.0F, 3e38F, std::nanf("")}) {
+    session.command(kSetMessageInterval, id, 1000);
+    session.listen();
+    EXPECT_EQ(session.last<CommandAck>().result, 3) << id;
+  }
+  session.command(kSetMessageInterval, Attitude::kInfo.id, std::nanf(""));
+  session.listen();
+  EXPECT_EQ(session.last<CommandAck>().result, 3);
+}
+
+TEST(MavlinkQuestions, AskedForAMessageItComesWithItsAcknowledgement) {
+  Session session;
+  session.command(kRequestMessage, AutopilotVersion::kInfo.id);
+  session.command(kRequestMessage, ProtocolVersion::kInfo.id);
+  session.command(kRequestMessage, GpsGlobalOrigin::kInfo.id);
+  session.command(kRequestAutopilotCapabilities, 1);
+  session.listen();
+  EXPECT_EQ(session.count<CommandAck>(), 4U);
+  for (const auto& ack : session.all<CommandAck>()) EXPECT_EQ(ack.result, 0) << ack.command;
+  ASSERT_EQ(session.count<AutopilotVersion>(), 2U);
+  EXPECT_EQ(session.last<AutopilotVersion>().capabilities, 8348U);
+  EXPECT_EQ(session.last<ProtocolVersion>().max_version, 200);
+  EXPECT_EQ(session.last<GpsGlobalOrigin>().lat_deg_e7, 473977420);
+  session.command(kRequestMessage, 397);  // COMPONENT_METADATA
+  session.listen();
+  EXPECT_EQ(session.last<CommandAck>().result, 3);
+}
+
+TEST(MavlinkQuestions, EveryParameterIsListedOnceAndCanBeReadBothWays) {
+  Session session;
+  session.send(ParamRequestList{1, 1});
+  session.listen();
+  const auto listed = session.all<ParamValue>();
+  ASSERT_GT(listed.size(), 20U);
+  std::set<std::string> names;
+  for (const ParamValue& value : listed) {
+    EXPECT_EQ(value.param_count, listed.size());
+    EXPECT_TRUE(names.insert(name_of(value.param_id)).second) << name_of(value.param_id);
+    session.send(ParamRequestRead{static_cast<std::int16_t>(value.param_index), 1, 1, {}});
+    session.send(ParamRequestRead{-1, 1, 1, value.param_id});
+    session.forget();
+    session.listen();
+    const auto read = session.all<ParamValue>();
+    ASSERT_EQ(read.size(), 2U);
+    for (const ParamValue& again : read) EXPECT_EQ(payload_of(again), payload_of(value));
+  }
+  session.send(ParamRequestRead{-1, 1, 1, id_of("NO_SUCH")});
+  session.listen();
+  EXPECT_EQ(session.count<ParamValue>(), 2U);
+  EXPECT_STREQ(session.last<StatusText>().text.data(), "no parameter NO_SUCH");
+}
+
+TEST(MavlinkQuestions, AParameterIsSetWithinItsRangeAndTheAnswerIsWhatHolds) {
+  Session session;
+  session.send(set("MIS_TAKEOFF_ALT", 4.0F));
+  session.send(set("COM_OBL_RC_ACT", std::bit_cast<float>(4), 6));
+  session.listen();
+  EXPECT_EQ(session.vehicle().px4().commander().takeoff_altitude_m, 4.0);
+  EXPECT_EQ(session.vehicle().px4().commander().offboard_loss_action, OffboardLossAction::land);
+  for (const auto& refused :
+       {set("MIS_TAKEOFF_ALT", -1.0F), set("MIS_TAKEOFF_ALT", std::nanf("")),
+        set("MIS_TAKEOFF_ALT", 5.0F, 6), set("MPC_LAND_ALT1", 5.0F),
+        set("COM_OBL_RC_ACT", std::bit_cast<float>(8), 6), set("COM_OBL_RC_ACT", 4.0F, 6)}) {
+    session.send(ParamRequestRead{-1, 1, 1, refused.param_id});
+    session.send(refused);
+    session.forget();
+    session.listen();
+    const auto values = session.all<ParamValue>();
+    ASSERT_EQ(values.size(), 2U);
+    EXPECT_EQ(payload_of(values[0]), payload_of(values[1])) << name_of(refused.param_id);
+    EXPECT_EQ(session.count<StatusText>(), 1U);
+  }
+  EXPECT_EQ(session.vehicle().px4().commander().takeoff_altitude_m, 4.0);
+}
+
+TEST(MavlinkQuestions, NoParameterThatCanBeSetBreaksTheVehicle) {
+  constexpr std::array kValues = {0.0F,  0.1F,  0.5F,  0.6F,  1.0F,  2.0F,   3.0F,   4.0F,
+                                  10.0F, 15.0F, 20.0F, 60.0F, 80.0F, 100.0F, 1000.0F};
+  constexpr std::array<std::uint16_t, 3> kNext = {22, 20, 21};  // take off, return, land
+  for (std::uint64_t trial = 0; trial < 10; ++trial) {
+    Session session;
+    const auto start = parameter_at(session.vehicle().px4().commander(), 0);
+    session.command(kArmDisarm, 1);
+    for (std::size_t leg = 0; leg < kNext.size(); ++leg) {
+      for (int i = 0; i < start->param_count; ++i) {
+        const std::uint64_t bits =
+            random_bits({9, Stream::bench, trial, 100 * leg + static_cast<std::uint64_t>(i)});
+        ParamSet message{.target_system = 1, .target_component = 1, .param_type = 9};
+        message.param_id = parameter_at(session.vehicle().px4().commander(), i)->param_id;
+        message.param_value = kValues[bits % kValues.size()];
+        session.send(message);
+      }
+      session.command(kNext[leg], 0);
+      for (int tick = 0; tick < 5 * kTicksPerSecond; ++tick) session.step();  // throws at NaN
+    }
+    EXPECT_TRUE(session.vehicle().state().T_world_body.matrix().allFinite()) << trial;
+    EXPECT_GT(session.endpoint().counts().questions, 60U);
+  }
+}
+
+TEST(MavlinkQuestions, ThereIsNoMissionAndNoneIsTaken) {
+  for (std::uint8_t type = 0; type < 3; ++type) {  // mission, fence, rally points
+    Session session;
+    session.send(MissionRequestList{1, 1, type});
+    session.listen();
+    EXPECT_EQ(session.last<MissionCount>().count, 0);
+    EXPECT_EQ(session.last<MissionCount>().mission_type, type);
+    EXPECT_EQ(session.last<MissionCount>().target_system, 255);
+    const auto result_of = [&](const auto& message) {
+      session.send(message);
+      session.listen();
+      EXPECT_EQ(session.last<MissionAck>().mission_type, type);
+      return session.last<MissionAck>().result;
+    };
+    EXPECT_EQ(result_of(MissionCount{5, 1, 1, type}), 3) << "unsupported";
+    EXPECT_EQ(result_of(MissionCount{0, 1, 1, type}), 0);
+    EXPECT_EQ(result_of(MissionClearAll{1, 1, type}), 0);
+    EXPECT_EQ(result_of(MissionRequest{0, 1, 1, type}), 13) << "no such item";
+    EXPECT_EQ(result_of(MissionRequestInt{{0, 1, 1, type}}), 13);
+  }
+}
+
+TEST(MavlinkQuestions, TimeIsToldToWhoAsks) {
+  Session session;
+  for (int i = 0; i < kTicksPerSecond; ++i) session.step();
+  session.send(Timesync{.tc1_ns = 0, .ts1_ns = 77});
+  session.send(Timesync{.tc1_ns = 5, .ts1_ns = 78});  // an answer
+  session.send(Ping{1234, 5, 0, 0});
+  session.listen();
+  ASSERT_EQ(session.count<Timesync>(), 1U);
+  EXPECT_EQ(session.last<Timesync>().tc1_ns, 1'000'000'000);
+  EXPECT_EQ(session.last<Timesync>().ts1_ns, 77);
+  EXPECT_EQ(session.last<Ping>().time_us, 1234U);
+  EXPECT_EQ(session.last<Ping>().target_system, 255);
+}
+
+TEST(MavlinkQuestions, QuestionsForOthersAreIgnored) {
+  Session session;
+  session.send(ParamRequestList{2, 1});
+  session.send(ParamSet{4.0F, 2, 1, id_of("MIS_TAKEOFF_ALT"), 9});
+  session.send(MissionRequestList{1, 100, 0});
+  session.listen();
+  EXPECT_EQ(session.endpoint().counts().ignored, 3U);
+  EXPECT_EQ(session.endpoint().counts().questions, 0U);
+  EXPECT_EQ(session.vehicle().px4().commander().takeoff_altitude_m, 2.5);
+}
+
+TEST(MavlinkQuestions, WhatIsAskedWithoutEndIsAnsweredWithinABound) {
+  Session session;
+  for (int i = 0; i < 1000; ++i) session.send(ParamRequestList{1, 1});
+  session.listen();
+  EXPECT_LE(session.frames_heard(), kOutgoingMax);
+  EXPECT_GT(session.endpoint().counts().unsaid, 20'000U);
+  session.forget();
+  session.command(kArmDisarm, 1);
+  session.listen();
+  EXPECT_EQ(session.count<CommandAck>(), 1U) << "and then it hears on";
+}
+
+TEST(MavlinkQuestions, SetpointsOfAnotherKindAreRefusedByName) {
+  Session session;
+  session.send(SetAttitudeTarget{.target_system = 1, .target_component = 1});
+  session.listen();
+  EXPECT_STREQ(session.last<StatusText>().text.data(), "setpoint of attitude not supported");
+  session.send(SetPositionTargetGlobalInt{.target_system = 1, .target_component = 1});
+  session.listen();
+  EXPECT_STREQ(session.last<StatusText>().text.data(), "global setpoint not supported");
+  EXPECT_EQ(session.endpoint().counts().refused_setpoints, 2U);
+}
+
+TEST(MavlinkQuestions, AnIntegerCommandIsTheCommandOfItsNumber) {
+  Session session;
+  session.send(
+      CommandInt{.param = {1}, .command = kArmDisarm, .target_system = 1, .target_component = 1});
+  session.listen();
+  EXPECT_EQ(session.last<CommandAck>().command, kArmDisarm);
+  EXPECT_EQ(session.last<CommandAck>().result, 0);
+  EXPECT_TRUE(session.vehicle().px4().is_armed());
+}
+
+/// Oracle: great circles. North and east of the origin, 30 m are as many on a sphere of 6371 km.
+TEST(MavlinkQuestions, PlacesOnTheGlobeAreAsFarApartAsInTheWorld) {
+  VehicleState state;
+  state.T_world_body.translation() = Vec3(30.0, 40.0, 5.0);
+  const GlobalPositionInt place = global_position_of(state, 0);
+  const GpsGlobalOrigin origin = global_origin();
+  const double to_rad = 1e-7 * kPi / 180.0;
+  const double lat_a = origin.lat_deg_e7 * to_rad;
+  const double lat_b = place.lat_deg_e7 * to_rad;
+  const double lon = (place.lon_deg_e7 - origin.lon_deg_e7) * to_rad;
+  const double haversine = std::pow(std::sin((lat_b - lat_a) / 2.0), 2.0) +
+                           std::cos(lat_a) * std::cos(lat_b) * std::pow(std::sin(lon / 2.0), 2.0);
+  // 1e-7 deg is 11 mm
+  EXPECT_NEAR(2.0 * 6371000.0 * std::asin(std::sqrt(haversine)), 50.0, 0.02);
+  EXPECT_EQ(place.alt_mm, 5000);
+  EXPECT_EQ(place.heading_cdeg, 9000) << "ENU's x is east";
+}
+
+TEST(MavlinkQuestions, TheQuaternionIsTheAttitude) {
+  VehicleState state;
+  state.T_world_body.linear() =
+      (Eigen::AngleAxisd(0.4, Vec3::UnitZ()) * Eigen::AngleAxisd(-0.2, Vec3::UnitY()) *
+       Eigen::AngleAxisd(0.3, Vec3::UnitX()))
+          .toRotationMatrix();
+  const auto q = attitude_quaternion_of(state, 0).q_ned_frd;
+  const Eigen::Quaterniond q_ned_frd(q[0], q[1], q[2], q[3]);
+  for (const Vec3& v_frd : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) {
+    const Vec3 v_ned = swap_enu_ned(state.T_world_body.linear() * swap_flu_frd(v_frd));
+    EXPECT_LT((q_ned_frd * v_frd - v_ned).norm(), 1e-6);  // float
+  }
+}
+
+TEST(MavlinkQuestions, ReadyToArmIsToldUntilAFailsafe) {
+  Session session;
+  const SysStatus status = sys_status_of(session.vehicle().px4(), 12.0, 48.0);
+  EXPECT_EQ(status.sensors_present, status.sensors_health);
+  EXPECT_NE(status.sensors_health & 0x10000000, 0U);  // PREARM_CHECK
+  EXPECT_EQ(status.battery_remaining_percent, 75);
+}
+
+}  // namespace
+}  // namespace gnbv::mavlink
