@@ -18,6 +18,7 @@ struct Thumbnail {
   int width_px = 0;
   int height_px = 0;
   std::vector<std::uint8_t> jpeg;
+  std::vector<std::uint8_t> depth_jpeg = {};  // of the same size, see depth_picture()
 
   bool operator==(const Thumbnail&) const = default;
 };
@@ -28,6 +29,13 @@ struct CameraFrames {
 
   bool operator==(const CameraFrames&) const = default;
 };
+
+/// As far as any camera of the scenario sees.
+double depth_range_m(const Scenario& scenario);
+
+/// Depth along the optical axis as colours of amounts, from 0 to `far_m`; grey where there is none.
+/// Every `factor`-th pixel of every `factor`-th row.
+Image depth_picture(const GreyImage16& depth, double step_m, double far_m, int factor);
 
 /// What is done of 1.0.
 using ReportProgress = std::function<void(double)>;

@@ -3,19 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "bench/compare/paper_table.hpp"
-#include "scenarios/load.hpp"
 #include "scenarios/papers_setting.hpp"
 #include "sim/core/base64.hpp"
 #include "sim/core/error.hpp"
-#include "tools/mission/load_world.hpp"
+#include "tools/mission/run_ceiling.hpp"
 #include "tools/render/colour.hpp"
 #include "tools/report/page_parts.hpp"
 #include "tools/report/page_text.hpp"
 #include "tools/report/run_json.hpp"
+#include "tools/report/structures.hpp"
 #include "tools/run_files/file_names.hpp"
 #include "tools/run_files/run_groups.hpp"
 
@@ -28,7 +27,6 @@ namespace fs = std::filesystem;
 // What a laptop draws fluently.
 constexpr std::size_t kMaxPoints = 500'000;  // of one run
 constexpr std::size_t kAllPoints = 800'000;
-constexpr std::size_t kAllMeshBytes = 4'000'000;
 constexpr std::size_t kLeastRunBytes = 200'000;  // where names and views alone fill the page
 
 /// Of a page of `kMaxReportBytes`, for each run: what text and structures leave, in equal shares.
@@ -93,60 +91,6 @@ Json tables_json(const std::vector<RunRecord>& records) {
   return json;
 }
 
-/// Equal for runs of the same structure among the same obstacles on the same terrain.
-std::string structure_key(const Scenario& scenario) {
-  Scenario only;
-  only.structure = scenario.structure;
-  only.terrain = scenario.terrain;
-  only.obstacles = scenario.obstacles;
-  return to_yaml(only);
-}
-
-/// What stands there, as one mesh.
-TriangleMesh all_meshes(const Scenario& scenario) {
-  std::vector<std::string> told_by_run;  // the mesh's faults were told when it was flown
-  const World world = load_world_anywhere(scenario, told_by_run);
-  TriangleMesh all = world.structure;
-  for (const TriangleMesh* more : {&world.obstacles, &world.terrain}) {
-    if (!more->faces.empty()) append(all, *more);
-  }
-  return all;
-}
-
-/// The structures of the runs, each once.
-struct Structures {
-  struct OfRun {
-    int number = -1;       // -1: it cannot be had
-    std::string why = {};  // not
-  };
-  BytePack bytes;
-  Json json = Json::array();
-  std::vector<OfRun> of_run;
-};
-
-Structures pack_structures(const std::vector<RunRecord>& records) {
-  std::map<std::string, Structures::OfRun> known;
-  for (const RunRecord& record : records) known[structure_key(record.scenario)] = {};
-  const std::size_t max_bytes = kAllMeshBytes / known.size();
-  known.clear();
-  Structures out;
-  for (const RunRecord& record : records) {
-    const auto [entry, is_new] = known.try_emplace(structure_key(record.scenario));
-    Structures::OfRun& structure = entry->second;
-    try {
-      if (is_new) {
-        const TriangleMesh mesh = all_meshes(record.scenario);
-        structure.number = static_cast<int>(out.json.size());
-        out.json.push_back(mesh_json(mesh, max_bytes, out.bytes));
-      }
-    } catch (const BadInput& error) {
-      structure.why = error.what();
-    }
-    out.of_run.push_back(structure);
-  }
-  return out;
-}
-
 /// Names of scenarios as a heading: "Power plant" of "power_plant".
 std::string as_heading(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
@@ -165,6 +109,14 @@ std::string title_of(const std::vector<RunRecord>& records) {
     }
   }
   return as_heading(fmt::format("{}: {} runs", fmt::join(scenarios, ", "), records.size()));
+}
+
+/// The coverage that could be reached, where an earlier command found it.
+Json ceiling_json(const RunRecord& record, const KnownStructure* structure, int threads) {
+  if (structure == nullptr) return nullptr;
+  const auto ceiling =
+      run_ceiling(record.scenario, structure->world, structure->scene, CeilingFrom::cache, threads);
+  return ceiling ? Json(*ceiling) : Json(nullptr);
 }
 
 /// 256 sRGB colours, three bytes each: those of the pictures of the same run.
@@ -186,13 +138,13 @@ std::string bytes_element(const std::string& id, const BytePack& bytes) {
   return data_element(id, "application/octet-stream", base64(bytes.bytes()));
 }
 
-/// Nothing of the page may load or send anything, and only our own script may run, so that a name
-/// which escaped its escaping would still be nothing but text.
-std::string policy() {
+/// Nothing of the page may load or send anything, but a live one may ask its server, and only our
+/// own script may run, so that a name which escaped its escaping would still be nothing but text.
+std::string policy(bool is_live) {
   return fmt::format(
       "default-src 'none'; script-src {}; style-src {}; img-src data: blob:; base-uri 'none'; "
-      "form-action 'none'",
-      policy_hash(page_script()), policy_hash(page_style()));
+      "form-action 'none'{}",
+      policy_hash(page_script()), policy_hash(page_style()), is_live ? "; connect-src 'self'" : "");
 }
 
 }  // namespace
@@ -204,23 +156,27 @@ Report make_report(const std::vector<RunRecord>& records, const ReportOptions& o
   Report report;
   const std::string title = options.title.empty() ? title_of(records) : options.title;
   const std::vector<std::string> labels = run_labels(records);
-  const Structures structures = pack_structures(records);
+  const Structures structures = pack_structures(records, options.threads);
   const RunBudget budget = budget_of(records, structures.bytes.bytes().size());
   Json runs = Json::array();
   std::string data;
   for (std::size_t i = 0; i < records.size(); ++i) {
-    PackedRun packed = pack_run(records[i], budget, options.threads, [&](double share) {
-      progress((static_cast<double>(i) + share) / static_cast<double>(records.size()));
-    });
     const Structures::OfRun& structure = structures.of_run[i];
+    PackedRun packed =
+        pack_run(records[i], structure.known.get(), budget, options.threads, [&](double share) {
+          progress((static_cast<double>(i) + share) / static_cast<double>(records.size()));
+        });
     if (!structure.why.empty()) packed.missing.push_back(structure.why);
-    runs.push_back(run_json(records[i], labels[i], packed, structure.number));
+    Json run = run_json(records[i], labels[i], packed, structure.number);
+    run["ceiling"] = ceiling_json(records[i], structure.known.get(), options.threads);
+    runs.push_back(std::move(run));
     data += bytes_element(fmt::format("run-{}", i), packed.bytes);
     report.missing.insert(report.missing.end(), packed.missing.begin(), packed.missing.end());
   }
   data += bytes_element("meshes", structures.bytes);
   const Json json = {
       {"title", title},
+      {"is_live", options.is_live},
       {"version", GNBV_VERSION},
       {"ramps", {{"path", ramp_json(path_colours())}, {"amount", ramp_json(amount_colours())}}},
       {"tables", tables_json(records)},
@@ -229,7 +185,8 @@ Report make_report(const std::vector<RunRecord>& records, const ReportOptions& o
   // names may hold anything, also what is no UTF-8
   data += data_element("data", "application/json",
                        script_json(json.dump(-1, ' ', false, Json::error_handler_t::replace)));
-  report.html = filled(page_template(), {{"POLICY", policy()},
+  report.policy = policy(options.is_live);
+  report.html = filled(page_template(), {{"POLICY", report.policy},
                                          {"TITLE", html_escaped(title)},
                                          {"STYLE", page_style()},
                                          {"DATA", data},

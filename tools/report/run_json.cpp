@@ -146,13 +146,21 @@ std::string bare_command_to_fly_again(const std::filesystem::path& folder,
   return marked.substr(1, marked.size() - 2);
 }
 
+Json candidates_json(const PackedCandidates& packed) {
+  return {{"points", points_json(packed.points)}, {"angles", slice_json(packed.angles_rad)},
+          {"kind", slice_json(packed.kind)},      {"terms", slice_json(packed.terms)},
+          {"begins", slice_json(packed.begins)},  {"reasons", rejection_names()}};
+}
+
 Json packed_json(const PackedRun& packed) {
-  Json json = {{"cloud", nullptr}, {"voxels", nullptr}, {"path", nullptr}, {"plan", nullptr}};
+  Json json = {{"cloud", nullptr}, {"voxels", nullptr}, {"path", nullptr},
+               {"plan", nullptr},  {"found", nullptr},  {"candidates", nullptr}};
   if (packed.cloud) {
     json["cloud"] = {{"points", points_json(packed.cloud->points)},
                      {"after", slice_json(packed.cloud->after)},
                      {"all_points", packed.cloud->all_points},
                      {"cell_m", packed.cloud->cell_m}};
+    if (packed.cloud->error) json["cloud"]["error"] = slice_json(*packed.cloud->error);
     if (packed.cloud->colour) json["cloud"]["colour"] = slice_json(*packed.cloud->colour);
   }
   if (packed.voxels) {
@@ -172,10 +180,12 @@ Json packed_json(const PackedRun& packed) {
     json["plan"] = {{"poses", slice_json(packed.plan->poses)},
                     {"ranges", slice_json(packed.plan->ranges)}};
   }
+  if (packed.candidates) json["candidates"] = candidates_json(*packed.candidates);
+  if (packed.found) json["found"] = slice_json(*packed.found);
   Json frames = Json::array();
   for (const PackedThumbnail& t : packed.thumbnails) {
-    frames.push_back(
-        {t.view, packed.cameras[t.camera], t.width_px, t.height_px, t.jpeg.at, t.jpeg.count});
+    frames.push_back({t.view, packed.cameras[t.camera], t.width_px, t.height_px, t.jpeg.at,
+                      t.jpeg.count, t.depth_jpeg.at, t.depth_jpeg.count});
   }
   json["frames"] = frames;
   return json;
@@ -224,6 +234,11 @@ Json mesh_json(const TriangleMesh& mesh, std::size_t max_bytes, BytePack& bytes)
     json["parts"].push_back({{"rgb", rgb}, {"corners", slice_json(bytes.add(corners))}});
   }
   return json;
+}
+
+Json true_voxels_json(const TrueVoxels& voxels, BytePack& bytes) {
+  if (voxels.codes.empty()) return nullptr;
+  return {{"size_m", voxels.size_m}, {"index", slice_json(bytes.add(voxel_indices(voxels)))}};
 }
 
 Json run_json(const RunRecord& record, const std::string& label, const PackedRun& packed,

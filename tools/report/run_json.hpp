@@ -8,6 +8,7 @@
 #include "bench/compare/text_table.hpp"
 #include "sim/mesh/triangle_mesh.hpp"
 #include "tools/report/run_pack.hpp"
+#include "tools/report/true_surface.hpp"
 
 namespace gnbv {
 
@@ -16,6 +17,9 @@ nlohmann::ordered_json table_json(const TextTable& table);
 
 /// The structure, thinned until its arrays, which are added to `bytes`, take at most `max_bytes`.
 nlohmann::ordered_json mesh_json(const TriangleMesh& mesh, std::size_t max_bytes, BytePack& bytes);
+
+/// Null where there is nothing to find.
+nlohmann::ordered_json true_voxels_json(const TrueVoxels& voxels, BytePack& bytes);
 
 /// The record with what was packed of it. `mesh` is the page's number of its structure, -1 for
 /// none.

@@ -5,6 +5,7 @@
 
 #include "planner/tour_planner.hpp"
 #include "sim/core/error.hpp"
+#include "tools/report/structures.hpp"
 #include "tools/report/thinning.hpp"
 #include "tools/report/voxel_growth.hpp"
 #include "tools/run_files/file_names.hpp"
@@ -14,7 +15,7 @@ namespace gnbv {
 namespace {
 
 // What the page needs of each, see PackedCloud and PackedPath.
-constexpr std::size_t kPointBytes = 6;
+constexpr std::size_t kPointBytes = 7;
 constexpr std::size_t kColourBytes = 3;
 constexpr std::size_t kSampleBytes = 18;
 constexpr std::size_t kPlannedBytes = 28;
@@ -36,7 +37,7 @@ std::vector<std::uint32_t> counts_after(const std::vector<int>& first_views, std
 }
 
 PackedCloud pack_cloud(const RunCloud& cloud, const ThinnedPoints& thin, std::size_t views,
-                       BytePack& bytes) {
+                       const KnownStructure* structure, int threads, BytePack& bytes) {
   std::vector<Vec3f> points;
   std::vector<int> first_views;
   for (const std::size_t i : thin.kept) {
@@ -46,6 +47,9 @@ PackedCloud pack_cloud(const RunCloud& cloud, const ThinnedPoints& thin, std::si
   PackedCloud out{.all_points = cloud.points_world_m.size(), .cell_m = thin.cell_m};
   out.points = pack_points(points, bytes);
   out.after = bytes.add(counts_after(first_views, views));
+  if (structure != nullptr) {
+    out.error = bytes.add(point_errors(structure->scene, points, threads));
+  }
   return out;
 }
 
@@ -151,7 +155,8 @@ void pack_frames(const RunRecord& record, const RunCloud& cloud, const ThinnedPo
                               .camera = frame.camera,
                               .width_px = t.width_px,
                               .height_px = t.height_px,
-                              .jpeg = out.bytes.add(t.jpeg)});
+                              .jpeg = out.bytes.add(t.jpeg),
+                              .depth_jpeg = out.bytes.add(t.depth_jpeg)});
   }
   if (!out.cloud) return;
   std::vector<std::uint8_t> colour;
@@ -161,13 +166,8 @@ void pack_frames(const RunRecord& record, const RunCloud& cloud, const ThinnedPo
 
 }  // namespace
 
-PackedPoints pack_points(std::span<const Vec3f> points_m, BytePack& bytes) {
-  const QuantisedPoints q = quantised(points_m);
-  return {.min_m = q.min_m, .size_m = q.size_m, .steps = bytes.add(q.steps)};
-}
-
-PackedRun pack_run(const RunRecord& record, const RunBudget& budget, int threads,
-                   const ReportProgress& progress) {
+PackedRun pack_run(const RunRecord& record, const KnownStructure* structure,
+                   const RunBudget& budget, int threads, const ReportProgress& progress) {
   PackedRun out;
   RunCloud cloud;
   ThinnedPoints thin;
@@ -185,12 +185,20 @@ PackedRun pack_run(const RunRecord& record, const RunBudget& budget, int threads
     out.missing.emplace_back(error.what());  // the page does without plans
   }
   try {
+    out.candidates = pack_candidates(record, budget.bytes / 8, out.bytes);
+  } catch (const BadInput& error) {
+    out.missing.emplace_back(error.what());  // and without candidates
+  }
+  try {
     cloud = read_run_cloud(record);
+    if (structure != nullptr && !structure->to_find.codes.empty() && views < kNeverFound) {
+      out.found = out.bytes.add(views_until_found(structure->to_find, cloud));
+    }
     out.voxels =
         pack_voxels(cloud, record.scenario.planner.map.resolution_m, budget.bytes / 4, out.bytes);
     thin = thinned(cloud.points_world_m, point_count(budget, left(), has_frames(record.folder)),
                    std::max(record.scenario.planner.cloud.leaf_m, 1e-3));
-    out.cloud = pack_cloud(cloud, thin, views, out.bytes);
+    out.cloud = pack_cloud(cloud, thin, views, structure, threads, out.bytes);
   } catch (const BadInput& error) {
     out.missing.emplace_back(error.what());  // the page does without points
   }

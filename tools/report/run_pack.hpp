@@ -9,20 +9,17 @@
 
 #include "tools/report/byte_pack.hpp"
 #include "tools/report/camera_frames.hpp"
+#include "tools/report/candidate_pack.hpp"
+#include "tools/report/packed_points.hpp"
 #include "tools/run_files/run_record.hpp"
 
 namespace gnbv {
-
-struct PackedPoints {
-  Vec3f min_m = Vec3f::Zero();
-  Vec3f size_m = Vec3f::Zero();
-  ByteSlice steps;  // uint16 (n, 3), see QuantisedPoints
-};
 
 struct PackedCloud {
   PackedPoints points = {};  // in the order of growth
   ByteSlice after = {};      // uint32 (views + 1): how many there are after the first n views
   std::optional<ByteSlice> colour = {};  // uint8 (n, 3), sRGB; only with frames
+  std::optional<ByteSlice> error = {};   // uint8 (n), see point_errors(); where the structure is
   std::size_t all_points = 0;            // before thinning
   double cell_m = 0.0;                   // of the thinning; 0: none
 };
@@ -59,6 +56,7 @@ struct PackedThumbnail {
   int width_px = 0;
   int height_px = 0;
   ByteSlice jpeg;
+  ByteSlice depth_jpeg;
 };
 
 struct PackedRun {
@@ -66,11 +64,15 @@ struct PackedRun {
   std::optional<PackedCloud> cloud = {};
   std::optional<PackedVoxels> voxels = {};
   std::optional<PackedPath> path = {};
-  std::optional<PackedPlan> plan = {};    // of tours
-  std::vector<std::string> cameras = {};  // names, of the thumbnails
+  std::optional<PackedPlan> plan = {};              // of tours
+  std::optional<PackedCandidates> candidates = {};  // where the run kept them
+  std::optional<ByteSlice> found = {};              // uint16, see views_until_found()
+  std::vector<std::string> cameras = {};            // names, of the thumbnails
   std::vector<PackedThumbnail> thumbnails = {};
   std::vector<std::string> missing = {};  // beyond what the record says
 };
+
+struct KnownStructure;
 
 /// What a run may take of the page, at most.
 struct RunBudget {
@@ -78,13 +80,12 @@ struct RunBudget {
   std::size_t points = 0;
 };
 
-PackedPoints pack_points(std::span<const Vec3f> points_m, BytePack& bytes);
-
 /// What of the run is there, thinned to the budget: voxels get a quarter of it, the path an eighth,
-/// a tour's plans at most another one, of each its next views; points and frames share the rest.
+/// a tour's plans and the candidates at most another one each, of a plan its next views, of the
+/// candidates all or none; points and frames share the rest.
 /// What is not there, or cannot be used, is named in `missing`, where a command makes it with that
-/// command.
-PackedRun pack_run(const RunRecord& record, const RunBudget& budget, int threads,
-                   const ReportProgress& progress);
+/// command. Without a structure nothing is said of what was found of it.
+PackedRun pack_run(const RunRecord& record, const KnownStructure* structure,
+                   const RunBudget& budget, int threads, const ReportProgress& progress);
 
 }  // namespace gnbv

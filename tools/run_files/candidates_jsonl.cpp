@@ -79,6 +79,11 @@ Candidate candidate_of(const Json& json) {
   return c;
 }
 
+void add_candidate(const Json& json, Plan& plan) {
+  if (json.value("chosen", false)) plan.chosen = plan.candidates.size();
+  plan.candidates.push_back(candidate_of(json));
+}
+
 /// Lines are told apart by how they begin: a long mission has hundreds of thousands.
 std::string beginning_of(std::size_t iteration) {
   return fmt::format("{{\"iteration\":{},", iteration);
@@ -156,9 +161,7 @@ std::optional<Plan> read_candidates(const fs::path& run, std::size_t iteration) 
     const std::string_view row = next_part(rest, '\n');
     if (!row.starts_with(beginning)) continue;
     try {
-      const Json json = Json::parse(row);
-      if (json.value("chosen", false)) plan.chosen = plan.candidates.size();
-      plan.candidates.push_back(candidate_of(json));
+      add_candidate(Json::parse(row), plan);
     } catch (const std::exception& error) {
       throw BadInput(fmt::format("{}: {}; {} writes it anew", to_string(TextPlace{path, line}),
                                  json_reason(error), again));
@@ -169,6 +172,25 @@ std::optional<Plan> read_candidates(const fs::path& run, std::size_t iteration) 
                                path.string(), iteration, again));
   }
   return plan;
+}
+
+std::vector<Plan> read_all_candidates(const fs::path& run, std::size_t iterations) {
+  const fs::path path = run / kCandidatesFile;
+  if (!fs::exists(path)) return {};
+  const std::string text = read_file(path);
+  std::string_view rest = text;
+  std::vector<Plan> plans(iterations);
+  for (int line = 1; !rest.empty(); ++line) {
+    try {
+      const Json json = Json::parse(next_part(rest, '\n'));
+      const auto of = json.at("iteration").get<std::size_t>();
+      if (of < iterations) add_candidate(json, plans[of]);
+    } catch (const std::exception& error) {
+      throw BadInput(fmt::format("{}: {}; {} writes it anew", to_string(TextPlace{path, line}),
+                                 json_reason(error), command_to_fly_again(run, "--candidates")));
+    }
+  }
+  return text.empty() ? std::vector<Plan>{} : plans;
 }
 
 }  // namespace gnbv

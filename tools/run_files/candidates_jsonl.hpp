@@ -33,4 +33,9 @@ class CandidatesFile {
 /// whatever is damaged, or a decision that the file does not hold, and the command that writes it.
 std::optional<Plan> read_candidates(const std::filesystem::path& run, std::size_t iteration);
 
+/// The same of the first `iterations` iterations at once, in their order; those that nothing chose
+/// have no candidates. Empty for a run that wrote none. Throws BadInput naming file and line of
+/// whatever is damaged.
+std::vector<Plan> read_all_candidates(const std::filesystem::path& run, std::size_t iterations);
+
 }  // namespace gnbv

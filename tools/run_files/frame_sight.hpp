@@ -30,6 +30,7 @@ class FrameSight {
   std::optional<Sighting> sees(const Vec3& p_world_m, double blur_m) const;
 
   const Image& colour() const { return colour_; }
+  const GreyImage16& depth() const { return depth_; }  // in FrameCamera::depth_scale_m
   Rgb8 colour_at(const Sighting& sighting) const;
 
  private:

@@ -70,7 +70,8 @@ TEST(CameraFrames, APointHasTheColourOfItsPixelAndThumbnailsKeepTheirBudget) {
       read_camera_frames(record, frames, cloud, some, 1'000'000, 1, [](double) {});
   EXPECT_EQ(of_some.colour, (std::vector{seen.colour[0], seen.colour[3], seen.colour[5]}));
   ASSERT_EQ(seen.thumbnails.size(), 8U);
-  const std::size_t each = seen.thumbnails[0].jpeg.size();
+  const Thumbnail& one = seen.thumbnails[0];
+  const std::size_t each = one.jpeg.size() + one.depth_jpeg.size() + 6;  // as they are aligned
   const CameraFrames few = read(3 * each, 3);
   ASSERT_EQ(few.thumbnails.size(), 3U);  // views 0, 3, 6
   EXPECT_EQ(few.thumbnails[1].frame, 3U);
@@ -80,6 +81,22 @@ TEST(CameraFrames, APointHasTheColourOfItsPixelAndThumbnailsKeepTheirBudget) {
   for (const int threads : {2, 4, 7}) EXPECT_TRUE(read(1'000'000, threads) == seen) << threads;
   write_png(shrunk(image, 2), frames.frames[5].colour);
   EXPECT_THROW(read(1'000'000, 2), BadInput);
+}
+
+TEST(CameraFrames, DepthIsColouredByItsShareOfTheRange) {
+  const GreyImage16 depth{4, 2, {0, 9, 4000, 9, 8000, 9, 60000, 9}};
+  const Image picture = depth_picture(depth, 0.001, 8.0, 1);
+  const auto pixel = [&](std::size_t i) {
+    return Rgb8{picture.rgb[3 * i], picture.rgb[3 * i + 1], picture.rgb[3 * i + 2]};
+  };
+  EXPECT_EQ(pixel(0), (Rgb8{150, 156, 164}));
+  EXPECT_EQ(pixel(4), (Rgb8{0xad, 0xdc, 0x30}));  // the far end of the ramp
+  EXPECT_EQ(pixel(6), pixel(4));
+  EXPECT_NE(pixel(2), pixel(4));
+  const Image small = depth_picture(depth, 0.001, 8.0, 2);
+  EXPECT_EQ(small.width_px, 2);
+  EXPECT_EQ(small.rgb,
+            (std::vector<std::uint8_t>{150, 156, 164, pixel(2)[0], pixel(2)[1], pixel(2)[2]}));
 }
 
 }  // namespace

@@ -151,7 +151,8 @@ TEST(PackedRun, StaysWithinItsBudget) {
   for (int i = 0; i < 20'000; ++i) record.path.push_back(made_sample(5.0 + i, {0, 0, 0.001 * i}));
   std::size_t before = 0;
   for (const std::size_t bytes : {20'000U, 100'000U, 300'000U}) {
-    const PackedRun run = pack_run(record, {.bytes = bytes, .points = 100'000}, 1, [](double) {});
+    const PackedRun run =
+        pack_run(record, nullptr, {.bytes = bytes, .points = 100'000}, 1, [](double) {});
     EXPECT_LE(run.bytes.bytes().size(), bytes);
     EXPECT_GT(run.bytes.bytes().size(), std::max(before, bytes / 4));  // and uses it
     before = run.bytes.bytes().size();

@@ -23,7 +23,6 @@ export const faintLine = () => (isDark() ? "#4a5462" : "#b3bcc8");
 export const phaseShade = () => (isDark() ? "rgba(255,170,80,0.13)" : "rgba(230,140,40,0.14)");
 /** Of what is still to come: nothing that was flown has it. */
 export const planColour = () => (isDark() ? 0x49d6cf : 0x0a8f8a);
-export const nowLine = () => (isDark() ? "#ffffff" : "#11151b");
 
 type Rgb = [number, number, number];
 

@@ -2,6 +2,8 @@
 import { kEfforts, type Clock, type Effort } from "./clock";
 import { choice, make, select, toggle } from "./dom";
 import { lastAtMost, type Flight } from "./flight";
+import type { Vector3 } from "three";
+import type { PageState } from "./permalink";
 import type { Layers, RunScene } from "./run_scene";
 import type { Colouring } from "./surfaces";
 
@@ -89,7 +91,7 @@ export function listenToKeys(replay: Replay) {
     const target = event.target as HTMLElement;
     const isSlider = target.matches("input[type=range]");
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    if (target.matches("select, textarea, pre")) return;
+    if (target.matches("select, textarea, pre, input[type=number]")) return;
     if (event.key === " " && target.matches("summary, button, input[type=checkbox]")) return;
     const large = Math.max(1, Math.round(replay.last("views") / 20));
     const actions: Record<string, () => void> = {
@@ -146,20 +148,43 @@ export interface View3d {
   colour(by: Colouring): void;
   setFollows(follows: boolean): void;
   frame(): void;
+  buttons(): HTMLElement[]; // of the view itself
+  cameraState(): number[]; // position and target
+  setCamera(state: number[]): void;
+  lookAt(centre: Vector3, radius_m: number): void;
+  onChange(listener: () => void): void; // of the camera
   cameraPosition(): number[]; // x, y, z in the world; empty where nothing is drawn
+  pictures(): { whole: number; gist: number }; // drawn so far
 }
 
 const kColourings: [Colouring, string][] = [["real", "Camera colours"], ["height", "Height"],
-  ["density", "Density"], ["iteration", "Order of views"]];
+  ["density", "Density"], ["iteration", "Order of views"], ["error", "Error"]];
 
 export function makeLayerBar(view: View3d, has: { real: boolean; voxels: boolean; cloud: boolean;
-    structure: boolean; plan: boolean }, coloured: (by: Colouring) => void): HTMLElement {
+    structure: boolean; plan: boolean; surface: boolean; error: boolean; candidates: boolean },
+    state: PageState, changed: (layers: Layers, by: Colouring) => void): HTMLElement {
   const layers: Layers = { cloud: has.cloud, voxels: false, structure: has.structure, path: true,
-    profile: true, frusta: false, plan: has.plan, vehicle: true };
-  const layer = (key: keyof Layers, text: string) =>
-    toggle(text, layers[key], (on) => { layers[key] = on; view.setLayers(layers); });
-  const first: Colouring = has.real ? "real" : "height";
-  const choose = (by: Colouring) => { view.colour(by); coloured(by); };
+    profile: true, frusta: false, plan: has.plan, vehicle: true, found: false, missed: false,
+    candidates: false };
+  if (state.layers) {
+    for (const key of Object.keys(layers) as (keyof Layers)[]) {
+      layers[key] = state.layers.includes(key);
+    }
+  }
+  const colourings = kColourings.filter(([by]) =>
+    (by !== "real" || has.real) && (by !== "error" || has.error));
+  const asked = colourings.find(([by]) => by === state.colour)?.[0];
+  let first: Colouring = asked ?? (has.real ? "real" : "height");
+  const layer = (key: keyof Layers, text: string) => toggle(text, layers[key], (on) => {
+    layers[key] = on;
+    view.setLayers(layers);
+    changed(layers, first);
+  });
+  const choose = (by: Colouring) => {
+    first = by;
+    view.colour(by);
+    changed(layers, by);
+  };
   view.setLayers(layers);
   choose(first);
   return make("div", { class: "layers", role: "group", "aria-label": "What the 3D view shows" },
@@ -169,10 +194,14 @@ export function makeLayerBar(view: View3d, has: { real: boolean; voxels: boolean
     layer("path", "Path"), layer("profile", "Profile"), layer("frusta", "All views"),
     has.plan ? layer("plan", "Plan") : null,
     layer("vehicle", "Vehicle"),
+    has.surface ? layer("missed", "Missed") : null,
+    has.surface ? layer("found", "Found") : null,
+    has.candidates ? layer("candidates", "Candidates") : null,
     make("span", { class: "gap" }),
-    select("Colour of points and voxels", kColourings.filter(([by]) => by !== "real" || has.real),
+    select("Colour of points and voxels", colourings,
       first, choose),
     toggle("Follow", false, (on) => view.setFollows(on)),
     make("button", { type: "button", class: "small", click: () => view.frame(),
-      title: "Show the whole structure; a double click does it, too" }, "Fit"));
+      title: "Show the whole structure; a double click does it, too" }, "Fit"),
+    ...view.buttons());
 }

@@ -16,10 +16,27 @@ export interface Table {
   notes: string[];
 }
 
+/** The voxels of the true surface that there are to find (tools/report/true_surface.hpp). */
+export interface SurfaceData {
+  size_m: number;
+  index: Slice; // int16 (n, 3)
+}
+
+/** Of all decisions, in the order of their views (tools/report/candidate_pack.hpp). */
+export interface CandidateData {
+  points: PackedPoints;
+  angles: Slice; // float32 (n, 2): yaw, pitch
+  kind: Slice; // uint8: a reason's number, 254 valid, 255 chosen
+  terms: Slice; // float32 (valid and chosen ones, 5)
+  begins: Slice; // uint32 (views + 1)
+  reasons: string[];
+}
+
 export interface MeshData {
   vertices: PackedPoints;
   all_faces: number;
   parts: { rgb: Vec3; corners: Slice }[]; // uint32, three a face
+  surface: SurfaceData | null;
 }
 
 export interface CameraData {
@@ -90,8 +107,8 @@ export interface PaperEnd {
   density?: number;
 }
 
-export type Thumbnail = [
-  view: number, camera: string, width: number, height: number, at: number, bytes: number];
+export type Thumbnail = [view: number, camera: string, width: number, height: number, at: number,
+  bytes: number, depthAt: number, depthBytes: number];
 
 export interface RunData {
   label: string;
@@ -112,9 +129,12 @@ export interface RunData {
   vehicle: { rotors: Vec3[]; radius_m: number };
   views: Views;
   figures: Figures | null;
+  ceiling: number | null; // coverage at 0.05 m that could be reached
   paper: PaperEnd | null;
-  cloud: { points: PackedPoints; after: Slice; all_points: number; cell_m: number; colour?: Slice }
-    | null;
+  cloud: { points: PackedPoints; after: Slice; all_points: number; cell_m: number; colour?: Slice;
+    error?: Slice } | null; // of errors uint8, in millimetres; 255: not of the structure
+  found: Slice | null; // uint16: of the surface's voxels the views until each was found
+  candidates: CandidateData | null;
   voxels: VoxelData | null;
   path: { points: PackedPoints; time: Slice; quaternion: Slice } | null;
   plan: { poses: Slice; ranges: Slice } | null; // of tours; see PackedPlan (run_pack.hpp)
@@ -126,6 +146,7 @@ export type RampName = "path" | "amount";
 
 export interface PageData {
   title: string;
+  is_live: boolean; // served while the mission flies
   version: string;
   ramps: Record<RampName, number[]>;
   tables: Table[];

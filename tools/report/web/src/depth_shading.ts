@@ -13,6 +13,7 @@ uniform sampler2D uDepth;
 uniform vec2 uPixel;
 uniform float uNear;
 uniform float uFar;
+uniform int uNeighbours;
 varying vec2 vAt;
 float logDepth(vec2 at) {
   float z = texture2D(uDepth, at).x;
@@ -22,12 +23,12 @@ void main() {
   vec4 colour = texture2D(uColour, vAt);
   float here = logDepth(vAt);
   float before = 0.0;
-  for (int i = 0; i < 8; ++i) {
-    float angle = 0.785398 * float(i);
+  for (int i = 0; i < uNeighbours; ++i) {
+    float angle = 6.283185 * float(i) / float(uNeighbours);
     before += max(0.0, here - logDepth(vAt + uPixel * vec2(cos(angle), sin(angle))));
   }
   float isSomething = step(texture2D(uDepth, vAt).x, 0.99999);
-  colour.rgb *= mix(1.0, max(0.25, exp(-9.0 * before / 8.0)), isSomething);
+  colour.rgb *= mix(1.0, max(0.25, exp(-9.0 * before / float(uNeighbours))), isSomething);
   gl_FragColor = linearToOutputTexel(vec4(colour.rgb, 1.0));
   gl_FragDepth = texture2D(uDepth, vAt).x;
 }`;
@@ -38,41 +39,54 @@ export const kMarkLayer = 1;
 
 export class DepthShading {
   readonly background = new three.Color();
-  private readonly target: three.WebGLRenderTarget;
+  private readonly whole = DepthShading.makeTarget(4);
+  private readonly quick = DepthShading.makeTarget(0);
   private readonly material: three.ShaderMaterial;
   private readonly quad: three.Mesh;
   private readonly screen = new three.OrthographicCamera(-1, 1, 1, -1, 0, 1);
 
   constructor() {
-    this.target = new three.WebGLRenderTarget(4, 4, { type: three.HalfFloatType, samples: 4 });
-    this.target.depthTexture = new three.DepthTexture(4, 4, three.UnsignedIntType);
     this.material = new three.ShaderMaterial({
       vertexShader: kVertex,
       fragmentShader: kFragment,
       depthFunc: three.AlwaysDepth, // brings the surfaces' depths along, for the marks
       uniforms: {
-        uColour: { value: this.target.texture },
-        uDepth: { value: this.target.depthTexture },
+        uColour: { value: this.whole.texture },
+        uDepth: { value: this.whole.depthTexture },
         uPixel: { value: new three.Vector2() },
         uNear: { value: 0.1 },
         uFar: { value: 100 },
+        uNeighbours: { value: 8 },
       },
     });
     this.quad = new three.Mesh(new three.PlaneGeometry(2, 2), this.material);
     this.quad.frustumCulled = false;
   }
 
-  /** Draws the scene into the renderer's present viewport, which is `width` x `height` CSS px. */
+  private static makeTarget(samples: number) {
+    const target = new three.WebGLRenderTarget(4, 4, { type: three.HalfFloatType, samples });
+    target.depthTexture = new three.DepthTexture(4, 4, three.UnsignedIntType);
+    return target;
+  }
+
+  /**
+   * Draws the scene into the renderer's present viewport, which is `width` x `height` CSS px;
+   * without smooth edges where it is to be quick.
+   */
   render(renderer: three.WebGLRenderer, scene: three.Scene, camera: three.PerspectiveCamera,
-      width: number, height: number) {
+      width: number, height: number, isWhole: boolean) {
+    const target = isWhole ? this.whole : this.quick;
     const ratio = renderer.getPixelRatio();
     const [w, h] = [width, height].map((side) => Math.max(1, Math.round(side * ratio)));
-    if (this.target.width !== w || this.target.height !== h) this.target.setSize(w, h);
-    const { uPixel, uNear, uFar } = this.material.uniforms;
+    if (target.width !== w || target.height !== h) target.setSize(w, h);
+    const { uColour, uDepth, uPixel, uNear, uFar, uNeighbours } = this.material.uniforms;
+    uColour.value = target.texture;
+    uDepth.value = target.depthTexture;
+    uNeighbours.value = isWhole ? 8 : 4;
     uPixel.value.set(1.2 * ratio / w, 1.2 * ratio / h);
     uNear.value = camera.near;
     uFar.value = camera.far;
-    renderer.setRenderTarget(this.target);
+    renderer.setRenderTarget(target);
     renderer.setClearColor(this.background); // here, since it is converted for the present target
     renderer.clear();
     camera.layers.set(kSurfaceLayer);

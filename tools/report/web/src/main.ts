@@ -1,10 +1,18 @@
 // The page of `gnbv report`: reads what the program wrote into it, and puts the parts together.
 import { Clock } from "./clock";
 import { runColour, setRamps } from "./colours";
+import { followRun } from "./live";
+import { legendItems } from "./legend";
+import { makeMissedList, type Region } from "./missed";
+import { StateWriter, readState } from "./permalink";
+import { fileName } from "./save";
+import type { Layers } from "./run_scene";
+import type { Colouring } from "./surfaces";
 import { Replay, listenToKeys, makeLayerBar, makeTransport } from "./controls";
 import { Bytes, readPage } from "./data";
 import { make } from "./dom";
 import { Flight } from "./flight";
+import { FrameStrip } from "./frame_strip";
 import * as panels from "./panels";
 import { Plots } from "./plots";
 import { RunScene } from "./run_scene";
@@ -25,13 +33,21 @@ function build() {
     new RunScene(flight, page.meshes[flight.data.mesh], meshBytes));
   const clock = new Clock();
   const replay = new Replay(clock);
-  const stage = makeStage(scenes, clock);
+  const stage = makeStage(scenes, clock, fileName(page.title), (view) => {
+    replay.setEffort("views");
+    replay.moveTo(view + 1);
+  });
   const plots = new Plots(clock);
-  const strip = new panels.FrameStrip();
+  const strip = new FrameStrip();
   const words = make("p", { class: "readout", "aria-live": "off" });
-  const key = make("div", { class: "key" });
+  const key = make("p", { class: "legend", "aria-label": "Legend" });
+  const why = make("div", { class: "why" });
+  const missed = make("div", { class: "missed-list" });
+  const state = readState(location.hash);
   // more panes are too small
-  const shown = new Set(flights.slice(0, 4).map((flight) => flight.index));
+  const asked = flights.filter((flight) => state.runs?.includes(flight.index));
+  const shown = new Set((asked.length > 0 ? asked : flights.slice(0, 4))
+    .map((flight) => flight.index));
   const shownFlights = () => flights.filter((flight) => shown.has(flight.index));
 
   clock.onChange(() => {
@@ -39,9 +55,32 @@ function build() {
       flights.length > 1 ? make("span", { class: `dot run-${flight.index}` }) : null,
       panels.readout(flight, clock))));
     strip.show(shownFlights(), clock);
+    writer.change();
   });
+  const shownScenes = () => scenes.filter((scene) => shown.has(scene.flight.index));
+  let layers: Layers | null = null;
+  let colouring: Colouring = "height";
+  // a live page that is at its end stays there when the end moves on
+  const writer = new StateWriter(() => ({ effort: clock.effort,
+    at: page.is_live && clock.at >= replay.last() ? Infinity : clock.at,
+    camera: stage.cameraState(), colour: colouring, runs: [...shown],
+    layers: Object.entries(layers ?? {}).filter(([, on]) => on).map(([name]) => name) }));
+  const explain = () => {
+    if (!layers) return;
+    if (layers.candidates) { // the legend counts them
+      for (const scene of shownScenes()) scene.candidates?.show(scene.flight.viewsAt(clock));
+    }
+    key.replaceChildren(...legendItems(shownScenes(), layers, colouring));
+    why.replaceChildren(...!layers.candidates ? [] : shownScenes()
+      .filter((scene) => scene.candidates).map((scene) => make("div", {},
+        make("h3", {}, flights.length > 1 ? `Why this view: ${scene.flight.data.label}`
+          : "Why this view"), scene.candidates!.table())));
+  };
+  clock.onChange(() => { if (layers?.candidates) explain(); });
   const setShown = () => {
-    stage.setShown(scenes.filter((scene) => shown.has(scene.flight.index)));
+    stage.setShown(shownScenes());
+    explain();
+    writer.change();
     plots.setFlights(shownFlights());
     replay.setFlights(shownFlights());
   };
@@ -53,10 +92,17 @@ function build() {
     cloud: flights.some((flight) => flight.data.cloud),
     structure: page.meshes.length > 0,
     plan: flights.some((flight) => flight.data.plan),
+    surface: scenes.some((scene) => scene.surface),
+    error: flights.some((flight) => flight.data.cloud?.error),
+    candidates: flights.some((flight) => flight.data.candidates),
   };
-  const layerBar = makeLayerBar(stage, has, (by) =>
-    panels.showColourKey(key, by, scenes.find((scene) => scene.model.cloud)?.model));
-  if (stage.canDraw) stage.element.append(key);
+  const layerBar = makeLayerBar(stage, has, state, (chosen, by) => {
+    layers = chosen;
+    colouring = by;
+    explain();
+    writer.change();
+  });
+  stage.onChange(() => writer.change());
 
   setRunColours(flights.length);
   const isAlone = flights.length === 1;
@@ -69,15 +115,30 @@ function build() {
       make("div", { class: isAlone ? "board" : "board several" },
         make("section", { class: "mission", "aria-label": "The mission in 3D" },
           make("div", { class: "card view" }, stage.canDraw ? layerBar : null, stage.element,
-            makeTransport(replay, words), words),
-          strip.element),
+            stage.canDraw ? key : null, makeTransport(replay, words), words, why),
+          strip.element, missed),
         plots.element),
       page.tables.length > 0 ? make("section", {}, make("h2", {}, "Beside the paper"),
         ...page.tables.map(panels.makeTable)) : "",
       panels.makeConfiguration(page.runs)),
     panels.makeFooter(page));
+  const showMissed = (region: Region) => {
+    const box = [...layerBar.querySelectorAll("label")]
+      .find((label) => label.textContent === "Missed")!.querySelector("input")!;
+    if (!box.checked) box.click();
+    stage.lookAt(region.centre, region.radius_m);
+    stage.element.scrollIntoView({ block: "nearest" });
+  };
+  // after the first picture: it takes its time
+  setTimeout(() => missed.append(makeMissedList(scenes, showMissed) ?? ""), 300);
   setShown();
-  replay.moveTo(replay.last());
+  replay.setEffort(state.effort ?? "views");
+  replay.moveTo(state.at ?? replay.last());
+  if (state.camera) stage.setCamera(state.camera);
+  if (page.is_live) {
+    followRun(flights[0].count, () => writer.write(),
+      document.querySelector("header")!.appendChild(make("p", { class: "live", role: "status" })));
+  }
   listenToKeys(replay);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
     setRunColours(flights.length);
@@ -85,15 +146,19 @@ function build() {
     plots.rebuild();
   });
   // for scripts and tests: gnbv.seek(views), gnbv.pose(run) as x, y, z, yaw of what is drawn,
-  // gnbv.views(run) at the present place of the replay, gnbv.points(run) that the voxels hold there,
+  // gnbv.views(run) at the present place of the replay, gnbv.points(run) that the voxels hold
+  // there, gnbv.found(run) of the true surface, gnbv.candidates(run) that are drawn,
   // gnbv.plan(run) of views that a tour's plan still has there, gnbv.camera() where the 3D view is
-  // seen from
+  // seen from, gnbv.pictures() how many were drawn of it
   Object.assign(window, { gnbv: {
     seek: (views: number) => { replay.setEffort("views"); replay.moveTo(views); },
     views: (run: number) => flights[run].viewsAt(clock),
     points: (run: number) => scenes[run].model.countedPoints(),
+    found: (run: number) => scenes[run].surface?.counts() ?? null,
+    candidates: (run: number) => scenes[run].candidates?.count ?? 0,
     plan: (run: number) => scenes[run].plan?.count ?? 0,
     camera: () => stage.cameraPosition(),
+    pictures: () => ({ ...stage.pictures() }),
     pose: (run: number) => {
       const { position: p, quaternion: q } = scenes[run].vehicle;
       return [p.x, p.y, p.z, 2 * Math.atan2(q.z, q.w)];

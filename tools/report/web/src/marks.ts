@@ -5,7 +5,8 @@ import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
 import { isDark, planColour as planHex, ramp } from "./colours";
 import type { CameraData } from "./data";
-import type { Flight } from "./flight";
+import { lastAtMost, type Flight } from "./flight";
+import { cornersOfViews } from "./path_line";
 
 const srgb = (c: [number, number, number]) =>
   new three.Color().setRGB(c[0] / 255, c[1] / 255, c[2] / 255, three.SRGBColorSpace);
@@ -15,7 +16,8 @@ const planColour = () => new three.Color(planHex());
 /** The colour of the view that is `t` of the way from the first to the last. */
 export const orderColour = (t: number) => srgb(ramp("path", t));
 
-function makeTube(positions: Float32Array, colours: Float32Array, width_px: number,
+/** Lines of that width; six numbers a segment, of places and of colours. */
+export function makeTube(positions: Float32Array, colours: Float32Array, width_px: number,
     opacity: number) {
   const geometry = new LineSegmentsGeometry();
   if (positions.length > 0) geometry.setPositions(positions).setColors(colours);
@@ -25,35 +27,46 @@ function makeTube(positions: Float32Array, colours: Float32Array, width_px: numb
   return tube;
 }
 
-/** The flown path, the profile's part of it thin and grey; show(n) leaves the first n samples. */
+/** A piece of the path: the samples that are its corners, and the line through them. */
+interface Piece {
+  corners: number[];
+  line: LineSegments2;
+}
+
+/**
+ * The flown path, the profile's part of it thin and grey; show(n) leaves the first n samples, as
+ * far as their last corner, and a straight end from there.
+ */
 export class PathMark {
   readonly object = new three.Group();
-  private readonly profile: LineSegments2;
-  private readonly planned: LineSegments2;
-  private readonly firstView: number; // sample
+  private readonly profile: Piece;
+  private readonly planned: Piece;
+  private readonly end = makeTube(new Float32Array(6), new Float32Array(6), 2.4, 1);
   private layers = [true, true];
 
-  constructor(flight: Flight) {
+  constructor(private readonly flight: Flight) {
     const points = flight.points ?? new Float32Array();
     const count = points.length / 3;
-    this.firstView = Math.min(flight.firstViewSample(), count);
+    const firstView = Math.min(flight.firstViewSample(), count);
     const grey = new three.Color(isDark() ? 0x75808e : 0x8a95a3);
-    const piece = (begin: number, end: number, colourOf: (i: number) => three.Color) => {
-      const segments = Math.max(0, end - begin - 1);
+    const piece = (begin: number, end: number, width_px: number, opacity: number,
+        colourOf: (share: number) => three.Color): Piece => {
+      const corners = cornersOfViews(flight, begin, end);
+      const segments = Math.max(0, corners.length - 1);
       const positions = new Float32Array(6 * segments);
       const colours = new Float32Array(6 * segments);
       for (let i = 0; i < segments; ++i) {
-        positions.set(points.subarray(3 * (begin + i), 3 * (begin + i) + 6), 6 * i);
-        colourOf(i / segments).toArray(colours, 6 * i);
-        colourOf(i / segments).toArray(colours, 6 * i + 3);
+        const colour = colourOf((corners[i] - begin) / (end - begin));
+        for (const [j, at] of [[i, 6 * i], [i + 1, 6 * i + 3]]) {
+          positions.set(points.subarray(3 * corners[j], 3 * corners[j] + 3), at);
+          colour.toArray(colours, at);
+        }
       }
-      return { positions, colours };
+      return { corners, line: makeTube(positions, colours, width_px, opacity) };
     };
-    const before = piece(0, this.firstView, () => grey);
-    const after = piece(Math.max(0, this.firstView - 1), count, orderColour);
-    this.profile = makeTube(before.positions, before.colours, 1.2, 0.7);
-    this.planned = makeTube(after.positions, after.colours, 2.4, 1);
-    this.object.add(this.profile, this.planned);
+    this.profile = piece(0, firstView, 1.2, 0.7, () => grey);
+    this.planned = piece(Math.max(0, firstView - 1), count, 2.4, 1, orderColour);
+    this.object.add(this.profile.line, this.planned.line, this.end);
   }
 
   setLayers(showsPlanned: boolean, showsProfile: boolean) {
@@ -61,12 +74,27 @@ export class PathMark {
   }
 
   show(samples: number) {
-    const profile = Math.min(samples, this.firstView) - 1;
-    const planned = samples - this.firstView;
-    this.profile.geometry.instanceCount = Math.max(0, profile);
-    this.profile.visible = this.layers[1] && profile > 0;
-    this.planned.geometry.instanceCount = Math.max(0, planned);
-    this.planned.visible = this.layers[0] && planned > 0;
+    this.end.visible = false;
+    this.showPiece(this.profile, samples, this.layers[1], 0.7);
+    this.showPiece(this.planned, samples, this.layers[0], 1);
+  }
+
+  private showPiece({ corners, line }: Piece, samples: number, isShown: boolean, opacity: number) {
+    const last = lastAtMost(corners, samples - 1);
+    line.geometry.instanceCount = Math.max(0, last);
+    line.visible = isShown && last > 0;
+    if (!isShown || last < 0 || last + 1 >= corners.length) return;
+    if (samples - 1 <= corners[last]) return;
+    const points = this.flight.points!;
+    const ends = [corners[last], samples - 1].flatMap((i) => [...points.slice(3 * i, 3 * i + 3)]);
+    const colours = line.geometry.getAttribute("instanceColorStart") as
+      three.InterleavedBufferAttribute;
+    const at = Math.min(last, colours.count - 1);
+    const colour = [colours.getX(at), colours.getY(at), colours.getZ(at)];
+    this.end.geometry.setPositions(ends).setColors([...colour, ...colour]);
+    this.end.material.linewidth = line.material.linewidth;
+    this.end.material.opacity = opacity;
+    this.end.visible = true;
   }
 }
 

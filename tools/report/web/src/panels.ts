@@ -1,10 +1,8 @@
 // Everything that is text, tables and pictures.
-import { rampGradient } from "./colours";
 import type { Clock } from "./clock";
-import type { PageData, RampName, RunData, Table } from "./data";
+import type { PageData, RunData, Table } from "./data";
 import { make, minutes, number } from "./dom";
 import type { Flight } from "./flight";
-import type { Model, Colouring } from "./surfaces";
 
 interface Figure {
   name: string;
@@ -20,9 +18,13 @@ function keyFigures(run: RunData): Figure[] {
   const count = views.x.length;
   const figures: Figure[] = [];
   if (f) {
-    figures.push({ name: "Coverage at 0.05 m", value: number(100 * f.coverage[0], 1), unit: "%",
+    figures.push({ name: "Coverage, 0.05 m", value: number(100 * f.coverage[0], 1), unit: "%",
       paper: paper?.coverage_percent &&
         `${number(paper.coverage_percent[0], 1)} %${paper.is_doubtful ? " †" : ""}` });
+    if (run.ceiling) {
+      figures.push({ name: "Of the ceiling", value: number(100 * f.coverage[0] / run.ceiling, 1),
+        unit: "%" });
+    }
     figures.push({ name: "F within 5 cm", value: number(100 * f.f_5cm, 1), unit: "%" });
   }
   figures.push({ name: "Views", value: number(count), unit: "",
@@ -143,58 +145,6 @@ export function readout(flight: Flight, clock: Clock): string {
       + `${v.candidates[n - 1]} candidates`);
   }
   return parts.join("  ·  ");
-}
-
-/** The frames that the cameras took at the present view, or at the nearest one that was kept. */
-export class FrameStrip {
-  readonly element = make("div", { class: "frames" });
-  private key = "";
-
-  show(flights: Flight[], clock: Clock) {
-    const kept = flights.filter((flight) => flight.data.frames.length > 0);
-    const nearest = kept.map((flight) => nearestView(flight, flight.viewsAt(clock) - 1));
-    const key = kept.map((flight, i) => `${flight.index}:${nearest[i]}`).join();
-    if (key === this.key) return;
-    this.key = key;
-    this.element.replaceChildren(...kept.flatMap((flight, i) => flight.data.frames
-      .filter(([view]) => view === nearest[i])
-      .map(([view, camera, width, height, at, bytes]) => {
-        const jpeg = flight.bytes.u8([at, bytes]);
-        const url = URL.createObjectURL(new Blob([jpeg], { type: "image/jpeg" }));
-        const image = make("img", { src: url, width, height,
-          alt: `View ${view + 1} through ${camera}` });
-        image.addEventListener("load", () => URL.revokeObjectURL(url));
-        return make("figure", { class: "card frame" }, image, make("figcaption", {},
-          flights.length > 1 ? `${flight.data.label}: ` : "", `view ${view + 1}, ${camera}`));
-      })));
-  }
-}
-
-function nearestView(flight: Flight, view: number): number {
-  let best = flight.data.frames[0][0];
-  for (const [candidate] of flight.data.frames) {
-    if (Math.abs(candidate - view) < Math.abs(best - view)) best = candidate;
-  }
-  return best;
-}
-
-function densest({ densities }: Model): string {
-  return densities
-    ? `${number(densities.most)} points a voxel of ${number(densities.size, 2)} m` : "no voxels";
-}
-
-/** What the colours of points and voxels mean. */
-export function showColourKey(key: HTMLElement, by: Colouring, model: Model | undefined) {
-  key.replaceChildren();
-  if (!model || by === "real") return;
-  const [low, high, name]: [string, string, RampName] =
-    by === "height"
-      ? [`${number(model.heights[0], 1)} m`, `${number(model.heights[1], 1)} m`, "amount"]
-      : by === "density" ? ["0", densest(model), "amount"]
-      : ["profile", "last view", "path"];
-  const bar = make("span", { class: "bar" });
-  bar.style.background = rampGradient(name);
-  key.append(low, bar, high);
 }
 
 /** What of the run directory the page leaves out. */

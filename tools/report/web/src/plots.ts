@@ -1,14 +1,19 @@
 // The plots: one cursor for all, the replay's place in each; a click moves the replay there.
 import uPlot from "uplot";
 import type { Clock } from "./clock";
-import { hairline, nowLine, paleInk, phaseShade, runColour } from "./colours";
+import { hairline, paleInk, phaseShade, runColour } from "./colours";
 import { make, select } from "./dom";
 import { lastAtMost, type Flight } from "./flight";
 import * as specs from "./plot_specs";
+import { plotSvg } from "./plot_svg";
+import { fileName, saveText } from "./save";
+import { haveSeeds, withBands } from "./seed_bands";
 
 const kUnits = { views: "views", metres: "m", seconds: "s" };
+const kEffortNames = { views: "Views", metres: "Metres from view to view",
+  seconds: "Seconds since the profile" };
 const kFont = "11px system-ui, sans-serif";
-const kHeight = 132;
+const kHeight = 146;
 
 interface PlotKind {
   title: string;
@@ -35,7 +40,7 @@ export class Plots {
   private plots: uPlot[] = [];
   private flights: Flight[] = [];
   private effort = "";
-  private readonly choices: specs.PlotChoices = { size: 0, term: "utility" };
+  private readonly choices: specs.PlotChoices = { size: 0, term: "utility", bands: false };
 
   constructor(private readonly clock: Clock) {
     clock.onChange(() => {
@@ -61,16 +66,25 @@ export class Plots {
   }
 
   private add(kind: PlotKind) {
-    const content = kind.content(this.flights, this.clock, this.choices);
+    const ofRuns = kind.content(this.flights, this.clock, this.choices);
+    const content = this.choices.bands && haveSeeds(this.flights)
+      ? withBands(ofRuns, this.flights, this.clock.effort) : ofRuns;
     content.rings = content.rings.filter((ring) => ring.x <= this.lastEffort());
     const hasValues = content.lines.length > 0 && content.data[0].length > 0;
     const place = make("div", { class: "plot-place" });
     this.element.append(make("figure", { class: "card plot" },
       make("figcaption", {}, make("span", { class: "plot-title" }, kind.title),
         make("span", { class: "unit" }, kind.unit(this.flights)), this.marksKey(kind, content),
-        this.control(kind)),
+        kind === kKinds[0] ? this.seedControl() : null, this.control(kind)),
       hasValues ? place : make("p", { class: "nothing" }, "Not recorded by this run.")));
-    if (hasValues) this.plots.push(new uPlot(this.options(kind, content), content.data, place));
+    if (!hasValues) return;
+    const plot = new uPlot(this.options(kind, content), content.data, place);
+    this.plots.push(plot);
+    const title = `${kind.title} ${kind.unit(this.flights)}`.trim();
+    place.before(make("button", { type: "button", class: "small save",
+      title: `${kind.title} as SVG`, click: () => saveText(
+        plotSvg(plot, content.lines, title, kEffortNames[this.clock.effort]), "image/svg+xml",
+        `${fileName(kind.title)}.svg`) }, "SVG"));
   }
 
   /** What the marks of a plot mean, where it has any. */
@@ -88,13 +102,22 @@ export class Plots {
   /** The line at the replay's place, and the values there while no cursor asks for others. */
   private followClock() {
     for (const plot of this.plots) {
-      plot.redraw(false);
+      this.placeNow(plot);
       if ((plot.cursor.left ?? -1) < 0) this.showValues(plot);
     }
   }
 
   private showValues(plot: uPlot) {
     plot.setLegend({ idx: Math.max(0, lastAtMost(plot.data[0], this.clock.at + 1e-9)) }, false);
+  }
+
+  private seedControl(): HTMLElement | null {
+    if (!haveSeeds(this.flights)) return null;
+    return select("Runs of several seeds", [["runs", "Each run"], ["bands", "Mean and range"]],
+      this.choices.bands ? "bands" : "runs", (value) => {
+        this.choices.bands = value === "bands";
+        this.rebuild();
+      });
   }
 
   private control(kind: PlotKind): HTMLElement | null {
@@ -137,7 +160,8 @@ export class Plots {
       legend: { live: true },
       scales: { x: { time: false, range: [0, most] },
         y: { range: (_, low, high) => yRange(low, high, content.rings) } },
-      axes: [{ ...axis, size: 26, space: 60,
+      axes: [{ ...axis, size: 26, space: 60, label: kEffortNames[this.clock.effort], labelSize: 14,
+        labelFont: kFont, labelGap: -2,
         values: (_, ticks) => ticks.map((t) => t.toLocaleString("en-US")) },
         { ...axis, size: 54, space: 28, values: (_, ticks) => shortTicks(ticks) }],
       series: [{ label: unit, value: (_, v) => text2(v, unit) },
@@ -145,10 +169,11 @@ export class Plots {
           width: line.width, dash: line.dash, spanGaps: true, points: { show: false },
           value: (plot: uPlot, _: number, series: number, i: number | null) =>
             text(lastValue(plot.data[series], i)) }))],
+      bands: (content.bands ?? []).map(({ high, low, fill }) => ({ series: [high, low], fill })),
       hooks: {
         drawClear: [(plot) => this.shadePhases(plot)],
-        draw: [(plot) => drawRings(plot, content.rings), (plot) => this.drawNow(plot)],
-        ready: [(plot) => this.followClicks(plot)],
+        draw: [(plot) => drawRings(plot, content.rings)],
+        ready: [(plot) => this.followClicks(plot), (plot) => this.addNow(plot)],
         setCursor: [(plot) => { if ((plot.cursor.left ?? -1) < 0) this.showValues(plot); }],
       },
     };
@@ -171,11 +196,16 @@ export class Plots {
     });
   }
 
-  private drawNow(plot: uPlot) {
-    const { ctx, bbox } = plot;
-    const x = Math.round(plot.valToPos(Math.max(0, this.clock.at), "x", true));
-    ctx.fillStyle = nowLine();
-    ctx.fillRect(x, bbox.top, Math.max(1, Math.round(1.5 * devicePixelRatio)), bbox.height);
+  /** An element of its own: moving it draws no plot anew. */
+  private addNow(plot: uPlot) {
+    plot.over.append(make("div", { class: "now" }));
+    this.placeNow(plot);
+  }
+
+  private placeNow(plot: uPlot) {
+    const x = plot.valToPos(Math.max(0, this.clock.at), "x");
+    const line = plot.over.querySelector<HTMLElement>(".now");
+    if (line && Number.isFinite(x)) line.style.transform = `translateX(${x.toFixed(1)}px)`;
   }
 
   private followClicks(plot: uPlot) {
@@ -192,6 +222,7 @@ export class Plots {
     for (const plot of this.plots) {
       const width = plot.root.parentElement!.clientWidth;
       if (width > 0 && width !== plot.width) plot.setSize({ width, height: kHeight });
+      this.placeNow(plot);
     }
   }
 }

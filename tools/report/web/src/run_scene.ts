@@ -7,7 +7,10 @@ import { Bytes, type MeshData } from "./data";
 import type { Flight } from "./flight";
 import { FrustaMark, PathMark, PlanMark, makeSight } from "./marks";
 import { Model, makeStructure, setGhost, type Colouring } from "./surfaces";
+import { TrueSurface } from "./true_surface";
 import { makeVehicle } from "./vehicle";
+import { CandidateMarks } from "./candidates";
+import type { Picked } from "./pick";
 
 export interface Layers {
   cloud: boolean;
@@ -18,13 +21,21 @@ export interface Layers {
   frusta: boolean;
   plan: boolean; // of a tour: what is still to come
   vehicle: boolean;
+  found: boolean; // voxels of the true surface
+  missed: boolean;
+  candidates: boolean; // of the decision that chose the view
 }
 
 /** Lines on the ground, every 1, 2, 5, 10 ... m so that there are 8 to 20 each way. */
-function makeGround(min: number[], max: number[]): three.GridHelper {
+function gridStep(min: number[], max: number[]): number {
   const extent = Math.max(max[0] - min[0], max[1] - min[1]);
   const decade = 10 ** Math.floor(Math.log10(extent / 8));
-  const step = decade * (extent / 8 >= 5 * decade ? 5 : extent / 8 >= 2 * decade ? 2 : 1);
+  return decade * (extent / 8 >= 5 * decade ? 5 : extent / 8 >= 2 * decade ? 2 : 1);
+}
+
+function makeGround(min: number[], max: number[]): three.GridHelper {
+  const extent = Math.max(max[0] - min[0], max[1] - min[1]);
+  const step = gridStep(min, max);
   const count = 2 * Math.ceil(extent / step / 2 + 1);
   const grid = new three.GridHelper(count * step, count, hairline(), hairline());
   (grid.material as three.Material).transparent = true;
@@ -46,6 +57,10 @@ export class RunScene {
   private readonly path: PathMark;
   private readonly frusta: FrustaMark;
   readonly plan: PlanMark | null;
+  readonly surface: TrueSurface | null;
+  readonly candidates: CandidateMarks | null;
+  readonly gridStep_m: number;
+  private other: RunScene | null = null;
 
   constructor(readonly flight: Flight, mesh: MeshData | undefined, meshBytes: Bytes) {
     const data = flight.data;
@@ -54,6 +69,11 @@ export class RunScene {
     this.path = new PathMark(flight);
     this.frusta = new FrustaMark(flight);
     this.plan = data.plan && new PlanMark(flight);
+    this.candidates = data.candidates
+      && new CandidateMarks(flight, this.model, data.candidates);
+    this.surface = mesh?.surface && data.found ? new TrueSurface(mesh.surface, meshBytes,
+      flight.bytes.u16(data.found), flight.count) : null;
+    this.gridStep_m = gridStep(data.workspace.min, data.workspace.max);
     this.body = makeVehicle(data.vehicle);
     this.sight = makeSight(data.cameras);
     this.vehicle.add(this.body, this.sight);
@@ -64,8 +84,10 @@ export class RunScene {
     this.scene.add(sun, sky);
     const marks: three.Object3D[] = [this.path.object, this.frusta.object, this.vehicle];
     if (this.plan) marks.push(this.plan.object);
+    if (this.candidates) marks.push(this.candidates.object);
     if (data.has_ground) marks.unshift(makeGround(data.workspace.min, data.workspace.max));
-    for (const part of [this.structure, this.model.cloud, this.model.voxels]) {
+    const { cloud, voxels } = this.model;
+    for (const part of [this.structure, cloud, voxels, this.surface?.object]) {
       if (part) this.scene.add(part);
     }
     this.scene.add(...marks);
@@ -79,23 +101,39 @@ export class RunScene {
     if (this.model.voxels) this.model.voxels.visible = layers.voxels;
     if (this.structure) {
       this.structure.visible = layers.structure;
-      setGhost(this.structure, layers.cloud || layers.voxels);
+      setGhost(this.structure, layers.cloud || layers.voxels || layers.found || layers.missed);
     }
     this.path.setLayers(layers.path, layers.profile);
     this.frusta.object.visible = layers.frusta;
     if (this.plan) this.plan.object.visible = layers.plan;
     this.vehicle.visible = layers.vehicle;
+    this.surface?.setLayers(layers.found, layers.missed);
+    if (this.candidates) this.candidates.object.visible = layers.candidates;
   }
 
-  colour(by: Colouring) { this.model.colour(by); }
+  colour(by: Colouring) {
+    this.model.colour(by);
+    this.surface?.colourByOrder(by === "iteration");
+  }
 
-  /** As it is at the clock's time, for a camera that draws `pxPerTan` pixels a unit of tangent. */
-  show(clock: Clock, camera: three.PerspectiveCamera, pxPerTan: number) {
+  /** What that run found and this one did not is told apart. */
+  compareWith(other: RunScene | null) {
+    this.other = other;
+    this.surface?.compareWith(other?.surface ?? null);
+  }
+
+  /**
+   * As it is at the clock's time, for a camera that draws `pxPerTan` pixels a unit of tangent;
+   * whole, or the gist of it.
+   */
+  show(clock: Clock, camera: three.PerspectiveCamera, pxPerTan: number, isWhole: boolean) {
     const n = this.flight.viewsAt(clock);
-    this.model.show(n, pxPerTan);
+    this.model.show(n, pxPerTan, isWhole);
     this.path.show(this.flight.samplesBy(this.flight.timeAt(clock)));
     this.frusta.show(n);
     this.plan?.show(n);
+    this.candidates?.show(n);
+    this.surface?.show(n, this.other?.flight.viewsAt(clock) ?? 0, pxPerTan);
     const pose = this.flight.poseAt(clock);
     if (!pose) return;
     this.vehicle.position.copy(pose.p);
@@ -125,8 +163,43 @@ export class RunScene {
       .expandByPoint(new three.Vector3(...min)).expandByPoint(new three.Vector3(...max));
   }
 
-  /** Points (x y z each) that a camera should show. */
+  /** Points (x y z each) that a camera should show: what stands there, and where the views are. */
   outline(): Float32Array {
+    const { x, y, z } = this.flight.data.views;
+    const views = x.flatMap((_, i) => [x[i], y[i], z[i]]);
+    const shape = this.shape();
+    const all = new Float32Array(shape.length + views.length);
+    all.set(shape);
+    all.set(views, shape.length);
+    return all;
+  }
+
+  /** What a pointer can name, as it is shown; `ahead` of what lies in front of it by that depth. */
+  *things(): Generator<{ at: three.Vector3; ahead: number; of: () => Picked }> {
+    const { surface, flight } = this;
+    const words = (n: number) => (n < 0 ? "the profile" : `view ${n + 1}`);
+    for (let view = 0; view < flight.count && this.frusta.object.visible; ++view) {
+      const at = flight.viewPose(view).p;
+      yield { at, ahead: 0.01, of: () => ({ at: at.clone(), what: `View ${view + 1}`, view }) };
+    }
+    for (let i = 0; surface && i < surface.found.length; ++i) {
+      if (!surface.isShown(i)) continue;
+      const at = surface.centre(i);
+      const first = surface.found[i];
+      const what = first > flight.count ? "A voxel of the true surface that no view found"
+        : `A voxel of the true surface, found first by ${words(first - 1)}`;
+      yield { at, ahead: 1e-4, of: () => ({ at, what, view: first > flight.count ? null
+        : Math.max(first - 1, 0) }) };
+    }
+    if (!this.model.cloud?.visible) return;
+    for (const { at, view } of this.model.shownPoints()) {
+      const place = at.clone();
+      yield { at, ahead: 0, of: () => ({ at: place, what: `A point that ${words(view)} brought`,
+        view: Math.max(view, 0) }) };
+    }
+  }
+
+  private shape(): Float32Array {
     for (const part of [this.structure?.children[0] as three.Mesh | undefined, this.model.cloud]) {
       const position = part?.geometry.getAttribute("position");
       if (position && position.count > 0) return position.array as Float32Array;

@@ -1,31 +1,27 @@
 // The 3D view: a pane for each run that is shown, and one camera for all of them.
 import * as three from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { Axes } from "./axes";
 import { isDark } from "./colours";
 import type { Clock } from "./clock";
 import { make } from "./dom";
+import { nearestThatSees } from "./camera_fit";
 import { DepthShading } from "./depth_shading";
+import { Detail } from "./detail";
 import type { View3d } from "./controls";
+import { NoStage } from "./no_stage";
+import { kAim_px, kPointer_px, moveByKey, pick } from "./pick";
+import { Pointing } from "./pointing";
 import type { Layers, RunScene } from "./run_scene";
+import { savePng } from "./save";
 import type { Colouring } from "./surfaces";
 
-/** In the place of the view, where the browser cannot draw it. */
-class NoStage implements View3d {
-  readonly canDraw = false;
-  readonly element = make("div", { class: "stage none" }, make("p", { class: "nothing" },
-    "3D needs WebGL, which this browser or its settings do not offer."));
-  setShown() {}
-  setLayers() {}
-  colour() {}
-  setFollows() {}
-  setTheme() {}
-  frame() {}
-  cameraPosition() { return []; }
-}
+const kQuickRatio = 0.5; // pixels a side of a quick picture, of those of a whole one
 
-export function makeStage(scenes: RunScene[], clock: Clock): View3d {
+export function makeStage(scenes: RunScene[], clock: Clock, name: string,
+    goTo: (view: number) => void): View3d {
   try {
-    return new Stage(scenes, clock);
+    return new Stage(scenes, clock, name, goTo);
   } catch (error) {
     console.warn(error);
     return new NoStage();
@@ -36,29 +32,40 @@ class Stage implements View3d {
   readonly canDraw = true;
   readonly element: HTMLElement;
   private readonly canvas = make("canvas", { tabindex: 0, role: "img", "aria-label":
-    "3D view of the mission. Drag to turn, wheel to zoom, right drag to move, "
-    + "arrow keys to replay." });
+    "3D view of the mission. Drag or a, d, w, s to turn, wheel or + and - to zoom, right drag or "
+    + "j, l, i, k to move, 0 to fit, a click or Enter in the middle tells what is there, "
+    + "arrow keys replay." });
   private readonly labels = make("div", { class: "panes" });
   private readonly renderer: three.WebGLRenderer;
   private readonly camera = new three.PerspectiveCamera(38, 1, 0.1, 1000);
   private readonly controls: OrbitControls;
   private readonly shading = new DepthShading();
   private shown: RunScene[];
-  private isStale = true;
+  private isStale = false;
+  private size = ""; // drawn last
+  private readonly detail = new Detail(() => this.request());
   private isFramed = false;
   private follows = false;
+  private readonly pointing: Pointing;
+  private readonly axes = new Axes();
 
-  constructor(private readonly scenes: RunScene[], private readonly clock: Clock) {
+  constructor(private readonly scenes: RunScene[], private readonly clock: Clock,
+      private readonly name: string, goTo: (view: number) => void) {
     this.shown = scenes;
-    this.element = make("div", { class: "stage" }, this.canvas, this.labels);
+    this.pointing = new Pointing(goTo);
+    this.element = make("div", { class: "stage" }, this.canvas, this.labels, this.axes.element,
+      this.pointing.element, make("span", { class: "aim" }));
     this.renderer = new three.WebGLRenderer({ canvas: this.canvas, antialias: true });
     this.renderer.setScissorTest(true);
     this.renderer.autoClear = false;
+    this.renderer.debug.checkShaderErrors = false; // asking waits for the compiler
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.maxPolarAngle = 0.55 * Math.PI;
     this.controls.addEventListener("change", () => this.invalidate());
     this.canvas.addEventListener("dblclick", () => this.frame());
+    this.listenToPointer();
+    this.canvas.addEventListener("keydown", (event) => this.handleKey(event));
     new ResizeObserver(() => this.resize()).observe(this.element);
     clock.onChange(() => this.invalidate());
     this.setTheme();
@@ -66,6 +73,11 @@ class Stage implements View3d {
   }
 
   invalidate() {
+    this.detail.change();
+    this.request();
+  }
+
+  private request() {
     if (this.isStale) return;
     this.isStale = true;
     requestAnimationFrame(() => this.draw());
@@ -73,6 +85,10 @@ class Stage implements View3d {
 
   setShown(scenes: RunScene[]) {
     this.shown = scenes;
+    for (const scene of scenes) {
+      scene.compareWith(scenes.find((other) => other !== scene && other.surface
+        && other.flight.data.mesh === scene.flight.data.mesh) ?? null);
+    }
     this.labels.replaceChildren(...scenes.map((scene) => make("div", { class: "pane" },
       this.scenes.length > 1
         ? make("span", { class: `chip run-${scene.flight.index}` }, scene.flight.data.label)
@@ -88,6 +104,82 @@ class Stage implements View3d {
   colour(by: Colouring) {
     for (const scene of this.scenes) scene.colour(by);
     this.invalidate();
+  }
+
+  buttons(): HTMLElement[] {
+    const button = (text: string, title: string, click: () => void) =>
+      make("button", { type: "button", class: "small", title, click }, text);
+    return [this.pointing.button,
+      button("Save PNG", "The 3D view as a picture file", () => this.save()),
+      button("Full screen", "Escape leaves it", () => {
+        if (document.fullscreenElement) void document.exitFullscreen();
+        else void this.element.closest(".view")?.requestFullscreen();
+      })];
+  }
+
+  onChange(listener: () => void) { this.controls.addEventListener("change", listener); }
+
+  cameraState() { return [...this.camera.position.toArray(), ...this.controls.target.toArray()]; }
+
+  setCamera(state: number[]) {
+    this.frame(); // for the depths
+    this.camera.position.fromArray(state, 0);
+    this.controls.target.fromArray(state, 3);
+    this.controls.update();
+  }
+
+  /** From outside the structure. */
+  lookAt(centre: three.Vector3, radius_m: number) {
+    const middle = this.shown[0]?.bounds().getCenter(new three.Vector3()) ?? centre;
+    const out = centre.clone().sub(middle).setZ(0).normalize();
+    const back = out.add(new three.Vector3(0, 0, centre.z < middle.z - radius_m ? 0.05 : 0.6));
+    this.camera.position.copy(centre)
+      .addScaledVector(back.normalize(), Math.max(3.2 * radius_m, 3));
+    this.controls.target.copy(centre);
+    this.controls.update();
+    this.invalidate();
+  }
+
+  /** A whole picture, whatever it takes. */
+  private save() {
+    this.detail.insist();
+    this.draw(); // in this very task, or the browser would have cleared the canvas
+    savePng(this.canvas, this.name);
+  }
+
+  private handleKey(event: KeyboardEvent) {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.key === "Enter") {
+      const { clientWidth, clientHeight } = this.canvas;
+      this.pickAt(clientWidth / 2, clientHeight / 2, kAim_px);
+    } else if (event.key === "0") {
+      this.frame();
+    } else if (moveByKey(event.key, this.camera, this.controls.target)) {
+      this.controls.update();
+      this.invalidate();
+    }
+  }
+
+  /** A press that does not move is a click. */
+  private listenToPointer() {
+    let from = [0, 0];
+    this.canvas.addEventListener("pointerdown", (event) => {
+      from = [event.clientX, event.clientY];
+    });
+    this.canvas.addEventListener("pointerup", (event) => {
+      if (Math.hypot(event.clientX - from[0], event.clientY - from[1]) > 4) return;
+      this.pickAt(event.offsetX, event.offsetY, kPointer_px);
+    });
+  }
+
+  private pickAt(x: number, y: number, near_px: number) {
+    const { width, height } = this.paneSize();
+    const pane = Math.floor(this.isColumn() ? y / height : x / width);
+    const scene = this.shown[pane];
+    if (!scene) return;
+    const [left, top] = this.isColumn() ? [0, pane * height] : [pane * width, 0];
+    this.pointing.tell(pick(scene, this.camera, x - left, y - top, width, height,
+      near_px));
   }
 
   setFollows(follows: boolean) {
@@ -108,6 +200,7 @@ class Stage implements View3d {
   }
 
   cameraPosition() { return this.camera.position.toArray(); }
+  pictures() { return this.detail.drawnSoFar; }
 
   /** Puts the camera where it sees all of the structure. */
   frame() {
@@ -116,19 +209,8 @@ class Stage implements View3d {
     for (const outline of outlines) box.union(new three.Box3().setFromArray(outline));
     const centre = box.getCenter(new three.Vector3());
     const { width, height } = this.paneSize();
-    const tan = 0.86 * Math.tan(three.MathUtils.degToRad(this.camera.fov) / 2);
     const back = new three.Vector3(0.55, -0.8, 0.5).normalize();
-    const right = new three.Vector3(-back.y, back.x, 0).normalize();
-    const up = back.clone().cross(right);
-    const at = new three.Vector3();
-    let away = 1; // the nearest that sees every point
-    for (const outline of outlines) {
-      for (let i = 0; i < outline.length; i += 3) {
-        at.fromArray(outline, i).sub(centre);
-        away = Math.max(away, at.dot(back) + Math.abs(at.dot(up)) / tan,
-          at.dot(back) + Math.abs(at.dot(right)) / tan * height / width);
-      }
-    }
+    const away = nearestThatSees(outlines, centre, back, this.camera.fov, height / width);
     this.isFramed = true;
     this.setDepths(away);
     this.camera.position.copy(centre).addScaledVector(back, away);
@@ -160,36 +242,59 @@ class Stage implements View3d {
     const { clientWidth, clientHeight } = this.element;
     if (clientWidth === 0 || clientHeight === 0) return;
     this.labels.classList.toggle("column", this.isColumn());
-    this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
-    this.renderer.setSize(clientWidth, clientHeight, false);
+    this.detail.change();
     const { width, height } = this.paneSize();
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     if (!this.isFramed) this.frame();
+    const size = `${clientWidth}x${clientHeight}`;
+    const isResized = this.size !== "" && this.size !== size;
+    this.size = size;
+    if (!isResized) { this.request(); return; }
     this.isStale = true;
     this.draw(); // now, or a resized canvas would show one empty picture
   }
 
+  private fitCanvas(width: number, height: number, ratio: number) {
+    const size = this.renderer.getSize(new three.Vector2());
+    if (size.x === width && size.y === height && this.renderer.getPixelRatio() === ratio) return;
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(width, height, false);
+  }
+
+  /** Until it is drawn: what was asked for so far is only in a queue. */
+  private waitForPicture() {
+    const gl = this.renderer.getContext();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+  }
+
   private draw() {
     this.isStale = false;
+    const { isWhole } = this.detail;
     const { width, height } = this.paneSize();
-    const total = this.element.clientHeight;
+    const { clientWidth, clientHeight: total } = this.element;
+    if (clientWidth === 0 || total === 0) return;
+    const begin = performance.now();
+    this.fitCanvas(clientWidth, total, Math.min(2, devicePixelRatio) * (isWhole ? 1 : kQuickRatio));
     const pxPerTan = 0.5 * height * this.renderer.getPixelRatio() /
       Math.tan(three.MathUtils.degToRad(this.camera.fov) / 2);
     if (this.follows && this.shown.length > 0) this.moveAlong(pxPerTan);
     this.shown.forEach((scene, i) => {
-      scene.show(this.clock, this.camera, pxPerTan);
+      scene.show(this.clock, this.camera, pxPerTan, isWhole);
       const [x, y] = this.isColumn() ? [0, total - (i + 1) * height] : [i * width, 0];
       this.renderer.setViewport(x, y, width, height);
       this.renderer.setScissor(x, y, width, height);
-      this.shading.render(this.renderer, scene.scene, this.camera, width, height);
+      this.axes.show(this.camera);
+      this.shading.render(this.renderer, scene.scene, this.camera, width, height, isWhole);
     });
+    if (isWhole) this.waitForPicture();
+    this.detail.drawn(performance.now() - begin);
   }
 
   /** Keeps the camera's place beside the first vehicle. */
   private moveAlong(pxPerTan: number) {
     const lead = this.shown[0];
-    lead.show(this.clock, this.camera, pxPerTan);
+    lead.show(this.clock, this.camera, pxPerTan, this.detail.isWhole);
     const step = lead.vehicle.position.clone().sub(this.controls.target);
     this.camera.position.add(step);
     this.controls.target.add(step);

@@ -2,10 +2,11 @@
 import * as three from "three";
 import { ramp, rampTable } from "./colours";
 import { kMarkLayer, kSurfaceLayer } from "./depth_shading";
-import type { Bytes, MeshData, RampName, RunData, VoxelData } from "./data";
+import type { Bytes, MeshData, RampName, RunData } from "./data";
+import { Densities } from "./densities";
 
 /** Colours by what the point is like; `real` is what the cameras saw. */
-export type Colouring = "height" | "density" | "iteration" | "real";
+export type Colouring = "height" | "density" | "iteration" | "error" | "real";
 
 export function makeStructure(mesh: MeshData, bytes: Bytes): three.Group {
   const group = new three.Group();
@@ -15,7 +16,8 @@ export function makeStructure(mesh: MeshData, bytes: Bytes): three.Group {
     geometry.setAttribute("position", position);
     geometry.setIndex(new three.BufferAttribute(bytes.u32(part.corners), 1));
     const solid = new three.MeshLambertMaterial({ color: new three.Color(...part.rgb),
-      flatShading: true, side: three.DoubleSide });
+      flatShading: true, side: three.DoubleSide,
+      forceSinglePass: true }); // a ghost is too faint for its order to show
     group.add(new three.Mesh(geometry, solid));
   }
   return group;
@@ -39,63 +41,6 @@ function firstStates(after: Uint32Array, count: number): Uint16Array {
   const first = new Uint16Array(count);
   for (let n = 1; n < after.length; ++n) first.fill(n, after[n - 1], after[n]);
   return first;
-}
-
-/**
- * How many of the cloud's points each voxel holds at a state of the mission, with a ceiling that
- * leaves out the densest few of the last one.
- */
-class Densities {
-  readonly size: number;
-  readonly index: Int16Array;
-  readonly count: Uint32Array; // at this state
-  readonly most: number;
-  private state = 0; // of how many the gains are in `count`
-  private readonly step: Uint16Array;
-  private readonly points: Uint8Array;
-  private readonly gainsAfter: Uint32Array;
-  private readonly cells = new Map<number, number>();
-
-  constructor(voxels: VoxelData, bytes: Bytes) {
-    this.size = voxels.size_m;
-    this.index = bytes.i16(voxels.index);
-    this.step = bytes.u16(voxels.gain_step);
-    this.points = bytes.u8(voxels.gain_points);
-    this.gainsAfter = bytes.u32(voxels.gains_after);
-    this.count = new Uint32Array(this.index.length / 3);
-    for (let i = 0; i < this.count.length; ++i) {
-      const [x, y, z] = this.index.subarray(3 * i, 3 * i + 3);
-      this.cells.set(Densities.key(x, y, z), i);
-    }
-    this.seek(this.gainsAfter.length - 1);
-    const sorted = Uint32Array.from(this.count).sort();
-    this.most = sorted[Math.floor(0.98 * (sorted.length - 1))] || 1;
-  }
-
-  /** To the counts after `views` views. */
-  seek(views: number) {
-    for (; this.state <= views; ++this.state) this.add(this.state, 1);
-    for (; this.state > views + 1; --this.state) this.add(this.state - 1, -1);
-  }
-
-  private add(state: number, sign: number) {
-    let voxel = 0;
-    for (let i = state > 0 ? this.gainsAfter[state - 1] : 0; i < this.gainsAfter[state]; ++i) {
-      voxel += this.step[i];
-      this.count[voxel] += sign * this.points[i];
-    }
-  }
-
-  /** Exact in a double: 16 bits an axis. */
-  private static key(i: number, j: number, k: number): number {
-    return ((i + 32768) * 65536 + j + 32768) * 65536 + k + 32768;
-  }
-
-  /** Of the voxel in which the point lies; -1 where rounding put it into one without points. */
-  voxelAt(x: number, y: number, z: number): number {
-    const cell = (c: number) => Math.floor(c / this.size);
-    return this.cells.get(Densities.key(cell(x), cell(y), cell(z))) ?? -1;
-  }
 }
 
 const kPointVertex = `
@@ -124,6 +69,15 @@ void main() {
 /** What of a ramp a point takes, from 0 to 1. */
 type Share = (height: number, density: number, state: number) => number;
 
+const kMostError_mm = 100; // larger ones have its colour
+const kGistPoints = 60_000;
+
+/** The first of every so many points. */
+function makeGist(count: number, every: number) {
+  const index = Uint32Array.from({ length: Math.ceil(count / every) }, (_, i) => every * i);
+  return new three.BufferAttribute(index, 1);
+}
+
 /** Points and voxels of a run; both are there after as many views as show() says. */
 export class Model {
   readonly cloud: three.Points | null = null;
@@ -136,6 +90,8 @@ export class Model {
   private pointVoxels: Int32Array | null = null; // of each point, once asked for
   private by: Colouring = "height";
   private views = -1; // shown
+  private readonly gist: three.BufferAttribute | null = null; // indices of some points
+  private gistEvery = 1; // of so many points one is in it
 
   constructor(readonly data: RunData, private readonly bytes: Bytes) {
     if (data.voxels) {
@@ -149,6 +105,8 @@ export class Model {
       const { min, size } = data.cloud.points;
       this.heights = [min[2], min[2] + Math.max(size[2], 1e-6)];
       this.cloud = this.makeCloud();
+      this.gistEvery = Math.ceil(this.points.length / 3 / kGistPoints);
+      this.gist = makeGist(this.points.length / 3, this.gistEvery);
     }
   }
 
@@ -167,19 +125,35 @@ export class Model {
     this.voxels.instanceColor!.needsUpdate = true;
   }
 
+  /** Voxels that held points before the view. */
+  voxelsKnown(view: number): number { return this.voxelsAfter[view] ?? 0; }
+
+  /** The points that are shown: place, and the view that brought each (-1 the profile). */
+  *shownPoints(): Generator<{ at: three.Vector3; view: number }> {
+    const at = new three.Vector3();
+    for (let state = 0, i = 0; state <= this.views; ++state) {
+      for (; i < this.cloudAfter[state]; ++i) {
+        yield { at: at.fromArray(this.points, 3 * i), view: state - 1 };
+      }
+    }
+  }
+
   /** Points of the whole cloud in the voxels, as they are shown. */
   countedPoints(): number { return this.densities?.count.reduce((a, b) => a + b, 0) ?? 0; }
 
   /** After `n` views; the points of the last one are marked. */
-  show(n: number, pxPerTan: number) {
+  show(n: number, pxPerTan: number, isWhole: boolean) {
     if (n !== this.views) {
       this.views = n;
       this.densities?.seek(n);
       if (this.by === "density") this.colour(this.by); // as dense as it was then
     }
     if (this.cloud) {
-      this.cloud.geometry.setDrawRange(0, this.cloudAfter[n]);
+      const every = isWhole ? 1 : this.gistEvery;
+      this.cloud.geometry.setIndex(every > 1 ? this.gist : null);
+      this.cloud.geometry.setDrawRange(0, Math.ceil(this.cloudAfter[n] / every));
       const { uniforms } = this.cloud.material as three.ShaderMaterial;
+      uniforms.uSize.value = this.pointSize() * Math.min(Math.sqrt(every), 2.5);
       uniforms.uNewFrom.value = n > 0 ? this.cloudAfter[n - 1] : 0x7fffffff;
       uniforms.uPxPerTan.value = pxPerTan;
     }
@@ -203,6 +177,12 @@ export class Model {
     const rgb = attribute.array as Uint8Array;
     if (by === "real" && this.data.cloud?.colour) {
       rgb.set(this.bytes.u8(this.data.cloud.colour));
+    } else if (by === "error" && this.data.cloud?.error) {
+      const table = rampTable("amount");
+      this.bytes.u8(this.data.cloud.error).forEach((error, i) => {
+        const at = 3 * Math.round(255 * Math.min(error / kMostError_mm, 1));
+        for (let k = 0; k < 3; ++k) rgb[3 * i + k] = error === 255 ? 128 : table[at + k];
+      });
     } else {
       const [name, share] = this.ramp(by);
       const table = rampTable(name);
@@ -224,16 +204,17 @@ export class Model {
       this.densities?.voxelAt(points[3 * i], points[3 * i + 1], points[3 * i + 2]) ?? -1);
   }
 
+  private pointSize() { return 1.5 * Math.max(this.data.cloud!.cell_m, 0.02); }
+
   private makeCloud(): three.Points {
     const geometry = new three.BufferGeometry();
     geometry.setAttribute("position", new three.BufferAttribute(this.points, 3));
     geometry.setAttribute("rgb",
       new three.BufferAttribute(new Uint8Array(this.points.length), 3, true));
-    const spacing = Math.max(this.data.cloud!.cell_m, 0.02);
     const material = new three.ShaderMaterial({
       vertexShader: kPointVertex,
       fragmentShader: kPointFragment,
-      uniforms: { uSize: { value: 1.5 * spacing }, uPxPerTan: { value: 1 },
+      uniforms: { uSize: { value: this.pointSize() }, uPxPerTan: { value: 1 },
         uNewFrom: { value: 0 } },
     });
     const points = new three.Points(geometry, material);

@@ -1,0 +1,196 @@
+// The page of gnbv report as a browser meets it: what was missed, why this view, links, keys, files
+// and paper. Its replay: page_test.mjs.
+// usage: node page_layers_test.mjs CHROMIUM PAGE RUN...
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+import { Browser } from "./browser.mjs";
+
+const [chromium, page, ...runs] = process.argv.slice(2);
+const url = pathToFileURL(resolve(page)).href;
+
+/** Coverage at 0.05 m after the profile and after each view. */
+function coverage(run) {
+  const [head, ...rows] = readFileSync(join(run, "coverage.csv"), "utf8").trim().split("\n");
+  const column = head.split(",").findIndex((name) => name === "coverage_0.05");
+  assert.ok(column >= 0, head);
+  return rows.map((row) => Number(row.split(",")[column]));
+}
+
+/** Whether all fly one configuration with different seeds. */
+const areSeeds = () => new Set(runs.map((run) =>
+  readFileSync(join(run, "scenario.yaml"), "utf8").replace(/^seed:.*$/m, ""))).size === 1;
+
+/** Of the decision that chose each view. */
+function candidates(run, views) {
+  const lines = readFileSync(join(run, "candidates.jsonl"), "utf8").trim();
+  const all = lines === "" ? [] : lines.split("\n").map((line) => JSON.parse(line));
+  return Array.from({ length: views }, (_, view) => all.filter((c) => c.iteration === view));
+}
+
+const browser = await Browser.open(chromium, 900, 700);
+const complaints = [];
+browser.listen((event, parameters) => {
+  if (event === "Runtime.exceptionThrown") complaints.push(JSON.stringify(parameters));
+  if (event === "Log.entryAdded" && parameters.entry.level === "error") {
+    complaints.push(parameters.entry.text);
+  }
+});
+const drawn = () => browser.evaluate(
+  "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))");
+const seek = async (n) => { await browser.evaluate(`gnbv.seek(${n})`); await drawn(); };
+const box = (name) => `[...document.querySelectorAll(".layers label")]
+  .find((label) => label.textContent === "${name}").querySelector("input")`;
+const flip = async (name) => { await browser.evaluate(`${box(name)}.click()`); await drawn(); };
+const canvas = "document.querySelector('.stage canvas')";
+const press = async (key, element) => {
+  await browser.evaluate(`${element}.focus()`);
+  const text = key.length === 1 ? { text: key } : {};
+  await browser.call("Input.dispatchKeyEvent", { type: "keyDown", key, ...text });
+  await browser.call("Input.dispatchKeyEvent", { type: "keyUp", key });
+  await drawn();
+};
+const camera = () => browser.evaluate("gnbv.camera()");
+const open = async () => {
+  await browser.call("Page.navigate", { url: "about:blank" });
+  await browser.call("Page.navigate", { url });
+  await browser.until("!!window.gnbv");
+  await drawn();
+};
+
+try {
+  await browser.call("Page.setDownloadBehavior", { behavior: "deny" });
+  await open();
+
+  // found is what coverage.csv says, at every view and on the way back
+  const curves = runs.map(coverage);
+  await flip("Missed");
+  await flip("Found");
+  for (const n of [...curves[0].keys(), 1]) {
+    await seek(n);
+    for (const [run, curve] of curves.entries()) {
+      const { found, missed, onlyOther } = await browser.evaluate(`gnbv.found(${run})`);
+      const share = found / (found + missed + onlyOther);
+      assert.ok(Math.abs(share - curve[n]) < 1e-6, `view ${n}: ${share}, not ${curve[n]}`);
+      assert.ok(runs.length > 1 || onlyOther === 0);
+    }
+  }
+  if (runs.length > 1) { // what neither found is the same for both
+    const [a, b] = await browser.evaluate("[gnbv.found(0), gnbv.found(1)]");
+    assert.equal(a.missed, b.missed);
+    assert.equal(a.found + a.onlyOther, b.found + b.onlyOther);
+  }
+  const regions = "document.querySelectorAll('.regions button')";
+  const before = await camera();
+  await browser.until(`${regions}.length > 0`);
+  await browser.evaluate(`${regions}[0].click()`);
+  await drawn();
+  assert.notDeepEqual(await camera(), before, "a missed region is looked at");
+
+  // each decision with all its candidates, and what became of them
+  await flip("Candidates");
+  for (let n = 1; n < curves[0].length; ++n) {
+    await seek(n);
+    for (const [run, folder] of runs.entries()) {
+      const recorded = candidates(folder, curves[run].length - 1)[n - 1];
+      assert.equal(await browser.evaluate(`gnbv.candidates(${run})`), recorded.length, `view ${n}`);
+      const reasons = new Set(recorded.filter((c) => c.rejected).map((c) => c.rejected));
+      const told = await browser.evaluate("document.querySelector('.why').textContent");
+      for (const reason of reasons) assert.ok(told.includes(reason.replaceAll("_", " ")), told);
+    }
+  }
+
+  // seeds of one configuration are drawn as their mean, where there are any
+  const seeds = "document.querySelector(\"select[aria-label='Runs of several seeds']\")";
+  const isBand = runs.length > 1 && areSeeds();
+  assert.equal(await browser.evaluate(`!!${seeds}`), isBand);
+  if (isBand) {
+    await browser.evaluate(`${seeds}.value = "bands";
+      ${seeds}.dispatchEvent(new Event("change", { bubbles: true }))`);
+    const ends = curves.map((curve) => 100 * curve.at(-1));
+    const mean = ends.reduce((a, b) => a + b, 0) / ends.length;
+    await seek(curves[0].length - 1);
+    const told = await browser.evaluate("document.querySelector('.u-legend').textContent");
+    for (const value of [mean, Math.min(...ends), Math.max(...ends)]) {
+      assert.ok(told.includes(value.toFixed(1)), `${value} in ${told}`);
+    }
+  }
+
+  // keys turn, zoom and fit the 3D view, and tell what is in its middle
+  for (const key of ["a", "w", "+", "l", "i"]) {
+    const from = await camera();
+    await press(key, canvas);
+    assert.notDeepEqual(await camera(), from, key);
+  }
+  await browser.evaluate(`${regions}[0].click()`);
+  await seek(curves[0].length - 1);
+  if (runs.length === 1) {
+    await press("Enter", canvas);
+    assert.match(await browser.evaluate("document.querySelector('.picked').textContent"),
+      /^A (voxel|point)/);
+  }
+
+  // a link shows what its sender saw
+  await seek(2);
+  await press("d", canvas);
+  await browser.until("location.hash.includes('at=2') && location.hash.includes('missed')");
+  await new Promise((done) => setTimeout(done, 600));
+  const [seen, hash] = [await camera(), await browser.evaluate("location.hash")];
+  await browser.call("Page.navigate", { url: "about:blank" });
+  await browser.call("Page.navigate", { url: url + hash });
+  await browser.until("!!window.gnbv");
+  await drawn();
+  assert.equal(await browser.evaluate("gnbv.views(0)"), 2);
+  assert.equal(await browser.evaluate(`${box("Missed")}.checked`), true);
+  (await camera()).forEach((x, i) => assert.ok(Math.abs(x - seen[i]) < 2e-3, `${x}, ${seen[i]}`));
+  // and one that was tampered with is no worse than none
+  await browser.call("Page.navigate", { url: "about:blank" });
+  await browser.call("Page.navigate", { url: `${url}#at=x&camera=1,2&runs=99&layers=<svg>&by=no` });
+  await browser.until("!!window.gnbv");
+
+  // pictures as files
+  const saved = (button) => browser.evaluate(`new Promise((done) => {
+    const make = URL.createObjectURL;
+    URL.createObjectURL = (blob) => {
+      URL.createObjectURL = make;
+      blob.text().then((text) => done([blob.type, blob.size, text.slice(0, 100000)]));
+      return make.call(URL, blob);
+    };
+    [...document.querySelectorAll("button")].find((b) => b.textContent === "${button}").click();
+  })`);
+  const [pngType, pngSize] = await saved("Save PNG");
+  assert.equal(pngType, "image/png");
+  assert.ok(pngSize > 5000, `${pngSize}`);
+  const [, , svg] = await saved("SVG");
+  assert.deepEqual(await browser.evaluate(`(() => {
+    const svg = new DOMParser().parseFromString(${JSON.stringify(svg)}, "image/svg+xml");
+    return [svg.querySelectorAll("parsererror, script").length,
+      svg.querySelectorAll("path[stroke-width]").length > 0];
+  })()`), [0, true]);
+
+  // everything that can be used can be reached by Tab, has a name and is large enough for a finger
+  const poor = await browser.evaluate(`[...document.querySelectorAll(
+      "button, select, summary, input, canvas[tabindex], .toggle")]
+    .filter((e) => e.checkVisibility()).flatMap((e) => {
+      const { width, height } = (e.closest("label") ?? e).getBoundingClientRect();
+      const name = e.ariaLabel || e.textContent || e.closest("label")?.textContent;
+      const isSmall = e.type !== "range" && (width < 24 || height < 24);
+      return !name || isSmall || (e.tabIndex < 0 && !e.matches(".toggle"))
+        ? [e.outerHTML.slice(0, 80) + " " + width + "x" + height] : [];
+    })`);
+  assert.deepEqual(poor, []);
+
+  // paper: an A4 page is 186 mm between its margins, and nothing reaches beyond
+  await browser.call("Emulation.setEmulatedMedia", { media: "print" });
+  await browser.call("Emulation.setDeviceMetricsOverride",
+    { width: 703, height: 1032, deviceScaleFactor: 1, mobile: false });
+  await drawn();
+  assert.ok(await browser.evaluate("document.documentElement.scrollWidth") <= 703);
+  assert.equal(await browser.evaluate(
+    "[...document.querySelectorAll('button:not(.picture), select')].filter((e) => e.checkVisibility()).length"), 0);
+  assert.deepEqual(complaints, []);
+  assert.equal(await browser.evaluate("window.hacked"), undefined);
+} finally {
+  await browser.close();
+}

@@ -1,0 +1,76 @@
+// What everything in the 3D view means, in words beside its colour.
+import { planColour, rampGradient } from "./colours";
+import { make, number } from "./dom";
+import type { RunScene, Layers } from "./run_scene";
+import type { Colouring } from "./surfaces";
+import { foundColours } from "./true_surface";
+
+type Shape = "line" | "dot" | "bar";
+
+const hex = (colour: number) => `#${colour.toString(16).padStart(6, "0")}`;
+
+function item(shape: Shape, colour: string, text: string, before = ""): HTMLElement {
+  const swatch = make("i", { class: `mark ${shape}` });
+  swatch.style.background = colour;
+  return make("span", {}, before, swatch, text);
+}
+
+function ofColouring(scene: RunScene, by: Colouring, things: string): HTMLElement {
+  const { model } = scene;
+  if (by === "real") return item("dot", "#9a8f80", `${things}: camera colours`);
+  if (by === "height") {
+    return item("bar", rampGradient("amount"), `${number(model.heights[1], 1)} m`,
+      `${things}: height ${number(model.heights[0], 1)}`);
+  }
+  if (by === "error") {
+    return item("bar", rampGradient("amount"), "10 cm or more", `${things}: off the surface by 0`);
+  }
+  if (by === "density") {
+    const { densities } = model;
+    return item("bar", rampGradient("amount"), densities ? `${number(densities.most)} points a `
+      + `voxel of ${number(densities.size, 2)} m` : "no voxels", `${things}: density 0`);
+  }
+  return item("bar", rampGradient("path"), "last view", `${things}: found by first`);
+}
+
+/** Of the layers that are shown, of the first run that has each. */
+export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring): HTMLElement[] {
+  const items: HTMLElement[] = [];
+  const first = scenes.find((scene) => scene.model.cloud) ?? scenes[0];
+  if (!first) return items;
+  const things = layers.cloud && layers.voxels ? "points, voxels"
+    : layers.cloud ? "points" : layers.voxels ? "voxels" : "";
+  if (things) items.push(ofColouring(first, by, things));
+  if (layers.cloud) items.push(item("dot", "#ff7026", "points of this view"));
+  const surface = scenes.find((scene) => scene.surface)?.surface;
+  if (surface && layers.found) {
+    items.push(by === "iteration"
+      ? item("bar", rampGradient("path"), "last view", "surface found by first")
+      : item("dot", hex(foundColours.found), "surface found"));
+  }
+  if (surface && layers.missed) {
+    const colour = by === "iteration" ? foundColours.missedInOrder : foundColours.missed;
+    items.push(item("dot", hex(colour), "surface missed"));
+    if (scenes.length > 1) {
+      items.push(item("dot", hex(foundColours.onlyOther), "missed here, found by the other run"));
+    }
+  }
+  if (layers.structure) items.push(item("dot", "#b9bec6", "structure"));
+  if (layers.path) items.push(item("bar", rampGradient("path"), "last", "path, views: first"));
+  if (layers.frusta) items.push(item("line", rampGradient("path"), "pyramid of each view"));
+  if (layers.profile) items.push(item("line", "#8a95a3", "profile flight"));
+  if (layers.plan && scenes.some((scene) => scene.plan)) {
+    items.push(item("line", hex(planColour()), "still planned"));
+  }
+  if (layers.vehicle) items.push(item("line", "#ff8a3c", "what the cameras see"));
+  if (layers.candidates) items.push(...candidateItems(scenes));
+  items.push(make("span", {}, `grid ${number(first.gridStep_m)} m`));
+  return items;
+}
+
+function candidateItems(scenes: RunScene[]): HTMLElement[] {
+  const kinds = scenes.flatMap((scene) => scene.candidates?.kinds() ?? []);
+  const seen = new Set<string>();
+  return kinds.filter(({ text }) => !seen.has(text) && seen.add(text))
+    .map(({ colour, text }) => item("line", colour, text));
+}

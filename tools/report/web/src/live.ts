@@ -1,0 +1,27 @@
+// A page that is served while its mission flies: it asks for more, and shows it when there is some.
+
+const kAsk_ms = 1500;
+
+/**
+ * Reloads the page when the run has more views than the `shown` ones, after `leave`, which keeps
+ * what the reader has set. Says in `place` how it stands.
+ */
+export function followRun(shown: number, leave: () => void, place: HTMLElement) {
+  place.textContent = "live";
+  const ask = async () => {
+    try {
+      const answer = await fetch("views", { cache: "no-store" });
+      const views = Number(await answer.text());
+      if (answer.ok && views > shown && document.visibilityState === "visible") {
+        leave();
+        location.reload();
+        return;
+      }
+      place.textContent = "live";
+    } catch {
+      place.textContent = "no longer live: the run has ended, or its terminal was closed";
+    }
+    setTimeout(ask, kAsk_ms);
+  };
+  setTimeout(ask, kAsk_ms);
+}

@@ -1,0 +1,136 @@
+// The voxels of the true surface: found by a run so far, missed, or found by another run alone.
+import * as three from "three";
+import { rampTable } from "./colours";
+import type { Bytes, SurfaceData } from "./data";
+
+export const kNeverFound = 0xffff;
+
+/** sRGB, as in the pictures of coverage. */
+export const foundColours = {
+  found: 0x8fb4cf,
+  missed: 0xd5420a,
+  missedInOrder: 0x98a0ab, // beside the colours of an order, which has an orange of its own
+  onlyOther: 0x9b2fae, // missed here, found by the other run that is shown
+};
+
+const kVertex = `
+uniform float uVoxel;
+uniform float uPxPerTan;
+uniform float uNow;
+uniform float uOtherNow;
+uniform float uStates;
+uniform bvec2 uShows; // found, missed
+uniform bool uByOrder;
+uniform vec3 uFound;
+uniform vec3 uMissed;
+uniform vec3 uOnlyOther;
+uniform sampler2D uRamp;
+attribute float first;
+attribute float other;
+varying vec3 vColour;
+void main() {
+  bool isFound = first <= uNow;
+  if (isFound ? !uShows.x : !uShows.y) {
+    gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+    gl_PointSize = 0.0;
+    return;
+  }
+  vec4 p = modelViewMatrix * vec4(uVoxel * (position + 0.5), 1.0);
+  gl_Position = projectionMatrix * p;
+  gl_PointSize = clamp(1.3 * uVoxel * uPxPerTan / -p.z, isFound ? 1.6 : 2.5, 64.0);
+  vec3 found = uByOrder ? texture2D(uRamp, vec2(first / uStates, 0.5)).rgb : uFound;
+  vColour = isFound ? found : other <= uOtherNow ? uOnlyOther : uMissed;
+}`;
+const kFragment = `
+varying vec3 vColour;
+void main() { gl_FragColor = sRGBTransferEOTF(vec4(vColour, 1.0)); }`;
+
+const srgb = (hex: number) =>
+  new three.Vector3((hex >> 16) / 255, (hex >> 8 & 255) / 255, (hex & 255) / 255);
+
+function rampTexture(): three.DataTexture {
+  const rgba = new Uint8Array(4 * 256).fill(255);
+  for (let i = 0; i < 256; ++i) rgba.set(rampTable("path").subarray(3 * i, 3 * i + 3), 4 * i);
+  const texture = new three.DataTexture(rgba, 256, 1);
+  texture.needsUpdate = true;
+  return texture;
+}
+
+export class TrueSurface {
+  readonly object: three.Points;
+  readonly size_m: number;
+  readonly voxels: Int16Array; // x y z index each
+  private readonly material: three.ShaderMaterial;
+  private other: TrueSurface | null = null;
+
+  /** `found`: of each voxel after how many views it was found, or kNeverFound. */
+  constructor(data: SurfaceData, bytes: Bytes, readonly found: Uint16Array, states: number) {
+    this.size_m = data.size_m;
+    this.voxels = bytes.i16(data.index);
+    const geometry = new three.BufferGeometry();
+    geometry.setAttribute("position", new three.BufferAttribute(this.voxels, 3));
+    geometry.setAttribute("first", new three.BufferAttribute(found, 1));
+    geometry.setAttribute("other", new three.BufferAttribute(new Uint16Array(found.length), 1));
+    this.material = new three.ShaderMaterial({
+      vertexShader: kVertex,
+      fragmentShader: kFragment,
+      uniforms: { uVoxel: { value: this.size_m }, uPxPerTan: { value: 1 }, uNow: { value: 0 },
+        uOtherNow: { value: -1 }, uStates: { value: Math.max(1, states) },
+        uShows: { value: new three.Vector2(0, 0) }, uByOrder: { value: false },
+        uFound: { value: srgb(foundColours.found) }, uMissed: { value: srgb(foundColours.missed) },
+        uOnlyOther: { value: srgb(foundColours.onlyOther) }, uRamp: { value: rampTexture() } },
+    });
+    this.object = new three.Points(geometry, this.material);
+    this.object.frustumCulled = false;
+  }
+
+  setLayers(showsFound: boolean, showsMissed: boolean) {
+    this.material.uniforms.uShows.value = new three.Vector2(+showsFound, +showsMissed);
+    this.object.visible = showsFound || showsMissed;
+  }
+
+  colourByOrder(isByOrder: boolean) {
+    const { uByOrder, uMissed } = this.material.uniforms;
+    uByOrder.value = isByOrder;
+    uMissed.value = srgb(isByOrder ? foundColours.missedInOrder : foundColours.missed);
+  }
+
+  /** What another run of the same structure found is told from what neither did. */
+  compareWith(other: TrueSurface | null) {
+    this.other = other && other.found.length === this.found.length ? other : null;
+    const attribute = this.object.geometry.getAttribute("other") as three.BufferAttribute;
+    if (this.other) (attribute.array as Uint16Array).set(this.other.found);
+    attribute.needsUpdate = true;
+  }
+
+  /** After `n` views of this run, and so many of the other. */
+  show(n: number, ofOther: number, pxPerTan: number) {
+    const { uniforms } = this.material;
+    uniforms.uNow.value = n;
+    uniforms.uOtherNow.value = this.other ? ofOther : -1;
+    uniforms.uPxPerTan.value = pxPerTan;
+  }
+
+  /** How many voxels there are of each kind, as they are shown. */
+  counts(): { found: number; missed: number; onlyOther: number } {
+    const { uNow, uOtherNow } = this.material.uniforms;
+    const counts = { found: 0, missed: 0, onlyOther: 0 };
+    this.found.forEach((first, i) => {
+      if (first <= uNow.value) ++counts.found;
+      else if (this.other && this.other.found[i] <= uOtherNow.value) ++counts.onlyOther;
+      else ++counts.missed;
+    });
+    return counts;
+  }
+
+  centre(voxel: number): three.Vector3 {
+    return new three.Vector3().fromArray(this.voxels, 3 * voxel).addScalar(0.5)
+      .multiplyScalar(this.size_m);
+  }
+
+  isShown(voxel: number): boolean {
+    const { uShows, uNow } = this.material.uniforms;
+    const isFound = this.found[voxel] <= uNow.value;
+    return this.object.visible && (isFound ? uShows.value.x : uShows.value.y) > 0;
+  }
+}
