@@ -1,0 +1,29 @@
+// A process of its own that serves a run's page while the mission flies in this one.
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+
+namespace gnbv {
+
+/// While it lives, `gnbv report RUN --live PORT` runs beside us, at the lowest priority: it shares
+/// nothing with the mission but the run directory, which it reads, so that no browser can change or
+/// slow the mission. It dies with us, however we die.
+class LiveChild {
+ public:
+  /// Returns when browsers are heard. Throws BadInput when the port cannot be had.
+  LiveChild(const std::filesystem::path& run, int port);
+  ~LiveChild();
+  LiveChild(const LiveChild&) = delete;
+  LiveChild& operator=(const LiveChild&) = delete;
+
+  const std::string& url() const { return url_; }
+
+ private:
+  pid_t child_ = -1;
+  std::string url_;
+};
+
+}  // namespace gnbv
