@@ -17,7 +17,10 @@ constexpr std::size_t kListeners = 8;  // at once; others wait
 constexpr std::size_t kMostBody_bytes = 1024;
 
 struct Shown {
-  std::string html = "<!doctype html><title>gnbv</title><p>Nothing flown yet.";
+  // looks again by itself until there is a page
+  std::string html =
+      "<!doctype html><meta http-equiv=\"refresh\" content=\"1\"><title>gnbv</title>"
+      "<p>Nothing flown yet.";
   std::string policy = "default-src 'none'";
   std::size_t views = 0;
 };
