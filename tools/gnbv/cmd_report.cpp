@@ -3,13 +3,16 @@
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <memory>
+#include <optional>
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/shared_options.hpp"
+#include "tools/live/live_report.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/report/page_parts.hpp"
 #include "tools/report/report.hpp"
@@ -25,6 +28,7 @@ struct ReportCommandOptions {
   std::vector<fs::path> runs;
   fs::path out;
   ReportOptions report;
+  std::optional<int> live_port = {};
   bool quiet = false;
 };
 
@@ -61,6 +65,16 @@ void check_page_is_built_in() {
                   why_no_page()));
 }
 
+void serve(const ReportCommandOptions& options) {
+  if (options.runs.size() != 1) throw BadInput("--live: shows one run");
+  if (!options.out.empty()) throw BadInput("--live: serves the page, --out writes it: not both");
+  serve_report(options.runs[0], {.port = *options.live_port, .threads = options.report.threads},
+               [](const std::string& url) {
+                 fmt::print("{}\n", url);
+                 std::fflush(stdout);
+               });
+}
+
 void report(ReportCommandOptions options) {
   check_page_is_built_in();
   if (options.runs.size() > kMaxReportRuns) {
@@ -69,8 +83,9 @@ void report(ReportCommandOptions options) {
                     "compares more",
                     options.runs.size(), kMaxReportRuns));
   }
-  const fs::path page = page_path(options);
   options.report.threads = thread_count(options.report.threads);
+  if (options.live_port) return serve(options);
+  const fs::path page = page_path(options);
   std::vector<RunRecord> records;
   for (const fs::path& run : options.runs) {
     records.push_back(read_run(run));
@@ -101,6 +116,11 @@ void add_report_command(CLI::App& app) {
   command->add_option("-o,--out", options->out,
                       "HTML to write (default: RUN/report.html, of several runs report.html here)");
   command->add_option("--title", options->report.title, "instead of the runs' own");
+  command
+      ->add_option("--live", options->live_port,
+                   "PORT: serve the page to browsers of this machine instead, anew as the run "
+                   "grows, until Ctrl-C; 0: any free port")
+      ->check(CLI::Range(0, 65535));
   add_threads_option(*command, options->report.threads, "the page does");
   add_quiet_option(*command, options->quiet, "progress");
   command->callback([options] { report(*options); });

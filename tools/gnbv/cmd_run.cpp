@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "bench/compare/paper_table.hpp"
 #include "planner/routes.hpp"
@@ -13,9 +14,11 @@
 #include "tools/gnbv/early_end.hpp"
 #include "tools/gnbv/margin_note.hpp"
 #include "tools/gnbv/shared_options.hpp"
+#include "tools/live/live_child.hpp"
 #include "tools/mesh_lint/mesh_report.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/mission/view_pipe.hpp"
+#include "tools/report/page_parts.hpp"
 #include "tools/run_files/file_names.hpp"
 #include "tools/run_files/frames_folder.hpp"
 #include "tools/run_files/run_commands.hpp"
@@ -32,6 +35,7 @@ struct RunOptions {
   ScenarioOptions scenario;
   MissionOptions mission;
   bool json = false;
+  std::optional<int> live_port = {};
 };
 
 void need_route(const RunOptions& options, const Scenario& scenario) {
@@ -107,12 +111,28 @@ bool has_ended(const RunOptions& options, const Scenario& scenario) {
   return true;
 }
 
+/// Who serves the page of the mission while it flies, where that is asked for.
+std::unique_ptr<LiveChild> watched(const RunOptions& options) {
+  if (!options.live_port) return nullptr;
+  if (options.mission.out.empty()) {
+    throw BadInput("--live: needs --out, the run directory to show");
+  }
+  if (!why_no_page().empty()) {
+    throw CommandFailed(
+        fmt::format("--live: this gnbv was built without its page: {}", why_no_page()));
+  }
+  auto live = std::make_unique<LiveChild>(options.mission.out, *options.live_port);
+  say("live: {}", live->url());
+  return live;
+}
+
 void run(const RunOptions& options) {
   std::vector<std::string> idle_notes;
   const Scenario scenario = resolve_scenario(options.scenario, idle_notes);
   need_route(options, scenario);
   if (has_ended(options, scenario)) return;
   say_doubts(scenario, idle_notes);
+  const std::unique_ptr<LiveChild> live = watched(options);
   const ExecutedMission mission = execute_mission(scenario, options.mission);
   if (options.mission.piped_views) {
     fmt::print("{}", pipe_end_line(mission.result, mission.folder.string()));
@@ -173,6 +193,11 @@ void add_run_command(CLI::App& app) {
   command->add_flag_callback(
       "--ceiling", [options] { options->mission.ceiling = CeilingFrom::search; },
       "find the ceiling, where no earlier command did, for the effort to reach it in summary.json");
+  command
+      ->add_option("--live", options->live_port,
+                   "PORT: serve the report of the mission to browsers of this machine while it "
+                   "flies; 0: any free port")
+      ->check(CLI::Range(0, 65535));
   command->add_flag("--json", options->json, "print summary.json instead of a table");
   command->callback([options] { run(*options); });
 }

@@ -28,8 +28,8 @@ constexpr int kLeastPriority = 19;
   const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
   dup2(nowhere, STDIN_FILENO);
   dup2(nowhere, STDERR_FILENO);
-  const std::array<const char*, 9> words = {"gnbv",   "report",    run.c_str(), "--live",
-                                            port.c_str(), "--threads", "1", "--quiet", nullptr};
+  const std::array<const char*, 9> words = {
+      "gnbv", "report", run.c_str(), "--live", port.c_str(), "--threads", "1", "--quiet", nullptr};
   execv("/proc/self/exe", const_cast<char* const*>(words.data()));
   _exit(127);
 }
@@ -39,7 +39,7 @@ constexpr int kLeastPriority = 19;
 LiveChild::LiveChild(const std::filesystem::path& run, int port) {
   std::array<int, 2> pipe_ends{};
   if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0) {
-    throw CommandFailed(fmt::format("--live {}: {}", port, std::strerror(errno)));
+    throw BadInput(fmt::format("--live {}: {}", port, std::strerror(errno)));
   }
   const std::string folder = run.string();
   const std::string number = std::to_string(port);

@@ -47,8 +47,8 @@ void serve_report(const std::filesystem::path& run, const LiveReportOptions& opt
       if (record && !record->views.empty()) {
         const Stage stage{record->views.size(), is_finished(run)};
         if (shown != stage) {
-          Report report = make_report({*record}, {.threads = options.threads, .is_live = true},
-                                      [](double) {});
+          Report report =
+              make_report({*record}, {.threads = options.threads, .is_live = true}, [](double) {});
           server.show(std::move(report.html), std::move(report.policy), stage.views);
           shown = stage;
         }

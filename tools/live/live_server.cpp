@@ -17,7 +17,10 @@ constexpr std::size_t kListeners = 8;  // at once; others wait
 constexpr std::size_t kMostBody_bytes = 1024;
 
 struct Shown {
-  std::string html = "<!doctype html><title>gnbv</title><p>Nothing flown yet.";
+  // looks again by itself until there is a page
+  std::string html =
+      "<!doctype html><meta http-equiv=\"refresh\" content=\"1\"><title>gnbv</title>"
+      "<p>Nothing flown yet.";
   std::string policy = "default-src 'none'";
   std::size_t views = 0;
 };
@@ -96,9 +99,10 @@ LiveServer::LiveServer(int port) : impl_(std::make_unique<Impl>()) {
   impl.port = port;
   if (port == 0) impl.port = server.bind_to_any_port(kHost);
   if (impl.port <= 0 || (port != 0 && !server.bind_to_port(kHost, port))) {
-    throw BadInput(fmt::format("--live {}: this port of {} cannot be had: it is taken, or yours "
-                               "begin at 1024; 0 takes a free one",
-                               port, kHost));
+    throw BadInput(
+        fmt::format("--live {}: this port of {} cannot be had: it is taken, or yours "
+                    "begin at 1024; 0 takes a free one",
+                    port, kHost));
   }
   impl.thread = std::thread([&impl] { impl.server.listen_after_bind(); });
 }

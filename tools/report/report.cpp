@@ -138,13 +138,13 @@ std::string bytes_element(const std::string& id, const BytePack& bytes) {
   return data_element(id, "application/octet-stream", base64(bytes.bytes()));
 }
 
-/// Nothing of the page may load or send anything, and only our own script may run, so that a name
-/// which escaped its escaping would still be nothing but text.
-std::string policy() {
+/// Nothing of the page may load or send anything, but a live one may ask its server, and only our
+/// own script may run, so that a name which escaped its escaping would still be nothing but text.
+std::string policy(bool is_live) {
   return fmt::format(
       "default-src 'none'; script-src {}; style-src {}; img-src data: blob:; base-uri 'none'; "
-      "form-action 'none'",
-      policy_hash(page_script()), policy_hash(page_style()));
+      "form-action 'none'{}",
+      policy_hash(page_script()), policy_hash(page_style()), is_live ? "; connect-src 'self'" : "");
 }
 
 }  // namespace
@@ -176,6 +176,7 @@ Report make_report(const std::vector<RunRecord>& records, const ReportOptions& o
   data += bytes_element("meshes", structures.bytes);
   const Json json = {
       {"title", title},
+      {"is_live", options.is_live},
       {"version", GNBV_VERSION},
       {"ramps", {{"path", ramp_json(path_colours())}, {"amount", ramp_json(amount_colours())}}},
       {"tables", tables_json(records)},
@@ -184,7 +185,8 @@ Report make_report(const std::vector<RunRecord>& records, const ReportOptions& o
   // names may hold anything, also what is no UTF-8
   data += data_element("data", "application/json",
                        script_json(json.dump(-1, ' ', false, Json::error_handler_t::replace)));
-  report.html = filled(page_template(), {{"POLICY", policy()},
+  report.policy = policy(options.is_live);
+  report.html = filled(page_template(), {{"POLICY", report.policy},
                                          {"TITLE", html_escaped(title)},
                                          {"STYLE", page_style()},
                                          {"DATA", data},

@@ -18,10 +18,12 @@ constexpr std::size_t kMaxReportBytes = 25'000'000;
 struct ReportOptions {
   int threads = 1;
   std::string title = {};  // empty: of the runs
+  bool is_live = false;    // asks its server for more while it is looked at
 };
 
 struct Report {
   std::string html;
+  std::string policy;                // its Content-Security-Policy, which the page states, too
   std::vector<std::string> missing;  // a sentence each: what the page shows nothing of, and why
 };
 

@@ -18,6 +18,10 @@ function coverage(run) {
   return rows.map((row) => Number(row.split(",")[column]));
 }
 
+/** Whether all fly one configuration with different seeds. */
+const areSeeds = () => new Set(runs.map((run) =>
+  readFileSync(join(run, "scenario.yaml"), "utf8").replace(/^seed:.*$/m, ""))).size === 1;
+
 /** Of the decision that chose each view. */
 function candidates(run, views) {
   const lines = readFileSync(join(run, "candidates.jsonl"), "utf8").trim();
@@ -79,7 +83,7 @@ try {
   }
   const regions = "document.querySelectorAll('.regions button')";
   const before = await camera();
-  assert.ok(await browser.evaluate(`${regions}.length`) > 0, "no region was missed");
+  await browser.until(`${regions}.length > 0`);
   await browser.evaluate(`${regions}[0].click()`);
   await drawn();
   assert.notDeepEqual(await camera(), before, "a missed region is looked at");
@@ -94,6 +98,22 @@ try {
       const reasons = new Set(recorded.filter((c) => c.rejected).map((c) => c.rejected));
       const told = await browser.evaluate("document.querySelector('.why').textContent");
       for (const reason of reasons) assert.ok(told.includes(reason.replaceAll("_", " ")), told);
+    }
+  }
+
+  // seeds of one configuration are drawn as their mean, where there are any
+  const seeds = "document.querySelector(\"select[aria-label='Runs of several seeds']\")";
+  const isBand = runs.length > 1 && areSeeds();
+  assert.equal(await browser.evaluate(`!!${seeds}`), isBand);
+  if (isBand) {
+    await browser.evaluate(`${seeds}.value = "bands";
+      ${seeds}.dispatchEvent(new Event("change", { bubbles: true }))`);
+    const ends = curves.map((curve) => 100 * curve.at(-1));
+    const mean = ends.reduce((a, b) => a + b, 0) / ends.length;
+    await seek(curves[0].length - 1);
+    const told = await browser.evaluate("document.querySelector('.u-legend').textContent");
+    for (const value of [mean, Math.min(...ends), Math.max(...ends)]) {
+      assert.ok(told.includes(value.toFixed(1)), `${value} in ${told}`);
     }
   }
 

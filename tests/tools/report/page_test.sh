@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Two short missions, one of a tour, with hostile names, their report, and a browser that opens it.
+# Short missions, one of a tour, some with hostile names, their reports, and a browser.
 # usage: page_test.sh GNBV      exit: 0 as it should be, 1 not, 77 no Chromium or no npm
 set -euo pipefail
 gnbv=$1
@@ -21,6 +21,10 @@ for utility in proposed tour; do
   "$gnbv" run smoke --quiet --frames --candidates --utility "$utility" --out "$evil$utility" \
     --set planner.termination.max_iterations=4 >/dev/null
 done
+for seed in 1 2; do
+  "$gnbv" run smoke --quiet --frames --candidates --seed "$seed" --out "seed$seed" \
+    --set planner.termination.max_iterations=4 >/dev/null
+done
 # names that only files can hold
 node -e '
   const fs = require("fs");
@@ -33,6 +37,8 @@ node -e '
   }' "${evil}proposed" "${evil}tour"
 "$gnbv" report "${evil}proposed" --quiet -o one.html >/dev/null
 "$gnbv" report "${evil}proposed" "${evil}tour" --quiet -o two.html >/dev/null
+"$gnbv" report seed1 seed2 --quiet -o seeds.html >/dev/null
+node "$here/page_layers_test.mjs" "$chromium" seeds.html seed1 seed2
 for test in page_test page_layers_test; do
   node "$here/$test.mjs" "$chromium" one.html "${evil}proposed"
   node "$here/$test.mjs" "$chromium" two.html "${evil}proposed" "${evil}tour"

@@ -55,6 +55,39 @@ TEST(Report, HoldsTheViewsAndWhatGrewWithThem) {
             fmt::format("gnbv run {}/scenario.yaml --out NEW", temp.path().string()));
 }
 
+/// The true surface once for each structure, and of each run when it found what of it.
+TEST(Report, HoldsWhatOfTheTrueSurfaceEachRunFound) {
+  TempFolder temp;
+  write_made_run(temp.path());
+  const RunRecord record = read_run(temp.path());
+  const nlohmann::json data = data_of(report_of({record, record}));
+  ASSERT_EQ(data["meshes"].size(), 1U);
+  const std::size_t numbers = data["meshes"][0]["surface"]["index"][1];
+  EXPECT_GT(numbers, 0U);
+  for (const nlohmann::json& run : data["runs"]) {
+    EXPECT_EQ(3 * run["found"][1].get<std::size_t>(), numbers);
+    EXPECT_EQ(run["cloud"]["error"][1], 6);
+    EXPECT_EQ(run["candidates"], nullptr);
+  }
+}
+
+/// Only a live page may ask anybody, and only its own server.
+TEST(Report, AsksItsServerOnlyWhenItIsLive) {
+  TempFolder temp;
+  write_made_run(temp.path());
+  const std::vector<RunRecord> records = {read_run(temp.path())};
+  const Report still = report_of(records);
+  const Report live = make_report(records, {.is_live = true}, [](double) {});
+  EXPECT_EQ(still.policy.find("connect-src"), std::string::npos);
+  EXPECT_NE(live.policy.find("; connect-src 'self'"), std::string::npos);
+  for (const Report* const report : {&still, &live}) {
+    EXPECT_NE(report->html.find(report->policy), std::string::npos);
+    EXPECT_EQ(report->policy.find("unsafe"), std::string::npos);
+  }
+  EXPECT_EQ(data_of(still)["is_live"], false);
+  EXPECT_EQ(data_of(live)["is_live"], true);
+}
+
 /// What is left of each plan after each view, as long as it is; nothing for other runs.
 TEST(Report, HoldsWhatATourStillMeantToDo) {
   TempFolder temp;

@@ -8,6 +8,7 @@
 
 #include "bench/score/coverage_curve.hpp"
 #include "planner/decision.hpp"
+#include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
 #include "tests/bench/shapes.hpp"
 #include "tests/support/made_run.hpp"
@@ -41,8 +42,9 @@ TEST(TrueSurface, FoundAfterEachViewIsTheCurveOfCoverage) {
   SurfaceReference reference;
   reference.outside = at_all_sizes(voxels_of(random_points(2000, 2.0F, 1), 0.05));
   reference.raw = reference.outside;
-  RunCloud cloud{.points_world_m = random_points(5000, 2.0F, 2), .profile_points = 700};
-  cloud.view_points = {900, 900, 3100, 5000};
+  RunCloud cloud{.points_world_m = random_points(5000, 2.0F, 2),
+                 .profile_points = 700,
+                 .view_points = {900, 900, 3100, 5000}};
   std::vector<std::size_t> prefixes = {cloud.profile_points};
   prefixes.insert(prefixes.end(), cloud.view_points.begin(), cloud.view_points.end());
   const auto curve = coverage_of_prefixes(reference, cloud.points_world_m, prefixes, 1);
@@ -59,8 +61,8 @@ TEST(TrueSurface, FoundAfterEachViewIsTheCurveOfCoverage) {
 
 TEST(TrueSurface, WhatCameAfterTheLastViewCountsToIt) {
   const TrueVoxels voxels{.size_m = 1.0, .codes = {code_of({0, 0, 0}), code_of({1, 0, 0})}};
-  RunCloud cloud{.points_world_m = {{0.5F, 0, 0}, {1.5F, 0, 0}}, .profile_points = 1};
-  cloud.view_points = {1, 1};
+  RunCloud cloud{
+      .points_world_m = {{0.5F, 0, 0}, {1.5F, 0, 0}}, .profile_points = 1, .view_points = {1, 1}};
   EXPECT_EQ(views_until_found(voxels, cloud), (std::vector<std::uint16_t>{0, 2}));
 }
 

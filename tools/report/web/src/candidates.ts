@@ -1,6 +1,6 @@
 // Why this view: the candidates of the decision that chose it, with what became of each.
 import * as three from "three";
-import { ramp } from "./colours";
+import { isDark, ramp } from "./colours";
 import type { CandidateData } from "./data";
 import { make, number } from "./dom";
 import type { Flight } from "./flight";
@@ -11,7 +11,7 @@ const kValid = 254;
 const kChosen = 255;
 const kChosenColour = 0xd5420a;
 const kRayColour = 0xe08a2e;
-const kMissColour = 0xecd9c6; // of rays that meet nothing
+const missColour = () => (isDark() ? 0x54483a : 0xecd9c6); // of rays that meet nothing
 // Rejections by their number: dark and muted, as in the pictures of candidates.
 const kReasonColours = [0x9aa3ae, 0x2f3640, 0xa3321f, 0x7a4f9a, 0x8c6d3f, 0x4f7f86, 0x3f5b8c,
   0x6f8f2a, 0xb03a6b, 0x8a5a6a];
@@ -135,7 +135,7 @@ export class CandidateMarks {
         const length = densities?.firstHit(origin, way, camera.range_m, known) ?? camera.range_m;
         const end = origin.clone().addScaledVector(way, length);
         positions.push(...origin.toArray(), ...end.toArray());
-        const colour = new three.Color(length < camera.range_m ? kRayColour : kMissColour)
+        const colour = new three.Color(length < camera.range_m ? kRayColour : missColour())
           .toArray();
         colours.push(...colour, ...colour);
       }
@@ -169,8 +169,8 @@ export class CandidateMarks {
     const rejected = this.kinds().map((kind) => kind.text).filter((text) => /: \d+$/.test(text));
     return make("div", {},
       make("p", { class: "fine" },
-        `${number(this.now.length)} candidates, of all samplers that were asked. `
-        + `${rejected.join(", ")}.`),
+        `Candidates of all samplers that were asked: ${number(this.now.length)}. `
+        + (rejected.length > 0 ? `${rejected.join(", ")}.` : "")),
       best.length === 0 ? "" : make("div", { class: "card scroll" }, make("table", {},
         make("thead", {}, make("tr", {}, ...head.map((name, i) =>
           make("th", { scope: "col", class: i > 0 ? "number" : "" }, name)))),

@@ -3,7 +3,7 @@
 // milliseconds: only the first whole picture tells.
 
 const kFluent_ms = 50; // a whole picture that takes no longer is drawn at every step
-const kRest_ms = 350; // after the last change was to be seen, at least, the whole one follows
+const kRest_ms = 600; // after the last change was to be seen, at least, the whole one follows
 
 export class Detail {
   isWhole = false; // what is to be drawn now
@@ -30,7 +30,7 @@ export class Detail {
     // the frame after the next one waits for the renderer, however slow that is
     requestAnimationFrame(() => requestAnimationFrame(() => {
       if (picture !== this.pictures) return;
-      const rest_ms = Math.max(kRest_ms, 2 * (performance.now() - begin));
+      const rest_ms = Math.max(kRest_ms, 3 * (performance.now() - begin));
       this.timer = window.setTimeout(() => this.rest(), rest_ms);
     }));
   }

@@ -49,7 +49,8 @@ export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring): 
       : item("dot", hex(foundColours.found), "surface found"));
   }
   if (surface && layers.missed) {
-    items.push(item("dot", hex(foundColours.missed), "surface missed"));
+    const colour = by === "iteration" ? foundColours.missedInOrder : foundColours.missed;
+    items.push(item("dot", hex(colour), "surface missed"));
     if (scenes.length > 1) {
       items.push(item("dot", hex(foundColours.onlyOther), "missed here, found by the other run"));
     }

@@ -42,6 +42,7 @@ function build() {
   const words = make("p", { class: "readout", "aria-live": "off" });
   const key = make("p", { class: "legend", "aria-label": "Legend" });
   const why = make("div", { class: "why" });
+  const missed = make("div", { class: "missed-list" });
   const state = readState(location.hash);
   // more panes are too small
   const asked = flights.filter((flight) => state.runs?.includes(flight.index));
@@ -115,7 +116,7 @@ function build() {
         make("section", { class: "mission", "aria-label": "The mission in 3D" },
           make("div", { class: "card view" }, stage.canDraw ? layerBar : null, stage.element,
             stage.canDraw ? key : null, makeTransport(replay, words), words, why),
-          strip.element, makeMissedList(scenes, (region) => showMissed(region)) ?? ""),
+          strip.element, missed),
         plots.element),
       page.tables.length > 0 ? make("section", {}, make("h2", {}, "Beside the paper"),
         ...page.tables.map(panels.makeTable)) : "",
@@ -128,6 +129,8 @@ function build() {
     stage.lookAt(region.centre, region.radius_m);
     stage.element.scrollIntoView({ block: "nearest" });
   };
+  // after the first picture: it takes its time
+  setTimeout(() => missed.append(makeMissedList(scenes, showMissed) ?? ""), 300);
   setShown();
   replay.setEffort(state.effort ?? "views");
   replay.moveTo(state.at ?? replay.last());

@@ -1,13 +1,15 @@
-// Where a run missed most of the true surface: voxels never found, gathered into regions.
+// Where a run missed most of the true surface: cells of which it never found the half, gathered
+// into regions. A voxel missed here and there is nowhere to look at.
 import * as three from "three";
 import { make, number } from "./dom";
 import type { Flight } from "./flight";
 import type { RunScene } from "./run_scene";
 import { kNeverFound, type TrueSurface } from "./true_surface";
 
-const kCells = 50; // along the structure; voxels in those that touch are one region
+const kCells = 50; // along the structure; those that touch are one region
 const kMostCell_m = 0.5;
 const kMostRegions = 6;
+const kLeastShare = 0.01; // of all that was missed
 
 export interface Region {
   voxels: number;
@@ -15,23 +17,48 @@ export interface Region {
   radius_m: number;
 }
 
-/** Of the voxels that were never found, the largest first. */
-export function missedRegions(surface: TrueSurface): Region[] {
-  const all = new three.Box3();
-  surface.found.forEach((_, voxel) => all.expandByPoint(surface.centre(voxel)));
-  const cell_m = Math.max(2 * surface.size_m,
-    Math.min(kMostCell_m, all.getSize(new three.Vector3()).length() / kCells));
-  const cells = new Map<string, number[]>();
-  const cellOf = (voxel: number) => surface.centre(voxel).divideScalar(cell_m).floor();
-  surface.found.forEach((first, voxel) => {
-    if (first !== kNeverFound) return;
-    const key = cellOf(voxel).toArray().join();
-    const cell = cells.get(key);
-    if (cell) cell.push(voxel); else cells.set(key, [voxel]);
+/** Of a cell by its index along each axis, and back; exact in a double. */
+const keyOf = (x: number, y: number, z: number) => ((x + 32768) * 65536 + y + 32768) * 65536
+  + z + 32768;
+const cellOf = (key: number) => [Math.floor(key / 65536 ** 2) - 32768,
+  Math.floor(key / 65536) % 65536 - 32768, key % 65536 - 32768];
+
+/** How many voxels of the surface a cell spans along each axis. */
+function cellSpan(surface: TrueSurface): number {
+  const { voxels, size_m } = surface;
+  const [least, most] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
+  voxels.forEach((index, i) => {
+    least[i % 3] = Math.min(least[i % 3], index);
+    most[i % 3] = Math.max(most[i % 3], index);
   });
+  const length = size_m * Math.hypot(...most.map((index, axis) => index - least[axis]));
+  return Math.max(2, Math.round(Math.min(kMostCell_m, length / kCells) / size_m));
+}
+
+/** The voxels that were never found, by the cells of whose voxels they are at least the half. */
+function missedCells(surface: TrueSurface): Map<number, number[]> {
+  const { voxels, found } = surface;
+  const span = cellSpan(surface);
+  const cells = new Map<number, number[]>();
+  const sizes = new Map<number, number>();
+  for (let i = 0; i < found.length; ++i) {
+    const key = keyOf(Math.floor(voxels[3 * i] / span), Math.floor(voxels[3 * i + 1] / span),
+      Math.floor(voxels[3 * i + 2] / span));
+    sizes.set(key, (sizes.get(key) ?? 0) + 1);
+    if (found[i] !== kNeverFound) continue;
+    const cell = cells.get(key);
+    if (cell) cell.push(i); else cells.set(key, [i]);
+  }
+  for (const [key, cell] of cells) if (2 * cell.length < sizes.get(key)!) cells.delete(key);
+  return cells;
+}
+
+/** Of such cells those that touch; the region with most voxels first. */
+export function missedRegions(surface: TrueSurface): Region[] {
+  const cells = missedCells(surface);
   const regions: Region[] = [];
   while (cells.size > 0) {
-    const open = [cells.keys().next().value!];
+    const open: number[] = [cells.keys().next().value!];
     const members: number[] = [];
     while (open.length > 0) {
       const key = open.pop()!;
@@ -39,9 +66,9 @@ export function missedRegions(surface: TrueSurface): Region[] {
       if (!cell) continue;
       cells.delete(key);
       members.push(...cell);
-      const [x, y, z] = key.split(",").map(Number);
+      const [x, y, z] = cellOf(key);
       for (let i = 0; i < 27; ++i) {
-        open.push([x + i % 3 - 1, y + Math.floor(i / 3) % 3 - 1, z + Math.floor(i / 9) - 1].join());
+        open.push(keyOf(x + i % 3 - 1, y + Math.floor(i / 3) % 3 - 1, z + Math.floor(i / 9) - 1));
       }
     }
     regions.push(regionOf(surface, members));
@@ -61,14 +88,16 @@ export function makeMissedList(scenes: RunScene[],
     show: (region: Region) => void): HTMLElement | null {
   const lists = scenes.filter((scene) => scene.surface).map((scene) => {
     const regions = missedRegions(scene.surface!);
-    const all = regions.reduce((sum, region) => sum + region.voxels, 0);
-    return regions.length === 0 ? null : make("div", {},
+    const all = scene.surface!.found.filter((first) => first === kNeverFound).length;
+    const large = regions.filter((region) => region.voxels >= kLeastShare * all);
+    return all === 0 ? null : make("div", {},
       make("p", { class: "fine" }, scenes.length > 1 ? `${scene.flight.data.label}: ` : "",
-        sentence(scene.flight, scene.surface!, all, regions.length)),
-      make("ol", { class: "regions" }, ...regions.slice(0, kMostRegions).map((region, i) =>
+        sentence(scene.flight, scene.surface!, all, large.length)),
+      make("ol", { class: "regions" }, ...large.slice(0, kMostRegions).map((region, i) =>
         make("li", {}, make("button", { type: "button", class: "small",
           click: () => show(region), "aria-label": `Show region ${i + 1}` }, "Show"),
-        ` ${number(region.voxels)} voxels, ${number(100 * region.voxels / all, 1)} %, around `
+        ` ${number(region.voxels)} voxels, `
+        + `${number(100 * region.voxels / all, 1)} % of them, around `
         + region.centre.toArray().map((x) => number(Math.round(10 * x) / 10 + 0, 1)).join(", ")
         + " m"))));
   }).filter((list) => list !== null);
@@ -78,6 +107,8 @@ export function makeMissedList(scenes: RunScene[],
 
 function sentence(flight: Flight, surface: TrueSurface, missed: number, regions: number): string {
   return `Never found after ${number(flight.count)} views: ${number(missed)} of `
-    + `${number(surface.found.length)} voxels of ${number(surface.size_m, 2)} m, in `
-    + `${number(regions)} ${regions === 1 ? "region" : "regions"}.`;
+    + `${number(surface.found.length)} voxels of ${number(surface.size_m, 2)} m. `
+    + (regions === 0 ? "They lie here and there." : `${number(regions)} `
+      + `${regions === 1 ? "region was" : "regions were"} missed for the most part`
+      + `${regions > kMostRegions ? "; the largest are" : ""}:`);
 }

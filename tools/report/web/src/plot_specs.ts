@@ -9,6 +9,7 @@ export interface Line {
   colour: string;
   width: number;
   dash?: number[];
+  run?: number; // whose it is, with several
 }
 
 /** A point of the paper, drawn as a ring. */
@@ -22,11 +23,13 @@ export interface PlotContent {
   lines: Line[];
   data: uPlot.AlignedData;
   rings: Ring[];
+  bands?: { high: number; low: number; fill: string }[]; // between lines, counted from 1
 }
 
 export interface PlotChoices {
   size: 0 | 1 | 2; // of coverage, with several runs
   term: Term;
+  bands: boolean; // of several seeds their mean and range
 }
 
 export type Term = "utility" | "information" | "density_term" | "prediction" | "distance_factor";
@@ -77,7 +80,8 @@ export function coverage(flights: Flight[], effort: Effort, { size }: PlotChoice
   }
   return {
     lines: scored.map((flight) =>
-      ({ name: flight.data.label, colour: runColour(flight.index), width: 2 })),
+      ({ name: flight.data.label, colour: runColour(flight.index), width: 2,
+        run: flight.index })),
     data: joined(scored.map((flight) => [efforts(flight, effort, 0), percent(flight, size)])),
     rings: scored.flatMap((flight) =>
       ringOf(flight, effort, flight.data.paper?.coverage_percent?.[size])),
@@ -88,7 +92,7 @@ function perRun(flights: Flight[], effort: Effort, values: (flight: Flight) => n
     name: string, width = 2): PlotContent {
   return {
     lines: flights.map((flight) => ({ name: flights.length > 1 ? flight.data.label : name,
-      colour: runColour(flight.index), width })),
+      colour: runColour(flight.index), width, run: flight.index })),
     data: joined(flights.map((flight) => column(flight, effort, values(flight)))),
     rings: [],
   };

@@ -7,6 +7,7 @@ import { lastAtMost, type Flight } from "./flight";
 import * as specs from "./plot_specs";
 import { plotSvg } from "./plot_svg";
 import { fileName, saveText } from "./save";
+import { haveSeeds, withBands } from "./seed_bands";
 
 const kUnits = { views: "views", metres: "m", seconds: "s" };
 const kEffortNames = { views: "Views", metres: "Metres from view to view",
@@ -39,7 +40,7 @@ export class Plots {
   private plots: uPlot[] = [];
   private flights: Flight[] = [];
   private effort = "";
-  private readonly choices: specs.PlotChoices = { size: 0, term: "utility" };
+  private readonly choices: specs.PlotChoices = { size: 0, term: "utility", bands: false };
 
   constructor(private readonly clock: Clock) {
     clock.onChange(() => {
@@ -65,14 +66,16 @@ export class Plots {
   }
 
   private add(kind: PlotKind) {
-    const content = kind.content(this.flights, this.clock, this.choices);
+    const ofRuns = kind.content(this.flights, this.clock, this.choices);
+    const content = this.choices.bands && haveSeeds(this.flights)
+      ? withBands(ofRuns, this.flights, this.clock.effort) : ofRuns;
     content.rings = content.rings.filter((ring) => ring.x <= this.lastEffort());
     const hasValues = content.lines.length > 0 && content.data[0].length > 0;
     const place = make("div", { class: "plot-place" });
     this.element.append(make("figure", { class: "card plot" },
       make("figcaption", {}, make("span", { class: "plot-title" }, kind.title),
         make("span", { class: "unit" }, kind.unit(this.flights)), this.marksKey(kind, content),
-        this.control(kind)),
+        kind === kKinds[0] ? this.seedControl() : null, this.control(kind)),
       hasValues ? place : make("p", { class: "nothing" }, "Not recorded by this run.")));
     if (!hasValues) return;
     const plot = new uPlot(this.options(kind, content), content.data, place);
@@ -106,6 +109,15 @@ export class Plots {
 
   private showValues(plot: uPlot) {
     plot.setLegend({ idx: Math.max(0, lastAtMost(plot.data[0], this.clock.at + 1e-9)) }, false);
+  }
+
+  private seedControl(): HTMLElement | null {
+    if (!haveSeeds(this.flights)) return null;
+    return select("Runs of several seeds", [["runs", "Each run"], ["bands", "Mean and range"]],
+      this.choices.bands ? "bands" : "runs", (value) => {
+        this.choices.bands = value === "bands";
+        this.rebuild();
+      });
   }
 
   private control(kind: PlotKind): HTMLElement | null {
@@ -157,6 +169,7 @@ export class Plots {
           width: line.width, dash: line.dash, spanGaps: true, points: { show: false },
           value: (plot: uPlot, _: number, series: number, i: number | null) =>
             text(lastValue(plot.data[series], i)) }))],
+      bands: (content.bands ?? []).map(({ high, low, fill }) => ({ series: [high, low], fill })),
       hooks: {
         drawClear: [(plot) => this.shadePhases(plot)],
         draw: [(plot) => drawRings(plot, content.rings)],

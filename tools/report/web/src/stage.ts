@@ -5,6 +5,7 @@ import { Axes } from "./axes";
 import { isDark } from "./colours";
 import type { Clock } from "./clock";
 import { make } from "./dom";
+import { nearestThatSees } from "./camera_fit";
 import { DepthShading } from "./depth_shading";
 import { Detail } from "./detail";
 import type { View3d } from "./controls";
@@ -40,7 +41,8 @@ class Stage implements View3d {
   private readonly controls: OrbitControls;
   private readonly shading = new DepthShading();
   private shown: RunScene[];
-  private isStale = true;
+  private isStale = false;
+  private size = ""; // drawn last
   private readonly detail = new Detail(() => this.request());
   private isFramed = false;
   private follows = false;
@@ -207,19 +209,8 @@ class Stage implements View3d {
     for (const outline of outlines) box.union(new three.Box3().setFromArray(outline));
     const centre = box.getCenter(new three.Vector3());
     const { width, height } = this.paneSize();
-    const tan = 0.86 * Math.tan(three.MathUtils.degToRad(this.camera.fov) / 2);
     const back = new three.Vector3(0.55, -0.8, 0.5).normalize();
-    const right = new three.Vector3(-back.y, back.x, 0).normalize();
-    const up = back.clone().cross(right);
-    const at = new three.Vector3();
-    let away = 1; // the nearest that sees every point
-    for (const outline of outlines) {
-      for (let i = 0; i < outline.length; i += 3) {
-        at.fromArray(outline, i).sub(centre);
-        away = Math.max(away, at.dot(back) + Math.abs(at.dot(up)) / tan,
-          at.dot(back) + Math.abs(at.dot(right)) / tan * height / width);
-      }
-    }
+    const away = nearestThatSees(outlines, centre, back, this.camera.fov, height / width);
     this.isFramed = true;
     this.setDepths(away);
     this.camera.position.copy(centre).addScaledVector(back, away);
@@ -256,6 +247,10 @@ class Stage implements View3d {
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     if (!this.isFramed) this.frame();
+    const size = `${clientWidth}x${clientHeight}`;
+    const isResized = this.size !== "" && this.size !== size;
+    this.size = size;
+    if (!isResized) { this.request(); return; }
     this.isStale = true;
     this.draw(); // now, or a resized canvas would show one empty picture
   }

@@ -1,6 +1,6 @@
 // The voxels of the true surface: found by a run so far, missed, or found by another run alone.
 import * as three from "three";
-import { isDark, rampTable } from "./colours";
+import { rampTable } from "./colours";
 import type { Bytes, SurfaceData } from "./data";
 
 export const kNeverFound = 0xffff;
@@ -9,6 +9,7 @@ export const kNeverFound = 0xffff;
 export const foundColours = {
   found: 0x8fb4cf,
   missed: 0xd5420a,
+  missedInOrder: 0x98a0ab, // beside the colours of an order, which has an orange of its own
   onlyOther: 0x9b2fae, // missed here, found by the other run that is shown
 };
 
@@ -83,16 +84,16 @@ export class TrueSurface {
     this.object.frustumCulled = false;
   }
 
-  setTheme() {
-    this.material.uniforms.uFound.value = srgb(isDark() ? 0x6f93ad : foundColours.found);
-  }
-
   setLayers(showsFound: boolean, showsMissed: boolean) {
     this.material.uniforms.uShows.value = new three.Vector2(+showsFound, +showsMissed);
     this.object.visible = showsFound || showsMissed;
   }
 
-  colourByOrder(isByOrder: boolean) { this.material.uniforms.uByOrder.value = isByOrder; }
+  colourByOrder(isByOrder: boolean) {
+    const { uByOrder, uMissed } = this.material.uniforms;
+    uByOrder.value = isByOrder;
+    uMissed.value = srgb(isByOrder ? foundColours.missedInOrder : foundColours.missed);
+  }
 
   /** What another run of the same structure found is told from what neither did. */
   compareWith(other: TrueSurface | null) {
