@@ -9,6 +9,7 @@
 
 #include "bench/compare/row_figures.hpp"
 #include "bench/compare/table_groups.hpp"
+#include "bench/compare/terminal_table.hpp"
 #include "sim/core/counted.hpp"
 #include "sim/core/error.hpp"
 
@@ -219,7 +220,7 @@ TextTable comparison_table(const PaperTable& paper, std::span<const RunFigures> 
   return table;
 }
 
-std::string one_row_summary(const RunFigures& run, bool has_papers_setting) {
+std::string one_row_summary(const RunFigures& run, bool has_papers_setting, std::size_t width) {
   const PaperTable* const paper = has_papers_setting ? find_paper_table(run.scenario) : nullptr;
   const PaperRow* const row = paper == nullptr ? nullptr : find_row(*paper, run.utility);
   TextTable table;
@@ -237,7 +238,7 @@ std::string one_row_summary(const RunFigures& run, bool has_papers_setting) {
     drop_column(table, key);
   }
   table.notes.push_back(runs_note(run.utility, {&run}));
-  return terminal_text(table);
+  return terminal_text(table, width);
 }
 
 }  // namespace gnbv

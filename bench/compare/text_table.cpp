@@ -5,44 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/core/error.hpp"
+#include "bench/compare/table_lines.hpp"
 
 namespace gnbv {
 namespace {
-
-using Lines = std::vector<std::vector<std::string>>;  // cells as they are printed, header first
-
-bool is_right(const TableColumn& column) { return column.kind != ColumnKind::text; }
-
-template <typename Escape>
-Lines printed_cells(const TextTable& table, const Escape& escaped) {
-  Lines lines(1);
-  for (const TableColumn& column : table.columns) lines[0].push_back(escaped(column.head));
-  for (const auto& row : table.rows) {
-    GNBV_CHECK(row.size() == table.columns.size(), "{} cells in {} columns", row.size(),
-               table.columns.size());
-    std::vector<std::string>& line = lines.emplace_back();
-    for (const TableCell& cell : row) line.push_back(escaped(cell.text));
-  }
-  return lines;
-}
-
-// Width on a terminal of UTF-8 text: its code points.
-std::size_t width_of(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-  }));
-}
-
-std::vector<std::size_t> column_widths(const Lines& lines, std::size_t least) {
-  std::vector<std::size_t> widths(lines[0].size(), least);
-  for (const auto& line : lines) {
-    for (std::size_t c = 0; c < line.size(); ++c) {
-      widths[c] = std::max(widths[c], width_of(line[c]));
-    }
-  }
-  return widths;
-}
 
 std::string joined(const std::vector<std::string>& cells, const TextTable& table,
                    const std::vector<std::size_t>& widths, std::string_view separator) {
@@ -52,11 +18,6 @@ std::string joined(const std::vector<std::string>& cells, const TextTable& table
     line += c > 0 ? separator : "";
     line += is_right(table.columns[c]) ? fill + cells[c] : cells[c] + fill;
   }
-  return line;
-}
-
-std::string without_trailing_blanks(std::string line) {
-  line.erase(line.find_last_not_of(' ') + 1);
   return line;
 }
 
@@ -135,21 +96,8 @@ std::string grouped_number(double value, int decimals) {
   return value < 0.0 && !is_zero ? "-" + digits : digits;
 }
 
-std::string terminal_text(const TextTable& table) {
-  const Lines lines = printed_cells(table, [](const std::string& text) { return text; });
-  const std::vector<std::size_t> widths = column_widths(lines, 0);
-  std::string text = table.title.empty() ? "" : table.title + "\n";
-  for (const auto& line : lines) {
-    const std::string whole = joined(line, table, widths, "  ");
-    text += without_trailing_blanks(whole) + "\n";
-    if (&line == &lines[0]) text += std::string(width_of(whole), '-') + "\n";
-  }
-  for (const std::string& note : table.notes) text += note + "\n";
-  return text;
-}
-
 std::string markdown_text(const TextTable& table) {
-  const Lines lines = printed_cells(table, markdown_escaped);
+  const TableLines lines = printed_cells(table, markdown_escaped);
   const std::vector<std::size_t> widths = column_widths(lines, 3);
   std::string rule = "|";
   for (std::size_t c = 0; c < widths.size(); ++c) {
@@ -166,7 +114,7 @@ std::string markdown_text(const TextTable& table) {
 }
 
 std::string latex_text(const TextTable& table) {
-  const Lines lines = printed_cells(table, latex_escaped);
+  const TableLines lines = printed_cells(table, latex_escaped);
   std::string text = "% needs \\usepackage{booktabs}\n\\begin{table}\n\\centering\n";
   if (!table.title.empty()) text += "\\caption{" + latex_escaped(table.title) + "}\n";
   text += "\\begin{tabular}{";

@@ -36,6 +36,24 @@ TEST(Program, HelpsAndSaysItsVersion) {
   EXPECT_EQ(gnbv("--version").exit_code, 0);
 }
 
+TEST(Program, HelpIsNoWiderThan80ColumnsAndHasExamples) {
+  for (const std::string command : {"", "run ", "table ", "render ", "asset ", "lint ", "schema ",
+                                    "score ", "sweep ", "ceiling ", "export ", "plot ", "check ",
+                                    "compare ", "report ", "surface ", "fly ", "paper "}) {
+    const Outcome help = gnbv(command + "--help");
+    std::istringstream lines(help.output);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80U) << line;
+    EXPECT_TRUE(command.empty() || has(help, "\nExamples:\n  gnbv " + command)) << command;
+  }
+}
+
+TEST(Program, SuggestsWhatAMistypedWordMayHaveMeant) {
+  EXPECT_TRUE(has(gnbv("rendr"), "did you mean `gnbv render`?"));
+  EXPECT_TRUE(has(gnbv("comp"), "did you mean `gnbv compare`?"));
+  EXPECT_TRUE(has(gnbv("run smoke --utilty bircher"), "did you mean --utility?"));
+  EXPECT_FALSE(has(gnbv("fly-me-to-the-moon"), "did you mean"));
+}
+
 TEST(Program, BadUsageExitsWith2) {
   EXPECT_EQ(gnbv("").exit_code, 2);
   EXPECT_EQ(gnbv("fly-me-to-the-moon").exit_code, 2);

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "bench/compare/terminal_table.hpp"
 #include "bench/limits/ceiling_cache.hpp"
 #include "scenarios/load.hpp"
 #include "sensors/ray_scene.hpp"
@@ -20,6 +21,7 @@
 #include "tools/run_files/summary_json.hpp"
 #include "tools/sweep/run_cells.hpp"
 #include "tools/terminal/say.hpp"
+#include "tools/terminal/width.hpp"
 
 namespace gnbv {
 namespace {
@@ -187,7 +189,9 @@ void add_given_ceiling_note(const BenchOptions& options, std::vector<std::string
 void print_bench(const std::vector<TextTable>& tables, const std::string& format,
                  bool has_failures) {
   for (const TextTable& table : tables) {
-    fmt::print("{}{}", &table == &tables.front() ? "" : "\n", formatted_text(table, format));
+    fmt::print("{}{}", &table == &tables.front() ? "" : "\n",
+               format == "terminal" ? terminal_text(table, stdout_columns())
+                                    : formatted_text(table, format));
   }
   if (has_failures) throw CommandFailed("not every mission came to its end; the notes say which");
 }

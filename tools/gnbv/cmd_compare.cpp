@@ -11,7 +11,10 @@
 #include "tools/gnbv/bench_runs.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/shared_options.hpp"
+#include "tools/plots/coverage_plot.hpp"
+#include "tools/plots/forest_plot.hpp"
 #include "tools/run_files/given_views.hpp"
+#include "tools/run_files/run_groups.hpp"
 #include "tools/sweep/manifest.hpp"
 #include "tools/sweep/method_options.hpp"
 #include "tools/terminal/say.hpp"
@@ -30,6 +33,7 @@ struct CompareOptions {
   std::string baseline;  // "" is the first method
   fs::path from;         // of a sweep; "" flies
   bool no_ceiling = false;
+  fs::path plots;  // folder; "" draws none
 };
 
 /// What is compared, before anything is flown.
@@ -119,6 +123,32 @@ Plan plan_of_sweep(const CompareOptions& options) {
   return plan;
 }
 
+/// The paired differences, and the coverage over metres of all methods, scenario by scenario.
+void draw_comparison(const Comparison& comparison, const BenchRuns& collected,
+                     const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  const auto draw = [&](const Plot& plot) {
+    const std::filesystem::path path = folder / (plot.name + ".svg");
+    draw_plot(plot_script(plot, PlotFormat::svg, {}), path);
+    say("{}", path.string());
+  };
+  for (std::size_t scenario = 0; scenario < comparison.scenarios.size(); ++scenario) {
+    if (const auto forest = forest_plot(comparison, scenario)) draw(*forest);
+    std::vector<RunRecord> records;
+    for (std::size_t i = 0; i < collected.runs.size(); ++i) {
+      if (collected.runs[i].scenario != comparison.scenarios[scenario]) continue;
+      records.push_back(read_run(collected.folders[i]));
+    }
+    std::vector<std::string> notes;
+    const std::vector<RunGroup> groups = group_runs(records, notes);
+    for (const std::string& note : notes) say(note);
+    if (groups.empty()) continue;
+    Plot coverage = coverage_plot(groups, Effort::metres, 0);
+    coverage.name += "-" + comparison.scenarios[scenario];
+    draw(coverage);
+  }
+}
+
 void compare_command(const CompareOptions& options) {
   const bool flies = options.from.empty();
   const Plan plan = flies ? plan_of(options) : plan_of_sweep(options);
@@ -135,7 +165,9 @@ void compare_command(const CompareOptions& options) {
   const Ceilings ceilings =
       options.no_ceiling ? Ceilings{} : ceilings_of(collected, options.bench, more_notes);
   if (!options.no_ceiling) add_given_ceiling_note(options.bench, more_notes);
-  TextTable table = comparison_table(compare(collected.runs, plan.baseline, ceilings));
+  const Comparison comparison = compare(collected.runs, plan.baseline, ceilings);
+  if (!options.plots.empty()) draw_comparison(comparison, collected, options.plots);
+  TextTable table = comparison_table(comparison);
   table.notes.insert(table.notes.end(), more_notes.begin(), more_notes.end());
   print_bench({table}, options.bench.format, collected.has_failures);
 }
@@ -170,6 +202,9 @@ void add_compare_command(CLI::App& app) {
       "--views", options->views, "body poses that the utility `route` flies, CSV or TUM"));
   command->add_option("--baseline", options->baseline,
                       "method the others are tested against (default: the first)");
+  command->add_option("--plots", options->plots,
+                      "folder for plots: paired differences with intervals, and coverage over "
+                      "metres of all methods");
   CLI::Option* const no_ceiling = command->add_flag(
       "--no-ceiling", options->no_ceiling,
       "leave out the shares of the ceiling and the efforts to reach them: where none "

@@ -9,6 +9,8 @@
 #include "tools/exports/export_folder.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/plots/coverage_plot.hpp"
+#include "tools/plots/density_plot.hpp"
+#include "tools/plots/flight_plot.hpp"
 #include "tools/plots/gnuplot.hpp"
 #include "tools/plots/predictions_plot.hpp"
 #include "tools/plots/reach_plot.hpp"
@@ -106,6 +108,7 @@ std::vector<Plot> plots_of_runs(const PlotOptions& options, const std::vector<Ru
     if (wants(options, "terms")) add("terms", i, terms_plot(records[i]));
     if (wants(options, "predictions")) add("predictions", i, predictions_plot(records[i]));
     if (wants(options, "tracking")) add("tracking", i, tracking_plot(records[i]));
+    if (wants(options, "flight")) add("flight", i, flight_plot(records[i]));
   }
   return plots;
 }
@@ -153,6 +156,8 @@ std::vector<Plot> coverage_plots(const std::vector<RunRecord>& records, double s
     if (groups.empty()) break;
     plots.push_back(size ? coverage_plot(groups, effort, *size)
                          : coverage_plot_at(groups, effort, size_m));
+    if (!size) continue;
+    if (auto end = coverage_end_plot(groups, effort, *size)) plots.push_back(std::move(*end));
   }
   return plots;
 }
@@ -165,6 +170,10 @@ std::vector<Plot> plots_of_groups(const PlotOptions& options,
   if (groups.empty()) return {};
   std::vector<Plot> plots;
   if (wants(options, "coverage")) plots = coverage_plots(records, options.voxel_m);
+  if (wants(options, "density") && groups.size() > 1) {
+    const std::vector<MeanSeries> series = mean_densities(groups);
+    if (!series.empty()) plots.push_back(mean_density_plot(series));
+  }
   if (wants(options, "reach")) {
     for (Plot& reach : plots_of_reach(options, groups)) plots.push_back(std::move(reach));
   }
@@ -191,7 +200,7 @@ void draw(const PlotOptions& options, const Plot& plot, const fs::path& folder) 
 void plot(const PlotOptions& options) {
   const std::vector<RunRecord> records = read_runs(options);
   std::vector<Plot> plots = plots_of_runs(options, records);
-  if (wants(options, "coverage") || wants(options, "reach")) {
+  if (wants(options, "coverage") || wants(options, "reach") || wants(options, "density")) {
     for (Plot& each : plots_of_groups(options, records)) plots.push_back(std::move(each));
   }
   if (plots.empty()) {
@@ -224,11 +233,13 @@ void add_plot_command(CLI::App& app) {
       ->check(CLI::IsMember({"svg", "png", "pdf"}))
       ->capture_default_str();
   command
-      ->add_option("--plots", options->plots,
-                   "which: density, coverage, terms, reach, tracking, predictions, with commas")
+      ->add_option(
+          "--plots", options->plots,
+          "which: density, coverage, terms, reach, flight, tracking, predictions, with commas")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::IsMember({"density", "coverage", "terms", "reach", "tracking", "predictions"}))
+      ->check(CLI::IsMember(
+          {"density", "coverage", "terms", "reach", "flight", "tracking", "predictions"}))
       ->capture_default_str();
   command
       ->add_option("--reach", options->reach_percent,

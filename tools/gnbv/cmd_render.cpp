@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <memory>
@@ -24,7 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kSnapshots = 12;  // about as many, without --every
-constexpr std::size_t kFilmImages = 240;
 
 class RenderCommand {
  public:
@@ -36,26 +36,38 @@ class RenderCommand {
     for (const fs::path& run : options.runs) {
       sources_.push_back(std::make_unique<RunSource>(
           run, thread_count(options.threads),
-          [this](double share, const std::string& note) { progress_.show(share, note); }));
+          [this](double share, const std::string& note) { show(share, note); }));
       runs_.push_back(sources_.back().get());
       names_[runs_.back()] = names[runs_.size() - 1];
+      expect(*runs_.back());
       for (const std::string& missing : runs_.back()->record().missing) note(missing);
     }
   }
 
   /// Draws what can be drawn, and says what cannot. Throws BadInput when that is everything.
   void draw() {
-    for (const std::string& name : kinds_) draw_kind(name);
+    for (const std::string& name : kinds_) {
+      show(0.0, name);
+      draw_kind(name);
+      kinds_done_ += 1.0;
+    }
     if (drawn_ == 0) throw BadInput(fmt::format("{}", fmt::join(reasons_, "\n")));
     for (const std::string& reason : reasons_) note(reason);
-    const bool has_any = std::any_of(images_.begin(), images_.end(),
-                                     [](const Image& image) { return !image.rgb.empty(); });
+    const bool has_any = std::any_of(cells_.begin(), cells_.end(), [](const DrawnPicture& drawn) {
+      return !drawn.image.rgb.empty();
+    });
     if (!options_.sheet.empty() && has_any) {
-      written(options_.sheet, contact_sheet(images_, static_cast<int>(runs_.size())));
+      const int columns = static_cast<int>(runs_.size());
+      written(options_.sheet, contact_sheet(sheet_cells(cells_, columns), columns));
     }
   }
 
  private:
+  /// One bar for all: every kind takes as much of it, and this much of the present one is done.
+  void show(double share, const std::string& what) {
+    progress_.show((kinds_done_ + share) / static_cast<double>(kinds_.size()), what);
+  }
+
   void note(const std::string& sentence) const {
     if (!options_.quiet) say(sentence);
   }
@@ -88,55 +100,74 @@ class RenderCommand {
     const std::vector<RunSource*> able = runs_with(name, kind);
     if (able.empty()) return;
     const PanelLayout layout = lay_out(kind, able, options_.picture);
+    const PictureOptions shared = with_shared_colours(kind, able, options_.picture);
     for (RunSource* const run : runs_) {
-      Image image;
+      DrawnPicture drawn;
       const auto draw_one = [&] {
         if (name == "movie") return film(*run, layout);
         if (name == "snapshots") return shoot(*run, layout);
-        image = draw_picture(kind, *run, options_.picture, layout, renderer_);
-        written(path_of(*run, name, ".png"), image);
+        drawn = draw_without_words(kind, *run, shared, layout, renderer_);
+        written(path_of(*run, name, ".png"), with_words(drawn));
       };
       const bool is_able = std::count(able.begin(), able.end(), run) > 0;
       if (is_able && tried(name, *run, draw_one)) ++drawn_;
       if (runs_.size() > 1) run->forget();
-      if (!options_.sheet.empty() && !is_series(name)) images_.push_back(std::move(image));
+      if (!options_.sheet.empty() && !is_series(name)) cells_.push_back(std::move(drawn));
     }
   }
 
-  Image snapshot(const Snapshots& snapshots, RunSource& run, const PanelLayout& fixed,
-                 std::size_t iteration) {
-    PanelLayout layout = fixed;
-    layout.view = snapshots.view(iteration);
-    return draw_picture(snapshots.picture(iteration, layout.view), run, options_.picture, layout,
-                        renderer_);
+  Image finished(const Picture& picture, const RunSource& run, PanelLayout layout,
+                 const RenderView& view) {
+    layout.view = view;
+    return draw_picture(picture, run, options_.picture, layout, renderer_);
   }
 
   void shoot(RunSource& run, const PanelLayout& layout) {
-    const Snapshots snapshots(run, options_.picture, layout.view, options_.follows);
+    Snapshots snapshots(run, options_.picture, layout.view, options_.follows);
     const fs::path folder = path_of(run, "snapshots", "");
     fs::create_directories(folder);
     const std::vector<std::size_t> iterations =
         snapshot_iterations(run.record().views.size(), options_.picture.every, kSnapshots);
     for (const std::size_t iteration : iterations) {
+      const RenderView view = snapshots.view(iteration);
       written(folder / fmt::format("snapshot_{:04}.png", iteration),
-              snapshot(snapshots, run, layout, iteration));
+              finished(snapshots.picture(iteration, view), run, layout, view));
     }
   }
 
+  /// The mission along its flown path, faster by one factor throughout.
   void film(RunSource& run, const PanelLayout& layout) {
-    const fs::path path = path_of(run, "movie", ".mp4");
+    const fs::path path = path_of(run, "movie", has_ffmpeg() ? ".mp4" : ".apng");
     make_folder_of(path);
     Movie movie(path, layout.view.width_px, layout.view.height_px, options_.images_per_s);
-    const Snapshots snapshots(run, options_.picture, layout.view, options_.follows);
-    const std::vector<std::size_t> iterations =
-        snapshot_iterations(run.record().views.size(), options_.picture.every, kFilmImages);
-    for (std::size_t i = 0; i < iterations.size(); ++i) {
-      progress_.show(static_cast<double>(i) / static_cast<double>(iterations.size()),
-                     fmt::format("movie, image {}/{}", i + 1, iterations.size()));
-      movie.add(snapshot(snapshots, run, layout, iterations[i]));
+    Snapshots snapshots(run, options_.picture, layout.view, options_.follows);
+    const auto images = static_cast<std::size_t>(
+        std::lround(options_.film_s * static_cast<double>(options_.images_per_s)));
+    const std::vector<double> times_s = film_times_s(run.record(), images);
+    const double speed = (times_s.back() - times_s.front()) / options_.film_s;
+    for (std::size_t i = 0; i < times_s.size(); ++i) {
+      show(static_cast<double>(i) / static_cast<double>(times_s.size()),
+           fmt::format("movie, image {}/{}", i + 1, times_s.size()));
+      const RenderView view = snapshots.view_at(times_s[i]);
+      movie.add(finished(snapshots.picture_at(times_s[i], speed, view), run, layout, view));
     }
     movie.finish();
     fmt::print("{}\n", path.string());
+  }
+
+  /// What the kinds need of the mission flown again, so that it is flown once.
+  void expect(RunSource& run) const {
+    const auto is_asked = [&](const char* name) {
+      return std::count(kinds_.begin(), kinds_.end(), name) > 0;
+    };
+    const std::size_t views = run.record().views.size();
+    const std::optional<int>& asked = options_.picture.iteration;
+    const auto iteration = static_cast<std::size_t>(asked.value_or(0));
+    if (views == 0 || (asked && iteration >= views)) return;  // which the pictures will say
+    if (is_asked("profile")) run.expect_profile();
+    if (is_asked("voxels")) run.expect_belief_after(asked ? iteration : views - 1);
+    const std::size_t decision = asked ? iteration : views / 2;
+    if (is_asked("candidates") && decision > 0) run.expect_decision(decision);
   }
 
   /// RUN/NAME without --out, else the file or FOLDER/NAME; of several runs FOLDER/RUN-NAME.
@@ -164,10 +195,11 @@ class RenderCommand {
   std::vector<std::unique_ptr<RunSource>> sources_;
   std::vector<RunSource*> runs_;
   std::map<const RunSource*, std::string> names_;  // of runs, for files
+  double kinds_done_ = 0.0;
   std::size_t drawn_ = 0;
   std::vector<std::string> reasons_;  // why something was not
   Renderer renderer_;
-  std::vector<Image> images_;  // for the sheet: a run a column; empty where one was not drawn
+  std::vector<DrawnPicture> cells_;  // of the sheet: a run a column; empty where one was not drawn
 };
 
 }  // namespace

@@ -25,6 +25,7 @@
 #include "tools/run_files/run_directory.hpp"
 #include "tools/run_files/summary_json.hpp"
 #include "tools/terminal/say.hpp"
+#include "tools/terminal/width.hpp"
 
 namespace gnbv {
 namespace {
@@ -92,8 +93,10 @@ void print_summary(const RunOptions& options, const Scenario& scenario, const fs
   if (options.json) {
     fmt::print("{}", read_file(folder / kSummaryFile));
   } else {
-    fmt::print("{}\n{}\n", one_row_summary(read_run_figures(folder), has_papers_setting(scenario)),
-               folder.string());
+    fmt::print(
+        "{}\n{}\n",
+        one_row_summary(read_run_figures(folder), has_papers_setting(scenario), stdout_columns()),
+        folder.string());
   }
 }
 

@@ -7,8 +7,10 @@
 #include <memory>
 #include <optional>
 
+#include "sensors/ray_scene.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/parallel.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/execute.hpp"
@@ -20,6 +22,7 @@
 #include "tools/surface/surface_score.hpp"
 #include "tools/terminal/progress.hpp"
 #include "tools/terminal/say.hpp"
+#include "tools/terminal/width.hpp"
 
 namespace gnbv {
 namespace {
@@ -85,12 +88,34 @@ std::optional<World> truth_of(const RunRecord& record, std::vector<std::string>&
   }
 }
 
+constexpr double kMostError_m = 0.05;  // the finest voxels of the score
+
+/// Of each vertex to the true structure.
+std::vector<double> errors_m(const TriangleMesh& mesh, const World& truth, int threads) {
+  const RayScene scene(truth);
+  std::vector<double> errors(mesh.vertices_m.size());
+  parallel_for_chunks(threads, errors.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3 p_m = mesh.vertices_m[i].cast<double>();
+      errors[i] = std::min(kMostError_m, scene.distance_to_structure_m(p_m, kMostError_m));
+    }
+  });
+  return errors;
+}
+
 /// The paths of what is written. Without a score, that of an earlier call goes.
 std::vector<fs::path> write_all(const TexturedMesh& mesh, const std::optional<SurfaceScore>& score,
-                                const fs::path& folder) {
+                                const std::optional<World>& truth, const std::string& title,
+                                const fs::path& folder, int threads) {
   std::vector<fs::path> paths = write_surface(mesh, folder);
   paths.push_back(folder / "preview.png");
-  write_png(surface_picture(mesh, 1280, 720), paths.back());
+  write_png(surface_picture(mesh, title, 1280, 720), paths.back());
+  if (truth) {
+    paths.push_back(folder / "error.png");
+    write_png(error_picture(mesh.shape, errors_m(mesh.shape, *truth, threads), kMostError_m, title,
+                            1280, 720),
+              paths.back());
+  }
   if (score) {
     paths.push_back(folder / "score.json");
     write_file_atomically(paths.back(), score_json(*score));
@@ -125,7 +150,7 @@ void surface(const SurfaceOptions& options) {
       score = score_surface(mesh.shape, *truth, reference_config(record.scenario), threads);
     }
     progress(0.95, "writing");
-    paths = write_all(mesh, score, folder);
+    paths = write_all(mesh, score, truth, run_title(record), folder, threads);
     progress(1.0, "done");
   }
   for (const std::string& note : notes) say(note);
@@ -134,7 +159,7 @@ void surface(const SurfaceOptions& options) {
     return;
   }
   for (const fs::path& path : paths) fmt::print("{}\n", path.string());
-  if (score) fmt::print("\n{}", score_text(*score, run_title(record)));
+  if (score) fmt::print("\n{}", score_text(*score, run_title(record), stdout_columns()));
 }
 
 }  // namespace
@@ -153,6 +178,11 @@ void add_surface_command(CLI::App& app) {
                    "surface farther than this from any point is cut off (default: 2 spacings of "
                    "the points there, at most 6 leaves)")
       ->check(is_positive());
+  command
+      ->add_option("--simplify-m", options->settings.simplify_m,
+                   "how far the surface may move to become fewer faces; 0: not at all (default: a "
+                   "fifth of a leaf)")
+      ->check(CLI::Range(0.0, 10.0));
   command
       ->add_option("--texture-px", options->settings.texture_px,
                    "longest side of the texture, at most")

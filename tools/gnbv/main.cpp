@@ -16,6 +16,7 @@
 #include "sim/core/simd.hpp"
 #include "sim/core/utf8.hpp"
 #include "tools/gnbv/commands.hpp"
+#include "tools/gnbv/help.hpp"
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/terminal/say.hpp"
 #include "tools/terminal/standard_streams.hpp"
@@ -47,6 +48,7 @@ int run(int argc, char** argv) {
   gnbv::add_surface_command(app);
   gnbv::add_cache_command(app);
   gnbv::refuse_what_is_not_finite(app);
+  gnbv::lay_out_help(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -55,7 +57,11 @@ int run(int argc, char** argv) {
     const bool is_answer = app.exit(error, answer, complaint) == 0;
     fmt::print("{}", answer.str());
     gnbv::print_to_stderr(gnbv::printable(complaint.str()));
-    return is_answer ? 0 : 2;
+    if (is_answer) return 0;
+    const std::vector<std::string> words(argv + 1, argv + std::max(argc, 1));
+    const std::string meant = gnbv::meant_instead(app, words);
+    if (!meant.empty()) gnbv::say(meant);
+    return 2;
   }
   return 0;
 }

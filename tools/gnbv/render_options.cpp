@@ -16,7 +16,7 @@ namespace gnbv {
 namespace {
 
 bool is_film_name(const std::filesystem::path& path) {
-  return path.extension() == ".mp4" || path.extension() == ".gif";
+  return path.extension() == ".mp4" || path.extension() == ".gif" || path.extension() == ".apng";
 }
 
 std::string help_on_what() {
@@ -25,7 +25,7 @@ std::string help_on_what() {
     help += fmt::format("\n{} = {}", kind->name, kind->shows);
   }
   return help + "\nsnapshots = third-person images each --every views" +
-         "\nmovie = the same as a film, by ffmpeg";
+         "\nmovie = the flight as a film, by ffmpeg or as an animated PNG";
 }
 
 void add_camera_options(CLI::App& command, RenderOptions& options) {
@@ -85,7 +85,8 @@ void need_consistent(const RenderOptions& options, const std::vector<std::string
   }
   if (is_one_file &&
       (kinds.front() == "snapshots" || is_film_name(options.out) != (kinds.front() == "movie"))) {
-    const char* const endings = kinds.front() == "movie" ? "ends in .mp4 or .gif" : "ends in .png";
+    const char* const endings =
+        kinds.front() == "movie" ? "ends in .mp4, .gif or .apng" : "ends in .png";
     throw BadInput(fmt::format("--out {}: {}", options.out.string(),
                                kinds.front() == "snapshots"
                                    ? "snapshots are many files: name a folder"
@@ -94,8 +95,8 @@ void need_consistent(const RenderOptions& options, const std::vector<std::string
   for (const char* other : {".jpg", ".jpeg", ".svg", ".pdf", ".tif", ".tiff", ".bmp", ".webp",
                             ".webm", ".avi", ".mov", ".mkv"}) {
     if (extension_of(options.out) != other) continue;
-    throw BadInput(
-        fmt::format("--out {}: pictures are .png, movies .mp4 or .gif", options.out.string()));
+    throw BadInput(fmt::format("--out {}: pictures are .png, movies .mp4, .gif or .apng",
+                               options.out.string()));
   }
   if (!options.sheet.empty() && extension_of(options.sheet) != ".png") {
     throw BadInput(fmt::format("--sheet {}: a sheet is a .png", options.sheet.string()));
@@ -130,9 +131,11 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
       ->allow_extra_args(false)
       ->capture_default_str();
   command.add_option("-o,--out", options.out,
-                     "PNG, MP4 or GIF to write, or a folder (default: the run directory)");
-  command.add_option("--sheet", options.sheet,
-                     "also a PNG with all pictures side by side: a column a run, a row a kind");
+                     "PNG, MP4, GIF or APNG to write, or a folder (default: the run directory)");
+  command.add_option(
+      "--sheet", options.sheet,
+      "also a PNG with all pictures side by side: a column a run, a row a kind, lettered (a), "
+      "(b), ...");
   add_camera_options(command, options);
   command
       .add_option("--iteration", options.picture.iteration,
@@ -141,10 +144,13 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
       ->check(CLI::Range(0, 1'000'000));
   command
       .add_option("--every", options.picture.every,
-                  "path, plan: frusta of each n-th view; snapshots, movie: an image each n views")
+                  "path, plan: frusta of each n-th view; snapshots: an image each n views")
       ->check(CLI::Range(1, 1'000'000));
   command.add_option("--fps", options.images_per_s, "movie: images a second")
       ->check(CLI::Range(1, 120))
+      ->capture_default_str();
+  command.add_option("--film-s", options.film_s, "movie: how long it is (s)")
+      ->check(is_positive())
       ->capture_default_str();
   command.add_option("--title", options.picture.title, "(default: scenario and utility)");
   command.add_flag("--with-profile", options.picture.has_profile,

@@ -25,6 +25,7 @@ struct RenderOptions {
   PictureOptions picture;
   bool follows = false;
   int images_per_s = 24;
+  double film_s = 10.0;
   int threads = 0;
   bool quiet = false;
 };

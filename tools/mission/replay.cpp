@@ -48,30 +48,34 @@ MissionResult fly(const RecordedMission& mission, const MissionHooks& hooks) {
   return run_mission(mission.scenario, mission.world, mission.scene, hooks, mission.threads);
 }
 
-}  // namespace
+/// Where the vehicle was at the first sample that is no earlier.
+Vec3 place_at(std::span<const TrajectorySample> path, double time_s) {
+  GNBV_CHECK(!path.empty(), "no path");
+  const auto after = std::find_if(path.begin(), path.end(), [&](const TrajectorySample& sample) {
+    return sample.time_s >= time_s;
+  });
+  return (after == path.end() ? path.back() : *after).T_world_body.translation();
+}
 
-std::vector<ProfileStage> replay_profile(const RecordedMission& mission,
-                                         std::span<const std::size_t> waypoints) {
-  const Scenario& scenario = mission.scenario;
-  const ProfilingMethod method = scenario.planner.profiling.method;
-  if (method == ProfilingMethod::saved || method == ProfilingMethod::none) return {};
+/// What was heard of the profile's flight.
+struct ProfileLog {
   struct Mark {
     double time_s;
     std::size_t sweeps;
   };
-  std::vector<Mark> marks;  // at the end of each waypoint
-  std::vector<LidarScan> sweeps;
-  bool is_over = false;
-  MissionHooks hooks = hooks_for(mission, 0);
-  hooks.on_profile = mission.on_progress;
-  hooks.on_profile_belief = [&](const Belief&) { is_over = true; };
-  hooks.should_stop = [&] { return is_over; };
-  hooks.on_profile_sweeps = [&](double time_s, std::span<const LidarScan> so_far) {
+  std::vector<Mark> marks = {};  // at the end of each waypoint
+  std::vector<LidarScan> sweeps = {};
+
+  void add(double time_s, std::span<const LidarScan> so_far) {
     marks.push_back({time_s, so_far.size()});
     sweeps.assign(so_far.begin(), so_far.end());
-  };
-  const MissionResult result = fly(mission, hooks);
+  }
+};
 
+std::vector<ProfileStage> stages_of(const RecordedMission& mission, const ProfileLog& log,
+                                    std::span<const TrajectorySample> path,
+                                    std::span<const std::size_t> waypoints) {
+  const Scenario& scenario = mission.scenario;
   std::vector<LidarModel> lidars;
   for (const LidarConfig& lidar : scenario.lidars) lidars.push_back(make_lidar_model(lidar));
   const PlannerModel model(scenario.planner, scenario.workspace_m, camera_models(scenario), lidars,
@@ -79,43 +83,94 @@ std::vector<ProfileStage> replay_profile(const RecordedMission& mission,
   Workbench bench(model, mission.threads);
   std::vector<std::size_t> counts;
   for (const std::size_t count : waypoints) {
-    if (count < marks.size()) counts.push_back(count);
+    if (count < log.marks.size()) counts.push_back(count);
   }
-  if (!marks.empty()) counts.push_back(marks.size());
+  if (!log.marks.empty()) counts.push_back(log.marks.size());
   std::vector<ProfileStage> stages;
   for (const std::size_t count : counts) {
     Belief belief(model);
-    integrate_profile(model, std::span(sweeps).first(marks[count - 1].sweeps), bench, belief);
+    const auto& last = log.marks[count - 1];
+    integrate_profile(model, std::span(log.sweeps).first(last.sweeps), bench, belief);
     const auto points = belief.cloud.points_world_m();
     stages.push_back({.waypoints = count, .points_world_m = {points.begin(), points.end()}});
-    for (const TrajectorySample& sample : result.trajectory) {
-      if (sample.time_s > marks[count - 1].time_s) break;
+    for (const TrajectorySample& sample : path) {
+      if (sample.time_s > last.time_s) break;
       stages.back().path_world_m.push_back(sample.T_world_body.translation());
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      stages.back().waypoints_world_m.push_back(place_at(path, log.marks[i].time_s));
     }
   }
   return stages;
 }
 
+bool flies_profile(const Scenario& scenario) {
+  const ProfilingMethod method = scenario.planner.profiling.method;
+  return method != ProfilingMethod::saved && method != ProfilingMethod::none;
+}
+
+}  // namespace
+
+Replayed replay(const RecordedMission& mission, const ReplayRequest& request) {
+  for (const auto& view : {request.belief, request.decision}) {
+    GNBV_CHECK(!view || *view < mission.views.size(), "view {} of {}", *view, mission.views.size());
+  }
+  GNBV_CHECK(request.decision != 0U, "the start was no decision");
+  const bool has_views = request.belief || request.decision;
+  const bool has_profile = request.has_profile && flies_profile(mission.scenario);
+  if (!has_views && !has_profile) return {};
+  // the chosen view is checked, too
+  const std::size_t count =
+      has_views ? 1 + std::max(request.belief.value_or(0), request.decision.value_or(0)) : 0;
+  MissionHooks hooks = hooks_for(mission, count);
+  const std::vector<Decision> recorded = hooks.replay;
+  const bool plans = request.decision && request.plans;
+  if (plans) hooks.replay.resize(*request.decision);  // the next one is made again
+
+  Replayed out;
+  Plan plan;
+  std::optional<Belief> before;
+  std::size_t views = 0;
+  ProfileLog log;
+  bool is_over = false;
+  if (has_profile) {
+    hooks.on_profile_sweeps = [&](double time_s, std::span<const LidarScan> so_far) {
+      log.add(time_s, so_far);
+    };
+  }
+  hooks.on_profile_belief = [&](const Belief&) { is_over = count == 0; };
+  hooks.on_view_belief = [&](const Belief& after) {
+    ++views;
+    if (views == request.decision) before = after;
+    if (request.belief && views == *request.belief + 1 && views < count) out.belief = after;
+    is_over = views == count;
+  };
+  hooks.on_candidates = [&](std::size_t, const Plan& made) {
+    plan = made;
+    hooks.replay = recorded;  // the mission reads it decision by decision
+  };
+  hooks.should_stop = [&] { return is_over; };
+  if (count == 0) hooks.on_profile = mission.on_progress;
+  MissionResult result = fly(mission, hooks);
+  GNBV_CHECK(views == count, "the mission ended after {} views of {}", views, count);
+  if (has_profile) out.profile = stages_of(mission, log, result.trajectory, request.waypoints);
+  if (request.belief && !out.belief) out.belief = std::move(result.belief);
+  if (request.decision) out.decision = ReplayedDecision{std::move(*before), std::move(plan)};
+  return out;
+}
+
+std::vector<ProfileStage> replay_profile(const RecordedMission& mission,
+                                         std::span<const std::size_t> waypoints) {
+  return replay(mission, {.waypoints = {waypoints.begin(), waypoints.end()}, .has_profile = true})
+      .profile;
+}
+
 Belief replay_belief(const RecordedMission& mission, std::size_t iteration) {
-  GNBV_CHECK(iteration < mission.views.size(), "view {} of {}", iteration, mission.views.size());
-  return fly(mission, hooks_for(mission, iteration + 1)).belief;
+  return std::move(*replay(mission, {.belief = iteration}).belief);
 }
 
 ReplayedDecision replay_decision(const RecordedMission& mission, std::size_t iteration) {
-  GNBV_CHECK(iteration > 0 && iteration < mission.views.size(), "decision {} of {}", iteration,
-             mission.views.size());
-  MissionHooks hooks = hooks_for(mission, iteration);
-  std::optional<Belief> belief;
-  std::size_t views = 0;
-  hooks.on_view_belief = [&](const Belief& after) {
-    if (++views == iteration) belief = after;
-  };
-  Plan plan;
-  hooks.on_candidates = [&](std::size_t, const Plan& made) { plan = made; };
-  hooks.should_stop = [&] { return views > iteration; };  // the chosen view is checked, too
-  fly(mission, hooks);
-  GNBV_CHECK(belief.has_value(), "the mission ended after {} views", views);
-  return {std::move(*belief), std::move(plan)};
+  return std::move(*replay(mission, {.decision = iteration}).decision);
 }
 
 }  // namespace gnbv

@@ -24,8 +24,9 @@ struct RecordedMission {
 /// The profile after some of its waypoints: the stations where it scans up or down.
 struct ProfileStage {
   std::size_t waypoints = 0;
-  std::vector<Vec3f> points_world_m = {};  // of all sweeps so far, as the cloud takes them
-  std::vector<Vec3> path_world_m = {};     // flown so far, from the start of the mission
+  std::vector<Vec3f> points_world_m = {};    // of all sweeps so far, as the cloud takes them
+  std::vector<Vec3> path_world_m = {};       // flown so far, from the start of the mission
+  std::vector<Vec3> waypoints_world_m = {};  // where each of them was left
 };
 
 /// The profile after each of those numbers of waypoints (ascending, from 1) as far as they are less
@@ -48,5 +49,23 @@ struct ReplayedDecision {
 /// The decision that chose the recorded view `iteration`. Throws as replay_belief(). Requires 1 <=
 /// iteration < mission.views.size(): the start was no decision.
 ReplayedDecision replay_decision(const RecordedMission& mission, std::size_t iteration);
+
+/// What one flight is to bring back.
+struct ReplayRequest {
+  std::vector<std::size_t> waypoints = {};  // as replay_profile()
+  bool has_profile = false;
+  std::optional<std::size_t> belief = {};    // after this view
+  std::optional<std::size_t> decision = {};  // that chose this view
+  bool plans = true;  // the decision again; else its plan stays empty, and the belief before is all
+};
+
+struct Replayed {
+  std::vector<ProfileStage> profile = {};
+  std::optional<Belief> belief = {};
+  std::optional<ReplayedDecision> decision = {};
+};
+
+/// All of that from one flight. Requires and throws as those above.
+Replayed replay(const RecordedMission& mission, const ReplayRequest& request);
 
 }  // namespace gnbv

@@ -9,6 +9,7 @@
 #include "bench/compare/paper_figures.hpp"
 #include "tools/paper/missions.hpp"
 #include "tools/paper/verdicts.hpp"
+#include "tools/plots/density_plot.hpp"
 
 namespace gnbv {
 
@@ -73,11 +74,6 @@ struct CheckedClaim {
 /// Those that the scenarios' missions can answer, in the order of the paper's figures.
 std::vector<CheckedClaim> check_claims(const PaperMaterial& material);
 
-/// Density over the views as a mean over seeds. Missions that have ended count no more.
-struct MeanSeries {
-  std::string label;
-  std::vector<MeanEstimate> by_view;
-};
 std::vector<MeanSeries> mean_densities(const PaperMaterial& material, const PaperTable& table);
 
 }  // namespace gnbv

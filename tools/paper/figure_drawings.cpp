@@ -8,8 +8,8 @@
 #include "bench/compare/paper_figures.hpp"
 #include "sim/core/error.hpp"
 #include "tools/paper/comparisons.hpp"
-#include "tools/paper/density_plot.hpp"
 #include "tools/paper/figures.hpp"
+#include "tools/plots/density_plot.hpp"
 #include "tools/plots/run_plots.hpp"
 #include "tools/render/camera_choice.hpp"
 #include "tools/render/flight_items.hpp"
@@ -184,7 +184,8 @@ void draw_reconstruction_figure(FigureDesk& desk) {
   if (mission == pictured.end()) throw BadInput("no mission that kept its images came to its end");
   const RunRecord& record = mission->record;
   std::vector<std::string> notes;
-  const SurfaceSettings settings{.has_texture = false};  // vertices get the images' colours alike
+  // vertices get the images' colours alike, so that there have to be many
+  const SurfaceSettings settings{.simplify_m = 0.0, .has_texture = false};
   const TexturedMesh mesh = reconstruct_surface(
       record, settings, desk.threads(), [](double, const std::string&) {}, notes);
   for (const std::string& note : notes) desk.miss(note);

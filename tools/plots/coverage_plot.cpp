@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <optional>
 
 #include "bench/compare/paper_figures.hpp"
@@ -10,6 +12,7 @@
 #include "scenarios/papers_setting.hpp"
 #include "tools/plots/gnuplot.hpp"
 #include "tools/plots/script_parts.hpp"
+#include "tools/run_files/words.hpp"
 
 namespace gnbv {
 namespace {
@@ -39,7 +42,8 @@ std::string group_data(const RunGroup& group, std::size_t index, Effort effort, 
     const double mean = point.coverage.mean;
     rows.push_back({point.effort, 100.0 * mean, 100.0 * (mean - half), 100.0 * (mean + half)});
   }
-  return data_block(fmt::format("group{}", index), rows);
+  return data_block(fmt::format("group{}", index), rows) +
+         data_block(fmt::format("end{}", index), {rows.back()});
 }
 
 std::string label_of(const RunGroup& group) {
@@ -77,7 +81,7 @@ bool is_corner_free(std::span<const RunGroup> groups, Effort effort, std::size_t
 
 /// The entries of the plot command: curves above levels above bands, and what explains them.
 struct Layers {
-  std::string bands = {}, levels = {}, lines = {}, keys = {};
+  std::string bands = {}, levels = {}, lines = {}, ends = {}, names = {}, keys = {};
   std::size_t entries = 0;
   std::size_t characters = 0;  // of the longest entry
 };
@@ -88,36 +92,85 @@ void add_key(Layers& layers, std::string_view style, std::string_view text) {
   ++layers.entries;
 }
 
+/// The mean of the ceilings that are known; the runs of other scenarios have others.
+std::optional<double> ceiling_of(const RunGroup& group) {
+  std::vector<double> known;
+  for (const RunRecord* const run : group.runs) {
+    if (run->figures->ceiling) known.push_back(100.0 * *run->figures->ceiling);
+  }
+  if (known.empty()) return std::nullopt;
+  return estimate_mean(known).mean;
+}
+
+bool is_oracle_group(const RunGroup& group) {
+  return group.runs.front()->figures->utility.starts_with("oracle");
+}
+
+/// Marks of their own, so that a curve's end shows under another's.
+constexpr std::array<int, 6> kMarks = {7, 5, 9, 11, 13, 15};
+
+void add_lines(Layers& layers, const RunGroup& group, std::size_t i) {
+  const std::string_view colour = kPalette[i % kPalette.size()];
+  if (group.runs.size() > 1) {
+    layers.bands += fmt::format(
+        "$group{} using 1:3:4 with filledcurves fc rgb '{}' fs transparent solid 0.18 noborder "
+        "notitle, ",
+        i, colour);
+  }
+  layers.characters = std::max(layers.characters, label_of(group).size());
+  const std::string dashes =
+      is_oracle_group(group) ? "(4,2)" : fmt::format("{}", 1 + i / kPalette.size());
+  const int mark = kMarks[i % kMarks.size()];
+  layers.lines += fmt::format("$group{} using 1:2 with lines lw 1.3 dt {} lc rgb '{}' notitle, ", i,
+                              dashes, colour);
+  layers.ends += fmt::format(
+      "$end{0} using 1:2 with points pt {1} ps 0.75 lc rgb 'white' notitle, "
+      "$end{0} using 1:2 with points pt {1} ps 0.5 lc rgb '{2}' notitle, ",
+      i, mark, colour);
+  layers.names +=
+      fmt::format("keyentry with linespoints lw 1.3 dt {} pt {} ps 0.5 lc rgb '{}' title {}, ",
+                  dashes, mark, colour, gnuplot_text(label_of(group)));
+}
+
 Layers layers_of(std::span<const RunGroup> groups, std::optional<std::size_t> papers_size) {
   Layers layers{.entries = groups.size()};
-  bool has_doubtful = false;
+  std::array<bool, 2> has_level = {false, false};  // trusted, doubtful
+  std::vector<double> ceilings;
   for (std::size_t i = 0; i < groups.size(); ++i) {
-    const std::string_view colour = kPalette[i % kPalette.size()];
-    if (groups[i].runs.size() > 1) {
-      layers.bands += fmt::format(
-          "$group{} using 1:3:4 with filledcurves fc rgb '{}' fs transparent solid 0.18 noborder "
-          "notitle, ",
-          i, colour);
-    }
-    layers.characters = std::max(layers.characters, label_of(groups[i]).size());
-    layers.lines +=
-        fmt::format("$group{} using 1:2 with lines lw 1.3 dt {} lc rgb '{}' title {}, ", i,
-                    1 + i / kPalette.size(), colour, gnuplot_text(label_of(groups[i])));
+    add_lines(layers, groups[i], i);
     if (!papers_size) continue;
+    const std::optional<double> ceiling = *papers_size == 0 ? ceiling_of(groups[i]) : std::nullopt;
+    const auto is_same = [&](double other) { return std::abs(other - *ceiling) < 0.05; };
+    if (ceiling && std::none_of(ceilings.begin(), ceilings.end(), is_same)) {
+      ceilings.push_back(*ceiling);
+      layers.levels +=
+          fmt::format("{} with lines lw 0.9 dt (1,2) lc rgb '#262c36' notitle, ", *ceiling);
+    }
     if (const auto level = paper_level(groups[i], *papers_size)) {
-      layers.levels += fmt::format("{} with lines lw 0.9 dt (6,5) lc rgb '{}' notitle, ",
-                                   level->percent, colour);
-      has_doubtful = has_doubtful || level->is_doubtful;
+      layers.levels +=
+          fmt::format("{} with lines lw 0.9 dt {} lc rgb '{}' notitle, ", level->percent,
+                      level->is_doubtful ? "(2,6)" : "(6,5)", kPalette[i % kPalette.size()]);
+      has_level[level->is_doubtful ? 1 : 0] = true;
     }
   }
   if (!layers.bands.empty()) {
     add_key(layers, "boxes fs solid noborder fc rgb '#d5d9de'", "95 % interval of the mean");
   }
-  if (!layers.levels.empty()) {
-    add_key(layers, "lines lw 0.9 dt (6,5) lc rgb '#5c6470'",
-            has_doubtful ? "paper, at the end (doubtful)" : "paper, at the end");
+  if (has_level[0]) add_key(layers, "lines lw 0.9 dt (6,5) lc rgb '#5c6470'", "paper, at the end");
+  if (has_level[1]) {
+    add_key(layers, "lines lw 0.9 dt (2,6) lc rgb '#5c6470'", "paper, at the end (doubtful)");
   }
+  if (!ceilings.empty()) add_key(layers, "lines lw 0.9 dt (1,2) lc rgb '#262c36'", "ceiling");
   return layers;
+}
+
+/// The scenario of all of them; nothing where their labels say it.
+std::string common_scenario(std::span<const RunGroup> groups) {
+  const std::string& first = groups.front().runs.front()->figures->scenario;
+  const bool is_common = std::all_of(groups.begin(), groups.end(), [&](const RunGroup& group) {
+    return group.runs.front()->figures->scenario == first;
+  });
+  return is_common ? human_name(first) : "";
 }
 
 /// `size` is an index of the curves' sizes; the paper has it when it is `papers_size`, too.
@@ -126,7 +179,8 @@ Plot plot_of(std::span<const RunGroup> groups, Effort effort, std::size_t size,
   std::string data;
   for (std::size_t i = 0; i < groups.size(); ++i) data += group_data(groups[i], i, effort, size);
   const Layers layers = layers_of(groups, papers_size);
-  std::string entries = layers.bands + layers.levels + layers.lines + layers.keys;
+  std::string entries =
+      layers.bands + layers.levels + layers.lines + layers.ends + layers.names + layers.keys;
   entries.resize(entries.size() - 2);
   const bool is_inside = is_corner_free(groups, effort, size, layers.entries, layers.characters);
   const int key_px = is_inside ? 0 : kKeyLine_px * static_cast<int>(layers.entries);
@@ -137,9 +191,16 @@ Plot plot_of(std::span<const RunGroup> groups, Effort effort, std::size_t size,
                                     "set key at screen 0.1,0.99 left top vertical maxcols 1\n"
                                     "set tmargin at screen {:.4f}\n",
                                     1.0 - static_cast<double>(key_px + kKeyLine_px) / height_px);
+  const std::string scenario = common_scenario(groups);
+  const std::string title = scenario.empty()
+                                ? ""
+                                : fmt::format(
+                                      "set label 1 {} at screen 0.985,{:.4f} right textcolor rgb "
+                                      "'#262c36'\n",
+                                      gnuplot_text(scenario), 1.0 - 0.5 * kKeyLine_px / height_px);
   const std::string y_label = fmt::format("coverage at {} m (%)", size_text);
   return {fmt::format("coverage-{}", effort_name(effort)),
-          data + key + "set yrange [0:100]\nset xrange [0:*] noextend\nset rmargin 3\n" +
+          data + key + title + "set yrange [0:100]\nset xrange [0:*] noextend\nset rmargin 3\n" +
               fmt::format("set xtics {:g}\n",
                           even_step(std::max(longest_effort(groups, effort), 1e-6))) +
               fmt::format("set xlabel {}\nset ylabel {} offset 0.6,0\nplot {}\n",
@@ -151,6 +212,31 @@ Plot plot_of(std::span<const RunGroup> groups, Effort effort, std::size_t size,
 
 Plot coverage_plot(std::span<const RunGroup> groups, Effort effort, std::size_t size) {
   return plot_of(groups, effort, size, size, size_name(kCoverageSizes_m[size]));
+}
+
+std::optional<Plot> coverage_end_plot(std::span<const RunGroup> groups, Effort effort,
+                                      std::size_t size) {
+  constexpr double kFrom = 0.85;
+  const double longest = longest_effort(groups, effort);
+  double low = 100.0;
+  double high = 0.0;
+  for (const RunGroup& group : groups) {
+    for (const CoveragePoint& point : mean_coverage(group, effort, size)) {
+      if (point.effort < kFrom * longest) continue;
+      const double half = point.coverage.half_width.value_or(0.0);
+      low = std::min(low, 100.0 * (point.coverage.mean - half));
+      high = std::max(high, 100.0 * (point.coverage.mean + half));
+    }
+  }
+  if (!(longest > 0.0) || low > high) return std::nullopt;
+  Plot plot = coverage_plot(groups, effort, size);
+  plot.name += "-end";
+  // the last word on both axes, before anything is drawn
+  const std::size_t at = plot.body.rfind("\nplot ") + 1;
+  plot.body.insert(at, fmt::format("set xrange [{}:{}] noextend\nset xtics {:g}\n", kFrom * longest,
+                                   1.01 * longest, even_step(0.16 * longest)) +
+                           y_axis(low, high) + "set key outside below\n");
+  return plot;
 }
 
 Plot coverage_plot_at(std::span<const RunGroup> groups, Effort effort, double size_m) {

@@ -1,6 +1,7 @@
 // Coverage over effort, of many runs in one picture.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "tools/plots/curves.hpp"
@@ -10,9 +11,15 @@ namespace gnbv {
 
 /// "coverage-views", "coverage-metres" or "coverage-seconds": a line for each group, with the 95 %
 /// interval of the mean where it has several runs, and the paper's final coverage dashed where the
-/// paper has the group's scenario, structure and utility. `size` is an index of kCoverageSizes_m.
-/// Requires a group.
+/// paper has the group's scenario, structure and utility, apart where its figure is doubtful. A
+/// mark stands at the end of each line, and a dotted line where the ceiling is, as far as it is
+/// known. Oracles are dashed. `size` is an index of kCoverageSizes_m. Requires a group.
 Plot coverage_plot(std::span<const RunGroup> groups, Effort effort, std::size_t size);
+
+/// Its last 15 %, on axes that just hold it: "coverage-metres-end". Nothing where all curves end
+/// before that.
+std::optional<Plot> coverage_end_plot(std::span<const RunGroup> groups, Effort effort,
+                                      std::size_t size);
 
 /// The same of runs whose curves hold, in the place of the finest size, the coverage at another.
 Plot coverage_plot_at(std::span<const RunGroup> groups, Effort effort, double size_m);

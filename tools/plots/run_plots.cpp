@@ -111,14 +111,17 @@ std::string axis_of(const std::vector<double>& column) {
   return y_axis(0.0, *std::max_element(column.begin(), column.end()));
 }
 
-std::string heading_of_utility(bool is_smooth) {
-  return is_smooth ? fmt::format("utility (means over {} views)", kWindow) : "utility";
+std::string heading_of_utility(bool is_smooth, bool is_proposed) {
+  const std::string formula = is_proposed ? "utility = L Q I D" : "utility";
+  return is_smooth ? fmt::format("{} (means of {})", formula, kWindow) : formula;
 }
 
 std::string utility_panel(Panels& panels, const Columns& columns, const std::vector<Phase>& phases,
                           bool is_smooth) {
-  return panels.next(heading_of_utility(is_smooth), key_of_phases(phases)) + axis_of(columns[0]) +
-         "plot " + raw_line(2, 6, is_smooth) + line("mean", 2, 6) + "\n";
+  constexpr std::size_t kColumnsOfEq2 = 6;
+  return panels.next(heading_of_utility(is_smooth, columns.size() == kColumnsOfEq2),
+                     key_of_phases(phases)) +
+         axis_of(columns[0]) + "plot " + raw_line(2, 6, is_smooth) + line("mean", 2, 6) + "\n";
 }
 
 std::string factor_panels(Panels& panels, const Columns& columns, bool is_smooth) {
@@ -128,17 +131,20 @@ std::string factor_panels(Panels& panels, const Columns& columns, bool is_smooth
     quality[i] += columns[2][i];
     factors[i] = std::max({factors[i], columns[4][i], columns[5][i]});
   }
-  std::string text = panels.next("quality, the sum of",
-                                 {{kDensityArea, "density"}, {kPredictionArea, "prediction"}}) +
+  const bool has_prediction =
+      std::any_of(columns[2].begin(), columns[2].end(), [](double value) { return value != 0.0; });
+  std::vector<KeyEntry> terms = {{kDensityArea, "β density"}};
+  if (has_prediction) terms.push_back({kPredictionArea, "γ prediction"});
+  std::string text = panels.next(has_prediction ? "Q, the sum of" : "Q, nothing predicted", terms) +
                      axis_of(quality);
   // the sum behind the density: no prediction leaves no hair of its colour
   text += fmt::format(
       "plot $mean using 1:(0):($3+$4) with filledcurves fc rgb '{}' fs solid noborder, "
       "$mean using 1:(0):3 with filledcurves fc rgb '{}' fs solid noborder\n",
       kPredictionArea, kDensityArea);
-  text += panels.next("times", {{kPalette[2], "information"},
-                                {kPalette[3], "distance"},
-                                {kPalette[4], "log10 voxels"}}) +
+  text += panels.next("times", {{kPalette[2], "I = 1 + α E"},
+                                {kPalette[3], "D = exp(−λ d)"},
+                                {kPalette[4], "L = log10 N"}}) +
           axis_of(factors) + "plot " + raw_line(5, 2, is_smooth) + raw_line(6, 3, is_smooth) +
           raw_line(7, 4, is_smooth);
   return text + line("mean", 5, 2) + ", " + line("mean", 6, 3) + ", " + line("mean", 7, 4) + "\n";

@@ -10,15 +10,6 @@
 namespace gnbv {
 namespace {
 
-/// From the view before to that view.
-std::vector<Vec3> way_to(const std::vector<ViewRecord>& views, std::size_t view) {
-  std::vector<Vec3> way_m = {views[view - 1].decision.view.p_world_m};
-  const Decision& decision = views[view].decision;
-  way_m.insert(way_m.end(), decision.via_world_m.begin(), decision.via_world_m.end());
-  way_m.push_back(decision.view.p_world_m);
-  return way_m;
-}
-
 double tilt_rad(const Isometry& T_world_body) {
   return std::acos(std::clamp(T_world_body.linear()(2, 2), -1.0, 1.0));
 }
@@ -31,7 +22,7 @@ std::vector<std::vector<double>> tracking_rows(const RunRecord& record) {
     if (sample.time_s < record.views.front().time_s) continue;
     while (view < record.views.size() && record.views[view].time_s < sample.time_s) ++view;
     if (view == record.views.size()) break;
-    const std::vector<Vec3> way_m = way_to(record.views, view);
+    const std::vector<Vec3> way_m = way_to_view(record.views, view);
     rows.push_back({sample.time_s, distance_to_way_m(sample.T_world_body.translation(), way_m),
                     rad_to_deg(tilt_rad(sample.T_world_body))});
   }
@@ -51,6 +42,14 @@ std::string tracking_title(const RunRecord& record) {
 }
 
 }  // namespace
+
+std::vector<Vec3> way_to_view(std::span<const ViewRecord> views, std::size_t view) {
+  std::vector<Vec3> way_m = {views[view - 1].decision.view.p_world_m};
+  const Decision& decision = views[view].decision;
+  way_m.insert(way_m.end(), decision.via_world_m.begin(), decision.via_world_m.end());
+  way_m.push_back(decision.view.p_world_m);
+  return way_m;
+}
 
 double distance_to_way_m(const Vec3& p_world_m, std::span<const Vec3> way_world_m) {
   double least_m = (p_world_m - way_world_m.front()).norm();

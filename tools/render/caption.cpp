@@ -38,8 +38,8 @@ double draw_scale(Image& image, const RenderView& view, double u, double bottom)
       draw_line(image, {x, bottom - 5.0 * u}, {x, bottom + 5.0 * u}, width * u, colour);
     }
   }
-  return draw_text(image, fmt::format("{} m", length_m), x1 + 10.0 * u, bottom + 5.0 * u,
-                   kLetter * u, kInk, kHalo * u);
+  return draw_text(image, fmt::format("{} m at mid-depth", length_m), x1 + 10.0 * u,
+                   bottom + 5.0 * u, kLetter * u, kInk, kHalo * u);
 }
 
 bool is_bar(const LegendItem& item) { return item.colours.size() > 1; }
@@ -81,30 +81,56 @@ void draw_mark(Image& image, const LegendItem& item, double x, double y, double 
   }
 }
 
+/// An item's place: where it begins, and the middle of its row.
+struct Placed {
+  const LegendItem* item;
+  double x;
+  double y;
+};
+
 // From the right, the last item lowest; what meets the scale goes above it.
-void draw_legend(Image& image, const std::vector<LegendItem>& legend, double u, double bottom,
-                 double left_limit) {
+std::vector<Placed> placed(const Image& image, const std::vector<LegendItem>& legend, double u,
+                           double bottom, double left_limit) {
+  std::vector<Placed> places;
   double right = image.width_px - kBorder * u;
   double y = bottom;
   bool is_row_empty = true;
   for (std::size_t i = legend.size(); i-- > 0;) {
-    const LegendItem& item = legend[i];
-    const double width = item_width(item) * u;
+    const double width = item_width(legend[i]) * u;
     const double limit = y == bottom ? left_limit + kGap * u : kBorder * u;
     const bool may_move = !is_row_empty || y == bottom;
     if (may_move && right - width < limit) {
       right = image.width_px - kBorder * u;
       y -= kRow * u;
     }
-    double x = right - width;
-    if (!item.label_before.empty()) {
-      x = draw_text(image, item.label_before, x, y + 5.0 * u, kLetter * u, kInk) + 10.0 * u;
-    }
-    draw_mark(image, item, x, y, u);
-    draw_text(image, item.label, x + (mark_width(item) + 10.0) * u, y + 5.0 * u, kLetter * u, kInk,
-              kHalo * u);
+    places.push_back({&legend[i], right - width, y});
     right -= width + kGap * u;
     is_row_empty = false;
+  }
+  return places;
+}
+
+// On paper of its own: what lies behind it would be read as part of it.
+void draw_legend(Image& image, const std::vector<LegendItem>& legend, double u, double bottom,
+                 double left_limit) {
+  const std::vector<Placed> places = placed(image, legend, u, bottom, left_limit);
+  if (places.empty()) return;
+  constexpr Rgb8 kSheet = {246, 248, 250};
+  const double right = image.width_px - (kBorder - 12.0) * u;
+  for (std::size_t i = 0; i < places.size(); ++i) {  // the last of a row is the leftmost
+    if (i + 1 < places.size() && places[i + 1].y == places[i].y) continue;
+    const double y = places[i].y;
+    draw_box(image, {places[i].x - 12.0 * u, y - 0.5 * kRow * u}, {right, y + 0.5 * kRow * u},
+             kSheet, 0.92);
+  }
+  for (const auto& [item, x_begin, y] : places) {
+    double x = x_begin;
+    if (!item->label_before.empty()) {
+      x = draw_text(image, item->label_before, x, y + 5.0 * u, kLetter * u, kInk) + 10.0 * u;
+    }
+    draw_mark(image, *item, x, y, u);
+    draw_text(image, item->label, x + (mark_width(*item) + 10.0) * u, y + 5.0 * u, kLetter * u,
+              kInk);
   }
 }
 

@@ -19,6 +19,8 @@ struct LegendItem {
   std::vector<Rgb> colours = {};  // one, or those of a bar from its low end to its high end
   Mark mark = Mark::square;       // of a single colour
   std::string label_before = {};  // of a bar: at its low end
+
+  bool operator==(const LegendItem&) const = default;
 };
 
 struct Caption {
@@ -40,8 +42,9 @@ FrameMargins caption_margins(int width_px, int height_px, int legend_rows = 1);
 /// Pixels a metre at the depth of the view's subject.
 double px_per_m_at_focus(const RenderView& view);
 
-/// Title and figures at the top left, the scale at the bottom left (true at the focus of `view`),
-/// the legend at the bottom right, in as many rows as it needs.
+/// Title and figures at the top left, the scale at the bottom left (true at the focus of `view`,
+/// the middle of what is framed), the legend on a sheet at the bottom right, in as many rows as it
+/// needs.
 void draw_caption(Image& image, const Caption& caption, const RenderView& view);
 
 }  // namespace gnbv

@@ -78,11 +78,13 @@ void add_surface(const SurfaceItem& item, DrawLists& out) {
       const auto colour =
           rgba(item.vertex_colours.empty() ? mesh.materials[material].rgb : item.vertex_colours[v],
                item.opacity);
-      const bool is_new = last[v] == kNone || out.vertices[last[v]].rgba != colour ||
-                          out.vertices[last[v]].n_world.dot(normals[f][k]) < 0.9999F;
+      const bool is_bent = item.is_lit && last[v] != kNone &&
+                           out.vertices[last[v]].n_world.dot(normals[f][k]) < 0.9999F;
+      const bool is_new = last[v] == kNone || out.vertices[last[v]].rgba != colour || is_bent;
       if (is_new) {
         last[v] = static_cast<std::uint32_t>(out.vertices.size());
-        out.vertices.push_back({mesh.vertices_m[v], normals[f][k], colour});
+        const Vec3f n = item.is_lit ? normals[f][k] : Vec3f(Vec3f::Zero());
+        out.vertices.push_back({mesh.vertices_m[v], n, colour});
       }
       indices.push_back(last[v]);
     }
@@ -220,10 +222,14 @@ std::vector<std::array<Vec3f, 3>> corner_normals(const TriangleMesh& mesh, doubl
       angles_rad[f][k] = std::atan2(a.cross(b).norm(), a.dot(b));
     }
   }
+  std::vector<std::array<Vec3f, 3>> normals(mesh.faces.size());
+  if (crease_rad <= 0.0) {
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) normals[f].fill(face_normals[f]);
+    return normals;
+  }
   const std::vector<std::uint32_t> welded = weld(mesh.vertices_m);
   const CornerTable table = corners_by_vertex(mesh, welded);
   const auto cos_crease = static_cast<float>(std::cos(crease_rad));
-  std::vector<std::array<Vec3f, 3>> normals(mesh.faces.size());
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t v = welded[mesh.faces[f][k]];

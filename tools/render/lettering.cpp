@@ -225,6 +225,20 @@ void draw_line(Image& image, const std::array<double, 2>& from_px,
   }
 }
 
+void draw_box(Image& image, const std::array<double, 2>& from_px,
+              const std::array<double, 2>& to_px, const Rgb8& colour, double opacity) {
+  const auto within = [](double px, int size_px) {
+    return static_cast<int>(std::clamp(std::round(px), 0.0, 1.0 * size_px));
+  };
+  const int right = within(to_px[0], image.width_px);
+  const int bottom = within(to_px[1], image.height_px);
+  for (int y = within(from_px[1], image.height_px); y < bottom; ++y) {
+    for (int x = within(from_px[0], image.width_px); x < right; ++x) {
+      blend(image, x, y, opacity, colour);
+    }
+  }
+}
+
 double draw_text(Image& image, std::string_view text, double x_px, double baseline_px,
                  double height_px, const Rgb8& colour, double halo_px) {
   constexpr Rgb8 kHalo = {228, 231, 235};

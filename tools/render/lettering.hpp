@@ -19,6 +19,10 @@ Rgb8 to_rgb8(const Rgb& linear);
 void draw_line(Image& image, const std::array<double, 2>& from_px,
                const std::array<double, 2>& to_px, double width_px, const Rgb8& colour);
 
+/// A rectangle between two corners (px), blended over the picture and clipped to it.
+void draw_box(Image& image, const std::array<double, 2>& from_px,
+              const std::array<double, 2>& to_px, const Rgb8& colour, double opacity);
+
 /// UTF-8, each code point its own letter; bytes that are none appear as the replacement character.
 /// `height_px` is that of a capital. A halo of that width keeps it legible on a busy picture.
 /// Returns the x where the text ends.

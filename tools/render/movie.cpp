@@ -6,7 +6,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -57,14 +59,30 @@ std::vector<std::string> ffmpeg_command(const std::string& format, const std::st
 
 }  // namespace
 
+bool has_ffmpeg() {
+  const char* const path = std::getenv("PATH");
+  std::string_view folders = path == nullptr ? "" : path;
+  while (!folders.empty()) {
+    const std::size_t end = std::min(folders.find(':'), folders.size());
+    const std::filesystem::path program = std::filesystem::path(folders.substr(0, end)) / "ffmpeg";
+    if (::access(program.c_str(), X_OK) == 0) return true;
+    folders.remove_prefix(std::min(end + 1, folders.size()));
+  }
+  return false;
+}
+
 Movie::Movie(std::filesystem::path path, int width_px, int height_px, int images_per_s)
     : path_(std::move(path)),
       part_(path_.string() + ".part"),
       width_px_(width_px),
       height_px_(height_px) {
   const std::string extension = extension_of(path_);
+  if (extension == ".apng") {
+    apng_.emplace(images_per_s);
+    return;
+  }
   if (extension != ".mp4" && extension != ".gif") {
-    throw BadInput(fmt::format("{}: a movie's name ends in .mp4 or .gif", path_.string()));
+    throw BadInput(fmt::format("{}: a movie's name ends in .mp4, .gif or .apng", path_.string()));
   }
   int ends[2] = {-1, -1};  // a socket, not a pipe: writing to a dead one is an error, no signal
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
@@ -87,8 +105,10 @@ Movie::Movie(std::filesystem::path path, int width_px, int height_px, int images
   if (error == 0) return;
   ffmpeg_ = 0;
   close();
-  throw BadInput(fmt::format("{}: a movie needs ffmpeg on the PATH, Debian package ffmpeg: {}",
-                             path_.string(), std::strerror(error)));
+  throw BadInput(
+      fmt::format("{}: a movie needs ffmpeg on the PATH, Debian package ffmpeg: {}; "
+                  "one that ends in .apng does not",
+                  path_.string(), std::strerror(error)));
 }
 
 Movie::~Movie() {
@@ -102,6 +122,7 @@ void Movie::add(const Image& image) {
   GNBV_CHECK(image.width_px == width_px_ && image.height_px == height_px_,
              "image of {} x {} px in a movie of {} x {}", image.width_px, image.height_px,
              width_px_, height_px_);
+  if (apng_) return apng_->add(image);
   for (std::size_t done = 0; done < image.rgb.size();) {
     const ssize_t sent =
         send(pipe_, image.rgb.data() + done, image.rgb.size() - done, MSG_NOSIGNAL);
@@ -112,6 +133,7 @@ void Movie::add(const Image& image) {
 }
 
 void Movie::finish() {
+  if (apng_) return write_file_atomically(path_, apng_->bytes());
   if (!close()) {
     std::error_code ignored;
     std::filesystem::remove(part_, ignored);

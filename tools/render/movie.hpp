@@ -1,19 +1,25 @@
-// Images as a film, by ffmpeg.
+// Images as a film: by ffmpeg, or without it as an animated PNG.
 #pragma once
 
 #include <sys/types.h>
 
 #include <filesystem>
+#include <optional>
 
-#include "sim/core/image.hpp"
+#include "tools/render/apng.hpp"
 
 namespace gnbv {
 
-/// Hands images to an ffmpeg of its own; the film appears by rename when it is finished.
+/// Whether there is an ffmpeg on the PATH.
+bool has_ffmpeg();
+
+/// Hands images to an ffmpeg of its own, or keeps them for an APNG; the film appears by rename when
+/// it is finished.
 class Movie {
  public:
-  /// `path` ends in .mp4 (H.264; sizes are cut to even numbers) or .gif. Throws BadInput naming the
-  /// path for another ending, and the Debian package when there is no ffmpeg on the PATH.
+  /// `path` ends in .mp4 (H.264; sizes are cut to even numbers), .gif or .apng. Throws BadInput
+  /// naming the path for another ending, and the Debian package when the first two find no ffmpeg
+  /// on the PATH.
   Movie(std::filesystem::path path, int width_px, int height_px, int images_per_s);
   /// Without finish(), nothing is left.
   ~Movie();
@@ -30,6 +36,7 @@ class Movie {
 
   std::filesystem::path path_;
   std::filesystem::path part_;
+  std::optional<Apng> apng_;
   int width_px_;
   int height_px_;
   pid_t ffmpeg_ = 0;

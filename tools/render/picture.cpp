@@ -1,6 +1,7 @@
 #include "tools/render/picture.hpp"
 
 #include "sim/core/error.hpp"
+#include "tools/run_files/words.hpp"
 
 namespace gnbv {
 
@@ -17,10 +18,17 @@ std::size_t iteration_of(const RunRecord& record, const PictureOptions& options,
   if (!options.iteration) return std::min(otherwise, count - 1);
   const auto iteration = static_cast<std::size_t>(*options.iteration);
   if (*options.iteration < 0 || iteration >= count) {
-    throw BadInput(fmt::format("--iteration {}: {} took views 0 to {}", *options.iteration,
+    throw BadInput(fmt::format("--iteration {}: {} has iterations 0 to {}", *options.iteration,
                                record.folder.string(), count - 1));
   }
   return iteration;
+}
+
+std::string views_so_far(const RunRecord& record, std::size_t iteration) {
+  const std::size_t all = record.views.size();
+  if (iteration + 1 == all) return counted(all, "view");
+  return fmt::format("{} of {} (iteration {})", grouped(iteration + 1), counted(all, "view"),
+                     iteration);
 }
 
 void frame_structure(RunSource& run, std::vector<Vec3>& points_world_m) {

@@ -2,6 +2,7 @@
 // frame, and what to draw when the camera is known.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,18 +25,29 @@ struct PictureOptions {
   bool has_profile = false;  // show the profile's flight, wide around the structure
   bool has_caption = true;   // pictures under 320 x 240 px never have one
   std::string title;         // empty: scenario and utility
+  /// What the two ends of the colours stand for, where several pictures share them.
+  std::optional<std::array<double, 2>> colour_range = {};
+};
+
+/// Words beside a place in the world.
+struct PlaceLabel {
+  Vec3 p_world_m;
+  std::string text;
 };
 
 /// One scene of a picture that may hold several, side by side.
 struct Panel {
   RenderScene scene;
-  std::string note = {};  // over the panel
+  std::string note = {};                // over the panel
+  std::vector<PlaceLabel> labels = {};  // over everything
+  std::optional<RenderView> view = {};  // instead of the layout's, of its size
 };
 
 struct Picture {
   std::vector<Panel> panels = {};
   std::string detail = {};  // one line of figures
   std::vector<LegendItem> legend = {};
+  Image inset = {};  // small, in the upper right corner; empty: none
 };
 
 struct PictureKind {
@@ -45,6 +57,9 @@ struct PictureKind {
   int legend_rows = 1;
   /// Appends the points that have to be seen.
   void (*frame)(RunSource& run, const PictureOptions& options, std::vector<Vec3>& points_world_m);
+  /// What the two ends of the colours stand for in a picture of its own; null: nothing that runs
+  /// could share.
+  std::array<double, 2> (*colour_range)(RunSource& run, const PictureOptions& options) = nullptr;
   /// Lines are as thick as suits `view`. Throws BadInput naming what is missing.
   Picture (*draw)(RunSource& run, const PictureOptions& options, const RenderView& view);
 };
@@ -65,6 +80,10 @@ double layout_unit_m(const RenderView& view);
 /// take, or a run without views.
 std::size_t iteration_of(const RunRecord& record, const PictureOptions& options,
                          std::size_t otherwise);
+
+/// "12 views", or "7 of 12 views (iteration 6)": views are counted from 1, iterations from 0, as in
+/// the run's files and by --iteration.
+std::string views_so_far(const RunRecord& record, std::size_t iteration);
 
 /// Frames the structure.
 void frame_structure(RunSource& run, std::vector<Vec3>& points_world_m);

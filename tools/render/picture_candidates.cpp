@@ -5,24 +5,24 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 
 #include "planner/map/frontiers.hpp"
 #include "sim/core/error.hpp"
+#include "tools/render/chosen_view_item.hpp"
 #include "tools/render/flight_items.hpp"
 #include "tools/render/picture.hpp"
 #include "tools/render/voxel_items.hpp"
+#include "tools/run_files/words.hpp"
 
 namespace gnbv {
 namespace {
 
-const Rgb kMap = srgb(0xb9c4d0);
+const Rgb kMap = srgb(0xc4ccd6);
 const Rgb kFrontier = srgb(0x56b4e9);
 const Rgb kLookedAt = srgb(0x0b5fa5);
-const Rgb kChosen = srgb(0xd5420a);
-const Rgb kRayFree = srgb(0xf0a35e);
-const Rgb kRayUnknown = srgb(0x6d7683);
-constexpr int kRaysAcross = 9;
-constexpr int kRaysDown = 7;
+const Rgb kUnknownVoxels = srgb(0xffffff);
+constexpr float kUnknownVoxelsOpacity = 0.35F;
 
 struct Reason {
   Rejection rejection;
@@ -30,20 +30,21 @@ struct Reason {
   Rgb colour;
 };
 
-// Dark and muted: rejected views are context.
+// The muted colours of Paul Tol (2021), which colour-blind people tell apart: rejected views are
+// context.
 constexpr std::size_t kReasons = 10;
 const std::array<Reason, kReasons>& reasons() {
   static const std::array<Reason, kReasons> all = {
       {{Rejection::out_of_bounds, "out of bounds", srgb(0x9aa3ae)},
-       {Rejection::not_free, "not free", srgb(0x2f3640)},
-       {Rejection::collision, "collision", srgb(0xa3321f)},
-       {Rejection::path_blocked, "path blocked", srgb(0x7a4f9a)},
-       {Rejection::recently_visited, "visited", srgb(0x8c6d3f)},
-       {Rejection::cluster_outside_fov, "cluster outside view", srgb(0x4f7f86)},
-       {Rejection::cluster_hidden, "cluster hidden", srgb(0x3f5b8c)},
-       {Rejection::sees_no_surface, "sees no surface", srgb(0x6f8f2a)},
-       {Rejection::no_fly, "no-fly box", srgb(0xb03a6b)},
-       {Rejection::beyond_gimbal, "beyond the gimbal", srgb(0x8a5a6a)}}};
+       {Rejection::not_free, "not free", srgb(0x14181e)},
+       {Rejection::collision, "collision", srgb(0x882255)},
+       {Rejection::path_blocked, "path blocked", srgb(0xcc6677)},
+       {Rejection::recently_visited, "visited", srgb(0xddcc77)},
+       {Rejection::cluster_outside_fov, "cluster outside view", srgb(0x88ccee)},
+       {Rejection::cluster_hidden, "cluster hidden", srgb(0xaa4499)},
+       {Rejection::sees_no_surface, "sees no surface", srgb(0x999933)},
+       {Rejection::no_fly, "no-fly box", srgb(0x661100)},
+       {Rejection::beyond_gimbal, "beyond the gimbal", srgb(0x332288)}}};
   return all;
 }
 
@@ -56,94 +57,19 @@ std::size_t iteration_asked(const RunRecord& record, const PictureOptions& optio
                   record.folder.string()));
 }
 
-/// How far a camera's view is drawn: to its range, but not far beyond a small structure.
-double reach_m(const World& world, const CameraConfig& camera, const ViewPose& view) {
-  const Box3 box_m = bounds_m(world.structure);
-  const Vec3 half_m = 0.5 * box_m.sizes();
-  const Vec3 away_m = (view.p_world_m - box_m.center()).cwiseAbs() + half_m;  // farthest corner
-  return std::min(camera.range_max_m, 1.2 * away_m.norm());
-}
-
+/// The structure and what could be chosen from, not the pyramid: it reaches far beyond both.
 void frame_candidates(RunSource& run, const PictureOptions& options,
                       std::vector<Vec3>& points_world_m) {
   const RunRecord& record = run.record();
   const std::size_t iteration = iteration_asked(record, options);
+  frame_structure(run, points_world_m);
   for (const Candidate& candidate : run.decision(iteration).plan.candidates) {
-    if (!candidate.rejected) points_world_m.push_back(candidate.view.p_world_m);
+    // those beyond the bounds lie far around everything else
+    if (candidate.rejected == Rejection::out_of_bounds) continue;
+    points_world_m.push_back(candidate.view.p_world_m);
   }
-  const ViewPose& chosen = record.views[iteration].decision.view;
   points_world_m.push_back(record.views[iteration - 1].decision.view.p_world_m);
-  points_world_m.push_back(chosen.p_world_m);
-  for (const CameraConfig& camera : record.scenario.cameras) {
-    const FrustumItem f = frustum_of(camera, T_world_body(chosen), chosen.gimbal_pitch_rad,
-                                     reach_m(run.world(), camera, chosen), kChosen);
-    for (const double x : {-1.0, 1.0}) {
-      for (const double y : {-1.0, 1.0}) {
-        const Vec3 corner(x * std::tan(0.5 * f.fov_x_rad), y * std::tan(0.5 * f.fov_y_rad), 1.0);
-        points_world_m.push_back(f.T_world_camera * (f.length_m * corner));
-      }
-    }
-  }
-}
-
-// A ray up to the first occupied voxel: where it runs through unknown ones it is grey.
-void add_ray(const OccupancyGrid& grid, const Vec3& from, const Vec3& to, double unit_m,
-             RenderScene& scene) {
-  const double length_m = (to - from).norm();
-  const double step_m = 0.25 * grid.geometry().resolution_m();
-  const Vec3 along = (to - from) / length_m;
-  VoxelState state = grid.state_at(from);
-  Vec3 begin = from;
-  bool is_hit = false;
-  double t = 0.0;
-  const auto end_piece = [&](const Vec3& end) {
-    const Rgb& colour = state == VoxelState::unknown ? kRayUnknown : kRayFree;
-    scene.tubes.push_back(
-        {{begin.cast<float>(), end.cast<float>()}, {colour}, static_cast<float>(0.8 * unit_m)});
-    begin = end;
-  };
-  for (; t < length_m && !is_hit; t += step_m) {
-    const VoxelState next = grid.state_at(from + t * along);
-    is_hit = next == VoxelState::occupied;
-    if (next != state) end_piece(from + t * along);
-    state = next;
-  }
-  if (!is_hit) end_piece(to);
-  if (is_hit) {
-    scene.balls.push_back({begin.cast<float>(), static_cast<float>(2.6 * unit_m), kChosen});
-  }
-}
-
-void add_chosen(const RunRecord& record, const World& world, const Belief& belief,
-                std::size_t iteration, double unit_m, RenderScene& scene) {
-  const ViewPose& view = record.views[iteration].decision.view;
-  for (const CameraConfig& camera : record.scenario.cameras) {
-    const double length_m = reach_m(world, camera, view);
-    FrustumItem frustum =
-        frustum_of(camera, T_world_body(view), view.gimbal_pitch_rad, length_m, kChosen);
-    frustum.edge_radius_m = static_cast<float>(1.2 * unit_m);
-    frustum.face_opacity = 0.06F;
-    scene.frusta.push_back(frustum);
-    for (int row = 0; row < kRaysDown; ++row) {
-      for (int column = 0; column < kRaysAcross; ++column) {
-        const double x = 2.0 * (column + 0.5) / kRaysAcross - 1.0;
-        const double y = 2.0 * (row + 0.5) / kRaysDown - 1.0;
-        const Vec3 end = length_m * Vec3(x * std::tan(0.5 * camera.fov_x_rad),
-                                         y * std::tan(0.5 * camera.fov_y_rad), 1.0);
-        add_ray(belief.grid, frustum.T_world_camera.translation(), frustum.T_world_camera * end,
-                unit_m, scene);
-      }
-    }
-  }
-  // the way there
-  std::vector<Vec3> way = {record.views[iteration - 1].decision.view.p_world_m};
-  const auto& via = record.views[iteration].decision.via_world_m;
-  way.insert(way.end(), via.begin(), via.end());
-  way.push_back(view.p_world_m);
-  scene.tubes.push_back(path_tube(way, 1.6 * unit_m, kChosen));
-  scene.balls.push_back(
-      {way.front().cast<float>(), static_cast<float>(6.0 * unit_m), srgb(0x14181e)});
-  scene.balls.push_back({way.back().cast<float>(), static_cast<float>(7.0 * unit_m), kChosen});
+  points_world_m.push_back(record.views[iteration].decision.view.p_world_m);
 }
 
 // A pin: where it stands, and which way it looks.
@@ -157,9 +83,34 @@ void add_pin(const ViewPose& view, double length_m, double radius_m, const Rgb& 
        static_cast<float>(radius_m)});
 }
 
-// The clusters of density frontiers that an FVS decision looked at; the chosen one's stands out.
+// Rings through the views around a cluster that stand in one layer (Fig. 6).
+void add_layers(const Plan& plan, std::span<const FrontierCluster> clusters, double unit_m,
+                RenderScene& scene) {
+  std::map<std::pair<int, long>, std::vector<Vec3>> layers;  // by cluster and millimetre of height
+  for (const Candidate& candidate : plan.candidates) {
+    const Vec3& p_m = candidate.view.p_world_m;
+    if (candidate.cluster < 0) continue;
+    layers[{candidate.cluster, std::lround(1000.0 * p_m.z())}].push_back(p_m);
+  }
+  for (auto& [layer, places] : layers) {
+    const auto cluster = static_cast<std::size_t>(layer.first);
+    if (cluster >= clusters.size() || places.size() < 3) continue;
+    const Vec3& centre_m = clusters[cluster].centroid_world_m;
+    const auto angle_rad = [&](const Vec3& p_m) {
+      return std::atan2(p_m.y() - centre_m.y(), p_m.x() - centre_m.x());
+    };
+    std::sort(places.begin(), places.end(),
+              [&](const Vec3& a, const Vec3& b) { return angle_rad(a) < angle_rad(b); });
+    places.push_back(places.front());
+    scene.tubes.push_back(path_tube(places, 0.35 * unit_m, kFrontier));
+  }
+}
+
+// The clusters of density frontiers that an FVS decision looked at, numbered in the order in which
+// they were tried; the chosen one's stands out.
 void add_frontiers(const RunRecord& record, const ReplayedDecision& decision, const ViewPose& from,
-                   double unit_m, RenderScene& scene) {
+                   double unit_m, Panel& panel) {
+  RenderScene& scene = panel.scene;
   const Belief& belief = decision.belief;
   FrontierMarks marks(belief.grid.geometry().voxel_count());
   std::vector<FrontierCluster> clusters =
@@ -170,13 +121,41 @@ void add_frontiers(const RunRecord& record, const ReplayedDecision& decision, co
   });
   const int chosen =
       decision.plan.chosen ? decision.plan.candidates[*decision.plan.chosen].cluster : -1;
+  int tried = -1;
+  for (const Candidate& candidate : decision.plan.candidates) {
+    tried = std::max(tried, candidate.cluster);
+  }
   for (std::size_t i = 0; i < clusters.size(); ++i) {
     const bool is_chosen = static_cast<int>(i) == chosen;
     const std::vector<Rgb> colour = {is_chosen ? kLookedAt : kFrontier};
-    scene.surfaces.push_back(voxel_cubes(belief.grid.geometry(), clusters[i].voxels, colour, 0.96));
-    scene.balls.push_back({clusters[i].centroid_world_m.cast<float>(),
-                           static_cast<float>((is_chosen ? 6.0 : 3.5) * unit_m), colour.front()});
+    scene.surfaces.push_back(voxel_cubes(belief.grid.geometry(), clusters[i].voxels, colour, 1.0));
+    if (static_cast<int>(i) > tried) continue;
+    const Vec3& centre_m = clusters[i].centroid_world_m;
+    scene.balls.push_back({centre_m.cast<float>(),
+                           static_cast<float>((is_chosen ? 6.0 : 4.5) * unit_m), colour.front()});
+    panel.labels.push_back({centre_m, fmt::format("{}", i + 1)});
   }
+  add_layers(decision.plan, clusters, unit_m, scene);
+}
+
+// "24 around frontiers (0 valid), 80 of the grid (31 valid)"
+std::string counts_by_sampler(const Plan& plan) {
+  std::string words;
+  for (const auto& [sampler, name] :
+       {std::pair<std::string_view, std::string_view>{"fvs", "around frontiers"},
+        {"agvs", "of the grid"}}) {
+    std::size_t all = 0;
+    std::size_t valid = 0;
+    for (const Candidate& candidate : plan.candidates) {
+      if (candidate.sampler != sampler) continue;
+      ++all;
+      valid += candidate.rejected ? 0 : 1;
+    }
+    if (all == 0) continue;
+    words += fmt::format("{}{} {} ({} valid)", words.empty() ? "" : ", ", grouped(all), name,
+                         grouped(valid));
+  }
+  return words.empty() ? counted(plan.candidates.size(), "candidate") : words;
 }
 
 struct Tally {
@@ -205,10 +184,12 @@ void add_candidates(const Plan& plan, const Tally& all, double unit_m, RenderSce
   for (const Candidate& candidate : plan.candidates) {
     if (candidate.rejected) {
       const Reason& reason = reasons()[static_cast<std::size_t>(*candidate.rejected)];
-      add_pin(candidate.view, 12.0 * unit_m, 1.1 * unit_m, reason.colour, scene);
+      add_pin(candidate.view, 12.0 * unit_m, 1.3 * unit_m, reason.colour, scene);
     } else {
-      add_pin(candidate.view, 20.0 * unit_m, 2.4 * unit_m,
-              amount_ramp((candidate.score.value - all.low) / span), scene);
+      const Rgb colour = amount_ramp((candidate.score.value - all.low) / span);
+      add_pin(candidate.view, 20.0 * unit_m, 2.4 * unit_m, colour, scene);
+      scene.balls.push_back(
+          {candidate.view.p_world_m.cast<float>(), static_cast<float>(5.0 * unit_m), colour});
     }
   }
 }
@@ -222,17 +203,21 @@ std::vector<LegendItem> legend_of(const Tally& all, bool is_fvs) {
         {fmt::format("{}: {}", reason.words, count), {reason.colour}, LegendItem::Mark::line});
   }
   if (all.valid > 0) {
-    legend.push_back({.label = fmt::format("{:.4g}", all.high),
-                      .colours = amount_colours(),
-                      .label_before = fmt::format("{} valid, utility {:.4g}", all.valid, all.low)});
+    legend.push_back(
+        {.label = fmt::format("{:.3g}, highest", all.high),
+         .colours = amount_colours(),
+         .label_before = fmt::format("valid: {}, utility {:.3g}", all.valid, all.low)});
   }
   if (is_fvs) {
     legend.push_back({"frontier", {kFrontier}});
     legend.push_back({"cluster looked at", {kLookedAt}});
   }
-  legend.push_back({"chosen view", {kChosen}, LegendItem::Mark::line});
-  legend.push_back({"ray through free", {kRayFree}, LegendItem::Mark::line});
-  legend.push_back({"through unknown", {kRayUnknown}, LegendItem::Mark::line});
+  legend.push_back({"unknown", {kUnknownVoxels}});
+  legend.push_back({"way to the chosen view", {kChosenLook.chosen}, LegendItem::Mark::line});
+  legend.push_back({"its pyramid", {kChosenLook.pyramid}, LegendItem::Mark::line});
+  legend.push_back({"ray through free", {kChosenLook.ray_free}, LegendItem::Mark::line});
+  legend.push_back({"through unknown", {kChosenLook.ray_unknown}, LegendItem::Mark::line});
+  legend.push_back({"meets surface", {kChosenLook.chosen}, LegendItem::Mark::dot});
   return legend;
 }
 
@@ -240,24 +225,25 @@ Picture draw_candidates(RunSource& run, const PictureOptions& options, const Ren
   const RunRecord& record = run.record();
   const std::size_t iteration = iteration_asked(record, options);
   const ReplayedDecision& decision = run.decision(iteration);
-  const Decision& chosen = record.views[iteration].decision;
   const double unit_m = layout_unit_m(view);
-  const bool is_fvs = chosen.sampler == "fvs";
+  const bool is_fvs = record.views[iteration].decision.sampler == "fvs";
   const Tally all = tally(decision.plan);
   Picture picture{.panels = std::vector<Panel>(1)};
   RenderScene& scene = picture.panels.front().scene;
   add_ground(run, scene);
   const std::vector<Rgb> grey = {kMap};
-  scene.surfaces.push_back(voxel_cubes(decision.belief.grid.geometry(),
-                                       sort_voxels(decision.belief.grid).occupied, grey, 0.94));
-  if (is_fvs) {
-    add_frontiers(record, decision, record.views[iteration - 1].decision.view, unit_m, scene);
-  }
+  const OccupancyGrid& grid = decision.belief.grid;
+  const SortedVoxels voxels = sort_voxels(grid);
+  scene.surfaces.push_back(voxel_cubes(grid.geometry(), voxels.occupied, grey, 0.94));
+  scene.surfaces.push_back(free_faces(grid, voxels.unknown, kUnknownVoxels, kUnknownVoxelsOpacity));
   add_candidates(decision.plan, all, unit_m, scene);
-  add_chosen(record, run.world(), decision.belief, iteration, unit_m, scene);
-  picture.detail = fmt::format(
-      "decision {}: {} candidates by {}, {} valid, the chosen one scores {:.4g}", iteration,
-      decision.plan.candidates.size(), chosen.sampler, all.valid, chosen.score.value);
+  add_chosen_view(record, run.world(), decision.belief, iteration, unit_m, scene);
+  if (is_fvs) {
+    add_frontiers(record, decision, record.views[iteration - 1].decision.view, unit_m,
+                  picture.panels.front());
+  }
+  picture.detail = fmt::format("how iteration {} was chosen: candidates {}", iteration,
+                               counts_by_sampler(decision.plan));
   picture.legend = legend_of(all, is_fvs);
   return picture;
 }
@@ -267,7 +253,7 @@ Picture draw_candidates(RunSource& run, const PictureOptions& options, const Ren
 const PictureKind kCandidatesPicture = {
     .name = "candidates",
     .shows = "candidate views of one decision, and rays of the chosen one (Figs. 2, 5, 6)",
-    .legend_rows = 2,
+    .legend_rows = 3,
     .frame = frame_candidates,
     .draw = draw_candidates};
 

@@ -6,6 +6,7 @@
 #include "bench/score/voxel_set.hpp"
 #include "tools/render/picture.hpp"
 #include "tools/render/point_normals.hpp"
+#include "tools/run_files/words.hpp"
 
 namespace gnbv {
 namespace {
@@ -28,27 +29,33 @@ std::vector<std::uint32_t> densities(std::span<const Vec3f> points_world_m, doub
   return counts;
 }
 
+std::size_t points_of(RunSource& run, const PictureOptions& options) {
+  if (!options.iteration) return run.cloud().points_world_m.size();
+  return run.cloud().view_points[iteration_of(run.record(), options, 0)];
+}
+
+/// From 1 to what 95 % of the points stay under: the few densest voxels would leave everything else
+/// in one colour.
+std::array<double, 2> range_of(std::vector<std::uint32_t> counts) {
+  std::sort(counts.begin(), counts.end());
+  return {1.0, counts.empty() ? 1.0 : static_cast<double>(counts[counts.size() * 95 / 100])};
+}
+
+std::array<double, 2> density_range(RunSource& run, const PictureOptions& options) {
+  const auto points = std::span(run.cloud().points_world_m).first(points_of(run, options));
+  return range_of(densities(points, run.record().scenario.planner.map.resolution_m));
+}
+
 Picture draw_cloud(RunSource& run, const PictureOptions& options, const RenderView&) {
   const RunRecord& record = run.record();
-  const RunCloud& cloud = run.cloud();
-  std::size_t count = cloud.points_world_m.size();
-  std::string when;
-  if (options.iteration) {
-    const std::size_t iteration = iteration_of(record, options, 0);
-    count = cloud.view_points[iteration];
-    when = fmt::format(" after view {}", iteration);
-  }
   const double voxel_m = record.scenario.planner.map.resolution_m;
-  const auto points = std::span(cloud.points_world_m).first(count);
+  const auto points = std::span(run.cloud().points_world_m).first(points_of(run, options));
   DotsItem dots{.points_m = {points.begin(), points.end()},
                 .normals = point_normals(points, 2.5 * record.scenario.planner.cloud.leaf_m),
                 .colours = {},
                 .radius_m = static_cast<float>(0.75 * record.scenario.planner.cloud.leaf_m)};
   const std::vector<std::uint32_t> counts = densities(points, voxel_m);
-  // the few densest voxels would leave everything else in one colour
-  std::vector<std::uint32_t> sorted = counts;
-  std::sort(sorted.begin(), sorted.end());
-  const std::uint32_t top = sorted.empty() ? 1 : sorted[sorted.size() * 95 / 100];
+  const double top = options.colour_range.value_or(range_of(counts))[1];
   for (const std::uint32_t density : counts) {
     dots.colours.push_back(amount_ramp((density - 1.0) / std::max(1.0, top - 1.0)));
   }
@@ -56,10 +63,13 @@ Picture draw_cloud(RunSource& run, const PictureOptions& options, const RenderVi
   RenderScene& scene = picture.panels.front().scene;
   add_ground(run, scene);
   scene.dots.push_back(std::move(dots));
-  picture.detail = fmt::format("{} points{}", count, when);
-  picture.legend = {{.label = fmt::format("{} or more points a voxel of {} m", top, voxel_m),
+  picture.detail = counted(points.size(), "point");
+  if (options.iteration) {
+    picture.detail += " after " + views_so_far(record, iteration_of(record, options, 0));
+  }
+  picture.legend = {{.label = fmt::format("{:.0f} or more", top),
                      .colours = amount_colours(),
-                     .label_before = "1"}};
+                     .label_before = fmt::format("points in a voxel of {} m: 1", voxel_m)}};
   return picture;
 }
 
@@ -68,6 +78,7 @@ Picture draw_cloud(RunSource& run, const PictureOptions& options, const RenderVi
 const PictureKind kCloudPicture = {.name = "cloud",
                                    .shows = "point cloud coloured by density",
                                    .frame = frame_cloud,
+                                   .colour_range = density_range,
                                    .draw = draw_cloud};
 
 }  // namespace gnbv

@@ -16,6 +16,18 @@ void frame_path(RunSource& run, const PictureOptions& options, std::vector<Vec3>
     points_world_m.push_back(view.decision.view.p_world_m);
 }
 
+/// Where the first view is, and the last.
+void add_ends(const RunRecord& record, double unit_m, Panel& panel) {
+  if (record.views.empty()) return;
+  const auto mark = [&](const ViewRecord& view, const Rgb& colour, const char* word) {
+    const Vec3& p_m = view.decision.view.p_world_m;
+    panel.scene.balls.push_back({p_m.cast<float>(), static_cast<float>(7.0 * unit_m), colour});
+    panel.labels.push_back({p_m, word});
+  };
+  mark(record.views.front(), path_ramp(0.0), "start");
+  if (record.views.size() > 1) mark(record.views.back(), path_ramp(1.0), "end");
+}
+
 Picture draw_path(RunSource& run, const PictureOptions& options, const RenderView& view) {
   const RunRecord& record = run.record();
   Picture picture{.panels = std::vector<Panel>(1), .detail = run_detail(record)};
@@ -24,6 +36,7 @@ Picture draw_path(RunSource& run, const PictureOptions& options, const RenderVie
   const FlightLook look{.unit_m = layout_unit_m(view), .has_profile = options.has_profile};
   add_flight(record, look, scene);
   add_views(record, record.views.size(), options.every, look, scene);
+  add_ends(record, look.unit_m, picture.panels.front());
   if (record.views_begin_s && options.has_profile) {
     picture.legend.push_back({"profile", {kProfileColour}, LegendItem::Mark::line});
   }

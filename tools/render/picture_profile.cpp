@@ -1,46 +1,83 @@
-// The profile growing, as Figure 4 of the paper shows it.
+// The profile growing, as Figure 4 of the paper shows it: what was flown of the way around the
+// workspace, and what the LIDARs have seen from there.
 #include <fmt/format.h>
+
+#include <algorithm>
 
 #include "tools/render/flight_items.hpp"
 #include "tools/render/picture.hpp"
 #include "tools/render/point_normals.hpp"
+#include "tools/run_files/words.hpp"
 
 namespace gnbv {
 namespace {
 
 const Rgb kPoints = srgb(0x0b6fa8);
+const Rgb kProfilePath = srgb(0xd5420a);
+const Rgb kWorkspace = srgb(0x7b8896);
 
 void frame_profile(RunSource& run, const PictureOptions&, std::vector<Vec3>& points_world_m) {
-  frame_structure(run, points_world_m);  // the flight runs wide around it
+  frame_structure(run, points_world_m);
+  const Box3& box_m = run.record().scenario.workspace_m;
+  for (int i = 0; i < 8; ++i) {
+    points_world_m.push_back(box_m.corner(static_cast<Box3::CornerType>(i)));
+  }
+  const double end_s = run.record().profile_end_s.value_or(0.0);
+  for (const TrajectorySample& sample : run.record().path) {
+    if (sample.time_s <= end_s) points_world_m.push_back(sample.T_world_body.translation());
+  }
+}
+
+/// The twelve edges of the box: corner i lies at the upper end along x, y, z where its bit 0, 1, 2
+/// is set.
+void add_box(const Box3& box_m, double unit_m, RenderScene& scene) {
+  for (int i = 0; i < 8; ++i) {
+    for (const int bit : {1, 2, 4}) {
+      if ((i & bit) != 0) continue;
+      const auto corner = [&](int k) {
+        return Vec3f(box_m.corner(static_cast<Box3::CornerType>(k)).cast<float>());
+      };
+      scene.tubes.push_back(
+          {{corner(i), corner(i | bit)}, {kWorkspace}, static_cast<float>(0.6 * unit_m)});
+    }
+  }
+}
+
+Panel panel_of(RunSource& run, const ProfileStage& stage, double unit_m) {
+  const double leaf_m = run.record().scenario.planner.cloud.profile_leaf_m;
+  Panel panel;
+  RenderScene& scene = panel.scene;
+  add_ghost(run, 0.45F, scene);
+  scene.dots.push_back({.points_m = stage.points_world_m,
+                        .normals = point_normals(stage.points_world_m, 2.5 * leaf_m),
+                        .colours = {kPoints},
+                        .radius_m = static_cast<float>(std::max(0.45 * leaf_m, 1.0 * unit_m))});
+  scene.tubes.push_back(path_tube(stage.path_world_m, 1.2 * unit_m, kProfilePath));
+  add_box(run.record().scenario.workspace_m, unit_m, scene);
+  for (std::size_t i = 0; i < stage.waypoints_world_m.size(); ++i) {
+    const Vec3& p_m = stage.waypoints_world_m[i];
+    scene.balls.push_back({p_m.cast<float>(), static_cast<float>(4.5 * unit_m), kProfilePath});
+    panel.labels.push_back({p_m, fmt::format("{}", i + 1)});
+  }
+  panel.note = fmt::format("{}: {}", counted(stage.waypoints, "waypoint"),
+                           counted(stage.points_world_m.size(), "point"));
+  return panel;
 }
 
 Picture draw_profile(RunSource& run, const PictureOptions&, const RenderView& view) {
   const std::vector<ProfileStage>& stages = run.profile();
-  const double unit_m = layout_unit_m(view);
-  const double leaf_m = run.record().scenario.planner.cloud.profile_leaf_m;
   Picture picture;
   for (const ProfileStage& stage : stages) {
-    Panel panel;
-    add_ghost(run, 0.45F, panel.scene);
-    panel.scene.dots.push_back(
-        {.points_m = stage.points_world_m,
-         .normals = point_normals(stage.points_world_m, 2.5 * leaf_m),
-         .colours = {kPoints},
-         .radius_m = static_cast<float>(std::max(0.45 * leaf_m, 0.8 * unit_m))});
-    panel.scene.tubes.push_back(path_tube(stage.path_world_m, unit_m, path_ramp(0.75)));
-    const Vec3& end = stage.path_world_m.back();
-    panel.scene.balls.push_back(
-        {end.cast<float>(), static_cast<float>(4.0 * unit_m), path_ramp(0.75)});
-    panel.note = fmt::format("{} waypoint{}: {} points", stage.waypoints,
-                             stage.waypoints == 1 ? "" : "s", stage.points_world_m.size());
-    picture.panels.push_back(std::move(panel));
+    picture.panels.push_back(panel_of(run, stage, layout_unit_m(view)));
   }
-  picture.detail = fmt::format("profile of {} waypoint{}, {:.1f} s", stages.back().waypoints,
-                               stages.back().waypoints == 1 ? "" : "s",
-                               run.record().profile_end_s.value_or(0.0));
+  const double leaf_m = run.record().scenario.planner.cloud.profile_leaf_m;
+  picture.detail =
+      fmt::format("profile of {}, {:.1f} s", counted(stages.back().waypoints, "waypoint"),
+                  run.record().profile_end_s.value_or(0.0));
   picture.legend = {
-      {"flown", {path_ramp(0.75)}, LegendItem::Mark::line},
-      {fmt::format("LIDAR points, one a leaf of {} m", leaf_m), {kPoints}, LegendItem::Mark::dot}};
+      {"flown, waypoints numbered", {kProfilePath}, LegendItem::Mark::line},
+      {"workspace", {kWorkspace}, LegendItem::Mark::line},
+      {fmt::format("LIDAR points, one in {} m", leaf_m), {kPoints}, LegendItem::Mark::dot}};
   return picture;
 }
 

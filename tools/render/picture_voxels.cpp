@@ -5,6 +5,7 @@
 
 #include "tools/render/picture.hpp"
 #include "tools/render/voxel_items.hpp"
+#include "tools/run_files/words.hpp"
 
 namespace gnbv {
 namespace {
@@ -16,6 +17,12 @@ void frame_voxels(RunSource& run, const PictureOptions&, std::vector<Vec3>& poin
   frame_structure(run, points_world_m);
 }
 
+/// Heights of the structure: runs of one structure have them in common.
+std::array<double, 2> height_range(RunSource& run, const PictureOptions&) {
+  const Box3 box_m = bounds_m(run.world().structure);
+  return {std::max(0.0, box_m.min().z()), box_m.max().z()};
+}
+
 Picture draw_voxels(RunSource& run, const PictureOptions& options, const RenderView&) {
   const std::size_t last = run.record().views.empty() ? 0 : run.record().views.size() - 1;
   const std::size_t iteration = iteration_of(run.record(), options, last);
@@ -23,20 +30,12 @@ Picture draw_voxels(RunSource& run, const PictureOptions& options, const RenderV
   const GridGeometry& geometry = grid.geometry();
   const SortedVoxels voxels = sort_voxels(grid);
 
-  double low_m = 0.0;
-  double high_m = 1.0;
-  std::vector<double> heights_m;
-  for (const VoxelIndex v : voxels.occupied) {
-    heights_m.push_back(geometry.center_m(geometry.key_at(v)[2]));
-  }
-  if (!heights_m.empty()) {
-    const auto [low, high] = std::minmax_element(heights_m.begin(), heights_m.end());
-    low_m = *low;
-    high_m = std::max(*high, low_m + geometry.resolution_m());
-  }
+  const auto [low_m, high_m] = options.colour_range.value_or(height_range(run, options));
   std::vector<Rgb> colours;
-  for (const double z_m : heights_m)
-    colours.push_back(amount_ramp((z_m - low_m) / (high_m - low_m)));
+  for (const VoxelIndex v : voxels.occupied) {
+    const double z_m = geometry.center_m(geometry.key_at(v)[2]);
+    colours.push_back(amount_ramp((z_m - low_m) / std::max(high_m - low_m, 1e-9)));
+  }
 
   Picture picture{.panels = std::vector<Panel>(1)};
   RenderScene& scene = picture.panels.front().scene;
@@ -48,13 +47,16 @@ Picture draw_voxels(RunSource& run, const PictureOptions& options, const RenderV
   scene.surfaces.push_back(voxel_cubes(geometry, voxels.predicted, predicted));
   scene.surfaces.push_back(free_faces(grid, voxels.unknown, kUnknown, 0.55F));
   picture.detail =
-      fmt::format("after view {}: {} voxels of {} m occupied, {} predicted", iteration,
-                  voxels.occupied.size(), geometry.resolution_m(), voxels.predicted.size());
-  picture.legend = {{"unknown beside free, near surface", {kUnknown}},
-                    {"predicted by symmetry", {kPredicted}},
-                    {.label = fmt::format("{:.1f} m", high_m),
-                     .colours = amount_colours(),
-                     .label_before = fmt::format("occupied, height {:.1f}", low_m)}};
+      fmt::format("after {}: {} of {} m occupied, {} predicted",
+                  views_so_far(run.record(), iteration), counted(voxels.occupied.size(), "voxel"),
+                  geometry.resolution_m(), grouped(voxels.predicted.size()));
+  picture.legend = {{"unknown beside free, near surface", {kUnknown}}};
+  if (!voxels.predicted.empty()) {
+    picture.legend.push_back({"predicted by symmetry", {kPredicted}});
+  }
+  picture.legend.push_back({.label = fmt::format("{:.1f} m", high_m),
+                            .colours = amount_colours(),
+                            .label_before = fmt::format("occupied, height {:.1f}", low_m)});
   return picture;
 }
 
@@ -63,6 +65,7 @@ Picture draw_voxels(RunSource& run, const PictureOptions& options, const RenderV
 const PictureKind kVoxelsPicture = {.name = "voxels",
                                     .shows = "OctoMap voxels: occupied, predicted, unknown",
                                     .frame = frame_voxels,
+                                    .colour_range = height_range,
                                     .draw = draw_voxels};
 
 }  // namespace gnbv

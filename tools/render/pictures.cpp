@@ -112,20 +112,74 @@ PanelLayout lay_out(const PictureKind& kind, std::span<RunSource* const> runs,
   return *best;
 }
 
-Image draw_picture(const PictureKind& kind, RunSource& run, const PictureOptions& options,
-                   const PanelLayout& layout, Renderer& renderer) {
-  return draw_picture(kind.draw(run, options, layout.view), run, options, layout, renderer);
+PictureOptions with_shared_colours(const PictureKind& kind, std::span<RunSource* const> runs,
+                                   PictureOptions options) {
+  if (kind.colour_range == nullptr || options.colour_range) return options;
+  const PictureOptions alone = options;
+  for (RunSource* const run : runs) {
+    try {
+      const std::array<double, 2> own = kind.colour_range(*run, alone);
+      const std::array<double, 2> all = options.colour_range.value_or(own);
+      options.colour_range = {std::min(all[0], own[0]), std::max(all[1], own[1])};
+    } catch (const BadInput&) {  // of what the run lacks; its picture will say so
+    }
+  }
+  return options;
 }
 
-Image draw_picture(const Picture& picture, const RunSource& run, const PictureOptions& options,
+namespace {
+
+void draw_labels(const Panel& panel, const RenderView& view, double u, Image& image) {
+  for (const PlaceLabel& label : panel.labels) {
+    const std::optional<Vec3> p = project(view, label.p_world_m);
+    if (!p) continue;
+    draw_text(image, label.text, p->x() + 7.0 * u, p->y() - 5.0 * u, 10.0 * u, kInk, 2.5 * u);
+  }
+}
+
+/// A quarter of the width, framed, in the upper right corner: each pixel the mean of those it
+/// covers.
+void draw_inset(const Image& inset, double u, Image& image) {
+  const int width = image.width_px / 4;
+  const int height = width * inset.height_px / std::max(1, inset.width_px);
+  const int x0 = image.width_px - width - static_cast<int>(18.0 * u);
+  const int y0 = static_cast<int>(18.0 * u);
+  if (x0 < 0 || y0 + height > image.height_px) return;
+  draw_box(image, {x0 - 2.0 * u, y0 - 2.0 * u}, {x0 + width + 2.0 * u, y0 + height + 2.0 * u},
+           {255, 255, 255}, 1.0);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const int left = x * inset.width_px / width;
+      const int right = std::max(left + 1, (x + 1) * inset.width_px / width);
+      const int top = y * inset.height_px / height;
+      const int bottom = std::max(top + 1, (y + 1) * inset.height_px / height);
+      std::array<int, 3> sum{};
+      for (int v = top; v < bottom; ++v) {
+        for (int h = left; h < right; ++h) {
+          for (std::size_t k = 0; k < 3; ++k) sum[k] += inset.at(h, v)[k];
+        }
+      }
+      const int count = (right - left) * (bottom - top);
+      for (std::size_t k = 0; k < 3; ++k) {
+        image.rgb[3 * (static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(image.width_px) +
+                       static_cast<std::size_t>(x0 + x)) +
+                  k] = static_cast<std::uint8_t>(sum[k] / count);
+      }
+    }
+  }
+}
+
+DrawnPicture drawn(const Picture& picture, const RunSource& run, const PictureOptions& options,
                    const PanelLayout& layout, Renderer& renderer) {
   const double u = layout_unit_px(options.width_px, options.height_px);
   Image image = blank(options.width_px, options.height_px);
   for (std::size_t i = 0; i < picture.panels.size(); ++i) {
     const int x = static_cast<int>(i) % layout.columns * layout.view.width_px;
     const int y = static_cast<int>(i) / layout.columns * layout.view.height_px;
-    Image panel = renderer.render(picture.panels[i].scene, layout.view);
+    const RenderView& view = picture.panels[i].view ? *picture.panels[i].view : layout.view;
+    Image panel = renderer.render(picture.panels[i].scene, view);
     if (has_caption(options)) {
+      draw_labels(picture.panels[i], view, u, panel);
       const double x_note = 26.0 * u;
       const double height =
           fitting_height_px(picture.panels[i].note, 11.0 * u, panel.width_px - 1.5 * x_note);
@@ -135,13 +189,65 @@ Image draw_picture(const Picture& picture, const RunSource& run, const PictureOp
     if (y > 0) draw_line(panel, {0.0, 0.0}, {1.0 * panel.width_px, 0.0}, 3.0 * u, {255, 255, 255});
     paste(panel, x, y, image);
   }
-  if (!has_caption(options)) return image;
-  draw_caption(image,
-               {.title = options.title.empty() ? run_title(run.record()) : options.title,
-                .detail = picture.detail,
-                .legend = picture.legend},
-               layout.view);
+  if (!picture.inset.rgb.empty()) draw_inset(picture.inset, u, image);
+  return {.image = std::move(image),
+          .caption = {.title = options.title.empty() ? run_title(run.record()) : options.title,
+                      .detail = picture.detail,
+                      .legend = picture.legend},
+          .view = layout.view,
+          .has_caption = has_caption(options)};
+}
+
+/// (a), (b), ... (z), (aa), ...
+std::string letter_of(std::size_t i) {
+  std::string letters(1, static_cast<char>('a' + i % 26));
+  for (i /= 26; i > 0; i = (i - 1) / 26) {
+    letters.insert(letters.begin(), static_cast<char>('a' + (i - 1) % 26));
+  }
+  return "(" + letters + ")";
+}
+
+}  // namespace
+
+DrawnPicture draw_without_words(const PictureKind& kind, RunSource& run,
+                                const PictureOptions& options, const PanelLayout& layout,
+                                Renderer& renderer) {
+  return drawn(kind.draw(run, options, layout.view), run, options, layout, renderer);
+}
+
+Image with_words(const DrawnPicture& drawn) {
+  Image image = drawn.image;
+  if (drawn.has_caption) draw_caption(image, drawn.caption, drawn.view);
   return image;
+}
+
+Image draw_picture(const PictureKind& kind, RunSource& run, const PictureOptions& options,
+                   const PanelLayout& layout, Renderer& renderer) {
+  return with_words(draw_without_words(kind, run, options, layout, renderer));
+}
+
+Image draw_picture(const Picture& picture, const RunSource& run, const PictureOptions& options,
+                   const PanelLayout& layout, Renderer& renderer) {
+  return with_words(drawn(picture, run, options, layout, renderer));
+}
+
+std::vector<Image> sheet_cells(std::vector<DrawnPicture> drawn, int columns) {
+  std::size_t letter = 0;
+  std::vector<Image> cells;
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    if (drawn[i].image.rgb.empty()) {
+      cells.emplace_back();
+      continue;
+    }
+    Caption& caption = drawn[i].caption;
+    caption.title.insert(0, letter_of(letter++) + "  ");
+    const bool is_rows_last = (i + 1) % static_cast<std::size_t>(columns) == 0;
+    const bool is_said_again =
+        !is_rows_last && i + 1 < drawn.size() && drawn[i + 1].caption.legend == caption.legend;
+    if (is_said_again) caption.legend.clear();
+    cells.push_back(with_words(drawn[i]));
+  }
+  return cells;
 }
 
 Image contact_sheet(std::span<const Image> images, int columns) {

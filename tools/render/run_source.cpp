@@ -1,6 +1,5 @@
 #include "tools/render/run_source.hpp"
 
-#include <array>
 #include <utility>
 
 #include "sim/core/error.hpp"
@@ -78,36 +77,58 @@ RecordedMission RunSource::mission(const std::string& note) {
           .on_progress = [this, note](double share) { on_progress_(share, note); }};
 }
 
-const std::vector<ProfileStage>& RunSource::profile() {
-  if (!profile_) {
-    constexpr std::array<std::size_t, 2> kWaypoints = {1, 3};
-    profile_ = replay_profile(mission("flying the profile again"), kWaypoints);
+void RunSource::expect_profile() { expects_profile_ = true; }
+void RunSource::expect_belief_after(std::size_t iteration) { expected_belief_ = iteration; }
+void RunSource::expect_decision(std::size_t iteration) { expected_decision_ = iteration; }
+
+void RunSource::fly_again(bool is_for_decision) {
+  const bool lacks_belief = expected_belief_ && !(belief_ && belief_->first == *expected_belief_);
+  bool lacks_decision =
+      expected_decision_ && !(decision_ && decision_->first == *expected_decision_);
+  std::optional<Plan> plan;
+  if (lacks_decision) {
+    try {
+      plan = read_candidates(record_.folder, *expected_decision_);
+    } catch (const BadInput&) {
+      if (is_for_decision) throw;
+      lacks_decision = false;  // who asks for it will be told
+    }
   }
+  ReplayRequest request{.waypoints = {1, 3}, .has_profile = expects_profile_ && !profile_};
+  if (lacks_belief) request.belief = expected_belief_;
+  if (lacks_decision) request.decision = expected_decision_;
+  request.plans = !plan;
+  Replayed again = replay(mission("flying again"), request);
+  if (request.has_profile) profile_ = std::move(again.profile);
+  if (lacks_belief) {
+    belief_.reset();
+    belief_.emplace(*expected_belief_, std::move(*again.belief));
+  }
+  if (lacks_decision) {
+    if (plan) again.decision->plan = std::move(*plan);
+    decision_.reset();
+    decision_.emplace(*expected_decision_, std::move(*again.decision));
+  }
+}
+
+const std::vector<ProfileStage>& RunSource::profile() {
+  expects_profile_ = true;
+  if (!profile_) fly_again(false);
   if (profile_->empty()) throw BadInput(why_no_profile(record_));
   return *profile_;
 }
 
 const Belief& RunSource::belief_after(std::size_t iteration) {
-  if (!belief_ || belief_->first != iteration) {
-    belief_.reset();
-    decision_.reset();
-    belief_.emplace(
-        iteration,
-        replay_belief(mission(fmt::format("flying again to view {}", iteration)), iteration));
-  }
+  expected_belief_ = iteration;
+  if (!belief_ || belief_->first != iteration) fly_again(false);
+  expected_belief_.reset();
   return belief_->second;
 }
 
 const ReplayedDecision& RunSource::decision(std::size_t iteration) {
-  if (!decision_ || decision_->first != iteration) {
-    belief_.reset();
-    decision_.reset();
-    std::optional<Plan> plan = read_candidates(record_.folder, iteration);
-    const RecordedMission again = mission(fmt::format("flying again to view {}", iteration));
-    decision_.emplace(iteration,
-                      plan ? ReplayedDecision{replay_belief(again, iteration - 1), std::move(*plan)}
-                           : replay_decision(again, iteration));
-  }
+  expected_decision_ = iteration;
+  if (!decision_ || decision_->first != iteration) fly_again(true);
+  expected_decision_.reset();
   return decision_->second;
 }
 
@@ -116,9 +137,8 @@ void RunSource::forget() {
   cloud_.reset();
   plans_.reset();
   reference_.reset();
-  profile_.reset();
-  belief_.reset();
-  decision_.reset();
+  if (!expected_belief_) belief_.reset();
+  if (!expected_decision_) decision_.reset();
 }
 
 }  // namespace gnbv

@@ -43,11 +43,18 @@ class RunSource {
   /// one, or else planned again. Throws BadInput as replay_decision().
   const ReplayedDecision& decision(std::size_t iteration);
 
-  /// Lets go of what is large and can be had again: everything but record and structure.
+  /// Lets go of what is large and can be had again: everything but record, structure and what was
+  /// expected and not asked for yet.
   void forget();
+
+  /// What will be asked for, so that it comes from one flight.
+  void expect_profile();
+  void expect_belief_after(std::size_t iteration);
+  void expect_decision(std::size_t iteration);
 
  private:
   RecordedMission mission(const std::string& note);
+  void fly_again(bool is_for_decision);  // for all that is expected and not there
 
   RunRecord record_;
   int threads_ = 1;
@@ -58,6 +65,8 @@ class RunSource {
   std::optional<std::vector<MadePlan>> plans_;
   std::optional<SurfaceReference> reference_;
   std::optional<std::vector<ProfileStage>> profile_;
+  bool expects_profile_ = false;
+  std::optional<std::size_t> expected_belief_, expected_decision_;
   // of belief and decision only the one last asked for: maps may be large
   std::optional<std::pair<std::size_t, Belief>> belief_;
   std::optional<std::pair<std::size_t, ReplayedDecision>> decision_;

@@ -17,9 +17,10 @@ namespace gnbv {
 /// others are smooth.
 struct SurfaceItem {
   TriangleMesh mesh;
-  std::vector<Rgb> vertex_colours;  // (n) as mesh.vertices_m; empty = colours of the materials
-  double crease_rad = deg_to_rad(35.0);
+  std::vector<Rgb> vertex_colours;       // (n) as mesh.vertices_m; empty = colours of the materials
+  double crease_rad = deg_to_rad(35.0);  // 0: every face is flat
   float opacity = 1.0F;      // under 1: a ghost, of which only the nearest layer is drawn
+  bool is_lit = true;        // else its colours are what is seen: they carry light already
   bool casts_shadow = true;  // terrain casts none: its size says nothing of the scene's
 };
 

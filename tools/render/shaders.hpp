@@ -88,6 +88,10 @@ in vec3 n_world;
 in vec4 colour;
 out vec4 pixel;
 void main() {
+  if (dot(n_world, n_world) < 0.25) {  // no normal: not lit
+    pixel = colour;
+    return;
+  }
   vec3 n = normalize(n_world);
   // both sides are lit alike: users' meshes are not always oriented
   if (!gl_FrontFacing) n = -n;
@@ -126,17 +130,23 @@ void main() {
 }
 )";
 
-/// Dots of a cloud: lit once a dot, flat towards the camera.
+/// Dots of a cloud: discs along the surface, lit once a dot; without a normal they face the camera.
 inline constexpr const char* kDotVertex = R"(
 layout(location = 0) in vec4 dot_in;    // centre, radius
 layout(location = 1) in vec3 n_in;
 layout(location = 2) in vec3 colour_in;
 flat out vec3 colour;
+flat out vec4 disc;     // centre, radius
+flat out vec3 n_view;   // along camera_right, camera_up, and to the eye
 void main() {
   vec3 p = dot_in.xyz;
+  disc = dot_in;
   vec3 to_eye = normalize(eye.xyz - p);
   vec3 n = dot(n_in, n_in) > 0.0 ? n_in : normalize(to_eye + to_light.xyz);
   if (dot(n, to_eye) < 0.0) n = -n;
+  vec3 back = normalize(cross(camera_right.xyz, camera_up.xyz));
+  n_view = vec3(dot(n, camera_right.xyz), dot(n, camera_up.xyz), max(0.25, dot(n, back)));
+  if (dot(n_in, n_in) == 0.0) n_view = vec3(0.0, 0.0, 1.0);
   colour = lit(colour_in, n, p + 2.0 * dot_in.w * to_light.xyz, 0.0);
   gl_Position = clip_from_world * vec4(p, 1.0);
   gl_PointSize = max(1.5, dot_in.w * to_fill.w * eye.w / gl_Position.w);
@@ -145,10 +155,18 @@ void main() {
 
 inline constexpr const char* kDotFragment = R"(
 flat in vec3 colour;
+flat in vec4 disc;
+flat in vec3 n_view;
 out vec4 pixel;
 void main() {
-  vec2 q = 2.0 * (gl_PointCoord - 0.5);
-  if (dot(q, q) > 1.0) discard;
+  vec2 q = vec2(2.0, -2.0) * (gl_PointCoord - 0.5);
+  vec3 on_disc = vec3(q, -dot(q, n_view.xy) / n_view.z);
+  if (dot(on_disc, on_disc) > 1.0) discard;
+  vec3 back = normalize(cross(camera_right.xyz, camera_up.xyz));
+  vec3 p = disc.xyz + disc.w * (on_disc.x * camera_right.xyz + on_disc.y * camera_up.xyz +
+                                on_disc.z * back);
+  vec4 clip = clip_from_world * vec4(p, 1.0);
+  gl_FragDepth = 0.5 + 0.5 * clip.z / clip.w;
   pixel = vec4(colour, 1.0);
 }
 )";

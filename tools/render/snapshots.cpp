@@ -6,10 +6,12 @@
 #include <unordered_set>
 
 #include "bench/score/voxel_set.hpp"
+#include "sensors/capture.hpp"
 #include "tools/render/flight_items.hpp"
 #include "tools/render/point_normals.hpp"
 #include "tools/render/vehicle_item.hpp"
 #include "tools/run_files/run_poses.hpp"
+#include "tools/run_files/words.hpp"
 
 namespace gnbv {
 namespace {
@@ -54,26 +56,90 @@ Snapshots::Snapshots(RunSource& run, const PictureOptions& options, const Render
   cloud_.radius_m = static_cast<float>(0.95 * cell_m);
 }
 
-Isometry Snapshots::T_world_body(std::size_t iteration) const {
-  const ViewRecord& view = run_.record().views[iteration];
-  return true_pose_at(run_.record(), view.time_s).value_or(gnbv::T_world_body(view.decision.view));
+std::vector<double> film_times_s(const RunRecord& record, std::size_t images) {
+  std::vector<double> times_s;
+  if (record.views.empty()) return times_s;
+  const double begin_s = record.views.front().time_s;
+  const double whole_s = record.views.back().time_s - begin_s;
+  const std::size_t steps = whole_s > 0.0 ? std::max<std::size_t>(images, 2) - 1 : 0;
+  for (std::size_t i = 0; i <= steps; ++i) {
+    const double share = steps > 0 ? static_cast<double>(i) / static_cast<double>(steps) : 0.0;
+    times_s.push_back(begin_s + share * whole_s);
+  }
+  return times_s;
+}
+
+std::size_t Snapshots::iteration_at(double time_s) const {
+  const std::vector<ViewRecord>& views = run_.record().views;
+  const auto after =
+      std::upper_bound(views.begin(), views.end(), time_s,
+                       [](double t_s, const ViewRecord& view) { return t_s < view.time_s; });
+  return after == views.begin() ? 0 : static_cast<std::size_t>(after - views.begin()) - 1;
+}
+
+Isometry Snapshots::T_world_body(double time_s) const {
+  const ViewRecord& last = run_.record().views[iteration_at(time_s)];
+  return true_pose_at(run_.record(), time_s).value_or(gnbv::T_world_body(last.decision.view));
+}
+
+/// The mean over some seconds of the path: what hangs on it does not jerk.
+Vec3 Snapshots::smooth_place(double time_s) const {
+  constexpr int kReach = 12;
+  constexpr double kStep_s = 0.25;
+  Vec3 sum_m = Vec3::Zero();
+  double count = 0.0;
+  for (int i = -kReach; i <= kReach; ++i) {
+    const auto pose = true_pose_at(run_.record(), time_s + kStep_s * i);
+    if (!pose) continue;
+    sum_m += pose->translation();
+    count += 1.0;
+  }
+  return count > 0.0 ? Vec3(sum_m / count) : T_world_body(time_s).translation();
 }
 
 RenderView Snapshots::view(std::size_t iteration) const {
+  return view_at(run_.record().views[iteration].time_s);
+}
+
+RenderView Snapshots::view_at(double time_s) const {
   if (!follows_) return fixed_;
-  const ViewPose& pose = run_.record().views[iteration].decision.view;
-  const Vec3 ahead(std::cos(pose.yaw_rad), std::sin(pose.yaw_rad), 0.0);
+  // towards the middle of the structure: it turns evenly, however the vehicle does
+  const Vec3 place_m = smooth_place(time_s);
+  const Vec3 middle_m = bounds_m(run_.world().structure).center();
+  Vec3 ahead = middle_m - place_m;
+  ahead.z() = 0.0;
+  ahead = ahead.norm() > 1e-6 ? Vec3(ahead.normalized()) : Vec3(Vec3::UnitX());
   const double range_m = run_.record().scenario.cameras.front().range_max_m;
   RenderView view = fixed_;
   view.fov_y_rad = deg_to_rad(45.0);
-  const Vec3 eye = pose.p_world_m - 0.9 * range_m * ahead + Vec3(0.0, 0.0, 0.5 * range_m);
-  view.T_world_camera = look_at(eye, pose.p_world_m + 0.3 * range_m * ahead);
-  view.focus_m = (pose.p_world_m - eye).norm();
+  const Vec3 eye = place_m - 0.9 * range_m * ahead + Vec3(0.0, 0.0, 0.5 * range_m);
+  view.T_world_camera = look_at(eye, place_m + 0.3 * range_m * ahead);
+  view.to_light_world = fixed_.to_light_world;
+  view.focus_m = (place_m - eye).norm();
   return view;
 }
 
-Picture Snapshots::picture(std::size_t iteration, const RenderView& view) const {
+const Image& Snapshots::seen_by_camera(std::size_t iteration) {
+  if (onboard_ && onboard_->first == iteration) return onboard_->second;
   const RunRecord& record = run_.record();
+  const ViewRecord& view = record.views[iteration];
+  const CameraConfig& config = record.scenario.cameras.front();
+  const CameraModel camera = turned(make_camera_model(config), view.decision.view.gimbal_pitch_rad);
+  ColourFrame frame =
+      capture_colour(run_.scene(), camera, 0, T_world_body(view.time_s), run_.threads());
+  Image image{config.width_px, config.height_px, {}};
+  for (const Rgb8& pixel : frame.rgb) image.rgb.insert(image.rgb.end(), pixel.begin(), pixel.end());
+  onboard_.emplace(iteration, std::move(image));
+  return onboard_->second;
+}
+
+Picture Snapshots::picture(std::size_t iteration, const RenderView& view) {
+  return picture_at(run_.record().views[iteration].time_s, 0.0, view);
+}
+
+Picture Snapshots::picture_at(double time_s, double speed, const RenderView& view) {
+  const RunRecord& record = run_.record();
+  const std::size_t iteration = iteration_at(time_s);
   const ViewRecord& now = record.views[iteration];
   const double unit_m = layout_unit_m(view);
   Picture picture{.panels = std::vector<Panel>(1)};
@@ -87,26 +153,29 @@ Picture Snapshots::picture(std::size_t iteration, const RenderView& view) const 
   dots.normals.resize(static_cast<std::size_t>(count));
   scene.dots.push_back(std::move(dots));
 
-  add_flight(record, {.unit_m = unit_m, .has_profile = false, .until_s = now.time_s}, scene);
-  const Isometry T = T_world_body(iteration);
+  add_flight(record, {.unit_m = unit_m, .has_profile = false, .until_s = time_s}, scene);
+  const Isometry T = T_world_body(time_s);
   const AirframeParameters& airframe = record.scenario.vehicle.airframe;
   const double scale = std::max(1.0, 42.0 * unit_m / rotor_span_m(airframe));
   add_vehicle(airframe, T, scale, scene);
   for (const CameraConfig& camera : record.scenario.cameras) {
+    const double length_m = std::min(camera.range_max_m, 150.0 * unit_m);
     FrustumItem frustum =
-        frustum_of(camera, T, now.decision.view.gimbal_pitch_rad, camera.range_max_m, kFrustum);
+        frustum_of(camera, T, now.decision.view.gimbal_pitch_rad, length_m, kFrustum);
     frustum.edge_radius_m = static_cast<float>(0.9 * unit_m);
-    frustum.face_opacity = 0.10F;
     scene.frusta.push_back(frustum);
   }
-  picture.detail = fmt::format("view {} of {}, {:.0f} s, {:.1f} m, {} points", iteration,
-                               record.views.size() - 1, now.time_s, now.flown_m, now.cloud_points);
+  picture.detail = fmt::format(
+      "{}, {:.0f} s and {:.1f} m flown since the first, {}{}", views_so_far(record, iteration),
+      time_s - record.views.front().time_s, now.flown_m, counted(now.cloud_points, "point"),
+      speed > 0.0 ? fmt::format(", {:.1f} times as fast as flown", speed) : "");
   picture.legend = {
       {.label = "last view", .colours = path_colours(), .label_before = "first"},
       {.label = "seen", .colours = {kSeen}, .mark = LegendItem::Mark::dot},
       {.label = scale > 1.05 ? fmt::format("vehicle, {:.1f} times as large", scale) : "vehicle",
        .colours = {kFrustum},
        .mark = LegendItem::Mark::line}};
+  picture.inset = seen_by_camera(iteration);
   return picture;
 }
 

@@ -73,6 +73,7 @@ SurfaceItem voxel_cubes(const GridGeometry& geometry, std::span<const VoxelIndex
   GNBV_CHECK(colours.size() == 1 || colours.size() == voxels.size(), "{} colours for {} voxels",
              colours.size(), voxels.size());
   SurfaceItem item;
+  item.crease_rad = 0.0;
   const double half_m = 0.5 * share * geometry.resolution_m();
   for (std::size_t v = 0; v < voxels.size(); ++v) {
     const auto first = static_cast<std::uint32_t>(item.mesh.vertices_m.size());
@@ -89,10 +90,35 @@ SurfaceItem voxel_cubes(const GridGeometry& geometry, std::span<const VoxelIndex
   return item;
 }
 
+SurfaceItem exposed_faces(const VoxelSet& voxels, double size_m, std::span<const Rgb> colours) {
+  GNBV_CHECK(colours.size() == voxels.size(), "{} colours for {} voxels", colours.size(),
+             voxels.size());
+  SurfaceItem item;
+  item.crease_rad = 0.0;
+  for (std::size_t v = 0; v < voxels.size(); ++v) {
+    const std::array<std::int64_t, 3> index = index_of(voxels[v]);
+    const Vec3 centre_m = voxel_centre_m(voxels[v], size_m);
+    for (std::size_t side = 0; side < kQuads.size(); ++side) {
+      std::array<std::int64_t, 3> beside = index;
+      beside[side / 2] += side % 2 == 0 ? -1 : 1;
+      if (std::binary_search(voxels.begin(), voxels.end(), code_of(beside))) continue;
+      const auto first = static_cast<std::uint32_t>(item.mesh.vertices_m.size());
+      for (const std::uint32_t i : kQuads[side]) {
+        item.mesh.vertices_m.push_back(corner(centre_m, 0.5 * size_m, i));
+        item.vertex_colours.push_back(colours[v]);
+      }
+      item.mesh.faces.push_back({first, first + 1, first + 2});
+      item.mesh.faces.push_back({first, first + 2, first + 3});
+    }
+  }
+  return item;
+}
+
 SurfaceItem free_faces(const OccupancyGrid& grid, std::span<const VoxelIndex> voxels,
                        const Rgb& colour, float opacity) {
   const GridGeometry& geometry = grid.geometry();
   SurfaceItem item;
+  item.crease_rad = 0.0;
   item.opacity = opacity;
   for (const VoxelIndex v : voxels) {
     const Key key = geometry.key_at(v);

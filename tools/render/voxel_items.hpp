@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "bench/score/voxel_set.hpp"
 #include "planner/map/occupancy_grid.hpp"
 #include "tools/render/scene.hpp"
 
@@ -24,6 +25,9 @@ SortedVoxels sort_voxels(const OccupancyGrid& grid);
 /// A cube a voxel, `share` of it wide; colours (n), or one for all.
 SurfaceItem voxel_cubes(const GridGeometry& geometry, std::span<const VoxelIndex> voxels,
                         std::span<const Rgb> colours, double share = 0.9);
+
+/// Voxels of one size as a closed surface: only the faces to what is not in the set. `colours` (n).
+SurfaceItem exposed_faces(const VoxelSet& voxels, double size_m, std::span<const Rgb> colours);
 
 /// The faces that part the voxels from free ones, as a ghost.
 SurfaceItem free_faces(const OccupancyGrid& grid, std::span<const VoxelIndex> voxels,

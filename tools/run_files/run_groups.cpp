@@ -8,6 +8,7 @@
 
 #include "scenarios/write.hpp"
 #include "tools/run_files/run_names.hpp"
+#include "tools/run_files/words.hpp"
 
 namespace gnbv {
 namespace {
@@ -57,7 +58,8 @@ std::string names_of(const Values& values, const std::vector<Values>& groups) {
   std::string names;
   for (const std::string_view key : kNames) {
     if (!differ_in(groups, key)) continue;
-    names += (names.empty() ? "" : ", ") + value_of(values, key);
+    const std::string value = value_of(values, key);
+    names += (names.empty() ? "" : ", ") + (key == kNames.back() ? value : human_name(value));
   }
   return names;
 }
@@ -144,9 +146,7 @@ std::vector<RunGroup> group_runs(std::span<const RunRecord* const> runs,
   }
   const std::vector<std::string> labels = labels_of(all.values, all.folders);
   for (std::size_t i = 0; i < groups.size(); ++i) {
-    const Scenario& scenario = groups[i].runs.front()->scenario;
-    groups[i].label =
-        labels[i].empty() ? scenario.name + ", " + scenario.planner.utility.name : labels[i];
+    groups[i].label = labels[i].empty() ? run_title(*groups[i].runs.front()) : labels[i];
   }
   return groups;
 }

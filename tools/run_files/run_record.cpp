@@ -12,6 +12,7 @@
 #include "tools/run_files/iterations_csv.hpp"
 #include "tools/run_files/summary_json.hpp"
 #include "tools/run_files/trajectory_tum.hpp"
+#include "tools/run_files/words.hpp"
 
 namespace gnbv {
 namespace {
@@ -150,17 +151,17 @@ RunCloud read_run_cloud(const RunRecord& record) {
 
 std::string run_title(const RunRecord& record) {
   const PlannerConfig& planner = record.scenario.planner;
-  const std::string title = fmt::format("{}, {}", record.scenario.name, planner.utility.name);
+  const std::string title =
+      fmt::format("{}, {}", human_name(record.scenario.name), human_name(planner.utility.name));
   return planner.preset == PlannerConfig{}.preset ? title : title + ", " + planner.preset;
 }
 
 std::string run_detail(const RunRecord& record) {
   const auto views =
       record.figures ? static_cast<std::size_t>(record.figures->iterations) : record.views.size();
-  std::string detail = fmt::format("{} view{}", views, views == 1 ? "" : "s");
-  if (!record.views.empty()) {
-    detail += fmt::format(", {:.1f} m", record.views.back().flown_m);
-  }
+  std::string detail = counted(views, "view");
+  if (record.figures) detail += fmt::format(", {:.1f} m between them", record.figures->straight_m);
+  if (!record.views.empty()) detail += fmt::format(", {:.1f} m flown", record.views.back().flown_m);
   if (record.figures) {
     detail +=
         fmt::format(", coverage {:.1f} % at 0.05 m", 100.0 * record.figures->coverage_final[0]);

@@ -5,6 +5,7 @@
 
 #include "sim/core/error.hpp"
 #include "tools/run_files/file_names.hpp"
+#include "tools/surface/decimate.hpp"
 #include "tools/surface/poisson_module.hpp"
 #include "tools/surface/trim.hpp"
 
@@ -131,6 +132,10 @@ TexturedMesh reconstruct_surface(const RunRecord& record, const SurfaceSettings&
   const OrientedCloud points = oriented(seen_points(record, cloud, threads), threads);
   TriangleMesh shape = shape_of(points, record.scenario.planner.cloud.leaf_m, settings,
                                 (record.folder / kCloudFile).string(), threads, progress);
+  progress(0.62, fmt::format("simplifying {} faces", shape.faces.size()));
+  constexpr double kSimplify_leaves = 0.2;
+  const double leaf_m = record.scenario.planner.cloud.leaf_m;
+  shape = decimated(shape, settings.simplify_m.value_or(kSimplify_leaves * leaf_m));
   if (!pictures) return with_height_colours(std::move(shape));
   return dressed(std::move(shape), record, *pictures, settings, threads, progress, notes);
 }

@@ -15,9 +15,10 @@ namespace gnbv {
 
 struct SurfaceSettings {
   int depth = 0;  // of Poisson's octree; 0: cells of about 1.5 leaves of the cloud, 10 at most
-  double trim_m = 0.0;      // surface farther from any point goes; 0: by the spacing of the points
-  int texture_px = 8192;    // longest side of the atlas
-  bool has_texture = true;  // also without it vertices get the pictures' colours
+  double trim_m = 0.0;  // surface farther from any point goes; 0: by the spacing of the points
+  std::optional<double> simplify_m;  // how far it may move to become fewer faces; a fifth of a leaf
+  int texture_px = 8192;             // longest side of the atlas
+  bool has_texture = true;           // also without it vertices get the pictures' colours
 };
 
 constexpr int kMinDepth = 5;

@@ -1,26 +1,134 @@
 #include "tools/surface/surface_picture.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/error.hpp"
+#include "tools/render/caption.hpp"
+#include "tools/run_files/words.hpp"
+
 namespace gnbv {
+namespace {
+
+constexpr int kMostCuts = 12;  // of an edge
+
+Rgb linear_of(const Vec3f& srgb_levels) {
+  Rgb colour{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    colour[k] = srgb_to_linear(srgb_levels[static_cast<Eigen::Index>(k)] / 255.0F);
+  }
+  return colour;
+}
+
+RenderView framed(const TriangleMesh& mesh, int width_px, int height_px, const ViewAngles& angles) {
+  std::vector<Vec3> points_m;  // its box would leave much of the picture empty
+  points_m.reserve(mesh.vertices_m.size());
+  for (const Vec3f& p_m : mesh.vertices_m) points_m.push_back(p_m.cast<double>());
+  return frame_points(points_m, angles, width_px, height_px, caption_margins(width_px, height_px));
+}
+
+Image drawn(SurfaceItem item, const RenderView& view, const Caption& caption) {
+  RenderScene scene;
+  scene.surfaces.push_back(std::move(item));
+  scene.ground = GroundItem{};
+  Image image = render(scene, view);
+  if (fits_caption(view.width_px, view.height_px)) draw_caption(image, caption, view);
+  return image;
+}
+
+/// A face in n x n like ones, each corner with the colour of its place in the atlas.
+void add_pieces(const TexturedMesh& mesh, std::size_t face, int n, SurfaceItem& item) {
+  const auto first = static_cast<std::uint32_t>(item.mesh.vertices_m.size());
+  const auto& corners = mesh.shape.faces[face];
+  const FaceUv& uv = mesh.face_uv[face];
+  // row by row: row i holds n + 1 - i corners
+  for (int i = 0; i <= n; ++i) {
+    for (int k = 0; k + i <= n; ++k) {
+      const float b = static_cast<float>(k) / static_cast<float>(n);
+      const float c = static_cast<float>(i) / static_cast<float>(n);
+      const auto mixed = [&](const auto& p, const auto& q, const auto& r) {
+        return ((1.0F - b - c) * p + b * q + c * r).eval();
+      };
+      item.mesh.vertices_m.push_back(mixed(mesh.shape.vertices_m[corners[0]],
+                                           mesh.shape.vertices_m[corners[1]],
+                                           mesh.shape.vertices_m[corners[2]]));
+      item.vertex_colours.push_back(linear_of(bilinear(mesh.atlas, mixed(uv[0], uv[1], uv[2]))));
+    }
+  }
+  std::uint32_t row = first;
+  for (int i = 0; i < n; ++i) {
+    const auto length = static_cast<std::uint32_t>(n + 1 - i);
+    for (std::uint32_t k = 0; k + 1 < length; ++k) {
+      item.mesh.faces.push_back({row + k, row + k + 1, row + length + k});
+      if (k + 2 < length) {
+        item.mesh.faces.push_back({row + k + 1, row + length + k + 1, row + length + k});
+      }
+    }
+    row += length;
+  }
+}
+
+}  // namespace
 
 SurfaceItem surface_item(const TexturedMesh& mesh) {
   SurfaceItem item{.mesh = mesh.shape, .vertex_colours = {}};
   for (const Rgb8& c : mesh.vertex_rgb) {
     item.vertex_colours.push_back(
-        srgb((std::uint32_t{c[0]} << 16) | (std::uint32_t{c[1]} << 8) | c[2]));
+        linear_of({static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2])}));
   }
   return item;
 }
 
-Image surface_picture(const TexturedMesh& mesh, int width_px, int height_px,
-                      const ViewAngles& angles) {
-  RenderScene scene;
-  scene.surfaces.push_back(surface_item(mesh));
-  scene.ground = GroundItem{};
-  std::vector<Vec3> points_m;  // its box would leave much of the picture empty
-  points_m.reserve(mesh.shape.vertices_m.size());
-  for (const Vec3f& p_m : mesh.shape.vertices_m) points_m.push_back(p_m.cast<double>());
-  const RenderView view = frame_points(points_m, angles, width_px, height_px);
-  return render(scene, view);
+SurfaceItem textured_item(const TexturedMesh& mesh, double piece_m) {
+  if (mesh.face_uv.empty()) return surface_item(mesh);
+  SurfaceItem item;
+  item.is_lit = false;
+  item.crease_rad = 0.0;
+  for (std::size_t face = 0; face < mesh.shape.faces.size(); ++face) {
+    float longest_m = 0.0F;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3f& a = mesh.shape.vertices_m[mesh.shape.faces[face][k]];
+      const Vec3f& b = mesh.shape.vertices_m[mesh.shape.faces[face][(k + 1) % 3]];
+      longest_m = std::max(longest_m, (b - a).norm());
+    }
+    const double cuts = std::ceil(static_cast<double>(longest_m) / std::max(piece_m, 1e-9));
+    add_pieces(mesh, face, static_cast<int>(std::clamp(cuts, 1.0, 1.0 * kMostCuts)), item);
+  }
+  return item;
+}
+
+Image surface_picture(const TexturedMesh& mesh, const std::string& title, int width_px,
+                      int height_px, const ViewAngles& angles) {
+  const RenderView view = framed(mesh.shape, width_px, height_px, angles);
+  constexpr double kPiece_px = 2.0;
+  return drawn(
+      textured_item(mesh, kPiece_px / px_per_m_at_focus(view)), view,
+      {.title = title,
+       .detail = fmt::format("reconstructed surface, {}", counted(mesh.shape.faces.size(), "face")),
+       .legend = {}});
+}
+
+Image error_picture(const TriangleMesh& mesh, std::span<const double> errors_m, double most_m,
+                    const std::string& title, int width_px, int height_px,
+                    const ViewAngles& angles) {
+  GNBV_CHECK(errors_m.size() == mesh.vertices_m.size(), "{} distances for {} vertices",
+             errors_m.size(), mesh.vertices_m.size());
+  SurfaceItem item{.mesh = mesh, .vertex_colours = {}};
+  double sum_m = 0.0;
+  for (const double error_m : errors_m) {
+    item.vertex_colours.push_back(amount_ramp(error_m / most_m));
+    sum_m += error_m;
+  }
+  const double mean_m = sum_m / static_cast<double>(std::max<std::size_t>(1, errors_m.size()));
+  return drawn(std::move(item), framed(mesh, width_px, height_px, angles),
+               {.title = title,
+                .detail = fmt::format("distance to the true structure, {:.1f} mm in the mean of {}",
+                                      1000.0 * mean_m, grouped(errors_m.size()) + " vertices"),
+                .legend = {{.label = fmt::format("{:.0f} mm or more", 1000.0 * most_m),
+                            .colours = amount_colours(),
+                            .label_before = "0"}}});
 }
 
 }  // namespace gnbv

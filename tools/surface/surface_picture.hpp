@@ -1,4 +1,4 @@
-// A picture of a reconstructed surface.
+// Pictures of a reconstructed surface.
 #pragma once
 
 #include "tools/render/scene.hpp"
@@ -9,9 +9,20 @@ namespace gnbv {
 /// The surface with the colours of its vertices, as a thing to draw.
 SurfaceItem surface_item(const TexturedMesh& mesh);
 
-/// The surface with the colours of its vertices on a ground with a metre grid, framed. Throws
+/// The surface with its texture where it has one, as a thing to draw: faces are split so that no
+/// piece is longer than `piece_m`, and a piece's corners have the texture's colours there. Pictures
+/// carry their own light: it is not lit again.
+SurfaceItem textured_item(const TexturedMesh& mesh, double piece_m);
+
+/// The surface as its pictures show it on a ground with a metre grid, framed and titled. Throws
 /// BadInput as Renderer does.
-Image surface_picture(const TexturedMesh& mesh, int width_px, int height_px,
-                      const ViewAngles& angles = {});
+Image surface_picture(const TexturedMesh& mesh, const std::string& title, int width_px,
+                      int height_px, const ViewAngles& angles = {});
+
+/// The same coloured by the distance to the truth: from nothing to `most_m` and beyond. One
+/// distance a vertex.
+Image error_picture(const TriangleMesh& mesh, std::span<const double> errors_m, double most_m,
+                    const std::string& title, int width_px, int height_px,
+                    const ViewAngles& angles = {});
 
 }  // namespace gnbv

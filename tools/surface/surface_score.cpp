@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bench/compare/text_table.hpp"
+#include "bench/compare/terminal_table.hpp"
 #include "bench/score/scored_points.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
@@ -79,7 +79,7 @@ SurfaceScore score_surface(const TriangleMesh& surface, const World& truth,
   return score;
 }
 
-std::string score_text(const SurfaceScore& score, const std::string& name) {
+std::string score_text(const SurfaceScore& score, const std::string& name, std::size_t width) {
   TextTable table{.title = fmt::format("{}: the surface against the true one, above z = {} m", name,
                                        score.floor_z_m),
                   .columns = {{"Within", "distance_m", ColumnKind::text},
@@ -100,7 +100,7 @@ std::string score_text(const SurfaceScore& score, const std::string& name) {
                   "from outside, to "
                   "surface); beyond {} m counts as that",
                   score.distances.accuracy_m, score.distances.completeness_m, kFarthest_m));
-  return terminal_text(table);
+  return terminal_text(table, width);
 }
 
 std::string score_json(const SurfaceScore& score) {

@@ -26,8 +26,8 @@ std::vector<Vec3f> samples_by_area(const TriangleMesh& mesh, std::size_t count, 
 SurfaceScore score_surface(const TriangleMesh& surface, const World& truth,
                            const ReferenceConfig& config, int threads);
 
-/// A table for people, and a JSON object for machines.
-std::string score_text(const SurfaceScore& score, const std::string& name);
+/// A table for people, no wider than that (0: as wide as it takes), and a JSON object for machines.
+std::string score_text(const SurfaceScore& score, const std::string& name, std::size_t width = 0);
 std::string score_json(const SurfaceScore& score);
 
 }  // namespace gnbv

@@ -157,14 +157,14 @@ std::vector<Vec3f> vertex_normals(const TriangleMesh& mesh) {
 }
 
 DistinctCorners distinct_corners(const TexturedMesh& mesh) {
-  struct Key {
+  struct CornerKey {
     std::uint32_t vertex;
     std::uint32_t u;
     std::uint32_t v;
-    bool operator==(const Key&) const = default;
+    bool operator==(const CornerKey&) const = default;
   };
   struct Hash {
-    std::size_t operator()(const Key& key) const {
+    std::size_t operator()(const CornerKey& key) const {
       std::uint64_t h = key.vertex * 0x9e3779b97f4a7c15ULL;
       h = (h ^ key.u) * 0xbf58476d1ce4e5b9ULL;
       return (h ^ key.v ^ (h >> 32)) * 0x94d049bb133111ebULL;
@@ -176,7 +176,7 @@ DistinctCorners distinct_corners(const TexturedMesh& mesh) {
     return out;
   };
   DistinctCorners corners;
-  std::unordered_map<Key, std::uint32_t, Hash> index_of;
+  std::unordered_map<CornerKey, std::uint32_t, Hash> index_of;
   index_of.reserve(mesh.shape.faces.size());
   const bool has_uv = !mesh.face_uv.empty();
   for (std::size_t face = 0; face < mesh.shape.faces.size(); ++face) {
@@ -186,7 +186,7 @@ DistinctCorners distinct_corners(const TexturedMesh& mesh) {
       const Vec2f uv = has_uv ? mesh.face_uv[face][k] : Vec2f(Vec2f::Zero());
       const auto next = static_cast<std::uint32_t>(corners.vertex.size());
       const auto [entry, is_new] =
-          index_of.try_emplace(Key{vertex, bits(uv.x()), bits(uv.y())}, next);
+          index_of.try_emplace(CornerKey{vertex, bits(uv.x()), bits(uv.y())}, next);
       if (is_new) {
         corners.vertex.push_back(vertex);
         if (has_uv) corners.uv.push_back(uv);

@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "bench/compare/terminal_table.hpp"
+
 namespace gnbv {
 namespace {
 
@@ -57,6 +59,33 @@ TEST(TextTable, TerminalTextIsAlignedByCodePoints) {
             "a, \"b\"     5  92.8 ±0.6%  -2.1 (4 of 5)\n"
             "éé         -      50.0%†              -\n"
             "one, two\n");
+}
+
+TEST(TextTable, NarrowTerminalsFoldHeadsThenColumnsAndCutNothing) {
+  TextTable table;
+  table.columns = {{"Utility", "utility", text},
+                   {"Entropy reduction", "entropy", number},
+                   {"Distance (m)", "distance", number}};
+  table.rows = {{{"proposed"}, {"1,555"}, {"620.4"}}};
+  table.notes = {"a note of some words"};
+  EXPECT_EQ(terminal_text(table, 80), terminal_text(table));
+  EXPECT_EQ(terminal_text(table, 30),
+            "            Entropy  Distance\n"
+            "Utility   reduction       (m)\n"
+            "-----------------------------\n"
+            "proposed      1,555     620.4\n"
+            "a note of some words\n");
+  EXPECT_EQ(terminal_text(table, 20),
+            "            Entropy\n"
+            "Utility   reduction\n"
+            "-------------------\n"
+            "proposed      1,555\n"
+            "\n"
+            "          Distance\n"
+            "Utility        (m)\n"
+            "------------------\n"
+            "proposed     620.4\n"
+            "a note of some words\n");
 }
 
 TEST(TextTable, MarkdownHasOneCellAColumnAndNoMarkupOfItsText) {

@@ -16,6 +16,9 @@
 #include "tests/support/covered_record.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/plots/coverage_plot.hpp"
+#include "tools/plots/density_plot.hpp"
+#include "tools/plots/flight_plot.hpp"
+#include "tools/plots/forest_plot.hpp"
 #include "tools/plots/predictions_plot.hpp"
 #include "tools/plots/reach_plot.hpp"
 #include "tools/plots/run_plots.hpp"
@@ -175,6 +178,81 @@ TEST(Plots, TheKeyOfCoverageStandsWhereNothingIs) {
   EXPECT_TRUE(has_key_inside({0.6, 0.7, 0.8, 0.9}, "isler"));
   EXPECT_FALSE(has_key_inside({0.0, 0.01, 0.02, 0.03}, "isler"));
   EXPECT_FALSE(has_key_inside({0.6, 0.7, 0.8, 0.9}, std::string(60, 'i')));
+}
+
+TEST(Plots, DensitiesOfSeveralRunsLieOverEachOther) {
+  const std::vector<RunRecord> runs = {scored_record(), scored_record()};
+  const std::vector<RunGroup> groups = {{.label = "a", .runs = {&runs[0]}},
+                                        {.label = "b", .runs = {&runs[1]}}};
+  const std::string body = mean_density_plot(mean_densities(groups)).body;
+  for (const char* const name : {"series0", "series1"}) {
+    const auto rows = block(body, name);
+    ASSERT_EQ(rows.size(), runs[0].views.size());
+    EXPECT_EQ(rows[3][1], runs[0].views[3].density_points_per_voxel);
+  }
+}
+
+TEST(Plots, CoverageMarksEndsAndTheCeiling) {
+  std::vector<RunRecord> runs = {covered_record(1, {0.2, 0.4, 0.5})};
+  const RunGroup group = group_of(runs);
+  const std::string without = coverage_plot({&group, 1}, Effort::metres, 0).body;
+  EXPECT_EQ(block(without, "end0"), (std::vector<std::vector<double>>{{4, 50, 50, 50}}));
+  EXPECT_EQ(without.find("'ceiling'"), std::string::npos);
+  EXPECT_NE(without.find("'Smoke'"), std::string::npos);
+  runs[0].figures->ceiling = 0.975;
+  const std::string with = coverage_plot({&group, 1}, Effort::metres, 0).body;
+  EXPECT_NE(with.find("97.5 with lines"), std::string::npos);
+  EXPECT_NE(with.find("'ceiling'"), std::string::npos);
+  const auto end = coverage_end_plot({&group, 1}, Effort::metres, 0);
+  ASSERT_TRUE(end.has_value());
+  EXPECT_NE(end->body.find("set xrange [3.4:4.04]"), std::string::npos);
+  const TempFolder temp;
+  EXPECT_NO_THROW(draw_plot(plot_script(*end, PlotFormat::svg, {}), temp.path() / "end.svg"));
+}
+
+TEST(Plots, TermsNameNoPredictionWhereThereIsNone) {
+  RunRecord record = scored_record();
+  EXPECT_NE(terms_plot(record)->body.find("γ prediction"), std::string::npos);
+  for (ViewRecord& view : record.views) view.decision.score.prediction = 0.0;
+  EXPECT_EQ(terms_plot(record)->body.find("γ prediction"), std::string::npos);
+}
+
+/// Flown along x at 8 m a second, then turned back: speeds are those of the path.
+TEST(Plots, FlightIsThatOfThePath) {
+  const auto plot = flight_plot(made_record());
+  ASSERT_TRUE(plot.has_value());
+  const auto rows = block(plot->body, "samples");
+  ASSERT_EQ(rows.size(), 2U);  // from the first view, at 3 s, to the last sample
+  EXPECT_EQ(rows[1][0], 4.0);
+  EXPECT_EQ(rows[1][2], -4.0);
+  EXPECT_NEAR(rows[1][7], std::sqrt(65.0), 1e-9);
+  EXPECT_EQ(rows[1][6], 0.0);
+  const TempFolder temp;
+  EXPECT_NO_THROW(draw_plot(plot_script(*plot, PlotFormat::svg, {}), temp.path() / "f.svg"));
+}
+
+ComparedRun compared(const std::string& method, std::uint64_t seed, double coverage) {
+  ComparedRun run{.scenario = "smoke", .method = method, .seed = seed, .figures = {}};
+  run.figures.coverage_final = {coverage, coverage, coverage};
+  return run;
+}
+
+TEST(Plots, ForestHoldsThePairedDifferencesInPercentOfTheBaseline) {
+  std::vector<ComparedRun> runs;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const double base = 0.5 + 0.01 * static_cast<double>(seed);
+    runs.push_back(compared("a", seed, base));
+    runs.push_back(compared("b", seed, base + 0.1 + 0.001 * static_cast<double>(seed)));
+  }
+  const auto plot = forest_plot(compare(runs, "a", {}), 0);
+  ASSERT_TRUE(plot.has_value());
+  EXPECT_EQ(plot->name, "forest-smoke");
+  const auto rows = block(plot->body, "open1");
+  ASSERT_FALSE(rows.empty());
+  EXPECT_NEAR(rows[0][0], 100.0 * 0.102 / 0.52, 1e-6);
+  EXPECT_NEAR(rows[0][2], 100.0 * 4.302652730 * 0.001 / std::sqrt(3.0) / 0.52, 1e-4);
+  const TempFolder temp;
+  EXPECT_NO_THROW(draw_plot(plot_script(*plot, PlotFormat::svg, {}), temp.path() / "f.svg"));
 }
 
 TEST(Plots, TheKeyOfTermsStandsInThePicture) {

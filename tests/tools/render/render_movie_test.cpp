@@ -35,6 +35,45 @@ TEST(Movie, AppearsWholeUnderNamesThatFfmpegWouldReadOtherwise) {
   EXPECT_EQ(std::distance(fs::directory_iterator(temp.path()), {}), 2);  // no parts are left
 }
 
+/// What a browser shows of an APNG, image by image: patches laid over what was there.
+std::vector<Image> images_of(const std::string& apng) {
+  std::vector<Image> images;
+  const auto number = [](const std::string& bytes, std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t k = 0; k < 4; ++k)
+      value = (value << 8) | static_cast<std::uint8_t>(bytes[at + k]);
+    return static_cast<int>(value);
+  };
+  const std::string controls = png_chunks(apng, "fcTL");
+  constexpr std::size_t kControl = 26;
+  for (std::size_t i = 0; i < controls.size() / kControl; ++i) {
+    const std::string control = controls.substr(kControl * i, kControl);
+    images.push_back({number(control, 4), number(control, 8), {}});
+  }
+  return images;
+}
+
+TEST(Movie, AnimatedPngNeedsNoFfmpegAndHoldsEveryImage) {
+  const TempFolder temp;
+  const fs::path path = temp.path() / "film.apng";
+  Movie movie(path, 32, 24, 24);
+  Image image = grey(32, 24);
+  movie.add(image);
+  for (int i = 0; i < 3; ++i) image.rgb[3 * (32 * 5 + 7) + static_cast<std::size_t>(i)] = 9;
+  movie.add(image);
+  movie.add(image);  // nothing moves, time does
+  EXPECT_FALSE(fs::exists(path));
+  movie.finish();
+  const std::string apng = read_file(path);
+  const std::vector<Image> images = images_of(apng);
+  ASSERT_EQ(images.size(), 3U);
+  EXPECT_EQ(images[0].width_px, 32);
+  EXPECT_EQ(images[1].width_px, 1);  // the pixel that changed
+  EXPECT_EQ(images[1].height_px, 1);
+  // who knows no animation sees the first image
+  EXPECT_EQ(read_png(path).rgb, grey(32, 24).rgb);
+}
+
 TEST(Movie, HalfWrittenLeavesNothing) {
   if (!has_ffmpeg()) GTEST_SKIP() << "no ffmpeg";
   const TempFolder temp;

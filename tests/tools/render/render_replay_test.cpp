@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 #include "bench/score/surface_reference.hpp"
 #include "sim/core/error.hpp"
@@ -174,17 +175,51 @@ TEST(CoveragePicture, CoversTheShareThatTheScoreSays) {
   write_cloud_ply(points, temp.path() / "cloud.ply");
   write_cloud_ply(watched().flown.result.profile_points_world_m, temp.path() / "profile.ply");
   RunSource run = source(temp.path());
-  const auto dots = kCoveragePicture.draw(run, {}, {}).panels.at(0).scene.dots;
-  ASSERT_EQ(dots.size(), 2U);  // covered, missed
-  const auto covered = static_cast<double>(dots[0].points_m.size());
-  const auto missed = static_cast<double>(dots[1].points_m.size());
-  const auto scored = coverage_at_all_sizes(run.reference().outside, points);
-  EXPECT_DOUBLE_EQ(covered / (covered + missed), scored[0]);
-  // every covered sample has a point in its voxel
+  RunSource* const runs[] = {&run};
+  const RenderView view = lay_out(kCoveragePicture, runs, {}).view;
+  const Picture picture = kCoveragePicture.draw(run, {}, view);
+  ASSERT_EQ(picture.panels.size(), 2U);
+  const SurfaceItem& cubes = picture.panels[0].scene.surfaces.at(0);
+  // a colour for each corner: voxels of the reference by whether the cloud has a point in them
   const VoxelSet seen = voxels_of(points, kCoverageSizes_m[0]);
-  for (const Vec3f& sample : dots[0].points_m) {
-    EXPECT_TRUE(
-        std::binary_search(seen.begin(), seen.end(), voxel_code(sample, kCoverageSizes_m[0])));
+  const Rgb& missed = picture.legend.at(1).colours.front();
+  std::set<std::uint64_t> missed_voxels;
+  for (std::size_t i = 0; i < cubes.mesh.faces.size(); i += 2) {
+    Vec3f middle_m = Vec3f::Zero();  // of a square, drawn as two faces
+    for (std::size_t k = 0; k < 4; ++k) {
+      middle_m += 0.25F * cubes.mesh.vertices_m[cubes.mesh.faces[i][0] + k];
+    }
+    const Vec3f a_m = cubes.mesh.vertices_m[cubes.mesh.faces[i][0]];
+    const Vec3f n = (cubes.mesh.vertices_m[cubes.mesh.faces[i][1]] - a_m)
+                        .cross(cubes.mesh.vertices_m[cubes.mesh.faces[i][2]] - a_m)
+                        .normalized();
+    const std::uint64_t voxel = voxel_code(middle_m - 0.02F * n, kCoverageSizes_m[0]);
+    const bool is_missed = cubes.vertex_colours[cubes.mesh.faces[i][0]] == missed;
+    ASSERT_EQ(is_missed, !std::binary_search(seen.begin(), seen.end(), voxel));
+    if (is_missed) missed_voxels.insert(voxel);
+  }
+  const auto all = static_cast<double>(run.reference().outside[0].size());
+  const auto scored = coverage_at_all_sizes(run.reference().outside, points);
+  EXPECT_DOUBLE_EQ(1.0 - static_cast<double>(missed_voxels.size()) / all, scored[0]);
+  // the other side is another one, and shows all of it, too
+  ASSERT_TRUE(picture.panels[1].view.has_value());
+  EXPECT_GT((picture.panels[1].view->T_world_camera.linear() - view.T_world_camera.linear()).norm(),
+            0.1);
+}
+
+TEST(Replay, OneFlightBringsBackWhatThreeDid) {
+  const ReplayRequest request{
+      .waypoints = {1}, .has_profile = true, .belief = kAsked + 1, .decision = kAsked};
+  const Replayed all = replay(watched().recorded(), request);
+  EXPECT_TRUE(same_belief(*all.belief, watched().beliefs[kAsked + 1]));
+  EXPECT_TRUE(same_belief(all.decision->belief, watched().beliefs[kAsked - 1]));
+  EXPECT_EQ(all.decision->plan.candidates.size(), watched().plans[kAsked - 1].candidates.size());
+  const std::vector<std::size_t> waypoints = {1};
+  const auto alone = replay_profile(watched().recorded(), waypoints);
+  ASSERT_EQ(all.profile.size(), alone.size());
+  for (std::size_t i = 0; i < alone.size(); ++i) {
+    EXPECT_EQ(all.profile[i].points_world_m, alone[i].points_world_m);
+    EXPECT_EQ(all.profile[i].waypoints_world_m.size(), all.profile[i].waypoints);
   }
 }
 

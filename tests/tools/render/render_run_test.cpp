@@ -46,7 +46,7 @@ TEST(PathPicture, ProfileFlightIsGreyAndPlannedFlightRunsThroughTheRamp) {
   EXPECT_EQ(scene.tubes[1].points_m.back(), Vec3f(-4, -4, 3));
   EXPECT_EQ(scene.tubes[1].colours.front(), path_ramp(0.0));
   EXPECT_EQ(scene.tubes[1].colours.back(), path_ramp(1.0));
-  EXPECT_EQ(scene.balls.size(), 3U);
+  EXPECT_EQ(scene.balls.size(), 3U + 2U);  // the views, and marks at the first and the last
   EXPECT_EQ(scene.frusta.size(), 3U * run.record().scenario.cameras.size());
   EXPECT_EQ(path_scene(run, {}).tubes.size(), 1U);  // the profile is left out
 }
@@ -180,6 +180,66 @@ TEST(Pictures, SheetHoldsEveryImageWhereItBelongs) {
   EXPECT_EQ(rest.at(2, 0)[0], 1);
 }
 
+TEST(Pictures, SheetsLettersTheirCellsAndSayALegendOnceARow) {
+  DrawnPicture drawn{.image = {480, 270, std::vector<std::uint8_t>(480 * 270 * 3, 200)},
+                     .caption = {.title = "t", .detail = "", .legend = {{"what", {srgb(0)}}}},
+                     .view = {}};
+  const auto lower_half = [](const Image& image) {
+    return std::vector<std::uint8_t>(image.rgb.begin() + 3 * 480 * 200, image.rgb.end());
+  };
+  DrawnPicture other = drawn;
+  other.caption.legend = {{"else", {srgb(0xff0000)}}};
+  DrawnPicture bare = drawn;
+  bare.caption.legend.clear();
+  const std::vector<Image> same = sheet_cells({drawn, drawn}, 2);
+  EXPECT_EQ(lower_half(same[0]), lower_half(with_words(bare)));
+  EXPECT_EQ(lower_half(same[1]), lower_half(with_words(drawn)));
+  EXPECT_NE(same[1].rgb, with_words(drawn).rgb);  // (b)
+  // another legend, or the next row, says it itself
+  for (const auto& cells : {sheet_cells({drawn, other}, 2), sheet_cells({drawn, drawn}, 1)}) {
+    EXPECT_EQ(lower_half(cells[0]), lower_half(with_words(drawn)));
+  }
+  EXPECT_TRUE(sheet_cells({{}, drawn}, 2)[0].rgb.empty());
+}
+
+TEST(Pictures, ViewsAreCountedFromOneAndIterationsFromZero) {
+  EXPECT_EQ(views_so_far(made_record(), 2), "3 views");
+  EXPECT_EQ(views_so_far(made_record(), 1), "2 of 3 views (iteration 1)");
+}
+
+TEST(Pictures, ColoursMeanTheSameInAllRuns) {
+  RunSource low(made_record(), cube());
+  World tower = cube();
+  for (Vec3f& v : tower.structure.vertices_m) v.z() *= 5.0F;
+  RunSource high(made_record(), tower);
+  RunSource* const both[] = {&low, &high};
+  const PictureOptions shared = with_shared_colours(kVoxelsPicture, both, {});
+  EXPECT_EQ(shared.colour_range, (std::array<double, 2>{0.0, 10.0}));
+  EXPECT_FALSE(with_shared_colours(kPathPicture, both, {}).colour_range.has_value());
+  // without files there are no points to be coloured: left out, and no fault of the others
+  EXPECT_FALSE(with_shared_colours(kCloudPicture, both, {}).colour_range.has_value());
+}
+
+TEST(Film, ShowsTheFlightAtOnePace) {
+  const std::vector<double> times_s = film_times_s(made_record(), 5);
+  EXPECT_EQ(times_s, (std::vector<double>{3.0, 3.5, 4.0, 4.5, 5.0}));
+  EXPECT_TRUE(film_times_s({}, 5).empty());
+}
+
+TEST(Film, VehicleFliesBetweenViews) {
+  const TempFolder temp;
+  write_made_run(temp.path());
+  RunSource run(temp.path(), 1, [](double, const std::string&) {});
+  RunSource* const runs[] = {&run};
+  const RenderView view = lay_out(kSnapshotFraming, runs, {}).view;
+  Snapshots film(run, {}, view, false);
+  const Picture picture = film.picture_at(3.5, 2.0, view);
+  // half way from (-4, 4, 2) to (-4, -4, 3); what was seen is that of the view before
+  EXPECT_LT((picture.panels.at(0).scene.balls.back().centre_m - Vec3f(-4, 0, 2.5F)).norm(), 2.0F);
+  EXPECT_EQ(picture.panels.at(0).scene.dots.at(0).points_m.size(), 3U);
+  EXPECT_EQ(picture.inset.width_px, run.record().scenario.cameras.front().width_px);
+}
+
 TEST(Pictures, UnknownKindsAndViewsAreNamed) {
   EXPECT_THROW(picture_kind("paths"), BadInput);
   for (const PictureKind* kind : picture_kinds()) EXPECT_EQ(&picture_kind(kind->name), kind);
@@ -206,7 +266,7 @@ TEST(Snapshots, ShowWhatWasFlownAndSeenUpToTheView) {
   RunSource run(temp.path(), 1, [](double, const std::string&) {});
   RunSource* const runs[] = {&run};
   const RenderView view = lay_out(kSnapshotFraming, runs, {}).view;
-  const Snapshots snapshots(run, {}, view, false);
+  Snapshots snapshots(run, {}, view, false);
   const std::size_t seen[] = {3, 5, 6};  // made_record()
   for (std::size_t i = 0; i < 3; ++i) {
     const RenderScene scene = snapshots.picture(i, view).panels.at(0).scene;

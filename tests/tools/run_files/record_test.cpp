@@ -10,6 +10,7 @@
 #include "tools/run_files/frames_folder.hpp"
 #include "tools/run_files/run_directory.hpp"
 #include "tools/run_files/run_poses.hpp"
+#include "tools/run_files/words.hpp"
 
 namespace gnbv {
 namespace {
@@ -65,8 +66,8 @@ TEST_F(Record, HoldsWhatTheFilesSay) {
   EXPECT_EQ(record.views[1].decision.view.yaw_rad, 1.5);
   EXPECT_EQ(record.views[1].cloud_points, 5U);
   EXPECT_EQ(record.views[1].time_s, 4.0);
-  EXPECT_EQ(run_title(record), "smoke, proposed");
-  EXPECT_EQ(run_detail(record), "3 views, 0.0 m");
+  EXPECT_EQ(run_title(record), "Smoke, Proposed");
+  EXPECT_EQ(run_detail(record), "3 views, 0.0 m flown");
 }
 
 TEST_F(Record, EveryPointBelongsToTheViewThatBroughtIt) {
@@ -107,11 +108,28 @@ TEST_F(Record, CommandsAreWordsForAShell) {
             std::string::npos);
 }
 
+TEST(Words, NamesOfOursAreReadAsWordsAndThoseOfUsersStay) {
+  EXPECT_EQ(human_name("power_plant"), "Power plant");
+  EXPECT_EQ(human_name("aep"), "AEP");
+  EXPECT_EQ(human_name("mine.py:gain"), "mine.py:gain");
+  EXPECT_EQ(human_name("MyPlant"), "MyPlant");
+  EXPECT_EQ(human_name(""), "");
+}
+
+TEST(Words, ThousandsAreApart) {
+  EXPECT_EQ(grouped(0), "0");
+  EXPECT_EQ(grouped(999), "999");
+  EXPECT_EQ(grouped(1000), "1,000");
+  EXPECT_EQ(grouped(1234567), "1,234,567");
+  EXPECT_EQ(counted(1, "view"), "1 view");
+  EXPECT_EQ(counted(1200, "view"), "1,200 views");
+}
+
 TEST_F(Record, TheTitleNamesAnUnusualReadingOfThePaper) {
   RunRecord record = made_record();
-  EXPECT_EQ(run_title(record), "smoke, proposed");
+  EXPECT_EQ(run_title(record), "Smoke, Proposed");
   record.scenario.planner.preset = "released";
-  EXPECT_EQ(run_title(record), "smoke, proposed, released");
+  EXPECT_EQ(run_title(record), "Smoke, Proposed, released");
 }
 
 TEST_F(Record, AFolderHasItsOneName) {

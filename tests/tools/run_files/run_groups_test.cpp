@@ -26,7 +26,7 @@ TEST(RunGroups, RunsOfOneMethodAreOneGroup) {
   ASSERT_EQ(notes.size(), 2U);
   EXPECT_NE(notes[1].find("has no figures"), std::string::npos) << notes[1];
   runs[3].scenario.planner.utility.name = "isler";
-  EXPECT_EQ(group_runs(runs, notes)[1].label, "isler");
+  EXPECT_EQ(group_runs(runs, notes)[1].label, "Isler");
 }
 
 /// Only what tells it from others of its name is said of a group, and a label is never a list.
@@ -43,12 +43,12 @@ TEST(RunGroups, LabelsSayNoMoreThanIsNeeded) {
     return all;
   };
   EXPECT_EQ(labels(),
-            (std::vector<std::string>{"smoke, leaf_m=0.05", "smoke, leaf_m=0.07", "lab"}));
+            (std::vector<std::string>{"Smoke, leaf_m=0.05", "Smoke, leaf_m=0.07", "Lab"}));
   runs[1].scenario.planner.map.resolution_m = 0.1;
   runs[1].scenario.planner.floor_z_m = 0.4;
   runs[0].folder = "runs/a";
   runs[1].folder = "runs/b";
-  EXPECT_EQ(labels(), (std::vector<std::string>{"smoke, a", "smoke, b", "lab"}));
+  EXPECT_EQ(labels(), (std::vector<std::string>{"Smoke, a", "Smoke, b", "Lab"}));
   runs.resize(2);
   runs[1].scenario = runs[0].scenario;
   runs[0].scenario.cameras[0].rate_hz = runs[0].scenario.lidars[0].rate_hz = 1.0;
@@ -67,12 +67,12 @@ TEST(RunLabels, RunsAreToldApartByAsMuchAsItTakes) {
   d.scenario.seed = 2;
   using Labels = std::vector<std::string>;
   const auto labels = [](const std::vector<RunRecord>& runs) { return run_labels(runs); };
-  EXPECT_EQ(labels({a, c}), (Labels{"smoke, proposed", "smoke, bircher"}));
-  EXPECT_EQ(labels({c, d}), (Labels{"smoke, bircher, seed 1", "smoke, bircher, seed 2"}));
-  EXPECT_EQ(labels({a, b})[1], "smoke, proposed, seed 1 (runs/b)");
+  EXPECT_EQ(labels({a, c}), (Labels{"Smoke, Proposed", "Smoke, Bircher"}));
+  EXPECT_EQ(labels({c, d}), (Labels{"Smoke, Bircher, seed 1", "Smoke, Bircher, seed 2"}));
+  EXPECT_EQ(labels({a, b})[1], "Smoke, Proposed, seed 1 (runs/b)");
   b.scenario.planner.cloud.leaf_m = 0.07;
-  EXPECT_EQ(labels({a, b, c}), (Labels{"smoke, proposed, leaf_m=0.05",
-                                       "smoke, proposed, leaf_m=0.07", "smoke, bircher"}));
+  EXPECT_EQ(labels({a, b, c}), (Labels{"Smoke, Proposed, leaf_m=0.05",
+                                       "Smoke, Proposed, leaf_m=0.07", "Smoke, Bircher"}));
 }
 
 /// The utility has a column of its own in tables.

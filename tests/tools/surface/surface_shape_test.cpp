@@ -6,9 +6,11 @@
 #include <numbers>
 
 #include "bench/score/escape_search.hpp"
+#include "sensors/ray_scene.hpp"
 #include "sim/core/error.hpp"
 #include "tests/support/made_run.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tools/surface/decimate.hpp"
 #include "tools/surface/mesh_edges.hpp"
 #include "tools/surface/poisson_module.hpp"
 #include "tools/surface/surface.hpp"
@@ -298,6 +300,34 @@ TEST(SurfaceShape, IsTheSameAtAnyNumberOfThreads) {
   const TriangleMesh three = shape(3);
   EXPECT_EQ(one.vertices_m, three.vertices_m);
   EXPECT_EQ(one.faces, three.faces);
+}
+
+TEST(Decimation, KeepsTheSphereWithinItsTolerance) {
+  const TriangleMesh fine = poisson(oriented(seen_sphere(), 2), 6);
+  constexpr double kTolerance_m = 0.01;
+  const TriangleMesh coarse = decimated(fine, kTolerance_m);
+  EXPECT_LT(coarse.faces.size(), fine.faces.size() / 2);
+  const RayScene scene(World{.structure = coarse, .has_ground = false});
+  for (const Vec3f& p_m : fine.vertices_m) {
+    EXPECT_LT(scene.distance_to_structure_m(p_m.cast<double>(), 1.0), 3.0 * kTolerance_m);
+  }
+  EXPECT_EQ(decimated(fine, kTolerance_m).faces, coarse.faces);
+  EXPECT_EQ(decimated(fine, 0.0).faces, fine.faces);
+}
+
+TEST(Decimation, APlaneIsAHandfulOfFaces) {
+  TriangleMesh plane;
+  constexpr std::uint32_t kSide = 20;
+  for (std::uint32_t y = 0; y <= kSide; ++y) {
+    for (std::uint32_t x = 0; x <= kSide; ++x) {
+      plane.vertices_m.push_back({static_cast<float>(x), static_cast<float>(y), 0.0F});
+      if (x == kSide || y == kSide) continue;
+      const std::uint32_t v = y * (kSide + 1) + x;
+      plane.faces.push_back({v, v + 1, v + kSide + 1});
+      plane.faces.push_back({v + 1, v + kSide + 2, v + kSide + 1});
+    }
+  }
+  EXPECT_LE(decimated(plane, 0.01).faces.size(), 80U);
 }
 
 }  // namespace

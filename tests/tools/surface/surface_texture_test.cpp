@@ -10,6 +10,7 @@
 #include "sim/core/srgb.hpp"
 #include "sim/mesh/mesh_file.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tools/surface/surface_picture.hpp"
 #include "tools/surface/textured_mesh.hpp"
 
 namespace gnbv {
@@ -367,6 +368,24 @@ TEST(SurfaceFiles, TheGlbHoldsTheAtlasAndItsCoordinates) {
     const Vec2f& made = mesh.face_uv[i / 3][i % 3];
     EXPECT_NEAR(read[0] * static_cast<float>(mesh.atlas.width_px), made.x(), 1e-3F);
     EXPECT_NEAR(read[1] * static_cast<float>(mesh.atlas.height_px), made.y(), 1e-3F);
+  }
+}
+
+TEST(SurfacePicture, PiecesHaveTheTexturesColoursAndTheFacesArea) {
+  TexturedMesh mesh;
+  mesh.shape.vertices_m = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+  mesh.shape.faces = {{0, 1, 2}};
+  mesh.vertex_rgb.assign(3, {0, 0, 0});
+  mesh.atlas = {8, 8, std::vector<std::uint8_t>(192, 0)};
+  for (std::size_t i = 0; i < 192; i += 3) mesh.atlas.rgb[i] = 200;  // red wherever one looks
+  mesh.face_uv = {{Vec2f(1, 1), Vec2f(6, 1), Vec2f(1, 6)}};
+  const SurfaceItem item = textured_item(mesh, 1.0);
+  EXPECT_FALSE(item.is_lit);
+  EXPECT_EQ(item.mesh.faces.size(), 36U);  // an edge of 5.66 m in six
+  EXPECT_NEAR(surface_area_m2(item.mesh), 8.0, 1e-4);
+  for (const Rgb& colour : item.vertex_colours) {
+    EXPECT_NEAR(colour[0], srgb(0xc80000)[0], 1e-5F);
+    EXPECT_EQ(colour[1], 0.0F);
   }
 }
 

@@ -2,14 +2,25 @@
 #pragma once
 
 #include <span>
+#include <string>
+#include <vector>
 
-#include "tools/paper/comparisons.hpp"
+#include "tools/plots/curves.hpp"
 #include "tools/plots/gnuplot.hpp"
 
 namespace gnbv {
 
+/// Density over the views as a mean over seeds. Missions that have ended count no more.
+struct MeanSeries {
+  std::string label;
+  std::vector<MeanEstimate> by_view;
+};
+
 /// "density": a line for each series, with the 95 % interval of the mean where several missions
 /// reach a view. Requires a series that has a view.
 Plot mean_density_plot(std::span<const MeanSeries> series);
+
+/// The series of groups of runs.
+std::vector<MeanSeries> mean_densities(std::span<const RunGroup> groups);
 
 }  // namespace gnbv

@@ -1,4 +1,4 @@
-#include "tools/paper/density_plot.hpp"
+#include "tools/plots/density_plot.hpp"
 
 #include <fmt/format.h>
 
@@ -8,6 +8,26 @@
 #include "tools/plots/script_parts.hpp"
 
 namespace gnbv {
+
+std::vector<MeanSeries> mean_densities(std::span<const RunGroup> groups) {
+  std::vector<MeanSeries> all;
+  for (const RunGroup& group : groups) {
+    MeanSeries series{.label = group.label, .by_view = {}};
+    if (group.runs.size() > 1) series.label += fmt::format(" ({} seeds)", group.runs.size());
+    for (std::size_t view = 0;; ++view) {
+      std::vector<double> densities;
+      for (const RunRecord* const run : group.runs) {
+        if (view < run->views.size()) {
+          densities.push_back(run->views[view].density_points_per_voxel);
+        }
+      }
+      if (densities.empty()) break;
+      series.by_view.push_back(estimate_mean(densities));
+    }
+    if (!series.by_view.empty()) all.push_back(std::move(series));
+  }
+  return all;
+}
 
 Plot mean_density_plot(std::span<const MeanSeries> series) {
   std::string data;

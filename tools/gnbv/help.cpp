@@ -1,0 +1,164 @@
+#include "tools/gnbv/help.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "bench/compare/terminal_table.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr std::size_t kHelp_columns = 80;
+constexpr std::size_t kNames_columns = 26;  // of options and commands, two blanks included
+
+struct Example {
+  std::string_view command;
+  std::string_view lines;
+};
+constexpr std::array<Example, 17> kExamples = {
+    {{"fly", "gnbv fly smoke --mavlink udp://127.0.0.1:14540"},
+     {"run",
+      "gnbv run aircraft --seed 1 --out runs/first\n"
+      "gnbv run aircraft --utility tour --set planner.cloud.leaf_m=0.02\n"
+      "gnbv run aircraft --mesh my.obj --bounds auto --frames"},
+     {"sweep", "gnbv sweep sweep.yaml --out runs/sweep --jobs 2"},
+     {"table", "gnbv table aircraft --seeds 5 --jobs 2"},
+     {"compare", "gnbv compare smoke --utilities proposed,bircher --seeds 8"},
+     {"ceiling", "gnbv ceiling aircraft"},
+     {"render",
+      "gnbv render runs/first\n"
+      "gnbv render runs/first --what all -o pictures\n"
+      "gnbv render runs/a runs/b --what path,coverage -o pictures --sheet both.png"},
+     {"export", "gnbv export runs/first --format colmap"},
+     {"plot",
+      "gnbv plot runs/a runs/b -o plots --format svg,pdf\n"
+      "gnbv plot runs/first --plots flight"},
+     {"paper", "gnbv paper -o paper --seeds 1"},
+     {"report", "gnbv report runs/a runs/b -o report.html"},
+     {"asset",
+      "gnbv asset aircraft -o aircraft.obj\n"
+      "gnbv asset random --kind mast --seed 3 -o mast.obj"},
+     {"lint", "gnbv lint my.obj"},
+     {"schema", "gnbv schema > scenario.schema.json"},
+     {"score",
+      "gnbv score runs/first --update --ceiling\n"
+      "gnbv score cloud.ply --scenario aircraft"},
+     {"check", "gnbv check runs/first --against baseline.json"},
+     {"surface", "gnbv surface runs/first"}}};
+
+/// Every line behind so many blanks.
+std::string indented(std::string_view text, std::size_t blanks) {
+  std::string lines(blanks, ' ');
+  for (const char c : text) {
+    lines += c;
+    if (c == '\n') lines.append(blanks, ' ');
+  }
+  return lines;
+}
+
+/// As CLI11's own, but folded: a name, and what it means beside it, or below where it is long.
+class FoldingFormatter : public CLI::Formatter {
+ public:
+  std::string make_option(const CLI::Option* option, bool is_positional) const override {
+    return entry(make_option_name(option, is_positional) + make_option_opts(option),
+                 make_option_desc(option));
+  }
+  std::string make_subcommand(const CLI::App* command) const override {
+    return entry(command->get_display_name(true), command->get_description());
+  }
+  std::string make_description(const CLI::App* app) const override {
+    return folded_text(CLI::Formatter::make_description(app), kHelp_columns);
+  }
+
+ private:
+  static std::string entry(std::string name, const std::string& meaning) {
+    // lists of choices have no blanks to be folded at
+    if (2 + name.size() > kHelp_columns) {
+      for (std::size_t i = 0; i + 1 < name.size(); ++i) {
+        if (name[i] == ',' && name[i + 1] != ' ') name.insert(i + 1, " ");
+      }
+    }
+    const std::string folded = folded_text(name, kHelp_columns - 2);
+    std::string lines = indented(folded, 2);
+    if (meaning.empty()) return lines + "\n";
+    std::string beside =
+        indented(folded_text(meaning, kHelp_columns - kNames_columns), kNames_columns);
+    if (lines.size() + 1 < kNames_columns) return lines + beside.substr(lines.size()) + "\n";
+    return lines + "\n" + beside + "\n";
+  }
+};
+
+}  // namespace
+
+void lay_out_help(CLI::App& app) {
+  const auto formatter = std::make_shared<FoldingFormatter>();
+  app.formatter(formatter);
+  app.footer(
+      "gnbv COMMAND --help says more. To begin with:\n  gnbv run smoke --out runs/first\n"
+      "  gnbv render runs/first");
+  for (CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    command->formatter(formatter);
+    const auto example = std::find_if(kExamples.begin(), kExamples.end(), [&](const Example& e) {
+      return e.command == command->get_name();
+    });
+    if (example == kExamples.end()) continue;
+    command->footer("Examples:\n" + indented(example->lines, 2));
+  }
+}
+
+std::string nearest_word(std::string_view word, std::span<const std::string> known) {
+  const auto distance = [&](std::string_view other) {
+    std::vector<std::size_t> row(other.size() + 1);
+    std::iota(row.begin(), row.end(), 0U);
+    for (std::size_t i = 0; i < word.size(); ++i) {
+      std::size_t diagonal = std::exchange(row[0], i + 1);
+      for (std::size_t k = 0; k < other.size(); ++k) {
+        const std::size_t changed = diagonal + (word[i] == other[k] ? 0 : 1);
+        diagonal = std::exchange(row[k + 1], std::min({changed, row[k] + 1, row[k + 1] + 1}));
+      }
+    }
+    return row.back();
+  };
+  std::string nearest;
+  std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
+  for (const std::string& other : known) {
+    const bool begins = word.size() >= 2 && other.starts_with(word);
+    const std::size_t apart = begins ? 1 : distance(other);
+    if (apart >= least) continue;
+    least = apart;
+    nearest = other;
+  }
+  return nearest;
+}
+
+std::string meant_instead(const CLI::App& app, std::span<const std::string> words) {
+  const auto all = [](const auto*) { return true; };
+  std::vector<std::string> commands;
+  for (const CLI::App* const command : app.get_subcommands(all)) {
+    commands.push_back(command->get_name());
+  }
+  const auto is_word = [](const std::string& word) { return !word.starts_with("-"); };
+  const auto first = std::find_if(words.begin(), words.end(), is_word);
+  if (first == words.end()) return "";
+  if (std::count(commands.begin(), commands.end(), *first) == 0) {
+    const std::string nearest = nearest_word(*first, commands);
+    return nearest.empty() ? "" : fmt::format("did you mean `gnbv {}`?", nearest);
+  }
+  std::vector<std::string> options;
+  for (const CLI::Option* const option : app.get_subcommand(*first)->get_options(all)) {
+    for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+  }
+  for (const std::string& word : std::span(first, words.end())) {
+    const std::string name = word.substr(0, word.find('='));
+    if (!name.starts_with("--") || std::count(options.begin(), options.end(), name) > 0) continue;
+    const std::string nearest = nearest_word(name, options);
+    if (!nearest.empty()) return fmt::format("did you mean {}?", nearest);
+  }
+  return "";
+}
+
+}  // namespace gnbv

@@ -1,0 +1,27 @@
+// What --help prints, and what a mistyped word may have meant.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace CLI {
+class App;
+}  // namespace CLI
+
+namespace gnbv {
+
+/// Help of all commands in lines of at most 80 columns, each with examples at its end. To be called
+/// when all commands have their options.
+void lay_out_help(CLI::App& app);
+
+/// "did you mean `gnbv render`?" for the first of the words (argv without the program) that is no
+/// command, or no option of the command before it, but resembles one; else empty.
+std::string meant_instead(const CLI::App& app, std::span<const std::string> words);
+
+/// The one that takes the fewest letters to become `word` (Levenshtein 1966), if these are at most
+/// a third of it, or that `word` begins; else empty.
+std::string nearest_word(std::string_view word, std::span<const std::string> known);
+
+}  // namespace gnbv

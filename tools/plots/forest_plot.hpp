@@ -1,0 +1,16 @@
+// Paired differences of methods with their intervals, as reviews of trials draw them.
+#pragma once
+
+#include <optional>
+
+#include "bench/compare/comparison.hpp"
+#include "tools/plots/gnuplot.hpp"
+
+namespace gnbv {
+
+/// "forest-SCENARIO": for each metric and method that is not the baseline, the mean paired
+/// difference to the baseline with its 95 % interval, in percent of the baseline's mean, filled
+/// where the signed-rank test rejects after Holm. Nothing where no difference has an interval.
+std::optional<Plot> forest_plot(const Comparison& comparison, std::size_t scenario);
+
+}  // namespace gnbv

@@ -1,0 +1,20 @@
+// Names and numbers as people read them, on pictures, plots and pages.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace gnbv {
+
+/// Of a scenario, a utility or a preset: "Power plant" for "power_plant", "AEP" for "aep". What is
+/// no plain name of ours (lower case, digits, underscores), a file of the user's for one, stays.
+std::string human_name(std::string_view name);
+
+/// "1,234,567".
+std::string grouped(std::size_t count);
+
+/// "1 view", "12 views", "1,200 views".
+std::string counted(std::size_t count, std::string_view thing);
+
+}  // namespace gnbv
