@@ -97,6 +97,9 @@ def verdict(done, run, file, damage, command, sha):
         names = [Path(file).name]
         if damage is exchanged or command == 'run --resume':
             names += [Path(name).name for name in files_of(run)] + ['iterations.csv']
+        # a folder without scenario.yaml is none of a run; a run of two runs' files flies otherwise
+        names += {removed: ['holds no run', 'no run directory'],
+                  exchanged: ['flown again it left']}.get(damage, [])
         if not any(name in words for name in names):
             wrong = f'does not name it: {words[-300:]}'
     if wrong is None and command == 'run --resume' and done.returncode == 0:
