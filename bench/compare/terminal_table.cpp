@@ -19,7 +19,12 @@ std::vector<std::size_t> folded_widths(const TableLines& lines) {
   headless[0].assign(lines[0].size(), "");
   std::vector<std::size_t> widths = column_widths(headless, 0);
   for (std::size_t c = 0; c < widths.size(); ++c) {
+    constexpr std::size_t kShort = 7;  // "0.05 m" stays whole
     std::string_view rest = lines[0][c];
+    if (width_of(rest) <= kShort) {
+      widths[c] = std::max(widths[c], width_of(rest));
+      continue;
+    }
     while (!rest.empty()) {
       const std::size_t end = std::min(rest.find(' '), rest.size());
       widths[c] = std::max(widths[c], width_of(rest.substr(0, end)));

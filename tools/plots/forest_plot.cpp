@@ -42,7 +42,9 @@ std::string tics_of(const std::vector<ForestRow>& rows) {
   std::string tics;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (i > 0 && rows[i].label == rows[i - 1].label) continue;
-    tics += fmt::format("{}{} {}", tics.empty() ? "" : ", ", gnuplot_text(rows[i].label),
+    std::string label;  // which gnuplot takes for a format
+    for (const char c : rows[i].label) label += c == '%' ? "%%" : std::string(1, c);
+    tics += fmt::format("{}{} {}", tics.empty() ? "" : ", ", gnuplot_text(label),
                         -static_cast<double>(i));
   }
   return "set ytics (" + tics + ")\n";

@@ -142,9 +142,9 @@ std::string factor_panels(Panels& panels, const Columns& columns, bool is_smooth
       "plot $mean using 1:(0):($3+$4) with filledcurves fc rgb '{}' fs solid noborder, "
       "$mean using 1:(0):3 with filledcurves fc rgb '{}' fs solid noborder\n",
       kPredictionArea, kDensityArea);
-  text += panels.next("times", {{kPalette[2], "I = 1 + α E"},
-                                {kPalette[3], "D = exp(−λ d)"},
-                                {kPalette[4], "L = log10 N"}}) +
+  text += panels.next("", {{kPalette[2], "I = 1 + α E"},
+                           {kPalette[3], "D = exp(−λ d)"},
+                           {kPalette[4], "L = log10 N"}}) +
           axis_of(factors) + "plot " + raw_line(5, 2, is_smooth) + raw_line(6, 3, is_smooth) +
           raw_line(7, 4, is_smooth);
   return text + line("mean", 5, 2) + ", " + line("mean", 6, 3) + ", " + line("mean", 7, 4) + "\n";
