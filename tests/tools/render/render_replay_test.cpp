@@ -11,6 +11,7 @@
 #include "tests/support/temp_folder.hpp"
 #include "tools/mission/replay.hpp"
 #include "tools/render/picture.hpp"
+#include "tools/render/pictures.hpp"
 #include "tools/run_files/candidates_jsonl.hpp"
 #include "tools/run_files/cloud_file.hpp"
 
