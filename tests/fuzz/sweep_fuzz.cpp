@@ -27,7 +27,7 @@ void check(const std::string& text) {
       yaml.text_of(one, "scenarios", "a name");
     }
   }
-  const std::vector<SweepMethod> methods = read_methods(*root, yaml);
+  const std::vector<SweepMethod> methods = read_methods(*root, "/nowhere", yaml);
   GNBV_CHECK(methods.size() <= kMaxCells, "{} methods", methods.size());
   std::set<std::string> names;
   for (const SweepMethod& method : methods) {
