@@ -4,6 +4,7 @@
 A mission flies to its end whoever listens; what cannot be printed to stdout is exit code 1.
 """
 import json
+import os
 import subprocess
 import tempfile
 from pathlib import Path
@@ -48,6 +49,9 @@ LIMITS = {
     'ulimit -u 1': {0, 1},
     'ulimit -s 512': {0, 1},
 }
+# of somebody who is not root, whom that limit does not bind; the shell itself needs one
+PROCESSES = [f'ulimit -u {count}' for count in (2, 3, 4, 6)]
+NOBODY = 'setpriv --reuid=65534 --regid=65534 --clear-groups '
 BAD = ('internal error', 'terminate called', 'does not hold', 'json.exception')
 
 
@@ -91,6 +95,9 @@ def main():
             table.count('streams and devices', attack(gnbv, line, expected))
         for limit, expected in LIMITS.items():
             table.count('limits', attack(gnbv, f'{limit}; {program}{SMOKE}', expected))
+        for limit in PROCESSES if os.geteuid() == 0 else ():
+            table.count('limits of processes', attack(
+                gnbv, f'chmod 777 .; {limit}; exec {NOBODY}{program}{SMOKE}', {0, 1}))
     return table.end()
 
 

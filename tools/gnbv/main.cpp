@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <new>
@@ -92,10 +93,26 @@ int say_why(const std::exception& error) {
   return 1;
 }
 
+/// A library's thread that cannot be started throws where nobody can catch it.
+[[noreturn]] void end_uncaught() {
+  try {
+    if (const std::exception_ptr uncaught = std::current_exception()) {
+      std::rethrow_exception(uncaught);
+    }
+    gnbv::say("internal error: terminated");
+  } catch (const std::exception& error) {
+    gnbv::say("the system or a library gives up: {}", error.what());
+  } catch (...) {
+    gnbv::say("internal error: terminated");
+  }
+  std::_Exit(1);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   gnbv::prepare_standard_streams();
+  std::set_terminate(end_uncaught);
   int exit_code = 1;
   try {
     exit_code = run(argc, argv);
