@@ -6,6 +6,8 @@
 #include <btBulletDynamicsCommon.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <new>
 #include <vector>
 
 #include "sim/core/error.hpp"
@@ -70,6 +72,18 @@ struct StaticMesh {
   std::unique_ptr<btBvhTriangleMeshShape> shape;
 };
 
+void* allocate(std::size_t size) {
+  void* const memory = std::malloc(size);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+/// Bullet's settings; from now on it throws for want of memory instead of writing to address 0.
+btDefaultCollisionConstructionInfo settings_of_bullet() {
+  [[maybe_unused]] static const bool is_set = (btAlignedAllocSetCustom(allocate, std::free), true);
+  return {};
+}
+
 }  // namespace
 
 struct RigidVehicle::Scene {
@@ -109,7 +123,7 @@ struct RigidVehicle::Scene {
   const btCollisionShape* terrain_shape = nullptr;
   btStaticPlaneShape ground_shape{btVector3(0, 0, 1), 0.0};
   btCylinderShapeZ hull_shape;
-  btDefaultCollisionConfiguration configuration;
+  btDefaultCollisionConfiguration configuration{settings_of_bullet()};
   btCollisionDispatcher dispatcher{&configuration};
   btDbvtBroadphase broadphase;
   btSequentialImpulseConstraintSolver solver;
