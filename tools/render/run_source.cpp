@@ -111,9 +111,20 @@ void RunSource::fly_again(bool is_for_decision) {
   }
 }
 
+void RunSource::fly_again_for_profile() {
+  try {
+    fly_again(false);
+  } catch (const BadInput&) {
+    if (!expected_belief_ && !expected_decision_) throw;
+    expected_belief_.reset();  // the profile needs no view that can be flown again
+    expected_decision_.reset();
+    fly_again(false);
+  }
+}
+
 const std::vector<ProfileStage>& RunSource::profile() {
   expects_profile_ = true;
-  if (!profile_) fly_again(false);
+  if (!profile_) fly_again_for_profile();
   if (profile_->empty()) throw BadInput(why_no_profile(record_));
   return *profile_;
 }

@@ -55,6 +55,7 @@ class RunSource {
  private:
   RecordedMission mission(const std::string& note);
   void fly_again(bool is_for_decision);  // for all that is expected and not there
+  void fly_again_for_profile();          // with the rest, or alone when that cannot be had
 
   RunRecord record_;
   int threads_ = 1;

@@ -206,8 +206,8 @@ TEST(Report, NamesStayText) {
   EXPECT_EQ(report.html.find("<script>alert"), std::string::npos);
   EXPECT_EQ(report.html.find("<img src=x"), std::string::npos);
   EXPECT_EQ(part_of(report.html, "<title>", "</title>"),
-            "&lt;/script&gt;&lt;script&gt;alert(1)&lt;/script&gt;, proposed");
-  EXPECT_EQ(data_of(report)["runs"][0]["label"], record.scenario.name + ", proposed");
+            "&lt;/script&gt;&lt;script&gt;alert(1)&lt;/script&gt;, Proposed");
+  EXPECT_EQ(data_of(report)["runs"][0]["label"], record.scenario.name + ", Proposed");
 }
 
 TEST(Report, TheSameBytesAtAnyNumberOfThreads) {
@@ -264,7 +264,7 @@ TEST(Report, TheTitleIsTheUsersOrAHeadingOfTheRuns) {
   write_made_run(temp.path());
   RunRecord record = read_run(temp.path());
   record.scenario.name = "power_plant";
-  EXPECT_EQ(data_of(report_of({record}))["title"], "Power plant, proposed");
+  EXPECT_EQ(data_of(report_of({record}))["title"], "Power plant, Proposed");
   const Report titled = make_report({record}, {.title = "my_run"}, [](double) {});
   EXPECT_EQ(data_of(titled)["title"], "my_run");
 }
