@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tools/plots/script_parts.hpp"
@@ -50,6 +51,30 @@ std::string tics_of(const std::vector<ForestRow>& rows) {
   return "set ytics (" + tics + ")\n";
 }
 
+/// Between labels of the difference, so that about four of them stand side by side: 1, 2 or 5 times
+/// a power of ten.
+double tic_step(const std::vector<ForestRow>& rows) {
+  double low = 0.0, high = 0.0;
+  for (const ForestRow& row : rows) {
+    low = std::min(low, row.percent - row.half_percent);
+    high = std::max(high, row.percent + row.half_percent);
+  }
+  const double least = std::max((high - low) / 4.0, 1e-6);
+  const double power = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double times : {1.0, 2.0, 5.0}) {
+    if (times * power >= least) return times * power;
+  }
+  return 10.0 * power;
+}
+
+/// Room for the labels, as a share of the width: gnuplot's own guess leaves the plot a sliver.
+double label_share(const std::vector<ForestRow>& rows) {
+  constexpr double kCharacter = 0.0136;
+  std::size_t longest = 0;
+  for (const ForestRow& row : rows) longest = std::max(longest, row.label.size());
+  return std::min(0.6, 0.03 + kCharacter * static_cast<double>(longest));
+}
+
 }  // namespace
 
 std::optional<Plot> forest_plot(const Comparison& comparison, std::size_t scenario) {
@@ -80,18 +105,23 @@ std::optional<Plot> forest_plot(const Comparison& comparison, std::size_t scenar
   const std::string x_label =
       fmt::format("difference to {} (% of its mean; 95 % interval; filled: significant)",
                   human_name(comparison.methods[comparison.baseline]));
-  return Plot{"forest-" + comparison.scenarios[scenario],
-              data + tics_of(rows) +
-                  fmt::format("set yrange [{}:0.7]\nset xlabel {}\n",
-                              0.3 - static_cast<double>(rows.size()), gnuplot_text(x_label)) +
-                  "set key at screen 0.98,0.985 right top horizontal\nset rmargin 3\n" +
-                  fmt::format("set tmargin at screen {:.4f}\n", 1.0 - 100.0 / height_px) +
-                  fmt::format("set label 1 {} at screen 0.02,{:.4f} left textcolor rgb '#262c36'\n",
-                              gnuplot_text(human_name(comparison.scenarios[scenario])),
-                              1.0 - 45.0 / height_px) +
-                  "set arrow 1 from 0,graph 0 to 0,graph 1 nohead lw 1.0 lc rgb '#5c6470'\nplot " +
-                  entries.substr(2) + "\n",
-              height_px};
+  return Plot{
+      "forest-" + comparison.scenarios[scenario],
+      data + tics_of(rows) +
+          fmt::format("set yrange [{}:0.7]\nset xtics {}\n", 0.3 - static_cast<double>(rows.size()),
+                      tic_step(rows)) +
+          fmt::format("set bmargin at screen {:.4f}\n", 150.0 / height_px) +
+          fmt::format("set label 2 {} at screen 0.5,{:.4f} center textcolor rgb '#262c36'\n",
+                      gnuplot_text(x_label), 30.0 / height_px) +
+          "set key at screen 0.98,0.985 right top horizontal\nset rmargin 3\n" +
+          fmt::format("set lmargin at screen {:.3f}\n", label_share(rows)) +
+          fmt::format("set tmargin at screen {:.4f}\n", 1.0 - 100.0 / height_px) +
+          fmt::format("set label 1 {} at screen 0.02,{:.4f} left textcolor rgb '#262c36'\n",
+                      gnuplot_text(human_name(comparison.scenarios[scenario])),
+                      1.0 - 45.0 / height_px) +
+          "set arrow 1 from 0,graph 0 to 0,graph 1 nohead lw 1.0 lc rgb '#5c6470'\nplot " +
+          entries.substr(2) + "\n",
+      height_px};
 }
 
 }  // namespace gnbv
