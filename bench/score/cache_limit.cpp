@@ -60,11 +60,10 @@ std::vector<fs::path> kinds_in(const fs::path& folder) {
   return kinds;
 }
 
-void remove_file(const CacheFile& file, CacheUse& removed) {
+/// The bytes that this freed.
+std::uint64_t remove_file(const CacheFile& file) {
   std::error_code error;
-  if (!fs::remove(file.path, error)) return;
-  ++removed.results;
-  removed.bytes += file.bytes;
+  return fs::remove(file.path, error) ? file.bytes : 0;
 }
 
 }  // namespace
@@ -106,7 +105,7 @@ CacheUse prune_cache(const fs::path& folder, std::uint64_t limit_bytes) {
         bytes += file.bytes;
         results.push_back(std::move(file));
       } else if (file.used < stale) {
-        remove_file(file, removed);
+        removed.bytes += remove_file(file);  // of a program that was killed: no result
       }
     }
   }
@@ -115,8 +114,11 @@ CacheUse prune_cache(const fs::path& folder, std::uint64_t limit_bytes) {
   });
   for (const CacheFile& result : results) {
     if (bytes <= limit_bytes) break;
-    remove_file(result, removed);
     bytes -= result.bytes;
+    if (const std::uint64_t freed = remove_file(result); freed > 0) {
+      ++removed.results;
+      removed.bytes += freed;
+    }
   }
   return removed;
 }

@@ -75,7 +75,7 @@ std::size_t read_frame(std::span<const std::uint8_t> bytes, ReadCounts& counts,
   }
   const MessageInfo* const info = find_message(h.frame.message_id);
   const std::size_t crc_at = h.header_size + h.payload_size;
-  // what costs least is asked first: the CRC of a wrong length is never computed
+  // what costs least is asked first: no CRC of what is unknown or, in MAVLink 1, of a wrong length
   if (info == nullptr || (h.incompatibility_flags & ~kSignedFlag) != 0) {
     ++counts.unknown;
   } else if (h.is_version_1 && h.payload_size > info->base_size) {

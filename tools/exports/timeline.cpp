@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sensors/camera_model.hpp"
+#include "sim/core/embed.hpp"
 #include "sim/core/error.hpp"
 #include "sim/mesh/mesh_file.hpp"
 #include "tools/mission/child_pipe.hpp"
@@ -17,20 +18,10 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-#define GNBV_EMBED(name, file)                                                                \
-  asm(".pushsection .rodata\ngnbv_" #name "_begin:\n.incbin \"" GNBV_TIMELINE_FOLDER "/" file \
-      "\"\ngnbv_" #name "_end:\n.popsection\n");                                              \
-  extern "C" const char gnbv_##name##_begin;                                                  \
-  extern "C" const char gnbv_##name##_end;                                                    \
-  std::string name() {                                                                        \
-    return {&gnbv_##name##_begin,                                                             \
-            static_cast<std::size_t>(&gnbv_##name##_end - &gnbv_##name##_begin)};             \
-  }
-GNBV_EMBED(write_timeline_py, "write_timeline.py")
-GNBV_EMBED(recorded_run_py, "recorded_run.py")
-GNBV_EMBED(to_rerun_py, "to_rerun.py")
-GNBV_EMBED(to_mcap_py, "to_mcap.py")
-#undef GNBV_EMBED
+GNBV_EMBED(write_timeline_py, GNBV_TIMELINE_FOLDER "/write_timeline.py");
+GNBV_EMBED(recorded_run_py, GNBV_TIMELINE_FOLDER "/recorded_run.py");
+GNBV_EMBED(to_rerun_py, GNBV_TIMELINE_FOLDER "/to_rerun.py");
+GNBV_EMBED(to_mcap_py, GNBV_TIMELINE_FOLDER "/to_mcap.py");
 
 /// View, time, place and attitude of the optical frame, names of the images.
 Json frame_json(int view, double time_s, const Isometry& T_world_camera,
@@ -127,7 +118,7 @@ std::string write_timeline(const RunRecord& record, const TimelineParts& parts,
       {"cloud", growth_of(record, parts.cloud)}};
   const Json modules = {
       {"recorded_run", recorded_run_py()}, {"to_rerun", to_rerun_py()}, {"to_mcap", to_mcap_py()}};
-  ChildPipe child({python_program(), "-c", write_timeline_py()});
+  ChildPipe child({python_program(), "-c", std::string(write_timeline_py())});
   child.write(modules.dump() + "\n" + scene.dump() + "\n");
   const Json answer = Json::parse(child.read_line(), nullptr, false);
   if (!answer.is_object()) {

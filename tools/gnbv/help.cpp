@@ -19,8 +19,8 @@ struct Example {
   std::string_view command;
   std::string_view lines;
 };
-constexpr std::array<Example, 17> kExamples = {
-    {{"fly", "gnbv fly smoke --mavlink udp://127.0.0.1:14540"},
+constexpr std::array<Example, 18> kExamples = {
+    {{"fly", "gnbv fly smoke\ngnbv fly aircraft --mavlink udpout://127.0.0.1:14550 --speed 2"},
      {"run",
       "gnbv run aircraft --seed 1 --out runs/first\n"
       "gnbv run aircraft --utility tour --set planner.cloud.leaf_m=0.02\n"
@@ -28,6 +28,7 @@ constexpr std::array<Example, 17> kExamples = {
      {"sweep", "gnbv sweep sweep.yaml --out runs/sweep --jobs 2"},
      {"table", "gnbv table aircraft --seeds 5 --jobs 2"},
      {"compare", "gnbv compare smoke --utilities proposed,bircher --seeds 8"},
+     {"cache", "gnbv cache --prune"},
      {"ceiling", "gnbv ceiling aircraft"},
      {"render",
       "gnbv render runs/first\n"

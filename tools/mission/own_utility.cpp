@@ -9,6 +9,7 @@
 
 #include "planner/view/view_fields.hpp"
 #include "scenarios/flow_yaml.hpp"
+#include "sim/core/embed.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/mission/child_pipe.hpp"
@@ -18,15 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-asm(".pushsection .rodata\ngnbv_utility_child_begin:\n.incbin \"" GNBV_UTILITY_CHILD
-    "\"\ngnbv_utility_child_end:\n.popsection\n");
-extern "C" const char gnbv_utility_child_begin;
-extern "C" const char gnbv_utility_child_end;
-
-std::string child_script() {
-  return {&gnbv_utility_child_begin,
-          static_cast<std::size_t>(&gnbv_utility_child_end - &gnbv_utility_child_begin)};
-}
+GNBV_EMBED(child_script, GNBV_UTILITY_CHILD);
 
 /// NumPy's dtype of OwnCandidate, with the fields that are computed; the others are not there, so
 /// that nobody takes their zeros for counts.
@@ -59,7 +52,7 @@ Json dtype_of(const OwnUtilityConfig& config) {
 class PythonUtility {
  public:
   explicit PythonUtility(const OwnUtilityConfig& config)
-      : function_(config.function), child_({python_program(), "-c", child_script()}) {
+      : function_(config.function), child_({python_program(), "-c", std::string(child_script())}) {
     const Json hello = {
         {"function", config.function}, {"source", config.source}, {"dtype", dtype_of(config)}};
     child_.write(hello.dump() + "\n");
