@@ -114,11 +114,12 @@ CacheUse prune_cache(const fs::path& folder, std::uint64_t limit_bytes) {
   });
   for (const CacheFile& result : results) {
     if (bytes <= limit_bytes) break;
-    bytes -= result.bytes;
-    if (const std::uint64_t freed = remove_file(result); freed > 0) {
-      ++removed.results;
-      removed.bytes += freed;
-    }
+    std::error_code error;
+    const std::uint64_t freed = remove_file(result);
+    if (freed > 0 || !fs::exists(result.path, error)) bytes -= result.bytes;
+    if (freed == 0) continue;
+    ++removed.results;
+    removed.bytes += freed;
   }
   return removed;
 }

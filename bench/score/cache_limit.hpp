@@ -10,7 +10,7 @@
 namespace gnbv {
 
 /// What the file of every result begins with, whatever version stored it. No other file of the
-/// folder is ever counted or removed.
+/// folder is ever counted or removed, but an empty .part.
 inline constexpr std::string_view kCacheFirstWords = "gnbv cache ";
 
 inline constexpr std::uint64_t kDefaultCacheLimit_bytes = std::uint64_t{2} << 30;

@@ -36,7 +36,7 @@ LocalPositionNed local_position_of(const VehicleState& state, std::uint32_t time
 constexpr double kOriginLatitude_deg = 47.397742;
 constexpr double kOriginLongitude_deg = 8.545594;
 GpsGlobalOrigin global_origin();
-/// On a sphere of 6371 km, as PX4 projects; to a millimetre within 100 m of the origin.
+/// On a sphere of 6371 km, as PX4 projects, in steps of 1e-7 deg (11 mm).
 GlobalPositionInt global_position_of(const VehicleState& state, std::uint32_t time_boot_ms);
 /// Home on the ground there.
 HomePosition home_position_of(const Eigen::Vector2d& home_world_m);

@@ -53,6 +53,24 @@ std::uint32_t resolve_host(const std::string& host, const std::string& url) {
   return from_system(system).host;
 }
 
+/// The address behind the scheme of a URL.
+Address address_in(const std::string& url, std::string_view scheme) {
+  const std::size_t colon = url.rfind(':');
+  if (!url.starts_with(scheme) || colon < scheme.size()) {
+    throw BadInput(
+        fmt::format("'{}': expected {}HOST:PORT, such as {}127.0.0.1:14540", url, scheme, scheme));
+  }
+  const std::string_view port_text = std::string_view(url).substr(colon + 1);
+  Address address;
+  const auto [end, error] =
+      std::from_chars(port_text.data(), port_text.data() + port_text.size(), address.port);
+  if (error != std::errc() || end != port_text.data() + port_text.size()) {
+    throw BadInput(fmt::format("{}: port '{}' is not a number from 0 to 65535", url, port_text));
+  }
+  address.host = resolve_host(url.substr(scheme.size(), colon - scheme.size()), url);
+  return address;
+}
+
 }  // namespace
 
 std::string url_of(const Address& address) {
@@ -62,34 +80,24 @@ std::string url_of(const Address& address) {
 
 bool is_loopback(const Address& address) { return address.host >> 24 == 127; }
 
-Address resolve_udp_url(const std::string& url) {
-  const std::size_t colon = url.rfind(':');
-  if (!url.starts_with(kScheme) || colon < kScheme.size()) {
-    throw BadInput(
-        fmt::format("'{}': expected udp://HOST:PORT, such as udp://127.0.0.1:14540", url));
-  }
-  const std::string_view port_text = std::string_view(url).substr(colon + 1);
-  Address address;
-  const auto [end, error] =
-      std::from_chars(port_text.data(), port_text.data() + port_text.size(), address.port);
-  if (error != std::errc() || end != port_text.data() + port_text.size()) {
-    throw BadInput(fmt::format("{}: port '{}' is not a number from 0 to 65535", url, port_text));
-  }
-  address.host = resolve_host(url.substr(kScheme.size(), colon - kScheme.size()), url);
-  return address;
-}
+Address resolve_udp_url(const std::string& url) { return address_in(url, kScheme); }
 
 Meeting resolve_meeting(const std::string& url) {
   constexpr std::string_view kOut = "udpout://";
   constexpr std::string_view kIn = "udpin://";
   for (const std::string_view scheme : {kOut, kIn}) {
     if (!url.starts_with(scheme)) continue;
-    const std::string rest = url.substr(scheme.size());
-    const Address address = resolve_udp_url(std::string(kScheme) + rest);
+    const Address address = address_in(url, scheme);
     if (scheme == kOut && (address.host == INADDR_ANY || address.port == 0)) {
       throw BadInput(fmt::format("{}: nobody waits there; name the client's own address", url));
     }
     return {address, scheme == kOut};
+  }
+  if (!url.starts_with(kScheme)) {
+    throw BadInput(
+        fmt::format("'{}': expected udpout://HOST:PORT of a client to speak to, or "
+                    "udpin://HOST:PORT to listen at",
+                    url));
   }
   return {resolve_udp_url(url), false};
 }

@@ -237,7 +237,8 @@ def test_nobody_else_is_heard(fly, connected):
         stranger.mav.command_long_send(1, 1, mavlink.MAV_CMD_COMPONENT_ARM_DISARM, 0, 1,
                                        0, 0, 0, 0, 0, 0)
     stranger.close()
-    time.sleep(2.5)
+    asked_ms = client.until("ATTITUDE").time_boot_ms
+    client.until("ATTITUDE", lambda m: m.time_boot_ms > asked_ms + 2500)  # older news is read
     assert client.until_disarmed()
     summary = vehicle.end()
     assert summary["dropped"]["foreign_datagrams"] == 10 and summary["commands"] == 0

@@ -13,7 +13,7 @@ import shutil
 import tempfile
 from pathlib import Path
 
-from run_attack import Gnbv, Table, arguments, complaint, files_of
+from run_attack import Gnbv, Table, arguments, complaint, files_of, names_of
 
 SMOKE = ['smoke', '--set', 'planner.termination.max_iterations=6', '--frames', '--candidates',
          '--quiet']
@@ -98,7 +98,7 @@ def verdict(done, run, file, damage, command, sha):
         if damage is exchanged or command == 'run --resume':
             names += [Path(name).name for name in files_of(run)] + ['iterations.csv']
         # a folder without scenario.yaml is none of a run; a run of two runs' files flies otherwise
-        names += {removed: ['holds no run', 'no run directory'],
+        names += {removed: ['no run directory'],
                   exchanged: ['flown again it left']}.get(damage, [])
         if not any(name in words for name in names):
             wrong = f'does not name it: {words[-300:]}'
@@ -124,7 +124,7 @@ def attack(gnbv, folder, number, file, damage, command, sha, seed):
 
 def main():
     def extra(parser):
-        parser.add_argument('--commands', default=','.join(COMMANDS),
+        parser.add_argument('--commands', type=names_of(COMMANDS), default=','.join(COMMANDS),
                             help='which, with commas (default: all)')
         parser.add_argument('--files', default='', help='only those whose name holds this')
         parser.add_argument('--every', type=int, default=1,
@@ -144,7 +144,7 @@ def main():
         # of the frames those of one view stand for all
         names = [n for n in files_of(whole) if 'frames/000' not in n or '0003' in n]
         tries = [(file, damage, command) for file in names if options.files in file
-                 for damage in DAMAGES for command in options.commands.split(',')
+                 for damage in DAMAGES for command in options.commands
                  for _ in range(options.tries)][::options.every]
         pool = concurrent.futures.ThreadPoolExecutor(options.jobs)
         try:

@@ -30,12 +30,12 @@ SCENARIOS = {
 
 def hash_of(gnbv, words, threads, simd, out):
     gnbv.environment['GNBV_SIMD'] = simd
+    shutil.rmtree(out, ignore_errors=True)
     done = gnbv('run', *words, '--threads', threads, '--quiet', '--out', out)
     wrong = complaint(done)
     if wrong or done.returncode != 0:
         return None, wrong or done.stderr.decode(errors='replace')[-300:]
     found = json.loads((out / 'summary.json').read_text())['result_sha256']
-    shutil.rmtree(out)
     return found, None
 
 

@@ -14,7 +14,7 @@ import time
 from pathlib import Path
 
 from run_attack import (Gnbv, Table, arguments, complaint, difference, files_of, half_written,
-                        stopped)
+                        names_of, stopped)
 
 SMOKE = ['smoke', '--set', 'planner.termination.max_iterations=30', '--frames', '--candidates',
          '--quiet']
@@ -175,8 +175,8 @@ ATTACKS = {'runs': runs, 'sweeps': sweeps, 'tables': tables, 'papers': papers,
 
 def main():
     def extra(parser):
-        parser.add_argument('--only', default='', help='only these, with commas: '
-                            + ', '.join(ATTACKS))
+        parser.add_argument('--only', type=names_of(ATTACKS), default=','.join(ATTACKS),
+                            help='only these (default: %(default)s)')
         parser.add_argument('--paper-tries', type=int, help='of the paper (default: a fifth)')
 
     options = arguments(__doc__, tries=50, extra=extra)
@@ -185,7 +185,7 @@ def main():
     with tempfile.TemporaryDirectory(prefix='gnbv_attack_') as name:
         folder = Path(name)
         gnbv = Gnbv(options.gnbv, folder)
-        for name in options.only.split(',') if options.only else ATTACKS:
+        for name in options.only:
             ATTACKS[name](table, gnbv, folder, options, dice)
     return table.end()
 

@@ -6,6 +6,7 @@ many are flown one after the other by the program itself, with a cache of a few 
 """
 import os
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
@@ -78,9 +79,9 @@ def main():
               f'the last {peaks_kib[-1]}, cache {bytes_in(Path(name) / "cache")} bytes')
     if options.test.exists():
         missions = max(9, options.tries)  # fewer do not show what grows
-        for _ in range(missions):
-            table.count('missions in one process')
-        table.count('their memory and descriptors', in_one_process(options.test, missions))
+        table.count(f'{missions} missions in one process', in_one_process(options.test, missions))
+    else:
+        print(f'long-haul: no {options.test}: no missions in one process are flown', file=sys.stderr)
     return table.end()
 
 

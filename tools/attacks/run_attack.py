@@ -32,6 +32,16 @@ def arguments(doc, tries, extra=None):
     return given
 
 
+def names_of(known):
+    """What reads an option that takes some of these, with commas between them."""
+    def names(text):
+        found = text.split(',')
+        if unknown := sorted(set(found) - set(known)):
+            raise argparse.ArgumentTypeError(f'{unknown[0]!r} is none of {", ".join(known)}')
+        return found
+    return names
+
+
 def in_a_namespace(name):
     """Starts the attack anew where it may mount, with no mount seen from outside."""
     if os.environ.get('GNBV_ATTACK_INSIDE'):
@@ -87,13 +97,34 @@ class Gnbv:
                                 env=self.environment, stdin=subprocess.DEVNULL, **more)
 
 
+def code_of(process):
+    """Its exit code; None, and it is killed, when it hangs."""
+    try:
+        return process.wait(TIMEOUT_S)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()
+        return None
+
+
+def end_of(process):
+    """As Gnbv.__call__ returns it, of a process that was started with stderr in a pipe."""
+    try:
+        said = process.communicate(timeout=TIMEOUT_S)[1]
+        return subprocess.CompletedProcess(process.args, process.returncode, b'', said)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.communicate()
+        return subprocess.CompletedProcess(process.args, None, b'', b'hangs')
+
+
 def stopped(process, after_s, signal):
     """Sends the signal after that time; the exit code."""
     try:
         process.wait(after_s)
     except subprocess.TimeoutExpired:
         process.send_signal(signal)
-    return process.wait(TIMEOUT_S)
+    return code_of(process)
 
 
 def complaint(done):

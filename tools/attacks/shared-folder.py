@@ -11,7 +11,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from run_attack import Gnbv, Table, arguments, difference, stopped
+from run_attack import Gnbv, Table, arguments, difference, end_of, stopped
 import subprocess
 
 SMOKE = ['smoke', '--set', 'planner.termination.max_iterations=12', '--quiet']
@@ -24,8 +24,8 @@ def pair(gnbv, words, dice):
         both.append(gnbv.start('run', *SMOKE, *more, stderr=subprocess.PIPE,
                                stdout=subprocess.DEVNULL))
         time.sleep(dice.choice([0.0, 0.0, 0.01, 0.05, 0.2]))
-    said = [process.communicate(timeout=300)[1].decode(errors='replace') for process in both]
-    return [process.returncode for process in both], said
+    ends = [end_of(process) for process in both]
+    return [end.returncode for end in ends], [end.stderr.decode(errors='replace') for end in ends]
 
 
 def is_of_one(run):
@@ -37,7 +37,7 @@ def is_of_one(run):
 def two_seeds(table, gnbv, folder, attempt, dice):
     run = folder / f'seeds-{attempt}'
     codes, said = pair(gnbv, [['--seed', '1', '--out', run], ['--seed', '2', '--out', run]], dice)
-    if sorted(codes) != [0, 2]:
+    if set(codes) != {0, 2}:
         return f'exit codes {codes}: {said}'
     loser = said[codes.index(2)]
     if 'another gnbv' not in loser and 'holds a run' not in loser:

@@ -14,7 +14,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from run_attack import Gnbv, Table, arguments, stopped
+from run_attack import Gnbv, Table, arguments, code_of, stopped
 
 ENDS = ('SIGINT', 'SIGTERM', 'SIGHUP')
 FEW = ['--set', 'planner.termination.max_iterations=4', '--quiet']
@@ -34,7 +34,7 @@ def in_order(gnbv, run, ends, moments_s):
         time.sleep(max(0.0, begin + moment_s - time.monotonic()))
         if process.poll() is None:
             process.send_signal(signal.Signals[end])
-    code = process.wait(300)
+    code = code_of(process)
     ended = termination(run)
     if code == 0 and ended == 'max_iterations':
         return None
@@ -42,7 +42,7 @@ def in_order(gnbv, run, ends, moments_s):
         return None
     # before the mission began there is nothing to put in order; who is asked twice ends at once
     has_begun = (run / 'inputs.json').exists()
-    if -code in (signal.Signals[end] for end in ends) and (len(ends) > 1 or not has_begun):
+    if code is not None and -code in (signal.Signals[end] for end in ends) and (len(ends) > 1 or not has_begun):
         return None
     return f'{ends} at {moments_s}: exit code {code}, {ended}'
 

@@ -119,7 +119,10 @@ std::string write_timeline(const RunRecord& record, const TimelineParts& parts,
   const Json modules = {
       {"recorded_run", recorded_run_py()}, {"to_rerun", to_rerun_py()}, {"to_mcap", to_mcap_py()}};
   ChildPipe child({python_program(), "-c", std::string(write_timeline_py())});
-  child.write(modules.dump() + "\n" + scene.dump() + "\n");
+  const auto line = [](const Json& json) {  // ASCII, whatever Python takes for its locale
+    return json.dump(-1, ' ', true, Json::error_handler_t::replace) + "\n";
+  };
+  child.write(line(modules) + line(scene));
   const Json answer = Json::parse(child.read_line(), nullptr, false);
   if (!answer.is_object()) {
     throw BadInput(fmt::format("--format {}: {} does not run ({}); GNBV_PYTHON names another",

@@ -58,6 +58,7 @@ nlohmann::ordered_json summary_of(const Scenario& scenario, const Quadrotor& veh
           {"questions", obeyed.questions},
           {"ignored", obeyed.ignored},
           {"sent", obeyed.sent},
+          {"unsaid", obeyed.unsaid},
           {"dropped",
            {{"bad_crc", link.frames.bad_crc},
             {"truncated", link.frames.truncated},

@@ -13,7 +13,8 @@ namespace gnbv {
 /// slow the mission. It dies with us, however we die.
 class LiveChild {
  public:
-  /// Returns when browsers are heard. Throws BadInput when the port cannot be had.
+  /// Returns when browsers are heard. Throws BadInput when the port cannot be had,
+  /// std::system_error when the system gives no process.
   LiveChild(const std::filesystem::path& run, int port);
   ~LiveChild();
   LiveChild(const LiveChild&) = delete;

@@ -1,6 +1,7 @@
 #include "tools/live/live_report.hpp"
 
 #include <chrono>
+#include <cstdlib>
 #include <optional>
 #include <thread>
 
@@ -43,9 +44,10 @@ void serve_report(const std::filesystem::path& run, const LiveReportOptions& opt
   std::optional<Stage> shown;
   for (int look = 0; !InterruptGuard::requested(); ++look) {
     if (look % kLooksBetweenPages == 0) {
+      const bool was_finished = is_finished(run);  // asked first: the record has what it says
       const std::optional<RunRecord> record = read_growing(run);
       if (record && !record->views.empty()) {
-        const Stage stage{record->views.size(), is_finished(run)};
+        const Stage stage{record->views.size(), was_finished};
         if (shown != stage) {
           Report report =
               make_report({*record}, {.threads = options.threads, .is_live = true}, [](double) {});
@@ -56,6 +58,7 @@ void serve_report(const std::filesystem::path& run, const LiveReportOptions& opt
     }
     std::this_thread::sleep_for(kLook);
   }
+  std::_Exit(0);  // nothing is left to be put in order, and who trickles would hold us up
 }
 
 }  // namespace gnbv

@@ -57,7 +57,11 @@ struct LiveServer::Impl {
   /// A name of another site that was made to point here asks for itself.
   bool is_for_us(const httplib::Request& request) const {
     const std::string host = request.get_header_value("Host");
-    return host == fmt::format("{}:{}", kHost, port) || host == fmt::format("localhost:{}", port);
+    const std::string end = fmt::format(":{}", port);
+    const auto is = [&](const std::string& name) {
+      return host == name + end || (port == 80 && host == name);  // browsers leave that one out
+    };
+    return is(kHost) || is("localhost");
   }
 
   httplib::Server::HandlerResponse refuse(const httplib::Request& request,
@@ -105,6 +109,7 @@ LiveServer::LiveServer(int port) : impl_(std::make_unique<Impl>()) {
                     port, kHost));
   }
   impl.thread = std::thread([&impl] { impl.server.listen_after_bind(); });
+  while (!server.is_running()) std::this_thread::yield();  // a stop() before that stops nothing
 }
 
 LiveServer::~LiveServer() {

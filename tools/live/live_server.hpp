@@ -10,7 +10,8 @@ namespace gnbv {
 
 /// Serves on 127.0.0.1 from threads of its own: `/` is the page, `/views` the number of views it
 /// shows. Answers nothing but GET and HEAD, and only to those who asked for this machine by name,
-/// so that no page of another site can read it. What hangs or trickles is dropped after seconds.
+/// so that no page of another site can read it. Who is silent is dropped after seconds; eight who
+/// trickle keep others waiting, and its end as long.
 class LiveServer {
  public:
   /// Port 0: any free one. Throws BadInput when the port cannot be had.

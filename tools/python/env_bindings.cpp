@@ -29,7 +29,7 @@ nb::dict dict_of(const EnvState& state) {
   out["view"] = array_of(std::span(&state.pose, 1));
   out["map"] = floats(state.seen.map);
   out["pose"] = floats(state.seen.pose);
-  out["progress"] = floats(state.seen.progress);
+  out["entropy_left"] = state.seen.entropy_left;
   out["views"] = owned_array(state.seen.views, 5);
   out["mask"] = owned_array(state.seen.mask);
   out["candidates"] = owned_array(state.seen.candidates, kCandidateFeatures);

@@ -116,8 +116,7 @@ void EnvMission::fly(Scenario scenario) {
     const auto coverage_of = coverage_meter(stage_->reference, stage_->scene);
     std::vector<ViewPose> taken;
     const auto observe = [&] {
-      state_.seen =
-          observer_->observe(*belief_, state_.pose, taken, taken.size(), with_candidates_);
+      state_.seen = observer_->observe(*belief_, state_.pose, taken, with_candidates_);
     };
     MissionHooks hooks;
     hooks.should_stop = [this] { return is_closing_.load(); };

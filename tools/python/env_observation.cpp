@@ -52,9 +52,8 @@ std::size_t EnvObserver::candidate_count() const {
 }
 
 EnvObservation EnvObserver::observe(const Belief& belief, const ViewPose& current,
-                                    std::span<const ViewPose> recent, std::size_t views_taken,
-                                    bool with_candidates) {
-  if (views_taken <= 1) first_entropy_nat_ = belief.grid.total_entropy_nat();
+                                    std::span<const ViewPose> recent, bool with_candidates) {
+  if (recent.size() <= 1) first_entropy_nat_ = belief.grid.total_entropy_nat();
   EnvObservation out{.map = coarse_map(belief.grid), .views = {}, .mask = {}, .candidates = {}};
   const Box3& box_m = model_.navigation_m;
   const Vec3 at = (current.p_world_m - box_m.min()).cwiseQuotient(box_m.sizes());
@@ -63,9 +62,7 @@ EnvObservation EnvObserver::observe(const Belief& belief, const ViewPose& curren
   }
   out.pose[3] = bounded(std::sin(current.yaw_rad));
   out.pose[4] = bounded(std::cos(current.yaw_rad));
-  out.progress = {
-      bounded(belief.grid.total_entropy_nat() / std::max(first_entropy_nat_, 1e-9)),
-      bounded(static_cast<double>(views_taken) / model_.config.termination.max_iterations)};
+  out.entropy_left = bounded(belief.grid.total_entropy_nat() / std::max(first_entropy_nat_, 1e-9));
   if (with_candidates) add_candidates(belief, current, recent, out);
   return out;
 }

@@ -19,12 +19,12 @@ constexpr std::size_t kCandidateFeatures = 8;
 
 /// All in [-1, 1]; shares, logarithms and coordinates of the workspace.
 struct EnvObservation {
-  std::vector<float> map;           // 3 x kCoarseCells: shares of unknown, free and occupied voxels
-  std::array<float, 5> pose{};      // x, y, z of the navigation box, sine and cosine of the yaw
-  std::array<float, 2> progress{};  // entropy left of that at first, share of the views used
-  std::vector<double> views;        // candidates x 5, as ViewRows
-  std::vector<std::uint8_t> mask;   // whether it may be flown to
-  std::vector<float> candidates;    // x kCandidateFeatures; 0 where it may not
+  std::vector<float> map;          // 3 x kCoarseCells: shares of unknown, free and occupied voxels
+  std::array<float, 5> pose{};     // x, y, z of the navigation box, sine and cosine of the yaw
+  float entropy_left = 0.0F;       // share of that at first
+  std::vector<double> views;       // candidates x 5, as ViewRows
+  std::vector<std::uint8_t> mask;  // whether it may be flown to
+  std::vector<float> candidates;   // x kCandidateFeatures; 0 where it may not
 };
 
 class EnvObserver {
@@ -33,8 +33,7 @@ class EnvObserver {
       : model_(model), scales_(std::move(scales)), bench_(model_, 1) {}
 
   EnvObservation observe(const Belief& belief, const ViewPose& current,
-                         std::span<const ViewPose> recent, std::size_t views_taken,
-                         bool with_candidates);
+                         std::span<const ViewPose> recent, bool with_candidates);
   /// How many candidates there always are.
   std::size_t candidate_count() const;
   const PlannerModel& model() const { return model_; }

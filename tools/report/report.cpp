@@ -17,6 +17,7 @@
 #include "tools/report/structures.hpp"
 #include "tools/run_files/file_names.hpp"
 #include "tools/run_files/run_groups.hpp"
+#include "tools/run_files/words.hpp"
 
 namespace gnbv {
 namespace {
@@ -91,24 +92,16 @@ Json tables_json(const std::vector<RunRecord>& records) {
   return json;
 }
 
-/// Names of scenarios as a heading: "Power plant" of "power_plant".
-std::string as_heading(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  if (!name.empty() && name[0] >= 'a' && name[0] <= 'z') {
-    name[0] = static_cast<char>(name[0] - 'a' + 'A');
-  }
-  return name;
-}
-
 std::string title_of(const std::vector<RunRecord>& records) {
-  if (records.size() == 1) return as_heading(run_title(records[0]));
+  if (records.size() == 1) return run_title(records[0]);
   std::vector<std::string> scenarios;
   for (const RunRecord& r : records) {
-    if (std::find(scenarios.begin(), scenarios.end(), r.scenario.name) == scenarios.end()) {
-      scenarios.push_back(r.scenario.name);
+    const std::string name = human_name(r.scenario.name);
+    if (std::find(scenarios.begin(), scenarios.end(), name) == scenarios.end()) {
+      scenarios.push_back(name);
     }
   }
-  return as_heading(fmt::format("{}: {} runs", fmt::join(scenarios, ", "), records.size()));
+  return fmt::format("{}: {} runs", fmt::join(scenarios, ", "), records.size());
 }
 
 /// The coverage that could be reached, where an earlier command found it.

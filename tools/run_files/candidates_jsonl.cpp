@@ -193,7 +193,10 @@ std::vector<Plan> read_all_candidates(const fs::path& run, std::size_t iteration
   for (int line = 1; !rest.empty(); ++line) {
     try {
       const Json json = Json::parse(next_part(rest, '\n'));
-      const auto of = json.at("iteration").get<std::size_t>();
+      const Json& iteration = json.at("iteration");
+      if (!iteration.is_number_unsigned())
+        throw BadInput("iteration: not a whole number from 0 on");
+      const auto of = iteration.get<std::size_t>();
       if (of < iterations) add_candidate(json, plans[of]);
     } catch (const std::exception& error) {
       throw BadInput(fmt::format("{}: {}; {} writes it anew", to_string(TextPlace{path, line}),

@@ -64,8 +64,9 @@ void need_usable(const fs::path& folder, const Scenario& scenario, bool resume) 
   std::error_code error;
   const bool holds_a_run = fs::exists(folder / kScenarioFile, error);
   if (!holds_a_run && !holds_only_leftovers(folder)) {
-    throw BadInput(
-        fmt::format("{}: is not empty and holds no run: choose another --out", folder.string()));
+    throw BadInput(fmt::format("{}: is not empty and holds no run{}: choose another --out",
+                               folder.string(),
+                               resume ? fmt::format(" to go on with (no {})", kScenarioFile) : ""));
   }
   if (holds_a_run && !resume) {
     throw BadInput(

@@ -282,6 +282,17 @@ TEST(MavlinkQuestions, ReadyToArmIsToldUntilAFailsafe) {
   EXPECT_EQ(status.sensors_present, status.sensors_health);
   EXPECT_NE(status.sensors_health & 0x10000000, 0U);  // PREARM_CHECK
   EXPECT_EQ(status.battery_remaining_percent, 75);
+
+  const Px4& px4 = session.vehicle().px4();
+  ASSERT_TRUE(session.fly_until({0, 0, 3}, 2.0, [&] { return session.now_s() > 1.0; }));
+  session.command(kDoSetMode, 1, 6);  // OFFBOARD
+  session.command(kArmDisarm, 1);
+  ASSERT_TRUE(session.fly_until({0, 0, 3}, 15.0, [&] {
+    return session.vehicle().state().T_world_body.translation().z() > 2.0;
+  }));
+  for (int tick = 0; tick < 5 * kTicksPerSecond && !px4.is_in_failsafe(); ++tick) session.step();
+  ASSERT_TRUE(px4.is_in_failsafe()) << "its client fell silent";
+  EXPECT_EQ(sys_status_of(px4, 12.0, 48.0).sensors_health & 0x10000000, 0U);
 }
 
 }  // namespace

@@ -35,6 +35,21 @@ TEST(MavlinkUdp, EveryOtherUrlIsBadInputThatNamesIt) {
   }
 }
 
+TEST(MavlinkUdp, AMeetingsErrorNamesTheUrlAsItWasWritten) {
+  for (const auto& [url, words] :
+       {std::pair{"udpout://127.0.0.1:99999", "udpout://127.0.0.1:99999"},
+        std::pair{"udpin://nowhere", "udpin://HOST:PORT"},
+        std::pair{"tcp://127.0.0.1:1", "udpout://HOST:PORT"}}) {
+    try {
+      resolve_meeting(url);
+      ADD_FAILURE() << url;
+    } catch (const BadInput& error) {
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find(url), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(MavlinkUdp, TheSchemeSaysWhoSpeaksFirst) {
   const Meeting out = resolve_meeting("udpout://127.0.0.1:14540");
   EXPECT_TRUE(out.speaks_first);

@@ -2,10 +2,13 @@
 of the modules beside it as {name: source}, and one of the scene (timeline.cpp). Its stdout: one
 line of JSON, {"written": {...}} or {"error": one sentence}."""
 
-import importlib
-import json
 import sys
-import types
+
+sys.path = [p for p in sys.path if p]  # nothing of the folder that the user is in
+
+import importlib  # noqa: E402
+import json  # noqa: E402
+import types  # noqa: E402
 
 EXTRAS = {
     "rerun": "rerun-sdk",

@@ -108,12 +108,11 @@ class _Stage:
         return view
 
     def observation(self, state: dict[str, Any], steps: int) -> Observation:
-        progress = state["progress"].copy()
-        progress[1] = min(1.0, (1 + steps) / self.about["max_iterations"])
+        used = min(1.0, (1 + steps) / self.about["max_iterations"])
         seen = {
             "map": state["map"].reshape(self.about["map_shape"]).copy(),
             "pose": state["pose"].copy(),
-            "progress": progress,
+            "progress": np.array([state["entropy_left"], used], np.float32),
         }
         if self.is_candidate:
             seen["candidates"] = state["candidates"].copy()
