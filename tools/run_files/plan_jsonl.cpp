@@ -18,7 +18,7 @@
 namespace gnbv {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 // What a pose loses in the file is less; two views of a tour differ by more.
