@@ -41,7 +41,7 @@ TEST(Traces, AreTheirSamplesWhereTheseAreFew) {
 TEST(Traces, ManySamplesBecomeBandsThatHoldThem) {
   std::vector<std::vector<double>> rows;
   for (int i = 0; i < 24000; ++i) {
-    rows.push_back({0.1 * i, 0.001 * i, static_cast<double>(i % 10)});
+    rows.push_back({0.1 * i, 0.001 * i, static_cast<double>((i + 5) % 10)});
   }
   const Traces traces(rows);
   const auto bands = block(traces.data(), "bands");
