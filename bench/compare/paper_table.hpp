@@ -23,7 +23,8 @@ TextTable comparison_table(const PaperTable& paper, std::span<const RunFigures> 
                            std::span<const std::string> settings = {});
 
 /// The mission's row as a small aligned table; below it, if the mission's setting is the paper's,
-/// the paper's row for its scenario, utility and structure, where it has one.
+/// the paper's row for its scenario, utility and structure, where it has one. For a terminal of
+/// that width; 0: as wide as it takes.
 std::string one_row_summary(const RunFigures& run, bool has_papers_setting, std::size_t width = 0);
 
 }  // namespace gnbv

@@ -9,10 +9,11 @@
 
 namespace gnbv {
 
-/// terminal_text() for a terminal of that width (0: as wide as it takes). What is wider is folded:
-/// first heads at blanks, then columns into blocks below each other that each begin with the
-/// columns of text; notes at blanks. No cell is ever cut.
-std::string terminal_text(const TextTable& table, std::size_t width);
+/// Aligned columns for a terminal of that width (0: as wide as it takes); ends with a line feed.
+/// What is wider is made narrow, by no more than it takes: heads are folded at blanks; columns that
+/// say the same in every row become a note; all names but the last become lines above their rows;
+/// words on the right are folded; columns go into blocks below each other. No cell is ever cut.
+std::string terminal_text(const TextTable& table, std::size_t width = 0);
 
 /// Lines of at most `width` code points where blanks allow it; 0: as it is. Line feeds stay.
 std::string folded_text(std::string_view text, std::size_t width);

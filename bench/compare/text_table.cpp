@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bench/compare/table_lines.hpp"
+#include "bench/compare/terminal_table.hpp"
 
 namespace gnbv {
 namespace {

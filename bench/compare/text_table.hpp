@@ -43,9 +43,6 @@ TextTable with_columns_of(TextTable table, const TextTable& more, std::size_t sh
 /// A number as people read it: with `decimals`, thousands grouped as the paper does ("10,970").
 std::string grouped_number(double value, int decimals);
 
-/// Aligned columns for a terminal; ends with a line feed.
-std::string terminal_text(const TextTable& table);
-
 /// A table of GitHub's Markdown, its title in bold above and its notes as a list below.
 std::string markdown_text(const TextTable& table);
 

@@ -113,8 +113,8 @@ void fill_plain(const Export& e, const fs::path& folder) {
   write_plain(e.record, parts, folder);
 }
 
-/// What is written is what was flown: of the structure's file, which is not read, only the change
-/// is told.
+/// What is written is what was flown. Where the structure's file is another one by now, that is
+/// told: what needs the structure, as timelines do, is of the new one.
 void note_changed_inputs(const RunRecord& record) {
   std::vector<std::string> told_by_run;
   std::vector<RunInput> inputs;

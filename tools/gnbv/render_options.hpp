@@ -24,7 +24,7 @@ struct RenderOptions {
   std::optional<double> elevation_deg;
   PictureOptions picture;
   bool follows = false;
-  int images_per_s = 24;
+  int images_per_s = 15;
   double film_s = 10.0;
   int threads = 0;
   bool quiet = false;

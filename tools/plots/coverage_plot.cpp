@@ -175,14 +175,16 @@ std::string common_scenario(std::span<const RunGroup> groups) {
 
 /// `size` is an index of the curves' sizes; the paper has it when it is `papers_size`, too.
 Plot plot_of(std::span<const RunGroup> groups, Effort effort, std::size_t size,
-             std::optional<std::size_t> papers_size, const std::string& size_text) {
+             std::optional<std::size_t> papers_size, const std::string& size_text,
+             bool may_key_be_inside = true) {
   std::string data;
   for (std::size_t i = 0; i < groups.size(); ++i) data += group_data(groups[i], i, effort, size);
   const Layers layers = layers_of(groups, papers_size);
   std::string entries =
       layers.bands + layers.levels + layers.lines + layers.ends + layers.names + layers.keys;
   entries.resize(entries.size() - 2);
-  const bool is_inside = is_corner_free(groups, effort, size, layers.entries, layers.characters);
+  const bool is_inside =
+      may_key_be_inside && is_corner_free(groups, effort, size, layers.entries, layers.characters);
   const int key_px = is_inside ? 0 : kKeyLine_px * static_cast<int>(layers.entries);
   const int height_px = kHeight_px + key_px;
   const std::string key = is_inside
@@ -229,13 +231,13 @@ std::optional<Plot> coverage_end_plot(std::span<const RunGroup> groups, Effort e
     }
   }
   if (!(longest > 0.0) || low > high) return std::nullopt;
-  Plot plot = coverage_plot(groups, effort, size);
+  Plot plot = plot_of(groups, effort, size, size, size_name(kCoverageSizes_m[size]), false);
   plot.name += "-end";
   // the last word on both axes, before anything is drawn
   const std::size_t at = plot.body.rfind("\nplot ") + 1;
   plot.body.insert(at, fmt::format("set xrange [{}:{}] noextend\nset xtics {:g}\n", kFrom * longest,
                                    1.01 * longest, even_step(0.16 * longest)) +
-                           y_axis(low, high) + "set key outside below\n");
+                           y_axis(low, high));
   return plot;
 }
 

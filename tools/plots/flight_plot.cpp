@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tools/plots/script_parts.hpp"
+#include "tools/plots/traces.hpp"
 #include "tools/plots/tracking_plot.hpp"
 
 namespace gnbv {
@@ -40,27 +41,10 @@ std::vector<std::vector<double>> flight_rows(const RunRecord& record) {
   return rows;
 }
 
-/// An axis that holds those columns.
-std::string axis_of(const std::vector<std::vector<double>>& rows, std::size_t first,
-                    std::size_t last) {
-  double low = 0.0;
-  double high = 0.0;
-  for (const auto& row : rows) {
-    for (std::size_t c = first; c <= last; ++c) {
-      low = std::min(low, row[c]);
-      high = std::max(high, row[c]);
-    }
-  }
-  return y_axis(low, high);
-}
-
-std::string lines_of(std::size_t first, std::size_t last) {
-  std::string text = "plot ";
-  for (std::size_t c = first; c <= last; ++c) {
-    text += fmt::format("{}$samples using 1:{} with lines lw 1.0 lc rgb '{}'",
-                        c == first ? "" : ", ", c + 1, kPalette[c - first]);
-  }
-  return text + "\n";
+/// An axis that holds those values and zero, with few marks: panels are low.
+std::string axis_of(const Traces& traces, std::size_t first, std::size_t last) {
+  const auto [low, high] = traces.range(first, last);
+  return y_axis(std::min(low, 0.0), std::max(high, 0.0), 3);
 }
 
 }  // namespace
@@ -69,19 +53,28 @@ std::optional<Plot> flight_plot(const RunRecord& record) {
   if (record.views.size() < 2) return std::nullopt;
   const std::vector<std::vector<double>> rows = flight_rows(record);
   if (rows.empty()) return std::nullopt;
-  const std::string title = fmt::format("{}, seed {}", run_title(record), record.scenario.seed);
-  Panels panels(4, title, "time since the mission began (s)");
-  std::string text = data_block("samples", rows) +
-                     fmt::format("set xrange [{}:{}]\n", rows.front()[0], rows.back()[0]);
-  text +=
-      panels.next("position (m)", {{kPalette[0], "x"}, {kPalette[1], "y"}, {kPalette[2], "z"}}) +
-      axis_of(rows, 1, 3) + lines_of(1, 3);
-  text += panels.next("attitude (deg)",
-                      {{kPalette[0], "roll"}, {kPalette[1], "pitch"}, {kPalette[2], "yaw"}}) +
-          axis_of(rows, 4, 6) + lines_of(4, 6);
-  text += panels.next("speed (m/s)") + axis_of(rows, 7, 7) + lines_of(7, 7);
-  text += panels.next("off the leg (m)") + axis_of(rows, 8, 8) + lines_of(8, 8);
-  return Plot{"flight", text + "unset multiplot\n", panels_height_px(4)};
+  const Traces traces(rows);
+  const std::string note = traces.note();
+  Panels panels(5, fmt::format("{}, seed {}", run_title(record), record.scenario.seed),
+                (note.empty() ? "time since the mission began (s)" : "mission time (s)") + note);
+  const auto panel = [&](std::string_view heading, std::size_t first, std::size_t last,
+                         const std::vector<KeyEntry>& key = {}) {
+    return panels.next(heading, key) + axis_of(traces, first, last) + "plot " +
+           traces.drawn(first, last) + "\n";
+  };
+  std::string text =
+      traces.data() + fmt::format("set xrange [{}:{}]\n", rows.front()[0], rows.back()[0]) +
+      panel("position (m)", 1, 3, {{kPalette[0], "x"}, {kPalette[1], "y"}, {kPalette[2], "z"}});
+  // dots: a line would cross the panel wherever yaw goes past 180 degrees
+  text += panels.next("yaw (deg)") +
+          fmt::format(
+              "set yrange [-180:180]\nset ytics 90\nset format y '% h'\n"
+              "plot $samples using 1:7 with points pt 7 ps 0.08 lc rgb '{}'\n",
+              kPalette[0]);
+  text += panel("roll, pitch (deg)", 4, 5, {{kPalette[0], "roll"}, {kPalette[1], "pitch"}});
+  text += panel("speed (m/s)", 7, 7);
+  text += panel("off the leg (m)", 8, 8);
+  return Plot{"flight", text + "unset multiplot\n", panels_height_px(5)};
 }
 
 }  // namespace gnbv

@@ -13,7 +13,7 @@ namespace gnbv {
 namespace {
 
 constexpr std::string_view kPhaseColour = "#dcebf5";
-constexpr double kLeft = 0.115;  // edges of all panels, as shares of the width
+constexpr double kLeft = 0.135;  // edges of all panels, as shares of the width
 constexpr double kRight = 0.975;
 constexpr double kTextLine = 54.0;  // of a picture as wide as PlotSize is at first, in pixels
 
@@ -35,7 +35,7 @@ std::string_view effort_name(Effort effort) {
   return effort == Effort::views ? "views" : effort == Effort::metres ? "metres" : "seconds";
 }
 
-int panels_height_px(std::size_t count) { return count < 3 ? 1150 : 1450; }
+int panels_height_px(std::size_t count) { return count < 3 ? 1150 : count < 5 ? 1450 : 1700; }
 
 std::string data_block(std::string_view name, const std::vector<std::vector<double>>& rows) {
   std::string text = fmt::format("${} << EOD\n", name);
@@ -61,7 +61,7 @@ std::string key_row(const std::vector<KeyEntry>& key, double screen_y) {
   const auto width_of = [](const KeyEntry& entry) {
     return kLetter * static_cast<double>(entry.text.size()) + 2.0 * kSquare;
   };
-  double x = kRight + kSquare;
+  double x = kRight + kSquare - 0.01;  // the last word may be one of wide letters
   for (const KeyEntry& entry : key) x -= width_of(entry);
   std::string text;
   int label = 10;
@@ -81,22 +81,22 @@ std::vector<KeyEntry> key_of_phases(const std::vector<Phase>& phases) {
   return {{kPhaseColour, "frontier views"}};
 }
 
-double even_step(double span) {
-  const double power = std::pow(10.0, std::floor(std::log10(span / 4.0)));
+double even_step(double span, int most) {
+  const double power = std::pow(10.0, std::floor(std::log10(span / (most - 1))));
   for (const double factor : {1.0, 2.0, 5.0}) {
-    if (span / (factor * power) <= 5.0) return factor * power;
+    if (span / (factor * power) <= most) return factor * power;
   }
   return 10.0 * power;
 }
 
-std::string y_axis(double low, double high) {
+std::string y_axis(double low, double high, int most_steps) {
   // values that are all the same lie in the middle of an axis around them
   const double size = std::max({std::abs(low), std::abs(high), 1.0});
   if (high - low < 1e-9 * size) {
     low -= 0.05 * size;
     high += 0.05 * size;
   }
-  const double step = even_step(high - low);
+  const double step = even_step(high - low, most_steps);
   // longer numbers would be cut off at the left: 200k
   const bool is_in_thousands = high >= 10'000.0 && std::fmod(step, 1000.0) == 0.0;
   const char* const format = !is_in_thousands ? "% h" : high < 1e6 ? "%.0s%c" : "%.1s%c";

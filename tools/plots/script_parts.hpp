@@ -37,12 +37,12 @@ std::string key_row(const std::vector<KeyEntry>& key, double screen_y);
 /// What explains the shades; nothing without phases.
 std::vector<KeyEntry> key_of_phases(const std::vector<Phase>& phases);
 
-/// 1, 2 or 5 times a power of ten, of which `span` holds at most five. Requires span > 0.
-double even_step(double span);
+/// 1, 2 or 5 times a power of ten, of which `span` holds at most so many. Requires span > 0.
+double even_step(double span, int most = 5);
 
-/// Settings of a y axis: from `low` to `high`, widened to whole steps, of which there are some
-/// four. Requires low <= high.
-std::string y_axis(double low, double high);
+/// Settings of a y axis: from `low` to `high`, widened to whole steps, of which that span holds at
+/// most so many. Requires low <= high.
+std::string y_axis(double low, double high, int most_steps = 5);
 
 /// The height of a picture of so many panels that is 1512 pixels wide.
 int panels_height_px(std::size_t count);

@@ -6,9 +6,12 @@
 #include <cmath>
 
 #include "tools/plots/script_parts.hpp"
+#include "tools/plots/traces.hpp"
 
 namespace gnbv {
 namespace {
+
+constexpr double kLeast_m = 0.001;  // what is less lies on the axis's end
 
 double tilt_rad(const Isometry& T_world_body) {
   return std::acos(std::clamp(T_world_body.linear()(2, 2), -1.0, 1.0));
@@ -29,10 +32,11 @@ std::vector<std::vector<double>> tracking_rows(const RunRecord& record) {
   return rows;
 }
 
-double column_max(const std::vector<std::vector<double>>& rows, std::size_t column) {
-  double max = 0.0;
-  for (const auto& row : rows) max = std::max(max, row[column]);
-  return max;
+/// A logarithmic axis: how far it strays and how far it may differ by two powers of ten.
+std::string distance_axis(double most_m) {
+  return fmt::format("set logscale y\nset yrange [{}:{:g}]\nset ytics 10\nset format y '%g'\n",
+                     kLeast_m,
+                     std::pow(10.0, std::ceil(std::log10(std::max(most_m, 10.0 * kLeast_m)))));
 }
 
 std::string tracking_title(const RunRecord& record) {
@@ -66,18 +70,20 @@ std::optional<Plot> tracking_plot(const RunRecord& record) {
   if (rows.empty()) return std::nullopt;
   const double margin_m = record.scenario.planner.validity.collision_radius_m -
                           record.scenario.vehicle.airframe.hull_radius_m;
-  Panels panels(2, tracking_title(record), "time (s)");
-  std::string text =
-      data_block("samples", rows) +
-      fmt::format("set xrange [{}:{}]\n", rows.front()[0], rows.back()[0]) +
-      panels.next("off the leg (m)", {{kPalette[1], "collision radius less hull"}}) +
-      y_axis(0.0, std::max(margin_m, column_max(rows, 1))) +
-      fmt::format(
-          "plot {:.3f} with lines lw 1.0 dt 2 lc rgb '{}', $samples using 1:2 with lines lw "
-          "1.2 lc rgb '{}'\n",
-          margin_m, kPalette[1], kPalette[0]);
-  text += panels.next("tilt (deg)") + y_axis(0.0, column_max(rows, 2)) +
-          fmt::format("plot $samples using 1:3 with lines lw 1.2 lc rgb '{}'\n", kPalette[2]);
+  std::vector<std::vector<double>> shown = rows;
+  for (auto& row : shown) row[1] = std::max(row[1], kLeast_m);
+  const Traces traces(shown);
+  const bool has_margin = margin_m > kLeast_m;
+  Panels panels(2, tracking_title(record), "time (s)" + traces.note());
+  std::string text = traces.data() +
+                     fmt::format("set xrange [{}:{}]\n", rows.front()[0], rows.back()[0]) +
+                     panels.next("off the leg (m)", {{kPalette[1], "collision radius less hull"}}) +
+                     distance_axis(std::max(margin_m, traces.range(1, 1).second)) + "plot ";
+  if (has_margin) {
+    text += fmt::format("{:.3f} with lines lw 1.0 dt 2 lc rgb '{}', ", margin_m, kPalette[1]);
+  }
+  text += traces.drawn(1, 1) + "\nunset logscale y\n" + panels.next("tilt (deg)") +
+          y_axis(0.0, traces.range(2, 2).second) + "plot " + traces.drawn(2, 2) + "\n";
   return Plot{"tracking", text + "unset multiplot\n", panels_height_px(2)};
 }
 

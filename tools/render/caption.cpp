@@ -55,6 +55,16 @@ double item_width(const LegendItem& item) {
   return before + mark_width(item) + 10.0 + text_width_px(item.label, kLetter);
 }
 
+bool is_pale(const Rgb8& colour) { return *std::min_element(colour.begin(), colour.end()) > 225; }
+
+void draw_square(Image& image, const std::array<double, 2>& middle, double half_px,
+                 const Rgb8& colour) {
+  for (double dy = -half_px; dy <= half_px; dy += 0.5) {
+    draw_line(image, {middle[0] - half_px, middle[1] + dy}, {middle[0] + half_px, middle[1] + dy},
+              1.0, colour);
+  }
+}
+
 void draw_mark(Image& image, const LegendItem& item, double x, double y, double u) {
   const double end = x + mark_width(item) * u;
   if (is_bar(item)) {
@@ -74,9 +84,9 @@ void draw_mark(Image& image, const LegendItem& item, double x, double y, double 
       draw_line(image, {middle, y}, {middle, y}, 10.0 * u, colour);
       break;
     case LegendItem::Mark::square:
-      for (double dy = -4.0 * u; dy <= 4.0 * u; dy += 0.5) {
-        draw_line(image, {middle - 4.0 * u, y + dy}, {middle + 4.0 * u, y + dy}, 1.0, colour);
-      }
+      // white would not show on the sheet
+      draw_square(image, {middle, y}, 5.0 * u, is_pale(colour) ? kPaleInk : colour);
+      draw_square(image, {middle, y}, 4.0 * u, colour);
       break;
   }
 }

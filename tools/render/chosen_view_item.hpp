@@ -13,8 +13,13 @@ struct ChosenViewLook {
 };
 extern const ChosenViewLook kChosenLook;
 
-/// Its camera's pyramid, rays to where the map ends them, and the way there from the view before.
+/// Its cameras' pyramids and the way there; and of the rays all over their images those that meet a
+/// surface, or unknown voxels beside the structure, as far as that.
 void add_chosen_view(const RunRecord& record, const World& world, const Belief& belief,
                      std::size_t iteration, double unit_m, RenderScene& scene);
+
+/// From the view before.
+void add_way_to_chosen(const RunRecord& record, std::size_t iteration, double unit_m,
+                       RenderScene& scene);
 
 }  // namespace gnbv

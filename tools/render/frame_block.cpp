@@ -12,9 +12,15 @@ Eigen::Vector4f pack(const Vec3& v, double w) {
           static_cast<float>(w)};
 }
 
-// Box of what casts shadows, turned by R.
-Box3 caster_box(const DrawLists& lists, const Eigen::Matrix3d& R) {
+// Box of what casts shadows, turned by R; of a series, of all that its pictures show.
+Box3 caster_box(const RenderScene& scene, const DrawLists& lists, const Eigen::Matrix3d& R) {
   Box3 box;
+  if (scene.series_box_m) {
+    for (int i = 0; i < 8; ++i) {
+      box.extend(R * scene.series_box_m->corner(static_cast<Box3::CornerType>(i)));
+    }
+    return box;
+  }
   for (const std::uint32_t i : lists.casting) {
     box.extend(R * lists.vertices[i].p_world_m.cast<double>());
   }
@@ -31,12 +37,13 @@ Box3 caster_box(const DrawLists& lists, const Eigen::Matrix3d& R) {
 }
 
 // Parallel projection along the light, from the box of what casts shadows to the unit cube.
-void aim_light(const DrawLists& lists, const Vec3& to_light, FrameBlock& frame) {
+void aim_light(const RenderScene& scene, const DrawLists& lists, const Vec3& to_light,
+               FrameBlock& frame) {
   Eigen::Matrix3d R_light_world;
   R_light_world.row(2) = -to_light;
   R_light_world.row(0) = to_light.unitOrthogonal();
   R_light_world.row(1) = R_light_world.row(2).cross(R_light_world.row(0));
-  const Box3 box = caster_box(lists, R_light_world);
+  const Box3 box = caster_box(scene, lists, R_light_world);
   const double side_m = 1.02 * std::max(1e-3, box.sizes().head<2>().maxCoeff());
   const double depth_m = 1.02 * std::max(1e-3, box.sizes().z());
   const Vec3 scale(1.0 / side_m, 1.0 / side_m, 1.0 / depth_m);
@@ -50,15 +57,15 @@ void aim_light(const DrawLists& lists, const Vec3& to_light, FrameBlock& frame) 
 }
 
 // Diagonal of what casts shadows: a path far around it says nothing about its hollows.
-double scene_size_m(const DrawLists& lists) {
-  return std::max(1.0, caster_box(lists, Eigen::Matrix3d::Identity()).diagonal().norm());
+double scene_size_m(const RenderScene& scene, const DrawLists& lists) {
+  return std::max(1.0, caster_box(scene, lists, Eigen::Matrix3d::Identity()).diagonal().norm());
 }
 
 // Radius about `centre` of the ground disc: wide enough for the scene and for the shadows on it.
-double ground_radius_m(const DrawLists& lists, const Vec3& centre, double scene_radius_m,
-                       double ground_z_m, const Vec3& to_light) {
+double ground_radius_m(const RenderScene& scene, const DrawLists& lists, const Vec3& centre,
+                       double scene_radius_m, double ground_z_m, const Vec3& to_light) {
   double radius_m = scene_radius_m;
-  const Box3 box = caster_box(lists, Eigen::Matrix3d::Identity());
+  const Box3 box = caster_box(scene, lists, Eigen::Matrix3d::Identity());
   for (int i = 0; i < 8; ++i) {
     const Vec3 p = box.corner(static_cast<Box3::CornerType>(i));
     // a light near the horizon throws shadows without end
@@ -81,14 +88,15 @@ FrameBlock make_frame_block(const RenderScene& scene, const RenderView& view,
   frame.to_fill = pack((R.col(0) - 0.3 * R.col(1) - 0.8 * R.col(2)).normalized(), f);
   frame.camera_right = pack(R.col(0), 0.0);
   frame.camera_up = pack(-R.col(1), 0.0);
-  aim_light(lists, to_light, frame);
+  aim_light(scene, lists, to_light, frame);
 
-  const Box3 bounds =
+  const Box3 drawn =
       lists.bounds_m.isEmpty() ? Box3(Vec3(Vec3::Zero())) : lists.bounds_m.cast<double>();
+  const Box3 bounds = scene.series_box_m.value_or(drawn);
   const double radius_m = std::max(1.0, 0.5 * bounds.diagonal().norm());
   const Vec3 centre = bounds.center();
   const GroundItem ground = scene.ground.value_or(GroundItem{});
-  const double ground_m = ground_radius_m(lists, centre, radius_m, ground.z_m, to_light);
+  const double ground_m = ground_radius_m(scene, lists, centre, radius_m, ground.z_m, to_light);
   frame.ground = pack(Vec3(centre.x(), centre.y(), ground.z_m), ground_m);
 
   // the ground may begin behind the camera and end far beyond the scene
@@ -107,8 +115,8 @@ FrameBlock make_frame_block(const RenderScene& scene, const RenderView& view,
   frame.lens = {static_cast<float>(view.width_px / (f * view.height_px)),
                 static_cast<float>(1.0 / f), static_cast<float>(near_m), static_cast<float>(far_m)};
   const bool has_ground = scene.ground && eye.z() > scene.ground->z_m;
-  frame.hollow = {static_cast<float>(0.035 * scene_size_m(lists)), has_ground ? 1.0F : 0.0F, 0.0F,
-                  0.0F};
+  frame.hollow = {static_cast<float>(0.035 * scene_size_m(scene, lists)), has_ground ? 1.0F : 0.0F,
+                  0.0F, 0.0F};
   frame.clip_from_world = (clip_from_gl * view.T_world_camera.inverse().matrix()).cast<float>();
   return frame;
 }

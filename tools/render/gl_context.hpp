@@ -21,8 +21,8 @@ namespace gnbv {
   X(DepthMask) X(Disable) X(DrawArrays) X(DrawBuffer) X(DrawElements) X(Enable)                 \
   X(EnableVertexAttribArray) X(FramebufferTexture2D) X(GenBuffers) X(GenFramebuffers)           \
   X(GenTextures) X(GenVertexArrays) X(GetError) X(GetProgramInfoLog) X(GetProgramiv)            \
-  X(GetUniformBlockIndex) X(GetUniformLocation) X(LinkProgram) X(PixelStorei) X(ReadBuffer)     \
-  X(ReadPixels) X(ShaderSource) X(TexImage2D) X(TexParameteri) X(Uniform1i)                     \
+  X(GetUniformBlockIndex) X(GetUniformLocation) X(LinkProgram) X(PixelStorei) X(PolygonOffset) X(ReadBuffer)     \
+  X(ReadPixels) X(Scissor) X(ShaderSource) X(TexImage2D) X(TexParameteri) X(Uniform1i)                     \
   X(UniformBlockBinding) X(UseProgram) X(VertexAttribPointer) X(Viewport)
 // clang-format on
 

@@ -48,6 +48,7 @@ std::vector<std::string> ffmpeg_command(const std::string& format, const std::st
           ? std::vector<std::string>{"-vf", "split[a][b];[a]palettegen[p];[b][p]paletteuse"}
           : std::vector<std::string>{"-vf",       "crop=trunc(iw/2)*2:trunc(ih/2)*2",
                                      "-c:v",      "libx264",
+                                     "-preset",   "veryfast",
                                      "-crf",      "18",
                                      "-pix_fmt",  "yuv420p",
                                      "-movflags", "+faststart"};

@@ -1,16 +1,14 @@
-// One decision: the views that were sampled, why they were rejected or how they scored, and what
-// the chosen one looks at (Figures 2, 5 and 6 of the paper).
+// One decision: the views that were sampled, why they were rejected or how they scored; and from
+// near what the chosen one looks at (Figures 2, 5 and 6 of the paper).
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <map>
 
-#include "planner/map/frontiers.hpp"
 #include "sim/core/error.hpp"
 #include "tools/render/chosen_view_item.hpp"
-#include "tools/render/flight_items.hpp"
+#include "tools/render/frontier_items.hpp"
 #include "tools/render/picture.hpp"
 #include "tools/render/voxel_items.hpp"
 #include "tools/run_files/words.hpp"
@@ -19,8 +17,6 @@ namespace gnbv {
 namespace {
 
 const Rgb kMap = srgb(0xc4ccd6);
-const Rgb kFrontier = srgb(0x56b4e9);
-const Rgb kLookedAt = srgb(0x0b5fa5);
 const Rgb kUnknownVoxels = srgb(0xffffff);
 constexpr float kUnknownVoxelsOpacity = 0.35F;
 
@@ -63,6 +59,14 @@ void frame_candidates(RunSource& run, const PictureOptions& options,
   const RunRecord& record = run.record();
   const std::size_t iteration = iteration_asked(record, options);
   frame_structure(run, points_world_m);
+  // voxels stick out of the surface
+  const double beside_m = record.scenario.planner.map.resolution_m;
+  for (std::size_t i = points_world_m.size(); i-- > 0;) {
+    for (const double side_m : {beside_m, -beside_m}) {
+      points_world_m.push_back(points_world_m[i] + Vec3(side_m, side_m, 0.0));
+      points_world_m.push_back(points_world_m[i] + Vec3(side_m, -side_m, 0.0));
+    }
+  }
   for (const Candidate& candidate : run.decision(iteration).plan.candidates) {
     // those beyond the bounds lie far around everything else
     if (candidate.rejected == Rejection::out_of_bounds) continue;
@@ -81,61 +85,6 @@ void add_pin(const ViewPose& view, double length_m, double radius_m, const Rgb& 
       {{view.p_world_m.cast<float>(), (view.p_world_m + length_m * ahead).cast<float>()},
        {colour},
        static_cast<float>(radius_m)});
-}
-
-// Rings through the views around a cluster that stand in one layer (Fig. 6).
-void add_layers(const Plan& plan, std::span<const FrontierCluster> clusters, double unit_m,
-                RenderScene& scene) {
-  std::map<std::pair<int, long>, std::vector<Vec3>> layers;  // by cluster and millimetre of height
-  for (const Candidate& candidate : plan.candidates) {
-    const Vec3& p_m = candidate.view.p_world_m;
-    if (candidate.cluster < 0) continue;
-    layers[{candidate.cluster, std::lround(1000.0 * p_m.z())}].push_back(p_m);
-  }
-  for (auto& [layer, places] : layers) {
-    const auto cluster = static_cast<std::size_t>(layer.first);
-    if (cluster >= clusters.size() || places.size() < 3) continue;
-    const Vec3& centre_m = clusters[cluster].centroid_world_m;
-    const auto angle_rad = [&](const Vec3& p_m) {
-      return std::atan2(p_m.y() - centre_m.y(), p_m.x() - centre_m.x());
-    };
-    std::sort(places.begin(), places.end(),
-              [&](const Vec3& a, const Vec3& b) { return angle_rad(a) < angle_rad(b); });
-    places.push_back(places.front());
-    scene.tubes.push_back(path_tube(places, 0.35 * unit_m, kFrontier));
-  }
-}
-
-// The clusters of density frontiers that an FVS decision looked at, numbered in the order in which
-// they were tried; the chosen one's stands out.
-void add_frontiers(const RunRecord& record, const ReplayedDecision& decision, const ViewPose& from,
-                   double unit_m, Panel& panel) {
-  RenderScene& scene = panel.scene;
-  const Belief& belief = decision.belief;
-  FrontierMarks marks(belief.grid.geometry().voxel_count());
-  std::vector<FrontierCluster> clusters =
-      find_frontiers(record.scenario.planner.fvs.frontier, belief.grid, belief.cloud, marks);
-  std::stable_sort(clusters.begin(), clusters.end(), [&](const auto& a, const auto& b) {
-    return (a.centroid_world_m - from.p_world_m).squaredNorm() <
-           (b.centroid_world_m - from.p_world_m).squaredNorm();
-  });
-  const int chosen =
-      decision.plan.chosen ? decision.plan.candidates[*decision.plan.chosen].cluster : -1;
-  int tried = -1;
-  for (const Candidate& candidate : decision.plan.candidates) {
-    tried = std::max(tried, candidate.cluster);
-  }
-  for (std::size_t i = 0; i < clusters.size(); ++i) {
-    const bool is_chosen = static_cast<int>(i) == chosen;
-    const std::vector<Rgb> colour = {is_chosen ? kLookedAt : kFrontier};
-    scene.surfaces.push_back(voxel_cubes(belief.grid.geometry(), clusters[i].voxels, colour, 1.0));
-    if (static_cast<int>(i) > tried) continue;
-    const Vec3& centre_m = clusters[i].centroid_world_m;
-    scene.balls.push_back({centre_m.cast<float>(),
-                           static_cast<float>((is_chosen ? 6.0 : 4.5) * unit_m), colour.front()});
-    panel.labels.push_back({centre_m, fmt::format("{}", i + 1)});
-  }
-  add_layers(decision.plan, clusters, unit_m, scene);
 }
 
 // "24 around frontiers (0 valid), 80 of the grid (31 valid)"
@@ -179,18 +128,20 @@ Tally tally(const Plan& plan) {
   return all;
 }
 
+// A ball each, in their order, small for those rejected; those that are valid also show where they
+// look.
 void add_candidates(const Plan& plan, const Tally& all, double unit_m, RenderScene& scene) {
   const double span = std::max(all.high - all.low, 1e-12);
   for (const Candidate& candidate : plan.candidates) {
+    const Vec3f p_m = candidate.view.p_world_m.cast<float>();
     if (candidate.rejected) {
       const Reason& reason = reasons()[static_cast<std::size_t>(*candidate.rejected)];
-      add_pin(candidate.view, 12.0 * unit_m, 1.3 * unit_m, reason.colour, scene);
-    } else {
-      const Rgb colour = amount_ramp((candidate.score.value - all.low) / span);
-      add_pin(candidate.view, 20.0 * unit_m, 2.4 * unit_m, colour, scene);
-      scene.balls.push_back(
-          {candidate.view.p_world_m.cast<float>(), static_cast<float>(5.0 * unit_m), colour});
+      scene.balls.push_back({p_m, static_cast<float>(3.6 * unit_m), reason.colour});
+      continue;
     }
+    const Rgb colour = amount_ramp((candidate.score.value - all.low) / span);
+    scene.balls.push_back({p_m, static_cast<float>(6.0 * unit_m), colour});
+    add_pin(candidate.view, 18.0 * unit_m, 2.2 * unit_m, colour, scene);
   }
 }
 
@@ -200,7 +151,7 @@ std::vector<LegendItem> legend_of(const Tally& all, bool is_fvs) {
     const std::size_t count = all.rejected[static_cast<std::size_t>(reason.rejection)];
     if (count == 0) continue;
     legend.push_back(
-        {fmt::format("{}: {}", reason.words, count), {reason.colour}, LegendItem::Mark::line});
+        {fmt::format("{}: {}", reason.words, count), {reason.colour}, LegendItem::Mark::dot});
   }
   if (all.valid > 0) {
     legend.push_back(
@@ -209,8 +160,8 @@ std::vector<LegendItem> legend_of(const Tally& all, bool is_fvs) {
          .label_before = fmt::format("valid: {}, utility {:.3g}", all.valid, all.low)});
   }
   if (is_fvs) {
-    legend.push_back({"frontier", {kFrontier}});
-    legend.push_back({"cluster looked at", {kLookedAt}});
+    legend.push_back({"frontier", {kFrontierLook.frontier}});
+    legend.push_back({"cluster looked at", {kFrontierLook.looked_at}});
   }
   legend.push_back({"unknown", {kUnknownVoxels}});
   legend.push_back({"way to the chosen view", {kChosenLook.chosen}, LegendItem::Mark::line});
@@ -221,27 +172,72 @@ std::vector<LegendItem> legend_of(const Tally& all, bool is_fvs) {
   return legend;
 }
 
+// The map, as pale as it can be.
+void add_map(RunSource& run, const OccupancyGrid& grid, RenderScene& scene) {
+  add_ground(run, scene);
+  const std::vector<Rgb> grey = {kMap};
+  const SortedVoxels voxels = sort_voxels(grid);
+  scene.surfaces.push_back(voxel_cubes(grid.geometry(), voxels.occupied, grey, 0.94));
+  scene.surfaces.push_back(free_faces(grid, voxels.unknown, kUnknownVoxels, kUnknownVoxelsOpacity));
+}
+
+// From behind the chosen view and beside it, on the side of the picture's camera: the view before,
+// the chosen one, and where its rays end.
+RenderView near_view(const RunRecord& record, std::size_t iteration, const PictureOptions& options,
+                     const RenderScene& chosen, const RenderView& view) {
+  const ViewPose& pose = record.views[iteration].decision.view;
+  std::vector<Vec3> points_m = {record.views[iteration - 1].decision.view.p_world_m,
+                                pose.p_world_m};
+  for (const BallItem& ball : chosen.balls) points_m.push_back(ball.centre_m.cast<double>());
+  for (const TubeItem& ray : chosen.tubes) points_m.push_back(ray.points_m.back().cast<double>());
+  for (const FrustumItem& frustum : chosen.frusta) {  // the axis, and as much to its sides
+    const double half_m = frustum.length_m * std::tan(0.5 * frustum.fov_x_rad);
+    for (const double side_m : {-half_m, half_m}) {
+      points_m.push_back(frustum.T_world_camera * Vec3(side_m, 0.0, frustum.length_m));
+      points_m.push_back(frustum.T_world_camera * Vec3(0.0, side_m, frustum.length_m));
+    }
+  }
+  ViewAngles angles{pose.yaw_rad + deg_to_rad(180.0 + 55.0), deg_to_rad(25.0)};
+  const double other_rad = pose.yaw_rad + deg_to_rad(180.0 - 55.0);
+  const auto away_rad = [&](double azimuth_rad) {
+    return std::abs(wrap_angle_rad(azimuth_rad - options.angles.azimuth_rad));
+  };
+  if (away_rad(other_rad) < away_rad(angles.azimuth_rad)) angles.azimuth_rad = other_rad;
+  const FrameMargins margins{.left = 0.08, .right = 0.08, .top = 0.2, .bottom = 0.2};
+  return frame_points(points_m, angles, view.width_px, view.height_px, margins);
+}
+
 Picture draw_candidates(RunSource& run, const PictureOptions& options, const RenderView& view) {
   const RunRecord& record = run.record();
   const std::size_t iteration = iteration_asked(record, options);
   const ReplayedDecision& decision = run.decision(iteration);
-  const double unit_m = layout_unit_m(view);
   const bool is_fvs = record.views[iteration].decision.sampler == "fvs";
   const Tally all = tally(decision.plan);
-  Picture picture{.panels = std::vector<Panel>(1)};
-  RenderScene& scene = picture.panels.front().scene;
-  add_ground(run, scene);
-  const std::vector<Rgb> grey = {kMap};
-  const OccupancyGrid& grid = decision.belief.grid;
-  const SortedVoxels voxels = sort_voxels(grid);
-  scene.surfaces.push_back(voxel_cubes(grid.geometry(), voxels.occupied, grey, 0.94));
-  scene.surfaces.push_back(free_faces(grid, voxels.unknown, kUnknownVoxels, kUnknownVoxelsOpacity));
-  add_candidates(decision.plan, all, unit_m, scene);
-  add_chosen_view(record, run.world(), decision.belief, iteration, unit_m, scene);
-  if (is_fvs) {
-    add_frontiers(record, decision, record.views[iteration - 1].decision.view, unit_m,
-                  picture.panels.front());
+  Picture picture{.panels = std::vector<Panel>(2)};
+  Panel& far = picture.panels[0];
+  Panel& near = picture.panels[1];
+  if (!options.camera) {
+    RenderScene chosen;
+    add_chosen_view(record, run.world(), decision.belief, iteration, layout_unit_m(view), chosen);
+    near.view = near_view(record, iteration, options, chosen, view);
   }
+  const RenderView& from_near = near.view ? *near.view : view;
+  for (const auto& [panel, seen_from] : {std::pair{&far, &view}, {&near, &from_near}}) {
+    const double unit_m = layout_unit_m(*seen_from);
+    add_map(run, decision.belief.grid, panel->scene);
+    add_candidates(decision.plan, all, unit_m, panel->scene);
+    if (!is_fvs) continue;
+    add_frontiers(record.scenario.planner.fvs.frontier, decision,
+                  record.views[iteration - 1].decision.view, unit_m, *panel);
+  }
+  add_way_to_chosen(record, iteration, layout_unit_m(view), far.scene);
+  add_chosen_view(record, run.world(), decision.belief, iteration, layout_unit_m(from_near),
+                  near.scene);
+  far.note = counted(decision.plan.candidates.size(), "candidate");
+  near.note = fmt::format("the chosen one, {:.2g} m from the view before",
+                          (record.views[iteration].decision.view.p_world_m -
+                           record.views[iteration - 1].decision.view.p_world_m)
+                              .norm());
   picture.detail = fmt::format("how iteration {} was chosen: candidates {}", iteration,
                                counts_by_sampler(decision.plan));
   picture.legend = legend_of(all, is_fvs);
@@ -253,6 +249,7 @@ Picture draw_candidates(RunSource& run, const PictureOptions& options, const Ren
 const PictureKind kCandidatesPicture = {
     .name = "candidates",
     .shows = "candidate views of one decision, and rays of the chosen one (Figs. 2, 5, 6)",
+    .panels = 2,
     .legend_rows = 3,
     .frame = frame_candidates,
     .draw = draw_candidates};

@@ -83,7 +83,9 @@ RenderView other_view(RunSource& run, const ViewAngles& angles, const RenderView
   std::vector<Vec3> points;
   frame_structure(run, points);
   const FrameMargins margins{.left = 0.05, .right = 0.05, .top = 0.18, .bottom = 0.12};
-  return frame_points(points, angles, view.width_px, view.height_px, margins);
+  RenderView other = frame_points(points, angles, view.width_px, view.height_px, margins);
+  if (angles.elevation_rad < 0.0) other.to_light_world.z() *= -1.0;  // the side that is seen
+  return other;
 }
 
 Picture draw_coverage(RunSource& run, const PictureOptions& options, const RenderView& view) {

@@ -74,6 +74,9 @@ struct RenderScene {
   std::vector<DotsItem> dots;
   std::vector<FrustumItem> frusta;
   std::optional<GroundItem> ground;
+  /// One of a series that shows no more than what lies in this box, as a film: light, haze and
+  /// shadows stay the same throughout, and a renderer draws again only what has changed.
+  std::optional<Box3> series_box_m = {};
 };
 
 /// Draws scenes off screen with OSMesa, which is loaded here, at run time. Use from one thread.

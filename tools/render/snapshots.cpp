@@ -119,6 +119,15 @@ RenderView Snapshots::view_at(double time_s) const {
   return view;
 }
 
+/// All that a film shows, near enough: what throws shadows and where it flies.
+Box3 Snapshots::film_box_m() const {
+  Box3 box_m = bounds_m(run_.world().structure);
+  for (const TrajectorySample& sample : run_.record().path) {
+    box_m.extend(sample.T_world_body.translation());
+  }
+  return box_m;
+}
+
 const Image& Snapshots::seen_by_camera(std::size_t iteration) {
   if (onboard_ && onboard_->first == iteration) return onboard_->second;
   const RunRecord& record = run_.record();
@@ -144,6 +153,7 @@ Picture Snapshots::picture_at(double time_s, double speed, const RenderView& vie
   const double unit_m = layout_unit_m(view);
   Picture picture{.panels = std::vector<Panel>(1)};
   RenderScene& scene = picture.panels.front().scene;
+  if (speed > 0.0) scene.series_box_m = film_box_m();
   add_ghost(run_, 0.5F, scene);
 
   const std::size_t seen = run_.cloud().view_points[iteration];

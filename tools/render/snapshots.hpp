@@ -37,6 +37,7 @@ class Snapshots {
   std::size_t iteration_at(double time_s) const;  // of the last view no later
   Isometry T_world_body(double time_s) const;
   Vec3 smooth_place(double time_s) const;
+  Box3 film_box_m() const;
   const Image& seen_by_camera(std::size_t iteration);
 
   RunSource& run_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "sim/core/error.hpp"
@@ -13,6 +14,8 @@ namespace gnbv {
 namespace {
 
 constexpr int kMostCuts = 12;  // of an edge
+constexpr std::array<std::uint32_t, 6> kErrorTable = {0xdfe5ec, 0xf2e0a0, 0xf5b04e,
+                                                      0xe2702c, 0xb5301f, 0x6d0a1c};
 
 Rgb linear_of(const Vec3f& srgb_levels) {
   Rgb colour{};
@@ -22,11 +25,20 @@ Rgb linear_of(const Vec3f& srgb_levels) {
   return colour;
 }
 
+/// From pale, which is right, over yellow and orange to a dark red: errors stand out from shadows.
+const std::vector<Rgb>& error_colours() {
+  static const std::vector<Rgb> colours = linear_colours(kErrorTable);
+  return colours;
+}
+
 RenderView framed(const TriangleMesh& mesh, int width_px, int height_px, const ViewAngles& angles) {
   std::vector<Vec3> points_m;  // its box would leave much of the picture empty
   points_m.reserve(mesh.vertices_m.size());
   for (const Vec3f& p_m : mesh.vertices_m) points_m.push_back(p_m.cast<double>());
-  return frame_points(points_m, angles, width_px, height_px, caption_margins(width_px, height_px));
+  FrameMargins margins = caption_margins(width_px, height_px);
+  const double below_title = 82.0 * layout_unit_px(width_px, height_px) / height_px;
+  if (margins.bottom + below_title < 1.0) margins.top = std::max(margins.top, below_title);
+  return frame_points(points_m, angles, width_px, height_px, margins);
 }
 
 Image drawn(SurfaceItem item, const RenderView& view, const Caption& caption) {
@@ -118,7 +130,7 @@ Image error_picture(const TriangleMesh& mesh, std::span<const double> errors_m, 
   SurfaceItem item{.mesh = mesh, .vertex_colours = {}};
   double sum_m = 0.0;
   for (const double error_m : errors_m) {
-    item.vertex_colours.push_back(amount_ramp(error_m / most_m));
+    item.vertex_colours.push_back(ramp(error_colours(), error_m / most_m));
     sum_m += error_m;
   }
   const double mean_m = sum_m / static_cast<double>(std::max<std::size_t>(1, errors_m.size()));
@@ -127,7 +139,7 @@ Image error_picture(const TriangleMesh& mesh, std::span<const double> errors_m, 
                 .detail = fmt::format("distance to the true structure, {:.1f} mm in the mean of {}",
                                       1000.0 * mean_m, grouped(errors_m.size()) + " vertices"),
                 .legend = {{.label = fmt::format("{:.0f} mm or more", 1000.0 * most_m),
-                            .colours = amount_colours(),
+                            .colours = error_colours(),
                             .label_before = "0"}}});
 }
 

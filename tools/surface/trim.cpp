@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <unordered_map>
@@ -20,21 +21,40 @@ constexpr float kReach_spacings = 2.0F;
 constexpr int kSmoothings = 3;
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-/// Distance of each vertex to its nearest point, in multiples of that point's reach.
-std::vector<float> distance_in_reaches(const TriangleMesh& mesh, const OrientedCloud& cloud,
-                                       const TrimSettings& settings, int threads) {
+/// How far a place is from a point of a surface: off its tangent plane farther than along it. A cap
+/// that closes a tube lies off the planes of the tube's points, a hole in a wall along them.
+float distance_from_surface_m(const Vec3f& p_m, const Vec3f& point_m, const Vec3f& normal) {
+  constexpr float kOffPlane = 1.5F;  // times as far
+  const Vec3f away_m = p_m - point_m;
+  const float off_m = away_m.dot(normal);
+  return std::sqrt(std::max(0.0F, away_m.squaredNorm() - off_m * off_m) +
+                   kOffPlane * kOffPlane * off_m * off_m);
+}
+
+/// How far a place is from a point, in multiples of that point's reach.
+float distance_in_reaches(const Vec3f& p_m, const OrientedCloud& cloud, std::size_t point,
+                          const TrimSettings& settings) {
+  const Vec3f& point_m = cloud.points_world_m[point];
+  if (settings.reach_m > 0.0) return (p_m - point_m).norm() / static_cast<float>(settings.reach_m);
+  const float reach_m =
+      std::min(kReach_spacings * cloud.spacing_m[point], static_cast<float>(settings.reach_max_m));
+  return distance_from_surface_m(p_m, point_m, cloud.normals_world[point]) / reach_m;
+}
+
+/// Of each vertex to that of the points around which is nearest by this measure.
+std::vector<float> distances_in_reaches(const TriangleMesh& mesh, const OrientedCloud& cloud,
+                                        const TrimSettings& settings, int threads) {
+  constexpr std::size_t kAround = 6;
   const PointTree tree(cloud.points_world_m);
-  std::vector<float> field(mesh.vertices_m.size());
+  std::vector<float> field(mesh.vertices_m.size(), std::numeric_limits<float>::max());
   parallel_for_chunks(
       threads, field.size(), kPointsAtOnce, [&](std::size_t begin, std::size_t end) {
-        std::array<Neighbour, 1> nearest{};
+        std::array<Neighbour, kAround> around{};
         for (std::size_t i = begin; i < end; ++i) {
-          const Neighbour& found = tree.nearest(mesh.vertices_m[i], nearest).front();
-          const float reach_m = settings.reach_m > 0.0
-                                    ? static_cast<float>(settings.reach_m)
-                                    : std::min(kReach_spacings * cloud.spacing_m[found.point],
-                                               static_cast<float>(settings.reach_max_m));
-          field[i] = found.distance_m / reach_m;
+          const Vec3f& p_m = mesh.vertices_m[i];
+          for (const Neighbour& found : tree.nearest(p_m, around)) {
+            field[i] = std::min(field[i], distance_in_reaches(p_m, cloud, found.point, settings));
+          }
         }
       });
   return field;
@@ -156,7 +176,7 @@ TriangleMesh without_scraps(const TriangleMesh& mesh, double part_min_m2) {
 TriangleMesh trimmed(const TriangleMesh& closed, const OrientedCloud& cloud,
                      const TrimSettings& settings, int threads) {
   GNBV_CHECK(!cloud.points_world_m.empty(), "no points");
-  std::vector<float> field = distance_in_reaches(closed, cloud, settings, threads);
+  std::vector<float> field = distances_in_reaches(closed, cloud, settings, threads);
   for (int i = 0; i < kSmoothings; ++i) smooth(closed, field);
   return without_scraps(cut_at_level(closed, field, 1.0F), 0.0);
 }

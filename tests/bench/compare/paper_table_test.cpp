@@ -6,6 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "bench/compare/terminal_table.hpp"
+
 namespace gnbv {
 namespace {
 

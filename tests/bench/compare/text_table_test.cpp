@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "bench/compare/terminal_table.hpp"
 
@@ -86,6 +88,69 @@ TEST(TextTable, NarrowTerminalsFoldHeadsThenColumnsAndCutNothing) {
             "------------------\n"
             "proposed     620.4\n"
             "a note of some words\n");
+}
+
+/// As `gnbv compare` prints it: many rows of three names, some columns that say one thing.
+TextTable wide_table() {
+  TextTable table;
+  table.columns = {{"Scenario", "scenario", text},   {"Metric", "metric", text},
+                   {"Method", "method", text},       {"n", "n", counted},
+                   {"Mean", "mean", estimate},       {"Rank", "rank", number},
+                   {"Difference", "diff", estimate}, {"p", "p", number},
+                   {"Holm", "holm", number},         {"Verdict", "verdict", text}};
+  for (int metric = 0; metric < 20; ++metric) {
+    for (const std::string method : {"proposed", "bircher", "tour"}) {
+      const std::string figure = std::to_string(100 * metric) + (method == "tour" ? ".1" : ".2");
+      table.rows.push_back({{"aircraft"},
+                            {"share of the ceiling at metric " + std::to_string(metric)},
+                            {method},
+                            {"8"},
+                            {figure + " ±123.4"},
+                            {"-"},
+                            {"-" + figure + " ±234.5"},
+                            {"0.0" + figure},
+                            {"0.0" + figure},
+                            {metric % 2 == 0 ? "not significant" : "better, by interval only"}});
+    }
+  }
+  table.notes = {"what the columns are"};
+  return table;
+}
+
+std::size_t count_of(std::string_view what, std::string_view text) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+TEST(TextTable, WideTablesStayOneBlockInEightyColumns) {
+  const TextTable table = wide_table();
+  const std::string narrow = terminal_text(table, 80);
+  std::istringstream lines(narrow);
+  for (std::string line; std::getline(lines, line);) {
+    const auto code_points =
+        std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xC0) != 0x80; });
+    EXPECT_LE(code_points, 80) << line;
+  }
+  EXPECT_EQ(count_of("\n-----", narrow), 1U) << narrow;
+  // what every row says is said once
+  EXPECT_EQ(count_of("\nevery row: Scenario aircraft, n 8, no Rank, Holm as p\n", narrow), 1U);
+  EXPECT_EQ(count_of("\nshare of the ceiling at metric 7\n", narrow), 1U) << narrow;
+  EXPECT_EQ(count_of("tour", narrow), 20U);
+  for (const auto& row : table.rows) {
+    for (const std::size_t column : {4, 6, 7}) {
+      EXPECT_GE(count_of(row[column].text, narrow), 1U) << row[column].text;
+    }
+  }
+}
+
+TEST(TextTable, ColumnsThatFitStayThoughTheySayTheSame) {
+  const std::string wide = terminal_text(wide_table(), 300);
+  EXPECT_EQ(count_of("Holm", wide), 1U);
+  EXPECT_EQ(count_of("aircraft", wide), 60U);
+  EXPECT_EQ(count_of("every row", wide), 0U);
 }
 
 TEST(TextTable, MarkdownHasOneCellAColumnAndNoMarkupOfItsText) {

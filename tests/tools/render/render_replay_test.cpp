@@ -7,8 +7,8 @@
 #include "bench/score/surface_reference.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "tests/support/flown.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tests/tools/render/watched.hpp"
 #include "tools/mission/replay.hpp"
 #include "tools/render/picture.hpp"
 #include "tools/render/pictures.hpp"
@@ -17,36 +17,6 @@
 
 namespace gnbv {
 namespace {
-
-constexpr std::size_t kAsked = 3;
-
-/// A mission of five views, with what was believed and planned on the way.
-struct Watched {
-  explicit Watched(const Scenario& scenario) : flown(scenario, hooks()) {}
-
-  MissionHooks hooks() {
-    MissionHooks hooks;
-    hooks.on_view_belief = [this](const Belief& belief) { beliefs.push_back(belief); };
-    hooks.on_candidates = [this](std::size_t, const Plan& plan) { plans.push_back(plan); };
-    return hooks;
-  }
-  RecordedMission recorded() const {
-    return {.scenario = flown.scenario,
-            .world = flown.world,
-            .scene = flown.scene,
-            .views = flown.result.views,
-            .threads = 2};
-  }
-
-  std::vector<Belief> beliefs = {};
-  std::vector<Plan> plans = {};
-  Flown flown;
-};
-
-const Watched& watched() {
-  static const Watched all(smoke({"planner.termination.max_iterations=5"}));
-  return all;
-}
 
 bool same_belief(const Belief& a, const Belief& b) {
   const auto same = [](auto x, auto y) {
@@ -67,12 +37,6 @@ bool same_plan(const Plan& a, const Plan& b) {
                              x.rejected == y.rejected && x.path_m == y.path_m &&
                              x.score.value == y.score.value;
                     });
-}
-
-RunSource source(const std::filesystem::path& folder = {}) {
-  const Flown& flown = watched().flown;
-  return {RunRecord{.folder = folder, .scenario = flown.scenario, .views = flown.result.views},
-          flown.world};
 }
 
 TEST(Replay, BelievesWhatTheMissionBelieved) {
@@ -222,89 +186,6 @@ TEST(Replay, OneFlightBringsBackWhatThreeDid) {
     EXPECT_EQ(all.profile[i].points_world_m, alone[i].points_world_m);
     EXPECT_EQ(all.profile[i].waypoints_world_m.size(), all.profile[i].waypoints);
   }
-}
-
-TEST(CandidatesPicture, HoldsAPinForEachCandidate) {
-  const TempFolder temp;
-  PictureOptions options;
-  options.iteration = kAsked;
-  const auto tubes = [&](RunSource& run) {
-    return kCandidatesPicture.draw(run, options, {}).panels.at(0).scene.tubes;
-  };
-  const auto same_pins = [](const std::vector<TubeItem>& scene, const Plan& plan) {
-    // before the rays: one each, in their order, from where it stands towards where it looks
-    if (scene.size() < plan.candidates.size()) return false;
-    for (std::size_t i = 0; i < plan.candidates.size(); ++i) {
-      const ViewPose& view = plan.candidates[i].view;
-      const Vec3f ahead = scene[i].points_m.back() - scene[i].points_m.front();
-      const double yaw_rad = std::atan2(ahead.y(), ahead.x());
-      if (scene[i].points_m.front() != view.p_world_m.cast<float>()) return false;
-      if (std::abs(wrap_angle_rad(yaw_rad - view.yaw_rad)) > 1e-3) return false;
-    }
-    return true;
-  };
-  const Plan& plan = watched().plans[kAsked - 1];
-  RunSource planned = source(temp.path());
-  const auto drawn = tubes(planned);
-  EXPECT_TRUE(same_pins(drawn, plan));
-  Plan fewer = plan;
-  fewer.candidates.pop_back();
-  // the same from the file
-  const auto draw_from_file = [&](const Plan& of_asked) {
-    CandidatesFile file(temp.path(), 1);
-    for (std::size_t i = 0; i < watched().plans.size(); ++i) {
-      file.write(i + 1, i + 1 == kAsked ? of_asked : watched().plans[i]);
-    }
-    file.finish();
-    RunSource read = source(temp.path());
-    return tubes(read);
-  };
-  EXPECT_EQ(draw_from_file(plan).size(), drawn.size());
-  const auto less = draw_from_file(fewer);
-  EXPECT_TRUE(same_pins(less, fewer));
-  EXPECT_EQ(less.size() + 1, drawn.size());  // nothing but the pin is gone
-}
-
-TEST(CandidatesPicture, RaysLieInsideTheViewAndReachAllAround) {
-  const TempFolder temp;
-  RunSource run = source(temp.path());
-  PictureOptions options;
-  options.iteration = kAsked;
-  const RenderScene scene = kCandidatesPicture.draw(run, options, {}).panels.at(0).scene;
-  const Scenario& scenario = watched().flown.scenario;
-  const CameraModel camera = make_camera_model(scenario.cameras.front());
-  const ViewPose& view = watched().flown.result.views[kAsked].decision.view;
-  const Isometry T_world_camera = T_world_body(view) * camera.T_body_camera;
-  const std::size_t pins = watched().plans[kAsked - 1].candidates.size();
-  Eigen::AlignedBox2d reached_px;
-  ASSERT_GT(scene.tubes.size(), pins + 2);
-  for (std::size_t i = pins; i + 1 < scene.tubes.size(); ++i) {  // the last one is the way there
-    const Vec3 end = T_world_camera.inverse() * scene.tubes[i].points_m.back().cast<double>();
-    ASSERT_GT(end.z(), 0.0);
-    EXPECT_LE(end.z(), camera.config.range_max_m + 1e-3);
-    reached_px.extend(pixel_of(camera, end));
-  }
-  const Eigen::AlignedBox2d whole_px(
-      Eigen::Vector2d::Zero(), Eigen::Vector2d(camera.config.width_px, camera.config.height_px));
-  EXPECT_TRUE(whole_px.contains(reached_px));
-  EXPECT_GT(reached_px.volume(), 0.5 * whole_px.volume());
-}
-
-TEST(CandidatesPicture, TheLegendNamesFrontiersOnlyWhereAFrontierWasLookedAt) {
-  const TempFolder temp;
-  PictureOptions options;
-  options.iteration = kAsked;
-  const auto names_frontiers = [&](std::string_view sampler) {
-    const Flown& flown = watched().flown;
-    std::vector<ViewRecord> views = flown.result.views;
-    views[kAsked].decision.sampler = sampler;
-    RunSource run{{.folder = temp.path(), .scenario = flown.scenario, .views = views}, flown.world};
-    const auto legend = kCandidatesPicture.draw(run, options, {}).legend;
-    return std::any_of(legend.begin(), legend.end(),
-                       [](const LegendItem& item) { return item.label == "frontier"; });
-  };
-  EXPECT_FALSE(names_frontiers("agvs"));
-  EXPECT_TRUE(names_frontiers("fvs"));
 }
 
 }  // namespace

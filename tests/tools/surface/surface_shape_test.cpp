@@ -122,6 +122,54 @@ TEST(Trim, AHalfSphereEndsAtItsRim) {
   EXPECT_LT(surface_area_m2(tight), surface_area_m2(open));
 }
 
+/// A disc of 0.1 m at that height around the z axis, in rings 1 cm apart.
+TriangleMesh disc(float z_m) {
+  TriangleMesh mesh;
+  constexpr std::uint32_t kSides = 24;
+  for (std::uint32_t ring = 0; ring <= 10; ++ring) {
+    for (std::uint32_t i = 0; i < kSides; ++i) {
+      const float angle = static_cast<float>(2.0 * kPi * i / kSides);
+      const float r_m = 0.01F * static_cast<float>(ring);
+      mesh.vertices_m.emplace_back(r_m * std::cos(angle), r_m * std::sin(angle), z_m);
+      if (ring == 0) continue;
+      const std::uint32_t inner = (ring - 1) * kSides + i;
+      const std::uint32_t next = (ring - 1) * kSides + (i + 1) % kSides;
+      mesh.faces.push_back({inner, inner + kSides, next + kSides});
+      mesh.faces.push_back({inner, next + kSides, next});
+    }
+  }
+  return mesh;
+}
+
+/// Points around a disc of 0.1 m, all with a spacing of 6 cm, with normals as told.
+OrientedCloud points_around_disc(bool is_tube) {
+  OrientedCloud cloud;
+  for (int layer = 0; layer < 4; ++layer) {
+    for (int i = 0; i < 24; ++i) {
+      const float angle = static_cast<float>(2.0 * kPi * i / 24);
+      const Vec3f out(std::cos(angle), std::sin(angle), 0.0F);
+      const float away_m = 0.05F * static_cast<float>(layer);
+      cloud.points_world_m.push_back(is_tube ? Vec3f(0.1F * out - away_m * Vec3f::UnitZ())
+                                             : Vec3f((0.1F + away_m) * out));
+      cloud.normals_world.push_back(is_tube ? out : Vec3f(Vec3f::UnitZ()));
+      cloud.spacing_m.push_back(0.06F);
+    }
+  }
+  return cloud;
+}
+
+/// Both lie 0.1 m from any point, and points reach 0.12 m.
+TEST(Trim, ACapOverATubeGoesAndAHoleOfItsSizeInAWallIsClosed) {
+  const double whole_m2 = surface_area_m2(disc(0.0F));
+  const double in_wall_m2 = surface_area_m2(trimmed(disc(0.0F), points_around_disc(false), {}, 1));
+  EXPECT_NEAR(in_wall_m2, whole_m2, 1e-6);
+  const double cap_m2 = surface_area_m2(trimmed(disc(0.0F), points_around_disc(true), {}, 1));
+  EXPECT_LT(cap_m2, 0.9 * whole_m2);
+  const TrimSettings plain{.reach_m = 0.12};  // which asks for that distance and no other
+  EXPECT_NEAR(surface_area_m2(trimmed(disc(0.0F), points_around_disc(true), plain, 1)), whole_m2,
+              1e-6);
+}
+
 /// Two triangles of the unit square.
 TriangleMesh square() {
   TriangleMesh mesh;

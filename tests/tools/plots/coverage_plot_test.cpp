@@ -1,0 +1,116 @@
+// Laws of the plots of several runs: coverage, density, and how many got how far; intervals are
+// Student's.
+#include "tools/plots/coverage_plot.hpp"
+
+#include "tests/tools/plots/plot_support.hpp"
+#include "tools/plots/density_plot.hpp"
+#include "tools/plots/reach_plot.hpp"
+
+namespace gnbv {
+namespace {
+
+/// t(0.975, 4) = 2.776445; the deviation of 0.5 +- {0, 1, 2} / 10 is sqrt(0.1 / 4).
+TEST(Plots, BandsAreStudentsIntervals) {
+  std::vector<RunRecord> runs;
+  for (int i = 0; i < 5; ++i) {
+    runs.push_back(covered_record(static_cast<std::uint64_t>(i + 1), {0.2, 0.3 + 0.1 * i}));
+  }
+  const RunGroup group = group_of(runs);
+  const auto rows = block(coverage_plot({&group, 1}, Effort::views, 0).body, "group0");
+  ASSERT_EQ(rows.size(), 2U);
+  const double half = 100.0 * 2.776445105 * std::sqrt(0.025) / std::sqrt(5.0);
+  EXPECT_NEAR(rows[0][3] - rows[0][1], 0.0, 1e-9);
+  EXPECT_NEAR(rows[1][1], 50.0, 1e-9);
+  EXPECT_NEAR(rows[1][2], 50.0 - half, 1e-6);
+  EXPECT_NEAR(rows[1][3], 50.0 + half, 1e-6);
+}
+
+TEST(Plots, OneRunsCurveIsItsOwnAndAnEndedRunKeepsItsCoverage) {
+  const std::vector<RunRecord> runs = {covered_record(1, {0.2, 0.4, 0.5}),
+                                       covered_record(2, {0.2, 0.8})};
+  RunGroup alone{.label = "a", .runs = {&runs[0]}};
+  const auto own = block(coverage_plot({&alone, 1}, Effort::metres, 0).body, "group0");
+  EXPECT_EQ(own,
+            (std::vector<std::vector<double>>{{0, 20, 20, 20}, {2, 40, 40, 40}, {4, 50, 50, 50}}));
+  const RunGroup both = group_of(runs);
+  EXPECT_NEAR(mean_coverage(both, Effort::views, 0)[2].coverage.mean, 0.65, 1e-12);
+  const auto metres = mean_coverage(both, Effort::metres, 0);
+  ASSERT_EQ(metres.size(), 201U);
+  EXPECT_NEAR(metres[25].coverage.mean, 0.5 * (0.25 + 0.35), 1e-12);  // at 0.5 m of 4
+}
+
+/// A key hides no curve: it stands in the corner where that is free, and over the plot where a
+/// curve runs through it or a name is too long for it.
+TEST(Plots, TheKeyOfCoverageStandsWhereNothingIs) {
+  const auto has_key_inside = [](const std::vector<double>& coverage, const std::string& label) {
+    const std::vector<RunRecord> runs = {covered_record(1, coverage)};
+    const RunGroup group{.label = label, .runs = {&runs[0]}};
+    const std::string body = coverage_plot({&group, 1}, Effort::views, 0).body;
+    return body.find("set key inside bottom right") != std::string::npos;
+  };
+  EXPECT_TRUE(has_key_inside({0.6, 0.7, 0.8, 0.9}, "isler"));
+  EXPECT_FALSE(has_key_inside({0.0, 0.01, 0.02, 0.03}, "isler"));
+  EXPECT_FALSE(has_key_inside({0.6, 0.7, 0.8, 0.9}, std::string(60, 'i')));
+}
+
+TEST(Plots, CoverageMarksEndsAndTheCeiling) {
+  std::vector<RunRecord> runs = {covered_record(1, {0.2, 0.4, 0.5})};
+  const RunGroup group = group_of(runs);
+  const std::string without = coverage_plot({&group, 1}, Effort::metres, 0).body;
+  EXPECT_EQ(block(without, "end0"), (std::vector<std::vector<double>>{{4, 50, 50, 50}}));
+  EXPECT_EQ(without.find("'ceiling'"), std::string::npos);
+  EXPECT_NE(without.find("'Smoke'"), std::string::npos);
+  runs[0].figures->ceiling = 0.975;
+  const std::string with = coverage_plot({&group, 1}, Effort::metres, 0).body;
+  EXPECT_NE(with.find("97.5 with lines"), std::string::npos);
+  EXPECT_NE(with.find("'ceiling'"), std::string::npos);
+  const auto end = coverage_end_plot({&group, 1}, Effort::metres, 0);
+  ASSERT_TRUE(end.has_value());
+  EXPECT_NE(end->body.find("set xrange [3.4:4.04]"), std::string::npos);
+  expect_drawable(*end);
+}
+
+TEST(Plots, RunsWithoutViewsHaveACoverage) {
+  const std::vector<RunRecord> runs = {covered_record(1, {0.2}), covered_record(2, {0.4})};
+  for (const Effort effort : {Effort::views, Effort::metres, Effort::seconds}) {
+    for (const CoveragePoint& point : mean_coverage(group_of(runs), effort, 0)) {
+      EXPECT_EQ(point.effort, 0.0);
+      EXPECT_NEAR(point.coverage.mean, 0.3, 1e-12);
+    }
+  }
+}
+
+TEST(Plots, DensitiesOfSeveralRunsLieOverEachOther) {
+  const std::vector<RunRecord> runs = {scored_record(), scored_record()};
+  const std::vector<RunGroup> groups = {{.label = "a", .runs = {&runs[0]}},
+                                        {.label = "b", .runs = {&runs[1]}}};
+  const std::string body = mean_density_plot(mean_densities(groups)).body;
+  for (const char* const name : {"series0", "series1"}) {
+    const auto rows = block(body, name);
+    ASSERT_EQ(rows.size(), runs[0].views.size());
+    EXPECT_EQ(rows[3][1], runs[0].views[3].density_points_per_voxel);
+  }
+}
+
+TEST(ReachPlot, StepsUpWhereEachRunGetsThereAndStaysBelowForThoseThatDoNot) {
+  std::vector<RunRecord> runs = {covered_record(1, {0.1, 0.5, 0.96}),
+                                 covered_record(2, {0.1, 0.96, 0.97, 1.0}),
+                                 covered_record(3, {0.1, 0.9}), covered_record(4, {0.96, 1.0})};
+  for (const std::size_t i : {0, 1, 2}) runs[i].figures->ceiling = 1.0;  // not of the last
+  const RunGroup group = group_of(runs);
+  const auto plot = reach_plot({&group, 1}, Effort::metres, 0.95);
+  ASSERT_TRUE(plot.has_value());
+  EXPECT_EQ(plot->name, "reach-metres");
+  // 2 m a view: seed 2 after one view, seed 1 after two, seed 3 never; the longest has three views
+  EXPECT_NE(plot->body.find(fmt::format("$reach0 << EOD\n0 0\n2 {}\n4 {}\n6 {}\nEOD\n", 100.0 / 3.0,
+                                        200.0 / 3.0, 200.0 / 3.0)),
+            std::string::npos)
+      << plot->body;
+  EXPECT_NE(plot->body.find("(2 of 3)"), std::string::npos);
+  for (RunRecord& run : runs) run.figures->ceiling.reset();
+  EXPECT_FALSE(reach_plot({&group, 1}, Effort::metres, 0.95));
+  expect_drawable(*plot);
+}
+
+}  // namespace
+}  // namespace gnbv

@@ -1,0 +1,89 @@
+// Laws of the plots of a flight: they show its path.
+#include "tools/plots/flight_plot.hpp"
+
+#include "tests/tools/plots/plot_support.hpp"
+#include "tools/plots/traces.hpp"
+#include "tools/plots/tracking_plot.hpp"
+
+namespace gnbv {
+namespace {
+
+/// Flown along x at 8 m a second, then turned back: speeds are those of the path.
+TEST(Plots, FlightIsThatOfThePath) {
+  const auto plot = flight_plot(made_record());
+  ASSERT_TRUE(plot.has_value());
+  const auto rows = block(plot->body, "samples");
+  ASSERT_EQ(rows.size(), 2U);  // from the first view, at 3 s, to the last sample
+  EXPECT_EQ(rows[1][0], 4.0);
+  EXPECT_EQ(rows[1][2], -4.0);
+  EXPECT_NEAR(rows[1][7], std::sqrt(65.0), 1e-9);
+  EXPECT_EQ(rows[1][6], 0.0);
+  // from above to below
+  std::size_t at = 0;
+  for (const char* const heading : {"position", "yaw", "roll, pitch", "speed", "off the leg"}) {
+    const std::size_t next = plot->body.find(std::string("'") + heading);
+    ASSERT_NE(next, std::string::npos) << heading;
+    EXPECT_GT(next, at) << heading;
+    at = next;
+  }
+  expect_drawable(*plot);
+}
+
+TEST(Traces, AreTheirSamplesWhereTheseAreFew) {
+  const Traces traces({{0.0, 5.0}, {1.0, 7.0}});
+  EXPECT_EQ(block(traces.data(), "samples"), (std::vector<std::vector<double>>{{0, 5}, {1, 7}}));
+  EXPECT_EQ(traces.data().find("$bands"), std::string::npos);
+  EXPECT_EQ(traces.note(), "");
+  EXPECT_EQ(traces.range(1, 1), std::pair(5.0, 7.0));
+}
+
+/// A sawtooth of period 10 on a slope: each band holds all of it, and its mean is the slope's.
+TEST(Traces, ManySamplesBecomeBandsThatHoldThem) {
+  std::vector<std::vector<double>> rows;
+  for (int i = 0; i < 24000; ++i) {
+    rows.push_back({0.1 * i, 0.001 * i, static_cast<double>((i + 5) % 10)});
+  }
+  const Traces traces(rows);
+  const auto bands = block(traces.data(), "bands");
+  ASSERT_EQ(bands.size(), 240U);
+  for (const auto& band : bands) {
+    ASSERT_EQ(band.size(), 7U);
+    EXPECT_EQ(band[4], 0.0);
+    EXPECT_EQ(band[6], 9.0);
+    EXPECT_NEAR(band[5], 4.5, 0.05);  // of some 100 samples
+    EXPECT_NEAR(band[2], 0.01 * band[0], 0.002);
+    for (const auto& row : rows) {
+      if (std::abs(row[0] - band[0]) > 4.9) continue;  // an edge's samples may be the next one's
+      EXPECT_GE(row[1], band[1]);
+      EXPECT_LE(row[1], band[3]);
+    }
+  }
+  EXPECT_NE(traces.note().find("10 s"), std::string::npos);
+  const std::string plot = "plot " + traces.drawn(1, 2) + "\n";
+  expect_drawable({.name = "bands", .body = traces.data() + plot});
+}
+
+TEST(TrackingPlot, ShowsTheDistanceFromEachLegAndTheTilt) {
+  RunRecord record = made_record();  // views at 3 s (4, 4, 1), 4 s (-4, 4, 2) and 5 s (-4, -4, 3)
+  record.views[1].decision.via_world_m = {Vec3(0, 4, 1)};
+  TrajectorySample leaning = made_sample(3.5, {2, 4.3, 1.4});  // 0.5 m beside the first leg
+  leaning.T_world_body.rotate(Eigen::AngleAxisd(deg_to_rad(12.0), Vec3(0.6, 0.8, 0.0)));
+  record.path = {made_sample(2.9, {9, 9, 9}), leaning, made_sample(4.5, {-4, 0, 2.5}),
+                 made_sample(5.1, {9, 9, 9})};
+  const auto plot = tracking_plot(record);
+  ASSERT_TRUE(plot.has_value());
+  const auto rows = block(plot->body, "samples");
+  ASSERT_EQ(rows.size(), 2U);  // only between the first view and the last
+  const std::vector<std::vector<double>> expected = {{3.5, 0.5, 12.0},
+                                                     {4.5, 0.001, 0.0}};  // on the axis's end
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(rows[i][k], expected[i][k], 1e-6) << i << k;
+  }
+  // 0.8 m less the hull's 0.384 m
+  EXPECT_NE(plot->body.find("plot 0.416 with lines"), std::string::npos);
+  record.views.resize(1);
+  EXPECT_FALSE(tracking_plot(record).has_value());
+}
+
+}  // namespace
+}  // namespace gnbv

@@ -1,0 +1,148 @@
+// Laws of the plots of one run: their data are its own figures.
+#include "tools/plots/run_plots.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+
+#include "tests/tools/plots/plot_support.hpp"
+#include "tools/plots/coverage_plot.hpp"
+#include "tools/plots/script_parts.hpp"
+
+namespace gnbv {
+namespace {
+
+TEST(Plots, DensityAndEntropyAreTheRunsFigures) {
+  const RunRecord record = scored_record();
+  const auto rows = block(density_entropy_plot(record)->body, "views");
+  ASSERT_EQ(rows.size(), record.views.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(rows[i], (std::vector<double>{static_cast<double>(i), record.views[i].entropy_nat,
+                                            record.views[i].density_points_per_voxel}));
+  }
+}
+
+TEST(Plots, FrontierPhasesAreTheRowsOfTheirSampler) {
+  const RunRecord record = scored_record();
+  const std::vector<Phase> phases = frontier_phases(record.views);
+  ASSERT_EQ(phases.size(), 2U);
+  EXPECT_EQ(phases[0].first, 4);
+  EXPECT_EQ(phases[0].last, 6);
+  EXPECT_EQ(phases[1].first, 11);
+  EXPECT_EQ(phases[1].last, 11);
+  const std::string body = density_entropy_plot(record)->body;
+  EXPECT_NE(body.find("rectangle from 3.5,graph 0 to 6.5,graph 1"), std::string::npos);
+  EXPECT_NE(body.find("rectangle from 10.5,graph 0 to 11.5,graph 1"), std::string::npos);
+}
+
+/// The factors that are drawn multiply to the utility, and the start, which nobody scored, is out.
+TEST(Plots, TermsMultiplyToTheUtility) {
+  const auto rows = block(terms_plot(scored_record())->body, "raw");
+  ASSERT_EQ(rows.size(), 11U);
+  for (const auto& row : rows) {
+    EXPECT_NEAR(row[1], (row[2] + row[3]) * row[4] * row[5] * row[6], 1e-9);
+    EXPECT_NEAR(row[6], std::log10(50.0 + row[0]), 1e-9);
+    EXPECT_NEAR(row[2], 0.4, 1e-12);
+    EXPECT_NEAR(row[3], 0.15, 1e-12);
+  }
+  RunRecord unscored = made_record();
+  EXPECT_FALSE(terms_plot(unscored).has_value());
+}
+
+/// Panels lie from top to bottom in the order in which they are said, of any utility.
+TEST(Plots, PanelsFollowEachOtherDownwards) {
+  RunRecord discounted = scored_record();
+  discounted.scenario.planner.utility.name = "bircher";
+  for (ViewRecord& view : discounted.views) view.decision.score.value *= 1e5;
+  for (const RunRecord& record : {scored_record(), discounted}) {
+    std::istringstream lines(terms_plot(record)->body);
+    std::vector<double> tops;
+    for (std::string line; std::getline(lines, line);) {
+      const std::size_t at = line.find("set tmargin at screen ");
+      if (at != std::string::npos) tops.push_back(std::stod(line.substr(at + 22)));
+    }
+    ASSERT_EQ(tops.size(), 3U);
+    EXPECT_GT(tops[0], tops[1]);
+    EXPECT_GT(tops[1], tops[2]);
+  }
+}
+
+TEST(Plots, LongNumbersAreSaidInThousands) {
+  EXPECT_NE(y_axis(0.0, 183'000.0).find("set format y '%.0s%c'"), std::string::npos);
+  EXPECT_NE(y_axis(0.0, 1'830'000.0).find("set format y '%.1s%c'"), std::string::npos);
+  for (const double high : {0.5, 9000.0}) {
+    EXPECT_NE(y_axis(0.0, high).find("set format y '% h'"), std::string::npos) << high;
+  }
+  EXPECT_NE(y_axis(123'456.0, 123'460.0).find("set format y '% h'"), std::string::npos);
+}
+
+TEST(Plots, MovingMeansShrinkAtTheEnds) {
+  const std::vector<double> values = {1, 2, 4, 8, 16};
+  EXPECT_EQ(moving_mean(values, 3), (std::vector<double>{1, 7.0 / 3, 14.0 / 3, 28.0 / 3, 16}));
+  EXPECT_EQ(moving_mean(values, 1), values);
+}
+
+TEST(Plots, TermsNameNoPredictionWhereThereIsNone) {
+  RunRecord record = scored_record();
+  EXPECT_NE(terms_plot(record)->body.find("γ prediction"), std::string::npos);
+  for (ViewRecord& view : record.views) view.decision.score.prediction = 0.0;
+  EXPECT_EQ(terms_plot(record)->body.find("γ prediction"), std::string::npos);
+}
+
+TEST(Plots, TheKeyOfTermsStandsInThePicture) {
+  const std::string body = terms_plot(scored_record())->body;
+  std::map<std::string, std::vector<double>> rows;  // where marks and words begin, by their height
+  std::istringstream lines(body);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t at = line.find(" at screen ");
+    if (!line.starts_with("set label 1") || at == std::string::npos) continue;  // 10 to 19
+    std::istringstream place(line.substr(at + 11));
+    double x = 0.0;
+    std::string y;
+    if (place >> x && place.get() == ',' && place >> y) rows[y].push_back(x);
+  }
+  ASSERT_GE(rows.size(), 3U);  // phases, terms of the sum, factors
+  for (const auto& [y, begins] : rows) {
+    EXPECT_EQ(std::adjacent_find(begins.begin(), begins.end(), std::greater_equal<>()),
+              begins.end())
+        << y;
+    EXPECT_GT(begins.front(), 0.0);
+    EXPECT_LT(begins.back(), 0.95);
+  }
+}
+
+/// The axis holds the values, and two marks at least, however close to each other these are.
+TEST(Plots, AxesHoldWhatIsDrawn) {
+  const std::vector<std::pair<double, double>> ranges = {
+      {0.0, 0.0}, {7.0, 7.0}, {-3e6, -3e6}, {1e-12, 1e-12}, {123456.7, 123456.9}, {0.2, 1.4}};
+  for (const auto& [low, high] : ranges) {
+    double bottom = 0.0;
+    double top = 0.0;
+    double step = 0.0;
+    const std::string axis = y_axis(low, high);
+    ASSERT_EQ(
+        std::sscanf(axis.c_str(), "set yrange [%lf:%lf]\nset ytics %lf", &bottom, &top, &step), 3);
+    EXPECT_LE(bottom, low);
+    EXPECT_GE(top, high);
+    EXPECT_GE(top - bottom, 1.999 * step) << axis;
+    EXPECT_LE(top - bottom, 8.0 * step) << axis;
+  }
+}
+
+TEST(Plots, OneViewIsEnough) {
+  RunRecord record = scored_record();
+  record.views = {record.views[1]};
+  record.views[0].density_points_per_voxel = 0.0;
+  for (const auto& plot : {density_entropy_plot(record), terms_plot(record)}) {
+    ASSERT_TRUE(plot.has_value());
+    expect_drawable(*plot);
+  }
+  const std::vector<RunRecord> runs = {covered_record(1, {0.2})};
+  for (const Effort effort : {Effort::views, Effort::metres, Effort::seconds}) {
+    const RunGroup group = group_of(runs);
+    expect_drawable(coverage_plot({&group, 1}, effort, 0));
+  }
+}
+
+}  // namespace
+}  // namespace gnbv

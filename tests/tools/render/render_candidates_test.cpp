@@ -1,0 +1,131 @@
+// Laws of the picture of a decision.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "sensors/capture.hpp"
+#include "tests/support/temp_folder.hpp"
+#include "tests/tools/render/watched.hpp"
+#include "tools/render/chosen_view_item.hpp"
+#include "tools/render/picture.hpp"
+#include "tools/run_files/candidates_jsonl.hpp"
+
+namespace gnbv {
+namespace {
+
+Picture drawn(RunSource& run) {
+  PictureOptions options;
+  options.iteration = kAsked;
+  return kCandidatesPicture.draw(run, options, {});
+}
+
+/// The first balls of a scene are the candidates, in their order, and the first tubes show where
+/// those of them look that are valid.
+bool shows(const RenderScene& scene, const Plan& plan) {
+  if (scene.balls.size() < plan.candidates.size()) return false;
+  std::size_t valid = 0;
+  for (std::size_t i = 0; i < plan.candidates.size(); ++i) {
+    const Candidate& candidate = plan.candidates[i];
+    const Vec3f p_m = candidate.view.p_world_m.cast<float>();
+    if (scene.balls[i].centre_m != p_m) return false;
+    if (candidate.rejected) continue;
+    if (valid >= scene.tubes.size()) return false;
+    const TubeItem& pin = scene.tubes[valid++];
+    const Vec3f ahead = pin.points_m.back() - pin.points_m.front();
+    const double yaw_rad = std::atan2(ahead.y(), ahead.x());
+    if (pin.points_m.front() != p_m) return false;
+    if (std::abs(wrap_angle_rad(yaw_rad - candidate.view.yaw_rad)) > 1e-3) return false;
+  }
+  return true;
+}
+
+std::size_t valid_of(const Plan& plan) {
+  return static_cast<std::size_t>(
+      std::count_if(plan.candidates.begin(), plan.candidates.end(),
+                    [](const Candidate& candidate) { return !candidate.rejected; }));
+}
+
+TEST(CandidatesPicture, BothPanelsHoldEachCandidate) {
+  const TempFolder temp;
+  const Plan& plan = watched().plans[kAsked - 1];
+  RunSource planned = source(temp.path());
+  const Picture picture = drawn(planned);
+  ASSERT_EQ(picture.panels.size(), 2U);
+  for (const Panel& panel : picture.panels) EXPECT_TRUE(shows(panel.scene, plan));
+  Plan fewer = plan;
+  fewer.candidates.pop_back();
+  // the same from the file
+  const auto from_file = [&](const Plan& of_asked) {
+    CandidatesFile file(temp.path(), 1);
+    for (std::size_t i = 0; i < watched().plans.size(); ++i) {
+      file.write(i + 1, i + 1 == kAsked ? of_asked : watched().plans[i]);
+    }
+    file.finish();
+    RunSource read = source(temp.path());
+    return drawn(read).panels.front().scene;
+  };
+  const std::size_t all = picture.panels.front().scene.balls.size();
+  EXPECT_EQ(from_file(plan).balls.size(), all);
+  const RenderScene less = from_file(fewer);
+  EXPECT_TRUE(shows(less, fewer));
+  EXPECT_EQ(less.balls.size() + 1, all);  // nothing but that one is gone
+}
+
+/// The close-up holds the chosen view's rays: within its pyramid, and each says something.
+TEST(CandidatesPicture, RaysLieInsideTheViewAndEndOnSurfaceOrCrossTheUnknown) {
+  const TempFolder temp;
+  RunSource run = source(temp.path());
+  const Picture picture = drawn(run);
+  const RenderScene& scene = picture.panels[1].scene;
+  const Scenario& scenario = watched().flown.scenario;
+  const CameraModel camera = make_camera_model(scenario.cameras.front());
+  const ViewPose& view = watched().flown.result.views[kAsked].decision.view;
+  const Isometry T_world_camera = T_world_body(view) * camera.T_body_camera;
+  const Eigen::AlignedBox2d whole_px(
+      Eigen::Vector2d::Zero(), Eigen::Vector2d(camera.config.width_px, camera.config.height_px));
+  const OccupancyGrid& grid = watched().beliefs[kAsked - 1].grid;
+  std::size_t hits = 0;
+  const std::size_t pins = valid_of(watched().plans[kAsked - 1]);
+  ASSERT_GT(scene.tubes.size(), pins + 1);
+  for (std::size_t i = pins; i + 1 < scene.tubes.size(); ++i) {  // the last one is the way there
+    const TubeItem& piece = scene.tubes[i];
+    const Vec3 end_m = piece.points_m.back().cast<double>();
+    const Vec3 end = T_world_camera.inverse() * end_m;
+    ASSERT_GT(end.z(), 0.0);
+    EXPECT_LE(end.z(), camera.config.range_max_m + 1e-3);
+    EXPECT_TRUE(whole_px.contains(pixel_of(camera, end)));
+    const bool is_hit = std::any_of(scene.balls.begin(), scene.balls.end(), [&](const auto& ball) {
+      return ball.centre_m == piece.points_m.back() && ball.colour == kChosenLook.chosen;
+    });
+    hits += is_hit ? 1 : 0;
+    if (!is_hit) continue;
+    EXPECT_EQ(grid.state_at(end_m), VoxelState::occupied);
+  }
+  EXPECT_GT(hits, 0U);
+  // what the first panel frames, the second sees from near
+  ASSERT_TRUE(picture.panels[1].view.has_value());
+  const std::optional<Vec3> at = project(*picture.panels[1].view, view.p_world_m);
+  ASSERT_TRUE(at.has_value());
+  EXPECT_TRUE(at->x() > 0 && at->x() < picture.panels[1].view->width_px);
+  EXPECT_TRUE(at->y() > 0 && at->y() < picture.panels[1].view->height_px);
+}
+
+TEST(CandidatesPicture, TheLegendNamesFrontiersOnlyWhereAFrontierWasLookedAt) {
+  const TempFolder temp;
+  PictureOptions options;
+  options.iteration = kAsked;
+  const auto names_frontiers = [&](std::string_view sampler) {
+    const Flown& flown = watched().flown;
+    std::vector<ViewRecord> views = flown.result.views;
+    views[kAsked].decision.sampler = sampler;
+    RunSource run{{.folder = temp.path(), .scenario = flown.scenario, .views = views}, flown.world};
+    const auto legend = kCandidatesPicture.draw(run, options, {}).legend;
+    return std::any_of(legend.begin(), legend.end(),
+                       [](const LegendItem& item) { return item.label == "frontier"; });
+  };
+  EXPECT_FALSE(names_frontiers("agvs"));
+  EXPECT_TRUE(names_frontiers("fvs"));
+}
+
+}  // namespace
+}  // namespace gnbv

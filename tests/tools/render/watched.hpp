@@ -1,0 +1,47 @@
+// A mission that is drawn by flying it again, beside what happened when it was flown.
+#pragma once
+
+#include "tests/support/flown.hpp"
+#include "tools/mission/replay.hpp"
+#include "tools/render/run_source.hpp"
+
+namespace gnbv {
+
+/// The iteration that is asked for.
+constexpr std::size_t kAsked = 3;
+
+/// A mission of five views, with what was believed and planned on the way.
+struct Watched {
+  explicit Watched(const Scenario& scenario) : flown(scenario, hooks()) {}
+
+  MissionHooks hooks() {
+    MissionHooks hooks;
+    hooks.on_view_belief = [this](const Belief& belief) { beliefs.push_back(belief); };
+    hooks.on_candidates = [this](std::size_t, const Plan& plan) { plans.push_back(plan); };
+    return hooks;
+  }
+  RecordedMission recorded() const {
+    return {.scenario = flown.scenario,
+            .world = flown.world,
+            .scene = flown.scene,
+            .views = flown.result.views,
+            .threads = 2};
+  }
+
+  std::vector<Belief> beliefs = {};
+  std::vector<Plan> plans = {};
+  Flown flown;
+};
+
+inline const Watched& watched() {
+  static const Watched all(smoke({"planner.termination.max_iterations=5"}));
+  return all;
+}
+
+inline RunSource source(const std::filesystem::path& folder = {}) {
+  const Flown& flown = watched().flown;
+  return {RunRecord{.folder = folder, .scenario = flown.scenario, .views = flown.result.views},
+          flown.world};
+}
+
+}  // namespace gnbv

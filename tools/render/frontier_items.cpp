@@ -1,0 +1,81 @@
+#include "tools/render/frontier_items.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "tools/render/flight_items.hpp"
+#include "tools/render/voxel_items.hpp"
+
+namespace gnbv {
+
+const FrontierLook kFrontierLook = {.frontier = srgb(0x56b4e9), .looked_at = srgb(0x0b5fa5)};
+
+namespace {
+
+// Rings through the views around a cluster that stand in one layer (Fig. 6), as far as they lie
+// within the bounds.
+void add_layers(const Plan& plan, std::span<const FrontierCluster> clusters, double unit_m,
+                RenderScene& scene) {
+  using Layer = std::pair<int, long>;  // cluster, and millimetre of height
+  std::map<Layer, std::vector<const Candidate*>> layers;
+  for (const Candidate& candidate : plan.candidates) {
+    if (candidate.cluster < 0) continue;
+    layers[{candidate.cluster, std::lround(1000.0 * candidate.view.p_world_m.z())}].push_back(
+        &candidate);
+  }
+  for (auto& [layer, views] : layers) {
+    const auto cluster = static_cast<std::size_t>(layer.first);
+    if (cluster >= clusters.size() || views.size() < 3) continue;
+    const Vec3& centre_m = clusters[cluster].centroid_world_m;
+    const auto angle_rad = [&](const Candidate* candidate) {
+      const Vec3 away_m = candidate->view.p_world_m - centre_m;
+      return std::atan2(away_m.y(), away_m.x());
+    };
+    std::sort(views.begin(), views.end(),
+              [&](const Candidate* a, const Candidate* b) { return angle_rad(a) < angle_rad(b); });
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      const Candidate& a = *views[i];
+      const Candidate& b = *views[(i + 1) % views.size()];
+      const bool is_beyond =
+          a.rejected == Rejection::out_of_bounds || b.rejected == Rejection::out_of_bounds;
+      if (is_beyond) continue;
+      scene.tubes.push_back(
+          path_tube({a.view.p_world_m, b.view.p_world_m}, 0.6 * unit_m, kFrontierLook.frontier));
+    }
+  }
+}
+
+}  // namespace
+
+void add_frontiers(const FrontierConfig& config, const ReplayedDecision& decision,
+                   const ViewPose& from, double unit_m, Panel& panel) {
+  RenderScene& scene = panel.scene;
+  const Belief& belief = decision.belief;
+  FrontierMarks marks(belief.grid.geometry().voxel_count());
+  std::vector<FrontierCluster> clusters = find_frontiers(config, belief.grid, belief.cloud, marks);
+  std::stable_sort(clusters.begin(), clusters.end(), [&](const auto& a, const auto& b) {
+    return (a.centroid_world_m - from.p_world_m).squaredNorm() <
+           (b.centroid_world_m - from.p_world_m).squaredNorm();
+  });
+  const int chosen =
+      decision.plan.chosen ? decision.plan.candidates[*decision.plan.chosen].cluster : -1;
+  int tried = -1;
+  for (const Candidate& candidate : decision.plan.candidates) {
+    tried = std::max(tried, candidate.cluster);
+  }
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    const bool is_chosen = static_cast<int>(i) == chosen;
+    const std::vector<Rgb> colour = {is_chosen ? kFrontierLook.looked_at : kFrontierLook.frontier};
+    scene.surfaces.push_back(voxel_cubes(belief.grid.geometry(), clusters[i].voxels, colour, 1.0));
+    if (static_cast<int>(i) > tried) continue;
+    const Vec3& centre_m = clusters[i].centroid_world_m;
+    scene.balls.push_back({centre_m.cast<float>(),
+                           static_cast<float>((is_chosen ? 6.0 : 4.5) * unit_m), colour.front()});
+    panel.labels.push_back({centre_m, fmt::format("{}", i + 1)});
+  }
+  add_layers(decision.plan, clusters, unit_m, scene);
+}
+
+}  // namespace gnbv

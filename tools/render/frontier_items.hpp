@@ -1,0 +1,20 @@
+// What a decision between frontier views looked at, as things to draw.
+#pragma once
+
+#include "planner/map/frontiers.hpp"
+#include "tools/mission/replay.hpp"
+#include "tools/render/picture.hpp"
+
+namespace gnbv {
+
+struct FrontierLook {
+  Rgb frontier, looked_at;
+};
+extern const FrontierLook kFrontierLook;
+
+/// The clusters of density frontiers that an FVS decision looked at, numbered in the order in which
+/// they were tried; the chosen one's stands out. Rings join the views of a layer around them.
+void add_frontiers(const FrontierConfig& config, const ReplayedDecision& decision,
+                   const ViewPose& from, double unit_m, Panel& panel);
+
+}  // namespace gnbv
