@@ -6,11 +6,13 @@ import type { Clock } from "./clock";
 import { Bytes, type MeshData } from "./data";
 import type { Flight } from "./flight";
 import { FrustaMark, PathMark, PlanMark, makeSight } from "./marks";
-import { Model, makeStructure, setGhost, type Colouring } from "./surfaces";
+import { Structure } from "./structure";
+import { Model, type Colouring } from "./surfaces";
 import { TrueSurface } from "./true_surface";
 import { makeVehicle } from "./vehicle";
 import { CandidateMarks } from "./candidates";
 import type { Picked } from "./pick";
+import { Splats } from "./splats";
 
 export interface Layers {
   cloud: boolean;
@@ -53,7 +55,7 @@ export class RunScene {
   private readonly body: three.Group;
   private sight: three.Group;
   private lookedAs = -1; // view
-  private readonly structure: three.Group | null;
+  private readonly structure: Structure | null;
   private readonly path: PathMark;
   private readonly frusta: FrustaMark;
   readonly plan: PlanMark | null;
@@ -61,11 +63,12 @@ export class RunScene {
   readonly candidates: CandidateMarks | null;
   readonly gridStep_m: number;
   private other: RunScene | null = null;
+  private readonly splats = new Splats();
 
   constructor(readonly flight: Flight, mesh: MeshData | undefined, meshBytes: Bytes) {
     const data = flight.data;
     this.model = new Model(data, flight.bytes);
-    this.structure = mesh ? makeStructure(mesh, meshBytes) : null;
+    this.structure = mesh ? new Structure(mesh, meshBytes) : null;
     this.path = new PathMark(flight);
     this.frusta = new FrustaMark(flight);
     this.plan = data.plan && new PlanMark(flight);
@@ -87,10 +90,10 @@ export class RunScene {
     if (this.candidates) marks.push(this.candidates.object);
     if (data.has_ground) marks.unshift(makeGround(data.workspace.min, data.workspace.max));
     const { cloud, voxels } = this.model;
-    for (const part of [this.structure, cloud, voxels, this.surface?.object]) {
+    for (const part of [this.structure?.object, cloud, voxels, this.surface?.object]) {
       if (part) this.scene.add(part);
     }
-    this.scene.add(...marks);
+    this.scene.add(this.splats.object, ...marks);
     for (const mark of marks) {
       mark.traverse((part) => part.layers.set(kMarkLayer));
     }
@@ -100,8 +103,8 @@ export class RunScene {
     if (this.model.cloud) this.model.cloud.visible = layers.cloud;
     if (this.model.voxels) this.model.voxels.visible = layers.voxels;
     if (this.structure) {
-      this.structure.visible = layers.structure;
-      setGhost(this.structure, layers.cloud || layers.voxels || layers.found || layers.missed);
+      this.structure.object.visible = layers.structure;
+      this.structure.setGhost(layers.cloud || layers.voxels || layers.found || layers.missed);
     }
     this.path.setLayers(layers.path, layers.profile);
     this.frusta.object.visible = layers.frusta;
@@ -124,16 +127,21 @@ export class RunScene {
 
   /**
    * As it is at the clock's time, for a camera that draws `pxPerTan` pixels a unit of tangent;
-   * whole, or the gist of it.
+   * whole, or the gist of it; `splats`: its points are drawn here, not by the renderer.
    */
-  show(clock: Clock, camera: three.PerspectiveCamera, pxPerTan: number, isWhole: boolean) {
+  show(clock: Clock, camera: three.PerspectiveCamera, pxPerTan: number, isWhole: boolean,
+      splats: boolean) {
     const n = this.flight.viewsAt(clock);
-    this.model.show(n, pxPerTan, isWhole);
-    this.path.show(this.flight.samplesBy(this.flight.timeAt(clock)));
+    this.structure?.show(isWhole);
+    this.model.show(n, pxPerTan);
+    this.path.show(this.flight.samplesBy(this.flight.timeAt(clock)), isWhole);
     this.frusta.show(n);
     this.plan?.show(n);
     this.candidates?.show(n);
     this.surface?.show(n, this.other?.flight.viewsAt(clock) ?? 0, pxPerTan);
+    if (splats) {
+      this.splats.show([...this.model.splats(), ...this.surface?.splats() ?? []], camera, pxPerTan);
+    }
     const pose = this.flight.poseAt(clock);
     if (!pose) return;
     this.vehicle.position.copy(pose.p);
@@ -155,6 +163,9 @@ export class RunScene {
     this.sight.traverse((part) => part.layers.set(kMarkLayer));
     this.vehicle.add(this.sight);
   }
+
+  /** Metres over which shading is to look for the slope of what has no normals; 0: it is not to. */
+  relief_m(): number { return this.surface?.object.visible ? 2.5 * this.surface.size_m : 0; }
 
   /** Everything that can show: structure, points, and where the vehicle may fly. */
   bounds(): three.Box3 {
@@ -200,7 +211,7 @@ export class RunScene {
   }
 
   private shape(): Float32Array {
-    for (const part of [this.structure?.children[0] as three.Mesh | undefined, this.model.cloud]) {
+    for (const part of [this.structure?.object.children[0] as three.Mesh | undefined, this.model.cloud]) {
       const position = part?.geometry.getAttribute("position");
       if (position && position.count > 0) return position.array as Float32Array;
     }

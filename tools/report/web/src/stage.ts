@@ -6,7 +6,7 @@ import { isDark } from "./colours";
 import type { Clock } from "./clock";
 import { make } from "./dom";
 import { nearestThatSees } from "./camera_fit";
-import { DepthShading } from "./depth_shading";
+import { DepthShading, kPointLayer, kSplatLayer } from "./depth_shading";
 import { Detail } from "./detail";
 import type { View3d } from "./controls";
 import { NoStage } from "./no_stage";
@@ -17,6 +17,8 @@ import { savePng } from "./save";
 import type { Colouring } from "./surfaces";
 
 const kQuickRatio = 0.5; // pixels a side of a quick picture, of those of a whole one
+const kProbePoints = 20_000;
+const kProbe_ms = 25; // a renderer that takes longer for them draws no points
 
 export function makeStage(scenes: RunScene[], clock: Clock, name: string,
     goTo: (view: number) => void): View3d {
@@ -45,6 +47,7 @@ class Stage implements View3d {
   private size = ""; // drawn last
   private readonly detail = new Detail(() => this.request());
   private isFramed = false;
+  private drawsPoints: boolean | null = null; // the renderer; unknown before the first whole picture
   private follows = false;
   private readonly pointing: Pointing;
   private readonly axes = new Axes();
@@ -258,8 +261,7 @@ class Stage implements View3d {
   private fitCanvas(width: number, height: number, ratio: number) {
     const size = this.renderer.getSize(new three.Vector2());
     if (size.x === width && size.y === height && this.renderer.getPixelRatio() === ratio) return;
-    this.renderer.setPixelRatio(ratio);
-    this.renderer.setSize(width, height, false);
+    this.renderer.setDrawingBufferSize(width, height, ratio); // once: it takes its time
   }
 
   /** Until it is drawn: what was asked for so far is only in a queue. */
@@ -279,22 +281,41 @@ class Stage implements View3d {
     const pxPerTan = 0.5 * height * this.renderer.getPixelRatio() /
       Math.tan(three.MathUtils.degToRad(this.camera.fov) / 2);
     if (this.follows && this.shown.length > 0) this.moveAlong(pxPerTan);
+    if (isWhole && this.drawsPoints === null) this.drawsPoints = this.probe(pxPerTan);
+    const splats = !isWhole || this.drawsPoints === false;
     this.shown.forEach((scene, i) => {
-      scene.show(this.clock, this.camera, pxPerTan, isWhole);
+      scene.show(this.clock, this.camera, pxPerTan, isWhole, splats);
       const [x, y] = this.isColumn() ? [0, total - (i + 1) * height] : [i * width, 0];
       this.renderer.setViewport(x, y, width, height);
       this.renderer.setScissor(x, y, width, height);
       this.axes.show(this.camera);
-      this.shading.render(this.renderer, scene.scene, this.camera, width, height, isWhole);
+      this.shading.render(this.renderer, scene.scene, this.camera, width, height, isWhole,
+        splats ? kSplatLayer : kPointLayer, scene.relief_m());
     });
     if (isWhole) this.waitForPicture();
     this.detail.drawn(performance.now() - begin);
   }
 
+  /** Whether the renderer draws points as fast as a graphics card; null where there are none. */
+  private probe(pxPerTan: number): boolean | null {
+    const scene = this.shown.find((each) => each.model.cloud?.visible);
+    if (!scene) return null;
+    let took_ms = 0;
+    scene.show(this.clock, this.camera, pxPerTan, false, false);
+    for (const points of [1, kProbePoints]) { // the first one makes it compile
+      scene.model.limit(points);
+      const begin = performance.now();
+      this.shading.render(this.renderer, scene.scene, this.camera, 64, 64, true, kPointLayer);
+      this.waitForPicture();
+      took_ms = performance.now() - begin;
+    }
+    return took_ms <= kProbe_ms;
+  }
+
   /** Keeps the camera's place beside the first vehicle. */
   private moveAlong(pxPerTan: number) {
     const lead = this.shown[0];
-    lead.show(this.clock, this.camera, pxPerTan, this.detail.isWhole);
+    lead.show(this.clock, this.camera, pxPerTan, false, false);
     const step = lead.vehicle.position.clone().sub(this.controls.target);
     this.camera.position.add(step);
     this.controls.target.add(step);
