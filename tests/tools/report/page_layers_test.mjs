@@ -18,6 +18,13 @@ function coverage(run) {
   return rows.map((row) => Number(row.split(",")[column]));
 }
 
+/** x, y, z of each view. */
+function recorded(run) {
+  const [head, ...rows] = readFileSync(join(run, "iterations.csv"), "utf8").trim().split("\n");
+  return rows.map((row) => ["x", "y", "z"].map((name) =>
+    Number(row.split(",")[head.split(",").indexOf(name)])));
+}
+
 /** Whether all fly one configuration with different seeds. */
 const areSeeds = () => new Set(runs.map((run) =>
   readFileSync(join(run, "scenario.yaml"), "utf8").replace(/^seed:.*$/m, ""))).size === 1;
@@ -51,6 +58,7 @@ const press = async (key, element) => {
   await browser.call("Input.dispatchKeyEvent", { type: "keyUp", key });
   await drawn();
 };
+const pyramids = [];
 const camera = () => browser.evaluate("gnbv.camera()");
 const open = async (hash = "") => {
   await browser.call("Page.navigate", { url: "about:blank" });
@@ -141,6 +149,36 @@ try {
       for (const reason of reasons) assert.ok(told.includes(reason.replaceAll("_", " ")), told);
     }
   }
+
+  // the pyramid of a view stands where the view is
+  for (const [run, folder] of runs.entries()) {
+    recorded(folder).forEach((place, view) => pyramids.push([run, view, place]));
+  }
+  for (const [run, view, place] of pyramids) {
+    const ends = await browser.evaluate(`gnbv.frustum(${run}, ${view})`);
+    assert.ok(ends.length > 0);
+    for (let i = 0; i < ends.length; i += 3) {
+      const away = Math.hypot(...place.map((x, k) => ends[i + k] - x));
+      assert.ok(away < 2, `a corner ${away} m from view ${view + 1}`);
+    }
+  }
+
+  // a view tells what it saw, in place, and a point the views that had it in sight
+  const [, , [x, y, z]] = pyramids[0];
+  await open(`#at=${curves[0].length - 1}&runs=0&layers=frusta&camera=${x},${y - 1},${z},${x},${y},${z}`);
+  await press("Enter", canvas);
+  assert.match(await browser.evaluate("document.querySelector('.picked').textContent"),
+    /^View \d+, at/);
+  assert.ok(await browser.evaluate("document.querySelectorAll('.picked img').length") > 0);
+  const { tried, sawIt } = await browser.evaluate(`(() => {
+    const all = Array.from({ length: 100000 }, (_, i) => i).map((i) => gnbv.point(0, 7 * i))
+      .filter((point) => point && point[3] >= 0);
+    const sawIt = all.filter((p) => gnbv.seenBy(0, p.slice(0, 3)).includes(p[3])).length;
+    return { tried: all.length, sawIt };
+  })()`);
+  assert.ok(tried > 3 && sawIt >= 0.85 * tried, `${sawIt} of ${tried}`);
+  await open();
+  await flip("Missed");
 
   // seeds of one configuration are drawn as their mean, where there are any
   const seeds = "document.querySelector(\"select[aria-label='Runs of several seeds']\")";

@@ -62,7 +62,7 @@ export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring): 
   if (layers.plan && scenes.some((scene) => scene.plan)) {
     items.push(item("line", hex(planColour()), "still planned"));
   }
-  if (layers.vehicle) items.push(item("line", "#ff8a3c", "what the cameras see"));
+  if (layers.vehicle && !layers.candidates) items.push(item("line", "#ff8a3c", "what the cameras see"));
   if (layers.candidates) items.push(...candidateItems(scenes));
   items.push(make("span", {}, `grid ${number(first.gridStep_m)} m`));
   return items;

@@ -146,7 +146,7 @@ export class FrustaMark {
       const colour = orderColour(view / Math.max(1, flight.count - 1));
       edgesAt(view).forEach((edge, i) => {
         const at = 3 * (view * this.perView + i);
-        edge.applyQuaternion(q).add(p).toArray(positions, at);
+        edge.clone().applyQuaternion(q).add(p).toArray(positions, at); // edges share corners
         colour.toArray(colours, at);
       });
     }
@@ -159,6 +159,12 @@ export class FrustaMark {
   }
 
   show(views: number) { this.object.geometry.setDrawRange(0, views * this.perView); }
+
+  /** Ends of the lines of a view, x y z each. */
+  lines(view: number): number[] {
+    const { array } = this.object.geometry.getAttribute("position");
+    return [...array.slice(3 * view * this.perView, 3 * (view + 1) * this.perView)];
+  }
 }
 
 /** What a tour still means to do: the line through its views, and what the next ones look at. */

@@ -55,9 +55,9 @@ export class RunScene {
   private readonly body: three.Group;
   private sight: three.Group;
   private lookedAs = -1; // view
-  private readonly structure: Structure | null;
+  readonly structure: Structure | null;
   private readonly path: PathMark;
-  private readonly frusta: FrustaMark;
+  readonly frusta: FrustaMark;
   readonly plan: PlanMark | null;
   readonly surface: TrueSurface | null;
   readonly candidates: CandidateMarks | null;
@@ -147,7 +147,7 @@ export class RunScene {
     this.vehicle.position.copy(pose.p);
     this.vehicle.quaternion.copy(pose.q);
     if (n > 0) this.lookAs(n - 1);
-    this.sight.visible = n > 0;
+    this.sight.visible = n > 0 && !this.candidates?.object.visible; // it has rays of its own
     // from afar larger than life, or it would be a speck
     const away = camera.position.distanceTo(pose.p);
     this.body.scale.setScalar(Math.max(1, 0.028 * away / this.flight.data.vehicle.radius_m));
@@ -191,7 +191,8 @@ export class RunScene {
     const words = (n: number) => (n < 0 ? "the profile" : `view ${n + 1}`);
     for (let view = 0; view < flight.count && this.frusta.object.visible; ++view) {
       const at = flight.viewPose(view).p;
-      yield { at, ahead: 0.01, of: () => ({ at: at.clone(), what: `View ${view + 1}`, view }) };
+      yield { at, ahead: 0.01, of: () => ({ at: at.clone(), what: `View ${view + 1}`, view,
+        isView: true }) };
     }
     for (let i = 0; surface && i < surface.found.length; ++i) {
       if (!surface.isShown(i)) continue;

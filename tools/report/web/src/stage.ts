@@ -181,8 +181,7 @@ class Stage implements View3d {
     const scene = this.shown[pane];
     if (!scene) return;
     const [left, top] = this.isColumn() ? [0, pane * height] : [pane * width, 0];
-    this.pointing.tell(pick(scene, this.camera, x - left, y - top, width, height,
-      near_px));
+    this.pointing.tell(pick(scene, this.camera, x - left, y - top, width, height, near_px), scene);
   }
 
   setFollows(follows: boolean) {

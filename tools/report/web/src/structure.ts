@@ -35,6 +35,23 @@ export class Structure {
     }
   }
 
+  /** Whether it stands in a ray's way before `far`. */
+  hides(from: three.Vector3, way: three.Vector3, far: number): boolean {
+    const ray = new three.Ray(from, way);
+    const [a, b, c, at] = Array.from({ length: 4 }, () => new three.Vector3());
+    return this.parts.some(({ whole }) => {
+      const places = whole.getAttribute("position").array;
+      const index = whole.getIndex()!.array;
+      for (let i = 0; i < index.length; i += 3) {
+        a.fromArray(places, 3 * index[i]);
+        b.fromArray(places, 3 * index[i + 1]);
+        c.fromArray(places, 3 * index[i + 2]);
+        if (ray.intersectTriangle(a, b, c, false, at) && at.distanceTo(from) < far) return true;
+      }
+      return false;
+    });
+  }
+
   /** All of its faces, or few that look alike from afar. */
   show(isWhole: boolean) {
     for (const { mesh, whole, gist } of this.parts) mesh.geometry = isWhole ? whole : gist;

@@ -4,6 +4,7 @@ import { ramp, rampTable } from "./colours";
 import { kPointLayer } from "./depth_shading";
 import type { Bytes, RampName, RunData } from "./data";
 import { Densities } from "./densities";
+import { lastAtMost } from "./flight";
 import type { SplatSource } from "./splats";
 
 /** Colours by what the point is like; `real` is what the cameras saw. */
@@ -99,6 +100,12 @@ export class Model {
         yield { at: at.fromArray(this.points, 3 * i), view: state - 1 };
       }
     }
+  }
+
+  /** x, y, z and the view that brought it (-1 the profile); null beyond the last one. */
+  point(i: number): number[] | null {
+    if (3 * i >= this.points.length) return null;
+    return [...this.points.subarray(3 * i, 3 * i + 3), lastAtMost(this.cloudAfter, i)];
   }
 
   /** Points of the whole cloud in the voxels, as they are shown. */
