@@ -2,7 +2,7 @@
 // and paper. Its replay: page_test.mjs.
 // usage: node page_layers_test.mjs CHROMIUM PAGE RUN...
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { existsSync, readFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { Browser } from "./browser.mjs";
@@ -161,6 +161,35 @@ try {
       const away = Math.hypot(...place.map((x, k) => ends[i + k] - x));
       assert.ok(away < 2, `a corner ${away} m from view ${view + 1}`);
     }
+  }
+
+  // the line of the surface has the truth to its left alone and the surface to its right alone
+  if (existsSync(join(runs[0], "surface")) && runs.length === 1) {
+    await open("#layers=structure");
+    await browser.until("gnbv.pictures().whole > 0");
+    const alone = await coarseStage();
+    await open("#layers=structure,surface,cloud");
+    const at = async (share) => {
+      const { whole } = await browser.evaluate("gnbv.pictures()");
+      await browser.evaluate(`(() => {
+        const line = document.querySelector(".swipe input");
+        line.value = ${share};
+        line.dispatchEvent(new Event("input", { bubbles: true }));
+      })()`);
+      await browser.until(`gnbv.pictures().whole > ${whole}`);
+      return coarseStage();
+    };
+    const [surface, half, truth] = [await at(0), await at(0.5), await at(1)];
+    const columns = await browser.evaluate(`Math.floor(${canvas}.clientWidth / 8)`);
+    const differ = (a, b, isAsked) => a.filter((cell, i) => i > 9 * columns // below the labels
+      && isAsked(i % columns / columns)
+      && Math.max(...cell.map((x, k) => Math.abs(x - b[i][k]))) > 24).length;
+    const isLeft = (x) => x < 0.47;
+    const isRight = (x) => x > 0.53;
+    assert.equal(differ(truth, alone, () => true), 0);
+    assert.equal(differ(half, truth, isLeft), 0);
+    assert.equal(differ(half, surface, isRight), 0);
+    assert.ok(differ(half, surface, isLeft) > 5 && differ(half, truth, isRight) > 5);
   }
 
   // a view tells what it saw, in place, and a point the views that had it in sight

@@ -135,6 +135,7 @@ export interface RunData {
     error?: Slice } | null; // of errors uint8, in millimetres; 255: not of the structure
   found: Slice | null; // uint16: of the surface's voxels the views until each was found
   candidates: CandidateData | null;
+  surface: Slice | null; // uint8: surface.glb
   voxels: VoxelData | null;
   path: { points: PackedPoints; time: Slice; quaternion: Slice } | null;
   plan: { poses: Slice; ranges: Slice } | null; // of tours; see PackedPlan (run_pack.hpp)

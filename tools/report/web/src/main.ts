@@ -97,6 +97,7 @@ function build() {
     surface: scenes.some((scene) => scene.surface),
     error: flights.some((flight) => flight.data.cloud?.error),
     candidates: flights.some((flight) => flight.data.candidates),
+    runSurface: scenes.some((scene) => scene.runSurface),
   };
   const layerBar = makeLayerBar(stage, has, state, (chosen, by) => {
     layers = chosen;

@@ -87,7 +87,7 @@ export function makeTable(table: Table): HTMLElement {
       make("tbody", {}, ...table.rows.map((row) =>
         make("tr", { class: row[ours] === "ours" ? "ours" : "" },
           ...row.map((cell, i) => make("td", { class: align(i) }, cell))))))),
-    make("ul", { class: "notes" }, ...table.notes.map((note) => make("li", {}, note))));
+    make("ul", { class: "notes" }, ...table.notes.map((note) => make("li", {}, ...withCode(note)))));
 }
 
 export function makeMissing(runs: RunData[]): HTMLElement | null {

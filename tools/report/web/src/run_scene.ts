@@ -12,6 +12,7 @@ import { TrueSurface } from "./true_surface";
 import { makeVehicle } from "./vehicle";
 import { CandidateMarks } from "./candidates";
 import type { Picked } from "./pick";
+import { readRunSurface } from "./run_surface";
 import { Splats } from "./splats";
 
 export interface Layers {
@@ -26,6 +27,7 @@ export interface Layers {
   found: boolean; // voxels of the true surface
   missed: boolean;
   candidates: boolean; // of the decision that chose the view
+  surface: boolean; // that `gnbv surface` made
 }
 
 /** Lines on the ground, every 1, 2, 5, 10 ... m so that there are 8 to 20 each way. */
@@ -48,6 +50,9 @@ function makeGround(min: number[], max: number[]): three.GridHelper {
   return grid;
 }
 
+const isMeasured = (layers: Layers) =>
+  layers.cloud || layers.voxels || layers.found || layers.missed || layers.surface;
+
 export class RunScene {
   readonly scene = new three.Scene();
   readonly vehicle = new three.Group(); // at the vehicle's pose
@@ -61,6 +66,9 @@ export class RunScene {
   readonly plan: PlanMark | null;
   readonly surface: TrueSurface | null;
   readonly candidates: CandidateMarks | null;
+  readonly runSurface: three.Mesh | null;
+  onLoad = () => {}; // of the picture on that surface
+  private layers: Layers | null = null;
   readonly gridStep_m: number;
   private other: RunScene | null = null;
   private readonly splats = new Splats();
@@ -76,6 +84,8 @@ export class RunScene {
       && new CandidateMarks(flight, this.model, data.candidates);
     this.surface = mesh?.surface && data.found ? new TrueSurface(mesh.surface, meshBytes,
       flight.bytes.u16(data.found), flight.count) : null;
+    this.runSurface = data.surface
+      && readRunSurface(flight.bytes.u8(data.surface), () => this.onLoad());
     this.gridStep_m = gridStep(data.workspace.min, data.workspace.max);
     this.body = makeVehicle(data.vehicle);
     this.sight = makeSight(data.cameras);
@@ -90,7 +100,7 @@ export class RunScene {
     if (this.candidates) marks.push(this.candidates.object);
     if (data.has_ground) marks.unshift(makeGround(data.workspace.min, data.workspace.max));
     const { cloud, voxels } = this.model;
-    for (const part of [this.structure?.object, cloud, voxels, this.surface?.object]) {
+    for (const part of [this.structure?.object, cloud, voxels, this.surface?.object, this.runSurface]) {
       if (part) this.scene.add(part);
     }
     this.scene.add(this.splats.object, ...marks);
@@ -100,11 +110,13 @@ export class RunScene {
   }
 
   setLayers(layers: Layers) {
+    this.layers = layers;
+    if (this.runSurface) this.runSurface.visible = layers.surface;
     if (this.model.cloud) this.model.cloud.visible = layers.cloud;
     if (this.model.voxels) this.model.voxels.visible = layers.voxels;
     if (this.structure) {
       this.structure.object.visible = layers.structure;
-      this.structure.setGhost(layers.cloud || layers.voxels || layers.found || layers.missed);
+      this.structure.setGhost(isMeasured(layers));
     }
     this.path.setLayers(layers.path, layers.profile);
     this.frusta.object.visible = layers.frusta;
@@ -112,6 +124,20 @@ export class RunScene {
     this.vehicle.visible = layers.vehicle;
     this.surface?.setLayers(layers.found, layers.missed);
     if (this.candidates) this.candidates.object.visible = layers.candidates;
+  }
+
+  /** Whether a line parts the truth from what the run made of it. */
+  isSwiped() { return !!this.runSurface?.visible && !!this.structure; }
+
+  /** Left of that line the structure, right of it the surface, alone; then all as chosen. */
+  showSide(side: "truth" | "surface" | "all") {
+    const { layers, structure, runSurface, model } = this;
+    if (!layers || !structure || !runSurface) return;
+    structure.object.visible = side === "truth" || (side === "all" && layers.structure);
+    structure.setGhost(side !== "truth" && isMeasured(layers));
+    runSurface.visible = side !== "truth" && layers.surface;
+    if (model.cloud) model.cloud.visible = side === "all" && layers.cloud;
+    if (model.voxels) model.voxels.visible = side === "all" && layers.voxels;
   }
 
   colour(by: Colouring) {
