@@ -6,10 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/compare/paper_table.hpp"
+#include "bench/limits/ceiling.hpp"
 #include "scenarios/papers_setting.hpp"
 #include "sim/core/base64.hpp"
 #include "sim/core/error.hpp"
-#include "tools/mission/run_ceiling.hpp"
+#include "tools/mission/start_pose.hpp"
 #include "tools/render/colour.hpp"
 #include "tools/report/page_parts.hpp"
 #include "tools/report/page_text.hpp"
@@ -45,9 +46,36 @@ RunBudget budget_of(const std::vector<RunRecord>& records, std::size_t mesh_byte
           .points = std::min(kMaxPoints, kAllPoints / records.size())};
 }
 
+/// Names of scenarios as a heading: "Power plant" of "power_plant".
+std::string as_heading(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  if (!name.empty() && name[0] >= 'a' && name[0] <= 'z') {
+    name[0] = static_cast<char>(name[0] - 'a' + 'A');
+  }
+  return name;
+}
+
+/// A run that was scored, with the coverage that could be reached where an earlier command found
+/// it.
+struct ScoredRun {
+  const RunRecord* record = nullptr;
+  std::optional<Ceiling> ceiling = {};
+};
+
+/// That of all runs; none where theirs differ: then a column has no one meaning.
+std::optional<Ceiling> shared_ceiling(std::span<const ScoredRun> runs) {
+  const std::optional<Ceiling>& first = runs.front().ceiling;
+  const bool is_shared = std::all_of(runs.begin(), runs.end(), [&](const ScoredRun& run) {
+    return run.ceiling && first && run.ceiling->leaf_outside == first->leaf_outside;
+  });
+  return is_shared ? first : std::nullopt;
+}
+
 /// Runs of one scenario and structure, beside the paper's figures only where the structure is the
 /// paper's.
-TextTable table_of(std::span<const RunRecord* const> records) {
+TextTable table_of(std::span<const ScoredRun> scored) {
+  std::vector<const RunRecord*> records;
+  for (const ScoredRun& run : scored) records.push_back(run.record);
   std::vector<std::string> notes;
   const std::vector<RunGroup> groups = group_runs(records, notes);
   const std::vector<std::string> labels = setting_labels(groups);
@@ -62,30 +90,38 @@ TextTable table_of(std::span<const RunRecord* const> records) {
   const std::string& scenario = runs.at(0).scenario;
   const std::string& structure = runs.at(0).structure;
   const PaperTable* const paper = find_paper_table(scenario);
-  const std::string title = structure == scenario ? scenario : scenario + ", " + structure;
+  const std::string title = as_heading(
+      structure == scenario ? scenario : fmt::format("{}, structure {}", scenario, structure));
   const PaperTable none{
       .scenario = scenario, .source = title, .rows = {}, .profile = {}, .mesh_sha256 = ""};
   const bool is_papers = paper != nullptr && is_papers_structure(*paper, structure) &&
                          std::any_of(records.begin(), records.end(), [](const RunRecord* record) {
                            return has_papers_setting(record->scenario);
                          });
-  TextTable table = comparison_table(is_papers ? *paper : none, runs, {}, settings);
+  const std::optional<Ceiling> ceiling = shared_ceiling(scored);
+  TextTable table = comparison_table(is_papers ? *paper : none, runs, ceiling, settings);
+  if (!ceiling) {
+    table.notes.emplace_back(
+        "of ceiling: not known, or not the same for all runs; `gnbv ceiling` finds it");
+  }
   table.notes.insert(table.notes.end(), notes.begin(), notes.end());
   return table;
 }
 
 /// A table a scenario and structure, of the runs that were scored.
-Json tables_json(const std::vector<RunRecord>& records) {
-  std::vector<std::vector<const RunRecord*>> tables;
-  for (const RunRecord& record : records) {
+Json tables_json(const std::vector<RunRecord>& records,
+                 const std::vector<std::optional<Ceiling>>& ceilings) {
+  std::vector<std::vector<ScoredRun>> tables;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const RunRecord& record = records[i];
     if (!record.figures || record.figures->curve.coverage.empty()) continue;
     auto table = std::find_if(tables.begin(), tables.end(), [&](const auto& runs) {
-      const RunFigures& first = *runs.front()->figures;
+      const RunFigures& first = *runs.front().record->figures;
       return first.scenario == record.figures->scenario &&
              first.structure == record.figures->structure;
     });
     if (table == tables.end()) table = tables.emplace(tables.end());
-    table->push_back(&record);
+    table->push_back({&record, ceilings[i]});
   }
   Json json = Json::array();
   for (const auto& table : tables) json.push_back(table_json(table_of(table)));
@@ -105,11 +141,13 @@ std::string title_of(const std::vector<RunRecord>& records) {
 }
 
 /// The coverage that could be reached, where an earlier command found it.
-Json ceiling_json(const RunRecord& record, const KnownStructure* structure, int threads) {
-  if (structure == nullptr) return nullptr;
-  const auto ceiling =
-      run_ceiling(record.scenario, structure->world, structure->scene, CeilingFrom::cache, threads);
-  return ceiling ? Json(*ceiling) : Json(nullptr);
+std::optional<Ceiling> ceiling_of(const RunRecord& record, const KnownStructure* structure,
+                                  int threads) {
+  if (structure == nullptr) return std::nullopt;
+  auto ceiling = known_ceiling(record.scenario, structure->world, structure->scene,
+                               start_pose(record.scenario, structure->scene), threads);
+  if (ceiling && ceiling->leaf_outside[0] <= 0.0) return std::nullopt;
+  return ceiling;
 }
 
 /// 256 sRGB colours, three bytes each: those of the pictures of the same run.
@@ -152,6 +190,7 @@ Report make_report(const std::vector<RunRecord>& records, const ReportOptions& o
   const Structures structures = pack_structures(records, options.threads);
   const RunBudget budget = budget_of(records, structures.bytes.bytes().size());
   Json runs = Json::array();
+  std::vector<std::optional<Ceiling>> ceilings;
   std::string data;
   for (std::size_t i = 0; i < records.size(); ++i) {
     const Structures::OfRun& structure = structures.of_run[i];
@@ -161,7 +200,8 @@ Report make_report(const std::vector<RunRecord>& records, const ReportOptions& o
         });
     if (!structure.why.empty()) packed.missing.push_back(structure.why);
     Json run = run_json(records[i], labels[i], packed, structure.number);
-    run["ceiling"] = ceiling_json(records[i], structure.known.get(), options.threads);
+    ceilings.push_back(ceiling_of(records[i], structure.known.get(), options.threads));
+    run["ceiling"] = ceilings.back() ? Json(ceilings.back()->leaf_outside) : Json(nullptr);
     runs.push_back(std::move(run));
     data += bytes_element(fmt::format("run-{}", i), packed.bytes);
     report.missing.insert(report.missing.end(), packed.missing.begin(), packed.missing.end());
@@ -172,7 +212,7 @@ Report make_report(const std::vector<RunRecord>& records, const ReportOptions& o
       {"is_live", options.is_live},
       {"version", GNBV_VERSION},
       {"ramps", {{"path", ramp_json(path_colours())}, {"amount", ramp_json(amount_colours())}}},
-      {"tables", tables_json(records)},
+      {"tables", tables_json(records, ceilings)},
       {"meshes", structures.json},
       {"runs", runs}};
   // names may hold anything, also what is no UTF-8

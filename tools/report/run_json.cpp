@@ -153,8 +153,8 @@ Json candidates_json(const PackedCandidates& packed) {
 }
 
 Json packed_json(const PackedRun& packed) {
-  Json json = {{"cloud", nullptr}, {"voxels", nullptr}, {"path", nullptr},
-               {"plan", nullptr},  {"found", nullptr},  {"candidates", nullptr}};
+  Json json = {{"cloud", nullptr}, {"voxels", nullptr},     {"path", nullptr},   {"plan", nullptr},
+               {"found", nullptr}, {"candidates", nullptr}, {"surface", nullptr}};
   if (packed.cloud) {
     json["cloud"] = {{"points", points_json(packed.cloud->points)},
                      {"after", slice_json(packed.cloud->after)},
@@ -182,6 +182,7 @@ Json packed_json(const PackedRun& packed) {
   }
   if (packed.candidates) json["candidates"] = candidates_json(*packed.candidates);
   if (packed.found) json["found"] = slice_json(*packed.found);
+  if (packed.surface) json["surface"] = slice_json(*packed.surface);
   Json frames = Json::array();
   for (const PackedThumbnail& t : packed.thumbnails) {
     frames.push_back({t.view, packed.cameras[t.camera], t.width_px, t.height_px, t.jpeg.at,
@@ -195,12 +196,20 @@ Json packed_json(const PackedRun& packed) {
 
 Json table_json(const TextTable& table) {
   Json json = {{"title", table.title}, {"columns", Json::array()}, {"rows", Json::array()}};
-  for (const TableColumn& c : table.columns) {
+  const auto says_nothing = [&](std::size_t column) {
+    return std::all_of(table.rows.begin(), table.rows.end(),
+                       [&](const auto& row) { return row[column].text == "-"; });
+  };
+  std::vector<std::size_t> shown;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    if (says_nothing(i)) continue;
+    const TableColumn& c = table.columns[i];
+    shown.push_back(i);
     json["columns"].push_back({{"head", c.head}, {"is_number", c.kind != ColumnKind::text}});
   }
   for (const auto& row : table.rows) {
     Json cells = Json::array();
-    for (const TableCell& cell : row) cells.push_back(cell.text);
+    for (const std::size_t i : shown) cells.push_back(row[i].text);
     json["rows"].push_back(cells);
   }
   json["notes"] = table.notes;

@@ -5,6 +5,8 @@
 
 #include "planner/tour_planner.hpp"
 #include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "tools/report/frame_cloud.hpp"
 #include "tools/report/structures.hpp"
 #include "tools/report/thinning.hpp"
 #include "tools/report/voxel_growth.hpp"
@@ -14,11 +16,15 @@
 namespace gnbv {
 namespace {
 
+namespace fs = std::filesystem;
+
 // What the page needs of each, see PackedCloud and PackedPath.
 constexpr std::size_t kPointBytes = 7;
 constexpr std::size_t kColourBytes = 3;
 constexpr std::size_t kSampleBytes = 18;
 constexpr std::size_t kPlannedBytes = 28;
+constexpr const char* kSurfaceFolder = "surface";
+constexpr const char* kSurfaceFile = "surface.glb";
 constexpr std::size_t kLeast = 16;        // elements, whatever the budget is
 constexpr std::size_t kPaddingBytes = 3;  // at most, before each array
 
@@ -134,6 +140,36 @@ std::size_t point_count(const RunBudget& budget, std::size_t left, bool has_colo
   return std::clamp(room, kLeast, std::max(kLeast, budget.points));
 }
 
+/// What `gnbv surface` made of the run, where it has.
+std::optional<ByteSlice> pack_surface(const fs::path& run, std::size_t max_bytes, BytePack& bytes) {
+  const fs::path path = run / kSurfaceFolder / kSurfaceFile;
+  if (!fs::exists(path)) return std::nullopt;
+  const std::string glb = read_file(path);
+  if (glb.size() > max_bytes) {
+    throw BadInput(
+        fmt::format("{}: {:.1f} MB are too many for the page, {:.1f} MB are left; `gnbv surface {} "
+                    "--texture-px "
+                    "2048 --simplify-m 0.05` makes a smaller one",
+                    path.string(), 1e-6 * static_cast<double>(glb.size()),
+                    1e-6 * static_cast<double>(max_bytes), run.string()));
+  }
+  return bytes.add(std::vector<std::uint8_t>(glb.begin(), glb.end()));
+}
+
+/// Of a run that still flies what its frames show; nothing where it keeps none.
+RunCloud seen_so_far(const RunRecord& record, int threads, std::vector<std::string>& missing) {
+  if (fs::exists(record.folder / kCloudFile) || !has_frames(record.folder)) return {};
+  try {
+    RunCloud cloud = cloud_of_frames(record, read_frames(record.folder), threads);
+    missing.emplace_back(
+        "Points are those of the depth images until then, without the profile's; what of the "
+        "surface was found is told when the mission has ended");
+    return cloud;
+  } catch (const BadInput&) {
+    return {};  // what is wrong with the frames is told with them
+  }
+}
+
 void pack_frames(const RunRecord& record, const RunCloud& cloud, const ThinnedPoints& thin,
                  std::size_t max_bytes, int threads, const ReportProgress& progress,
                  PackedRun& out) {
@@ -190,17 +226,25 @@ PackedRun pack_run(const RunRecord& record, const KnownStructure* structure,
     out.missing.emplace_back(error.what());  // and without candidates
   }
   try {
+    out.surface = pack_surface(record.folder, budget.bytes / 3, out.bytes);
+  } catch (const BadInput& error) {
+    out.missing.emplace_back(error.what());  // and without a surface
+  }
+  try {
     cloud = read_run_cloud(record);
     if (structure != nullptr && !structure->to_find.codes.empty() && views < kNeverFound) {
       out.found = out.bytes.add(views_until_found(structure->to_find, cloud));
     }
     out.voxels =
         pack_voxels(cloud, record.scenario.planner.map.resolution_m, budget.bytes / 4, out.bytes);
+  } catch (const BadInput& error) {
+    out.missing.emplace_back(error.what());
+    cloud = seen_so_far(record, threads, out.missing);
+  }
+  if (!cloud.points_world_m.empty()) {
     thin = thinned(cloud.points_world_m, point_count(budget, left(), has_frames(record.folder)),
                    std::max(record.scenario.planner.cloud.leaf_m, 1e-3));
     out.cloud = pack_cloud(cloud, thin, views, structure, threads, out.bytes);
-  } catch (const BadInput& error) {
-    out.missing.emplace_back(error.what());  // the page does without points
   }
   try {
     pack_frames(record, cloud, thin, left(), threads, progress, out);

@@ -67,7 +67,8 @@ struct PackedRun {
   std::optional<PackedPlan> plan = {};              // of tours
   std::optional<PackedCandidates> candidates = {};  // where the run kept them
   std::optional<ByteSlice> found = {};              // uint16, see views_until_found()
-  std::vector<std::string> cameras = {};            // names, of the thumbnails
+  std::optional<ByteSlice> surface = {};  // uint8: surface.glb, as `gnbv surface` wrote it
+  std::vector<std::string> cameras = {};  // names, of the thumbnails
   std::vector<PackedThumbnail> thumbnails = {};
   std::vector<std::string> missing = {};  // beyond what the record says
 };
@@ -82,7 +83,7 @@ struct RunBudget {
 
 /// What of the run is there, thinned to the budget: voxels get a quarter of it, the path an eighth,
 /// a tour's plans and the candidates at most another one each, of a plan its next views, of the
-/// candidates all or none; points and frames share the rest.
+/// candidates all or none, a surface a third or nothing; points and frames share the rest.
 /// What is not there, or cannot be used, is named in `missing`, where a command makes it with that
 /// command. Without a structure nothing is said of what was found of it.
 PackedRun pack_run(const RunRecord& record, const KnownStructure* structure,

@@ -2,7 +2,7 @@
 // and paper. Its replay: page_test.mjs.
 // usage: node page_layers_test.mjs CHROMIUM PAGE RUN...
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { existsSync, readFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { Browser } from "./browser.mjs";
@@ -16,6 +16,13 @@ function coverage(run) {
   const column = head.split(",").findIndex((name) => name === "coverage_0.05");
   assert.ok(column >= 0, head);
   return rows.map((row) => Number(row.split(",")[column]));
+}
+
+/** x, y, z of each view. */
+function recorded(run) {
+  const [head, ...rows] = readFileSync(join(run, "iterations.csv"), "utf8").trim().split("\n");
+  return rows.map((row) => ["x", "y", "z"].map((name) =>
+    Number(row.split(",")[head.split(",").indexOf(name)])));
 }
 
 /** Whether all fly one configuration with different seeds. */
@@ -51,16 +58,58 @@ const press = async (key, element) => {
   await browser.call("Input.dispatchKeyEvent", { type: "keyUp", key });
   await drawn();
 };
+const pyramids = [];
 const camera = () => browser.evaluate("gnbv.camera()");
-const open = async () => {
+const open = async (hash = "") => {
   await browser.call("Page.navigate", { url: "about:blank" });
-  await browser.call("Page.navigate", { url });
+  await browser.call("Page.navigate", { url: url + hash });
   await browser.until("!!window.gnbv");
   await drawn();
 };
 
+/** The 3D view as mean colours of cells of 8 x 8 pixels. */
+async function coarseStage() {
+  const { width, height, ...place } = await browser.evaluate(`(() => {
+    const { x, y, width, height } = ${canvas}.getBoundingClientRect();
+    return { x: x + scrollX, y: y + scrollY, width, height };
+  })()`);
+  const png = await browser.picture({ ...place, width, height });
+  return browser.evaluate(`(async () => {
+    const image = new Image();
+    image.src = "data:image/png;base64,${png}";
+    await image.decode();
+    const [columns, rows] = [Math.floor(image.width / 8), Math.floor(image.height / 8)];
+    const context = new OffscreenCanvas(columns, rows).getContext("2d");
+    context.imageSmoothingQuality = "high";
+    context.drawImage(image, 0, 0, columns, rows);
+    const { data } = context.getImageData(0, 0, columns, rows);
+    return Array.from({ length: columns * rows }, (_, i) => [...data.slice(4 * i, 4 * i + 3)]);
+  })()`);
+}
+
 try {
   await browser.call("Page.setDownloadBehavior", { behavior: "deny" });
+  // the gist, which machines without a graphics card draw while things move, looks like the whole
+  const { identifier } = await browser.call("Page.addScriptToEvaluateOnNewDocument", { source: `
+    const later = setTimeout.bind(window);
+    window.held = [];
+    window.setTimeout = (call, ms, ...rest) =>
+      ms >= 600 && window.held ? window.held.push(call) : later(call, ms, ...rest);` });
+  for (const layers of ["cloud,structure,path", "found,missed,structure"]) {
+    await open(`#layers=${layers}`);
+    const gist = await coarseStage();
+    assert.equal((await browser.evaluate("gnbv.pictures()")).whole, 0);
+    await browser.evaluate("[held.splice(0), held = null][0].forEach((call) => call())");
+    await browser.until("gnbv.pictures().whole > 0");
+    const whole = await coarseStage();
+    const background = whole[0];
+    const away = (a, b) => Math.max(...a.map((x, i) => Math.abs(x - b[i])));
+    const drawn = whole.filter((cell) => away(cell, background) > 24).length;
+    const other = whole.filter((cell, i) => away(cell, gist[i]) > 48).length;
+    assert.ok(drawn > 0.01 * whole.length, `${drawn} cells of ${whole.length}: ${layers}`);
+    assert.ok(other < 0.1 * drawn, `${other} of ${drawn} cells differ: ${layers}`);
+  }
+  await browser.call("Page.removeScriptToEvaluateOnNewDocument", { identifier });
   await open();
 
   // found is what coverage.csv says, at every view and on the way back
@@ -100,6 +149,65 @@ try {
       for (const reason of reasons) assert.ok(told.includes(reason.replaceAll("_", " ")), told);
     }
   }
+
+  // the pyramid of a view stands where the view is
+  for (const [run, folder] of runs.entries()) {
+    recorded(folder).forEach((place, view) => pyramids.push([run, view, place]));
+  }
+  for (const [run, view, place] of pyramids) {
+    const ends = await browser.evaluate(`gnbv.frustum(${run}, ${view})`);
+    assert.ok(ends.length > 0);
+    for (let i = 0; i < ends.length; i += 3) {
+      const away = Math.hypot(...place.map((x, k) => ends[i + k] - x));
+      assert.ok(away < 2, `a corner ${away} m from view ${view + 1}`);
+    }
+  }
+
+  // the line of the surface has the truth to its left alone and the surface to its right alone
+  if (existsSync(join(runs[0], "surface")) && runs.length === 1) {
+    await open("#layers=structure");
+    await browser.until("gnbv.pictures().whole > 0");
+    const alone = await coarseStage();
+    await open("#layers=structure,surface,cloud");
+    const at = async (share) => {
+      const { whole } = await browser.evaluate("gnbv.pictures()");
+      await browser.evaluate(`(() => {
+        const line = document.querySelector(".swipe input");
+        line.value = ${share};
+        line.dispatchEvent(new Event("input", { bubbles: true }));
+      })()`);
+      await browser.until(`gnbv.pictures().whole > ${whole}`);
+      return coarseStage();
+    };
+    const [surface, half, truth] = [await at(0), await at(0.5), await at(1)];
+    const columns = await browser.evaluate(`Math.floor(${canvas}.clientWidth / 8)`);
+    const differ = (a, b, isAsked) => a.filter((cell, i) => i > 9 * columns // below the labels
+      && isAsked(i % columns / columns)
+      && Math.max(...cell.map((x, k) => Math.abs(x - b[i][k]))) > 24).length;
+    const isLeft = (x) => x < 0.47;
+    const isRight = (x) => x > 0.53;
+    assert.equal(differ(truth, alone, () => true), 0);
+    assert.equal(differ(half, truth, isLeft), 0);
+    assert.equal(differ(half, surface, isRight), 0);
+    assert.ok(differ(half, surface, isLeft) > 5 && differ(half, truth, isRight) > 5);
+  }
+
+  // a view tells what it saw, in place, and a point the views that had it in sight
+  const [, , [x, y, z]] = pyramids[0];
+  await open(`#at=${curves[0].length - 1}&runs=0&layers=frusta&camera=${x},${y - 1},${z},${x},${y},${z}`);
+  await press("Enter", canvas);
+  assert.match(await browser.evaluate("document.querySelector('.picked').textContent"),
+    /^View \d+, at/);
+  assert.ok(await browser.evaluate("document.querySelectorAll('.picked img').length") > 0);
+  const { tried, sawIt } = await browser.evaluate(`(() => {
+    const all = Array.from({ length: 100000 }, (_, i) => i).map((i) => gnbv.point(0, 7 * i))
+      .filter((point) => point && point[3] >= 0);
+    const sawIt = all.filter((p) => gnbv.seenBy(0, p.slice(0, 3)).includes(p[3])).length;
+    return { tried: all.length, sawIt };
+  })()`);
+  assert.ok(tried > 3 && sawIt >= 0.85 * tried, `${sawIt} of ${tried}`);
+  await open();
+  await flip("Missed");
 
   // seeds of one configuration are drawn as their mean, where there are any
   const seeds = "document.querySelector(\"select[aria-label='Runs of several seeds']\")";

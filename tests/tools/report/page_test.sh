@@ -25,6 +25,7 @@ for seed in 1 2; do
   "$gnbv" run smoke --quiet --frames --candidates --seed "$seed" --out "seed$seed" \
     --set planner.termination.max_iterations=4 >/dev/null
 done
+"$gnbv" surface "${evil}proposed" --quiet >/dev/null
 # names that only files can hold
 node -e '
   const fs = require("fs");

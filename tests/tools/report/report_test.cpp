@@ -12,6 +12,7 @@
 #include "tests/support/made_frames.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/render/colour.hpp"
+#include "tools/report/run_json.hpp"
 #include "tools/report/run_pack.hpp"
 #include "tools/run_files/plan_jsonl.hpp"
 
@@ -310,6 +311,33 @@ TEST(Report, RunsOfTwoConfigurationsAreTwoRows) {
   EXPECT_EQ(labels({a, b, other_seed}), (Labels{"proposed, paper: 2", "proposed, released: 1",
                                                 "Profile, paper: 1", "Profile, released: 1"}));
   EXPECT_EQ(labels({a, a}), (Labels{"proposed: 1", "Profile: 1"})) << "one mission, told twice";
+}
+
+/// As `gnbv surface` wrote it, or a command that makes a smaller one.
+TEST(Report, CarriesTheSurfaceOfTheRunWhereItHasRoom) {
+  TempFolder temp;
+  write_made_run(temp.path());
+  const RunRecord record = read_run(temp.path());
+  EXPECT_TRUE(data_of(report_of({record}))["runs"][0]["surface"].is_null());
+  fs::create_directory(temp.path() / "surface");
+  write_file_atomically(temp.path() / "surface" / "surface.glb", "glTF and more");
+  const nlohmann::json with = data_of(report_of({record}));
+  EXPECT_EQ(with["runs"][0]["surface"][1], 13);
+  write_file_atomically(temp.path() / "surface" / "surface.glb", std::string(9'000'000, 'x'));
+  const nlohmann::json without = data_of(report_of({record}));
+  EXPECT_TRUE(without["runs"][0]["surface"].is_null());
+  EXPECT_NE(without["runs"][0]["missing"].dump().find("makes a smaller one"), std::string::npos);
+}
+
+TEST(Report, ColumnsWithoutAValueAreLeftOut) {
+  const TextTable table{.title = "t",
+                        .columns = {{"A", "a"}, {"B", "b", ColumnKind::number}, {"C", "c"}},
+                        .rows = {{{"x"}, {"-"}, {"-"}}, {{"y"}, {"-"}, {"1"}}},
+                        .notes = {}};
+  const nlohmann::json json = table_json(table);
+  EXPECT_EQ(json["columns"].dump(),
+            R"([{"head":"A","is_number":false},{"head":"C","is_number":false}])");
+  EXPECT_EQ(json["rows"].dump(), R"([["x","-"],["y","1"]])");
 }
 
 }  // namespace

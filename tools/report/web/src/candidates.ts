@@ -15,6 +15,12 @@ const missColour = () => (isDark() ? 0x54483a : 0xecd9c6); // of rays that meet 
 // Rejections by their number: dark and muted, as in the pictures of candidates.
 const kReasonColours = [0x9aa3ae, 0x2f3640, 0xa3321f, 0x7a4f9a, 0x8c6d3f, 0x4f7f86, 0x3f5b8c,
   0x6f8f2a, 0xb03a6b, 0x8a5a6a];
+/** On a dark page they would drown. */
+const reasonColour = (kind: number) => {
+  const colour = new three.Color(kReasonColours[kind] ?? 0x888888);
+  const { h, s, l } = colour.getHSL({ h: 0, s: 0, l: 0 }, three.SRGBColorSpace);
+  return isDark() ? colour.setHSL(h, s, Math.max(l, 0.55), three.SRGBColorSpace) : colour;
+};
 const kTermCount = 5; // utility, information, density, prediction, distance
 const kBest = 5;
 const kRays = [9, 7];
@@ -87,7 +93,7 @@ export class CandidateMarks {
 
   private colourOf({ kind, terms }: Candidate): three.Color {
     if (kind === kChosen) return new three.Color(kChosenColour);
-    if (!terms) return new three.Color(kReasonColours[kind] ?? 0x888888);
+    if (!terms) return reasonColour(kind);
     const values = this.now.filter((other) => other.terms).map((other) => other.terms![0]);
     const [low, high] = [Math.min(...values), Math.max(...values)];
     const [r, g, b] = ramp("amount", (terms[0] - low) / (high - low || 1));
@@ -110,10 +116,10 @@ export class CandidateMarks {
       const dots = new three.BufferGeometry().setFromPoints(all.map(({ at }) => at));
       dots.setAttribute("color", new three.Float32BufferAttribute(colours.flat(), 3));
       const points = new three.Points(dots, new three.PointsMaterial({ vertexColors: true,
-        size: [4, 7, 10][rank], sizeAttenuation: false }));
+        size: [4, 8, 13][rank], sizeAttenuation: false }));
       points.frustumCulled = false;
       return [points, makeTube(new Float32Array(ends),
-        new Float32Array(colours.flatMap((rgb) => [...rgb, ...rgb])), [1.2, 2.2, 3.5][rank], 1)];
+        new Float32Array(colours.flatMap((rgb) => [...rgb, ...rgb])), [1.5, 2.6, 4.5][rank], 1)];
     });
   }
 
@@ -151,7 +157,7 @@ export class CandidateMarks {
       kind === kChosen ? { colour: hex(kChosenColour), text: "chosen, and its rays" }
       : kind === kValid ? { colour: "linear-gradient(90deg,#3b528b,#5ec962)",
         text: `valid, low to high utility: ${count}` }
-      : { colour: hex(kReasonColours[kind] ?? 0x888888),
+      : { colour: `#${reasonColour(kind).getHexString()}`,
         text: `${words(this.data.reasons[kind])}: ${count}` });
   }
 
@@ -183,7 +189,8 @@ function lines(positions: number[], colours: number[]): three.LineSegments {
   geometry.setAttribute("position", new three.Float32BufferAttribute(positions, 3));
   geometry.setAttribute("color", new three.Float32BufferAttribute(colours, 3));
   const segments = new three.LineSegments(geometry,
-    new three.LineBasicMaterial({ vertexColors: true }));
+    new three.LineBasicMaterial({ vertexColors: true, transparent: true, opacity: 0.45,
+      depthWrite: false }));
   segments.frustumCulled = false;
   return segments;
 }

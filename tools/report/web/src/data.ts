@@ -129,12 +129,13 @@ export interface RunData {
   vehicle: { rotors: Vec3[]; radius_m: number };
   views: Views;
   figures: Figures | null;
-  ceiling: number | null; // coverage at 0.05 m that could be reached
+  ceiling: Vec3 | null; // coverage that could be reached, by voxel size
   paper: PaperEnd | null;
   cloud: { points: PackedPoints; after: Slice; all_points: number; cell_m: number; colour?: Slice;
     error?: Slice } | null; // of errors uint8, in millimetres; 255: not of the structure
   found: Slice | null; // uint16: of the surface's voxels the views until each was found
   candidates: CandidateData | null;
+  surface: Slice | null; // uint8: surface.glb
   voxels: VoxelData | null;
   path: { points: PackedPoints; time: Slice; quaternion: Slice } | null;
   plan: { poses: Slice; ranges: Slice } | null; // of tours; see PackedPlan (run_pack.hpp)

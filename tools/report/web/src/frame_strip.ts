@@ -5,15 +5,13 @@ import type { Slice } from "./data";
 import { make, number } from "./dom";
 import type { Flight } from "./flight";
 
+const kDialog = make("dialog", { class: "large", "aria-label": "Picture" });
+kDialog.addEventListener("click", () => kDialog.close());
+
 /** The frames that the cameras took at the present view, or at the nearest one that was kept. */
 export class FrameStrip {
-  readonly element = make("div", { class: "frames" });
-  private readonly dialog = make("dialog", { class: "large", "aria-label": "Picture" });
+  readonly element = make("div", { class: "frames strip" });
   private key = "";
-
-  constructor() {
-    this.dialog.addEventListener("click", () => this.dialog.close());
-  }
 
   show(flights: Flight[], clock: Clock) {
     const kept = flights.filter((flight) => flight.data.frames.length > 0);
@@ -21,43 +19,47 @@ export class FrameStrip {
     const key = kept.map((flight, i) => `${flight.index}:${nearest[i]}`).join();
     if (key === this.key) return;
     this.key = key;
-    if (this.dialog.open) this.dialog.close();
-    this.element.replaceChildren(this.dialog, ...kept.flatMap((flight, i) => flight.data.frames
-      .filter(([view]) => view === nearest[i])
-      .flatMap(([view, camera, width, height, at, bytes, depthAt, depthBytes]) => {
-        const name = `${flights.length > 1 ? `${flight.data.label}: ` : ""}view ${view + 1}, `
-          + camera;
-        const range = Math.max(...flight.data.cameras.map((each) => each.range_m));
-        return [this.figure(flight, [at, bytes], width, height, name, []),
-          this.figure(flight, [depthAt, depthBytes], width, height, `${name}, depth`,
-            depthKey(range))];
-      })));
+    if (kDialog.open) kDialog.close();
+    this.element.replaceChildren(...kept.flatMap((flight, i) => figuresOf(flight, nearest[i],
+      flights.length > 1 ? `${flight.data.label}: ` : "")));
   }
+}
 
-  private figure(flight: Flight, slice: Slice, width: number, height: number, name: string,
-      key: HTMLElement[]): HTMLElement {
-    const url = URL.createObjectURL(new Blob([flight.bytes.u8(slice)], { type: "image/jpeg" }));
-    const image = make("img", { src: url, width, height, alt: name });
-    image.addEventListener("load", () => URL.revokeObjectURL(url));
-    const open = make("button", { type: "button", class: "picture", title: "As large as it goes",
-      "aria-label": `Enlarge ${name}`, click: () => this.enlarge(image, name) }, image);
-    return make("figure", { class: "card frame" }, open, make("figcaption", {}, name, ...key));
-  }
+/** What the cameras saw at a view; nothing where it was not kept. */
+export function figuresOf(flight: Flight, view: number, before = ""): HTMLElement[] {
+  return flight.data.frames.filter(([of]) => of === view)
+    .flatMap(([_, camera, width, height, at, bytes, depthAt, depthBytes]) => {
+      const name = `${before}view ${view + 1}, ${camera.replaceAll("_", " ")}`;
+      const range = Math.max(...flight.data.cameras.map((each) => each.range_m));
+      return [figure(flight, [at, bytes], width, height, name, []),
+        figure(flight, [depthAt, depthBytes], width, height, `${name}, depth`, depthKey(range))];
+    });
+}
 
-  private enlarge(image: HTMLImageElement, name: string) {
-    const canvas = make("canvas", { width: image.naturalWidth, height: image.naturalHeight,
-      role: "img", "aria-label": name });
-    canvas.getContext("2d")?.drawImage(image, 0, 0);
-    this.dialog.replaceChildren(canvas, make("p", { class: "fine" }, name),
-      make("button", { type: "button", click: () => this.dialog.close() }, "Close"));
-    this.dialog.showModal();
-  }
+function figure(flight: Flight, slice: Slice, width: number, height: number, name: string,
+    key: HTMLElement[]): HTMLElement {
+  const url = URL.createObjectURL(new Blob([flight.bytes.u8(slice)], { type: "image/jpeg" }));
+  const image = make("img", { src: url, width, height, alt: name });
+  image.addEventListener("load", () => URL.revokeObjectURL(url));
+  const open = make("button", { type: "button", class: "picture", title: "As large as it goes",
+    "aria-label": `Enlarge ${name}`, click: () => enlarge(image, name) }, image);
+  return make("figure", { class: "card frame" }, open, make("figcaption", {}, name, ...key));
+}
+
+function enlarge(image: HTMLImageElement, name: string) {
+  const canvas = make("canvas", { width: image.naturalWidth, height: image.naturalHeight,
+    role: "img", "aria-label": name });
+  canvas.getContext("2d")?.drawImage(image, 0, 0);
+  kDialog.replaceChildren(canvas, make("p", { class: "fine" }, name),
+    make("button", { type: "button", click: () => kDialog.close() }, "Close"));
+  (document.fullscreenElement ?? document.body).append(kDialog);
+  kDialog.showModal();
 }
 
 function depthKey(range_m: number): HTMLElement[] {
   const bar = make("i", { class: "mark bar" });
   bar.style.background = rampGradient("amount");
-  return [make("span", { class: "depth-key" }, "0", bar, `${number(range_m, 1)} m; grey: none`)];
+  return [make("span", { class: "depth-key" }, "0", bar, `${number(range_m)} m`)];
 }
 
 function nearestView(flight: Flight, view: number): number {

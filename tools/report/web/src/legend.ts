@@ -55,6 +55,10 @@ export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring): 
       items.push(item("dot", hex(foundColours.onlyOther), "missed here, found by the other run"));
     }
   }
+  if (layers.surface && scenes.some((scene) => scene.isSwiped())) {
+    items.push(make("span", {}, "left of the line the true structure, right of it the surface made "
+      + "of the run's pictures"));
+  }
   if (layers.structure) items.push(item("dot", "#b9bec6", "structure"));
   if (layers.path) items.push(item("bar", rampGradient("path"), "last", "path, views: first"));
   if (layers.frusta) items.push(item("line", rampGradient("path"), "pyramid of each view"));
@@ -62,7 +66,7 @@ export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring): 
   if (layers.plan && scenes.some((scene) => scene.plan)) {
     items.push(item("line", hex(planColour()), "still planned"));
   }
-  if (layers.vehicle) items.push(item("line", "#ff8a3c", "what the cameras see"));
+  if (layers.vehicle && !layers.candidates) items.push(item("line", "#ff8a3c", "what the cameras see"));
   if (layers.candidates) items.push(...candidateItems(scenes));
   items.push(make("span", {}, `grid ${number(first.gridStep_m)} m`));
   return items;

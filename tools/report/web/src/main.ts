@@ -16,7 +16,9 @@ import { FrameStrip } from "./frame_strip";
 import * as panels from "./panels";
 import { Plots } from "./plots";
 import { RunScene } from "./run_scene";
+import { viewsThatSaw } from "./seen_by";
 import { makeStage } from "./stage";
+import { Vector3 } from "three";
 
 function setRunColours(count: number) {
   for (let i = 0; i < count; ++i) {
@@ -95,6 +97,7 @@ function build() {
     surface: scenes.some((scene) => scene.surface),
     error: flights.some((flight) => flight.data.cloud?.error),
     candidates: flights.some((flight) => flight.data.candidates),
+    runSurface: scenes.some((scene) => scene.runSurface),
   };
   const layerBar = makeLayerBar(stage, has, state, (chosen, by) => {
     layers = chosen;
@@ -116,9 +119,11 @@ function build() {
         make("section", { class: "mission", "aria-label": "The mission in 3D" },
           make("div", { class: "card view" }, stage.canDraw ? layerBar : null, stage.element,
             stage.canDraw ? key : null, makeTransport(replay, words), words, why),
-          strip.element, missed),
-        plots.element),
-      page.tables.length > 0 ? make("section", {}, make("h2", {}, "Beside the paper"),
+          strip.element),
+        make("div", { class: "side" }, plots.element, missed)),
+      page.tables.length > 0 ? make("section", {}, make("h2", {},
+        page.tables.some((table) => table.rows.some((row) => row.includes("paper")))
+          ? "Beside the paper" : "In one table"),
         ...page.tables.map(panels.makeTable)) : "",
       panels.makeConfiguration(page.runs)),
     panels.makeFooter(page));
@@ -148,6 +153,7 @@ function build() {
   // for scripts and tests: gnbv.seek(views), gnbv.pose(run) as x, y, z, yaw of what is drawn,
   // gnbv.views(run) at the present place of the replay, gnbv.points(run) that the voxels hold
   // there, gnbv.found(run) of the true surface, gnbv.candidates(run) that are drawn,
+  // gnbv.frustum(run, view) ends of its pyramid's lines, gnbv.point(run, i) as x, y, z and the view that brought it, gnbv.seenBy(run, place) views,
   // gnbv.plan(run) of views that a tour's plan still has there, gnbv.camera() where the 3D view is
   // seen from, gnbv.pictures() how many were drawn of it
   Object.assign(window, { gnbv: {
@@ -156,6 +162,10 @@ function build() {
     points: (run: number) => scenes[run].model.countedPoints(),
     found: (run: number) => scenes[run].surface?.counts() ?? null,
     candidates: (run: number) => scenes[run].candidates?.count ?? 0,
+    frustum: (run: number, view: number) => scenes[run].frusta.lines(view),
+    point: (run: number, i: number) => scenes[run].model.point(i),
+    seenBy: (run: number, place: number[]) =>
+      viewsThatSaw(new Vector3(...place), scenes[run]),
     plan: (run: number) => scenes[run].plan?.count ?? 0,
     camera: () => stage.cameraPosition(),
     pictures: () => ({ ...stage.pictures() }),

@@ -27,10 +27,22 @@ export function makeTube(positions: Float32Array, colours: Float32Array, width_p
   return tube;
 }
 
+/** Likewise, as thin as the renderer has them, which is quicker. */
+function makeLines(positions: Float32Array, colours: Float32Array, opacity: number) {
+  const geometry = new three.BufferGeometry();
+  geometry.setAttribute("position", new three.BufferAttribute(positions, 3));
+  geometry.setAttribute("color", new three.BufferAttribute(colours, 3));
+  const lines = new three.LineSegments(geometry, new three.LineBasicMaterial({
+    vertexColors: true, transparent: opacity < 1, opacity }));
+  lines.frustumCulled = false;
+  return lines;
+}
+
 /** A piece of the path: the samples that are its corners, and the line through them. */
 interface Piece {
   corners: number[];
   line: LineSegments2;
+  thin: three.LineSegments; // the same for the gist
 }
 
 /**
@@ -62,27 +74,32 @@ export class PathMark {
           colour.toArray(colours, at);
         }
       }
-      return { corners, line: makeTube(positions, colours, width_px, opacity) };
+      return { corners, line: makeTube(positions, colours, width_px, opacity),
+        thin: makeLines(positions, colours, opacity) };
     };
     this.profile = piece(0, firstView, 1.2, 0.7, () => grey);
     this.planned = piece(Math.max(0, firstView - 1), count, 2.4, 1, orderColour);
-    this.object.add(this.profile.line, this.planned.line, this.end);
+    for (const { line, thin } of [this.profile, this.planned]) this.object.add(line, thin);
+    this.object.add(this.end);
   }
 
   setLayers(showsPlanned: boolean, showsProfile: boolean) {
     this.layers = [showsPlanned, showsProfile];
   }
 
-  show(samples: number) {
+  show(samples: number, isWhole: boolean) {
     this.end.visible = false;
-    this.showPiece(this.profile, samples, this.layers[1], 0.7);
-    this.showPiece(this.planned, samples, this.layers[0], 1);
+    this.showPiece(this.profile, samples, isWhole, this.layers[1], 0.7);
+    this.showPiece(this.planned, samples, isWhole, this.layers[0], 1);
   }
 
-  private showPiece({ corners, line }: Piece, samples: number, isShown: boolean, opacity: number) {
+  private showPiece({ corners, line, thin }: Piece, samples: number, isWhole: boolean,
+      isShown: boolean, opacity: number) {
     const last = lastAtMost(corners, samples - 1);
     line.geometry.instanceCount = Math.max(0, last);
-    line.visible = isShown && last > 0;
+    thin.geometry.setDrawRange(0, Math.max(0, 2 * last));
+    line.visible = isShown && isWhole && last > 0;
+    thin.visible = isShown && !isWhole && last > 0;
     if (!isShown || last < 0 || last + 1 >= corners.length) return;
     if (samples - 1 <= corners[last]) return;
     const points = this.flight.points!;
@@ -129,7 +146,7 @@ export class FrustaMark {
       const colour = orderColour(view / Math.max(1, flight.count - 1));
       edgesAt(view).forEach((edge, i) => {
         const at = 3 * (view * this.perView + i);
-        edge.applyQuaternion(q).add(p).toArray(positions, at);
+        edge.clone().applyQuaternion(q).add(p).toArray(positions, at); // edges share corners
         colour.toArray(colours, at);
       });
     }
@@ -142,6 +159,12 @@ export class FrustaMark {
   }
 
   show(views: number) { this.object.geometry.setDrawRange(0, views * this.perView); }
+
+  /** Ends of the lines of a view, x y z each. */
+  lines(view: number): number[] {
+    const { array } = this.object.geometry.getAttribute("position");
+    return [...array.slice(3 * view * this.perView, 3 * (view + 1) * this.perView)];
+  }
 }
 
 /** What a tour still means to do: the line through its views, and what the next ones look at. */

@@ -22,7 +22,7 @@ function keyFigures(run: RunData): Figure[] {
       paper: paper?.coverage_percent &&
         `${number(paper.coverage_percent[0], 1)} %${paper.is_doubtful ? " †" : ""}` });
     if (run.ceiling) {
-      figures.push({ name: "Of the ceiling", value: number(100 * f.coverage[0] / run.ceiling, 1),
+      figures.push({ name: "Of the ceiling", value: number(100 * f.coverage[0] / run.ceiling[0], 1),
         unit: "%" });
     }
     figures.push({ name: "F within 5 cm", value: number(100 * f.f_5cm, 1), unit: "%" });
@@ -32,20 +32,23 @@ function keyFigures(run: RunData): Figure[] {
   figures.push({ name: "View to view", value: number(f?.straight_m ?? views.metres.at(-1) ?? 0, 1),
     unit: "m", paper: paper?.metres ? `${number(paper.metres, 1)} m` : undefined });
   if (f) {
-    figures.push({ name: "Profile", value: number(f.profile_m, 1), unit: "m" });
+    figures.push({ name: "Profile flight", value: number(f.profile_m, 1), unit: "m" });
     figures.push({ name: "Density", value: number(f.density, 1), unit: "a voxel",
       paper: paper?.density ? number(paper.density, 1) : undefined });
-    figures.push({ name: "Flight", value: minutes(f.flight_time_s), unit: "min" });
+    figures.push({ name: "Flight with profile", value: minutes(f.flight_time_s), unit: "min" });
     figures.push({ name: "Energy", value: number(f.energy_wh, 1), unit: "Wh" });
   }
   return figures;
 }
 
 export function makeTiles(run: RunData): HTMLElement {
-  return make("dl", { class: "tiles" }, ...keyFigures(run).map((figure) =>
+  const figures = keyFigures(run);
+  const hasPapers = figures.some((figure) => figure.paper);
+  return make("dl", { class: "tiles" }, ...figures.map((figure) =>
     make("div", { class: "card tile" }, make("dt", {}, figure.name),
       make("dd", {}, figure.value, make("span", { class: "unit" }, figure.unit)),
-      make("dd", { class: "paper" }, figure.paper ? `paper ${figure.paper}` : ""))));
+      hasPapers ? make("dd", { class: "paper" }, figure.paper ? `paper ${figure.paper}` : "")
+        : null)));
 }
 
 /** A row a run; its box chooses whether it is shown. */
@@ -84,7 +87,7 @@ export function makeTable(table: Table): HTMLElement {
       make("tbody", {}, ...table.rows.map((row) =>
         make("tr", { class: row[ours] === "ours" ? "ours" : "" },
           ...row.map((cell, i) => make("td", { class: align(i) }, cell))))))),
-    make("ul", { class: "notes" }, ...table.notes.map((note) => make("li", {}, note))));
+    make("ul", { class: "notes" }, ...table.notes.map((note) => make("li", {}, ...withCode(note)))));
 }
 
 export function makeMissing(runs: RunData[]): HTMLElement | null {
@@ -134,8 +137,8 @@ export function readout(flight: Flight, clock: Clock): string {
   const n = flight.viewsAt(clock);
   if (n === 0) return "After the profile, before the first view";
   const v = flight.data.views;
-  const parts = [`View ${number(n)} of ${number(flight.count)}`, `${number(v.metres[n - 1], 1)} m`,
-    `${minutes(v.seconds[n - 1])} min`];
+  const parts = [`View ${number(n)} of ${number(flight.count)}`,
+    `${number(v.metres[n - 1], 1)} m, ${minutes(v.seconds[n - 1])} min since the profile`];
   const coverage = flight.data.figures?.curve.coverage[n];
   if (coverage) parts.push(`coverage ${number(100 * coverage[0], 1)} %`);
   if (v.sampler[n - 1] === "tour") {

@@ -6,6 +6,7 @@ export interface Picked {
   at: three.Vector3;
   what: string;
   view: number | null; // index of a view to go to
+  isView?: boolean; // it is that view itself
 }
 
 export const kPointer_px = 9;

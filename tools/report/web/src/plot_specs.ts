@@ -1,7 +1,7 @@
 // What the plots show, as numbers: a column of efforts and a column a line.
 import uPlot from "uplot";
 import type { Effort } from "./clock";
-import { faintLine, lineColour, runColour } from "./colours";
+import { faintLine, lineColour, paleInk, runColour } from "./colours";
 import type { Flight } from "./flight";
 
 export interface Line {
@@ -62,6 +62,13 @@ const ringOf = (flight: Flight, effort: Effort, y: number | undefined): Ring[] =
   return [{ x, y, colour: runColour(flight.index) }];
 };
 
+/** What could be reached at a voxel size, each once. */
+function ceilings(flights: Flight[], size: number, colour: string) {
+  const shares = new Set(flights.flatMap(({ data }) => (data.ceiling ? [data.ceiling[size]] : [])));
+  return [...shares].map((share) => ({ share: 100 * share,
+    line: { name: `ceiling, ${kSizes[size]}`, colour, width: 1.2, dash: [5, 4] } }));
+}
+
 export function coverage(flights: Flight[], effort: Effort, { size }: PlotChoices): PlotContent {
   const scored = flights.filter((flight) => flight.data.figures);
   const percent = (flight: Flight, k: number) =>
@@ -70,19 +77,29 @@ export function coverage(flights: Flight[], effort: Effort, { size }: PlotChoice
     const [flight] = scored;
     if (!flight) return { lines: [], data: [[]], rings: [] };
     const x = efforts(flight, effort, 0);
+    const ceiling = ceilings(scored, 0, lineColour(0));
     return {
-      lines: kSizes.map((name, k) => ({ name, colour: lineColour(k), width: 2 })),
-      data: joined(kSizes.map((_, k) => [x, percent(flight, k)])),
+      lines: [...kSizes.map((name, k) => ({ name, colour: lineColour(k), width: 2 })),
+        ...ceiling.map(({ line }) => line)],
+      data: joined([...kSizes.map((_, k): Column => [x, percent(flight, k)]),
+        ...ceiling.map(({ share }): Column => [x, x.map(() => share)])]),
       rings: kSizes.flatMap((_, k) =>
         ringOf(flight, effort, flight.data.paper?.coverage_percent?.[k])
           .map((ring) => ({ ...ring, colour: lineColour(k) }))),
     };
   }
+  const ceiling = ceilings(scored, size, paleInk());
+  const longest = scored.reduce((a, b) => (b.last(effort) > a.last(effort) ? b : a), scored[0]);
   return {
-    lines: scored.map((flight) =>
+    lines: [...scored.map((flight) =>
       ({ name: flight.data.label, colour: runColour(flight.index), width: 2,
-        run: flight.index })),
-    data: joined(scored.map((flight) => [efforts(flight, effort, 0), percent(flight, size)])),
+        run: flight.index })), ...ceiling.map(({ line }) => line)],
+    data: joined([...scored.map((flight): Column =>
+      [efforts(flight, effort, 0), percent(flight, size)]),
+    ...ceiling.map(({ share }): Column => {
+      const x = efforts(longest, effort, 0);
+      return [x, x.map(() => share)];
+    })]),
     rings: scored.flatMap((flight) =>
       ringOf(flight, effort, flight.data.paper?.coverage_percent?.[size])),
   };

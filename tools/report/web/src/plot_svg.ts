@@ -26,7 +26,8 @@ export function plotSvg(plot: uPlot, lines: Line[], title: string, xName: string
       + text(px(x), kHeight - 28, "middle", name(x))),
     ...ticks(y0!, y1!).map((y) => `<path ${kGrid} d="M${kBox.left} ${py(y)}h${w}"/>`
       + text(kBox.left - 6, Number(py(y)) + 4, "end", name(y))),
-    ...lines.map((line, i) => `<path fill="none" stroke="${line.colour}" stroke-width="1.6" d="${
+    ...lines.map((line, i) => `<path fill="none" stroke="${line.colour}" stroke-width="1.6"${
+      line.dash ? ` stroke-dasharray="${line.dash.join(" ")}"` : ""} d="${
       pathOf(plot.data[0], plot.data[i + 1], px, py)}"/>`),
     ...lines.map((line, i) => `<rect x="${kBox.left + i * 130}" y="20" width="10" height="10" `
       + `fill="${line.colour}"/>` + text(kBox.left + 14 + i * 130, 29, "start", line.name)),

@@ -13,7 +13,7 @@ const kUnits = { views: "views", metres: "m", seconds: "s" };
 const kEffortNames = { views: "Views", metres: "Metres from view to view",
   seconds: "Seconds since the profile" };
 const kFont = "11px system-ui, sans-serif";
-const kHeight = 146;
+const kHeight = 168;
 
 interface PlotKind {
   title: string;
@@ -163,7 +163,7 @@ export class Plots {
       axes: [{ ...axis, size: 26, space: 60, label: kEffortNames[this.clock.effort], labelSize: 14,
         labelFont: kFont, labelGap: -2,
         values: (_, ticks) => ticks.map((t) => t.toLocaleString("en-US")) },
-        { ...axis, size: 54, space: 28, values: (_, ticks) => shortTicks(ticks) }],
+        { ...axis, size: 54, space: 24, values: (_, ticks) => shortTicks(ticks) }],
       series: [{ label: unit, value: (_, v) => text2(v, unit) },
         ...content.lines.map((line) => ({ label: line.name, stroke: line.colour,
           width: line.width, dash: line.dash, spanGaps: true, points: { show: false },

@@ -1,11 +1,17 @@
-// Pointing at things of the 3D view: what they are, and how far they are from each other.
+// Pointing at things of the 3D view: what they are, what was seen from there, which views had them
+// in their pictures, and how far they are from each other.
 import type * as three from "three";
 import { make, number } from "./dom";
+import { figuresOf } from "./frame_strip";
 import type { Picked } from "./pick";
+import type { RunScene } from "./run_scene";
+import { viewsThatSaw } from "./seen_by";
+
+const kMostNamed = 8;
 
 /** Tells what was picked, and the distance to what was picked before where that is asked for. */
 export class Pointing {
-  readonly element = make("p", { class: "picked", role: "status" });
+  readonly element = make("div", { class: "picked", role: "status" });
   readonly button: HTMLButtonElement;
   private isMeasuring = false;
   private begin: three.Vector3 | null = null;
@@ -21,7 +27,7 @@ export class Pointing {
     });
   }
 
-  tell(picked: Picked | null) {
+  tell(picked: Picked | null, scene: RunScene) {
     if (!picked) {
       if (!this.isMeasuring) this.say("");
       return;
@@ -32,15 +38,34 @@ export class Pointing {
       this.begin = null;
       return;
     }
-    if (this.isMeasuring) this.begin = picked.at;
-    const { view } = picked;
-    this.say(`${picked.what}, at ${place} m. `, view === null || this.isMeasuring ? null
-      : make("button", { type: "button", class: "small", click: () => this.goTo(view) },
-        `Go to view ${view + 1}`));
-    if (this.isMeasuring) this.element.append("Pick the second.");
+    const what = `${picked.what}, at ${place} m. `;
+    if (this.isMeasuring) {
+      this.begin = picked.at;
+      this.say(`${what}Pick the second.`);
+    } else if (picked.isView) {
+      this.say(make("p", {}, what, this.goButton(picked.view!, `Go to view ${picked.view! + 1}`)),
+        make("div", { class: "frames" }, ...figuresOf(scene.flight, picked.view!)));
+    } else {
+      this.say(make("p", {}, what, picked.view === null ? null
+        : this.goButton(picked.view, `Go to view ${picked.view + 1}`)),
+        this.seenBy(picked.at, scene));
+    }
   }
 
-  private say(...what: (Node | string | null)[]) {
-    this.element.replaceChildren(...what.filter((part) => part !== null));
+  private seenBy(place: three.Vector3, scene: RunScene): HTMLElement {
+    const views = viewsThatSaw(place, scene);
+    const named = views.filter((_, i) => // spread over all
+      views.length <= kMostNamed || i % Math.ceil(views.length / kMostNamed) === 0);
+    return make("p", {}, views.length === 0 ? "In sight of no view, as far as voxels tell."
+      : `In sight of about ${views.length} ${views.length === 1 ? "view" : "views"}: `,
+      ...named.map((view) => this.goButton(view, `${view + 1}`)),
+      named.length < views.length ? " …" : "");
   }
+
+  private goButton(view: number, text: string) {
+    return make("button", { type: "button", class: "small", "aria-label": `Go to view ${view + 1}`,
+      click: () => this.goTo(view) }, text);
+  }
+
+  private say(...what: (Node | string)[]) { this.element.replaceChildren(...what); }
 }

@@ -6,11 +6,14 @@ import type { Clock } from "./clock";
 import { Bytes, type MeshData } from "./data";
 import type { Flight } from "./flight";
 import { FrustaMark, PathMark, PlanMark, makeSight } from "./marks";
-import { Model, makeStructure, setGhost, type Colouring } from "./surfaces";
+import { Structure } from "./structure";
+import { Model, type Colouring } from "./surfaces";
 import { TrueSurface } from "./true_surface";
 import { makeVehicle } from "./vehicle";
 import { CandidateMarks } from "./candidates";
 import type { Picked } from "./pick";
+import { readRunSurface } from "./run_surface";
+import { Splats } from "./splats";
 
 export interface Layers {
   cloud: boolean;
@@ -24,6 +27,7 @@ export interface Layers {
   found: boolean; // voxels of the true surface
   missed: boolean;
   candidates: boolean; // of the decision that chose the view
+  surface: boolean; // that `gnbv surface` made
 }
 
 /** Lines on the ground, every 1, 2, 5, 10 ... m so that there are 8 to 20 each way. */
@@ -46,6 +50,9 @@ function makeGround(min: number[], max: number[]): three.GridHelper {
   return grid;
 }
 
+const isMeasured = (layers: Layers) =>
+  layers.cloud || layers.voxels || layers.found || layers.missed || layers.surface;
+
 export class RunScene {
   readonly scene = new three.Scene();
   readonly vehicle = new three.Group(); // at the vehicle's pose
@@ -53,19 +60,23 @@ export class RunScene {
   private readonly body: three.Group;
   private sight: three.Group;
   private lookedAs = -1; // view
-  private readonly structure: three.Group | null;
+  readonly structure: Structure | null;
   private readonly path: PathMark;
-  private readonly frusta: FrustaMark;
+  readonly frusta: FrustaMark;
   readonly plan: PlanMark | null;
   readonly surface: TrueSurface | null;
   readonly candidates: CandidateMarks | null;
+  readonly runSurface: three.Mesh | null;
+  onLoad = () => {}; // of the picture on that surface
+  private layers: Layers | null = null;
   readonly gridStep_m: number;
   private other: RunScene | null = null;
+  private readonly splats = new Splats();
 
   constructor(readonly flight: Flight, mesh: MeshData | undefined, meshBytes: Bytes) {
     const data = flight.data;
     this.model = new Model(data, flight.bytes);
-    this.structure = mesh ? makeStructure(mesh, meshBytes) : null;
+    this.structure = mesh ? new Structure(mesh, meshBytes) : null;
     this.path = new PathMark(flight);
     this.frusta = new FrustaMark(flight);
     this.plan = data.plan && new PlanMark(flight);
@@ -73,6 +84,8 @@ export class RunScene {
       && new CandidateMarks(flight, this.model, data.candidates);
     this.surface = mesh?.surface && data.found ? new TrueSurface(mesh.surface, meshBytes,
       flight.bytes.u16(data.found), flight.count) : null;
+    this.runSurface = data.surface
+      && readRunSurface(flight.bytes.u8(data.surface), () => this.onLoad());
     this.gridStep_m = gridStep(data.workspace.min, data.workspace.max);
     this.body = makeVehicle(data.vehicle);
     this.sight = makeSight(data.cameras);
@@ -87,21 +100,23 @@ export class RunScene {
     if (this.candidates) marks.push(this.candidates.object);
     if (data.has_ground) marks.unshift(makeGround(data.workspace.min, data.workspace.max));
     const { cloud, voxels } = this.model;
-    for (const part of [this.structure, cloud, voxels, this.surface?.object]) {
+    for (const part of [this.structure?.object, cloud, voxels, this.surface?.object, this.runSurface]) {
       if (part) this.scene.add(part);
     }
-    this.scene.add(...marks);
+    this.scene.add(this.splats.object, ...marks);
     for (const mark of marks) {
       mark.traverse((part) => part.layers.set(kMarkLayer));
     }
   }
 
   setLayers(layers: Layers) {
+    this.layers = layers;
+    if (this.runSurface) this.runSurface.visible = layers.surface;
     if (this.model.cloud) this.model.cloud.visible = layers.cloud;
     if (this.model.voxels) this.model.voxels.visible = layers.voxels;
     if (this.structure) {
-      this.structure.visible = layers.structure;
-      setGhost(this.structure, layers.cloud || layers.voxels || layers.found || layers.missed);
+      this.structure.object.visible = layers.structure;
+      this.structure.setGhost(isMeasured(layers));
     }
     this.path.setLayers(layers.path, layers.profile);
     this.frusta.object.visible = layers.frusta;
@@ -109,6 +124,20 @@ export class RunScene {
     this.vehicle.visible = layers.vehicle;
     this.surface?.setLayers(layers.found, layers.missed);
     if (this.candidates) this.candidates.object.visible = layers.candidates;
+  }
+
+  /** Whether a line parts the truth from what the run made of it. */
+  isSwiped() { return !!this.runSurface?.visible && !!this.structure; }
+
+  /** Left of that line the structure, right of it the surface, alone; then all as chosen. */
+  showSide(side: "truth" | "surface" | "all") {
+    const { layers, structure, runSurface, model } = this;
+    if (!layers || !structure || !runSurface) return;
+    structure.object.visible = side === "truth" || (side === "all" && layers.structure);
+    structure.setGhost(side !== "truth" && isMeasured(layers));
+    runSurface.visible = side !== "truth" && layers.surface;
+    if (model.cloud) model.cloud.visible = side === "all" && layers.cloud;
+    if (model.voxels) model.voxels.visible = side === "all" && layers.voxels;
   }
 
   colour(by: Colouring) {
@@ -124,22 +153,27 @@ export class RunScene {
 
   /**
    * As it is at the clock's time, for a camera that draws `pxPerTan` pixels a unit of tangent;
-   * whole, or the gist of it.
+   * whole, or the gist of it; `splats`: its points are drawn here, not by the renderer.
    */
-  show(clock: Clock, camera: three.PerspectiveCamera, pxPerTan: number, isWhole: boolean) {
+  show(clock: Clock, camera: three.PerspectiveCamera, pxPerTan: number, isWhole: boolean,
+      splats: boolean) {
     const n = this.flight.viewsAt(clock);
-    this.model.show(n, pxPerTan, isWhole);
-    this.path.show(this.flight.samplesBy(this.flight.timeAt(clock)));
+    this.structure?.show(isWhole);
+    this.model.show(n, pxPerTan);
+    this.path.show(this.flight.samplesBy(this.flight.timeAt(clock)), isWhole);
     this.frusta.show(n);
     this.plan?.show(n);
     this.candidates?.show(n);
     this.surface?.show(n, this.other?.flight.viewsAt(clock) ?? 0, pxPerTan);
+    if (splats) {
+      this.splats.show([...this.model.splats(), ...this.surface?.splats() ?? []], camera, pxPerTan);
+    }
     const pose = this.flight.poseAt(clock);
     if (!pose) return;
     this.vehicle.position.copy(pose.p);
     this.vehicle.quaternion.copy(pose.q);
     if (n > 0) this.lookAs(n - 1);
-    this.sight.visible = n > 0;
+    this.sight.visible = n > 0 && !this.candidates?.object.visible; // it has rays of its own
     // from afar larger than life, or it would be a speck
     const away = camera.position.distanceTo(pose.p);
     this.body.scale.setScalar(Math.max(1, 0.028 * away / this.flight.data.vehicle.radius_m));
@@ -155,6 +189,9 @@ export class RunScene {
     this.sight.traverse((part) => part.layers.set(kMarkLayer));
     this.vehicle.add(this.sight);
   }
+
+  /** Metres over which shading is to look for the slope of what has no normals; 0: it is not to. */
+  relief_m(): number { return this.surface?.object.visible ? 2.5 * this.surface.size_m : 0; }
 
   /** Everything that can show: structure, points, and where the vehicle may fly. */
   bounds(): three.Box3 {
@@ -180,7 +217,8 @@ export class RunScene {
     const words = (n: number) => (n < 0 ? "the profile" : `view ${n + 1}`);
     for (let view = 0; view < flight.count && this.frusta.object.visible; ++view) {
       const at = flight.viewPose(view).p;
-      yield { at, ahead: 0.01, of: () => ({ at: at.clone(), what: `View ${view + 1}`, view }) };
+      yield { at, ahead: 0.01, of: () => ({ at: at.clone(), what: `View ${view + 1}`, view,
+        isView: true }) };
     }
     for (let i = 0; surface && i < surface.found.length; ++i) {
       if (!surface.isShown(i)) continue;
@@ -200,7 +238,7 @@ export class RunScene {
   }
 
   private shape(): Float32Array {
-    for (const part of [this.structure?.children[0] as three.Mesh | undefined, this.model.cloud]) {
+    for (const part of [this.structure?.object.children[0] as three.Mesh | undefined, this.model.cloud]) {
       const position = part?.geometry.getAttribute("position");
       if (position && position.count > 0) return position.array as Float32Array;
     }

@@ -64,5 +64,10 @@ export function withBands(content: PlotContent, flights: Flight[], effort: Effor
       over((v) => Math.min(...v)), over((v) => Math.max(...v)));
     bands.push({ high: lines.length, low: lines.length - 1, fill: `${colour}38` });
   }
+  content.lines.forEach((line, i) => { // of no run
+    if (line.run !== undefined) return;
+    lines.push(line);
+    columns.push([...content.data[i + 1]]);
+  });
   return { lines, bands, rings: content.rings, data: [xs, ...columns] as uPlot.AlignedData };
 }

@@ -6,14 +6,15 @@ import { isDark } from "./colours";
 import type { Clock } from "./clock";
 import { make } from "./dom";
 import { nearestThatSees } from "./camera_fit";
-import { DepthShading } from "./depth_shading";
 import { Detail } from "./detail";
 import type { View3d } from "./controls";
 import { NoStage } from "./no_stage";
+import { Painter } from "./painter";
 import { kAim_px, kPointer_px, moveByKey, pick } from "./pick";
 import { Pointing } from "./pointing";
 import type { Layers, RunScene } from "./run_scene";
 import { savePng } from "./save";
+import { Swipe } from "./swipe";
 import type { Colouring } from "./surfaces";
 
 const kQuickRatio = 0.5; // pixels a side of a quick picture, of those of a whole one
@@ -36,10 +37,9 @@ class Stage implements View3d {
     + "j, l, i, k to move, 0 to fit, a click or Enter in the middle tells what is there, "
     + "arrow keys replay." });
   private readonly labels = make("div", { class: "panes" });
-  private readonly renderer: three.WebGLRenderer;
+  private readonly painter: Painter;
   private readonly camera = new three.PerspectiveCamera(38, 1, 0.1, 1000);
   private readonly controls: OrbitControls;
-  private readonly shading = new DepthShading();
   private shown: RunScene[];
   private isStale = false;
   private size = ""; // drawn last
@@ -48,17 +48,16 @@ class Stage implements View3d {
   private follows = false;
   private readonly pointing: Pointing;
   private readonly axes = new Axes();
+  private readonly swipe = new Swipe(() => this.invalidate());
 
   constructor(private readonly scenes: RunScene[], private readonly clock: Clock,
       private readonly name: string, goTo: (view: number) => void) {
     this.shown = scenes;
     this.pointing = new Pointing(goTo);
     this.element = make("div", { class: "stage" }, this.canvas, this.labels, this.axes.element,
-      this.pointing.element, make("span", { class: "aim" }));
-    this.renderer = new three.WebGLRenderer({ canvas: this.canvas, antialias: true });
-    this.renderer.setScissorTest(true);
-    this.renderer.autoClear = false;
-    this.renderer.debug.checkShaderErrors = false; // asking waits for the compiler
+      this.pointing.element, make("span", { class: "aim" }), this.swipe.element);
+    for (const scene of scenes) scene.onLoad = () => this.invalidate();
+    this.painter = new Painter(this.canvas);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.maxPolarAngle = 0.55 * Math.PI;
@@ -98,6 +97,7 @@ class Stage implements View3d {
 
   setLayers(layers: Layers) {
     for (const scene of this.scenes) scene.setLayers(layers);
+    this.swipe.show(this.scenes.some((scene) => scene.isSwiped()));
     this.invalidate();
   }
 
@@ -178,8 +178,7 @@ class Stage implements View3d {
     const scene = this.shown[pane];
     if (!scene) return;
     const [left, top] = this.isColumn() ? [0, pane * height] : [pane * width, 0];
-    this.pointing.tell(pick(scene, this.camera, x - left, y - top, width, height,
-      near_px));
+    this.pointing.tell(pick(scene, this.camera, x - left, y - top, width, height, near_px), scene);
   }
 
   setFollows(follows: boolean) {
@@ -195,7 +194,7 @@ class Stage implements View3d {
   }
 
   setTheme() {
-    this.shading.background.setHex(isDark() ? 0x14181e : 0xf4f6f9);
+    this.painter.background.setHex(isDark() ? 0x14181e : 0xf4f6f9);
     this.invalidate();
   }
 
@@ -252,20 +251,8 @@ class Stage implements View3d {
     this.size = size;
     if (!isResized) { this.request(); return; }
     this.isStale = true;
+    if (matchMedia("print").matches) this.detail.insist(); // paper does not wait for the whole one
     this.draw(); // now, or a resized canvas would show one empty picture
-  }
-
-  private fitCanvas(width: number, height: number, ratio: number) {
-    const size = this.renderer.getSize(new three.Vector2());
-    if (size.x === width && size.y === height && this.renderer.getPixelRatio() === ratio) return;
-    this.renderer.setPixelRatio(ratio);
-    this.renderer.setSize(width, height, false);
-  }
-
-  /** Until it is drawn: what was asked for so far is only in a queue. */
-  private waitForPicture() {
-    const gl = this.renderer.getContext();
-    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
   }
 
   private draw() {
@@ -275,26 +262,25 @@ class Stage implements View3d {
     const { clientWidth, clientHeight: total } = this.element;
     if (clientWidth === 0 || total === 0) return;
     const begin = performance.now();
-    this.fitCanvas(clientWidth, total, Math.min(2, devicePixelRatio) * (isWhole ? 1 : kQuickRatio));
-    const pxPerTan = 0.5 * height * this.renderer.getPixelRatio() /
+    const ratio = Math.min(2, devicePixelRatio) * (isWhole ? 1 : kQuickRatio);
+    this.painter.fitCanvas(clientWidth, total, ratio);
+    const pxPerTan = 0.5 * height * ratio /
       Math.tan(three.MathUtils.degToRad(this.camera.fov) / 2);
     if (this.follows && this.shown.length > 0) this.moveAlong(pxPerTan);
+    this.painter.begin(this.shown, this.clock, this.camera, pxPerTan, isWhole);
+    this.axes.show(this.camera);
     this.shown.forEach((scene, i) => {
-      scene.show(this.clock, this.camera, pxPerTan, isWhole);
       const [x, y] = this.isColumn() ? [0, total - (i + 1) * height] : [i * width, 0];
-      this.renderer.setViewport(x, y, width, height);
-      this.renderer.setScissor(x, y, width, height);
-      this.axes.show(this.camera);
-      this.shading.render(this.renderer, scene.scene, this.camera, width, height, isWhole);
+      this.painter.paint(scene, { x, y, width, height }, this.swipe.share);
     });
-    if (isWhole) this.waitForPicture();
+    if (isWhole) this.painter.wait();
     this.detail.drawn(performance.now() - begin);
   }
 
   /** Keeps the camera's place beside the first vehicle. */
   private moveAlong(pxPerTan: number) {
     const lead = this.shown[0];
-    lead.show(this.clock, this.camera, pxPerTan, this.detail.isWhole);
+    lead.show(this.clock, this.camera, pxPerTan, false, false);
     const step = lead.vehicle.position.clone().sub(this.controls.target);
     this.camera.position.add(step);
     this.controls.target.add(step);

@@ -1,40 +1,14 @@
-// What has a surface: the structure, the points of the cloud, the voxels.
+// What the run measured of the surface: the points of the cloud, the voxels.
 import * as three from "three";
 import { ramp, rampTable } from "./colours";
-import { kMarkLayer, kSurfaceLayer } from "./depth_shading";
-import type { Bytes, MeshData, RampName, RunData } from "./data";
+import { kPointLayer } from "./depth_shading";
+import type { Bytes, RampName, RunData } from "./data";
 import { Densities } from "./densities";
+import { lastAtMost } from "./flight";
+import type { SplatSource } from "./splats";
 
 /** Colours by what the point is like; `real` is what the cameras saw. */
 export type Colouring = "height" | "density" | "iteration" | "error" | "real";
-
-export function makeStructure(mesh: MeshData, bytes: Bytes): three.Group {
-  const group = new three.Group();
-  const position = new three.BufferAttribute(bytes.points(mesh.vertices), 3);
-  for (const part of mesh.parts) {
-    const geometry = new three.BufferGeometry();
-    geometry.setAttribute("position", position);
-    geometry.setIndex(new three.BufferAttribute(bytes.u32(part.corners), 1));
-    const solid = new three.MeshLambertMaterial({ color: new three.Color(...part.rgb),
-      flatShading: true, side: three.DoubleSide,
-      forceSinglePass: true }); // a ghost is too faint for its order to show
-    group.add(new three.Mesh(geometry, solid));
-  }
-  return group;
-}
-
-/** Solid, or a ghost that hides nothing. */
-export function setGhost(structure: three.Group, isGhost: boolean) {
-  for (const child of structure.children) {
-    const material = (child as three.Mesh).material as three.MeshLambertMaterial;
-    material.transparent = isGhost;
-    material.opacity = isGhost ? 0.13 : 1;
-    material.depthWrite = !isGhost;
-    material.needsUpdate = true;
-    child.layers.set(isGhost ? kMarkLayer : kSurfaceLayer);
-    child.renderOrder = isGhost ? -1 : 0; // under the marks
-  }
-}
 
 /** Of each element by the state after which it was there first. */
 function firstStates(after: Uint32Array, count: number): Uint16Array {
@@ -70,13 +44,7 @@ void main() {
 type Share = (height: number, density: number, state: number) => number;
 
 const kMostError_mm = 100; // larger ones have its colour
-const kGistPoints = 60_000;
-
-/** The first of every so many points. */
-function makeGist(count: number, every: number) {
-  const index = Uint32Array.from({ length: Math.ceil(count / every) }, (_, i) => every * i);
-  return new three.BufferAttribute(index, 1);
-}
+const kNewColour = 0x2670ff; // of points of the last view, as 0xbbggrr
 
 /** Points and voxels of a run; both are there after as many views as show() says. */
 export class Model {
@@ -90,8 +58,6 @@ export class Model {
   private pointVoxels: Int32Array | null = null; // of each point, once asked for
   private by: Colouring = "height";
   private views = -1; // shown
-  private readonly gist: three.BufferAttribute | null = null; // indices of some points
-  private gistEvery = 1; // of so many points one is in it
 
   constructor(readonly data: RunData, private readonly bytes: Bytes) {
     if (data.voxels) {
@@ -105,8 +71,6 @@ export class Model {
       const { min, size } = data.cloud.points;
       this.heights = [min[2], min[2] + Math.max(size[2], 1e-6)];
       this.cloud = this.makeCloud();
-      this.gistEvery = Math.ceil(this.points.length / 3 / kGistPoints);
-      this.gist = makeGist(this.points.length / 3, this.gistEvery);
     }
   }
 
@@ -138,27 +102,48 @@ export class Model {
     }
   }
 
+  /** x, y, z and the view that brought it (-1 the profile); null beyond the last one. */
+  point(i: number): number[] | null {
+    if (3 * i >= this.points.length) return null;
+    return [...this.points.subarray(3 * i, 3 * i + 3), lastAtMost(this.cloudAfter, i)];
+  }
+
   /** Points of the whole cloud in the voxels, as they are shown. */
   countedPoints(): number { return this.densities?.count.reduce((a, b) => a + b, 0) ?? 0; }
 
   /** After `n` views; the points of the last one are marked. */
-  show(n: number, pxPerTan: number, isWhole: boolean) {
+  show(n: number, pxPerTan: number) {
     if (n !== this.views) {
       this.views = n;
       this.densities?.seek(n);
       if (this.by === "density") this.colour(this.by); // as dense as it was then
     }
     if (this.cloud) {
-      const every = isWhole ? 1 : this.gistEvery;
-      this.cloud.geometry.setIndex(every > 1 ? this.gist : null);
-      this.cloud.geometry.setDrawRange(0, Math.ceil(this.cloudAfter[n] / every));
+      this.cloud.geometry.setDrawRange(0, this.cloudAfter[n]);
       const { uniforms } = this.cloud.material as three.ShaderMaterial;
-      uniforms.uSize.value = this.pointSize() * Math.min(Math.sqrt(every), 2.5);
-      uniforms.uNewFrom.value = n > 0 ? this.cloudAfter[n - 1] : 0x7fffffff;
+      uniforms.uNewFrom.value = this.newFrom();
       uniforms.uPxPerTan.value = pxPerTan;
     }
     if (this.voxels) this.voxels.count = this.voxelsAfter[n];
   }
+
+  /** The points that are shown, for those who draw them themselves. */
+  splats(): SplatSource[] {
+    if (!this.cloud?.visible) return [];
+    const rgb = this.cloud.geometry.getAttribute("rgb").array;
+    const newFrom = this.newFrom();
+    return [{ places: this.points, toWorld: new three.Matrix4(), least_px: 1.6, most_px: 14,
+      count: this.cloudAfter[this.views], size_m: this.pointSize(),
+      colourOf: (i) => (i >= newFrom ? kNewColour
+        : rgb[3 * i] | rgb[3 * i + 1] << 8 | rgb[3 * i + 2] << 16) }];
+  }
+
+  /** For a look at what some points cost: until show(), no more than `count` are there. */
+  limit(count: number) {
+    this.cloud?.geometry.setDrawRange(0, Math.min(count, this.cloudAfter[this.views]));
+  }
+
+  private newFrom() { return this.views > 0 ? this.cloudAfter[this.views - 1] : 0x7fffffff; }
 
   /** Of a colouring. */
   private ramp(by: Colouring): [RampName, Share] {
@@ -219,6 +204,7 @@ export class Model {
     });
     const points = new three.Points(geometry, material);
     points.frustumCulled = false;
+    points.layers.set(kPointLayer);
     return points;
   }
 

@@ -2,6 +2,8 @@
 import * as three from "three";
 import { rampTable } from "./colours";
 import type { Bytes, SurfaceData } from "./data";
+import { kPointLayer } from "./depth_shading";
+import type { SplatSource } from "./splats";
 
 export const kNeverFound = 0xffff;
 
@@ -82,6 +84,7 @@ export class TrueSurface {
     });
     this.object = new three.Points(geometry, this.material);
     this.object.frustumCulled = false;
+    this.object.layers.set(kPointLayer);
   }
 
   setLayers(showsFound: boolean, showsMissed: boolean) {
@@ -109,6 +112,31 @@ export class TrueSurface {
     uniforms.uNow.value = n;
     uniforms.uOtherNow.value = this.other ? ofOther : -1;
     uniforms.uPxPerTan.value = pxPerTan;
+  }
+
+  /** The voxels that are shown, for those who draw them themselves. */
+  splats(): SplatSource[] {
+    if (!this.object.visible) return [];
+    const { uNow, uOtherNow, uShows, uByOrder, uStates } = this.material.uniforms;
+    const [now, otherNow, states] = [uNow.value, uOtherNow.value, uStates.value];
+    const colours = [foundColours.found,
+      uByOrder.value ? foundColours.missedInOrder : foundColours.missed, foundColours.onlyOther]
+      .map((hex) => hex >> 16 | hex & 0xff00 | (hex & 255) << 16);
+    const table = uByOrder.value ? rampTable("path") : null;
+    const other = this.other?.found;
+    const foundColour = (i: number) => {
+      const first = this.found[i];
+      if (first > now || !table) return first > now ? -1 : colours[0];
+      const at = 3 * Math.round(255 * first / states);
+      return table[at] | table[at + 1] << 8 | table[at + 2] << 16;
+    };
+    const missedColour = (i: number) => (this.found[i] <= now ? -1
+      : colours[other && other[i] <= otherNow ? 2 : 1]);
+    const all = { places: this.voxels, count: this.found.length, size_m: 1.3 * this.size_m,
+      most_px: 64, toWorld: new three.Matrix4().makeScale(this.size_m, this.size_m, this.size_m)
+        .multiply(new three.Matrix4().makeTranslation(0.5, 0.5, 0.5)) };
+    return [...uShows.value.x > 0 ? [{ ...all, least_px: 1.6, colourOf: foundColour }] : [],
+      ...uShows.value.y > 0 ? [{ ...all, least_px: 2.5, colourOf: missedColour }] : []];
   }
 
   /** How many voxels there are of each kind, as they are shown. */
