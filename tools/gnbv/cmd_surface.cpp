@@ -103,7 +103,7 @@ std::vector<double> errors_m(const TriangleMesh& mesh, const World& truth, int t
   return errors;
 }
 
-/// The paths of what is written. Without a score, that of an earlier call goes.
+/// The paths of what is written. What an earlier call knew of the truth and this one does not goes.
 std::vector<fs::path> write_all(const TexturedMesh& mesh, const std::optional<SurfaceScore>& score,
                                 const std::optional<World>& truth, const std::string& title,
                                 const fs::path& folder, int threads) {
@@ -115,6 +115,9 @@ std::vector<fs::path> write_all(const TexturedMesh& mesh, const std::optional<Su
     write_png(error_picture(mesh.shape, errors_m(mesh.shape, *truth, threads), kMostError_m, title,
                             1280, 720),
               paths.back());
+  } else {
+    std::error_code ignored;
+    fs::remove(folder / "error.png", ignored);
   }
   if (score) {
     paths.push_back(folder / "score.json");

@@ -51,7 +51,8 @@ void serve_report(const std::filesystem::path& run, const LiveReportOptions& opt
         if (shown != stage) {
           Report report =
               make_report({*record}, {.threads = options.threads, .is_live = true}, [](double) {});
-          server.show(std::move(report.html), std::move(report.policy), stage.views);
+          server.show(std::move(report.html), std::move(report.policy), stage.views,
+                      record->figures.has_value());
           shown = stage;
         }
       }

@@ -22,7 +22,7 @@ struct Shown {
       "<!doctype html><meta http-equiv=\"refresh\" content=\"1\"><title>gnbv</title>"
       "<p>Nothing flown yet.";
   std::string policy = "default-src 'none'";
-  std::size_t views = 0;
+  std::string views = "0";
 };
 
 void set_headers(const std::string& policy, httplib::Response& response) {
@@ -93,7 +93,7 @@ LiveServer::LiveServer(int port) : impl_(std::make_unique<Impl>()) {
     response.set_content(impl.now()->html, "text/html; charset=utf-8");
   });
   server.Get("/views", [&impl](const httplib::Request&, httplib::Response& response) {
-    answer(200, fmt::format("{}\n", impl.now()->views), response);
+    answer(200, impl.now()->views + "\n", response);
   });
   // a port is not shared with who listens there already, as the library would
   server.set_socket_options([](socket_t socket) {
@@ -119,9 +119,11 @@ LiveServer::~LiveServer() {
 
 std::string LiveServer::url() const { return fmt::format("http://{}:{}/", kHost, impl_->port); }
 
-void LiveServer::show(std::string html, std::string policy, std::size_t views) {
+void LiveServer::show(std::string html, std::string policy, std::size_t views, bool is_finished) {
   auto shown = std::make_shared<const Shown>(
-      Shown{.html = std::move(html), .policy = std::move(policy), .views = views});
+      Shown{.html = std::move(html),
+            .policy = std::move(policy),
+            .views = fmt::format("{}{}", views, is_finished ? " finished" : "")});
   const std::lock_guard lock(impl_->mutex);
   impl_->shown = std::move(shown);
 }

@@ -13,7 +13,7 @@
 namespace gnbv {
 namespace {
 
-constexpr int kMostCuts = 12;  // of an edge
+constexpr int kMostCuts = 64;  // of an edge
 constexpr std::array<std::uint32_t, 6> kErrorTable = {0xdfe5ec, 0xf2e0a0, 0xf5b04e,
                                                       0xe2702c, 0xb5301f, 0x6d0a1c};
 
@@ -128,16 +128,12 @@ Image error_picture(const TriangleMesh& mesh, std::span<const double> errors_m, 
   GNBV_CHECK(errors_m.size() == mesh.vertices_m.size(), "{} distances for {} vertices",
              errors_m.size(), mesh.vertices_m.size());
   SurfaceItem item{.mesh = mesh, .vertex_colours = {}};
-  double sum_m = 0.0;
   for (const double error_m : errors_m) {
     item.vertex_colours.push_back(ramp(error_colours(), error_m / most_m));
-    sum_m += error_m;
   }
-  const double mean_m = sum_m / static_cast<double>(std::max<std::size_t>(1, errors_m.size()));
   return drawn(std::move(item), framed(mesh, width_px, height_px, angles),
                {.title = title,
-                .detail = fmt::format("distance to the true structure, {:.1f} mm in the mean of {}",
-                                      1000.0 * mean_m, grouped(errors_m.size()) + " vertices"),
+                .detail = "distance of the reconstructed surface to the true structure",
                 .legend = {{.label = fmt::format("{:.0f} mm or more", 1000.0 * most_m),
                             .colours = error_colours(),
                             .label_before = "0"}}});

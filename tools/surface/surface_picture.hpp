@@ -10,8 +10,8 @@ namespace gnbv {
 SurfaceItem surface_item(const TexturedMesh& mesh);
 
 /// The surface with its texture where it has one, as a thing to draw: faces are split so that no
-/// piece is longer than `piece_m`, and a piece's corners have the texture's colours there. Pictures
-/// carry their own light: it is not lit again.
+/// piece is longer than `piece_m`, or than a 64th of its face, and a piece's corners have the
+/// texture's colours there. Pictures carry their own light: it is not lit again.
 SurfaceItem textured_item(const TexturedMesh& mesh, double piece_m);
 
 /// The surface as its pictures show it on a ground with a metre grid, framed and titled. Throws

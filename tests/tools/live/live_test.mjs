@@ -79,7 +79,7 @@ assert.match(taken.stderr, new RegExp(`--live ${port}`));
 assert.throws(() => readdirSync("never"));
 
 // ---- what the server answers, and how
-while ((await ask(`${server.url}views`)).body.trim() !== String(kViews)) await sleep(100);
+while ((await ask(`${server.url}views`)).body !== `${kViews} finished\n`) await sleep(100);
 const page = await ask(server.url);
 assert.equal(page.status, 200);
 assert.match(page.headers["content-type"], /^text\/html/);
@@ -103,8 +103,11 @@ for (const method of ["POST", "PUT", "DELETE", "OPTIONS"]) {
 for (const path of ["scenario.yaml", "../../etc/passwd", "%2e%2e/x", "views/../x"]) {
   assert.equal((await ask(server.url + path)).status, 404, path);
 }
+const stopTrickling = pester(server.url);
+await sleep(1000);
 server.child.kill("SIGTERM");
-assert.equal(await server.ended, 0);
+assert.equal(await Promise.race([server.ended, sleep(20000)]), 0, "nobody holds its end up");
+stopTrickling();
 
 // ---- in a browser the page grows with the run, and keeps what its reader has set
 const rows = readFileSync("alone/iterations.csv", "utf8").trim().split("\n");

@@ -3,16 +3,17 @@
 const kAsk_ms = 1500;
 
 /**
- * Reloads the page when the run has more views than the `shown` ones, after `leave`, which keeps
- * what the reader has set. Says in `place` how it stands.
+ * Reloads the page when there is more of the run than `shown` (the number of its views, and
+ * "finished" behind a blank when it is), after `leave`, which keeps what the reader has set. Says in
+ * `place` how it stands.
  */
-export function followRun(shown: number, leave: () => void, place: HTMLElement) {
+export function followRun(shown: string, leave: () => void, place: HTMLElement) {
   place.textContent = "live";
   const ask = async () => {
     try {
       const answer = await fetch("views", { cache: "no-store" });
-      const views = Number(await answer.text());
-      if (answer.ok && views > shown && document.visibilityState === "visible") {
+      const now = (await answer.text()).trim();
+      if (answer.ok && now !== shown && document.visibilityState === "visible") {
         leave();
         location.reload();
         return;

@@ -141,7 +141,8 @@ function build() {
   replay.moveTo(state.at ?? replay.last());
   if (state.camera) stage.setCamera(state.camera);
   if (page.is_live) {
-    followRun(flights[0].count, () => writer.write(),
+    const end = page.runs[0].figures ? " finished" : "";
+    followRun(`${flights[0].count}${end}`, () => writer.write(),
       document.querySelector("header")!.appendChild(make("p", { class: "live", role: "status" })));
   }
   listenToKeys(replay);
