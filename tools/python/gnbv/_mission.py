@@ -122,6 +122,7 @@ class _Shown:
 
     def __exit__(self, *_: object) -> None:
         if self._bar is not None:
+            self._bar.refresh()  # the last state, too, however soon it came
             self._bar.close()
 
     def __bool__(self) -> bool:
