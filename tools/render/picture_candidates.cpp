@@ -172,12 +172,12 @@ std::vector<LegendItem> legend_of(const Tally& all, bool is_fvs) {
   return legend;
 }
 
-// The map, as pale as it can be.
-void add_map(RunSource& run, const OccupancyGrid& grid, RenderScene& scene) {
+// The map, as pale as it can be; its cubes take that share of their voxels' edges.
+void add_map(RunSource& run, const OccupancyGrid& grid, double share, RenderScene& scene) {
   add_ground(run, scene);
   const std::vector<Rgb> grey = {kMap};
   const SortedVoxels voxels = sort_voxels(grid);
-  scene.surfaces.push_back(voxel_cubes(grid.geometry(), voxels.occupied, grey, 0.94));
+  scene.surfaces.push_back(voxel_cubes(grid.geometry(), voxels.occupied, grey, share));
   scene.surfaces.push_back(free_faces(grid, voxels.unknown, kUnknownVoxels, kUnknownVoxelsOpacity));
 }
 
@@ -224,7 +224,8 @@ Picture draw_candidates(RunSource& run, const PictureOptions& options, const Ren
   const RenderView& from_near = near.view ? *near.view : view;
   for (const auto& [panel, seen_from] : {std::pair{&far, &view}, {&near, &from_near}}) {
     const double unit_m = layout_unit_m(*seen_from);
-    add_map(run, decision.belief.grid, panel->scene);
+    // from near, gaps would be black lines
+    add_map(run, decision.belief.grid, panel == &near ? 1.0 : 0.94, panel->scene);
     add_candidates(decision.plan, all, unit_m, panel->scene);
     if (!is_fvs) continue;
     add_frontiers(record.scenario.planner.fvs.frontier, decision,

@@ -24,7 +24,7 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 /// How far a place is from a point of a surface: off its tangent plane farther than along it. A cap
 /// that closes a tube lies off the planes of the tube's points, a hole in a wall along them.
 float distance_from_surface_m(const Vec3f& p_m, const Vec3f& point_m, const Vec3f& normal) {
-  constexpr float kOffPlane = 1.5F;  // times as far
+  constexpr float kOffPlane = 2.0F;  // times as far
   const Vec3f away_m = p_m - point_m;
   const float off_m = away_m.dot(normal);
   return std::sqrt(std::max(0.0F, away_m.squaredNorm() - off_m * off_m) +

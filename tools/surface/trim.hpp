@@ -14,10 +14,10 @@ struct TrimSettings {
 };
 
 /// The surface within reach of the points: each vertex's distance to the points around, off their
-/// planes counted one and a half times, over their reach of 2 spacings (or plain, over a given
-/// one), is smoothed along the edges (as Kazhdan's SurfaceTrimmer does with its densities, so that
-/// the rim is smooth) and faces are cut where it is 1. Without faces that have no area, and without
-/// unused vertices. Deterministic at any number of threads.
+/// planes counted twice, over their reach of 2 spacings (or plain, over a given one), is smoothed
+/// along the edges (as Kazhdan's SurfaceTrimmer does with its densities, so that the rim is smooth)
+/// and faces are cut where it is 1. Without faces that have no area, and without unused vertices.
+/// Deterministic at any number of threads.
 TriangleMesh trimmed(const TriangleMesh& closed, const OrientedCloud& cloud,
                      const TrimSettings& settings, int threads);
 

@@ -69,6 +69,23 @@ TEST(Series, WhatPassesBehindTheCameraAndOtherPicturesDoNotMatter) {
   }
 }
 
+/// What comes near a wall darkens it farther than where it is drawn itself.
+TEST(Series, HollowsReachBeyondWhatChanged) {
+  const RenderView view = frame_box(kBox_m, {deg_to_rad(30.0), deg_to_rad(25.0)}, 960, 540);
+  RenderScene scene;
+  scene.series_box_m = kBox_m;
+  SurfaceItem wall;
+  wall.mesh = box_mesh(Box3(Vec3(-1.5, -1.5, 0.0), Vec3(0.0, 1.5, 2.5)));
+  wall.vertex_colours.assign(wall.mesh.vertices_m.size(), {0.8F, 0.8F, 0.8F});
+  scene.surfaces.push_back(std::move(wall));
+  Renderer kept;
+  kept.render(scene, view);
+  for (const float z_m : {0.6F, 1.4F, 2.2F}) {
+    scene.balls.push_back({Vec3f(0.2F, 0.0F, z_m), 0.25F, {0.2F, 0.2F, 0.2F}});
+    EXPECT_EQ(kept.render(scene, view).rgb, render(scene, view).rgb) << z_m;
+  }
+}
+
 /// Nothing that grows moves light or haze: where it does not grow, the picture stays.
 TEST(Series, LightIsTheSameThroughout) {
   const RenderView view = view_of(30.0);
