@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/compare/paper_table.hpp"
-#include "bench/limits/ceiling.hpp"
 #include "scenarios/papers_setting.hpp"
 #include "sim/core/base64.hpp"
 #include "sim/core/error.hpp"
