@@ -107,7 +107,8 @@ def test_progress_on_a_terminal_is_by_tqdm(short, monkeypatch):
 
     monkeypatch.setattr(sys, "stderr", Terminal())
     gnbv.run("smoke", set=short)
-    assert "smoke: " in sys.stderr.getvalue() and "view 6/6" in sys.stderr.getvalue()
+    # states that come soon after each other are not all drawn; the last one is
+    assert "smoke: " in sys.stderr.getvalue() and "scoring" in sys.stderr.getvalue()
 
 
 def test_ctrl_c_ends_in_order_and_resume_goes_on(tmp_path):
@@ -115,6 +116,7 @@ def test_ctrl_c_ends_in_order_and_resume_goes_on(tmp_path):
 import gnbv, time
 def told(share, note):
     if note.startswith("view 2/"): print("flying", flush=True)
+    if note.startswith("view "): time.sleep(0.1)  # it is not over before we are asked to end
 try:
     gnbv.run("smoke", seed=3, set={"planner.termination.max_iterations": 40}, out="r",
              progress=told)
