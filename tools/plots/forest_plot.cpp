@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "tools/plots/script_parts.hpp"
 #include "tools/run_files/words.hpp"
@@ -11,117 +12,185 @@
 namespace gnbv {
 namespace {
 
-constexpr int kRow_px = 62;
-constexpr int kBorders_px = 330;
+// Pixels of a picture that is 1512 wide.
+constexpr int kAbove_px = 110;
+constexpr int kBelow_px = 200;  // of each panel: its numbers and what they are
+constexpr int kNote_px = 60;
+constexpr int kMethod_px = 34;
+constexpr int kBetween_px = 28;  // metrics
 
 struct ForestRow {
-  std::string label;
+  std::size_t metric = 0;  // of the panel, from the top
   std::size_t method = 0;
-  double percent = 0.0;
-  double half_percent = 0.0;
+  double mean = 0.0, low = 0.0, high = 0.0;
   bool is_significant = false;
 };
 
-std::vector<ForestRow> rows_of(const Comparison& comparison, std::size_t scenario) {
-  std::vector<ForestRow> rows;
+/// Metrics whose differences have one unit.
+struct ForestPanel {
+  std::string unit;
+  std::vector<std::string> metrics = {};
+  std::vector<ForestRow> rows = {};
+};
+
+bool is_share(const std::string& metric) { return metric.ends_with("(%)"); }
+
+ForestPanel panel_of(const Comparison& comparison, std::size_t scenario, bool of_shares) {
+  ForestPanel panel{.unit = of_shares ? "percentage points" : "% of its mean"};
   for (const MethodFigure& figure : comparison.figures) {
-    if (figure.scenario != scenario || !figure.contrast) continue;
-    const Contrast& contrast = *figure.contrast;
-    const double base = std::abs(contrast.baseline_mean);
-    if (!contrast.difference.half_width || !(base > 0.0)) continue;
-    rows.push_back({.label = comparison.metrics[figure.metric].name,
-                    .method = figure.method,
-                    .percent = 100.0 * contrast.difference.mean / base,
-                    .half_percent = 100.0 * *contrast.difference.half_width / base,
-                    .is_significant = contrast.verdict == Verdict::significant});
+    const std::string& metric = comparison.metrics[figure.metric].name;
+    if (figure.scenario != scenario || !figure.contrast || is_share(metric) != of_shares) continue;
+    const MeanEstimate& difference = figure.contrast->difference;
+    const double base = std::abs(figure.contrast->baseline_mean);
+    if (!difference.half_width || !(of_shares || base > 0.0)) continue;
+    if (panel.metrics.empty() || panel.metrics.back() != metric) panel.metrics.push_back(metric);
+    const double scale = of_shares ? 1.0 : 100.0 / base;
+    panel.rows.push_back({.metric = panel.metrics.size() - 1,
+                          .method = figure.method,
+                          .mean = scale * difference.mean,
+                          .low = scale * (difference.mean - *difference.half_width),
+                          .high = scale * (difference.mean + *difference.half_width),
+                          .is_significant = figure.contrast->verdict == Verdict::significant});
   }
-  return rows;
+  return panel;
 }
 
-/// Labels of the metrics, each once, beside the first of its rows.
-std::string tics_of(const std::vector<ForestRow>& rows) {
+/// Both ends of the axis, with 0 between: half beyond the largest mean on either side unless all
+/// intervals end before, so that few seeds do not press everything else together.
+std::array<double, 2> reach_of(const ForestPanel& panel) {
+  double low = 0.0, high = 0.0, largest = 0.0;
+  for (const ForestRow& row : panel.rows) {
+    low = std::min(low, row.low);
+    high = std::max(high, row.high);
+    largest = std::max(largest, std::abs(row.mean));
+  }
+  if (low == high) return {-1.0, 1.0};  // no difference anywhere
+  return {std::max(low, -1.5 * largest), std::min(high, 1.5 * largest)};
+}
+
+/// Names of the metrics on alternating bands.
+std::string bands(const ForestPanel& panel) {
+  std::string text = "unset object\n";
   std::string tics;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (i > 0 && rows[i].label == rows[i - 1].label) continue;
-    std::string label;  // which gnuplot takes for a format
-    for (const char c : rows[i].label) label += c == '%' ? "%%" : std::string(1, c);
-    tics += fmt::format("{}{} {}", tics.empty() ? "" : ", ", gnuplot_text(label),
-                        -static_cast<double>(i));
+  for (std::size_t i = 0; i < panel.metrics.size(); ++i) {
+    const auto top = -static_cast<double>(i);
+    std::string name;  // which gnuplot takes for a format
+    for (const char c : panel.metrics[i]) name += c == '%' ? "%%" : std::string(1, c);
+    tics += fmt::format("{}{} {}", i == 0 ? "" : ", ", gnuplot_text(name), top - 0.5);
+    if (i % 2 == 1) continue;
+    text += fmt::format(
+        "set object {} rectangle from graph 0,first {} to graph 1,first {} behind fc rgb "
+        "'#f2f4f7' fs solid noborder\n",
+        i + 1, top, top - 1.0);
   }
-  return "set ytics (" + tics + ")\n";
+  return text + "set ytics scale 0 (" + tics + ")\n" +
+         fmt::format("set yrange [{}:0]\n", -static_cast<double>(panel.metrics.size()));
 }
 
-/// Between labels of the difference, so that about four of them stand side by side: 1, 2 or 5 times
-/// a power of ten.
-double tic_step(const std::vector<ForestRow>& rows) {
-  double low = 0.0, high = 0.0;
-  for (const ForestRow& row : rows) {
-    low = std::min(low, row.percent - row.half_percent);
-    high = std::max(high, row.percent + row.half_percent);
+/// The plot command of a panel: means with their intervals, and an arrow where one goes on beyond
+/// the axis. `name` is of its blocks of data.
+std::string intervals(const ForestPanel& panel, const Comparison& comparison,
+                      std::string_view name) {
+  const auto [low, high] = reach_of(panel);
+  const double head = 0.02 * (high - low);
+  std::string data;
+  std::string entries;
+  for (std::size_t method = 0; method < comparison.methods.size(); ++method) {
+    std::vector<std::vector<double>> sure, open, beyond;
+    for (const ForestRow& row : panel.rows) {
+      if (row.method != method) continue;
+      const std::size_t slot = method - (method > comparison.baseline ? 1 : 0);
+      const auto slots = static_cast<double>(comparison.methods.size() - 1);
+      const double y = -static_cast<double>(row.metric) -
+                       (0.1 + 0.8 * (static_cast<double>(slot) + 0.5) / slots);
+      (row.is_significant ? sure : open)
+          .push_back({row.mean, y, std::max(row.low, low), std::min(row.high, high)});
+      if (row.low < low) beyond.push_back({low, y, -head});
+      if (row.high > high) beyond.push_back({high, y, head});
+    }
+    const auto add = [&](const std::vector<std::vector<double>>& rows, std::string_view kind,
+                         std::string_view style) {
+      if (rows.empty()) return;
+      const std::string block = fmt::format("{}{}{}", name, kind, method);
+      data += data_block(block, rows);
+      entries += fmt::format("{}${} {} lc rgb '{}' notitle", entries.empty() ? "" : ", ", block,
+                             style, kPalette[method % kPalette.size()]);
+    };
+    add(sure, "sure", "using 1:2:3:4 with xerrorbars pt 7 ps 1.0 lw 1.2");
+    add(open, "open", "using 1:2:3:4 with xerrorbars pt 6 ps 1.0 lw 1.2");
+    add(beyond, "beyond", "using 1:2:3:(0) with vectors head filled size graph 0.015,25 lw 1.2");
   }
-  const double least = std::max((high - low) / 4.0, 1e-6);
-  const double power = std::pow(10.0, std::floor(std::log10(least)));
-  for (const double times : {1.0, 2.0, 5.0}) {
-    if (times * power >= least) return times * power;
-  }
-  return 10.0 * power;
+  return data +
+         fmt::format("set xrange [{}:{}]\nset xtics {}\n", low - 2.0 * head, high + 2.0 * head,
+                     even_step(high - low, 6)) +
+         "plot " + entries + "\n";
 }
 
-/// Room for the labels, as a share of the width: gnuplot's own guess leaves the plot a sliver.
-double label_share(const std::vector<ForestRow>& rows) {
-  constexpr double kCharacter = 0.0152;  // where Arial is missing, letters are wide
+/// Room for the names of the metrics, as a share of the width: gnuplot's own guess leaves the plot
+/// a sliver.
+double name_share(const std::vector<ForestPanel>& panels) {
+  constexpr double kCharacter = 0.0165;  // where Arial is missing, letters are wide
   std::size_t longest = 0;
-  for (const ForestRow& row : rows) longest = std::max(longest, row.label.size());
+  for (const ForestPanel& panel : panels) {
+    for (const std::string& metric : panel.metrics) longest = std::max(longest, metric.size());
+  }
   return std::min(0.6, 0.03 + kCharacter * static_cast<double>(longest));
+}
+
+std::vector<KeyEntry> key_of(const Comparison& comparison, std::vector<std::string>& names) {
+  for (const std::string& method : comparison.methods) names.push_back(human_name(method));
+  std::vector<KeyEntry> key;
+  for (std::size_t method = 0; method < names.size(); ++method) {
+    if (method == comparison.baseline) continue;
+    key.push_back({kPalette[method % kPalette.size()], names[method]});
+  }
+  return key;
 }
 
 }  // namespace
 
 std::optional<Plot> forest_plot(const Comparison& comparison, std::size_t scenario) {
-  const std::vector<ForestRow> rows = rows_of(comparison, scenario);
-  if (rows.empty()) return std::nullopt;
-  std::string data;
-  std::string entries;
-  for (std::size_t method = 0; method < comparison.methods.size(); ++method) {
-    for (const bool is_significant : {true, false}) {
-      std::vector<std::vector<double>> own;
-      for (std::size_t i = 0; i < rows.size(); ++i) {
-        if (rows[i].method != method || rows[i].is_significant != is_significant) continue;
-        own.push_back({rows[i].percent, -static_cast<double>(i), rows[i].half_percent});
-      }
-      const std::string name = fmt::format("{}{}", is_significant ? "sure" : "open", method);
-      if (own.empty()) continue;
-      data += data_block(name, own);
-      entries +=
-          fmt::format(", ${} using 1:2:3 with xerrorbars pt {} ps 1.0 lw 1.2 lc rgb '{}' notitle",
-                      name, is_significant ? 7 : 6, kPalette[method % kPalette.size()]);
-    }
-    if (method == comparison.baseline) continue;
-    entries += fmt::format(", keyentry with points pt 7 ps 1.0 lc rgb '{}' title {}",
-                           kPalette[method % kPalette.size()],
-                           gnuplot_text(human_name(comparison.methods[method])));
+  std::vector<ForestPanel> panels = {panel_of(comparison, scenario, true),
+                                     panel_of(comparison, scenario, false)};
+  std::erase_if(panels, [](const ForestPanel& panel) { return panel.rows.empty(); });
+  if (panels.empty()) return std::nullopt;
+  const int metric_px = kBetween_px + kMethod_px * static_cast<int>(comparison.methods.size() - 1);
+  int height_px = kAbove_px + kNote_px;
+  for (const ForestPanel& panel : panels) {
+    height_px += kBelow_px + metric_px * static_cast<int>(panel.metrics.size());
   }
-  const int height_px = kBorders_px + kRow_px * static_cast<int>(rows.size());
-  const std::string x_label =
-      fmt::format("difference to {} (% of its mean; 95 % interval; filled: significant)",
-                  human_name(comparison.methods[comparison.baseline]));
-  return Plot{
-      "forest-" + comparison.scenarios[scenario],
-      data + tics_of(rows) +
-          fmt::format("set yrange [{}:0.7]\nset xtics {}\n", 0.3 - static_cast<double>(rows.size()),
-                      tic_step(rows)) +
-          fmt::format("set bmargin at screen {:.4f}\n", 150.0 / height_px) +
-          fmt::format("set label 2 {} at screen 0.5,{:.4f} center textcolor rgb '#262c36'\n",
-                      gnuplot_text(x_label), 30.0 / height_px) +
-          "set key at screen 0.98,0.985 right top horizontal\nset rmargin 3\n" +
-          fmt::format("set lmargin at screen {:.3f}\n", label_share(rows)) +
-          fmt::format("set tmargin at screen {:.4f}\n", 1.0 - 100.0 / height_px) +
-          fmt::format("set label 1 {} at screen 0.02,{:.4f} left textcolor rgb '#262c36'\n",
-                      gnuplot_text(human_name(comparison.scenarios[scenario])),
-                      1.0 - 45.0 / height_px) +
-          "set arrow 1 from 0,graph 0 to 0,graph 1 nohead lw 1.0 lc rgb '#5c6470'\nplot " +
-          entries.substr(2) + "\n",
-      height_px};
+  const auto screen = [&](int from_top_px) {
+    return 1.0 - static_cast<double>(from_top_px) / height_px;
+  };
+  std::vector<std::string> names;
+  std::string body =
+      fmt::format(
+          "set multiplot\nunset key\nunset xlabel\nset grid noytics\n"
+          "set lmargin at screen {:.3f}\nset rmargin at screen 0.97\n",
+          name_share(panels)) +
+      fmt::format("set label 1 {} at screen 0.02,{:.4f} left textcolor rgb '#262c36'\n",
+                  gnuplot_text(human_name(comparison.scenarios[scenario])), screen(50)) +
+      key_row(key_of(comparison, names), screen(50)) +
+      fmt::format(
+          "set label 3 '95 % intervals; filled: significant after Holm; an arrow: beyond' "
+          "at screen 0.02,{:.4f} left textcolor rgb '#5c6470'\n",
+          screen(height_px - 40)) +
+      "set arrow 1 from 0,graph 0 to 0,graph 1 nohead lw 1.0 lc rgb '#5c6470'\n";
+  int top_px = kAbove_px;
+  for (const ForestPanel& panel : panels) {
+    const int bottom_px = top_px + metric_px * static_cast<int>(panel.metrics.size());
+    const std::string words =
+        fmt::format("difference to {} ({})", names[comparison.baseline], panel.unit);
+    body += fmt::format("set tmargin at screen {:.4f}\nset bmargin at screen {:.4f}\n",
+                        screen(top_px), screen(bottom_px)) +
+            fmt::format("set label 2 {} at screen 0.5,{:.4f} center textcolor rgb '#262c36'\n",
+                        gnuplot_text(words), screen(bottom_px + 132)) +
+            bands(panel) +
+            intervals(panel, comparison, is_share(panel.metrics.front()) ? "points" : "percent") +
+            "unset label\n";
+    top_px = bottom_px + kBelow_px;
+  }
+  return Plot{"forest-" + comparison.scenarios[scenario], body, height_px};
 }
 
 }  // namespace gnbv

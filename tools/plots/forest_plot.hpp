@@ -9,8 +9,10 @@
 namespace gnbv {
 
 /// "forest-SCENARIO": for each metric and method that is not the baseline, the mean paired
-/// difference to the baseline with its 95 % interval, in percent of the baseline's mean, filled
-/// where the signed-rank test rejects after Holm. Nothing where no difference has an interval.
+/// difference to the baseline with its 95 % interval, filled where the signed-rank test rejects
+/// after Holm: of shares in percentage points, of all else in percent of the baseline's mean. An
+/// interval that would press the others together ends in an arrow. Nothing where no difference has
+/// an interval.
 std::optional<Plot> forest_plot(const Comparison& comparison, std::size_t scenario);
 
 }  // namespace gnbv

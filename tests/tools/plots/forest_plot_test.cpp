@@ -1,31 +1,64 @@
 // Laws of the plot of paired differences.
 #include "tools/plots/forest_plot.hpp"
 
+#include <algorithm>
+
 #include "tests/tools/plots/plot_support.hpp"
 
 namespace gnbv {
 namespace {
 
-ComparedRun compared(const std::string& method, std::uint64_t seed, double coverage) {
+ComparedRun compared(const std::string& method, std::uint64_t seed, double coverage,
+                     double straight_m) {
   ComparedRun run{.scenario = "smoke", .method = method, .seed = seed, .figures = {}};
   run.figures.coverage_final = {coverage, coverage, coverage};
+  run.figures.straight_m = straight_m;
   return run;
 }
 
-TEST(Plots, ForestHoldsThePairedDifferencesInPercentOfTheBaseline) {
+/// 95 % interval of the mean of three numbers that are so far apart.
+double half_width(double apart) { return 4.302652730 * apart / std::sqrt(3.0); }
+
+TEST(Plots, ForestHoldsPairedDifferencesOfSharesInPointsAndOthersInPercentOfTheBaseline) {
   std::vector<ComparedRun> runs;
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const double base = 0.5 + 0.01 * static_cast<double>(seed);
-    runs.push_back(compared("a", seed, base));
-    runs.push_back(compared("b", seed, base + 0.1 + 0.001 * static_cast<double>(seed)));
+  for (int seed = 1; seed <= 3; ++seed) {
+    const auto key = static_cast<std::uint64_t>(seed);
+    const double base = 0.5 + 0.01 * seed;
+    runs.push_back(compared("a", key, base, 200.0));
+    runs.push_back(compared("b", key, base + 0.1 + 0.001 * seed, 200.0 + 50.0 + seed));
   }
   const auto plot = forest_plot(compare(runs, "a", {}), 0);
   ASSERT_TRUE(plot.has_value());
   EXPECT_EQ(plot->name, "forest-smoke");
-  const auto rows = block(plot->body, "open1");
-  ASSERT_FALSE(rows.empty());
-  EXPECT_NEAR(rows[0][0], 100.0 * 0.102 / 0.52, 1e-6);
-  EXPECT_NEAR(rows[0][2], 100.0 * 4.302652730 * 0.001 / std::sqrt(3.0) / 0.52, 1e-4);
+  const auto coverage = block(plot->body, "pointsopen1").at(0);
+  EXPECT_NEAR(coverage[0], 10.2, 1e-6);
+  EXPECT_NEAR(coverage[2], 10.2 - half_width(0.1), 1e-4);
+  EXPECT_NEAR(coverage[3], 10.2 + half_width(0.1), 1e-4);
+  const auto rows = block(plot->body, "percentopen1");
+  const auto is_distance = [](const std::vector<double>& row) {
+    return std::abs(row[0] - 26.0) < 1e-6 && std::abs(row[3] - 26.0 - half_width(0.5)) < 1e-4;
+  };
+  EXPECT_TRUE(std::any_of(rows.begin(), rows.end(), is_distance));
+  expect_drawable(*plot);
+}
+
+TEST(Plots, ForestCutsTheIntervalsThatWouldPressTheOthersTogether) {
+  std::vector<ComparedRun> runs;
+  for (int seed = 1; seed <= 3; ++seed) {
+    const auto key = static_cast<std::uint64_t>(seed);
+    runs.push_back(compared("a", key, 0.5, 200.0));
+    runs.push_back(compared("b", key, 0.5 + 0.001 * seed, 200.0));
+    runs.push_back(compared("c", key, 0.48 + 0.02 * seed, 200.0));
+  }
+  const auto plot = forest_plot(compare(runs, "a", {}), 0);
+  ASSERT_TRUE(plot.has_value());
+  const auto wide = block(plot->body, "pointsopen2").at(0);
+  EXPECT_GT(wide[0] + half_width(2.0), 3.0) << "a case that needs no cut";
+  EXPECT_NEAR(wide[3], 3.0, 1e-6) << "half beyond the largest mean difference";
+  EXPECT_NEAR(wide[2], wide[0] - half_width(2.0), 1e-4);
+  const auto arrows = block(plot->body, "pointsbeyond2");
+  EXPECT_GT(arrows.at(0)[2], 0.0);
+  EXPECT_EQ(plot->body.find("pointsbeyond1"), std::string::npos);
   expect_drawable(*plot);
 }
 
