@@ -6,6 +6,7 @@
 #include "planner/belief.hpp"
 #include "planner/history.hpp"
 #include "planner/map/clearance.hpp"
+#include "planner/map/path_search.hpp"
 #include "planner/model.hpp"
 #include "planner/tour/surface_places.hpp"
 #include "planner/unseen_space.hpp"
@@ -197,17 +198,19 @@ std::optional<std::vector<Vec3>> TourPlanner::way(const Belief& belief, const Vi
 }
 
 /// Takes the tour's next view that can be flown to; those before it are rejected.
-bool TourPlanner::take_view(const Belief& belief, const ViewPose& current, ViewChecker& checker,
-                            int threads, Plan& plan) {
+bool TourPlanner::take_view(const Belief& belief, const ViewPose& current,
+                            const ViewChecker& checker, int threads, Plan& plan) {
   while (!tour_.empty()) {
     const TourView view = tour_.front();
     tour_.erase(tour_.begin());
     plan.candidates.push_back({.view = view.pose, .sampler = kTourName});
     Candidate& candidate = plan.candidates.back();
-    checker.check(candidate);
+    candidate.rejected = checker.rejection_there(view.pose);
     if (!candidate.rejected) {
       if (auto via_m = way(belief, current, view.place)) {
         candidate.via_world_m = std::move(*via_m);
+        candidate.path_m =
+            path_length_m(current.p_world_m, candidate.via_world_m, view.pose.p_world_m);
       } else {
         candidate.rejected = Rejection::path_blocked;
         places_.forget_ways();
@@ -241,11 +244,11 @@ Plan TourPlanner::next(const Belief& belief, const History& history, const ViewP
   const int threads = bench.threads;
   plan_.reset();
   learn(belief, threads);
-  ValidityConfig validity = model_.config.validity;
-  validity.path = PathCheck::unchecked;  // way() does
+  const ValidityConfig& validity = model_.config.validity;
   const std::vector<ViewPose> recent = recent_views(history, validity.recent_poses);
   refused_ = recent;
-  ViewChecker checker(validity, model_.navigation_m, model_.no_fly, belief.grid, recent, current);
+  const ViewChecker checker(validity, model_.navigation_m, model_.no_fly, belief.grid, recent,
+                            current);
   Plan plan;
   constexpr int kTries = 20;  // tours of which no view could be flown to; each refuses some
   for (int i = 0; i < kTries; ++i) {
@@ -256,6 +259,7 @@ Plan TourPlanner::next(const Belief& belief, const History& history, const ViewP
     }
     if (tour_.empty() || take_view(belief, current, checker, threads, plan)) break;
   }
+  is_complete_ = plan.candidates.empty();
   return plan;
 }
 

@@ -28,13 +28,13 @@ class TourPlanner {
   explicit TourPlanner(const PlannerModel& model);
 
   /// The next view of the tour, made anew where that is due. Has to be asked after every view, of a
-  /// replayed mission, too: it learns from what they brought. `next` is empty when no view pays any
-  /// more. The same at any number of threads.
+  /// replayed mission, too: it learns from what they brought. `next` is empty when no view that
+  /// can be flown to pays any more. The same at any number of threads.
   Plan next(const Belief& belief, const History& history, const ViewPose& current,
             Workbench& bench);
 
   /// Whether the last next() found no view because none pays, not because none can be flown to.
-  bool is_complete() const { return tour_.empty(); }
+  bool is_complete() const { return is_complete_; }
 
   /// Of the view before the last call of next(): what it promised and brought, by kind.
   std::span<const LookOutcome> outcomes() const { return ledger_.outcomes(); }
@@ -55,8 +55,8 @@ class TourPlanner {
   bool search_tour();
   void search_at_lower_prices();
   bool explore(const Belief& belief, Workbench& bench);
-  bool take_view(const Belief& belief, const ViewPose& current, ViewChecker& checker, int threads,
-                 Plan& plan);
+  bool take_view(const Belief& belief, const ViewPose& current, const ViewChecker& checker,
+                 int threads, Plan& plan);
   std::optional<std::vector<Vec3>> way(const Belief& belief, const ViewPose& current,
                                        TourPlaces::Place to);
 
@@ -76,6 +76,7 @@ class TourPlanner {
   TourPlaces::Place at_ = TourPlaces::here();  // where the last view was taken
   int views_since_replan_ = 0;
   bool is_due_ = true;         // the tour has to be made anew
+  bool is_complete_ = false;   // no view paid, and none had to be refused
   double price_factor_ = 1.0;  // halved while there is something left that does not pay
   std::uint64_t searches_ = 0;
   std::optional<TourPlan> plan_;

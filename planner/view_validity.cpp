@@ -83,14 +83,29 @@ Box3 navigation_box_m(const ValidityConfig& config, const Box3& workspace_m) {
   return box;
 }
 
-ViewChecker::Reachability ViewChecker::check_position(const Vec3& p_world_m) const {
-  if (!no_fly_.allows(p_world_m)) return {Rejection::no_fly, {}};
+std::optional<Rejection> ViewChecker::rejection_at(const Vec3& p_world_m) const {
+  // a lattice walked in steps ends on the box's faces but for rounding
+  constexpr double kRounding_m = 1e-6;
+  if (navigation_m_.squaredExteriorDistance(p_world_m) > kRounding_m * kRounding_m) {
+    return Rejection::out_of_bounds;
+  }
+  if (!no_fly_.allows(p_world_m)) return Rejection::no_fly;
   const VoxelState state = grid_.state_at(grid_.geometry().nearest_inside(p_world_m));
   if (state == VoxelState::occupied || (state == VoxelState::unknown && !config_.allow_unknown)) {
-    return {Rejection::not_free, {}};
+    return Rejection::not_free;
   }
+  if (!is_sphere_clear(grid_, p_world_m, config_.collision_radius_m)) return Rejection::collision;
+  return std::nullopt;
+}
+
+std::optional<Rejection> ViewChecker::rejection_there(const ViewPose& view) const {
+  if (is_recent(config_, recent_, view)) return Rejection::recently_visited;
+  return rejection_at(view.p_world_m);
+}
+
+ViewChecker::Reachability ViewChecker::check_position(const Vec3& p_world_m) const {
+  if (const auto rejected = rejection_at(p_world_m)) return {rejected, {}};
   const double radius_m = config_.collision_radius_m;
-  if (!is_sphere_clear(grid_, p_world_m, radius_m)) return {Rejection::collision, {}};
   const Vec3& from_m = current_.p_world_m;
   const bool is_allowed = no_fly_.allows_leg(from_m, p_world_m);
   if (is_allowed && config_.path == PathCheck::unchecked) return {};
@@ -106,15 +121,10 @@ ViewChecker::Reachability ViewChecker::check_position(const Vec3& p_world_m) con
 }
 
 const ViewChecker::Reachability& ViewChecker::reachability(const ViewPose& view) {
-  // a lattice walked in steps ends on the box's faces but for rounding
-  constexpr double kRounding_m = 1e-6;
-  const Vec3& p = view.p_world_m;
   if (is_recent(config_, recent_, view)) return recently_visited_;
-  if (checked_m_ != p) {
-    checked_m_ = p;
-    at_position_ = navigation_m_.squaredExteriorDistance(p) > kRounding_m * kRounding_m
-                       ? Reachability{Rejection::out_of_bounds, {}}
-                       : check_position(p);
+  if (checked_m_ != view.p_world_m) {
+    checked_m_ = view.p_world_m;
+    at_position_ = check_position(view.p_world_m);
   }
   return at_position_;
 }

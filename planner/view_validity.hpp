@@ -65,6 +65,8 @@ class ViewChecker {
 
   /// Fills in whether the candidate may be flown to, and the way there.
   void check(Candidate& candidate);
+  /// What forbids the view whatever way leads to it.
+  std::optional<Rejection> rejection_there(const ViewPose& view) const;
 
  private:
   struct Reachability {
@@ -72,6 +74,7 @@ class ViewChecker {
     std::vector<Vec3> via_world_m;      // points between here and there; empty: straight
   };
   const Reachability& reachability(const ViewPose& view);
+  std::optional<Rejection> rejection_at(const Vec3& p_world_m) const;
   Reachability check_position(const Vec3& p_world_m) const;
 
   const ValidityConfig& config_;
@@ -82,7 +85,7 @@ class ViewChecker {
   const ViewPose& current_;
   std::optional<Vec3> checked_m_;  // the position at hand, and what was found there
   Reachability at_position_;
-  Reachability recently_visited_ = {Rejection::recently_visited, {}};
+  const Reachability recently_visited_ = {Rejection::recently_visited, {}};
 };
 
 /// cluster_outside_fov when no camera has the centroid in its frustum; cluster_hidden when none

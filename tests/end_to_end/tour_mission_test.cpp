@@ -127,6 +127,32 @@ TEST(TourMission, FliesEachLegThroughSpaceKnownToBeFree) {
   EXPECT_GE(legs, 6U);
 }
 
+TEST(TourMission, FliesAroundABoxWhereNobodyMayFly) {
+  const Scenario scenario = tour({"planner.termination.max_iterations=60",
+                                  "no_fly=[{min: [1.7, -4, 0], max: [1.9, 4, 2.6]}]"});
+  const NoFly no_fly = no_fly_of(scenario);
+  MissionHooks hooks;
+  Vec3 at_m = Vec3::Zero();
+  std::size_t ways_around = 0;
+  hooks.on_view = [&](const ViewRecord& view) { at_m = view.decision.view.p_world_m; };
+  hooks.on_candidates = [&](std::size_t, const Plan& plan) {
+    if (!plan.next || no_fly.allows_leg(at_m, plan.next->view.p_world_m)) return;
+    EXPECT_FALSE(plan.next->via_world_m.empty());
+    EXPECT_GT(plan.candidates.at(*plan.chosen).path_m, (plan.next->view.p_world_m - at_m).norm());
+    ++ways_around;
+  };
+  const Flown flown(scenario, hooks);
+  EXPECT_GT(ways_around, 0U);
+  EXPECT_EQ(flown.result.termination, Termination::tour_complete);
+}
+
+TEST(TourMission, IsNotCompleteWhereAllThatPaysIsRefused) {
+  const Flown flown(
+      tour({"planner.validity.recent_distance_m=50", "planner.validity.recent_yaw_deg=180"}));
+  EXPECT_EQ(flown.result.termination, Termination::no_valid_view);
+  EXPECT_GT(flown.result.last_rejections.at(Rejection::recently_visited), 0);
+}
+
 /// The parts are switches: each alone changes what is flown.
 TEST(TourMission, EachSwitchChangesTheTour) {
   const std::vector<std::string> few = {"planner.termination.max_iterations=8"};
