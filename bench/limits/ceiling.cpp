@@ -13,13 +13,13 @@ namespace {
 constexpr std::string_view kKind = "ceiling";
 
 Ceiling compute(const Scenario& scenario, const World& world, const RayScene& scene,
-                const LegalViewpoints& legal, const ViewPose& start, int threads,
+                const LegalViewpoints& legal, int threads,
                 const std::function<void(double)>& on_progress) {
   const ReferenceConfig config{.floor_z_m = scenario.planner.floor_z_m,
                                .region_m = scenario.score.region_m};
   const SurfaceReference reference = cached_surface_reference(world, scene, config, threads);
   const SeenSurface seen =
-      find_seen_surface(scenario, world, scene, legal, start, reference, threads, on_progress);
+      find_seen_surface(scenario, world, scene, legal, reference, threads, on_progress);
   Ceiling ceiling{.positions = legal.size()};
   for (std::size_t size = 0; size < kCoverageSizes_m.size(); ++size) {
     const VoxelSet seen_of_size = coarser(seen.voxels, kCoverageFactors[size]);
@@ -45,7 +45,7 @@ Ceiling find_ceiling(const Scenario& scenario, const World& world, const RayScen
   if (const auto stored = load_cached(kKind, key)) {
     if (const auto ceiling = ceiling_from(*stored)) return *ceiling;
   }
-  const Ceiling ceiling = compute(scenario, world, scene, legal, start, threads, on_progress);
+  const Ceiling ceiling = compute(scenario, world, scene, legal, threads, on_progress);
   store_cached(kKind, key, text_of(ceiling));
   return ceiling;
 }

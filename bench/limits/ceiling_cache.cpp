@@ -102,11 +102,16 @@ std::string ceiling_key(const Scenario& scenario, const World& world,
   sha.add(profiling.scan_in_transit);
   sha.add(std::uint64_t{static_cast<unsigned>(profiling.circle_stations)});
   sha.add(profiling.climb_step_m);
+  if (profiling.method != ProfilingMethod::none) {
+    add(sha, scenario.start.pose.p_world_m);
+    sha.add(scenario.start.pose.yaw_rad);
+  }
   add(sha, scenario.workspace_m.min());
   add(sha, scenario.workspace_m.max());
   sha.add(scenario.planner.map.resolution_m);
   sha.add(scenario.planner.floor_z_m);
   sha.add(scenario.planner.cloud.leaf_m);
+  sha.add(scenario.planner.validity.collision_radius_m);
   sha.add(legal.step_m);
   sha.add(std::uint64_t{legal.size()});
   for (const Vec3& p : legal.p_world_m) add(sha, p);

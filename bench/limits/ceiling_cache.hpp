@@ -10,9 +10,10 @@
 
 namespace gnbv {
 
-/// SHA-256 over all that ceiling and survey depend on: structure, ground, cameras (without their
-/// noise), workspace and voxels, floor, leaf, and the legal positions with their cells, which
-/// stand for start, navigation box and collision radius.
+/// SHA-256 over all that ceiling and survey depend on: structure, surroundings and ground, region,
+/// no_fly boxes, cameras and LIDARs (without their noise), profile with the start it is flown from,
+/// workspace and voxels, floor, leaf, collision radius, and the legal positions with their cells,
+/// which stand for the navigation box.
 std::string ceiling_key(const Scenario& scenario, const World& world, const LegalViewpoints& legal);
 
 /// A scenario with all that the ceiling depends on, and the defaults elsewhere: scenarios of which

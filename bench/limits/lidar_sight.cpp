@@ -19,11 +19,12 @@ struct Leg {
   double yaw_rad;
 };
 
-std::vector<Leg> scanned_legs(const Scenario& scenario, const ViewPose& start) {
+std::vector<Leg> scanned_legs(const Scenario& scenario) {
   ProfilingConfig profiling = scenario.planner.profiling;
   if (profiling.method == ProfilingMethod::none) return {};
   if (profiling.method == ProfilingMethod::saved) profiling.method = ProfilingMethod::bounding_box;
   const Box3 navigation_m = navigation_box_m(scenario.planner.validity, scenario.workspace_m);
+  const ViewPose& start = scenario.start.pose;
   ProfileRoute route(profiling, navigation_m, start, no_fly_of(scenario));
   std::vector<Leg> legs;
   ViewPose at = start;
@@ -42,10 +43,9 @@ std::vector<Leg> scanned_legs(const Scenario& scenario, const ViewPose& start) {
 
 }  // namespace
 
-LidarSight::LidarSight(const Scenario& scenario, const RayScene& scene, const ViewPose& start)
-    : scene_(scene) {
+LidarSight::LidarSight(const Scenario& scenario, const RayScene& scene) : scene_(scene) {
   constexpr std::array<double, 3> kLeans_rad = {0.0, -kLean_rad, kLean_rad};
-  for (const Leg& leg : scanned_legs(scenario, start)) {
+  for (const Leg& leg : scanned_legs(scenario)) {
     for (const LidarConfig& config : scenario.lidars) {
       for (const double pitch_rad : kLeans_rad) {
         for (const double roll_rad : kLeans_rad) {

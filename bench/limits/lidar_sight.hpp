@@ -12,9 +12,10 @@ namespace gnbv {
 /// by a few degrees as it does in flight. Const after construction.
 class LidarSight {
  public:
-  /// The legs of the scenario's profile: none without one; of a saved one those of the bounding
-  /// box, of an adaptive one those of the tallest structure. Keeps the reference.
-  LidarSight(const Scenario& scenario, const RayScene& scene, const ViewPose& start);
+  /// The legs of the scenario's profile from its start without jitter, so that all seeds have one
+  /// ceiling: none without a profile; of a saved one those of the bounding box, of an adaptive one
+  /// those of the tallest structure. Keeps the reference.
+  LidarSight(const Scenario& scenario, const RayScene& scene);
 
   bool is_seen(const Vec3f& point_world_m) const;
 

@@ -273,16 +273,15 @@ class SlabSearch {
 }  // namespace
 
 SeenSurface find_seen_surface(const Scenario& scenario, const World& world, const RayScene& scene,
-                              const LegalViewpoints& legal, const ViewPose& start,
-                              const SurfaceReference& reference, int threads,
-                              const std::function<void(double)>& on_progress) {
+                              const LegalViewpoints& legal, const SurfaceReference& reference,
+                              int threads, const std::function<void(double)>& on_progress) {
   const ValidityConfig& validity = scenario.planner.validity;
   const double leaf_m = scenario.planner.cloud.leaf_m;
   const double floor_z_m = scenario.planner.floor_z_m;
   const SightSearch cameras(scene, exact_cameras(scenario), legal,
                             navigation_box_m(validity, scenario.workspace_m),
                             validity.collision_radius_m);
-  const LidarSight lidars(scenario, scene, start);
+  const LidarSight lidars(scenario, scene);
   const SlabSearch search(cameras, lidars, reference);
   const Slabs slabs = make_slabs(world.structure, floor_z_m);
   std::vector<SeenSurface> parts(slabs.faces.size());

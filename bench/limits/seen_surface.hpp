@@ -27,8 +27,7 @@ struct SeenSurface {
 /// called with the share that is done, by one thread at a time. Deterministic at any number of
 /// threads.
 SeenSurface find_seen_surface(const Scenario& scenario, const World& world, const RayScene& scene,
-                              const LegalViewpoints& legal, const ViewPose& start,
-                              const SurfaceReference& reference, int threads,
-                              const std::function<void(double)>& on_progress);
+                              const LegalViewpoints& legal, const SurfaceReference& reference,
+                              int threads, const std::function<void(double)>& on_progress);
 
 }  // namespace gnbv

@@ -259,10 +259,14 @@ TEST(CeilingCache, KeyChangesWithAllThatTheResultDependsOnAndWithNothingElse) {
         "planner.validity.collision_radius_m=0.9", "planner.validity.z_min_m=0.8",
         "lidars.0.pitch_deg=5", "lidars.0.range_max_m=12", "planner.profiling.method=none",
         "planner.profiling.scan_in_transit=false", "score.region_m={max: [0, 5, 5]}",
-        "no_fly=[{min: [3, 3, 3], max: [4, 4, 4]}]",
-        "no_fly=[{min: [30, 3, 3], max: [40, 4, 4]}]"}) {
+        "no_fly=[{min: [3, 3, 3], max: [4, 4, 4]}]", "no_fly=[{min: [30, 3, 3], max: [40, 4, 4]}]",
+        "start.position_m=[0, 2.8, 1.2]"}) {
     expect_new({key});
   }
+  // as a radius that moves no position of the lattice
+  Scenario nearer = s.scenario;
+  nearer.planner.validity.collision_radius_m += 1e-3;
+  EXPECT_TRUE(keys.insert(ceiling_key(nearer, s.world, s.legal)).second);
   LegalViewpoints shifted = s.legal;
   for (auto& cell : shifted.cell) ++cell[0];
   EXPECT_TRUE(keys.insert(ceiling_key(s.scenario, s.world, shifted)).second);

@@ -185,7 +185,7 @@ struct Setting {
     setenv("GNBV_CACHE", "", 1);
   }
   SeenSurface seen(int threads = 2) const {
-    return find_seen_surface(scenario, world, scene, legal, start, reference, threads, {});
+    return find_seen_surface(scenario, world, scene, legal, reference, threads, {});
   }
 
   Scenario scenario;
@@ -206,7 +206,7 @@ struct NoiseFree {
     legal = find_legal_viewpoints(scenario, flown.scene, start, 2);
     reference = make_surface_reference(flown.world, flown.scene,
                                        {.floor_z_m = scenario.planner.floor_z_m}, 2);
-    seen = find_seen_surface(scenario, flown.world, flown.scene, legal, start, reference, 2, {});
+    seen = find_seen_surface(scenario, flown.world, flown.scene, legal, reference, 2, {});
     ceiling = find_ceiling(scenario, flown.world, flown.scene, start, 2);
   }
 
@@ -305,8 +305,7 @@ TEST(SeenSurface, AVoxelKeepsAPointOfALeafThatItHasAQuarterOf) {
     const ViewPose start = start_pose(scenario, scene);
     const LegalViewpoints legal = find_legal_viewpoints(scenario, scene, start, 2);
     const SurfaceReference reference = make_surface_reference(world, scene, {}, 2);
-    const SeenSurface seen =
-        find_seen_surface(scenario, world, scene, legal, start, reference, 2, {});
+    const SeenSurface seen = find_seen_surface(scenario, world, scene, legal, reference, 2, {});
     const VoxelSet kept = voxels_of(seen.kept_world_m, kCoverageSizes_m[0]);
     const std::uint64_t last = voxel_code(Vec3f(1.049F, 0.01F, 1.23F), kCoverageSizes_m[0]);
     EXPECT_TRUE(std::binary_search(seen.voxels.begin(), seen.voxels.end(), last));
@@ -349,8 +348,7 @@ TEST(LidarSight, SeesAFaceOfTheBoxAndNotItsInside) {
   test::add_box(mesh, Vec3(-0.5, -0.5, 1), Vec3(1, 1, 1));
   const World world{mesh, true};
   const RayScene scene(world);
-  const ViewPose start = start_pose(scenario, scene);
-  const LidarSight lidars(scenario, scene, start);
+  const LidarSight lidars(scenario, scene);
   for (const double z : {0.8, 1.5, 2.2}) {
     const auto up = static_cast<float>(z);
     EXPECT_TRUE(lidars.is_seen(Vec3f(1.0F, 0.3F, up))) << z;
@@ -358,7 +356,7 @@ TEST(LidarSight, SeesAFaceOfTheBoxAndNotItsInside) {
     EXPECT_FALSE(lidars.is_seen(Vec3f(0.5F, 0.1F, up))) << z;
   }
   scenario.planner.profiling.method = ProfilingMethod::none;
-  EXPECT_FALSE(LidarSight(scenario, scene, start).is_seen(Vec3f(1.0F, 0.3F, 1.5F)));
+  EXPECT_FALSE(LidarSight(scenario, scene).is_seen(Vec3f(1.0F, 0.3F, 1.5F)));
 }
 
 }  // namespace

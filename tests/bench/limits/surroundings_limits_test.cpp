@@ -122,8 +122,7 @@ TEST(SurroundingsLimits, NoLidarSeesThroughAFence) {
   test::add_box(world.structure, Vec3(-1, -1, 0.5), Vec3(2, 2, 2));
   const auto is_seen = [&](double z) {
     const RayScene scene(world);
-    return LidarSight(scenario, scene, start_pose(scenario, scene))
-        .is_seen(Vec3f(1.0F, 0.3F, static_cast<float>(z)));
+    return LidarSight(scenario, scene).is_seen(Vec3f(1.0F, 0.3F, static_cast<float>(z)));
   };
   EXPECT_TRUE(is_seen(0.8));
   test::add_box(world.obstacles, Vec3(-1.2, -1.2, 0), Vec3(2.4, 2.4, 1.6), false);
