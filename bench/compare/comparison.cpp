@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "sim/core/error.hpp"
 
@@ -145,12 +146,38 @@ void add_figures(Comparison& comparison, std::size_t scenario, std::size_t metri
   judge(family);
 }
 
-}  // namespace
+using Hashes = std::map<std::pair<std::string, std::uint64_t>, std::string>;  // by scenario, seed
 
-double least_p_holm(const Contrast& contrast) {
-  // Holm's first step asks for the smallest p times the size of the family
-  return static_cast<double>(contrast.family) * least_wilcoxon_p(contrast.differing);
+bool are_same(const Hashes& a, const Hashes& b) {
+  std::size_t shared = 0;
+  for (const auto& [mission, hash] : a) {
+    const auto other = b.find(mission);
+    if (other == b.end()) continue;
+    if (hash.empty() || other->second != hash) return false;
+    ++shared;
+  }
+  return shared > 0;
 }
+
+std::vector<std::array<std::size_t, 2>> same_missions(const std::vector<std::string>& methods,
+                                                      std::span<const ComparedRun> runs) {
+  std::vector<Hashes> hashes(methods.size());
+  for (const ComparedRun& run : runs) {
+    const auto method = std::find(methods.begin(), methods.end(), run.method) - methods.begin();
+    hashes[static_cast<std::size_t>(method)][{run.scenario, run.seed}] = run.figures.result_sha256;
+  }
+  std::vector<std::array<std::size_t, 2>> same;
+  for (std::size_t later = 1; later < methods.size(); ++later) {
+    for (std::size_t earlier = 0; earlier < later; ++earlier) {
+      if (!are_same(hashes[earlier], hashes[later])) continue;
+      same.push_back({later, earlier});
+      break;
+    }
+  }
+  return same;
+}
+
+}  // namespace
 
 Comparison compare(std::span<const ComparedRun> runs, const std::string& baseline,
                    const Ceilings& ceilings) {
@@ -168,6 +195,7 @@ Comparison compare(std::span<const ComparedRun> runs, const std::string& baselin
   const auto base = std::find(comparison.methods.begin(), comparison.methods.end(), baseline);
   GNBV_CHECK(base != comparison.methods.end(), "no run of the baseline '{}'", baseline);
   comparison.baseline = static_cast<std::size_t>(base - comparison.methods.begin());
+  comparison.same_missions = same_missions(comparison.methods, runs);
   for (const auto& of_scenario : by_scenario) {
     comparison.budgets.push_back(common_budgets(of_scenario));
   }

@@ -78,6 +78,9 @@ struct Comparison {
   std::vector<std::array<double, 3>> budgets;  // by scenario: common_budgets()
   std::vector<MethodFigure> figures;  // by scenario, metric, method; without what nobody measured
   std::vector<OverallRank> ranks;
+  /// A method, and the first one before it that flew the very same missions wherever both flew (by
+  /// result_sha256): what sets the two apart has no effect.
+  std::vector<std::array<std::size_t, 2>> same_missions = {};
 };
 
 /// By scenario and method: a method that changes a camera, the leaf or the workspace has a ceiling

@@ -199,8 +199,10 @@ void add_power_notes(std::vector<std::string>& notes, const Comparison& comparis
     const std::size_t differing = c.differing;
     while (least_p_holm(c) > 0.05) ++c.differing;
     notes.push_back(fmt::format(
-        "n = {}{}: no p of the signed-rank test can be below {:.4g}{}, so it cannot reject at 5 %; "
-        "{} seeds could. \"By interval only\" means that Student's interval excludes 0: an "
+        "by interval only at n = {}{}: no p of the signed-rank test can be below {:.4g}{} there, "
+        "so "
+        "it cannot reject at 5 %; {} that differ could. \"By interval only\" means that Student's "
+        "interval excludes 0: an "
         "indication that rests on differences being about normal, not a test "
         "passed{}",
         c.pairs,
@@ -214,6 +216,10 @@ void add_power_notes(std::vector<std::string>& notes, const Comparison& comparis
 
 std::vector<std::string> notes(const Comparison& comparison) {
   std::vector<std::string> all = answers(comparison);
+  for (const auto& [later, earlier] : comparison.same_missions) {
+    all.push_back(fmt::format("{} flew the very missions of {}: what sets them apart has no effect",
+                              comparison.methods[later], comparison.methods[earlier]));
+  }
   add_power_notes(all, comparison);
   all.push_back(fmt::format(
       "mean: over the seeds, ± its 95 % interval (Student's t); rank: mean over the seeds that all "

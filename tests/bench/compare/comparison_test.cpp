@@ -69,9 +69,9 @@ TEST(Compare, FiveSeedsAreTooFewForTheTestAndSaySo) {
   EXPECT_EQ(coverage_contrast(c, 1).p, 0.0625);
   EXPECT_EQ(coverage_contrast(c, 1).verdict, Verdict::interval_only);
   const TextTable table = comparison_table(c);
-  EXPECT_NE(all_notes(table).find("n = 5: no p of the signed-rank test can be below 0.0625"),
+  EXPECT_NE(all_notes(table).find("at n = 5: no p of the signed-rank test can be below 0.0625"),
             std::string::npos);
-  EXPECT_NE(all_notes(table).find("6 seeds could"), std::string::npos);
+  EXPECT_NE(all_notes(table).find("6 that differ could"), std::string::npos);
   EXPECT_NE(table.notes[0].find("5 seeds are too few for the test"), std::string::npos);
 }
 
@@ -137,8 +137,27 @@ TEST(Compare, SeedsWithoutADifferenceGiveTheTestNoPower) {
   EXPECT_EQ(contrast.p, 0.0625);  // two of 2^5 signs
   EXPECT_EQ(contrast.verdict, Verdict::interval_only);
   const std::string notes = all_notes(comparison_table(c));
-  EXPECT_NE(notes.find("n = 6, 5 of them with a difference: no p of the signed-rank test can be "
-                       "below 0.0625, so"),
+  EXPECT_NE(notes.find("at n = 6, 5 of them with a difference: no p of the signed-rank test can be "
+                       "below 0.0625 there, so"),
+            std::string::npos);
+}
+
+TEST(Compare, MethodsThatFlewTheSameMissionsAreNamed) {
+  std::vector<ComparedRun> runs = clear_cut(3);
+  for (ComparedRun& run : runs) {
+    run.figures.result_sha256 = fmt::format("{} {}", run.method, run.seed);
+  }
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    ComparedRun copy = runs.front();
+    copy.method = "idle switch";
+    copy.seed = seed;
+    copy.figures.result_sha256 = fmt::format("base {}", seed);
+    runs.push_back(copy);
+  }
+  const std::string words = "idle switch flew the very missions of base: ";
+  EXPECT_NE(all_notes(comparison_table(compare(runs, "base", {}))).find(words), std::string::npos);
+  runs.back().figures.result_sha256 = "another";
+  EXPECT_EQ(all_notes(comparison_table(compare(runs, "base", {}))).find("the very missions"),
             std::string::npos);
 }
 
@@ -149,7 +168,7 @@ TEST(Compare, EveryNumberOfSeedsHasItsOwnPowerNote) {
     runs.push_back(more);
   }
   const std::string notes = all_notes(comparison_table(compare(runs, "base", {})));
-  EXPECT_NE(notes.find("n = 5: no p of the signed-rank test"), std::string::npos);
+  EXPECT_NE(notes.find("at n = 5: no p of the signed-rank test"), std::string::npos);
   EXPECT_EQ(notes.find("n = 8: no p"), std::string::npos);
   EXPECT_EQ(notes.find("not adjusted"), std::string::npos);  // one method against the baseline
 }
