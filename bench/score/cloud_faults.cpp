@@ -11,9 +11,6 @@
 namespace gnbv {
 namespace {
 
-// Codes have room for 2^20 voxels to each side of the origin.
-const double kFarthestCoordinate_m = 0x1p20 * kCoverageSizes_m[0];
-
 /// Diagonal of the box that holds nine tenths of the points along each axis: a few strays do not
 /// change it.
 double extent_m(std::span<const Vec3f> cloud_m) {
@@ -64,7 +61,7 @@ std::string text_of(const Box3& box_m) {
 }
 
 [[noreturn]] void refuse(const std::string& name, std::span<const Vec3f> cloud_world_m,
-                         std::size_t i, const char* what) {
+                         std::size_t i, std::string_view what) {
   const Vec3f& p = cloud_world_m[i];
   throw BadInput(fmt::format("{}: point {} (counted from 0) is ({}, {}, {}) m: {}", name, i, p.x(),
                              p.y(), p.z(), what));
@@ -76,8 +73,13 @@ void need_finite(const std::string& name, std::span<const Vec3f> cloud_world_m) 
   }
 }
 
-bool is_in_range(const Vec3f& p_world_m) {
-  return static_cast<double>(p_world_m.cwiseAbs().maxCoeff()) < kFarthestCoordinate_m;
+void need_in_range(const std::string& name, std::span<const Vec3f> cloud_world_m, std::size_t i,
+                   double voxel_m) {
+  constexpr double kVoxelsOut = 0x1p20;  // to each side of the origin: more have no code
+  const auto farthest_m = static_cast<double>(cloud_world_m[i].cwiseAbs().maxCoeff());
+  if (farthest_m < kVoxelsOut * voxel_m) return;
+  refuse(name, cloud_world_m, i,
+         fmt::format("too far from the origin for voxels of {} m", voxel_m));
 }
 
 void need_near(const std::string& name, std::span<const Vec3f> cloud_world_m, const RayScene& scene,
@@ -97,16 +99,17 @@ void need_near(const std::string& name, std::span<const Vec3f> cloud_world_m, co
 
 }  // namespace
 
-void need_voxels(const std::string& name, std::span<const Vec3f> cloud_world_m) {
+void need_voxels(const std::string& name, std::span<const Vec3f> cloud_world_m,
+                 double smallest_voxel_m) {
   need_finite(name, cloud_world_m);
   for (std::size_t i = 0; i < cloud_world_m.size(); ++i) {
-    if (!is_in_range(cloud_world_m[i])) refuse(name, cloud_world_m, i, "too far from the origin");
+    need_in_range(name, cloud_world_m, i, smallest_voxel_m);
   }
 }
 
 std::vector<Vec3f> scorable_points(const std::string& name, std::span<const Vec3f> cloud_world_m,
-                                   double floor_z_m, const RayScene& scene,
-                                   const Box3& structure_m) {
+                                   double floor_z_m, const RayScene& scene, const Box3& structure_m,
+                                   double smallest_voxel_m) {
   if (cloud_world_m.empty()) throw BadInput(fmt::format("{}: has no points", name));
   need_finite(name, cloud_world_m);
   // a mission's cloud is of floats: one on the floor must not fall below it by rounding
@@ -122,8 +125,7 @@ std::vector<Vec3f> scorable_points(const std::string& name, std::span<const Vec3
   }
   need_near(name, points_m, scene, structure_m);
   for (std::size_t i = 0; i < cloud_world_m.size(); ++i) {
-    if (is_below(cloud_world_m[i]) || is_in_range(cloud_world_m[i])) continue;
-    refuse(name, cloud_world_m, i, "too far from the origin");
+    if (!is_below(cloud_world_m[i])) need_in_range(name, cloud_world_m, i, smallest_voxel_m);
   }
   return points_m;
 }

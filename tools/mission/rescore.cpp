@@ -43,6 +43,15 @@ Scored score(Scenario scenario, const World& world, const RayScene& scene, Score
   return scored;
 }
 
+/// Of those that score() counts the points by.
+double smallest_voxel_m(const Scenario& scenario, const ScoreWish& wish) {
+  double smallest_m = std::min(kCoverageSizes_m[0], scenario.planner.map.resolution_m);
+  for (const double size_m : wish.sizes_m.empty() ? scenario.score.sizes_m : wish.sizes_m) {
+    smallest_m = std::min(smallest_m, size_m);
+  }
+  return smallest_m;
+}
+
 World world_of(const Scenario& scenario) {
   std::vector<std::string> warnings;  // the mission told them
   return load_world_anywhere(scenario, warnings);
@@ -80,8 +89,9 @@ Scored score_any_cloud(const std::string& name, std::span<const Vec3f> cloud_wor
                        const Scenario& scenario, const ScoreWish& wish, int threads) {
   const World world = world_of(scenario);
   const RayScene scene(world);
-  const std::vector<Vec3f> points_m = scorable_points(
-      name, cloud_world_m, scenario.planner.floor_z_m, scene, bounds_m(world.structure));
+  const std::vector<Vec3f> points_m =
+      scorable_points(name, cloud_world_m, scenario.planner.floor_z_m, scene,
+                      bounds_m(world.structure), smallest_voxel_m(scenario, wish));
   Scored scored = score(scenario, world, scene, {.points_world_m = points_m}, wish, threads);
   scored.points_below_floor = cloud_world_m.size() - points_m.size();
   return scored;
@@ -99,7 +109,7 @@ Scored score_run(const fs::path& run, const ScoreWish& wish, int threads) {
   const Scenario scenario = load_scenario((run / kScenarioFile).string(), {});
   const fs::path cloud_path = run / kCloudFile;
   const std::vector<Vec3f> points = read_cloud(cloud_path);
-  need_voxels(cloud_path.string(), points);
+  need_voxels(cloud_path.string(), points, smallest_voxel_m(scenario, wish));
   const std::vector<Vec3f> profile = read_cloud(run / kProfileCloudFile);
   const std::vector<ViewRecord> views = read_view_records(run / kIterationsFile);
   const ScoredCloud cloud{.points_world_m = points,

@@ -132,7 +132,8 @@ RunCloud read_run_cloud(const RunRecord& record) {
   RunCloud cloud{.points_world_m = read_cloud(record.folder / kCloudFile),
                  .profile_points = read_cloud(record.folder / kProfileCloudFile).size(),
                  .view_points = {}};
-  need_voxels((record.folder / kCloudFile).string(), cloud.points_world_m);
+  need_voxels((record.folder / kCloudFile).string(), cloud.points_world_m,
+              std::min(kCoverageSizes_m[0], record.scenario.planner.map.resolution_m));
   std::size_t before = cloud.profile_points;
   for (const ViewRecord& view : record.views) {
     if (view.cloud_points < before) break;

@@ -105,8 +105,11 @@ TEST(CloudFaults, EmptyNotFiniteAndTooFarArePointedAt) {
     EXPECT_TRUE(complains(cloud, what)) << complaint_of(cloud);
     EXPECT_THROW(need_voxels("a.ply", cloud), BadInput);
   }
-  cloud[77].y() = 0.0F;
+  cloud[77].y() = 20000.0F;
   EXPECT_NO_THROW(need_voxels("a.ply", cloud));
+  EXPECT_THROW(need_voxels("a.ply", cloud, 0.01), BadInput);
+  cloud[77].y() = 0.0F;
+  EXPECT_NO_THROW(need_voxels("a.ply", cloud, 0.01));
   EXPECT_NO_THROW(need_voxels("a.ply", {}));
 }
 
