@@ -29,6 +29,20 @@ std::vector<std::string> more_names_of(std::string_view header, const TextPlace&
   return names;
 }
 
+/// A row goes on from those before it, with shares from 0 to 1.
+void need_curve(const CoverageCurve& before, std::span<const double> row, const TextPlace& place) {
+  const double metres = before.metres.empty() ? 0.0 : before.metres.back();
+  const double seconds = before.seconds.empty() ? 0.0 : before.seconds.back();
+  if (!(row[1] >= metres && row[2] >= seconds)) {
+    throw BadInput(fmt::format("{}: {} m and {} s after {} m and {} s", to_string(place), row[1],
+                               row[2], metres, seconds));
+  }
+  for (const double share : row.subspan(3)) {
+    if (share >= 0.0 && share <= 1.0) continue;
+    throw BadInput(fmt::format("{}: coverage {} must be from 0 to 1", to_string(place), share));
+  }
+}
+
 }  // namespace
 
 std::string coverage_csv(const CoverageCurve& curve, std::span<const SizedCoverage> more) {
@@ -66,6 +80,7 @@ CoverageFile read_coverage_csv(const std::filesystem::path& file) {
     if (values[0] != line - 2) {
       throw BadInput(fmt::format("{}: view {} must be {}", to_string(place), values[0], line - 2));
     }
+    need_curve(read.curve, values, place);
     read.curve.metres.push_back(values[1]);
     read.curve.seconds.push_back(values[2]);
     read.curve.coverage.push_back({values[3], values[4], values[5]});

@@ -158,8 +158,10 @@ void rescore_summary(const fs::path& run, const MissionScore& score) {
                                path.string(), schema.dump(), kSummarySchema));
   }
   const std::string summary = with_score(json, score).dump(2) + "\n";
-  write_file_atomically(run / kCoverageFile, coverage_csv(score.curve, score.more));
+  // killed in between, the run is one without a curve, which scoring gives back, not one of two
+  fs::remove(run / kCoverageFile);
   write_file_atomically(path, summary);
+  write_file_atomically(run / kCoverageFile, coverage_csv(score.curve, score.more));
 }
 
 }  // namespace gnbv

@@ -131,7 +131,9 @@ TEST(RoundTrip, CoverageCsv) {
   EXPECT_EQ(read.coverage, curve.coverage);
   EXPECT_EQ(read.metres, curve.metres);
   EXPECT_EQ(read.seconds, curve.seconds);
-  for (const char* row : {"2,1,2,3,4\n", "2,1,2,3,4,5,6\n", "2,1,2,3,4,x\n", "3,1,2,3,4,5\n"}) {
+  for (const char* row :
+       {"2,1,2,3,4\n", "2,1,2,3,4,5,6\n", "2,1,2,3,4,x\n", "3,1,2,3,4,5\n",
+        "2,-1,1e9,0.5,0.5,0.5\n", "2,1e9,-1,0.5,0.5,0.5\n", "2,1e9,1e9,0.5,1.5,0.5\n"}) {
     write_file_atomically(csv, coverage_csv(curve) + row);
     const std::string said = complaint_of([&] { read_coverage_csv(csv); });
     EXPECT_TRUE(has(said, "coverage.csv:4: ")) << said;
