@@ -41,13 +41,20 @@ const PaperTable& paper_table_of(const Scenario& scenario, const std::string& as
 /// is no bound for them, but one that the user sets is.
 constexpr const char* kToTheEnd = "planner.termination.max_iterations=100000";
 
-bool sets_max_iterations(const std::vector<std::string>& overrides) {
-  return std::any_of(overrides.begin(), overrides.end(), [](const std::string& set) {
-    return set.starts_with("planner.termination.max_iterations=");
+/// In a file, or by an override, whatever its value.
+bool sets_max_iterations(const TableOptions& options, const Scenario& resolved) {
+  const Scenario builtin = load_scenario(resolved.name, {});
+  const auto max_iterations = [](const Scenario& scenario) {
+    return scenario.planner.termination.max_iterations;
+  };
+  if (max_iterations(resolved) != max_iterations(builtin)) return true;
+  const std::vector<std::string>& sets = options.scenario.overrides;
+  return std::any_of(sets.begin(), sets.end(), [](const std::string& set) {
+    return set.find("max_iterations") != std::string::npos;
   });
 }
 
-Sweep sweep_of(const TableOptions& options, const PaperTable& paper, std::uint64_t first_seed) {
+Sweep sweep_of(const TableOptions& options, const PaperTable& paper, const Scenario& first) {
   Sweep sweep;
   SweepScenario scenario{.name = std::string(paper.scenario),
                          .scenario = options.scenario.scenario,
@@ -65,9 +72,10 @@ Sweep sweep_of(const TableOptions& options, const PaperTable& paper, std::uint64
     sweep.methods.push_back(
         {std::string(utility), {fmt::format("planner.utility.name={}", utility)}});
   };
+  const bool is_limited = sets_max_iterations(options, first);
   const auto add_row_to_the_end = [&](std::string_view utility) {
     add_row(utility);
-    if (sets_max_iterations(options.scenario.overrides)) return;
+    if (is_limited) return;
     sweep.methods.back().overrides.push_back(kToTheEnd);
   };
   for (const PaperRow& row : paper.rows) add_row(row.utility);
@@ -78,7 +86,7 @@ Sweep sweep_of(const TableOptions& options, const PaperTable& paper, std::uint64
   if (!options.no_oracle) {
     for (const std::string_view oracle : kOracleNames) add_row_to_the_end(oracle);
   }
-  sweep.seeds = seeds_from(first_seed, options.bench.seed_count);
+  sweep.seeds = seeds_from(first.seed, options.bench.seed_count);
   return sweep;
 }
 
@@ -133,7 +141,7 @@ std::string command_of(const TableOptions& options, std::uint64_t first_seed) {
 void table(const TableOptions& options) {
   const Scenario first = resolve_scenario(options.scenario);
   const PaperTable& paper = paper_table_of(first, options.scenario.scenario);
-  const Sweep sweep = sweep_of(options, paper, first.seed);
+  const Sweep sweep = sweep_of(options, paper, first);
   const std::vector<Cell> cells = cells_of(sweep);
   const Ceiling ceiling = ceiling_of(cells.front().resolved, options.bench);
   BenchRuns flown = fly_cells(cells, options.bench);
