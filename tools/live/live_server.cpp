@@ -16,17 +16,26 @@ constexpr int kPatience_s = 5;         // with who neither sends nor takes
 constexpr std::size_t kListeners = 8;  // at once; others wait
 constexpr std::size_t kMostBody_bytes = 1024;
 
+constexpr const char* kNothing = "default-src 'none'";  // may be loaded or run
+
 struct Shown {
   // looks again by itself until there is a page
   std::string html =
       "<!doctype html><meta http-equiv=\"refresh\" content=\"1\"><title>gnbv</title>"
       "<p>Nothing flown yet.";
-  std::string policy = "default-src 'none'";
+  std::string policy = kNothing;
   std::string views = "0";
 };
 
-void set_headers(const std::string& policy, httplib::Response& response) {
-  response.set_header("Content-Security-Policy", policy + "; frame-ancestors 'none'");
+/// In the place of any before: of two, a browser would keep both.
+void set_policy(const std::string& policy, httplib::Response& response) {
+  constexpr const char* kName = "Content-Security-Policy";
+  response.headers.erase(kName);
+  response.set_header(kName, policy + "; frame-ancestors 'none'");
+}
+
+void set_headers(httplib::Response& response) {
+  set_policy(kNothing, response);
   response.set_header("X-Content-Type-Options", "nosniff");
   response.set_header("X-Frame-Options", "DENY");
   response.set_header("Referrer-Policy", "no-referrer");
@@ -67,7 +76,7 @@ struct LiveServer::Impl {
   httplib::Server::HandlerResponse refuse(const httplib::Request& request,
                                           httplib::Response& response) {
     using Done = httplib::Server::HandlerResponse;
-    set_headers(now()->policy, response);
+    set_headers(response);
     if (!is_for_us(request)) {
       answer(403, "asked by another name\n", response);
     } else if (request.method != "GET" && request.method != "HEAD") {
@@ -90,7 +99,9 @@ LiveServer::LiveServer(int port) : impl_(std::make_unique<Impl>()) {
   server.set_pre_routing_handler(
       [&impl](const auto& request, auto& response) { return impl.refuse(request, response); });
   server.Get("/", [&impl](const httplib::Request&, httplib::Response& response) {
-    response.set_content(impl.now()->html, "text/html; charset=utf-8");
+    const std::shared_ptr<const Shown> shown = impl.now();  // the page and its policy of one moment
+    set_policy(shown->policy, response);
+    response.set_content(shown->html, "text/html; charset=utf-8");
   });
   server.Get("/views", [&impl](const httplib::Request&, httplib::Response& response) {
     answer(200, impl.now()->views + "\n", response);

@@ -55,7 +55,7 @@ class PythonUtility {
       : function_(config.function), child_({python_program(), "-c", std::string(child_script())}) {
     const Json hello = {
         {"function", config.function}, {"source", config.source}, {"dtype", dtype_of(config)}};
-    child_.write(hello.dump() + "\n");
+    child_.write(hello.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
     const std::string line = child_.read_line();
     const Json answer = Json::parse(line, nullptr, false);
     if (!answer.is_object()) {

@@ -14,9 +14,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// What of a path is no UTF-8 shows as the replacement character.
+std::string line_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 /// Also to nobody: who no longer listens ends the mission by closing stdin.
 void tell(const Json& answer) {
-  std::fputs((answer.dump() + "\n").c_str(), stdout);
+  std::fputs(line_of(answer).c_str(), stdout);
   std::fflush(stdout);  // the other side waits for it
 }
 
@@ -130,7 +135,7 @@ std::string pipe_end_line(const MissionResult& result, const std::string& folder
                      {"iterations", result.views.size()},
                      {"run", folder},
                      {"result_sha256", result_sha256(result)}};
-  return line.dump() + "\n";
+  return line_of(line);
 }
 
 }  // namespace gnbv

@@ -68,8 +68,8 @@ class Pool {
         show_progress();
         if (!is_over()) std::this_thread::sleep_for(kPoll);
       }
-    } catch (...) {  // a full disk: nobody would wait for the missions
-      for (const Running& one : running_) kill(one.child, SIGINT);
+    } catch (...) {  // a full disk
+      end_missions();
       throw;
     }
     for (std::size_t i = 0; i < cells_.size(); ++i) {
@@ -103,6 +103,18 @@ class Pool {
   void pass_on_interrupts() {
     for (; passed_on_ < InterruptGuard::requests(); ++passed_on_) {
       for (const Running& one : running_) kill(one.child, passed_on_ == 0 ? SIGINT : SIGKILL);
+    }
+  }
+
+  /// Each may end its view; nobody is left behind.
+  void end_missions() {
+    for (const Running& one : running_) kill(one.child, SIGINT);
+    const Clock::time_point patience = Clock::now() + std::chrono::seconds(10);
+    for (const Running& one : running_) {
+      while (!end_of(one.child)) {
+        if (Clock::now() > patience) kill(one.child, SIGKILL);
+        std::this_thread::sleep_for(kPoll);
+      }
     }
   }
 
