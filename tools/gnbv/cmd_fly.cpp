@@ -131,9 +131,10 @@ void warn_beyond_loopback(const mavlink::Meeting& meeting) {
 void say_ready(const FlyOptions& options, const mavlink::Meeting& meeting,
                const mavlink::Address& bound, const std::string& vehicle, const ViewPose& start) {
   const std::string where =
-      meeting.speaks_first ? fmt::format("speaking to {} from {}", mavlink::url_of(meeting.address),
-                                         mavlink::url_of(bound))
-                           : fmt::format("listening on {}", mavlink::url_of(bound));
+      meeting.speaks_first
+          ? fmt::format("speaking to udpout{} from {}", mavlink::url_of(meeting.address).substr(3),
+                        mavlink::url_of(bound))
+          : fmt::format("listening on {}", mavlink::url_of(bound));
   say("{}, {} at x {:.2f} y {:.2f} m, speed {}; Ctrl-C ends", where, vehicle, start.p_world_m.x(),
       start.p_world_m.y(), options.speed);
 }
