@@ -20,6 +20,8 @@ import subprocess
 import sys
 import tempfile
 
+from run_attack import REPOSITORY
+
 MEMORY_BYTES = 12 << 30  # the map's budget is 6 GiB
 ONE_VIEW = ["--quiet", "--set", "planner.termination.max_iterations=1"]
 BAD_WORDS = ("internal error", "the program is wrong", "broken invariant", "terminate called",
@@ -281,7 +283,7 @@ def attack(part, options, folder):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    parser.add_argument("--gnbv", default="build/release/gnbv")
+    parser.add_argument("--gnbv", default=REPOSITORY / "build/release/gnbv")
     parser.add_argument("--part", default=",".join(PARTS))
     parser.add_argument("--every", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=2)

@@ -5,7 +5,10 @@ touch what its map shows, every one has to end for a stated reason, and no view 
 than the collision radius to surface that the profile showed. Who touches a wire that no pixel or
 beam has met often enough for its map is counted by itself: the planner knows nothing of it.
 
-usage: safety.py [--gnbv FILE] [--worlds N] [--seed N] [--views N] [--jobs N] [--keep DIR]
+usage: safety.py [--gnbv FILE] [--worlds N] [--seed N] [--views N] [--jobs N] [--timeout S]
+                 [--estimates MODEL,...] [--keep DIR]
+  --timeout S  a mission may take, before it counts as one that does not end (300)
+  --estimates  models of the state estimate to draw from (none,mocap)
   --keep DIR   the scenario and mesh of every world that failed
 exit: 0 nothing found, 1 failures (named on stderr with the command), 2 bad usage
 """
@@ -24,6 +27,7 @@ import sys
 import tempfile
 
 from map_files import nearest_surface, read_mesh, read_occupied, read_surface
+from run_attack import REPOSITORY
 
 UTILITIES = """proposed bircher isler occlusion_aware unobserved_voxel rear_side_voxel
 rear_side_entropy average_entropy proximity_count area_factor kriegel bircher_volume aep random
@@ -244,7 +248,7 @@ def fly(number, options, folder):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    parser.add_argument("--gnbv", default="build/release/gnbv")
+    parser.add_argument("--gnbv", default=REPOSITORY / "build/release/gnbv")
     parser.add_argument("--worlds", type=int, default=1000)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--views", type=int, default=8)

@@ -184,7 +184,9 @@ void add_compare_command(CLI::App& app) {
   MethodOptions& methods = options->methods;
   std::vector<CLI::Option*> what_to_fly = {
       scenarios,
-      command->add_option("--utilities", methods.utilities, "utilities by name, with commas")
+      command
+          ->add_option("--utilities", methods.utilities,
+                       "utilities by name or FILE.py:FUNCTION, with commas")
           ->delimiter(',')
           ->allow_extra_args(false),
       command->add_option("--presets", methods.presets, "planner presets by name, with commas")

@@ -21,8 +21,8 @@ belief.
 Reward: the coverage gained, in shares of the ceiling (of what can be reached at all): the truth, as
 a benchmark knows it. The ceiling is searched when a scenario is first made (up to minutes; the
 cache keeps it); with goal=0 nobody needs it, and rewards are shares of the whole surface. An
-episode is terminated by the goal (95 % of the ceiling) or a collision, and truncated by its budget:
-max_iterations views, the start's being the first and refused ones counted, or the scenario's own
+episode is terminated by the goal (95 % of the ceiling), a collision or being carried off course,
+and truncated by its budget: max_iterations views, the start's being the first and refused ones counted, or the scenario's own
 (battery, metres, time).
 """
 
