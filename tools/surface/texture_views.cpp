@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "bench/limits/set_cover.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
 #include "tools/surface/mesh_edges.hpp"
+#include "tools/surface/set_cover.hpp"
 #include "tools/surface/view_candidates.hpp"
 
 namespace gnbv {

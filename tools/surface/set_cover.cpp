@@ -1,4 +1,4 @@
-#include "bench/limits/set_cover.hpp"
+#include "tools/surface/set_cover.hpp"
 
 #include <algorithm>
 #include <functional>
