@@ -98,6 +98,21 @@ def test_progress_is_told_and_may_raise(short):
         gnbv.run("smoke", set=short, progress=lambda share, note: 1 / 0)
 
 
+@pytest.mark.parametrize("at", ["view 2/", "profile"])
+def test_what_progress_raises_ends_the_mission_where_it_is(at, short, tmp_path):
+    def tells(share, note):
+        if note.startswith(at):
+            raise LookupError("enough")
+
+    with pytest.raises(LookupError, match="enough"):
+        gnbv.run("smoke", seed=3, set=short, progress=tells, out=tmp_path / "r")
+    ended = gnbv.load(tmp_path / "r")
+    assert ended.termination == "interrupted"
+    assert len(ended.iterations) == (2 if at == "view 2/" else 0)
+    resumed = gnbv.run("smoke", seed=3, set=short, out=tmp_path / "r", resume=True)
+    assert len(resumed.iterations) == short["planner.termination.max_iterations"]
+
+
 def test_progress_on_a_terminal_is_by_tqdm(short, monkeypatch):
     pytest.importorskip("tqdm")
 

@@ -175,6 +175,7 @@ nb::tuple run(const nb::dict& given, nb::object planner, nb::object on_progress)
   const Scenario scenario = resolve_scenario(arguments.scenario, idle_notes);
   for (const std::string& note : idle_notes) fmt::print(stderr, "gnbv: {}\n", note);
   Raised raised;
+  options.should_stop = [&raised] { return raised.error != nullptr; };
   if (!on_progress.is_none()) {
     options.on_progress = [&](double share, const std::string& note) {
       const nb::gil_scoped_acquire python_runs;
