@@ -3,7 +3,6 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include <csignal>
 #include <memory>
 
 #include "scenarios/load.hpp"
@@ -15,25 +14,6 @@
 
 namespace gnbv {
 namespace {
-
-/// The mission answers Ctrl-C by itself; afterwards Python does again.
-class KeptSignals {
- public:
-  KeptSignals() {
-    ::sigaction(SIGINT, nullptr, &interrupt_);
-    ::sigaction(SIGTERM, nullptr, &terminate_);
-  }
-  ~KeptSignals() {
-    ::sigaction(SIGINT, &interrupt_, nullptr);
-    ::sigaction(SIGTERM, &terminate_, nullptr);
-  }
-  KeptSignals(const KeptSignals&) = delete;
-  KeptSignals& operator=(const KeptSignals&) = delete;
-
- private:
-  struct sigaction interrupt_ = {};
-  struct sigaction terminate_ = {};
-};
 
 /// What Python says, to be raised when the mission has ended in order.
 struct Raised {
@@ -197,8 +177,10 @@ nb::tuple run(const nb::dict& given, nb::object planner, nb::object on_progress)
   std::unique_ptr<ExecutedMission> mission;
   {
     const nb::gil_scoped_release other_threads_run;
-    const KeptSignals kept;
+    const InterruptGuard interrupt(InterruptGuard::kNeverKills);
     mission = std::make_unique<ExecutedMission>(execute_mission(scenario, options));
+    const bool is_heard = mission->result.termination == Termination::interrupted;
+    if (InterruptGuard::requested() && !is_heard) PyErr_SetInterrupt();  // it is for Python, then
   }
   const MissionResult& result = mission->result;
   const std::string_view ended = name_of(result.termination);
