@@ -1,6 +1,8 @@
 """A planner of one's own, and what it can and cannot see."""
 
+import contextlib
 import types
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -64,6 +66,55 @@ def test_an_array_that_is_kept_ends_the_mission_and_stays_readable():
     with pytest.raises(BufferError, match="copy it"):
         gnbv.run("smoke", planner=keeps)
     assert np.isfinite(kept[0]).all()
+
+
+@pytest.mark.parametrize("ends", ["in order", "by an exception", "by a kept array"])
+def test_a_belief_that_is_kept_answers_no_more_after_its_call(ends):
+    """Its memory is the mission's, which changes with the next view and is freed with the last."""
+    kept, arrays, grasped = [], [], []
+
+    def keeps(belief, history):
+        for old in kept:
+            with pytest.raises(ReferenceError, match="during the call"):
+                _ = old.state
+        kept.append(belief)
+        grasped.append(belief.sample())
+        if len(history) < 3:
+            return belief.valid(belief.sample())
+        if ends == "by an exception":
+            raise LookupError("lost")
+        if ends == "by a kept array":
+            arrays.append(belief.cloud)
+        return None
+
+    raised = {"by an exception": LookupError, "by a kept array": BufferError}.get(ends)
+    with pytest.raises(raised) if raised else contextlib.nullcontext():
+        gnbv.run("smoke", planner=keeps)
+    assert len(kept) == 3
+    for belief in kept:
+        properties = [n for n in dir(type(belief)) if not n.startswith("_")]
+        questions = {"validate", "valid", "evaluate"}
+        for name in properties:
+            with pytest.raises(ReferenceError, match="during the call"):
+                asked = getattr(belief, name)
+                if name in questions:
+                    asked(grasped[0])
+                elif name == "find_path":
+                    asked(grasped[0][0], grasped[0][1])
+                elif callable(asked):
+                    asked()
+
+
+def test_threads_of_a_planner_get_the_answers_of_one():
+    def asks(belief, history):
+        views = np.tile(belief.sample(), (4, 1))
+        alone = belief.evaluate(views)
+        with ThreadPoolExecutor(4) as threads:
+            for together in threads.map(belief.evaluate, [views] * 8):
+                assert (together == alone).all()
+        return None
+
+    gnbv.run("smoke", planner=asks)
 
 
 def test_what_a_planner_raises_comes_out_after_an_orderly_end(tmp_path):

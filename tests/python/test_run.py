@@ -6,6 +6,7 @@ import os
 import signal
 import subprocess
 import sys
+import textwrap
 import time
 
 import numpy as np
@@ -98,6 +99,21 @@ def test_progress_is_told_and_may_raise(short):
         gnbv.run("smoke", set=short, progress=lambda share, note: 1 / 0)
 
 
+@pytest.mark.parametrize("at", ["view 2/", "profile"])
+def test_what_progress_raises_ends_the_mission_where_it_is(at, short, tmp_path):
+    def tells(share, note):
+        if note.startswith(at):
+            raise LookupError("enough")
+
+    with pytest.raises(LookupError, match="enough"):
+        gnbv.run("smoke", seed=3, set=short, progress=tells, out=tmp_path / "r")
+    ended = gnbv.load(tmp_path / "r")
+    assert ended.termination == "interrupted"
+    assert len(ended.iterations) == (2 if at == "view 2/" else 0)
+    resumed = gnbv.run("smoke", seed=3, set=short, out=tmp_path / "r", resume=True)
+    assert len(resumed.iterations) == short["planner.termination.max_iterations"]
+
+
 def test_progress_on_a_terminal_is_by_tqdm(short, monkeypatch):
     pytest.importorskip("tqdm")
 
@@ -140,6 +156,74 @@ except KeyboardInterrupt:
     resumed = gnbv.run("smoke", seed=3, set=settings, out="r", resume=True)
     whole = gnbv.run("smoke", seed=3, set=settings, out=tmp_path / "whole")
     assert resumed.sha256 == whole.sha256
+
+
+def python_says(code):
+    """What a Python of its own prints, word by word."""
+    done = subprocess.run(
+        [sys.executable, "-c", textwrap.dedent(code)],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=120,
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout.split()
+
+
+def test_one_ctrl_c_ends_all_missions_that_fly_and_python_has_the_next():
+    """The second begins when the first was asked to end, and outlives it."""
+    said = python_says("""
+        import gnbv, os, signal, threading
+        begun = {"a": threading.Event(), "b": threading.Event()}
+        a_may_go_on, a_is_over = threading.Event(), threading.Event()
+        ended = {}
+        def fly(name, at, may_go_on):
+            def told(share, note):
+                if note.startswith(at):
+                    begun[name].set()
+                    may_go_on.wait()
+            try:
+                gnbv.run("smoke", set={"planner.termination.max_iterations": 40}, out=name,
+                         progress=told)
+                ended[name] = "whole"
+            except gnbv.Interrupted:
+                ended[name] = "interrupted"
+        a = threading.Thread(target=fly, args=("a", "view 2/", a_may_go_on))
+        b = threading.Thread(target=fly, args=("b", "", a_is_over))
+        a.start()
+        begun["a"].wait()
+        os.kill(os.getpid(), signal.SIGINT)
+        b.start()
+        begun["b"].wait()
+        a_may_go_on.set()
+        a.join()
+        a_is_over.set()
+        b.join()
+        print(ended["a"], ended["b"])
+        try:
+            os.kill(os.getpid(), signal.SIGINT)
+            print("deaf")
+        except KeyboardInterrupt:
+            print("python")
+    """)
+    assert said == ["interrupted", "interrupted", "python"]
+
+
+def test_no_ctrl_c_kills_python_and_one_that_comes_late_is_pythons():
+    said = python_says("""
+        import gnbv, os, signal
+        def told(share, note):
+            if note == "scoring":
+                for _ in range(3): os.kill(os.getpid(), signal.SIGINT)
+        try:
+            gnbv.run("smoke", set={"planner.termination.max_iterations": 2}, out="r",
+                     progress=told)
+            print("deaf")
+        except KeyboardInterrupt:
+            print(gnbv.load("r").termination)
+    """)
+    assert said == ["max_iterations"]
 
 
 def test_the_command_is_the_program():

@@ -87,7 +87,8 @@ std::optional<std::vector<Decision>> oracle_route(const Scenario& scenario, cons
   return plan_oracle(scenario, world, scene, start_pose(scenario, scene), aim_of(utility), threads);
 }
 
-MissionHooks make_hooks(const Scenario& scenario, RunDirectory& directory, Shown& progress) {
+MissionHooks make_hooks(const Scenario& scenario, const MissionOptions& options,
+                        RunDirectory& directory, Shown& progress) {
   MissionHooks hooks;
   hooks.on_profile = [&progress](double share) { progress.show(0.1 * share, "profile"); };
   hooks.on_profile_belief = [&](const Belief& belief) { directory.write_profile(belief); };
@@ -99,7 +100,7 @@ MissionHooks make_hooks(const Scenario& scenario, RunDirectory& directory, Shown
                   fmt::format("view {}/{}  {:.0f} m  {} points", view.iteration + 1, last,
                               view.straight_m, view.cloud_points));
   };
-  hooks.should_stop = InterruptGuard::requested;
+  hooks.should_stop = [&options] { return InterruptGuard::requested() || options.should_stop(); };
   hooks.replay = directory.recorded_decisions();
   return hooks;
 }
@@ -163,7 +164,7 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
   keep_inputs(scenario, world, directory);
   const InterruptGuard interrupt;
   try {
-    MissionHooks hooks = make_hooks(scenario, directory, progress);
+    MissionHooks hooks = make_hooks(scenario, options, directory, progress);
     hooks.route = std::move(route);
     hooks.own_scores = own_scores;
     hooks.is_covered = coverage_goal(scenario.benchmark, reference, scene);

@@ -26,6 +26,7 @@ struct MissionOptions {
   CeilingFrom ceiling = CeilingFrom::cache;
   const OwnPlanner* planner = nullptr;  // asked for the views; the utility is `route`
   std::function<void(double share_done, const std::string& note)> on_progress = {};  // may be empty
+  std::function<bool()> should_stop = [] { return false; };  // asked as Ctrl-C is
 };
 
 /// `threads`, or as many as the machine has for 0.

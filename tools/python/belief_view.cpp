@@ -19,84 +19,124 @@ namespace {
 
 Vec3 vec3(const Point& p) { return {p[0], p[1], p[2]}; }
 
+[[noreturn]] void raise_ended() {
+  PyErr_SetString(PyExc_ReferenceError,
+                  "belief: answers only during the call of the planner that it was handed to");
+  throw nb::python_error();
+}
+
+/// Python's other threads run while one asks; none of them asks as well.
+class Question {
+ public:
+  explicit Question(BeliefTools& tools) : lock_(tools.is_asked) {}
+  ~Question() { lock_.unlock(); }  // first: who waits for it holds Python's
+  Question(const Question&) = delete;
+  Question& operator=(const Question&) = delete;
+
+ private:
+  std::unique_lock<std::mutex> lock_;
+  nb::gil_scoped_release other_threads_run_;
+};
+
 }  // namespace
 
 BeliefView::BeliefView(const Belief& belief, BeliefTools& tools, const ViewPose& current,
                        std::vector<ViewPose> recent)
-    : belief_(belief),
-      tools_(tools),
+    : belief_(&belief),
+      tools_(&tools),
       current_(current),
       recent_(std::move(recent)),
       lease_(nb::capsule(this)) {}
+
+void BeliefView::end() {
+  const std::lock_guard lock(tools().is_asked);
+  belief_ = nullptr;
+  tools_ = nullptr;
+}
+
+const Belief& BeliefView::belief() const {
+  if (belief_ == nullptr) raise_ended();
+  return *belief_;
+}
+
+BeliefTools& BeliefView::tools() const {
+  if (tools_ == nullptr) raise_ended();
+  return *tools_;
+}
 
 bool BeliefView::is_shared() const { return Py_REFCNT(lease_.ptr()) > 1; }
 
 template <typename T>
 nb::object BeliefView::grid_array(std::span<const T> values) const {
-  const Key& size = belief_.grid.geometry().size();
+  const Key& size = belief().grid.geometry().size();
   const std::array<std::size_t, 3> shape = {static_cast<std::size_t>(size[2]),
                                             static_cast<std::size_t>(size[1]),
                                             static_cast<std::size_t>(size[0])};
   return shared_array(values, shape, lease_);
 }
 
-nb::object BeliefView::log_odds() const { return grid_array(belief_.grid.all_log_odds()); }
-nb::object BeliefView::words() const { return grid_array(belief_.grid.words()); }
+nb::object BeliefView::log_odds() const { return grid_array(belief().grid.all_log_odds()); }
+nb::object BeliefView::words() const { return grid_array(belief().grid.words()); }
 
 nb::object BeliefView::cloud() const {
   static_assert(sizeof(Vec3f) == 3 * sizeof(float));
-  const std::span<const Vec3f> points = belief_.cloud.points_world_m();
+  const std::span<const Vec3f> points = belief().cloud.points_world_m();
   const std::array<std::size_t, 2> shape = {points.size(), 3};
   const float* const first = points.empty() ? nullptr : points.front().data();
   return shared_array(std::span<const float>(first, 3 * points.size()), shape, lease_);
 }
 
 nb::tuple BeliefView::density() const {
-  const std::span<const VoxelIndex> voxels = belief_.cloud.voxels();
+  const std::span<const VoxelIndex> voxels = belief().cloud.voxels();
   std::vector<std::int64_t> indices(voxels.begin(), voxels.end());
   std::vector<double> densities;
-  for (const VoxelIndex v : voxels) densities.push_back(belief_.cloud.density(v));
+  for (const VoxelIndex v : voxels) densities.push_back(belief().cloud.density(v));
   return nb::make_tuple(owned_array(std::move(indices)), owned_array(std::move(densities)));
 }
 
 Point BeliefView::origin_m() const {
-  const Key& low = belief_.grid.geometry().min_key();
+  const Key& low = belief().grid.geometry().min_key();
   return {low[0] * resolution_m(), low[1] * resolution_m(), low[2] * resolution_m()};
 }
 
-nb::object BeliefView::current() const { return array_of(std::span(&current_, 1)); }
+nb::object BeliefView::current() const {
+  static_cast<void>(belief());  // it is the place of its time
+  return array_of(std::span(&current_, 1));
+}
 
 nb::object BeliefView::navigation_m() const {
-  const Box3& box_m = tools_.model.navigation_m;
+  const Box3& box_m = tools().model.navigation_m;
   return owned_array(std::vector<double>{box_m.min().x(), box_m.min().y(), box_m.min().z(),
                                          box_m.max().x(), box_m.max().y(), box_m.max().z()},
                      3);
 }
 
 nb::object BeliefView::sample(double scale) const {
-  return array_of(sample_agvs(tools_.model.config.agvs, current_, scale, tools_.model.pitches_rad));
+  return array_of(
+      sample_agvs(tools().model.config.agvs, current_, scale, tools().model.pitches_rad));
 }
 
 nb::object BeliefView::sample_frontiers() const {
-  const FvsConfig& fvs = tools_.model.config.fvs;
+  const FvsConfig& fvs = tools().model.config.fvs;
   std::vector<ViewPose> views;
   for (const FrontierCluster& cluster :
-       find_frontiers(fvs.frontier, belief_.grid, belief_.cloud, tools_.bench.frontier_marks)) {
+       find_frontiers(fvs.frontier, belief().grid, belief().cloud, tools().bench.frontier_marks)) {
     const std::vector<ViewPose> around =
-        sample_fvs(fvs, cluster.centroid_world_m, tools_.model.pitches_rad);
+        sample_fvs(fvs, cluster.centroid_world_m, tools().model.pitches_rad);
     views.insert(views.end(), around.begin(), around.end());
   }
   return array_of(views);
 }
 
 nb::tuple BeliefView::validate(const ViewRows& rows) const {
-  const PlannerModel& model = tools_.model;
+  const PlannerModel& model = tools().model;
+  const OccupancyGrid& grid = belief().grid;
   std::vector<Candidate> candidates;
   for (const ViewPose& view : views_of(rows)) candidates.push_back({.view = view, .sampler = {}});
   {
-    const nb::gil_scoped_release other_threads_run;
-    ViewChecker checker(model.config.validity, model.navigation_m, model.no_fly, belief_.grid,
-                        recent_, current_);
+    const Question question(tools());
+    ViewChecker checker(model.config.validity, model.navigation_m, model.no_fly, grid, recent_,
+                        current_);
     for (Candidate& candidate : candidates) checker.check(candidate);
   }
   nb::list reasons;
@@ -110,21 +150,22 @@ nb::tuple BeliefView::validate(const ViewRows& rows) const {
 }
 
 nb::bytes BeliefView::evaluate(const ViewRows& rows) const {
-  const PlannerModel& model = tools_.model;
+  const Belief& seen = belief();
+  BeliefTools& with = tools();
+  const PlannerModel& model = with.model;
   const std::vector<ViewPose> views = views_of(rows);
   std::vector<ViewStats> stats(views.size());
   const ViewOptions options = {
       .detail = ViewDetail::rays,
       .sparse_below = model.config.fvs.frontier.density_share * density_max()};
   {
-    const nb::gil_scoped_release other_threads_run;
-    std::vector<VisitMarks>& marks = tools_.bench.marks;
-    parallel_for(tools_.bench.threads, marks.size(), [&](std::size_t share) {
+    const Question question(with);
+    std::vector<VisitMarks>& marks = with.bench.marks;
+    parallel_for(with.bench.threads, marks.size(), [&](std::size_t share) {
       for (std::size_t i = share; i < views.size(); i += marks.size()) {
-        stats[i] =
-            evaluate_view(belief_.grid, belief_.cloud, model.rays_at(views[i].gimbal_pitch_rad),
-                          views[i], marks[share], options);
-        stats[i].density_max = density_max();
+        stats[i] = evaluate_view(seen.grid, seen.cloud, model.rays_at(views[i].gimbal_pitch_rad),
+                                 views[i], marks[share], options);
+        stats[i].density_max = seen.cloud.density_max();
         stats[i].path_m = (views[i].p_world_m - current_.p_world_m).norm();
       }
     });
@@ -133,10 +174,10 @@ nb::bytes BeliefView::evaluate(const ViewRows& rows) const {
 }
 
 nb::object BeliefView::find_path(const Point& from_m, const Point& to_m) const {
-  const ValidityConfig& validity = tools_.model.config.validity;
+  const ValidityConfig& validity = tools().model.config.validity;
   const auto way_m =
-      gnbv::find_path(validity.path_search, belief_.grid, tools_.model.navigation_m, vec3(from_m),
-                      vec3(to_m), validity.collision_radius_m, tools_.model.no_fly);
+      gnbv::find_path(validity.path_search, belief().grid, tools().model.navigation_m, vec3(from_m),
+                      vec3(to_m), validity.collision_radius_m, tools().model.no_fly);
   if (!way_m) return nb::none();
   std::vector<double> rows;
   for (const Vec3& p_m : *way_m) rows.insert(rows.end(), p_m.begin(), p_m.end());

@@ -3,6 +3,7 @@
 // reach.
 #pragma once
 
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -19,14 +20,17 @@ struct BeliefTools {
       : model(planner_model), bench(model, threads) {}
   const PlannerModel model;
   Workbench bench;
+  std::mutex is_asked;  // Python may have threads
 };
 
-/// For one call of a planner. Its arrays share the belief's memory; who made them asks is_shared()
-/// before the belief changes.
+/// For one call of a planner, which end() ends: all that is asked afterwards raises ReferenceError.
+/// Its arrays share the belief's memory; who made them asks is_shared() before the belief changes.
 class BeliefView {
  public:
   BeliefView(const Belief& belief, BeliefTools& tools, const ViewPose& current,
              std::vector<ViewPose> recent);
+  /// What was handed over is used no more; waits for what other threads still ask.
+  void end();
 
   /// z, y, x; natural logarithm of the odds, float32.
   nb::object log_odds() const;
@@ -37,10 +41,10 @@ class BeliefView {
   /// Flat indices (z, y, x) of the voxels that hold points, and the density of each.
   nb::tuple density() const;
 
-  double resolution_m() const { return belief_.grid.geometry().resolution_m(); }
+  double resolution_m() const { return belief().grid.geometry().resolution_m(); }
   Point origin_m() const;
-  double density_max() const { return belief_.cloud.density_max(); }
-  double entropy_nat() const { return belief_.grid.total_entropy_nat(); }
+  double density_max() const { return belief().cloud.density_max(); }
+  double entropy_nat() const { return belief().grid.total_entropy_nat(); }
   nb::object current() const;
   /// 2 x 3: the corners of where views may be.
   nb::object navigation_m() const;
@@ -61,8 +65,11 @@ class BeliefView {
   template <typename T>
   nb::object grid_array(std::span<const T> values) const;
 
-  const Belief& belief_;
-  BeliefTools& tools_;
+  const Belief& belief() const;
+  BeliefTools& tools() const;
+
+  const Belief* belief_;  // none after end()
+  BeliefTools* tools_;
   ViewPose current_;
   std::vector<ViewPose> recent_;
   nb::object lease_;  // what the shared arrays keep alive

@@ -3,7 +3,6 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include <csignal>
 #include <memory>
 
 #include "scenarios/load.hpp"
@@ -15,25 +14,6 @@
 
 namespace gnbv {
 namespace {
-
-/// The mission answers Ctrl-C by itself; afterwards Python does again.
-class KeptSignals {
- public:
-  KeptSignals() {
-    ::sigaction(SIGINT, nullptr, &interrupt_);
-    ::sigaction(SIGTERM, nullptr, &terminate_);
-  }
-  ~KeptSignals() {
-    ::sigaction(SIGINT, &interrupt_, nullptr);
-    ::sigaction(SIGTERM, &terminate_, nullptr);
-  }
-  KeptSignals(const KeptSignals&) = delete;
-  KeptSignals& operator=(const KeptSignals&) = delete;
-
- private:
-  struct sigaction interrupt_ = {};
-  struct sigaction terminate_ = {};
-};
 
 /// What Python says, to be raised when the mission has ended in order.
 struct Raised {
@@ -59,6 +39,22 @@ nb::dict row_of(const ViewRecord& view) {
   return row;
 }
 
+/// However a call ends: its belief answers no more, and whether arrays of it are still in use.
+class EndOfCall {
+ public:
+  EndOfCall(BeliefView& view, bool& has_kept) : view_(view), has_kept_(has_kept) {}
+  ~EndOfCall() {
+    view_.end();
+    has_kept_ = has_kept_ || view_.is_shared();
+  }
+  EndOfCall(const EndOfCall&) = delete;
+  EndOfCall& operator=(const EndOfCall&) = delete;
+
+ private:
+  BeliefView& view_;
+  bool& has_kept_;
+};
+
 /// Asks a Python object with the methods plan(belief), on_view(row) and on_refused(reason).
 class AskedPlanner {
  public:
@@ -74,21 +70,20 @@ class AskedPlanner {
             .on_view = [this](const ViewRecord& view) { tell_view(view); },
             .on_refused = [this](Rejection reason) { tell_refused(reason); }};
   }
+  /// Whether arrays of the belief may be in use: in Python's hands, or its exception's.
+  bool has_kept() const { return has_kept_; }
 
  private:
   std::optional<ViewPose> plan(const Belief& belief) {
     const nb::gil_scoped_acquire python_runs;
     if (raised_.error) return std::nullopt;
+    auto* const view = new BeliefView(belief, *tools_, current_, {});
+    const nb::object held = nb::cast(view, nb::rv_policy::take_ownership);
+    const EndOfCall end(*view, has_kept_);
     try {
-      auto* const view = new BeliefView(belief, *tools_, current_, {});
-      nb::object held = nb::cast(view, nb::rv_policy::take_ownership);
-      nb::object answer = python_.attr("plan")(held);
+      const nb::object answer = python_.attr("plan")(held);
       if (view->is_shared()) nb::module_::import_("gc").attr("collect")();
-      if (view->is_shared()) {
-        // what is kept stays readable: the mission ends, and this is never freed
-        held.inc_ref();
-        python_.attr("kept")();
-      }
+      if (view->is_shared()) python_.attr("kept")();
       if (answer.is_none()) return std::nullopt;
       const auto views = views_of(nb::cast<ViewRows>(answer));
       return views.empty() ? std::nullopt : std::optional(views.front());
@@ -122,6 +117,7 @@ class AskedPlanner {
   Raised& raised_;
   std::unique_ptr<BeliefTools> tools_;
   ViewPose current_;
+  bool has_kept_ = false;
 };
 
 struct RunArguments {
@@ -159,6 +155,7 @@ nb::tuple run(const nb::dict& given, nb::object planner, nb::object on_progress)
   const Scenario scenario = resolve_scenario(arguments.scenario, idle_notes);
   for (const std::string& note : idle_notes) fmt::print(stderr, "gnbv: {}\n", note);
   Raised raised;
+  options.should_stop = [&raised] { return raised.error != nullptr; };
   if (!on_progress.is_none()) {
     options.on_progress = [&](double share, const std::string& note) {
       const nb::gil_scoped_acquire python_runs;
@@ -180,14 +177,16 @@ nb::tuple run(const nb::dict& given, nb::object planner, nb::object on_progress)
   std::unique_ptr<ExecutedMission> mission;
   {
     const nb::gil_scoped_release other_threads_run;
-    const KeptSignals kept;
+    const InterruptGuard interrupt(InterruptGuard::kNeverKills);
     mission = std::make_unique<ExecutedMission>(execute_mission(scenario, options));
+    const bool is_heard = mission->result.termination == Termination::interrupted;
+    if (InterruptGuard::requested() && !is_heard) PyErr_SetInterrupt();  // it is for Python, then
   }
   const MissionResult& result = mission->result;
   const std::string_view ended = name_of(result.termination);
   nb::tuple out = nb::make_tuple(mission->folder.string(), std::string(ended), result.failure);
   if (raised.error) {
-    mission.release();  // arrays of its belief may have been kept: see AskedPlanner::plan()
+    if (asked && asked->has_kept()) mission.release();  // so that they stay readable
     throw nb::python_error(std::move(*raised.error));
   }
   return out;

@@ -1,14 +1,20 @@
 // Ctrl-C as a question that a loop can ask.
 #pragma once
 
-#include <array>
+#include <limits>
 
 namespace gnbv {
 
 /// While it lives, Ctrl-C (or SIGTERM, or the SIGHUP of a terminal that goes) asks the work at hand
 /// to stop, `asks` times; the next one kills. Signals that were ignored before stay so.
+///
+/// Many may live at once, in threads, too: the first says how often is asked, what is asked is
+/// asked of all, and the last gives the signals back.
 class InterruptGuard {
  public:
+  /// `asks` of a process that others live in.
+  static constexpr int kNeverKills = std::numeric_limits<int>::max();
+
   explicit InterruptGuard(int asks = 1);
   ~InterruptGuard();
   InterruptGuard(const InterruptGuard&) = delete;
@@ -16,9 +22,6 @@ class InterruptGuard {
   static bool requested() { return requests() > 0; }
   /// How often it was asked for, up to `asks`.
   static int requests();
-
- private:
-  std::array<void (*)(int), 3> before_{};
 };
 
 }  // namespace gnbv

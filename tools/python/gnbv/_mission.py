@@ -54,7 +54,9 @@ def run(
     Raises:
         BadInput: with file, line, key and value of what is wrong; nothing was written.
         UtilityFailed: with iteration, candidate and traceback; the run directory is complete.
-        Interrupted: Ctrl-C; the mission ended after the view at hand.
+        Interrupted: Ctrl-C; the mission ended after the view at hand, and so did all that flew in
+            other threads.
+        KeyboardInterrupt: Ctrl-C when the last view was taken; the run directory is complete.
         Failed: the vehicle hit something or was carried away; the run directory shows where.
         Whatever the planner raised, after the mission has ended in order.
     """
