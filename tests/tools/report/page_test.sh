@@ -17,9 +17,9 @@ trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 
 evil='<img src=x onerror=window.hacked=1>'
-for utility in proposed tour; do
+for utility in proposed tour; do  # long enough for frontiers
   "$gnbv" run smoke --quiet --frames --candidates --utility "$utility" --out "$evil$utility" \
-    --set planner.termination.max_iterations=4 >/dev/null
+    --set planner.termination.max_iterations=6 >/dev/null
 done
 for seed in 1 2; do
   "$gnbv" run smoke --quiet --frames --candidates --seed "$seed" --out "seed$seed" \
