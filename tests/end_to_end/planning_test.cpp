@@ -12,6 +12,7 @@
 #include "tests/support/at_simd_level.hpp"
 #include "tests/support/flown.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tools/mission/belief_log.hpp"
 #include "tools/run_files/candidates_jsonl.hpp"
 #include "tools/run_files/iterations_csv.hpp"
 #include "tools/run_files/profile_map.hpp"
@@ -144,6 +145,83 @@ TEST(CandidatesFile, OfAResumedMissionIsThatOfAnUninterruptedOne) {
   for (std::size_t i = 0; i < 3; ++i) recorded.push_back(flown.result.views[i].decision);
   candidates_of(parts.path(), {}, 3);
   EXPECT_EQ(candidates_of(parts.path(), recorded, 99), expected);
+}
+
+/// A smoke mission that writes beliefs.jsonl, and what its planner counted of each view that it
+/// chose, by the same belief.
+struct Believed {
+  std::vector<BelievedVoxels> views;
+  std::vector<ViewStats> counted;
+  std::vector<bool> asked_fvs;
+  std::string sha256;
+
+  explicit Believed(const std::vector<std::string>& overrides) {
+    const TempFolder folder;
+    const Scenario scenario = smoke(overrides);
+    const PlannerModel model(scenario.planner, scenario.workspace_m, camera_models(scenario), {});
+    const Belief* belief = nullptr;
+    counted.emplace_back();  // the start
+    asked_fvs.push_back(false);
+    MissionHooks hooks;
+    hooks.on_view_belief = [&](const Belief& now) { belief = &now; };
+    hooks.on_candidates = [&](std::size_t, const Plan& plan) {
+      if (!plan.next) return;
+      VisitMarks marks(belief->grid.geometry().voxel_count());
+      const ViewPose& view = plan.next->view;
+      counted.push_back(evaluate_view(belief->grid, belief->cloud,
+                                      model.rays_at(view.gimbal_pitch_rad), view, marks));
+      asked_fvs.push_back(plan.candidates.at(plan.chosen.value()).cluster >= 0);
+    };
+    BeliefLog log(scenario, folder.path(), 0);
+    log.connect(hooks);
+    const Flown flown(scenario, hooks);
+    log.finish();
+    sha256 = result_sha256(flown.result);
+    views = read_beliefs(folder.path(), flown.result.views.size(),
+                         belief->grid.geometry().voxel_count());
+  }
+};
+
+TEST(BeliefLog, HasTheVoxelsThatThePlannerCounted) {
+  const Believed believed({});
+  ASSERT_EQ(believed.views.size(), believed.counted.size());
+  for (std::size_t i = 1; i < believed.views.size(); ++i) {
+    EXPECT_EQ(voxel_count(believed.views[i].unknown), believed.counted[i].unknown_voxels) << i;
+  }
+  EXPECT_GT(voxel_count(believed.views.at(1).unknown), 0U);
+}
+
+TEST(BeliefLog, HasThePredictedVoxelsThatRaysMeetFirst) {
+  const Scenario scenario = smoke();
+  const PlannerModel model(scenario.planner, scenario.workspace_m, camera_models(scenario), {});
+  Belief belief(model);
+  const std::size_t count = belief.grid.geometry().voxel_count();
+  for (VoxelIndex v = 0; v < count; v += 3) belief.grid.predict(v);
+  Plan plan;
+  plan.next = Decision{.view = {Vec3(0, 0, 2), 0.5}};
+  FrontierMarks marks(count);
+  const BelievedVoxels voxels = believed_voxels(model, belief, plan, marks);
+  VisitMarks visits(count);
+  const ViewStats counted =
+      evaluate_view(belief.grid, belief.cloud, model.rays_at(0.0), plan.next->view, visits);
+  EXPECT_EQ(voxel_count(voxels.predicted), counted.predicted_voxels);
+  EXPECT_EQ(voxel_count(voxels.unknown), counted.unknown_voxels);
+  EXPECT_GT(counted.predicted_voxels, 0U);
+}
+
+TEST(BeliefLog, HasFrontiersWhereViewsWereSampledAroundThem) {
+  const std::vector<std::string> stuck = {"planner.fvs.entropy_threshold_nat=1",
+                                          "planner.fvs.entropy_window=1"};
+  const Believed believed(stuck);
+  EXPECT_EQ(believed.sha256, result_sha256(Flown(smoke(stuck)).result));  // it changes nothing
+  std::size_t looked = 0;
+  for (std::size_t i = 1; i < believed.views.size(); ++i) {
+    const auto& [unknown, predicted, frontier, looked_at] = believed.views[i];
+    EXPECT_EQ(!looked_at.empty(), believed.asked_fvs[i]) << i;
+    EXPECT_GE(voxel_count(frontier), voxel_count(looked_at)) << i;
+    looked += voxel_count(looked_at);
+  }
+  EXPECT_GT(looked, 0U);
 }
 
 TEST(IterationsCsv, KeepsTheWayToAView) {

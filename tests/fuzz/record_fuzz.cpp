@@ -6,6 +6,7 @@
 
 #include "sim/core/error.hpp"
 #include "tests/fuzz/written.hpp"
+#include "tools/run_files/beliefs_jsonl.hpp"
 #include "tools/run_files/candidates_jsonl.hpp"
 #include "tools/run_files/coverage_csv.hpp"
 #include "tools/run_files/file_names.hpp"
@@ -34,6 +35,15 @@ void check_candidates(const std::filesystem::path& file) {
     const auto plan = read_candidates(file.parent_path(), iteration);
     GNBV_CHECK(!plan || !plan->chosen || *plan->chosen < plan->candidates.size(), "chosen {}",
                plan->chosen.value());
+  }
+}
+
+void check_beliefs(const std::filesystem::path& file) {
+  constexpr std::size_t kVoxels = 1'000'000;
+  for (const BelievedVoxels& view : read_beliefs(file.parent_path(), 3, kVoxels)) {
+    for (const VoxelRuns* runs : {&view.unknown, &view.predicted, &view.frontier}) {
+      GNBV_CHECK(voxel_count(*runs) <= kVoxels, "{} voxels", voxel_count(*runs));
+    }
   }
 }
 
@@ -73,6 +83,8 @@ void check(char kind, std::string_view content) {
       return check_views(written(content, "iterations.csv.part"));
     case 'c':
       return check_candidates(written(content, kCandidatesFile));
+    case 'b':
+      return check_beliefs(written(content, kBeliefsFile));
     case 't':
       return check_trajectory(written(content, "trajectory.tum"));
     case 'k':

@@ -10,6 +10,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/shell_word.hpp"
 #include "sim/core/stopwatch.hpp"
+#include "tools/mission/belief_log.hpp"
 #include "tools/mission/coverage_goal.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/mission.hpp"
@@ -174,9 +175,12 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
       hooks.on_frames = [&](const auto&... all) { frames->write(all...); };
     }
     std::optional<CandidatesFile> candidates;
+    std::optional<BeliefLog> beliefs;
     if (options.candidates) {
       candidates.emplace(directory.path(), directory.recorded().size());
       hooks.on_candidates = [&](const auto&... all) { candidates->write(all...); };
+      beliefs.emplace(scenario, directory.path(), directory.recorded().size());
+      beliefs->connect(hooks);
     }
     std::optional<ViewPipe> pipe;
     if (options.piped_views) {
@@ -200,7 +204,9 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
                                   cloud, threads);
     result.wall.score_s = scoring.elapsed_s();
     score.ceiling = run_ceiling(scenario, world, scene, options.ceiling, threads);
-    if (candidates) candidates->finish();  // before the summary, which says that all is there
+    // before the summary, which says that all is there
+    if (candidates) candidates->finish();
+    if (beliefs) beliefs->finish();
     const Scenario& flown = pipe ? pipe->scenario() : planner ? planner->scenario() : scenario;
     directory.finish(flown, result, score, watch.elapsed_s());
     return {directory.path(), std::move(result), score, watch.elapsed_s()};

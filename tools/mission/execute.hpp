@@ -19,7 +19,7 @@ struct MissionOptions {
   int threads = 0;            // 0 = as many as the machine has
   bool resume = false;
   bool quiet = false;
-  bool candidates = false;   // also write candidates.jsonl
+  bool candidates = false;   // also write candidates.jsonl and beliefs.jsonl
   bool frames = false;       // also write frames/
   bool piped_views = false;  // views come on stdin, answers go to stdout: view_pipe.hpp
   bool coverage = false;     // which then tell the coverage

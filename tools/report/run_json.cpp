@@ -9,6 +9,7 @@
 #include "scenarios/papers_setting.hpp"
 #include "sim/core/file.hpp"
 #include "tools/mission/load_world.hpp"
+#include "tools/report/packed_json.hpp"
 #include "tools/report/thinning.hpp"
 #include "tools/run_files/file_names.hpp"
 
@@ -19,16 +20,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMaxFaces = 120'000;
 constexpr std::size_t kFewFaces = 100;  // are never too many
-
-Json slice_json(const ByteSlice& slice) { return {slice.at, slice.count}; }
-
-Json vector_json(const Vec3f& v) { return {v.x(), v.y(), v.z()}; }
-
-Json points_json(const PackedPoints& points) {
-  return {{"min", vector_json(points.min_m)},
-          {"size", vector_json(points.size_m)},
-          {"steps", slice_json(points.steps)}};
-}
 
 template <typename Value>
 Json column(const std::vector<ViewRecord>& views, const Value& value_of) {
@@ -146,52 +137,6 @@ std::string bare_command_to_fly_again(const std::filesystem::path& folder,
   return marked.substr(1, marked.size() - 2);
 }
 
-Json candidates_json(const PackedCandidates& packed) {
-  return {{"points", points_json(packed.points)}, {"angles", slice_json(packed.angles_rad)},
-          {"kind", slice_json(packed.kind)},      {"terms", slice_json(packed.terms)},
-          {"begins", slice_json(packed.begins)},  {"reasons", rejection_names()}};
-}
-
-Json packed_json(const PackedRun& packed) {
-  Json json = {{"cloud", nullptr}, {"voxels", nullptr},     {"path", nullptr},   {"plan", nullptr},
-               {"found", nullptr}, {"candidates", nullptr}, {"surface", nullptr}};
-  if (packed.cloud) {
-    json["cloud"] = {{"points", points_json(packed.cloud->points)},
-                     {"after", slice_json(packed.cloud->after)},
-                     {"all_points", packed.cloud->all_points},
-                     {"cell_m", packed.cloud->cell_m}};
-    if (packed.cloud->error) json["cloud"]["error"] = slice_json(*packed.cloud->error);
-    if (packed.cloud->colour) json["cloud"]["colour"] = slice_json(*packed.cloud->colour);
-  }
-  if (packed.voxels) {
-    json["voxels"] = {{"size_m", packed.voxels->size_m},
-                      {"index", slice_json(packed.voxels->index)},
-                      {"after", slice_json(packed.voxels->after)},
-                      {"gain_step", slice_json(packed.voxels->gain_step)},
-                      {"gain_points", slice_json(packed.voxels->gain_points)},
-                      {"gains_after", slice_json(packed.voxels->gains_after)}};
-  }
-  if (packed.path) {
-    json["path"] = {{"points", points_json(packed.path->points)},
-                    {"time", slice_json(packed.path->time_s)},
-                    {"quaternion", slice_json(packed.path->quaternion)}};
-  }
-  if (packed.plan) {
-    json["plan"] = {{"poses", slice_json(packed.plan->poses)},
-                    {"ranges", slice_json(packed.plan->ranges)}};
-  }
-  if (packed.candidates) json["candidates"] = candidates_json(*packed.candidates);
-  if (packed.found) json["found"] = slice_json(*packed.found);
-  if (packed.surface) json["surface"] = slice_json(*packed.surface);
-  Json frames = Json::array();
-  for (const PackedThumbnail& t : packed.thumbnails) {
-    frames.push_back({t.view, packed.cameras[t.camera], t.width_px, t.height_px, t.jpeg.at,
-                      t.jpeg.count, t.depth_jpeg.at, t.depth_jpeg.count});
-  }
-  json["frames"] = frames;
-  return json;
-}
-
 }  // namespace
 
 Json table_json(const TextTable& table) {
@@ -278,7 +223,7 @@ Json run_json(const RunRecord& record, const std::string& label, const PackedRun
       {"views", views_json(record)},
       {"figures", record.figures ? figures_json(*record.figures) : Json(nullptr)},
       {"paper", paper_json(record)}};
-  json.update(packed_json(packed));
+  json.update(packed_json(packed, scenario.planner.map.resolution_m));
   return json;
 }
 

@@ -226,6 +226,12 @@ PackedRun pack_run(const RunRecord& record, const KnownStructure* structure,
     out.missing.emplace_back(error.what());  // and without candidates
   }
   try {
+    out.beliefs = pack_beliefs(record, budget.bytes / 8, out.bytes);
+    if (auto why = why_no_beliefs(record); !why.empty()) out.missing.push_back(std::move(why));
+  } catch (const BadInput& error) {
+    out.missing.emplace_back(error.what());  // and without them
+  }
+  try {
     out.surface = pack_surface(record.folder, budget.bytes / 3, out.bytes);
   } catch (const BadInput& error) {
     out.missing.emplace_back(error.what());  // and without a surface

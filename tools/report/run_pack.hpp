@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/report/belief_pack.hpp"
 #include "tools/report/byte_pack.hpp"
 #include "tools/report/camera_frames.hpp"
 #include "tools/report/candidate_pack.hpp"
@@ -66,6 +67,7 @@ struct PackedRun {
   std::optional<PackedPath> path = {};
   std::optional<PackedPlan> plan = {};              // of tours
   std::optional<PackedCandidates> candidates = {};  // where the run kept them
+  std::optional<PackedBeliefs> beliefs = {};        // likewise
   std::optional<ByteSlice> found = {};              // uint16, see views_until_found()
   std::optional<ByteSlice> surface = {};  // uint8: surface.glb, as `gnbv surface` wrote it
   std::vector<std::string> cameras = {};  // names, of the thumbnails
@@ -82,10 +84,11 @@ struct RunBudget {
 };
 
 /// What of the run is there, thinned to the budget: voxels get a quarter of it, the path an eighth,
-/// a tour's plans and the candidates at most another one each, of a plan its next views, of the
-/// candidates all or none, a surface a third or nothing; points and frames share the rest.
-/// What is not there, or cannot be used, is named in `missing`, where a command makes it with that
-/// command. Without a structure nothing is said of what was found of it.
+/// a tour's plans, the candidates and what was believed of the views at most another one each, of a
+/// plan its next views, of the candidates all or none, of beliefs larger cells, a surface a third
+/// or nothing; points and frames share the rest. What is not there, or cannot be used, is named in
+/// `missing`, where a command makes it with that command. Without a structure nothing is said of
+/// what was found of it.
 PackedRun pack_run(const RunRecord& record, const KnownStructure* structure,
                    const RunBudget& budget, int threads, const ReportProgress& progress);
 

@@ -1,7 +1,5 @@
 #include "tools/run_files/candidates_jsonl.hpp"
 
-#include <algorithm>
-#include <cerrno>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -99,64 +97,35 @@ std::string beginning_of(std::size_t iteration) {
   return fmt::format("{{\"iteration\":{},", iteration);
 }
 
-/// The whole lines of decisions before `iteration`, as an interrupted run left them. Throws when
-/// they do not reach up to it: then that run did not write them all.
-std::string lines_before(std::size_t iteration, const fs::path& part) {
-  std::string kept;
-  std::size_t last = 0;  // the start is no decision
-  if (!fs::exists(part)) {
-    if (iteration > 1) throw BadInput(fmt::format("{}: {}", part.string(), kNotWritten));
-    return kept;
+/// What an interrupted run wrote of the decisions before `iteration`. Throws when it does not reach
+/// up to it: then that run did not write them all.
+std::string candidates_before(std::size_t iteration, const fs::path& file) {
+  const LinesBefore kept = lines_before(iteration, file);
+  if (kept.last_iteration + 1 >= iteration) return kept.text;
+  const fs::path part = part_of(file);
+  if (!fs::exists(part) && !fs::exists(file)) {
+    throw BadInput(fmt::format("{}: {}", file.string(), kNotWritten));
   }
-  const std::string content = read_file(part);
-  std::string_view rest(content.data(), content.rfind('\n') + 1);  // npos + 1: none
-  for (int line = 1; !rest.empty(); ++line) {
-    const std::string_view row = next_part(rest, '\n');
-    const Json json = Json::parse(row, nullptr, false);
-    const bool is_ours =
-        json.is_object() && json.contains("iteration") && json["iteration"].is_number_unsigned();
-    if (!is_ours) {
-      throw BadInput(fmt::format("{}: is no candidate", to_string(TextPlace{part, line})));
-    }
-    const auto of = json["iteration"].get<std::size_t>();
-    if (of >= iteration) continue;
-    kept.append(row) += '\n';
-    last = std::max(last, of);
-  }
-  if (last + 1 < iteration) {
-    throw BadInput(
-        fmt::format("{}: holds no candidates of iteration {}, which was flown: cut off, or {}",
-                    part.string(), last + 1, kNotWritten));
-  }
-  return kept;
+  throw BadInput(
+      fmt::format("{}: holds no candidates of iteration {}, which was flown: cut off, or {}",
+                  (fs::exists(part) ? part : file).string(), kept.last_iteration + 1, kNotWritten));
 }
 
 }  // namespace
 
 CandidatesFile::CandidatesFile(const fs::path& folder, std::size_t first_iteration)
-    : path_(folder / kCandidatesFile) {
-  const fs::path before = fs::exists(part_of(path_)) ? part_of(path_) : path_;
-  write_file_atomically(part_of(path_), lines_before(first_iteration, before));
-  part_.open(part_of(path_), std::ios::binary | std::ios::app);
-  if (!part_) refuse_to_write(part_of(path_), errno);
-}
+    : lines_(folder / kCandidatesFile,
+             candidates_before(first_iteration, folder / kCandidatesFile)) {}
 
 void CandidatesFile::write(std::size_t iteration, const Plan& plan) {
+  std::string lines;
   for (std::size_t i = 0; i < plan.candidates.size(); ++i) {
-    part_ << json_of(iteration, plan.candidates[i], plan.chosen == i).dump() << '\n';
+    lines += json_of(iteration, plan.candidates[i], plan.chosen == i).dump() += '\n';
   }
-  part_.flush();
-  if (!part_) refuse_to_write(part_of(path_), errno);
+  lines_.write(lines);
 }
 
-void CandidatesFile::finish() {
-  part_.close();
-  std::error_code error;
-  sync_to_disk(part_of(path_));
-  fs::rename(part_of(path_), path_, error);
-  if (error) refuse_to_write(path_, error.value());
-  sync_to_disk(path_.parent_path());
-}
+void CandidatesFile::finish() { lines_.finish(); }
 
 std::optional<Plan> read_candidates(const fs::path& run, std::size_t iteration) {
   const fs::path path = run / kCandidatesFile;

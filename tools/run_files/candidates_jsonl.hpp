@@ -2,10 +2,10 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <optional>
 
 #include "planner/decision.hpp"
+#include "tools/run_files/decision_lines.hpp"
 
 namespace gnbv {
 
@@ -23,8 +23,7 @@ class CandidatesFile {
   void finish();
 
  private:
-  std::filesystem::path path_;
-  std::ofstream part_;
+  DecisionLines lines_;
 };
 
 /// The candidates of the decision that chose view `iteration`, in the order they were sampled, and

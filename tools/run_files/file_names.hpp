@@ -18,6 +18,7 @@ constexpr const char* kProfileMapFile = "profile.map";
 constexpr const char* kMapStem = "map";  // OctoMap: map.ot with log-odds, map.bt without
 constexpr const char* kMapFile = "map.bt";
 constexpr const char* kCandidatesFile = "candidates.jsonl";
+constexpr const char* kBeliefsFile = "beliefs.jsonl";
 constexpr const char* kViewsFile = "views.csv";
 constexpr const char* kPredictionsFile = "predictions.csv";
 constexpr const char* kOwnUtilityFile = "utility.py";

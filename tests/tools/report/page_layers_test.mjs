@@ -36,6 +36,27 @@ function candidates(run, views) {
   return Array.from({ length: views }, (_, view) => all.filter((c) => c.iteration === view));
 }
 
+/** Of the decision that chose each view: how many voxels of each kind, and where the first is. */
+function believed(run, views) {
+  const yaml = readFileSync(join(run, "scenario.yaml"), "utf8");
+  const [, min, max] = yaml.match(/workspace_m:\n +min: (\[.*\])\n +max: (\[.*\])/).map((text) =>
+    text.startsWith("[") ? JSON.parse(text) : null);
+  const voxel_m = Number(yaml.match(/resolution_m: (.*)/)[1]);
+  const low = min.map((x) => Math.floor(x / voxel_m + 1e-6));
+  const size = max.map((x, k) => Math.ceil(x / voxel_m - 1e-6) - low[k]);
+  const all = Array.from({ length: views }, () => ({}));
+  for (const line of readFileSync(join(run, "beliefs.jsonl"), "utf8").trim().split("\n")) {
+    const { iteration, ...lists } = JSON.parse(line);
+    for (const [kind, runs] of Object.entries(lists)) {
+      const [first] = runs;
+      all[iteration][kind] = { count: runs.reduce((sum, x, i) => sum + (i % 2) * x, 0),
+        first: [first % size[0] + low[0], Math.floor(first / size[0]) % size[1] + low[1],
+          Math.floor(first / (size[0] * size[1])) + low[2]] };
+    }
+  }
+  return all;
+}
+
 const browser = await Browser.open(chromium, 900, 700);
 const complaints = [];
 browser.listen((event, parameters) => {
@@ -149,6 +170,34 @@ try {
       for (const reason of reasons) assert.ok(told.includes(reason.replaceAll("_", " ")), told);
     }
   }
+
+  // and the voxels for whose sake it was made, each where the map has it
+  const offered = await browser.evaluate(
+    "[...document.querySelectorAll('.layers label')].map((label) => label.textContent)");
+  const hasFrontiers = runs.some((run) =>
+    readFileSync(join(run, "beliefs.jsonl"), "utf8").includes("frontier"));
+  assert.equal(offered.includes("Frontiers"), hasFrontiers);
+  const layers = ["Unknown", ...hasFrontiers ? ["Frontiers"] : []];
+  for (const layer of layers) await press(" ", box(layer));
+  let believedVoxels = 0;
+  for (let n = 1; n < curves[0].length; ++n) {
+    await seek(n);
+    for (const [run, folder] of runs.entries()) {
+      const recorded = believed(folder, curves[run].length - 1)[n - 1];
+      for (const kind of ["unknown", "frontier", "looked_at"]) {
+        const drawn = await browser.evaluate(`gnbv.believed(${run}, "${kind}")`);
+        assert.equal(drawn.length, recorded[kind]?.count ?? 0, `view ${n}: ${kind}`);
+        assert.deepEqual(drawn[0], recorded[kind]?.first, `view ${n}: ${kind}`);
+        believedVoxels += drawn.length;
+      }
+      if (runs.length > 1) continue;
+      const told = await browser.evaluate("document.querySelector('.legend').textContent");
+      const count = (recorded.unknown?.count ?? 0).toLocaleString("en-US");
+      assert.ok(told.includes(`rays were to cross: ${count}`), told);
+    }
+  }
+  assert.ok(believedVoxels > 50, `${believedVoxels}`);
+  for (const layer of layers) await press(" ", box(layer));
 
   // the pyramid of a view stands where the view is
   for (const [run, folder] of runs.entries()) {
@@ -297,6 +346,17 @@ try {
   assert.ok(await browser.evaluate("document.documentElement.scrollWidth") <= 703);
   assert.equal(await browser.evaluate(
     "[...document.querySelectorAll('button:not(.picture), select')].filter((e) => e.checkVisibility()).length"), 0);
+  // a phone: nothing of one run reaches beyond its width, the layers stand in three columns
+  await browser.call("Emulation.setEmulatedMedia", { media: "screen" });
+  await browser.call("Emulation.setDeviceMetricsOverride",
+    { width: 390, height: 844, deviceScaleFactor: 1, mobile: true });
+  await drawn();
+  if (runs.length === 1) {
+    assert.ok(await browser.evaluate("document.documentElement.scrollWidth") <= 390);
+  }
+  const columns = await browser.evaluate(`[...document.querySelectorAll(".layers .toggle")]
+    .map((e) => Math.round(e.getBoundingClientRect().left))`);
+  assert.equal(new Set(columns).size, 3, columns.join(" "));
   assert.deepEqual(complaints, []);
   assert.equal(await browser.evaluate("window.hacked"), undefined);
 } finally {

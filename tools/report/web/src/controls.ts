@@ -161,11 +161,12 @@ const kColourings: [Colouring, string][] = [["real", "Camera colours"], ["height
   ["density", "Density"], ["iteration", "Order of views"], ["error", "Error"]];
 
 export function makeLayerBar(view: View3d, has: { real: boolean; voxels: boolean; cloud: boolean;
-    structure: boolean; plan: boolean; surface: boolean; error: boolean; candidates: boolean; runSurface: boolean },
+    structure: boolean; plan: boolean; surface: boolean; error: boolean; candidates: boolean;
+    unknown: boolean; predicted: boolean; frontiers: boolean; runSurface: boolean },
     state: PageState, changed: (layers: Layers, by: Colouring) => void): HTMLElement {
   const layers: Layers = { cloud: has.cloud, voxels: false, structure: has.structure, path: true,
     profile: true, frusta: false, plan: has.plan, vehicle: true, found: false, missed: false,
-    candidates: false, surface: false };
+    candidates: false, unknown: false, predicted: false, frontiers: false, surface: false };
   if (state.layers) {
     for (const key of Object.keys(layers) as (keyof Layers)[]) {
       layers[key] = state.layers.includes(key);
@@ -197,6 +198,9 @@ export function makeLayerBar(view: View3d, has: { real: boolean; voxels: boolean
     has.surface ? layer("missed", "Missed") : null,
     has.surface ? layer("found", "Found") : null,
     has.candidates ? layer("candidates", "Candidates") : null,
+    has.unknown ? layer("unknown", "Unknown") : null,
+    has.predicted ? layer("predicted", "Predicted") : null,
+    has.frontiers ? layer("frontiers", "Frontiers") : null,
     has.runSurface ? layer("surface", "Surface") : null,
     make("span", { class: "gap" }),
     select("Colour of points and voxels", colourings,

@@ -32,6 +32,24 @@ export interface CandidateData {
   reasons: string[];
 }
 
+/** Of one kind of voxels (tools/report/belief_pack.hpp). */
+export interface BeliefListData {
+  runs: Slice; // uint8
+  begins: Slice; // uint32 (views + 1)
+  counts: Slice; // uint32 (views)
+}
+
+export interface BeliefData {
+  size_m: number; // of the cells
+  map_m: number; // of the map's voxels
+  low: Vec3;
+  cells: Vec3;
+  unknown: BeliefListData | null;
+  predicted: BeliefListData | null;
+  frontier: BeliefListData | null;
+  looked_at: BeliefListData | null;
+}
+
 export interface MeshData {
   vertices: PackedPoints;
   all_faces: number;
@@ -135,6 +153,7 @@ export interface RunData {
     error?: Slice } | null; // of errors uint8, in millimetres; 255: not of the structure
   found: Slice | null; // uint16: of the surface's voxels the views until each was found
   candidates: CandidateData | null;
+  beliefs: BeliefData | null;
   surface: Slice | null; // uint8: surface.glb
   voxels: VoxelData | null;
   path: { points: PackedPoints; time: Slice; quaternion: Slice } | null;

@@ -1,4 +1,5 @@
 // What everything in the 3D view means, in words beside its colour.
+import { kBelievedColours, type BelievedKind } from "./believed";
 import { planColour, rampGradient } from "./colours";
 import { make, number } from "./dom";
 import type { RunScene, Layers } from "./run_scene";
@@ -68,6 +69,7 @@ export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring): 
   }
   if (layers.vehicle && !layers.candidates) items.push(item("line", "#ff8a3c", "what the cameras see"));
   if (layers.candidates) items.push(...candidateItems(scenes));
+  items.push(...believedItems(scenes));
   items.push(make("span", {}, `grid ${number(first.gridStep_m)} m`));
   return items;
 }
@@ -77,4 +79,23 @@ function candidateItems(scenes: RunScene[]): HTMLElement[] {
   const seen = new Set<string>();
   return kinds.filter(({ text }) => !seen.has(text) && seen.add(text))
     .map(({ colour, text }) => item("line", colour, text));
+}
+
+const kBelievedWords: Record<BelievedKind, string> = {
+  unknown: "unknown voxels that its rays were to cross",
+  predicted: "predicted ones that they were to meet first",
+  frontier: "frontier voxels (seen, but thinly)",
+  looked_at: "frontier that it was to look at" };
+
+/** Each kind once; counted where there is one run. */
+function believedItems(scenes: RunScene[]): HTMLElement[] {
+  const shown = scenes.filter((scene) => scene.believed?.object.visible);
+  const counts = shown.map((scene) => scene.believed!.counts());
+  const kinds = (Object.keys(kBelievedWords) as BelievedKind[])
+    .filter((kind) => counts.some((each) => each[kind] !== undefined));
+  const coarse_m = Math.max(0, ...shown.map((scene) => scene.believed!.coarse_m() ?? 0));
+  return [...kinds.map((kind) => item("dot", hex(kBelievedColours[kind]),
+    kBelievedWords[kind] + (shown.length > 1 ? "" : `: ${number(counts[0][kind] ?? 0)}`))),
+  ...coarse_m === 0 ? [] : [make("span", {},
+    `these are drawn as cubes of ${number(coarse_m, 2)} m, so that the page can carry them`)]];
 }

@@ -1,4 +1,5 @@
 // The page of `gnbv report`: reads what the program wrote into it, and puts the parts together.
+import type { BelievedKind } from "./believed";
 import { Clock } from "./clock";
 import { runColour, setRamps } from "./colours";
 import { followRun } from "./live";
@@ -69,8 +70,10 @@ function build() {
     layers: Object.entries(layers ?? {}).filter(([, on]) => on).map(([name]) => name) }));
   const explain = () => {
     if (!layers) return;
-    if (layers.candidates) { // the legend counts them
-      for (const scene of shownScenes()) scene.candidates?.show(scene.flight.viewsAt(clock));
+    for (const scene of shownScenes()) { // the legend counts them
+      const n = scene.flight.viewsAt(clock);
+      scene.candidates?.show(n);
+      scene.believed?.show(n);
     }
     key.replaceChildren(...legendItems(shownScenes(), layers, colouring));
     why.replaceChildren(...!layers.candidates ? [] : shownScenes()
@@ -78,7 +81,10 @@ function build() {
         make("h3", {}, flights.length > 1 ? `Why this view: ${scene.flight.data.label}`
           : "Why this view"), scene.candidates!.table())));
   };
-  clock.onChange(() => { if (layers?.candidates) explain(); });
+  clock.onChange(() => {
+    const { candidates, unknown, predicted, frontiers } = layers ?? {};
+    if (candidates || unknown || predicted || frontiers) explain();
+  });
   const setShown = () => {
     stage.setShown(shownScenes());
     explain();
@@ -97,6 +103,9 @@ function build() {
     surface: scenes.some((scene) => scene.surface),
     error: flights.some((flight) => flight.data.cloud?.error),
     candidates: flights.some((flight) => flight.data.candidates),
+    unknown: scenes.some((scene) => scene.believed?.has("unknown")),
+    predicted: scenes.some((scene) => scene.believed?.has("predicted")),
+    frontiers: scenes.some((scene) => scene.believed?.has("frontiers")),
     runSurface: scenes.some((scene) => scene.runSurface),
   };
   const layerBar = makeLayerBar(stage, has, state, (chosen, by) => {
@@ -154,6 +163,7 @@ function build() {
   // for scripts and tests: gnbv.seek(views), gnbv.pose(run) as x, y, z, yaw of what is drawn,
   // gnbv.views(run) at the present place of the replay, gnbv.points(run) that the voxels hold
   // there, gnbv.found(run) of the true surface, gnbv.candidates(run) that are drawn,
+  // gnbv.believed(run, kind) voxels that are drawn, x y z indices each,
   // gnbv.frustum(run, view) ends of its pyramid's lines, gnbv.point(run, i) as x, y, z and the view that brought it, gnbv.seenBy(run, place) views,
   // gnbv.plan(run) of views that a tour's plan still has there, gnbv.camera() where the 3D view is
   // seen from, gnbv.pictures() how many were drawn of it
@@ -163,6 +173,7 @@ function build() {
     points: (run: number) => scenes[run].model.countedPoints(),
     found: (run: number) => scenes[run].surface?.counts() ?? null,
     candidates: (run: number) => scenes[run].candidates?.count ?? 0,
+    believed: (run: number, kind: BelievedKind) => scenes[run].believed?.drawn(kind) ?? [],
     frustum: (run: number, view: number) => scenes[run].frusta.lines(view),
     point: (run: number, i: number) => scenes[run].model.point(i),
     seenBy: (run: number, place: number[]) =>

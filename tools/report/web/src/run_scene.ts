@@ -10,12 +10,14 @@ import { Structure } from "./structure";
 import { Model, type Colouring } from "./surfaces";
 import { TrueSurface } from "./true_surface";
 import { makeVehicle } from "./vehicle";
+import { BelievedMarks, type BelievedLayer } from "./believed";
 import { CandidateMarks } from "./candidates";
 import type { Picked } from "./pick";
 import { readRunSurface } from "./run_surface";
 import { Splats } from "./splats";
 
-export interface Layers {
+/** Believed voxels are those of the decision that chose the view. */
+export interface Layers extends Record<BelievedLayer, boolean> {
   cloud: boolean;
   voxels: boolean;
   structure: boolean;
@@ -51,7 +53,8 @@ function makeGround(min: number[], max: number[]): three.GridHelper {
 }
 
 const isMeasured = (layers: Layers) =>
-  layers.cloud || layers.voxels || layers.found || layers.missed || layers.surface;
+  layers.cloud || layers.voxels || layers.found || layers.missed || layers.surface
+  || layers.unknown || layers.predicted || layers.frontiers;
 
 export class RunScene {
   readonly scene = new three.Scene();
@@ -66,6 +69,7 @@ export class RunScene {
   readonly plan: PlanMark | null;
   readonly surface: TrueSurface | null;
   readonly candidates: CandidateMarks | null;
+  readonly believed: BelievedMarks | null;
   readonly runSurface: three.Mesh | null;
   onLoad = () => {}; // of the picture on that surface
   private layers: Layers | null = null;
@@ -82,6 +86,7 @@ export class RunScene {
     this.plan = data.plan && new PlanMark(flight);
     this.candidates = data.candidates
       && new CandidateMarks(flight, this.model, data.candidates);
+    this.believed = data.beliefs && new BelievedMarks(data.beliefs, flight.bytes);
     this.surface = mesh?.surface && data.found ? new TrueSurface(mesh.surface, meshBytes,
       flight.bytes.u16(data.found), flight.count) : null;
     this.runSurface = data.surface
@@ -98,6 +103,7 @@ export class RunScene {
     const marks: three.Object3D[] = [this.path.object, this.frusta.object, this.vehicle];
     if (this.plan) marks.push(this.plan.object);
     if (this.candidates) marks.push(this.candidates.object);
+    if (this.believed) marks.push(this.believed.object);
     if (data.has_ground) marks.unshift(makeGround(data.workspace.min, data.workspace.max));
     const { cloud, voxels } = this.model;
     for (const part of [this.structure?.object, cloud, voxels, this.surface?.object, this.runSurface]) {
@@ -124,6 +130,7 @@ export class RunScene {
     this.vehicle.visible = layers.vehicle;
     this.surface?.setLayers(layers.found, layers.missed);
     if (this.candidates) this.candidates.object.visible = layers.candidates;
+    this.believed?.setLayers(layers);
   }
 
   /** Whether a line parts the truth from what the run made of it. */
@@ -164,6 +171,7 @@ export class RunScene {
     this.frusta.show(n);
     this.plan?.show(n);
     this.candidates?.show(n);
+    this.believed?.show(n);
     this.surface?.show(n, this.other?.flight.viewsAt(clock) ?? 0, pxPerTan);
     if (splats) {
       this.splats.show([...this.model.splats(), ...this.surface?.splats() ?? []], camera, pxPerTan);
