@@ -192,7 +192,8 @@ void add_run_command(CLI::App& app) {
   command->add_flag("--resume", mission.resume, "continue the interrupted run in --out");
   command->add_flag("--frames", mission.frames, "also write what the cameras saw, to frames/");
   command->add_flag("--candidates", mission.candidates,
-                    "also write every candidate's terms or reason of rejection");
+                    "also write every candidate's terms or reason of rejection, and the "
+                    "voxels that each view was chosen for");
   command->add_flag_callback(
       "--ceiling", [options] { options->mission.ceiling = CeilingFrom::search; },
       "find the ceiling, where no earlier command did, for the effort to reach it in summary.json");
