@@ -84,3 +84,7 @@ def test_plots_are_the_columns_of_the_run(run, topics):
     for name, file in (("entropy_nat", "iterations.csv"), ("coverage/0.05", "coverage.csv")):
         plot = [content["value"] for _, _, content in topics[f"/plots/{name}"]]
         assert plot == [float(row[name.replace("/", "_")]) for row in rows(run / file)]
+    # row 0 is the profile's
+    views = [float(row["time_s"]) for row in rows(run / "iterations.csv")]
+    times = [time for time, _, _ in topics["/plots/coverage/0.05"]]
+    assert times[1:] == pytest.approx(views, abs=1e-6) and times[0] < views[0]

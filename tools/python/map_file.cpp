@@ -3,6 +3,7 @@
 #include <nanobind/stl/string.h>
 
 #include <bit>
+#include <charconv>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -25,7 +26,10 @@ class OtReader {
         data == std::string::npos) {
       fail("is no OctoMap .ot file");
     }
-    resolution_m_ = std::strtod(bytes_.c_str() + res + 5, nullptr);
+    // whatever locale Python is in
+    const char* const number = bytes_.data() + res + 5;
+    const auto [end, error] = std::from_chars(number, bytes_.data() + data, resolution_m_);
+    if (error != std::errc{} || !(resolution_m_ > 0.0)) fail("states no resolution");
     at_ = data + 6;
     if (at_ < bytes_.size()) read_node(0, {-kHalf, -kHalf, -kHalf});
     if (at_ < bytes_.size()) fail("has more behind its end");

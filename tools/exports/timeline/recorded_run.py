@@ -90,9 +90,9 @@ def _plots(folder: Path) -> dict[str, tuple[np.ndarray, np.ndarray]]:
     plots = {name: (views["time_s"], views[name]) for name in names if name in views}
     coverage = _csv(folder / "coverage.csv")
     for name, values in coverage.items():
-        if name.startswith("coverage_"):
-            # its seconds count from the first view, and its row 0 is the profile's
-            times_s = views["time_s"][0] + coverage["seconds"]
+        if name.startswith("coverage_") and len(values) > 1:
+            # its seconds count from the end of the profile, row 0; row 1 is the first view's
+            times_s = views["time_s"][0] - coverage["seconds"][1] + coverage["seconds"]
             plots[name.replace("coverage_", "coverage/")] = (times_s, values)
     return plots
 

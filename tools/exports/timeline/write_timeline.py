@@ -8,7 +8,11 @@ sys.path = [p for p in sys.path if p]  # nothing of the folder that the user is 
 
 import importlib  # noqa: E402
 import json  # noqa: E402
+import os  # noqa: E402
 import types  # noqa: E402
+
+tell = os.fdopen(os.dup(1), "w")
+os.dup2(2, 1)  # what a library prints is no answer
 
 EXTRAS = {
     "rerun": "rerun-sdk",
@@ -42,4 +46,4 @@ except Exception as error:
         at = at.tb_next
     where = f"{at.tb_frame.f_code.co_filename}:{at.tb_lineno}" if at is not None else "?"
     answer = {"error": f"{type(error).__name__}: {error} ({where})"}
-print(json.dumps(answer), flush=True)
+print(json.dumps(answer), file=tell, flush=True)

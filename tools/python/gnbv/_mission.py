@@ -100,7 +100,7 @@ def _checked(folder: str, termination: str, failure: str) -> Run:
 
 
 def _yaml(value: Any) -> str:
-    """A value as YAML, of which JSON is a part; text stays text."""
+    """A value as YAML, of which JSON is a part; a str is taken for YAML already."""
     if hasattr(value, "tolist"):
         value = value.tolist()
     return value if isinstance(value, str) else json.dumps(value)

@@ -17,7 +17,7 @@ from gnbv._errors import BadInput
 from gnbv._program import call
 
 Array = npt.NDArray[Any]
-_TEXT = {"sampler": "U8", "via": "U256"}
+_TEXT = {"sampler", "via"}
 _COUNTS = {"iteration", "candidates", "valid", "cloud_points", "view"}
 MAP_DTYPE = np.dtype(
     [("x_m", "f8"), ("y_m", "f8"), ("z_m", "f8"), ("size_m", "f8"), ("log_odds", "f4")]
@@ -119,7 +119,7 @@ class Run:
         return file
 
     def export(self, form: str, out: str | os.PathLike[str] | None = None) -> Path:
-        """Writes the run for other tools: colmap, nerfstudio, tum or plain."""
+        """Writes the run for other tools: colmap, nerfstudio, tum, plain, rerun or mcap."""
         said = call(
             "export", str(self.folder), "--format", form, *(["-o", str(out)] if out else [])
         )
@@ -139,7 +139,11 @@ def _csv(file: Path) -> Array:
             header, *rows = list(csv.reader(text))
     except (OSError, ValueError) as error:
         raise BadInput(f"{file}: cannot be read: {error}") from error
-    columns = [(name, _TEXT.get(name, "i8" if name in _COUNTS else "f8")) for name in header]
+    columns = []
+    for i, name in enumerate(header):
+        longest = max((len(row[i]) for row in rows if i < len(row)), default=0)
+        text = f"U{max(1, longest)}"
+        columns.append((name, text if name in _TEXT else "i8" if name in _COUNTS else "f8"))
     out = np.empty(len(rows), dtype=columns)
     for line, row in enumerate(rows, start=2):
         try:

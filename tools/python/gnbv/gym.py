@@ -129,9 +129,11 @@ class _Episode:
         self.steps = 0
         self._refused = ""
         self._acts = False
+        self._is_over = True
 
     def begin(self, seed: int) -> None:
         self.steps = 0
+        self._is_over = False
         self.mission.begin(seed)
 
     def begun(self) -> tuple[Observation, dict[str, Any]]:
@@ -140,7 +142,7 @@ class _Episode:
         return self.stage.observation(self.state, self.steps), self.info()
 
     def act(self, action: Any) -> None:
-        if not self.state or (self.state["ended"] and self.steps > 0):
+        if self._is_over or not self.state:
             raise RuntimeError("step: the episode is over; call reset()")
         self.steps += 1
         self._acts = not self.state["ended"]  # it may have ended with the profile
@@ -160,6 +162,7 @@ class _Episode:
         # the start's view is the first; what the mission refuses counts here
         is_spent = 1 + self.steps >= self.stage.about["max_iterations"]
         truncated = not terminated and (ended or is_spent)
+        self._is_over = terminated or truncated
         seen = self.stage.observation(self.state, self.steps)
         return seen, float(reward), terminated, truncated, self.info()
 
