@@ -22,8 +22,8 @@ Reward: the coverage gained, in shares of the ceiling (of what can be reached at
 a benchmark knows it. The ceiling is searched when a scenario is first made (up to minutes; the
 cache keeps it); with goal=0 nobody needs it, and rewards are shares of the whole surface. An
 episode is terminated by the goal (95 % of the ceiling), a collision or being carried off course,
-and truncated by its budget: max_iterations views, the start's being the first and refused ones counted, or the scenario's own
-(battery, metres, time).
+and truncated by its budget: max_iterations views, the start's being the first and refused ones
+counted, or the scenario's own (battery, metres, time).
 """
 
 from __future__ import annotations
