@@ -179,6 +179,11 @@ std::vector<std::array<std::size_t, 2>> same_missions(const std::vector<std::str
 
 }  // namespace
 
+double least_p_holm(const Contrast& contrast) {
+  // Holm's first step asks for the smallest p times the size of the family
+  return static_cast<double>(contrast.family) * least_wilcoxon_p(contrast.differing);
+}
+
 Comparison compare(std::span<const ComparedRun> runs, const std::string& baseline,
                    const Ceilings& ceilings) {
   Comparison comparison;
