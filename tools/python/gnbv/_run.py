@@ -142,8 +142,8 @@ def _csv(file: Path) -> Array:
     columns = []
     for i, name in enumerate(header):
         longest = max((len(row[i]) for row in rows if i < len(row)), default=0)
-        text = f"U{max(1, longest)}"
-        columns.append((name, text if name in _TEXT else "i8" if name in _COUNTS else "f8"))
+        width = f"U{max(1, longest)}"
+        columns.append((name, width if name in _TEXT else "i8" if name in _COUNTS else "f8"))
     out = np.empty(len(rows), dtype=columns)
     for line, row in enumerate(rows, start=2):
         try:
