@@ -200,11 +200,9 @@ void add_power_notes(std::vector<std::string>& notes, const Comparison& comparis
     while (least_p_holm(c) > 0.05) ++c.differing;
     notes.push_back(fmt::format(
         "by interval only at n = {}{}: no p of the signed-rank test can be below {:.4g}{} there, "
-        "so "
-        "it cannot reject at 5 %; {} that differ could. \"By interval only\" means that Student's "
-        "interval excludes 0: an "
-        "indication that rests on differences being about normal, not a test "
-        "passed{}",
+        "so it cannot reject at 5 %; {} that differ could. \"By interval only\" means that "
+        "Student's interval excludes 0: an indication that rests on differences being about "
+        "normal, not a test passed{}",
         c.pairs,
         differing < c.pairs ? fmt::format(", {} of them with a difference", differing) : "", least,
         c.family > 1

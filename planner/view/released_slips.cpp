@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "planner/map/ray_walk.hpp"
+#include "planner/view/each_ray.hpp"
 
 namespace gnbv {
 namespace {
@@ -78,28 +79,21 @@ ViewStats evaluate_view_with_slips(const OccupancyGrid& grid, const SurfaceCloud
                                    const ViewRays& rays, const ViewPose& candidate,
                                    const ReleasedSlips& slips, double sparse_below) {
   const GridGeometry& geometry = grid.geometry();
-  const Isometry T = T_world_body(candidate);
   ViewStats stats;
   stats.voxel_m3 = std::pow(geometry.resolution_m(), 3);
   std::vector<bool> seen(geometry.voxel_count(), false);
   std::vector<bool> predicted(geometry.voxel_count(), false);
-  for (const ViewRays::Camera& camera : rays.cameras) {
-    const Vec3f origin_m = geometry.nearest_inside(T * camera.origin_body_m).cast<float>();
-    const RayOrigin origin = make_ray_origin(geometry, origin_m);
-    for (std::size_t i = camera.first; i < camera.first + camera.count; ++i) {
-      const Vec3 end_m =
-          T * Vec3(rays.end_body_m[0][i], rays.end_body_m[1][i], rays.end_body_m[2][i]);
-      Cast found = cast(grid, origin, end_m.cast<float>());
-      apply_slips(grid, origin, slips, found);
-      for (const VoxelIndex v : found.voxels) {
-        see(grid, cloud, v, sparse_below, seen, stats);
-      }
-      if (found.first_predicted && !predicted[*found.first_predicted]) {
-        predicted[*found.first_predicted] = true;
-        ++stats.predicted_voxels;
-      }
+  for_each_ray(geometry, rays, candidate, [&](const RayOrigin& origin, const Vec3f& end_m) {
+    Cast found = cast(grid, origin, end_m);
+    apply_slips(grid, origin, slips, found);
+    for (const VoxelIndex v : found.voxels) {
+      see(grid, cloud, v, sparse_below, seen, stats);
     }
-  }
+    if (found.first_predicted && !predicted[*found.first_predicted]) {
+      predicted[*found.first_predicted] = true;
+      ++stats.predicted_voxels;
+    }
+  });
   return stats;
 }
 
