@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "planner/map/fan_kernels.hpp"
 #include "planner/map/occupancy_grid.hpp"
 #include "planner/map/ray_walk.hpp"
 
@@ -25,35 +26,39 @@ class FanWalker {
   explicit FanWalker(const GridGeometry& grid);
 
   /// The voxels the rays touch inside the grid. Oracle: octomap::OcTree::computeUpdate, whose
-  /// computeRayKeys names the free ones. Points must be finite.
-  ScanUpdate compute_update(const Vec3f& origin_world_m, std::span<const ScanRay> rays);
+  /// computeRayKeys names the free ones. Points must be finite. The lists go into the memory of
+  /// `update`, whatever it holds.
+  ScanUpdate compute_update(const Vec3f& origin_world_m, std::span<const ScanRay> rays,
+                            ScanUpdate update = {});
 
  private:
-  /// A voxel of the grid: its VoxelIndex in the high half, its index in the framed grid in the low
-  /// one. Both are linear in the key, so one 64-bit addition moves both.
-  using Place = std::int64_t;
-  struct Rays;
+  /// A voxel's index in the framed grid; linear in the key.
+  using Place = std::int32_t;
 
   /// Requires grid.contains(key).
   Place place_of(const Key& key) const;
-  /// Appends the voxel to the list unless it is marked, and marks it.
-  void list(Place place, std::vector<Place>& places);
-  /// Takes the marks away.
-  std::vector<VoxelIndex> take(const std::vector<Place>& places);
-  /// Lists in free_ every voxel of the grid that computeRayKeys names for any of the rays.
+  VoxelIndex voxel_at(Place place) const;
+  /// Appends the voxel to listed_ unless it is marked, and marks it.
+  void list(Place place);
+  /// Takes those listed from number `first` on, and their marks, away.
+  void take(std::size_t first, std::vector<VoxelIndex>& voxels);
+  /// Lists every voxel of the grid that computeRayKeys names for any of the rays.
   void walk(const RayOrigin& origin, std::span<const ScanRay> rays);
   /// Walks a ray from a voxel outside the grid to its first one inside, where `ray` and `key` then
   /// stand; false when it ends before, or never comes in.
   bool enter(const Key& key_end, RaySteps& ray, Key& key) const;
-  bool start_ray(const RayOrigin& origin, const Vec3f& end_m, Rays& under_way, std::size_t which);
-  bool start_next(const RayOrigin& origin, std::span<const ScanRay>& rays, Rays& under_way,
-                  std::size_t which);
+  /// Lists where the ray begins and puts it into the bundle; false when it goes no further.
+  bool start_ray(const RayOrigin& origin, const Vec3f& end_m, std::size_t which);
 
   GridGeometry grid_;
   std::array<Place, 3> move_ = {0, 0, 0};  // change of place with a step up each axis
   Place first_ = 0;                        // place of the voxel at min_key
+  double layers_per_place_ = 0.0, rows_per_place_ = 0.0;
   std::vector<std::uint8_t> marks_;        // of the framed grid, and one resting place
-  std::vector<Place> occupied_, free_;     // of the scan at hand
+  std::size_t steps_max_ = 0;              // of one ray inside the grid
+  std::vector<Place> listed_;              // of the scan at hand, the first listed_count_ of them
+  std::size_t listed_count_ = 0;
+  FanRays bundle_{};
 };
 
 }  // namespace gnbv

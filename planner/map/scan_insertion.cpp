@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <utility>
 
 #include "planner/map/frame_view.hpp"
 #include "sim/core/error.hpp"
@@ -79,19 +80,24 @@ void ScanInserter::insert_scans(OccupancyGrid& grid, std::span<const LidarScan> 
   GNBV_CHECK(grid.geometry().min_key() == grid_.min_key() && grid.geometry().size() == grid_.size(),
              "another grid than the one this inserter was made for");
   need_walkers(threads);
+  std::vector<ScanUpdate> walked(kScansPerBatch);
   std::vector<ScanUpdate> updates(kScansPerBatch);
-  while (!scans.empty()) {
+  std::span<ScanUpdate> to_apply;  // while the next batch is walked
+  while (!scans.empty() || !to_apply.empty()) {
     const auto batch = scans.first(std::min(kScansPerBatch, scans.size()));
     scans = scans.subspan(batch.size());
     std::atomic<std::size_t> next{0};
     parallel_for(threads, static_cast<std::size_t>(std::max(threads, 1)), [&](std::size_t w) {
+      for (std::size_t u = 0; w == 0 && u < to_apply.size(); ++u) grid.apply(to_apply[u]);
       for (std::size_t s = next++; s < batch.size(); s = next++) {
         const LidarModel& lidar = lidars[static_cast<std::size_t>(batch[s].lidar)];
-        updates[s] = walkers_[w].compute_update(batch[s].T_world_lidar.translation().cast<float>(),
-                                                rays_of(batch[s], lidar, floor_z_m));
+        walked[s] = walkers_[w].compute_update(batch[s].T_world_lidar.translation().cast<float>(),
+                                               rays_of(batch[s], lidar, floor_z_m),
+                                               std::move(walked[s]));
       }
     });
-    for (std::size_t s = 0; s < batch.size(); ++s) grid.apply(updates[s]);
+    std::swap(walked, updates);
+    to_apply = std::span(updates).first(batch.size());
   }
 }
 

@@ -8,7 +8,7 @@
 //   + - * / & min max               lane by lane; min and max take the second where one is NaN
 //   shift_left<n>, shift_right<n>, power_of_two(n)   zeros come in; 2^n, 0 <= n < 32
 //   select(m, a, b)                 a where m, else b
-//   add_where(m, a, b)              a + b where m, else a
+//   add_where(m, a, b)              a + b where m, else a; of Doubles, too
 //   equal, less, less_equal         false with NaN; with a mask before them: and m
 //   has_bits(m, a, b), has_not_bits m, and whether a & b is something or nothing
 //   equal_bytes(p, b)               which of kLanes bytes are b
@@ -19,7 +19,7 @@
 //                                   after the other; returns how many, but may write kLanes
 //   to_floats, as_floats, as_ints   converted; the same bits
 //   nearest, truncated, floored     to integers, ties to even; only what fits 32 bits
-//   widen, narrow, floor_of, select_less(a, b, yes, no)   between Floats and Doubles; of Doubles
+//   widen, narrow, floor_of, min, select_less(a, b, yes, no)   between Floats and Doubles; of Doubles
 //
 // Everything has internal linkage: no copy made for one processor can be linked into another's
 // code. For the same reason the sources in this dialect include nothing of ours but this, each
@@ -99,6 +99,7 @@ inline Doubles operator*(Doubles a, Doubles b) { return {a.low * b.low, a.high *
 inline Doubles select_less(Doubles a, Doubles b, Doubles yes, Doubles no) {
   return {a.low < b.low ? yes.low : no.low, a.high < b.high ? yes.high : no.high};
 }
+inline Doubles min(Doubles a, Doubles b) { return select_less(a, b, a, b); }
 template <int kBits>
 Ints shift_left(Ints a) {
   return ints(words(a) << kBits);

@@ -58,6 +58,12 @@ inline Mask less(Doubles a, Doubles b) {
   const __m256d in_order = _mm256_permute4x64_pd(_mm256_castps_pd(mixed), _MM_SHUFFLE(3, 1, 2, 0));
   return {reinterpret_cast<IntVector>(in_order)};
 }
+inline Doubles add_where(Mask m, Doubles a, Doubles b) {
+  const __m256i low = _mm256_cvtepi32_epi64(_mm256_castsi256_si128(m.m));
+  const __m256i high = _mm256_cvtepi32_epi64(_mm256_extracti128_si256(m.m, 1));
+  return {_mm256_blendv_pd(a.low, a.low + b.low, _mm256_castsi256_pd(low)),
+          _mm256_blendv_pd(a.high, a.high + b.high, _mm256_castsi256_pd(high))};
+}
 inline Ints truncated(Doubles a) {
   return ints(_mm256_inserti128_si256(_mm256_castsi128_si256(_mm256_cvttpd_epi32(a.low)),
                                       _mm256_cvttpd_epi32(a.high), 1));

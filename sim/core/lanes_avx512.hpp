@@ -91,6 +91,10 @@ inline Mask less(Doubles a, Doubles b) {
   return {static_cast<__mmask16>(_mm512_cmp_pd_mask(a.low, b.low, _CMP_LT_OQ) |
                                  _mm512_cmp_pd_mask(a.high, b.high, _CMP_LT_OQ) << 8)};
 }
+inline Doubles add_where(Mask m, Doubles a, Doubles b) {
+  return {_mm512_mask_add_pd(a.low, static_cast<__mmask8>(m.m), a.low, b.low),
+          _mm512_mask_add_pd(a.high, static_cast<__mmask8>(m.m >> 8), a.high, b.high)};
+}
 inline Ints truncated(Doubles a) {
   return ints(_mm512_inserti32x8(_mm512_castsi256_si512(_mm512_cvttpd_epi32(a.low)),
                                  _mm512_cvttpd_epi32(a.high), 1));

@@ -76,6 +76,14 @@ inline Mask less(Doubles a, Doubles b) {
   const __m128 high = _mm_castpd_ps(_mm_cmplt_pd(a.high, b.high));
   return {reinterpret_cast<IntVector>(_mm_shuffle_ps(low, high, _MM_SHUFFLE(2, 0, 2, 0)))};
 }
+inline DoubleVector add_where_two(__m128i m, DoubleVector a, DoubleVector b) {
+  const __m128d is_there = _mm_castsi128_pd(m);
+  return _mm_or_pd(_mm_and_pd(is_there, a + b), _mm_andnot_pd(is_there, a));
+}
+inline Doubles add_where(Mask m, Doubles a, Doubles b) {
+  return {add_where_two(_mm_unpacklo_epi32(m.m, m.m), a.low, b.low),
+          add_where_two(_mm_unpackhi_epi32(m.m, m.m), a.high, b.high)};
+}
 inline Ints truncated(Doubles a) {
   return ints(_mm_unpacklo_epi64(_mm_cvttpd_epi32(a.low), _mm_cvttpd_epi32(a.high)));
 }

@@ -1,0 +1,44 @@
+// The walk of a scan's rays, compiled once for each SimdLevel (fan_loops.cpp). Plain structs and
+// pointers only, see sim/core/lanes.hpp.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace gnbv {
+
+/// Marks of the voxels of a grid with a frame one voxel wide around it.
+constexpr std::uint8_t kFanUnlisted = 0;
+constexpr std::uint8_t kFanListed = 1;
+constexpr std::uint8_t kFanFrame = 2;
+
+constexpr std::size_t kFanBundle = 16;  // rays that are walked by one call
+
+/// A bundle of rays that have listed where they begin, in columns: RaySteps, and places as indices
+/// of the framed grid. A ray of negative length takes no step.
+struct FanRays {
+  double t_next[3][kFanBundle], t_voxel[3][kFanBundle];
+  double length_m[kFanBundle];
+  std::int32_t place[kFanBundle], move[3][kFanBundle];
+  std::int32_t end[kFanBundle];  // where the walk stops; -1: not in the grid
+};
+
+struct FanKernels {
+  /// Takes every ray to its end or to the frame, marks the places that it comes through and writes
+  /// to `listed` those that were not marked; returns how many. There is room for as many as the
+  /// rays can take steps, and one more. `resting` is a place that is marked as listed.
+  std::size_t (*walk)(const FanRays& rays, std::int32_t resting, std::uint8_t* marks,
+                      std::int32_t* listed);
+};
+
+namespace at_baseline {
+extern const FanKernels kFanKernels;
+}
+namespace at_avx2 {
+extern const FanKernels kFanKernels;
+}
+namespace at_avx512 {
+extern const FanKernels kFanKernels;
+}
+
+}  // namespace gnbv
