@@ -94,10 +94,17 @@ class Decider {
   bool try_fvs() {
     const FvsConfig& fvs = model_.config.fvs;
     const std::vector<FrontierCluster> clusters = clusters_to_try();
+    // mostly none has one, so that those next in line are looked at meanwhile
+    const auto at_once = static_cast<std::size_t>(std::max(bench_.threads, 1));
+    std::vector<std::vector<Candidate>> views(clusters.size());
     std::vector<Candidate> pool;
     for (std::size_t rank = 0; rank < clusters.size(); ++rank) {
-      std::vector<Candidate> views = views_of(clusters[rank], static_cast<int>(rank));
-      std::move(views.begin(), views.end(), std::back_inserter(pool));
+      if (rank % at_once == 0) {
+        parallel_for(bench_.threads, std::min(at_once, clusters.size() - rank), [&](std::size_t i) {
+          views[rank + i] = views_of(clusters[rank + i], static_cast<int>(rank + i));
+        });
+      }
+      std::move(views[rank].begin(), views[rank].end(), std::back_inserter(pool));
       const bool is_last = rank + 1 == clusters.size();
       if (fvs.pool_clusters && !is_last) continue;
       if (choose_among(std::move(pool))) return true;
@@ -106,7 +113,7 @@ class Decider {
     return false;
   }
 
-  std::vector<Candidate> views_of(const FrontierCluster& cluster, int rank) {
+  std::vector<Candidate> views_of(const FrontierCluster& cluster, int rank) const {
     const FvsConfig& fvs = model_.config.fvs;
     std::vector<Candidate> views;
     for (const ViewPose& view : sample_fvs(fvs, cluster.centroid_world_m, model_.pitches_rad)) {
@@ -144,7 +151,7 @@ class Decider {
   }
 
   /// In pieces, since neighbours often share their position and what is known of it.
-  void check_all(std::span<Candidate> candidates) {
+  void check_all(std::span<Candidate> candidates) const {
     constexpr std::size_t kPiece = 32;
     parallel_for_chunks(bench_.threads, candidates.size(), kPiece, [&](auto begin, auto end) {
       ViewChecker checker(validity_, model_.navigation_m, model_.no_fly, belief_.grid, recent_,
