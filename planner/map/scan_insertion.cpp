@@ -91,9 +91,9 @@ void ScanInserter::insert_scans(OccupancyGrid& grid, std::span<const LidarScan> 
       for (std::size_t u = 0; w == 0 && u < to_apply.size(); ++u) grid.apply(to_apply[u]);
       for (std::size_t s = next++; s < batch.size(); s = next++) {
         const LidarModel& lidar = lidars[static_cast<std::size_t>(batch[s].lidar)];
-        walked[s] = walkers_[w].compute_update(batch[s].T_world_lidar.translation().cast<float>(),
-                                               rays_of(batch[s], lidar, floor_z_m),
-                                               std::move(walked[s]));
+        walked[s] =
+            walkers_[w].compute_update(batch[s].T_world_lidar.translation().cast<float>(),
+                                       rays_of(batch[s], lidar, floor_z_m), std::move(walked[s]));
       }
     });
     std::swap(walked, updates);

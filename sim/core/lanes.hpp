@@ -19,7 +19,8 @@
 //                                   after the other; returns how many, but may write kLanes
 //   to_floats, as_floats, as_ints   converted; the same bits
 //   nearest, truncated, floored     to integers, ties to even; only what fits 32 bits
-//   widen, narrow, floor_of, min, select_less(a, b, yes, no)   between Floats and Doubles; of Doubles
+//   widen, narrow                   between Floats and Doubles
+//   floor_of, min, select_less(a, b, yes, no)   of Doubles
 //
 // Everything has internal linkage: no copy made for one processor can be linked into another's
 // code. For the same reason the sources in this dialect include nothing of ours but this, each

@@ -9,6 +9,7 @@
 #include "bench/reference/depth_rays.hpp"
 #include "bench/reference/octomap_twin.hpp"
 #include "tests/planner/map/random_points.hpp"
+#include "tests/support/at_simd_level.hpp"
 
 namespace gnbv {
 namespace {
@@ -46,7 +47,9 @@ std::vector<ScanRay> random_rays(Random& random, const Vec3f& origin_m, int coun
   return rays;
 }
 
-TEST(ScanInsertion, GridEqualsOctomapVoxelByVoxel) {
+class ScanInsertionAt : public AtSimdLevel {};
+
+TEST_P(ScanInsertionAt, GridEqualsOctomapVoxelByVoxel) {
   for (const double resolution_m : {0.2, 0.07, 0.05}) {
     OccupancyConfig config;
     config.resolution_m = resolution_m;
@@ -66,7 +69,7 @@ TEST(ScanInsertion, GridEqualsOctomapVoxelByVoxel) {
   }
 }
 
-TEST(ScanInsertion, RaysFromOutsideTheGridEqualOctomapVoxelByVoxel) {
+TEST_P(ScanInsertionAt, RaysFromOutsideTheGridEqualOctomapVoxelByVoxel) {
   OccupancyGrid grid(OccupancyConfig{}, kBox_m);
   FanWalker walker(grid.geometry());
   OctomapTwin twin(grid.config());
@@ -86,7 +89,23 @@ TEST(ScanInsertion, RaysFromOutsideTheGridEqualOctomapVoxelByVoxel) {
   expect_equal(grid, twin);
 }
 
-TEST(ScanInsertion, DepthFramesEqualOctomapVoxelByVoxel) {
+// where borders of two or three axes are crossed at once, OctoMap's order decides
+TEST_P(ScanInsertionAt, RaysAlongDiagonalsEqualOctomapVoxelByVoxel) {
+  OccupancyGrid grid(OccupancyConfig{}, Box3(Vec3(-1, -1, -1), Vec3(1.2, 1.2, 1.2)));
+  FanWalker walker(grid.geometry());
+  OctomapTwin twin(grid.config());
+  const Vec3f origin_m = Vec3f::Constant(0.1F);
+  std::vector<ScanRay> rays;
+  for (int direction = 0; direction < 27; ++direction) {
+    const Eigen::Vector3i towards(direction % 3 - 1, direction / 3 % 3 - 1, direction / 9 - 1);
+    rays.push_back({origin_m + 0.8F * towards.cast<float>(), false});
+  }
+  grid.apply(walker.compute_update(origin_m, rays));
+  twin.insert(origin_m, rays);
+  expect_equal(grid, twin);
+}
+
+TEST_P(ScanInsertionAt, DepthFramesEqualOctomapVoxelByVoxel) {
   CameraConfig camera_config;
   camera_config.width_px = 80;
   camera_config.height_px = 60;
@@ -164,7 +183,7 @@ TEST(ScanInsertion, UpdateIsTheSameWithUsedMemory) {
   EXPECT_EQ(again.occupied, one.occupied);
 }
 
-TEST(ScanInsertion, EachVoxelIsListedOnceAndOccupiedWins) {
+TEST_P(ScanInsertionAt, EachVoxelIsListedOnceAndOccupiedWins) {
   const GridGeometry grid(kBox_m, 0.2);
   Random random(37);
   const Vec3f origin_m(0.3F, -0.2F, 1.1F);
@@ -187,7 +206,7 @@ TEST(ScanInsertion, ARayThroughAnotherHitLeavesItOccupied) {
   EXPECT_EQ(update.free.size(), 8U);  // x keys 0 to 8 without 4, and without the end's 9
 }
 
-TEST(ScanInsertion, RaysThatLeaveTheGridSideBySideStopThere) {
+TEST_P(ScanInsertionAt, RaysThatLeaveTheGridSideBySideStopThere) {
   const GridGeometry grid(kBox_m, 0.2);
   const Vec3f origin_m(0.1F, 0.1F, 1.1F);
   const std::vector<ScanRay> rays(8, {Vec3f(0.1F, 0.1F, 50.0F), false});
@@ -196,6 +215,8 @@ TEST(ScanInsertion, RaysThatLeaveTheGridSideBySideStopThere) {
   for (std::int32_t z = 5; z < 10; ++z) expected.push_back(grid.index_of({0, 0, z}));
   EXPECT_EQ(update.free, expected);
 }
+
+GNBV_AT_EVERY_SIMD_LEVEL(ScanInsertionAt);
 
 TEST(ScanInsertion, NoRaysTouchNothing) {
   const ScanUpdate update = FanWalker(GridGeometry(kBox_m, 0.2)).compute_update(Vec3f::Zero(), {});
