@@ -35,23 +35,27 @@ void integrate_view(const PlannerModel& model, std::span<const DepthFrame> frame
   GNBV_CHECK(frames.size() <= bench.inserters.size(), "{} frames of {} cameras", frames.size(),
              bench.inserters.size());
   bench.frame_rays.resize(frames.size());
-  std::vector<ScanUpdate> updates(frames.size());
-  parallel_for(bench.threads, frames.size(), [&](std::size_t i) {
-    const CameraModel& camera = model.cameras[static_cast<std::size_t>(frames[i].camera)];
-    compute_frame_rays(frames[i], camera, model.config.floor_z_m, bench.frame_rays[i]);
-    updates[i] =
-        bench.inserters[i].compute_update(bench.frame_rays[i], frames[i], camera, bench.threads);
-  });
-  const auto update_map = [&] {
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-      belief.grid.apply(updates[i]);
-      if (model.needs_shadow) belief.shadow.add(bench.frame_rays[i], belief.grid);
-    }
+  const auto camera_of = [&](std::size_t i) -> const CameraModel& {
+    return model.cameras[static_cast<std::size_t>(frames[i].camera)];
   };
-  const auto update_cloud = [&] { belief.cloud.add(bench.frame_rays, model.config.cloud.leaf_m); };
-  parallel_for(bench.threads, 2, [&](std::size_t task) {  // neither reads the other
-    task == 0 ? update_map() : update_cloud();
+  parallel_for(bench.threads, frames.size(), [&](std::size_t i) {
+    compute_frame_rays(frames[i], camera_of(i), model.config.floor_z_m, bench.frame_rays[i]);
   });
+  // the cloud, which nothing here reads, grows beside the search for what the map has to learn
+  std::vector<ScanUpdate> updates(frames.size());
+  parallel_for(bench.threads, frames.size() + 1, [&](std::size_t task) {
+    if (task == 0) {
+      belief.cloud.add(bench.frame_rays, model.config.cloud.leaf_m);
+      return;
+    }
+    const std::size_t i = task - 1;
+    updates[i] = bench.inserters[i].compute_update(bench.frame_rays[i], frames[i], camera_of(i),
+                                                   bench.threads);
+  });
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    belief.grid.apply(updates[i]);
+    if (model.needs_shadow) belief.shadow.add(bench.frame_rays[i], belief.grid);
+  }
   const auto has_hit = [](const FrameRays& rays) {
     return std::find(rays.kind.begin(), rays.kind.end(), PixelRay::hits) != rays.kind.end();
   };
