@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "planner/map/frontiers.hpp"
 #include "planner/utility.hpp"
 #include "planner/view_validity.hpp"
 #include "sim/core/pose.hpp"
@@ -40,6 +41,7 @@ struct Plan {
   std::optional<Decision> next;
   std::optional<std::size_t> chosen;  // of the candidates
   std::vector<Candidate> candidates;
+  std::vector<FrontierCluster> clusters = {};  // FVS: those it may try, by Candidate::cluster
 };
 
 }  // namespace gnbv

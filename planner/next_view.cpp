@@ -93,9 +93,12 @@ class Decider {
   /// The first cluster that has a valid view, or all of them together.
   bool try_fvs() {
     const FvsConfig& fvs = model_.config.fvs;
-    const std::vector<FrontierCluster> clusters = clusters_to_try();
-    // mostly none has one, so that those next in line are looked at meanwhile
-    const auto at_once = static_cast<std::size_t>(std::max(bench_.threads, 1));
+    plan_.clusters = clusters_to_try();
+    const std::span<const FrontierCluster> clusters = plan_.clusters;
+    // mostly none has one, so that some next in line are looked at meanwhile
+    constexpr std::size_t kEach = 4;
+    const std::size_t at_once =
+        bench_.threads > 1 ? kEach * static_cast<std::size_t>(bench_.threads) : 1;
     std::vector<std::vector<Candidate>> views(clusters.size());
     std::vector<Candidate> pool;
     for (std::size_t rank = 0; rank < clusters.size(); ++rank) {

@@ -4,14 +4,10 @@
 
 #include "planner/belief.hpp"
 #include "planner/view/voxels_in_sight.hpp"
-#include "planner/view_sampling.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {
 namespace {
-
-/// A view is sampled around a centroid but for what float64 rounds.
-constexpr double kSameCentroid_m = 1e-6;
 
 PlannerModel model_of(const Scenario& scenario) {
   std::vector<LidarModel> lidars;
@@ -22,16 +18,14 @@ PlannerModel model_of(const Scenario& scenario) {
 
 void add_frontiers(const PlannerModel& model, const Belief& belief, const Plan& plan,
                    FrontierMarks& marks, BelievedVoxels& voxels) {
-  const FvsConfig& fvs = model.config.fvs;
-  const bool is_of_cluster = plan.chosen && plan.candidates[*plan.chosen].cluster >= 0;
   std::vector<VoxelIndex> all;
   for (const FrontierCluster& cluster :
-       find_frontiers(fvs.frontier, belief.grid, belief.cloud, marks)) {
+       find_frontiers(model.config.fvs.frontier, belief.grid, belief.cloud, marks)) {
     all.insert(all.end(), cluster.voxels.begin(), cluster.voxels.end());
-    if (is_of_cluster &&
-        looks_at(fvs, plan.next->view, cluster.centroid_world_m, kSameCentroid_m)) {
-      voxels.looked_at = runs_of(cluster.voxels);
-    }
+  }
+  const int chosen = plan.chosen ? plan.candidates[*plan.chosen].cluster : -1;
+  if (chosen >= 0) {
+    voxels.looked_at = runs_of(plan.clusters[static_cast<std::size_t>(chosen)].voxels);
   }
   std::sort(all.begin(), all.end());
   voxels.frontier = runs_of(all);

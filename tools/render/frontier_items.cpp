@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "tools/render/flight_items.hpp"
 #include "tools/render/voxel_items.hpp"
@@ -49,16 +51,18 @@ void add_layers(const Plan& plan, std::span<const FrontierCluster> clusters, dou
 
 }  // namespace
 
-void add_frontiers(const FrontierConfig& config, const ReplayedDecision& decision,
-                   const ViewPose& from, double unit_m, Panel& panel) {
+void add_frontiers(const FrontierConfig& config, const ReplayedDecision& decision, double unit_m,
+                   Panel& panel) {
   RenderScene& scene = panel.scene;
   const Belief& belief = decision.belief;
   FrontierMarks marks(belief.grid.geometry().voxel_count());
-  std::vector<FrontierCluster> clusters = find_frontiers(config, belief.grid, belief.cloud, marks);
-  std::stable_sort(clusters.begin(), clusters.end(), [&](const auto& a, const auto& b) {
-    return (a.centroid_world_m - from.p_world_m).squaredNorm() <
-           (b.centroid_world_m - from.p_world_m).squaredNorm();
-  });
+  // those that could be tried, by their numbers, then the others
+  std::vector<FrontierCluster> clusters = decision.plan.clusters;
+  std::set<VoxelIndex> numbered;
+  for (const FrontierCluster& cluster : clusters) numbered.insert(cluster.voxels.front());
+  for (FrontierCluster& cluster : find_frontiers(config, belief.grid, belief.cloud, marks)) {
+    if (!numbered.contains(cluster.voxels.front())) clusters.push_back(std::move(cluster));
+  }
   const int chosen =
       decision.plan.chosen ? decision.plan.candidates[*decision.plan.chosen].cluster : -1;
   int tried = -1;

@@ -14,7 +14,7 @@ extern const FrontierLook kFrontierLook;
 
 /// The clusters of density frontiers that an FVS decision looked at, numbered in the order in which
 /// they were tried; the chosen one's stands out. Rings join the views of a layer around them.
-void add_frontiers(const FrontierConfig& config, const ReplayedDecision& decision,
-                   const ViewPose& from, double unit_m, Panel& panel);
+void add_frontiers(const FrontierConfig& config, const ReplayedDecision& decision, double unit_m,
+                   Panel& panel);
 
 }  // namespace gnbv

@@ -228,8 +228,7 @@ Picture draw_candidates(RunSource& run, const PictureOptions& options, const Ren
     add_map(run, decision.belief.grid, panel == &near ? 1.0 : 0.94, panel->scene);
     add_candidates(decision.plan, all, unit_m, panel->scene);
     if (!is_fvs) continue;
-    add_frontiers(record.scenario.planner.fvs.frontier, decision,
-                  record.views[iteration - 1].decision.view, unit_m, *panel);
+    add_frontiers(record.scenario.planner.fvs.frontier, decision, unit_m, *panel);
   }
   add_way_to_chosen(record, iteration, layout_unit_m(view), far.scene);
   add_chosen_view(record, run.world(), decision.belief, iteration, layout_unit_m(from_near),

@@ -7,6 +7,7 @@
 #include "tests/support/temp_folder.hpp"
 #include "tests/tools/render/watched.hpp"
 #include "tools/render/chosen_view_item.hpp"
+#include "tools/render/frontier_items.hpp"
 #include "tools/render/picture.hpp"
 #include "tools/run_files/candidates_jsonl.hpp"
 
@@ -125,6 +126,26 @@ TEST(CandidatesPicture, TheLegendNamesFrontiersOnlyWhereAFrontierWasLookedAt) {
   };
   EXPECT_FALSE(names_frontiers("agvs"));
   EXPECT_TRUE(names_frontiers("fvs"));
+}
+
+TEST(FrontierItems, TheChosenClusterStandsOutInWhateverOrderTheyWereTried) {
+  const FrontierConfig& config = watched().flown.scenario.planner.fvs.frontier;
+  ReplayedDecision decision{.belief = watched().beliefs.back(), .plan = {}};
+  const Belief& belief = decision.belief;
+  FrontierMarks marks(belief.grid.geometry().voxel_count());
+  const auto found = find_frontiers(config, belief.grid, belief.cloud, marks);
+  ASSERT_GE(found.size(), 3U);
+  for (const std::size_t first : {std::size_t{0}, found.size() - 1}) {
+    decision.plan.clusters = {found[first], found[1]};  // the others may not be tried
+    decision.plan.candidates = {{.view = {}, .sampler = "fvs", .cluster = 0}};
+    decision.plan.chosen = 0;
+    Panel panel;
+    add_frontiers(config, decision, 0.1, panel);
+    EXPECT_EQ(panel.scene.surfaces.size(), found.size());
+    ASSERT_EQ(panel.scene.balls.size(), 1U);
+    EXPECT_EQ(panel.scene.balls[0].centre_m, found[first].centroid_world_m.cast<float>());
+    EXPECT_EQ(panel.scene.balls[0].colour, kFrontierLook.looked_at);
+  }
 }
 
 }  // namespace
