@@ -21,20 +21,35 @@ std::span<const ViewPose> ahead(std::span<const ViewPose> route, const History& 
   return at == route.end() ? std::span<const ViewPose>() : std::span(at + 1, route.end());
 }
 
+ValidityConfig with_ways_around(ValidityConfig validity) {
+  if (validity.path == PathCheck::straight) validity.path = PathCheck::astar;
+  return validity;
+}
+
 }  // namespace
+
+GivenViewChecker::GivenViewChecker(const PlannerModel& model, const Belief& belief,
+                                   std::span<const ViewPose> recent, const ViewPose& current)
+    : model_(model),
+      validity_(with_ways_around(model.config.validity)),
+      checker_(validity_, model.navigation_m, model.no_fly, belief.grid, recent, current) {}
+
+void GivenViewChecker::check(Candidate& candidate) {
+  checker_.check(candidate);
+  if (!model_.can_pitch(candidate.view.gimbal_pitch_rad)) {
+    candidate.rejected = Rejection::beyond_gimbal;
+  }
+}
 
 Plan first_flyable(const PlannerModel& model, const Belief& belief,
                    std::span<const ViewPose> recent, std::span<const ViewPose> views,
                    const ViewPose& current) {
-  ValidityConfig validity = model.config.validity;
-  if (validity.path == PathCheck::straight) validity.path = PathCheck::astar;
-  ViewChecker checker(validity, model.navigation_m, model.no_fly, belief.grid, recent, current);
+  GivenViewChecker checker(model, belief, recent, current);
   Plan plan;
   for (const ViewPose& view : views) {
     plan.candidates.push_back({.view = view, .sampler = kSampler});
     Candidate& candidate = plan.candidates.back();
     checker.check(candidate);
-    if (!model.can_pitch(view.gimbal_pitch_rad)) candidate.rejected = Rejection::beyond_gimbal;
     if (candidate.rejected) continue;
     plan.chosen = plan.candidates.size() - 1;
     plan.next = Decision{.view = view,

@@ -11,9 +11,24 @@ struct Belief;
 struct History;
 struct PlannerModel;
 
-/// The first of the views, in their order, that may be flown to; all before it are candidates with
-/// their reason of rejection. Those that are as good as one of `recent` are rejected, too. Whoever
-/// flies given views has nowhere else to go: what blocks the straight way is flown around.
+/// Whether views that are given may be flown to. Whoever flies them has nowhere else to go: what
+/// blocks the straight way is flown around. Those that are as good as one of `recent` are rejected.
+class GivenViewChecker {
+ public:
+  /// Everything referred to stays with the caller.
+  GivenViewChecker(const PlannerModel& model, const Belief& belief,
+                   std::span<const ViewPose> recent, const ViewPose& current);
+  /// As ViewChecker::check(), and whether the gimbal can.
+  void check(Candidate& candidate);
+
+ private:
+  const PlannerModel& model_;
+  const ValidityConfig validity_;
+  ViewChecker checker_;
+};
+
+/// The first of the views, in their order, that may be flown to (GivenViewChecker); all before it
+/// are candidates with their reason of rejection.
 Plan first_flyable(const PlannerModel& model, const Belief& belief,
                    std::span<const ViewPose> recent, std::span<const ViewPose> views,
                    const ViewPose& current);

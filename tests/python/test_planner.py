@@ -1,6 +1,7 @@
 """A planner of one's own, and what it can and cannot see."""
 
 import contextlib
+import csv
 import types
 from concurrent.futures import ThreadPoolExecutor
 
@@ -103,6 +104,32 @@ def test_a_belief_that_is_kept_answers_no_more_after_its_call(ends):
                     asked(grasped[0][0], grasped[0][1])
                 elif callable(asked):
                     asked()
+
+
+def test_what_validate_says_becomes_of_a_view(tmp_path):
+    random = np.random.default_rng(5)
+    said = []
+
+    def asks(belief, history):
+        if len(said) == 150:
+            return None
+        low, high = np.asarray(belief.navigation_m)
+        around = random.uniform(low - 0.3, high + 0.3, (20, 3))
+        rows = np.column_stack([around, random.uniform(-3, 3, 20), np.zeros(20)])
+        rows = np.vstack([rows, belief.current, belief.sample()])
+        rows[3, 4] = 0.2  # there is no gimbal
+        reasons, _ = belief.validate(rows)
+        pick = random.integers(len(rows))
+        said.append(reasons[pick])
+        return rows[pick]
+
+    run = gnbv.run(
+        "smoke", planner=asks, out=tmp_path / "r", set={"planner.termination.max_iterations": 80}
+    )
+    with open(run.folder / "views.csv", newline="") as file:
+        became = [row["reason"] for row in csv.DictReader(file)]
+    assert became == said
+    assert {"", "collision", "beyond_gimbal", "out_of_bounds"} <= set(said)
 
 
 def test_threads_of_a_planner_get_the_answers_of_one():

@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "planner/decision.hpp"
+#include "planner/follow_route.hpp"
 #include "planner/map/frontiers.hpp"
 #include "planner/map/path_search.hpp"
 #include "planner/view/view_fields.hpp"
 #include "planner/view_sampling.hpp"
-#include "planner/view_validity.hpp"
 #include "sim/core/parallel.hpp"
 
 namespace gnbv {
@@ -40,13 +40,8 @@ class Question {
 
 }  // namespace
 
-BeliefView::BeliefView(const Belief& belief, BeliefTools& tools, const ViewPose& current,
-                       std::vector<ViewPose> recent)
-    : belief_(&belief),
-      tools_(&tools),
-      current_(current),
-      recent_(std::move(recent)),
-      lease_(nb::capsule(this)) {}
+BeliefView::BeliefView(const Belief& belief, BeliefTools& tools, const ViewPose& current)
+    : belief_(&belief), tools_(&tools), current_(current), lease_(nb::capsule(this)) {}
 
 void BeliefView::end() {
   const std::lock_guard lock(tools().is_asked);
@@ -129,14 +124,12 @@ nb::object BeliefView::sample_frontiers() const {
 }
 
 nb::tuple BeliefView::validate(const ViewRows& rows) const {
-  const PlannerModel& model = tools().model;
-  const OccupancyGrid& grid = belief().grid;
+  const Belief& seen = belief();
   std::vector<Candidate> candidates;
   for (const ViewPose& view : views_of(rows)) candidates.push_back({.view = view, .sampler = {}});
   {
     const Question question(tools());
-    ViewChecker checker(model.config.validity, model.navigation_m, model.no_fly, grid, recent_,
-                        current_);
+    GivenViewChecker checker(tools().model, seen, {}, current_);
     for (Candidate& candidate : candidates) checker.check(candidate);
   }
   nb::list reasons;
@@ -175,9 +168,9 @@ nb::bytes BeliefView::evaluate(const ViewRows& rows) const {
 
 nb::object BeliefView::find_path(const Point& from_m, const Point& to_m) const {
   const ValidityConfig& validity = tools().model.config.validity;
-  const auto way_m =
-      gnbv::find_path(validity.path_search, belief().grid, tools().model.navigation_m, vec3(from_m),
-                      vec3(to_m), validity.collision_radius_m, tools().model.no_fly);
+  const auto way_m = gnbv::find_path(
+      validity.path_search, belief().grid, tools().model.navigation_m, vec3(from_m), vec3(to_m),
+      validity.collision_radius_m, tools().model.no_fly, validity.allow_unknown);
   if (!way_m) return nb::none();
   std::vector<double> rows;
   for (const Vec3& p_m : *way_m) rows.insert(rows.end(), p_m.begin(), p_m.end());

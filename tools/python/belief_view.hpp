@@ -27,8 +27,7 @@ struct BeliefTools {
 /// Its arrays share the belief's memory; who made them asks is_shared() before the belief changes.
 class BeliefView {
  public:
-  BeliefView(const Belief& belief, BeliefTools& tools, const ViewPose& current,
-             std::vector<ViewPose> recent);
+  BeliefView(const Belief& belief, BeliefTools& tools, const ViewPose& current);
   /// What was handed over is used no more; waits for what other threads still ask.
   void end();
 
@@ -51,7 +50,8 @@ class BeliefView {
 
   nb::object sample(double scale) const;
   nb::object sample_frontiers() const;
-  /// For each view the name of what forbids it, or "", and the length of the way there (m).
+  /// For each view the name of what forbids it, or "", and the length of the way there (m), as the
+  /// mission will find it: GivenViewChecker.
   nb::tuple validate(const ViewRows& rows) const;
   /// A ViewStats a row, with rays, as bytes.
   nb::bytes evaluate(const ViewRows& rows) const;
@@ -71,7 +71,6 @@ class BeliefView {
   const Belief* belief_;  // none after end()
   BeliefTools* tools_;
   ViewPose current_;
-  std::vector<ViewPose> recent_;
   nb::object lease_;  // what the shared arrays keep alive
 };
 

@@ -114,7 +114,7 @@ void EnvMission::fly(Scenario scenario) {
   permits_->take();
   try {
     const auto coverage_of = coverage_meter(stage_->reference, stage_->scene);
-    std::vector<ViewPose> taken;
+    std::size_t taken = 0;
     const auto observe = [&] {
       state_.seen = observer_->observe(*belief_, state_.pose, taken, with_candidates_);
     };
@@ -124,7 +124,7 @@ void EnvMission::fly(Scenario scenario) {
       state_.pose = view.decision.view;
       state_.flown_m = view.flown_m;
       state_.time_s = view.time_s;
-      taken.push_back(state_.pose);
+      ++taken;
     };
     hooks.on_view_belief = [&](const Belief& belief) {
       keep(belief);

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "planner/decision.hpp"
+#include "planner/follow_route.hpp"
 #include "planner/view_sampling.hpp"
-#include "planner/view_validity.hpp"
 
 namespace gnbv {
 namespace {
@@ -52,8 +52,8 @@ std::size_t EnvObserver::candidate_count() const {
 }
 
 EnvObservation EnvObserver::observe(const Belief& belief, const ViewPose& current,
-                                    std::span<const ViewPose> recent, bool with_candidates) {
-  if (recent.size() <= 1) first_entropy_nat_ = belief.grid.total_entropy_nat();
+                                    std::size_t views, bool with_candidates) {
+  if (views <= 1) first_entropy_nat_ = belief.grid.total_entropy_nat();
   EnvObservation out{.map = coarse_map(belief.grid), .views = {}, .mask = {}, .candidates = {}};
   const Box3& box_m = model_.navigation_m;
   const Vec3 at = (current.p_world_m - box_m.min()).cwiseQuotient(box_m.sizes());
@@ -63,14 +63,13 @@ EnvObservation EnvObserver::observe(const Belief& belief, const ViewPose& curren
   out.pose[3] = bounded(std::sin(current.yaw_rad));
   out.pose[4] = bounded(std::cos(current.yaw_rad));
   out.entropy_left = bounded(belief.grid.total_entropy_nat() / std::max(first_entropy_nat_, 1e-9));
-  if (with_candidates) add_candidates(belief, current, recent, out);
+  if (with_candidates) add_candidates(belief, current, out);
   return out;
 }
 
 void EnvObserver::add_candidates(const Belief& belief, const ViewPose& current,
-                                 std::span<const ViewPose> recent, EnvObservation& out) {
-  ViewChecker checker(model_.config.validity, model_.navigation_m, model_.no_fly, belief.grid,
-                      recent, current);
+                                 EnvObservation& out) {
+  GivenViewChecker checker(model_, belief, {}, current);
   const double most_voxels = std::log1p(model_.view_voxels);
   const double reach_m = model_.navigation_m.diagonal().norm();
   const auto share = [&](double count) { return bounded(std::log1p(count) / most_voxels); };

@@ -32,15 +32,15 @@ class EnvObserver {
   EnvObserver(const PlannerModel& model, std::vector<double> scales)
       : model_(model), scales_(std::move(scales)), bench_(model_, 1) {}
 
-  EnvObservation observe(const Belief& belief, const ViewPose& current,
-                         std::span<const ViewPose> recent, bool with_candidates);
+  /// `views` is how many were taken.
+  EnvObservation observe(const Belief& belief, const ViewPose& current, std::size_t views,
+                         bool with_candidates);
   /// How many candidates there always are.
   std::size_t candidate_count() const;
   const PlannerModel& model() const { return model_; }
 
  private:
-  void add_candidates(const Belief& belief, const ViewPose& current,
-                      std::span<const ViewPose> recent, EnvObservation& out);
+  void add_candidates(const Belief& belief, const ViewPose& current, EnvObservation& out);
 
   const PlannerModel model_;
   std::vector<double> scales_;

@@ -77,7 +77,7 @@ class AskedPlanner {
   std::optional<ViewPose> plan(const Belief& belief) {
     const nb::gil_scoped_acquire python_runs;
     if (raised_.error) return std::nullopt;
-    auto* const view = new BeliefView(belief, *tools_, current_, {});
+    auto* const view = new BeliefView(belief, *tools_, current_);
     const nb::object held = nb::cast(view, nb::rv_policy::take_ownership);
     const EndOfCall end(*view, has_kept_);
     try {

@@ -117,7 +117,10 @@ class Belief:
         return self._view.sample_frontiers()  # type: ignore[no-any-return]
 
     def validate(self, views: Views) -> tuple[npt.NDArray[np.str_], npt.NDArray[np.float64]]:
-        """For each view "" or the reason why nobody may fly there, and the way's length (m)."""
+        """For each view "" or why it would be refused as the next one, and the way's length (m).
+
+        What blocks the straight way is flown around, and a view may be taken again.
+        """
         reasons, path_m = self._view.validate(view_rows(views))
         return np.array(reasons, dtype="U24"), path_m
 
