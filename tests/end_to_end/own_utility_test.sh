@@ -42,3 +42,13 @@ expect 2 "GNBV_PYTHON names another" env GNBV_PYTHON=/nowhere "$gnbv" run smoke 
 [[ ! -e none ]] || fail "something was written before the utility was known to run"
 "$gnbv" compare smoke "${short[@]}" --utilities proposed,first/utility.py:other --seeds 1 --no-ceiling --out cells | grep -q other ||
   fail "compare does not name the function"
+
+# a function that never returns ends with the program that asks it, however that ends
+printf 'def endless(views):\n    import os\n    with open("pid.part", "w") as file:\n        file.write(str(os.getpid()))\n    os.rename("pid.part", "pid")\n    while True:\n        pass\n' >endless.py
+"$gnbv" run smoke "${short[@]}" --utility endless.py --out endless &
+asking=$!
+for _ in {1..600}; do [[ -e pid ]] && break; sleep 0.1; done
+asked=$(cat pid)
+kill -KILL "$asking"
+for _ in {1..100}; do kill -0 "$asked" 2>/dev/null || break; sleep 0.1; done
+if kill -KILL "$asked" 2>/dev/null; then fail "its Python goes on without it"; fi

@@ -1,6 +1,7 @@
 # Run by gnbv as `python3 -c`: scores candidate views by the user's function. Speaks on what was
 # stdin and stdout; what the function prints goes to stderr. tools/mission/own_utility.cpp is the
 # other side.
+import ctypes
 import json
 import os
 import signal
@@ -9,6 +10,8 @@ import sys
 import traceback
 
 signal.signal(signal.SIGINT, signal.SIG_IGN)  # the mission ends in order, and this with it
+PR_SET_PDEATHSIG = 1  # however it ends: a function may never return to see that nobody waits
+ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
 hear = os.fdopen(os.dup(0), "rb")
 tell = os.fdopen(os.dup(1), "wb")
 os.dup2(2, 1)
