@@ -18,6 +18,8 @@ class GivenViewChecker {
   /// Everything referred to stays with the caller.
   GivenViewChecker(const PlannerModel& model, const Belief& belief,
                    std::span<const ViewPose> recent, const ViewPose& current);
+  GivenViewChecker(const GivenViewChecker&) = delete;  // the checker refers to the rules beside it
+  GivenViewChecker& operator=(const GivenViewChecker&) = delete;
   /// As ViewChecker::check(), and whether the gimbal can.
   void check(Candidate& candidate);
 

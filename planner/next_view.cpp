@@ -95,18 +95,10 @@ class Decider {
     const FvsConfig& fvs = model_.config.fvs;
     plan_.clusters = clusters_to_try();
     const std::span<const FrontierCluster> clusters = plan_.clusters;
-    // mostly none has one, so that some next in line are looked at meanwhile
-    constexpr std::size_t kEach = 4;
-    const std::size_t at_once =
-        bench_.threads > 1 ? kEach * static_cast<std::size_t>(bench_.threads) : 1;
-    std::vector<std::vector<Candidate>> views(clusters.size());
+    std::vector<std::vector<Candidate>> views;
     std::vector<Candidate> pool;
     for (std::size_t rank = 0; rank < clusters.size(); ++rank) {
-      if (rank % at_once == 0) {
-        parallel_for(bench_.threads, std::min(at_once, clusters.size() - rank), [&](std::size_t i) {
-          views[rank + i] = views_of(clusters[rank + i], static_cast<int>(rank + i));
-        });
-      }
+      if (rank == views.size()) look_at_next(clusters, views);
       std::move(views[rank].begin(), views[rank].end(), std::back_inserter(pool));
       const bool is_last = rank + 1 == clusters.size();
       if (fvs.pool_clusters && !is_last) continue;
@@ -114,6 +106,20 @@ class Decider {
       pool.clear();
     }
     return false;
+  }
+
+  /// Appends the views of the next cluster, and, once the first ones had none that is valid, of
+  /// those after it: mostly there is none, and threads have nothing else to do.
+  void look_at_next(std::span<const FrontierCluster> clusters,
+                    std::vector<std::vector<Candidate>>& views) const {
+    constexpr std::size_t kMostEach = 4;
+    const auto threads = static_cast<std::size_t>(std::max(bench_.threads, 1));
+    const std::size_t begin = views.size();
+    const std::size_t most = threads == 1 ? 1 : kMostEach * threads;
+    views.resize(std::min({2 * begin + 1, begin + most, clusters.size()}));
+    parallel_for(bench_.threads, views.size() - begin, [&](std::size_t i) {
+      views[begin + i] = views_of(clusters[begin + i], static_cast<int>(begin + i));
+    });
   }
 
   std::vector<Candidate> views_of(const FrontierCluster& cluster, int rank) const {

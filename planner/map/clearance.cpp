@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/map/ray_walk.hpp"
+#include "sim/core/error.hpp"
 
 namespace gnbv {
 namespace {
@@ -64,17 +65,16 @@ Share both(const Share& a, const Share& b) {
   return {std::max(a.first, b.first), std::min(a.last, b.last)};
 }
 
-/// The same of the voxels whose centres lie within `reach_m` of a segment; of some others, too.
-/// Rows are cut to where the segment passes by.
+/// The same of the voxels within `margin_m` of the segment's box whose centres lie within `reach_m`
+/// of the segment; of some others there, too. Rows are cut to where the segment passes by.
 template <typename IsHit>
-bool any_occupied_along(const OccupancyGrid& grid, const Vec3& a_m, const Vec3& b_m, double reach_m,
-                        const IsHit& is_hit) {
+bool any_occupied_along(const OccupancyGrid& grid, const Vec3& a_m, const Vec3& b_m,
+                        double margin_m, double reach_m, const IsHit& is_hit) {
   const GridGeometry& geometry = grid.geometry();
-  const double resolution_m = geometry.resolution_m();
-  const double wide_m = reach_m + 1e-3 * resolution_m;  // more than anything here rounds
+  const double wide_m = reach_m + 1e-3 * geometry.resolution_m();  // more than anything here rounds
   Box3 span_m(a_m);
   span_m.extend(b_m);
-  const KeyRange keys = keys_near(geometry, span_m, wide_m);
+  const KeyRange keys = keys_near(geometry, span_m, margin_m);
   if (keys.is_empty()) return false;
   Key key;
   for (key[2] = keys.low[2]; key[2] <= keys.high[2]; ++key[2]) {
@@ -132,10 +132,12 @@ bool is_sphere_clear(const OccupancyGrid& grid, const Vec3& p_world_m, double ra
 
 bool is_path_clear(const OccupancyGrid& grid, const Vec3& from_world_m, const Vec3& to_world_m,
                    double radius_m) {
+  GNBV_CHECK(from_world_m.allFinite() && to_world_m.allFinite(), "a path to {} {} {}",
+             to_world_m.x(), to_world_m.y(), to_world_m.z());
   const double radius2 = radius_m * radius_m;
   // of a cube that comes within the radius the centre lies within that
   const double reach_m = radius_m + 0.5 * std::sqrt(3.0) * grid.geometry().resolution_m();
-  return !any_occupied_along(grid, from_world_m, to_world_m, reach_m, [&](const Box3& cube) {
+  const auto is_hit = [&](const Box3& cube) {
     const double to_center2 = squared_distance_to_segment(cube.center(), from_world_m, to_world_m);
     if (to_center2 > reach_m * reach_m) return false;
     const double nearest2 = box_to_segment_m2(cube, from_world_m, to_world_m);
@@ -143,7 +145,8 @@ bool is_path_clear(const OccupancyGrid& grid, const Vec3& from_world_m, const Ve
     constexpr double kRounding_m2 = 1e-9;
     return nearest2 < radius2 &&
            nearest2 < cube.squaredExteriorDistance(from_world_m) - kRounding_m2;
-  });
+  };
+  return !any_occupied_along(grid, from_world_m, to_world_m, radius_m, reach_m, is_hit);
 }
 
 bool is_line_free(const OccupancyGrid& grid, const Vec3& from_world_m, const Vec3& to_world_m) {

@@ -15,7 +15,8 @@ constexpr std::uint8_t kFanFrame = 2;
 constexpr std::size_t kFanBundle = 16;  // rays that are walked by one call
 
 /// A bundle of rays that have listed where they begin, in columns: RaySteps, and places as indices
-/// of the framed grid. A ray of negative length takes no step.
+/// of the framed grid. A ray of length -RaySteps::kNever
+/// comes through no place.
 struct FanRays {
   double t_next[3][kFanBundle], t_voxel[3][kFanBundle];
   double length_m[kFanBundle];

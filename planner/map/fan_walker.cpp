@@ -1,7 +1,6 @@
 #include "planner/map/fan_walker.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "sim/core/error.hpp"
 #include "sim/core/simd.hpp"
@@ -21,8 +20,7 @@ FanWalker::FanWalker(const GridGeometry& grid) : grid_(grid) {
   const Key& size = grid.size();
   const std::array<std::int64_t, 3> framed = {size[0] + 2, size[1] + 2, size[2] + 2};
   const std::array<std::int64_t, 3> stride = {1, framed[0], framed[0] * framed[1]};
-  const std::int64_t places = stride[2] * framed[2];
-  GNBV_CHECK(places < std::numeric_limits<Place>::max(), "{} places", places);
+  const std::int64_t places = stride[2] * framed[2];  // below 2^31: GridGeometry
   for (std::size_t a = 0; a < 3; ++a) {
     move_[a] = static_cast<Place>(stride[a]);
     first_ += move_[a];
@@ -75,6 +73,7 @@ void FanWalker::take(std::size_t first, std::vector<VoxelIndex>& voxels) {
 
 ScanUpdate FanWalker::compute_update(const Vec3f& origin_world_m, std::span<const ScanRay> rays,
                                      ScanUpdate update) {
+  // list() writes before it knows whether the place is new: one more than there are ends
   listed_.resize(std::max(listed_.size(), rays.size() + 1));
   for (const ScanRay& ray : rays) {
     if (!ray.hit) continue;
@@ -130,6 +129,7 @@ bool FanWalker::start_ray(const RayOrigin& origin, const Vec3f& end_m, std::size
 void FanWalker::walk(const RayOrigin& origin, std::span<const ScanRay> rays) {
   const auto resting = static_cast<Place>(marks_.size() - 1);
   while (!rays.empty()) {
+    // each ray lists its start and a place a step; those that go no further share the sensor's
     const std::size_t room = listed_count_ + (kFanBundle + 1) * steps_max_;
     if (listed_.size() < room) listed_.resize(2 * room);
     std::size_t count = 0;
@@ -137,9 +137,12 @@ void FanWalker::walk(const RayOrigin& origin, std::span<const ScanRay> rays) {
       if (start_ray(origin, rays.front().end_world_m, count)) ++count;
       rays = rays.subspan(1);
     }
-    for (std::size_t rest = count; rest < kFanBundle; ++rest) bundle_.length_m[rest] = -1.0;
+    for (std::size_t rest = count; rest < kFanBundle; ++rest) {
+      bundle_.length_m[rest] = -RaySteps::kNever;
+    }
     listed_count_ +=
         kernels().walk(bundle_, resting, marks_.data(), listed_.data() + listed_count_);
+    GNBV_CHECK(listed_count_ < listed_.size(), "{} places listed", listed_count_);
   }
 }
 

@@ -12,7 +12,7 @@
 namespace gnbv {
 namespace {
 
-constexpr std::size_t kScansPerBatch = 64;
+constexpr std::size_t kScansPerBatch = 32;  // and as many being applied
 
 /// Few pixels over many voxels are walked faster: a voxel costs as much as some 20 steps of a ray.
 bool is_faster_projected(const GridGeometry& grid, const CameraModel& camera) {

@@ -209,6 +209,20 @@ TEST(BeliefLog, HasThePredictedVoxelsThatRaysMeetFirst) {
   EXPECT_GT(counted.predicted_voxels, 0U);
 }
 
+TEST(BeliefLog, HasTheClusterThatTheDecisionSaysItLookedAt) {
+  const Scenario scenario = smoke();
+  const PlannerModel model(scenario.planner, scenario.workspace_m, camera_models(scenario), {});
+  const Belief belief(model);
+  Plan plan;
+  plan.next = Decision{.view = {Vec3(0, 0, 2), 0.5}};
+  plan.candidates = {{.view = plan.next->view, .sampler = "fvs", .cluster = 1}};
+  plan.chosen = 0;
+  plan.clusters = {{.voxels = {3, 4}}, {.voxels = {7, 9}}};  // in whatever order they were tried
+  FrontierMarks marks(belief.grid.geometry().voxel_count());
+  EXPECT_EQ(believed_voxels(model, belief, plan, marks).looked_at,
+            runs_of(plan.clusters[1].voxels));
+}
+
 TEST(BeliefLog, HasFrontiersWhereViewsWereSampledAroundThem) {
   const std::vector<std::string> stuck = {"planner.fvs.entropy_threshold_nat=1",
                                           "planner.fvs.entropy_window=1"};

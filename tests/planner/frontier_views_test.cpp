@@ -36,6 +36,23 @@ Belief wall_and_lone_frontier(const PlannerModel& model, const Vec3& lone_m,
   return belief;
 }
 
+/// Frontiers all around the current position: a closed box of them, all else free.
+Belief shell_of_frontiers(const PlannerModel& model) {
+  const auto in_shell = [](const Vec3& p_m) {
+    const double distance_m = (p_m - kCurrent.p_world_m).cwiseAbs().maxCoeff();
+    return distance_m > 2.9 && distance_m < 3.15;
+  };
+  Belief belief(model);
+  ScanUpdate update;
+  const GridGeometry& grid = belief.grid.geometry();
+  for (VoxelIndex v = 0; v < grid.voxel_count(); ++v) {
+    (in_shell(grid.center_m(grid.key_at(v))) ? update.occupied : update.free).push_back(v);
+  }
+  belief.grid.apply(update);
+  sample_thinly(belief);
+  return belief;
+}
+
 /// Where nothing but the frontiers' own views may be taken.
 PlannerModel model_with_fvs(const std::function<void(FvsConfig&)>& change) {
   return model_with([&](PlannerConfig& c) {
@@ -118,6 +135,43 @@ TEST(FrontierViews, PooledClustersCompeteAndOthersTakeTheirTurn) {
   }
 }
 
+TEST(FrontierViews, AreTheSameAtAnyNumberOfThreads) {
+  // of a shell of clusters the first has a view, or the second, or, for the widest vehicle, none
+  for (const double radius_m : {0.5, 2.0, 3.2}) {
+    for (const bool pooled : {false, true}) {
+      const PlannerModel model = model_with([&](PlannerConfig& c) {
+        c.validity.collision_radius_m = radius_m;
+        c.fvs.pool_clusters = pooled;
+        c.fvs.agvs_when_stuck = false;
+      });
+      const Belief belief = shell_of_frontiers(model);
+      const auto plan_with = [&](int threads) {
+        Workbench bench(model, threads);
+        return plan_next_view(model, belief, still_history(), kCurrent, bench);
+      };
+      const Plan one = plan_with(1);
+      if (radius_m > 3.0) {
+        ASSERT_EQ(one.candidates.size(), 50U * 12U);
+      }
+      for (std::size_t i = 0; i < one.candidates.size(); ++i) {
+        EXPECT_EQ(one.candidates[i].cluster, static_cast<int>(i / 12));  // each once, in order
+      }
+      for (const int threads : {2, 5}) {
+        const Plan many = plan_with(threads);
+        EXPECT_EQ(many.chosen, one.chosen);
+        EXPECT_EQ(many.clusters.size(), one.clusters.size());
+        ASSERT_EQ(many.candidates.size(), one.candidates.size());
+        for (std::size_t i = 0; i < one.candidates.size(); ++i) {
+          EXPECT_EQ(many.candidates[i].cluster, one.candidates[i].cluster);
+          EXPECT_EQ(many.candidates[i].rejected, one.candidates[i].rejected);
+          EXPECT_EQ(many.candidates[i].view.p_world_m, one.candidates[i].view.p_world_m);
+          EXPECT_EQ(many.candidates[i].score.value, one.candidates[i].score.value);
+        }
+      }
+    }
+  }
+}
+
 TEST(FrontierViews, LargestClustersFirstIsASwitch) {
   const auto looked_at_from = [](ClusterOrder order) {
     const PlannerModel model = model_with_fvs([&](FvsConfig& fvs) {
@@ -164,30 +218,15 @@ TEST(FrontierViews, FallsBackToTheGridWhenFvsFindsNothing) {
 }
 
 TEST(FrontierViews, LiteralClustersAreOneAndItsCentroidMayBeUnreachable) {
-  // frontiers all around the current position: cut, some cluster has a view; uncut, the centroid
-  // is in the middle of a closed box and every view around it is inside or beyond the wall
-  const auto in_shell = [](const Vec3& p_m) {
-    const double distance_m = (p_m - Vec3(0.1, 0.1, 4.1)).cwiseAbs().maxCoeff();
-    return distance_m > 2.9 && distance_m < 3.15;
-  };
-  const auto belief_of = [&](const PlannerModel& model) {
-    Belief belief(model);
-    ScanUpdate update;
-    const GridGeometry& grid = belief.grid.geometry();
-    for (VoxelIndex v = 0; v < grid.voxel_count(); ++v) {
-      (in_shell(grid.center_m(grid.key_at(v))) ? update.occupied : update.free).push_back(v);
-    }
-    belief.grid.apply(update);
-    sample_thinly(belief);
-    return belief;
-  };
+  // cut, some cluster has a view; uncut, the centroid is in the middle of a closed box and every
+  // view around it is inside or beyond the wall
   const PlannerModel cut = small_model();
   const PlannerModel uncut = model_with([](PlannerConfig& c) {
     c.fvs.frontier.max_extent_m = 0.0;
     c.fvs.agvs_when_stuck = false;
   });
-  EXPECT_TRUE(full_plan(cut, belief_of(cut), still_history()).next);
-  EXPECT_FALSE(full_plan(uncut, belief_of(uncut), still_history()).next);
+  EXPECT_TRUE(full_plan(cut, shell_of_frontiers(cut), still_history()).next);
+  EXPECT_FALSE(full_plan(uncut, shell_of_frontiers(uncut), still_history()).next);
 }
 
 /// Far from the wall, looking away from it: no view nearby sees any surface.

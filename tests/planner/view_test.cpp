@@ -2,6 +2,7 @@
 // scenes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -76,6 +77,85 @@ TEST(PathCheck, EqualsBruteForceOverSampledSpheres) {
   EXPECT_GT(compared, 200);
   EXPECT_GT(blocked, 50);  // the scene says both yes and no
   EXPECT_LT(blocked, compared - 20);
+}
+
+/// The same question of every voxel within the radius of the segment's box, without a shortcut.
+bool is_clear_of_each(const OccupancyGrid& grid, const std::set<VoxelIndex>& occupied,
+                      const Vec3& a_m, const Vec3& b_m, double radius_m) {
+  const GridGeometry& geometry = grid.geometry();
+  const Vec3 half_m = Vec3::Constant(0.5 * geometry.resolution_m());
+  return std::none_of(occupied.begin(), occupied.end(), [&](VoxelIndex v) {
+    const Key key = geometry.key_at(v);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto axis = static_cast<Eigen::Index>(i);
+      const auto [low_m, high_m] = std::minmax(a_m[axis], b_m[axis]);
+      if (key[i] < geometry.key_of(low_m - radius_m)) return false;
+      if (key[i] > geometry.key_of(high_m + radius_m)) return false;
+    }
+    const Box3 cube(geometry.center_m(key) - half_m, geometry.center_m(key) + half_m);
+    const double nearest_m2 = box_to_segment_m2(cube, a_m, b_m);
+    return nearest_m2 < radius_m * radius_m &&
+           nearest_m2 < cube.squaredExteriorDistance(a_m) - 1e-9;
+  });
+}
+
+// 1.5 m are seven and a half voxels: whether a cube beside the line is touched is for rounding to
+// say
+TEST(PathCheck, AnswersGrazesAsAskingEachVoxelDoes) {
+  const GridGeometry geometry = empty_grid().geometry();
+  for (std::int32_t y = -16; y < 16; ++y) {
+    for (const std::int32_t beside : {-8, 8}) {
+      const std::set<VoxelIndex> occupied = {geometry.index_of({0, y + beside, 10})};
+      OccupancyGrid grid = empty_grid();
+      grid.apply({.free = {}, .occupied = {*occupied.begin()}});
+      for (const std::int32_t z : {10, 2, 18}) {
+        const Vec3 a_m = geometry.center_m({-12, y, z});
+        const Vec3 b_m = geometry.center_m({12, y, z});
+        ASSERT_EQ(is_path_clear(grid, a_m, b_m, 1.5),
+                  is_clear_of_each(grid, occupied, a_m, b_m, 1.5))
+            << y << " " << beside << " " << z;
+      }
+    }
+  }
+}
+
+TEST(PathCheck, EqualsAskingEachVoxelOnTheLatticeToo) {
+  const OccupancyGrid probe = empty_grid();
+  int blocked = 0;
+  for (std::uint64_t trial = 0; trial < 3000; ++trial) {
+    std::uint64_t drawn = 0;
+    const auto next = [&] { return draw(10 + trial, drawn++); };
+    const double half_voxels = next() < 0.5 ? 1.0 : 2.0;  // centres and borders, or centres alone
+    const auto point = [&] {
+      Vec3 p_m(next() * 14 - 7, next() * 14 - 7, next() * 9 - 2);  // some outside
+      if (trial % 4 == 0) return p_m;
+      for (Eigen::Index a = 0; a < 3; ++a) {
+        p_m[a] = 0.1 * (half_voxels * std::floor(p_m[a] / (0.1 * half_voxels)) + 1.0);
+      }
+      return p_m;
+    };
+    const Vec3 a_m = point();
+    Vec3 b_m = point();
+    for (Eigen::Index a = 0; a < 3; ++a) {
+      if (next() < 0.4) b_m[a] = a_m[a];  // along an axis or a plane, or not at all
+    }
+    std::set<VoxelIndex> occupied;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 near_m =
+          a_m + next() * (b_m - a_m) + Vec3(next() * 4 - 2, next() * 4 - 2, next() * 4 - 2);
+      const Key key = probe.geometry().key_of(near_m);
+      if (probe.geometry().contains(key)) occupied.insert(probe.geometry().index_of(key));
+    }
+    OccupancyGrid grid = empty_grid();
+    grid.apply({.free = {}, .occupied = {occupied.begin(), occupied.end()}});
+    for (const double radius_m : {0.5, 0.8, 1.5}) {
+      const bool is_clear = is_clear_of_each(grid, occupied, a_m, b_m, radius_m);
+      blocked += is_clear ? 0 : 1;
+      ASSERT_EQ(is_path_clear(grid, a_m, b_m, radius_m), is_clear)
+          << trial << ": " << a_m.transpose() << " to " << b_m.transpose() << ", " << radius_m;
+    }
+  }
+  EXPECT_GT(blocked, 1000);
 }
 
 TEST(PathCheck, WhatIsTooCloseAlreadyMayBeLeftButNotApproached) {

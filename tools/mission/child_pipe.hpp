@@ -13,7 +13,8 @@ namespace gnbv {
 /// What runs Python: GNBV_PYTHON, or python3.
 std::string python_program();
 
-/// Its stdin and stdout are ours, its stderr is shared. It ends when this does: its stdin closes.
+/// Its stdin and stdout are ours, its stderr is shared. A child that reads ends when this does: its
+/// stdin closes.
 /// Nothing throws: after the child has ended, what is written is lost and what is read is zeros.
 class ChildPipe {
  public:

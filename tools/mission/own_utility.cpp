@@ -1,5 +1,7 @@
 #include "tools/mission/own_utility.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
@@ -53,8 +55,10 @@ class PythonUtility {
  public:
   explicit PythonUtility(const OwnUtilityConfig& config)
       : function_(config.function), child_({python_program(), "-c", std::string(child_script())}) {
-    const Json hello = {
-        {"function", config.function}, {"source", config.source}, {"dtype", dtype_of(config)}};
+    const Json hello = {{"function", config.function},
+                        {"source", config.source},
+                        {"dtype", dtype_of(config)},
+                        {"asker", ::getpid()}};
     child_.write(hello.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
     const std::string line = child_.read_line();
     const Json answer = Json::parse(line, nullptr, false);

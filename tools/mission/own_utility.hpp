@@ -24,7 +24,8 @@ struct NamedUtility {
 NamedUtility named_utility(const std::string& utility);
 
 /// Scores by the function: starts $GNBV_PYTHON, or python3, which needs NumPy. Throws BadInput when
-/// that fails or the source does not define the function. Nothing for utilities of the program.
+/// that fails or the source does not define the function. Nothing for utilities of the program. The
+/// function ends with the thread that starts it, so who asks is to be who started.
 OwnScores start_own_utility(const UtilityConfig& config);
 
 /// The same, started with the first question.

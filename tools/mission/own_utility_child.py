@@ -67,6 +67,8 @@ def load(hello):
 
 def main():
     hello = json.loads(hear.readline())
+    if os.getppid() == 1 != hello["asker"]:  # it has ended before it could be named above
+        return None
     dtype = numpy.dtype(hello["dtype"])
     try:
         function = load(hello)
