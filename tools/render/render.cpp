@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstring>
+#include <span>
 
 #include "sim/core/error.hpp"
 #include "tools/render/renderer_impl.hpp"
@@ -46,7 +47,11 @@ void Renderer::Impl::draw_screen(GLuint program) {
 }
 
 // What the key light sees.
-void Renderer::Impl::draw_shadows(const DrawLists& lists, const PixelBox& box) {
+void Renderer::Impl::draw_shadows(const DrawLists& lists, const FrameBlock& frame,
+                                  const PixelBox& box) {
+  const std::vector<DrawDot> casting =
+      dots_in_shadow_map(std::span(lists.dots).first(lists.casting_dots), frame, box);
+  upload_dots(casting);
   gl.BindFramebuffer(GL_FRAMEBUFFER, targets[kShadow]);
   gl.Viewport(0, 0, kShadowSide_px, kShadowSide_px);
   draw_only_in(box);
@@ -57,12 +62,12 @@ void Renderer::Impl::draw_shadows(const DrawLists& lists, const PixelBox& box) {
   gl.Clear(GL_DEPTH_BUFFER_BIT);
   draw_solids(solid_shadow, 0, lists.casting.size());
   draw_points(ball_shadow, balls, lists.casting_balls);
-  draw_points(ball_shadow, dots, lists.casting_dots);
+  draw_points(ball_shadow, dots, casting.size());
 }
 
 // The picture: solids and clouds, then ground, ghosts and translucent faces over them.
 void Renderer::Impl::draw_things(const RenderScene& scene, const RenderView& view,
-                                 const DrawLists& lists) {
+                                 const DrawLists& lists, std::size_t dots_to_draw) {
   gl.Enable(GL_FRAMEBUFFER_SRGB);
   gl.Clear(GL_DEPTH_BUFFER_BIT);
   gl.DepthMask(GL_FALSE);
@@ -73,7 +78,7 @@ void Renderer::Impl::draw_things(const RenderScene& scene, const RenderView& vie
   const std::size_t opaque = lists.casting.size() + lists.plain.size();
   draw_solids(solid, 0, opaque);
   draw_points(ball, balls, lists.balls.size());
-  draw_points(dot, dots, lists.dots.size());
+  draw_points(dot, dots, dots_to_draw);
   gl.Enable(GL_BLEND);
   gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   gl.DepthMask(GL_FALSE);
@@ -109,14 +114,14 @@ ChangedArea Renderer::Impl::area_to_draw(const RenderScene& scene, const RenderV
     last.reset();
     return all;
   }
-  std::optional<RememberedPicture> before{{frame, drawn_things(lists)}};
+  std::optional<RememberedPicture> before{{frame, lists}};
   std::swap(before, last);
   const bool is_same_view = before && std::memcmp(&before->frame, &frame, sizeof(frame)) == 0 &&
                             sizes_px[kFinal] == std::array{view.width_px, view.height_px};
   if (!is_same_view) return all;
   const auto lowest_m = static_cast<float>(scene.series_box_m->min().z());
-  return changed_area(before->things, last->things, frame, std::min(lowest_m, frame.ground.z()),
-                      view.width_px, view.height_px)
+  return changed_area(changed_things(before->lists, lists), frame,
+                      std::min(lowest_m, frame.ground.z()), view.width_px, view.height_px)
       .value_or(all);
 }
 
@@ -156,10 +161,12 @@ Image Renderer::Impl::render(const RenderScene& scene, const RenderView& view) {
   const PixelBox hollow_box = widened(box, hollow_reach_px(height), width, height);
   const PixelBox end_box = widened(hollow_box, 2, width, height);
   upload(lists, frame);
-  draw_shadows(lists, shadow_box);
+  draw_shadows(lists, frame, shadow_box);
   begin_target(kPicture, kSrgb, 2 * width, 2 * height);
   draw_only_in(box.isEmpty() ? box : PixelBox(2 * box.min(), (2 * box.max()).array() + 1));
-  draw_things(scene, view, lists);
+  const std::vector<DrawDot> seen = dots_in_picture(lists.dots, frame, box, width, height);
+  upload_dots(seen);
+  draw_things(scene, view, lists, seen.size());
   begin_target(kDistances, kFloat, width, height);
   draw_only_in(box);
   draw_screen(distance);

@@ -117,8 +117,13 @@ void Renderer::Impl::upload(const DrawLists& lists, const FrameBlock& frame) {
        lists.vertices.size() * sizeof(DrawVertex));
   fill(GL_ELEMENT_ARRAY_BUFFER, indices, all.data(), all.size() * sizeof(std::uint32_t));
   fill(GL_ARRAY_BUFFER, ball_data, lists.balls.data(), lists.balls.size() * sizeof(DrawBall));
-  fill(GL_ARRAY_BUFFER, dot_data, lists.dots.data(), lists.dots.size() * sizeof(DrawDot));
   fill(GL_UNIFORM_BUFFER, frame_data, &frame, sizeof(frame));
+}
+
+void Renderer::Impl::upload_dots(std::span<const DrawDot> dots_to_draw) {
+  gl.BindBuffer(GL_ARRAY_BUFFER, dot_data);
+  gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(dots_to_draw.size_bytes()),
+                dots_to_draw.data(), GL_STREAM_DRAW);
 }
 
 }  // namespace gnbv

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "tools/render/changed_area.hpp"
@@ -37,7 +38,7 @@ constexpr TextureFormat kDepth = {GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_U
 /// The last picture of a series.
 struct RememberedPicture {
   FrameBlock frame;
-  std::vector<DrawnThing> things;
+  DrawLists lists;
 };
 
 struct Renderer::Impl {
@@ -58,11 +59,13 @@ struct Renderer::Impl {
   void begin_target(RenderUnit unit, const TextureFormat& format, int width, int height);
   void draw_only_in(const PixelBox& box);
   void upload(const DrawLists& lists, const FrameBlock& frame);
+  void upload_dots(std::span<const DrawDot> dots_to_draw);
   void draw_solids(GLuint program, std::size_t first, std::size_t count);
   void draw_points(GLuint program, GLuint array, std::size_t count);
   void draw_screen(GLuint program);
-  void draw_shadows(const DrawLists& lists, const PixelBox& box);
-  void draw_things(const RenderScene& scene, const RenderView& view, const DrawLists& lists);
+  void draw_shadows(const DrawLists& lists, const FrameBlock& frame, const PixelBox& box);
+  void draw_things(const RenderScene& scene, const RenderView& view, const DrawLists& lists,
+                   std::size_t dots_to_draw);
   ChangedArea area_to_draw(const RenderScene& scene, const RenderView& view, const DrawLists& lists,
                            const FrameBlock& frame);
   Image read_picture(int width, int height);
