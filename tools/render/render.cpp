@@ -161,6 +161,7 @@ Image Renderer::Impl::render(const RenderScene& scene, const RenderView& view) {
   const PixelBox hollow_box = widened(box, hollow_reach_px(height), width, height);
   const PixelBox end_box = widened(hollow_box, 2, width, height);
   upload(lists, frame);
+  if (scene.paint) upload_paint(*scene.paint, view);
   draw_shadows(lists, frame, shadow_box);
   begin_target(kPicture, kSrgb, 2 * width, 2 * height);
   draw_only_in(box.isEmpty() ? box : PixelBox(2 * box.min(), (2 * box.max()).array() + 1));

@@ -120,6 +120,16 @@ void Renderer::Impl::upload(const DrawLists& lists, const FrameBlock& frame) {
   fill(GL_UNIFORM_BUFFER, frame_data, &frame, sizeof(frame));
 }
 
+void Renderer::Impl::upload_paint(const PaintItem& paint, const RenderView& view) {
+  GNBV_CHECK(paint.width_px == 2 * view.width_px && paint.height_px == 2 * view.height_px,
+             "paint of {} x {} px on a picture of {} x {}", paint.width_px, paint.height_px,
+             view.width_px, view.height_px);
+  make_texture(kPaint, kSrgb, paint.width_px, paint.height_px);
+  gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(kPaint));
+  gl.TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(kSrgb.internal), paint.width_px,
+                paint.height_px, 0, kSrgb.format, kSrgb.type, paint.rgba.data());
+}
+
 void Renderer::Impl::upload_dots(std::span<const DrawDot> dots_to_draw) {
   gl.BindBuffer(GL_ARRAY_BUFFER, dot_data);
   gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(dots_to_draw.size_bytes()),

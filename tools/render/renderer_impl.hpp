@@ -22,6 +22,7 @@ enum RenderUnit : std::size_t {
   kDepths,
   kDistances,
   kShade,
+  kPaint,  // never drawn to
   kFinal,
   kRenderUnits
 };
@@ -59,6 +60,7 @@ struct Renderer::Impl {
   void begin_target(RenderUnit unit, const TextureFormat& format, int width, int height);
   void draw_only_in(const PixelBox& box);
   void upload(const DrawLists& lists, const FrameBlock& frame);
+  void upload_paint(const PaintItem& paint, const RenderView& view);
   void upload_dots(std::span<const DrawDot> dots_to_draw);
   void draw_solids(GLuint program, std::size_t first, std::size_t count);
   void draw_points(GLuint program, GLuint array, std::size_t count);
