@@ -135,6 +135,8 @@ Eigen::AlignedBox2i in_pixels(const Box2f& share, int width_px, int height_px, i
   return widened({pixel(share.min()), pixel(share.max())}, more_px, width_px, height_px);
 }
 
+constexpr float kRounding_px = 2.0F;  // of where things land
+
 /// Of pixels that a dot is drawn to.
 struct Square {
   Eigen::Array2f middle_px;
@@ -147,7 +149,6 @@ std::vector<DrawDot> those_near(std::span<const DrawDot> dots, const Eigen::Alig
                                 const SquareOf& square_of) {
   std::vector<DrawDot> near;
   if (box_px.isEmpty()) return near;
-  constexpr float kRounding_px = 2.0F;
   const Eigen::Array2f low_px = box_px.min().cast<float>().array() - kRounding_px;
   const Eigen::Array2f high_px = box_px.max().cast<float>().array() + 1.0F + kRounding_px;
   for (const DrawDot& dot : dots) {
@@ -220,6 +221,39 @@ std::vector<DrawDot> dots_in_picture(std::span<const DrawDot> dots, const FrameB
         0.5F * std::max(1.5F, dot.radius_m * frame.to_fill.w() * frame.eye.w() / clip.w());
     return Square{size_px * (0.5F * clip.head<2>().array() / clip.w() + 0.5F), 0.5F * side_px};
   });
+}
+
+std::vector<std::optional<Eigen::Vector2f>> places_px(const std::vector<DrawVertex>& vertices,
+                                                      const FrameBlock& frame, int width_px,
+                                                      int height_px) {
+  const Eigen::Vector2f size_px(static_cast<float>(width_px), static_cast<float>(height_px));
+  std::vector<std::optional<Eigen::Vector2f>> places(vertices.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const auto at = on_screen(frame, vertices[i].p_world_m);
+    if (at) places[i] = at->cwiseProduct(size_px);
+  }
+  return places;
+}
+
+std::vector<std::uint32_t> triangles_in_picture(
+    const std::vector<std::optional<Eigen::Vector2f>>& places_px,
+    const std::vector<std::uint32_t>& indices, const Eigen::AlignedBox2i& box_px) {
+  if (box_px.isEmpty()) return {};
+  const Box2f near_px(box_px.min().cast<float>().array() - kRounding_px,
+                      box_px.max().cast<float>().array() + 1.0F + kRounding_px);
+  Indices near;
+  for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+    Box2f triangle;
+    bool is_known = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto& corner = places_px[indices[i + k]];
+      is_known = is_known && corner;
+      if (corner) triangle.extend(*corner);
+    }
+    if (is_known && !triangle.intersects(near_px)) continue;
+    for (std::size_t k = 0; k < 3; ++k) near.push_back(indices[i + k]);
+  }
+  return near;
 }
 
 std::vector<DrawDot> dots_in_shadow_map(std::span<const DrawDot> dots, const FrameBlock& frame,

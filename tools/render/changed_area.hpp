@@ -39,6 +39,15 @@ std::vector<DrawDot> dots_in_picture(std::span<const DrawDot> dots, const FrameB
 std::vector<DrawDot> dots_in_shadow_map(std::span<const DrawDot> dots, const FrameBlock& frame,
                                         const Eigen::AlignedBox2i& box_px);
 
+/// Where vertices land, in pixels of that picture; none behind the camera.
+std::vector<std::optional<Eigen::Vector2f>> places_px(const std::vector<DrawVertex>& vertices,
+                                                      const FrameBlock& frame, int width_px,
+                                                      int height_px);
+/// Those of the triangles that may reach into the box, in their order.
+std::vector<std::uint32_t> triangles_in_picture(
+    const std::vector<std::optional<Eigen::Vector2f>>& places_px,
+    const std::vector<std::uint32_t>& indices, const Eigen::AlignedBox2i& box_px);
+
 /// The box with so many pixels more on each side, but none outside the picture.
 Eigen::AlignedBox2i widened(const Eigen::AlignedBox2i& box_px, int by_px, int width_px,
                             int height_px);

@@ -24,6 +24,24 @@ PixelBox upside_down(PixelBox box, int height) {
   return box;
 }
 
+// Adds their triangles to the indices.
+ThingsToDraw things_to_draw(const DrawLists& lists, const FrameBlock& frame, const PixelBox& box,
+                            int width, int height, Indices& indices) {
+  ThingsToDraw seen{.first = indices.size(),
+                    .dots = dots_in_picture(lists.dots, frame, box, width, height)};
+  const auto places = places_px(lists.vertices, frame, width, height);
+  const auto add = [&](const Indices& list) {
+    const Indices near = triangles_in_picture(places, list, box);
+    indices.insert(indices.end(), near.begin(), near.end());
+    return near.size();
+  };
+  seen.opaque = add(lists.casting);
+  seen.opaque += add(lists.plain);
+  seen.ghost = add(lists.ghost);
+  seen.translucent = add(lists.translucent);
+  return seen;
+}
+
 }  // namespace
 
 // `first` and `count` are in indices.
@@ -67,7 +85,7 @@ void Renderer::Impl::draw_shadows(const DrawLists& lists, const FrameBlock& fram
 
 // The picture: solids and clouds, then ground, ghosts and translucent faces over them.
 void Renderer::Impl::draw_things(const RenderScene& scene, const RenderView& view,
-                                 const DrawLists& lists, std::size_t dots_to_draw) {
+                                 const DrawLists& lists, const ThingsToDraw& seen) {
   gl.Enable(GL_FRAMEBUFFER_SRGB);
   gl.Clear(GL_DEPTH_BUFFER_BIT);
   gl.DepthMask(GL_FALSE);
@@ -75,10 +93,9 @@ void Renderer::Impl::draw_things(const RenderScene& scene, const RenderView& vie
   draw_screen(background);
   gl.Enable(GL_DEPTH_TEST);
   gl.DepthMask(GL_TRUE);
-  const std::size_t opaque = lists.casting.size() + lists.plain.size();
-  draw_solids(solid, 0, opaque);
+  draw_solids(solid, seen.first, seen.opaque);
   draw_points(ball, balls, lists.balls.size());
-  draw_points(dot, dots, dots_to_draw);
+  draw_points(dot, dots, seen.dots.size());
   gl.Enable(GL_BLEND);
   gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   gl.DepthMask(GL_FALSE);
@@ -87,19 +104,20 @@ void Renderer::Impl::draw_things(const RenderScene& scene, const RenderView& vie
     gl.BindVertexArray(nothing);
     gl.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   }
+  const std::size_t ghosts = seen.first + seen.opaque;
   // the nearest layer of the ghosts: first where it is, then how it looks
   // ghosts lie a little farther away, so that dots on them show whole
   gl.Enable(GL_POLYGON_OFFSET_FILL);
   gl.PolygonOffset(4.0F, 4.0F);
   gl.DepthMask(GL_TRUE);
   gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-  draw_solids(solid, opaque, lists.ghost.size());
+  draw_solids(solid, ghosts, seen.ghost);
   gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   gl.DepthFunc(GL_LEQUAL);
-  draw_solids(solid, opaque, lists.ghost.size());
+  draw_solids(solid, ghosts, seen.ghost);
   gl.Disable(GL_POLYGON_OFFSET_FILL);
   gl.DepthMask(GL_FALSE);
-  draw_solids(solid, opaque + lists.ghost.size(), lists.translucent.size());
+  draw_solids(solid, ghosts + seen.ghost, seen.translucent);
   gl.Disable(GL_BLEND);
   gl.Disable(GL_FRAMEBUFFER_SRGB);
   gl.Disable(GL_DEPTH_TEST);
@@ -160,14 +178,15 @@ Image Renderer::Impl::render(const RenderScene& scene, const RenderView& view) {
   const auto [box, shadow_box] = area_to_draw(scene, view, lists, frame);
   const PixelBox hollow_box = widened(box, hollow_reach_px(height), width, height);
   const PixelBox end_box = widened(hollow_box, 2, width, height);
-  upload(lists, frame);
+  Indices indices_to_draw = lists.casting;  // all of them may throw shadows
+  const ThingsToDraw seen = things_to_draw(lists, frame, box, width, height, indices_to_draw);
+  upload(lists, indices_to_draw, frame);
   if (scene.paint) upload_paint(*scene.paint, view);
   draw_shadows(lists, frame, shadow_box);
   begin_target(kPicture, kSrgb, 2 * width, 2 * height);
   draw_only_in(box.isEmpty() ? box : PixelBox(2 * box.min(), (2 * box.max()).array() + 1));
-  const std::vector<DrawDot> seen = dots_in_picture(lists.dots, frame, box, width, height);
-  upload_dots(seen);
-  draw_things(scene, view, lists, seen.size());
+  upload_dots(seen.dots);
+  draw_things(scene, view, lists, seen);
   begin_target(kDistances, kFloat, width, height);
   draw_only_in(box);
   draw_screen(distance);

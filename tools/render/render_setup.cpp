@@ -103,15 +103,11 @@ void Renderer::Impl::draw_only_in(const PixelBox& box) {
   gl.Scissor(box.min().x(), box.min().y(), box.sizes().x() + 1, box.sizes().y() + 1);
 }
 
-void Renderer::Impl::upload(const DrawLists& lists, const FrameBlock& frame) {
+void Renderer::Impl::upload(const DrawLists& lists, const Indices& all, const FrameBlock& frame) {
   const auto fill = [&](GLenum target, GLuint name, const void* data, std::size_t bytes) {
     gl.BindBuffer(target, name);
     gl.BufferData(target, static_cast<GLsizeiptr>(bytes), data, GL_STREAM_DRAW);
   };
-  std::vector<std::uint32_t> all = lists.casting;
-  for (const auto* more : {&lists.plain, &lists.ghost, &lists.translucent}) {
-    all.insert(all.end(), more->begin(), more->end());
-  }
   gl.BindVertexArray(solids);  // the index buffer belongs to it
   fill(GL_ARRAY_BUFFER, vertices, lists.vertices.data(),
        lists.vertices.size() * sizeof(DrawVertex));
