@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <future>
+#include <iterator>
 #include <map>
 #include <memory>
 
@@ -46,23 +48,47 @@ class RenderCommand {
 
   /// Draws what can be drawn, and says what cannot. Throws BadInput when that is everything.
   void draw() {
-    for (const std::string& name : kinds_) {
+    const std::vector<std::string> order = drawing_order();
+    for (const std::string& name : order) {
       show(0.0, name);
       draw_kind(name);
       kinds_done_ += 1.0;
     }
     if (drawn_ == 0) throw BadInput(fmt::format("{}", fmt::join(reasons_, "\n")));
     for (const std::string& reason : reasons_) note(reason);
-    const bool has_any = std::any_of(cells_.begin(), cells_.end(), [](const DrawnPicture& drawn) {
-      return !drawn.image.rgb.empty();
-    });
-    if (!options_.sheet.empty() && has_any) {
-      const int columns = static_cast<int>(runs_.size());
-      written(options_.sheet, contact_sheet(sheet_cells(cells_, columns), columns));
-    }
+    if (!options_.sheet.empty()) write_sheet();
   }
 
  private:
+  /// As asked; of one run, what waits for its mission to be flown again comes last: the rest is
+  /// drawn meanwhile.
+  std::vector<std::string> drawing_order() {
+    std::vector<std::string> order = kinds_;
+    if (runs_.size() > 1 || order.size() == 1) return order;
+    std::stable_partition(order.begin(), order.end(),
+                          [](const std::string& name) { return !is_flown_again(name); });
+    runs_.front()->fly_ahead();
+    return order;
+  }
+
+  static bool is_flown_again(const std::string& kind) {
+    return kind == "profile" || kind == "voxels" || kind == "candidates";
+  }
+
+  void write_sheet() {
+    std::vector<DrawnPicture> cells;  // in the order asked for, however they were drawn
+    for (const std::string& name : kinds_) {
+      std::vector<DrawnPicture>& row = rows_[name];
+      std::move(row.begin(), row.end(), std::back_inserter(cells));
+    }
+    const bool has_any = std::any_of(cells.begin(), cells.end(), [](const DrawnPicture& drawn) {
+      return !drawn.image.rgb.empty();
+    });
+    if (!has_any) return;
+    const int columns = static_cast<int>(runs_.size());
+    written(options_.sheet, contact_sheet(sheet_cells(std::move(cells), columns), columns));
+  }
+
   /// One bar for all: every kind takes as much of it, and this much of the present one is done.
   void show(double share, const std::string& what) {
     progress_.show((kinds_done_ + share) / static_cast<double>(kinds_.size()), what);
@@ -112,7 +138,7 @@ class RenderCommand {
       const bool is_able = std::count(able.begin(), able.end(), run) > 0;
       if (is_able && tried(name, *run, draw_one)) ++drawn_;
       if (runs_.size() > 1) run->forget();
-      if (!options_.sheet.empty() && !is_series(name)) cells_.push_back(std::move(drawn));
+      if (!options_.sheet.empty() && !is_series(name)) rows_[name].push_back(std::move(drawn));
     }
   }
 
@@ -145,11 +171,19 @@ class RenderCommand {
         std::lround(options_.film_s * static_cast<double>(options_.images_per_s)));
     const std::vector<double> times_s = film_times_s(run.record(), images);
     const double speed = (times_s.back() - times_s.front()) / options_.film_s;
+    // what the next image shows is put together while this one is drawn
+    const auto begin = [&](std::size_t i) {
+      return std::async(std::launch::async, [&snapshots, speed, time_s = times_s[i]] {
+        return snapshots.picture_at(time_s, speed, snapshots.view_at(time_s));
+      });
+    };
+    std::future<Picture> next = begin(0);
     for (std::size_t i = 0; i < times_s.size(); ++i) {
       show(static_cast<double>(i) / static_cast<double>(times_s.size()),
            fmt::format("movie, image {}/{}", i + 1, times_s.size()));
-      const RenderView view = snapshots.view_at(times_s[i]);
-      movie.add(finished(snapshots.picture_at(times_s[i], speed, view), run, layout, view));
+      const Picture picture = next.get();
+      if (i + 1 < times_s.size()) next = begin(i + 1);
+      movie.add(finished(picture, run, layout, snapshots.view_at(times_s[i])));
     }
     movie.finish();
     fmt::print("{}\n", path.string());
@@ -199,7 +233,8 @@ class RenderCommand {
   std::size_t drawn_ = 0;
   std::vector<std::string> reasons_;  // why something was not
   Renderer renderer_;
-  std::vector<DrawnPicture> cells_;  // of the sheet: a run a column; empty where one was not drawn
+  // of the sheet, by kind: a run a column; empty where one was not drawn
+  std::map<std::string, std::vector<DrawnPicture>> rows_;
 };
 
 }  // namespace

@@ -170,7 +170,11 @@ std::string common_scenario(std::span<const RunGroup> groups) {
   const bool is_common = std::all_of(groups.begin(), groups.end(), [&](const RunGroup& group) {
     return group.runs.front()->figures->scenario == first;
   });
-  return is_common ? human_name(first) : "";
+  const std::string name = human_name(first);
+  const bool is_said = std::any_of(groups.begin(), groups.end(), [&](const RunGroup& group) {
+    return group.label.find(name) != std::string::npos;
+  });
+  return is_common && !is_said ? name : "";
 }
 
 /// `size` is an index of the curves' sizes; the paper has it when it is `papers_size`, too.

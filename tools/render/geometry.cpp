@@ -60,7 +60,7 @@ CornerTable corners_by_vertex(const TriangleMesh& mesh, const std::vector<std::u
   return table;
 }
 
-void add_surface(const SurfaceItem& item, DrawLists& out) {
+void add_surface(const SurfaceItem& item, bool has_paint, DrawLists& out) {
   const TriangleMesh& mesh = item.mesh;
   GNBV_CHECK(item.vertex_colours.empty() || item.vertex_colours.size() == mesh.vertices_m.size(),
              "{} colours for {} vertices", item.vertex_colours.size(), mesh.vertices_m.size());
@@ -77,7 +77,7 @@ void add_surface(const SurfaceItem& item, DrawLists& out) {
       const std::uint32_t v = mesh.faces[f][k];
       const auto colour =
           rgba(item.vertex_colours.empty() ? mesh.materials[material].rgb : item.vertex_colours[v],
-               item.opacity);
+               item.is_painted && has_paint ? kPainted : item.opacity);
       const bool is_bent = item.is_lit && last[v] != kNone &&
                            out.vertices[last[v]].n_world.dot(normals[f][k]) < 0.9999F;
       const bool is_new = last[v] == kNone || out.vertices[last[v]].rgba != colour || is_bent;
@@ -248,7 +248,9 @@ std::vector<std::array<Vec3f, 3>> corner_normals(const TriangleMesh& mesh, doubl
 
 DrawLists make_draw_lists(const RenderScene& scene) {
   DrawLists out;
-  for (const SurfaceItem& item : scene.surfaces) add_surface(item, out);
+  for (const SurfaceItem& item : scene.surfaces) {
+    add_surface(item, scene.paint.has_value(), out);
+  }
   for (const TubeItem& item : scene.tubes) add_tube(item, out);
   for (const FrustumItem& item : scene.frusta) add_frustum(item, out);
   for (const BallItem& item : scene.balls) {

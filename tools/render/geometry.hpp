@@ -10,6 +10,9 @@
 
 namespace gnbv {
 
+/// Instead of an opacity: opaque, and coloured by the scene's paint.
+constexpr float kPainted = 2.0F;
+
 struct DrawVertex {
   Vec3f p_world_m;
   Vec3f n_world;

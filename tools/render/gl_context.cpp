@@ -100,7 +100,7 @@ GLuint GlContext::make_program(std::initializer_list<const char*> vertex,
   if (block != GL_INVALID_INDEX) gl.UniformBlockBinding(program, block, 0);
   gl.UseProgram(program);
   GLint unit = 0;
-  for (const char* sampler : {"shadow_map", "picture", "depths", "distances", "shade"}) {
+  for (const char* sampler : {"shadow_map", "picture", "depths", "distances", "shade", "paint"}) {
     const GLint location = gl.GetUniformLocation(program, sampler);
     if (location >= 0) gl.Uniform1i(location, unit);
     ++unit;

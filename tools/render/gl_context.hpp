@@ -49,7 +49,7 @@ class GlContext {
 
   void make_current();
   /// A program whose shaders begin with kCommon of shaders.hpp and share its block `Frame`. Its
-  /// samplers shadow_map, picture, depths, distances and shade are texture units 0 to 4.
+  /// samplers shadow_map, picture, depths, distances, shade and paint are texture units 0 to 5.
   GLuint make_program(std::initializer_list<const char*> vertex,
                       std::initializer_list<const char*> fragment) const;
 

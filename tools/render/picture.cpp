@@ -1,6 +1,7 @@
 #include "tools/render/picture.hpp"
 
 #include "sim/core/error.hpp"
+#include "tools/render/paint.hpp"
 #include "tools/run_files/words.hpp"
 
 namespace gnbv {
@@ -75,6 +76,7 @@ void add_structure(RunSource& run, RenderScene& scene) {
   if (run.world().structure.faces.empty()) return;
   SurfaceItem surface;
   surface.mesh = run.world().structure;
+  surface.is_painted = true;
   scene.surfaces.push_back(std::move(surface));
   add_in_one_colour(run.world().obstacles, kObstacleColour, 1.0F, scene);
   TriangleMesh boxes;
@@ -83,6 +85,11 @@ void add_structure(RunSource& run, RenderScene& scene) {
   }
   constexpr float kNoFlyOpacity = 0.3F;
   add_in_one_colour(boxes, kNoFlyColour, kNoFlyOpacity, scene);
+}
+
+void paint_structure(RunSource& run, const RenderView& view, RenderScene& scene) {
+  const std::size_t faces = run.world().structure.faces.size();
+  if (faces > 0) scene.paint = paint_of_structure(run.scene(), faces, view, run.threads());
 }
 
 void add_ghost(RunSource& run, float opacity, RenderScene& scene) {

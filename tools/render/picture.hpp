@@ -91,6 +91,8 @@ void frame_structure(RunSource& run, std::vector<Vec3>& points_world_m);
 /// The structure's surface in its own colours, the obstacles in one, the no_fly boxes as ghosts,
 /// and the ground or the terrain if the scenario has one.
 void add_structure(RunSource& run, RenderScene& scene);
+/// Lays over it what the cameras see of it, which is more than the mesh's own colours.
+void paint_structure(RunSource& run, const RenderView& view, RenderScene& scene);
 /// Of what add_structure() puts around the structure.
 std::vector<LegendItem> legend_of_surroundings(RunSource& run);
 /// Structure and obstacles as pale ghosts, with the ground.

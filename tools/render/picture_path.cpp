@@ -33,6 +33,7 @@ Picture draw_path(RunSource& run, const PictureOptions& options, const RenderVie
   Picture picture{.panels = std::vector<Panel>(1), .detail = run_detail(record)};
   RenderScene& scene = picture.panels.front().scene;
   add_structure(run, scene);
+  paint_structure(run, view, scene);
   const FlightLook look{.unit_m = layout_unit_m(view), .has_profile = options.has_profile};
   add_flight(record, look, scene);
   add_views(record, record.views.size(), options.every, look, scene);

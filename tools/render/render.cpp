@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstring>
+#include <span>
 
 #include "sim/core/error.hpp"
 #include "tools/render/renderer_impl.hpp"
@@ -21,6 +22,24 @@ PixelBox upside_down(PixelBox box, int height) {
   box.min().y() = height - 1 - box.max().y();
   box.max().y() = height - 1 - low;
   return box;
+}
+
+// Adds their triangles to the indices.
+ThingsToDraw things_to_draw(const DrawLists& lists, const FrameBlock& frame, const PixelBox& box,
+                            int width, int height, Indices& indices) {
+  ThingsToDraw seen{.first = indices.size(),
+                    .dots = dots_in_picture(lists.dots, frame, box, width, height)};
+  const auto places = places_px(lists.vertices, frame, width, height);
+  const auto add = [&](const Indices& list) {
+    const Indices near = triangles_in_picture(places, list, box);
+    indices.insert(indices.end(), near.begin(), near.end());
+    return near.size();
+  };
+  seen.opaque = add(lists.casting);
+  seen.opaque += add(lists.plain);
+  seen.ghost = add(lists.ghost);
+  seen.translucent = add(lists.translucent);
+  return seen;
 }
 
 }  // namespace
@@ -46,7 +65,11 @@ void Renderer::Impl::draw_screen(GLuint program) {
 }
 
 // What the key light sees.
-void Renderer::Impl::draw_shadows(const DrawLists& lists, const PixelBox& box) {
+void Renderer::Impl::draw_shadows(const DrawLists& lists, const FrameBlock& frame,
+                                  const PixelBox& box) {
+  const std::vector<DrawDot> casting =
+      dots_in_shadow_map(std::span(lists.dots).first(lists.casting_dots), frame, box);
+  upload_dots(casting);
   gl.BindFramebuffer(GL_FRAMEBUFFER, targets[kShadow]);
   gl.Viewport(0, 0, kShadowSide_px, kShadowSide_px);
   draw_only_in(box);
@@ -57,12 +80,12 @@ void Renderer::Impl::draw_shadows(const DrawLists& lists, const PixelBox& box) {
   gl.Clear(GL_DEPTH_BUFFER_BIT);
   draw_solids(solid_shadow, 0, lists.casting.size());
   draw_points(ball_shadow, balls, lists.casting_balls);
-  draw_points(ball_shadow, dots, lists.casting_dots);
+  draw_points(ball_shadow, dots, casting.size());
 }
 
 // The picture: solids and clouds, then ground, ghosts and translucent faces over them.
 void Renderer::Impl::draw_things(const RenderScene& scene, const RenderView& view,
-                                 const DrawLists& lists) {
+                                 const DrawLists& lists, const ThingsToDraw& seen) {
   gl.Enable(GL_FRAMEBUFFER_SRGB);
   gl.Clear(GL_DEPTH_BUFFER_BIT);
   gl.DepthMask(GL_FALSE);
@@ -70,10 +93,9 @@ void Renderer::Impl::draw_things(const RenderScene& scene, const RenderView& vie
   draw_screen(background);
   gl.Enable(GL_DEPTH_TEST);
   gl.DepthMask(GL_TRUE);
-  const std::size_t opaque = lists.casting.size() + lists.plain.size();
-  draw_solids(solid, 0, opaque);
+  draw_solids(solid, seen.first, seen.opaque);
   draw_points(ball, balls, lists.balls.size());
-  draw_points(dot, dots, lists.dots.size());
+  draw_points(dot, dots, seen.dots.size());
   gl.Enable(GL_BLEND);
   gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   gl.DepthMask(GL_FALSE);
@@ -82,19 +104,20 @@ void Renderer::Impl::draw_things(const RenderScene& scene, const RenderView& vie
     gl.BindVertexArray(nothing);
     gl.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   }
+  const std::size_t ghosts = seen.first + seen.opaque;
   // the nearest layer of the ghosts: first where it is, then how it looks
   // ghosts lie a little farther away, so that dots on them show whole
   gl.Enable(GL_POLYGON_OFFSET_FILL);
   gl.PolygonOffset(4.0F, 4.0F);
   gl.DepthMask(GL_TRUE);
   gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-  draw_solids(solid, opaque, lists.ghost.size());
+  draw_solids(solid, ghosts, seen.ghost);
   gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   gl.DepthFunc(GL_LEQUAL);
-  draw_solids(solid, opaque, lists.ghost.size());
+  draw_solids(solid, ghosts, seen.ghost);
   gl.Disable(GL_POLYGON_OFFSET_FILL);
   gl.DepthMask(GL_FALSE);
-  draw_solids(solid, opaque + lists.ghost.size(), lists.translucent.size());
+  draw_solids(solid, ghosts + seen.ghost, seen.translucent);
   gl.Disable(GL_BLEND);
   gl.Disable(GL_FRAMEBUFFER_SRGB);
   gl.Disable(GL_DEPTH_TEST);
@@ -109,14 +132,14 @@ ChangedArea Renderer::Impl::area_to_draw(const RenderScene& scene, const RenderV
     last.reset();
     return all;
   }
-  std::optional<RememberedPicture> before{{frame, drawn_things(lists)}};
+  std::optional<RememberedPicture> before{{frame, lists}};
   std::swap(before, last);
   const bool is_same_view = before && std::memcmp(&before->frame, &frame, sizeof(frame)) == 0 &&
                             sizes_px[kFinal] == std::array{view.width_px, view.height_px};
   if (!is_same_view) return all;
   const auto lowest_m = static_cast<float>(scene.series_box_m->min().z());
-  return changed_area(before->things, last->things, frame, std::min(lowest_m, frame.ground.z()),
-                      view.width_px, view.height_px)
+  return changed_area(changed_things(before->lists, lists), frame,
+                      std::min(lowest_m, frame.ground.z()), view.width_px, view.height_px)
       .value_or(all);
 }
 
@@ -155,11 +178,15 @@ Image Renderer::Impl::render(const RenderScene& scene, const RenderView& view) {
   const auto [box, shadow_box] = area_to_draw(scene, view, lists, frame);
   const PixelBox hollow_box = widened(box, hollow_reach_px(height), width, height);
   const PixelBox end_box = widened(hollow_box, 2, width, height);
-  upload(lists, frame);
-  draw_shadows(lists, shadow_box);
+  Indices indices_to_draw = lists.casting;  // all of them may throw shadows
+  const ThingsToDraw seen = things_to_draw(lists, frame, box, width, height, indices_to_draw);
+  upload(lists, indices_to_draw, frame);
+  if (scene.paint) upload_paint(*scene.paint, view);
+  draw_shadows(lists, frame, shadow_box);
   begin_target(kPicture, kSrgb, 2 * width, 2 * height);
   draw_only_in(box.isEmpty() ? box : PixelBox(2 * box.min(), (2 * box.max()).array() + 1));
-  draw_things(scene, view, lists);
+  upload_dots(seen.dots);
+  draw_things(scene, view, lists, seen);
   begin_target(kDistances, kFloat, width, height);
   draw_only_in(box);
   draw_screen(distance);

@@ -103,22 +103,33 @@ void Renderer::Impl::draw_only_in(const PixelBox& box) {
   gl.Scissor(box.min().x(), box.min().y(), box.sizes().x() + 1, box.sizes().y() + 1);
 }
 
-void Renderer::Impl::upload(const DrawLists& lists, const FrameBlock& frame) {
+void Renderer::Impl::upload(const DrawLists& lists, const Indices& all, const FrameBlock& frame) {
   const auto fill = [&](GLenum target, GLuint name, const void* data, std::size_t bytes) {
     gl.BindBuffer(target, name);
     gl.BufferData(target, static_cast<GLsizeiptr>(bytes), data, GL_STREAM_DRAW);
   };
-  std::vector<std::uint32_t> all = lists.casting;
-  for (const auto* more : {&lists.plain, &lists.ghost, &lists.translucent}) {
-    all.insert(all.end(), more->begin(), more->end());
-  }
   gl.BindVertexArray(solids);  // the index buffer belongs to it
   fill(GL_ARRAY_BUFFER, vertices, lists.vertices.data(),
        lists.vertices.size() * sizeof(DrawVertex));
   fill(GL_ELEMENT_ARRAY_BUFFER, indices, all.data(), all.size() * sizeof(std::uint32_t));
   fill(GL_ARRAY_BUFFER, ball_data, lists.balls.data(), lists.balls.size() * sizeof(DrawBall));
-  fill(GL_ARRAY_BUFFER, dot_data, lists.dots.data(), lists.dots.size() * sizeof(DrawDot));
   fill(GL_UNIFORM_BUFFER, frame_data, &frame, sizeof(frame));
+}
+
+void Renderer::Impl::upload_paint(const PaintItem& paint, const RenderView& view) {
+  GNBV_CHECK(paint.width_px == 2 * view.width_px && paint.height_px == 2 * view.height_px,
+             "paint of {} x {} px on a picture of {} x {}", paint.width_px, paint.height_px,
+             view.width_px, view.height_px);
+  make_texture(kPaint, kSrgb, paint.width_px, paint.height_px);
+  gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(kPaint));
+  gl.TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(kSrgb.internal), paint.width_px,
+                paint.height_px, 0, kSrgb.format, kSrgb.type, paint.rgba.data());
+}
+
+void Renderer::Impl::upload_dots(std::span<const DrawDot> dots_to_draw) {
+  gl.BindBuffer(GL_ARRAY_BUFFER, dot_data);
+  gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(dots_to_draw.size_bytes()),
+                dots_to_draw.data(), GL_STREAM_DRAW);
 }
 
 }  // namespace gnbv

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "tools/render/changed_area.hpp"
@@ -21,6 +22,7 @@ enum RenderUnit : std::size_t {
   kDepths,
   kDistances,
   kShade,
+  kPaint,  // never drawn to
   kFinal,
   kRenderUnits
 };
@@ -37,7 +39,17 @@ constexpr TextureFormat kDepth = {GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_U
 /// The last picture of a series.
 struct RememberedPicture {
   FrameBlock frame;
-  std::vector<DrawnThing> things;
+  DrawLists lists;
+};
+
+using Indices = std::vector<std::uint32_t>;
+
+/// What reaches into the part of a picture that is drawn; triangles in their order in the buffer,
+/// behind those that throw shadows.
+struct ThingsToDraw {
+  std::size_t first = 0;
+  std::size_t opaque = 0, ghost = 0, translucent = 0;  // indices
+  std::vector<DrawDot> dots;
 };
 
 struct Renderer::Impl {
@@ -57,12 +69,15 @@ struct Renderer::Impl {
   void make_texture(RenderUnit unit, const TextureFormat& format, int width, int height);
   void begin_target(RenderUnit unit, const TextureFormat& format, int width, int height);
   void draw_only_in(const PixelBox& box);
-  void upload(const DrawLists& lists, const FrameBlock& frame);
+  void upload(const DrawLists& lists, const Indices& all, const FrameBlock& frame);
+  void upload_paint(const PaintItem& paint, const RenderView& view);
+  void upload_dots(std::span<const DrawDot> dots_to_draw);
   void draw_solids(GLuint program, std::size_t first, std::size_t count);
   void draw_points(GLuint program, GLuint array, std::size_t count);
   void draw_screen(GLuint program);
-  void draw_shadows(const DrawLists& lists, const PixelBox& box);
-  void draw_things(const RenderScene& scene, const RenderView& view, const DrawLists& lists);
+  void draw_shadows(const DrawLists& lists, const FrameBlock& frame, const PixelBox& box);
+  void draw_things(const RenderScene& scene, const RenderView& view, const DrawLists& lists,
+                   const ThingsToDraw& seen);
   ChangedArea area_to_draw(const RenderScene& scene, const RenderView& view, const DrawLists& lists,
                            const FrameBlock& frame);
   Image read_picture(int width, int height);

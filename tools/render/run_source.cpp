@@ -23,6 +23,25 @@ std::string why_no_profile(const RunRecord& record) {
       command_to_fly_again(record.folder, "--set planner.profiling.method=bounding_box"));
 }
 
+/// One flight for all of that, with the candidates that the run kept. Where those of a decision
+/// cannot be had, throws only when somebody waits for it.
+Replayed flown_again(const RecordedMission& mission, const std::filesystem::path& folder,
+                     ReplayRequest request, bool is_for_decision) {
+  std::optional<Plan> plan;
+  if (request.decision) {
+    try {
+      plan = read_candidates(folder, *request.decision);
+    } catch (const BadInput&) {
+      if (is_for_decision) throw;
+      request.decision.reset();  // who asks for it will be told
+    }
+  }
+  request.plans = !plan;
+  Replayed again = replay(mission, request);
+  if (plan) again.decision->plan = std::move(*plan);
+  return again;
+}
+
 }  // namespace
 
 RunSource::RunSource(const std::filesystem::path& folder, int threads, SourceProgress on_progress)
@@ -66,49 +85,68 @@ const SurfaceReference& RunSource::reference() {
   return *reference_;
 }
 
-RecordedMission RunSource::mission(const std::string& note) {
+RecordedMission RunSource::mission() {
   need_same_inputs(record_.folder, run_inputs(record_.scenario, world()),
                    "the mission cannot be flown again; put it back");
   return {.scenario = record_.scenario,
           .world = world(),
           .scene = scene(),
           .views = record_.views,
-          .threads = threads_,
-          .on_progress = [this, note](double share) { on_progress_(share, note); }};
+          .threads = threads_};
 }
 
 void RunSource::expect_profile() { expects_profile_ = true; }
 void RunSource::expect_belief_after(std::size_t iteration) { expected_belief_ = iteration; }
 void RunSource::expect_decision(std::size_t iteration) { expected_decision_ = iteration; }
 
-void RunSource::fly_again(bool is_for_decision) {
-  const bool lacks_belief = expected_belief_ && !(belief_ && belief_->first == *expected_belief_);
-  bool lacks_decision =
-      expected_decision_ && !(decision_ && decision_->first == *expected_decision_);
-  std::optional<Plan> plan;
-  if (lacks_decision) {
-    try {
-      plan = read_candidates(record_.folder, *expected_decision_);
-    } catch (const BadInput&) {
-      if (is_for_decision) throw;
-      lacks_decision = false;  // who asks for it will be told
-    }
-  }
+ReplayRequest RunSource::lacking() const {
   ReplayRequest request{.waypoints = {1, 3}, .has_profile = expects_profile_ && !profile_};
-  if (lacks_belief) request.belief = expected_belief_;
-  if (lacks_decision) request.decision = expected_decision_;
-  request.plans = !plan;
-  Replayed again = replay(mission("flying again"), request);
+  if (!belief_ || expected_belief_ != belief_->first) request.belief = expected_belief_;
+  if (!decision_ || expected_decision_ != decision_->first) request.decision = expected_decision_;
+  return request;
+}
+
+void RunSource::keep(const ReplayRequest& request, Replayed again) {
   if (request.has_profile) profile_ = std::move(again.profile);
-  if (lacks_belief) {
+  if (again.belief) {
     belief_.reset();
-    belief_.emplace(*expected_belief_, std::move(*again.belief));
+    belief_.emplace(*request.belief, std::move(*again.belief));
   }
-  if (lacks_decision) {
-    if (plan) again.decision->plan = std::move(*plan);
+  if (again.decision) {
     decision_.reset();
-    decision_.emplace(*expected_decision_, std::move(*again.decision));
+    decision_.emplace(*request.decision, std::move(*again.decision));
   }
+}
+
+void RunSource::fly_ahead() {
+  land();
+  const ReplayRequest request = lacking();
+  if (!request.has_profile && !request.belief && !request.decision) return;
+  try {
+    asked_ahead_ = request;
+    ahead_ = std::async(std::launch::async, [again = mission(), request, this] {
+      return flown_again(again, record_.folder, request, false);
+    });
+  } catch (const BadInput&) {  // who asks for it will be told
+  }
+}
+
+void RunSource::land() {
+  if (!ahead_.valid()) return;
+  on_progress_(0.0, "flying again");
+  try {
+    keep(asked_ahead_, ahead_.get());
+  } catch (const BadInput&) {  // who asks for it will be told
+  }
+}
+
+void RunSource::fly_again(bool is_for_decision) {
+  land();
+  const ReplayRequest request = lacking();
+  if (!request.has_profile && !request.belief && !request.decision) return;
+  RecordedMission again = mission();
+  again.on_progress = [this](double share) { on_progress_(share, "flying again"); };
+  keep(request, flown_again(again, record_.folder, request, is_for_decision));
 }
 
 void RunSource::fly_again_for_profile() {
@@ -144,6 +182,7 @@ const ReplayedDecision& RunSource::decision(std::size_t iteration) {
 }
 
 void RunSource::forget() {
+  land();
   scene_.reset();
   cloud_.reset();
   plans_.reset();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <future>
 #include <optional>
 
 #include "bench/score/surface_reference.hpp"
@@ -20,6 +21,8 @@ class RunSource {
   RunSource(const std::filesystem::path& folder, int threads, SourceProgress on_progress);
   /// A record from elsewhere, with its structure.
   RunSource(RunRecord record, World world);
+  RunSource(const RunSource&) = delete;  // a flight ahead holds on to it
+  RunSource& operator=(const RunSource&) = delete;
 
   const RunRecord& record() const { return record_; }
   int threads() const { return threads_; }
@@ -51,9 +54,14 @@ class RunSource {
   void expect_profile();
   void expect_belief_after(std::size_t iteration);
   void expect_decision(std::size_t iteration);
+  /// Begins that flight now, beside whatever else is drawn; who asks for its results waits for it.
+  void fly_ahead();
 
  private:
-  RecordedMission mission(const std::string& note);
+  RecordedMission mission();
+  ReplayRequest lacking() const;
+  void keep(const ReplayRequest& request, Replayed again);
+  void land();                           // waits for the flight ahead
   void fly_again(bool is_for_decision);  // for all that is expected and not there
   void fly_again_for_profile();          // with the rest, or alone when that cannot be had
 
@@ -71,6 +79,8 @@ class RunSource {
   // of belief and decision only the one last asked for: maps may be large
   std::optional<std::pair<std::size_t, Belief>> belief_;
   std::optional<std::pair<std::size_t, ReplayedDecision>> decision_;
+  ReplayRequest asked_ahead_;
+  std::future<Replayed> ahead_;  // last: ends before what it reads
 };
 
 }  // namespace gnbv

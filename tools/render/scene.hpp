@@ -19,8 +19,10 @@ struct SurfaceItem {
   TriangleMesh mesh;
   std::vector<Rgb> vertex_colours;       // (n) as mesh.vertices_m; empty = colours of the materials
   double crease_rad = deg_to_rad(35.0);  // 0: every face is flat
-  float opacity = 1.0F;      // under 1: a ghost, of which only the nearest layer is drawn
-  bool is_lit = true;        // else its colours are what is seen: they carry light already
+  float opacity = 1.0F;  // under 1: a ghost, of which only the nearest layer is drawn
+  bool is_lit = true;    // else its colours are what is seen: they carry light already
+  bool is_painted =
+      false;  // opaque: its colours are those of the scene's paint, where there is any
   bool casts_shadow = true;  // terrain casts none: its size says nothing of the scene's
 };
 
@@ -67,6 +69,15 @@ struct GroundItem {
   double major_m = 5.0;
 };
 
+/// Colours of what a view looks at, of the size at which a picture of that view is drawn: 2 x 2 for
+/// each of its pixels.
+struct PaintItem {
+  int width_px = 0;
+  int height_px = 0;
+  std::vector<std::uint8_t> rgba =
+      {};  // (height, width, 4), sRGB, rows from the bottom; 0 0 0 0: none
+};
+
 struct RenderScene {
   std::vector<SurfaceItem> surfaces;
   std::vector<TubeItem> tubes;
@@ -74,6 +85,7 @@ struct RenderScene {
   std::vector<DotsItem> dots;
   std::vector<FrustumItem> frusta;
   std::optional<GroundItem> ground;
+  std::optional<PaintItem> paint;
   /// One of a series that shows no more than what lies in this box, as a film: light, haze and
   /// shadows stay the same throughout, and a renderer draws again only what has changed.
   std::optional<Box3> series_box_m = {};

@@ -86,16 +86,22 @@ inline constexpr const char* kSolidFragment = R"(
 in vec3 p_world;
 in vec3 n_world;
 in vec4 colour;
+uniform sampler2D paint;
 out vec4 pixel;
 void main() {
   if (dot(n_world, n_world) < 0.25) {  // no normal: not lit
     pixel = colour;
     return;
   }
+  vec3 base = colour.rgb;
+  if (colour.a > 1.5) {  // kPainted
+    vec4 painted = texelFetch(paint, ivec2(gl_FragCoord.xy), 0);
+    if (painted.a > 0.0) base = painted.rgb;
+  }
   vec3 n = normalize(n_world);
   // both sides are lit alike: users' meshes are not always oriented
   if (!gl_FrontFacing) n = -n;
-  pixel = vec4(lit(colour.rgb, n, p_world, 0.10), colour.a);
+  pixel = vec4(lit(base, n, p_world, 0.10), colour.a);
 }
 )";
 

@@ -152,8 +152,15 @@ RunCloud read_run_cloud(const RunRecord& record) {
 
 std::string run_title(const RunRecord& record) {
   const PlannerConfig& planner = record.scenario.planner;
-  const std::string title =
-      fmt::format("{}, {}", human_name(record.scenario.name), human_name(planner.utility.name));
+  const StructureConfig& structure = record.scenario.structure;
+  // a scenario's name says little of the mesh that --mesh put in its structure's place
+  const std::string mesh =
+      is_builtin(structure)
+          ? ""
+          : fmt::format(" ({})",
+                        std::filesystem::path(structure_name(structure)).filename().string());
+  const std::string title = fmt::format("{}{}, {}", human_name(record.scenario.name), mesh,
+                                        human_name(planner.utility.name));
   return planner.preset == PlannerConfig{}.preset ? title : title + ", " + planner.preset;
 }
 

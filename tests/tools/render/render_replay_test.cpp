@@ -188,5 +188,28 @@ TEST(Replay, OneFlightBringsBackWhatThreeDid) {
   }
 }
 
+TEST(Replay, FlightAheadBringsBackWhatOneThatIsWaitedForDoes) {
+  RunSource run = source();
+  run.expect_profile();
+  run.expect_belief_after(kAsked + 1);
+  run.fly_ahead();
+  run.fly_ahead();  // once more changes nothing
+  EXPECT_TRUE(same_belief(run.belief_after(kAsked + 1), watched().beliefs[kAsked + 1]));
+  EXPECT_TRUE(same_belief(run.belief_after(kAsked), watched().beliefs[kAsked]));  // not expected
+  EXPECT_EQ(
+      run.profile().back().points_world_m,
+      replay_profile(watched().recorded(), std::vector<std::size_t>{1}).back().points_world_m);
+}
+
+TEST(Replay, FlightAheadThatFailsIsToldToWhoAsks) {
+  std::vector<ViewRecord> views = watched().flown.result.views;
+  ++views[1].cloud_points;
+  const Flown& flown = watched().flown;
+  RunSource run(RunRecord{.folder = {}, .scenario = flown.scenario, .views = views}, flown.world);
+  run.expect_belief_after(kAsked);
+  EXPECT_NO_THROW(run.fly_ahead());
+  EXPECT_THROW(run.belief_after(kAsked), BadInput);
+}
+
 }  // namespace
 }  // namespace gnbv

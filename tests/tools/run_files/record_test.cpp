@@ -130,6 +130,8 @@ TEST_F(Record, TheTitleNamesAnUnusualReadingOfThePaper) {
   EXPECT_EQ(run_title(record), "Smoke, Proposed");
   record.scenario.planner.preset = "released";
   EXPECT_EQ(run_title(record), "Smoke, Proposed, released");
+  record.scenario.structure.file.path = "/meshes/of others/a340.obj";
+  EXPECT_EQ(run_title(record), "Smoke (a340.obj), Proposed, released");
 }
 
 TEST_F(Record, AFolderHasItsOneName) {
