@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "planner/belief.hpp"
+#include "planner/frontier_order.hpp"
 #include "planner/history.hpp"
 #include "planner/model.hpp"
 #include "planner/workbench.hpp"
@@ -54,46 +55,11 @@ class Decider {
     return made;
   }
 
-  /// The clusters as FVS is to look at them, no more than it may try.
-  std::vector<FrontierCluster> clusters_to_try() const {
-    const FvsConfig& fvs = model_.config.fvs;
-    std::vector<FrontierCluster> clusters =
-        find_frontiers(fvs.frontier, belief_.grid, belief_.cloud, bench_.frontier_marks);
-    if (fvs.looks_max > 0) {
-      std::erase_if(clusters, [&](const FrontierCluster& c) { return is_looked_at_enough(c); });
-    }
-    const auto is_nearer = [&](const FrontierCluster& a, const FrontierCluster& b) {
-      return (a.centroid_world_m - current_.p_world_m).squaredNorm() <
-             (b.centroid_world_m - current_.p_world_m).squaredNorm();
-    };
-    std::stable_sort(clusters.begin(), clusters.end(), is_nearer);
-    if (fvs.order == ClusterOrder::largest) {
-      std::stable_sort(clusters.begin(), clusters.end(),
-                       [](const FrontierCluster& a, const FrontierCluster& b) {
-                         return a.voxels.size() > b.voxels.size();
-                       });
-    }
-    clusters.resize(std::min(clusters.size(), static_cast<std::size_t>(fvs.tries)));
-    return clusters;
-  }
-
-  /// A cluster that is still there after so many views stays: glass, a slit, an edge.
-  bool is_looked_at_enough(const FrontierCluster& cluster) const {
-    constexpr double kSame_voxels = 3.0;
-    const FvsConfig& fvs = model_.config.fvs;
-    const double apart_m = kSame_voxels * model_.config.map.resolution_m;
-    const auto looks = std::count_if(
-        history_.decisions.begin(), history_.decisions.end(), [&](const Decision& decision) {
-          return decision.sampler == "fvs" &&
-                 looks_at(fvs, decision.view, cluster.centroid_world_m, apart_m);
-        });
-    return looks >= fvs.looks_max;
-  }
-
   /// The first cluster that has a valid view, or all of them together.
   bool try_fvs() {
     const FvsConfig& fvs = model_.config.fvs;
-    plan_.clusters = clusters_to_try();
+    plan_.clusters = clusters_to_try(fvs, belief_, history_.decisions, current_.p_world_m,
+                                     bench_.frontier_marks);
     const std::span<const FrontierCluster> clusters = plan_.clusters;
     std::vector<std::vector<Candidate>> views;
     std::vector<Candidate> pool;

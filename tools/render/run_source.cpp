@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "planner/frontier_order.hpp"
 #include "sim/core/error.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/reference.hpp"
@@ -23,6 +24,16 @@ std::string why_no_profile(const RunRecord& record) {
       command_to_fly_again(record.folder, "--set planner.profiling.method=bounding_box"));
 }
 
+/// The clusters of a decision that was read: candidates.jsonl has their numbers only.
+std::vector<FrontierCluster> clusters_of(const RecordedMission& mission, std::size_t iteration,
+                                         const Belief& belief) {
+  std::vector<Decision> decisions;
+  for (const ViewRecord& view : mission.views.first(iteration)) decisions.push_back(view.decision);
+  FrontierMarks marks(belief.grid.geometry().voxel_count());
+  return clusters_to_try(mission.scenario.planner.fvs, belief, decisions,
+                         decisions.back().view.p_world_m, marks);
+}
+
 /// One flight for all of that, with the candidates that the run kept. Where those of a decision
 /// cannot be had, throws only when somebody waits for it.
 Replayed flown_again(const RecordedMission& mission, const std::filesystem::path& folder,
@@ -38,7 +49,10 @@ Replayed flown_again(const RecordedMission& mission, const std::filesystem::path
   }
   request.plans = !plan;
   Replayed again = replay(mission, request);
-  if (plan) again.decision->plan = std::move(*plan);
+  if (plan) {
+    again.decision->plan = std::move(*plan);
+    again.decision->plan.clusters = clusters_of(mission, *request.decision, again.decision->belief);
+  }
   return again;
 }
 

@@ -123,6 +123,29 @@ TEST(CandidatesRecord, RoundTripsAndNamesDamage) {
   EXPECT_FALSE(read_candidates(temp.path(), 1).has_value());
 }
 
+TEST(RunSource, ADecisionThatIsReadHasTheClustersThatItTried) {
+  const Watched stuck(
+      smoke({"planner.termination.max_iterations=5", "planner.fvs.order=largest",
+             "planner.fvs.entropy_threshold_nat=1", "planner.fvs.entropy_window=1"}));
+  const TempFolder temp;
+  CandidatesFile file(temp.path(), 1);
+  for (std::size_t i = 0; i < stuck.plans.size(); ++i) file.write(i + 1, stuck.plans[i]);
+  file.finish();
+  const Flown& flown = stuck.flown;
+  std::size_t compared = 0;
+  for (std::size_t i = 1; i < flown.result.views.size(); ++i) {
+    const std::vector<FrontierCluster>& tried = stuck.plans[i - 1].clusters;
+    if (tried.empty()) continue;  // its grid was asked alone
+    RunSource run{{.folder = temp.path(), .scenario = flown.scenario, .views = flown.result.views},
+                  flown.world};
+    const std::vector<FrontierCluster>& found = run.decision(i).plan.clusters;
+    ASSERT_EQ(found.size(), tried.size());
+    for (std::size_t k = 0; k < tried.size(); ++k) EXPECT_EQ(found[k].voxels, tried[k].voxels);
+    compared += tried.size();
+  }
+  EXPECT_GT(compared, 1U);
+}
+
 TEST(VoxelsPicture, HoldsACubeForEachVoxelOfTheMap) {
   RunSource run = source();
   PictureOptions options;
