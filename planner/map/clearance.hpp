@@ -14,7 +14,7 @@ bool is_sphere_clear(const OccupancyGrid& grid, const Vec3& p_world_m, double ra
 
 /// Whether a sphere swept along the straight path touches no occupied voxel. A voxel that it
 /// touches at the start already, because it was only seen from there, may be left but not
-/// approached.
+/// approached. Both ends must be finite.
 bool is_path_clear(const OccupancyGrid& grid, const Vec3& from_world_m, const Vec3& to_world_m,
                    double radius_m);
 

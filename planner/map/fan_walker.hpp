@@ -53,7 +53,7 @@ class FanWalker {
   GridGeometry grid_;
   std::array<Place, 3> move_ = {0, 0, 0};  // change of place with a step up each axis
   Place first_ = 0;                        // place of the voxel at min_key
-  double layers_per_place_ = 0.0, rows_per_place_ = 0.0;
+  double layers_per_place_ = 0.0, rows_per_place_ = 0.0;  // 1 over move_[2] and move_[1]
   std::vector<std::uint8_t> marks_;  // of the framed grid, and one resting place
   std::size_t steps_max_ = 0;        // of one ray inside the grid
   std::vector<Place> listed_;        // of the scan at hand, the first listed_count_ of them
