@@ -34,6 +34,7 @@ struct PlotOptions {
   fs::path out;
   std::vector<std::string> formats = {"svg"};
   std::vector<std::string> plots = {"density", "coverage", "terms", "reach"};
+  bool are_plots_asked_for = false;  // or the default's
   int reach_percent = 95;
   double voxel_m = 0.05;
   PlotSize size;
@@ -174,7 +175,8 @@ std::vector<Plot> plots_of_groups(const PlotOptions& options,
     const std::vector<MeanSeries> series = mean_densities(groups);
     if (!series.empty()) plots.push_back(mean_density_plot(series));
   }
-  if (wants(options, "reach")) {
+  // how many runs got there says nothing of a single one
+  if (wants(options, "reach") && (records.size() > 1 || options.are_plots_asked_for)) {
     for (Plot& reach : plots_of_reach(options, groups)) plots.push_back(std::move(reach));
   }
   return plots;
@@ -235,7 +237,9 @@ void add_plot_command(CLI::App& app) {
   command
       ->add_option(
           "--plots", options->plots,
-          "which: density, coverage, terms, reach, flight, tracking, predictions, with commas")
+          "which: density, coverage, terms, reach (of several runs, or asked for), flight, "
+          "tracking, predictions, with commas")
+      ->each([options](const std::string&) { options->are_plots_asked_for = true; })
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::IsMember(

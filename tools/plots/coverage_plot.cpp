@@ -132,7 +132,10 @@ void add_lines(Layers& layers, const RunGroup& group, std::size_t i) {
                   dashes, mark, colour, gnuplot_text(label_of(group)));
 }
 
-Layers layers_of(std::span<const RunGroup> groups, std::optional<std::size_t> papers_size) {
+/// What lies within the axis: a key to a line that is not there would be a riddle.
+Layers layers_of(std::span<const RunGroup> groups, std::optional<std::size_t> papers_size,
+                 const Axis& axis) {
+  const auto is_shown = [&](double percent) { return axis.low <= percent && percent <= axis.high; };
   Layers layers{.entries = groups.size()};
   std::array<bool, 2> has_level = {false, false};  // trusted, doubtful
   std::vector<double> ceilings;
@@ -141,12 +144,12 @@ Layers layers_of(std::span<const RunGroup> groups, std::optional<std::size_t> pa
     if (!papers_size) continue;
     const std::optional<double> ceiling = *papers_size == 0 ? ceiling_of(groups[i]) : std::nullopt;
     const auto is_same = [&](double other) { return std::abs(other - *ceiling) < 0.05; };
-    if (ceiling && std::none_of(ceilings.begin(), ceilings.end(), is_same)) {
+    if (ceiling && is_shown(*ceiling) && std::none_of(ceilings.begin(), ceilings.end(), is_same)) {
       ceilings.push_back(*ceiling);
-      layers.levels +=
-          fmt::format("{} with lines lw 0.9 dt (1,2) lc rgb '#262c36' notitle, ", *ceiling);
+      layers.levels += fmt::format("{} with lines lw 0.9 lc rgb '#262c36' notitle, ", *ceiling);
     }
-    if (const auto level = paper_level(groups[i], *papers_size)) {
+    if (const auto level = paper_level(groups[i], *papers_size);
+        level && is_shown(level->percent)) {
       layers.levels +=
           fmt::format("{} with lines lw 0.9 dt {} lc rgb '{}' notitle, ", level->percent,
                       level->is_doubtful ? "(2,6)" : "(6,5)", kPalette[i % kPalette.size()]);
@@ -160,7 +163,7 @@ Layers layers_of(std::span<const RunGroup> groups, std::optional<std::size_t> pa
   if (has_level[1]) {
     add_key(layers, "lines lw 0.9 dt (2,6) lc rgb '#5c6470'", "paper, at the end (doubtful)");
   }
-  if (!ceilings.empty()) add_key(layers, "lines lw 0.9 dt (1,2) lc rgb '#262c36'", "ceiling");
+  if (!ceilings.empty()) add_key(layers, "lines lw 0.9 lc rgb '#262c36'", "ceiling");
   return layers;
 }
 
@@ -177,18 +180,21 @@ std::string common_scenario(std::span<const RunGroup> groups) {
   return is_common && !is_said ? name : "";
 }
 
-/// `size` is an index of the curves' sizes; the paper has it when it is `papers_size`, too.
+constexpr Axis kAllPercent{0.0, 100.0, 20.0};
+
+/// `size` is an index of the curves' sizes; the paper has it when it is `papers_size`, too. The key
+/// stands inside where there is room, on an axis of all percent.
 Plot plot_of(std::span<const RunGroup> groups, Effort effort, std::size_t size,
              std::optional<std::size_t> papers_size, const std::string& size_text,
-             bool may_key_be_inside = true) {
+             const Axis& axis = kAllPercent) {
   std::string data;
   for (std::size_t i = 0; i < groups.size(); ++i) data += group_data(groups[i], i, effort, size);
-  const Layers layers = layers_of(groups, papers_size);
+  const Layers layers = layers_of(groups, papers_size, axis);
   std::string entries =
       layers.bands + layers.levels + layers.lines + layers.ends + layers.names + layers.keys;
   entries.resize(entries.size() - 2);
-  const bool is_inside =
-      may_key_be_inside && is_corner_free(groups, effort, size, layers.entries, layers.characters);
+  const bool is_inside = axis.low == kAllPercent.low && axis.high == kAllPercent.high &&
+                         is_corner_free(groups, effort, size, layers.entries, layers.characters);
   const int key_px = is_inside ? 0 : kKeyLine_px * static_cast<int>(layers.entries);
   const int height_px = kHeight_px + key_px;
   const std::string key = is_inside
@@ -235,7 +241,8 @@ std::optional<Plot> coverage_end_plot(std::span<const RunGroup> groups, Effort e
     }
   }
   if (!(longest > 0.0) || low > high) return std::nullopt;
-  Plot plot = plot_of(groups, effort, size, size, size_name(kCoverageSizes_m[size]), false);
+  Plot plot = plot_of(groups, effort, size, size, size_name(kCoverageSizes_m[size]),
+                      axis_around(low, high));
   plot.name += "-end";
   // the last word on both axes, before anything is drawn
   const std::size_t at = plot.body.rfind("\nplot ") + 1;

@@ -124,6 +124,12 @@ std::string utility_panel(Panels& panels, const Columns& columns, const std::vec
          axis_of(columns[0]) + "plot " + raw_line(2, 6, is_smooth) + line("mean", 2, 6) + "\n";
 }
 
+std::string heading_of_quality(bool has_prediction, double most_prediction) {
+  if (has_prediction) return "Q, the sum of";
+  if (most_prediction == 0.0) return "Q, nothing predicted";
+  return fmt::format("Q, γ prediction up to {:.2g}", most_prediction);
+}
+
 std::string factor_panels(Panels& panels, const Columns& columns, bool is_smooth) {
   std::vector<double> quality = columns[1];
   std::vector<double> factors = columns[3];
@@ -131,12 +137,14 @@ std::string factor_panels(Panels& panels, const Columns& columns, bool is_smooth
     quality[i] += columns[2][i];
     factors[i] = std::max({factors[i], columns[4][i], columns[5][i]});
   }
-  const bool has_prediction =
-      std::any_of(columns[2].begin(), columns[2].end(), [](double value) { return value != 0.0; });
+  // a share of the panel that nobody sees is a number in the heading
+  constexpr double kLeastSeen = 0.02;
+  const double most = *std::max_element(columns[2].begin(), columns[2].end());
+  const bool has_prediction = most > kLeastSeen * *std::max_element(quality.begin(), quality.end());
   std::vector<KeyEntry> terms = {{kDensityArea, "β density"}};
   if (has_prediction) terms.push_back({kPredictionArea, "γ prediction"});
-  std::string text = panels.next(has_prediction ? "Q, the sum of" : "Q, nothing predicted", terms) +
-                     axis_of(quality);
+  std::string text =
+      panels.next(heading_of_quality(has_prediction, most), terms) + axis_of(quality);
   // the sum behind the density: no prediction leaves no hair of its colour
   text += fmt::format(
       "plot $mean using 1:(0):($3+$4) with filledcurves fc rgb '{}' fs solid noborder, "

@@ -89,7 +89,7 @@ double even_step(double span, int most) {
   return 10.0 * power;
 }
 
-std::string y_axis(double low, double high, int most_steps) {
+Axis axis_around(double low, double high, int most_steps) {
   // values that are all the same lie in the middle of an axis around them
   const double size = std::max({std::abs(low), std::abs(high), 1.0});
   if (high - low < 1e-9 * size) {
@@ -97,11 +97,16 @@ std::string y_axis(double low, double high, int most_steps) {
     high += 0.05 * size;
   }
   const double step = even_step(high - low, most_steps);
+  return {step * std::floor(low / step), step * std::ceil(high / step), step};
+}
+
+std::string y_axis(double low, double high, int most_steps) {
+  const Axis axis = axis_around(low, high, most_steps);
   // longer numbers would be cut off at the left: 200k
-  const bool is_in_thousands = high >= 10'000.0 && std::fmod(step, 1000.0) == 0.0;
+  const bool is_in_thousands = high >= 10'000.0 && std::fmod(axis.step, 1000.0) == 0.0;
   const char* const format = !is_in_thousands ? "% h" : high < 1e6 ? "%.0s%c" : "%.1s%c";
   return fmt::format("set yrange [{:.12g}:{:.12g}]\nset ytics {:.12g}\nset format y '{}'\n",
-                     step * std::floor(low / step), step * std::ceil(high / step), step, format);
+                     axis.low, axis.high, axis.step, format);
 }
 
 Panels::Panels(std::size_t count, std::string_view title, std::string_view x_label)

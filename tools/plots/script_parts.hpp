@@ -40,8 +40,17 @@ std::vector<KeyEntry> key_of_phases(const std::vector<Phase>& phases);
 /// 1, 2 or 5 times a power of ten, of which `span` holds at most so many. Requires span > 0.
 double even_step(double span, int most = 5);
 
-/// Settings of a y axis: from `low` to `high`, widened to whole steps, of which that span holds at
-/// most so many. Requires low <= high.
+struct Axis {
+  double low = 0.0;
+  double high = 0.0;
+  double step = 0.0;
+};
+
+/// From `low` to `high`, widened to whole even steps, of which that span holds at most so many.
+/// Requires low <= high.
+Axis axis_around(double low, double high, int most_steps = 5);
+
+/// Settings of a y axis that is axis_around() them.
 std::string y_axis(double low, double high, int most_steps = 5);
 
 /// The height of a picture of so many panels that is 1512 pixels wide.

@@ -70,6 +70,19 @@ TEST(Plots, CoverageMarksEndsAndTheCeiling) {
   expect_drawable(*end);
 }
 
+/// The end's axis goes around its curve: a key names no line beyond it.
+TEST(Plots, TheEndsKeyNamesTheCeilingWhereItIsOnTheAxis) {
+  std::vector<RunRecord> runs = {covered_record(1, {0.2, 0.4, 0.5})};
+  const RunGroup group = group_of(runs);
+  for (const auto& [ceiling, is_named] : {std::pair{0.975, false}, std::pair{0.5, true}}) {
+    runs[0].figures->ceiling = ceiling;
+    const auto end = coverage_end_plot({&group, 1}, Effort::metres, 0);
+    ASSERT_TRUE(end.has_value());
+    EXPECT_EQ(end->body.find("'ceiling'") != std::string::npos, is_named) << ceiling;
+    EXPECT_EQ(end->body.find(" with lines lw 0.9") != std::string::npos, is_named) << ceiling;
+  }
+}
+
 TEST(Plots, RunsWithoutViewsHaveACoverage) {
   const std::vector<RunRecord> runs = {covered_record(1, {0.2}), covered_record(2, {0.4})};
   for (const Effort effort : {Effort::views, Effort::metres, Effort::seconds}) {

@@ -85,6 +85,10 @@ TEST(Plots, MovingMeansShrinkAtTheEnds) {
 TEST(Plots, TermsNameNoPredictionWhereThereIsNone) {
   RunRecord record = scored_record();
   EXPECT_NE(terms_plot(record)->body.find("γ prediction"), std::string::npos);
+  for (ViewRecord& view : record.views) view.decision.score.prediction = 2e-4;
+  const std::string little = terms_plot(record)->body;  // too low to be seen: said, not drawn
+  EXPECT_EQ(little.find("'γ prediction'"), std::string::npos);
+  EXPECT_NE(little.find("γ prediction up to 0.0001"), std::string::npos);
   for (ViewRecord& view : record.views) view.decision.score.prediction = 0.0;
   EXPECT_EQ(terms_plot(record)->body.find("γ prediction"), std::string::npos);
 }
