@@ -221,7 +221,7 @@ PackedRun pack_run(const RunRecord& record, const KnownStructure* structure,
     out.missing.emplace_back(error.what());  // the page does without plans
   }
   try {
-    out.candidates = pack_candidates(record, budget.bytes / 8, out.bytes);
+    out.candidates = pack_candidates(record, budget.bytes / 3, out.bytes);
   } catch (const BadInput& error) {
     out.missing.emplace_back(error.what());  // and without candidates
   }
