@@ -67,7 +67,11 @@ export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring): 
   if (layers.plan && scenes.some((scene) => scene.plan)) {
     items.push(item("line", hex(planColour()), "still planned"));
   }
-  if (layers.vehicle && !layers.candidates) items.push(item("line", "#ff8a3c", "what the cameras see"));
+  if (layers.vehicle && !layers.candidates) {
+    const cut_m = first.sightCut_m();
+    items.push(item("line", "#ff8a3c", cut_m === null ? "what the cameras see"
+      : `what the cameras see, to ${number(cut_m, 1)} m`));
+  }
   if (layers.candidates) items.push(...candidateItems(scenes));
   items.push(...believedItems(scenes));
   items.push(make("span", {}, `grid ${number(first.gridStep_m)} m`));

@@ -241,16 +241,18 @@ export class PlanMark {
   }
 }
 
-/** What the cameras of the vehicle see now, out to their range; to be put on the vehicle's pose. */
-export function makeSight(cameras: CameraData[]): three.Group {
+/** What the cameras of the vehicle see now, out to their range or to `most_m`; to be put on the
+ * vehicle's pose. */
+export function makeSight(cameras: CameraData[], most_m: number): three.Group {
   const group = new three.Group();
   const faces = new three.MeshBasicMaterial({ color: 0xff8a3c, transparent: true, opacity: 0.07,
     depthWrite: false, side: three.DoubleSide });
   const lines = new three.LineBasicMaterial({ color: 0xff8a3c, transparent: true, opacity: 0.75 });
   for (const camera of cameras) {
-    const edges = pyramidEdges(camera, camera.range_m);
+    const depth = Math.min(camera.range_m, most_m);
+    const edges = pyramidEdges(camera, depth);
     group.add(new three.LineSegments(new three.BufferGeometry().setFromPoints(edges), lines));
-    const corners = pictureCorners(camera, camera.range_m);
+    const corners = pictureCorners(camera, depth);
     const sides = corners.flatMap((corner, i) => [edges[0], corner, corners[(i + 1) % 4]]);
     group.add(new three.Mesh(new three.BufferGeometry().setFromPoints(sides), faces));
   }

@@ -93,7 +93,7 @@ export class RunScene {
       && readRunSurface(flight.bytes.u8(data.surface), () => this.onLoad());
     this.gridStep_m = gridStep(data.workspace.min, data.workspace.max);
     this.body = makeVehicle(data.vehicle);
-    this.sight = makeSight(data.cameras);
+    this.sight = makeSight(data.cameras, this.sightMost_m());
     this.vehicle.add(this.body, this.sight);
     const sun = new three.DirectionalLight(0xffffff, 2.1);
     sun.position.set(-0.5, -0.8, 1.4);
@@ -187,13 +187,25 @@ export class RunScene {
     this.body.scale.setScalar(Math.max(1, 0.028 * away / this.flight.data.vehicle.radius_m));
   }
 
+  /** Where cameras see farther than this they would fill the picture. */
+  private sightMost_m(): number {
+    const { min, max } = this.flight.data.workspace;
+    return 0.25 * new three.Vector3(...min).distanceTo(new three.Vector3(...max));
+  }
+
+  /** How far what the cameras see is drawn, where that is not as far as they see. */
+  sightCut_m(): number | null {
+    const range_m = Math.max(...this.flight.data.cameras.map((camera) => camera.range_m));
+    return range_m > this.sightMost_m() ? this.sightMost_m() : null;
+  }
+
   /** What the cameras see at a view, where a gimbal turns them. */
   private lookAs(view: number) {
     if (view === this.lookedAs || !this.flight.data.views.T_body_camera) return;
     this.lookedAs = view;
     this.vehicle.remove(this.sight);
     this.sight.traverse((part) => (part as three.Mesh).geometry?.dispose());
-    this.sight = makeSight(this.flight.camerasAt(view));
+    this.sight = makeSight(this.flight.camerasAt(view), this.sightMost_m());
     this.sight.traverse((part) => part.layers.set(kMarkLayer));
     this.vehicle.add(this.sight);
   }
