@@ -113,6 +113,31 @@ struct Configurations {
   }
 };
 
+/// Without "." and the slash at the end.
+fs::path plain(const fs::path& folder) {
+  const fs::path normal = folder.lexically_normal();
+  return normal.has_filename() ? normal : normal.parent_path();
+}
+
+/// The shortest ending of `folder` that none of the others has: "plain" of "/tmp/plain" beside
+/// "/tmp/kept".
+std::string own_ending(const fs::path& folder, std::span<const fs::path> others) {
+  const fs::path own = plain(folder);
+  fs::path ending;
+  for (auto part = own.end(); part != own.begin();) {
+    --part;
+    ending = ending.empty() ? *part : *part / ending;
+    const auto has_it = [&](const fs::path& other) {
+      const fs::path theirs = plain(other);
+      const auto size = std::distance(ending.begin(), ending.end());
+      return std::distance(theirs.begin(), theirs.end()) >= size &&
+             std::equal(ending.begin(), ending.end(), std::prev(theirs.end(), size));
+    };
+    if (std::none_of(others.begin(), others.end(), has_it)) return ending.string();
+  }
+  return own.string();
+}
+
 }  // namespace
 
 std::vector<RunGroup> group_runs(std::span<const RunRecord> runs, std::vector<std::string>& notes) {
@@ -186,8 +211,12 @@ std::vector<std::string> run_labels(std::span<const RunRecord> runs) {
   });
   add_where_shared(
       [&](std::size_t i, const auto&) { return fmt::format(", seed {}", runs[i].scenario.seed); });
-  add_where_shared([&](std::size_t i, const auto&) {
-    return fmt::format(" ({})", runs[i].folder.lexically_normal().string());
+  add_where_shared([&](std::size_t i, const std::vector<std::size_t>& namesakes) {
+    std::vector<fs::path> others;
+    for (const std::size_t k : namesakes) {
+      if (k != i) others.push_back(runs[k].folder);
+    }
+    return fmt::format(" ({})", own_ending(runs[i].folder, others));
   });
   return labels;
 }

@@ -26,7 +26,7 @@ std::vector<RunGroup> group_runs(std::span<const RunRecord* const> runs,
 std::vector<std::string> setting_labels(std::span<const RunGroup> groups);
 
 /// Of each run: its title, then as far as others share that, the keys in which they differ, its
-/// seed, its folder.
+/// seed, as much of its folder's end as tells them apart.
 std::vector<std::string> run_labels(std::span<const RunRecord> runs);
 
 }  // namespace gnbv

@@ -69,7 +69,13 @@ TEST(RunLabels, RunsAreToldApartByAsMuchAsItTakes) {
   const auto labels = [](const std::vector<RunRecord>& runs) { return run_labels(runs); };
   EXPECT_EQ(labels({a, c}), (Labels{"Smoke, Proposed", "Smoke, Bircher"}));
   EXPECT_EQ(labels({c, d}), (Labels{"Smoke, Bircher, seed 1", "Smoke, Bircher, seed 2"}));
-  EXPECT_EQ(labels({a, b})[1], "Smoke, Proposed, seed 1 (runs/b)");
+  EXPECT_EQ(labels({a, b})[1], "Smoke, Proposed, seed 1 (b)");
+  b.folder = "/else/where/a";
+  EXPECT_EQ(labels({a, b}), (Labels{"Smoke, Proposed, seed 1 (runs/a)",  //
+                                    "Smoke, Proposed, seed 1 (where/a)"}));
+  a.folder = "runs/./a/";
+  EXPECT_EQ(labels({a, b})[0], "Smoke, Proposed, seed 1 (runs/a)");
+  EXPECT_EQ(labels({a, a})[0], "Smoke, Proposed, seed 1 (runs/a)");
   b.scenario.planner.cloud.leaf_m = 0.07;
   EXPECT_EQ(labels({a, b, c}), (Labels{"Smoke, Proposed, leaf_m=0.05",
                                        "Smoke, Proposed, leaf_m=0.07", "Smoke, Bircher"}));
