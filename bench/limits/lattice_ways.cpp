@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <queue>
+#include <tuple>
 
 #include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
@@ -12,36 +11,64 @@
 namespace gnbv {
 
 LatticeWays::LatticeWays(const RayScene& scene, const LegalViewpoints& legal, double radius_m)
-    : scene_(scene), legal_(legal), radius_m_(radius_m) {}
+    : scene_(scene), legal_(legal), radius_m_(radius_m), first_leg_{0} {
+  std::vector<std::uint8_t> is_near_start(legal.size(), 0);
+  for (const std::uint32_t place : legal.near_start) is_near_start[place] = 1;
+  for (std::size_t place = 0; place <= start(); ++place) {
+    const auto add = [&](std::size_t to) {
+      legs_.push_back({static_cast<std::uint32_t>(to), (p_world_m(to) - p_world_m(place)).norm()});
+    };
+    for (const std::uint32_t to : place == start() ? legal.near_start : legal.neighbours[place]) {
+      add(to);
+    }
+    if (place != start() && is_near_start[place] != 0) add(start());
+    first_leg_.push_back(legs_.size());
+  }
+}
 
 const Vec3& LatticeWays::p_world_m(std::size_t place) const {
   return place == start() ? legal_.start_world_m : legal_.p_world_m[place];
 }
 
+// Dijkstra's order without a heap (Denardo and Fox 1979): places wait in buckets as wide as a step
+// of the lattice, so that next to none in a bucket is reached twice; one that is goes again. Of
+// equally short ways a place keeps that by the nearest place before it, of those the first one.
 LatticeWays::Tree LatticeWays::grow(std::size_t from) const {
-  Tree tree{std::vector<double>(legal_.size() + 1, std::numeric_limits<double>::infinity()),
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Tree tree{std::vector<double>(legal_.size() + 1, kInfinity),
             std::vector<std::uint32_t>(legal_.size() + 1, static_cast<std::uint32_t>(from))};
-  using Open = std::pair<double, std::size_t>;  // of equally near places the first comes first
-  std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
-  const auto reach = [&](std::size_t place, std::size_t before, double length_m) {
-    if (length_m >= tree.length_m[place]) return;
-    tree.length_m[place] = length_m;
-    tree.before[place] = static_cast<std::uint32_t>(before);
-    open.push({length_m, place});
+  std::vector<double> left_m(legal_.size() + 1, kInfinity);  // how long a place's way was then
+  std::vector<std::vector<std::uint32_t>> buckets;
+  const auto wait = [&](std::uint32_t place) {
+    const auto bucket = static_cast<std::size_t>(tree.length_m[place] / legal_.step_m);
+    if (bucket >= buckets.size()) buckets.resize(bucket + 1);
+    buckets[bucket].push_back(place);
   };
-  reach(from, from, 0.0);
-  std::vector<std::uint8_t> is_near_start(legal_.size() + 1, 0);
-  for (const std::uint32_t place : legal_.near_start) is_near_start[place] = 1;
-  while (!open.empty()) {
-    const auto [length_m, place] = open.top();
-    open.pop();
-    if (length_m > tree.length_m[place]) continue;
-    const auto go = [&](std::size_t next) {
-      reach(next, place, length_m + (p_world_m(next) - p_world_m(place)).norm());
+  const auto is_before = [&](std::uint32_t a, std::uint32_t b) {
+    const auto order = [&](std::uint32_t place) {
+      return std::tuple(tree.length_m[place], place != from, place);
     };
-    for (const std::uint32_t next : place == start() ? legal_.near_start : legal_.neighbours[place])
-      go(next);
-    if (is_near_start[place] != 0) go(start());
+    return order(a) < order(b);
+  };
+  tree.length_m[from] = 0.0;
+  wait(static_cast<std::uint32_t>(from));
+  for (std::size_t bucket = 0; bucket < buckets.size(); ++bucket) {
+    for (std::size_t i = 0; i < buckets[bucket].size(); ++i) {
+      const std::uint32_t place = buckets[bucket][i];
+      if (left_m[place] == tree.length_m[place]) continue;
+      left_m[place] = tree.length_m[place];
+      for (const Leg& leg : legs_from(place)) {
+        const double length_m = left_m[place] + leg.length_m;
+        if (length_m > tree.length_m[leg.to]) continue;
+        if (length_m == tree.length_m[leg.to]) {
+          if (is_before(place, tree.before[leg.to])) tree.before[leg.to] = place;
+          continue;
+        }
+        tree.length_m[leg.to] = length_m;
+        tree.before[leg.to] = place;
+        wait(leg.to);
+      }
+    }
   }
   return tree;
 }

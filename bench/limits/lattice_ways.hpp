@@ -49,6 +49,13 @@ class LatticeWays {
     std::vector<double> length_m;
     std::vector<std::uint32_t> before;
   };
+  struct Leg {
+    std::uint32_t to = 0;
+    double length_m = 0.0;
+  };
+  std::span<const Leg> legs_from(std::size_t place) const {
+    return std::span(legs_).subspan(first_leg_[place], first_leg_[place + 1] - first_leg_[place]);
+  }
   Tree grow(std::size_t from) const;
   double straight_m(std::size_t from, std::size_t to) const;
   double guess_m(double straight_m, double lattice_m) const;
@@ -58,6 +65,8 @@ class LatticeWays {
   const RayScene& scene_;
   const LegalViewpoints& legal_;
   double radius_m_;
+  std::vector<Leg> legs_;               // from each place, the start's last
+  std::vector<std::size_t> first_leg_;  // of each place, and the end of the last
   std::map<std::size_t, Tree> trees_;
 };
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "bench/limits/lattice_ways.hpp"
 #include "tests/bench/shapes.hpp"
@@ -129,6 +130,45 @@ TEST(LatticeWays, GoRoundTheWallByTheDoor) {
   EXPECT_GE(length_m, shortest_m - 2.0 * legal.step_m);
   EXPECT_LE(length_m, 1.15 * shortest_m);
   EXPECT_LE(length_m, ways.distance_m(ways.start(), goal) + 1e-9);  // that one is uncut
+}
+
+/// Shortest ways from the start by going over all legs until nothing changes (Bellman 1958).
+std::vector<double> relaxed_lengths_m(const LegalViewpoints& legal) {
+  std::vector<double> length_m(legal.size(), std::numeric_limits<double>::infinity());
+  for (const std::uint32_t place : legal.near_start) {
+    length_m[place] = (legal.p_world_m[place] - legal.start_world_m).norm();
+  }
+  for (bool has_changed = true; has_changed;) {
+    has_changed = false;
+    for (std::size_t from = 0; from < legal.size(); ++from) {
+      for (const std::uint32_t to : legal.neighbours[from]) {
+        const double way_m = length_m[from] + (legal.p_world_m[to] - legal.p_world_m[from]).norm();
+        if (way_m >= length_m[to]) continue;
+        length_m[to] = way_m;
+        has_changed = true;
+      }
+    }
+  }
+  return length_m;
+}
+
+/// To the last bit, also from a start between the lattice's positions, whose legs are short.
+TEST(LatticeWays, AreAsShortAsTheShortestOverAllLegs) {
+  const World world{wall_with_door(1.4), true};
+  const RayScene scene(world);
+  const LegalViewpoints legal =
+      find_legal_viewpoints(scene, kRoom, kRadius_m, 0.4, Vec3(-2.01, -3.02, 2.01), 2);
+  LatticeWays ways(scene, legal, kRadius_m);
+  ways.prepare({ways.start()}, 1);
+  const std::vector<double> length_m = relaxed_lengths_m(legal);
+  std::size_t behind = 0;
+  for (std::size_t place = 0; place < legal.size(); ++place) {
+    const double straight_m = (legal.p_world_m[place] - legal.start_world_m).norm();
+    if (is_leg_clear(scene, legal.start_world_m, legal.p_world_m[place], kRadius_m)) continue;
+    ++behind;
+    EXPECT_EQ(ways.distance_m(ways.start(), place), std::max(length_m[place], straight_m));
+  }
+  EXPECT_GT(behind, 100U);
 }
 
 }  // namespace
