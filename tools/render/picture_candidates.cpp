@@ -200,7 +200,8 @@ RenderView near_view(const RunRecord& record, std::size_t iteration, const Pictu
   ViewAngles angles{pose.yaw_rad + deg_to_rad(180.0 + 55.0), deg_to_rad(25.0)};
   const double other_rad = pose.yaw_rad + deg_to_rad(180.0 - 55.0);
   const auto away_rad = [&](double azimuth_rad) {
-    return std::abs(wrap_angle_rad(azimuth_rad - options.angles.azimuth_rad));
+    return std::abs(
+        wrap_angle_rad(azimuth_rad - options.angles.value_or(ViewAngles{}).azimuth_rad));
   };
   if (away_rad(other_rad) < away_rad(angles.azimuth_rad)) angles.azimuth_rad = other_rad;
   const FrameMargins margins{.left = 0.08, .right = 0.08, .top = 0.2, .bottom = 0.2};

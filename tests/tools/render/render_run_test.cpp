@@ -145,14 +145,58 @@ TEST(Pictures, OfEachKindFindALayoutAtAnySize) {
         options.has_caption = has_caption;
         const PanelLayout layout = lay_out(*kind, runs, options);
         EXPECT_GE(layout.columns * layout.rows, kind->panels);
-        EXPECT_GE(layout.columns * layout.view.width_px, width);
-        EXPECT_GE(layout.rows * layout.view.height_px, height);
+        const auto [x, y] =
+            layout.place_px(static_cast<std::size_t>(layout.columns * layout.rows) - 1);
+        EXPECT_GE(x + layout.view.width_px, width);
+        EXPECT_GE(y + layout.view.height_px, height - layout.foot_px);
+        EXPECT_LT(y, height - layout.foot_px);
         for (const Vec3f& v : run.world().structure.vertices_m) {
           const Vec3 p = project(layout.view, v.cast<double>()).value();
           EXPECT_TRUE(p.x() > 0 && p.x() < layout.view.width_px && p.y() > 0 &&
                       p.y() < layout.view.height_px)
               << kind->name << ' ' << width << ' ' << height;
         }
+      }
+    }
+  }
+}
+
+/// Whatever panels show, the words above, between and below them look the same; and each panel
+/// shows it from border to border.
+TEST(Pictures, WordsOfPanelsHavePaperThatNoPanelReaches) {
+  RunSource run(made_record(), cube());
+  RunSource* const runs[] = {&run};
+  Renderer renderer;
+  for (const auto& [width, height] : {std::pair{960, 540}, {540, 960}}) {
+    PictureOptions options;
+    options.width_px = width;
+    options.height_px = height;
+    const PanelLayout layout = lay_out(kCoveragePicture, runs, options);
+    Picture picture{.panels = std::vector<Panel>(2), .detail = "d", .legend = {{"l", {srgb(0)}}}};
+    for (Panel& panel : picture.panels) panel.note = "note";
+    const Image empty = draw_picture(picture, run, options, layout, renderer);
+    for (Panel& panel : picture.panels) {
+      panel.scene.balls.push_back({Vec3f(0, 0, 1), 3.0F, srgb(0x102030)});
+      panel.labels.push_back({Vec3(50, 0, 1), "a word beside a place far off"});
+    }
+    const Image full = draw_picture(picture, run, options, layout, renderer);
+    std::vector<std::uint8_t> is_panel(empty.rgb.size() / 3);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto [x0, y0] = layout.place_px(i);
+      EXPECT_GE(y0, layout.head_px + layout.note_px);
+      const int middle_x = x0 + layout.view.width_px / 2;
+      const int middle_y = y0 + layout.view.height_px / 2;
+      EXPECT_NE(full.at(middle_x, middle_y), empty.at(middle_x, middle_y));
+      for (int y = y0; y < std::min(height - layout.foot_px, y0 + layout.view.height_px); ++y) {
+        for (int x = x0; x < std::min(width, x0 + layout.view.width_px); ++x) {
+          is_panel[static_cast<std::size_t>(y * width + x)] = 1;
+        }
+      }
+    }
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        if (is_panel[static_cast<std::size_t>(y * width + x)] != 0) continue;
+        ASSERT_EQ(full.at(x, y), empty.at(x, y)) << x << ' ' << y;
       }
     }
   }
