@@ -199,7 +199,11 @@ std::vector<Image> sheet_cells(std::vector<DrawnPicture> drawn, int columns) {
     const bool is_said_again =
         !is_rows_last && i + 1 < drawn.size() && drawn[i + 1].caption.legend == caption.legend;
     if (is_said_again) caption.legend.clear();
-    cells.push_back(with_words(drawn[i]));
+    Image& cell = cells.emplace_back(with_words(drawn[i]));
+    if (i % static_cast<std::size_t>(columns) == 0) continue;
+    // what lies at its left is another picture
+    const double line_px = 6.0 * layout_unit_px(cell.width_px, cell.height_px);
+    draw_box(cell, {0.0, 0.0}, {line_px, 1.0 * cell.height_px}, {255, 255, 255}, 1.0);
   }
   return cells;
 }
