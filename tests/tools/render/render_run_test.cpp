@@ -333,6 +333,37 @@ TEST(Snapshots, ShowWhatWasFlownAndSeenUpToTheView) {
   }
 }
 
+/// Wherever a view looks: its pyramid is in the picture, and neither title nor inset hides it.
+TEST(Snapshots, PyramidsStayClearOfTitleAndInset) {
+  const TempFolder temp;
+  write_made_run(temp.path());
+  RunRecord record = read_run(temp.path());
+  for (const double turned_rad : {0.0, 1.6, 3.1, 4.7}) {
+    for (ViewRecord& view : record.views) view.decision.view.yaw_rad += turned_rad;
+    RunSource run(record, cube());
+    RunSource* const runs[] = {&run};
+    const RenderView view = lay_out(kSnapshotFraming, runs, {}).view;
+    Snapshots snapshots(run, {}, view, false);
+    for (std::size_t i = 0; i < record.views.size(); ++i) {
+      const Picture picture = snapshots.picture(i, view);
+      const double inset_px = 0.25 * 1280 * picture.inset.height_px / picture.inset.width_px;
+      for (FrustumItem frustum : picture.panels.at(0).scene.frusta) {
+        frustum.T_world_camera = T_world_body(record.views[i].decision.view) *
+                                 make_camera_model(record.scenario.cameras[0]).T_body_camera;
+        const Vec3 far_m(frustum.length_m * std::tan(0.5 * frustum.fov_x_rad),
+                         frustum.length_m * std::tan(0.5 * frustum.fov_y_rad), frustum.length_m);
+        for (const auto& [x, y] : {std::pair{-1, -1}, {-1, 1}, {1, -1}, {1, 1}}) {
+          const Vec3 p_px =
+              project(view, frustum.T_world_camera * far_m.cwiseProduct(Vec3(x, y, 1))).value();
+          EXPECT_TRUE(p_px.x() > 0 && p_px.x() < 1280 && p_px.y() > 0 && p_px.y() < 720);
+          EXPECT_FALSE(p_px.x() < 700 && p_px.y() < 70) << p_px.transpose();
+          EXPECT_FALSE(p_px.x() > 940 && p_px.y() < inset_px + 18) << p_px.transpose();
+        }
+      }
+    }
+  }
+}
+
 TEST(Snapshots, VehicleIsBetweenSamplesWhereTheViewIs) {
   const TempFolder temp;
   write_made_run(temp.path());
