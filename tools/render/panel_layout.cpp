@@ -139,6 +139,11 @@ std::array<int, 2> PanelLayout::place_px(std::size_t i) const {
           head_px + note_px + row * (view.height_px + between_px)};
 }
 
+double panel_unit_m(const PictureOptions& options, const RenderView& panel) {
+  constexpr double kThinner = 0.7;
+  return kThinner * layout_unit_px(options.width_px, options.height_px) / px_per_m_at_focus(panel);
+}
+
 bool has_words(const PictureOptions& options) {
   return options.has_caption && fits_caption(options.width_px, options.height_px);
 }

@@ -23,6 +23,10 @@ struct PanelLayout {
   std::array<int, 2> place_px(std::size_t i) const;
 };
 
+/// Metres, at the subject of one panel of a picture, of what its lines are measured in: the same
+/// share of the picture's layout unit however large it is.
+double panel_unit_m(const PictureOptions& options, const RenderView& panel);
+
 /// Whether a picture shows words at all.
 bool has_words(const PictureOptions& options);
 

@@ -9,7 +9,7 @@
 #include "sim/core/error.hpp"
 #include "tools/render/chosen_view_item.hpp"
 #include "tools/render/frontier_items.hpp"
-#include "tools/render/picture.hpp"
+#include "tools/render/panel_layout.hpp"
 #include "tools/render/voxel_items.hpp"
 #include "tools/run_files/words.hpp"
 
@@ -225,12 +225,13 @@ Picture draw_candidates(RunSource& run, const PictureOptions& options, const Ren
   Panel& near = picture.panels[1];
   if (!options.camera) {
     RenderScene chosen;
-    add_chosen_view(record, run.world(), decision.belief, iteration, layout_unit_m(view), chosen);
+    add_chosen_view(record, run.world(), decision.belief, iteration, panel_unit_m(options, view),
+                    chosen);
     near.view = near_view(record, iteration, options, chosen, view);
   }
   const RenderView& from_near = near.view ? *near.view : view;
   for (const auto& [panel, seen_from] : {std::pair{&far, &view}, {&near, &from_near}}) {
-    const double unit_m = layout_unit_m(*seen_from);
+    const double unit_m = panel_unit_m(options, *seen_from);
     // from near, gaps would be black lines
     add_map(run, decision.belief.grid, panel == &near ? 1.0 : 0.94, panel->scene);
     add_candidates(decision.plan, all, unit_m, panel->scene);
@@ -239,8 +240,8 @@ Picture draw_candidates(RunSource& run, const PictureOptions& options, const Ren
   }
   // farther, rays would smear their darkness over what they pass
   near.scene.hollow_m = decision.belief.grid.geometry().resolution_m();
-  add_way_to_chosen(record, iteration, layout_unit_m(view), far.scene);
-  add_chosen_view(record, run.world(), decision.belief, iteration, layout_unit_m(from_near),
+  add_way_to_chosen(record, iteration, panel_unit_m(options, view), far.scene);
+  add_chosen_view(record, run.world(), decision.belief, iteration, panel_unit_m(options, from_near),
                   near.scene);
   far.note = counted(decision.plan.candidates.size(), "candidate");
   near.note = fmt::format("the chosen one, {:.2g} m from the view before",

@@ -6,7 +6,7 @@
 
 #include "tools/render/caption.hpp"
 #include "tools/render/flight_items.hpp"
-#include "tools/render/picture.hpp"
+#include "tools/render/panel_layout.hpp"
 #include "tools/render/point_normals.hpp"
 #include "tools/run_files/words.hpp"
 
@@ -69,11 +69,11 @@ Panel panel_of(RunSource& run, const ProfileStage& stage, double unit_m) {
   return panel;
 }
 
-Picture draw_profile(RunSource& run, const PictureOptions&, const RenderView& view) {
+Picture draw_profile(RunSource& run, const PictureOptions& options, const RenderView& view) {
   const std::vector<ProfileStage>& stages = run.profile();
   Picture picture;
   for (const ProfileStage& stage : stages) {
-    picture.panels.push_back(panel_of(run, stage, layout_unit_m(view)));
+    picture.panels.push_back(panel_of(run, stage, panel_unit_m(options, view)));
   }
   const double leaf_m = run.record().scenario.planner.cloud.profile_leaf_m;
   picture.detail =

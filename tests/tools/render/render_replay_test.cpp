@@ -187,6 +187,21 @@ TEST(ProfilePicture, FramesTheBoxAndNumbersTheWaypointsOnTheSpot) {
   }
 }
 
+TEST(ProfilePicture, LinesTakeTheSameShareOfAnyPicture) {
+  RunSource run = source();
+  RunSource* const runs[] = {&run};
+  const auto share = [&](int times) {
+    PictureOptions options;
+    options.width_px *= times;
+    options.height_px *= times;
+    const RenderView view = lay_out(kProfilePicture, runs, options).view;
+    const Picture picture = kProfilePicture.draw(run, options, view);
+    const auto radius_m = static_cast<double>(picture.panels[0].scene.tubes.front().radius_m);
+    return radius_m * px_per_m_at_focus(view) / options.width_px;
+  };
+  EXPECT_NEAR(share(3) / share(1), 1.0, 0.01);  // panels are of whole pixels
+}
+
 TEST(ProfilePicture, IsSeenFromAboveUnlessAnglesAreAskedFor) {
   RunSource run = source();
   RunSource* const runs[] = {&run};
