@@ -29,12 +29,11 @@ std::string help_on_what() {
 }
 
 void add_camera_options(CLI::App& command, RenderOptions& options) {
-  command
-      .add_option(
-          "--camera", options.camera,
-          "iso, front, back, left, right, top, or a JSON file with position_m, target_m and "
-          "fov_y_deg; presets frame the picture by themselves")
-      ->capture_default_str();
+  command.add_option(
+      "--camera", options.camera,
+      "iso, front, back, left, right, top, or a JSON file with position_m, target_m and "
+      "fov_y_deg; presets frame the picture by themselves (default: iso; a profile is seen from "
+      "higher above)");
   command.add_option("--azimuth-deg", options.azimuth_deg,
                      "from where to look: 0 east, 90 north (default: the camera's)");
   command.add_option("--elevation-deg", options.elevation_deg, "above the horizon")
@@ -111,17 +110,20 @@ void need_consistent(const RenderOptions& options, const std::vector<std::string
 
 void set_camera(RenderOptions& options) {
   PictureOptions& picture = options.picture;
-  const CameraChoice choice = choose_camera(options.camera);
-  if (choice.camera && (options.azimuth_deg || options.elevation_deg)) {
+  const bool is_named = !options.camera.empty();
+  const CameraChoice choice = choose_camera(is_named ? options.camera : "iso");
+  const bool is_turned = options.azimuth_deg || options.elevation_deg;
+  if (choice.camera && is_turned) {
     throw BadInput(
         fmt::format("--camera {}: the file says from where to look; leave out --azimuth-deg and "
                     "--elevation-deg, or the file",
                     options.camera));
   }
-  picture.angles = choice.angles;
   picture.camera = choice.camera;
-  if (options.azimuth_deg) picture.angles.azimuth_rad = deg_to_rad(*options.azimuth_deg);
-  if (options.elevation_deg) picture.angles.elevation_rad = deg_to_rad(*options.elevation_deg);
+  if (!is_named && !is_turned) return;
+  ViewAngles& angles = picture.angles.emplace(choice.angles);
+  if (options.azimuth_deg) angles.azimuth_rad = deg_to_rad(*options.azimuth_deg);
+  if (options.elevation_deg) angles.elevation_rad = deg_to_rad(*options.elevation_deg);
 }
 
 void add_render_options(CLI::App& command, RenderOptions& options) {

@@ -19,7 +19,7 @@ struct RenderOptions {
   std::vector<std::string> what = {"path"};
   std::filesystem::path out;
   std::filesystem::path sheet;
-  std::string camera = "iso";
+  std::string camera;  // empty: iso, of a profile from higher above
   std::optional<double> azimuth_deg;
   std::optional<double> elevation_deg;
   PictureOptions picture;

@@ -9,12 +9,14 @@
 namespace gnbv {
 namespace {
 
-constexpr double kBorder = 26.0;  // all lengths here are in layout units
+// all lengths here are in layout units
+constexpr double kBorder = kCaptionBorder;
 constexpr double kLetter = 10.0;
 constexpr double kRow = 22.0;
 constexpr double kBar = 120.0;
 constexpr double kGap = 20.0;  // between items
 constexpr double kHalo = 2.5;
+constexpr double kPaperBorder = 7.0;  // above and below the legend
 
 // The longest of 1, 2, 5, 10 ... m that stays under `limit_m`.
 double round_length_m(double limit_m) {
@@ -23,23 +25,6 @@ double round_length_m(double limit_m) {
     if (step * power <= limit_m) return step * power;
   }
   return power;
-}
-
-// Returns the x where the scale ends.
-double draw_scale(Image& image, const RenderView& view, double u, double bottom) {
-  const double px_per_m = px_per_m_at_focus(view);
-  const double length_m = round_length_m(0.16 * view.width_px / px_per_m);
-  const double x0 = kBorder * u;
-  const double x1 = x0 + length_m * px_per_m;
-  constexpr Rgb8 kPaper = {228, 231, 235};  // a halo, as that of the words
-  for (const auto& [colour, width] : {std::pair{kPaper, 2.0 + 2.0 * kHalo}, {kInk, 2.0}}) {
-    draw_line(image, {x0, bottom}, {x1, bottom}, width * u, colour);
-    for (const double x : {x0, x1}) {
-      draw_line(image, {x, bottom - 5.0 * u}, {x, bottom + 5.0 * u}, width * u, colour);
-    }
-  }
-  return draw_text(image, fmt::format("{} m at mid-depth", length_m), x1 + 10.0 * u,
-                   bottom + 5.0 * u, kLetter * u, kInk, kHalo * u);
 }
 
 bool is_bar(const LegendItem& item) { return item.colours.size() > 1; }
@@ -120,19 +105,29 @@ std::vector<Placed> placed(const Image& image, const std::vector<LegendItem>& le
   return places;
 }
 
-// On paper of its own: what lies behind it would be read as part of it.
-void draw_legend(Image& image, const std::vector<LegendItem>& legend, double u, double bottom,
-                 double left_limit) {
-  const std::vector<Placed> places = placed(image, legend, u, bottom, left_limit);
-  if (places.empty()) return;
-  constexpr Rgb8 kSheet = {246, 248, 250};
-  const double right = image.width_px - (kBorder - 12.0) * u;
-  for (std::size_t i = 0; i < places.size(); ++i) {  // the last of a row is the leftmost
-    if (i + 1 < places.size() && places[i + 1].y == places[i].y) continue;
-    const double y = places[i].y;
-    draw_box(image, {places[i].x - 12.0 * u, y - 0.5 * kRow * u}, {right, y + 0.5 * kRow * u},
-             kSheet, 0.92);
+// From the left, the first item highest, in the middle of the paper; where it is too low for all
+// rows, the first ones lie above it.
+std::vector<Placed> placed_on_paper(const Image& image, const Caption& caption, double u) {
+  std::vector<Placed> places;
+  double x = kBorder * u;
+  double y = 0.0;
+  for (const LegendItem& item : caption.legend) {
+    const double width = item_width(item) * u;
+    const bool is_full = x + width > image.width_px - kBorder * u;
+    if (!places.empty() && (item.begins_row || is_full)) {
+      x = kBorder * u;
+      y += kRow * u;
+    }
+    places.push_back({&item, x, y});
+    x += width + kGap * u;
   }
+  const double middle = image.height_px - 0.5 * caption.paper_px - 0.5 * y;
+  const double lowest = image.height_px - (kPaperBorder + 0.5 * kRow) * u - y;
+  for (Placed& place : places) place.y += std::min(middle, lowest);
+  return places;
+}
+
+void draw_items(Image& image, const std::vector<Placed>& places, double u) {
   for (const auto& [item, x_begin, y] : places) {
     double x = x_begin;
     if (!item->label_before.empty()) {
@@ -142,6 +137,28 @@ void draw_legend(Image& image, const std::vector<LegendItem>& legend, double u, 
     draw_text(image, item->label, x + (mark_width(*item) + 10.0) * u, y + 5.0 * u, kLetter * u,
               kInk);
   }
+}
+
+// On paper of its own: what lies behind it would be read as part of it.
+void draw_legend(Image& image, const std::vector<Placed>& places, double u) {
+  constexpr Rgb8 kSheet = {246, 248, 250};
+  const double right = image.width_px - (kBorder - 12.0) * u;
+  for (std::size_t i = 0; i < places.size(); ++i) {  // the last of a row is the leftmost
+    if (i + 1 < places.size() && places[i + 1].y == places[i].y) continue;
+    const double y = places[i].y;
+    draw_box(image, {places[i].x - 12.0 * u, y - 0.5 * kRow * u}, {right, y + 0.5 * kRow * u},
+             kSheet, 0.92);
+  }
+  draw_items(image, places, u);
+}
+
+void draw_legend_on_paper(Image& image, const Caption& caption, double u) {
+  const std::vector<Placed> places = placed_on_paper(image, caption, u);
+  if (places.empty()) return;
+  const double top = std::min<double>(image.height_px - caption.paper_px,
+                                      places.front().y - (0.5 * kRow + kPaperBorder) * u);
+  draw_box(image, {0.0, top}, {1.0 * image.width_px, 1.0 * image.height_px}, {255, 255, 255}, 1.0);
+  draw_items(image, places, u);
 }
 
 }  // namespace
@@ -162,20 +179,42 @@ FrameMargins caption_margins(int width_px, int height_px, int legend_rows) {
   return margins;
 }
 
+double legend_paper_height(int rows, double width) {
+  return kRow * std::ceil(rows * std::max(1.0, 1280.0 / width)) + 2.0 * kPaperBorder;
+}
+
+double draw_scale(Image& image, const RenderView& view, double u) {
+  const double bottom = image.height_px - 24.0 * u;
+  const double px_per_m = px_per_m_at_focus(view);
+  const double length_m = round_length_m(0.16 * view.width_px / px_per_m);
+  const double x0 = kBorder * u;
+  const double x1 = x0 + length_m * px_per_m;
+  constexpr Rgb8 kPaper = {228, 231, 235};  // a halo, as that of the words
+  for (const auto& [colour, width] : {std::pair{kPaper, 2.0 + 2.0 * kHalo}, {kInk, 2.0}}) {
+    draw_line(image, {x0, bottom}, {x1, bottom}, width * u, colour);
+    for (const double x : {x0, x1}) {
+      draw_line(image, {x, bottom - 5.0 * u}, {x, bottom + 5.0 * u}, width * u, colour);
+    }
+  }
+  return draw_text(image, fmt::format("{} m at mid-depth", length_m), x1 + 10.0 * u,
+                   bottom + 5.0 * u, kLetter * u, kInk, kHalo * u);
+}
+
 double px_per_m_at_focus(const RenderView& view) {
   return 0.5 * view.height_px / std::tan(0.5 * view.fov_y_rad) / view.focus_m;
 }
 
 void draw_caption(Image& image, const Caption& caption, const RenderView& view) {
   const double u = layout_unit_px(image.width_px, image.height_px);
-  const double bottom = image.height_px - 24.0 * u;
   const double width = image.width_px - 2.0 * kBorder * u;
+  const double halo = caption.paper_px > 0 ? 0.0 : kHalo * u;
   draw_text(image, caption.title, kBorder * u, 40.0 * u,
-            fitting_height_px(caption.title, 15.0 * u, width), kInk, kHalo * u);
+            fitting_height_px(caption.title, 15.0 * u, width), kInk, halo);
   draw_text(image, caption.detail, kBorder * u, 64.0 * u,
-            fitting_height_px(caption.detail, kLetter * u, width), kPaleInk, kHalo * u);
-  const double scale_end = caption.has_scale ? draw_scale(image, view, u, bottom) : 0.0;
-  draw_legend(image, caption.legend, u, bottom, scale_end);
+            fitting_height_px(caption.detail, kLetter * u, width), kPaleInk, halo);
+  if (caption.paper_px > 0) return draw_legend_on_paper(image, caption, u);
+  const double scale_end = caption.has_scale ? draw_scale(image, view, u) : 0.0;
+  draw_legend(image, placed(image, caption.legend, u, image.height_px - 24.0 * u, scale_end), u);
 }
 
 }  // namespace gnbv

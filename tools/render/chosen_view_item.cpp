@@ -10,7 +10,8 @@ namespace gnbv {
 
 const ChosenViewLook kChosenLook = {.chosen = srgb(0xd5420a),
                                     .pyramid = srgb(0x2b323c),
-                                    .ray_free = srgb(0x8f99a6),
+                                    .before = srgb(0x14181e),
+                                    .ray_free = srgb(0x737e8c),
                                     .ray_unknown = srgb(0xe69f00)};
 
 namespace {
@@ -71,11 +72,11 @@ void add_ray(const Ray& ray, double unit_m, RenderScene& scene) {
     const Rgb& colour = piece.is_unknown ? kChosenLook.ray_unknown : kChosenLook.ray_free;
     scene.tubes.push_back({{piece.begin.cast<float>(), piece.end.cast<float>()},
                            {colour},
-                           static_cast<float>((piece.is_unknown ? 1.1 : 0.8) * unit_m)});
+                           static_cast<float>((piece.is_unknown ? 1.6 : 1.2) * unit_m)});
   }
   if (!ray.is_hit) return;
   scene.balls.push_back(
-      {ray.pieces.back().end.cast<float>(), static_cast<float>(3.0 * unit_m), kChosenLook.chosen});
+      {ray.pieces.back().end.cast<float>(), static_cast<float>(4.0 * unit_m), kChosenLook.chosen});
 }
 
 /// Of the pyramid no more than what says where it looks.
@@ -123,9 +124,9 @@ void add_way_to_chosen(const RunRecord& record, std::size_t iteration, double un
   way.push_back(record.views[iteration].decision.view.p_world_m);
   scene.tubes.push_back(path_tube(way, 1.6 * unit_m, kChosenLook.chosen));
   scene.balls.push_back(
-      {way.front().cast<float>(), static_cast<float>(6.0 * unit_m), srgb(0x14181e)});
+      {way.front().cast<float>(), static_cast<float>(8.0 * unit_m), kChosenLook.before});
   scene.balls.push_back(
-      {way.back().cast<float>(), static_cast<float>(7.0 * unit_m), kChosenLook.chosen});
+      {way.back().cast<float>(), static_cast<float>(9.0 * unit_m), kChosenLook.chosen});
 }
 
 }  // namespace gnbv

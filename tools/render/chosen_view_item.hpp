@@ -9,7 +9,7 @@
 namespace gnbv {
 
 struct ChosenViewLook {
-  Rgb chosen, pyramid, ray_free, ray_unknown;
+  Rgb chosen, pyramid, before, ray_free, ray_unknown;
 };
 extern const ChosenViewLook kChosenLook;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 namespace gnbv {
@@ -117,7 +118,8 @@ FrameBlock make_frame_block(const RenderScene& scene, const RenderView& view,
   const bool has_ground = scene.ground && eye.z() > scene.ground->z_m;
   // seen from near, what shades the hollows of the whole would blacken those of its parts
   const double hollow_m =
-      std::min(0.035 * scene_size_m(scene, lists), 0.06 * 2.0 * view.focus_m / f);
+      std::min({0.035 * scene_size_m(scene, lists), 0.06 * 2.0 * view.focus_m / f,
+                scene.hollow_m.value_or(std::numeric_limits<double>::infinity())});
   frame.hollow = {static_cast<float>(hollow_m), has_ground ? 1.0F : 0.0F, 0.0F, 0.0F};
   frame.clip_from_world = (clip_from_gl * view.T_world_camera.inverse().matrix()).cast<float>();
   return frame;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "tools/render/flight_items.hpp"
+#include "tools/render/lettering.hpp"
 #include "tools/render/voxel_items.hpp"
 
 namespace gnbv {
@@ -72,12 +73,15 @@ void add_frontiers(const FrontierConfig& config, const ReplayedDecision& decisio
   for (std::size_t i = 0; i < clusters.size(); ++i) {
     const bool is_chosen = static_cast<int>(i) == chosen;
     const std::vector<Rgb> colour = {is_chosen ? kFrontierLook.looked_at : kFrontierLook.frontier};
-    scene.surfaces.push_back(voxel_cubes(belief.grid.geometry(), clusters[i].voxels, colour, 1.0));
+    // a hair larger than the map's own cubes, which may be as large as their voxels
+    constexpr double kOver = 1.02;
+    scene.surfaces.push_back(
+        voxel_cubes(belief.grid.geometry(), clusters[i].voxels, colour, kOver));
     if (static_cast<int>(i) > tried) continue;
     const Vec3& centre_m = clusters[i].centroid_world_m;
     scene.balls.push_back({centre_m.cast<float>(),
                            static_cast<float>((is_chosen ? 6.0 : 4.5) * unit_m), colour.front()});
-    panel.labels.push_back({centre_m, fmt::format("{}", i + 1)});
+    panel.labels.push_back({centre_m, fmt::format("{}", i + 1), to_rgb8(kFrontierLook.looked_at)});
   }
   add_layers(decision.plan, clusters, unit_m, scene);
 }

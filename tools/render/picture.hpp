@@ -18,9 +18,9 @@ namespace gnbv {
 struct PictureOptions {
   int width_px = 1280;
   int height_px = 720;
-  ViewAngles angles;
-  std::optional<RenderView> camera;  // instead of the angles: its pose and opening
-  std::optional<int> iteration;      // of a view; nothing: the last one, or as the kind says
+  std::optional<ViewAngles> angles = {};  // nothing: as suits the kind
+  std::optional<RenderView> camera;       // instead of the angles: its pose and opening
+  std::optional<int> iteration;           // of a view; nothing: the last one, or as the kind says
   int every = 0;             // draw each n-th frustum, take each n-th snapshot; 0: by itself
   bool has_profile = false;  // show the profile's flight, wide around the structure
   bool has_caption = true;   // pictures under 320 x 240 px never have one
@@ -29,10 +29,11 @@ struct PictureOptions {
   std::optional<std::array<double, 2>> colour_range = {};
 };
 
-/// Words beside a place in the world.
+/// Words beside a place in the world; or on it, white on a badge of a colour.
 struct PlaceLabel {
   Vec3 p_world_m;
   std::string text;
+  std::optional<Rgb8> badge = {};
 };
 
 /// One scene of a picture that may hold several, side by side.
@@ -50,11 +51,17 @@ struct Picture {
   Image inset = {};  // small, in the upper right corner; empty: none
 };
 
+constexpr double kInsetShare = 0.25;   // of the picture's width
+constexpr double kInsetBorder = 18.0;  // layout units
+
 struct PictureKind {
   std::string_view name;  // also of the file
   std::string_view shows;
   int panels = 1;
-  int legend_rows = 1;
+  ViewAngles angles = {};      // unless others are asked for
+  int legend_rows = 1;         // of a picture of 1280 units
+  double words_width = 520.0;  // layout units that title and figures take, about
+  bool has_inset = false;
   /// Appends the points that have to be seen.
   void (*frame)(RunSource& run, const PictureOptions& options, std::vector<Vec3>& points_world_m);
   /// What the two ends of the colours stand for in a picture of its own; null: nothing that runs

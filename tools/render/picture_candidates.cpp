@@ -9,7 +9,7 @@
 #include "sim/core/error.hpp"
 #include "tools/render/chosen_view_item.hpp"
 #include "tools/render/frontier_items.hpp"
-#include "tools/render/picture.hpp"
+#include "tools/render/panel_layout.hpp"
 #include "tools/render/voxel_items.hpp"
 #include "tools/run_files/words.hpp"
 
@@ -136,15 +136,16 @@ void add_candidates(const Plan& plan, const Tally& all, double unit_m, RenderSce
     const Vec3f p_m = candidate.view.p_world_m.cast<float>();
     if (candidate.rejected) {
       const Reason& reason = reasons()[static_cast<std::size_t>(*candidate.rejected)];
-      scene.balls.push_back({p_m, static_cast<float>(3.6 * unit_m), reason.colour});
+      scene.balls.push_back({p_m, static_cast<float>(4.2 * unit_m), reason.colour});
       continue;
     }
     const Rgb colour = amount_ramp((candidate.score.value - all.low) / span);
     scene.balls.push_back({p_m, static_cast<float>(6.0 * unit_m), colour});
-    add_pin(candidate.view, 18.0 * unit_m, 2.2 * unit_m, colour, scene);
+    add_pin(candidate.view, 18.0 * unit_m, 2.4 * unit_m, colour, scene);
   }
 }
 
+// A row of those rejected, one of what could be chosen and is to be seen, one of the chosen view.
 std::vector<LegendItem> legend_of(const Tally& all, bool is_fvs) {
   std::vector<LegendItem> legend;
   for (const Reason& reason : reasons()) {
@@ -152,23 +153,28 @@ std::vector<LegendItem> legend_of(const Tally& all, bool is_fvs) {
     if (count == 0) continue;
     legend.push_back(
         {fmt::format("{}: {}", reason.words, count), {reason.colour}, LegendItem::Mark::dot});
+    if (legend.size() == 1) legend.front().label_before = "rejected:";
   }
+  const std::size_t second = legend.size();
   if (all.valid > 0) {
     legend.push_back(
         {.label = fmt::format("{:.3g}, highest", all.high),
          .colours = amount_colours(),
          .label_before = fmt::format("valid: {}, utility {:.3g}", all.valid, all.low)});
   }
+  legend.push_back({"unknown", {kUnknownVoxels}});
   if (is_fvs) {
-    legend.push_back({"frontier", {kFrontierLook.frontier}});
+    legend.push_back({"frontier, clusters numbered as tried", {kFrontierLook.frontier}});
     legend.push_back({"cluster looked at", {kFrontierLook.looked_at}});
   }
-  legend.push_back({"unknown", {kUnknownVoxels}});
-  legend.push_back({"way to the chosen view", {kChosenLook.chosen}, LegendItem::Mark::line});
-  legend.push_back({"its pyramid", {kChosenLook.pyramid}, LegendItem::Mark::line});
+  const std::size_t third = legend.size();
+  legend.push_back({"way there", {kChosenLook.chosen}, LegendItem::Mark::line, "chosen view:"});
+  legend.push_back({"view before", {kChosenLook.before}, LegendItem::Mark::dot});
+  legend.push_back({"pyramid", {kChosenLook.pyramid}, LegendItem::Mark::line});
   legend.push_back({"ray through free", {kChosenLook.ray_free}, LegendItem::Mark::line});
   legend.push_back({"through unknown", {kChosenLook.ray_unknown}, LegendItem::Mark::line});
   legend.push_back({"meets surface", {kChosenLook.chosen}, LegendItem::Mark::dot});
+  legend[second].begins_row = legend[third].begins_row = true;
   return legend;
 }
 
@@ -200,10 +206,11 @@ RenderView near_view(const RunRecord& record, std::size_t iteration, const Pictu
   ViewAngles angles{pose.yaw_rad + deg_to_rad(180.0 + 55.0), deg_to_rad(25.0)};
   const double other_rad = pose.yaw_rad + deg_to_rad(180.0 - 55.0);
   const auto away_rad = [&](double azimuth_rad) {
-    return std::abs(wrap_angle_rad(azimuth_rad - options.angles.azimuth_rad));
+    return std::abs(
+        wrap_angle_rad(azimuth_rad - options.angles.value_or(ViewAngles{}).azimuth_rad));
   };
   if (away_rad(other_rad) < away_rad(angles.azimuth_rad)) angles.azimuth_rad = other_rad;
-  const FrameMargins margins{.left = 0.08, .right = 0.08, .top = 0.2, .bottom = 0.2};
+  const FrameMargins margins{.left = 0.08, .right = 0.08, .top = 0.06, .bottom = 0.1};
   return frame_points(points_m, angles, view.width_px, view.height_px, margins);
 }
 
@@ -218,20 +225,23 @@ Picture draw_candidates(RunSource& run, const PictureOptions& options, const Ren
   Panel& near = picture.panels[1];
   if (!options.camera) {
     RenderScene chosen;
-    add_chosen_view(record, run.world(), decision.belief, iteration, layout_unit_m(view), chosen);
+    add_chosen_view(record, run.world(), decision.belief, iteration, panel_unit_m(options, view),
+                    chosen);
     near.view = near_view(record, iteration, options, chosen, view);
   }
   const RenderView& from_near = near.view ? *near.view : view;
   for (const auto& [panel, seen_from] : {std::pair{&far, &view}, {&near, &from_near}}) {
-    const double unit_m = layout_unit_m(*seen_from);
+    const double unit_m = panel_unit_m(options, *seen_from);
     // from near, gaps would be black lines
     add_map(run, decision.belief.grid, panel == &near ? 1.0 : 0.94, panel->scene);
     add_candidates(decision.plan, all, unit_m, panel->scene);
     if (!is_fvs) continue;
     add_frontiers(record.scenario.planner.fvs.frontier, decision, unit_m, *panel);
   }
-  add_way_to_chosen(record, iteration, layout_unit_m(view), far.scene);
-  add_chosen_view(record, run.world(), decision.belief, iteration, layout_unit_m(from_near),
+  // farther, rays would smear their darkness over what they pass
+  near.scene.hollow_m = decision.belief.grid.geometry().resolution_m();
+  add_way_to_chosen(record, iteration, panel_unit_m(options, view), far.scene);
+  add_chosen_view(record, run.world(), decision.belief, iteration, panel_unit_m(options, from_near),
                   near.scene);
   far.note = counted(decision.plan.candidates.size(), "candidate");
   near.note = fmt::format("the chosen one, {:.2g} m from the view before",

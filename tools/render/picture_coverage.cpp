@@ -82,7 +82,7 @@ std::string_view compass(double azimuth_rad) {
 RenderView other_view(RunSource& run, const ViewAngles& angles, const RenderView& view) {
   std::vector<Vec3> points;
   frame_structure(run, points);
-  const FrameMargins margins{.left = 0.05, .right = 0.05, .top = 0.18, .bottom = 0.12};
+  const FrameMargins margins{.left = 0.05, .right = 0.05, .top = 0.05, .bottom = 0.08};
   RenderView other = frame_points(points, angles, view.width_px, view.height_px, margins);
   if (angles.elevation_rad < 0.0) other.to_light_world.z() *= -1.0;  // the side that is seen
   return other;

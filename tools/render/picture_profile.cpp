@@ -4,8 +4,9 @@
 
 #include <algorithm>
 
+#include "tools/render/caption.hpp"
 #include "tools/render/flight_items.hpp"
-#include "tools/render/picture.hpp"
+#include "tools/render/panel_layout.hpp"
 #include "tools/render/point_normals.hpp"
 #include "tools/run_files/words.hpp"
 
@@ -38,7 +39,7 @@ void add_box(const Box3& box_m, double unit_m, RenderScene& scene) {
         return Vec3f(box_m.corner(static_cast<Box3::CornerType>(k)).cast<float>());
       };
       scene.tubes.push_back(
-          {{corner(i), corner(i | bit)}, {kWorkspace}, static_cast<float>(0.6 * unit_m)});
+          {{corner(i), corner(i | bit)}, {kWorkspace}, static_cast<float>(1.0 * unit_m)});
     }
   }
 }
@@ -52,30 +53,34 @@ Panel panel_of(RunSource& run, const ProfileStage& stage, double unit_m) {
                         .normals = point_normals(stage.points_world_m, 2.5 * leaf_m),
                         .colours = {kPoints},
                         .radius_m = static_cast<float>(std::max(0.45 * leaf_m, 1.0 * unit_m))});
-  scene.tubes.push_back(path_tube(stage.path_world_m, 1.2 * unit_m, kProfilePath));
+  scene.tubes.push_back(path_tube(stage.path_world_m, 1.5 * unit_m, kProfilePath));
   add_box(run.record().scenario.workspace_m, unit_m, scene);
+  if (!stage.path_world_m.empty()) {
+    const Vec3& start_m = stage.path_world_m.front();
+    panel.labels.push_back({start_m, "S", kInk});
+  }
   for (std::size_t i = 0; i < stage.waypoints_world_m.size(); ++i) {
     const Vec3& p_m = stage.waypoints_world_m[i];
     scene.balls.push_back({p_m.cast<float>(), static_cast<float>(4.5 * unit_m), kProfilePath});
-    panel.labels.push_back({p_m, fmt::format("{}", i + 1)});
+    panel.labels.push_back({p_m, fmt::format("{}", i + 1), to_rgb8(kProfilePath)});
   }
   panel.note = fmt::format("{}: {}", counted(stage.waypoints, "waypoint"),
                            counted(stage.points_world_m.size(), "point"));
   return panel;
 }
 
-Picture draw_profile(RunSource& run, const PictureOptions&, const RenderView& view) {
+Picture draw_profile(RunSource& run, const PictureOptions& options, const RenderView& view) {
   const std::vector<ProfileStage>& stages = run.profile();
   Picture picture;
   for (const ProfileStage& stage : stages) {
-    picture.panels.push_back(panel_of(run, stage, layout_unit_m(view)));
+    picture.panels.push_back(panel_of(run, stage, panel_unit_m(options, view)));
   }
   const double leaf_m = run.record().scenario.planner.cloud.profile_leaf_m;
   picture.detail =
       fmt::format("profile of {}, {:.1f} s", counted(stages.back().waypoints, "waypoint"),
                   run.record().profile_end_s.value_or(0.0));
   picture.legend = {
-      {"flown, waypoints numbered", {kProfilePath}, LegendItem::Mark::line},
+      {"flown from S, waypoints numbered", {kProfilePath}, LegendItem::Mark::line},
       {"workspace", {kWorkspace}, LegendItem::Mark::line},
       {fmt::format("LIDAR points, one in {} m", leaf_m), {kPoints}, LegendItem::Mark::dot}};
   return picture;
@@ -86,6 +91,8 @@ Picture draw_profile(RunSource& run, const PictureOptions&, const RenderView& vi
 const PictureKind kProfilePicture = {.name = "profile",
                                      .shows = "profile after 1, 3 and all waypoints (Fig. 4)",
                                      .panels = 3,
+                                     // three in a row are high: seen from above, they are filled
+                                     .angles = {deg_to_rad(-120.0), deg_to_rad(45.0)},
                                      .frame = frame_profile,
                                      .draw = draw_profile};
 

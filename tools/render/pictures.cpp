@@ -12,10 +12,6 @@ constexpr std::array<const PictureKind*, 7> kKinds = {
     &kPathPicture,   &kProfilePicture,    &kCloudPicture, &kCoveragePicture,
     &kVoxelsPicture, &kCandidatesPicture, &kPlanPicture};
 
-bool has_caption(const PictureOptions& options) {
-  return options.has_caption && fits_caption(options.width_px, options.height_px);
-}
-
 // What lies beyond the right and the lower border is cut off.
 void paste(const Image& image, int x, int y, Image& onto) {
   const int columns = std::min(image.width_px, onto.width_px - x);
@@ -33,50 +29,6 @@ Image blank(int width_px, int height_px) {
   return image;
 }
 
-// What a panel leaves free for the words on the whole picture.
-FrameMargins margins_of(const PictureKind& kind, const PictureOptions& options,
-                        const PanelLayout& layout) {
-  if (!has_caption(options)) return {};
-  FrameMargins margins = caption_margins(options.width_px, options.height_px, kind.legend_rows);
-  if (kind.panels > 1) {  // a note over each panel, the title over the first row's
-    const double u = layout_unit_px(options.width_px, options.height_px);
-    margins.top = 116.0 * u / layout.view.height_px;
-    margins.bottom *= static_cast<double>(options.height_px) / layout.view.height_px;
-  }
-  return margins;
-}
-
-bool leaves_room(const FrameMargins& margins) {
-  return margins.left + margins.right < 1.0 && margins.top + margins.bottom < 1.0;
-}
-
-// Whether something that has to be seen lies behind the title.
-bool meets_title(const RenderView& view, const std::vector<Vec3>& points_world_m) {
-  const double u = layout_unit_px(view.width_px, view.height_px);
-  return std::any_of(points_world_m.begin(), points_world_m.end(), [&](const Vec3& p_world_m) {
-    const std::optional<Vec3> p = project(view, p_world_m);
-    return p && p->x() < 520.0 * u && p->y() < 78.0 * u;
-  });
-}
-
-RenderView frame(const PictureOptions& options, const std::vector<Vec3>& points_world_m,
-                 const FrameMargins& margins, int width_px, int height_px) {
-  RenderView view = frame_points(points_world_m, options.angles, width_px, height_px, margins);
-  if (has_caption(options) && meets_title(view, points_world_m)) {
-    FrameMargins below = margins;
-    below.top = std::max(margins.top, 82.0 * layout_unit_px(width_px, height_px) / height_px);
-    if (leaves_room(below)) {
-      view = frame_points(points_world_m, options.angles, width_px, height_px, below);
-    }
-  }
-  if (!options.camera) return view;
-  view.T_world_camera = options.camera->T_world_camera;
-  view.fov_y_rad = options.camera->fov_y_rad;
-  view.focus_m = options.camera->focus_m;
-  view.to_light_world = options.camera->to_light_world;
-  return view;
-}
-
 }  // namespace
 
 std::span<const PictureKind* const> picture_kinds() { return kKinds; }
@@ -89,27 +41,6 @@ const PictureKind& picture_kind(std::string_view name) {
   }
   throw BadInput(fmt::format("--what {}: no such picture; there are {}, snapshots, movie and all",
                              name, names));
-}
-
-PanelLayout lay_out(const PictureKind& kind, std::span<RunSource* const> runs,
-                    const PictureOptions& options) {
-  std::vector<Vec3> points;
-  for (RunSource* const run : runs) kind.frame(*run, options, points);
-  std::optional<PanelLayout> best;
-  for (int columns = 1; columns <= kind.panels; ++columns) {
-    PanelLayout layout{
-        .columns = columns, .rows = (kind.panels + columns - 1) / columns, .view = {}};
-    layout.view.width_px = (options.width_px + columns - 1) / columns;
-    layout.view.height_px = (options.height_px + layout.rows - 1) / layout.rows;
-    const FrameMargins margins = margins_of(kind, options, layout);
-    if (!leaves_room(margins)) continue;
-    layout.view = frame(options, points, margins, layout.view.width_px, layout.view.height_px);
-    const bool is_larger = !best || px_per_m_at_focus(layout.view) > px_per_m_at_focus(best->view);
-    if (is_larger) best = layout;
-  }
-  GNBV_CHECK(best.has_value(), "{} px: one row of panels is as high as the picture",
-             options.height_px);
-  return *best;
 }
 
 PictureOptions with_shared_colours(const PictureKind& kind, std::span<RunSource* const> runs,
@@ -129,21 +60,14 @@ PictureOptions with_shared_colours(const PictureKind& kind, std::span<RunSource*
 
 namespace {
 
-void draw_labels(const Panel& panel, const RenderView& view, double u, Image& image) {
-  for (const PlaceLabel& label : panel.labels) {
-    const std::optional<Vec3> p = project(view, label.p_world_m);
-    if (!p) continue;
-    draw_text(image, label.text, p->x() + 7.0 * u, p->y() - 5.0 * u, 10.0 * u, kInk, 2.5 * u);
-  }
-}
-
 /// A quarter of the width, framed, in the upper right corner: each pixel the mean of those it
 /// covers.
-void draw_inset(const Image& inset, double u, Image& image) {
-  const int width = image.width_px / 4;
+void draw_inset(const Image& inset, Image& image) {
+  const double u = layout_unit_px(image.width_px, image.height_px);
+  const int width = static_cast<int>(kInsetShare * image.width_px);
   const int height = width * inset.height_px / std::max(1, inset.width_px);
-  const int x0 = image.width_px - width - static_cast<int>(18.0 * u);
-  const int y0 = static_cast<int>(18.0 * u);
+  const int x0 = image.width_px - width - static_cast<int>(kInsetBorder * u);
+  const int y0 = static_cast<int>(kInsetBorder * u);
   if (x0 < 0 || y0 + height > image.height_px) return;
   draw_box(image, {x0 - 2.0 * u, y0 - 2.0 * u}, {x0 + width + 2.0 * u, y0 + height + 2.0 * u},
            {255, 255, 255}, 1.0);
@@ -169,33 +93,63 @@ void draw_inset(const Image& inset, double u, Image& image) {
   }
 }
 
+/// Numbers stand on what they number, other words beside it.
+void draw_label(const PlaceLabel& label, const Vec3& p_px, double u, Image& image) {
+  constexpr double kLetter = 10.0;
+  const double width_px = text_width_px(label.text, kLetter * u);
+  if (label.badge) {
+    const double half_px = std::max(0.0, 0.5 * width_px - 3.5 * u);
+    for (const auto& [colour, more] : {std::pair{Rgb8{255, 255, 255}, 3.0}, {*label.badge, 0.0}}) {
+      draw_line(image, {p_px.x() - half_px, p_px.y()}, {p_px.x() + half_px, p_px.y()},
+                (17.0 + more) * u, colour);
+    }
+    draw_text(image, label.text, p_px.x() - 0.5 * width_px, p_px.y() + 0.5 * kLetter * u,
+              kLetter * u, {255, 255, 255});
+    return;
+  }
+  const double beside_px = 12.0 * u;
+  const bool has_room = p_px.x() + beside_px + width_px < image.width_px;
+  const double x = has_room ? p_px.x() + beside_px : p_px.x() - beside_px - width_px;
+  draw_text(image, label.text, x, p_px.y() - 5.0 * u, kLetter * u, kInk, 2.5 * u);
+}
+
+/// A panel in its place, with its words where the picture has any.
+void draw_panel(const Panel& panel, std::size_t i, const PictureOptions& options,
+                const PanelLayout& layout, Renderer& renderer, Image& image) {
+  const double u = layout_unit_px(options.width_px, options.height_px);
+  const RenderView& view = panel.view ? *panel.view : layout.view;
+  const auto [x, y] = layout.place_px(i);
+  Image drawn = renderer.render(panel.scene, view);
+  if (has_words(options)) {
+    for (const PlaceLabel& label : panel.labels) {
+      const std::optional<Vec3> p_px = project(view, label.p_world_m);
+      if (p_px) draw_label(label, *p_px, u, drawn);
+    }
+    // the others are seen as the first is, unless they say so
+    if (layout.foot_px > 0 && (i == 0 || panel.view)) draw_scale(drawn, view, u);
+  }
+  paste(drawn, x, y, image);
+  if (layout.note_px == 0) return;
+  const double height =
+      fitting_height_px(panel.note, 11.0 * u, view.width_px - 2.0 * kCaptionBorder * u);
+  draw_text(image, panel.note, x + kCaptionBorder * u, y - 8.0 * u, height, kInk);
+}
+
 DrawnPicture drawn(const Picture& picture, const RunSource& run, const PictureOptions& options,
                    const PanelLayout& layout, Renderer& renderer) {
-  const double u = layout_unit_px(options.width_px, options.height_px);
   Image image = blank(options.width_px, options.height_px);
   for (std::size_t i = 0; i < picture.panels.size(); ++i) {
-    const int x = static_cast<int>(i) % layout.columns * layout.view.width_px;
-    const int y = static_cast<int>(i) / layout.columns * layout.view.height_px;
-    const RenderView& view = picture.panels[i].view ? *picture.panels[i].view : layout.view;
-    Image panel = renderer.render(picture.panels[i].scene, view);
-    if (has_caption(options)) {
-      draw_labels(picture.panels[i], view, u, panel);
-      const double x_note = 26.0 * u;
-      const double height =
-          fitting_height_px(picture.panels[i].note, 11.0 * u, panel.width_px - 1.5 * x_note);
-      draw_text(panel, picture.panels[i].note, x_note, 92.0 * u, height, kInk, 2.5 * u);
-    }
-    if (x > 0) draw_line(panel, {0.0, 0.0}, {0.0, 1.0 * panel.height_px}, 3.0 * u, {255, 255, 255});
-    if (y > 0) draw_line(panel, {0.0, 0.0}, {1.0 * panel.width_px, 0.0}, 3.0 * u, {255, 255, 255});
-    paste(panel, x, y, image);
+    draw_panel(picture.panels[i], i, options, layout, renderer, image);
   }
-  if (!picture.inset.rgb.empty()) draw_inset(picture.inset, u, image);
+  if (!picture.inset.rgb.empty()) draw_inset(picture.inset, image);
   return {.image = std::move(image),
           .caption = {.title = options.title.empty() ? run_title(run.record()) : options.title,
                       .detail = picture.detail,
-                      .legend = picture.legend},
+                      .legend = picture.legend,
+                      .has_scale = layout.foot_px == 0,
+                      .paper_px = layout.foot_px},
           .view = layout.view,
-          .has_caption = has_caption(options)};
+          .has_caption = has_words(options)};
 }
 
 /// (a), (b), ... (z), (aa), ...
@@ -245,7 +199,11 @@ std::vector<Image> sheet_cells(std::vector<DrawnPicture> drawn, int columns) {
     const bool is_said_again =
         !is_rows_last && i + 1 < drawn.size() && drawn[i + 1].caption.legend == caption.legend;
     if (is_said_again) caption.legend.clear();
-    cells.push_back(with_words(drawn[i]));
+    Image& cell = cells.emplace_back(with_words(drawn[i]));
+    if (i % static_cast<std::size_t>(columns) == 0) continue;
+    // what lies at its left is another picture
+    const double line_px = 6.0 * layout_unit_px(cell.width_px, cell.height_px);
+    draw_box(cell, {0.0, 0.0}, {line_px, 1.0 * cell.height_px}, {255, 255, 255}, 1.0);
   }
   return cells;
 }

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "tools/render/picture.hpp"
+#include "tools/render/panel_layout.hpp"
 
 namespace gnbv {
 
@@ -13,19 +13,6 @@ std::span<const PictureKind* const> picture_kinds();
 
 /// Throws BadInput naming all kinds.
 const PictureKind& picture_kind(std::string_view name);
-
-/// How a picture of several panels lays them out: all of one size, row by row.
-struct PanelLayout {
-  int columns = 1;
-  int rows = 1;
-  RenderView view;  // of each panel
-};
-
-/// The one camera for that kind of picture of all those runs: of the options, or the nearest one
-/// that shows everything that has to be seen in any of them. Of the layouts of several panels, the
-/// one that shows it largest.
-PanelLayout lay_out(const PictureKind& kind, std::span<RunSource* const> runs,
-                    const PictureOptions& options);
 
 /// The options with what the ends of the colours stand for in all of those runs, so that a colour
 /// means the same in each picture. Runs that lack what it takes are left out.

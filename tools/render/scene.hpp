@@ -86,6 +86,8 @@ struct RenderScene {
   std::vector<FrustumItem> frusta;
   std::optional<GroundItem> ground;
   std::optional<PaintItem> paint;
+  /// How far from each other surfaces darken their hollows at most; nothing: as suits the view.
+  std::optional<double> hollow_m = {};
   /// One of a series that shows no more than what lies in this box, as a film: light, haze and
   /// shadows stay the same throughout, and a renderer draws again only what has changed.
   std::optional<Box3> series_box_m = {};

@@ -19,13 +19,44 @@ namespace {
 const Rgb kSeen = srgb(0x0b6fa8);
 const Rgb kFrustum = srgb(0xd5420a);
 
+/// How far pyramids are drawn: the same everywhere in one run.
+double pyramid_m(const RunRecord& record, const World& world, const CameraConfig& camera) {
+  Box3 box_m = bounds_m(world.structure);
+  for (const ViewRecord& view : record.views) box_m.extend(view.decision.view.p_world_m);
+  return std::min(camera.range_max_m, 0.09 * box_m.diagonal().norm());
+}
+
+/// The flight, and what its cameras' pyramids reach.
+void frame_series(RunSource& run, const PictureOptions& options,
+                  std::vector<Vec3>& points_world_m) {
+  kPathPicture.frame(run, options, points_world_m);
+  const RunRecord& record = run.record();
+  for (const CameraConfig& camera : record.scenario.cameras) {
+    const double length_m = pyramid_m(record, run.world(), camera);
+    for (const ViewRecord& view : record.views) {
+      const ViewPose& pose = view.decision.view;
+      const FrustumItem frustum =
+          frustum_of(camera, T_world_body(pose), pose.gimbal_pitch_rad, length_m, kFrustum);
+      const Vec3 far_m(length_m * std::tan(0.5 * camera.fov_x_rad),
+                       length_m * std::tan(0.5 * camera.fov_y_rad), length_m);
+      for (const double x : {-1.0, 1.0}) {
+        for (const double y : {-1.0, 1.0}) {
+          points_world_m.push_back(frustum.T_world_camera * far_m.cwiseProduct(Vec3(x, y, 1.0)));
+        }
+      }
+    }
+  }
+}
+
 Picture no_picture(RunSource&, const PictureOptions&, const RenderView&) { return {}; }
 
 }  // namespace
 
 const PictureKind kSnapshotFraming = {.name = "snapshots",
                                       .shows = "third-person images each --every views",
-                                      .frame = kPathPicture.frame,
+                                      .words_width = 790.0,
+                                      .has_inset = true,
+                                      .frame = frame_series,
                                       .draw = no_picture};
 
 std::vector<std::size_t> snapshot_iterations(std::size_t views, int every, std::size_t about) {
@@ -169,10 +200,11 @@ Picture Snapshots::picture_at(double time_s, double speed, const RenderView& vie
   const double scale = std::max(1.0, 42.0 * unit_m / rotor_span_m(airframe));
   add_vehicle(airframe, T, scale, scene);
   for (const CameraConfig& camera : record.scenario.cameras) {
-    const double length_m = std::min(camera.range_max_m, 150.0 * unit_m);
+    // seen from near, as by a camera that follows, it would fill the picture
+    const double length_m = std::min(pyramid_m(record, run_.world(), camera), 130.0 * unit_m);
     FrustumItem frustum =
         frustum_of(camera, T, now.decision.view.gimbal_pitch_rad, length_m, kFrustum);
-    frustum.edge_radius_m = static_cast<float>(0.9 * unit_m);
+    frustum.edge_radius_m = static_cast<float>(1.3 * unit_m);
     scene.frusta.push_back(frustum);
   }
   picture.detail = fmt::format(
@@ -183,6 +215,9 @@ Picture Snapshots::picture_at(double time_s, double speed, const RenderView& vie
       {.label = "last view", .colours = path_colours(), .label_before = "first"},
       {.label = "seen", .colours = {kSeen}, .mark = LegendItem::Mark::dot},
       {.label = scale > 1.05 ? fmt::format("vehicle, {:.1f} times as large", scale) : "vehicle",
+       .colours = {kFrontRotors}},
+      {.label =
+           record.scenario.cameras.size() == 1 ? "its camera's pyramid" : "its cameras' pyramids",
        .colours = {kFrustum},
        .mark = LegendItem::Mark::line}};
   picture.inset = seen_by_camera(iteration);

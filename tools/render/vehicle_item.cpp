@@ -7,7 +7,6 @@ namespace {
 
 constexpr int kDiscSides = 28;
 const Rgb kFrame = srgb(0x23282f);
-const Rgb kFront = srgb(0xe8731a);
 const Rgb kRear = srgb(0x4a5360);
 
 SurfaceItem disc(const Isometry& T_world_disc, double radius_m, const Rgb& colour) {
@@ -25,6 +24,8 @@ SurfaceItem disc(const Isometry& T_world_disc, double radius_m, const Rgb& colou
 }
 
 }  // namespace
+
+const Rgb kFrontRotors = srgb(0xe8731a);
 
 double rotor_span_m(const AirframeParameters& airframe) {
   double span_m = 0.0;
@@ -44,7 +45,7 @@ void add_vehicle(const AirframeParameters& airframe, const Isometry& T_world_bod
   scene.balls.push_back({centre, static_cast<float>(0.14 * span_m), kFrame, true});
   for (const RotorMount& rotor : airframe.rotors) {
     const Vec3 hub = scale * rotor.p_body_m;
-    const Rgb& colour = rotor.p_body_m.x() > 0.0 ? kFront : kRear;
+    const Rgb& colour = rotor.p_body_m.x() > 0.0 ? kFrontRotors : kRear;
     scene.tubes.push_back({{centre, (T_world_body * hub).cast<float>()}, {kFrame}, tube_m, true});
     Isometry T_world_disc = T_world_body;
     T_world_disc.translation() = T_world_body * (hub + Vec3(0.0, 0.0, 0.06 * span_m));

@@ -6,6 +6,8 @@
 
 namespace gnbv {
 
+extern const Rgb kFrontRotors;  // the others are grey
+
 /// Distance between the rotors that are farthest apart.
 double rotor_span_m(const AirframeParameters& airframe);
 

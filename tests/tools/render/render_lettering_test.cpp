@@ -155,6 +155,42 @@ TEST(Caption, NoLegendLiesOnTheScale) {
   }
 }
 
+/// The legend of panels is read as a text is: groups begin rows at the left, all of it on its
+/// paper.
+TEST(Caption, OnPaperGroupsBeginRowsAtTheLeft) {
+  const auto drawn = [](const std::vector<LegendItem>& legend) {
+    Image image{640, 360, {}};
+    image.rgb.assign(static_cast<std::size_t>(3 * 640 * 360), 255);
+    draw_caption(image,
+                 {.title = "", .detail = "", .legend = legend, .has_scale = false, .paper_px = 60},
+                 {});
+    return image;
+  };
+  const auto rows_of = [](const Image& image, const Rgb8& colour) {
+    std::array<int, 4> box = {640, 0, 360, 0};  // left, right, top, bottom
+    for (int y = 0; y < 360; ++y) {
+      for (int x = 0; x < 640; ++x) {
+        if (image.at(x, y) != colour) continue;
+        box = {std::min(box[0], x), std::max(box[1], x), std::min(box[2], y), std::max(box[3], y)};
+      }
+    }
+    return box;
+  };
+  const LegendItem red{"a", {srgb(0xff0000)}};
+  LegendItem blue{"b", {srgb(0x0000ff)}};
+  const Image one = drawn({red, blue});
+  EXPECT_EQ(rows_of(one, {255, 0, 0})[2], rows_of(one, {0, 0, 255})[2]);
+  EXPECT_LT(rows_of(one, {255, 0, 0})[1], rows_of(one, {0, 0, 255})[0]);
+  blue.begins_row = true;
+  const Image two = drawn({red, blue});
+  EXPECT_LT(rows_of(two, {255, 0, 0})[3], rows_of(two, {0, 0, 255})[2]);
+  EXPECT_EQ(rows_of(two, {255, 0, 0})[0], rows_of(two, {0, 0, 255})[0]);
+  for (const Image& image : {one, two}) {
+    EXPECT_GE(rows_of(image, {255, 0, 0})[2], 300);
+    EXPECT_LT(rows_of(image, {0, 0, 255})[3], 360);
+  }
+}
+
 TEST(Colour, RampsRunFromFirstToLastAndSrgbRoundTrips) {
   EXPECT_EQ(path_ramp(-1.0), path_ramp(0.0));
   EXPECT_EQ(path_ramp(2.0), path_ramp(1.0));

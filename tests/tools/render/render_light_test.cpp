@@ -62,6 +62,17 @@ TEST(AmbientOcclusion, DarkensACornerAndNotAnOpenPlane) {
   }
 }
 
+TEST(AmbientOcclusion, ReachesNoFartherThanAskedFor) {
+  const RenderView view = floor_view();
+  Renderer renderer;
+  RenderScene scene = floor_scene(true);
+  const Image wide = renderer.render(scene, view);
+  scene.hollow_m = 0.05;  // under what lies between the wall and the place that is looked at
+  const Image narrow = renderer.render(scene, view);
+  EXPECT_GT(brightness(narrow, view, {0.12, 0, 0}), brightness(wide, view, {0.12, 0, 0}) + 8.0);
+  EXPECT_NEAR(brightness(narrow, view, {4, 0, 0}), brightness(wide, view, {4, 0, 0}), 2.0);
+}
+
 TEST(Ghost, ShowsOneLayerAndWhatIsBehindIt) {
   RenderView view;
   view.width_px = 64;

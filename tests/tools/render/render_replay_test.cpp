@@ -157,6 +157,63 @@ TEST(VoxelsPicture, HoldsACubeForEachVoxelOfTheMap) {
   EXPECT_EQ(scene.surfaces[1].mesh.faces.size(), 12U * grid.predicted_count());
 }
 
+/// Each panel shows the whole box and each waypoint that was flown by then, with its number on it.
+TEST(ProfilePicture, FramesTheBoxAndNumbersTheWaypointsOnTheSpot) {
+  RunSource run = source();
+  RunSource* const runs[] = {&run};
+  const RenderView view = lay_out(kProfilePicture, runs, {}).view;
+  const Picture picture = kProfilePicture.draw(run, {}, view);
+  const auto is_inside = [&](const Vec3& p_m) {
+    const Vec3 p_px = project(view, p_m).value();
+    const double badge_px = 8.5;
+    return p_px.x() > badge_px && p_px.x() < view.width_px - badge_px && p_px.y() > badge_px &&
+           p_px.y() < view.height_px - badge_px;
+  };
+  const Box3& box_m = run.record().scenario.workspace_m;
+  for (int i = 0; i < 8; ++i) {
+    EXPECT_TRUE(is_inside(box_m.corner(static_cast<Box3::CornerType>(i))));
+  }
+  ASSERT_EQ(picture.panels.size(), run.profile().size());
+  for (std::size_t k = 0; k < picture.panels.size(); ++k) {
+    const ProfileStage& stage = run.profile()[k];
+    const std::vector<PlaceLabel>& labels = picture.panels[k].labels;
+    ASSERT_EQ(labels.size(), stage.waypoints + 1);  // and where it started
+    for (std::size_t i = 0; i < stage.waypoints; ++i) {
+      EXPECT_EQ(labels[i + 1].text, std::to_string(i + 1));
+      EXPECT_TRUE(labels[i + 1].badge.has_value());
+      EXPECT_EQ(labels[i + 1].p_world_m, stage.waypoints_world_m[i]);
+      EXPECT_TRUE(is_inside(labels[i + 1].p_world_m));
+    }
+  }
+}
+
+TEST(ProfilePicture, LinesTakeTheSameShareOfAnyPicture) {
+  RunSource run = source();
+  RunSource* const runs[] = {&run};
+  const auto share = [&](int times) {
+    PictureOptions options;
+    options.width_px *= times;
+    options.height_px *= times;
+    const RenderView view = lay_out(kProfilePicture, runs, options).view;
+    const Picture picture = kProfilePicture.draw(run, options, view);
+    const auto radius_m = static_cast<double>(picture.panels[0].scene.tubes.front().radius_m);
+    return radius_m * px_per_m_at_focus(view) / options.width_px;
+  };
+  EXPECT_NEAR(share(3) / share(1), 1.0, 0.01);  // panels are of whole pixels
+}
+
+TEST(ProfilePicture, IsSeenFromAboveUnlessAnglesAreAskedFor) {
+  RunSource run = source();
+  RunSource* const runs[] = {&run};
+  const auto down = [&](const PictureKind& kind, const PictureOptions& options) {
+    return -lay_out(kind, runs, options).view.T_world_camera(2, 2);
+  };
+  EXPECT_GT(down(kProfilePicture, {}), down(kPathPicture, {}) + 0.1);
+  PictureOptions asked;
+  asked.angles.emplace();
+  EXPECT_NEAR(down(kProfilePicture, asked), down(kPathPicture, {}), 1e-9);
+}
+
 TEST(CoveragePicture, CoversTheShareThatTheScoreSays) {
   const TempFolder temp;
   const auto points = watched().flown.result.belief.cloud.points_world_m();

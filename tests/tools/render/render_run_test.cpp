@@ -145,14 +145,58 @@ TEST(Pictures, OfEachKindFindALayoutAtAnySize) {
         options.has_caption = has_caption;
         const PanelLayout layout = lay_out(*kind, runs, options);
         EXPECT_GE(layout.columns * layout.rows, kind->panels);
-        EXPECT_GE(layout.columns * layout.view.width_px, width);
-        EXPECT_GE(layout.rows * layout.view.height_px, height);
+        const auto [x, y] =
+            layout.place_px(static_cast<std::size_t>(layout.columns * layout.rows) - 1);
+        EXPECT_GE(x + layout.view.width_px, width);
+        EXPECT_GE(y + layout.view.height_px, height - layout.foot_px);
+        EXPECT_LT(y, height - layout.foot_px);
         for (const Vec3f& v : run.world().structure.vertices_m) {
           const Vec3 p = project(layout.view, v.cast<double>()).value();
           EXPECT_TRUE(p.x() > 0 && p.x() < layout.view.width_px && p.y() > 0 &&
                       p.y() < layout.view.height_px)
               << kind->name << ' ' << width << ' ' << height;
         }
+      }
+    }
+  }
+}
+
+/// Whatever panels show, the words above, between and below them look the same; and each panel
+/// shows it from border to border.
+TEST(Pictures, WordsOfPanelsHavePaperThatNoPanelReaches) {
+  RunSource run(made_record(), cube());
+  RunSource* const runs[] = {&run};
+  Renderer renderer;
+  for (const auto& [width, height] : {std::pair{960, 540}, {540, 960}}) {
+    PictureOptions options;
+    options.width_px = width;
+    options.height_px = height;
+    const PanelLayout layout = lay_out(kCoveragePicture, runs, options);
+    Picture picture{.panels = std::vector<Panel>(2), .detail = "d", .legend = {{"l", {srgb(0)}}}};
+    for (Panel& panel : picture.panels) panel.note = "note";
+    const Image empty = draw_picture(picture, run, options, layout, renderer);
+    for (Panel& panel : picture.panels) {
+      panel.scene.balls.push_back({Vec3f(0, 0, 1), 3.0F, srgb(0x102030)});
+      panel.labels.push_back({Vec3(50, 0, 1), "a word beside a place far off"});
+    }
+    const Image full = draw_picture(picture, run, options, layout, renderer);
+    std::vector<std::uint8_t> is_panel(empty.rgb.size() / 3);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto [x0, y0] = layout.place_px(i);
+      EXPECT_GE(y0, layout.head_px + layout.note_px);
+      const int middle_x = x0 + layout.view.width_px / 2;
+      const int middle_y = y0 + layout.view.height_px / 2;
+      EXPECT_NE(full.at(middle_x, middle_y), empty.at(middle_x, middle_y));
+      for (int y = y0; y < std::min(height - layout.foot_px, y0 + layout.view.height_px); ++y) {
+        for (int x = x0; x < std::min(width, x0 + layout.view.width_px); ++x) {
+          is_panel[static_cast<std::size_t>(y * width + x)] = 1;
+        }
+      }
+    }
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        if (is_panel[static_cast<std::size_t>(y * width + x)] != 0) continue;
+        ASSERT_EQ(full.at(x, y), empty.at(x, y)) << x << ' ' << y;
       }
     }
   }
@@ -193,7 +237,16 @@ TEST(Pictures, SheetsLettersTheirCellsAndSayALegendOnceARow) {
   bare.caption.legend.clear();
   const std::vector<Image> same = sheet_cells({drawn, drawn}, 2);
   EXPECT_EQ(lower_half(same[0]), lower_half(with_words(bare)));
-  EXPECT_EQ(lower_half(same[1]), lower_half(with_words(drawn)));
+  // a white line parts it from its neighbour
+  constexpr int kLine_px = 6;
+  const Image alone = with_words(drawn);
+  EXPECT_EQ(same[1].at(0, 150), (Rgb8{255, 255, 255}));
+  EXPECT_EQ(same[0].at(0, 150), (Rgb8{200, 200, 200}));
+  for (int y = 200; y < 270; ++y) {
+    for (int x = kLine_px; x < 480; ++x) {
+      ASSERT_EQ(same[1].at(x, y), alone.at(x, y)) << x << ' ' << y;
+    }
+  }
   EXPECT_NE(same[1].rgb, with_words(drawn).rgb);  // (b)
   // another legend, or the next row, says it itself
   for (const auto& cells : {sheet_cells({drawn, other}, 2), sheet_cells({drawn, drawn}, 1)}) {
@@ -277,6 +330,37 @@ TEST(Snapshots, ShowWhatWasFlownAndSeenUpToTheView) {
     EXPECT_TRUE(std::any_of(scene.balls.begin(), scene.balls.end(), [&](const BallItem& ball) {
       return ball.casts_shadow && ball.centre_m == vehicle;
     }));
+  }
+}
+
+/// Wherever a view looks: its pyramid is in the picture, and neither title nor inset hides it.
+TEST(Snapshots, PyramidsStayClearOfTitleAndInset) {
+  const TempFolder temp;
+  write_made_run(temp.path());
+  RunRecord record = read_run(temp.path());
+  for (const double turned_rad : {0.0, 1.6, 3.1, 4.7}) {
+    for (ViewRecord& view : record.views) view.decision.view.yaw_rad += turned_rad;
+    RunSource run(record, cube());
+    RunSource* const runs[] = {&run};
+    const RenderView view = lay_out(kSnapshotFraming, runs, {}).view;
+    Snapshots snapshots(run, {}, view, false);
+    for (std::size_t i = 0; i < record.views.size(); ++i) {
+      const Picture picture = snapshots.picture(i, view);
+      const double inset_px = 0.25 * 1280 * picture.inset.height_px / picture.inset.width_px;
+      for (FrustumItem frustum : picture.panels.at(0).scene.frusta) {
+        frustum.T_world_camera = T_world_body(record.views[i].decision.view) *
+                                 make_camera_model(record.scenario.cameras[0]).T_body_camera;
+        const Vec3 far_m(frustum.length_m * std::tan(0.5 * frustum.fov_x_rad),
+                         frustum.length_m * std::tan(0.5 * frustum.fov_y_rad), frustum.length_m);
+        for (const auto& [x, y] : {std::pair{-1, -1}, {-1, 1}, {1, -1}, {1, 1}}) {
+          const Vec3 p_px =
+              project(view, frustum.T_world_camera * far_m.cwiseProduct(Vec3(x, y, 1))).value();
+          EXPECT_TRUE(p_px.x() > 0 && p_px.x() < 1280 && p_px.y() > 0 && p_px.y() < 720);
+          EXPECT_FALSE(p_px.x() < 700 && p_px.y() < 70) << p_px.transpose();
+          EXPECT_FALSE(p_px.x() > 940 && p_px.y() < inset_px + 18) << p_px.transpose();
+        }
+      }
+    }
   }
 }
 
