@@ -35,7 +35,7 @@ const std::vector<FigureKind>& figure_kinds() {
        "its "
        "range or an occupied voxel; occupied, free and unknown voxels are told apart.",
        "The first planned view of a mission: rays of its cameras through the map as it was "
-       "believed then, orange where they cross free voxels, grey where unknown ones, to the first "
+       "believed then, grey where they cross free voxels, orange where unknown ones, to the first "
        "occupied one. Pins are the other candidates.",
        draw_rays_figure},
       {"4", any,

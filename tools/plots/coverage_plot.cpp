@@ -61,14 +61,11 @@ double longest_effort(std::span<const RunGroup> groups, Effort effort) {
   return longest;
 }
 
-constexpr int kHeight_px = 1050;  // of the picture, whose width is 1512
-constexpr int kKeyLine_px = 60;
-
 /// Whether the lower right corner is free of curves: there a key of so many lines would stand, as
 /// wide as its longest one, of so many characters.
 bool is_corner_free(std::span<const RunGroup> groups, Effort effort, std::size_t size,
                     std::size_t entries, std::size_t characters) {
-  const double height = static_cast<double>((entries + 1) * kKeyLine_px) / (0.8 * kHeight_px);
+  const double height = static_cast<double>((entries + 1) * kKeyLine_px) / (0.8 * kOnePanel_px);
   const double left = 0.9 - 0.022 * static_cast<double>(characters);  // of the plot's width
   if (left < 0.0) return false;
   const double longest = longest_effort(groups, effort);
@@ -132,24 +129,39 @@ void add_lines(Layers& layers, const RunGroup& group, std::size_t i) {
                   dashes, mark, colour, gnuplot_text(label_of(group)));
 }
 
-/// What lies within the axis: a key to a line that is not there would be a riddle.
+constexpr Axis kAllPercent{0.0, 100.0, 20.0};
+
+/// The part of the plane that a plot shows.
+struct Window {
+  Effort effort = Effort::views;
+  double from = 0.0;  // of that effort
+  Axis percent = kAllPercent;
+
+  bool is_all() const { return percent.low == 0.0 && percent.high == 100.0; }
+  bool shows(double level) const { return percent.low <= level && level <= percent.high; }
+  bool shows(const RunGroup& group) const { return longest_effort({&group, 1}, effort) >= from; }
+};
+
+/// What lies within the window: a key to a line that is not there would be a riddle.
 Layers layers_of(std::span<const RunGroup> groups, std::optional<std::size_t> papers_size,
-                 const Axis& axis) {
-  const auto is_shown = [&](double percent) { return axis.low <= percent && percent <= axis.high; };
-  Layers layers{.entries = groups.size()};
+                 const Window& window) {
+  Layers layers;
   std::array<bool, 2> has_level = {false, false};  // trusted, doubtful
   std::vector<double> ceilings;
   for (std::size_t i = 0; i < groups.size(); ++i) {
+    if (!window.shows(groups[i])) continue;
     add_lines(layers, groups[i], i);
+    ++layers.entries;
     if (!papers_size) continue;
     const std::optional<double> ceiling = *papers_size == 0 ? ceiling_of(groups[i]) : std::nullopt;
     const auto is_same = [&](double other) { return std::abs(other - *ceiling) < 0.05; };
-    if (ceiling && is_shown(*ceiling) && std::none_of(ceilings.begin(), ceilings.end(), is_same)) {
+    if (ceiling && window.shows(*ceiling) &&
+        std::none_of(ceilings.begin(), ceilings.end(), is_same)) {
       ceilings.push_back(*ceiling);
       layers.levels += fmt::format("{} with lines lw 0.9 lc rgb '#262c36' notitle, ", *ceiling);
     }
     if (const auto level = paper_level(groups[i], *papers_size);
-        level && is_shown(level->percent)) {
+        level && window.shows(level->percent)) {
       layers.levels +=
           fmt::format("{} with lines lw 0.9 dt {} lc rgb '{}' notitle, ", level->percent,
                       level->is_doubtful ? "(2,6)" : "(6,5)", kPalette[i % kPalette.size()]);
@@ -180,29 +192,22 @@ std::string common_scenario(std::span<const RunGroup> groups) {
   return is_common && !is_said ? name : "";
 }
 
-constexpr Axis kAllPercent{0.0, 100.0, 20.0};
-
 /// `size` is an index of the curves' sizes; the paper has it when it is `papers_size`, too. The key
 /// stands inside where there is room, on an axis of all percent.
-Plot plot_of(std::span<const RunGroup> groups, Effort effort, std::size_t size,
-             std::optional<std::size_t> papers_size, const std::string& size_text,
-             const Axis& axis = kAllPercent) {
+Plot plot_of(std::span<const RunGroup> groups, const Window& window, std::size_t size,
+             std::optional<std::size_t> papers_size, const std::string& size_text) {
+  const Effort effort = window.effort;
   std::string data;
   for (std::size_t i = 0; i < groups.size(); ++i) data += group_data(groups[i], i, effort, size);
-  const Layers layers = layers_of(groups, papers_size, axis);
+  const Layers layers = layers_of(groups, papers_size, window);
   std::string entries =
       layers.bands + layers.levels + layers.lines + layers.ends + layers.names + layers.keys;
   entries.resize(entries.size() - 2);
-  const bool is_inside = axis.low == kAllPercent.low && axis.high == kAllPercent.high &&
-                         is_corner_free(groups, effort, size, layers.entries, layers.characters);
-  const int key_px = is_inside ? 0 : kKeyLine_px * static_cast<int>(layers.entries);
-  const int height_px = kHeight_px + key_px;
-  const std::string key = is_inside
-                              ? std::string("set key inside bottom right vertical\n")
-                              : fmt::format(
-                                    "set key at screen 0.1,0.99 left top vertical maxcols 1\n"
-                                    "set tmargin at screen {:.4f}\n",
-                                    1.0 - static_cast<double>(key_px + kKeyLine_px) / height_px);
+  const bool is_inside =
+      window.is_all() && is_corner_free(groups, effort, size, layers.entries, layers.characters);
+  const int height_px = is_inside ? kOnePanel_px : height_with_key_px(layers.entries);
+  const std::string key =
+      is_inside ? "set key inside bottom right vertical\n" : key_above(layers.entries);
   const std::string scenario = common_scenario(groups);
   const std::string title = scenario.empty()
                                 ? ""
@@ -223,37 +228,40 @@ Plot plot_of(std::span<const RunGroup> groups, Effort effort, std::size_t size,
 }  // namespace
 
 Plot coverage_plot(std::span<const RunGroup> groups, Effort effort, std::size_t size) {
-  return plot_of(groups, effort, size, size, size_name(kCoverageSizes_m[size]));
+  return plot_of(groups, {.effort = effort}, size, size, size_name(kCoverageSizes_m[size]));
 }
 
 std::optional<Plot> coverage_end_plot(std::span<const RunGroup> groups, Effort effort,
                                       std::size_t size) {
-  constexpr double kFrom = 0.85;
   const double longest = longest_effort(groups, effort);
+  const double from = 0.85 * longest;
   double low = 100.0;
   double high = 0.0;
   for (const RunGroup& group : groups) {
-    for (const CoveragePoint& point : mean_coverage(group, effort, size)) {
-      if (point.effort < kFrom * longest) continue;
-      const double half = point.coverage.half_width.value_or(0.0);
-      low = std::min(low, 100.0 * (point.coverage.mean - half));
-      high = std::max(high, 100.0 * (point.coverage.mean + half));
+    if (longest_effort({&group, 1}, effort) < from) continue;
+    const std::vector<CoveragePoint> points = mean_coverage(group, effort, size);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      // that before the window is where its line comes from
+      if (i + 1 < points.size() && points[i + 1].effort < from) continue;
+      const double half = points[i].coverage.half_width.value_or(0.0);
+      low = std::min(low, 100.0 * (points[i].coverage.mean - half));
+      high = std::max(high, 100.0 * (points[i].coverage.mean + half));
     }
   }
   if (!(longest > 0.0) || low > high) return std::nullopt;
-  Plot plot = plot_of(groups, effort, size, size, size_name(kCoverageSizes_m[size]),
-                      axis_around(low, high));
+  Plot plot = plot_of(groups, {effort, from, axis_around(low, high)}, size, size,
+                      size_name(kCoverageSizes_m[size]));
   plot.name += "-end";
   // the last word on both axes, before anything is drawn
   const std::size_t at = plot.body.rfind("\nplot ") + 1;
-  plot.body.insert(at, fmt::format("set xrange [{}:{}] noextend\nset xtics {:g}\n", kFrom * longest,
+  plot.body.insert(at, fmt::format("set xrange [{}:{}] noextend\nset xtics {:g}\n", from,
                                    1.01 * longest, even_step(0.16 * longest)) +
                            y_axis(low, high));
   return plot;
 }
 
 Plot coverage_plot_at(std::span<const RunGroup> groups, Effort effort, double size_m) {
-  return plot_of(groups, effort, 0, std::nullopt, size_name(size_m));
+  return plot_of(groups, {.effort = effort}, 0, std::nullopt, size_name(size_m));
 }
 
 }  // namespace gnbv

@@ -1,6 +1,7 @@
 #include "tools/plots/curves.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "sim/core/error.hpp"
 
@@ -23,7 +24,11 @@ std::vector<double> moving_mean(std::span<const double> values, std::size_t wind
   std::vector<double> means;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const std::size_t reach = std::min({window / 2, i, values.size() - 1 - i});
-    means.push_back(mean_of(values.subspan(i - reach, 2 * reach + 1)));
+    std::vector<double> known;
+    for (const double value : values.subspan(i - reach, 2 * reach + 1)) {
+      if (!std::isnan(value)) known.push_back(value);
+    }
+    means.push_back(known.empty() ? values[i] : mean_of(known));
   }
   return means;
 }

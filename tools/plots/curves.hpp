@@ -20,7 +20,7 @@ struct Phase {
 std::vector<Phase> frontier_phases(std::span<const ViewRecord> views);
 
 /// The mean of `window` values around each; fewer at the ends, the same number on both sides.
-/// Requires an odd window.
+/// Those that are not known (NaN) do not count. Requires an odd window.
 std::vector<double> moving_mean(std::span<const double> values, std::size_t window);
 
 /// Coverage as a fraction at so much effort, straight between views; what it was at the last view

@@ -58,19 +58,22 @@ Plot mean_density_plot(std::span<const MeanSeries> series) {
                          i == 0 ? "" : ", ", i, colour, gnuplot_text(series[i].label));
   }
   GNBV_CHECK(most_views > 0, "no density of {} series", series.size());
+  std::size_t entries = series.size();
   if (!bands.empty()) {
     lines +=
         ", keyentry with boxes fs solid noborder fc rgb '#d5d9de' title '95 % interval of the "
         "mean'";
+    ++entries;
   }
   return {
       "density",
-      data + "set key inside bottom right vertical\n" + y_axis(0.0, 1.15 * highest) +
+      data + key_above(entries) + y_axis(0.0, 1.15 * highest) +
           fmt::format("set xrange [0:{}] noextend\nset rmargin 3\nset xtics {:g}\n",
                       std::max<std::size_t>(most_views - 1, 1),
                       even_step(static_cast<double>(std::max<std::size_t>(most_views - 1, 1)))) +
           "set xlabel 'iteration'\nset ylabel 'density (points/voxel)' offset 0.6,0\nplot " +
-          bands + lines + "\n"};
+          bands + lines + "\n",
+      height_with_key_px(entries)};
 }
 
 }  // namespace gnbv

@@ -63,10 +63,6 @@ std::optional<Plot> reach_plot(std::span<const RunGroup> groups, Effort effort, 
       longest = std::max(longest, whole_effort(run->figures->curve, effort));
     }
   }
-  constexpr int kKeyLine_px = 60;
-  constexpr int kCurves_px = 1050;
-  const int key_px = kKeyLine_px * static_cast<int>(all.size());
-  const int height_px = kCurves_px + key_px;
   std::string body;
   std::string entries;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -77,14 +73,14 @@ std::optional<Plot> reach_plot(std::span<const RunGroup> groups, Effort effort, 
                     gnuplot_text(fmt::format("{} ({} of {})", all[i].label, all[i].efforts.size(),
                                              all[i].runs)));
   }
-  body += fmt::format(
-      "set key at screen 0.1,0.99 left top vertical maxcols 1\nset tmargin at screen {:.4f}\n"
-      "set yrange [0:103]\nset ytics 20\nset xrange [0:{}] noextend\nset rmargin 3\n"
-      "set xtics {:g}\nset xlabel {}\nset ylabel {} offset 0.6,0\nplot {}\n",
-      1.0 - static_cast<double>(key_px + kKeyLine_px) / height_px, longest, even_step(longest),
-      gnuplot_text(effort_label(effort)),
-      gnuplot_text(fmt::format("runs at {:.0f} % of the ceiling (%)", 100.0 * share)), entries);
-  return Plot{fmt::format("reach-{}", effort_name(effort)), body, height_px};
+  body +=
+      key_above(all.size()) +
+      fmt::format(
+          "set yrange [0:103]\nset ytics 20\nset xrange [0:{}] noextend\nset rmargin 3\n"
+          "set xtics {:g}\nset xlabel {}\nset ylabel {} offset 0.6,0\nplot {}\n",
+          longest, even_step(longest), gnuplot_text(effort_label(effort)),
+          gnuplot_text(fmt::format("runs at {:.0f} % of the ceiling (%)", 100.0 * share)), entries);
+  return Plot{fmt::format("reach-{}", effort_name(effort)), body, height_with_key_px(all.size())};
 }
 
 }  // namespace gnbv

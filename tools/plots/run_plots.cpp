@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tools/plots/gnuplot.hpp"
 #include "tools/plots/script_parts.hpp"
@@ -28,11 +29,14 @@ std::string x_range(const std::vector<ViewRecord>& views) {
                      views.back().iteration + 0.5);
 }
 
-/// The views that somebody scored: not the start, nor those of a route.
+/// The views that somebody scored, with a value of 0, too: not the start, nor those of a route.
 std::vector<ViewRecord> scored_views(const RunRecord& record) {
   std::vector<ViewRecord> scored;
   std::copy_if(record.views.begin(), record.views.end(), std::back_inserter(scored),
-               [](const ViewRecord& view) { return view.decision.score.value != 0.0; });
+               [](const ViewRecord& view) {
+                 const Score& s = view.decision.score;
+                 return s.value != 0.0 || s.information != 0.0 || s.distance != 1.0;
+               });
   return scored;
 }
 
@@ -67,9 +71,11 @@ struct Eq2 {
   double density(const Score& s) const { return beta * s.density; }
   double prediction(const Score& s) const { return gamma * s.prediction; }
   double information(const Score& s) const { return 1.0 + alpha * s.information; }
-  /// What remains of the value: log10 of the occupied voxels in view, which no file holds.
+  /// What remains of the value: log10 of the occupied voxels in view, which no file holds; not
+  /// known where another term is 0.
   double size(const Score& s) const {
-    return s.value / (information(s) * (density(s) + prediction(s)) * s.distance);
+    const double others = information(s) * (density(s) + prediction(s)) * s.distance;
+    return others > 0.0 ? s.value / others : std::numeric_limits<double>::quiet_NaN();
   }
 
   double alpha = 0.0;

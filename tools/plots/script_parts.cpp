@@ -109,6 +109,17 @@ std::string y_axis(double low, double high, int most_steps) {
                      axis.low, axis.high, axis.step, format);
 }
 
+int height_with_key_px(std::size_t entries) {
+  return kOnePanel_px + kKeyLine_px * static_cast<int>(entries);
+}
+
+std::string key_above(std::size_t entries) {
+  const int key_px = kKeyLine_px * (static_cast<int>(entries) + 1);
+  return fmt::format(
+      "set key at screen 0.1,0.99 left top vertical maxcols 1\nset tmargin at screen {:.4f}\n",
+      1.0 - static_cast<double>(key_px) / height_with_key_px(entries));
+}
+
 Panels::Panels(std::size_t count, std::string_view title, std::string_view x_label)
     : count_(count), title_(title), x_label_(x_label) {}
 

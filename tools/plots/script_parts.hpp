@@ -53,6 +53,14 @@ Axis axis_around(double low, double high, int most_steps = 5);
 /// Settings of a y axis that is axis_around() them.
 std::string y_axis(double low, double high, int most_steps = 5);
 
+constexpr int kOnePanel_px = 1050;  // the height of a picture of one panel, 1512 wide
+constexpr int kKeyLine_px = 60;
+
+/// Settings of a key of so many lines above a plot of one panel, whose picture is
+/// height_with_key_px() high: inside, gnuplot leaves out one that is too wide.
+std::string key_above(std::size_t entries);
+int height_with_key_px(std::size_t entries);
+
 /// The height of a picture of so many panels that is 1512 pixels wide.
 int panels_height_px(std::size_t count);
 

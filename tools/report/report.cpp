@@ -65,7 +65,7 @@ struct ScoredRun {
 std::optional<Ceiling> shared_ceiling(std::span<const ScoredRun> runs) {
   const std::optional<Ceiling>& first = runs.front().ceiling;
   const bool is_shared = std::all_of(runs.begin(), runs.end(), [&](const ScoredRun& run) {
-    return run.ceiling && first && run.ceiling->leaf_outside == first->leaf_outside;
+    return run.ceiling && first && run.ceiling->leaf_outside[0] == first->leaf_outside[0];
   });
   return is_shared ? first : std::nullopt;
 }
@@ -139,14 +139,20 @@ std::string title_of(const std::vector<RunRecord>& records) {
   return fmt::format("{}: {} runs", fmt::join(scenarios, ", "), records.size());
 }
 
-/// The coverage that could be reached, where an earlier command found it.
+/// The coverage that could be reached, where an earlier command found it: of all sizes where this
+/// machine still has it, else what the run was scored with.
 std::optional<Ceiling> ceiling_of(const RunRecord& record, const KnownStructure* structure,
                                   int threads) {
-  if (structure == nullptr) return std::nullopt;
-  auto ceiling = known_ceiling(record.scenario, structure->world, structure->scene,
-                               start_pose(record.scenario, structure->scene), threads);
-  if (ceiling && ceiling->leaf_outside[0] <= 0.0) return std::nullopt;
-  return ceiling;
+  if (structure != nullptr) {
+    const auto known = known_ceiling(record.scenario, structure->world, structure->scene,
+                                     start_pose(record.scenario, structure->scene), threads);
+    if (known && known->leaf_outside[0] > 0.0) return known;
+  }
+  if (!record.figures || !record.figures->ceiling) return std::nullopt;
+  Ceiling scored;
+  scored.leaf_outside[0] = *record.figures->ceiling;
+  scored.is_given = true;
+  return scored;
 }
 
 /// 256 sRGB colours, three bytes each: those of the pictures of the same run.

@@ -17,12 +17,19 @@ namespace fs = std::filesystem;
 
 using Values = std::vector<std::pair<std::string, std::string>>;
 
-/// All but the seed, and the utility's name unless asked for.
+constexpr std::array<std::string_view, 3> kNames = {"name", "planner.utility.name",
+                                                    "planner.preset"};
+
+/// All but the seed, and the utility's name unless asked for; the scenario by its title.
 Values values_of(const RunRecord& run, bool has_utility = true) {
   Scenario scenario = run.scenario;
   scenario.seed = 0;
   if (!has_utility) scenario.planner.utility.name.clear();
-  return scenario_values(scenario);
+  Values values = scenario_values(scenario);
+  for (auto& [key, value] : values) {
+    if (key == kNames.front()) value = scenario_title(scenario);
+  }
+  return values;
 }
 
 std::string value_of(const Values& values, std::string_view key) {
@@ -30,9 +37,6 @@ std::string value_of(const Values& values, std::string_view key) {
                                [&](const auto& value) { return value.first == key; });
   return at == values.end() ? "" : at->second;
 }
-
-constexpr std::array<std::string_view, 3> kNames = {"name", "planner.utility.name",
-                                                    "planner.preset"};
 
 bool differ_in(const std::vector<Values>& groups, std::string_view key) {
   return std::any_of(groups.begin(), groups.end(), [&](const Values& values) {
@@ -59,7 +63,7 @@ std::string names_of(const Values& values, const std::vector<Values>& groups) {
   for (const std::string_view key : kNames) {
     if (!differ_in(groups, key)) continue;
     const std::string value = value_of(values, key);
-    names += (names.empty() ? "" : ", ") + (key == kNames.back() ? value : human_name(value));
+    names += (names.empty() ? "" : ", ") + (key == kNames[1] ? human_name(value) : value);
   }
   return names;
 }

@@ -150,17 +150,17 @@ RunCloud read_run_cloud(const RunRecord& record) {
   return cloud;
 }
 
+std::string scenario_title(const Scenario& scenario) {
+  const std::string name = human_name(scenario.name);
+  if (is_builtin(scenario.structure)) return name;
+  const fs::path mesh(structure_name(scenario.structure));
+  return fmt::format("{} ({})", name, mesh.filename().string());
+}
+
 std::string run_title(const RunRecord& record) {
   const PlannerConfig& planner = record.scenario.planner;
-  const StructureConfig& structure = record.scenario.structure;
-  // a scenario's name says little of the mesh that --mesh put in its structure's place
-  const std::string mesh =
-      is_builtin(structure)
-          ? ""
-          : fmt::format(" ({})",
-                        std::filesystem::path(structure_name(structure)).filename().string());
-  const std::string title = fmt::format("{}{}, {}", human_name(record.scenario.name), mesh,
-                                        human_name(planner.utility.name));
+  const std::string title =
+      fmt::format("{}, {}", scenario_title(record.scenario), human_name(planner.utility.name));
   return planner.preset == PlannerConfig{}.preset ? title : title + ", " + planner.preset;
 }
 

@@ -46,6 +46,10 @@ struct RunCloud {
 /// and the record's views do not belong together.
 RunCloud read_run_cloud(const RunRecord& record);
 
+/// "Aircraft (a340.obj)": a scenario's name says little of the mesh that --mesh put in its
+/// structure's place.
+std::string scenario_title(const Scenario& scenario);
+
 /// Who flew where: "aircraft, proposed"; and by which reading of the paper, if not the usual one.
 std::string run_title(const RunRecord& record);
 /// The main figures in one line, as far as they are there.

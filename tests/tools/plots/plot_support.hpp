@@ -37,9 +37,13 @@ inline RunRecord scored_record() {
     view.entropy_nat = 900.0 - 7.3 * i;
     view.density_points_per_voxel = 10.0 + 0.7 * i;
     view.decision.sampler = (i >= 4 && i <= 6) || i == 11 ? "fvs" : i == 0 ? "start" : "agvs";
+    if (i == 0) {  // which nobody scored
+      record.views.push_back(view);
+      continue;
+    }
     Score& s = view.decision.score;
     s = {.value = 0.0, .information = 0.01 * i, .density = 0.8, .prediction = 0.3, .distance = 0.9};
-    if (i > 0) s.value = (1.0 + 10.0 * s.information) * 0.55 * 0.9 * std::log10(50.0 + i);
+    s.value = (1.0 + 10.0 * s.information) * 0.55 * 0.9 * std::log10(50.0 + i);
     record.views.push_back(view);
   }
   return record;

@@ -49,6 +49,21 @@ TEST(Plots, TermsMultiplyToTheUtility) {
   EXPECT_FALSE(terms_plot(unscored).has_value());
 }
 
+/// A view may be chosen for want of a better one: its value of 0 is drawn, not bridged.
+TEST(Plots, TermsOfWorthlessViewsAreDrawn) {
+  RunRecord record = scored_record();
+  Score& worthless = record.views[5].decision.score;
+  worthless = {.information = 0.02, .distance = 0.9};  // sees nothing occupied
+  const auto plot = terms_plot(record);
+  ASSERT_TRUE(plot.has_value());
+  const auto rows = block(plot->body, "raw");
+  ASSERT_EQ(rows.size(), 11U);
+  EXPECT_EQ(rows[4][0], 5.0);
+  EXPECT_EQ(rows[4][1], 0.0);
+  EXPECT_EQ(rows[4][2], 0.0);
+  expect_drawable(*plot);
+}
+
 /// Panels lie from top to bottom in the order in which they are said, of any utility.
 TEST(Plots, PanelsFollowEachOtherDownwards) {
   RunRecord discounted = scored_record();
@@ -80,6 +95,11 @@ TEST(Plots, MovingMeansShrinkAtTheEnds) {
   const std::vector<double> values = {1, 2, 4, 8, 16};
   EXPECT_EQ(moving_mean(values, 3), (std::vector<double>{1, 7.0 / 3, 14.0 / 3, 28.0 / 3, 16}));
   EXPECT_EQ(moving_mean(values, 1), values);
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<double> with_gaps = moving_mean(std::vector{unknown, 4.0, unknown, 2.0}, 3);
+  EXPECT_TRUE(std::isnan(with_gaps[0]));  // alone in its window
+  EXPECT_EQ(with_gaps[1], 4.0);
+  EXPECT_EQ(with_gaps[2], 3.0);
 }
 
 TEST(Plots, TermsNameNoPredictionWhereThereIsNone) {

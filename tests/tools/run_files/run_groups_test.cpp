@@ -49,6 +49,10 @@ TEST(RunGroups, LabelsSayNoMoreThanIsNeeded) {
   runs[0].folder = "runs/a";
   runs[1].folder = "runs/b";
   EXPECT_EQ(labels(), (std::vector<std::string>{"Smoke, a", "Smoke, b", "Lab"}));
+  runs[3].scenario.structure.builtin.clear();
+  runs[3].scenario.structure.file.path = "/meshes/my_a340.obj";  // whose other keys follow from it
+  runs[3].scenario.planner.floor_z_m = 0.4;
+  EXPECT_EQ(labels().back(), "Smoke (my_a340.obj)");
   runs.resize(2);
   runs[1].scenario = runs[0].scenario;
   runs[0].scenario.cameras[0].rate_hz = runs[0].scenario.lidars[0].rate_hz = 1.0;

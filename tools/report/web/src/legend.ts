@@ -68,14 +68,20 @@ export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring): 
     items.push(item("line", hex(planColour()), "still planned"));
   }
   if (layers.vehicle && !layers.candidates) {
-    const cut_m = first.sightCut_m();
-    items.push(item("line", "#ff8a3c", cut_m === null ? "what the cameras see"
-      : `what the cameras see, to ${number(cut_m, 1)} m`));
+    const sights = scenes.map((scene) => scene.sight());
+    const lengths = inTurn(sights.map(({ length_m }) => number(length_m, 1)));
+    items.push(item("line", "#ff8a3c", "what the cameras see"
+      + (sights.every(({ isWhole }) => isWhole) ? "" : `, to ${lengths} m`)));
   }
   if (layers.candidates) items.push(...candidateItems(scenes));
   items.push(...believedItems(scenes));
-  items.push(make("span", {}, `grid ${number(first.gridStep_m)} m`));
+  items.push(make("span", {}, `grid ${inTurn(scenes.map((s) => number(s.gridStep_m)))} m`));
   return items;
+}
+
+/** One where all are the same, else those of the panes in their order. */
+function inTurn(words: string[]): string {
+  return new Set(words).size === 1 ? words[0] : words.join(", ");
 }
 
 function candidateItems(scenes: RunScene[]): HTMLElement[] {

@@ -46,8 +46,8 @@ export class Painter {
   }
 
   /** A scene into its pane; `share` of it is the truth where a surface is beside it. */
-  paint(scene: RunScene, pane: Pane, share: number) {
-    const { clock, camera, pxPerTan, isWhole, splats } = this.now!;
+  paint(scene: RunScene, camera: three.PerspectiveCamera, pane: Pane, share: number) {
+    const { clock, pxPerTan, isWhole, splats } = this.now!;
     const { x, y, width, height } = pane;
     scene.show(clock, camera, pxPerTan, isWhole, splats);
     this.renderer.setViewport(x, y, width, height);

@@ -61,7 +61,7 @@ export class RunScene {
   readonly vehicle = new three.Group(); // at the vehicle's pose
   readonly model: Model;
   private readonly body: three.Group;
-  private sight: three.Group;
+  private sightMark: three.Group;
   private lookedAs = -1; // view
   readonly structure: Structure | null;
   private readonly path: PathMark;
@@ -93,8 +93,8 @@ export class RunScene {
       && readRunSurface(flight.bytes.u8(data.surface), () => this.onLoad());
     this.gridStep_m = gridStep(data.workspace.min, data.workspace.max);
     this.body = makeVehicle(data.vehicle);
-    this.sight = makeSight(data.cameras, this.sightMost_m());
-    this.vehicle.add(this.body, this.sight);
+    this.sightMark = makeSight(data.cameras, this.sightMost_m());
+    this.vehicle.add(this.body, this.sightMark);
     const sun = new three.DirectionalLight(0xffffff, 2.1);
     sun.position.set(-0.5, -0.8, 1.4);
     const sky = new three.HemisphereLight(0xffffff, 0x8d939c, 1.5);
@@ -181,7 +181,7 @@ export class RunScene {
     this.vehicle.position.copy(pose.p);
     this.vehicle.quaternion.copy(pose.q);
     if (n > 0) this.lookAs(n - 1);
-    this.sight.visible = n > 0 && !this.candidates?.object.visible; // it has rays of its own
+    this.sightMark.visible = n > 0 && !this.candidates?.object.visible; // it has rays of its own
     // from afar larger than life, or it would be a speck
     const away = camera.position.distanceTo(pose.p);
     this.body.scale.setScalar(Math.max(1, 0.028 * away / this.flight.data.vehicle.radius_m));
@@ -193,21 +193,22 @@ export class RunScene {
     return 0.25 * new three.Vector3(...min).distanceTo(new three.Vector3(...max));
   }
 
-  /** How far what the cameras see is drawn, where that is not as far as they see. */
-  sightCut_m(): number | null {
+  /** How far what the cameras see is drawn, and whether that is as far as they see. */
+  sight(): { length_m: number; isWhole: boolean } {
     const range_m = Math.max(...this.flight.data.cameras.map((camera) => camera.range_m));
-    return range_m > this.sightMost_m() ? this.sightMost_m() : null;
+    const length_m = Math.min(range_m, this.sightMost_m());
+    return { length_m, isWhole: length_m === range_m };
   }
 
   /** What the cameras see at a view, where a gimbal turns them. */
   private lookAs(view: number) {
     if (view === this.lookedAs || !this.flight.data.views.T_body_camera) return;
     this.lookedAs = view;
-    this.vehicle.remove(this.sight);
-    this.sight.traverse((part) => (part as three.Mesh).geometry?.dispose());
-    this.sight = makeSight(this.flight.camerasAt(view), this.sightMost_m());
-    this.sight.traverse((part) => part.layers.set(kMarkLayer));
-    this.vehicle.add(this.sight);
+    this.vehicle.remove(this.sightMark);
+    this.sightMark.traverse((part) => (part as three.Mesh).geometry?.dispose());
+    this.sightMark = makeSight(this.flight.camerasAt(view), this.sightMost_m());
+    this.sightMark.traverse((part) => part.layers.set(kMarkLayer));
+    this.vehicle.add(this.sightMark);
   }
 
   /** Metres over which shading is to look for the slope of what has no normals; 0: it is not to. */

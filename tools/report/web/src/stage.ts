@@ -10,6 +10,7 @@ import { Detail } from "./detail";
 import type { View3d } from "./controls";
 import { NoStage } from "./no_stage";
 import { Painter } from "./painter";
+import { PaneCamera } from "./pane_camera";
 import { kAim_px, kPointer_px, moveByKey, pick } from "./pick";
 import { Pointing } from "./pointing";
 import type { Layers, RunScene } from "./run_scene";
@@ -39,6 +40,7 @@ class Stage implements View3d {
   private readonly labels = make("div", { class: "panes" });
   private readonly painter: Painter;
   private readonly camera = new three.PerspectiveCamera(38, 1, 0.1, 1000);
+  private readonly paneCameras = new Map<RunScene, PaneCamera>();
   private readonly controls: OrbitControls;
   private shown: RunScene[];
   private isStale = false;
@@ -56,7 +58,10 @@ class Stage implements View3d {
     this.pointing = new Pointing(goTo);
     this.element = make("div", { class: "stage" }, this.canvas, this.labels, this.axes.element,
       this.pointing.element, make("span", { class: "aim" }), this.swipe.element);
-    for (const scene of scenes) scene.onLoad = () => this.invalidate();
+    for (const scene of scenes) {
+      scene.onLoad = () => this.invalidate();
+      this.paneCameras.set(scene, new PaneCamera(scene));
+    }
     this.painter = new Painter(this.canvas);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, this.canvas);
@@ -178,7 +183,7 @@ class Stage implements View3d {
     const scene = this.shown[pane];
     if (!scene) return;
     const [left, top] = this.isColumn() ? [0, pane * height] : [pane * width, 0];
-    this.pointing.tell(pick(scene, this.camera, x - left, y - top, width, height, near_px), scene);
+    this.pointing.tell(pick(scene, this.cameraOf(scene), x - left, y - top, width, height, near_px), scene);
   }
 
   setFollows(follows: boolean) {
@@ -203,7 +208,9 @@ class Stage implements View3d {
 
   /** Puts the camera where it sees all of the structure. */
   frame() {
-    const outlines = this.shown.map((scene) => scene.outline());
+    const lead = this.shown[0];
+    const outlines = this.shown.map((scene) =>
+      this.paneCameras.get(scene)!.inLead(lead, scene.outline()));
     const box = new three.Box3();
     for (const outline of outlines) box.union(new three.Box3().setFromArray(outline));
     const centre = box.getCenter(new three.Vector3());
@@ -220,13 +227,16 @@ class Stage implements View3d {
 
   /** So that nothing is cut off, as far as anybody may go from a picture taken at `away`. */
   private setDepths(away: number) {
-    const all = new three.Box3();
-    for (const scene of this.shown) all.union(scene.bounds());
+    const all = this.shown[0]?.bounds() ?? new three.Box3();
     const extent = all.isEmpty() ? 1 : all.getSize(new three.Vector3()).length();
     this.controls.maxDistance = 4 * Math.max(away, extent);
     this.camera.far = this.controls.maxDistance + 2 * extent;
     this.camera.near = this.camera.far / 2500;
     this.camera.updateProjectionMatrix();
+  }
+
+  private cameraOf(scene: RunScene) {
+    return this.paneCameras.get(scene)!.of(this.shown[0], this.camera);
   }
 
   private isColumn() { return this.element.clientWidth < 560; }
@@ -271,7 +281,7 @@ class Stage implements View3d {
     this.axes.show(this.camera);
     this.shown.forEach((scene, i) => {
       const [x, y] = this.isColumn() ? [0, total - (i + 1) * height] : [i * width, 0];
-      this.painter.paint(scene, { x, y, width, height }, this.swipe.share);
+      this.painter.paint(scene, this.cameraOf(scene), { x, y, width, height }, this.swipe.share);
     });
     if (isWhole) this.painter.wait();
     this.detail.drawn(performance.now() - begin);
