@@ -49,6 +49,8 @@ TEST(Program, HelpIsNoWiderThan80ColumnsAndHasExamples) {
 
 TEST(Program, SuggestsWhatAMistypedWordMayHaveMeant) {
   EXPECT_TRUE(has(gnbv("rendr"), "did you mean `gnbv render`?"));
+  EXPECT_FALSE(has(gnbv("rendr"), "subcommand"));
+  EXPECT_TRUE(has(gnbv("run smoke --utility propsed"), "--utility propsed: "));
   EXPECT_TRUE(has(gnbv("comp"), "did you mean `gnbv compare`?"));
   EXPECT_TRUE(has(gnbv("run smoke --utilty bircher"), "did you mean --utility?"));
   EXPECT_FALSE(has(gnbv("fly-me-to-the-moon"), "did you mean"));

@@ -57,12 +57,13 @@ int run(int argc, char** argv) {
     std::ostringstream complaint;
     const bool is_answer = app.exit(error, answer, complaint) == 0;
     fmt::print("{}", answer.str());
-    gnbv::print_to_stderr(gnbv::printable(complaint.str()));
-    if (is_answer) return 0;
     const std::vector<std::string> words(argv + 1, argv + std::max(argc, 1));
-    const std::string meant = gnbv::meant_instead(app, words);
+    const std::string meant = is_answer ? "" : gnbv::meant_instead(app, words);
+    // that a word is none of the commands is said by the one that it comes near
+    const bool is_command = error.get_name() == "RequiredError" && !meant.empty();
+    if (!is_command) gnbv::print_to_stderr(gnbv::printable(complaint.str()));
     if (!meant.empty()) gnbv::say(meant);
-    return 2;
+    return is_answer ? 0 : 2;
   }
   return 0;
 }
