@@ -68,6 +68,9 @@ std::array<double, 2> reach_of(const ForestPanel& panel) {
   return {std::max(low, -1.5 * largest), std::min(high, 1.5 * largest)};
 }
 
+/// Differences have the unit of the axis.
+std::string without_unit(const std::string& metric) { return metric.substr(0, metric.rfind(" (")); }
+
 /// Names of the metrics on alternating bands.
 std::string bands(const ForestPanel& panel) {
   std::string text = "unset object\n";
@@ -75,7 +78,9 @@ std::string bands(const ForestPanel& panel) {
   for (std::size_t i = 0; i < panel.metrics.size(); ++i) {
     const auto top = -static_cast<double>(i);
     std::string name;  // which gnuplot takes for a format
-    for (const char c : panel.metrics[i]) name += c == '%' ? "%%" : std::string(1, c);
+    for (const char c : without_unit(panel.metrics[i])) {
+      name += c == '%' ? "%%" : std::string(1, c);
+    }
     tics += fmt::format("{}{} {}", i == 0 ? "" : ", ", gnuplot_text(name), top - 0.5);
     if (i % 2 == 1) continue;
     text += fmt::format(
@@ -103,21 +108,24 @@ std::string intervals(const ForestPanel& panel, const Comparison& comparison,
       const auto slots = static_cast<double>(comparison.methods.size() - 1);
       const double y = -static_cast<double>(row.metric) -
                        (0.1 + 0.8 * (static_cast<double>(slot) + 0.5) / slots);
-      (row.is_significant ? sure : open)
-          .push_back({row.mean, y, std::max(row.low, low), std::min(row.high, high)});
+      (row.is_significant ? sure : open).push_back({row.mean, y, row.low, row.high});
       if (row.low < low) beyond.push_back({low, y, -head});
       if (row.high > high) beyond.push_back({high, y, head});
     }
+    const std::string colour = fmt::format("rgb '{}'", kPalette[method % kPalette.size()]);
     const auto add = [&](const std::vector<std::vector<double>>& rows, std::string_view kind,
-                         std::string_view style) {
+                         std::string_view style, std::string_view inside = "") {
       if (rows.empty()) return;
       const std::string block = fmt::format("{}{}{}", name, kind, method);
       data += data_block(block, rows);
-      entries += fmt::format("{}${} {} lc rgb '{}' notitle", entries.empty() ? "" : ", ", block,
-                             style, kPalette[method % kPalette.size()]);
+      entries +=
+          fmt::format("{}${} {} lc {} notitle", entries.empty() ? "" : ", ", block, style, colour);
+      if (inside.empty()) return;
+      entries += fmt::format(", ${} using 1:2 with points {} notitle", block, inside);
     };
     add(sure, "sure", "using 1:2:3:4 with xerrorbars pt 7 ps 1.0 lw 1.2");
-    add(open, "open", "using 1:2:3:4 with xerrorbars pt 6 ps 1.0 lw 1.2");
+    add(open, "open", "using 1:2:3:4 with xerrorbars pt 7 ps 1.0 lw 1.2",
+        "pt 7 ps 0.6 lc rgb 'white'");
     add(beyond, "beyond", "using 1:2:3:(0) with vectors head filled size graph 0.015,25 lw 1.2");
   }
   return data +
@@ -132,7 +140,8 @@ double name_share(const std::vector<ForestPanel>& panels) {
   constexpr double kCharacter = 0.0165;  // where Arial is missing, letters are wide
   std::size_t longest = 0;
   for (const ForestPanel& panel : panels) {
-    for (const std::string& metric : panel.metrics) longest = std::max(longest, metric.size());
+    for (const std::string& metric : panel.metrics)
+      longest = std::max(longest, without_unit(metric).size());
   }
   return std::min(0.6, 0.03 + kCharacter * static_cast<double>(longest));
 }

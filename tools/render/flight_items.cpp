@@ -71,10 +71,14 @@ void add_flight(const RunRecord& record, const FlightLook& look, RenderScene& sc
   if (!planned.points_m.empty()) scene.tubes.push_back(std::move(planned));
 }
 
+std::size_t pyramid_step(std::size_t views, int every) {
+  return every > 0 ? static_cast<std::size_t>(every) : 1 + views / 40;
+}
+
 void add_views(const RunRecord& record, std::size_t count, int every, const FlightLook& look,
                RenderScene& scene) {
   const std::size_t all = record.views.size();
-  const std::size_t step = every > 0 ? static_cast<std::size_t>(every) : 1 + all / 40;
+  const std::size_t step = pyramid_step(all, every);
   const double unit_m = look.thickness * look.unit_m;
   for (std::size_t i = 0; i < std::min(count, all); ++i) {
     const ViewPose& pose = record.views[i].decision.view;
@@ -87,6 +91,11 @@ void add_views(const RunRecord& record, std::size_t count, int every, const Flig
           frustum_of(camera, T_world_body(pose), pose.gimbal_pitch_rad, 27.0 * look.unit_m, colour);
       frustum.edge_radius_m = static_cast<float>(0.75 * unit_m);
       frustum.face_opacity = 0.25F;
+      const Vec3f body = pose.p_world_m.cast<float>();
+      const Vec3f apex = frustum.T_world_camera.translation().cast<float>();
+      if ((apex - body).norm() > 6.0 * unit_m) {  // whose view it is could not be told
+        scene.tubes.push_back({{body, apex}, {colour}, static_cast<float>(0.75 * unit_m)});
+      }
       scene.frusta.push_back(frustum);
     }
   }

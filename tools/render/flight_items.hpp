@@ -22,6 +22,9 @@ struct FlightLook {
 /// to its last. Samples on straight lines are left out.
 void add_flight(const RunRecord& record, const FlightLook& look, RenderScene& scene);
 
+/// Of which views the cameras' pyramids are drawn: each `every`-th; 0: of some 40 in all.
+std::size_t pyramid_step(std::size_t views, int every);
+
 /// A ball at each of the first `count` views in the colours of their order, and the pyramids of all
 /// cameras at each n-th; 0: at about 40 in all.
 void add_views(const RunRecord& record, std::size_t count, int every, const FlightLook& look,

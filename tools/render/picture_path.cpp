@@ -1,4 +1,6 @@
 // The structure with the flown path, as Figures 8 and 10 of the paper show it.
+#include <fmt/format.h>
+
 #include "tools/render/flight_items.hpp"
 #include "tools/render/picture.hpp"
 
@@ -42,6 +44,11 @@ Picture draw_path(RunSource& run, const PictureOptions& options, const RenderVie
     picture.legend.push_back({"profile", {kProfileColour}, LegendItem::Mark::line});
   }
   for (const LegendItem& item : legend_of_surroundings(run)) picture.legend.push_back(item);
+  const std::size_t step = pyramid_step(record.views.size(), options.every);
+  if (step > 1) {
+    picture.legend.push_back(
+        {fmt::format("cameras, one view in {}", step), {path_ramp(0.5)}, LegendItem::Mark::line});
+  }
   picture.legend.push_back(
       {.label = "last", .colours = path_colours(), .label_before = "first view"});
   return picture;

@@ -67,6 +67,21 @@ TEST(PathPicture, PyramidsLookWhereTheViewDoes) {
   EXPECT_NEAR(down(), std::sin(0.4), 1e-12);
 }
 
+/// A camera that is mounted off the body hangs on a line from its view.
+TEST(PathPicture, PyramidsBesideTheirViewsHangOnALine) {
+  RunRecord record = made_record();
+  const std::size_t all = record.views.size() * record.scenario.cameras.size();
+  const auto lines = [&](double below_m) {
+    for (CameraConfig& camera : record.scenario.cameras) camera.p_body_m = Vec3(0, 0, -below_m);
+    RunSource run(record, cube());
+    return path_scene(run, {}).tubes;
+  };
+  EXPECT_EQ(lines(0.0).size(), 1U);  // the flight
+  const auto hung = lines(2.0);
+  ASSERT_EQ(hung.size(), 1U + all);
+  EXPECT_NEAR((hung.back().points_m.front() - hung.back().points_m.back()).norm(), 2.0, 1e-5);
+}
+
 TEST(PathPicture, WithoutSummaryTheWholeFlightIsOfOneKind) {
   RunRecord record = made_record();
   record.views_begin_s = {};
