@@ -116,8 +116,7 @@ bool is_utility_file(std::string_view utility) {
 NamedUtility named_utility(const std::string& utility) {
   const std::string source = "--utility " + utility;
   if (!is_utility_file(utility)) {
-    return {utility,
-            {{.text = "planner.utility.name=" + utility, .source = source, .folder = {}}}};
+    return {utility, {{.text = "planner.utility.name=" + utility, .source = source, .folder = {}}}};
   }
   const std::size_t colon = utility.ends_with(".py") ? utility.size() : utility.rfind(':');
   const std::string file = utility.substr(0, colon);

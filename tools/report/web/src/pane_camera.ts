@@ -12,7 +12,7 @@ export class PaneCamera {
   private readonly own = new three.PerspectiveCamera();
   private readonly to: { centre: three.Vector3; size: number };
 
-  constructor(private readonly scene: RunScene) { this.to = workspace(scene); }
+  constructor(scene: RunScene) { this.to = workspace(scene); }
 
   /** The leading pane's camera, turned alike, where this workspace lies as that one does in its. */
   of(lead: RunScene, camera: three.PerspectiveCamera): three.PerspectiveCamera {
