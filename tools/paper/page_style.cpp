@@ -29,7 +29,7 @@ td.text { white-space: normal; }
 tr.group td { font-weight: 600; padding-top: 14px; }
 .sides { display: grid; grid-template-columns: minmax(0, 8fr) minmax(0, 7fr); gap: 24px; }
 .sides table { font-size: 12px; }
-.sides th, .sides td { padding: 4px 5px; }
+.sides th, .sides td { padding: 4px 3px; }
 .sides.figure { grid-template-columns: minmax(0, 7fr) minmax(0, 3fr); }
 .sides.figure.wide { grid-template-columns: minmax(0, 1fr); }
 .side > h3 { margin-top: 6px; }
