@@ -151,9 +151,9 @@ export interface View3d {
   buttons(): HTMLElement[]; // of the view itself
   cameraState(): number[]; // position and target
   setCamera(state: number[]): void;
-  lookAt(centre: Vector3, radius_m: number): void;
+  lookAt(scene: RunScene, centre: Vector3, radius_m: number): void;
   onChange(listener: () => void): void; // of the camera
-  cameraPosition(): number[]; // x, y, z in the world; empty where nothing is drawn
+  cameraPosition(): number[]; // x, y, z in the first run's world; empty where nothing is drawn
   pictures(): { whole: number; gist: number }; // drawn so far
 }
 

@@ -85,7 +85,7 @@ function regionOf(surface: TrueSurface, members: number[]): Region {
 
 /** A list of each run's largest regions; a button shows one. Null where all was found. */
 export function makeMissedList(scenes: RunScene[],
-    show: (region: Region) => void): HTMLElement | null {
+    show: (scene: RunScene, region: Region) => void): HTMLElement | null {
   const lists = scenes.filter((scene) => scene.surface).map((scene) => {
     const regions = missedRegions(scene.surface!);
     const all = scene.surface!.found.filter((first) => first === kNeverFound).length;
@@ -95,7 +95,7 @@ export function makeMissedList(scenes: RunScene[],
         sentence(scene.flight, scene.surface!, all, large.length)),
       make("ol", { class: "regions" }, ...large.slice(0, kMostRegions).map((region, i) =>
         make("li", {}, make("button", { type: "button", class: "small",
-          click: () => show(region), "aria-label": `Show region ${i + 1}` }, "Show"),
+          click: () => show(scene, region), "aria-label": `Show region ${i + 1}` }, "Show"),
         ` ${number(region.voxels)} voxels, `
         + `${number(100 * region.voxels / all, 1)} % of them, around `
         + region.centre.toArray().map((x) => number(Math.round(10 * x) / 10 + 0, 1)).join(", ")

@@ -1,38 +1,49 @@
-// Runs of different structures side by side: each is seen from as far away as its size asks.
+// Runs of different structures side by side: each is seen from as far away as its size asks. One
+// camera is steered, in the world of the page's first run; each pane's own stands in its workspace
+// as that one does in the first run's.
 import * as three from "three";
 import type { RunScene } from "./run_scene";
 
-function workspace(scene: RunScene): { centre: three.Vector3; size: number } {
+function workspace(scene: RunScene): { centre_m: three.Vector3; size_m: number } {
   const { min, max } = scene.flight.data.workspace;
   const box = new three.Box3(new three.Vector3(...min), new three.Vector3(...max));
-  return { centre: box.getCenter(new three.Vector3()), size: box.getSize(new three.Vector3()).length() };
+  return { centre_m: box.getCenter(new three.Vector3()),
+    size_m: box.getSize(new three.Vector3()).length() };
 }
 
 export class PaneCamera {
   private readonly own = new three.PerspectiveCamera();
-  private readonly to: { centre: three.Vector3; size: number };
+  private readonly firstCentre_m: three.Vector3;
+  private readonly centre_m: three.Vector3;
+  /** Metres of the first run's world for a metre of this one's. */
+  readonly scale: number;
 
-  constructor(scene: RunScene) { this.to = workspace(scene); }
+  constructor(first: RunScene, scene: RunScene) {
+    const [from, to] = [workspace(first), workspace(scene)];
+    [this.firstCentre_m, this.centre_m] = [from.centre_m, to.centre_m];
+    this.scale = from.size_m / to.size_m;
+  }
 
-  /** The leading pane's camera, turned alike, where this workspace lies as that one does in its. */
-  of(lead: RunScene, camera: three.PerspectiveCamera): three.PerspectiveCamera {
-    const from = workspace(lead);
-    const times = this.to.size / from.size;
-    if (times === 1 && this.to.centre.equals(from.centre)) return camera;
-    this.own.copy(camera);
-    this.own.position.sub(from.centre).multiplyScalar(times).add(this.to.centre);
-    this.own.near *= times;
-    this.own.far *= times;
+  /** The steered camera as it stands in this run's world. */
+  of(steered: three.PerspectiveCamera): three.PerspectiveCamera {
+    if (this.scale === 1 && this.centre_m.equals(this.firstCentre_m)) return steered;
+    this.own.copy(steered);
+    this.own.position.sub(this.firstCentre_m).divideScalar(this.scale).add(this.centre_m);
+    this.own.near /= this.scale;
+    this.own.far /= this.scale;
     this.own.updateProjectionMatrix();
     this.own.updateMatrixWorld();
     return this.own;
   }
 
-  /** Points (x y z each) of the scene as they would lie in the leading pane's workspace. */
-  inLead(lead: RunScene, points: Float32Array): Float32Array {
-    const from = workspace(lead);
-    const times = from.size / this.to.size;
-    const [to, at] = [this.to.centre.toArray(), from.centre.toArray()];
-    return points.map((value, i) => at[i % 3] + times * (value - to[i % 3]));
+  /** A place of this run's world in the first one's. */
+  inFirst(p_m: three.Vector3): three.Vector3 {
+    return p_m.clone().sub(this.centre_m).multiplyScalar(this.scale).add(this.firstCentre_m);
+  }
+
+  /** The same of many (x y z each). */
+  allInFirst(places_m: Float32Array): Float32Array {
+    const [from, to] = [this.centre_m.toArray(), this.firstCentre_m.toArray()];
+    return places_m.map((value, i) => to[i % 3] + this.scale * (value - from[i % 3]));
   }
 }

@@ -60,7 +60,7 @@ class Stage implements View3d {
       this.pointing.element, make("span", { class: "aim" }), this.swipe.element);
     for (const scene of scenes) {
       scene.onLoad = () => this.invalidate();
-      this.paneCameras.set(scene, new PaneCamera(scene));
+      this.paneCameras.set(scene, new PaneCamera(scenes[0], scene));
     }
     this.painter = new Painter(this.canvas);
     this.camera.up.set(0, 0, 1);
@@ -133,14 +133,16 @@ class Stage implements View3d {
     this.controls.update();
   }
 
-  /** From outside the structure. */
-  lookAt(centre: three.Vector3, radius_m: number) {
-    const middle = this.shown[0]?.bounds().getCenter(new three.Vector3()) ?? centre;
+  /** From outside the structure, at a place of the scene's. */
+  lookAt(scene: RunScene, centre: three.Vector3, radius_m: number) {
+    const pane = this.pane(scene);
+    const middle = scene.bounds().getCenter(new three.Vector3());
     const out = centre.clone().sub(middle).setZ(0).normalize();
     const back = out.add(new three.Vector3(0, 0, centre.z < middle.z - radius_m ? 0.05 : 0.6));
-    this.camera.position.copy(centre)
-      .addScaledVector(back.normalize(), Math.max(3.2 * radius_m, 3));
-    this.controls.target.copy(centre);
+    const target = pane.inFirst(centre);
+    this.camera.position.copy(target)
+      .addScaledVector(back.normalize(), pane.scale * Math.max(3.2 * radius_m, 3));
+    this.controls.target.copy(target);
     this.controls.update();
     this.invalidate();
   }
@@ -189,9 +191,10 @@ class Stage implements View3d {
   setFollows(follows: boolean) {
     this.follows = follows;
     if (follows && this.shown.length > 0) {
-      const target = this.shown[0].vehicle.position;
+      const pane = this.pane(this.shown[0]);
+      const target = pane.inFirst(this.shown[0].vehicle.position);
       const direction = this.camera.position.clone().sub(this.controls.target).normalize();
-      this.camera.position.copy(target).addScaledVector(direction, 14);
+      this.camera.position.copy(target).addScaledVector(direction, 14 * pane.scale);
       this.controls.target.copy(target);
       this.controls.update();
     }
@@ -208,9 +211,7 @@ class Stage implements View3d {
 
   /** Puts the camera where it sees all of the structure. */
   frame() {
-    const lead = this.shown[0];
-    const outlines = this.shown.map((scene) =>
-      this.paneCameras.get(scene)!.inLead(lead, scene.outline()));
+    const outlines = this.shown.map((scene) => this.pane(scene).allInFirst(scene.outline()));
     const box = new three.Box3();
     for (const outline of outlines) box.union(new three.Box3().setFromArray(outline));
     const centre = box.getCenter(new three.Vector3());
@@ -227,17 +228,16 @@ class Stage implements View3d {
 
   /** So that nothing is cut off, as far as anybody may go from a picture taken at `away`. */
   private setDepths(away: number) {
-    const all = this.shown[0]?.bounds() ?? new three.Box3();
-    const extent = all.isEmpty() ? 1 : all.getSize(new three.Vector3()).length();
+    const extent = this.scenes[0]?.bounds().getSize(new three.Vector3()).length() ?? 1;
     this.controls.maxDistance = 4 * Math.max(away, extent);
     this.camera.far = this.controls.maxDistance + 2 * extent;
     this.camera.near = this.camera.far / 2500;
     this.camera.updateProjectionMatrix();
   }
 
-  private cameraOf(scene: RunScene) {
-    return this.paneCameras.get(scene)!.of(this.shown[0], this.camera);
-  }
+  private pane(scene: RunScene) { return this.paneCameras.get(scene)!; }
+
+  private cameraOf(scene: RunScene) { return this.pane(scene).of(this.camera); }
 
   private isColumn() { return this.element.clientWidth < 560; }
 
@@ -290,8 +290,8 @@ class Stage implements View3d {
   /** Keeps the camera's place beside the first vehicle. */
   private moveAlong(pxPerTan: number) {
     const lead = this.shown[0];
-    lead.show(this.clock, this.camera, pxPerTan, false, false);
-    const step = lead.vehicle.position.clone().sub(this.controls.target);
+    lead.show(this.clock, this.cameraOf(lead), pxPerTan, false, false);
+    const step = this.pane(lead).inFirst(lead.vehicle.position).sub(this.controls.target);
     this.camera.position.add(step);
     this.controls.target.add(step);
   }
