@@ -36,7 +36,7 @@ struct TourConfig {
   int items_max = 12000;  // patches that the search weighs one by one; of more it takes a sample
   // when no view pays, the price is halved, but not below this share of it, and not when no more
   // than so much of the expected voxels is left
-  double end_price = 0.06;
+  double end_price = 0.03;
   double end_share = 0.003;
   bool surface_views = true;  // views off the lattice for what is left after two looks
 };
