@@ -17,6 +17,9 @@ import { readRunSurface } from "./run_surface";
 import { Splats } from "./splats";
 
 /** Believed voxels are those of the decision that chose the view. */
+/** Pixels on a side of the gist of a picture, of those of the whole one. */
+export const kGistRatio = 0.5;
+
 export interface Layers extends Record<BelievedLayer, boolean> {
   cloud: boolean;
   voxels: boolean;
@@ -174,7 +177,8 @@ export class RunScene {
     this.believed?.show(n);
     this.surface?.show(n, this.other?.flight.viewsAt(clock) ?? 0, pxPerTan);
     if (splats) {
-      this.splats.show([...this.model.splats(), ...this.surface?.splats() ?? []], camera, pxPerTan);
+      this.splats.show([...this.model.splats(), ...this.surface?.splats() ?? []], camera, pxPerTan,
+        isWhole ? 1 : kGistRatio);
     }
     const pose = this.flight.poseAt(clock);
     if (!pose) return;

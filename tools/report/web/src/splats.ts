@@ -25,6 +25,8 @@ export interface SplatSource {
   readonly size_m: number;
   readonly least_px: number;
   readonly most_px: number;
+  readonly isRound: boolean; // else squares
+  readonly largerFrom: number; // points by one pixel, from this one on
   /** 0xbbggrr as sRGB; below 0 what is not drawn. */
   colourOf(point: number): number;
 }
@@ -45,8 +47,12 @@ export class Splats {
     this.object.layers.set(kSplatLayer);
   }
 
-  /** All of `sources`, as a camera sees them that draws `pxPerTan` pixels a unit of tangent. */
-  show(sources: SplatSource[], camera: three.PerspectiveCamera, pxPerTan: number) {
+  /**
+   * All of `sources`, as a camera sees them that draws `pxPerTan` pixels a unit of tangent, of
+   * which `pxRatio` lie on a side of a pixel of their sizes.
+   */
+  show(sources: SplatSource[], camera: three.PerspectiveCamera, pxPerTan: number,
+      pxRatio: number) {
     this.object.visible = sources.length > 0;
     if (sources.length === 0) return;
     const height = Math.max(1, Math.round(2 * pxPerTan
@@ -55,7 +61,7 @@ export class Splats {
     camera.updateMatrixWorld();
     for (const source of sources) {
       this.add(source, new three.Matrix4().multiplyMatrices(camera.projectionMatrix,
-        camera.matrixWorldInverse).multiply(source.toWorld), pxPerTan);
+        camera.matrixWorldInverse).multiply(source.toWorld), pxPerTan, pxRatio);
     }
     for (const { value } of Object.values(this.material.uniforms)) value.needsUpdate = true;
   }
@@ -74,7 +80,7 @@ export class Splats {
     this.depth.fill(1);
   }
 
-  private add(source: SplatSource, toClip: three.Matrix4, pxPerTan: number) {
+  private add(source: SplatSource, toClip: three.Matrix4, pxPerTan: number, pxRatio: number) {
     const { places, count } = source;
     const { width, height, colour, depth } = this;
     const m = toClip.elements;
@@ -88,13 +94,17 @@ export class Splats {
       const rgb = source.colourOf(i);
       if (rgb < 0) continue;
       const d = 0.5 + 0.5 * (m[2] * x + m[6] * y + m[10] * z + m[14]) / w;
-      const half = 0.5 * Math.min(Math.max(source.size_m * pxPerTan / w,
-        source.least_px), source.most_px);
-      const right = Math.min(width, Math.round(px + half));
-      const top = Math.min(height, Math.round(py + half));
-      for (let row = Math.max(0, Math.round(py - half)); row < top; ++row) {
-        for (let pixel = row * width + Math.max(0, Math.round(px - half)),
-            end = row * width + right; pixel < end; ++pixel) {
+      const size_px = Math.min(Math.max(source.size_m * pxPerTan / w, pxRatio * source.least_px),
+        pxRatio * source.most_px);
+      const radius = 0.5 * (size_px + (i >= source.largerFrom ? pxRatio : 0));
+      // the pixels whose middles lie in it, as of the renderer's points
+      const last = Math.min(height - 1, Math.floor(py + radius - 0.5));
+      for (let row = Math.max(0, Math.ceil(py - radius - 0.5)); row <= last; ++row) {
+        const reach = source.isRound
+          ? Math.sqrt(radius * radius - (row + 0.5 - py) ** 2) : radius;
+        const end = row * width + Math.min(width - 1, Math.floor(px + reach - 0.5));
+        for (let pixel = row * width + Math.max(0, Math.ceil(px - reach - 0.5));
+            pixel <= end; ++pixel) {
           if (d >= depth[pixel]) continue;
           depth[pixel] = d;
           colour[pixel] = rgb;

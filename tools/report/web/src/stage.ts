@@ -13,12 +13,11 @@ import { Painter } from "./painter";
 import { PaneCamera } from "./pane_camera";
 import { kAim_px, kPointer_px, moveByKey, pick } from "./pick";
 import { Pointing } from "./pointing";
-import type { Layers, RunScene } from "./run_scene";
+import { kGistRatio, type Layers, type RunScene } from "./run_scene";
 import { savePng } from "./save";
 import { Swipe } from "./swipe";
 import type { Colouring } from "./surfaces";
 
-const kQuickRatio = 0.5; // pixels a side of a quick picture, of those of a whole one
 
 export function makeStage(scenes: RunScene[], clock: Clock, name: string,
     goTo: (view: number) => void): View3d {
@@ -185,7 +184,8 @@ class Stage implements View3d {
     const scene = this.shown[pane];
     if (!scene) return;
     const [left, top] = this.isColumn() ? [0, pane * height] : [pane * width, 0];
-    this.pointing.tell(pick(scene, this.cameraOf(scene), x - left, y - top, width, height, near_px), scene);
+    this.pointing.tell(
+      pick(scene, this.cameraOf(scene), x - left, y - top, width, height, near_px), scene);
   }
 
   setFollows(follows: boolean) {
@@ -272,7 +272,7 @@ class Stage implements View3d {
     const { clientWidth, clientHeight: total } = this.element;
     if (clientWidth === 0 || total === 0) return;
     const begin = performance.now();
-    const ratio = Math.min(2, devicePixelRatio) * (isWhole ? 1 : kQuickRatio);
+    const ratio = Math.min(2, devicePixelRatio) * (isWhole ? 1 : kGistRatio);
     this.painter.fitCanvas(clientWidth, total, ratio);
     const pxPerTan = 0.5 * height * ratio /
       Math.tan(three.MathUtils.degToRad(this.camera.fov) / 2);

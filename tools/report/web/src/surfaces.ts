@@ -134,6 +134,7 @@ export class Model {
     const newFrom = this.newFrom();
     return [{ places: this.points, toWorld: new three.Matrix4(), least_px: 1.6, most_px: 14,
       count: this.cloudAfter[this.views], size_m: this.pointSize(),
+      isRound: true, largerFrom: newFrom,
       colourOf: (i) => (i >= newFrom ? kNewColour
         : rgb[3 * i] | rgb[3 * i + 1] << 8 | rgb[3 * i + 2] << 16) }];
   }

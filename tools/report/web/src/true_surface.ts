@@ -133,7 +133,8 @@ export class TrueSurface {
     const missedColour = (i: number) => (this.found[i] <= now ? -1
       : colours[other && other[i] <= otherNow ? 2 : 1]);
     const all = { places: this.voxels, count: this.found.length, size_m: 1.3 * this.size_m,
-      most_px: 64, toWorld: new three.Matrix4().makeScale(this.size_m, this.size_m, this.size_m)
+      most_px: 64, isRound: false, largerFrom: Infinity,
+      toWorld: new three.Matrix4().makeScale(this.size_m, this.size_m, this.size_m)
         .multiply(new three.Matrix4().makeTranslation(0.5, 0.5, 0.5)) };
     return [...uShows.value.x > 0 ? [{ ...all, least_px: 1.6, colourOf: foundColour }] : [],
       ...uShows.value.y > 0 ? [{ ...all, least_px: 2.5, colourOf: missedColour }] : []];
