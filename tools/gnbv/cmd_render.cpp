@@ -18,6 +18,7 @@
 #include "tools/render/pictures.hpp"
 #include "tools/render/snapshots.hpp"
 #include "tools/run_files/run_names.hpp"
+#include "tools/surface/surface_picture.hpp"
 #include "tools/terminal/progress.hpp"
 #include "tools/terminal/say.hpp"
 
@@ -28,12 +29,24 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kSnapshots = 12;  // about as many, without --every
 
+/// What `gnbv surface` made of the run.
+SurfaceItem made_surface(RunSource& run, double piece_m) {
+  const fs::path& folder = run.record().folder;
+  if (!fs::exists(folder / kSurfaceFolder / "surface.obj")) {
+    throw BadInput(fmt::format("no {}: `gnbv surface {}` makes it",
+                               (folder / kSurfaceFolder / "surface.obj").string(),
+                               folder.string()));
+  }
+  return textured_item(read_surface(folder / kSurfaceFolder), piece_m);
+}
+
 class RenderCommand {
  public:
   explicit RenderCommand(const RenderOptions& options)
       : options_(options), kinds_(kinds_asked(options)), progress_("render", options.quiet) {
     need_consistent(options, kinds_);
     set_camera(options_);
+    if (options.is_over_surface) options_.picture.surface = made_surface;
     const std::vector<std::string> names = run_names(options.runs);
     for (const fs::path& run : options.runs) {
       sources_.push_back(std::make_unique<RunSource>(

@@ -139,7 +139,7 @@ void surface(const SurfaceOptions& options) {
   std::vector<std::string> notes;
   const std::optional<World> truth = truth_of(record, notes);
   if (options.json && !truth) throw BadInput("--json: " + notes.back());
-  const fs::path folder = options.out.empty() ? options.run / "surface" : options.out;
+  const fs::path folder = options.out.empty() ? options.run / kSurfaceFolder : options.out;
   const OutFolder made(folder);
 
   std::vector<fs::path> paths;

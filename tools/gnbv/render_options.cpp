@@ -76,6 +76,9 @@ std::vector<std::string> kinds_asked(const RenderOptions& options) {
 
 void need_consistent(const RenderOptions& options, const std::vector<std::string>& kinds) {
   const bool is_one_file = is_file_name(options.out);
+  if (options.is_over_surface && std::count(kinds.begin(), kinds.end(), "path") == 0) {
+    throw BadInput("--over-surface: is of the picture path, which --what does not name");
+  }
   if (is_one_file && (options.runs.size() > 1 || kinds.size() > 1)) {
     throw BadInput(
         fmt::format("--out {}: one file for {} runs and {} kinds of pictures: give a "
@@ -157,6 +160,9 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   command.add_option("--title", options.picture.title, "(default: scenario and utility)");
   command.add_flag("--with-profile", options.picture.has_profile,
                    "path: the profile's flight, too, wide around the structure");
+  command.add_flag(
+      "--over-surface", options.is_over_surface,
+      "path: around the surface that `gnbv surface` made of the run, not the structure");
   command.add_flag("!--no-caption", options.picture.has_caption, "no title, legend and scale");
   add_threads_option(command, options.threads, "the pictures do");
   add_quiet_option(command, options.quiet, "progress, no notes");

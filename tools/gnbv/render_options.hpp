@@ -24,6 +24,7 @@ struct RenderOptions {
   std::optional<double> elevation_deg;
   PictureOptions picture;
   bool follows = false;
+  bool is_over_surface = false;
   int images_per_s = 15;
   double film_s = 10.0;
   int threads = 0;

@@ -98,7 +98,7 @@ void add_chosen_view(const RunRecord& record, const World& world, const Belief& 
   near_m = Box3(near_m.min().array() - beside_m, near_m.max().array() + beside_m);
   for (const CameraConfig& camera : record.scenario.cameras) {
     const FrustumItem frustum = outline_of(camera, view, 60.0 * unit_m, unit_m);
-    scene.frusta.push_back(frustum);
+    add_hung(frustum, view, unit_m, scene);
     const Vec3 eye = frustum.T_world_camera.translation();
     for (int row = 0; row < kRaysDown; ++row) {
       for (int column = 0; column < kRaysAcross; ++column) {

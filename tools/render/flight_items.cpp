@@ -91,14 +91,18 @@ void add_views(const RunRecord& record, std::size_t count, int every, const Flig
           frustum_of(camera, T_world_body(pose), pose.gimbal_pitch_rad, 27.0 * look.unit_m, colour);
       frustum.edge_radius_m = static_cast<float>(0.75 * unit_m);
       frustum.face_opacity = 0.25F;
-      const Vec3f body = pose.p_world_m.cast<float>();
-      const Vec3f apex = frustum.T_world_camera.translation().cast<float>();
-      if ((apex - body).norm() > 6.0 * unit_m) {  // whose view it is could not be told
-        scene.tubes.push_back({{body, apex}, {colour}, static_cast<float>(0.75 * unit_m)});
-      }
-      scene.frusta.push_back(frustum);
+      add_hung(frustum, pose, unit_m, scene);
     }
   }
+}
+
+void add_hung(const FrustumItem& frustum, const ViewPose& view, double unit_m, RenderScene& scene) {
+  const Vec3f body = view.p_world_m.cast<float>();
+  const Vec3f apex = frustum.T_world_camera.translation().cast<float>();
+  if ((apex - body).norm() > 6.0 * unit_m) {  // whose view it is could not be told
+    scene.tubes.push_back({{body, apex}, {frustum.colour}, frustum.edge_radius_m});
+  }
+  scene.frusta.push_back(frustum);
 }
 
 FrustumItem frustum_of(const CameraConfig& camera, const Isometry& T_world_body,

@@ -30,6 +30,9 @@ std::size_t pyramid_step(std::size_t views, int every);
 void add_views(const RunRecord& record, std::size_t count, int every, const FlightLook& look,
                RenderScene& scene);
 
+/// The pyramid, and where it lies beside its view the line that it hangs on.
+void add_hung(const FrustumItem& frustum, const ViewPose& view, double unit_m, RenderScene& scene);
+
 /// The pyramid of a camera on a body whose gimbal, if that is what the camera hangs on, has this
 /// pitch; `length_m` long.
 FrustumItem frustum_of(const CameraConfig& camera, const Isometry& T_world_body,

@@ -78,6 +78,10 @@ void add_structure(RunSource& run, RenderScene& scene) {
   surface.mesh = run.world().structure;
   surface.is_painted = true;
   scene.surfaces.push_back(std::move(surface));
+  add_surroundings(run, scene);
+}
+
+void add_surroundings(RunSource& run, RenderScene& scene) {
   add_in_one_colour(run.world().obstacles, kObstacleColour, 1.0F, scene);
   TriangleMesh boxes;
   for (const NoFlyConfig& box : run.record().scenario.no_fly) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,6 +26,8 @@ struct PictureOptions {
   bool has_profile = false;  // show the profile's flight, wide around the structure
   bool has_caption = true;   // pictures under 320 x 240 px never have one
   std::string title;         // empty: scenario and utility
+  /// path: what stands there instead of the structure, of pieces no longer than given (m).
+  std::function<SurfaceItem(RunSource&, double)> surface = {};
   /// What the two ends of the colours stand for, where several pictures share them.
   std::optional<std::array<double, 2>> colour_range = {};
 };
@@ -98,6 +101,8 @@ void frame_structure(RunSource& run, std::vector<Vec3>& points_world_m);
 /// The structure's surface in its own colours, the obstacles in one, the no_fly boxes as ghosts,
 /// and the ground or the terrain if the scenario has one.
 void add_structure(RunSource& run, RenderScene& scene);
+/// Of that what stands around the structure, without the ground.
+void add_surroundings(RunSource& run, RenderScene& scene);
 /// Lays over it what the cameras see of it, which is more than the mesh's own colours.
 void paint_structure(RunSource& run, const RenderView& view, RenderScene& scene);
 /// Of what add_structure() puts around the structure.

@@ -145,6 +145,19 @@ void add_candidates(const Plan& plan, const Tally& all, double unit_m, RenderSce
   }
 }
 
+// "104 candidates, 41 of them beyond the picture"
+std::string note_on(const Plan& plan, const RenderView& view) {
+  const auto is_beyond = [&](const Candidate& candidate) {
+    const std::optional<Vec3> px = project(view, candidate.view.p_world_m);
+    return !px || px->x() < 0.0 || px->y() < 0.0 || px->x() > view.width_px ||
+           px->y() > view.height_px;
+  };
+  const auto beyond = static_cast<std::size_t>(
+      std::count_if(plan.candidates.begin(), plan.candidates.end(), is_beyond));
+  const std::string all = counted(plan.candidates.size(), "candidate");
+  return beyond == 0 ? all : fmt::format("{}, {} of them beyond the picture", all, grouped(beyond));
+}
+
 // A row of those rejected, one of what could be chosen and is to be seen, one of the chosen view.
 std::vector<LegendItem> legend_of(const Tally& all, bool is_fvs) {
   std::vector<LegendItem> legend;
@@ -166,6 +179,7 @@ std::vector<LegendItem> legend_of(const Tally& all, bool is_fvs) {
   if (is_fvs) {
     legend.push_back({"frontier, clusters numbered as tried", {kFrontierLook.frontier}});
     legend.push_back({"cluster looked at", {kFrontierLook.looked_at}});
+    legend.push_back({"views of a layer", {kFrontierLook.frontier}, LegendItem::Mark::line});
   }
   const std::size_t third = legend.size();
   legend.push_back({"way there", {kChosenLook.chosen}, LegendItem::Mark::line, "chosen view:"});
@@ -243,7 +257,7 @@ Picture draw_candidates(RunSource& run, const PictureOptions& options, const Ren
   add_way_to_chosen(record, iteration, panel_unit_m(options, view), far.scene);
   add_chosen_view(record, run.world(), decision.belief, iteration, panel_unit_m(options, from_near),
                   near.scene);
-  far.note = counted(decision.plan.candidates.size(), "candidate");
+  far.note = note_on(decision.plan, view);
   near.note = fmt::format("the chosen one, {:.2g} m from the view before",
                           (record.views[iteration].decision.view.p_world_m -
                            record.views[iteration - 1].decision.view.p_world_m)

@@ -30,12 +30,26 @@ void add_ends(const RunRecord& record, double unit_m, Panel& panel) {
   if (record.views.size() > 1) mark(record.views.back(), path_ramp(1.0), "end");
 }
 
+/// The structure as the cameras see it; or what was made of the run's cloud (Fig. 8).
+void add_what_is_there(RunSource& run, const PictureOptions& options, const RenderView& view,
+                       RenderScene& scene) {
+  if (!options.surface) {
+    add_structure(run, scene);
+    paint_structure(run, view, scene);
+    return;
+  }
+  constexpr double kPiece_px = 2.0;
+  add_ground(run, scene);
+  scene.surfaces.push_back(options.surface(run, kPiece_px / px_per_m_at_focus(view)));
+  add_surroundings(run, scene);
+}
+
 Picture draw_path(RunSource& run, const PictureOptions& options, const RenderView& view) {
   const RunRecord& record = run.record();
   Picture picture{.panels = std::vector<Panel>(1), .detail = run_detail(record)};
+  if (options.surface) picture.detail += ", around the surface made of it";
   RenderScene& scene = picture.panels.front().scene;
-  add_structure(run, scene);
-  paint_structure(run, view, scene);
+  add_what_is_there(run, options, view, scene);
   const FlightLook look{.unit_m = layout_unit_m(view), .has_profile = options.has_profile};
   add_flight(record, look, scene);
   add_views(record, record.views.size(), options.every, look, scene);

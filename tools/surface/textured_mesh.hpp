@@ -44,6 +44,14 @@ DistinctCorners distinct_corners(const TexturedMesh& mesh);
 std::vector<std::filesystem::path> write_surface(const TexturedMesh& mesh,
                                                  const std::filesystem::path& folder);
 
+/// What write_surface() wrote into the folder, of its surface.obj and surface.png: without a
+/// texture the colours of the vertices, with one not. Throws BadInput naming the file, and the line
+/// of one that it did not write.
+TexturedMesh read_surface(const std::filesystem::path& folder);
+
+/// The folder of a run's surface, unless the user names another.
+constexpr const char* kSurfaceFolder = "surface";
+
 /// The GLB; `png` holds the atlas as a PNG, and is empty without one.
 std::string glb_of(const TexturedMesh& mesh, std::string_view png);
 

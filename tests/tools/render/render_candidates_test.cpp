@@ -8,7 +8,7 @@
 #include "tests/tools/render/watched.hpp"
 #include "tools/render/chosen_view_item.hpp"
 #include "tools/render/frontier_items.hpp"
-#include "tools/render/picture.hpp"
+#include "tools/render/pictures.hpp"
 #include "tools/run_files/candidates_jsonl.hpp"
 
 namespace gnbv {
@@ -109,6 +109,46 @@ TEST(CandidatesPicture, RaysLieInsideTheViewAndEndOnSurfaceOrCrossTheUnknown) {
   ASSERT_TRUE(at.has_value());
   EXPECT_TRUE(at->x() > 0 && at->x() < picture.panels[1].view->width_px);
   EXPECT_TRUE(at->y() > 0 && at->y() < picture.panels[1].view->height_px);
+}
+
+/// A camera mounted off the body is seen to be the chosen view's.
+TEST(CandidatesPicture, ThePyramidHangsOnTheChosenView) {
+  const TempFolder temp;
+  RunSource run = source(temp.path());
+  RunRecord record = run.record();
+  for (CameraConfig& camera : record.scenario.cameras) camera.p_body_m = Vec3(0, 0, -1);
+  const Vec3f view = record.views[kAsked].decision.view.p_world_m.cast<float>();
+  RenderScene scene;
+  add_chosen_view(record, run.world(), watched().beliefs[kAsked - 1], kAsked, 0.01, scene);
+  ASSERT_FALSE(scene.frusta.empty());
+  const Vec3f eye = scene.frusta.front().T_world_camera.translation().cast<float>();
+  EXPECT_NEAR((eye - view).norm(), 1.0, 1e-5);
+  EXPECT_TRUE(std::any_of(scene.tubes.begin(), scene.tubes.end(), [&](const TubeItem& tube) {
+    return tube.points_m.front() == view && tube.points_m.back() == eye;
+  }));
+}
+
+/// A picture says of how many candidates it shows nothing.
+TEST(CandidatesPicture, TheNoteCountsCandidatesBeyondThePicture) {
+  const TempFolder temp;
+  RunSource run = source(temp.path());
+  PictureOptions options;
+  options.iteration = kAsked;
+  RunSource* const runs[] = {&run};
+  const RenderView whole = lay_out(kCandidatesPicture, runs, options).view;
+  const Plan& plan = watched().plans[kAsked - 1];
+  const auto beyond = std::count_if(
+      plan.candidates.begin(), plan.candidates.end(), [&](const Candidate& candidate) {
+        const Vec3 px = project(whole, candidate.view.p_world_m).value_or(Vec3(-1, -1, 0));
+        return px.x() < 0 || px.y() < 0 || px.x() > whole.width_px || px.y() > whole.height_px;
+      });
+  const std::string note = kCandidatesPicture.draw(run, options, whole).panels.front().note;
+  EXPECT_EQ(note.find("beyond") != std::string::npos, beyond > 0) << note;
+  RenderView away = whole;
+  away.T_world_camera.rotate(Eigen::AngleAxisd(kPi, Vec3::UnitY()));  // turned round
+  const std::string none = kCandidatesPicture.draw(run, options, away).panels.front().note;
+  const std::string all = std::to_string(plan.candidates.size());
+  EXPECT_EQ(none, all + " candidates, " + all + " of them beyond the picture");
 }
 
 TEST(CandidatesPicture, TheLegendNamesFrontiersOnlyWhereAFrontierWasLookedAt) {

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/core/srgb.hpp"
 #include "sim/mesh/mesh_file.hpp"
@@ -304,6 +305,46 @@ TEST(SurfaceFiles, EachReadsBackWithTheSameFaces) {
   EXPECT_FALSE(std::filesystem::exists(temp.path() / "surface.png"));
   for (const auto& path : plain) {
     EXPECT_EQ(sorted_triangles(load_mesh({.path = path.string()})), sorted_triangles(mesh.shape));
+  }
+}
+
+TEST(SurfaceFiles, ReadBackWithTheirLooks) {
+  TempFolder temp;
+  const auto same_uv = [](const FaceUv& a, const FaceUv& b) {
+    return (a[0] - b[0]).norm() + (a[1] - b[1]).norm() + (a[2] - b[2]).norm() < 0.02;  // texels
+  };
+  for (const TexturedMesh& mesh : {textured(), with_height_colours(sheet(1.0F, 3))}) {
+    write_surface(mesh, temp.path());
+    const TexturedMesh back = read_surface(temp.path());
+    EXPECT_EQ(back.shape.faces, mesh.shape.faces);
+    ASSERT_EQ(back.shape.vertices_m.size(), mesh.shape.vertices_m.size());
+    EXPECT_EQ(sorted_triangles(back.shape), sorted_triangles(mesh.shape));
+    EXPECT_EQ(back.atlas.rgb, mesh.atlas.rgb);
+    ASSERT_EQ(back.face_uv.size(), mesh.face_uv.size());
+    EXPECT_TRUE(
+        std::equal(back.face_uv.begin(), back.face_uv.end(), mesh.face_uv.begin(), same_uv));
+    if (mesh.face_uv.empty()) {
+      EXPECT_EQ(back.vertex_rgb, mesh.vertex_rgb);
+    }
+  }
+}
+
+TEST(SurfaceFiles, LinesOfOthersAreNamed) {
+  TempFolder temp;
+  write_surface(with_height_colours(sheet(1.0F, 3)), temp.path());
+  const std::string text = read_file(temp.path() / "surface.obj");
+  for (const char* line : {"f 1 2 99", "f 1/1 2/2 3/3", "f 1 2", "f 0 1 2", "v 1 2 nan 0 0 0",
+                           "v 1 2 3", "v 1 2 3 0 0 1.5", "g what"}) {
+    write_file_atomically(temp.path() / "surface.obj", text + line + "\n");
+    const auto lines = std::count(text.begin(), text.end(), '\n') + 1;
+    try {
+      read_surface(temp.path());
+      ADD_FAILURE() << line;
+    } catch (const BadInput& error) {
+      EXPECT_NE(std::string(error.what()).find("surface.obj:" + std::to_string(lines)),
+                std::string::npos)
+          << error.what();
+    }
   }
 }
 
