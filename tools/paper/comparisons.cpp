@@ -187,7 +187,7 @@ std::vector<MeanSeries> mean_densities(const PaperMaterial& material, const Pape
   for (const PaperRow& row : table.rows) {
     const Missions missions = missions_of(material, table.scenario, row.utility);
     if (missions.empty()) continue;
-    MeanSeries series{std::string(row.label), {}};
+    MeanSeries series{std::string(row.label), std::string(row.utility), {}};
     for (std::size_t view = 0;; ++view) {
       std::vector<double> values;
       for (const PaperMission* mission : missions) {

@@ -106,8 +106,8 @@ bool is_oracle_group(const RunGroup& group) {
 /// Marks of their own, so that a curve's end shows under another's.
 constexpr std::array<int, 6> kMarks = {7, 5, 9, 11, 13, 15};
 
-void add_lines(Layers& layers, const RunGroup& group, std::size_t i) {
-  const std::string_view colour = kPalette[i % kPalette.size()];
+void add_lines(Layers& layers, const RunGroup& group, std::size_t i, std::size_t slot) {
+  const std::string_view colour = palette_colour(slot);
   if (group.runs.size() > 1) {
     layers.bands += fmt::format(
         "$group{} using 1:3:4 with filledcurves fc rgb '{}' fs transparent solid 0.18 noborder "
@@ -116,8 +116,8 @@ void add_lines(Layers& layers, const RunGroup& group, std::size_t i) {
   }
   layers.characters = std::max(layers.characters, label_of(group).size());
   const std::string dashes =
-      is_oracle_group(group) ? "(4,2)" : fmt::format("{}", 1 + i / kPalette.size());
-  const int mark = kMarks[i % kMarks.size()];
+      is_oracle_group(group) ? "(4,2)" : fmt::format("{}", 1 + slot / kPalette.size());
+  const int mark = kMarks[slot % kMarks.size()];
   layers.lines += fmt::format("$group{} using 1:2 with lines lw 1.3 dt {} lc rgb '{}' notitle, ", i,
                               dashes, colour);
   layers.ends += fmt::format(
@@ -148,9 +148,10 @@ Layers layers_of(std::span<const RunGroup> groups, std::optional<std::size_t> pa
   Layers layers;
   std::array<bool, 2> has_level = {false, false};  // trusted, doubtful
   std::vector<double> ceilings;
+  const std::vector<std::size_t> slots = palette_slots(methods_of(groups));
   for (std::size_t i = 0; i < groups.size(); ++i) {
     if (!window.shows(groups[i])) continue;
-    add_lines(layers, groups[i], i);
+    add_lines(layers, groups[i], i, slots[i]);
     ++layers.entries;
     if (!papers_size) continue;
     const std::optional<double> ceiling = *papers_size == 0 ? ceiling_of(groups[i]) : std::nullopt;
@@ -164,7 +165,7 @@ Layers layers_of(std::span<const RunGroup> groups, std::optional<std::size_t> pa
         level && window.shows(level->percent)) {
       layers.levels +=
           fmt::format("{} with lines lw 0.9 dt {} lc rgb '{}' notitle, ", level->percent,
-                      level->is_doubtful ? "(2,6)" : "(6,5)", kPalette[i % kPalette.size()]);
+                      level->is_doubtful ? "(2,6)" : "(6,5)", palette_colour(slots[i]));
       has_level[level->is_doubtful ? 1 : 0] = true;
     }
   }

@@ -11,8 +11,10 @@ namespace gnbv {
 
 std::vector<MeanSeries> mean_densities(std::span<const RunGroup> groups) {
   std::vector<MeanSeries> all;
-  for (const RunGroup& group : groups) {
-    MeanSeries series{.label = group.label, .by_view = {}};
+  const std::vector<std::string> methods = methods_of(groups);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const RunGroup& group = groups[i];
+    MeanSeries series{.label = group.label, .method = methods[i], .by_view = {}};
     if (group.runs.size() > 1) series.label += fmt::format(" ({} seeds)", group.runs.size());
     for (std::size_t view = 0;; ++view) {
       std::vector<double> densities;
@@ -30,6 +32,9 @@ std::vector<MeanSeries> mean_densities(std::span<const RunGroup> groups) {
 }
 
 Plot mean_density_plot(std::span<const MeanSeries> series) {
+  std::vector<std::string> methods;
+  for (const MeanSeries& each : series) methods.push_back(each.method);
+  const std::vector<std::size_t> slots = palette_slots(methods);
   std::string data;
   std::string bands;
   std::string lines;
@@ -47,7 +52,7 @@ Plot mean_density_plot(std::span<const MeanSeries> series) {
     }
     most_views = std::max(most_views, rows.size());
     data += data_block(fmt::format("series{}", i), rows);
-    const std::string_view colour = kPalette[i % kPalette.size()];
+    const std::string_view colour = palette_colour(slots[i]);
     if (has_band) {
       bands += fmt::format(
           "$series{} using 1:3:4 with filledcurves fc rgb '{}' fs transparent solid 0.18 noborder "

@@ -98,6 +98,7 @@ std::string intervals(const ForestPanel& panel, const Comparison& comparison,
                       std::string_view name) {
   const auto [low, high] = reach_of(panel);
   const double head = 0.02 * (high - low);
+  const std::vector<std::size_t> colours = palette_slots(comparison.methods);
   std::string data;
   std::string entries;
   for (std::size_t method = 0; method < comparison.methods.size(); ++method) {
@@ -112,7 +113,7 @@ std::string intervals(const ForestPanel& panel, const Comparison& comparison,
       if (row.low < low) beyond.push_back({low, y, -head});
       if (row.high > high) beyond.push_back({high, y, head});
     }
-    const std::string colour = fmt::format("rgb '{}'", kPalette[method % kPalette.size()]);
+    const std::string colour = fmt::format("rgb '{}'", palette_colour(colours[method]));
     const auto add = [&](const std::vector<std::vector<double>>& rows, std::string_view kind,
                          std::string_view style, std::string_view inside = "") {
       if (rows.empty()) return;
@@ -148,10 +149,11 @@ double name_share(const std::vector<ForestPanel>& panels) {
 
 std::vector<KeyEntry> key_of(const Comparison& comparison, std::vector<std::string>& names) {
   for (const std::string& method : comparison.methods) names.push_back(human_name(method));
+  const std::vector<std::size_t> slots = palette_slots(comparison.methods);
   std::vector<KeyEntry> key;
   for (std::size_t method = 0; method < names.size(); ++method) {
     if (method == comparison.baseline) continue;
-    key.push_back({kPalette[method % kPalette.size()], names[method]});
+    key.push_back({palette_colour(slots[method]), names[method]});
   }
   return key;
 }

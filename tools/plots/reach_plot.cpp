@@ -13,6 +13,7 @@ namespace {
 /// A group's runs whose ceiling is known: how many, and what those that got there had spent.
 struct Arrivals {
   std::string label;
+  std::string method;
   std::size_t runs = 0;
   std::vector<double> efforts = {};  // ascending
 };
@@ -25,8 +26,10 @@ double spent_of(const EffortSpent& spent, Effort effort) {
 
 std::vector<Arrivals> arrivals_of(std::span<const RunGroup> groups, Effort effort, double share) {
   std::vector<Arrivals> all;
-  for (const RunGroup& group : groups) {
-    Arrivals arrivals{.label = group.label};
+  const std::vector<std::string> methods = methods_of(groups);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const RunGroup& group = groups[i];
+    Arrivals arrivals{.label = group.label, .method = methods[i]};
     for (const RunRecord* run : group.runs) {
       const RunFigures& figures = *run->figures;
       if (!figures.ceiling) continue;
@@ -63,13 +66,16 @@ std::optional<Plot> reach_plot(std::span<const RunGroup> groups, Effort effort, 
       longest = std::max(longest, whole_effort(run->figures->curve, effort));
     }
   }
+  std::vector<std::string> methods;
+  for (const Arrivals& arrivals : all) methods.push_back(arrivals.method);
+  const std::vector<std::size_t> slots = palette_slots(methods);
   std::string body;
   std::string entries;
   for (std::size_t i = 0; i < all.size(); ++i) {
     body += steps_of(all[i], i, longest);
     entries +=
         fmt::format("{}$reach{} using 1:2 with steps lw 1.3 dt {} lc rgb '{}' title {}",
-                    i > 0 ? ", " : "", i, 1 + i / kPalette.size(), kPalette[i % kPalette.size()],
+                    i > 0 ? ", " : "", i, 1 + slots[i] / kPalette.size(), palette_colour(slots[i]),
                     gnuplot_text(fmt::format("{} ({} of {})", all[i].label, all[i].efforts.size(),
                                              all[i].runs)));
   }

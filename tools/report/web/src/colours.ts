@@ -8,14 +8,35 @@ const kRuns = {
   dark: ["#6ea0ff", "#ff9a55", "#44c9a3", "#e37fd0", "#c9c44a", "#a78bfa", "#ff7a8c", "#67c3df"],
 };
 
-/** Of a run in all plots, tables and views; tells the first eight apart. */
-export function runColour(index: number): string {
+/** Whose each of the first colours is, as in the plots (tools/plots/script_parts.cpp). */
+const kOwners = ["proposed", "bircher", "isler", "tour", "oracle_metres", "oracle_views", "released"];
+let slots: number[] = [];
+
+/** Of each run a colour of its own: its method's, or where that is taken the first that is left. */
+export function slotsOf(methods: string[]): number[] {
+  const owned = methods.map((method, i) =>
+    (methods.indexOf(method) === i ? kOwners.indexOf(method) : -1));
+  const taken = new Set(owned);
+  const free = () => {
+    let slot = 0;
+    while (taken.has(slot)) ++slot;
+    taken.add(slot);
+    return slot;
+  };
+  return owned.map((slot) => (slot < 0 ? free() : slot));
+}
+
+/** To be called once, before any colour is asked for. */
+export function setMethods(methods: string[]) { slots = slotsOf(methods); }
+
+/** Of one of several lines of the same run. */
+export function lineColour(index: number): string {
   const colours = isDark() ? kRuns.dark : kRuns.light;
   return colours[index % colours.length];
 }
 
-/** Of one of several lines of the same run. */
-export function lineColour(index: number): string { return runColour(index); }
+/** Of a run in all plots, tables and views; tells eight apart. */
+export function runColour(index: number): string { return lineColour(slots[index] ?? index); }
 
 export const paleInk = () => (isDark() ? "#98a2b0" : "#667080");
 export const hairline = () => (isDark() ? "#2a313b" : "#e6e9ee");
