@@ -63,6 +63,8 @@ TEST_F(RenderProgram, NumbersAndNamesThatMakeNoPictureAreRefused) {
            {"run -o picture.jpg", "--out picture.jpg: pictures are .png"},
            {"run -o film.mp4", "--out film.mp4: the name of a path ends in .png"},
            {"run -o run/cloud.ply/deeper", "run/cloud.ply"},
+           {"run --over-surface",
+            "path of run: no run/surface/surface.obj: `gnbv surface run` makes"},
            {"run --sheet sheet.jpg", "--sheet sheet.jpg: a sheet is a .png"},
            {"''", "RUN is an empty name"}}) {
     const Outcome refused = render(options);
@@ -95,7 +97,7 @@ TEST_F(RenderProgram, RefusesOptionsThatItWouldIgnore) {
                         R"({"position_m": [0, -9, 3], "target_m": [0, 0, 3]})");
   for (const char* const option :
        {"--camera camera.json --azimuth-deg 10", "--camera camera.json --elevation-deg 10",
-        "--what snapshots,movie --sheet sheet.png"}) {
+        "--what snapshots,movie --sheet sheet.png", "--what cloud --over-surface"}) {
     const Outcome outcome = render(std::string("run ") + option);
     EXPECT_EQ(outcome.exit_code, 2) << option << outcome.output;
   }

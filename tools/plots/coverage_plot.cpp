@@ -148,7 +148,7 @@ Layers layers_of(std::span<const RunGroup> groups, std::optional<std::size_t> pa
   Layers layers;
   std::array<bool, 2> has_level = {false, false};  // trusted, doubtful
   std::vector<double> ceilings;
-  const std::vector<std::size_t> slots = palette_slots(methods_of(groups));
+  const std::vector<std::size_t> slots = method_slots(methods_of(groups));
   for (std::size_t i = 0; i < groups.size(); ++i) {
     if (!window.shows(groups[i])) continue;
     add_lines(layers, groups[i], i, slots[i]);

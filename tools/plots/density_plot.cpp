@@ -34,7 +34,7 @@ std::vector<MeanSeries> mean_densities(std::span<const RunGroup> groups) {
 Plot mean_density_plot(std::span<const MeanSeries> series) {
   std::vector<std::string> methods;
   for (const MeanSeries& each : series) methods.push_back(each.method);
-  const std::vector<std::size_t> slots = palette_slots(methods);
+  const std::vector<std::size_t> slots = method_slots(methods);
   std::string data;
   std::string bands;
   std::string lines;

@@ -13,7 +13,7 @@ namespace gnbv {
 /// Density over the views as a mean over seeds. Missions that have ended count no more.
 struct MeanSeries {
   std::string label;
-  std::string method;  // of palette_slots()
+  std::string method;  // of method_slots()
   std::vector<MeanEstimate> by_view;
 };
 

@@ -98,7 +98,7 @@ std::string intervals(const ForestPanel& panel, const Comparison& comparison,
                       std::string_view name) {
   const auto [low, high] = reach_of(panel);
   const double head = 0.02 * (high - low);
-  const std::vector<std::size_t> colours = palette_slots(comparison.methods);
+  const std::vector<std::size_t> colours = method_slots(comparison.methods);
   std::string data;
   std::string entries;
   for (std::size_t method = 0; method < comparison.methods.size(); ++method) {
@@ -149,7 +149,7 @@ double name_share(const std::vector<ForestPanel>& panels) {
 
 std::vector<KeyEntry> key_of(const Comparison& comparison, std::vector<std::string>& names) {
   for (const std::string& method : comparison.methods) names.push_back(human_name(method));
-  const std::vector<std::size_t> slots = palette_slots(comparison.methods);
+  const std::vector<std::size_t> slots = method_slots(comparison.methods);
   std::vector<KeyEntry> key;
   for (std::size_t method = 0; method < names.size(); ++method) {
     if (method == comparison.baseline) continue;

@@ -68,7 +68,7 @@ std::optional<Plot> reach_plot(std::span<const RunGroup> groups, Effort effort, 
   }
   std::vector<std::string> methods;
   for (const Arrivals& arrivals : all) methods.push_back(arrivals.method);
-  const std::vector<std::size_t> slots = palette_slots(methods);
+  const std::vector<std::size_t> slots = method_slots(methods);
   std::string body;
   std::string entries;
   for (std::size_t i = 0; i < all.size(); ++i) {

@@ -12,45 +12,12 @@
 namespace gnbv {
 namespace {
 
-/// Whose each colour of the palette is.
-constexpr std::array<std::string_view, kPalette.size()> kOwners = {
-    "proposed", "bircher", "isler", "tour", "oracle_metres", "oracle_views", "released"};
-
 constexpr std::string_view kPhaseColour = "#dcebf5";
 constexpr double kLeft = 0.135;  // edges of all panels, as shares of the width
 constexpr double kRight = 0.975;
 constexpr double kTextLine = 54.0;  // of a picture as wide as PlotSize is at first, in pixels
 
 }  // namespace
-
-std::vector<std::size_t> palette_slots(std::span<const std::string> methods) {
-  constexpr std::size_t kNone = kOwners.size();
-  std::vector<std::size_t> slots(methods.size(), kNone);
-  std::vector<bool> is_taken(kOwners.size() + methods.size(), false);
-  for (std::size_t i = 0; i < methods.size(); ++i) {
-    const auto owner = static_cast<std::size_t>(
-        std::find(kOwners.begin(), kOwners.end(), methods[i]) - kOwners.begin());
-    if (owner == kNone || is_taken[owner]) continue;
-    is_taken[owner] = true;
-    slots[i] = owner;
-  }
-  for (std::size_t& slot : slots) {
-    if (slot != kNone) continue;
-    slot = static_cast<std::size_t>(std::find(is_taken.begin(), is_taken.end(), false) -
-                                    is_taken.begin());
-    is_taken[slot] = true;
-  }
-  return slots;
-}
-
-std::vector<std::string> methods_of(std::span<const RunGroup> groups) {
-  std::vector<std::string> methods;
-  for (const RunGroup& group : groups) {
-    const RunFigures& figures = *group.runs.front()->figures;
-    methods.push_back(figures.preset == "released" ? figures.preset : figures.utility);
-  }
-  return methods;
-}
 
 std::string_view effort_label(Effort effort) {
   switch (effort) {

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <array>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "tools/plots/curves.hpp"
+#include "tools/run_files/method_slots.hpp"
 
 namespace gnbv {
 
@@ -15,15 +15,7 @@ namespace gnbv {
 constexpr std::array<std::string_view, 7> kPalette = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                       "#e69f00", "#56b4e9", "#000000"};
 
-/// Of each method a number of its own in the palette, the same in every plot that it is in: the
-/// paper's three, the tour, the oracles and the released code have theirs. Methods that are not
-/// known, and those whose number is taken, get the first ones that are left; beyond the palette its
-/// colours begin again.
-std::vector<std::size_t> palette_slots(std::span<const std::string> methods);
-
-/// The method of each group, as palette_slots() knows them.
-std::vector<std::string> methods_of(std::span<const RunGroup> groups);
-
+/// The colour of a number of method_slots(); beyond the palette its colours begin again.
 constexpr std::string_view palette_colour(std::size_t slot) {
   return kPalette[slot % kPalette.size()];
 }

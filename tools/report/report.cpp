@@ -16,6 +16,7 @@
 #include "tools/report/run_json.hpp"
 #include "tools/report/structures.hpp"
 #include "tools/run_files/file_names.hpp"
+#include "tools/run_files/method_slots.hpp"
 #include "tools/run_files/run_groups.hpp"
 #include "tools/run_files/words.hpp"
 
@@ -192,6 +193,7 @@ Report make_report(const std::vector<RunRecord>& records, const ReportOptions& o
   Report report;
   const std::string title = options.title.empty() ? title_of(records) : options.title;
   const std::vector<std::string> labels = run_labels(records);
+  const std::vector<std::size_t> slots = method_slots(methods_of(records));
   const Structures structures = pack_structures(records, options.threads);
   const RunBudget budget = budget_of(records, structures.bytes.bytes().size());
   Json runs = Json::array();
@@ -205,6 +207,7 @@ Report make_report(const std::vector<RunRecord>& records, const ReportOptions& o
         });
     if (!structure.why.empty()) packed.missing.push_back(structure.why);
     Json run = run_json(records[i], labels[i], packed, structure.number);
+    run["slot"] = slots[i];
     ceilings.push_back(ceiling_of(records[i], structure.known.get(), options.threads));
     run["ceiling"] = ceilings.back() ? Json(ceilings.back()->leaf_outside) : Json(nullptr);
     runs.push_back(std::move(run));

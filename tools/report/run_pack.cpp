@@ -23,7 +23,6 @@ constexpr std::size_t kPointBytes = 7;
 constexpr std::size_t kColourBytes = 3;
 constexpr std::size_t kSampleBytes = 18;
 constexpr std::size_t kPlannedBytes = 28;
-constexpr const char* kSurfaceFolder = "surface";
 constexpr const char* kSurfaceFile = "surface.glb";
 constexpr std::size_t kLeast = 16;        // elements, whatever the budget is
 constexpr std::size_t kPaddingBytes = 3;  // at most, before each array

@@ -24,6 +24,7 @@ constexpr const char* kPredictionsFile = "predictions.csv";
 constexpr const char* kOwnUtilityFile = "utility.py";
 constexpr const char* kPlanFile = "plan.jsonl";
 constexpr const char* kFramesFolder = "frames";
+constexpr const char* kSurfaceFolder = "surface";  // of `gnbv surface`, unless named otherwise
 
 /// A file that is still being written, line by line.
 inline std::filesystem::path part_of(const std::filesystem::path& file) {

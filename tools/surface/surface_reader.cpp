@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <string_view>
+#include <optional>
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/mesh/plain_text.hpp"
 #include "tools/surface/textured_mesh.hpp"
 
 namespace gnbv {
@@ -15,26 +16,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The words of a line, one after the other.
-class Words {
- public:
-  explicit Words(std::string_view line) : rest_(line) {}
+/// Counted from 1 in the file, of so many.
+std::optional<std::uint32_t> read_index(std::string_view word, std::size_t count) {
+  std::uint32_t index = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), index);
+  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  if (index < 1 || index > count) return std::nullopt;
+  return index - 1;
+}
 
-  std::string_view next() {
-    rest_.remove_prefix(std::min(rest_.find_first_not_of(" \r"), rest_.size()));
-    const std::string_view word = rest_.substr(0, rest_.find_first_of(" \r"));
-    rest_.remove_prefix(word.size());
-    return word;
-  }
-
- private:
-  std::string_view rest_;
-};
-
-template <typename Number>
-bool is_number(std::string_view word, Number& value) {
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc() && end == word.data() + word.size();
+std::optional<float> read_share(std::string_view word) {
+  const std::optional<double> share = read_decimal(word);
+  if (!share || !(*share >= 0.0 && *share <= 1.0)) return std::nullopt;
+  return static_cast<float>(*share);
 }
 
 /// One line after the other of what obj_of() of surface_files.cpp writes.
@@ -44,12 +38,13 @@ class SurfaceReader {
 
   /// Whether it is a line of such a file.
   bool read(std::string_view line) {
-    Words words(line);
-    const std::string_view kind = words.next();
-    if (kind == "v") return read_vertex(words);
-    if (kind == "vt") return read_uv(words);
-    if (kind == "f") return read_face(words);
-    return kind.empty() || kind == "#" || kind == "mtllib" || kind == "usemtl";
+    split(line, words_);
+    if (words_.empty()) return true;
+    const std::string_view kind = words_.front();
+    if (kind == "v") return words_.size() == (has_texture() ? 4U : 7U) && read_vertex();
+    if (kind == "vt") return words_.size() == 3 && read_uv();
+    if (kind == "f") return words_.size() == 4 && read_face();
+    return kind == "#" || kind == "mtllib" || kind == "usemtl";
   }
 
   TexturedMesh take() { return std::move(mesh_); }
@@ -57,59 +52,55 @@ class SurfaceReader {
  private:
   bool has_texture() const { return !mesh_.atlas.rgb.empty(); }
 
-  bool read_vertex(Words& words) {
+  bool read_vertex() {
     Vec3f p_m;
-    for (float& x : p_m) {
-      if (!is_number(words.next(), x) || !std::isfinite(x)) return false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::optional<double> x_m = read_decimal(words_[1 + k]);
+      if (!x_m || !std::isfinite(*x_m)) return false;
+      p_m[static_cast<Eigen::Index>(k)] = static_cast<float>(*x_m);
+    }
+    Rgb8 rgb{};
+    for (std::size_t k = 0; k < 3 && !has_texture(); ++k) {
+      const std::optional<float> share = read_share(words_[4 + k]);
+      if (!share) return false;
+      rgb[k] = static_cast<std::uint8_t>(std::lround(255.0F * *share));
     }
     mesh_.shape.vertices_m.push_back(p_m);
-    Rgb8& rgb = mesh_.vertex_rgb.emplace_back();
-    for (std::uint8_t& level : rgb) {
-      float share = 0.0F;
-      if (has_texture()) continue;
-      if (!is_number(words.next(), share) || !(share >= 0.0F && share <= 1.0F)) return false;
-      level = static_cast<std::uint8_t>(std::lround(255.0F * share));
-    }
+    mesh_.vertex_rgb.push_back(rgb);
     return true;
   }
 
-  bool read_uv(Words& words) {
-    float u = 0.0F;
-    float v = 0.0F;
-    if (!is_number(words.next(), u) || !is_number(words.next(), v)) return false;
-    if (!(u >= 0.0F && u <= 1.0F && v >= 0.0F && v <= 1.0F)) return false;
-    uv_.emplace_back(u * static_cast<float>(mesh_.atlas.width_px),
-                     (1.0F - v) * static_cast<float>(mesh_.atlas.height_px));
+  bool read_uv() {
+    const std::optional<float> u = read_share(words_[1]);
+    const std::optional<float> v = read_share(words_[2]);  // upwards
+    if (!u || !v) return false;
+    uv_.emplace_back(*u * static_cast<float>(mesh_.atlas.width_px),
+                     (1.0F - *v) * static_cast<float>(mesh_.atlas.height_px));
     return true;
   }
 
-  bool read_face(Words& words) {
+  bool read_face() {
     std::array<std::uint32_t, 3> face{};
     FaceUv uv;
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::string_view corner = words.next();
-      const std::size_t slash = corner.find('/');
-      if (!is_index(corner.substr(0, slash), mesh_.shape.vertices_m.size(), face[k])) return false;
-      if ((slash != std::string_view::npos) != has_texture()) return false;
+      const std::string_view corner = words_[1 + k];
+      const std::size_t slash = std::min(corner.find('/'), corner.size());
+      const auto vertex = read_index(corner.substr(0, slash), mesh_.shape.vertices_m.size());
+      if (!vertex || (slash < corner.size()) != has_texture()) return false;
+      face[k] = *vertex;
       if (!has_texture()) continue;
-      std::uint32_t at = 0;
-      if (!is_index(corner.substr(slash + 1), uv_.size(), at)) return false;
-      uv[k] = uv_[at];
+      const auto at = read_index(corner.substr(slash + 1), uv_.size());
+      if (!at) return false;
+      uv[k] = uv_[*at];
     }
     mesh_.shape.faces.push_back(face);
     if (has_texture()) mesh_.face_uv.push_back(uv);
     return true;
   }
 
-  /// Counted from 1 in the file, of so many.
-  static bool is_index(std::string_view word, std::size_t count, std::uint32_t& index) {
-    if (!is_number(word, index) || index < 1 || index > count) return false;
-    --index;
-    return true;
-  }
-
   TexturedMesh mesh_;
-  std::vector<Vec2f> uv_;
+  std::vector<Vec2f> uv_;  // texels, as face_uv
+  std::vector<std::string_view> words_;
 };
 
 }  // namespace

@@ -49,9 +49,6 @@ std::vector<std::filesystem::path> write_surface(const TexturedMesh& mesh,
 /// of one that it did not write.
 TexturedMesh read_surface(const std::filesystem::path& folder);
 
-/// The folder of a run's surface, unless the user names another.
-constexpr const char* kSurfaceFolder = "surface";
-
 /// The GLB; `png` holds the atlas as a PNG, and is empty without one.
 std::string glb_of(const TexturedMesh& mesh, std::string_view png);
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <functional>
 #include <map>
-#include <numeric>
 
 #include "tests/tools/plots/plot_support.hpp"
 #include "tools/plots/coverage_plot.hpp"
@@ -12,23 +11,6 @@
 
 namespace gnbv {
 namespace {
-
-TEST(Palette, AMethodHasItsColourInWhateverCompany) {
-  const std::vector<std::string> few = {"tour", "proposed"};
-  const std::vector<std::string> more = {"isler", "proposed", "bircher", "tour"};
-  EXPECT_EQ(palette_slots(few), (std::vector<std::size_t>{3, 0}));
-  EXPECT_EQ(palette_slots(more), (std::vector<std::size_t>{2, 0, 1, 3}));
-}
-
-TEST(Palette, NoTwoHaveTheSameNumberAndStrangersTakeWhatIsLeft) {
-  const std::vector<std::string> methods = {"mine", "proposed", "tour", "proposed", "yours"};
-  EXPECT_EQ(palette_slots(methods), (std::vector<std::size_t>{1, 0, 3, 2, 4}));
-  const std::vector<std::string> many(2 * kPalette.size(), "mine");
-  std::vector<std::size_t> all(many.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  EXPECT_EQ(palette_slots(many), all);
-  EXPECT_TRUE(palette_slots({}).empty());
-}
 
 TEST(Plots, DensityAndEntropyAreTheRunsFigures) {
   const RunRecord record = scored_record();

@@ -1,80 +1,16 @@
 // Laws of a surface's texture: a texel shows what the picture shows there, nothing is taken from a
-// picture in which something else stands before it, charts keep apart, and files read back.
+// picture in which something else stands before it, and charts keep apart.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
-#include <nlohmann/json.hpp>
 
-#include "sim/core/error.hpp"
-#include "sim/core/file.hpp"
 #include "sim/core/srgb.hpp"
-#include "sim/mesh/mesh_file.hpp"
-#include "tests/support/temp_folder.hpp"
+#include "tests/tools/surface/pictured_sheet.hpp"
 #include "tools/surface/surface_picture.hpp"
 #include "tools/surface/textured_mesh.hpp"
 
 namespace gnbv {
 namespace {
-
-constexpr int kWidth_px = 160;
-constexpr int kHeight_px = 120;
-
-/// A camera at height z_m over (x_m, 0) that looks straight down.
-TextureView view_from(float x_m, float z_m) {
-  Isometry T_world_camera = Isometry::Identity();
-  T_world_camera.translate(Vec3(x_m, 0, z_m));
-  T_world_camera.rotate(Eigen::AngleAxisd(kPi, Vec3::UnitX()));  // optical axis down
-  return {.T_camera_world = T_world_camera.inverse(),
-          .p_world_m = Vec3f(x_m, 0, z_m),
-          .camera = {.name = "c",
-                     .width_px = kWidth_px,
-                     .height_px = kHeight_px,
-                     .fx_px = 130,
-                     .fy_px = 140,
-                     .cx_px = 80,
-                     .cy_px = 60}};
-}
-
-/// A level sheet of 2 n^2 triangles around (x_m, 0), facing up.
-void add_sheet(TriangleMesh& mesh, float x_m, float z_m, float side_m, int n) {
-  const auto first = static_cast<std::uint32_t>(mesh.vertices_m.size());
-  for (int i = 0; i <= n; ++i) {
-    for (int j = 0; j <= n; ++j) {
-      const auto at = [&](int k) {
-        return side_m * (static_cast<float>(k) / static_cast<float>(n) - 0.5F);
-      };
-      mesh.vertices_m.emplace_back(x_m + at(i), at(j), z_m);
-    }
-  }
-  const auto row = static_cast<std::uint32_t>(n + 1);
-  for (std::uint32_t i = 0; i + 1 < row; ++i) {
-    for (std::uint32_t j = 0; j + 1 < row; ++j) {
-      const std::uint32_t a = first + i * row + j;
-      mesh.faces.push_back({a, a + row, a + row + 1});
-      mesh.faces.push_back({a, a + row + 1, a + 1});
-    }
-  }
-}
-
-TriangleMesh sheet(float side_m = 1.0F, int n = 20) {
-  TriangleMesh mesh;
-  add_sheet(mesh, 0.0F, 0.0F, side_m, n);
-  return mesh;
-}
-
-/// Smooth and without two equal places: red grows to the right, green downwards.
-Image gradient(std::uint8_t blue) {
-  Image image{kWidth_px, kHeight_px, {}};
-  for (int y = 0; y < kHeight_px; ++y) {
-    for (int x = 0; x < kWidth_px; ++x) {
-      image.rgb.push_back(static_cast<std::uint8_t>(x + 40));
-      image.rgb.push_back(static_cast<std::uint8_t>(2 * y));
-      image.rgb.push_back(blue);
-    }
-  }
-  return image;
-}
 
 /// Without depth images, a face at the sheet's edge has no view: the background is near.
 bool is_at_edge(const TriangleMesh& mesh, std::size_t face, float side_m = 1.0F) {
@@ -83,12 +19,6 @@ bool is_at_edge(const TriangleMesh& mesh, std::size_t face, float side_m = 1.0F)
     if (p_m.head<2>().cwiseAbs().maxCoeff() > 0.499F * side_m) return true;
   }
   return false;
-}
-
-std::vector<std::int32_t> chosen_views(const TriangleMesh& mesh,
-                                       const std::vector<TextureView>& views, int threads = 2) {
-  const RayScene scene(World{.structure = mesh, .has_ground = false});
-  return choose_views(mesh, scene, views, {}, threads);
 }
 
 TEST(Texture, ATexelHasTheColourOfThePixelItProjectsTo) {
@@ -242,15 +172,6 @@ TEST(Atlas, IsNeverLargerThanAllowedButCoarser) {
 }
 
 /// The sheet textured from one picture, its right third unseen.
-TexturedMesh textured(int threads = 2) {
-  TriangleMesh mesh = sheet();
-  const std::vector<TextureView> views = {view_from(-0.9F, 2.0F)};
-  const AtlasLayout layout = lay_out_atlas(mesh, chosen_views(mesh, views, threads), views, {});
-  const Image baked = bake_atlas(
-      layout, [](std::uint32_t) { return gradient(200); }, threads);
-  return with_texture(std::move(mesh), layout, baked);
-}
-
 TEST(TexturedMesh, FacesThatNoPictureShowsHaveTheirNeighboursColours) {
   const TexturedMesh mesh = textured();
   std::size_t swatches = 0;
@@ -276,140 +197,6 @@ TEST(TexturedMesh, IsTheSameAtAnyNumberOfThreads) {
   const TexturedMesh three = textured(3);
   EXPECT_EQ(one.atlas.rgb, three.atlas.rgb);
   EXPECT_EQ(glb_of(one, ""), glb_of(three, ""));
-}
-
-std::vector<std::vector<float>> sorted_triangles(const TriangleMesh& mesh) {
-  std::vector<std::vector<float>> triangles;
-  for (const auto& face : mesh.faces) {
-    auto& t = triangles.emplace_back();
-    for (const std::uint32_t v : face) {
-      for (const float x : mesh.vertices_m[v]) t.push_back(std::round(x * 1e4F));
-    }
-  }
-  std::sort(triangles.begin(), triangles.end());
-  return triangles;
-}
-
-TEST(SurfaceFiles, EachReadsBackWithTheSameFaces) {
-  TempFolder temp;
-  const TexturedMesh mesh = textured();
-  const auto paths = write_surface(mesh, temp.path());
-  EXPECT_EQ(paths.size(), 5U);
-  for (const char* name : {"surface.glb", "surface.obj", "surface.ply"}) {
-    const TriangleMesh back = load_mesh({.path = (temp.path() / name).string()});
-    EXPECT_EQ(sorted_triangles(back), sorted_triangles(mesh.shape)) << name;
-  }
-  EXPECT_EQ(read_png(temp.path() / "surface.png").rgb, mesh.atlas.rgb);
-  const auto plain = write_surface(with_height_colours(mesh.shape), temp.path());
-  EXPECT_EQ(plain.size(), 3U);
-  EXPECT_FALSE(std::filesystem::exists(temp.path() / "surface.png"));
-  for (const auto& path : plain) {
-    EXPECT_EQ(sorted_triangles(load_mesh({.path = path.string()})), sorted_triangles(mesh.shape));
-  }
-}
-
-TEST(SurfaceFiles, ReadBackWithTheirLooks) {
-  TempFolder temp;
-  const auto same_uv = [](const FaceUv& a, const FaceUv& b) {
-    return (a[0] - b[0]).norm() + (a[1] - b[1]).norm() + (a[2] - b[2]).norm() < 0.02;  // texels
-  };
-  for (const TexturedMesh& mesh : {textured(), with_height_colours(sheet(1.0F, 3))}) {
-    write_surface(mesh, temp.path());
-    const TexturedMesh back = read_surface(temp.path());
-    EXPECT_EQ(back.shape.faces, mesh.shape.faces);
-    ASSERT_EQ(back.shape.vertices_m.size(), mesh.shape.vertices_m.size());
-    EXPECT_EQ(sorted_triangles(back.shape), sorted_triangles(mesh.shape));
-    EXPECT_EQ(back.atlas.rgb, mesh.atlas.rgb);
-    ASSERT_EQ(back.face_uv.size(), mesh.face_uv.size());
-    EXPECT_TRUE(
-        std::equal(back.face_uv.begin(), back.face_uv.end(), mesh.face_uv.begin(), same_uv));
-    if (mesh.face_uv.empty()) {
-      EXPECT_EQ(back.vertex_rgb, mesh.vertex_rgb);
-    }
-  }
-}
-
-TEST(SurfaceFiles, LinesOfOthersAreNamed) {
-  TempFolder temp;
-  write_surface(with_height_colours(sheet(1.0F, 3)), temp.path());
-  const std::string text = read_file(temp.path() / "surface.obj");
-  for (const char* line : {"f 1 2 99", "f 1/1 2/2 3/3", "f 1 2", "f 0 1 2", "v 1 2 nan 0 0 0",
-                           "v 1 2 3", "v 1 2 3 0 0 1.5", "g what"}) {
-    write_file_atomically(temp.path() / "surface.obj", text + line + "\n");
-    const auto lines = std::count(text.begin(), text.end(), '\n') + 1;
-    try {
-      read_surface(temp.path());
-      ADD_FAILURE() << line;
-    } catch (const BadInput& error) {
-      EXPECT_NE(std::string(error.what()).find("surface.obj:" + std::to_string(lines)),
-                std::string::npos)
-          << error.what();
-    }
-  }
-}
-
-template <typename T>
-T value_at(const std::string& bytes, std::size_t at) {
-  T value{};
-  std::memcpy(&value, bytes.data() + at, sizeof value);
-  return value;
-}
-
-TEST(SurfaceFiles, WithoutATextureTheGlbShowsTheColoursOfTheVerticesUnlit) {
-  TexturedMesh mesh = with_height_colours(sheet(1.0F, 2));
-  for (std::size_t i = 0; i < mesh.vertex_rgb.size(); ++i) {
-    const auto level = static_cast<std::uint8_t>(i);  // dark
-    mesh.vertex_rgb[i] = {level, static_cast<std::uint8_t>(2 * level), 255};
-  }
-  const std::string glb = glb_of(mesh, "");
-  const auto json_bytes = value_at<std::uint32_t>(glb, 12);
-  const auto json = nlohmann::json::parse(glb.substr(20, json_bytes));
-  EXPECT_TRUE(json["materials"][0]["extensions"].contains("KHR_materials_unlit"));
-  EXPECT_EQ(json["extensionsUsed"][0], "KHR_materials_unlit");
-  const auto& attributes = json["meshes"][0]["primitives"][0]["attributes"];
-  const auto& accessor = json["accessors"][attributes["COLOR_0"].get<std::size_t>()];
-  EXPECT_EQ(accessor["componentType"], 5123);  // unsigned short
-  EXPECT_EQ(accessor["normalized"], true);
-  const auto& view = json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
-  const std::size_t begin = 28 + json_bytes + view["byteOffset"].get<std::size_t>();
-  const DistinctCorners corners = distinct_corners(mesh);
-  for (std::size_t i = 0; i < corners.vertex.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const float linear =
-          static_cast<float>(value_at<std::uint16_t>(glb, begin + 8 * i + 2 * k)) / 65535.0F;
-      EXPECT_NEAR(255.0F * linear_to_srgb(linear), mesh.vertex_rgb[corners.vertex[i]][k], 0.1F);
-    }
-    EXPECT_EQ(value_at<std::uint16_t>(glb, begin + 8 * i + 6), 65535);
-  }
-}
-
-TEST(SurfaceFiles, TheGlbHoldsTheAtlasAndItsCoordinates) {
-  const TexturedMesh mesh = textured();
-  const std::string png(37, 'p');
-  const std::string glb = glb_of(mesh, png);
-  const auto word = [&](std::size_t at) { return value_at<std::uint32_t>(glb, at); };
-  ASSERT_EQ(glb.substr(0, 4), "glTF");
-  ASSERT_EQ(word(8), glb.size());
-  const auto json = nlohmann::json::parse(glb.substr(20, word(12)));
-  EXPECT_TRUE(json["materials"][0]["extensions"].contains("KHR_materials_unlit"));
-  const std::size_t data = 20 + word(12) + 8;
-  const auto view_at = [&](std::size_t view) {
-    return data + json.at("bufferViews").at(view).at("byteOffset").get<std::size_t>();
-  };
-  EXPECT_EQ(glb.substr(view_at(json["images"][0]["bufferView"]), png.size()), png);
-  const auto& primitive = json["meshes"][0]["primitives"][0];
-  const auto begin_of = [&](std::size_t accessor) {
-    return view_at(json["accessors"][accessor]["bufferView"]);
-  };
-  const std::size_t uv = begin_of(primitive["attributes"]["TEXCOORD_0"]);
-  const std::size_t indices = begin_of(primitive["indices"]);
-  for (std::size_t i = 0; i < 3 * mesh.shape.faces.size(); ++i) {
-    std::array<float, 2> read{};
-    std::memcpy(read.data(), glb.data() + uv + 8 * word(indices + 4 * i), sizeof read);
-    const Vec2f& made = mesh.face_uv[i / 3][i % 3];
-    EXPECT_NEAR(read[0] * static_cast<float>(mesh.atlas.width_px), made.x(), 1e-3F);
-    EXPECT_NEAR(read[1] * static_cast<float>(mesh.atlas.height_px), made.y(), 1e-3F);
-  }
 }
 
 TEST(SurfacePicture, PiecesHaveTheTexturesColoursAndTheFacesArea) {

@@ -8,26 +8,10 @@ const kRuns = {
   dark: ["#6ea0ff", "#ff9a55", "#44c9a3", "#e37fd0", "#c9c44a", "#a78bfa", "#ff7a8c", "#67c3df"],
 };
 
-/** Whose each of the first colours is, as in the plots (tools/plots/script_parts.cpp). */
-const kOwners = ["proposed", "bircher", "isler", "tour", "oracle_metres", "oracle_views", "released"];
-let slots: number[] = [];
-
-/** Of each run a colour of its own: its method's, or where that is taken the first that is left. */
-export function slotsOf(methods: string[]): number[] {
-  const owned = methods.map((method, i) =>
-    (methods.indexOf(method) === i ? kOwners.indexOf(method) : -1));
-  const taken = new Set(owned);
-  const free = () => {
-    let slot = 0;
-    while (taken.has(slot)) ++slot;
-    taken.add(slot);
-    return slot;
-  };
-  return owned.map((slot) => (slot < 0 ? free() : slot));
-}
+let slots: number[] = []; // of the runs
 
 /** To be called once, before any colour is asked for. */
-export function setMethods(methods: string[]) { slots = slotsOf(methods); }
+export function setSlots(ofRuns: number[]) { slots = ofRuns; }
 
 /** Of one of several lines of the same run. */
 export function lineColour(index: number): string {

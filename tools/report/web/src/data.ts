@@ -130,6 +130,7 @@ export type Thumbnail = [view: number, camera: string, width: number, height: nu
 
 export interface RunData {
   label: string;
+  slot: number; // of its method: which colour is its own
   structure: string;
   utility: string;
   preset: string;

@@ -1,7 +1,7 @@
 // The page of `gnbv report`: reads what the program wrote into it, and puts the parts together.
 import type { BelievedKind } from "./believed";
 import { Clock } from "./clock";
-import { runColour, setMethods, setRamps } from "./colours";
+import { runColour, setSlots, setRamps } from "./colours";
 import { followRun } from "./live";
 import { legendItems } from "./legend";
 import { makeMissedList, type Region } from "./missed";
@@ -30,7 +30,7 @@ function setRunColours(count: number) {
 function build() {
   const page = readPage();
   setRamps(page.ramps);
-  setMethods(page.runs.map((run) => (run.preset === "released" ? run.preset : run.utility)));
+  setSlots(page.runs.map((run) => run.slot));
   const flights = page.runs.map((run, i) => new Flight(run, new Bytes(`run-${i}`), i));
   const meshBytes = new Bytes("meshes");
   const scenes = flights.map((flight) =>
