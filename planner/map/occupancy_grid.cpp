@@ -41,6 +41,7 @@ OccupancyGrid::OccupancyGrid(const OccupancyConfig& config, const Box3& bounds_m
   clamp_max_log_ = log_odds_of(config.clamp_max);
   occupied_min_log_ = log_odds_of(config.occupied_min);
   free_max_log_ = log_odds_of(config.free_max);
+  settled_word_ = compute_settled_word();
   hits_ = make_memo(log_odds_of(config.prob_hit));
   misses_ = make_memo(log_odds_of(config.prob_miss));
   const std::size_t voxels = geometry_.voxel_count();
@@ -68,6 +69,23 @@ OccupancyGrid::Entropy OccupancyGrid::compute_entropy(float log_odds) const {
           .units = std::llround(entropy_nat * kTotalUnits)};
 }
 
+VoxelState OccupancyGrid::state_of_log_odds(float log_odds) const {
+  if (log_odds >= occupied_min_log_) return VoxelState::occupied;
+  return log_odds <= free_max_log_ ? VoxelState::free : VoxelState::unknown;
+}
+
+VoxelWord OccupancyGrid::compute_settled_word() const {
+  constexpr auto kNoWord = static_cast<VoxelWord>(kStateMask);  // no state
+  const auto has_entropy_within = [&](float bound) {
+    return compute_entropy(std::nextafter(bound, 0.0F)).word_units > 0;
+  };
+  // at bounds so wide that entropy is 0 before them, words do not tell who is at one
+  const bool is_told = has_entropy_within(clamp_min_log_) && has_entropy_within(clamp_max_log_) &&
+                       state_of_log_odds(clamp_min_log_) == VoxelState::free &&
+                       state_of_log_odds(clamp_max_log_) != VoxelState::free;
+  return is_told ? measured_word(VoxelState::free, 0) : kNoWord;
+}
+
 OccupancyGrid::Step OccupancyGrid::compute_step(float before, float delta) const {
   float after = before + delta;
   if (after < clamp_min_log_) after = clamp_min_log_;
@@ -76,13 +94,10 @@ OccupancyGrid::Step OccupancyGrid::compute_step(float before, float delta) const
 }
 
 OccupancyGrid::Step OccupancyGrid::make_step(float before, float after) const {
-  const VoxelState state = after >= occupied_min_log_ ? VoxelState::occupied
-                           : after <= free_max_log_   ? VoxelState::free
-                                                      : VoxelState::unknown;
   const Entropy entropy = compute_entropy(after);
   return {.before = before,
           .after = after,
-          .word = measured_word(state, entropy.word_units),
+          .word = measured_word(state_of_log_odds(after), entropy.word_units),
           .entropy_gain = entropy.units - compute_entropy(before).units};
 }
 

@@ -64,6 +64,12 @@ class OccupancyGrid {
   bool shade(VoxelIndex v);
   bool is_shaded(VoxelIndex v) const { return (words_[v] & kShadowBit) != 0; }
 
+  /// The word that free voxels have at the lower clamping bound, and no others: a miss changes
+  /// nothing of them, and their log-odds are settled_log_odds(). A word that no voxel has where
+  /// words cannot tell them.
+  VoxelWord settled_word() const { return settled_word_; }
+  float settled_log_odds() const { return clamp_min_log_; }
+
   /// Rows for the hot loops; index with VoxelIndex.
   std::span<const VoxelWord> words() const { return words_.span(); }
   std::span<const float> all_log_odds() const { return log_odds_.span(); }
@@ -86,6 +92,8 @@ class OccupancyGrid {
     std::vector<Step> steps;
   };
   Entropy compute_entropy(float log_odds) const;
+  VoxelState state_of_log_odds(float log_odds) const;
+  VoxelWord compute_settled_word() const;
   Step make_step(float before, float after) const;
   Step compute_step(float before, float delta) const;
   StepMemo make_memo(float delta) const;
@@ -100,6 +108,7 @@ class OccupancyGrid {
   GridGeometry geometry_;
   float clamp_min_log_ = 0.0F, clamp_max_log_ = 0.0F;
   float occupied_min_log_ = 0.0F, free_max_log_ = 0.0F;
+  VoxelWord settled_word_ = 0;
   ZeroedArray<float> log_odds_;
   ZeroedArray<VoxelWord> words_;
   std::int64_t total_entropy_ = 0;  // in units of 2^-32 nat

@@ -54,6 +54,8 @@ struct ViewMaps {
   std::int32_t resting_voxel;  // where rays that have ended mark: in the padding
   std::int32_t* predicted;     // first predicted voxel of each ray that has one
   std::size_t predicted_count;
+  std::uint32_t settled_word;  // OccupancyGrid::settled_word(), and its voxels' log-odds
+  float settled_log_odds;
 };
 
 /// Sums over the rays, in integers: the order of the rays leaves no trace.

@@ -184,7 +184,9 @@ ViewStats evaluate_view(const OccupancyGrid& grid, const SurfaceCloud& cloud, co
       .marks = marks.marks.data(),
       .resting_voxel = static_cast<std::int32_t>(geometry.voxel_count() + kMarkPadding - 1),
       .predicted = marks.predicted_ends.data(),
-      .predicted_count = 0};
+      .predicted_count = 0,
+      .settled_word = grid.settled_word(),
+      .settled_log_odds = grid.settled_log_odds()};
   RaySums ray_sums{};
   ViewStats stats;
   stats.voxel_m3 = std::pow(geometry.resolution_m(), 3);

@@ -125,9 +125,31 @@ inline void measure_unknown(Mask unknown, Ints word, Floats visible, Ints t_exit
   m.shadow = m.shadow | has_bits(unknown, word, all(kShadowBit));
 }
 
+/// The factors by which the visibility falls.
+struct Odds {
+  float power;     // log2(e), negative for the legacy visibility
+  Floats settled;  // the factor of a voxel of the settled word
+};
+
+// below it adds nothing, and what follows from it would be denormal and slow
+constexpr float kLeastVisibility = 0x1p-60F;
+
+/// Adds voxels of the settled word, which have no entropy.
+inline void measure_settled(Ints t_exit, const Odds& odds, RayMetrics& m) {
+  m.unknown_run = all(0.0F);
+  m.after_unknown = no_lane();
+  m.t_enter = t_exit;
+  m.visibility = max(m.visibility * odds.settled, all(kLeastVisibility));
+}
+
 /// Adds the voxels at hand. The branches only skip what would change nothing.
 inline void measure(const ViewMaps& maps, const Bundle& b, Ints word, Ints known, Mask occupied,
-                    Ints t_exit, float odds_power, int step, RayMetrics& m) {
+                    Ints t_exit, const Odds& odds, int step, RayMetrics& m) {
+  // most of the space before a camera has been looked at often
+  if (!any(without(b.seeing, equal(word, all(maps.settled_word))))) {
+    measure_settled(t_exit, odds, m);
+    return;
+  }
   const Mask unknown = has_not_bits(b.seeing, word, all(kStateMask));
   const Floats entropy = to_floats(all(kLn2Units) - known);
   const Floats visible = m.visibility * entropy;
@@ -144,10 +166,9 @@ inline void measure(const ViewMaps& maps, const Bundle& b, Ints word, Ints known
   Floats factor = all(0.5F);  // of log-odds 0
   if (any(measured)) {
     const Floats log_odds = gather(measured, maps.log_odds, b.voxel);
-    factor = free_probability(log_odds * all(odds_power));
+    factor = free_probability(log_odds * all(odds.power));
   }
-  // below 2^-60 it adds nothing, and what follows from it would be denormal and slow
-  m.visibility = max(m.visibility * factor, all(0x1p-60F));
+  m.visibility = max(m.visibility * factor, all(kLeastVisibility));
 }
 
 /// Sums over bundles, lane by lane. No term is negative.
@@ -181,7 +202,7 @@ void add_rays(const RayMetrics& m, const WideLanes& known, LaneTotals& totals, R
 }
 
 template <bool kFull>
-void walk_bundle(Bundle b, float odds_power, ViewMaps& maps, LaneTotals& totals, RaySums& sums) {
+void walk_bundle(Bundle b, const Odds& odds, ViewMaps& maps, LaneTotals& totals, RaySums& sums) {
   const ViewMaps local = maps;  // a mark might be any byte in memory to the compiler
   const Ints resting_voxel = all(local.resting_voxel);
   RayMetrics metrics;
@@ -205,7 +226,7 @@ void walk_bundle(Bundle b, float odds_power, ViewMaps& maps, LaneTotals& totals,
     }
     const Ints t_exit = exit_time(b);
     if constexpr (kFull) {
-      measure(local, b, word, known, occupied, t_exit, odds_power, step, metrics);
+      measure(local, b, word, known, occupied, t_exit, odds, step, metrics);
     }
     take_step(b, t_exit);
     b.seeing = without(b.seeing & b.moving, occupied);
@@ -220,9 +241,11 @@ void walk_bundle(Bundle b, float odds_power, ViewMaps& maps, LaneTotals& totals,
 template <bool kFull>
 void walk_rays(const PreparedRays& rays, std::int32_t origin_voxel, float odds_power,
                ViewMaps& maps, RaySums& sums) {
+  const Odds odds = {.power = odds_power,
+                     .settled = free_probability(all(maps.settled_log_odds) * all(odds_power))};
   LaneTotals totals;
   for (std::size_t first = 0; first < rays.count; first += kLaneCount) {
-    walk_bundle<kFull>(load_bundle(rays, first, origin_voxel), odds_power, maps, totals, sums);
+    walk_bundle<kFull>(load_bundle(rays, first, origin_voxel), odds, maps, totals, sums);
   }
   sums.known += sum_of(totals.known);
   sums.visits_occupied += sum_of(totals.visits_occupied);

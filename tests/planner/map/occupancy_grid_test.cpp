@@ -72,6 +72,36 @@ TEST(OccupancyGrid, ClampsAtBothBoundsExactlyAndComesBack) {
   EXPECT_GT(grid.entropy_nat(1), 0.0F);
 }
 
+TEST(OccupancyGrid, TheSettledWordIsThatOfVoxelsAtTheLowerBoundAlone) {
+  OccupancyGrid grid = small_grid();
+  for (VoxelIndex v = 0; v < 20; ++v) {  // up and down, by turns of every length
+    if (v % 3 == 0) grid.apply({.free = {}, .occupied = {v}});
+    for (VoxelIndex miss = 0; miss < v / 2; ++miss) grid.apply({.free = {v}, .occupied = {}});
+  }
+  grid.apply({.free = {}, .occupied = {20}});
+  for (int hit = 0; hit < 9; ++hit) grid.apply({.free = {}, .occupied = {20}});
+  int settled = 0;
+  for (VoxelIndex v = 0; v < grid.geometry().voxel_count(); ++v) {
+    const bool is_settled = grid.words()[v] == grid.settled_word();
+    EXPECT_EQ(is_settled, grid.log_odds(v) == bound(OccupancyConfig{}.clamp_min)) << v;
+    settled += is_settled ? 1 : 0;
+  }
+  EXPECT_GT(settled, 5);
+  EXPECT_EQ(grid.settled_log_odds(), bound(OccupancyConfig{}.clamp_min));
+}
+
+TEST(OccupancyGrid, NoVoxelIsSettledWhereWordsCannotTell) {
+  // free at both bounds, and bounds before which entropy is 0 already
+  for (const OccupancyConfig& config :
+       {OccupancyConfig{.clamp_max = 0.9, .occupied_min = 0.95, .free_max = 0.91},
+        OccupancyConfig{.clamp_min = 1e-12}, OccupancyConfig{.clamp_min = 0.45, .free_max = 0.4}}) {
+    OccupancyGrid grid(config, kBox_m);
+    for (int scan = 0; scan < 100; ++scan) grid.apply({.free = {3}, .occupied = {4}});
+    EXPECT_NE(grid.words()[3], grid.settled_word());
+    EXPECT_NE(grid.words()[4], grid.settled_word());
+  }
+}
+
 TEST(OccupancyGrid, EntropyIsEquationOneOfTheProbability) {
   OccupancyGrid grid = small_grid();
   grid.apply({.free = {0}, .occupied = {1}});
