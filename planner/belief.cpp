@@ -17,8 +17,8 @@ Belief::Belief(const PlannerModel& model)
 
 void integrate_profile(const PlannerModel& model, std::span<const LidarScan> scans,
                        Workbench& bench, Belief& belief) {
-  bench.inserters.front().insert_scans(belief.grid, scans, model.lidars, model.config.floor_z_m,
-                                       bench.threads);
+  bench.inserter.insert_scans(belief.grid, scans, model.lidars, model.config.floor_z_m,
+                              bench.threads);
   std::vector<Vec3f> points;
   for (const LidarScan& scan : scans) {
     const LidarModel& lidar = model.lidars[static_cast<std::size_t>(scan.lidar)];
@@ -32,8 +32,6 @@ void integrate_profile(const PlannerModel& model, std::span<const LidarScan> sca
 void integrate_view(const PlannerModel& model, std::span<const DepthFrame> frames, Workbench& bench,
                     Belief& belief) {
   if (frames.empty()) return;
-  GNBV_CHECK(frames.size() <= bench.inserters.size(), "{} frames of {} cameras", frames.size(),
-             bench.inserters.size());
   bench.frame_rays.resize(frames.size());
   const auto camera_of = [&](std::size_t i) -> const CameraModel& {
     return model.cameras[static_cast<std::size_t>(frames[i].camera)];
@@ -41,21 +39,16 @@ void integrate_view(const PlannerModel& model, std::span<const DepthFrame> frame
   parallel_for(bench.threads, frames.size(), [&](std::size_t i) {
     compute_frame_rays(frames[i], camera_of(i), model.config.floor_z_m, bench.frame_rays[i]);
   });
-  // the cloud, which nothing here reads, grows beside the search for what the map has to learn
-  std::vector<ScanUpdate> updates(frames.size());
-  parallel_for(bench.threads, frames.size() + 1, [&](std::size_t task) {
-    if (task == 0) {
-      belief.cloud.add(bench.frame_rays, model.config.cloud.leaf_m);
-      return;
-    }
-    const std::size_t i = task - 1;
-    updates[i] = bench.inserters[i].compute_update(bench.frame_rays[i], frames[i], camera_of(i),
-                                                   bench.threads);
-  });
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    belief.grid.apply(updates[i]);
+  const auto add_to_map = [&](std::size_t i) {
+    belief.grid.apply(bench.inserter.compute_update(bench.frame_rays[i], frames[i], camera_of(i),
+                                                    belief.grid, bench.threads));
     if (model.needs_shadow) belief.shadow.add(bench.frame_rays[i], belief.grid);
-  }
+  };
+  // the cloud, which nothing here reads, grows beside the map
+  parallel_for(bench.threads, 2, [&](std::size_t task) {
+    if (task == 0) belief.cloud.add(bench.frame_rays, model.config.cloud.leaf_m);
+    for (std::size_t i = 0; task == 1 && i < frames.size(); ++i) add_to_map(i);
+  });
   const auto has_hit = [](const FrameRays& rays) {
     return std::find(rays.kind.begin(), rays.kind.end(), PixelRay::hits) != rays.kind.end();
   };

@@ -15,9 +15,9 @@ struct Workbench {
   Workbench(const PlannerModel& model, int thread_count);
 
   int threads;
-  std::vector<ScanInserter> inserters;  // one a frame of a view; the first also for the profile
-  std::vector<FrameRays> frame_rays;    // of the view at hand
-  std::vector<VisitMarks> marks;        // one a thread
+  ScanInserter inserter;
+  std::vector<FrameRays> frame_rays;  // of the view at hand
+  std::vector<VisitMarks> marks;      // one a thread
   FrontierMarks frontier_marks;
 };
 

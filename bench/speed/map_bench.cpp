@@ -57,7 +57,7 @@ void BM_GridInsertDepthFrame(benchmark::State& state) {
   for (auto _ : state) {
     const DepthFrame& frame = frames[next++ % frames.size()];
     compute_frame_rays(frame, circle_camera(), kFloor_m, rays);
-    grid.apply(inserter.compute_update(rays, frame, circle_camera(), threads));
+    grid.apply(inserter.compute_update(rays, frame, circle_camera(), grid, threads));
   }
   set_simd_level(SimdLevel::avx512);
 }

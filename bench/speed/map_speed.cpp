@@ -22,7 +22,7 @@ struct Ours {
   void insert(const DepthFrame& frame, double floor_z_m, OccupancyGrid& to) {
     set_simd_level(level);
     compute_frame_rays(frame, circle_camera(), floor_z_m, rays);
-    to.apply(inserter.compute_update(rays, frame, circle_camera(), 1));
+    to.apply(inserter.compute_update(rays, frame, circle_camera(), to, 1));
   }
 
   SimdLevel level;

@@ -159,8 +159,11 @@ ScanUpdate FrameInserter::collect(const FrameView& view) {
 }
 
 ScanUpdate FrameInserter::compute_update(const FrameRays& rays, const DepthFrame& frame,
-                                         const CameraModel& camera, int threads) {
+                                         const CameraModel& camera, const OccupancyGrid& map,
+                                         int threads) {
   prepare(camera, threads);
+  GNBV_CHECK(map.geometry().min_key() == grid_.min_key() && map.geometry().size() == grid_.size(),
+             "another map than the one this inserter was made for");
   const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
   GNBV_CHECK(frame.depth_m.size() == pixels && rays.kind.size() == pixels,
              "{} depths and {} rays for {} pixels", frame.depth_m.size(), rays.kind.size(), pixels);
@@ -176,6 +179,8 @@ ScanUpdate FrameInserter::compute_update(const FrameRays& rays, const DepthFrame
   if (nearest_inverse == kNoRay) return {};
   FrameView view =
       make_frame_view(grid_, frame, camera, 1.0 / static_cast<double>(nearest_inverse));
+  view.words = map.words().data();
+  view.settled_word = map.settled_word();
   view.inverse_depth = inverse_depth_.data();
   view.row_stride = row_stride_;
   view.tile_windows = tile_windows_.data();

@@ -22,12 +22,12 @@ class FrameInserter {
  public:
   explicit FrameInserter(const GridGeometry& grid);
 
-  /// The voxels the frame's rays touch inside the grid, in ascending order, the same on any number
-  /// of threads. `rays` is compute_frame_rays() of the frame. Requires can_project() of
-  /// frame_view.hpp. Oracle:
-  /// octomap::OcTree::computeUpdate.
+  /// The voxels the frame's rays touch inside the map that it is for, in ascending order, the same
+  /// on any number of threads. Free ones that are settled there, of which a miss changes nothing,
+  /// may be missing. `rays` is compute_frame_rays() of the frame. Requires can_project() of
+  /// frame_view.hpp. Oracle: octomap::OcTree::computeUpdate.
   ScanUpdate compute_update(const FrameRays& rays, const DepthFrame& frame,
-                            const CameraModel& camera, int threads);
+                            const CameraModel& camera, const OccupancyGrid& map, int threads);
 
   /// Walks of single rays in the last frame, of all threads; one may count twice.
   std::size_t walked_count() const { return walked_count_; }

@@ -38,6 +38,10 @@ struct EndRow {
 
 /// A frame as the voxels see it. World coordinates here are relative to the camera.
 struct FrameView {
+  // of the map before the frame: voxels of the settled word need no resolving, as a miss changes
+  // nothing of them
+  const std::uint32_t* words;
+  std::uint32_t settled_word;
   // 1 / depth of each pixel's end, infinite without a ray; rows padded with infinity
   const float* inverse_depth;
   int width, height, row_stride;
@@ -80,8 +84,8 @@ struct FrameKernels {
   int (*ends_of_row)(const EndRow& row, std::uint32_t* voxels);
   /// `inverse_depth` (width + padding to a whole tile and kPadding): see FrameView.
   void (*invert_row)(const PixelRow& row, float* inverse_depth, int padded_width);
-  /// Frees every voxel of the layer z (from min_key) that is proven to be passed by a ray, and asks
-  /// for a walk of every ray that might pass one that is not.
+  /// Frees every voxel of the layer z (from min_key), but for settled ones, that is proven to be
+  /// passed by a ray, and asks for a walk of every ray that might pass one that is not.
   void (*project_layer)(const FrameView& view, int layer, const FrameMarks& marks);
 };
 

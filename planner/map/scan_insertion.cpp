@@ -59,9 +59,10 @@ void ScanInserter::need_walkers(int threads) {
 }
 
 ScanUpdate ScanInserter::compute_update(const FrameRays& rays, const DepthFrame& frame,
-                                        const CameraModel& camera, int threads) {
+                                        const CameraModel& camera, const OccupancyGrid& map,
+                                        int threads) {
   if (can_project(grid_, frame, camera) && is_faster_projected(grid_, camera)) {
-    return frames_.compute_update(rays, frame, camera, threads);
+    return frames_.compute_update(rays, frame, camera, map, threads);
   }
   std::vector<ScanRay> each;
   for (std::size_t i = 0; i < rays.kind.size(); ++i) {

@@ -26,11 +26,12 @@ class ScanInserter {
  public:
   explicit ScanInserter(const GridGeometry& grid) : grid_(grid), frames_(grid) {}
 
-  /// The voxels a frame touches, each list in ascending order; `rays` is compute_frame_rays() of
-  /// it. Voxel by voxel where can_project() allows it and the pixels are many, else ray by ray on
-  /// one thread; the same voxels.
+  /// What a frame makes of that map, to which it is applied before anything else is: the voxels it
+  /// touches, each list in ascending order, but for free ones of which a miss changes nothing;
+  /// `rays` is compute_frame_rays() of it. Voxel by voxel where can_project() allows it and the
+  /// pixels are many, else ray by ray on one thread; the same map.
   ScanUpdate compute_update(const FrameRays& rays, const DepthFrame& frame,
-                            const CameraModel& camera, int threads);
+                            const CameraModel& camera, const OccupancyGrid& map, int threads);
 
   /// Inserts the buffered profile: each sweep is one update, in order of time. LidarScan::lidar
   /// says which of `lidars` took it.

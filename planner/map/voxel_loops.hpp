@@ -187,12 +187,12 @@ void project_row(const FrameView& view, int y, int z, const FrameMarks& marks) {
   for (int x = run.first; x <= run.last; x += kLanes) {
     std::uint8_t* const voxel = marks.voxel + row_start + x;
     const int left = run.last - x + 1;
-    const std::uint32_t in_run = left < kLanes ? (1U << left) - 1U : kAllLanes;
     // what lies behind the row may be another thread's
-    std::uint8_t tail[kLanes] = {};
-    for (int i = 0; left < kLanes && i < left; ++i) tail[i] = voxel[i];
-    const std::uint8_t* const seen = left < kLanes ? tail : voxel;
-    const std::uint32_t open = in_run & bits(equal_bytes(seen, kUntouched));
+    std::uint8_t tail[kLanes];
+    for (int i = 0; left < kLanes && i < kLanes; ++i) tail[i] = i < left ? voxel[i] : kEnd;
+    const Mask untouched = equal_bytes(left < kLanes ? tail : voxel, kUntouched);
+    const Ints word = load_where(untouched, view.words + row_start + x);
+    const std::uint32_t open = bits(without(untouched, equal(word, all(view.settled_word))));
     if (open == 0) continue;
     center_m[0] = row_start_m + x * view.resolution_m;
     const Centers c = make_centers(view, center_m);

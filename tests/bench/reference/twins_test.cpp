@@ -68,7 +68,7 @@ TEST(KeysetViews, SeeTheVoxelsOfTheExactWalk) {
   FrameRays rays;
   for (const DepthFrame& frame : some_frames()) {
     compute_frame_rays(frame, circle_camera(), kFloor_m, rays);
-    grid.apply(inserter.compute_update(rays, frame, circle_camera(), 1));
+    grid.apply(inserter.compute_update(rays, frame, circle_camera(), grid, 1));
   }
   const auto cameras = camera_pair();
   const ViewRays view_rays = make_view_rays(cameras, grid.geometry().resolution_m());

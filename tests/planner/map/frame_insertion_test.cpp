@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
+#include <vector>
 
 #include "bench/reference/analytic_scans.hpp"
 #include "bench/reference/depth_rays.hpp"
@@ -69,20 +71,22 @@ class FrameInsertion : public AtSimdLevel {
     const bool is_projected = can_project(grid_, frame, camera);
     compute_frame_rays(frame, camera, kFloor_m, rays);
     for (const int threads : {1, 2, 5}) {
-      if (is_projected) expect(frames_.compute_update(rays, frame, camera, threads), threads);
+      if (is_projected) expect(frames_.compute_update(rays, frame, camera, map_, threads), threads);
     }
-    expect(inserter_.compute_update(rays, frame, camera, 2), 2);
+    expect(inserter_.compute_update(rays, frame, camera, map_, 2), 2);
   }
   void use_resolution(double resolution_m) {
     config_.resolution_m = resolution_m;
-    grid_ = GridGeometry(kBox_m, resolution_m);
+    map_ = OccupancyGrid(config_, kBox_m);
+    grid_ = map_.geometry();
     inserter_ = ScanInserter(grid_);
     frames_ = FrameInserter(grid_);
     twin_ = OctomapTwin(config_);
   }
 
   OccupancyConfig config_;
-  GridGeometry grid_ = GridGeometry(kBox_m, 0.2);
+  OccupancyGrid map_ = OccupancyGrid(config_, kBox_m);  // nothing is settled there
+  GridGeometry grid_ = map_.geometry();
   ScanInserter inserter_ = ScanInserter(grid_);
   FrameInserter frames_ = FrameInserter(grid_);
   OctomapTwin twin_ = OctomapTwin(config_);
@@ -225,8 +229,36 @@ TEST_P(FrameInsertion, AFullFrameEqualsOctomapAndWalksFewRays) {
   compute_frame_rays(frame, camera, kFloor_m, rays);
   FrameInserter frames(grid_);
   ASSERT_TRUE(can_project(grid_, frame, camera));
-  frames.compute_update(rays, frame, camera, 1);
+  frames.compute_update(rays, frame, camera, map_, 1);
   EXPECT_LT(frames.walked_count(), 3072U);  // a hundredth of them
+}
+
+TEST_P(FrameInsertion, LeavesOutSettledVoxelsAloneAndTheMapIsOctomapsAllTheSame) {
+  const CameraModel camera = camera_of(160, 120, 60.0, 45.0);
+  // what stands there comes and goes, so that settled space is hit again
+  const AnalyticScene scenes[2] = {{.spheres = {{Vec3(0.5, 0.2, 2.0), 1.5}}, .wall_x_m = 5.0},
+                                   {.spheres = {{Vec3(-2.0, 0.5, 2.0), 1.0}}, .wall_x_m = 5.0}};
+  FrameRays rays;
+  std::size_t left_out = 0;
+  for (int view = 0; view < 40; ++view) {
+    const ViewPose pose = {Vec3(-5.13, 0.31 + 0.1 * (view % 5), 2.43), 0.1};
+    const DepthFrame frame = analytic_depth(scenes[view / 10 % 2], camera, T_world_body(pose));
+    compute_frame_rays(frame, camera, kFloor_m, rays);
+    const ScanUpdate expected = expected_update(grid_, twin_, frame, camera);
+    const ScanUpdate update = frames_.compute_update(rays, frame, camera, map_, 2);
+    EXPECT_EQ(difference(update.occupied, expected.occupied), "");
+    std::vector<VoxelIndex> missing;
+    std::ranges::set_difference(expected.free, update.free, std::back_inserter(missing));
+    for (const VoxelIndex v : missing) EXPECT_EQ(map_.words()[v], map_.settled_word()) << v;
+    EXPECT_EQ(update.free.size() + missing.size(), expected.free.size());
+    left_out += missing.size();
+    map_.apply(update);
+    twin_.insert(rays.origin_world_m, rays_of(frame, camera, kFloor_m));
+  }
+  EXPECT_GT(left_out, 10'000U);
+  for (VoxelIndex v = 0; v < grid_.voxel_count(); ++v) {
+    EXPECT_EQ(map_.log_odds(v), twin_.log_odds(grid_.key_at(v)).value_or(0.0F)) << v;
+  }
 }
 
 TEST_P(FrameInsertion, FramesThatCannotBeProjectedEqualOctomapToo) {
