@@ -6,10 +6,14 @@
 #include <array>
 #include <string_view>
 
+#include "sim/core/address_space.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {
 namespace {
+
+/// More than any module maps with what it needs; the loader does not tell want of memory apart.
+constexpr std::size_t kModule_bytes = 256U << 20U;
 
 std::string path_of(void* library, const std::string& file) {
   std::array<char, PATH_MAX> folder{};
@@ -30,6 +34,7 @@ void* function_in_module(const ModulePlace& place, const char* name) {
     reasons += fmt::format("\n  {}", reason == nullptr ? path : reason);
   }
   if (library == nullptr) {
+    need_address_space(kModule_bytes);
     throw BadInput(fmt::format("this needs {} beside the program, and {}:{}", place.file,
                                place.needs, reasons));
   }

@@ -14,7 +14,8 @@ struct ModulePlace {
 };
 
 /// A function of the module, by its name with C linkage. The module stays loaded. Throws BadInput,
-/// saying why, when it cannot be loaded, is of another version or lacks the function.
+/// saying why, when it cannot be loaded, is of another version or lacks the function;
+/// std::bad_alloc when there is no memory to load it.
 void* function_in_module(const ModulePlace& place, const char* name);
 
 }  // namespace gnbv

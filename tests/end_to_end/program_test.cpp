@@ -91,6 +91,17 @@ TEST(Program, NoNumberOnTheCommandLineMayBeNaNOrInfinite) {
 }
 
 /// An oracle plans for minutes in a large scene; what its plan needs would be in the cache.
+TEST(Program, AVariableThatIsNotSetIsNoOption) {
+  for (const std::string words :
+       {"run smoke --mesh ''", "run smoke --seed ''", "run smoke --utility ''",
+        "run smoke --preset ''", "run smoke --out ''", "compare smoke --baseline ''", "score ''",
+        "asset smoke -o ''", "sweep ''"}) {
+    const Outcome refused = gnbv(words);
+    EXPECT_EQ(refused.exit_code, 2) << words;
+    EXPECT_TRUE(has(refused, ": is empty")) << words << ": " << refused.output;
+  }
+}
+
 TEST(Program, RefusesAFolderBeforeAnOraclePlans) {
   TempFolder temp;
   const fs::path cache = temp.path() / "cache";

@@ -155,6 +155,7 @@ TEST_F(ResumedMesh, EveryCommandSaysThatTheMeshWasExchanged) {
   const std::string out = " -o " + (temp_.path() / "out").string();
   const std::string says = "structure: " + mesh_.string() + " is not what the run began with";
   const std::vector<std::pair<std::string, int>> commands = {
+      {"run smoke --resume --quiet --mesh " + mesh_.string() + " --out RUN", 2},
       {"render RUN" + out + ".png", 2},
       {"render RUN --what candidates --iteration 2" + out + "2.png", 2},
       {"ceiling RUN", 2},
@@ -215,7 +216,8 @@ TEST_F(Resumed, NoticesAnEditedRowOfAFinishedRun) {
   std::ofstream(run_ / "iterations.csv") << csv.replace(sampler, 6, ",fvs,");
   for (const std::string& command :
        {std::string("score "), "report -o " + (temp_.path() / "r.html").string() + " ",
-        "plot -o " + temp_.path().string() + " "}) {
+        "plot -o " + temp_.path().string() + " ",
+        std::string("run smoke --resume --quiet --out ")}) {
     const Outcome refused = gnbv(command + run_.string());
     EXPECT_EQ(refused.exit_code, 2) << command << refused.output;
     EXPECT_SAYS(refused.output, "iterations.csv: holds other rows");

@@ -1,5 +1,6 @@
 // A mission flies to its end whoever listens, and what cannot be kept is said.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 
@@ -68,6 +69,45 @@ TEST(Environment, AnUnknownInstructionSetIsRefused) {
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_TRUE(has(refused, "GNBV_SIMD=foo")) << refused.output;
   EXPECT_EQ(gnbv("schema >/dev/null", "GNBV_SIMD=avx2 ").exit_code, 0);
+}
+
+TEST(Environment, TooLittleMemoryIsSaidInTheseWords) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers reserve terabytes";
+#endif
+  TempFolder temp;
+  const std::string run = (temp.path() / "run").string();
+  ASSERT_EQ(gnbv(kMission + run + " --quiet").exit_code, 0);
+  const std::string pictures = (temp.path() / "pictures").string();
+  // from what the program needs to begin with, to where each command has just enough
+  for (const int kib : {200'000, 300'000, 450'000, 600'000, 750'000, 900'000}) {
+    const std::string limit = "ulimit -v " + std::to_string(kib) + " && ";
+    for (const std::string& words :
+         {"render " + run + " --what path -o " + pictures,
+          kMission + (temp.path() / std::to_string(kib)).string() + " --quiet"}) {
+      const Outcome outcome = gnbv(words, limit);
+      if (outcome.exit_code == 0) continue;
+      EXPECT_EQ(outcome.exit_code, 1) << kib << " kB: " << words;
+      EXPECT_TRUE(has(outcome, "gnbv: out of memory\n")) << kib << " kB: " << outcome.output;
+    }
+  }
+}
+
+TEST(Environment, WithoutThreadsTheSystemIsBlamed) {
+  if (geteuid() != 0) GTEST_SKIP() << "needs root, to be a user who has no process yet";
+  TempFolder temp;
+  fs::permissions(temp.path(), fs::perms::all);
+  const fs::path run = temp.path() / "run";
+  ASSERT_EQ(gnbv(kMission + run.string() + " --quiet").exit_code, 0);
+  // whoever has this number runs nothing else here; one process is one thread
+  const std::string alone = "timeout 60 setpriv --reuid=64999 --clear-groups prlimit --nproc=1 ";
+  for (const std::string& words :
+       {"render " + run.string() + " --what path -o " + (temp.path() / "p.png").string(),
+        kMission + (temp.path() / "alone").string()}) {
+    const Outcome refused = gnbv(words, alone);
+    EXPECT_EQ(refused.exit_code, 1) << words << ": " << refused.output;
+    EXPECT_TRUE(has(refused, "Resource temporarily unavailable")) << words << refused.output;
+  }
 }
 
 TEST(Signals, AnIgnoredHangUpStaysIgnoredAndATermEndsInOrder) {

@@ -51,6 +51,9 @@ TEST(Sync, ARunIsOnTheDiskBeforeItsSummarySaysSo) {
     EXPECT_TRUE(is_synced_later || is_synced_before) << entry.path();
   }
   EXPECT_LT(place("sync " + run.string()), summary) << "the folder after the last name in it";
+  const auto journal_gone = place("remove " + (run / "iterations.csv.part").string());
+  ASSERT_NE(journal_gone, calls.rend());
+  EXPECT_GT(journal_gone, summary) << "a kill between them would leave it beside a finished run";
 }
 
 TEST(Sync, ACellIsDoneWhenItsFolderKnowsIt) {

@@ -74,6 +74,8 @@ TEST(Problems, OthersThatCannotRun) {
   EXPECT_THAT(complaint(kMinimal, {"vehicle.airframe.rotors.2.spin=0.5"}),
               HasSubstr("rotors.2.spin: value '0.5': has to be 1 or -1"));
   EXPECT_THAT(complaint(kMinimal, {"vehicle.autopilot.thrust_max=0.1"}), HasSubstr("thrust_min"));
+  EXPECT_THAT(complaint(kMinimal, {"vehicle.airframe.rolling_coefficient_n_s2=1"}),
+              HasSubstr("allowed: from 0 to 0.0001"));
   EXPECT_THAT(complaint(kMinimal, {"planner.utility={beta: 0, gamma: 0}"}),
               HasSubstr("Eq. (2) divides"));
   EXPECT_THAT(complaint(kMinimal + "structure: {file: {path: none.obj}}"),

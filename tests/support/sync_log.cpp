@@ -1,5 +1,5 @@
 // Preloaded into the program under test: a line in $SYNC_LOG for each file or folder that is synced
-// ("sync PATH") and for each that is renamed ("rename TO").
+// ("sync PATH"), for each that is renamed ("rename TO") or removed ("remove PATH").
 #include <dlfcn.h>
 #include <unistd.h>
 
@@ -29,6 +29,14 @@ extern "C" int fsync(int descriptor) {
   using Sync = int (*)(int);
   static const auto next = reinterpret_cast<Sync>(dlsym(RTLD_NEXT, "fsync"));
   return next(descriptor);
+}
+
+extern "C" int remove(const char* path) {
+  using Remove = int (*)(const char*);
+  static const auto next = reinterpret_cast<Remove>(dlsym(RTLD_NEXT, "remove"));
+  const int failed = next(path);
+  if (failed == 0) note("remove " + std::string(path));
+  return failed;
 }
 
 extern "C" int rename(const char* from, const char* to) {

@@ -107,6 +107,7 @@ bool has_ended(const RunOptions& options, const Scenario& scenario) {
   if (!mission.resume || !is_finished(mission.out) || mission.piped_views) return false;
   if (mission.frames && !has_frames(mission.out)) return false;
   need_usable(mission.out, scenario, mission.resume);
+  need_unchanged(mission.out, scenario);
   const std::string ended = *read_summary(mission.out).termination;
   say("{}: is finished already ({}): nothing to resume", mission.out.string(), ended);
   print_summary(options, scenario, mission.out);

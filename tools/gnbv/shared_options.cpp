@@ -67,6 +67,20 @@ void refuse_what_is_not_finite(CLI::App& app) {
   }
 }
 
+void refuse_empty_values(CLI::App& app) {
+  const auto any = [](const auto*) { return true; };
+  const CLI::Validator is_something(
+      [](std::string& text) { return std::string(text.empty() ? "is empty" : ""); }, "");
+  for (CLI::App* const command : app.get_subcommands(any)) {
+    for (CLI::Option* const option : command->get_options(any)) {
+      const bool takes_a_value = option->get_items_expected_max() > 0;
+      const std::string name = option->get_name();
+      const bool may_be_empty = name == "--title" || name == "--slurm-args";
+      if (takes_a_value && !may_be_empty) option->check(is_something);
+    }
+  }
+}
+
 CLI::Validator is_positive() {
   return number_check("a number above 0", [](double x) { return std::isfinite(x) && x > 0.0; });
 }

@@ -37,6 +37,10 @@ void add_quiet_option(CLI::App& command, bool& quiet,
 /// pass. To be called when all commands have their options.
 void refuse_what_is_not_finite(CLI::App& app);
 
+/// No option and no argument of a command may be "", as a shell's variable that is not set gives:
+/// it would mean that it was not given. But for titles and further options of sbatch.
+void refuse_empty_values(CLI::App& app);
+
 // Checks of numbers; those of CLI11 print 300 digits.
 CLI::Validator is_positive();
 CLI::Validator is_elevation_deg();

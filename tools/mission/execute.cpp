@@ -21,11 +21,13 @@
 #include "tools/run_files/candidates_jsonl.hpp"
 #include "tools/run_files/file_names.hpp"
 #include "tools/run_files/frames_folder.hpp"
+#include "tools/run_files/iterations_csv.hpp"
 #include "tools/run_files/profile_map.hpp"
 #include "tools/run_files/run_claim.hpp"
 #include "tools/run_files/run_commands.hpp"
 #include "tools/run_files/run_directory.hpp"
 #include "tools/run_files/run_inputs.hpp"
+#include "tools/run_files/summary_json.hpp"
 #include "tools/terminal/interrupt.hpp"
 #include "tools/terminal/progress.hpp"
 #include "tools/terminal/say.hpp"
@@ -117,14 +119,21 @@ RunClaim claim_folder(const Scenario& scenario, const MissionOptions& options) {
 }
 
 /// A run goes on in the world that it began in.
-void keep_inputs(const Scenario& scenario, const World& world, const RunDirectory& directory) {
-  const std::vector<RunInput> inputs = run_inputs(scenario, world);
-  need_same_inputs(directory.path(), inputs,
-                   "put it back, or fly anew: " + command_to_fly_again(directory.path()));
-  write_inputs(directory.path(), inputs);
+std::vector<RunInput> inputs_as_begun(const Scenario& scenario, const World& world,
+                                      const fs::path& run) {
+  std::vector<RunInput> inputs = run_inputs(scenario, world);
+  need_same_inputs(run, inputs, "put it back, or fly anew: " + command_to_fly_again(run));
+  return inputs;
 }
 
 }  // namespace
+
+void need_unchanged(const fs::path& run, const Scenario& scenario) {
+  std::vector<std::string> told_by_run;
+  inputs_as_begun(scenario, load_world_anywhere(scenario, told_by_run), run);
+  const fs::path csv = run / kIterationsFile;
+  need_views_of_summary(csv, read_summary(run), read_view_records(csv));
+}
 
 int thread_count(int threads) {
   if (threads > 0) return threads;
@@ -162,7 +171,7 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
   std::optional<std::vector<Decision>> route =
       oracle_route(scenario, world, scene, progress, threads);
   RunDirectory directory(claim.folder(), scenario, options.resume);
-  keep_inputs(scenario, world, directory);
+  write_inputs(directory.path(), inputs_as_begun(scenario, world, directory.path()));
   const InterruptGuard interrupt;
   try {
     MissionHooks hooks = make_hooks(scenario, options, directory, progress);

@@ -32,6 +32,10 @@ struct MissionOptions {
 /// `threads`, or as many as the machine has for 0.
 int thread_count(int threads);
 
+/// Throws BadInput when what a finished run flew around, or its rows, are not what its summary is
+/// of any more.
+void need_unchanged(const std::filesystem::path& run, const Scenario& scenario);
+
 struct ExecutedMission {
   std::filesystem::path folder;
   MissionResult result;

@@ -2,9 +2,13 @@
 
 #include <dlfcn.h>
 
+#include <future>
 #include <string>
+#include <system_error>
+#include <thread>
 #include <vector>
 
+#include "sim/core/address_space.hpp"
 #include "sim/core/error.hpp"
 #include "tools/render/shaders.hpp"
 
@@ -17,8 +21,32 @@ extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa.so
 namespace gnbv {
 namespace {
 
+// What Mesa, LLVM, their threads and the smallest picture take. Refused it, they crash.
+constexpr std::size_t kDrawing_bytes = 640U << 20U;
+
+// Mesa waits for ever for threads of its own that it could not start. Throws std::system_error when
+// the system starts no more so many.
+void need_threads(unsigned count) {
+  std::promise<void> all_started;
+  const std::shared_future<void> end = all_started.get_future().share();
+  std::vector<std::future<void>> threads;
+  std::exception_ptr refused;
+  try {
+    for (unsigned i = 0; i < count; ++i) {
+      threads.push_back(std::async(std::launch::async, [end] { end.wait(); }));
+    }
+  } catch (const std::system_error&) {
+    refused = std::current_exception();
+  }
+  all_started.set_value();
+  threads.clear();
+  if (refused) std::rethrow_exception(refused);
+}
+
 // Never closed: Mesa's threads and LLVM outlive a context. The Python wheel brings its own.
 OsMesa open_osmesa() {
+  need_address_space(kDrawing_bytes);
+  need_threads(std::thread::hardware_concurrency() + 2);
   void* library = nullptr;
   for (const char* name :
        {"$ORIGIN/libOSMesa.so.8", "libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"}) {

@@ -1,12 +1,24 @@
 // Programs, arrays, textures and buffers of a renderer.
 #include <cstddef>
 
+#include "sim/core/address_space.hpp"
 #include "sim/core/error.hpp"
 #include "tools/render/renderer_impl.hpp"
 #include "tools/render/screen_shaders.hpp"
 #include "tools/render/shaders.hpp"
 
 namespace gnbv {
+namespace {
+
+// Of the widest format, twice, and room for what is compiled and binned while it is drawn to.
+std::size_t texture_bytes(int width, int height) {
+  constexpr std::size_t kWidest_bytes = 16;
+  constexpr std::size_t kRoom_bytes = 64U << 20U;
+  return 2 * kWidest_bytes * static_cast<std::size_t>(width) * static_cast<std::size_t>(height) +
+         kRoom_bytes;
+}
+
+}  // namespace
 
 Renderer::Impl::Impl() {
   using namespace shaders;
@@ -62,6 +74,7 @@ void Renderer::Impl::make_arrays() {
 void Renderer::Impl::make_texture(RenderUnit unit, const TextureFormat& format, int width,
                                   int height) {
   if (sizes_px[unit] == std::array{width, height}) return;
+  need_address_space(texture_bytes(width, height));
   sizes_px[unit] = {width, height};
   gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
   gl.BindTexture(GL_TEXTURE_2D, textures[unit]);

@@ -186,12 +186,13 @@ void RunDirectory::finish(const Scenario& scenario, const MissionResult& result,
     write_file_atomically(folder_ / kPlanFile, plan_jsonl(result.tour_plans));
   }
   write_file_atomically(folder_ / kCoverageFile, coverage_csv(score.curve, score.more));
+  // before the summary: killed after it, a finished run would keep its journal for ever
+  journal_.close();
+  fs::remove(journal_file(), ignored);
   // whoever sees the summary after a power failure sees the rest, too
   if (fs::exists(folder_ / kFramesFolder, ignored)) sync_all_to_disk(folder_ / kFramesFolder);
   write_file_atomically(folder_ / kSummaryFile,
                         summary_json(scenario, result, score, total_wall_s));
-  journal_.close();
-  fs::remove(journal_file(), ignored);
 }
 
 }  // namespace gnbv

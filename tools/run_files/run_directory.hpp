@@ -52,8 +52,8 @@ class RunDirectory {
   /// Writes scenario.yaml anew, for a mission that learns its views on the way.
   void keep(const Scenario& scenario) const;
 
-  /// Removes the old summary.json and writes every file, summary.json last and when the others are
-  /// on the disk, each by rename, and removes the journal.
+  /// Removes the old summary.json, writes every file, removes the journal and writes summary.json
+  /// when the others are on the disk; each by rename.
   void finish(const Scenario& scenario, const MissionResult& result, const MissionScore& score,
               double total_wall_s);
 
