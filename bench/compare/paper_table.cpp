@@ -116,11 +116,12 @@ std::string three_percent(const std::array<double, 3>& fractions) {
 std::string terminations(const RunsOfRow& runs) {
   std::map<std::string, int> counts;
   for (const RunFigures* run : runs) ++counts[run->termination];
-  if (counts.size() == 1) return counts.begin()->first;
   std::string text;
   for (const auto& [name, count] : counts) {
-    text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", name, count);
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", name);
+    if (counts.size() > 1) text += fmt::format(" ({})", count);
   }
+  std::replace(text.begin(), text.end(), '_', ' ');
   return text;
 }
 
@@ -215,7 +216,7 @@ TextTable comparison_table(const PaperTable& paper, std::span<const RunFigures> 
       groups.begin(), groups.end(), [](const TableGroup& group) { return group.runs.size() > 1; });
   add_notes(table, paper, several_runs, ceiling);
   for (const TableGroup& group : groups) {
-    table.notes.push_back(runs_note(group.label(group.utility), group.runs));
+    table.notes.push_back(runs_note(group.label(name_in_table(paper, group.utility)), group.runs));
   }
   return table;
 }
