@@ -287,10 +287,11 @@ Picture draw_candidates(RunSource& run, const PictureOptions& options, const Ren
   add_chosen_view(record, run.world(), decision.belief, iteration, panel_unit_m(options, from_near),
                   near.scene);
   far.note = note_on(decision.plan, view);
-  near.note = fmt::format("the chosen one, {:.2g} m from the view before",
-                          (record.views[iteration].decision.view.p_world_m -
-                           record.views[iteration - 1].decision.view.p_world_m)
-                              .norm());
+  const double step_m = (record.views[iteration].decision.view.p_world_m -
+                         record.views[iteration - 1].decision.view.p_world_m)
+                            .norm();
+  near.note = step_m < 0.005 ? "the chosen one, a turn where the view before was"
+                             : fmt::format("the chosen one, {:.2g} m from the view before", step_m);
   picture.detail = fmt::format("how iteration {} was chosen: candidates {}", iteration,
                                counts_by_sampler(decision.plan));
   picture.legend = legend_of(all, is_fvs);

@@ -18,7 +18,7 @@ namespace {
 
 const Rgb kSeen = srgb(0x0b6fa8);
 const Rgb kFrustum = srgb(0x00735a);  // neither of the path's colours nor of the rotors'
-constexpr double kLeastReach = 0.4;   // of the structure's diagonal
+constexpr double kLeastReach = 0.65;  // of the structure's diagonal
 constexpr double kShoulder_rad = 0.6;
 
 /// How far pyramids are drawn: the same everywhere in one run.
@@ -78,7 +78,7 @@ Snapshots::Snapshots(RunSource& run, const PictureOptions& options, const Render
   const double unit_m = layout_unit_m(view(0));
   // seen from near, points would be balls
   const double cell_m =
-      std::max((follows ? 2.4 : 1.2) * unit_m, run.record().scenario.planner.cloud.leaf_m);
+      std::max((follows ? 3.2 : 1.2) * unit_m, run.record().scenario.planner.cloud.leaf_m);
   // the first point of each cell stays the first, however much of the cloud is drawn
   std::unordered_set<std::uint64_t> cells;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -133,7 +133,10 @@ Vec3 Snapshots::smooth_place(double time_s) const {
 }
 
 RenderView Snapshots::view(std::size_t iteration) const {
-  return view_at(run_.record().views[iteration].time_s);
+  RenderView view = view_at(run_.record().views[iteration].time_s);
+  // a film keeps its light; a picture by itself shows the side that it is taken from
+  if (follows_) view.to_light_world = key_light(view.T_world_camera);
+  return view;
 }
 
 /// Over the vehicle's right shoulder, towards the middle of the structure: it turns evenly, however
@@ -205,7 +208,7 @@ Picture Snapshots::picture_at(double time_s, double speed, const RenderView& vie
              {.unit_m = unit_m,
               .has_profile = false,
               .until_s = time_s,
-              .thickness = follows_ ? 0.6 : 1.0},  // from near it would hide what it passes
+              .thickness = follows_ ? 0.85 : 1.0},  // from near it would hide what it passes
              scene);
   const Isometry T = T_world_body(time_s);
   const AirframeParameters& airframe = record.scenario.vehicle.airframe;

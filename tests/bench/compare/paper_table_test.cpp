@@ -179,6 +179,7 @@ TEST(ComparisonTable, LabTimesCountFromTheFirstViewToTheLast) {
   run.curve = {.coverage = {{}, {}, {}}, .metres = {0.0, 0.0, 9.0}, .seconds = {0.0, 30.0, 120.0}};
   const TextTable table = comparison_table(*find_paper_table("lab_model"), {&run, 1}, {});
   EXPECT_EQ(cell_of(table, 0, "time_min").text, "1.5");
+  EXPECT_NE(table.notes[1].find("time from the first view on"), std::string::npos);
 }
 
 TEST(ComparisonTable, TerminalTextIsAligned) {

@@ -135,8 +135,7 @@ function copyButton(text: string): HTMLElement {
 /** A name of ours, "lab_model"; of the user's, a file's for one, as it is. */
 const spaced = (name: string) => (/^[a-z0-9_]+$/.test(name) ? name.replaceAll("_", " ") : name);
 
-const kSamplers: Record<string, string> = { agvs: "grid views (AGVS)",
-  fvs: "frontier views (FVS)" };
+const kSamplers: Record<string, string> = { agvs: "grid", fvs: "frontier" };
 
 /** Where the replay is, in words. */
 export function readout(flight: Flight, clock: Clock): string {
@@ -150,8 +149,8 @@ export function readout(flight: Flight, clock: Clock): string {
   if (v.sampler[n - 1] === "tour") {
     parts.push(`the first of ${number(v.candidates[n - 1])} planned`);
   } else if (v.candidates[n - 1] > 0) {
-    parts.push(`${kSamplers[v.sampler[n - 1]] ?? v.sampler[n - 1]}, ${number(v.valid[n - 1])} valid of `
-      + `${number(v.candidates[n - 1])} candidates`);
+    parts.push(`${number(v.valid[n - 1])} of ${number(v.candidates[n - 1])} `
+      + `${kSamplers[v.sampler[n - 1]] ?? v.sampler[n - 1]} candidates valid`);
   }
   return parts.join("  ·  ");
 }
