@@ -50,8 +50,8 @@ void check_coverage(const PaperMaterial& material, std::vector<CheckedClaim>& cl
   }
   claims.push_back(
       {"10", "Frontier views beside those of the grid take the plant's coverage above 90 %.",
-       fmt::format("{} of {} missions end above it at 0.05 m: from {:.1f} to {:.1f} %.", above,
-                   missions.size(), 100.0 * least, 100.0 * most),
+       fmt::format("{} of {} end above it at 0.05 m: from {:.1f} to {:.1f} %.", above,
+                   counted(missions.size(), "mission"), 100.0 * least, 100.0 * most),
        rule_of_share("missions"),
        claim_of_share(static_cast<double>(above) / static_cast<double>(missions.size()))});
 }
@@ -107,8 +107,8 @@ void check_trends(const PaperMaterial& material, const std::string& scenario,
     const auto [low, high] = std::minmax_element(trends.begin(), trends.end());
     claims.push_back({figure, sentence,
                       fmt::format("Rank correlation with the iterations from {:.2f} to {:.2f} over "
-                                  "{} missions.",
-                                  *low, *high, trends.size()),
+                                  "{}.",
+                                  *low, *high, counted(trends.size(), "mission")),
                       rule_of_trends(sign), claim_of_trends(trends, sign)});
   };
   add("Entropy falls over the iterations.", entropy, -1);
