@@ -152,7 +152,7 @@ RenderView Snapshots::view_at(double time_s) const {
                std::max(ahead.norm(), kLeastReach * structure_m.diagonal().norm()));
   ahead = ahead.norm() > 1e-6 ? Vec3(ahead.normalized()) : Vec3(Vec3::UnitX());
   const Vec3 back = Eigen::AngleAxisd(kShoulder_rad, Vec3::UnitZ()) * Vec3(-ahead);
-  const Vec3 eye = place_m + reach_m * (0.85 * back + Vec3(0.0, 0.0, 0.5));
+  const Vec3 eye = place_m + reach_m * (back + Vec3(0.0, 0.0, 0.55));
   RenderView view = fixed_;
   view.fov_y_rad = deg_to_rad(45.0);
   view.T_world_camera = look_at(eye, place_m + 0.45 * reach_m * ahead);
