@@ -216,7 +216,8 @@ Picture Snapshots::picture_at(double time_s, double speed, const RenderView& vie
   add_vehicle(airframe, T, scale, scene);
   for (const CameraConfig& camera : record.scenario.cameras) {
     // seen from near, as by a camera that follows, it would fill the picture
-    const double length_m = std::min(pyramid_m(record, run_.world(), camera), 130.0 * unit_m);
+    const double length_m =
+        std::min(pyramid_m(record, run_.world(), camera), (follows_ ? 90.0 : 130.0) * unit_m);
     FrustumItem frustum =
         frustum_of(camera, T, now.decision.view.gimbal_pitch_rad, length_m, kFrustum);
     frustum.edge_radius_m = static_cast<float>(1.3 * unit_m);
