@@ -116,11 +116,12 @@ std::string three_percent(const std::array<double, 3>& fractions) {
 std::string terminations(const RunsOfRow& runs) {
   std::map<std::string, int> counts;
   for (const RunFigures* run : runs) ++counts[run->termination];
-  if (counts.size() == 1) return counts.begin()->first;
   std::string text;
   for (const auto& [name, count] : counts) {
-    text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", name, count);
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", name);
+    if (counts.size() > 1) text += fmt::format(" ({})", count);
   }
+  std::replace(text.begin(), text.end(), '_', ' ');
   return text;
 }
 
@@ -152,13 +153,19 @@ std::string runs_note(const std::string& utility, const RunsOfRow& runs) {
   return note;
 }
 
+bool prints_time(const PaperTable& paper) {
+  return std::any_of(paper.rows.begin(), paper.rows.end(),
+                     [](const PaperRow& row) { return row.time_min.has_value(); });
+}
+
 void add_notes(TextTable& table, const PaperTable& paper, bool several_runs,
                const std::optional<Ceiling>& ceiling) {
   table.notes.emplace_back(
       "0.05, 0.10, 0.50 m: coverage at that voxel size, ours of voxels with visible surface of a "
       "tenth of their face");
-  table.notes.emplace_back(
-      "ours: entropy reduction in nat; distance in straight lines between views, profile apart");
+  table.notes.push_back(fmt::format(
+      "ours: entropy reduction in nat; distance in straight lines between views, profile apart{}",
+      prints_time(paper) ? "; time from the first view on, as the distance" : ""));
   if (several_runs) {
     table.notes.emplace_back(
         "±: half width of the 95 % interval of the mean over the seeds (Student's t)");
@@ -208,14 +215,12 @@ TextTable comparison_table(const PaperTable& paper, std::span<const RunFigures> 
     add(ceiling_figures("physical", ceiling->outside));
     add(ceiling_figures("leaf filter", ceiling->leaf_outside));
   }
-  const bool prints_time = std::any_of(paper.rows.begin(), paper.rows.end(),
-                                       [](const PaperRow& r) { return r.time_min.has_value(); });
-  if (!prints_time) drop_column(table, "time_min");
+  if (!prints_time(paper)) drop_column(table, "time_min");
   const bool several_runs = std::any_of(
       groups.begin(), groups.end(), [](const TableGroup& group) { return group.runs.size() > 1; });
   add_notes(table, paper, several_runs, ceiling);
   for (const TableGroup& group : groups) {
-    table.notes.push_back(runs_note(group.label(group.utility), group.runs));
+    table.notes.push_back(runs_note(group.label(name_in_table(paper, group.utility)), group.runs));
   }
   return table;
 }

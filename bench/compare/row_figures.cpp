@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "bench/score/effort_to_reach.hpp"
+
 namespace gnbv {
 namespace {
 
@@ -59,9 +61,11 @@ RowFigures our_figures(const std::string& label, const RunsOfRow& runs,
   f.entropy_reduction = estimate(runs, [](const RunFigures& r) { return r.entropy_reduction_nat; });
   f.distance_m = estimate(runs, [](const RunFigures& r) { return r.straight_m; });
   f.density = estimate(runs, [](const RunFigures& r) { return r.density_points_per_voxel; });
-  const auto has_time = [](const RunFigures* r) { return !r->curve.seconds.empty(); };
-  if (std::all_of(runs.begin(), runs.end(), has_time)) {
-    f.time_min = estimate(runs, [](const RunFigures& r) { return r.curve.seconds.back() / 60.0; });
+  const auto has_views = [](const RunFigures* r) { return r->curve.seconds.size() > 1; };
+  if (std::all_of(runs.begin(), runs.end(), has_views)) {
+    f.time_min = estimate(runs, [](const RunFigures& r) {
+      return seconds_of_views(r.curve, r.curve.views()) / 60.0;
+    });
   }
   for (std::size_t size = 0; size < 3; ++size) {
     f.coverage[size] = estimate(runs, [&](const RunFigures& r) { return r.coverage_final[size]; });

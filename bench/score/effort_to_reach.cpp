@@ -6,6 +6,10 @@
 
 namespace gnbv {
 
+double seconds_of_views(const CoverageCurve& curve, std::size_t entry) {
+  return entry == 0 ? 0.0 : curve.seconds[entry] - curve.seconds[1];
+}
+
 std::optional<EffortSpent> effort_to_reach(const CoverageCurve& curve, const BeforeViews& before,
                                            double coverage) {
   const auto& shares = curve.coverage;

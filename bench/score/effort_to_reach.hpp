@@ -24,6 +24,10 @@ struct EffortSpent {
   double seconds_with_profile = 0.0;  // since the mission began
 };
 
+/// Seconds of the curve's entry as its metres count, as people read them: from the first view on,
+/// without the way there from the end of the profile. Requires such an entry.
+double seconds_of_views(const CoverageCurve& curve, std::size_t entry);
+
 /// What was spent when the cloud first covered so much of the finest voxels: after the profile (no
 /// views, and none of the way to the first one) or after a view. Nothing when the mission ended
 /// before: it is not reached, however much would have been spent. Requires a curve.

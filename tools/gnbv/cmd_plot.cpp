@@ -93,7 +93,9 @@ std::vector<std::string> name_ends(const std::vector<RunRecord>& records) {
   return ends;
 }
 
-std::vector<Plot> plots_of_runs(const PlotOptions& options, const std::vector<RunRecord>& records) {
+/// Where `is_overlaid`, another plot shows the densities of all of them.
+std::vector<Plot> plots_of_runs(const PlotOptions& options, const std::vector<RunRecord>& records,
+                                bool is_overlaid) {
   std::vector<Plot> plots;
   const std::vector<std::string> ends = name_ends(records);
   const auto add = [&](const char* what, std::size_t run, std::optional<Plot> plot) {
@@ -105,7 +107,9 @@ std::vector<Plot> plots_of_runs(const PlotOptions& options, const std::vector<Ru
     }
   };
   for (std::size_t i = 0; i < records.size(); ++i) {
-    if (wants(options, "density")) add("density", i, density_entropy_plot(records[i]));
+    if (wants(options, "density")) {
+      add(is_overlaid ? "entropy" : "density", i, density_entropy_plot(records[i], !is_overlaid));
+    }
     if (wants(options, "terms")) add("terms", i, terms_plot(records[i]));
     if (wants(options, "predictions")) add("predictions", i, predictions_plot(records[i]));
     if (wants(options, "tracking")) add("tracking", i, tracking_plot(records[i]));
@@ -201,10 +205,14 @@ void draw(const PlotOptions& options, const Plot& plot, const fs::path& folder) 
 
 void plot(const PlotOptions& options) {
   const std::vector<RunRecord> records = read_runs(options);
-  std::vector<Plot> plots = plots_of_runs(options, records);
+  std::vector<Plot> of_groups;
   if (wants(options, "coverage") || wants(options, "reach") || wants(options, "density")) {
-    for (Plot& each : plots_of_groups(options, records)) plots.push_back(std::move(each));
+    of_groups = plots_of_groups(options, records);
   }
+  const bool is_overlaid = std::any_of(of_groups.begin(), of_groups.end(),
+                                       [](const Plot& each) { return each.name == "density"; });
+  std::vector<Plot> plots = plots_of_runs(options, records, is_overlaid);
+  for (Plot& each : of_groups) plots.push_back(std::move(each));
   if (plots.empty()) {
     throw BadInput(fmt::format("{}: nothing to plot", records.front().folder.string()));
   }

@@ -5,6 +5,7 @@
 
 #include "tools/paper/comparisons.hpp"
 #include "tools/plots/curves.hpp"
+#include "tools/run_files/words.hpp"
 
 namespace gnbv {
 namespace {
@@ -29,8 +30,9 @@ void check_densest(const PaperMaterial& material, std::vector<CheckedClaim>& cla
   const double share = static_cast<double>(ahead) / static_cast<double>(shared);
   claims.push_back(
       {"9", "In every iteration Proposed has more points a voxel than both others.",
-       fmt::format("Its mean over the seeds is highest after {} of {} views.", ahead, shared),
-       claim_of_share(share)});
+       fmt::format("Its mean over the seeds is highest after {} of {} views, {:.1f} %.",
+                   grouped(ahead), grouped(shared), 100.0 * share),
+       rule_of_share("views"), claim_of_share(share)});
 }
 
 /// Text on Table 3: frontier views bring the coverage above 90 %.
@@ -48,8 +50,9 @@ void check_coverage(const PaperMaterial& material, std::vector<CheckedClaim>& cl
   }
   claims.push_back(
       {"10", "Frontier views beside those of the grid take the plant's coverage above 90 %.",
-       fmt::format("{} of {} missions end above it at 0.05 m: from {:.1f} to {:.1f} %.", above,
-                   missions.size(), 100.0 * least, 100.0 * most),
+       fmt::format("{} of {} end above it at 0.05 m: from {:.1f} to {:.1f} %.", above,
+                   counted(missions.size(), "mission"), 100.0 * least, 100.0 * most),
+       rule_of_share("missions"),
        claim_of_share(static_cast<double>(above) / static_cast<double>(missions.size()))});
 }
 
@@ -74,11 +77,14 @@ void check_phases(const PaperMaterial& material, std::vector<CheckedClaim>& clai
     }
   }
   if (phases == 0) return;
-  claims.push_back({"11",
-                    "Where the sampler switches to frontiers, entropy falls and density rises.",
-                    fmt::format("Of {} such phases, entropy fell in {} and density rose in {}.",
-                                phases, falling, rising),
-                    claim_of_share(static_cast<double>(both) / static_cast<double>(phases))});
+  claims.push_back(
+      {"11", "Where the sampler switches to frontiers, entropy falls and density rises.",
+       fmt::format("Of {} such phases, entropy fell in {}, density rose in {}: both in {}, "
+                   "{:.1f} %.",
+                   phases, falling, rising, both,
+                   100.0 * static_cast<double>(both) / static_cast<double>(phases)),
+       rule_of_share("phases"),
+       claim_of_share(static_cast<double>(both) / static_cast<double>(phases))});
 }
 
 /// Figs 14 and 17: entropy falls and density rises over the iterations.
@@ -101,9 +107,9 @@ void check_trends(const PaperMaterial& material, const std::string& scenario,
     const auto [low, high] = std::minmax_element(trends.begin(), trends.end());
     claims.push_back({figure, sentence,
                       fmt::format("Rank correlation with the iterations from {:.2f} to {:.2f} over "
-                                  "{} missions.",
-                                  *low, *high, trends.size()),
-                      claim_of_trends(trends, sign)});
+                                  "{}.",
+                                  *low, *high, counted(trends.size(), "mission")),
+                      rule_of_trends(sign), claim_of_trends(trends, sign)});
   };
   add("Entropy falls over the iterations.", entropy, -1);
   add("Density rises over the iterations.", density, 1);

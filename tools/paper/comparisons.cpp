@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 
+#include "bench/score/effort_to_reach.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {
@@ -29,7 +30,7 @@ Value metres(const PaperMission& m, std::size_t views) {
 
 Value minutes(const PaperMission& m, std::size_t views) {
   if (views >= curve_of(m).seconds.size()) return std::nullopt;
-  return curve_of(m).seconds[views] / 60.0;
+  return seconds_of_views(curve_of(m), views) / 60.0;
 }
 
 template <std::size_t Size>

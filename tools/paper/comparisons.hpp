@@ -68,6 +68,7 @@ struct CheckedClaim {
   std::string figure;    // "9": of which figure
   std::string sentence;  // what the paper says
   std::string finding;   // what our missions show
+  std::string rule;      // when such a sentence holds
   ClaimVerdict verdict = ClaimVerdict::fails;
 };
 

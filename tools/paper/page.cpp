@@ -11,6 +11,7 @@
 #include "tools/paper/page_parts.hpp"
 #include "tools/report/jpeg.hpp"
 #include "tools/report/page_text.hpp"
+#include "tools/run_files/words.hpp"
 
 namespace gnbv {
 namespace {
@@ -58,8 +59,8 @@ std::string side_html(const ShownTable& table, bool is_ours) {
     const bool has_views = !row.utility.empty() && (!is_ours || row.missions > 0);
     std::string views = "-";
     if (has_views) {
-      views = is_ours             ? fmt::format("{}", row.views)
-              : row.printed_views ? fmt::format("{}", *row.printed_views)
+      views = is_ours             ? grouped_number(row.views, 0)
+              : row.printed_views ? grouped_number(*row.printed_views, 0)
                                   : "-";
     }
     html += fmt::format("<tr><td>{}</td><td>{}</td>", html_escaped(row.label), views);
@@ -86,12 +87,14 @@ std::string beyond_html(const ShownTable& table) {
                           html_escaped(row.label));
     } else if (row.flown_views > row.views) {
       html += fmt::format("<li>{}: compared after {} views; ours flew {}</li>\n",
-                          html_escaped(row.label), row.views, row.flown_views);
+                          html_escaped(row.label), grouped_number(row.views, 0),
+                          grouped_number(row.flown_views, 0));
     } else if (row.printed_views && row.views < *row.printed_views) {
       html += fmt::format(
           "<li>{}: compared after {} views, where ours ended; the paper&#39;s took "
           "{}</li>\n",
-          html_escaped(row.label), row.views, *row.printed_views);
+          html_escaped(row.label), grouped_number(row.views, 0),
+          grouped_number(*row.printed_views, 0));
     }
   }
   return html.empty() ? "" : "<ul class=notes>\n" + html + "</ul>\n";
@@ -119,16 +122,16 @@ std::string figure_html(const DrawnFigure& figure, const PaperPage& page, const 
   html += fmt::format(
       "<p class=pale>Ours, {}: {}</p>\n</div>\n<div class='side paper'>\n<h3>The paper</h3>\n"
       "<p>{}</p>\n",
-      html_escaped(figure.scenario), html_escaped(figure.kind->ours),
+      html_escaped(human_name(figure.scenario)), html_escaped(figure.kind->ours),
       html_escaped(figure.kind->paper));
   for (const CheckedClaim& claim : page.claims) {
     if (claim.figure != figure.kind->number) continue;
     const std::string_view colour = claim.verdict == ClaimVerdict::holds    ? "good"
                                     : claim.verdict == ClaimVerdict::partly ? "open"
                                                                             : "bad";
-    html +=
-        fmt::format("<p>{} {}<br><span class=pale>{}</span></p>\n", html_escaped(claim.sentence),
-                    chip(colour, name_of(claim.verdict)), html_escaped(claim.finding));
+    html += fmt::format("<p>{} {}<br><span class=pale>{} Rule: {}.</span></p>\n",
+                        html_escaped(claim.sentence), chip(colour, name_of(claim.verdict)),
+                        html_escaped(claim.finding), html_escaped(claim.rule));
   }
   return html + "</div>\n</div>\n</section>\n";
 }
@@ -152,7 +155,8 @@ std::string head_html(const PaperPage& page) {
       page.seeds, page.seeds == 1 ? "" : "s", html_escaped(page.version),
       html_escaped(page.command));
   for (const ShownTable& table : page.tables) {
-    html += fmt::format("<a href='#{0}'>{0}</a>", html_escaped(table.paper->scenario));
+    html += fmt::format("<a href='#{}'>{}</a>", html_escaped(table.paper->scenario),
+                        html_escaped(human_name(table.paper->scenario)));
   }
   for (const DrawnFigure& figure : page.figures) {
     html += fmt::format("<a href='#fig{0}'>Fig. {0}</a>", figure.kind->number);

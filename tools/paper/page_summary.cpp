@@ -66,11 +66,12 @@ std::string head_row(std::string_view first, const std::vector<std::size_t>& col
 /// "162 of 360", or where ours took fewer "10 of 635 (paper)".
 std::string views_text(const ComparedRow& row) {
   if (row.missions == 0) return "-";
-  if (!row.printed_views) return row.utility.empty() ? "" : fmt::format("{}", row.views);
+  if (!row.printed_views) return row.utility.empty() ? "" : grouped_number(row.views, 0);
   if (row.views < *row.printed_views) {
-    return fmt::format("{} (paper {})", row.views, *row.printed_views);
+    return fmt::format("{} (paper {})", grouped_number(row.views, 0),
+                       grouped_number(*row.printed_views, 0));
   }
-  return fmt::format("{}", row.views);
+  return grouped_number(row.views, 0);
 }
 
 std::string numbers_html(const PaperPage& page) {
@@ -150,15 +151,18 @@ std::string claims_html(const PaperPage& page) {
   if (page.claims.empty()) return "";
   std::string html =
       "<h3>Sentences on figures</h3>\n<div class=scroll><table>\n<tr><th>Figure</th><th "
-      "class=text>The paper</th><th class=text>Ours</th><th></th></tr>\n";
+      "class=text>The paper</th><th class=text>Ours</th><th class=text>Rule</th><th></th></tr>\n";
   for (const CheckedClaim& claim : page.claims) {
     html += fmt::format(
         "<tr><td><a href='#fig{0}'>{0}</a></td><td class=text>{1}</td><td class=text>{2}</td>"
-        "<td>{3}</td></tr>\n",
+        "<td class=text>{3}</td><td>{4}</td></tr>\n",
         claim.figure, html_escaped(claim.sentence), html_escaped(claim.finding),
-        chip(colour_of(claim.verdict), name_of(claim.verdict)));
+        html_escaped(claim.rule), chip(colour_of(claim.verdict), name_of(claim.verdict)));
   }
-  return html + "</table></div>\n";
+  return html +
+         "</table></div>\n<p class=pale>A sentence on many cases is judged by the share of "
+         "them in which it is so, one on a course over the iterations by Spearman's rank "
+         "correlation with them; the rule of each stands beside its verdict.</p>\n";
 }
 
 /// How often each verdict was given.

@@ -1,5 +1,7 @@
 #include "tools/paper/verdicts.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -7,6 +9,13 @@
 #include "sim/core/error.hpp"
 
 namespace gnbv {
+namespace {
+
+constexpr double kHoldsShare = 0.95;
+constexpr double kPartlyShare = 0.5;
+constexpr double kHoldsTrend = 0.8;
+
+}  // namespace
 
 AgreementScale scale_of_amount(double printed) {
   return {0.05 * std::abs(printed), 0.20 * std::abs(printed)};
@@ -30,9 +39,14 @@ PairOrder pair_order(double printed, std::span<const double> ours) {
 
 ClaimVerdict claim_of_share(double share) {
   GNBV_CHECK(share >= 0.0 && share <= 1.0, "a share of {}", share);
-  return share >= 0.95  ? ClaimVerdict::holds
-         : share >= 0.5 ? ClaimVerdict::partly
-                        : ClaimVerdict::fails;
+  return share >= kHoldsShare    ? ClaimVerdict::holds
+         : share >= kPartlyShare ? ClaimVerdict::partly
+                                 : ClaimVerdict::fails;
+}
+
+std::string rule_of_share(std::string_view cases) {
+  return fmt::format("holds in at least {:.0f} % of the {}, partly in at least {:.0f} %",
+                     100.0 * kHoldsShare, cases, 100.0 * kPartlyShare);
 }
 
 double rank_trend(std::span<const double> values) {
@@ -55,9 +69,14 @@ ClaimVerdict claim_of_trends(std::span<const double> trends, int sign) {
   GNBV_CHECK(!trends.empty(), "no trend");
   double least = 1.0;
   for (const double trend : trends) least = std::min(least, sign * trend);
-  return least >= 0.8  ? ClaimVerdict::holds
-         : least > 0.0 ? ClaimVerdict::partly
-                       : ClaimVerdict::fails;
+  return least >= kHoldsTrend ? ClaimVerdict::holds
+         : least > 0.0        ? ClaimVerdict::partly
+                              : ClaimVerdict::fails;
+}
+
+std::string rule_of_trends(int sign) {
+  return fmt::format("holds where every mission's rank correlation is {} or {}, partly where {} 0",
+                     sign * kHoldsTrend, sign > 0 ? "more" : "less", sign > 0 ? "above" : "below");
 }
 
 std::string_view name_of(Agreement agreement) {

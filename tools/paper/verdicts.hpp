@@ -51,6 +51,8 @@ enum class ClaimVerdict { holds, partly, fails };
 /// Of a sentence that says "always": in at least 95 % of the cases, at least half of them, fewer.
 /// Requires a share in [0, 1].
 ClaimVerdict claim_of_share(double share);
+/// That rule in words, of cases such as "views".
+std::string rule_of_share(std::string_view cases);
 
 /// Spearman's rank correlation of the values with their places: 1 for a series that only rises, -1
 /// for one that only falls, 0 for one that is level or has fewer than two values.
@@ -59,6 +61,8 @@ double rank_trend(std::span<const double> values);
 /// Of a sentence that says a series rises (`sign` 1) or falls (-1): rank_trend() of every run at
 /// least 0.8 that way, above 0, or not. Requires a trend.
 ClaimVerdict claim_of_trends(std::span<const double> trends, int sign);
+/// That rule in words.
+std::string rule_of_trends(int sign);
 
 // Words for a page.
 std::string_view name_of(Agreement agreement);

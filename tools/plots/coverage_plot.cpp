@@ -216,11 +216,11 @@ Plot plot_of(std::span<const RunGroup> groups, const Window& window, std::size_t
                                       "set label 1 {} at screen 0.985,{:.4f} right textcolor rgb "
                                       "'#262c36'\n",
                                       gnuplot_text(scenario), 1.0 - 0.5 * kKeyLine_px / height_px);
+  const double longest = std::max(longest_effort(groups, effort), 1e-6);
   const std::string y_label = fmt::format("coverage at {} m (%)", size_text);
   return {fmt::format("coverage-{}", effort_name(effort)),
           data + key + title + "set yrange [0:100]\nset xrange [0:*] noextend\nset rmargin 3\n" +
-              fmt::format("set xtics {:g}\n",
-                          even_step(std::max(longest_effort(groups, effort), 1e-6))) +
+              x_tics(0.0, longest, even_step(longest)) +
               fmt::format("set xlabel {}\nset ylabel {} offset 0.6,0\nplot {}\n",
                           gnuplot_text(effort_label(effort)), gnuplot_text(y_label), entries),
           height_px};
@@ -255,8 +255,8 @@ std::optional<Plot> coverage_end_plot(std::span<const RunGroup> groups, Effort e
   plot.name += "-end";
   // the last word on both axes, before anything is drawn
   const std::size_t at = plot.body.rfind("\nplot ") + 1;
-  plot.body.insert(at, fmt::format("set xrange [{}:{}] noextend\nset xtics {:g}\n", from,
-                                   1.01 * longest, even_step(0.16 * longest)) +
+  plot.body.insert(at, fmt::format("set xrange [{}:{}] noextend\n", from, 1.01 * longest) +
+                           x_tics(from, 1.01 * longest, even_step(0.16 * longest)) +
                            y_axis(low, high));
   return plot;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/score/effort_to_reach.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {
@@ -33,18 +34,23 @@ std::vector<double> moving_mean(std::span<const double> values, std::size_t wind
   return means;
 }
 
+double spent_at(const CoverageCurve& curve, Effort effort, std::size_t entry) {
+  return effort == Effort::seconds ? seconds_of_views(curve, entry)
+                                   : effort_at(curve, effort, entry);
+}
+
 double whole_effort(const CoverageCurve& curve, Effort effort) {
-  return effort_at(curve, effort, curve.views());
+  return spent_at(curve, effort, curve.views());
 }
 
 double coverage_at(const CoverageCurve& curve, Effort effort, std::size_t size, double at) {
   std::size_t next = 0;
-  while (next < curve.coverage.size() && effort_at(curve, effort, next) <= at) ++next;
+  while (next < curve.coverage.size() && spent_at(curve, effort, next) <= at) ++next;
   if (next == 0) return curve.coverage.front()[size];
   const double before = curve.coverage[next - 1][size];
   if (next == curve.coverage.size()) return before;
-  const double begin = effort_at(curve, effort, next - 1);
-  const double share = (at - begin) / (effort_at(curve, effort, next) - begin);
+  const double begin = spent_at(curve, effort, next - 1);
+  const double share = (at - begin) / (spent_at(curve, effort, next) - begin);
   return before + share * (curve.coverage[next][size] - before);
 }
 
@@ -61,7 +67,7 @@ std::vector<CoveragePoint> mean_coverage(const RunGroup& group, Effort effort, s
   const std::size_t steps = by_views ? most_views : kSteps;
   std::vector<CoveragePoint> points;
   for (std::size_t i = 0; i <= steps; ++i) {
-    const double at = is_single ? effort_at(group.runs.front()->figures->curve, effort, i)
+    const double at = is_single ? spent_at(group.runs.front()->figures->curve, effort, i)
                                 : longest * static_cast<double>(i) /
                                       static_cast<double>(std::max<std::size_t>(steps, 1));
     std::vector<double> shares;

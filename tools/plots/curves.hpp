@@ -27,6 +27,10 @@ std::vector<double> moving_mean(std::span<const double> values, std::size_t wind
 /// from then on. Requires a curve.
 double coverage_at(const CoverageCurve& curve, Effort effort, std::size_t size, double at);
 
+/// What an entry of the curve took. Metres and seconds both count from the first view on, so that
+/// the way there from the profile is in neither. Requires such an entry.
+double spent_at(const CoverageCurve& curve, Effort effort, std::size_t entry);
+
 /// How much effort the whole curve took. Requires a curve.
 double whole_effort(const CoverageCurve& curve, Effort effort);
 

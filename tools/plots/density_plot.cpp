@@ -70,15 +70,14 @@ Plot mean_density_plot(std::span<const MeanSeries> series) {
         "mean'";
     ++entries;
   }
-  return {
-      "density",
-      data + key_above(entries) + y_axis(0.0, 1.15 * highest) +
-          fmt::format("set xrange [0:{}] noextend\nset rmargin 3\nset xtics {:g}\n",
-                      std::max<std::size_t>(most_views - 1, 1),
-                      even_step(static_cast<double>(std::max<std::size_t>(most_views - 1, 1)))) +
-          "set xlabel 'iteration'\nset ylabel 'density (points/voxel)' offset 0.6,0\nplot " +
-          bands + lines + "\n",
-      height_with_key_px(entries)};
+  const auto last = static_cast<double>(std::max<std::size_t>(most_views - 1, 1));
+  return {"density",
+          data + key_above(entries) + y_axis(0.0, 1.15 * highest) +
+              fmt::format("set xrange [0:{}] noextend\nset rmargin 3\n", last) +
+              x_tics(0.0, last, even_step(last)) +
+              "set xlabel 'iteration'\nset ylabel 'density (points/voxel)' offset 0.6,0\nplot " +
+              bands + lines + "\n",
+          height_with_key_px(entries)};
 }
 
 }  // namespace gnbv

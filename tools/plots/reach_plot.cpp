@@ -18,12 +18,6 @@ struct Arrivals {
   std::vector<double> efforts = {};  // ascending
 };
 
-double spent_of(const EffortSpent& spent, Effort effort) {
-  return effort == Effort::views    ? spent.views
-         : effort == Effort::metres ? spent.metres
-                                    : spent.seconds;
-}
-
 std::vector<Arrivals> arrivals_of(std::span<const RunGroup> groups, Effort effort, double share) {
   std::vector<Arrivals> all;
   const std::vector<std::string> methods = methods_of(groups);
@@ -35,7 +29,9 @@ std::vector<Arrivals> arrivals_of(std::span<const RunGroup> groups, Effort effor
       if (!figures.ceiling) continue;
       ++arrivals.runs;
       const auto spent = effort_to_reach(figures.curve, figures.before, share * *figures.ceiling);
-      if (spent) arrivals.efforts.push_back(spent_of(*spent, effort));
+      if (!spent) continue;
+      const auto entry = static_cast<std::size_t>(spent->views);
+      arrivals.efforts.push_back(spent_at(figures.curve, effort, entry));
     }
     std::sort(arrivals.efforts.begin(), arrivals.efforts.end());
     if (arrivals.runs > 0) all.push_back(std::move(arrivals));
@@ -83,8 +79,8 @@ std::optional<Plot> reach_plot(std::span<const RunGroup> groups, Effort effort, 
       key_above(all.size()) +
       fmt::format(
           "set yrange [0:103]\nset ytics 20\nset xrange [0:{}] noextend\nset rmargin 3\n"
-          "set xtics {:g}\nset xlabel {}\nset ylabel {} offset 0.6,0\nplot {}\n",
-          longest, even_step(longest), gnuplot_text(effort_label(effort)),
+          "{}set xlabel {}\nset ylabel {} offset 0.6,0\nplot {}\n",
+          longest, x_tics(0.0, longest, even_step(longest)), gnuplot_text(effort_label(effort)),
           gnuplot_text(fmt::format("runs at {:.0f} % of the ceiling (%)", 100.0 * share)), entries);
   return Plot{fmt::format("reach-{}", effort_name(effort)), body, height_with_key_px(all.size())};
 }

@@ -180,7 +180,7 @@ std::string discount_panels(Panels& panels, const Columns& columns, bool is_smoo
 
 }  // namespace
 
-std::optional<Plot> density_entropy_plot(const RunRecord& record) {
+std::optional<Plot> density_entropy_plot(const RunRecord& record, bool has_density) {
   if (record.views.empty()) return std::nullopt;
   Columns columns(2);
   std::vector<std::vector<double>> rows;
@@ -193,16 +193,20 @@ std::optional<Plot> density_entropy_plot(const RunRecord& record) {
   const auto [low, high] = std::minmax_element(columns[0].begin(), columns[0].end());
   const double unit_nat = *high >= 10'000.0 ? 1000.0 : 1.0;
   const std::vector<Phase> phases = frontier_phases(record.views);
-  Panels panels(2, title_of(record), "iteration");
+  const std::size_t count = has_density ? 2 : 1;
+  Panels panels(count, title_of(record), "iteration");
   std::string text = data_block("views", rows) + x_range(record.views) + shaded_phases(phases);
   text +=
-      panels.next(unit_nat > 1.0 ? "entropy (1000 nat)" : "entropy (nat)", key_of_phases(phases));
+      panels.next(unit_nat > 1.0 ? "entropy (1,000 nat)" : "entropy (nat)", key_of_phases(phases));
   text += y_axis(*low / unit_nat, *high / unit_nat);
   text += fmt::format("plot $views using 1:($2/{}) with lines lw 1.3 lc rgb '{}'\n", unit_nat,
                       kPalette[0]);
-  text += panels.next("density (points/voxel)") + axis_of(columns[1]);
-  text += fmt::format("plot $views using 1:3 with lines lw 1.3 lc rgb '{}'\n", kPalette[1]);
-  return Plot{"density", text + "unset multiplot\n", panels_height_px(2)};
+  if (has_density) {
+    text += panels.next("density (points/voxel)") + axis_of(columns[1]);
+    text += fmt::format("plot $views using 1:3 with lines lw 1.3 lc rgb '{}'\n", kPalette[1]);
+  }
+  return Plot{has_density ? "density" : "entropy", text + "unset multiplot\n",
+              panels_height_px(count)};
 }
 
 std::optional<Plot> terms_plot(const RunRecord& record) {

@@ -8,9 +8,10 @@
 
 namespace gnbv {
 
-/// Entropy and density over the iterations, phases of frontier views shaded (as the paper's Figs 9,
-/// 11, 14 and 17). Nothing for a run without views.
-std::optional<Plot> density_entropy_plot(const RunRecord& record);
+/// Entropy and density over the iterations, phases of frontier views shaded (as the paper's Figs
+/// 11, 14 and 17); entropy alone where another plot has the densities of all runs. Nothing for a
+/// run without views.
+std::optional<Plot> density_entropy_plot(const RunRecord& record, bool has_density = true);
 
 /// What made the chosen views worth choosing. For `proposed` all factors of Eq. (2): the quality
 /// stacked from its density and prediction terms, the information factor 1 + alpha E, the distance

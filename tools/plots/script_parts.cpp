@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "tools/plots/gnuplot.hpp"
+#include "tools/run_files/words.hpp"
 
 namespace gnbv {
 namespace {
@@ -24,9 +25,9 @@ std::string_view effort_label(Effort effort) {
     case Effort::views:
       return "views";
     case Effort::metres:
-      return "path between views (m)";
+      return "straight path from the first view on (m)";
     case Effort::seconds:
-      return "time after the profile (s)";
+      return "time from the first view on (s)";
   }
   return "";
 }
@@ -98,6 +99,16 @@ Axis axis_around(double low, double high, int most_steps) {
   }
   const double step = even_step(high - low, most_steps);
   return {step * std::floor(low / step), step * std::ceil(high / step), step};
+}
+
+std::string x_tics(double low, double high, double step) {
+  if (high < 1000.0) return fmt::format("set xtics {:g}\n", step);
+  std::string tics;
+  for (double i = std::ceil(low / step); i * step <= high; ++i) {
+    const auto at = static_cast<std::size_t>(std::lround(i * step));
+    tics += fmt::format("{}'{}' {}", tics.empty() ? "" : ", ", grouped(at), at);
+  }
+  return fmt::format("set xtics ({})\n", tics);
 }
 
 std::string y_axis(double low, double high, int most_steps) {

@@ -20,7 +20,7 @@ constexpr std::string_view palette_colour(std::size_t slot) {
   return kPalette[slot % kPalette.size()];
 }
 
-/// Of the axis that this effort is on: "path between views (m)".
+/// Of the axis that this effort is on: "straight path from the first view on (m)".
 std::string_view effort_label(Effort effort);
 /// In the names of plots: "metres".
 std::string_view effort_name(Effort effort);
@@ -55,6 +55,10 @@ struct Axis {
 /// From `low` to `high`, widened to whole even steps, of which that span holds at most so many.
 /// Requires low <= high.
 Axis axis_around(double low, double high, int most_steps = 5);
+
+/// The tics of an x axis at whole multiples of `step`, thousands separated, which gnuplot does in
+/// some locales only. Requires low <= high, step > 0.
+std::string x_tics(double low, double high, double step);
 
 /// Settings of a y axis that is axis_around() them.
 std::string y_axis(double low, double high, int most_steps = 5);

@@ -17,6 +17,8 @@ constexpr double kBar = 120.0;
 constexpr double kGap = 20.0;  // between items
 constexpr double kHalo = 2.5;
 constexpr double kPaperBorder = 7.0;  // above and below the legend
+constexpr Rgb8 kSheet = {246, 248, 250};
+constexpr double kSheetOpacity = 0.92;
 
 // The longest of 1, 2, 5, 10 ... m that stays under `limit_m`.
 double round_length_m(double limit_m) {
@@ -29,8 +31,12 @@ double round_length_m(double limit_m) {
 
 bool is_bar(const LegendItem& item) { return item.colours.size() > 1; }
 
+double middle_width(const LegendItem& item) {
+  return item.label_middle.empty() ? 0.0 : text_width_px(item.label_middle, kLetter) + 12.0;
+}
+
 double mark_width(const LegendItem& item) {
-  if (is_bar(item)) return kBar;
+  if (is_bar(item)) return kBar + middle_width(item);
   return item.mark == LegendItem::Mark::line ? 30.0 : 10.0;
 }
 
@@ -50,15 +56,20 @@ void draw_square(Image& image, const std::array<double, 2>& middle, double half_
   }
 }
 
-void draw_mark(Image& image, const LegendItem& item, double x, double y, double u) {
-  const double end = x + mark_width(item) * u;
-  if (is_bar(item)) {
-    for (double at = x; at < end; at += 1.0) {
-      draw_line(image, {at, y}, {std::min(at + 1.0, end), y}, 6.0 * u,
-                to_rgb8(ramp(item.colours, (at - x) / (end - x))));
-    }
-    return;
+void draw_bar(Image& image, const LegendItem& item, double x, double y, double u) {
+  const double whole = kBar * u;
+  const double apart = middle_width(item) * u;
+  for (double at = 0.0; at < whole; at += 1.0) {
+    const double begin = x + at + (2.0 * at < whole ? 0.0 : apart);
+    draw_line(image, {begin, y}, {begin + std::min(1.0, whole - at), y}, 6.0 * u,
+              to_rgb8(ramp(item.colours, at / whole)));
   }
+  draw_text(image, item.label_middle, x + (0.5 * kBar + 6.0) * u, y + 5.0 * u, kLetter * u, kInk);
+}
+
+void draw_mark(Image& image, const LegendItem& item, double x, double y, double u) {
+  if (is_bar(item)) return draw_bar(image, item, x, y, u);
+  const double end = x + mark_width(item) * u;
   const Rgb8 colour = to_rgb8(item.colours.front());
   const double middle = 0.5 * (x + end);
   switch (item.mark) {
@@ -141,13 +152,12 @@ void draw_items(Image& image, const std::vector<Placed>& places, double u) {
 
 // On paper of its own: what lies behind it would be read as part of it.
 void draw_legend(Image& image, const std::vector<Placed>& places, double u) {
-  constexpr Rgb8 kSheet = {246, 248, 250};
   const double right = image.width_px - (kBorder - 12.0) * u;
   for (std::size_t i = 0; i < places.size(); ++i) {  // the last of a row is the leftmost
     if (i + 1 < places.size() && places[i + 1].y == places[i].y) continue;
     const double y = places[i].y;
     draw_box(image, {places[i].x - 12.0 * u, y - 0.5 * kRow * u}, {right, y + 0.5 * kRow * u},
-             kSheet, 0.92);
+             kSheet, kSheetOpacity);
   }
   draw_items(image, places, u);
 }
@@ -207,11 +217,17 @@ double px_per_m_at_focus(const RenderView& view) {
 void draw_caption(Image& image, const Caption& caption, const RenderView& view) {
   const double u = layout_unit_px(image.width_px, image.height_px);
   const double width = image.width_px - 2.0 * kBorder * u;
-  const double halo = caption.paper_px > 0 ? 0.0 : kHalo * u;
-  draw_text(image, caption.title, kBorder * u, 40.0 * u,
-            fitting_height_px(caption.title, 15.0 * u, width), kInk, halo);
-  draw_text(image, caption.detail, kBorder * u, 64.0 * u,
-            fitting_height_px(caption.detail, kLetter * u, width), kPaleInk, halo);
+  const double halo = caption.paper_px > 0 || caption.has_sheet ? 0.0 : kHalo * u;
+  const double title_px = fitting_height_px(caption.title, 15.0 * u, width);
+  const double detail_px = fitting_height_px(caption.detail, kLetter * u, width);
+  if (caption.has_sheet) {
+    const double longest_px =
+        std::max(text_width_px(caption.title, title_px), text_width_px(caption.detail, detail_px));
+    draw_box(image, {(kBorder - 12.0) * u, 16.0 * u}, {(kBorder + 12.0) * u + longest_px, 76.0 * u},
+             kSheet, kSheetOpacity);
+  }
+  draw_text(image, caption.title, kBorder * u, 40.0 * u, title_px, kInk, halo);
+  draw_text(image, caption.detail, kBorder * u, 64.0 * u, detail_px, kPaleInk, halo);
   if (caption.paper_px > 0) return draw_legend_on_paper(image, caption, u);
   const double scale_end = caption.has_scale ? draw_scale(image, view, u) : 0.0;
   draw_legend(image, placed(image, caption.legend, u, image.height_px - 24.0 * u, scale_end), u);

@@ -20,6 +20,7 @@ struct LegendItem {
   Mark mark = Mark::square;       // of a single colour
   std::string label_before = {};  // of a bar: at its low end; of others: of the row it begins
   bool begins_row = false;        // on paper of its own
+  std::string label_middle = {};  // of a bar: what its middle stands for, set between its halves
 
   bool operator==(const LegendItem&) const = default;
 };
@@ -29,6 +30,7 @@ struct Caption {
   std::string detail;              // one line under the title
   std::vector<LegendItem> legend;  // from left to right
   bool has_scale = true;
+  bool has_sheet = false;  // under title and detail, as the legend has one
   /// Height of the paper below a picture of panels, where its legend has a place of its own, read
   /// from the upper left; 0: the legend lies on the picture.
   int paper_px = 0;

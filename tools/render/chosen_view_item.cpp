@@ -113,20 +113,21 @@ void add_chosen_view(const RunRecord& record, const World& world, const Belief& 
       }
     }
   }
-  add_way_to_chosen(record, iteration, unit_m, scene);
 }
 
-void add_way_to_chosen(const RunRecord& record, std::size_t iteration, double unit_m,
-                       RenderScene& scene) {
+std::vector<PlaceLine> way_to_chosen(const RunRecord& record, std::size_t iteration) {
   std::vector<Vec3> way = {record.views[iteration - 1].decision.view.p_world_m};
   const auto& via = record.views[iteration].decision.via_world_m;
   way.insert(way.end(), via.begin(), via.end());
   way.push_back(record.views[iteration].decision.view.p_world_m);
-  scene.tubes.push_back(path_tube(way, 1.6 * unit_m, kChosenLook.chosen));
-  scene.balls.push_back(
-      {way.front().cast<float>(), static_cast<float>(8.0 * unit_m), kChosenLook.before});
-  scene.balls.push_back(
-      {way.back().cast<float>(), static_cast<float>(9.0 * unit_m), kChosenLook.chosen});
+  const Rgb8 chosen = to_rgb8(kChosenLook.chosen);
+  std::vector<PlaceLine> lines = {{way.back(), way.back(), chosen, 13.0}};
+  for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+    lines.push_back({way[i], way[i + 1], chosen, 2.4});
+  }
+  // the smaller dot, uppermost: a way too short to be seen leaves one within the other
+  lines.push_back({way.front(), way.front(), to_rgb8(kChosenLook.before), 7.0});
+  return lines;
 }
 
 }  // namespace gnbv

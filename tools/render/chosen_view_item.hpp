@@ -3,7 +3,7 @@
 
 #include "planner/belief.hpp"
 #include "sim/mesh/world.hpp"
-#include "tools/render/scene.hpp"
+#include "tools/render/picture.hpp"
 #include "tools/run_files/run_record.hpp"
 
 namespace gnbv {
@@ -13,13 +13,13 @@ struct ChosenViewLook {
 };
 extern const ChosenViewLook kChosenLook;
 
-/// Its cameras' pyramids and the way there; and of the rays all over their images those that meet a
-/// surface, or unknown voxels beside the structure, as far as that.
+/// Its cameras' pyramids; and of the rays all over their images those that meet a surface, or
+/// unknown voxels beside the structure, as far as that.
 void add_chosen_view(const RunRecord& record, const World& world, const Belief& belief,
                      std::size_t iteration, double unit_m, RenderScene& scene);
 
-/// From the view before.
-void add_way_to_chosen(const RunRecord& record, std::size_t iteration, double unit_m,
-                       RenderScene& scene);
+/// From the view before, and both as dots: over everything, since a grid's step beside a large
+/// structure is short, and may lie behind it.
+std::vector<PlaceLine> way_to_chosen(const RunRecord& record, std::size_t iteration);
 
 }  // namespace gnbv

@@ -39,10 +39,19 @@ struct PlaceLabel {
   std::optional<Rgb8> badge = {};
 };
 
+/// A line between two places that shows through everything, edged in white; a dot where they are
+/// one.
+struct PlaceLine {
+  Vec3 from_world_m, to_world_m;
+  Rgb8 colour;
+  double width = 0.0;  // layout units
+};
+
 /// One scene of a picture that may hold several, side by side.
 struct Panel {
   RenderScene scene;
   std::string note = {};                // over the panel
+  std::vector<PlaceLine> lines = {};    // over the scene, the last one uppermost
   std::vector<PlaceLabel> labels = {};  // over everything
   std::optional<RenderView> view = {};  // instead of the layout's, of its size
 };
@@ -51,7 +60,8 @@ struct Picture {
   std::vector<Panel> panels = {};
   std::string detail = {};  // one line of figures
   std::vector<LegendItem> legend = {};
-  Image inset = {};  // small, in the upper right corner; empty: none
+  Image inset = {};        // small, in the upper right corner; empty: none
+  bool has_sheet = false;  // under the title, where the scene may reach behind it
 };
 
 constexpr double kInsetShare = 0.25;   // of the picture's width

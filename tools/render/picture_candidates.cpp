@@ -164,8 +164,9 @@ std::vector<LegendItem> legend_of(const Tally& all, bool is_fvs) {
   for (const Reason& reason : reasons()) {
     const std::size_t count = all.rejected[static_cast<std::size_t>(reason.rejection)];
     if (count == 0) continue;
-    legend.push_back(
-        {fmt::format("{}: {}", reason.words, count), {reason.colour}, LegendItem::Mark::dot});
+    legend.push_back({fmt::format("{}: {}", reason.words, grouped(count)),
+                      {reason.colour},
+                      LegendItem::Mark::dot});
     if (legend.size() == 1) legend.front().label_before = "rejected:";
   }
   const std::size_t second = legend.size();
@@ -173,7 +174,9 @@ std::vector<LegendItem> legend_of(const Tally& all, bool is_fvs) {
     legend.push_back(
         {.label = fmt::format("{:.3g}, highest", all.high),
          .colours = amount_colours(),
-         .label_before = fmt::format("valid: {}, utility {:.3g}", all.valid, all.low)});
+         .label_before = fmt::format("valid: {}, utility {:.3g}", grouped(all.valid), all.low),
+         .label_middle = all.low < all.high ? fmt::format("{:.3g}", 0.5 * (all.low + all.high))
+                                            : std::string{}});
   }
   legend.push_back({"unknown", {kUnknownVoxels}});
   if (is_fvs) {
@@ -201,8 +204,39 @@ void add_map(RunSource& run, const OccupancyGrid& grid, double share, RenderScen
   scene.surfaces.push_back(free_faces(grid, voxels.unknown, kUnknownVoxels, kUnknownVoxelsOpacity));
 }
 
-// From behind the chosen view and beside it, on the side of the picture's camera: the view before,
-// the chosen one, and where its rays end.
+// How much of a length shows from there: 1 from beside it, 0 along it.
+double shown_share(const Vec3& length_m, const ViewAngles& angles) {
+  const Vec3 towards(std::cos(angles.azimuth_rad) * std::cos(angles.elevation_rad),
+                     std::sin(angles.azimuth_rad) * std::cos(angles.elevation_rad),
+                     std::sin(angles.elevation_rad));
+  return length_m.norm() > 0.0 ? length_m.normalized().cross(towards).norm() : 1.0;
+}
+
+// From behind the chosen view and beside it, on the side of the picture's camera, but not from
+// where the way there is seen end on.
+ViewAngles near_angles(const ViewPose& chosen, const Vec3& way_m, const ViewAngles& picture) {
+  constexpr double kShown = 0.6;
+  ViewAngles best;
+  double best_share = -1.0;
+  for (const double beside_rad : {deg_to_rad(55.0), deg_to_rad(85.0), deg_to_rad(25.0)}) {
+    std::array<double, 2> sides_rad = {chosen.yaw_rad + kPi + beside_rad,
+                                       chosen.yaw_rad + kPi - beside_rad};
+    const auto away_rad = [&](double azimuth_rad) {
+      return std::abs(wrap_angle_rad(azimuth_rad - picture.azimuth_rad));
+    };
+    if (away_rad(sides_rad[1]) < away_rad(sides_rad[0])) std::swap(sides_rad[0], sides_rad[1]);
+    for (const double azimuth_rad : sides_rad) {
+      const ViewAngles angles{azimuth_rad, deg_to_rad(25.0)};
+      const double share = std::min(kShown, shown_share(way_m, angles));
+      if (share <= best_share) continue;
+      best = angles;
+      best_share = share;
+    }
+  }
+  return best;
+}
+
+// From near_angles(): the view before, the chosen one, and where its rays end.
 RenderView near_view(const RunRecord& record, std::size_t iteration, const PictureOptions& options,
                      const RenderScene& chosen, const RenderView& view) {
   const ViewPose& pose = record.views[iteration].decision.view;
@@ -217,13 +251,8 @@ RenderView near_view(const RunRecord& record, std::size_t iteration, const Pictu
       points_m.push_back(frustum.T_world_camera * Vec3(0.0, side_m, frustum.length_m));
     }
   }
-  ViewAngles angles{pose.yaw_rad + deg_to_rad(180.0 + 55.0), deg_to_rad(25.0)};
-  const double other_rad = pose.yaw_rad + deg_to_rad(180.0 - 55.0);
-  const auto away_rad = [&](double azimuth_rad) {
-    return std::abs(
-        wrap_angle_rad(azimuth_rad - options.angles.value_or(ViewAngles{}).azimuth_rad));
-  };
-  if (away_rad(other_rad) < away_rad(angles.azimuth_rad)) angles.azimuth_rad = other_rad;
+  const ViewAngles angles =
+      near_angles(pose, points_m[1] - points_m[0], options.angles.value_or(ViewAngles{}));
   const FrameMargins margins{.left = 0.08, .right = 0.08, .top = 0.06, .bottom = 0.1};
   return frame_points(points_m, angles, view.width_px, view.height_px, margins);
 }
@@ -254,14 +283,15 @@ Picture draw_candidates(RunSource& run, const PictureOptions& options, const Ren
   }
   // farther, rays would smear their darkness over what they pass
   near.scene.hollow_m = decision.belief.grid.geometry().resolution_m();
-  add_way_to_chosen(record, iteration, panel_unit_m(options, view), far.scene);
+  far.lines = near.lines = way_to_chosen(record, iteration);
   add_chosen_view(record, run.world(), decision.belief, iteration, panel_unit_m(options, from_near),
                   near.scene);
   far.note = note_on(decision.plan, view);
-  near.note = fmt::format("the chosen one, {:.2g} m from the view before",
-                          (record.views[iteration].decision.view.p_world_m -
-                           record.views[iteration - 1].decision.view.p_world_m)
-                              .norm());
+  const double step_m = (record.views[iteration].decision.view.p_world_m -
+                         record.views[iteration - 1].decision.view.p_world_m)
+                            .norm();
+  near.note = step_m < 0.005 ? "the chosen one, a turn where the view before was"
+                             : fmt::format("the chosen one, {:.2g} m from the view before", step_m);
   picture.detail = fmt::format("how iteration {} was chosen: candidates {}", iteration,
                                counts_by_sampler(decision.plan));
   picture.legend = legend_of(all, is_fvs);

@@ -69,7 +69,8 @@ Picture draw_cloud(RunSource& run, const PictureOptions& options, const RenderVi
   }
   picture.legend = {{.label = fmt::format("{:.0f} or more", top),
                      .colours = amount_colours(),
-                     .label_before = fmt::format("points in a voxel of {} m: 1", voxel_m)}};
+                     .label_before = fmt::format("points in a voxel of {} m: 1", voxel_m),
+                     .label_middle = fmt::format("{:.0f}", 0.5 * (1.0 + top))}};
   return picture;
 }
 

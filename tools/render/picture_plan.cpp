@@ -169,7 +169,8 @@ Picture draw_plan(RunSource& run, const PictureOptions& options, const RenderVie
         {.label = fmt::format("{:.0f} or more voxels to be had in {} m, when view {} was planned",
                               top, plan.cube_m, standing.made->iteration),
          .colours = amount_colours(),
-         .label_before = "0"});
+         .label_before = "0",
+         .label_middle = fmt::format("{:.3g}", 0.5 * top)});
   }
   return picture;
 }

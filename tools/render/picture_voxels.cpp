@@ -56,7 +56,8 @@ Picture draw_voxels(RunSource& run, const PictureOptions& options, const RenderV
   }
   picture.legend.push_back({.label = fmt::format("{:.1f} m", high_m),
                             .colours = amount_colours(),
-                            .label_before = fmt::format("occupied, height {:.1f}", low_m)});
+                            .label_before = fmt::format("occupied, height {:.1f}", low_m),
+                            .label_middle = fmt::format("{:.1f}", 0.5 * (low_m + high_m))});
   return picture;
 }
 

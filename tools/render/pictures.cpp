@@ -113,6 +113,17 @@ void draw_label(const PlaceLabel& label, const Vec3& p_px, double u, Image& imag
   draw_text(image, label.text, x, p_px.y() - 5.0 * u, kLetter * u, kInk, 2.5 * u);
 }
 
+void draw_place_line(const PlaceLine& line, const RenderView& view, double u, Image& image) {
+  constexpr double kEdge = 1.2;
+  const std::optional<Vec3> from = project(view, line.from_world_m);
+  const std::optional<Vec3> to = project(view, line.to_world_m);
+  if (!from || !to) return;
+  for (const auto& [colour, more] :
+       {std::pair{Rgb8{255, 255, 255}, 2.0 * kEdge}, {line.colour, 0.0}}) {
+    draw_line(image, {from->x(), from->y()}, {to->x(), to->y()}, (line.width + more) * u, colour);
+  }
+}
+
 /// A panel in its place, with its words where the picture has any.
 void draw_panel(const Panel& panel, std::size_t i, const PictureOptions& options,
                 const PanelLayout& layout, Renderer& renderer, Image& image) {
@@ -120,6 +131,7 @@ void draw_panel(const Panel& panel, std::size_t i, const PictureOptions& options
   const RenderView& view = panel.view ? *panel.view : layout.view;
   const auto [x, y] = layout.place_px(i);
   Image drawn = renderer.render(panel.scene, view);
+  for (const PlaceLine& line : panel.lines) draw_place_line(line, view, u, drawn);
   if (has_words(options)) {
     for (const PlaceLabel& label : panel.labels) {
       const std::optional<Vec3> p_px = project(view, label.p_world_m);
@@ -147,6 +159,7 @@ DrawnPicture drawn(const Picture& picture, const RunSource& run, const PictureOp
                       .detail = picture.detail,
                       .legend = picture.legend,
                       .has_scale = layout.foot_px == 0,
+                      .has_sheet = picture.has_sheet,
                       .paper_px = layout.foot_px},
           .view = layout.view,
           .has_caption = has_words(options)};

@@ -17,7 +17,9 @@ namespace gnbv {
 namespace {
 
 const Rgb kSeen = srgb(0x0b6fa8);
-const Rgb kFrustum = srgb(0xd5420a);
+const Rgb kFrustum = srgb(0x00735a);  // neither of the path's colours nor of the rotors'
+constexpr double kLeastReach = 0.65;  // of the structure's diagonal
+constexpr double kShoulder_rad = 0.6;
 
 /// How far pyramids are drawn: the same everywhere in one run.
 double pyramid_m(const RunRecord& record, const World& world, const CameraConfig& camera) {
@@ -73,8 +75,10 @@ Snapshots::Snapshots(RunSource& run, const PictureOptions& options, const Render
     : run_(run), options_(options), fixed_(fixed), follows_(follows) {
   iteration_of(run.record(), options, 0);  // a run without views has nothing to show
   const std::vector<Vec3f>& all = run.cloud().points_world_m;
+  const double unit_m = layout_unit_m(view(0));
+  // seen from near, points would be balls
   const double cell_m =
-      std::max(1.2 * layout_unit_m(fixed), run.record().scenario.planner.cloud.leaf_m);
+      std::max((follows ? 3.2 : 1.2) * unit_m, run.record().scenario.planner.cloud.leaf_m);
   // the first point of each cell stays the first, however much of the cloud is drawn
   std::unordered_set<std::uint64_t> cells;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -129,23 +133,29 @@ Vec3 Snapshots::smooth_place(double time_s) const {
 }
 
 RenderView Snapshots::view(std::size_t iteration) const {
-  return view_at(run_.record().views[iteration].time_s);
+  RenderView view = view_at(run_.record().views[iteration].time_s);
+  // a film keeps its light; a picture by itself shows the side that it is taken from
+  if (follows_) view.to_light_world = key_light(view.T_world_camera);
+  return view;
 }
 
+/// Over the vehicle's right shoulder, towards the middle of the structure: it turns evenly, however
+/// the vehicle does. As far away as the middle of the structure, within what the cameras see.
 RenderView Snapshots::view_at(double time_s) const {
   if (!follows_) return fixed_;
-  // towards the middle of the structure: it turns evenly, however the vehicle does
   const Vec3 place_m = smooth_place(time_s);
-  const Vec3 middle_m = bounds_m(run_.world().structure).center();
-  Vec3 ahead = middle_m - place_m;
+  const Box3 structure_m = bounds_m(run_.world().structure);
+  Vec3 ahead = structure_m.center() - place_m;
   ahead.z() = 0.0;
+  const double reach_m =
+      std::min(run_.record().scenario.cameras.front().range_max_m,
+               std::max(ahead.norm(), kLeastReach * structure_m.diagonal().norm()));
   ahead = ahead.norm() > 1e-6 ? Vec3(ahead.normalized()) : Vec3(Vec3::UnitX());
-  const double range_m = run_.record().scenario.cameras.front().range_max_m;
+  const Vec3 back = Eigen::AngleAxisd(kShoulder_rad, Vec3::UnitZ()) * Vec3(-ahead);
+  const Vec3 eye = place_m + reach_m * (back + Vec3(0.0, 0.0, 0.55));
   RenderView view = fixed_;
   view.fov_y_rad = deg_to_rad(45.0);
-  const Vec3 eye = place_m - 0.9 * range_m * ahead + Vec3(0.0, 0.0, 0.5 * range_m);
-  view.T_world_camera = look_at(eye, place_m + 0.3 * range_m * ahead);
-  view.to_light_world = fixed_.to_light_world;
+  view.T_world_camera = look_at(eye, place_m + 0.45 * reach_m * ahead);
   view.focus_m = (place_m - eye).norm();
   return view;
 }
@@ -194,14 +204,20 @@ Picture Snapshots::picture_at(double time_s, double speed, const RenderView& vie
   dots.normals.resize(static_cast<std::size_t>(count));
   scene.dots.push_back(std::move(dots));
 
-  add_flight(record, {.unit_m = unit_m, .has_profile = false, .until_s = time_s}, scene);
+  add_flight(record,
+             {.unit_m = unit_m,
+              .has_profile = false,
+              .until_s = time_s,
+              .thickness = follows_ ? 0.85 : 1.0},  // from near it would hide what it passes
+             scene);
   const Isometry T = T_world_body(time_s);
   const AirframeParameters& airframe = record.scenario.vehicle.airframe;
   const double scale = std::max(1.0, 42.0 * unit_m / rotor_span_m(airframe));
   add_vehicle(airframe, T, scale, scene);
   for (const CameraConfig& camera : record.scenario.cameras) {
     // seen from near, as by a camera that follows, it would fill the picture
-    const double length_m = std::min(pyramid_m(record, run_.world(), camera), 130.0 * unit_m);
+    const double length_m =
+        std::min(pyramid_m(record, run_.world(), camera), (follows_ ? 90.0 : 130.0) * unit_m);
     FrustumItem frustum =
         frustum_of(camera, T, now.decision.view.gimbal_pitch_rad, length_m, kFrustum);
     frustum.edge_radius_m = static_cast<float>(1.3 * unit_m);
@@ -221,6 +237,7 @@ Picture Snapshots::picture_at(double time_s, double speed, const RenderView& vie
        .colours = {kFrustum},
        .mark = LegendItem::Mark::line}};
   picture.inset = seen_by_camera(iteration);
+  picture.has_sheet = follows_;
   return picture;
 }
 

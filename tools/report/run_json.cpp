@@ -46,10 +46,10 @@ Json mountings_json(const Scenario& scenario, const ViewRecord& view) {
   return all;
 }
 
-/// A column a key; seconds since the profile's end, metres as planned.
+/// A column a key; seconds and metres from the first view on, the latter as planned.
 Json views_json(const RunRecord& record) {
   const std::vector<ViewRecord>& views = record.views;
-  const double begin_s = record.profile_end_s.value_or(views.empty() ? 0.0 : views.front().time_s);
+  const double begin_s = views.empty() ? 0.0 : views.front().time_s;
   const auto of = [&](const auto& value_of) { return column(views, value_of); };
   using V = const ViewRecord&;
   Json json = {{"x", of([](V v) { return v.decision.view.p_world_m.x(); })},
@@ -77,21 +77,19 @@ Json views_json(const RunRecord& record) {
 }
 
 Json figures_json(const RunFigures& f) {
-  return {
-      {"termination", f.termination},
-      {"iterations", f.iterations},
-      {"entropy_reduction", f.entropy_reduction_nat},
-      {"straight_m", f.straight_m},
-      {"profile_m", f.before.profile_m},
-      {"flight_time_s", f.flight_time_s},
-      {"energy_wh", f.energy_wh},
-      {"coverage", f.coverage_final},
-      {"f_5cm", f.distances.at[1].f},
-      {"density", f.density_points_per_voxel},
-      {"version", f.version},
-      {"result_sha256", f.result_sha256},
-      {"curve",
-       {{"coverage", f.curve.coverage}, {"metres", f.curve.metres}, {"seconds", f.curve.seconds}}}};
+  return {{"termination", f.termination},
+          {"iterations", f.iterations},
+          {"entropy_reduction", f.entropy_reduction_nat},
+          {"straight_m", f.straight_m},
+          {"profile_m", f.before.profile_m},
+          {"flight_time_s", f.flight_time_s},
+          {"energy_wh", f.energy_wh},
+          {"coverage", f.coverage_final},
+          {"f_5cm", f.distances.at[1].f},
+          {"density", f.density_points_per_voxel},
+          {"version", f.version},
+          {"result_sha256", f.result_sha256},
+          {"curve", {{"coverage", f.curve.coverage}}}};
 }
 
 /// Where the paper's mission of this utility ended, to mark it in the plots; null without one.

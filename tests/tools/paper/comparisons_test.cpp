@@ -136,7 +136,11 @@ TEST(Claims, AboutPhasesCountThoseWhereBothHappen) {
   EXPECT_EQ(about_phases().verdict, ClaimVerdict::holds);
   views[6].entropy_nat = views[5].entropy_nat + 1.0;
   EXPECT_EQ(about_phases().verdict, ClaimVerdict::partly);
-  EXPECT_EQ(about_phases().finding, "Of 2 such phases, entropy fell in 1 and density rose in 2.");
+  EXPECT_EQ(about_phases().finding,
+            "Of 2 such phases, entropy fell in 1, density rose in 2: both in 1, 50.0 %.");
+  for (const CheckedClaim& claim : check_claims(material)) {  // none without its measure
+    EXPECT_EQ(claim.rule.substr(0, 6), "holds ") << claim.sentence;
+  }
 }
 
 }  // namespace

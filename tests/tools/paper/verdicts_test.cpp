@@ -59,6 +59,14 @@ TEST(Claim, OfAlwaysAllowsOneCaseInTwenty) {
   EXPECT_EQ(claim_of_share(0.49), ClaimVerdict::fails);
 }
 
+TEST(Claim, RulesInWordsNameTheirLimits) {
+  EXPECT_EQ(rule_of_share("views"), "holds in at least 95 % of the views, partly in at least 50 %");
+  EXPECT_EQ(rule_of_trends(1),
+            "holds where every mission's rank correlation is 0.8 or more, partly where above 0");
+  EXPECT_EQ(rule_of_trends(-1),
+            "holds where every mission's rank correlation is -0.8 or less, partly where below 0");
+}
+
 TEST(RankTrend, IsSpearmansAndTurnsWithTheSeries) {
   EXPECT_DOUBLE_EQ(rank_trend(std::vector<double>{1.0, 2.0, 100.0}), 1.0);
   EXPECT_DOUBLE_EQ(rank_trend(std::vector<double>{5.0, 4.0, -1.0}), -1.0);

@@ -5,6 +5,7 @@
 #include "tests/tools/plots/plot_support.hpp"
 #include "tools/plots/density_plot.hpp"
 #include "tools/plots/reach_plot.hpp"
+#include "tools/plots/script_parts.hpp"
 
 namespace gnbv {
 namespace {
@@ -81,6 +82,27 @@ TEST(Plots, TheEndsKeyNamesTheCeilingWhereItIsOnTheAxis) {
     EXPECT_EQ(end->body.find("'ceiling'") != std::string::npos, is_named) << ceiling;
     EXPECT_EQ(end->body.find(" with lines lw 0.9") != std::string::npos, is_named) << ceiling;
   }
+}
+
+/// The way from the profile to the first view is in no distance, and in no time either.
+TEST(Plots, TimeAndDistanceBothBeginWithTheFirstView) {
+  std::vector<RunRecord> runs = {covered_record(1, {0.2, 0.4, 1.0})};
+  runs[0].figures->curve.metres = {0.0, 0.0, 7.0};
+  runs[0].figures->curve.seconds = {0.0, 60.0, 75.0};
+  runs[0].figures->ceiling = 1.0;
+  const RunGroup group = group_of(runs);
+  for (const auto& [effort, end] : {std::pair{Effort::metres, 7.0}, {Effort::seconds, 15.0}}) {
+    const auto rows = block(coverage_plot({&group, 1}, effort, 0).body, "group0");
+    EXPECT_EQ(rows[1][0], 0.0);
+    EXPECT_EQ(rows[2][0], end);
+    EXPECT_EQ(block(reach_plot({&group, 1}, effort, 0.9)->body, "reach0")[1][0], end);
+    EXPECT_NE(effort_label(effort).find("from the first view on"), std::string_view::npos);
+  }
+}
+
+TEST(Plots, TicsSeparateThousands) {
+  EXPECT_EQ(x_tics(0.0, 999.0, 500.0), "set xtics 500\n");
+  EXPECT_EQ(x_tics(900.0, 2100.0, 500.0), "set xtics ('1,000' 1000, '1,500' 1500, '2,000' 2000)\n");
 }
 
 TEST(Plots, RunsWithoutViewsHaveACoverage) {

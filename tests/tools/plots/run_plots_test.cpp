@@ -12,6 +12,18 @@
 namespace gnbv {
 namespace {
 
+/// Where a plot of all runs has the densities, that of each has entropy alone.
+TEST(RunPlots, DensityIsDrawnOnce) {
+  const RunRecord record = scored_record();
+  const Plot both = *density_entropy_plot(record);
+  const Plot entropy = *density_entropy_plot(record, false);
+  EXPECT_EQ(both.name, "density");
+  EXPECT_EQ(entropy.name, "entropy");
+  EXPECT_NE(both.body.find("density (points"), std::string::npos);
+  EXPECT_EQ(entropy.body.find("density (points"), std::string::npos);
+  EXPECT_NE(entropy.body.find("iteration"), std::string::npos);  // its axis is the last one
+}
+
 TEST(Plots, DensityAndEntropyAreTheRunsFigures) {
   const RunRecord record = scored_record();
   const auto rows = block(density_entropy_plot(record)->body, "views");

@@ -89,8 +89,8 @@ TEST(CandidatesPicture, RaysLieInsideTheViewAndEndOnSurfaceOrCrossTheUnknown) {
   const OccupancyGrid& grid = watched().beliefs[kAsked - 1].grid;
   std::size_t hits = 0;
   const std::size_t pins = valid_of(watched().plans[kAsked - 1]);
-  ASSERT_GT(scene.tubes.size(), pins + 1);
-  for (std::size_t i = pins; i + 1 < scene.tubes.size(); ++i) {  // the last one is the way there
+  ASSERT_GT(scene.tubes.size(), pins);
+  for (std::size_t i = pins; i < scene.tubes.size(); ++i) {
     const TubeItem& piece = scene.tubes[i];
     const Vec3 end_m = piece.points_m.back().cast<double>();
     const Vec3 end = T_world_camera.inverse() * end_m;
@@ -111,6 +111,45 @@ TEST(CandidatesPicture, RaysLieInsideTheViewAndEndOnSurfaceOrCrossTheUnknown) {
   ASSERT_TRUE(at.has_value());
   EXPECT_TRUE(at->x() > 0 && at->x() < picture.panels[1].view->width_px);
   EXPECT_TRUE(at->y() > 0 && at->y() < picture.panels[1].view->height_px);
+}
+
+/// However short it is, and whatever stands before it.
+TEST(CandidatesPicture, TheWayThereShowsOverEverythingAndFromBesideIt) {
+  const TempFolder temp;
+  RunSource run = source(temp.path());
+  const Picture picture = drawn(run);
+  const std::vector<ViewRecord>& views = run.record().views;
+  const Vec3& before_m = views[kAsked - 1].decision.view.p_world_m;
+  const Vec3& chosen_m = views[kAsked].decision.view.p_world_m;
+  for (const Panel& panel : picture.panels) {
+    ASSERT_GE(panel.lines.size(), 3U);
+    EXPECT_EQ(panel.lines.front().from_world_m, chosen_m);
+    EXPECT_EQ(panel.lines[1].from_world_m, before_m);
+    EXPECT_EQ(panel.lines.back().from_world_m, before_m);
+    EXPECT_LT(panel.lines.back().width, panel.lines.front().width);  // the upper dot hides no other
+  }
+  const RenderView& near = *picture.panels[1].view;
+  const Vec3 towards = (near.T_world_camera.linear() * Vec3::UnitZ()).normalized();
+  EXPECT_GT((chosen_m - before_m).normalized().cross(towards).norm(), 0.5);
+}
+
+TEST(CandidatesPicture, LinesOverTheSceneAreNotHiddenByIt) {
+  const TempFolder temp;
+  RunSource run = source(temp.path());
+  PictureOptions options;
+  options.has_caption = false;
+  options.width_px = 400;
+  options.height_px = 300;
+  RunSource* const runs[] = {&run};
+  const PanelLayout layout = lay_out(kPathPicture, runs, options);
+  const Vec3 middle_m = bounds_m(run.world().structure).center();
+  Picture picture = kPathPicture.draw(run, options, layout.view);
+  picture.panels.front().lines = {{middle_m, middle_m, {255, 0, 255}, 8.0}};
+  Renderer renderer;
+  const Image image = draw_picture(picture, run, options, layout, renderer);
+  const Vec3 at_px = *project(layout.view, middle_m);
+  EXPECT_EQ(image.at(static_cast<int>(at_px.x()), static_cast<int>(at_px.y())),
+            (Rgb8{255, 0, 255}));
 }
 
 /// A camera mounted off the body is seen to be the chosen view's.

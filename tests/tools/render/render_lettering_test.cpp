@@ -191,6 +191,35 @@ TEST(Caption, OnPaperGroupsBeginRowsAtTheLeft) {
   }
 }
 
+/// What the middle of a bar stands for is set between its halves, which together are the whole.
+TEST(Caption, ABarsMiddleStandsBetweenItsHalves) {
+  const auto drawn = [](const std::string& middle) {
+    Image image{640, 360, {}};
+    image.rgb.assign(static_cast<std::size_t>(3 * 640 * 360), 255);
+    const LegendItem bar{
+        .label = "", .colours = {srgb(0xff0000), srgb(0x0000ff)}, .label_middle = middle};
+    draw_caption(image,
+                 {.title = "", .detail = "", .legend = {bar}, .has_scale = false, .paper_px = 60},
+                 {});
+    return image;
+  };
+  const auto coloured = [](const Image& image) {  // columns of the bar
+    std::vector<int> columns;
+    for (int x = 0; x < 640; ++x) {
+      const Rgb8 pixel = image.at(x, 330);
+      const auto [low, high] = std::minmax({pixel[0], pixel[1], pixel[2]});
+      if (high - low > 100) columns.push_back(x);
+    }
+    return columns;
+  };
+  const std::vector<int> whole = coloured(drawn(""));
+  const std::vector<int> halves = coloured(drawn("1,234"));
+  ASSERT_FALSE(whole.empty());
+  EXPECT_EQ(whole.back() - whole.front() + 1, static_cast<int>(whole.size()));  // no gap
+  EXPECT_NEAR(static_cast<double>(halves.size()), static_cast<double>(whole.size()), 4.0);
+  EXPECT_GT(halves.back() - halves.front(), static_cast<int>(halves.size()) + 20);
+}
+
 TEST(Colour, RampsRunFromFirstToLastAndSrgbRoundTrips) {
   EXPECT_EQ(path_ramp(-1.0), path_ramp(0.0));
   EXPECT_EQ(path_ramp(2.0), path_ramp(1.0));

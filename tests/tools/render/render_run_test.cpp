@@ -292,6 +292,33 @@ TEST(Snapshots, PyramidsStayClearOfTitleAndInset) {
   }
 }
 
+/// However far the cameras see: beside a small structure they see far beyond it.
+TEST(Snapshots, TheFollowingCameraShowsVehicleAndStructureFromNear) {
+  const TempFolder temp;
+  write_made_run(temp.path());
+  RunRecord record = read_run(temp.path());
+  for (CameraConfig& camera : record.scenario.cameras) camera.range_max_m = 40.0;
+  record.path.clear();  // its views alone: a path of few samples would be smoothed beyond them
+  RunSource run(record, cube());
+  RunSource* const runs[] = {&run};
+  Snapshots snapshots(run, {}, lay_out(kSnapshotFraming, runs, {}).view, true);
+  const Box3 structure_m = bounds_m(run.world().structure);
+  for (std::size_t i = 0; i < record.views.size(); ++i) {
+    const RenderView view = snapshots.view(i);
+    const Vec3 vehicle_m = record.views[i].decision.view.p_world_m;
+    for (const Vec3& p_m : {vehicle_m, Vec3(structure_m.center())}) {
+      const std::optional<Vec3> px = project(view, p_m);
+      ASSERT_TRUE(px.has_value());
+      EXPECT_TRUE(px->x() > 0 && px->x() < view.width_px && px->y() > 0 &&
+                  px->y() < view.height_px);
+    }
+    EXPECT_LT(
+        project(view, vehicle_m)->z(),
+        2.0 * std::max((vehicle_m - structure_m.center()).norm(), structure_m.diagonal().norm()));
+    EXPECT_TRUE(snapshots.picture(i, view).has_sheet);  // the scene may reach behind the title
+  }
+}
+
 TEST(Snapshots, VehicleIsBetweenSamplesWhereTheViewIs) {
   const TempFolder temp;
   write_made_run(temp.path());
@@ -325,6 +352,15 @@ TEST(CloudPicture, ColoursRunFromOnePointToTheLegendsTop) {
   const auto dots = kCloudPicture.draw(dense, {}, {}).panels.at(0).scene.dots.at(0);
   EXPECT_EQ(dots.colours.front(), amount_ramp(0.0));  // what the low end of the legend says
   EXPECT_EQ(dots.colours.back(), amount_ramp(1.0));
+}
+
+TEST(CloudPicture, TheBarNamesItsMiddle) {
+  const TempFolder temp;
+  write_made_run(temp.path());
+  RunSource run(temp.path(), 1, [](double, const std::string&) {});
+  PictureOptions options;
+  options.colour_range = {1.0, 21.0};
+  EXPECT_EQ(kCloudPicture.draw(run, options, {}).legend.front().label_middle, "11");
 }
 
 TEST(CloudPicture, DrawsEveryPointOfTheCloudUpToTheView) {

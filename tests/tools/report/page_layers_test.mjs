@@ -263,6 +263,19 @@ try {
   await open();
   await flip("Missed");
 
+  // of several runs, bars of frontier views lie beside the curves: nobody takes them for one
+  const lanes = await browser.evaluate(`[...document.querySelectorAll(".phase-lane")].map((lane) =>
+    [lane.getBoundingClientRect().bottom, lane.closest(".u-over").getBoundingClientRect().top,
+      lane.children.length])`);
+  const atFrontiers = runs.filter((run) =>
+    readFileSync(join(run, "iterations.csv"), "utf8").includes(",fvs,"));
+  assert.equal(lanes.length, runs.length > 1 ? atFrontiers.length : 0);
+  for (const [bottom, top, bars] of lanes) assert.ok(bottom <= top && bars > 0, `${lanes}`);
+
+  // what colours stand for is named in the middle, too
+  for (const bar of await browser.evaluate(`[...document.querySelectorAll(".mark.half.low")]
+    .map((half) => half.nextSibling.textContent)`)) assert.ok(bar.length > 0);
+
   // seeds of one configuration are drawn as their mean, where there are any
   const seeds = "document.querySelector(\"select[aria-label='Runs of several seeds']\")";
   const isBand = runs.length > 1 && areSeeds();

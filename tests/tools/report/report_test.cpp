@@ -43,6 +43,7 @@ TEST(Report, HoldsTheViewsAndWhatGrewWithThem) {
   const nlohmann::json data = data_of(report_of({read_run(temp.path())}));
   const nlohmann::json& run = data["runs"][0];
   EXPECT_EQ(run["views"]["x"], nlohmann::json({4.0, -4.0, -4.0}));
+  EXPECT_EQ(run["views"]["seconds"][0], 0.0);  // as its metres
   EXPECT_EQ(run["views"]["yaw"], nlohmann::json({3.0, 1.5, 0.8}));
   EXPECT_EQ(run["cloud"]["points"]["steps"][1], 18);  // six points
   EXPECT_EQ(run["cloud"]["after"][1], 4);             // the profile and three views

@@ -72,7 +72,7 @@ export interface Views {
   z: number[];
   yaw: number[];
   time: number[];
-  seconds: number[];
+  seconds: number[]; // from the first view on, as the metres
   metres: number[];
   sampler: string[];
   candidates: number[];
@@ -101,7 +101,7 @@ export interface Figures {
   density: number;
   version: string;
   result_sha256: string;
-  curve: { coverage: Vec3[]; metres: number[]; seconds: number[] };
+  curve: { coverage: Vec3[] };
 }
 
 /** What tools/report/voxel_growth.hpp says. */

@@ -16,6 +16,16 @@ export function make<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
+/** Colours from `low` to `high`, with what their middle stands for between the halves. */
+export function colourBar(colours: string, low: string, middle: string, high: string): HTMLElement {
+  const half = (side: string) => {
+    const swatch = make("i", { class: `mark bar half ${side}` });
+    swatch.style.backgroundImage = colours;
+    return swatch;
+  };
+  return make("span", {}, low, half("low"), middle, half("high"), high);
+}
+
 /** Buttons of which one is pressed. */
 export function choice<T extends string>(
     label: string, options: [T, string][], chosen: T, choose: (value: T) => void): HTMLElement {

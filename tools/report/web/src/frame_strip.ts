@@ -2,7 +2,7 @@
 import type { Clock } from "./clock";
 import { rampGradient } from "./colours";
 import type { Slice } from "./data";
-import { make, number } from "./dom";
+import { colourBar, make, number } from "./dom";
 import type { Flight } from "./flight";
 
 const kDialog = make("dialog", { class: "large", "aria-label": "Picture" });
@@ -57,9 +57,9 @@ function enlarge(image: HTMLImageElement, name: string) {
 }
 
 function depthKey(range_m: number): HTMLElement[] {
-  const bar = make("i", { class: "mark bar" });
-  bar.style.background = rampGradient("amount");
-  return [make("span", { class: "depth-key" }, "0", bar, `${number(range_m)} m`)];
+  const key = colourBar(rampGradient("amount"), "0", number(range_m / 2, 1), `${number(range_m)} m`);
+  key.className = "depth-key";
+  return [key];
 }
 
 function nearestView(flight: Flight, view: number): number {

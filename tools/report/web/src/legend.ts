@@ -1,7 +1,7 @@
 // What everything in the 3D view means, in words beside its colour.
 import { kBelievedColours, type BelievedKind } from "./believed";
 import { planColour, rampGradient } from "./colours";
-import { make, number } from "./dom";
+import { colourBar, make, number } from "./dom";
 import type { RunScene, Layers } from "./run_scene";
 import type { Colouring } from "./surfaces";
 import { foundColours } from "./true_surface";
@@ -20,16 +20,20 @@ function ofColouring(scene: RunScene, by: Colouring, things: string): HTMLElemen
   const { model } = scene;
   if (by === "real") return item("dot", "#9a8f80", `${things}: camera colours`);
   if (by === "height") {
-    return item("bar", rampGradient("amount"), `${number(model.heights[1], 1)} m`,
-      `${things}: height ${number(model.heights[0], 1)}`);
+    const [low, high] = model.heights;
+    return colourBar(rampGradient("amount"), `${things}: height ${number(low, 1)}`,
+      number((low + high) / 2, 1), `${number(high, 1)} m`);
   }
   if (by === "error") {
-    return item("bar", rampGradient("amount"), "10 cm or more", `${things}: off the surface by 0`);
+    return colourBar(rampGradient("amount"), `${things}: off the surface by 0`, "5",
+      "10 cm or more");
   }
   if (by === "density") {
     const { densities } = model;
-    return item("bar", rampGradient("amount"), densities ? `${number(densities.most)} points a `
-      + `voxel of ${number(densities.size, 2)} m` : "no voxels", `${things}: density 0`);
+    if (!densities) return make("span", {}, "no voxels");
+    const { most, size } = densities;
+    return colourBar(rampGradient("amount"), `${things}: density 0`,
+      number(most / 2, most < 10 ? 1 : 0), `${number(most)} points a voxel of ${number(size, 2)} m`);
   }
   return item("bar", rampGradient("path"), "last view", `${things}: found by first`);
 }
@@ -66,6 +70,9 @@ export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring): 
   if (layers.profile) items.push(item("line", "#8a95a3", "profile flight"));
   if (layers.plan && scenes.some((scene) => scene.plan)) {
     items.push(item("line", hex(planColour()), "still planned"));
+  }
+  if (layers.vehicle) {
+    items.push(item("dot", "#22272e", "vehicle, enlarged where it would be a speck"));
   }
   if (layers.vehicle && !layers.candidates) {
     const sights = scenes.map((scene) => scene.sight());

@@ -132,20 +132,25 @@ function copyButton(text: string): HTMLElement {
   return button;
 }
 
+/** A name of ours, "lab_model"; of the user's, a file's for one, as it is. */
+const spaced = (name: string) => (/^[a-z0-9_]+$/.test(name) ? name.replaceAll("_", " ") : name);
+
+const kSamplers: Record<string, string> = { agvs: "grid", fvs: "frontier" };
+
 /** Where the replay is, in words. */
 export function readout(flight: Flight, clock: Clock): string {
   const n = flight.viewsAt(clock);
   if (n === 0) return "After the profile, before the first view";
   const v = flight.data.views;
   const parts = [`View ${number(n)} of ${number(flight.count)}`,
-    `${number(v.metres[n - 1], 1)} m, ${minutes(v.seconds[n - 1])} min since the profile`];
+    `${number(v.metres[n - 1], 1)} m, ${minutes(v.seconds[n - 1])} min from the first view on`];
   const coverage = flight.data.figures?.curve.coverage[n];
   if (coverage) parts.push(`coverage ${number(100 * coverage[0], 1)} %`);
   if (v.sampler[n - 1] === "tour") {
-    parts.push(`the first of ${v.candidates[n - 1]} planned`);
+    parts.push(`the first of ${number(v.candidates[n - 1])} planned`);
   } else if (v.candidates[n - 1] > 0) {
-    parts.push(`${v.sampler[n - 1].toUpperCase()}, ${v.valid[n - 1]} valid of `
-      + `${v.candidates[n - 1]} candidates`);
+    parts.push(`${number(v.valid[n - 1])} of ${number(v.candidates[n - 1])} `
+      + `${kSamplers[v.sampler[n - 1]] ?? v.sampler[n - 1]} candidates valid`);
   }
   return parts.join("  ·  ");
 }
@@ -175,9 +180,9 @@ export function makeFooter(page: PageData): HTMLElement {
 
 export function makeHeader(page: PageData): HTMLElement {
   const [run] = page.runs;
-  const detail = page.runs.length > 1 ? "" : [`structure ${run.structure}`, `seed ${run.seed}`,
-    `preset ${run.preset}`,
-    run.figures ? `ended by ${run.figures.termination.replaceAll("_", " ")}` : "not finished"]
+  const detail = page.runs.length > 1 ? "" : [`structure ${spaced(run.structure)}`, `seed ${run.seed}`,
+    `preset ${spaced(run.preset)}`,
+    run.figures ? `ended by ${spaced(run.figures.termination)}` : "not finished"]
     .join("  ·  ");
   return make("header", {}, make("h1", {}, page.title), make("p", {}, detail));
 }

@@ -34,7 +34,7 @@ export interface PlotChoices {
 
 export type Term = "utility" | "information" | "density_term" | "prediction" | "distance_factor";
 export const kTerms: [Term, string][] = [["distance_factor", "Distance factor"],
-  ["density_term", "Density"], ["information", "Information"], ["prediction", "Prediction"],
+  ["density_term", "Density term"], ["information", "Information"], ["prediction", "Prediction"],
   ["utility", "Utility"]]; // the last is drawn on top
 export const kSizes = ["0.05 m", "0.10 m", "0.50 m"];
 

@@ -10,10 +10,11 @@ import { fileName, saveText } from "./save";
 import { haveSeeds, withBands } from "./seed_bands";
 
 const kUnits = { views: "views", metres: "m", seconds: "s" };
-const kEffortNames = { views: "Views", metres: "Metres from view to view",
-  seconds: "Seconds since the profile" };
+const kEffortNames = { views: "Views", metres: "Metres from the first view on, straight",
+  seconds: "Seconds from the first view on" };
 const kFont = "11px system-ui, sans-serif";
 const kHeight = 168;
+const kLane_px = 9; // of the frontier views of one of several runs, above the curves
 
 interface PlotKind {
   title: string;
@@ -78,8 +79,10 @@ export class Plots {
         kind === kKinds[0] ? this.seedControl() : null, this.control(kind)),
       hasValues ? place : make("p", { class: "nothing" }, "Not recorded by this run.")));
     if (!hasValues) return;
-    const plot = new uPlot(this.options(kind, content), content.data, place);
+    const lanes = kind === kKinds[0] && this.flights.length > 1 ? this.frontierFlights() : [];
+    const plot = new uPlot(this.options(kind, content, lanes.length), content.data, place);
     this.plots.push(plot);
+    this.addLanes(plot, lanes);
     const title = `${kind.title} ${kind.unit(this.flights)}`.trim();
     place.before(make("button", { type: "button", class: "small save",
       title: `${kind.title} as SVG`, click: () => saveText(
@@ -91,10 +94,10 @@ export class Plots {
   private marksKey(kind: PlotKind, content: specs.PlotContent): HTMLElement | null {
     const marks: Node[] = [];
     if (content.rings.length > 0) marks.push(make("span", {}, "○ paper's end"));
-    const hasPhases = this.flights.some((flight) => flight.data.views.sampler.includes("fvs"));
-    if (kind === kKinds[0] && hasPhases) {
-      const swatch = this.flights.length === 1 ? "swatch" : "swatch strip";
-      marks.push(make("span", {}, make("i", { class: swatch }), "frontier views (FVS)"));
+    if (kind === kKinds[0] && this.frontierFlights().length > 0) {
+      const isAlone = this.flights.length === 1;
+      marks.push(make("span", {}, make("i", { class: isAlone ? "swatch" : "swatch strip" }),
+        isAlone ? "frontier views (FVS)" : "FVS: when each run chose frontier views"));
     }
     return marks.length > 0 ? make("span", { class: "marks-key" }, ...marks) : null;
   }
@@ -143,7 +146,7 @@ export class Plots {
     return Math.max(ours, ...papers.filter((end) => end <= 1.2 * ours));
   }
 
-  private options(kind: PlotKind, content: specs.PlotContent): uPlot.Options {
+  private options(kind: PlotKind, content: specs.PlotContent, lanes: number): uPlot.Options {
     const unit = kUnits[this.clock.effort];
     const axis = { stroke: paleInk(), font: kFont, grid: { stroke: hairline(), width: 1 },
       ticks: { stroke: hairline(), width: 1, size: 4 } };
@@ -153,8 +156,8 @@ export class Plots {
     const most = this.lastEffort();
     return {
       width: 400,
-      height: kHeight,
-      padding: [8, 12, 0, 0],
+      height: kHeight + kLane_px * lanes,
+      padding: [8 + kLane_px * lanes, 12, 0, 0],
       cursor: { sync: { key: "mission" }, drag: { x: false, y: false }, points: { size: 6 },
         y: false },
       legend: { live: true },
@@ -179,21 +182,38 @@ export class Plots {
     };
   }
 
+  private frontierFlights(): Flight[] {
+    return this.flights.filter((flight) => flight.data.views.sampler.includes("fvs"));
+  }
+
+  /** Behind the curves of one run. */
   private shadePhases(plot: uPlot) {
+    if (this.flights.length !== 1) return;
     const { ctx, bbox } = plot;
-    const strip = 4 * devicePixelRatio;
-    this.flights.forEach((flight, i) => {
-      const isAlone = this.flights.length === 1;
-      ctx.fillStyle = isAlone ? phaseShade() : runColour(flight.index);
-      ctx.globalAlpha = isAlone ? 1 : 0.55;
+    ctx.fillStyle = phaseShade();
+    for (const [from, to] of specs.frontierPhases(this.flights[0], this.clock.effort)) {
+      const x = plot.valToPos(from, "x", true);
+      ctx.fillRect(x, bbox.top, Math.max(1, plot.valToPos(to, "x", true) - x), bbox.height);
+    }
+  }
+
+  /** A lane a run above the curves, which no curve enters: bars where it chose frontier views. */
+  private addLanes(plot: uPlot, flights: Flight[]) {
+    const share = (at: number) => 100 * Math.min(1, at / this.lastEffort());
+    const lanes = make("div", { class: "phase-lanes" });
+    flights.forEach((flight) => {
+      const lane = make("div", { class: "phase-lane", title: `${flight.data.label}: when it chose `
+        + "frontier views (FVS)" });
       for (const [from, to] of specs.frontierPhases(flight, this.clock.effort)) {
-        const x = plot.valToPos(from, "x", true);
-        const width = Math.max(1, plot.valToPos(to, "x", true) - x);
-        if (isAlone) ctx.fillRect(x, bbox.top, width, bbox.height);
-        else ctx.fillRect(x, bbox.top + bbox.height - (i + 1) * strip, width, strip - 1);
+        const bar = make("i");
+        bar.style.left = `${share(from)}%`;
+        bar.style.width = `max(2px, ${share(to) - share(from)}%)`;
+        bar.style.background = runColour(flight.index);
+        lane.append(bar);
       }
-      ctx.globalAlpha = 1;
+      lanes.append(lane);
     });
+    if (flights.length > 0) plot.over.append(lanes);
   }
 
   /** An element of its own: moving it draws no plot anew. */
@@ -221,7 +241,7 @@ export class Plots {
   private fit() {
     for (const plot of this.plots) {
       const width = plot.root.parentElement!.clientWidth;
-      if (width > 0 && width !== plot.width) plot.setSize({ width, height: kHeight });
+      if (width > 0 && width !== plot.width) plot.setSize({ width, height: plot.height });
       this.placeNow(plot);
     }
   }
