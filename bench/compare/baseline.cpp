@@ -111,7 +111,7 @@ class File {
     for (const Metric& metric : kGatedMetrics)
       out.push_back(metric_of(all, std::string(metric.name)));
     for (const auto& [name, value] : all.items()) {
-      const auto is_it = [&](const Metric& metric) { return metric.name == name; };
+      const auto is_it = [&name = name](const Metric& metric) { return metric.name == name; };
       if (std::any_of(kGatedMetrics.begin(), kGatedMetrics.end(), is_it)) continue;
       const double size_m =
           name.starts_with(kCoverage) ? std::strtod(name.c_str() + kCoverage.size(), nullptr) : 0.0;

@@ -1,5 +1,6 @@
 #include "planner/map/octomap_io.hpp"
 
+#include <fmt/format.h>
 #include <octomap/octomap.h>
 
 #include <cerrno>

@@ -56,7 +56,11 @@ void prepare_rays(const RayFanFrame& frame, const double* const end_body_m[3],
   const double* const by = end_body_m[1];
   const double* const bz = end_body_m[2];
   const PreparedRays out = rays;
+#ifdef __clang__
+#pragma clang loop vectorize(assume_safety)
+#else
 #pragma GCC ivdep
+#endif
   for (std::size_t i = 0; i < out.count; ++i) {
     const auto ex = static_cast<float>(f.R[0][0] * bx[i] + f.R[0][1] * by[i] + f.t_m[0]);
     const auto ey = static_cast<float>(f.R[1][0] * bx[i] + f.R[1][1] * by[i] + f.t_m[1]);

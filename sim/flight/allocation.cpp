@@ -99,8 +99,8 @@ std::string allocation_fault(const AirframeParameters& airframe) {
   if (svd.singularValues()[3] < kSingular) {
     const Eigen::Vector4d inseparable = svd.matrixU().col(3);
     std::string axes;
-    for (Eigen::Index axis = 0; axis < 4; ++axis) {
-      if (std::abs(inseparable[axis]) < 0.1) continue;
+    for (std::size_t axis = 0; axis < kAxes.size(); ++axis) {
+      if (std::abs(inseparable[static_cast<Eigen::Index>(axis)]) < 0.1) continue;
       axes += (axes.empty() ? "" : " apart from ") + std::string(kAxes[axis]);
     }
     return fmt::format("these rotors cannot give {}: neither their places nor their spins tell",

@@ -8,6 +8,7 @@
 #include "sim/core/file.hpp"
 #include "tools/exports/export_folder.hpp"
 #include "tools/gnbv/commands.hpp"
+#include "tools/gnbv/shared_options.hpp"
 #include "tools/plots/coverage_plot.hpp"
 #include "tools/plots/density_plot.hpp"
 #include "tools/plots/flight_plot.hpp"

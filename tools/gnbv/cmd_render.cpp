@@ -17,6 +17,7 @@
 #include "tools/render/movie.hpp"
 #include "tools/render/pictures.hpp"
 #include "tools/render/snapshots.hpp"
+#include "tools/run_files/file_names.hpp"
 #include "tools/run_files/run_names.hpp"
 #include "tools/surface/surface_picture.hpp"
 #include "tools/terminal/progress.hpp"

@@ -16,6 +16,7 @@
 #include "tools/mission/execute.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/reference.hpp"
+#include "tools/run_files/file_names.hpp"
 #include "tools/run_files/run_inputs.hpp"
 #include "tools/surface/surface.hpp"
 #include "tools/surface/surface_picture.hpp"

@@ -1,5 +1,7 @@
 #include "tools/report/belief_pack.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 
