@@ -3,7 +3,8 @@
 random sensors, noise, estimates, starts, paths and profiles, flown by every utility. No mission may
 touch what its map shows, every one has to end for a stated reason, and no view may be taken nearer
 than the collision radius to surface that the profile showed. Who touches a wire that no pixel or
-beam has met often enough for its map is counted by itself: the planner knows nothing of it.
+beam has met often enough for its map is counted by itself: the planner knows nothing of it. So is
+who touches something after it left its path by more than the scenario keeps free, and was told so.
 
 usage: safety.py [--gnbv FILE] [--worlds N] [--seed N] [--views N] [--jobs N] [--timeout S]
                  [--estimates MODEL,...] [--keep DIR]
@@ -170,6 +171,9 @@ planner:
 """
 
 
+STRAYED = "off its path, more than"  # tools/gnbv/margin_note.cpp
+
+
 def is_shown(place):
     """Whether the map shows what the mission touched: an occupied voxel there or beside it."""
     out = os.path.join(place, "out")
@@ -186,13 +190,15 @@ def nearest_m(points, p):
     return min((math.dist(p, q) for q in points), default=math.inf)
 
 
-def fault_of(place, scenario):
-    """(how it ended, fault or None) of a finished mission."""
+def fault_of(place, scenario, notes):
+    """(how it ended, fault or None) of a finished mission, and what it said."""
     out = os.path.join(place, "out")
     with open(os.path.join(out, "summary.json")) as file:
         summary = json.load(file)
     end = summary["termination"]
     if end == "collision" or summary.get("collisions", 0):
+        if STRAYED in notes:
+            return "touched, having strayed from its path", None
         if is_shown(place):
             return end, "touched what its map shows"
         end = "touched what its map does not show"
@@ -224,13 +230,14 @@ def fly(number, options, folder):
     with open(path, "w") as file:
         file.write(scenario)
     out = os.path.join(place, "out")
-    command = [options.gnbv, "run", path, "--quiet", "--threads", "1", "--out", out]
+    command = [options.gnbv, "run", path, "--threads", "1", "--out", out]
     try:
         done = subprocess.run(command, capture_output=True, timeout=options.timeout,
                               stdin=subprocess.DEVNULL, env={**os.environ, "GNBV_CACHE": ""})
-        said = done.stderr.decode("utf-8", "replace").strip().split("\n")[-1]
+        notes = done.stderr.decode("utf-8", "replace").strip()
+        said = notes.split("\n")[-1]
         if os.path.exists(os.path.join(out, "summary.json")):
-            end, fault = fault_of(place, scenario)
+            end, fault = fault_of(place, scenario, notes)
             if done.returncode not in (0, 1):
                 fault = f"exit {done.returncode}: {said}"
         elif done.returncode == 2 and said.startswith("gnbv: "):
