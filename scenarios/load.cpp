@@ -135,6 +135,16 @@ void fill_in(const Filling& filling, Scenario& scenario, Origins& origins) {
   }
 }
 
+/// Whom to tell that the structure is not in the workspace, which nobody knows before its mesh is
+/// read.
+std::string placed_at(const Origins& origins, const Origin& source) {
+  const Culprit last =
+      culprit_of({"workspace_m", "structure.file.path", "structure.files", "structure.file.scale",
+                  "structure.file.offset_m", "structure.file.unit_m", "structure.builtin"},
+                 origins, source);
+  return text_of(last.origin) + ": " + last.key;
+}
+
 Scenario load(const std::string& name_or_path, const std::vector<Override>& overrides,
               MeshFile mesh_file, const Filling& filling, std::vector<std::string>* idle_notes) {
   const Source source = open_source(name_or_path);
@@ -162,6 +172,7 @@ Scenario load(const std::string& name_or_path, const std::vector<Override>& over
     add_problems(scenario, mesh_file, origin, origins, faults);
   }
   faults.throw_if_any();
+  scenario.placed_at = placed_at(origins, origin);
   if (idle_notes != nullptr) *idle_notes = idle_key_notes(scenario, given_by_user);
   return scenario;
 }

@@ -1,16 +1,22 @@
 // What is refused before a mission begins.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <fstream>
 
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "tests/bench/shapes.hpp"
 #include "tests/support/no_cache.hpp"
+#include "tests/support/temp_folder.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/reference.hpp"
 #include "tools/mission/start_pose.hpp"
 
 namespace gnbv {
 namespace {
+
+using testing::StartsWith;
 
 /// A hall of thin walls around the aircraft scenario's middle, with its north wall from x = -8 to
 /// `wall_to_m`.
@@ -33,6 +39,31 @@ std::string fault_of(const Scenario& scenario, const World& world, const Vec3& s
     return fault.what();
   }
   return "";
+}
+
+std::string fault_of_world(const Scenario& scenario) {
+  std::vector<std::string> warnings;
+  try {
+    load_world(scenario, warnings);
+  } catch (const BadInput& fault) {
+    return fault.what();
+  }
+  return "";
+}
+
+TEST(LoadWorld, AMeshOutsideTheWorkspaceIsNamedWithTheLineThatPlacedItThere) {
+  const TempFolder temp;
+  const std::string mesh = temp.path() / "roof.obj";
+  std::ofstream(mesh) << "v 0 0 0\nv 1 0 0\nv 0 1 9\nf 1 2 3\n";
+  const std::string file = temp.path() / "own.yaml";
+  std::ofstream(file) << "structure: {file: {path: roof.obj}}\n"
+                         "workspace_m: {min: [-8, -8, 0], max: [8, 8, 6]}\n"
+                         "start: {position_m: [0, -5, 2], jitter_m: [0, 0, 0]}\n";
+  EXPECT_THAT(fault_of_world(load_scenario(file, {})),
+              StartsWith(file + ":2: workspace_m: " + mesh + ": the mesh spans"));
+  EXPECT_THAT(fault_of_world(load_scenario(file, {"structure.file.offset_m=[0, 0, 1]"})),
+              StartsWith("--set structure.file.offset_m=[0, 0, 1]: structure.file.offset_m: "));
+  EXPECT_EQ(fault_of_world(load_scenario(file, {"structure.file.scale=0.5"})), "");
 }
 
 TEST(WayOut, AStartWithinAClosedHallIsRefused) {
