@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 """Ten scenarios at several numbers of threads and every instruction set: one hash each.
 
+With --also, another build of the same commit, clang's say, has to give that hash, too.
 --tries is the number of views of each mission. An instruction set that the processor lacks is
 its next lower one, and counts all the same.
 """
+import itertools
 import json
 import shutil
 import tempfile
@@ -40,24 +42,28 @@ def hash_of(gnbv, words, threads, simd, out):
 
 
 def main():
-    options = arguments(__doc__, tries=6, extra=lambda parser: parser.add_argument(
-        '--scenarios', default='', help='only those whose name holds this'))
+    def extra(parser):
+        parser.add_argument('--scenarios', default='', help='only those whose name holds this')
+        parser.add_argument('--also', type=Path, action='append', default=[],
+                            help='another build of the program; repeatable')
+
+    options = arguments(__doc__, tries=6, extra=extra)
     table = Table()
     with tempfile.TemporaryDirectory(prefix='gnbv_attack_') as name:
         folder = Path(name)
-        gnbv = Gnbv(options.gnbv, folder)
+        programs = [Gnbv(path, folder) for path in
+                    (options.gnbv, *(also.resolve() for also in options.also))]
         for kind, words in SCENARIOS.items():
             if options.scenarios not in kind:
                 continue
             words = [*words, '--set', f'planner.termination.max_iterations={options.tries}']
             first = None
-            for threads in THREADS:
-                for simd in SIMD:
-                    found, wrong = hash_of(gnbv, words, threads, simd, folder / 'run')
-                    first = first or found
-                    if wrong is None and found != first:
-                        wrong = f'{found[:10]} instead of {first[:10]}'
-                    table.count(kind, wrong and f'{threads} threads, {simd}: {wrong}')
+            for gnbv, threads, simd in itertools.product(programs, THREADS, SIMD):
+                found, wrong = hash_of(gnbv, words, threads, simd, folder / 'run')
+                first = first or found
+                if wrong is None and found != first:
+                    wrong = f'{found[:10]} instead of {first[:10]}'
+                table.count(kind, wrong and f'{gnbv.path}, {threads} threads, {simd}: {wrong}')
     return table.end()
 
 
