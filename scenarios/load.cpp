@@ -139,10 +139,12 @@ void fill_in(const Filling& filling, Scenario& scenario, Origins& origins) {
 /// read.
 std::string placed_at(const Origins& origins, const Origin& source) {
   const Culprit last =
-      culprit_of({"workspace_m", "structure.file.path", "structure.files", "structure.file.scale",
-                  "structure.file.offset_m", "structure.file.unit_m", "structure.builtin"},
+      culprit_of({"workspace_m.min", "workspace_m.max", "structure.file.path", "structure.files",
+                  "structure.file.scale", "structure.file.offset_m", "structure.file.unit_m",
+                  "structure.builtin"},
                  origins, source);
-  return text_of(last.origin) + ": " + last.key;
+  const std::string& key = last.key;
+  return text_of(last.origin) + ": " + (key.starts_with("workspace_m") ? "workspace_m" : key);
 }
 
 Scenario load(const std::string& name_or_path, const std::vector<Override>& overrides,

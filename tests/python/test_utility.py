@@ -159,7 +159,7 @@ def test_a_function_is_a_row_of_the_papers_table(short, tmp_path):
     tables = gnbv.table(
         "lab_model", utilities=[mine], oracle=False, set=short, out=tmp_path / "c", jobs=2
     )
-    assert "mine" in str(tables[0]) and "proposed" in str(tables[0])
+    assert "mine" in str(tables[0]) and "Proposed" in str(tables[0])
 
 
 def test_a_failing_utility_is_a_failed_cell(short, tmp_path):

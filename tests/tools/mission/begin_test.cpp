@@ -58,11 +58,14 @@ TEST(LoadWorld, AMeshOutsideTheWorkspaceIsNamedWithTheLineThatPlacedItThere) {
   const std::string file = temp.path() / "own.yaml";
   std::ofstream(file) << "structure: {file: {path: roof.obj}}\n"
                          "workspace_m: {min: [-8, -8, 0], max: [8, 8, 6]}\n"
+                         "cameras: [{name: front}]\n"
                          "start: {position_m: [0, -5, 2], jitter_m: [0, 0, 0]}\n";
   EXPECT_THAT(fault_of_world(load_scenario(file, {})),
               StartsWith(file + ":2: workspace_m: " + mesh + ": the mesh spans"));
   EXPECT_THAT(fault_of_world(load_scenario(file, {"structure.file.offset_m=[0, 0, 1]"})),
               StartsWith("--set structure.file.offset_m=[0, 0, 1]: structure.file.offset_m: "));
+  EXPECT_THAT(fault_of_world(load_scenario(file, {"workspace_m={max: [8, 8, 5]}"})),
+              StartsWith("--set workspace_m={max: [8, 8, 5]}: workspace_m: "));
   EXPECT_EQ(fault_of_world(load_scenario(file, {"structure.file.scale=0.5"})), "");
 }
 
