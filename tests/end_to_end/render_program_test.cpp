@@ -66,7 +66,7 @@ TEST_F(RenderProgram, NumbersAndNamesThatMakeNoPictureAreRefused) {
            {"run --over-surface",
             "path of run: no run/surface/surface.obj: `gnbv surface run` makes"},
            {"run --sheet sheet.jpg", "--sheet sheet.jpg: a sheet is a .png"},
-           {"''", "RUN is an empty name"}}) {
+           {"''", "RUN: is empty"}}) {
     const Outcome refused = render(options);
     EXPECT_EQ(refused.exit_code, 2) << options;
     EXPECT_TRUE(has(refused, words)) << refused.output;
