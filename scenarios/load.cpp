@@ -138,11 +138,13 @@ void fill_in(const Filling& filling, Scenario& scenario, Origins& origins) {
 /// Whom to tell that the structure is not in the workspace, which nobody knows before its mesh is
 /// read.
 std::string placed_at(const Origins& origins, const Origin& source) {
-  const Culprit last =
-      culprit_of({"workspace_m.min", "workspace_m.max", "structure.file.path", "structure.files",
-                  "structure.file.scale", "structure.file.offset_m", "structure.file.unit_m",
-                  "structure.builtin"},
-                 origins, source);
+  std::vector<std::string> keys = {"workspace_m.min", "workspace_m.max", "structure.builtin"};
+  for (const auto& [key, given] : origins) {
+    if (is_at_or_below(key, "structure.file") || is_at_or_below(key, "structure.files")) {
+      keys.push_back(key);
+    }
+  }
+  const Culprit last = culprit_of(keys, origins, source);
   const std::string& key = last.key;
   return text_of(last.origin) + ": " + (key.starts_with("workspace_m") ? "workspace_m" : key);
 }

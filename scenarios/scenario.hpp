@@ -78,7 +78,7 @@ struct Scenario {
   std::string name = "unnamed";
   std::uint64_t seed = 1;
   Box3 workspace_m = Box3(Vec3(-20, -20, 0), Vec3(20, 20, 20));
-  std::string placed_at;  // "file:line: key" that last placed workspace or structure, for faults
+  std::string placed_at;  // for faults: "file:line: key" or override that placed the structure
   StructureConfig structure;
   MeshFileConfig terrain;  // the ground as a mesh; no path: none
   std::vector<ObstacleConfig> obstacles;

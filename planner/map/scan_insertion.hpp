@@ -27,9 +27,9 @@ class ScanInserter {
   explicit ScanInserter(const GridGeometry& grid) : grid_(grid), frames_(grid) {}
 
   /// What a frame makes of that map, to which it is applied before anything else is: the voxels it
-  /// touches, each list in ascending order, but for free ones of which a miss changes nothing;
-  /// `rays` is compute_frame_rays() of it. Voxel by voxel where can_project() allows it and the
-  /// pixels are many, else ray by ray on one thread; the same map.
+  /// touches, each list in ascending order; free ones of which a miss changes nothing may be
+  /// missing. `rays` is compute_frame_rays() of it. Voxel by voxel where can_project() allows it
+  /// and the pixels are many, else ray by ray on one thread; the same map.
   ScanUpdate compute_update(const FrameRays& rays, const DepthFrame& frame,
                             const CameraModel& camera, const OccupancyGrid& map, int threads);
 

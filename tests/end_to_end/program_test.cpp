@@ -90,7 +90,6 @@ TEST(Program, NoNumberOnTheCommandLineMayBeNaNOrInfinite) {
   EXPECT_GE(tried, 4U * 8U);
 }
 
-/// An oracle plans for minutes in a large scene; what its plan needs would be in the cache.
 TEST(Program, AVariableThatIsNotSetIsNoOption) {
   for (const std::string words :
        {"run smoke --mesh ''", "run smoke --seed ''", "run smoke --utility ''",
@@ -102,6 +101,7 @@ TEST(Program, AVariableThatIsNotSetIsNoOption) {
   }
 }
 
+/// An oracle plans for minutes in a large scene; what its plan needs would be in the cache.
 TEST(Program, RefusesAFolderBeforeAnOraclePlans) {
   TempFolder temp;
   const fs::path cache = temp.path() / "cache";

@@ -4,7 +4,7 @@ random sensors, noise, estimates, starts, paths and profiles, flown by every uti
 touch what its map shows, every one has to end for a stated reason, and no view may be taken nearer
 than the collision radius to surface that the profile showed. Who touches a wire that no pixel or
 beam has met often enough for its map is counted by itself: the planner knows nothing of it. So is
-who touches something after it left its path by more than the scenario keeps free, and was told so.
+who touches the ground in a mission that strayed from its path by more than is kept free, and says so.
 
 usage: safety.py [--gnbv FILE] [--worlds N] [--seed N] [--views N] [--jobs N] [--timeout S]
                  [--estimates MODEL,...] [--keep DIR]
@@ -172,18 +172,22 @@ planner:
 
 
 STRAYED = "off its path, more than"  # tools/gnbv/margin_note.cpp
+NOT_SHOWN = "what its map does not show"
 
 
-def is_shown(place):
-    """Whether the map shows what the mission touched: an occupied voxel there or beside it."""
+def touched(place):
+    """What the mission touched: the ground, or something that the map shows or does not."""
     out = os.path.join(place, "out")
     with open(os.path.join(out, "trajectory.tum")) as file:
         p = tuple(map(float, file.read().split("\n")[-2].split()[1:4]))
-    touched = nearest_surface(read_mesh(os.path.join(place, "mesh.obj")), p)
+    nearest = nearest_surface(read_mesh(os.path.join(place, "mesh.obj")), p)
+    if p[2] < math.dist(p, nearest):
+        return "the ground"
     voxel_m, occupied = read_occupied(os.path.join(out, "map.bt"))
-    key = tuple(math.floor(x / voxel_m) + 32768 for x in touched)
-    return any((key[0] + x, key[1] + y, key[2] + z) in occupied
-               for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1))
+    key = tuple(math.floor(x / voxel_m) + 32768 for x in nearest)
+    is_shown = any((key[0] + x, key[1] + y, key[2] + z) in occupied
+                   for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1))
+    return "what its map shows" if is_shown else NOT_SHOWN
 
 
 def nearest_m(points, p):
@@ -197,11 +201,12 @@ def fault_of(place, scenario, notes):
         summary = json.load(file)
     end = summary["termination"]
     if end == "collision" or summary.get("collisions", 0):
-        if STRAYED in notes:
-            return "touched, having strayed from its path", None
-        if is_shown(place):
-            return end, "touched what its map shows"
-        end = "touched what its map does not show"
+        what = touched(place)
+        if what == "the ground" and STRAYED in notes:
+            return "touched the ground, having strayed", None
+        if what != NOT_SHOWN:
+            return end, "touched " + what
+        end = "touched " + what
     radius_m = float(scenario.split("collision_radius_m: ")[1].split(",")[0])
     surface = read_surface(os.path.join(out, "profile.map"))
     with open(os.path.join(out, "iterations.csv")) as file:

@@ -2,9 +2,9 @@
 
 #include <dlfcn.h>
 
+#include <exception>
 #include <future>
 #include <string>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -24,18 +24,19 @@ namespace {
 // What Mesa, LLVM, their threads and the smallest picture take. Refused it, they crash.
 constexpr std::size_t kDrawing_bytes = 640U << 20U;
 
-// Mesa waits for ever for threads of its own that it could not start. Throws std::system_error when
-// the system starts no more so many.
+// Mesa waits for ever for threads of its own that it could not start. Throws what std::async does
+// when the system starts no more so many.
 void need_threads(unsigned count) {
   std::promise<void> all_started;
   const std::shared_future<void> end = all_started.get_future().share();
   std::vector<std::future<void>> threads;
+  threads.reserve(count);
   std::exception_ptr refused;
   try {
     for (unsigned i = 0; i < count; ++i) {
       threads.push_back(std::async(std::launch::async, [end] { end.wait(); }));
     }
-  } catch (const std::system_error&) {
+  } catch (...) {  // before those that wait are joined
     refused = std::current_exception();
   }
   all_started.set_value();

@@ -66,6 +66,8 @@ TEST(LoadWorld, AMeshOutsideTheWorkspaceIsNamedWithTheLineThatPlacedItThere) {
               StartsWith("--set structure.file.offset_m=[0, 0, 1]: structure.file.offset_m: "));
   EXPECT_THAT(fault_of_world(load_scenario(file, {"workspace_m={max: [8, 8, 5]}"})),
               StartsWith("--set workspace_m={max: [8, 8, 5]}: workspace_m: "));
+  EXPECT_THAT(fault_of_world(load_scenario(file, {"structure.file.up_axis=x"})),
+              StartsWith("--set structure.file.up_axis=x: structure.file.up_axis: "));
   EXPECT_EQ(fault_of_world(load_scenario(file, {"structure.file.scale=0.5"})), "");
 }
 
