@@ -341,8 +341,10 @@ try {
   assert.deepEqual(await browser.evaluate(`(() => {
     const svg = new DOMParser().parseFromString(${JSON.stringify(svg)}, "image/svg+xml");
     return [svg.querySelectorAll("parsererror, script").length,
-      svg.querySelectorAll("path[stroke-width]").length > 0];
-  })()`), [0, true]);
+      svg.querySelectorAll("path[stroke-width]").length > 0,
+      [...svg.querySelectorAll("text")].filter((t) => t.textContent === "FVS").length,
+      svg.querySelectorAll("rect").length > document.querySelectorAll(".phase-lane i").length];
+  })()`), [0, true, Math.min(1, lanes.length), true]);
 
   // everything that can be used can be reached by Tab, has a name and is large enough for a finger
   const poor = await browser.evaluate(`[...document.querySelectorAll(

@@ -5,7 +5,7 @@ import { hairline, paleInk, phaseShade, runColour } from "./colours";
 import { make, select } from "./dom";
 import { lastAtMost, type Flight } from "./flight";
 import * as specs from "./plot_specs";
-import { plotSvg } from "./plot_svg";
+import { kShade, plotSvg, type FrontierStrip } from "./plot_svg";
 import { fileName, saveText } from "./save";
 import { haveSeeds, withBands } from "./seed_bands";
 
@@ -86,8 +86,8 @@ export class Plots {
     const title = `${kind.title} ${kind.unit(this.flights)}`.trim();
     place.before(make("button", { type: "button", class: "small save",
       title: `${kind.title} as SVG`, click: () => saveText(
-        plotSvg(plot, content.lines, title, kEffortNames[this.clock.effort]), "image/svg+xml",
-        `${fileName(kind.title)}.svg`) }, "SVG"));
+        plotSvg(plot, content.lines, this.strips(lanes), title, kEffortNames[this.clock.effort]),
+        "image/svg+xml", `${fileName(kind.title)}.svg`) }, "SVG"));
   }
 
   /** What the marks of a plot mean, where it has any. */
@@ -184,6 +184,14 @@ export class Plots {
 
   private frontierFlights(): Flight[] {
     return this.flights.filter((flight) => flight.data.views.sampler.includes("fvs"));
+  }
+
+  /** What a saved plot shows of them: each of several runs' lanes, or one run's shade. */
+  private strips(lanes: Flight[]): FrontierStrip[] {
+    const isAlone = this.flights.length === 1;
+    return (isAlone ? this.flights : lanes).map((flight) => ({
+      colour: isAlone ? kShade : runColour(flight.index), isBehind: isAlone,
+      phases: specs.frontierPhases(flight, this.clock.effort) }));
   }
 
   /** Behind the curves of one run. */
