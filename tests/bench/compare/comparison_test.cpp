@@ -1,5 +1,6 @@
 #include "bench/compare/comparison.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -102,7 +102,9 @@ TEST(Wilcoxon, ExactPIsThatOfAllSignPatternsTiesAndZerosIncluded) {
 TEST(Wilcoxon, CriticalValuesAreThoseOfThePublishedTable) {
   const std::vector<std::pair<int, int>> table = {{6, 0},   {7, 2},   {8, 3},   {9, 5},  {10, 8},
                                                   {12, 13}, {15, 25}, {20, 52}, {25, 89}};
-  for (const auto& [n, critical] : table) {
+  for (const auto& row : table) {
+    const int n = row.first;
+    const int critical = row.second;
     // negative where the greatest ranks that still fit into the wanted sum are
     const auto p_of_sum = [n](int sum) {
       std::vector<double> differences;

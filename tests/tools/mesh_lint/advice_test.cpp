@@ -1,5 +1,6 @@
 #include "tools/mesh_lint/advice.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
