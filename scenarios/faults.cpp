@@ -81,6 +81,11 @@ std::optional<std::string_view> nearest_name(std::string_view name,
 
 std::size_t slip_limit(std::string_view name) { return std::max<std::size_t>(2, name.size() / 2); }
 
+std::string did_you_mean(std::string_view name, std::span<const std::string_view> known) {
+  const auto near = nearest_name(name, known, slip_limit(name));
+  return near ? fmt::format("did you mean '{}'? ", *near) : "";
+}
+
 std::string join(std::span<const std::string_view> names) {
   return fmt::format("{}", fmt::join(names, ", "));
 }

@@ -81,6 +81,9 @@ std::optional<std::string_view> nearest_name(std::string_view name,
 /// How many slips still count as a slip: half the name's length, at least 2.
 std::size_t slip_limit(std::string_view name);
 
+/// "did you mean 'isler'? " of a name that may be a slip of a known one, else empty.
+std::string did_you_mean(std::string_view name, std::span<const std::string_view> known);
+
 /// "a, b, c".
 std::string join(std::span<const std::string_view> names);
 

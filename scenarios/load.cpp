@@ -43,11 +43,9 @@ Source open_source(const std::string& name_or_path) {
                                name_or_path, join(names)));
   }
   if (!fs::exists(path, ignored)) {
-    const std::string stem = path.stem().string();
-    const auto near = nearest_name(stem, names, slip_limit(stem));
-    const std::string hint = near ? fmt::format("did you mean '{}'? ", *near) : "";
     throw BadInput(fmt::format("{}: no such file, and no built-in scenario ({}built in: {})",
-                               name_or_path, hint, join(names)));
+                               name_or_path, did_you_mean(path.stem().string(), names),
+                               join(names)));
   }
   return {read_file(path), name_or_path, fs::absolute(path).parent_path().string()};
 }

@@ -117,9 +117,8 @@ std::string read_choice(const YamlNode& node, const Field& field, std::string& v
     value = node.text;
     return "";
   }
-  const auto nearest = nearest_name(node.text, field.choices, slip_limit(node.text));
-  const std::string hint = nearest ? fmt::format("did you mean '{}'? ", *nearest) : "";
-  return fmt::format("is no known name ({}allowed: {})", hint, join(field.choices));
+  return fmt::format("is no known name ({}allowed: {})", did_you_mean(node.text, field.choices),
+                     join(field.choices));
 }
 
 std::string read_text(const YamlNode& node, const Field& field, const std::string& folder,

@@ -46,7 +46,7 @@ std::string to_json(const Baseline& baseline);
 
 /// Of a run: coverage_0.05, coverage_0.10, coverage_0.50 (seen from outside), precision, recall and
 /// f (at 0.05 m), coverage at each further size that the run was scored at (coverage_0.02),
-/// chamfer_m, density (points a voxel), straight_m, flight_time_s, iterations,
+/// chamfer_m, density (points in a voxel that holds any), straight_m, flight_time_s, iterations,
 /// entropy_reduction_nat. Tolerances are 0.02 for shares, 0.001 m for Chamfer, a tenth of the value
 /// for all other metrics.
 Baseline make_baseline(const RunFigures& run);

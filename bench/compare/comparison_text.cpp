@@ -148,6 +148,14 @@ bool is_reached(const Comparison& comparison, const MethodFigure& figure) {
                      });
 }
 
+bool has_ceiling(const Comparison& comparison) {
+  return std::any_of(comparison.figures.begin(), comparison.figures.end(),
+                     [&](const MethodFigure& figure) {
+                       const RunMetric& metric = comparison.metrics[figure.metric];
+                       return metric.name.starts_with("share of ceiling") && figure.estimate.n > 0;
+                     });
+}
+
 /// What the efforts to reach a share of the ceiling are, and which of them nobody did.
 void add_effort_notes(std::vector<std::string>& notes, const Comparison& comparison) {
   std::map<std::size_t, std::vector<std::string>> missed;  // by scenario
@@ -225,11 +233,12 @@ std::vector<std::string> notes(const Comparison& comparison) {
       "interval (Student's t); p: two-sided signed-rank test (Wilcoxon); Holm: over "
       "the methods of a scenario and metric, not over metrics",
       comparison.methods[comparison.baseline]));
-  all.emplace_back(
-      "coverage of voxels with visible surface of a tenth of their face; share of ceiling: over "
-      "what the leaf filter lets "
-      "through of all that legal viewpoints see; distance in straight lines between views, profile "
-      "apart; flight time of the whole mission");
+  all.push_back(fmt::format(
+      "coverage of voxels with visible surface of a tenth of their face; {}distance in straight "
+      "lines between views, profile apart; flight time of the whole mission",
+      has_ceiling(comparison) ? "share of ceiling: over what the leaf filter lets through of all "
+                                "that legal viewpoints see; "
+                              : ""));
   add_effort_notes(all, comparison);
   for (std::size_t s = 0; s < comparison.scenarios.size(); ++s) {
     const std::array<double, 3>& b = comparison.budgets[s];

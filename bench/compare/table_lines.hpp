@@ -8,6 +8,7 @@
 
 #include "bench/compare/text_table.hpp"
 #include "sim/core/error.hpp"
+#include "sim/core/folding.hpp"
 
 namespace gnbv {
 
@@ -26,13 +27,6 @@ TableLines printed_cells(const TextTable& table, const Escape& escaped) {
     for (const TableCell& cell : row) line.push_back(escaped(cell.text));
   }
   return lines;
-}
-
-/// Width on a terminal of UTF-8 text: its code points.
-inline std::size_t width_of(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-  }));
 }
 
 inline std::vector<std::size_t> column_widths(const TableLines& lines, std::size_t least) {

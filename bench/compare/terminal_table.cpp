@@ -18,6 +18,16 @@ std::string without_trailing_blanks(std::string line) {
   return line;
 }
 
+std::size_t longest_word(std::string_view text) {
+  std::size_t longest = 0;
+  while (!text.empty()) {
+    const std::string_view word = first_word(text);
+    longest = std::max(longest, width_of(word));
+    text.remove_prefix(std::min(word.size() + 1, text.size()));
+  }
+  return longest;
+}
+
 /// Columns that are no wider than their cells and the longest word of their heads.
 std::vector<std::size_t> folded_widths(const TableLines& lines) {
   TableLines headless = lines;
@@ -25,16 +35,9 @@ std::vector<std::size_t> folded_widths(const TableLines& lines) {
   std::vector<std::size_t> widths = column_widths(headless, 0);
   for (std::size_t c = 0; c < widths.size(); ++c) {
     constexpr std::size_t kShort = 7;  // "0.05 m" stays whole
-    std::string_view rest = lines[0][c];
-    if (width_of(rest) <= kShort) {
-      widths[c] = std::max(widths[c], width_of(rest));
-      continue;
-    }
-    while (!rest.empty()) {
-      const std::size_t end = std::min(rest.find(' '), rest.size());
-      widths[c] = std::max(widths[c], width_of(rest.substr(0, end)));
-      rest.remove_prefix(std::min(end + 1, rest.size()));
-    }
+    const std::string& head = lines[0][c];
+    const bool is_short = width_of(head) <= kShort;
+    widths[c] = std::max(widths[c], is_short ? width_of(head) : longest_word(head));
   }
   return widths;
 }
@@ -125,14 +128,7 @@ void fold_words(const TextTable& table, const TableLines& lines, const Columns& 
   const std::size_t all = width_of_block(columns, form);
   if (all <= width || is_right(table.columns[last]) || last < names_of(table)) return;
   std::size_t longest = 1;
-  for (const auto& line : lines) {
-    std::string_view rest = line[last];
-    while (!rest.empty()) {
-      const std::size_t end = std::min(rest.find(' '), rest.size());
-      longest = std::max(longest, width_of(rest.substr(0, end)));
-      rest.remove_prefix(std::min(end + 1, rest.size()));
-    }
-  }
+  for (const auto& line : lines) longest = std::max(longest, longest_word(line[last]));
   std::size_t& now = form.widths[last];
   now -= std::min(all - width, now - std::min(now, longest));
 }
@@ -164,32 +160,6 @@ std::string narrow_text(const TextTable& table, std::size_t width) {
 }
 
 }  // namespace
-
-std::string folded_text(std::string_view text, std::size_t width) {
-  if (width == 0) return std::string(text);
-  std::string folded;
-  std::size_t used = 0;  // of the line
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find_first_of(" \n"), text.size());
-    const std::string_view word = text.substr(0, end);
-    const bool is_first = folded.empty() || folded.back() == '\n';
-    if (!is_first && used + 1 + width_of(word) > width) {
-      folded += '\n';
-      used = 0;
-    } else if (!is_first) {
-      folded += ' ';
-      ++used;
-    }
-    folded += word;
-    used += width_of(word);
-    if (end < text.size() && text[end] == '\n') {
-      folded += '\n';
-      used = 0;
-    }
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return folded;
-}
 
 std::string terminal_text(const TextTable& table, std::size_t width) {
   const TableLines lines = printed_cells(table, [](const std::string& text) { return text; });

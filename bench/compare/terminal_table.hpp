@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <string>
-#include <string_view>
 
 #include "bench/compare/text_table.hpp"
 
@@ -14,8 +13,5 @@ namespace gnbv {
 /// say the same in every row become a note; all names but the last become lines above their rows;
 /// words on the right are folded; columns go into blocks below each other. No cell is ever cut.
 std::string terminal_text(const TextTable& table, std::size_t width = 0);
-
-/// Lines of at most `width` code points where blanks allow it; 0: as it is. Line feeds stay.
-std::string folded_text(std::string_view text, std::size_t width);
 
 }  // namespace gnbv

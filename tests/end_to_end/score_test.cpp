@@ -8,6 +8,7 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
@@ -166,6 +167,18 @@ TEST_F(Score, OfTheRunsCloudIsTheRuns) {
   }
   for (const char* key : {"precision_recall", "chamfer_m", "density"}) {
     EXPECT_EQ(cloud.at(key), run.at(key)) << key;
+  }
+}
+
+TEST_F(Score, TellsTwoDensitiesApartInLinesThatFitTheTerminal) {
+  const Outcome outcome = gnbv("score " + original().string() + " 2>/dev/null", "COLUMNS=80 ");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_TRUE(has(outcome, "2,492 points against smoke")) << outcome.output;
+  EXPECT_TRUE(has(outcome, "Points in a voxel of 0.2 m that holds any: ")) << outcome.output;
+  EXPECT_FALSE(has(outcome, "Density")) << outcome.output;
+  std::istringstream lines(outcome.output);
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_TRUE(line.size() <= 80U || line.starts_with(original().string())) << line;
   }
 }
 

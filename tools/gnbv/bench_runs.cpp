@@ -107,7 +107,7 @@ void add_bench_options(CLI::App& command, BenchOptions& options) {
                   "a search finds: what an oracle reached, say")
       ->check(CLI::Range(1.0, 100.0));
   command.add_option("--format", options.format, "form of the table on stdout")
-      ->check(CLI::IsMember(std::vector<std::string>(kTableFormats.begin(), kTableFormats.end())))
+      ->check(is_one_of({kTableFormats.begin(), kTableFormats.end()}))
       ->capture_default_str();
 }
 

@@ -32,12 +32,6 @@ struct AssetOptions {
   bool json = false;
 };
 
-template <class Names>
-std::string did_you_mean(std::string_view name, const Names& known) {
-  const auto near = nearest_name(name, known, slip_limit(name));
-  return near ? fmt::format("did you mean '{}'? ", *near) : "";
-}
-
 /// The built-in ones, and random ones.
 std::vector<std::string_view> structure_names() {
   std::vector<std::string_view> names(kStructureNames.begin(), kStructureNames.end());

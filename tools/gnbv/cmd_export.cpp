@@ -154,6 +154,12 @@ const std::map<std::string, Fill> kFills = {
     {"colmap", fill_colmap}, {"mcap", fill_timeline},  {"nerfstudio", fill_nerfstudio},
     {"plain", fill_plain},   {"rerun", fill_timeline}, {"tum", fill_tum}};
 
+std::vector<std::string> format_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, fill] : kFills) names.push_back(name);
+  return names;
+}
+
 void export_run(const ExportOptions& options) {
   if (options.points && options.format != "colmap" && options.format != "nerfstudio") {
     throw BadInput(fmt::format("--points: {} has no sparse model", options.format));
@@ -182,7 +188,7 @@ void add_export_command(CLI::App& app) {
                    "of the folder that is written; images have the poses that the vehicle "
                    "believed, in tum the true ones, too; rerun and mcap are written in Python")
       ->required()
-      ->check(CLI::IsMember(kFills));
+      ->check(is_one_of(format_names()));
   command->add_option(
       "-o,--out", options->out,
       "folder to write (default: RUN/export/FORMAT); an earlier export is replaced");

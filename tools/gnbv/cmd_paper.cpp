@@ -169,7 +169,7 @@ void add_paper_command(CLI::App& app) {
   command->add_option("--scenarios", options->scenarios, "some of the paper's, with commas")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::IsMember(paper_scenarios()));
+      ->check(is_one_of(paper_scenarios()));
   command->add_option("--set", options->overrides, "KEY=VALUE of all scenario files; repeatable")
       ->allow_extra_args(false);
   command

@@ -241,7 +241,7 @@ void add_plot_command(CLI::App& app) {
   command->add_option("--format", options->formats, "svg, png, pdf, with commas")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::IsMember({"svg", "png", "pdf"}))
+      ->check(is_one_of({"svg", "png", "pdf"}))
       ->capture_default_str();
   command
       ->add_option(
@@ -251,8 +251,8 @@ void add_plot_command(CLI::App& app) {
       ->each([options](const std::string&) { options->are_plots_asked_for = true; })
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::IsMember(
-          {"density", "coverage", "terms", "reach", "flight", "tracking", "predictions"}))
+      ->check(
+          is_one_of({"density", "coverage", "terms", "reach", "flight", "tracking", "predictions"}))
       ->capture_default_str();
   command
       ->add_option("--reach", options->reach_percent,

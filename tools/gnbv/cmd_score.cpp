@@ -10,6 +10,7 @@
 
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
+#include "sim/core/folding.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/execute.hpp"
@@ -18,7 +19,9 @@
 #include "tools/run_files/run_claim.hpp"
 #include "tools/run_files/score_json.hpp"
 #include "tools/run_files/summary_json.hpp"
+#include "tools/run_files/words.hpp"
 #include "tools/terminal/say.hpp"
+#include "tools/terminal/width.hpp"
 
 namespace gnbv {
 namespace {
@@ -62,9 +65,9 @@ double share_at(const MissionScore& score, double size_m, const std::array<doubl
 std::string terminal_text(const Scored& scored, const std::string& name, bool is_run) {
   const MissionScore& score = scored.score;
   std::string text = fmt::format("{}: {} points against {}, its surface above z = {} m\n", name,
-                                 scored.points, scored.structure, scored.floor_z_m);
+                                 grouped(scored.points), scored.structure, scored.floor_z_m);
   if (scored.points_below_floor > 0) {
-    text += fmt::format("{} points below z = {} m left out\n", scored.points_below_floor,
+    text += fmt::format("{} below z = {} m left out\n", counted(scored.points_below_floor, "point"),
                         scored.floor_z_m);
   }
   text += "\n";
@@ -87,10 +90,15 @@ std::string terminal_text(const Scored& scored, const std::string& name, bool is
   text += percent_row("F", at.size(), [&](std::size_t i) { return at[i].f; });
   text += fmt::format(
       "\nChamfer distance {:.4f} m: accuracy {:.4f} m, completeness {:.4f} m; beyond {} m counts "
-      "as that\nDensity {:.1f} points a voxel of {} m that holds any, variation {:.2f}\n",
+      "as that\n",
       score.distances.chamfer_m, score.distances.accuracy_m, score.distances.completeness_m,
-      kFarthest_m, score.density.mean_points, score.density.voxel_m, score.density.variation);
-  return text;
+      kFarthest_m);
+  text += fmt::format(
+      "Points in a voxel of {} m that holds any: {:.1f}, variation {:.2f}; the tables' "
+      "Points/voxel "
+      "is the paper's: points over the map's occupied voxels\n",
+      score.density.voxel_m, score.density.mean_points, score.density.variation);
+  return folded_text(text, stdout_columns());
 }
 
 std::string json_text(const Scored& scored, bool is_run) {

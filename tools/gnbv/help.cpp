@@ -7,7 +7,7 @@
 #include <array>
 #include <numeric>
 
-#include "bench/compare/terminal_table.hpp"
+#include "sim/core/folding.hpp"
 
 namespace gnbv {
 namespace {
@@ -83,8 +83,8 @@ class FoldingFormatter : public CLI::Formatter {
         if (name[i] == ',' && name[i + 1] != ' ') name.insert(i + 1, " ");
       }
     }
-    const std::string folded = folded_text(name, kHelp_columns - 2);
-    std::string lines = indented(folded, 2);
+    // what follows the first line stands farther in than any name
+    std::string lines = "  " + indented(folded_text(name, kHelp_columns - 6), 6).substr(6);
     if (meaning.empty()) return lines + "\n";
     std::string beside =
         indented(folded_text(meaning, kHelp_columns - kNames_columns), kNames_columns);

@@ -15,7 +15,6 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/core/simd.hpp"
-#include "sim/core/utf8.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/help.hpp"
 #include "tools/gnbv/shared_options.hpp"
@@ -62,7 +61,7 @@ int run(int argc, char** argv) {
     const std::string meant = is_answer ? "" : gnbv::meant_instead(app, words);
     // that a word is none of the commands is said by the one that it comes near
     const bool is_command = error.get_name() == "RequiredError" && !meant.empty();
-    if (!is_command) gnbv::print_to_stderr(gnbv::printable(complaint.str()));
+    if (!is_answer && !is_command) gnbv::say(std::string_view(complaint.str()));
     if (!meant.empty()) gnbv::say(meant);
     return is_answer ? 0 : 2;
   }

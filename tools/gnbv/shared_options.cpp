@@ -1,9 +1,13 @@
 #include "tools/gnbv/shared_options.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
+
+#include "scenarios/faults.hpp"
 
 namespace gnbv {
 namespace {
@@ -26,7 +30,7 @@ void add_bounds_option(CLI::App& command, ScenarioOptions& options) {
           [&options](const std::string& bounds) { options.bounds_auto = bounds == "auto"; },
           "auto: lay workspace and start around the structure, wherever it is; scenario: as it "
           "says")
-      ->check(CLI::IsMember({"auto", "scenario"}));
+      ->check(is_one_of({"auto", "scenario"}));
 }
 
 void add_structure_options(CLI::App& command, ScenarioOptions& options) {
@@ -79,6 +83,17 @@ void refuse_empty_values(CLI::App& app) {
       if (takes_a_value && !may_be_empty) option->check(is_something);
     }
   }
+}
+
+CLI::Validator is_one_of(std::vector<std::string> names) {
+  const std::string description = fmt::format("{{{}}}", fmt::join(names, ","));
+  return {[names = std::move(names)](std::string& text) -> std::string {
+            if (std::find(names.begin(), names.end(), text) != names.end()) return "";
+            const std::vector<std::string_view> known(names.begin(), names.end());
+            return fmt::format("'{}' is no known name ({}allowed: {})", text,
+                               did_you_mean(text, known), join(known));
+          },
+          description};
 }
 
 CLI::Validator is_positive() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "tools/mission/resolve.hpp"
 
@@ -40,6 +41,9 @@ void refuse_what_is_not_finite(CLI::App& app);
 /// No option and no argument of a command may be "", as a shell's variable that is not set gives:
 /// it would mean that it was not given. But for titles and further options of sbatch.
 void refuse_empty_values(CLI::App& app);
+
+/// One of a closed list of names; a slip of one of them is told so.
+CLI::Validator is_one_of(std::vector<std::string> names);
 
 // Checks of numbers; those of CLI11 print 300 digits.
 CLI::Validator is_positive();

@@ -28,6 +28,7 @@
 #include "tools/run_files/run_directory.hpp"
 #include "tools/run_files/run_inputs.hpp"
 #include "tools/run_files/summary_json.hpp"
+#include "tools/run_files/words.hpp"
 #include "tools/terminal/interrupt.hpp"
 #include "tools/terminal/progress.hpp"
 #include "tools/terminal/say.hpp"
@@ -101,7 +102,7 @@ MissionHooks make_hooks(const Scenario& scenario, const MissionOptions& options,
     const int last = scenario.planner.termination.max_iterations;
     progress.show(0.1 + 0.9 * (view.iteration + 1) / last,
                   fmt::format("view {}/{}  {:.0f} m  {} points", view.iteration + 1, last,
-                              view.straight_m, view.cloud_points));
+                              view.straight_m, grouped(view.cloud_points)));
   };
   hooks.should_stop = [&options] { return InterruptGuard::requested() || options.should_stop(); };
   hooks.replay = directory.recorded_decisions();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "bench/compare/text_table.hpp"
 #include "tools/paper/comparisons.hpp"
 #include "tools/plots/curves.hpp"
 #include "tools/run_files/words.hpp"
@@ -11,6 +12,13 @@ namespace gnbv {
 namespace {
 
 using Missions = std::vector<const PaperMission*>;
+
+/// "28.9", or "from 28.9 to 31.2".
+std::string span_text(double low, double high, int decimals) {
+  const std::string first = grouped_number(low, decimals);
+  const std::string last = grouped_number(high, decimals);
+  return first == last ? first : fmt::format("from {} to {}", first, last);
+}
 
 /// Fig. 9: Proposed is densest in each iteration.
 void check_densest(const PaperMaterial& material, std::vector<CheckedClaim>& claims) {
@@ -50,8 +58,8 @@ void check_coverage(const PaperMaterial& material, std::vector<CheckedClaim>& cl
   }
   claims.push_back(
       {"10", "Frontier views beside those of the grid take the plant's coverage above 90 %.",
-       fmt::format("{} of {} end above it at 0.05 m: from {:.1f} to {:.1f} %.", above,
-                   counted(missions.size(), "mission"), 100.0 * least, 100.0 * most),
+       fmt::format("Above it at the end, at 0.05 m: {} of {}; coverage {} %.", above,
+                   counted(missions.size(), "mission"), span_text(100.0 * least, 100.0 * most, 1)),
        rule_of_share("missions"),
        claim_of_share(static_cast<double>(above) / static_cast<double>(missions.size()))});
 }
@@ -106,9 +114,8 @@ void check_trends(const PaperMaterial& material, const std::string& scenario,
   const auto add = [&](const char* sentence, const std::vector<double>& trends, int sign) {
     const auto [low, high] = std::minmax_element(trends.begin(), trends.end());
     claims.push_back({figure, sentence,
-                      fmt::format("Rank correlation with the iterations from {:.2f} to {:.2f} over "
-                                  "{}.",
-                                  *low, *high, counted(trends.size(), "mission")),
+                      fmt::format("Rank correlation with the iterations {} over {}.",
+                                  span_text(*low, *high, 2), counted(trends.size(), "mission")),
                       rule_of_trends(sign), claim_of_trends(trends, sign)});
   };
   add("Entropy falls over the iterations.", entropy, -1);

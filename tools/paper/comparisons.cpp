@@ -76,6 +76,21 @@ std::size_t views_of(const PaperMission& mission, const PaperRow& row) {
   return std::min(flown, static_cast<std::size_t>(*row.iterations));
 }
 
+/// Whether a limit ended the mission before the views of the row, not the planner.
+bool is_cut(const PaperMission& mission, const PaperRow& row) {
+  constexpr std::array<std::string_view, 5> kLimits = {"max_iterations", "max_distance",
+                                                       "max_flight_time", "battery", "interrupted"};
+  const bool has_fewer =
+      row.iterations && mission.record.views.size() < static_cast<std::size_t>(*row.iterations);
+  return has_fewer && std::find(kLimits.begin(), kLimits.end(),
+                                mission.record.figures->termination) != kLimits.end();
+}
+
+bool is_any_cut(const Missions& missions, const PaperRow& row) {
+  return std::any_of(missions.begin(), missions.end(),
+                     [&](const PaperMission* mission) { return is_cut(*mission, row); });
+}
+
 ComparedFigure compared(const PaperFigure& figure, const Value& printed,
                         const std::vector<double>& ours) {
   ComparedFigure both{.printed = printed};
@@ -98,6 +113,7 @@ ComparedRow compare_row(const PaperRow& row, const Missions& missions) {
     all.views = std::max(all.views, static_cast<int>(views_of(*mission, row)));
     all.flown_views = std::max(all.flown_views, static_cast<int>(mission->record.views.size()));
   }
+  const bool has_cut = is_any_cut(missions, row);
   for (const PaperFigure& figure : kFigures) {
     std::vector<double> values;
     for (const PaperMission* mission : missions) {
@@ -105,6 +121,8 @@ ComparedRow compare_row(const PaperRow& row, const Missions& missions) {
       if (value) values.push_back(*value);
     }
     all.figures.push_back(compared(figure, figure.printed(row), values));
+    std::optional<Agreement>& agreement = all.figures.back().agreement;
+    if (has_cut && agreement == Agreement::differs) agreement = Agreement::cut;
   }
   return all;
 }
@@ -166,17 +184,19 @@ std::vector<ComparedPair> compare_pairs(const PaperMaterial& material, const Pap
     for (std::size_t b = 0; b < a; ++b) {
       const PaperRow& first = table.rows[a];
       const PaperRow& second = table.rows[b];
+      const Missions of_a = missions_of(material, table.scenario, first.utility);
+      const Missions of_b = missions_of(material, table.scenario, second.utility);
+      const bool has_cut = is_any_cut(of_a, first) || is_any_cut(of_b, second);
       for (std::size_t i = 0; i < kFigures.size(); ++i) {
         const Value of_first = kFigures[i].printed(first);
         const Value of_second = kFigures[i].printed(second);
         if (!of_first || !of_second) continue;
-        const std::vector<double> ours = paired_differences(
-            kFigures[i], first, missions_of(material, table.scenario, first.utility), second,
-            missions_of(material, table.scenario, second.utility));
+        const std::vector<double> ours = paired_differences(kFigures[i], first, of_a, second, of_b);
         if (ours.empty()) continue;
         const double printed = *of_first - *of_second;
         pairs.push_back({std::string(first.label), std::string(second.label), i, printed,
-                         estimate_mean(ours), pair_order(printed, ours)});
+                         estimate_mean(ours),
+                         has_cut ? PairOrder::undecided : pair_order(printed, ours)});
       }
     }
   }

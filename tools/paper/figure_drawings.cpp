@@ -13,6 +13,7 @@
 #include "tools/plots/run_plots.hpp"
 #include "tools/render/camera_choice.hpp"
 #include "tools/render/flight_items.hpp"
+#include "tools/render/grid_samples.hpp"
 #include "tools/surface/surface.hpp"
 #include "tools/surface/surface_picture.hpp"
 
@@ -52,16 +53,6 @@ void add_decision(FigureDesk& desk, int view, const std::string& what, const std
   desk.add(what, label, picture_of(desk, kCandidatesPicture, desk.source("proposed"), options));
 }
 
-std::vector<double> scales_of(const RunRecord& record) {
-  std::vector<double> scales;
-  for (const ViewRecord& view : record.views) {
-    if (view.decision.sampler == "agvs") scales.push_back(view.decision.scale);
-  }
-  std::sort(scales.begin(), scales.end());
-  scales.erase(std::unique(scales.begin(), scales.end()), scales.end());
-  return scales;
-}
-
 /// What the paper calls a utility.
 std::string label_of(const std::string& scenario, std::string_view utility) {
   return std::string(find_row(*find_paper_table(scenario), utility)->label);
@@ -91,16 +82,26 @@ void draw_profile_figure(FigureDesk& desk) {
 }
 
 void draw_scales_figure(FigureDesk& desk) {
-  const RunRecord& record = desk.mission("proposed").record;
-  constexpr std::size_t kShown = 3;
-  const std::vector<double> scales = scales_of(record);
-  for (std::size_t i = 0; i < std::min(kShown, scales.size()); ++i) {
-    add_decision(desk, *first_view(record, "agvs", scales[i]), fmt::format("scale-{}", i),
-                 fmt::format("scale {:g}", scales[i]));
-  }
-  if (scales.size() < kShown) {
-    desk.miss(fmt::format("this mission chose views at {} scale{} only", scales.size(),
-                          scales.size() == 1 ? "" : "s"));
+  RunSource& run = desk.source("proposed");
+  const RunRecord& record = run.record();
+  const std::optional<int> view = first_view(record, "agvs");
+  if (!view) throw BadInput("the mission planned no view from the grid");
+  const ViewPose& from = record.views[static_cast<std::size_t>(*view) - 1].decision.view;
+  const AgvsConfig& grid = record.scenario.planner.agvs;
+  const std::array<double, 3> scales = {1.0, grid.scale_factor,
+                                        grid.scale_factor * grid.scale_factor};
+  PictureOptions options = plain_options();
+  options.iteration = *view - 1;
+  const RenderView camera = view_of_grid_samples(grid, from, scales.back(), ViewAngles{},
+                                                 options.width_px, options.height_px);
+  for (std::size_t i = 0; i < scales.size(); ++i) {
+    RenderScene scene = kVoxelsPicture.draw(run, options, camera).panels.front().scene;
+    add_grid_samples(grid, from, scales[i], layout_unit_m(camera), scene);
+    const bool is_flown = first_view(record, "agvs", scales[i]).has_value();
+    desk.add(fmt::format("scale-{}", i),
+             fmt::format("scale {:g}{}", scales[i],
+                         is_flown ? "" : ", which this mission did not come to"),
+             desk.renderer().render(scene, camera));
   }
 }
 
@@ -132,7 +133,10 @@ void draw_paths_figure(FigureDesk& desk) {
     const PanelLayout layout = lay_out(*kind, runs, options);  // one camera for all
     for (std::size_t i = 0; i < runs.size(); ++i) {
       const RunFigures& figures = *runs[i]->record().figures;
-      const std::string name = label_of(desk.figure().scenario, names[i]);
+      const auto place = std::find(utilities.begin(), utilities.end(), names[i]);
+      const std::string name =
+          fmt::format("({}) {}", static_cast<char>('a' + (place - utilities.begin())),
+                      label_of(desk.figure().scenario, names[i]));
       const std::string label =
           kind == &kPathPicture
               ? fmt::format("{}: {} views, {:.0f} m", name, runs[i]->record().views.size(),

@@ -43,8 +43,9 @@ const std::vector<FigureKind>& figure_kinds() {
        "The same three moments of our profile over the true structure as a ghost.",
        draw_profile_figure},
       {"5", any, "Grid samples around the vehicle at the scales 1, b and b², times the step L.",
-       "The first decision at each scale that a mission came to: candidates coloured by utility, "
-       "rejected ones in muted colours by reason.",
+       "All samples around the vehicle (black) before a mission's first planned view, before any "
+       "is checked: balls are positions, lines directions; voxels are the map as it was believed "
+       "then, coloured by height.",
        draw_scales_figure},
       {"6", any,
        "Low-density frontier voxels, the centroids of their clusters, the field of view of two "
@@ -56,9 +57,8 @@ const std::vector<FigureKind>& figure_kinds() {
       {"8",
        {"aircraft"},
        "Path and coverage of the aircraft by three utilities: Proposed, Isler, Bircher.",
-       "First seed: the path from its first view (dark) to its last (bright), and below it the "
-       "true "
-       "surface, covered or missed (red) in voxels of 0.05 m.",
+       "First seed, in the order of the paper's figure: the path from its first view (dark) to its "
+       "last (bright), and below it the true surface, covered or missed (red) in voxels of 0.05 m.",
        draw_paths_figure},
       {"9",
        {"aircraft"},
@@ -68,9 +68,8 @@ const std::vector<FigureKind>& figure_kinds() {
       {"10",
        {"power_plant"},
        "Path and coverage of the power plant by three utilities: Proposed, Isler, Bircher.",
-       "First seed: the path from its first view (dark) to its last (bright), and below it the "
-       "true "
-       "surface, covered or missed (red) in voxels of 0.05 m.",
+       "First seed, in the order of the paper's figure: the path from its first view (dark) to its "
+       "last (bright), and below it the true surface, covered or missed (red) in voxels of 0.05 m.",
        draw_paths_figure},
       {"11",
        {"power_plant"},
@@ -127,7 +126,7 @@ const std::vector<UndrawnFigure>& undrawn_figures() {
        "rule by hand-counted points."},
       {"7",
        "A screenshot of the collision boxes along a flight: planner.validity.collision_radius_m "
-       "keeps candidates away from voxels; Figures 5 and 6 show those it rejects."},
+       "keeps candidates away from voxels; Figures 2 and 6 show those it rejects."},
       {"12", "A photograph of the vehicle's hardware: ours is simulated."}};
   return undrawn;
 }

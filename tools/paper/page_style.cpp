@@ -54,12 +54,20 @@ figure img { width: 100%; display: block; border: 1px solid var(--line); border-
 .warning { border: 1px solid #e9b9a8; background: #fdf3ef; border-radius: 6px; padding: 8px 16px;
   margin: 14px 0; }
 .notes { padding-left: 18px; margin: 8px 0; }
-@media (max-width: 800px) {
+@media screen and (max-width: 800px) {
   .sides, .sides.figure, .pictures.n2, .pictures.n3 { grid-template-columns: minmax(0, 1fr); }
 }
+@page { size: A4; margin: 14mm 12mm; }
 @media print {
-  body { padding: 0; font-size: 10pt; }
-  section, figure, tr { break-inside: avoid; }
+  body { padding: 0; max-width: none; font-size: 10pt; }
+  figure, tr, li, .count, .side { break-inside: avoid; }
+  .sides:not(.figure) { grid-template-columns: minmax(0, 1fr); gap: 8px; }
+  .sides.figure { gap: 14px; }
+  .pictures { gap: 6px; }
+  h2, h3, tr.group { break-after: avoid; }
+  h2 { margin-top: 24px; }
+  th, td { padding: 3px 5px; font-size: 8.5pt; }
+  .scroll { overflow: visible; }
   nav { display: none; }
   .chip { border: 1px solid currentColor; background: none; }
 }

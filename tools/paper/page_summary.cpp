@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "bench/compare/text_table.hpp"
 #include "tools/paper/page_parts.hpp"
@@ -12,7 +13,7 @@ namespace gnbv {
 namespace {
 
 std::string_view colour_of(Agreement agreement) {
-  constexpr std::array<std::string_view, 4> kinds = {"good", "near", "open", "bad"};
+  constexpr std::array<std::string_view, 5> kinds = {"good", "near", "open", "bad", "open"};
   return kinds[static_cast<std::size_t>(agreement)];
 }
 
@@ -26,14 +27,18 @@ std::string_view colour_of(ClaimVerdict verdict) {
   return kinds[static_cast<std::size_t>(verdict)];
 }
 
-/// "+1.4 points", "-12 %", or of what is not of the same size "x 0.21".
+/// "+1,200", "-3.5", "0.0".
+std::string signed_number(double value, int decimals) {
+  const std::string text = grouped_number(value, decimals);
+  const bool is_zero = text.find_first_of("123456789") == std::string::npos;
+  return (value > 0.0 && !is_zero ? "+" : "") + text;
+}
+
+/// "+1.4 points", "-12 %".
 std::string deviation(const PaperFigure& figure, const ComparedFigure& both) {
   const double away = both.ours->mean - *both.printed;
-  if (figure.is_coverage) return fmt::format("{:+.1f} points", away);
-  const double ratio = both.ours->mean / *both.printed;
-  if (ratio < 0.0) return (away > 0.0 ? "+" : "") + grouped_number(away, figure.decimals);
-  if (ratio < 0.5 || ratio > 2.0) return fmt::format("× {:.2g}", ratio);
-  return fmt::format("{:+.0f} %", 100.0 * (ratio - 1.0));
+  return figure.is_coverage ? signed_number(away, 1) + " points"
+                            : signed_number(100.0 * away / std::abs(*both.printed), 0) + " %";
 }
 
 std::string cell_of(const PaperFigure& figure, const ComparedFigure& both) {
@@ -63,7 +68,7 @@ std::string head_row(std::string_view first, const std::vector<std::size_t>& col
   return html + "</tr>\n";
 }
 
-/// "162 of 360", or where ours took fewer "10 of 635 (paper)".
+/// "162", or where ours took fewer "10 (paper 635)".
 std::string views_text(const ComparedRow& row) {
   if (row.missions == 0) return "-";
   if (!row.printed_views) return row.utility.empty() ? "" : grouped_number(row.views, 0);
@@ -95,10 +100,13 @@ std::string numbers_html(const PaperPage& page) {
           " the paper's number lies in our 95 % interval, whose half width is at most 10 points of "
           "coverage or 20 % of the number. " +
           chip("near", "close") + " within 2 points, or 5 %. " + chip("open", "undecided") +
-          " in our interval, which is wider than that. " + chip("bad", "differs") +
-          " otherwise. Ours is taken after as many views as the paper's row took. The paper names "
-          "no unit of entropy; ours is in nat. † printed with more coverage at 0.05 m than at "
-          "0.10 m, which is hardly possible: the two columns may have changed places.</p>\n";
+          " in our interval, which is wider than that. " + chip("bad", "differs") + " otherwise. " +
+          chip("open", "cut short") +
+          " as that, but a limit of ours (views, metres, time, battery) ended a mission before it "
+          "had as many views as the paper's. Ours is taken after as many views as the paper's row "
+          "took, or at its own end where that came first. The paper names no unit of entropy; "
+          "ours is in nat. † printed with more coverage at 0.05 m than at 0.10 m, which is hardly "
+          "possible: the two columns may have changed places.</p>\n";
   return html;
 }
 
@@ -107,14 +115,11 @@ std::string order_cell(const ShownTable& table, const std::string& first, const 
   for (const ComparedPair& pair : table.pairs) {
     if (pair.first != first || pair.second != second || pair.figure != figure) continue;
     const int decimals = compared_figures()[figure].decimals;
-    std::string ours = grouped_number(pair.ours.mean, decimals);
-    if (pair.ours.mean > 0.0) ours.insert(0, "+");
+    std::string ours = signed_number(pair.ours.mean, decimals);
     if (pair.ours.half_width) ours += " ±" + grouped_number(*pair.ours.half_width, decimals);
-    std::string printed = grouped_number(pair.printed, decimals);
-    if (pair.printed > 0.0) printed.insert(0, "+");
     return fmt::format("<td>{}<br><span class=pale>{}<br>paper {}</span></td>",
                        chip(colour_of(pair.order), name_of(pair.order)), html_escaped(ours),
-                       printed);
+                       signed_number(pair.printed, decimals));
   }
   return "<td></td>";
 }
@@ -144,7 +149,7 @@ std::string orders_html(const PaperPage& page) {
          chip("good", "same") +
          " our 95 % interval of the difference, paired by seed, excludes 0 on the paper's side. " +
          chip("bad", "reversed") + " on the other side. " + chip("open", "undecided") +
-         " it holds 0, or one seed was flown.</p>\n";
+         " it holds 0, one seed was flown, or a mission was cut short.</p>\n";
 }
 
 std::string claims_html(const PaperPage& page) {
@@ -182,7 +187,7 @@ std::string count_html(std::string_view what, const std::array<std::size_t, N>& 
 }
 
 std::string counts_html(const PaperPage& page) {
-  std::array<std::size_t, 4> numbers{};
+  std::array<std::size_t, 5> numbers{};
   std::array<std::size_t, 4> orders{};
   std::array<std::size_t, 3> sentences{};
   for (const ShownTable& table : page.tables) {

@@ -89,6 +89,8 @@ std::string_view name_of(Agreement agreement) {
       return "undecided";
     case Agreement::differs:
       return "differs";
+    case Agreement::cut:
+      return "cut short";
   }
   return "";
 }

@@ -15,7 +15,8 @@ enum class Agreement {
   agrees,     // the paper's number lies in our 95 % interval, and that is narrow enough to tell
   close,      // not so, but the two differ by less than matters
   undecided,  // in our interval, which is so wide that it would hold much else
-  differs
+  differs,
+  cut  // differs, but a limit of ours ended it before it had as many views as the paper's
 };
 
 /// What matters of a difference, and what an interval has to be narrower than to tell anything; in

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "scenarios/faults.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/run_files/separated_text.hpp"
@@ -75,16 +76,16 @@ RenderView read_camera(const std::filesystem::path& path) {
 }  // namespace
 
 CameraChoice choose_camera(const std::string& name_or_file) {
-  std::string names;
+  std::vector<std::string_view> names;
   for (const Preset& preset : kPresets) {
     if (preset.name == name_or_file) {
       return {.angles = {deg_to_rad(preset.azimuth_deg), deg_to_rad(preset.elevation_deg)}};
     }
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", preset.name);
+    names.push_back(preset.name);
   }
   if (!std::filesystem::exists(name_or_file)) {
-    throw BadInput(
-        fmt::format("--camera {}: no such file, and none of the presets {}", name_or_file, names));
+    throw BadInput(fmt::format("--camera {}: no such file, and no preset ({}there are: {})",
+                               name_or_file, did_you_mean(name_or_file, names), join(names)));
   }
   return {.angles = {}, .camera = read_camera(name_or_file)};
 }

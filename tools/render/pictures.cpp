@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "scenarios/faults.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {
@@ -34,13 +35,14 @@ Image blank(int width_px, int height_px) {
 std::span<const PictureKind* const> picture_kinds() { return kKinds; }
 
 const PictureKind& picture_kind(std::string_view name) {
-  std::string names;
+  std::vector<std::string_view> names;
   for (const PictureKind* kind : kKinds) {
     if (kind->name == name) return *kind;
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", kind->name);
+    names.push_back(kind->name);
   }
-  throw BadInput(fmt::format("--what {}: no such picture; there are {}, snapshots, movie and all",
-                             name, names));
+  names.insert(names.end(), {"snapshots", "movie", "all"});
+  throw BadInput(fmt::format("--what {}: no such picture ({}there are: {})", name,
+                             did_you_mean(name, names), join(names)));
 }
 
 PictureOptions with_shared_colours(const PictureKind& kind, std::span<RunSource* const> runs,

@@ -94,7 +94,7 @@ void read_figures(RunRecord& record) {
 }  // namespace
 
 RunRecord read_run(const fs::path& given) {
-  if (given.empty()) throw BadInput("RUN is an empty name: a variable of the shell without value?");
+  if (given.empty()) throw BadInput("RUN: is empty (a variable of the shell without value?)");
   const fs::path folder = plain_folder(given);
   const fs::path yaml = folder / kScenarioFile;
   if (!fs::exists(yaml)) {

@@ -5,6 +5,7 @@
 #include <set>
 #include <string_view>
 
+#include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "tools/mission/own_utility.hpp"
 
@@ -44,6 +45,22 @@ bool sets_seed(std::string_view assignment) {
   return key.substr(std::min(key.find_first_not_of(' '), key.size())) == "seed";
 }
 
+/// A name that nobody knows is told before that there is nothing to compare it with.
+void need_known_names(const MethodOptions& options) {
+  std::vector<Override> sets;
+  for (const std::string& utility : options.utilities) {
+    if (is_utility_file(utility)) continue;
+    sets.push_back({.text = "planner.utility.name=" + utility,
+                    .source = "--utilities " + utility,
+                    .folder = {}});
+  }
+  for (const std::string& preset : options.presets) {
+    sets.push_back(
+        {.text = "planner.preset=" + preset, .source = "--presets " + preset, .folder = {}});
+  }
+  for (const Override& set : sets) load_with_overrides("smoke", {set});
+}
+
 class Methods {
  public:
   void add(SweepMethod method) { add(method.name, std::move(method.overrides)); }
@@ -81,8 +98,9 @@ class Methods {
     }
   }
 
-  std::vector<SweepMethod> all() && {
+  std::vector<SweepMethod> all(const MethodOptions& options) && {
     if (faults_.empty() && methods_.size() < 2) {
+      need_known_names(options);
       add_fault(fmt::format(
           "{}: nothing to compare with; name more by --utilities, --presets, --variant or --vary",
           methods_.empty() ? "no method" : "one method, '" + methods_[0].name + "'"));
@@ -126,7 +144,7 @@ std::vector<SweepMethod> methods_of(const MethodOptions& options) {
   }
   for (const std::string& variant : options.variants) methods.add_variant(variant);
   for (const std::string& varied : options.varies) methods.add_varied(varied);
-  return std::move(methods).all();
+  return std::move(methods).all(options);
 }
 
 }  // namespace gnbv

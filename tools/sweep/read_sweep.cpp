@@ -130,11 +130,9 @@ class SweepReader {
       scenario.scenario = absolute(name);
     } else {
       const std::vector<std::string_view> names(builtin.begin(), builtin.end());
-      const auto near = nearest_name(name, names, slip_limit(name));
-      values_.fault(
-          *node, path,
-          fmt::format("no such file, and no built-in scenario ({}built in: {})",
-                      near ? fmt::format("did you mean '{}'? ", *near) : "", join(names)));
+      values_.fault(*node, path,
+                    fmt::format("no such file, and no built-in scenario ({}built in: {})",
+                                did_you_mean(name, names), join(names)));
     }
   }
 

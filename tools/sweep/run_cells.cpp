@@ -51,7 +51,7 @@ class Pool {
         program_(options.program.empty() ? fs::path(kThisProgram) : options.program),
         threads_(options.threads > 0 ? options.threads : shared_threads(options.jobs)),
         outcomes_(cells.size()),
-        progress_("sweep", options.quiet) {
+        progress_("missions", options.quiet) {
     for (std::size_t i = 0; i < cells.size(); ++i) {
       if (first_of_id_.emplace(cells[i].id, i).second) waiting_.push_back(i);
     }
@@ -239,7 +239,7 @@ class Pool {
     const std::size_t left = all - settled_;
     progress_.show(
         static_cast<double>(settled_) / static_cast<double>(all),
-        fmt::format("{}/{} cells, {} failed", settled_, all, failed_),
+        fmt::format("{}/{}, {} failed", settled_, all, failed_),
         seconds_left(spent_s, static_cast<double>(flown_) / static_cast<double>(flown_ + left)));
   }
 

@@ -1,7 +1,6 @@
 #include "tools/terminal/progress.hpp"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,8 +8,10 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "sim/core/folding.hpp"
 #include "sim/core/utf8.hpp"
 #include "tools/terminal/say.hpp"
+#include "tools/terminal/width.hpp"
 
 namespace gnbv {
 namespace {
@@ -18,12 +19,6 @@ namespace {
 bool is_terminal() {
   const char* const term = std::getenv("TERM");
   return isatty(STDERR_FILENO) != 0 && term != nullptr && std::string_view(term) != "dumb";
-}
-
-std::size_t terminal_columns() {
-  winsize size{};
-  const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-  return known ? size.ws_col : 80;
 }
 
 }  // namespace
@@ -41,6 +36,21 @@ std::optional<double> seconds_left(double spent_s, double share_done) {
   constexpr double kLeast_s = 1.0;
   if (!(share_done >= kLeastShare && share_done < 1.0) || !(spent_s >= kLeast_s)) return {};
   return spent_s * (1.0 - share_done) / share_done;
+}
+
+std::string progress_line(const std::string& label, double share, const std::string& time,
+                          const std::string& note, std::size_t columns) {
+  constexpr std::size_t kWidest = 24;
+  constexpr std::size_t kNarrowest = 8;
+  const std::string figures = fmt::format(" {:3.0f} % {}  ", 100.0 * share, time);
+  const std::size_t around = width_of(label) + width_of(" []") + width_of(figures);
+  const std::size_t room = columns - std::min(columns, around + width_of(note));
+  const std::size_t width = std::clamp(room, kNarrowest, kWidest);
+  const auto filled = static_cast<std::size_t>(share * static_cast<double>(width));
+  const std::string bar =
+      fmt::format("{} [{:#<{}}{:.<{}}]{}", label, "", filled, "", width - filled, figures);
+  if (width_of(bar) > columns) return shortened(bar, columns);
+  return bar + shortened(note, columns - width_of(bar));
 }
 
 ProgressBar::ProgressBar(const std::string& label, bool quiet)
@@ -76,12 +86,9 @@ void ProgressBar::show(double share_done, const std::string& note, std::optional
   } else if (style_ == Style::bar) {
     if (now - last_drawn_ < std::chrono::milliseconds(50) && share < 1.0) return;
     last_drawn_ = now;
-    constexpr std::size_t kWidth = 24;
-    const auto filled = static_cast<std::size_t>(share * kWidth);
-    const std::string line =
-        fmt::format("{} [{:#<{}}{:.<{}}] {:3.0f} % {}{}  {}", label_, "", filled, "",
-                    kWidth - filled, 100.0 * share, duration_text(spent_s), left, note);
-    print_to_stderr("\r\x1b[K" + line.substr(0, terminal_columns() - 1));
+    const std::string time = duration_text(spent_s) + left;
+    print_to_stderr("\r\x1b[K" +
+                    progress_line(label_, share, time, printable(note), stderr_columns() - 1));
     bar_is_open_ = true;
   }
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -14,6 +15,11 @@ std::string duration_text(double seconds);
 /// What is left where `spent_s` made `share_done`, at the same pace. Nothing before a share or a
 /// time says anything: the first hundredth, or the first second.
 std::optional<double> seconds_left(double spent_s, double share_done);
+
+/// The bar of a terminal in at most so many columns: a long note makes the bar narrower, and is
+/// then cut after a word. `share` in [0, 1].
+std::string progress_line(const std::string& label, double share, const std::string& time,
+                          const std::string& note, std::size_t columns);
 
 class ProgressBar {
  public:

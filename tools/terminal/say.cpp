@@ -2,7 +2,9 @@
 
 #include <cstdio>
 
+#include "sim/core/folding.hpp"
 #include "sim/core/utf8.hpp"
+#include "tools/terminal/width.hpp"
 
 namespace gnbv {
 
@@ -13,7 +15,8 @@ void print_to_stderr(std::string_view text) {
 
 void say(std::string_view sentence) {
   while (sentence.ends_with('\n')) sentence.remove_suffix(1);
-  print_to_stderr(fmt::format("gnbv: {}\n", printable(sentence)));
+  const std::string line = fmt::format("gnbv: {}", printable(sentence));
+  print_to_stderr(folded_text(line, stderr_columns()) + "\n");
 }
 
 }  // namespace gnbv

@@ -11,7 +11,8 @@ namespace gnbv {
 /// As it is, flushed.
 void print_to_stderr(std::string_view text);
 
-/// The line "gnbv: SENTENCE". Control bytes, as a damaged file may hold them, are shown as \x1b.
+/// The line "gnbv: SENTENCE", folded where stderr is a terminal. Control bytes, as a damaged file
+/// may hold them, are shown as \x1b.
 void say(std::string_view sentence);
 
 template <typename... Values>

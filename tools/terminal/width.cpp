@@ -20,4 +20,11 @@ std::size_t stdout_columns() {
   return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
 }
 
+std::size_t stderr_columns() {
+  if (isatty(STDERR_FILENO) == 0) return 0;
+  winsize size{};
+  const bool is_known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return is_known ? size.ws_col : 80;
+}
+
 }  // namespace gnbv

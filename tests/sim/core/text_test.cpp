@@ -1,11 +1,13 @@
 // Laws of bytes as text, and of text as code points.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "sim/core/base64.hpp"
+#include "sim/core/folding.hpp"
 #include "sim/core/utf8.hpp"
 
 namespace gnbv {
@@ -43,6 +45,35 @@ TEST(Utf8, BytesThatAreNoneAreReplacedOneByOne) {
   EXPECT_EQ(code_points("\xed\xa0\x80"), U"\ufffd\ufffd\ufffd");  // a surrogate
   EXPECT_EQ(code_points("\xf4\x90\x80\x80")[0], U'\ufffd');       // beyond the last
   EXPECT_EQ(code_points("\xe2\x82"), U"\ufffd\ufffd");            // at the end of the text
+}
+
+TEST(FoldedText, BreaksAtBlanksButNotBetweenANumberAndItsUnit) {
+  EXPECT_EQ(folded_text("up to 25 m, 38 s", 14), "up to 25 m,\n38 s");
+  EXPECT_EQ(folded_text("up to 25 m, 38 s", 9), "up to\n25 m,\n38 s");
+  EXPECT_EQ(folded_text("(n = 4 seeds)", 6), "(n = 4\nseeds)");  // no unit
+  EXPECT_EQ(folded_text("one\n\ntwo", 5), "one\n\ntwo");
+  EXPECT_EQ(folded_text("wider than that", 0), "wider than that");
+}
+
+TEST(FoldedText, IsTheTextItWasAndNoWiderWhereBlanksAllowIt) {
+  const std::string text = "a longer sentence of 12 words with 0.05 m and 98.1 % in it.";
+  for (std::size_t width = 9; width < 70; ++width) {
+    std::string folded = folded_text(text, width);
+    std::size_t begin = 0;
+    for (std::size_t end = 0; end != std::string::npos; begin = end + 1) {
+      end = folded.find('\n', begin);
+      EXPECT_LE(folded.substr(begin, end - begin).size(), width) << folded;
+    }
+    std::replace(folded.begin(), folded.end(), '\n', ' ');
+    EXPECT_EQ(folded, text);
+  }
+}
+
+TEST(Shortened, EndsAfterAWordAndIsNeverWider) {
+  EXPECT_EQ(shortened("finding what there is to see", 28), "finding what there is to see");
+  EXPECT_EQ(shortened("finding what there is to see", 27), "finding what there is to…");
+  EXPECT_EQ(shortened("view 6/12  12 m  2,306 points", 20), "view 6/12  12 m…");
+  EXPECT_EQ(shortened("indivisible", 5), "");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "sim/core/error.hpp"
 #include "tests/support/covered_record.hpp"
+#include "tools/paper/page_parts.hpp"
 
 namespace gnbv {
 namespace {
@@ -66,6 +67,34 @@ TEST(ComparedRow, IsTakenAfterAsManyViewsAsThePapers) {
   EXPECT_EQ(isler.figures[kFine].agreement, Agreement::differs);
 }
 
+TEST(ComparedRow, ThatALimitCutShortDoesNotDifferForThat) {
+  PaperMaterial material = made_material();
+  const auto fine_of_isler = [&] {
+    return *compare_rows(material, plant())[1].figures[kFine].agreement;
+  };
+  material.missions[1].record.figures->termination = "no_valid_view";  // the planner's own end
+  EXPECT_EQ(fine_of_isler(), Agreement::differs);
+  material.missions[1].record.figures->termination = "max_iterations";
+  EXPECT_EQ(fine_of_isler(), Agreement::cut);
+  for (const ComparedPair& pair : compare_pairs(material, plant())) {
+    EXPECT_EQ(pair.order, PairOrder::undecided);
+  }
+  material.missions[0].record.figures->termination = "max_iterations";  // after the paper's views
+  EXPECT_EQ(compare_rows(material, plant())[0].figures[kFine].agreement, Agreement::differs);
+}
+
+TEST(Summary, SaysEveryAmountInPercentAndNoSignedZero) {
+  const PaperMaterial material = made_material();
+  const std::string html = summary_html({.command = "",
+                                         .version = "",
+                                         .tables = shown_tables(material),
+                                         .claims = check_claims(material)});
+  EXPECT_NE(html.find("-99 %"), std::string::npos);  // 162 nat of 14,574
+  EXPECT_EQ(html.find("×"), std::string::npos);
+  EXPECT_EQ(html.find("+0.0<"), std::string::npos);
+  EXPECT_NE(html.find("or at its own end where that came first"), std::string::npos);
+}
+
 TEST(ComparedRow, WithoutMissionsHasThePapersNumbersAlone) {
   const ComparedRow proposed = compare_rows(made_material(), plant())[2];
   EXPECT_EQ(proposed.utility, "proposed");
@@ -120,6 +149,21 @@ TEST(PaperCells, RefuseAKeyThatNoScenarioHas) {
   const PaperRequest request{
       .scenarios = {"lab_model"}, .seeds = {1}, .overrides = {"planner.utilty=1"}};
   EXPECT_THROW(paper_cells(request), BadInput);
+}
+
+TEST(Claims, OfOneMissionNameNoRange) {
+  PaperMaterial material = made_material();
+  material.missions = {made_mission("proposed", 1, 10)};
+  const auto about_coverage = [&] {
+    for (const CheckedClaim& claim : check_claims(material)) {
+      if (claim.figure == "10") return claim.finding;
+    }
+    return std::string();
+  };
+  EXPECT_EQ(about_coverage(), "Above it at the end, at 0.05 m: 0 of 1 mission; coverage 90.0 %.");
+  material.missions.push_back(made_mission("proposed", 2, 10, 0.05));
+  EXPECT_EQ(about_coverage(),
+            "Above it at the end, at 0.05 m: 1 of 2 missions; coverage from 90.0 to 95.0 %.");
 }
 
 TEST(Claims, AboutPhasesCountThoseWhereBothHappen) {

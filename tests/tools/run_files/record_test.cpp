@@ -212,7 +212,8 @@ TEST_F(Record, DamagedFilesAreNamedWithTheLine) {
   write("iterations.csv", iterations_csv(std::vector{made_view(0, {Vec3(0, -1e30, 1), 0.0}, 3)}));
   EXPECT_NE(run_complaint().find("iterations.csv:2: stands at 0 -1e+30 1"), std::string::npos)
       << run_complaint();
-  EXPECT_NE(complaint([](const fs::path&) { read_run(""); }).find("empty name"), std::string::npos);
+  EXPECT_NE(complaint([](const fs::path&) { read_run(""); }).find("RUN: is empty"),
+            std::string::npos);
 }
 
 TEST_F(Record, APointThatIsNoneIsNamedWithItsFile) {

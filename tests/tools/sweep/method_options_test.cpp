@@ -78,5 +78,12 @@ TEST(MethodOptions, OneMethodIsNoComparison) {
   EXPECT_NE(fault_of({}).find("no method"), std::string::npos);
 }
 
+TEST(MethodOptions, AMistypedNameIsToldBeforeThatItIsAlone) {
+  EXPECT_NE(fault_of({.utilities = {"proposd"}}).find("--utilities proposd: "), std::string::npos);
+  EXPECT_NE(fault_of({.utilities = {"proposd"}}).find("did you mean 'proposed'?"),
+            std::string::npos);
+  EXPECT_NE(fault_of({.presets = {"papr"}}).find("did you mean 'paper'?"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace gnbv

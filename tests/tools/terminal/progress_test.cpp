@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "sim/core/folding.hpp"
+
 namespace gnbv {
 namespace {
 
@@ -35,6 +37,24 @@ TEST(ProgressBar, TellsEachQuarterWithTimeLeftWhereNobodyWatches) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(),
             "cells  25 % flying, 1 min 01 s left\ncells  50 % flying, 1 min 01 s left\n"
             "cells  75 % flying, 1 min 01 s left\ncells 100 % flying, 1 min 01 s left\n");
+}
+
+TEST(ProgressLine, GivesUpBarBeforeWordsAndNeverPartOfAWord) {
+  const std::string note = "view 6/12  12 m  2,306 points";
+  EXPECT_EQ(progress_line("smoke", 0.5, "9 s", note, 79),
+            "smoke [############............]  50 % 9 s  view 6/12  12 m  2,306 points");
+  EXPECT_EQ(progress_line("smoke", 0.5, "9 s", note, 60),
+            "smoke [#####......]  50 % 9 s  view 6/12  12 m  2,306 points");
+  EXPECT_EQ(progress_line("smoke", 0.5, "9 s", note, 50),
+            "smoke [####....]  50 % 9 s  view 6/12  12 m…");
+}
+
+TEST(ProgressLine, FitsEveryTerminal) {
+  for (std::size_t columns = 0; columns < 90; ++columns) {
+    const std::string line = progress_line("a scénario", 0.25, "1 min 05 s, 12 s left",
+                                           "finding what there is to see", columns);
+    EXPECT_LE(width_of(line), columns) << line;
+  }
 }
 
 }  // namespace

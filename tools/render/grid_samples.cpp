@@ -1,0 +1,41 @@
+#include "tools/render/grid_samples.hpp"
+
+#include "tools/render/colour.hpp"
+
+namespace gnbv {
+namespace {
+
+const Rgb kSample = srgb(0x0072b2);
+const Rgb kVehicle = srgb(0x15151a);
+
+Vec3 ahead_of(const ViewPose& view) {
+  return {std::cos(view.yaw_rad), std::sin(view.yaw_rad), 0.0};
+}
+
+}  // namespace
+
+void add_grid_samples(const AgvsConfig& config, const ViewPose& from, double scale, double unit_m,
+                      RenderScene& scene) {
+  const auto add = [&](const ViewPose& view, const Rgb& colour) {
+    const Vec3 tip_m = view.p_world_m + 26.0 * unit_m * ahead_of(view);
+    scene.balls.push_back(
+        {view.p_world_m.cast<float>(), static_cast<float>(7.0 * unit_m), colour, true});
+    scene.tubes.push_back({{view.p_world_m.cast<float>(), tip_m.cast<float>()},
+                           {colour},
+                           static_cast<float>(2.4 * unit_m)});
+  };
+  for (const ViewPose& view : sample_agvs(config, from, scale)) add(view, kSample);
+  scene.balls.push_back(
+      {from.p_world_m.cast<float>(), static_cast<float>(11.0 * unit_m), kVehicle, true});
+}
+
+RenderView view_of_grid_samples(const AgvsConfig& config, const ViewPose& from, double largest,
+                                const ViewAngles& angles, int width_px, int height_px) {
+  std::vector<Vec3> points_m;
+  for (const ViewPose& view : sample_agvs(config, from, largest)) {
+    points_m.push_back(view.p_world_m + config.step_m * ahead_of(view));
+  }
+  return frame_points(points_m, angles, width_px, height_px);
+}
+
+}  // namespace gnbv
