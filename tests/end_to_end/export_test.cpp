@@ -91,9 +91,10 @@ TEST_F(Export, ColmapTracksAndColoursAreThoseOfTheImages) {
       colours.insert({p.z(), {rgb[0], rgb[1], rgb[2]}});
     }
     // from one place, two frames are as near as each other: rounding may choose
-    const bool is_of_a_nearest = std::any_of(colours.begin(), colours.end(), [&](const auto& c) {
-      return c.first < colours.begin()->first + 1e-6 && c.second == point.rgb;
-    });
+    const bool is_of_a_nearest =
+        std::any_of(colours.begin(), colours.end(), [&, rgb = point.rgb](const auto& c) {
+          return c.first < colours.begin()->first + 1e-6 && c.second == rgb;
+        });
     if (!is_of_a_nearest) ++strange;
   }
   EXPECT_EQ(in_tracks, in_images);

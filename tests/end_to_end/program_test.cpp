@@ -1,6 +1,7 @@
 // The program as its users meet it: exit codes, messages, and what it leaves behind.
 #include "tests/support/program.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
