@@ -3,7 +3,7 @@ import { kBelievedColours, type BelievedKind } from "./believed";
 import { planColour, rampGradient } from "./colours";
 import { colourBar, make, number } from "./dom";
 import type { RunScene, Layers } from "./run_scene";
-import type { Colouring } from "./surfaces";
+import { ofVoxels, type Colouring } from "./surfaces";
 import { foundColours } from "./true_surface";
 
 type Shape = "line" | "dot" | "bar";
@@ -43,10 +43,16 @@ export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring): 
   const items: HTMLElement[] = [];
   const first = scenes.find((scene) => scene.model.cloud) ?? scenes[0];
   if (!first) return items;
-  const things = layers.cloud && layers.voxels ? "points, voxels"
-    : layers.cloud ? "points" : layers.voxels ? "voxels" : "";
-  if (things) items.push(ofColouring(first, by, things));
-  if (layers.cloud) items.push(item("dot", "#ff7026", "points of this view"));
+  // beside a surface none of them is drawn
+  const isMeasured = scenes.some((scene) => !scene.isSwiped());
+  const [cloud, voxels] = [layers.cloud && isMeasured, layers.voxels && isMeasured];
+  if (cloud && voxels && ofVoxels(by) === by) {
+    items.push(ofColouring(first, by, "points, voxels"));
+  } else {
+    if (cloud) items.push(ofColouring(first, by, "points"));
+    if (voxels) items.push(ofColouring(first, ofVoxels(by), "voxels"));
+  }
+  if (cloud) items.push(item("dot", "#ff7026", "points of this view"));
   const surface = scenes.find((scene) => scene.surface)?.surface;
   if (surface && layers.found) {
     items.push(by === "iteration"
@@ -61,10 +67,11 @@ export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring): 
     }
   }
   if (layers.surface && scenes.some((scene) => scene.isSwiped())) {
-    items.push(make("span", {}, "left of the line the true structure, right of it the surface made "
-      + "of the run's pictures"));
+    items.push(make("span", {}, "left of the line the true structure, without its texture, right of "
+      + "it the surface made of the run's pictures"
+      + (layers.cloud || layers.voxels ? "; points and voxels are not drawn beside them" : "")));
   }
-  if (layers.structure) items.push(item("dot", "#b9bec6", "structure"));
+  if (layers.structure && isMeasured) items.push(item("dot", "#b9bec6", "structure"));
   if (layers.path) items.push(item("bar", rampGradient("path"), "last", "path, views: first"));
   if (layers.frusta) items.push(item("line", rampGradient("path"), "pyramid of each view"));
   if (layers.profile) items.push(item("line", "#8a95a3", "profile flight"));

@@ -10,6 +10,10 @@ import type { SplatSource } from "./splats";
 /** Colours by what the point is like; `real` is what the cameras saw. */
 export type Colouring = "height" | "density" | "iteration" | "error" | "real";
 
+/** Of voxels: no camera saw their colours, and their errors are not known. */
+export const ofVoxels = (by: Colouring): Colouring =>
+  (by === "real" || by === "error" ? "height" : by);
+
 /** Of each element by the state after which it was there first. */
 function firstStates(after: Uint32Array, count: number): Uint16Array {
   const first = new Uint16Array(count);
@@ -79,7 +83,7 @@ export class Model {
     if (this.cloud) this.colourCloud(by);
     if (!this.voxels || !this.densities) return;
     const { index, count, size } = this.densities;
-    const [name, share] = this.ramp(by);
+    const [name, share] = this.ramp(ofVoxels(by));
     const first = firstStates(this.voxelsAfter, count.length);
     const colour = new three.Color();
     for (let i = 0; i < count.length; ++i) {
