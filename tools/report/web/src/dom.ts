@@ -1,6 +1,6 @@
 // Elements by function call. Text is always set as text: no name in a report is ever markup.
 
-type Child = Node | string | null;
+export type Child = Node | string | null;
 type Properties = Record<string, string | number | boolean | ((event: Event) => void)>;
 
 export function make<K extends keyof HTMLElementTagNameMap>(

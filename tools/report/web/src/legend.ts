@@ -1,19 +1,33 @@
 // What everything in the 3D view means, in words beside its colour.
 import { kBelievedColours, type BelievedKind } from "./believed";
 import { planColour, rampGradient } from "./colours";
-import { colourBar, make, number } from "./dom";
+import { colourBar, make, number, type Child } from "./dom";
 import type { RunScene, Layers } from "./run_scene";
 import { ofVoxels, type Colouring } from "./surfaces";
 import { foundColours } from "./true_surface";
 
-type Shape = "line" | "dot" | "bar";
+type Shape = "line" | "dot";
 
 const hex = (colour: number) => `#${colour.toString(16).padStart(6, "0")}`;
 
-function item(shape: Shape, colour: string, text: string, before = ""): HTMLElement {
+function item(shape: Shape, colour: string, text: string, ...more: Child[]): HTMLElement {
   const swatch = make("i", { class: `mark ${shape}` });
   swatch.style.background = colour;
-  return make("span", {}, before, swatch, text);
+  return make("span", {}, swatch, text, ...more);
+}
+
+/** The colours of an order. */
+function orderItem(first: string, last: string): HTMLElement {
+  const swatch = make("i", { class: "mark bar" });
+  swatch.style.background = rampGradient("path");
+  return make("span", {}, first, swatch, last);
+}
+
+/** One text where all runs have the same, else each run's beside the colour of the run. */
+function ofEach(scenes: RunScene[], texts: string[]): Child[] {
+  if (new Set(texts).size === 1) return [texts[0]];
+  return scenes.flatMap(({ flight }, i) => [make("span", { class: `dot run-${flight.index}`,
+    role: "img", "aria-label": flight.data.label }), texts[i]]);
 }
 
 function ofColouring(scene: RunScene, by: Colouring, things: string): HTMLElement {
@@ -35,7 +49,7 @@ function ofColouring(scene: RunScene, by: Colouring, things: string): HTMLElemen
     return colourBar(rampGradient("amount"), `${things}: density 0`,
       number(most / 2, most < 10 ? 1 : 0), `${number(most)} points a voxel of ${number(size, 2)} m`);
   }
-  return item("bar", rampGradient("path"), "last view", `${things}: found by first`);
+  return orderItem(`${things}: found by first`, "last view");
 }
 
 /** Of the layers that are shown, of the first run that has each. */
@@ -56,7 +70,7 @@ export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring): 
   const surface = scenes.find((scene) => scene.surface)?.surface;
   if (surface && layers.found) {
     items.push(by === "iteration"
-      ? item("bar", rampGradient("path"), "last view", "surface found by first")
+      ? orderItem("surface found by first", "last view")
       : item("dot", hex(foundColours.found), "surface found"));
   }
   if (surface && layers.missed) {
@@ -72,7 +86,7 @@ export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring): 
       + (layers.cloud || layers.voxels ? "; points and voxels are not drawn beside them" : "")));
   }
   if (layers.structure && isMeasured) items.push(item("dot", "#b9bec6", "structure"));
-  if (layers.path) items.push(item("bar", rampGradient("path"), "last", "path, views: first"));
+  if (layers.path) items.push(orderItem("path, views: first", "last"));
   if (layers.frusta) items.push(item("line", rampGradient("path"), "pyramid of each view"));
   if (layers.profile) items.push(item("line", "#8a95a3", "profile flight"));
   if (layers.plan && scenes.some((scene) => scene.plan)) {
@@ -83,26 +97,26 @@ export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring): 
   }
   if (layers.vehicle && !layers.candidates) {
     const sights = scenes.map((scene) => scene.sight());
-    const lengths = inTurn(sights.map(({ length_m }) => number(length_m, 1)));
-    items.push(item("line", "#ff8a3c", "what the cameras see"
-      + (sights.every(({ isWhole }) => isWhole) ? "" : `, to ${lengths} m`)));
+    items.push(item("line", "#ff8a3c", "what the cameras see",
+      ...sights.every(({ isWhole }) => isWhole) ? []
+        : ["to", ...ofEach(scenes, sights.map(({ length_m }) => `${number(length_m, 1)} m`))]));
   }
   if (layers.candidates) items.push(...candidateItems(scenes));
   items.push(...believedItems(scenes));
-  items.push(make("span", {}, `grid ${inTurn(scenes.map((s) => number(s.gridStep_m)))} m`));
+  items.push(make("span", {}, "grid",
+    ...ofEach(scenes, scenes.map(({ gridStep_m }) => `${number(gridStep_m)} m`))));
   return items;
 }
 
-/** One where all are the same, else those of the panes in their order. */
-function inTurn(words: string[]): string {
-  return new Set(words).size === 1 ? words[0] : words.join(", ");
-}
-
+/** Each kind once, with the counts of all runs. */
 function candidateItems(scenes: RunScene[]): HTMLElement[] {
-  const kinds = scenes.flatMap((scene) => scene.candidates?.kinds() ?? []);
-  const seen = new Set<string>();
-  return kinds.filter(({ text }) => !seen.has(text) && seen.add(text))
-    .map(({ colour, text }) => item("line", colour, text));
+  const kinds = scenes.map((scene) => scene.candidates?.kinds() ?? []);
+  const colours = new Map(kinds.flat().map(({ colour, text }) => [text, colour]));
+  return [...colours].map(([text, colour]) => {
+    const counts = kinds.map((ofRun) =>
+      number(ofRun.find((kind) => kind.text === text)?.count ?? 0));
+    return item("line", colour, `${text}:`, ...ofEach(scenes, counts));
+  });
 }
 
 const kBelievedWords: Record<BelievedKind, string> = {
