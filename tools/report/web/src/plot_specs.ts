@@ -23,6 +23,7 @@ export interface PlotContent {
   lines: Line[];
   data: uPlot.AlignedData;
   rings: Ring[];
+  beginsBefore: boolean; // of the first view: with a value after the profile alone
   bands?: { high: number; low: number; fill: string }[]; // between lines, counted from 1
 }
 
@@ -75,7 +76,7 @@ export function coverage(flights: Flight[], effort: Effort, { size }: PlotChoice
     flight.data.figures!.curve.coverage.map((c) => 100 * c[k]);
   if (flights.length === 1) {
     const [flight] = scored;
-    if (!flight) return { lines: [], data: [[]], rings: [] };
+    if (!flight) return { lines: [], data: [[]], rings: [], beginsBefore: true };
     const x = efforts(flight, effort, 0);
     const ceiling = ceilings(scored, 0, lineColour(0));
     return {
@@ -86,6 +87,7 @@ export function coverage(flights: Flight[], effort: Effort, { size }: PlotChoice
       rings: kSizes.flatMap((_, k) =>
         ringOf(flight, effort, flight.data.paper?.coverage_percent?.[k])
           .map((ring) => ({ ...ring, colour: lineColour(k) }))),
+      beginsBefore: true,
     };
   }
   const ceiling = ceilings(scored, size, paleInk());
@@ -102,6 +104,7 @@ export function coverage(flights: Flight[], effort: Effort, { size }: PlotChoice
     })]),
     rings: scored.flatMap((flight) =>
       ringOf(flight, effort, flight.data.paper?.coverage_percent?.[size])),
+    beginsBefore: true,
   };
 }
 
@@ -112,6 +115,7 @@ function perRun(flights: Flight[], effort: Effort, values: (flight: Flight) => n
       colour: runColour(flight.index), width, run: flight.index })),
     data: joined(flights.map((flight) => column(flight, effort, values(flight)))),
     rings: [],
+    beginsBefore: flights.some((flight) => values(flight).length > flight.count),
   };
 }
 
@@ -156,6 +160,7 @@ export function terms(flights: Flight[], effort: Effort, { term }: PlotChoices):
       colour: key === "distance_factor" ? faintLine() : lineColour(i - 1) })),
     data: joined(used.map(([key]) => [x, scores(flight, key)])),
     rings: [],
+    beginsBefore: false,
   };
 }
 

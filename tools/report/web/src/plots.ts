@@ -39,6 +39,7 @@ const kKinds: PlotKind[] = [
 export class Plots {
   readonly element = make("section", { class: "plots", "aria-label": "Plots" });
   private plots: uPlot[] = [];
+  private readonly beginsBefore = new WeakMap<uPlot, boolean>(); // see PlotContent
   private flights: Flight[] = [];
   private effort = "";
   private readonly choices: specs.PlotChoices = { size: 0, term: "utility", bands: false };
@@ -82,6 +83,7 @@ export class Plots {
     const lanes = kind === kKinds[0] && this.flights.length > 1 ? this.frontierFlights() : [];
     const plot = new uPlot(this.options(kind, content, lanes.length), content.data, place);
     this.plots.push(plot);
+    this.beginsBefore.set(plot, content.beginsBefore);
     this.addLanes(plot, lanes);
     const title = `${kind.title} ${kind.unit(this.flights)}`.trim();
     place.before(make("button", { type: "button", class: "small save",
@@ -111,7 +113,8 @@ export class Plots {
   }
 
   private showValues(plot: uPlot) {
-    plot.setLegend({ idx: Math.max(0, lastAtMost(plot.data[0], this.clock.at + 1e-9)) }, false);
+    const idx = lastAtMost(plot.data[0], this.clock.at + 1e-9); // of none there are no values
+    plot.setLegend({ idx: idx < 0 && this.beginsBefore.get(plot) ? 0 : idx }, false);
   }
 
   private seedControl(): HTMLElement | null {
