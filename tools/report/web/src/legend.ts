@@ -76,8 +76,10 @@ export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring): 
   if (surface && layers.missed) {
     const colour = by === "iteration" ? foundColours.missedInOrder : foundColours.missed;
     items.push(item("dot", hex(colour), "surface missed"));
-    if (scenes.length > 1) {
-      items.push(item("dot", hex(foundColours.onlyOther), "missed here, found by the other run"));
+    const compared = Math.max(...scenes.map((scene) => scene.compared()));
+    if (compared > 0) {
+      items.push(item("dot", hex(foundColours.onlyOther),
+        `missed here, found by ${compared > 1 ? "another" : "the other"} run`));
     }
   }
   if (layers.surface && scenes.some((scene) => scene.isSwiped())) {

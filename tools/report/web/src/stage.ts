@@ -88,10 +88,7 @@ class Stage implements View3d {
 
   setShown(scenes: RunScene[]) {
     this.shown = scenes;
-    for (const scene of scenes) {
-      scene.compareWith(scenes.find((other) => other !== scene && other.surface
-        && other.flight.data.mesh === scene.flight.data.mesh) ?? null);
-    }
+    for (const scene of scenes) scene.compareWith(scenes.filter((other) => other !== scene));
     this.labels.replaceChildren(...scenes.map((scene) => make("div", { class: "pane" },
       this.scenes.length > 1
         ? make("span", { class: `chip run-${scene.flight.index}` }, scene.flight.data.label)
