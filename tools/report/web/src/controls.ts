@@ -151,7 +151,7 @@ export interface View3d {
   buttons(): HTMLElement[]; // of the view itself
   cameraState(): number[]; // position and target
   setCamera(state: number[]): void;
-  lookAt(scene: RunScene, centre: Vector3, radius_m: number): void;
+  lookAt(scene: RunScene, centre: Vector3, back: Vector3, radius_m: number): void;
   onChange(listener: () => void): void; // of the camera
   cameraPosition(): number[]; // x, y, z in the first run's world; empty where nothing is drawn
   pictures(): { whole: number; gist: number }; // drawn so far

@@ -79,7 +79,7 @@ export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring): 
     const compared = Math.max(...scenes.map((scene) => scene.compared()));
     if (compared > 0) {
       items.push(item("dot", hex(foundColours.onlyOther),
-        `missed here, found by ${compared > 1 ? "another" : "the other"} run`));
+        `missed here, found by ${scenes.length > 2 ? "another" : "the other"} run`));
     }
   }
   if (layers.surface && scenes.some((scene) => scene.isSwiped())) {

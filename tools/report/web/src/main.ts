@@ -137,11 +137,11 @@ function build() {
         ...page.tables.map(panels.makeTable)) : "",
       panels.makeConfiguration(page.runs)),
     panels.makeFooter(page));
-  const showMissed = (scene: RunScene, region: Region) => {
+  const showMissed = (scene: RunScene, region: Region, back: Vector3) => {
     const box = [...layerBar.querySelectorAll("label")]
       .find((label) => label.textContent === "Missed")!.querySelector("input")!;
     if (!box.checked) box.click();
-    stage.lookAt(scene, region.centre, region.radius_m);
+    stage.lookAt(scene, region.centre, back, region.radius_m);
     stage.element.scrollIntoView({ block: "nearest" });
   };
   // after the first picture: it takes its time

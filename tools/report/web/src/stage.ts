@@ -18,6 +18,7 @@ import { savePng } from "./save";
 import { Swipe } from "./swipe";
 import type { Colouring } from "./surfaces";
 
+const kAround = 0.35; // of the structure's extent, how far a camera stands from a part at least
 
 export function makeStage(scenes: RunScene[], clock: Clock, name: string,
     goTo: (view: number) => void): View3d {
@@ -129,15 +130,13 @@ class Stage implements View3d {
     this.controls.update();
   }
 
-  /** From outside the structure, at a place of the scene's. */
-  lookAt(scene: RunScene, centre: three.Vector3, radius_m: number) {
+  /** At a place of the scene's and what stands around it, from `back` of it. */
+  lookAt(scene: RunScene, centre: three.Vector3, back: three.Vector3, radius_m: number) {
     const pane = this.pane(scene);
-    const middle = scene.bounds().getCenter(new three.Vector3());
-    const out = centre.clone().sub(middle).setZ(0).normalize();
-    const back = out.add(new three.Vector3(0, 0, centre.z < middle.z - radius_m ? 0.05 : 0.6));
+    const extent_m = scene.bounds().getSize(new three.Vector3()).length();
     const target = pane.inFirst(centre);
     this.camera.position.copy(target)
-      .addScaledVector(back.normalize(), pane.scale * Math.max(3.2 * radius_m, 3));
+      .addScaledVector(back, pane.scale * Math.max(3.2 * radius_m, kAround * extent_m));
     this.controls.target.copy(target);
     this.controls.update();
     this.invalidate();

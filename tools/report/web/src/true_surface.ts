@@ -7,6 +7,10 @@ import type { SplatSource } from "./splats";
 
 export const kNeverFound = 0xffff;
 
+/** Of a cell by its index along each axis; exact in a double. */
+export const keyOf = (x: number, y: number, z: number) => ((x + 32768) * 65536 + y + 32768) * 65536
+  + z + 32768;
+
 /** sRGB, as in the pictures of coverage. */
 export const foundColours = {
   found: 0x8fb4cf,
