@@ -3,7 +3,7 @@ import { kBelievedColours, type BelievedKind } from "./believed";
 import { planColour, rampGradient } from "./colours";
 import { colourBar, make, number, type Child } from "./dom";
 import type { RunScene, Layers } from "./run_scene";
-import { ofVoxels, type Colouring } from "./surfaces";
+import { kNewColour, ofVoxels, type Colouring } from "./surfaces";
 import { foundColours } from "./true_surface";
 
 type Shape = "line" | "dot";
@@ -47,7 +47,7 @@ function ofColouring(scene: RunScene, by: Colouring, things: string): HTMLElemen
     if (!densities) return make("span", {}, "no voxels");
     const { most, size } = densities;
     return colourBar(rampGradient("amount"), `${things}: density 0`,
-      number(most / 2, most < 10 ? 1 : 0), `${number(most)} points a voxel of ${number(size, 2)} m`);
+      number(most / 2, most < 10 ? 1 : 0), `${number(most)} or more points a voxel of ${number(size, 2)} m`);
   }
   return orderItem(`${things}: found by first`, "last view");
 }
@@ -66,7 +66,7 @@ export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring): 
     if (cloud) items.push(ofColouring(first, by, "points"));
     if (voxels) items.push(ofColouring(first, ofVoxels(by), "voxels"));
   }
-  if (cloud) items.push(item("dot", "#ff7026", "points of this view"));
+  if (cloud) items.push(item("dot", hex(kNewColour), "points of this view"));
   const surface = scenes.find((scene) => scene.surface)?.surface;
   if (surface && layers.found) {
     items.push(by === "iteration"

@@ -32,7 +32,7 @@ void main() {
   gl_Position = projectionMatrix * p;
   gl_PointSize = clamp(uSize * uPxPerTan / -p.z, 1.6, 14.0);
   bool isNew = gl_VertexID >= uNewFrom;
-  vColour = isNew ? vec3(1.0, 0.44, 0.15) : rgb;
+  vColour = isNew ? vec3(0.0, 0.66, 1.0) : rgb;
   if (isNew) gl_PointSize += 1.0;
 }`;
 // Colours come as sRGB bytes: eight bits of linear light would crush the dark ones.
@@ -48,7 +48,9 @@ void main() {
 type Share = (height: number, density: number, state: number) => number;
 
 const kMostError_mm = 100; // larger ones have its colour
-const kNewColour = 0x2670ff; // of points of the last view, as 0xbbggrr
+/** Of points of the last view: far from the red of what was missed, for the colour-blind, too. */
+export const kNewColour = 0x00a8ff;
+const kNewSplat = kNewColour >> 16 | kNewColour & 0xff00 | (kNewColour & 255) << 16; // 0xbbggrr
 
 /** Points and voxels of a run; both are there after as many views as show() says. */
 export class Model {
@@ -139,7 +141,7 @@ export class Model {
     return [{ places: this.points, toWorld: new three.Matrix4(), least_px: 1.6, most_px: 14,
       count: this.cloudAfter[this.views], size_m: this.pointSize(),
       isRound: true, largerFrom: newFrom,
-      colourOf: (i) => (i >= newFrom ? kNewColour
+      colourOf: (i) => (i >= newFrom ? kNewSplat
         : rgb[3 * i] | rgb[3 * i + 1] << 8 | rgb[3 * i + 2] << 16) }];
   }
 
