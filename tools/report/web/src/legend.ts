@@ -25,9 +25,9 @@ function orderItem(first: string, last: string): HTMLElement {
 
 /** One text where all runs have the same, else each run's beside the colour of the run. */
 function ofEach(scenes: RunScene[], texts: string[]): Child[] {
-  if (new Set(texts).size === 1) return [texts[0]];
+  if (new Set(texts).size === 1) return [` ${texts[0]}`];
   return scenes.flatMap(({ flight }, i) => [make("span", { class: `dot run-${flight.index}`,
-    role: "img", "aria-label": flight.data.label }), texts[i]]);
+    role: "img", "aria-label": flight.data.label }), ` ${texts[i]}`]);
 }
 
 function ofColouring(scene: RunScene, by: Colouring, things: string): HTMLElement {
@@ -101,7 +101,7 @@ export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring): 
     const sights = scenes.map((scene) => scene.sight());
     items.push(item("line", "#ff8a3c", "what the cameras see",
       ...sights.every(({ isWhole }) => isWhole) ? []
-        : ["to", ...ofEach(scenes, sights.map(({ length_m }) => `${number(length_m, 1)} m`))]));
+        : [" to", ...ofEach(scenes, sights.map(({ length_m }) => `${number(length_m, 1)} m`))]));
   }
   if (layers.candidates) items.push(...candidateItems(scenes));
   items.push(...believedItems(scenes));
@@ -112,12 +112,13 @@ export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring): 
 
 /** Each kind once, with the counts of all runs. */
 function candidateItems(scenes: RunScene[]): HTMLElement[] {
-  const kinds = scenes.map((scene) => scene.candidates?.kinds() ?? []);
+  const deciding = scenes.filter((scene) => scene.candidates);
+  const kinds = deciding.map((scene) => scene.candidates!.kinds());
   const colours = new Map(kinds.flat().map(({ colour, text }) => [text, colour]));
   return [...colours].map(([text, colour]) => {
     const counts = kinds.map((ofRun) =>
       number(ofRun.find((kind) => kind.text === text)?.count ?? 0));
-    return item("line", colour, `${text}:`, ...ofEach(scenes, counts));
+    return item("line", colour, `${text}:`, ...ofEach(deciding, counts));
   });
 }
 
