@@ -68,14 +68,15 @@ export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring): 
   }
   if (cloud) items.push(item("dot", hex(kNewColour), "points of this view"));
   const surface = scenes.find((scene) => scene.surface)?.surface;
+  const size = `, voxels of ${number(surface?.size_m ?? 0, 2)} m`;
   if (surface && layers.found) {
     items.push(by === "iteration"
       ? orderItem("surface found by first", "last view")
-      : item("dot", hex(foundColours.found), "surface found"));
+      : item("dot", hex(foundColours.found), `surface found${size}`));
   }
   if (surface && layers.missed) {
     const colour = by === "iteration" ? foundColours.missedInOrder : foundColours.missed;
-    items.push(item("dot", hex(colour), "surface missed"));
+    items.push(item("dot", hex(colour), `surface missed${size}`));
     const compared = Math.max(...scenes.map((scene) => scene.compared()));
     if (compared > 0) {
       items.push(item("dot", hex(foundColours.onlyOther),

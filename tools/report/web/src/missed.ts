@@ -10,6 +10,7 @@ import { kNeverFound, keyOf, type TrueSurface } from "./true_surface";
 const kCells = 50; // along the structure; those that touch are one region
 const kMostCell_m = 0.5;
 const kMostRegions = 6;
+const kLeastSize_m = 0.05; // of voxels of the true surface, where the page has room for them
 const kLeastShare = 0.01; // of all that was missed
 
 export interface Region {
@@ -107,7 +108,9 @@ export function makeMissedList(scenes: RunScene[],
 
 function sentence(flight: Flight, surface: TrueSurface, missed: number, regions: number): string {
   return `Never found after ${number(flight.count)} views: ${number(missed)} of `
-    + `${number(surface.found.length)} voxels of ${number(surface.size_m, 2)} m. `
+    + `${number(surface.found.length)} voxels of ${number(surface.size_m, 2)} m`
+    + (surface.size_m > kLeastSize_m ? `, as the page cannot carry all of ${kLeastSize_m} m, by which `
+      + "coverage is counted. " : ". ")
     + (regions === 0 ? "They lie here and there." : `${number(regions)} `
       + `${regions === 1 ? "region was" : "regions were"} missed for the most part`
       + `${regions > kMostRegions ? "; the largest are" : ""}:`);
