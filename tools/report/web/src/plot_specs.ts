@@ -137,9 +137,15 @@ export function density(flights: Flight[], effort: Effort): PlotContent {
 /** Utilities of different formulas have different units: each is a share of its run's largest. */
 export const isShare = (flights: Flight[]) =>
   new Set(flights.map((flight) => flight.data.utility)).size > 1;
+
+export function termUnit(flights: Flight[]): string {
+  if (flights.length === 1) return "share of each term's largest";
+  return isShare(flights) ? "share of each run's largest" : "";
+}
+
 const largest = (values: number[]) => Math.max(...values.map(Math.abs)) || 1;
 
-/** The terms of one run's chosen views, or one term of several. */
+/** The terms of one run's chosen views, each a share of its largest; or one term of several. */
 export function terms(flights: Flight[], effort: Effort, { term }: PlotChoices): PlotContent {
   // a start, or a move that was not chosen among candidates, has no score
   const scores = (flight: Flight, key: Term, unit = 1) =>
@@ -158,7 +164,7 @@ export function terms(flights: Flight[], effort: Effort, { term }: PlotChoices):
   return {
     lines: used.map(([key, name], i) => ({ name, width: 1.2,
       colour: key === "distance_factor" ? faintLine() : lineColour(i - 1) })),
-    data: joined(used.map(([key]) => [x, scores(flight, key)])),
+    data: joined(used.map(([key]) => [x, scores(flight, key, largest(flight.data.views[key]))])),
     rings: [],
     beginsBefore: false,
   };

@@ -32,7 +32,7 @@ const kKinds: PlotKind[] = [
   { title: "Density", unit: () => "points a voxel", decimals: 1,
     content: (f, clock) => specs.density(f, clock.effort) },
   { title: "Utility of the chosen views", decimals: 3, control: "term",
-    unit: (f) => (specs.isShare(f) ? "share of each run's largest" : ""),
+    unit: specs.termUnit,
     content: (f, clock, choices) => specs.terms(f, clock.effort, choices) },
 ];
 
