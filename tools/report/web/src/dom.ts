@@ -57,8 +57,5 @@ export function number(value: number, decimals = 0): string {
     { minimumFractionDigits: decimals, maximumFractionDigits: decimals });
 }
 
-/** "28:04" */
-export function minutes(seconds: number): string {
-  const whole = Math.round(seconds);
-  return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, "0")}`;
-}
+/** "28.1", as the tables have it. */
+export const minutes = (seconds: number) => number(seconds / 60, 1);

@@ -39,8 +39,8 @@ function ofColouring(scene: RunScene, by: Colouring, things: string): HTMLElemen
       number((low + high) / 2, 1), `${number(high, 1)} m`);
   }
   if (by === "error") {
-    return colourBar(rampGradient("amount"), `${things}: off the surface by 0`, "5",
-      "10 cm or more");
+    return colourBar(rampGradient("amount"), `${things}: off the surface by 0`, "0.05",
+      "0.10 m or more");
   }
   if (by === "density") {
     const { densities } = model;

@@ -169,7 +169,8 @@ export class Plots {
       axes: [{ ...axis, size: 26, space: 60, label: kEffortNames[this.clock.effort], labelSize: 14,
         labelFont: kFont, labelGap: -2,
         values: (_, ticks) => ticks.map((t) => t.toLocaleString("en-US")) },
-        { ...axis, size: 54, space: 24, values: (_, ticks) => shortTicks(ticks) }],
+        { ...axis, size: 60, space: 24,
+          values: (_, ticks) => ticks.map((t) => t.toLocaleString("en-US")) }],
       series: [{ label: unit, value: (_, v) => text2(v, unit) },
         ...content.lines.map((line) => ({ label: line.name, stroke: line.colour,
           width: line.width, dash: line.dash, spanGaps: true, points: { show: false },
@@ -277,13 +278,6 @@ function yRange(low: number, high: number, rings: specs.Ring[]): [number, number
   const [least, most] = [Math.min(...values), Math.max(...values)];
   const room = 0.06 * (most - least || Math.abs(most) || 1);
   return [least >= 0 && least - room < 0 ? 0 : least - room, most + room];
-}
-
-/** Few characters: 143.9k rather than 143,900. */
-function shortTicks(ticks: number[]): string[] {
-  const isLarge = Math.max(...ticks.map(Math.abs)) >= 10000;
-  return ticks.map((t) => (isLarge ? `${(t / 1000).toLocaleString("en-US")}k`
-    : t.toLocaleString("en-US")));
 }
 
 function drawRings(plot: uPlot, rings: specs.Ring[]) {
