@@ -165,7 +165,7 @@ export function makeLayerBar(view: View3d, has: { real: boolean; voxels: boolean
     unknown: boolean; predicted: boolean; frontiers: boolean; runSurface: boolean },
     state: PageState, changed: (layers: Layers, by: Colouring) => void): HTMLElement {
   const layers: Layers = { cloud: has.cloud, voxels: false, structure: has.structure, path: true,
-    profile: true, frusta: false, plan: has.plan, vehicle: true, found: false, missed: false,
+    profile: false, frusta: false, plan: has.plan, vehicle: true, found: false, missed: false,
     candidates: false, unknown: false, predicted: false, frontiers: false, surface: false };
   if (state.layers) {
     for (const key of Object.keys(layers) as (keyof Layers)[]) {

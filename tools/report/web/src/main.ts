@@ -122,7 +122,6 @@ function build() {
   document.getElementById("app")!.replaceChildren(
     panels.makeHeader(page),
     make("main", {},
-      panels.makeMissing(page.runs) ?? "",
       isAlone ? panels.makeTiles(page.runs[0])
         : panels.makeRunTable(page.runs, shown, setShown),
       make("div", { class: isAlone ? "board" : "board several" },
@@ -135,6 +134,7 @@ function build() {
         page.tables.some((table) => table.rows.some((row) => row.includes("paper")))
           ? "Beside the paper" : "In one table"),
         ...page.tables.map(panels.makeTable)) : "",
+      panels.makeMissing(page.runs) ?? "",
       panels.makeConfiguration(page.runs)),
     panels.makeFooter(page));
   const showMissed = (scene: RunScene, region: Region, back: Vector3) => {
