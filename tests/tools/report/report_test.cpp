@@ -287,6 +287,18 @@ TEST(Report, HasTheColoursOfThePictures) {
   }
 }
 
+TEST(Report, NamesUtilitiesAsPeopleDoWithoutThePaperToo) {
+  TempFolder temp;
+  write_made_run(temp.path());
+  RunRecord record = covered_record(1, {0.2});
+  record.folder = temp.path();
+  for (const char* const utility : {"proposed", "aep"}) {
+    record.figures->utility = record.scenario.planner.utility.name = utility;
+    const nlohmann::json rows = data_of(report_of({record}))["tables"][0]["rows"];
+    EXPECT_EQ(rows[0][0], human_name(utility));
+  }
+}
+
 /// A released run is no second seed of a run by the paper.
 TEST(Report, RunsOfTwoConfigurationsAreTwoRows) {
   TempFolder temp;
