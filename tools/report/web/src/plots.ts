@@ -234,6 +234,17 @@ export class Plots {
     this.placeNow(plot);
   }
 
+  /** For paper, on which the picture of a plot is scaled: where the curves lie in it. */
+  private tellPlace(plot: uPlot) {
+    const { width, height } = plot.ctx.canvas;
+    const { left, top, width: across, height: down } = plot.bbox;
+    const shares = { left: left / width, top: top / height, width: across / width,
+      height: down / height };
+    for (const [name, share] of Object.entries(shares)) {
+      plot.over.style.setProperty(`--${name}`, `${100 * share}%`);
+    }
+  }
+
   private placeNow(plot: uPlot) {
     const x = plot.valToPos(Math.max(0, this.clock.at), "x");
     const line = plot.over.querySelector<HTMLElement>(".now");
@@ -255,6 +266,7 @@ export class Plots {
       const width = plot.root.parentElement!.clientWidth;
       if (width > 0 && width !== plot.width) plot.setSize({ width, height: plot.height });
       this.placeNow(plot);
+      this.tellPlace(plot);
     }
   }
 }
