@@ -86,7 +86,8 @@ export function makeTable(table: Table): HTMLElement {
         make("th", { scope: "col", class: align(i) }, column.head)))),
       make("tbody", {}, ...table.rows.map((row) =>
         make("tr", { class: row[ours] === "ours" ? "ours" : "" },
-          ...row.map((cell, i) => make("td", { class: align(i) }, cell))))))),
+          ...row.map((cell, i) =>
+            make("td", { class: align(i) }, cell.replace(/(\d)%$/, "$1 %")))))))),
     make("ul", { class: "notes" }, ...table.notes.map((note) => make("li", {}, ...withCode(note)))));
 }
 
