@@ -49,14 +49,14 @@ class Stage implements View3d {
   private isFramed = false;
   private follows = false;
   private readonly pointing: Pointing;
-  private readonly axes = new Axes();
+  private axes: Axes[] = []; // of each pane
   private readonly swipe = new Swipe(() => this.invalidate());
 
   constructor(private readonly scenes: RunScene[], private readonly clock: Clock,
       private readonly name: string, goTo: (view: number) => void) {
     this.shown = scenes;
     this.pointing = new Pointing(goTo);
-    this.element = make("div", { class: "stage" }, this.canvas, this.labels, this.axes.element,
+    this.element = make("div", { class: "stage" }, this.canvas, this.labels,
       this.pointing.element, make("span", { class: "aim" }), this.swipe.element);
     for (const scene of scenes) {
       scene.onLoad = () => this.invalidate();
@@ -90,10 +90,11 @@ class Stage implements View3d {
   setShown(scenes: RunScene[]) {
     this.shown = scenes;
     for (const scene of scenes) scene.compareWith(scenes.filter((other) => other !== scene));
-    this.labels.replaceChildren(...scenes.map((scene) => make("div", { class: "pane" },
+    this.axes = scenes.map(() => new Axes());
+    this.labels.replaceChildren(...scenes.map((scene, i) => make("div", { class: "pane" },
       this.scenes.length > 1
         ? make("span", { class: `chip run-${scene.flight.index}` }, scene.flight.data.label)
-        : null)));
+        : null, this.axes[i].element)));
     this.resize();
   }
 
@@ -274,7 +275,7 @@ class Stage implements View3d {
       Math.tan(three.MathUtils.degToRad(this.camera.fov) / 2);
     if (this.follows && this.shown.length > 0) this.moveAlong(pxPerTan);
     this.painter.begin(this.shown, this.clock, this.camera, pxPerTan, isWhole);
-    this.axes.show(this.camera);
+    for (const axes of this.axes) axes.show(this.camera);
     this.shown.forEach((scene, i) => {
       const [x, y] = this.isColumn() ? [0, total - (i + 1) * height] : [i * width, 0];
       this.painter.paint(scene, this.cameraOf(scene), { x, y, width, height }, this.swipe.share);
