@@ -67,16 +67,18 @@ export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring): 
     if (voxels) items.push(ofColouring(first, ofVoxels(by), "voxels"));
   }
   if (cloud) items.push(item("dot", hex(kNewColour), "points of this view"));
-  const surface = scenes.find((scene) => scene.surface)?.surface;
-  const size = `, voxels of ${number(surface?.size_m ?? 0, 2)} m`;
-  if (surface && layers.found) {
+  const ofSurface = scenes.filter(({ surface }) => surface);
+  const isKnown = ofSurface.length > 0;
+  const sizes = () => [", voxels of",
+    ...ofEach(ofSurface, ofSurface.map(({ surface }) => `${number(surface!.size_m, 2)} m`))];
+  if (isKnown && layers.found) {
     items.push(by === "iteration"
       ? orderItem("surface found by first", "last view")
-      : item("dot", hex(foundColours.found), `surface found${size}`));
+      : item("dot", hex(foundColours.found), "surface found", ...sizes()));
   }
-  if (surface && layers.missed) {
+  if (isKnown && layers.missed) {
     const colour = by === "iteration" ? foundColours.missedInOrder : foundColours.missed;
-    items.push(item("dot", hex(colour), `surface missed${size}`));
+    items.push(item("dot", hex(colour), "surface missed", ...sizes()));
     const compared = Math.max(...scenes.map((scene) => scene.compared()));
     if (compared > 0) {
       items.push(item("dot", hex(foundColours.onlyOther),

@@ -18,7 +18,7 @@ import { savePng } from "./save";
 import { Swipe } from "./swipe";
 import type { Colouring } from "./surfaces";
 
-const kAround = 0.42; // of the structure's extent, how far a camera stands from a part at least
+const kAround = 0.35; // of the structure's extent, how far a camera stands from a part at least
 
 export function makeStage(scenes: RunScene[], clock: Clock, name: string,
     goTo: (view: number) => void): View3d {
