@@ -134,26 +134,33 @@ export function density(flights: Flight[], effort: Effort): PlotContent {
   return content;
 }
 
-/** Utilities of different formulas have different units: each is a share of its run's largest. */
-export const isShare = (flights: Flight[]) =>
-  new Set(flights.map((flight) => flight.data.utility)).size > 1;
+/**
+ * Terms have different units, and so have utilities of different formulas: several in one plot are
+ * shares of their largest.
+ */
+const isShare = (flights: Flight[]) =>
+  flights.length === 1 || new Set(flights.map((flight) => flight.data.utility)).size > 1;
 
 export function termUnit(flights: Flight[]): string {
-  if (flights.length === 1) return "share of each term's largest";
-  return isShare(flights) ? "share of each run's largest" : "";
+  if (!isShare(flights)) return "";
+  return `share of each ${flights.length === 1 ? "term" : "run"}'s largest`;
 }
 
-const largest = (values: number[]) => Math.max(...values.map(Math.abs)) || 1;
+const largest = (values: (number | null)[]) =>
+  Math.max(...values.map((value) => Math.abs(value ?? 0))) || 1;
 
 /** The terms of one run's chosen views, each a share of its largest; or one term of several. */
 export function terms(flights: Flight[], effort: Effort, { term }: PlotChoices): PlotContent {
   // a start, or a move that was not chosen among candidates, has no score
-  const scores = (flight: Flight, key: Term, unit = 1) =>
-    flight.data.views[key].map((value, i) =>
-      (flight.data.views.candidates[i] > 0 ? value / unit : null) as number);
+  const scores = (flight: Flight, key: Term) => flight.data.views[key].map((value, i) =>
+    (flight.data.views.candidates[i] > 0 ? value : null));
+  const shares = (flight: Flight, key: Term) => {
+    const values = scores(flight, key);
+    const most = isShare(flights) ? largest(values) : 1;
+    return values.map((value) => (value === null ? null : value / most) as number);
+  };
   if (flights.length !== 1) {
-    return perRun(flights, effort,
-      (f) => scores(f, term, isShare(flights) ? largest(f.data.views[term]) : 1), term, 1.2);
+    return perRun(flights, effort, (f) => shares(f, term), term, 1.2);
   }
   const [flight] = flights;
   const used = kTerms.filter(([key]) => {
@@ -164,7 +171,7 @@ export function terms(flights: Flight[], effort: Effort, { term }: PlotChoices):
   return {
     lines: used.map(([key, name], i) => ({ name, width: 1.2,
       colour: key === "distance_factor" ? faintLine() : lineColour(i - 1) })),
-    data: joined(used.map(([key]) => [x, scores(flight, key, largest(flight.data.views[key]))])),
+    data: joined(used.map(([key]) => [x, shares(flight, key)])),
     rings: [],
     beginsBefore: false,
   };
