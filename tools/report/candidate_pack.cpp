@@ -4,6 +4,7 @@
 #include "sim/core/error.hpp"
 #include "tools/run_files/candidates_jsonl.hpp"
 #include "tools/run_files/file_names.hpp"
+#include "tools/run_files/words.hpp"
 
 namespace gnbv {
 namespace {
@@ -57,7 +58,7 @@ std::optional<PackedCandidates> pack_candidates(const RunRecord& record, std::si
     throw BadInput(
         fmt::format("{}: {} candidates are too many for the page: {:.1f} MB, {:.1f} MB "
                     "are left; `gnbv render --what candidates` draws any decision",
-                    (record.folder / kCandidatesFile).string(), kind.size(),
+                    (record.folder / kCandidatesFile).string(), grouped(kind.size()),
                     1e-6 * static_cast<double>(needed), 1e-6 * static_cast<double>(max_bytes)));
   }
   return PackedCandidates{.points = pack_points(points, bytes),

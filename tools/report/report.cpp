@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/compare/paper_table.hpp"
+#include "bench/compare/table_groups.hpp"
 #include "scenarios/papers_setting.hpp"
 #include "sim/core/base64.hpp"
 #include "sim/core/error.hpp"
@@ -99,7 +100,11 @@ TextTable table_of(std::span<const ScoredRun> scored) {
                            return has_papers_setting(record->scenario);
                          });
   const std::optional<Ceiling> ceiling = shared_ceiling(scored);
-  TextTable table = comparison_table(is_papers ? *paper : none, runs, ceiling, settings);
+  const PaperTable& beside = is_papers ? *paper : none;
+  for (RunFigures& run : runs) {
+    if (name_in_table(beside, run.utility) == run.utility) run.utility = human_name(run.utility);
+  }
+  TextTable table = comparison_table(beside, runs, ceiling, settings);
   if (!ceiling) {
     table.notes.emplace_back(
         "of ceiling: not known, or not the same for all runs; `gnbv ceiling` finds it");

@@ -352,7 +352,7 @@ try {
     .filter((e) => e.checkVisibility()).flatMap((e) => {
       const { width, height } = (e.closest("label") ?? e).getBoundingClientRect();
       const name = e.ariaLabel || e.textContent || e.closest("label")?.textContent;
-      const isSmall = e.type !== "range" && (width < 24 || height < 24);
+      const isSmall = width < 24 || height < 24;
       return !name || isSmall || (e.tabIndex < 0 && !e.matches(".toggle"))
         ? [e.outerHTML.slice(0, 80) + " " + width + "x" + height] : [];
     })`);

@@ -39,8 +39,10 @@ node -e '
 "$gnbv" report "${evil}proposed" --quiet -o one.html >/dev/null
 "$gnbv" report "${evil}proposed" "${evil}tour" --quiet -o two.html >/dev/null
 "$gnbv" report seed1 seed2 --quiet -o seeds.html >/dev/null
-node "$here/page_layers_test.mjs" "$chromium" seeds.html seed1 seed2
-for test in page_test page_layers_test; do
+for test in page_layers_test page_words_test; do
+  node "$here/$test.mjs" "$chromium" seeds.html seed1 seed2
+done
+for test in page_test page_layers_test page_words_test; do
   node "$here/$test.mjs" "$chromium" one.html "${evil}proposed"
   node "$here/$test.mjs" "$chromium" two.html "${evil}proposed" "${evil}tour"
 done

@@ -15,6 +15,7 @@
 #include "tools/report/run_json.hpp"
 #include "tools/report/run_pack.hpp"
 #include "tools/run_files/plan_jsonl.hpp"
+#include "tools/run_files/words.hpp"
 
 namespace gnbv {
 namespace {
@@ -287,6 +288,18 @@ TEST(Report, HasTheColoursOfThePictures) {
   }
 }
 
+TEST(Report, NamesUtilitiesAsPeopleDoWithoutThePaperToo) {
+  TempFolder temp;
+  write_made_run(temp.path());
+  RunRecord record = covered_record(1, {0.2});
+  record.folder = temp.path();
+  for (const char* const utility : {"proposed", "aep"}) {
+    record.figures->utility = record.scenario.planner.utility.name = utility;
+    const nlohmann::json rows = data_of(report_of({record}))["tables"][0]["rows"];
+    EXPECT_EQ(rows[0][0], human_name(utility));
+  }
+}
+
 /// A released run is no second seed of a run by the paper.
 TEST(Report, RunsOfTwoConfigurationsAreTwoRows) {
   TempFolder temp;
@@ -308,10 +321,10 @@ TEST(Report, RunsOfTwoConfigurationsAreTwoRows) {
     return firsts;
   };
   using Labels = std::vector<std::string>;
-  EXPECT_EQ(labels({a, other_seed}), (Labels{"proposed: 2", "Profile: 1"}));
-  EXPECT_EQ(labels({a, b, other_seed}), (Labels{"proposed, paper: 2", "proposed, released: 1",
+  EXPECT_EQ(labels({a, other_seed}), (Labels{"Proposed: 2", "Profile: 1"}));
+  EXPECT_EQ(labels({a, b, other_seed}), (Labels{"Proposed, paper: 2", "Proposed, released: 1",
                                                 "Profile, paper: 1", "Profile, released: 1"}));
-  EXPECT_EQ(labels({a, a}), (Labels{"proposed: 1", "Profile: 1"})) << "one mission, told twice";
+  EXPECT_EQ(labels({a, a}), (Labels{"Proposed: 1", "Profile: 1"})) << "one mission, told twice";
 }
 
 /// As `gnbv surface` wrote it, or a command that makes a smaller one.

@@ -1,6 +1,6 @@
 // Why this view: the candidates of the decision that chose it, with what became of each.
 import * as three from "three";
-import { isDark, ramp } from "./colours";
+import { isDark, ramp, rampGradient } from "./colours";
 import type { CandidateData } from "./data";
 import { make, number } from "./dom";
 import type { Flight } from "./flight";
@@ -149,16 +149,25 @@ export class CandidateMarks {
     return lines(positions, colours);
   }
 
-  /** What the lines of the present decision mean. */
-  kinds(): { colour: string; text: string }[] {
+  /** What the lines of the present decision mean; the counts add up to all of its candidates. */
+  kinds(): { colour: string; text: string; count: number }[] {
     const reasons = new Map<number, number>();
     for (const { kind } of this.now) reasons.set(kind, (reasons.get(kind) ?? 0) + 1);
     return [...reasons].sort(([a], [b]) => b - a).map(([kind, count]) =>
-      kind === kChosen ? { colour: hex(kChosenColour), text: "chosen, and its rays" }
-      : kind === kValid ? { colour: "linear-gradient(90deg,#3b528b,#5ec962)",
-        text: `valid, low to high utility: ${count}` }
-      : { colour: `#${reasonColour(kind).getHexString()}`,
-        text: `${words(this.data.reasons[kind])}: ${count}` });
+      kind === kChosen ? { colour: hex(kChosenColour), text: "chosen, and its rays", count }
+      : kind === kValid ? { colour: rampGradient("amount"),
+        text: "other valid ones, low to high utility", count }
+      : { colour: `#${reasonColour(kind).getHexString()}`, text: words(this.data.reasons[kind]),
+        count });
+  }
+
+  /** How many were valid, and what became of the others. */
+  private sum(): string {
+    const competed = this.now.filter(({ terms }) => terms).length;
+    const hasChosen = this.now.some(({ kind }) => kind === kChosen);
+    const rejected = this.kinds().filter(({ text }) => this.data.reasons.map(words).includes(text));
+    return [`valid: ${number(competed)}${hasChosen ? ", with the chosen one" : ""}`,
+      ...rejected.map(({ text, count }) => `${text}: ${number(count)}`)].join("; ");
   }
 
   /** The decision in words: its rejections, and the best of those that competed. */
@@ -172,11 +181,9 @@ export class CandidateMarks {
       make("td", {}, candidate.kind === kChosen ? `${rank + 1}, chosen` : `${rank + 1}`),
       ...Array.from(candidate.terms!, (value) => make("td", { class: "number" },
         value.toLocaleString("en-US", { maximumSignificantDigits: 4 }))));
-    const rejected = this.kinds().map((kind) => kind.text).filter((text) => /: \d+$/.test(text));
     return make("div", {},
       make("p", { class: "fine" },
-        `Candidates of all samplers that were asked: ${number(this.now.length)}. `
-        + (rejected.length > 0 ? `${rejected.join(", ")}.` : "")),
+        `Candidates of all samplers that were asked: ${number(this.now.length)}; ${this.sum()}.`),
       best.length === 0 ? "" : make("div", { class: "card scroll" }, make("table", {},
         make("thead", {}, make("tr", {}, ...head.map((name, i) =>
           make("th", { scope: "col", class: i > 0 ? "number" : "" }, name)))),

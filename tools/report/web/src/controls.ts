@@ -151,7 +151,7 @@ export interface View3d {
   buttons(): HTMLElement[]; // of the view itself
   cameraState(): number[]; // position and target
   setCamera(state: number[]): void;
-  lookAt(scene: RunScene, centre: Vector3, radius_m: number): void;
+  lookAt(scene: RunScene, centre: Vector3, back: Vector3, radius_m: number): void;
   onChange(listener: () => void): void; // of the camera
   cameraPosition(): number[]; // x, y, z in the first run's world; empty where nothing is drawn
   pictures(): { whole: number; gist: number }; // drawn so far
@@ -165,7 +165,7 @@ export function makeLayerBar(view: View3d, has: { real: boolean; voxels: boolean
     unknown: boolean; predicted: boolean; frontiers: boolean; runSurface: boolean },
     state: PageState, changed: (layers: Layers, by: Colouring) => void): HTMLElement {
   const layers: Layers = { cloud: has.cloud, voxels: false, structure: has.structure, path: true,
-    profile: true, frusta: false, plan: has.plan, vehicle: true, found: false, missed: false,
+    profile: false, frusta: false, plan: has.plan, vehicle: true, found: false, missed: false,
     candidates: false, unknown: false, predicted: false, frontiers: false, surface: false };
   if (state.layers) {
     for (const key of Object.keys(layers) as (keyof Layers)[]) {

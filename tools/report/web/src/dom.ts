@@ -1,6 +1,6 @@
 // Elements by function call. Text is always set as text: no name in a report is ever markup.
 
-type Child = Node | string | null;
+export type Child = Node | string | null;
 type Properties = Record<string, string | number | boolean | ((event: Event) => void)>;
 
 export function make<K extends keyof HTMLElementTagNameMap>(
@@ -57,8 +57,5 @@ export function number(value: number, decimals = 0): string {
     { minimumFractionDigits: decimals, maximumFractionDigits: decimals });
 }
 
-/** "28:04" */
-export function minutes(seconds: number): string {
-  const whole = Math.round(seconds);
-  return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, "0")}`;
-}
+/** "28.1", as the tables have it. */
+export const minutes = (seconds: number) => number(seconds / 60, 1);

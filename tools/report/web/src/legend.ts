@@ -1,19 +1,33 @@
 // What everything in the 3D view means, in words beside its colour.
 import { kBelievedColours, type BelievedKind } from "./believed";
 import { planColour, rampGradient } from "./colours";
-import { colourBar, make, number } from "./dom";
+import { colourBar, make, number, type Child } from "./dom";
 import type { RunScene, Layers } from "./run_scene";
-import type { Colouring } from "./surfaces";
+import { kNewColour, ofVoxels, type Colouring } from "./surfaces";
 import { foundColours } from "./true_surface";
 
-type Shape = "line" | "dot" | "bar";
+type Shape = "line" | "dot";
 
 const hex = (colour: number) => `#${colour.toString(16).padStart(6, "0")}`;
 
-function item(shape: Shape, colour: string, text: string, before = ""): HTMLElement {
+function item(shape: Shape, colour: string, text: string, ...more: Child[]): HTMLElement {
   const swatch = make("i", { class: `mark ${shape}` });
   swatch.style.background = colour;
-  return make("span", {}, before, swatch, text);
+  return make("span", {}, swatch, text, ...more);
+}
+
+/** The colours of an order. */
+function orderItem(first: string, last: string): HTMLElement {
+  const swatch = make("i", { class: "mark bar" });
+  swatch.style.background = rampGradient("path");
+  return make("span", {}, first, swatch, last);
+}
+
+/** One text where all runs have the same, else each run's beside the colour of the run. */
+function ofEach(scenes: RunScene[], texts: string[]): Child[] {
+  if (new Set(texts).size === 1) return [` ${texts[0]}`];
+  return scenes.flatMap(({ flight }, i) => [make("span", { class: `dot run-${flight.index}`,
+    role: "img", "aria-label": flight.data.label }), ` ${texts[i]}`]);
 }
 
 function ofColouring(scene: RunScene, by: Colouring, things: string): HTMLElement {
@@ -25,17 +39,17 @@ function ofColouring(scene: RunScene, by: Colouring, things: string): HTMLElemen
       number((low + high) / 2, 1), `${number(high, 1)} m`);
   }
   if (by === "error") {
-    return colourBar(rampGradient("amount"), `${things}: off the surface by 0`, "5",
-      "10 cm or more");
+    return colourBar(rampGradient("amount"), `${things}: off the surface by 0`, "0.05",
+      "0.10 m or more");
   }
   if (by === "density") {
     const { densities } = model;
     if (!densities) return make("span", {}, "no voxels");
     const { most, size } = densities;
     return colourBar(rampGradient("amount"), `${things}: density 0`,
-      number(most / 2, most < 10 ? 1 : 0), `${number(most)} points a voxel of ${number(size, 2)} m`);
+      number(most / 2, most < 10 ? 1 : 0), `${number(most)} or more points a voxel of ${number(size, 2)} m`);
   }
-  return item("bar", rampGradient("path"), "last view", `${things}: found by first`);
+  return orderItem(`${things}: found by first`, "last view");
 }
 
 /** Of the layers that are shown, of the first run that has each. */
@@ -43,29 +57,41 @@ export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring): 
   const items: HTMLElement[] = [];
   const first = scenes.find((scene) => scene.model.cloud) ?? scenes[0];
   if (!first) return items;
-  const things = layers.cloud && layers.voxels ? "points, voxels"
-    : layers.cloud ? "points" : layers.voxels ? "voxels" : "";
-  if (things) items.push(ofColouring(first, by, things));
-  if (layers.cloud) items.push(item("dot", "#ff7026", "points of this view"));
-  const surface = scenes.find((scene) => scene.surface)?.surface;
-  if (surface && layers.found) {
-    items.push(by === "iteration"
-      ? item("bar", rampGradient("path"), "last view", "surface found by first")
-      : item("dot", hex(foundColours.found), "surface found"));
+  // beside a surface none of them is drawn
+  const isMeasured = scenes.some((scene) => !scene.isSwiped());
+  const [cloud, voxels] = [layers.cloud && isMeasured, layers.voxels && isMeasured];
+  if (cloud && voxels && ofVoxels(by) === by) {
+    items.push(ofColouring(first, by, "points, voxels"));
+  } else {
+    if (cloud) items.push(ofColouring(first, by, "points"));
+    if (voxels) items.push(ofColouring(first, ofVoxels(by), "voxels"));
   }
-  if (surface && layers.missed) {
+  if (cloud) items.push(item("dot", hex(kNewColour), "points of this view"));
+  const ofSurface = scenes.filter(({ surface }) => surface);
+  const isKnown = ofSurface.length > 0;
+  const sizes = () => [", voxels of",
+    ...ofEach(ofSurface, ofSurface.map(({ surface }) => `${number(surface!.size_m, 2)} m`))];
+  if (isKnown && layers.found) {
+    items.push(by === "iteration"
+      ? orderItem("surface found by first", "last view")
+      : item("dot", hex(foundColours.found), "surface found", ...sizes()));
+  }
+  if (isKnown && layers.missed) {
     const colour = by === "iteration" ? foundColours.missedInOrder : foundColours.missed;
-    items.push(item("dot", hex(colour), "surface missed"));
-    if (scenes.length > 1) {
-      items.push(item("dot", hex(foundColours.onlyOther), "missed here, found by the other run"));
+    items.push(item("dot", hex(colour), "surface missed", ...sizes()));
+    const compared = Math.max(...scenes.map((scene) => scene.compared()));
+    if (compared > 0) {
+      items.push(item("dot", hex(foundColours.onlyOther),
+        `missed here, found by ${scenes.length > 2 ? "another" : "the other"} run`));
     }
   }
   if (layers.surface && scenes.some((scene) => scene.isSwiped())) {
-    items.push(make("span", {}, "left of the line the true structure, right of it the surface made "
-      + "of the run's pictures"));
+    items.push(make("span", {}, "left of the line the true structure, without its texture, right of "
+      + "it the surface made of the run's pictures"
+      + (layers.cloud || layers.voxels ? "; points and voxels are not drawn beside them" : "")));
   }
-  if (layers.structure) items.push(item("dot", "#b9bec6", "structure"));
-  if (layers.path) items.push(item("bar", rampGradient("path"), "last", "path, views: first"));
+  if (layers.structure && isMeasured) items.push(item("dot", "#b9bec6", "structure"));
+  if (layers.path) items.push(orderItem("path, views: first", "last"));
   if (layers.frusta) items.push(item("line", rampGradient("path"), "pyramid of each view"));
   if (layers.profile) items.push(item("line", "#8a95a3", "profile flight"));
   if (layers.plan && scenes.some((scene) => scene.plan)) {
@@ -76,26 +102,27 @@ export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring): 
   }
   if (layers.vehicle && !layers.candidates) {
     const sights = scenes.map((scene) => scene.sight());
-    const lengths = inTurn(sights.map(({ length_m }) => number(length_m, 1)));
-    items.push(item("line", "#ff8a3c", "what the cameras see"
-      + (sights.every(({ isWhole }) => isWhole) ? "" : `, to ${lengths} m`)));
+    items.push(item("line", "#ff8a3c", "what the cameras see",
+      ...sights.every(({ isWhole }) => isWhole) ? []
+        : [" to", ...ofEach(scenes, sights.map(({ length_m }) => `${number(length_m, 1)} m`))]));
   }
   if (layers.candidates) items.push(...candidateItems(scenes));
   items.push(...believedItems(scenes));
-  items.push(make("span", {}, `grid ${inTurn(scenes.map((s) => number(s.gridStep_m)))} m`));
+  items.push(make("span", {}, "grid",
+    ...ofEach(scenes, scenes.map(({ gridStep_m }) => `${number(gridStep_m)} m`))));
   return items;
 }
 
-/** One where all are the same, else those of the panes in their order. */
-function inTurn(words: string[]): string {
-  return new Set(words).size === 1 ? words[0] : words.join(", ");
-}
-
+/** Each kind once, with the counts of all runs. */
 function candidateItems(scenes: RunScene[]): HTMLElement[] {
-  const kinds = scenes.flatMap((scene) => scene.candidates?.kinds() ?? []);
-  const seen = new Set<string>();
-  return kinds.filter(({ text }) => !seen.has(text) && seen.add(text))
-    .map(({ colour, text }) => item("line", colour, text));
+  const deciding = scenes.filter((scene) => scene.candidates);
+  const kinds = deciding.map((scene) => scene.candidates!.kinds());
+  const colours = new Map(kinds.flat().map(({ colour, text }) => [text, colour]));
+  return [...colours].map(([text, colour]) => {
+    const counts = kinds.map((ofRun) =>
+      number(ofRun.find((kind) => kind.text === text)?.count ?? 0));
+    return item("line", colour, `${text}:`, ...ofEach(deciding, counts));
+  });
 }
 
 const kBelievedWords: Record<BelievedKind, string> = {

@@ -122,7 +122,6 @@ function build() {
   document.getElementById("app")!.replaceChildren(
     panels.makeHeader(page),
     make("main", {},
-      panels.makeMissing(page.runs) ?? "",
       isAlone ? panels.makeTiles(page.runs[0])
         : panels.makeRunTable(page.runs, shown, setShown),
       make("div", { class: isAlone ? "board" : "board several" },
@@ -135,13 +134,14 @@ function build() {
         page.tables.some((table) => table.rows.some((row) => row.includes("paper")))
           ? "Beside the paper" : "In one table"),
         ...page.tables.map(panels.makeTable)) : "",
+      panels.makeMissing(page.runs) ?? "",
       panels.makeConfiguration(page.runs)),
     panels.makeFooter(page));
-  const showMissed = (scene: RunScene, region: Region) => {
+  const showMissed = (scene: RunScene, region: Region, back: Vector3) => {
     const box = [...layerBar.querySelectorAll("label")]
       .find((label) => label.textContent === "Missed")!.querySelector("input")!;
     if (!box.checked) box.click();
-    stage.lookAt(scene, region.centre, region.radius_m);
+    stage.lookAt(scene, region.centre, back, region.radius_m);
     stage.element.scrollIntoView({ block: "nearest" });
   };
   // after the first picture: it takes its time

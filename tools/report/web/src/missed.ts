@@ -4,22 +4,22 @@ import * as three from "three";
 import { make, number } from "./dom";
 import type { Flight } from "./flight";
 import type { RunScene } from "./run_scene";
-import { kNeverFound, type TrueSurface } from "./true_surface";
+import { openSide } from "./open_side";
+import { kNeverFound, keyOf, type TrueSurface } from "./true_surface";
 
 const kCells = 50; // along the structure; those that touch are one region
 const kMostCell_m = 0.5;
 const kMostRegions = 6;
+const kLeastSize_m = 0.05; // of voxels of the true surface, where the page has room for them
 const kLeastShare = 0.01; // of all that was missed
 
 export interface Region {
-  voxels: number;
+  voxels: number[];
   centre: three.Vector3;
   radius_m: number;
 }
 
-/** Of a cell by its index along each axis, and back; exact in a double. */
-const keyOf = (x: number, y: number, z: number) => ((x + 32768) * 65536 + y + 32768) * 65536
-  + z + 32768;
+/** The cell of a key. */
 const cellOf = (key: number) => [Math.floor(key / 65536 ** 2) - 32768,
   Math.floor(key / 65536) % 65536 - 32768, key % 65536 - 32768];
 
@@ -73,31 +73,32 @@ export function missedRegions(surface: TrueSurface): Region[] {
     }
     regions.push(regionOf(surface, members));
   }
-  return regions.sort((a, b) => b.voxels - a.voxels);
+  return regions.sort((a, b) => b.voxels.length - a.voxels.length);
 }
 
 function regionOf(surface: TrueSurface, members: number[]): Region {
   const box = new three.Box3();
   for (const voxel of members) box.expandByPoint(surface.centre(voxel));
-  return { voxels: members.length, centre: box.getCenter(new three.Vector3()),
+  return { voxels: members, centre: box.getCenter(new three.Vector3()),
     radius_m: Math.max(box.getSize(new three.Vector3()).length() / 2, surface.size_m) };
 }
 
 /** A list of each run's largest regions; a button shows one. Null where all was found. */
 export function makeMissedList(scenes: RunScene[],
-    show: (scene: RunScene, region: Region) => void): HTMLElement | null {
+    show: (scene: RunScene, region: Region, back: three.Vector3) => void): HTMLElement | null {
   const lists = scenes.filter((scene) => scene.surface).map((scene) => {
     const regions = missedRegions(scene.surface!);
     const all = scene.surface!.found.filter((first) => first === kNeverFound).length;
-    const large = regions.filter((region) => region.voxels >= kLeastShare * all);
+    const large = regions.filter((region) => region.voxels.length >= kLeastShare * all);
     return all === 0 ? null : make("div", {},
       make("p", { class: "fine" }, scenes.length > 1 ? `${scene.flight.data.label}: ` : "",
         sentence(scene.flight, scene.surface!, all, large.length)),
       make("ol", { class: "regions" }, ...large.slice(0, kMostRegions).map((region, i) =>
         make("li", {}, make("button", { type: "button", class: "small",
-          click: () => show(scene, region), "aria-label": `Show region ${i + 1}` }, "Show"),
-        ` ${number(region.voxels)} voxels, `
-        + `${number(100 * region.voxels / all, 1)} % of them, around `
+          click: () => show(scene, region, openSide(scene.surface!, region.voxels)),
+          "aria-label": `Show region ${i + 1}` }, "Show"),
+        ` ${number(region.voxels.length)} voxels, `
+        + `${number(100 * region.voxels.length / all, 1)} % of them, around `
         + region.centre.toArray().map((x) => number(Math.round(10 * x) / 10 + 0, 1)).join(", ")
         + " m"))));
   }).filter((list) => list !== null);
@@ -107,7 +108,9 @@ export function makeMissedList(scenes: RunScene[],
 
 function sentence(flight: Flight, surface: TrueSurface, missed: number, regions: number): string {
   return `Never found after ${number(flight.count)} views: ${number(missed)} of `
-    + `${number(surface.found.length)} voxels of ${number(surface.size_m, 2)} m. `
+    + `${number(surface.found.length)} voxels of ${number(surface.size_m, 2)} m`
+    + (surface.size_m > kLeastSize_m ? `, as the page cannot carry all of ${kLeastSize_m} m, by which `
+      + "coverage is counted. " : ". ")
     + (regions === 0 ? "They lie here and there." : `${number(regions)} `
       + `${regions === 1 ? "region was" : "regions were"} missed for the most part`
       + `${regions > kMostRegions ? "; the largest are" : ""}:`);

@@ -25,7 +25,7 @@ function keyFigures(run: RunData): Figure[] {
       figures.push({ name: "Of the ceiling", value: number(100 * f.coverage[0] / run.ceiling[0], 1),
         unit: "%" });
     }
-    figures.push({ name: "F within 5 cm", value: number(100 * f.f_5cm, 1), unit: "%" });
+    figures.push({ name: "F at 0.05 m", value: number(100 * f.f_5cm, 1), unit: "%" });
   }
   figures.push({ name: "Views", value: number(count), unit: "",
     paper: paper ? number(paper.views) : undefined });
@@ -86,7 +86,8 @@ export function makeTable(table: Table): HTMLElement {
         make("th", { scope: "col", class: align(i) }, column.head)))),
       make("tbody", {}, ...table.rows.map((row) =>
         make("tr", { class: row[ours] === "ours" ? "ours" : "" },
-          ...row.map((cell, i) => make("td", { class: align(i) }, cell))))))),
+          ...row.map((cell, i) =>
+            make("td", { class: align(i) }, cell.replace(/(\d)%$/, "$1 %")))))))),
     make("ul", { class: "notes" }, ...table.notes.map((note) => make("li", {}, ...withCode(note)))));
 }
 

@@ -23,6 +23,7 @@ export interface PlotContent {
   lines: Line[];
   data: uPlot.AlignedData;
   rings: Ring[];
+  beginsBefore: boolean; // of the first view: with a value after the profile alone
   bands?: { high: number; low: number; fill: string }[]; // between lines, counted from 1
 }
 
@@ -75,7 +76,7 @@ export function coverage(flights: Flight[], effort: Effort, { size }: PlotChoice
     flight.data.figures!.curve.coverage.map((c) => 100 * c[k]);
   if (flights.length === 1) {
     const [flight] = scored;
-    if (!flight) return { lines: [], data: [[]], rings: [] };
+    if (!flight) return { lines: [], data: [[]], rings: [], beginsBefore: true };
     const x = efforts(flight, effort, 0);
     const ceiling = ceilings(scored, 0, lineColour(0));
     return {
@@ -86,6 +87,7 @@ export function coverage(flights: Flight[], effort: Effort, { size }: PlotChoice
       rings: kSizes.flatMap((_, k) =>
         ringOf(flight, effort, flight.data.paper?.coverage_percent?.[k])
           .map((ring) => ({ ...ring, colour: lineColour(k) }))),
+      beginsBefore: true,
     };
   }
   const ceiling = ceilings(scored, size, paleInk());
@@ -102,6 +104,7 @@ export function coverage(flights: Flight[], effort: Effort, { size }: PlotChoice
     })]),
     rings: scored.flatMap((flight) =>
       ringOf(flight, effort, flight.data.paper?.coverage_percent?.[size])),
+    beginsBefore: true,
   };
 }
 
@@ -112,6 +115,7 @@ function perRun(flights: Flight[], effort: Effort, values: (flight: Flight) => n
       colour: runColour(flight.index), width, run: flight.index })),
     data: joined(flights.map((flight) => column(flight, effort, values(flight)))),
     rings: [],
+    beginsBefore: flights.some((flight) => values(flight).length > flight.count),
   };
 }
 
@@ -130,20 +134,33 @@ export function density(flights: Flight[], effort: Effort): PlotContent {
   return content;
 }
 
-/** Utilities of different formulas have different units: each is a share of its run's largest. */
-export const isShare = (flights: Flight[]) =>
-  new Set(flights.map((flight) => flight.data.utility)).size > 1;
-const largest = (values: number[]) => Math.max(...values.map(Math.abs)) || 1;
+/**
+ * Terms have different units, and so have utilities of different formulas: several in one plot are
+ * shares of their largest.
+ */
+const isShare = (flights: Flight[]) =>
+  flights.length === 1 || new Set(flights.map((flight) => flight.data.utility)).size > 1;
 
-/** The terms of one run's chosen views, or one term of several. */
+export function termUnit(flights: Flight[]): string {
+  if (!isShare(flights)) return "";
+  return `share of each ${flights.length === 1 ? "term" : "run"}'s largest`;
+}
+
+const largest = (values: (number | null)[]) =>
+  Math.max(...values.map((value) => Math.abs(value ?? 0))) || 1;
+
+/** The terms of one run's chosen views, each a share of its largest; or one term of several. */
 export function terms(flights: Flight[], effort: Effort, { term }: PlotChoices): PlotContent {
   // a start, or a move that was not chosen among candidates, has no score
-  const scores = (flight: Flight, key: Term, unit = 1) =>
-    flight.data.views[key].map((value, i) =>
-      (flight.data.views.candidates[i] > 0 ? value / unit : null) as number);
+  const scores = (flight: Flight, key: Term) => flight.data.views[key].map((value, i) =>
+    (flight.data.views.candidates[i] > 0 ? value : null));
+  const shares = (flight: Flight, key: Term) => {
+    const values = scores(flight, key);
+    const most = isShare(flights) ? largest(values) : 1;
+    return values.map((value) => (value === null ? null : value / most) as number);
+  };
   if (flights.length !== 1) {
-    return perRun(flights, effort,
-      (f) => scores(f, term, isShare(flights) ? largest(f.data.views[term]) : 1), term, 1.2);
+    return perRun(flights, effort, (f) => shares(f, term), term, 1.2);
   }
   const [flight] = flights;
   const used = kTerms.filter(([key]) => {
@@ -154,8 +171,9 @@ export function terms(flights: Flight[], effort: Effort, { term }: PlotChoices):
   return {
     lines: used.map(([key, name], i) => ({ name, width: 1.2,
       colour: key === "distance_factor" ? faintLine() : lineColour(i - 1) })),
-    data: joined(used.map(([key]) => [x, scores(flight, key)])),
+    data: joined(used.map(([key]) => [x, shares(flight, key)])),
     rings: [],
+    beginsBefore: false,
   };
 }
 

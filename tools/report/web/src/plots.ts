@@ -32,13 +32,14 @@ const kKinds: PlotKind[] = [
   { title: "Density", unit: () => "points a voxel", decimals: 1,
     content: (f, clock) => specs.density(f, clock.effort) },
   { title: "Utility of the chosen views", decimals: 3, control: "term",
-    unit: (f) => (specs.isShare(f) ? "share of each run's largest" : ""),
+    unit: specs.termUnit,
     content: (f, clock, choices) => specs.terms(f, clock.effort, choices) },
 ];
 
 export class Plots {
   readonly element = make("section", { class: "plots", "aria-label": "Plots" });
   private plots: uPlot[] = [];
+  private readonly beginsBefore = new WeakMap<uPlot, boolean>(); // see PlotContent
   private flights: Flight[] = [];
   private effort = "";
   private readonly choices: specs.PlotChoices = { size: 0, term: "utility", bands: false };
@@ -82,6 +83,7 @@ export class Plots {
     const lanes = kind === kKinds[0] && this.flights.length > 1 ? this.frontierFlights() : [];
     const plot = new uPlot(this.options(kind, content, lanes.length), content.data, place);
     this.plots.push(plot);
+    this.beginsBefore.set(plot, content.beginsBefore);
     this.addLanes(plot, lanes);
     const title = `${kind.title} ${kind.unit(this.flights)}`.trim();
     place.before(make("button", { type: "button", class: "small save",
@@ -111,7 +113,8 @@ export class Plots {
   }
 
   private showValues(plot: uPlot) {
-    plot.setLegend({ idx: Math.max(0, lastAtMost(plot.data[0], this.clock.at + 1e-9)) }, false);
+    const idx = lastAtMost(plot.data[0], this.clock.at + 1e-9); // of none there are no values
+    plot.setLegend({ idx: idx < 0 && this.beginsBefore.get(plot) ? 0 : idx }, false);
   }
 
   private seedControl(): HTMLElement | null {
@@ -166,7 +169,8 @@ export class Plots {
       axes: [{ ...axis, size: 26, space: 60, label: kEffortNames[this.clock.effort], labelSize: 14,
         labelFont: kFont, labelGap: -2,
         values: (_, ticks) => ticks.map((t) => t.toLocaleString("en-US")) },
-        { ...axis, size: 54, space: 24, values: (_, ticks) => shortTicks(ticks) }],
+        { ...axis, size: 60, space: 24,
+          values: (_, ticks) => ticks.map((t) => t.toLocaleString("en-US")) }],
       series: [{ label: unit, value: (_, v) => text2(v, unit) },
         ...content.lines.map((line) => ({ label: line.name, stroke: line.colour,
           width: line.width, dash: line.dash, spanGaps: true, points: { show: false },
@@ -230,6 +234,17 @@ export class Plots {
     this.placeNow(plot);
   }
 
+  /** For paper, on which the picture of a plot is scaled: where the curves lie in it. */
+  private tellPlace(plot: uPlot) {
+    const { width, height } = plot.ctx.canvas;
+    const { left, top, width: across, height: down } = plot.bbox;
+    const shares = { left: left / width, top: top / height, width: across / width,
+      height: down / height };
+    for (const [name, share] of Object.entries(shares)) {
+      plot.over.style.setProperty(`--${name}`, `${100 * share}%`);
+    }
+  }
+
   private placeNow(plot: uPlot) {
     const x = plot.valToPos(Math.max(0, this.clock.at), "x");
     const line = plot.over.querySelector<HTMLElement>(".now");
@@ -251,6 +266,7 @@ export class Plots {
       const width = plot.root.parentElement!.clientWidth;
       if (width > 0 && width !== plot.width) plot.setSize({ width, height: plot.height });
       this.placeNow(plot);
+      this.tellPlace(plot);
     }
   }
 }
@@ -274,13 +290,6 @@ function yRange(low: number, high: number, rings: specs.Ring[]): [number, number
   const [least, most] = [Math.min(...values), Math.max(...values)];
   const room = 0.06 * (most - least || Math.abs(most) || 1);
   return [least >= 0 && least - room < 0 ? 0 : least - room, most + room];
-}
-
-/** Few characters: 143.9k rather than 143,900. */
-function shortTicks(ticks: number[]): string[] {
-  const isLarge = Math.max(...ticks.map(Math.abs)) >= 10000;
-  return ticks.map((t) => (isLarge ? `${(t / 1000).toLocaleString("en-US")}k`
-    : t.toLocaleString("en-US")));
 }
 
 function drawRings(plot: uPlot, rings: specs.Ring[]) {

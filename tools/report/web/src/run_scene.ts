@@ -77,7 +77,7 @@ export class RunScene {
   onLoad = () => {}; // of the picture on that surface
   private layers: Layers | null = null;
   readonly gridStep_m: number;
-  private other: RunScene | null = null;
+  private others: RunScene[] = [];
   private readonly splats = new Splats();
 
   constructor(readonly flight: Flight, mesh: MeshData | undefined, meshBytes: Bytes) {
@@ -155,11 +155,15 @@ export class RunScene {
     this.surface?.colourByOrder(by === "iteration");
   }
 
-  /** What that run found and this one did not is told apart. */
-  compareWith(other: RunScene | null) {
-    this.other = other;
-    this.surface?.compareWith(other?.surface ?? null);
+  /** What other runs around the same structure found and this one did not is told apart. */
+  compareWith(others: RunScene[]) {
+    this.others = others.filter(({ surface, flight }) => surface
+      && flight.data.mesh === this.flight.data.mesh);
+    this.surface?.compareWith(this.others.map(({ surface }) => surface!));
   }
+
+  /** How many others it is compared with. */
+  compared() { return this.surface ? this.others.length : 0; }
 
   /**
    * As it is at the clock's time, for a camera that draws `pxPerTan` pixels a unit of tangent;
@@ -175,7 +179,7 @@ export class RunScene {
     this.plan?.show(n);
     this.candidates?.show(n);
     this.believed?.show(n);
-    this.surface?.show(n, this.other?.flight.viewsAt(clock) ?? 0, pxPerTan);
+    this.surface?.show(n, this.others.map(({ flight }) => flight.viewsAt(clock)), pxPerTan);
     if (splats) {
       this.splats.show([...this.model.splats(), ...this.surface?.splats() ?? []], camera, pxPerTan,
         isWhole ? 1 : kGistRatio);

@@ -69,5 +69,5 @@ export function withBands(content: PlotContent, flights: Flight[], effort: Effor
     lines.push(line);
     columns.push([...content.data[i + 1]]);
   });
-  return { lines, bands, rings: content.rings, data: [xs, ...columns] as uPlot.AlignedData };
+  return { ...content, lines, bands, data: [xs, ...columns] as uPlot.AlignedData };
 }

@@ -18,6 +18,7 @@ import { savePng } from "./save";
 import { Swipe } from "./swipe";
 import type { Colouring } from "./surfaces";
 
+const kAround = 0.35; // of the structure's extent, how far a camera stands from a part at least
 
 export function makeStage(scenes: RunScene[], clock: Clock, name: string,
     goTo: (view: number) => void): View3d {
@@ -48,14 +49,14 @@ class Stage implements View3d {
   private isFramed = false;
   private follows = false;
   private readonly pointing: Pointing;
-  private readonly axes = new Axes();
+  private axes: Axes[] = []; // of each pane
   private readonly swipe = new Swipe(() => this.invalidate());
 
   constructor(private readonly scenes: RunScene[], private readonly clock: Clock,
       private readonly name: string, goTo: (view: number) => void) {
     this.shown = scenes;
     this.pointing = new Pointing(goTo);
-    this.element = make("div", { class: "stage" }, this.canvas, this.labels, this.axes.element,
+    this.element = make("div", { class: "stage" }, this.canvas, this.labels,
       this.pointing.element, make("span", { class: "aim" }), this.swipe.element);
     for (const scene of scenes) {
       scene.onLoad = () => this.invalidate();
@@ -88,14 +89,12 @@ class Stage implements View3d {
 
   setShown(scenes: RunScene[]) {
     this.shown = scenes;
-    for (const scene of scenes) {
-      scene.compareWith(scenes.find((other) => other !== scene && other.surface
-        && other.flight.data.mesh === scene.flight.data.mesh) ?? null);
-    }
-    this.labels.replaceChildren(...scenes.map((scene) => make("div", { class: "pane" },
+    for (const scene of scenes) scene.compareWith(scenes.filter((other) => other !== scene));
+    this.axes = scenes.map(() => new Axes());
+    this.labels.replaceChildren(...scenes.map((scene, i) => make("div", { class: "pane" },
       this.scenes.length > 1
         ? make("span", { class: `chip run-${scene.flight.index}` }, scene.flight.data.label)
-        : null)));
+        : null, this.axes[i].element)));
     this.resize();
   }
 
@@ -132,15 +131,13 @@ class Stage implements View3d {
     this.controls.update();
   }
 
-  /** From outside the structure, at a place of the scene's. */
-  lookAt(scene: RunScene, centre: three.Vector3, radius_m: number) {
+  /** At a place of the scene's and what stands around it, from `back` of it. */
+  lookAt(scene: RunScene, centre: three.Vector3, back: three.Vector3, radius_m: number) {
     const pane = this.pane(scene);
-    const middle = scene.bounds().getCenter(new three.Vector3());
-    const out = centre.clone().sub(middle).setZ(0).normalize();
-    const back = out.add(new three.Vector3(0, 0, centre.z < middle.z - radius_m ? 0.05 : 0.6));
+    const extent_m = scene.bounds().getSize(new three.Vector3()).length();
     const target = pane.inFirst(centre);
     this.camera.position.copy(target)
-      .addScaledVector(back.normalize(), pane.scale * Math.max(3.2 * radius_m, 3));
+      .addScaledVector(back, pane.scale * Math.max(3.2 * radius_m, kAround * extent_m));
     this.controls.target.copy(target);
     this.controls.update();
     this.invalidate();
@@ -278,7 +275,7 @@ class Stage implements View3d {
       Math.tan(three.MathUtils.degToRad(this.camera.fov) / 2);
     if (this.follows && this.shown.length > 0) this.moveAlong(pxPerTan);
     this.painter.begin(this.shown, this.clock, this.camera, pxPerTan, isWhole);
-    this.axes.show(this.camera);
+    for (const axes of this.axes) axes.show(this.camera);
     this.shown.forEach((scene, i) => {
       const [x, y] = this.isColumn() ? [0, total - (i + 1) * height] : [i * width, 0];
       this.painter.paint(scene, this.cameraOf(scene), { x, y, width, height }, this.swipe.share);

@@ -10,6 +10,10 @@ import type { SplatSource } from "./splats";
 /** Colours by what the point is like; `real` is what the cameras saw. */
 export type Colouring = "height" | "density" | "iteration" | "error" | "real";
 
+/** Of voxels: no camera saw their colours, and their errors are not known. */
+export const ofVoxels = (by: Colouring): Colouring =>
+  (by === "real" || by === "error" ? "height" : by);
+
 /** Of each element by the state after which it was there first. */
 function firstStates(after: Uint32Array, count: number): Uint16Array {
   const first = new Uint16Array(count);
@@ -28,7 +32,7 @@ void main() {
   gl_Position = projectionMatrix * p;
   gl_PointSize = clamp(uSize * uPxPerTan / -p.z, 1.6, 14.0);
   bool isNew = gl_VertexID >= uNewFrom;
-  vColour = isNew ? vec3(1.0, 0.44, 0.15) : rgb;
+  vColour = isNew ? vec3(0.0, 0.66, 1.0) : rgb;
   if (isNew) gl_PointSize += 1.0;
 }`;
 // Colours come as sRGB bytes: eight bits of linear light would crush the dark ones.
@@ -44,7 +48,9 @@ void main() {
 type Share = (height: number, density: number, state: number) => number;
 
 const kMostError_mm = 100; // larger ones have its colour
-const kNewColour = 0x2670ff; // of points of the last view, as 0xbbggrr
+/** Of points of the last view: far from the red of what was missed, for the colour-blind, too. */
+export const kNewColour = 0x00a8ff;
+const kNewSplat = kNewColour >> 16 | kNewColour & 0xff00 | (kNewColour & 255) << 16; // 0xbbggrr
 
 /** Points and voxels of a run; both are there after as many views as show() says. */
 export class Model {
@@ -79,7 +85,7 @@ export class Model {
     if (this.cloud) this.colourCloud(by);
     if (!this.voxels || !this.densities) return;
     const { index, count, size } = this.densities;
-    const [name, share] = this.ramp(by);
+    const [name, share] = this.ramp(ofVoxels(by));
     const first = firstStates(this.voxelsAfter, count.length);
     const colour = new three.Color();
     for (let i = 0; i < count.length; ++i) {
@@ -135,7 +141,7 @@ export class Model {
     return [{ places: this.points, toWorld: new three.Matrix4(), least_px: 1.6, most_px: 14,
       count: this.cloudAfter[this.views], size_m: this.pointSize(),
       isRound: true, largerFrom: newFrom,
-      colourOf: (i) => (i >= newFrom ? kNewColour
+      colourOf: (i) => (i >= newFrom ? kNewSplat
         : rgb[3 * i] | rgb[3 * i + 1] << 8 | rgb[3 * i + 2] << 16) }];
   }
 

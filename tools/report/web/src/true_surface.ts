@@ -7,19 +7,22 @@ import type { SplatSource } from "./splats";
 
 export const kNeverFound = 0xffff;
 
+/** Of a cell by its index along each axis; exact in a double. */
+export const keyOf = (x: number, y: number, z: number) => ((x + 32768) * 65536 + y + 32768) * 65536
+  + z + 32768;
+
 /** sRGB, as in the pictures of coverage. */
 export const foundColours = {
   found: 0x8fb4cf,
   missed: 0xd5420a,
   missedInOrder: 0x98a0ab, // beside the colours of an order, which has an orange of its own
-  onlyOther: 0x9b2fae, // missed here, found by the other run that is shown
+  onlyOther: 0x9b2fae, // missed here, found by another run that is shown
 };
 
 const kVertex = `
 uniform float uVoxel;
 uniform float uPxPerTan;
 uniform float uNow;
-uniform float uOtherNow;
 uniform float uStates;
 uniform bvec2 uShows; // found, missed
 uniform bool uByOrder;
@@ -28,7 +31,7 @@ uniform vec3 uMissed;
 uniform vec3 uOnlyOther;
 uniform sampler2D uRamp;
 attribute float first;
-attribute float other;
+attribute float foundByOther;
 varying vec3 vColour;
 void main() {
   bool isFound = first <= uNow;
@@ -41,7 +44,7 @@ void main() {
   gl_Position = projectionMatrix * p;
   gl_PointSize = clamp(1.3 * uVoxel * uPxPerTan / -p.z, isFound ? 1.6 : 2.5, 64.0);
   vec3 found = uByOrder ? texture2D(uRamp, vec2(first / uStates, 0.5)).rgb : uFound;
-  vColour = isFound ? found : other <= uOtherNow ? uOnlyOther : uMissed;
+  vColour = isFound ? found : foundByOther > 0.5 ? uOnlyOther : uMissed;
 }`;
 const kFragment = `
 varying vec3 vColour;
@@ -63,7 +66,9 @@ export class TrueSurface {
   readonly size_m: number;
   readonly voxels: Int16Array; // x y z index each
   private readonly material: three.ShaderMaterial;
-  private other: TrueSurface | null = null;
+  private others: TrueSurface[] = [];
+  private readonly foundByOther: Uint8Array; // of each voxel whether
+  private othersAt = ""; // after how many views of each of them
 
   /** `found`: of each voxel after how many views it was found, or kNeverFound. */
   constructor(data: SurfaceData, bytes: Bytes, readonly found: Uint16Array, states: number) {
@@ -72,12 +77,13 @@ export class TrueSurface {
     const geometry = new three.BufferGeometry();
     geometry.setAttribute("position", new three.BufferAttribute(this.voxels, 3));
     geometry.setAttribute("first", new three.BufferAttribute(found, 1));
-    geometry.setAttribute("other", new three.BufferAttribute(new Uint16Array(found.length), 1));
+    this.foundByOther = new Uint8Array(found.length);
+    geometry.setAttribute("foundByOther", new three.BufferAttribute(this.foundByOther, 1));
     this.material = new three.ShaderMaterial({
       vertexShader: kVertex,
       fragmentShader: kFragment,
       uniforms: { uVoxel: { value: this.size_m }, uPxPerTan: { value: 1 }, uNow: { value: 0 },
-        uOtherNow: { value: -1 }, uStates: { value: Math.max(1, states) },
+        uStates: { value: Math.max(1, states) },
         uShows: { value: new three.Vector2(0, 0) }, uByOrder: { value: false },
         uFound: { value: srgb(foundColours.found) }, uMissed: { value: srgb(foundColours.missed) },
         uOnlyOther: { value: srgb(foundColours.onlyOther) }, uRamp: { value: rampTexture() } },
@@ -98,32 +104,37 @@ export class TrueSurface {
     uMissed.value = srgb(isByOrder ? foundColours.missedInOrder : foundColours.missed);
   }
 
-  /** What another run of the same structure found is told from what neither did. */
-  compareWith(other: TrueSurface | null) {
-    this.other = other && other.found.length === this.found.length ? other : null;
-    const attribute = this.object.geometry.getAttribute("other") as three.BufferAttribute;
-    if (this.other) (attribute.array as Uint16Array).set(this.other.found);
-    attribute.needsUpdate = true;
+  /** What other runs of the same structure found is told from what none did. */
+  compareWith(others: TrueSurface[]) {
+    this.others = others;
+    this.othersAt = "not yet";
   }
 
-  /** After `n` views of this run, and so many of the other. */
-  show(n: number, ofOther: number, pxPerTan: number) {
+  /** After `n` views of this run, and so many of each of the others. */
+  show(n: number, ofOthers: number[], pxPerTan: number) {
     const { uniforms } = this.material;
     uniforms.uNow.value = n;
-    uniforms.uOtherNow.value = this.other ? ofOther : -1;
     uniforms.uPxPerTan.value = pxPerTan;
+    if (this.object.visible && this.othersAt !== ofOthers.join()) this.markOthers(ofOthers);
+  }
+
+  private markOthers(views: number[]) {
+    this.othersAt = views.join();
+    for (let i = 0; i < this.found.length; ++i) {
+      this.foundByOther[i] = Number(this.others.some(({ found }, k) => found[i] <= views[k]));
+    }
+    this.object.geometry.getAttribute("foundByOther").needsUpdate = true;
   }
 
   /** The voxels that are shown, for those who draw them themselves. */
   splats(): SplatSource[] {
     if (!this.object.visible) return [];
-    const { uNow, uOtherNow, uShows, uByOrder, uStates } = this.material.uniforms;
-    const [now, otherNow, states] = [uNow.value, uOtherNow.value, uStates.value];
+    const { uNow, uShows, uByOrder, uStates } = this.material.uniforms;
+    const [now, states] = [uNow.value, uStates.value];
     const colours = [foundColours.found,
       uByOrder.value ? foundColours.missedInOrder : foundColours.missed, foundColours.onlyOther]
       .map((hex) => hex >> 16 | hex & 0xff00 | (hex & 255) << 16);
     const table = uByOrder.value ? rampTable("path") : null;
-    const other = this.other?.found;
     const foundColour = (i: number) => {
       const first = this.found[i];
       if (first > now || !table) return first > now ? -1 : colours[0];
@@ -131,7 +142,7 @@ export class TrueSurface {
       return table[at] | table[at + 1] << 8 | table[at + 2] << 16;
     };
     const missedColour = (i: number) => (this.found[i] <= now ? -1
-      : colours[other && other[i] <= otherNow ? 2 : 1]);
+      : colours[this.foundByOther[i] ? 2 : 1]);
     const all = { places: this.voxels, count: this.found.length, size_m: 1.3 * this.size_m,
       most_px: 64, isRound: false, largerFrom: Infinity,
       toWorld: new three.Matrix4().makeScale(this.size_m, this.size_m, this.size_m)
@@ -142,11 +153,11 @@ export class TrueSurface {
 
   /** How many voxels there are of each kind, as they are shown. */
   counts(): { found: number; missed: number; onlyOther: number } {
-    const { uNow, uOtherNow } = this.material.uniforms;
+    const { uNow } = this.material.uniforms;
     const counts = { found: 0, missed: 0, onlyOther: 0 };
     this.found.forEach((first, i) => {
       if (first <= uNow.value) ++counts.found;
-      else if (this.other && this.other.found[i] <= uOtherNow.value) ++counts.onlyOther;
+      else if (this.foundByOther[i]) ++counts.onlyOther;
       else ++counts.missed;
     });
     return counts;
