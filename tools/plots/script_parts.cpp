@@ -140,6 +140,36 @@ std::string tight_y_axis(double low, double high, int most_steps) {
                      format_of(axis));
 }
 
+std::string common_scenario(std::span<const RunGroup> groups) {
+  const std::string& first = groups.front().runs.front()->figures->scenario;
+  const bool is_common = std::all_of(groups.begin(), groups.end(), [&](const RunGroup& group) {
+    return group.runs.front()->figures->scenario == first;
+  });
+  const std::string name = human_name(first);
+  const bool is_said = std::any_of(groups.begin(), groups.end(), [&](const RunGroup& group) {
+    return group.label.find(name) != std::string::npos;
+  });
+  return is_common && !is_said ? name : "";
+}
+
+std::string title_at_right(std::string_view title, int height_px) {
+  if (title.empty()) return "";
+  return fmt::format("set label 1 {} at screen 0.985,{:.4f} right textcolor rgb '#262c36'\n",
+                     gnuplot_text(title), 1.0 - 0.5 * kKeyLine_px / height_px);
+}
+
+int end_mark(std::size_t slot) {
+  constexpr std::array<int, 6> kMarks = {7, 5, 9, 11, 13, 15};
+  return kMarks[slot % kMarks.size()];
+}
+
+std::string end_points(std::string_view block, std::size_t slot) {
+  return fmt::format(
+      "${0} using 1:2 with points pt {1} ps 0.75 lc rgb 'white' notitle, "
+      "${0} using 1:2 with points pt {1} ps 0.5 lc rgb '{2}' notitle, ",
+      block, end_mark(slot), palette_colour(slot));
+}
+
 int height_with_key_px(std::size_t entries) {
   return kOnePanel_px + kKeyLine_px * static_cast<int>(entries);
 }

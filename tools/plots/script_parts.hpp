@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -77,6 +78,18 @@ constexpr int kKeyLine_px = 60;
 /// height_with_key_px() high: inside, gnuplot leaves out one that is too wide.
 std::string key_above(std::size_t entries);
 int height_with_key_px(std::size_t entries);
+
+/// The scenario of all of them, for people; nothing where their labels say it. Requires a group,
+/// and figures.
+std::string common_scenario(std::span<const RunGroup> groups);
+/// Above a plot of one panel, beside its key; nothing where it is empty.
+std::string title_at_right(std::string_view title, int height_px);
+
+/// A mark of its own for the end of a curve, so that it shows under another's.
+int end_mark(std::size_t slot);
+/// The entries of a plot command, each with its comma, that set it, edged in white, where the
+/// block's row is.
+std::string end_points(std::string_view block, std::size_t slot);
 
 /// The height of a picture of so many panels that is 1512 pixels wide.
 int panels_height_px(std::size_t count);
