@@ -16,6 +16,7 @@
 #include "tools/plots/predictions_plot.hpp"
 #include "tools/plots/reach_plot.hpp"
 #include "tools/plots/run_plots.hpp"
+#include "tools/plots/script_parts.hpp"
 #include "tools/plots/tracking_plot.hpp"
 #include "tools/run_files/file_names.hpp"
 #include "tools/run_files/run_names.hpp"
@@ -178,7 +179,7 @@ std::vector<Plot> plots_of_groups(const PlotOptions& options,
   if (wants(options, "coverage")) plots = coverage_plots(records, options.voxel_m);
   if (wants(options, "density") && groups.size() > 1) {
     const std::vector<MeanSeries> series = mean_densities(groups);
-    if (!series.empty()) plots.push_back(mean_density_plot(series));
+    if (!series.empty()) plots.push_back(mean_density_plot(series, common_scenario(groups)));
   }
   // how many runs got there says nothing of a single one
   if (wants(options, "reach") && (records.size() > 1 || options.are_plots_asked_for)) {

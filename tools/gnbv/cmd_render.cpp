@@ -140,7 +140,8 @@ class RenderCommand {
     const std::vector<RunSource*> able = runs_with(name, kind);
     if (able.empty()) return;
     const PanelLayout layout = lay_out(kind, able, options_.picture);
-    const PictureOptions shared = with_shared_colours(kind, able, options_.picture);
+    const PictureOptions shared = with_shared_angles(
+        kind, able, with_shared_colours(kind, able, options_.picture), layout.view);
     for (RunSource* const run : runs_) {
       DrawnPicture drawn;
       const auto draw_one = [&] {

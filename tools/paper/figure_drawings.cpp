@@ -14,6 +14,7 @@
 #include "tools/render/camera_choice.hpp"
 #include "tools/render/flight_items.hpp"
 #include "tools/render/grid_samples.hpp"
+#include "tools/run_files/words.hpp"
 #include "tools/surface/surface.hpp"
 #include "tools/surface/surface_picture.hpp"
 
@@ -153,7 +154,7 @@ void draw_densities_figure(FigureDesk& desk) {
   const std::vector<MeanSeries> series =
       mean_densities(desk.material(), *find_paper_table(desk.figure().scenario));
   if (series.empty()) throw BadInput("no mission came to its end");
-  desk.add("density", "", mean_density_plot(series));
+  desk.add("density", "", mean_density_plot(series, human_name(desk.figure().scenario)));
 }
 
 void draw_entropy_figure(FigureDesk& desk) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "bench/compare/paper_figures.hpp"
 #include "bench/score/voxel_set.hpp"
@@ -42,8 +43,9 @@ std::string group_data(const RunGroup& group, std::size_t index, Effort effort, 
     const double mean = point.coverage.mean;
     rows.push_back({point.effort, 100.0 * mean, 100.0 * (mean - half), 100.0 * (mean + half)});
   }
+  const CoveragePoint end = mean_end(group, effort, size);
   return data_block(fmt::format("group{}", index), rows) +
-         data_block(fmt::format("end{}", index), {rows.back()});
+         data_block(fmt::format("end{}", index), {{end.effort, 100.0 * end.coverage.mean}});
 }
 
 std::string label_of(const RunGroup& group) {
@@ -103,9 +105,6 @@ bool is_oracle_group(const RunGroup& group) {
   return group.runs.front()->figures->utility.starts_with("oracle");
 }
 
-/// Marks of their own, so that a curve's end shows under another's.
-constexpr std::array<int, 6> kMarks = {7, 5, 9, 11, 13, 15};
-
 void add_lines(Layers& layers, const RunGroup& group, std::size_t i, std::size_t slot) {
   const std::string_view colour = palette_colour(slot);
   if (group.runs.size() > 1) {
@@ -117,16 +116,12 @@ void add_lines(Layers& layers, const RunGroup& group, std::size_t i, std::size_t
   layers.characters = std::max(layers.characters, label_of(group).size());
   const std::string dashes =
       is_oracle_group(group) ? "(4,2)" : fmt::format("{}", 1 + slot / kPalette.size());
-  const int mark = kMarks[slot % kMarks.size()];
   layers.lines += fmt::format("$group{} using 1:2 with lines lw 1.3 dt {} lc rgb '{}' notitle, ", i,
                               dashes, colour);
-  layers.ends += fmt::format(
-      "$end{0} using 1:2 with points pt {1} ps 0.75 lc rgb 'white' notitle, "
-      "$end{0} using 1:2 with points pt {1} ps 0.5 lc rgb '{2}' notitle, ",
-      i, mark, colour);
+  layers.ends += end_points(fmt::format("end{}", i), slot);
   layers.names +=
       fmt::format("keyentry with linespoints lw 1.3 dt {} pt {} ps 0.5 lc rgb '{}' title {}, ",
-                  dashes, mark, colour, gnuplot_text(label_of(group)));
+                  dashes, end_mark(slot), colour, gnuplot_text(label_of(group)));
 }
 
 constexpr Axis kAllPercent{0.0, 100.0, 20.0};
@@ -147,12 +142,15 @@ Layers layers_of(std::span<const RunGroup> groups, std::optional<std::size_t> pa
                  const Window& window) {
   Layers layers;
   std::array<bool, 2> has_level = {false, false};  // trusted, doubtful
+  std::set<std::size_t> level_slots;
+  bool has_mean_end = false;
   std::vector<double> ceilings;
   const std::vector<std::size_t> slots = method_slots(methods_of(groups));
   for (std::size_t i = 0; i < groups.size(); ++i) {
     if (!window.shows(groups[i])) continue;
     add_lines(layers, groups[i], i, slots[i]);
     ++layers.entries;
+    has_mean_end = has_mean_end || groups[i].runs.size() > 1;
     if (!papers_size) continue;
     const std::optional<double> ceiling = *papers_size == 0 ? ceiling_of(groups[i]) : std::nullopt;
     const auto is_same = [&](double other) { return std::abs(other - *ceiling) < 0.05; };
@@ -166,31 +164,27 @@ Layers layers_of(std::span<const RunGroup> groups, std::optional<std::size_t> pa
       layers.levels +=
           fmt::format("{} with lines lw 0.9 dt {} lc rgb '{}' notitle, ", level->percent,
                       level->is_doubtful ? "(2,6)" : "(6,5)", palette_colour(slots[i]));
+      level_slots.insert(slots[i]);
       has_level[level->is_doubtful ? 1 : 0] = true;
     }
   }
   if (!layers.bands.empty()) {
     add_key(layers, "boxes fs solid noborder fc rgb '#d5d9de'", "95 % interval of the mean");
   }
-  if (has_level[0]) add_key(layers, "lines lw 0.9 dt (6,5) lc rgb '#5c6470'", "paper, at the end");
+  if (has_mean_end) add_key(layers, "points pt 6 ps 0.5 lc rgb '#5c6470'", "mean end of the seeds");
+  // each of its planner's colour
+  const std::string_view of_paper =
+      level_slots.size() == 1 ? palette_colour(*level_slots.begin()) : "#5c6470";
+  if (has_level[0]) {
+    add_key(layers, fmt::format("lines lw 0.9 dt (6,5) lc rgb '{}'", of_paper),
+            "paper, at the end");
+  }
   if (has_level[1]) {
-    add_key(layers, "lines lw 0.9 dt (2,6) lc rgb '#5c6470'", "paper, at the end (doubtful)");
+    add_key(layers, fmt::format("lines lw 0.9 dt (2,6) lc rgb '{}'", of_paper),
+            "paper, at the end (doubtful)");
   }
   if (!ceilings.empty()) add_key(layers, "lines lw 0.9 lc rgb '#262c36'", "ceiling");
   return layers;
-}
-
-/// The scenario of all of them; nothing where their labels say it.
-std::string common_scenario(std::span<const RunGroup> groups) {
-  const std::string& first = groups.front().runs.front()->figures->scenario;
-  const bool is_common = std::all_of(groups.begin(), groups.end(), [&](const RunGroup& group) {
-    return group.runs.front()->figures->scenario == first;
-  });
-  const std::string name = human_name(first);
-  const bool is_said = std::any_of(groups.begin(), groups.end(), [&](const RunGroup& group) {
-    return group.label.find(name) != std::string::npos;
-  });
-  return is_common && !is_said ? name : "";
 }
 
 /// `size` is an index of the curves' sizes; the paper has it when it is `papers_size`, too. The key
@@ -209,13 +203,7 @@ Plot plot_of(std::span<const RunGroup> groups, const Window& window, std::size_t
   const int height_px = is_inside ? kOnePanel_px : height_with_key_px(layers.entries);
   const std::string key =
       is_inside ? "set key inside bottom right vertical\n" : key_above(layers.entries);
-  const std::string scenario = common_scenario(groups);
-  const std::string title = scenario.empty()
-                                ? ""
-                                : fmt::format(
-                                      "set label 1 {} at screen 0.985,{:.4f} right textcolor rgb "
-                                      "'#262c36'\n",
-                                      gnuplot_text(scenario), 1.0 - 0.5 * kKeyLine_px / height_px);
+  const std::string title = title_at_right(common_scenario(groups), height_px);
   const double longest = std::max(longest_effort(groups, effort), 1e-6);
   const std::string y_label = fmt::format("coverage at {} m (%)", size_text);
   return {fmt::format("coverage-{}", effort_name(effort)),
@@ -248,6 +236,10 @@ std::optional<Plot> coverage_end_plot(std::span<const RunGroup> groups, Effort e
       low = std::min(low, 100.0 * (points[i].coverage.mean - half));
       high = std::max(high, 100.0 * (points[i].coverage.mean + half));
     }
+    const CoveragePoint end = mean_end(group, effort, size);
+    if (end.effort < from) continue;
+    low = std::min(low, 100.0 * end.coverage.mean);
+    high = std::max(high, 100.0 * end.coverage.mean);
   }
   if (!(longest > 0.0) || low > high) return std::nullopt;
   Plot plot = plot_of(groups, {effort, from, axis_around(low, high)}, size, size,

@@ -54,6 +54,15 @@ double coverage_at(const CoverageCurve& curve, Effort effort, std::size_t size, 
   return before + share * (curve.coverage[next][size] - before);
 }
 
+CoveragePoint mean_end(const RunGroup& group, Effort effort, std::size_t size) {
+  std::vector<double> efforts, shares;
+  for (const RunRecord* const run : group.runs) {
+    efforts.push_back(whole_effort(run->figures->curve, effort));
+    shares.push_back(run->figures->curve.coverage.back()[size]);
+  }
+  return {mean_of(efforts), estimate_mean(shares)};
+}
+
 std::vector<CoveragePoint> mean_coverage(const RunGroup& group, Effort effort, std::size_t size) {
   constexpr std::size_t kSteps = 200;
   double longest = 0.0;

@@ -40,6 +40,9 @@ struct CoveragePoint {
   MeanEstimate coverage;  // fractions
 };
 
+/// Where the runs of a group end: the mean of what they took, and of what they covered then.
+CoveragePoint mean_end(const RunGroup& group, Effort effort, std::size_t size);
+
 /// The curve of a group: one run's own points, or the mean over runs at every view, or at 201 even
 /// steps of metres or seconds up to the longest run. A run that has ended keeps its coverage.
 std::vector<CoveragePoint> mean_coverage(const RunGroup& group, Effort effort, std::size_t size);

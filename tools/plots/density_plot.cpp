@@ -31,13 +31,13 @@ std::vector<MeanSeries> mean_densities(std::span<const RunGroup> groups) {
   return all;
 }
 
-Plot mean_density_plot(std::span<const MeanSeries> series) {
+Plot mean_density_plot(std::span<const MeanSeries> series, std::string_view title) {
   std::vector<std::string> methods;
   for (const MeanSeries& each : series) methods.push_back(each.method);
   const std::vector<std::size_t> slots = method_slots(methods);
   std::string data;
   std::string bands;
-  std::string lines;
+  std::string lines, ends, names;
   double highest = 0.0;
   std::size_t most_views = 0;
   for (std::size_t i = 0; i < series.size(); ++i) {
@@ -47,11 +47,12 @@ Plot mean_density_plot(std::span<const MeanSeries> series) {
       const double half = density.half_width.value_or(0.0);
       has_band = has_band || density.half_width;
       highest = std::max(highest, density.mean);
-      rows.push_back({static_cast<double>(rows.size()), density.mean, density.mean - half,
+      rows.push_back({1.0 + static_cast<double>(rows.size()), density.mean, density.mean - half,
                       density.mean + half});
     }
     most_views = std::max(most_views, rows.size());
-    data += data_block(fmt::format("series{}", i), rows);
+    data += data_block(fmt::format("series{}", i), rows) +
+            data_block(fmt::format("end{}", i), {rows.back()});
     const std::string_view colour = palette_colour(slots[i]);
     if (has_band) {
       bands += fmt::format(
@@ -59,25 +60,30 @@ Plot mean_density_plot(std::span<const MeanSeries> series) {
           "notitle, ",
           i, colour);
     }
-    lines += fmt::format("{}$series{} using 1:2 with lines lw 1.3 lc rgb '{}' title {}",
-                         i == 0 ? "" : ", ", i, colour, gnuplot_text(series[i].label));
+    lines += fmt::format("$series{} using 1:2 with lines lw 1.3 lc rgb '{}' notitle, ", i, colour);
+    ends += end_points(fmt::format("end{}", i), slots[i]);
+    names +=
+        fmt::format("{}keyentry with linespoints lw 1.3 pt {} ps 0.5 lc rgb '{}' title {}",
+                    i == 0 ? "" : ", ", end_mark(slots[i]), colour, gnuplot_text(series[i].label));
   }
   GNBV_CHECK(most_views > 0, "no density of {} series", series.size());
   std::size_t entries = series.size();
   if (!bands.empty()) {
-    lines +=
+    names +=
         ", keyentry with boxes fs solid noborder fc rgb '#d5d9de' title '95 % interval of the "
         "mean'";
     ++entries;
   }
-  const auto last = static_cast<double>(std::max<std::size_t>(most_views - 1, 1));
+  const auto last = static_cast<double>(most_views);
+  const int height_px = height_with_key_px(entries);
   return {"density",
-          data + key_above(entries) + y_axis(0.0, 1.15 * highest) +
+          data + key_above(entries) + title_at_right(title, height_px) +
+              y_axis(0.0, 1.15 * highest) +
               fmt::format("set xrange [0:{}] noextend\nset rmargin 3\n", last) +
               x_tics(0.0, last, even_step(last)) +
-              "set xlabel 'iteration'\nset ylabel 'density (points/voxel)' offset 0.6,0\nplot " +
-              bands + lines + "\n",
-          height_with_key_px(entries)};
+              "set xlabel 'views'\nset ylabel 'density (points/voxel)' offset 0.6,0\nplot " +
+              bands + lines + ends + names + "\n",
+          height_px};
 }
 
 }  // namespace gnbv

@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/plots/curves.hpp"
@@ -17,9 +18,10 @@ struct MeanSeries {
   std::vector<MeanEstimate> by_view;
 };
 
-/// "density": a line for each series, with the 95 % interval of the mean where several missions
-/// reach a view. Requires a series that has a view.
-Plot mean_density_plot(std::span<const MeanSeries> series);
+/// "density": a line for each series with a mark at its end, and the 95 % interval of the mean
+/// where several missions reach a view; the first view is 1. `title` stands beside the key.
+/// Requires a series that has a view.
+Plot mean_density_plot(std::span<const MeanSeries> series, std::string_view title);
 
 /// The series of groups of runs.
 std::vector<MeanSeries> mean_densities(std::span<const RunGroup> groups);

@@ -44,7 +44,7 @@ std::vector<std::vector<double>> flight_rows(const RunRecord& record) {
 /// An axis that holds those values and zero, with few marks: panels are low.
 std::string axis_of(const Traces& traces, std::size_t first, std::size_t last) {
   const auto [low, high] = traces.range(first, last);
-  return y_axis(std::min(low, 0.0), std::max(high, 0.0), 3);
+  return tight_y_axis(std::min(low, 0.0), std::max(high, 0.0), 3);
 }
 
 }  // namespace
@@ -54,23 +54,23 @@ std::optional<Plot> flight_plot(const RunRecord& record) {
   const std::vector<std::vector<double>> rows = flight_rows(record);
   if (rows.empty()) return std::nullopt;
   const Traces traces(rows);
-  const std::string note = traces.note();
   Panels panels(5, fmt::format("{}, seed {}", run_title(record), record.scenario.seed),
-                (note.empty() ? "time since the mission began (s)" : "mission time (s)") + note);
+                traces.time_label(), {rows.front()[0], rows.back()[0]});
   const auto panel = [&](std::string_view heading, std::size_t first, std::size_t last,
                          const std::vector<KeyEntry>& key = {}) {
     return panels.next(heading, key) + axis_of(traces, first, last) + "plot " +
            traces.drawn(first, last) + "\n";
   };
   std::string text =
-      traces.data() + fmt::format("set xrange [{}:{}]\n", rows.front()[0], rows.back()[0]) +
+      traces.data() +
       panel("position (m)", 1, 3, {{kPalette[0], "x"}, {kPalette[1], "y"}, {kPalette[2], "z"}});
-  // dots: a line would cross the panel wherever yaw goes past 180 degrees
-  text += panels.next("yaw (deg)") +
-          fmt::format(
-              "set yrange [-180:180]\nset ytics 90\nset format y '% h'\n"
-              "plot $samples using 1:7 with points pt 7 ps 0.08 lc rgb '{}'\n",
-              kPalette[0]);
+  // broken wherever yaw goes past 180 degrees: it would cross the panel there
+  text +=
+      panels.next("yaw (deg)") + fmt::format(
+                                     "set yrange [-180:180]\nset ytics 90\nset format y '% .0f'\n"
+                                     "yaw = 0\nplot $samples using 1:(step = $7 - yaw, yaw = $7, "
+                                     "abs(step) > 180 ? NaN : yaw) with lines lw 1.0 lc rgb '{}'\n",
+                                     kPalette[0]);
   text += panel("roll, pitch (deg)", 4, 5, {{kPalette[0], "roll"}, {kPalette[1], "pitch"}});
   text += panel("speed (m/s)", 7, 7);
   text += panel("off the leg (m)", 8, 8);

@@ -92,12 +92,14 @@ std::string bands(const ForestPanel& panel) {
          fmt::format("set yrange [{}:0]\n", -static_cast<double>(panel.metrics.size()));
 }
 
-/// The plot command of a panel: means with their intervals, and an arrow where one goes on beyond
-/// the axis. `name` is of its blocks of data.
+/// The plot command of a panel: means with their intervals, and an arrow at the axis's end where
+/// one goes on beyond that. `name` is of its blocks of data.
 std::string intervals(const ForestPanel& panel, const Comparison& comparison,
                       std::string_view name) {
-  const auto [low, high] = reach_of(panel);
-  const double head = 0.02 * (high - low);
+  const auto [first, last] = reach_of(panel);
+  const double head = 0.02 * (last - first);
+  const double low = first - 2.0 * head;
+  const double high = last + 2.0 * head;
   const std::vector<std::size_t> colours = method_slots(comparison.methods);
   std::string data;
   std::string entries;
@@ -110,8 +112,8 @@ std::string intervals(const ForestPanel& panel, const Comparison& comparison,
       const double y = -static_cast<double>(row.metric) -
                        (0.1 + 0.8 * (static_cast<double>(slot) + 0.5) / slots);
       (row.is_significant ? sure : open).push_back({row.mean, y, row.low, row.high});
-      if (row.low < low) beyond.push_back({low, y, -head});
-      if (row.high > high) beyond.push_back({high, y, head});
+      if (row.low < low) beyond.push_back({low + head, y, -head});
+      if (row.high > high) beyond.push_back({high - head, y, head});
     }
     const std::string colour = fmt::format("rgb '{}'", palette_colour(colours[method]));
     const auto add = [&](const std::vector<std::vector<double>>& rows, std::string_view kind,
@@ -130,8 +132,7 @@ std::string intervals(const ForestPanel& panel, const Comparison& comparison,
     add(beyond, "beyond", "using 1:2:3:(0) with vectors head filled size graph 0.015,25 lw 1.2");
   }
   return data +
-         fmt::format("set xrange [{}:{}]\nset xtics {}\n", low - 2.0 * head, high + 2.0 * head,
-                     even_step(high - low, 6)) +
+         fmt::format("set xrange [{}:{}]\nset xtics {}\n", low, high, even_step(last - first, 6)) +
          "plot " + entries + "\n";
 }
 
@@ -183,7 +184,7 @@ std::optional<Plot> forest_plot(const Comparison& comparison, std::size_t scenar
                   gnuplot_text(human_name(comparison.scenarios[scenario])), screen(50)) +
       key_row(key_of(comparison, names), screen(50)) +
       fmt::format(
-          "set label 3 '95 % intervals; filled: significant after Holm; an arrow: beyond' "
+          "set label 3 '95 % intervals; filled: significant after Holm; an arrow: goes on' "
           "at screen 0.02,{:.4f} left textcolor rgb '#5c6470'\n",
           screen(height_px - 40)) +
       "set arrow 1 from 0,graph 0 to 0,graph 1 nohead lw 1.0 lc rgb '#5c6470'\n";

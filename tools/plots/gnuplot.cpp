@@ -26,6 +26,7 @@ constexpr double kColumn_in = 3.5;
 
 constexpr const char* kStyle =
     R"(set encoding utf8
+set minussign
 set border 3 lc rgb '#5c6470' lw 0.8
 set tics out nomirror scale 0.5 textcolor rgb '#3a424d'
 set grid lc rgb '#e4e7eb' lt 1 dt 1 lw 0.7

@@ -24,9 +24,11 @@ std::string title_of(const RunRecord& record) {
   return fmt::format("{}, seed {}", run_title(record), record.scenario.seed);
 }
 
-std::string x_range(const std::vector<ViewRecord>& views) {
-  return fmt::format("set xrange [{}:{}]\n", views.front().iteration - 0.5,
-                     views.back().iteration + 0.5);
+/// How many views were taken with this one: on an axis, the first view is 1.
+double count_up_to(const ViewRecord& view) { return view.iteration + 1.0; }
+
+std::array<double, 2> x_range(const std::vector<ViewRecord>& views) {
+  return {count_up_to(views.front()) - 0.5, count_up_to(views.back()) + 0.5};
 }
 
 /// The views that somebody scored, with a value of 0, too: not the start, nor those of a route.
@@ -40,12 +42,12 @@ std::vector<ViewRecord> scored_views(const RunRecord& record) {
   return scored;
 }
 
-/// Columns, each smoothed, beside the iterations.
+/// Columns, each smoothed, beside the views' numbers.
 std::vector<std::vector<double>> rows_of(const std::vector<ViewRecord>& views,
                                          const Columns& columns, std::size_t window) {
   std::vector<std::vector<double>> rows(views.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
-    rows[i].push_back(static_cast<double>(views[i].iteration));
+    rows[i].push_back(count_up_to(views[i]));
   }
   for (const auto& column : columns) {
     const std::vector<double> smooth = moving_mean(column, window);
@@ -187,15 +189,14 @@ std::optional<Plot> density_entropy_plot(const RunRecord& record, bool has_densi
   for (const ViewRecord& view : record.views) {
     columns[0].push_back(view.entropy_nat);
     columns[1].push_back(view.density_points_per_voxel);
-    rows.push_back(
-        {static_cast<double>(view.iteration), view.entropy_nat, view.density_points_per_voxel});
+    rows.push_back({count_up_to(view), view.entropy_nat, view.density_points_per_voxel});
   }
   const auto [low, high] = std::minmax_element(columns[0].begin(), columns[0].end());
   const double unit_nat = *high >= 10'000.0 ? 1000.0 : 1.0;
   const std::vector<Phase> phases = frontier_phases(record.views);
   const std::size_t count = has_density ? 2 : 1;
-  Panels panels(count, title_of(record), "iteration");
-  std::string text = data_block("views", rows) + x_range(record.views) + shaded_phases(phases);
+  Panels panels(count, title_of(record), "views", x_range(record.views));
+  std::string text = data_block("views", rows) + shaded_phases(phases);
   text +=
       panels.next(unit_nat > 1.0 ? "entropy (1,000 nat)" : "entropy (nat)", key_of_phases(phases));
   text += y_axis(*low / unit_nat, *high / unit_nat);
@@ -218,11 +219,10 @@ std::optional<Plot> terms_plot(const RunRecord& record) {
   const bool is_smooth = views.size() > kManyViews;
   const std::size_t count = is_proposed || is_discounted(columns) ? 3 : 1;
   const std::vector<Phase> phases = frontier_phases(record.views);
-  Panels panels(count, title_of(record), "iteration");
+  Panels panels(count, title_of(record), "views", x_range(record.views));
   std::string text = data_block("raw", rows_of(views, columns, 1)) +
                      data_block("mean", rows_of(views, columns, is_smooth ? kWindow : 1)) +
-                     x_range(record.views) + shaded_phases(phases) +
-                     utility_panel(panels, columns, phases, is_smooth);
+                     shaded_phases(phases) + utility_panel(panels, columns, phases, is_smooth);
   if (is_proposed) {
     text += factor_panels(panels, columns, is_smooth);
   } else if (count > 1) {

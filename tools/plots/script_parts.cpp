@@ -51,7 +51,7 @@ std::string shaded_phases(const std::vector<Phase>& phases) {
   for (const Phase& phase : phases) {
     text += fmt::format(
         "set object rectangle from {},graph 0 to {},graph 1 behind fc rgb '{}' fs solid noborder\n",
-        phase.first - 0.5, phase.last + 0.5, kPhaseColour);
+        phase.first + 0.5, phase.last + 1.5, kPhaseColour);
   }
   return text;
 }
@@ -67,8 +67,8 @@ std::string key_row(const std::vector<KeyEntry>& key, double screen_y) {
   std::string text;
   int label = 10;
   for (const KeyEntry& entry : key) {
-    text += fmt::format("set label {} '\u25a0' at screen {:.4f},{:.4f} left textcolor rgb '{}'\n",
-                        label, x, screen_y, entry.colour);
+    text += fmt::format("set label {} '{}' at screen {:.4f},{:.4f} left textcolor rgb '{}'\n",
+                        label, entry.mark, x, screen_y, entry.colour);
     text += fmt::format("set label {} {} at screen {:.4f},{:.4f} left textcolor rgb '#262c36'\n",
                         label + 1, gnuplot_text(entry.text), x + kSquare, screen_y);
     x += width_of(entry);
@@ -111,13 +111,63 @@ std::string x_tics(double low, double high, double step) {
   return fmt::format("set xtics ({})\n", tics);
 }
 
+namespace {
+
+/// All marks with as many decimals as the step has: 94.0 beside 93.9.
+std::string format_of(const Axis& axis) {
+  constexpr int kMost = 6;  // beyond that, powers of ten say it
+  const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(axis.step) + 1e-9)));
+  const double largest = std::max(std::abs(axis.low), std::abs(axis.high));
+  return decimals > kMost || largest >= 1e6 ? "% h" : fmt::format("% .{}f", decimals);
+}
+
+}  // namespace
+
 std::string y_axis(double low, double high, int most_steps) {
   const Axis axis = axis_around(low, high, most_steps);
   // longer numbers would be cut off at the left: 200k
   const bool is_in_thousands = high >= 10'000.0 && std::fmod(axis.step, 1000.0) == 0.0;
-  const char* const format = !is_in_thousands ? "% h" : high < 1e6 ? "%.0s%c" : "%.1s%c";
+  const std::string format = !is_in_thousands ? format_of(axis) : high < 1e6 ? "%.0s%c" : "%.1s%c";
   return fmt::format("set yrange [{:.12g}:{:.12g}]\nset ytics {:.12g}\nset format y '{}'\n",
                      axis.low, axis.high, axis.step, format);
+}
+
+std::string tight_y_axis(double low, double high, int most_steps) {
+  const Axis axis = axis_around(low, high, most_steps);
+  const double room = 0.04 * std::max(high - low, axis.step);
+  return fmt::format("set yrange [{:.12g}:{:.12g}]\nset ytics {:.12g}\nset format y '{}'\n",
+                     std::max(axis.low, low - room), std::min(axis.high, high + room), axis.step,
+                     format_of(axis));
+}
+
+std::string common_scenario(std::span<const RunGroup> groups) {
+  const std::string& first = groups.front().runs.front()->figures->scenario;
+  const bool is_common = std::all_of(groups.begin(), groups.end(), [&](const RunGroup& group) {
+    return group.runs.front()->figures->scenario == first;
+  });
+  const std::string name = human_name(first);
+  const bool is_said = std::any_of(groups.begin(), groups.end(), [&](const RunGroup& group) {
+    return group.label.find(name) != std::string::npos;
+  });
+  return is_common && !is_said ? name : "";
+}
+
+std::string title_at_right(std::string_view title, int height_px) {
+  if (title.empty()) return "";
+  return fmt::format("set label 1 {} at screen 0.985,{:.4f} right textcolor rgb '#262c36'\n",
+                     gnuplot_text(title), 1.0 - 0.5 * kKeyLine_px / height_px);
+}
+
+int end_mark(std::size_t slot) {
+  constexpr std::array<int, 6> kMarks = {7, 5, 9, 11, 13, 15};
+  return kMarks[slot % kMarks.size()];
+}
+
+std::string end_points(std::string_view block, std::size_t slot) {
+  return fmt::format(
+      "${0} using 1:2 with points pt {1} ps 0.75 lc rgb 'white' notitle, "
+      "${0} using 1:2 with points pt {1} ps 0.5 lc rgb '{2}' notitle, ",
+      block, end_mark(slot), palette_colour(slot));
 }
 
 int height_with_key_px(std::size_t entries) {
@@ -131,8 +181,9 @@ std::string key_above(std::size_t entries) {
       1.0 - static_cast<double>(key_px) / height_with_key_px(entries));
 }
 
-Panels::Panels(std::size_t count, std::string_view title, std::string_view x_label)
-    : count_(count), title_(title), x_label_(x_label) {}
+Panels::Panels(std::size_t count, std::string_view title, std::string_view x_label,
+               const std::array<double, 2>& x_range)
+    : count_(count), title_(title), x_label_(x_label), x_range_(x_range) {}
 
 std::string Panels::next(std::string_view heading, const std::vector<KeyEntry>& key) {
   const auto n = static_cast<double>(count_);
@@ -148,8 +199,8 @@ std::string Panels::next(std::string_view heading, const std::vector<KeyEntry>& 
   if (drawn_ == 0) {
     text += fmt::format(
         "set multiplot\nunset key\nunset xlabel\nset lmargin at screen {}\nset rmargin at screen "
-        "{}\n",
-        kLeft, kRight);
+        "{}\nset xrange [{}:{}]\n",
+        kLeft, kRight, x_range_[0], x_range_[1]);
     text += fmt::format("set label 1 {} at screen 0.02,{:.4f} left textcolor rgb '#262c36'\n",
                         gnuplot_text(title_), 1.0 - text_line);
   } else {
@@ -161,7 +212,9 @@ std::string Panels::next(std::string_view heading, const std::vector<KeyEntry>& 
   text += fmt::format("set label 2 {} at screen {},{:.4f} left textcolor rgb '#5c6470'\n",
                       gnuplot_text(heading), kLeft, heading_middle);
   text += key_row(key, heading_middle);
-  text += is_last ? "set format x '%g'\n" : "set format x ''\n";
+  const double step = even_step(std::max(x_range_[1] - x_range_[0], 1.0));
+  text += is_last ? "set format x '%g'\n" + x_tics(x_range_[0], x_range_[1], step)
+                  : fmt::format("set format x ''\nset xtics {:g}\n", step);
   if (is_last) {
     text +=
         fmt::format("set label 3 {} at graph 0.5,screen {:.4f} center textcolor rgb '#262c36'\n",

@@ -73,9 +73,9 @@ std::pair<double, double> Traces::range(std::size_t first, std::size_t last) con
   return range;
 }
 
-std::string Traces::note() const {
-  if (bands_.empty()) return "";
-  return fmt::format("; bands: extremes in {:.2g} s", step_s_);
+std::string Traces::time_label() const {
+  const std::string label = "mission time (s)";
+  return bands_.empty() ? label : label + fmt::format("; bands: extremes in {:.2g} s", step_s_);
 }
 
 }  // namespace gnbv

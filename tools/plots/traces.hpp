@@ -20,8 +20,9 @@ class Traces {
   std::string drawn(std::size_t first, std::size_t last) const;
   /// Lowest and highest of those values.
   std::pair<double, double> range(std::size_t first, std::size_t last) const;
-  /// "; bands: extremes in 6 s" of a long flight, otherwise nothing.
-  std::string note() const;
+  /// Of the axis: "mission time (s)"; of a long flight, what its bands are, too: "; bands: extremes
+  /// in 6 s".
+  std::string time_label() const;
 
  private:
   std::vector<std::vector<double>> rows_, bands_;

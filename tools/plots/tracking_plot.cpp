@@ -41,8 +41,10 @@ std::string distance_axis(double most_m) {
 
 std::string tracking_title(const RunRecord& record) {
   const WindConfig& wind = record.scenario.wind;
-  return fmt::format("{}, seed {}: wind {:.3g} m/s, W20 {:.3g} m/s", run_title(record),
-                     record.scenario.seed, wind.mean_world_m_s.norm(), wind.gust_w20_m_s);
+  const double gust_m_s = wind.gust_w20_m_s;
+  return fmt::format("{}, seed {}: wind {:.3g} m/s{}", run_title(record), record.scenario.seed,
+                     wind.mean_world_m_s.norm(),
+                     gust_m_s > 0.0 ? fmt::format(", gusts of {:.3g} m/s at 20 ft", gust_m_s) : "");
 }
 
 }  // namespace
@@ -74,10 +76,10 @@ std::optional<Plot> tracking_plot(const RunRecord& record) {
   for (auto& row : shown) row[1] = std::max(row[1], kLeast_m);
   const Traces traces(shown);
   const bool has_margin = margin_m > kLeast_m;
-  Panels panels(2, tracking_title(record), "time (s)" + traces.note());
-  std::string text = traces.data() +
-                     fmt::format("set xrange [{}:{}]\n", rows.front()[0], rows.back()[0]) +
-                     panels.next("off the leg (m)", {{kPalette[1], "collision radius less hull"}}) +
+  Panels panels(2, tracking_title(record), traces.time_label(), {rows.front()[0], rows.back()[0]});
+  std::vector<KeyEntry> key;
+  if (has_margin) key.push_back({kPalette[1], "kept free beside the hull", kDashedMark});
+  std::string text = traces.data() + panels.next("off the leg (m)", key) +
                      distance_axis(std::max(margin_m, traces.range(1, 1).second)) + "plot ";
   if (has_margin) {
     text += fmt::format("{:.3f} with lines lw 1.0 dt 2 lc rgb '{}', ", margin_m, kPalette[1]);

@@ -79,6 +79,10 @@ void draw_mark(Image& image, const LegendItem& item, double x, double y, double 
     case LegendItem::Mark::dot:
       draw_line(image, {middle, y}, {middle, y}, 10.0 * u, colour);
       break;
+    case LegendItem::Mark::ring:
+      draw_line(image, {middle, y}, {middle, y}, 11.0 * u, colour);
+      draw_line(image, {middle, y}, {middle, y}, 4.5 * u, {255, 255, 255});
+      break;
     case LegendItem::Mark::square:
       // white would not show on the sheet
       draw_square(image, {middle, y}, 5.0 * u, is_pale(colour) ? kPaleInk : colour);

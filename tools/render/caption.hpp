@@ -14,7 +14,7 @@ constexpr Rgb8 kPaleInk = {92, 100, 112};
 
 /// What one colour, or one run of colours, means.
 struct LegendItem {
-  enum class Mark { line, dot, square };
+  enum class Mark { line, dot, ring, square };
   std::string label = {};
   std::vector<Rgb> colours = {};  // one, or those of a bar from its low end to its high end
   Mark mark = Mark::square;       // of a single colour

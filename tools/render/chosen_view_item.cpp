@@ -12,7 +12,8 @@ const ChosenViewLook kChosenLook = {.chosen = srgb(0xd5420a),
                                     .pyramid = srgb(0x2b323c),
                                     .before = srgb(0x14181e),
                                     .ray_free = srgb(0x737e8c),
-                                    .ray_unknown = srgb(0xe69f00)};
+                                    .ray_unknown = srgb(0xe69f00),
+                                    .hit = srgb(0x14181e)};
 
 namespace {
 
@@ -76,7 +77,7 @@ void add_ray(const Ray& ray, double unit_m, RenderScene& scene) {
   }
   if (!ray.is_hit) return;
   scene.balls.push_back(
-      {ray.pieces.back().end.cast<float>(), static_cast<float>(4.0 * unit_m), kChosenLook.chosen});
+      {ray.pieces.back().end.cast<float>(), static_cast<float>(4.0 * unit_m), kChosenLook.hit});
 }
 
 /// Of the pyramid no more than what says where it looks.
@@ -121,12 +122,15 @@ std::vector<PlaceLine> way_to_chosen(const RunRecord& record, std::size_t iterat
   way.insert(way.end(), via.begin(), via.end());
   way.push_back(record.views[iteration].decision.view.p_world_m);
   const Rgb8 chosen = to_rgb8(kChosenLook.chosen);
-  std::vector<PlaceLine> lines = {{way.back(), way.back(), chosen, 13.0}};
+  constexpr Rgb8 kWhite = {255, 255, 255};
+  std::vector<PlaceLine> lines = {{way.back(), way.back(), chosen, 14.0}};
   for (std::size_t i = 0; i + 1 < way.size(); ++i) {
     lines.push_back({way[i], way[i + 1], chosen, 2.4});
   }
-  // the smaller dot, uppermost: a way too short to be seen leaves one within the other
-  lines.push_back({way.front(), way.front(), to_rgb8(kChosenLook.before), 7.0});
+  lines.push_back({way.back(), way.back(), kWhite, 6.0});
+  // the smaller ring, uppermost: a way too short to be seen leaves one within the other
+  lines.push_back({way.front(), way.front(), to_rgb8(kChosenLook.before), 8.0});
+  lines.push_back({way.front(), way.front(), kWhite, 3.0});
   return lines;
 }
 

@@ -9,7 +9,7 @@
 namespace gnbv {
 
 struct ChosenViewLook {
-  Rgb chosen, pyramid, before, ray_free, ray_unknown;
+  Rgb chosen, pyramid, before, ray_free, ray_unknown, hit;
 };
 extern const ChosenViewLook kChosenLook;
 
@@ -18,7 +18,7 @@ extern const ChosenViewLook kChosenLook;
 void add_chosen_view(const RunRecord& record, const World& world, const Belief& belief,
                      std::size_t iteration, double unit_m, RenderScene& scene);
 
-/// From the view before, and both as dots: over everything, since a grid's step beside a large
+/// From the view before, and both as rings: over everything, since a grid's step beside a large
 /// structure is short, and may lie behind it.
 std::vector<PlaceLine> way_to_chosen(const RunRecord& record, std::size_t iteration);
 

@@ -19,9 +19,10 @@ namespace {
 
 // Rings through the views around a cluster that stand in one layer (Fig. 6), as far as they lie
 // within the bounds.
-void add_layers(const Plan& plan, std::span<const FrontierCluster> clusters, double unit_m,
+bool add_layers(const Plan& plan, std::span<const FrontierCluster> clusters, double unit_m,
                 RenderScene& scene) {
   using Layer = std::pair<int, long>;  // cluster, and millimetre of height
+  const std::size_t before = scene.tubes.size();
   std::map<Layer, std::vector<const Candidate*>> layers;
   for (const Candidate& candidate : plan.candidates) {
     if (candidate.cluster < 0) continue;
@@ -48,11 +49,12 @@ void add_layers(const Plan& plan, std::span<const FrontierCluster> clusters, dou
           path_tube({a.view.p_world_m, b.view.p_world_m}, 0.6 * unit_m, kFrontierLook.frontier));
     }
   }
+  return scene.tubes.size() > before;
 }
 
 }  // namespace
 
-void add_frontiers(const FrontierConfig& config, const ReplayedDecision& decision, double unit_m,
+bool add_frontiers(const FrontierConfig& config, const ReplayedDecision& decision, double unit_m,
                    Panel& panel) {
   RenderScene& scene = panel.scene;
   const Belief& belief = decision.belief;
@@ -83,7 +85,7 @@ void add_frontiers(const FrontierConfig& config, const ReplayedDecision& decisio
                            static_cast<float>((is_chosen ? 6.0 : 4.5) * unit_m), colour.front()});
     panel.labels.push_back({centre_m, fmt::format("{}", i + 1), to_rgb8(kFrontierLook.looked_at)});
   }
-  add_layers(decision.plan, clusters, unit_m, scene);
+  return add_layers(decision.plan, clusters, unit_m, scene);
 }
 
 }  // namespace gnbv

@@ -87,7 +87,8 @@ Lone lone_picture(const PictureKind& kind, std::span<RunSource* const> runs,
   for (RunSource* const run : runs) {
     const CameraConfig& camera = run->record().scenario.cameras.front();
     const double height_px = kInsetShare * options.width_px * camera.height_px / camera.width_px;
-    lone.inset_px[1] = std::max(lone.inset_px[1], height_px + (kInsetBorder + 2.0) * u);
+    lone.inset_px[1] =
+        std::max(lone.inset_px[1], height_px + (kInsetBorder + kInsetWords + 2.0) * u);
   }
   return lone;
 }

@@ -6,6 +6,8 @@
 
 namespace gnbv {
 
+const Rgb kGhostColour = srgb(0xc9d1da);
+
 double layout_unit_m(const RenderView& view) {
   return layout_unit_px(view.width_px, view.height_px) / px_per_m_at_focus(view);
 }
@@ -98,7 +100,7 @@ void paint_structure(RunSource& run, const RenderView& view, RenderScene& scene)
 
 void add_ghost(RunSource& run, float opacity, RenderScene& scene) {
   add_ground(run, scene);
-  add_in_one_colour(run.world().structure, srgb(0xc9d1da), opacity, scene);
+  add_in_one_colour(run.world().structure, kGhostColour, opacity, scene);
   add_in_one_colour(run.world().obstacles, kObstacleColour, opacity, scene);
 }
 

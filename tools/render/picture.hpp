@@ -28,6 +28,8 @@ struct PictureOptions {
   std::string title;         // empty: scenario and utility
   /// path: what stands there instead of the structure, of pieces no longer than given (m).
   std::function<SurfaceItem(RunSource&, double)> surface = {};
+  /// coverage: from where the second panel looks, where several pictures share that.
+  std::optional<ViewAngles> second_angles = {};
   /// What the two ends of the colours stand for, where several pictures share them.
   std::optional<std::array<double, 2>> colour_range = {};
 };
@@ -60,12 +62,14 @@ struct Picture {
   std::vector<Panel> panels = {};
   std::string detail = {};  // one line of figures
   std::vector<LegendItem> legend = {};
-  Image inset = {};        // small, in the upper right corner; empty: none
-  bool has_sheet = false;  // under the title, where the scene may reach behind it
+  Image inset = {};              // small, in the upper right corner; empty: none
+  std::string inset_words = {};  // under it
+  bool has_sheet = false;        // under the title, where the scene may reach behind it
 };
 
 constexpr double kInsetShare = 0.25;   // of the picture's width
 constexpr double kInsetBorder = 18.0;  // layout units
+constexpr double kInsetWords = 22.0;   // of the paper below it
 
 struct PictureKind {
   std::string_view name;  // also of the file
@@ -80,6 +84,10 @@ struct PictureKind {
   /// What the two ends of the colours stand for in a picture of its own; null: nothing that runs
   /// could share.
   std::array<double, 2> (*colour_range)(RunSource& run, const PictureOptions& options) = nullptr;
+  /// Of several runs, from where a second panel shows the most of all; null: nothing is shared.
+  std::optional<ViewAngles> (*second_angles)(std::span<RunSource* const> runs,
+                                             const PictureOptions& options,
+                                             const RenderView& view) = nullptr;
   /// Lines are as thick as suits `view`. Throws BadInput naming what is missing.
   Picture (*draw)(RunSource& run, const PictureOptions& options, const RenderView& view);
 };
@@ -117,7 +125,8 @@ void add_surroundings(RunSource& run, RenderScene& scene);
 void paint_structure(RunSource& run, const RenderView& view, RenderScene& scene);
 /// Of what add_structure() puts around the structure.
 std::vector<LegendItem> legend_of_surroundings(RunSource& run);
-/// Structure and obstacles as pale ghosts, with the ground.
+/// Structure and obstacles as pale ghosts, the structure's of that colour, with the ground.
+extern const Rgb kGhostColour;
 void add_ghost(RunSource& run, float opacity, RenderScene& scene);
 void add_ground(RunSource& run, RenderScene& scene);
 

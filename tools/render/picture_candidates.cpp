@@ -10,6 +10,7 @@
 #include "tools/render/chosen_view_item.hpp"
 #include "tools/render/frontier_items.hpp"
 #include "tools/render/panel_layout.hpp"
+#include "tools/render/rejection_look.hpp"
 #include "tools/render/voxel_items.hpp"
 #include "tools/run_files/words.hpp"
 
@@ -19,30 +20,6 @@ namespace {
 const Rgb kMap = srgb(0xc4ccd6);
 const Rgb kUnknownVoxels = srgb(0xffffff);
 constexpr float kUnknownVoxelsOpacity = 0.35F;
-
-struct Reason {
-  Rejection rejection;
-  std::string_view words;
-  Rgb colour;
-};
-
-// The muted colours of Paul Tol (2021), which colour-blind people tell apart: rejected views are
-// context.
-constexpr std::size_t kReasons = 10;
-const std::array<Reason, kReasons>& reasons() {
-  static const std::array<Reason, kReasons> all = {
-      {{Rejection::out_of_bounds, "out of bounds", srgb(0x9aa3ae)},
-       {Rejection::not_free, "not free", srgb(0x14181e)},
-       {Rejection::collision, "collision", srgb(0x882255)},
-       {Rejection::path_blocked, "path blocked", srgb(0xcc6677)},
-       {Rejection::recently_visited, "visited", srgb(0xddcc77)},
-       {Rejection::cluster_outside_fov, "cluster outside view", srgb(0x88ccee)},
-       {Rejection::cluster_hidden, "cluster hidden", srgb(0xaa4499)},
-       {Rejection::sees_no_surface, "sees no surface", srgb(0x999933)},
-       {Rejection::no_fly, "no-fly box", srgb(0x661100)},
-       {Rejection::beyond_gimbal, "beyond the gimbal", srgb(0x332288)}}};
-  return all;
-}
 
 std::size_t iteration_asked(const RunRecord& record, const PictureOptions& options) {
   const std::size_t iteration = iteration_of(record, options, record.views.size() / 2);
@@ -108,17 +85,29 @@ std::string counts_by_sampler(const Plan& plan) {
 }
 
 struct Tally {
-  std::array<std::size_t, kReasons> rejected{};
+  std::vector<std::size_t> rejected = std::vector<std::size_t>(rejection_looks().size());
+  std::vector<std::size_t> rejected_beyond = rejected;  // the picture
   std::size_t valid = 0;
+  std::size_t beyond = 0;  // of all
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
 };
 
-Tally tally(const Plan& plan) {
+bool is_beyond(const RenderView& view, const Vec3& p_world_m) {
+  const std::optional<Vec3> px = project(view, p_world_m);
+  return !px || px->x() < 0.0 || px->y() < 0.0 || px->x() > view.width_px ||
+         px->y() > view.height_px;
+}
+
+Tally tally(const Plan& plan, const RenderView& view) {
   Tally all;
   for (const Candidate& candidate : plan.candidates) {
+    const std::size_t beyond = is_beyond(view, candidate.view.p_world_m) ? 1 : 0;
+    all.beyond += beyond;
     if (candidate.rejected) {
-      ++all.rejected[static_cast<std::size_t>(*candidate.rejected)];
+      const auto reason = static_cast<std::size_t>(*candidate.rejected);
+      ++all.rejected[reason];
+      all.rejected_beyond[reason] += beyond;
       continue;
     }
     ++all.valid;
@@ -128,69 +117,89 @@ Tally tally(const Plan& plan) {
   return all;
 }
 
+bool is_around_cluster(const Candidate& candidate) { return candidate.cluster >= 0; }
+
+bool is_chosen_around_cluster(const Plan& plan) {
+  return plan.chosen && is_around_cluster(plan.candidates[*plan.chosen]);
+}
+
+// A share of the way from the lowest score to the highest: where these are one, it is the highest.
+Rgb colour_of_score(const Tally& all, double score) {
+  return amount_ramp(1.0 - (all.high - score) / std::max(all.high - all.low, 1e-12));
+}
+
 // A ball each, in their order, small for those rejected; those that are valid also show where they
 // look.
 void add_candidates(const Plan& plan, const Tally& all, double unit_m, RenderScene& scene) {
-  const double span = std::max(all.high - all.low, 1e-12);
   for (const Candidate& candidate : plan.candidates) {
     const Vec3f p_m = candidate.view.p_world_m.cast<float>();
     if (candidate.rejected) {
-      const Reason& reason = reasons()[static_cast<std::size_t>(*candidate.rejected)];
-      scene.balls.push_back({p_m, static_cast<float>(4.2 * unit_m), reason.colour});
+      const Rgb& colour = rejection_looks()[static_cast<std::size_t>(*candidate.rejected)].colour;
+      scene.balls.push_back({p_m, static_cast<float>(4.2 * unit_m), colour});
       continue;
     }
-    const Rgb colour = amount_ramp((candidate.score.value - all.low) / span);
+    const Rgb colour = colour_of_score(all, candidate.score.value);
     scene.balls.push_back({p_m, static_cast<float>(6.0 * unit_m), colour});
     add_pin(candidate.view, 18.0 * unit_m, 2.4 * unit_m, colour, scene);
   }
 }
 
 // "104 candidates, 41 of them beyond the picture"
-std::string note_on(const Plan& plan, const RenderView& view) {
-  const auto is_beyond = [&](const Candidate& candidate) {
-    const std::optional<Vec3> px = project(view, candidate.view.p_world_m);
-    return !px || px->x() < 0.0 || px->y() < 0.0 || px->x() > view.width_px ||
-           px->y() > view.height_px;
-  };
-  const auto beyond = static_cast<std::size_t>(
-      std::count_if(plan.candidates.begin(), plan.candidates.end(), is_beyond));
-  const std::string all = counted(plan.candidates.size(), "candidate");
-  return beyond == 0 ? all : fmt::format("{}, {} of them beyond the picture", all, grouped(beyond));
+std::string note_on(const Plan& plan, const Tally& all) {
+  const std::string count = counted(plan.candidates.size(), "candidate");
+  if (all.beyond == 0) return count;
+  return fmt::format("{}, {} of them beyond the picture", count, grouped(all.beyond));
 }
 
-// A row of those rejected, one of what could be chosen and is to be seen, one of the chosen view.
-std::vector<LegendItem> legend_of(const Tally& all, bool is_fvs) {
+// "valid: 31, utility" from a bar's low end to its high end; without a bar where all have one.
+LegendItem legend_of_valid(const Tally& all) {
+  if (all.low == all.high) {
+    return {.label = fmt::format("valid: {}, utility {:.3g}", grouped(all.valid), all.high),
+            .colours = {colour_of_score(all, all.high)},
+            .mark = LegendItem::Mark::dot};
+  }
+  return {.label = fmt::format("{:.3g}, highest", all.high),
+          .colours = amount_colours(),
+          .label_before = fmt::format("valid: {}, utility {:.3g}", grouped(all.valid), all.low),
+          .label_middle = fmt::format("{:.3g}", 0.5 * (all.low + all.high))};
+}
+
+std::vector<LegendItem> legend_of_rejected(const Tally& all) {
   std::vector<LegendItem> legend;
-  for (const Reason& reason : reasons()) {
-    const std::size_t count = all.rejected[static_cast<std::size_t>(reason.rejection)];
-    if (count == 0) continue;
-    legend.push_back({fmt::format("{}: {}", reason.words, grouped(count)),
-                      {reason.colour},
+  for (const RejectionLook& look : rejection_looks()) {
+    const auto reason = static_cast<std::size_t>(look.rejection);
+    if (all.rejected[reason] == 0) continue;
+    const bool is_seen = all.rejected_beyond[reason] < all.rejected[reason];
+    legend.push_back({fmt::format("{}: {}{}", look.words, grouped(all.rejected[reason]),
+                                  is_seen ? "" : " beyond the picture"),
+                      {look.colour},
                       LegendItem::Mark::dot});
     if (legend.size() == 1) legend.front().label_before = "rejected:";
   }
+  return legend;
+}
+
+// A row of those rejected, one of what could be chosen and is to be seen, one of the chosen view.
+std::vector<LegendItem> legend_of(const Plan& plan, const Tally& all, bool has_layers) {
+  std::vector<LegendItem> legend = legend_of_rejected(all);
   const std::size_t second = legend.size();
-  if (all.valid > 0) {
-    legend.push_back(
-        {.label = fmt::format("{:.3g}, highest", all.high),
-         .colours = amount_colours(),
-         .label_before = fmt::format("valid: {}, utility {:.3g}", grouped(all.valid), all.low),
-         .label_middle = all.low < all.high ? fmt::format("{:.3g}", 0.5 * (all.low + all.high))
-                                            : std::string{}});
-  }
+  if (all.valid > 0) legend.push_back(legend_of_valid(all));
   legend.push_back({"unknown", {kUnknownVoxels}});
-  if (is_fvs) {
+  if (std::any_of(plan.candidates.begin(), plan.candidates.end(), is_around_cluster)) {
     legend.push_back({"frontier, clusters numbered as tried", {kFrontierLook.frontier}});
-    legend.push_back({"cluster looked at", {kFrontierLook.looked_at}});
-    legend.push_back({"views of a layer", {kFrontierLook.frontier}, LegendItem::Mark::line});
+    if (is_chosen_around_cluster(plan))
+      legend.push_back({"cluster looked at", {kFrontierLook.looked_at}});
+    if (has_layers)
+      legend.push_back({"views of a layer", {kFrontierLook.frontier}, LegendItem::Mark::line});
   }
   const std::size_t third = legend.size();
-  legend.push_back({"way there", {kChosenLook.chosen}, LegendItem::Mark::line, "chosen view:"});
-  legend.push_back({"view before", {kChosenLook.before}, LegendItem::Mark::dot});
+  legend.push_back({"chosen view", {kChosenLook.chosen}, LegendItem::Mark::ring});
+  legend.push_back({"way there", {kChosenLook.chosen}, LegendItem::Mark::line});
+  legend.push_back({"view before", {kChosenLook.before}, LegendItem::Mark::ring});
   legend.push_back({"pyramid", {kChosenLook.pyramid}, LegendItem::Mark::line});
   legend.push_back({"ray through free", {kChosenLook.ray_free}, LegendItem::Mark::line});
   legend.push_back({"through unknown", {kChosenLook.ray_unknown}, LegendItem::Mark::line});
-  legend.push_back({"meets surface", {kChosenLook.chosen}, LegendItem::Mark::dot});
+  legend.push_back({"meets surface", {kChosenLook.hit}, LegendItem::Mark::dot});
   legend[second].begins_row = legend[third].begins_row = true;
   return legend;
 }
@@ -261,8 +270,8 @@ Picture draw_candidates(RunSource& run, const PictureOptions& options, const Ren
   const RunRecord& record = run.record();
   const std::size_t iteration = iteration_asked(record, options);
   const ReplayedDecision& decision = run.decision(iteration);
-  const bool is_fvs = record.views[iteration].decision.sampler == "fvs";
-  const Tally all = tally(decision.plan);
+  const Plan& plan = decision.plan;
+  const Tally all = tally(plan, view);
   Picture picture{.panels = std::vector<Panel>(2)};
   Panel& far = picture.panels[0];
   Panel& near = picture.panels[1];
@@ -273,28 +282,31 @@ Picture draw_candidates(RunSource& run, const PictureOptions& options, const Ren
     near.view = near_view(record, iteration, options, chosen, view);
   }
   const RenderView& from_near = near.view ? *near.view : view;
+  bool has_layers = false;
   for (const auto& [panel, seen_from] : {std::pair{&far, &view}, {&near, &from_near}}) {
     const double unit_m = panel_unit_m(options, *seen_from);
     // from near, gaps would be black lines
     add_map(run, decision.belief.grid, panel == &near ? 1.0 : 0.94, panel->scene);
-    add_candidates(decision.plan, all, unit_m, panel->scene);
-    if (!is_fvs) continue;
-    add_frontiers(record.scenario.planner.fvs.frontier, decision, unit_m, *panel);
+    add_candidates(plan, all, unit_m, panel->scene);
+    if (std::none_of(plan.candidates.begin(), plan.candidates.end(), is_around_cluster)) continue;
+    has_layers = add_frontiers(record.scenario.planner.fvs.frontier, decision, unit_m, *panel);
   }
+  // numbers show through everything, and from near nothing asks for them
+  if (!is_chosen_around_cluster(plan)) near.labels.clear();
   // farther, rays would smear their darkness over what they pass
   near.scene.hollow_m = decision.belief.grid.geometry().resolution_m();
   far.lines = near.lines = way_to_chosen(record, iteration);
   add_chosen_view(record, run.world(), decision.belief, iteration, panel_unit_m(options, from_near),
                   near.scene);
-  far.note = note_on(decision.plan, view);
+  far.note = note_on(plan, all);
   const double step_m = (record.views[iteration].decision.view.p_world_m -
                          record.views[iteration - 1].decision.view.p_world_m)
                             .norm();
   near.note = step_m < 0.005 ? "the chosen one, a turn where the view before was"
                              : fmt::format("the chosen one, {:.2g} m from the view before", step_m);
-  picture.detail = fmt::format("how iteration {} was chosen: candidates {}", iteration,
-                               counts_by_sampler(decision.plan));
-  picture.legend = legend_of(all, is_fvs);
+  picture.detail =
+      fmt::format("how iteration {} was chosen: candidates {}", iteration, counts_by_sampler(plan));
+  picture.legend = legend_of(plan, all, has_layers);
   return picture;
 }
 

@@ -11,6 +11,8 @@
 namespace gnbv {
 namespace {
 
+const Rgb kProfileOnly = srgb(0xb3bbc5);
+
 void frame_cloud(RunSource& run, const PictureOptions&, std::vector<Vec3>& points_world_m) {
   frame_structure(run, points_world_m);
 }
@@ -27,6 +29,19 @@ std::vector<std::uint32_t> densities(std::span<const Vec3f> points_world_m, doub
     counts[i] = static_cast<std::uint32_t>(last - first);
   }
   return counts;
+}
+
+/// Of each point: whether its voxel holds points of the profile alone, the first ones.
+std::vector<bool> are_of_profile_alone(std::span<const Vec3f> points_world_m, std::size_t profile,
+                                       double voxel_m) {
+  const std::size_t first = std::min(profile, points_world_m.size());
+  const VoxelSet looked_at = voxels_of(points_world_m.subspan(first), voxel_m);
+  std::vector<bool> are_alone(points_world_m.size(), false);
+  for (std::size_t i = 0; i < first; ++i) {
+    are_alone[i] = !std::binary_search(looked_at.begin(), looked_at.end(),
+                                       voxel_code(points_world_m[i], voxel_m));
+  }
+  return are_alone;
 }
 
 std::size_t points_of(RunSource& run, const PictureOptions& options) {
@@ -56,8 +71,11 @@ Picture draw_cloud(RunSource& run, const PictureOptions& options, const RenderVi
                 .radius_m = static_cast<float>(0.75 * record.scenario.planner.cloud.leaf_m)};
   const std::vector<std::uint32_t> counts = densities(points, voxel_m);
   const double top = options.colour_range.value_or(range_of(counts))[1];
-  for (const std::uint32_t density : counts) {
-    dots.colours.push_back(amount_ramp((density - 1.0) / std::max(1.0, top - 1.0)));
+  const std::vector<bool> are_alone =
+      are_of_profile_alone(points, run.cloud().profile_points, voxel_m);
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const Rgb colour = amount_ramp((counts[i] - 1.0) / std::max(1.0, top - 1.0));
+    dots.colours.push_back(are_alone[i] ? kProfileOnly : colour);
   }
   Picture picture{.panels = std::vector<Panel>(1)};
   RenderScene& scene = picture.panels.front().scene;
@@ -67,10 +85,13 @@ Picture draw_cloud(RunSource& run, const PictureOptions& options, const RenderVi
   if (options.iteration) {
     picture.detail += " after " + views_so_far(record, iteration_of(record, options, 0));
   }
-  picture.legend = {{.label = fmt::format("{:.0f} or more", top),
-                     .colours = amount_colours(),
-                     .label_before = fmt::format("points in a voxel of {} m: 1", voxel_m),
-                     .label_middle = fmt::format("{:.0f}", 0.5 * (1.0 + top))}};
+  if (std::count(are_alone.begin(), are_alone.end(), true) > 0) {
+    picture.legend.push_back({"seen by the profile alone", {kProfileOnly}, LegendItem::Mark::dot});
+  }
+  picture.legend.push_back({.label = fmt::format("{:.0f} or more", top),
+                            .colours = amount_colours(),
+                            .label_before = fmt::format("points in a voxel of {} m: 1", voxel_m),
+                            .label_middle = fmt::format("{:.0f}", 0.5 * (1.0 + top))});
   return picture;
 }
 

@@ -3,8 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <map>
 
 #include "bench/score/voxel_set.hpp"
+#include "sim/core/error.hpp"
 #include "tools/render/picture.hpp"
 #include "tools/render/voxel_items.hpp"
 #include "tools/run_files/words.hpp"
@@ -20,20 +25,54 @@ void frame_coverage(RunSource& run, const PictureOptions&, std::vector<Vec3>& po
   frame_structure(run, points_world_m);
 }
 
+/// Points of the cloud that a picture is about.
+std::span<const Vec3f> points_of(RunSource& run, const PictureOptions& options) {
+  const std::span<const Vec3f> all = run.cloud().points_world_m;
+  if (!options.iteration) return all;
+  return all.first(run.cloud().view_points[iteration_of(run.record(), options, 0)]);
+}
+
 struct Judged {
-  std::vector<Rgb> colours = {};           // of all voxels
+  std::vector<bool> is_missed = {};        // of all voxels
   std::vector<Vec3f> missed_world_m = {};  // surface points of those missed
 };
 
-Judged judge(const SurfaceReference& reference, const VoxelSet& seen) {
+Judged judge(RunSource& run, const PictureOptions& options) {
+  const SurfaceReference& reference = run.reference();
+  const VoxelSet seen = voxels_of(points_of(run, options), kCoverageSizes_m.front());
   Judged judged;
   const VoxelSet& surface = reference.outside.front();
   for (std::size_t i = 0; i < surface.size(); ++i) {
-    const bool is_seen = std::binary_search(seen.begin(), seen.end(), surface[i]);
-    judged.colours.push_back(is_seen ? kCovered : kMissed);
-    if (!is_seen) judged.missed_world_m.push_back(reference.points_world_m[i]);
+    judged.is_missed.push_back(!std::binary_search(seen.begin(), seen.end(), surface[i]));
+    if (judged.is_missed.back()) judged.missed_world_m.push_back(reference.points_world_m[i]);
   }
   return judged;
+}
+
+/// Of voxels so many times as large, each of a colour between, by the share of it that is missed: a
+/// voxel that is smaller than a pixel would flicker.
+SurfaceItem faces_of(const VoxelSet& surface, const std::vector<bool>& is_missed, int factor) {
+  std::map<std::uint64_t, std::array<float, 2>> counts;  // missed, all
+  for (std::size_t i = 0; i < surface.size(); ++i) {
+    std::array<float, 2>& count = counts[coarser_code(surface[i], factor)];
+    count[0] += is_missed[i] ? 1.0F : 0.0F;
+    count[1] += 1.0F;
+  }
+  const std::array<Rgb, 2> ends = {kCovered, kMissed};
+  VoxelSet voxels;
+  std::vector<Rgb> colours;
+  for (const auto& [code, count] : counts) {
+    voxels.push_back(code);
+    colours.push_back(ramp(ends, count[0] / count[1]));
+  }
+  return exposed_faces(voxels, factor * kCoverageSizes_m.front(), colours);
+}
+
+/// How many voxels make one that is at least so many pixels wide.
+int factor_of(const RenderView& view) {
+  constexpr double kLeast_px = 1.5;
+  const double voxel_px = kCoverageSizes_m.front() * px_per_m_at_focus(view);
+  return std::max(1, static_cast<int>(std::ceil(kLeast_px / voxel_px - 1e-9)));
 }
 
 /// How many of the points nothing hides from that side.
@@ -46,37 +85,82 @@ std::size_t open_points(const RayScene& scene, std::span<const Vec3f> points_wor
   return static_cast<std::size_t>(std::count(is_hidden.begin(), is_hidden.end(), 0));
 }
 
-/// Of eight directions around, from below, level, and from above: the first that sees the most, but
-/// none that looks as the first picture does, from `shown` (unit, to its camera).
-ViewAngles angles_to_most(RunSource& run, const std::vector<Vec3f>& missed_world_m, double size_m,
-                          const Vec3& shown) {
+Vec3 to_camera(const ViewAngles& angles) {
+  const double level = std::cos(angles.elevation_rad);
+  return {level * std::cos(angles.azimuth_rad), level * std::sin(angles.azimuth_rad),
+          std::sin(angles.elevation_rad)};
+}
+
+/// Eight directions around, from above, from below, steeply from above, and level.
+std::vector<ViewAngles> directions() {
+  std::vector<ViewAngles> all;
+  for (const double elevation_deg : {28.0, -25.0, 60.0, 5.0}) {
+    for (int i = 0; i < 8; ++i) {
+      all.push_back({deg_to_rad(60.0 - 45.0 * i), deg_to_rad(elevation_deg)});
+    }
+  }
+  return all;
+}
+
+/// Of each direction: the share of the missed points that it shows.
+std::vector<double> shares_shown(RunSource& run, const std::vector<Vec3f>& missed_world_m) {
   std::vector<Vec3f> asked;
   const std::size_t step = 1 + missed_world_m.size() / kMostAsked;
   for (std::size_t i = 0; i < missed_world_m.size(); i += step) asked.push_back(missed_world_m[i]);
+  std::vector<double> shares;
+  for (const ViewAngles& angles : directions()) {
+    const std::size_t open =
+        open_points(run.scene(), asked, to_camera(angles).cast<float>(), kCoverageSizes_m.front());
+    shares.push_back(static_cast<double>(open) /
+                     static_cast<double>(std::max<std::size_t>(1, asked.size())));
+  }
+  return shares;
+}
+
+/// The first direction that shows the most, but none that looks as the first panel does.
+ViewAngles angles_to_most(std::span<const double> shares, const RenderView& first) {
+  constexpr double kOtherSide_rad = deg_to_rad(50.0);
+  const Vec3 shown = -first.T_world_camera.linear().col(2);
   ViewAngles best{deg_to_rad(60.0), deg_to_rad(28.0)};  // with nothing missed: the other side
-  std::size_t most = 0;
-  for (const double elevation_deg : {28.0, -25.0, 60.0, 5.0}) {
-    for (int i = 0; i < 8; ++i) {
-      const ViewAngles angles{deg_to_rad(60.0 - 45.0 * i), deg_to_rad(elevation_deg)};
-      const double level = std::cos(angles.elevation_rad);
-      const Vec3 to_camera(level * std::cos(angles.azimuth_rad),
-                           level * std::sin(angles.azimuth_rad), std::sin(angles.elevation_rad));
-      constexpr double kOtherSide_rad = deg_to_rad(50.0);
-      if (to_camera.dot(shown) > std::cos(kOtherSide_rad)) continue;
-      const std::size_t count = open_points(run.scene(), asked, to_camera.cast<float>(), size_m);
-      if (count <= most) continue;
-      most = count;
-      best = angles;
-    }
+  double most = 0.0;
+  const std::vector<ViewAngles> all = directions();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (to_camera(all[i]).dot(shown) > std::cos(kOtherSide_rad) || shares[i] <= most) continue;
+    most = shares[i];
+    best = all[i];
   }
   return best;
 }
 
-std::string_view compass(double azimuth_rad) {
-  constexpr std::array<std::string_view, 8> kNames = {"east", "north-east", "north", "north-west",
-                                                      "west", "south-west", "south", "south-east"};
-  const long eighth = std::lround(azimuth_rad / deg_to_rad(45.0));
-  return kNames[static_cast<std::size_t>((eighth % 8 + 8) % 8)];
+/// The direction that shows the most of what the runs miss together.
+std::optional<ViewAngles> angles_for_all(std::span<RunSource* const> runs,
+                                         const PictureOptions& options, const RenderView& view) {
+  std::vector<double> sums(directions().size(), 0.0);
+  for (RunSource* const run : runs) {
+    try {
+      const std::vector<double> own = shares_shown(*run, judge(*run, options).missed_world_m);
+      std::transform(own.begin(), own.end(), sums.begin(), sums.begin(), std::plus<>());
+    } catch (const BadInput&) {  // of what the run lacks; its picture will say so
+    }
+    run->forget();
+  }
+  return angles_to_most(sums, view);
+}
+
+/// Where a camera stands as seen by who looks along the first panel: "the right", "behind, left".
+std::string side_of(const ViewAngles& angles, const RenderView& first) {
+  const Vec3 shown = -first.T_world_camera.linear().col(2);
+  const double turn_deg =
+      rad_to_deg(wrap_angle_rad(angles.azimuth_rad - std::atan2(shown.y(), shown.x())));
+  const std::string_view hand = turn_deg > 0.0 ? "the right" : "the left";
+  const double size_deg = std::abs(turn_deg);
+  std::string side = size_deg < 22.5    ? "the same side"
+                     : size_deg < 112.5 ? std::string(hand)
+                     : size_deg < 157.5 ? fmt::format("behind on {}", hand)
+                                        : "behind";
+  return side + (angles.elevation_rad < 0.0                ? ", below"
+                 : angles.elevation_rad > deg_to_rad(45.0) ? ", above"
+                                                           : "");
 }
 
 RenderView other_view(RunSource& run, const ViewAngles& angles, const RenderView& view) {
@@ -89,36 +173,33 @@ RenderView other_view(RunSource& run, const ViewAngles& angles, const RenderView
 }
 
 Picture draw_coverage(RunSource& run, const PictureOptions& options, const RenderView& view) {
-  const RunCloud& cloud = run.cloud();
-  std::size_t count = cloud.points_world_m.size();
-  std::string when;
-  if (options.iteration) {
-    const std::size_t iteration = iteration_of(run.record(), options, 0);
-    count = cloud.view_points[iteration];
-    when = " after " + views_so_far(run.record(), iteration);
-  }
-  const SurfaceReference& reference = run.reference();
-  const VoxelSet& surface = reference.outside.front();
+  const VoxelSet& surface = run.reference().outside.front();
   const double size_m = kCoverageSizes_m.front();
-  const VoxelSet seen = voxels_of(std::span(cloud.points_world_m).first(count), size_m);
-  const Judged judged = judge(reference, seen);
+  const Judged judged = judge(run, options);
   const std::size_t missed = judged.missed_world_m.size();
-  const ViewAngles other =
-      angles_to_most(run, judged.missed_world_m, size_m, -view.T_world_camera.linear().col(2));
-
+  const ViewAngles other = options.second_angles
+                               ? *options.second_angles
+                               : angles_to_most(shares_shown(run, judged.missed_world_m), view);
+  const int factor = factor_of(view);
   Picture picture{.panels = std::vector<Panel>(2)};
   RenderScene& scene = picture.panels[0].scene;
   add_ground(run, scene);
-  scene.surfaces.push_back(exposed_faces(surface, size_m, judged.colours));
+  scene.surfaces.push_back(faces_of(surface, judged.is_missed, factor));
   picture.panels[1].scene = scene;
   picture.panels[1].view = other_view(run, other, view);
-  picture.panels[1].note = fmt::format("more of it shows from the {}{}", compass(other.azimuth_rad),
-                                       other.elevation_rad < 0.0 ? ", below" : "");
+  picture.panels[1].note = fmt::format("more of it shows from {}", side_of(other, view));
   picture.panels[0].note = fmt::format("{} missed", counted(missed, "voxel"));
   const double share = static_cast<double>(surface.size() - missed) /
                        static_cast<double>(std::max<std::size_t>(1, surface.size()));
-  picture.detail = fmt::format("{:.1f} % of {} surface voxels of {} m covered{}", 100.0 * share,
-                               grouped(surface.size()), size_m, when);
+  picture.detail = fmt::format("{:.1f} % of {} surface voxels of {} m covered", 100.0 * share,
+                               grouped(surface.size()), size_m);
+  if (options.iteration) {
+    picture.detail +=
+        " after " + views_so_far(run.record(), iteration_of(run.record(), options, 0));
+  }
+  if (factor > 1) {
+    picture.detail += fmt::format("; drawn in voxels of {:.2f} m, colours mixed", factor * size_m);
+  }
   picture.legend = {{"covered", {kCovered}}, {"missed", {kMissed}}};
   return picture;
 }
@@ -130,6 +211,7 @@ const PictureKind kCoveragePicture = {
     .shows = "true surface: covered by the cloud, or missed; from two sides",
     .panels = 2,
     .frame = frame_coverage,
+    .second_angles = angles_for_all,
     .draw = draw_coverage};
 
 }  // namespace gnbv

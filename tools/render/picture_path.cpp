@@ -59,10 +59,9 @@ Picture draw_path(RunSource& run, const PictureOptions& options, const RenderVie
   }
   for (const LegendItem& item : legend_of_surroundings(run)) picture.legend.push_back(item);
   const std::size_t step = pyramid_step(record.views.size(), options.every);
-  if (step > 1) {
-    picture.legend.push_back(
-        {fmt::format("cameras, one view in {}", step), {path_ramp(0.5)}, LegendItem::Mark::line});
-  }
+  picture.legend.push_back({step > 1 ? fmt::format("cameras, one view in {}", step) : "cameras",
+                            {path_ramp(0.5)},
+                            LegendItem::Mark::line});
   picture.legend.push_back(
       {.label = "last", .colours = path_colours(), .label_before = "first view"});
   return picture;
@@ -72,6 +71,7 @@ Picture draw_path(RunSource& run, const PictureOptions& options, const RenderVie
 
 const PictureKind kPathPicture = {.name = "path",
                                   .shows = "structure, flown path and views (Figs. 8, 10)",
+                                  .words_width = 760.0,
                                   .frame = frame_path,
                                   .draw = draw_path};
 

@@ -60,19 +60,30 @@ PictureOptions with_shared_colours(const PictureKind& kind, std::span<RunSource*
   return options;
 }
 
+PictureOptions with_shared_angles(const PictureKind& kind, std::span<RunSource* const> runs,
+                                  PictureOptions options, const RenderView& view) {
+  if (kind.second_angles != nullptr && runs.size() > 1) {
+    options.second_angles = kind.second_angles(runs, options, view);
+  }
+  return options;
+}
+
 namespace {
 
-/// A quarter of the width, framed, in the upper right corner: each pixel the mean of those it
-/// covers.
-void draw_inset(const Image& inset, Image& image) {
+/// A quarter of the width, framed, in the upper right corner, with words below it where there are
+/// any: each pixel the mean of those it covers.
+void draw_inset(const Image& inset, const std::string& words, Image& image) {
   const double u = layout_unit_px(image.width_px, image.height_px);
   const int width = static_cast<int>(kInsetShare * image.width_px);
   const int height = width * inset.height_px / std::max(1, inset.width_px);
   const int x0 = image.width_px - width - static_cast<int>(kInsetBorder * u);
   const int y0 = static_cast<int>(kInsetBorder * u);
   if (x0 < 0 || y0 + height > image.height_px) return;
-  draw_box(image, {x0 - 2.0 * u, y0 - 2.0 * u}, {x0 + width + 2.0 * u, y0 + height + 2.0 * u},
+  const double below = words.empty() ? 2.0 : kInsetWords;
+  draw_box(image, {x0 - 2.0 * u, y0 - 2.0 * u}, {x0 + width + 2.0 * u, y0 + height + below * u},
            {255, 255, 255}, 1.0);
+  const double letter_px = fitting_height_px(words, 10.0 * u, width - 12.0 * u);
+  draw_text(image, words, x0 + 6.0 * u, y0 + height + 16.0 * u, letter_px, kInk);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const int left = x * inset.width_px / width;
@@ -155,7 +166,9 @@ DrawnPicture drawn(const Picture& picture, const RunSource& run, const PictureOp
   for (std::size_t i = 0; i < picture.panels.size(); ++i) {
     draw_panel(picture.panels[i], i, options, layout, renderer, image);
   }
-  if (!picture.inset.rgb.empty()) draw_inset(picture.inset, image);
+  if (!picture.inset.rgb.empty()) {
+    draw_inset(picture.inset, has_words(options) ? picture.inset_words : "", image);
+  }
   return {.image = std::move(image),
           .caption = {.title = options.title.empty() ? run_title(run.record()) : options.title,
                       .detail = picture.detail,

@@ -19,6 +19,11 @@ const PictureKind& picture_kind(std::string_view name);
 PictureOptions with_shared_colours(const PictureKind& kind, std::span<RunSource* const> runs,
                                    PictureOptions options);
 
+/// The options with one direction for the second panels of all of those runs, so that pictures in a
+/// row can be compared. `view` is that of the first panels.
+PictureOptions with_shared_angles(const PictureKind& kind, std::span<RunSource* const> runs,
+                                  PictureOptions options, const RenderView& view);
+
 /// An image, and the words that belong on it.
 struct DrawnPicture {
   Image image;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <unordered_set>
 
 #include "bench/score/voxel_set.hpp"
@@ -224,11 +225,13 @@ Picture Snapshots::picture_at(double time_s, double speed, const RenderView& vie
     scene.frusta.push_back(frustum);
   }
   picture.detail = fmt::format(
-      "{}, {:.0f} s and {:.1f} m flown since the first, {}{}", views_so_far(record, iteration),
-      time_s - record.views.front().time_s, now.flown_m, counted(now.cloud_points, "point"),
+      "{}, {} s and {} m flown since the first, {}{}", views_so_far(record, iteration),
+      grouped(static_cast<std::size_t>(std::lround(time_s - record.views.front().time_s))),
+      grouped_tenths(now.flown_m), counted(now.cloud_points, "point"),
       speed > 0.0 ? fmt::format(", {:.1f} times as fast as flown", speed) : "");
   picture.legend = {
       {.label = "last view", .colours = path_colours(), .label_before = "first"},
+      {.label = "not seen yet", .colours = {kGhostColour}},
       {.label = "seen", .colours = {kSeen}, .mark = LegendItem::Mark::dot},
       {.label = scale > 1.05 ? fmt::format("vehicle, {:.1f} times as large", scale) : "vehicle",
        .colours = {kFrontRotors}},
@@ -237,6 +240,7 @@ Picture Snapshots::picture_at(double time_s, double speed, const RenderView& vie
        .colours = {kFrustum},
        .mark = LegendItem::Mark::line}};
   picture.inset = seen_by_camera(iteration);
+  picture.inset_words = "the camera's last view";
   picture.has_sheet = follows_;
   return picture;
 }

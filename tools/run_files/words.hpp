@@ -13,6 +13,8 @@ std::string human_name(std::string_view name);
 
 /// "1,234,567".
 std::string grouped(std::size_t count);
+/// 1234.56 as "1,234.6". Requires a number that is not negative.
+std::string grouped_tenths(double number);
 
 /// "1 view", "12 views", "1,200 views".
 std::string counted(std::size_t count, std::string_view thing);

@@ -58,7 +58,7 @@ TEST(Plots, CoverageMarksEndsAndTheCeiling) {
   std::vector<RunRecord> runs = {covered_record(1, {0.2, 0.4, 0.5})};
   const RunGroup group = group_of(runs);
   const std::string without = coverage_plot({&group, 1}, Effort::metres, 0).body;
-  EXPECT_EQ(block(without, "end0"), (std::vector<std::vector<double>>{{4, 50, 50, 50}}));
+  EXPECT_EQ(block(without, "end0"), (std::vector<std::vector<double>>{{4, 50}}));
   EXPECT_EQ(without.find("'ceiling'"), std::string::npos);
   EXPECT_NE(without.find("'Smoke'"), std::string::npos);
   runs[0].figures->ceiling = 0.975;
@@ -69,6 +69,19 @@ TEST(Plots, CoverageMarksEndsAndTheCeiling) {
   ASSERT_TRUE(end.has_value());
   EXPECT_NE(end->body.find("set xrange [3.4:4.04]"), std::string::npos);
   expect_drawable(*end);
+}
+
+/// A table says what seeds took as a mean: the mark stands there, not where the longest ends.
+TEST(Plots, TheMarkOfSeveralRunsIsTheirMeanEnd) {
+  const std::vector<RunRecord> runs = {covered_record(1, {0.2, 0.4, 0.5}),
+                                       covered_record(2, {0.2, 0.8})};
+  const RunGroup group = group_of(runs);
+  const Plot plot = coverage_plot({&group, 1}, Effort::metres, 0);
+  EXPECT_EQ(block(plot.body, "end0"), (std::vector<std::vector<double>>{{3, 65}}));
+  EXPECT_NE(plot.body.find("mean end of the seeds"), std::string::npos);
+  expect_drawable(plot);
+  const RunGroup alone{.label = "a", .runs = {&runs[0]}};
+  EXPECT_EQ(coverage_plot({&alone, 1}, Effort::metres, 0).body.find("mean end"), std::string::npos);
 }
 
 /// The end's axis goes around its curve: a key names no line beyond it.
@@ -119,12 +132,18 @@ TEST(Plots, DensitiesOfSeveralRunsLieOverEachOther) {
   const std::vector<RunRecord> runs = {scored_record(), scored_record()};
   const std::vector<RunGroup> groups = {{.label = "a", .runs = {&runs[0]}},
                                         {.label = "b", .runs = {&runs[1]}}};
-  const std::string body = mean_density_plot(mean_densities(groups)).body;
+  const Plot plot = mean_density_plot(mean_densities(groups), "Smoke");
+  const std::string& body = plot.body;
   for (const char* const name : {"series0", "series1"}) {
     const auto rows = block(body, name);
     ASSERT_EQ(rows.size(), runs[0].views.size());
+    EXPECT_EQ(rows[3][0], 4.0);  // the first view is 1
     EXPECT_EQ(rows[3][1], runs[0].views[3].density_points_per_voxel);
+    EXPECT_EQ(block(body, name == std::string("series0") ? "end0" : "end1").at(0), rows.back());
   }
+  EXPECT_NE(body.find("set xlabel 'views'"), std::string::npos);
+  EXPECT_NE(body.find("'Smoke'"), std::string::npos);
+  expect_drawable(plot);
 }
 
 TEST(ReachPlot, StepsUpWhereEachRunGetsThereAndStaysBelowForThoseThatDoNot) {

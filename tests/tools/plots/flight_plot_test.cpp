@@ -33,7 +33,7 @@ TEST(Traces, AreTheirSamplesWhereTheseAreFew) {
   const Traces traces({{0.0, 5.0}, {1.0, 7.0}});
   EXPECT_EQ(block(traces.data(), "samples"), (std::vector<std::vector<double>>{{0, 5}, {1, 7}}));
   EXPECT_EQ(traces.data().find("$bands"), std::string::npos);
-  EXPECT_EQ(traces.note(), "");
+  EXPECT_EQ(traces.time_label(), "mission time (s)");
   EXPECT_EQ(traces.range(1, 1), std::pair(5.0, 7.0));
 }
 
@@ -58,7 +58,7 @@ TEST(Traces, ManySamplesBecomeBandsThatHoldThem) {
       EXPECT_LE(row[1], band[3]);
     }
   }
-  EXPECT_NE(traces.note().find("10 s"), std::string::npos);
+  EXPECT_EQ(traces.time_label(), "mission time (s); bands: extremes in 10 s");
   const std::string plot = "plot " + traces.drawn(1, 2) + "\n";
   expect_drawable({.name = "bands", .body = traces.data() + plot});
 }
@@ -81,6 +81,12 @@ TEST(TrackingPlot, ShowsTheDistanceFromEachLegAndTheTilt) {
   }
   // 0.8 m less the hull's 0.384 m
   EXPECT_NE(plot->body.find("plot 0.416 with lines"), std::string::npos);
+  EXPECT_NE(plot->body.find("'kept free beside the hull'"), std::string::npos);
+  EXPECT_NE(plot->body.find("'mission time (s)'"), std::string::npos);
+  EXPECT_EQ(plot->body.find("gusts"), std::string::npos);
+  record.scenario.wind.gust_w20_m_s = 7.7;
+  EXPECT_NE(tracking_plot(record)->body.find("gusts of 7.7 m/s at 20 ft"), std::string::npos);
+  expect_drawable(*plot);
   record.views.resize(1);
   EXPECT_FALSE(tracking_plot(record).has_value());
 }

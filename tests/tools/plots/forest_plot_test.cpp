@@ -2,6 +2,7 @@
 #include "tools/plots/forest_plot.hpp"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "tests/tools/plots/plot_support.hpp"
 
@@ -49,6 +50,7 @@ TEST(Plots, ForestCutsTheIntervalsThatWouldPressTheOthersTogether) {
     runs.push_back(compared("a", key, 0.5, 200.0));
     runs.push_back(compared("b", key, 0.5 + 0.001 * seed, 200.0));
     runs.push_back(compared("c", key, 0.48 + 0.02 * seed, 200.0));
+    runs.push_back(compared("d", key, 0.52 + 0.00443 * (seed - 2), 200.0));
   }
   const auto plot = forest_plot(compare(runs, "a", {}), 0);
   ASSERT_TRUE(plot.has_value());
@@ -57,8 +59,18 @@ TEST(Plots, ForestCutsTheIntervalsThatWouldPressTheOthersTogether) {
   EXPECT_NEAR(wide[3], wide[0] + half_width(2.0), 1e-4) << "its end is beyond the axis, no cap";
   EXPECT_NEAR(wide[2], wide[0] - half_width(2.0), 1e-4);
   const auto arrows = block(plot->body, "pointsbeyond2");
-  EXPECT_NEAR(arrows.at(0)[0], 3.0, 1e-6) << "half beyond the largest mean difference";
   EXPECT_GT(arrows.at(0)[2], 0.0);
+  // half beyond the largest mean difference, and room for the head, in which the line ends
+  double begin = 0.0;
+  double end = 0.0;
+  const char* const axis = plot->body.c_str() + plot->body.find("set xrange [");
+  ASSERT_EQ(std::sscanf(axis, "set xrange [%lf:%lf]", &begin, &end), 2);
+  EXPECT_NEAR(end, 3.24, 0.005);
+  EXPECT_NEAR(arrows.at(0)[0] + arrows.at(0)[2], end, 1e-9);
+  const auto within = block(plot->body, "pointsopen3").at(0);
+  EXPECT_GT(within[3], 3.0) << "a case that needs that room";
+  EXPECT_LT(within[3], end);
+  EXPECT_EQ(plot->body.find("pointsbeyond3"), std::string::npos) << "its cap shows";
   EXPECT_EQ(plot->body.find("pointsbeyond1"), std::string::npos);
   expect_drawable(*plot);
 }

@@ -21,15 +21,16 @@ TEST(RunPlots, DensityIsDrawnOnce) {
   EXPECT_EQ(entropy.name, "entropy");
   EXPECT_NE(both.body.find("density (points"), std::string::npos);
   EXPECT_EQ(entropy.body.find("density (points"), std::string::npos);
-  EXPECT_NE(entropy.body.find("iteration"), std::string::npos);  // its axis is the last one
+  EXPECT_NE(entropy.body.find("'views'"), std::string::npos);  // its axis is the last one
 }
 
+/// As on the axis of coverage: what was known after the first view stands at 1.
 TEST(Plots, DensityAndEntropyAreTheRunsFigures) {
   const RunRecord record = scored_record();
   const auto rows = block(density_entropy_plot(record)->body, "views");
   ASSERT_EQ(rows.size(), record.views.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    EXPECT_EQ(rows[i], (std::vector<double>{static_cast<double>(i), record.views[i].entropy_nat,
+    EXPECT_EQ(rows[i], (std::vector<double>{static_cast<double>(i + 1), record.views[i].entropy_nat,
                                             record.views[i].density_points_per_voxel}));
   }
 }
@@ -43,8 +44,8 @@ TEST(Plots, FrontierPhasesAreTheRowsOfTheirSampler) {
   EXPECT_EQ(phases[1].first, 11);
   EXPECT_EQ(phases[1].last, 11);
   const std::string body = density_entropy_plot(record)->body;
-  EXPECT_NE(body.find("rectangle from 3.5,graph 0 to 6.5,graph 1"), std::string::npos);
-  EXPECT_NE(body.find("rectangle from 10.5,graph 0 to 11.5,graph 1"), std::string::npos);
+  EXPECT_NE(body.find("rectangle from 4.5,graph 0 to 7.5,graph 1"), std::string::npos);
+  EXPECT_NE(body.find("rectangle from 11.5,graph 0 to 12.5,graph 1"), std::string::npos);
 }
 
 /// The factors that are drawn multiply to the utility, and the start, which nobody scored, is out.
@@ -53,7 +54,7 @@ TEST(Plots, TermsMultiplyToTheUtility) {
   ASSERT_EQ(rows.size(), 11U);
   for (const auto& row : rows) {
     EXPECT_NEAR(row[1], (row[2] + row[3]) * row[4] * row[5] * row[6], 1e-9);
-    EXPECT_NEAR(row[6], std::log10(50.0 + row[0]), 1e-9);
+    EXPECT_NEAR(row[6], std::log10(49.0 + row[0]), 1e-9);
     EXPECT_NEAR(row[2], 0.4, 1e-12);
     EXPECT_NEAR(row[3], 0.15, 1e-12);
   }
@@ -70,7 +71,7 @@ TEST(Plots, TermsOfWorthlessViewsAreDrawn) {
   ASSERT_TRUE(plot.has_value());
   const auto rows = block(plot->body, "raw");
   ASSERT_EQ(rows.size(), 11U);
-  EXPECT_EQ(rows[4][0], 5.0);
+  EXPECT_EQ(rows[4][0], 6.0);
   EXPECT_EQ(rows[4][1], 0.0);
   EXPECT_EQ(rows[4][2], 0.0);
   expect_drawable(*plot);
@@ -97,10 +98,31 @@ TEST(Plots, PanelsFollowEachOtherDownwards) {
 TEST(Plots, LongNumbersAreSaidInThousands) {
   EXPECT_NE(y_axis(0.0, 183'000.0).find("set format y '%.0s%c'"), std::string::npos);
   EXPECT_NE(y_axis(0.0, 1'830'000.0).find("set format y '%.1s%c'"), std::string::npos);
-  for (const double high : {0.5, 9000.0}) {
-    EXPECT_NE(y_axis(0.0, high).find("set format y '% h'"), std::string::npos) << high;
-  }
-  EXPECT_NE(y_axis(123'456.0, 123'460.0).find("set format y '% h'"), std::string::npos);
+  EXPECT_NE(y_axis(0.0, 9000.0).find("set format y '% .0f'"), std::string::npos);
+  EXPECT_NE(y_axis(123'456.0, 123'460.0).find("set format y '% .0f'"), std::string::npos);
+}
+
+/// No 94 beside 93.9.
+TEST(Plots, AllMarksOfAnAxisHaveAsManyDecimals) {
+  EXPECT_NE(y_axis(93.7, 94.1).find("set format y '% .1f'"), std::string::npos);
+  EXPECT_NE(y_axis(0.0, 0.05).find("set format y '% .2f'"), std::string::npos);
+  EXPECT_NE(y_axis(-30.0, 50.0).find("set format y '% .0f'"), std::string::npos);
+  EXPECT_NE(y_axis(0.0, 1.2e-8).find("set format y '% h'"), std::string::npos);
+}
+
+TEST(Plots, ATightAxisEndsWhereItsValuesDo) {
+  EXPECT_NE(tight_y_axis(-21.0, 25.0, 3).find("set yrange [-22.84:26.84]\nset ytics 20\n"),
+            std::string::npos)
+      << tight_y_axis(-21.0, 25.0, 3);
+  EXPECT_NE(tight_y_axis(0.0, 40.0, 3).find("set yrange [0:40]"), std::string::npos);
+}
+
+TEST(Plots, PanelsShareAnAxisThatSeparatesThousands) {
+  Panels panels(2, "title", "mission time (s)", {900.0, 2100.0});
+  const std::string first = panels.next("above");
+  EXPECT_NE(first.find("set xrange [900:2100]"), std::string::npos);
+  EXPECT_EQ(first.find("1,000"), std::string::npos);
+  EXPECT_NE(panels.next("below").find("'1,000' 1000"), std::string::npos);
 }
 
 TEST(Plots, MovingMeansShrinkAtTheEnds) {

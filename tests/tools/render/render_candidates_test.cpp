@@ -11,15 +11,16 @@
 #include "tools/render/chosen_view_item.hpp"
 #include "tools/render/frontier_items.hpp"
 #include "tools/render/pictures.hpp"
+#include "tools/render/rejection_look.hpp"
 #include "tools/run_files/candidates_jsonl.hpp"
 
 namespace gnbv {
 namespace {
 
-Picture drawn(RunSource& run) {
+Picture drawn(RunSource& run, const RenderView& view = {}) {
   PictureOptions options;
   options.iteration = kAsked;
-  return kCandidatesPicture.draw(run, options, {});
+  return kCandidatesPicture.draw(run, options, view);
 }
 
 /// The first balls of a scene are the candidates, in their order, and the first tubes show where
@@ -98,7 +99,7 @@ TEST(CandidatesPicture, RaysLieInsideTheViewAndEndOnSurfaceOrCrossTheUnknown) {
     EXPECT_LE(end.z(), camera.config.range_max_m + 1e-3);
     EXPECT_TRUE(whole_px.contains(pixel_of(camera, end)));
     const bool is_hit = std::any_of(scene.balls.begin(), scene.balls.end(), [&](const auto& ball) {
-      return ball.centre_m == piece.points_m.back() && ball.colour == kChosenLook.chosen;
+      return ball.centre_m == piece.points_m.back() && ball.colour == kChosenLook.hit;
     });
     hits += is_hit ? 1 : 0;
     if (!is_hit) continue;
@@ -209,21 +210,93 @@ TEST(CandidatesPicture, TheNoteCountsCandidatesBeyondThePicture) {
   EXPECT_GT(beyond_side[0] * beyond_side[1] * beyond_side[2] * beyond_side[3], 0U);
 }
 
-TEST(CandidatesPicture, TheLegendNamesFrontiersOnlyWhereAFrontierWasLookedAt) {
+/// The picture of a decision between those candidates, as read from a run's file.
+Picture drawn_with(const Plan& plan, const RenderView& view = {}) {
   const TempFolder temp;
-  PictureOptions options;
-  options.iteration = kAsked;
-  const auto names_frontiers = [&](std::string_view sampler) {
-    const Flown& flown = watched().flown;
-    std::vector<ViewRecord> views = flown.result.views;
-    views[kAsked].decision.sampler = sampler;
-    RunSource run{{.folder = temp.path(), .scenario = flown.scenario, .views = views}, flown.world};
-    const auto legend = kCandidatesPicture.draw(run, options, {}).legend;
-    return std::any_of(legend.begin(), legend.end(),
-                       [](const LegendItem& item) { return item.label.starts_with("frontier"); });
+  CandidatesFile file(temp.path(), 1);
+  for (std::size_t i = 0; i < watched().plans.size(); ++i) {
+    file.write(i + 1, i + 1 == kAsked ? plan : watched().plans[i]);
+  }
+  file.finish();
+  RunSource run = source(temp.path());
+  return drawn(run, view);
+}
+
+std::optional<LegendItem> item_of(const Picture& picture, std::string_view beginning) {
+  for (const LegendItem& item : picture.legend) {
+    if (item.label.starts_with(beginning)) return item;
+  }
+  return std::nullopt;
+}
+
+/// Whoever was chosen in the end: what was sampled around clusters shows them.
+TEST(CandidatesPicture, FrontiersAreShownWhereverViewsAroundThemWereSampled) {
+  Plan plan = watched().plans[kAsked - 1];
+  for (Candidate& candidate : plan.candidates) {
+    candidate.sampler = "agvs";
+    candidate.cluster = -1;
+  }
+  ASSERT_TRUE(plan.chosen.has_value());
+  const Picture without = drawn_with(plan);
+  EXPECT_FALSE(item_of(without, "frontier"));
+  const std::size_t other = *plan.chosen == 0 ? 1 : 0;
+  plan.candidates[other].sampler = "fvs";
+  plan.candidates[other].cluster = 0;
+  const Picture with = drawn_with(plan);
+  EXPECT_TRUE(item_of(with, "frontier"));
+  EXPECT_FALSE(item_of(with, "cluster looked at"));  // the chosen view is one of the grid
+  for (const std::size_t panel : {0U, 1U}) {
+    EXPECT_GT(with.panels[panel].scene.surfaces.size(),
+              without.panels[panel].scene.surfaces.size());
+  }
+  EXPECT_GT(with.panels[0].labels.size(), 0U);
+  EXPECT_EQ(with.panels[1].labels.size(), 0U);  // from near, they would hide the chosen view
+  plan.candidates[*plan.chosen].sampler = "fvs";
+  plan.candidates[*plan.chosen].cluster = 0;
+  EXPECT_TRUE(item_of(drawn_with(plan), "cluster looked at"));
+}
+
+/// A bar from a number to itself would say nothing; and what no panel holds is said to be beyond.
+TEST(CandidatesPicture, TheLegendSaysWhatCanBeFound) {
+  Plan plan = watched().plans[kAsked - 1];
+  for (Candidate& candidate : plan.candidates) {
+    if (&candidate == &plan.candidates[*plan.chosen]) continue;
+    candidate.rejected = Rejection::recently_visited;
+  }
+  plan.candidates[*plan.chosen].score.value = 1.23;
+  RenderView away;
+  away.T_world_camera.translate(Vec3(0, 0, 1000));  // and looks up
+  const Picture picture = drawn_with(plan, away);
+  const std::optional<LegendItem> valid = item_of(picture, "valid: 1, utility 1.23");
+  ASSERT_TRUE(valid.has_value());
+  EXPECT_EQ(valid->colours, std::vector<Rgb>{amount_ramp(1.0)});
+  const std::string all = std::to_string(plan.candidates.size() - 1);
+  EXPECT_EQ(item_of(picture, "visited")->label, "visited: " + all + " beyond the picture");
+}
+
+/// Hues alone would not do for everybody: Oklab distances (Ottosson 2020).
+TEST(CandidatesPicture, TheColoursOfReasonsAndMarksStandApart) {
+  std::vector<Rgb> colours = {kChosenLook.chosen, kChosenLook.hit};
+  for (const RejectionLook& look : rejection_looks()) {
+    EXPECT_EQ(static_cast<std::size_t>(look.rejection), colours.size() - 2);  // in their order
+    colours.push_back(look.colour);
+  }
+  const auto oklab = [](const Rgb& c) {
+    const Vec3 rgb(c[0], c[1], c[2]);
+    const Eigen::Matrix3d lms{{0.4122214708, 0.5363325363, 0.0514459929},
+                              {0.2119034982, 0.6806995451, 0.1073969566},
+                              {0.0883024619, 0.2817188376, 0.6299787005}};
+    const Eigen::Matrix3d lab{{0.2104542553, 0.7936177850, -0.0040720468},
+                              {1.9779984951, -2.4285922050, 0.4505937099},
+                              {0.0259040371, 0.7827717662, -0.8086757660}};
+    return Vec3(lab * Vec3(lms * rgb).array().pow(1.0 / 3.0).matrix());
   };
-  EXPECT_FALSE(names_frontiers("agvs"));
-  EXPECT_TRUE(names_frontiers("fvs"));
+  constexpr double kApart = 0.13;  // six times what is just noticed side by side
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      EXPECT_GT((oklab(colours[i]) - oklab(colours[k])).norm(), kApart) << i << " and " << k;
+    }
+  }
 }
 
 Box3 voxel_box_m(const GridGeometry& geometry, VoxelIndex voxel) {

@@ -252,6 +252,55 @@ TEST(CoveragePicture, CoversTheShareThatTheScoreSays) {
             0.1);
 }
 
+/// A voxel smaller than a pixel would flicker: drawn larger, it says so, and counts the same.
+TEST(CoveragePicture, DrawsNoVoxelsSmallerThanAPixelAndAHalf) {
+  const TempFolder temp;
+  write_cloud_ply(watched().flown.result.belief.cloud.points_world_m(), temp.path() / "cloud.ply");
+  write_cloud_ply(watched().flown.result.profile_points_world_m, temp.path() / "profile.ply");
+  RunSource run = source(temp.path());
+  RunSource* const runs[] = {&run};
+  RenderView view = lay_out(kCoveragePicture, runs, {}).view;
+  const Picture near = kCoveragePicture.draw(run, {}, view);
+  EXPECT_EQ(near.detail.find("drawn in"), std::string::npos);
+  view.focus_m *= 0.05 * px_per_m_at_focus(view);  // to a pixel a voxel
+  const Picture far = kCoveragePicture.draw(run, {}, view);
+  EXPECT_NE(far.detail.find("; drawn in voxels of 0.10 m"), std::string::npos);
+  EXPECT_EQ(far.detail.substr(0, near.detail.size()), near.detail);
+  EXPECT_EQ(far.panels[0].note, near.panels[0].note);
+  const auto faces = [](const Picture& picture) {
+    return picture.panels[0].scene.surfaces.at(0).mesh.faces.size();
+  };
+  EXPECT_LT(faces(far), faces(near) / 2);
+}
+
+/// Pictures in a row of a sheet can be compared.
+TEST(CoveragePicture, SecondPanelsOfSeveralRunsLookTheSameWay) {
+  const TempFolder temp;
+  write_cloud_ply(watched().flown.result.belief.cloud.points_world_m(), temp.path() / "cloud.ply");
+  write_cloud_ply(watched().flown.result.profile_points_world_m, temp.path() / "profile.ply");
+  RunSource run = source(temp.path());
+  RunSource other = source(temp.path());
+  RunSource* const runs[] = {&run, &other};
+  const RenderView view = lay_out(kCoveragePicture, runs, {}).view;
+  EXPECT_FALSE(with_shared_angles(kCoveragePicture, std::span(runs).first(1), {}, view)
+                   .second_angles.has_value());
+  PictureOptions shared = with_shared_angles(kCoveragePicture, runs, {}, view);
+  ASSERT_TRUE(shared.second_angles.has_value());
+  const auto pose = [&](RunSource& of) {
+    return kCoveragePicture.draw(of, shared, view).panels[1].view->T_world_camera.matrix();
+  };
+  EXPECT_EQ(pose(run), pose(other));
+  // said as by somebody who looks along the first panel
+  const double azimuth_rad = ViewAngles{}.azimuth_rad;
+  for (const auto& [turn_deg, words] : {std::pair{90.0, "from the right"},
+                                        {-90.0, "from the left"},
+                                        {180.0, "from behind"},
+                                        {-135.0, "from behind on the left"}}) {
+    shared.second_angles = {azimuth_rad + deg_to_rad(turn_deg), 0.1};
+    EXPECT_TRUE(kCoveragePicture.draw(run, shared, view).panels[1].note.ends_with(words)) << words;
+  }
+}
+
 TEST(Replay, OneFlightBringsBackWhatThreeDid) {
   const ReplayRequest request{
       .waypoints = {1}, .has_profile = true, .belief = kAsked + 1, .decision = kAsked};

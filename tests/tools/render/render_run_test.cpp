@@ -261,6 +261,22 @@ TEST(Snapshots, ShowWhatWasFlownAndSeenUpToTheView) {
   }
 }
 
+TEST(Snapshots, SayWhatTheInsetIsAndWhatIsPale) {
+  const TempFolder temp;
+  write_made_run(temp.path());
+  RunRecord record = read_run(temp.path());
+  record.views.back().time_s = 2000.0;
+  RunSource run(record, cube());
+  RunSource* const runs[] = {&run};
+  const RenderView view = lay_out(kSnapshotFraming, runs, {}).view;
+  const Picture picture = Snapshots(run, {}, view, false).picture(2, view);
+  EXPECT_FALSE(picture.inset_words.empty());
+  EXPECT_NE(picture.detail.find("1,997 s"), std::string::npos) << picture.detail;
+  EXPECT_TRUE(std::any_of(picture.legend.begin(), picture.legend.end(), [](const auto& item) {
+    return item.colours == std::vector<Rgb>{kGhostColour} && item.label == "not seen yet";
+  }));
+}
+
 /// Wherever a view looks: its pyramid is in the picture, and neither title nor inset hides it.
 TEST(Snapshots, PyramidsStayClearOfTitleAndInset) {
   const TempFolder temp;
@@ -285,7 +301,7 @@ TEST(Snapshots, PyramidsStayClearOfTitleAndInset) {
               project(view, frustum.T_world_camera * far_m.cwiseProduct(Vec3(x, y, 1))).value();
           EXPECT_TRUE(p_px.x() > 0 && p_px.x() < 1280 && p_px.y() > 0 && p_px.y() < 720);
           EXPECT_FALSE(p_px.x() < 700 && p_px.y() < 70) << p_px.transpose();
-          EXPECT_FALSE(p_px.x() > 940 && p_px.y() < inset_px + 18) << p_px.transpose();
+          EXPECT_FALSE(p_px.x() > 940 && p_px.y() < inset_px + 18 + 22) << p_px.transpose();
         }
       }
     }
@@ -339,19 +355,40 @@ TEST(CloudPicture, ColoursRunFromOnePointToTheLegendsTop) {
   write_made_run(temp.path());  // six points, each alone in its voxel
   RunSource lone(temp.path(), 1, [](double, const std::string&) {});
   const auto drawn = kCloudPicture.draw(lone, {}, {});
-  for (const Rgb& colour : drawn.panels.at(0).scene.dots.at(0).colours) {
-    EXPECT_EQ(colour, amount_ramp(0.0));
+  const std::vector<Rgb>& colours = drawn.panels.at(0).scene.dots.at(0).colours;
+  for (std::size_t i = lone.cloud().profile_points; i < colours.size(); ++i) {
+    EXPECT_EQ(colours[i], amount_ramp(0.0));
   }
-  std::vector<Vec3f> points = {{0, 0, 1}};
+  std::vector<Vec3f> points;
   for (int i = 0; i < 40; ++i) points.push_back({3.01F + 0.001F * static_cast<float>(i), 3.01F, 1});
+  points.push_back({0, 0, 1});
   write_cloud_ply(points, temp.path() / "cloud.ply");
   RunRecord record = read_run(temp.path());
   record.views.back().cloud_points = points.size();
   write_cloud_ply(std::span(points).first(2), temp.path() / "profile.ply");
   RunSource dense(record, cube());
   const auto dots = kCloudPicture.draw(dense, {}, {}).panels.at(0).scene.dots.at(0);
-  EXPECT_EQ(dots.colours.front(), amount_ramp(0.0));  // what the low end of the legend says
-  EXPECT_EQ(dots.colours.back(), amount_ramp(1.0));
+  EXPECT_EQ(dots.colours.back(), amount_ramp(0.0));  // what the low end of the legend says
+  EXPECT_EQ(dots.colours.front(), amount_ramp(1.0));
+}
+
+/// The profile's sparse points would be read as the low end of the density that cameras give.
+TEST(CloudPicture, WhatTheProfileAloneHasSeenIsPale) {
+  const TempFolder temp;
+  write_made_run(temp.path());
+  const std::vector<Vec3f> points = {{0, 0, 1}, {3.01F, 3.01F, 1}, {3.02F, 3.01F, 1}};
+  write_cloud_ply(points, temp.path() / "cloud.ply");
+  RunRecord record = read_run(temp.path());
+  for (ViewRecord& view : record.views) view.cloud_points = points.size();
+  write_cloud_ply(std::span(points).first(2), temp.path() / "profile.ply");
+  RunSource run(record, cube());
+  const Picture picture = kCloudPicture.draw(run, {}, {});
+  const std::vector<Rgb>& colours = picture.panels.at(0).scene.dots.at(0).colours;
+  ASSERT_EQ(picture.legend.size(), 2U);
+  EXPECT_EQ(picture.legend[0].label, "seen by the profile alone");
+  EXPECT_EQ(colours[0], picture.legend[0].colours[0]);
+  EXPECT_NE(colours[1], colours[0]);  // a camera has seen its voxel
+  EXPECT_EQ(colours[1], colours[2]);
 }
 
 TEST(CloudPicture, TheBarNamesItsMiddle) {
@@ -360,7 +397,7 @@ TEST(CloudPicture, TheBarNamesItsMiddle) {
   RunSource run(temp.path(), 1, [](double, const std::string&) {});
   PictureOptions options;
   options.colour_range = {1.0, 21.0};
-  EXPECT_EQ(kCloudPicture.draw(run, options, {}).legend.front().label_middle, "11");
+  EXPECT_EQ(kCloudPicture.draw(run, options, {}).legend.back().label_middle, "11");
 }
 
 TEST(CloudPicture, DrawsEveryPointOfTheCloudUpToTheView) {

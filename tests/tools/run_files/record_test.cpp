@@ -111,6 +111,8 @@ TEST_F(Record, CommandsAreWordsForAShell) {
 TEST(Words, NamesOfOursAreReadAsWordsAndThoseOfUsersStay) {
   EXPECT_EQ(human_name("power_plant"), "Power plant");
   EXPECT_EQ(human_name("aep"), "AEP");
+  EXPECT_EQ(grouped_tenths(1234.56), "1,234.6");
+  EXPECT_EQ(grouped_tenths(0.04), "0.0");
   EXPECT_EQ(human_name("mine.py:gain"), "mine.py:gain");
   EXPECT_EQ(human_name("MyPlant"), "MyPlant");
   EXPECT_EQ(human_name(""), "");

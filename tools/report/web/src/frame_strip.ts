@@ -25,11 +25,17 @@ export class FrameStrip {
   }
 }
 
+/** Of the scenarios' own cameras as people write them: "RGBD camera down", "ZED Mini". */
+function cameraName(name: string): string {
+  return name.replaceAll("_", " ").replace(/^rgbd\b/, "RGBD camera")
+    .replace(/^zed mini\b/, "ZED Mini");
+}
+
 /** What the cameras saw at a view; nothing where it was not kept. */
 export function figuresOf(flight: Flight, view: number, before = ""): HTMLElement[] {
   return flight.data.frames.filter(([of]) => of === view)
     .flatMap(([_, camera, width, height, at, bytes, depthAt, depthBytes]) => {
-      const name = `${before}view ${view + 1}, ${camera.replaceAll("_", " ")}`;
+      const name = `${before}view ${view + 1}, ${cameraName(camera)}`;
       const range = Math.max(...flight.data.cameras.map((each) => each.range_m));
       return [figure(flight, [at, bytes], width, height, name, []),
         figure(flight, [depthAt, depthBytes], width, height, `${name}, depth`, depthKey(range))];
