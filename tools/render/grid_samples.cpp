@@ -33,7 +33,8 @@ RenderView view_of_grid_samples(const AgvsConfig& config, const ViewPose& from, 
                                 const ViewAngles& angles, int width_px, int height_px) {
   std::vector<Vec3> points_m;
   for (const ViewPose& view : sample_agvs(config, from, largest)) {
-    points_m.push_back(view.p_world_m + config.step_m * ahead_of(view));
+    points_m.push_back(view.p_world_m);
+    points_m.push_back(view.p_world_m + 0.5 * config.step_m * ahead_of(view));
   }
   return frame_points(points_m, angles, width_px, height_px);
 }

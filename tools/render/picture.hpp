@@ -101,6 +101,9 @@ extern const PictureKind kVoxelsPicture;
 extern const PictureKind kCandidatesPicture;
 extern const PictureKind kPlanPicture;
 
+/// Of the structure as add_ghost() draws it.
+extern const Rgb kGhostColour;
+
 /// Metres, at the view's subject, of a layout unit (caption.hpp).
 double layout_unit_m(const RenderView& view);
 
@@ -125,8 +128,7 @@ void add_surroundings(RunSource& run, RenderScene& scene);
 void paint_structure(RunSource& run, const RenderView& view, RenderScene& scene);
 /// Of what add_structure() puts around the structure.
 std::vector<LegendItem> legend_of_surroundings(RunSource& run);
-/// Structure and obstacles as pale ghosts, the structure's of that colour, with the ground.
-extern const Rgb kGhostColour;
+/// Structure and obstacles as pale ghosts, with the ground.
 void add_ghost(RunSource& run, float opacity, RenderScene& scene);
 void add_ground(RunSource& run, RenderScene& scene);
 

@@ -85,10 +85,10 @@ TEST(ComparedRow, ThatALimitCutShortDoesNotDifferForThat) {
 
 TEST(Summary, SaysEveryAmountInPercentAndNoSignedZero) {
   const PaperMaterial material = made_material();
-  const std::string html = summary_html({.command = "",
-                                         .version = "",
-                                         .tables = shown_tables(material),
-                                         .claims = check_claims(material)});
+  PaperPage page;
+  page.tables = shown_tables(material);
+  page.claims = check_claims(material);
+  const std::string html = summary_html(page);
   EXPECT_NE(html.find("-99 %"), std::string::npos);  // 162 nat of 14,574
   EXPECT_EQ(html.find("×"), std::string::npos);
   EXPECT_EQ(html.find("+0.0<"), std::string::npos);

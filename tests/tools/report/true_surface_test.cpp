@@ -130,5 +130,24 @@ TEST(CandidatePack, HoldsEachDecisionWithItsReasonsAndTerms) {
   EXPECT_THROW(pack_candidates(record, 10, bytes), BadInput);
 }
 
+TEST(CandidatePack, CountsThoseThatAreTooManyWithThousandsSeparated) {
+  TempFolder temp;
+  RunRecord record = made_record();
+  record.folder = temp.path();
+  Plan plan;
+  plan.candidates.assign(
+      1'200, {.view = {Vec3(4, 5, 6), 0.5}, .sampler = "agvs", .rejected = Rejection::collision});
+  CandidatesFile file(temp.path(), 1);
+  file.write(1, plan);
+  file.finish();
+  BytePack bytes;
+  try {
+    pack_candidates(record, 10, bytes);
+    FAIL();
+  } catch (const BadInput& error) {
+    EXPECT_NE(std::string(error.what()).find(": 1,200 candidates"), std::string::npos);
+  }
+}
+
 }  // namespace
 }  // namespace gnbv
