@@ -18,7 +18,7 @@ const std::array<EngineMount, 2> kMounts = {{{{4.600, -4.45, 1.183}}, {{9.340, -
 constexpr std::size_t kEngineSides = 28;
 constexpr std::size_t kBlades = 26;
 
-std::vector<ProfilePoint> cowl_profile() {
+std::vector<RevolvedPoint> cowl_profile() {
   return {{0.000, 0.648}, {0.025, 0.678}, {0.120, 0.718}, {0.340, 0.753}, {0.700, 0.7655},
           {1.080, 0.761}, {1.420, 0.738}, {1.740, 0.697}, {2.030, 0.643}, {2.280, 0.584},  // rim
           {2.268, 0.566}, {1.900, 0.607}, {1.450, 0.637},                   // bypass duct
@@ -26,7 +26,7 @@ std::vector<ProfilePoint> cowl_profile() {
 }
 constexpr std::size_t kCowlLipEnd = 2, kCowlRim = 8, kCowlDuctEnd = 13, kCowlIntakeEnd = 15;
 
-std::vector<ProfilePoint> core_profile() {
+std::vector<RevolvedPoint> core_profile() {
   return {{0.420, 0.000}, {0.465, 0.060}, {0.580, 0.130}, {0.740, 0.187},
           {0.935, 0.212},                  // spinner ends
           {0.965, 0.440}, {0.995, 0.690},  // disc behind the fan

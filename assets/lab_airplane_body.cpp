@@ -173,7 +173,7 @@ Ring oval_ring(const Oval& oval, std::size_t half_sides) {
   return mirror_ring(half);
 }
 
-Part spindle(const std::vector<ProfilePoint>& profile, double z_m, std::size_t half_sides,
+Part spindle(const std::vector<RevolvedPoint>& profile, double z_m, std::size_t half_sides,
              Paint paint) {
   GNBV_CHECK(profile.size() >= 3, "a spindle of {} points", profile.size());
   std::vector<Ring> rings;

@@ -42,7 +42,7 @@ struct Oval {
 Ring oval_ring(const Oval& oval, std::size_t half_sides);
 
 /// Body of revolution about the line through (0, 0, z) along y, its own mirror image.
-Part spindle(const std::vector<ProfilePoint>& profile, double z_m, std::size_t half_sides,
+Part spindle(const std::vector<RevolvedPoint>& profile, double z_m, std::size_t half_sides,
              Paint paint);
 
 // On the plane x = 0, each its own mirror image.

@@ -88,7 +88,7 @@ Part arch(const Isometry& T_world_arch) {
 
 Part ball(const Vec3& centre_m, double radius_m) {
   constexpr int kSteps = 10;
-  std::vector<ProfilePoint> profile;
+  std::vector<RevolvedPoint> profile;
   for (int i = 0; i <= kSteps; ++i) {
     const double angle_rad = kPi * i / kSteps;
     const bool pole = i == 0 || i == kSteps;

@@ -96,7 +96,7 @@ Part facing_outwards(Part part) {
 }
 
 /// Point 0 is the lowest, so that a body's lowest point is on the mesh.
-Ring circle(const ProfilePoint& at, std::size_t sides) {
+Ring circle(const RevolvedPoint& at, std::size_t sides) {
   Ring ring;
   for (std::size_t side = 0; side < sides; ++side) {
     const double angle_rad =
@@ -133,7 +133,7 @@ Part loft_loop(const std::vector<Ring>& rings, const Painter& painter) {
   return facing_outwards(std::move(part));
 }
 
-Part revolve(const std::vector<ProfilePoint>& profile, std::size_t sides, const Painter& painter) {
+Part revolve(const std::vector<RevolvedPoint>& profile, std::size_t sides, const Painter& painter) {
   GNBV_CHECK(
       profile.size() >= 3 && profile.front().radius_m == 0.0 && profile.back().radius_m == 0.0,
       "a profile of {} points has to start and end on the axis", profile.size());
@@ -150,10 +150,10 @@ Part revolve(const std::vector<ProfilePoint>& profile, std::size_t sides, const 
   return part;
 }
 
-Part revolve_loop(const std::vector<ProfilePoint>& profile, std::size_t sides,
+Part revolve_loop(const std::vector<RevolvedPoint>& profile, std::size_t sides,
                   const Painter& painter) {
   std::vector<Ring> rings;
-  for (const ProfilePoint& at : profile) {
+  for (const RevolvedPoint& at : profile) {
     GNBV_CHECK(at.radius_m > 0.0, "the profile touches the axis at y = {} m", at.y_m);
     rings.push_back(circle(at, sides));
   }

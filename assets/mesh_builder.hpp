@@ -42,16 +42,16 @@ Part loft(const std::vector<Ring>& rings, const Cap& start, const Cap& end, cons
 /// As loft(), but the last ring joins the first: a torus.
 Part loft_loop(const std::vector<Ring>& rings, const Painter& painter);
 
-struct ProfilePoint {
+struct RevolvedPoint {
   double y_m = 0.0, radius_m = 0.0;
 };
 
 /// Body of revolution about the y axis. First and last point lie on the axis (radius 0), no other
 /// does. Painted by profile segment.
-Part revolve(const std::vector<ProfilePoint>& profile, std::size_t sides, const Painter& painter);
+Part revolve(const std::vector<RevolvedPoint>& profile, std::size_t sides, const Painter& painter);
 
 /// Revolves a closed profile that does not touch the axis: a ring-shaped shell.
-Part revolve_loop(const std::vector<ProfilePoint>& profile, std::size_t sides,
+Part revolve_loop(const std::vector<RevolvedPoint>& profile, std::size_t sides,
                   const Painter& painter);
 
 Part translated(Part part, const Vec3& offset_m);

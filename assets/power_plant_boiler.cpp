@@ -90,7 +90,7 @@ std::vector<Part> boiler_house() {
       block({-3.414, -3.28, 2.31, 4.47, 8.03, 8.62}, kLouvre),
       block({-0.83, 1.49, 6.88, 7.014, 0.0, 1.97}, kDoorBlue),  // bunkers: truck gate
       block({-0.92, 1.58, 6.88, 7.008, 6.93, 7.52}, kGlass)};
-  const std::vector<ProfilePoint> vent = {{0.0, 0.0}, {0.0, 0.09}, {0.53, 0.19}, {0.63, 0.0}};
+  const std::vector<RevolvedPoint> vent = {{0.0, 0.0}, {0.0, 0.09}, {0.53, 0.19}, {0.63, 0.0}};
   for (const Vec3& foot_m : {Vec3(0.42, 2.57, 8.88), Vec3(0.42, 4.13, 8.88)})
     parts.push_back(upright(revolve(vent, 8, uniform(kGalvanised)), foot_m));
   // safety valves blow off above the roof

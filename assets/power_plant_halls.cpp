@@ -9,7 +9,7 @@ constexpr double kRoofThickness_m = 0.09;
 constexpr double kRoofSunk_m = 0.03;  // of the slab, below the top of the walls
 
 /// Walls up to extent.z1_m under a gabled roof, ridge along x.
-std::vector<Part> gabled(const Extent& e, double ridge_m, double overhang_m, Paint wall,
+std::vector<Part> gabled(const BlockExtent& e, double ridge_m, double overhang_m, Paint wall,
                          Paint roof) {
   const double middle_m = 0.5 * (e.y0_m + e.y1_m), half_m = 0.5 * (e.y1_m - e.y0_m);
   const Ring walls = {{e.x0_m, e.y0_m, e.z0_m},

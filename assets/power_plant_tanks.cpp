@@ -10,11 +10,11 @@ namespace {
 /// A tank on a flat bottom under a dome.
 Part domed_tank(const Vec3& foot_m, double radius_m, double wall_m, double dome_m,
                 std::size_t sides, Paint wall, Paint roof) {
-  const std::vector<ProfilePoint> profile = {{0.0, 0.0},
-                                             {0.0, radius_m},
-                                             {wall_m, radius_m},
-                                             {wall_m + 0.68 * dome_m, 0.62 * radius_m},
-                                             {wall_m + dome_m, 0.0}};
+  const std::vector<RevolvedPoint> profile = {{0.0, 0.0},
+                                              {0.0, radius_m},
+                                              {wall_m, radius_m},
+                                              {wall_m + 0.68 * dome_m, 0.62 * radius_m},
+                                              {wall_m + dome_m, 0.0}};
   return upright(revolve(profile, sides,
                          [&](std::size_t segment, std::size_t) -> std::uint16_t {
                            return segment < 2 ? wall : roof;
@@ -47,7 +47,7 @@ std::vector<Part> spiral_stairs(const Vec3& foot_m, double radius_m, double to_m
 /// A lying vessel on two saddles, axis along x.
 std::vector<Part> drum(const Vec3& middle_m, double length_m, double radius_m, Paint paint) {
   const double straight_m = 0.5 * length_m - 0.5 * radius_m, end_m = 0.5 * length_m;
-  const std::vector<ProfilePoint> profile = {
+  const std::vector<RevolvedPoint> profile = {
       {-end_m, 0.0},          {-end_m + 0.16 * radius_m, 0.62 * radius_m}, {-straight_m, radius_m},
       {straight_m, radius_m}, {end_m - 0.16 * radius_m, 0.62 * radius_m},  {end_m, 0.0}};
   std::vector<Part> parts = {lying_along_x(revolve(profile, 10, uniform(paint)), middle_m)};

@@ -18,7 +18,7 @@ double tower_radius_m(double z_m) {
 
 Part tower_shell() {
   constexpr double kFrom_m = 0.87, kTo_m = 8.46, kTop_m = 8.67, kRim_m = 0.09, kThickness_m = 0.15;
-  std::vector<ProfilePoint> profile;
+  std::vector<RevolvedPoint> profile;
   for (const double z_m : {kFrom_m, 2.62, 4.57, 6.51, kTo_m})
     profile.push_back({z_m, tower_radius_m(z_m)});
   profile.push_back({kTo_m + 0.04, tower_radius_m(kTo_m) + kRim_m});
@@ -53,7 +53,7 @@ std::vector<Part> gallery(const Vec3& foot_m, double z_m, double chimney_m) {
   constexpr std::size_t kSides = 8;
   constexpr double kWidth_m = 0.38, kRailing_m = 0.27;
   const double inner_m = chimney_m - 0.09, outer_m = chimney_m + kWidth_m;
-  const std::vector<ProfilePoint> deck = {
+  const std::vector<RevolvedPoint> deck = {
       {z_m - 0.17, inner_m}, {z_m + 0.07, outer_m}, {z_m + 0.07, inner_m}};
   std::vector<Part> parts = {upright(revolve_loop(deck, kSides, uniform(kGalvanised)), foot_m)};
   std::vector<Vec3> line_m;
@@ -69,8 +69,8 @@ std::vector<Part> gallery(const Vec3& foot_m, double z_m, double chimney_m) {
 }  // namespace
 
 std::vector<Part> cooling_tower() {
-  const std::vector<ProfilePoint> basin = {{0.0, 0.0}, {0.0, 3.47}, {0.46, 3.47}, {0.41, 0.0}};
-  const std::vector<ProfilePoint> fill = {{1.07, 0.0}, {1.07, 2.96}, {1.33, 2.91}, {1.33, 0.0}};
+  const std::vector<RevolvedPoint> basin = {{0.0, 0.0}, {0.0, 3.47}, {0.46, 3.47}, {0.41, 0.0}};
+  const std::vector<RevolvedPoint> fill = {{1.07, 0.0}, {1.07, 2.96}, {1.33, 2.91}, {1.33, 0.0}};
   std::vector<Part> parts = {
       upright(tower_shell(), kTowerFoot_m),
       upright(revolve(basin, kTowerSides, uniform(kConcrete)), kTowerFoot_m),
@@ -82,9 +82,9 @@ std::vector<Part> cooling_tower() {
 std::vector<Part> chimneys() {
   // The tall one of concrete, striped above the roofs.
   const Vec3 tall_m(9.27, 3.13, 0.0);
-  const std::vector<ProfilePoint> tall = {{0.0, 0.88},    {4.71, 0.705}, {11.62, 0.49},
-                                          {11.71, 0.575}, {11.97, 0.56}, {11.97, 0.43},
-                                          {0.0, 0.64}};
+  const std::vector<RevolvedPoint> tall = {{0.0, 0.88},    {4.71, 0.705}, {11.62, 0.49},
+                                           {11.71, 0.575}, {11.97, 0.56}, {11.97, 0.43},
+                                           {0.0, 0.64}};
   std::vector<Part> parts = {
       upright(revolve_loop(tall, 13,
                            [](std::size_t segment, std::size_t) -> std::uint16_t {
@@ -96,8 +96,8 @@ std::vector<Part> chimneys() {
   add(parts, gallery(tall_m, 8.36, 0.59));
 
   // The auxiliary boiler's of steel.
-  const std::vector<ProfilePoint> steel = {{0.0, 0.56},  {1.37, 0.37}, {9.33, 0.34}, {9.41, 0.41},
-                                           {9.69, 0.39}, {9.69, 0.31}, {0.0, 0.33}};
+  const std::vector<RevolvedPoint> steel = {{0.0, 0.56},  {1.37, 0.37}, {9.33, 0.34}, {9.41, 0.41},
+                                            {9.69, 0.39}, {9.69, 0.31}, {0.0, 0.33}};
   parts.push_back(upright(revolve_loop(steel, 10,
                                        [](std::size_t segment, std::size_t) -> std::uint16_t {
                                          if (segment == 0) return kConcrete;

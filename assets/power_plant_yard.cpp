@@ -20,11 +20,11 @@ std::vector<Part> transformer(double y_m, double wall_x_m) {
     parts.push_back(
         block({x_m - 0.09, x_m + 0.09, y_m - 0.71, y_m + 0.71, 0.43, 1.38}, kTransformerGreen));
   }
-  const std::vector<ProfilePoint> bushing = {{0.0, 0.0}, {0.0, 0.095}, {0.61, 0.045}, {0.64, 0.0}};
+  const std::vector<RevolvedPoint> bushing = {{0.0, 0.0}, {0.0, 0.095}, {0.61, 0.045}, {0.64, 0.0}};
   for (const double x_m : {-11.16, -10.83, -10.5})
     parts.push_back(
         upright(revolve(bushing, 4, uniform(kCeramic)), {x_m, y_m - 0.14, kTop_m - 0.05}));
-  const std::vector<ProfilePoint> conservator = {
+  const std::vector<RevolvedPoint> conservator = {
       {0.0, 0.0}, {0.04, 0.16}, {0.93, 0.16}, {0.97, 0.0}};
   parts.push_back(
       lying_along_x(revolve(conservator, 6, uniform(kGalvanised)), {-11.22, y_m + 0.26, 1.69}));
@@ -69,7 +69,7 @@ Part coal_heap() {
 
 std::vector<Part> ash_silo(const Vec3& foot_m) {
   constexpr double kRadius_m = 0.79, kLeg_m = 0.56;
-  const std::vector<ProfilePoint> profile = {
+  const std::vector<RevolvedPoint> profile = {
       {0.68, 0.0}, {0.68, 0.12}, {1.38, kRadius_m}, {4.07, kRadius_m}, {4.52, 0.0}};
   std::vector<Part> parts = {upright(revolve(profile, 11,
                                              [](std::size_t segment, std::size_t) -> std::uint16_t {

@@ -10,7 +10,7 @@
 namespace gnbv {
 namespace {
 
-Ring rectangle(const Extent& e, double inset_m, double z_m) {
+Ring rectangle(const BlockExtent& e, double inset_m, double z_m) {
   return {{e.x0_m + inset_m, e.y0_m + inset_m, z_m},
           {e.x1_m - inset_m, e.y0_m + inset_m, z_m},
           {e.x1_m - inset_m, e.y1_m - inset_m, z_m},
@@ -89,11 +89,11 @@ std::vector<Ring> tube_rings(const std::vector<TubePoint>& path, std::size_t sid
 
 }  // namespace
 
-Part block(const Extent& e, std::uint16_t paint) {
+Part block(const BlockExtent& e, std::uint16_t paint) {
   return loft({rectangle(e, 0.0, e.z0_m), rectangle(e, 0.0, e.z1_m)}, {}, {}, uniform(paint));
 }
 
-Part parapet_block(const Extent& e, double parapet_height_m, const ParapetPaint& paint) {
+Part parapet_block(const BlockExtent& e, double parapet_height_m, const ParapetPaint& paint) {
   constexpr double kThickness_m = 0.11;
   const std::array<std::uint16_t, 4> by_ring = {paint.wall, paint.coping, paint.wall, paint.roof};
   return loft(

@@ -9,16 +9,16 @@
 namespace gnbv {
 
 /// Along the axes.
-struct Extent {
+struct BlockExtent {
   double x0_m, x1_m, y0_m, y1_m, z0_m, z1_m;
 };
-Part block(const Extent& extent, std::uint16_t paint);
+Part block(const BlockExtent& extent, std::uint16_t paint);
 
 /// A block whose flat roof lies behind a parapet: `extent` reaches up to the coping.
 struct ParapetPaint {
   std::uint16_t wall, coping, roof;
 };
-Part parapet_block(const Extent& extent, double parapet_height_m, const ParapetPaint& paint);
+Part parapet_block(const BlockExtent& extent, double parapet_height_m, const ParapetPaint& paint);
 
 /// Box of `size_m` in any attitude, whose bottom's middle is the frame's origin.
 Part box(const Isometry& T_world_box, const Vec3& size_m, std::uint16_t material);

@@ -14,7 +14,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 Part sphere(double radius_m, std::size_t n) {
-  std::vector<ProfilePoint> profile;
+  std::vector<RevolvedPoint> profile;
   for (std::size_t i = 0; i <= n; ++i) {
     const double angle = kPi * static_cast<double>(i) / static_cast<double>(n);
     const bool pole = i == 0 || i == n;

@@ -152,6 +152,19 @@ run_check roomless
 [[ $status == 1 && $output == *"tools/attic/: a room needs a row"* ]] ||
   complain "a room without a row passed: $output"
 
+# two types that the linker takes for one; not so in namespaces of their own, or inside a class
+mkdir -p "$root/twice/"{assets,planner/map}
+printf 'namespace gnbv {\nstruct Extent {\n};\nstruct Grid::Extent {\n};\n}  // namespace gnbv\n' \
+  >"$root/twice/planner/map/extent.hpp"
+printf 'namespace gnbv::assets {\nstruct Extent {\n};\n}  // namespace gnbv::assets\n' \
+  >"$root/twice/assets/solids.hpp"
+run_check twice
+[[ $status == 0 ]] || complain "types of two namespaces were refused (status $status): $output"
+printf 'namespace gnbv {\nstruct Extent final {\n};\n}  // namespace gnbv\n' >"$root/twice/assets/blocks.hpp"
+run_check twice
+[[ $status == 1 && $output == *"planner/map/extent.hpp:2: Extent is defined in assets/blocks.hpp, too"* ]] ||
+  complain "two types of one name passed (status $status): $output"
+
 # the rows allow each of these, together they are a circle
 echo '#include "planner/map/grid.hpp"' >"$root/circle/planner/model.hpp"
 echo '#include "sim/core/pose.hpp"' >"$root/circle/planner/map/grid.hpp"

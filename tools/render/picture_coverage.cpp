@@ -26,7 +26,7 @@ void frame_coverage(RunSource& run, const PictureOptions&, std::vector<Vec3>& po
 }
 
 /// Points of the cloud that a picture is about.
-std::span<const Vec3f> points_of(RunSource& run, const PictureOptions& options) {
+std::span<const Vec3f> points_seen(RunSource& run, const PictureOptions& options) {
   const std::span<const Vec3f> all = run.cloud().points_world_m;
   if (!options.iteration) return all;
   return all.first(run.cloud().view_points[iteration_of(run.record(), options, 0)]);
@@ -39,7 +39,7 @@ struct Judged {
 
 Judged judge(RunSource& run, const PictureOptions& options) {
   const SurfaceReference& reference = run.reference();
-  const VoxelSet seen = voxels_of(points_of(run, options), kCoverageSizes_m.front());
+  const VoxelSet seen = voxels_of(points_seen(run, options), kCoverageSizes_m.front());
   Judged judged;
   const VoxelSet& surface = reference.outside.front();
   for (std::size_t i = 0; i < surface.size(); ++i) {
