@@ -12,9 +12,9 @@ const kChosen = 255;
 const kChosenColour = 0xd5420a;
 const kRayColour = 0xe08a2e;
 const missColour = () => (isDark() ? 0x54483a : 0xecd9c6); // of rays that meet nothing
-// Rejections by their number: dark and muted, as in the pictures of candidates.
-const kReasonColours = [0x9aa3ae, 0x2f3640, 0xa3321f, 0x7a4f9a, 0x8c6d3f, 0x4f7f86, 0x3f5b8c,
-  0x6f8f2a, 0xb03a6b, 0x8a5a6a];
+// Rejections by their number, in the colours of the pictures (tools/render/rejection_look.cpp).
+const kReasonColours = [0x9aa3ae, 0x552747, 0xc42d7c, 0xffe47c, 0xeab79d, 0x75e6f2, 0x4c00c4,
+  0xcb9a2b, 0x444500, 0xf12de9];
 /** On a dark page they would drown. */
 const reasonColour = (kind: number) => {
   const colour = new three.Color(kReasonColours[kind] ?? 0x888888);
