@@ -114,6 +114,9 @@ std::string json_text(const Scored& scored, bool is_run) {
 
 /// What a cloud is compared with is not written in it.
 Scored score_file(ScoreOptions options, int threads) {
+  if (!std::filesystem::exists(options.target)) {
+    throw BadInput(fmt::format("{}: no such run directory or cloud", options.target));
+  }
   if (options.update) {
     throw BadInput(fmt::format("--update: {} is no run directory", options.target));
   }

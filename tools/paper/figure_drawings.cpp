@@ -130,8 +130,8 @@ void draw_paths_figure(FigureDesk& desk) {
       }
     }
     if (runs.empty()) return;
-    const PictureOptions options = plain_options();
-    const PanelLayout layout = lay_out(*kind, runs, options);  // one camera for all
+    const PanelLayout layout = lay_out(*kind, runs, plain_options());  // one camera for all
+    const PictureOptions options = with_shared_angles(*kind, runs, plain_options(), layout.view);
     for (std::size_t i = 0; i < runs.size(); ++i) {
       const RunFigures& figures = *runs[i]->record().figures;
       const auto place = std::find(utilities.begin(), utilities.end(), names[i]);

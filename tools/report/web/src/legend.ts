@@ -30,41 +30,54 @@ function ofEach(scenes: RunScene[], texts: string[]): Child[] {
     role: "img", "aria-label": flight.data.label }), ` ${texts[i]}`]);
 }
 
-function ofColouring(scene: RunScene, by: Colouring, things: string): HTMLElement {
-  const { model } = scene;
+/** A bar with its low end, middle and high end, or where runs differ in them each run's ends. */
+function amountItem(scenes: RunScene[], what: string, ends: [string, string, string][]) {
+  const [low, middle, high] = ends[0];
+  if (new Set(ends.map((each) => each.join(" "))).size === 1) {
+    return colourBar(rampGradient("amount"), `${what} ${low}`, middle, high);
+  }
+  const swatch = make("i", { class: "mark bar" });
+  swatch.style.background = rampGradient("amount");
+  return make("span", {}, what, swatch, ...ofEach(scenes, ends.map((each) =>
+    `${each[0]} to ${each[2]}`)));
+}
+
+function ofColouring(scenes: RunScene[], by: Colouring, things: string): HTMLElement {
   if (by === "real") return item("dot", "#9a8f80", `${things}: camera colours`);
   if (by === "height") {
-    const [low, high] = model.heights;
-    return colourBar(rampGradient("amount"), `${things}: height ${number(low, 1)}`,
-      number((low + high) / 2, 1), `${number(high, 1)} m`);
+    return amountItem(scenes, `${things}: height`, scenes.map(({ model: { heights: [low, high] } }) =>
+      [number(low, 1), number((low + high) / 2, 1), `${number(high, 1)} m`]));
   }
   if (by === "error") {
     return colourBar(rampGradient("amount"), `${things}: off the surface by 0`, "0.05",
       "0.10 m or more");
   }
   if (by === "density") {
-    const { densities } = model;
-    if (!densities) return make("span", {}, "no voxels");
-    const { most, size } = densities;
-    return colourBar(rampGradient("amount"), `${things}: density 0`,
-      number(most / 2, most < 10 ? 1 : 0), `${number(most)} or more points a voxel of ${number(size, 2)} m`);
+    const dense = scenes.filter(({ model }) => model.densities);
+    if (dense.length === 0) return make("span", {}, "no voxels");
+    return amountItem(dense, `${things}: density`, dense.map(({ model: { densities } }) => {
+      const { most, size } = densities!;
+      return ["0", number(most / 2, most < 10 ? 1 : 0),
+        `${number(most)} or more points a voxel of ${number(size, 2)} m`];
+    }));
   }
   return orderItem(`${things}: found by first`, "last view");
 }
 
-/** Of the layers that are shown, of the first run that has each. */
+/** Of the layers that are shown. */
 export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring): HTMLElement[] {
   const items: HTMLElement[] = [];
-  const first = scenes.find((scene) => scene.model.cloud) ?? scenes[0];
-  if (!first) return items;
+  if (scenes.length === 0) return items;
+  const clouds = scenes.filter((scene) => scene.model.cloud);
+  const coloured = clouds.length > 0 ? clouds : scenes;
   // beside a surface none of them is drawn
   const isMeasured = scenes.some((scene) => !scene.isSwiped());
   const [cloud, voxels] = [layers.cloud && isMeasured, layers.voxels && isMeasured];
   if (cloud && voxels && ofVoxels(by) === by) {
-    items.push(ofColouring(first, by, "points, voxels"));
+    items.push(ofColouring(coloured, by, "points, voxels"));
   } else {
-    if (cloud) items.push(ofColouring(first, by, "points"));
-    if (voxels) items.push(ofColouring(first, ofVoxels(by), "voxels"));
+    if (cloud) items.push(ofColouring(coloured, by, "points"));
+    if (voxels) items.push(ofColouring(coloured, ofVoxels(by), "voxels"));
   }
   if (cloud) items.push(item("dot", hex(kNewColour), "points of this view"));
   const ofSurface = scenes.filter(({ surface }) => surface);
