@@ -57,29 +57,6 @@ TEST(Program, SuggestsWhatAMistypedWordMayHaveMeant) {
   EXPECT_FALSE(has(gnbv("fly-me-to-the-moon"), "did you mean"));
 }
 
-TEST(Program, SuggestsAmongTheNamesOfEveryClosedList) {
-  TempFolder temp;
-  const std::string run = (temp.path() / "run").string();
-  ASSERT_EQ(
-      gnbv("run smoke --quiet --set planner.termination.max_iterations=1 --out " + run).exit_code,
-      0);
-  for (const auto& [words, meant] : std::vector<std::pair<std::string, std::string>>{
-           {"render " + run + " --what covrage", "coverage"},
-           {"render " + run + " --camera isoo", "iso"},
-           {"plot " + run + " --plots denstiy", "density"},
-           {"plot " + run + " --format sgv", "svg"},
-           {"export " + run + " --format colmp", "colmap"},
-           {"compare smoke --utilities proposd", "proposed"},
-           {"compare smoke --format markdwn", "markdown"},
-           {"paper -o " + run + " --scenarios lab_modle", "lab_model"},
-           {"run smoke --bounds atuo", "auto"}}) {
-    const Outcome refused = gnbv(words);
-    EXPECT_EQ(refused.exit_code, 2) << words;
-    EXPECT_TRUE(refused.output.starts_with("gnbv: --")) << refused.output;
-    EXPECT_TRUE(has(refused, "did you mean '" + meant + "'?")) << refused.output;
-  }
-}
-
 TEST(Program, HelpContinuesAnEntryFartherInThanItBegins) {
   const Outcome help = gnbv("compare --help");
   std::istringstream lines(help.output);

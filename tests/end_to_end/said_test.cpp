@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
 
 #include "tests/support/program.hpp"
 #include "tests/support/temp_folder.hpp"
@@ -125,6 +127,29 @@ TEST(Said, CompareLooksForOneCeilingWhereMethodsShareIt) {
   EXPECT_FALSE(has(none, "ceiling of smoke") || has(none, "share of ceiling")) << none.output;
   const Outcome other = gnbv(compare + " --variant cameras.0.range_max_m=4");
   EXPECT_EQ(count_of(other.output, "gnbv: ceiling of smoke"), 2U) << other.output;
+}
+
+TEST(Said, ANameOfEveryClosedListMayBeASlipOfOne) {
+  TempFolder temp;
+  const std::string run = (temp.path() / "run").string();
+  ASSERT_EQ(
+      gnbv("run smoke --quiet --set planner.termination.max_iterations=1 --out " + run).exit_code,
+      0);
+  for (const auto& [words, meant] : std::vector<std::pair<std::string, std::string>>{
+           {"render " + run + " --what covrage", "coverage"},
+           {"render " + run + " --camera isoo", "iso"},
+           {"plot " + run + " --plots denstiy", "density"},
+           {"plot " + run + " --format sgv", "svg"},
+           {"export " + run + " --format colmp", "colmap"},
+           {"compare smoke --utilities proposd", "proposed"},
+           {"compare smoke --format markdwn", "markdown"},
+           {"paper -o " + run + " --scenarios lab_modle", "lab_model"},
+           {"run smoke --bounds atuo", "auto"}}) {
+    const Outcome refused = gnbv(words);
+    EXPECT_EQ(refused.exit_code, 2) << words;
+    EXPECT_TRUE(refused.output.starts_with("gnbv: --")) << refused.output;
+    EXPECT_TRUE(has(refused, "did you mean '" + meant + "'?")) << refused.output;
+  }
 }
 
 }  // namespace
