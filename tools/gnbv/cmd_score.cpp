@@ -95,8 +95,7 @@ std::string terminal_text(const Scored& scored, const std::string& name, bool is
       kFarthest_m);
   text += fmt::format(
       "Points in a voxel of {} m that holds any: {:.1f}, variation {:.2f}; the tables' "
-      "Points/voxel "
-      "is the paper's: points over the map's occupied voxels\n",
+      "Points/voxel is the paper's: points over the map's occupied voxels\n",
       score.density.voxel_m, score.density.mean_points, score.density.variation);
   return folded_text(text, stdout_columns());
 }
