@@ -138,7 +138,8 @@ class Reader final : public FieldVisitor {
       if (std::find(level.known.begin(), level.known.end(), entry.key) != level.known.end())
         continue;
       const std::string path = level.path.empty() ? entry.key : level.path + '.' + entry.key;
-      faults_.add(entry.origin, path, entry.value.kind == Kind::scalar ? excerpt(entry.value) : "",
+      // the key is at fault, whatever its value
+      faults_.add(entry.origin, path, "",
                   fmt::format("is no known key ({})", hint(level, entry.key)));
     }
   }

@@ -37,6 +37,10 @@ const PaperTable* find_paper_table(std::string_view scenario);
 /// The row of a utility, if the table has one.
 const PaperRow* find_row(const PaperTable& paper, std::string_view utility);
 
+/// Why a run of a scenario of the paper's does not stand beside it.
+constexpr std::string_view kOtherSetting =
+    "ours has other sensors, views, resolution, profile or room than the paper's";
+
 /// More coverage at 0.05 m than at 0.10 m: by the paper's own definition hardly possible, since a
 /// coarse voxel is covered when one of the fine ones in it is. So in Table 3, but for its profile.
 bool is_doubtful(const PaperRow& row);

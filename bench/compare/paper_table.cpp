@@ -226,13 +226,16 @@ TextTable comparison_table(const PaperTable& paper, std::span<const RunFigures> 
 }
 
 std::string one_row_summary(const RunFigures& run, bool has_papers_setting, std::size_t width) {
-  const PaperTable* const paper = has_papers_setting ? find_paper_table(run.scenario) : nullptr;
-  const PaperRow* const row = paper == nullptr ? nullptr : find_row(*paper, run.utility);
+  const PaperTable* const paper = find_paper_table(run.scenario);
+  const PaperRow* row = paper == nullptr ? nullptr : find_row(*paper, run.utility);
+  if (row != nullptr && !is_papers_structure(*paper, run.structure)) row = nullptr;
   TextTable table;
   const std::set<double> more_m = more_sizes({&run, 1});
   table.columns = all_columns(more_m);
   table.rows.push_back(all_cells(our_figures(run.utility, {&run}, {}), more_m));
-  if (row != nullptr && is_papers_structure(*paper, run.structure)) {
+  if (row != nullptr && !has_papers_setting) {
+    table.notes.push_back(fmt::format("without the paper's row: {}", kOtherSetting));
+  } else if (row != nullptr) {
     RowFigures printed_row = paper_figures(*row);
     printed_row.label = run.utility;
     table.rows.push_back(all_cells(printed_row, more_m));

@@ -174,8 +174,7 @@ void table(const TableOptions& options) {
         options.scenario.mesh.empty() ? structure : options.scenario.mesh));
   }
   if (!has_papers_setting(cells.front().resolved)) {
-    text.notes.emplace_back(
-        "ours has other sensors, views, resolution, profile or room than the paper's");
+    text.notes.emplace_back(kOtherSetting);
   }
   text.notes.insert(text.notes.end(), flown.notes.begin(), flown.notes.end());
   text.notes.push_back(

@@ -47,21 +47,27 @@ void check_densest(const PaperMaterial& material, std::vector<CheckedClaim>& cla
 void check_coverage(const PaperMaterial& material, std::vector<CheckedClaim>& claims) {
   const Missions missions = missions_of(material, "power_plant", "proposed");
   if (missions.empty()) return;
+  const PaperRow* const row = find_row(*find_paper_table("power_plant"), "proposed");
   std::size_t above = 0;
+  std::size_t cut = 0;  // below it when they were cut short: they tell nothing
   double least = 1.0;
   double most = 0.0;
   for (const PaperMission* mission : missions) {
     const double coverage = mission->record.figures->coverage_final[0];
     above += coverage > 0.9;
+    cut += coverage <= 0.9 && row != nullptr && is_cut(*mission, *row);
     least = std::min(least, coverage);
     most = std::max(most, coverage);
   }
+  const std::size_t told = missions.size() - cut;
   claims.push_back(
       {"10", "Frontier views beside those of the grid take the plant's coverage above 90 %.",
-       fmt::format("Above it at the end, at 0.05 m: {} of {}; coverage {} %.", above,
-                   counted(missions.size(), "mission"), span_text(100.0 * least, 100.0 * most, 1)),
+       fmt::format("Above it at the end, at 0.05 m: {} of {}; coverage {} %.{}", above,
+                   counted(missions.size(), "mission"), span_text(100.0 * least, 100.0 * most, 1),
+                   cut > 0 ? fmt::format(" Not counted, cut short below it: {}.", cut) : ""),
        rule_of_share("missions"),
-       claim_of_share(static_cast<double>(above) / static_cast<double>(missions.size()))});
+       told > 0 ? claim_of_share(static_cast<double>(above) / static_cast<double>(told))
+                : ClaimVerdict::cut});
 }
 
 /// Fig. 11: while views are found at frontiers, entropy falls and density rises.

@@ -76,16 +76,6 @@ std::size_t views_of(const PaperMission& mission, const PaperRow& row) {
   return std::min(flown, static_cast<std::size_t>(*row.iterations));
 }
 
-/// Whether a limit ended the mission before the views of the row, not the planner.
-bool is_cut(const PaperMission& mission, const PaperRow& row) {
-  constexpr std::array<std::string_view, 5> kLimits = {"max_iterations", "max_distance",
-                                                       "max_flight_time", "battery", "interrupted"};
-  const bool has_fewer =
-      row.iterations && mission.record.views.size() < static_cast<std::size_t>(*row.iterations);
-  return has_fewer && std::find(kLimits.begin(), kLimits.end(),
-                                mission.record.figures->termination) != kLimits.end();
-}
-
 bool is_any_cut(const Missions& missions, const PaperRow& row) {
   return std::any_of(missions.begin(), missions.end(),
                      [&](const PaperMission* mission) { return is_cut(*mission, row); });
@@ -165,6 +155,15 @@ std::vector<double> paired_differences(const PaperFigure& figure, const PaperRow
 }
 
 }  // namespace
+
+bool is_cut(const PaperMission& mission, const PaperRow& row) {
+  constexpr std::array<std::string_view, 5> kLimits = {"max_iterations", "max_distance",
+                                                       "max_flight_time", "battery", "interrupted"};
+  const bool has_fewer =
+      row.iterations && mission.record.views.size() < static_cast<std::size_t>(*row.iterations);
+  return has_fewer && std::find(kLimits.begin(), kLimits.end(),
+                                mission.record.figures->termination) != kLimits.end();
+}
 
 std::span<const PaperFigure> compared_figures() { return kFigures; }
 

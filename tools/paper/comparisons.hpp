@@ -34,6 +34,10 @@ struct ComparedFigure {
   std::optional<Agreement> agreement = {};
 };
 
+/// Whether a limit of ours (views, metres, time, battery) ended the mission before it had as many
+/// views as the row.
+bool is_cut(const PaperMission& mission, const PaperRow& row);
+
 /// A row of a table. Ours is taken after as many views as the paper's row took, or after all of
 /// them where there are fewer: the paper's planners stopped by themselves at numbers of their own.
 struct ComparedRow {

@@ -126,11 +126,8 @@ std::string figure_html(const DrawnFigure& figure, const PaperPage& page, const 
       html_escaped(figure.kind->paper));
   for (const CheckedClaim& claim : page.claims) {
     if (claim.figure != figure.kind->number) continue;
-    const std::string_view colour = claim.verdict == ClaimVerdict::holds    ? "good"
-                                    : claim.verdict == ClaimVerdict::partly ? "open"
-                                                                            : "bad";
     html += fmt::format("<p>{} {}<br><span class=pale>{} Rule: {}.</span></p>\n",
-                        html_escaped(claim.sentence), chip(colour, name_of(claim.verdict)),
+                        html_escaped(claim.sentence), chip(claim.verdict),
                         html_escaped(claim.finding), html_escaped(claim.rule));
   }
   return html + "</div>\n</div>\n</section>\n";

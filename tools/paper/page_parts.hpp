@@ -18,5 +18,6 @@ std::string table_html(const ShownTable& table);
 
 /// A verdict as a small coloured mark.
 std::string chip(std::string_view kind, std::string_view text);
+std::string chip(ClaimVerdict verdict);
 
 }  // namespace gnbv

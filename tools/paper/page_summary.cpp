@@ -23,7 +23,7 @@ std::string_view colour_of(PairOrder order) {
 }
 
 std::string_view colour_of(ClaimVerdict verdict) {
-  constexpr std::array<std::string_view, 3> kinds = {"good", "open", "bad"};
+  constexpr std::array<std::string_view, 4> kinds = {"good", "open", "bad", "open"};
   return kinds[static_cast<std::size_t>(verdict)];
 }
 
@@ -162,7 +162,7 @@ std::string claims_html(const PaperPage& page) {
         "<tr><td><a href='#fig{0}'>{0}</a></td><td class=text>{1}</td><td class=text>{2}</td>"
         "<td class=text>{3}</td><td>{4}</td></tr>\n",
         claim.figure, html_escaped(claim.sentence), html_escaped(claim.finding),
-        html_escaped(claim.rule), chip(colour_of(claim.verdict), name_of(claim.verdict)));
+        html_escaped(claim.rule), chip(claim.verdict));
   }
   return html +
          "</table></div>\n<p class=pale>A sentence on many cases is judged by the share of "
@@ -189,7 +189,7 @@ std::string count_html(std::string_view what, const std::array<std::size_t, N>& 
 std::string counts_html(const PaperPage& page) {
   std::array<std::size_t, 5> numbers{};
   std::array<std::size_t, 4> orders{};
-  std::array<std::size_t, 3> sentences{};
+  std::array<std::size_t, 4> sentences{};
   for (const ShownTable& table : page.tables) {
     for (const ComparedRow& row : table.rows) {
       for (const ComparedFigure& figure : row.figures) {
@@ -211,6 +211,8 @@ std::string counts_html(const PaperPage& page) {
 std::string chip(std::string_view kind, std::string_view text) {
   return fmt::format("<span class='chip {}'>{}</span>", kind, html_escaped(text));
 }
+
+std::string chip(ClaimVerdict verdict) { return chip(colour_of(verdict), name_of(verdict)); }
 
 std::string summary_html(const PaperPage& page) {
   return "<section id=summary>\n<h2>What agrees, what does not</h2>\n" + counts_html(page) +

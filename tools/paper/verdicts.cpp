@@ -117,6 +117,8 @@ std::string_view name_of(ClaimVerdict verdict) {
       return "partly";
     case ClaimVerdict::fails:
       return "does not hold";
+    case ClaimVerdict::cut:
+      return "cut short";
   }
   return "";
 }

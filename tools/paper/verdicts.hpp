@@ -47,7 +47,12 @@ enum class PairOrder {
 PairOrder pair_order(double printed, std::span<const double> ours);
 
 /// What becomes of a sentence of the paper.
-enum class ClaimVerdict { holds, partly, fails };
+enum class ClaimVerdict {
+  holds,
+  partly,
+  fails,
+  cut  // a limit of ours ended every case before it could be told
+};
 
 /// Of a sentence that says "always": in at least 95 % of the cases, at least half of them, fewer.
 /// Requires a share in [0, 1].

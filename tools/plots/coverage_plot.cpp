@@ -171,7 +171,8 @@ Layers layers_of(std::span<const RunGroup> groups, std::optional<std::size_t> pa
   if (!layers.bands.empty()) {
     add_key(layers, "boxes fs solid noborder fc rgb '#d5d9de'", "95 % interval of the mean");
   }
-  if (has_mean_end) add_key(layers, "points pt 7 ps 0.5 lc rgb '#5c6470'", "mean end of the seeds");
+  if (has_mean_end)
+    add_key(layers, "points pt 7 ps 0.5 lc rgb '#5c6470'", "mean length of the seeds");
   // each of its planner's colour
   const std::string_view of_paper =
       level_slots.size() == 1 ? palette_colour(*level_slots.begin()) : "#5c6470";

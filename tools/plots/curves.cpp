@@ -55,12 +55,14 @@ double coverage_at(const CoverageCurve& curve, Effort effort, std::size_t size, 
 }
 
 CoveragePoint mean_end(const RunGroup& group, Effort effort, std::size_t size) {
-  std::vector<double> efforts, shares;
-  for (const RunRecord* const run : group.runs) {
+  std::vector<double> efforts;
+  for (const RunRecord* const run : group.runs)
     efforts.push_back(whole_effort(run->figures->curve, effort));
-    shares.push_back(run->figures->curve.coverage.back()[size]);
-  }
-  return {mean_of(efforts), estimate_mean(shares)};
+  const double at = mean_of(efforts);
+  std::vector<double> shares;
+  for (const RunRecord* const run : group.runs)
+    shares.push_back(coverage_at(run->figures->curve, effort, size, at));
+  return {at, estimate_mean(shares)};
 }
 
 std::vector<CoveragePoint> mean_coverage(const RunGroup& group, Effort effort, std::size_t size) {

@@ -40,7 +40,7 @@ struct CoveragePoint {
   MeanEstimate coverage;  // fractions
 };
 
-/// Where the runs of a group end: the mean of what they took, and of what they covered then.
+/// The point of the group's mean curve at the mean of what its runs took in all.
 CoveragePoint mean_end(const RunGroup& group, Effort effort, std::size_t size);
 
 /// The curve of a group: one run's own points, or the mean over runs at every view, or at 201 even

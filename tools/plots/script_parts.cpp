@@ -133,11 +133,19 @@ std::string y_axis(double low, double high, int most_steps) {
 }
 
 std::string tight_y_axis(double low, double high, int most_steps) {
-  const Axis axis = axis_around(low, high, most_steps);
-  const double room = 0.04 * std::max(high - low, axis.step);
-  return fmt::format("set yrange [{:.12g}:{:.12g}]\nset ytics {:.12g}\nset format y '{}'\n",
-                     std::max(axis.low, low - room), std::min(axis.high, high + room), axis.step,
-                     format_of(axis));
+  Axis axis;
+  double from = 0.0;
+  double to = 0.0;
+  // a step that leaves one mark, or none, says nothing: a finer one (of equal values none helps)
+  for (const int steps : {most_steps, most_steps + 1, 2 * most_steps}) {
+    axis = axis_around(low, high, steps);
+    const double room = 0.04 * std::max(high - low, axis.step);
+    from = std::max(axis.low, low - room);
+    to = std::min(axis.high, high + room);
+    if (std::floor(to / axis.step) - std::ceil(from / axis.step) >= 1.0) break;
+  }
+  return fmt::format("set yrange [{:.12g}:{:.12g}]\nset ytics {:.12g}\nset format y '{}'\n", from,
+                     to, axis.step, format_of(axis));
 }
 
 std::string common_scenario(std::span<const RunGroup> groups) {

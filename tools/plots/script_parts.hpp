@@ -68,7 +68,8 @@ std::string x_tics(double low, double high, double step);
 
 /// Settings of a y axis that is axis_around() them.
 std::string y_axis(double low, double high, int most_steps = 5);
-/// The same with those marks, but no longer than a little beyond both.
+/// The same, but no longer than a little beyond both: with more marks where fewer than two of them
+/// would lie in between.
 std::string tight_y_axis(double low, double high, int most_steps = 5);
 
 constexpr int kOnePanel_px = 1050;  // the height of a picture of one panel, 1512 wide

@@ -19,10 +19,9 @@ namespace {
 
 // Rings through the views around a cluster that stand in one layer (Fig. 6), as far as they lie
 // within the bounds.
-bool add_layers(const Plan& plan, std::span<const FrontierCluster> clusters, double unit_m,
+void add_layers(const Plan& plan, std::span<const FrontierCluster> clusters, double unit_m,
                 RenderScene& scene) {
   using Layer = std::pair<int, long>;  // cluster, and millimetre of height
-  const std::size_t before = scene.tubes.size();
   std::map<Layer, std::vector<const Candidate*>> layers;
   for (const Candidate& candidate : plan.candidates) {
     if (candidate.cluster < 0) continue;
@@ -49,13 +48,33 @@ bool add_layers(const Plan& plan, std::span<const FrontierCluster> clusters, dou
           path_tube({a.view.p_world_m, b.view.p_world_m}, 0.6 * unit_m, kFrontierLook.frontier));
     }
   }
-  return scene.tubes.size() > before;
+}
+
+// The numbers that can be read there: the first label before all others, then in their order.
+std::vector<PlaceLabel> legible(const std::vector<PlaceLabel>& labels, const OccupancyGrid& grid,
+                                const RenderView& view) {
+  const double apart_px = 20.0 * layout_unit_px(view.width_px, view.height_px);
+  std::vector<PlaceLabel> shown;
+  std::vector<Vec3> places_px;
+  for (const PlaceLabel& label : labels) {
+    const std::optional<Vec3> px = project(view, label.p_world_m);
+    // a frontier's centroid may lie within the surface
+    if (!px || is_hidden(grid, view, label.p_world_m, 3.0 * grid.geometry().resolution_m()))
+      continue;
+    const bool has_room = std::all_of(places_px.begin(), places_px.end(), [&](const Vec3& other) {
+      return (*px - other).head<2>().norm() >= apart_px;
+    });
+    if (!has_room) continue;
+    places_px.push_back(*px);
+    shown.push_back(label);
+  }
+  return shown;
 }
 
 }  // namespace
 
-bool add_frontiers(const FrontierConfig& config, const ReplayedDecision& decision, double unit_m,
-                   Panel& panel) {
+void add_frontiers(const FrontierConfig& config, const ReplayedDecision& decision, double unit_m,
+                   const RenderView& view, Panel& panel) {
   RenderScene& scene = panel.scene;
   const Belief& belief = decision.belief;
   FrontierMarks marks(belief.grid.geometry().voxel_count());
@@ -72,6 +91,7 @@ bool add_frontiers(const FrontierConfig& config, const ReplayedDecision& decisio
   for (const Candidate& candidate : decision.plan.candidates) {
     tried = std::max(tried, candidate.cluster);
   }
+  std::vector<PlaceLabel> labels;
   for (std::size_t i = 0; i < clusters.size(); ++i) {
     const bool is_chosen = static_cast<int>(i) == chosen;
     const std::vector<Rgb> colour = {is_chosen ? kFrontierLook.looked_at : kFrontierLook.frontier};
@@ -83,9 +103,11 @@ bool add_frontiers(const FrontierConfig& config, const ReplayedDecision& decisio
     const Vec3& centre_m = clusters[i].centroid_world_m;
     scene.balls.push_back({centre_m.cast<float>(),
                            static_cast<float>((is_chosen ? 6.0 : 4.5) * unit_m), colour.front()});
-    panel.labels.push_back({centre_m, fmt::format("{}", i + 1), to_rgb8(kFrontierLook.looked_at)});
+    const PlaceLabel label{centre_m, fmt::format("{}", i + 1), to_rgb8(kFrontierLook.looked_at)};
+    labels.insert(is_chosen ? labels.begin() : labels.end(), label);
   }
-  return add_layers(decision.plan, clusters, unit_m, scene);
+  panel.labels = legible(labels, belief.grid, view);
+  add_layers(decision.plan, clusters, unit_m, scene);
 }
 
 }  // namespace gnbv

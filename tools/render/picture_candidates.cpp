@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include "sim/core/error.hpp"
+#include "tools/render/candidate_legend.hpp"
 #include "tools/render/chosen_view_item.hpp"
 #include "tools/render/frontier_items.hpp"
 #include "tools/render/panel_layout.hpp"
@@ -18,7 +18,6 @@ namespace gnbv {
 namespace {
 
 const Rgb kMap = srgb(0xc4ccd6);
-const Rgb kUnknownVoxels = srgb(0xffffff);
 constexpr float kUnknownVoxelsOpacity = 0.35F;
 
 std::size_t iteration_asked(const RunRecord& record, const PictureOptions& options) {
@@ -84,53 +83,10 @@ std::string counts_by_sampler(const Plan& plan) {
   return words.empty() ? counted(plan.candidates.size(), "candidate") : words;
 }
 
-struct Tally {
-  std::vector<std::size_t> rejected = std::vector<std::size_t>(rejection_looks().size());
-  std::vector<std::size_t> rejected_beyond = rejected;  // the picture
-  std::size_t valid = 0;
-  std::size_t beyond = 0;  // of all
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-};
-
-bool is_beyond(const RenderView& view, const Vec3& p_world_m) {
-  const std::optional<Vec3> px = project(view, p_world_m);
-  return !px || px->x() < 0.0 || px->y() < 0.0 || px->x() > view.width_px ||
-         px->y() > view.height_px;
-}
-
-Tally tally(const Plan& plan, const RenderView& view) {
-  Tally all;
-  for (const Candidate& candidate : plan.candidates) {
-    const std::size_t beyond = is_beyond(view, candidate.view.p_world_m) ? 1 : 0;
-    all.beyond += beyond;
-    if (candidate.rejected) {
-      const auto reason = static_cast<std::size_t>(*candidate.rejected);
-      ++all.rejected[reason];
-      all.rejected_beyond[reason] += beyond;
-      continue;
-    }
-    ++all.valid;
-    all.low = std::min(all.low, candidate.score.value);
-    all.high = std::max(all.high, candidate.score.value);
-  }
-  return all;
-}
-
-bool is_around_cluster(const Candidate& candidate) { return candidate.cluster >= 0; }
-
-bool is_chosen_around_cluster(const Plan& plan) {
-  return plan.chosen && is_around_cluster(plan.candidates[*plan.chosen]);
-}
-
-// A share of the way from the lowest score to the highest: where these are one, it is the highest.
-Rgb colour_of_score(const Tally& all, double score) {
-  return amount_ramp(1.0 - (all.high - score) / std::max(all.high - all.low, 1e-12));
-}
-
 // A ball each, in their order, small for those rejected; those that are valid also show where they
 // look.
-void add_candidates(const Plan& plan, const Tally& all, double unit_m, RenderScene& scene) {
+void add_candidates(const Plan& plan, const CandidateTally& all, double unit_m,
+                    RenderScene& scene) {
   for (const Candidate& candidate : plan.candidates) {
     const Vec3f p_m = candidate.view.p_world_m.cast<float>();
     if (candidate.rejected) {
@@ -144,73 +100,16 @@ void add_candidates(const Plan& plan, const Tally& all, double unit_m, RenderSce
   }
 }
 
-// "104 candidates, 41 of them beyond the picture"
-std::string note_on(const Plan& plan, const Tally& all) {
-  const std::string count = counted(plan.candidates.size(), "candidate");
-  if (all.beyond == 0) return count;
-  return fmt::format("{}, {} of them beyond the picture", count, grouped(all.beyond));
-}
-
-// "valid: 31, utility" from a bar's low end to its high end; without a bar where all have one.
-LegendItem legend_of_valid(const Tally& all) {
-  if (all.low == all.high) {
-    return {.label = fmt::format("valid: {}, utility {:.3g}", grouped(all.valid), all.high),
-            .colours = {colour_of_score(all, all.high)},
-            .mark = LegendItem::Mark::dot};
-  }
-  return {.label = fmt::format("{:.3g}, highest", all.high),
-          .colours = amount_colours(),
-          .label_before = fmt::format("valid: {}, utility {:.3g}", grouped(all.valid), all.low),
-          .label_middle = fmt::format("{:.3g}", 0.5 * (all.low + all.high))};
-}
-
-std::vector<LegendItem> legend_of_rejected(const Tally& all) {
-  std::vector<LegendItem> legend;
-  for (const RejectionLook& look : rejection_looks()) {
-    const auto reason = static_cast<std::size_t>(look.rejection);
-    if (all.rejected[reason] == 0) continue;
-    const bool is_seen = all.rejected_beyond[reason] < all.rejected[reason];
-    legend.push_back({fmt::format("{}: {}{}", look.words, grouped(all.rejected[reason]),
-                                  is_seen ? "" : " beyond the picture"),
-                      {look.colour},
-                      LegendItem::Mark::dot});
-    if (legend.size() == 1) legend.front().label_before = "rejected:";
-  }
-  return legend;
-}
-
-// A row of those rejected, one of what could be chosen and is to be seen, one of the chosen view.
-std::vector<LegendItem> legend_of(const Plan& plan, const Tally& all, bool has_layers) {
-  std::vector<LegendItem> legend = legend_of_rejected(all);
-  const std::size_t second = legend.size();
-  if (all.valid > 0) legend.push_back(legend_of_valid(all));
-  legend.push_back({"unknown", {kUnknownVoxels}});
-  if (std::any_of(plan.candidates.begin(), plan.candidates.end(), is_around_cluster)) {
-    legend.push_back({"frontier, clusters numbered as tried", {kFrontierLook.frontier}});
-    if (is_chosen_around_cluster(plan))
-      legend.push_back({"cluster looked at", {kFrontierLook.looked_at}});
-    if (has_layers)
-      legend.push_back({"views of a layer", {kFrontierLook.frontier}, LegendItem::Mark::line});
-  }
-  const std::size_t third = legend.size();
-  legend.push_back({"chosen view", {kChosenLook.chosen}, LegendItem::Mark::ring});
-  legend.push_back({"way there", {kChosenLook.chosen}, LegendItem::Mark::line});
-  legend.push_back({"view before", {kChosenLook.before}, LegendItem::Mark::ring});
-  legend.push_back({"pyramid", {kChosenLook.pyramid}, LegendItem::Mark::line});
-  legend.push_back({"ray through free", {kChosenLook.ray_free}, LegendItem::Mark::line});
-  legend.push_back({"through unknown", {kChosenLook.ray_unknown}, LegendItem::Mark::line});
-  legend.push_back({"meets surface", {kChosenLook.hit}, LegendItem::Mark::dot});
-  legend[second].begins_row = legend[third].begins_row = true;
-  return legend;
-}
-
-// The map, as pale as it can be; its cubes take that share of their voxels' edges.
-void add_map(RunSource& run, const OccupancyGrid& grid, double share, RenderScene& scene) {
+// The map, as pale as it can be; its cubes take that share of their voxels' edges. Whether unknown
+// ones can be seen from there.
+bool add_map(RunSource& run, const OccupancyGrid& grid, double share, const RenderView& view,
+             RenderScene& scene) {
   add_ground(run, scene);
   const std::vector<Rgb> grey = {kMap};
   const SortedVoxels voxels = sort_voxels(grid);
   scene.surfaces.push_back(voxel_cubes(grid.geometry(), voxels.occupied, grey, share));
   scene.surfaces.push_back(free_faces(grid, voxels.unknown, kUnknownVoxels, kUnknownVoxelsOpacity));
+  return is_seen(scene.surfaces.back(), grid, view);
 }
 
 // How much of a length shows from there: 1 from beside it, 0 along it.
@@ -271,7 +170,7 @@ Picture draw_candidates(RunSource& run, const PictureOptions& options, const Ren
   const std::size_t iteration = iteration_asked(record, options);
   const ReplayedDecision& decision = run.decision(iteration);
   const Plan& plan = decision.plan;
-  const Tally all = tally(plan, view);
+  const CandidateTally all = tally(plan, view);
   Picture picture{.panels = std::vector<Panel>(2)};
   Panel& far = picture.panels[0];
   Panel& near = picture.panels[1];
@@ -282,17 +181,18 @@ Picture draw_candidates(RunSource& run, const PictureOptions& options, const Ren
     near.view = near_view(record, iteration, options, chosen, view);
   }
   const RenderView& from_near = near.view ? *near.view : view;
-  bool has_layers = false;
+  bool is_unknown_seen = false;
   for (const auto& [panel, seen_from] : {std::pair{&far, &view}, {&near, &from_near}}) {
     const double unit_m = panel_unit_m(options, *seen_from);
     // from near, gaps would be black lines
-    add_map(run, decision.belief.grid, panel == &near ? 1.0 : 0.94, panel->scene);
+    is_unknown_seen |=
+        add_map(run, decision.belief.grid, panel == &near ? 1.0 : 0.94, *seen_from, panel->scene);
     add_candidates(plan, all, unit_m, panel->scene);
-    if (std::none_of(plan.candidates.begin(), plan.candidates.end(), is_around_cluster)) continue;
-    has_layers = add_frontiers(record.scenario.planner.fvs.frontier, decision, unit_m, *panel);
+    if (has_frontier_views(plan))
+      add_frontiers(record.scenario.planner.fvs.frontier, decision, unit_m, *seen_from, *panel);
   }
   // numbers show through everything, and from near nothing asks for them
-  if (!is_chosen_around_cluster(plan)) near.labels.clear();
+  if (!is_chosen_at_frontier(plan)) near.labels.clear();
   // farther, rays would smear their darkness over what they pass
   near.scene.hollow_m = decision.belief.grid.geometry().resolution_m();
   far.lines = near.lines = way_to_chosen(record, iteration);
@@ -306,7 +206,7 @@ Picture draw_candidates(RunSource& run, const PictureOptions& options, const Ren
                              : fmt::format("the chosen one, {:.2g} m from the view before", step_m);
   picture.detail =
       fmt::format("how iteration {} was chosen: candidates {}", iteration, counts_by_sampler(plan));
-  picture.legend = legend_of(plan, all, has_layers);
+  picture.legend = legend_of(plan, all, picture.panels, is_unknown_seen);
   return picture;
 }
 

@@ -109,4 +109,10 @@ std::optional<Vec3> project(const RenderView& view, const Vec3& p_world_m) {
               0.5 * view.height_px + f_px * p.y() / p.z(), p.z());
 }
 
+bool is_within(const RenderView& view, const Vec3& p_world_m) {
+  const std::optional<Vec3> px = project(view, p_world_m);
+  return px && px->x() >= 0.0 && px->y() >= 0.0 && px->x() <= view.width_px &&
+         px->y() <= view.height_px;
+}
+
 }  // namespace gnbv

@@ -54,4 +54,7 @@ RenderView frame_box(const Box3& box_world_m, const ViewAngles& angles, int widt
 /// nothing behind the camera.
 std::optional<Vec3> project(const RenderView& view, const Vec3& p_world_m);
 
+/// Whether the picture holds that place, hidden or not.
+bool is_within(const RenderView& view, const Vec3& p_world_m);
+
 }  // namespace gnbv

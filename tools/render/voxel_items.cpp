@@ -137,4 +137,32 @@ SurfaceItem free_faces(const OccupancyGrid& grid, std::span<const VoxelIndex> vo
   return item;
 }
 
+bool is_hidden(const OccupancyGrid& grid, const RenderView& view, const Vec3& p_world_m,
+               double beside_m) {
+  const GridGeometry& geometry = grid.geometry();
+  const Vec3 away_m = view.T_world_camera.translation() - p_world_m;
+  const Vec3 along = away_m.normalized();
+  for (double t = beside_m; t < away_m.norm(); t += 0.5 * geometry.resolution_m()) {
+    const Vec3 at_m = p_world_m + t * along;
+    if (grid.state_at(at_m) == VoxelState::occupied) return true;
+    if (!geometry.contains(geometry.key_of(at_m)))
+      return false;  // beyond the map, and away from it
+  }
+  return false;
+}
+
+bool is_seen(const SurfaceItem& faces, const OccupancyGrid& grid, const RenderView& view) {
+  const std::vector<Vec3f>& vertices_m = faces.mesh.vertices_m;
+  const Vec3 eye_m = view.T_world_camera.translation();
+  for (std::size_t i = 0; i + 3 < vertices_m.size(); i += 4) {
+    const Vec3 first_m = vertices_m[i].cast<double>();
+    const Vec3 middle_m = 0.5 * (first_m + vertices_m[i + 2].cast<double>());
+    const Vec3 normal = (vertices_m[i + 1].cast<double>() - first_m)
+                            .cross(vertices_m[i + 2].cast<double>() - first_m);
+    if (normal.dot(eye_m - middle_m) <= 0.0 || !is_within(view, middle_m)) continue;
+    if (!is_hidden(grid, view, middle_m, 0.5 * grid.geometry().resolution_m())) return true;
+  }
+  return false;
+}
+
 }  // namespace gnbv

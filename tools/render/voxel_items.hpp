@@ -7,6 +7,7 @@
 #include "bench/score/voxel_set.hpp"
 #include "planner/map/occupancy_grid.hpp"
 #include "tools/render/scene.hpp"
+#include "tools/render/view.hpp"
 
 namespace gnbv {
 
@@ -32,5 +33,13 @@ SurfaceItem exposed_faces(const VoxelSet& voxels, double size_m, std::span<const
 /// The faces that part the voxels from free ones, as a ghost.
 SurfaceItem free_faces(const OccupancyGrid& grid, std::span<const VoxelIndex> voxels,
                        const Rgb& colour, float opacity);
+
+/// Whether an occupied voxel lies between the camera and a place, farther from this than
+/// `beside_m`.
+bool is_hidden(const OccupancyGrid& grid, const RenderView& view, const Vec3& p_world_m,
+               double beside_m);
+
+/// Whether any of free_faces() is turned to the camera, within its picture, and not hidden.
+bool is_seen(const SurfaceItem& faces, const OccupancyGrid& grid, const RenderView& view);
 
 }  // namespace gnbv

@@ -95,16 +95,20 @@ TextTable table_of(std::span<const ScoredRun> scored) {
       structure == scenario ? scenario : fmt::format("{}, structure {}", scenario, structure));
   const PaperTable none{
       .scenario = scenario, .source = title, .rows = {}, .profile = {}, .mesh_sha256 = ""};
-  const bool is_papers = paper != nullptr && is_papers_structure(*paper, structure) &&
-                         std::any_of(records.begin(), records.end(), [](const RunRecord* record) {
-                           return has_papers_setting(record->scenario);
-                         });
+  const bool is_of_structure = paper != nullptr && is_papers_structure(*paper, structure);
+  const bool is_papers =
+      is_of_structure && std::any_of(records.begin(), records.end(), [](const RunRecord* record) {
+        return has_papers_setting(record->scenario);
+      });
   const std::optional<Ceiling> ceiling = shared_ceiling(scored);
   const PaperTable& beside = is_papers ? *paper : none;
   for (RunFigures& run : runs) {
     if (name_in_table(beside, run.utility) == run.utility) run.utility = human_name(run.utility);
   }
   TextTable table = comparison_table(beside, runs, ceiling, settings);
+  if (is_of_structure && !is_papers) {
+    table.notes.push_back(fmt::format("without the paper's rows: {}", kOtherSetting));
+  }
   if (!ceiling) {
     table.notes.emplace_back(
         "of ceiling: not known, or not the same for all runs; `gnbv ceiling` finds it");

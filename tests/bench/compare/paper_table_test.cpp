@@ -229,11 +229,19 @@ TEST(OneRowSummary, StandsAloneWhereThePaperHasNoRow) {
   own_mesh.structure = "/somewhere/bridge.obj";
   for (const std::string& text :
        {one_row_summary(tour, true), one_row_summary(smoke, true), one_row_summary(own_mesh, true),
-        one_row_summary(example(), false)}) {
+        one_row_summary(tour, false), one_row_summary(own_mesh, false)}) {
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4) << text;
     EXPECT_EQ(text.find("paper"), std::string::npos) << text;
     EXPECT_NE(text.find("504.3"), std::string::npos) << text;
   }
+}
+
+/// A mission with other settings says why the paper's row is not there.
+TEST(OneRowSummary, SaysWhyThePapersRowIsLeftOut) {
+  const std::string text = one_row_summary(example(), false);
+  EXPECT_EQ(text.find("proposed  paper"), std::string::npos) << text;
+  EXPECT_NE(text.find("without the paper's row: ours has other sensors"), std::string::npos)
+      << text;
 }
 
 }  // namespace

@@ -166,6 +166,27 @@ TEST(Claims, OfOneMissionNameNoRange) {
             "Above it at the end, at 0.05 m: 1 of 2 missions; coverage from 90.0 to 95.0 %.");
 }
 
+/// A mission that a limit of ours ended below it says nothing of where it would have come to.
+TEST(Claims, DoNotFailByMissionsThatWereCutShort) {
+  PaperMaterial material = made_material();
+  material.missions = {made_mission("proposed", 1, 10), made_mission("proposed", 2, 10)};
+  const auto about_coverage = [&] {
+    for (const CheckedClaim& claim : check_claims(material)) {
+      if (claim.figure == "10") return claim;
+    }
+    return CheckedClaim{};
+  };
+  EXPECT_EQ(about_coverage().verdict, ClaimVerdict::fails);
+  for (PaperMission& mission : material.missions)
+    mission.record.figures->termination = "max_iterations";
+  EXPECT_EQ(about_coverage().verdict, ClaimVerdict::cut);
+  EXPECT_NE(about_coverage().finding.find("cut short below it: 2."), std::string::npos);
+  material.missions[0].record.figures->coverage_final[0] = 0.95;  // cut short, but above already
+  EXPECT_EQ(about_coverage().verdict, ClaimVerdict::holds);
+  material.missions[1].record.figures->termination = "no_valid_view";
+  EXPECT_EQ(about_coverage().verdict, ClaimVerdict::partly);
+}
+
 TEST(Claims, AboutPhasesCountThoseWhereBothHappen) {
   PaperMaterial material = made_material();
   material.missions = {made_mission("proposed", 1, 10)};

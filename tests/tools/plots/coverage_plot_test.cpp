@@ -72,16 +72,17 @@ TEST(Plots, CoverageMarksEndsAndTheCeiling) {
 }
 
 /// A table says what seeds took as a mean: the mark stands there, not where the longest ends.
-TEST(Plots, TheMarkOfSeveralRunsIsTheirMeanEnd) {
+TEST(Plots, TheMarkOfSeveralRunsIsOnTheirMeanCurveAtTheirMeanLength) {
   const std::vector<RunRecord> runs = {covered_record(1, {0.2, 0.4, 0.5}),
                                        covered_record(2, {0.2, 0.8})};
   const RunGroup group = group_of(runs);
   const Plot plot = coverage_plot({&group, 1}, Effort::metres, 0);
-  EXPECT_EQ(block(plot.body, "end0"), (std::vector<std::vector<double>>{{3, 65}}));
-  EXPECT_NE(plot.body.find("mean end of the seeds"), std::string::npos);
+  EXPECT_EQ(block(plot.body, "end0"), (std::vector<std::vector<double>>{{3, 62.5}}));
+  EXPECT_NE(plot.body.find("mean length of the seeds"), std::string::npos);
   expect_drawable(plot);
   const RunGroup alone{.label = "a", .runs = {&runs[0]}};
-  EXPECT_EQ(coverage_plot({&alone, 1}, Effort::metres, 0).body.find("mean end"), std::string::npos);
+  EXPECT_EQ(coverage_plot({&alone, 1}, Effort::metres, 0).body.find("mean length"),
+            std::string::npos);
 }
 
 /// The end's axis goes around its curve: a key names no line beyond it.

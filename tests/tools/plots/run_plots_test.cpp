@@ -115,6 +115,9 @@ TEST(Plots, ATightAxisEndsWhereItsValuesDo) {
             std::string::npos)
       << tight_y_axis(-21.0, 25.0, 3);
   EXPECT_NE(tight_y_axis(0.0, 40.0, 3).find("set yrange [0:40]"), std::string::npos);
+  // of -50, 0, 50 the values leave one mark
+  EXPECT_NE(tight_y_axis(-30.0, 34.0, 3).find("set ytics 20\n"), std::string::npos)
+      << tight_y_axis(-30.0, 34.0, 3);
 }
 
 TEST(Plots, PanelsShareAnAxisThatSeparatesThousands) {

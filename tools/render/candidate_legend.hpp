@@ -1,0 +1,44 @@
+// What the picture of a decision says of its candidates in words.
+#pragma once
+
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "planner/decision.hpp"
+#include "tools/render/picture.hpp"
+
+namespace gnbv {
+
+/// The candidates of a decision, counted.
+struct CandidateTally {
+  std::vector<std::size_t> rejected;         // by reason
+  std::vector<std::size_t> rejected_beyond;  // of them, beyond the picture
+  std::size_t valid = 0;
+  std::size_t beyond = 0;                                // of all
+  double low = std::numeric_limits<double>::infinity();  // utility, of those valid
+  double high = -std::numeric_limits<double>::infinity();
+};
+
+CandidateTally tally(const Plan& plan, const RenderView& view);
+
+/// A share of the way from the lowest score to the highest: where these are one, it is the highest.
+Rgb colour_of_score(const CandidateTally& all, double score);
+
+/// Whether one was sampled around clusters, and whether such a one was chosen.
+bool has_frontier_views(const Plan& plan);
+bool is_chosen_at_frontier(const Plan& plan);
+
+/// "104 candidates, 64 of them beyond the picture (out of bounds 60, not free 4)"
+std::string note_on(const Plan& plan, const CandidateTally& all);
+
+/// A row of those rejected that the picture shows, one of what could be chosen and what of the map
+/// is to be seen, one of the chosen view. Of lines and balls nothing that no panel holds.
+std::vector<LegendItem> legend_of(const Plan& plan, const CandidateTally& all,
+                                  std::span<const Panel> panels, bool is_unknown_seen);
+
+/// Of unknown voxels.
+extern const Rgb kUnknownVoxels;
+
+}  // namespace gnbv
