@@ -7,6 +7,7 @@
 #include "tools/render/chosen_view_item.hpp"
 #include "tools/render/frontier_items.hpp"
 #include "tools/render/rejection_look.hpp"
+#include "tools/render/voxel_items.hpp"
 #include "tools/run_files/words.hpp"
 
 namespace gnbv {
@@ -28,6 +29,14 @@ bool is_drawn(std::span<const Panel> panels, const Rgb& colour) {
   });
 }
 
+bool is_shown(const Candidate& candidate, const OccupancyGrid& grid,
+              std::span<const RenderView> views) {
+  const Vec3& p_m = candidate.view.p_world_m;
+  return std::any_of(views.begin(), views.end(), [&](const RenderView& view) {
+    return is_within(view, p_m) && !is_hidden(grid, view, p_m, 0.0);
+  });
+}
+
 // "valid: 31, utility" from a bar's low end to its high end; without a bar where all have one.
 LegendItem legend_of_valid(const CandidateTally& all) {
   if (all.low == all.high) {
@@ -41,15 +50,18 @@ LegendItem legend_of_valid(const CandidateTally& all) {
           .label_middle = fmt::format("{:.3g}", 0.5 * (all.low + all.high))};
 }
 
-// Each with how many of it the picture shows; those beyond it are the note's.
+// Each with how many of it the picture shows, of how many.
 std::vector<LegendItem> legend_of_rejected(const CandidateTally& all) {
   std::vector<LegendItem> legend;
   for (const RejectionLook& look : rejection_looks()) {
     const auto reason = static_cast<std::size_t>(look.rejection);
-    const std::size_t seen = all.rejected[reason] - all.rejected_beyond[reason];
-    if (seen == 0) continue;
-    legend.push_back(
-        {fmt::format("{}: {}", look.words, grouped(seen)), {look.colour}, LegendItem::Mark::dot});
+    const std::size_t unseen = all.rejected_unseen[reason];
+    if (all.rejected[reason] == 0) continue;
+    const std::string seen =
+        unseen == 0 ? "" : fmt::format("{} of ", grouped(all.rejected[reason] - unseen));
+    legend.push_back({fmt::format("{}: {}{}", look.words, seen, grouped(all.rejected[reason])),
+                      {look.colour},
+                      LegendItem::Mark::dot});
     if (legend.size() == 1) legend.front().label_before = "rejected:";
   }
   return legend;
@@ -57,16 +69,17 @@ std::vector<LegendItem> legend_of_rejected(const CandidateTally& all) {
 
 }  // namespace
 
-CandidateTally tally(const Plan& plan, const RenderView& view) {
+CandidateTally tally(const Plan& plan, const OccupancyGrid& grid,
+                     std::span<const RenderView> views) {
   CandidateTally all{.rejected = std::vector<std::size_t>(rejection_looks().size()),
-                     .rejected_beyond = std::vector<std::size_t>(rejection_looks().size())};
+                     .rejected_unseen = std::vector<std::size_t>(rejection_looks().size())};
   for (const Candidate& candidate : plan.candidates) {
-    const std::size_t beyond = is_within(view, candidate.view.p_world_m) ? 0 : 1;
-    all.beyond += beyond;
+    const std::size_t unseen = is_shown(candidate, grid, views) ? 0 : 1;
+    all.unseen += unseen;
     if (candidate.rejected) {
       const auto reason = static_cast<std::size_t>(*candidate.rejected);
       ++all.rejected[reason];
-      all.rejected_beyond[reason] += beyond;
+      all.rejected_unseen[reason] += unseen;
       continue;
     }
     ++all.valid;
@@ -90,17 +103,8 @@ bool is_chosen_at_frontier(const Plan& plan) {
 
 std::string note_on(const Plan& plan, const CandidateTally& all) {
   const std::string count = counted(plan.candidates.size(), "candidate");
-  if (all.beyond == 0) return count;
-  std::string reasons;
-  std::size_t valid = all.beyond;
-  for (const RejectionLook& look : rejection_looks()) {
-    const std::size_t beyond = all.rejected_beyond[static_cast<std::size_t>(look.rejection)];
-    if (beyond == 0) continue;
-    valid -= beyond;
-    reasons += fmt::format("{}{} {}", reasons.empty() ? "" : ", ", look.words, grouped(beyond));
-  }
-  if (valid > 0) reasons += fmt::format("{}valid {}", reasons.empty() ? "" : ", ", grouped(valid));
-  return fmt::format("{}, {} of them beyond the picture ({})", count, grouped(all.beyond), reasons);
+  if (all.unseen == 0) return count;
+  return fmt::format("{}, {} of them hidden or beyond the picture", count, grouped(all.unseen));
 }
 
 std::vector<LegendItem> legend_of(const Plan& plan, const CandidateTally& all,
@@ -114,7 +118,7 @@ std::vector<LegendItem> legend_of(const Plan& plan, const CandidateTally& all,
   if (all.valid > 0) legend.push_back(legend_of_valid(all));
   if (is_unknown_seen) legend.push_back({"unknown", {kUnknownVoxels}});
   if (has_frontier_views(plan)) {
-    legend.push_back({"frontier, clusters numbered as tried", {kFrontierLook.frontier}});
+    legend.push_back({"frontier, clusters in sight numbered as tried", {kFrontierLook.frontier}});
     add_drawn("cluster looked at", kFrontierLook.looked_at, Mark::square);
     // the balls at their clusters' centroids are of no other
     const bool has_layers = std::any_of(panels.begin(), panels.end(), [](const Panel& panel) {

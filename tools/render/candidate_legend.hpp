@@ -14,14 +14,16 @@ namespace gnbv {
 /// The candidates of a decision, counted.
 struct CandidateTally {
   std::vector<std::size_t> rejected;         // by reason
-  std::vector<std::size_t> rejected_beyond;  // of them, beyond the picture
+  std::vector<std::size_t> rejected_unseen;  // of them, in no panel: beyond all, or hidden
   std::size_t valid = 0;
-  std::size_t beyond = 0;                                // of all
+  std::size_t unseen = 0;                                // of all
   double low = std::numeric_limits<double>::infinity();  // utility, of those valid
   double high = -std::numeric_limits<double>::infinity();
 };
 
-CandidateTally tally(const Plan& plan, const RenderView& view);
+/// As panels show them that are seen from there.
+CandidateTally tally(const Plan& plan, const OccupancyGrid& grid,
+                     std::span<const RenderView> views);
 
 /// A share of the way from the lowest score to the highest: where these are one, it is the highest.
 Rgb colour_of_score(const CandidateTally& all, double score);
@@ -30,11 +32,12 @@ Rgb colour_of_score(const CandidateTally& all, double score);
 bool has_frontier_views(const Plan& plan);
 bool is_chosen_at_frontier(const Plan& plan);
 
-/// "104 candidates, 64 of them beyond the picture (out of bounds 60, not free 4)"
+/// "104 candidates, 64 of them hidden or beyond the picture"
 std::string note_on(const Plan& plan, const CandidateTally& all);
 
-/// A row of those rejected that the picture shows, one of what could be chosen and what of the map
-/// is to be seen, one of the chosen view. Of lines and balls nothing that no panel holds.
+/// A row of those rejected ("collision: 74 of 132" that it shows), one of what could be chosen and
+/// what of the map is to be seen, one of the chosen view. Of lines and balls nothing that no panel
+/// holds.
 std::vector<LegendItem> legend_of(const Plan& plan, const CandidateTally& all,
                                   std::span<const Panel> panels, bool is_unknown_seen);
 

@@ -53,7 +53,7 @@ void add_layers(const Plan& plan, std::span<const FrontierCluster> clusters, dou
 // The numbers that can be read there: the first label before all others, then in their order.
 std::vector<PlaceLabel> legible(const std::vector<PlaceLabel>& labels, const OccupancyGrid& grid,
                                 const RenderView& view) {
-  const double apart_px = 20.0 * layout_unit_px(view.width_px, view.height_px);
+  const double apart_px = 30.0 * layout_unit_px(view.width_px, view.height_px);
   std::vector<PlaceLabel> shown;
   std::vector<Vec3> places_px;
   for (const PlaceLabel& label : labels) {

@@ -83,20 +83,22 @@ std::string counts_by_sampler(const Plan& plan) {
   return words.empty() ? counted(plan.candidates.size(), "candidate") : words;
 }
 
-// A ball each, in their order, small for those rejected; those that are valid also show where they
-// look.
+// A pin each, in their order: with the ball where it stands for those that are valid, small and at
+// its other end for those rejected, since at one place views may look in several directions.
 void add_candidates(const Plan& plan, const CandidateTally& all, double unit_m,
                     RenderScene& scene) {
   for (const Candidate& candidate : plan.candidates) {
-    const Vec3f p_m = candidate.view.p_world_m.cast<float>();
     if (candidate.rejected) {
       const Rgb& colour = rejection_looks()[static_cast<std::size_t>(*candidate.rejected)].colour;
-      scene.balls.push_back({p_m, static_cast<float>(4.2 * unit_m), colour});
+      add_pin(candidate.view, 11.0 * unit_m, 1.2 * unit_m, colour, scene);
+      scene.balls.push_back(
+          {scene.tubes.back().points_m.back(), static_cast<float>(3.8 * unit_m), colour});
       continue;
     }
     const Rgb colour = colour_of_score(all, candidate.score.value);
-    scene.balls.push_back({p_m, static_cast<float>(6.0 * unit_m), colour});
     add_pin(candidate.view, 18.0 * unit_m, 2.4 * unit_m, colour, scene);
+    scene.balls.push_back(
+        {candidate.view.p_world_m.cast<float>(), static_cast<float>(6.0 * unit_m), colour});
   }
 }
 
@@ -170,7 +172,6 @@ Picture draw_candidates(RunSource& run, const PictureOptions& options, const Ren
   const std::size_t iteration = iteration_asked(record, options);
   const ReplayedDecision& decision = run.decision(iteration);
   const Plan& plan = decision.plan;
-  const CandidateTally all = tally(plan, view);
   Picture picture{.panels = std::vector<Panel>(2)};
   Panel& far = picture.panels[0];
   Panel& near = picture.panels[1];
@@ -181,6 +182,7 @@ Picture draw_candidates(RunSource& run, const PictureOptions& options, const Ren
     near.view = near_view(record, iteration, options, chosen, view);
   }
   const RenderView& from_near = near.view ? *near.view : view;
+  const CandidateTally all = tally(plan, decision.belief.grid, std::array{view, from_near});
   bool is_unknown_seen = false;
   for (const auto& [panel, seen_from] : {std::pair{&far, &view}, {&near, &from_near}}) {
     const double unit_m = panel_unit_m(options, *seen_from);
