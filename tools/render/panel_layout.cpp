@@ -119,6 +119,7 @@ std::optional<PanelLayout> in_columns(const PictureKind& kind, const PictureOpti
   return is_none ? std::nullopt : std::optional(layout);
 }
 
+/// As seen from that direction, or from the one near it that shows the most where it may be turned.
 std::optional<RenderView> framed_panel(const PictureKind& kind, const PictureOptions& options,
                                        const RenderView& panel,
                                        const std::vector<Vec3>& points_world_m) {
@@ -126,8 +127,15 @@ std::optional<RenderView> framed_panel(const PictureKind& kind, const PictureOpt
   FrameMargins margins;
   if (has_words(options)) margins.bottom = 36.0 * u / panel.height_px;  // the scale's
   if (!leaves_room(margins)) return std::nullopt;
-  return frame_points(points_world_m, options.angles.value_or(kind.angles), panel.width_px,
-                      panel.height_px, margins);
+  std::optional<RenderView> best;
+  for (const double share : {0.0, 0.5, 1.0}) {
+    ViewAngles angles = options.angles.value_or(kind.angles);
+    if (!options.angles) angles.azimuth_rad += share * kind.turn_rad;
+    const RenderView view =
+        frame_points(points_world_m, angles, panel.width_px, panel.height_px, margins);
+    if (!best || px_per_m_at_focus(view) > px_per_m_at_focus(*best)) best = view;
+  }
+  return best;
 }
 
 }  // namespace

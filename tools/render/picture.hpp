@@ -76,6 +76,7 @@ struct PictureKind {
   std::string_view shows;
   int panels = 1;
   ViewAngles angles = {};      // unless others are asked for
+  double turn_rad = 0.0;       // its angles may be turned so far about z to show more
   int legend_rows = 1;         // of a picture of 1280 units
   double words_width = 520.0;  // layout units that title and figures take, about
   bool has_inset = false;

@@ -93,6 +93,8 @@ const PictureKind kProfilePicture = {.name = "profile",
                                      .panels = 3,
                                      // three in a row are high: seen from above, they are filled
                                      .angles = {deg_to_rad(-120.0), deg_to_rad(45.0)},
+                                     // to 30 degrees off the west instead of the south
+                                     .turn_rad = deg_to_rad(-30.0),
                                      .frame = frame_profile,
                                      .draw = draw_profile};
 
