@@ -8,13 +8,15 @@
 #include <map>
 #include <set>
 
+#include "sim/core/grouped.hpp"
+
 namespace gnbv {
 namespace {
 
 /// p values below what anybody reads are not spelt out.
 std::string p_text(double p) { return p < 0.001 ? "< 0.001" : fmt::format("{:.3f}", p); }
 
-std::string number(double value, int decimals) { return grouped_number(value, decimals); }
+std::string number(double value, int decimals) { return grouped(value, decimals); }
 
 std::string verdict_words(const Contrast& contrast) {
   switch (contrast.verdict) {

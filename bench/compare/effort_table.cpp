@@ -7,6 +7,7 @@
 #include "bench/compare/statistics.hpp"
 #include "bench/compare/table_groups.hpp"
 #include "bench/score/effort_to_reach.hpp"
+#include "sim/core/grouped.hpp"
 
 namespace gnbv {
 namespace {
@@ -23,7 +24,7 @@ TableCell metres_cell(const TableGroup& group, double coverage) {
     there += spent ? 1 : 0;
   }
   const std::optional<double> median = median_effort(metres);
-  return {.text = fmt::format("{} ({} of {})", median ? grouped_number(*median, 1) : "-", there,
+  return {.text = fmt::format("{} ({} of {})", median ? grouped(*median, 1) : "-", there,
                               group.runs.size()),
           .values = {median, static_cast<double>(there)}};
 }

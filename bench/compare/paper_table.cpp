@@ -12,6 +12,7 @@
 #include "bench/compare/terminal_table.hpp"
 #include "sim/core/counted.hpp"
 #include "sim/core/error.hpp"
+#include "sim/core/grouped.hpp"
 
 namespace gnbv {
 namespace {
@@ -22,8 +23,8 @@ using Row = std::vector<TableCell>;
 TableCell cell(const std::optional<MeanEstimate>& e, int decimals, double factor = 1.0,
                const std::string& unit = "") {
   if (!e) return {.text = "-"};
-  std::string text = grouped_number(factor * e->mean, decimals);
-  if (e->half_width) text += " ±" + grouped_number(factor * *e->half_width, decimals);
+  std::string text = grouped(factor * e->mean, decimals);
+  if (e->half_width) text += " ±" + grouped(factor * *e->half_width, decimals);
   return {.text = text + unit, .values = {e->mean, e->half_width}};
 }
 

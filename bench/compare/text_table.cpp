@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "bench/compare/table_lines.hpp"
 #include "bench/compare/terminal_table.hpp"
@@ -87,14 +86,6 @@ TextTable with_columns_of(TextTable table, const TextTable& more, std::size_t sh
   }
   table.notes.insert(table.notes.end(), more.notes.begin(), more.notes.end());
   return table;
-}
-
-std::string grouped_number(double value, int decimals) {
-  std::string digits = fmt::format("{:.{}f}", std::abs(value), decimals);
-  const bool is_zero = digits.find_first_of("123456789") == std::string::npos;
-  const std::size_t point = std::min(digits.find('.'), digits.size());
-  for (std::size_t i = point; i > 3; i -= 3) digits.insert(i - 3, ",");
-  return value < 0.0 && !is_zero ? "-" + digits : digits;
 }
 
 std::string markdown_text(const TextTable& table) {

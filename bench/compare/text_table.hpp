@@ -40,9 +40,6 @@ struct TextTable {
 /// of the row that agrees with it in the texts of the shared columns, or dashes. Notes of both.
 TextTable with_columns_of(TextTable table, const TextTable& more, std::size_t shared);
 
-/// A number as people read it: with `decimals`, thousands grouped as the paper does ("10,970").
-std::string grouped_number(double value, int decimals);
-
 /// A table of GitHub's Markdown, its title in bold above and its notes as a list below.
 std::string markdown_text(const TextTable& table);
 

@@ -9,6 +9,7 @@
 #include "bench/score/cache_limit.hpp"
 #include "bench/score/content_cache.hpp"
 #include "sim/core/error.hpp"
+#include "sim/core/grouped.hpp"
 #include "tools/gnbv/commands.hpp"
 
 namespace gnbv {
@@ -42,7 +43,7 @@ CacheState state_of(const CacheOptions& options) {
 }
 
 std::string megabytes(std::uint64_t bytes) {
-  return grouped_number(static_cast<double>(bytes) / 1e6, 1) + " MB";
+  return grouped(static_cast<double>(bytes) / 1e6, 1) + " MB";
 }
 
 std::string text_of(const CacheState& state) {
@@ -56,7 +57,7 @@ std::string text_of(const CacheState& state) {
   const auto add = [&](const std::string& name, const CacheUse& use) {
     const auto results = static_cast<double>(use.results);
     table.rows.push_back({TableCell{name},
-                          {grouped_number(results, 0), {results}},
+                          {grouped(results, 0), {results}},
                           {megabytes(use.bytes), {static_cast<double>(use.bytes)}}});
   };
   for (const CacheKind& kind : state.kinds) add(kind.kind, kind.use);

@@ -15,8 +15,8 @@ using Missions = std::vector<const PaperMission*>;
 
 /// "28.9", or "from 28.9 to 31.2".
 std::string span_text(double low, double high, int decimals) {
-  const std::string first = grouped_number(low, decimals);
-  const std::string last = grouped_number(high, decimals);
+  const std::string first = grouped(low, decimals);
+  const std::string last = grouped(high, decimals);
   return first == last ? first : fmt::format("from {} to {}", first, last);
 }
 

@@ -32,8 +32,8 @@ std::string data_uri(const fs::path& picture) {
 
 std::string estimate_text(const ComparedFigure& both, int decimals) {
   if (!both.ours) return "";
-  std::string text = grouped_number(both.ours->mean, decimals);
-  if (both.ours->half_width) text += " ±" + grouped_number(*both.ours->half_width, decimals);
+  std::string text = grouped(both.ours->mean, decimals);
+  if (both.ours->half_width) text += " ±" + grouped(*both.ours->half_width, decimals);
   return text;
 }
 
@@ -59,8 +59,8 @@ std::string side_html(const ShownTable& table, bool is_ours) {
     const bool has_views = !row.utility.empty() && (!is_ours || row.missions > 0);
     std::string views = "-";
     if (has_views) {
-      views = is_ours             ? grouped_number(row.views, 0)
-              : row.printed_views ? grouped_number(*row.printed_views, 0)
+      views = is_ours             ? grouped(row.views, 0)
+              : row.printed_views ? grouped(*row.printed_views, 0)
                                   : "-";
     }
     html += fmt::format("<tr><td>{}</td><td>{}</td>", html_escaped(row.label), views);
@@ -68,7 +68,7 @@ std::string side_html(const ShownTable& table, bool is_ours) {
       const int decimals = compared_figures()[i].decimals;
       const ComparedFigure& both = row.figures[i];
       const std::string text = is_ours        ? estimate_text(both, decimals)
-                               : both.printed ? grouped_number(*both.printed, decimals)
+                               : both.printed ? grouped(*both.printed, decimals)
                                               : "";
       html += fmt::format("<td>{}</td>", text.empty() ? "-" : text);
     }
@@ -86,15 +86,14 @@ std::string beyond_html(const ShownTable& table) {
       html += fmt::format("<li class=missing>{}: no mission came to its end</li>\n",
                           html_escaped(row.label));
     } else if (row.flown_views > row.views) {
-      html += fmt::format("<li>{}: compared after {} views; ours flew {}</li>\n",
-                          html_escaped(row.label), grouped_number(row.views, 0),
-                          grouped_number(row.flown_views, 0));
+      html +=
+          fmt::format("<li>{}: compared after {} views; ours flew {}</li>\n",
+                      html_escaped(row.label), grouped(row.views, 0), grouped(row.flown_views, 0));
     } else if (row.printed_views && row.views < *row.printed_views) {
       html += fmt::format(
           "<li>{}: compared after {} views, where ours ended; the paper&#39;s took "
           "{}</li>\n",
-          html_escaped(row.label), grouped_number(row.views, 0),
-          grouped_number(*row.printed_views, 0));
+          html_escaped(row.label), grouped(row.views, 0), grouped(*row.printed_views, 0));
     }
   }
   return html.empty() ? "" : "<ul class=notes>\n" + html + "</ul>\n";

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bench/compare/text_table.hpp"
+#include "sim/core/grouped.hpp"
 #include "tools/paper/page_parts.hpp"
 #include "tools/report/page_text.hpp"
 
@@ -29,7 +30,7 @@ std::string_view colour_of(ClaimVerdict verdict) {
 
 /// "+1,200", "-3.5", "0.0".
 std::string signed_number(double value, int decimals) {
-  const std::string text = grouped_number(value, decimals);
+  const std::string text = grouped(value, decimals);
   const bool is_zero = text.find_first_of("123456789") == std::string::npos;
   return (value > 0.0 && !is_zero ? "+" : "") + text;
 }
@@ -71,12 +72,11 @@ std::string head_row(std::string_view first, const std::vector<std::size_t>& col
 /// "162", or where ours took fewer "10 (paper 635)".
 std::string views_text(const ComparedRow& row) {
   if (row.missions == 0) return "-";
-  if (!row.printed_views) return row.utility.empty() ? "" : grouped_number(row.views, 0);
+  if (!row.printed_views) return row.utility.empty() ? "" : grouped(row.views, 0);
   if (row.views < *row.printed_views) {
-    return fmt::format("{} (paper {})", grouped_number(row.views, 0),
-                       grouped_number(*row.printed_views, 0));
+    return fmt::format("{} (paper {})", grouped(row.views, 0), grouped(*row.printed_views, 0));
   }
-  return grouped_number(row.views, 0);
+  return grouped(row.views, 0);
 }
 
 std::string numbers_html(const PaperPage& page) {
@@ -116,7 +116,7 @@ std::string order_cell(const ShownTable& table, const std::string& first, const 
     if (pair.first != first || pair.second != second || pair.figure != figure) continue;
     const int decimals = compared_figures()[figure].decimals;
     std::string ours = signed_number(pair.ours.mean, decimals);
-    if (pair.ours.half_width) ours += " ±" + grouped_number(*pair.ours.half_width, decimals);
+    if (pair.ours.half_width) ours += " ±" + grouped(*pair.ours.half_width, decimals);
     return fmt::format("<td>{}<br><span class=pale>{}<br>paper {}</span></td>",
                        chip(colour_of(pair.order), name_of(pair.order)), html_escaped(ours),
                        signed_number(pair.printed, decimals));

@@ -1,6 +1,7 @@
-// How pictures name and colour the reasons for which candidates were rejected.
+// How pictures and pages name and colour the reasons for which candidates were rejected.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string_view>
 
@@ -12,7 +13,8 @@ namespace gnbv {
 struct RejectionLook {
   Rejection rejection;
   std::string_view words;
-  Rgb colour;
+  std::uint32_t rrggbb;  // as pages have it
+  Rgb colour = srgb(rrggbb);
 };
 
 /// Of all reasons, in their order. The colours stand apart from each other and from the marks of

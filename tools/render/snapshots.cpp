@@ -227,7 +227,7 @@ Picture Snapshots::picture_at(double time_s, double speed, const RenderView& vie
   picture.detail = fmt::format(
       "{}, {} s and {} m flown since the first, {}{}", views_so_far(record, iteration),
       grouped(static_cast<std::size_t>(std::lround(time_s - record.views.front().time_s))),
-      grouped_tenths(now.flown_m), counted(now.cloud_points, "point"),
+      grouped(now.flown_m, 1), counted(now.cloud_points, "point"),
       speed > 0.0 ? fmt::format(", {:.1f} times as fast as flown", speed) : "");
   picture.legend = {
       {.label = "last view", .colours = path_colours(), .label_before = "first"},

@@ -20,14 +20,6 @@ std::uint8_t kind_of(const Candidate& candidate, bool is_chosen) {
 
 }  // namespace
 
-std::vector<std::string> rejection_names() {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < kRejections; ++i) {
-    names.emplace_back(name_of(static_cast<Rejection>(i)));
-  }
-  return names;
-}
-
 std::optional<PackedCandidates> pack_candidates(const RunRecord& record, std::size_t max_bytes,
                                                 BytePack& bytes) {
   const std::vector<Plan> plans = read_all_candidates(record.folder, record.views.size());

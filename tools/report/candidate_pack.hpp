@@ -24,9 +24,6 @@ struct PackedCandidates {
   ByteSlice begins;      // uint32 (views + 1): the first one of each view's decision, and the end
 };
 
-/// By their numbers.
-std::vector<std::string> rejection_names();
-
 /// Nothing for a run that kept none. Throws BadInput when they take more than `max_bytes`, or are
 /// damaged.
 std::optional<PackedCandidates> pack_candidates(const RunRecord& record, std::size_t max_bytes,

@@ -1,15 +1,25 @@
 #include "tools/report/packed_json.hpp"
 
+#include "tools/render/rejection_look.hpp"
+
 namespace gnbv {
 
 using Json = nlohmann::ordered_json;
 
 namespace {
 
+/// By their numbers.
+Json reasons_json() {
+  Json reasons = Json::array();
+  for (const RejectionLook& look : rejection_looks())
+    reasons.push_back({{"words", look.words}, {"colour", look.rrggbb}});
+  return reasons;
+}
+
 Json candidates_json(const PackedCandidates& packed) {
   return {{"points", points_json(packed.points)}, {"angles", slice_json(packed.angles_rad)},
           {"kind", slice_json(packed.kind)},      {"terms", slice_json(packed.terms)},
-          {"begins", slice_json(packed.begins)},  {"reasons", rejection_names()}};
+          {"begins", slice_json(packed.begins)},  {"reasons", reasons_json()}};
 }
 
 Json beliefs_json(const PackedBeliefs& packed, double map_m) {

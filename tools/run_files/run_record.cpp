@@ -169,9 +169,9 @@ std::string run_detail(const RunRecord& record) {
       record.figures ? static_cast<std::size_t>(record.figures->iterations) : record.views.size();
   std::string detail = counted(views, "view");
   if (record.figures)
-    detail += fmt::format(", {} m between them", grouped_tenths(record.figures->straight_m));
+    detail += fmt::format(", {} m between them", grouped(record.figures->straight_m, 1));
   if (!record.views.empty())
-    detail += fmt::format(", {} m flown", grouped_tenths(record.views.back().flown_m));
+    detail += fmt::format(", {} m flown", grouped(record.views.back().flown_m, 1));
   if (record.figures) {
     detail +=
         fmt::format(", coverage {:.1f} % at 0.05 m", 100.0 * record.figures->coverage_final[0]);

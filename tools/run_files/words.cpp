@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 
 namespace gnbv {
 
@@ -18,17 +17,6 @@ std::string human_name(std::string_view name) {
   std::replace(words.begin(), words.end(), '_', ' ');
   words.front() = static_cast<char>(std::toupper(words.front()));
   return words;
-}
-
-std::string grouped(std::size_t count) {
-  std::string digits = std::to_string(count);
-  for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, ",");
-  return digits;
-}
-
-std::string grouped_tenths(double number) {
-  const long tenths = std::lround(10.0 * number);
-  return fmt::format("{}.{}", grouped(static_cast<std::size_t>(tenths / 10)), tenths % 10);
 }
 
 std::string counted(std::size_t count, std::string_view thing) {

@@ -5,16 +5,13 @@
 #include <string>
 #include <string_view>
 
+#include "sim/core/grouped.hpp"
+
 namespace gnbv {
 
 /// Of a scenario, a utility or a preset: "Power plant" for "power_plant", "AEP" for "aep". What is
 /// no plain name of ours (lower case, digits, underscores), a file of the user's for one, stays.
 std::string human_name(std::string_view name);
-
-/// "1,234,567".
-std::string grouped(std::size_t count);
-/// 1234.56 as "1,234.6". Requires a number that is not negative.
-std::string grouped_tenths(double number);
 
 /// "1 view", "12 views", "1,200 views".
 std::string counted(std::size_t count, std::string_view thing);

@@ -227,12 +227,5 @@ TEST(TextTable, EveryFormCarriesEveryNote) {
   }
 }
 
-TEST(GroupedNumber, GroupsThousandsAndHasNoNegativeZero) {
-  EXPECT_EQ(grouped_number(10969.6, 0), "10,970");
-  EXPECT_EQ(grouped_number(-1234567.25, 1), "-1,234,567.2");
-  EXPECT_EQ(grouped_number(999.0, 2), "999.00");
-  EXPECT_EQ(grouped_number(-0.04, 1), "0.0");
-}
-
 }  // namespace
 }  // namespace gnbv

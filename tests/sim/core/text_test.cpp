@@ -8,6 +8,7 @@
 
 #include "sim/core/base64.hpp"
 #include "sim/core/folding.hpp"
+#include "sim/core/grouped.hpp"
 #include "sim/core/utf8.hpp"
 
 namespace gnbv {
@@ -74,6 +75,21 @@ TEST(Shortened, EndsAfterAWordAndIsNeverWider) {
   EXPECT_EQ(shortened("finding what there is to see", 27), "finding what there is to…");
   EXPECT_EQ(shortened("view 6/12  12 m  2,306 points", 20), "view 6/12  12 m…");
   EXPECT_EQ(shortened("indivisible", 5), "");
+}
+
+TEST(Grouped, ThousandsOfCountsAreApart) {
+  EXPECT_EQ(grouped(0), "0");
+  EXPECT_EQ(grouped(999), "999");
+  EXPECT_EQ(grouped(1000), "1,000");
+  EXPECT_EQ(grouped(1234567), "1,234,567");
+}
+
+TEST(Grouped, NumbersHaveTheirDecimalsAndNoNegativeZero) {
+  EXPECT_EQ(grouped(10969.6, 0), "10,970");
+  EXPECT_EQ(grouped(1234.56, 1), "1,234.6");
+  EXPECT_EQ(grouped(-1234567.25, 1), "-1,234,567.2");
+  EXPECT_EQ(grouped(999.0, 2), "999.00");
+  EXPECT_EQ(grouped(-0.04, 1), "0.0");
 }
 
 }  // namespace

@@ -29,6 +29,10 @@ function recorded(run) {
 const areSeeds = () => new Set(runs.map((run) =>
   readFileSync(join(run, "scenario.yaml"), "utf8").replace(/^seed:.*$/m, ""))).size === 1;
 
+/** A reason of rejection as pictures and pages name it. */
+const words = (reason) => ({ recently_visited: "visited", cluster_outside_fov: "cluster outside view",
+  no_fly: "no-fly box", beyond_gimbal: "beyond the gimbal" })[reason] ?? reason.replaceAll("_", " ");
+
 /** Of the decision that chose each view. */
 function candidates(run, views) {
   const lines = readFileSync(join(run, "candidates.jsonl"), "utf8").trim();
@@ -172,7 +176,7 @@ try {
       assert.equal(await browser.evaluate(`gnbv.candidates(${run})`), recorded.length, `view ${n}`);
       const reasons = new Set(recorded.filter((c) => c.rejected).map((c) => c.rejected));
       const told = await browser.evaluate("document.querySelector('.why').textContent");
-      for (const reason of reasons) assert.ok(told.includes(reason.replaceAll("_", " ")), told);
+      for (const reason of reasons) assert.ok(told.includes(words(reason)), told);
     }
   }
 

@@ -71,7 +71,10 @@ try {
   await seek(0);
   assert.ok((await valuesOf("Coverage")).every((value) => value !== ""));
   assert.ok((await valuesOf("Density")).every((value) => value === ""));
+  const ofViews = /path, views: first|points of this view|what the cameras see/;
+  assert.doesNotMatch(await textOf(".legend"), ofViews);
   await seek(1);
+  assert.match(await textOf(".legend"), ofViews);
   assert.ok((await valuesOf("Density")).every((value) => value !== ""));
 
   // of the terms of one run each is 1 at its largest

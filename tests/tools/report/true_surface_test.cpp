@@ -126,7 +126,6 @@ TEST(CandidatePack, HoldsEachDecisionWithItsReasonsAndTerms) {
   const auto angles = read_back<float>(bytes, packed->angles_rad);
   EXPECT_EQ(angles[2], -1.5F);
   EXPECT_EQ(angles[3], 0.25F);
-  EXPECT_EQ(rejection_names().at(kCollision), "collision");
   EXPECT_THROW(pack_candidates(record, 10, bytes), BadInput);
 }
 

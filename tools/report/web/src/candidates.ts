@@ -12,12 +12,9 @@ const kChosen = 255;
 const kChosenColour = 0xd5420a;
 const kRayColour = 0xe08a2e;
 const missColour = () => (isDark() ? 0x54483a : 0xecd9c6); // of rays that meet nothing
-// Rejections by their number, in the colours of the pictures (tools/render/rejection_look.cpp).
-const kReasonColours = [0x9aa3ae, 0x552747, 0xc42d7c, 0xffe47c, 0xeab79d, 0x75e6f2, 0x4c00c4,
-  0xcb9a2b, 0x444500, 0xf12de9];
-/** On a dark page they would drown. */
-const reasonColour = (kind: number) => {
-  const colour = new three.Color(kReasonColours[kind] ?? 0x888888);
+/** Of a rejection; on a dark page those of the pictures would drown. */
+const reasonColour = (ofPictures: number) => {
+  const colour = new three.Color(ofPictures);
   const { h, s, l } = colour.getHSL({ h: 0, s: 0, l: 0 }, three.SRGBColorSpace);
   return isDark() ? colour.setHSL(h, s, Math.max(l, 0.55), three.SRGBColorSpace) : colour;
 };
@@ -26,7 +23,6 @@ const kBest = 5;
 const kRays = [9, 7];
 
 const hex = (colour: number) => `#${colour.toString(16).padStart(6, "0")}`;
-const words = (reason: string) => reason.replaceAll("_", " ");
 
 interface Candidate {
   at: three.Vector3;
@@ -93,7 +89,7 @@ export class CandidateMarks {
 
   private colourOf({ kind, terms }: Candidate): three.Color {
     if (kind === kChosen) return new three.Color(kChosenColour);
-    if (!terms) return reasonColour(kind);
+    if (!terms) return reasonColour(this.data.reasons[kind]?.colour ?? 0x888888);
     const values = this.now.filter((other) => other.terms).map((other) => other.terms![0]);
     const [low, high] = [Math.min(...values), Math.max(...values)];
     const [r, g, b] = ramp("amount", (terms[0] - low) / (high - low || 1));
@@ -157,15 +153,16 @@ export class CandidateMarks {
       kind === kChosen ? { colour: hex(kChosenColour), text: "chosen, and its rays", count }
       : kind === kValid ? { colour: rampGradient("amount"),
         text: "other valid ones, low to high utility", count }
-      : { colour: `#${reasonColour(kind).getHexString()}`, text: words(this.data.reasons[kind]),
-        count });
+      : { colour: `#${reasonColour(this.data.reasons[kind].colour).getHexString()}`,
+        text: this.data.reasons[kind].words, count });
   }
 
   /** How many were valid, and what became of the others. */
   private sum(): string {
     const competed = this.now.filter(({ terms }) => terms).length;
     const hasChosen = this.now.some(({ kind }) => kind === kChosen);
-    const rejected = this.kinds().filter(({ text }) => this.data.reasons.map(words).includes(text));
+    const rejected = this.kinds()
+      .filter(({ text }) => this.data.reasons.some((reason) => reason.words === text));
     return [`valid: ${number(competed)}${hasChosen ? ", with the chosen one" : ""}`,
       ...rejected.map(({ text, count }) => `${text}: ${number(count)}`)].join("; ");
   }

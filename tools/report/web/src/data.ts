@@ -29,7 +29,7 @@ export interface CandidateData {
   kind: Slice; // uint8: a reason's number, 254 valid, 255 chosen
   terms: Slice; // float32 (valid and chosen ones, 5)
   begins: Slice; // uint32 (views + 1)
-  reasons: string[];
+  reasons: { words: string; colour: number }[];
 }
 
 /** Of one kind of voxels (tools/report/belief_pack.hpp). */

@@ -64,8 +64,9 @@ function ofColouring(scenes: RunScene[], by: Colouring, things: string): HTMLEle
   return orderItem(`${things}: found by first`, "last view");
 }
 
-/** Of the layers that are shown. */
-export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring): HTMLElement[] {
+/** Of the layers that are shown; `hasViews`: the replay stands at one, or behind. */
+export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring,
+    hasViews: boolean): HTMLElement[] {
   const items: HTMLElement[] = [];
   if (scenes.length === 0) return items;
   const clouds = scenes.filter((scene) => scene.model.cloud);
@@ -79,7 +80,7 @@ export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring): 
     if (cloud) items.push(ofColouring(coloured, by, "points"));
     if (voxels) items.push(ofColouring(coloured, ofVoxels(by), "voxels"));
   }
-  if (cloud) items.push(item("dot", hex(kNewColour), "points of this view"));
+  if (cloud && hasViews) items.push(item("dot", hex(kNewColour), "points of this view"));
   const ofSurface = scenes.filter(({ surface }) => surface);
   const isKnown = ofSurface.length > 0;
   const sizes = () => [", voxels of",
@@ -104,8 +105,10 @@ export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring): 
       + (layers.cloud || layers.voxels ? "; points and voxels are not drawn beside them" : "")));
   }
   if (layers.structure && isMeasured) items.push(item("dot", "#b9bec6", "structure"));
-  if (layers.path) items.push(orderItem("path, views: first", "last"));
-  if (layers.frusta) items.push(item("line", rampGradient("path"), "pyramid of each view"));
+  if (layers.path && hasViews) items.push(orderItem("path, views: first", "last"));
+  if (layers.frusta && hasViews) {
+    items.push(item("line", rampGradient("path"), "pyramid of each view"));
+  }
   if (layers.profile) items.push(item("line", "#8a95a3", "profile flight"));
   if (layers.plan && scenes.some((scene) => scene.plan)) {
     items.push(item("line", hex(planColour()), "still planned"));
@@ -113,7 +116,7 @@ export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring): 
   if (layers.vehicle) {
     items.push(item("dot", "#22272e", "vehicle, enlarged where it would be a speck"));
   }
-  if (layers.vehicle && !layers.candidates) {
+  if (layers.vehicle && !layers.candidates && hasViews) {
     const sights = scenes.map((scene) => scene.sight());
     items.push(item("line", "#ff8a3c", "what the cameras see",
       ...sights.every(({ isWhole }) => isWhole) ? []

@@ -69,14 +69,17 @@ function build() {
     at: page.is_live && clock.at >= replay.last() ? Infinity : clock.at,
     camera: stage.cameraState(), colour: colouring, runs: [...shown],
     layers: Object.entries(layers ?? {}).filter(([, on]) => on).map(([name]) => name) }));
+  const hasViews = () => shownFlights().some((flight) => flight.viewsAt(clock) > 0);
+  let toldViews = true; // what the legend was made for
   const explain = () => {
     if (!layers) return;
+    toldViews = hasViews();
     for (const scene of shownScenes()) { // the legend counts them
       const n = scene.flight.viewsAt(clock);
       scene.candidates?.show(n);
       scene.believed?.show(n);
     }
-    key.replaceChildren(...legendItems(shownScenes(), layers, colouring));
+    key.replaceChildren(...legendItems(shownScenes(), layers, colouring, toldViews));
     why.replaceChildren(...!layers.candidates ? [] : shownScenes()
       .filter((scene) => scene.candidates).map((scene) => make("div", {},
         make("h3", {}, flights.length > 1 ? `Why this view: ${scene.flight.data.label}`
@@ -84,7 +87,7 @@ function build() {
   };
   clock.onChange(() => {
     const { candidates, unknown, predicted, frontiers } = layers ?? {};
-    if (candidates || unknown || predicted || frontiers) explain();
+    if (candidates || unknown || predicted || frontiers || toldViews !== hasViews()) explain();
   });
   const setShown = () => {
     stage.setShown(shownScenes());
