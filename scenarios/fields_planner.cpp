@@ -219,7 +219,7 @@ void fields(FieldVisitor& v, TourConfig& c) {
            "What a metre has to bring: as a share of what the mean metre would of a tour twice as "
            "long as the sides of the structure's box together.");
   v.number("metres_per_view", c.metres_per_view, between(0, 100), "What a view costs as if way.");
-  v.integer("iterations", c.iterations, between(0, 1e6), "Of the search, each time.");
+  v.integer("iterations", c.iterations, between(0, 1e5), "Of the search, each time.");
   v.integer("views_per_replan", c.views_per_replan, between(1, 1e6), "Flown before the next tour.");
   v.number("replan_below", c.replan_below, between(0, 1),
            "A new tour when a view brings less than this share of its promise.");

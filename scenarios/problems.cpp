@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "planner/map/memory.hpp"
@@ -182,6 +183,21 @@ void check_view_rays(const Scenario& s, Problems& out) {
   }
 }
 
+/// What a tour plans over all ways between.
+void check_tour(const Scenario& s, Problems& out) {
+  constexpr double kMostPlaces = 5e5;
+  const double step_m = s.planner.tour.lattice_step_m;
+  if (step_m == 0.0) return;
+  // places are middles of voxels
+  const double between_m = std::max(step_m, s.planner.map.resolution_m);
+  const double places = (s.workspace_m.sizes() / between_m + Vec3::Ones()).array().floor().prod();
+  if (places <= kMostPlaces) return;
+  out.push_back({{"planner.tour.lattice_step_m", "workspace_m"},
+                 fmt::format("a lattice of {:.2g} places, one every {} m of the workspace; at most "
+                             "{:.0g} can be planned over",
+                             places, between_m, kMostPlaces)});
+}
+
 void check_map_thresholds(const OccupancyConfig& map, Problems& out) {
   const std::string key = "planner.map.";
   require_below(map.free_max, map.occupied_min, key + "free_max", key + "occupied_min", out);
@@ -222,6 +238,7 @@ std::vector<Problem> problems(const Scenario& scenario) {
   check_cloud(scenario.planner, out);
   check_lengths(scenario.planner, out);
   check_view_rays(scenario, out);
+  check_tour(scenario, out);
   check_map_thresholds(scenario.planner.map, out);
   check_utility(scenario.planner.utility, out);
   return out;

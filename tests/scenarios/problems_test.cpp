@@ -83,6 +83,13 @@ TEST(Problems, OthersThatCannotRun) {
                     HasSubstr("none.obj': there is no such file")));
 }
 
+TEST(Problems, ATourPlansOverSoManyPlaces) {
+  EXPECT_THAT(complaint(kMinimal + "planner: {tour: {lattice_step_m: 1e-6}}"),
+              AllOf(StartsWith("s.yaml:2: planner.tour.lattice_step_m: value '1.0e-06': "),
+                    HasSubstr("4.1e+06 places, one every 0.2 m")));
+  EXPECT_EQ(complaint(kMinimal + "planner: {tour: {lattice_step_m: 0.6}}"), "");
+}
+
 TEST(Problems, LidarsDiffer) {
   EXPECT_THAT(complaint(kMinimal + "lidars:\n  - {}\n  - {}\n"),
               HasSubstr("lidars.1.name: value 'lidar': two lidars, 0 and 1, are named"));
