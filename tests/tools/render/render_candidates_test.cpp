@@ -357,6 +357,31 @@ RenderView view_along(const OccupancyGrid& grid, const Vec3& from) {
   return view;
 }
 
+/// Against the ray from each voxel's middle, in much finer steps, along the axes about.
+TEST(VoxelItems, FacesAreSeenWhereNothingStandsBetween) {
+  const OccupancyGrid& grid = watched().beliefs.front().grid;
+  const double resolution_m = grid.geometry().resolution_m();
+  std::size_t seen = 0;
+  std::size_t hidden = 0;
+  for (const Vec3& axis :
+       {Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0)}) {
+    const RenderView view = view_along(grid, axis + Vec3(0.003, 0.002, 0.001));
+    for (const VoxelIndex v : sort_voxels(grid).occupied) {
+      const Vec3 p_m = grid.geometry().center_m(grid.geometry().key_at(v));
+      const SurfaceItem faces = free_faces(grid, std::array{v}, {1, 1, 1}, 0.5F);
+      if (grid.state_at(p_m + resolution_m * axis) != VoxelState::free) continue;  // no such face
+      const Vec3 away_m = view.T_world_camera.translation() - p_m;
+      bool is_covered = false;
+      for (double t = 0.6 * resolution_m; t < away_m.norm(); t += 0.05 * resolution_m)
+        is_covered |= grid.state_at(p_m + t * away_m.normalized()) == VoxelState::occupied;
+      EXPECT_TRUE(is_covered || is_seen(faces, grid, view));
+      ++(is_covered && !is_seen(faces, grid, view) ? hidden : seen);
+    }
+  }
+  EXPECT_GT(seen, 0U);
+  EXPECT_GT(hidden, 0U);
+}
+
 /// A number before what hides its cluster would say that the cluster is there.
 TEST(FrontierItems, NumbersAreShownWhereTheirClustersAreAndApartFromEachOther) {
   const Belief& belief = watched().beliefs.back();
@@ -388,23 +413,32 @@ TEST(FrontierItems, NumbersAreShownWhereTheirClustersAreAndApartFromEachOther) {
   ASSERT_GE(decision.plan.clusters.size(), 2U);
   const int last = static_cast<int>(decision.plan.clusters.size()) - 1;
   decision.plan.candidates = {{.view = {}, .sampler = "fvs", .cluster = last}};
-  RenderView far = above;  // all of them in one place
-  far.T_world_camera.translation() *= 1e4;
-  for (const RenderView& view : {above, far}) {
+  std::size_t most = 0;
+  for (const Vec3& from : {Vec3(0.01, 0, 1), Vec3(1, 0, 0.2), Vec3(-1, 0, 0.2), Vec3(0, 1, 0.2),
+                           Vec3(0, -1, 0.2), Vec3(1, 1, 1)}) {
+    const RenderView view = view_along(grid, from);
+    std::size_t in_sight = 0;
+    for (const FrontierCluster& cluster : decision.plan.clusters)
+      in_sight += is_hidden(grid, view, cluster.centroid_world_m, 3.0 * resolution_m) ? 0 : 1;
+    most = std::max(most, in_sight);
     Panel panel;
     add_frontiers(config, decision, 0.1, view, panel);
+    EXPECT_EQ(panel.labels.empty(), in_sight == 0);
+    EXPECT_LE(panel.labels.size(), in_sight);
     for (std::size_t i = 0; i < panel.labels.size(); ++i) {
       EXPECT_FALSE(is_hidden(grid, view, panel.labels[i].p_world_m, 3.0 * resolution_m));
+      const Vec3 px = project(view, panel.labels[i].p_world_m).value();
       for (std::size_t k = 0; k < i; ++k) {
-        EXPECT_GE(
-            (*project(view, panel.labels[i].p_world_m) - *project(view, panel.labels[k].p_world_m))
-                .head<2>()
-                .norm(),
-            20.0);
+        EXPECT_GE((px - *project(view, panel.labels[k].p_world_m)).head<2>().norm(), 30.0);
       }
     }
-    EXPECT_GE(panel.labels.size(), 1U);
+    RenderView small = view;  // all of them in one place
+    small.fov_y_rad = deg_to_rad(170.0);
+    Panel crowded;
+    add_frontiers(config, decision, 0.1, small, crowded);
+    EXPECT_EQ(crowded.labels.size(), std::min<std::size_t>(in_sight, 1));
   }
+  EXPECT_GE(most, 2U);
 }
 
 }  // namespace
