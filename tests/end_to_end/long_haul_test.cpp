@@ -63,7 +63,9 @@ TEST(LongHaul, MemoryDescriptorsAndFilesStayFlat) {
   const double before_mb = *std::max_element(memory_mb.begin(), third);
   fmt::print("missions {}: {:.1f} MB after the first third, {:.1f} MB at the end, {} descriptors\n",
              missions, before_mb, memory_mb.back(), descriptors.back());
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they keep what was freed
   EXPECT_LT(memory_mb.back(), before_mb + 8.0);  // a mission's map and scene alone are more
+#endif
   EXPECT_EQ(descriptors.back(), descriptors.front());
 }
 

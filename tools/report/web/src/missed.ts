@@ -103,7 +103,8 @@ export function makeMissedList(scenes: RunScene[],
         + " m"))));
   }).filter((list) => list !== null);
   return lists.length === 0 ? null : make("section", { class: "card again" },
-    make("h3", { class: "flush" }, "Where most was missed"), ...lists);
+    make("h3", { class: "flush" }, "Where most was missed"),
+    make("div", { class: "missed-runs" }, ...lists));
 }
 
 function sentence(flight: Flight, surface: TrueSurface, missed: number, regions: number): string {
