@@ -29,6 +29,7 @@ constexpr const char* kStyle =
 set minussign
 set border 3 lc rgb '#5c6470' lw 0.8
 set tics out nomirror scale 0.5 textcolor rgb '#3a424d'
+set format x '%g'  # the default keeps room for a sign, left of the number
 set grid lc rgb '#e4e7eb' lt 1 dt 1 lw 0.7
 set key textcolor rgb '#262c36' samplen 1.4 spacing 1.05 reverse Left
 set xlabel textcolor rgb '#262c36' offset 0,0.4
