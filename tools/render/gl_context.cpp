@@ -16,6 +16,9 @@
 // Mesa 22 never frees its record of a context's window: 160 bytes a context
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa.so"; }
+// nor a table of them among what the program says
+extern "C" const char* __lsan_default_options();
+extern "C" const char* __lsan_default_options() { return "print_suppressions=0"; }
 #endif
 
 namespace gnbv {
