@@ -1,6 +1,7 @@
 """What the attacks on run directories share: the program, its runs compared, the table."""
 import argparse
 import csv
+import functools
 import json
 import os
 import pathlib
@@ -14,6 +15,13 @@ import time
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 TIMEOUT_S = 300
+
+
+@functools.cache
+def is_sanitized(program):
+    """Whether a sanitizer goes with it, which takes terabytes of addresses."""
+    code = pathlib.Path(program).read_bytes()
+    return any(name in code for name in (b'__asan_init', b'__tsan_init'))
 
 
 def arguments(doc, tries, extra=None):

@@ -9,7 +9,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from run_attack import Gnbv, Table, arguments
+from run_attack import Gnbv, Table, arguments, is_sanitized
 
 SMOKE = 'run smoke --set planner.termination.max_iterations=3 --out "$OUT"'
 # shell words after the program: expected exit codes
@@ -84,10 +84,9 @@ def attack(gnbv, line, expected):
 
 
 def limits_of(program):
-    """Those that the program can be asked to bear: a sanitizer takes terabytes of addresses."""
-    is_sanitized = any(name in program.read_bytes() for name in (b'__asan_init', b'__tsan_init'))
+    """Those that the program can be asked to bear."""
     return {limit: expected for limit, expected in LIMITS.items()
-            if not (is_sanitized and limit.startswith('ulimit -v'))}
+            if not (is_sanitized(program) and limit.startswith('ulimit -v'))}
 
 
 def main():

@@ -147,12 +147,14 @@ std::size_t resident_bytes() {
 
 TEST(SurfaceCloud, TakesMemoryWhereThePointsAreOnly) {
   const GridGeometry grid(Box3(Vec3(-20, -20, 0), Vec3(20, 20, 20)), 0.05);  // 256 million voxels
-  const std::size_t before = resident_bytes();
+  [[maybe_unused]] const std::size_t before = resident_bytes();
   SurfaceCloud cloud(CloudConfig{}, grid);
   Random random(59);
   cloud.add(random_sheet(random, kBox_m, 4000), 0.02);
   EXPECT_GT(cloud.points_world_m().size(), 1000U);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // theirs grows with addresses
   EXPECT_LT(resident_bytes() - before, std::size_t{64} << 20);
+#endif
   EXPECT_EQ(cloud.density(0), 0.0);
 }
 
