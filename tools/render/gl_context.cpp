@@ -21,6 +21,12 @@ extern "C" const char* __lsan_default_options();
 extern "C" const char* __lsan_default_options() { return "print_suppressions=0"; }
 #endif
 
+#ifdef __SANITIZE_THREAD__
+// Mesa 22 destroys a fence when it has waited for it, while the thread that signalled it returns
+extern "C" const char* __tsan_default_suppressions();
+extern "C" const char* __tsan_default_suppressions() { return "race:libOSMesa.so"; }
+#endif
+
 namespace gnbv {
 namespace {
 
