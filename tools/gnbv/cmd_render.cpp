@@ -47,6 +47,7 @@ class RenderCommand {
       : options_(options), kinds_(kinds_asked(options)), progress_("render", options.quiet) {
     need_consistent(options, kinds_);
     set_camera(options_);
+    set_letters(options_);
     if (options.is_over_surface) options_.picture.surface = made_surface;
     const std::vector<std::string> names = run_names(options.runs);
     for (const fs::path& run : options.runs) {

@@ -129,6 +129,12 @@ void set_camera(RenderOptions& options) {
   if (options.elevation_deg) angles.elevation_rad = deg_to_rad(*options.elevation_deg);
 }
 
+void set_letters(RenderOptions& options) {
+  constexpr double kOnSheet = 1.4;
+  const bool is_for_sheet = !options.sheet.empty() && options.runs.size() > 1;
+  options.picture.letters = options.letters.value_or(is_for_sheet ? kOnSheet : 1.0);
+}
+
 void add_render_options(CLI::App& command, RenderOptions& options) {
   command.add_option("RUN", options.runs, "run directories; all get the same camera")->required();
   command.add_option("--what", options.what, help_on_what())
@@ -157,6 +163,10 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   command.add_option("--film-s", options.film_s, "movie: how long it is (s)")
       ->check(is_positive())
       ->capture_default_str();
+  command
+      .add_option("--letters", options.letters,
+                  "how large words and marks are (default: 1; with a --sheet of several runs 1.4)")
+      ->check(CLI::Range(0.5, 3.0));
   command.add_option("--title", options.picture.title, "(default: scenario and utility)");
   command.add_flag("--with-profile", options.picture.has_profile,
                    "path: the profile's flight, too, wide around the structure");

@@ -22,6 +22,7 @@ struct RenderOptions {
   std::string camera;  // empty: iso, of a profile from higher above
   std::optional<double> azimuth_deg;
   std::optional<double> elevation_deg;
+  std::optional<double> letters;  // nothing: as suits pictures that stand alone, or on a sheet
   PictureOptions picture;
   bool follows = false;
   bool is_over_surface = false;
@@ -48,5 +49,9 @@ void need_consistent(const RenderOptions& options, const std::vector<std::string
 /// Sets the picture's camera; angles of the options replace those of a preset. Throws BadInput as
 /// choose_camera(), and for angles beside a file.
 void set_camera(RenderOptions& options);
+
+/// Sets the size of the picture's words: larger where a sheet of several columns will be shown
+/// smaller than its pictures.
+void set_letters(RenderOptions& options);
 
 }  // namespace gnbv

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tools/render/chosen_view_item.hpp"
 #include "tools/render/frontier_items.hpp"
@@ -12,42 +13,65 @@
 
 namespace gnbv {
 
+const Rgb kOccupiedVoxels = srgb(0xc4ccd6);
 const Rgb kUnknownVoxels = srgb(0xffffff);
+
+const std::vector<Rgb>& score_colours() {
+  static const std::vector<Rgb> colours(amount_colours().begin() + 2, amount_colours().end() - 1);
+  return colours;
+}
 
 namespace {
 
 bool is_around_cluster(const Candidate& candidate) { return candidate.cluster >= 0; }
 
-// Whether a panel holds a line or a ball of that colour alone.
-bool is_drawn(std::span<const Panel> panels, const Rgb& colour) {
-  return std::any_of(panels.begin(), panels.end(), [&](const Panel& panel) {
-    const RenderScene& scene = panel.scene;
-    return std::any_of(scene.tubes.begin(), scene.tubes.end(),
-                       [&](const TubeItem& tube) { return tube.colours.front() == colour; }) ||
-           std::any_of(scene.balls.begin(), scene.balls.end(),
-                       [&](const BallItem& ball) { return ball.colour == colour; });
-  });
+// Whether a panel shows the middle of a line, a ball or a voxel's cube of that colour: these may
+// lie in the surface, but not behind it.
+bool is_in_sight(std::span<const Panel> panels, const Sight& sight, const Rgb& colour) {
+  const auto shows = [&](const RenderView& view, const Vec3f& p_m) {
+    const Vec3 at_m = p_m.cast<double>();
+    return is_within(view, at_m) &&
+           !is_hidden(sight.grid, view, at_m, 1.1 * sight.grid.geometry().resolution_m());
+  };
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    const RenderScene& scene = panels[i].scene;
+    const RenderView& view = sight.views[i];
+    for (const TubeItem& tube : scene.tubes) {
+      const Vec3f middle_m = 0.5F * (tube.points_m.front() + tube.points_m.back());
+      if (tube.colours.front() == colour && shows(view, middle_m)) return true;
+    }
+    for (const BallItem& ball : scene.balls) {
+      if (ball.colour == colour && shows(view, ball.centre_m)) return true;
+    }
+    for (const SurfaceItem& surface : scene.surfaces) {
+      const std::vector<Vec3f>& corners_m = surface.mesh.vertices_m;
+      if (surface.vertex_colours.empty() || surface.vertex_colours.front() != colour) continue;
+      for (std::size_t k = 0; k + 7 < corners_m.size(); k += 8) {
+        if (shows(view, 0.5F * (corners_m[k] + corners_m[k + 7]))) return true;
+      }
+    }
+  }
+  return false;
 }
 
-bool is_shown(const Candidate& candidate, const OccupancyGrid& grid,
-              std::span<const RenderView> views) {
-  const Vec3& p_m = candidate.view.p_world_m;
-  return std::any_of(views.begin(), views.end(), [&](const RenderView& view) {
-    return is_within(view, p_m) && !is_hidden(grid, view, p_m, 0.0);
-  });
+// "0.871", "1,470"
+std::string in_three_digits(double value) {
+  return std::abs(value) < 999.5 ? fmt::format("{:.3g}", value) : grouped(value, 0);
 }
 
 // "valid: 31, utility" from a bar's low end to its high end; without a bar where all have one.
 LegendItem legend_of_valid(const CandidateTally& all) {
   if (all.low == all.high) {
-    return {.label = fmt::format("valid: {}, utility {:.3g}", grouped(all.valid), all.high),
+    return {.label =
+                fmt::format("valid: {}, utility {}", grouped(all.valid), in_three_digits(all.high)),
             .colours = {colour_of_score(all, all.high)},
             .mark = LegendItem::Mark::dot};
   }
-  return {.label = fmt::format("{:.3g}, highest", all.high),
-          .colours = amount_colours(),
-          .label_before = fmt::format("valid: {}, utility {:.3g}", grouped(all.valid), all.low),
-          .label_middle = fmt::format("{:.3g}", 0.5 * (all.low + all.high))};
+  return {.label = in_three_digits(all.high) + ", highest",
+          .colours = score_colours(),
+          .label_before =
+              fmt::format("valid: {}, utility {}", grouped(all.valid), in_three_digits(all.low)),
+          .label_middle = in_three_digits(0.5 * (all.low + all.high))};
 }
 
 // Each with how many of it the picture shows, of how many.
@@ -62,12 +86,21 @@ std::vector<LegendItem> legend_of_rejected(const CandidateTally& all) {
     legend.push_back({fmt::format("{}: {}{}", look.words, seen, grouped(all.rejected[reason])),
                       {look.colour},
                       LegendItem::Mark::dot});
-    if (legend.size() == 1) legend.front().label_before = "rejected:";
+    if (legend.size() == 1)
+      legend.front().label_before = all.unseen == 0 ? "rejected:" : "rejected, in sight of all:";
   }
   return legend;
 }
 
 }  // namespace
+
+bool is_shown(const Candidate& candidate, const OccupancyGrid& grid,
+              std::span<const RenderView> views) {
+  const Vec3& p_m = candidate.view.p_world_m;
+  return std::any_of(views.begin(), views.end(), [&](const RenderView& view) {
+    return is_within(view, p_m) && !is_hidden(grid, view, p_m, 0.0);
+  });
+}
 
 CandidateTally tally(const Plan& plan, const OccupancyGrid& grid,
                      std::span<const RenderView> views) {
@@ -90,7 +123,7 @@ CandidateTally tally(const Plan& plan, const OccupancyGrid& grid,
 }
 
 Rgb colour_of_score(const CandidateTally& all, double score) {
-  return amount_ramp(1.0 - (all.high - score) / std::max(all.high - all.low, 1e-12));
+  return ramp(score_colours(), 1.0 - (all.high - score) / std::max(all.high - all.low, 1e-12));
 }
 
 bool has_frontier_views(const Plan& plan) {
@@ -102,41 +135,38 @@ bool is_chosen_at_frontier(const Plan& plan) {
 }
 
 std::string note_on(const Plan& plan, const CandidateTally& all) {
-  const std::string count = counted(plan.candidates.size(), "candidate");
-  if (all.unseen == 0) return count;
-  return fmt::format("{}, {} of them hidden or beyond the picture", count, grouped(all.unseen));
+  const std::string count = counted(plan.candidates.size(), "candidate") + " as pins";
+  return all.unseen == 0 ? count : fmt::format("{}, {} out of sight", count, grouped(all.unseen));
 }
 
 std::vector<LegendItem> legend_of(const Plan& plan, const CandidateTally& all,
-                                  std::span<const Panel> panels, bool is_unknown_seen) {
+                                  std::span<const Panel> panels, const Sight& sight,
+                                  bool is_unknown_seen) {
   using Mark = LegendItem::Mark;
   std::vector<LegendItem> legend = legend_of_rejected(all);
-  const auto add_drawn = [&](std::string_view words, const Rgb& colour, Mark mark) {
-    if (is_drawn(panels, colour)) legend.push_back({std::string(words), {colour}, mark});
+  const auto add_seen = [&](std::string_view words, const Rgb& colour, Mark mark) {
+    if (is_in_sight(panels, sight, colour)) legend.push_back({std::string(words), {colour}, mark});
   };
   const std::size_t second = legend.size();
   if (all.valid > 0) legend.push_back(legend_of_valid(all));
+  legend.push_back({"occupied", {kOccupiedVoxels}});
   if (is_unknown_seen) legend.push_back({"unknown", {kUnknownVoxels}});
   if (has_frontier_views(plan)) {
-    legend.push_back({"frontier, clusters in sight numbered as tried", {kFrontierLook.frontier}});
-    add_drawn("cluster looked at", kFrontierLook.looked_at, Mark::square);
-    // the balls at their clusters' centroids are of no other
-    const bool has_layers = std::any_of(panels.begin(), panels.end(), [](const Panel& panel) {
-      const std::vector<TubeItem>& tubes = panel.scene.tubes;
-      return std::any_of(tubes.begin(), tubes.end(), [](const TubeItem& tube) {
-        return tube.colours.front() == kFrontierLook.frontier;
-      });
-    });
-    if (has_layers) legend.push_back({"views of a layer", {kFrontierLook.frontier}, Mark::line});
+    const bool is_any_seen = is_in_sight(panels, sight, kFrontierLook.frontier);
+    legend.push_back(
+        {is_any_seen ? "frontier, clusters numbered as tried" : "frontier (none in sight)",
+         {kFrontierLook.frontier}});
+    add_seen("cluster looked at", kFrontierLook.looked_at, Mark::square);
+    add_seen("views of a layer", kFrontierLook.layer, Mark::line);
   }
   const std::size_t third = legend.size();
   legend.push_back({"chosen view", {kChosenLook.chosen}, Mark::ring});
   legend.push_back({"way there", {kChosenLook.chosen}, Mark::line});
   legend.push_back({"view before", {kChosenLook.before}, Mark::ring});
-  legend.push_back({"pyramid", {kChosenLook.pyramid}, Mark::line});
-  add_drawn("ray through free", kChosenLook.ray_free, Mark::line);
-  add_drawn("through unknown", kChosenLook.ray_unknown, Mark::line);
-  add_drawn("meets surface", kChosenLook.hit, Mark::dot);
+  legend.push_back({"its camera", {kChosenLook.pyramid}, Mark::pyramid});
+  add_seen("ray through free", kChosenLook.ray_free, Mark::line);
+  add_seen("through unknown", kChosenLook.ray_unknown, Mark::line);
+  add_seen("meets surface", kChosenLook.hit, Mark::dot);
   if (second < third) legend[second].begins_row = true;
   legend[third].begins_row = true;
   return legend;

@@ -21,9 +21,16 @@ struct CandidateTally {
   double high = -std::numeric_limits<double>::infinity();
 };
 
+/// Whether one of the views shows where it stands.
+bool is_shown(const Candidate& candidate, const OccupancyGrid& grid,
+              std::span<const RenderView> views);
+
 /// As panels show them that are seen from there.
 CandidateTally tally(const Plan& plan, const OccupancyGrid& grid,
                      std::span<const RenderView> views);
+
+/// Those of amounts without their ends, which rejections' colours come close to.
+const std::vector<Rgb>& score_colours();
 
 /// A share of the way from the lowest score to the highest: where these are one, it is the highest.
 Rgb colour_of_score(const CandidateTally& all, double score);
@@ -32,16 +39,22 @@ Rgb colour_of_score(const CandidateTally& all, double score);
 bool has_frontier_views(const Plan& plan);
 bool is_chosen_at_frontier(const Plan& plan);
 
-/// "104 candidates, 64 of them hidden or beyond the picture"
+/// "104 candidates as pins, 64 out of sight": hidden, or beyond the picture.
 std::string note_on(const Plan& plan, const CandidateTally& all);
 
-/// A row of those rejected ("collision: 74 of 132" that it shows), one of what could be chosen and
-/// what of the map is to be seen, one of the chosen view. Of lines and balls nothing that no panel
-/// holds.
-std::vector<LegendItem> legend_of(const Plan& plan, const CandidateTally& all,
-                                  std::span<const Panel> panels, bool is_unknown_seen);
+/// What hides things, and from where each panel is seen.
+struct Sight {
+  const OccupancyGrid& grid;
+  std::span<const RenderView> views;
+};
 
-/// Of unknown voxels.
-extern const Rgb kUnknownVoxels;
+/// A row of those rejected ("collision: 74 of 132" that it shows), one of what could be chosen and
+/// what of the map is to be seen, one of the chosen view. Of lines, balls and clusters nothing that
+/// no panel shows.
+std::vector<LegendItem> legend_of(const Plan& plan, const CandidateTally& all,
+                                  std::span<const Panel> panels, const Sight& sight,
+                                  bool is_unknown_seen);
+
+extern const Rgb kOccupiedVoxels, kUnknownVoxels;
 
 }  // namespace gnbv

@@ -31,13 +31,16 @@ double round_length_m(double limit_m) {
 
 bool is_bar(const LegendItem& item) { return item.colours.size() > 1; }
 
-double middle_width(const LegendItem& item) {
-  return item.label_middle.empty() ? 0.0 : text_width_px(item.label_middle, kLetter) + 12.0;
-}
-
 double mark_width(const LegendItem& item) {
-  if (is_bar(item)) return kBar + middle_width(item);
-  return item.mark == LegendItem::Mark::line ? 30.0 : 10.0;
+  if (is_bar(item)) return kBar;
+  switch (item.mark) {
+    case LegendItem::Mark::line:
+      return 30.0;
+    case LegendItem::Mark::pyramid:
+      return 20.0;
+    default:
+      return 10.0;
+  }
 }
 
 double item_width(const LegendItem& item) {
@@ -56,15 +59,34 @@ void draw_square(Image& image, const std::array<double, 2>& middle, double half_
   }
 }
 
+// As high as the number on it asks for, which is white on what is dark and ink on what is not.
 void draw_bar(Image& image, const LegendItem& item, double x, double y, double u) {
   const double whole = kBar * u;
-  const double apart = middle_width(item) * u;
+  const double half = (item.label_middle.empty() ? 3.0 : 8.0) * u;
   for (double at = 0.0; at < whole; at += 1.0) {
-    const double begin = x + at + (2.0 * at < whole ? 0.0 : apart);
-    draw_line(image, {begin, y}, {begin + std::min(1.0, whole - at), y}, 6.0 * u,
-              to_rgb8(ramp(item.colours, at / whole)));
+    draw_box(image, {x + at, y - half}, {x + std::min(at + 1.0, whole), y + half},
+             to_rgb8(ramp(item.colours, at / whole)), 1.0);
   }
-  draw_text(image, item.label_middle, x + (0.5 * kBar + 6.0) * u, y + 5.0 * u, kLetter * u, kInk);
+  if (item.label_middle.empty()) return;
+  const Rgb middle = ramp(item.colours, 0.5);
+  const double luminance = 0.2126 * middle[0] + 0.7152 * middle[1] + 0.0722 * middle[2];
+  constexpr double kPale = 0.35;
+  const Rgb8 ink = luminance > kPale ? kInk : Rgb8{255, 255, 255};
+  const double width = text_width_px(item.label_middle, kLetter * u);
+  draw_text(image, item.label_middle, x + 0.5 * (whole - width), y + 5.0 * u, kLetter * u, ink);
+}
+
+// From its apex at the left to the far side that it opens to.
+void draw_pyramid(Image& image, double x, double y, double u, const Rgb8& colour) {
+  const std::array<double, 2> apex = {x + 1.0 * u, y};
+  const std::array<std::array<double, 2>, 4> far = {{{x + 14.0 * u, y - 7.0 * u},
+                                                     {x + 19.0 * u, y - 3.0 * u},
+                                                     {x + 19.0 * u, y + 7.0 * u},
+                                                     {x + 14.0 * u, y + 3.0 * u}}};
+  for (std::size_t i = 0; i < far.size(); ++i) {
+    draw_line(image, apex, far[i], 1.5 * u, colour);
+    draw_line(image, far[i], far[(i + 1) % far.size()], 1.5 * u, colour);
+  }
 }
 
 void draw_mark(Image& image, const LegendItem& item, double x, double y, double u) {
@@ -78,6 +100,9 @@ void draw_mark(Image& image, const LegendItem& item, double x, double y, double 
       break;
     case LegendItem::Mark::dot:
       draw_line(image, {middle, y}, {middle, y}, 10.0 * u, colour);
+      break;
+    case LegendItem::Mark::pyramid:
+      draw_pyramid(image, x, y, u, colour);
       break;
     case LegendItem::Mark::ring:
       draw_line(image, {middle, y}, {middle, y}, 11.0 * u, colour);
@@ -183,13 +208,14 @@ double layout_unit_px(int width_px, int height_px) {
 
 bool fits_caption(int width_px, int height_px) { return width_px >= 320 && height_px >= 240; }
 
-FrameMargins caption_margins(int width_px, int height_px, int legend_rows) {
-  const double u = layout_unit_px(width_px, height_px) / height_px;
+FrameMargins caption_margins(int width_px, int height_px, double unit_px, int legend_rows) {
+  const double u = unit_px / height_px;
+  const double rows = std::ceil(legend_rows * std::max(1.0, 1280.0 * unit_px / width_px) - 0.01);
   // the title fills a corner that wide pictures leave free anyway
   const bool is_wide = 3 * width_px > 4 * height_px;
   FrameMargins margins;
   margins.top = (is_wide ? 34.0 : 82.0) * u;
-  margins.bottom = (24.0 + kRow * legend_rows) * u;
+  margins.bottom = (32.0 + kRow * rows) * u;
   return margins;
 }
 
@@ -197,10 +223,13 @@ double legend_paper_height(int rows, double width) {
   return kRow * std::ceil(rows * std::max(1.0, 1280.0 / width)) + 2.0 * kPaperBorder;
 }
 
-double draw_scale(Image& image, const RenderView& view, double u) {
+double scale_length_m(const RenderView& view) {
+  return round_length_m(0.16 * view.width_px / px_per_m_at_focus(view));
+}
+
+double draw_scale(Image& image, const RenderView& view, double u, double length_m) {
   const double bottom = image.height_px - 24.0 * u;
   const double px_per_m = px_per_m_at_focus(view);
-  const double length_m = round_length_m(0.16 * view.width_px / px_per_m);
   const double x0 = kBorder * u;
   const double x1 = x0 + length_m * px_per_m;
   constexpr Rgb8 kPaper = {228, 231, 235};  // a halo, as that of the words
@@ -219,7 +248,7 @@ double px_per_m_at_focus(const RenderView& view) {
 }
 
 void draw_caption(Image& image, const Caption& caption, const RenderView& view) {
-  const double u = layout_unit_px(image.width_px, image.height_px);
+  const double u = caption.letters * layout_unit_px(image.width_px, image.height_px);
   const double width = image.width_px - 2.0 * kBorder * u;
   const double halo = caption.paper_px > 0 || caption.has_sheet ? 0.0 : kHalo * u;
   const double title_px = fitting_height_px(caption.title, 15.0 * u, width);
@@ -233,7 +262,8 @@ void draw_caption(Image& image, const Caption& caption, const RenderView& view) 
   draw_text(image, caption.title, kBorder * u, 40.0 * u, title_px, kInk, halo);
   draw_text(image, caption.detail, kBorder * u, 64.0 * u, detail_px, kPaleInk, halo);
   if (caption.paper_px > 0) return draw_legend_on_paper(image, caption, u);
-  const double scale_end = caption.has_scale ? draw_scale(image, view, u) : 0.0;
+  const double scale_end =
+      caption.has_scale ? draw_scale(image, view, u, scale_length_m(view)) : 0.0;
   draw_legend(image, placed(image, caption.legend, u, image.height_px - 24.0 * u, scale_end), u);
 }
 

@@ -11,7 +11,7 @@ namespace gnbv {
 const ChosenViewLook kChosenLook = {.chosen = srgb(0xd5420a),
                                     .pyramid = srgb(0x2b323c),
                                     .before = srgb(0x14181e),
-                                    .ray_free = srgb(0x737e8c),
+                                    .ray_free = srgb(0x9aa5b3),
                                     .ray_unknown = srgb(0xe69f00),
                                     .hit = srgb(0x14181e)};
 

@@ -1,6 +1,8 @@
 #include "tools/render/flight_items.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <span>
 
 namespace gnbv {
 namespace {
@@ -31,15 +33,25 @@ std::vector<std::size_t> simplified(const std::vector<Vec3>& path, double tolera
   return kept;
 }
 
-// Metres flown up to each sample since the profile's flight ended; 0 during it.
-std::vector<double> planned_metres(const RunRecord& record, const std::vector<Vec3>& path,
-                                   double begin_s) {
-  std::vector<double> metres(path.size(), 0.0);
-  for (std::size_t i = 1; i < metres.size(); ++i) {
-    const double step_m = (path[i] - path[i - 1]).norm();
-    metres[i] = metres[i - 1] + (record.path[i - 1].time_s >= begin_s ? step_m : 0.0);
+// Metres flown since the profile's flight ended.
+double planned_metres(const RunRecord& record, const std::vector<Vec3>& path, double begin_s) {
+  double metres = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    if (record.path[i - 1].time_s >= begin_s) metres += (path[i] - path[i - 1]).norm();
   }
   return metres;
+}
+
+// How far a time is in the order of the views: 0 at the first one, 1 at the last.
+double share_of_views(std::span<const ViewRecord> views, double time_s) {
+  const auto is_later = [](double t_s, const ViewRecord& view) { return t_s < view.time_s; };
+  const auto next = std::upper_bound(views.begin(), views.end(), time_s, is_later);
+  if (next == views.begin()) return 0.0;
+  if (next == views.end()) return views.size() > 1 ? 1.0 : 0.0;
+  const ViewRecord& before = *std::prev(next);
+  const double within = (time_s - before.time_s) / (next->time_s - before.time_s);
+  return (static_cast<double>(next - views.begin()) - 1.0 + within) /
+         static_cast<double>(views.size() - 1);
 }
 
 }  // namespace
@@ -53,8 +65,7 @@ void add_flight(const RunRecord& record, const FlightLook& look, RenderScene& sc
     path.push_back(sample.T_world_body.translation());
   }
   const double begin_s = record.views_begin_s.value_or(record.path.front().time_s);
-  const std::vector<double> metres = planned_metres(record, path, begin_s);
-  const double total_m = std::max(metres.back(), 1e-9);
+  const double total_m = std::max(planned_metres(record, path, begin_s), 1e-9);
   const double width_m = look.thickness * look.unit_m;
   TubeItem profile{{}, {kProfileColour}, static_cast<float>(0.9 * width_m)};
   TubeItem planned{{}, {}, static_cast<float>(1.8 * width_m)};
@@ -65,7 +76,7 @@ void add_flight(const RunRecord& record, const FlightLook& look, RenderScene& sc
     if (is_profile || planned.points_m.empty()) profile.points_m.push_back(p);
     if (is_profile) continue;
     planned.points_m.push_back(p);
-    planned.colours.push_back(path_ramp(metres[i] / total_m));
+    planned.colours.push_back(path_ramp(share_of_views(record.views, record.path[i].time_s)));
   }
   if (look.has_profile && profile.points_m.size() > 1) scene.tubes.push_back(std::move(profile));
   if (!planned.points_m.empty()) scene.tubes.push_back(std::move(planned));

@@ -18,8 +18,8 @@ struct FlightLook {
   double thickness = 1.0;                                    // of lines and balls
 };
 
-/// The profile's flight in grey, the planned one coloured by the metres flown from its first view
-/// to its last. Samples on straight lines are left out.
+/// The profile's flight in grey, the planned one in the colours of its views' order, as add_views()
+/// has them. Samples on straight lines are left out.
 void add_flight(const RunRecord& record, const FlightLook& look, RenderScene& scene);
 
 /// Of which views the cameras' pyramids are drawn: each `every`-th; 0: of some 40 in all.

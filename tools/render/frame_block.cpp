@@ -120,7 +120,7 @@ FrameBlock make_frame_block(const RenderScene& scene, const RenderView& view,
   const double hollow_m =
       std::min({0.035 * scene_size_m(scene, lists), 0.06 * 2.0 * view.focus_m / f,
                 scene.hollow_m.value_or(std::numeric_limits<double>::infinity())});
-  frame.hollow = {static_cast<float>(hollow_m), has_ground ? 1.0F : 0.0F, 0.0F, 0.0F};
+  frame.hollow = {static_cast<float>(hollow_m), has_ground ? 1.0F : 0.0F, scene.shading, 0.0F};
   frame.clip_from_world = (clip_from_gl * view.T_world_camera.inverse().matrix()).cast<float>();
   return frame;
 }

@@ -13,7 +13,8 @@
 
 namespace gnbv {
 
-const FrontierLook kFrontierLook = {.frontier = srgb(0x56b4e9), .looked_at = srgb(0x0b5fa5)};
+const FrontierLook kFrontierLook = {
+    .frontier = srgb(0x56b4e9), .looked_at = srgb(0x0b5fa5), .layer = srgb(0x8a9fc0)};
 
 namespace {
 
@@ -45,7 +46,7 @@ void add_layers(const Plan& plan, std::span<const FrontierCluster> clusters, dou
           a.rejected == Rejection::out_of_bounds || b.rejected == Rejection::out_of_bounds;
       if (is_beyond) continue;
       scene.tubes.push_back(
-          path_tube({a.view.p_world_m, b.view.p_world_m}, 0.6 * unit_m, kFrontierLook.frontier));
+          path_tube({a.view.p_world_m, b.view.p_world_m}, 0.5 * unit_m, kFrontierLook.layer));
     }
   }
 }
@@ -103,7 +104,8 @@ void add_frontiers(const FrontierConfig& config, const ReplayedDecision& decisio
     const Vec3& centre_m = clusters[i].centroid_world_m;
     scene.balls.push_back({centre_m.cast<float>(),
                            static_cast<float>((is_chosen ? 6.0 : 4.5) * unit_m), colour.front()});
-    const PlaceLabel label{centre_m, fmt::format("{}", i + 1), to_rgb8(kFrontierLook.looked_at)};
+    const PlaceLabel label{centre_m, fmt::format("{}", i + 1), to_rgb8(kFrontierLook.looked_at),
+                           true};
     labels.insert(is_chosen ? labels.begin() : labels.end(), label);
   }
   panel.labels = legible(labels, belief.grid, view);

@@ -8,7 +8,7 @@
 namespace gnbv {
 
 struct FrontierLook {
-  Rgb frontier, looked_at;
+  Rgb frontier, looked_at, layer;
 };
 extern const FrontierLook kFrontierLook;
 

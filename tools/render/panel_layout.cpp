@@ -43,8 +43,9 @@ std::vector<FrameMargins> margins_to_try(const Lone& lone) {
   if (!has_words(lone.options)) return {FrameMargins{}};
   const int width_px = lone.options.width_px;
   const int height_px = lone.options.height_px;
-  const FrameMargins whole = caption_margins(width_px, height_px, lone.kind.legend_rows);
-  const double beside_px = 4.0 * layout_unit_px(width_px, height_px);
+  const double u = unit_px(lone.options);
+  const FrameMargins whole = caption_margins(width_px, height_px, u, lone.kind.legend_rows);
+  const double beside_px = 4.0 * u;
   const double below = (lone.title_px[1] + beside_px) / height_px;
   const double below_all = (std::max(lone.title_px[1], lone.inset_px[1]) + beside_px) / height_px;
   constexpr int kSteps = 4;
@@ -80,7 +81,7 @@ Lone lone_picture(const PictureKind& kind, std::span<RunSource* const> runs,
                   const PictureOptions& options, std::vector<Vec3> points_world_m) {
   Lone lone{kind, options, std::move(points_world_m), {0.0, 0.0}, {0.0, 0.0}};
   if (!has_words(options)) return lone;
-  const double u = layout_unit_px(options.width_px, options.height_px);
+  const double u = unit_px(options);
   lone.title_px = {kind.words_width * u, 78.0 * u};
   if (!kind.has_inset) return lone;
   lone.inset_px[0] = kInsetShare * options.width_px + (kInsetBorder + 2.0) * u;
@@ -97,7 +98,7 @@ Lone lone_picture(const PictureKind& kind, std::span<RunSource* const> runs,
 std::optional<PanelLayout> in_columns(const PictureKind& kind, const PictureOptions& options,
                                       int columns) {
   PanelLayout layout{.columns = columns, .rows = (kind.panels + columns - 1) / columns, .view = {}};
-  const double u = layout_unit_px(options.width_px, options.height_px);
+  const double u = unit_px(options);
   const auto px = [&](double units) { return static_cast<int>(std::lround(units * u)); };
   layout.gap_px = std::max(2, px(6.0));
   if (has_words(options)) {
@@ -123,7 +124,7 @@ std::optional<PanelLayout> in_columns(const PictureKind& kind, const PictureOpti
 std::optional<RenderView> framed_panel(const PictureKind& kind, const PictureOptions& options,
                                        const RenderView& panel,
                                        const std::vector<Vec3>& points_world_m) {
-  const double u = layout_unit_px(options.width_px, options.height_px);
+  const double u = unit_px(options);
   FrameMargins margins;
   if (has_words(options)) margins.bottom = 36.0 * u / panel.height_px;  // the scale's
   if (!leaves_room(margins)) return std::nullopt;
@@ -150,7 +151,7 @@ std::array<int, 2> PanelLayout::place_px(std::size_t i) const {
 
 double panel_unit_m(const PictureOptions& options, const RenderView& panel) {
   constexpr double kThinner = 0.7;
-  return kThinner * layout_unit_px(options.width_px, options.height_px) / px_per_m_at_focus(panel);
+  return kThinner * unit_px(options) / px_per_m_at_focus(panel);
 }
 
 bool has_words(const PictureOptions& options) {
@@ -158,7 +159,11 @@ bool has_words(const PictureOptions& options) {
 }
 
 PanelLayout lay_out(const PictureKind& kind, std::span<RunSource* const> runs,
-                    const PictureOptions& options) {
+                    const PictureOptions& asked) {
+  PictureOptions options = asked;
+  if (kind.best_angles != nullptr && !options.angles && !options.camera) {
+    options.angles = kind.best_angles(runs, asked);
+  }
   std::vector<Vec3> points;
   for (RunSource* const run : runs) kind.frame(*run, options, points);
   std::optional<PanelLayout> best;

@@ -8,6 +8,10 @@ namespace gnbv {
 
 const Rgb kGhostColour = srgb(0xc9d1da);
 
+double unit_px(const PictureOptions& options) {
+  return options.letters * layout_unit_px(options.width_px, options.height_px);
+}
+
 double layout_unit_m(const RenderView& view) {
   return layout_unit_px(view.width_px, view.height_px) / px_per_m_at_focus(view);
 }

@@ -26,6 +26,7 @@ struct PictureOptions {
   bool has_profile = false;  // show the profile's flight, wide around the structure
   bool has_caption = true;   // pictures under 320 x 240 px never have one
   std::string title;         // empty: scenario and utility
+  double letters = 1.0;      // how large words and marks are, of what suits a picture of its own
   /// path: what stands there instead of the structure, of pieces no longer than given (m).
   std::function<SurfaceItem(RunSource&, double)> surface = {};
   /// coverage: from where the second panel looks, where several pictures share that.
@@ -34,11 +35,13 @@ struct PictureOptions {
   std::optional<std::array<double, 2>> colour_range = {};
 };
 
-/// Words beside a place in the world; or on it, white on a badge of a colour.
+/// Words beside a place in the world; or on it, white on a badge of a colour, or on a badge that a
+/// line joins to it, where no end of a line and no other such badge is.
 struct PlaceLabel {
   Vec3 p_world_m;
   std::string text;
   std::optional<Rgb8> badge = {};
+  bool is_aside = false;
 };
 
 /// A line between two places that shows through everything, edged in white; a dot where they are
@@ -80,6 +83,9 @@ struct PictureKind {
   int legend_rows = 1;         // of a picture of 1280 units
   double words_width = 520.0;  // layout units that title and figures take, about
   bool has_inset = false;
+  /// From where it is best seen, for lack of an answer by the user; null: from `angles`.
+  ViewAngles (*best_angles)(std::span<RunSource* const> runs,
+                            const PictureOptions& options) = nullptr;
   /// Appends the points that have to be seen.
   void (*frame)(RunSource& run, const PictureOptions& options, std::vector<Vec3>& points_world_m);
   /// What the two ends of the colours stand for in a picture of its own; null: nothing that runs
@@ -104,6 +110,9 @@ extern const PictureKind kPlanPicture;
 
 /// Of the structure as add_ghost() draws it.
 extern const Rgb kGhostColour;
+
+/// Pixels of a layout unit (caption.hpp) of a picture with letters as large as asked for.
+double unit_px(const PictureOptions& options);
 
 /// Metres, at the view's subject, of a layout unit (caption.hpp).
 double layout_unit_m(const RenderView& view);

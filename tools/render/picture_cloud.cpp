@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "bench/score/voxel_set.hpp"
 #include "tools/render/picture.hpp"
@@ -11,7 +12,7 @@
 namespace gnbv {
 namespace {
 
-const Rgb kProfileOnly = srgb(0xb3bbc5);
+const Rgb kProfileOnly = srgb(0xc99a6b);  // a hue that the amounts do not have
 
 void frame_cloud(RunSource& run, const PictureOptions&, std::vector<Vec3>& points_world_m) {
   frame_structure(run, points_world_m);
@@ -49,11 +50,14 @@ std::size_t points_of(RunSource& run, const PictureOptions& options) {
   return run.cloud().view_points[iteration_of(run.record(), options, 0)];
 }
 
-/// From 1 to what 95 % of the points stay under: the few densest voxels would leave everything else
-/// in one colour.
+/// From 1 to what 95 % of the points stay under, in two digits: the few densest voxels would leave
+/// everything else in one colour.
 std::array<double, 2> range_of(std::vector<std::uint32_t> counts) {
+  if (counts.empty()) return {1.0, 1.0};
   std::sort(counts.begin(), counts.end());
-  return {1.0, counts.empty() ? 1.0 : static_cast<double>(counts[counts.size() * 95 / 100])};
+  const double most = counts[counts.size() * 95 / 100];
+  const double digit = std::pow(10.0, std::max(0.0, std::floor(std::log10(most)) - 1.0));
+  return {1.0, digit * std::ceil(most / digit)};
 }
 
 std::array<double, 2> density_range(RunSource& run, const PictureOptions& options) {
@@ -81,17 +85,22 @@ Picture draw_cloud(RunSource& run, const PictureOptions& options, const RenderVi
   RenderScene& scene = picture.panels.front().scene;
   add_ground(run, scene);
   scene.dots.push_back(std::move(dots));
+  scene.shading = kDataShading;
   picture.detail = counted(points.size(), "point");
   if (options.iteration) {
     picture.detail += " after " + views_so_far(record, iteration_of(record, options, 0));
   }
-  if (std::count(are_alone.begin(), are_alone.end(), true) > 0) {
-    picture.legend.push_back({"seen by the profile alone", {kProfileOnly}, LegendItem::Mark::dot});
+  const auto alone = static_cast<std::size_t>(std::count(are_alone.begin(), are_alone.end(), true));
+  if (alone > 0) {
+    picture.legend.push_back({fmt::format("seen by the profile alone: {}", counted(alone, "point")),
+                              {kProfileOnly},
+                              LegendItem::Mark::dot});
   }
-  picture.legend.push_back({.label = fmt::format("{:.0f} or more", top),
-                            .colours = amount_colours(),
-                            .label_before = fmt::format("points in a voxel of {} m: 1", voxel_m),
-                            .label_middle = fmt::format("{:.0f}", 0.5 * (1.0 + top))});
+  picture.legend.push_back(
+      {.label = fmt::format("{:.0f} or more", top),
+       .colours = amount_colours(),
+       .label_before = fmt::format("points in their voxel of {} m, from 1", voxel_m),
+       .label_middle = fmt::format("{:.0f}", 0.5 * (1.0 + top))});
   return picture;
 }
 

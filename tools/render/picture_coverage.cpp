@@ -75,14 +75,13 @@ int factor_of(const RenderView& view) {
   return std::max(1, static_cast<int>(std::ceil(kLeast_px / voxel_px - 1e-9)));
 }
 
-/// How many of the points nothing hides from that side.
-std::size_t open_points(const RayScene& scene, std::span<const Vec3f> points_world_m,
-                        const Vec3f& to_camera, double size_m) {
-  const std::vector<Vec3f> directions(points_world_m.size(), to_camera);
+/// Which of the points something hides in those directions (n).
+std::vector<std::uint8_t> are_hidden(const RayScene& scene, std::span<const Vec3f> points_world_m,
+                                     std::span<const Vec3f> directions, double size_m) {
   std::vector<std::uint8_t> is_hidden(points_world_m.size());
   scene.anything_blocks(points_world_m, directions, static_cast<float>(0.2 * size_m), kEndless,
                         is_hidden);
-  return static_cast<std::size_t>(std::count(is_hidden.begin(), is_hidden.end(), 0));
+  return is_hidden;
 }
 
 Vec3 to_camera(const ViewAngles& angles) {
@@ -109,8 +108,10 @@ std::vector<double> shares_shown(RunSource& run, const std::vector<Vec3f>& misse
   for (std::size_t i = 0; i < missed_world_m.size(); i += step) asked.push_back(missed_world_m[i]);
   std::vector<double> shares;
   for (const ViewAngles& angles : directions()) {
-    const std::size_t open =
-        open_points(run.scene(), asked, to_camera(angles).cast<float>(), kCoverageSizes_m.front());
+    const std::vector<Vec3f> directions(asked.size(), to_camera(angles).cast<float>());
+    const std::vector<std::uint8_t> is_hidden =
+        are_hidden(run.scene(), asked, directions, kCoverageSizes_m.front());
+    const auto open = std::count(is_hidden.begin(), is_hidden.end(), 0);
     shares.push_back(static_cast<double>(open) /
                      static_cast<double>(std::max<std::size_t>(1, asked.size())));
   }
@@ -163,6 +164,39 @@ std::string side_of(const ViewAngles& angles, const RenderView& first) {
                                                            : "");
 }
 
+/// Which of the points a picture shows (n).
+std::vector<bool> in_sight(RunSource& run, std::span<const Vec3f> points_world_m,
+                           const RenderView& view) {
+  const Vec3f eye = view.T_world_camera.translation().cast<float>();
+  std::vector<Vec3f> directions;
+  for (const Vec3f& p_m : points_world_m) directions.push_back((eye - p_m).normalized());
+  const std::vector<std::uint8_t> is_hidden =
+      are_hidden(run.scene(), points_world_m, directions, kCoverageSizes_m.front());
+  std::vector<bool> is_shown;
+  for (std::size_t i = 0; i < points_world_m.size(); ++i) {
+    is_shown.push_back(is_hidden[i] == 0 && is_within(view, points_world_m[i].cast<double>()));
+  }
+  return is_shown;
+}
+
+/// What each panel shows of the points, and what neither does.
+struct InSight {
+  std::size_t first = 0, second = 0, neither = 0;
+};
+
+InSight count_in_sight(RunSource& run, std::span<const Vec3f> points_world_m,
+                       const RenderView& first, const RenderView& second) {
+  const std::vector<bool> in_first = in_sight(run, points_world_m, first);
+  const std::vector<bool> in_second = in_sight(run, points_world_m, second);
+  InSight counts;
+  for (std::size_t i = 0; i < points_world_m.size(); ++i) {
+    counts.first += in_first[i] ? 1 : 0;
+    counts.second += in_second[i] ? 1 : 0;
+    counts.neither += in_first[i] || in_second[i] ? 0 : 1;
+  }
+  return counts;
+}
+
 RenderView other_view(RunSource& run, const ViewAngles& angles, const RenderView& view) {
   std::vector<Vec3> points;
   frame_structure(run, points);
@@ -185,10 +219,14 @@ Picture draw_coverage(RunSource& run, const PictureOptions& options, const Rende
   RenderScene& scene = picture.panels[0].scene;
   add_ground(run, scene);
   scene.surfaces.push_back(faces_of(surface, judged.is_missed, factor));
+  scene.shading = kDataShading;
   picture.panels[1].scene = scene;
   picture.panels[1].view = other_view(run, other, view);
-  picture.panels[1].note = fmt::format("more of it shows from {}", side_of(other, view));
-  picture.panels[0].note = fmt::format("{} missed", counted(missed, "voxel"));
+  const InSight counts = count_in_sight(run, judged.missed_world_m, view, *picture.panels[1].view);
+  picture.panels[0].note = fmt::format("{} missed, {} of them in sight", counted(missed, "voxel"),
+                                       grouped(counts.first));
+  picture.panels[1].note = fmt::format("{} in sight from {}; {} in neither", grouped(counts.second),
+                                       side_of(other, view), grouped(counts.neither));
   const double share = static_cast<double>(surface.size() - missed) /
                        static_cast<double>(std::max<std::size_t>(1, surface.size()));
   picture.detail = fmt::format("{:.1f} % of {} surface voxels of {} m covered", 100.0 * share,

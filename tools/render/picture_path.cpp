@@ -18,12 +18,12 @@ void frame_path(RunSource& run, const PictureOptions& options, std::vector<Vec3>
     points_world_m.push_back(view.decision.view.p_world_m);
 }
 
-/// Where the first view is, and the last.
-void add_ends(const RunRecord& record, double unit_m, Panel& panel) {
+/// Where the first view is, and the last: over everything, or who finds the end of a tangle?
+void add_ends(const RunRecord& record, Panel& panel) {
   if (record.views.empty()) return;
   const auto mark = [&](const ViewRecord& view, const Rgb& colour, const char* word) {
     const Vec3& p_m = view.decision.view.p_world_m;
-    panel.scene.balls.push_back({p_m.cast<float>(), static_cast<float>(7.0 * unit_m), colour});
+    panel.lines.push_back({p_m, p_m, to_rgb8(colour), 13.0});
     panel.labels.push_back({p_m, word});
   };
   mark(record.views.front(), path_ramp(0.0), "start");
@@ -53,7 +53,7 @@ Picture draw_path(RunSource& run, const PictureOptions& options, const RenderVie
   const FlightLook look{.unit_m = layout_unit_m(view), .has_profile = options.has_profile};
   add_flight(record, look, scene);
   add_views(record, record.views.size(), options.every, look, scene);
-  add_ends(record, look.unit_m, picture.panels.front());
+  add_ends(record, picture.panels.front());
   if (record.views_begin_s && options.has_profile) {
     picture.legend.push_back({"profile", {kProfileColour}, LegendItem::Mark::line});
   }
@@ -61,9 +61,9 @@ Picture draw_path(RunSource& run, const PictureOptions& options, const RenderVie
   const std::size_t step = pyramid_step(record.views.size(), options.every);
   picture.legend.push_back({step > 1 ? fmt::format("cameras, one view in {}", step) : "cameras",
                             {path_ramp(0.5)},
-                            LegendItem::Mark::line});
+                            LegendItem::Mark::pyramid});
   picture.legend.push_back(
-      {.label = "last", .colours = path_colours(), .label_before = "first view"});
+      {.label = "last", .colours = path_colours(), .label_before = "views and way, first"});
   return picture;
 }
 

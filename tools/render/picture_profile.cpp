@@ -48,7 +48,8 @@ Panel panel_of(RunSource& run, const ProfileStage& stage, double unit_m) {
   const double leaf_m = run.record().scenario.planner.cloud.profile_leaf_m;
   Panel panel;
   RenderScene& scene = panel.scene;
-  add_ghost(run, 0.45F, scene);
+  scene.shading = kDataShading;
+  add_ghost(run, 0.6F, scene);
   scene.dots.push_back({.points_m = stage.points_world_m,
                         .normals = point_normals(stage.points_world_m, 2.5 * leaf_m),
                         .colours = {kPoints},
@@ -79,10 +80,12 @@ Picture draw_profile(RunSource& run, const PictureOptions& options, const Render
   picture.detail =
       fmt::format("profile of {}, {:.1f} s", counted(stages.back().waypoints, "waypoint"),
                   run.record().profile_end_s.value_or(0.0));
-  picture.legend = {
-      {"flown from S, waypoints numbered", {kProfilePath}, LegendItem::Mark::line},
-      {"workspace", {kWorkspace}, LegendItem::Mark::line},
-      {fmt::format("LIDAR points, one in {} m", leaf_m), {kPoints}, LegendItem::Mark::dot}};
+  picture.legend = {{"flown from S, waypoints numbered", {kProfilePath}, LegendItem::Mark::line},
+                    {"workspace", {kWorkspace}, LegendItem::Mark::line},
+                    {"structure", {kGhostColour}},
+                    {fmt::format("LIDAR points, thinned to one in {} m", leaf_m),
+                     {kPoints},
+                     LegendItem::Mark::dot}};
   return picture;
 }
 

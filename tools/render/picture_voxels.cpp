@@ -11,7 +11,7 @@ namespace gnbv {
 namespace {
 
 const Rgb kPredicted = srgb(0xd5309c);
-const Rgb kUnknown = srgb(0xffffff);
+const Rgb kUnknown = srgb(0xffdf8a);  // a hue that neither ground nor heights have
 
 void frame_voxels(RunSource& run, const PictureOptions&, std::vector<Vec3>& points_world_m) {
   frame_structure(run, points_world_m);
@@ -23,7 +23,26 @@ std::array<double, 2> height_range(RunSource& run, const PictureOptions&) {
   return {std::max(0.0, box_m.min().z()), box_m.max().z()};
 }
 
-Picture draw_voxels(RunSource& run, const PictureOptions& options, const RenderView&) {
+/// "1,234 voxels of 0.2 m occupied, 5 predicted, none of these in sight"
+std::string counts_of(const SortedVoxels& voxels, double resolution_m, bool is_predicted_seen) {
+  const std::string words =
+      fmt::format("{} of {} m occupied", counted(voxels.occupied.size(), "voxel"), resolution_m);
+  if (voxels.predicted.empty()) return words;
+  return words + fmt::format(", {} predicted{}", grouped(voxels.predicted.size()),
+                             is_predicted_seen ? "" : ", none of these in sight");
+}
+
+/// Whether they do not all lie behind others.
+bool is_any_seen(std::span<const VoxelIndex> voxels, const OccupancyGrid& grid,
+                 const RenderView& view) {
+  const GridGeometry& geometry = grid.geometry();
+  return std::any_of(voxels.begin(), voxels.end(), [&](VoxelIndex v) {
+    const Vec3 p_m = geometry.center_m(geometry.key_at(v));
+    return is_within(view, p_m) && !is_hidden(grid, view, p_m, geometry.resolution_m());
+  });
+}
+
+Picture draw_voxels(RunSource& run, const PictureOptions& options, const RenderView& view) {
   const std::size_t last = run.record().views.empty() ? 0 : run.record().views.size() - 1;
   const std::size_t iteration = iteration_of(run.record(), options, last);
   const OccupancyGrid& grid = run.belief_after(iteration).grid;
@@ -45,18 +64,18 @@ Picture draw_voxels(RunSource& run, const PictureOptions& options, const RenderV
   }
   const std::vector<Rgb> predicted = {kPredicted};
   scene.surfaces.push_back(voxel_cubes(geometry, voxels.predicted, predicted));
-  scene.surfaces.push_back(free_faces(grid, voxels.unknown, kUnknown, 0.55F));
-  picture.detail =
-      fmt::format("after {}: {} of {} m occupied, {} predicted",
-                  views_so_far(run.record(), iteration), counted(voxels.occupied.size(), "voxel"),
-                  geometry.resolution_m(), grouped(voxels.predicted.size()));
-  picture.legend = {{"unknown beside free, near surface", {kUnknown}}};
-  if (!voxels.predicted.empty()) {
-    picture.legend.push_back({"predicted by symmetry", {kPredicted}});
-  }
+  scene.surfaces.push_back(free_faces(grid, voxels.unknown, kUnknown, 0.6F));
+  scene.shading = kDataShading;
+  const bool is_predicted_seen = is_any_seen(voxels.predicted, grid, view);
+  picture.detail = fmt::format("after {}: {}", views_so_far(run.record(), iteration),
+                               counts_of(voxels, geometry.resolution_m(), is_predicted_seen));
+  picture.legend = {
+      {fmt::format("unknown beside free, near surface: {}", grouped(voxels.unknown.size())),
+       {kUnknown}}};
+  if (is_predicted_seen) picture.legend.push_back({"predicted by symmetry", {kPredicted}});
   picture.legend.push_back({.label = fmt::format("{:.1f} m", high_m),
                             .colours = amount_colours(),
-                            .label_before = fmt::format("occupied, height {:.1f}", low_m),
+                            .label_before = fmt::format("occupied, by height from {:.1f}", low_m),
                             .label_middle = fmt::format("{:.1f}", 0.5 * (low_m + high_m))});
   return picture;
 }

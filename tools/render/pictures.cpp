@@ -5,6 +5,7 @@
 
 #include "scenarios/faults.hpp"
 #include "sim/core/error.hpp"
+#include "tools/render/place_marks.hpp"
 
 namespace gnbv {
 namespace {
@@ -72,8 +73,7 @@ namespace {
 
 /// A quarter of the width, framed, in the upper right corner, with words below it where there are
 /// any: each pixel the mean of those it covers.
-void draw_inset(const Image& inset, const std::string& words, Image& image) {
-  const double u = layout_unit_px(image.width_px, image.height_px);
+void draw_inset(const Image& inset, const std::string& words, double u, Image& image) {
   const int width = static_cast<int>(kInsetShare * image.width_px);
   const int height = width * inset.height_px / std::max(1, inset.width_px);
   const int x0 = image.width_px - width - static_cast<int>(kInsetBorder * u);
@@ -106,52 +106,25 @@ void draw_inset(const Image& inset, const std::string& words, Image& image) {
   }
 }
 
-/// Numbers stand on what they number, other words beside it.
-void draw_label(const PlaceLabel& label, const Vec3& p_px, double u, Image& image) {
-  constexpr double kLetter = 10.0;
-  const double width_px = text_width_px(label.text, kLetter * u);
-  if (label.badge) {
-    const double half_px = std::max(0.0, 0.5 * width_px - 3.5 * u);
-    for (const auto& [colour, more] : {std::pair{Rgb8{255, 255, 255}, 3.0}, {*label.badge, 0.0}}) {
-      draw_line(image, {p_px.x() - half_px, p_px.y()}, {p_px.x() + half_px, p_px.y()},
-                (17.0 + more) * u, colour);
-    }
-    draw_text(image, label.text, p_px.x() - 0.5 * width_px, p_px.y() + 0.5 * kLetter * u,
-              kLetter * u, {255, 255, 255});
-    return;
-  }
-  const double beside_px = 12.0 * u;
-  const bool has_room = p_px.x() + beside_px + width_px < image.width_px;
-  const double x = has_room ? p_px.x() + beside_px : p_px.x() - beside_px - width_px;
-  draw_text(image, label.text, x, p_px.y() - 5.0 * u, kLetter * u, kInk, 2.5 * u);
-}
-
-void draw_place_line(const PlaceLine& line, const RenderView& view, double u, Image& image) {
-  constexpr double kEdge = 1.2;
-  const std::optional<Vec3> from = project(view, line.from_world_m);
-  const std::optional<Vec3> to = project(view, line.to_world_m);
-  if (!from || !to) return;
-  for (const auto& [colour, more] :
-       {std::pair{Rgb8{255, 255, 255}, 2.0 * kEdge}, {line.colour, 0.0}}) {
-    draw_line(image, {from->x(), from->y()}, {to->x(), to->y()}, (line.width + more) * u, colour);
-  }
+/// That of the first panel where the two are nearly as large: a longer one would say otherwise.
+double scale_of_panel_m(const RenderView& view, const RenderView& first) {
+  constexpr double kNearly = 1.6;
+  const double ratio = px_per_m_at_focus(view) / px_per_m_at_focus(first);
+  const bool is_alike = ratio < kNearly && ratio > 1.0 / kNearly;
+  return scale_length_m(is_alike ? first : view);
 }
 
 /// A panel in its place, with its words where the picture has any.
 void draw_panel(const Panel& panel, std::size_t i, const PictureOptions& options,
                 const PanelLayout& layout, Renderer& renderer, Image& image) {
-  const double u = layout_unit_px(options.width_px, options.height_px);
+  const double u = unit_px(options);
   const RenderView& view = panel.view ? *panel.view : layout.view;
   const auto [x, y] = layout.place_px(i);
   Image drawn = renderer.render(panel.scene, view);
-  for (const PlaceLine& line : panel.lines) draw_place_line(line, view, u, drawn);
-  if (has_words(options)) {
-    for (const PlaceLabel& label : panel.labels) {
-      const std::optional<Vec3> p_px = project(view, label.p_world_m);
-      if (p_px) draw_label(label, *p_px, u, drawn);
-    }
-    // the others are seen as the first is, unless they say so
-    if (layout.foot_px > 0 && (i == 0 || panel.view)) draw_scale(drawn, view, u);
+  draw_place_marks(panel, view, u, has_words(options), drawn);
+  // the others are seen as the first is, unless they say so
+  if (has_words(options) && layout.foot_px > 0 && (i == 0 || panel.view)) {
+    draw_scale(drawn, view, u, scale_of_panel_m(view, layout.view));
   }
   paste(drawn, x, y, image);
   if (layout.note_px == 0) return;
@@ -167,7 +140,8 @@ DrawnPicture drawn(const Picture& picture, const RunSource& run, const PictureOp
     draw_panel(picture.panels[i], i, options, layout, renderer, image);
   }
   if (!picture.inset.rgb.empty()) {
-    draw_inset(picture.inset, has_words(options) ? picture.inset_words : "", image);
+    draw_inset(picture.inset, has_words(options) ? picture.inset_words : "", unit_px(options),
+               image);
   }
   return {.image = std::move(image),
           .caption = {.title = options.title.empty() ? run_title(run.record()) : options.title,
@@ -175,6 +149,7 @@ DrawnPicture drawn(const Picture& picture, const RunSource& run, const PictureOp
                       .legend = picture.legend,
                       .has_scale = layout.foot_px == 0,
                       .has_sheet = picture.has_sheet,
+                      .letters = options.letters,
                       .paper_px = layout.foot_px},
           .view = layout.view,
           .has_caption = has_words(options)};

@@ -78,6 +78,9 @@ struct PaintItem {
       {};  // (height, width, 4), sRGB, rows from the bottom; 0 0 0 0: none
 };
 
+/// RenderScene::shading of pictures whose colours are data.
+constexpr float kDataShading = 0.45F;
+
 struct RenderScene {
   std::vector<SurfaceItem> surfaces;
   std::vector<TubeItem> tubes;
@@ -88,6 +91,8 @@ struct RenderScene {
   std::optional<PaintItem> paint;
   /// How far from each other surfaces darken their hollows at most; nothing: as suits the view.
   std::optional<double> hollow_m = {};
+  /// Of what light and haze do to colours, how much: less where a legend says what they mean.
+  float shading = 1.0F;
   /// One of a series that shows no more than what lies in this box, as a film: light, haze and
   /// shadows stay the same throughout, and a renderer draws again only what has changed.
   std::optional<Box3> series_box_m = {};

@@ -16,7 +16,7 @@ layout(std140) uniform Frame {
   vec4 ground;              // centre x, y, height z, radius
   vec4 grid;                // minor, major; depth where haze begins and its range, m
   vec4 lens;                // tangents of the half angles across and up; depth of near and far, m
-  vec4 hollow;              // radius of ambient occlusion, m; 1 where a ground is drawn
+  vec4 hollow;              // radius of ambient occlusion, m; 1 where a ground is drawn; shading
 };
 )";
 
@@ -56,10 +56,11 @@ vec3 lit(vec3 albedo, vec3 n, vec3 p, float gloss) {
   // grazing surfaces darken a little, which draws outlines where structure covers structure
   float grazing = 1.0 - abs(dot(n, v));
   light *= 1.0 - 0.45 * grazing * grazing * grazing;
-  float shine = pow(max(dot(n, normalize(l + v)), 0.0), 48.0) * gloss * key;
+  light = mix(vec3(0.95), light, hollow.z);
+  float shine = hollow.z * pow(max(dot(n, normalize(l + v)), 0.0), 48.0) * gloss * key;
   // a little air between near and far things, for depth
   float depth = dot(p - eye.xyz, cross(camera_up.xyz, camera_right.xyz));
-  float haze = 0.20 * clamp((depth - grid.z) / grid.w, 0.0, 1.0);
+  float haze = 0.20 * hollow.z * clamp((depth - grid.z) / grid.w, 0.0, 1.0);
   vec3 c = albedo * light + vec3(shine);
   // white paint in full light keeps its shape instead of clipping
   c = mix(c, 1.0 - 0.3 * exp((0.7 - c) / 0.3), step(0.7, c));

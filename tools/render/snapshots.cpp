@@ -228,7 +228,7 @@ Picture Snapshots::picture_at(double time_s, double speed, const RenderView& vie
       "{}, {} s and {} m flown since the first, {}{}", views_so_far(record, iteration),
       grouped(static_cast<std::size_t>(std::lround(time_s - record.views.front().time_s))),
       grouped(now.flown_m, 1), counted(now.cloud_points, "point"),
-      speed > 0.0 ? fmt::format(", {:.1f} times as fast as flown", speed) : "");
+      speed > 0.0 ? fmt::format(", shown {:.0f} times as fast", speed) : "");
   picture.legend = {
       {.label = "last view", .colours = path_colours(), .label_before = "first"},
       {.label = "not seen yet", .colours = {kGhostColour}},
@@ -238,7 +238,7 @@ Picture Snapshots::picture_at(double time_s, double speed, const RenderView& vie
       {.label =
            record.scenario.cameras.size() == 1 ? "its camera's pyramid" : "its cameras' pyramids",
        .colours = {kFrustum},
-       .mark = LegendItem::Mark::line}};
+       .mark = LegendItem::Mark::pyramid}};
   picture.inset = seen_by_camera(iteration);
   picture.inset_words = "the camera's last view";
   picture.has_sheet = follows_;

@@ -35,14 +35,17 @@ RenderView framed(const TriangleMesh& mesh, int width_px, int height_px, const V
   std::vector<Vec3> points_m;  // its box would leave much of the picture empty
   points_m.reserve(mesh.vertices_m.size());
   for (const Vec3f& p_m : mesh.vertices_m) points_m.push_back(p_m.cast<double>());
-  FrameMargins margins = caption_margins(width_px, height_px);
-  const double below_title = 82.0 * layout_unit_px(width_px, height_px) / height_px;
+  const double unit_px = layout_unit_px(width_px, height_px);
+  FrameMargins margins = caption_margins(width_px, height_px, unit_px);
+  const double below_title = 82.0 * unit_px / height_px;
   if (margins.bottom + below_title < 1.0) margins.top = std::max(margins.top, below_title);
   return frame_points(points_m, angles, width_px, height_px, margins);
 }
 
-Image drawn(SurfaceItem item, const RenderView& view, const Caption& caption) {
+Image drawn(SurfaceItem item, const RenderView& view, const Caption& caption,
+            float shading = 1.0F) {
   RenderScene scene;
+  scene.shading = shading;
   scene.surfaces.push_back(std::move(item));
   scene.ground = GroundItem{};
   Image image = render(scene, view);
@@ -133,10 +136,13 @@ Image error_picture(const TriangleMesh& mesh, std::span<const double> errors_m, 
   }
   return drawn(std::move(item), framed(mesh, width_px, height_px, angles),
                {.title = title,
-                .detail = "distance of the reconstructed surface to the true structure",
+                .detail = "distance of the reconstructed surface to the true structure; where no "
+                          "surface was made, there is no colour",
                 .legend = {{.label = fmt::format("{:.0f} mm or more", 1000.0 * most_m),
                             .colours = error_colours(),
-                            .label_before = "0"}}});
+                            .label_before = "0",
+                            .label_middle = fmt::format("{:.3g}", 500.0 * most_m)}}},
+               kDataShading);
 }
 
 }  // namespace gnbv

@@ -8,9 +8,12 @@
 #include "sensors/capture.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tests/tools/render/watched.hpp"
+#include "tools/render/candidate_legend.hpp"
+#include "tools/render/candidate_views.hpp"
 #include "tools/render/chosen_view_item.hpp"
 #include "tools/render/frontier_items.hpp"
 #include "tools/render/pictures.hpp"
+#include "tools/render/place_marks.hpp"
 #include "tools/render/rejection_look.hpp"
 #include "tools/render/voxel_items.hpp"
 #include "tools/run_files/candidates_jsonl.hpp"
@@ -213,11 +216,9 @@ TEST(CandidatesPicture, TheNoteCountsCandidatesThatNoPanelShows) {
       beyond_side[2] += px->y() < 0.0 ? 1 : 0;
       beyond_side[3] += px->y() > view.height_px ? 1 : 0;
     }
-    const std::string all = fmt::format("{} candidates", candidates.size());
+    const std::string all = fmt::format("{} candidates as pins", candidates.size());
     EXPECT_EQ(picture.panels.front().note,
-              unseen == 0
-                  ? all
-                  : fmt::format("{}, {} of them hidden or beyond the picture", all, unseen));
+              unseen == 0 ? all : fmt::format("{}, {} out of sight", all, unseen));
     std::size_t said = 0;
     for (const RejectionLook& look : rejection_looks()) {
       const std::string words = fmt::format("{}: ", look.words);
@@ -229,14 +230,19 @@ TEST(CandidatesPicture, TheNoteCountsCandidatesThatNoPanelShows) {
   EXPECT_GT(beyond_side[0] * beyond_side[1] * beyond_side[2] * beyond_side[3], 0U);
 }
 
+/// A run's file with other candidates for the decision that is asked for.
+void write_candidates(const Plan& of_asked, const std::filesystem::path& folder) {
+  CandidatesFile file(folder, 1);
+  for (std::size_t i = 0; i < watched().plans.size(); ++i) {
+    file.write(i + 1, i + 1 == kAsked ? of_asked : watched().plans[i]);
+  }
+  file.finish();
+}
+
 /// The picture of a decision between those candidates, as read from a run's file.
 Picture drawn_with(const Plan& plan, const RenderView& view = {}) {
   const TempFolder temp;
-  CandidatesFile file(temp.path(), 1);
-  for (std::size_t i = 0; i < watched().plans.size(); ++i) {
-    file.write(i + 1, i + 1 == kAsked ? plan : watched().plans[i]);
-  }
-  file.finish();
+  write_candidates(plan, temp.path());
   RunSource run = source(temp.path());
   return drawn(run, view);
 }
@@ -282,11 +288,93 @@ TEST(CandidatesPicture, TheLegendSaysWhatCanBeFound) {
   const Picture picture = drawn_with(plan, away);
   const std::optional<LegendItem> valid = item_of(picture, "valid: 1, utility 1.23");
   ASSERT_TRUE(valid.has_value());
-  EXPECT_EQ(valid->colours, std::vector<Rgb>{amount_ramp(1.0)});
+  EXPECT_EQ(valid->colours, std::vector<Rgb>{score_colours().back()});
   EXPECT_TRUE(item_of(drawn_with(plan), "unknown"));
   const OccupancyGrid& grid = watched().beliefs[kAsked - 1].grid;
   const SurfaceItem unknown = free_faces(grid, sort_voxels(grid).unknown, {1, 1, 1}, 0.5F);
   EXPECT_FALSE(is_seen(unknown, grid, away));
+}
+
+/// How much of a decision a picture from there would show, its own candidates being all valid.
+std::size_t shown_from(RunSource& run, const PictureOptions& options, const ViewAngles& angles) {
+  std::vector<Vec3> points_m;
+  frame_candidates(run, options, points_m);
+  const RenderView view = frame_points(points_m, angles, 640, 480);
+  const ReplayedDecision& decision = run.decision(kAsked);
+  const auto& candidates = decision.plan.candidates;
+  return static_cast<std::size_t>(
+      std::count_if(candidates.begin(), candidates.end(), [&](const Candidate& candidate) {
+        return !is_hidden(decision.belief.grid, view, candidate.view.p_world_m, 0.0);
+      }));
+}
+
+/// Whatever side of what the map knows the candidates are on, the picture is taken from there.
+TEST(CandidatesPicture, IsSeenFromWhereTheMostCandidatesShow) {
+  PictureOptions options;
+  options.iteration = kAsked;
+  std::size_t worse = 0;
+  for (const Vec3& side : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0)}) {
+    Plan plan = watched().plans[kAsked - 1];
+    const Box3 structure_m = bounds_m(watched().flown.world.structure);
+    constexpr double kBeside_m = 0.4;
+    for (Candidate& candidate : plan.candidates) {
+      const Vec3 half_m = 0.5 * structure_m.sizes().array() + kBeside_m;
+      candidate.view.p_world_m = structure_m.center() + half_m.cwiseProduct(side);
+      candidate.rejected.reset();
+    }
+    const TempFolder temp;
+    write_candidates(plan, temp.path());
+    RunSource run = source(temp.path());
+    RunSource* const runs[] = {&run};
+    const ViewAngles best = angles_to_candidates(runs, options);
+    for (int turn_deg = 0; turn_deg < 360; turn_deg += 45) {
+      const ViewAngles angles{ViewAngles{}.azimuth_rad + deg_to_rad(turn_deg)};
+      EXPECT_LE(shown_from(run, options, angles), shown_from(run, options, best)) << turn_deg;
+      worse += shown_from(run, options, angles) < shown_from(run, options, best) ? 1 : 0;
+    }
+    // and the picture is, unless the user says from where
+    const auto azimuth_rad = [&](const PictureOptions& asked) {
+      const Vec3 back =
+          -lay_out(kCandidatesPicture, runs, asked).view.T_world_camera.matrix().block<3, 1>(0, 2);
+      return std::atan2(back.y(), back.x());
+    };
+    PictureOptions turned = options;
+    turned.angles = {best.azimuth_rad + 1.0, best.elevation_rad};
+    EXPECT_NEAR(wrap_angle_rad(azimuth_rad(options) - best.azimuth_rad), 0.0, 1e-9);
+    EXPECT_NEAR(wrap_angle_rad(azimuth_rad(turned) - best.azimuth_rad), 1.0, 1e-9);
+  }
+  EXPECT_GT(worse, 0U);
+}
+
+/// Numbers of clusters keep off the chosen view and off each other.
+TEST(PlaceMarks, BadgesAsideCoverNeitherEndsOfLinesNorEachOther) {
+  RenderView view;
+  view.width_px = 400;
+  view.height_px = 300;
+  view.T_world_camera = look_at({0, -10, 0}, {0, 0, 0});
+  Panel panel;
+  panel.lines = {{{0.1, 0, 0}, {0.1, 0, 0}, {1, 2, 3}, 8.0}};
+  for (const double x : {0.0, 0.2}) {
+    panel.labels.push_back({Vec3(x, 0, 0), "1", Rgb8{0, 90, 200}, true});
+  }
+  Image image{400, 300, {}};
+  image.rgb.assign(static_cast<std::size_t>(3 * 400 * 300), 200);
+  draw_place_marks(panel, view, 1.0, true, image);
+  const Vec3 dot_px = *project(view, {0.1, 0, 0});
+  EXPECT_EQ(image.at(static_cast<int>(dot_px.x()), static_cast<int>(dot_px.y())), (Rgb8{1, 2, 3}));
+  int badge_px = 0;
+  for (int y = 0; y < 300; ++y) {
+    for (int x = 0; x < 400; ++x) badge_px += image.at(x, y) == Rgb8{0, 90, 200} ? 1 : 0;
+  }
+  EXPECT_GT(badge_px, 300);  // two discs of 17 px, less their digits
+  panel.labels.pop_back();
+  image.rgb.assign(image.rgb.size(), 200);
+  draw_place_marks(panel, view, 1.0, true, image);
+  int one_px = 0;
+  for (int y = 0; y < 300; ++y) {
+    for (int x = 0; x < 400; ++x) one_px += image.at(x, y) == Rgb8{0, 90, 200} ? 1 : 0;
+  }
+  EXPECT_GT(badge_px, 19 * one_px / 10);
 }
 
 /// Hues alone would not do for everybody: Oklab distances (Ottosson 2020).

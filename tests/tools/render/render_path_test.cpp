@@ -23,8 +23,15 @@ PictureOptions with_profile() {
   return options;
 }
 
+/// Its views are taken where the flight passes them.
+RunRecord record_in_time() {
+  RunRecord record = made_record();
+  for (ViewRecord& view : record.views) view.time_s -= 1.0;
+  return record;
+}
+
 TEST(PathPicture, ProfileFlightIsGreyAndPlannedFlightRunsThroughTheRamp) {
-  RunSource run(made_record(), cube());
+  RunSource run(record_in_time(), cube());
   const RenderScene scene = path_scene(run, with_profile());
   ASSERT_EQ(scene.tubes.size(), 2U);
   EXPECT_EQ(scene.tubes[0].colours.size(), 1U);
@@ -34,9 +41,42 @@ TEST(PathPicture, ProfileFlightIsGreyAndPlannedFlightRunsThroughTheRamp) {
   EXPECT_EQ(scene.tubes[1].points_m.back(), Vec3f(-4, -4, 3));
   EXPECT_EQ(scene.tubes[1].colours.front(), path_ramp(0.0));
   EXPECT_EQ(scene.tubes[1].colours.back(), path_ramp(1.0));
-  EXPECT_EQ(scene.balls.size(), 3U + 2U);  // the views, and marks at the first and the last
+  EXPECT_EQ(scene.balls.size(), 3U);  // the views
   EXPECT_EQ(scene.frusta.size(), 3U * run.record().scenario.cameras.size());
   EXPECT_EQ(path_scene(run, {}).tubes.size(), 1U);  // the profile is left out
+}
+
+/// Views that follow each other at once would part a colour of metres from one of views.
+TEST(PathPicture, TheFlightHasTheColourOfTheViewsThatItPasses) {
+  RunRecord record = record_in_time();
+  record.path = {made_sample(0, {0, 0, 1}), made_sample(2, {0, 0, 2}), made_sample(3, {0, 0, 3}),
+                 made_sample(4, {0, 0, 20})};
+  record.views = {made_view(0, {Vec3(0, 0, 2), 0.0}, 3), made_view(1, {Vec3(0, 0, 3), 0.0}, 5),
+                  made_view(2, {Vec3(0, 0, 20), 0.0}, 6)};
+  for (ViewRecord& view : record.views) view.time_s -= 1.0;
+  RunSource run(record, cube());
+  const RenderScene scene = path_scene(run, {});
+  ASSERT_EQ(scene.tubes.size(), 1U);
+  for (const BallItem& view : scene.balls) {
+    const TubeItem& flight = scene.tubes.front();
+    const auto at = std::find(flight.points_m.begin(), flight.points_m.end(), view.centre_m);
+    ASSERT_NE(at, flight.points_m.end());
+    EXPECT_EQ(flight.colours[static_cast<std::size_t>(at - flight.points_m.begin())], view.colour);
+  }
+}
+
+/// However much lies before them.
+TEST(PathPicture, StartAndEndAreMarkedOverEverything) {
+  RunSource run(made_record(), cube());
+  RunSource* const runs[] = {&run};
+  const RenderView view = lay_out(kPathPicture, runs, {}).view;
+  const Panel panel = kPathPicture.draw(run, {}, view).panels.at(0);
+  ASSERT_EQ(panel.lines.size(), 2U);
+  ASSERT_EQ(panel.labels.size(), 2U);
+  const std::vector<ViewRecord>& views = run.record().views;
+  EXPECT_EQ(panel.lines[0].from_world_m, views.front().decision.view.p_world_m);
+  EXPECT_EQ(panel.lines[1].from_world_m, views.back().decision.view.p_world_m);
+  EXPECT_EQ(panel.labels[1].text, "end");
 }
 
 TEST(PathPicture, PyramidsLookWhereTheViewDoes) {
