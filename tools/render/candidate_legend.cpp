@@ -31,7 +31,7 @@ bool is_in_sight(std::span<const Panel> panels, const Sight& sight, const Rgb& c
   const auto shows = [&](const RenderView& view, const Vec3f& p_m) {
     const Vec3 at_m = p_m.cast<double>();
     return is_within(view, at_m) &&
-           !is_hidden(sight.grid, view, at_m, 1.1 * sight.grid.geometry().resolution_m());
+           !is_hidden(sight.grid, view, at_m, 0.9 * sight.grid.geometry().resolution_m());
   };
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const RenderScene& scene = panels[i].scene;
@@ -152,7 +152,9 @@ std::vector<LegendItem> legend_of(const Plan& plan, const CandidateTally& all,
   legend.push_back({"occupied", {kOccupiedVoxels}});
   if (is_unknown_seen) legend.push_back({"unknown", {kUnknownVoxels}});
   if (has_frontier_views(plan)) {
-    const bool is_any_seen = is_in_sight(panels, sight, kFrontierLook.frontier);
+    const bool is_any_seen =
+        is_in_sight(panels, sight, kFrontierLook.frontier) ||
+        std::any_of(panels.begin(), panels.end(), [](const Panel& p) { return !p.labels.empty(); });
     legend.push_back(
         {is_any_seen ? "frontier, clusters numbered as tried" : "frontier (none in sight)",
          {kFrontierLook.frontier}});
