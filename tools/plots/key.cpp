@@ -37,7 +37,7 @@ std::string key_entry(const KeyEntry& entry, int number, double x, double y) {
   const auto stroke = [&](int tag, double inset, double width, std::string_view dashes,
                           std::string_view colour) {
     text += fmt::format(
-        "set arrow {} from screen {:.4f},{:.4f} to screen {:.4f},{:.4f} nohead front lw {} dt {} "
+        "set arrow {} from screen {:.4f},{:.4f} to screen {:.4f},{:.4f} nohead back lw {} dt {} "
         "lc rgb '{}'\n",
         tag, x + inset, y, end - inset, y, width, dashes, colour);
   };
