@@ -17,6 +17,7 @@
 #include "tools/plots/reach_plot.hpp"
 #include "tools/plots/run_plots.hpp"
 #include "tools/plots/script_parts.hpp"
+#include "tools/plots/terms_plot.hpp"
 #include "tools/plots/tracking_plot.hpp"
 #include "tools/run_files/file_names.hpp"
 #include "tools/run_files/run_names.hpp"

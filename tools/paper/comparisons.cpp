@@ -207,16 +207,14 @@ std::vector<MeanSeries> mean_densities(const PaperMaterial& material, const Pape
   for (const PaperRow& row : table.rows) {
     const Missions missions = missions_of(material, table.scenario, row.utility);
     if (missions.empty()) continue;
-    MeanSeries series{std::string(row.label), std::string(row.utility), {}};
-    for (std::size_t view = 0;; ++view) {
-      std::vector<double> values;
-      for (const PaperMission* mission : missions) {
-        if (const Value value = density(*mission, view + 1)) values.push_back(*value);
+    std::vector<std::vector<double>> seeds;
+    for (const PaperMission* mission : missions) {
+      seeds.emplace_back();
+      while (const Value value = density(*mission, seeds.back().size() + 1)) {
+        seeds.back().push_back(*value);
       }
-      if (values.empty()) break;
-      series.by_view.push_back(estimate_mean(values));
     }
-    all.push_back(std::move(series));
+    all.push_back(mean_series(std::string(row.label), std::string(row.utility), std::move(seeds)));
   }
   return all;
 }

@@ -3,259 +3,263 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
-#include <set>
 
-#include "bench/compare/paper_figures.hpp"
 #include "bench/score/voxel_set.hpp"
-#include "scenarios/papers_setting.hpp"
+#include "tools/plots/coverage_levels.hpp"
 #include "tools/plots/gnuplot.hpp"
 #include "tools/plots/script_parts.hpp"
-#include "tools/run_files/words.hpp"
 
 namespace gnbv {
 namespace {
 
-struct PaperLevel {
-  double percent = 0.0;
-  bool is_doubtful = false;
+constexpr int kEndPercent = 15;  // of the longest run, in the plots of its end
+
+using Curve = std::vector<CoveragePoint>;
+
+/// A group as it is drawn.
+struct GroupCurves {
+  std::string label;
+  std::size_t slot = 0;
+  Curve mean;
+  std::vector<Curve> seeds = {};  // where they are too few for an interval
+  bool has_band = false;
+  CoveragePoint end;
+  double longest = 0.0;           // effort of its longest run
+  bool has_several_ends = false;  // its runs' differ by more than a hundredth
 };
 
-std::optional<PaperLevel> paper_level(const RunGroup& group, std::size_t size) {
-  const RunFigures& figures = *group.runs.front()->figures;
-  const PaperTable* const table = find_paper_table(figures.scenario);
-  if (table == nullptr || !is_papers_structure(*table, figures.structure) ||
-      !has_papers_setting(group.runs.front()->scenario)) {
-    return std::nullopt;
-  }
-  const PaperRow* const row = find_row(*table, figures.utility);
-  if (row == nullptr || !row->coverage_percent) return std::nullopt;
-  return PaperLevel{(*row->coverage_percent)[size], is_doubtful(*row)};
-}
-
-/// Percent: effort, mean, low and high; the last two are the mean's own where there is no interval.
-std::string group_data(const RunGroup& group, std::size_t index, Effort effort, std::size_t size) {
-  std::vector<std::vector<double>> rows;
-  for (const CoveragePoint& point : mean_coverage(group, effort, size)) {
-    const double half = point.coverage.half_width.value_or(0.0);
-    const double mean = point.coverage.mean;
-    rows.push_back({point.effort, 100.0 * mean, 100.0 * (mean - half), 100.0 * (mean + half)});
-  }
-  const CoveragePoint end = mean_end(group, effort, size);
-  return data_block(fmt::format("group{}", index), rows) +
-         data_block(fmt::format("end{}", index), {{end.effort, 100.0 * end.coverage.mean}});
-}
-
-std::string label_of(const RunGroup& group) {
-  if (group.runs.size() == 1) return group.label;
-  return fmt::format("{} ({} seeds)", group.label, group.runs.size());
-}
-
-double longest_effort(std::span<const RunGroup> groups, Effort effort) {
-  double longest = 0.0;
-  for (const RunGroup& group : groups) {
-    for (const RunRecord* run : group.runs) {
-      longest = std::max(longest, whole_effort(run->figures->curve, effort));
-    }
-  }
-  return longest;
-}
-
-/// Whether the lower right corner is free of curves: there a key of so many lines would stand, as
-/// wide as its longest one, of so many characters.
-bool is_corner_free(std::span<const RunGroup> groups, Effort effort, std::size_t size,
-                    std::size_t entries, std::size_t characters) {
-  const double height = static_cast<double>((entries + 1) * kKeyLine_px) / (0.8 * kOnePanel_px);
-  const double left = 0.9 - 0.022 * static_cast<double>(characters);  // of the plot's width
-  if (left < 0.0) return false;
-  const double longest = longest_effort(groups, effort);
-  return std::all_of(groups.begin(), groups.end(), [&](const RunGroup& group) {
-    return std::all_of(group.runs.begin(), group.runs.end(), [&](const RunRecord* run) {
-      return coverage_at(run->figures->curve, effort, size, left * longest) > height;
-    });
+/// Several views from one place take no metres: of what begins there the last is drawn, no stub.
+Curve without_stub(Curve curve) {
+  const auto moves = std::find_if(curve.begin(), curve.end(), [&](const CoveragePoint& point) {
+    return point.effort > curve.front().effort;
   });
+  curve.erase(curve.begin(), moves - 1);
+  return curve;
 }
 
-/// The entries of the plot command: curves above levels above bands, and what explains them.
-struct Layers {
-  std::string bands = {}, levels = {}, lines = {}, ends = {}, names = {}, keys = {};
-  std::size_t entries = 0;
-  std::size_t characters = 0;  // of the longest entry
-};
-
-void add_key(Layers& layers, std::string_view style, std::string_view text) {
-  layers.keys += fmt::format("keyentry with {} title {}, ", style, gnuplot_text(text));
-  layers.characters = std::max(layers.characters, text.size());
-  ++layers.entries;
-}
-
-/// The mean of the ceilings that are known; the runs of other scenarios have others.
-std::optional<double> ceiling_of(const RunGroup& group) {
-  std::vector<double> known;
+GroupCurves curves_of(const RunGroup& group, Effort effort, std::size_t size) {
+  GroupCurves curves{.label = group.label,
+                     .mean = without_stub(mean_coverage(group, effort, size)),
+                     .has_band = group.runs.size() >= kLeastSeedsOfBand,
+                     .end = mean_end(group, effort, size)};
+  double shortest = whole_effort(group.runs.front()->figures->curve, effort);
   for (const RunRecord* const run : group.runs) {
-    if (run->figures->ceiling) known.push_back(100.0 * *run->figures->ceiling);
+    const double whole = whole_effort(run->figures->curve, effort);
+    shortest = std::min(shortest, whole);
+    curves.longest = std::max(curves.longest, whole);
+    if (curves.has_band || group.runs.size() < 2) continue;
+    const RunGroup alone{.label = "", .runs = {run}};
+    curves.seeds.push_back(without_stub(mean_coverage(alone, effort, size)));
   }
-  if (known.empty()) return std::nullopt;
-  return estimate_mean(known).mean;
+  curves.has_several_ends = curves.longest - shortest > 0.01 * curves.end.effort;
+  return curves;
 }
 
-bool is_oracle_group(const RunGroup& group) {
-  return group.runs.front()->figures->utility.starts_with("oracle");
+/// Half of the band's height, in percent; none without a band.
+double half_percent(const GroupCurves& curves, const CoveragePoint& point) {
+  return curves.has_band ? 100.0 * point.coverage.half_width.value_or(0.0) : 0.0;
 }
 
-void add_lines(Layers& layers, const RunGroup& group, std::size_t i, std::size_t slot) {
-  const std::string_view colour = palette_colour(slot);
-  if (group.runs.size() > 1) {
-    layers.bands += fmt::format(
-        "$group{} using 1:3:4 with filledcurves fc rgb '{}' fs transparent solid 0.18 noborder "
-        "notitle, ",
-        i, colour);
+/// Percent: effort, mean, low and high of the band; of each of few seeds effort and coverage.
+std::string group_data(const GroupCurves& curves, std::size_t index) {
+  std::vector<std::vector<double>> rows;
+  for (const CoveragePoint& point : curves.mean) {
+    const double half = half_percent(curves, point);
+    const double mean = 100.0 * point.coverage.mean;
+    rows.push_back({point.effort, mean, mean - half, mean + half});
   }
-  layers.characters = std::max(layers.characters, label_of(group).size());
-  const std::string dashes =
-      is_oracle_group(group) ? "(4,2)" : fmt::format("{}", 1 + slot / kPalette.size());
-  layers.lines += fmt::format("$group{} using 1:2 with lines lw 1.3 dt {} lc rgb '{}' notitle, ", i,
-                              dashes, colour);
-  layers.ends += end_points(fmt::format("end{}", i), slot);
-  layers.names +=
-      fmt::format("keyentry with linespoints lw 1.3 dt {} pt {} ps 0.5 lc rgb '{}' title {}, ",
-                  dashes, end_mark(slot), colour, gnuplot_text(label_of(group)));
+  std::string text = data_block(fmt::format("group{}", index), rows);
+  for (std::size_t k = 0; k < curves.seeds.size(); ++k) {
+    rows.clear();
+    for (const CoveragePoint& point : curves.seeds[k]) {
+      rows.push_back({point.effort, 100.0 * point.coverage.mean});
+    }
+    text += data_block(fmt::format("group{}seed{}", index, k), rows);
+  }
+  return text + data_block(fmt::format("end{}", index),
+                           {{curves.end.effort, 100.0 * curves.end.coverage.mean}});
 }
-
-constexpr Axis kAllPercent{0.0, 100.0, 20.0};
 
 /// The part of the plane that a plot shows.
 struct Window {
   Effort effort = Effort::views;
   double from = 0.0;  // of that effort
-  Axis percent = kAllPercent;
+  double to = 0.0;
+  Axis percent = {};
 
-  bool is_all() const { return percent.low == 0.0 && percent.high == 100.0; }
   bool shows(double level) const { return percent.low <= level && level <= percent.high; }
-  bool shows(const RunGroup& group) const { return longest_effort({&group, 1}, effort) >= from; }
 };
 
+/// The lowest and the highest of what is drawn from that effort on; low > high where nothing is.
+std::pair<double, double> range_of(std::span<const GroupCurves> all, double from) {
+  std::pair<double, double> range{100.0, 0.0};
+  const auto take = [&](double percent) {
+    range = {std::min(range.first, percent), std::max(range.second, percent)};
+  };
+  const auto take_curve = [&](const GroupCurves& curves, const Curve& curve) {
+    for (std::size_t i = 0; i < curve.size(); ++i) {
+      // that before the window is where its line comes from
+      if (i + 1 < curve.size() && curve[i + 1].effort < from) continue;
+      take(100.0 * curve[i].coverage.mean - half_percent(curves, curve[i]));
+      take(100.0 * curve[i].coverage.mean + half_percent(curves, curve[i]));
+    }
+  };
+  for (const GroupCurves& curves : all) {
+    if (curves.longest < from) continue;
+    take_curve(curves, curves.mean);
+    for (const Curve& seed : curves.seeds) take_curve(curves, seed);
+    if (curves.end.effort >= from) take(100.0 * curves.end.coverage.mean);
+  }
+  return range;
+}
+
+/// From the tens below all that is shown to 100 %, or to the tens above it where that is far below.
+Axis percent_axis(double low, double high) {
+  constexpr double kFarBelow = 70.0;
+  const double from = std::clamp(10.0 * std::floor(low / 10.0), 0.0, 90.0);
+  const double to = high < kFarBelow ? 10.0 * std::floor(high / 10.0 + 1.0) : 100.0;
+  const double step = even_step(to - from, 7);
+  return {from, to, std::fmod(to - from, step) == 0.0 ? step : 10.0};
+}
+
+/// The entries of the plot command: curves above levels above bands, and what explains them.
+struct Layers {
+  std::string bands = {}, levels = {}, lines = {}, ends = {};
+  std::vector<KeyEntry> key = {};
+
+  std::string entries() const {
+    const std::string all = bands + levels + lines + ends;
+    return all.substr(0, all.size() - 2);
+  }
+};
+
+void add_curves(Layers& layers, const GroupCurves& curves, std::size_t i) {
+  const std::string_view colour = palette_colour(curves.slot);
+  const std::string_view dashes = method_dashes(curves.slot);
+  if (curves.has_band) {
+    layers.bands += fmt::format(
+        "$group{} using 1:3:4 with filledcurves fc rgb '{}' fs transparent solid 0.18 noborder, ",
+        i, colour);
+  }
+  for (std::size_t k = 0; k < curves.seeds.size(); ++k) {
+    layers.lines +=
+        fmt::format("$group{}seed{} using 1:2 with lines lw 0.5 lc rgb '{}', ", i, k, colour);
+  }
+  layers.lines +=
+      fmt::format("$group{} using 1:2 with lines lw 1.3 dt {} lc rgb '{}', ", i, dashes, colour);
+  layers.ends += end_points(fmt::format("end{}", i), curves.slot);
+  layers.key.push_back({.colour = colour,
+                        .text = curves.label,
+                        .line = 1.3,
+                        .dashes = dashes,
+                        .point = end_mark(curves.slot),
+                        .has_band = curves.has_band});
+}
+
 /// What lies within the window: a key to a line that is not there would be a riddle.
-Layers layers_of(std::span<const RunGroup> groups, std::optional<std::size_t> papers_size,
+Layers layers_of(std::span<const GroupCurves> all, std::span<const CoverageLevel> levels,
                  const Window& window) {
   Layers layers;
-  std::array<bool, 2> has_level = {false, false};  // trusted, doubtful
-  std::set<std::size_t> level_slots;
-  bool has_mean_end = false;
-  std::vector<double> ceilings;
-  const std::vector<std::size_t> slots = method_slots(methods_of(groups));
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    if (!window.shows(groups[i])) continue;
-    add_lines(layers, groups[i], i, slots[i]);
-    ++layers.entries;
-    has_mean_end = has_mean_end || groups[i].runs.size() > 1;
-    if (!papers_size) continue;
-    const std::optional<double> ceiling = *papers_size == 0 ? ceiling_of(groups[i]) : std::nullopt;
-    const auto is_same = [&](double other) { return std::abs(other - *ceiling) < 0.05; };
-    if (ceiling && window.shows(*ceiling) &&
-        std::none_of(ceilings.begin(), ceilings.end(), is_same)) {
-      ceilings.push_back(*ceiling);
-      layers.levels += fmt::format("{} with lines lw 0.9 lc rgb '#262c36' notitle, ", *ceiling);
-    }
-    if (const auto level = paper_level(groups[i], *papers_size);
-        level && window.shows(level->percent)) {
-      layers.levels +=
-          fmt::format("{} with lines lw 0.9 dt {} lc rgb '{}' notitle, ", level->percent,
-                      level->is_doubtful ? "(2,6)" : "(6,5)", palette_colour(slots[i]));
-      level_slots.insert(slots[i]);
-      has_level[level->is_doubtful ? 1 : 0] = true;
-    }
+  bool has_seeds = false;
+  bool has_several_ends = false;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].longest < window.from) continue;
+    add_curves(layers, all[i], i);
+    has_seeds = has_seeds || !all[i].seeds.empty();
+    has_several_ends = has_several_ends || all[i].has_several_ends;
   }
-  if (!layers.bands.empty()) {
-    add_key(layers, "boxes fs solid noborder fc rgb '#d5d9de'", "95 % interval of the mean");
+  if (has_seeds) layers.key.push_back(key_of_seeds());
+  if (has_several_ends) {
+    layers.key.push_back({.colour = kPlotGrey, .text = "mean end of the seeds", .point = 7});
   }
-  if (has_mean_end)
-    add_key(layers, "points pt 7 ps 0.5 lc rgb '#5c6470'", "mean length of the seeds");
-  // each of its planner's colour
-  const std::string_view of_paper =
-      level_slots.size() == 1 ? palette_colour(*level_slots.begin()) : "#5c6470";
-  if (has_level[0]) {
-    add_key(layers, fmt::format("lines lw 0.9 dt (6,5) lc rgb '{}'", of_paper),
-            "paper, at the end");
+  for (const CoverageLevel& level : levels) {
+    if (!window.shows(level.percent)) continue;
+    layers.levels += fmt::format("{} with lines lw {} dt {} lc rgb '{}', ", level.percent,
+                                 level.key.line, level.key.dashes, level.key.colour);
+    const bool is_said = std::any_of(layers.key.begin(), layers.key.end(), [&](const auto& entry) {
+      return entry.text == level.key.text;
+    });
+    if (!is_said) layers.key.push_back(level.key);
   }
-  if (has_level[1]) {
-    add_key(layers, fmt::format("lines lw 0.9 dt (2,6) lc rgb '{}'", of_paper),
-            "paper, at the end (doubtful)");
-  }
-  if (!ceilings.empty()) add_key(layers, "lines lw 0.9 lc rgb '#262c36'", "ceiling");
   return layers;
 }
 
-/// `size` is an index of the curves' sizes; the paper has it when it is `papers_size`, too. The key
-/// stands inside where there is room, on an axis of all percent.
-Plot plot_of(std::span<const RunGroup> groups, const Window& window, std::size_t size,
-             std::optional<std::size_t> papers_size, const std::string& size_text) {
-  const Effort effort = window.effort;
+std::vector<GroupCurves> curves_of(std::span<const RunGroup> groups, Effort effort,
+                                   std::size_t size) {
+  const std::string title = common_scenario(groups);
+  const std::vector<std::size_t> slots = method_slots(methods_of(groups));
+  std::vector<GroupCurves> all;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    all.push_back(curves_of(groups[i], effort, size));
+    all.back().label = seeds_label(label_below(title, groups[i].label), groups[i].runs.size());
+    all.back().slot = slots[i];
+  }
+  return all;
+}
+
+double longest_of(std::span<const GroupCurves> all) {
+  double longest = 0.0;
+  for (const GroupCurves& curves : all) longest = std::max(longest, curves.longest);
+  return longest;
+}
+
+Plot plot_of(std::span<const GroupCurves> all, std::span<const CoverageLevel> levels,
+             const Window& window, std::string_view title, const std::string& x_label,
+             const std::string& size_text) {
   std::string data;
-  for (std::size_t i = 0; i < groups.size(); ++i) data += group_data(groups[i], i, effort, size);
-  const Layers layers = layers_of(groups, papers_size, window);
-  std::string entries =
-      layers.bands + layers.levels + layers.lines + layers.ends + layers.names + layers.keys;
-  entries.resize(entries.size() - 2);
-  const bool is_inside =
-      window.is_all() && is_corner_free(groups, effort, size, layers.entries, layers.characters);
-  const int height_px = is_inside ? kOnePanel_px : height_with_key_px(layers.entries);
-  const std::string key =
-      is_inside ? "set key inside bottom right vertical\n" : key_above(layers.entries);
-  const std::string title = title_at_right(common_scenario(groups), height_px);
-  const double longest = std::max(longest_effort(groups, effort), 1e-6);
+  for (std::size_t i = 0; i < all.size(); ++i) data += group_data(all[i], i);
+  const Layers layers = layers_of(all, levels, window);
   const std::string y_label = fmt::format("coverage at {} m (%)", size_text);
-  return {fmt::format("coverage-{}", effort_name(effort)),
-          data + key + title + "set yrange [0:100]\nset xrange [0:*] noextend\nset rmargin 3\n" +
-              x_tics(0.0, longest, even_step(longest)) +
+  return {fmt::format("coverage-{}", effort_name(window.effort)),
+          data + key_above(title, layers.key) + axis_settings(window.percent) +
+              fmt::format("set xrange [{}:{}] noextend\nset rmargin 3\n", window.from, window.to) +
+              x_tics(window.from, window.to, even_step(window.to - window.from)) +
               fmt::format("set xlabel {}\nset ylabel {} offset 0.6,0\nplot {}\n",
-                          gnuplot_text(effort_label(effort)), gnuplot_text(y_label), entries),
-          height_px};
+                          gnuplot_text(x_label), gnuplot_text(y_label), layers.entries()),
+          height_with_key_px(title, layers.key.size())};
+}
+
+Plot whole_plot(std::span<const RunGroup> groups, Effort effort, std::size_t size,
+                std::span<const CoverageLevel> levels, const std::string& size_text) {
+  const std::vector<GroupCurves> all = curves_of(groups, effort, size);
+  auto [low, high] = range_of(all, 0.0);
+  for (const CoverageLevel& level : levels) {
+    low = std::min(low, level.percent);
+    high = std::max(high, level.percent);
+  }
+  const Window window{.effort = effort,
+                      .from = 0.0,
+                      .to = std::max(1.01 * longest_of(all), 1e-6),
+                      .percent = percent_axis(low, high)};
+  return plot_of(all, levels, window, common_scenario(groups), std::string(effort_label(effort)),
+                 size_text);
 }
 
 }  // namespace
 
 Plot coverage_plot(std::span<const RunGroup> groups, Effort effort, std::size_t size) {
-  return plot_of(groups, {.effort = effort}, size, size, size_name(kCoverageSizes_m[size]));
+  return whole_plot(groups, effort, size, coverage_levels(groups, size),
+                    size_name(kCoverageSizes_m[size]));
 }
 
 std::optional<Plot> coverage_end_plot(std::span<const RunGroup> groups, Effort effort,
                                       std::size_t size) {
-  const double longest = longest_effort(groups, effort);
-  const double from = 0.85 * longest;
-  double low = 100.0;
-  double high = 0.0;
-  for (const RunGroup& group : groups) {
-    if (longest_effort({&group, 1}, effort) < from) continue;
-    const std::vector<CoveragePoint> points = mean_coverage(group, effort, size);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      // that before the window is where its line comes from
-      if (i + 1 < points.size() && points[i + 1].effort < from) continue;
-      const double half = points[i].coverage.half_width.value_or(0.0);
-      low = std::min(low, 100.0 * (points[i].coverage.mean - half));
-      high = std::max(high, 100.0 * (points[i].coverage.mean + half));
-    }
-    const CoveragePoint end = mean_end(group, effort, size);
-    if (end.effort < from) continue;
-    low = std::min(low, 100.0 * end.coverage.mean);
-    high = std::max(high, 100.0 * end.coverage.mean);
-  }
+  const std::vector<GroupCurves> all = curves_of(groups, effort, size);
+  const double longest = longest_of(all);
+  const double from = (1.0 - 0.01 * kEndPercent) * longest;
+  const auto [low, high] = range_of(all, from);
   if (!(longest > 0.0) || low > high) return std::nullopt;
-  Plot plot = plot_of(groups, {effort, from, axis_around(low, high)}, size, size,
-                      size_name(kCoverageSizes_m[size]));
+  Plot plot = plot_of(
+      all, coverage_levels(groups, size), {effort, from, 1.01 * longest, axis_around(low, high)},
+      common_scenario(groups), end_label(effort, kEndPercent), size_name(kCoverageSizes_m[size]));
   plot.name += "-end";
-  // the last word on both axes, before anything is drawn
-  const std::size_t at = plot.body.rfind("\nplot ") + 1;
-  plot.body.insert(at, fmt::format("set xrange [{}:{}] noextend\n", from, 1.01 * longest) +
-                           x_tics(from, 1.01 * longest, even_step(0.16 * longest)) +
-                           y_axis(low, high));
   return plot;
 }
 
 Plot coverage_plot_at(std::span<const RunGroup> groups, Effort effort, double size_m) {
-  return plot_of(groups, {.effort = effort}, 0, std::nullopt, size_name(size_m));
+  return whole_plot(groups, effort, 0, {}, size_name(size_m));
 }
 
 }  // namespace gnbv

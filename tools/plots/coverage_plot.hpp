@@ -10,11 +10,11 @@
 namespace gnbv {
 
 /// "coverage-views", "coverage-metres" or "coverage-seconds": a line for each group, with the 95 %
-/// interval of the mean where it has several runs, and the paper's final coverage dashed where the
-/// paper has the group's scenario, structure and utility, apart where its figure is doubtful. A
-/// mark stands where a group's runs end, as a mean over them (the line goes on to the longest), and
-/// a dotted line where the ceiling is, as far as it is known. Oracles are dashed. `size` is an
-/// index of kCoverageSizes_m. Requires a group.
+/// interval of the mean where it has three runs or more; of two both are drawn, thinly. A mark
+/// stands where a group's runs end, as a mean over them (the line goes on to the longest), dashes
+/// where the paper's row ended and a dark line where the ceiling is, as far as they are known. The
+/// axis begins at the tens below all of that. `size` is an index of kCoverageSizes_m. Requires a
+/// group.
 Plot coverage_plot(std::span<const RunGroup> groups, Effort effort, std::size_t size);
 
 /// Its last 15 %, on axes that just hold it: "coverage-metres-end". Nothing where all curves end

@@ -16,11 +16,16 @@ struct MeanSeries {
   std::string label;
   std::string method;  // of method_slots()
   std::vector<MeanEstimate> by_view;
+  std::vector<std::vector<double>> seeds;  // the densities of each mission
 };
 
+/// The mean of missions, those with a view. Requires one at least.
+MeanSeries mean_series(std::string label, std::string method,
+                       std::vector<std::vector<double>> seeds);
+
 /// "density": a line for each series with a mark at its end, and the 95 % interval of the mean
-/// where several missions reach a view; the first view is 1. `title` stands beside the key.
-/// Requires a series that has a view.
+/// where three missions or more reach a view; of two missions both are drawn, thinly. The first
+/// view is 1. Requires a series that has a view.
 Plot mean_density_plot(std::span<const MeanSeries> series, std::string_view title);
 
 /// The series of groups of runs.

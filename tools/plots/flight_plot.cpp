@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "tools/plots/script_parts.hpp"
@@ -44,37 +45,57 @@ std::vector<std::vector<double>> flight_rows(const RunRecord& record) {
 /// An axis that holds those values and zero, with few marks: panels are low.
 std::string axis_of(const Traces& traces, std::size_t first, std::size_t last) {
   const auto [low, high] = traces.range(first, last);
-  return tight_y_axis(std::min(low, 0.0), std::max(high, 0.0), 3);
+  return axis_settings(close_axis(std::min(low, 0.0), std::max(high, 0.0)));
 }
 
 }  // namespace
+
+std::string yaw_block(std::span<const std::array<double, 2>> time_yaw) {
+  constexpr double kBeyond_deg = 10.0;
+  std::string text = "$yaw << EOD\n";
+  double before_deg = 0.0;
+  for (const auto& [time_s, yaw_deg] : time_yaw) {
+    // the turn that is nearest to what was drawn
+    const double near_deg = yaw_deg + 360.0 * std::round((before_deg - yaw_deg) / 360.0);
+    const bool is_near = std::abs(near_deg) <= 180.0 + kBeyond_deg;
+    const double drawn_deg = is_near ? near_deg : yaw_deg;
+    const bool is_jump =
+        &time_yaw.front()[0] != &time_s && std::abs(drawn_deg - before_deg) > 180.0;
+    text += fmt::format("{}{} {}\n", is_jump ? "\n" : "", time_s, drawn_deg);
+    before_deg = drawn_deg;
+  }
+  return text + "EOD\n";
+}
 
 std::optional<Plot> flight_plot(const RunRecord& record) {
   if (record.views.size() < 2) return std::nullopt;
   const std::vector<std::vector<double>> rows = flight_rows(record);
   if (rows.empty()) return std::nullopt;
   const Traces traces(rows);
-  Panels panels(5, fmt::format("{}, seed {}", run_title(record), record.scenario.seed),
-                traces.time_label(), {rows.front()[0], rows.back()[0]});
+  std::vector<std::array<double, 2>> time_yaw;
+  for (const auto& row : rows) time_yaw.push_back({row[0], row[6]});
+  Panels panels(6, run_and_seed(record), "mission time (s)", {rows.front()[0], rows.back()[0]},
+                traces.key());
   const auto panel = [&](std::string_view heading, std::size_t first, std::size_t last,
                          const std::vector<KeyEntry>& key = {}) {
     return panels.next(heading, key) + axis_of(traces, first, last) + "plot " +
            traces.drawn(first, last) + "\n";
   };
-  std::string text =
-      traces.data() +
-      panel("position (m)", 1, 3, {{kPalette[0], "x"}, {kPalette[1], "y"}, {kPalette[2], "z"}});
-  // broken wherever yaw goes past 180 degrees: it would cross the panel there
-  text +=
-      panels.next("yaw (deg)") + fmt::format(
-                                     "set yrange [-180:180]\nset ytics 90\nset format y '% .0f'\n"
-                                     "yaw = 0\nplot $samples using 1:(step = $7 - yaw, yaw = $7, "
-                                     "abs(step) > 180 ? NaN : yaw) with lines lw 1.0 lc rgb '{}'\n",
-                                     kPalette[0]);
-  text += panel("roll, pitch (deg)", 4, 5, {{kPalette[0], "roll"}, {kPalette[1], "pitch"}});
+  std::string text = traces.data() + yaw_block(time_yaw);
+  text += panel("position (m)", 1, 3,
+                {{.colour = kPalette[0], .text = "x"},
+                 {.colour = kPalette[1], .text = "y"},
+                 {.colour = kPalette[2], .text = "z"}});
+  text += panels.next("yaw (deg), each sample") +
+          fmt::format(
+              "set yrange [-200:200]\nset ytics 180\nset format y '% .0f'\n"
+              "plot $yaw using 1:2 with lines lw 1.0 lc rgb '{}'\n",
+              kPalette[0]);
+  text += panel("roll (deg)", 4, 4);
+  text += panel("pitch (deg)", 5, 5);
   text += panel("speed (m/s)", 7, 7);
-  text += panel("off the leg (m)", 8, 8);
-  return Plot{"flight", text + "unset multiplot\n", panels_height_px(5)};
+  text += panel("distance from planned leg (m)", 8, 8);
+  return Plot{"flight", text + "unset multiplot\n", panels.height_px()};
 }
 
 }  // namespace gnbv

@@ -154,7 +154,7 @@ std::vector<KeyEntry> key_of(const Comparison& comparison, std::vector<std::stri
   std::vector<KeyEntry> key;
   for (std::size_t method = 0; method < names.size(); ++method) {
     if (method == comparison.baseline) continue;
-    key.push_back({palette_colour(slots[method]), names[method]});
+    key.push_back({.colour = palette_colour(slots[method]), .text = names[method]});
   }
   return key;
 }
@@ -180,9 +180,8 @@ std::optional<Plot> forest_plot(const Comparison& comparison, std::size_t scenar
           "set multiplot\nunset key\nunset xlabel\nset grid noytics\n"
           "set lmargin at screen {:.3f}\nset rmargin at screen 0.97\n",
           name_share(panels)) +
-      fmt::format("set label 1 {} at screen 0.02,{:.4f} left textcolor rgb '#262c36'\n",
-                  gnuplot_text(human_name(comparison.scenarios[scenario])), screen(50)) +
-      key_row(key_of(comparison, names), screen(50)) +
+      title_label(human_name(comparison.scenarios[scenario]), height_px) +
+      key_row(key_of(comparison, names), screen(kTitle_px)) +
       fmt::format(
           "set label 3 '95 % intervals; filled: significant after Holm; an arrow: goes on' "
           "at screen 0.02,{:.4f} left textcolor rgb '#5c6470'\n",

@@ -38,9 +38,6 @@ std::string label(int number, std::string_view text, double x_px, double y_px,
                      gnuplot_text(text), x_px / kWidth_px, screen_y(y_px), align, colour);
 }
 
-constexpr std::string_view kDarkInk = "#262c36";
-constexpr std::string_view kGreyInk = "#5c6470";
-
 std::string source_block(std::string_view what, std::size_t source, std::size_t bin) {
   return fmt::format("{}_{}_{}", what, name_of(static_cast<PatchSource>(source)), bin);
 }
@@ -111,14 +108,14 @@ std::string panel_of_views(std::span<const ViewOutcome> outcomes) {
                         kPalette.at(i).substr(1));
   }
   text += margins(kFrom_px, kTo_px, 240.0, 1180.0);
-  text += label(2, "new voxels that each view found", kFrom_px, 205.0, "left", kGreyInk);
-  text += label(3, "promised", 0.5 * (kFrom_px + kTo_px), 1310.0, "center", kDarkInk);
+  text += label(2, "new voxels that each view found", kFrom_px, 205.0, "left", kPlotGrey);
+  text += label(3, "promised", 0.5 * (kFrom_px + kTo_px), 1310.0, "center", kPlotInk);
   text += fmt::format(
       "set logscale xy\nset xrange [{0}:{1:g}]\nset yrange [{0}:{1:g}]\nset format xy '%.0s%c'\n"
       "set xtics 10\nset ytics 10\nset xtics add ('0' {0})\nset ytics add ('0' {0})\n",
       kLeastVoxels, end);
   return text + fmt::format("plot x with lines lw 0.8 dt 2 lc rgb '{}'{}\nunset logscale\n",
-                            kGreyInk, dots);
+                            kPlotGrey, dots);
 }
 
 std::string panel_of_incidence(std::span<const ViewOutcome> outcomes, std::size_t bin) {
@@ -141,12 +138,12 @@ std::string panel_of_incidence(std::span<const ViewOutcome> outcomes, std::size_
   const int to_deg = bin + 1 < kIncidenceBins ? kIncidenceFrom_deg.at(bin + 1) : 90;
   text += margins(left_px, left_px + width_px, kTop_px, kBottom_px);
   text += label(2, fmt::format("incidence {}–{}°", kIncidenceFrom_deg.at(bin), to_deg), left_px,
-                kTop_px - 35.0, "left", kGreyInk);
+                kTop_px - 35.0, "left", kPlotGrey);
   if (bin == 0) {
     text += label(3, "found (open: promised) of missing (%)", kFrom_px, kTop_px - 110.0, "left",
-                  kGreyInk);
+                  kPlotGrey);
   }
-  text += label(4, "looks before", left_px + 0.5 * width_px, kTall_px - 40.0, "center", kDarkInk);
+  text += label(4, "looks before", left_px + 0.5 * width_px, kTall_px - 40.0, "center", kPlotInk);
   text += fmt::format(
       "set xrange [-0.4:{0}.4]\nset yrange [0:105]\nset xtics 1\nset xtics add ('{0}+' {0})\nset "
       "ytics 25\nset format x '%g'\nset format y '{1}'\n",
@@ -167,11 +164,12 @@ std::optional<Plot> predictions_plot(const RunRecord& record) {
         std::any_of(outcomes.begin(), outcomes.end(), [&](const ViewOutcome& outcome) {
           return outcome.look.source == static_cast<PatchSource>(i);
         });
-    if (is_there) key.push_back({kPalette.at(i), name_of(static_cast<PatchSource>(i))});
+    if (is_there)
+      key.push_back(
+          {.colour = kPalette.at(i), .text = std::string(name_of(static_cast<PatchSource>(i)))});
   }
   std::string text = "set multiplot\nunset key\nunset xlabel\nunset ylabel\n";
-  text += label(1, fmt::format("{}, seed {}", run_title(record), record.scenario.seed), 30.0, 50.0,
-                "left", kDarkInk);
+  text += title_label(run_and_seed(record), kTall_px);
   text += key_row(key, screen_y(125.0));
   text += panel_of_views(outcomes);
   for (std::size_t bin = 0; bin < kIncidenceBins; ++bin) {

@@ -65,24 +65,29 @@ std::optional<Plot> reach_plot(std::span<const RunGroup> groups, Effort effort, 
   std::vector<std::string> methods;
   for (const Arrivals& arrivals : all) methods.push_back(arrivals.method);
   const std::vector<std::size_t> slots = method_slots(methods);
+  const std::string title = common_scenario(groups);
   std::string body;
   std::string entries;
+  std::vector<KeyEntry> key;
   for (std::size_t i = 0; i < all.size(); ++i) {
     body += steps_of(all[i], i, longest);
-    entries +=
-        fmt::format("{}$reach{} using 1:2 with steps lw 1.3 dt {} lc rgb '{}' title {}",
-                    i > 0 ? ", " : "", i, 1 + slots[i] / kPalette.size(), palette_colour(slots[i]),
-                    gnuplot_text(fmt::format("{} ({} of {})", all[i].label, all[i].efforts.size(),
-                                             all[i].runs)));
+    entries += fmt::format("{}$reach{} using 1:2 with steps lw 1.3 dt {} lc rgb '{}'",
+                           i > 0 ? ", " : "", i, method_dashes(slots[i]), palette_colour(slots[i]));
+    key.push_back({.colour = palette_colour(slots[i]),
+                   .text = fmt::format("{} ({} of {})", label_below(title, all[i].label),
+                                       all[i].efforts.size(), all[i].runs),
+                   .line = 1.3,
+                   .dashes = method_dashes(slots[i])});
   }
   body +=
-      key_above(all.size()) +
+      key_above(title, key) +
       fmt::format(
           "set yrange [0:103]\nset ytics 20\nset xrange [0:{}] noextend\nset rmargin 3\n"
           "{}set xlabel {}\nset ylabel {} offset 0.6,0\nplot {}\n",
           longest, x_tics(0.0, longest, even_step(longest)), gnuplot_text(effort_label(effort)),
           gnuplot_text(fmt::format("runs at {:.0f} % of the ceiling (%)", 100.0 * share)), entries);
-  return Plot{fmt::format("reach-{}", effort_name(effort)), body, height_with_key_px(all.size())};
+  return Plot{fmt::format("reach-{}", effort_name(effort)), body,
+              height_with_key_px(title, key.size())};
 }
 
 }  // namespace gnbv

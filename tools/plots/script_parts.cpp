@@ -14,29 +14,40 @@ namespace gnbv {
 namespace {
 
 constexpr std::string_view kPhaseColour = "#dcebf5";
-constexpr double kLeft = 0.135;  // edges of all panels, as shares of the width
+constexpr double kLeft = 0.165;  // edges of all panels, as shares of the width
 constexpr double kRight = 0.975;
-constexpr double kTextLine = 54.0;  // of a picture as wide as PlotSize is at first, in pixels
+constexpr double kTextLine_px = 54.0;
 
 }  // namespace
+
+std::string_view method_dashes(std::size_t slot) {
+  constexpr std::array<std::string_view, 5> kDashes = {"1", "(16,10)", "(6,8)", "(2,8)",
+                                                       "(16,8,2,8)"};
+  return kDashes[slot % kDashes.size()];
+}
 
 std::string_view effort_label(Effort effort) {
   switch (effort) {
     case Effort::views:
       return "views";
     case Effort::metres:
-      return "straight path from the first view on (m)";
+      return "path since the first view, straight legs (m)";
     case Effort::seconds:
-      return "time from the first view on (s)";
+      return "time since the first view (s)";
   }
   return "";
+}
+
+std::string end_label(Effort effort, int percent) {
+  const std::string_view of = effort == Effort::views    ? "views"
+                              : effort == Effort::metres ? "the path, straight legs (m)"
+                                                         : "the time since the first view (s)";
+  return fmt::format("last {} % of {}", percent, of);
 }
 
 std::string_view effort_name(Effort effort) {
   return effort == Effort::views ? "views" : effort == Effort::metres ? "metres" : "seconds";
 }
-
-int panels_height_px(std::size_t count) { return count < 3 ? 1150 : count < 5 ? 1450 : 1700; }
 
 std::string data_block(std::string_view name, const std::vector<std::vector<double>>& rows) {
   std::string text = fmt::format("${} << EOD\n", name);
@@ -56,30 +67,9 @@ std::string shaded_phases(const std::vector<Phase>& phases) {
   return text;
 }
 
-std::string key_row(const std::vector<KeyEntry>& key, double screen_y) {
-  constexpr double kLetter = 0.0172;  // shares of the width, with some room to spare
-  constexpr double kSquare = 0.036;
-  const auto width_of = [](const KeyEntry& entry) {
-    return kLetter * static_cast<double>(entry.text.size()) + 2.0 * kSquare;
-  };
-  double x = kRight + kSquare - 0.01;  // the last word may be one of wide letters
-  for (const KeyEntry& entry : key) x -= width_of(entry);
-  std::string text;
-  int label = 10;
-  for (const KeyEntry& entry : key) {
-    text += fmt::format("set label {} '{}' at screen {:.4f},{:.4f} left textcolor rgb '{}'\n",
-                        label, entry.mark, x, screen_y, entry.colour);
-    text += fmt::format("set label {} {} at screen {:.4f},{:.4f} left textcolor rgb '#262c36'\n",
-                        label + 1, gnuplot_text(entry.text), x + kSquare, screen_y);
-    x += width_of(entry);
-    label += 2;
-  }
-  return text;
-}
-
 std::vector<KeyEntry> key_of_phases(const std::vector<Phase>& phases) {
   if (phases.empty()) return {};
-  return {{kPhaseColour, "frontier views"}};
+  return {{.colour = kPhaseColour, .text = "frontier views"}};
 }
 
 double even_step(double span, int most) {
@@ -90,80 +80,106 @@ double even_step(double span, int most) {
   return 10.0 * power;
 }
 
+namespace {
+
+double size_of(double low, double high) { return std::max({std::abs(low), std::abs(high), 1.0}); }
+bool are_same(double low, double high) { return high - low < 1e-9 * size_of(low, high); }
+
+}  // namespace
+
 Axis axis_around(double low, double high, int most_steps) {
   // values that are all the same lie in the middle of an axis around them
-  const double size = std::max({std::abs(low), std::abs(high), 1.0});
-  if (high - low < 1e-9 * size) {
-    low -= 0.05 * size;
-    high += 0.05 * size;
+  if (are_same(low, high)) {
+    const double room = 0.05 * size_of(low, high);
+    low -= room;
+    high += room;
   }
   const double step = even_step(high - low, most_steps);
   return {step * std::floor(low / step), step * std::ceil(high / step), step};
 }
 
-std::string x_tics(double low, double high, double step) {
-  if (high < 1000.0) return fmt::format("set xtics {:g}\n", step);
-  std::string tics;
-  for (double i = std::ceil(low / step); i * step <= high; ++i) {
-    const auto at = static_cast<std::size_t>(std::lround(i * step));
-    tics += fmt::format("{}'{}' {}", tics.empty() ? "" : ", ", grouped(at), at);
+Axis close_axis(double low, double high, int most_steps) {
+  if (are_same(low, high)) return axis_around(low, high, most_steps);
+  const double power = std::pow(10.0, std::floor(std::log10((high - low) / most_steps)));
+  Axis best;
+  for (const double factor : {50.0, 25.0, 20.0, 10.0, 5.0, 2.5, 2.0, 1.0}) {
+    const double step = factor * power;
+    const Axis axis{step * std::floor(low / step), step * std::ceil(high / step), step};
+    const double steps = std::round((axis.high - axis.low) / step);
+    const bool is_closer = axis.high - axis.low < (1.0 - 1e-9) * (best.high - best.low);
+    if (steps < 2.0 || steps > most_steps || (best.step > 0.0 && !is_closer)) continue;
+    best = axis;
   }
-  return fmt::format("set xtics ({})\n", tics);
+  return best.step > 0.0 ? best : axis_around(low, high, most_steps);
 }
 
 namespace {
 
+/// Of an axis, each with its text: "'1,000' 1000, '1,500' 1500".
+std::string grouped_tics(double low, double high, double step) {
+  std::string tics;
+  for (double i = std::ceil(low / step - 1e-9) + 0.0; i * step <= high + 1e-9 * step; ++i) {
+    std::string mark = grouped(i * step, 0);
+    if (mark.starts_with('-')) mark.replace(0, 1, "\u2212");
+    tics += fmt::format("{}'{}' {:.12g}", tics.empty() ? "" : ", ", mark, i * step);
+  }
+  return tics;
+}
+
 /// All marks with as many decimals as the step has: 94.0 beside 93.9.
 std::string format_of(const Axis& axis) {
   constexpr int kMost = 6;  // beyond that, powers of ten say it
-  const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(axis.step) + 1e-9)));
+  int decimals = 0;
+  for (double step = axis.step;
+       decimals <= kMost && std::abs(step - std::round(step)) > 1e-6 * step; step *= 10.0) {
+    ++decimals;
+  }
   const double largest = std::max(std::abs(axis.low), std::abs(axis.high));
   return decimals > kMost || largest >= 1e6 ? "% h" : fmt::format("% .{}f", decimals);
 }
 
 }  // namespace
 
-std::string y_axis(double low, double high, int most_steps) {
-  const Axis axis = axis_around(low, high, most_steps);
-  // longer numbers would be cut off at the left: 200k
-  const bool is_in_thousands = high >= 10'000.0 && std::fmod(axis.step, 1000.0) == 0.0;
-  const std::string format = !is_in_thousands ? format_of(axis) : high < 1e6 ? "%.0s%c" : "%.1s%c";
-  return fmt::format("set yrange [{:.12g}:{:.12g}]\nset ytics {:.12g}\nset format y '{}'\n",
-                     axis.low, axis.high, axis.step, format);
+std::string x_tics(double low, double high, double step) {
+  if (high < 1000.0) return fmt::format("set xtics {:g}\n", step);
+  return fmt::format("set xtics ({})\n", grouped_tics(low, high, step));
 }
 
-std::string tight_y_axis(double low, double high, int most_steps) {
-  Axis axis;
-  double from = 0.0;
-  double to = 0.0;
-  // a step that leaves one mark, or none, says nothing: a finer one (of equal values none helps)
-  for (const int steps : {most_steps, most_steps + 1, 2 * most_steps}) {
-    axis = axis_around(low, high, steps);
-    const double room = 0.04 * std::max(high - low, axis.step);
-    from = std::max(axis.low, low - room);
-    to = std::min(axis.high, high + room);
-    if (std::floor(to / axis.step) - std::ceil(from / axis.step) >= 1.0) break;
-  }
-  return fmt::format("set yrange [{:.12g}:{:.12g}]\nset ytics {:.12g}\nset format y '{}'\n", from,
-                     to, axis.step, format_of(axis));
+std::string axis_settings(const Axis& axis) {
+  const double largest = std::max(std::abs(axis.low), std::abs(axis.high));
+  const bool is_grouped = largest >= 1000.0 && largest < 1e6 && axis.step >= 1.0;
+  // longer numbers would be cut off at the left: 1.8M
+  const bool is_long = largest >= 1e6 && std::fmod(axis.step, 1000.0) == 0.0;
+  const std::string tics = is_grouped ? "(" + grouped_tics(axis.low, axis.high, axis.step) + ")"
+                                      : fmt::format("{:.12g}", axis.step);
+  return fmt::format("set yrange [{:.12g}:{:.12g}]\nset ytics {}\nset format y '{}'\n", axis.low,
+                     axis.high, tics, is_long ? "%.1s%c" : format_of(axis));
+}
+
+std::string y_axis(double low, double high, int most_steps) {
+  return axis_settings(axis_around(low, high, most_steps));
 }
 
 std::string common_scenario(std::span<const RunGroup> groups) {
-  const std::string& first = groups.front().runs.front()->figures->scenario;
+  const std::string first = scenario_title(groups.front().runs.front()->scenario);
   const bool is_common = std::all_of(groups.begin(), groups.end(), [&](const RunGroup& group) {
-    return group.runs.front()->figures->scenario == first;
+    return scenario_title(group.runs.front()->scenario) == first;
   });
-  const std::string name = human_name(first);
-  const bool is_said = std::any_of(groups.begin(), groups.end(), [&](const RunGroup& group) {
-    return group.label.find(name) != std::string::npos;
-  });
-  return is_common && !is_said ? name : "";
+  return is_common ? first : "";
 }
 
-std::string title_at_right(std::string_view title, int height_px) {
-  if (title.empty()) return "";
-  return fmt::format("set label 1 {} at screen 0.985,{:.4f} right textcolor rgb '#262c36'\n",
-                     gnuplot_text(title), 1.0 - 0.5 * kKeyLine_px / height_px);
+std::string label_below(std::string_view title, const std::string& label) {
+  const std::string said = std::string(title) + ", ";
+  return !title.empty() && label.starts_with(said) ? label.substr(said.size()) : label;
+}
+
+std::string seeds_label(std::string_view label, std::size_t seeds) {
+  return fmt::format("{} ({}){}", label, counted(seeds, "seed"),
+                     seeds >= kLeastSeedsOfBand ? ", 95 % interval" : "");
+}
+
+KeyEntry key_of_seeds() {
+  return {.colour = kPlotGrey, .text = "thin: each of two seeds; thick: their mean", .line = 0.5};
 }
 
 int end_mark(std::size_t slot) {
@@ -178,55 +194,60 @@ std::string end_points(std::string_view block, std::size_t slot) {
       block, end_mark(slot), palette_colour(slot));
 }
 
-int height_with_key_px(std::size_t entries) {
-  return kOnePanel_px + kKeyLine_px * static_cast<int>(entries);
+std::string run_and_seed(const RunRecord& record) {
+  return fmt::format("{}, seed {}", run_title(record), record.scenario.seed);
 }
 
-std::string key_above(std::size_t entries) {
-  const int key_px = kKeyLine_px * (static_cast<int>(entries) + 1);
-  return fmt::format(
-      "set key at screen 0.1,0.99 left top vertical maxcols 1\nset tmargin at screen {:.4f}\n",
-      1.0 - static_cast<double>(key_px) / height_with_key_px(entries));
+double count_up_to(const ViewRecord& view) { return view.iteration + 1.0; }
+
+std::array<double, 2> views_range(std::span<const ViewRecord> views) {
+  return {count_up_to(views.front()) - 0.5, count_up_to(views.back()) + 0.5};
 }
 
 Panels::Panels(std::size_t count, std::string_view title, std::string_view x_label,
-               const std::array<double, 2>& x_range)
-    : count_(count), title_(title), x_label_(x_label), x_range_(x_range) {}
+               const std::array<double, 2>& x_range, std::vector<KeyEntry> key)
+    : count_(count), title_(title), x_label_(x_label), x_range_(x_range), key_(std::move(key)) {}
+
+int Panels::height_px() const {
+  const int panels_px = count_ < 3 ? 1150 : count_ < 5 ? 1450 : count_ < 6 ? 1750 : 2000;
+  return panels_px + kKeyRow_px * static_cast<int>(key_rows(key_).size());
+}
+
+/// What all panels have in common.
+std::string Panels::frame() const {
+  std::string text = fmt::format(
+      "set multiplot\nunset key\nunset xlabel\nset lmargin at screen {}\nset rmargin at screen "
+      "{}\nset xrange [{}:{}]\n",
+      kLeft, kRight, x_range_[0], x_range_[1]);
+  text += title_label(title_, height_px());
+  return text + left_key(key_, height_px());
+}
 
 std::string Panels::next(std::string_view heading, const std::vector<KeyEntry>& key) {
   const auto n = static_cast<double>(count_);
-  // a line of letters, as a share of a picture that has its natural height
-  const double text_line = kTextLine / panels_height_px(count_);
-  const double bottom = 2.9 * text_line;
-  const double heading_height = 1.9 * text_line;
-  const double height = (1.0 - 1.5 * text_line - bottom) / n - heading_height;
-  const double top = 1.0 - 1.5 * text_line - heading_height -
-                     static_cast<double>(drawn_) * (height + heading_height);
+  const auto all_px = static_cast<double>(height_px());
+  const double bottom_px = 2.9 * kTextLine_px;
+  const double heading_px = 1.9 * kTextLine_px;
+  const double above_px =
+      1.5 * kTextLine_px + kKeyRow_px * static_cast<double>(key_rows(key_).size());
+  const double each_px = (all_px - above_px - bottom_px) / n;
+  const double top_px = above_px + heading_px + static_cast<double>(drawn_) * each_px;
+  const auto screen = [&](double px) { return 1.0 - px / all_px; };
   const bool is_last = drawn_ + 1 == count_;
-  std::string text;
-  if (drawn_ == 0) {
-    text += fmt::format(
-        "set multiplot\nunset key\nunset xlabel\nset lmargin at screen {}\nset rmargin at screen "
-        "{}\nset xrange [{}:{}]\n",
-        kLeft, kRight, x_range_[0], x_range_[1]);
-    text += fmt::format("set label 1 {} at screen 0.02,{:.4f} left textcolor rgb '#262c36'\n",
-                        gnuplot_text(title_), 1.0 - text_line);
-  } else {
-    text += "unset label\n";
-  }
-  text += fmt::format("set tmargin at screen {:.4f}\nset bmargin at screen {:.4f}\n", top,
-                      top - height);
-  const double heading_middle = top + 0.75 * text_line;
+  std::string text = drawn_ == 0 ? frame() : "unset label\nunset arrow\n";
+  text += fmt::format("set tmargin at screen {:.4f}\nset bmargin at screen {:.4f}\n",
+                      screen(top_px), screen(top_px + each_px - heading_px));
+  const double heading_y = screen(top_px - 0.75 * kTextLine_px);
   text += fmt::format("set label 2 {} at screen {},{:.4f} left textcolor rgb '#5c6470'\n",
-                      gnuplot_text(heading), kLeft, heading_middle);
-  text += key_row(key, heading_middle);
+                      gnuplot_text(heading), kLeft, heading_y);
+  text += key_row(key, heading_y);
   const double step = even_step(std::max(x_range_[1] - x_range_[0], 1.0));
   text += is_last ? "set format x '%g'\n" + x_tics(x_range_[0], x_range_[1], step)
                   : fmt::format("set format x ''\nset xtics {:g}\n", step);
   if (is_last) {
     text +=
         fmt::format("set label 3 {} at graph 0.5,screen {:.4f} center textcolor rgb '#262c36'\n",
-                    gnuplot_text(x_label_), 0.6 * text_line);
+                    gnuplot_text(x_label_), 0.6 * kTextLine_px / all_px);
   }
   drawn_ += 1;
   return text;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tools/plots/curves.hpp"
+#include "tools/plots/key.hpp"
 #include "tools/run_files/method_slots.hpp"
 
 namespace gnbv {
@@ -21,8 +22,14 @@ constexpr std::string_view palette_colour(std::size_t slot) {
   return kPalette[slot % kPalette.size()];
 }
 
-/// Of the axis that this effort is on: "straight path from the first view on (m)".
+/// The dashes of a number of method_slots(): curves that lie on each other show both. Together with
+/// the colour they are a method's own for 35 methods.
+std::string_view method_dashes(std::size_t slot);
+
+/// Of the axis that this effort is on: "path since the first view, straight legs (m)".
 std::string_view effort_label(Effort effort);
+/// Of an axis that holds only the end of it: "last 15 % of the path, straight legs (m)".
+std::string end_label(Effort effort, int percent);
 /// In the names of plots: "metres".
 std::string_view effort_name(Effort effort);
 
@@ -32,19 +39,6 @@ std::string data_block(std::string_view name, const std::vector<std::vector<doub
 /// Rectangles behind the plot that mark the phases, from half a view before to half after: on an
 /// axis of views, the one of iteration 0 is the first.
 std::string shaded_phases(const std::vector<Phase>& phases);
-
-constexpr std::string_view kSquareMark = "\u25a0";
-constexpr std::string_view kDashedMark = "-\u2009-";
-
-/// A mark of a colour and what it stands for.
-struct KeyEntry {
-  std::string_view colour;
-  std::string_view text;
-  std::string_view mark = kSquareMark;
-};
-
-/// A key in one row that ends at the right edge of the panels.
-std::string key_row(const std::vector<KeyEntry>& key, double screen_y);
 
 /// What explains the shades; nothing without phases.
 std::vector<KeyEntry> key_of_phases(const std::vector<Phase>& phases);
@@ -62,29 +56,29 @@ struct Axis {
 /// Requires low <= high.
 Axis axis_around(double low, double high, int most_steps = 5);
 
-/// The tics of an x axis at whole multiples of `step`, thousands separated, which gnuplot does in
+/// An axis on as few even steps, two at least and `most_steps` at most, as lie closest around both:
+/// it begins and ends on a mark.
+Axis close_axis(double low, double high, int most_steps = 3);
+
+/// The tics of an axis at whole multiples of `step`, thousands separated, which gnuplot does in
 /// some locales only. Requires low <= high, step > 0.
 std::string x_tics(double low, double high, double step);
 
+/// Settings of a y axis: its range, and marks at whole steps with as many decimals as the step has.
+std::string axis_settings(const Axis& axis);
 /// Settings of a y axis that is axis_around() them.
 std::string y_axis(double low, double high, int most_steps = 5);
-/// The same, but no longer than a little beyond both: with more marks where fewer than two of them
-/// would lie in between.
-std::string tight_y_axis(double low, double high, int most_steps = 5);
-
-constexpr int kOnePanel_px = 1050;  // the height of a picture of one panel, 1512 wide
-constexpr int kKeyLine_px = 60;
-
-/// Settings of a key of so many lines above a plot of one panel, whose picture is
-/// height_with_key_px() high: inside, gnuplot leaves out one that is too wide.
-std::string key_above(std::size_t entries);
-int height_with_key_px(std::size_t entries);
-
-/// The scenario of all of them, for people; nothing where their labels say it. Requires a group,
-/// and figures.
+/// The scenario of all of them, for people; nothing where they have several. Requires a group.
 std::string common_scenario(std::span<const RunGroup> groups);
-/// Above a plot of one panel, beside its key; nothing where it is empty.
-std::string title_at_right(std::string_view title, int height_px);
+/// What a key says of a group below that title: "Proposed".
+std::string label_below(std::string_view title, const std::string& label);
+
+/// An interval of the mean of fewer seeds says nothing: their own curves do.
+constexpr std::size_t kLeastSeedsOfBand = 3;
+/// "Proposed (2 seeds)"; where a band is drawn, "Proposed (5 seeds), 95 % interval".
+std::string seeds_label(std::string_view label, std::size_t seeds);
+/// What the thin lines of two seeds are.
+KeyEntry key_of_seeds();
 
 /// A mark of its own for the end of a curve, so that it shows under another's.
 int end_mark(std::size_t slot);
@@ -92,26 +86,35 @@ int end_mark(std::size_t slot);
 /// block's row is.
 std::string end_points(std::string_view block, std::size_t slot);
 
-/// The height of a picture of so many panels that is 1512 pixels wide.
-int panels_height_px(std::size_t count);
+/// Who flew, and by which seed: the title of a plot of one run.
+std::string run_and_seed(const RunRecord& record);
+
+/// How many views were taken with this one: on an axis, the first view is 1.
+double count_up_to(const ViewRecord& view);
+/// Half a view around them. Requires views.
+std::array<double, 2> views_range(std::span<const ViewRecord> views);
 
 /// Panels one above the other with the same width and one x axis over a range that is not empty,
-/// labelled below the last one. Each
-/// has a heading, and beside that a key of one row: gnuplot's own would be laid out by the widths
-/// that each terminal takes letters for, and differ from format to format.
+/// labelled below the last one. Each has a heading, and beside that a key of one row; a key of all
+/// of them stands below the title.
 class Panels {
  public:
   Panels(std::size_t count, std::string_view title, std::string_view x_label,
-         const std::array<double, 2>& x_range);
+         const std::array<double, 2>& x_range, std::vector<KeyEntry> key = {});
   /// The settings of the next panel, to stand before its plot command.
   std::string next(std::string_view heading, const std::vector<KeyEntry>& key = {});
+  /// Of the whole picture, 1512 pixels wide.
+  int height_px() const;
 
  private:
+  std::string frame() const;
+
   std::size_t count_;
   std::size_t drawn_ = 0;
   std::string title_;
   std::string x_label_;
   std::array<double, 2> x_range_;
+  std::vector<KeyEntry> key_;
 };
 
 }  // namespace gnbv

@@ -11,7 +11,7 @@
 namespace gnbv {
 namespace {
 
-constexpr double kLeast_m = 0.001;  // what is less lies on the axis's end
+constexpr double kLeast_m = 1e-5;  // what is less lies on the axis's end
 
 double tilt_rad(const Isometry& T_world_body) {
   return std::acos(std::clamp(T_world_body.linear()(2, 2), -1.0, 1.0));
@@ -32,18 +32,23 @@ std::vector<std::vector<double>> tracking_rows(const RunRecord& record) {
   return rows;
 }
 
-/// A logarithmic axis: how far it strays and how far it may differ by two powers of ten.
-std::string distance_axis(double most_m) {
-  return fmt::format("set logscale y\nset yrange [{}:{:g}]\nset ytics 10\nset format y '%g'\n",
-                     kLeast_m,
-                     std::pow(10.0, std::ceil(std::log10(std::max(most_m, 10.0 * kLeast_m)))));
+/// A logarithmic axis on whole powers of ten around both, each a mark: how far it strays and how
+/// far it may differ by two of them.
+std::string distance_axis(double least_m, double most_m) {
+  const int from = static_cast<int>(std::floor(std::log10(least_m)));
+  const int to = static_cast<int>(std::ceil(std::log10(most_m)));
+  std::string tics;
+  for (int power = from; power <= to; ++power) {
+    tics += fmt::format("{}'{:.{}f}' 1e{}", power > from ? ", " : "", std::pow(10.0, power),
+                        std::max(0, -power), power);
+  }
+  return fmt::format("set logscale y\nset yrange [1e{}:1e{}]\nset ytics ({})\n", from, to, tics);
 }
 
 std::string tracking_title(const RunRecord& record) {
   const WindConfig& wind = record.scenario.wind;
   const double gust_m_s = wind.gust_w20_m_s;
-  return fmt::format("{}, seed {}: wind {:.3g} m/s{}", run_title(record), record.scenario.seed,
-                     wind.mean_world_m_s.norm(),
+  return fmt::format("{}: wind {:.3g} m/s{}", run_and_seed(record), wind.mean_world_m_s.norm(),
                      gust_m_s > 0.0 ? fmt::format(", gusts of {:.3g} m/s at 20 ft", gust_m_s) : "");
 }
 
@@ -73,20 +78,35 @@ std::optional<Plot> tracking_plot(const RunRecord& record) {
   const double margin_m = record.scenario.planner.validity.collision_radius_m -
                           record.scenario.vehicle.airframe.hull_radius_m;
   std::vector<std::vector<double>> shown = rows;
-  for (auto& row : shown) row[1] = std::max(row[1], kLeast_m);
-  const Traces traces(shown);
+  double most_m = margin_m;
+  for (auto& row : shown) {
+    row[1] = std::max(row[1], kLeast_m);
+    most_m = std::max(most_m, row[1]);
+  }
+  const Traces traces(shown, 0.9);
   const bool has_margin = margin_m > kLeast_m;
-  Panels panels(2, tracking_title(record), traces.time_label(), {rows.front()[0], rows.back()[0]});
-  std::vector<KeyEntry> key;
-  if (has_margin) key.push_back({kPalette[1], "kept free beside the hull", kDashedMark});
-  std::string text = traces.data() + panels.next("off the leg (m)", key) +
-                     distance_axis(std::max(margin_m, traces.range(1, 1).second)) + "plot ";
+  std::vector<KeyEntry> key = traces.key();
+  if (!key.empty()) {
+    key.push_back({.colour = kPalette[0], .text = "largest error", .line = 0.5});
+  }
+  if (has_margin) {
+    key.push_back({.colour = kPalette[1],
+                   .text = fmt::format("safety margin, {:.2f} m", margin_m),
+                   .line = 1.0,
+                   .dashes = "2"});
+  }
+  Panels panels(2, tracking_title(record), "mission time (s)", {rows.front()[0], rows.back()[0]},
+                key);
+  std::string text = traces.data() +
+                     panels.next("tracking error (distance from the planned leg, m)") +
+                     distance_axis(traces.range(1, 1).first, most_m) + "plot ";
   if (has_margin) {
     text += fmt::format("{:.3f} with lines lw 1.0 dt 2 lc rgb '{}', ", margin_m, kPalette[1]);
   }
-  text += traces.drawn(1, 1) + "\nunset logscale y\n" + panels.next("tilt (deg)") +
+  text += traces.drawn_most(1) + traces.drawn(1, 1) + "\nunset logscale y\n" +
+          panels.next("tilt (angle of the body from upright, deg)") +
           y_axis(0.0, traces.range(2, 2).second) + "plot " + traces.drawn(2, 2) + "\n";
-  return Plot{"tracking", text + "unset multiplot\n", panels_height_px(2)};
+  return Plot{"tracking", text + "unset multiplot\n", panels.height_px()};
 }
 
 }  // namespace gnbv

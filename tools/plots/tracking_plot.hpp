@@ -11,7 +11,8 @@
 namespace gnbv {
 
 /// "tracking": over the time of the views, how far the vehicle truly was from the straight legs
-/// that were checked for it, beside what the collision radius leaves beyond the hull; and its tilt.
+/// that were checked for it, beside what the collision radius leaves beyond the hull (the safety
+/// margin); and its tilt.
 /// Nothing for a run without two views, or without its path.
 std::optional<Plot> tracking_plot(const RunRecord& record);
 

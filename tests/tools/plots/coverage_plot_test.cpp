@@ -3,7 +3,6 @@
 #include "tools/plots/coverage_plot.hpp"
 
 #include "tests/tools/plots/plot_support.hpp"
-#include "tools/plots/density_plot.hpp"
 #include "tools/plots/reach_plot.hpp"
 #include "tools/plots/script_parts.hpp"
 
@@ -40,18 +39,14 @@ TEST(Plots, OneRunsCurveIsItsOwnAndAnEndedRunKeepsItsCoverage) {
   EXPECT_NEAR(metres[25].coverage.mean, 0.5 * (0.25 + 0.35), 1e-12);  // at 0.5 m of 4
 }
 
-/// A key hides no curve: it stands in the corner where that is free, and over the plot where a
-/// curve runs through it or a name is too long for it.
-TEST(Plots, TheKeyOfCoverageStandsWhereNothingIs) {
-  const auto has_key_inside = [](const std::vector<double>& coverage, const std::string& label) {
-    const std::vector<RunRecord> runs = {covered_record(1, coverage)};
-    const RunGroup group{.label = label, .runs = {&runs[0]}};
-    const std::string body = coverage_plot({&group, 1}, Effort::views, 0).body;
-    return body.find("set key inside bottom right") != std::string::npos;
-  };
-  EXPECT_TRUE(has_key_inside({0.6, 0.7, 0.8, 0.9}, "isler"));
-  EXPECT_FALSE(has_key_inside({0.0, 0.01, 0.02, 0.03}, "isler"));
-  EXPECT_FALSE(has_key_inside({0.6, 0.7, 0.8, 0.9}, std::string(60, 'i')));
+/// Views that turn in place take no metres: what they cover begins the curve, as no stub.
+TEST(Plots, ViewsFromTheFirstPlaceLeaveNoStub) {
+  std::vector<RunRecord> runs = {covered_record(1, {0.2, 0.4, 0.6, 0.7})};
+  runs[0].figures->curve.metres = {0.0, 0.0, 0.0, 7.0};
+  const RunGroup group = group_of(runs);
+  const auto rows = block(coverage_plot({&group, 1}, Effort::metres, 0).body, "group0");
+  EXPECT_EQ(rows, (std::vector<std::vector<double>>{{0, 60, 60, 60}, {7, 70, 70, 70}}));
+  EXPECT_EQ(block(coverage_plot({&group, 1}, Effort::views, 0).body, "group0").size(), 4U);
 }
 
 TEST(Plots, CoverageMarksEndsAndTheCeiling) {
@@ -68,6 +63,8 @@ TEST(Plots, CoverageMarksEndsAndTheCeiling) {
   const auto end = coverage_end_plot({&group, 1}, Effort::metres, 0);
   ASSERT_TRUE(end.has_value());
   EXPECT_NE(end->body.find("set xrange [3.4:4.04]"), std::string::npos);
+  EXPECT_NE(end->body.find("set xlabel 'last 15 % of the path, straight legs (m)'"),
+            std::string::npos);
   expect_drawable(*end);
 }
 
@@ -78,11 +75,16 @@ TEST(Plots, TheMarkOfSeveralRunsIsOnTheirMeanCurveAtTheirMeanLength) {
   const RunGroup group = group_of(runs);
   const Plot plot = coverage_plot({&group, 1}, Effort::metres, 0);
   EXPECT_EQ(block(plot.body, "end0"), (std::vector<std::vector<double>>{{3, 62.5}}));
-  EXPECT_NE(plot.body.find("mean length of the seeds"), std::string::npos);
+  EXPECT_NE(plot.body.find("'mean end of the seeds'"), std::string::npos);
   expect_drawable(plot);
   const RunGroup alone{.label = "a", .runs = {&runs[0]}};
-  EXPECT_EQ(coverage_plot({&alone, 1}, Effort::metres, 0).body.find("mean length"),
-            std::string::npos);
+  EXPECT_EQ(coverage_plot({&alone, 1}, Effort::metres, 0).body.find("mean end"), std::string::npos);
+  // 4 m and 4.03 m: the mark is where both end, which needs no word
+  std::vector<RunRecord> alike = {covered_record(1, {0.2, 0.4, 0.5}),
+                                  covered_record(2, {0.2, 0.4, 0.8})};
+  alike[1].figures->curve.metres.back() = 4.03;
+  const RunGroup both = group_of(alike);
+  EXPECT_EQ(coverage_plot({&both, 1}, Effort::metres, 0).body.find("mean end"), std::string::npos);
 }
 
 /// The end's axis goes around its curve: a key names no line beyond it.
@@ -107,16 +109,12 @@ TEST(Plots, TimeAndDistanceBothBeginWithTheFirstView) {
   const RunGroup group = group_of(runs);
   for (const auto& [effort, end] : {std::pair{Effort::metres, 7.0}, {Effort::seconds, 15.0}}) {
     const auto rows = block(coverage_plot({&group, 1}, effort, 0).body, "group0");
-    EXPECT_EQ(rows[1][0], 0.0);
-    EXPECT_EQ(rows[2][0], end);
+    ASSERT_EQ(rows.size(), 2U);
+    EXPECT_EQ(rows[0][0], 0.0);
+    EXPECT_EQ(rows[1][0], end);
     EXPECT_EQ(block(reach_plot({&group, 1}, effort, 0.9)->body, "reach0")[1][0], end);
-    EXPECT_NE(effort_label(effort).find("from the first view on"), std::string_view::npos);
+    EXPECT_NE(effort_label(effort).find("since the first view"), std::string_view::npos);
   }
-}
-
-TEST(Plots, TicsSeparateThousands) {
-  EXPECT_EQ(x_tics(0.0, 999.0, 500.0), "set xtics 500\n");
-  EXPECT_EQ(x_tics(900.0, 2100.0, 500.0), "set xtics ('1,000' 1000, '1,500' 1500, '2,000' 2000)\n");
 }
 
 TEST(Plots, RunsWithoutViewsHaveACoverage) {
@@ -127,24 +125,6 @@ TEST(Plots, RunsWithoutViewsHaveACoverage) {
       EXPECT_NEAR(point.coverage.mean, 0.3, 1e-12);
     }
   }
-}
-
-TEST(Plots, DensitiesOfSeveralRunsLieOverEachOther) {
-  const std::vector<RunRecord> runs = {scored_record(), scored_record()};
-  const std::vector<RunGroup> groups = {{.label = "a", .runs = {&runs[0]}},
-                                        {.label = "b", .runs = {&runs[1]}}};
-  const Plot plot = mean_density_plot(mean_densities(groups), "Smoke");
-  const std::string& body = plot.body;
-  for (const char* const name : {"series0", "series1"}) {
-    const auto rows = block(body, name);
-    ASSERT_EQ(rows.size(), runs[0].views.size());
-    EXPECT_EQ(rows[3][0], 4.0);  // the first view is 1
-    EXPECT_EQ(rows[3][1], runs[0].views[3].density_points_per_voxel);
-    EXPECT_EQ(block(body, name == std::string("series0") ? "end0" : "end1").at(0), rows.back());
-  }
-  EXPECT_NE(body.find("set xlabel 'views'"), std::string::npos);
-  EXPECT_NE(body.find("'Smoke'"), std::string::npos);
-  expect_drawable(plot);
 }
 
 TEST(ReachPlot, StepsUpWhereEachRunGetsThereAndStaysBelowForThoseThatDoNot) {

@@ -5,6 +5,7 @@
 #include "sim/core/file.hpp"
 #include "tests/tools/plots/plot_support.hpp"
 #include "tools/plots/run_plots.hpp"
+#include "tools/plots/terms_plot.hpp"
 
 namespace gnbv {
 namespace {
