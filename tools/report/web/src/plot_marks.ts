@@ -12,7 +12,7 @@ export const frontierFlights = (flights: Flight[]) =>
 /** What the marks mean, where there are any; `flights`: whose frontier views are marked. */
 export function marksKey({ rings }: PlotContent, flights: Flight[]): HTMLElement | null {
   const papers = new Set(rings.map((ring) => ring.label));
-  const marks: Node[] = [...papers].map((label) => make("span", {}, `○ end of the paper's ${label}`));
+  const marks: Node[] = [...papers].map((label) => make("span", {}, `○ paper's end: ${label}`));
   if (frontierFlights(flights).length > 0) {
     const isAlone = flights.length === 1;
     marks.push(make("span", {}, make("i", { class: isAlone ? "swatch" : "swatch strip" }),
@@ -61,7 +61,7 @@ export function drawRings(plot: uPlot, rings: Ring[]) {
     ctx.lineWidth = 1.6 * devicePixelRatio;
     ctx.strokeStyle = ring.colour;
     ctx.arc(plot.valToPos(ring.x, "x", true), plot.valToPos(ring.y, "y", true),
-      4 * devicePixelRatio, 0, 2 * Math.PI);
+      5 * devicePixelRatio, 0, 2 * Math.PI);
     ctx.stroke();
   }
 }

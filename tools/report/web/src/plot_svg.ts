@@ -73,7 +73,7 @@ export function plotSvg(plot: uPlot, { lines, rings, strips, xName }: SvgContent
     ...lines.map((line, i) => (line.width === 0 ? "" : `<path fill="none" stroke="${line.colour}" `
       + `stroke-width="1.6"${line.dash ? ` stroke-dasharray="${line.dash.join(" ")}"` : ""} d="${
         pathOf(plot.data[0], plot.data[i + 1], px, py)}"/>`)),
-    ...rings.map((ring) => `<circle cx="${px(ring.x)}" cy="${py(ring.y)}" r="4" fill="none" `
+    ...rings.map((ring) => `<circle cx="${px(ring.x)}" cy="${py(ring.y)}" r="4.5" fill="none" `
       + `stroke="${ring.colour}" stroke-width="1.6"/>`),
     ...keys.map((named, i) => rect(key(i)[0], key(i)[1] - 9, 10, 10, named.colour)
       + label(key(i)[0] + 14, key(i)[1], "start", named.name)),

@@ -254,7 +254,7 @@ export class RunScene {
   /** Corners around the vehicle, enlarged as it is from afar, before the first view. */
   private aroundProfileEnd(): number[] {
     const end = this.flight.profileEnd();
-    const reach_m = 0.25 * this.sightMost_m();
+    const reach_m = 0.12 * this.sightMost_m();
     return end.length === 0 ? [] : Array.from({ length: 8 }, (_, corner) =>
       end.map((x, axis) => x + (corner >> axis & 1 ? reach_m : -reach_m))).flat();
   }
