@@ -26,8 +26,9 @@ function orderItem(first: string, last: string): HTMLElement {
 /** One text where all runs have the same, else each run's beside the colour of the run. */
 function ofEach(scenes: RunScene[], texts: string[]): Child[] {
   if (new Set(texts).size === 1) return [` ${texts[0]}`];
-  return scenes.flatMap(({ flight }, i) => [make("span", { class: `dot run-${flight.index}`,
-    role: "img", "aria-label": flight.data.label }), ` ${texts[i]}`]);
+  return scenes.map(({ flight }, i) => make("span", { class: "each" }, make("span", {
+    class: `dot run-${flight.index}`, role: "img", "aria-label": flight.data.label }),
+  ` ${texts[i]}`));
 }
 
 /** A bar with what it stands for under it, or where runs differ in that each run's ends. */
