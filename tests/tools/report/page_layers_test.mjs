@@ -277,8 +277,10 @@ try {
   for (const [bottom, top, bars] of lanes) assert.ok(bottom <= top && bars > 0, `${lanes}`);
 
   // what colours stand for is named in the middle, too
-  for (const bar of await browser.evaluate(`[...document.querySelectorAll(".mark.half.low")]
-    .map((half) => half.nextSibling.textContent)`)) assert.ok(bar.length > 0);
+  for (const ends of await browser.evaluate(`[...document.querySelectorAll(".scale-ends")]
+    .map((under) => [...under.children].map((end) => end.textContent))`)) {
+    assert.ok(ends.length === 3 && ends.every((end) => end !== ""), `${ends}`);
+  }
 
   // seeds of one configuration are drawn as their mean, where there are any
   const seeds = "document.querySelector(\"select[aria-label='Runs of several seeds']\")";

@@ -39,10 +39,18 @@ node -e '
 "$gnbv" report "${evil}proposed" --quiet -o one.html >/dev/null
 "$gnbv" report "${evil}proposed" "${evil}tour" --quiet -o two.html >/dev/null
 "$gnbv" report seed1 seed2 --quiet -o seeds.html >/dev/null
+cp -R seed1 again
+"$gnbv" report seed1 again --quiet -o equal.html >/dev/null
+node "$here/page_look_test.mjs" "$chromium" equal.html seed1 again
+# some of its views were chosen after others had been sampled in vain
+"$gnbv" run lab_model --quiet --frames --candidates --out lab \
+  --set planner.termination.max_iterations=7 >/dev/null
+"$gnbv" report lab --quiet -o lab.html >/dev/null
+node "$here/page_words_test.mjs" "$chromium" lab.html lab
 for test in page_layers_test page_words_test; do
   node "$here/$test.mjs" "$chromium" seeds.html seed1 seed2
 done
-for test in page_test page_layers_test page_words_test; do
+for test in page_test page_layers_test page_words_test page_look_test; do
   node "$here/$test.mjs" "$chromium" one.html "${evil}proposed"
   node "$here/$test.mjs" "$chromium" two.html "${evil}proposed" "${evil}tour"
 done

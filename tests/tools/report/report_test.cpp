@@ -300,6 +300,24 @@ TEST(Report, NamesUtilitiesAsPeopleDoWithoutThePaperToo) {
   }
 }
 
+TEST(Report, ATableNamesCoverageInFullAndExplainsNoColumnThatIsNotThere) {
+  TempFolder temp;
+  write_made_run(temp.path());
+  RunRecord record = covered_record(1, {0.2});
+  record.folder = temp.path();
+  record.figures->ceiling.reset();
+  const nlohmann::json table = data_of(report_of({record}))["tables"][0];
+  std::vector<std::string> coverage;
+  for (const nlohmann::json& column : table["columns"]) {
+    const std::string head = column["head"];
+    EXPECT_NE(head, "Of ceiling");
+    if (head.find("0.") != std::string::npos) coverage.push_back(head);
+  }
+  EXPECT_EQ(coverage,
+            (std::vector<std::string>{"Coverage, 0.05 m", "Coverage, 0.10 m", "Coverage, 0.50 m"}));
+  EXPECT_EQ(table["notes"].dump().find("of ceiling"), std::string::npos);
+}
+
 /// A released run is no second seed of a run by the paper.
 TEST(Report, RunsOfTwoConfigurationsAreTwoRows) {
   TempFolder temp;

@@ -2,16 +2,20 @@
 import * as three from "three";
 import { isDark, ramp, rampGradient } from "./colours";
 import type { CandidateData } from "./data";
-import { make, number } from "./dom";
+import { make, number, significant } from "./dom";
 import type { Flight } from "./flight";
+import { rejectionMeans } from "./rejections";
+import { validWords } from "./panels";
 import { makeTube } from "./marks";
 import type { Model } from "./surfaces";
 
 const kValid = 254;
 const kChosen = 255;
-const kChosenColour = 0xd5420a;
-const kRayColour = 0xe08a2e;
-const missColour = () => (isDark() ? 0x54483a : 0xecd9c6); // of rays that meet nothing
+/** No other mark is black, or white at night, with a rim of the other. */
+const chosenColour = () => (isDark() ? 0xffffff : 0x000000);
+const rimColour = () => (isDark() ? 0x000000 : 0xffffff);
+const rayColour = () => (isDark() ? 0xc3cad4 : 0x3d4652);
+const missColour = () => (isDark() ? 0x4a5462 : 0xc3cad4); // of rays that meet nothing
 /** Of a rejection; on a dark page those of the pictures would drown. */
 const reasonColour = (ofPictures: number) => {
   const colour = new three.Color(ofPictures);
@@ -44,8 +48,9 @@ export class CandidateMarks {
   private shownAt = -1;
   private now: Candidate[] = [];
 
+  /** Rays that meet nothing are drawn as far as `missed_m`, or to the end of a camera's range. */
   constructor(private readonly flight: Flight, private readonly model: Model,
-      private readonly data: CandidateData) {
+      private readonly data: CandidateData, private readonly missed_m: number) {
     const { bytes } = flight;
     this.places = bytes.points(data.points);
     this.angles = bytes.f32(data.angles);
@@ -88,7 +93,7 @@ export class CandidateMarks {
   }
 
   private colourOf({ kind, terms }: Candidate): three.Color {
-    if (kind === kChosen) return new three.Color(kChosenColour);
+    if (kind === kChosen) return new three.Color(chosenColour());
     if (!terms) return reasonColour(this.data.reasons[kind]?.colour ?? 0x888888);
     const values = this.now.filter((other) => other.terms).map((other) => other.terms![0]);
     const [low, high] = [Math.min(...values), Math.max(...values)];
@@ -96,27 +101,18 @@ export class CandidateMarks {
     return new three.Color().setRGB(r / 255, g / 255, b / 255, three.SRGBColorSpace);
   }
 
-  /** A dot where each stands, and a line the way it looks. */
+  /** A dot where each stands, and a line the way it looks; the chosen one on a rim, over all. */
   private pins(): three.Object3D[] {
     const { min, max } = this.flight.data.workspace;
     const extent = new three.Vector3(...min).distanceTo(new three.Vector3(...max));
-    const kinds = [(c: Candidate) => c.terms === null, (c: Candidate) => c.kind === kValid,
-      (c: Candidate) => c.kind === kChosen];
-    return kinds.flatMap((isOne, rank) => {
-      const all = this.now.filter(isOne);
-      const length = [0.012, 0.02, 0.03][rank] * extent;
-      const ends = all.flatMap(({ at, yaw, pitch }) => [...at.toArray(),
-        at.x + length * Math.cos(yaw) * Math.cos(pitch),
-        at.y + length * Math.sin(yaw) * Math.cos(pitch), at.z - length * Math.sin(pitch)]);
-      const colours = all.map((candidate) => this.colourOf(candidate).toArray());
-      const dots = new three.BufferGeometry().setFromPoints(all.map(({ at }) => at));
-      dots.setAttribute("color", new three.Float32BufferAttribute(colours.flat(), 3));
-      const points = new three.Points(dots, new three.PointsMaterial({ vertexColors: true,
-        size: [4, 8, 13][rank], sizeAttenuation: false }));
-      points.frustumCulled = false;
-      return [points, makeTube(new Float32Array(ends),
-        new Float32Array(colours.flatMap((rgb) => [...rgb, ...rgb])), [1.5, 2.6, 4.5][rank], 1)];
-    });
+    const isChosen = ({ kind }: Candidate) => kind === kChosen;
+    const rim = new three.Color(rimColour());
+    const colour = (candidate: Candidate) => this.colourOf(candidate);
+    return [
+      ...pinsOf(this.now.filter((c) => c.terms === null), 0.012 * extent, 4, 1.5, colour),
+      ...pinsOf(this.now.filter(({ kind }) => kind === kValid), 0.02 * extent, 8, 2.6, colour),
+      ...inFront(pinsOf(this.now.filter(isChosen), 0.045 * extent, 21, 9, () => rim), 8),
+      ...inFront(pinsOf(this.now.filter(isChosen), 0.045 * extent, 15, 5, colour), 9)];
   }
 
   /** Of the chosen view, up to the first voxel that held points before. */
@@ -135,36 +131,55 @@ export class CandidateMarks {
         const way = new three.Vector3(share[0] * Math.tan(camera.fov_x / 2),
           share[1] * Math.tan(camera.fov_y / 2), 1).transformDirection(T).applyQuaternion(q);
         const length = densities?.firstHit(origin, way, camera.range_m, known) ?? camera.range_m;
-        const end = origin.clone().addScaledVector(way, length);
+        const isHit = length < camera.range_m;
+        const end = origin.clone().addScaledVector(way,
+          isHit ? length : Math.min(length, this.missed_m));
         positions.push(...origin.toArray(), ...end.toArray());
-        const colour = new three.Color(length < camera.range_m ? kRayColour : missColour())
-          .toArray();
+        const colour = new three.Color(isHit ? rayColour() : missColour()).toArray();
         colours.push(...colour, ...colour);
       }
     }
     return lines(positions, colours);
   }
 
-  /** What the lines of the present decision mean; the counts add up to all of its candidates. */
-  kinds(): { colour: string; text: string; count: number }[] {
-    const reasons = new Map<number, number>();
-    for (const { kind } of this.now) reasons.set(kind, (reasons.get(kind) ?? 0) + 1);
-    return [...reasons].sort(([a], [b]) => b - a).map(([kind, count]) =>
-      kind === kChosen ? { colour: hex(kChosenColour), text: "chosen, and its rays", count }
-      : kind === kValid ? { colour: rampGradient("amount"),
-        text: "other valid ones, low to high utility", count }
-      : { colour: `#${reasonColour(this.data.reasons[kind].colour).getHexString()}`,
-        text: this.data.reasons[kind].words, count });
+  /** Where those of the present decision stand, x y z each. */
+  drawn(): number[] { return this.now.flatMap(({ at }) => at.toArray()); }
+
+  /** Ends of the chosen view's rays, x y z each. */
+  rayEnds(): number[] {
+    const rays = this.object.children.find((part) => part.name === "rays") as three.LineSegments;
+    return [...rays?.geometry.getAttribute("position").array ?? []];
   }
 
-  /** How many were valid, and what became of the others. */
-  private sum(): string {
+  /** What the lines of the present decision mean; the counts add up to all of its candidates. */
+  kinds(): { colour: string; text: string; means: string; count: number }[] {
+    const reasons = new Map<number, number>();
+    for (const { kind } of this.now) reasons.set(kind, (reasons.get(kind) ?? 0) + 1);
+    const range_m = Math.max(...this.flight.data.cameras.map((camera) => camera.range_m));
+    return [...reasons].sort(([a], [b]) => b - a).map(([kind, count]) =>
+      kind === kChosen ? { colour: hex(chosenColour()), text: "chosen, and its rays",
+        means: "Rays end at the first voxel that held points before; those that meet none are pale, "
+          + `and drawn to ${number(Math.min(this.missed_m, range_m), 1)} m`, count }
+      : kind === kValid ? { colour: rampGradient("amount"),
+        text: "other valid ones, low to high utility",
+        means: "They may be flown to, and competed with the chosen one", count }
+      : { colour: `#${reasonColour(this.data.reasons[kind].colour).getHexString()}`,
+        text: this.data.reasons[kind].words, means: rejectionMeans(kind), count });
+  }
+
+  /** How many were valid, in the words of the replay, and what became of the others. */
+  private sum(): (Node | string)[] {
+    const view = this.shownAt - 1;
+    const v = this.flight.data.views;
+    const before = this.now.length - v.candidates[view];
     const competed = this.now.filter(({ terms }) => terms).length;
-    const hasChosen = this.now.some(({ kind }) => kind === kChosen);
-    const rejected = this.kinds()
-      .filter(({ text }) => this.data.reasons.some((reason) => reason.words === text));
-    return [`valid: ${number(competed)}${hasChosen ? ", with the chosen one" : ""}`,
-      ...rejected.map(({ text, count }) => `${text}: ${number(count)}`)].join("; ");
+    const rejected = this.kinds().filter(({ text }) =>
+      this.data.reasons.some((reason) => reason.words === text));
+    return [validWords(this.flight, view),
+      before > 0 ? `, and ${number(competed - v.valid[view])} of ${number(before)} sampled before`
+        : "",
+      ...rejected.flatMap(({ text, means, count }) =>
+        ["; ", make("span", { title: means }, `${text}: ${number(count)}`)]), "."];
   }
 
   /** The decision in words: its rejections, and the best of those that competed. */
@@ -177,15 +192,40 @@ export class CandidateMarks {
       { class: candidate.kind === kChosen ? "ours" : "" },
       make("td", {}, candidate.kind === kChosen ? `${rank + 1}, chosen` : `${rank + 1}`),
       ...Array.from(candidate.terms!, (value) => make("td", { class: "number" },
-        value.toLocaleString("en-US", { maximumSignificantDigits: 4 }))));
+        significant(value))));
     return make("div", {},
-      make("p", { class: "fine" },
-        `Candidates of all samplers that were asked: ${number(this.now.length)}; ${this.sum()}.`),
+      make("p", { class: "fine" }, ...this.sum()),
       best.length === 0 ? "" : make("div", { class: "card scroll" }, make("table", {},
         make("thead", {}, make("tr", {}, ...head.map((name, i) =>
           make("th", { scope: "col", class: i > 0 ? "number" : "" }, name)))),
         make("tbody", {}, ...best.map(row)))));
   }
+}
+
+function pinsOf(all: Candidate[], length: number, dot_px: number, line_px: number,
+    colourOf: (candidate: Candidate) => three.Color): [three.Points, three.Object3D] {
+  const ends = all.flatMap(({ at, yaw, pitch }) => [...at.toArray(),
+    at.x + length * Math.cos(yaw) * Math.cos(pitch),
+    at.y + length * Math.sin(yaw) * Math.cos(pitch), at.z - length * Math.sin(pitch)]);
+  const colours = all.map((candidate) => colourOf(candidate).toArray());
+  const dots = new three.BufferGeometry().setFromPoints(all.map(({ at }) => at));
+  dots.setAttribute("color", new three.Float32BufferAttribute(colours.flat(), 3));
+  const points = new three.Points(dots, new three.PointsMaterial({ vertexColors: true,
+    size: dot_px, sizeAttenuation: false }));
+  points.frustumCulled = false;
+  return [points, makeTube(new Float32Array(ends),
+    new Float32Array(colours.flatMap((rgb) => [...rgb, ...rgb])), line_px, 1)];
+}
+
+/** Over everything, in that order. */
+function inFront(parts: three.Object3D[], order: number): three.Object3D[] {
+  for (const part of parts) {
+    part.renderOrder = order;
+    const material = (part as three.Mesh).material as three.Material;
+    material.depthTest = false;
+    material.transparent = true; // drawn after what is opaque
+  }
+  return parts;
 }
 
 function lines(positions: number[], colours: number[]): three.LineSegments {
@@ -196,5 +236,6 @@ function lines(positions: number[], colours: number[]): three.LineSegments {
     new three.LineBasicMaterial({ vertexColors: true, transparent: true, opacity: 0.45,
       depthWrite: false }));
   segments.frustumCulled = false;
+  segments.name = "rays";
   return segments;
 }

@@ -119,6 +119,8 @@ export function makeTransport(replay: Replay, readout: HTMLElement): HTMLElement
   const play = make("button", { type: "button", class: "play", click: () => replay.toggle() });
   const slider = make("input", { type: "range", "aria-label": "Replay of the mission" });
   slider.addEventListener("input", () => replay.moveTo(Number(slider.value)));
+  const efforts = choice("Measure the mission by", kEfforts,
+    (effort) => replay.setEffort(effort));
   const update = () => {
     slider.step = clock.effort === "views" ? "1" : "any";
     slider.min = String(replay.begin());
@@ -130,13 +132,14 @@ export function makeTransport(replay: Replay, readout: HTMLElement): HTMLElement
     slider.setAttribute("aria-valuetext", readout.textContent ?? "");
     play.setAttribute("aria-label", clock.isPlaying ? "Pause" : "Play");
     play.classList.toggle("playing", clock.isPlaying);
+    efforts.press(clock.effort); // a link chooses, too
   };
   clock.onChange(update);
   update();
   const speeds: [string, string][] = [["0.5", "½×"], ["1", "1×"], ["2", "2×"], ["4", "4×"]];
   return make("div", { class: "transport" }, play, slider,
     select("Speed of the replay", speeds, "1", (value) => { replay.speed = Number(value); }),
-    choice("Measure the mission by", kEfforts, clock.effort, (effort) => replay.setEffort(effort)));
+    efforts.element);
 }
 
 export interface View3d {
@@ -144,6 +147,7 @@ export interface View3d {
   readonly element: HTMLElement;
   setShown(scenes: RunScene[]): void;
   setTheme(): void;
+  drawNow(): void; // a picture before anything else happens
   setLayers(layers: Layers): void;
   colour(by: Colouring): void;
   setFollows(follows: boolean): void;
@@ -202,11 +206,11 @@ export function makeLayerBar(view: View3d, has: { real: boolean; voxels: boolean
     has.predicted ? layer("predicted", "Predicted") : null,
     has.frontiers ? layer("frontiers", "Frontiers") : null,
     has.runSurface ? layer("surface", "Surface") : null,
-    make("span", { class: "gap" }),
-    select("Colour of points and voxels", colourings,
-      first, choose),
-    toggle("Follow", false, (on) => view.setFollows(on)),
-    make("button", { type: "button", class: "small", click: () => view.frame(),
-      title: "Show the whole structure; a double click does it, too" }, "Fit"),
-    ...view.buttons());
+    make("span", { class: "tools" },
+      select("Colour of points and voxels", colourings,
+        first, choose),
+      toggle("Follow", false, (on) => view.setFollows(on)),
+      make("button", { type: "button", class: "small", click: () => view.frame(),
+        title: "Show everything that is shown; a double click does it, too" }, "Fit"),
+      ...view.buttons()));
 }

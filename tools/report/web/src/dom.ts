@@ -16,25 +16,25 @@ export function make<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
-/** Colours from `low` to `high`, with what their middle stands for between the halves. */
-export function colourBar(colours: string, low: string, middle: string, high: string): HTMLElement {
-  const half = (side: string) => {
-    const swatch = make("i", { class: `mark bar half ${side}` });
-    swatch.style.backgroundImage = colours;
-    return swatch;
-  };
-  return make("span", {}, low, half("low"), middle, half("high"), high);
+/** A bar of colours with what its ends and its middle stand for under it, and their unit. */
+export function colourBar(colours: string, what: string, [low, middle, high]: string[],
+    unit: string): HTMLElement {
+  const bar = make("i", { class: "mark bar" });
+  bar.style.backgroundImage = colours;
+  return make("span", {}, what, make("span", { class: "scale" }, bar,
+    make("span", { class: "scale-ends" }, ...[low, middle, high].flatMap((at) =>
+      [make("b", {}, at), " "]))), ` ${unit}`);
 }
 
-/** Buttons of which one is pressed. */
-export function choice<T extends string>(
-    label: string, options: [T, string][], chosen: T, choose: (value: T) => void): HTMLElement {
+/** Buttons of which one is pressed; press() tells which one where it was not a click. */
+export function choice<T extends string>(label: string, options: [T, string][],
+    choose: (value: T) => void): { element: HTMLElement; press: (value: T) => void } {
   const buttons = options.map(([value, text]) =>
-    make("button", { type: "button", "aria-pressed": String(value === chosen), click: () => {
-      buttons.forEach((b, i) => b.setAttribute("aria-pressed", String(options[i][0] === value)));
-      choose(value);
-    } }, text));
-  return make("div", { class: "choice", role: "group", "aria-label": label }, ...buttons);
+    make("button", { type: "button", click: () => { press(value); choose(value); } }, text));
+  const press = (chosen: T) => buttons.forEach((button, i) =>
+    button.setAttribute("aria-pressed", String(options[i][0] === chosen)));
+  return { element: make("div", { class: "choice", role: "group", "aria-label": label },
+    ...buttons), press };
 }
 
 export function select<T extends string>(
@@ -59,3 +59,14 @@ export function number(value: number, decimals = 0): string {
 
 /** "28.1", as the tables have it. */
 export const minutes = (seconds: number) => number(seconds / 60, 1);
+
+/** "34.7 m", which no line breaks. */
+export const measure = (value: string, unit: string) => (unit === "" ? value
+  : `${value}\u00a0${unit}`);
+
+/** Three digits that count, scientific below 0.001: "0.0123", "4.56e-5". */
+export function significant(value: number): string {
+  if (value !== 0 && Math.abs(value) < 1e-3) return value.toExponential(2);
+  return value.toLocaleString("en-US",
+    { minimumSignificantDigits: 3, maximumSignificantDigits: 3 });
+}

@@ -95,6 +95,9 @@ export class Flight {
     return begin === undefined ? Infinity : this.samplesBy(begin);
   }
 
+  /** Where the vehicle is before the first view, x y z; empty where no path was recorded. */
+  profileEnd(): number[] { return this.flownPose(this.times[0])?.p.toArray() ?? []; }
+
   private flownPose(time: number): Pose | null {
     if (!this.pathTimes) return null;
     const i = Math.max(0, lastAtMost(this.pathTimes, time));

@@ -2,7 +2,7 @@
 import type { Clock } from "./clock";
 import { rampGradient } from "./colours";
 import type { Slice } from "./data";
-import { colourBar, make, number } from "./dom";
+import { colourBar, make, measure, number } from "./dom";
 import type { Flight } from "./flight";
 
 const kDialog = make("dialog", { class: "large", "aria-label": "Picture" });
@@ -16,12 +16,14 @@ export class FrameStrip {
   show(flights: Flight[], clock: Clock) {
     const kept = flights.filter((flight) => flight.data.frames.length > 0);
     const nearest = kept.map((flight) => nearestView(flight, flight.viewsAt(clock) - 1));
-    const key = kept.map((flight, i) => `${flight.index}:${nearest[i]}`).join();
+    // before the first view there is none to show: the one that comes is
+    const before = kept.map((flight) => (flight.viewsAt(clock) === 0 ? "next: " : ""));
+    const key = kept.map((flight, i) => `${flight.index}:${before[i]}${nearest[i]}`).join();
     if (key === this.key) return;
     this.key = key;
     if (kDialog.open) kDialog.close();
     this.element.replaceChildren(...kept.flatMap((flight, i) => figuresOf(flight, nearest[i],
-      flights.length > 1 ? `${flight.data.label}: ` : "")));
+      (flights.length > 1 ? `${flight.data.label}: ` : "") + before[i])));
   }
 }
 
@@ -63,7 +65,8 @@ function enlarge(image: HTMLImageElement, name: string) {
 }
 
 function depthKey(range_m: number): HTMLElement[] {
-  const key = colourBar(rampGradient("amount"), "0", number(range_m / 2, 1), `${number(range_m)} m`);
+  const key = colourBar(rampGradient("amount"), "", ["0", number(range_m / 2, 1),
+    measure(number(range_m), "m")], "");
   key.className = "depth-key";
   return [key];
 }

@@ -14,11 +14,12 @@ import { Bytes, readPage } from "./data";
 import { make } from "./dom";
 import { Flight } from "./flight";
 import { FrameStrip } from "./frame_strip";
+import { needsTwoSheets, plotHeight_px } from "./paper";
 import * as panels from "./panels";
 import { Plots } from "./plots";
 import { RunScene } from "./run_scene";
 import { viewsThatSaw } from "./seen_by";
-import { makeStage } from "./stage";
+import { makeStage } from "./make_stage";
 import { Vector3 } from "three";
 
 function setRunColours(count: number) {
@@ -41,7 +42,7 @@ function build() {
     replay.setEffort("views");
     replay.moveTo(view + 1);
   });
-  const plots = new Plots(clock);
+  const plots = new Plots(clock, plotHeight_px(needsTwoSheets(page.runs)));
   const strip = new FrameStrip();
   const words = make("p", { class: "readout", "aria-live": "off" });
   const key = make("p", { class: "legend", "aria-label": "Legend" });
@@ -70,16 +71,19 @@ function build() {
     camera: stage.cameraState(), colour: colouring, runs: [...shown],
     layers: Object.entries(layers ?? {}).filter(([, on]) => on).map(([name]) => name) }));
   const hasViews = () => shownFlights().some((flight) => flight.viewsAt(clock) > 0);
-  let toldViews = true; // what the legend was made for
+  const kindOfMoment = () => JSON.stringify([hasViews(),
+    shownScenes().some(({ flight, model }) => model.newPoints(flight.viewsAt(clock)) > 0)]);
+  let toldMoment = ""; // what the legend was made for
   const explain = () => {
     if (!layers) return;
-    toldViews = hasViews();
+    toldMoment = kindOfMoment();
     for (const scene of shownScenes()) { // the legend counts them
       const n = scene.flight.viewsAt(clock);
       scene.candidates?.show(n);
       scene.believed?.show(n);
     }
-    key.replaceChildren(...legendItems(shownScenes(), layers, colouring, toldViews));
+    key.replaceChildren(...legendItems(shownScenes(), layers, colouring,
+      (scene) => scene.flight.viewsAt(clock)));
     why.replaceChildren(...!layers.candidates ? [] : shownScenes()
       .filter((scene) => scene.candidates).map((scene) => make("div", {},
         make("h3", {}, flights.length > 1 ? `Why this view: ${scene.flight.data.label}`
@@ -87,7 +91,7 @@ function build() {
   };
   clock.onChange(() => {
     const { candidates, unknown, predicted, frontiers } = layers ?? {};
-    if (candidates || unknown || predicted || frontiers || toldViews !== hasViews()) explain();
+    if (candidates || unknown || predicted || frontiers || toldMoment !== kindOfMoment()) explain();
   });
   const setShown = () => {
     stage.setShown(shownScenes());
@@ -127,7 +131,8 @@ function build() {
     make("main", {},
       isAlone ? panels.makeTiles(page.runs[0])
         : panels.makeRunTable(page.runs, shown, setShown),
-      make("div", { class: isAlone ? "board" : "board several" },
+      make("div", { class: `board ${isAlone ? "" : "several"} ${
+        needsTwoSheets(page.runs) ? "two-sheets" : ""}` },
         make("section", { class: "mission", "aria-label": "The mission in 3D" },
           make("div", { class: "card view" }, stage.canDraw ? layerBar : null, stage.element,
             stage.canDraw ? key : null, makeTransport(replay, words), words, why),
@@ -153,6 +158,7 @@ function build() {
   replay.setEffort(state.effort ?? "views");
   replay.moveTo(state.at ?? replay.last());
   if (state.camera) stage.setCamera(state.camera);
+  stage.drawNow();
   if (page.is_live) {
     const end = page.runs[0].figures ? " finished" : "";
     followRun(`${flights[0].count}${end}`, () => writer.write(),
@@ -166,7 +172,8 @@ function build() {
   });
   // for scripts and tests: gnbv.seek(views), gnbv.pose(run) as x, y, z, yaw of what is drawn,
   // gnbv.views(run) at the present place of the replay, gnbv.points(run) that the voxels hold
-  // there, gnbv.found(run) of the true surface, gnbv.candidates(run) that are drawn,
+  // there, gnbv.found(run) of the true surface, gnbv.rays(run) ends of the chosen view's,
+  // gnbv.errors(run) the scale of their colours, gnbv.candidates(run) that are drawn,
   // gnbv.believed(run, kind) voxels that are drawn, x y z indices each,
   // gnbv.frustum(run, view) ends of its pyramid's lines, gnbv.point(run, i) as x, y, z and the view that brought it, gnbv.seenBy(run, place) views,
   // gnbv.plan(run) of views that a tour's plan still has there, gnbv.camera() where the 3D view is
@@ -175,6 +182,8 @@ function build() {
     seek: (views: number) => { replay.setEffort("views"); replay.moveTo(views); },
     views: (run: number) => flights[run].viewsAt(clock),
     points: (run: number) => scenes[run].model.countedPoints(),
+    rays: (run: number) => scenes[run].candidates?.rayEnds() ?? [],
+    errors: (run: number) => scenes[run].model.errors,
     found: (run: number) => scenes[run].surface?.counts() ?? null,
     candidates: (run: number) => scenes[run].candidates?.count ?? 0,
     believed: (run: number, kind: BelievedKind) => scenes[run].believed?.drawn(kind) ?? [],

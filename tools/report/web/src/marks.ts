@@ -202,6 +202,13 @@ export class PlanMark {
     this.object.traverse((part) => part.layers.mask = this.object.layers.mask);
   }
 
+  /** Places (x y z each) of the views that are drawn. */
+  drawn(): number[] {
+    if (this.count === 0) return [];
+    const [begin, end] = this.ranges.subarray(2 * this.shownAfter - 2, 2 * this.shownAfter);
+    return Array.from({ length: end - begin }, (_, i) => this.place(begin + i).toArray()).flat();
+  }
+
   private place(pose: number) {
     return new three.Vector3().fromArray(this.poses, PlanMark.kPoseNumbers * pose);
   }

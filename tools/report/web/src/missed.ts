@@ -1,7 +1,7 @@
 // Where a run missed most of the true surface: cells of which it never found the half, gathered
 // into regions. A voxel missed here and there is nowhere to look at.
 import * as three from "three";
-import { make, number } from "./dom";
+import { make, measure, number } from "./dom";
 import type { Flight } from "./flight";
 import type { RunScene } from "./run_scene";
 import { openSide } from "./open_side";
@@ -99,17 +99,20 @@ export function makeMissedList(scenes: RunScene[],
           "aria-label": `Show region ${i + 1}` }, "Show"),
         ` ${number(region.voxels.length)} voxels, `
         + `${number(100 * region.voxels.length / all, 1)} % of them, around `
-        + region.centre.toArray().map((x) => number(Math.round(10 * x) / 10 + 0, 1)).join(", ")
-        + " m"))));
+        + place(region.centre)))));
   }).filter((list) => list !== null);
   return lists.length === 0 ? null : make("section", { class: "card again" },
     make("h3", { class: "flush" }, "Where most was missed"),
     make("div", { class: "missed-runs" }, ...lists));
 }
 
+/** "x −0.1, y 0.0, z 0.3 m" */
+const place = (at_m: three.Vector3) => measure(at_m.toArray().map((x, axis) =>
+  `${"xyz"[axis]}\u00a0${number(Math.round(10 * x) / 10 + 0, 1).replace("-", "\u2212")}`).join(", "), "m");
+
 function sentence(flight: Flight, surface: TrueSurface, missed: number, regions: number): string {
   return `Never found after ${number(flight.count)} views: ${number(missed)} of `
-    + `${number(surface.found.length)} voxels of ${number(surface.size_m, 2)} m`
+    + `${number(surface.found.length)} voxels of ${measure(number(surface.size_m, 2), "m")}`
     + (surface.size_m > kLeastSize_m ? `, as the page cannot carry all of ${kLeastSize_m} m, by which `
       + "coverage is counted. " : ". ")
     + (regions === 0 ? "They lie here and there." : `${number(regions)} `

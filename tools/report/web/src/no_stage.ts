@@ -12,6 +12,7 @@ export class NoStage implements View3d {
   colour() {}
   setFollows() {}
   setTheme() {}
+  drawNow() {}
   frame() {}
   buttons() { return []; }
   cameraState() { return []; }

@@ -1,7 +1,7 @@
 // Everything that is text, tables and pictures.
 import type { Clock } from "./clock";
 import type { PageData, RunData, Table } from "./data";
-import { make, minutes, number } from "./dom";
+import { make, measure, minutes, number } from "./dom";
 import type { Flight } from "./flight";
 
 interface Figure {
@@ -20,7 +20,7 @@ function keyFigures(run: RunData): Figure[] {
   if (f) {
     figures.push({ name: "Coverage, 0.05 m", value: number(100 * f.coverage[0], 1), unit: "%",
       paper: paper?.coverage_percent &&
-        `${number(paper.coverage_percent[0], 1)} %${paper.is_doubtful ? " †" : ""}` });
+        measure(number(paper.coverage_percent[0], 1), "%") + (paper.is_doubtful ? "\u00a0†" : "") });
     if (run.ceiling) {
       figures.push({ name: "Of the ceiling", value: number(100 * f.coverage[0] / run.ceiling[0], 1),
         unit: "%" });
@@ -30,7 +30,7 @@ function keyFigures(run: RunData): Figure[] {
   figures.push({ name: "Views", value: number(count), unit: "",
     paper: paper ? number(paper.views) : undefined });
   figures.push({ name: "View to view", value: number(f?.straight_m ?? views.metres.at(-1) ?? 0, 1),
-    unit: "m", paper: paper?.metres ? `${number(paper.metres, 1)} m` : undefined });
+    unit: "m", paper: paper?.metres ? measure(number(paper.metres, 1), "m") : undefined });
   if (f) {
     figures.push({ name: "Profile flight", value: number(f.profile_m, 1), unit: "m" });
     figures.push({ name: "Density", value: number(f.density, 1), unit: "a voxel",
@@ -41,14 +41,20 @@ function keyFigures(run: RunData): Figure[] {
   return figures;
 }
 
+/** A name whose unit no line breaks off. */
+const bound = (name: string) => name.replace(/ (\(?m\)?|\(min\))$/, "\u00a0$1");
+
 export function makeTiles(run: RunData): HTMLElement {
   const figures = keyFigures(run);
   const hasPapers = figures.some((figure) => figure.paper);
-  return make("dl", { class: "tiles" }, ...figures.map((figure) =>
-    make("div", { class: "card tile" }, make("dt", {}, figure.name),
+  const tiles = make("dl", { class: "tiles" }, ...figures.map((figure) =>
+    make("div", { class: "card tile" }, make("dt", {}, bound(figure.name)),
       make("dd", {}, figure.value, make("span", { class: "unit" }, figure.unit)),
       hasPapers ? make("dd", { class: "paper" }, figure.paper ? `paper ${figure.paper}` : "")
         : null)));
+  tiles.style.setProperty("--in-two-rows", String(Math.ceil(figures.length / 2)));
+  tiles.style.setProperty("--in-one-row", String(figures.length));
+  return tiles;
 }
 
 /** A row a run; its box chooses whether it is shown. */
@@ -67,12 +73,12 @@ export function makeRunTable(runs: RunData[], shown: Set<number>,
       make("label", {}, box, make("span", { class: `chip run-${index}` }, run.label))),
       ...heads.map((head) => {
         const f = figures.get(head);
-        return make("td", { class: "number" }, f ? `${f.value} ${f.unit}` : "");
+        return make("td", { class: "number" }, f ? measure(f.value, f.unit) : "");
       }));
   };
   return make("div", { class: "card scroll" }, make("table", { class: "runs" },
     make("thead", {}, make("tr", {}, make("th", { scope: "col" }, "Shown below"),
-      ...heads.map((head) => make("th", { scope: "col", class: "number" }, head)))),
+      ...heads.map((head) => make("th", { scope: "col", class: "number" }, bound(head))))),
     make("tbody", {}, ...runs.map(row))));
 }
 
@@ -83,11 +89,11 @@ export function makeTable(table: Table): HTMLElement {
     make("h3", {}, table.title),
     make("div", { class: "card scroll" }, make("table", {},
       make("thead", {}, make("tr", {}, ...table.columns.map((column, i) =>
-        make("th", { scope: "col", class: align(i) }, column.head)))),
+        make("th", { scope: "col", class: align(i) }, bound(column.head))))),
       make("tbody", {}, ...table.rows.map((row) =>
         make("tr", { class: row[ours] === "ours" ? "ours" : "" },
           ...row.map((cell, i) =>
-            make("td", { class: align(i) }, cell.replace(/(\d)%$/, "$1 %")))))))),
+            make("td", { class: align(i) }, cell.replace(/(\d)%$/, "$1\u00a0%")))))))),
     make("ul", { class: "notes" }, ...table.notes.map((note) => make("li", {}, ...withCode(note)))));
 }
 
@@ -138,20 +144,27 @@ const spaced = (name: string) => (/^[a-z0-9_]+$/.test(name) ? name.replaceAll("_
 
 const kSamplers: Record<string, string> = { agvs: "grid", fvs: "frontier" };
 
+/** "15 of 80 grid candidates valid": of the sampler that chose the view. */
+export function validWords(flight: Flight, view: number): string {
+  const v = flight.data.views;
+  return `${number(v.valid[view])} of ${number(v.candidates[view])} `
+    + `${kSamplers[v.sampler[view]] ?? v.sampler[view]} candidates valid`;
+}
+
 /** Where the replay is, in words. */
 export function readout(flight: Flight, clock: Clock): string {
   const n = flight.viewsAt(clock);
   if (n === 0) return "After the profile, before the first view";
   const v = flight.data.views;
   const parts = [`View ${number(n)} of ${number(flight.count)}`,
-    `${number(v.metres[n - 1], 1)} m, ${minutes(v.seconds[n - 1])} min from the first view on`];
+    `${measure(number(v.metres[n - 1], 1), "m")}, ${measure(minutes(v.seconds[n - 1]), "min")} from `
+      + "the first view on"];
   const coverage = flight.data.figures?.curve.coverage[n];
-  if (coverage) parts.push(`coverage ${number(100 * coverage[0], 1)} %`);
+  if (coverage) parts.push(`coverage ${measure(number(100 * coverage[0], 1), "%")}`);
   if (v.sampler[n - 1] === "tour") {
     parts.push(`the first of ${number(v.candidates[n - 1])} planned`);
   } else if (v.candidates[n - 1] > 0) {
-    parts.push(`${number(v.valid[n - 1])} of ${number(v.candidates[n - 1])} `
-      + `${kSamplers[v.sampler[n - 1]] ?? v.sampler[n - 1]} candidates valid`);
+    parts.push(validWords(flight, n - 1));
   }
   return parts.join("  ·  ");
 }

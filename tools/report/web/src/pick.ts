@@ -30,6 +30,16 @@ export function pick(scene: RunScene, camera: three.PerspectiveCamera, x: number
   return (best as { of: () => Picked } | null)?.of() ?? null;
 }
 
+/** Calls with the place of each press that does not move. */
+export function listenToClicks(canvas: HTMLElement, call: (x: number, y: number) => void) {
+  let from = [0, 0];
+  canvas.addEventListener("pointerdown", (event) => { from = [event.clientX, event.clientY]; });
+  canvas.addEventListener("pointerup", (event) => {
+    if (Math.hypot(event.clientX - from[0], event.clientY - from[1]) > 4) return;
+    call(event.offsetX, event.offsetY);
+  });
+}
+
 /** Keys of the 3D view while it has the focus; false for any other key. */
 export function moveByKey(key: string, camera: three.PerspectiveCamera,
     target: three.Vector3): boolean {

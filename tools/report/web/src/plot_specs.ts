@@ -17,6 +17,7 @@ export interface Ring {
   x: number;
   y: number;
   colour: string;
+  label: string; // of the paper's row
 }
 
 export interface PlotContent {
@@ -29,7 +30,7 @@ export interface PlotContent {
 
 export interface PlotChoices {
   size: 0 | 1 | 2; // of coverage, with several runs
-  term: Term;
+  term: Term | "all";
   bands: boolean; // of several seeds their mean and range
 }
 
@@ -37,6 +38,11 @@ export type Term = "utility" | "information" | "density_term" | "prediction" | "
 export const kTerms: [Term, string][] = [["distance_factor", "Distance factor"],
   ["density_term", "Density term"], ["information", "Information"], ["prediction", "Prediction"],
   ["utility", "Utility"]]; // the last is drawn on top
+/** One for several runs; of one run those that it has, or all of them beside each other. */
+export function termOptions(flights: Flight[]): [Term | "all", string][] {
+  if (flights.length !== 1) return kTerms;
+  return [...usedTerms(flights[0]).reverse(), ["all", "All terms"]];
+}
 export const kSizes = ["0.05 m", "0.10 m", "0.50 m"];
 
 type Column = [efforts: number[], values: number[]];
@@ -60,7 +66,7 @@ const ringOf = (flight: Flight, effort: Effort, y: number | undefined): Ring[] =
   const paper = flight.data.paper;
   const x = paper?.[effort];
   if (!paper || x === undefined || y === undefined) return [];
-  return [{ x, y, colour: runColour(flight.index) }];
+  return [{ x, y, colour: runColour(flight.index), label: paper.label }];
 };
 
 /** What could be reached at a voxel size, each once. */
@@ -138,43 +144,77 @@ export function density(flights: Flight[], effort: Effort): PlotContent {
  * Terms have different units, and so have utilities of different formulas: several in one plot are
  * shares of their largest.
  */
-const isShare = (flights: Flight[]) =>
-  flights.length === 1 || new Set(flights.map((flight) => flight.data.utility)).size > 1;
+const isShare = (flights: Flight[], term: PlotChoices["term"]) => (flights.length === 1
+  ? term === "all" : new Set(flights.map((flight) => flight.data.utility)).size > 1);
 
-export function termUnit(flights: Flight[]): string {
-  if (!isShare(flights)) return "";
+export function termUnit(flights: Flight[], { term }: PlotChoices): string {
+  if (!isShare(flights, term)) return "";
   return `share of each ${flights.length === 1 ? "term" : "run"}'s largest`;
 }
 
 const largest = (values: (number | null)[]) =>
   Math.max(...values.map((value) => Math.abs(value ?? 0))) || 1;
 
-/** The terms of one run's chosen views, each a share of its largest; or one term of several. */
+/** Those that have a say in what the run chose. */
+const usedTerms = (flight: Flight) => kTerms.filter(([key]) => {
+  const rest = key === "distance_factor" ? 1 : 0;
+  return key === "utility" || flight.data.views[key].some((value) => value !== rest);
+});
+
+/** Of one run's chosen views a term, or all, each a share of its largest; or one term of several. */
 export function terms(flights: Flight[], effort: Effort, { term }: PlotChoices): PlotContent {
   // a start, or a move that was not chosen among candidates, has no score
   const scores = (flight: Flight, key: Term) => flight.data.views[key].map((value, i) =>
     (flight.data.views.candidates[i] > 0 ? value : null));
   const shares = (flight: Flight, key: Term) => {
     const values = scores(flight, key);
-    const most = isShare(flights) ? largest(values) : 1;
+    const most = isShare(flights, term) ? largest(values) : 1;
     return values.map((value) => (value === null ? null : value / most) as number);
   };
-  if (flights.length !== 1) {
-    return perRun(flights, effort, (f) => shares(f, term), term, 1.2);
+  if (term !== "all" || flights.length !== 1) {
+    const one = term === "all" ? "utility" : term;
+    const name = kTerms.find(([key]) => key === one)![1];
+    return perRun(flights, effort, (f) => shares(f, one), name, 1.6);
   }
-  const [flight] = flights;
-  const used = kTerms.filter(([key]) => {
-    const rest = key === "distance_factor" ? 1 : 0;
-    return key === "utility" || flight.data.views[key].some((value) => value !== rest);
-  });
-  const x = efforts(flight, effort, 1);
+  const used = usedTerms(flights[0]);
+  const x = efforts(flights[0], effort, 1);
   return {
     lines: used.map(([key, name], i) => ({ name, width: 1.2,
       colour: key === "distance_factor" ? faintLine() : lineColour(i - 1) })),
-    data: joined(used.map(([key]) => [x, shares(flight, key)])),
+    data: joined(used.map(([key]) => [x, shares(flights[0], key)])),
     rings: [],
     beginsBefore: false,
   };
+}
+
+const kSame = 0.01; // of what all lines span
+const kMostlySame = 0.5; // of the efforts at which both have a value
+
+/** Of lines of runs that lie on an earlier one's: dashed, so that both are seen. */
+export function withDashes(content: PlotContent): PlotContent {
+  const ofRuns = content.lines.flatMap(({ run }, i) => (run === undefined ? [] : [i]));
+  const columns = ofRuns.map((line) => carried(content.data[line + 1]));
+  const values = columns.flat().filter((value) => value !== null);
+  const near = kSame * values.reduce((most, value) => Math.max(most, value), -Infinity)
+    - kSame * values.reduce((least, value) => Math.min(least, value), Infinity);
+  const areSame = (a: (number | null)[], b: (number | null)[]) => {
+    const away = a.flatMap((value, i) =>
+      (value === null || b[i] === null ? [] : [Math.abs(value - b[i]!)]));
+    return away.length > 0
+      && away.filter((gap) => gap <= near).length >= kMostlySame * away.length;
+  };
+  const lines = content.lines.map((line, i) => {
+    const at = ofRuns.indexOf(i);
+    return at > 0 && columns.slice(0, at).some((before) => areSame(before, columns[at]))
+      ? { ...line, dash: [7, 6] } : line;
+  });
+  return { ...content, lines };
+}
+
+/** The latest value of each effort. */
+function carried(values: ArrayLike<number | null | undefined>): (number | null)[] {
+  let latest: number | null = null;
+  return Array.from(values, (value) => { latest = value ?? latest; return latest; });
 }
 
 /** Spans of effort in which frontier view sampling chose the views. */

@@ -16,7 +16,6 @@ import type { Picked } from "./pick";
 import { readRunSurface } from "./run_surface";
 import { Splats } from "./splats";
 
-/** Believed voxels are those of the decision that chose the view. */
 /** Pixels on a side of the gist of a picture, of those of the whole one. */
 export const kGistRatio = 0.5;
 
@@ -88,7 +87,7 @@ export class RunScene {
     this.frusta = new FrustaMark(flight);
     this.plan = data.plan && new PlanMark(flight);
     this.candidates = data.candidates
-      && new CandidateMarks(flight, this.model, data.candidates);
+      && new CandidateMarks(flight, this.model, data.candidates, this.sightMost_m());
     this.believed = data.beliefs && new BelievedMarks(data.beliefs, flight.bytes);
     this.surface = mesh?.surface && data.found ? new TrueSurface(mesh.surface, meshBytes,
       flight.bytes.u16(data.found), flight.count) : null;
@@ -127,7 +126,7 @@ export class RunScene {
       this.structure.object.visible = layers.structure;
       this.structure.setGhost(isMeasured(layers));
     }
-    this.path.setLayers(layers.path, layers.profile);
+    this.model.isFaded = layers.missed && !!this.surface;
     this.frusta.object.visible = layers.frusta;
     if (this.plan) this.plan.object.visible = layers.plan;
     this.vehicle.visible = layers.vehicle;
@@ -174,6 +173,9 @@ export class RunScene {
     const n = this.flight.viewsAt(clock);
     this.structure?.show(isWhole);
     this.model.show(n, pxPerTan);
+    // where there is no path yet, that of the profile leads to the vehicle
+    const { path, profile } = this.layers ?? {};
+    this.path.setLayers(!!path, !!(profile || (path && n === 0)));
     this.path.show(this.flight.samplesBy(this.flight.timeAt(clock)), isWhole);
     this.frusta.show(n);
     this.plan?.show(n);
@@ -229,15 +231,32 @@ export class RunScene {
       .expandByPoint(new three.Vector3(...min)).expandByPoint(new three.Vector3(...max));
   }
 
-  /** Points (x y z each) that a camera should show: what stands there, and where the views are. */
+  /**
+   * Points (x y z each) that a camera should show: what stands there, where the views are and the
+   * profile ends, and what of the layers lies elsewhere.
+   */
   outline(): Float32Array {
-    const { x, y, z } = this.flight.data.views;
+    const { flight, layers } = this;
+    const { x, y, z } = flight.data.views;
     const views = x.flatMap((_, i) => [x[i], y[i], z[i]]);
-    const shape = this.shape();
-    const all = new Float32Array(shape.length + views.length);
-    all.set(shape);
-    all.set(views, shape.length);
-    return all;
+    const profile = flight.points?.subarray(0, 3 * Math.min(flight.firstViewSample(),
+      flight.points.length / 3)) ?? [];
+    const parts: ArrayLike<number>[] = [this.shape(), views, this.aroundProfileEnd()];
+    if (layers?.profile) parts.push(profile);
+    if (layers?.candidates) parts.push(this.candidates?.drawn() ?? []);
+    if (layers?.plan) parts.push(this.plan?.drawn() ?? []);
+    for (const part of this.believed?.object.visible ? this.believed.object.children : []) {
+      parts.push((part as three.Mesh).geometry.getAttribute("position").array);
+    }
+    return Float32Array.from(parts.flatMap((part) => Array.from(part)));
+  }
+
+  /** Corners around the vehicle, enlarged as it is from afar, before the first view. */
+  private aroundProfileEnd(): number[] {
+    const end = this.flight.profileEnd();
+    const reach_m = 0.12 * this.sightMost_m();
+    return end.length === 0 ? [] : Array.from({ length: 8 }, (_, corner) =>
+      end.map((x, axis) => x + (corner >> axis & 1 ? reach_m : -reach_m))).flat();
   }
 
   /** What a pointer can name, as it is shown; `ahead` of what lies in front of it by that depth. */

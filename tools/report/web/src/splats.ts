@@ -26,6 +26,7 @@ export interface SplatSource {
   readonly least_px: number;
   readonly most_px: number;
   readonly isRound: boolean; // else squares
+  readonly nearer_m?: number; // than it is, for what would be hidden
   readonly largerFrom: number; // points by one pixel, from this one on
   /** 0xbbggrr as sRGB; below 0 what is not drawn. */
   colourOf(point: number): number;
@@ -61,7 +62,7 @@ export class Splats {
     camera.updateMatrixWorld();
     for (const source of sources) {
       this.add(source, new three.Matrix4().multiplyMatrices(camera.projectionMatrix,
-        camera.matrixWorldInverse).multiply(source.toWorld), pxPerTan, pxRatio);
+        camera.matrixWorldInverse).multiply(source.toWorld), camera, pxPerTan, pxRatio);
     }
     for (const { value } of Object.values(this.material.uniforms)) value.needsUpdate = true;
   }
@@ -80,10 +81,12 @@ export class Splats {
     this.depth.fill(1);
   }
 
-  private add(source: SplatSource, toClip: three.Matrix4, pxPerTan: number, pxRatio: number) {
+  private add(source: SplatSource, toClip: three.Matrix4, camera: three.PerspectiveCamera,
+      pxPerTan: number, pxRatio: number) {
     const { places, count } = source;
     const { width, height, colour, depth } = this;
     const m = toClip.elements;
+    const perMetre = -camera.projectionMatrix.elements[10]; // of clip depth
     for (let i = 0, at = 0; i < count; ++i, at += 3) {
       const [x, y, z] = [places[at], places[at + 1], places[at + 2]];
       const w = m[3] * x + m[7] * y + m[11] * z + m[15];
@@ -93,7 +96,9 @@ export class Splats {
       if (!(px > -8 && py > -8 && px < width + 8 && py < height + 8)) continue;
       const rgb = source.colourOf(i);
       if (rgb < 0) continue;
-      const d = 0.5 + 0.5 * (m[2] * x + m[6] * y + m[10] * z + m[14]) / w;
+      const nearer = Math.min(source.nearer_m ?? 0, 0.5 * w);
+      const depthOf = m[2] * x + m[6] * y + m[10] * z + m[14] - perMetre * nearer;
+      const d = 0.5 + 0.5 * depthOf / (w - nearer);
       const size_px = Math.min(Math.max(source.size_m * pxPerTan / w, pxRatio * source.least_px),
         pxRatio * source.most_px);
       const radius = 0.5 * (size_px + (i >= source.largerFrom ? pxRatio : 0));

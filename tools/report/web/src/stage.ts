@@ -8,29 +8,21 @@ import { make } from "./dom";
 import { nearestThatSees } from "./camera_fit";
 import { Detail } from "./detail";
 import type { View3d } from "./controls";
-import { NoStage } from "./no_stage";
 import { Painter } from "./painter";
 import { PaneCamera } from "./pane_camera";
-import { kAim_px, kPointer_px, moveByKey, pick } from "./pick";
+import { needsTwoSheets, stageHeight_px } from "./paper";
+import { kAim_px, kPointer_px, listenToClicks, moveByKey, pick } from "./pick";
 import { Pointing } from "./pointing";
 import { kGistRatio, type Layers, type RunScene } from "./run_scene";
 import { savePng } from "./save";
+import { stageButtons } from "./stage_buttons";
 import { Swipe } from "./swipe";
 import type { Colouring } from "./surfaces";
 
+const kLeastPane_px = 400; // narrower ones stand one above the other
 const kAround = 0.35; // of the structure's extent, how far a camera stands from a part at least
 
-export function makeStage(scenes: RunScene[], clock: Clock, name: string,
-    goTo: (view: number) => void): View3d {
-  try {
-    return new Stage(scenes, clock, name, goTo);
-  } catch (error) {
-    console.warn(error);
-    return new NoStage();
-  }
-}
-
-class Stage implements View3d {
+export class Stage implements View3d {
   readonly canDraw = true;
   readonly element: HTMLElement;
   private readonly canvas = make("canvas", { tabindex: 0, role: "img", "aria-label":
@@ -47,6 +39,7 @@ class Stage implements View3d {
   private size = ""; // drawn last
   private readonly detail = new Detail(() => this.request());
   private isFramed = false;
+  private isPrinted = false;
   private follows = false;
   private readonly pointing: Pointing;
   private axes: Axes[] = []; // of each pane
@@ -68,9 +61,12 @@ class Stage implements View3d {
     this.controls.maxPolarAngle = 0.55 * Math.PI;
     this.controls.addEventListener("change", () => this.invalidate());
     this.canvas.addEventListener("dblclick", () => this.frame());
-    this.listenToPointer();
+    listenToClicks(this.canvas, (x, y) => this.pickAt(x, y, kPointer_px));
     this.canvas.addEventListener("keydown", (event) => this.handleKey(event));
-    new ResizeObserver(() => this.resize()).observe(this.element);
+    new ResizeObserver(() => { if (this.sizeNow() !== this.size) this.resize(); })
+      .observe(this.element);
+    addEventListener("beforeprint", () => this.print(true));
+    addEventListener("afterprint", () => this.print(false));
     clock.onChange(() => this.invalidate());
     this.setTheme();
     this.setShown(scenes);
@@ -81,10 +77,28 @@ class Stage implements View3d {
     this.request();
   }
 
+  /** Before the browser would ask for it: who prints at once asks for none. */
+  drawNow() {
+    this.resize();
+    this.draw();
+  }
+
+  /** For paper in its own shape, a whole picture; and back. */
+  private print(isPrinted: boolean) {
+    this.isPrinted = isPrinted;
+    this.element.classList.toggle("printed", isPrinted);
+    this.element.style.setProperty("--paper", `${stageHeight_px(this.shown.length,
+      needsTwoSheets(this.scenes.map(({ flight }) => flight.data)))}px`);
+    this.resize();
+    if (!isPrinted || !this.isStale) return; // or it has been drawn in its new size
+    this.detail.insist();
+    this.draw();
+  }
+
   private request() {
     if (this.isStale) return;
     this.isStale = true;
-    requestAnimationFrame(() => this.draw());
+    requestAnimationFrame(() => { if (this.isStale) this.draw(); });
   }
 
   setShown(scenes: RunScene[]) {
@@ -109,15 +123,8 @@ class Stage implements View3d {
     this.invalidate();
   }
 
-  buttons(): HTMLElement[] {
-    const button = (text: string, title: string, click: () => void) =>
-      make("button", { type: "button", class: "small", title, click }, text);
-    return [this.pointing.button,
-      button("Save PNG", "The 3D view as a picture file", () => this.save()),
-      button("Full screen", "Escape leaves it", () => {
-        if (document.fullscreenElement) void document.exitFullscreen();
-        else void this.element.closest(".view")?.requestFullscreen();
-      })];
+  buttons() {
+    return [this.pointing.button, ...stageButtons(this.element, () => this.save())];
   }
 
   onChange(listener: () => void) { this.controls.addEventListener("change", listener); }
@@ -163,18 +170,6 @@ class Stage implements View3d {
     }
   }
 
-  /** A press that does not move is a click. */
-  private listenToPointer() {
-    let from = [0, 0];
-    this.canvas.addEventListener("pointerdown", (event) => {
-      from = [event.clientX, event.clientY];
-    });
-    this.canvas.addEventListener("pointerup", (event) => {
-      if (Math.hypot(event.clientX - from[0], event.clientY - from[1]) > 4) return;
-      this.pickAt(event.offsetX, event.offsetY, kPointer_px);
-    });
-  }
-
   private pickAt(x: number, y: number, near_px: number) {
     const { width, height } = this.paneSize();
     const pane = Math.floor(this.isColumn() ? y / height : x / width);
@@ -206,7 +201,7 @@ class Stage implements View3d {
   cameraPosition() { return this.camera.position.toArray(); }
   pictures() { return this.detail.drawnSoFar; }
 
-  /** Puts the camera where it sees all of the structure. */
+  /** Puts the camera where it sees all that is shown. */
   frame() {
     const outlines = this.shown.map((scene) => this.pane(scene).allInFirst(scene.outline()));
     const box = new three.Box3();
@@ -236,7 +231,12 @@ class Stage implements View3d {
 
   private cameraOf(scene: RunScene) { return this.pane(scene).of(this.camera); }
 
-  private isColumn() { return this.element.clientWidth < 560; }
+  private isColumn() {
+    if (this.isPrinted) return this.shown.length === 2;
+    return this.element.clientWidth < kLeastPane_px * this.shown.length;
+  }
+
+  private sizeNow() { return `${this.element.clientWidth}x${this.element.clientHeight}`; }
 
   private paneSize() {
     const count = Math.max(1, this.shown.length);
@@ -253,12 +253,12 @@ class Stage implements View3d {
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     if (!this.isFramed) this.frame();
-    const size = `${clientWidth}x${clientHeight}`;
+    const size = this.sizeNow();
     const isResized = this.size !== "" && this.size !== size;
     this.size = size;
     if (!isResized) { this.request(); return; }
     this.isStale = true;
-    if (matchMedia("print").matches) this.detail.insist(); // paper does not wait for the whole one
+    if (this.isPrinted || matchMedia("print").matches) this.detail.insist(); // paper does not wait for the whole one
     this.draw(); // now, or a resized canvas would show one empty picture
   }
 
@@ -269,7 +269,7 @@ class Stage implements View3d {
     const { clientWidth, clientHeight: total } = this.element;
     if (clientWidth === 0 || total === 0) return;
     const begin = performance.now();
-    const ratio = Math.min(2, devicePixelRatio) * (isWhole ? 1 : kGistRatio);
+    const ratio = (this.isPrinted ? 2 : Math.min(2, devicePixelRatio)) * (isWhole ? 1 : kGistRatio);
     this.painter.fitCanvas(clientWidth, total, ratio);
     const pxPerTan = 0.5 * height * ratio /
       Math.tan(three.MathUtils.degToRad(this.camera.fov) / 2);

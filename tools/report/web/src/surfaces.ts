@@ -1,6 +1,7 @@
 // What the run measured of the surface: the points of the cloud, the voxels.
 import * as three from "three";
-import { ramp, rampTable } from "./colours";
+import { isDark, ramp, rampTable } from "./colours";
+import { errorScale, type ErrorScale } from "./error_scale";
 import { kPointLayer } from "./depth_shading";
 import type { Bytes, RampName, RunData } from "./data";
 import { Densities } from "./densities";
@@ -25,6 +26,7 @@ const kPointVertex = `
 uniform float uSize;
 uniform float uPxPerTan;
 uniform int uNewFrom;
+uniform vec4 uFade; // the colour that points fade to, and how much
 attribute vec3 rgb;
 varying vec3 vColour;
 void main() {
@@ -33,6 +35,7 @@ void main() {
   gl_PointSize = clamp(uSize * uPxPerTan / -p.z, 1.6, 14.0);
   bool isNew = gl_VertexID >= uNewFrom;
   vColour = isNew ? vec3(0.0, 0.66, 1.0) : rgb;
+  if (!isNew) vColour = mix(vColour, uFade.rgb, uFade.a);
   if (isNew) gl_PointSize += 1.0;
 }`;
 // Colours come as sRGB bytes: eight bits of linear light would crush the dark ones.
@@ -47,7 +50,7 @@ void main() {
 /** What of a ramp a point takes, from 0 to 1. */
 type Share = (height: number, density: number, state: number) => number;
 
-const kMostError_mm = 100; // larger ones have its colour
+const kFaded = 0.7; // of the way to a pale colour, so that something else shows
 /** Of points of the last view: far from the red of what was missed, for the colour-blind, too. */
 export const kNewColour = 0x00a8ff;
 const kNewSplat = kNewColour >> 16 | kNewColour & 0xff00 | (kNewColour & 255) << 16; // 0xbbggrr
@@ -58,6 +61,8 @@ export class Model {
   readonly voxels: three.InstancedMesh | null = null;
   readonly heights: [number, number] = [0, 1];
   readonly densities: Densities | null = null;
+  readonly errors: ErrorScale | null = null;
+  isFaded = false; // but for the points of the last view
   private readonly points: Float32Array = new Float32Array();
   private readonly cloudAfter: Uint32Array = new Uint32Array();
   private readonly voxelsAfter: Uint32Array = new Uint32Array();
@@ -77,8 +82,12 @@ export class Model {
       const { min, size } = data.cloud.points;
       this.heights = [min[2], min[2] + Math.max(size[2], 1e-6)];
       this.cloud = this.makeCloud();
+      if (data.cloud.error) this.errors = errorScale(bytes.u8(data.cloud.error));
     }
   }
+
+  /** How many points the last of the first `n` views brought. */
+  newPoints(n: number) { return n > 0 ? this.cloudAfter[n] - this.cloudAfter[n - 1] || 0 : 0; }
 
   colour(by: Colouring) {
     this.by = by;
@@ -129,6 +138,7 @@ export class Model {
       const { uniforms } = this.cloud.material as three.ShaderMaterial;
       uniforms.uNewFrom.value = this.newFrom();
       uniforms.uPxPerTan.value = pxPerTan;
+      uniforms.uFade.value = this.fade();
     }
     if (this.voxels) this.voxels.count = this.voxelsAfter[n];
   }
@@ -138,16 +148,27 @@ export class Model {
     if (!this.cloud?.visible) return [];
     const rgb = this.cloud.geometry.getAttribute("rgb").array;
     const newFrom = this.newFrom();
+    const fade = this.fade();
+    const keep = 1 - fade.w;
+    const [r, g, b] = [fade.x, fade.y, fade.z].map((part) => 255 * fade.w * part);
     return [{ places: this.points, toWorld: new three.Matrix4(), least_px: 1.6, most_px: 14,
       count: this.cloudAfter[this.views], size_m: this.pointSize(),
       isRound: true, largerFrom: newFrom,
       colourOf: (i) => (i >= newFrom ? kNewSplat
-        : rgb[3 * i] | rgb[3 * i + 1] << 8 | rgb[3 * i + 2] << 16) }];
+        : (keep * rgb[3 * i] + r) | (keep * rgb[3 * i + 1] + g) << 8
+          | (keep * rgb[3 * i + 2] + b) << 16) }];
   }
 
   /** For a look at what some points cost: until show(), no more than `count` are there. */
   limit(count: number) {
     this.cloud?.geometry.setDrawRange(0, Math.min(count, this.cloudAfter[this.views]));
+  }
+
+  /** The colour that points fade to, and how much of it they take. */
+  private fade(): three.Vector4 {
+    const { r, g, b } = new three.Color().setHex(isDark() ? 0x252b33 : 0xe2e6eb,
+      three.LinearSRGBColorSpace); // bytes, as those of the points
+    return new three.Vector4(r, g, b, this.isFaded ? kFaded : 0);
   }
 
   private newFrom() { return this.views > 0 ? this.cloudAfter[this.views - 1] : 0x7fffffff; }
@@ -171,8 +192,9 @@ export class Model {
       rgb.set(this.bytes.u8(this.data.cloud.colour));
     } else if (by === "error" && this.data.cloud?.error) {
       const table = rampTable("amount");
+      const { most_mm } = this.errors!;
       this.bytes.u8(this.data.cloud.error).forEach((error, i) => {
-        const at = 3 * Math.round(255 * Math.min(error / kMostError_mm, 1));
+        const at = 3 * Math.round(255 * Math.min(error / most_mm, 1));
         for (let k = 0; k < 3; ++k) rgb[3 * i + k] = error === 255 ? 128 : table[at + k];
       });
     } else {
@@ -207,7 +229,7 @@ export class Model {
       vertexShader: kPointVertex,
       fragmentShader: kPointFragment,
       uniforms: { uSize: { value: this.pointSize() }, uPxPerTan: { value: 1 },
-        uNewFrom: { value: 0 } },
+        uNewFrom: { value: 0 }, uFade: { value: new three.Vector4() } },
     });
     const points = new three.Points(geometry, material);
     points.frustumCulled = false;

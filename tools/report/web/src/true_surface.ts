@@ -11,16 +11,19 @@ export const kNeverFound = 0xffff;
 export const keyOf = (x: number, y: number, z: number) => ((x + 32768) * 65536 + y + 32768) * 65536
   + z + 32768;
 
-/** sRGB, as in the pictures of coverage. */
+/** sRGB; what was missed as in the pictures of coverage, what was found far from frontiers' blue. */
 export const foundColours = {
-  found: 0x8fb4cf,
+  found: 0xa9bd92,
   missed: 0xd5420a,
   missedInOrder: 0x98a0ab, // beside the colours of an order, which has an orange of its own
   onlyOther: 0x9b2fae, // missed here, found by another run that is shown
 };
 
+const kNearer = 2; // voxels that missed ones lie before where they are, so that no point hides them
+
 const kVertex = `
 uniform float uVoxel;
+uniform float uNearer; // metres that missed ones are drawn before where they are
 uniform float uPxPerTan;
 uniform float uNow;
 uniform float uStates;
@@ -42,6 +45,10 @@ void main() {
   }
   vec4 p = modelViewMatrix * vec4(uVoxel * (position + 0.5), 1.0);
   gl_Position = projectionMatrix * p;
+  if (!isFound) { // over points beside it
+    vec4 nearer = projectionMatrix * (p + vec4(0.0, 0.0, uNearer, 0.0));
+    gl_Position.z = nearer.z / nearer.w * gl_Position.w;
+  }
   gl_PointSize = clamp(1.3 * uVoxel * uPxPerTan / -p.z, isFound ? 1.6 : 2.5, 64.0);
   vec3 found = uByOrder ? texture2D(uRamp, vec2(first / uStates, 0.5)).rgb : uFound;
   vColour = isFound ? found : foundByOther > 0.5 ? uOnlyOther : uMissed;
@@ -82,7 +89,8 @@ export class TrueSurface {
     this.material = new three.ShaderMaterial({
       vertexShader: kVertex,
       fragmentShader: kFragment,
-      uniforms: { uVoxel: { value: this.size_m }, uPxPerTan: { value: 1 }, uNow: { value: 0 },
+      uniforms: { uVoxel: { value: this.size_m }, uPxPerTan: { value: 1 },
+        uNearer: { value: kNearer * this.size_m }, uNow: { value: 0 },
         uStates: { value: Math.max(1, states) },
         uShows: { value: new three.Vector2(0, 0) }, uByOrder: { value: false },
         uFound: { value: srgb(foundColours.found) }, uMissed: { value: srgb(foundColours.missed) },
@@ -148,7 +156,8 @@ export class TrueSurface {
       toWorld: new three.Matrix4().makeScale(this.size_m, this.size_m, this.size_m)
         .multiply(new three.Matrix4().makeTranslation(0.5, 0.5, 0.5)) };
     return [...uShows.value.x > 0 ? [{ ...all, least_px: 1.6, colourOf: foundColour }] : [],
-      ...uShows.value.y > 0 ? [{ ...all, least_px: 2.5, colourOf: missedColour }] : []];
+      ...uShows.value.y > 0 ? [{ ...all, least_px: 2.5, nearer_m: kNearer * this.size_m,
+        colourOf: missedColour }] : []];
   }
 
   /** How many voxels there are of each kind, as they are shown. */
