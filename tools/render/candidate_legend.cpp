@@ -16,11 +16,6 @@ namespace gnbv {
 const Rgb kOccupiedVoxels = srgb(0xc4ccd6);
 const Rgb kUnknownVoxels = srgb(0xffffff);
 
-const std::vector<Rgb>& score_colours() {
-  static const std::vector<Rgb> colours(amount_colours().begin() + 2, amount_colours().end() - 1);
-  return colours;
-}
-
 namespace {
 
 bool is_around_cluster(const Candidate& candidate) { return candidate.cluster >= 0; }

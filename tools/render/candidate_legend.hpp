@@ -29,9 +29,6 @@ bool is_shown(const Candidate& candidate, const OccupancyGrid& grid,
 CandidateTally tally(const Plan& plan, const OccupancyGrid& grid,
                      std::span<const RenderView> views);
 
-/// Those of amounts without their ends, which rejections' colours come close to.
-const std::vector<Rgb>& score_colours();
-
 /// A share of the way from the lowest score to the highest: where these are one, it is the highest.
 Rgb colour_of_score(const CandidateTally& all, double score);
 

@@ -65,4 +65,10 @@ inline const std::vector<Rgb>& amount_colours() {
 }
 inline Rgb amount_ramp(double t) { return ramp(amount_colours(), t); }
 
+/// Of candidates' utilities: amounts without their ends, which colours of rejections come close to.
+inline const std::vector<Rgb>& score_colours() {
+  static const std::vector<Rgb> colours(amount_colours().begin() + 2, amount_colours().end() - 1);
+  return colours;
+}
+
 }  // namespace gnbv

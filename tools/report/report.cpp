@@ -232,7 +232,10 @@ Report make_report(const std::vector<RunRecord>& records, const ReportOptions& o
       {"title", title},
       {"is_live", options.is_live},
       {"version", GNBV_VERSION},
-      {"ramps", {{"path", ramp_json(path_colours())}, {"amount", ramp_json(amount_colours())}}},
+      {"ramps",
+       {{"path", ramp_json(path_colours())},
+        {"amount", ramp_json(amount_colours())},
+        {"score", ramp_json(score_colours())}}},
       {"tables", tables_json(records, ceilings)},
       {"meshes", structures.json},
       {"runs", runs}};

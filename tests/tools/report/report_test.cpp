@@ -280,10 +280,12 @@ TEST(Report, HasTheColoursOfThePictures) {
   for (int i = 0; i < 256; i += 51) {
     const Rgb path = path_ramp(i / 255.0);
     const Rgb amount = amount_ramp(i / 255.0);
+    const Rgb score = ramp(score_colours(), i / 255.0);
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t at = 3 * static_cast<std::size_t>(i) + k;
       EXPECT_NEAR(ramps["path"][at].get<double>(), 255.0 * linear_to_srgb(path[k]), 0.501);
       EXPECT_NEAR(ramps["amount"][at].get<double>(), 255.0 * linear_to_srgb(amount[k]), 0.501);
+      EXPECT_NEAR(ramps["score"][at].get<double>(), 255.0 * linear_to_srgb(score[k]), 0.501);
     }
   }
 }

@@ -97,7 +97,7 @@ export class CandidateMarks {
     if (!terms) return reasonColour(this.data.reasons[kind]?.colour ?? 0x888888);
     const values = this.now.filter((other) => other.terms).map((other) => other.terms![0]);
     const [low, high] = [Math.min(...values), Math.max(...values)];
-    const [r, g, b] = ramp("amount", (terms[0] - low) / (high - low || 1));
+    const [r, g, b] = ramp("score", (terms[0] - low) / (high - low || 1));
     return new three.Color().setRGB(r / 255, g / 255, b / 255, three.SRGBColorSpace);
   }
 
@@ -160,7 +160,7 @@ export class CandidateMarks {
       kind === kChosen ? { colour: hex(chosenColour()), text: "chosen, and its rays",
         means: "Rays end at the first voxel that held points before; those that meet none are pale, "
           + `and drawn to ${number(Math.min(this.missed_m, range_m), 1)} m`, count }
-      : kind === kValid ? { colour: rampGradient("amount"),
+      : kind === kValid ? { colour: rampGradient("score"),
         text: "other valid ones, low to high utility",
         means: "They may be flown to, and competed with the chosen one", count }
       : { colour: `#${reasonColour(this.data.reasons[kind].colour).getHexString()}`,

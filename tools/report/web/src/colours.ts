@@ -31,11 +31,13 @@ export const planColour = () => (isDark() ? 0x49d6cf : 0x0a8f8a);
 
 type Rgb = [number, number, number];
 
-const kRamps: Record<RampName, Uint8Array> = { path: new Uint8Array(), amount: new Uint8Array() };
+const kRamps: Record<RampName, Uint8Array> = {
+  path: new Uint8Array(), amount: new Uint8Array(), score: new Uint8Array(),
+};
 
 /** To be called once, before any colour is asked for. */
 export function setRamps(ramps: PageData["ramps"]) {
-  for (const name of ["path", "amount"] as const) kRamps[name] = Uint8Array.from(ramps[name]);
+  for (const name of ["path", "amount", "score"] as const) kRamps[name] = Uint8Array.from(ramps[name]);
 }
 
 /** sRGB bytes of 256 colours, one after the other. */

@@ -163,7 +163,7 @@ export interface RunData {
 }
 
 /** 256 sRGB colours, three bytes each (tools/render/colour.hpp). */
-export type RampName = "path" | "amount";
+export type RampName = "path" | "amount" | "score";
 
 export interface PageData {
   title: string;
