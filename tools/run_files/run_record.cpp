@@ -169,7 +169,8 @@ std::string run_detail(const RunRecord& record) {
       record.figures ? static_cast<std::size_t>(record.figures->iterations) : record.views.size();
   std::string detail = counted(views, "view");
   if (record.figures)
-    detail += fmt::format(", {} m straight from one to the next", grouped(record.figures->straight_m, 1));
+    detail +=
+        fmt::format(", {} m straight from one to the next", grouped(record.figures->straight_m, 1));
   if (!record.views.empty())
     detail += fmt::format(", {} m flown", grouped(record.views.back().flown_m, 1));
   if (record.figures) {
