@@ -89,16 +89,15 @@ std::optional<World> truth_of(const RunRecord& record, std::vector<std::string>&
   }
 }
 
-constexpr double kMostError_m = 0.05;  // the finest voxels of the score
-
-/// Of each vertex to the true structure.
+/// Of each vertex to the true structure, as far as the finest voxels of the score go.
 std::vector<double> errors_m(const TriangleMesh& mesh, const World& truth, int threads) {
   const RayScene scene(truth);
   std::vector<double> errors(mesh.vertices_m.size());
+  constexpr double kMost_m = 0.05;
   parallel_for_chunks(threads, errors.size(), 1024, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Vec3 p_m = mesh.vertices_m[i].cast<double>();
-      errors[i] = std::min(kMostError_m, scene.distance_to_structure_m(p_m, kMostError_m));
+      errors[i] = std::min(kMost_m, scene.distance_to_structure_m(p_m, kMost_m));
     }
   });
   return errors;
@@ -113,8 +112,7 @@ std::vector<fs::path> write_all(const TexturedMesh& mesh, const std::optional<Su
   write_png(surface_picture(mesh, title, 1280, 720), paths.back());
   if (truth) {
     paths.push_back(folder / "error.png");
-    write_png(error_picture(mesh.shape, errors_m(mesh.shape, *truth, threads), kMostError_m, title,
-                            1280, 720),
+    write_png(error_picture(mesh.shape, errors_m(mesh.shape, *truth, threads), title, 1280, 720),
               paths.back());
   } else {
     std::error_code ignored;

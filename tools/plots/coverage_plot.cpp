@@ -115,10 +115,12 @@ std::pair<double, double> range_of(std::span<const GroupCurves> all, double from
   return range;
 }
 
-/// From the tens below all that is shown to 100 %, or to the tens above it where that is far below.
+/// From the tens below all that is shown, or from 0 where that is near, to 100 %, or to the tens
+/// above it where that is far below.
 Axis percent_axis(double low, double high) {
   constexpr double kFarBelow = 70.0;
-  const double from = std::clamp(10.0 * std::floor(low / 10.0), 0.0, 90.0);
+  constexpr double kNearZero = 30.0;
+  const double from = low < kNearZero ? 0.0 : std::min(10.0 * std::floor(low / 10.0), 90.0);
   const double to = high < kFarBelow ? 10.0 * std::floor(high / 10.0 + 1.0) : 100.0;
   const double step = even_step(to - from, 7);
   return {from, to, std::fmod(to - from, step) == 0.0 ? step : 10.0};
@@ -211,7 +213,8 @@ Plot plot_of(std::span<const GroupCurves> all, std::span<const CoverageLevel> le
   std::string data;
   for (std::size_t i = 0; i < all.size(); ++i) data += group_data(all[i], i);
   const Layers layers = layers_of(all, levels, window);
-  const std::string y_label = fmt::format("coverage at {} m (%)", size_text);
+  const std::string y_label = fmt::format("coverage at {} m (%){}", size_text,
+                                          window.percent.low > 0.0 ? ", axis cut" : "");
   return {fmt::format("coverage-{}", effort_name(window.effort)),
           data + key_above(title, layers.key) + axis_settings(window.percent) +
               fmt::format("set xrange [{}:{}] noextend\nset rmargin 3\n", window.from, window.to) +
@@ -233,8 +236,9 @@ Plot whole_plot(std::span<const RunGroup> groups, Effort effort, std::size_t siz
                       .from = 0.0,
                       .to = std::max(1.01 * longest_of(all), 1e-6),
                       .percent = percent_axis(low, high)};
-  return plot_of(all, levels, window, common_scenario(groups), std::string(effort_label(effort)),
-                 size_text);
+  const std::string x_label =
+      effort == Effort::views ? "views (0: the profile alone)" : std::string(effort_label(effort));
+  return plot_of(all, levels, window, common_scenario(groups), x_label, size_text);
 }
 
 }  // namespace
@@ -249,8 +253,10 @@ std::optional<Plot> coverage_end_plot(std::span<const RunGroup> groups, Effort e
   const std::vector<GroupCurves> all = curves_of(groups, effort, size);
   const double longest = longest_of(all);
   const double from = (1.0 - 0.01 * kEndPercent) * longest;
-  const auto [low, high] = range_of(all, from);
+  auto [low, high] = range_of(all, from);
   if (!(longest > 0.0) || low > high) return std::nullopt;
+  // within a percent a curve is flat: it is not to look steep
+  low = std::min(low, high - 1.0);
   Plot plot = plot_of(
       all, coverage_levels(groups, size), {effort, from, 1.01 * longest, axis_around(low, high)},
       common_scenario(groups), end_label(effort, kEndPercent), size_name(kCoverageSizes_m[size]));

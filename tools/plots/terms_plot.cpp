@@ -132,8 +132,8 @@ std::string quality_panel(Panels& panels, const Columns& columns, const Eq2& eq2
   constexpr double kLeastSeen = 0.02;
   const double most = *std::max_element(columns[2].begin(), columns[2].end());
   const bool is_seen = most > kLeastSeen * *std::max_element(quality.begin(), quality.end());
-  std::vector<KeyEntry> terms = {{.colour = kDensityArea, .text = "β D density"}};
-  if (is_seen) terms.push_back({.colour = kPredictionArea, .text = "γ P prediction"});
+  std::vector<KeyEntry> terms = {{.colour = kDensityArea, .text = "D, density"}};
+  if (is_seen) terms.push_back({.colour = kPredictionArea, .text = "P, prediction"});
   // the sum behind the density: no prediction leaves no hair of its colour
   return panels.next(heading_of_quality(eq2, most, is_seen), terms) + axis_of(quality) +
          fmt::format(
@@ -172,7 +172,7 @@ std::vector<KeyEntry> key_of(const std::vector<Phase>& phases, bool is_smooth) {
   std::vector<KeyEntry> key;
   if (is_smooth) {
     key = {{.colour = kPalette[6], .text = "each view", .line = 0.35},
-           {.colour = kPalette[6], .text = fmt::format("mean of {}", kWindow), .line = 1.2}};
+           {.colour = kPalette[6], .text = fmt::format("mean of {} views", kWindow), .line = 1.2}};
   }
   const std::vector<KeyEntry> shades = key_of_phases(phases);
   key.insert(key.end(), shades.begin(), shades.end());

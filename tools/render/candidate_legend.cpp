@@ -30,7 +30,7 @@ bool is_in_sight(std::span<const Panel> panels, const Sight& sight, const Rgb& c
   };
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const RenderScene& scene = panels[i].scene;
-    const RenderView& view = sight.views[i];
+    const RenderView& view = sight.panels[i].view;
     for (const TubeItem& tube : scene.tubes) {
       const Vec3f middle_m = 0.5F * (tube.points_m.front() + tube.points_m.back());
       if (tube.colours.front() == colour && shows(view, middle_m)) return true;
@@ -89,20 +89,28 @@ std::vector<LegendItem> legend_of_rejected(const CandidateTally& all) {
 
 }  // namespace
 
+Vec3 pin_end(const ViewPose& view, double length_m) {
+  const Vec3 ahead(std::cos(view.gimbal_pitch_rad), 0.0, -std::sin(view.gimbal_pitch_rad));
+  return view.p_world_m + length_m * (T_world_body(view).linear() * ahead);
+}
+
 bool is_shown(const Candidate& candidate, const OccupancyGrid& grid,
-              std::span<const RenderView> views) {
-  const Vec3& p_m = candidate.view.p_world_m;
-  return std::any_of(views.begin(), views.end(), [&](const RenderView& view) {
-    return is_within(view, p_m) && !is_hidden(grid, view, p_m, 0.0);
+              std::span<const PanelView> panels) {
+  return std::any_of(panels.begin(), panels.end(), [&](const PanelView& panel) {
+    const auto shows = [&](const Vec3& p_m) {
+      return is_within(panel.view, p_m) && !is_hidden(grid, panel.view, p_m, 0.0);
+    };
+    return shows(candidate.view.p_world_m) ||
+           (candidate.rejected && shows(pin_end(candidate.view, kRejectedPin * panel.unit_m)));
   });
 }
 
 CandidateTally tally(const Plan& plan, const OccupancyGrid& grid,
-                     std::span<const RenderView> views) {
+                     std::span<const PanelView> panels) {
   CandidateTally all{.rejected = std::vector<std::size_t>(rejection_looks().size()),
                      .rejected_unseen = std::vector<std::size_t>(rejection_looks().size())};
   for (const Candidate& candidate : plan.candidates) {
-    const std::size_t unseen = is_shown(candidate, grid, views) ? 0 : 1;
+    const std::size_t unseen = is_shown(candidate, grid, panels) ? 0 : 1;
     all.unseen += unseen;
     if (candidate.rejected) {
       const auto reason = static_cast<std::size_t>(*candidate.rejected);
@@ -131,7 +139,9 @@ bool is_chosen_at_frontier(const Plan& plan) {
 
 std::string note_on(const Plan& plan, const CandidateTally& all) {
   const std::string count = counted(plan.candidates.size(), "candidate") + " as pins";
-  return all.unseen == 0 ? count : fmt::format("{}, {} out of sight", count, grouped(all.unseen));
+  return all.unseen == 0
+             ? count
+             : fmt::format("{}, {} hidden or outside the picture", count, grouped(all.unseen));
 }
 
 std::vector<LegendItem> legend_of(const Plan& plan, const CandidateTally& all,

@@ -21,13 +21,24 @@ struct CandidateTally {
   double high = -std::numeric_limits<double>::infinity();
 };
 
-/// Whether one of the views shows where it stands.
-bool is_shown(const Candidate& candidate, const OccupancyGrid& grid,
-              std::span<const RenderView> views);
+/// A pin of that length: from where the view stands towards where it looks.
+Vec3 pin_end(const ViewPose& view, double length_m);
 
-/// As panels show them that are seen from there.
+/// Of the pins of rejected candidates (units of layout), whose balls are at their ends.
+constexpr double kRejectedPin = 12.0;
+
+/// A panel's camera, and how many metres a layout unit has there.
+struct PanelView {
+  RenderView view;
+  double unit_m = 0.0;
+};
+
+/// Whether one of the panels shows the ball of its pin, or where it stands.
+bool is_shown(const Candidate& candidate, const OccupancyGrid& grid,
+              std::span<const PanelView> panels);
+
 CandidateTally tally(const Plan& plan, const OccupancyGrid& grid,
-                     std::span<const RenderView> views);
+                     std::span<const PanelView> panels);
 
 /// A share of the way from the lowest score to the highest: where these are one, it is the highest.
 Rgb colour_of_score(const CandidateTally& all, double score);
@@ -36,13 +47,13 @@ Rgb colour_of_score(const CandidateTally& all, double score);
 bool has_frontier_views(const Plan& plan);
 bool is_chosen_at_frontier(const Plan& plan);
 
-/// "104 candidates as pins, 64 out of sight": hidden, or beyond the picture.
+/// "104 candidates as pins, 64 hidden or outside the picture"
 std::string note_on(const Plan& plan, const CandidateTally& all);
 
 /// What hides things, and from where each panel is seen.
 struct Sight {
   const OccupancyGrid& grid;
-  std::span<const RenderView> views;
+  std::span<const PanelView> panels;
 };
 
 /// A row of those rejected ("collision: 74 of 132" that it shows), one of what could be chosen and

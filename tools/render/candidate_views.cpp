@@ -53,7 +53,7 @@ double worth_shown(const ReplayedDecision& decision, const RenderView& view) {
   for (std::size_t i = 0; i < plan.candidates.size(); ++i) {
     const Candidate& candidate = plan.candidates[i];
     if (candidate.rejected == Rejection::out_of_bounds) continue;
-    if (!is_shown(candidate, decision.belief.grid, std::array{view})) continue;
+    if (!is_shown(candidate, decision.belief.grid, std::array{PanelView{view}})) continue;
     worth += plan.chosen == i ? kChosen : candidate.rejected ? 1.0 : kValid;
   }
   return worth;

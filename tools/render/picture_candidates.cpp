@@ -19,15 +19,11 @@ namespace {
 
 constexpr float kUnknownVoxelsOpacity = 0.35F;
 
-// A pin: where it stands, and which way it looks.
 void add_pin(const ViewPose& view, double length_m, double radius_m, const Rgb& colour,
              RenderScene& scene) {
-  const Vec3 ahead = T_world_body(view).linear() *
-                     Vec3(std::cos(view.gimbal_pitch_rad), 0.0, -std::sin(view.gimbal_pitch_rad));
-  scene.tubes.push_back(
-      {{view.p_world_m.cast<float>(), (view.p_world_m + length_m * ahead).cast<float>()},
-       {colour},
-       static_cast<float>(radius_m)});
+  scene.tubes.push_back({{view.p_world_m.cast<float>(), pin_end(view, length_m).cast<float>()},
+                         {colour},
+                         static_cast<float>(radius_m)});
 }
 
 // "24 candidates around frontiers (0 valid), 80 of the grid (31 valid)"
@@ -58,7 +54,7 @@ void add_candidates(const Plan& plan, const CandidateTally& all, double unit_m,
   for (const Candidate& candidate : plan.candidates) {
     if (candidate.rejected) {
       const Rgb& colour = rejection_looks()[static_cast<std::size_t>(*candidate.rejected)].colour;
-      add_pin(candidate.view, 12.0 * unit_m, 1.4 * unit_m, colour, scene);
+      add_pin(candidate.view, kRejectedPin * unit_m, 1.4 * unit_m, colour, scene);
       scene.balls.push_back(
           {scene.tubes.back().points_m.back(), static_cast<float>(4.8 * unit_m), colour});
       continue;
@@ -97,16 +93,19 @@ Picture draw_candidates(RunSource& run, const PictureOptions& options, const Ren
     near.view = near_view(record, iteration, chosen, view);
   }
   const RenderView& from_near = near.view ? *near.view : view;
-  const CandidateTally all = tally(plan, decision.belief.grid, std::array{view, from_near});
+  const std::array<PanelView, 2> panels = {
+      {{view, panel_unit_m(options, view)}, {from_near, panel_unit_m(options, from_near)}}};
+  const CandidateTally all = tally(plan, decision.belief.grid, panels);
   bool is_unknown_seen = false;
-  for (const auto& [panel, seen_from] : {std::pair{&far, &view}, {&near, &from_near}}) {
-    const double unit_m = panel_unit_m(options, *seen_from);
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    Panel& panel = picture.panels[i];
+    const auto& [seen_from, unit_m] = panels[i];
     // from near, gaps would be black lines
     is_unknown_seen |=
-        add_map(run, decision.belief.grid, panel == &near ? 1.0 : 0.94, *seen_from, panel->scene);
-    add_candidates(plan, all, unit_m, panel->scene);
+        add_map(run, decision.belief.grid, &panel == &near ? 1.0 : 0.94, seen_from, panel.scene);
+    add_candidates(plan, all, unit_m, panel.scene);
     if (has_frontier_views(plan))
-      add_frontiers(record.scenario.planner.fvs.frontier, decision, unit_m, *seen_from, *panel);
+      add_frontiers(record.scenario.planner.fvs.frontier, decision, unit_m, seen_from, panel);
   }
   // numbers show through everything, and from near nothing asks for them
   if (!is_chosen_at_frontier(plan)) near.labels.clear();
@@ -123,8 +122,8 @@ Picture draw_candidates(RunSource& run, const PictureOptions& options, const Ren
                              : fmt::format("the chosen one, {:.2g} m from the view before", step_m);
   picture.detail = fmt::format("how the view of iteration {} was chosen from {}", iteration,
                                counts_by_sampler(plan));
-  picture.legend = legend_of(plan, all, picture.panels,
-                             {decision.belief.grid, std::array{view, from_near}}, is_unknown_seen);
+  picture.legend =
+      legend_of(plan, all, picture.panels, {decision.belief.grid, panels}, is_unknown_seen);
   return picture;
 }
 

@@ -148,7 +148,7 @@ std::optional<ViewAngles> angles_for_all(std::span<RunSource* const> runs,
   return angles_to_most(sums, view);
 }
 
-/// Where a camera stands as seen by who looks along the first panel: "the right", "behind, left".
+/// Where a camera stands as seen by who looks along the first panel: "the right", "below, behind".
 std::string side_of(const ViewAngles& angles, const RenderView& first) {
   const Vec3 shown = -first.T_world_camera.linear().col(2);
   const double turn_deg =
@@ -159,9 +159,10 @@ std::string side_of(const ViewAngles& angles, const RenderView& first) {
                      : size_deg < 112.5 ? std::string(hand)
                      : size_deg < 157.5 ? fmt::format("behind on {}", hand)
                                         : "behind";
-  return side + (angles.elevation_rad < 0.0                ? ", below"
-                 : angles.elevation_rad > deg_to_rad(45.0) ? ", above"
-                                                           : "");
+  return (angles.elevation_rad < 0.0                ? "below, "
+          : angles.elevation_rad > deg_to_rad(45.0) ? "above, "
+                                                    : "") +
+         side;
 }
 
 /// Which of the points a picture shows (n).

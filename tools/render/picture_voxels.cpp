@@ -64,7 +64,7 @@ Picture draw_voxels(RunSource& run, const PictureOptions& options, const RenderV
   }
   const std::vector<Rgb> predicted = {kPredicted};
   scene.surfaces.push_back(voxel_cubes(geometry, voxels.predicted, predicted));
-  scene.surfaces.push_back(free_faces(grid, voxels.unknown, kUnknown, 0.6F));
+  scene.surfaces.push_back(free_faces(grid, voxels.unknown, kUnknown, 0.85F));
   scene.shading = kDataShading;
   const bool is_predicted_seen = is_any_seen(voxels.predicted, grid, view);
   picture.detail = fmt::format("after {}: {}", views_so_far(run.record(), iteration),

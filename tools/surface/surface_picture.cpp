@@ -31,6 +31,16 @@ const std::vector<Rgb>& error_colours() {
   return colours;
 }
 
+/// What that share of the values stays under; 0 without any.
+double quantile(std::span<const double> values, double share) {
+  if (values.empty()) return 0.0;
+  std::vector<double> sorted(values.begin(), values.end());
+  const auto rank = static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1));
+  const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(rank);
+  std::nth_element(sorted.begin(), at, sorted.end());
+  return *at;
+}
+
 RenderView framed(const TriangleMesh& mesh, int width_px, int height_px, const ViewAngles& angles) {
   std::vector<Vec3> points_m;  // its box would leave much of the picture empty
   points_m.reserve(mesh.vertices_m.size());
@@ -125,24 +135,38 @@ Image surface_picture(const TexturedMesh& mesh, const std::string& title, int wi
        .legend = {}});
 }
 
-Image error_picture(const TriangleMesh& mesh, std::span<const double> errors_m, double most_m,
+double error_range_m(std::span<const double> errors_m) {
+  constexpr double kLeast_m = 0.001;
+  const double most_m = std::max(kLeast_m, quantile(errors_m, 0.95));
+  const double power_m = std::pow(10.0, std::floor(std::log10(most_m) + 1e-9));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (most_m <= (factor + 1e-9) * power_m) return factor * power_m;
+  }
+  return 10.0 * power_m;
+}
+
+Image error_picture(const TriangleMesh& mesh, std::span<const double> errors_m,
                     const std::string& title, int width_px, int height_px,
                     const ViewAngles& angles) {
   GNBV_CHECK(errors_m.size() == mesh.vertices_m.size(), "{} distances for {} vertices",
              errors_m.size(), mesh.vertices_m.size());
   SurfaceItem item{.mesh = mesh, .vertex_colours = {}};
+  const double most_m = error_range_m(errors_m);
   for (const double error_m : errors_m) {
     item.vertex_colours.push_back(ramp(error_colours(), error_m / most_m));
   }
-  return drawn(std::move(item), framed(mesh, width_px, height_px, angles),
-               {.title = title,
-                .detail = "distance of the reconstructed surface to the true structure; where no "
-                          "surface was made, there is no colour",
-                .legend = {{.label = fmt::format("{:.0f} mm or more", 1000.0 * most_m),
-                            .colours = error_colours(),
-                            .label_before = "0",
-                            .label_middle = fmt::format("{:.3g}", 500.0 * most_m)}}},
-               kDataShading);
+  return drawn(
+      std::move(item), framed(mesh, width_px, height_px, angles),
+      {.title = title,
+       .detail = fmt::format("distance of the reconstructed surface to the true "
+                             "structure: half of its corners within {:.2g} mm, 95 % "
+                             "within {:.2g} mm; gaps have none",
+                             1000.0 * quantile(errors_m, 0.5), 1000.0 * quantile(errors_m, 0.95)),
+       .legend = {{.label = fmt::format("{:g} mm or more", 1000.0 * most_m),
+                   .colours = error_colours(),
+                   .label_before = "0",
+                   .label_middle = fmt::format("{:g}", 500.0 * most_m)}}},
+      kDataShading);
 }
 
 }  // namespace gnbv

@@ -19,9 +19,13 @@ SurfaceItem textured_item(const TexturedMesh& mesh, double piece_m);
 Image surface_picture(const TexturedMesh& mesh, const std::string& title, int width_px,
                       int height_px, const ViewAngles& angles = {});
 
-/// The same coloured by the distance to the truth: from nothing to `most_m` and beyond. One
+/// Where an axis of errors ends: at what 95 % stay under, rounded up to 1, 2 or 5 and tens, a
+/// millimetre at least.
+double error_range_m(std::span<const double> errors_m);
+
+/// The same coloured by the distance to the truth, from nothing to error_range_m() and beyond. One
 /// distance a vertex.
-Image error_picture(const TriangleMesh& mesh, std::span<const double> errors_m, double most_m,
+Image error_picture(const TriangleMesh& mesh, std::span<const double> errors_m,
                     const std::string& title, int width_px, int height_px,
                     const ViewAngles& angles = {});
 

@@ -100,6 +100,28 @@ TEST(Plots, TheEndsKeyNamesTheCeilingWhereItIsOnTheAxis) {
   }
 }
 
+/// A curve that hardly rises does not look steep, and an axis that begins above 0 says so.
+TEST(Plots, CoverageAxesSayThatTheyAreCutAndShowAPercentAtLeast) {
+  const auto range_of = [](const Plot& plot) {
+    std::array<double, 2> range{};
+    const std::size_t at = plot.body.find("set yrange [");
+    EXPECT_EQ(std::sscanf(plot.body.c_str() + at, "set yrange [%lf:%lf]", &range[0], &range[1]), 2);
+    return range;
+  };
+  for (const auto& [first, is_cut] : {std::pair{0.12, false}, std::pair{0.45, true}}) {
+    const std::vector<RunRecord> runs = {covered_record(1, {first, 0.8, 0.8005})};
+    const RunGroup group = group_of(runs);
+    const Plot whole = coverage_plot({&group, 1}, Effort::views, 0);
+    EXPECT_EQ(range_of(whole)[0], is_cut ? 40.0 : 0.0);
+    EXPECT_EQ(whole.body.find("axis cut") != std::string::npos, is_cut);
+    EXPECT_NE(whole.body.find("'views (0: the profile alone)'"), std::string::npos);
+    const auto end = coverage_end_plot({&group, 1}, Effort::views, 0);
+    ASSERT_TRUE(end.has_value());
+    EXPECT_GE(range_of(*end)[1] - range_of(*end)[0], 1.0);
+    EXPECT_NE(end->body.find("axis cut"), std::string::npos);
+  }
+}
+
 /// The way from the profile to the first view is in no distance, and in no time either.
 TEST(Plots, TimeAndDistanceBothBeginWithTheFirstView) {
   std::vector<RunRecord> runs = {covered_record(1, {0.2, 0.4, 1.0})};

@@ -90,8 +90,9 @@ TEST(Plots, TheAxisOfCoverageBeginsAtTheTensBelow) {
   };
   EXPECT_EQ(axis_of({0.83, 0.95}), "[80:100]");
   EXPECT_EQ(axis_of({0.97, 0.99}), "[90:100]");
-  EXPECT_EQ(axis_of({0.17, 0.74}), "[10:100]");
-  EXPECT_EQ(axis_of({0.05, 0.31}), "[0:40]");  // far below 100
+  EXPECT_EQ(axis_of({0.37, 0.74}), "[30:100]");
+  EXPECT_EQ(axis_of({0.17, 0.74}), "[0:100]");  // near 0: from there
+  EXPECT_EQ(axis_of({0.05, 0.31}), "[0:40]");   // far below 100
 }
 
 RunRecord aircraft_record(const std::string& utility) {

@@ -62,10 +62,10 @@ TEST(Plots, PanelsFollowEachOtherDownwards) {
 
 TEST(Plots, TermsNameNoPredictionWhereThereIsNone) {
   RunRecord record = scored_record();
-  EXPECT_NE(terms_plot(record)->body.find("'γ P prediction'"), std::string::npos);
+  EXPECT_NE(terms_plot(record)->body.find("'P, prediction'"), std::string::npos);
   for (ViewRecord& view : record.views) view.decision.score.prediction = 2e-4;
   const std::string little = terms_plot(record)->body;  // too low to be seen: said, not drawn
-  EXPECT_EQ(little.find("'γ P prediction'"), std::string::npos);
+  EXPECT_EQ(little.find("'P, prediction'"), std::string::npos);
   EXPECT_NE(little.find("P ≤ 0.0002'"), std::string::npos);
   for (ViewRecord& view : record.views) view.decision.score.prediction = 0.0;
   EXPECT_NE(terms_plot(record)->body.find("P = 0'"), std::string::npos);
@@ -109,7 +109,7 @@ TEST(TermsPlot, SaysTheFormulasThatItDraws) {
   RunRecord record = scored_record();
   const std::string body = terms_plot(record)->body;
   for (const char* const formula :
-       {"'utility = L Q I exp(−λ d)'", "'Q = (β D + γ P) / (β + γ)'", "'β D density'",
+       {"'utility = L Q I exp(−λ d)'", "'Q = (β D + γ P) / (β + γ)'", "'D, density'",
         "'I = 1 + α E, E information gain'", "'exp(−λ d), d distance to the view (m)'",
         "'L = log₁₀ N, N occupied voxels in view'"}) {
     EXPECT_NE(body.find(formula), std::string::npos) << formula;
@@ -138,7 +138,7 @@ TEST(TermsPlot, NamesItsMeansWhereItDrawsThem) {
   }
   const Plot plot = *terms_plot(record);
   EXPECT_NE(plot.body.find("'each view'"), std::string::npos);
-  EXPECT_NE(plot.body.find("'mean of 15'"), std::string::npos);
+  EXPECT_NE(plot.body.find("'mean of 15 views'"), std::string::npos);
   expect_drawable(plot);
 }
 

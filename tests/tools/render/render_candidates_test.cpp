@@ -202,12 +202,19 @@ TEST(CandidatesPicture, TheNoteCountsCandidatesThatNoPanelShows) {
     const RenderView& near = picture.panels[1].view.value();
     std::size_t unseen = 0;
     std::size_t seen_rejected = 0;
-    for (const Candidate& candidate : candidates) {
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      const Candidate& candidate = candidates[i];
       const Vec3& p_m = candidate.view.p_world_m;
       const std::optional<Vec3> px = project(view, p_m);
-      const bool is_seen =
-          (px && picture_px.contains(px->head<2>()) && !is_hidden(grid, view, p_m, 0.0)) ||
-          (is_within(near, p_m) && !is_hidden(grid, near, p_m, 0.0));
+      bool is_seen = false;
+      for (std::size_t k = 0; k < 2; ++k) {
+        const RenderView& from = k == 0 ? view : near;
+        const Vec3f& ball_m = picture.panels[k].scene.balls[i].centre_m;
+        for (const Vec3& end_m : {p_m, Vec3(ball_m.cast<double>())}) {
+          const std::optional<Vec3> at = project(from, end_m);
+          is_seen |= at && picture_px.contains(at->head<2>()) && !is_hidden(grid, from, end_m, 0.0);
+        }
+      }
       unseen += is_seen ? 0 : 1;
       seen_rejected += is_seen && candidate.rejected ? 1 : 0;
       if (!px) continue;
@@ -218,7 +225,7 @@ TEST(CandidatesPicture, TheNoteCountsCandidatesThatNoPanelShows) {
     }
     const std::string all = fmt::format("{} candidates as pins", candidates.size());
     EXPECT_EQ(picture.panels.front().note,
-              unseen == 0 ? all : fmt::format("{}, {} out of sight", all, unseen));
+              unseen == 0 ? all : fmt::format("{}, {} hidden or outside the picture", all, unseen));
     std::size_t said = 0;
     for (const RejectionLook& look : rejection_looks()) {
       const std::string words = fmt::format("{}: ", look.words);
