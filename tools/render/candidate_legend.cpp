@@ -97,11 +97,10 @@ Vec3 pin_end(const ViewPose& view, double length_m) {
 bool is_shown(const Candidate& candidate, const OccupancyGrid& grid,
               std::span<const PanelView> panels) {
   return std::any_of(panels.begin(), panels.end(), [&](const PanelView& panel) {
-    const auto shows = [&](const Vec3& p_m) {
-      return is_within(panel.view, p_m) && !is_hidden(grid, panel.view, p_m, 0.0);
-    };
-    return shows(candidate.view.p_world_m) ||
-           (candidate.rejected && shows(pin_end(candidate.view, kRejectedPin * panel.unit_m)));
+    const Vec3 ball_m = candidate.rejected ? pin_end(candidate.view, kRejectedPin * panel.unit_m)
+                                           : candidate.view.p_world_m;
+    const double radius_m = (candidate.rejected ? kRejectedBall : kValidBall) * panel.unit_m;
+    return is_within(panel.view, ball_m) && !is_hidden(grid, panel.view, ball_m, radius_m);
   });
 }
 

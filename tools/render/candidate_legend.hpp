@@ -24,8 +24,10 @@ struct CandidateTally {
 /// A pin of that length: from where the view stands towards where it looks.
 Vec3 pin_end(const ViewPose& view, double length_m);
 
-/// Of the pins of rejected candidates (units of layout), whose balls are at their ends.
+/// Of the pins of rejected candidates, whose balls are at their ends, and of balls (layout units).
 constexpr double kRejectedPin = 12.0;
+constexpr double kRejectedBall = 4.8;
+constexpr double kValidBall = 6.6;
 
 /// A panel's camera, and how many metres a layout unit has there.
 struct PanelView {
@@ -33,7 +35,7 @@ struct PanelView {
   double unit_m = 0.0;
 };
 
-/// Whether one of the panels shows the ball of its pin, or where it stands.
+/// Whether one of the panels shows the near side of its pin's ball.
 bool is_shown(const Candidate& candidate, const OccupancyGrid& grid,
               std::span<const PanelView> panels);
 

@@ -56,13 +56,13 @@ void add_candidates(const Plan& plan, const CandidateTally& all, double unit_m,
       const Rgb& colour = rejection_looks()[static_cast<std::size_t>(*candidate.rejected)].colour;
       add_pin(candidate.view, kRejectedPin * unit_m, 1.4 * unit_m, colour, scene);
       scene.balls.push_back(
-          {scene.tubes.back().points_m.back(), static_cast<float>(4.8 * unit_m), colour});
+          {scene.tubes.back().points_m.back(), static_cast<float>(kRejectedBall * unit_m), colour});
       continue;
     }
     const Rgb colour = colour_of_score(all, candidate.score.value);
     add_pin(candidate.view, 19.0 * unit_m, 2.4 * unit_m, colour, scene);
     scene.balls.push_back(
-        {candidate.view.p_world_m.cast<float>(), static_cast<float>(6.6 * unit_m), colour});
+        {candidate.view.p_world_m.cast<float>(), static_cast<float>(kValidBall * unit_m), colour});
   }
 }
 

@@ -209,11 +209,11 @@ TEST(CandidatesPicture, TheNoteCountsCandidatesThatNoPanelShows) {
       bool is_seen = false;
       for (std::size_t k = 0; k < 2; ++k) {
         const RenderView& from = k == 0 ? view : near;
-        const Vec3f& ball_m = picture.panels[k].scene.balls[i].centre_m;
-        for (const Vec3& end_m : {p_m, Vec3(ball_m.cast<double>())}) {
-          const std::optional<Vec3> at = project(from, end_m);
-          is_seen |= at && picture_px.contains(at->head<2>()) && !is_hidden(grid, from, end_m, 0.0);
-        }
+        const BallItem& ball = picture.panels[k].scene.balls[i];
+        const Vec3 ball_m = ball.centre_m.cast<double>();
+        const std::optional<Vec3> at = project(from, ball_m);
+        is_seen |= at && picture_px.contains(at->head<2>()) &&
+                   !is_hidden(grid, from, ball_m, ball.radius_m);
       }
       unseen += is_seen ? 0 : 1;
       seen_rejected += is_seen && candidate.rejected ? 1 : 0;
