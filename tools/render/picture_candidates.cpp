@@ -120,8 +120,10 @@ Picture draw_candidates(RunSource& run, const PictureOptions& options, const Ren
                             .norm();
   near.note = step_m < 0.005 ? "the chosen one, a turn where the view before was"
                              : fmt::format("the chosen one, {:.2g} m from the view before", step_m);
-  picture.detail = fmt::format("how the view of iteration {} was chosen from {}", iteration,
-                               counts_by_sampler(plan));
+  // views are counted from 1 where people look, as on the page
+  picture.detail =
+      fmt::format("how view {} of {} (iteration {}) was chosen: from {}", grouped(iteration + 1),
+                  grouped(record.views.size()), iteration, counts_by_sampler(plan));
   picture.legend =
       legend_of(plan, all, picture.panels, {decision.belief.grid, panels}, is_unknown_seen);
   return picture;

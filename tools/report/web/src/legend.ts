@@ -74,7 +74,7 @@ function ofColouring(scenes: RunScene[], by: Colouring, things: string): HTMLEle
 export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring,
     viewsOf: (scene: RunScene) => number): HTMLElement[] {
   if (scenes.length === 0) return [];
-  return [...measuredItems(scenes, layers, by, viewsOf), ...surfaceItems(scenes, layers, by),
+  return [...measuredItems(scenes, layers, by, viewsOf), ...surfaceItems(scenes, layers, by, viewsOf),
     ...flightItems(scenes, layers, scenes.some((scene) => viewsOf(scene) > 0)),
     ...layers.candidates ? candidateItems(scenes) : [], ...believedItems(scenes),
     make("span", {}, "grid",
@@ -104,7 +104,8 @@ function measuredItems(scenes: RunScene[], layers: Layers, by: Colouring,
   return items;
 }
 
-function surfaceItems(scenes: RunScene[], layers: Layers, by: Colouring): HTMLElement[] {
+function surfaceItems(scenes: RunScene[], layers: Layers, by: Colouring,
+    viewsOf: (scene: RunScene) => number): HTMLElement[] {
   const items: HTMLElement[] = [];
   const ofSurface = scenes.filter(({ surface }) => surface);
   const isKnown = ofSurface.length > 0;
@@ -117,7 +118,9 @@ function surfaceItems(scenes: RunScene[], layers: Layers, by: Colouring): HTMLEl
   }
   if (isKnown && layers.missed) {
     const colour = by === "iteration" ? foundColours.missedInOrder : foundColours.missed;
-    items.push(item("dot", hex(colour), "surface missed", ...sizes()));
+    const isOver = ofSurface.every((scene) => viewsOf(scene) >= scene.flight.count);
+    items.push(item("dot", hex(colour), isOver ? "surface missed" : "surface not found yet",
+      ...sizes()));
     const compared = Math.max(...scenes.map((scene) => scene.compared()));
     if (compared > 0) {
       items.push(item("dot", hex(foundColours.onlyOther),

@@ -187,34 +187,15 @@ export function terms(flights: Flight[], effort: Effort, { term }: PlotChoices):
   };
 }
 
-const kSame = 0.01; // of what all lines span
-const kMostlySame = 0.5; // of the efforts at which both have a value
+// None for the first, since a run alone is solid.
+const kDashes: (number[] | undefined)[] = [undefined, [7, 6], [2, 4], [10, 4, 2, 4]];
 
-/** Of lines of runs that lie on an earlier one's: dashed, so that both are seen. */
+/** A run's lines have its dashes in every plot: where they lie on another's, both are seen. */
 export function withDashes(content: PlotContent): PlotContent {
-  const ofRuns = content.lines.flatMap(({ run }, i) => (run === undefined ? [] : [i]));
-  const columns = ofRuns.map((line) => carried(content.data[line + 1]));
-  const values = columns.flat().filter((value) => value !== null);
-  const near = kSame * values.reduce((most, value) => Math.max(most, value), -Infinity)
-    - kSame * values.reduce((least, value) => Math.min(least, value), Infinity);
-  const areSame = (a: (number | null)[], b: (number | null)[]) => {
-    const away = a.flatMap((value, i) =>
-      (value === null || b[i] === null ? [] : [Math.abs(value - b[i]!)]));
-    return away.length > 0
-      && away.filter((gap) => gap <= near).length >= kMostlySame * away.length;
-  };
-  const lines = content.lines.map((line, i) => {
-    const at = ofRuns.indexOf(i);
-    return at > 0 && columns.slice(0, at).some((before) => areSame(before, columns[at]))
-      ? { ...line, dash: [7, 6] } : line;
-  });
+  const runs = [...new Set(content.lines.map(({ run }) => run).filter((run) => run !== undefined))];
+  const lines = content.lines.map((line) => (line.run === undefined ? line
+    : { ...line, dash: line.dash ?? kDashes[runs.indexOf(line.run) % kDashes.length] }));
   return { ...content, lines };
-}
-
-/** The latest value of each effort. */
-function carried(values: ArrayLike<number | null | undefined>): (number | null)[] {
-  let latest: number | null = null;
-  return Array.from(values, (value) => { latest = value ?? latest; return latest; });
 }
 
 /** Spans of effort in which frontier view sampling chose the views. */
