@@ -228,17 +228,16 @@ Report make_report(const std::vector<RunRecord>& records, const ReportOptions& o
     report.missing.insert(report.missing.end(), packed.missing.begin(), packed.missing.end());
   }
   data += bytes_element("meshes", structures.bytes);
-  const Json json = {
-      {"title", title},
-      {"is_live", options.is_live},
-      {"version", GNBV_VERSION},
-      {"ramps",
-       {{"path", ramp_json(path_colours())},
-        {"amount", ramp_json(amount_colours())},
-        {"score", ramp_json(score_colours())}}},
-      {"tables", tables_json(records, ceilings)},
-      {"meshes", structures.json},
-      {"runs", runs}};
+  const Json json = {{"title", title},
+                     {"is_live", options.is_live},
+                     {"version", GNBV_VERSION},
+                     {"ramps",
+                      {{"path", ramp_json(path_colours())},
+                       {"amount", ramp_json(amount_colours())},
+                       {"score", ramp_json(score_colours())}}},
+                     {"tables", tables_json(records, ceilings)},
+                     {"meshes", structures.json},
+                     {"runs", runs}};
   // names may hold anything, also what is no UTF-8
   data += data_element("data", "application/json",
                        script_json(json.dump(-1, ' ', false, Json::error_handler_t::replace)));
