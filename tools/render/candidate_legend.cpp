@@ -23,26 +23,25 @@ bool is_around_cluster(const Candidate& candidate) { return candidate.cluster >=
 // Whether a panel shows the middle of a line, a ball or a voxel's cube of that colour: these may
 // lie in the surface, but not behind it.
 bool is_in_sight(std::span<const Panel> panels, const Sight& sight, const Rgb& colour) {
-  const auto shows = [&](const RenderView& view, const Vec3f& p_m) {
-    const Vec3 at_m = p_m.cast<double>();
-    return is_within(view, at_m) &&
-           !is_hidden(sight.grid, view, at_m, 0.9 * sight.grid.geometry().resolution_m());
+  const double beside_m = 0.9 * sight.grid.geometry().resolution_m();
+  const auto is_shown_at = [&](const RenderView& view, const Vec3f& p_m) {
+    return shows(view, sight.grid, p_m.cast<double>(), beside_m);
   };
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const RenderScene& scene = panels[i].scene;
     const RenderView& view = sight.panels[i].view;
     for (const TubeItem& tube : scene.tubes) {
       const Vec3f middle_m = 0.5F * (tube.points_m.front() + tube.points_m.back());
-      if (tube.colours.front() == colour && shows(view, middle_m)) return true;
+      if (tube.colours.front() == colour && is_shown_at(view, middle_m)) return true;
     }
     for (const BallItem& ball : scene.balls) {
-      if (ball.colour == colour && shows(view, ball.centre_m)) return true;
+      if (ball.colour == colour && is_shown_at(view, ball.centre_m)) return true;
     }
     for (const SurfaceItem& surface : scene.surfaces) {
       const std::vector<Vec3f>& corners_m = surface.mesh.vertices_m;
       if (surface.vertex_colours.empty() || surface.vertex_colours.front() != colour) continue;
       for (std::size_t k = 0; k + 7 < corners_m.size(); k += 8) {
-        if (shows(view, 0.5F * (corners_m[k] + corners_m[k + 7]))) return true;
+        if (is_shown_at(view, 0.5F * (corners_m[k] + corners_m[k + 7]))) return true;
       }
     }
   }
@@ -100,7 +99,7 @@ bool is_shown(const Candidate& candidate, const OccupancyGrid& grid,
     const Vec3 ball_m = candidate.rejected ? pin_end(candidate.view, kRejectedPin * panel.unit_m)
                                            : candidate.view.p_world_m;
     const double radius_m = (candidate.rejected ? kRejectedBall : kValidBall) * panel.unit_m;
-    return is_within(panel.view, ball_m) && !is_hidden(grid, panel.view, ball_m, radius_m);
+    return shows(panel.view, grid, ball_m, radius_m);
   });
 }
 

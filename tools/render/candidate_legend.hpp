@@ -39,6 +39,7 @@ struct PanelView {
 bool is_shown(const Candidate& candidate, const OccupancyGrid& grid,
               std::span<const PanelView> panels);
 
+/// As those panels show them.
 CandidateTally tally(const Plan& plan, const OccupancyGrid& grid,
                      std::span<const PanelView> panels);
 

@@ -38,7 +38,7 @@ bool is_any_seen(std::span<const VoxelIndex> voxels, const OccupancyGrid& grid,
   const GridGeometry& geometry = grid.geometry();
   return std::any_of(voxels.begin(), voxels.end(), [&](VoxelIndex v) {
     const Vec3 p_m = geometry.center_m(geometry.key_at(v));
-    return is_within(view, p_m) && !is_hidden(grid, view, p_m, geometry.resolution_m());
+    return shows(view, grid, p_m, geometry.resolution_m());
   });
 }
 

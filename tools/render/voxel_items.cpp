@@ -151,6 +151,11 @@ bool is_hidden(const OccupancyGrid& grid, const RenderView& view, const Vec3& p_
   return false;
 }
 
+bool shows(const RenderView& view, const OccupancyGrid& grid, const Vec3& p_world_m,
+           double beside_m) {
+  return is_within(view, p_world_m) && !is_hidden(grid, view, p_world_m, beside_m);
+}
+
 bool is_seen(const SurfaceItem& faces, const OccupancyGrid& grid, const RenderView& view) {
   const std::vector<Vec3f>& vertices_m = faces.mesh.vertices_m;
   const Vec3 eye_m = view.T_world_camera.translation();
@@ -159,8 +164,8 @@ bool is_seen(const SurfaceItem& faces, const OccupancyGrid& grid, const RenderVi
     const Vec3 middle_m = 0.5 * (first_m + vertices_m[i + 2].cast<double>());
     const Vec3 normal = (vertices_m[i + 1].cast<double>() - first_m)
                             .cross(vertices_m[i + 2].cast<double>() - first_m);
-    if (normal.dot(eye_m - middle_m) <= 0.0 || !is_within(view, middle_m)) continue;
-    if (!is_hidden(grid, view, middle_m, 0.5 * grid.geometry().resolution_m())) return true;
+    if (normal.dot(eye_m - middle_m) <= 0.0) continue;
+    if (shows(view, grid, middle_m, 0.5 * grid.geometry().resolution_m())) return true;
   }
   return false;
 }

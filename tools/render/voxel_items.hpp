@@ -39,6 +39,10 @@ SurfaceItem free_faces(const OccupancyGrid& grid, std::span<const VoxelIndex> vo
 bool is_hidden(const OccupancyGrid& grid, const RenderView& view, const Vec3& p_world_m,
                double beside_m);
 
+/// Whether the picture holds the place, and no occupied voxel farther than `beside_m` hides it.
+bool shows(const RenderView& view, const OccupancyGrid& grid, const Vec3& p_world_m,
+           double beside_m);
+
 /// Whether any of free_faces() is turned to the camera, within its picture, and not hidden.
 bool is_seen(const SurfaceItem& faces, const OccupancyGrid& grid, const RenderView& view);
 

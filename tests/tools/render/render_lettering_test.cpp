@@ -237,6 +237,34 @@ TEST(Caption, ABarsMiddleStandsUponIt) {
   }
 }
 
+/// Pictures that will be shown smaller ask for larger words: all of a caption grows with them.
+TEST(Caption, LettersAreAsLargeAsAskedFor) {
+  const auto rows = [](double letters) {
+    Image image{1280, 720, {}};
+    image.rgb.assign(static_cast<std::size_t>(3 * 1280 * 720), 255);
+    draw_caption(image,
+                 {.title = "",
+                  .detail = "H",
+                  .legend = {},
+                  .has_scale = false,
+                  .letters = letters,
+                  .paper_px = 60},
+                 {});
+    int first = 720;
+    int last = 0;
+    for (int y = 0; y < 720; ++y) {
+      for (int x = 0; x < 640; ++x) {
+        if (image.at(x, y)[0] > 128) continue;
+        first = std::min(first, y);
+        last = std::max(last, y);
+      }
+    }
+    return last - first + 1;
+  };
+  EXPECT_NEAR(rows(2.0), 2.0 * rows(1.0), 2.0);
+  EXPECT_GT(rows(1.0), 5);
+}
+
 TEST(Colour, RampsRunFromFirstToLastAndSrgbRoundTrips) {
   EXPECT_EQ(path_ramp(-1.0), path_ramp(0.0));
   EXPECT_EQ(path_ramp(2.0), path_ramp(1.0));

@@ -161,5 +161,22 @@ TEST(Voxels, AreSortedAsTheMapHasThem) {
   EXPECT_NEAR(volume_m3, 0.008 * static_cast<double>(sorted.occupied.size()), 1e-4);
 }
 
+/// Where colours are data, light bends them less: the shaded side comes nearer to the lit one.
+TEST(Light, ShadingIsTheShareOfItThatASceneTakes) {
+  RenderScene scene = floor_scene(true);
+  RenderView view = floor_view();
+  view.to_light_world = Vec3(0.1, 0.0, 1.0);  // the wall is turned from it
+  const Vec3 on_floor(5.0, 0.0, 0.0);
+  const Vec3 on_wall(0.0, 0.0, 2.5);
+  const auto apart = [&](float shading) {
+    scene.shading = shading;
+    const Image image = render(scene, view);
+    return std::abs(brightness(image, view, on_floor) - brightness(image, view, on_wall));
+  };
+  EXPECT_GT(apart(1.0F), 20.0);
+  EXPECT_LT(apart(kDataShading), 0.8 * apart(1.0F));
+  EXPECT_LT(apart(0.0F), apart(kDataShading));
+}
+
 }  // namespace
 }  // namespace gnbv
