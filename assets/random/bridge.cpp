@@ -15,7 +15,7 @@ struct Deck {
   double side_m() const { return 0.5 * width_m; }
 };
 
-Deck draw_deck(Dice& draws, double size_m) {
+Deck draw_deck(Rng& draws, double size_m) {
   const double width_m = std::max(1.6, size_m * draws.real(0.12, 0.22));
   const double z_m = std::max(2.0, size_m * draws.real(0.12, 0.3));
   return {size_m, width_m, z_m};
@@ -43,7 +43,7 @@ std::vector<Part> roadway(const Deck& d) {
   return parts;
 }
 
-std::vector<Part> girder_bridge(Dice& draws, const Deck& d) {
+std::vector<Part> girder_bridge(Rng& draws, const Deck& d) {
   std::vector<Part> parts = roadway(d);
   const int girders = draws.whole(2, 4), piers = draws.whole(1, 3);
   const double depth_m = d.length_m / (piers + 1) * draws.real(0.05, 0.08);
@@ -75,7 +75,7 @@ std::vector<Part> girder_bridge(Dice& draws, const Deck& d) {
 }
 
 /// The roadway within two Warren trusses, tied above.
-std::vector<Part> truss_bridge(Dice& draws, const Deck& d) {
+std::vector<Part> truss_bridge(Rng& draws, const Deck& d) {
   std::vector<Part> parts = roadway(d);
   const int bays = 2 * draws.whole(3, 6);
   const double height_m = std::max(0.7 * d.width_m, d.length_m * draws.real(0.1, 0.16));
@@ -112,7 +112,7 @@ std::vector<Part> truss_bridge(Dice& draws, const Deck& d) {
 }
 
 /// The roadway hangs from two arches that its ends tie together.
-std::vector<Part> arch_bridge(Dice& draws, const Deck& d) {
+std::vector<Part> arch_bridge(Rng& draws, const Deck& d) {
   constexpr int kSteps = 14;
   std::vector<Part> parts = roadway(d);
   const double rise_m = d.length_m * draws.real(0.16, 0.24), rib_m = 0.2 + 0.01 * d.length_m;
@@ -141,7 +141,7 @@ std::vector<Part> arch_bridge(Dice& draws, const Deck& d) {
 }
 
 /// One or two towers of two legs each, and fans of cables.
-std::vector<Part> cable_bridge(Dice& draws, const Deck& d) {
+std::vector<Part> cable_bridge(Rng& draws, const Deck& d) {
   std::vector<Part> parts = roadway(d);
   const bool has_two = draws.chance(0.5);
   const double height_m = d.length_m * (has_two ? draws.real(0.18, 0.25) : draws.real(0.3, 0.42));
@@ -172,7 +172,7 @@ std::vector<Part> cable_bridge(Dice& draws, const Deck& d) {
 
 }  // namespace
 
-std::vector<Part> bridge(Dice& draws, double size_m) {
+std::vector<Part> bridge(Rng& draws, double size_m) {
   const Deck d = draw_deck(draws, size_m);
   switch (draws.whole(0, 3)) {
     case 0:

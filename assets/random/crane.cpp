@@ -30,7 +30,7 @@ std::vector<Ring> jib(double from_m, double to_m, double z_m, double width_m) {
   return sections;
 }
 
-std::vector<Part> tower_crane(Dice& draws, double size_m) {
+std::vector<Part> tower_crane(Rng& draws, double size_m) {
   const double height_m = size_m * draws.real(0.6, 0.95), jib_m = size_m * draws.real(0.55, 0.75);
   const double counter_m = jib_m * draws.real(0.28, 0.36), width_m = 0.45 + 0.022 * size_m;
   const double slew_m = 0.82 * height_m, apex_m = height_m;
@@ -70,7 +70,7 @@ std::vector<Part> tower_crane(Dice& draws, double size_m) {
 }
 
 /// What stands between the legs.
-std::vector<Part> stacked_containers(Dice& draws, double span_m, double girder_m, double half_m) {
+std::vector<Part> stacked_containers(Rng& draws, double span_m, double girder_m, double half_m) {
   std::vector<Part> parts;
   const int stacked = draws.whole(0, 4);
   for (int i = 0; i < stacked; ++i) {
@@ -84,7 +84,7 @@ std::vector<Part> stacked_containers(Dice& draws, double span_m, double girder_m
 }
 
 /// Two pairs of legs, two girders that reach over, a trolley, something to lift below.
-std::vector<Part> gantry_crane(Dice& draws, double size_m) {
+std::vector<Part> gantry_crane(Rng& draws, double size_m) {
   const double reach_m = 0.5 * size_m, span_m = size_m * draws.real(0.6, 0.75);
   const double height_m = size_m * draws.real(0.4, 0.65), gauge_m = size_m * draws.real(0.22, 0.32);
   const double girder_m = 0.35 + 0.028 * size_m, leg_m = 0.25 + 0.016 * size_m;
@@ -135,7 +135,7 @@ std::vector<Part> gantry_crane(Dice& draws, double size_m) {
 
 }  // namespace
 
-std::vector<Part> crane(Dice& draws, double size_m) {
+std::vector<Part> crane(Rng& draws, double size_m) {
   return draws.chance(0.6) ? tower_crane(draws, size_m) : gantry_crane(draws, size_m);
 }
 

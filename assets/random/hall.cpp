@@ -13,7 +13,7 @@ struct HallSize {
   double length_m, width_m, eaves_m;
 };
 
-HallSize draw_hall(Dice& draws, double size_m) {
+HallSize draw_hall(Rng& draws, double size_m) {
   const double width_m = size_m * draws.real(0.32, 0.55);
   const double eaves_m = std::clamp(width_m * draws.real(0.35, 0.7), 1.8, 13.0);
   return {size_m, width_m, eaves_m};
@@ -46,7 +46,7 @@ Ring ring_of(const HallLine& line, double x_m) {
 }
 
 /// Windows of both long walls, and of those the lower half is a door here and there.
-std::vector<Part> wall_details(Dice& draws, const HallSize& h) {
+std::vector<Part> wall_details(Rng& draws, const HallSize& h) {
   std::vector<Part> parts;
   const int bays = std::max(2, static_cast<int>(h.length_m / draws.real(3.0, 6.0)));
   const double bay_m = h.length_m / bays, sill_m = h.eaves_m * draws.real(0.3, 0.5);
@@ -62,7 +62,7 @@ std::vector<Part> wall_details(Dice& draws, const HallSize& h) {
   return parts;
 }
 
-std::vector<Part> closed_hall(Dice& draws, const HallSize& h) {
+std::vector<Part> closed_hall(Rng& draws, const HallSize& h) {
   const double rise_m = h.width_m * draws.real(0.12, 0.35), over_m = draws.real(0.15, 0.6);
   const Paint wall = draws.chance(0.5) ? kCladding : kBrick;
   const double x_m = 0.5 * h.length_m, y_m = 0.5 * h.width_m;
@@ -100,7 +100,7 @@ std::vector<Part> closed_hall(Dice& draws, const HallSize& h) {
 }
 
 /// A shell without an end wall to +x: what is inside can be seen, and flown into.
-std::vector<Part> open_hall(Dice& draws, const HallSize& h) {
+std::vector<Part> open_hall(Rng& draws, const HallSize& h) {
   const double wall_m = 0.18, x_m = 0.5 * h.length_m;
   const bool is_barrel = draws.chance(0.5);
   const double rise_m = h.width_m * (is_barrel ? draws.real(0.25, 0.5) : draws.real(0.15, 0.35));
@@ -134,7 +134,7 @@ std::vector<Part> open_hall(Dice& draws, const HallSize& h) {
   return parts;
 }
 
-std::vector<Part> sawtooth_hall(Dice& draws, const HallSize& h) {
+std::vector<Part> sawtooth_hall(Rng& draws, const HallSize& h) {
   const double x_m = 0.5 * h.length_m, y_m = 0.5 * h.width_m;
   std::vector<Part> parts = {block({-x_m, x_m, -y_m, y_m, 0.0, h.eaves_m}, kBrick)};
   const int teeth = std::max(2, static_cast<int>(h.length_m / draws.real(4.0, 7.0)));
@@ -161,7 +161,7 @@ std::vector<Part> sawtooth_hall(Dice& draws, const HallSize& h) {
 
 }  // namespace
 
-std::vector<Part> hall(Dice& draws, double size_m) {
+std::vector<Part> hall(Rng& draws, double size_m) {
   const HallSize h = draw_hall(draws, size_m);
   switch (draws.whole(0, 2)) {
     case 0:

@@ -25,7 +25,7 @@ struct HullLines {
   double x_m(double along) const { return 0.5 * length_m * along; }
 };
 
-HullLines draw_hull(Dice& draws, double size_m) {
+HullLines draw_hull(Rng& draws, double size_m) {
   HullLines h{};
   h.length_m = 0.96 * size_m;
   h.beam_m = size_m * draws.real(0.16, 0.26);
@@ -109,7 +109,7 @@ std::vector<Part> screw_and_rudder(const HullLines& h) {
 }
 
 /// Decks stacked from `from` to `to` along the ship, a bridge on top, the funnel behind it.
-std::vector<Part> superstructure(Dice& draws, const HullLines& h, double from, double to) {
+std::vector<Part> superstructure(Rng& draws, const HullLines& h, double from, double to) {
   std::vector<Part> parts;
   const int decks = std::clamp(static_cast<int>(h.length_m / 9.0) + draws.whole(0, 1), 1, 5);
   const double deck_m = std::clamp(0.28 * h.depth_m, 0.9, 2.6);
@@ -145,7 +145,7 @@ std::vector<Part> superstructure(Dice& draws, const HullLines& h, double from, d
 }
 
 /// Hatches, containers and derricks on the deck from `from` to `to`.
-std::vector<Part> cargo(Dice& draws, const HullLines& h, double from, double to) {
+std::vector<Part> cargo(Rng& draws, const HullLines& h, double from, double to) {
   std::vector<Part> parts;
   const int holds = draws.whole(1, 3);
   const bool has_containers = draws.chance(0.5);
@@ -191,7 +191,7 @@ std::vector<Part> bulwark_rails(const HullLines& h) {
 
 }  // namespace
 
-std::vector<Part> hull(Dice& draws, double size_m) {
+std::vector<Part> hull(Rng& draws, double size_m) {
   const HullLines h = draw_hull(draws, size_m);
   std::vector<Part> parts = {hull_body(h)};
   add(parts, dock(h));

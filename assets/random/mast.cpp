@@ -33,7 +33,7 @@ std::vector<Ring> mast_sections(int legs, double height_m, double foot_m, double
 }
 
 /// Dishes, panels and poles between `from_m` and `to_m` above the ground, at `radius_m`.
-std::vector<Part> aerials(Dice& draws, double from_m, double to_m, double radius_m) {
+std::vector<Part> aerials(Rng& draws, double from_m, double to_m, double radius_m) {
   std::vector<Part> parts;
   const int count = draws.whole(3, 8);
   for (int i = 0; i < count; ++i) {
@@ -58,7 +58,7 @@ std::vector<Part> aerials(Dice& draws, double from_m, double to_m, double radius
   return parts;
 }
 
-std::vector<Part> free_mast(Dice& draws, double height_m) {
+std::vector<Part> free_mast(Rng& draws, double height_m) {
   const int legs = draws.whole(3, 4);
   const double foot_m = height_m / draws.real(10.0, 15.0), head_m = foot_m * draws.real(0.15, 0.3);
   const double lattice_m = height_m * draws.real(0.86, 0.94);
@@ -79,7 +79,7 @@ std::vector<Part> free_mast(Dice& draws, double height_m) {
   return parts;
 }
 
-std::vector<Part> guyed_mast(Dice& draws, double height_m) {
+std::vector<Part> guyed_mast(Rng& draws, double height_m) {
   const double radius_m = std::max(0.28, height_m / draws.real(70.0, 100.0));
   const Bars bars = {.chord_m = 0.09, .brace_m = 0.05, .paint = kMastStripes};
   std::vector<Part> parts = lattice(mast_sections(3, height_m, radius_m, radius_m, 1.6), bars);
@@ -102,7 +102,7 @@ std::vector<Part> guyed_mast(Dice& draws, double height_m) {
 }
 
 /// A suspension tower: waist below the arms, arms of two or three phases a side.
-std::vector<Part> pylon(Dice& draws, double height_m) {
+std::vector<Part> pylon(Rng& draws, double height_m) {
   const double foot_m = height_m * draws.real(0.1, 0.14), waist_m = foot_m * draws.real(0.25, 0.4);
   const double waist_z_m = height_m * draws.real(0.55, 0.68);
   const Bars bars = {.chord_m = 0.10 + 0.003 * height_m,
@@ -139,7 +139,7 @@ std::vector<Part> pylon(Dice& draws, double height_m) {
 
 }  // namespace
 
-std::vector<Part> mast(Dice& draws, double size_m) {
+std::vector<Part> mast(Rng& draws, double size_m) {
   switch (draws.whole(0, 2)) {
     case 0:
       return free_mast(draws, size_m);

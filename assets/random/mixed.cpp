@@ -22,14 +22,14 @@ void shift(std::vector<Part>& parts, const Vec3& by_m) {
     for (Vec3& p : part.points_m) p += by_m;
 }
 
-std::vector<Part> some_structure(Dice& draws, double size_m) {
+std::vector<Part> some_structure(Rng& draws, double size_m) {
   constexpr std::array kSome = {hall, tower, mast, truss, bridge, hull, crane};
   const int kind = draws.whole(0, static_cast<int>(kSome.size()) - 1);
   return kSome[static_cast<std::size_t>(kind)](draws, size_m);
 }
 
 /// One small thing on the ground: a crate, a container, a tank, pipes, a wall or a lamp.
-std::vector<Part> clutter(Dice& draws, const Vec3& at_m) {
+std::vector<Part> clutter(Rng& draws, const Vec3& at_m) {
   const double yaw_rad = draws.real(0.0, kPi), size_m = draws.real(0.6, 2.2);
   const Isometry T_world_thing = T_world_body({at_m, yaw_rad});
   switch (draws.whole(0, 5)) {
@@ -62,7 +62,7 @@ std::vector<Part> clutter(Dice& draws, const Vec3& at_m) {
 
 }  // namespace
 
-std::vector<Part> mixed(Dice& draws, double size_m) {
+std::vector<Part> mixed(Rng& draws, double size_m) {
   const int count = draws.whole(2, 4);
   std::vector<Part> site;
   double x_m = 0.0, row_m = 0.0, depth_m = 0.0;

@@ -11,7 +11,7 @@ namespace {
 
 struct RandomKind {
   std::string_view name;
-  std::vector<Part> (*make)(Dice&, double size_m);
+  std::vector<Part> (*make)(Rng&, double size_m);
   double smallest_m, largest_m;  // extent along an axis
 };
 
@@ -49,7 +49,7 @@ std::string_view random_kind(std::uint64_t seed) {
 TriangleMesh make_random_structure(std::uint64_t seed, std::string_view kind) {
   const auto* const found = std::ranges::find(kKinds, kind, &RandomKind::name);
   GNBV_CHECK(found != kKinds.end(), "no random structure is called '{}'", kind);
-  Dice draws(seed, Stream::random_structure, static_cast<int>(found - kKinds.begin()));
+  Rng draws(seed, Stream::random_structure, static_cast<int>(found - kKinds.begin()));
   const double size_m = draws.real(found->smallest_m, found->largest_m);
   const double yaw_rad = draws.real(0.0, 2.0 * kPi);
   std::vector<Part> parts = found->make(draws, size_m);

@@ -14,7 +14,7 @@ Part tapering(const Ring& foot, const Ring& head, Paint paint) {
 }
 
 /// Square, with a belfry that one can see through, and a nave beside it.
-std::vector<Part> bell_tower(Dice& draws, double height_m) {
+std::vector<Part> bell_tower(Rng& draws, double height_m) {
   const double width_m = height_m * draws.real(0.14, 0.22);
   const double shaft_m = height_m * draws.real(0.5, 0.6),
                belfry_m = height_m * draws.real(0.12, 0.18);
@@ -62,7 +62,7 @@ std::vector<Part> bell_tower(Dice& draws, double height_m) {
 }
 
 /// A tank in the air on braced legs.
-std::vector<Part> water_tower(Dice& draws, double height_m) {
+std::vector<Part> water_tower(Rng& draws, double height_m) {
   const int legs = draws.whole(4, 8);
   const double radius_m = height_m * draws.real(0.12, 0.2), spread = draws.real(1.0, 1.25);
   const double tank_m = height_m * draws.real(0.22, 0.32), roof_m = 0.5 * radius_m;
@@ -107,7 +107,7 @@ std::vector<Part> water_tower(Dice& draws, double height_m) {
 }
 
 /// A row of cylinders, an elevator at its end and a gallery on top.
-std::vector<Part> silos(Dice& draws, double height_m) {
+std::vector<Part> silos(Rng& draws, double height_m) {
   const int count = draws.whole(2, 5);
   const double radius_m = height_m * draws.real(0.09, 0.14),
                body_m = height_m * draws.real(0.6, 0.72);
@@ -134,7 +134,7 @@ std::vector<Part> silos(Dice& draws, double height_m) {
 }
 
 /// Hollow from top to bottom, galleries around it, a house at its foot.
-std::vector<Part> chimney(Dice& draws, double height_m) {
+std::vector<Part> chimney(Rng& draws, double height_m) {
   const double foot_m = height_m * draws.real(0.06, 0.09), head_m = foot_m * draws.real(0.5, 0.7);
   const double lip_m = head_m * 1.12;
   std::vector<Part> parts = {upright(revolve_loop({{0.0, foot_m},
@@ -169,7 +169,7 @@ std::vector<Part> chimney(Dice& draws, double height_m) {
 }
 
 /// A shaft of eight sides that flares into a cabin of glass.
-std::vector<Part> control_tower(Dice& draws, double height_m) {
+std::vector<Part> control_tower(Rng& draws, double height_m) {
   const double shaft_m = height_m * draws.real(0.05, 0.08),
                cabin_m = shaft_m * draws.real(2.0, 3.0);
   const double neck_m = height_m * draws.real(0.66, 0.74),
@@ -207,7 +207,7 @@ std::vector<Part> control_tower(Dice& draws, double height_m) {
 
 }  // namespace
 
-std::vector<Part> tower(Dice& draws, double size_m) {
+std::vector<Part> tower(Rng& draws, double size_m) {
   switch (draws.whole(0, 4)) {
     case 0:
       return bell_tower(draws, size_m);

@@ -39,7 +39,7 @@ std::vector<Part> bars_of(const SpaceFrame& f, double bar_m) {
   return parts;
 }
 
-std::vector<Part> space_frame(Dice& draws, double size_m) {
+std::vector<Part> space_frame(Rng& draws, double size_m) {
   const int fields = draws.whole(5, 9);
   SpaceFrame f{.fields_x = fields,
                .fields_y = std::max(3, static_cast<int>(fields * draws.real(0.4, 0.8))),
@@ -67,7 +67,7 @@ std::vector<Part> space_frame(Dice& draws, double size_m) {
 }
 
 /// A hall that is a skeleton only: columns, roof trusses, purlins, some cladding.
-std::vector<Part> portals(Dice& draws, double size_m) {
+std::vector<Part> portals(Rng& draws, double size_m) {
   const int frames = draws.whole(3, 7), bays = 2 * draws.whole(3, 5);
   const double span_m = size_m * draws.real(0.35, 0.6), eaves_m = span_m * draws.real(0.35, 0.6);
   const double rise_m = span_m * draws.real(0.12, 0.25), depth_m = span_m * draws.real(0.05, 0.08);
@@ -109,7 +109,7 @@ std::vector<Part> portals(Dice& draws, double size_m) {
 }
 
 /// A box girder over a road on two legs, with signs.
-std::vector<Part> gantry(Dice& draws, double size_m) {
+std::vector<Part> gantry(Rng& draws, double size_m) {
   const double clear_m = std::max(2.4, size_m * draws.real(0.22, 0.4));
   const double side_m = std::max(0.6, size_m * draws.real(0.06, 0.09));
   const int bays = std::max(5, static_cast<int>(size_m / (1.2 * side_m)));
@@ -143,7 +143,7 @@ std::vector<Part> gantry(Dice& draws, double size_m) {
 
 }  // namespace
 
-std::vector<Part> truss(Dice& draws, double size_m) {
+std::vector<Part> truss(Rng& draws, double size_m) {
   switch (draws.whole(0, 2)) {
     case 0:
       return space_frame(draws, size_m);

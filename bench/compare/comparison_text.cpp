@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "sim/core/grouped.hpp"
+#include "sim/core/text.hpp"
 
 namespace gnbv {
 namespace {

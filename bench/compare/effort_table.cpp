@@ -7,7 +7,7 @@
 #include "bench/compare/statistics.hpp"
 #include "bench/compare/table_groups.hpp"
 #include "bench/score/effort_to_reach.hpp"
-#include "sim/core/grouped.hpp"
+#include "sim/core/text.hpp"
 
 namespace gnbv {
 namespace {

@@ -10,9 +10,8 @@
 #include "bench/compare/row_figures.hpp"
 #include "bench/compare/table_groups.hpp"
 #include "bench/compare/terminal_table.hpp"
-#include "sim/core/counted.hpp"
 #include "sim/core/error.hpp"
-#include "sim/core/grouped.hpp"
+#include "sim/core/text.hpp"
 
 namespace gnbv {
 namespace {

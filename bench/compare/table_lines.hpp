@@ -8,7 +8,7 @@
 
 #include "bench/compare/text_table.hpp"
 #include "sim/core/error.hpp"
-#include "sim/core/folding.hpp"
+#include "sim/core/text.hpp"
 
 namespace gnbv {
 

@@ -145,14 +145,14 @@ CoveringTour cheaper_tour(const CoverTask& task, const CoverAim& aim, const Cove
   double best_m = current_m;
   OpenTour trial = current;
   for (int i = 0; i < iterations && !current.chosen().empty(); ++i) {
-    Dice dice(0, Stream::cover_search, i);
+    Rng rng(0, Stream::cover_search, i);
     trial = current;
     for (const std::uint32_t view :
-         views_to_remove(trial.chosen(), task.place, trial.stops(), task.row_m, dice)) {
+         views_to_remove(trial.chosen(), task.place, trial.stops(), task.row_m, rng)) {
       trial.remove(view);
     }
-    const double price_m = 0.1 * std::pow(20.0 * degree_m, dice.uniform());
-    complete(trial, aim, price_m, random_likings(task.views.size(), dice));
+    const double price_m = 0.1 * std::pow(20.0 * degree_m, rng.uniform());
+    complete(trial, aim, price_m, random_likings(task.views.size(), rng));
     trial.drop_needless(aim);
     if (trial.counts().covered() < std::min(aim.wanted, current.counts().covered())) continue;
     double trial_m = trial.cost_m(aim);
@@ -162,7 +162,7 @@ CoveringTour cheaper_tour(const CoverTask& task, const CoverAim& aim, const Cove
     }
     const double heat_m =
         hot_m * std::pow(kCold_m / hot_m, static_cast<double>(i) / static_cast<double>(iterations));
-    if (trial_m - current_m >= -heat_m * std::log(1.0 - dice.uniform())) continue;
+    if (trial_m - current_m >= -heat_m * std::log(1.0 - rng.uniform())) continue;
     std::swap(current, trial);
     current_m = trial_m;
     if (current_m >= best_m - kLeast_m) continue;

@@ -7,12 +7,12 @@ namespace gnbv {
 
 std::vector<std::uint32_t> views_to_remove(std::span<const std::uint32_t> chosen,
                                            std::span<const std::uint32_t> place_of,
-                                           const Stops& stops, const RowOf& row_m, Dice& dice) {
+                                           const Stops& stops, const RowOf& row_m, Rng& rng) {
   constexpr std::size_t kFewest = 2;
   constexpr std::size_t kMost = 15;
-  const std::size_t count = std::min(chosen.size(), kFewest + dice.below(kMost - kFewest + 1));
-  const std::uint32_t seed = chosen[dice.below(chosen.size())];
-  const std::size_t way = dice.below(3);
+  const std::size_t count = std::min(chosen.size(), kFewest + rng.below(kMost - kFewest + 1));
+  const std::uint32_t seed = chosen[rng.below(chosen.size())];
+  const std::size_t way = rng.below(3);
   const std::span<const float> from_seed_m = row_m(place_of[seed]);
   const std::size_t first = stops.index_of(place_of[seed]);
   const std::size_t around = stops.places().size();
@@ -24,7 +24,7 @@ std::vector<std::uint32_t> views_to_remove(std::span<const std::uint32_t> chosen
     } else if (way == 1) {
       key = static_cast<double>(from_seed_m[place_of[view]]);
     } else {
-      key = dice.uniform();
+      key = rng.uniform();
     }
     keyed.emplace_back(key, view);
   }
@@ -34,12 +34,12 @@ std::vector<std::uint32_t> views_to_remove(std::span<const std::uint32_t> chosen
   return views;
 }
 
-std::vector<double> random_likings(std::size_t views, Dice& dice) {
-  const double most_off = std::max(0.0, 2.0 * dice.uniform() - 1.0);
+std::vector<double> random_likings(std::size_t views, Rng& rng) {
+  const double most_off = std::max(0.0, 2.0 * rng.uniform() - 1.0);
   std::vector<double> likings;
   if (most_off == 0.0) return likings;
   for (std::size_t view = 0; view < views; ++view) {
-    likings.push_back(1.0 - most_off * dice.uniform());
+    likings.push_back(1.0 - most_off * rng.uniform());
   }
   return likings;
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "planner/tour/stops.hpp"
-#include "sim/core/dice.hpp"
+#include "sim/core/rng.hpp"
 
 namespace gnbv {
 
@@ -15,10 +15,10 @@ namespace gnbv {
 /// view; `chosen` is not empty.
 std::vector<std::uint32_t> views_to_remove(std::span<const std::uint32_t> chosen,
                                            std::span<const std::uint32_t> place_of,
-                                           const Stops& stops, const RowOf& row_m, Dice& dice);
+                                           const Stops& stops, const RowOf& row_m, Rng& rng);
 
 /// What each view's bid is multiplied by; nothing, every other time: by 1. Without it the best bid
 /// always wins, and a tour of two views that a third one outbids is never found.
-std::vector<double> random_likings(std::size_t views, Dice& dice);
+std::vector<double> random_likings(std::size_t views, Rng& rng);
 
 }  // namespace gnbv

@@ -135,14 +135,14 @@ PrizeTour search_prize_tour(const PrizeTask& task, std::span<const std::uint32_t
   double best_worth = current_worth;
   OpenTour trial = current;
   for (int i = 0; i < iterations && !current.chosen().empty(); ++i) {
-    Dice dice(seed, Stream::tour_search, i);
+    Rng rng(seed, Stream::tour_search, i);
     trial = current;
     for (const std::uint32_t view :
-         views_to_remove(trial.chosen(), task.place, trial.stops(), task.row_m, dice)) {
+         views_to_remove(trial.chosen(), task.place, trial.stops(), task.row_m, rng)) {
       trial.remove(view);
     }
-    const double metres_per_view = 0.1 * std::pow(20.0, dice.uniform());
-    trial.complete(metres_per_view, random_likings(task.looks.size(), dice));
+    const double metres_per_view = 0.1 * std::pow(20.0, rng.uniform());
+    trial.complete(metres_per_view, random_likings(task.looks.size(), rng));
     trial.drop_unpaid();
     double worth = trial.worth();
     if (worth > best_worth + kLeast) {
@@ -152,7 +152,7 @@ PrizeTour search_prize_tour(const PrizeTask& task, std::span<const std::uint32_t
     const double heat =
         task.price_per_m * kHot_m *
         std::pow(kCold_m / kHot_m, static_cast<double>(i) / static_cast<double>(iterations));
-    if (current_worth - worth >= -heat * std::log(1.0 - dice.uniform())) continue;
+    if (current_worth - worth >= -heat * std::log(1.0 - rng.uniform())) continue;
     std::swap(current, trial);
     current_worth = worth;
     if (current_worth <= best_worth + kLeast) continue;

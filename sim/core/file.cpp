@@ -1,6 +1,8 @@
 #include "sim/core/file.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -8,11 +10,12 @@
 #include <cctype>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <fstream>
 #include <initializer_list>
-#include <utility>
+#include <thread>
 
 #include "sim/core/error.hpp"
 
@@ -74,6 +77,14 @@ bool cannot_be_synced(int error) {
   return error == EINVAL || error == ENOTSUP || error == EROFS || error == EBADF;
 }
 
+/// Whether the path still names the open file: who held the lock may have removed it.
+bool is_still_there(int descriptor, const fs::path& path) {
+  struct stat open_file {};
+  struct stat named_file {};
+  return fstat(descriptor, &open_file) == 0 && stat(path.c_str(), &named_file) == 0 &&
+         open_file.st_dev == named_file.st_dev && open_file.st_ino == named_file.st_ino;
+}
+
 }  // namespace
 
 void refuse_to_write(const fs::path& path, int error_number, std::string_view what) {
@@ -87,7 +98,7 @@ void refuse_to_write(const fs::path& path, int error_number, std::string_view wh
   throw BadInput(sentence);
 }
 
-std::string extension_of(const std::filesystem::path& path) {
+std::string extension_of(const fs::path& path) {
   std::string out = path.extension().string();
   std::transform(out.begin(), out.end(), out.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -174,6 +185,35 @@ bool make_folder(const fs::path& folder) {
   const bool is_new = fs::create_directories(folder, error);
   if (error) refuse_to_write(folder, error.value(), "cannot make the folder");
   return is_new;
+}
+
+std::optional<FileLock> FileLock::take(const fs::path& path) {
+  // is_locked() of another process holds it for a moment: that is no reason to give up
+  for (int attempt = 0; attempt < 5; ++attempt) {
+    FileLock lock(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
+    if (lock.descriptor_ < 0) refuse_to_write(path, errno);
+    if (flock(lock.descriptor_, LOCK_EX | LOCK_NB) == 0) {
+      if (is_still_there(lock.descriptor_, path)) return lock;
+      continue;
+    }
+    if (errno != EWOULDBLOCK && errno != EINTR) {
+      throw BadInput(fmt::format("{}: cannot lock: {}", path.string(), std::strerror(errno)));
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return std::nullopt;
+}
+
+FileLock::~FileLock() {
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+bool is_locked(const fs::path& path) {
+  const int descriptor = open(path.c_str(), O_RDWR | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool is_free = flock(descriptor, LOCK_SH | LOCK_NB) == 0;
+  close(descriptor);
+  return !is_free;
 }
 
 }  // namespace gnbv

@@ -1,11 +1,15 @@
-// Files that are either whole or not there.
+// Files that are either whole or not there, and locks on files.
 #pragma once
 
+#include <array>
+#include <bit>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace gnbv {
 
@@ -56,5 +60,39 @@ void sync_all_to_disk(const std::filesystem::path& folder);
 
 /// Makes the folder and those above it; whether it is new. Throws as refuse_to_write().
 bool make_folder(const std::filesystem::path& folder);
+
+/// Appends the bytes of a number, the lowest first, as binary files hold it.
+template <typename T>
+void append_bytes(std::string& out, T value) {
+  static_assert(std::endian::native == std::endian::little);
+  const auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);
+  out.append(bytes.data(), bytes.size());
+}
+
+/// An exclusive lock on a file. The kernel releases it when the last process that has the file open
+/// ends: a mission keeps the lock on its cell when its sweep is killed.
+class FileLock {
+ public:
+  /// Makes the file if need be. Nothing when another holder has it; throws BadInput when the file
+  /// cannot be made, or its file system knows no locks.
+  static std::optional<FileLock> take(const std::filesystem::path& path);
+
+  FileLock(FileLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+  FileLock& operator=(FileLock&& other) noexcept {
+    std::swap(descriptor_, other.descriptor_);
+    return *this;
+  }
+  ~FileLock();
+
+  /// Closed in processes that are started, unless they are told to keep it.
+  int descriptor() const { return descriptor_; }
+
+ private:
+  explicit FileLock(int descriptor) : descriptor_(descriptor) {}
+  int descriptor_ = -1;
+};
+
+/// Whether somebody holds the lock now.
+bool is_locked(const std::filesystem::path& path);
 
 }  // namespace gnbv

@@ -80,34 +80,23 @@ std::size_t pixels_of(int width_px, int height_px) {
   return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
 }
 
-/// As encode(): plain data only between setjmp and longjmp.
-bool decode_grey16(std::FILE* file, GreyImage16& image, PngError& error) {
-  png_structp png =
-      png_create_read_struct(PNG_LIBPNG_VER_STRING, &error, keep_message, ignore_warning);
-  png_infop info = png_create_info_struct(png);
-  if (setjmp(png_jmpbuf(png)) != 0) {
-    png_destroy_read_struct(&png, &info, nullptr);
-    return false;
+/// Reads all pixels in the format, a value a channel. Throws BadInput.
+template <typename Value>
+std::vector<Value> read_pixels(png_image& header, std::uint32_t format,
+                               const std::filesystem::path& path) {
+  std::vector<Value> pixels;
+  header.version = PNG_IMAGE_VERSION;
+  if (png_image_begin_read_from_file(&header, path.c_str()) != 0) {
+    const bool is_grey16 = header.format == PNG_FORMAT_LINEAR_Y;
+    if (format == PNG_FORMAT_LINEAR_Y && !is_grey16) {
+      png_image_free(&header);
+      throw BadInput(fmt::format("{}: is no grey picture of 16 bits a pixel", path.string()));
+    }
+    header.format = format;
+    pixels.resize(PNG_IMAGE_SIZE(header) / sizeof(Value));
+    if (png_image_finish_read(&header, nullptr, pixels.data(), 0, nullptr) != 0) return pixels;
   }
-  png_init_io(png, file);
-  png_read_info(png, info);
-  if (png_get_bit_depth(png, info) != 16 || png_get_color_type(png, info) != PNG_COLOR_TYPE_GRAY) {
-    png_error(png, "is no grey picture of 16 bits a pixel");
-  }
-  png_set_swap(png);
-  image.width_px = static_cast<int>(png_get_image_width(png, info));
-  image.height_px = static_cast<int>(png_get_image_height(png, info));
-  image.values.resize(pixels_of(image.width_px, image.height_px));
-  for (int y = 0; y < image.height_px; ++y) {
-    png_read_row(png,
-                 reinterpret_cast<png_bytep>(image.values.data() +
-                                             static_cast<std::size_t>(y) *
-                                                 static_cast<std::size_t>(image.width_px)),
-                 nullptr);
-  }
-  png_read_end(png, nullptr);
-  png_destroy_read_struct(&png, &info, nullptr);
-  return true;
+  throw BadInput(fmt::format("{}: {}", path.string(), header.message));
 }
 
 }  // namespace
@@ -136,29 +125,16 @@ void write_png(const GreyImage16& image, const std::filesystem::path& path, Last
              path, lasting);
 }
 
-GreyImage16 read_png_grey16(const std::filesystem::path& path) {
-  PngError error{"cannot open"};
-  GreyImage16 image;
-  const File file(std::fopen(path.c_str(), "rb"), &std::fclose);
-  if (!file || !decode_grey16(file.get(), image, error)) {
-    throw BadInput(fmt::format("{}: {}", path.string(), error.message));
-  }
-  return image;
-}
-
 Image read_png(const std::filesystem::path& path) {
   png_image header{};
-  header.version = PNG_IMAGE_VERSION;
-  if (png_image_begin_read_from_file(&header, path.c_str()) == 0) {
-    throw BadInput(fmt::format("{}: {}", path.string(), header.message));
-  }
-  header.format = PNG_FORMAT_RGB;
-  Image image{static_cast<int>(header.width), static_cast<int>(header.height), {}};
-  image.rgb.resize(PNG_IMAGE_SIZE(header));
-  if (png_image_finish_read(&header, nullptr, image.rgb.data(), 0, nullptr) == 0) {
-    throw BadInput(fmt::format("{}: {}", path.string(), header.message));
-  }
-  return image;
+  auto rgb = read_pixels<std::uint8_t>(header, PNG_FORMAT_RGB, path);
+  return {static_cast<int>(header.width), static_cast<int>(header.height), std::move(rgb)};
+}
+
+GreyImage16 read_png_grey16(const std::filesystem::path& path) {
+  png_image header{};
+  auto values = read_pixels<std::uint16_t>(header, PNG_FORMAT_LINEAR_Y, path);
+  return {static_cast<int>(header.width), static_cast<int>(header.height), std::move(values)};
 }
 
 }  // namespace gnbv

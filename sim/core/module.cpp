@@ -27,7 +27,7 @@ void* function_in_module(const ModulePlace& place, const char* name) {
   void* library = nullptr;  // opened twice, it is the same one
   std::string reasons;
   for (const std::string& path :
-       {"$ORIGIN/" + place.file, "$ORIGIN/../lib/gnbv/" + place.file, place.as_built}) {
+       {"$ORIGIN/" + place.file, "$ORIGIN/../lib/gnbv/" + place.file, place.file, place.as_built}) {
     library = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (library != nullptr) break;
     const char* const reason = ::dlerror();

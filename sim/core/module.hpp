@@ -8,7 +8,8 @@ namespace gnbv {
 
 /// A library of our own build.
 struct ModulePlace {
-  std::string file;      // its name, looked for beside the program and in ../lib/gnbv from there
+  // its name, looked for beside the program, in ../lib/gnbv from there, and on the run path
+  std::string file;
   std::string as_built;  // its path in the build folder
   std::string needs;     // what it does not work without: "PCL, Debian package libpcl-dev"
 };

@@ -44,6 +44,16 @@ inline Isometry T_world_body(const ViewPose& pose) {
   return T;
 }
 
+/// The mounting of a sensor on the body: roll about x first, then pitch about y, yaw about z last.
+inline Isometry mounted(const Vec3& p_body_m, double roll_rad, double pitch_rad, double yaw_rad) {
+  Isometry T = Isometry::Identity();
+  T.translate(p_body_m);
+  T.rotate(Eigen::AngleAxisd(yaw_rad, Vec3::UnitZ()));
+  T.rotate(Eigen::AngleAxisd(pitch_rad, Vec3::UnitY()));
+  T.rotate(Eigen::AngleAxisd(roll_rad, Vec3::UnitX()));
+  return T;
+}
+
 /// Heading of the body x axis in the world's horizontal plane, in (-pi, pi].
 inline double yaw_of(const Isometry& T_world_body) {
   return std::atan2(T_world_body.linear()(1, 0), T_world_body.linear()(0, 0));

@@ -2,7 +2,9 @@
 // same number in any order and on any number of threads.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <numbers>
 
@@ -59,5 +61,36 @@ inline double standard_normal(const RandomKey& key) {
   const double v = static_cast<double>(mix_bits(h) >> 11) * 0x1.0p-53;
   return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * std::numbers::pi * v);
 }
+
+/// Draws the numbers 0, 1, 2, ... of a seed, a stream and one of the things in it (a structure, an
+/// iteration). A copy draws the same numbers again. Never draw twice in one argument list: the
+/// compiler chooses which draw is the first.
+class Rng {
+ public:
+  Rng(std::uint64_t seed, Stream stream, int of)
+      : next_{seed, stream, static_cast<std::uint64_t>(of), 0} {}
+
+  /// In [0, 1).
+  double uniform() { return uniform01(take()); }
+  double real(double low, double high) { return low + (high - low) * uniform(); }
+  /// From `low` to `high`, both included.
+  int whole(int low, int high) {
+    return std::min(high, low + static_cast<int>(uniform() * (high - low + 1)));
+  }
+  bool chance(double probability) { return uniform() < probability; }
+  /// In [0, count).
+  std::size_t below(std::size_t count) {
+    return static_cast<std::size_t>(random_bits(take()) % count);
+  }
+
+ private:
+  RandomKey take() {
+    const RandomKey key = next_;
+    ++next_.index;
+    return key;
+  }
+
+  RandomKey next_;
+};
 
 }  // namespace gnbv

@@ -10,14 +10,13 @@
 #include <string_view>
 #include <type_traits>
 
+struct evp_md_ctx_st;  // OpenSSL's
+
 namespace gnbv {
 
 class Sha256 {
  public:
   Sha256();
-  ~Sha256();
-  Sha256(const Sha256&) = delete;
-  Sha256& operator=(const Sha256&) = delete;
 
   void add_bytes(std::span<const std::byte> bytes);
   void add(std::string_view text) { add_bytes(std::as_bytes(std::span(text.data(), text.size()))); }
@@ -34,8 +33,7 @@ class Sha256 {
   std::string hex();  // 64 lower-case digits
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  std::unique_ptr<evp_md_ctx_st, void (*)(evp_md_ctx_st*)> context_;
 };
 
 }  // namespace gnbv

@@ -9,7 +9,7 @@
 #include "bench/score/cache_limit.hpp"
 #include "bench/score/content_cache.hpp"
 #include "sim/core/error.hpp"
-#include "sim/core/grouped.hpp"
+#include "sim/core/text.hpp"
 #include "tools/gnbv/commands.hpp"
 
 namespace gnbv {

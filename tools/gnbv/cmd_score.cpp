@@ -10,7 +10,7 @@
 
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
-#include "sim/core/folding.hpp"
+#include "sim/core/text.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/execute.hpp"

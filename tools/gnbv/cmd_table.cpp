@@ -11,7 +11,7 @@
 #include "planner/tour_planner.hpp"
 #include "scenarios/papers_setting.hpp"
 #include "sim/core/error.hpp"
-#include "sim/core/shell_word.hpp"
+#include "sim/core/text.hpp"
 #include "tools/gnbv/bench_runs.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/shared_options.hpp"

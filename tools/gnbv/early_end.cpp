@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "planner/routes.hpp"
-#include "sim/core/counted.hpp"
+#include "sim/core/text.hpp"
 
 namespace gnbv {
 namespace {

@@ -7,7 +7,7 @@
 #include <array>
 #include <numeric>
 
-#include "sim/core/folding.hpp"
+#include "sim/core/text.hpp"
 
 namespace gnbv {
 namespace {

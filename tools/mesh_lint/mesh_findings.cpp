@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/core/counted.hpp"
-#include "sim/core/shell_word.hpp"
+#include "sim/core/text.hpp"
 #include "tools/mesh_lint/mesh_places.hpp"
 #include "tools/mission/load_world.hpp"
 

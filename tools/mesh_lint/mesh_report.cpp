@@ -4,9 +4,8 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "sim/core/counted.hpp"
 #include "sim/core/error.hpp"
-#include "sim/core/shell_word.hpp"
+#include "sim/core/text.hpp"
 #include "tools/mesh_lint/mesh_findings.hpp"
 #include "tools/mesh_lint/mesh_places.hpp"
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "bench/compare/paper_table.hpp"
-#include "sim/core/base64.hpp"
 #include "sim/core/file.hpp"
 #include "sim/core/image.hpp"
+#include "sim/core/text.hpp"
 #include "tools/paper/page_parts.hpp"
 #include "tools/report/jpeg.hpp"
 #include "tools/report/page_text.hpp"

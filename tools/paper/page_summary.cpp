@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "bench/compare/text_table.hpp"
-#include "sim/core/grouped.hpp"
+#include "sim/core/text.hpp"
 #include "tools/paper/page_parts.hpp"
 #include "tools/report/page_text.hpp"
 

@@ -16,7 +16,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "sim/core/utf8.hpp"
+#include "sim/core/text.hpp"
 
 namespace gnbv {
 namespace {

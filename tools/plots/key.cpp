@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "sim/core/utf8.hpp"
+#include "sim/core/text.hpp"
 #include "tools/plots/gnuplot.hpp"
 
 namespace gnbv {

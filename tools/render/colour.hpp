@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/core/srgb.hpp"
+#include "sim/core/image.hpp"
 
 namespace gnbv {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "sim/core/error.hpp"
-#include "sim/core/utf8.hpp"
+#include "sim/core/text.hpp"
 
 namespace gnbv {
 namespace {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/core/srgb.hpp"
+#include "sim/core/image.hpp"
 #include "tools/run_files/frames_folder.hpp"
 #include "tools/run_files/run_record.hpp"
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 
-#include "sim/core/base64.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/sha256.hpp"
+#include "sim/core/text.hpp"
 
 namespace gnbv {
 namespace {

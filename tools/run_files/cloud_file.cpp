@@ -5,7 +5,6 @@
 #include <string>
 #include <string_view>
 
-#include "sim/core/append_bytes.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/mesh/chunked_file.hpp"

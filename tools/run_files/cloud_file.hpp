@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "sim/core/image.hpp"
 #include "sim/core/pose.hpp"
-#include "sim/core/srgb.hpp"
 
 namespace gnbv {
 

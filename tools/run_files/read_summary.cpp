@@ -4,7 +4,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "sim/core/shell_word.hpp"
+#include "sim/core/text.hpp"
 #include "tools/run_files/coverage_csv.hpp"
 #include "tools/run_files/file_names.hpp"
 #include "tools/run_files/iterations_csv.hpp"

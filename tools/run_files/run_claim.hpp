@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/core/file_lock.hpp"
+#include "sim/core/file.hpp"
 
 namespace gnbv {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "sim/core/shell_word.hpp"
+#include "sim/core/text.hpp"
 #include "tools/run_files/file_names.hpp"
 
 namespace gnbv {

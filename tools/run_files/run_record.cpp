@@ -6,7 +6,7 @@
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "sim/core/shell_word.hpp"
+#include "sim/core/text.hpp"
 #include "tools/run_files/cloud_file.hpp"
 #include "tools/run_files/file_names.hpp"
 #include "tools/run_files/iterations_csv.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "sim/core/grouped.hpp"
+#include "sim/core/text.hpp"
 
 namespace gnbv {
 

@@ -2,8 +2,8 @@
 // one mesh with one material is less text than the importer library's scene.
 #include <nlohmann/json.hpp>
 
-#include "sim/core/append_bytes.hpp"
-#include "sim/core/srgb.hpp"
+#include "sim/core/file.hpp"
+#include "sim/core/image.hpp"
 #include "tools/surface/textured_mesh.hpp"
 
 namespace gnbv {

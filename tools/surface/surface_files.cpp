@@ -1,7 +1,6 @@
 // write_surface() of textured_mesh.hpp.
 #include <fmt/format.h>
 
-#include "sim/core/append_bytes.hpp"
 #include "sim/core/file.hpp"
 #include "tools/surface/textured_mesh.hpp"
 

@@ -13,7 +13,6 @@
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "sim/core/file_lock.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/run_files/file_names.hpp"
 #include "tools/sweep/cell_files.hpp"

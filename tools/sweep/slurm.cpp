@@ -10,8 +10,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "sim/core/shell_word.hpp"
-#include "sim/core/utf8.hpp"
+#include "sim/core/text.hpp"
 #include "tools/terminal/say.hpp"
 
 namespace gnbv {

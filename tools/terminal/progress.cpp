@@ -8,8 +8,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "sim/core/folding.hpp"
-#include "sim/core/utf8.hpp"
+#include "sim/core/text.hpp"
 #include "tools/terminal/say.hpp"
 #include "tools/terminal/width.hpp"
 

@@ -2,8 +2,7 @@
 
 #include <cstdio>
 
-#include "sim/core/folding.hpp"
-#include "sim/core/utf8.hpp"
+#include "sim/core/text.hpp"
 #include "tools/terminal/width.hpp"
 
 namespace gnbv {

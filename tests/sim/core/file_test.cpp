@@ -9,8 +9,7 @@
 #include <fstream>
 
 #include "sim/core/error.hpp"
-#include "sim/core/file_lock.hpp"
-#include "sim/core/utf8.hpp"
+#include "sim/core/text.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace gnbv {

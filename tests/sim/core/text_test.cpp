@@ -1,15 +1,12 @@
 // Laws of bytes as text, and of text as code points.
+#include "sim/core/text.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
-
-#include "sim/core/base64.hpp"
-#include "sim/core/folding.hpp"
-#include "sim/core/grouped.hpp"
-#include "sim/core/utf8.hpp"
 
 namespace gnbv {
 namespace {

@@ -1,9 +1,9 @@
 // One mesh of polygons in OBJ and in every kind of PLY.
+#include "sim/mesh/polygon_file.hpp"
+
 #include <gtest/gtest.h>
 
-#include "sim/core/append_bytes.hpp"
-#include "sim/mesh/obj_file.hpp"
-#include "sim/mesh/ply_file.hpp"
+#include "sim/core/file.hpp"
 #include "tests/sim/mesh/mesh_files.hpp"
 
 namespace gnbv {

@@ -7,7 +7,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "sim/core/srgb.hpp"
+#include "sim/core/image.hpp"
 #include "sim/mesh/mesh_file.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tests/tools/surface/pictured_sheet.hpp"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "sim/core/srgb.hpp"
+#include "sim/core/image.hpp"
 #include "tests/tools/surface/pictured_sheet.hpp"
 #include "tools/surface/surface_picture.hpp"
 #include "tools/surface/textured_mesh.hpp"

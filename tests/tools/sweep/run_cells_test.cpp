@@ -12,7 +12,6 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "sim/core/file_lock.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/sweep/cell_files.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/core/folding.hpp"
+#include "sim/core/text.hpp"
 
 namespace gnbv {
 namespace {
