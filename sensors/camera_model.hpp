@@ -106,11 +106,7 @@ inline Eigen::Matrix3d R_body_optical() {
 
 /// The camera's mounting at this pitch.
 inline Isometry T_body_camera_at(const CameraConfig& config, double pitch_rad) {
-  Isometry T = Isometry::Identity();
-  T.translate(config.p_body_m);
-  T.rotate(Eigen::AngleAxisd(config.yaw_rad, Vec3::UnitZ()));
-  T.rotate(Eigen::AngleAxisd(pitch_rad, Vec3::UnitY()));
-  T.rotate(Eigen::AngleAxisd(config.roll_rad, Vec3::UnitX()));
+  Isometry T = mounted(config.p_body_m, config.roll_rad, pitch_rad, config.yaw_rad);
   T.rotate(R_body_optical());
   return T;
 }

@@ -97,61 +97,43 @@ struct DepthCapture {
   }
 };
 
-/// Poses in between, position and rotation each at an even pace.
-class PosesDuringSweep {
- public:
-  explicit PosesDuringSweep(std::span<const Isometry> poses) : poses_(poses) {
-    for (const Isometry& pose : poses) rotations_.emplace_back(pose.linear());
-  }
-
-  /// `intervals` after the first pose.
-  Isometry at(double intervals) const {
-    const std::size_t before = std::min(static_cast<std::size_t>(intervals), poses_.size() - 2);
-    const double t = intervals - static_cast<double>(before);
-    Isometry pose = Isometry::Identity();
-    pose.translate((1.0 - t) * poses_[before].translation() + t * poses_[before + 1].translation());
-    pose.rotate(rotations_[before].slerp(t, rotations_[before + 1]));
-    return pose;
-  }
-
- private:
-  std::span<const Isometry> poses_;
-  std::vector<Eigen::Quaterniond> rotations_;
-};
+/// The pose `intervals` after the first one, position and rotation each at an even pace.
+Isometry pose_during(std::span<const Isometry> poses, double intervals) {
+  const std::size_t before = std::min(static_cast<std::size_t>(intervals), poses.size() - 2);
+  const double t = intervals - static_cast<double>(before);
+  const Isometry& from = poses[before];
+  const Isometry& to = poses[before + 1];
+  Isometry pose = Isometry::Identity();
+  pose.translate((1.0 - t) * from.translation() + t * to.translation());
+  pose.rotate(Eigen::Quaterniond(from.linear()).slerp(t, Eigen::Quaterniond(to.linear())));
+  return pose;
+}
 
 bool is_still(std::span<const Isometry> poses) {
   return std::all_of(poses.begin(), poses.end(),
                      [&](const Isometry& pose) { return pose.matrix() == poses.front().matrix(); });
 }
 
-std::vector<RayHit> trace_instant(const RayScene& scene, const LidarModel& lidar,
-                                  const Isometry& T_world_lidar, float far_m) {
-  const Eigen::Matrix3f R_world_lidar = T_world_lidar.linear().cast<float>();
-  std::vector<Vec3f> directions_world;
-  directions_world.reserve(lidar.beams_lidar.size());
-  for (const Vec3f& beam : lidar.beams_lidar) directions_world.push_back(R_world_lidar * beam);
-  std::vector<RayHit> hits(directions_world.size());
-  scene.first_hits(T_world_lidar.translation().cast<float>(), directions_world, kTraceFrom_m, far_m,
-                   hits);
-  return hits;
-}
-
-std::vector<RayHit> trace_moving(const RayScene& scene, const LidarModel& lidar,
-                                 std::span<const Isometry> T_world_body_during, double interval_s,
-                                 float far_m) {
-  const PosesDuringSweep poses(T_world_body_during);
+/// Each beam from the pose of its own time.
+std::vector<RayHit> trace_sweep(const RayScene& scene, const LidarModel& lidar,
+                                std::span<const Isometry> T_world_body_during, double interval_s,
+                                float far_m) {
+  const bool still = is_still(T_world_body_during);
   const std::size_t beams = lidar.beams_lidar.size();
   const double last = std::max(1.0, static_cast<double>(beams) - 1.0);
-  const double intervals = sweep_duration_s(lidar.config) / interval_s;
+  const double intervals = still ? 0.0 : sweep_duration_s(lidar.config) / interval_s;
   constexpr double kRounding = 1e-9;
   GNBV_CHECK(intervals <= static_cast<double>(T_world_body_during.size() - 1) + kRounding,
              "{} poses {} s apart do not last for the sweep of {}", T_world_body_during.size(),
              interval_s, lidar.config.name);
   std::vector<Vec3f> origins_world_m(beams);
   std::vector<Vec3f> directions_world(beams);
+  Isometry T_world_lidar = T_world_body_during.front() * lidar.T_body_lidar;
   for (std::size_t i = 0; i < beams; ++i) {
-    const Isometry T_world_lidar =
-        poses.at(intervals * static_cast<double>(i) / last) * lidar.T_body_lidar;
+    if (!still) {
+      const double at = intervals * static_cast<double>(i) / last;
+      T_world_lidar = pose_during(T_world_body_during, at) * lidar.T_body_lidar;
+    }
     origins_world_m[i] = T_world_lidar.translation().cast<float>();
     directions_world[i] = T_world_lidar.linear().cast<float>() * lidar.beams_lidar[i];
   }
@@ -196,9 +178,7 @@ LidarScan capture_scan(const RayScene& scene, const LidarModel& lidar, int lidar
   scan.lidar = lidar_index;
   scan.T_world_lidar = T_world_body_during.front() * lidar.T_body_lidar;
   const std::vector<RayHit> hits =
-      is_still(T_world_body_during)
-          ? trace_instant(scene, lidar, scan.T_world_lidar, far_m)
-          : trace_moving(scene, lidar, T_world_body_during, interval_s, far_m);
+      trace_sweep(scene, lidar, T_world_body_during, interval_s, far_m);
   scan.range_m.reserve(hits.size());
   for (std::size_t beam = 0; beam < hits.size(); ++beam) {
     const float true_m = hits[beam].distance_m;

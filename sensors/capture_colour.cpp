@@ -61,7 +61,7 @@ struct ColourCapture {
     }
     std::array<Vec3f, RayPacket::kRays> sunwards;
     sunwards.fill(towards_sun_world());
-    scene.structure_blocks(off_surface_m, sunwards, 0.0F, kEndless, surface.is_dark);
+    scene.find_blocked(kMeshParts, off_surface_m, sunwards, 0.0F, kEndless, surface.is_dark);
     return surface;
   }
 

@@ -36,12 +36,7 @@ inline double sweep_duration_s(const LidarConfig& config) {
 
 /// LIDAR frame: FLU, beams in its x-y plane, counter-clockwise from -fov/2 to +fov/2 inclusive.
 inline Isometry T_body_lidar(const LidarConfig& config) {
-  Isometry T = Isometry::Identity();
-  T.translate(config.p_body_m);
-  T.rotate(Eigen::AngleAxisd(config.yaw_rad, Vec3::UnitZ()));
-  T.rotate(Eigen::AngleAxisd(config.pitch_rad, Vec3::UnitY()));
-  T.rotate(Eigen::AngleAxisd(config.roll_rad, Vec3::UnitX()));
-  return T;
+  return mounted(config.p_body_m, config.roll_rad, config.pitch_rad, config.yaw_rad);
 }
 
 /// Unit direction of a beam in the LIDAR frame.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/core/srgb.hpp"
+#include "sim/core/image.hpp"
 
 namespace gnbv {
 namespace {

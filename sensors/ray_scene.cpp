@@ -24,8 +24,31 @@ RTCRayHit16 packet_from(const Vec3f& origin_world_m, float near_m) {
   std::fill_n(packet.ray.org_y, kPacket, origin_world_m.y());
   std::fill_n(packet.ray.org_z, kPacket, origin_world_m.z());
   std::fill_n(packet.ray.tnear, kPacket, near_m);
-  std::fill_n(packet.ray.mask, kPacket, kAllMask);
+  std::fill_n(packet.ray.mask, kPacket, kMeshParts | kGroundPart);
   return packet;
+}
+
+/// Loads the rays from `begin` on, up to a packet of them. The lanes left over repeat the last ray,
+/// and `valid` leaves them out.
+void load_rays(std::span<const Vec3f> origins_world_m, std::span<const Vec3f> directions_world,
+               std::size_t begin, RTCRay16& ray, std::array<int, kPacket>& valid) {
+  for (std::size_t lane = 0; lane < kPacket; ++lane) {
+    const std::size_t i = std::min(begin + lane, directions_world.size() - 1);
+    valid[lane] = begin + lane < directions_world.size() ? -1 : 0;
+    ray.org_x[lane] = origins_world_m[i].x();
+    ray.org_y[lane] = origins_world_m[i].y();
+    ray.org_z[lane] = origins_world_m[i].z();
+    ray.dir_x[lane] = directions_world[i].x();
+    ray.dir_y[lane] = directions_world[i].y();
+    ray.dir_z[lane] = directions_world[i].z();
+  }
+}
+
+RTCIntersectContext coherent_context() {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  return context;
 }
 
 /// Embree searches in float around the rounded point: the ball is kept a little larger than the
@@ -64,65 +87,29 @@ struct RayScene::Impl : EmbreeScene {
 
   explicit Impl(const World& world) : EmbreeScene(world), faces(world) {}
 
-  /// Traces `count` packets: load(i, packet.ray, valid) sets directions, and origins unless they
-  /// are set already, and clears the lanes of `valid` that hold no ray; store(i, packet) takes the
-  /// answers.
-  template <typename Load, typename Store>
-  void trace(std::size_t count, RTCRayHit16& packet, float far_m, const Load& load,
-             const Store& store) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    alignas(64) std::array<int, kPacket> valid{};
-    valid.fill(-1);
-    for (std::size_t i = 0; i < count; ++i) {
-      std::fill_n(packet.ray.tfar, kPacket, far_m);
-      std::fill_n(packet.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
-      load(i, packet.ray, valid);
-      rtcIntersect16(valid.data(), scene.get(), &context, &packet);
-      store(i, packet);
-    }
+  void trace(const std::array<int, kPacket>& valid, float far_m, RTCIntersectContext& context,
+             RTCRayHit16& packet) const {
+    std::fill_n(packet.ray.tfar, kPacket, far_m);
+    std::fill_n(packet.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
+    rtcIntersect16(valid.data(), scene.get(), &context, &packet);
   }
 
+  /// store(i, packet) takes the answers of packet i.
   template <typename Store>
   void trace_packets(const Vec3f& origin_world_m, std::span<const RayPacket> directions_world,
                      float near_m, float far_m, const Store& store) const {
-    const auto load = [&](std::size_t i, RTCRay16& ray, std::array<int, kPacket>&) {
-      // memcpy, which unlike copy_n becomes a few moves in place
-      std::memcpy(ray.dir_x, directions_world[i].x.data(), sizeof ray.dir_x);
-      std::memcpy(ray.dir_y, directions_world[i].y.data(), sizeof ray.dir_y);
-      std::memcpy(ray.dir_z, directions_world[i].z.data(), sizeof ray.dir_z);
-    };
+    RTCIntersectContext context = coherent_context();
     RTCRayHit16 packet = packet_from(origin_world_m, near_m);
-    trace(directions_world.size(), packet, far_m, load, store);
-  }
-
-  /// Traces rays given one by one; set_origin(ray, lane) puts a ray's origin into `packet`. The
-  /// last packet repeats its last ray in the lanes left over, which are not traced.
-  template <typename SetOrigin>
-  void trace_each(RTCRayHit16& packet, const SetOrigin& set_origin,
-                  std::span<const Vec3f> directions_world, float far_m,
-                  std::span<RayHit> hits) const {
-    GNBV_CHECK(hits.size() == directions_world.size(), "{} hits for {} rays", hits.size(),
-               directions_world.size());
-    const auto load = [&](std::size_t i, RTCRay16& ray, std::array<int, kPacket>& valid) {
-      const std::size_t rays = std::min(kPacket, hits.size() - i * kPacket);
-      std::fill(valid.begin() + static_cast<std::ptrdiff_t>(rays), valid.end(), 0);
-      for (std::size_t lane = 0; lane < kPacket; ++lane) {
-        const std::size_t from = i * kPacket + std::min(lane, rays - 1);
-        set_origin(from, lane);
-        ray.dir_x[lane] = directions_world[from].x();
-        ray.dir_y[lane] = directions_world[from].y();
-        ray.dir_z[lane] = directions_world[from].z();
-      }
-    };
-    const auto store = [&](std::size_t i, const RTCRayHit16& answer) {
-      const auto some = hits.subspan(i * kPacket, std::min(kPacket, hits.size() - i * kPacket));
-      for (std::size_t lane = 0; lane < some.size(); ++lane) {
-        some[lane] = {distance_m(answer, lane), face(answer, lane)};
-      }
-    };
-    trace((hits.size() + kPacket - 1) / kPacket, packet, far_m, load, store);
+    alignas(64) std::array<int, kPacket> valid{};
+    valid.fill(-1);
+    for (std::size_t i = 0; i < directions_world.size(); ++i) {
+      // memcpy, which unlike copy_n becomes a few moves in place
+      std::memcpy(packet.ray.dir_x, directions_world[i].x.data(), sizeof packet.ray.dir_x);
+      std::memcpy(packet.ray.dir_y, directions_world[i].y.data(), sizeof packet.ray.dir_y);
+      std::memcpy(packet.ray.dir_z, directions_world[i].z.data(), sizeof packet.ray.dir_z);
+      trace(valid, far_m, context, packet);
+      store(i, packet);
+    }
   }
 
   /// To the nearest face of the masks, up to `limit_m`; infinity beyond.
@@ -179,88 +166,49 @@ void RayScene::first_distances(const Vec3f& origin_world_m,
 
 void RayScene::first_hits(const Vec3f& origin_world_m, std::span<const Vec3f> directions_world,
                           float near_m, float far_m, std::span<RayHit> hits) const {
-  RTCRayHit16 packet = packet_from(origin_world_m, near_m);
-  const auto keep_origin = [](std::size_t, std::size_t) {};
-  impl_->trace_each(packet, keep_origin, directions_world, far_m, hits);
+  const std::vector<Vec3f> origins_world_m(directions_world.size(), origin_world_m);
+  first_hits(origins_world_m, directions_world, near_m, far_m, hits);
 }
 
 void RayScene::first_hits(std::span<const Vec3f> origins_world_m,
                           std::span<const Vec3f> directions_world, float near_m, float far_m,
                           std::span<RayHit> hits) const {
-  GNBV_CHECK(origins_world_m.size() == hits.size(), "{} origins for {} hits",
-             origins_world_m.size(), hits.size());
+  GNBV_CHECK(origins_world_m.size() == hits.size() && directions_world.size() == hits.size(),
+             "{} origins and {} directions for {} hits", origins_world_m.size(),
+             directions_world.size(), hits.size());
+  RTCIntersectContext context = coherent_context();
   RTCRayHit16 packet = packet_from(Vec3f::Zero(), near_m);
-  const auto set_origin = [&](std::size_t ray, std::size_t lane) {
-    packet.ray.org_x[lane] = origins_world_m[ray].x();
-    packet.ray.org_y[lane] = origins_world_m[ray].y();
-    packet.ray.org_z[lane] = origins_world_m[ray].z();
-  };
-  impl_->trace_each(packet, set_origin, directions_world, far_m, hits);
-}
-
-namespace {
-
-/// Whether anything of the masks lies on each ray; blocked[i] is 0 or 1.
-void find_blocked(RTCScene scene, unsigned mask, std::span<const Vec3f> origins_world_m,
-                  std::span<const Vec3f> directions_world, float near_m, float far_m,
-                  std::span<std::uint8_t> blocked) {
-  GNBV_CHECK(origins_world_m.size() == blocked.size() && directions_world.size() == blocked.size(),
-             "{} origins and {} directions for {} answers", origins_world_m.size(),
-             directions_world.size(), blocked.size());
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  RTCRay16 packet{};
   alignas(64) std::array<int, kPacket> valid{};
-  for (std::size_t begin = 0; begin < blocked.size(); begin += kPacket) {
-    const std::size_t count = std::min(kPacket, blocked.size() - begin);
-    for (std::size_t i = 0; i < kPacket; ++i) {
-      const std::size_t ray = begin + std::min(i, count - 1);
-      valid[i] = i < count ? -1 : 0;
-      packet.org_x[i] = origins_world_m[ray].x();
-      packet.org_y[i] = origins_world_m[ray].y();
-      packet.org_z[i] = origins_world_m[ray].z();
-      packet.dir_x[i] = directions_world[ray].x();
-      packet.dir_y[i] = directions_world[ray].y();
-      packet.dir_z[i] = directions_world[ray].z();
-      packet.tnear[i] = near_m;
-      packet.tfar[i] = far_m;
-      packet.mask[i] = mask;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const std::size_t lane = i % kPacket;
+    if (lane == 0) {
+      load_rays(origins_world_m, directions_world, i, packet.ray, valid);
+      impl_->trace(valid, far_m, context, packet);
     }
-    rtcOccluded16(valid.data(), scene, &context, &packet);
-    // Embree marks an occluded ray with tfar = -infinity
-    for (std::size_t i = 0; i < count; ++i) blocked[begin + i] = packet.tfar[i] < 0.0F ? 1 : 0;
+    hits[i] = {Impl::distance_m(packet, lane), impl_->face(packet, lane)};
   }
 }
 
-}  // namespace
-
-void RayScene::structure_blocks(std::span<const Vec3f> origins_world_m,
-                                std::span<const Vec3f> directions_world, float near_m, float far_m,
-                                std::span<std::uint8_t> blocked) const {
-  find_blocked(impl_->scene.get(), kStructureMask, origins_world_m, directions_world, near_m, far_m,
-               blocked);
-}
-
-void RayScene::obstacles_block(std::span<const Vec3f> origins_world_m,
-                               std::span<const Vec3f> directions_world, float near_m, float far_m,
-                               std::span<std::uint8_t> blocked) const {
-  find_blocked(impl_->scene.get(), kObstacleMask, origins_world_m, directions_world, near_m, far_m,
-               blocked);
-}
-
-void RayScene::terrain_blocks(std::span<const Vec3f> origins_world_m,
-                              std::span<const Vec3f> directions_world, float near_m, float far_m,
-                              std::span<std::uint8_t> blocked) const {
-  find_blocked(impl_->scene.get(), kTerrainMask, origins_world_m, directions_world, near_m, far_m,
-               blocked);
-}
-
-void RayScene::anything_blocks(std::span<const Vec3f> origins_world_m,
-                               std::span<const Vec3f> directions_world, float near_m, float far_m,
-                               std::span<std::uint8_t> blocked) const {
-  find_blocked(impl_->scene.get(), kStructureMask | kObstacleMask | kTerrainMask, origins_world_m,
-               directions_world, near_m, far_m, blocked);
+void RayScene::find_blocked(unsigned parts, std::span<const Vec3f> origins_world_m,
+                            std::span<const Vec3f> directions_world, float near_m, float far_m,
+                            std::span<std::uint8_t> blocked) const {
+  GNBV_CHECK(origins_world_m.size() == blocked.size() && directions_world.size() == blocked.size(),
+             "{} origins and {} directions for {} answers", origins_world_m.size(),
+             directions_world.size(), blocked.size());
+  RTCIntersectContext context = coherent_context();
+  RTCRay16 packet{};
+  std::fill_n(packet.tnear, kPacket, near_m);
+  std::fill_n(packet.mask, kPacket, parts);
+  alignas(64) std::array<int, kPacket> valid{};
+  for (std::size_t i = 0; i < blocked.size(); ++i) {
+    const std::size_t lane = i % kPacket;
+    if (lane == 0) {
+      load_rays(origins_world_m, directions_world, i, packet, valid);
+      std::fill_n(packet.tfar, kPacket, far_m);
+      rtcOccluded16(valid.data(), impl_->scene.get(), &context, &packet);
+    }
+    blocked[i] = packet.tfar[lane] < 0.0F ? 1 : 0;  // occluded: Embree says -infinity
+  }
 }
 
 bool RayScene::has_obstacles() const { return impl_->geometries[1] != RTC_INVALID_GEOMETRY_ID; }
@@ -288,15 +236,15 @@ double RayScene::Impl::distance_m(unsigned asked, const Vec3& p_world_m, double 
 }
 
 double RayScene::distance_to_structure_m(const Vec3& p_world_m, double limit_m) const {
-  return impl_->distance_m(kStructureMask, p_world_m, limit_m);
+  return impl_->distance_m(kStructurePart, p_world_m, limit_m);
 }
 
 double RayScene::distance_to_surroundings_m(const Vec3& p_world_m, double limit_m) const {
-  return impl_->distance_m(kObstacleMask | kTerrainMask, p_world_m, limit_m);
+  return impl_->distance_m(kObstaclePart | kTerrainPart, p_world_m, limit_m);
 }
 
 double RayScene::clearance_m(const Vec3& p_world_m, double limit_m) const {
-  return impl_->distance_m(kStructureMask | kObstacleMask | kRisenTerrainMask, p_world_m, limit_m);
+  return impl_->distance_m(kStructurePart | kObstaclePart | kRisenTerrainPart, p_world_m, limit_m);
 }
 
 }  // namespace gnbv

@@ -14,6 +14,15 @@
 
 namespace gnbv {
 
+/// Parts of the world; a question names one, or several joined by |. Sensors see all of them.
+constexpr unsigned kStructurePart = 1;
+constexpr unsigned kGroundPart = 2;
+constexpr unsigned kObstaclePart = 4;
+constexpr unsigned kTerrainPart = 8;
+constexpr unsigned kMeshParts = kStructurePart | kObstaclePart | kTerrainPart;
+constexpr unsigned kRisenTerrainPart =
+    16;  // of distances: faces that rise above the terrain's floor
+
 /// The far end of a ray that has none.
 constexpr float kEndless = std::numeric_limits<float>::infinity();
 
@@ -67,22 +76,12 @@ class RayScene {
   void first_hits(std::span<const Vec3f> origins_world_m, std::span<const Vec3f> directions_world,
                   float near_m, float far_m, std::span<RayHit> hits) const;
 
-  /// For each ray from its own origin: whether anything of the structure (never the ground) lies in
-  /// (near_m, far_m), in units of the direction's length. Sizes equal. blocked[i] is 0 or 1.
-  void structure_blocks(std::span<const Vec3f> origins_world_m,
-                        std::span<const Vec3f> directions_world, float near_m, float far_m,
-                        std::span<std::uint8_t> blocked) const;
-
-  /// The same of the obstacles alone, of the terrain alone, and of all three.
-  void obstacles_block(std::span<const Vec3f> origins_world_m,
-                       std::span<const Vec3f> directions_world, float near_m, float far_m,
-                       std::span<std::uint8_t> blocked) const;
-  void terrain_blocks(std::span<const Vec3f> origins_world_m,
-                      std::span<const Vec3f> directions_world, float near_m, float far_m,
-                      std::span<std::uint8_t> blocked) const;
-  void anything_blocks(std::span<const Vec3f> origins_world_m,
-                       std::span<const Vec3f> directions_world, float near_m, float far_m,
-                       std::span<std::uint8_t> blocked) const;
+  /// For each ray from its own origin: whether anything of the parts (kStructurePart and so on)
+  /// lies in (near_m, far_m), in units of the direction's length. Sizes equal. blocked[i] is 0
+  /// or 1.
+  void find_blocked(unsigned parts, std::span<const Vec3f> origins_world_m,
+                    std::span<const Vec3f> directions_world, float near_m, float far_m,
+                    std::span<std::uint8_t> blocked) const;
 
   /// Unit normal of a face of a mesh, on the side its corners run counter-clockwise, or of the
   /// ground. Zero for a face without area.

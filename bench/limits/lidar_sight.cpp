@@ -87,7 +87,7 @@ bool LidarSight::is_seen(const Vec3f& point_world_m) const {
     directions.emplace_back(to_m.cast<float>());
   }
   std::vector<std::uint8_t> blocked(origins.size());
-  scene_.anything_blocks(origins, directions, 0.0F, kSightEnd, blocked);
+  scene_.find_blocked(kMeshParts, origins, directions, 0.0F, kSightEnd, blocked);
   return std::find(blocked.begin(), blocked.end(), 0) != blocked.end();
 }
 

@@ -137,7 +137,7 @@ void SightSearch::look(const Vec3& position_m, std::size_t first_point, std::siz
     }
   }
   std::vector<std::uint8_t> blocked(asked.size());
-  scene_.anything_blocks(origins, directions, 0.0F, kSightEnd, blocked);
+  scene_.find_blocked(kMeshParts, origins, directions, 0.0F, kSightEnd, blocked);
   for (std::size_t i = 0; i < asked.size(); ++i) {
     if (blocked[i] == 0) items[asked[i].item].seen = asked[i].point;
   }
@@ -179,7 +179,7 @@ bool SightSearch::is_seen_along(const Vec3f& point_m, const Vec3f& direction, do
       const std::array<Vec3f, 1> origin = {origin_m->cast<float>()};
       const std::array<Vec3f, 1> to = {(from_m - *origin_m).cast<float>()};
       std::array<std::uint8_t, 1> blocked{};
-      scene_.anything_blocks(origin, to, 0.0F, kSightEnd, blocked);
+      scene_.find_blocked(kMeshParts, origin, to, 0.0F, kSightEnd, blocked);
       if (blocked[0] == 0) return true;
     }
   }

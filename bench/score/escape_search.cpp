@@ -55,7 +55,7 @@ void EscapeSearch::leave_out_buried(std::span<const SurfaceSample> samples,
   for (const SurfaceSample& sample : samples) origins.push_back(sample.p_world_m);
   const std::vector<Vec3f> up(samples.size(), Vec3f::UnitZ());
   std::vector<std::uint8_t> is_buried(samples.size());
-  scene_.terrain_blocks(origins, up, near_m_, kEndless, is_buried);
+  scene_.find_blocked(kTerrainPart, origins, up, near_m_, kEndless, is_buried);
   std::erase_if(open, [&](std::size_t i) { return is_buried[i] != 0; });
 }
 
@@ -66,7 +66,7 @@ void EscapeSearch::end_at_obstacles(std::vector<Vec3f> origins, std::span<const 
   if (!scene_.has_obstacles()) return;
   for (std::size_t k = 0; k < origins.size(); ++k) origins[k] -= near_m_ * directions[k];
   std::vector<std::uint8_t> by_obstacle(blocked.size());
-  scene_.obstacles_block(origins, directions, 0.0F, obstacle_reach_m_, by_obstacle);
+  scene_.find_blocked(kObstaclePart, origins, directions, 0.0F, obstacle_reach_m_, by_obstacle);
   for (std::size_t k = 0; k < blocked.size(); ++k) blocked[k] |= by_obstacle[k];
 }
 
@@ -83,7 +83,7 @@ void EscapeSearch::count_lines(std::span<const SurfaceSample> samples,
     directions.push_back(direction_of(i));
   }
   std::vector<std::uint8_t> blocked(of.size());
-  scene_.structure_blocks(origins, directions, near_m_, kEndless, blocked);
+  scene_.find_blocked(kStructurePart, origins, directions, near_m_, kEndless, blocked);
   end_at_obstacles(std::move(origins), directions, blocked);
   for (std::size_t k = 0; k < of.size(); ++k) lines[of[k]] += blocked[k] == 0 ? 1 : 0;
 }

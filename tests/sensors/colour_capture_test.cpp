@@ -109,11 +109,18 @@ TEST(ColourCapture, BothSidesOfAFaceAreLitByTheirOwnNormal) {
   }
 }
 
-TEST(ColourCapture, ShadowFallsWhereTheSunIsHidden) {
-  TriangleMesh scene_mesh;
-  add_rectangle(scene_mesh, {-20, -20, 1.0}, {40, 0, 0}, {0, 40, 0});      // a plain floor at 1 m
-  add_rectangle(scene_mesh, {-0.7, -0.5, 3.0}, {1.5, 0, 0}, {0, 1.0, 0});  // a plate 2 m above it
-  const RayScene scene(world_of(scene_mesh, false));
+/// A plain floor at 1 m and a plate 2 m above it, which is of the part of the world.
+World shaded(TriangleMesh World::*part) {
+  World world = world_of({}, false);
+  add_rectangle(world.structure, {-20, -20, 1.0}, {40, 0, 0}, {0, 40, 0});
+  add_rectangle(world.*part, {-0.7, -0.5, 3.0}, {1.5, 0, 0}, {0, 1.0, 0});
+  return world;
+}
+
+class Shadow : public testing::TestWithParam<TriangleMesh World::*> {};
+
+TEST_P(Shadow, FallsWhereTheSunIsHidden) {
+  const RayScene scene(shaded(GetParam()));
   const CameraModel camera = colour_camera(deg_to_rad(90.0));
   // above the floor and beside the plate, looking down on where the plate's shadow falls
   const Vec3 sun = towards_sun_world().cast<double>();
@@ -141,6 +148,9 @@ TEST(ColourCapture, ShadowFallsWhereTheSunIsHidden) {
   ASSERT_EQ(bright.size(), 1U);
   EXPECT_GT(*bright.begin(), *dark.begin() + 100);
 }
+
+INSTANTIATE_TEST_SUITE_P(OfEachPartOfTheWorld, Shadow,
+                         testing::Values(&World::structure, &World::obstacles, &World::terrain));
 
 TEST(ColourCapture, GroundHasFeaturesAndSkyIsBlueOverhead) {
   const RayScene scene(world_of({}, true));

@@ -99,7 +99,7 @@ TEST(RayScene, StructureBlocksEqualsBruteForceAndIgnoresTheGround) {
   std::vector<Vec3f> origins = random_directions(count, 2);
   for (Vec3f& origin : origins) origin *= 3.0F;
   std::vector<std::uint8_t> blocked(count, 7);
-  scene.structure_blocks(origins, directions, 1e-4F, kEndless, blocked);
+  scene.find_blocked(kStructurePart, origins, directions, 1e-4F, kEndless, blocked);
   int sums[2] = {0, 0};
   for (std::size_t i = 0; i < count; ++i) {
     ASSERT_LE(blocked[i], 1);
@@ -120,9 +120,9 @@ TEST(RayScene, StructureBlocksStartsBeyondNear) {
   const std::vector<Vec3f> origin = {{0, 0.1F, 0.2F}};
   const std::vector<Vec3f> ahead = {{1, 0, 0}};
   std::vector<std::uint8_t> blocked(1);
-  scene.structure_blocks(origin, ahead, 0.99F, kEndless, blocked);
+  scene.find_blocked(kStructurePart, origin, ahead, 0.99F, kEndless, blocked);
   EXPECT_EQ(blocked[0], 1);
-  scene.structure_blocks(origin, ahead, 1.01F, kEndless, blocked);
+  scene.find_blocked(kStructurePart, origin, ahead, 1.01F, kEndless, blocked);
   EXPECT_EQ(blocked[0], 0);
 }
 

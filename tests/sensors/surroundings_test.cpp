@@ -49,11 +49,11 @@ TEST(Surroundings, EachPartBlocksForItself) {
   const std::vector<Vec3f> origins = {{0, 0, 1}, {3, 0, 1}, {0, 0, 1}};
   const std::vector<Vec3f> directions = {{1, 0, 0}, {-1, 0, 0}, {0, 0, -1}};
   std::vector<std::uint8_t> blocked(3);
-  scene.structure_blocks(origins, directions, 0.0F, kEndless, blocked);
+  scene.find_blocked(kStructurePart, origins, directions, 0.0F, kEndless, blocked);
   EXPECT_EQ(blocked, (std::vector<std::uint8_t>{1, 0, 0}));
-  scene.obstacles_block(origins, directions, 0.0F, kEndless, blocked);
+  scene.find_blocked(kObstaclePart, origins, directions, 0.0F, kEndless, blocked);
   EXPECT_EQ(blocked, (std::vector<std::uint8_t>{1, 1, 0}));
-  scene.terrain_blocks(origins, directions, 0.0F, kEndless, blocked);
+  scene.find_blocked(kTerrainPart, origins, directions, 0.0F, kEndless, blocked);
   EXPECT_EQ(blocked, (std::vector<std::uint8_t>{0, 0, 1}));
 }
 

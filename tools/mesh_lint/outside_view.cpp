@@ -44,7 +44,7 @@ class SideSearch {
       for (const std::size_t i : open) origins.push_back(samples[i].p_world_m);
       blocked.assign(open.size(), 0);
       const std::vector<Vec3f> along(open.size(), direction);
-      scene_.structure_blocks(origins, along, near_m_, kEndless, blocked);
+      scene_.find_blocked(kStructurePart, origins, along, near_m_, kEndless, blocked);
       for (std::size_t k = 0; k < open.size(); ++k) {
         if (blocked[k] != 0) continue;
         const float cosine = direction.dot(normal_of(mesh_, samples[open[k]].face));

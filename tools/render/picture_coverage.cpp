@@ -79,8 +79,8 @@ int factor_of(const RenderView& view) {
 std::vector<std::uint8_t> are_hidden(const RayScene& scene, std::span<const Vec3f> points_world_m,
                                      std::span<const Vec3f> directions, double size_m) {
   std::vector<std::uint8_t> is_hidden(points_world_m.size());
-  scene.anything_blocks(points_world_m, directions, static_cast<float>(0.2 * size_m), kEndless,
-                        is_hidden);
+  scene.find_blocked(kMeshParts, points_world_m, directions, static_cast<float>(0.2 * size_m),
+                     kEndless, is_hidden);
   return is_hidden;
 }
 
