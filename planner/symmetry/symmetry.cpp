@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/symmetry/mirror_support.hpp"
 #include "planner/symmetry/symmetry_module.hpp"
+#include "sim/core/module.hpp"
 #include "sim/core/parallel.hpp"
 
 namespace gnbv {
@@ -20,7 +20,28 @@ constexpr std::size_t kMaxRefined = 5;
 constexpr double kRefineReach_m = 1.5;
 constexpr double kMaxGainOfRefining = 0.3;  // of support, with room: 0.15 on the aircraft
 constexpr double kMinMoved = 0.25;          // else nearly everything stays where it is
-constexpr std::size_t kMaxWitnesses = 4000;
+constexpr std::size_t kMaxInliers = 4000;
+
+enum class Verdict { contradicted, open, confirmed };
+
+/// From the voxel and the 26 around it; those outside the grid are unknown.
+Verdict verdict_at(const OccupancyGrid& grid, const Key& key) {
+  const GridGeometry& geometry = grid.geometry();
+  if (!geometry.contains(key)) return Verdict::contradicted;
+  bool is_free = true;
+  for (std::int32_t dz = -1; dz <= 1; ++dz) {
+    for (std::int32_t dy = -1; dy <= 1; ++dy) {
+      for (std::int32_t dx = -1; dx <= 1; ++dx) {
+        const Key near = {key[0] + dx, key[1] + dy, key[2] + dz};
+        const VoxelState state =
+            geometry.contains(near) ? grid.state(geometry.index_of(near)) : VoxelState::unknown;
+        if (state == VoxelState::occupied) return Verdict::confirmed;
+        is_free = is_free && state == VoxelState::free;
+      }
+    }
+  }
+  return is_free ? Verdict::contradicted : Verdict::open;
+}
 
 /// Points the way to free space around the point, two voxels each way; zero where nothing is free.
 Vec3f outward(const OccupancyGrid& grid, const Vec3f& p_world_m) {
@@ -56,15 +77,15 @@ std::vector<ProfilePoint> oriented(std::span<const Vec3f> profile_world_m,
 
 /// Points whose voxel has kept its surface (a quarter of a profile's points on thin wings lie in
 /// voxels that other rays have cleared), at most so many, evenly chosen.
-std::vector<Vec3f> witnesses(std::span<const Vec3f> profile_world_m, const OccupancyGrid& grid) {
+std::vector<Vec3f> inliers(std::span<const Vec3f> profile_world_m, const OccupancyGrid& grid) {
   std::vector<Vec3f> all;
   for (const Vec3f& p : profile_world_m) {
     if (grid.state_at(p.cast<double>()) == VoxelState::occupied) all.push_back(p);
   }
-  if (all.size() <= kMaxWitnesses) return all;
+  if (all.size() <= kMaxInliers) return all;
   std::vector<Vec3f> chosen;
-  for (std::size_t i = 0; i < kMaxWitnesses; ++i) {
-    chosen.push_back(all[i * all.size() / kMaxWitnesses]);
+  for (std::size_t i = 0; i < kMaxInliers; ++i) {
+    chosen.push_back(all[i * all.size() / kMaxInliers]);
   }
   return chosen;
 }
@@ -109,12 +130,12 @@ struct Candidate {
 /// Those that mirror enough of the profile onto measured surface, and not onto itself; best
 /// supported first.
 std::vector<Candidate> judged(std::span<const MirrorPlane> planes,
-                              std::span<const Vec3f> witnesses_world_m, const OccupancyGrid& grid,
+                              std::span<const Vec3f> inliers_world_m, const OccupancyGrid& grid,
                               double min_confirmed) {
   std::vector<Candidate> out;
   for (const MirrorPlane& plane : planes) {
     if (!is_upright(plane)) continue;
-    const MirrorSupport support = mirror_support(grid, witnesses_world_m, plane);
+    const MirrorSupport support = mirror_support(grid, inliers_world_m, plane);
     if (support.moved < kMinMoved || support.confirmed < min_confirmed) continue;
     out.push_back({plane, support});
   }
@@ -151,24 +172,58 @@ std::vector<MirrorPlane> rough_planes(std::span<const ProfilePoint> profile, con
 
 }  // namespace
 
+const SymmetryModule& symmetry_module() {
+  static const SymmetryModule module = [] {
+    const ModulePlace place{GNBV_SYMMETRY_MODULE, GNBV_SYMMETRY_MODULE_AS_BUILT,
+                            "PCL, Debian package libpcl-dev"};
+    return SymmetryModule{
+        reinterpret_cast<EstimateNormals*>(function_in_module(place, "gnbv_estimate_normals")),
+        reinterpret_cast<MatchKeypoints*>(function_in_module(place, "gnbv_match_keypoints")),
+        reinterpret_cast<RefinePlanes*>(function_in_module(place, "gnbv_refine_planes"))};
+  }();
+  return module;
+}
+
+MirrorSupport mirror_support(const OccupancyGrid& grid, std::span<const Vec3f> points_world_m,
+                             const MirrorPlane& plane) {
+  constexpr double kMovedVoxels = 4.0;
+  const double moved_min_m = kMovedVoxels * grid.geometry().resolution_m();
+  std::size_t moved = 0;
+  std::size_t contradicted = 0;
+  std::size_t confirmed = 0;
+  for (const Vec3f& point : points_world_m) {
+    const Vec3 p_world_m = point.cast<double>();
+    const Vec3 image_world_m = mirrored(plane, p_world_m);
+    if ((image_world_m - p_world_m).norm() < moved_min_m) continue;
+    ++moved;
+    const Verdict verdict = verdict_at(grid, grid.geometry().key_of(image_world_m));
+    contradicted += verdict == Verdict::contradicted;
+    confirmed += verdict == Verdict::confirmed;
+  }
+  if (moved == 0) return {};
+  const auto total = static_cast<double>(moved);
+  return {1.0 - static_cast<double>(contradicted) / total, static_cast<double>(confirmed) / total,
+          total / static_cast<double>(points_world_m.size())};
+}
+
 Symmetry find_symmetry(const SymmetryConfig& config, std::span<const Vec3f> profile_world_m,
                        const OccupancyGrid& grid, int threads) {
   Symmetry symmetry;
   if (!config.enabled) return symmetry;
-  const std::vector<Vec3f> witnesses_world_m = witnesses(profile_world_m, grid);
-  if (witnesses_world_m.empty()) return symmetry;
+  const std::vector<Vec3f> inliers_world_m = inliers(profile_world_m, grid);
+  if (inliers_world_m.empty()) return symmetry;
   const std::vector<ProfilePoint> profile = oriented(profile_world_m, grid, threads);
-  const Extent extent = extent_of(witnesses_world_m);
+  const Extent extent = extent_of(inliers_world_m);
   // a plane found roughly misses thin wings: less is asked of it
   const std::vector<Candidate> rough =
-      judged(rough_planes(profile, extent), witnesses_world_m, grid, 0.5 * config.min_confirmed);
+      judged(rough_planes(profile, extent), inliers_world_m, grid, 0.5 * config.min_confirmed);
   std::vector<MirrorPlane> planes =
       worth_refining(rough, config.min_support - kMaxGainOfRefining, extent);
   parallel_for(threads, planes.size(), [&](std::size_t i) {
     symmetry_module().refine_planes(profile, std::span(planes).subspan(i, 1));
   });
   const std::vector<Candidate> refined =
-      judged(planes, witnesses_world_m, grid, config.min_confirmed);
+      judged(planes, inliers_world_m, grid, config.min_confirmed);
 
   if (rough.empty()) return symmetry;
   const Candidate& best = refined.empty() ? rough.front() : refined.front();

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <limits>
 
-#include "planner/symmetry/mirror_support.hpp"
 #include "planner/symmetry/symmetry_module.hpp"
 #include "tests/planner/symmetry/blobs.hpp"
 
@@ -129,7 +128,7 @@ TEST(MirrorSupport, CountsWhatFallsOnSurfaceAmidFreeSpaceAndOutside) {
       {1.7F, 0.1F, 1.1F},  // where nothing is known
       {1.5F, 0.1F, 1.1F},  // a voxel beside that
       {2.5F, 0.1F, 1.1F},  // outside
-      {0.3F, 0.1F, 1.1F},  // nearly onto itself: no witness
+      {0.3F, 0.1F, 1.1F},  // nearly onto itself: no inlier
       {0.1F, 0.1F, 1.1F},
   };
   const MirrorSupport support = mirror_support(grid, points_m, {});
