@@ -7,9 +7,9 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/mesh/mesh_import.hpp"
+#include "sim/mesh/mesh_lint.hpp"
 #include "sim/mesh/mesh_units.hpp"
-#include "sim/mesh/obj_file.hpp"
-#include "sim/mesh/ply_file.hpp"
+#include "sim/mesh/polygon_file.hpp"
 
 namespace gnbv {
 namespace {
@@ -104,6 +104,30 @@ MeshReading read_mesh(const MeshFileConfig& config) {
                                      bad - vertices.begin(), bad->x(), bad->y(), bad->z());
   }
   return reading;
+}
+
+TriangleMesh load_mesh(const MeshFileConfig& config, std::vector<std::string>* warnings) {
+  MeshReading reading = read_mesh(config);
+  if (!reading.not_finite.empty()) throw BadInput(reading.not_finite);
+  TriangleMesh& mesh = reading.mesh;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
+    if (is_flat(mesh, i)) continue;
+    mesh.faces[kept] = mesh.faces[i];
+    mesh.face_material[kept++] = mesh.face_material[i];
+  }
+  const std::size_t flat = mesh.faces.size() - kept;
+  if (kept == 0) throw BadInput(fmt::format("{}: holds no faces with an area", config.path));
+  mesh.faces.resize(kept);
+  mesh.face_material.resize(kept);
+  if (flat > 0) {
+    reading.warnings.push_back(
+        fmt::format("{}: {} faces without area left out", config.path, flat));
+  }
+  if (warnings != nullptr) {
+    warnings->insert(warnings->end(), reading.warnings.begin(), reading.warnings.end());
+  }
+  return std::move(mesh);
 }
 
 }  // namespace gnbv

@@ -18,7 +18,7 @@ Corners corners_of(const TriangleMesh& mesh, std::size_t face) {
 double area_m2(const Corners& p) { return 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).norm(); }
 
 /// For each vertex the first one, in order of position, at the same place.
-std::vector<std::uint32_t> joined(const std::vector<Vec3f>& vertices_m) {
+std::vector<std::uint32_t> first_at_place(const std::vector<Vec3f>& vertices_m) {
   std::vector<std::pair<std::array<float, 3>, std::uint32_t>> order;
   order.reserve(vertices_m.size());
   for (std::uint32_t i = 0; i < vertices_m.size(); ++i) {
@@ -153,7 +153,7 @@ std::optional<char> likely_up_axis(const TriangleMesh& mesh) {
 
 MeshLint lint_mesh(const TriangleMesh& mesh) {
   MeshLint out;
-  const std::vector<std::uint32_t> first = joined(mesh.vertices_m);
+  const std::vector<std::uint32_t> first = first_at_place(mesh.vertices_m);
   out.is_sound.assign(mesh.faces.size(), false);
   out.is_two_sided.assign(mesh.faces.size(), false);
   std::vector<bool> is_used(mesh.vertices_m.size(), false);

@@ -1,15 +1,16 @@
-#include "sim/mesh/obj_file.hpp"
-
+// read_obj() of sim/mesh/polygon_file.hpp.
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <optional>
 
 #include "sim/core/error.hpp"
 #include "sim/mesh/chunked_file.hpp"
-#include "sim/mesh/obj_materials.hpp"
 #include "sim/mesh/plain_text.hpp"
+#include "sim/mesh/polygon_file.hpp"
 
 namespace gnbv {
 namespace {
@@ -38,6 +39,95 @@ bool has_control_bytes(std::string_view line) {
     const auto byte = static_cast<unsigned char>(c);
     return (byte < 0x20 && c != '\t' && c != '\r') || byte == 0x7f;
   });
+}
+
+/// A grey where there is one number; nothing where it is a spectrum or unreadable.
+std::optional<std::array<float, 3>> colour_in(Words words) {
+  std::array<float, 3> rgb{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto value = read_decimal(words[std::min(i, words.size() - 1)]);
+    if (!value || std::isnan(*value)) return std::nullopt;
+    rgb[i] = static_cast<float>(std::clamp(*value, 0.0, 1.0));
+  }
+  return rgb;
+}
+
+/// Faces ahead of the first `usemtl` have the last material of a library named before them, or
+/// otherwise that of the first `usemtl`.
+class ObjMaterials {
+ public:
+  explicit ObjMaterials(std::string path) : path_(std::move(path)) {}
+
+  /// Takes the names and diffuse colours of a library, which may come after their use.
+  void read_library(const std::filesystem::path& library);
+  void use(const std::string& name);
+
+  /// Of the current material among those that faces use, in order of first use. Throws BadInput
+  /// naming the file when they become more than 65536.
+  std::uint16_t index_for_face();
+
+  /// Those that faces use, once all is read.
+  std::vector<Material> materials() const;
+
+ private:
+  std::string path_;
+  std::map<std::string, std::array<float, 3>> rgb_of_;  // of the libraries' materials
+  std::vector<std::string> used_;                       // names by index
+  std::map<std::string, std::uint16_t> index_of_;       // of them
+  std::string current_ = std::string(kUntoldMaterial);
+  std::optional<std::uint16_t> index_;  // of the current one, once a face has used it
+  bool is_named_ = false;               // by a usemtl
+};
+
+void ObjMaterials::read_library(const std::filesystem::path& library) {
+  ChunkedFile file(library);
+  std::vector<std::string_view> words;
+  std::string material;
+  while (const auto line = file.line()) {
+    split(*line, words);
+    if (words.size() < 2) continue;
+    const Words values = Words(words).subspan(1);
+    if (words[0] == "newmtl") {
+      material = joined(values);
+      rgb_of_.try_emplace(material, kUntoldColour);
+    } else if (words[0] == "Kd" && !material.empty()) {
+      if (const auto rgb = colour_in(values)) rgb_of_[material] = *rgb;
+    }
+  }
+  if (!is_named_ && used_.empty() && !material.empty()) current_ = material;
+}
+
+void ObjMaterials::use(const std::string& name) {
+  if (!is_named_ && current_ == kUntoldMaterial && !used_.empty()) {
+    used_ = {name};
+    index_of_ = {{name, std::uint16_t{0}}};
+  }
+  is_named_ = true;
+  if (name != current_) index_.reset();
+  current_ = name;
+}
+
+std::uint16_t ObjMaterials::index_for_face() {
+  if (index_) return *index_;
+  const auto [entry, is_new] =
+      index_of_.try_emplace(current_, static_cast<std::uint16_t>(used_.size()));
+  if (is_new) {
+    if (used_.size() > std::numeric_limits<std::uint16_t>::max()) {
+      throw BadInput(fmt::format("{}: more than 65536 materials", path_));
+    }
+    used_.push_back(current_);
+  }
+  index_ = entry->second;
+  return *index_;
+}
+
+std::vector<Material> ObjMaterials::materials() const {
+  std::vector<Material> out;
+  for (const std::string& name : used_) {
+    const auto found = rgb_of_.find(name);
+    out.push_back({.name = name, .rgb = found != rgb_of_.end() ? found->second : kUntoldColour});
+  }
+  return out;
 }
 
 /// Lines of one kind that were left out, for one warning.
@@ -189,24 +279,6 @@ class ObjReader {
 
 PolygonMesh read_obj(const std::filesystem::path& path, std::vector<std::string>& warnings) {
   return ObjReader(path, warnings).read();
-}
-
-std::string obj_text_of(const TriangleMesh& mesh, const std::string& mtl_name) {
-  std::string out = fmt::format("mtllib {}\n", mtl_name);
-  const auto at = std::back_inserter(out);
-  for (const Vec3f& v : mesh.vertices_m) {
-    fmt::format_to(at, "v {} {} {}\n", v.x(), v.y(), v.z());
-  }
-  std::size_t current = mesh.materials.size();
-  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
-    const std::size_t material = mesh.face_material.empty() ? 0 : mesh.face_material[i];
-    if (material != current)
-      fmt::format_to(at, "usemtl {}\n", obj_name_of_material(mesh, material));
-    current = material;
-    const auto& [a, b, c] = mesh.faces[i];
-    fmt::format_to(at, "f {} {} {}\n", a + 1, b + 1, c + 1);
-  }
-  return out;
 }
 
 }  // namespace gnbv

@@ -1,13 +1,11 @@
-#include "sim/mesh/ply_file.hpp"
-
+// read_ply() of sim/mesh/polygon_file.hpp.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "sim/core/append_bytes.hpp"
 #include "sim/core/error.hpp"
-#include "sim/core/srgb.hpp"
 #include "sim/mesh/ply_reader.hpp"
+#include "sim/mesh/polygon_file.hpp"
 
 namespace gnbv {
 namespace {
@@ -147,27 +145,6 @@ class PlyMeshReader {
 
 PolygonMesh read_ply(const std::filesystem::path& path, std::vector<std::string>& warnings) {
   return PlyMeshReader(path).read(warnings);
-}
-
-std::string ply_bytes_of(const TriangleMesh& mesh) {
-  std::string out = fmt::format(
-      "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float "
-      "y\n"
-      "property float z\nelement face {}\nproperty list uchar int vertex_indices\n"
-      "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n",
-      mesh.vertices_m.size(), mesh.faces.size());
-  for (const Vec3f& v : mesh.vertices_m) {
-    for (const float x : v) append_bytes(out, x);
-  }
-  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
-    append_bytes(out, std::uint8_t{3});
-    for (const std::uint32_t index : mesh.faces[i]) append_bytes(out, index);
-    const std::size_t material = mesh.face_material.empty() ? 0 : mesh.face_material[i];
-    for (const float channel : mesh.materials[material].rgb) {
-      append_bytes(out, static_cast<std::uint8_t>(std::lround(255.0F * linear_to_srgb(channel))));
-    }
-  }
-  return out;
 }
 
 }  // namespace gnbv

@@ -8,9 +8,8 @@
 
 #include "sim/core/error.hpp"
 #include "sim/mesh/mesh_units.hpp"
-#include "sim/mesh/obj_file.hpp"
 #include "sim/mesh/plain_text.hpp"
-#include "sim/mesh/ply_file.hpp"
+#include "sim/mesh/polygon_file.hpp"
 #include "tests/fuzz/written.hpp"
 
 namespace gnbv {

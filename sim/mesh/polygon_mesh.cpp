@@ -1,0 +1,244 @@
+#include "sim/mesh/polygon_mesh.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <unordered_map>
+
+#include "sim/core/error.hpp"
+#include "sim/core/image.hpp"
+
+namespace gnbv {
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+using Faces = std::vector<std::array<std::uint32_t, 3>>;
+
+/// Twice the area of a triangle, positive where it runs counter-clockwise.
+double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
+  return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
+}
+
+/// Cuts up polygons, one after the other with the same memory. Corners go by their place in the
+/// polygon, counted from 0.
+class EarClipper {
+ public:
+  void cut(std::span<const std::uint32_t> corners, const std::vector<Vec3>& vertices,
+           Faces& faces) {
+    if (corners.size() == 3) return faces.push_back({corners[0], corners[1], corners[2]});
+    lay_flat(corners, vertices);
+    link(static_cast<std::uint32_t>(corners.size()));
+    const auto add = [&](std::uint32_t b) {
+      faces.push_back({corners[previous_[b]], corners[b], corners[next_[b]]});
+    };
+    Care care = Care::clean;
+    std::uint32_t b = 1;
+    std::size_t tried = 0;
+    for (std::size_t left = corners.size(); left > 3;) {
+      if (is_ear(b, care)) {
+        add(b);
+        b = clipped(b);
+        --left;
+        tried = 0;
+      } else {
+        b = next_[b];
+        if (++tried < left) continue;
+        // never back to more care: what has no clean ear once is no simple polygon
+        care = care == Care::clean ? Care::thin : Care::none;
+        tried = 0;
+      }
+    }
+    add(b);
+  }
+
+ private:
+  enum class Care {
+    clean,  // the ear has an area, and no other corner in it or on its border
+    thin,   // others may lie on its border
+    none
+  };
+
+  /// Along the axis that is nearest to the Newell normal, seen from where it points to.
+  void lay_flat(std::span<const std::uint32_t> corners, const std::vector<Vec3>& vertices) {
+    const Vec3& origin = vertices[corners[0]];
+    Vec3 normal = Vec3::Zero();
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+      normal += (vertices[corners[i - 1]] - origin).cross(vertices[corners[i]] - origin);
+    }
+    Eigen::Index axis = 2;
+    normal.cwiseAbs().maxCoeff(&axis);
+    Eigen::Index u = (axis + 1) % 3;
+    Eigen::Index v = (axis + 2) % 3;
+    if (normal[axis] < 0.0) std::swap(u, v);
+    at_.clear();
+    for (const std::uint32_t corner : corners) {
+      const Vec3 p = vertices[corner] - origin;
+      at_.emplace_back(p[u], p[v]);
+    }
+  }
+
+  void link(std::uint32_t count) {
+    next_.resize(count);
+    previous_.resize(count);
+    hollow_.clear();
+    for (std::uint32_t i = 0; i < count; ++i) {
+      next_[i] = i + 1 < count ? i + 1 : 0;
+      previous_[i] = i > 0 ? i - 1 : count - 1;
+    }
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (!(turn_at(i) > 0.0)) hollow_.push_back(i);
+    }
+  }
+
+  double turn_at(std::uint32_t b) const { return turn(at_[previous_[b]], at_[b], at_[next_[b]]); }
+
+  bool is_ear(std::uint32_t b, Care care) const {
+    if (care == Care::none) return true;
+    const Vec2& p_a = at_[previous_[b]];
+    const Vec2& p_b = at_[b];
+    const Vec2& p_c = at_[next_[b]];
+    const double longest2 =
+        std::max({(p_b - p_a).squaredNorm(), (p_c - p_b).squaredNorm(), (p_a - p_c).squaredNorm()});
+    const double area2 = turn(p_a, p_b, p_c);
+    const double flat2 = 1e-7 * longest2;  // as is_flat() of sim/mesh/mesh_lint.hpp
+    // there and back: without area, and in the way of others
+    if (std::abs(area2) <= flat2 && (p_a - p_b).dot(p_c - p_b) >= 0.0) return true;
+    // a corner within a straight edge is left to others
+    if (!(area2 > (care == Care::clean ? flat2 : 0.0))) return false;
+    // where any corner lies in a triangle, one does at which the polygon is hollow
+    return std::none_of(hollow_.begin(), hollow_.end(),
+                        [&](std::uint32_t corner) { return is_in_the_way(corner, b, care); });
+  }
+
+  bool is_in_the_way(std::uint32_t corner, std::uint32_t b, Care care) const {
+    const std::uint32_t a = previous_[b];
+    const std::uint32_t c = next_[b];
+    if (corner == a || corner == b || corner == c) return false;
+    const Vec2& p = at_[corner];
+    if (p == at_[a] || p == at_[c]) return false;  // as at both ends of the bridge to a hole
+    const double least =
+        std::min({turn(at_[a], at_[b], p), turn(at_[b], at_[c], p), turn(at_[c], at_[a], p)});
+    return care == Care::clean ? least >= 0.0 : least > 0.0;
+  }
+
+  /// Takes the corner out; the next one is returned.
+  std::uint32_t clipped(std::uint32_t b) {
+    next_[previous_[b]] = next_[b];
+    previous_[next_[b]] = previous_[b];
+    std::erase_if(hollow_, [&](std::uint32_t corner) {
+      const bool is_beside = corner == previous_[b] || corner == next_[b];
+      return corner == b || (is_beside && turn_at(corner) > 0.0);
+    });
+    return next_[b];
+  }
+
+  std::vector<Vec2> at_;
+  std::vector<std::uint32_t> next_, previous_;
+  std::vector<std::uint32_t> hollow_;  // the corners left at which the inside is not convex
+};
+
+std::uint32_t mean_rgb(const std::vector<std::uint32_t>& vertex_rgb,
+                       const std::array<std::uint32_t, 3>& face) {
+  std::uint32_t mean = 0;
+  for (const unsigned shift : {16U, 8U, 0U}) {
+    std::uint32_t sum = 1;  // rounds the third of it
+    for (const std::uint32_t v : face) sum += (vertex_rgb[v] >> shift) & 0xffU;
+    mean |= sum / 3 << shift;
+  }
+  return mean;
+}
+
+constexpr std::size_t kExactColours = 256;
+
+std::uint32_t channel_of(std::uint32_t rgb, unsigned shift) { return (rgb >> shift) & 0xffU; }
+
+std::uint32_t in_steps(std::uint32_t rgb) {
+  std::uint32_t out = 0;
+  for (const unsigned shift : {16U, 8U, 0U}) out |= (channel_of(rgb, shift) + 8) / 17 * 17 << shift;
+  return out;
+}
+
+bool are_few(std::span<const std::uint32_t> colours) {
+  std::set<std::uint32_t> found;
+  for (const std::uint32_t rgb : colours) {
+    found.insert(rgb);
+    if (found.size() > kExactColours) return false;
+  }
+  return true;
+}
+
+Material material_of(std::uint32_t rgb) {
+  const auto linear = [&](unsigned shift) {
+    return srgb_to_linear(static_cast<float>(channel_of(rgb, shift)) / 255.0F);
+  };
+  return {.name = fmt::format("colour_{:06x}", rgb), .rgb = {linear(16), linear(8), linear(0)}};
+}
+
+/// clear() would keep the memory.
+template <typename T>
+void give_back(std::vector<T>& used) {
+  std::vector<T>().swap(used);
+}
+
+void cut_faces(const PolygonMesh& polygons, TriangleMesh& mesh) {
+  const std::size_t count = polygons.corners.size() - 2 * polygons.face_ends.size();
+  mesh.faces.reserve(count);
+  mesh.face_material.reserve(count);
+  EarClipper clipper;
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < polygons.face_ends.size(); ++i) {
+    const auto corners = std::span(polygons.corners).subspan(begin, polygons.face_ends[i] - begin);
+    begin = polygons.face_ends[i];
+    clipper.cut(corners, polygons.vertices, mesh.faces);
+    mesh.face_material.resize(mesh.faces.size(),
+                              polygons.face_material.empty() ? 0 : polygons.face_material[i]);
+  }
+}
+
+}  // namespace
+
+std::uint32_t as_index(std::size_t count, const std::string& path) {
+  if (count >= std::numeric_limits<std::uint32_t>::max()) {
+    throw BadInput(fmt::format("{}: holds more vertices or corners than 32 bits number", path));
+  }
+  return static_cast<std::uint32_t>(count);
+}
+
+void take_colours(std::span<const std::uint32_t> face_rgb, std::vector<Material>& materials,
+                  std::vector<std::uint16_t>& face_material) {
+  const bool are_exact = are_few(face_rgb);
+  std::unordered_map<std::uint32_t, std::uint16_t> index_of;
+  materials.clear();
+  face_material.clear();
+  face_material.reserve(face_rgb.size());
+  for (const std::uint32_t file_rgb : face_rgb) {
+    const std::uint32_t rgb = are_exact ? file_rgb : in_steps(file_rgb);
+    const auto next = static_cast<std::uint16_t>(materials.size());
+    const auto [entry, is_new] = index_of.try_emplace(rgb, next);
+    if (is_new) materials.push_back(material_of(rgb));
+    face_material.push_back(entry->second);
+  }
+}
+
+TriangleMesh triangulated(PolygonMesh polygons) {
+  TriangleMesh mesh;
+  mesh.materials = std::move(polygons.materials);
+  cut_faces(polygons, mesh);
+  // each freed as soon as it is used, since large files are as large as the memory
+  give_back(polygons.corners);
+  give_back(polygons.face_ends);
+  give_back(polygons.face_material);
+  mesh.vertices_m.reserve(polygons.vertices.size());
+  for (const Vec3& p : polygons.vertices) mesh.vertices_m.push_back(p.cast<float>());
+  give_back(polygons.vertices);
+  if (polygons.vertex_rgb.empty()) return mesh;
+  std::vector<std::uint32_t> face_rgb;
+  face_rgb.reserve(mesh.faces.size());
+  for (const auto& face : mesh.faces) face_rgb.push_back(mean_rgb(polygons.vertex_rgb, face));
+  take_colours(face_rgb, mesh.materials, mesh.face_material);
+  return mesh;
+}
+
+}  // namespace gnbv
