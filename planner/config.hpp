@@ -6,15 +6,15 @@
 #include <string>
 #include <string_view>
 
+#include "planner/core/termination.hpp"
+#include "planner/core/view_validity.hpp"
+#include "planner/guided/utility.hpp"
+#include "planner/guided/view_sampling.hpp"
 #include "planner/map/config.hpp"
 #include "planner/profiling.hpp"
-#include "planner/routes.hpp"
+#include "planner/route/laid_views.hpp"
 #include "planner/symmetry/config.hpp"
-#include "planner/termination.hpp"
 #include "planner/tour/config.hpp"
-#include "planner/utility.hpp"
-#include "planner/view_sampling.hpp"
-#include "planner/view_validity.hpp"
 
 namespace gnbv {
 

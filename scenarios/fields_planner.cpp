@@ -1,4 +1,4 @@
-#include "planner/tour_planner.hpp"
+#include "planner/planners.hpp"
 #include "scenarios/fields.hpp"
 
 namespace gnbv {
@@ -147,19 +147,15 @@ void fields(FieldVisitor& v, ShadowConfig& c) {
   v.number("shadow_depth_m", c.shadow_depth_m, above_upto(0, 100), "Behind a hit, along its ray.");
 }
 
-void fields(FieldVisitor& v, OwnUtilityConfig& c) {
+void fields(FieldVisitor& v, UserUtilityConfig& c) {
   v.text("function", c.function, "Its name in the source.");
   v.text("source", c.source, "Python, all of it: as `--utility FILE.py:FUNCTION` put it here.");
 }
 
 void fields(FieldVisitor& v, UtilityConfig& c) {
   constexpr Range kWeight = between(0, 1e9);
-  std::vector<std::string_view> names = utility_names();
-  names.insert(names.end(), kRouteNames.begin(), kRouteNames.end());
-  names.insert(names.end(), kOracleNames.begin(), kOracleNames.end());
-  names.push_back(kGivenRouteName);
-  names.push_back(kTourName);
-  names.push_back(kOwnUtilityName);
+  std::vector<std::string_view> names = planner_names();
+  names.push_back(kUserUtilityName);
   v.choice("name", c.name, names,
            "What ranks the candidate views, a baseline's route, an oracle's, or your own.");
   v.number("alpha", c.alpha, kWeight, "Weight of information, Eq. (2).");

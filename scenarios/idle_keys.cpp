@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "planner/tour_planner.hpp"
+#include "planner/planners.hpp"
 #include "scenarios/write.hpp"
 
 namespace gnbv {
@@ -89,8 +89,8 @@ void add_formulas(const UtilityConfig& c, Idle& out) {
   only({"bircher"}, {"bircher_lambda_per_m"});
   only({"bircher", "isler"}, {"ig_counting", "hit_voxel", "prediction_hides_hits"});
   only({"bircher_volume"}, {"volume_weights"});
-  only({"proximity_count", "area_factor", kOwnUtilityName}, {"shadow"});
-  only({"proposed", "bircher", "bircher_volume", "aep", "nearest_frontier", kOwnUtilityName},
+  only({"proximity_count", "area_factor", kUserUtilityName}, {"shadow"});
+  only({"proposed", "bircher", "bircher_volume", "aep", "nearest_frontier", kUserUtilityName},
        {"distance"});
   const bool hides_hits = is_one_of(c.name, {"bircher", "isler"}) && c.prediction_hides_hits;
   if (!hides_hits) only({"proposed"}, {"gamma"});
@@ -98,8 +98,9 @@ void add_formulas(const UtilityConfig& c, Idle& out) {
 
 void add_decisions(const PlannerConfig& c, Idle& out) {
   const std::string& name = c.utility.name;
-  if (asks_no_utility(name) || is_tour(name)) {
-    const std::string why = is_tour(name)
+  const PlannerTraits planner = traits_of(c);
+  if (!planner.scores_views) {
+    const std::string why = planner.makes_tours
                                 ? "a tour weighs what its views bring by itself"
                                 : fmt::format("the views of {} are laid all at once", name);
     add(out, "planner", {"agvs", "fvs"}, why);
@@ -113,11 +114,11 @@ void add_decisions(const PlannerConfig& c, Idle& out) {
     add_formulas(c.utility, out);
   }
   const std::string why = fmt::format("planner.utility.name is {}", name);
-  if (!is_route(name)) add(out, "planner.routes", {"standoff_m"}, why);
-  if (name != "lawnmower") add(out, "planner.routes", {"overlap"}, why);
-  if (!is_given_route(name)) add(out, "planner.routes", {"views"}, why);
-  if (!is_own_utility(name)) add(out, "planner.utility", {"python"}, why);
-  if (!is_tour(name)) add(out, "planner", {"tour"}, why);
+  if (!planner.lays_views) add(out, "planner.routes", {"standoff_m"}, why);
+  if (!planner.spaces_rows) add(out, "planner.routes", {"overlap"}, why);
+  if (!planner.takes_views) add(out, "planner.routes", {"views"}, why);
+  if (!is_user_utility(name)) add(out, "planner.utility", {"python"}, why);
+  if (!planner.makes_tours) add(out, "planner", {"tour"}, why);
   if (c.validity.path == PathCheck::unchecked) {
     add(out, "planner.validity", {"path_search"}, "planner.validity.path is unchecked");
   }
@@ -129,10 +130,11 @@ void add_decisions(const PlannerConfig& c, Idle& out) {
 
 void add_termination(const PlannerConfig& c, Idle& out) {
   constexpr const char* kSection = "planner.termination";
-  if (is_tour(c.utility.name)) {
+  const PlannerTraits planner = traits_of(c);
+  if (planner.makes_tours) {
     add(out, kSection, {"entropy_change_percent", "entropy_window", "repeated_moves"},
         "a tour ends by itself");
-  } else if (is_oracle(c.utility.name) || is_given_route(c.utility.name)) {
+  } else if (planner.knows_structure || planner.takes_views) {
     add(out, kSection,
         {"entropy_change_percent", "entropy_window", "repeated_moves", "min_new_voxels_per_m",
          "new_voxels_window", "max_views_without_new_points"},

@@ -215,7 +215,7 @@ void check_map_thresholds(const OccupancyConfig& map, Problems& out) {
 }
 
 void check_utility(const UtilityConfig& utility, Problems& out) {
-  if (is_own_utility(utility.name) &&
+  if (is_user_utility(utility.name) &&
       (utility.python.function.empty() || utility.python.source.empty())) {
     out.push_back(
         {{"planner.utility.python", "planner.utility.name"},

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/view_validity.hpp"
+#include "planner/core/view_validity.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
 

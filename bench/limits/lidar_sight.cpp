@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "bench/limits/sight_search.hpp"
+#include "planner/core/view_validity.hpp"
 #include "planner/profiling.hpp"
-#include "planner/view_validity.hpp"
 #include "sensors/lidar_model.hpp"
 
 namespace gnbv {

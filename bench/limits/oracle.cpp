@@ -184,7 +184,7 @@ class Oracle {
       const double gain = find(survey_.views[view].finds);
       const int views = static_cast<int>(survey_.views.size());
       route.push_back({.view = pose_of(legal_, survey_.views[view]),
-                       .sampler = "oracle",
+                       .sampler = Sampler::oracle,
                        .candidates = views,
                        .valid = views,
                        .score = {.value = gain, .information = gain},
@@ -207,15 +207,6 @@ class Oracle {
   SurveyTask places_;
   CoverTask task_;
 };
-
-}  // namespace
-
-OracleAim aim_of(std::string_view utility_name) {
-  GNBV_CHECK(is_oracle(utility_name), "'{}' is no oracle", utility_name);
-  return utility_name == "oracle_views" ? OracleAim::views : OracleAim::metres;
-}
-
-namespace {
 
 /// Calls use(oracle) with what it has to know.
 template <typename Use>

@@ -2,10 +2,9 @@
 #pragma once
 
 #include <array>
-#include <string_view>
 #include <vector>
 
-#include "planner/decision.hpp"
+#include "planner/core/plan.hpp"
 #include "scenarios/scenario.hpp"
 #include "sensors/ray_scene.hpp"
 #include "sim/mesh/world.hpp"
@@ -13,9 +12,6 @@
 namespace gnbv {
 
 enum class OracleAim { views, metres };
-
-/// Of "oracle_views" and "oracle_metres"; requires is_oracle(utility_name).
-OracleAim aim_of(std::string_view utility_name);
 
 /// Which share of the leaf ceiling's finest outside voxels the views are to find.
 constexpr double kOracleShare = 0.99;

@@ -17,7 +17,7 @@ void expect_one_result(const Scenario& scenario) {
   const std::string hash = result_sha256(whole.result);
   EXPECT_EQ(result_sha256(Flown(scenario, {}, 3).result), hash);
   ASSERT_GE(whole.result.views.size(), 4U) << name_of(whole.result.termination);
-  MissionHooks resumed;
+  MissionInputs resumed;
   for (std::size_t i = 0; i < 3; ++i) {
     resumed.replay.push_back(whole.result.views[i].decision);
   }

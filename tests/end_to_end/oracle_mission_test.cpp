@@ -32,16 +32,17 @@ const std::vector<Decision>& route_of(const std::string& utility) {
     std::vector<std::string> warnings;
     const World world = load_world(scenario, warnings);
     const RayScene scene(world);
-    routes[utility] =
-        plan_oracle(scenario, world, scene, start_pose(scenario, scene), aim_of(utility), 2);
+    const OracleAim aim =
+        traits_of(scenario.planner).counts_metres ? OracleAim::metres : OracleAim::views;
+    routes[utility] = plan_oracle(scenario, world, scene, start_pose(scenario, scene), aim, 2);
   }
   return routes[utility];
 }
 
-MissionHooks with_route(const std::string& utility) {
-  MissionHooks hooks;
-  hooks.route = route_of(utility);
-  return hooks;
+MissionInputs with_route(const std::string& utility) {
+  MissionInputs inputs;
+  inputs.sources.route = route_of(utility);
+  return inputs;
 }
 
 class OracleMission : public testing::TestWithParam<const char*> {};
@@ -55,7 +56,7 @@ TEST_P(OracleMission, FliesItsWholeRouteAndFindsNearlyAll) {
   for (std::size_t i = 1; i < flight.result.views.size(); ++i) {
     const Decision& flown = flight.result.views[i].decision;
     EXPECT_EQ(flown.view.p_world_m, route_of(utility)[i - 1].view.p_world_m);
-    EXPECT_EQ(flown.sampler, "oracle");
+    EXPECT_EQ(flown.sampler, Sampler::oracle);
   }
   const SurfaceReference reference = make_surface_reference(
       flight.world, flight.scene, {.floor_z_m = flight.scenario.planner.floor_z_m}, 2);
@@ -81,7 +82,7 @@ TEST_P(OracleMission, ResumedEqualsTheUninterruptedOne) {
             Termination::interrupted);
   const std::vector<Decision> recorded = read_decisions(temp.path() / "run/iterations.csv.part");
   ASSERT_EQ(recorded.size(), 4U);
-  EXPECT_EQ(recorded[3].sampler, "oracle");
+  EXPECT_EQ(recorded[3].sampler, Sampler::oracle);
   EXPECT_EQ(recorded[3].score.value, route_of(utility)[2].score.value);
   const MissionResult resumed = fly_into(run, scenario, true, kNeverStops, with_route(utility));
   EXPECT_EQ(result_sha256(resumed), result_sha256(Flown(scenario, with_route(utility), 1).result));
@@ -94,9 +95,9 @@ TEST(OracleRoute, WithoutOneTheMissionIsRefused) {
 }
 
 TEST(OracleRoute, EmptyEndsAfterTheFirstView) {
-  MissionHooks hooks;
-  hooks.route.emplace();
-  const Flown flight(oracle_smoke("oracle_views"), hooks);
+  MissionInputs inputs;
+  inputs.sources.route.emplace();
+  const Flown flight(oracle_smoke("oracle_views"), inputs);
   EXPECT_EQ(flight.result.termination, Termination::route_flown);
   EXPECT_EQ(flight.result.views.size(), 1U);
 }

@@ -6,12 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "planner/utility.hpp"
+#include "planner/guided/utility.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tests/support/at_simd_level.hpp"
 #include "tests/support/flown.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tests/support/watch.hpp"
 #include "tools/mission/belief_log.hpp"
 #include "tools/run_files/candidates_jsonl.hpp"
 #include "tools/run_files/iterations_csv.hpp"
@@ -22,14 +23,17 @@ namespace {
 
 TEST(PlannerMission, EveryUtilityFliesWithoutACollision) {
   std::vector<std::string_view> names = utility_names();
-  names.insert(names.end(), kRouteNames.begin(), kRouteNames.end());
+  const auto laid = planners_that(&PlannerTraits::lays_views);
+  names.insert(names.end(), laid.begin(), laid.end());
   EXPECT_GE(names.size(), 17U);
   for (const std::string_view name : names) {
     const Flown flight(smoke(
         {fmt::format("planner.utility.name={}", name), "planner.termination.max_iterations=5"}));
     EXPECT_NE(flight.result.termination, Termination::collision) << name;
     EXPECT_GE(flight.result.views.size(), 2U) << name;
-    EXPECT_EQ(flight.result.views.back().decision.sampler == "route", is_route(name)) << name;
+    EXPECT_EQ(flight.result.views.back().decision.sampler == Sampler::route,
+              traits_of(flight.scenario.planner).lays_views)
+        << name;
   }
 }
 
@@ -54,9 +58,9 @@ TEST(PlannerMission, ASavedProfileIsTakenUpWhereItEnded) {
   // the ideal vehicle stands still where it is, however it came there
   const TempFolder folder;
   const std::filesystem::path file = folder.path() / "profile.map";
-  MissionHooks hooks;
-  hooks.on_profile_belief = [&](const Belief& belief) { write_belief(belief, file); };
-  const Flown flown(smoke({"vehicle.kind=ideal"}), hooks);
+  Watch watch;
+  watch.profile_belief = [&](const Belief& belief) { write_belief(belief, file); };
+  const Flown flown(smoke({"vehicle.kind=ideal"}), {.observers = {&watch}});
   const Flown saved(smoke({"vehicle.kind=ideal", "planner.profiling.method=saved",
                            fmt::format("planner.profiling.file='{}'", file.string())}));
   EXPECT_EQ(saved.result.distance.profile_m, 0.0);
@@ -86,9 +90,7 @@ TEST(PlannerMission, FliesByThePointsOnTheWay) {
   const Vec3 from_m = recorded[0].view.p_world_m;
   const Vec3 via_m = from_m + Vec3(0.0, 0.0, 1.0);
   recorded[1].via_world_m = {via_m};
-  MissionHooks hooks;
-  hooks.replay = recorded;
-  const Flown around(scenario, hooks);
+  const Flown around(scenario, {.replay = recorded});
   const double way_m = 1.0 + (recorded[1].view.p_world_m - via_m).norm();
   EXPECT_NEAR(around.result.distance.straight_m, way_m, 0.05);  // from where the profile left it
   EXPECT_NEAR(around.result.distance.flown_m, way_m, 0.1);
@@ -104,12 +106,12 @@ std::string candidates_of(const std::filesystem::path& folder, const std::vector
                           std::size_t stop_after) {
   CandidatesFile file(folder, replay.size());
   std::size_t views = 0;
-  MissionHooks hooks;
-  hooks.replay = replay;
-  hooks.on_view = [&](const ViewRecord&) { ++views; };
-  hooks.should_stop = [&] { return views >= stop_after; };
-  hooks.on_candidates = [&](const auto&... all) { file.write(all...); };
-  const Flown flown(smoke({"planner.termination.max_iterations=6"}), hooks);
+  Watch watch;
+  watch.view = [&](const ViewRecord&, const Belief&) { ++views; };
+  watch.plan = [&](const auto&... all) { file.write(all...); };
+  const MissionInputs inputs = {
+      .observers = {&watch}, .should_stop = [&] { return views >= stop_after; }, .replay = replay};
+  const Flown flown(smoke({"planner.termination.max_iterations=6"}), inputs);
   file.finish();
   return read_file(folder / "candidates.jsonl");
 }
@@ -158,23 +160,22 @@ struct Believed {
   explicit Believed(const std::vector<std::string>& overrides) {
     const TempFolder folder;
     const Scenario scenario = smoke(overrides);
-    const PlannerModel model(scenario.planner, scenario.workspace_m, camera_models(scenario), {});
+    const PlannerModel model = planner_model(scenario);
     const Belief* belief = nullptr;
     counted.emplace_back();  // the start
     asked_fvs.push_back(false);
-    MissionHooks hooks;
-    hooks.on_view_belief = [&](const Belief& now) { belief = &now; };
-    hooks.on_candidates = [&](std::size_t, const Plan& plan) {
-      if (!plan.next) return;
+    Watch watch;
+    watch.view = [&](const ViewRecord&, const Belief& now) { belief = &now; };
+    watch.plan = [&](std::size_t, const Plan& plan) {
+      if (!plan.has_view()) return;
       VisitMarks marks(belief->grid.geometry().voxel_count());
-      const ViewPose& view = plan.next->view;
+      const ViewPose& view = plan.next().view;
       counted.push_back(evaluate_view(belief->grid, belief->cloud,
                                       model.rays_at(view.gimbal_pitch_rad), view, marks));
-      asked_fvs.push_back(plan.candidates.at(plan.chosen.value()).cluster >= 0);
+      asked_fvs.push_back(plan.candidates.at(plan.chosen.at(0)).cluster >= 0);
     };
     BeliefLog log(scenario, folder.path(), 0);
-    log.connect(hooks);
-    const Flown flown(scenario, hooks);
+    const Flown flown(scenario, {.observers = {&watch, &log}});
     log.finish();
     sha256 = result_sha256(flown.result);
     views = read_beliefs(folder.path(), flown.result.views.size(),
@@ -193,17 +194,17 @@ TEST(BeliefLog, HasTheVoxelsThatThePlannerCounted) {
 
 TEST(BeliefLog, HasThePredictedVoxelsThatRaysMeetFirst) {
   const Scenario scenario = smoke();
-  const PlannerModel model(scenario.planner, scenario.workspace_m, camera_models(scenario), {});
+  const PlannerModel model = planner_model(scenario);
   Belief belief(model);
   const std::size_t count = belief.grid.geometry().voxel_count();
   for (VoxelIndex v = 0; v < count; v += 3) belief.grid.predict(v);
   Plan plan;
-  plan.next = Decision{.view = {Vec3(0, 0, 2), 0.5}};
+  plan.views = {{.view = {Vec3(0, 0, 2), 0.5}}};
   FrontierMarks marks(count);
-  const BelievedVoxels voxels = believed_voxels(model, belief, plan, marks);
+  const BelievedVoxels voxels = believed_voxels(model, {}, belief, plan, marks);
   VisitMarks visits(count);
   const ViewStats counted =
-      evaluate_view(belief.grid, belief.cloud, model.rays_at(0.0), plan.next->view, visits);
+      evaluate_view(belief.grid, belief.cloud, model.rays_at(0.0), plan.next().view, visits);
   EXPECT_EQ(voxel_count(voxels.predicted), counted.predicted_voxels);
   EXPECT_EQ(voxel_count(voxels.unknown), counted.unknown_voxels);
   EXPECT_GT(counted.predicted_voxels, 0U);
@@ -211,15 +212,15 @@ TEST(BeliefLog, HasThePredictedVoxelsThatRaysMeetFirst) {
 
 TEST(BeliefLog, HasTheClusterThatTheDecisionSaysItLookedAt) {
   const Scenario scenario = smoke();
-  const PlannerModel model(scenario.planner, scenario.workspace_m, camera_models(scenario), {});
+  const PlannerModel model = planner_model(scenario);
   const Belief belief(model);
   Plan plan;
-  plan.next = Decision{.view = {Vec3(0, 0, 2), 0.5}};
-  plan.candidates = {{.view = plan.next->view, .sampler = "fvs", .cluster = 1}};
-  plan.chosen = 0;
+  plan.views = {{.view = {Vec3(0, 0, 2), 0.5}}};
+  plan.candidates = {{.view = plan.next().view, .sampler = Sampler::fvs, .cluster = 1}};
+  plan.chosen = {0};
   plan.clusters = {{.voxels = {3, 4}}, {.voxels = {7, 9}}};  // in whatever order they were tried
   FrontierMarks marks(belief.grid.geometry().voxel_count());
-  EXPECT_EQ(believed_voxels(model, belief, plan, marks).looked_at,
+  EXPECT_EQ(believed_voxels(model, {}, belief, plan, marks).looked_at,
             runs_of(plan.clusters[1].voxels));
 }
 
@@ -241,14 +242,14 @@ TEST(BeliefLog, HasFrontiersWhereViewsWereSampledAroundThem) {
 TEST(IterationsCsv, KeepsTheWayToAView) {
   const TempFolder folder;
   ViewRecord view;
-  view.decision.sampler = "fvs";
+  view.decision.sampler = Sampler::fvs;
   view.decision.via_world_m = {Vec3(1.0 / 3.0, -2, 3), Vec3(4, 5e-7, 6)};
   write_file_atomically(folder.path() / "i.csv",
                         iterations_csv_header() + iterations_csv_row(view));
   const std::vector<Decision> read = read_decisions(folder.path() / "i.csv");
   ASSERT_EQ(read.size(), 1U);
   EXPECT_EQ(read[0].via_world_m, view.decision.via_world_m);
-  EXPECT_EQ(read[0].sampler, "fvs");
+  EXPECT_EQ(read[0].sampler, Sampler::fvs);
 }
 
 }  // namespace

@@ -8,11 +8,12 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "planner/utility.hpp"
+#include "planner/guided/utility.hpp"
 #include "scenarios/load.hpp"
 #include "tests/support/random_structures.hpp"
 #include "tests/support/reachable_frontier.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tests/support/watch.hpp"
 #include "tools/mission/auto_bounds.hpp"
 #include "tools/mission/mission.hpp"
 #include "tools/run_files/profile_map.hpp"
@@ -48,11 +49,11 @@ class Site {
       : scenario(coarse_scenario(structure.mesh)),
         world_{.structure = structure.mesh, .has_ground = true},
         scene_(world_) {
-    MissionHooks hooks;
+    Watch watch;
     Scenario profile = scenario;
     profile.planner.termination.max_iterations = 1;
-    hooks.on_profile_belief = [&](const Belief& belief) { write_belief(belief, profile_file()); };
-    run_mission(profile, world_, scene_, hooks, 2);
+    watch.profile_belief = [&](const Belief& belief) { write_belief(belief, profile_file()); };
+    run_mission(profile, world_, scene_, {.observers = {&watch}}, 2);
     scenario.planner.profiling.method = ProfilingMethod::saved;
     scenario.planner.profiling.file = profile_file();
   }
@@ -63,12 +64,7 @@ class Site {
   }
 
   /// As run_mission() makes it.
-  PlannerModel planner() const {
-    std::vector<CameraModel> cameras;
-    for (const CameraConfig& camera : scenario.cameras)
-      cameras.push_back(make_camera_model(camera));
-    return {scenario.planner, scenario.workspace_m, cameras, {}, scenario.seed};
-  }
+  PlannerModel planner() const { return planner_model(scenario); }
 
   Scenario scenario;
 
@@ -81,12 +77,13 @@ class Site {
 };
 
 /// The view that the mission should have gone on with; nothing if it was right to end.
-std::optional<ViewPose> missed_view(const PlannerModel& planner, const MissionResult& result) {
+std::optional<ViewPose> missed_view(const PlannerModel& planner, const FrontierConfig& frontier,
+                                    const MissionResult& result) {
   constexpr double kStep_m = 1.0;
   std::vector<ViewPose> taken;
   for (const ViewRecord& view : result.views) taken.push_back(view.decision.view);
   return view_of_a_frontier(
-      planner, result.belief,
+      planner, frontier, result.belief,
       reachable_places(planner, result.belief, taken.back().p_world_m, kStep_m), taken);
 }
 
@@ -121,7 +118,9 @@ TEST_P(RandomMission, GoesOnWhileAFrontierCanBeReached) {
       if (utility == "random") continue;  // reads no map
       const MissionResult result = site.fly(utility);
       std::optional<ViewPose> missed;
-      if (result.views.size() < kViews) missed = missed_view(site.planner(), result);
+      if (result.views.size() < kViews) {
+        missed = missed_view(site.planner(), site.scenario.planner.fvs.frontier, result);
+      }
       EXPECT_NE(result.termination, Termination::collision) << r.name() << ' ' << utility;
       EXPECT_FALSE(missed) << fmt::format(
           "{}, {}: ended by {} after {} views, but a frontier is seen from [{:.2f}, {:.2f}, "

@@ -12,6 +12,7 @@
 #include "sim/flight/rotors.hpp"
 #include "tests/support/flown.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tests/support/watch.hpp"
 #include "tools/run_files/frames_folder.hpp"
 
 namespace gnbv {
@@ -113,13 +114,13 @@ TEST(FramesOfARun, HoldWhatTheCamerasSaw) {
   const Scenario scenario = smoke(short_mission({}));
   FramesFolder files(temp.path(), camera_models(scenario));
   std::vector<float> first_depth_m;
-  MissionHooks hooks;
-  hooks.on_frames = [&](std::size_t iteration, double time_s, std::span<const DepthFrame> depth,
-                        std::span<const ColourFrame> colour) {
-    if (iteration == 0) first_depth_m = depth[0].depth_m;
-    files.write(iteration, time_s, depth, colour);
+  Watch watch;
+  watch.colour = true;
+  watch.sensed = [&](const SensedView& view) {
+    if (view.iteration == 0) first_depth_m = view.depth[0].depth_m;
+    files.write(view.iteration, view.time_s, view.depth, view.colour);
   };
-  const Flown flight(scenario, hooks);
+  const Flown flight(scenario, {.observers = {&watch}});
   std::set<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(temp.path() / "frames")) {
     names.insert(entry.path().filename());

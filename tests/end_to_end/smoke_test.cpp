@@ -135,9 +135,7 @@ TEST(ResumedMission, FliesWhatWasRecordedAndDoesNotPlanItAgain) {
     recorded.push_back(smoke_flight().result.views[i].decision);
   }
   recorded[1].view.yaw_rad = wrap_angle_rad(recorded[1].view.yaw_rad + 0.1);
-  MissionHooks hooks;
-  hooks.replay = recorded;
-  const Flown flight(smoke({"planner.termination.max_iterations=2"}), hooks);
+  const Flown flight(smoke({"planner.termination.max_iterations=2"}), {.replay = recorded});
   EXPECT_EQ(flight.result.views[1].decision.view.yaw_rad, recorded[1].view.yaw_rad);
 }
 

@@ -6,11 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/score/surface_reference.hpp"
-#include "planner/model.hpp"
+#include "planner/core/model.hpp"
 #include "sim/core/file.hpp"
 #include "tests/bench/shapes.hpp"
 #include "tests/support/flown.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tests/support/watch.hpp"
 #include "tools/mission/coverage_goal.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/mission/reference.hpp"
@@ -24,26 +25,26 @@ const MissionResult& whole() {
   return kFlight.result;
 }
 
-MissionResult fly(const std::string& set, const MissionHooks& hooks = {}) {
-  return Flown(smoke({set}), hooks).result;
+MissionResult fly(const std::string& set, const MissionInputs& inputs = {}) {
+  return Flown(smoke({set}), inputs).result;
 }
 
 /// Flies the same again with the first of the recorded views replayed.
 void expect_same_when_resumed(const std::string& set, const MissionResult& flown,
-                              MissionHooks hooks = {}) {
+                              MissionInputs inputs = {}) {
   for (std::size_t i = 0; i < flown.views.size() / 2; ++i) {
-    hooks.replay.push_back(flown.views[i].decision);
+    inputs.replay.push_back(flown.views[i].decision);
   }
-  const MissionResult resumed = fly(set, hooks);
+  const MissionResult resumed = fly(set, inputs);
   EXPECT_EQ(resumed.termination, flown.termination);
   EXPECT_EQ(result_sha256(resumed), result_sha256(flown));
 }
 
 TEST(Stop, IsHonouredWithinALeg) {
   int asked = 0;
-  MissionHooks hooks;
-  hooks.should_stop = [&] { return ++asked > 25; };  // 0.1 s of flight
-  const MissionResult flown = fly("guidance.profile_speed_m_s=0.2", hooks);
+  const MissionResult flown = fly("guidance.profile_speed_m_s=0.2", {.should_stop = [&] {
+                                    return ++asked > 25;  // 0.1 s of flight
+                                  }});
   EXPECT_EQ(flown.termination, Termination::interrupted);
   EXPECT_LT(flown.flight_time_s, 1.0);
 }
@@ -75,13 +76,13 @@ TEST(MaxFlightTime, EndsInFlightAtThatTick) {
 
 TEST(LowGain, EndsWhereTheRecordsMetresAndTheMapsVoxelsSaySo) {
   std::vector<double> occupied;
-  MissionHooks hooks;
-  hooks.on_view_belief = [&](const Belief& belief) {
+  Watch watch;
+  watch.view = [&](const ViewRecord&, const Belief& belief) {
     occupied.push_back(static_cast<double>(belief.grid.occupied_count()));
   };
   const std::string set =
       "planner.termination={min_new_voxels_per_m: 10, new_voxels_window: 2, max_iterations: 12}";
-  const MissionResult flown = fly(set, hooks);
+  const MissionResult flown = fly(set, {.observers = {&watch}});
   EXPECT_EQ(flown.termination, Termination::low_gain);
   ASSERT_GT(flown.views.size(), 3U);
   for (std::size_t i = 2; i < flown.views.size(); ++i) {
@@ -124,9 +125,8 @@ TEST(StopAtCoverage, EndsAtTheFirstViewAfterWhichTheScoreHasIt) {
   const World world = load_world(scenario, warnings);
   const RayScene scene(world);
   const SurfaceReference reference = reference_of(scenario, world, scene, 2);
-  MissionHooks hooks;
-  hooks.is_covered = coverage_goal(scenario.benchmark, reference, scene);
-  expect_same_when_resumed(set, mission.result, hooks);
+  expect_same_when_resumed(set, mission.result,
+                           {.is_covered = coverage_goal(scenario.benchmark, reference, scene)});
 }
 
 TEST(StopAtCoverage, CountsNoPointOfAnObstacle) {
@@ -134,14 +134,14 @@ TEST(StopAtCoverage, CountsNoPointOfAnObstacle) {
   World world;
   test::add_sheet(world.structure, Vec3(2.04, -1, 1), Vec3(0, 2, 0), Vec3(0, 0, 2));
   const SurfaceReference reference = make_surface_reference(world, RayScene(world), {}, 2);
-  const PlannerModel model({}, Box3(Vec3(-4, -4, 0), Vec3(4, 4, 4)), {}, {});
+  const PlannerModel model({}, {}, Box3(Vec3(-4, -4, 0), Vec3(4, 4, 4)), {}, {});
   const auto is_covered_by = [&](double x) {
     Belief belief(model);
     std::vector<Vec3f> points;
     for (double z = 1.01; z < 3.0; z += 0.025) {
       for (double y = -0.99; y < 1.0; y += 0.025) points.push_back(Vec3(x, y, z).cast<float>());
     }
-    belief.cloud.add(points, model.config.cloud.leaf_m);
+    belief.cloud.add(points, model.belief.cloud.leaf_m);
     const RayScene scene(world);
     return coverage_goal({.stop_at_coverage = 0.9}, reference, scene)(belief);
   };

@@ -7,6 +7,7 @@
 #include "planner/map/clearance.hpp"
 #include "sim/core/error.hpp"
 #include "tests/support/flown.hpp"
+#include "tests/support/watch.hpp"
 #include "tools/run_files/plan_jsonl.hpp"
 #include "tools/run_files/run_record.hpp"
 
@@ -25,7 +26,7 @@ TEST(TourMission, IsTheSameAtAnyNumberOfThreadsAndResumed) {
   EXPECT_EQ(result_sha256(Flown(scenario, {}, 3).result), hash);
   ASSERT_GE(whole.result.views.size(), 6U) << name_of(whole.result.termination);
   for (const std::size_t views : {2U, 5U}) {
-    MissionHooks resumed;
+    MissionInputs resumed;
     for (std::size_t i = 0; i < views; ++i) {
       resumed.replay.push_back(whole.result.views[i].decision);
     }
@@ -43,7 +44,7 @@ TEST(TourMission, IsTheSameInAWorldWithAGimbalAndLostFrames) {
             "obstacles=[{box_m: {min: [-2.6, 1.5, 0], max: [-2, 2.1, 1]}}]"});
   const Flown whole(scenario, {}, 1);
   ASSERT_GE(whole.result.views.size(), 5U) << name_of(whole.result.termination);
-  MissionHooks resumed;
+  MissionInputs resumed;
   for (std::size_t i = 0; i < 4; ++i) {
     resumed.replay.push_back(whole.result.views[i].decision);
   }
@@ -59,7 +60,7 @@ TEST(TourMission, IsTheSameInAWorldWithAGimbalAndLostFrames) {
 
 TEST(TourMission, ARecordOfOtherViewsIsNotResumed) {
   const Scenario scenario = tour({"planner.termination.max_iterations=4"});
-  MissionHooks resumed;
+  MissionInputs resumed;
   for (const ViewRecord& view : Flown(scenario).result.views) {
     resumed.replay.push_back(view.decision);
   }
@@ -104,16 +105,18 @@ TEST(TourMission, FliesWhatItPlansAndSaysSoOutsideTheResult) {
 
 TEST(TourMission, FliesEachLegThroughSpaceKnownToBeFree) {
   const Scenario scenario = tour({"planner.termination.max_iterations=12"});
-  MissionHooks hooks;
+  Watch watch;
   std::size_t legs = 0;
   const Belief* believed = nullptr;
   Vec3 at_m = Vec3::Zero();
-  hooks.on_view = [&](const ViewRecord& view) { at_m = view.decision.view.p_world_m; };
-  hooks.on_view_belief = [&](const Belief& belief) { believed = &belief; };
-  hooks.on_candidates = [&](std::size_t, const Plan& plan) {
-    if (!plan.next || believed == nullptr) return;
-    std::vector<Vec3> points_m = plan.next->via_world_m;
-    points_m.push_back(plan.next->view.p_world_m);
+  watch.view = [&](const ViewRecord& view, const Belief& belief) {
+    at_m = view.decision.view.p_world_m;
+    believed = &belief;
+  };
+  watch.plan = [&](std::size_t, const Plan& plan) {
+    if (!plan.has_view() || believed == nullptr) return;
+    std::vector<Vec3> points_m = plan.next().via_world_m;
+    points_m.push_back(plan.next().view.p_world_m);
     Vec3 from_m = at_m;
     for (const Vec3& to_m : points_m) {
       EXPECT_TRUE(is_line_free(believed->grid, from_m, to_m));
@@ -123,7 +126,7 @@ TEST(TourMission, FliesEachLegThroughSpaceKnownToBeFree) {
       ++legs;
     }
   };
-  const Flown flown(scenario, hooks);
+  const Flown flown(scenario, {.observers = {&watch}});
   EXPECT_GE(legs, 6U);
 }
 
@@ -131,17 +134,18 @@ TEST(TourMission, FliesAroundABoxWhereNobodyMayFly) {
   const Scenario scenario = tour({"planner.termination.max_iterations=60",
                                   "no_fly=[{min: [1.7, -4, 0], max: [1.9, 4, 2.6]}]"});
   const NoFly no_fly = no_fly_of(scenario);
-  MissionHooks hooks;
+  Watch watch;
   Vec3 at_m = Vec3::Zero();
   std::size_t ways_around = 0;
-  hooks.on_view = [&](const ViewRecord& view) { at_m = view.decision.view.p_world_m; };
-  hooks.on_candidates = [&](std::size_t, const Plan& plan) {
-    if (!plan.next || no_fly.allows_leg(at_m, plan.next->view.p_world_m)) return;
-    EXPECT_FALSE(plan.next->via_world_m.empty());
-    EXPECT_GT(plan.candidates.at(*plan.chosen).path_m, (plan.next->view.p_world_m - at_m).norm());
+  watch.view = [&](const ViewRecord& view, const Belief&) { at_m = view.decision.view.p_world_m; };
+  watch.plan = [&](std::size_t, const Plan& plan) {
+    if (!plan.has_view() || no_fly.allows_leg(at_m, plan.next().view.p_world_m)) return;
+    EXPECT_FALSE(plan.next().via_world_m.empty());
+    EXPECT_GT(plan.candidates.at(plan.chosen.at(0)).path_m,
+              (plan.next().view.p_world_m - at_m).norm());
     ++ways_around;
   };
-  const Flown flown(scenario, hooks);
+  const Flown flown(scenario, {.observers = {&watch}});
   EXPECT_GT(ways_around, 0U);
   EXPECT_EQ(flown.result.termination, Termination::tour_complete);
 }

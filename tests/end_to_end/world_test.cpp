@@ -143,10 +143,10 @@ TEST(NoFlyMission, AnOracleKeepsOutToo) {
   std::vector<std::string> warnings;
   const World world = load_world(scenario, warnings);
   const RayScene scene(world);
-  MissionHooks hooks;
-  hooks.route =
+  MissionInputs inputs;
+  inputs.sources.route =
       plan_oracle(scenario, world, scene, start_pose(scenario, scene), OracleAim::metres, 2);
-  const Flown flown(scenario, hooks);
+  const Flown flown(scenario, inputs);
   EXPECT_GE(flown.result.views.size(), 2U);
   expect_clear_of(flown, box_m, scenario.planner.validity.collision_radius_m);
 }
@@ -160,7 +160,7 @@ TEST(NoFlyMission, IsTheSameOnAnyNumberOfThreadsAndFlownAgain) {
   const std::vector<std::string> both = {kNoFlyEast, kScreen};
   const Flown two(smoke(both));
   EXPECT_EQ(result_sha256(Flown(smoke(both), {}, 1).result), result_sha256(two.result));
-  MissionHooks again;
+  MissionInputs again;
   for (std::size_t i = 0; i < two.result.views.size() / 2; ++i) {
     again.replay.push_back(two.result.views[i].decision);
   }

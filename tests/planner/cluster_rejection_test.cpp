@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "planner/core/view_validity.hpp"
 #include "planner/map/frontiers.hpp"
-#include "planner/view_validity.hpp"
 #include "sensors/camera_model.hpp"
 
 namespace gnbv {

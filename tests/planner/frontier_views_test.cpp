@@ -9,22 +9,22 @@ namespace gnbv {
 namespace {
 
 TEST(FrontierViews, LooksAtTheNearestFrontierWhereEntropyStandsStill) {
-  const PlannerModel model = small_model();
-  Belief belief = wall_ahead(model, everywhere);
+  const SmallPlanner planner;
+  Belief belief = wall_ahead(planner, everywhere);
   sample_thinly(belief);
-  const Plan at_minimum = full_plan(model, belief, still_history());
-  ASSERT_TRUE(at_minimum.next);
-  EXPECT_EQ(at_minimum.next->sampler, "fvs");
+  const Plan at_minimum = planner.plan(belief, still_history());
+  ASSERT_TRUE(at_minimum.has_view());
+  EXPECT_EQ(at_minimum.next().sampler, Sampler::fvs);
   // before the wall, at the cylinder's radius, looking at it
-  EXPECT_NEAR(at_minimum.next->view.p_world_m.x(), 6.1 - 3.5, 1e-6);
-  EXPECT_NEAR(at_minimum.next->view.yaw_rad, 0.0, 1e-9);
-  EXPECT_EQ(full_plan(model, belief, {}).next->sampler, "agvs");  // and back
+  EXPECT_NEAR(at_minimum.next().view.p_world_m.x(), 6.1 - 3.5, 1e-6);
+  EXPECT_NEAR(at_minimum.next().view.yaw_rad, 0.0, 1e-9);
+  EXPECT_EQ(planner.plan(belief, {}).next->sampler, Sampler::agvs);  // and back
 }
 
 /// A wall ahead, all of it a frontier, and a lone frontier of five voxels at `lone_m`, nearer.
-Belief wall_and_lone_frontier(const PlannerModel& model, const Vec3& lone_m,
+Belief wall_and_lone_frontier(const SmallPlanner& planner, const Vec3& lone_m,
                               const std::function<bool(const Vec3&)>& is_known) {
-  Belief belief = wall_ahead(model, is_known);
+  Belief belief = wall_ahead(planner, is_known);
   const GridGeometry& grid = belief.grid.geometry();
   ScanUpdate update;
   for (int i = -2; i <= 2; ++i) {
@@ -37,12 +37,12 @@ Belief wall_and_lone_frontier(const PlannerModel& model, const Vec3& lone_m,
 }
 
 /// Frontiers all around the current position: a closed box of them, all else free.
-Belief shell_of_frontiers(const PlannerModel& model) {
+Belief shell_of_frontiers(const SmallPlanner& planner) {
   const auto in_shell = [](const Vec3& p_m) {
     const double distance_m = (p_m - kCurrent.p_world_m).cwiseAbs().maxCoeff();
     return distance_m > 2.9 && distance_m < 3.15;
   };
-  Belief belief(model);
+  Belief belief(planner.model());
   ScanUpdate update;
   const GridGeometry& grid = belief.grid.geometry();
   for (VoxelIndex v = 0; v < grid.voxel_count(); ++v) {
@@ -54,8 +54,8 @@ Belief shell_of_frontiers(const PlannerModel& model) {
 }
 
 /// Where nothing but the frontiers' own views may be taken.
-PlannerModel model_with_fvs(const std::function<void(FvsConfig&)>& change) {
-  return model_with([&](PlannerConfig& c) {
+SmallPlanner model_with_fvs(const std::function<void(FvsConfig&)>& change) {
+  return SmallPlanner([&](PlannerConfig& c) {
     c.fvs.agvs_when_stuck = false;
     change(c.fvs);
   });
@@ -64,32 +64,32 @@ PlannerModel model_with_fvs(const std::function<void(FvsConfig&)>& change) {
 TEST(FrontierViews, FvsTriesOneClusterAfterTheOther) {
   // all views of the lone frontier stand in unmeasured space; those of the wall do not
   const auto plan_with = [](int tries) {
-    const PlannerModel model = model_with_fvs([&](FvsConfig& fvs) { fvs.tries = tries; });
-    const Belief belief = wall_and_lone_frontier(model, Vec3(-2.1, 0.1, 4.1),
+    const SmallPlanner planner = model_with_fvs([&](FvsConfig& fvs) { fvs.tries = tries; });
+    const Belief belief = wall_and_lone_frontier(planner, Vec3(-2.1, 0.1, 4.1),
                                                  [](const Vec3& p_m) { return p_m.x() > 2.0; });
-    return full_plan(model, belief, still_history());
+    return planner.plan(belief, still_history());
   };
   const Plan one = plan_with(1);
-  EXPECT_FALSE(one.next);
+  EXPECT_FALSE(one.has_view());
   ASSERT_EQ(one.candidates.size(), 12U);
   for (const Candidate& c : one.candidates) EXPECT_EQ(c.rejected, Rejection::not_free);
   for (const int tries : {2, 50}) {
     const Plan more = plan_with(tries);
-    ASSERT_TRUE(more.next);
+    ASSERT_TRUE(more.has_view());
     ASSERT_EQ(more.candidates.size(), 24U);  // and no third cluster
-    EXPECT_EQ(more.candidates[*more.chosen].cluster, 1);
-    EXPECT_EQ(more.next->candidates, 12);
-    EXPECT_NEAR(more.next->view.p_world_m.x(), 6.1 - 3.5, 1e-6);
+    EXPECT_EQ(more.candidates[more.chosen.front()].cluster, 1);
+    EXPECT_EQ(more.next().candidates, 12);
+    EXPECT_NEAR(more.next().view.p_world_m.x(), 6.1 - 3.5, 1e-6);
   }
 }
 
 TEST(FrontierViews, FvsLeavesWhatWasLookedAtOftenEnough) {
-  const PlannerModel model = model_with_fvs([](FvsConfig& fvs) { fvs.looks_max = 2; });
-  const Belief belief = wall_and_lone_frontier(model, Vec3(-2.1, 0.1, 4.1),
+  const SmallPlanner planner = model_with_fvs([](FvsConfig& fvs) { fvs.looks_max = 2; });
+  const Belief belief = wall_and_lone_frontier(planner, Vec3(-2.1, 0.1, 4.1),
                                                [](const Vec3& p_m) { return p_m.x() > 2.0; });
   History history = still_history();
   const auto last_cluster = [&] {
-    const Plan plan = full_plan(model, belief, history);
+    const Plan plan = planner.plan(belief, history);
     return plan.candidates.empty() ? -1 : plan.candidates.back().cluster;
   };
   EXPECT_EQ(last_cluster(), 1);  // the lone one has no valid view, the wall has
@@ -97,41 +97,41 @@ TEST(FrontierViews, FvsLeavesWhatWasLookedAtOftenEnough) {
   for (const double yaw_rad : {0.0, deg_to_rad(90.0)}) {
     const Vec3 back(-std::cos(yaw_rad), -std::sin(yaw_rad), 0.0);
     Decision decision;
-    decision.sampler = "fvs";
-    decision.view = {Vec3(-2.1, 0.1, 4.1) + model.config.fvs.radius_m * back +
-                         model.config.fvs.layer_step_m * Vec3::UnitZ(),
+    decision.sampler = Sampler::fvs;
+    decision.view = {Vec3(-2.1, 0.1, 4.1) + planner.config.fvs.radius_m * back +
+                         planner.config.fvs.layer_step_m * Vec3::UnitZ(),
                      yaw_rad};
     EXPECT_EQ(last_cluster(), 1);
     history.decisions.push_back(decision);
   }
   EXPECT_EQ(last_cluster(), 0);  // the wall is the only one left
-  history.decisions.back().sampler = "agvs";
+  history.decisions.back().sampler = Sampler::agvs;
   EXPECT_EQ(last_cluster(), 1);  // a view of the grid is no look at a cluster
 }
 
 TEST(FrontierViews, PooledClustersCompeteAndOthersTakeTheirTurn) {
   // the lone frontier is nearer, the wall the better view
   const auto plan_with = [](bool pool) {
-    const PlannerModel model = model_with([&](PlannerConfig& c) {
+    const SmallPlanner planner([&](PlannerConfig& c) {
       c.utility.lambda_per_m = 0.0;
       c.fvs.pool_clusters = pool;
       c.fvs.tries = 2;
     });
-    const Belief belief = wall_and_lone_frontier(model, Vec3(-3.9, 0.1, 4.1), everywhere);
-    return full_plan(model, belief, still_history());
+    const Belief belief = wall_and_lone_frontier(planner, Vec3(-3.9, 0.1, 4.1), everywhere);
+    return planner.plan(belief, still_history());
   };
   const Plan in_turn = plan_with(false);
-  ASSERT_TRUE(in_turn.next);
+  ASSERT_TRUE(in_turn.has_view());
   EXPECT_EQ(in_turn.candidates.size(), 12U);
-  EXPECT_EQ(in_turn.candidates[*in_turn.chosen].cluster, 0);
+  EXPECT_EQ(in_turn.candidates[in_turn.chosen.front()].cluster, 0);
   const Plan pooled = plan_with(true);
-  ASSERT_TRUE(pooled.next);
+  ASSERT_TRUE(pooled.has_view());
   EXPECT_EQ(pooled.candidates.size(), 24U);
-  EXPECT_EQ(pooled.next->candidates, 24);
-  EXPECT_EQ(pooled.candidates[*pooled.chosen].cluster, 1);
-  EXPECT_GT(pooled.next->score.value, in_turn.next->score.value);
+  EXPECT_EQ(pooled.next().candidates, 24);
+  EXPECT_EQ(pooled.candidates[pooled.chosen.front()].cluster, 1);
+  EXPECT_GT(pooled.next().score.value, in_turn.next().score.value);
   for (const Candidate& c : pooled.candidates) {
-    EXPECT_TRUE(c.rejected || c.score.value <= pooled.next->score.value);
+    EXPECT_TRUE(c.rejected || c.score.value <= pooled.next().score.value);
   }
 }
 
@@ -139,15 +139,14 @@ TEST(FrontierViews, AreTheSameAtAnyNumberOfThreads) {
   // of a shell of clusters the first has a view, or the second, or, for the widest vehicle, none
   for (const double radius_m : {0.5, 2.0, 3.2}) {
     for (const bool pooled : {false, true}) {
-      const PlannerModel model = model_with([&](PlannerConfig& c) {
+      const SmallPlanner planner([&](PlannerConfig& c) {
         c.validity.collision_radius_m = radius_m;
         c.fvs.pool_clusters = pooled;
         c.fvs.agvs_when_stuck = false;
       });
-      const Belief belief = shell_of_frontiers(model);
+      const Belief belief = shell_of_frontiers(planner);
       const auto plan_with = [&](int threads) {
-        Workbench bench(model, threads);
-        return plan_next_view(model, belief, still_history(), kCurrent, bench);
+        return planner.plan(belief, still_history(), threads);
       };
       const Plan one = plan_with(1);
       if (radius_m > 3.0) {
@@ -174,15 +173,15 @@ TEST(FrontierViews, AreTheSameAtAnyNumberOfThreads) {
 
 TEST(FrontierViews, LargestClustersFirstIsASwitch) {
   const auto looked_at_from = [](ClusterOrder order) {
-    const PlannerModel model = model_with_fvs([&](FvsConfig& fvs) {
+    const SmallPlanner planner = model_with_fvs([&](FvsConfig& fvs) {
       fvs.order = order;
       fvs.frontier.max_extent_m = 0.0;  // the wall is one cluster
     });
-    const Belief belief = wall_and_lone_frontier(model, Vec3(-3.9, 0.1, 4.1), everywhere);
-    const Plan plan = full_plan(model, belief, still_history());
-    EXPECT_TRUE(plan.next);
+    const Belief belief = wall_and_lone_frontier(planner, Vec3(-3.9, 0.1, 4.1), everywhere);
+    const Plan plan = planner.plan(belief, still_history());
+    EXPECT_TRUE(plan.has_view());
     EXPECT_EQ(plan.candidates.size(), 12U);
-    return plan.next->view.p_world_m.x();
+    return plan.next().view.p_world_m.x();
   };
   EXPECT_LT(looked_at_from(ClusterOrder::nearest), 0.0);
   EXPECT_NEAR(looked_at_from(ClusterOrder::largest), 6.1 - 3.5, 1e-6);
@@ -191,16 +190,17 @@ TEST(FrontierViews, LargestClustersFirstIsASwitch) {
 TEST(FrontierViews, WithoutFrontierViewsEveryUtilityStaysOnTheGrid) {
   for (const char* name : {"proposed", "bircher", "isler"}) {
     const auto sampler = [&](bool has_fvs) {
-      const PlannerModel model = model_with([&](PlannerConfig& c) {
+      const SmallPlanner planner([&](PlannerConfig& c) {
         c.utility.name = name;
         c.fvs.enabled = has_fvs;
       });
-      Belief belief = wall_ahead(model, everywhere);
+      Belief belief = wall_ahead(planner, everywhere);
       sample_thinly(belief);
-      const Plan plan = full_plan(model, belief, still_history());
-      EXPECT_TRUE(plan.next) << name;
-      for (const Candidate& c : plan.candidates) EXPECT_EQ(c.sampler == "agvs", !has_fvs) << name;
-      return plan.next->sampler;
+      const Plan plan = planner.plan(belief, still_history());
+      EXPECT_TRUE(plan.has_view()) << name;
+      for (const Candidate& c : plan.candidates)
+        EXPECT_EQ(c.sampler == Sampler::agvs, !has_fvs) << name;
+      return plan.next().sampler;
     };
     EXPECT_EQ(sampler(false), "agvs") << name;
     EXPECT_EQ(sampler(true), "fvs") << name;
@@ -208,37 +208,36 @@ TEST(FrontierViews, WithoutFrontierViewsEveryUtilityStaysOnTheGrid) {
 }
 
 TEST(FrontierViews, FallsBackToTheGridWhenFvsFindsNothing) {
-  Belief belief = wall_ahead(small_model(), everywhere);  // no points: no frontier
-  const Plan fallback = full_plan(small_model(), belief, still_history());
-  ASSERT_TRUE(fallback.next);
-  EXPECT_EQ(fallback.next->sampler, "agvs");
+  Belief belief = wall_ahead(SmallPlanner(), everywhere);  // no points: no frontier
+  const Plan fallback = SmallPlanner().plan(belief, still_history());
+  ASSERT_TRUE(fallback.has_view());
+  EXPECT_EQ(fallback.next().sampler, Sampler::agvs);
   // the paper to the letter: the mission is over
-  const PlannerModel literal = model_with([](PlannerConfig& c) { c.fvs.agvs_when_stuck = false; });
-  EXPECT_FALSE(full_plan(literal, belief, still_history()).next);
+  const SmallPlanner literal([](PlannerConfig& c) { c.fvs.agvs_when_stuck = false; });
+  EXPECT_FALSE(literal.plan(belief, still_history()).has_view());
 }
 
 TEST(FrontierViews, LiteralClustersAreOneAndItsCentroidMayBeUnreachable) {
   // cut, some cluster has a view; uncut, the centroid is in the middle of a closed box and every
   // view around it is inside or beyond the wall
-  const PlannerModel cut = small_model();
-  const PlannerModel uncut = model_with([](PlannerConfig& c) {
+  const SmallPlanner cut;
+  const SmallPlanner uncut([](PlannerConfig& c) {
     c.fvs.frontier.max_extent_m = 0.0;
     c.fvs.agvs_when_stuck = false;
   });
-  EXPECT_TRUE(full_plan(cut, shell_of_frontiers(cut), still_history()).next);
-  EXPECT_FALSE(full_plan(uncut, shell_of_frontiers(uncut), still_history()).next);
+  EXPECT_TRUE(cut.plan(shell_of_frontiers(cut), still_history()).has_view());
+  EXPECT_FALSE(uncut.plan(shell_of_frontiers(uncut), still_history()).has_view());
 }
 
 /// Far from the wall, looking away from it: no view nearby sees any surface.
 const ViewPose kTurnedAway{Vec3(-7.5, 0.1, 4.1), kPi};
 
-Plan plan_turned_away(const PlannerModel& model, const Belief& belief) {
-  Workbench bench(model, 2);
-  return plan_next_view(model, belief, {}, kTurnedAway, bench);
+Plan plan_turned_away(const SmallPlanner& planner, const Belief& belief) {
+  return planner.plan(belief, {}, 2, kTurnedAway);
 }
 
-PlannerModel model_of_grid_that_fails(const std::function<void(FvsConfig&)>& change) {
-  return model_with([&](PlannerConfig& c) {
+SmallPlanner model_of_grid_that_fails(const std::function<void(FvsConfig&)>& change) {
+  return SmallPlanner([&](PlannerConfig& c) {
     c.agvs.scales = false;
     change(c.fvs);
   });
@@ -246,24 +245,24 @@ PlannerModel model_of_grid_that_fails(const std::function<void(FvsConfig&)>& cha
 
 TEST(FrontierViews, AreTriedWhereTheGridFindsNothing) {
   const auto plan_with = [](bool are_tried) {
-    const PlannerModel model =
+    const SmallPlanner planner =
         model_of_grid_that_fails([&](FvsConfig& fvs) { fvs.when_grid_finds_nothing = are_tried; });
-    Belief belief = wall_ahead(model, everywhere);
+    Belief belief = wall_ahead(planner, everywhere);
     sample_thinly(belief);
-    return plan_turned_away(model, belief);
+    return plan_turned_away(planner, belief);
   };
-  EXPECT_FALSE(plan_with(false).next);
+  EXPECT_FALSE(plan_with(false).has_view());
   const Plan plan = plan_with(true);
-  ASSERT_TRUE(plan.next);
-  EXPECT_EQ(plan.next->sampler, "fvs");
-  EXPECT_TRUE(plan.next->via_world_m.empty());
+  ASSERT_TRUE(plan.has_view());
+  EXPECT_EQ(plan.next().sampler, Sampler::fvs);
+  EXPECT_TRUE(plan.next().via_world_m.empty());
   // the record has the grid's candidates, too
   EXPECT_EQ(plan.candidates.front().rejected, Rejection::sees_no_surface);
 }
 
 TEST(FrontierViews, AreReachedOnAWayAroundBeforeTheMissionEnds) {
-  const PlannerModel model = model_of_grid_that_fails([](FvsConfig&) {});
-  Belief belief = wall_ahead(model, everywhere);
+  const SmallPlanner planner = model_of_grid_that_fails([](FvsConfig&) {});
+  Belief belief = wall_ahead(planner, everywhere);
   sample_thinly(belief);
   const GridGeometry& grid = belief.grid.geometry();
   ScanUpdate screen;  // with a gap far to the side, through which no straight way leads
@@ -272,18 +271,18 @@ TEST(FrontierViews, AreReachedOnAWayAroundBeforeTheMissionEnds) {
     if (std::fabs(center_m.x() + 4.1) < 0.05 && center_m.y() < 4.0) screen.occupied.push_back(v);
   }
   for (int hits = 0; hits < 8; ++hits) belief.grid.apply(screen);
-  const Plan plan = plan_turned_away(model, belief);
-  ASSERT_TRUE(plan.next);
-  EXPECT_EQ(plan.next->sampler, "fvs");
-  EXPECT_GT(plan.next->view.p_world_m.x(), -4.0);
-  EXPECT_FALSE(plan.next->via_world_m.empty());
+  const Plan plan = plan_turned_away(planner, belief);
+  ASSERT_TRUE(plan.has_view());
+  EXPECT_EQ(plan.next().sampler, Sampler::fvs);
+  EXPECT_GT(plan.next().view.p_world_m.x(), -4.0);
+  EXPECT_FALSE(plan.next().via_world_m.empty());
   // straight ways were tried first, and each was blocked
   const std::size_t blocked = static_cast<std::size_t>(
       std::count_if(plan.candidates.begin(), plan.candidates.end(), [](const Candidate& c) {
-        return c.sampler == "fvs" && c.rejected == Rejection::path_blocked;
+        return c.sampler == Sampler::fvs && c.rejected == Rejection::path_blocked;
       }));
   EXPECT_GT(blocked, 0U);
-  for (std::size_t i = 0; i < *plan.chosen; ++i) {
+  for (std::size_t i = 0; i < plan.chosen.front(); ++i) {
     const Candidate& c = plan.candidates[i];
     EXPECT_TRUE(c.rejected || !c.via_world_m.empty());
   }

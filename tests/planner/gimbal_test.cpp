@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 
-#include "planner/follow_route.hpp"
+#include "planner/guided/view_sampling.hpp"
 #include "planner/map/frontiers.hpp"
-#include "planner/view_sampling.hpp"
+#include "planner/route/route_planners.hpp"
 #include "tests/planner/wall_world.hpp"
 
 namespace gnbv {
@@ -55,15 +55,15 @@ TEST(Gimbal, TurnedIsMountedAtThatPitch) {
 
 TEST(Gimbal, AViewIsWalkedByTheRaysOfAFixedCamera) {
   const std::array cameras = {make_camera_model(on_gimbal()), fixed_at(0.2)};
-  const PlannerModel model(PlannerConfig{}, Box3(Vec3(-5, -5, 0), Vec3(5, 5, 5)), cameras, {});
+  const PlannerModel model({}, {}, Box3(Vec3(-5, -5, 0), Vec3(5, 5, 5)), cameras, {});
   for (const double pitch_rad : kPitches) {
     const std::array fixed = {fixed_at(pitch_rad), fixed_at(0.2)};
     EXPECT_EQ(model.rays_at(pitch_rad).end_body_m,
-              make_view_rays(fixed, model.config.map.resolution_m).end_body_m);
+              make_view_rays(fixed, model.belief.map.resolution_m).end_body_m);
   }
   EXPECT_TRUE(model.can_pitch(0.3));
   EXPECT_FALSE(model.can_pitch(0.6));
-  const PlannerModel without(PlannerConfig{}, model.workspace_m, std::array{fixed_at(0.2)}, {});
+  const PlannerModel without({}, {}, model.workspace_m, std::array{fixed_at(0.2)}, {});
   EXPECT_EQ(without.view_rays.size(), 1U);
   EXPECT_TRUE(without.can_pitch(0.0));
   EXPECT_FALSE(without.can_pitch(0.2));
@@ -94,7 +94,7 @@ TEST(Gimbal, EverySamplerOffersEachOfItsViewsWithEachPitch) {
 }
 
 TEST(Gimbal, AnotherPitchIsAnotherView) {
-  const PlannerModel model(PlannerConfig{}, Box3(Vec3(-5, -5, 0), Vec3(5, 5, 5)),
+  const PlannerModel model({}, {}, Box3(Vec3(-5, -5, 0), Vec3(5, 5, 5)),
                            std::array{make_camera_model(on_gimbal())}, {});
   Belief belief(model);
   ScanUpdate update;
@@ -103,9 +103,9 @@ TEST(Gimbal, AnotherPitchIsAnotherView) {
   const ViewPose here{Vec3(0, 0, 2), 0.0, 0.0};
   const auto rejection = [&](double pitch_rad) {
     const ViewPose view{here.p_world_m, 0.0, pitch_rad};
-    return first_flyable(model, belief, std::array{here}, std::array{view}, here)
-        .candidates.front()
-        .rejected;
+    Candidate candidate{.view = view, .sampler = Sampler::route};
+    GivenViewChecker(model, belief, std::array{here}, here).check(candidate);
+    return candidate.rejected;
   };
   EXPECT_EQ(rejection(0.0), Rejection::recently_visited);
   EXPECT_EQ(rejection(0.5), std::nullopt);

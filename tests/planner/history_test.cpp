@@ -1,17 +1,17 @@
 // What the planner remembers.
-#include "planner/history.hpp"
+#include "planner/core/history.hpp"
 
 #include <gtest/gtest.h>
 
-#include "planner/belief.hpp"
-#include "planner/model.hpp"
+#include "planner/core/belief.hpp"
+#include "planner/core/model.hpp"
 
 namespace gnbv {
 namespace {
 
 TEST(RememberEntropy, StartsWithTheFirstDepthReturn) {
   const CameraModel camera = make_camera_model({});
-  const PlannerModel model({}, Box3(Vec3(-8, -8, 0), Vec3(8, 8, 8)), {&camera, 1}, {});
+  const PlannerModel model({}, {}, Box3(Vec3(-8, -8, 0), Vec3(8, 8, 8)), {&camera, 1}, {});
   Belief belief(model);
   History history;
   remember_entropy(belief, 10.0, history);

@@ -1,11 +1,10 @@
 // Baselines that lay all views around the profile at once.
-#include "planner/routes.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "planner/map/occupancy_grid.hpp"
+#include "planner/route/laid_views.hpp"
 #include "sensors/camera_model.hpp"
 #include "sim/core/error.hpp"
 
@@ -27,14 +26,13 @@ OccupancyGrid box_in_the_middle() {
   return grid;
 }
 
-std::vector<ViewPose> route(std::string_view name, const OccupancyGrid& grid) {
+std::vector<ViewPose> route(LayViews lay, const OccupancyGrid& grid) {
   const CameraModel camera = make_camera_model({});
-  return plan_route(name, {},
-                    {.grid = grid,
-                     .navigation_m = kWorkspace,
-                     .camera = camera,
-                     .start = {Vec3(0, -12, 2), 0},
-                     .views = 100});
+  return lay({}, {.grid = grid,
+                  .navigation_m = kWorkspace,
+                  .camera = camera,
+                  .start = {Vec3(0, -12, 2), 0},
+                  .views = 100});
 }
 
 double distance_to_box_m(const Vec3& p_m) {
@@ -42,7 +40,7 @@ double distance_to_box_m(const Vec3& p_m) {
 }
 
 TEST(UniformHemisphere, StandsAtTheStandoffAllAroundAndLooksInwards) {
-  const auto views = route("uniform_hemisphere", box_in_the_middle());
+  const auto views = route(lay_hemisphere, box_in_the_middle());
   ASSERT_EQ(views.size(), 100U);
   std::array<int, 4> by_quadrant = {0, 0, 0, 0};
   for (const ViewPose& view : views) {
@@ -57,7 +55,7 @@ TEST(UniformHemisphere, StandsAtTheStandoffAllAroundAndLooksInwards) {
 }
 
 TEST(UniformHemisphere, EachViewIsTheNearestOfThoseLeft) {
-  const auto views = route("uniform_hemisphere", box_in_the_middle());
+  const auto views = route(lay_hemisphere, box_in_the_middle());
   for (std::size_t i = 1; i < views.size(); ++i) {
     const double next_m = (views[i].p_world_m - views[i - 1].p_world_m).norm();
     for (std::size_t j = i + 1; j < views.size(); ++j) {
@@ -67,7 +65,7 @@ TEST(UniformHemisphere, EachViewIsTheNearestOfThoseLeft) {
 }
 
 TEST(Lawnmower, PassesEverySideInRowsThatOverlap) {
-  const auto views = route("lawnmower", box_in_the_middle());
+  const auto views = route(lay_lawnmower, box_in_the_middle());
   // footprints at 4 m: 4.62 x 3.31 m, less 30 %
   const double column_m = 0.7 * 8.0 * std::tan(deg_to_rad(30.0));
   const double row_m = 0.7 * 8.0 * std::tan(deg_to_rad(22.5));
@@ -96,15 +94,15 @@ TEST(Lawnmower, RefusesToLayMoreViewsThanAnybodyFlies) {
   const CameraModel camera = make_camera_model({});
   const RouteProblem problem = {
       .grid = grid, .navigation_m = kWorkspace, .camera = camera, .start = {Vec3(0, -12, 2), 0}};
-  EXPECT_THROW(plan_route("lawnmower", {.standoff_m = 0.1, .overlap = 0.95}, problem), BadInput);
-  EXPECT_LT(plan_route("lawnmower", {.standoff_m = 1.0, .overlap = 0.5}, problem).size(),
+  EXPECT_THROW(lay_lawnmower({.standoff_m = 0.1, .overlap = 0.95}, problem), BadInput);
+  EXPECT_LT(lay_lawnmower({.standoff_m = 1.0, .overlap = 0.5}, problem).size(),
             std::size_t{kMostLaidViews});
 }
 
 TEST(Routes, AreEmptyWithoutAProfile) {
   const OccupancyGrid nothing(OccupancyConfig{}, kWorkspace);
-  EXPECT_TRUE(route("lawnmower", nothing).empty());
-  EXPECT_TRUE(route("uniform_hemisphere", nothing).empty());
+  EXPECT_TRUE(route(lay_lawnmower, nothing).empty());
+  EXPECT_TRUE(route(lay_hemisphere, nothing).empty());
 }
 
 }  // namespace

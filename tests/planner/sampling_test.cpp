@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "planner/termination.hpp"
-#include "planner/view_sampling.hpp"
+#include "planner/core/termination.hpp"
+#include "planner/guided/view_sampling.hpp"
 
 namespace gnbv {
 namespace {

@@ -1,9 +1,9 @@
 // The rules of belief that end a mission.
-#include "planner/termination.hpp"
+#include "planner/core/termination.hpp"
 
 #include <gtest/gtest.h>
 
-#include "planner/history.hpp"
+#include "planner/core/history.hpp"
 
 namespace gnbv {
 namespace {
@@ -72,11 +72,31 @@ TEST(BelievedEnd, TheFirstRuleNamesTheEnd) {
   config.max_views_without_new_points = 1;
   const std::vector<double> settled = {5.0, 5.0}, going = {5.0, 4.0};
   const auto nothing = walk({0}, {0}), points = walk({0}, {1}), voxels = walk({1}, {0});
-  EXPECT_EQ(believed_end(config, settled, nothing), Termination::entropy_change);
-  EXPECT_EQ(believed_end(config, going, nothing), Termination::low_gain);
-  EXPECT_EQ(believed_end(config, going, points), Termination::low_gain);
-  EXPECT_EQ(believed_end(config, going, voxels), Termination::no_new_points);
-  EXPECT_EQ(believed_end(config, going, walk({1}, {1})), std::nullopt);
+  EXPECT_EQ(believed_end(config, {}, settled, nothing, {}), Termination::entropy_change);
+  EXPECT_EQ(believed_end(config, {}, going, nothing, {}), Termination::low_gain);
+  EXPECT_EQ(believed_end(config, {}, going, points, {}), Termination::low_gain);
+  EXPECT_EQ(believed_end(config, {}, going, voxels, {}), Termination::no_new_points);
+  EXPECT_EQ(believed_end(config, {}, going, walk({1}, {1}), {}), std::nullopt);
+}
+
+TEST(BelievedEnd, APlannerMaySwitchRulesOff) {
+  TerminationConfig config;
+  config.entropy_window = 1;
+  config.max_views_without_new_points = 1;
+  config.repeated_moves = 2;
+  const std::vector<double> settled = {5.0, 5.0};
+  const auto nothing = walk({0}, {0});
+  const Vec3 here = Vec3::Zero(), there = Vec3::UnitX();
+  const std::vector<Vec3> repeated_m = {here, there, here, there};
+  EndRules rules;
+  const auto end = [&] { return believed_end(config, rules, settled, nothing, repeated_m); };
+  EXPECT_EQ(end(), Termination::entropy_change);
+  rules.entropy = false;
+  EXPECT_EQ(end(), Termination::no_new_points);
+  rules.gain = false;
+  EXPECT_EQ(end(), Termination::repeated_motion);
+  rules.repetition = false;
+  EXPECT_EQ(end(), std::nullopt);
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
-#include "planner/unseen_space.hpp"
+#include "planner/tour/unseen_space.hpp"
 
 #include <gtest/gtest.h>
 
-#include "planner/belief.hpp"
-#include "planner/model.hpp"
-#include "planner/workbench.hpp"
+#include "planner/core/belief.hpp"
+#include "planner/core/model.hpp"
+#include "planner/core/scratch.hpp"
 
 namespace gnbv {
 namespace {
@@ -21,21 +21,21 @@ void clear_below(double x_m, Belief& belief) {
 
 TEST(MostUnseen, LooksAtUnknownSpaceTheNearerTheBetter) {
   const CameraModel camera = make_camera_model({});
-  const PlannerModel model({}, Box3(Vec3(-16, -8, 0), Vec3(16, 8, 8)), {&camera, 1}, {});
+  const PlannerModel model({}, {}, Box3(Vec3(-16, -8, 0), Vec3(16, 8, 8)), {&camera, 1}, {});
   const Vec3 at_m(-4, 0, 4);
   const std::vector<ViewPose> views = {{at_m, kPi}, {at_m, 0.0}, {at_m, 0.0}};
   for (const int threads : {1, 3}) {
-    Workbench bench(model, threads);
+    Scratch scratch(model, threads);
     Belief belief(model);
     clear_below(0.0, belief);
     const std::vector<double> near_m = {0.0, 5.0, 2.0};
-    EXPECT_EQ(most_unseen(model, belief, views, near_m, bench), 2U);
+    EXPECT_EQ(most_unseen(model, belief, views, near_m, scratch), 2U);
     const std::vector<double> same_m = {0.0, 2.0, 2.0};
-    EXPECT_EQ(most_unseen(model, belief, views, same_m, bench), 1U) << "the first of equals";
+    EXPECT_EQ(most_unseen(model, belief, views, same_m, scratch), 1U) << "the first of equals";
     const std::vector<ViewPose> away = {views[0]};
-    EXPECT_EQ(most_unseen(model, belief, away, {near_m.data(), 1}, bench), std::nullopt);
+    EXPECT_EQ(most_unseen(model, belief, away, {near_m.data(), 1}, scratch), std::nullopt);
     clear_below(16.0, belief);
-    EXPECT_EQ(most_unseen(model, belief, views, near_m, bench), std::nullopt);
+    EXPECT_EQ(most_unseen(model, belief, views, near_m, scratch), std::nullopt);
   }
 }
 

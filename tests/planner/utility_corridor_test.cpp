@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/utility.hpp"
+#include "planner/guided/utility.hpp"
 #include "tests/planner/view/view_scene.hpp"
 
 namespace gnbv {

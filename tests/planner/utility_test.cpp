@@ -1,4 +1,4 @@
-#include "planner/utility.hpp"
+#include "planner/guided/utility.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <set>
 
-#include "planner/decision.hpp"
+#include "planner/core/plan.hpp"
+#include "planner/core/view_validity.hpp"
 #include "planner/map/clearance.hpp"
 #include "planner/map/no_fly.hpp"
 #include "planner/map/ray_walk.hpp"
-#include "planner/view_validity.hpp"
 #include "sim/core/rng.hpp"
 
 namespace gnbv {
@@ -172,7 +172,7 @@ TEST(PathCheck, WhatIsTooCloseAlreadyMayBeLeftButNotApproached) {
 std::optional<Rejection> rejection(const ValidityConfig& config, const OccupancyGrid& grid,
                                    std::span<const ViewPose> recent, const ViewPose& current,
                                    const ViewPose& view) {
-  Candidate candidate{.view = view, .sampler = "test"};
+  Candidate candidate{.view = view, .sampler = Sampler::agvs};
   ViewChecker(config, kNavigation, {}, grid, recent, current).check(candidate);
   return candidate.rejected;
 }
@@ -202,7 +202,7 @@ TEST(ViewValidity, NoViewInANoFlyBoxAndNoWayThroughOne) {
   for (const PathCheck path : {PathCheck::straight, PathCheck::unchecked, PathCheck::astar}) {
     const ValidityConfig config{.collision_radius_m = 0.5, .path = path};
     const auto checked = [&](const Vec3& p_m) {
-      Candidate candidate{.view = {p_m, 0}, .sampler = "test"};
+      Candidate candidate{.view = {p_m, 0}, .sampler = Sampler::agvs};
       ViewChecker(config, kNavigation, no_fly, grid, {}, current).check(candidate);
       return candidate;
     };

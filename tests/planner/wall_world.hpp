@@ -4,28 +4,43 @@
 #include <cmath>
 #include <functional>
 
-#include "planner/belief.hpp"
-#include "planner/history.hpp"
-#include "planner/model.hpp"
-#include "planner/next_view.hpp"
-#include "planner/workbench.hpp"
+#include "planner/core/belief.hpp"
+#include "planner/core/history.hpp"
+#include "planner/core/model.hpp"
+#include "planner/core/scratch.hpp"
+#include "planner/guided/guided_planner.hpp"
+#include "planner/planners.hpp"
 
 namespace gnbv {
 
 inline const Box3 kWorkspace(Vec3(-8, -8, 0), Vec3(8, 8, 8));
 inline const ViewPose kCurrent{Vec3(0.1, 0.1, 4.1), 0.0};
 
-inline PlannerModel small_model() {
+/// Settings, and what a planner of theirs knows of the small box.
+struct SmallPlanner {
+  explicit SmallPlanner(const std::function<void(PlannerConfig&)>& change = {}) {
+    config.validity.collision_radius_m = 0.5;
+    if (change) change(config);
+  }
+
   PlannerConfig config;
-  config.validity.collision_radius_m = 0.5;
-  const CameraModel camera = make_camera_model({});
-  return PlannerModel(config, kWorkspace, {&camera, 1}, {});
-}
+
+  PlannerModel model() const {
+    const CameraModel camera = make_camera_model({});
+    return make_model(config, kWorkspace, {&camera, 1}, {});
+  }
+  Plan plan(const Belief& belief, const History& history, int threads = 2,
+            const ViewPose& current = kCurrent) const {
+    const PlannerModel known = model();
+    Scratch scratch(known, threads);
+    return make_planner(config, known)->next(belief, history, current, scratch);
+  }
+};
 
 /// A wall at x = 6, all else free where `is_known` says so and unmeasured elsewhere.
 template <typename IsKnown>
-Belief wall_ahead(const PlannerModel& model, const IsKnown& is_known) {
-  Belief belief(model);
+Belief wall_ahead(const SmallPlanner& planner, const IsKnown& is_known) {
+  Belief belief(planner.model());
   const GridGeometry& grid = belief.grid.geometry();
   ScanUpdate update;
   for (VoxelIndex v = 0; v < grid.voxel_count(); ++v) {
@@ -58,19 +73,6 @@ inline History still_history() {
   History history;
   history.entropies_nat.assign(6, 1000.0);
   return history;
-}
-
-inline Plan full_plan(const PlannerModel& model, const Belief& belief, const History& history) {
-  Workbench bench(model, 2);
-  return plan_next_view(model, belief, history, kCurrent, bench);
-}
-
-inline PlannerModel model_with(const std::function<void(PlannerConfig&)>& change) {
-  PlannerConfig config;
-  config.validity.collision_radius_m = 0.5;
-  change(config);
-  const CameraModel camera = make_camera_model({});
-  return PlannerModel(config, kWorkspace, {&camera, 1}, {});
 }
 
 }  // namespace gnbv

@@ -15,11 +15,11 @@ inline Scenario smoke(const std::vector<std::string>& overrides = {}) {
 }
 
 struct Flown {
-  explicit Flown(const Scenario& flown_scenario, const MissionHooks& hooks = {}, int threads = 2)
+  explicit Flown(const Scenario& flown_scenario, const MissionInputs& inputs = {}, int threads = 2)
       : scenario(flown_scenario),
         world(load_world(scenario, warnings)),
         scene(world),
-        result(run_mission(scenario, world, scene, hooks, threads)) {}
+        result(run_mission(scenario, world, scene, inputs, threads)) {}
 
   Scenario scenario;
   std::vector<std::string> warnings;

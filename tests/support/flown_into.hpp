@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "tests/support/flown.hpp"
+#include "tests/support/watch.hpp"
 #include "tools/run_files/run_directory.hpp"
 
 namespace gnbv {
@@ -14,16 +15,18 @@ constexpr std::size_t kNeverStops = 1000;  // more views than any test's mission
 /// that was killed.
 inline MissionResult fly_into(const std::filesystem::path& folder, const Scenario& scenario,
                               bool resume, std::size_t stop_after = kNeverStops,
-                              MissionHooks hooks = {}) {
+                              MissionInputs inputs = {}) {
   RunDirectory directory(folder, scenario, resume);
   std::size_t views = 0;
-  hooks.on_view = [&](const ViewRecord& view) {
+  Watch watch;
+  watch.view = [&](const ViewRecord& view, const Belief&) {
     directory.append(view);
     ++views;
   };
-  hooks.should_stop = [&] { return views >= stop_after; };
-  hooks.replay = directory.recorded_decisions();
-  return Flown(scenario, hooks).result;
+  inputs.observers = {&watch};
+  inputs.should_stop = [&] { return views >= stop_after; };
+  inputs.replay = directory.recorded_decisions();
+  return Flown(scenario, inputs).result;
 }
 
 }  // namespace gnbv

@@ -10,11 +10,12 @@
 #include <set>
 #include <vector>
 
-#include "planner/belief.hpp"
+#include "planner/core/belief.hpp"
+#include "planner/core/model.hpp"
+#include "planner/core/view_validity.hpp"
+#include "planner/guided/frontier_clusters.hpp"
 #include "planner/map/clearance.hpp"
 #include "planner/map/frontiers.hpp"
-#include "planner/model.hpp"
-#include "planner/view_validity.hpp"
 
 namespace gnbv {
 
@@ -23,7 +24,7 @@ namespace gnbv {
 /// box. The first is `from_m`.
 inline std::vector<Vec3> reachable_places(const PlannerModel& model, const Belief& belief,
                                           const Vec3& from_m, double step_m) {
-  const double radius_m = model.config.validity.collision_radius_m;
+  const double radius_m = model.validity.collision_radius_m;
   using Node = std::array<int, 3>;
   std::set<Node> known = {{0, 0, 0}};
   std::deque<Node> open = {{0, 0, 0}};
@@ -55,12 +56,13 @@ inline std::vector<Vec3> reachable_places(const PlannerModel& model, const Belie
 
 /// A view of a frontier from one of these places that was not taken yet, looking straight at the
 /// frontier's centroid; nothing where there is none.
-inline std::optional<ViewPose> view_of_a_frontier(const PlannerModel& model, const Belief& belief,
+inline std::optional<ViewPose> view_of_a_frontier(const PlannerModel& model,
+                                                  const FrontierConfig& config,
+                                                  const Belief& belief,
                                                   const std::vector<Vec3>& places_m,
                                                   const std::vector<ViewPose>& taken) {
-  FrontierConfig config = model.config.fvs.frontier;
   FrontierMarks marks(belief.grid.geometry().voxel_count());
-  const ValidityConfig& validity = model.config.validity;
+  const ValidityConfig& validity = model.validity;
   const auto is_taken = [&](const ViewPose& view) {
     for (const ViewPose& t : taken) {
       const double turn_rad = std::abs(wrap_angle_rad(t.yaw_rad - view.yaw_rad));

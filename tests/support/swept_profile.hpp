@@ -4,9 +4,9 @@
 #include <array>
 #include <vector>
 
-#include "planner/belief.hpp"
-#include "planner/model.hpp"
-#include "planner/workbench.hpp"
+#include "planner/core/belief.hpp"
+#include "planner/core/model.hpp"
+#include "planner/core/scratch.hpp"
 #include "sensors/capture.hpp"
 #include "sensors/ray_scene.hpp"
 
@@ -42,15 +42,15 @@ inline SweptProfile sweep_profile(const World& world, const Box3& workspace_m,
                                   const ViewPose& start, int descents, double spacing_m,
                                   const LidarConfig& lidar = {}) {
   const std::array lidars = {make_lidar_model(lidar)};
-  const PlannerModel model({}, workspace_m, {}, lidars);
+  const PlannerModel model({}, {}, workspace_m, {}, lidars);
   SweptProfile out{model, Belief(model)};
   const RayScene scene(world);
   std::vector<LidarScan> scans;
   for (const Isometry& T : profile_poses(model.navigation_m, start, descents, spacing_m)) {
     scans.push_back(capture_scan(scene, lidars[0], 0, {&T, 1}, 1.0, {1, scans.size()}));
   }
-  Workbench bench(model, 2);
-  integrate_profile(model, scans, bench, out.belief);
+  Scratch scratch(model, 2);
+  integrate_profile(model, scans, scratch, out.belief);
   return out;
 }
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "bench/compare/comparison_text.hpp"
-#include "planner/routes.hpp"
+#include "planner/planners.hpp"
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "tools/gnbv/bench_runs.hpp"
@@ -83,12 +83,12 @@ std::uint64_t first_seed(const CompareOptions& options) {
 std::vector<SweepMethod> methods_with_views(const CompareOptions& options) {
   std::vector<SweepMethod> methods = methods_of(options.methods);
   if (options.views.empty()) return methods;
-  const auto route = std::find_if(methods.begin(), methods.end(), [](const SweepMethod& method) {
-    return method.name == kGivenRouteName;
-  });
+  const std::string_view taker = planners_that(&PlannerTraits::takes_views).front();
+  const auto route = std::find_if(methods.begin(), methods.end(),
+                                  [&](const SweepMethod& method) { return method.name == taker; });
   if (route == methods.end()) {
-    throw BadInput(fmt::format("--views {}: goes with {} among --utilities", options.views.string(),
-                               kGivenRouteName));
+    throw BadInput(
+        fmt::format("--views {}: goes with {} among --utilities", options.views.string(), taker));
   }
   route->sources.resize(route->overrides.size());
   route->overrides.push_back(views_override(read_given_views(options.views)));

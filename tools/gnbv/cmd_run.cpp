@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "bench/compare/paper_table.hpp"
-#include "planner/routes.hpp"
+#include "planner/planners.hpp"
 #include "scenarios/papers_setting.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
@@ -40,7 +40,6 @@ struct RunOptions {
 };
 
 void need_route(const RunOptions& options, const Scenario& scenario) {
-  const std::string& utility = scenario.planner.utility.name;
   if (options.mission.coverage && !options.mission.piped_views) {
     throw BadInput("--coverage: tells it to whoever sends views: --views -");
   }
@@ -48,10 +47,11 @@ void need_route(const RunOptions& options, const Scenario& scenario) {
     throw BadInput("--json: with --views -, stdout belongs to whoever sends views");
   }
   const bool has_views = options.mission.piped_views || !options.scenario.views.empty();
-  if (!has_views || is_given_route(utility)) return;
+  if (!has_views || traits_of(scenario.planner).takes_views) return;
   throw BadInput(fmt::format("--views {}: goes with --utility {}, not {}",
                              options.mission.piped_views ? "-" : options.scenario.views,
-                             kGivenRouteName, utility));
+                             planners_that(&PlannerTraits::takes_views).front(),
+                             scenario.planner.utility.name));
 }
 
 void set_views(const std::string& file, RunOptions& options) {
@@ -147,7 +147,7 @@ void run(const RunOptions& options) {
     say(note);
   }
   if (const std::string note =
-          early_end_note(mission.result, mission.score.final[0], scenario.planner.utility.name);
+          early_end_note(mission.result, mission.score.final[0], traits_of(scenario.planner));
       !note.empty()) {
     say(note);
   }

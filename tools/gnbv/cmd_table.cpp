@@ -7,8 +7,7 @@
 #include "bench/compare/effort_table.hpp"
 #include "bench/compare/paper_table.hpp"
 #include "bench/compare/statistics.hpp"
-#include "planner/routes.hpp"
-#include "planner/tour_planner.hpp"
+#include "planner/planners.hpp"
 #include "scenarios/papers_setting.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/text.hpp"
@@ -82,9 +81,11 @@ Sweep sweep_of(const TableOptions& options, const PaperTable& paper, const Scena
   for (const std::string& utility : options.utilities) {
     sweep.methods.push_back(method_of_utility(utility));
   }
-  add_row_to_the_end(kTourName);
+  for (const auto tour : planners_that(&PlannerTraits::makes_tours)) add_row_to_the_end(tour);
   if (!options.no_oracle) {
-    for (const std::string_view oracle : kOracleNames) add_row_to_the_end(oracle);
+    for (const auto oracle : planners_that(&PlannerTraits::knows_structure)) {
+      add_row_to_the_end(oracle);
+    }
   }
   sweep.seeds = seeds_from(first.seed, options.bench.seed_count);
   return sweep;

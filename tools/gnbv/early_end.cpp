@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "planner/routes.hpp"
 #include "sim/core/text.hpp"
 
 namespace gnbv {
@@ -100,10 +99,11 @@ std::string refused_views_note(const MissionResult& result) {
   return text;
 }
 
-std::string early_end_note(const MissionResult& result, double coverage, std::string_view utility) {
+std::string early_end_note(const MissionResult& result, double coverage,
+                           const PlannerTraits& planner) {
   const std::size_t views = result.views.size();
   // of a laid route no view that could be flown to is left: it was flown
-  const bool has_route = result.termination == Termination::no_valid_view && is_route(utility) &&
+  const bool has_route = result.termination == Termination::no_valid_view && planner.lays_views &&
                          result.last_rejections.empty();
   if (views >= kFewViews || coverage >= kExplored || has_route) return "";
   const std::string after = fmt::format(

@@ -5,7 +5,6 @@
 
 #include "bench/limits/oracle.hpp"
 #include "planner/map/memory.hpp"
-#include "planner/routes.hpp"
 #include "planner/symmetry/symmetry_module.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/stopwatch.hpp"
@@ -14,9 +13,9 @@
 #include "tools/mission/coverage_goal.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/mission.hpp"
-#include "tools/mission/own_utility.hpp"
 #include "tools/mission/reference.hpp"
 #include "tools/mission/start_pose.hpp"
+#include "tools/mission/user_utility.hpp"
 #include "tools/mission/view_pipe.hpp"
 #include "tools/run_files/candidates_jsonl.hpp"
 #include "tools/run_files/file_names.hpp"
@@ -53,18 +52,17 @@ void need_memory_for(const Scenario& scenario, int threads) {
 void need_saved_profile(const Scenario& scenario) {
   const ProfilingConfig& profiling = scenario.planner.profiling;
   if (profiling.method != ProfilingMethod::saved) return;
-  read_belief(profiling.file,
-              PlannerModel(scenario.planner, scenario.workspace_m, camera_models(scenario), {}));
+  read_belief(profiling.file, planner_model(scenario));
 }
 
 /// Who flies given views needs some.
 void need_views(const Scenario& scenario, bool are_piped) {
-  const std::string& utility = scenario.planner.utility.name;
-  if (are_piped || !is_given_route(utility) || !scenario.planner.routes.views.empty()) return;
+  if (are_piped || !traits_of(scenario.planner).takes_views) return;
+  if (!scenario.planner.routes.views.empty()) return;
   throw BadInput(fmt::format(
       "planner.routes.views: holds no view, and planner.utility.name = {} flies what it holds; "
       "--views FILE gives some",
-      kGivenRouteName));
+      scenario.planner.utility.name));
 }
 
 /// On stderr, and to whoever wants to know.
@@ -81,33 +79,65 @@ class Shown {
   const MissionOptions& options_;
 };
 
-/// The views of an oracle, which knows the structure; nothing for those who have to find out.
-std::optional<std::vector<Decision>> oracle_route(const Scenario& scenario, const World& world,
-                                                  const RayScene& scene, Shown& progress,
-                                                  int threads) {
-  const std::string& utility = scenario.planner.utility.name;
-  if (!is_oracle(utility)) return std::nullopt;
+/// The views of who knows the structure; nothing for those who have to find out.
+std::optional<std::vector<Decision>> known_route(const Scenario& scenario, const World& world,
+                                                 const RayScene& scene, Shown& progress,
+                                                 int threads) {
+  const PlannerTraits planner = traits_of(scenario.planner);
+  if (!planner.knows_structure) return std::nullopt;
   progress.show(0.0, "planning on the true structure");
-  return plan_oracle(scenario, world, scene, start_pose(scenario, scene), aim_of(utility), threads);
+  const OracleAim aim = planner.counts_metres ? OracleAim::metres : OracleAim::views;
+  return plan_oracle(scenario, world, scene, start_pose(scenario, scene), aim, threads);
 }
 
-MissionHooks make_hooks(const Scenario& scenario, const MissionOptions& options,
-                        RunDirectory& directory, Shown& progress) {
-  MissionHooks hooks;
-  hooks.on_profile = [&progress](double share) { progress.show(0.1 * share, "profile"); };
-  hooks.on_profile_belief = [&](const Belief& belief) { directory.write_profile(belief); };
-  hooks.on_view = [&](const ViewRecord& view) {
-    directory.need_as_recorded(view);
-    directory.append(view);
-    const int last = scenario.planner.termination.max_iterations;
-    progress.show(0.1 + 0.9 * (view.iteration + 1) / last,
-                  fmt::format("view {}/{}  {:.0f} m  {} points", view.iteration + 1, last,
-                              view.straight_m, grouped(view.cloud_points)));
-  };
-  hooks.should_stop = [&options] { return InterruptGuard::requested() || options.should_stop(); };
-  hooks.replay = directory.recorded_decisions();
-  return hooks;
-}
+/// Keeps the mission's record while it flies, and says how far it is.
+class RunRecorder final : public MissionObserver {
+ public:
+  RunRecorder(const Scenario& scenario, RunDirectory& directory, Shown& progress)
+      : last_(scenario.planner.termination.max_iterations),
+        directory_(directory),
+        progress_(progress) {}
+  void on_profile(double share_done) override { progress_.show(0.1 * share_done, "profile"); }
+  void on_profile_belief(const Belief& belief) override { directory_.write_profile(belief); }
+  void on_view(const ViewRecord& view, const Belief&) override {
+    directory_.need_as_recorded(view);
+    directory_.append(view);
+    progress_.show(0.1 + 0.9 * (view.iteration + 1) / last_,
+                   fmt::format("view {}/{}  {:.0f} m  {} points", view.iteration + 1, last_,
+                               view.straight_m, grouped(view.cloud_points)));
+  }
+
+ private:
+  int last_;  // view at most
+  RunDirectory& directory_;
+  Shown& progress_;
+};
+
+/// `--frames`.
+class FramesRecorder final : public MissionObserver {
+ public:
+  FramesRecorder(const fs::path& run, const Scenario& scenario)
+      : folder_(run, camera_models(scenario)) {}
+  bool wants_colour() const override { return true; }
+  void on_sensed(const SensedView& view) override {
+    folder_.write(view.iteration, view.time_s, view.depth, view.colour);
+  }
+
+ private:
+  FramesFolder folder_;
+};
+
+/// `--candidates`.
+class CandidatesRecorder final : public MissionObserver {
+ public:
+  CandidatesRecorder(const fs::path& run, std::size_t first_iteration)
+      : file_(run, first_iteration) {}
+  void on_plan(std::size_t iteration, const Plan& plan) override { file_.write(iteration, plan); }
+  void finish() { file_.finish(); }
+
+ private:
+  CandidatesFile file_;
+};
 
 /// The folder of the mission, which nobody else flies into until it is over.
 RunClaim claim_folder(const Scenario& scenario, const MissionOptions& options) {
@@ -161,7 +191,7 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
     say(warning);
   }
   need_saved_profile(scenario);
-  const OwnScores own_scores = start_own_utility(scenario.planner.utility);
+  const UserScores user_scores = start_user_utility(scenario.planner.utility);
   if (scenario.planner.symmetry.enabled) symmetry_module();  // throws when it is missing
   const RunClaim claim = claim_folder(scenario, options);    // an oracle may think for minutes
   ProgressBar bar(fmt::format("{} {}", scenario.name, utility_label(scenario.planner.utility)),
@@ -169,40 +199,39 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
   Shown progress(bar, options);
   progress.show(0.0, "finding what there is to see");
   const SurfaceReference reference = reference_of(scenario, world, scene, threads);
-  std::optional<std::vector<Decision>> route =
-      oracle_route(scenario, world, scene, progress, threads);
+  auto route = known_route(scenario, world, scene, progress, threads);
   RunDirectory directory(claim.folder(), scenario, options.resume);
   write_inputs(directory.path(), inputs_as_begun(scenario, world, directory.path()));
   const InterruptGuard interrupt;
   try {
-    MissionHooks hooks = make_hooks(scenario, options, directory, progress);
-    hooks.route = std::move(route);
-    hooks.own_scores = own_scores;
-    hooks.is_covered = coverage_goal(scenario.benchmark, reference, scene);
-    std::optional<FramesFolder> frames;
+    RunRecorder recorder(scenario, directory, progress);
+    MissionInputs inputs = {.observers = {&recorder}};
+    inputs.should_stop = [&] { return InterruptGuard::requested() || options.should_stop(); };
+    inputs.is_covered = coverage_goal(scenario.benchmark, reference, scene);
+    inputs.replay = directory.recorded_decisions();
+    inputs.sources.user_scores = user_scores;
+    inputs.sources.route = std::move(route);
+    const std::size_t first = directory.recorded().size();
+    std::optional<FramesRecorder> frames;
     if (options.frames) {
-      frames.emplace(directory.path(), camera_models(scenario));
-      hooks.on_frames = [&](const auto&... all) { frames->write(all...); };
+      inputs.observers.push_back(&frames.emplace(directory.path(), scenario));
     }
-    std::optional<CandidatesFile> candidates;
+    std::optional<CandidatesRecorder> candidates;
     std::optional<BeliefLog> beliefs;
     if (options.candidates) {
-      candidates.emplace(directory.path(), directory.recorded().size());
-      hooks.on_candidates = [&](const auto&... all) { candidates->write(all...); };
-      beliefs.emplace(scenario, directory.path(), directory.recorded().size());
-      beliefs->connect(hooks);
+      inputs.observers.push_back(&candidates.emplace(directory.path(), first));
+      inputs.observers.push_back(&beliefs.emplace(scenario, directory.path(), first));
     }
     std::optional<ViewPipe> pipe;
     if (options.piped_views) {
-      pipe.emplace(scenario, directory, options.frames, options.coverage ? &reference : nullptr);
-      pipe->connect(hooks);
+      pipe.emplace(scenario, directory, options.frames, options.coverage ? &reference : nullptr)
+          .connect(inputs);
     }
-    std::optional<OwnPlannerHooks> planner;
+    std::optional<UserPlannerLink> planner;
     if (options.planner != nullptr) {
-      planner.emplace(*options.planner, scenario, directory);
-      planner->connect(hooks);
+      planner.emplace(*options.planner, scenario, directory).connect(inputs);
     }
-    MissionResult result = run_mission(scenario, world, scene, hooks, threads);
+    MissionResult result = run_mission(scenario, world, scene, inputs, threads);
     directory.need_as_recorded(result);
     const Stopwatch scoring;
     progress.show(1.0, "scoring");

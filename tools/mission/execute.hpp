@@ -7,8 +7,8 @@
 
 #include "bench/score/mission_score.hpp"
 #include "scenarios/scenario.hpp"
-#include "tools/mission/own_planner.hpp"
 #include "tools/mission/run_ceiling.hpp"
+#include "tools/mission/user_planner.hpp"
 #include "tools/run_files/mission_result.hpp"
 
 namespace gnbv {
@@ -24,7 +24,7 @@ struct MissionOptions {
   bool piped_views = false;  // views come on stdin, answers go to stdout: view_pipe.hpp
   bool coverage = false;     // which then tell the coverage
   CeilingFrom ceiling = CeilingFrom::cache;
-  const OwnPlanner* planner = nullptr;  // asked for the views; the utility is `route`
+  const UserPlanner* planner = nullptr;  // asked for the views; the utility is `route`
   std::function<void(double share_done, const std::string& note)> on_progress = {};  // may be empty
   std::function<bool()> should_stop = [] { return false; };  // asked as Ctrl-C is
 };

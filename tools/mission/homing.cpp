@@ -37,8 +37,8 @@ std::vector<Vec3> over_the_top(const Mission& m, const Vec3& from_world_m, bool 
 
 std::optional<std::vector<Vec3>> found_way(const Mission& m, const Vec3& from_world_m) {
   const Vec3& home_m = m.out.start.p_world_m;
-  auto way_m = find_path(kSearch, m.out.belief.grid, m.planner.navigation_m, from_world_m, home_m,
-                         m.planner.config.validity.collision_radius_m, m.planner.no_fly);
+  auto way_m = find_path(kSearch, m.out.belief.grid, m.model.navigation_m, from_world_m, home_m,
+                         m.model.validity.collision_radius_m, m.model.no_fly);
   if (way_m) way_m->push_back(home_m);
   return way_m;
 }

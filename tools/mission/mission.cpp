@@ -1,13 +1,13 @@
 #include "tools/mission/mission.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
+#include <variant>
 
-#include "planner/follow_route.hpp"
 #include "planner/map/path_search.hpp"
-#include "planner/next_view.hpp"
-#include "sim/core/error.hpp"
-#include "tools/mission/given_route.hpp"
+#include "planner/tour/tour_notes.hpp"
 #include "tools/mission/homing.hpp"
 #include "tools/mission/mission_state.hpp"
 #include "tools/mission/sensing.hpp"
@@ -20,18 +20,18 @@ constexpr double kGimbalRate_rad_s = deg_to_rad(60.0);
 
 /// The camera as it looks now.
 CameraModel camera_now(const Mission& m, std::size_t camera) {
-  return turned(m.planner.cameras[camera], m.gimbal_pitch_rad);
+  return turned(m.model.cameras[camera], m.gimbal_pitch_rad);
 }
 
 /// The camera's depth frame now, counted; nothing when it is lost.
 std::optional<DepthFrame> take_frame(Mission& m, std::size_t camera) {
-  if (is_dropped(m.planner.cameras[camera].config, camera, m.flight->tick(), m.scenario.seed)) {
+  if (is_dropped(m.model.cameras[camera].config, camera, m.flight->tick(), m.scenario.seed)) {
     ++m.out.frames.dropped;
     return std::nullopt;
   }
   ++m.out.frames.taken;
   return sense_depth(m.scene, camera_now(m, camera), static_cast<int>(camera), *m.flight,
-                     m.scenario.seed, m.bench.threads);
+                     m.scenario.seed, m.scratch.threads);
 }
 
 /// One tick of the gimbal towards the view's pitch.
@@ -53,11 +53,11 @@ std::optional<Termination> fly_to_view(Mission& m, const Decision& next) {
       path_length_m(m.current.p_world_m, next.via_world_m, next.view.p_world_m);
   std::vector<DepthFrame> pending;
   const auto look = [&](const Flight& flight) {
-    integrate_view(m.planner, pending, m.bench, m.out.belief);
+    integrate_view(m.model, pending, m.scratch, m.out.belief);
     pending.clear();
     turn_gimbal(m, next.view);
-    for (std::size_t i = 0; i < m.planner.cameras.size(); ++i) {
-      if (!is_due(m.planner.cameras[i].config.rate_hz, flight.tick())) continue;
+    for (std::size_t i = 0; i < m.model.cameras.size(); ++i) {
+      if (!is_due(m.model.cameras[i].config.rate_hz, flight.tick())) continue;
       if (auto frame = take_frame(m, i)) pending.push_back(std::move(*frame));
     }
   };
@@ -83,29 +83,35 @@ std::optional<Termination> fly_to_view(Mission& m, const Decision& next) {
 std::vector<DepthFrame> sense(Mission& m) {
   const ScopeTimer timer(m.view_wall.sense_s);
   std::vector<DepthFrame> frames;
-  for (std::size_t i = 0; i < m.planner.cameras.size(); ++i) {
+  for (std::size_t i = 0; i < m.model.cameras.size(); ++i) {
     if (auto frame = take_frame(m, i)) frames.push_back(std::move(*frame));
   }
-  m.hooks.on_sensed(m.flight->estimate().T_world_body, frames);
-  if (!m.hooks.on_frames) return frames;
   std::vector<ColourFrame> colours;
-  for (const DepthFrame& frame : frames) {
-    colours.push_back(sense_colour(m.scene, camera_now(m, static_cast<std::size_t>(frame.camera)),
-                                   frame.camera, *m.flight, m.bench.threads));
+  const auto& observers = m.inputs.observers;
+  if (std::any_of(observers.begin(), observers.end(), [](auto* o) { return o->wants_colour(); })) {
+    for (const DepthFrame& frame : frames) {
+      colours.push_back(sense_colour(m.scene, camera_now(m, static_cast<std::size_t>(frame.camera)),
+                                     frame.camera, *m.flight, m.scratch.threads));
+    }
   }
-  m.hooks.on_frames(m.out.views.size(), time_s(*m.flight), frames, colours);
+  tell(m, &MissionObserver::on_sensed,
+       SensedView{.iteration = m.out.views.size(),
+                  .time_s = time_s(*m.flight),
+                  .T_world_body = m.flight->estimate().T_world_body,
+                  .depth = frames,
+                  .colour = colours});
   return frames;
 }
 
 void integrate(Mission& m, std::span<const DepthFrame> frames) {
   const ScopeTimer timer(m.view_wall.map_s);
-  integrate_view(m.planner, frames, m.bench, m.out.belief);
+  integrate_view(m.model, frames, m.scratch, m.out.belief);
   remember_entropy(m.out.belief, m.entropy_before_nat, m.history);
 }
 
 void record(Mission& m, const Decision& decision) {
   m.history.decisions.push_back(decision);
-  if (m.next_given > 0) m.out.given_views[m.next_given - 1].iteration = m.out.views.size();
+  if (!m.out.given_views.empty()) m.out.given_views.back().iteration = m.out.views.size();
   const Belief& belief = m.out.belief;
   remember_progress(belief, m.out.distance.straight_m, m.history);
   const std::size_t points = belief.cloud.points_world_m().size();
@@ -126,85 +132,87 @@ void record(Mission& m, const Decision& decision) {
   m.out.wall.plan_s += m.view_wall.plan_s;
   m.out.wall.fly_s += m.view_wall.fly_s;
   m.view_wall = {};
-  m.hooks.on_view(m.out.views.back());
-  m.hooks.on_view_belief(belief);
+  tell(m, &MissionObserver::on_view, m.out.views.back(), belief);
   m.exits = exits_here(m);
   m.corners.clear();
 }
 
 std::optional<Termination> termination(const Mission& m) {
-  const TerminationConfig& config = m.planner.config.termination;
-  if (m.hooks.is_covered(m.out.belief)) return Termination::coverage_reached;
+  const TerminationConfig& config = m.scenario.planner.termination;
+  if (m.inputs.is_covered(m.out.belief)) return Termination::coverage_reached;
   if (m.out.views.size() >= static_cast<std::size_t>(config.max_iterations)) {
     return Termination::max_iterations;
   }
-  if (!m.hooks.route && !flies_given(m)) {
-    // a tour knows itself when the map has nothing more to tell
-    const std::span<const double> entropies_nat =
-        m.tour ? std::span<const double>() : std::span(m.history.entropies_nat);
-    if (const auto end = believed_end(config, entropies_nat, m.history.progress)) return end;
-    if (!m.tour && is_back_and_forth(positions_of(m.history), config.repeated_moves)) {
-      return Termination::repeated_motion;
-    }
-  } else if (m.hooks.route && m.out.views.size() > m.hooks.route->size()) {
-    return Termination::route_flown;
+  if (const auto end = believed_end(config, m.planner->end_rules(), m.history.entropies_nat,
+                                    m.history.progress, positions_of(m.history))) {
+    return end;
   }
   if (should_stop(m)) return Termination::interrupted;
   return std::nullopt;
 }
 
-/// Keeps the record of a decision.
-std::optional<Decision> chosen_of(Mission& m, std::size_t next, Plan plan) {
-  m.hooks.on_candidates(next, plan);
-  if (!plan.next) {
-    for (const Candidate& candidate : plan.candidates) {
-      if (candidate.rejected) ++m.out.last_rejections[*candidate.rejected];
+/// Keeps what the files tell of a plan, but its views, which are told when they are flown.
+void keep_record(Mission& m, std::size_t iteration, const Plan& plan) {
+  if (plan.tour) {
+    for (const LookOutcome& look : plan.tour->outcomes) {
+      m.out.look_outcomes.push_back({iteration - 1, look});
     }
+    if (plan.tour->plan) m.out.tour_plans.push_back({iteration, *plan.tour->plan});
   }
-  return std::move(plan.next);
+  if (traits_of(m.scenario.planner).takes_views) {
+    for (const Candidate& c : plan.candidates) m.out.given_views.push_back({c.view, c.rejected});
+  }
+  if (plan.has_view()) return;
+  for (const Candidate& candidate : plan.candidates) {
+    if (candidate.rejected) ++m.out.last_rejections[*candidate.rejected];
+  }
 }
 
-/// A tour learns from every view, so that it is asked again for the decisions of a replay.
-std::optional<Decision> decide_tour(Mission& m, std::size_t next) {
-  Plan plan = m.tour->next(m.out.belief, m.history, m.current, m.bench);
-  for (const LookOutcome& look : m.tour->outcomes()) {
-    m.out.look_outcomes.push_back({next - 1, look});
-  }
-  if (m.tour->plan()) m.out.tour_plans.push_back({next, *m.tour->plan()});
-  if (next < m.hooks.replay.size()) {
-    need_as_recorded(m, plan.next, next);
-    return m.hooks.replay[next];
-  }
-  return chosen_of(m, next, std::move(plan));
-}
-
-std::optional<Decision> decide(Mission& m) {
+/// A plan from where the last view was taken; a mission that is flown again replays it.
+Plan make_plan(Mission& m) {
   const ScopeTimer timer(m.view_wall.plan_s);
-  const std::size_t next = m.history.decisions.size();
-  if (flies_given(m)) return next_given_view(m);
-  if (m.tour) return decide_tour(m, next);
-  if (next < m.hooks.replay.size()) return m.hooks.replay[next];
-  if (m.hooks.route) return m.hooks.route->at(next - 1);  // decision 0 is the start
-  Plan plan = m.laid_route
-                  ? follow_route(m.planner, m.out.belief, m.history, *m.laid_route, m.current)
-                  : plan_next_view(m.planner, m.out.belief, m.history, m.current, m.bench);
-  return chosen_of(m, next, std::move(plan));
+  const std::size_t iteration = m.history.decisions.size();
+  const std::span<const Decision> replay = m.inputs.replay;
+  const bool is_replayed = iteration < replay.size();
+  Plan plan = is_replayed ? m.planner->replay(replay.subspan(iteration), m.out.belief, m.history,
+                                              m.current, m.scratch)
+                          : m.planner->next(m.out.belief, m.history, m.current, m.scratch);
+  if (!is_replayed) tell(m, &MissionObserver::on_plan, iteration, plan);
+  keep_record(m, iteration, plan);
+  return plan;
 }
 
-/// Why there is no next view.
-Termination end_without_view(const Mission& m) {
-  if (flies_given(m)) return end_of_given(m);
-  return m.tour && m.tour->is_complete() ? Termination::tour_complete : Termination::no_valid_view;
+/// The next view of the plan at hand, or of a new one; or why there is none.
+std::variant<Decision, Termination> next_decision(Mission& m) {
+  if (m.ahead.empty()) {
+    Plan plan = make_plan(m);
+    if (!plan.has_view()) return plan.end;
+    m.ahead.assign(std::make_move_iterator(plan.views.rbegin()),
+                   std::make_move_iterator(plan.views.rend()));
+  }
+  Decision next = std::move(m.ahead.back());
+  m.ahead.pop_back();
+  return next;
 }
 
 /// Whether the way to the view is longer than the mission may go on.
 bool is_too_far(const Mission& m, const Decision& next) {
-  return is_too_far(m.planner.config.termination, m.out.distance.straight_m,
+  return is_too_far(m.scenario.planner.termination, m.out.distance.straight_m,
                     path_length_m(m.current.p_world_m, next.via_world_m, next.view.p_world_m));
+}
+
+/// Of a user's views those that the mission did not come to.
+void keep_views_not_tried(Mission& m) {
+  if (!traits_of(m.scenario.planner).takes_views) return;
+  const std::vector<ViewPose>& views = m.scenario.planner.routes.views;
+  for (std::size_t i = m.out.given_views.size(); i < views.size(); ++i) {
+    m.out.given_views.push_back({views[i]});
+  }
 }
 
 MissionResult finish(Mission& m, Termination reason) {
   m.out.termination = reason;
+  keep_views_not_tried(m);
   if (ends_at_home(m, reason)) fly_home(m);
   m.out.flight_time_s = time_s(*m.flight);
   m.out.energy_wh = m.flight->energy_wh();
@@ -215,28 +223,27 @@ MissionResult finish(Mission& m, Termination reason) {
 }  // namespace
 
 MissionResult run_mission(const Scenario& scenario, const World& world, const RayScene& scene,
-                          const MissionHooks& hooks, int threads) {
-  GNBV_CHECK(hooks.route || !is_oracle(scenario.planner.utility.name), "{} without its route",
-             scenario.planner.utility.name);
-  Mission m(scenario, world, scene, hooks, threads);
+                          const MissionInputs& inputs, int threads) {
+  Mission m(scenario, world, scene, inputs, threads);
   if (const auto over = fly_profile(m)) return finish(m, *over);
-  Decision next = {.view = m.out.start};
+  Decision view = {.view = m.out.start};
   while (true) {
-    if (const auto over = fly_to_view(m, next)) return finish(m, *over);
+    if (const auto over = fly_to_view(m, view)) return finish(m, *over);
     integrate(m, sense(m));
-    record(m, next);
+    record(m, view);
     if (const auto over = termination(m)) return finish(m, *over);
-    std::optional<Decision> decision;
     try {
-      decision = decide(m);
-    } catch (const OwnUtilityFailed& failed) {
+      auto next = next_decision(m);
+      if (const auto* const end = std::get_if<Termination>(&next)) return finish(m, *end);
+      view = std::move(std::get<Decision>(next));
+    } catch (const StopRequested&) {
+      return finish(m, Termination::interrupted);
+    } catch (const UserUtilityFailed& failed) {
       m.out.failure = failed.what();
       return finish(m, Termination::utility_failed);
     }
-    if (!decision) return finish(m, end_without_view(m));
-    if (is_too_far(m, *decision)) return finish(m, Termination::max_distance);
-    if (!can_afford(m, *decision)) return finish(m, Termination::battery);
-    next = *decision;
+    if (is_too_far(m, view)) return finish(m, Termination::max_distance);
+    if (!can_afford(m, view)) return finish(m, Termination::battery);
   }
 }
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "planner/decision.hpp"
+#include "planner/planners.hpp"
 #include "scenarios/scenario.hpp"
 #include "sensors/frames.hpp"
 #include "sensors/ray_scene.hpp"
@@ -15,51 +15,54 @@
 
 namespace gnbv {
 
-struct MissionHooks {
-  std::function<void(double share_done)> on_profile = [](double) {};  // 0 to 1
+/// The frames of a view, camera by camera, before they are believed.
+struct SensedView {
+  std::size_t iteration = 0;
+  double time_s = 0.0;
+  const Isometry& T_world_body;  // as believed
+  std::span<const DepthFrame> depth;
+  std::span<const ColourFrame> colour;  // empty unless somebody wants them
+};
+
+/// Watches a mission. Decides nothing and changes nothing of it.
+class MissionObserver {
+ public:
+  virtual ~MissionObserver() = default;
+  virtual void on_profile(double /*share_done*/) {}  // 0 to 1
   /// All sweeps so far, when the profile leaves a station where it scanned, and at its end.
-  std::function<void(double time_s, std::span<const LidarScan>)> on_profile_sweeps =
-      [](double, std::span<const LidarScan>) {};
-  std::function<void(const Belief&)> on_profile_belief = [](const Belief&) {};  // at its end
-  std::function<void(const ViewRecord&)> on_view = [](const ViewRecord&) {};
-  /// What is believed after the latest view, before the next is decided.
-  std::function<void(const Belief&)> on_view_belief = [](const Belief&) {};
-  /// The frames of a view, camera by camera, before they are believed. Colour is captured only when
-  /// this is set.
-  std::function<void(std::size_t iteration, double time_s, std::span<const DepthFrame>,
-                     std::span<const ColourFrame>)>
-      on_frames;
-  /// All candidates of a decision, before the chosen one is flown to; `iteration` is the view that
-  /// it chooses. Not called for replayed decisions.
-  std::function<void(std::size_t iteration, const Plan&)> on_candidates = [](std::size_t,
-                                                                             const Plan&) {};
-  /// What each view measured, as believed: the vehicle's pose and the frames, camera by camera.
-  std::function<void(const Isometry& T_world_body, std::span<const DepthFrame>)> on_sensed =
-      [](const Isometry&, std::span<const DepthFrame>) {};
-  /// One more view for a mission that flies given ones and has used up those of its scenario;
-  /// nothing: there are no more.
-  std::function<std::optional<ViewPose>()> next_given = [] { return std::nullopt; };
-  /// A given view, by its index, that cannot be flown.
-  std::function<void(std::size_t index, Rejection)> on_refused = [](std::size_t, Rejection) {};
-  /// Scores of an own utility; without it, it is started when first asked.
-  OwnScores own_scores;
+  virtual void on_profile_sweeps(double /*time_s*/, std::span<const LidarScan>) {}
+  virtual void on_profile_belief(const Belief&) {}  // at its end
+  virtual bool wants_colour() const { return false; }
+  virtual void on_sensed(const SensedView&) {}
+  /// A view that was taken, and what is believed after it, before the next is decided.
+  virtual void on_view(const ViewRecord&, const Belief&) {}
+  /// A decision, before its views are flown; `iteration`: of the first of them. Not called for
+  /// replayed decisions.
+  virtual void on_plan(std::size_t /*iteration*/, const Plan&) {}
+};
+
+/// What a mission is given beside scenario and world.
+struct MissionInputs {
+  std::vector<MissionObserver*> observers = {};  // told in this order; they stay with the caller
   /// Asked at every tick of a leg but on the way home, after each leg of the profile, at its end,
-  /// and after each view.
+  /// after each view, and several times a second while the planner works.
   std::function<bool()> should_stop = [] { return false; };
   /// Asked after each view, of the truth: whether a benchmark has seen enough of the structure.
   std::function<bool(const Belief&)> is_covered = [](const Belief&) { return false; };
-  std::vector<Decision> replay;  // decisions of an interrupted run: flown again, not planned again
-  /// Views that someone else chose, flown after the start instead of planning. The mission ends as
-  /// route_flown after the last of them; of the planner's rules of termination only the limits of
-  /// views, metres and seconds hold.
-  std::optional<std::vector<Decision>> route;
+  std::vector<Decision> replay = {};  // of an interrupted run: flown again, not planned again
+  /// What comes to the planner from outside. A utility of the user's own is started when first
+  /// asked, unless it is here.
+  PlannerSources sources = {};
 };
 
 std::vector<CameraModel> camera_models(const Scenario& scenario);
+std::vector<LidarModel> lidar_models(const Scenario& scenario);
+/// What the planner of this scenario knows.
+PlannerModel planner_model(const Scenario& scenario);
 
-/// Runs the mission. The result is the same at any number of threads, replayed or not. An oracle's
-/// mission (is_oracle()) needs its route.
+/// Runs the mission. The result is the same at any number of threads, replayed or not. The mission
+/// of a planner that knows the structure needs its route.
 MissionResult run_mission(const Scenario& scenario, const World& world, const RayScene& scene,
-                          const MissionHooks& hooks, int threads);
+                          const MissionInputs& inputs, int threads);
 
 }  // namespace gnbv

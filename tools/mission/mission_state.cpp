@@ -7,17 +7,11 @@
 #include "sim/core/error.hpp"
 #include "sim/flight/guidance.hpp"
 #include "tools/mission/homing.hpp"
-#include "tools/mission/own_utility.hpp"
 #include "tools/mission/start_pose.hpp"
+#include "tools/mission/user_utility.hpp"
 
 namespace gnbv {
 namespace {
-
-std::vector<LidarModel> lidar_models(const Scenario& scenario) {
-  std::vector<LidarModel> models;
-  for (const LidarConfig& lidar : scenario.lidars) models.push_back(make_lidar_model(lidar));
-  return models;
-}
 
 /// Believed to be where no leg leads, and no vehicle that is in command of itself comes to.
 bool is_off_course(const Mission& m) {
@@ -28,7 +22,7 @@ bool is_off_course(const Mission& m) {
 
 /// Whether the mission may take longer; the way home is no part of it.
 bool has_time_to_go_on(const Mission& m) {
-  const double max_s = m.planner.config.termination.max_flight_time_s;
+  const double max_s = m.scenario.planner.termination.max_flight_time_s;
   return m.is_homing || max_s <= 0.0 || time_s(*m.flight) < max_s;
 }
 
@@ -37,33 +31,43 @@ bool stops_on_the_way(const Mission& m) { return !m.is_homing && should_stop(m);
 
 }  // namespace
 
+std::vector<LidarModel> lidar_models(const Scenario& scenario) {
+  std::vector<LidarModel> models;
+  for (const LidarConfig& lidar : scenario.lidars) models.push_back(make_lidar_model(lidar));
+  return models;
+}
+
 std::vector<CameraModel> camera_models(const Scenario& scenario) {
   std::vector<CameraModel> models;
   for (const CameraConfig& camera : scenario.cameras) models.push_back(make_camera_model(camera));
   return models;
 }
 
+PlannerModel planner_model(const Scenario& scenario) {
+  return make_model(scenario.planner, scenario.workspace_m, camera_models(scenario),
+                    lidar_models(scenario), scenario.seed, no_fly_of(scenario));
+}
+
 Mission::Mission(const Scenario& mission_scenario, const World& world, const RayScene& ray_scene,
-                 const MissionHooks& mission_hooks, int threads)
+                 const MissionInputs& mission_inputs, int threads)
     : scenario(mission_scenario),
       scene(ray_scene),
-      hooks(mission_hooks),
-      planner(scenario.planner, scenario.workspace_m, camera_models(scenario),
-              lidar_models(scenario), scenario.seed, no_fly_of(scenario),
-              hooks.own_scores ? hooks.own_scores : lazy_own_utility(scenario.planner.utility)),
-      bench(planner, threads),
-      out(start_pose(scenario, scene), planner),
+      inputs(mission_inputs),
+      model(planner_model(scenario)),
+      scratch(model, threads),
+      out(start_pose(scenario, scene), model),
       flight(make_flight(scenario.vehicle, world, out.start, scenario.seed, scenario.wind)),
       current(out.start),
       last_p_world_m(out.start.p_world_m),
       gimbal_pitch_rad(out.start.gimbal_pitch_rad) {
-  if (is_tour(planner.config.utility.name)) tour.emplace(planner);
-  if (!is_given_route(scenario.planner.utility.name)) return;
-  for (const ViewPose& view : scenario.planner.routes.views) out.given_views.push_back({view});
+  PlannerSources sources = inputs.sources;
+  if (!sources.user_scores) sources.user_scores = lazy_user_utility(scenario.planner.utility);
+  planner = make_planner(scenario.planner, model, std::move(sources));
+  scratch.should_stop = [this] { return gnbv::should_stop(*this); };
 }
 
 bool should_stop(const Mission& m) {
-  return m.out.views.size() >= m.hooks.replay.size() && m.hooks.should_stop();
+  return m.out.views.size() >= m.inputs.replay.size() && m.inputs.should_stop();
 }
 
 double time_s(const Flight& flight) { return static_cast<double>(flight.tick()) * kTick_s; }
@@ -79,9 +83,9 @@ void keep_track(Mission& m) {
 std::optional<std::vector<Vec3>> way_over_the_top(const Mission& m, const Vec3& from_m,
                                                   const Vec3& goal_m, bool reads_map) {
   constexpr PathSearchConfig kSearch = {.max_expansions = 20000};
-  const NoFly& no_fly = m.planner.no_fly;
-  const Box3& box_m = m.planner.navigation_m;
-  const double radius_m = m.planner.config.validity.collision_radius_m;
+  const NoFly& no_fly = m.model.no_fly;
+  const Box3& box_m = m.model.navigation_m;
+  const double radius_m = m.model.validity.collision_radius_m;
   const auto is_clear = [&](const Vec3& a_m, const Vec3& b_m) {
     return !reads_map || is_path_clear(m.out.belief.grid, a_m, b_m, radius_m);
   };
@@ -99,14 +103,6 @@ std::optional<std::vector<Vec3>> way_over_the_top(const Mission& m, const Vec3& 
   }
   if (way_m) way_m->push_back(goal_m);
   return way_m;
-}
-
-void need_as_recorded(const Mission& m, const std::optional<Decision>& now, std::size_t iteration) {
-  if (now && is_same_view(now->view, m.hooks.replay[iteration].view)) return;
-  throw BadInput(fmt::format(
-      "view {}: what is decided anew is another view than was recorded: another version of the "
-      "program or another mesh made this run; fly it anew",
-      iteration));
 }
 
 std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal, double speed_m_s,

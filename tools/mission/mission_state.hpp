@@ -5,10 +5,10 @@
 #include <memory>
 #include <optional>
 
-#include "planner/history.hpp"
-#include "planner/model.hpp"
-#include "planner/tour_planner.hpp"
-#include "planner/workbench.hpp"
+#include "planner/core/history.hpp"
+#include "planner/core/model.hpp"
+#include "planner/core/planner.hpp"
+#include "planner/core/scratch.hpp"
 #include "sim/core/stopwatch.hpp"
 #include "sim/flight/flight.hpp"
 #include "tools/mission/mission.hpp"
@@ -25,30 +25,29 @@ struct Exit {
 /// All that changes while the mission runs, beside what never does.
 struct Mission {
   Mission(const Scenario& mission_scenario, const World& world, const RayScene& ray_scene,
-          const MissionHooks& mission_hooks, int threads);
+          const MissionInputs& mission_inputs, int threads);
 
   const Scenario& scenario;
   const RayScene& scene;
-  const MissionHooks& hooks;
-  const PlannerModel planner;
+  const MissionInputs& inputs;
+  const PlannerModel model;
 
-  Workbench bench;
+  Scratch scratch;
 
   MissionResult out;
   std::unique_ptr<Flight> flight;
   History history;
-  std::optional<TourPlanner> tour;                  // for the utility of that name
-  std::optional<std::vector<ViewPose>> laid_route;  // of a baseline that plans all views at once
-  ViewPose current;                                 // where the planner believes to be
-  Vec3 last_p_world_m;                              // truth, one tick ago
-  std::size_t next_given = 0;                       // of out.given_views
-  double gimbal_pitch_rad = 0.0;                    // where it is
-  double flown_m = 0.0;                             // truth, since the start
-  std::vector<Exit> exits;                          // none: home leads over the top
-  std::vector<Exit> corners;                        // of the way to the next view, ends included
-  bool is_homing = false;                           // on the last way, with energy for it
-  double entropy_before_nat = 0.0;                  // of the view at hand
-  WallTimes view_wall;                              // of the view at hand
+  std::unique_ptr<Planner> planner;
+  std::vector<Decision> ahead;      // of the plan at hand, in reverse order: the next one last
+  ViewPose current;                 // where the planner believes to be
+  Vec3 last_p_world_m;              // truth, one tick ago
+  double gimbal_pitch_rad = 0.0;    // where it is
+  double flown_m = 0.0;             // truth, since the start
+  std::vector<Exit> exits;          // none: home leads over the top
+  std::vector<Exit> corners;        // of the way to the next view, ends included
+  bool is_homing = false;           // on the last way, with energy for it
+  double entropy_before_nat = 0.0;  // of the view at hand
+  WallTimes view_wall;              // of the view at hand
 };
 
 double time_s(const Flight& flight);
@@ -65,9 +64,11 @@ void keep_track(Mission& m);
 std::optional<std::vector<Vec3>> way_over_the_top(const Mission& m, const Vec3& from_m,
                                                   const Vec3& goal_m, bool reads_map = true);
 
-/// Refuses a decision that is another than the recorded one of a resumed mission: another program
-/// or another mesh made the record. Throws BadInput naming the view.
-void need_as_recorded(const Mission& m, const std::optional<Decision>& now, std::size_t iteration);
+/// Tells all observers, in their order.
+template <typename Event, typename... Told>
+void tell(const Mission& m, Event event, const Told&... told) {
+  for (MissionObserver* const observer : m.inputs.observers) (observer->*event)(told...);
+}
 
 /// Flies one leg and keeps its track; `on_tick` runs after each tick.
 std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal, double speed_m_s,

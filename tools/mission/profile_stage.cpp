@@ -10,20 +10,22 @@ namespace {
 /// Flies the legs of the profile while the LIDARs scan. `flown` gets where each began.
 std::optional<Termination> scan_profile(Mission& m, ProfileScanner& scanner,
                                         std::vector<ViewPose>& flown) {
-  const ProfilingConfig& profiling = m.planner.config.profiling;
+  const ProfilingConfig& profiling = m.scenario.planner.profiling;
   const GuidanceConfig& guidance = m.scenario.guidance;
-  ProfileRoute route(profiling, m.planner.navigation_m, m.current, m.planner.no_fly);
+  ProfileRoute route(profiling, m.model.navigation_m, m.current, m.model.no_fly);
   std::size_t looked_at = 0;  // of the sweeps
   bool was_scan = false;
   for (bool is_first = true;; is_first = false) {
     const auto fresh = std::span(scanner.scans()).subspan(looked_at);
     looked_at = scanner.scans().size();
     const bool saw_surface = profiling.method == ProfilingMethod::circular &&
-                             sees_surface(fresh, m.planner.lidars, m.planner.config.floor_z_m);
+                             sees_surface(fresh, m.model.lidars, m.scenario.planner.floor_z_m);
     const auto leg = route.next(saw_surface);
     const bool is_scan = leg && leg->is_scan;
     // a station of a circular profile takes several legs
-    if (was_scan && !is_scan) m.hooks.on_profile_sweeps(time_s(*m.flight), scanner.scans());
+    if (was_scan && !is_scan) {
+      tell(m, &MissionObserver::on_profile_sweeps, time_s(*m.flight), scanner.scans());
+    }
     was_scan = is_scan;
     if (!leg) return std::nullopt;
     const bool scanning = leg->is_scan || (profiling.scan_in_transit && !is_first);
@@ -33,7 +35,7 @@ std::optional<Termination> scan_profile(Mission& m, ProfileScanner& scanner,
     const auto over = fly_leg(m, leg->goal, speed_m_s,
                               [&](const Flight& flight) { scanner.tick(flight, scanning); });
     if (over) return over;
-    m.hooks.on_profile(route.share_done());
+    tell(m, &MissionObserver::on_profile, route.share_done());
     if (should_stop(m)) return Termination::interrupted;
   }
 }
@@ -41,31 +43,31 @@ std::optional<Termination> scan_profile(Mission& m, ProfileScanner& scanner,
 /// Flies and believes the profile, or takes up a saved one.
 std::optional<Termination> take_profile(Mission& m, std::vector<ViewPose>& flown) {
   const ScopeTimer timer(m.out.wall.profile_s);
-  const ProfilingConfig& profiling = m.planner.config.profiling;
+  const ProfilingConfig& profiling = m.scenario.planner.profiling;
   std::optional<Termination> over;
   if (profiling.method == ProfilingMethod::saved) {
-    m.out.belief = read_belief(profiling.file, m.planner);
+    m.out.belief = read_belief(profiling.file, m.model);
   } else {
-    ProfileScanner scanner(m.scene, m.planner.lidars, m.scenario.seed);
+    ProfileScanner scanner(m.scene, m.model.lidars, m.scenario.seed);
     over = scan_profile(m, scanner, flown);
-    integrate_profile(m.planner, scanner.scans(), m.bench, m.out.belief);
+    integrate_profile(m.model, scanner.scans(), m.scratch, m.out.belief);
   }
   const auto points = m.out.belief.cloud.points_world_m();
   m.out.profile_points_world_m.assign(points.begin(), points.end());
   m.out.entropy_after_profile_nat = m.out.belief.grid.total_entropy_nat();
   m.out.distance.profile_flown_m = m.flown_m;
   m.out.profile_end_s = time_s(*m.flight);
-  if (!over) m.hooks.on_profile_belief(m.out.belief);
+  if (!over) tell(m, &MissionObserver::on_profile_belief, m.out.belief);
   return over;
 }
 
 /// Predicts the other half of a symmetric structure (section 2.3), for a utility that asks for it.
 void predict(Mission& m) {
-  if (!reads_prediction(m.planner.config.utility)) return;
+  if (!traits_of(m.scenario.planner).reads_prediction) return;
   const ScopeTimer timer(m.out.wall.symmetry_s);
   Prediction& prediction = m.out.prediction;
-  prediction.symmetry = find_symmetry(m.planner.config.symmetry, m.out.profile_points_world_m,
-                                      m.out.belief.grid, m.bench.threads);
+  prediction.symmetry = find_symmetry(m.scenario.planner.symmetry, m.out.profile_points_world_m,
+                                      m.out.belief.grid, m.scratch.threads);
   prediction.predicted_voxels = predict_surface(prediction.symmetry, m.out.belief.grid);
   prediction.symmetry.mirrored_world_m = {};
 }
@@ -76,8 +78,8 @@ std::vector<ViewPose> legs_to_first_view(const Mission& m, const std::vector<Vie
   const ViewPose& goal = m.out.start;
   const Vec3& from_m = m.current.p_world_m;
   if (is_path_clear(m.out.belief.grid, from_m, goal.p_world_m,
-                    m.planner.config.validity.collision_radius_m) &&
-      m.planner.no_fly.allows_leg(from_m, goal.p_world_m)) {
+                    m.model.validity.collision_radius_m) &&
+      m.model.no_fly.allows_leg(from_m, goal.p_world_m)) {
     return {goal};
   }
   const auto way_m = way_over_the_top(m, from_m, goal.p_world_m);
@@ -110,18 +112,6 @@ std::optional<Termination> fly_to_first_view(Mission& m, const std::vector<ViewP
   return std::nullopt;
 }
 
-/// What a baseline that asks no utility will fly, laid around the profile.
-void lay_route(Mission& m) {
-  const PlannerConfig& config = m.planner.config;
-  if (!is_route(config.utility.name)) return;
-  m.laid_route = plan_route(config.utility.name, config.routes,
-                            {.grid = m.out.belief.grid,
-                             .navigation_m = m.planner.navigation_m,
-                             .camera = m.planner.cameras.front(),
-                             .start = m.out.start,
-                             .views = config.termination.max_iterations});
-}
-
 }  // namespace
 
 std::optional<Termination> fly_profile(Mission& m) {
@@ -130,7 +120,7 @@ std::optional<Termination> fly_profile(Mission& m) {
   if (should_stop(m)) return Termination::interrupted;
   predict(m);
   if (const auto over = fly_to_first_view(m, flown)) return over;
-  lay_route(m);
+  m.planner->begin(m.out.belief, m.out.start);
   return std::nullopt;
 }
 

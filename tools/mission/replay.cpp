@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "planner/model.hpp"
-#include "planner/routes.hpp"
-#include "planner/workbench.hpp"
+#include "planner/core/model.hpp"
+#include "planner/core/scratch.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {
@@ -20,32 +19,17 @@ void need_same(const ViewRecord& now, const ViewRecord& recorded) {
                   recorded.entropy_nat));
 }
 
-/// Hooks that fly the first `count` views as recorded and refuse another outcome. They refer to
-/// `mission`.
-MissionHooks hooks_for(const RecordedMission& mission, std::size_t count) {
-  MissionHooks hooks;
-  for (const ViewRecord& view : mission.views.first(count)) hooks.replay.push_back(view.decision);
-  if (is_oracle(mission.scenario.planner.utility.name)) {
-    hooks.route.emplace();  // may be empty: a profile needs no views
+/// What flies the first `count` views as recorded.
+MissionInputs inputs_for(const RecordedMission& mission, std::size_t count) {
+  MissionInputs inputs;
+  for (const ViewRecord& view : mission.views.first(count)) inputs.replay.push_back(view.decision);
+  if (traits_of(mission.scenario.planner).knows_structure) {
+    inputs.sources.route.emplace();  // may be empty: a profile needs no views
     for (std::size_t i = 1; i < mission.views.size(); ++i) {
-      hooks.route->push_back(mission.views[i].decision);
+      inputs.sources.route->push_back(mission.views[i].decision);
     }
   }
-  // a profile takes about as long as sixty views
-  const double steps = 60.0 + static_cast<double>(count);
-  hooks.on_profile = [&mission, steps](double share) { mission.on_progress(60.0 * share / steps); };
-  hooks.on_view = [&mission, steps](const ViewRecord& view) {
-    const auto i = static_cast<std::size_t>(view.iteration);
-    GNBV_CHECK(i < mission.views.size(), "view {} of {}", i, mission.views.size());
-    need_same(view, mission.views[i]);
-    mission.on_progress(std::min(1.0, (61.0 + view.iteration) / steps));
-  };
-  hooks.should_stop = [] { return true; };  // asked when the replayed views are flown
-  return hooks;
-}
-
-MissionResult fly(const RecordedMission& mission, const MissionHooks& hooks) {
-  return run_mission(mission.scenario, mission.world, mission.scene, hooks, mission.threads);
+  return inputs;
 }
 
 /// Where the vehicle was at the first sample that is no earlier.
@@ -75,12 +59,8 @@ struct ProfileLog {
 std::vector<ProfileStage> stages_of(const RecordedMission& mission, const ProfileLog& log,
                                     std::span<const TrajectorySample> path,
                                     std::span<const std::size_t> waypoints) {
-  const Scenario& scenario = mission.scenario;
-  std::vector<LidarModel> lidars;
-  for (const LidarConfig& lidar : scenario.lidars) lidars.push_back(make_lidar_model(lidar));
-  const PlannerModel model(scenario.planner, scenario.workspace_m, camera_models(scenario), lidars,
-                           scenario.seed, no_fly_of(scenario));
-  Workbench bench(model, mission.threads);
+  const PlannerModel model = planner_model(mission.scenario);
+  Scratch scratch(model, mission.threads);
   std::vector<std::size_t> counts;
   for (const std::size_t count : waypoints) {
     if (count < log.marks.size()) counts.push_back(count);
@@ -90,7 +70,7 @@ std::vector<ProfileStage> stages_of(const RecordedMission& mission, const Profil
   for (const std::size_t count : counts) {
     Belief belief(model);
     const auto& last = log.marks[count - 1];
-    integrate_profile(model, std::span(log.sweeps).first(last.sweeps), bench, belief);
+    integrate_profile(model, std::span(log.sweeps).first(last.sweeps), scratch, belief);
     const auto points = belief.cloud.points_world_m();
     stages.push_back({.waypoints = count, .points_world_m = {points.begin(), points.end()}});
     for (const TrajectorySample& sample : path) {
@@ -109,6 +89,59 @@ bool flies_profile(const Scenario& scenario) {
   return method != ProfilingMethod::saved && method != ProfilingMethod::none;
 }
 
+/// Refuses another outcome than the recorded one, and keeps what the request asks for.
+class ReplayWatch final : public MissionObserver {
+ public:
+  ReplayWatch(const RecordedMission& mission, const ReplayRequest& request, bool has_profile,
+              std::size_t count, MissionInputs& inputs)
+      : mission_(mission),
+        request_(request),
+        has_profile_(has_profile),
+        count_(count),
+        // a profile takes about as long as sixty views
+        steps_(60.0 + static_cast<double>(count)),
+        recorded_(inputs.replay),
+        inputs_(inputs) {}
+
+  void on_profile(double share) override {
+    mission_.on_progress(count_ == 0 ? share : 60.0 * share / steps_);
+  }
+  void on_profile_sweeps(double time_s, std::span<const LidarScan> so_far) override {
+    if (has_profile_) log.add(time_s, so_far);
+  }
+  void on_profile_belief(const Belief&) override { is_over = count_ == 0; }
+  void on_view(const ViewRecord& view, const Belief& after) override {
+    const auto i = static_cast<std::size_t>(view.iteration);
+    GNBV_CHECK(i < mission_.views.size(), "view {} of {}", i, mission_.views.size());
+    need_same(view, mission_.views[i]);
+    mission_.on_progress(std::min(1.0, (61.0 + view.iteration) / steps_));
+    ++views;
+    if (views == request_.decision) before = after;
+    if (request_.belief && views == *request_.belief + 1 && views < count_) belief = after;
+    is_over = views == count_;
+  }
+  void on_plan(std::size_t, const Plan& made) override {
+    plan = made;
+    inputs_.replay = recorded_;  // the mission reads it decision by decision
+  }
+
+  bool is_over = false;
+  std::size_t views = 0;
+  ProfileLog log;
+  Plan plan;
+  std::optional<Belief> before = {};  // the decision
+  std::optional<Belief> belief = {};
+
+ private:
+  const RecordedMission& mission_;
+  const ReplayRequest& request_;
+  const bool has_profile_;
+  const std::size_t count_;
+  const double steps_;
+  const std::vector<Decision> recorded_;
+  MissionInputs& inputs_;
+};
+
 }  // namespace
 
 Replayed replay(const RecordedMission& mission, const ReplayRequest& request) {
@@ -122,40 +155,24 @@ Replayed replay(const RecordedMission& mission, const ReplayRequest& request) {
   // the chosen view is checked, too
   const std::size_t count =
       has_views ? 1 + std::max(request.belief.value_or(0), request.decision.value_or(0)) : 0;
-  MissionHooks hooks = hooks_for(mission, count);
-  const std::vector<Decision> recorded = hooks.replay;
-  const bool plans = request.decision && request.plans;
-  if (plans) hooks.replay.resize(*request.decision);  // the next one is made again
-
-  Replayed out;
-  Plan plan;
-  std::optional<Belief> before;
-  std::size_t views = 0;
-  ProfileLog log;
-  bool is_over = false;
-  if (has_profile) {
-    hooks.on_profile_sweeps = [&](double time_s, std::span<const LidarScan> so_far) {
-      log.add(time_s, so_far);
-    };
+  MissionInputs inputs = inputs_for(mission, count);
+  ReplayWatch watch(mission, request, has_profile, count, inputs);
+  if (request.decision && request.plans) {
+    inputs.replay.resize(*request.decision);  // the next one is made again
   }
-  hooks.on_profile_belief = [&](const Belief&) { is_over = count == 0; };
-  hooks.on_view_belief = [&](const Belief& after) {
-    ++views;
-    if (views == request.decision) before = after;
-    if (request.belief && views == *request.belief + 1 && views < count) out.belief = after;
-    is_over = views == count;
-  };
-  hooks.on_candidates = [&](std::size_t, const Plan& made) {
-    plan = made;
-    hooks.replay = recorded;  // the mission reads it decision by decision
-  };
-  hooks.should_stop = [&] { return is_over; };
-  if (count == 0) hooks.on_profile = mission.on_progress;
-  MissionResult result = fly(mission, hooks);
-  GNBV_CHECK(views == count, "the mission ended after {} views of {}", views, count);
-  if (has_profile) out.profile = stages_of(mission, log, result.trajectory, request.waypoints);
+  inputs.observers = {&watch};
+  inputs.should_stop = [&] { return watch.is_over; };
+  MissionResult result =
+      run_mission(mission.scenario, mission.world, mission.scene, inputs, mission.threads);
+  GNBV_CHECK(watch.views == count, "the mission ended after {} views of {}", watch.views, count);
+  Replayed out;
+  if (has_profile)
+    out.profile = stages_of(mission, watch.log, result.trajectory, request.waypoints);
+  out.belief = std::move(watch.belief);
   if (request.belief && !out.belief) out.belief = std::move(result.belief);
-  if (request.decision) out.decision = ReplayedDecision{std::move(*before), std::move(plan)};
+  if (request.decision) {
+    out.decision = ReplayedDecision{std::move(*watch.before), std::move(watch.plan)};
+  }
   return out;
 }
 

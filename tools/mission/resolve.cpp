@@ -8,7 +8,7 @@
 #include "sim/core/file.hpp"
 #include "tools/mission/auto_bounds.hpp"
 #include "tools/mission/load_world.hpp"
-#include "tools/mission/own_utility.hpp"
+#include "tools/mission/user_utility.hpp"
 #include "tools/run_files/given_views.hpp"
 
 namespace gnbv {

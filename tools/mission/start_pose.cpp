@@ -4,8 +4,8 @@
 
 #include "bench/limits/legal_viewpoints.hpp"
 #include "bench/score/escape_search.hpp"
+#include "planner/core/view_validity.hpp"
 #include "planner/profiling.hpp"
-#include "planner/view_validity.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
 

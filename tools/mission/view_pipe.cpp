@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "planner/routes.hpp"
 #include "sim/core/error.hpp"
 #include "tools/run_files/file_names.hpp"
 #include "tools/run_files/frames_folder.hpp"
@@ -20,7 +19,7 @@ std::string line_of(const Json& json) {
 }
 
 /// Also to nobody: who no longer listens ends the mission by closing stdin.
-void tell(const Json& answer) {
+void tell_client(const Json& answer) {
   std::fputs(line_of(answer).c_str(), stdout);
   std::fflush(stdout);  // the other side waits for it
 }
@@ -51,28 +50,24 @@ ViewPipe::ViewPipe(const Scenario& scenario, RunDirectory& directory, bool keeps
 
 ViewPipe::~ViewPipe() { std::signal(SIGPIPE, on_sigpipe_); }
 
-void ViewPipe::connect(MissionHooks& hooks) {
-  hooks.next_given = [this, should_stop = hooks.should_stop] { return next(should_stop); };
-  hooks.on_refused = [this](std::size_t index, Rejection reason) { tell_refused(index, reason); };
-  hooks.on_sensed = [this](const Isometry& T_world_body, std::span<const DepthFrame> frames) {
-    T_world_body_ = T_world_body;
-    frames_.clear();
-    for (const DepthFrame& frame : frames) {
-      frames_.push_back({static_cast<std::size_t>(frame.camera), frame.T_world_camera});
-    }
+void ViewPipe::connect(MissionInputs& inputs) {
+  inputs.observers.push_back(this);
+  inputs.sources.next_view = [this, should_stop = inputs.should_stop] { return next(should_stop); };
+  inputs.sources.on_refused = [this](std::size_t index, Rejection reason) {
+    tell_refused(index, reason);
   };
-  hooks.on_view = [this, before = hooks.on_view](const ViewRecord& view) {
-    before(view);
-    view_ = view;
-  };
-  hooks.on_view_belief = [this, before = hooks.on_view_belief](const Belief& belief) {
-    before(belief);
-    tell_taken(belief);
-  };
-  hooks.on_profile_belief = [this, before = hooks.on_profile_belief](const Belief& belief) {
-    before(belief);
-    points_before_ = belief.cloud.points_world_m().size();
-  };
+}
+
+void ViewPipe::on_profile_belief(const Belief& belief) {
+  points_before_ = belief.cloud.points_world_m().size();
+}
+
+void ViewPipe::on_sensed(const SensedView& view) {
+  T_world_body_ = view.T_world_body;
+  frames_.clear();
+  for (const DepthFrame& frame : view.depth) {
+    frames_.push_back({static_cast<std::size_t>(frame.camera), frame.T_world_camera});
+  }
 }
 
 std::optional<ViewPose> ViewPipe::next(const std::function<bool()>& should_stop) {
@@ -87,7 +82,7 @@ std::optional<ViewPose> ViewPipe::next(const std::function<bool()>& should_stop)
       directory_.keep(scenario_);
       return view;
     } catch (const BadInput& error) {
-      tell({{"event", "malformed"}, {"what", error.what()}});
+      tell_client({{"event", "malformed"}, {"what", error.what()}});
     }
   }
   return std::nullopt;
@@ -96,13 +91,13 @@ std::optional<ViewPose> ViewPipe::next(const std::function<bool()>& should_stop)
 void ViewPipe::tell_refused(std::size_t index, Rejection reason) {
   GNBV_CHECK(index == answered_, "view {} after {} answers", index, answered_);
   ++answered_;
-  tell({{"event", "refused"}, {"view", index}, {"reason", name_of(reason)}});
+  tell_client({{"event", "refused"}, {"view", index}, {"reason", name_of(reason)}});
 }
 
-void ViewPipe::tell_taken(const Belief& belief) {
-  Json answer = {{"event", view_.iteration == 0 ? "start" : "flown"}};
-  if (view_.iteration > 0) answer["view"] = answered_++;
-  answer["iteration"] = view_.iteration;
+void ViewPipe::on_view(const ViewRecord& view, const Belief& belief) {
+  Json answer = {{"event", view.iteration == 0 ? "start" : "flown"}};
+  if (view.iteration > 0) answer["view"] = answered_++;
+  answer["iteration"] = view.iteration;
   add_pose(T_world_body_, answer);
   answer["yaw_deg"] = rad_to_deg(yaw_of(T_world_body_));
   Json cameras = Json::array();
@@ -112,21 +107,21 @@ void ViewPipe::tell_taken(const Belief& belief) {
     add_pose(frame.T_world_camera, camera);
     if (keeps_frames_) {
       const auto stem = directory_.path() / kFramesFolder /
-                        frame_stem(static_cast<std::size_t>(view_.iteration), name);
+                        frame_stem(static_cast<std::size_t>(view.iteration), name);
       camera["rgb"] = stem.string() + ".rgb.png";
       camera["depth"] = stem.string() + ".depth.png";
     }
     cameras.push_back(std::move(camera));
   }
   answer["cameras"] = std::move(cameras);
-  answer["points"] = view_.cloud_points;
-  answer["new_points"] = view_.cloud_points - points_before_;
-  answer["entropy_nat"] = view_.entropy_nat;
-  answer["flown_m"] = view_.flown_m;
-  answer["time_s"] = view_.time_s;
+  answer["points"] = view.cloud_points;
+  answer["new_points"] = view.cloud_points - points_before_;
+  answer["entropy_nat"] = view.entropy_nat;
+  answer["flown_m"] = view.flown_m;
+  answer["time_s"] = view.time_s;
   if (reference_ != nullptr) answer["coverage"] = coverage_json(*reference_, belief);
-  points_before_ = view_.cloud_points;
-  tell(answer);
+  points_before_ = view.cloud_points;
+  tell_client(answer);
 }
 
 std::string pipe_end_line(const MissionResult& result, const std::string& folder) {

@@ -13,26 +13,30 @@
 
 namespace gnbv {
 
-class ViewPipe {
+class ViewPipe final : public MissionObserver {
  public:
   /// `keeps_frames` and `reference` (may be null) say whether answers name images and tell the
   /// coverage. Everything referred to stays with the caller.
   ViewPipe(const Scenario& scenario, RunDirectory& directory, bool keeps_frames,
            const SurfaceReference* reference);
-  ~ViewPipe();
+  ~ViewPipe() override;
   ViewPipe(const ViewPipe&) = delete;
   ViewPipe& operator=(const ViewPipe&) = delete;
 
-  /// Lets the mission ask for views here and tell what became of them. Keeps what the hooks did.
-  void connect(MissionHooks& hooks);
+  /// Lets the mission ask for views here and tell what became of them. `inputs` is good as long as
+  /// this lives.
+  void connect(MissionInputs& inputs);
 
   /// With all views that came: as soon as one comes, scenario.yaml holds it.
   const Scenario& scenario() const { return scenario_; }
 
+  void on_profile_belief(const Belief& belief) override;
+  void on_sensed(const SensedView& view) override;
+  void on_view(const ViewRecord& view, const Belief& belief) override;
+
  private:
   std::optional<ViewPose> next(const std::function<bool()>& should_stop);
   void tell_refused(std::size_t index, Rejection reason);
-  void tell_taken(const Belief& belief);
 
   Scenario scenario_;
   RunDirectory& directory_;
@@ -49,7 +53,6 @@ class ViewPipe {
     Isometry T_world_camera = Isometry::Identity();
   };
   std::vector<TakenFrame> frames_;  // of the view at hand, without those that were lost
-  ViewRecord view_;
   std::size_t points_before_ = 0;
 };
 

@@ -36,12 +36,11 @@ Image picture_of(FigureDesk& desk, const PictureKind& kind, RunSource& run,
   return draw_picture(kind, run, options, lay_out(kind, runs, options), desk.renderer());
 }
 
-/// The first view, from 1 on, that a sampler of that name chose at that scale.
-std::optional<int> first_view(const RunRecord& record, std::string_view sampler,
-                              std::optional<double> scale = {}) {
+/// The first view, from 1 on, that was chosen from a grid, of that scale if one is given.
+std::optional<int> first_grid_view(const RunRecord& record, std::optional<double> scale = {}) {
   for (std::size_t i = 1; i < record.views.size(); ++i) {
     const Decision& decision = record.views[i].decision;
-    if (decision.sampler == sampler && (!scale || decision.scale == *scale)) {
+    if (traits_of(decision.sampler).on_grid && (!scale || decision.scale == *scale)) {
       return static_cast<int>(i);
     }
   }
@@ -68,7 +67,7 @@ const Rgb kImagePlace = srgb(0x12a150);
 }  // namespace
 
 void draw_rays_figure(FigureDesk& desk) {
-  const std::optional<int> view = first_view(desk.mission("proposed").record, "agvs");
+  const std::optional<int> view = first_grid_view(desk.mission("proposed").record);
   if (!view) throw BadInput("the mission planned no view from the grid");
   add_decision(desk, *view, "rays", "");
 }
@@ -85,7 +84,7 @@ void draw_profile_figure(FigureDesk& desk) {
 void draw_scales_figure(FigureDesk& desk) {
   RunSource& run = desk.source("proposed");
   const RunRecord& record = run.record();
-  const std::optional<int> view = first_view(record, "agvs");
+  const std::optional<int> view = first_grid_view(record);
   if (!view) throw BadInput("the mission planned no view from the grid");
   const ViewPose& from = record.views[static_cast<std::size_t>(*view) - 1].decision.view;
   const AgvsConfig& grid = record.scenario.planner.agvs;
@@ -98,7 +97,7 @@ void draw_scales_figure(FigureDesk& desk) {
   for (std::size_t i = 0; i < scales.size(); ++i) {
     RenderScene scene = kVoxelsPicture.draw(run, options, camera).panels.front().scene;
     add_grid_samples(grid, from, scales[i], layout_unit_m(camera), scene);
-    const bool is_flown = first_view(record, "agvs", scales[i]).has_value();
+    const bool is_flown = first_grid_view(record, scales[i]).has_value();
     desk.add(fmt::format("scale-{}", i),
              fmt::format("scale {:g}{}", scales[i],
                          is_flown ? "" : ", which this mission did not come to"),
@@ -110,7 +109,7 @@ void draw_frontiers_figure(FigureDesk& desk) {
   // at first everything is a frontier
   std::vector<int> views;
   for (const ViewRecord& view : desk.mission("proposed").record.views) {
-    if (view.decision.sampler == "fvs") views.push_back(view.iteration);
+    if (traits_of(view.decision.sampler).at_frontier) views.push_back(view.iteration);
   }
   if (views.empty()) throw BadInput("this mission chose no view at frontiers");
   add_decision(desk, views[views.size() / 2], "frontiers", "");

@@ -12,7 +12,7 @@ std::vector<Phase> frontier_phases(std::span<const ViewRecord> views) {
   std::vector<Phase> phases;
   bool is_open = false;
   for (const ViewRecord& view : views) {
-    const bool is_frontier = view.decision.sampler == "fvs";
+    const bool is_frontier = traits_of(view.decision.sampler).at_frontier;
     if (is_frontier && !is_open) phases.push_back({view.iteration, view.iteration});
     if (is_frontier) phases.back().last = view.iteration;
     is_open = is_frontier;

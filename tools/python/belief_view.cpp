@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <utility>
 
-#include "planner/decision.hpp"
-#include "planner/follow_route.hpp"
+#include "planner/core/plan.hpp"
+#include "planner/guided/view_sampling.hpp"
 #include "planner/map/frontiers.hpp"
 #include "planner/map/path_search.hpp"
+#include "planner/route/route_planners.hpp"
 #include "planner/view/view_fields.hpp"
-#include "planner/view_sampling.hpp"
 #include "sim/core/parallel.hpp"
 
 namespace gnbv {
@@ -107,15 +107,14 @@ nb::object BeliefView::navigation_m() const {
 }
 
 nb::object BeliefView::sample(double scale) const {
-  return array_of(
-      sample_agvs(tools().model.config.agvs, current_, scale, tools().model.pitches_rad));
+  return array_of(sample_agvs(tools().config.agvs, current_, scale, tools().model.pitches_rad));
 }
 
 nb::object BeliefView::sample_frontiers() const {
-  const FvsConfig& fvs = tools().model.config.fvs;
+  const FvsConfig& fvs = tools().config.fvs;
   std::vector<ViewPose> views;
-  for (const FrontierCluster& cluster :
-       find_frontiers(fvs.frontier, belief().grid, belief().cloud, tools().bench.frontier_marks)) {
+  for (const FrontierCluster& cluster : find_frontiers(fvs.frontier, belief().grid, belief().cloud,
+                                                       tools().scratch.frontier_marks)) {
     const std::vector<ViewPose> around =
         sample_fvs(fvs, cluster.centroid_world_m, tools().model.pitches_rad);
     views.insert(views.end(), around.begin(), around.end());
@@ -126,7 +125,8 @@ nb::object BeliefView::sample_frontiers() const {
 nb::tuple BeliefView::validate(const ViewRows& rows) const {
   const Belief& seen = belief();
   std::vector<Candidate> candidates;
-  for (const ViewPose& view : views_of(rows)) candidates.push_back({.view = view, .sampler = {}});
+  for (const ViewPose& view : views_of(rows))
+    candidates.push_back({.view = view, .sampler = Sampler::route});
   {
     const Question question(tools());
     GivenViewChecker checker(tools().model, seen, {}, current_);
@@ -150,11 +150,11 @@ nb::bytes BeliefView::evaluate(const ViewRows& rows) const {
   std::vector<ViewStats> stats(views.size());
   const ViewOptions options = {
       .detail = ViewDetail::rays,
-      .sparse_below = model.config.fvs.frontier.density_share * density_max()};
+      .sparse_below = with.config.fvs.frontier.density_share * density_max()};
   {
     const Question question(with);
-    std::vector<VisitMarks>& marks = with.bench.marks;
-    parallel_for(with.bench.threads, marks.size(), [&](std::size_t share) {
+    std::vector<VisitMarks>& marks = with.scratch.marks;
+    parallel_for(with.scratch.threads, marks.size(), [&](std::size_t share) {
       for (std::size_t i = share; i < views.size(); i += marks.size()) {
         stats[i] = evaluate_view(seen.grid, seen.cloud, model.rays_at(views[i].gimbal_pitch_rad),
                                  views[i], marks[share], options);
@@ -167,7 +167,7 @@ nb::bytes BeliefView::evaluate(const ViewRows& rows) const {
 }
 
 nb::object BeliefView::find_path(const Point& from_m, const Point& to_m) const {
-  const ValidityConfig& validity = tools().model.config.validity;
+  const ValidityConfig& validity = tools().model.validity;
   const auto way_m = gnbv::find_path(
       validity.path_search, belief().grid, tools().model.navigation_m, vec3(from_m), vec3(to_m),
       validity.collision_radius_m, tools().model.no_fly, validity.allow_unknown);

@@ -7,19 +7,21 @@
 #include <string>
 #include <vector>
 
-#include "planner/belief.hpp"
-#include "planner/model.hpp"
-#include "planner/workbench.hpp"
+#include "planner/config.hpp"
+#include "planner/core/belief.hpp"
+#include "planner/core/model.hpp"
+#include "planner/core/scratch.hpp"
 #include "tools/python/arrays.hpp"
 
 namespace gnbv {
 
 /// What questions need that are not about the belief alone. Kept for a mission.
 struct BeliefTools {
-  BeliefTools(const PlannerModel& planner_model, int threads)
-      : model(planner_model), bench(model, threads) {}
+  BeliefTools(const PlannerConfig& planner_config, const PlannerModel& planner_model, int threads)
+      : config(planner_config), model(planner_model), scratch(model, threads) {}
+  const PlannerConfig config;
   const PlannerModel model;
-  Workbench bench;
+  Scratch scratch;
   std::mutex is_asked;  // Python may have threads
 };
 

@@ -38,9 +38,8 @@ nb::dict dict_of(const EnvState& state) {
 
 nb::dict description(const EnvStage& stage) {
   const Scenario& scenario = stage.scenario;
-  const PlannerModel model(scenario.planner, scenario.workspace_m, camera_models(scenario), {},
-                           scenario.seed, no_fly_of(scenario));
-  const EnvObserver observer(model, stage.scales);
+  const PlannerModel model = planner_model(scenario);
+  const EnvObserver observer(scenario.planner, model, stage.scales);
   const Box3& box_m = model.navigation_m;
   nb::dict out;
   out["name"] = scenario.name;

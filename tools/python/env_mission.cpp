@@ -67,9 +67,8 @@ void EnvMission::begin(std::uint64_t seed) {
   close();
   Scenario scenario = stage_->scenario;
   scenario.seed = seed;
-  const PlannerModel model(scenario.planner, scenario.workspace_m, camera_models(scenario), {},
-                           seed, no_fly_of(scenario));
-  observer_ = std::make_unique<EnvObserver>(model, stage_->scales);
+  observer_ =
+      std::make_unique<EnvObserver>(scenario.planner, planner_model(scenario), stage_->scales);
   state_ = {};
   action_.reset();
   failure_ = nullptr;
@@ -110,31 +109,33 @@ std::optional<ViewPose> EnvMission::ask() {
   return is_closing_ ? std::nullopt : std::exchange(action_, std::nullopt);
 }
 
+void EnvMission::on_view(const ViewRecord& view, const Belief& belief) {
+  state_.pose = view.decision.view;
+  state_.flown_m = view.flown_m;
+  state_.time_s = view.time_s;
+  ++taken_;
+  keep(belief);
+  state_.coverage = coverage_of_(belief);
+  observe();
+}
+
+void EnvMission::observe() {
+  state_.seen = observer_->observe(*belief_, state_.pose, taken_, with_candidates_);
+}
+
 void EnvMission::fly(Scenario scenario) {
   permits_->take();
   try {
-    const auto coverage_of = coverage_meter(stage_->reference, stage_->scene);
-    std::size_t taken = 0;
-    const auto observe = [&] {
-      state_.seen = observer_->observe(*belief_, state_.pose, taken, with_candidates_);
+    coverage_of_ = coverage_meter(stage_->reference, stage_->scene);
+    taken_ = 0;
+    MissionInputs inputs = {.observers = {this}};
+    inputs.should_stop = [this] { return is_closing_.load(); };
+    inputs.is_covered = [&](const Belief&) { return state_.coverage >= stage_->goal_coverage; };
+    inputs.sources.on_refused = [this](std::size_t, Rejection reason) {
+      state_.refused = name_of(reason);
     };
-    MissionHooks hooks;
-    hooks.should_stop = [this] { return is_closing_.load(); };
-    hooks.on_view = [&](const ViewRecord& view) {
-      state_.pose = view.decision.view;
-      state_.flown_m = view.flown_m;
-      state_.time_s = view.time_s;
-      ++taken;
-    };
-    hooks.on_view_belief = [&](const Belief& belief) {
-      keep(belief);
-      state_.coverage = coverage_of(belief);
-      observe();
-    };
-    hooks.is_covered = [&](const Belief&) { return state_.coverage >= stage_->goal_coverage; };
-    hooks.on_refused = [&](std::size_t, Rejection reason) { state_.refused = name_of(reason); };
-    hooks.next_given = [this] { return ask(); };
-    const MissionResult result = run_mission(scenario, stage_->world, stage_->scene, hooks, 1);
+    inputs.sources.next_view = [this] { return ask(); };
+    const MissionResult result = run_mission(scenario, stage_->world, stage_->scene, inputs, 1);
     state_.termination = name_of(result.termination);
     keep(result.belief);
     observe();

@@ -59,11 +59,11 @@ struct EnvState {
   EnvObservation seen;
 };
 
-class EnvMission {
+class EnvMission final : public MissionObserver {
  public:
   EnvMission(std::shared_ptr<const EnvStage> stage, std::shared_ptr<Permits> permits,
              bool with_candidates);
-  ~EnvMission();
+  ~EnvMission() override;
   EnvMission(const EnvMission&) = delete;
   EnvMission& operator=(const EnvMission&) = delete;
 
@@ -82,6 +82,8 @@ class EnvMission {
   void fly(Scenario scenario);
   std::optional<ViewPose> ask();
   void keep(const Belief& belief);
+  void observe();
+  void on_view(const ViewRecord& view, const Belief& belief) override;
 
   std::shared_ptr<const EnvStage> stage_;
   std::shared_ptr<Permits> permits_;
@@ -95,6 +97,8 @@ class EnvMission {
   std::optional<ViewPose> action_;
   std::exception_ptr failure_;
   EnvState state_;
+  std::function<double(const Belief&)> coverage_of_;
+  std::size_t taken_ = 0;           // views
   const Belief* belief_ = nullptr;  // the mission's
   std::thread thread_;
 };

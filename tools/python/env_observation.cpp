@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/decision.hpp"
-#include "planner/follow_route.hpp"
-#include "planner/view_sampling.hpp"
+#include "planner/core/plan.hpp"
+#include "planner/guided/view_sampling.hpp"
+#include "planner/route/route_planners.hpp"
 
 namespace gnbv {
 namespace {
@@ -46,7 +46,7 @@ float bounded(double value) { return static_cast<float>(std::clamp(value, -1.0, 
 std::size_t EnvObserver::candidate_count() const {
   std::size_t count = 0;
   for (const double scale : scales_) {
-    count += sample_agvs(model_.config.agvs, {}, scale, model_.pitches_rad).size();
+    count += sample_agvs(config_.agvs, {}, scale, model_.pitches_rad).size();
   }
   return count;
 }
@@ -73,12 +73,11 @@ void EnvObserver::add_candidates(const Belief& belief, const ViewPose& current,
   const double most_voxels = std::log1p(model_.view_voxels);
   const double reach_m = model_.navigation_m.diagonal().norm();
   const auto share = [&](double count) { return bounded(std::log1p(count) / most_voxels); };
-  const ViewOptions options = {.sparse_below = model_.config.fvs.frontier.density_share *
-                                               belief.cloud.density_max()};
+  const ViewOptions options = {.sparse_below =
+                                   config_.fvs.frontier.density_share * belief.cloud.density_max()};
   for (const double scale : scales_) {
-    for (const ViewPose& view :
-         sample_agvs(model_.config.agvs, current, scale, model_.pitches_rad)) {
-      Candidate candidate{.view = view, .sampler = "agvs"};
+    for (const ViewPose& view : sample_agvs(config_.agvs, current, scale, model_.pitches_rad)) {
+      Candidate candidate{.view = view, .sampler = Sampler::agvs};
       checker.check(candidate);
       const Vec3& p_m = view.p_world_m;
       out.views.insert(out.views.end(),
@@ -89,7 +88,7 @@ void EnvObserver::add_candidates(const Belief& belief, const ViewPose& current,
       if (candidate.rejected) continue;
       const ViewStats s =
           evaluate_view(belief.grid, belief.cloud, model_.rays_at(view.gimbal_pitch_rad), view,
-                        bench_.marks.front(), options);
+                        scratch_.marks.front(), options);
       const double density = s.occupied_voxels == 0 ? 0.0 : s.density_sum / s.occupied_voxels;
       const std::array<float, kCandidateFeatures> features = {
           share(s.free_voxels),

@@ -8,9 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "planner/belief.hpp"
-#include "planner/model.hpp"
-#include "planner/workbench.hpp"
+#include "planner/config.hpp"
+#include "planner/core/belief.hpp"
+#include "planner/core/model.hpp"
+#include "planner/core/scratch.hpp"
 
 namespace gnbv {
 
@@ -29,8 +30,8 @@ struct EnvObservation {
 
 class EnvObserver {
  public:
-  EnvObserver(const PlannerModel& model, std::vector<double> scales)
-      : model_(model), scales_(std::move(scales)), bench_(model_, 1) {}
+  EnvObserver(const PlannerConfig& config, const PlannerModel& model, std::vector<double> scales)
+      : config_(config), model_(model), scales_(std::move(scales)), scratch_(model_, 1) {}
 
   /// `views` is how many were taken.
   EnvObservation observe(const Belief& belief, const ViewPose& current, std::size_t views,
@@ -42,9 +43,10 @@ class EnvObserver {
  private:
   void add_candidates(const Belief& belief, const ViewPose& current, EnvObservation& out);
 
+  const PlannerConfig config_;
   const PlannerModel model_;
   std::vector<double> scales_;
-  Workbench bench_;
+  Scratch scratch_;
   double first_entropy_nat_ = 0.0;
 };
 

@@ -60,12 +60,10 @@ class AskedPlanner {
  public:
   AskedPlanner(nb::object planner, const Scenario& scenario, int threads, Raised& raised)
       : python_(std::move(planner)), raised_(raised) {
-    const PlannerModel model(scenario.planner, scenario.workspace_m, camera_models(scenario), {},
-                             scenario.seed, no_fly_of(scenario));
-    tools_ = std::make_unique<BeliefTools>(model, threads);
+    tools_ = std::make_unique<BeliefTools>(scenario.planner, planner_model(scenario), threads);
   }
 
-  OwnPlanner hooks() {
+  UserPlanner hooks() {
     return {.plan = [this](const Belief& belief) { return plan(belief); },
             .on_view = [this](const ViewRecord& view) { tell_view(view); },
             .on_refused = [this](Rejection reason) { tell_refused(reason); }};
@@ -167,7 +165,7 @@ nb::tuple run(const nb::dict& given, nb::object planner, nb::object on_progress)
     };
   }
   std::unique_ptr<AskedPlanner> asked;
-  OwnPlanner hooks;
+  UserPlanner hooks;
   if (!planner.is_none()) {
     asked =
         std::make_unique<AskedPlanner>(planner, scenario, thread_count(options.threads), raised);

@@ -132,7 +132,7 @@ bool has_frontier_views(const Plan& plan) {
 }
 
 bool is_chosen_at_frontier(const Plan& plan) {
-  return plan.chosen && is_around_cluster(plan.candidates[*plan.chosen]);
+  return !plan.chosen.empty() && is_around_cluster(plan.candidates[plan.chosen.front()]);
 }
 
 std::string note_on(const Plan& plan, const CandidateTally& all) {

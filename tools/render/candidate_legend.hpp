@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/decision.hpp"
+#include "planner/core/plan.hpp"
 #include "tools/render/picture.hpp"
 
 namespace gnbv {

@@ -54,7 +54,7 @@ double worth_shown(const ReplayedDecision& decision, const RenderView& view) {
     const Candidate& candidate = plan.candidates[i];
     if (candidate.rejected == Rejection::out_of_bounds) continue;
     if (!is_shown(candidate, decision.belief.grid, std::array{PanelView{view}})) continue;
-    worth += plan.chosen == i ? kChosen : candidate.rejected ? 1.0 : kValid;
+    worth += plan.is_chosen(i) ? kChosen : candidate.rejected ? 1.0 : kValid;
   }
   return worth;
 }

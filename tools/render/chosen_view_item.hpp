@@ -1,7 +1,7 @@
 // The view that a decision chose, as things to draw.
 #pragma once
 
-#include "planner/belief.hpp"
+#include "planner/core/belief.hpp"
 #include "sim/mesh/world.hpp"
 #include "tools/render/picture.hpp"
 #include "tools/run_files/run_record.hpp"

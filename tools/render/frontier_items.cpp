@@ -86,8 +86,9 @@ void add_frontiers(const FrontierConfig& config, const ReplayedDecision& decisio
   for (FrontierCluster& cluster : find_frontiers(config, belief.grid, belief.cloud, marks)) {
     if (!numbered.contains(cluster.voxels.front())) clusters.push_back(std::move(cluster));
   }
-  const int chosen =
-      decision.plan.chosen ? decision.plan.candidates[*decision.plan.chosen].cluster : -1;
+  const int chosen = decision.plan.chosen.empty()
+                         ? -1
+                         : decision.plan.candidates[decision.plan.chosen.front()].cluster;
   int tried = -1;
   for (const Candidate& candidate : decision.plan.candidates) {
     tried = std::max(tried, candidate.cluster);

@@ -1,7 +1,7 @@
 // What the adaptive grid samples, as things to draw.
 #pragma once
 
-#include "planner/view_sampling.hpp"
+#include "planner/guided/view_sampling.hpp"
 #include "tools/render/scene.hpp"
 
 namespace gnbv {

@@ -29,20 +29,19 @@ void add_pin(const ViewPose& view, double length_m, double radius_m, const Rgb& 
 // "24 candidates around frontiers (0 valid), 80 of the grid (31 valid)"
 std::string counts_by_sampler(const Plan& plan) {
   std::string words;
-  for (const auto& [sampler, name] :
-       {std::pair<std::string_view, std::string_view>{"fvs", "around frontiers"},
-        {"agvs", "of the grid"}}) {
+  for (const SamplerTraits& sampler : all_samplers()) {
+    if (!sampler.is_scored) continue;
     std::size_t all = 0;
     std::size_t valid = 0;
     for (const Candidate& candidate : plan.candidates) {
-      if (candidate.sampler != sampler) continue;
+      if (candidate.sampler != sampler.sampler) continue;
       ++all;
       valid += candidate.rejected ? 0 : 1;
     }
     if (all == 0) continue;
     words += fmt::format("{} {} ({} valid)",
-                         words.empty() ? counted(all, "candidate") : ", " + grouped(all), name,
-                         grouped(valid));
+                         words.empty() ? counted(all, "candidate") : ", " + grouped(all),
+                         sampler.words, grouped(valid));
   }
   return words.empty() ? counted(plan.candidates.size(), "candidate") : words;
 }

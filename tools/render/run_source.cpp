@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "planner/frontier_order.hpp"
+#include "planner/guided/frontier_clusters.hpp"
 #include "sim/core/error.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/reference.hpp"

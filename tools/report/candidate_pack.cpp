@@ -1,6 +1,6 @@
 #include "tools/report/candidate_pack.hpp"
 
-#include "planner/decision.hpp"
+#include "planner/core/plan.hpp"
 #include "sim/core/error.hpp"
 #include "tools/run_files/candidates_jsonl.hpp"
 #include "tools/run_files/file_names.hpp"
@@ -36,7 +36,7 @@ std::optional<PackedCandidates> pack_candidates(const RunRecord& record, std::si
       points.push_back(c.view.p_world_m.cast<float>());
       angles_rad.push_back(static_cast<float>(c.view.yaw_rad));
       angles_rad.push_back(static_cast<float>(c.view.gimbal_pitch_rad));
-      kind.push_back(kind_of(c, plan.chosen == i));
+      kind.push_back(kind_of(c, plan.is_chosen(i)));
       if (c.rejected) continue;
       for (const double term : {c.score.value, c.score.information, c.score.density,
                                 c.score.prediction, c.score.distance}) {

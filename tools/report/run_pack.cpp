@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/tour_planner.hpp"
+#include "planner/planners.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/report/frame_cloud.hpp"
@@ -213,7 +213,7 @@ PackedRun pack_run(const RunRecord& record, const KnownStructure* structure,
   };
   if (!record.path.empty()) out.path = pack_path(record.path, budget.bytes / 8, out.bytes);
   try {
-    if (is_tour(record.scenario.planner.utility.name)) {
+    if (traits_of(record.scenario.planner).makes_tours) {
       out.plan = pack_plan(record, budget.bytes / 8, out.bytes);
     }
   } catch (const BadInput& error) {

@@ -22,7 +22,7 @@ constexpr std::string_view kNotWritten =
 Json json_of(std::size_t iteration, const Candidate& c, bool is_chosen) {
   Json json = {{"iteration", iteration},      {"x_m", c.view.p_world_m.x()},
                {"y_m", c.view.p_world_m.y()}, {"z_m", c.view.p_world_m.z()},
-               {"yaw_rad", c.view.yaw_rad},   {"sampler", c.sampler},
+               {"yaw_rad", c.view.yaw_rad},   {"sampler", traits_of(c.sampler).name},
                {"path_m", c.path_m}};
   if (c.view.gimbal_pitch_rad != 0.0) json["gimbal_pitch_rad"] = c.view.gimbal_pitch_rad;
   if (c.cluster >= 0) {
@@ -88,7 +88,7 @@ Candidate candidate_of(const Json& json) {
 }
 
 void add_candidate(const Json& json, Plan& plan) {
-  if (json.value("chosen", false)) plan.chosen = plan.candidates.size();
+  if (json.value("chosen", false)) plan.chosen.push_back(plan.candidates.size());
   plan.candidates.push_back(candidate_of(json));
 }
 
@@ -120,7 +120,7 @@ CandidatesFile::CandidatesFile(const fs::path& folder, std::size_t first_iterati
 void CandidatesFile::write(std::size_t iteration, const Plan& plan) {
   std::string lines;
   for (std::size_t i = 0; i < plan.candidates.size(); ++i) {
-    lines += json_of(iteration, plan.candidates[i], plan.chosen == i).dump() += '\n';
+    lines += json_of(iteration, plan.candidates[i], plan.is_chosen(i)).dump() += '\n';
   }
   lines_.write(lines);
 }

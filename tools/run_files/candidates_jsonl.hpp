@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "planner/decision.hpp"
+#include "planner/core/plan.hpp"
 #include "tools/run_files/decision_lines.hpp"
 
 namespace gnbv {

@@ -73,6 +73,9 @@ struct Cells {
   bool is_first = true;
 
   void operator()(std::string_view, const auto& value) { add(fmt::format("{}", value)); }
+  void operator()(std::string_view, const Sampler& sampler) {
+    add(std::string(traits_of(sampler).name));
+  }
   void operator()(std::string_view, const Wall<const double>& wall) {
     add(fmt::format("{:.6f}", wall.s));
   }
@@ -138,7 +141,7 @@ struct Row {
     count = static_cast<std::size_t>(to_count(next_part(rest, ','), place, name));
   }
   void operator()(std::string_view name, Wall<double> wall) { (*this)(name, wall.s); }
-  void operator()(std::string_view, std::string_view& sampler) {
+  void operator()(std::string_view, Sampler& sampler) {
     const std::string_view cell = next_part(rest, ',');
     const auto known = sampler_named(cell);
     if (!known) throw BadInput(fmt::format("{}: '{}' is no sampler", to_string(place), cell));

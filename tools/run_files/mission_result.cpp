@@ -4,13 +4,6 @@
 
 namespace gnbv {
 
-std::optional<std::string_view> sampler_named(std::string_view text) {
-  for (const std::string_view name : {"start", "agvs", "fvs", "route", "oracle", "tour"}) {
-    if (name == text) return name;
-  }
-  return std::nullopt;
-}
-
 std::vector<ViewMark> view_marks(std::span<const ViewRecord> views) {
   std::vector<ViewMark> marks;
   for (const ViewRecord& view : views) {

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "bench/score/mission_score.hpp"
-#include "planner/belief.hpp"
-#include "planner/decision.hpp"
+#include "planner/core/belief.hpp"
+#include "planner/core/plan.hpp"
+#include "planner/core/termination.hpp"
 #include "planner/symmetry/symmetry.hpp"
-#include "planner/termination.hpp"
 #include "sim/flight/flight.hpp"
 #include "tools/run_files/plan_jsonl.hpp"
 #include "tools/run_files/predictions_csv.hpp"
@@ -54,9 +54,6 @@ struct GivenView {
   std::optional<Rejection> rejected = {};
   std::optional<std::size_t> iteration = {};  // that took it
 };
-
-/// A sampler's name with storage that outlives every Decision; nothing for any other text.
-std::optional<std::string_view> sampler_named(std::string_view text);
 
 struct MissionDistances {
   double profile_m = 0.0;  // planned legs of the profile, its approach included

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "planner/tour_planner.hpp"
+#include "planner/planners.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/run_files/file_names.hpp"
@@ -117,7 +117,7 @@ std::string plan_jsonl(std::span<const MadePlan> plans) {
 
 std::vector<MadePlan> read_plans(const RunRecord& record) {
   const std::string& utility = record.scenario.planner.utility.name;
-  if (!is_tour(utility)) {
+  if (!traits_of(record.scenario.planner).makes_tours) {
     throw BadInput(fmt::format("{}: was flown by {}, which plans no tour; {} flies one",
                                record.folder.string(), utility,
                                command_to_fly_again(record.folder, "--utility tour")));

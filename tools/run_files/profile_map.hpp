@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "planner/belief.hpp"
-#include "planner/model.hpp"
+#include "planner/core/belief.hpp"
+#include "planner/core/model.hpp"
 
 namespace gnbv {
 

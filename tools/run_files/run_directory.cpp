@@ -3,7 +3,7 @@
 #include <cerrno>
 
 #include "planner/map/octomap_io.hpp"
-#include "planner/tour_planner.hpp"
+#include "planner/planners.hpp"
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
@@ -175,13 +175,14 @@ void RunDirectory::finish(const Scenario& scenario, const MissionResult& result,
   write_cloud_ply(result.belief.cloud.points_world_m(), folder_ / kCloudFile);
   write_octomap(result.belief.grid, folder_ / kMapStem);
   write_file_atomically(folder_ / kIterationsFile, iterations_csv(result.views, columns_));
-  if (is_given_route(scenario.planner.utility.name)) {
+  const PlannerTraits planner = traits_of(scenario.planner);
+  if (planner.takes_views) {
     write_file_atomically(folder_ / kViewsFile, given_views_csv(result.given_views));
   }
-  if (is_own_utility(scenario.planner.utility.name)) {
+  if (is_user_utility(scenario.planner.utility.name)) {
     write_file_atomically(folder_ / kOwnUtilityFile, scenario.planner.utility.python.source);
   }
-  if (is_tour(scenario.planner.utility.name)) {
+  if (planner.makes_tours) {
     write_file_atomically(folder_ / kPredictionsFile, predictions_csv(result.look_outcomes));
     write_file_atomically(folder_ / kPlanFile, plan_jsonl(result.tour_plans));
   }

@@ -63,7 +63,7 @@ Json rejections_of(const std::map<Rejection, int>& rejections) {
 
 /// Of an own utility.
 Json source_hash_of(const UtilityConfig& utility) {
-  if (!is_own_utility(utility.name)) return nullptr;
+  if (!is_user_utility(utility.name)) return nullptr;
   Sha256 hash;
   hash.add(utility.python.source);
   return hash.hex();

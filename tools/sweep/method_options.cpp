@@ -7,7 +7,7 @@
 
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
-#include "tools/mission/own_utility.hpp"
+#include "tools/mission/user_utility.hpp"
 
 namespace gnbv {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "scenarios/flow_yaml.hpp"
 #include "sim/core/error.hpp"
-#include "tools/mission/own_utility.hpp"
+#include "tools/mission/user_utility.hpp"
 
 namespace gnbv {
 namespace {

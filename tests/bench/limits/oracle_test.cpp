@@ -122,7 +122,7 @@ TEST(Oracle, TakesNoViewTwiceAndPlacesOneAfterTheOther) {
         left.insert({at_m.x(), at_m.y(), at_m.z()});
       }
       at_m = p;
-      EXPECT_EQ(view.sampler, "oracle");
+      EXPECT_EQ(view.sampler, Sampler::oracle);
     }
   }
 }

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/utility.hpp"
+#include "planner/guided/utility.hpp"
 #include "tests/planner/view/view_scene.hpp"
 
 namespace gnbv {

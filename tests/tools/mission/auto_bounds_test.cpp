@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/view_validity.hpp"
+#include "planner/core/view_validity.hpp"
 #include "scenarios/load.hpp"
 #include "scenarios/problems.hpp"
 #include "sim/core/error.hpp"

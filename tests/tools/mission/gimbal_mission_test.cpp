@@ -47,15 +47,15 @@ TEST(GimbalMission, TakesEveryFrameAtItsViewsPitch) {
   for (std::size_t i = 0; i < views.size(); ++i) {
     views[i].gimbal_pitch_rad = deg_to_rad(std::array{60.0, 10.0, 30.0}[i]);
   }
-  MissionHooks hooks;
+  Watch watch;
   std::vector<double> pitches_rad;
   const Scenario scenario = route(views, kGimbal);
-  hooks.on_sensed = [&](const Isometry& T_world_body, std::span<const DepthFrame> frames) {
-    const Isometry T_body_camera = T_world_body.inverse() * frames[0].T_world_camera;
+  watch.sensed = [&](const SensedView& view) {
+    const Isometry T_body_camera = view.T_world_body.inverse() * view.depth[0].T_world_camera;
     const Vec3 ahead = T_body_camera.linear().col(2);
     pitches_rad.push_back(std::atan2(-ahead.z(), ahead.x()));
   };
-  const Flown flight(scenario, hooks);
+  const Flown flight(scenario, {.observers = {&watch}});
   ASSERT_EQ(pitches_rad.size(), 4U);
   EXPECT_NEAR(pitches_rad[0], 0.0, 1e-9);  // the start is the most level it can be
   for (std::size_t i = 0; i < views.size(); ++i) {

@@ -58,7 +58,7 @@ TEST(GivenRoute, FliesWhatMayBeFlownInItsOrderAndSaysWhyTheRestIsNot) {
     if (!given.iteration) continue;
     const Decision& flown = result.views[*given.iteration].decision;
     EXPECT_TRUE(is_same_view(flown.view, given.view));
-    EXPECT_EQ(flown.sampler, "route");
+    EXPECT_EQ(flown.sampler, Sampler::route);
   }
   // it was there: the trajectory passes by every view that was flown
   for (const ViewPose& view : {kEast, kNorth}) {
@@ -79,13 +79,13 @@ TEST(GivenRoute, EndsAtMaxIterationsAndLeavesTheRest) {
 }
 
 /// One view after the other, as a pipe gives them.
-MissionHooks one_by_one(const Given& views, std::vector<std::size_t>& refused) {
-  MissionHooks hooks;
-  hooks.next_given = [views, next = std::size_t{0}]() mutable -> std::optional<ViewPose> {
+MissionInputs one_by_one(const Given& views, std::vector<std::size_t>& refused) {
+  MissionInputs inputs;
+  inputs.sources.next_view = [views, next = std::size_t{0}]() mutable -> std::optional<ViewPose> {
     return next < views.size() ? std::optional(views[next++]) : std::nullopt;
   };
-  hooks.on_refused = [&](std::size_t index, Rejection) { refused.push_back(index); };
-  return hooks;
+  inputs.sources.on_refused = [&](std::size_t index, Rejection) { refused.push_back(index); };
+  return inputs;
 }
 
 TEST(GivenRoute, OneByOneIsAsAllAtOnceAtAnyNumberOfThreads) {
@@ -113,9 +113,9 @@ TEST(GivenRoute, ResumedEqualsTheUninterruptedOne) {
 }
 
 TEST(GivenRoute, ARecordOfOtherViewsIsNotResumed) {
-  MissionHooks hooks;
-  hooks.replay = {{.view = {}}, {.view = kNorth, .sampler = "route"}};
-  EXPECT_THROW(Flown(route_of({kEast}), hooks), BadInput);
+  const MissionInputs inputs = {
+      .replay = {{.view = {}}, {.view = kNorth, .sampler = Sampler::route}}};
+  EXPECT_THROW(Flown(route_of({kEast}), inputs), BadInput);
 }
 
 }  // namespace

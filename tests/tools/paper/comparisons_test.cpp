@@ -191,7 +191,7 @@ TEST(Claims, AboutPhasesCountThoseWhereBothHappen) {
   PaperMaterial material = made_material();
   material.missions = {made_mission("proposed", 1, 10)};
   std::vector<ViewRecord>& views = material.missions[0].record.views;
-  for (const std::size_t i : {2U, 3U, 6U}) views[i].decision.sampler = "fvs";
+  for (const std::size_t i : {2U, 3U, 6U}) views[i].decision.sampler = Sampler::fvs;
   const auto about_phases = [&] {
     for (const CheckedClaim& claim : check_claims(material)) {
       if (claim.figure == "11") return claim;

@@ -36,7 +36,9 @@ inline RunRecord scored_record() {
     ViewRecord view{.iteration = i};
     view.entropy_nat = 900.0 - 7.3 * i;
     view.density_points_per_voxel = 10.0 + 0.7 * i;
-    view.decision.sampler = (i >= 4 && i <= 6) || i == 11 ? "fvs" : i == 0 ? "start" : "agvs";
+    view.decision.sampler = (i >= 4 && i <= 6) || i == 11 ? Sampler::fvs
+                            : i == 0                      ? Sampler::start
+                                                          : Sampler::agvs;
     if (i == 0) {  // which nobody scored
       record.views.push_back(view);
       continue;

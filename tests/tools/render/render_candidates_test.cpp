@@ -258,14 +258,14 @@ Picture drawn_with(const Plan& plan, const RenderView& view = {}) {
 TEST(CandidatesPicture, FrontiersAreShownWhereverViewsAroundThemWereSampled) {
   Plan plan = watched().plans[kAsked - 1];
   for (Candidate& candidate : plan.candidates) {
-    candidate.sampler = "agvs";
+    candidate.sampler = Sampler::agvs;
     candidate.cluster = -1;
   }
-  ASSERT_TRUE(plan.chosen.has_value());
+  ASSERT_TRUE(!plan.chosen.empty());
   const Picture without = drawn_with(plan);
   EXPECT_FALSE(item_of(without, "frontier"));
-  const std::size_t other = *plan.chosen == 0 ? 1 : 0;
-  plan.candidates[other].sampler = "fvs";
+  const std::size_t other = plan.chosen.front() == 0 ? 1 : 0;
+  plan.candidates[other].sampler = Sampler::fvs;
   plan.candidates[other].cluster = 0;
   const Picture with = drawn_with(plan);
   EXPECT_TRUE(item_of(with, "frontier"));
@@ -276,8 +276,8 @@ TEST(CandidatesPicture, FrontiersAreShownWhereverViewsAroundThemWereSampled) {
   }
   EXPECT_GT(with.panels[0].labels.size(), 0U);
   EXPECT_EQ(with.panels[1].labels.size(), 0U);  // from near, they would hide the chosen view
-  plan.candidates[*plan.chosen].sampler = "fvs";
-  plan.candidates[*plan.chosen].cluster = 0;
+  plan.candidates[plan.chosen.front()].sampler = Sampler::fvs;
+  plan.candidates[plan.chosen.front()].cluster = 0;
   EXPECT_TRUE(item_of(drawn_with(plan), "cluster looked at"));
 }
 
@@ -286,10 +286,10 @@ TEST(CandidatesPicture, FrontiersAreShownWhereverViewsAroundThemWereSampled) {
 TEST(CandidatesPicture, TheLegendSaysWhatCanBeFound) {
   Plan plan = watched().plans[kAsked - 1];
   for (Candidate& candidate : plan.candidates) {
-    if (&candidate == &plan.candidates[*plan.chosen]) continue;
+    if (&candidate == &plan.candidates[plan.chosen.front()]) continue;
     candidate.rejected = Rejection::recently_visited;
   }
-  plan.candidates[*plan.chosen].score.value = 1.23;
+  plan.candidates[plan.chosen.front()].score.value = 1.23;
   RenderView away;
   away.T_world_camera.translate(Vec3(0, 0, 1000));  // and looks up
   const Picture picture = drawn_with(plan, away);

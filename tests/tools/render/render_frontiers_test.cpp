@@ -58,8 +58,8 @@ TEST(FrontierItems, TheChosenClusterStandsOutInWhateverOrderTheyWereTried) {
   ASSERT_GE(found.size(), 2U);
   for (const std::size_t first : {std::size_t{0}, found.size() - 1}) {
     decision.plan.clusters = {found[first]};  // the others may not be tried
-    decision.plan.candidates = {{.view = {}, .sampler = "fvs", .cluster = 0}};
-    decision.plan.chosen = 0;
+    decision.plan.candidates = {{.view = {}, .sampler = Sampler::fvs, .cluster = 0}};
+    decision.plan.chosen = {0};
     Panel panel;
     add_frontiers(config, decision, 0.1, {}, panel);
     EXPECT_EQ(panel.scene.surfaces.size(), found.size());
@@ -141,7 +141,7 @@ TEST(FrontierItems, NumbersAreShownWhereTheirClustersAreAndApartFromEachOther) {
   decision.plan.clusters = find_frontiers(config, grid, belief.cloud, marks);
   ASSERT_GE(decision.plan.clusters.size(), 2U);
   const int last = static_cast<int>(decision.plan.clusters.size()) - 1;
-  decision.plan.candidates = {{.view = {}, .sampler = "fvs", .cluster = last}};
+  decision.plan.candidates = {{.view = {}, .sampler = Sampler::fvs, .cluster = last}};
   std::size_t most = 0;
   for (const Vec3& from : {Vec3(0.01, 0, 1), Vec3(1, 0, 0.2), Vec3(-1, 0, 0.2), Vec3(0, 1, 0.2),
                            Vec3(0, -1, 0.2), Vec3(1, 1, 1)}) {

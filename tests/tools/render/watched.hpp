@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tests/support/flown.hpp"
+#include "tests/support/watch.hpp"
 #include "tools/mission/replay.hpp"
 #include "tools/render/run_source.hpp"
 
@@ -12,13 +13,12 @@ constexpr std::size_t kAsked = 3;
 
 /// A mission of five views, with what was believed and planned on the way.
 struct Watched {
-  explicit Watched(const Scenario& scenario) : flown(scenario, hooks()) {}
+  explicit Watched(const Scenario& scenario) : flown(scenario, inputs()) {}
 
-  MissionHooks hooks() {
-    MissionHooks hooks;
-    hooks.on_view_belief = [this](const Belief& belief) { beliefs.push_back(belief); };
-    hooks.on_candidates = [this](std::size_t, const Plan& plan) { plans.push_back(plan); };
-    return hooks;
+  MissionInputs inputs() {
+    watch.view = [this](const ViewRecord&, const Belief& belief) { beliefs.push_back(belief); };
+    watch.plan = [this](std::size_t, const Plan& plan) { plans.push_back(plan); };
+    return {.observers = {&watch}};
   }
   RecordedMission recorded() const {
     return {.scenario = flown.scenario,
@@ -28,6 +28,7 @@ struct Watched {
             .threads = 2};
   }
 
+  Watch watch = {};
   std::vector<Belief> beliefs = {};
   std::vector<Plan> plans = {};
   Flown flown;

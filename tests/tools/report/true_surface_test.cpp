@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "bench/score/coverage_curve.hpp"
-#include "planner/decision.hpp"
+#include "planner/core/plan.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
 #include "tests/bench/shapes.hpp"
@@ -99,15 +99,15 @@ TEST(CandidatePack, HoldsEachDecisionWithItsReasonsAndTerms) {
   BytePack bytes;
   EXPECT_FALSE(pack_candidates(record, 10'000, bytes).has_value());
   Plan plan;
-  plan.candidates = {{.view = {Vec3(4, 5, 6), 0.5}, .sampler = "agvs"},
-                     {.view = {Vec3(1, 2, 3), -1.5, 0.25}, .sampler = "agvs"},
-                     {.view = {Vec3(1, 2, 4), 1.5}, .sampler = "agvs"}};
+  plan.candidates = {{.view = {Vec3(4, 5, 6), 0.5}, .sampler = Sampler::agvs},
+                     {.view = {Vec3(1, 2, 3), -1.5, 0.25}, .sampler = Sampler::agvs},
+                     {.view = {Vec3(1, 2, 4), 1.5}, .sampler = Sampler::agvs}};
   plan.candidates[0].rejected = Rejection::collision;
   plan.candidates[1].score = {.value = 9.0, .information = 8.0, .distance = 0.5};
-  plan.chosen = 1;
+  plan.chosen = {1};
   CandidatesFile file(temp.path(), 1);
   file.write(1, plan);
-  plan.chosen = 2;
+  plan.chosen = {2};
   file.write(2, plan);
   file.finish();
   const auto packed = pack_candidates(record, 10'000, bytes);
@@ -135,7 +135,8 @@ TEST(CandidatePack, CountsThoseThatAreTooManyWithThousandsSeparated) {
   record.folder = temp.path();
   Plan plan;
   plan.candidates.assign(
-      1'200, {.view = {Vec3(4, 5, 6), 0.5}, .sampler = "agvs", .rejected = Rejection::collision});
+      1'200,
+      {.view = {Vec3(4, 5, 6), 0.5}, .sampler = Sampler::agvs, .rejected = Rejection::collision});
   CandidatesFile file(temp.path(), 1);
   file.write(1, plan);
   file.finish();

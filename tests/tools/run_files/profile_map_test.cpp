@@ -7,7 +7,8 @@
 #include <bit>
 
 #include "bench/reference/analytic_scans.hpp"
-#include "planner/workbench.hpp"
+#include "planner/core/scratch.hpp"
+#include "planner/planners.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/core/sha256.hpp"
@@ -26,7 +27,7 @@ PlannerModel model_of(const PlannerConfig& config) {
   camera.height_px = 60;
   const CameraModel model = make_camera_model(camera);
   const LidarModel lidar = make_lidar_model(LidarConfig{});
-  return PlannerModel(config, Box3(Vec3(-10, -8, 0), Vec3(10, 8, 6)), {&model, 1}, {&lidar, 1});
+  return make_model(config, Box3(Vec3(-10, -8, 0), Vec3(10, 8, 6)), {&model, 1}, {&lidar, 1});
 }
 
 std::vector<DepthFrame> view(const PlannerModel& model, int index) {
@@ -70,9 +71,9 @@ class BeliefFile : public testing::Test {
   /// A profile, a view, and some predicted voxels.
   Belief early_belief() const {
     Belief belief(model_);
-    Workbench bench(model_, 1);
-    integrate_profile(model_, profile(model_), bench, belief);
-    integrate_view(model_, view(model_, 0), bench, belief);
+    Scratch scratch(model_, 1);
+    integrate_profile(model_, profile(model_), scratch, belief);
+    integrate_view(model_, view(model_, 0), scratch, belief);
     predict_some(belief);
     return belief;
   }
@@ -108,10 +109,10 @@ TEST_F(BeliefFile, GoesOnAsIfItHadNeverBeenSaved) {
   EXPECT_GT(loaded.cloud.points_world_m().size(), 500U);
   EXPECT_TRUE(loaded.has_depth_return);
 
-  Workbench bench(model_, 1);
+  Scratch scratch(model_, 1);
   for (int index = 1; index < 4; ++index) {
-    integrate_view(model_, view(model_, index), bench, unsaved);
-    integrate_view(model_, view(model_, index), bench, loaded);
+    integrate_view(model_, view(model_, index), scratch, unsaved);
+    integrate_view(model_, view(model_, index), scratch, loaded);
   }
   expect_equal(loaded, unsaved);
 }
@@ -121,15 +122,15 @@ TEST_F(BeliefFile, KeepsTheShadowBand) {
   config.utility.name = "proximity_count";  // reads it
   const PlannerModel model = model_of(config);
   Belief belief(model);
-  Workbench bench(model, 1);
-  integrate_view(model, view(model, 0), bench, belief);
+  Scratch scratch(model, 1);
+  integrate_view(model, view(model, 0), scratch, belief);
   write_belief(belief, path_);
   Belief loaded = read_belief(path_, model);
   std::size_t shaded = 0;
   for (const VoxelWord word : belief.grid.words()) shaded += (word & kShadowBit) != 0 ? 1 : 0;
   EXPECT_GT(shaded, 100U);
   expect_equal(belief, loaded);
-  for (Belief* each : {&belief, &loaded}) integrate_view(model, view(model, 1), bench, *each);
+  for (Belief* each : {&belief, &loaded}) integrate_view(model, view(model, 1), scratch, *each);
   expect_equal(belief, loaded);
 }
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "planner/model.hpp"
+#include "planner/planners.hpp"
 #include "sim/core/error.hpp"
 #include "tests/support/made_run.hpp"
 #include "tests/support/temp_folder.hpp"
@@ -40,7 +40,7 @@ ViewRecord odd_view(int iteration) {
   const double odd = 1.0 / 3.0 + iteration;
   ViewRecord view{.iteration = iteration};
   view.decision = {.view = {Vec3(odd, -1e-300, 1.7e5), 0.1 + 0.2},
-                   .sampler = iteration == 0 ? "start" : "fvs",
+                   .sampler = iteration == 0 ? Sampler::start : Sampler::fvs,
                    .scale = 4.0 / 7.0,
                    .candidates = 1'000'000,
                    .valid = 3,
@@ -86,7 +86,7 @@ TEST(RoundTrip, IterationsCsv) {
   EXPECT_EQ(read[1].decision.score.information, 5e-324);
   EXPECT_EQ(read[1].entropy_nat, views[1].entropy_nat);
   EXPECT_EQ(read[1].wall.plan_s, 123.456789);
-  EXPECT_EQ(read[0].decision.sampler, "start");
+  EXPECT_EQ(read[0].decision.sampler, Sampler::start);
 }
 
 TEST(RoundTrip, DamagedIterationsAreNamedByLineAndColumn) {
@@ -163,21 +163,22 @@ TEST(RoundTrip, TrajectoryTum) {
 TEST(RoundTrip, CandidatesJsonl) {
   TempFolder temp;
   Plan plan;
-  plan.candidates = {{.view = {Vec3(1.0 / 3.0, -1e-300, 2), 0.1 + 0.2},
-                      .sampler = "agvs",
-                      .scale = 4.0 / 7.0,
-                      .path_m = 5e-324,
-                      .score = {.value = 2.0 / 3.0,
-                                .information = 1e20,
-                                .density = 0.7,
-                                .prediction = 0.3,
-                                .distance = 1.0 / 9.0}},
-                     {.view = {Vec3(1, 2, 3), 0.5}, .sampler = "fvs", .cluster = 2, .path_m = 4.0}};
+  plan.candidates = {
+      {.view = {Vec3(1.0 / 3.0, -1e-300, 2), 0.1 + 0.2},
+       .sampler = Sampler::agvs,
+       .scale = 4.0 / 7.0,
+       .path_m = 5e-324,
+       .score = {.value = 2.0 / 3.0,
+                 .information = 1e20,
+                 .density = 0.7,
+                 .prediction = 0.3,
+                 .distance = 1.0 / 9.0}},
+      {.view = {Vec3(1, 2, 3), 0.5}, .sampler = Sampler::fvs, .cluster = 2, .path_m = 4.0}};
   plan.candidates[1].rejected = Rejection::cluster_hidden;
-  plan.chosen = 0;
+  plan.chosen = {0};
   CandidatesFile file(temp.path(), 1);
   file.write(1, plan);
-  plan.chosen = std::nullopt;
+  plan.chosen.clear();
   file.write(2, plan);
   file.finish();
   for (const std::size_t iteration : {1U, 2U}) {
@@ -249,7 +250,7 @@ TEST(RoundTrip, Frames) {
 /// A mission that was hardly flown, with a score of its own.
 struct MadeMission {
   Scenario scenario = made_record().scenario;
-  MissionResult result{ViewPose{}, PlannerModel(scenario.planner, scenario.workspace_m, {}, {})};
+  MissionResult result{ViewPose{}, make_model(scenario.planner, scenario.workspace_m, {}, {})};
   MissionScore score;
 
   MadeMission() {

@@ -1,0 +1,91 @@
+// What a planner answers: the views to fly, why they were chosen, and what else there was to choose
+// from.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "planner/core/termination.hpp"
+#include "planner/core/view_validity.hpp"
+#include "planner/map/frontiers.hpp"
+#include "sim/core/pose.hpp"
+
+namespace gnbv {
+
+/// Where a view comes from. Files hold the name; whoever needs more asks traits_of().
+enum class Sampler { start, fvs, agvs, route, oracle, tour };
+
+struct SamplerTraits {
+  Sampler sampler;
+  std::string_view name;     // in files
+  std::string_view words;    // under pictures: "104 of the grid"; empty: nothing is sampled
+  bool is_scored = false;    // its views compete by a utility
+  bool on_grid = false;      // its views lie on a grid around the current one
+  bool at_frontier = false;  // its views look at a cluster of frontier voxels
+};
+const SamplerTraits& traits_of(Sampler sampler);
+/// All samplers in the order of the enumeration.
+std::span<const SamplerTraits> all_samplers();
+/// Nothing for a text that is no sampler's name.
+std::optional<Sampler> sampler_named(std::string_view name);
+
+/// What a view is worth, with the terms it is made of. Terms that a formula lacks are 0, the
+/// distance factor 1.
+struct Score {
+  double value = 0.0;
+  double information = 0.0;  // E hat of Eq. (2), or the gain before any discount
+  double density = 0.0;      // D hat
+  double prediction = 0.0;   // P hat
+  double distance = 1.0;     // exp(-lambda d)
+};
+
+/// A chosen view and why.
+struct Decision {
+  ViewPose view;
+  Sampler sampler = Sampler::start;
+  double scale = 1.0;
+  int candidates = 0;  // sampled
+  int valid = 0;       // of them not rejected
+  Score score = {};
+  std::vector<Vec3> via_world_m = {};  // points on the way there; none: straight
+};
+
+/// A sampled view with what became of it.
+struct Candidate {
+  ViewPose view;
+  Sampler sampler;
+  double scale = 1.0;                      // of the AGVS grid
+  int cluster = -1;                        // FVS: the cluster it looks at, 0 = the first tried
+  std::optional<Rejection> rejected = {};  // nothing: it competed with `score`
+  std::vector<Vec3> via_world_m = {};      // points on the way there
+  double path_m = 0.0;                     // length of the way
+  Score score = {};
+};
+
+struct TourNotes;  // planner/tour/tour_notes.hpp
+
+/// One or more views to be flown in order, or why there is none; and all candidates of this
+/// decision in the order in which they were sampled.
+struct Plan {
+  std::vector<Decision> views = {};
+  Termination end = Termination::no_valid_view;  // where there is no view: why the mission ends
+  std::vector<std::size_t> chosen = {};          // of the candidates: one for each view
+  std::vector<Candidate> candidates = {};
+  std::vector<FrontierCluster> clusters = {};  // FVS: those it may try, by Candidate::cluster
+  std::shared_ptr<const TourNotes> tour = {};  // of a tour
+
+  bool has_view() const { return !views.empty(); }
+  /// The view that is flown next. Requires has_view().
+  const Decision& next() const { return views.front(); }
+  /// Whether the candidate of this index is one of the views.
+  bool is_chosen(std::size_t candidate) const;
+};
+
+/// A plan of one view: the candidate of that index, as it is.
+void choose(Plan& plan, std::size_t candidate, int sampled, int valid);
+
+}  // namespace gnbv

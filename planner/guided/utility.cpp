@@ -1,0 +1,225 @@
+#include "planner/guided/utility.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "planner/view/visibility.hpp"
+#include "sim/core/error.hpp"
+#include "sim/core/rng.hpp"
+
+namespace gnbv {
+namespace {
+
+using Formula = Score (*)(const UtilityConfig&, const ViewStats&, const ScoreContext&);
+
+Score gain(double value) { return {.value = value, .information = value}; }
+
+Score discounted(double value, double lambda_per_m, double path_m) {
+  const double distance = std::exp(-lambda_per_m * path_m);
+  return {.value = value * distance, .information = value, .distance = distance};
+}
+
+/// E hat of Eq. (2): the share of the largest possible entropy of the visible voxels.
+double normalised_entropy(const ViewStats& s) {
+  const double voxels = static_cast<double>(s.free_voxels) + s.unknown_voxels + s.occupied_voxels;
+  return s.entropy_nat / (voxels * std::numbers::ln2);
+}
+
+/// D hat of Eq. (2); 0 when the view sees no point of the cloud.
+double normalised_density(const UtilityConfig& config, const ViewStats& s) {
+  const double mean = s.density_sum / s.occupied_voxels;
+  if (mean <= 0.0) return 0.0;
+  const double share = std::min(mean / s.density_max, 1.0);
+  return config.density_term == DensityTerm::literal ? share : 1.0 - share;
+}
+
+/// Eq. (2).
+Score proposed(const UtilityConfig& config, const ViewStats& s, const ScoreContext&) {
+  Score out;
+  out.information = normalised_entropy(s);
+  out.density = normalised_density(config, s);
+  out.prediction = s.predicted_voxels /
+                   (static_cast<double>(s.predicted_voxels) + s.occupied_voxels);  // Eq. (3)
+  out.distance = std::exp(-config.lambda_per_m * s.path_m);
+  const double weights = config.normalise_weights ? config.beta + config.gamma : 1.0;
+  const double quality = (config.beta * out.density + config.gamma * out.prediction) / weights;
+  out.value = (1.0 + config.alpha * out.information) * quality * out.distance *
+              std::log10(static_cast<double>(s.occupied_voxels));
+  return out;
+}
+
+double baseline_gain(const UtilityConfig& config, const ViewStats& s) {
+  return config.ig_counting == IgCounting::unique ? s.entropy_nat : s.entropy_per_ray_nat;
+}
+
+/// Isler et al. 2016 as the paper compares it: total entropy along the rays.
+Score isler(const UtilityConfig& config, const ViewStats& s, const ScoreContext&) {
+  return gain(baseline_gain(config, s));
+}
+
+/// Bircher et al. 2016 as the paper compares it: the same, discounted by distance.
+Score bircher(const UtilityConfig& config, const ViewStats& s, const ScoreContext&) {
+  return discounted(baseline_gain(config, s), config.bircher_lambda_per_m, s.path_m);
+}
+
+// ---- volumetric gains of Delmerico et al. 2018, which discount nothing
+
+Score occlusion_aware(const UtilityConfig&, const ViewStats& s, const ScoreContext&) {
+  return gain(s.occlusion_aware_nat);
+}
+
+Score unobserved_voxel(const UtilityConfig&, const ViewStats& s, const ScoreContext&) {
+  return gain(s.unobserved_nat);
+}
+
+Score rear_side_voxel(const UtilityConfig&, const ViewStats& s, const ScoreContext&) {
+  return gain(s.rear_side_rays);
+}
+
+Score rear_side_entropy(const UtilityConfig&, const ViewStats& s, const ScoreContext&) {
+  return gain(s.rear_side_nat);
+}
+
+/// Mean entropy along the rays that end at a surface; 0 without any.
+Score average_entropy(const UtilityConfig&, const ViewStats& s, const ScoreContext&) {
+  if (s.crossed_by_occupied == 0) return gain(0.0);
+  return gain(s.entropy_of_occupied_nat / static_cast<double>(s.crossed_by_occupied));
+}
+
+Score proximity_count(const UtilityConfig&, const ViewStats& s, const ScoreContext&) {
+  return gain(s.proximity_sum);
+}
+
+/// Vasquez-Gomez et al. 2014: a cubic on each side of the share wanted, 1 there and 0 at 0 and 1.
+double area_share(double x, double wanted) {
+  const double a = wanted;
+  if (x <= a) return x * x * (3.0 * a - 2.0 * x) / (a * a * a);
+  const double numerator = -2.0 * x * x * x + 3.0 * (a + 1.0) * x * x - 6.0 * a * x + 3.0 * a - 1.0;
+  return numerator / std::pow(a - 1.0, 3);
+}
+
+/// Shares of the rays that end at a surface seen from free space, and that look behind one.
+Score area_factor(const UtilityConfig&, const ViewStats& s, const ScoreContext&) {
+  constexpr double kOccupiedWanted = 0.2;
+  constexpr double kShadowWanted = 0.8;
+  if (s.rays == 0) return gain(0.0);
+  const double rays = s.rays;
+  return gain(area_share(s.front_rays / rays, kOccupiedWanted) +
+              area_share(s.shadow_rays / rays, kShadowWanted));
+}
+
+/// Kriegel et al. 2015 as Pan et al. compare it: entropy of the rays that end at a surface.
+Score kriegel(const UtilityConfig&, const ViewStats& s, const ScoreContext&) {
+  return gain(s.entropy_of_occupied_nat);
+}
+
+// ---- volume of what is seen
+
+/// Bircher et al. 2016, their released planner.
+Score bircher_volume(const UtilityConfig& config, const ViewStats& s, const ScoreContext&) {
+  const VolumeWeights& w = config.volume_weights;
+  const double weighed =
+      w.unmapped * s.unknown_voxels + w.free * s.free_voxels + w.occupied * s.occupied_voxels;
+  return discounted(weighed * s.voxel_m3, config.lambda_per_m, s.path_m);
+}
+
+/// Selin et al. 2019.
+Score aep(const UtilityConfig& config, const ViewStats& s, const ScoreContext&) {
+  return discounted(s.unknown_volume_m3, config.lambda_per_m, s.path_m);
+}
+
+// ---- what a utility has to beat
+
+Score random_choice(const UtilityConfig&, const ViewStats&, const ScoreContext& context) {
+  return gain(uniform01({context.seed, Stream::random_view, context.iteration, context.candidate}));
+}
+
+Score nearest_frontier(const UtilityConfig&, const ViewStats& s, const ScoreContext&) {
+  return gain(s.sparse_voxels > 0 ? 1.0 / (1.0 + s.path_m) : 0.0);
+}
+
+struct Utility {
+  std::string_view name;
+  Formula formula;
+  UtilityNeeds needs = {};
+};
+
+constexpr UtilityNeeds kProposed = {.refuses_blind = true, .prediction = true};
+constexpr UtilityNeeds kReleasedBaseline = {.refuses_blind = true, .released_baseline = true};
+constexpr UtilityNeeds kRays = {.rays = true};
+constexpr UtilityNeeds kShadow = {.rays = true, .shadow = true};
+
+/// The one table of utilities: adding one is a function above and a line here.
+constexpr std::array kUtilities = {
+    Utility{"proposed", proposed, kProposed},
+    Utility{"bircher", bircher, kReleasedBaseline},
+    Utility{"isler", isler, kReleasedBaseline},
+    Utility{"occlusion_aware", occlusion_aware, kRays},
+    Utility{"unobserved_voxel", unobserved_voxel, kRays},
+    Utility{"rear_side_voxel", rear_side_voxel, kRays},
+    Utility{"rear_side_entropy", rear_side_entropy, kRays},
+    Utility{"average_entropy", average_entropy, kRays},
+    Utility{"proximity_count", proximity_count, kShadow},
+    Utility{"area_factor", area_factor, kShadow},
+    Utility{"kriegel", kriegel, kRays},
+    Utility{"bircher_volume", bircher_volume},
+    Utility{"aep", aep, kRays},
+    Utility{"random", random_choice},
+    Utility{"nearest_frontier", nearest_frontier},
+};
+
+const Utility& utility_named(std::string_view name) {
+  const auto* const entry = std::find_if(kUtilities.begin(), kUtilities.end(),
+                                         [&](const Utility& e) { return e.name == name; });
+  GNBV_CHECK(entry != kUtilities.end(), "utility '{}' has no formula", name);
+  return *entry;
+}
+
+}  // namespace
+
+std::vector<std::string_view> utility_names() {
+  std::vector<std::string_view> names;
+  for (const Utility& entry : kUtilities) names.push_back(entry.name);
+  return names;
+}
+
+bool reads_prediction(const UtilityConfig& config) {
+  if (is_user_utility(config.name)) return names_prediction(config.python);
+  const auto reads = [&](const Utility& e) {
+    return e.name == config.name &&
+           (e.needs.prediction || (e.needs.released_baseline && config.prediction_hides_hits));
+  };
+  return config.gamma > 0.0 && std::any_of(kUtilities.begin(), kUtilities.end(), reads);
+}
+
+UtilityNeeds needs_of(const UtilityConfig& config) {
+  if (!is_user_utility(config.name)) return utility_named(config.name).needs;
+  return {.rays = names_ray_fields(config.python), .shadow = names_shadow_fields(config.python)};
+}
+
+ViewOptions view_options(const UtilityConfig& config, const ShadowBand& shadow,
+                         double sparse_below) {
+  const UtilityNeeds needs = needs_of(config);
+  const ReleasedSlips slips = {
+      .excludes_hit_voxel = needs.released_baseline && config.hit_voxel == HitVoxel::excluded,
+      .prediction_hides_hits =
+          needs.released_baseline && config.prediction_hides_hits && config.gamma > 0.0};
+  return {.detail = needs.rays ? ViewDetail::rays : ViewDetail::voxels,
+          .legacy_visibility = config.legacy_visibility,
+          .sparse_below = sparse_below,
+          .shadow = needs.shadow ? &shadow : nullptr,
+          .slips = slips};
+}
+
+std::optional<Score> score(const UtilityConfig& config, const ViewStats& stats,
+                           const ScoreContext& context) {
+  const Utility& utility = utility_named(config.name);
+  if (utility.needs.refuses_blind && stats.occupied_voxels == 0) return std::nullopt;
+  const Score result = utility.formula(config, stats, context);
+  GNBV_CHECK(std::isfinite(result.value), "utility '{}' is {}", config.name, result.value);
+  return result;
+}
+
+}  // namespace gnbv

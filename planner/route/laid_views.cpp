@@ -1,0 +1,188 @@
+#include "planner/route/laid_views.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <span>
+
+#include "planner/map/occupancy_grid.hpp"
+#include "sensors/camera_model.hpp"
+#include "sim/core/error.hpp"
+
+namespace gnbv {
+namespace {
+
+std::vector<Vec3> occupied_centers_m(const OccupancyGrid& grid) {
+  std::vector<Vec3> centers_m;
+  const auto voxels = static_cast<VoxelIndex>(grid.geometry().voxel_count());
+  for (VoxelIndex v = 0; v < voxels; ++v) {
+    if (grid.state(v) == VoxelState::occupied) {
+      centers_m.push_back(grid.geometry().center_m(grid.geometry().key_at(v)));
+    }
+  }
+  return centers_m;
+}
+
+double yaw_towards(const Vec3& from_m, const Vec3& to_m) {
+  return std::atan2(to_m.y() - from_m.y(), to_m.x() - from_m.x());
+}
+
+/// The gimbal's pitch that looks most nearly from one point at the other; 0 without a gimbal.
+double pitch_towards(const CameraModel& camera, const Vec3& from_m, const Vec3& to_m) {
+  if (!camera.config.gimbal) return 0.0;
+  const Vec3 to = to_m - from_m;
+  return nearest_pitch_rad(*camera.config.gimbal, std::atan2(-to.z(), to.head<2>().norm()));
+}
+
+/// Where the ray from `center` leaves the last ball of radius `standoff` around an obstacle.
+double exit_m(const Vec3& center_m, const Vec3& direction, std::span<const Vec3> obstacles_m,
+              double standoff_m) {
+  double exit_m = standoff_m;
+  for (const Vec3& obstacle_m : obstacles_m) {
+    const Vec3 to_m = obstacle_m - center_m;
+    const double along_m = to_m.dot(direction);
+    const double across2_m2 = to_m.squaredNorm() - along_m * along_m;
+    const double half2_m2 = standoff_m * standoff_m - across2_m2;
+    if (half2_m2 > 0.0) exit_m = std::max(exit_m, along_m + std::sqrt(half2_m2));
+  }
+  return exit_m;
+}
+
+/// Reorders: each view is the nearest to the one before among those left.
+void order_by_nearest(const Vec3& start_m, std::vector<ViewPose>& views) {
+  Vec3 at_m = start_m;
+  for (std::size_t next = 0; next < views.size(); ++next) {
+    const auto nearest = std::min_element(views.begin() + static_cast<std::ptrdiff_t>(next),
+                                          views.end(), [&](const ViewPose& a, const ViewPose& b) {
+                                            return (a.p_world_m - at_m).squaredNorm() <
+                                                   (b.p_world_m - at_m).squaredNorm();
+                                          });
+    std::iter_swap(views.begin() + static_cast<std::ptrdiff_t>(next), nearest);
+    at_m = views[next].p_world_m;
+  }
+}
+
+/// Fibonacci lattice on the upper hemisphere: equal areas, golden angle between neighbours.
+std::vector<ViewPose> hemisphere(const RouteConfig& config, const RouteProblem& problem,
+                                 std::span<const Vec3> obstacles_m, const Box3& structure_m) {
+  const Vec3 center_m(structure_m.center().x(), structure_m.center().y(), structure_m.min().z());
+  std::vector<ViewPose> views;
+  const int count = std::min(problem.views, kMostLaidViews);
+  for (int i = 0; i < count; ++i) {
+    const double up = (i + 0.5) / count;
+    const double bearing_rad = 2.0 * kPi * i / (std::numbers::phi * std::numbers::phi);
+    const double level = std::sqrt(1.0 - up * up);
+    const Vec3 direction(level * std::cos(bearing_rad), level * std::sin(bearing_rad), up);
+    const Vec3 p_m =
+        center_m + exit_m(center_m, direction, obstacles_m, config.standoff_m) * direction;
+    const Vec3 inside_m =
+        p_m.cwiseMax(problem.navigation_m.min()).cwiseMin(problem.navigation_m.max());
+    views.push_back({inside_m, yaw_towards(inside_m, center_m),
+                     pitch_towards(problem.camera, inside_m, center_m)});
+  }
+  order_by_nearest(problem.start.p_world_m, views);
+  return views;
+}
+
+/// Evenly spaced from `from` to `to`, both included, no farther apart than `step`.
+std::vector<double> steps(double from, double to, double step) {
+  const int count = std::max(1, static_cast<int>(std::ceil(std::fabs(to - from) / step - 1e-9)));
+  std::vector<double> values;
+  for (int i = 0; i <= count; ++i) values.push_back(from + (to - from) * i / count);
+  return values;
+}
+
+/// Adds the row from the end that is nearer to where the views so far end.
+void append_row(std::vector<ViewPose> row, const Vec3& start_m, std::vector<ViewPose>& views) {
+  const Vec3 at_m = views.empty() ? start_m : views.back().p_world_m;
+  if ((row.back().p_world_m - at_m).norm() < (row.front().p_world_m - at_m).norm()) {
+    std::reverse(row.begin(), row.end());
+  }
+  views.insert(views.end(), row.begin(), row.end());
+}
+
+/// Rows on the four sides of the box around the structure, from the bottom up, and then above it.
+std::vector<ViewPose> lawnmower(const RouteConfig& config, const RouteProblem& problem,
+                                const Box3& structure_m) {
+  const double across_m = 2.0 * config.standoff_m * (1.0 - config.overlap);
+  const double column_m = across_m * std::tan(0.5 * problem.camera.config.fov_x_rad);
+  const double row_m = across_m * std::tan(0.5 * problem.camera.config.fov_y_rad);
+  const Vec3 margin_m = Vec3::Constant(config.standoff_m);
+  const Box3 around_m = Box3(structure_m.min() - margin_m, structure_m.max() + margin_m)
+                            .intersection(problem.navigation_m);
+  const Vec3 lo = around_m.min();
+  const Vec3 hi = around_m.max();
+  const std::array<std::array<Eigen::Vector2d, 2>, 4> sides = {
+      {{{{lo.x(), lo.y()}, {hi.x(), lo.y()}}},
+       {{{hi.x(), lo.y()}, {hi.x(), hi.y()}}},
+       {{{hi.x(), hi.y()}, {lo.x(), hi.y()}}},
+       {{{lo.x(), hi.y()}, {lo.x(), lo.y()}}}}};
+  const double level_rad = pitch_towards(problem.camera, Vec3::Zero(), Vec3::UnitX());
+  const double down_rad = pitch_towards(problem.camera, Vec3::Zero(), -Vec3::UnitZ());
+  const Vec3 size_m = hi - lo;
+  const double rows = 2.0 * (size_m.x() + size_m.y() + 4.0 * column_m) / column_m *
+                          ((structure_m.max().z() - lo.z()) / row_m + 2.0) +
+                      (size_m.y() / column_m + 2.0) * (size_m.x() / row_m + 2.0);
+  if (rows > kMostLaidViews) {
+    throw BadInput(fmt::format(
+        "planner.routes.standoff_m, planner.routes.overlap: rows at {} m with an overlap of {} are "
+        "about {:.2g} views around this structure; at most {} are laid",
+        config.standoff_m, config.overlap, rows, kMostLaidViews));
+  }
+  std::vector<ViewPose> views;
+  for (const auto& [from, to] : sides) {
+    const Eigen::Vector2d along = to - from;
+    const double inwards_rad = std::atan2(along.x(), -along.y());
+    for (const double z_m : steps(lo.z(), structure_m.max().z(), row_m)) {
+      std::vector<ViewPose> row;
+      for (const double share : steps(0.0, 1.0, column_m / along.norm())) {
+        const Eigen::Vector2d p = from + share * along;
+        row.push_back({Vec3(p.x(), p.y(), std::min(z_m, hi.z())), inwards_rad, level_rad});
+      }
+      append_row(std::move(row), problem.start.p_world_m, views);
+    }
+  }
+  for (const double y_m : steps(hi.y(), lo.y(), column_m)) {
+    std::vector<ViewPose> row;
+    for (const double x_m : steps(lo.x(), hi.x(), row_m)) {
+      row.push_back({Vec3(x_m, y_m, hi.z()), 0.0, down_rad});
+    }
+    append_row(std::move(row), problem.start.p_world_m, views);
+  }
+  return views;
+}
+
+/// What of the structure the map holds, and the box around it.
+struct KnownStructure {
+  std::vector<Vec3> centers_m;
+  Box3 box_m;
+};
+
+KnownStructure known_structure(const OccupancyGrid& grid) {
+  KnownStructure known{occupied_centers_m(grid), {}};
+  for (const Vec3& center_m : known.centers_m) known.box_m.extend(center_m);
+  return known;
+}
+
+/// Views that were clamped to a corner of the navigation box may be the same.
+std::vector<ViewPose> without_repetitions(std::vector<ViewPose> views) {
+  views.erase(std::unique(views.begin(), views.end(), is_same_view), views.end());
+  return views;
+}
+
+}  // namespace
+
+std::vector<ViewPose> lay_hemisphere(const RouteConfig& config, const RouteProblem& problem) {
+  const KnownStructure known = known_structure(problem.grid);
+  if (known.centers_m.empty()) return {};
+  return without_repetitions(hemisphere(config, problem, known.centers_m, known.box_m));
+}
+
+std::vector<ViewPose> lay_lawnmower(const RouteConfig& config, const RouteProblem& problem) {
+  const KnownStructure known = known_structure(problem.grid);
+  if (known.centers_m.empty()) return {};
+  return without_repetitions(lawnmower(config, problem, known.box_m));
+}
+
+}  // namespace gnbv

@@ -1,0 +1,17 @@
+// What a tour's planner did to come to its next view, for files and pictures.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "planner/tour/look_ledger.hpp"
+#include "planner/tour/tour_plan.hpp"
+
+namespace gnbv {
+
+struct TourNotes {
+  std::vector<LookOutcome> outcomes = {};  // of the view before: what it promised and brought
+  std::optional<TourPlan> plan = {};       // made anew, its next view among it; nothing: it goes on
+};
+
+}  // namespace gnbv

@@ -1,0 +1,35 @@
+#include "tools/mission/user_planner.hpp"
+
+#include "sim/core/error.hpp"
+
+namespace gnbv {
+
+UserPlannerLink::UserPlannerLink(const UserPlanner& planner, const Scenario& scenario,
+                                 RunDirectory& directory)
+    : planner_(planner), scenario_(scenario), directory_(directory) {}
+
+void UserPlannerLink::connect(MissionInputs& inputs) {
+  inputs.observers.push_back(this);
+  inputs.sources.next_view = [this, should_stop = inputs.should_stop] { return next(should_stop); };
+  inputs.sources.on_refused = [this](std::size_t, Rejection reason) {
+    planner_.on_refused(reason);
+  };
+}
+
+void UserPlannerLink::on_view(const ViewRecord& view, const Belief& belief) {
+  planner_.on_view(view);
+  belief_ = &belief;
+}
+
+std::optional<ViewPose> UserPlannerLink::next(const std::function<bool()>& should_stop) {
+  std::vector<ViewPose>& views = scenario_.planner.routes.views;
+  if (should_stop() || views.size() >= kMostGivenViews) return std::nullopt;
+  GNBV_CHECK(belief_ != nullptr, "asked before the first view");
+  const std::optional<ViewPose> view = planner_.plan(*belief_);
+  if (!view) return std::nullopt;
+  views.push_back(*view);
+  directory_.keep(scenario_);
+  return view;
+}
+
+}  // namespace gnbv
