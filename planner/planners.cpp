@@ -35,8 +35,8 @@ std::unique_ptr<Planner> make_laid(const PlannerConfig& config, const PlannerMod
 
 std::unique_ptr<Planner> make_given(const PlannerConfig& config, const PlannerModel& model,
                                     PlannerSources&& sources) {
-  return std::make_unique<GivenRoutePlanner>(config.routes.views, std::move(sources.next_view),
-                                             std::move(sources.on_refused), model);
+  return std::make_unique<UserRoutePlanner>(config.routes.views, std::move(sources.next_view),
+                                            std::move(sources.on_refused), model);
 }
 
 std::unique_ptr<Planner> make_known(const PlannerConfig& config, const PlannerModel&,

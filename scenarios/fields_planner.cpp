@@ -192,7 +192,7 @@ void fields(FieldVisitor& v, ViewPose& c) {
 void fields(FieldVisitor& v, RouteConfig& c) {
   v.number("standoff_m", c.standoff_m, between(0.1, 1e3), "From the surface of the profile.");
   v.number("overlap", c.overlap, between(0, 0.95), "lawnmower: of neighbouring images.");
-  v.list("views", c.views, {0, kMostGivenViews},
+  v.list("views", c.views, {0, kMostUserViews},
          "route: body poses, in the order in which they are flown.");
 }
 

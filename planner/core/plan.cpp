@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 namespace gnbv {
 namespace {
@@ -33,6 +34,20 @@ std::optional<Sampler> sampler_named(std::string_view name) {
 
 bool Plan::is_chosen(std::size_t candidate) const {
   return std::find(chosen.begin(), chosen.end(), candidate) != chosen.end();
+}
+
+std::map<Rejection, int> rejections_of(const Plan& plan) {
+  std::map<Rejection, int> counts;
+  std::set<std::array<double, 5>> counted;
+  for (auto candidate = plan.candidates.rbegin(); candidate != plan.candidates.rend();
+       ++candidate) {
+    const ViewPose& view = candidate->view;
+    const Vec3& p_m = view.p_world_m;
+    const bool is_last =
+        counted.insert({p_m.x(), p_m.y(), p_m.z(), view.yaw_rad, view.gimbal_pitch_rad}).second;
+    if (is_last && candidate->rejected) ++counts[*candidate->rejected];
+  }
+  return counts;
 }
 
 void choose(Plan& plan, std::size_t candidate, int sampled, int valid) {

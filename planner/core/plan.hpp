@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -84,6 +85,10 @@ struct Plan {
   /// Whether the candidate of this index is one of the views.
   bool is_chosen(std::size_t candidate) const;
 };
+
+/// How many candidates each reason refused. A view that was checked more than once, as of a cluster
+/// that is tried again on ways around, counts once, by what was found last.
+std::map<Rejection, int> rejections_of(const Plan& plan);
 
 /// A plan of one view: the candidate of that index, as it is.
 void choose(Plan& plan, std::size_t candidate, int sampled, int valid);

@@ -38,7 +38,7 @@ enum class Termination {
   off_course,        // carried out of the workspace
   tour_complete,     // tour: no view pays any more
   coverage_reached,  // told by the truth, for benchmarks
-  utility_failed,    // an own utility raised, or returned what are no scores
+  utility_failed,    // a utility of the user's own raised, or returned what are no scores
   interrupted,
   collision
 };

@@ -78,12 +78,12 @@ struct UtilityNeeds {
 /// The formulas by name, those of the paper's tables first.
 std::vector<std::string_view> utility_names();
 
-/// What tables and files call it: its name, of an own one that of the function.
+/// What tables and files call it: its name, of the user's own that of the function.
 inline std::string utility_label(const UtilityConfig& config) {
   return is_user_utility(config.name) ? config.python.function : config.name;
 }
 
-/// Requires a name of utility_names(), or that of an own utility.
+/// Requires a name of utility_names(), or that of a utility of the user's own.
 UtilityNeeds needs_of(const UtilityConfig& config);
 
 /// Whether the choice of views depends on predicted surface (section 2.3): names that are no

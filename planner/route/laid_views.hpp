@@ -12,7 +12,7 @@ namespace gnbv {
 struct CameraModel;
 class OccupancyGrid;
 
-constexpr std::size_t kMostGivenViews = 100000;
+constexpr std::size_t kMostUserViews = 100000;
 
 struct RouteConfig {
   double standoff_m = 4.0;  // from the occupied voxels of the profile: half of the cameras' range

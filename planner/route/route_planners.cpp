@@ -19,7 +19,7 @@ ValidityConfig with_ways_around(ValidityConfig validity) {
 Plan first_flyable(const PlannerModel& model, const Belief& belief,
                    std::span<const ViewPose> recent, std::span<const ViewPose> views,
                    const ViewPose& current) {
-  GivenViewChecker checker(model, belief, recent, current);
+  UserViewChecker checker(model, belief, recent, current);
   Plan plan{.end = Termination::no_valid_view};
   for (const ViewPose& view : views) {
     plan.candidates.push_back({.view = view, .sampler = Sampler::route});
@@ -33,13 +33,13 @@ Plan first_flyable(const PlannerModel& model, const Belief& belief,
 
 }  // namespace
 
-GivenViewChecker::GivenViewChecker(const PlannerModel& model, const Belief& belief,
-                                   std::span<const ViewPose> recent, const ViewPose& current)
+UserViewChecker::UserViewChecker(const PlannerModel& model, const Belief& belief,
+                                 std::span<const ViewPose> recent, const ViewPose& current)
     : model_(model),
       validity_(with_ways_around(model.validity)),
       checker_(validity_, model.navigation_m, model.no_fly, belief.grid, recent, current) {}
 
-void GivenViewChecker::check(Candidate& candidate) {
+void UserViewChecker::check(Candidate& candidate) {
   checker_.check(candidate);
   if (!model_.can_pitch(candidate.view.gimbal_pitch_rad)) {
     candidate.rejected = Rejection::beyond_gimbal;
@@ -85,14 +85,14 @@ Plan LaidRoutePlanner::replay(std::span<const Decision> recorded, const Belief&,
 
 // ---- given by a user
 
-GivenRoutePlanner::GivenRoutePlanner(std::vector<ViewPose> views, NextView next_view,
-                                     OnRefused on_refused, const PlannerModel& model)
+UserRoutePlanner::UserRoutePlanner(std::vector<ViewPose> views, NextView next_view,
+                                   OnRefused on_refused, const PlannerModel& model)
     : views_(std::move(views)),
       next_view_(std::move(next_view)),
       on_refused_(std::move(on_refused)),
       model_(model) {}
 
-Plan GivenRoutePlanner::try_known(const Belief& belief, const ViewPose& current) {
+Plan UserRoutePlanner::try_known(const Belief& belief, const ViewPose& current) {
   Plan plan = first_flyable(model_, belief, {}, std::span(views_).subspan(tried_), current);
   for (const Candidate& candidate : plan.candidates) {
     const std::size_t index = tried_++;
@@ -101,8 +101,8 @@ Plan GivenRoutePlanner::try_known(const Belief& belief, const ViewPose& current)
   return plan;
 }
 
-Plan GivenRoutePlanner::next(const Belief& belief, const History&, const ViewPose& current,
-                             Scratch& scratch) {
+Plan UserRoutePlanner::next(const Belief& belief, const History&, const ViewPose& current,
+                            Scratch& scratch) {
   Plan plan = try_known(belief, current);
   while (!plan.has_view() && next_view_) {
     const std::optional<ViewPose> view = next_view_();
@@ -119,8 +119,8 @@ Plan GivenRoutePlanner::next(const Belief& belief, const History&, const ViewPos
   return plan;
 }
 
-Plan GivenRoutePlanner::replay(std::span<const Decision> recorded, const Belief& belief,
-                               const History& history, const ViewPose& current, Scratch&) {
+Plan UserRoutePlanner::replay(std::span<const Decision> recorded, const Belief& belief,
+                              const History& history, const ViewPose& current, Scratch&) {
   Plan plan = try_known(belief, current);
   need_as_recorded(plan, recorded, history.decisions.size());
   return plan;

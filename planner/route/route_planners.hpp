@@ -15,13 +15,13 @@ struct PlannerModel;
 
 /// Whether views that are given may be flown to. Whoever flies them has nowhere else to go: what
 /// blocks the straight way is flown around. Those that are as good as one of `recent` are rejected.
-class GivenViewChecker {
+class UserViewChecker {
  public:
   /// Everything referred to stays with the caller.
-  GivenViewChecker(const PlannerModel& model, const Belief& belief,
-                   std::span<const ViewPose> recent, const ViewPose& current);
-  GivenViewChecker(const GivenViewChecker&) = delete;  // the checker refers to the rules beside it
-  GivenViewChecker& operator=(const GivenViewChecker&) = delete;
+  UserViewChecker(const PlannerModel& model, const Belief& belief, std::span<const ViewPose> recent,
+                  const ViewPose& current);
+  UserViewChecker(const UserViewChecker&) = delete;  // the checker refers to the rules beside it
+  UserViewChecker& operator=(const UserViewChecker&) = delete;
   /// As ViewChecker::check(), and whether the gimbal can.
   void check(Candidate& candidate);
 
@@ -60,11 +60,11 @@ using OnRefused = std::function<void(std::size_t index, Rejection)>;
 /// Flies the views that a user gave, those of RouteConfig first. None is taken for a repetition of
 /// another: who gives a view twice wants it twice. A mission that is flown again decides anew, and
 /// what it decides has to be what it did.
-class GivenRoutePlanner final : public Planner {
+class UserRoutePlanner final : public Planner {
  public:
   /// Keeps a reference to the model.
-  GivenRoutePlanner(std::vector<ViewPose> views, NextView next_view, OnRefused on_refused,
-                    const PlannerModel& model);
+  UserRoutePlanner(std::vector<ViewPose> views, NextView next_view, OnRefused on_refused,
+                   const PlannerModel& model);
 
   Plan next(const Belief& belief, const History& history, const ViewPose& current,
             Scratch& scratch) override;
@@ -91,7 +91,7 @@ class KnownRoutePlanner final : public Planner {
 
   Plan next(const Belief& belief, const History& history, const ViewPose& current,
             Scratch& scratch) override;
-  EndRules end_rules() const override { return GivenRoutePlanner::kToTheEnd; }
+  EndRules end_rules() const override { return UserRoutePlanner::kToTheEnd; }
 
  private:
   const std::vector<Decision> route_;

@@ -10,9 +10,9 @@
 #include "tools/run_files/candidates_jsonl.hpp"
 #include "tools/run_files/coverage_csv.hpp"
 #include "tools/run_files/file_names.hpp"
-#include "tools/run_files/given_views.hpp"
 #include "tools/run_files/iterations_csv.hpp"
 #include "tools/run_files/trajectory_tum.hpp"
+#include "tools/run_files/user_views.hpp"
 
 namespace gnbv {
 namespace {
@@ -65,7 +65,7 @@ void check_coverage(const std::filesystem::path& file) {
              "columns of two lengths");
 }
 
-void check_given_views(std::string_view content) {
+void check_user_views(std::string_view content) {
   ViewLines lines("views");
   while (!content.empty()) {
     const std::size_t end = std::min(content.find('\n'), content.size());
@@ -90,7 +90,7 @@ void check(char kind, std::string_view content) {
     case 'k':
       return check_coverage(written(content, "coverage.csv"));
     default:
-      return check_given_views(content);
+      return check_user_views(content);
   }
 }
 

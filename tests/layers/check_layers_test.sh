@@ -9,7 +9,7 @@ set -euo pipefail
 check=$1
 root=$(mktemp -d)
 trap 'rm -rf "$root"' EXIT
-mkdir -p "$root"/{allowed,forbidden,empty,roomless/tools/attic,circle/planner/{map,view}}
+mkdir -p "$root"/{allowed,forbidden,empty,roomless/tools/attic,circle/planner/{core,map,view}}
 declare -A lines=()     # how many a file of the forbidden tree has
 declare -A expected=()  # "file:line" -> the include to be named there
 
@@ -49,8 +49,15 @@ done
 forbidden sim/core/pose.hpp '#include "sim/mesh/world.hpp"'
 forbidden sim/mesh/world.hpp '#include "sim/flight/flight.hpp"'
 forbidden sim/flight/px4.cpp '#include "sim/mavlink/messages.hpp"'
-forbidden planner/map/clearance.cpp '#include "planner/model.hpp"'
+forbidden planner/map/clearance.cpp '#include "planner/core/model.hpp"'
 forbidden planner/map/clearance.cpp '#include "planner/view/visibility.hpp"'
+for room in core guided route tour; do  # no way back up, nor to another planner
+  forbidden "planner/$room/any.cpp" '#include "planner/planners.hpp"'
+  forbidden "planner/$room/any.cpp" '#include "planner/config.hpp"'
+done
+forbidden planner/guided/any.cpp '#include "planner/tour/config.hpp"'
+forbidden planner/tour/any.cpp '#include "planner/guided/utility.hpp"'
+forbidden planner/core/any.cpp '#include "planner/guided/utility.hpp"'
 forbidden planner/symmetry/symmetry.cpp '#include "planner/view/visibility.hpp"'
 forbidden bench/score/coverage.cpp '#include "bench/limits/ceiling.hpp"'
 forbidden bench/limits/ceiling.cpp '#include "bench/compare/statistics.hpp"'
@@ -62,9 +69,9 @@ forbidden tools/plots/curves.cpp '#include "tools/paper/verdicts.hpp"'
 allowed tools/paper/page.cpp '#include "tools/surface/surface.hpp"'
 forbidden tools/terminal/progress.cpp '#include "scenarios/scenario.hpp"'
 forbidden sim/mesh/world.cpp '#include "sensors/frames.hpp"'
-forbidden sim/mesh/world.cpp '#include "planner/model.hpp"'
+forbidden sim/mesh/world.cpp '#include "planner/core/model.hpp"'
 forbidden assets/aircraft.cpp '#include "sensors/frames.hpp"'
-forbidden sensors/capture.cpp '#include "planner/model.hpp"'
+forbidden sensors/capture.cpp '#include "planner/core/model.hpp"'
 forbidden sensors/capture.cpp '#include "assets/aircraft.hpp"'
 forbidden scenarios/load.cpp '#include "sim/mesh/world.hpp"'
 forbidden scenarios/load.cpp '#include "sensors/ray_scene.hpp"'
@@ -74,7 +81,7 @@ forbidden tools/mission/mission.cpp '#include "tests/support/scenes.hpp"'
 allowed sim/mesh/world.cpp '#include "sim/core/pose.hpp"'
 allowed assets/aircraft.cpp '#include "sim/mesh/triangle_mesh.hpp"'
 allowed sensors/capture.cpp '#include "sim/mesh/world.hpp"'
-allowed scenarios/scenario.hpp '#include "planner/model.hpp"'
+allowed scenarios/scenario.hpp '#include "planner/core/model.hpp"'
 allowed bench/score/coverage.cpp '#include "sensors/ray_scene.hpp"'
 allowed tools/mission/mission.cpp '#include "bench/score/coverage.hpp"'
 allowed tests/end_to_end/smoke_test.cpp '#include "tools/mission/mission.hpp"'
@@ -166,16 +173,16 @@ run_check twice
   complain "two types of one name passed (status $status): $output"
 
 # the rows allow each of these, together they are a circle
-echo '#include "planner/map/grid.hpp"' >"$root/circle/planner/model.hpp"
+echo '#include "planner/map/grid.hpp"' >"$root/circle/planner/core/model.hpp"
 echo '#include "sim/core/pose.hpp"' >"$root/circle/planner/map/grid.hpp"
 run_check circle
 [[ $status == 0 ]] || complain "no circle was refused (status $status): $output"
 sed 's#^planner/map/ .*#planner/map/ planner/ sim/core/#' "$check" >"$root/lax_check"
 chmod +x "$root/lax_check"
-echo '#include "planner/model.hpp"' >>"$root/circle/planner/map/grid.hpp"
+echo '#include "planner/core/model.hpp"' >>"$root/circle/planner/map/grid.hpp"
 status=0
 output=$("$root/lax_check" "$root/circle" 2>&1) || status=$?
-[[ $status == 1 && $output == *"in a circle"*$'\n'planner$'\n'* ]] ||
+[[ $status == 1 && $output == *"in a circle"*$'\n'planner/core$'\n'* ]] ||
   complain "a circle passed (status $status): $output"
 
 echo "${#expected[@]} forbidden includes, $failed failures"

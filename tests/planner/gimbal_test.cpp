@@ -104,7 +104,7 @@ TEST(Gimbal, AnotherPitchIsAnotherView) {
   const auto rejection = [&](double pitch_rad) {
     const ViewPose view{here.p_world_m, 0.0, pitch_rad};
     Candidate candidate{.view = view, .sampler = Sampler::route};
-    GivenViewChecker(model, belief, std::array{here}, here).check(candidate);
+    UserViewChecker(model, belief, std::array{here}, here).check(candidate);
     return candidate.rejected;
   };
   EXPECT_EQ(rejection(0.0), Rejection::recently_visited);

@@ -201,6 +201,20 @@ TEST(LaidRoute, TakesViewAfterViewAndSkipsWhatIsNotValid) {
   EXPECT_THROW(planner.replay(recorded, belief, {}, kCurrent, scratch), BadInput);
 }
 
+TEST(Plan, CountsAViewThatWasCheckedTwiceByWhatWasFoundLast) {
+  const ViewPose here{Vec3(1, 2, 3), 0.5};
+  const ViewPose there{Vec3(1, 2, 4), 0.5};
+  const auto rejected = [](const ViewPose& view, std::optional<Rejection> reason) {
+    return Candidate{.view = view, .sampler = Sampler::fvs, .rejected = reason};
+  };
+  Plan plan;
+  plan.candidates = {rejected(here, Rejection::path_blocked),
+                     rejected(there, Rejection::path_blocked),
+                     rejected(here, Rejection::cluster_hidden), rejected(there, std::nullopt)};
+  const std::map<Rejection, int> once = {{Rejection::cluster_hidden, 1}};
+  EXPECT_EQ(rejections_of(plan), once);
+}
+
 TEST(Planner, EndsItsWorkWhereSomebodyWantsItToStop) {
   for (const std::string_view name : planner_names()) {
     const SmallPlanner small([&](PlannerConfig& c) { c.utility.name = name; });

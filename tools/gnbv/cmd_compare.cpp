@@ -13,8 +13,8 @@
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/plots/coverage_plot.hpp"
 #include "tools/plots/forest_plot.hpp"
-#include "tools/run_files/given_views.hpp"
 #include "tools/run_files/run_groups.hpp"
+#include "tools/run_files/user_views.hpp"
 #include "tools/sweep/manifest.hpp"
 #include "tools/sweep/method_options.hpp"
 #include "tools/terminal/say.hpp"
@@ -91,7 +91,7 @@ std::vector<SweepMethod> methods_with_views(const CompareOptions& options) {
         fmt::format("--views {}: goes with {} among --utilities", options.views.string(), taker));
   }
   route->sources.resize(route->overrides.size());
-  route->overrides.push_back(views_override(read_given_views(options.views)));
+  route->overrides.push_back(views_override(read_user_views(options.views)));
   route->sources.push_back(fmt::format("--views {}", options.views.string()));
   return methods;
 }

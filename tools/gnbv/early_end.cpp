@@ -85,14 +85,14 @@ std::string of_no_valid_view(const std::map<Rejection, int>& rejections) {
 std::string refused_views_note(const MissionResult& result) {
   std::map<Rejection, int> counts;
   int refused = 0;
-  for (const GivenView& view : result.given_views) {
+  for (const UserView& view : result.user_views) {
     if (!view.rejected) continue;
     ++counts[*view.rejected];
     ++refused;
   }
   if (refused == 0) return "";
   std::string text = fmt::format("{} of {} given views refused, views.csv says which:\n", refused,
-                                 result.given_views.size());
+                                 result.user_views.size());
   for (const auto& [reason, count] : counts) {
     text += fmt::format("  {:5} {}\n", count, meaning_of(reason));
   }

@@ -111,7 +111,7 @@ void integrate(Mission& m, std::span<const DepthFrame> frames) {
 
 void record(Mission& m, const Decision& decision) {
   m.history.decisions.push_back(decision);
-  if (!m.out.given_views.empty()) m.out.given_views.back().iteration = m.out.views.size();
+  if (!m.out.user_views.empty()) m.out.user_views.back().iteration = m.out.views.size();
   const Belief& belief = m.out.belief;
   remember_progress(belief, m.out.distance.straight_m, m.history);
   const std::size_t points = belief.cloud.points_world_m().size();
@@ -160,12 +160,9 @@ void keep_record(Mission& m, std::size_t iteration, const Plan& plan) {
     if (plan.tour->plan) m.out.tour_plans.push_back({iteration, *plan.tour->plan});
   }
   if (traits_of(m.scenario.planner).takes_views) {
-    for (const Candidate& c : plan.candidates) m.out.given_views.push_back({c.view, c.rejected});
+    for (const Candidate& c : plan.candidates) m.out.user_views.push_back({c.view, c.rejected});
   }
-  if (plan.has_view()) return;
-  for (const Candidate& candidate : plan.candidates) {
-    if (candidate.rejected) ++m.out.last_rejections[*candidate.rejected];
-  }
+  if (!plan.has_view()) m.out.last_rejections = rejections_of(plan);
 }
 
 /// A plan from where the last view was taken; a mission that is flown again replays it.
@@ -205,8 +202,8 @@ bool is_too_far(const Mission& m, const Decision& next) {
 void keep_views_not_tried(Mission& m) {
   if (!traits_of(m.scenario.planner).takes_views) return;
   const std::vector<ViewPose>& views = m.scenario.planner.routes.views;
-  for (std::size_t i = m.out.given_views.size(); i < views.size(); ++i) {
-    m.out.given_views.push_back({views[i]});
+  for (std::size_t i = m.out.user_views.size(); i < views.size(); ++i) {
+    m.out.user_views.push_back({views[i]});
   }
 }
 

@@ -9,7 +9,7 @@
 #include "tools/mission/auto_bounds.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/user_utility.hpp"
-#include "tools/run_files/given_views.hpp"
+#include "tools/run_files/user_views.hpp"
 
 namespace gnbv {
 
@@ -48,7 +48,7 @@ Scenario resolve_scenario(const ScenarioOptions& options, const std::vector<Over
   if (!options.preset.empty()) add("planner.preset=" + options.preset);
   if (!options.seed.empty()) add("seed=" + options.seed);
   if (!options.views.empty()) {
-    all.push_back({.text = views_override(read_given_views(options.views)),
+    all.push_back({.text = views_override(read_user_views(options.views)),
                    .source = fmt::format("--views {}", options.views)});
   }
   for (const std::string& text : options.overrides) add(text);

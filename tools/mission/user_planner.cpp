@@ -23,7 +23,7 @@ void UserPlannerLink::on_view(const ViewRecord& view, const Belief& belief) {
 
 std::optional<ViewPose> UserPlannerLink::next(const std::function<bool()>& should_stop) {
   std::vector<ViewPose>& views = scenario_.planner.routes.views;
-  if (should_stop() || views.size() >= kMostGivenViews) return std::nullopt;
+  if (should_stop() || views.size() >= kMostUserViews) return std::nullopt;
   GNBV_CHECK(belief_ != nullptr, "asked before the first view");
   const std::optional<ViewPose> view = planner_.plan(*belief_);
   if (!view) return std::nullopt;

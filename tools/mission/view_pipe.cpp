@@ -72,7 +72,7 @@ void ViewPipe::on_sensed(const SensedView& view) {
 
 std::optional<ViewPose> ViewPipe::next(const std::function<bool()>& should_stop) {
   std::vector<ViewPose>& views = scenario_.planner.routes.views;
-  while (views.size() < kMostGivenViews) {
+  while (views.size() < kMostUserViews) {
     const std::optional<std::string> line = input_.next(should_stop);
     if (!line) return std::nullopt;
     try {

@@ -129,7 +129,7 @@ nb::tuple BeliefView::validate(const ViewRows& rows) const {
     candidates.push_back({.view = view, .sampler = Sampler::route});
   {
     const Question question(tools());
-    GivenViewChecker checker(tools().model, seen, {}, current_);
+    UserViewChecker checker(tools().model, seen, {}, current_);
     for (Candidate& candidate : candidates) checker.check(candidate);
   }
   nb::list reasons;

@@ -69,7 +69,7 @@ EnvObservation EnvObserver::observe(const Belief& belief, const ViewPose& curren
 
 void EnvObserver::add_candidates(const Belief& belief, const ViewPose& current,
                                  EnvObservation& out) {
-  GivenViewChecker checker(model_, belief, {}, current);
+  UserViewChecker checker(model_, belief, {}, current);
   const double most_voxels = std::log1p(model_.view_voxels);
   const double reach_m = model_.navigation_m.diagonal().norm();
   const auto share = [&](double count) { return bounded(std::log1p(count) / most_voxels); };

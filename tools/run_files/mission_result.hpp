@@ -49,7 +49,7 @@ struct ViewRecord {
 };
 
 /// A view that a user gave, and what became of it. Neither: the mission ended before.
-struct GivenView {
+struct UserView {
   ViewPose view;
   std::optional<Rejection> rejected = {};
   std::optional<std::size_t> iteration = {};  // that took it
@@ -107,7 +107,7 @@ struct MissionResult {
   std::string failure;                       // of utility_failed: what was wrong
   std::map<Rejection, int> last_rejections;  // of the decision that found no valid view
   std::vector<ViewRecord> views;
-  std::vector<GivenView> given_views;        // in their order, of a mission that flies such
+  std::vector<UserView> user_views;          // in their order, of a mission that flies such
   std::vector<ViewOutcome> look_outcomes;    // of a tour
   std::vector<MadePlan> tour_plans;          // likewise, each time it was made anew
   std::vector<TrajectorySample> trajectory;  // true motion at 10 Hz

@@ -10,7 +10,6 @@
 #include "tools/run_files/cloud_file.hpp"
 #include "tools/run_files/coverage_csv.hpp"
 #include "tools/run_files/file_names.hpp"
-#include "tools/run_files/given_views.hpp"
 #include "tools/run_files/iterations_csv.hpp"
 #include "tools/run_files/plan_jsonl.hpp"
 #include "tools/run_files/predictions_csv.hpp"
@@ -19,6 +18,7 @@
 #include "tools/run_files/run_commands.hpp"
 #include "tools/run_files/summary_json.hpp"
 #include "tools/run_files/trajectory_tum.hpp"
+#include "tools/run_files/user_views.hpp"
 
 namespace gnbv {
 
@@ -177,10 +177,10 @@ void RunDirectory::finish(const Scenario& scenario, const MissionResult& result,
   write_file_atomically(folder_ / kIterationsFile, iterations_csv(result.views, columns_));
   const PlannerTraits planner = traits_of(scenario.planner);
   if (planner.takes_views) {
-    write_file_atomically(folder_ / kViewsFile, given_views_csv(result.given_views));
+    write_file_atomically(folder_ / kViewsFile, user_views_csv(result.user_views));
   }
   if (is_user_utility(scenario.planner.utility.name)) {
-    write_file_atomically(folder_ / kOwnUtilityFile, scenario.planner.utility.python.source);
+    write_file_atomically(folder_ / kUserUtilityFile, scenario.planner.utility.python.source);
   }
   if (planner.makes_tours) {
     write_file_atomically(folder_ / kPredictionsFile, predictions_csv(result.look_outcomes));

@@ -61,7 +61,7 @@ Json rejections_of(const std::map<Rejection, int>& rejections) {
   return counts;
 }
 
-/// Of an own utility.
+/// Of a utility of the user's own.
 Json source_hash_of(const UtilityConfig& utility) {
   if (!is_user_utility(utility.name)) return nullptr;
   Sha256 hash;

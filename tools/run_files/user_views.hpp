@@ -39,10 +39,10 @@ class ViewLines {
 };
 
 /// All views of a file. Throws BadInput naming file, line and value, and for a file without a view.
-std::vector<ViewPose> read_given_views(const std::filesystem::path& file);
+std::vector<ViewPose> read_user_views(const std::filesystem::path& file);
 
 /// views.csv of a run: every given view in its order, and what became of it: `flown` as which
 /// iteration, `refused` for which reason, or `left` when the mission ended before it.
-std::string given_views_csv(std::span<const GivenView> views);
+std::string user_views_csv(std::span<const UserView> views);
 
 }  // namespace gnbv

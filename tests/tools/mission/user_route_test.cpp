@@ -35,13 +35,13 @@ const Given& mixed() {
   return views;
 }
 
-TEST(GivenRoute, FliesWhatMayBeFlownInItsOrderAndSaysWhyTheRestIsNot) {
+TEST(UserRoute, FliesWhatMayBeFlownInItsOrderAndSaysWhyTheRestIsNot) {
   const Flown flight(route_of(mixed()));
   const MissionResult& result = flight.result;
   EXPECT_EQ(result.termination, Termination::route_flown);
-  ASSERT_EQ(result.given_views.size(), mixed().size());
+  ASSERT_EQ(result.user_views.size(), mixed().size());
   std::vector<std::string> outcomes;
-  for (const GivenView& given : result.given_views) {
+  for (const UserView& given : result.user_views) {
     outcomes.emplace_back(given.rejected ? std::string(name_of(*given.rejected))
                                          : fmt::format("{}", given.iteration.value()));
   }
@@ -54,7 +54,7 @@ TEST(GivenRoute, FliesWhatMayBeFlownInItsOrderAndSaysWhyTheRestIsNot) {
   EXPECT_EQ(outcomes[6], "3");
   EXPECT_EQ(outcomes[7], "4");         // twice given, twice flown
   ASSERT_EQ(result.views.size(), 5U);  // and the start
-  for (const GivenView& given : result.given_views) {
+  for (const UserView& given : result.user_views) {
     if (!given.iteration) continue;
     const Decision& flown = result.views[*given.iteration].decision;
     EXPECT_TRUE(is_same_view(flown.view, given.view));
@@ -70,12 +70,12 @@ TEST(GivenRoute, FliesWhatMayBeFlownInItsOrderAndSaysWhyTheRestIsNot) {
   }
 }
 
-TEST(GivenRoute, EndsAtMaxIterationsAndLeavesTheRest) {
+TEST(UserRoute, EndsAtMaxIterationsAndLeavesTheRest) {
   const Flown flight(route_of(mixed(), {"planner.termination.max_iterations=2"}));
   EXPECT_EQ(flight.result.termination, Termination::max_iterations);
   EXPECT_EQ(flight.result.views.size(), 2U);
-  EXPECT_FALSE(flight.result.given_views.back().rejected ||
-               flight.result.given_views.back().iteration);
+  EXPECT_FALSE(flight.result.user_views.back().rejected ||
+               flight.result.user_views.back().iteration);
 }
 
 /// One view after the other, as a pipe gives them.
@@ -88,7 +88,7 @@ MissionInputs one_by_one(const Given& views, std::vector<std::size_t>& refused) 
   return inputs;
 }
 
-TEST(GivenRoute, OneByOneIsAsAllAtOnceAtAnyNumberOfThreads) {
+TEST(UserRoute, OneByOneIsAsAllAtOnceAtAnyNumberOfThreads) {
   const std::string sha = result_sha256(Flown(route_of(mixed())).result);
   std::vector<std::size_t> refused;
   EXPECT_EQ(result_sha256(Flown(route_of({}), one_by_one(mixed(), refused), 1).result), sha);
@@ -101,7 +101,7 @@ TEST(GivenRoute, OneByOneIsAsAllAtOnceAtAnyNumberOfThreads) {
   EXPECT_EQ(refused, (std::vector<std::size_t>{0, 2, 4, 5}));
 }
 
-TEST(GivenRoute, ResumedEqualsTheUninterruptedOne) {
+TEST(UserRoute, ResumedEqualsTheUninterruptedOne) {
   TempFolder temp;
   const Scenario scenario = route_of(mixed());
   const auto run = temp.path() / "run";
@@ -109,10 +109,10 @@ TEST(GivenRoute, ResumedEqualsTheUninterruptedOne) {
   ASSERT_EQ(read_decisions(temp.path() / "run/iterations.csv.part").size(), 3U);
   const MissionResult resumed = fly_into(run, scenario, true);
   EXPECT_EQ(result_sha256(resumed), result_sha256(Flown(scenario).result));
-  EXPECT_EQ(resumed.given_views[2].rejected.has_value(), true);  // reasons are found again
+  EXPECT_EQ(resumed.user_views[2].rejected.has_value(), true);  // reasons are found again
 }
 
-TEST(GivenRoute, ARecordOfOtherViewsIsNotResumed) {
+TEST(UserRoute, ARecordOfOtherViewsIsNotResumed) {
   const MissionInputs inputs = {
       .replay = {{.view = {}}, {.view = kNorth, .sampler = Sampler::route}}};
   EXPECT_THROW(Flown(route_of({kEast}), inputs), BadInput);

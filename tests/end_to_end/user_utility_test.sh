@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # A utility in a Python file flies, is recorded so that the run repeats from its record, and ends
 # the run in order when it fails.
-# usage: own_utility_test.sh GNBV       exit: 77 where python3 has no NumPy
+# usage: user_utility_test.sh GNBV       exit: 77 where python3 has no NumPy
 set -euo pipefail
 gnbv=$1
 "${GNBV_PYTHON:-python3}" -c 'import numpy' 2>/dev/null || { echo "skipped: python3 has no NumPy" >&2; exit 77; }
 work=$(mktemp -d "${TMPDIR:-/tmp}/gnbv-utility.XXXXXX")
 trap 'rm -rf "$work"' EXIT
 cd "$work"
-fail() { echo "own_utility_test: $*" >&2; exit 1; }
+fail() { echo "user_utility_test: $*" >&2; exit 1; }
 short=(--quiet --set planner.termination.max_iterations=5)
 hash_of() { grep -o '"result_sha256": "[0-9a-f]*"' "$1/summary.json"; }
 # expect STATUS TEXT COMMAND...: its exit code, and what its stderr holds

@@ -1,7 +1,5 @@
 // Views that users give: what is read, what is refused, and that nothing is lost on the way to the
 // scenario and back.
-#include "tools/run_files/given_views.hpp"
-
 #include <gtest/gtest.h>
 
 #include "scenarios/load.hpp"
@@ -9,6 +7,7 @@
 #include "sim/core/file.hpp"
 #include "sim/core/rng.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tools/run_files/user_views.hpp"
 
 namespace gnbv {
 namespace {
@@ -16,7 +15,7 @@ namespace {
 std::vector<ViewPose> views_in(const std::string& text) {
   TempFolder temp;
   write_file_atomically(temp.path() / "views", text);
-  return read_given_views(temp.path() / "views");
+  return read_user_views(temp.path() / "views");
 }
 
 /// What is said about the text, from the file's name on.
@@ -66,11 +65,11 @@ TEST(GivenViews, OnlyTheHeadingOfATiltedBodyIsFlown) {
 TEST(GivenViews, EveryViewComesBackBitForBit) {
   std::vector<ViewPose> views;
   for (std::uint64_t i = 0; i < 200; ++i) views.push_back(drawn_view(i));
-  std::vector<GivenView> given;
+  std::vector<UserView> given;
   for (const ViewPose& view : views) given.push_back({view});
   given[1].rejected = Rejection::collision;
   given[2].iteration = 7;
-  const std::string csv = given_views_csv(given);
+  const std::string csv = user_views_csv(given);
   EXPECT_NE(csv.find(",refused,collision,\n"), std::string::npos);
   EXPECT_NE(csv.find(",flown,,7\n"), std::string::npos);
   const Scenario scenario = load_scenario("smoke", {views_override(views)});

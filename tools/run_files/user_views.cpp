@@ -1,4 +1,4 @@
-#include "tools/run_files/given_views.hpp"
+#include "tools/run_files/user_views.hpp"
 
 #include <algorithm>
 #include <array>
@@ -140,7 +140,7 @@ ViewPose ViewLines::read_row(std::string_view row) {
   return view;
 }
 
-std::vector<ViewPose> read_given_views(const fs::path& file) {
+std::vector<ViewPose> read_user_views(const fs::path& file) {
   const std::string text = read_file(file);
   ViewLines lines(file);
   std::vector<ViewPose> views;
@@ -152,10 +152,10 @@ std::vector<ViewPose> read_given_views(const fs::path& file) {
   return views;
 }
 
-std::string given_views_csv(std::span<const GivenView> views) {
+std::string user_views_csv(std::span<const UserView> views) {
   std::string csv = "view,x,y,z,yaw_deg,pitch_deg,result,reason,iteration\n";
   for (std::size_t i = 0; i < views.size(); ++i) {
-    const GivenView& given = views[i];
+    const UserView& given = views[i];
     const Vec3& p = given.view.p_world_m;
     csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", i, p.x(), p.y(), p.z(),
                        degrees_of(given.view.yaw_rad), degrees_of(given.view.gimbal_pitch_rad),
