@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "planner/core/view_validity.hpp"
+#include "planner/guided/frontier_clusters.hpp"
 #include "planner/map/frontiers.hpp"
 #include "sensors/camera_model.hpp"
 

@@ -18,7 +18,7 @@ TEST(FrontierViews, LooksAtTheNearestFrontierWhereEntropyStandsStill) {
   // before the wall, at the cylinder's radius, looking at it
   EXPECT_NEAR(at_minimum.next().view.p_world_m.x(), 6.1 - 3.5, 1e-6);
   EXPECT_NEAR(at_minimum.next().view.yaw_rad, 0.0, 1e-9);
-  EXPECT_EQ(planner.plan(belief, {}).next->sampler, Sampler::agvs);  // and back
+  EXPECT_EQ(planner.plan(belief, {}).next().sampler, Sampler::agvs);  // and back
 }
 
 /// A wall ahead, all of it a frontier, and a lone frontier of five voxels at `lone_m`, nearer.
@@ -202,8 +202,8 @@ TEST(FrontierViews, WithoutFrontierViewsEveryUtilityStaysOnTheGrid) {
         EXPECT_EQ(c.sampler == Sampler::agvs, !has_fvs) << name;
       return plan.next().sampler;
     };
-    EXPECT_EQ(sampler(false), "agvs") << name;
-    EXPECT_EQ(sampler(true), "fvs") << name;
+    EXPECT_EQ(sampler(false), Sampler::agvs) << name;
+    EXPECT_EQ(sampler(true), Sampler::fvs) << name;
   }
 }
 

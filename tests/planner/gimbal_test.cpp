@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "planner/guided/frontier_clusters.hpp"
 #include "planner/guided/view_sampling.hpp"
 #include "planner/map/frontiers.hpp"
 #include "planner/route/route_planners.hpp"

@@ -184,7 +184,8 @@ TEST(RoundTrip, CandidatesJsonl) {
   for (const std::size_t iteration : {1U, 2U}) {
     const std::optional<Plan> read = read_candidates(temp.path(), iteration);
     ASSERT_TRUE(read && read->candidates.size() == 2U);
-    EXPECT_EQ(read->chosen, iteration == 1 ? std::optional<std::size_t>(0) : std::nullopt);
+    EXPECT_EQ(read->chosen,
+              iteration == 1 ? std::vector<std::size_t>{0} : std::vector<std::size_t>{});
     for (std::size_t i = 0; i < 2; ++i) {
       const Candidate& now = read->candidates[i];
       const Candidate& was = plan.candidates[i];
