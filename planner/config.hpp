@@ -7,10 +7,10 @@
 #include <string_view>
 
 #include "planner/core/termination.hpp"
-#include "planner/core/view_validity.hpp"
 #include "planner/guided/utility.hpp"
 #include "planner/guided/view_sampling.hpp"
 #include "planner/map/config.hpp"
+#include "planner/motion/view_checker.hpp"
 #include "planner/profiling.hpp"
 #include "planner/route/laid_views.hpp"
 #include "planner/symmetry/config.hpp"

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "planner/map/scan_insertion.hpp"
+#include "planner/motion/path_search.hpp"
 
 namespace gnbv {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/map/no_fly.hpp"
+#include "planner/motion/no_fly.hpp"
 #include "sim/core/pose.hpp"
 
 namespace gnbv {

@@ -22,12 +22,6 @@ constexpr std::array<Named<IgCounting>, 2> kIgCountings = {
     {{IgCounting::per_ray, "per_ray"}, {IgCounting::unique, "unique"}}};
 constexpr std::array<Named<HitVoxel>, 2> kHitVoxels = {
     {{HitVoxel::counted, "counted"}, {HitVoxel::excluded, "excluded"}}};
-constexpr std::array<Named<TourVisibility>, 2> kTourVisibilities = {
-    {{TourVisibility::splats, "splats"}, {TourVisibility::rays, "rays"}}};
-constexpr std::array<Named<TourSearch>, 2> kTourSearches = {
-    {{TourSearch::neighbourhood, "neighbourhood"}, {TourSearch::greedy, "greedy"}}};
-constexpr std::array<Named<TourSuccess>, 2> kTourSuccesses = {
-    {{TourSuccess::learned, "learned"}, {TourSuccess::fixed, "fixed"}}};
 
 }  // namespace
 
@@ -114,7 +108,9 @@ void fields(FieldVisitor& v, FvsConfig& c) {
 }
 
 void fields(FieldVisitor& v, PathSearchConfig& c) {
-  v.integer("max_expansions", c.max_expansions, between(1, 1e7), "Nodes a search may look at.");
+  v.integer("max_expansions", c.max_expansions, between(1, 1e7),
+            "Nodes that a search may look at in a navigation box of up to 40,000; in a larger one "
+            "as many times that as it has more.");
 }
 
 void fields(FieldVisitor& v, ValidityConfig& c) {
@@ -199,16 +195,15 @@ void fields(FieldVisitor& v, RouteConfig& c) {
 void fields(FieldVisitor& v, TourConfig& c) {
   v.number("detail_m", c.detail_m, between(0.005, 1),
            "Edge of the voxels that are to hold a point.");
-  v.number("lattice_step_m", c.lattice_step_m, between(0, 100),
-           "Between views of the lattice; 0: a quarter of the cameras' range.");
+  v.number(
+      "lattice_step_m", c.lattice_step_m, between(0, 100),
+      "Between views of the lattice; 0: a quarter of the cameras' range, more in a large box.");
   v.angle("yaw_step_deg", c.yaw_step_rad, between(5, 360), "Between views at one place.");
-  v.angle("incidence_max_deg", c.incidence_max_rad, between(10, 89), "Beyond, no look counts.");
-  v.choice("visibility", c.visibility, kTourVisibilities,
-           "splats: patches drawn into a depth buffer; rays: through the map's voxels.");
-  v.choice("search", c.search, kTourSearches, "Large neighbourhoods, or view by view.");
-  v.choice("success", c.success, kTourSuccesses, "Of a look: learned in flight, or assumed.");
-  v.flag("double_cover", c.double_cover,
-         "Whether a second look is worth what the first may miss; else it is worth nothing.");
+  v.angle("incidence_max_deg", c.incidence_max_rad, between(10, 89),
+          "Beyond, no observation counts.");
+  v.flag(
+      "double_cover", c.double_cover,
+      "Whether a second observation is worth what the first may miss; else it is worth nothing.");
   v.flag("explore", c.explore,
          "Without a profile: looks for unseen space where no surface pays any more.");
   v.number("price", c.price, above_upto(0, 10),
@@ -218,14 +213,10 @@ void fields(FieldVisitor& v, TourConfig& c) {
   v.integer("iterations", c.iterations, between(0, 1e5), "Of the search, each time.");
   v.integer("views_per_replan", c.views_per_replan, between(1, 1e6), "Flown before the next tour.");
   v.number("replan_below", c.replan_below, between(0, 1),
-           "A new tour when a view brings less than this share of its promise.");
-  v.integer("recasts", c.recasts, between(0, 1e6), "Places looked from again for each tour.");
-  v.integer("items_max", c.items_max, between(100, 1e7), "Patches weighed one by one.");
+           "A new tour when a view brings less than this share of what was predicted.");
   v.number("end_price", c.end_price, above_upto(0, 1),
-           "When no view pays, the price is halved, down to this share of it,");
-  v.number("end_share", c.end_share, between(0, 1),
-           "or until no more than this share of the expected voxels is left.");
-  v.flag("surface_views", c.surface_views, "Views off the lattice for what two looks left.");
+           "When no view pays, the price is halved, down to this share of it.");
+  v.flag("surface_views", c.surface_views, "Views off the lattice for what none of it sees.");
 }
 
 void fields(FieldVisitor& v, SymmetryConfig& c) {

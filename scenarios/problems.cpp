@@ -128,8 +128,7 @@ void check_workspace(const Scenario& s, Problems& out) {
                                z_min_m, top_m)});
     return;
   }
-  Box3 navigation_m = s.workspace_m;
-  navigation_m.min().z() = std::max(navigation_m.min().z(), z_min_m);
+  const Box3 navigation_m = navigation_box_m(s.planner.validity, s.workspace_m);
   const Vec3& start_m = s.start.pose.p_world_m;
   if (!navigation_m.contains(start_m)) {
     out.push_back(

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "planner/tour/neighbourhood.hpp"
-#include "planner/tour/stops.hpp"
+#include "planner/tour/perturbation.hpp"
+#include "planner/tour/waypoints.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {
@@ -17,21 +17,21 @@ constexpr double kLeast_m = 1e-6;  // less is rounding
 class OpenTour {
  public:
   OpenTour(const CoverTask& task)
-      : task_(&task), counts_(task.views, task.given), stops_({task.start}, task.row_m) {}
+      : task_(&task), counts_(task.views, task.given), waypoints_({task.start}, task.row_m) {}
   OpenTour(const CoverTask& task, const CoveringTour& tour)
-      : task_(&task), counts_(task.views, task.given), stops_(tour.places, task.row_m) {
+      : task_(&task), counts_(task.views, task.given), waypoints_(tour.places, task.row_m) {
     for (const std::uint32_t view : tour.views) take(view);
   }
 
   const CoverCounts& counts() const { return counts_; }
   const std::vector<std::uint32_t>& chosen() const { return chosen_; }
-  const Stops& stops() const { return stops_; }
+  const Waypoints& waypoints() const { return waypoints_; }
 
   double cost_m(const CoverAim& aim) const {
-    return stops_.length_m() + aim.metres_per_view * static_cast<double>(chosen_.size());
+    return waypoints_.length_m() + aim.metres_per_view * static_cast<double>(chosen_.size());
   }
   CoveringTour made() const {
-    CoveringTour tour{stops_.places(), chosen_, stops_.length_m(), counts_.covered()};
+    CoveringTour tour{waypoints_.nodes(), chosen_, waypoints_.length_m(), counts_.covered()};
     std::sort(tour.views.begin(), tour.views.end());
     return tour;
   }
@@ -40,33 +40,33 @@ class OpenTour {
     counts_.remove(view);
     chosen_.erase(std::find(chosen_.begin(), chosen_.end(), view));
     const std::uint32_t place = place_of(view);
-    if (place != task_->start && views_at(place) == 0) stops_.remove(place);
+    if (place != task_->start && views_at(place) == 0) waypoints_.remove(place);
   }
 
   /// Whether there was one to add: that with the most items per metre, of at most those missing,
-  /// times what it is liked.
-  bool add_best(const CoverAim& aim, double metres_per_view, std::span<const double> liking) {
+  /// times its weight.
+  bool add_best(const CoverAim& aim, double metres_per_view, std::span<const double> weights) {
     const auto missing = static_cast<double>(aim.wanted - counts_.covered());
     const std::span<const std::uint32_t> gains = counts_.gains();
     double most = 0.0;
     std::uint32_t best = 0;
     for (std::uint32_t view = 0; view < gains.size(); ++view) {
       if (gains[view] == 0) continue;
-      const double liked = liking.empty() ? 1.0 : liking[view];
+      const double weight = weights.empty() ? 1.0 : weights[view];
       const double score =
-          liked * std::min(static_cast<double>(gains[view]), missing) /
-          (static_cast<double>(stops_.extra_m()[place_of(view)]) + metres_per_view);
+          weight * std::min(static_cast<double>(gains[view]), missing) /
+          (static_cast<double>(waypoints_.extra_m()[place_of(view)]) + metres_per_view);
       if (score <= most) continue;
       most = score;
       best = view;
     }
     if (most <= 0.0) return false;
     take(best);
-    if (!stops_.has(place_of(best))) stops_.insert(place_of(best));
+    if (!waypoints_.has(place_of(best))) waypoints_.insert(place_of(best));
     return true;
   }
 
-  void find_detours() { stops_.find_detours(); }
+  void find_detours() { waypoints_.find_detours(); }
 
   /// Views that what is wanted can do without go, those first that save the most.
   void drop_needless(const CoverAim& aim) {
@@ -86,7 +86,7 @@ class OpenTour {
     }
   }
 
-  void shorten(int kicks = 0) { stops_.shorten(kicks); }
+  void shorten(int kicks = 0) { waypoints_.shorten(kicks); }
 
  private:
   std::uint32_t place_of(std::uint32_t view) const { return task_->place[view]; }
@@ -100,20 +100,20 @@ class OpenTour {
   }
   double saved_without_m(std::uint32_t view) const {
     const std::uint32_t place = place_of(view);
-    return place == task_->start || views_at(place) > 1 ? 0.0 : stops_.saved_without_m(place);
+    return place == task_->start || views_at(place) > 1 ? 0.0 : waypoints_.saved_without_m(place);
   }
 
   const CoverTask* task_;
   CoverCounts counts_;
   std::vector<std::uint32_t> chosen_;  // views, in the order of choice
-  Stops stops_;
+  Waypoints waypoints_;
 };
 
 void complete(OpenTour& tour, const CoverAim& aim, double metres_per_view,
-              std::span<const double> liking) {
+              std::span<const double> weights) {
   tour.find_detours();
   while (tour.counts().covered() < aim.wanted) {
-    if (!tour.add_best(aim, metres_per_view, liking)) return;
+    if (!tour.add_best(aim, metres_per_view, weights)) return;
   }
 }
 
@@ -148,11 +148,11 @@ CoveringTour cheaper_tour(const CoverTask& task, const CoverAim& aim, const Cove
     Rng rng(0, Stream::cover_search, i);
     trial = current;
     for (const std::uint32_t view :
-         views_to_remove(trial.chosen(), task.place, trial.stops(), task.row_m, rng)) {
+         views_to_remove(trial.chosen(), task.place, trial.waypoints(), task.row_m, rng)) {
       trial.remove(view);
     }
     const double price_m = 0.1 * std::pow(20.0 * degree_m, rng.uniform());
-    complete(trial, aim, price_m, random_likings(task.views.size(), rng));
+    complete(trial, aim, price_m, perturbation_weights(task.views.size(), rng));
     trial.drop_needless(aim);
     if (trial.counts().covered() < std::min(aim.wanted, current.counts().covered())) continue;
     double trial_m = trial.cost_m(aim);

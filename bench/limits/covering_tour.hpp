@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bench/limits/cover_counts.hpp"
-#include "planner/tour/stops.hpp"
+#include "planner/tour/waypoints.hpp"
 
 namespace gnbv {
 

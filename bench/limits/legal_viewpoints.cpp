@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/core/view_validity.hpp"
+#include "planner/motion/view_checker.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "bench/limits/sight_search.hpp"
-#include "planner/core/view_validity.hpp"
+#include "planner/motion/view_checker.hpp"
 #include "planner/profiling.hpp"
 #include "sensors/lidar_model.hpp"
 

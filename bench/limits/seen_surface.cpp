@@ -10,8 +10,8 @@
 #include "bench/limits/lidar_sight.hpp"
 #include "bench/limits/sight_search.hpp"
 #include "bench/score/surface_pieces.hpp"
-#include "planner/core/view_validity.hpp"
 #include "planner/map/leaf_filter.hpp"
+#include "planner/motion/view_checker.hpp"
 #include "sim/core/parallel.hpp"
 
 namespace gnbv {

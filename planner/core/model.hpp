@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "planner/core/view_validity.hpp"
 #include "planner/map/config.hpp"
-#include "planner/map/no_fly.hpp"
+#include "planner/motion/no_fly.hpp"
+#include "planner/motion/view_checker.hpp"
 #include "planner/view/config.hpp"
 #include "planner/view/visibility.hpp"
 #include "sensors/camera_model.hpp"

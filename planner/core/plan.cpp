@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <utility>
 
 namespace gnbv {
 namespace {
@@ -30,6 +31,13 @@ std::optional<Sampler> sampler_named(std::string_view name) {
                    [&](const SamplerTraits& traits) { return traits.name == name; });
   if (found == kSamplers.end()) return std::nullopt;
   return found->sampler;
+}
+
+void check(ViewChecker& checker, Candidate& candidate) {
+  FoundPath path = checker.check(candidate.view);
+  candidate.rejected = path.rejected;
+  candidate.path_m = checker.length_m(path, candidate.view);
+  candidate.via_world_m = std::move(path.via_world_m);
 }
 
 bool Plan::is_chosen(std::size_t candidate) const {

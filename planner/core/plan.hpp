@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "planner/core/termination.hpp"
-#include "planner/core/view_validity.hpp"
 #include "planner/map/frontiers.hpp"
+#include "planner/motion/view_checker.hpp"
 #include "sim/core/pose.hpp"
 
 namespace gnbv {
@@ -66,6 +66,9 @@ struct Candidate {
   double path_m = 0.0;                     // length of the way
   Score score = {};
 };
+
+/// Fills in whether the candidate may be flown to, and the way there.
+void check(ViewChecker& checker, Candidate& candidate);
 
 struct TourNotes;  // planner/tour/tour_notes.hpp
 

@@ -134,7 +134,7 @@ class Decider {
     parallel_for_chunks(scratch_.threads, candidates.size(), kPiece, [&](auto begin, auto end) {
       ViewChecker checker(validity_, model_.navigation_m, model_.no_fly, belief_.grid, recent_,
                           current_);
-      for (Candidate& candidate : candidates.subspan(begin, end - begin)) checker.check(candidate);
+      for (Candidate& candidate : candidates.subspan(begin, end - begin)) check(checker, candidate);
     });
   }
 

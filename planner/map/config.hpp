@@ -31,8 +31,4 @@ struct FrontierConfig {
   double max_extent_m = 2.0;  // clusters larger along any axis are cut; 0: never
 };
 
-struct PathSearchConfig {
-  int max_expansions = 2000;  // nodes looked at before the search gives up: a work budget
-};
-
 }  // namespace gnbv

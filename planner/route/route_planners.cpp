@@ -40,7 +40,7 @@ UserViewChecker::UserViewChecker(const PlannerModel& model, const Belief& belief
       checker_(validity_, model.navigation_m, model.no_fly, belief.grid, recent, current) {}
 
 void UserViewChecker::check(Candidate& candidate) {
-  checker_.check(candidate);
+  gnbv::check(checker_, candidate);
   if (!model_.can_pitch(candidate.view.gimbal_pitch_rad)) {
     candidate.rejected = Rejection::beyond_gimbal;
   }

@@ -15,10 +15,10 @@ void pack(const SurfaceCells& cells, CellBlocks::Block& block) {
   block.changed = 0;
   for (const std::uint32_t index : block.members) {
     const SurfaceCell& cell = cells.cells()[index];
-    if (cell.discs_m.empty() && !cell.is_frontier) continue;
+    if (cell.discs_m.empty() && !cell.is_boundary) continue;
     CellBlocks::Cell packed{.middle_m = cell.on_plane_m, .index = index, .changed = cell.changed};
     if (cell.has_plane) packed.normal = cell.normal;
-    if (!cell.is_frontier) {
+    if (!cell.is_boundary) {
       Vec3f sum_m = Vec3f::Zero();
       for (const Vec3f& disc_m : cell.discs_m) sum_m += disc_m;
       packed.middle_m = sum_m / static_cast<float>(cell.discs_m.size());
@@ -63,10 +63,25 @@ void CellBlocks::follow(const SurfaceCells& cells, int threads) {
 std::vector<const CellBlocks::Block*> CellBlocks::near(const Vec3& p_world_m,
                                                        double reach_m) const {
   const float within_m = static_cast<float>(reach_m) + radius_m();
+  const Vec3 reach = Vec3::Constant(within_m + 1e-3);  // more than anything here rounds
+  Key low = lattice_.key_of(Vec3(p_world_m - reach));
+  Key high = lattice_.key_of(Vec3(p_world_m + reach));
+  for (std::size_t a = 0; a < 3; ++a) {
+    low[a] = std::max(low[a], lattice_.min_key()[a]);
+    high[a] = std::min(high[a], lattice_.min_key()[a] + lattice_.size()[a] - 1);
+  }
   std::vector<const Block*> found;
-  for (const Block& block : blocks_) {
-    const float distance2_m2 = (block.center_m - p_world_m.cast<float>()).squaredNorm();
-    if (distance2_m2 <= within_m * within_m) found.push_back(&block);
+  Key key;
+  for (key[2] = low[2]; key[2] <= high[2]; ++key[2]) {
+    for (key[1] = low[1]; key[1] <= high[1]; ++key[1]) {
+      for (key[0] = low[0]; key[0] <= high[0]; ++key[0]) {
+        const std::uint32_t slot = slot_[lattice_.index_of(key)];
+        if (slot == 0) continue;
+        const Block& block = blocks_[slot - 1];
+        const float distance2_m2 = (block.center_m - p_world_m.cast<float>()).squaredNorm();
+        if (distance2_m2 <= within_m * within_m) found.push_back(&block);
+      }
+    }
   }
   return found;
 }

@@ -12,7 +12,7 @@ class CellBlocks {
  public:
   /// A cell that hides something, or that has something to be seen.
   struct Cell {
-    Vec3f middle_m;                // of its discs; of a frontier on its plane
+    Vec3f middle_m;                // of its discs; of a boundary on its plane
     Vec3f normal = Vec3f::Zero();  // zero: no plane, its discs face whoever looks
     std::uint32_t index = 0;       // of the cell
     std::uint32_t changed = 0;     // SurfaceCell's

@@ -4,43 +4,44 @@
 
 namespace gnbv {
 
-LookTable::LookTable(const PrizeTask& task) : first_(task.weight.size() + 1, 0) {
-  for (const auto& looks : task.looks) {
-    first_look_.push_back(odds_.size());
-    for (const ItemLook& look : looks) {
-      GNBV_CHECK(look.item < task.weight.size() && look.success >= 0.0F && look.success < 1.0F,
-                 "look at item {} of {} with success {}", look.item, task.weight.size(),
-                 look.success);
-      ++first_[look.item + 1];
-      odds_.push_back(look.success / (1.0F - look.success));
+ObservationTable::ObservationTable(const OrienteeringProblem& problem)
+    : first_(problem.weight.size() + 1, 0) {
+  for (const auto& observations : problem.observations) {
+    first_of_view_.push_back(odds_.size());
+    for (const ItemObservation& one : observations) {
+      GNBV_CHECK(one.item < problem.weight.size() && one.success >= 0.0F && one.success < 1.0F,
+                 "observation of item {} of {} with success {}", one.item, problem.weight.size(),
+                 one.success);
+      ++first_[one.item + 1];
+      odds_.push_back(one.success / (1.0F - one.success));
     }
   }
   for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
   holders_.resize(first_.back());
   std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-  for (std::uint32_t view = 0; view < task.looks.size(); ++view) {
-    for (const ItemLook& look : task.looks[view]) {
-      holders_[next[look.item]++] = {view, look.success};
+  for (std::uint32_t view = 0; view < problem.observations.size(); ++view) {
+    for (const ItemObservation& one : problem.observations[view]) {
+      holders_[next[one.item]++] = {view, one.success};
     }
   }
 }
 
-ExpectedCover::ExpectedCover(const PrizeTask& task, const LookTable& table)
-    : task_(&task),
+ExpectedCover::ExpectedCover(const OrienteeringProblem& problem, const ObservationTable& table)
+    : problem_(&problem),
       table_(&table),
-      gain_(task.looks.size(), 0.0),
-      missed_(task.weight.size(), 1.0),
-      is_chosen_(task.looks.size(), 0) {
-  for (std::size_t view = 0; view < task.looks.size(); ++view) {
-    for (const ItemLook& look : task.looks[view]) {
-      gain_[view] += static_cast<double>(task.weight[look.item] * look.success);
+      gain_(problem.observations.size(), 0.0),
+      missed_(problem.weight.size(), 1.0),
+      is_chosen_(problem.observations.size(), 0) {
+  for (std::size_t view = 0; view < problem.observations.size(); ++view) {
+    for (const ItemObservation& one : problem.observations[view]) {
+      gain_[view] += static_cast<double>(problem.weight[one.item] * one.success);
     }
   }
 }
 
 void ExpectedCover::change(std::uint32_t item, double missed) {
-  const double by = static_cast<double>(task_->weight[item]) * (missed - missed_[item]);
-  for (const LookTable::Holder& holder : table_->holders(item)) {
+  const double by = static_cast<double>(problem_->weight[item]) * (missed - missed_[item]);
+  for (const ObservationTable::Holder& holder : table_->holders(item)) {
     gain_[holder.view] += by * static_cast<double>(holder.success);
   }
   found_ -= by;
@@ -50,24 +51,24 @@ void ExpectedCover::change(std::uint32_t item, double missed) {
 void ExpectedCover::add(std::uint32_t view) {
   GNBV_CHECK(is_chosen_[view] == 0, "view {} is there already", view);
   is_chosen_[view] = 1;
-  for (const ItemLook& look : task_->looks[view]) {
-    change(look.item, missed_[look.item] * (1.0 - static_cast<double>(look.success)));
+  for (const ItemObservation& one : problem_->observations[view]) {
+    change(one.item, missed_[one.item] * (1.0 - static_cast<double>(one.success)));
   }
 }
 
 void ExpectedCover::remove(std::uint32_t view) {
   GNBV_CHECK(is_chosen_[view] != 0, "view {} is not there", view);
   is_chosen_[view] = 0;
-  for (const ItemLook& look : task_->looks[view]) {
-    change(look.item, missed_[look.item] / (1.0 - static_cast<double>(look.success)));
+  for (const ItemObservation& one : problem_->observations[view]) {
+    change(one.item, missed_[one.item] / (1.0 - static_cast<double>(one.success)));
   }
 }
 
 double ExpectedCover::loss_without(std::uint32_t view) const {
   double loss = 0.0;
   const float* odds = table_->odds(view);
-  for (const ItemLook& look : task_->looks[view]) {
-    loss += static_cast<double>(task_->weight[look.item] * *odds++) * missed_[look.item];
+  for (const ItemObservation& one : problem_->observations[view]) {
+    loss += static_cast<double>(problem_->weight[one.item] * *odds++) * missed_[one.item];
   }
   return loss;
 }

@@ -5,14 +5,14 @@
 #include <span>
 #include <vector>
 
-#include "planner/tour/prize_tour.hpp"
+#include "planner/tour/orienteering.hpp"
 
 namespace gnbv {
 
-/// The looks of all views, and for each item those that look at it.
-class LookTable {
+/// The observations of all views, and for each item those of it.
+class ObservationTable {
  public:
-  explicit LookTable(const PrizeTask& task);
+  explicit ObservationTable(const OrienteeringProblem& problem);
 
   struct Holder {
     std::uint32_t view;
@@ -21,22 +21,22 @@ class LookTable {
   std::span<const Holder> holders(std::uint32_t item) const {
     return std::span(holders_).subspan(first_[item], first_[item + 1] - first_[item]);
   }
-  /// success / (1 - success) of each look of the view.
-  const float* odds(std::uint32_t view) const { return &odds_[first_look_[view]]; }
+  /// success / (1 - success) of each observation of the view.
+  const float* odds(std::uint32_t view) const { return &odds_[first_of_view_[view]]; }
 
  private:
-  std::vector<std::size_t> first_;
+  std::vector<std::size_t> first_;  // holder of each item
   std::vector<Holder> holders_;
-  std::vector<std::size_t> first_look_;  // of each view
+  std::vector<std::size_t> first_of_view_;
   std::vector<float> odds_;
 };
 
-/// Expected weight found is the sum of weight (1 - product of the looks' failures). A view that
-/// comes or goes costs its items, and for each the views that look at it. Copied, it is a state to
-/// return to.
+/// Expected weight found is the sum of weight (1 - product of the observations' failures). A view
+/// that comes or goes costs its items, and for each the views that observe it. Copied, it is a
+/// state to return to.
 class ExpectedCover {
  public:
-  ExpectedCover(const PrizeTask& task, const LookTable& table);
+  ExpectedCover(const OrienteeringProblem& problem, const ObservationTable& table);
 
   void add(std::uint32_t view);
   void remove(std::uint32_t view);
@@ -51,10 +51,10 @@ class ExpectedCover {
  private:
   void change(std::uint32_t item, double missed);
 
-  const PrizeTask* task_;
-  const LookTable* table_;
+  const OrienteeringProblem* problem_;
+  const ObservationTable* table_;
   std::vector<double> gain_;
-  std::vector<double> missed_;  // of each item: the probability that no chosen look finds it
+  std::vector<double> missed_;  // of each item: the probability that no chosen view finds it
   std::vector<std::uint8_t> is_chosen_;
   double found_ = 0.0;
 };

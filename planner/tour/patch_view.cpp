@@ -4,9 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "planner/map/ray_walk.hpp"
-#include "planner/tour/success.hpp"
-
 namespace gnbv {
 namespace {
 
@@ -23,22 +20,6 @@ constexpr std::uint32_t kWholeDiscs = 3;  // so many at least, or most of the ce
 constexpr float kNoDepth = std::numeric_limits<float>::infinity();
 
 }  // namespace
-
-bool is_hit_first(const OccupancyGrid& grid, const Vec3& origin_world_m,
-                  const Vec3& target_world_m) {
-  const GridGeometry& geometry = grid.geometry();
-  const Key target = geometry.key_of(target_world_m);
-  bool is_clear = true;
-  walk_ray(geometry, origin_world_m.cast<float>(), target_world_m.cast<float>(),
-           [&](const Key& key) {
-             if (!geometry.contains(key)) return true;
-             if (grid.state(geometry.index_of(key)) != VoxelState::occupied) return true;
-             for (std::size_t a = 0; a < 3; ++a)
-               is_clear = is_clear && std::abs(key[a] - target[a]) <= 1;
-             return false;
-           });
-  return is_clear;
-}
 
 double camera_reach_m(const CameraModel& camera) {
   const CameraConfig& c = camera.config;
@@ -70,7 +51,10 @@ void PatchViewer::begin(const CameraModel& camera, const Isometry& T_world_camer
   }
 }
 
-/// The disc as seen through each pixel that its bounding square covers.
+/// The ray through a pixel is t (ray_x, ray_y, 1) in the camera's frame. It meets the disc's plane,
+/// the points q with normal . q = normal . p, at the depth t = normal . p / normal . (ray_x, ray_y,
+/// 1); the pixel is covered where that point lies within the radius of p. Only pixels in the square
+/// about the disc's middle are asked.
 void PatchViewer::draw(const Vec3f& p, const Vec3f& normal, float radius_m) {
   const float along = normal.dot(p);
   const float u = image_.fx * p.x() / p.z() + image_.cx;
@@ -120,7 +104,6 @@ void PatchViewer::draw_cell(const TourScene& scene, const CellBlocks::Block& blo
   const Vec3f middle = to_camera(cell.middle_m);
   if (!is_in_image(middle, slant() * 0.9F * cell_m)) return;
   in_image_.push_back(cell.index);
-  if (scene.config.visibility != TourVisibility::splats) return;
   const bool has_plane = !cell.normal.isZero();
   const Vec3f normal = image_.R_camera_world * cell.normal;
   const bool is_small = cell_m * image_.fx < kSmallCell_px * middle.z();
@@ -136,18 +119,10 @@ void PatchViewer::draw_cell(const TourScene& scene, const CellBlocks::Block& blo
   }
 }
 
-bool PatchViewer::is_seen(const TourScene& scene, const Patch& patch, float cosine) const {
-  const Vec3f p = to_camera(patch.target_m);
-  if (scene.config.visibility == TourVisibility::splats) {
-    return is_before(p, cosine, kBias * static_cast<float>(scene.cells.detail_m()));
-  }
-  return is_hit_first(scene.grid, image_.origin_m.cast<double>(), patch.target_m.cast<double>());
-}
-
-void PatchViewer::look(const TourScene& scene, const CameraModel& camera,
-                       const Isometry& T_world_body,
-                       std::span<const CellBlocks::Block* const> blocks, float block_radius_m,
-                       std::vector<SeenPatch>& seen) {
+void PatchViewer::observe(const TourScene& scene, const CameraModel& camera,
+                          const Isometry& T_world_body,
+                          std::span<const CellBlocks::Block* const> blocks, float block_radius_m,
+                          std::vector<SeenPatch>& seen) {
   begin(camera, T_world_body * camera.T_body_camera);
   in_image_.clear();
   for (const CellBlocks::Block* block : blocks) {
@@ -159,6 +134,7 @@ void PatchViewer::look(const TourScene& scene, const CameraModel& camera,
   }
   const auto range_min_m = static_cast<float>(camera.config.range_min_m);
   const auto cos_min = static_cast<float>(std::cos(scene.config.incidence_max_rad));
+  const float bias_m = kBias * static_cast<float>(scene.cells.detail_m());
   for (const std::uint32_t index : in_image_) {
     for (std::uint32_t side = 0; side < 2; ++side) {
       const PatchId id = 2 * index + side;
@@ -167,7 +143,7 @@ void PatchViewer::look(const TourScene& scene, const CameraModel& camera,
       const Vec3f p = to_camera(patch.target_m);
       if (!is_in_image(p, 0.0F) || p.z() < range_min_m) continue;
       const float cosine = patch.normal.dot(image_.origin_m - patch.target_m) / p.norm();
-      if (cosine < cos_min || !is_seen(scene, patch, cosine)) continue;
+      if (cosine < cos_min || !is_before(p, cosine, bias_m)) continue;
       seen.push_back({id, static_cast<std::uint8_t>(incidence_bin(cosine))});
     }
   }

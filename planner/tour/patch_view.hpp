@@ -8,31 +8,27 @@
 
 #include "planner/tour/cell_blocks.hpp"
 #include "planner/tour/config.hpp"
-#include "planner/tour/patches.hpp"
+#include "planner/tour/gain_calibration.hpp"
 #include "sensors/camera_model.hpp"
 
 namespace gnbv {
-
-struct SeenPatch {
-  PatchId patch = 0;
-  std::uint8_t incidence = 0;  // incidence_bin()
-};
 
 /// What may be seen, and what may hide it.
 struct TourScene {
   const TourConfig& config;
   const SurfaceCells& cells;
   std::span<const Patch> patches;
-  const OccupancyGrid& grid;
 };
 
-/// Works out what cameras see; memory of its own, so one a thread.
+/// Works out what cameras see: draws the surface as discs into an image of depths (splats), and
+/// takes a patch for seen if it lies no deeper than what was drawn there. Has memory of its own, so
+/// one a thread.
 class PatchViewer {
  public:
   /// Appends what the camera sees. `blocks`: those near, with the radius of their spheres.
-  void look(const TourScene& scene, const CameraModel& camera, const Isometry& T_world_body,
-            std::span<const CellBlocks::Block* const> blocks, float block_radius_m,
-            std::vector<SeenPatch>& seen);
+  void observe(const TourScene& scene, const CameraModel& camera, const Isometry& T_world_body,
+               std::span<const CellBlocks::Block* const> blocks, float block_radius_m,
+               std::vector<SeenPatch>& seen);
 
  private:
   struct Image {
@@ -52,7 +48,6 @@ class PatchViewer {
   bool is_in_image(const Vec3f& p_camera_m, float margin_m) const;
   void draw_cell(const TourScene& scene, const CellBlocks::Block& block,
                  const CellBlocks::Cell& cell);
-  bool is_seen(const TourScene& scene, const Patch& patch, float cos_incidence) const;
   void draw(const Vec3f& p_camera_m, const Vec3f& normal, float radius_m);
   bool is_before(const Vec3f& p_camera_m, float cos_incidence, float bias_m) const;
 
@@ -61,10 +56,6 @@ class PatchViewer {
   std::vector<float> depth_m_;
   std::vector<std::uint32_t> in_image_;  // cells
 };
-
-/// Whether the line from the origin meets no occupied voxel but the target's and its neighbours.
-bool is_hit_first(const OccupancyGrid& grid, const Vec3& origin_world_m,
-                  const Vec3& target_world_m);
 
 /// How far a camera reaches from the vehicle, in m.
 double camera_reach_m(const CameraModel& camera);

@@ -8,11 +8,11 @@
 namespace gnbv {
 namespace {
 
-// of the voxels of a side that nobody looked at, when the other one is known
+// of the voxels of a side that nobody observed, when the other one is known
 constexpr float kOppositeShare = 0.5F;
 
 // that a cell of unknown space is worth: a fifth of a plane through it
-constexpr float kFrontierVoxels = 0.2F * SurfaceCell::kSide * SurfaceCell::kSide;
+constexpr float kBoundaryVoxels = 0.2F * SurfaceCell::kSide * SurfaceCell::kSide;
 
 struct Gap {
   Vec3f middle_m;
@@ -54,12 +54,12 @@ std::vector<Patch> find_patches(const SurfaceCells& cells, const OccupancyGrid& 
   parallel_for_chunks(threads, all.size(), 1024, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const SurfaceCell& cell = all[i];
-      if (cell.is_frontier) {
+      if (cell.is_boundary) {
         patches[2 * i] = {.target_m = cell.on_plane_m,
                           .normal = cell.normal,
-                          .missing = kFrontierVoxels,
-                          .source = PatchSource::frontier,
-                          .looks = cell.looks[0]};
+                          .missing = kBoundaryVoxels,
+                          .source = PatchSource::boundary,
+                          .observations = cell.observations[0]};
       }
       if (!cell.has_plane) continue;
       const Gap gap = gap_of(cells, cell);
@@ -71,8 +71,9 @@ std::vector<Patch> find_patches(const SurfaceCells& cells, const OccupancyGrid& 
       const std::array<VoxelState, 2> before = {state_before(normals[0]), state_before(normals[1])};
       const auto expected = static_cast<float>(std::popcount(cell.expected));
       const std::uint8_t points = point_bin(cell.moments.count / static_cast<double>(expected));
-      // what a look at one side has left, one at the other will hardly find
-      const auto looks = static_cast<std::uint8_t>(std::min(0xff, cell.looks[0] + cell.looks[1]));
+      // what an observation of one side has left, one of the other will hardly find
+      const auto observations =
+          static_cast<std::uint8_t>(std::min(0xff, cell.observations[0] + cell.observations[1]));
       const bool any_free = before[0] == VoxelState::free || before[1] == VoxelState::free;
       for (std::size_t side = 0; side < 2; ++side) {
         const VoxelState needed = any_free ? VoxelState::free : VoxelState::unknown;
@@ -81,15 +82,15 @@ std::vector<Patch> find_patches(const SurfaceCells& cells, const OccupancyGrid& 
         patch.target_m = gap.middle_m;
         patch.normal = normals[side];
         patch.missing = static_cast<float>(gap.voxels);
-        patch.looks = looks;
+        patch.observations = observations;
         patch.points = points;
         patch.source = cell.is_extrapolated() ? PatchSource::extrapolated : PatchSource::sampled;
-        const bool is_other_side = cell.looks[side] == 0 && cell.looks[1 - side] > 0;
+        const bool is_other_side = cell.observations[side] == 0 && cell.observations[1 - side] > 0;
         if (is_other_side && patch.missing < kOppositeShare * expected) {
           patch.missing = kOppositeShare * expected;
           patch.target_m = cell.on_plane_m;
           patch.source = PatchSource::opposite;
-          patch.looks = 0;
+          patch.observations = 0;
         }
       }
     }

@@ -1,4 +1,5 @@
-// Sides of the surface that still lack points, and what a look at them can be expected to bring.
+// Sides of the surface that still lack points, and what an observation of them can be expected to
+// bring.
 #pragma once
 
 #include <array>
@@ -13,7 +14,7 @@ namespace gnbv {
 
 /// What is known of a patch: some of its points, a plane that leads there, that the other side
 /// of something thin has been seen, or only that nothing is.
-enum class PatchSource : std::uint8_t { sampled, extrapolated, opposite, frontier };
+enum class PatchSource : std::uint8_t { sampled, extrapolated, opposite, boundary };
 constexpr std::size_t kPatchSources = 4;
 std::string_view name_of(PatchSource source);
 
@@ -33,9 +34,9 @@ struct Patch {
   Vec3f normal = Vec3f::Zero();    // out of the surface
   float missing = 0.0F;            // small voxels expected to lack a point; 0: nothing to see here
   PatchSource source = PatchSource::sampled;
-  std::uint8_t looks = 0;   // at both sides of the cell
-  std::uint8_t points = 0;  // point_bin() of its cell
-  float credit = 1.0F;      // of what it promises: what was kept nearby of late (LookLedger)
+  std::uint8_t observations = 0;  // at both sides of the cell
+  std::uint8_t points = 0;        // point_bin() of its cell
+  float reliability = 1.0F;  // of what is predicted: what was kept nearby of late (GainCalibration)
 };
 
 /// By PatchId. A side is there if the space before it is not known to be surface.

@@ -83,9 +83,9 @@ Vec3 SurfaceCells::voxel_center_m(const SurfaceCell& cell, int bit) const {
          detail_m_ * (at + Vec3::Constant(0.5));
 }
 
-void SurfaceCells::count_look(std::uint32_t cell, std::size_t side) {
-  std::uint8_t& looks = cells_[cell].looks[side];
-  if (looks < 0xff) ++looks;
+void SurfaceCells::count_observation(std::uint32_t cell, std::size_t side) {
+  std::uint8_t& observations = cells_[cell].observations[side];
+  if (observations < 0xff) ++observations;
 }
 
 PointMoments SurfaceCells::moments_around(const Key& key) const {
@@ -209,7 +209,7 @@ void SurfaceCells::add(std::span<const Vec3f> points_world_m, const OccupancyGri
 void SurfaceCells::follow_map(const OccupancyGrid& grid) {
   ++version_;
   for (SurfaceCell& cell : cells_) {
-    cell.is_frontier = false;
+    cell.is_boundary = false;
     if (!cell.is_extrapolated() || !cell.has_plane) continue;
     if (grid.state_at(cell.on_plane_m.cast<double>()) != VoxelState::free) continue;
     cell.has_plane = false;
@@ -222,12 +222,12 @@ void SurfaceCells::follow_map(const OccupancyGrid& grid) {
     if (state_of(words[v]) != VoxelState::occupied) continue;
     for_each_neighbour(geometry.key_at(static_cast<VoxelIndex>(v)), [&](const Key& key) {
       if (!geometry.contains(key)) return;
-      if (grid.state(geometry.index_of(key)) == VoxelState::unknown) mark_frontier(grid, key);
+      if (grid.state(geometry.index_of(key)) == VoxelState::unknown) mark_boundary(grid, key);
     });
   }
 }
 
-void SurfaceCells::mark_frontier(const OccupancyGrid& grid, const Key& voxel) {
+void SurfaceCells::mark_boundary(const OccupancyGrid& grid, const Key& voxel) {
   const GridGeometry& geometry = grid.geometry();
   Vec3 outwards = Vec3::Zero();
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -243,9 +243,9 @@ void SurfaceCells::mark_frontier(const OccupancyGrid& grid, const Key& voxel) {
   const Key key = lattice_.key_of(center_m);
   if (outwards.isZero() || !lattice_.contains(key)) return;
   SurfaceCell& cell = cells_[cell_at(key)];
-  if (cell.has_plane || cell.moments.count > 0.0 || cell.is_frontier) return;
+  if (cell.has_plane || cell.moments.count > 0.0 || cell.is_boundary) return;
   if (cell.normal.isZero()) cell.changed = updates_;
-  cell.is_frontier = true;
+  cell.is_boundary = true;
   cell.normal = outwards.normalized().cast<float>();
   cell.on_plane_m = center_m.cast<float>();
 }

@@ -32,12 +32,12 @@ struct SurfaceCell {
   std::uint64_t covered = 0;   // voxels that hold a point, x fastest
   std::uint64_t expected = 0;  // voxels of which the plane crosses enough
   bool has_plane = false;
-  bool is_frontier = false;  // no plane: unknown space beside free and occupied, normal outwards
-  Vec3f on_plane_m = Vec3f::Zero();            // the middle of what the plane has of the cell
-  Vec3f normal = Vec3f::Zero();                // of no particular side, the same side for ever
-  std::array<std::uint8_t, 2> looks = {0, 0};  // from the normal's side, and from the other
-  std::vector<Vec3f> discs_m;                  // middles of discs that stand for the surface
-  std::uint32_t changed = 0;                   // in which add() what is expected of it last changed
+  bool is_boundary = false;  // no plane: unknown space beside free and occupied, normal outwards
+  Vec3f on_plane_m = Vec3f::Zero();  // the middle of what the plane has of the cell
+  Vec3f normal = Vec3f::Zero();      // of no particular side, the same side for ever
+  std::array<std::uint8_t, 2> observations = {0, 0};  // from the normal's side, and from the other
+  std::vector<Vec3f> discs_m;                         // middles of discs that stand for the surface
+  std::uint32_t changed = 0;  // in which add() what is expected of it last changed
 
   bool is_extrapolated() const { return moments.count == 0.0; }
 };
@@ -54,7 +54,7 @@ class SurfaceCells {
   /// Adds points, and fits again what they change. Cells beside those with points are extrapolated
   /// along the plane, but not into space that the map knows to be free.
   void add(std::span<const Vec3f> points_world_m, const OccupancyGrid& grid, int threads);
-  /// Drops extrapolated cells that the map has found free, and finds the frontiers anew: unknown
+  /// Drops extrapolated cells that the map has found free, and finds the boundaries anew: unknown
   /// voxels beside free and occupied ones, where the cells expect nothing.
   void follow_map(const OccupancyGrid& grid);
 
@@ -66,7 +66,7 @@ class SurfaceCells {
   std::uint32_t updates() const { return updates_; }
   /// Of add() and follow_map() so far.
   std::uint64_t version() const { return version_; }
-  void count_look(std::uint32_t cell, std::size_t side);
+  void count_observation(std::uint32_t cell, std::size_t side);
   /// Centre of a voxel of the cell, by its bit.
   Vec3 voxel_center_m(const SurfaceCell& cell, int bit) const;
 
@@ -77,7 +77,7 @@ class SurfaceCells {
   void fit(SurfaceCell& cell, const OccupancyGrid& grid) const;
   void expect_section(SurfaceCell& cell) const;
   void place_discs(SurfaceCell& cell) const;
-  void mark_frontier(const OccupancyGrid& grid, const Key& voxel);
+  void mark_boundary(const OccupancyGrid& grid, const Key& voxel);
 
   double detail_m_;
   GridGeometry lattice_;

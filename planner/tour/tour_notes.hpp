@@ -4,13 +4,13 @@
 #include <optional>
 #include <vector>
 
-#include "planner/tour/look_ledger.hpp"
+#include "planner/tour/gain_calibration.hpp"
 #include "planner/tour/tour_plan.hpp"
 
 namespace gnbv {
 
 struct TourNotes {
-  std::vector<LookOutcome> outcomes = {};  // of the view before: what it promised and brought
+  std::vector<GainOutcome> outcomes = {};  // of the view before: what was predicted and found
   std::optional<TourPlan> plan = {};       // made anew, its next view among it; nothing: it goes on
 };
 

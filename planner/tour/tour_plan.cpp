@@ -8,11 +8,11 @@ namespace {
 
 constexpr double kLeastExpected = 0.5;  // a cube that can be expected to bring less is left out
 
-std::vector<PatchCube> gathered(std::span<const Patch> patches, const LookSuccess& success,
+std::vector<PatchCube> gathered(std::span<const Patch> patches, const ObservationYield& yield,
                                 double cube_m) {
   std::map<std::pair<PatchSource, Key>, PatchCube> cubes;
   for (const Patch& patch : patches) {
-    const auto expected = static_cast<double>(patch.missing * success.share(patch, 0));
+    const auto expected = static_cast<double>(patch.missing * yield.share(patch, 0));
     if (expected <= 0.0) continue;
     const Vec3 target_m = patch.target_m.cast<double>();
     const Eigen::Vector3i at = (target_m / cube_m).array().floor().cast<int>();
@@ -33,12 +33,12 @@ std::vector<PatchCube> gathered(std::span<const Patch> patches, const LookSucces
 }  // namespace
 
 TourPlan make_tour_plan(std::vector<ViewPose> views, std::span<const Patch> patches,
-                        const LookSuccess& success) {
+                        const ObservationYield& yield) {
   TourPlan plan{.views = std::move(views), .cube_m = kLeastCube_m, .cubes = {}};
-  plan.cubes = gathered(patches, success, plan.cube_m);
+  plan.cubes = gathered(patches, yield, plan.cube_m);
   while (plan.cubes.size() > kMostCubes) {
     plan.cube_m *= 2.0;
-    plan.cubes = gathered(patches, success, plan.cube_m);
+    plan.cubes = gathered(patches, yield, plan.cube_m);
   }
   return plan;
 }

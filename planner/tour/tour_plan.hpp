@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "planner/tour/success.hpp"
+#include "planner/tour/gain_calibration.hpp"
 #include "sim/core/pose.hpp"
 
 namespace gnbv {
@@ -13,7 +13,7 @@ namespace gnbv {
 struct PatchCube {
   PatchSource source = PatchSource::sampled;
   Vec3 p_world_m = Vec3::Zero();  // centre of mass of what they can be expected to bring
-  double expected = 0.0;          // of the small voxels they lack, those that looks can bring
+  double expected = 0.0;  // of the small voxels they lack, those that observations can bring
 };
 
 struct TourPlan {
@@ -25,7 +25,7 @@ struct TourPlan {
 /// All patches that can be expected to bring something when seen face on, by source and place, in
 /// cubes of kLeastCube_m, or twice, four times ... that, so that there are at most kMostCubes.
 TourPlan make_tour_plan(std::vector<ViewPose> views, std::span<const Patch> patches,
-                        const LookSuccess& success);
+                        const ObservationYield& yield);
 constexpr double kLeastCube_m = 0.25;
 constexpr std::size_t kMostCubes = 3000;
 

@@ -7,253 +7,246 @@
 #include "planner/core/history.hpp"
 #include "planner/core/model.hpp"
 #include "planner/core/scratch.hpp"
-#include "planner/map/clearance.hpp"
-#include "planner/map/path_search.hpp"
-#include "planner/tour/surface_places.hpp"
+#include "planner/motion/view_checker.hpp"
+#include "planner/tour/tour_notes.hpp"
+#include "planner/tour/tour_problem.hpp"
 #include "planner/tour/unseen_space.hpp"
 #include "sim/core/rng.hpp"
 
 namespace gnbv {
 namespace {
 
-/// A quarter of the cameras' range, but at least eight steps across the navigation box.
-double lattice_step_m(const TourConfig& config, std::span<const CameraModel> cameras,
-                      const Box3& navigation_m) {
-  if (config.lattice_step_m > 0.0) return config.lattice_step_m;
-  double range_m = 0.0;
-  for (const CameraModel& camera : cameras) range_m = std::max(range_m, camera.config.range_max_m);
-  return std::min(0.25 * range_m, navigation_m.sizes().head<2>().minCoeff() / 8.0);
-}
+// nodes observed again, a replan: those around which the surface changed most. Casting all costs
+// ten times as much and changes no tour by more than its seed does
+constexpr std::size_t kObservedAgain = 80;
+// of all expected voxels: when no more is left, the end pays at no lower cost of a metre. Less than
+// this is what cameras miss of surface that they have seen three times
+constexpr double kEndShare = 0.003;
 
-std::vector<CameraModel> at_all_pitches(std::span<const CameraModel> cameras) {
-  std::vector<CameraModel> all;
-  for (const CameraModel& camera : cameras) {
-    for (CameraModel& fixed : at_all_pitches(camera)) all.push_back(std::move(fixed));
+/// What the steps work on.
+struct Step {
+  const TourConfig& config;
+  const PlannerModel& model;
+  const Belief& belief;
+  const ViewPose& current;
+  Scratch& scratch;
+  TourState& state;
+
+  TourScene scene() const { return {config, state.cells, state.patches}; }
+  /// What a metre has to bring, in small voxels.
+  double cost_per_m() const {
+    return config.price * expected_surface(state.cells).voxels_a_metre();
   }
-  return all;
+  std::function<void()> heed_stop() const {
+    return [this] { scratch.heed_stop(); };
+  }
+};
+
+/// Adds what the last view brought to the surface, and learns from it.
+void update_surface(const Step& step) {
+  TourState& state = step.state;
+  const std::span<const Vec3f> points = step.belief.cloud.points_world_m();
+  state.cells.add(points.subspan(state.points_taken), step.belief.grid, step.scratch.threads);
+  state.points_taken = points.size();
+  state.calibration.settle(state.cells);
+  const double found = state.calibration.found();
+  const double predicted = state.calibration.predicted();
+  const bool is_short = found < step.config.replan_below * predicted;
+  if (is_short && predicted - found > step.cost_per_m()) state.is_due = true;
 }
 
-}  // namespace
-
-TourPlanner::TourPlanner(const TourConfig& config, const PlannerModel& model, bool has_profile)
-    : model_(model),
-      config_(config),
-      has_profile_(has_profile),
-      cells_(model.workspace_m, config_.detail_m),
-      cameras_(at_all_pitches(std::span(model.cameras))),
-      space_(model.geometry(), model.navigation_m, model.no_fly, model.validity.collision_radius_m),
-      places_(model.geometry(), model.navigation_m,
-              lattice_step_m(config_, model.cameras, model.navigation_m)),
-      catalogue_(config_, model.cameras, model.pitches_rad, model.workspace_m),
-      ledger_(config_.success, config_.detail_m) {}
-
-TourScene TourPlanner::scene(const Belief& belief) const {
-  return {config_, cells_, patches_, belief.grid};
+/// Finds what the surface lacks, and how much of it observations can be expected to bring.
+void predict_gains(const Step& step) {
+  step.state.patches = find_patches(step.state.cells, step.belief.grid, step.scratch.threads);
+  step.state.calibration.set_reliability(step.state.patches);
 }
 
-TourKnowledge TourPlanner::knowledge() const {
-  return {.config = config_,
-          .cells = cells_,
-          .patches = patches_,
-          .catalogue = catalogue_,
-          .places = places_,
-          .success = ledger_.success(),
-          .refused = refused_,
-          .tour = tour_};
-}
-
-double TourPlanner::voxels_a_metre() const {
-  return config_.price * expected_surface(cells_).voxels_a_metre();
-}
-
-void TourPlanner::learn(const Belief& belief, int threads) {
-  const std::span<const Vec3f> points = belief.cloud.points_world_m();
-  cells_.add(points.subspan(points_taken_), belief.grid, threads);
-  points_taken_ = points.size();
-  ledger_.settle(cells_);
-  const double short_of = ledger_.promised() - ledger_.found();
-  const bool is_short = ledger_.found() < config_.replan_below * ledger_.promised();
-  if (is_short && short_of > voxels_a_metre()) is_due_ = true;
-}
-
-void TourPlanner::find_patches_now(const Belief& belief, int threads) {
-  patches_ = find_patches(cells_, belief.grid, threads);
-  ledger_.give_credit(patches_);
-}
-
-/// What each place would see, those included that the surface asks for.
-void TourPlanner::look_around(const Belief& belief, const ViewPose& current, int threads) {
-  std::vector<TourPlaces::Place> first;
-  for (const TourView& view : tour_) first.push_back(view.place);
-  catalogue_.follow(scene(belief), places_, first, config_.recasts, threads);
-  if (!config_.surface_views) return;
-  const std::vector<Vec3> more_m = places_for_unseen({belief.grid, space_, cameras_}, patches_,
-                                                     seen_from_anywhere(knowledge()), tried_);
+/// Finds what each node would see, those included that the surface asks for.
+void observe_nodes(const Step& step) {
+  TourState& state = step.state;
+  const int threads = step.scratch.threads;
+  std::vector<Roadmap::Node> first;
+  for (const TourView& view : state.tour) first.push_back(view.node);
+  state.visibility.follow(step.scene(), state.roadmap, first, kObservedAgain, threads,
+                          step.heed_stop());
+  if (!step.config.surface_views) return;
+  const std::vector<Vec3> more_m =
+      points_for_unseen({step.belief.grid, state.space, state.cameras}, state.patches,
+                        seen_from_anywhere(state), state.searched);
   if (more_m.empty()) return;
-  for (const Vec3& p_m : more_m) places_.add(p_m);
-  places_.follow(belief.grid, space_, current.p_world_m);
-  catalogue_.follow(scene(belief), places_, {}, 0, threads);
+  for (const Vec3& p_m : more_m) state.roadmap.add(p_m);
+  state.roadmap.follow(step.belief.grid, state.space, step.current.p_world_m);
+  state.visibility.follow(step.scene(), state.roadmap, {}, 0, threads, step.heed_stop());
 }
 
-/// Whether some view pays at the price of now.
-bool TourPlanner::search_tour() {
-  TourTask task = make_tour_task(knowledge(), price_factor_ * voxels_a_metre());
-  task.prizes.row_m = [this](std::uint32_t place) { return places_.row_m(place); };
+/// Whether some view pays at what a metre costs now: then the tour is that of the best views.
+bool solve_tour(const Step& step) {
+  TourState& state = step.state;
+  TourProblem task = make_tour_problem(step.config, state, state.cost_factor * step.cost_per_m());
+  task.problem.row_m = [&state](std::uint32_t node) { return state.roadmap.row_m(node); };
   std::vector<std::uint32_t> from;
-  for (const TourView& left : tour_) {
+  for (const TourView& left : state.tour) {
     const auto same = std::find_if(task.views.begin(), task.views.end(), [&](const TourView& v) {
-      return v.place == left.place && is_same_view(v.pose, left.pose);
+      return v.node == left.node && is_same_view(v.pose, left.pose);
     });
     if (same != task.views.end()) {
       from.push_back(static_cast<std::uint32_t>(same - task.views.begin()));
     }
   }
-  const int iterations = config_.search == TourSearch::greedy ? 0 : config_.iterations;
-  const PrizeTour found = search_prize_tour(task.prizes, from, iterations, searches_++);
-  tour_.clear();
-  for (const std::uint32_t view : found.views) tour_.push_back(task.views[view]);
-  return !tour_.empty();
+  const TourSearch search = {.iterations = step.config.iterations,
+                             .seed = static_cast<std::uint64_t>(state.searches++),
+                             .heed_stop = step.heed_stop()};
+  const OrienteeringTour found = solve(task.problem, from, search);
+  state.tour.clear();
+  for (const std::uint32_t view : found.views) state.tour.push_back(task.views[view]);
+  return !state.tour.empty();
 }
 
-/// A tour of one view: that which sees the most unknown space for its way.
-bool TourPlanner::explore(const Belief& belief, Scratch& scratch) {
-  if (!config_.explore || has_profile_) return false;
-  constexpr std::size_t kMostPlaces = 160;
-  std::vector<TourPlaces::Place> places;
-  for (TourPlaces::Place place = 1; place < places_.size(); ++place) {
-    if (places_.is_reachable(place)) places.push_back(place);
+/// Whether a view sees enough unknown space: then the tour is that which sees the most for its way.
+bool explore(const Step& step) {
+  TourState& state = step.state;
+  constexpr std::size_t kMostNodes = 160;
+  std::vector<Roadmap::Node> nodes;
+  for (Roadmap::Node node = 1; node < state.roadmap.size(); ++node) {
+    if (state.roadmap.is_reachable(node)) nodes.push_back(node);
   }
-  const std::size_t one_in = (places.size() + kMostPlaces - 1) / kMostPlaces;
-  const std::span<const float> row_m = places_.row_m(TourPlaces::here());
-  std::vector<TourPlaces::Place> place_of;
+  const std::size_t one_in = (nodes.size() + kMostNodes - 1) / kMostNodes;
+  const std::span<const float> row_m = state.roadmap.row_m(Roadmap::here());
+  std::vector<Roadmap::Node> node_of;
   std::vector<ViewPose> views;
   std::vector<double> way_m;
-  for (const TourPlaces::Place place : places) {
-    if (mix_bits(place) % one_in != 0) continue;
-    for (int heading = 0; heading < catalogue_.headings(); ++heading) {
-      const ViewPose pose = catalogue_.pose(places_.p_world_m(place), heading);
+  for (const Roadmap::Node node : nodes) {
+    if (mix_bits(node) % one_in != 0) continue;
+    for (int heading = 0; heading < state.visibility.headings(); ++heading) {
+      const ViewPose pose = state.visibility.pose(state.roadmap.p_world_m(node), heading);
       const auto is_pose = [&](const ViewPose& other) { return is_same_view(other, pose); };
-      if (std::any_of(refused_.begin(), refused_.end(), is_pose)) continue;
-      place_of.push_back(place);
+      if (std::any_of(state.refused.begin(), state.refused.end(), is_pose)) continue;
+      node_of.push_back(node);
       views.push_back(pose);
-      way_m.push_back(static_cast<double>(row_m[place]));
+      way_m.push_back(static_cast<double>(row_m[node]));
     }
   }
-  const std::optional<std::size_t> best = most_unseen(model_, belief, views, way_m, scratch);
+  const std::optional<std::size_t> best =
+      most_unseen(step.model, step.belief, views, way_m, step.scratch);
   if (!best) return false;
-  tour_ = {{place_of[*best], views[*best]}};
-  price_factor_ = 1.0;  // of what it will find
+  state.tour = {{node_of[*best], views[*best]}};
+  state.cost_factor = 1.0;  // of what it will find
   return true;
 }
 
 /// What no view pays for may be worth going for in the end.
-void TourPlanner::search_at_lower_prices() {
+void solve_at_lower_costs(const Step& step) {
   do {
-    const double may_stay = config_.end_share * expected_surface(cells_).voxels;
-    const bool is_lowest = 0.5 * price_factor_ < config_.end_price;
-    if (is_lowest || voxels_in_reach(knowledge()) <= may_stay) return;
-    price_factor_ *= 0.5;
-  } while (!search_tour());
+    const double may_stay = kEndShare * expected_surface(step.state.cells).voxels;
+    const bool is_lowest = 0.5 * step.state.cost_factor < step.config.end_price;
+    if (is_lowest || voxels_in_reach(step.state) <= may_stay) return;
+    step.state.cost_factor *= 0.5;
+  } while (!solve_tour(step));
 }
 
-void TourPlanner::replan(const Belief& belief, const ViewPose& current, Scratch& scratch) {
-  const int threads = scratch.threads;
-  cells_.follow_map(belief.grid);
-  space_.follow(belief.grid);
-  places_.follow(belief.grid, space_, current.p_world_m);
-  at_ = TourPlaces::here();
-  find_patches_now(belief, threads);
-  look_around(belief, current, threads);
-  views_since_replan_ = 0;
-  is_due_ = false;
-  if (!search_tour() && !explore(belief, scratch)) search_at_lower_prices();
+TourPlan replan(const Step& step, bool may_explore) {
+  TourState& state = step.state;
+  state.cells.follow_map(step.belief.grid);
+  state.space.follow(step.belief.grid);
+  state.roadmap.follow(step.belief.grid, state.space, step.current.p_world_m);
+  state.at = Roadmap::here();
+  predict_gains(step);
+  observe_nodes(step);
+  state.views_since_replan = 0;
+  state.is_due = false;
+  if (!solve_tour(step) && !(may_explore && explore(step))) solve_at_lower_costs(step);
   std::vector<ViewPose> views;
-  for (const TourView& view : tour_) views.push_back(view.pose);
-  notes_.plan = make_tour_plan(std::move(views), patches_, ledger_.success());
+  for (const TourView& view : state.tour) views.push_back(view.pose);
+  return make_tour_plan(std::move(views), state.patches, state.calibration.yield());
 }
 
-/// Straight, or as the lattice knows it; nothing where some leg is not clear after all.
-std::optional<std::vector<Vec3>> TourPlanner::way(const Belief& belief, const ViewPose& current,
-                                                  TourPlaces::Place to) {
-  const double radius_m = model_.validity.collision_radius_m;
-  const auto is_clear = [&](const Vec3& a_m, const Vec3& b_m) {
-    return is_line_free(belief.grid, a_m, b_m) && is_path_clear(belief.grid, a_m, b_m, radius_m) &&
-           model_.no_fly.allows_leg(a_m, b_m);
-  };
-  const Vec3& to_m = places_.p_world_m(to);
-  if (is_clear(current.p_world_m, to_m)) return std::vector<Vec3>{};
-  if (!std::isfinite(places_.row_m(at_)[to])) return std::nullopt;
-  std::vector<Vec3> via_m = places_.via_world_m(at_, to);
-  Vec3 from_m = current.p_world_m;
-  for (const Vec3& next_m : via_m) {
-    if (!is_clear(from_m, next_m)) return std::nullopt;
+/// Straight, or as the roadmap knows it; blocked where some leg is not free after all.
+FoundPath path_to(const Step& step, Roadmap::Node to) {
+  const PlannerModel& model = step.model;
+  const FreeSpace space{step.belief.grid, model.navigation_m, model.no_fly,
+                        model.validity.collision_radius_m};
+  Roadmap& roadmap = step.state.roadmap;
+  const Vec3& to_m = roadmap.p_world_m(to);
+  Vec3 from_m = step.current.p_world_m;
+  if (space.is_leg_free(from_m, to_m)) return {};
+  if (!std::isfinite(roadmap.row_m(step.state.at)[to])) return {Rejection::path_blocked, {}};
+  std::vector<Vec3> points_m = roadmap.via_world_m(step.state.at, to);
+  points_m.push_back(to_m);
+  for (const Vec3& next_m : points_m) {
+    if (!space.is_leg_free(from_m, next_m)) return {Rejection::path_blocked, {}};
     from_m = next_m;
   }
-  if (!is_clear(from_m, to_m)) return std::nullopt;
-  return via_m;
+  points_m.pop_back();
+  return {{}, std::move(points_m)};
 }
 
-/// Takes the tour's next view that can be flown to; those before it are rejected.
-bool TourPlanner::take_view(const Belief& belief, const ViewPose& current,
-                            const ViewChecker& checker, int threads, Plan& plan) {
-  while (!tour_.empty()) {
-    const TourView view = tour_.front();
-    tour_.erase(tour_.begin());
-    plan.candidates.push_back({.view = view.pose, .sampler = Sampler::tour});
-    Candidate& candidate = plan.candidates.back();
-    candidate.rejected = checker.rejection_there(view.pose);
-    if (!candidate.rejected) {
-      if (auto via_m = way(belief, current, view.place)) {
-        candidate.via_world_m = std::move(*via_m);
-        candidate.path_m =
-            path_length_m(current.p_world_m, candidate.via_world_m, view.pose.p_world_m);
-      } else {
-        candidate.rejected = Rejection::path_blocked;
-        places_.forget_ways();
-      }
-    }
+Candidate checked(const Step& step, const ViewChecker& checker, const TourView& view) {
+  Candidate candidate{.view = view.pose, .sampler = Sampler::tour};
+  candidate.rejected = checker.rejection_there(view.pose);
+  if (candidate.rejected) return candidate;
+  FoundPath path = path_to(step, view.node);
+  candidate.rejected = path.rejected;
+  if (path.rejected) {
+    step.state.roadmap.forget_ways();
+  } else {
+    candidate.path_m = checker.length_m(path, view.pose);
+    candidate.via_world_m = std::move(path.via_world_m);
+  }
+  return candidate;
+}
+
+/// Hands out the tour's next view that can be flown to; those before it are rejected.
+bool hand_out_view(const Step& step, const ViewChecker& checker, Plan& plan) {
+  TourState& state = step.state;
+  while (!state.tour.empty()) {
+    const TourView view = state.tour.front();
+    state.tour.erase(state.tour.begin());
+    Candidate& candidate = plan.candidates.emplace_back(checked(step, checker, view));
     if (candidate.rejected) {
-      refused_.push_back(view.pose);
-      is_due_ = true;
+      state.refused.push_back(view.pose);
+      state.is_due = true;
       continue;
     }
-    const double promised =
-        ledger_.promise(catalogue_.look(scene(belief), view.pose, threads), patches_, cells_);
-    candidate.score = {.value = promised, .information = promised};
-    const int left = static_cast<int>(tour_.size()) + 1;
+    const double gain = state.calibration.predict(
+        state.visibility.observe(step.scene(), view.pose, step.scratch.threads), state.patches,
+        state.cells);
+    candidate.score = {.value = gain, .information = gain};
+    const int left = static_cast<int>(state.tour.size()) + 1;
     choose(plan, plan.candidates.size() - 1, left, left);
-    at_ = view.place;
-    ++views_since_replan_;
+    state.at = view.node;
+    ++state.views_since_replan;
     return true;
   }
   return false;
 }
 
+}  // namespace
+
 Plan TourPlanner::next(const Belief& belief, const History& history, const ViewPose& current,
                        Scratch& scratch) {
-  const int threads = scratch.threads;
-  notes_ = {};
-  learn(belief, threads);
-  notes_.outcomes.assign(ledger_.outcomes().begin(), ledger_.outcomes().end());
-  const ValidityConfig& validity = model_.validity;
-  const std::vector<ViewPose> recent = recent_views(history, validity.recent_poses);
-  refused_ = recent;
-  const ViewChecker checker(validity, model_.navigation_m, model_.no_fly, belief.grid, recent,
-                            current);
+  const Step step{config_, model_, belief, current, scratch, state_};
+  const std::vector<ViewPose> recent = recent_views(history, model_.validity.recent_poses);
+  const ViewChecker checker(model_.validity, model_.navigation_m, model_.no_fly, belief.grid,
+                            recent, current);
+  TourNotes notes;
+  state_.refused = recent;
+  update_surface(step);
+  notes.outcomes.assign(state_.calibration.outcomes().begin(), state_.calibration.outcomes().end());
   Plan plan;
   constexpr int kTries = 20;  // tours of which no view could be flown to; each refuses some
   for (int i = 0; i < kTries; ++i) {
     scratch.heed_stop();
-    if (is_due_ || tour_.empty() || views_since_replan_ >= config_.views_per_replan) {
-      replan(belief, current, scratch);
+    const bool is_flown = state_.views_since_replan >= config_.views_per_replan;
+    if (state_.is_due || state_.tour.empty() || is_flown) {
+      notes.plan = replan(step, config_.explore && !has_profile_);
     } else {
-      find_patches_now(belief, threads);
+      predict_gains(step);
     }
-    if (tour_.empty() || take_view(belief, current, checker, threads, plan)) break;
+    if (state_.tour.empty() || hand_out_view(step, checker, plan)) break;
   }
   // no view paid, and none had to be refused
   if (plan.candidates.empty()) plan.end = Termination::tour_complete;
-  plan.tour = std::make_shared<const TourNotes>(std::move(notes_));
+  plan.tour = std::make_shared<const TourNotes>(std::move(notes));
   return plan;
 }
 

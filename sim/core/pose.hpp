@@ -59,13 +59,16 @@ inline double yaw_of(const Isometry& T_world_body) {
   return std::atan2(T_world_body.linear()(1, 0), T_world_body.linear()(0, 0));
 }
 
-/// From a point to the nearest of the straight leg between two others, in m.
-inline double distance_to_segment_m(const Vec3& p_m, const Vec3& from_m, const Vec3& to_m) {
+/// From a point to the nearest of the straight leg between two others, squared, in m2.
+inline double distance_to_segment_m2(const Vec3& p_m, const Vec3& from_m, const Vec3& to_m) {
   const Vec3 along_m = to_m - from_m;
   const double length2_m2 = along_m.squaredNorm();
   const double share =
       length2_m2 > 0.0 ? std::clamp((p_m - from_m).dot(along_m) / length2_m2, 0.0, 1.0) : 0.0;
-  return (p_m - from_m - share * along_m).norm();
+  return (p_m - from_m - share * along_m).squaredNorm();
+}
+inline double distance_to_segment_m(const Vec3& p_m, const Vec3& from_m, const Vec3& to_m) {
+  return std::sqrt(distance_to_segment_m2(p_m, from_m, to_m));
 }
 
 }  // namespace gnbv

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <set>
 
-#include "planner/map/clearance.hpp"
+#include "planner/motion/free_space.hpp"
 #include "sim/core/error.hpp"
 #include "tests/support/flown.hpp"
 #include "tests/support/watch.hpp"
@@ -75,10 +75,10 @@ TEST(TourMission, EndsByItselfWithoutACollisionAndSaysWhatItsViewsBrought) {
   EXPECT_LT(result.views.size(), 100U);
   double promised = 0.0;
   double found = 0.0;
-  for (const ViewOutcome& outcome : result.look_outcomes) {
-    EXPECT_GE(outcome.look.missing, outcome.look.found);
-    promised += outcome.look.promised;
-    found += outcome.look.found;
+  for (const ViewOutcome& outcome : result.gain_outcomes) {
+    EXPECT_GE(outcome.gain.missing, outcome.gain.found);
+    promised += outcome.gain.predicted;
+    found += outcome.gain.found;
   }
   EXPECT_GT(found, 0.0);
   EXPECT_GT(promised, 0.3 * found);
@@ -162,9 +162,8 @@ TEST(TourMission, EachSwitchChangesTheTour) {
   const std::vector<std::string> few = {"planner.termination.max_iterations=8"};
   const std::string hash = result_sha256(Flown(tour(few)).result);
   for (const char* change :
-       {"planner.tour.visibility=rays", "planner.tour.search=greedy", "planner.tour.price=0.2",
-        "planner.tour.metres_per_view=3", "planner.tour.yaw_step_deg=90",
-        "planner.tour.success=fixed", "planner.tour.double_cover=false"}) {
+       {"planner.tour.price=0.2", "planner.tour.metres_per_view=3", "planner.tour.yaw_step_deg=90",
+        "planner.tour.iterations=0", "planner.tour.double_cover=false"}) {
     std::vector<std::string> overrides = few;
     overrides.emplace_back(change);
     EXPECT_NE(result_sha256(Flown(tour(overrides)).result), hash) << change;

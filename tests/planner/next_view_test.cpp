@@ -45,7 +45,7 @@ TEST(PlanNextView, ChoosesTheHighestUtilityAndTheFirstOfEquals) {
   double best_value = 0.0;
   for (const ViewPose& view : sample_agvs(planner.config.agvs, kCurrent, 1.0)) {
     Candidate candidate{.view = view, .sampler = Sampler::agvs};
-    checker.check(candidate);
+    check(checker, candidate);
     if (candidate.rejected) continue;
     ViewStats stats = evaluate_view(belief.grid, belief.cloud, model.view_rays[0], view, marks);
     stats.density_max = belief.cloud.density_max();

@@ -12,10 +12,10 @@
 
 #include "planner/core/belief.hpp"
 #include "planner/core/model.hpp"
-#include "planner/core/view_validity.hpp"
 #include "planner/guided/frontier_clusters.hpp"
-#include "planner/map/clearance.hpp"
 #include "planner/map/frontiers.hpp"
+#include "planner/motion/free_space.hpp"
+#include "planner/motion/view_checker.hpp"
 
 namespace gnbv {
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "sim/core/text.hpp"
 
@@ -12,58 +13,36 @@ namespace {
 constexpr std::size_t kFewViews = 20;
 constexpr double kExplored = 0.8;  // coverage at 0.05 m
 
-std::string_view meaning_of(Rejection reason) {
-  switch (reason) {
-    case Rejection::out_of_bounds:
-      return "outside the workspace";
-    case Rejection::not_free:
-      return "in space that is occupied or was never measured";
-    case Rejection::collision:
-      return "within planner.validity.collision_radius_m of the structure";
-    case Rejection::path_blocked:
-      return "behind something: no clear way there";
-    case Rejection::recently_visited:
-      return "visited already";
-    case Rejection::cluster_outside_fov:
-      return "not looking at their frontier: it is out of the cameras' range or opening";
-    case Rejection::cluster_hidden:
-      return "not seeing their frontier: something is in between";
-    case Rejection::sees_no_surface:
-      return "without any surface in sight";
-    case Rejection::no_fly:
-      return "within planner.validity.collision_radius_m of a no_fly box";
-    case Rejection::beyond_gimbal:
-      return "with a pitch that no gimbal reaches";
-  }
-  return "";
-}
+/// What a rejection means, and what helps, in the order of Rejection.
+struct RejectionText {
+  std::string_view meaning, remedy;
+};
+constexpr std::string_view kLookAtClusters =
+    "a planner.fvs.radius_m that suits the cameras' range, and more planner.fvs.views_per_layer";
+constexpr std::array<RejectionText, kRejectionNames.size()> kRejectionTexts = {
+    {{"outside the workspace", "give it room: workspace_m, or --bounds auto"},
+     {"in space that is occupied or was never measured",
+      "measure more first (planner.profiling.method: bounding_box), or "
+      "planner.validity.allow_unknown: true"},
+     {"within planner.validity.collision_radius_m of the structure",
+      "a smaller planner.validity.collision_radius_m, or a larger workspace_m"},
+     {"behind something: no clear way there",
+      "planner.validity.path: astar, or a smaller planner.validity.collision_radius_m"},
+     {"visited already", "a larger planner.agvs.step_m or planner.fvs.radius_m"},
+     {"not looking at their frontier: it is out of the cameras' range or opening", kLookAtClusters},
+     {"not seeing their frontier: something is in between", kLookAtClusters},
+     {"without any surface in sight",
+      "begin where the structure can be seen (start.position_m, or --bounds auto), with "
+      "planner.fvs.enabled: true"},
+     {"within planner.validity.collision_radius_m of a no_fly box",
+      "smaller no_fly boxes, or a larger workspace_m"},
+     {"with a pitch that no gimbal reaches",
+      "pitches within cameras.N.pitch_deg: {min, max, step}"},
+     {"so far around something that the search for a way ended first",
+      "a larger planner.validity.path_search.max_expansions"}}};
 
-std::string_view remedy_for(Rejection reason) {
-  switch (reason) {
-    case Rejection::out_of_bounds:
-      return "give it room: workspace_m, or --bounds auto";
-    case Rejection::not_free:
-      return "measure more first (planner.profiling.method: bounding_box), or "
-             "planner.validity.allow_unknown: true";
-    case Rejection::collision:
-      return "a smaller planner.validity.collision_radius_m, or a larger workspace_m";
-    case Rejection::path_blocked:
-      return "planner.validity.path: astar, or a smaller planner.validity.collision_radius_m";
-    case Rejection::recently_visited:
-      return "a larger planner.agvs.step_m or planner.fvs.radius_m";
-    case Rejection::cluster_outside_fov:
-    case Rejection::cluster_hidden:
-      return "a planner.fvs.radius_m that suits the cameras' range, and more "
-             "planner.fvs.views_per_layer";
-    case Rejection::sees_no_surface:
-      return "begin where the structure can be seen (start.position_m, or --bounds auto), with "
-             "planner.fvs.enabled: true";
-    case Rejection::no_fly:
-      return "smaller no_fly boxes, or a larger workspace_m";
-    case Rejection::beyond_gimbal:
-      return "pitches within cameras.N.pitch_deg: {min, max, step}";
-  }
-  return "";
+const RejectionText& text_of(Rejection reason) {
+  return kRejectionTexts[static_cast<std::size_t>(reason)];
 }
 
 std::string of_no_valid_view(const std::map<Rejection, int>& rejections) {
@@ -75,9 +54,9 @@ std::string of_no_valid_view(const std::map<Rejection, int>& rejections) {
   if (all == 0) return "no view was sampled; what helps: planner.fvs.enabled: true\n";
   std::string text = fmt::format("none of {} views that were tried will do:\n", all);
   for (const auto& [reason, count] : by_count) {
-    text += fmt::format("  {:5} {}\n", count, meaning_of(reason));
+    text += fmt::format("  {:5} {}\n", count, text_of(reason).meaning);
   }
-  return text + fmt::format("what helps: {}\n", remedy_for(by_count.front().first));
+  return text + fmt::format("what helps: {}\n", text_of(by_count.front().first).remedy);
 }
 
 }  // namespace
@@ -94,7 +73,7 @@ std::string refused_views_note(const MissionResult& result) {
   std::string text = fmt::format("{} of {} given views refused, views.csv says which:\n", refused,
                                  result.user_views.size());
   for (const auto& [reason, count] : counts) {
-    text += fmt::format("  {:5} {}\n", count, meaning_of(reason));
+    text += fmt::format("  {:5} {}\n", count, text_of(reason).meaning);
   }
   return text;
 }

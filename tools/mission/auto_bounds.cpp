@@ -5,7 +5,7 @@
 #include <span>
 
 #include "bench/score/surface_samples.hpp"
-#include "planner/core/view_validity.hpp"
+#include "planner/motion/view_checker.hpp"
 #include "sim/core/error.hpp"
 #include "sim/mesh/mesh_lint.hpp"
 

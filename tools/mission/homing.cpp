@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "planner/map/path_search.hpp"
+#include "planner/motion/path_search.hpp"
 #include "sim/flight/endurance.hpp"
 #include "sim/flight/rotors.hpp"
 
@@ -37,10 +37,10 @@ std::vector<Vec3> over_the_top(const Mission& m, const Vec3& from_world_m, bool 
 
 std::optional<std::vector<Vec3>> found_way(const Mission& m, const Vec3& from_world_m) {
   const Vec3& home_m = m.out.start.p_world_m;
-  auto way_m = find_path(kSearch, m.out.belief.grid, m.model.navigation_m, from_world_m, home_m,
-                         m.model.validity.collision_radius_m, m.model.no_fly);
-  if (way_m) way_m->push_back(home_m);
-  return way_m;
+  FoundPath way = find_path(kSearch, free_space(m), from_world_m, home_m);
+  if (way.rejected) return std::nullopt;
+  way.via_world_m.push_back(home_m);
+  return std::move(way.via_world_m);
 }
 
 double energy_along_wh(const Mission& m, const Vec3& from_world_m, std::span<const Vec3> way_m) {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <variant>
 
-#include "planner/map/path_search.hpp"
+#include "planner/motion/path_search.hpp"
 #include "planner/tour/tour_notes.hpp"
 #include "tools/mission/homing.hpp"
 #include "tools/mission/mission_state.hpp"
@@ -154,8 +154,8 @@ std::optional<Termination> termination(const Mission& m) {
 /// Keeps what the files tell of a plan, but its views, which are told when they are flown.
 void keep_record(Mission& m, std::size_t iteration, const Plan& plan) {
   if (plan.tour) {
-    for (const LookOutcome& look : plan.tour->outcomes) {
-      m.out.look_outcomes.push_back({iteration - 1, look});
+    for (const GainOutcome& gain : plan.tour->outcomes) {
+      m.out.gain_outcomes.push_back({iteration - 1, gain});
     }
     if (plan.tour->plan) m.out.tour_plans.push_back({iteration, *plan.tour->plan});
   }

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "planner/map/clearance.hpp"
-#include "planner/map/path_search.hpp"
+#include "planner/motion/free_space.hpp"
+#include "planner/motion/path_search.hpp"
 #include "sim/core/error.hpp"
 #include "sim/flight/guidance.hpp"
 #include "tools/mission/homing.hpp"
@@ -80,26 +80,28 @@ void keep_track(Mission& m) {
   if (m.flight->tick() % kTicksPerSample == 0) m.out.trajectory.push_back({time_s(*m.flight), T});
 }
 
+FreeSpace free_space(const Mission& m) {
+  return {m.out.belief.grid, m.model.navigation_m, m.model.no_fly,
+          m.model.validity.collision_radius_m};
+}
+
 std::optional<std::vector<Vec3>> way_over_the_top(const Mission& m, const Vec3& from_m,
                                                   const Vec3& goal_m, bool reads_map) {
   constexpr PathSearchConfig kSearch = {.max_expansions = 20000};
-  const NoFly& no_fly = m.model.no_fly;
-  const Box3& box_m = m.model.navigation_m;
-  const double radius_m = m.model.validity.collision_radius_m;
-  const auto is_clear = [&](const Vec3& a_m, const Vec3& b_m) {
-    return !reads_map || is_path_clear(m.out.belief.grid, a_m, b_m, radius_m);
-  };
+  const FreeSpace space = free_space(m);
+  const Box3& box_m = space.navigation_m;
   const auto is_flyable = [&](const Vec3& a_m, const Vec3& b_m) {
-    return no_fly.allows_leg(a_m, b_m) && is_clear(a_m, b_m);
+    return reads_map ? space.is_leg_clear(a_m, b_m) : space.no_fly.allows_leg(a_m, b_m);
   };
   const Vec3 up_m(from_m.x(), from_m.y(), box_m.max().z());
   const Vec3 across_m(goal_m.x(), goal_m.y(), box_m.max().z());
   if (is_flyable(from_m, up_m) && is_flyable(up_m, across_m) && is_flyable(across_m, goal_m)) {
     return {{up_m, across_m, goal_m}};
   }
-  auto way_m = way_around(no_fly, box_m, from_m, goal_m, is_clear);
+  auto way_m = way_around(space.no_fly, box_m, from_m, goal_m, is_flyable);
   if (!way_m && reads_map) {
-    way_m = find_path(kSearch, m.out.belief.grid, box_m, from_m, goal_m, radius_m, no_fly);
+    FoundPath found = find_path(kSearch, space, from_m, goal_m);
+    if (!found.rejected) way_m = std::move(found.via_world_m);
   }
   if (way_m) way_m->push_back(goal_m);
   return way_m;

@@ -58,6 +58,9 @@ bool should_stop(const Mission& m);
 /// After each tick: keeps the true track.
 void keep_track(Mission& m);
 
+/// Where the vehicle may fly by what is believed now.
+FreeSpace free_space(const Mission& m);
+
 /// The points from one place to another, the goal last: up to the top of the workspace, across and
 /// down; where nobody may fly there, or the map has something in the way, around that; nothing when
 /// no such way is known. `reads_map`: false asks of no-fly boxes alone, for an estimate.

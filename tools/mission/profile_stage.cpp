@@ -1,5 +1,5 @@
 // The first stage of a mission: the profile, and what is made of it before the first view.
-#include "planner/map/clearance.hpp"
+#include "planner/motion/free_space.hpp"
 #include "tools/mission/mission_state.hpp"
 #include "tools/mission/sensing.hpp"
 #include "tools/run_files/profile_map.hpp"

@@ -46,11 +46,11 @@ std::string source_block(std::string_view what, std::size_t source, std::size_t 
 std::vector<std::vector<double>> view_rows(std::span<const ViewOutcome> outcomes,
                                            PatchSource source) {
   std::map<std::size_t, std::vector<double>> sums;  // by iteration
-  for (const auto& [iteration, look] : outcomes) {
-    if (look.source != source) continue;
+  for (const auto& [iteration, gain] : outcomes) {
+    if (gain.source != source) continue;
     std::vector<double>& sum = sums.try_emplace(iteration, 2, 0.0).first->second;
-    sum[0] += look.promised;
-    sum[1] += look.found;
+    sum[0] += gain.predicted;
+    sum[1] += gain.found;
   }
   std::vector<std::vector<double>> rows;
   for (auto& [iteration, sum] : sums) {
@@ -64,17 +64,17 @@ std::vector<std::vector<double>> view_rows(std::span<const ViewOutcome> outcomes
 /// incidence.
 std::vector<std::vector<double>> share_rows(std::span<const ViewOutcome> outcomes,
                                             PatchSource source, std::size_t incidence) {
-  std::array<double, kLookBins> missing{};
-  std::array<double, kLookBins> found{};
-  std::array<double, kLookBins> promised{};
-  for (const auto& [iteration, look] : outcomes) {
-    if (look.source != source || look.incidence != incidence) continue;
-    missing.at(look.looks) += look.missing;
-    found.at(look.looks) += look.found;
-    promised.at(look.looks) += look.promised;
+  std::array<double, kObservationBins> missing{};
+  std::array<double, kObservationBins> found{};
+  std::array<double, kObservationBins> promised{};
+  for (const auto& [iteration, gain] : outcomes) {
+    if (gain.source != source || gain.incidence != incidence) continue;
+    missing.at(gain.observations) += gain.missing;
+    found.at(gain.observations) += gain.found;
+    promised.at(gain.observations) += gain.predicted;
   }
   std::vector<std::vector<double>> rows;
-  for (std::size_t looks = 0; looks < kLookBins; ++looks) {
+  for (std::size_t looks = 0; looks < kObservationBins; ++looks) {
     if (missing.at(looks) <= 0.0) continue;
     const double percent = 100.0 / missing.at(looks);
     rows.push_back(
@@ -147,7 +147,7 @@ std::string panel_of_incidence(std::span<const ViewOutcome> outcomes, std::size_
   text += fmt::format(
       "set xrange [-0.4:{0}.4]\nset yrange [0:105]\nset xtics 1\nset xtics add ('{0}+' {0})\nset "
       "ytics 25\nset format x '%g'\nset format y '{1}'\n",
-      kLookBins - 1, bin == 0 ? "%g" : "");
+      kObservationBins - 1, bin == 0 ? "%g" : "");
   return text + "plot " + (lines.empty() ? "-1 notitle" : lines) + "\n";
 }
 
@@ -162,7 +162,7 @@ std::optional<Plot> predictions_plot(const RunRecord& record) {
   for (std::size_t i = 0; i < kPatchSources; ++i) {
     const bool is_there =
         std::any_of(outcomes.begin(), outcomes.end(), [&](const ViewOutcome& outcome) {
-          return outcome.look.source == static_cast<PatchSource>(i);
+          return outcome.gain.source == static_cast<PatchSource>(i);
         });
     if (is_there)
       key.push_back(

@@ -9,7 +9,7 @@
 #include "planner/core/plan.hpp"
 #include "planner/guided/view_sampling.hpp"
 #include "planner/map/frontiers.hpp"
-#include "planner/map/path_search.hpp"
+#include "planner/motion/path_search.hpp"
 #include "planner/route/route_planners.hpp"
 #include "planner/view/view_fields.hpp"
 #include "sim/core/parallel.hpp"
@@ -167,13 +167,15 @@ nb::bytes BeliefView::evaluate(const ViewRows& rows) const {
 }
 
 nb::object BeliefView::find_path(const Point& from_m, const Point& to_m) const {
-  const ValidityConfig& validity = tools().model.validity;
-  const auto way_m = gnbv::find_path(
-      validity.path_search, belief().grid, tools().model.navigation_m, vec3(from_m), vec3(to_m),
-      validity.collision_radius_m, tools().model.no_fly, validity.allow_unknown);
-  if (!way_m) return nb::none();
+  const PlannerModel& model = tools().model;
+  const ValidityConfig& validity = model.validity;
+  const FoundPath way = gnbv::find_path(validity.path_search,
+                                        {belief().grid, model.navigation_m, model.no_fly,
+                                         validity.collision_radius_m, validity.allow_unknown},
+                                        vec3(from_m), vec3(to_m));
+  if (way.rejected) return nb::none();
   std::vector<double> rows;
-  for (const Vec3& p_m : *way_m) rows.insert(rows.end(), p_m.begin(), p_m.end());
+  for (const Vec3& p_m : way.via_world_m) rows.insert(rows.end(), p_m.begin(), p_m.end());
   return owned_array(std::move(rows), 3);
 }
 

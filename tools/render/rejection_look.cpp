@@ -5,7 +5,7 @@
 namespace gnbv {
 
 std::span<const RejectionLook> rejection_looks() {
-  static const std::array<RejectionLook, 10> all = {
+  static const std::array<RejectionLook, kRejectionNames.size()> all = {
       {{Rejection::out_of_bounds, "out of bounds", 0x6b7787},
        {Rejection::not_free, "not free", 0x6e3d12},
        {Rejection::collision, "collision", 0xc42d7c},
@@ -15,7 +15,8 @@ std::span<const RejectionLook> rejection_looks() {
        {Rejection::cluster_hidden, "cluster hidden", 0x4c00c4},
        {Rejection::sees_no_surface, "sees no surface", 0x8f9a1e},
        {Rejection::no_fly, "no-fly box", 0x004d3d},
-       {Rejection::beyond_gimbal, "beyond the gimbal", 0xf12de9}}};
+       {Rejection::beyond_gimbal, "beyond the gimbal", 0xf12de9},
+       {Rejection::search_limit, "search limit", 0xb08cff}}};
   return all;
 }
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "planner/core/view_validity.hpp"
+#include "planner/motion/view_checker.hpp"
 #include "tools/render/colour.hpp"
 
 namespace gnbv {

@@ -9,7 +9,7 @@
 namespace gnbv {
 namespace {
 
-constexpr std::size_t kRejections = static_cast<std::size_t>(Rejection::beyond_gimbal) + 1;
+constexpr std::size_t kRejections = kRejectionNames.size();
 constexpr std::size_t kCandidateBytes = 15;
 constexpr std::size_t kTermBytes = 20;
 

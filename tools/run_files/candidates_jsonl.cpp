@@ -1,5 +1,6 @@
 #include "tools/run_files/candidates_jsonl.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -44,14 +45,9 @@ Json json_of(std::size_t iteration, const Candidate& c, bool is_chosen) {
 }
 
 std::optional<Rejection> rejection_of(const std::string& name) {
-  for (const Rejection reason :
-       {Rejection::out_of_bounds, Rejection::not_free, Rejection::collision,
-        Rejection::path_blocked, Rejection::recently_visited, Rejection::cluster_outside_fov,
-        Rejection::cluster_hidden, Rejection::sees_no_surface, Rejection::no_fly,
-        Rejection::beyond_gimbal}) {
-    if (name_of(reason) == name) return reason;
-  }
-  return std::nullopt;
+  const auto at = std::find(kRejectionNames.begin(), kRejectionNames.end(), name);
+  if (at == kRejectionNames.end()) return std::nullopt;
+  return static_cast<Rejection>(at - kRejectionNames.begin());
 }
 
 /// Of a candidate that was sampled around one; -1 without. A number that is no int is none at all.

@@ -108,7 +108,7 @@ struct MissionResult {
   std::map<Rejection, int> last_rejections;  // of the decision that found no valid view
   std::vector<ViewRecord> views;
   std::vector<UserView> user_views;          // in their order, of a mission that flies such
-  std::vector<ViewOutcome> look_outcomes;    // of a tour
+  std::vector<ViewOutcome> gain_outcomes;    // of a tour
   std::vector<MadePlan> tour_plans;          // likewise, each time it was made anew
   std::vector<TrajectorySample> trajectory;  // true motion at 10 Hz
   MissionDistances distance;

@@ -26,7 +26,7 @@ constexpr double kSamePlace_m = 1e-3;
 constexpr double kSameAngle_rad = 1e-3;
 
 constexpr std::array<PatchSource, kPatchSources> kSources = {
-    PatchSource::sampled, PatchSource::extrapolated, PatchSource::opposite, PatchSource::frontier};
+    PatchSource::sampled, PatchSource::extrapolated, PatchSource::opposite, PatchSource::boundary};
 
 std::string pose_json(const ViewPose& view) {
   const Vec3& p_m = view.p_world_m;

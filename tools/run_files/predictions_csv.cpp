@@ -36,22 +36,22 @@ ViewOutcome outcome_of(std::string_view row, const TextPlace& place) {
         fmt::format("{}: '{}' is no row of {}", to_string(place), row, kPredictionsHeader));
   }
   ViewOutcome outcome;
-  LookOutcome& look = outcome.look;
+  GainOutcome& gain = outcome.gain;
   const auto count = [&](std::string_view what) {
     return to_count(next_part(row, ','), place, what);
   };
   outcome.iteration = static_cast<std::size_t>(count("iteration"));
-  look.source = patch_source_named(next_part(row, ','), place);
-  look.looks = static_cast<std::size_t>(count("looks"));
-  if (look.looks >= kLookBins) {
-    throw BadInput(
-        fmt::format("{}: looks {} must be less than {}", to_string(place), look.looks, kLookBins));
+  gain.source = patch_source_named(next_part(row, ','), place);
+  gain.observations = static_cast<std::size_t>(count("looks"));
+  if (gain.observations >= kObservationBins) {
+    throw BadInput(fmt::format("{}: looks {} must be less than {}", to_string(place),
+                               gain.observations, kObservationBins));
   }
-  look.incidence = incidence_bin_from(count("incidence_deg"), place);
-  look.patches = count("patches");
-  look.missing = to_number(next_part(row, ','), place, "missing");
-  look.promised = to_number(next_part(row, ','), place, "promised");
-  look.found = to_number(next_part(row, ','), place, "found");
+  gain.incidence = incidence_bin_from(count("incidence_deg"), place);
+  gain.patches = count("patches");
+  gain.missing = to_number(next_part(row, ','), place, "missing");
+  gain.predicted = to_number(next_part(row, ','), place, "promised");
+  gain.found = to_number(next_part(row, ','), place, "found");
   return outcome;
 }
 
@@ -59,10 +59,10 @@ ViewOutcome outcome_of(std::string_view row, const TextPlace& place) {
 
 std::string predictions_csv(std::span<const ViewOutcome> outcomes) {
   std::string csv = fmt::format("{}\n", kPredictionsHeader);
-  for (const auto& [iteration, look] : outcomes) {
-    csv += fmt::format("{},{},{},{},{},{:.1f},{:.1f},{:.1f}\n", iteration, name_of(look.source),
-                       look.looks, kIncidenceFrom_deg[look.incidence], look.patches, look.missing,
-                       look.promised, look.found);
+  for (const auto& [iteration, gain] : outcomes) {
+    csv += fmt::format("{},{},{},{},{},{:.1f},{:.1f},{:.1f}\n", iteration, name_of(gain.source),
+                       gain.observations, kIncidenceFrom_deg[gain.incidence], gain.patches,
+                       gain.missing, gain.predicted, gain.found);
   }
   return csv;
 }

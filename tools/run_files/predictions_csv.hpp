@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "planner/tour/look_ledger.hpp"
+#include "planner/tour/gain_calibration.hpp"
 
 namespace gnbv {
 
-/// Of one view; the look's kind and sums are LookOutcome's.
+/// Of one view; the look's kind and sums are GainOutcome's.
 struct ViewOutcome {
   std::size_t iteration = 0;
-  LookOutcome look;
+  GainOutcome gain;
 };
 
 /// Columns: iteration, source (sampled, extrapolated, opposite, frontier), looks before (4: or

@@ -183,7 +183,7 @@ void RunDirectory::finish(const Scenario& scenario, const MissionResult& result,
     write_file_atomically(folder_ / kUserUtilityFile, scenario.planner.utility.python.source);
   }
   if (planner.makes_tours) {
-    write_file_atomically(folder_ / kPredictionsFile, predictions_csv(result.look_outcomes));
+    write_file_atomically(folder_ / kPredictionsFile, predictions_csv(result.gain_outcomes));
     write_file_atomically(folder_ / kPlanFile, plan_jsonl(result.tour_plans));
   }
   write_file_atomically(folder_ / kCoverageFile, coverage_csv(score.curve, score.more));

@@ -11,54 +11,55 @@ double random(std::uint64_t seed, std::uint64_t frame, std::uint64_t index) {
   return uniform01({seed, Stream::bench, frame, index});
 }
 
-PrizeTask random_task(std::uint64_t seed, std::size_t views, std::size_t items) {
-  PrizeTask task;
+OrienteeringProblem random_problem(std::uint64_t seed, std::size_t views, std::size_t items) {
+  OrienteeringProblem problem;
   for (std::size_t i = 0; i < items; ++i) {
-    task.weight.push_back(static_cast<float>(1.0 + 9.0 * random(seed, 0, i)));
+    problem.weight.push_back(static_cast<float>(1.0 + 9.0 * random(seed, 0, i)));
   }
   for (std::size_t v = 0; v < views; ++v) {
-    task.looks.emplace_back();
+    problem.observations.emplace_back();
     for (std::uint32_t i = 0; i < items; ++i) {
       if (random(seed, 1 + v, i) < 0.3) {
-        task.looks.back().push_back({i, static_cast<float>(0.98 * random(seed, 100 + v, i))});
+        problem.observations.back().push_back(
+            {i, static_cast<float>(0.98 * random(seed, 100 + v, i))});
       }
     }
-    task.place.push_back(0);
+    problem.node.push_back(0);
   }
-  return task;
+  return problem;
 }
 
 /// The definition, from scratch.
-double found(const PrizeTask& task, const std::vector<bool>& chosen) {
+double found(const OrienteeringProblem& problem, const std::vector<bool>& chosen) {
   double sum = 0.0;
-  for (std::uint32_t i = 0; i < task.weight.size(); ++i) {
+  for (std::uint32_t i = 0; i < problem.weight.size(); ++i) {
     double missed = 1.0;
-    for (std::size_t v = 0; v < task.looks.size(); ++v) {
+    for (std::size_t v = 0; v < problem.observations.size(); ++v) {
       if (!chosen[v]) continue;
-      for (const ItemLook& look : task.looks[v]) {
-        if (look.item == i) missed *= 1.0 - static_cast<double>(look.success);
+      for (const ItemObservation& one : problem.observations[v]) {
+        if (one.item == i) missed *= 1.0 - static_cast<double>(one.success);
       }
     }
-    sum += static_cast<double>(task.weight[i]) * (1.0 - missed);
+    sum += static_cast<double>(problem.weight[i]) * (1.0 - missed);
   }
   return sum;
 }
 
 TEST(ExpectedCover, IsTheDefinitionAfterAnyChanges) {
-  const PrizeTask task = random_task(1, 20, 30);
-  const LookTable table(task);
-  ExpectedCover cover(task, table);
+  const OrienteeringProblem problem = random_problem(1, 20, 30);
+  const ObservationTable table(problem);
+  ExpectedCover cover(problem, table);
   std::vector<bool> chosen(20, false);
   for (std::uint64_t step = 0; step < 2000; ++step) {
     const auto view = static_cast<std::uint32_t>(random_bits({2, Stream::bench, step, 0}) % 20);
     chosen[view] ? cover.remove(view) : cover.add(view);
     chosen[view] = !chosen[view];
     if (step % 50 != 0) continue;
-    ASSERT_NEAR(cover.found(), found(task, chosen), 1e-6);
+    ASSERT_NEAR(cover.found(), found(problem, chosen), 1e-6);
     for (std::uint32_t v = 0; v < 20; ++v) {
       std::vector<bool> other = chosen;
       other[v] = !other[v];
-      const double difference = found(task, other) - found(task, chosen);
+      const double difference = found(problem, other) - found(problem, chosen);
       const double told = chosen[v] ? -cover.loss_without(v) : cover.gains()[v];
       ASSERT_NEAR(told, difference, 1e-6) << "view " << v;
     }

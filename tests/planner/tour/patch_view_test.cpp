@@ -39,8 +39,8 @@ Looked look(const std::vector<Vec3f>& points, const ViewPose& view) {
   const auto near = blocks.near(view.p_world_m, camera_reach_m(camera));
   std::vector<SeenPatch> seen;
   PatchViewer viewer;
-  viewer.look({config, cells, looked.patches, grid}, camera, T_world_body(view), near,
-              blocks.radius_m(), seen);
+  viewer.observe({config, cells, looked.patches}, camera, T_world_body(view), near,
+                 blocks.radius_m(), seen);
   looked.is_seen.assign(looked.patches.size(), false);
   for (const SeenPatch& patch : seen) looked.is_seen[patch.patch] = true;
   return looked;

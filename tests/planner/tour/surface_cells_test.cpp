@@ -128,16 +128,16 @@ TEST(Patches, LooksAtEitherSideCountForBoth) {
   SurfaceCells cells(kBox, 0.05);
   cells.add(square(Vec3::UnitZ(), 0.1), grid, 1);
   for (std::uint32_t cell = 0; cell < cells.cells().size(); ++cell) {
-    cells.count_look(cell, 0);
-    cells.count_look(cell, 1);
-    cells.count_look(cell, 1);
+    cells.count_observation(cell, 0);
+    cells.count_observation(cell, 1);
+    cells.count_observation(cell, 1);
   }
   const std::vector<Patch> patches = find_patches(cells, grid, 1);
   int lacking = 0;
   for (const Patch& patch : patches) {
     if (patch.missing == 0.0F) continue;
     ++lacking;
-    EXPECT_EQ(patch.looks, 3);
+    EXPECT_EQ(patch.observations, 3);
   }
   EXPECT_GT(lacking, 50);
 }

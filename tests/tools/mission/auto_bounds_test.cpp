@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/core/view_validity.hpp"
+#include "planner/motion/view_checker.hpp"
 #include "scenarios/load.hpp"
 #include "scenarios/problems.hpp"
 #include "sim/core/error.hpp"

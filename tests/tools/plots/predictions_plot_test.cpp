@@ -17,7 +17,7 @@ TEST(PredictionsPlot, DotsAndSharesAreTheSumsOfTheFile) {
   const std::vector<ViewOutcome> outcomes = {
       {1, {PatchSource::sampled, 0, 0, 2, 100.0, 90.0, 40.0}},
       {1, {PatchSource::sampled, 0, 1, 1, 20.0, 15.0, 5.0}},
-      {1, {PatchSource::frontier, 4, 0, 1, 10.0, 5.0, 0.0}},
+      {1, {PatchSource::boundary, 4, 0, 1, 10.0, 5.0, 0.0}},
       {3, {PatchSource::sampled, 0, 0, 2, 60.0, 30.0, 40.0}}};
   write_file_atomically(temp.path() / kPredictionsFile, predictions_csv(outcomes));
   const auto plot = predictions_plot(record);

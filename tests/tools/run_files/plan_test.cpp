@@ -46,7 +46,7 @@ std::vector<MadePlan> made_plans() {
       {Vec3(1.25, -2.5, 3.0625), 0.5, 0.25}, record.views[1].decision.view, {Vec3(0, 0, 5), -1.0}};
   first.plan.cubes = {{PatchSource::sampled, Vec3(1.25, 0.5, -0.75), 12.5},
                       {PatchSource::opposite, Vec3(-1, 0, 2), 0.5},
-                      {PatchSource::frontier, Vec3(0, 0, 3), 1234.0}};
+                      {PatchSource::boundary, Vec3(0, 0, 3), 1234.0}};
   MadePlan second{.iteration = 2, .plan = {}};
   second.plan.cube_m = 1.0;
   second.plan.views = {record.views[2].decision.view, {Vec3(2, 2, 2), 1.0}};
@@ -136,17 +136,17 @@ TEST(PredictionsFile, ReadsBackAsItWasWritten) {
   TempFolder temp;
   const fs::path file = temp.path() / kPredictionsFile;
   const std::vector<ViewOutcome> outcomes = {
-      {1, {PatchSource::frontier, 4, 2, 17, 130.5, 65.2, 0.0}},
+      {1, {PatchSource::boundary, 4, 2, 17, 130.5, 65.2, 0.0}},
       {2, {PatchSource::opposite, 0, 1, 1, 6.0, 5.5, 6.0}}};
   const std::string good = predictions_csv(outcomes);
   write_file_atomically(file, good);
   const std::vector<ViewOutcome> read = read_predictions_csv(file);
   ASSERT_EQ(read.size(), 2U);
   EXPECT_EQ(predictions_csv(read), good);
-  EXPECT_EQ(read[0].look.source, PatchSource::frontier);
-  EXPECT_EQ(read[0].look.looks, 4U);
-  EXPECT_EQ(read[1].look.incidence, 1U);
-  EXPECT_EQ(read[0].look.promised, 65.2);
+  EXPECT_EQ(read[0].gain.source, PatchSource::boundary);
+  EXPECT_EQ(read[0].gain.observations, 4U);
+  EXPECT_EQ(read[1].gain.incidence, 1U);
+  EXPECT_EQ(read[0].gain.predicted, 65.2);
   for (const auto& [from, to, words] : std::vector<std::array<std::string, 3>>{
            {"opposite", "behind", "predictions.csv:3: 'behind' is no source"},
            {",45,", ",44,", "predictions.csv:3: no bin of incidence begins at 44"},

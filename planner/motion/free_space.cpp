@@ -1,0 +1,159 @@
+#include "planner/motion/free_space.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/map/ray_walk.hpp"
+#include "sim/core/error.hpp"
+
+namespace gnbv {
+namespace {
+
+/// Part of a segment from a to b, as shares of it.
+struct Share {
+  double first = 0.0, last = 1.0;
+  bool is_empty() const { return first > last; }
+};
+
+/// What of the share lies within `reach` of `center` along one axis: there a + t (b - a) is between
+/// center - reach and center + reach.
+Share cut(const Share& share, double a, double b, double center, double reach) {
+  if (a == b) return std::fabs(a - center) <= reach ? share : Share{1.0, 0.0};
+  const auto [low, high] =
+      std::minmax({(center - reach - a) / (b - a), (center + reach - a) / (b - a)});
+  return {std::max(low, share.first), std::min(high, share.last)};
+}
+
+/// Whether `is_hit` says so of the cube of any occupied voxel that comes within the radius of the
+/// segment; asked of some others there, too. Goes through the rows of voxels along x in the
+/// segment's box, grown by the radius, each cut to where the segment passes by: of a cube that
+/// comes within the radius the centre lies within that and half the cube's diagonal.
+template <typename IsHit>
+bool any_occupied_near(const OccupancyGrid& grid, const Vec3& a_m, const Vec3& b_m, double radius_m,
+                       const IsHit& is_hit) {
+  const GridGeometry& geometry = grid.geometry();
+  const double voxel_m = geometry.resolution_m();
+  const Vec3 half_m = Vec3::Constant(0.5 * voxel_m);
+  const double wide_m =
+      radius_m + half_m.norm() + 1e-3 * voxel_m;  // more than anything here rounds
+  Key low = geometry.key_of(Vec3(a_m.cwiseMin(b_m) - Vec3::Constant(radius_m)));
+  Key high = geometry.key_of(Vec3(a_m.cwiseMax(b_m) + Vec3::Constant(radius_m)));
+  for (std::size_t a = 0; a < 3; ++a) {
+    low[a] = std::max(low[a], geometry.min_key()[a]);
+    high[a] = std::min(high[a], geometry.min_key()[a] + geometry.size()[a] - 1);
+  }
+  for (Key key = low; key[2] <= high[2]; ++key[2]) {
+    const Share layer = cut({}, a_m.z(), b_m.z(), geometry.center_m(key[2]), wide_m);
+    if (layer.is_empty()) continue;
+    for (key[1] = low[1]; key[1] <= high[1]; ++key[1]) {
+      const Share row = cut(layer, a_m.y(), b_m.y(), geometry.center_m(key[1]), wide_m);
+      if (row.is_empty()) continue;
+      const auto [first_m, last_m] = std::minmax(
+          {a_m.x() + row.first * (b_m.x() - a_m.x()), a_m.x() + row.last * (b_m.x() - a_m.x())});
+      key[0] = std::max(geometry.key_of(first_m - wide_m), low[0]);
+      const std::int32_t last_x = std::min(geometry.key_of(last_m + wide_m), high[0]);
+      if (key[0] > last_x) continue;
+      for (VoxelIndex v = geometry.index_of(key); key[0] <= last_x; ++key[0], ++v) {
+        if (grid.state(v) != VoxelState::occupied) continue;
+        const Vec3 center_m = geometry.center_m(key);
+        if (is_hit(Box3(center_m - half_m, center_m + half_m))) return true;
+      }
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+// Convex along the segment, so a ternary search finds the minimum.
+double box_to_segment_m2(const Box3& box_m, const Vec3& a_m, const Vec3& b_m) {
+  double lo = 0.0;
+  double hi = 1.0;
+  const auto at = [&](double t) {
+    return box_m.squaredExteriorDistance(Vec3(a_m + t * (b_m - a_m)));
+  };
+  for (int i = 0; i < 42; ++i) {
+    const double third = (hi - lo) / 3.0;
+    if (at(lo + third) <= at(hi - third)) {
+      hi -= third;
+    } else {
+      lo += third;
+    }
+  }
+  return at(0.5 * (lo + hi));
+}
+
+bool is_approached(const Box3& box_m, const Vec3& from_m, const Vec3& to_m, double radius_m) {
+  // the search for the nearest point is good to rounding: the start itself is no approach
+  constexpr double kRounding_m2 = 1e-9;
+  const double nearest_m2 = box_to_segment_m2(box_m, from_m, to_m);
+  return nearest_m2 < radius_m * radius_m &&
+         nearest_m2 < box_m.squaredExteriorDistance(from_m) - kRounding_m2;
+}
+
+bool is_sphere_clear(const OccupancyGrid& grid, const Vec3& p_world_m, double radius_m) {
+  return !any_occupied_near(grid, p_world_m, p_world_m, radius_m, [&](const Box3& cube) {
+    return cube.squaredExteriorDistance(p_world_m) < radius_m * radius_m;
+  });
+}
+
+bool is_path_clear(const OccupancyGrid& grid, const Vec3& from_world_m, const Vec3& to_world_m,
+                   double radius_m) {
+  GNBV_CHECK(from_world_m.allFinite() && to_world_m.allFinite(), "a path to {} {} {}",
+             to_world_m.x(), to_world_m.y(), to_world_m.z());
+  const double reach_m = radius_m + 0.5 * std::sqrt(3.0) * grid.geometry().resolution_m();
+  return !any_occupied_near(grid, from_world_m, to_world_m, radius_m, [&](const Box3& cube) {
+    return distance_to_segment_m2(cube.center(), from_world_m, to_world_m) <= reach_m * reach_m &&
+           is_approached(cube, from_world_m, to_world_m, radius_m);
+  });
+}
+
+bool is_known_free(const OccupancyGrid& grid, const Key& key, const Key& own) {
+  const GridGeometry& geometry = grid.geometry();
+  return geometry.contains(key) &&
+         (key == own || grid.state(geometry.index_of(key)) == VoxelState::free);
+}
+
+bool is_line_free(const OccupancyGrid& grid, const Vec3& from_world_m, const Vec3& to_world_m) {
+  const GridGeometry& geometry = grid.geometry();
+  const Vec3f from_m = geometry.nearest_inside(from_world_m).cast<float>();
+  const Vec3 to_m = geometry.nearest_inside(to_world_m);
+  const Key own = geometry.key_of(from_m);
+  bool is_free = is_known_free(grid, geometry.key_of(to_m), own);
+  if (!is_free) return false;
+  walk_ray(geometry, from_m, to_m.cast<float>(),
+           [&](const Key& key) { return is_free = is_known_free(grid, key, own); });
+  return is_free;
+}
+
+bool FreeSpace::contains(const Vec3& p_world_m) const {
+  constexpr double kRounding_m = 1e-6;
+  return navigation_m.squaredExteriorDistance(p_world_m) <= kRounding_m * kRounding_m;
+}
+
+std::optional<Rejection> FreeSpace::rejection_at(const Vec3& p_world_m,
+                                                 const Vec3& own_world_m) const {
+  if (!contains(p_world_m)) return Rejection::out_of_bounds;
+  if (!no_fly.allows(p_world_m)) return Rejection::no_fly;
+  const GridGeometry& geometry = grid.geometry();
+  const Vec3 inside_m = geometry.nearest_inside(p_world_m);
+  const Key own = geometry.key_of(geometry.nearest_inside(own_world_m));
+  const bool may_be_unknown = allow_unknown && grid.state_at(inside_m) == VoxelState::unknown;
+  if (!may_be_unknown && !is_known_free(grid, geometry.key_of(inside_m), own)) {
+    return Rejection::not_free;
+  }
+  if (!is_sphere_clear(grid, p_world_m, radius_m)) return Rejection::collision;
+  return std::nullopt;
+}
+
+bool FreeSpace::is_leg_clear(const Vec3& from_world_m, const Vec3& to_world_m) const {
+  return no_fly.allows_leg(from_world_m, to_world_m) &&
+         is_path_clear(grid, from_world_m, to_world_m, radius_m);
+}
+
+bool FreeSpace::is_leg_free(const Vec3& from_world_m, const Vec3& to_world_m) const {
+  return (allow_unknown || is_line_free(grid, from_world_m, to_world_m)) &&
+         is_leg_clear(from_world_m, to_world_m);
+}
+
+}  // namespace gnbv

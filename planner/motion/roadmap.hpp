@@ -1,0 +1,74 @@
+// Where views may be taken from, and the ways between those nodes.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "planner/motion/graph_search.hpp"
+#include "planner/motion/open_space.hpp"
+
+namespace gnbv {
+
+/// A lattice in the navigation box, further nodes beside it, and where the vehicle is. The number
+/// of a node stays its own for ever; that of here() moves with the vehicle.
+class Roadmap {
+ public:
+  using Node = GraphNode;
+
+  /// The lattice's nodes are middles of voxels, about `step_m` apart.
+  Roadmap(const GridGeometry& geometry, const Box3& navigation_m, double step_m);
+
+  /// One more node, off the lattice: the middle of the voxel at the point.
+  Node add(const Vec3& p_world_m);
+
+  /// Finds which nodes are open now and can be reached from `here_world_m`, and over which legs.
+  /// Rows are kept for some calls: they learn of nodes that have opened, but not of shorter ways,
+  /// and what has closed since may make them too short.
+  void follow(const OccupancyGrid& grid, const OpenSpace& space, const Vec3& here_world_m);
+
+  std::size_t size() const { return p_world_m_.size(); }
+  static constexpr Node here() { return 0; }
+  const Vec3& p_world_m(Node node) const { return p_world_m_[node]; }
+  bool is_reachable(Node node) const { return is_reachable_[node] != 0; }
+
+  void forget_ways() { rows_.clear(); }
+
+  /// Metres from the node to each one, along open space; infinite where no way leads. No way from
+  /// elsewhere leads by here() or to it.
+  std::span<const float> row_m(Node from) { return row(from).ways.length_m; }
+  /// The points between the two; requires a way.
+  std::vector<Vec3> via_world_m(Node from, Node to);
+
+ private:
+  struct Row {
+    Ways<float> ways;
+    std::uint32_t made = 0;      // in which follow() it was searched,
+    std::uint32_t followed = 0;  // and up to which it knows the nodes
+  };
+  struct LazyGraph;
+  void link(Node a, Node b);
+  void link_lattice();
+  void link_others();
+  void find_reachable();
+  float leg_m(Node a, Node b) const {
+    return static_cast<float>((p_world_m_[a] - p_world_m_[b]).norm());
+  }
+  const Row& row(Node from);
+  void extend(Row& row) const;
+
+  GridGeometry geometry_;
+  double step_m_ = 0.0;
+  Key lattice_size_ = {0, 0, 0};
+  std::vector<Vec3> p_world_m_;
+  std::vector<std::uint8_t> is_open_, is_reachable_;
+  std::vector<std::uint32_t> opened_;    // in which follow() each did, last
+  std::vector<std::vector<Node>> legs_;  // from each node
+  const OccupancyGrid* grid_ = nullptr;  // of the last follow()
+  const OpenSpace* space_ = nullptr;
+  std::map<Node, Row> rows_;
+  std::uint32_t follows_ = 0;
+};
+
+}  // namespace gnbv

@@ -1,0 +1,168 @@
+#include "planner/tour/orienteering.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "planner/tour/expected_cover.hpp"
+#include "planner/tour/perturbation.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr double kLeast = 1e-6;  // less is rounding
+// a view is put in that brings this share of its cost: the search may find it a neighbour
+constexpr double kTolerance = 0.7;
+
+/// A tour while it is changed. Copied, it is a state to return to.
+class OpenTour {
+ public:
+  OpenTour(const OrienteeringProblem& problem, const ObservationTable& table)
+      : problem_(&problem), cover_(problem, table), waypoints_({problem.start}, problem.row_m) {
+    waypoints_.find_detours();
+  }
+
+  const std::vector<std::uint32_t>& chosen() const { return chosen_; }
+  const Waypoints& waypoints() const { return waypoints_; }
+
+  double worth() const {
+    return cover_.found() -
+           problem_->cost_per_m * (waypoints_.length_m() +
+                                   problem_->metres_per_view * static_cast<double>(chosen_.size()));
+  }
+
+  OrienteeringTour made() const {
+    OrienteeringTour tour{waypoints_.nodes(), chosen_, waypoints_.length_m(), cover_.found(),
+                          worth()};
+    const auto key = [&](std::uint32_t view) {
+      return std::pair(waypoints_.index_of(node_of(view)), view);
+    };
+    std::sort(tour.views.begin(), tour.views.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+    return tour;
+  }
+
+  void remove(std::uint32_t view) {
+    cover_.remove(view);
+    chosen_.erase(std::find(chosen_.begin(), chosen_.end(), view));
+    const std::uint32_t node = node_of(view);
+    if (node != problem_->start && views_at(node) == 0) waypoints_.remove(node);
+  }
+
+  /// At the cheapest position; not where no way leads.
+  void insert(std::uint32_t view) {
+    const std::uint32_t node = node_of(view);
+    if (!std::isfinite(waypoints_.extra_m()[node])) return;
+    cover_.add(view);
+    chosen_.push_back(view);
+    if (!waypoints_.has(node)) waypoints_.insert(node);
+  }
+
+  /// Until none is left that pays: that with the most per metre, times its weight.
+  void complete(double metres_per_view, std::span<const double> weights) {
+    waypoints_.find_detours();
+    while (const auto view = best_view(metres_per_view, weights)) insert(*view);
+  }
+
+  /// Views that bring less than they cost go, those first that lose the most.
+  void drop_unpaid() {
+    std::vector<std::pair<double, std::uint32_t>> unpaid;
+    for (const std::uint32_t view : chosen_) {
+      const double worth = worth_of(view);
+      if (worth < 0.0) unpaid.emplace_back(worth, view);
+    }
+    std::sort(unpaid.begin(), unpaid.end());
+    for (const auto& [worth, view] : unpaid) {
+      if (worth_of(view) < 0.0) remove(view);  // not what has become worth more without others
+    }
+  }
+
+  void shorten() { waypoints_.shorten(); }
+
+ private:
+  std::uint32_t node_of(std::uint32_t view) const { return problem_->node[view]; }
+  std::ptrdiff_t views_at(std::uint32_t node) const {
+    return std::count_if(chosen_.begin(), chosen_.end(),
+                         [&](std::uint32_t view) { return node_of(view) == node; });
+  }
+  double saved_without_m(std::uint32_t view) const {
+    const std::uint32_t node = node_of(view);
+    return node == problem_->start || views_at(node) > 1 ? 0.0 : waypoints_.saved_without_m(node);
+  }
+
+  /// Of a chosen view: what it brings beyond its cost.
+  double worth_of(std::uint32_t view) const {
+    return cover_.loss_without(view) -
+           problem_->cost_per_m * (problem_->metres_per_view + saved_without_m(view));
+  }
+
+  std::optional<std::uint32_t> best_view(double metres_per_view,
+                                         std::span<const double> weights) const {
+    const std::span<const double> gains = cover_.gains();
+    const std::span<const float> extra_m = waypoints_.extra_m();
+    double most = kTolerance * problem_->cost_per_m;
+    std::optional<std::uint32_t> best;
+    for (std::uint32_t view = 0; view < gains.size(); ++view) {
+      if (cover_.has(view)) continue;
+      double rate = gains[view] / (static_cast<double>(extra_m[node_of(view)]) + metres_per_view);
+      if (!weights.empty()) rate *= static_cast<double>(static_cast<float>(weights[view]));
+      if (rate <= most) continue;
+      most = rate;
+      best = view;
+    }
+    return best;
+  }
+
+  const OrienteeringProblem* problem_;
+  ExpectedCover cover_;
+  std::vector<std::uint32_t> chosen_;  // views, in the order of choice
+  Waypoints waypoints_;
+};
+
+}  // namespace
+
+OrienteeringTour solve(const OrienteeringProblem& problem, std::span<const std::uint32_t> from,
+                       const TourSearch& search) {
+  constexpr double kHot_m = 0.6;
+  constexpr double kCold_m = 0.01;
+  const ObservationTable table(problem);
+  OpenTour current(problem, table);
+  for (const std::uint32_t view : from) current.insert(view);
+  current.complete(1.0, {});
+  current.drop_unpaid();
+  current.shorten();
+  OpenTour best = current;
+  double current_worth = current.worth();
+  double best_worth = current_worth;
+  OpenTour trial = current;
+  const int iterations = search.iterations;
+  for (int i = 0; i < iterations && !current.chosen().empty(); ++i) {
+    if (search.heed_stop) search.heed_stop();
+    Rng rng(search.seed, Stream::tour_search, i);
+    trial = current;
+    for (const std::uint32_t view :
+         views_to_remove(trial.chosen(), problem.node, trial.waypoints(), problem.row_m, rng)) {
+      trial.remove(view);
+    }
+    const double metres_per_view = 0.1 * std::pow(20.0, rng.uniform());
+    trial.complete(metres_per_view, perturbation_weights(problem.observations.size(), rng));
+    trial.drop_unpaid();
+    double worth = trial.worth();
+    if (worth > best_worth + kLeast) {
+      trial.shorten();
+      worth = trial.worth();
+    }
+    const double heat =
+        problem.cost_per_m * kHot_m *
+        std::pow(kCold_m / kHot_m, static_cast<double>(i) / static_cast<double>(iterations));
+    if (current_worth - worth >= -heat * std::log(1.0 - rng.uniform())) continue;
+    std::swap(current, trial);
+    current_worth = worth;
+    if (current_worth <= best_worth + kLeast) continue;
+    best = current;
+    best_worth = current_worth;
+  }
+  return best.made();
+}
+
+}  // namespace gnbv

@@ -1,0 +1,311 @@
+// View validity, and the walk of one ray inside the grid, against brute force and hand-drawn
+// scenes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "planner/core/plan.hpp"
+#include "planner/map/ray_walk.hpp"
+#include "planner/motion/no_fly.hpp"
+#include "planner/motion/view_checker.hpp"
+#include "sim/core/rng.hpp"
+
+namespace gnbv {
+namespace {
+
+const Box3 kWorkspace(Vec3(-5, -5, 0), Vec3(5, 5, 5));
+const NoFly kNoBoxes;
+const Box3 kNavigation(Vec3(-5, -5, 0.7), Vec3(5, 5, 5));
+
+double draw(std::uint64_t frame, std::uint64_t index) {
+  return uniform01({11, Stream::bench, frame, index});
+}
+
+OccupancyGrid empty_grid() { return OccupancyGrid(OccupancyConfig{}, kWorkspace); }
+
+/// Everything measured free but for the given voxels.
+OccupancyGrid free_grid_with(const std::set<VoxelIndex>& occupied) {
+  OccupancyGrid grid = empty_grid();
+  ScanUpdate update;
+  for (VoxelIndex v = 0; v < grid.geometry().voxel_count(); ++v) {
+    (occupied.contains(v) ? update.occupied : update.free).push_back(v);
+  }
+  grid.apply(update);
+  return grid;
+}
+
+VoxelIndex voxel_at(const OccupancyGrid& grid, const Vec3& p_world_m) {
+  return grid.geometry().index_of(grid.geometry().key_of(p_world_m));
+}
+
+TEST(PathCheck, EqualsBruteForceOverSampledSpheres) {
+  OccupancyGrid probe = empty_grid();
+  std::set<VoxelIndex> occupied;
+  for (std::uint64_t i = 0; i < 60; ++i) {
+    occupied.insert(
+        static_cast<VoxelIndex>(draw(0, i) * static_cast<double>(probe.geometry().voxel_count())));
+  }
+  const OccupancyGrid grid = free_grid_with(occupied);
+  constexpr double kRadius_m = 0.8;
+  int blocked = 0;
+  int compared = 0;
+  for (std::uint64_t trial = 0; trial < 300; ++trial) {
+    const auto point = [&](std::uint64_t at) {
+      return Vec3(draw(at, 3 * trial) * 10 - 5, draw(at, 3 * trial + 1) * 10 - 5,
+                  draw(at, 3 * trial + 2) * 5);
+    };
+    const Vec3 a = point(1);
+    const Vec3 b = point(2);
+    if (!is_sphere_clear(grid, a, kRadius_m)) continue;
+    double nearest_m = 1e9;
+    for (int i = 0; i <= 400; ++i) {
+      const Vec3 p = a + (i / 400.0) * (b - a);
+      for (const VoxelIndex v : occupied) {
+        const Vec3 c = grid.geometry().center_m(grid.geometry().key_at(v));
+        const Box3 cube(c - Vec3::Constant(0.1), c + Vec3::Constant(0.1));
+        nearest_m = std::min(nearest_m, cube.exteriorDistance(p));
+      }
+    }
+    // 400 samples of a segment under 15 m miss the nearest point by less than 1 cm
+    if (std::fabs(nearest_m - kRadius_m) < 0.01) continue;
+    ++compared;
+    blocked += nearest_m < kRadius_m ? 1 : 0;
+    EXPECT_EQ(is_path_clear(grid, a, b, kRadius_m), nearest_m > kRadius_m) << trial;
+  }
+  EXPECT_GT(compared, 200);
+  EXPECT_GT(blocked, 50);  // the scene says both yes and no
+  EXPECT_LT(blocked, compared - 20);
+}
+
+/// The same question of every voxel within the radius of the segment's box, without a shortcut.
+bool is_clear_of_each(const OccupancyGrid& grid, const std::set<VoxelIndex>& occupied,
+                      const Vec3& a_m, const Vec3& b_m, double radius_m) {
+  const GridGeometry& geometry = grid.geometry();
+  const Vec3 half_m = Vec3::Constant(0.5 * geometry.resolution_m());
+  return std::none_of(occupied.begin(), occupied.end(), [&](VoxelIndex v) {
+    const Key key = geometry.key_at(v);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto axis = static_cast<Eigen::Index>(i);
+      const auto [low_m, high_m] = std::minmax(a_m[axis], b_m[axis]);
+      if (key[i] < geometry.key_of(low_m - radius_m)) return false;
+      if (key[i] > geometry.key_of(high_m + radius_m)) return false;
+    }
+    const Box3 cube(geometry.center_m(key) - half_m, geometry.center_m(key) + half_m);
+    const double nearest_m2 = box_to_segment_m2(cube, a_m, b_m);
+    return nearest_m2 < radius_m * radius_m &&
+           nearest_m2 < cube.squaredExteriorDistance(a_m) - 1e-9;
+  });
+}
+
+// 1.5 m are seven and a half voxels: whether a cube beside the line is touched is for rounding to
+// say
+TEST(PathCheck, AnswersGrazesAsAskingEachVoxelDoes) {
+  const GridGeometry geometry = empty_grid().geometry();
+  for (std::int32_t y = -16; y < 16; ++y) {
+    for (const std::int32_t beside : {-8, 8}) {
+      const std::set<VoxelIndex> occupied = {geometry.index_of({0, y + beside, 10})};
+      OccupancyGrid grid = empty_grid();
+      grid.apply({.free = {}, .occupied = {*occupied.begin()}});
+      for (const std::int32_t z : {10, 2, 18}) {
+        const Vec3 a_m = geometry.center_m({-12, y, z});
+        const Vec3 b_m = geometry.center_m({12, y, z});
+        ASSERT_EQ(is_path_clear(grid, a_m, b_m, 1.5),
+                  is_clear_of_each(grid, occupied, a_m, b_m, 1.5))
+            << y << " " << beside << " " << z;
+      }
+    }
+  }
+}
+
+TEST(PathCheck, EqualsAskingEachVoxelOnTheLatticeToo) {
+  const OccupancyGrid probe = empty_grid();
+  int blocked = 0;
+  for (std::uint64_t trial = 0; trial < 3000; ++trial) {
+    std::uint64_t drawn = 0;
+    const auto next = [&] { return draw(10 + trial, drawn++); };
+    const double half_voxels = next() < 0.5 ? 1.0 : 2.0;  // centres and borders, or centres alone
+    const auto point = [&] {
+      Vec3 p_m(next() * 14 - 7, next() * 14 - 7, next() * 9 - 2);  // some outside
+      if (trial % 4 == 0) return p_m;
+      for (Eigen::Index a = 0; a < 3; ++a) {
+        p_m[a] = 0.1 * (half_voxels * std::floor(p_m[a] / (0.1 * half_voxels)) + 1.0);
+      }
+      return p_m;
+    };
+    const Vec3 a_m = point();
+    Vec3 b_m = point();
+    for (Eigen::Index a = 0; a < 3; ++a) {
+      if (next() < 0.4) b_m[a] = a_m[a];  // along an axis or a plane, or not at all
+    }
+    std::set<VoxelIndex> occupied;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 near_m =
+          a_m + next() * (b_m - a_m) + Vec3(next() * 4 - 2, next() * 4 - 2, next() * 4 - 2);
+      const Key key = probe.geometry().key_of(near_m);
+      if (probe.geometry().contains(key)) occupied.insert(probe.geometry().index_of(key));
+    }
+    OccupancyGrid grid = empty_grid();
+    grid.apply({.free = {}, .occupied = {occupied.begin(), occupied.end()}});
+    for (const double radius_m : {0.5, 0.8, 1.5}) {
+      const bool is_clear = is_clear_of_each(grid, occupied, a_m, b_m, radius_m);
+      blocked += is_clear ? 0 : 1;
+      ASSERT_EQ(is_path_clear(grid, a_m, b_m, radius_m), is_clear)
+          << trial << ": " << a_m.transpose() << " to " << b_m.transpose() << ", " << radius_m;
+    }
+  }
+  EXPECT_GT(blocked, 1000);
+}
+
+TEST(PathCheck, WhatIsTooCloseAlreadyMayBeLeftButNotApproached) {
+  OccupancyGrid probe = empty_grid();
+  const OccupancyGrid grid = free_grid_with({voxel_at(probe, Vec3(0.1, 0.1, 2.1))});
+  const Vec3 here(0.1, 1.0, 2.1);  // 0.8 m from the voxel's face
+  EXPECT_FALSE(is_sphere_clear(grid, here, 1.5));
+  EXPECT_TRUE(is_path_clear(grid, here, here + Vec3(0, 1, 0), 1.5));
+  EXPECT_TRUE(is_path_clear(grid, here, here + Vec3(1, 0.5, 0), 1.5));
+  EXPECT_FALSE(is_path_clear(grid, here, here - Vec3(0, 0.1, 0), 1.5));
+  EXPECT_FALSE(is_path_clear(grid, here, here + Vec3(2, -0.5, 0), 1.5));
+}
+
+std::optional<Rejection> rejection(const ValidityConfig& config, const OccupancyGrid& grid,
+                                   std::span<const ViewPose> recent, const ViewPose& current,
+                                   const ViewPose& view) {
+  Candidate candidate{.view = view, .sampler = Sampler::agvs};
+  ViewChecker checker(config, kNavigation, kNoBoxes, grid, recent, current);
+  check(checker, candidate);
+  return candidate.rejected;
+}
+
+TEST(ViewValidity, NamesTheReason) {
+  OccupancyGrid probe = empty_grid();
+  const OccupancyGrid grid = free_grid_with({voxel_at(probe, Vec3(0.1, 0.1, 2.1))});
+  const ValidityConfig config{.collision_radius_m = 0.5};
+  const ViewPose current{Vec3(-2, 0.1, 2.1), 0};
+  const std::vector<ViewPose> recent = {{Vec3(-2, 2, 2), 1.0}};
+  const auto reason = [&](const ViewPose& candidate) {
+    return rejection(config, grid, recent, current, candidate);
+  };
+  EXPECT_EQ(reason({Vec3(-2, 1, 2), 0}), std::nullopt);
+  EXPECT_EQ(reason({Vec3(-2, 1, 0.6), 0}), Rejection::out_of_bounds);
+  EXPECT_EQ(reason({Vec3(-2, 2, 2), 1.05}), Rejection::recently_visited);
+  EXPECT_EQ(reason({Vec3(-2, 2, 2), 1.2}), std::nullopt);
+  EXPECT_EQ(reason({Vec3(0.1, 0.1, 2.1), 0}), Rejection::not_free);
+  EXPECT_EQ(reason({Vec3(0.1, 0.1, 2.6), 0}), Rejection::collision);
+  EXPECT_EQ(reason({Vec3(2, 0.1, 2.1), 0}), Rejection::path_blocked);
+}
+
+TEST(ViewValidity, NoViewInANoFlyBoxAndNoWayThroughOne) {
+  const OccupancyGrid grid = free_grid_with({});
+  const NoFly no_fly{{Box3(Vec3(-0.5, -1, 0), Vec3(0.5, 1, 5))}, 0.5};
+  const ViewPose current{Vec3(-3, 0, 2), 0};
+  for (const PathCheck path : {PathCheck::straight, PathCheck::unchecked, PathCheck::astar}) {
+    const ValidityConfig config{.collision_radius_m = 0.5, .path = path};
+    const auto checked = [&](const Vec3& p_m) {
+      Candidate candidate{.view = {p_m, 0}, .sampler = Sampler::agvs};
+      ViewChecker checker(config, kNavigation, no_fly, grid, {}, current);
+      check(checker, candidate);
+      return candidate;
+    };
+    EXPECT_EQ(checked({0, 0, 2}).rejected, Rejection::no_fly);
+    EXPECT_EQ(checked({-0.8, 0, 2}).rejected, Rejection::no_fly);  // nearer than the radius
+    EXPECT_EQ(checked({-1.5, 0, 2}).rejected, std::nullopt);
+    const Candidate beyond = checked({3, 0, 2});
+    if (path != PathCheck::astar) {
+      EXPECT_EQ(beyond.rejected, Rejection::path_blocked);
+      continue;
+    }
+    EXPECT_EQ(beyond.rejected, std::nullopt);
+    Vec3 at_m = current.p_world_m;
+    std::vector<Vec3> points_m = beyond.via_world_m;
+    points_m.emplace_back(3, 0, 2);
+    EXPECT_GE(points_m.size(), 2U);
+    for (const Vec3& next_m : points_m) {
+      EXPECT_TRUE(no_fly.allows_leg(at_m, next_m));
+      at_m = next_m;
+    }
+  }
+}
+
+TEST(ViewValidity, UnknownSpaceIsNotFree) {
+  const OccupancyGrid grid = empty_grid();
+  EXPECT_EQ(rejection({}, grid, {}, {Vec3(0, 0, 2), 0}, {Vec3(1, 0, 2), 0}), Rejection::not_free);
+}
+
+/// No camera sees the voxel that the vehicle is in, but it may turn there and leave.
+TEST(ViewValidity, TheVehiclesOwnVoxelIsFree) {
+  OccupancyGrid grid = empty_grid();
+  ScanUpdate update;
+  const ViewPose current{Vec3(-2, 0.1, 2.1), 0};
+  const VoxelIndex own = voxel_at(grid, current.p_world_m);
+  for (VoxelIndex v = 0; v < grid.geometry().voxel_count(); ++v) {
+    if (v != own) update.free.push_back(v);
+  }
+  grid.apply(update);
+  for (const PathCheck path : {PathCheck::straight, PathCheck::astar}) {
+    const ValidityConfig config{.collision_radius_m = 0.5, .path = path};
+    EXPECT_EQ(rejection(config, grid, {}, current, {current.p_world_m, 1.0}), std::nullopt);
+    EXPECT_EQ(rejection(config, grid, {}, current, {Vec3(1, 0.1, 2.1), 0}), std::nullopt);
+    EXPECT_EQ(rejection(config, grid, {}, {Vec3(1, 0.1, 2.1), 0}, current), Rejection::not_free);
+  }
+}
+
+TEST(ViewValidity, AWayThatIsCheckedByAStarLeadsThroughKnownSpaceWhereverItLeads) {
+  // free but for a slab of unknown voxels across the whole box: nothing occupied anywhere
+  OccupancyGrid grid = empty_grid();
+  ScanUpdate update;
+  const auto voxels = static_cast<VoxelIndex>(grid.geometry().voxel_count());
+  for (VoxelIndex v = 0; v < voxels; ++v) {
+    if (std::abs(grid.geometry().center_m(grid.geometry().key_at(v)).x()) > 0.3) {
+      update.free.push_back(v);
+    }
+  }
+  grid.apply(update);
+  ValidityConfig config{.collision_radius_m = 0.5, .path = PathCheck::astar};
+  const auto reason = [&] {
+    return rejection(config, grid, {}, {Vec3(-2, 0, 2), 0}, {Vec3(2, 0, 2), 0});
+  };
+  EXPECT_EQ(reason(), Rejection::path_blocked);
+  config.allow_unknown = true;
+  EXPECT_EQ(reason(), std::nullopt);
+  config = {.collision_radius_m = 0.5};  // the paper's own check asks for what is occupied alone
+  EXPECT_EQ(reason(), std::nullopt);
+}
+
+TEST(ViewValidity, TheFacesOfTheNavigationBoxAreInside) {
+  const OccupancyGrid grid = free_grid_with({});
+  for (const Vec3& p : {Vec3(5, 5, 5), Vec3(-5, -5, 0.7), Vec3(5, -5, 0.7)}) {
+    EXPECT_EQ(rejection({}, grid, {}, {Vec3(0, 0, 2), 0}, {p, 0}), std::nullopt);
+  }
+}
+
+TEST(InsideWalk, NamesTheVoxelsOfTheFullWalkThatLieInTheGrid) {
+  for (const double resolution_m : {0.2, 0.07, 0.05}) {
+    const GridGeometry grid(kWorkspace, resolution_m);
+    for (std::uint64_t i = 0; i < 500; ++i) {
+      const Vec3 from(draw(50, i) * 10 - 5, draw(51, i) * 10 - 5, draw(52, i) * 5);
+      // some along an axis, some out of the grid
+      Vec3 to = from + Vec3(draw(53, i) - 0.5, draw(54, i) - 0.5, draw(55, i) - 0.5) * 8.0;
+      if (i % 5 == 0) to.y() = from.y();
+      if (i % 10 == 0) to.z() = from.z();
+      const RayOrigin origin = make_ray_origin(grid, from.cast<float>());
+      if (!grid.contains(origin.key)) continue;
+      std::vector<VoxelIndex> full;
+      walk_ray(grid, origin, to.cast<float>(), [&](const Key& key) {
+        if (!grid.contains(key)) return false;
+        full.push_back(grid.index_of(key));
+        return true;
+      });
+      std::vector<VoxelIndex> inside;
+      walk_ray_inside(grid, origin, to.cast<float>(), [&](VoxelIndex v) {
+        inside.push_back(v);
+        return true;
+      });
+      ASSERT_EQ(inside, full) << resolution_m << " " << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gnbv

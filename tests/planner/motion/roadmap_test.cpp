@@ -1,0 +1,137 @@
+#include "planner/motion/roadmap.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/planner/tour/free_grid.hpp"
+
+namespace gnbv {
+namespace {
+
+const Box3 kBox(Vec3(-6, -6, 0), Vec3(6, 6, 4));
+
+struct World {
+  explicit World(OccupancyGrid occupancy)
+      : grid(std::move(occupancy)),
+        space(grid.geometry(), kBox, {}, 0.5),
+        roadmap(grid.geometry(), kBox, 1.0) {
+    space.follow(grid);
+    roadmap.follow(grid, space, Vec3(-5, -5, 1));
+  }
+  OccupancyGrid grid;
+  OpenSpace space;
+  Roadmap roadmap;
+};
+
+TEST(Roadmap, InEmptySpaceWaysAreNearlyStraight) {
+  World world(free_grid(kBox));
+  EXPECT_GT(world.roadmap.size(), 13U * 13U * 4U);
+  for (Roadmap::Node from = 0; from < world.roadmap.size(); from += 37) {
+    const std::span<const float> row_m = world.roadmap.row_m(from);
+    for (Roadmap::Node to = 1; to < world.roadmap.size(); ++to) {
+      const double straight_m =
+          (world.roadmap.p_world_m(from) - world.roadmap.p_world_m(to)).norm();
+      ASSERT_GE(row_m[to], straight_m - 1e-4);
+      ASSERT_LE(row_m[to], 1.1 * straight_m + 1e-4);
+    }
+  }
+}
+
+TEST(Roadmap, AWallIsGoneAroundAndItsLegsAreOpen) {
+  OccupancyGrid grid = free_grid(kBox);
+  fill(grid, Box3(Vec3(-6, -0.2, 0), Vec3(4, 0.2, 4)));  // leaves a gap at large x
+  World world(std::move(grid));
+  const auto behind = world.roadmap.add(Vec3(-5, 5, 1));
+  world.roadmap.follow(world.grid, world.space, Vec3(-5, -5, 1));
+  ASSERT_TRUE(world.roadmap.is_reachable(behind));
+  const float length_m = world.roadmap.row_m(Roadmap::here())[behind];
+  const double least_m = 2.0 * std::hypot(9.0, 5.0);  // by the wall's end
+  EXPECT_GT(length_m, least_m);
+  EXPECT_LT(length_m, 1.15 * least_m);
+  std::vector<Vec3> way_m = world.roadmap.via_world_m(Roadmap::here(), behind);
+  way_m.insert(way_m.begin(), Vec3(-5, -5, 1));
+  way_m.push_back(world.roadmap.p_world_m(behind));
+  double sum_m = 0.0;
+  for (std::size_t i = 1; i < way_m.size(); ++i) {
+    EXPECT_TRUE(world.space.is_line_open(world.grid, way_m[i - 1], way_m[i]) ||
+                world.space.is_line_open(world.grid, way_m[i], way_m[i - 1]));
+    sum_m += (way_m[i] - way_m[i - 1]).norm();
+  }
+  EXPECT_NEAR(sum_m, static_cast<double>(length_m), 1e-3);
+}
+
+TEST(Roadmap, BehindAClosedWallNothingIsReached) {
+  OccupancyGrid grid = free_grid(kBox);
+  fill(grid, Box3(Vec3(-6, -0.2, 0), Vec3(6, 0.2, 4)));
+  World world(std::move(grid));
+  for (Roadmap::Node place = 1; place < world.roadmap.size(); ++place) {
+    const bool is_on_this_side = world.roadmap.p_world_m(place).y() < -0.7;
+    const bool is_other_side = world.roadmap.p_world_m(place).y() > 0.0;
+    if (is_on_this_side) {
+      EXPECT_TRUE(world.roadmap.is_reachable(place));
+    }
+    if (is_other_side) {
+      EXPECT_FALSE(world.roadmap.is_reachable(place));
+      EXPECT_TRUE(std::isinf(world.roadmap.row_m(Roadmap::here())[place]));
+    }
+  }
+}
+
+TEST(Roadmap, AWayThatIsKeptLearnsOfPlacesThatOpen) {
+  OccupancyGrid grid = free_grid(kBox);
+  const Box3 block_m(Vec3(2, 2, 0), Vec3(6, 6, 4));
+  fill(grid, block_m);
+  World world(std::move(grid));
+  const Roadmap::Node from = 1;
+  Roadmap::Node within = 1;
+  while (!(world.roadmap.p_world_m(within) - Vec3(4, 4, 2)).isZero(0.6)) ++within;
+  ASSERT_TRUE(std::isinf(world.roadmap.row_m(from)[within]));
+  world.grid = free_grid(kBox);
+  world.space.follow(world.grid);
+  world.roadmap.follow(world.grid, world.space, Vec3(-5, -5, 1));
+  const double straight_m =
+      (world.roadmap.p_world_m(from) - world.roadmap.p_world_m(within)).norm();
+  const float length_m = world.roadmap.row_m(from)[within];
+  EXPECT_GE(length_m, straight_m - 1e-4);
+  EXPECT_LE(length_m, 1.3 * straight_m);
+  double sum_m = 0.0;
+  Vec3 at_m = world.roadmap.p_world_m(from);
+  for (const Vec3& p_m : world.roadmap.via_world_m(from, within)) {
+    sum_m += (p_m - at_m).norm();
+    at_m = p_m;
+  }
+  sum_m += (world.roadmap.p_world_m(within) - at_m).norm();
+  EXPECT_NEAR(sum_m, static_cast<double>(length_m), 1e-3);
+}
+
+TEST(Roadmap, LeadsFromAVoxelThatNobodyHasSeen) {
+  OccupancyGrid grid({.resolution_m = 0.2}, kBox);
+  const Vec3 here_m(-4.9, -4.9, 1.1);
+  const VoxelIndex own = grid.geometry().index_of(grid.geometry().key_of(here_m));
+  std::vector<VoxelIndex> others;
+  for (VoxelIndex v = 0; v < grid.geometry().voxel_count(); ++v) {
+    if (v != own) others.push_back(v);
+  }
+  grid.apply({.free = others, .occupied = {}});
+  World world(std::move(grid));
+  world.roadmap.follow(world.grid, world.space, here_m);
+  EXPECT_TRUE(world.roadmap.is_reachable(1));
+}
+
+/// Of a node and those about it, the legs are the same whatever cube each falls into.
+TEST(Roadmap, ANodeBesideTheLatticeIsLinkedToAllAboutIt) {
+  World world(free_grid(kBox));
+  const Roadmap::Node added = world.roadmap.add(Vec3(0.9, 1.1, 2.1));
+  world.roadmap.follow(world.grid, world.space, Vec3(-5, -5, 1));
+  const std::span<const float> row_m = world.roadmap.row_m(added);
+  for (Roadmap::Node node = 1; node < added; ++node) {
+    const double straight_m =
+        (world.roadmap.p_world_m(node) - world.roadmap.p_world_m(added)).norm();
+    if (straight_m > 1.7) continue;
+    EXPECT_NEAR(row_m[node], straight_m, 1e-4) << "straight, over a leg";
+  }
+}
+
+}  // namespace
+}  // namespace gnbv
