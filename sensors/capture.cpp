@@ -11,16 +11,17 @@
 namespace gnbv {
 namespace {
 
-/// Traced from the sensor itself: what is too near to be measured still hides what lies behind it.
+/// Rays begin at the sensor itself: a surface that is too near to be measured still hides what lies
+/// behind it.
 constexpr float kTraceFrom_m = 0.0F;
 
-/// A surface at `true_m` that reads `read_m`.
+/// What the sensor reports of a surface at `true_m` for which it reads `read_m`.
 float measured_range(float true_m, float read_m, double range_min_m, double range_max_m) {
   if (std::min(true_m, read_m) < static_cast<float>(range_min_m)) return kInvalidRange;
   return read_m > static_cast<float>(range_max_m) ? kNoReturn : read_m;
 }
 
-/// Angle between a ray and the normal of the face it meets, either side of it.
+/// Angle between a ray and the normal of the face that it meets, from either side.
 double incidence_rad(const RayScene& scene, std::int32_t face, const Vec3f& direction_world) {
   const float cosine = std::abs(scene.normal_world(face).dot(direction_world.normalized()));
   return std::acos(std::min(static_cast<double>(cosine), 1.0));
@@ -46,7 +47,7 @@ struct DepthCapture {
                           rays.distances_m);
     const auto range_min_m = static_cast<float>(camera.config.range_min_m);
     for (std::size_t tile = 0; tile < rays.distances_m.size(); ++tile) {
-      // traced up to range_max_m: only what is too near is left to sort out
+      // the rays end at range_max_m, so only depths that are too small are left to reject
       Eigen::Map<Eigen::Array<float, RayPacket::kRays, 1>> depths_m(rays.distances_m[tile].data());
       depths_m = (depths_m < range_min_m).select(kInvalidRange, depths_m);
       tiles.put(run, tile, rays.distances_m[tile], frame.depth_m);
@@ -67,7 +68,8 @@ struct DepthCapture {
     });
   }
 
-  /// Turns each ray to where its pixel really looks, as far as the surface it met is slanted.
+  /// Turns each ray to where its pixel really looks: the more slanted the surface that it met, the
+  /// farther.
   void displace(const TileRun& run, RunRays& rays) const {
     tiles.for_each_pixel(run, [&](std::size_t tile, std::size_t ray, std::size_t pixel) {
       RayPacket& packet = rays.directions_world[tile];
@@ -97,7 +99,7 @@ struct DepthCapture {
   }
 };
 
-/// The pose `intervals` after the first one, position and rotation each at an even pace.
+/// The pose `intervals` after the first one. Position and rotation each change at an even pace.
 Isometry pose_during(std::span<const Isometry> poses, double intervals) {
   const std::size_t before = std::min(static_cast<std::size_t>(intervals), poses.size() - 2);
   const double t = intervals - static_cast<double>(before);
@@ -114,7 +116,7 @@ bool is_still(std::span<const Isometry> poses) {
                      [&](const Isometry& pose) { return pose.matrix() == poses.front().matrix(); });
 }
 
-/// Each beam from the pose of its own time.
+/// Traces each beam from the pose at its own time.
 std::vector<RayHit> trace_sweep(const RayScene& scene, const LidarModel& lidar,
                                 std::span<const Isometry> T_world_body_during, double interval_s,
                                 float far_m) {

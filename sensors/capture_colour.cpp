@@ -11,14 +11,14 @@
 namespace gnbv {
 namespace {
 
-/// Shadow rays begin this far off the surface, towards who looks: more than a float's rounding
-/// within a kilometre, less than anything worth a shadow.
+/// Shadow rays begin this far off the surface, on the camera's side. It is more than the rounding
+/// of a float within a kilometre, and less than anything whose shadow matters.
 constexpr float kOffSurface_m = 1e-3F;
 
 /// What the rays of one packet meet, where it is, and how it is lit.
 struct Surface {
   std::array<Vec3f, RayPacket::kRays> p_world_m;
-  std::array<Vec3f, RayPacket::kRays> normal_world;  // towards who looks
+  std::array<Vec3f, RayPacket::kRays> normal_world;  // on the camera's side
   std::array<std::uint8_t, RayPacket::kRays> is_dark{};
 };
 
@@ -50,7 +50,7 @@ struct ColourCapture {
     Surface surface;
     std::array<Vec3f, RayPacket::kRays> off_surface_m;
     for (std::size_t ray = 0; ray < RayPacket::kRays; ++ray) {
-      const bool is_hit = hits.face[ray] != kNoFace;  // else its place is that of the camera
+      const bool is_hit = hits.face[ray] != kNoFace;  // else it lies at the camera
       const Vec3f direction = directions_world.direction(ray);
       Vec3f normal = is_hit ? scene.normal_world(hits.face[ray]) : Vec3f::Zero();
       if (normal.dot(direction) > 0.0F) normal = -normal;  // faces have two sides

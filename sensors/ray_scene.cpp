@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::size_t kPacket = RayPacket::kRays;
 
-/// Rays that begin `near_m` from their origin and see everything; all else is still to be set.
-/// (Embree writes only tfar and the hit.)
+/// Rays that begin `near_m` from their origin and see all parts. Directions, tfar and geomID are
+/// still to be set. (Embree writes only tfar and the hit.)
 RTCRayHit16 packet_from(const Vec3f& origin_world_m, float near_m) {
   RTCRayHit16 packet{};
   std::fill_n(packet.ray.org_x, kPacket, origin_world_m.x());
@@ -51,8 +51,8 @@ RTCIntersectContext coherent_context() {
   return context;
 }
 
-/// Embree searches in float around the rounded point: the ball is kept a little larger than the
-/// distance found so far, which is measured in double.
+/// Embree searches in floats around the rounded point, while we measure distances in doubles: the
+/// ball that it searches is a little larger than the distance found so far.
 float search_radius_m(double distance_m) {
   return static_cast<float>(distance_m * 1.000001 + 1e-5);
 }
@@ -94,7 +94,7 @@ struct RayScene::Impl : EmbreeScene {
     rtcIntersect16(valid.data(), scene.get(), &context, &packet);
   }
 
-  /// store(i, packet) takes the answers of packet i.
+  /// Calls store(i, packet) with the answers of packet i.
   template <typename Store>
   void trace_packets(const Vec3f& origin_world_m, std::span<const RayPacket> directions_world,
                      float near_m, float far_m, const Store& store) const {
@@ -115,7 +115,7 @@ struct RayScene::Impl : EmbreeScene {
   /// To the nearest face of the masks, up to `limit_m`; infinity beyond.
   double distance_m(unsigned asked, const Vec3& p_world_m, double limit_m) const;
 
-  // Written so that 16 lanes at a time can be computed: everything is read, then chosen from.
+  // These two read everything first and then choose, so that the compiler can do 16 lanes at once.
   static float distance_m(const RTCRayHit16& answer, std::size_t lane) {
     const float tfar = answer.ray.tfar[lane];
     return answer.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID ? kNoReturn : tfar;

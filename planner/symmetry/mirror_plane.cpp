@@ -31,7 +31,8 @@ struct Mode {
   std::size_t votes;
 };
 
-/// One step: the mean of all within the bandwidth, back on the manifold of planes.
+/// One step of the mean shift: the mean of all planes within the bandwidth, with its normal scaled
+/// back to the radius.
 Mode shifted(const Vec4& at, std::span<const Vec4> all, const Extent& extent, double bandwidth_m) {
   Vec4 sum = Vec4::Zero();
   std::size_t votes = 0;
@@ -91,7 +92,7 @@ std::vector<PlaneCluster> cluster_planes(std::span<const MirrorPlane> planes, co
   }
   std::stable_sort(modes.begin(), modes.end(),
                    [](const Mode& a, const Mode& b) { return a.votes > b.votes; });
-  // of modes nearer than half a bandwidth the one with most votes stands for all
+  // of modes nearer to each other than half a bandwidth, the one with most votes stays
   std::vector<Mode> distinct;
   for (const Mode& mode : modes) {
     const bool is_new = std::none_of(distinct.begin(), distinct.end(), [&](const Mode& other) {

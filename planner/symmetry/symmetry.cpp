@@ -19,12 +19,12 @@ constexpr double kBandwidth_m = 0.6;
 constexpr std::size_t kMaxRefined = 5;
 constexpr double kRefineReach_m = 1.5;
 constexpr double kMaxGainOfRefining = 0.3;  // of support, with room: 0.15 on the aircraft
-constexpr double kMinMoved = 0.25;          // else nearly everything stays where it is
+constexpr double kMinMoved = 0.25;  // below that the plane leaves nearly all points in place
 constexpr std::size_t kMaxInliers = 4000;
 
 enum class Verdict { contradicted, open, confirmed };
 
-/// From the voxel and the 26 around it; those outside the grid are unknown.
+/// Looks at the voxel and the 26 around it. Voxels outside the grid count as unknown.
 Verdict verdict_at(const OccupancyGrid& grid, const Key& key) {
   const GridGeometry& geometry = grid.geometry();
   if (!geometry.contains(key)) return Verdict::contradicted;
@@ -43,7 +43,8 @@ Verdict verdict_at(const OccupancyGrid& grid, const Key& key) {
   return is_free ? Verdict::contradicted : Verdict::open;
 }
 
-/// Points the way to free space around the point, two voxels each way; zero where nothing is free.
+/// The direction from the point to the free voxels around it, two voxels each way; zero where none
+/// is free.
 Vec3f outward(const OccupancyGrid& grid, const Vec3f& p_world_m) {
   const GridGeometry& geometry = grid.geometry();
   const Key key = geometry.key_of(p_world_m);
@@ -67,7 +68,7 @@ std::vector<ProfilePoint> oriented(std::span<const Vec3f> profile_world_m,
   for (const Vec3f& p : profile_world_m) {
     if (p.allFinite()) out.push_back({p, outward(grid, p)});
   }
-  // each call of the module indexes all points anew: few and large pieces
+  // each call of the module builds an index of all points: few, large pieces
   const std::size_t piece = out.size() / static_cast<std::size_t>(std::max(threads, 1)) + 1;
   parallel_for_chunks(threads, out.size(), piece, [&](std::size_t begin, std::size_t end) {
     symmetry_module().estimate_normals(out, begin, end);
@@ -75,8 +76,8 @@ std::vector<ProfilePoint> oriented(std::span<const Vec3f> profile_world_m,
   return out;
 }
 
-/// Points whose voxel has kept its surface (a quarter of a profile's points on thin wings lie in
-/// voxels that other rays have cleared), at most so many, evenly chosen.
+/// Points that lie in occupied voxels, at most kMaxInliers of them, evenly chosen. (On thin wings a
+/// quarter of a profile's points lie in voxels that other rays have cleared.)
 std::vector<Vec3f> inliers(std::span<const Vec3f> profile_world_m, const OccupancyGrid& grid) {
   std::vector<Vec3f> all;
   for (const Vec3f& p : profile_world_m) {
@@ -90,7 +91,7 @@ std::vector<Vec3f> inliers(std::span<const Vec3f> profile_world_m, const Occupan
   return chosen;
 }
 
-/// Root mean square distance from the centroid.
+/// The centroid, and the root mean square distance from it.
 Extent extent_of(std::span<const Vec3f> points_world_m) {
   const auto count = static_cast<double>(points_world_m.size());
   Extent extent;
@@ -107,7 +108,7 @@ bool is_upright(const MirrorPlane& plane) {
   return std::fabs(plane.normal_world.z()) <= std::sin(kMaxTilt_rad);
 }
 
-/// The plane in the middle of each pair whose surfaces, too, mirror each other in it.
+/// For each pair the plane in its middle, if the normals of the two mirror each other in it, too.
 std::vector<MirrorPlane> mid_planes(std::span<const KeypointPair> pairs) {
   std::vector<MirrorPlane> planes;
   for (const KeypointPair& pair : pairs) {
@@ -127,8 +128,8 @@ struct Candidate {
   MirrorSupport support;
 };
 
-/// Those that mirror enough of the profile onto measured surface, and not onto itself; best
-/// supported first.
+/// The planes that mirror enough of the profile onto measured surface, and do not just leave it in
+/// place. The best supported comes first.
 std::vector<Candidate> judged(std::span<const MirrorPlane> planes,
                               std::span<const Vec3f> inliers_world_m, const OccupancyGrid& grid,
                               double min_confirmed) {
@@ -145,7 +146,7 @@ std::vector<Candidate> judged(std::span<const MirrorPlane> planes,
   return out;
 }
 
-/// The best of the candidates, each the only one within the reach of its refinement.
+/// The best candidates that lie farther apart than refining moves them.
 std::vector<MirrorPlane> worth_refining(std::span<const Candidate> candidates, double min_support,
                                         const Extent& extent) {
   std::vector<MirrorPlane> chosen;
@@ -159,7 +160,7 @@ std::vector<MirrorPlane> worth_refining(std::span<const Candidate> candidates, d
   return chosen;
 }
 
-/// The clusters of mid-planes of all pairs of keypoints.
+/// Clusters the mid-planes of all pairs of keypoints.
 std::vector<MirrorPlane> rough_planes(std::span<const ProfilePoint> profile, const Extent& extent) {
   std::vector<KeypointPair> pairs;
   symmetry_module().match_keypoints(profile, pairs);
@@ -214,7 +215,7 @@ Symmetry find_symmetry(const SymmetryConfig& config, std::span<const Vec3f> prof
   if (inliers_world_m.empty()) return symmetry;
   const std::vector<ProfilePoint> profile = oriented(profile_world_m, grid, threads);
   const Extent extent = extent_of(inliers_world_m);
-  // a plane found roughly misses thin wings: less is asked of it
+  // a rough plane misses thin wings, so it needs less confirmation
   const std::vector<Candidate> rough =
       judged(rough_planes(profile, extent), inliers_world_m, grid, 0.5 * config.min_confirmed);
   std::vector<MirrorPlane> planes =

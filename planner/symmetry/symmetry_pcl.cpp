@@ -31,8 +31,7 @@ constexpr int kNeighbours = 50;          // released: of normals and of features
 constexpr float kRefineLeaf_m = 0.2F;    // of the cloud that ICP aligns
 constexpr std::size_t kMatchesEach = 5;  // best matches of a keypoint
 
-/// Points with normals (curvature in its field). Points without a normal, as among duplicates, are
-/// left out.
+/// The points with normals and curvature. Leaves out points without a normal, such as duplicates.
 Cloud::Ptr with_normals(std::span<const ProfilePoint> profile) {
   auto cloud = pcl::make_shared<Cloud>();
   for (const ProfilePoint& from : profile) {
@@ -99,7 +98,7 @@ float distance2(const pcl::FPFHSignature33& a, const pcl::FPFHSignature33& b) {
   return sum;
 }
 
-/// For each keypoint those whose mirrored features are most like its own; nearest first.
+/// The keypoints whose features are most like the mirrored ones of keypoint `of`; the best first.
 std::vector<std::size_t> best_matches(const Features& features, std::size_t of) {
   const pcl::FPFHSignature33 wanted = mirrored(features[of]);
   std::vector<std::pair<float, std::size_t>> matches;
@@ -142,8 +141,8 @@ Cloud::Ptr mirrored(const Cloud& cloud, const MirrorPlane& plane) {
   return image;
 }
 
-/// The plane whose mirroring is nearest to mirroring at `plane`, then moving by T: the direction
-/// that the product turns around, through the middle between points and images.
+/// The plane that mirrors most like mirroring in `plane` followed by T does. Its normal is the
+/// direction that the two together turn around; it lies in the middle between centre and image.
 MirrorPlane moved(const MirrorPlane& plane, const Eigen::Matrix4f& T, const Vec3& center_world_m) {
   const Eigen::Matrix3d R = T.topLeftCorner<3, 3>().cast<double>();
   const Vec3& n = plane.normal_world;

@@ -33,8 +33,8 @@ std::string host_name() {
   return name.data();
 }
 
-/// The extension stays last, since some libraries choose the format by it; the process and its
-/// machine are named, since others may write the same file.
+/// The extension stays last, because some libraries choose the format by it. The name holds the
+/// process and its machine, because others may write the same file.
 fs::path temporary_of(const fs::path& path) {
   fs::path part = path;
   part.replace_filename(fmt::format(".{}{}{}-{}{}", path.stem().string(), kTemporary, host_name(),
@@ -42,7 +42,7 @@ fs::path temporary_of(const fs::path& path) {
   return part;
 }
 
-/// Whether its writer still runs. Of another machine's nobody knows: it is taken for dead.
+/// Whether its writer still runs. Nobody knows about writers on other machines: they count as dead.
 bool has_living_writer(const fs::path& temporary) {
   const std::string name = temporary.filename().string();
   const std::string host = std::string(kTemporary) + host_name() + "-";
@@ -55,7 +55,7 @@ bool has_living_writer(const fs::path& temporary) {
   return kill(process, 0) == 0 || errno == EPERM;
 }
 
-/// Writes all of it with the kernel's own calls, whose errors name their cause.
+/// Writes all of it by system calls: their errors name the cause.
 void write_whole(const fs::path& part, const fs::path& path, std::string_view content) {
   const int file = open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file < 0) refuse_to_write(path, errno);
@@ -72,12 +72,12 @@ void write_whole(const fs::path& part, const fs::path& path, std::string_view co
   if (close(file) != 0) refuse_to_write(path, errno);
 }
 
-/// Some file systems cannot, and say so: no reason to give up.
+/// Some file systems cannot sync and say so. That is no reason to give up.
 bool cannot_be_synced(int error) {
   return error == EINVAL || error == ENOTSUP || error == EROFS || error == EBADF;
 }
 
-/// Whether the path still names the open file: who held the lock may have removed it.
+/// Whether the path still names the open file: the process that held the lock may have removed it.
 bool is_still_there(int descriptor, const fs::path& path) {
   struct stat open_file {};
   struct stat named_file {};
@@ -188,7 +188,7 @@ bool make_folder(const fs::path& folder) {
 }
 
 std::optional<FileLock> FileLock::take(const fs::path& path) {
-  // is_locked() of another process holds it for a moment: that is no reason to give up
+  // is_locked() of another process holds the lock for a moment: try again
   for (int attempt = 0; attempt < 5; ++attempt) {
     FileLock lock(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
     if (lock.descriptor_ < 0) refuse_to_write(path, errno);

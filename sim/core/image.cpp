@@ -15,7 +15,7 @@ namespace {
 
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
-// libpng's error callback must not return; its message is kept and control jumps back to encode().
+// libpng's error callback must not return: it keeps the message and jumps back to encode().
 struct PngError {
   std::string message;
 };
@@ -27,7 +27,7 @@ void keep_message(png_structp png, png_const_charp message) {
 
 void ignore_warning(png_structp, png_const_charp) {}
 
-/// What libpng is told of a picture: rows of bytes, in the machine's own byte order.
+/// A picture as libpng takes it: rows of bytes, in the byte order of this machine.
 struct Rows {
   int width_px = 0;
   int height_px = 0;
@@ -37,7 +37,7 @@ struct Rows {
   const std::uint8_t* bytes = nullptr;
 };
 
-// Everything between setjmp and longjmp is plain data owned by the caller: nothing needs unwinding.
+// Between setjmp and longjmp there is only plain data of the caller: nothing needs a destructor.
 bool encode(std::FILE* file, const Rows& rows, PngError& error) {
   png_structp png =
       png_create_write_struct(PNG_LIBPNG_VER_STRING, &error, keep_message, ignore_warning);
@@ -64,7 +64,7 @@ bool encode(std::FILE* file, const Rows& rows, PngError& error) {
 
 void write_rows(const Rows& rows, const std::filesystem::path& path, Lasting lasting) {
   const auto write = [&](const std::filesystem::path& part) {
-    PngError error;  // says "Write Error", where the system knows why
+    PngError error;  // libpng only says "Write Error"; errno knows why
     errno = 0;
     File file(std::fopen(part.c_str(), "wb"), &std::fclose);
     bool is_written = file && encode(file.get(), rows, error);

@@ -12,7 +12,8 @@
 namespace gnbv {
 namespace {
 
-/// More than any module maps with what it needs; the loader does not tell want of memory apart.
+/// More than any module and its libraries map. The loader reports a lack of memory as any other
+/// error, so we ask for this much before we believe it.
 constexpr std::size_t kModule_bytes = 256U << 20U;
 
 std::string path_of(void* library, const std::string& file) {
@@ -24,7 +25,7 @@ std::string path_of(void* library, const std::string& file) {
 }  // namespace
 
 void* function_in_module(const ModulePlace& place, const char* name) {
-  void* library = nullptr;  // opened twice, it is the same one
+  void* library = nullptr;  // a library that is opened twice is loaded once
   std::string reasons;
   for (const std::string& path :
        {"$ORIGIN/" + place.file, "$ORIGIN/../lib/gnbv/" + place.file, place.file, place.as_built}) {

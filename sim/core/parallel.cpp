@@ -17,7 +17,8 @@ namespace {
 
 using Task = std::function<void(std::size_t)>;
 
-/// A fork under way: whoever takes part takes the next index until none is left.
+/// A call of parallel_for() under way. Each thread that takes part runs the next index until none
+/// is left.
 class Fork {
  public:
   Fork(const Task& task, std::size_t count, std::size_t helpers)
@@ -32,7 +33,7 @@ class Fork {
     if (error_) std::rethrow_exception(error_);
   }
 
-  // of the pool, under its lock
+  // the pool reads and writes these under its lock
   std::size_t to_come;      // helpers that may still join
   std::size_t helping = 0;  // those that have joined and not left
   std::condition_variable left;
@@ -57,9 +58,9 @@ class Fork {
   std::exception_ptr error_;
 };
 
-/// Threads that wait for forks, as many as any call has asked for, for as long as the process
-/// lives. Who forks works too, and waits only for pieces that others have begun: a pool that is
-/// busy elsewhere, or has no core, delays nobody, and nested forks cannot lock each other out.
+/// Threads that wait for forks, as many as the largest call has asked for. They live as long as the
+/// process. The caller works as well, and waits only for pieces that other threads have begun. So a
+/// busy pool, or one without a free core, delays no caller, and nested forks cannot deadlock.
 class Pool {
  public:
   void run(Fork& fork) {
@@ -78,7 +79,7 @@ class Pool {
   }
 
  private:
-  /// Fewer where the system gives no more threads.
+  /// Adds fewer threads when the system refuses more.
   void add_workers(std::size_t wanted) {
     try {
       for (; workers_ < wanted; ++workers_) std::thread([this] { work(); }).detach();
@@ -89,7 +90,7 @@ class Pool {
   [[noreturn]] void work() {
     std::unique_lock lock(mutex_);
     while (true) {
-      // the youngest first: somebody waits for it who is needed elsewhere
+      // the youngest fork first: its caller is itself a part of an older fork
       const auto open = std::find_if(forks_.rbegin(), forks_.rend(), [](const Fork* fork) {
         return fork->to_come > 0 && fork->has_work();
       });
@@ -106,7 +107,7 @@ class Pool {
   void help(Fork& fork, std::unique_lock<std::mutex>& lock) {
     --fork.to_come;
     ++fork.helping;
-    const std::size_t first = fork.take();  // under the lock: who has joined has begun
+    const std::size_t first = fork.take();  // under the lock: a thread that has joined has begun
     lock.unlock();
     fork.run_from(first);
     lock.lock();
@@ -120,8 +121,8 @@ class Pool {
   std::size_t idle_ = 0;
 };
 
-/// Never destroyed, since its threads wait in it until the process ends; made anew in a child
-/// process, which has none of them.
+/// Never destroyed, because its threads wait in it until the process ends. A child process, which
+/// has none of these threads, makes a new one.
 Pool& the_pool() {
   alignas(Pool) static std::byte memory[sizeof(Pool)];
   static const bool is_made = [] {

@@ -56,7 +56,7 @@ void add(FaceTally& tally, double area) {
   tally.area_m2 += area;
 }
 
-/// `faces` sorted: those of the same corners stand together, those of one sense first.
+/// In the sorted `faces`, those with the same corners stand together, those of one sense first.
 void tally_twins(const TriangleMesh& mesh, const std::vector<SortedFace>& faces, MeshLint& out) {
   for (std::size_t begin = 0, end = 0; begin < faces.size(); begin = end) {
     while (end < faces.size() && faces[end].has_corners_of(faces[begin])) ++end;

@@ -41,7 +41,7 @@ bool has_control_bytes(std::string_view line) {
   });
 }
 
-/// A grey where there is one number; nothing where it is a spectrum or unreadable.
+/// One number means a grey. Nothing for a spectrum or unreadable numbers.
 std::optional<std::array<float, 3>> colour_in(Words words) {
   std::array<float, 3> rgb{};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -130,7 +130,7 @@ std::vector<Material> ObjMaterials::materials() const {
   return out;
 }
 
-/// Lines of one kind that were left out, for one warning.
+/// Counts the lines of one kind that were left out, for one warning.
 struct Dropped {
   std::size_t count = 0;
   std::size_t first_line = 0;
@@ -231,7 +231,7 @@ class ObjReader {
 
   void use_library(const std::string& name) {
     const std::filesystem::path library = path_.parent_path() / name;
-    std::error_code ignored;  // what cannot be asked about is not found either
+    std::error_code ignored;  // a file that we may not ask about counts as not found
     if (std::filesystem::is_regular_file(library, ignored)) return materials_.read_library(library);
     warnings_.push_back(
         fmt::format("{}:{}: material file {} not found", path_.string(), line_, name));

@@ -7,7 +7,8 @@
 namespace gnbv {
 namespace {
 
-/// Of a well-formed number far from 1: by the power of ten of its first digit that is not 0.
+/// Whether a well-formed number far from 1 is below it: looks at the power of ten of its first
+/// digit that is not 0.
 bool is_below_one(std::string_view word) {
   const std::size_t e = std::min(word.find_first_of("eE"), word.size());
   long long power = 0;

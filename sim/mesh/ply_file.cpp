@@ -24,7 +24,7 @@ class Colours {
       const PlyType& type = *element_.properties[*column].type;
       const double full = type.is_real ? 1.0 : std::ldexp(1.0, 8 * type.bytes) - 1.0;
       const double level = item.numbers[*column] / full;
-      // what is not a number is dark
+      // NaN counts as 0
       rgb = rgb << 8 | static_cast<std::uint32_t>(
                            std::lround(255.0 * (level >= 0.0 ? std::min(level, 1.0) : 0.0)));
     }
@@ -104,7 +104,7 @@ class PlyMeshReader {
     }
   }
 
-  /// Of any vertices: a file may put those last.
+  /// Takes vertices of any number: a file may list the vertices after the faces.
   void add_face(const std::vector<double>& vertices) {
     for (const double vertex : vertices) {
       const bool is_possible = vertex >= 0.0 && vertex < kNoVertex;

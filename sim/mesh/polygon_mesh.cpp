@@ -21,8 +21,8 @@ double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
   return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
 }
 
-/// Cuts up polygons, one after the other with the same memory. Corners go by their place in the
-/// polygon, counted from 0.
+/// Cuts up polygons, one after the other, and reuses its memory. It numbers corners by their place
+/// in the polygon, from 0.
 class EarClipper {
  public:
   void cut(std::span<const std::uint32_t> corners, const std::vector<Vec3>& vertices,
@@ -45,7 +45,7 @@ class EarClipper {
       } else {
         b = next_[b];
         if (++tried < left) continue;
-        // never back to more care: what has no clean ear once is no simple polygon
+        // less care from now on: a polygon without a clean ear is not simple
         care = care == Care::clean ? Care::thin : Care::none;
         tried = 0;
       }
@@ -56,11 +56,12 @@ class EarClipper {
  private:
   enum class Care {
     clean,  // the ear has an area, and no other corner in it or on its border
-    thin,   // others may lie on its border
-    none
+    thin,   // the ear has an area; other corners may lie on its border
+    none    // any corner will do
   };
 
-  /// Along the axis that is nearest to the Newell normal, seen from where it points to.
+  /// Projects the polygon along the axis nearest to its Newell normal, as seen from the side that
+  /// the normal points to.
   void lay_flat(std::span<const std::uint32_t> corners, const std::vector<Vec3>& vertices) {
     const Vec3& origin = vertices[corners[0]];
     Vec3 normal = Vec3::Zero();
@@ -103,11 +104,11 @@ class EarClipper {
         std::max({(p_b - p_a).squaredNorm(), (p_c - p_b).squaredNorm(), (p_a - p_c).squaredNorm()});
     const double area2 = turn(p_a, p_b, p_c);
     const double flat2 = 1e-7 * longest2;  // as is_flat() of sim/mesh/mesh_lint.hpp
-    // there and back: without area, and in the way of others
+    // the edge goes there and back: the corner has no area and would block others
     if (std::abs(area2) <= flat2 && (p_a - p_b).dot(p_c - p_b) >= 0.0) return true;
-    // a corner within a straight edge is left to others
+    // a corner within a straight edge is no ear
     if (!(area2 > (care == Care::clean ? flat2 : 0.0))) return false;
-    // where any corner lies in a triangle, one does at which the polygon is hollow
+    // if any corner lies in the triangle, then a hollow one does
     return std::none_of(hollow_.begin(), hollow_.end(),
                         [&](std::uint32_t corner) { return is_in_the_way(corner, b, care); });
   }
@@ -117,13 +118,13 @@ class EarClipper {
     const std::uint32_t c = next_[b];
     if (corner == a || corner == b || corner == c) return false;
     const Vec2& p = at_[corner];
-    if (p == at_[a] || p == at_[c]) return false;  // as at both ends of the bridge to a hole
+    if (p == at_[a] || p == at_[c]) return false;  // at both ends of a bridge to a hole
     const double least =
         std::min({turn(at_[a], at_[b], p), turn(at_[b], at_[c], p), turn(at_[c], at_[a], p)});
     return care == Care::clean ? least >= 0.0 : least > 0.0;
   }
 
-  /// Takes the corner out; the next one is returned.
+  /// Takes the corner out and returns the next one.
   std::uint32_t clipped(std::uint32_t b) {
     next_[previous_[b]] = next_[b];
     previous_[next_[b]] = previous_[b];
@@ -136,7 +137,7 @@ class EarClipper {
 
   std::vector<Vec2> at_;
   std::vector<std::uint32_t> next_, previous_;
-  std::vector<std::uint32_t> hollow_;  // the corners left at which the inside is not convex
+  std::vector<std::uint32_t> hollow_;  // the remaining corners at which the polygon is not convex
 };
 
 std::uint32_t mean_rgb(const std::vector<std::uint32_t>& vertex_rgb,
@@ -176,7 +177,7 @@ Material material_of(std::uint32_t rgb) {
   return {.name = fmt::format("colour_{:06x}", rgb), .rgb = {linear(16), linear(8), linear(0)}};
 }
 
-/// clear() would keep the memory.
+/// Frees the memory, which clear() would keep.
 template <typename T>
 void give_back(std::vector<T>& used) {
   std::vector<T>().swap(used);
@@ -226,7 +227,7 @@ TriangleMesh triangulated(PolygonMesh polygons) {
   TriangleMesh mesh;
   mesh.materials = std::move(polygons.materials);
   cut_faces(polygons, mesh);
-  // each freed as soon as it is used, since large files are as large as the memory
+  // free each one as soon as it is used: a large file may fill the memory
   give_back(polygons.corners);
   give_back(polygons.face_ends);
   give_back(polygons.face_material);
