@@ -16,7 +16,7 @@
 #include "tools/mission/belief_log.hpp"
 #include "tools/run_files/candidates_jsonl.hpp"
 #include "tools/run_files/iterations_csv.hpp"
-#include "tools/run_files/profile_map.hpp"
+#include "planner/core/belief_file.hpp"
 
 namespace gnbv {
 namespace {

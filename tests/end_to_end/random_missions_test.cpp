@@ -16,7 +16,7 @@
 #include "tests/support/watch.hpp"
 #include "tools/mission/auto_bounds.hpp"
 #include "tools/mission/mission.hpp"
-#include "tools/run_files/profile_map.hpp"
+#include "planner/core/belief_file.hpp"
 
 namespace gnbv {
 namespace {

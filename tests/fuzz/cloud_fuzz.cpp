@@ -10,7 +10,7 @@
 #include "tests/fuzz/written.hpp"
 #include "tools/exports/octomap_voxels.hpp"
 #include "tools/run_files/cloud_file.hpp"
-#include "tools/run_files/profile_map.hpp"
+#include "planner/core/belief_file.hpp"
 
 namespace gnbv {
 namespace {

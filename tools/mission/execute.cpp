@@ -21,7 +21,7 @@
 #include "tools/run_files/file_names.hpp"
 #include "tools/run_files/frames_folder.hpp"
 #include "tools/run_files/iterations_csv.hpp"
-#include "tools/run_files/profile_map.hpp"
+#include "planner/core/belief_file.hpp"
 #include "tools/run_files/run_claim.hpp"
 #include "tools/run_files/run_commands.hpp"
 #include "tools/run_files/run_directory.hpp"

@@ -2,7 +2,7 @@
 #include "planner/motion/free_space.hpp"
 #include "tools/mission/mission_state.hpp"
 #include "tools/mission/sensing.hpp"
-#include "tools/run_files/profile_map.hpp"
+#include "planner/core/belief_file.hpp"
 
 namespace gnbv {
 namespace {

@@ -13,7 +13,7 @@
 #include "tools/run_files/iterations_csv.hpp"
 #include "tools/run_files/plan_jsonl.hpp"
 #include "tools/run_files/predictions_csv.hpp"
-#include "tools/run_files/profile_map.hpp"
+#include "planner/core/belief_file.hpp"
 #include "tools/run_files/run_claim.hpp"
 #include "tools/run_files/run_commands.hpp"
 #include "tools/run_files/summary_json.hpp"

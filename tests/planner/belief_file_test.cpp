@@ -1,5 +1,5 @@
 // A belief that was saved and loaded is the one that was not, and nothing else is ever loaded.
-#include "tools/run_files/profile_map.hpp"
+#include "planner/core/belief_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "tools/run_files/profile_map.hpp"
+#include "planner/core/belief_file.hpp"
 
 #include <bit>
 #include <cstring>
@@ -55,22 +55,11 @@ std::string digest_of(std::string_view content) {
   return sha.hex();
 }
 
-class Writer {
- public:
-  template <typename T>
-  requires std::is_arithmetic_v<T>
-  void put(T value) { bytes_.append(reinterpret_cast<const char*>(&value), sizeof(value)); }
-  void put(std::string_view text) { bytes_ += text; }
-  /// Seven bits a byte, the lowest first; the high bit says that more follow.
-  void put_count(std::uint64_t count) {
-    for (; count >= 0x80; count >>= 7) put(static_cast<std::uint8_t>(count | 0x80));
-    put(static_cast<std::uint8_t>(count));
-  }
-  const std::string& bytes() const { return bytes_; }
-
- private:
-  std::string bytes_;
-};
+/// Appends seven bits a byte, the lowest first; the high bit says that more follow.
+void put_count(std::uint64_t count, std::string& out) {
+  for (; count >= 0x80; count >>= 7) append_bytes(out, static_cast<std::uint8_t>(count | 0x80));
+  append_bytes(out, static_cast<std::uint8_t>(count));
+}
 
 /// Takes a file apart, and throws BadInput where it ends too early.
 class Reader {
@@ -108,10 +97,10 @@ class Reader {
   const std::filesystem::path& path_;
 };
 
-void put_points(std::span<const Vec3f> points_m, Writer& out) {
-  out.put(static_cast<std::uint64_t>(points_m.size()));
+void put_points(std::span<const Vec3f> points_m, std::string& out) {
+  append_bytes(out, static_cast<std::uint64_t>(points_m.size()));
   for (const Vec3f& p_m : points_m) {
-    for (Eigen::Index a = 0; a < 3; ++a) out.put(p_m[a]);
+    for (Eigen::Index a = 0; a < 3; ++a) append_bytes(out, p_m[a]);
   }
 }
 
@@ -130,7 +119,7 @@ Run run_of(const OccupancyGrid& grid, VoxelIndex v) {
   return grid.is_predicted(v) ? Run::predicted : Run::unmeasured;
 }
 
-void put_voxels(const OccupancyGrid& grid, Writer& out) {
+void put_voxels(const OccupancyGrid& grid, std::string& out) {
   const auto voxels = static_cast<VoxelIndex>(grid.geometry().voxel_count());
   for (VoxelIndex first = 0; first < voxels;) {
     const Run run = run_of(grid, first);
@@ -140,9 +129,9 @@ void put_voxels(const OccupancyGrid& grid, Writer& out) {
            std::bit_cast<std::uint32_t>(grid.log_odds(end)) == bits) {
       ++end;
     }
-    out.put(static_cast<std::uint8_t>(run));
-    out.put_count(end - first);
-    if (run == Run::measured) out.put(bits);
+    append_bytes(out, static_cast<std::uint8_t>(run));
+    put_count(end - first, out);
+    if (run == Run::measured) append_bytes(out, bits);
     first = end;
   }
 }
@@ -170,16 +159,16 @@ void take_voxels(Reader& in, OccupancyGrid& grid) {
 }
 
 /// Shaded voxels as distances from one to the next, each with its steps behind the surface.
-void put_shadow(const Belief& belief, Writer& out) {
+void put_shadow(const Belief& belief, std::string& out) {
   const auto voxels = static_cast<VoxelIndex>(belief.grid.geometry().voxel_count());
   VoxelIndex last = 0;
   for (VoxelIndex v = 0; v < voxels; ++v) {
     if (!belief.grid.is_shaded(v)) continue;
-    out.put(static_cast<std::uint8_t>(belief.shadow.steps_behind(v)));
-    out.put_count(v - last);
+    append_bytes(out, static_cast<std::uint8_t>(belief.shadow.steps_behind(v)));
+    put_count(v - last, out);
     last = v;
   }
-  out.put(std::uint8_t{0});  // steps of none: the end
+  append_bytes(out, std::uint8_t{0});  // steps of none: the end
 }
 
 void take_shadow(Reader& in, Belief& belief) {
@@ -212,15 +201,14 @@ std::string_view checked_body(std::string_view content, const Reader& in) {
 }  // namespace
 
 void write_belief(const Belief& belief, const std::filesystem::path& path) {
-  Writer out;
-  out.put(kFirstLine);
-  for (const Setting& setting : settings_of(belief)) out.put(setting.value);
-  out.put(static_cast<std::uint8_t>(belief.has_depth_return));
+  std::string out(kFirstLine);
+  for (const Setting& setting : settings_of(belief)) append_bytes(out, setting.value);
+  append_bytes(out, static_cast<std::uint8_t>(belief.has_depth_return));
   put_points(belief.cloud.points_world_m(), out);
   put_voxels(belief.grid, out);
   put_shadow(belief, out);
-  out.put(digest_of(out.bytes()));
-  write_file_atomically(path, out.bytes());
+  out += digest_of(out);
+  write_file_atomically(path, out);
 }
 
 Belief read_belief(const std::filesystem::path& path, const PlannerModel& model) {
