@@ -32,6 +32,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/gnbv-config-version.cmake
 install(FILES packaging/gnbv-config.cmake ${PROJECT_BINARY_DIR}/gnbv-config-version.cmake
   DESTINATION ${config_folder} COMPONENT dev)
 install(SCRIPT packaging/install_headers.cmake COMPONENT dev)
+install(DIRECTORY examples/onboard DESTINATION share/doc/gnbv/examples COMPONENT dev)
 
 # ---- the packages ---------------------------------------------------------------------------------
 set(CPACK_GENERATOR DEB)

@@ -9,11 +9,10 @@
 
 namespace gnbv {
 
-/// Reads the shape and the diffuse colours of its materials; normals
-/// and texture coordinates are left out. Unreadable lines and faces of vertices that do not exist
-/// are left out too and counted in `warnings`, as long as the numbering of the vertices is beyond
-/// doubt. Throws BadInput naming the line where it is not (unreadable beside a vertex, and more
-/// vertices to come).
+/// Reads the shape and the diffuse colours of its materials, but no normals and no texture
+/// coordinates. Leaves out unreadable lines and faces of vertices that do not exist, and counts
+/// them in `warnings`. Throws BadInput naming the line where that could number vertices wrongly: an
+/// unreadable line beside a vertex, with more vertices after it.
 PolygonMesh read_obj(const std::filesystem::path& path, std::vector<std::string>& warnings);
 
 /// Reads vertices (x, y, z), faces (vertex_indices or vertex_index) and their red, green and blue,
