@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "planner/core/belief_file.hpp"
 #include "planner/guided/utility.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
@@ -16,7 +17,6 @@
 #include "tools/mission/belief_log.hpp"
 #include "tools/run_files/candidates_jsonl.hpp"
 #include "tools/run_files/iterations_csv.hpp"
-#include "planner/core/belief_file.hpp"
 
 namespace gnbv {
 namespace {

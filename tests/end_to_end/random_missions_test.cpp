@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "planner/core/belief_file.hpp"
 #include "planner/guided/utility.hpp"
 #include "scenarios/load.hpp"
 #include "tests/support/random_structures.hpp"
@@ -16,7 +17,6 @@
 #include "tests/support/watch.hpp"
 #include "tools/mission/auto_bounds.hpp"
 #include "tools/mission/mission.hpp"
-#include "planner/core/belief_file.hpp"
 
 namespace gnbv {
 namespace {

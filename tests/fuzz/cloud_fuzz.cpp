@@ -5,12 +5,12 @@
 #include <string>
 #include <string_view>
 
+#include "planner/core/belief_file.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/sha256.hpp"
 #include "tests/fuzz/written.hpp"
 #include "tools/exports/octomap_voxels.hpp"
 #include "tools/run_files/cloud_file.hpp"
-#include "planner/core/belief_file.hpp"
 
 namespace gnbv {
 namespace {

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "bench/limits/oracle.hpp"
+#include "planner/core/belief_file.hpp"
 #include "planner/map/memory.hpp"
 #include "planner/symmetry/symmetry_module.hpp"
 #include "sim/core/error.hpp"
@@ -21,7 +22,6 @@
 #include "tools/run_files/file_names.hpp"
 #include "tools/run_files/frames_folder.hpp"
 #include "tools/run_files/iterations_csv.hpp"
-#include "planner/core/belief_file.hpp"
 #include "tools/run_files/run_claim.hpp"
 #include "tools/run_files/run_commands.hpp"
 #include "tools/run_files/run_directory.hpp"

@@ -1,8 +1,8 @@
 // The first stage of a mission: the profile, and what is made of it before the first view.
+#include "planner/core/belief_file.hpp"
 #include "planner/motion/free_space.hpp"
 #include "tools/mission/mission_state.hpp"
 #include "tools/mission/sensing.hpp"
-#include "planner/core/belief_file.hpp"
 
 namespace gnbv {
 namespace {

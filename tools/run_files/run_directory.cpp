@@ -2,6 +2,7 @@
 
 #include <cerrno>
 
+#include "planner/core/belief_file.hpp"
 #include "planner/map/octomap_io.hpp"
 #include "planner/planners.hpp"
 #include "scenarios/load.hpp"
@@ -13,7 +14,6 @@
 #include "tools/run_files/iterations_csv.hpp"
 #include "tools/run_files/plan_jsonl.hpp"
 #include "tools/run_files/predictions_csv.hpp"
-#include "planner/core/belief_file.hpp"
 #include "tools/run_files/run_claim.hpp"
 #include "tools/run_files/run_commands.hpp"
 #include "tools/run_files/summary_json.hpp"

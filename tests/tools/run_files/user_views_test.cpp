@@ -1,5 +1,7 @@
 // Views that users give: what is read, what is refused, and that nothing is lost on the way to the
 // scenario and back.
+#include "tools/run_files/user_views.hpp"
+
 #include <gtest/gtest.h>
 
 #include "scenarios/load.hpp"
@@ -7,7 +9,6 @@
 #include "sim/core/file.hpp"
 #include "sim/core/rng.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tools/run_files/user_views.hpp"
 
 namespace gnbv {
 namespace {
