@@ -1,56 +1,25 @@
 #include "sim/flight/failsafe.hpp"
 
+#include <array>
 #include <optional>
-
-#include "sim/core/error.hpp"
 
 namespace gnbv {
 namespace {
 
 /// Nothing for `disarm`, which is not a mode.
 std::optional<NavState> mode_of(OffboardLossAction action) {
-  switch (action) {
-    case OffboardLossAction::position:
-      return NavState::position;
-    case OffboardLossAction::altitude:
-      return NavState::altitude;
-    case OffboardLossAction::stabilized:
-      return NavState::stabilized;
-    case OffboardLossAction::rtl:
-      return NavState::rtl;
-    case OffboardLossAction::land:
-      return NavState::land;
-    case OffboardLossAction::hold:
-      return NavState::hold;
-    case OffboardLossAction::terminate:
-      return NavState::terminate;
-    case OffboardLossAction::disarm:
-      return std::nullopt;
-  }
-  throw BrokenInvariant("offboard loss action outside its enumeration");
+  constexpr std::array<std::optional<NavState>, 8> kModes = {
+      NavState::position, NavState::altitude, NavState::stabilized, NavState::rtl,
+      NavState::land,     NavState::hold,     NavState::terminate,  std::nullopt};
+  return kModes.at(static_cast<std::size_t>(action));
 }
 
 }  // namespace
 
 bool can_run(NavState mode, bool has_offboard_stream) {
-  switch (mode) {
-    case NavState::manual:
-    case NavState::stabilized:
-    case NavState::altitude:
-    case NavState::position:
-    case NavState::mission:
-      return false;
-    case NavState::hold:
-    case NavState::rtl:
-    case NavState::takeoff:
-    case NavState::land:
-    case NavState::descend:
-    case NavState::terminate:
-      return true;
-    case NavState::offboard:
-      return has_offboard_stream;
-  }
-  throw BrokenInvariant("navigation state outside its enumeration");
+  const bool needs_remote_control = mode < NavState::hold;
+  if (mode == NavState::offboard) return has_offboard_stream;
+  return !needs_remote_control && mode != NavState::mission;
 }
 
 bool prevents_arming(NavState mode) {

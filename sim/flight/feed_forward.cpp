@@ -28,8 +28,8 @@ Vec3 acceleration_setpoint(const AirframeParameters& airframe, const AutopilotPa
   }
   // position_control tilts by a_xy over g, and takes the command's vertical part for 1 + a_z / g
   // of the hover command
-  const double command = (speed_rad_s - airframe.idle_speed_rad_s) / airframe.command_gain_rad_s;
-  const double lift = command * body_z_world.z() / hover_command(airframe);
+  const double lift =
+      command_at_speed(airframe, speed_rad_s) * body_z_world.z() / hover_command(airframe);
   const Vec3 setpoint =
       airframe.gravity_m_s2 *
       Vec3(body_z_world.x() / body_z_world.z(), body_z_world.y() / body_z_world.z(), lift - 1.0);

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "sim/core/error.hpp"
+#include "sim/flight/endurance.hpp"
 #include "sim/flight/rotors.hpp"
 
 namespace gnbv {
@@ -38,8 +39,7 @@ double ground_height_m(const World& world, const Vec3& at_m) {
 class IdealFlight final : public Flight {
  public:
   IdealFlight(const VehicleConfig& config, const World& world, const ViewPose& start)
-      : hover_power_w_(power_w(config.power, config.airframe.mass_kg * config.airframe.gravity_m_s2,
-                               Vec3::Zero())),
+      : hover_power_w_(hover_power_w(config)),
         land_speed_m_s_(config.autopilot.commander.land_speed_m_s),
         ground_{.structure = {}, .has_ground = world.has_ground, .terrain = world.terrain},
         pose_(start) {

@@ -15,34 +15,6 @@ constexpr std::uint16_t kDoSetMode = 176;
 constexpr std::uint16_t kComponentArmDisarm = 400;
 constexpr long kForce = 21196;
 
-/// PX4's custom modes (px4_custom_mode.h).
-std::optional<NavState> custom_mode(long main_mode, long sub_mode) {
-  constexpr std::array<std::optional<NavState>, 7> kAuto = {NavState::hold /* no sub mode */,
-                                                            std::nullopt /* ready */,
-                                                            NavState::takeoff,
-                                                            NavState::hold,
-                                                            NavState::mission,
-                                                            NavState::rtl,
-                                                            NavState::land};
-  switch (main_mode) {
-    case 1:
-      return NavState::manual;
-    case 2:
-      return NavState::altitude;
-    case 3:
-      return NavState::position;
-    case 4:
-      return sub_mode >= 0 && sub_mode < 7 ? kAuto[static_cast<std::size_t>(sub_mode)]
-                                           : std::nullopt;
-    case 6:
-      return NavState::offboard;
-    case 7:
-      return NavState::stabilized;
-    default:
-      return std::nullopt;
-  }
-}
-
 }  // namespace
 
 Ack Px4::command(const Px4Command& command) {
@@ -54,7 +26,7 @@ Ack Px4::command(const Px4Command& command) {
       if (whole(0) != 0 && whole(0) != 1) return Ack::unsupported;
       return arm(whole(0) == 1, whole(1) == kForce);
     case kDoSetMode: {
-      const std::optional<NavState> mode = custom_mode(whole(1), whole(2));
+      const std::optional<NavState> mode = nav_state_of(whole(1), whole(2));
       if (!mode) {
         say(2, "Unsupported mode");
         return Ack::temporarily_rejected;
@@ -128,7 +100,7 @@ void Px4::disarm_when_due() {
   const CommanderParameters& commander = parameters_.commander;
   const double wait_s =
       has_flown_ ? commander.disarm_after_landing_s : commander.disarm_never_flown_s;
-  if (!land_.is_landed || (!has_flown_ && wait_s == 0.0)) return;
+  if (!land_.is_landed || wait_s <= 0.0) return;
   if (static_cast<double>(landed_ticks_) * kTick_s >= wait_s) disarm();
 }
 

@@ -29,9 +29,16 @@ double hover_speed_rad_s(const AirframeParameters& airframe) {
       weight_n / (static_cast<double>(airframe.rotors.size()) * airframe.thrust_coefficient_n_s2));
 }
 
+double command_at_speed(const AirframeParameters& airframe, double speed_rad_s) {
+  return (speed_rad_s - airframe.idle_speed_rad_s) / airframe.command_gain_rad_s;
+}
+
+double needed_hover_command(const AirframeParameters& airframe) {
+  return command_at_speed(airframe, hover_speed_rad_s(airframe));
+}
+
 double hover_command(const AirframeParameters& airframe) {
-  const double command =
-      (hover_speed_rad_s(airframe) - airframe.idle_speed_rad_s) / airframe.command_gain_rad_s;
+  const double command = needed_hover_command(airframe);
   GNBV_CHECK(command > 0.0 && command < 1.0, "hover command {} is not in (0, 1)", command);
   return command;
 }
@@ -97,16 +104,6 @@ double power_w(const PowerParameters& power, double thrust_n, const Vec3& v_worl
   const double profile_w = power.c2 * thrust_n * std::sqrt(thrust_n);
   const double parasitic_w = power.c4 * v_horizontal_m_s * v_horizontal_m_s * v_horizontal_m_s;
   return induced_w + profile_w + parasitic_w;
-}
-
-double landing_energy_wh(const VehicleConfig& vehicle, double height_m) {
-  const AirframeParameters& airframe = vehicle.airframe;
-  const CommanderParameters& commander = vehicle.autopilot.commander;
-  const double hover_w =
-      power_w(vehicle.power, airframe.mass_kg * airframe.gravity_m_s2, Vec3::Zero());
-  const double duration_s = std::max(0.0, height_m) / commander.land_speed_m_s +
-                            commander.land_detection_s + commander.disarm_after_landing_s;
-  return hover_w * duration_s / kJoulesPerWattHour;
 }
 
 }  // namespace gnbv

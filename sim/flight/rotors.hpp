@@ -16,8 +16,13 @@ double rotor_speed_after(const AirframeParameters& airframe, double speed_rad_s,
 /// References of armed rotors.
 RotorSpeeds reference_speeds(const AirframeParameters& airframe, const RotorCommands& commands);
 
+/// The command for which an armed rotor's reference is that speed.
+double command_at_speed(const AirframeParameters& airframe, double speed_rad_s);
+
 double hover_speed_rad_s(const AirframeParameters& airframe);
-/// The command, of [0, 1], at which thrust equals weight. Throws BrokenInvariant when out of reach.
+/// The command at which thrust equals weight; not in (0, 1) where the vehicle cannot hover.
+double needed_hover_command(const AirframeParameters& airframe);
+/// The same of a vehicle that can hover; throws BrokenInvariant otherwise.
 double hover_command(const AirframeParameters& airframe);
 
 /// Angular acceleration about body z for a unit of yaw command, at hover.
@@ -40,9 +45,5 @@ constexpr double kJoulesPerWattHour = 3600.0;
 
 /// Electrical power by PowerParameters' law at that velocity through the air.
 double power_w(const PowerParameters& power, double thrust_n, const Vec3& v_world_m_s);
-
-/// Energy of a descent straight down from `height_m` at PX4's slow landing speed, and of the
-/// seconds that the land detector and the disarming take.
-double landing_energy_wh(const VehicleConfig& vehicle, double height_m);
 
 }  // namespace gnbv

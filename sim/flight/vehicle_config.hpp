@@ -6,7 +6,6 @@
 
 #include <array>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "sim/core/pose.hpp"
@@ -121,14 +120,5 @@ struct VehicleConfig {
   AutopilotParameters autopilot;
   PowerParameters power;
 };
-
-/// iris: today's PX4 SITL (the defaults of the structs above); iris_sitl_2019: the SITL of the
-/// paper's year; authors: what the authors' package pins (RotorS, 2015 firmware); f450: the
-/// quadrotor of the paper's lab. Sources beside each.
-constexpr std::array<std::string_view, 4> kVehiclePresets = {"iris", "iris_sitl_2019", "authors",
-                                                             "f450"};
-
-/// The parameters by that name; it has to be one of kVehiclePresets.
-VehicleConfig vehicle_preset(std::string_view name);
 
 }  // namespace gnbv

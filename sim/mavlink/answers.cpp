@@ -33,8 +33,8 @@ Packed refusal(const std::string& text) {
 
 Answers answer(const ParamRequestList&, const Frame&, Quadrotor& vehicle) {
   Answers all;
-  for (int i = 0; i < parameter_count(); ++i) {
-    all.push_back(packed(*parameter_at(vehicle.px4().commander(), i)));
+  for (int i = 0; const auto value = parameter_at(vehicle.px4().commander(), i); ++i) {
+    all.push_back(packed(*value));
   }
   return all;
 }
@@ -81,7 +81,8 @@ Answers answer(const MissionClearAll& asked, const Frame& from, Quadrotor&) {
   return mission_ack(kMissionAccepted, asked.mission_type, from);
 }
 
-Answers answer(const MissionRequest& asked, const Frame& from, Quadrotor&) {
+template <std::uint32_t id, std::uint8_t crc_extra>
+Answers answer(const AnyMissionRequest<id, crc_extra>& asked, const Frame& from, Quadrotor&) {
   return mission_ack(kMissionInvalidSequence, asked.mission_type, from);
 }
 

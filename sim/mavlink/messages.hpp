@@ -4,13 +4,10 @@
 #pragma once
 
 #include <array>
-#include <bit>
-#include <concepts>
 #include <cstdint>
 #include <limits>
-#include <span>
-#include <tuple>
-#include <vector>
+
+#include "sim/mavlink/wire.hpp"
 
 namespace gnbv::mavlink {
 
@@ -34,11 +31,6 @@ struct Heartbeat {
   std::uint8_t base_mode = 0;      // MAV_MODE_FLAG bits
   std::uint8_t system_status = 0;  // MAV_STATE
   std::uint8_t mavlink_version = 3;
-
-  static auto fields(auto& m) {
-    return std::tie(m.custom_mode, m.type, m.autopilot, m.base_mode, m.system_status,
-                    m.mavlink_version);
-  }
 };
 
 struct SetMode {
@@ -46,8 +38,6 @@ struct SetMode {
   std::uint32_t custom_mode = 0;
   std::uint8_t target_system = 0;
   std::uint8_t base_mode = 0;
-
-  static auto fields(auto& m) { return std::tie(m.custom_mode, m.target_system, m.base_mode); }
 };
 
 /// Euler angles of the body (FRD) in NED, yaw then pitch then roll; rates about the body axes.
@@ -60,11 +50,6 @@ struct Attitude {
   float roll_speed_rad_s = 0;
   float pitch_speed_rad_s = 0;
   float yaw_speed_rad_s = 0;
-
-  static auto fields(auto& m) {
-    return std::tie(m.time_boot_ms, m.roll_rad, m.pitch_rad, m.yaw_rad, m.roll_speed_rad_s,
-                    m.pitch_speed_rad_s, m.yaw_speed_rad_s);
-  }
 };
 
 struct LocalPositionNed {
@@ -72,8 +57,6 @@ struct LocalPositionNed {
   std::uint32_t time_boot_ms = 0;
   std::array<float, 3> p_ned_m{};
   std::array<float, 3> v_ned_m_s{};
-
-  static auto fields(auto& m) { return std::tie(m.time_boot_ms, m.p_ned_m, m.v_ned_m_s); }
 };
 
 struct CommandLong {
@@ -83,10 +66,6 @@ struct CommandLong {
   std::uint8_t target_system = 0;
   std::uint8_t target_component = 0;
   std::uint8_t confirmation = 0;
-
-  static auto fields(auto& m) {
-    return std::tie(m.param, m.command, m.target_system, m.target_component, m.confirmation);
-  }
 };
 
 struct CommandAck {
@@ -97,11 +76,6 @@ struct CommandAck {
   std::int32_t result_param2 = 0;
   std::uint8_t target_system = 0;
   std::uint8_t target_component = 0;
-
-  static auto fields(auto& m) {
-    return std::tie(m.command, m.result, m.progress, m.result_param2, m.target_system,
-                    m.target_component);
-  }
 };
 
 /// Refused; of its fields only the target is of use.
@@ -112,10 +86,6 @@ struct SetAttitudeTarget {
   std::uint8_t target_component = 0;
   std::uint8_t type_mask = 0;
   std::array<float, 3> thrust_body{};
-
-  static auto fields(auto& m) {
-    return std::tie(m.of_no_use, m.target_system, m.target_component, m.type_mask, m.thrust_body);
-  }
 };
 
 /// Refused likewise: the vehicle's places are local.
@@ -126,11 +96,6 @@ struct SetPositionTargetGlobalInt {
   std::uint8_t target_system = 0;
   std::uint8_t target_component = 0;
   std::uint8_t coordinate_frame = 0;
-
-  static auto fields(auto& m) {
-    return std::tie(m.of_no_use, m.type_mask, m.target_system, m.target_component,
-                    m.coordinate_frame);
-  }
 };
 
 struct SetPositionTargetLocalNed {
@@ -145,11 +110,6 @@ struct SetPositionTargetLocalNed {
   std::uint8_t target_system = 0;
   std::uint8_t target_component = 0;
   std::uint8_t coordinate_frame = 0;  // MAV_FRAME
-
-  static auto fields(auto& m) {
-    return std::tie(m.time_boot_ms, m.p_m, m.v_m_s, m.a_m_s2, m.yaw_rad, m.yaw_rate_rad_s,
-                    m.type_mask, m.target_system, m.target_component, m.coordinate_frame);
-  }
 };
 
 /// The defaults say "unknown", each in its field's own way.
@@ -158,7 +118,8 @@ struct BatteryStatus {
   std::int32_t current_consumed_mah = -1;
   std::int32_t energy_consumed_hj = -1;
   std::int16_t temperature_cdeg_c = std::numeric_limits<std::int16_t>::max();
-  std::array<std::uint16_t, 10> voltages_mv = filled(std::numeric_limits<std::uint16_t>::max());
+  std::array<std::uint16_t, 10> voltages_mv = {0xffff, 0xffff, 0xffff, 0xffff, 0xffff,
+                                               0xffff, 0xffff, 0xffff, 0xffff, 0xffff};
   std::int16_t current_ca = -1;
   std::uint8_t id = 0;
   std::uint8_t battery_function = 0;
@@ -169,28 +130,12 @@ struct BatteryStatus {
   std::array<std::uint16_t, 4> voltages_ext_mv{};
   std::uint8_t mode = 0;
   std::uint32_t fault_bitmask = 0;
-
-  static auto fields(auto& m) {
-    return std::tie(m.current_consumed_mah, m.energy_consumed_hj, m.temperature_cdeg_c,
-                    m.voltages_mv, m.current_ca, m.id, m.battery_function, m.type,
-                    m.remaining_percent, m.time_remaining_s, m.charge_state, m.voltages_ext_mv,
-                    m.mode, m.fault_bitmask);
-  }
-
- private:
-  static constexpr std::array<std::uint16_t, 10> filled(std::uint16_t value) {
-    std::array<std::uint16_t, 10> all{};
-    all.fill(value);
-    return all;
-  }
 };
 
 struct ExtendedSysState {
   static constexpr MessageInfo kInfo = {245, 130, 2, 2};
   std::uint8_t vtol_state = 0;
   std::uint8_t landed_state = 0;  // MAV_LANDED_STATE: 1 on the ground, 2 in the air
-
-  static auto fields(auto& m) { return std::tie(m.vtol_state, m.landed_state); }
 };
 
 /// Text without a NUL when it fills the field. Parts of a longer text share an id and count chunks.
@@ -200,63 +145,6 @@ struct StatusText {
   std::array<char, 50> text{};
   std::uint16_t id = 0;
   std::uint8_t chunk_seq = 0;
-
-  static auto fields(auto& m) { return std::tie(m.severity, m.text, m.id, m.chunk_seq); }
 };
-
-namespace detail {
-
-template <std::integral T>
-void write(std::vector<std::uint8_t>& bytes, T value) {
-  const auto bits = static_cast<std::make_unsigned_t<T>>(value);
-  for (std::size_t i = 0; i < sizeof(T); ++i) {
-    bytes.push_back(static_cast<std::uint8_t>(static_cast<std::uint64_t>(bits) >> (8 * i)));
-  }
-}
-inline void write(std::vector<std::uint8_t>& bytes, float value) {
-  write(bytes, std::bit_cast<std::uint32_t>(value));
-}
-template <typename T, std::size_t N>
-void write(std::vector<std::uint8_t>& bytes, const std::array<T, N>& values) {
-  for (const T& value : values) write(bytes, value);
-}
-
-template <std::integral T>
-void read(std::span<const std::uint8_t>& bytes, T& value) {
-  std::uint64_t bits = 0;
-  for (std::size_t i = 0; i < sizeof(T); ++i) bits |= std::uint64_t{bytes[i]} << (8 * i);
-  value = static_cast<T>(bits);
-  bytes = bytes.subspan(sizeof(T));
-}
-inline void read(std::span<const std::uint8_t>& bytes, float& value) {
-  std::uint32_t bits = 0;
-  read(bytes, bits);
-  value = std::bit_cast<float>(bits);
-}
-template <typename T, std::size_t N>
-void read(std::span<const std::uint8_t>& bytes, std::array<T, N>& values) {
-  for (T& value : values) read(bytes, value);
-}
-
-}  // namespace detail
-
-/// The payload with all its fields, Message::kInfo.size bytes, little endian.
-template <typename Message>
-std::vector<std::uint8_t> payload_of(const Message& message) {
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(Message::kInfo.size);
-  std::apply([&](const auto&... field) { (detail::write(bytes, field), ...); },
-             Message::fields(message));
-  return bytes;
-}
-
-/// The reverse. `payload` holds at least Message::kInfo.size bytes.
-template <typename Message>
-Message message_of(std::span<const std::uint8_t> payload) {
-  Message message;
-  std::apply([&](auto&... field) { (detail::read(payload, field), ...); },
-             Message::fields(message));
-  return message;
-}
 
 }  // namespace gnbv::mavlink

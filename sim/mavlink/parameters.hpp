@@ -9,7 +9,6 @@
 
 namespace gnbv::mavlink {
 
-std::uint16_t parameter_count();
 /// nullopt beyond the last.
 std::optional<ParamValue> parameter_at(const CommanderParameters& commander, int index);
 std::optional<int> find_parameter(const ParameterId& id);

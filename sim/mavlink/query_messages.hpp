@@ -13,10 +13,6 @@ struct Ping {
   std::uint32_t seq = 0;
   std::uint8_t target_system = 0;
   std::uint8_t target_component = 0;
-
-  static auto fields(auto& m) {
-    return std::tie(m.time_us, m.seq, m.target_system, m.target_component);
-  }
 };
 
 /// Without a NUL when it fills the field.
@@ -29,18 +25,12 @@ struct ParamRequestRead {
   std::uint8_t target_system = 0;
   std::uint8_t target_component = 0;
   ParameterId param_id{};
-
-  static auto fields(auto& m) {
-    return std::tie(m.param_index, m.target_system, m.target_component, m.param_id);
-  }
 };
 
 struct ParamRequestList {
   static constexpr MessageInfo kInfo = {21, 159, 2, 2};
   std::uint8_t target_system = 0;
   std::uint8_t target_component = 0;
-
-  static auto fields(auto& m) { return std::tie(m.target_system, m.target_component); }
 };
 
 /// An integer's bits are carried as they are (PARAM_ENCODE_BYTEWISE).
@@ -51,10 +41,6 @@ struct ParamValue {
   std::uint16_t param_index = 0;
   ParameterId param_id{};
   std::uint8_t param_type = 0;  // MAV_PARAM_TYPE
-
-  static auto fields(auto& m) {
-    return std::tie(m.param_value, m.param_count, m.param_index, m.param_id, m.param_type);
-  }
 };
 
 struct ParamSet {
@@ -64,38 +50,24 @@ struct ParamSet {
   std::uint8_t target_component = 0;
   ParameterId param_id{};
   std::uint8_t param_type = 0;
-
-  static auto fields(auto& m) {
-    return std::tie(m.param_value, m.target_system, m.target_component, m.param_id, m.param_type);
-  }
 };
 
-/// MISSION_REQUEST, and MISSION_REQUEST_INT below.
-struct MissionRequest {
-  static constexpr MessageInfo kInfo = {40, 230, 4, 5};
+template <std::uint32_t id, std::uint8_t crc_extra>
+struct AnyMissionRequest {
+  static constexpr MessageInfo kInfo = {id, crc_extra, 4, 5};
   std::uint16_t seq = 0;
   std::uint8_t target_system = 0;
   std::uint8_t target_component = 0;
   std::uint8_t mission_type = 0;  // MAV_MISSION_TYPE: mission, fence, rally points
-
-  static auto fields(auto& m) {
-    return std::tie(m.seq, m.target_system, m.target_component, m.mission_type);
-  }
 };
-
-struct MissionRequestInt : MissionRequest {
-  static constexpr MessageInfo kInfo = {51, 196, 4, 5};
-};
+using MissionRequest = AnyMissionRequest<40, 230>;
+using MissionRequestInt = AnyMissionRequest<51, 196>;
 
 struct MissionRequestList {
   static constexpr MessageInfo kInfo = {43, 132, 2, 3};
   std::uint8_t target_system = 0;
   std::uint8_t target_component = 0;
   std::uint8_t mission_type = 0;
-
-  static auto fields(auto& m) {
-    return std::tie(m.target_system, m.target_component, m.mission_type);
-  }
 };
 
 struct MissionCount {
@@ -104,10 +76,6 @@ struct MissionCount {
   std::uint8_t target_system = 0;
   std::uint8_t target_component = 0;
   std::uint8_t mission_type = 0;
-
-  static auto fields(auto& m) {
-    return std::tie(m.count, m.target_system, m.target_component, m.mission_type);
-  }
 };
 
 struct MissionClearAll {
@@ -115,10 +83,6 @@ struct MissionClearAll {
   std::uint8_t target_system = 0;
   std::uint8_t target_component = 0;
   std::uint8_t mission_type = 0;
-
-  static auto fields(auto& m) {
-    return std::tie(m.target_system, m.target_component, m.mission_type);
-  }
 };
 
 struct MissionAck {
@@ -127,10 +91,6 @@ struct MissionAck {
   std::uint8_t target_component = 0;
   std::uint8_t result = 0;  // MAV_MISSION_RESULT
   std::uint8_t mission_type = 0;
-
-  static auto fields(auto& m) {
-    return std::tie(m.target_system, m.target_component, m.result, m.mission_type);
-  }
 };
 
 /// COMMAND_LONG with a place in integers.
@@ -146,11 +106,6 @@ struct CommandInt {
   std::uint8_t frame = 0;
   std::uint8_t current = 0;
   std::uint8_t autocontinue = 0;
-
-  static auto fields(auto& m) {
-    return std::tie(m.param, m.x, m.y, m.z, m.command, m.target_system, m.target_component, m.frame,
-                    m.current, m.autocontinue);
-  }
 };
 
 /// A tc1 of 0 asks; the answer has the time there, and the same ts1.
@@ -160,10 +115,6 @@ struct Timesync {
   std::int64_t ts1_ns = 0;
   std::uint8_t target_system = 0;
   std::uint8_t target_component = 0;
-
-  static auto fields(auto& m) {
-    return std::tie(m.tc1_ns, m.ts1_ns, m.target_system, m.target_component);
-  }
 };
 
 struct AutopilotVersion {
@@ -180,21 +131,12 @@ struct AutopilotVersion {
   std::array<std::uint8_t, 8> middleware_custom_version{};
   std::array<std::uint8_t, 8> os_custom_version{};
   std::array<std::uint8_t, 18> uid2{};
-
-  static auto fields(auto& m) {
-    return std::tie(m.capabilities, m.uid, m.flight_sw_version, m.middleware_sw_version,
-                    m.os_sw_version, m.board_version, m.vendor_id, m.product_id,
-                    m.flight_custom_version, m.middleware_custom_version, m.os_custom_version,
-                    m.uid2);
-  }
 };
 
 struct MessageInterval {
   static constexpr MessageInfo kInfo = {244, 95, 6, 6};
   std::int32_t interval_us = 0;  // -1: not sent, 0: unknown
   std::uint16_t message_id = 0;
-
-  static auto fields(auto& m) { return std::tie(m.interval_us, m.message_id); }
 };
 
 /// Versions times 100.
@@ -205,11 +147,6 @@ struct ProtocolVersion {
   std::uint16_t max_version = 200;
   std::array<std::uint8_t, 8> spec_version_hash{};
   std::array<std::uint8_t, 8> library_version_hash{};
-
-  static auto fields(auto& m) {
-    return std::tie(m.version, m.min_version, m.max_version, m.spec_version_hash,
-                    m.library_version_hash);
-  }
 };
 
 }  // namespace gnbv::mavlink

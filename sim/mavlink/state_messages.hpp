@@ -20,12 +20,6 @@ struct SysStatus {
   std::array<std::uint16_t, 4> errors_count{};
   std::int8_t battery_remaining_percent = -1;
   std::array<std::uint32_t, 3> sensors_extended{};
-
-  static auto fields(auto& m) {
-    return std::tie(m.sensors_present, m.sensors_enabled, m.sensors_health, m.load_permille,
-                    m.voltage_battery_mv, m.current_battery_ca, m.drop_rate_comm, m.errors_comm,
-                    m.errors_count, m.battery_remaining_percent, m.sensors_extended);
-  }
 };
 
 struct GpsRawInt {
@@ -46,12 +40,6 @@ struct GpsRawInt {
   std::uint32_t vel_acc_mm_s = 0;
   std::uint32_t heading_acc_deg_e5 = 0;
   std::uint16_t yaw_cdeg = 0;  // 0: not measured
-
-  static auto fields(auto& m) {
-    return std::tie(m.time_us, m.lat_deg_e7, m.lon_deg_e7, m.alt_mm, m.eph, m.epv, m.speed_cm_s,
-                    m.course_cdeg, m.fix_type, m.satellites_visible, m.alt_ellipsoid_mm, m.h_acc_mm,
-                    m.v_acc_mm, m.vel_acc_mm_s, m.heading_acc_deg_e5, m.yaw_cdeg);
-  }
 };
 
 /// Of the FRD body in NED, w first.
@@ -61,10 +49,6 @@ struct AttitudeQuaternion {
   std::array<float, 4> q_ned_frd{};
   std::array<float, 3> omega_frd_rad_s{};
   std::array<float, 4> repr_offset_q{};  // all zeros: none
-
-  static auto fields(auto& m) {
-    return std::tie(m.time_boot_ms, m.q_ned_frd, m.omega_frd_rad_s, m.repr_offset_q);
-  }
 };
 
 struct GlobalPositionInt {
@@ -76,11 +60,6 @@ struct GlobalPositionInt {
   std::int32_t relative_alt_mm = 0;  // above home
   std::array<std::int16_t, 3> v_ned_cm_s{};
   std::uint16_t heading_cdeg = 0;  // from north clockwise, 0 to 35999
-
-  static auto fields(auto& m) {
-    return std::tie(m.time_boot_ms, m.lat_deg_e7, m.lon_deg_e7, m.alt_mm, m.relative_alt_mm,
-                    m.v_ned_cm_s, m.heading_cdeg);
-  }
 };
 
 struct GpsGlobalOrigin {
@@ -89,8 +68,6 @@ struct GpsGlobalOrigin {
   std::int32_t lon_deg_e7 = 0;
   std::int32_t alt_mm = 0;
   std::uint64_t time_us = 0;
-
-  static auto fields(auto& m) { return std::tie(m.lat_deg_e7, m.lon_deg_e7, m.alt_mm, m.time_us); }
 };
 
 struct VfrHud {
@@ -101,11 +78,6 @@ struct VfrHud {
   float climb_m_s = 0;
   std::int16_t heading_deg = 0;
   std::uint16_t throttle_percent = 0;
-
-  static auto fields(auto& m) {
-    return std::tie(m.airspeed_m_s, m.ground_speed_m_s, m.alt_m, m.climb_m_s, m.heading_deg,
-                    m.throttle_percent);
-  }
 };
 
 struct HomePosition {
@@ -117,11 +89,6 @@ struct HomePosition {
   std::array<float, 4> q = {std::numeric_limits<float>::quiet_NaN(), 0, 0, 0};  // NaN: unknown
   std::array<float, 3> approach_ned_m{};
   std::uint64_t time_us = 0;
-
-  static auto fields(auto& m) {
-    return std::tie(m.lat_deg_e7, m.lon_deg_e7, m.alt_mm, m.p_ned_m, m.q, m.approach_ned_m,
-                    m.time_us);
-  }
 };
 
 }  // namespace gnbv::mavlink

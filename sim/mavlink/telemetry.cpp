@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/core/error.hpp"
-
 namespace gnbv::mavlink {
 namespace {
 
@@ -43,40 +41,7 @@ std::int8_t battery_left_percent(double energy_used_wh, double battery_wh) {
   return static_cast<std::int8_t>(std::lround(100.0 * left));
 }
 
-constexpr std::uint32_t main_mode(std::uint32_t mode) { return mode << 16; }
-constexpr std::uint32_t auto_mode(std::uint32_t sub_mode) { return main_mode(4) | sub_mode << 24; }
-
 }  // namespace
-
-std::uint32_t custom_mode_of(NavState state) {
-  switch (state) {
-    case NavState::manual:
-      return main_mode(1);
-    case NavState::altitude:
-      return main_mode(2);
-    case NavState::position:
-      return main_mode(3);
-    case NavState::takeoff:
-      return auto_mode(2);
-    case NavState::hold:
-      return auto_mode(3);
-    case NavState::mission:
-      return auto_mode(4);
-    case NavState::rtl:
-      return auto_mode(5);
-    case NavState::land:
-    case NavState::descend:
-      return auto_mode(6);
-    case NavState::offboard:
-      return main_mode(6);
-    case NavState::stabilized:
-      return main_mode(7);
-    case NavState::terminate:
-      return main_mode(10);
-  }
-  GNBV_CHECK(false, "no such navigation state: {}", static_cast<int>(state));
-  return 0;
-}
 
 Heartbeat heartbeat_of(const Px4& px4) {
   const std::uint8_t armed = px4.is_armed() ? kSafetyArmed : 0;

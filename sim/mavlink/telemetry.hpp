@@ -11,9 +11,6 @@ namespace gnbv::mavlink {
 
 constexpr int kSeverityCritical = 2;  // MAV_SEVERITY
 
-/// PX4's custom mode (px4_custom_mode.h): main mode << 16 | sub mode << 24.
-std::uint32_t custom_mode_of(NavState state);
-
 Heartbeat heartbeat_of(const Px4& px4);
 ExtendedSysState extended_sys_state_of(const Px4& px4);
 /// `battery_wh` 0: never empty, the remaining share is unknown.

@@ -48,10 +48,8 @@ class Vehicle:
 
     def __init__(self, port: int, *arguments: str):
         self.port = port
-        # a client that this machine keeps waiting for a second is not a lost one
-        patience = ["--set", "vehicle.autopilot.commander.offboard_loss_s=4"]
         self.process = subprocess.Popen(
-            [os.environ["GNBV"], "fly", "smoke", "--json", *patience, *arguments],
+            [os.environ["GNBV"], "fly", "smoke", "--json", *arguments],
             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.ready = ""
         while not re.match(r"gnbv: (speaking to|listening on) ", self.ready):

@@ -45,6 +45,8 @@ async def fly_square(system):
     health = await first(telemetry.subscribe_health(), lambda h: h.is_global_position_ok
                          and h.is_home_position_ok and h.is_local_position_ok and h.is_armable)
     print(health)
+    # a client that this machine keeps waiting for a second is not a lost one
+    await ParamAsync(system).set_param_float("COM_OF_LOSS_T", 4.0)
     await telemetry.set_rate_position_velocity_ned(20.0)
     await telemetry.set_rate_attitude_euler(10.0)
     await action.set_takeoff_altitude(3.0)

@@ -35,6 +35,8 @@ async def fly_there_and_back(url):
     await first(drone.core.connection_state(), lambda state: state.is_connected)
     await first(drone.telemetry.health(),
                 lambda health: health.is_global_position_ok and health.is_home_position_ok)
+    # a client that this machine keeps waiting for a second is not a lost one
+    await drone.param.set_param_float("COM_OF_LOSS_T", 4.0)
     start = (await first(drone.telemetry.position_velocity_ned())).position
     await drone.action.set_takeoff_altitude(2.0)
     await drone.action.arm()

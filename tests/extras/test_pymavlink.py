@@ -47,7 +47,11 @@ class Client:
 
     def connect(self):
         self.link.mav.heartbeat_send(mavlink.MAV_TYPE_GCS, mavlink.MAV_AUTOPILOT_INVALID, 0, 0, 0)
-        return self.until("HEARTBEAT", lambda m: m.autopilot == mavlink.MAV_AUTOPILOT_PX4)
+        heartbeat = self.until("HEARTBEAT", lambda m: m.autopilot == mavlink.MAV_AUTOPILOT_PX4)
+        # a client that this machine keeps waiting for a second is not a lost one
+        self.link.mav.param_set_send(1, 1, b"COM_OF_LOSS_T", 4.0, mavlink.MAV_PARAM_TYPE_REAL32)
+        self.until("PARAM_VALUE", lambda m: m.param_id == "COM_OF_LOSS_T")
+        return heartbeat
 
     def until(self, kind, holds=lambda message: True, timeout_s=60.0):
         """The first such message that it holds for."""
@@ -158,7 +162,7 @@ def test_a_lost_client_is_missed_and_may_come_back(fly, connected):
     client.take_off()
     client.until("HEARTBEAT", lambda m: mode_of(m) == OFFBOARD)
     client.close()
-    time.sleep(6.0)  # more than offboard_loss_s
+    time.sleep(6.0)  # more than COM_OF_LOSS_T
 
     again = connected(f"udpin:127.0.0.1:{vehicle.port}")
     heartbeat = again.until("HEARTBEAT", lambda m: m.autopilot == mavlink.MAV_AUTOPILOT_PX4)

@@ -202,7 +202,7 @@ void add_fly_command(CLI::App& app) {
   command
       ->add_option("--speed", options->speed,
                    "simulated seconds per second. Setpoints have to come within "
-                   "vehicle.autopilot.commander.offboard_loss_s / speed of wall time")
+                   "COM_OF_LOSS_T / speed of wall time")
       ->check(CLI::Range(0.01, 1000.0))
       ->capture_default_str();
   command

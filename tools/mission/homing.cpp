@@ -43,15 +43,23 @@ std::optional<std::vector<Vec3>> found_way(const Mission& m, const Vec3& from_wo
   return std::move(way.via_world_m);
 }
 
-double energy_along_wh(const Mission& m, const Vec3& from_world_m, std::span<const Vec3> way_m) {
+/// Along the points; on the way to the first of them the vehicle turns to `yaw_rad`.
+double energy_along_wh(const Mission& m, const ViewPose& from, std::span<const Vec3> way_m,
+                       double yaw_rad) {
   double sum_wh = 0.0;
-  Vec3 from_m = from_world_m;
+  ViewPose at = from;
   for (const Vec3& to_m : way_m) {
-    if ((to_m - from_m).norm() < kNoLeg_m) continue;
-    sum_wh += leg_energy_wh(m.scenario.vehicle, m.scenario.guidance, from_m, to_m);
-    from_m = to_m;
+    if ((to_m - at.p_world_m).norm() < kNoLeg_m && at.yaw_rad == yaw_rad) continue;
+    const ViewPose to = {to_m, yaw_rad};
+    sum_wh += leg_energy_wh(m.scenario.vehicle, m.scenario.guidance, at, to);
+    at = to;
   }
   return sum_wh;
+}
+
+/// The same without a turn, as the vehicle flies home.
+double energy_along_wh(const Mission& m, const Vec3& from_world_m, std::span<const Vec3> way_m) {
+  return energy_along_wh(m, {from_world_m, 0.0}, way_m, 0.0);
 }
 
 /// How much more than a still hover the flight has drawn so far: a wind costs on the way home, too.
@@ -165,7 +173,7 @@ bool can_afford(Mission& m, const Decision& next) {
   const Exit there = make_exit(m, next.view.p_world_m, std::move(*way_m));
   std::vector<Vec3> leg_m = next.via_world_m;
   leg_m.push_back(there.p_world_m);
-  const double way_wh = energy_along_wh(m, here.p_world_m, leg_m) + there.way_wh;
+  const double way_wh = energy_along_wh(m, m.current, leg_m, next.view.yaw_rad) + there.way_wh;
   if (has_battery(m) && !is_enough(m, measured_excess(m) * way_wh)) return false;
   m.corners = corners_between(m, here, next.via_world_m, there);
   return true;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "scenarios/builtin.hpp"
+#include "scenarios/presets.hpp"
 #include "sim/core/error.hpp"
 #include "sim/flight/rest_to_rest.hpp"
 #include "sim/mesh/world.hpp"
@@ -132,7 +134,7 @@ TEST(Guidance, HopsTakeLittleLongerThanTheirReferences) {
 }
 
 TEST(Guidance, KeepsClearOfTheAutopilotsLimits) {
-  for (const std::string_view preset : kVehiclePresets) {
+  for (const std::string_view preset : builtin_names("vehicles")) {
     const VehicleConfig vehicle = vehicle_preset(preset);
     for (const double height_m : {20.0, 0.0}) {
       const auto flight = make_flight(vehicle, World{}, kStart, 1);

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "scenarios/builtin.hpp"
+#include "scenarios/presets.hpp"
 #include "sim/core/rng.hpp"
 #include "sim/flight/allocation.hpp"
 #include "sim/flight/guidance.hpp"
@@ -139,7 +141,7 @@ INSTANTIATE_TEST_SUITE_P(All, Layouts, testing::ValuesIn(kLayouts),
 
 TEST(Allocation, QuadsInAnXAreAllocatedByTheirQuadrants) {
   const double half = 0.5 * std::numbers::sqrt2;
-  for (const std::string_view preset : kVehiclePresets) {
+  for (const std::string_view preset : builtin_names("vehicles")) {
     const Allocation quad = allocation_of(vehicle_preset(preset).airframe);
     EXPECT_EQ(quad.torque[0].command, (RotorValues{-half, half, half, -half}));
     EXPECT_EQ(quad.torque[1].command, (RotorValues{-half, half, -half, half}));

@@ -72,7 +72,7 @@ TEST(Px4Modes, HoveringJustAboveTheGroundIsNoLanding) {
 
 TEST(Px4Modes, DisarmingAtOnceAfterLandingWaitsForTheLanding) {
   CommanderParameters commander;
-  commander.disarm_after_landing_s = 0.0;
+  commander.disarm_after_landing_s = kTick_s;
   Quadrotor quadrotor = airborne(with(commander));
   stream(quadrotor, go_to(Vec3(0, 0, 10)), 2.0);
   EXPECT_TRUE(quadrotor.px4().is_armed());
@@ -80,6 +80,18 @@ TEST(Px4Modes, DisarmingAtOnceAfterLandingWaitsForTheLanding) {
   quadrotor.land();
   EXPECT_GE(ticks_until(quadrotor, 60.0, [&] { return quadrotor.has_landed(); }), 0);
   EXPECT_LT(place(quadrotor).z(), 0.1);
+}
+
+TEST(Px4Modes, ZeroOrLessNeverDisarmsAVehicleThatHasLanded) {  // commander_params.c
+  for (const double wait_s : {0.0, -1.0}) {
+    CommanderParameters commander;
+    commander.disarm_after_landing_s = wait_s;
+    Quadrotor quadrotor = airborne(with(commander), {Vec3(0, 0, 1), 0.0});
+    quadrotor.land();
+    ASSERT_GE(ticks_until(quadrotor, 60.0, [&] { return quadrotor.px4().is_landed(); }), 0);
+    wait(quadrotor, 20.0);
+    EXPECT_TRUE(quadrotor.px4().is_armed()) << wait_s;
+  }
 }
 
 TEST(Px4Modes, ZeroNeverDisarmsAVehicleThatHasNotFlown) {

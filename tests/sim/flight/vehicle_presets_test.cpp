@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "scenarios/presets.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
 #include "sim/flight/feed_forward.hpp"

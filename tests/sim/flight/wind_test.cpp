@@ -7,6 +7,8 @@
 #include <complex>
 #include <vector>
 
+#include "scenarios/builtin.hpp"
+#include "scenarios/presets.hpp"
 #include "sim/flight/rotors.hpp"
 #include "sim/mesh/world.hpp"
 #include "tests/support/streaming_flight.hpp"
@@ -180,7 +182,7 @@ double tilt_rad(const AirframeParameters& a, double wind_m_s) {
 }
 
 TEST(HoverInAWind, LeansByTheDragAndStaysInPlace) {
-  for (const std::string_view preset : kVehiclePresets) {
+  for (const std::string_view preset : builtin_names("vehicles")) {
     const VehicleConfig vehicle = vehicle_preset(preset);
     const Vec3 wind_m_s = 4.0 * Vec3(std::cos(0.7), std::sin(0.7), 0.0);
     const double expected_rad = tilt_rad(vehicle.airframe, wind_m_s.norm());

@@ -51,7 +51,7 @@ TEST(MavlinkMessages, ParametersAreWrittenAsPymavlinkWritesThem) {
 
 TEST(MavlinkMessages, MissionsAreWrittenAsPymavlinkWritesThem) {
   EXPECT_EQ(hex_of(MissionRequest{7, 1, 1, 2}, 6), "fd05000006ffbe2800000700010102964a");
-  EXPECT_EQ(hex_of(MissionRequestInt{{7, 1, 1, 2}}, 7), "fd05000007ffbe33000007000101028a9b");
+  EXPECT_EQ(hex_of(MissionRequestInt{7, 1, 1, 2}, 7), "fd05000007ffbe33000007000101028a9b");
   EXPECT_EQ(hex_of(MissionRequestList{1, 1, 1}, 8), "fd03000008ffbe2b00000101010e75");
   EXPECT_EQ(hex_of(MissionCount{300, 1, 1, 1}, 9), "fd05000009ffbe2c00002c010101013efb");
   EXPECT_EQ(hex_of(MissionClearAll{1, 1, 2}, 10), "fd0300000affbe2d00000101028ff6");

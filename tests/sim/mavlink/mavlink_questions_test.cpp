@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <set>
 #include <string>
 #include <string_view>
@@ -125,7 +126,7 @@ TEST(MavlinkQuestions, AParameterIsSetWithinItsRangeAndTheAnswerIsWhatHolds) {
   EXPECT_EQ(session.vehicle().px4().commander().offboard_loss_action, OffboardLossAction::land);
   for (const auto& refused :
        {set("MIS_TAKEOFF_ALT", -1.0F), set("MIS_TAKEOFF_ALT", std::nanf("")),
-        set("MIS_TAKEOFF_ALT", 5.0F, 6), set("MPC_LAND_ALT1", 5.0F),
+        set("MIS_TAKEOFF_ALT", 5.0F, 6), set("MPC_LAND_ALT1", 123.0F),
         set("COM_OBL_RC_ACT", std::bit_cast<float>(8), 6), set("COM_OBL_RC_ACT", 4.0F, 6)}) {
     session.send(ParamRequestRead{-1, 1, 1, refused.param_id});
     session.send(refused);
@@ -137,6 +138,44 @@ TEST(MavlinkQuestions, AParameterIsSetWithinItsRangeAndTheAnswerIsWhatHolds) {
     EXPECT_EQ(session.count<StatusText>(), 1U);
   }
   EXPECT_EQ(session.vehicle().px4().commander().takeoff_altitude_m, 4.0);
+}
+
+TEST(MavlinkQuestions, EveryParameterOfTheCommanderIsReadAsItWasSet) {
+  Session session;
+  // both ends of the range and its middle; whole numbers too
+  for (const double share : {1.0, 0.0, 0.5}) {
+    for (const Px4Parameter& parameter : kPx4Parameters) {
+      const bool is_whole = parameter.value == nullptr;
+      const double wish = std::lerp(parameter.min, parameter.max, share);
+      const float value = is_whole ? std::bit_cast<float>(static_cast<std::int32_t>(wish))
+                                   : static_cast<float>(wish);
+      session.send(set(parameter.name, value, is_whole ? 6 : 9));
+      session.forget();
+      session.listen();
+      const auto answers = session.all<ParamValue>();
+      ASSERT_EQ(answers.size(), 1U) << parameter.name;
+      EXPECT_EQ(std::bit_cast<std::uint32_t>(answers[0].param_value),
+                std::bit_cast<std::uint32_t>(value))
+          << parameter.name;
+      EXPECT_EQ(name_of(answers[0].param_id), parameter.name);
+      EXPECT_EQ(session.count<StatusText>(), 0U) << parameter.name;
+    }
+  }
+}
+
+TEST(MavlinkQuestions, EveryNumberOfTheCommanderIsAParameterOnce) {
+  // as many doubles as the struct has: its other member is the action, a whole number
+  constexpr std::size_t kDoubles = sizeof(CommanderParameters) / sizeof(double) - 1;
+  std::set<std::size_t> offsets;
+  const CommanderParameters commander;
+  for (const Px4Parameter& parameter : kPx4Parameters) {
+    if (parameter.value == nullptr) continue;
+    offsets.insert(
+        static_cast<std::size_t>(&(commander.*parameter.value) - &commander.offboard_loss_s));
+  }
+  EXPECT_EQ(offsets.size(), kDoubles);
+  EXPECT_EQ(kPx4Parameters.size(), kDoubles + 1);
+  EXPECT_TRUE(std::ranges::is_sorted(kPx4Parameters, {}, &Px4Parameter::name));
 }
 
 TEST(MavlinkQuestions, NoParameterThatCanBeSetBreaksTheVehicle) {
@@ -182,7 +221,7 @@ TEST(MavlinkQuestions, ThereIsNoMissionAndNoneIsTaken) {
     EXPECT_EQ(result_of(MissionCount{0, 1, 1, type}), 0);
     EXPECT_EQ(result_of(MissionClearAll{1, 1, type}), 0);
     EXPECT_EQ(result_of(MissionRequest{0, 1, 1, type}), 13) << "no such item";
-    EXPECT_EQ(result_of(MissionRequestInt{{0, 1, 1, type}}), 13);
+    EXPECT_EQ(result_of(MissionRequestInt{0, 1, 1, type}), 13);
   }
 }
 
