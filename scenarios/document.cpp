@@ -27,24 +27,31 @@ std::size_t node_count(const YamlNode& node) {
   return count;
 }
 
+/// A line of the source, if it has lines.
+SourceLocation at_line(const SourceLocation& source, int line) {
+  return {source.source, source.line > 0 ? line : 0, source.rank};
+}
+
 /// Turns yaml-cpp's events into a tree. Its own YAML::Node would lose duplicate keys.
 class TreeBuilder final : public YAML::EventHandler {
  public:
-  TreeBuilder(Origin source, Faults& faults) : source_(std::move(source)), faults_(faults) {}
+  TreeBuilder(SourceLocation source, ValidationErrors& errors)
+      : source_(std::move(source)), errors_(errors) {}
 
   YamlNode& root() { return root_; }
+  int start_line() const { return start_line_; }
 
-  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentStart(const YAML::Mark& mark) override { start_line_ = mark.line + 1; }
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     YamlNode node;
-    node.origin = at(mark);
+    node.location = at(mark);
     finish(std::move(node), anchor);
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const auto known = anchors_.find(anchor);
     if (known == anchors_.end()) {
-      faults_.add(at(mark), path(), "", "the alias stands inside the value it refers to");
+      errors_.add(at(mark), path(), "", "the alias stands inside the value it refers to");
       return finish({}, 0);
     }
     count_copies(known->second, mark);
@@ -57,7 +64,7 @@ class TreeBuilder final : public YAML::EventHandler {
     node.kind = YamlNode::Kind::scalar;
     node.text = value;
     node.is_quoted = tag == "!";  // yaml-cpp: "!" for quoted and block text, "?" for plain
-    node.origin = at(mark);
+    node.location = at(mark);
     finish(std::move(node), anchor);
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
@@ -81,13 +88,11 @@ class TreeBuilder final : public YAML::EventHandler {
     YamlEntry key;
   };
 
-  Origin at(const YAML::Mark& mark) const {
-    return {source_.source, source_.line > 0 ? mark.line + 1 : 0, source_.rank};
-  }
+  SourceLocation at(const YAML::Mark& mark) const { return at_line(source_, mark.line + 1); }
 
   void refuse_tag(const YAML::Mark& mark, const std::string& tag) {
     if (tag.empty() || tag == "?" || tag == "!") return;
-    faults_.add(at(mark), path(), "", fmt::format("the tag '{}' is not supported", tag));
+    errors_.add(at(mark), path(), "", fmt::format("the tag '{}' is not supported", tag));
   }
 
   void begin(YamlNode::Kind kind, const YAML::Mark& mark, const std::string& tag,
@@ -95,7 +100,7 @@ class TreeBuilder final : public YAML::EventHandler {
     refuse_tag(mark, tag);
     Open open;
     open.node.kind = kind;
-    open.node.origin = at(mark);
+    open.node.location = at(mark);
     open.anchor = anchor;
     open_.push_back(std::move(open));
   }
@@ -116,7 +121,7 @@ class TreeBuilder final : public YAML::EventHandler {
   void finish(YamlNode node, YAML::anchor_t anchor) {
     if (anchor != 0) {
       YAML::Mark mark;
-      mark.line = std::max(0, node.origin.line - 1);
+      mark.line = std::max(0, node.location.line - 1);
       count_copies(node, mark);
       anchors_[anchor] = node;
     }
@@ -139,15 +144,15 @@ class TreeBuilder final : public YAML::EventHandler {
   void begin_entry(Open& map, YamlNode key) {
     map.is_dropped = false;
     if (key.kind != YamlNode::Kind::scalar) {
-      faults_.add(key.origin, path(), excerpt(key), "a key has to be a word");
+      errors_.add(key.location, path(), excerpt(key), "a key has to be a word");
       map.is_dropped = true;
     }
-    map.key = {key.text, key.origin, {}};
+    map.key = {key.text, key.location, {}};
     map.has_key = true;
     for (const YamlEntry& entry : map.node.entries) {
       if (entry.key != key.text) continue;
-      const Origin& first = entry.origin;
-      faults_.add(key.origin, path(), "",
+      const SourceLocation& first = entry.location;
+      errors_.add(key.location, path(), "",
                   first.line > 0 ? fmt::format("key given twice, first on line {}", first.line)
                                  : "key given twice");
       map.is_dropped = true;
@@ -166,32 +171,13 @@ class TreeBuilder final : public YAML::EventHandler {
     return text;
   }
 
-  Origin source_;
-  Faults& faults_;
+  SourceLocation source_;
+  ValidationErrors& errors_;
+  int start_line_ = 1;  // of the document
   YamlNode root_;
   std::vector<Open> open_;
   std::map<YAML::anchor_t, YamlNode> anchors_;
   std::size_t copied_nodes_ = 0;
-};
-
-/// Only tells where a further document begins.
-class SecondDocument final : public YAML::EventHandler {
- public:
-  int line = 1;
-
- private:
-  void OnDocumentStart(const YAML::Mark& mark) override { line = mark.line + 1; }
-  void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
-  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
-  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
-                const std::string&) override {}
-  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
-                       YAML::EmitterStyle::value) override {}
-  void OnSequenceEnd() override {}
-  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
-                  YAML::EmitterStyle::value) override {}
-  void OnMapEnd() override {}
 };
 
 }  // namespace
@@ -202,43 +188,43 @@ const YamlNode* YamlNode::find(std::string_view key) const {
   return entry == entries.end() ? nullptr : &entry->value;
 }
 
-std::optional<YamlNode> parse_document(const std::string& text, const Origin& source,
-                                       Faults& faults) {
+std::optional<YamlNode> parse_document(const std::string& text, const SourceLocation& source,
+                                       ValidationErrors& errors) {
   std::istringstream stream(text);
-  TreeBuilder builder(source, faults);
+  TreeBuilder builder(source, errors);
   try {
     YAML::Parser parser(stream);
     if (!parser.HandleNextDocument(builder)) {
-      faults.add(source, "", "", "is empty; a scenario is a map of keys");
+      errors.add(source, "", "", "is empty; a scenario is a map of keys");
       return std::nullopt;
     }
-    SecondDocument second;
+    ValidationErrors ignored;
+    TreeBuilder second(source, ignored);
     if (parser.HandleNextDocument(second)) {
-      faults.add({source.source, source.line > 0 ? second.line : 0, source.rank}, "", "",
+      errors.add(at_line(source, second.start_line()), "", "",
                  "a second YAML document begins here; a scenario is one document");
     }
   } catch (const YAML::Exception& error) {
     const int line = error.mark.is_null() ? 1 : error.mark.line + 1;
-    faults.add({source.source, source.line > 0 ? line : 0, source.rank}, "", "",
-               fmt::format("not YAML: {}", error.msg));
+    errors.add(at_line(source, line), "", "", fmt::format("not YAML: {}", error.msg));
     return std::nullopt;
   }
   return std::move(builder.root());
 }
 
-std::optional<YamlNode> parse_override(const std::string& text, const Origin& origin,
-                                       Faults& faults) {
+std::optional<YamlNode> parse_override(const std::string& text, const SourceLocation& location,
+                                       ValidationErrors& errors) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0) {
-    faults.add(origin, "", "", "has to read key=value, as in planner.agvs.step_m=0.5");
+    errors.add(location, "", "", "has to read key=value, as in planner.agvs.step_m=0.5");
     return std::nullopt;
   }
   std::optional<YamlNode> value;
   if (text.find_first_not_of(" \t\n", equals + 1) == std::string::npos) {
     value = YamlNode{};  // `key=` gives the key no value, which the reader names
-    value->origin = origin;
+    value->location = location;
   } else {
-    value = parse_document(text.substr(equals + 1), origin, faults);
+    value = parse_document(text.substr(equals + 1), location, errors);
   }
   if (!value) return std::nullopt;
   std::string path = text.substr(0, equals);
@@ -247,9 +233,9 @@ std::optional<YamlNode> parse_override(const std::string& text, const Origin& or
     const std::size_t dot = path.rfind('.');
     YamlNode parent;
     parent.kind = YamlNode::Kind::picks;
-    parent.origin = origin;
+    parent.location = location;
     parent.entries.push_back(
-        {dot == std::string::npos ? path : path.substr(dot + 1), origin, std::move(node)});
+        {dot == std::string::npos ? path : path.substr(dot + 1), location, std::move(node)});
     node = std::move(parent);
     if (dot == std::string::npos) return node;
     path.resize(dot);

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scenarios/faults.hpp"
+#include "scenarios/validation_error.hpp"
 
 namespace gnbv {
 
@@ -23,7 +23,7 @@ struct YamlNode {
   bool is_quoted = false;          // scalar: always text, never a number or a bool
   std::vector<YamlNode> items;     // list
   std::vector<YamlEntry> entries;  // map, picks; keys differ, in the order given
-  Origin origin;
+  SourceLocation location;
 
   /// The value of a key; null pointer when it is not there.
   const YamlNode* find(std::string_view key) const;
@@ -31,18 +31,18 @@ struct YamlNode {
 
 struct YamlEntry {
   std::string key;
-  Origin origin;
+  SourceLocation location;
   YamlNode value;
 };
 
 /// Reads exactly one document. Syntax errors, duplicate keys, tags and further documents go to
-/// `faults`; nothing is returned when there is no tree to go on with (syntax error, empty text).
-std::optional<YamlNode> parse_document(const std::string& text, const Origin& source,
-                                       Faults& faults);
+/// `errors`; nothing is returned when there is no tree to go on with (syntax error, empty text).
+std::optional<YamlNode> parse_document(const std::string& text, const SourceLocation& source,
+                                       ValidationErrors& errors);
 
-/// Reads "a.b.c=value" (the value is YAML) as a tree of picks. `origin` has no line; its rank is
+/// Reads "a.b.c=value" (the value is YAML) as a tree of picks. `location` has no line; its rank is
 /// the place among the overrides, from 1.
-std::optional<YamlNode> parse_override(const std::string& text, const Origin& origin,
-                                       Faults& faults);
+std::optional<YamlNode> parse_override(const std::string& text, const SourceLocation& location,
+                                       ValidationErrors& errors);
 
 }  // namespace gnbv

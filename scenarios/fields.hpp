@@ -10,10 +10,12 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "scenarios/scenario.hpp"
+#include "sim/core/enum_names.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {
@@ -43,12 +45,21 @@ enum class FieldKind {
   choice  // one of a list of names
 };
 
+/// What a field does in the scenario at hand. A section's holds for all in it.
+struct FieldUse {
+  /// The key because of whose value this one has no effect, with a dot before it when it is of the
+  /// same section; empty: it has one.
+  std::string_view unused_by;
+  bool is_papers_setting = false;  // the paper's figures depend on it, and the paper states it
+};
+
 struct Field {
   std::string_view key;
   FieldKind kind = FieldKind::number;
   Range allowed;                              // number, angle (degrees), integer
   std::span<const std::string_view> choices;  // choice
   std::string_view meaning;                   // one line, for the schema
+  FieldUse use = {};
 };
 
 /// The place of a field's value. Vec3: three numbers or angles, each in Field::allowed; a vector:
@@ -64,12 +75,6 @@ struct ListSize {
   std::size_t max = 0;
 };
 
-template <typename Enum>
-struct Named {
-  Enum value;
-  std::string_view name;
-};
-
 /// Walks over the keys of a config in the order of the file. The struct's fields() calls the public
 /// functions; a visitor implements the private ones.
 class FieldVisitor {
@@ -79,50 +84,42 @@ class FieldVisitor {
   FieldVisitor(const FieldVisitor&) = delete;
   FieldVisitor& operator=(const FieldVisitor&) = delete;
 
-  void number(std::string_view key, double& value, const Range& allowed, std::string_view meaning) {
-    leaf({key, FieldKind::number, allowed, {}, meaning}, &value);
+  /// T: double, Vec3 or std::vector<double>.
+  template <typename T>
+  void number(std::string_view key, T& value, const Range& allowed, std::string_view meaning) {
+    visit({key, FieldKind::number, allowed, {}, meaning}, &value);
   }
-  void number(std::string_view key, Vec3& value, const Range& allowed, std::string_view meaning) {
-    leaf({key, FieldKind::number, allowed, {}, meaning}, &value);
-  }
-  void numbers(std::string_view key, std::vector<double>& values, const Range& allowed,
-               std::string_view meaning) {
-    leaf({key, FieldKind::number, allowed, {}, meaning}, &values);
-  }
-  void angle(std::string_view key_deg, double& value_rad, const Range& allowed_deg,
+  /// T: double or Vec3.
+  template <typename T>
+  void angle(std::string_view key_deg, T& value_rad, const Range& allowed_deg,
              std::string_view meaning) {
-    leaf({key_deg, FieldKind::angle, allowed_deg, {}, meaning}, &value_rad);
-  }
-  void angle(std::string_view key_deg, Vec3& value_rad, const Range& allowed_deg,
-             std::string_view meaning) {
-    leaf({key_deg, FieldKind::angle, allowed_deg, {}, meaning}, &value_rad);
+    visit({key_deg, FieldKind::angle, allowed_deg, {}, meaning}, &value_rad);
   }
   void integer(std::string_view key, int& value, const Range& allowed, std::string_view meaning) {
-    leaf({key, FieldKind::integer, allowed, {}, meaning}, &value);
+    visit({key, FieldKind::integer, allowed, {}, meaning}, &value);
   }
   void integer(std::string_view key, std::uint64_t& value, std::string_view meaning) {
-    leaf({key, FieldKind::integer, {}, {}, meaning}, &value);
+    visit({key, FieldKind::integer, {}, {}, meaning}, &value);
   }
   void flag(std::string_view key, bool& value, std::string_view meaning) {
-    leaf({key, FieldKind::flag, {}, {}, meaning}, &value);
+    visit({key, FieldKind::flag, {}, {}, meaning}, &value);
   }
   void word(std::string_view key, std::string& value, std::string_view meaning) {
-    leaf({key, FieldKind::word, {}, {}, meaning}, &value);
+    visit({key, FieldKind::word, {}, {}, meaning}, &value);
   }
   void text(std::string_view key, std::string& value, std::string_view meaning) {
-    leaf({key, FieldKind::text, {}, {}, meaning}, &value);
+    visit({key, FieldKind::text, {}, {}, meaning}, &value);
   }
   void path(std::string_view key, std::string& value, std::string_view meaning) {
-    leaf({key, FieldKind::path, {}, {}, meaning}, &value);
+    visit({key, FieldKind::path, {}, {}, meaning}, &value);
   }
   void choice(std::string_view key, std::string& value, std::span<const std::string_view> choices,
               std::string_view meaning) {
-    leaf({key, FieldKind::choice, {}, choices, meaning}, &value);
+    visit({key, FieldKind::choice, {}, choices, meaning}, &value);
   }
   template <typename Enum, std::size_t count>
-  void choice(std::string_view key, Enum& value, const std::array<Named<Enum>, count>& names,
+  void choice(std::string_view key, Enum& value, const EnumNames<Enum, count>& names,
               std::string_view meaning);
-  void box(std::string_view key, Box3& value, const Range& allowed, std::string_view meaning);
 
   /// An angle, or a section in its place: whichever the file gives, or the config holds.
   template <typename Config>
@@ -132,21 +129,48 @@ class FieldVisitor {
 
   template <typename Config>
   void section(std::string_view key, Config& config, std::string_view meaning) {
+    const FieldUse above = enter();
     begin_section(key, meaning);
     fields(*this, config);
     end_section();
+    use_ = next_ = above;
   }
   /// A list of the user's own length: one given anew replaces the old one, its items at defaults.
   template <typename Config>
   void list(std::string_view key, std::vector<Config>& items, const ListSize& allowed,
             std::string_view meaning) {
+    const FieldUse above = enter();
     const std::optional<std::size_t> given = begin_list(key, items.size(), allowed, meaning);
     if (given) items.assign(*given, Config{});
-    visit_items(items);
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      begin_item(i);
+      fields(*this, items[i]);
+      end_item();
+    }
+    end_list();
+    use_ = next_ = above;
   }
+
+  /// The field, section or list that comes next has an effect only if this holds; FieldUse.
+  FieldVisitor& only_if(bool has_effect, std::string_view unused_by) {
+    if (!has_effect && next_.unused_by.empty()) next_.unused_by = unused_by;
+    return *this;
+  }
+  /// The same by the scenario as a whole, where the visitor asks for it.
+  FieldVisitor& only_if(bool (*has_effect)(const Scenario&), std::string_view unused_by) {
+    return only_if(whole_ == nullptr || has_effect(*whole_), unused_by);
+  }
+  /// What comes next belongs to the paper's setting; FieldUse.
+  FieldVisitor& in_papers_setting() {
+    next_.is_papers_setting = true;
+    return *this;
+  }
+  /// Called first by the fields() of a scenario.
+  void begin_whole(const Scenario& scenario) { whole_ = asks_for_use_ ? &scenario : nullptr; }
 
  protected:
   enum class Form { leaf, section, both };
+  bool asks_for_use_ = false;  // of Field::use, whose conditions take their time
 
  private:
   /// Which of the two the visitor looks at; both: one after the other.
@@ -164,15 +188,16 @@ class FieldVisitor {
   virtual void begin_item(std::size_t index) = 0;
   virtual void end_item() = 0;
 
-  template <typename Items>
-  void visit_items(Items& items) {
-    for (std::size_t i = 0; i < items.size(); ++i) {
-      begin_item(i);
-      fields(*this, items[i]);
-      end_item();
-    }
-    end_list();
+  void visit(Field field, const FieldValue& value) {
+    field.use = std::exchange(next_, use_);
+    leaf(field, value);
   }
+  /// Of a section or list: what only_if() and in_papers_setting() said holds for all in it.
+  FieldUse enter() { return std::exchange(use_, next_); }
+
+  FieldUse use_;   // of the section at hand
+  FieldUse next_;  // of what comes next in it
+  const Scenario* whole_ = nullptr;
 };
 
 // fields_sim.cpp
@@ -180,7 +205,6 @@ void fields(FieldVisitor& v, MeshFileConfig& c);
 void fields(FieldVisitor& v, RotorMount& c);
 void fields(FieldVisitor& v, AirframeParameters& c);
 void fields(FieldVisitor& v, AutopilotParameters& c);
-void fields(FieldVisitor& v, CommanderParameters& c);
 void fields(FieldVisitor& v, PowerParameters& c);
 void fields(FieldVisitor& v, GnssOutage& c);
 void fields(FieldVisitor& v, EstimateConfig& c);
@@ -211,6 +235,7 @@ void fields(FieldVisitor& v, SymmetryConfig& c);
 void fields(FieldVisitor& v, TerminationConfig& c);
 void fields(FieldVisitor& v, PlannerConfig& c);
 // fields_scenario.cpp
+void fields(FieldVisitor& v, Box3& c);
 void fields(FieldVisitor& v, StructureConfig& c);
 void fields(FieldVisitor& v, ObstacleConfig& c);
 void fields(FieldVisitor& v, NoFlyConfig& c);
@@ -231,19 +256,13 @@ void FieldVisitor::angle_or_section(std::string_view key_deg, double& value_rad,
 }
 
 template <typename Enum, std::size_t count>
-void FieldVisitor::choice(std::string_view key, Enum& value,
-                          const std::array<Named<Enum>, count>& names, std::string_view meaning) {
+void FieldVisitor::choice(std::string_view key, Enum& value, const EnumNames<Enum, count>& names,
+                          std::string_view meaning) {
   std::array<std::string_view, count> choices;
-  std::string name;
-  for (std::size_t i = 0; i < count; ++i) {
-    choices[i] = names[i].name;
-    if (names[i].value == value) name = names[i].name;
-  }
-  GNBV_CHECK(!name.empty(), "{} = {} has no name", key, static_cast<int>(value));
+  for (std::size_t i = 0; i < count; ++i) choices[i] = names[i].name;
+  std::string name(name_of(value, names));
   choice(key, name, choices, meaning);
-  for (const Named<Enum>& known : names) {
-    if (known.name == name) value = known.value;
-  }
+  value = *value_of(name, names);
 }
 
 }  // namespace gnbv

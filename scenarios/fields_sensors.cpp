@@ -1,21 +1,23 @@
+#include "scenarios/builtin.hpp"
 #include "scenarios/fields.hpp"
-#include "scenarios/sensor_presets.hpp"
+#include "scenarios/presets.hpp"
 
 namespace gnbv {
 namespace {
 
-constexpr std::array<Named<DepthNoise>, 5> kDepthNoises = {{{DepthNoise::none, "none"},
-                                                            {DepthNoise::released, "released"},
-                                                            {DepthNoise::khoshelham, "khoshelham"},
-                                                            {DepthNoise::nguyen, "nguyen"},
-                                                            {DepthNoise::stereo, "stereo"}}};
+constexpr EnumNames<DepthNoise, 5> kDepthNoises = {{{DepthNoise::none, "none"},
+                                                    {DepthNoise::released, "released"},
+                                                    {DepthNoise::khoshelham, "khoshelham"},
+                                                    {DepthNoise::nguyen, "nguyen"},
+                                                    {DepthNoise::stereo, "stereo"}}};
 
 /// Has to be the first key: naming another preset brings its values, those of the keys after it
 /// override them.
-template <typename Config, std::size_t count>
-void preset(FieldVisitor& v, Config& c, const std::array<std::string_view, count>& names) {
+template <typename Config>
+void preset(FieldVisitor& v, Config& c, std::string_view folder) {
   const std::string before = c.preset;
-  v.choice("preset", c.preset, names, "Sets the other values, mounting aside, to this sensor's.");
+  v.choice("preset", c.preset, builtin_names(folder),
+           "Sets the other values, mounting aside, to this sensor's.");
   if (c.preset != before) c = with_preset_values(c);
 }
 
@@ -46,9 +48,12 @@ void mounting(FieldVisitor& v, Config& c) {
 void fields(FieldVisitor& v, DepthNoiseConfig& c) {
   v.choice("model", c.model, kDepthNoises,
            "Law of the standard deviation over depth (sensors/depth_noise.hpp).");
-  v.number("baseline_m", c.baseline_m, between(1e-3, 10), "stereo: between the two lenses.");
-  v.number("disparity_noise_px", c.disparity_noise_px, between(0, 10),
-           "stereo: standard deviation of a disparity.");
+  const bool is_stereo = c.model == DepthNoise::stereo;
+  v.only_if(is_stereo, ".model")
+      .number("baseline_m", c.baseline_m, between(1e-3, 10), "stereo: between the two lenses.");
+  v.only_if(is_stereo, ".model")
+      .number("disparity_noise_px", c.disparity_noise_px, between(0, 10),
+              "stereo: standard deviation of a disparity.");
 }
 
 void fields(FieldVisitor& v, GimbalConfig& c) {
@@ -58,7 +63,7 @@ void fields(FieldVisitor& v, GimbalConfig& c) {
 }
 
 void fields(FieldVisitor& v, CameraConfig& c) {
-  preset(v, c, kCameraPresets);
+  preset(v, c, "cameras");
   v.word("name", c.name, "Name of the camera, unlike that of any other.");
   v.integer("width_px", c.width_px, between(1, 8192), "Pixels a row.");
   v.integer("height_px", c.height_px, between(1, 8192), "Pixels a column.");
@@ -77,7 +82,7 @@ void fields(FieldVisitor& v, CameraConfig& c) {
 }
 
 void fields(FieldVisitor& v, LidarConfig& c) {
-  preset(v, c, kLidarPresets);
+  preset(v, c, "lidars");
   v.word("name", c.name, "Name of the LIDAR, unlike that of any other.");
   v.integer("beams", c.beams, between(1, 1e5), "Beams a sweep, spread evenly over the fan.");
   v.angle("fov_deg", c.fov_rad, between(0, 360), "Angle from the first beam to the last.");

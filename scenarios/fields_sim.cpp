@@ -1,42 +1,35 @@
+#include "scenarios/builtin.hpp"
 #include "scenarios/fields.hpp"
+#include "scenarios/presets.hpp"
 
 namespace gnbv {
 namespace {
 
 constexpr std::array<std::string_view, 4> kUpAxes = {"auto", "x", "y", "z"};
-constexpr std::array<Named<VehicleKind>, 2> kVehicleKinds = {
+constexpr EnumNames<VehicleKind, 2> kVehicleKinds = {
     {{VehicleKind::quadrotor, "quadrotor"}, {VehicleKind::ideal, "ideal"}}};
-constexpr std::array<Named<ThrustLoss>, 3> kThrustLosses = {
-    {{ThrustLoss::none, "none"},
-     {ThrustLoss::axial_speed, "axial_speed"},
-     {ThrustLoss::whole_speed, "whole_speed"}}};
-constexpr std::array<Named<EstimateModel>, 4> kEstimateModels = {{{EstimateModel::none, "none"},
-                                                                  {EstimateModel::mocap, "mocap"},
-                                                                  {EstimateModel::gnss, "gnss"},
-                                                                  {EstimateModel::vio, "vio"}}};
-constexpr std::array<Named<OffboardLossAction>, 8> kOffboardLossActions = {
-    {{OffboardLossAction::position, "position"},
-     {OffboardLossAction::altitude, "altitude"},
-     {OffboardLossAction::stabilized, "stabilized"},
-     {OffboardLossAction::rtl, "rtl"},
-     {OffboardLossAction::land, "land"},
-     {OffboardLossAction::hold, "hold"},
-     {OffboardLossAction::terminate, "terminate"},
-     {OffboardLossAction::disarm, "disarm"}}};
+constexpr EnumNames<ThrustLoss, 3> kThrustLosses = {{{ThrustLoss::none, "none"},
+                                                     {ThrustLoss::axial_speed, "axial_speed"},
+                                                     {ThrustLoss::whole_speed, "whole_speed"}}};
+constexpr EnumNames<EstimateModel, 4> kEstimateModels = {{{EstimateModel::none, "none"},
+                                                          {EstimateModel::mocap, "mocap"},
+                                                          {EstimateModel::gnss, "gnss"},
+                                                          {EstimateModel::vio, "vio"}}};
 
 }  // namespace
 
 void fields(FieldVisitor& v, MeshFileConfig& c) {
+  const auto of_mesh = [&]() -> FieldVisitor& { return v.only_if(!c.path.empty(), ".path"); };
   v.path("path", c.path, "Mesh file (OBJ, STL, PLY, DAE, GLTF, GLB); empty: none.");
-  v.number("scale", c.scale, above_upto(0, 1e6), "Factor on the file's coordinates.");
-  v.angle("yaw_deg", c.yaw_rad, between(-360, 360),
-          "Turned by this about the file's origin, counter-clockwise seen from above.");
-  v.number("offset_m", c.offset_m, between(-1e8, 1e8),
-           "Added after scaling, world axes; survey coordinates are millions of metres.");
-  v.choice("up_axis", c.up_axis, kUpAxes,
-           "Axis of the file that points up; auto: as the file says, z when it is silent.");
-  v.number("unit_m", c.unit_m, between(0, 1e6),
-           "Metres per unit of the file; 0: as the file says, metres when it is silent.");
+  of_mesh().number("scale", c.scale, above_upto(0, 1e6), "Factor on the file's coordinates.");
+  of_mesh().angle("yaw_deg", c.yaw_rad, between(-360, 360),
+                  "Turned by this about the file's origin, counter-clockwise seen from above.");
+  of_mesh().number("offset_m", c.offset_m, between(-1e8, 1e8),
+                   "Added after scaling, world axes; survey coordinates are millions of metres.");
+  of_mesh().choice("up_axis", c.up_axis, kUpAxes,
+                   "Axis of the file that points up; auto: as the file says, z when it is silent.");
+  of_mesh().number("unit_m", c.unit_m, between(0, 1e6),
+                   "Metres per unit of the file; 0: as the file says, metres when it is silent.");
 }
 
 void fields(FieldVisitor& v, RotorMount& c) {
@@ -104,46 +97,6 @@ void fields(FieldVisitor& v, AutopilotParameters& c) {
   v.number("rate_integral_max", c.rate_integral_max, kShare, "MC_RR_INT_LIM and its twins.");
   v.angle("rate_integral_fade_deg_s", c.rate_integral_fade_rad_s, above_upto(0, 1e5),
           "Rate error beyond which nothing is integrated.");
-  v.section("commander", c.commander, "Arming, modes, failsafe, takeoff, landing and Auto modes.");
-}
-
-void fields(FieldVisitor& v, CommanderParameters& c) {
-  constexpr Range kTime = between(0, 1e3);
-  constexpr Range kSpeed = between(0.01, 100);
-  constexpr Range kLength = between(0, 1e3);
-  v.number("offboard_loss_s", c.offboard_loss_s, above_upto(0, 1e3), "COM_OF_LOSS_T.");
-  v.number("offboard_loss_hold_s", c.offboard_loss_hold_s, kTime,
-           "Held this long before the action; PX4 1.9's COM_OF_LOSS_T.");
-  v.choice("offboard_loss_action", c.offboard_loss_action, kOffboardLossActions,
-           "COM_OBL_RC_ACT; a mode that cannot run falls back, without a remote control to hold.");
-  v.number("disarm_after_landing_s", c.disarm_after_landing_s, kTime,
-           "COM_DISARM_LAND; 0: at once.");
-  v.number("disarm_never_flown_s", c.disarm_never_flown_s, kTime, "COM_DISARM_PRFLT; 0: never.");
-  v.number("spool_up_s", c.spool_up_s, kTime, "COM_SPOOLUP_TIME.");
-  v.number("takeoff_ramp_s", c.takeoff_ramp_s, kTime, "MPC_TKO_RAMP_T.");
-  v.number("takeoff_altitude_m", c.takeoff_altitude_m, kLength, "MIS_TAKEOFF_ALT.");
-  v.number("takeoff_speed_m_s", c.takeoff_speed_m_s, kSpeed, "MPC_TKO_SPEED.");
-  v.angle("tilt_max_on_ground_deg", c.tilt_max_on_ground_rad, inside(0, 90), "MPC_TILTMAX_LND.");
-  v.number("land_detection_s", c.land_detection_s, kTime, "LNDMC_TRIG_TIME.");
-  v.number("land_speed_vertical_max_m_s", c.land_speed_vertical_max_m_s, kSpeed,
-           "LNDMC_Z_VEL_MAX.");
-  v.number("land_speed_horizontal_max_m_s", c.land_speed_horizontal_max_m_s, kSpeed,
-           "LNDMC_XY_VEL_MAX.");
-  v.angle("land_rotation_max_deg_s", c.land_rotation_max_rad_s, above_upto(0, 1e4),
-          "LNDMC_ROT_MAX.");
-  v.number("cruise_speed_m_s", c.cruise_speed_m_s, kSpeed, "MPC_XY_CRUISE.");
-  v.number("climb_speed_m_s", c.climb_speed_m_s, kSpeed, "MPC_Z_V_AUTO_UP.");
-  v.number("descent_speed_m_s", c.descent_speed_m_s, kSpeed, "MPC_Z_V_AUTO_DN.");
-  v.number("acceleration_m_s2", c.acceleration_m_s2, kSpeed, "MPC_ACC_HOR.");
-  v.number("acceleration_up_m_s2", c.acceleration_up_m_s2, kSpeed, "MPC_ACC_UP_MAX.");
-  v.number("acceleration_down_m_s2", c.acceleration_down_m_s2, kSpeed, "MPC_ACC_DOWN_MAX.");
-  v.number("jerk_m_s3", c.jerk_m_s3, kSpeed, "MPC_JERK_AUTO.");
-  v.number("path_error_max_m", c.path_error_max_m, above_upto(0, 1e3), "MPC_XY_ERR_MAX.");
-  v.number("land_speed_m_s", c.land_speed_m_s, kSpeed, "MPC_LAND_SPEED.");
-  v.number("land_slow_from_m", c.land_slow_from_m, kLength, "MPC_LAND_ALT1.");
-  v.number("land_slow_below_m", c.land_slow_below_m, kLength, "MPC_LAND_ALT2.");
-  v.number("return_altitude_m", c.return_altitude_m, kLength, "RTL_RETURN_ALT.");
-  v.number("return_distance_min_m", c.return_distance_min_m, kLength, "RTL_MIN_DIST.");
 }
 
 void fields(FieldVisitor& v, PowerParameters& c) {
@@ -153,10 +106,13 @@ void fields(FieldVisitor& v, PowerParameters& c) {
   v.number("c2", c.c2, kAny, "Profile power (Liu et al. 2017).");
   v.number("c4", c.c4, kAny, "Parasitic power (Liu et al. 2017).");
   v.number("battery_wh", c.battery_wh, between(0, 1e5), "Usable energy; 0: never empty.");
-  v.flag("return_home", c.return_home,
-         "Whether the mission ends at the start, landed: in time, if there is a battery.");
-  v.number("reserve_share", c.reserve_share, between(0, 0.9),
-           "return_home: of the battery, kept beside what the way home takes.");
+  v.in_papers_setting().flag(
+      "return_home", c.return_home,
+      "Whether the mission ends at the start, landed: in time, if there is a battery.");
+  v.only_if(c.return_home, ".return_home")
+      .only_if(c.battery_wh > 0.0, ".battery_wh")
+      .number("reserve_share", c.reserve_share, between(0, 0.9),
+              "return_home: of the battery, kept beside what the way home takes.");
 }
 
 void fields(FieldVisitor& v, GnssOutage& c) {
@@ -168,27 +124,32 @@ void fields(FieldVisitor& v, EstimateConfig& c) {
   v.choice("model", c.model, kEstimateModels,
            "none: the truth; otherwise with the errors of motion capture, satellites or vision.");
   v.list("outages", c.outages, {0, 1000}, "gnss: times without satellites.");
-  v.number("outage_drift_m_per_sqrt_s", c.outage_drift_m_per_sqrt_s, between(0, 100),
-           "gnss: then each axis walks at random by this in a second, by twice this in four.");
+  v.only_if(!c.outages.empty(), ".outages")
+      .number("outage_drift_m_per_sqrt_s", c.outage_drift_m_per_sqrt_s, between(0, 100),
+              "gnss: then each axis walks at random by this in a second, by twice this in four.");
 }
 
 void fields(FieldVisitor& v, VehicleConfig& c) {
   const std::string before = c.preset;
-  v.choice("preset", c.preset, kVehiclePresets,
+  v.choice("preset", c.preset, builtin_names("vehicles"),
            "The vehicle whose parameters hold where the keys below say nothing else.");
   if (c.preset != before) c = vehicle_preset(c.preset);
   v.choice("kind", c.kind, kVehicleKinds,
            "quadrotor: rigid body under an autopilot; ideal: moves exactly as commanded.");
-  v.section("estimate", c.estimate, "What the vehicle believes about its own state.");
+  v.in_papers_setting().section("estimate", c.estimate,
+                                "What the vehicle believes about its own state.");
   v.section("airframe", c.airframe, "Rigid body and rotors.");
-  v.section("autopilot", c.autopilot, "PX4's multicopter cascade; capitals name its parameters.");
+  v.only_if(c.kind != VehicleKind::ideal, "vehicle.kind")
+      .section("autopilot", c.autopilot,
+               "PX4's multicopter cascade; capitals name its parameters.");
   v.section("power", c.power, "Power drawn by the rotors, and the battery.");
 }
 
 void fields(FieldVisitor& v, GuidanceConfig& c) {
   v.number("path_speed_m_s", c.path_speed_m_s, between(0.01, 50), "Top speed between views.");
-  v.number("profile_speed_m_s", c.profile_speed_m_s, between(0.01, 50),
-           "Top speed of the profile's descents.");
+  v.only_if(flies_a_profile, "planner.profiling.method")
+      .number("profile_speed_m_s", c.profile_speed_m_s, between(0.01, 50),
+              "Top speed of the profile's descents.");
   v.number("acceleration_m_s2", c.acceleration_m_s2, between(0.01, 50),
            "Of speeding up and braking.");
   v.number("jerk_m_s3", c.jerk_m_s3, between(0.01, 1e3), "Top rate of change of acceleration.");

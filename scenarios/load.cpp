@@ -6,10 +6,10 @@
 
 #include "scenarios/builtin.hpp"
 #include "scenarios/document.hpp"
-#include "scenarios/faults.hpp"
-#include "scenarios/idle_keys.hpp"
 #include "scenarios/problems.hpp"
 #include "scenarios/reader.hpp"
+#include "scenarios/unused_parameters.hpp"
+#include "scenarios/validation_error.hpp"
 #include "scenarios/write.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 struct Source {
   std::string text;
-  std::string label;   // as faults show it
+  std::string label;   // as errors show it
   std::string folder;  // where its relative paths begin
   bool is_builtin = false;
 };
@@ -29,13 +29,12 @@ struct Source {
 std::string here() { return fs::current_path().string(); }
 
 Source open_source(const std::string& name_or_path) {
-  std::vector<std::string_view> names;
-  for (const BuiltinScenario& builtin : builtin_scenarios()) {
-    if (builtin.name == name_or_path) {
-      return {std::string(builtin.yaml), fmt::format("{} (built in)", builtin.name), here(), true};
-    }
-    names.push_back(builtin.name);
+  const std::vector<BuiltinFile> files = builtin_files("scenarios");
+  const auto file = std::ranges::find(files, name_or_path, &BuiltinFile::name);
+  if (file != files.end()) {
+    return {std::string(file->yaml), fmt::format("{} (built in)", file->name), here(), true};
   }
+  const std::vector<std::string_view> names = builtin_names("scenarios");
   std::error_code ignored;
   const fs::path path = name_or_path;
   if (fs::is_directory(path, ignored)) {
@@ -58,32 +57,32 @@ std::string value_of(const Scenario& scenario, const std::string& key) {
 }
 
 /// A key and where it, or the nearest section around it, was given.
-struct Culprit {
+struct GivenKey {
   std::string key;
-  Origin origin;
+  SourceLocation location;
   bool is_given_itself = false;
 };
 
 /// Of keys that do not go together, the one given last; of those, one given itself; of those, the
 /// first. At `source` when all are at their defaults.
-Culprit culprit_of(const std::vector<std::string>& keys, const Origins& origins,
-                   const Origin& source) {
-  Culprit culprit = {keys.front(), {source.source, 0, -1}, false};
+GivenKey latest_given(const std::vector<std::string>& keys, const SourceLocations& locations,
+                      const SourceLocation& source) {
+  GivenKey given_key = {keys.front(), {source.source, 0, -1}, false};
   for (const std::string& key : keys) {
     std::string path = key;
-    auto given = origins.find(path);
-    while (given == origins.end() && path.find('.') != std::string::npos) {
+    auto given = locations.find(path);
+    while (given == locations.end() && path.find('.') != std::string::npos) {
       path.resize(path.rfind('.'));
-      given = origins.find(path);
+      given = locations.find(path);
     }
-    if (given == origins.end()) continue;
+    if (given == locations.end()) continue;
     const bool is_given_itself = path == key;
     if (std::pair(given->second.rank, is_given_itself) >
-        std::pair(culprit.origin.rank, culprit.is_given_itself)) {
-      culprit = {key, given->second, is_given_itself};
+        std::pair(given_key.location.rank, given_key.is_given_itself)) {
+      given_key = {key, given->second, is_given_itself};
     }
   }
-  return culprit;
+  return given_key;
 }
 
 /// Of any key of mesh_files().
@@ -94,10 +93,11 @@ bool is_mesh_path(std::string_view key) {
 
 enum class MeshFile { has_to_be_there, may_be_missing };
 
-/// Adds what does not go together. Keys already at fault are left out: it would only repeat them.
-void add_problems(const Scenario& scenario, MeshFile mesh_file, const Origin& source,
-                  const Origins& origins, Faults& faults) {
-  const Faults given = faults;
+/// Adds what does not go together. Keys that are wrong already are left out: it would only repeat
+/// them.
+void add_problems(const Scenario& scenario, MeshFile mesh_file, const SourceLocation& source,
+                  const SourceLocations& locations, ValidationErrors& errors) {
+  const ValidationErrors given = errors;
   for (const Problem& problem : problems(scenario)) {
     if (mesh_file == MeshFile::may_be_missing && is_mesh_path(problem.keys.front())) {
       continue;
@@ -106,15 +106,15 @@ void add_problems(const Scenario& scenario, MeshFile mesh_file, const Origin& so
                     [&](const std::string& key) { return given.concerns(key); })) {
       continue;
     }
-    const Culprit culprit = culprit_of(problem.keys, origins, source);
-    faults.add(culprit.origin, culprit.key, value_of(scenario, culprit.key), problem.what);
+    const GivenKey given_key = latest_given(problem.keys, locations, source);
+    errors.add(given_key.location, given_key.key, value_of(scenario, given_key.key), problem.what);
   }
 }
 
 /// What was not given and is another afterwards is the filling's.
-void fill_in(const Filling& filling, Scenario& scenario, Origins& origins) {
+void fill_in(const Filling& filling, Scenario& scenario, SourceLocations& locations) {
   const auto is_given = [&](std::string_view key) {
-    return std::any_of(origins.begin(), origins.end(), [&](const auto& given) {
+    return std::any_of(locations.begin(), locations.end(), [&](const auto& given) {
       return given.second.rank > 0 && is_at_or_below(given.first, key);
     });
   };
@@ -124,67 +124,92 @@ void fill_in(const Filling& filling, Scenario& scenario, Origins& origins) {
   GNBV_CHECK(before.size() == after.size(), "a filling made keys");
   for (std::size_t i = 0; i < after.size(); ++i) {
     if (after[i] == before[i]) continue;
-    const Origin origin = {filling.source, 0, 1};
+    const SourceLocation location = {filling.source, 0, 1};
     const std::string& key = after[i].first;
-    origins[key] = origin;
+    locations[key] = location;
     // problems may name the section, which is the user's if it was given
-    Origin& section = origins[key.substr(0, key.find('.'))];
-    if (section.rank == 0) section = origin;
+    SourceLocation& section = locations[key.substr(0, key.find('.'))];
+    if (section.rank == 0) section = location;
   }
+}
+
+/// Of keys of version 0.1 that were passed over.
+std::string removed_note(const SourceLocation& source, const std::vector<std::string>& keys) {
+  const std::string others = keys.size() == 1 ? "" : fmt::format(" and {} more", keys.size() - 1);
+  return fmt::format(
+      "{}: passes over {}{}: removed after version 0.1, and given at the former default",
+      source.source, keys.front(), others);
 }
 
 /// Whom to tell that the structure is not in the workspace, which nobody knows before its mesh is
 /// read.
-std::string placed_at(const Origins& origins, const Origin& source) {
+std::string placed_at(const SourceLocations& locations, const SourceLocation& source) {
   std::vector<std::string> keys = {"workspace_m.min", "workspace_m.max", "structure.builtin"};
-  for (const auto& [key, given] : origins) {
+  for (const auto& [key, given] : locations) {
     if (is_at_or_below(key, "structure.file") || is_at_or_below(key, "structure.files")) {
       keys.push_back(key);
     }
   }
-  const Culprit last = culprit_of(keys, origins, source);
+  const GivenKey last = latest_given(keys, locations, source);
   const std::string& key = last.key;
-  return text_of(last.origin) + ": " + (key.starts_with("workspace_m") ? "workspace_m" : key);
+  return text_of(last.location) + ": " + (key.starts_with("workspace_m") ? "workspace_m" : key);
 }
 
-Scenario load(const std::string& name_or_path, const std::vector<Override>& overrides,
-              MeshFile mesh_file, const Filling& filling, std::vector<std::string>* idle_notes) {
-  const Source source = open_source(name_or_path);
-  const Origin origin = {source.label, 1, 0};
-  Faults faults;
-  Origins origins;
+struct Loaded {
   Scenario scenario;
-  const std::optional<YamlNode> root = parse_document(source.text, origin, faults);
-  if (!root) faults.throw_if_any();
-  GNBV_CHECK(root.has_value(), "no tree and no fault in {}", source.label);
-  read_scenario(*root, source.folder, scenario, faults, origins);
+  std::vector<std::string> removed_notes;  // a sentence for each source with removed keys
+};
+
+Loaded load(const std::string& name_or_path, const std::vector<Override>& overrides,
+            MeshFile mesh_file, const Filling& filling = {},
+            std::vector<std::string>* unused_notes = nullptr) {
+  const Source source = open_source(name_or_path);
+  const SourceLocation location = {source.label, 1, 0};
+  ValidationErrors errors;
+  SourceLocations locations;
+  Loaded loaded;
+  Scenario& scenario = loaded.scenario;
+  const auto read = [&](const YamlNode& tree, const std::string& folder,
+                        const SourceLocation& given) {
+    const auto removed = read_scenario(tree, folder, scenario, errors, locations);
+    if (!removed.empty()) loaded.removed_notes.push_back(removed_note(given, removed));
+  };
+  const std::optional<YamlNode> root = parse_document(source.text, location, errors);
+  if (!root) errors.throw_if_any();
+  GNBV_CHECK(root.has_value(), "no tree and no error in {}", source.label);
+  read(*root, source.folder, location);
   for (std::size_t i = 0; i < overrides.size(); ++i) {
     const auto& [text, given_by, folder] = overrides[i];
-    const Origin given = {given_by.empty() ? fmt::format("--set {}", text) : given_by, 0,
-                          static_cast<int>(i) + 1};
-    const auto picks = parse_override(text, given, faults);
-    if (picks) read_scenario(*picks, folder.empty() ? here() : folder, scenario, faults, origins);
+    const SourceLocation given = {given_by.empty() ? fmt::format("--set {}", text) : given_by, 0,
+                                  static_cast<int>(i) + 1};
+    const auto picks = parse_override(text, given, errors);
+    if (picks) read(*picks, folder.empty() ? here() : folder, given);
   }
-  Origins given_by_user = origins;
+  SourceLocations given_by_user = locations;
   if (source.is_builtin) {
     std::erase_if(given_by_user, [](const auto& given) { return given.second.rank == 0; });
   }
-  if (filling.fill && faults.empty()) fill_in(filling, scenario, origins);
+  if (filling.fill && errors.empty()) fill_in(filling, scenario, locations);
   if (root->kind == YamlNode::Kind::map) {
-    add_problems(scenario, mesh_file, origin, origins, faults);
+    add_problems(scenario, mesh_file, location, locations, errors);
   }
-  faults.throw_if_any();
-  scenario.placed_at = placed_at(origins, origin);
-  if (idle_notes != nullptr) *idle_notes = idle_key_notes(scenario, given_by_user);
-  return scenario;
+  errors.throw_if_any();
+  scenario.placed_at = placed_at(locations, location);
+  if (unused_notes != nullptr) *unused_notes = unused_parameter_notes(scenario, given_by_user);
+  return loaded;
+}
+
+/// Says the notes on stderr.
+Scenario noting_removed(Loaded loaded) {
+  for (const std::string& note : loaded.removed_notes) fmt::print(stderr, "gnbv: {}\n", note);
+  return std::move(loaded.scenario);
 }
 
 }  // namespace
 
 std::vector<std::string> builtin_scenario_names() {
-  std::vector<std::string> names;
-  for (const BuiltinScenario& builtin : builtin_scenarios()) names.emplace_back(builtin.name);
-  return names;
+  const std::vector<std::string_view> names = builtin_names("scenarios");
+  return {names.begin(), names.end()};
 }
 
 Scenario load_scenario(const std::string& name_or_path, const std::vector<std::string>& overrides) {
@@ -194,13 +219,24 @@ Scenario load_scenario(const std::string& name_or_path, const std::vector<std::s
 }
 
 Scenario load_flown_scenario(const std::string& path) {
-  return load(path, {}, MeshFile::may_be_missing, {}, nullptr);
+  return noting_removed(load(path, {}, MeshFile::may_be_missing));
+}
+
+bool is_written_in(const std::string& path, const Scenario& scenario) {
+  const std::string yaml = to_yaml(scenario);
+  if (read_file(path) == yaml) return true;
+  try {
+    return to_yaml(load(path, {}, MeshFile::may_be_missing).scenario) == yaml;
+  } catch (const BadInput&) {
+    return false;  // it is no scenario at all
+  }
 }
 
 Scenario load_with_overrides(const std::string& name_or_path,
                              const std::vector<Override>& overrides, const Filling& filling,
-                             std::vector<std::string>* idle_notes) {
-  return load(name_or_path, overrides, MeshFile::has_to_be_there, filling, idle_notes);
+                             std::vector<std::string>* unused_notes) {
+  return noting_removed(
+      load(name_or_path, overrides, MeshFile::has_to_be_there, filling, unused_notes));
 }
 
 }  // namespace gnbv

@@ -19,34 +19,37 @@ std::vector<std::string> builtin_scenario_names();
 /// "workspace_m={max: [9, 9, 9]}". The value is YAML; a map sets the keys it names, a list replaces
 /// the list. Relative paths of a file mean beside that file, those of an override the current
 /// folder; in the Scenario they are absolute.
-/// Throws BadInput with every fault, one a line, `file:line: key: value 'X': what (did you mean)`:
+/// Throws BadInput with every error, one a line, `file:line: key: value 'X': what (did you mean)`:
 /// syntax, unknown and repeated keys, wrong types, values out of range, problems().
 Scenario load_scenario(const std::string& name_or_path, const std::vector<std::string>& overrides);
 
 /// load_scenario() of a configuration that was flown: its mesh file may have been moved since.
 Scenario load_flown_scenario(const std::string& path);
 
+/// Whether the file, written by to_yaml() of this version or of 0.1, holds this configuration.
+bool is_written_in(const std::string& path, const Scenario& scenario);
+
 /// A value given over those of the scenario file.
 struct Override {
   std::string text;      // KEY=VALUE, the value in YAML
-  std::string source{};  // as faults show it; "" = "--set TEXT"
+  std::string source{};  // as errors show it; "" = "--set TEXT"
   std::string folder{};  // where its relative paths begin; "" = the current folder
 };
 
 /// Fills in values of a scenario that was read, before they are checked against each other.
 /// `is_given` says whether an override, rather than the file, gave a key or one below it.
 struct Filling {
-  std::string source;  // as faults of what was filled in show it
+  std::string source;  // as errors of what was filled in show it
   std::function<void(Scenario&, const std::function<bool(std::string_view)>& is_given)> fill;
 };
 
 /// load_scenario() with overrides that were not given on the command line, and perhaps with values
 /// that depend on the rest: a filling's come last, and throw BadInput when they cannot be had.
-/// `idle_notes` gets a sentence for each key that was given and has no effect (idle_keys.hpp); the
-/// files that are built in give none.
+/// `unused_notes` gets a sentence for each key that was given and has no effect
+/// (unused_parameters.hpp); the files that are built in give none.
 Scenario load_with_overrides(const std::string& name_or_path,
                              const std::vector<Override>& overrides, const Filling& filling = {},
-                             std::vector<std::string>* idle_notes = nullptr);
+                             std::vector<std::string>* unused_notes = nullptr);
 
 /// The override that gives these views: `planner.routes.views=[...]`. They read back bit for bit.
 std::string views_override(std::span<const ViewPose> views);

@@ -5,8 +5,9 @@
 
 namespace gnbv {
 
-/// Whether the scenario has the sensors, the workspace, the resolution, the profile and the number
-/// of views of the built-in scenario of its name, which are the paper's. The structure is not
+/// Whether the scenario has the values of the built-in scenario of its name, which are the paper's,
+/// wherever fields_*.cpp say that they belong to the paper's setting: sensors, estimate, workspace,
+/// resolution, steps of the grid, collision radius, profile, number of views. The structure is not
 /// asked: it may be a file. Nor are the switches, each a reading of the paper.
 bool has_papers_setting(const Scenario& scenario);
 

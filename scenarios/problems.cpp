@@ -6,15 +6,10 @@
 #include <cmath>
 
 #include "planner/map/memory.hpp"
-#include "scenarios/adversities.hpp"
-#include "scenarios/problems_vehicle.hpp"
-#include "scenarios/problems_world.hpp"
 #include "scenarios/values.hpp"
 
 namespace gnbv {
 namespace {
-
-using Problems = std::vector<Problem>;
 
 constexpr double kGiB = 1024.0 * 1024 * 1024;
 
@@ -67,8 +62,7 @@ void check_sensors(const Scenario& s, Problems& out) {
   }
   check_names(s.lidars, "lidars", out);
   const ProfilingMethod profiling = s.planner.profiling.method;
-  const bool is_scanned = profiling != ProfilingMethod::none && profiling != ProfilingMethod::saved;
-  if (s.lidars.empty() && is_scanned) {
+  if (s.lidars.empty() && flies_a_profile(s)) {
     out.push_back({{"lidars", "planner.profiling.method"}, "the profile needs a LIDAR to scan it"});
   }
   if (profiling == ProfilingMethod::saved && s.planner.profiling.file.empty()) {
@@ -113,10 +107,7 @@ void check_map_size(const Scenario& s, Problems& out) {
 }
 
 void check_workspace(const Scenario& s, Problems& out) {
-  if (!check_box(s.workspace_m.min(), s.workspace_m.max(), "workspace_m.min", "workspace_m.max",
-                 out)) {
-    return;
-  }
+  if (!check_box(s.workspace_m, "workspace_m", out)) return;
   check_map_size(s, out);
 
   const double top_m = s.workspace_m.max().z();
@@ -227,13 +218,13 @@ void check_utility(const UtilityConfig& utility, Problems& out) {
 
 }  // namespace
 
-std::vector<Problem> problems(const Scenario& scenario) {
+Problems problems(const Scenario& scenario) {
   Problems out;
   check_workspace(scenario, out);
   check_world(scenario, out);
   check_sensors(scenario, out);
   check_vehicle(scenario, out);
-  check_adversities(scenario, out);
+  check_disturbances(scenario, out);
   check_cloud(scenario.planner, out);
   check_lengths(scenario.planner, out);
   check_view_rays(scenario, out);

@@ -1,10 +1,9 @@
-#include "scenarios/problems_vehicle.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "scenarios/problems.hpp"
 #include "sim/flight/allocation.hpp"
 #include "sim/flight/flight.hpp"
 #include "sim/flight/guidance.hpp"
@@ -13,13 +12,6 @@
 
 namespace gnbv {
 namespace {
-
-using Problems = std::vector<Problem>;
-
-/// The command of [0, 1] at which thrust equals weight, whether or not there is one.
-double hover_of(const AirframeParameters& a) {
-  return (hover_speed_rad_s(a) - a.idle_speed_rad_s) / a.command_gain_rad_s;
-}
 
 /// Whether the rotors can steer it at all.
 bool check_rotors(const AirframeParameters& a, Problems& out) {
@@ -116,7 +108,7 @@ void check_quadrotor(const Scenario& s, Problems& out) {
   const AirframeParameters& a = s.vehicle.airframe;
   check_drag(a, out);
   check_hull(s, out);
-  const double hover = hover_of(a);
+  const double hover = needed_hover_command(a);
   if (autopilot.thrust_min < hover && hover < autopilot.thrust_max) {
     if (!check_rotors(a, out)) return;
     check_yaw_authority(a, out);
@@ -143,15 +135,47 @@ void check_guidance(const Scenario& s, Problems& out) {
   check(s.guidance.profile_speed_m_s, "profile_speed_m_s");
 }
 
-/// The guidance streams a setpoint every 20 ms.
-void check_offboard(const VehicleConfig& vehicle, Problems& out) {
-  constexpr double kStream_s = 0.02;
-  const double loss_s = vehicle.autopilot.commander.offboard_loss_s;
-  if (loss_s > kStream_s) return;
-  out.push_back({{"vehicle.autopilot.commander.offboard_loss_s"},
-                 fmt::format("has to exceed the {} s between two setpoints of the guidance, or the "
-                             "vehicle never stays in OFFBOARD",
-                             kStream_s)});
+/// A wind against which the vehicle cannot hold its place at all.
+void check_wind(const Scenario& s, Problems& out) {
+  const Vec3& wind_m_s = s.wind.mean_world_m_s;
+  const bool is_calm = wind_m_s.isZero(0.0) && s.wind.gust_w20_m_s == 0.0;
+  if (is_calm) return;
+  if (s.vehicle.kind == VehicleKind::ideal) {
+    out.push_back({{"wind.mean_m_s", "vehicle.kind"},
+                   "an ideal vehicle moves exactly as commanded: it feels no wind"});
+    return;
+  }
+  const AirframeParameters& a = s.vehicle.airframe;
+  const double calm_command = needed_hover_command(a);
+  if (!(calm_command > 0.0 && calm_command < 1.0))
+    return;  // it does not fly at all: said elsewhere
+  const AutopilotParameters& autopilot = s.vehicle.autopilot;
+  const HoverTrim trim = hover_trim(s.vehicle, wind_m_s);
+  const bool is_held = trim.tilt_rad < autopilot.tilt_max_rad &&
+                       trim.command > autopilot.thrust_min && trim.command < autopilot.thrust_max;
+  if (is_held) return;
+  out.push_back(
+      {{"wind.mean_m_s", "vehicle.autopilot.tilt_max_deg", "vehicle.autopilot.thrust_max"},
+       fmt::format("hovering in a wind of {:.3g} m/s takes a tilt of {:.3g} deg and the command "
+                   "{:.3g}; the autopilot allows less than {:.3g} deg, and commands from {} to {}",
+                   wind_m_s.norm(), rad_to_deg(trim.tilt_rad), trim.command,
+                   rad_to_deg(autopilot.tilt_max_rad), autopilot.thrust_min,
+                   autopilot.thrust_max)});
+}
+
+void check_outages(const EstimateConfig& estimate, Problems& out) {
+  const std::string key = "vehicle.estimate.outages";
+  if (!estimate.outages.empty() && estimate.model != EstimateModel::gnss) {
+    out.push_back(
+        {{key, "vehicle.estimate.model"}, "only an estimate by satellites, `gnss`, can lose them"});
+  }
+  for (std::size_t i = 1; i < estimate.outages.size(); ++i) {
+    const GnssOutage& before = estimate.outages[i - 1];
+    if (before.start_s + before.duration_s <= estimate.outages[i].start_s) continue;
+    out.push_back({{fmt::format("{}.{}.start_s", key, i)},
+                   fmt::format("the outage at {} s begins before that at {} s has ended",
+                               estimate.outages[i].start_s, before.start_s)});
+  }
 }
 
 }  // namespace
@@ -168,13 +192,17 @@ void check_vehicle(const Scenario& scenario, Problems& out) {
   if (vehicle.kind == VehicleKind::quadrotor) {
     check_quadrotor(scenario, out);
     check_guidance(scenario, out);
-    check_offboard(vehicle, out);
     return;
   }
   check_leg_times(scenario, out);
   if (vehicle.estimate.model == EstimateModel::none) return;
   out.push_back({{"vehicle.estimate.model", "vehicle.kind"},
                  "an ideal vehicle knows where it is: its estimate is `none`"});
+}
+
+void check_disturbances(const Scenario& scenario, Problems& out) {
+  check_wind(scenario, out);
+  check_outages(scenario.vehicle.estimate, out);
 }
 
 }  // namespace gnbv

@@ -1,17 +1,14 @@
-#include "scenarios/problems_world.hpp"
-
 #include <fmt/format.h>
 
-#include <array>
 #include <filesystem>
+
+#include "scenarios/problems.hpp"
 
 namespace gnbv {
 namespace {
 
-constexpr std::array<char, 3> kAxes = {'x', 'y', 'z'};
-
 /// Every path that is given names a file; those of lists have to be given.
-void check_mesh_files(const Scenario& s, std::vector<Problem>& out) {
+void check_mesh_files(const Scenario& s, Problems& out) {
   Scenario copy = s;  // mesh_files() hands out what can be changed
   for (const MeshFileKey& mesh : mesh_files(copy)) {
     const std::string& path = mesh.file->path;
@@ -27,7 +24,7 @@ void check_mesh_files(const Scenario& s, std::vector<Problem>& out) {
   }
 }
 
-void check_obstacles(const Scenario& s, std::vector<Problem>& out) {
+void check_obstacles(const Scenario& s, Problems& out) {
   for (std::size_t i = 0; i < s.obstacles.size(); ++i) {
     const std::string key = fmt::format("obstacles.{}", i);
     const Box3& box_m = s.obstacles[i].box_m;
@@ -39,19 +36,19 @@ void check_obstacles(const Scenario& s, std::vector<Problem>& out) {
       out.push_back({{key, key + ".file.path", key + ".box_m"},
                      "names neither a mesh (file.path) nor a box (box_m)"});
     } else if (is_box) {
-      check_box(box_m.min(), box_m.max(), key + ".box_m.min", key + ".box_m.max", out);
+      check_box(box_m, key + ".box_m", out);
     }
   }
 }
 
-void check_no_fly(const Scenario& s, std::vector<Problem>& out) {
+void check_no_fly(const Scenario& s, Problems& out) {
   for (std::size_t i = 0; i < s.no_fly.size(); ++i) {
     const std::string key = fmt::format("no_fly.{}", i);
-    const NoFlyConfig& box = s.no_fly[i];
-    if (!check_box(box.min_m, box.max_m, key + ".min", key + ".max", out)) continue;
+    const Box3& box_m = s.no_fly[i].box_m;
+    if (!check_box(box_m, key, out)) continue;
     const double radius_m = s.planner.validity.collision_radius_m;
     const Vec3& start_m = s.start.pose.p_world_m;
-    const double away_m = Box3(box.min_m, box.max_m).exteriorDistance(start_m);
+    const double away_m = box_m.exteriorDistance(start_m);
     if (away_m >= radius_m) continue;
     out.push_back({{key, "start.position_m", "planner.validity.collision_radius_m"},
                    fmt::format("the start {} is {} the box from {} to {}", text_of(start_m),
@@ -59,14 +56,14 @@ void check_no_fly(const Scenario& s, std::vector<Problem>& out) {
                                              : fmt::format("{:.2f} m, less than collision_radius_m "
                                                            "= {}, from",
                                                            away_m, radius_m),
-                               text_of(box.min_m), text_of(box.max_m))});
+                               text_of(box_m.min()), text_of(box_m.max()))});
   }
 }
 
-void check_region(const Scenario& s, std::vector<Problem>& out) {
+void check_region(const Scenario& s, Problems& out) {
   const Box3& region_m = s.score.region_m;
   const std::string key = "score.region_m";
-  if (!check_box(region_m.min(), region_m.max(), key + ".min", key + ".max", out)) return;
+  if (!check_box(region_m, key, out)) return;
   if (region_m.intersects(s.workspace_m)) return;
   out.push_back({{key + ".max", key + ".min", "workspace_m.max", "workspace_m.min"},
                  "score.region_m has nothing of the workspace in it"});
@@ -78,21 +75,22 @@ std::string text_of(const Vec3& p_m) {
   return fmt::format("[{}, {}, {}]", p_m.x(), p_m.y(), p_m.z());
 }
 
-bool check_box(const Vec3& low_m, const Vec3& high_m, const std::string& min_key,
-               const std::string& max_key, std::vector<Problem>& out) {
+bool check_box(const Box3& box_m, const std::string& key, Problems& out) {
   bool is_box = true;
   for (int axis = 0; axis < 3; ++axis) {
-    if (low_m[axis] < high_m[axis]) continue;
+    const double low_m = box_m.min()[axis];
+    const double high_m = box_m.max()[axis];
+    if (low_m < high_m) continue;
     is_box = false;
-    const char name = kAxes[static_cast<std::size_t>(axis)];
-    out.push_back({{max_key, min_key},
-                   fmt::format("min {} = {} has to be below max {} = {}", name, low_m[axis], name,
-                               high_m[axis])});
+    const char name = "xyz"[axis];
+    out.push_back(
+        {{key + ".max", key + ".min"},
+         fmt::format("min {} = {} has to be below max {} = {}", name, low_m, name, high_m)});
   }
   return is_box;
 }
 
-void check_world(const Scenario& scenario, std::vector<Problem>& out) {
+void check_world(const Scenario& scenario, Problems& out) {
   check_mesh_files(scenario, out);
   check_obstacles(scenario, out);
   check_no_fly(scenario, out);

@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "scenarios/flow_yaml.hpp"
+#include "scenarios/old_keys.hpp"
 #include "scenarios/values.hpp"
 #include "scenarios/write.hpp"
 
@@ -16,21 +17,25 @@ using Kind = YamlNode::Kind;
 
 class Reader final : public FieldVisitor {
  public:
-  Reader(const YamlNode& root, const std::string& folder, Faults& faults, Origins& origins)
-      : folder_(folder), faults_(faults), origins_(origins) {
+  Reader(const YamlNode& root, const std::string& folder, const Scenario& scenario,
+         ValidationErrors& errors, SourceLocations& locations)
+      : folder_(folder), scenario_(scenario), errors_(errors), locations_(locations) {
     push("", &root);
     require_map();
   }
 
-  /// Call last.
-  void finish() { pop(); }
+  /// Call last. The removed keys that were given, each at its former default.
+  std::vector<std::string> finish() {
+    pop();
+    return std::move(removed_keys_);
+  }
 
  private:
   /// The section, list or item being read. `node` is null where the tree names nothing.
   struct Level {
     const YamlNode* node = nullptr;
     std::string path;
-    Origin origin;                        // of the key
+    SourceLocation location;              // of the key
     std::vector<std::string_view> known;  // keys of a section
   };
 
@@ -39,13 +44,13 @@ class Reader final : public FieldVisitor {
     const YamlEntry* entry = take(field.key);
     if (entry == nullptr) return;
     const std::string path = path_of(field.key);
-    const auto faults = read_value(entry->value, field, folder_, value);
-    for (const ValueFault& fault : faults) {
-      const bool has_line = fault.node->kind != Kind::null && fault.node->kind != Kind::picks;
-      faults_.add(has_line ? fault.node->origin : entry->origin, path + fault.item,
-                  excerpt(*fault.node), fault.what);
+    const auto errors = read_value(entry->value, field, folder_, value);
+    for (const ValueError& error : errors) {
+      const bool has_line = error.node->kind != Kind::null && error.node->kind != Kind::picks;
+      errors_.add(has_line ? error.node->location : entry->location, path + error.item,
+                  excerpt(*error.node), error.what);
     }
-    if (faults.empty()) origins_[path] = entry->origin;
+    if (errors.empty()) locations_[path] = entry->location;
   }
 
   Form form_of(std::string_view key, bool holds_section) override {
@@ -59,7 +64,7 @@ class Reader final : public FieldVisitor {
     const YamlEntry* entry = take(key);
     push(path_of(key), entry == nullptr ? nullptr : &entry->value);
     if (entry == nullptr) return;
-    levels_.back().origin = entry->origin;
+    levels_.back().location = entry->location;
     require_map();
   }
   void end_section() override { pop(); }
@@ -69,7 +74,7 @@ class Reader final : public FieldVisitor {
     const YamlEntry* entry = take(key);
     push(path_of(key), entry == nullptr ? nullptr : &entry->value);
     if (entry == nullptr) return std::nullopt;
-    levels_.back().origin = entry->origin;
+    levels_.back().location = entry->location;
     const YamlNode& node = entry->value;
     if (node.kind == Kind::picks) {
       check_picks(node, size);
@@ -85,7 +90,7 @@ class Reader final : public FieldVisitor {
                            : fmt::format("from {} to {}", allowed.min, allowed.max)));
     } else {
       forget(levels_.back().path);
-      origins_[levels_.back().path] = entry->origin;
+      locations_[levels_.back().path] = entry->location;
       return given;
     }
     return std::nullopt;
@@ -102,7 +107,7 @@ class Reader final : public FieldVisitor {
     }
     const bool is_new = item != nullptr && list.node->kind == Kind::list;
     push(fmt::format("{}.{}", list.path, index), item);
-    if (is_new) origins_[levels_.back().path] = item->origin;
+    if (is_new) locations_[levels_.back().path] = item->location;
     require_map();
   }
   void end_item() override { pop(); }
@@ -115,31 +120,54 @@ class Reader final : public FieldVisitor {
   /// The key's entry in the current section, noting that the key is known.
   const YamlEntry* take(std::string_view key) {
     levels_.back().known.push_back(key);
+    const std::string_view old_name = old_name_of(path_of(key));
+    if (!old_name.empty()) levels_.back().known.push_back(old_name);
     return entry_of(key);
   }
   const YamlEntry* entry_of(std::string_view key) const {
     const Level& level = levels_.back();
     if (level.node == nullptr) return nullptr;
-    const auto entry = std::find_if(level.node->entries.begin(), level.node->entries.end(),
-                                    [&](const YamlEntry& e) { return e.key == key; });
+    const std::string_view old_name = old_name_of(path_of(key));
+    const auto entry =
+        std::find_if(level.node->entries.begin(), level.node->entries.end(),
+                     [&](const YamlEntry& e) { return e.key == key || e.key == old_name; });
     return entry == level.node->entries.end() ? nullptr : &*entry;
   }
 
   void push(std::string path, const YamlNode* node) {
-    levels_.push_back({node, std::move(path), node == nullptr ? Origin{} : node->origin, {}});
+    levels_.push_back(
+        {node, std::move(path), node == nullptr ? SourceLocation{} : node->location, {}});
   }
 
-  /// Leaves a section, item or the scenario: what was not taken is unknown.
+  /// Leaves a section, item or the scenario: what was not taken is no key, or no more.
   void pop() {
     const Level level = std::move(levels_.back());
     levels_.pop_back();
     if (level.node == nullptr) return;
     for (const YamlEntry& entry : level.node->entries) {
-      if (std::find(level.known.begin(), level.known.end(), entry.key) != level.known.end())
-        continue;
-      const std::string path = level.path.empty() ? entry.key : level.path + '.' + entry.key;
-      // the key is at fault, whatever its value
-      faults_.add(entry.origin, path, "",
+      if (std::find(level.known.begin(), level.known.end(), entry.key) == level.known.end()) {
+        refuse_or_pass_over(entry, level);
+      }
+    }
+  }
+
+  void refuse_or_pass_over(const YamlEntry& entry, const Level& level) {
+    const std::string path = level.path.empty() ? entry.key : level.path + '.' + entry.key;
+    if (const auto former = former_default(path, scenario_)) {
+      if (is_same_value(entry.value, *former)) {
+        removed_keys_.push_back(path);
+      } else {
+        errors_.add(entry.location, path, excerpt(entry.value),
+                    fmt::format("the key was removed after version 0.1; only its former default, "
+                                "{}, is still read",
+                                *former));
+      }
+    } else if (holds_removed_keys(path) && !entry.value.entries.empty()) {
+      for (const YamlEntry& below : entry.value.entries) {
+        refuse_or_pass_over(below, {&entry.value, path, entry.location, level.known});
+      }
+    } else {  // the key is wrong, whatever its value
+      errors_.add(entry.location, path, "",
                   fmt::format("is no known key ({})", hint(level, entry.key)));
     }
   }
@@ -164,13 +192,13 @@ class Reader final : public FieldVisitor {
       if (at == std::string::npos) continue;
       return fmt::format("did you mean '{}'?", path.substr(0, at + key.size()));
     }
-    if (const auto near = nearest_name(key, level.known, slip_limit(key))) {
+    if (const auto near = nearest_name(key, level.known, misspelling_limit(key))) {
       return fmt::format("did you mean '{}{}'?", above, *near);
     }
     return fmt::format("known here: {}", join(level.known));
   }
 
-  /// Drops a node that should be a map, with a fault.
+  /// Drops a node that should be a map, with an error.
   void require_map() {
     const YamlNode* node = levels_.back().node;
     if (node == nullptr || node->kind == Kind::map || node->kind == Kind::picks) return;
@@ -180,7 +208,7 @@ class Reader final : public FieldVisitor {
 
   void drop(const std::string& what) {
     Level& level = levels_.back();
-    faults_.add(level.origin, level.path, excerpt(*level.node), what);
+    errors_.add(level.location, level.path, excerpt(*level.node), what);
     level.node = nullptr;
   }
 
@@ -192,7 +220,7 @@ class Reader final : public FieldVisitor {
       const bool is_index =
           error == std::errc{} && last == end && entry.key == std::to_string(index);
       if (is_index && index < size) continue;
-      faults_.add(entry.origin, path_of(entry.key), "",
+      errors_.add(entry.location, path_of(entry.key), "",
                   size == 0 ? "the list is empty"
                             : fmt::format("is no item of the list (allowed: 0 to {})", size - 1));
     }
@@ -200,7 +228,7 @@ class Reader final : public FieldVisitor {
 
   /// A new list knows nothing of where the old one's values came from.
   void forget(const std::string& path) {
-    std::erase_if(origins_, [&](const auto& known) { return is_at_or_below(known.first, path); });
+    std::erase_if(locations_, [&](const auto& known) { return is_at_or_below(known.first, path); });
   }
 
   static void write_angles_once(const Field& field, const FieldValue& value) {
@@ -212,18 +240,21 @@ class Reader final : public FieldVisitor {
   }
 
   const std::string& folder_;
-  Faults& faults_;
-  Origins& origins_;
+  const Scenario& scenario_;
+  ValidationErrors& errors_;
+  SourceLocations& locations_;
+  std::vector<std::string> removed_keys_;
   std::vector<Level> levels_;
 };
 
 }  // namespace
 
-void read_scenario(const YamlNode& root, const std::string& folder, Scenario& scenario,
-                   Faults& faults, Origins& origins) {
-  Reader reader(root, folder, faults, origins);
+std::vector<std::string> read_scenario(const YamlNode& root, const std::string& folder,
+                                       Scenario& scenario, ValidationErrors& errors,
+                                       SourceLocations& locations) {
+  Reader reader(root, folder, scenario, errors, locations);
   fields(reader, scenario);
-  reader.finish();
+  return reader.finish();
 }
 
 }  // namespace gnbv

@@ -9,10 +9,12 @@
 
 namespace gnbv {
 
-/// Sets what `root` names. Whatever does not fit, unknown keys included, goes to `faults` and
-/// changes nothing; where values were given goes to `origins`. Relative paths are taken from
-/// `folder`. Angles that are not named become their written_angle_rad().
-void read_scenario(const YamlNode& root, const std::string& folder, Scenario& scenario,
-                   Faults& faults, Origins& origins);
+/// Sets what `root` names. Whatever does not fit, unknown keys included, goes to `errors` and
+/// changes nothing; where values were given goes to `locations`. Relative paths are taken from
+/// `folder`. Angles that are not named become their written_angle_rad(). Returns the keys that
+/// version 0.1 had and that were passed over (old_keys.hpp).
+std::vector<std::string> read_scenario(const YamlNode& root, const std::string& folder,
+                                       Scenario& scenario, ValidationErrors& errors,
+                                       SourceLocations& locations);
 
 }  // namespace gnbv

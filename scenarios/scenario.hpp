@@ -51,8 +51,7 @@ struct ObstacleConfig {
 
 /// A box that may not be flown in. World ENU.
 struct NoFlyConfig {
-  Vec3 min_m = Vec3::Zero();
-  Vec3 max_m = Vec3::Zero();
+  Box3 box_m = Box3(Vec3::Zero(), Vec3::Zero());
 };
 
 /// What of the structure counts, and at which sizes of voxels.
@@ -98,10 +97,16 @@ inline bool has_flat_ground(const Scenario& scenario) {
   return scenario.structure.ground && scenario.terrain.path.empty();
 }
 
+/// Whether LIDARs scan the structure before the first view.
+inline bool flies_a_profile(const Scenario& scenario) {
+  const ProfilingMethod method = scenario.planner.profiling.method;
+  return method != ProfilingMethod::saved && method != ProfilingMethod::none;
+}
+
 /// The scenario's no_fly boxes, kept clear of by the collision radius.
 inline NoFly no_fly_of(const Scenario& scenario) {
   NoFly no_fly{.boxes_m = {}, .margin_m = scenario.planner.validity.collision_radius_m};
-  for (const NoFlyConfig& box : scenario.no_fly) no_fly.boxes_m.emplace_back(box.min_m, box.max_m);
+  for (const NoFlyConfig& keep_out : scenario.no_fly) no_fly.boxes_m.push_back(keep_out.box_m);
   return no_fly;
 }
 

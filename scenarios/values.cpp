@@ -141,17 +141,17 @@ std::string read_text(const YamlNode& node, const Field& field, const std::strin
   return "";
 }
 
-std::vector<ValueFault> read_vector(const YamlNode& node, const Field& field, Vec3& value) {
-  std::vector<ValueFault> faults;
+std::vector<ValueError> read_vector(const YamlNode& node, const Field& field, Vec3& value) {
+  std::vector<ValueError> errors;
   Vec3 read = value;
   const auto component = [&](const YamlNode& item, std::size_t axis) {
     const std::string what = read_one(item, field, read[static_cast<Eigen::Index>(axis)]);
-    if (!what.empty()) faults.push_back({&item, what, fmt::format(".{}", axis)});
+    if (!what.empty()) errors.push_back({&item, what, fmt::format(".{}", axis)});
   };
   if (node.kind == Kind::list && node.items.size() == 3) {
     for (std::size_t i = 0; i < 3; ++i) component(node.items[i], i);
   } else if (node.kind == Kind::list) {
-    faults.push_back(
+    errors.push_back(
         {&node, fmt::format("has {} items; expects [x, y, z]", node.items.size()), ""});
   } else if (node.kind == Kind::picks) {
     for (const YamlEntry& entry : node.entries) {
@@ -159,23 +159,23 @@ std::vector<ValueFault> read_vector(const YamlNode& node, const Field& field, Ve
       if (entry.key.size() == 1 && axis != std::string_view::npos) {
         component(entry.value, axis);
       } else {
-        faults.push_back(
+        errors.push_back(
             {&entry.value, "is no item of [x, y, z] (allowed: 0 to 2)", '.' + entry.key});
       }
     }
   } else {
-    faults.push_back({&node, expected(node, "three numbers, [x, y, z]"), ""});
+    errors.push_back({&node, expected(node, "three numbers, [x, y, z]"), ""});
   }
-  if (faults.empty()) value = read;
-  return faults;
+  if (errors.empty()) value = read;
+  return errors;
 }
 
-std::vector<ValueFault> read_numbers(const YamlNode& node, const Field& field,
+std::vector<ValueError> read_numbers(const YamlNode& node, const Field& field,
                                      std::vector<double>& values) {
   if (node.kind != Kind::list || node.items.empty() || node.items.size() > kMostNumbers) {
     return {{&node, expected(node, fmt::format("a list of 1 to {} numbers", kMostNumbers)), ""}};
   }
-  std::vector<ValueFault> faults;
+  std::vector<ValueError> errors;
   std::vector<double> read;
   for (std::size_t i = 0; i < node.items.size(); ++i) {
     double number = 0.0;
@@ -183,11 +183,11 @@ std::vector<ValueFault> read_numbers(const YamlNode& node, const Field& field,
     if (what.empty() && std::find(read.begin(), read.end(), number) != read.end()) {
       what = "is there twice";
     }
-    if (!what.empty()) faults.push_back({&node.items[i], what, fmt::format(".{}", i)});
+    if (!what.empty()) errors.push_back({&node.items[i], what, fmt::format(".{}", i)});
     read.push_back(number);
   }
-  if (faults.empty()) values = read;
-  return faults;
+  if (errors.empty()) values = read;
+  return errors;
 }
 
 std::string number_text(const Field& field, double value) {
@@ -238,6 +238,14 @@ double degrees_of(double angle_rad) {
 
 double written_angle_rad(double angle_rad) { return deg_to_rad(degrees_of(angle_rad)); }
 
+bool is_same_value(const YamlNode& node, const std::string& text) {
+  double a = 0.0;
+  double b = 0.0;
+  if (node.kind != Kind::scalar) return false;
+  return node.text == text || (parse_whole(node.text, a) == std::errc{} &&
+                               parse_whole(text, b) == std::errc{} && a == b);
+}
+
 std::string yaml_text(const Field& field, const FieldValue& value) {
   return std::visit(
       [&](const auto* v) -> std::string {
@@ -264,7 +272,7 @@ std::string yaml_text(const Field& field, const FieldValue& value) {
       value);
 }
 
-std::vector<ValueFault> read_value(const YamlNode& node, const Field& field,
+std::vector<ValueError> read_value(const YamlNode& node, const Field& field,
                                    const std::string& folder, const FieldValue& value) {
   std::string what;
   if (auto* const* vector = std::get_if<Vec3*>(&value)) return read_vector(node, field, **vector);

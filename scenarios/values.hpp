@@ -18,16 +18,19 @@ double written_angle_rad(double angle_rad);
 /// The value as YAML, in the fewest digits that read back exactly; relative paths made absolute.
 std::string yaml_text(const Field& field, const FieldValue& value);
 
-/// What a node that does not convert is wrong about.
-struct ValueFault {
+/// Why a node does not convert.
+struct ValueError {
   const YamlNode* node = nullptr;
   std::string what;
   std::string item;  // ".1" when it is one number of three
 };
 
+/// Whether the node is a scalar that says the same as the text: equal numbers, or equal letters.
+bool is_same_value(const YamlNode& node, const std::string& text);
+
 /// Sets the value, or says what is wrong and leaves it alone. Vec3: a list of three, or picks.
 /// Relative paths are taken from `folder`.
-std::vector<ValueFault> read_value(const YamlNode& node, const Field& field,
+std::vector<ValueError> read_value(const YamlNode& node, const Field& field,
                                    const std::string& folder, const FieldValue& value);
 
 }  // namespace gnbv

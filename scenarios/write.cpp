@@ -49,11 +49,16 @@ class YamlWriter final : public FieldVisitor {
 
 class ValueLister final : public FieldVisitor {
  public:
-  std::vector<std::pair<std::string, std::string>> values;
+  explicit ValueLister(bool asks_for_use) { asks_for_use_ = asks_for_use; }
+
+  std::vector<ValueUse> values;
 
  private:
   void leaf(const Field& field, const FieldValue& value) override {
-    values.emplace_back(path_ + std::string(field.key), yaml_text(field, value));
+    const std::string_view by = field.use.unused_by;
+    values.push_back({path_ + std::string(field.key), yaml_text(field, value),
+                      by.starts_with('.') ? path_ + std::string(by.substr(1)) : std::string(by),
+                      field.use.is_papers_setting});
   }
   void begin_section(std::string_view key, std::string_view) override { enter(key); }
   void end_section() override { leave(); }
@@ -75,6 +80,13 @@ class ValueLister final : public FieldVisitor {
   std::string path_;
 };
 
+std::vector<ValueUse> listed(const Scenario& scenario, bool asks_for_use) {
+  Scenario copy = scenario;
+  ValueLister lister(asks_for_use);
+  fields(lister, copy);
+  return std::move(lister.values);
+}
+
 }  // namespace
 
 std::string to_yaml(const Scenario& scenario) {
@@ -95,11 +107,14 @@ std::string views_override(std::span<const ViewPose> views) {
   return text + ']';
 }
 
+std::vector<ValueUse> value_uses(const Scenario& scenario) { return listed(scenario, true); }
+
 std::vector<std::pair<std::string, std::string>> scenario_values(const Scenario& scenario) {
-  Scenario copy = scenario;
-  ValueLister lister;
-  fields(lister, copy);
-  return lister.values;
+  std::vector<std::pair<std::string, std::string>> values;
+  for (ValueUse& value : listed(scenario, false)) {
+    values.emplace_back(std::move(value.path), std::move(value.text));
+  }
+  return values;
 }
 
 }  // namespace gnbv

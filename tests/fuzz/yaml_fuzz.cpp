@@ -18,13 +18,13 @@ std::size_t nodes_of(const YamlNode& node) {
 }
 
 void check(const std::string& text) {
-  Faults faults;
-  const Origin file = {"fuzz.yaml", 1, 0};
+  ValidationErrors faults;
+  const SourceLocation file = {"fuzz.yaml", 1, 0};
   const auto tree = parse_document(text, file, faults);
   GNBV_CHECK(tree || !faults.empty(), "nothing, and no fault");
   // what stands there, and what anchors and aliases may make of it
   if (tree) GNBV_CHECK(nodes_of(*tree) <= 2 * text.size() + 100'002, "{} nodes", nodes_of(*tree));
-  Faults override_faults;
+  ValidationErrors override_faults;
   const auto picks = parse_override(text, {"--set", 0, 1}, override_faults);
   GNBV_CHECK(picks || !override_faults.empty(), "nothing, and no fault");
 }

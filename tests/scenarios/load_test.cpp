@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "scenarios/builtin.hpp"
-#include "scenarios/sensor_presets.hpp"
+#include "scenarios/presets.hpp"
 #include "scenarios/write.hpp"
 #include "sim/core/file.hpp"
 #include "tests/scenarios/scenario_text.hpp"
@@ -29,16 +29,21 @@ TEST(LoadScenario, EveryBuiltinLoadsAndRepeatsFromItsOwnText) {
   }
 }
 
-TEST(LoadScenario, BuiltinsAreTheFilesOfTheFolder) {
-  std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(GNBV_SCENARIOS_FOLDER)) {
-    if (entry.path().extension() == ".yaml") files.push_back(entry.path().stem().string());
-  }
-  std::sort(files.begin(), files.end());
-  EXPECT_EQ(builtin_scenario_names(), files);
-  for (const BuiltinScenario& builtin : builtin_scenarios()) {
-    EXPECT_EQ(builtin.yaml,
-              read_file(fmt::format("{}/{}.yaml", GNBV_SCENARIOS_FOLDER, builtin.name)));
+TEST(LoadScenario, BuiltinsAreTheFilesOfTheirFolders) {
+  const std::filesystem::path scenarios = GNBV_SCENARIOS_FOLDER;
+  for (const auto& folder : {scenarios, scenarios / "presets/vehicles",
+                             scenarios / "presets/cameras", scenarios / "presets/lidars"}) {
+    std::vector<std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      if (entry.path().extension() == ".yaml") files.push_back(entry.path().stem().string());
+    }
+    std::sort(files.begin(), files.end());
+    const std::string name = folder.filename().string();
+    const auto names = builtin_names(name);
+    EXPECT_EQ(std::vector<std::string>(names.begin(), names.end()), files);
+    for (const BuiltinFile& file : builtin_files(name)) {
+      EXPECT_EQ(file.yaml, read_file(folder / fmt::format("{}.yaml", file.name)));
+    }
   }
 }
 
@@ -109,7 +114,7 @@ TEST(VehiclePreset, HoldsWhereTheKeysBesideItSayNothingElse) {
 }
 
 TEST(VehiclePreset, LoadsWithoutProblemsAndRepeatsFromItsOwnText) {
-  for (const std::string_view preset : kVehiclePresets) {
+  for (const std::string_view preset : builtin_names("vehicles")) {
     const Scenario s =
         load_text(kMinimal + fmt::format("vehicle: {{preset: {}, power: {{k1: 0.9}}}}", preset));
     const std::string text = to_yaml(s);
@@ -119,7 +124,7 @@ TEST(VehiclePreset, LoadsWithoutProblemsAndRepeatsFromItsOwnText) {
 
 TEST(VehiclePreset, IsOneOfTheKnown) {
   EXPECT_THAT(complaint(kMinimal + "vehicle: {preset: concorde}"),
-              testing::HasSubstr("iris, iris_sitl_2019, authors, f450"));
+              testing::HasSubstr("authors, f450, iris, iris_sitl_2019"));
 }
 
 TEST(Overrides, ApplyInOrderTheLastOneWins) {
@@ -188,8 +193,8 @@ TEST(SensorPresets, AreOverriddenOnlyByNamingAnother) {
 }
 
 TEST(SensorPresets, SurviveWritingAndReading) {
-  for (const std::string_view camera : kCameraPresets) {
-    for (const std::string_view lidar : kLidarPresets) {
+  for (const std::string_view camera : builtin_names("cameras")) {
+    for (const std::string_view lidar : builtin_names("lidars")) {
       const std::string text = fmt::format(
           "cameras: [{{preset: {}, height_px: 99}}]\nlidars: [{{preset: {}}}]\n", camera, lidar);
       const std::string yaml = to_yaml(load_text(text));
@@ -200,9 +205,14 @@ TEST(SensorPresets, SurviveWritingAndReading) {
   }
 }
 
-TEST(SensorPresets, OfTheSimulationAreTheDefaults) {
-  EXPECT_EQ(kCameraPresets[0], CameraConfig{}.preset);
-  EXPECT_EQ(kLidarPresets[0], LidarConfig{}.preset);
+TEST(Presets, OfTheSimulationAreTheDefaults) {
+  Scenario defaults;
+  defaults.cameras.resize(1);
+  const Scenario named =
+      load_text("cameras: [{preset: zed_mini}]",
+                {"vehicle.preset=f450", "lidars.0.preset=hokuyo_ust_10lx", "vehicle.preset=iris",
+                 "cameras.0.preset=rgbd_sim", "lidars.0.preset=profiling_sim"});
+  EXPECT_EQ(to_yaml(named), to_yaml(defaults));
   EXPECT_THAT(load_text(kMinimal).cameras[0].noise.model, DepthNoise::none)
       << "the paper states no noise";
 }

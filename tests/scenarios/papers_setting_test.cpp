@@ -31,16 +31,17 @@ TEST(PapersSetting, IsNoneInAnotherWorldNorWithAnotherEnd) {
   EXPECT_FALSE(has_papers_setting(hilly));
   EXPECT_FALSE(has_papers_setting(
       load_scenario("aircraft", {"vehicle.estimate={model: gnss, outages: [{start_s: 9}]}"})));
-  // what is only told, and what a mission without it never notices
-  EXPECT_TRUE(has_papers_setting(
-      load_scenario("aircraft", {"score.sizes_m=[0.2]", "vehicle.estimate.model=gnss"})));
+  // what is only told
+  EXPECT_TRUE(has_papers_setting(load_scenario("aircraft", {"score.sizes_m=[0.2]"})));
 }
 
 TEST(PapersSetting, IsNoneWithOtherViewsSensorsProfileRoomOrName) {
   for (const std::string set :
        {"planner.termination.max_iterations=20", "planner.profiling.method=none",
         "cameras.0.range_max_m=6", "cameras=[{}]", "lidars.0.range_max_m=9",
-        "planner.map.resolution_m=0.1", "workspace_m={max: [30, 30, 20]}", "name=mine"}) {
+        "planner.map.resolution_m=0.1", "workspace_m={max: [30, 30, 20]}", "name=mine",
+        "vehicle.estimate.model=gnss", "planner.validity.collision_radius_m=1",
+        "planner.agvs.step_m=2", "planner.agvs.yaw_step_deg=90"}) {
     EXPECT_FALSE(has_papers_setting(load_scenario("aircraft", {set}))) << set;
   }
 }

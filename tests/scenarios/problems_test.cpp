@@ -145,11 +145,6 @@ TEST(Problems, AnIdealVehicleDoesNotEstimate) {
               StartsWith("--set vehicle.estimate.model=gnss: vehicle.estimate.model: "));
 }
 
-TEST(Problems, TheStreamOfTheGuidanceHasToKeepTheVehicleInOffboard) {
-  const std::string key = "vehicle.autopilot.commander.offboard_loss_s";
-  EXPECT_THAT(complaint(kMinimal, {key + "=0.02"}), StartsWith("--set " + key + "=0.02: " + key));
-}
-
 TEST(Problems, AWindIsOneTheVehicleCanHoverIn) {
   EXPECT_EQ(complaint(kMinimal + "wind: {mean_m_s: [12, -9, 0], gust_w20_m_s: 15.4}"), "");
   EXPECT_THAT(complaint(kMinimal + "wind: {mean_m_s: [0, 40, 0]}"),

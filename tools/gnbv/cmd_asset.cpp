@@ -8,7 +8,7 @@
 
 #include "assets/catalog.hpp"
 #include "assets/random/random_structure.hpp"
-#include "scenarios/faults.hpp"
+#include "scenarios/validation_error.hpp"
 #include "scenarios/scenario.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"

@@ -80,8 +80,8 @@ void say_warnings(const Scenario& scenario, const MeshFileConfig& file,
 
 /// What a mission flies in spite of: keys that do nothing, and what lint warns of in a mesh. What
 /// its reader left out is said when the mission loads it.
-void say_doubts(const Scenario& scenario, const std::vector<std::string>& idle_notes) {
-  for (const std::string& note : idle_notes) say(note);
+void say_doubts(const Scenario& scenario, const std::vector<std::string>& unused_notes) {
+  for (const std::string& note : unused_notes) say(note);
   const StructureConfig& structure = scenario.structure;
   if (!structure.file.path.empty()) say_warnings(scenario, structure.file, "structure.file.");
   for (std::size_t i = 0; i < structure.files.size(); ++i) {
@@ -131,11 +131,11 @@ std::unique_ptr<LiveChild> watched(const RunOptions& options) {
 }
 
 void run(const RunOptions& options) {
-  std::vector<std::string> idle_notes;
-  const Scenario scenario = resolve_scenario(options.scenario, idle_notes);
+  std::vector<std::string> unused_notes;
+  const Scenario scenario = resolve_scenario(options.scenario, unused_notes);
   need_route(options, scenario);
   if (has_ended(options, scenario)) return;
-  say_doubts(scenario, idle_notes);
+  say_doubts(scenario, unused_notes);
   const std::unique_ptr<LiveChild> live = watched(options);
   const ExecutedMission mission = execute_mission(scenario, options.mission);
   if (options.mission.piped_views) {

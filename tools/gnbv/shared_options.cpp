@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenarios/faults.hpp"
+#include "scenarios/validation_error.hpp"
 
 namespace gnbv {
 namespace {

@@ -26,13 +26,13 @@ Scenario resolve_scenario(const ScenarioOptions& options) {
   return resolve_scenario(options, std::vector<Override>{});
 }
 
-Scenario resolve_scenario(const ScenarioOptions& options, std::vector<std::string>& idle_notes) {
-  return resolve_scenario(options, {}, structure_extent, &idle_notes);
+Scenario resolve_scenario(const ScenarioOptions& options, std::vector<std::string>& unused_notes) {
+  return resolve_scenario(options, {}, structure_extent, &unused_notes);
 }
 
 Scenario resolve_scenario(const ScenarioOptions& options, const std::vector<Override>& overrides,
                           const std::function<StructureExtent(const Scenario&)>& extent,
-                          std::vector<std::string>* idle_notes) {
+                          std::vector<std::string>* unused_notes) {
   std::vector<Override> all;
   const auto add = [&all](std::string text) { all.push_back({.text = std::move(text)}); };
   // absolute, since a relative path in a scenario file is relative to that file
@@ -62,7 +62,7 @@ Scenario resolve_scenario(const ScenarioOptions& options, const std::vector<Over
                                      .yaw = is_given("start.yaw_deg")});
     };
   }
-  return load_with_overrides(options.scenario, all, bounds, idle_notes);
+  return load_with_overrides(options.scenario, all, bounds, unused_notes);
 }
 
 }  // namespace gnbv

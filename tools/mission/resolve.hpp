@@ -30,8 +30,8 @@ StructureExtent structure_extent(const Scenario& scenario);
 /// then
 /// --bounds auto, which leaves alone what --set gave.
 Scenario resolve_scenario(const ScenarioOptions& options);
-/// The same; `idle_notes` gets a sentence for each key that was given and has no effect.
-Scenario resolve_scenario(const ScenarioOptions& options, std::vector<std::string>& idle_notes);
+/// The same; `unused_notes` gets a sentence for each key that was given and has no effect.
+Scenario resolve_scenario(const ScenarioOptions& options, std::vector<std::string>& unused_notes);
 
 /// The same for overrides that say where they come from; they are applied after those of the
 /// options. `extent` is asked only for bounds_auto: whoever resolves many scenarios of one
@@ -39,6 +39,6 @@ Scenario resolve_scenario(const ScenarioOptions& options, std::vector<std::strin
 Scenario resolve_scenario(
     const ScenarioOptions& options, const std::vector<Override>& overrides,
     const std::function<StructureExtent(const Scenario&)>& extent = structure_extent,
-    std::vector<std::string>* idle_notes = nullptr);
+    std::vector<std::string>* unused_notes = nullptr);
 
 }  // namespace gnbv

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "scenarios/faults.hpp"
+#include "scenarios/validation_error.hpp"
 #include "sim/core/error.hpp"
 #include "tools/python/belief_view.hpp"
 #include "tools/python/env_bindings.hpp"
@@ -15,11 +15,12 @@ namespace {
 namespace nb = nanobind;
 
 /// gnbv.BadInput(message, [(file, line, key, value, what), ...]).
-void raise_bad_input(const char* text, std::span<const gnbv::FaultParts> parts) {
+void raise_bad_input(const char* text, std::span<const gnbv::ValidationError> errors) {
   nb::list faults;
-  for (const gnbv::FaultParts& p : parts) {
-    faults.append(nb::make_tuple(nb::str(p.source.c_str()), p.line, nb::str(p.key.c_str()),
-                                 nb::str(p.value.c_str()), nb::str(p.what.c_str())));
+  for (const auto& [location, key, value, what] : errors) {
+    faults.append(nb::make_tuple(nb::str(location.source.c_str()), location.line,
+                                 nb::str(key.c_str()), nb::str(value.c_str()),
+                                 nb::str(what.c_str())));
   }
   const nb::object type = nb::module_::import_("gnbv._errors").attr("BadInput");
   PyErr_SetObject(type.ptr(), type(nb::str(text), faults).ptr());
@@ -29,7 +30,7 @@ void translate(const std::exception_ptr& thrown, void*) {
   try {
     std::rethrow_exception(thrown);
   } catch (const gnbv::BadScenario& error) {
-    raise_bad_input(error.what(), error.faults);
+    raise_bad_input(error.what(), error.errors);
   } catch (const gnbv::BadInput& error) {
     raise_bad_input(error.what(), {});
   } catch (const std::filesystem::filesystem_error& error) {

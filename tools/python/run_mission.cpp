@@ -149,9 +149,9 @@ RunArguments arguments_of(const nb::dict& given) {
 nb::tuple run(const nb::dict& given, nb::object planner, nb::object on_progress) {
   RunArguments arguments = arguments_of(given);
   MissionOptions& options = arguments.mission;
-  std::vector<std::string> idle_notes;
-  const Scenario scenario = resolve_scenario(arguments.scenario, idle_notes);
-  for (const std::string& note : idle_notes) fmt::print(stderr, "gnbv: {}\n", note);
+  std::vector<std::string> unused_notes;
+  const Scenario scenario = resolve_scenario(arguments.scenario, unused_notes);
+  for (const std::string& note : unused_notes) fmt::print(stderr, "gnbv: {}\n", note);
   Raised raised;
   options.should_stop = [&raised] { return raised.error != nullptr; };
   if (!on_progress.is_none()) {

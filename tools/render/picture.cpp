@@ -90,8 +90,8 @@ void add_structure(RunSource& run, RenderScene& scene) {
 void add_surroundings(RunSource& run, RenderScene& scene) {
   add_in_one_colour(run.world().obstacles, kObstacleColour, 1.0F, scene);
   TriangleMesh boxes;
-  for (const NoFlyConfig& box : run.record().scenario.no_fly) {
-    append(boxes, box_mesh(Box3(box.min_m, box.max_m)));
+  for (const NoFlyConfig& keep_out : run.record().scenario.no_fly) {
+    append(boxes, box_mesh(keep_out.box_m));
   }
   constexpr float kNoFlyOpacity = 0.3F;
   add_in_one_colour(boxes, kNoFlyColour, kNoFlyOpacity, scene);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "scenarios/faults.hpp"
+#include "scenarios/validation_error.hpp"
 #include "sim/core/error.hpp"
 #include "tools/render/place_marks.hpp"
 

@@ -74,7 +74,7 @@ void need_usable(const fs::path& folder, const Scenario& scenario, bool resume) 
                     "another --out",
                     folder.string()));
   }
-  if (holds_a_run && read_file(folder / kScenarioFile) != to_yaml(scenario)) {
+  if (holds_a_run && !is_written_in((folder / kScenarioFile).string(), scenario)) {
     throw BadInput(
         fmt::format("{}: the run there is of another configuration: only the same one "
                     "can be resumed",

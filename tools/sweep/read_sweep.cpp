@@ -24,8 +24,8 @@ class SweepReader {
 
   Sweep read() {
     const std::optional<YamlNode> root =
-        parse_document(read_file(yaml_), {yaml_.string(), 1, 0}, values_.faults());
-    if (!root) values_.faults().throw_if_any();
+        parse_document(read_file(yaml_), {yaml_.string(), 1, 0}, values_.errors());
+    if (!root) values_.errors().throw_if_any();
     GNBV_CHECK(root.has_value(), "no tree and no fault in {}", yaml_.string());
     sweep_.folder = folder_;
     if (values_.require_map(
@@ -35,7 +35,7 @@ class SweepReader {
       read_seeds(root->find("seeds"));
       refuse_too_many(*root);
     }
-    if (!values_.faults().empty()) throw_with_faults_of_cells();
+    if (!values_.errors().empty()) throw_with_faults_of_cells();
     return std::move(sweep_);
   }
 
@@ -44,7 +44,7 @@ class SweepReader {
   [[noreturn]] void throw_with_faults_of_cells() {
     std::string text;
     try {
-      values_.faults().throw_if_any();
+      values_.errors().throw_if_any();
     } catch (const BadInput& error) {
       text = error.what();
     }

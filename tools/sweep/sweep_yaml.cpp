@@ -12,9 +12,9 @@
 
 namespace gnbv {
 
-void Settings::add(std::string text, const Origin& origin) {
+void Settings::add(std::string text, const SourceLocation& location) {
   overrides.push_back(std::move(text));
-  sources.push_back(text_of(origin));
+  sources.push_back(text_of(location));
 }
 
 void Settings::add(const Settings& others) {
@@ -23,8 +23,9 @@ void Settings::add(const Settings& others) {
 }
 
 void SweepYaml::fault(const YamlNode& node, const std::string& path, const std::string& what) {
-  const Origin origin = node.origin.line > 0 ? node.origin : Origin{file_, 1, 0};
-  faults_.add(origin, path, excerpt(node), what);
+  const SourceLocation location =
+      node.location.line > 0 ? node.location : SourceLocation{file_, 1, 0};
+  errors_.add(location, path, excerpt(node), what);
 }
 
 bool SweepYaml::require_map(const YamlNode& node, const std::string& path,
@@ -36,8 +37,8 @@ bool SweepYaml::require_map(const YamlNode& node, const std::string& path,
   const std::vector<std::string_view> names(known);
   for (const YamlEntry& entry : node.entries) {
     if (std::find(names.begin(), names.end(), entry.key) != names.end()) continue;
-    const auto near = nearest_name(entry.key, names, slip_limit(entry.key));
-    faults_.add(entry.origin, path.empty() ? entry.key : path + '.' + entry.key, "",
+    const auto near = nearest_name(entry.key, names, misspelling_limit(entry.key));
+    errors_.add(entry.location, path.empty() ? entry.key : path + '.' + entry.key, "",
                 near ? fmt::format("is no known key (did you mean '{}'?)", *near)
                      : fmt::format("is no known key (known here: {})", join(names)));
   }
@@ -76,9 +77,9 @@ Settings SweepYaml::settings_of(const YamlNode* node, const std::string& path) {
   }
   for (const YamlEntry& entry : node->entries) {
     if (entry.key == "seed") {
-      faults_.add(entry.origin, path + ".seed", "", "seeds are given by the key 'seeds'");
+      errors_.add(entry.location, path + ".seed", "", "seeds are given by the key 'seeds'");
     } else {
-      settings.add(fmt::format("{}={}", entry.key, flow_yaml(entry.value)), entry.origin);
+      settings.add(fmt::format("{}={}", entry.key, flow_yaml(entry.value)), entry.location);
     }
   }
   return settings;

@@ -17,7 +17,7 @@ struct Settings {
   std::vector<std::string> overrides;
   std::vector<std::string> sources;
 
-  void add(std::string text, const Origin& origin);
+  void add(std::string text, const SourceLocation& location);
   void add(const Settings& others);
 };
 
@@ -26,7 +26,7 @@ class SweepYaml {
  public:
   explicit SweepYaml(std::string file) : file_(std::move(file)) {}
 
-  Faults& faults() { return faults_; }
+  ValidationErrors& errors() { return errors_; }
   void fault(const YamlNode& node, const std::string& path, const std::string& what);
 
   /// Whether it is a map; keys that are not known are named.
@@ -47,10 +47,11 @@ class SweepYaml {
 
  private:
   std::string file_;
-  Faults faults_;
+  ValidationErrors errors_;
 };
 
-/// Faults of many origins, one a line: each once, those of a file together and in its order.
+/// ValidationErrors of many locations, one a line: each once, those of a file together and in its
+/// order.
 std::string in_order_of_lines(const std::string& faults);
 
 }  // namespace gnbv

@@ -248,13 +248,13 @@ TEST_F(SweepFile, ValuesReachTheScenarioAsTheyAreWritten) {
 TEST_F(SweepFile, AFlowTextReadsBackAsTheSameValue) {
   for (const char* text : {"5", "\"5\"", "[1, 2.5, -3e-2]", "{a: {b: [1, two, \"3\"]}, c: true}",
                            "\"a\\\"b\\\\c\"", "[\"a, b\", \"c: d\", \"#e\", \"\", ~]", "\"\\n\""}) {
-    Faults faults;
+    ValidationErrors faults;
     const auto node = parse_document(text, {}, faults);
     ASSERT_TRUE(node && faults.empty()) << text;
     EXPECT_EQ(flow_yaml(*node), text);
   }
   // block text that would end within a list goes into quotes
-  Faults faults;
+  ValidationErrors faults;
   const auto block = parse_document("- a, b\n- 'c'\n- d\n- {e: f g}\n", {}, faults);
   EXPECT_EQ(flow_yaml(*block), "[\"a, b\", \"c\", d, {e: f g}]");
 }

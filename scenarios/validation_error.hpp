@@ -1,4 +1,4 @@
-// What is wrong with a scenario, and where it says so. Faults are collected, then thrown together.
+// What is wrong with a scenario, and where it says so. Errors are collected, then thrown together.
 #pragma once
 
 #include <map>
@@ -14,22 +14,21 @@
 namespace gnbv {
 
 /// Where a value was given: a line of a file, or an override.
-struct Origin {
+struct SourceLocation {
   std::string source;  // as the message shows it: a path, "--set a.b=c"
   int line = 0;        // from 1; 0 = the source has no lines
   int rank = 0;        // 0 the file, then 1, 2, ... the overrides: later ones win
 };
 
 /// "source:line", or "source".
-std::string text_of(const Origin& origin);
+std::string text_of(const SourceLocation& location);
 
 /// By the path of a key ("cameras.0.name"): where its value was last given.
-using Origins = std::map<std::string, Origin>;
+using SourceLocations = std::map<std::string, SourceLocation>;
 
-/// One fault in its parts; those that are empty do not apply.
-struct FaultParts {
-  std::string source;  // a path, "--set a.b=c"
-  int line = 0;        // from 1; 0 = the source has no lines
+/// Parts that are empty do not apply.
+struct ValidationError {
+  SourceLocation location;
   std::string key;
   std::string value;
   std::string what;
@@ -38,32 +37,25 @@ struct FaultParts {
 /// All that is wrong with a scenario, for those who want more than text.
 class BadScenario : public BadInput {
  public:
-  BadScenario(const std::string& text, std::vector<FaultParts> parts)
-      : BadInput(text), faults(std::move(parts)) {}
-  std::vector<FaultParts> faults;
+  BadScenario(const std::string& text, std::vector<ValidationError> all)
+      : BadInput(text), errors(std::move(all)) {}
+  std::vector<ValidationError> errors;
 };
 
-class Faults {
+class ValidationErrors {
  public:
-  /// "source:line: path: value 'value': what", without the parts that are empty.
-  void add(const Origin& origin, std::string_view path, std::string_view value,
+  void add(const SourceLocation& location, std::string_view key, std::string_view value,
            std::string_view what);
 
-  bool empty() const { return faults_.empty(); }
-  /// Whether the key, one above or one below it is at fault.
+  bool empty() const { return errors_.empty(); }
+  /// Whether the key, one above or one below it is wrong.
   bool concerns(std::string_view path) const;
-  /// Throws BadScenario with one line per fault in the order of the input; returns if there are
-  /// none.
+  /// Throws BadScenario with a line for each error, "source:line: key: value 'value': what", in the
+  /// order of the input; returns if there are none.
   void throw_if_any() const;
 
  private:
-  struct Fault {
-    Origin origin;
-    std::string path;
-    std::string message;
-    FaultParts parts;
-  };
-  std::vector<Fault> faults_;
+  std::vector<ValidationError> errors_;
 };
 
 /// Whether one path equals the other or lies below it.
@@ -78,10 +70,10 @@ std::optional<std::string_view> nearest_name(std::string_view name,
                                              std::span<const std::string_view> known,
                                              std::size_t limit);
 
-/// How many slips still count as a slip: half the name's length, at least 2.
-std::size_t slip_limit(std::string_view name);
+/// The edit distance up to which a name counts as misspelt: half its length, at least 2.
+std::size_t misspelling_limit(std::string_view name);
 
-/// "did you mean 'isler'? " of a name that may be a slip of a known one, else empty.
+/// "did you mean 'isler'? " where the name may be a known one misspelt, else empty.
 std::string did_you_mean(std::string_view name, std::span<const std::string_view> known);
 
 /// "a, b, c".

@@ -1,4 +1,4 @@
-#include "scenarios/faults.hpp"
+#include "scenarios/validation_error.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,44 +11,38 @@
 
 namespace gnbv {
 
-std::string text_of(const Origin& origin) {
-  return origin.line > 0 ? fmt::format("{}:{}", origin.source, origin.line) : origin.source;
+std::string text_of(const SourceLocation& location) {
+  return location.line > 0 ? fmt::format("{}:{}", location.source, location.line) : location.source;
 }
 
 bool is_at_or_below(std::string_view path, std::string_view above) {
   return path.starts_with(above) && (path.size() == above.size() || path[above.size()] == '.');
 }
 
-void Faults::add(const Origin& origin, std::string_view path, std::string_view value,
-                 std::string_view what) {
-  std::string message = text_of(origin) + ": ";
-  if (!path.empty()) message += fmt::format("{}: ", path);
-  if (!value.empty()) message += fmt::format("value '{}': ", value);
-  message += what;
-  faults_.push_back(
-      {origin,
-       std::string(path),
-       std::move(message),
-       {origin.source, origin.line, std::string(path), std::string(value), std::string(what)}});
+void ValidationErrors::add(const SourceLocation& location, std::string_view key,
+                           std::string_view value, std::string_view what) {
+  errors_.push_back({location, std::string(key), std::string(value), std::string(what)});
 }
 
-bool Faults::concerns(std::string_view path) const {
-  return std::any_of(faults_.begin(), faults_.end(), [&](const Fault& fault) {
-    return is_at_or_below(path, fault.path) || is_at_or_below(fault.path, path);
+bool ValidationErrors::concerns(std::string_view path) const {
+  return std::any_of(errors_.begin(), errors_.end(), [&](const ValidationError& error) {
+    return is_at_or_below(path, error.key) || is_at_or_below(error.key, path);
   });
 }
 
-void Faults::throw_if_any() const {
-  if (faults_.empty()) return;
-  std::vector<Fault> sorted = faults_;
-  std::stable_sort(sorted.begin(), sorted.end(), [](const Fault& a, const Fault& b) {
-    return std::tie(a.origin.rank, a.origin.line) < std::tie(b.origin.rank, b.origin.line);
+void ValidationErrors::throw_if_any() const {
+  if (errors_.empty()) return;
+  std::vector<ValidationError> sorted = errors_;
+  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.location.rank, a.location.line) < std::tie(b.location.rank, b.location.line);
   });
   std::string text;
-  for (const Fault& fault : sorted) text += (text.empty() ? "" : "\n") + fault.message;
-  std::vector<FaultParts> parts;
-  for (const Fault& fault : sorted) parts.push_back(fault.parts);
-  throw BadScenario(text, std::move(parts));
+  for (const auto& [location, key, value, what] : sorted) {
+    text += fmt::format("{}{}: {}{}{}", text.empty() ? "" : "\n", text_of(location),
+                        key.empty() ? "" : key + ": ",
+                        value.empty() ? "" : fmt::format("value '{}': ", value), what);
+  }
+  throw BadScenario(text, std::move(sorted));
 }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -79,10 +73,12 @@ std::optional<std::string_view> nearest_name(std::string_view name,
   return nearest;
 }
 
-std::size_t slip_limit(std::string_view name) { return std::max<std::size_t>(2, name.size() / 2); }
+std::size_t misspelling_limit(std::string_view name) {
+  return std::max<std::size_t>(2, name.size() / 2);
+}
 
 std::string did_you_mean(std::string_view name, std::span<const std::string_view> known) {
-  const auto near = nearest_name(name, known, slip_limit(name));
+  const auto near = nearest_name(name, known, misspelling_limit(name));
   return near ? fmt::format("did you mean '{}'? ", *near) : "";
 }
 

@@ -1,4 +1,4 @@
-#include "scenarios/faults.hpp"
+#include "scenarios/validation_error.hpp"
 
 #include <fmt/ranges.h>
 #include <gmock/gmock.h>
@@ -15,7 +15,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-TEST(Faults, AnUnknownKeyNamesTheNearestKnownOne) {
+TEST(ValidationErrors, AnUnknownKeyNamesTheNearestKnownOne) {
   EXPECT_EQ(complaint(kMinimal + "planner:\n  utilty: {name: isler}\n"),
             "s.yaml:3: planner.utilty: is no known key (did you mean 'planner.utility'?)");
   EXPECT_EQ(complaint(kMinimal + "planner: {agvs: {stepm: 2}}\n"),
@@ -23,18 +23,18 @@ TEST(Faults, AnUnknownKeyNamesTheNearestKnownOne) {
             "'planner.agvs.step_m'?)");
 }
 
-TEST(Faults, AKeyInTheWrongPlaceNamesTheRightOne) {
+TEST(ValidationErrors, AKeyInTheWrongPlaceNamesTheRightOne) {
   EXPECT_EQ(complaint(kMinimal + "resolution_m: 0.1\n"),
             "s.yaml:2: resolution_m: is no known key (did you mean "
             "'planner.map.resolution_m'?)");
 }
 
-TEST(Faults, AnUnknownKeyLikeNoOtherListsTheKnownOnes) {
+TEST(ValidationErrors, AnUnknownKeyLikeNoOtherListsTheKnownOnes) {
   EXPECT_THAT(complaint(kMinimal + "planner: {cloud: {xyzzy: 1}}\n"),
               HasSubstr("(known here: leaf_m, profile_leaf_m)"));
 }
 
-TEST(Faults, AnUnknownNameShowsTheAllowedOnesAndTheNearest) {
+TEST(ValidationErrors, AnUnknownNameShowsTheAllowedOnesAndTheNearest) {
   EXPECT_EQ(complaint(kMinimal + "structure: {builtin: aircraf}"),
             "s.yaml:2: structure.builtin: value 'aircraf': is no known name (did you mean "
             "'aircraft'? allowed: aircraft, power_plant, lab_model, lab_airplane, smoke)");
@@ -44,7 +44,7 @@ TEST(Faults, AnUnknownNameShowsTheAllowedOnesAndTheNearest) {
               AllOf(HasSubstr("s.yaml:2: vehicle.kind: value '0'"), HasSubstr("quadrotor, ideal")));
 }
 
-TEST(Faults, AreAllReportedAtOnceInTheOrderOfTheInput) {
+TEST(ValidationErrors, AreAllReportedAtOnceInTheOrderOfTheInput) {
   EXPECT_EQ(
       complaint("nme: x\nseed: -1\ncameras:\n  - width_px: a\n  - {name: b, pitch_deg: 91}\n"
                 "lidars: [{range_min_m: 30}]\n",
