@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "sim/core/simd.hpp"
+
 namespace gnbv {
 
 constexpr std::uint32_t kPointsPerBlock = 16;
@@ -78,14 +80,6 @@ struct CloudKernels {
   CountNeighbours count_neighbours;
 };
 
-namespace at_baseline {
-extern const CloudKernels kCloudKernels;
-}
-namespace at_avx2 {
-extern const CloudKernels kCloudKernels;
-}
-namespace at_avx512 {
-extern const CloudKernels kCloudKernels;
-}
+GNBV_KERNELS(CloudKernels, cloud_kernels)
 
 }  // namespace gnbv

@@ -23,7 +23,7 @@ inline Ints combine(Ints z, Ints y, Ints x, std::int32_t y_count, std::int32_t x
 }
 
 inline Mask within(Mask wanted, Floats p_m, float low_m, float high_m) {
-  return less_equal(less_equal(wanted, all(low_m), p_m), p_m, all(high_m));
+  return wanted & less_equal(all(low_m), p_m) & less_equal(p_m, all(high_m));
 }
 
 /// Those of `wanted` whose leaf is not taken.
@@ -36,7 +36,7 @@ inline Mask untaken(const LeafTable& t, Mask wanted, const Floats p_m[3]) {
   const Ints bucket =
       gather(wanted, t.bucket_at, combine(z.cell, y.cell, x.cell, t.cells_y, t.cells_x));
   const Ints word = gather(wanted, t.taken, bucket * all(t.words_per_bucket) + shift_right<5>(bit));
-  return has_not_bits(wanted, word, power_of_two(bit & all(31)));
+  return wanted & has_none(word, power_of_two(bit & all(31)));
 }
 
 /// Of kLanes pixels.
@@ -59,7 +59,7 @@ std::size_t find_untaken(const LeafTable& table, const PixelColumns& pixels, std
   for (; i + kLanes <= end; i += kLanes) {
     const float* const at_m[3] = {pixels.x_m + i, pixels.y_m + i, pixels.z_m + i};
     const Mask found = untaken_pixels(table, at_m, pixels.kind + i);
-    if (any(found)) next += pack(found, static_cast<std::int32_t>(i), next);
+    if (any(found)) next += pack(found, all(static_cast<std::int32_t>(i)) + int_ramp(), next);
   }
   if (i < end) {
     const int left = static_cast<int>(end - i);
@@ -68,7 +68,8 @@ std::size_t find_untaken(const LeafTable& table, const PixelColumns& pixels, std
     const Tail<float> z_m(pixels.z_m + i, left);
     const Tail<std::uint8_t> kind(pixels.kind + i, left);
     const float* const at_m[3] = {x_m.at, y_m.at, z_m.at};
-    next += pack(untaken_pixels(table, at_m, kind.at), static_cast<std::int32_t>(i), next);
+    next += pack(untaken_pixels(table, at_m, kind.at),
+                 all(static_cast<std::int32_t>(i)) + int_ramp(), next);
   }
   return static_cast<std::size_t>(next - out);
 }
@@ -85,17 +86,6 @@ inline std::uint32_t near_bits(const PointBlock& block, const Floats p_m[3], Flo
   return near;
 }
 
-inline std::uint32_t bit_count(std::uint32_t near) {
-#ifdef __POPCNT__
-  return static_cast<std::uint32_t>(__builtin_popcount(near));
-#else  // of 16 bits; the baseline would call a library
-  near = near - (near >> 1 & 0x5555U);
-  near = (near & 0x3333U) + (near >> 2 & 0x3333U);
-  near = (near + (near >> 4)) & 0x0f0fU;
-  return (near + (near >> 8)) & 0x1fU;
-#endif
-}
-
 /// Of one bucket.
 inline std::uint64_t count_in_bucket(const PointTable& t, const CloudBucket& bucket,
                                      const Floats p_m[3], VoxelPoints* voxels) {
@@ -103,7 +93,7 @@ inline std::uint64_t count_in_bucket(const PointTable& t, const CloudBucket& buc
   std::uint64_t near_count = 0;
   for (std::uint32_t b = bucket.last_block; b != 0; b = t.next_block[b]) {
     std::uint32_t near = near_bits(t.blocks[b], p_m, radius2_m2);
-    near_count += bit_count(near);
+    near_count += static_cast<std::uint64_t>(__builtin_popcount(near));
     if (bucket.has_one_voxel) continue;
     for (; near != 0; near &= near - 1) {
       ++voxels[t.blocks[b].slot[__builtin_ctz(near)]].neighbour_sum;

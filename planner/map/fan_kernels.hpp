@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "sim/core/simd.hpp"
+
 namespace gnbv {
 
 /// Marks of the voxels of a grid with a frame one voxel wide around it.
@@ -20,8 +22,8 @@ constexpr std::size_t kFanBundle = 16;  // rays that are walked by one call
 struct FanRays {
   double t_next[3][kFanBundle], t_voxel[3][kFanBundle];
   double length_m[kFanBundle];
-  std::int32_t place[kFanBundle], move[3][kFanBundle];
-  std::int32_t end[kFanBundle];  // where the walk stops; -1: not in the grid
+  std::int64_t place[kFanBundle], move[3][kFanBundle];
+  std::int64_t end[kFanBundle];  // where the walk stops; -1: not in the grid
 };
 
 struct FanKernels {
@@ -32,14 +34,6 @@ struct FanKernels {
                       std::int32_t* listed);
 };
 
-namespace at_baseline {
-extern const FanKernels kFanKernels;
-}
-namespace at_avx2 {
-extern const FanKernels kFanKernels;
-}
-namespace at_avx512 {
-extern const FanKernels kFanKernels;
-}
+GNBV_KERNELS(FanKernels, fan_kernels)
 
 }  // namespace gnbv

@@ -1,88 +1,106 @@
-// The fan kernels, once for each SimdLevel.
+// The walk of a scan's rays, once for each SimdLevel. A ray at time t (metres from the sensor) is
+// in one voxel of the grid. t_next[a] is when it crosses its next border along axis a, and it
+// crosses another one t_voxel[a] later: the least of the three says along which axis it steps
+// (Amanatides and Woo 1987).
 #include "planner/map/fan_kernels.hpp"
 #include "sim/core/lanes.hpp"
 
 namespace gnbv {
 namespace {
 
-static_assert(kFanBundle % kLanes == 0);
+constexpr hn::Rebind<std::int64_t, decltype(kDoubleTag)> kPlaceTag;
+constexpr std::size_t kRays = kLanes;         // that are walked side by side,
+constexpr std::size_t kHalfRays = kRays / 2;  // in two vectors
+static_assert(kFanBundle % kRays == 0);
 
-/// Rays side by side, as many as there are lanes.
-struct Side {
-  Doubles t_next[3], t_voxel[3], length_m;
-  Ints place, move[3], end;
-  Mask moving = every_lane();
+struct HalfSide {
+  hn::Vec<decltype(kDoubleTag)> t_next[3], t_voxel[3], length_m;
+  hn::Vec<decltype(kPlaceTag)> place, move[3], end;
+  hn::Mask<decltype(kPlaceTag)> moving;
 };
 
-inline Side load_side(const FanRays& rays, std::size_t first) {
-  Side s;
+inline HalfSide load_half(const FanRays& rays, std::size_t first) {
+  HalfSide s;
   for (int a = 0; a < 3; ++a) {
-    s.t_next[a] = load(rays.t_next[a] + first);
-    s.t_voxel[a] = load(rays.t_voxel[a] + first);
-    s.move[a] = load(rays.move[a] + first);
+    s.t_next[a] = hn::LoadU(kDoubleTag, rays.t_next[a] + first);
+    s.t_voxel[a] = hn::LoadU(kDoubleTag, rays.t_voxel[a] + first);
+    s.move[a] = hn::LoadU(kPlaceTag, rays.move[a] + first);
   }
-  s.length_m = load(rays.length_m + first);
-  s.place = load(rays.place + first);
-  s.end = load(rays.end + first);
+  s.length_m = hn::LoadU(kDoubleTag, rays.length_m + first);
+  s.place = hn::LoadU(kPlaceTag, rays.place + first);
+  s.end = hn::LoadU(kPlaceTag, rays.end + first);
+  s.moving = hn::MaskFromVec(hn::Set(kPlaceTag, -1));
   return s;
 }
 
 /// One step of every ray: the comparisons and additions of walk_ray(), without its branches. Those
 /// at their end are moving no more.
-inline void take_step(Side& s) {
-  const Mask x = less(s.t_next[0], min(s.t_next[1], s.t_next[2]));
-  const Mask x_or_y = less(min(s.t_next[0], s.t_next[1]), s.t_next[2]);
-  const Mask y = without(x_or_y, x);
-  const Mask z = without(every_lane(), x_or_y);
-  s.t_next[0] = add_where(x, s.t_next[0], s.t_voxel[0]);
-  s.t_next[1] = add_where(y, s.t_next[1], s.t_voxel[1]);
-  s.t_next[2] = add_where(z, s.t_next[2], s.t_voxel[2]);
-  s.place = add_where(z, add_where(y, add_where(x, s.place, s.move[0]), s.move[1]), s.move[2]);
-  const Doubles nearest_m = min(s.t_next[0], min(s.t_next[1], s.t_next[2]));
-  s.moving = without(without(s.moving, less(s.length_m, nearest_m)), equal(s.place, s.end));
+inline void take_step(HalfSide& s) {
+  const auto as_places = [](auto mask) { return hn::RebindMask(kPlaceTag, mask); };
+  const auto x = s.t_next[0] < hn::Min(s.t_next[1], s.t_next[2]);
+  const auto x_or_y = hn::Min(s.t_next[0], s.t_next[1]) < s.t_next[2];
+  const auto move_xy = hn::IfThenElse(as_places(x), s.move[0], s.move[1]);
+  s.place = s.place + hn::IfThenElse(as_places(x_or_y), move_xy, s.move[2]);
+  s.t_next[0] = hn::IfThenElse(x, s.t_next[0] + s.t_voxel[0], s.t_next[0]);
+  s.t_next[1] = hn::IfThenElse(hn::AndNot(x, x_or_y), s.t_next[1] + s.t_voxel[1], s.t_next[1]);
+  s.t_next[2] = hn::IfThenElse(x_or_y, s.t_next[2], s.t_next[2] + s.t_voxel[2]);
+  const auto nearest_m = hn::Min(s.t_next[0], hn::Min(s.t_next[1], s.t_next[2]));
+  const auto is_past = hn::Or(as_places(s.length_m < nearest_m), s.place == s.end);
+  s.moving = hn::AndNot(is_past, s.moving);
 }
+
+inline bool is_moving(const HalfSide& s) { return !hn::AllFalse(kPlaceTag, s.moving); }
 
 /// Where the rays are, in memory: the others rest.
 struct Places {
-  alignas(64) std::int32_t at[kLanes];
+  alignas(64) std::int64_t at[kRays];
 
-  void set(const Side& s, Ints resting) {
-    store(at, select(s.moving, s.place, resting));
-    // through memory: the compiler would take the lanes out of the register, at twice the cost
+  void set(const HalfSide (&side)[2], std::int64_t resting) {
+    const auto rest = hn::Set(kPlaceTag, resting);
+    for (std::size_t h = 0; h < 2; ++h) {
+      const auto place = hn::IfThenElse(side[h].moving, side[h].place, rest);
+      hn::Store(place, kPlaceTag, at + h * kHalfRays);
+    }
+    // through memory: the compiler would take the lanes out of the registers, at twice the cost
     __asm__("" : "+m"(at));
   }
 };
 
-inline Mask at_frame(const Places& places, const std::uint8_t* marks) {
-  alignas(64) std::int32_t is_frame[kLanes];
-  for (int l = 0; l < kLanes; ++l) {
-    is_frame[l] = marks[static_cast<std::uint32_t>(places.at[l])] & kFanFrame;
+/// Stops the rays that have reached the frame.
+inline void stop_at_frame(const Places& places, const std::uint8_t* marks, HalfSide (&side)[2]) {
+  alignas(64) std::int64_t is_frame[kRays];
+  for (std::size_t l = 0; l < kRays; ++l) is_frame[l] = marks[places.at[l]] & kFanFrame;
+  for (std::size_t h = 0; h < 2; ++h) {
+    const auto frame = hn::Load(kPlaceTag, is_frame + h * kHalfRays);
+    side[h].moving = hn::And(side[h].moving, frame == hn::Zero(kPlaceTag));
   }
-  return has_bits(every_lane(), load(is_frame), all(std::uint32_t{kFanFrame}));
 }
 
-std::size_t walk_side(Side s, std::int32_t resting, std::uint8_t* marks, std::int32_t* listed) {
+std::size_t walk_side(const FanRays& rays, std::size_t first, std::int32_t resting,
+                      std::uint8_t* marks, std::int32_t* listed) {
+  HalfSide side[2] = {load_half(rays, first), load_half(rays, first + kHalfRays)};
   std::size_t count = 0;
   Places places;
   while (true) {
-    take_step(s);
-    if (!any(s.moving)) return count;
-    places.set(s, all(resting));
+    take_step(side[0]);
+    take_step(side[1]);
+    if (!is_moving(side[0]) && !is_moving(side[1])) return count;
+    places.set(side, resting);
     unsigned every = kFanListed;
     unsigned some = 0;
-    for (int l = 0; l < kLanes; ++l) {
-      const std::uint8_t mark = marks[static_cast<std::uint32_t>(places.at[l])];
+    for (std::size_t l = 0; l < kRays; ++l) {
+      const std::uint8_t mark = marks[places.at[l]];
       every &= mark;
       some |= mark;
     }
     if (every != 0) continue;  // near the sensor mostly
     if ((some & kFanFrame) != 0) {
-      s.moving = without(s.moving, at_frame(places, marks));
-      places.set(s, all(resting));
+      stop_at_frame(places, marks, side);
+      places.set(side, resting);
     }
-    for (int l = 0; l < kLanes; ++l) {
-      std::uint8_t& mark = marks[static_cast<std::uint32_t>(places.at[l])];
-      listed[count] = places.at[l];
+    for (std::size_t l = 0; l < kRays; ++l) {
+      std::uint8_t& mark = marks[places.at[l]];
+      listed[count] = static_cast<std::int32_t>(places.at[l]);
       count += static_cast<std::size_t>(mark == kFanUnlisted);
       mark = kFanListed;
     }
@@ -92,8 +110,8 @@ std::size_t walk_side(Side s, std::int32_t resting, std::uint8_t* marks, std::in
 std::size_t walk_fan(const FanRays& rays, std::int32_t resting, std::uint8_t* marks,
                      std::int32_t* listed) {
   std::size_t count = 0;
-  for (std::size_t first = 0; first < kFanBundle; first += static_cast<std::size_t>(kLanes)) {
-    count += walk_side(load_side(rays, first), resting, marks, listed + count);
+  for (std::size_t first = 0; first < kFanBundle; first += kRays) {
+    count += walk_side(rays, first, resting, marks, listed + count);
   }
   return count;
 }

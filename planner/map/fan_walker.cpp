@@ -3,16 +3,11 @@
 #include <algorithm>
 
 #include "sim/core/error.hpp"
-#include "sim/core/simd.hpp"
 
 namespace gnbv {
 namespace {
 
 constexpr std::int32_t kNowhere = -1;
-
-const FanKernels& kernels() {
-  return at_simd_level(at_baseline::kFanKernels, at_avx2::kFanKernels, at_avx512::kFanKernels);
-}
 
 }  // namespace
 
@@ -141,7 +136,7 @@ void FanWalker::walk(const RayOrigin& origin, std::span<const ScanRay> rays) {
       bundle_.length_m[rest] = -RaySteps::kNever;
     }
     listed_count_ +=
-        kernels().walk(bundle_, resting, marks_.data(), listed_.data() + listed_count_);
+        fan_kernels().walk(bundle_, resting, marks_.data(), listed_.data() + listed_count_);
     GNBV_CHECK(listed_count_ < listed_.size(), "{} places listed", listed_count_);
   }
 }

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "sim/core/simd.hpp"
+
 namespace gnbv {
 
 constexpr int kPadding = 16;  // elements a row may be read beyond its end: one vector
@@ -31,8 +33,8 @@ struct EndRow {
   const std::uint8_t* kind;
   int width;
   double inverse_resolution;
-  double min_key[3];
-  double size[3];
+  std::int32_t min_key[3];
+  std::int32_t size[3];
   std::int32_t* scratch;  // (width + 1 + kPadding)
 };
 
@@ -89,17 +91,6 @@ struct FrameKernels {
   void (*project_layer)(const FrameView& view, int layer, const FrameMarks& marks);
 };
 
-/// The loops for simd_level().
-const FrameKernels& frame_kernels();
-
-namespace at_baseline {
-extern const FrameKernels kFrameKernels;
-}
-namespace at_avx2 {
-extern const FrameKernels kFrameKernels;
-}
-namespace at_avx512 {
-extern const FrameKernels kFrameKernels;
-}
+GNBV_KERNELS(FrameKernels, frame_kernels)
 
 }  // namespace gnbv

@@ -46,7 +46,7 @@ OccupancyGrid::OccupancyGrid(const OccupancyConfig& config, const Box3& bounds_m
   misses_ = make_memo(log_odds_of(config.prob_miss));
   const std::size_t voxels = geometry_.voxel_count();
   log_odds_ = ZeroedArray<float>(voxels);
-  words_ = ZeroedArray<VoxelWord>(voxels);
+  words_ = ZeroedArray<VoxelWord>(voxels + kWordPadding);
   total_entropy_ = compute_entropy(0.0F).units * static_cast<std::int64_t>(voxels);
 }
 

@@ -19,6 +19,9 @@ struct ScanUpdate {
   std::vector<VoxelIndex> occupied;
 };
 
+/// A vector.
+constexpr std::size_t kWordPadding = 16;
+
 class OccupancyGrid {
  public:
   /// `bounds_m` is the workspace: the grid holds nothing outside it. Throws BadInput naming the
@@ -70,8 +73,10 @@ class OccupancyGrid {
   VoxelWord settled_word() const { return settled_word_; }
   float settled_log_odds() const { return clamp_min_log_; }
 
-  /// Rows for the hot loops; index with VoxelIndex.
-  std::span<const VoxelWord> words() const { return words_.span(); }
+  /// Rows for the hot loops; index with VoxelIndex. Loops may read kWordPadding words beyond the end.
+  std::span<const VoxelWord> words() const {
+    return words_.span().first(geometry_.voxel_count());
+  }
   std::span<const float> all_log_odds() const { return log_odds_.span(); }
 
  private:

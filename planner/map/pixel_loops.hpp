@@ -27,9 +27,12 @@ inline void rays_of_pixels(const PixelRow& row, int u, Floats depth_m, float* co
     p_m = all(row.origin_m[a]) + along_m * (load(row.across[a] + u) + all(row.down[a]));
     store(end_m[a], narrow(p_m));
   }
-  const Mask hits = without(is_return, less(p_m, all(row.floor_z_m)));
-  const Ints says =
-      select(hits, all(static_cast<int>(PixelRay::hits)), all(static_cast<int>(PixelRay::clears)));
+  constexpr int kClears = static_cast<int>(PixelRay::clears);
+  constexpr int kHits = static_cast<int>(PixelRay::hits);
+  // of the last axis, z
+  const Ints above_floor =
+      truncated(select_less(p_m, all(row.floor_z_m), all(double{kClears}), all(double{kHits})));
+  const Ints says = select(is_return, above_floor, all(kClears));
   store_bytes(kind, select(has_ray(row, depth_m), says, all(0)));
 }
 
@@ -54,14 +57,14 @@ void rays_of_row(const PixelRow& row) {
 inline Ints voxels_of_ends(const EndRow& row, const float* const end_m[3],
                            const std::uint8_t* kind) {
   Mask inside = equal_bytes(kind, static_cast<std::uint8_t>(PixelRay::hits));
-  Doubles index = all(0.0);
+  Ints index = all(0);
   for (int a = 2; a >= 0; --a) {
-    const Doubles key = floor_of(widen(load(end_m[a])) * all(row.inverse_resolution));
-    const Doubles from_min = key - all(row.min_key[a]);
-    inside = without(inside, less(from_min, all(0.0))) & less(from_min, all(row.size[a]));
+    const Ints key = floored(widen(load(end_m[a])) * all(row.inverse_resolution));
+    const Ints from_min = key - all(row.min_key[a]);
+    inside = without(inside, less(from_min, all(0))) & less(from_min, all(row.size[a]));
     index = index * all(row.size[a]) + from_min;
   }
-  return select(inside, truncated(index), all(-1));
+  return select(inside, index, all(-1));
 }
 
 int ends_of_row(const EndRow& row, std::uint32_t* voxels) {
@@ -85,7 +88,8 @@ int ends_of_row(const EndRow& row, std::uint32_t* voxels) {
   for (u = 0; u < row.width; u += kLanes) {
     const Ints here = load(voxel + u);
     const Mask is_known = equal(here, load(voxel + u - 1)) | equal(here, all(-1));
-    for (std::uint32_t lanes = ~bits(is_known) & kAllLanes; lanes != 0; lanes &= lanes - 1) {
+    for (std::uint32_t lanes = bits(without(every_lane(), is_known)); lanes != 0;
+         lanes &= lanes - 1) {
       voxels[count++] = static_cast<std::uint32_t>(voxel[u + __builtin_ctz(lanes)]);
     }
   }

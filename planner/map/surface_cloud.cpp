@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "sim/core/error.hpp"
-#include "sim/core/simd.hpp"
 
 namespace gnbv {
 namespace {
@@ -25,11 +24,6 @@ float first_of_voxel(const GridGeometry& voxels, std::int32_t key) {
   while (voxels.key_of(static_cast<double>(at_m)) >= key) at_m = std::nextafter(at_m, -kInfinity);
   while (voxels.key_of(static_cast<double>(at_m)) < key) at_m = std::nextafter(at_m, kInfinity);
   return at_m;
-}
-
-const CloudKernels& kernels() {
-  return at_simd_level(at_baseline::kCloudKernels, at_avx2::kCloudKernels,
-                       at_avx512::kCloudKernels);
 }
 
 }  // namespace
@@ -171,7 +165,7 @@ void SurfaceCloud::add_untaken(const FrameRays& frame) {
                             .y_m = frame.y_m.data(),
                             .z_m = frame.z_m.data(),
                             .kind = reinterpret_cast<const std::uint8_t*>(frame.kind.data())};
-  const FindUntaken find_untaken = kernels().find_untaken;
+  const FindUntaken find_untaken = cloud_kernels().find_untaken;
   const std::size_t count = frame.kind.size();
   untaken_.resize(kPixelsAtOnce);
   for (std::size_t begin = 0; begin < count; begin += kPixelsAtOnce) {
@@ -269,7 +263,7 @@ void SurfaceCloud::insert(const Vec3f& p_m, const Leaf& leaf) {
                          .cells_y = static_cast<std::size_t>(bucket_cells_[1]),
                          .radius2_m2 = search_radius2_m2_};
   const std::uint64_t neighbours =
-      kernels().count_neighbours(table, p_m.data(), cells_within_reach(p_m), voxel_points_.data());
+      cloud_kernels().count_neighbours(table, p_m.data(), cells_within_reach(p_m), voxel_points_.data());
   voxel_points_[slot].neighbour_sum += neighbours + 1;  // the point itself
   ++voxel_points_[slot].point_count;
   append(buckets_[bucket_at_[leaf.bucket_cell]], p_m, slot);

@@ -26,8 +26,6 @@ inline Centers make_centers(const FrameView& view, const double first_m[3]) {
   return c;
 }
 
-inline Floats magnitude(Floats a) { return as_floats(as_ints(a) & all(0x7fffffff)); }
-
 /// Lanes whose voxel is passed by the ray of the pixel at its centre.
 inline Mask passed_at_center(const FrameView& view, const Centers& c) {
   constexpr float kNearest_m = 0.01F;
@@ -191,8 +189,8 @@ void project_row(const FrameView& view, int y, int z, const FrameMarks& marks) {
     std::uint8_t tail[kLanes];
     for (int i = 0; left < kLanes && i < kLanes; ++i) tail[i] = i < left ? voxel[i] : kEnd;
     const Mask untouched = equal_bytes(left < kLanes ? tail : voxel, kUntouched);
-    const Ints word = load_where(untouched, view.words + row_start + x);
-    const std::uint32_t open = bits(without(untouched, equal(word, all(view.settled_word))));
+    const Mask is_settled = equal(load(view.words + row_start + x), all(view.settled_word));
+    const std::uint32_t open = bits(without(untouched, is_settled));
     if (open == 0) continue;
     center_m[0] = row_start_m + x * view.resolution_m;
     const Centers c = make_centers(view, center_m);

@@ -16,11 +16,11 @@ void tally_group(const ViewMaps& maps, std::size_t first, Mask marked, VoxelSums
   const Ints word = load_where(marked, maps.words + first);
   known_sum = known_sum + shift_right<kKnownShift>(word);
   sums.visited += count(marked);
-  const auto has = [&](std::uint32_t word_bits) { return has_bits(marked, word, all(word_bits)); };
+  const auto has = [&](std::uint32_t word_bits) { return marked & has_bit(word, word_bits); };
   const auto list = [&](Mask which, std::int32_t* out, std::size_t& out_count) {
     if (!any(which)) return;  // mostly
-    out_count +=
-        static_cast<std::size_t>(pack(which, static_cast<std::int32_t>(first), out + out_count));
+    const Ints voxel = all(static_cast<std::int32_t>(first)) + int_ramp();
+    out_count += static_cast<std::size_t>(pack(which, voxel, out + out_count));
   };
   sums.free += count(has(static_cast<std::uint32_t>(VoxelState::free)));
   list(has(static_cast<std::uint32_t>(VoxelState::occupied)), sums.occupied, sums.occupied_count);

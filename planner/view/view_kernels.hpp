@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "sim/core/simd.hpp"
+
 namespace gnbv {
 
 /// Times along a ray are integers: kRayEnd is the end of the ray. Sums of them are exact, so every
@@ -112,14 +114,6 @@ struct ViewKernels {
   TallyPlane tally_plane;
 };
 
-namespace at_baseline {
-extern const ViewKernels kViewKernels;
-}
-namespace at_avx2 {
-extern const ViewKernels kViewKernels;
-}
-namespace at_avx512 {
-extern const ViewKernels kViewKernels;
-}
+GNBV_KERNELS(ViewKernels, view_kernels)
 
 }  // namespace gnbv

@@ -5,7 +5,6 @@
 #include "planner/map/ray_walk.hpp"
 #include "planner/view/view_kernels.hpp"
 #include "sim/core/error.hpp"
-#include "sim/core/simd.hpp"
 
 namespace gnbv {
 namespace {
@@ -14,10 +13,6 @@ constexpr float kLog2e = 1.44269504F;
 constexpr double kShareUnit = 0x1p-30;        // of RaySums::unknown_share
 constexpr double kDensityUnit = 0x1p-32;      // densities are summed as integers
 constexpr std::size_t kPreparedColumns = 11;  // of PreparedRays
-
-const ViewKernels& kernels() {
-  return at_simd_level(at_baseline::kViewKernels, at_avx2::kViewKernels, at_avx512::kViewKernels);
-}
 
 RayFanFrame make_frame(const GridGeometry& grid, const Isometry& T_world_body,
                        const Vec3& origin_body_m) {
@@ -64,7 +59,7 @@ PreparedRays prepare(const ViewRays& rays, const ViewRays::Camera& camera, const
   const double* const ends_body_m[3] = {rays.end_body_m[0].data() + camera.first,
                                         rays.end_body_m[1].data() + camera.first,
                                         rays.end_body_m[2].data() + camera.first};
-  kernels().prepare(frame, ends_body_m, prepared);
+  view_kernels().prepare(frame, ends_body_m, prepared);
   std::fill(prepared.voxels + camera.count, prepared.voxels + camera.padded, 0);
   return prepared;
 }
@@ -114,7 +109,7 @@ double tally(const OccupancyGrid& grid, const ViewMaps& maps, const KeyBox& box,
   for (std::int32_t z = box.low[2]; z <= box.high[2]; ++z) {
     rows.first = geometry.index_of({box.low[0], box.low[1], z});
     sums.shadow_count = 0;
-    kernels().tally_plane(maps, rows, sums);
+    view_kernels().tally_plane(maps, rows, sums);
     shadow_voxels += static_cast<std::int64_t>(sums.shadow_count);
     for (std::size_t i = 0; i < sums.shadow_count; ++i) {
       steps_behind += options.shadow->steps_behind(static_cast<VoxelIndex>(sums.shadow[i]));
@@ -194,7 +189,7 @@ ViewStats evaluate_view(const OccupancyGrid& grid, const SurfaceCloud& cloud, co
   for (const ViewRays::Camera& camera : rays.cameras) {
     const RayFanFrame frame = make_frame(geometry, T, camera.origin_body_m);
     const PreparedRays prepared = prepare(rays, camera, frame, marks.prepared);
-    const auto walk = full ? kernels().walk_full : kernels().walk_voxels;
+    const auto walk = full ? view_kernels().walk_full : view_kernels().walk_voxels;
     const std::int64_t share_before = ray_sums.unknown_share;
     walk(prepared, frame.origin_voxel, odds_power, maps, ray_sums);
     stats.unknown_volume_m3 +=

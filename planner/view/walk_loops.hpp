@@ -35,7 +35,7 @@ inline Bundle load_bundle(const PreparedRays& rays, std::size_t first, std::int3
   b.t_leave = load(rays.t_leave + first);
   b.voxels_left = load(rays.voxels + first);
   b.voxel = all(origin_voxel);
-  b.moving = less(every_lane(), all(0), b.voxels_left);
+  b.moving = less(all(0), b.voxels_left);
   b.seeing = b.moving;
   return b;
 }
@@ -47,10 +47,10 @@ inline Ints exit_time(const Bundle& b) { return min(b.t_next[0], min(b.t_next[1]
 /// walk_ray().
 inline void take_step(Bundle& b, Ints t_exit) {
   b.voxels_left = b.voxels_left - all(1);
-  b.moving = less(less(b.moving, all(0), b.voxels_left), t_exit, b.t_leave);
-  const Mask z = equal(b.moving, b.t_next[2], t_exit);
+  b.moving = b.moving & less(all(0), b.voxels_left) & less(t_exit, b.t_leave);
+  const Mask z = b.moving & equal(b.t_next[2], t_exit);
   const Mask not_z = without(b.moving, z);
-  const Mask y = equal(not_z, b.t_next[1], t_exit);
+  const Mask y = not_z & equal(b.t_next[1], t_exit);
   const Mask x = without(not_z, y);
   b.t_next[0] = add_where(x, b.t_next[0], b.t_voxel[0]);
   b.t_next[1] = add_where(y, b.t_next[1], b.t_voxel[1]);
@@ -122,7 +122,7 @@ inline void measure_unknown(Mask unknown, Ints word, Floats visible, Ints t_exit
   m.unobserved = add_where(unknown, m.unobserved, visible);
   m.unknown_run = select(unknown, m.unknown_run + visible, all(0.0F));
   m.volume = add_where(unknown, m.volume, cube(t_exit) - cube(m.t_enter));
-  m.shadow = m.shadow | has_bits(unknown, word, all(kShadowBit));
+  m.shadow = m.shadow | (unknown & has_bit(word, kShadowBit));
 }
 
 /// The factors by which the visibility falls.
@@ -150,7 +150,7 @@ inline void measure(const ViewMaps& maps, const Bundle& b, Ints word, Ints known
     measure_settled(t_exit, odds, m);
     return;
   }
-  const Mask unknown = has_not_bits(b.seeing, word, all(kStateMask));
+  const Mask unknown = b.seeing & has_none(word, all(kStateMask));
   const Floats entropy = to_floats(all(kLn2Units) - known);
   const Floats visible = m.visibility * entropy;
   m.occlusion_aware = add_where(b.seeing, m.occlusion_aware, visible);
@@ -162,7 +162,7 @@ inline void measure(const ViewMaps& maps, const Bundle& b, Ints word, Ints known
   }
   m.after_unknown = unknown;
   m.t_enter = t_exit;
-  const Mask measured = has_bits(b.seeing, word, all(kMeasuredBit));
+  const Mask measured = b.seeing & has_bit(word, kMeasuredBit);
   Floats factor = all(0.5F);  // of log-odds 0
   if (any(measured)) {
     const Floats log_odds = gather(measured, maps.log_odds, b.voxel);
@@ -217,8 +217,9 @@ void walk_bundle(Bundle b, const Odds& odds, ViewMaps& maps, LaneTotals& totals,
     const Ints known = shift_right<kKnownShift>(word);
     known_sum = add_where(b.seeing, known_sum, known);
     visits += count(b.seeing);
-    const Mask occupied = has_bits(b.seeing, word, all(static_cast<int>(VoxelState::occupied)));
-    const Mask predicted = has_bits(b.seeing & foresees, word, all(kPredictedBit));
+    const Mask occupied =
+        b.seeing & has_bit(word, static_cast<std::uint32_t>(VoxelState::occupied));
+    const Mask predicted = b.seeing & foresees & has_bit(word, kPredictedBit);
     if (any(predicted)) {
       maps.predicted_count +=
           static_cast<std::size_t>(pack(predicted, b.voxel, maps.predicted + maps.predicted_count));

@@ -12,15 +12,21 @@ namespace {
 constexpr std::array kLevels = {SimdLevel::baseline, SimdLevel::avx2, SimdLevel::avx512};
 
 SimdLevel level_of_processor() {
-#if defined(__x86_64__) && defined(__GNUC__)
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
-      __builtin_cpu_supports("avx512cd")) {
-    return SimdLevel::avx512;
+#ifdef __x86_64__
+  if (!__builtin_cpu_supports("sse4.2") || !__builtin_cpu_supports("popcnt")) {
+    throw BadInput("this processor is not of the level x86-64-v2 (SSE4.2), which gnbv needs");
   }
-  if (__builtin_cpu_supports("avx2")) return SimdLevel::avx2;
-#endif
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma") ||
+      !__builtin_cpu_supports("bmi") || !__builtin_cpu_supports("bmi2")) {
+    return SimdLevel::baseline;
+  }
+  const bool has_v4 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+                      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
+                      __builtin_cpu_supports("avx512cd");
+  return has_v4 ? SimdLevel::avx512 : SimdLevel::avx2;
+#else
   return SimdLevel::baseline;
+#endif
 }
 
 SimdLevel level_asked_for() {
