@@ -45,7 +45,7 @@ struct LeafTable {
 
 /// The points of a frame, column by column.
 struct PixelColumns {
-  const float *x_m, *y_m, *z_m;
+  const float* p_m[3];
   const std::uint8_t* kind;  // PixelRay
 };
 

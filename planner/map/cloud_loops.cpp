@@ -1,6 +1,6 @@
 // The cloud kernels, once for each SimdLevel.
 #include "planner/map/cloud_kernels.hpp"
-#include "planner/map/pixel_ray.hpp"
+#include "planner/map/frame_kernels.hpp"
 #include "sim/core/lanes.hpp"
 
 namespace gnbv {
@@ -22,10 +22,6 @@ inline Ints combine(Ints z, Ints y, Ints x, std::int32_t y_count, std::int32_t x
   return (z * all(y_count) + y) * all(x_count) + x;
 }
 
-inline Mask within(Mask wanted, Floats p_m, float low_m, float high_m) {
-  return wanted & less_equal(all(low_m), p_m) & less_equal(p_m, all(high_m));
-}
-
 /// Those of `wanted` whose leaf is not taken.
 inline Mask untaken(const LeafTable& t, Mask wanted, const Floats p_m[3]) {
   const AlongAxis x = along_axis(t, 0, p_m[0]);
@@ -39,37 +35,21 @@ inline Mask untaken(const LeafTable& t, Mask wanted, const Floats p_m[3]) {
   return wanted & has_none(word, power_of_two(bit & all(31)));
 }
 
-/// Of kLanes pixels.
-inline Mask untaken_pixels(const LeafTable& t, const float* const at_m[3],
-                           const std::uint8_t* kind) {
-  Mask wanted = equal_bytes(kind, static_cast<std::uint8_t>(PixelRay::hits));
-  if (!any(wanted)) return wanted;
-  Floats p_m[3];
-  for (int a = 0; a < 3; ++a) {
-    p_m[a] = load(at_m[a]);
-    wanted = within(wanted, p_m[a], t.low_m[a], t.high_m[a]);
-  }
-  return untaken(t, wanted, p_m);
-}
-
 std::size_t find_untaken(const LeafTable& table, const PixelColumns& pixels, std::size_t begin,
                          std::size_t end, std::int32_t* out) {
   std::int32_t* next = out;
-  std::size_t i = begin;
-  for (; i + kLanes <= end; i += kLanes) {
-    const float* const at_m[3] = {pixels.x_m + i, pixels.y_m + i, pixels.z_m + i};
-    const Mask found = untaken_pixels(table, at_m, pixels.kind + i);
-    if (any(found)) next += pack(found, all(static_cast<std::int32_t>(i)) + int_ramp(), next);
-  }
-  if (i < end) {
+  for (std::size_t i = begin; i < end; i += kLanes) {
     const int left = static_cast<int>(end - i);
-    const Tail<float> x_m(pixels.x_m + i, left);
-    const Tail<float> y_m(pixels.y_m + i, left);
-    const Tail<float> z_m(pixels.z_m + i, left);
-    const Tail<std::uint8_t> kind(pixels.kind + i, left);
-    const float* const at_m[3] = {x_m.at, y_m.at, z_m.at};
-    next += pack(untaken_pixels(table, at_m, kind.at),
-                 all(static_cast<std::int32_t>(i)) + int_ramp(), next);
+    Mask wanted = equal_bytes(pixels.kind + i, static_cast<std::uint8_t>(PixelRay::hits), left);
+    if (!any(wanted)) continue;
+    Floats p_m[3];
+    for (int a = 0; a < 3; ++a) {
+      p_m[a] = load(pixels.p_m[a] + i, left);
+      wanted = wanted & less_equal(all(table.low_m[a]), p_m[a]) &
+               less_equal(p_m[a], all(table.high_m[a]));
+    }
+    const Ints pixel = all(static_cast<std::int32_t>(i)) + int_ramp();
+    next += pack(untaken(table, wanted, p_m), pixel, next);
   }
   return static_cast<std::size_t>(next - out);
 }

@@ -1,5 +1,22 @@
-// Which pixels' rays pass a voxel: its outline in the image, and how deep a ray must go to leave
-// it. For frame_loops.cpp alone.
+// Which pixels' rays pass a voxel, and how deep such a ray must go to leave it. For
+// frame_loops.cpp.
+//
+// Pixel (u, v) looks along d = toward + u right + v down: its ray is at t d where it is t deep. The
+// voxel is a box [low, high] relative to the camera, three slabs. Along an axis on which the camera
+// is outside the slab, mirrored (`sign`) so that the slab lies ahead, the ray enters it at
+// t = near / d and leaves it at t = far / d; on an axis on which the camera is inside, it is in the
+// slab from the start and leaves by the face that d points to. The ray passes the box if it enters
+// no slab b after it has left another one a:
+//
+//   near_b / d_b <= far_a / d_a,  that is  far_a d_b - near_b d_a >= 0,
+//
+// which is linear in u and v, as d is: one side of a line in the image. All such lines together
+// outline the voxel, and in row v they bound u from below or from above. The ray leaves the box
+// with the first slab, at 1 / t = the greatest d_a / far_a, again linear in u and v: it ends beyond
+// the box if 1 / depth is less than that.
+//
+// All this is done twice: with the box grown by the margin of rounding, whose rays might pass, and
+// with the box shrunk by it, whose rays are sure to pass.
 #pragma once
 
 #include "planner/map/frame_kernels.hpp"
@@ -16,30 +33,34 @@ struct SeenVoxel {
   int from_camera[3];  // voxels from the camera's own
 };
 
-constexpr int kMostLines = 12;
+/// Lines in the image, u = at + slope * v.
+struct Lines {
+  float at[12], slope[12];
+  int count = 0;
+};
 
-/// The rays that pass a box are those between the lines u = at + slope * v, and one ends beyond
-/// the box where 1 / depth is less than the greatest of `exit` at its pixel.
+/// The rays that pass a box are those between the lines, and one ends beyond the box where
+/// 1 / depth is less than the greatest of `exit` at its pixel.
 struct Cone {
-  float lower_at[kMostLines], lower_slope[kMostLines];
-  float upper_at[kMostLines], upper_slope[kMostLines];
+  Lines lower, upper;  // bounds of u
   float exit_at[6], exit_u[6], exit_v[6];
-  int lowers = 0, uppers = 0, exits = 0;
+  int exits = 0;
   float least_exit = 0.0F;
 };
 
-/// Keeps the pixels where at + u * per_u + v * per_v >= 0.
-inline void keep_side(Cone& cone, float at, float per_u, float per_v) {
+/// Keeps the pixels where of_b d_b + of_a d_a >= 0, whose rays look along d; with a slack also
+/// those where that is so for some d whose components differ by the slack.
+inline void keep_side(const FrameView& view, Cone& cone, int b, float of_b, int a, float of_a,
+                      float slack) {
   constexpr float kLevel = 1e-20F;  // a line along the rows becomes one that is almost so
-  const bool is_lower = per_u >= 0.0F;
-  const float slant = is_lower && per_u < kLevel ? kLevel : per_u;
-  if (is_lower) {
-    cone.lower_at[cone.lowers] = -at / slant;
-    cone.lower_slope[cone.lowers++] = -per_v / slant;
-  } else {
-    cone.upper_at[cone.uppers] = -at / slant;
-    cone.upper_slope[cone.uppers++] = -per_v / slant;
-  }
+  const float room = slack * (__builtin_fabsf(of_b) + __builtin_fabsf(of_a));
+  const float at = of_b * view.toward[b] + of_a * view.toward[a] + room;
+  const float per_u = of_b * view.right[b] + of_a * view.right[a];
+  const float per_v = of_b * view.down[b] + of_a * view.down[a];
+  const float slant = per_u >= 0.0F && per_u < kLevel ? kLevel : per_u;
+  Lines& lines = per_u >= 0.0F ? cone.lower : cone.upper;
+  lines.at[lines.count] = -at / slant;
+  lines.slope[lines.count++] = -per_v / slant;
 }
 
 /// A face at distance `far_m` along `sign` times axis a, by which rays leave.
@@ -56,10 +77,9 @@ inline void add_exit(const FrameView& view, Cone& cone, int a, float sign, float
   cone.exit_v[cone.exits++] = view.down[a] * scale;
 }
 
-/// The cone of the voxel grown by `margin_m`, and left that much before its faces; with a negative
-/// margin the rays are sure to pass it. Slabs: a ray passes when it enters along no axis after it
-/// has left along another, and each such pair is linear in the pixel.
-inline Cone make_cone(const FrameView& view, const SeenVoxel& voxel, float margin_m) {
+/// The cone of the voxel grown by `margin_m` on all sides. Rays leave it that much before the faces
+/// of the voxel itself.
+inline Cone make_grown_cone(const FrameView& view, const SeenVoxel& voxel, float margin_m) {
   Cone cone;
   float near_m[3];
   float far_m[3];
@@ -82,13 +102,9 @@ inline Cone make_cone(const FrameView& view, const SeenVoxel& voxel, float margi
     if (!is_outside[b]) continue;
     for (int a = 0; a < 3; ++a) {
       if (a == b) continue;
-      const auto keep = [&](float of_b, float of_a) {
-        keep_side(cone, of_b * view.toward[b] + of_a * view.toward[a],
-                  of_b * view.right[b] + of_a * view.right[a],
-                  of_b * view.down[b] + of_a * view.down[a]);
-      };
-      keep(sign[b] * far_m[a], -sign[a] * near_m[b]);
-      if (!is_outside[a]) keep(-sign[b] * near_m[a], sign[a] * near_m[b]);
+      keep_side(view, cone, b, sign[b] * far_m[a], a, -sign[a] * near_m[b], 0.0F);
+      if (!is_outside[a])
+        keep_side(view, cone, b, -sign[b] * near_m[a], a, sign[a] * near_m[b], 0.0F);
     }
   }
   return cone;
@@ -104,95 +120,54 @@ inline bool is_at_camera(const FrameView& view, const SeenVoxel& voxel) {
   return true;
 }
 
-/// The cone of a voxel at the camera: rays cross the border to it before they leave along another
-/// axis. `is_sure`: whatever the slack, and they end at least two voxels on.
+/// The cone of a voxel that touches or is next to the camera's: its rays cross the border to it
+/// before they leave the camera's voxel, or the one beside it, along another axis. Those of
+/// `is_sure` do so however their directions are rounded, and end at least two voxels on.
 inline Cone make_cone_at_camera(const FrameView& view, const SeenVoxel& voxel, bool is_sure) {
   Cone cone;
   cone.least_exit =
       is_sure ? 1.0F / (4.0F * (view.half_voxel_m + view.margin_m)) : __builtin_inff();
   const float slack = is_sure ? -view.direction_slack : view.direction_slack;
-  const auto keep = [&](int b, float of_b, int a, float of_a) {
-    const float room = slack * ((of_b < 0.0F ? -of_b : of_b) + (of_a < 0.0F ? -of_a : of_a));
-    keep_side(cone, of_b * view.toward[b] + of_a * view.toward[a] + room,
-              of_b * view.right[b] + of_a * view.right[a],
-              of_b * view.down[b] + of_a * view.down[a]);
-  };
   for (int b = 0; b < 3; ++b) {
     const int step = voxel.from_camera[b];
     if (step == 0) continue;
     const auto sign = static_cast<float>(step);
     const float near_m = step > 0 ? view.upper_border_m[b] : -view.lower_border_m[b];
-    keep(b, sign, b, 0.0F);
+    keep_side(view, cone, b, sign, b, 0.0F, slack);
     for (int a = 0; a < 3; ++a) {
       if (a == b) continue;
       const int other = voxel.from_camera[a];
       const float voxel_m = other == 0 ? 0.0F : 2.0F * view.half_voxel_m;
-      if (other >= 0) keep(b, sign * (view.upper_border_m[a] + voxel_m), a, -near_m);
-      if (other <= 0) keep(b, sign * (voxel_m - view.lower_border_m[a]), a, near_m);
+      const float up_m = view.upper_border_m[a] + voxel_m;
+      const float down_m = voxel_m - view.lower_border_m[a];
+      if (other >= 0) keep_side(view, cone, b, sign * up_m, a, -near_m, slack);
+      if (other <= 0) keep_side(view, cone, b, sign * down_m, a, near_m, slack);
     }
   }
   return cone;
 }
 
-enum class Proof { might_pass, sure_to_pass };
-
-inline Cone make_cone(const FrameView& view, const SeenVoxel& voxel, Proof proof) {
-  const bool is_sure = proof == Proof::sure_to_pass;
+/// The cone of rays that might pass the voxel, or of those that are sure to.
+inline Cone make_cone(const FrameView& view, const SeenVoxel& voxel, bool is_sure) {
   if (is_at_camera(view, voxel)) return make_cone_at_camera(view, voxel, is_sure);
-  return make_cone(view, voxel, is_sure ? -view.margin_m : view.margin_m);
+  return make_grown_cone(view, voxel, is_sure ? -view.margin_m : view.margin_m);
 }
 
-/// The part of a cone in one row of pixels.
-struct ConeRow {
-  float first_u, last_u;
-  float exit_at[6];
-};
-
-inline void set_exits(const Cone& cone, float v, ConeRow& row) {
-  for (int i = 0; i < cone.exits; ++i) row.exit_at[i] = cone.exit_at[i] + cone.exit_v[i] * v;
-}
-
-inline ConeRow row_of(const Cone& cone, const SeenVoxel& voxel, float v) {
-  ConeRow row;
-  row.first_u = static_cast<float>(voxel.first_u);
-  row.last_u = static_cast<float>(voxel.last_u);
-  for (int i = 0; i < cone.lowers; ++i) {
-    const float u = cone.lower_at[i] + cone.lower_slope[i] * v;
-    if (u > row.first_u) row.first_u = u;
-  }
-  for (int i = 0; i < cone.uppers; ++i) {
-    const float u = cone.upper_at[i] + cone.upper_slope[i] * v;
-    if (u < row.last_u) row.last_u = u;
-  }
-  set_exits(cone, v, row);
-  return row;
-}
-
-/// Lanes whose rays pass the box of the cone and end beyond it.
-inline Mask passing(const Cone& cone, const ConeRow& row, Floats u, Floats inverse_depth) {
-  Floats exit = all(cone.least_exit);
-  for (int i = 0; i < cone.exits; ++i) {
-    exit = max(exit, all(row.exit_at[i]) + all(cone.exit_u[i]) * u);
-  }
-  return less(inverse_depth, exit) & less_equal(all(row.first_u), u) &
-         less_equal(u, all(row.last_u));
-}
-
-/// Lines of a voxel's rays in kLanes rows from v on: columns between first_u and last_u.
+/// The columns of a cone's rays in kLanes rows of pixels, from first_u to last_u.
 struct Spans {
   float first_u[kLanes], last_u[kLanes];
-  std::uint32_t rows;  // bit r: row v + r has columns
+  std::uint32_t rows;  // bit r: the row has columns
 };
 
 inline Spans spans_of(const Cone& cone, const SeenVoxel& voxel, int first_v) {
   const Floats v = all(static_cast<float>(first_v)) + ramp();
   Floats first_u = all(static_cast<float>(voxel.first_u));
   Floats last_u = all(static_cast<float>(voxel.last_u));
-  for (int i = 0; i < cone.lowers; ++i) {
-    first_u = max(first_u, all(cone.lower_at[i]) + all(cone.lower_slope[i]) * v);
+  for (int i = 0; i < cone.lower.count; ++i) {
+    first_u = max(first_u, all(cone.lower.at[i]) + all(cone.lower.slope[i]) * v);
   }
-  for (int i = 0; i < cone.uppers; ++i) {
-    last_u = min(last_u, all(cone.upper_at[i]) + all(cone.upper_slope[i]) * v);
+  for (int i = 0; i < cone.upper.count; ++i) {
+    last_u = min(last_u, all(cone.upper.at[i]) + all(cone.upper.slope[i]) * v);
   }
   Spans spans;
   store(spans.first_u, first_u);
@@ -202,34 +177,43 @@ inline Spans spans_of(const Cone& cone, const SeenVoxel& voxel, int first_v) {
   return spans;
 }
 
-/// Whether some ray is proven to pass the voxel. If none is, asks for a walk of those that might.
+/// Lanes, pixels of row v, whose rays are in the span and end beyond the box.
+inline Mask passing(const Cone& cone, const Spans& spans, int row, float v, Floats u,
+                    Floats inverse_depth) {
+  Floats exit = all(cone.least_exit);
+  for (int i = 0; i < cone.exits; ++i) {
+    exit = max(exit, all(cone.exit_at[i] + cone.exit_v[i] * v) + all(cone.exit_u[i]) * u);
+  }
+  return less(inverse_depth, exit) & less_equal(all(spans.first_u[row]), u) &
+         less_equal(u, all(spans.last_u[row]));
+}
+
+/// Whether some ray is sure to pass the voxel. If none is, asks for a walk of those that might.
 inline bool is_passed(const FrameView& view, const SeenVoxel& voxel, const FrameMarks& marks) {
-  const Cone might = make_cone(view, voxel, Proof::might_pass);
-  Cone sure;
+  const Cone might = make_cone(view, voxel, false);
+  Cone sure;  // made when the first ray might pass
   bool has_sure = false;
   int doubts = 0;
   for (int v0 = voxel.first_v; v0 <= voxel.last_v; v0 += kLanes) {
     const Spans spans = spans_of(might, voxel, v0);
+    Spans sure_spans;
+    bool has_sure_spans = false;
     for (std::uint32_t rows = spans.rows; rows != 0; rows &= rows - 1) {
-      const int r = __builtin_ctz(rows);
-      const int v = v0 + r;
-      ConeRow row;
-      row.first_u = spans.first_u[r];
-      row.last_u = spans.last_u[r];
-      set_exits(might, static_cast<float>(v), row);
-      const float* const inverse_depth = view.inverse_depth + v * view.row_stride;
-      const int last_u = static_cast<int>(row.last_u);
-      for (int u0 = static_cast<int>(row.first_u); u0 <= last_u; u0 += kLanes) {
+      const int row = __builtin_ctz(rows);
+      const auto v = static_cast<float>(v0 + row);
+      const std::ptrdiff_t first = std::ptrdiff_t{v0 + row} * view.row_stride;
+      const int last_u = static_cast<int>(spans.last_u[row]);
+      for (int u0 = static_cast<int>(spans.first_u[row]); u0 <= last_u; u0 += kLanes) {
         const Floats u = all(static_cast<float>(u0)) + ramp();
-        const Floats w = load(inverse_depth + u0);
-        std::uint32_t lanes = bits(passing(might, row, u, w));
+        const Floats inverse_depth = load(view.inverse_depth + first + u0);
+        std::uint32_t lanes = bits(passing(might, spans, row, v, u, inverse_depth));
         if (lanes == 0) continue;
-        if (!has_sure) sure = make_cone(view, voxel, Proof::sure_to_pass);
-        has_sure = true;
-        const ConeRow sure_row = row_of(sure, voxel, static_cast<float>(v));
-        if (bits(passing(sure, sure_row, u, w)) != 0) return true;
+        if (!has_sure) sure = make_cone(view, voxel, true);
+        if (!has_sure_spans) sure_spans = spans_of(sure, voxel, v0);
+        has_sure = has_sure_spans = true;
+        if (any(passing(sure, sure_spans, row, v, u, inverse_depth))) return true;
         for (; lanes != 0; lanes &= lanes - 1) {
-          marks.doubts[doubts++] = v * view.width + u0 + __builtin_ctz(lanes);
+          marks.doubts[doubts++] = (v0 + row) * view.width + u0 + __builtin_ctz(lanes);
         }
       }
     }

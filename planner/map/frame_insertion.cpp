@@ -54,7 +54,7 @@ void FrameInserter::prepare(const CameraModel& camera, int threads) {
     worker.walk.resize(pixels, 0);
     worker.doubts.resize(pixels + kPadding);
     worker.row.resize(static_cast<std::size_t>(row_stride_) + 1);
-    worker.ends.resize(static_cast<std::size_t>(width_));
+    worker.ends.resize(static_cast<std::size_t>(width_ + kPadding));
   }
 }
 

@@ -37,7 +37,7 @@ class FrameInserter {
     std::vector<std::uint8_t> walk;    // (pixels)
     std::vector<std::int32_t> doubts;  // (pixels + padding)
     std::vector<std::int32_t> row;     // scratch of EndRow
-    std::vector<VoxelIndex> ends;      // (width)
+    std::vector<std::int32_t> ends;    // (width + padding)
   };
   void prepare(const CameraModel& camera, int threads);
   void read_band(const FrameRays& rays, const DepthFrame& frame, const CameraModel& camera,

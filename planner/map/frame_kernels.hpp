@@ -9,6 +9,13 @@
 
 namespace gnbv {
 
+/// What a pixel of a depth frame says. The rules are the released code's, see FIDELITY.md.
+enum class PixelRay : std::uint8_t {
+  none = 0,    // kInvalidRange, or nearer than range_min_m: says nothing
+  clears = 1,  // no return, or beyond range_max_m (a plane), or below the floor: free up to the end
+  hits = 2     // free up to the end, which is surface
+};
+
 constexpr int kPadding = 16;  // elements a row may be read beyond its end: one vector
 constexpr int kTile_px = 8;   // side of the squares of which the furthest depth is kept
 
@@ -81,9 +88,9 @@ constexpr std::uint8_t kEnd = 2;
 
 struct FrameKernels {
   void (*rays_of_row)(const PixelRow& row);
-  /// Writes to `voxels` (width) the indices of those in the grid that hold the ends of hits,
-  /// without repeating one from pixel to pixel, and returns how many.
-  int (*ends_of_row)(const EndRow& row, std::uint32_t* voxels);
+  /// Writes to `voxels` (width + kPadding) the indices of those in the grid that hold the ends of
+  /// hits, without repeating one from pixel to pixel, and returns how many.
+  int (*ends_of_row)(const EndRow& row, std::int32_t* voxels);
   /// `inverse_depth` (width + padding to a whole tile and kPadding): see FrameView.
   void (*invert_row)(const PixelRow& row, float* inverse_depth, int padded_width);
   /// Frees every voxel of the layer z (from min_key), but for settled ones, that is proven to be

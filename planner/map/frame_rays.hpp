@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "planner/map/pixel_ray.hpp"
+#include "planner/map/frame_kernels.hpp"
 #include "sensors/camera_model.hpp"
 #include "sensors/frames.hpp"
 

@@ -17,17 +17,12 @@ std::vector<VoxelIndex> connected_to(VoxelIndex seed, int reach, const GridGeome
   std::vector<VoxelIndex> voxels = {seed};
   marks[seed] = 0;
   for (std::size_t next = 0; next < voxels.size(); ++next) {
-    const Key key = geometry.key_at(voxels[next]);
-    Key low;
-    Key high;
-    for (std::size_t a = 0; a < 3; ++a) {
-      low[a] = std::max(key[a] - reach, geometry.min_key()[a]);
-      high[a] = std::min(key[a] + reach, geometry.min_key()[a] + geometry.size()[a] - 1);
-    }
-    for (Key at = low; at[2] <= high[2]; ++at[2]) {
-      for (at[1] = low[1]; at[1] <= high[1]; ++at[1]) {
-        at[0] = low[0];
-        for (VoxelIndex v = geometry.index_of(at); at[0] <= high[0]; ++at[0], ++v) {
+    const Box3 center_m(geometry.center_m(geometry.key_at(voxels[next])));
+    const KeyBox near = geometry.keys_in(center_m, reach);
+    for (Key at = near.low; at[2] <= near.high[2]; ++at[2]) {
+      for (at[1] = near.low[1]; at[1] <= near.high[1]; ++at[1]) {
+        at[0] = near.low[0];
+        for (VoxelIndex v = geometry.index_of(at); at[0] <= near.high[0]; ++at[0], ++v) {
           if (marks[v] != kUnvisited) continue;
           marks[v] = 0;
           voxels.push_back(v);
@@ -40,17 +35,12 @@ std::vector<VoxelIndex> connected_to(VoxelIndex seed, int reach, const GridGeome
 }
 
 double largest_extent_m(std::span<const VoxelIndex> voxels, const GridGeometry& geometry) {
-  Key low = geometry.key_at(voxels.front());
-  Key high = low;
+  Eigen::AlignedBox3i keys;
   for (const VoxelIndex v : voxels) {
     const Key key = geometry.key_at(v);
-    for (std::size_t a = 0; a < 3; ++a) {
-      low[a] = std::min(low[a], key[a]);
-      high[a] = std::max(high[a], key[a]);
-    }
+    keys.extend(Eigen::Vector3i(key[0], key[1], key[2]));
   }
-  const std::int32_t steps = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
-  return (steps + 1) * geometry.resolution_m();
+  return (keys.sizes().maxCoeff() + 1) * geometry.resolution_m();
 }
 
 /// The voxels by the cell of the world lattice in which their centres lie.

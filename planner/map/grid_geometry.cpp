@@ -40,4 +40,14 @@ GridGeometry::GridGeometry(const Box3& bounds_m, double resolution_m)
   }
 }
 
+KeyBox GridGeometry::keys_in(const Box3& box_m, std::int32_t more) const {
+  KeyBox keys;
+  for (std::size_t a = 0; a < 3 && !box_m.isEmpty(); ++a) {
+    const auto axis = static_cast<Eigen::Index>(a);
+    keys.low[a] = std::max(key_of(box_m.min()[axis]) - more, min_[a]);
+    keys.high[a] = std::min(key_of(box_m.max()[axis]) + more, min_[a] + size_[a] - 1);
+  }
+  return keys;
+}
+
 }  // namespace gnbv

@@ -13,6 +13,12 @@ namespace gnbv {
 using Key = std::array<std::int32_t, 3>;  // signed lattice coordinates
 using VoxelIndex = std::uint32_t;         // position in the dense arrays, x fastest
 
+/// Keys from low to high, both included. Empty at first.
+struct KeyBox {
+  Key low = {0, 0, 0}, high = {-1, -1, -1};
+  bool is_empty() const { return low[0] > high[0] || low[1] > high[1] || low[2] > high[2]; }
+};
+
 class GridGeometry {
  public:
   GridGeometry() = default;
@@ -74,6 +80,9 @@ class GridGeometry {
            static_cast<std::uint32_t>(key[1] - min_[1]) < static_cast<std::uint32_t>(size_[1]) &&
            static_cast<std::uint32_t>(key[2] - min_[2]) < static_cast<std::uint32_t>(size_[2]);
   }
+  /// Those of the grid that hold a point of the box, or are up to `more` keys away from one that
+  /// does.
+  KeyBox keys_in(const Box3& box_m, std::int32_t more = 0) const;
   /// Requires contains(key).
   VoxelIndex index_of(const Key& key) const {
     return static_cast<VoxelIndex>(((key[2] - min_[2]) * size_[1] + (key[1] - min_[1])) * size_[0] +

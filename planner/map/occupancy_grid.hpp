@@ -73,10 +73,9 @@ class OccupancyGrid {
   VoxelWord settled_word() const { return settled_word_; }
   float settled_log_odds() const { return clamp_min_log_; }
 
-  /// Rows for the hot loops; index with VoxelIndex. Loops may read kWordPadding words beyond the end.
-  std::span<const VoxelWord> words() const {
-    return words_.span().first(geometry_.voxel_count());
-  }
+  /// Rows for the hot loops; index with VoxelIndex. Loops may read kWordPadding words beyond the
+  /// end.
+  std::span<const VoxelWord> words() const { return words_.span().first(geometry_.voxel_count()); }
   std::span<const float> all_log_odds() const { return log_odds_.span(); }
 
  private:

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -93,50 +92,23 @@ void walk_ray(const GridGeometry& grid, const RayOrigin& origin, const Vec3f& en
   }
 }
 
-/// walk_ray by VoxelIndex, for an origin inside the grid: the walk ends where it leaves the grid.
-/// `visit(VoxelIndex)` returns false to stop. Steps without branches: which axis comes next is as
-/// good as random, and a wrong guess costs more than three additions.
+/// walk_ray() by VoxelIndex, up to where the ray leaves the grid. `visit(VoxelIndex)` returns false
+/// to stop.
 template <typename Visit>
 void walk_ray_inside(const GridGeometry& grid, const RayOrigin& origin, const Vec3f& end_m,
                      Visit&& visit) {
-  const Key key_end = grid.key_of(end_m);
-  VoxelIndex voxel = grid.index_of(origin.key);
-  if (origin.key == key_end || !visit(voxel)) return;
-  RaySteps ray = make_ray_steps(grid, origin, end_m);
-  if (!(ray.length_m > 0.0)) return;
-  const Key& size = grid.size();
-  const std::array<std::int32_t, 3> stride = {1, size[0], size[0] * size[1]};
-  std::array<VoxelIndex, 3> move{};          // added modulo 2^32, so that it may step back
-  std::array<std::int32_t, 3> steps_left{};  // inside the grid
-  for (std::size_t a = 0; a < 3; ++a) {
-    move[a] = static_cast<VoxelIndex>(ray.step[a] * stride[a]);
-    const std::int32_t below = origin.key[a] - grid.min_key()[a];
-    steps_left[a] = ray.step[a] > 0 ? size[a] - 1 - below : below;
-  }
-  const bool ends_inside = grid.contains(key_end);
-  const VoxelIndex voxel_end = ends_inside ? grid.index_of(key_end) : 0;
-  const auto when = [](bool condition, double value) {
-    return std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) &
-                                 (std::uint64_t{0} - static_cast<std::uint64_t>(condition)));
-  };
-  auto [tx, ty, tz] = ray.t_next;
-  while (true) {
-    const bool x_first = tx < ty;
-    const bool x = x_first & (tx < tz);
-    const bool y = !x_first & (ty < tz);
-    const bool z = !(x | y);
-    steps_left[0] -= static_cast<std::int32_t>(x);
-    steps_left[1] -= static_cast<std::int32_t>(y);
-    steps_left[2] -= static_cast<std::int32_t>(z);
-    if ((steps_left[0] | steps_left[1] | steps_left[2]) < 0) return;
-    voxel += x ? move[0] : (y ? move[1] : move[2]);
-    tx += when(x, ray.t_voxel[0]);
-    ty += when(y, ray.t_voxel[1]);
-    tz += when(z, ray.t_voxel[2]);
-    if (ends_inside & (voxel == voxel_end)) return;
-    if (std::min(tx, std::min(ty, tz)) > ray.length_m) return;
-    if (!visit(voxel)) return;
-  }
+  walk_ray(grid, origin, end_m,
+           [&](const Key& key) { return grid.contains(key) && visit(grid.index_of(key)); });
+}
+
+/// Whether `passes(Key)` holds for every voxel that walk_ray() visits between the points.
+template <typename Passes>
+bool all_along_ray(const GridGeometry& grid, const Vec3f& origin_m, const Vec3f& end_m,
+                   const Passes& passes) {
+  bool pass = true;
+  walk_ray(grid, make_ray_origin(grid, origin_m), end_m,
+           [&](const Key& key) { return pass = passes(key); });
+  return pass;
 }
 
 template <typename Visit>

@@ -161,9 +161,7 @@ LeafTable SurfaceCloud::leaf_table() const {
 void SurfaceCloud::add_untaken(const FrameRays& frame) {
   static_assert(sizeof(PixelRay) == 1);
   const LeafTable table = leaf_table();
-  const PixelColumns pixels{.x_m = frame.x_m.data(),
-                            .y_m = frame.y_m.data(),
-                            .z_m = frame.z_m.data(),
+  const PixelColumns pixels{.p_m = {frame.x_m.data(), frame.y_m.data(), frame.z_m.data()},
                             .kind = reinterpret_cast<const std::uint8_t*>(frame.kind.data())};
   const FindUntaken find_untaken = cloud_kernels().find_untaken;
   const std::size_t count = frame.kind.size();
@@ -262,8 +260,8 @@ void SurfaceCloud::insert(const Vec3f& p_m, const Leaf& leaf) {
                          .cells_x = static_cast<std::size_t>(bucket_cells_[0]),
                          .cells_y = static_cast<std::size_t>(bucket_cells_[1]),
                          .radius2_m2 = search_radius2_m2_};
-  const std::uint64_t neighbours =
-      cloud_kernels().count_neighbours(table, p_m.data(), cells_within_reach(p_m), voxel_points_.data());
+  const std::uint64_t neighbours = cloud_kernels().count_neighbours(
+      table, p_m.data(), cells_within_reach(p_m), voxel_points_.data());
   voxel_points_[slot].neighbour_sum += neighbours + 1;  // the point itself
   ++voxel_points_[slot].point_count;
   append(buckets_[bucket_at_[leaf.bucket_cell]], p_m, slot);

@@ -1,4 +1,16 @@
 // Loops over the voxels that a frame can reach. For frame_loops.cpp alone.
+//
+// Rows of voxels along x, kLanes at a time, are asked in the order of what it costs:
+// 1. The row is cut to the pyramid of rays (six planes).
+// 2. passed_at_center: of the pixel nearest to a voxel's centre, whose ray runs through the ball in
+//    the voxel, the ray goes deeper than the centre and ends outside the voxel: it passes it.
+// 3. hidden: the voxel's corners bound the pixels whose rays can meet it (pixel_box). If all of
+// them
+//    end before its nearest depth, none passes it. Four overlapping windows of 2^k tiles cover the
+//    pixels, and of each window the furthest depth is known.
+// 4. is_passed (cone_loops.hpp) looks at the rays one by one; those that rounding leaves in doubt
+// are
+//    walked later, as OctoMap walks them.
 #pragma once
 
 #include "planner/map/cone_loops.hpp"
@@ -184,11 +196,8 @@ void project_row(const FrameView& view, int y, int z, const FrameMarks& marks) {
   const double row_start_m = center_m[0];
   for (int x = run.first; x <= run.last; x += kLanes) {
     std::uint8_t* const voxel = marks.voxel + row_start + x;
-    const int left = run.last - x + 1;
-    // what lies behind the row may be another thread's
-    std::uint8_t tail[kLanes];
-    for (int i = 0; left < kLanes && i < kLanes; ++i) tail[i] = i < left ? voxel[i] : kEnd;
-    const Mask untouched = equal_bytes(left < kLanes ? tail : voxel, kUntouched);
+    const int left = run.last - x + 1;  // what lies beyond may be another thread's
+    const Mask untouched = less(int_ramp(), all(left)) & equal_bytes(voxel, kUntouched, left);
     const Mask is_settled = equal(load(view.words + row_start + x), all(view.settled_word));
     const std::uint32_t open = bits(without(untouched, is_settled));
     if (open == 0) continue;

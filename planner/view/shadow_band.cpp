@@ -8,7 +8,7 @@ namespace gnbv {
 ShadowBand::ShadowBand(const ShadowConfig& config, const GridGeometry& grid)
     : shadow_depth_m_(config.shadow_depth_m),
       steps_max_(2.0 * config.shadow_depth_m / grid.resolution_m()),
-      steps_(grid.voxel_count()) {
+      steps_(grid.voxel_count() + kWordPadding) {
   if (!(shadow_depth_m_ > 0.0 && shadow_depth_m_ <= kMaxShadow_voxels * grid.resolution_m())) {
     throw BadInput(fmt::format("shadow_depth_m: {} is not between 0 and {} voxels of {} m",
                                shadow_depth_m_, kMaxShadow_voxels, grid.resolution_m()));
@@ -22,10 +22,9 @@ void ShadowBand::add(const FrameRays& rays, OccupancyGrid& grid) {
     const Vec3f hit_m(rays.x_m[i], rays.y_m[i], rays.z_m[i]);
     const Vec3 along = (hit_m - rays.origin_world_m).cast<double>().normalized();
     const Vec3 end_m = hit_m.cast<double>() + shadow_depth_m_ * along;
+    const RayOrigin origin = make_ray_origin(geometry, hit_m);
     int steps = 0;
-    walk_ray(geometry, hit_m, end_m.cast<float>(), [&](const Key& key) {
-      if (!geometry.contains(key)) return false;
-      const VoxelIndex v = geometry.index_of(key);
+    walk_ray_inside(geometry, origin, end_m.cast<float>(), [&](VoxelIndex v) {
       if (steps > 0 && grid.shade(v)) {
         const auto now = static_cast<std::uint8_t>(steps);
         steps_[v] = steps_[v] == 0 ? now : std::min(steps_[v], now);

@@ -26,6 +26,8 @@ class ShadowBand {
 
   /// Steps behind the surface; 0 for a voxel in no shadow. Holds while grid.is_shaded(v).
   int steps_behind(VoxelIndex v) const { return steps_[v]; }
+  /// The same of all voxels, and a vector of zeros.
+  const std::uint8_t* steps() const { return steps_.data(); }
   /// delta_max of the proximity count: 2 depth / resolution.
   double steps_max() const { return steps_max_; }
 

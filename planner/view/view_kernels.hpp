@@ -58,6 +58,7 @@ struct ViewMaps {
   std::size_t predicted_count;
   std::uint32_t settled_word;  // OccupancyGrid::settled_word(), and its voxels' log-odds
   float settled_log_odds;
+  const std::uint8_t* shadow_steps;  // of each voxel, ShadowBand's; null: no shadow is counted
 };
 
 /// Sums over the rays, in integers: the order of the rays leaves no trace.
@@ -89,29 +90,28 @@ struct VoxelSums {
   std::int64_t visited;
   std::int64_t free;
   std::int64_t known;  // as in RaySums
+  std::int64_t shadow;
+  std::int64_t shadow_steps;
   std::int32_t* occupied;
   std::size_t occupied_count;
-  std::int32_t* shadow;  // voxels in a shadow; nothing is written when null
-  std::size_t shadow_count;
 };
 
-/// Voxels first + row * stride + [0, length), for each row.
-struct VoxelRows {
-  std::size_t first;
-  std::size_t length;
-  std::size_t stride;
-  std::size_t count;
+/// Voxels first + [0, length), in rows and planes of the grid.
+struct VoxelBox {
+  std::size_t first, length;
+  std::size_t rows, row_stride;
+  std::size_t planes, plane_stride;
 };
 
-/// Counts the marked voxels of the rows and clears their marks. May also count and clear up to 63
+/// Counts the marked voxels of the box and clears their marks. May also count and clear up to 63
 /// voxels after a row.
-using TallyPlane = void (*)(const ViewMaps& maps, const VoxelRows& rows, VoxelSums& sums);
+using Tally = void (*)(const ViewMaps& maps, const VoxelBox& box, VoxelSums& sums);
 
 struct ViewKernels {
   PrepareRays prepare;
   WalkRays walk_voxels;
   WalkRays walk_full;
-  TallyPlane tally_plane;
+  Tally tally;
 };
 
 GNBV_KERNELS(ViewKernels, view_kernels)

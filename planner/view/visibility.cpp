@@ -65,12 +65,7 @@ PreparedRays prepare(const ViewRays& rays, const ViewRays::Camera& camera, const
 }
 
 /// Voxels that hold whatever the view can see.
-struct KeyBox {
-  Key low = {0, 0, 0};
-  Key high = {-1, -1, -1};  // inclusive; smaller than low: empty
-};
-
-KeyBox box_of(const GridGeometry& grid, const ViewRays& rays, const Isometry& T_world_body) {
+VoxelBox box_of(const GridGeometry& grid, const ViewRays& rays, const Isometry& T_world_body) {
   Box3 box_m;
   for (const ViewRays::Camera& camera : rays.cameras) {
     box_m.extend(grid.nearest_inside(T_world_body * camera.origin_body_m));
@@ -78,46 +73,18 @@ KeyBox box_of(const GridGeometry& grid, const ViewRays& rays, const Isometry& T_
       box_m.extend(grid.nearest_inside(T_world_body * corner_body_m));
     }
   }
-  KeyBox box;
-  if (box_m.isEmpty()) return box;
-  for (std::size_t a = 0; a < 3; ++a) {  // a voxel more for what float32 rounds
-    const auto axis = static_cast<Eigen::Index>(a);
-    const std::int32_t last = grid.min_key()[a] + grid.size()[a] - 1;
-    box.low[a] = std::max(grid.key_of(box_m.min()[axis]) - 1, grid.min_key()[a]);
-    box.high[a] = std::min(grid.key_of(box_m.max()[axis]) + 1, last);
-  }
-  return box;
-}
-
-/// Counts what was marked, plane by plane, and clears it. Returns the sum of steps behind the
-/// surface that proximity counts.
-double tally(const OccupancyGrid& grid, const ViewMaps& maps, const KeyBox& box,
-             const ViewOptions& options, VisitMarks& marks, VoxelSums& sums) {
-  const GridGeometry& geometry = grid.geometry();
-  const bool counts_shadow = options.detail == ViewDetail::rays && options.shadow != nullptr;
-  const auto extent = [&](std::size_t a) {
-    return static_cast<std::size_t>(std::max(box.high[a] - box.low[a] + 1, 0));
+  const KeyBox keys = grid.keys_in(box_m, 1);  // a voxel more for what float32 rounds
+  if (keys.is_empty()) return {};
+  const auto count = [&](std::size_t a) {
+    return static_cast<std::size_t>(keys.high[a] - keys.low[a] + 1);
   };
-  VoxelRows rows = {.first = 0,
-                    .length = extent(0),
-                    .stride = static_cast<std::size_t>(geometry.size()[0]),
-                    .count = extent(1)};
-  marks.shadow.resize(counts_shadow ? rows.stride * rows.count + kMarkPadding : 0);
-  sums.shadow = counts_shadow ? marks.shadow.data() : nullptr;
-  std::int64_t shadow_voxels = 0;
-  std::int64_t steps_behind = 0;
-  for (std::int32_t z = box.low[2]; z <= box.high[2]; ++z) {
-    rows.first = geometry.index_of({box.low[0], box.low[1], z});
-    sums.shadow_count = 0;
-    view_kernels().tally_plane(maps, rows, sums);
-    shadow_voxels += static_cast<std::int64_t>(sums.shadow_count);
-    for (std::size_t i = 0; i < sums.shadow_count; ++i) {
-      steps_behind += options.shadow->steps_behind(static_cast<VoxelIndex>(sums.shadow[i]));
-    }
-  }
-  if (!counts_shadow) return 0.0;
-  return static_cast<double>(shadow_voxels) * options.shadow->steps_max() -
-         static_cast<double>(steps_behind);
+  const auto row = static_cast<std::size_t>(grid.size()[0]);
+  return {.first = grid.index_of(keys.low),
+          .length = count(0),
+          .rows = count(1),
+          .row_stride = row,
+          .planes = count(2),
+          .plane_stride = row * static_cast<std::size_t>(grid.size()[1])};
 }
 
 std::uint32_t count_unique(std::span<std::int32_t> voxels) {
@@ -181,7 +148,8 @@ ViewStats evaluate_view(const OccupancyGrid& grid, const SurfaceCloud& cloud, co
       .predicted = marks.predicted_ends.data(),
       .predicted_count = 0,
       .settled_word = grid.settled_word(),
-      .settled_log_odds = grid.settled_log_odds()};
+      .settled_log_odds = grid.settled_log_odds(),
+      .shadow_steps = full && options.shadow != nullptr ? options.shadow->steps() : nullptr};
   RaySums ray_sums{};
   ViewStats stats;
   stats.voxel_m3 = std::pow(geometry.resolution_m(), 3);
@@ -197,7 +165,7 @@ ViewStats evaluate_view(const OccupancyGrid& grid, const SurfaceCloud& cloud, co
   }
   VoxelSums voxel_sums{};
   voxel_sums.occupied = marks.occupied.data();
-  const double proximity = tally(grid, maps, box_of(geometry, rays, T), options, marks, voxel_sums);
+  view_kernels().tally(maps, box_of(geometry, rays, T), voxel_sums);
 
   const auto occupied = static_cast<std::int64_t>(voxel_sums.occupied_count);
   stats.free_voxels = static_cast<std::uint32_t>(voxel_sums.free);
@@ -209,7 +177,10 @@ ViewStats evaluate_view(const OccupancyGrid& grid, const SurfaceCloud& cloud, co
   stats.entropy_per_ray_nat = entropy_nat(ray_sums.visits, ray_sums.known);
   add_density(cloud, {voxel_sums.occupied, voxel_sums.occupied_count}, options.sparse_below, stats);
   if (full) fill_ray_stats(ray_sums, stats);
-  stats.proximity_sum = proximity;
+  if (maps.shadow_steps != nullptr) {
+    stats.proximity_sum = static_cast<double>(voxel_sums.shadow) * options.shadow->steps_max() -
+                          static_cast<double>(voxel_sums.shadow_steps);
+  }
   return stats;
 }
 

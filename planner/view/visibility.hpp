@@ -6,7 +6,7 @@
 
 #include "planner/map/occupancy_grid.hpp"
 #include "planner/map/surface_cloud.hpp"
-#include "planner/view/released_slips.hpp"
+#include "planner/view/ray_by_ray.hpp"
 #include "planner/view/shadow_band.hpp"
 #include "planner/view/view_rays.hpp"
 #include "planner/view/view_stats.hpp"
@@ -21,7 +21,6 @@ struct VisitMarks {
   std::vector<std::int32_t> prepared;        // PreparedRays
   std::vector<std::int32_t> predicted_ends;  // first predicted voxel of each ray
   std::vector<std::int32_t> occupied;        // seen
-  std::vector<std::int32_t> shadow;          // seen, of one plane of the grid
 };
 
 /// How a view is looked at.

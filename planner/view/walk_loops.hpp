@@ -4,12 +4,24 @@
 
 #include "planner/map/voxel_word.hpp"
 #include "planner/view/view_kernels.hpp"
-#include "planner/view/wide_sums.hpp"
+#include "sim/core/lanes.hpp"
 
 namespace gnbv {
 namespace {
 
-constexpr int kStepsPerFlush = 256;  // 369 steps of ln 2 overflow a lane of 32 bits
+/// Sums lane by lane that 32 bits do not hold: 369 terms of ln 2, the largest there are, overflow.
+struct LongSum {
+  static constexpr int kTermsPerCarry = 256;
+  Ints low = all(0), high = all(0);
+
+  void carry() {
+    high = high + shift_right<16>(low);
+    low = low & all(0xffff);
+  }
+  std::int64_t total(Mask m) const {
+    return sum_of(select(m, low, all(0))) + (sum_of(select(m, high, all(0))) << 16);
+  }
+};
 
 /// Where the rays of a bundle are. `moving` rays are inside the grid and their range; `seeing`
 /// ones have met nothing occupied either. Rays that stopped seeing move on, so that no step has to
@@ -61,13 +73,11 @@ inline void take_step(Bundle& b, Ints t_exit) {
 }
 
 inline void mark(std::uint8_t* marks, Mask seeing, Ints voxel, Ints resting_voxel) {
-  alignas(64) std::int32_t at[kLaneCount];
+  alignas(64) std::int32_t at[kLanes];
   store(at, select(seeing, voxel, resting_voxel));
   // through memory: the compiler would take the lanes out of the register, at twice the cost
   __asm__("" : "+m"(at));
-  for (std::size_t lane = 0; lane < kLaneCount; ++lane) {
-    marks[static_cast<std::uint32_t>(at[lane])] = kMarked;
-  }
+  for (const std::int32_t voxel_at : at) marks[static_cast<std::uint32_t>(voxel_at)] = kMarked;
 }
 
 /// What the full walk keeps of each ray.
@@ -171,43 +181,28 @@ inline void measure(const ViewMaps& maps, const Bundle& b, Ints word, Ints known
   m.visibility = max(m.visibility * factor, all(kLeastVisibility));
 }
 
-/// Sums over bundles, lane by lane. No term is negative.
-struct LaneTotals {
-  WideLanes known;
-  WideLanes visits_occupied;
-  WideLanes occlusion_aware;
-  WideLanes unobserved;
-  WideLanes rear_side;
-  WideLanes unknown_share;
-};
-
-inline void add_to(WideLanes& total, Ints part) { flush(part, total); }
-/// Rounded ray by ray, so that their order leaves no trace.
-inline void add_to(WideLanes& total, Floats part) { add_to(total, nearest(part)); }
-
-void add_rays(const RayMetrics& m, const WideLanes& known, LaneTotals& totals, RaySums& sums) {
+/// Adds what the rays of a bundle sum up to. No term is negative, and each ray's is rounded, so
+/// that the order of the rays leaves no trace.
+void add_rays(const RayMetrics& m, const LongSum& known, RaySums& sums) {
   constexpr float kCubeShare = 0x1p-57F;  // times are 2^-29 of the ray, shares 2^-30
   sums.rays_occupied += count(m.hit);
   sums.rear_side_rays += count(m.rear_hit);
   sums.shadow_rays += count(m.shadow);
   sums.front_rays += count(without(m.front_hit, m.shadow));
-  add_to(totals.visits_occupied, m.visits);
-  add_to(totals.occlusion_aware, m.occlusion_aware);
-  add_to(totals.unobserved, m.unobserved);
-  add_to(totals.rear_side, m.rear_side);
-  add_to(totals.unknown_share, m.volume * all(kCubeShare));
-  for (std::uint32_t left = bits(m.hit); left != 0; left &= left - 1) {
-    sums.known_occupied += known.lane[__builtin_ctz(left)];
-  }
+  sums.visits_occupied += sum_of(m.visits);
+  sums.occlusion_aware += sum_of(nearest(m.occlusion_aware));
+  sums.unobserved += sum_of(nearest(m.unobserved));
+  sums.rear_side += sum_of(nearest(m.rear_side));
+  sums.unknown_share += sum_of(nearest(m.volume * all(kCubeShare)));
+  sums.known_occupied += known.total(m.hit);
 }
 
 template <bool kFull>
-void walk_bundle(Bundle b, const Odds& odds, ViewMaps& maps, LaneTotals& totals, RaySums& sums) {
+void walk_bundle(Bundle b, const Odds& odds, ViewMaps& maps, RaySums& sums) {
   const ViewMaps local = maps;  // a mark might be any byte in memory to the compiler
   const Ints resting_voxel = all(local.resting_voxel);
   RayMetrics metrics;
-  Ints known_sum = all(0);
-  WideLanes known_wide;
+  LongSum known_sum;
   Mask foresees = b.seeing;  // rays that have met no predicted voxel
   std::int64_t visits = 0;
   sums.rays += count(b.seeing);
@@ -215,7 +210,7 @@ void walk_bundle(Bundle b, const Odds& odds, ViewMaps& maps, LaneTotals& totals,
     mark(local.marks, b.seeing, b.voxel, resting_voxel);
     const Ints word = gather(b.moving, local.words, b.voxel);  // waits for no earlier word
     const Ints known = shift_right<kKnownShift>(word);
-    known_sum = add_where(b.seeing, known_sum, known);
+    known_sum.low = add_where(b.seeing, known_sum.low, known);
     visits += count(b.seeing);
     const Mask occupied =
         b.seeing & has_bit(word, static_cast<std::uint32_t>(VoxelState::occupied));
@@ -231,12 +226,11 @@ void walk_bundle(Bundle b, const Odds& odds, ViewMaps& maps, LaneTotals& totals,
     }
     take_step(b, t_exit);
     b.seeing = without(b.seeing & b.moving, occupied);
-    if (step % kStepsPerFlush == kStepsPerFlush - 1) flush(known_sum, known_wide);
+    if (step % LongSum::kTermsPerCarry == LongSum::kTermsPerCarry - 1) known_sum.carry();
   }
-  flush(known_sum, known_wide);
   sums.visits += visits;
-  for (std::size_t i = 0; i < kLaneCount; ++i) totals.known.lane[i] += known_wide.lane[i];
-  if constexpr (kFull) add_rays(metrics, known_wide, totals, sums);
+  sums.known += known_sum.total(every_lane());
+  if constexpr (kFull) add_rays(metrics, known_sum, sums);
 }
 
 template <bool kFull>
@@ -244,16 +238,9 @@ void walk_rays(const PreparedRays& rays, std::int32_t origin_voxel, float odds_p
                ViewMaps& maps, RaySums& sums) {
   const Odds odds = {.power = odds_power,
                      .settled = free_probability(all(maps.settled_log_odds) * all(odds_power))};
-  LaneTotals totals;
-  for (std::size_t first = 0; first < rays.count; first += kLaneCount) {
-    walk_bundle<kFull>(load_bundle(rays, first, origin_voxel), odds, maps, totals, sums);
+  for (std::size_t first = 0; first < rays.count; first += kLanes) {
+    walk_bundle<kFull>(load_bundle(rays, first, origin_voxel), odds, maps, sums);
   }
-  sums.known += sum_of(totals.known);
-  sums.visits_occupied += sum_of(totals.visits_occupied);
-  sums.occlusion_aware += sum_of(totals.occlusion_aware);
-  sums.unobserved += sum_of(totals.unobserved);
-  sums.rear_side += sum_of(totals.rear_side);
-  sums.unknown_share += sum_of(totals.unknown_share);
 }
 
 }  // namespace

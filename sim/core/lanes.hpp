@@ -43,6 +43,9 @@ inline void store_bytes(std::uint8_t* p, Ints a) {
   hn::StoreU(hn::DemoteTo(kByteTag, a), kByteTag, p);
 }
 
+inline Ints load_bytes(const std::uint8_t* p) {
+  return hn::PromoteTo(kIntTag, hn::LoadU(kByteTag, p));
+}
 /// x in every lane; 0, 1, 2, ...
 inline Floats all(float x) { return hn::Set(kFloatTag, x); }
 inline Ints all(std::int32_t x) { return hn::Set(kIntTag, x); }
@@ -53,7 +56,10 @@ inline Ints int_ramp() { return hn::Iota(kIntTag, 0); }
 inline Floats min(Floats a, Floats b) { return hn::Min(a, b); }
 inline Floats max(Floats a, Floats b) { return hn::Max(a, b); }
 inline Ints min(Ints a, Ints b) { return hn::Min(a, b); }
+inline Ints max(Ints a, Ints b) { return hn::Max(a, b); }
 inline Floats magnitude(Floats a) { return hn::Abs(a); }
+inline Ints magnitude(Ints a) { return hn::Abs(a); }
+inline Floats root(Floats a) { return hn::Sqrt(a); }
 template <int kBits>
 Ints shift_left(Ints a) {
   return hn::ShiftLeft<kBits>(a);
@@ -89,7 +95,7 @@ inline Mask has_bit(Ints a, std::uint32_t bit) { return hn::TestBit(a, all(bit))
 inline Mask has_none(Ints a, Ints bits) { return (a & bits) == hn::Zero(kIntTag); }
 /// Which of kLanes bytes are b.
 inline Mask equal_bytes(const std::uint8_t* p, std::uint8_t b) {
-  return hn::PromoteTo(kIntTag, hn::LoadU(kByteTag, p)) == all(std::uint32_t{b});
+  return load_bytes(p) == all(std::uint32_t{b});
 }
 
 inline bool any(Mask m) { return !hn::AllFalse(kIntTag, m); }
@@ -126,6 +132,14 @@ inline int pack(Mask m, Ints a, std::int32_t* to) {
   return count(m);
 }
 
+/// Of all lanes, taken as unsigned.
+inline std::int64_t sum_of(Ints a) {
+  constexpr hn::Repartition<std::uint64_t, decltype(kIntTag)> kWideTag;
+  const auto pairs = hn::BitCast(kWideTag, a);
+  const auto sums = (pairs & hn::Set(kWideTag, 0xffffffffU)) + hn::ShiftRight<32>(pairs);
+  return static_cast<std::int64_t>(hn::GetLane(hn::SumOfLanes(kWideTag, sums)));
+}
+
 /// kLanes float64 numbers.
 struct Doubles {
   hn::Vec<decltype(kDoubleTag)> low, high;
@@ -134,7 +148,16 @@ inline Doubles all(double x) { return {hn::Set(kDoubleTag, x), hn::Set(kDoubleTa
 inline Doubles load(const double* p) {
   return {hn::LoadU(kDoubleTag, p), hn::LoadU(kDoubleTag, p + kLanes / 2)};
 }
+inline Doubles magnitude(Doubles a) { return {hn::Abs(a.low), hn::Abs(a.high)}; }
+inline Doubles min(Doubles a, Doubles b) {
+  return {hn::Min(a.low, b.low), hn::Min(a.high, b.high)};
+}
+inline Doubles max(Doubles a, Doubles b) {
+  return {hn::Max(a.low, b.low), hn::Max(a.high, b.high)};
+}
 inline Doubles operator+(Doubles a, Doubles b) { return {a.low + b.low, a.high + b.high}; }
+inline Doubles operator-(Doubles a, Doubles b) { return {a.low - b.low, a.high - b.high}; }
+inline Doubles operator/(Doubles a, Doubles b) { return {a.low / b.low, a.high / b.high}; }
 inline Doubles operator*(Doubles a, Doubles b) { return {a.low * b.low, a.high * b.high}; }
 inline Doubles select_less(Doubles a, Doubles b, Doubles yes, Doubles no) {
   return {hn::IfThenElse(a.low < b.low, yes.low, no.low),
@@ -161,18 +184,34 @@ inline Ints floored(Doubles a) {
   return toward_zero - truncated(select_less(a, widen(toward_zero), all(1.0), all(0.0)));
 }
 
-/// The first `count` of kLanes elements, the others zero: a vector over the end of an array.
-template <typename T>
-struct Tail {
-  T at[kLanes] = {};
-  Tail() = default;
-  Tail(const T* from, int count) {
-    for (int i = 0; i < count; ++i) at[i] = from[i];
-  }
-  void copy_to(T* to, int count) const {
-    for (int i = 0; i < count; ++i) to[i] = at[i];
-  }
-};
+/// The end of an array: only the first `left` of kLanes elements are there to be read or written.
+/// Those read beyond are zeros.
+template <typename T, typename Use>
+auto read_end(const T* p, int left, const Use& use) {
+  if (left >= kLanes) return use(p);
+  T some[kLanes] = {};
+  for (int i = 0; i < left; ++i) some[i] = p[i];
+  return use(some);
+}
+template <typename T, typename Use>
+void write_end(T* p, int left, const Use& use) {
+  if (left >= kLanes) return use(p);
+  T some[kLanes];
+  use(some);
+  for (int i = 0; i < left; ++i) p[i] = some[i];
+}
+inline Floats load(const float* p, int left) {
+  return read_end(p, left, [](const float* q) { return load(q); });
+}
+inline Mask equal_bytes(const std::uint8_t* p, std::uint8_t b, int left) {
+  return read_end(p, left, [b](const std::uint8_t* q) { return equal_bytes(q, b); });
+}
+inline void store(float* p, Floats a, int left) {
+  write_end(p, left, [a](float* q) { store(q, a); });
+}
+inline void store_bytes(std::uint8_t* p, Ints a, int left) {
+  write_end(p, left, [a](std::uint8_t* q) { store_bytes(q, a); });
+}
 
 }  // namespace
 }  // namespace gnbv

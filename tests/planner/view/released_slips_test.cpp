@@ -1,5 +1,5 @@
 // The two slips of the released code on hand-drawn maps.
-#include "planner/view/released_slips.hpp"
+#include "planner/view/ray_by_ray.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What is listed of a view is what was counted of it.
-#include "planner/view/voxels_in_sight.hpp"
+#include "planner/view/ray_by_ray.hpp"
 
 #include <gtest/gtest.h>
 
