@@ -38,10 +38,10 @@ inline Mask untaken(const LeafTable& t, Mask wanted, const Floats p_m[3]) {
 std::size_t find_untaken(const LeafTable& table, const PixelColumns& pixels, std::size_t begin,
                          std::size_t end, std::int32_t* out) {
   std::int32_t* next = out;
-  for (std::size_t i = begin; i < end; i += kLanes) {
-    const int left = static_cast<int>(end - i);
+  for_lanes(static_cast<int>(end - begin), [&](int from_begin, int left) {
+    const std::size_t i = begin + static_cast<std::size_t>(from_begin);
     Mask wanted = equal_bytes(pixels.kind + i, static_cast<std::uint8_t>(PixelRay::hits), left);
-    if (!any(wanted)) continue;
+    if (!any(wanted)) return;
     Floats p_m[3];
     for (int a = 0; a < 3; ++a) {
       p_m[a] = load(pixels.p_m[a] + i, left);
@@ -50,7 +50,7 @@ std::size_t find_untaken(const LeafTable& table, const PixelColumns& pixels, std
     }
     const Ints pixel = all(static_cast<std::int32_t>(i)) + int_ramp();
     next += pack(untaken(table, wanted, p_m), pixel, next);
-  }
+  });
   return static_cast<std::size_t>(next - out);
 }
 

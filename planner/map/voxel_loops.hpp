@@ -51,11 +51,10 @@ inline Mask passed_at_center(const FrameView& view, const Centers& c) {
     const Floats at = c.camera_m[k] / z_m * all(view.focal_px[k]) + all(view.center_px[k]);
     const Floats within = min(max(at, all(0.0F)), all(last[k]));
     is_seen = is_seen & less_equal(all(-0.5F), at) & less_equal(at, all(last[k] + 0.5F));
-    pixel[k] = to_floats(nearest(within));
+    pixel[k] = round_to_even(within);
   }
   const Floats stride = all(static_cast<float>(view.row_stride));
-  const Floats inverse =
-      gather(every_lane(), view.inverse_depth, truncated(pixel[1] * stride + pixel[0]));
+  const Floats inverse = gather(view.inverse_depth, truncated(pixel[1] * stride + pixel[0]));
   const Floats depth_m = all(1.0F) / inverse;
   Floats away_m = all(0.0F);
   for (int a = 0; a < 3; ++a) {
@@ -95,8 +94,8 @@ inline PixelBox pixel_box(const FrameView& view, const Centers& c) {
     const Floats last =
         select(is_ahead, high * all(view.focal_px[k]) + all(view.center_px[k]), end);
     box.is_empty = box.is_empty | less(last, zero) | less(end, first);
-    box.first[k] = to_floats(truncated(min(max(first, zero), end)));
-    box.last[k] = to_floats(truncated(min(max(last, zero), end)));
+    box.first[k] = round_to_zero(min(max(first, zero), end));
+    box.last[k] = round_to_zero(min(max(last, zero), end));
   }
   return box;
 }
@@ -107,8 +106,8 @@ inline Mask hidden(const FrameView& view, const PixelBox& box) {
   Floats first[2];
   Floats last[2];
   for (int k = 0; k < 2; ++k) {
-    first[k] = to_floats(truncated(box.first[k] * all(1.0F / kTile_px)));
-    last[k] = to_floats(truncated(box.last[k] * all(1.0F / kTile_px)));
+    first[k] = round_to_zero(box.first[k] * all(1.0F / kTile_px));
+    last[k] = round_to_zero(box.last[k] * all(1.0F / kTile_px));
   }
   const Floats tiles = max(last[0] - first[0], last[1] - first[1]);
   const Ints window_bits = as_ints(max(tiles, all(1.0F)));
@@ -119,7 +118,7 @@ inline Mask hidden(const FrameView& view, const PixelBox& box) {
   const Floats level = log2 * all(static_cast<float>(view.level_stride));
   const Floats stride = all(static_cast<float>(view.tile_stride));
   const auto least = [&](Floats tx, Floats ty) {
-    return gather(every_lane(), view.tile_windows, truncated(level + ty * stride + tx));
+    return gather(view.tile_windows, truncated(level + ty * stride + tx));
   };
   const Floats upper = min(least(first[0], first[1]), least(last[0], first[1]));
   const Floats lower = min(least(first[0], last[1]), least(last[0], last[1]));
@@ -194,25 +193,26 @@ void project_row(const FrameView& view, int y, int z, const FrameMarks& marks) {
   const Run run = clip(view, center_m);
   const auto row_start = (static_cast<std::ptrdiff_t>(z) * view.size[1] + y) * view.size[0];
   const double row_start_m = center_m[0];
-  for (int x = run.first; x <= run.last; x += kLanes) {
+  for_lanes(run.last - run.first + 1, [&](int from_first, int left) {
+    const int x = run.first + from_first;
     std::uint8_t* const voxel = marks.voxel + row_start + x;
-    const int left = run.last - x + 1;  // what lies beyond may be another thread's
+    // what lies beyond the run may be another thread's
     const Mask untouched = less(int_ramp(), all(left)) & equal_bytes(voxel, kUntouched, left);
     const Mask is_settled = equal(load(view.words + row_start + x), all(view.settled_word));
     const std::uint32_t open = bits(without(untouched, is_settled));
-    if (open == 0) continue;
+    if (open == 0) return;
     center_m[0] = row_start_m + x * view.resolution_m;
     const Centers c = make_centers(view, center_m);
     const std::uint32_t freed = open & bits(passed_at_center(view, c));
     for (std::uint32_t lanes = freed; lanes != 0; lanes &= lanes - 1) {
       voxel[__builtin_ctz(lanes)] = kFreed;
     }
-    if (open == freed) continue;
+    if (open == freed) return;
     const PixelBox box = pixel_box(view, c);
     const std::uint32_t settled = freed | bits(box.is_empty | hidden(view, box));
     key[0] = view.min_key[0] + x;
     resolve(view, c, box, open & ~settled, key, voxel, marks);
-  }
+  });
 }
 
 void project_layer(const FrameView& view, int z, const FrameMarks& marks) {

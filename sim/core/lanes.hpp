@@ -73,6 +73,9 @@ Ints shift_right(Ints a) {
 /// 2^n, 0 <= n < 32.
 inline Ints power_of_two(Ints n) { return all(1) << n; }
 
+/// Whole numbers as floats: nearest with ties to even, toward zero.
+inline Floats round_to_even(Floats a) { return hn::Round(a); }
+inline Floats round_to_zero(Floats a) { return hn::Trunc(a); }
 /// The same bits; or to integers: nearest with ties to even, toward zero, down.
 inline Ints as_ints(Floats a) { return hn::BitCast(kIntTag, a); }
 inline Floats as_floats(Ints a) { return hn::BitCast(kFloatTag, a); }
@@ -117,6 +120,7 @@ inline Ints select(Mask m, Ints a, Ints b) { return hn::IfThenElse(m, a, b); }
 inline Floats add_where(Mask m, Floats a, Floats b) { return select(m, a + b, a); }
 inline Ints add_where(Mask m, Ints a, Ints b) { return select(m, a + b, a); }
 
+inline Floats gather(const float* p, Ints at) { return hn::GatherIndex(kFloatTag, p, at); }
 /// p[at] where m, else 0. p[0] is read for the others.
 inline Ints gather(Mask m, const std::uint32_t* p, Ints at) {
   const auto* const from = reinterpret_cast<const std::int32_t*>(p);
@@ -179,37 +183,43 @@ inline Floats narrow(Doubles a) {
 inline Ints truncated(Doubles a) {
   return hn::Combine(kIntTag, hn::DemoteTo(kHalfIntTag, a.high), hn::DemoteTo(kHalfIntTag, a.low));
 }
-inline Ints floored(Doubles a) {
-  const Ints toward_zero = truncated(a);
-  return toward_zero - truncated(select_less(a, widen(toward_zero), all(1.0), all(0.0)));
+inline Ints floored(Doubles a) { return truncated({hn::Floor(a.low), hn::Floor(a.high)}); }
+
+/// Calls body(first, left) for `count` elements, kLanes at a time: `left` is kLanes but at the end,
+/// a constant, so that nothing in the loop has to ask for it.
+template <typename Body>
+__attribute__((flatten)) inline void for_lanes(int count, const Body& body) {
+  int i = 0;
+  for (; i + kLanes <= count; i += kLanes) body(i, kLanes);
+  if (i < count) body(i, count - i);
 }
 
-/// The end of an array: only the first `left` of kLanes elements are there to be read or written.
+/// At the end of an array only the first `left` of kLanes elements are there to be read or written.
 /// Those read beyond are zeros.
 template <typename T, typename Use>
-auto read_end(const T* p, int left, const Use& use) {
+HWY_INLINE auto read_end(const T* p, int left, const Use& use) {
   if (left >= kLanes) return use(p);
   T some[kLanes] = {};
   for (int i = 0; i < left; ++i) some[i] = p[i];
   return use(some);
 }
 template <typename T, typename Use>
-void write_end(T* p, int left, const Use& use) {
+HWY_INLINE void write_end(T* p, int left, const Use& use) {
   if (left >= kLanes) return use(p);
   T some[kLanes];
   use(some);
   for (int i = 0; i < left; ++i) p[i] = some[i];
 }
-inline Floats load(const float* p, int left) {
+HWY_INLINE Floats load(const float* p, int left) {
   return read_end(p, left, [](const float* q) { return load(q); });
 }
-inline Mask equal_bytes(const std::uint8_t* p, std::uint8_t b, int left) {
+HWY_INLINE Mask equal_bytes(const std::uint8_t* p, std::uint8_t b, int left) {
   return read_end(p, left, [b](const std::uint8_t* q) { return equal_bytes(q, b); });
 }
-inline void store(float* p, Floats a, int left) {
+HWY_INLINE void store(float* p, Floats a, int left) {
   write_end(p, left, [a](float* q) { store(q, a); });
 }
-inline void store_bytes(std::uint8_t* p, Ints a, int left) {
+HWY_INLINE void store_bytes(std::uint8_t* p, Ints a, int left) {
   write_end(p, left, [a](std::uint8_t* q) { store_bytes(q, a); });
 }
 
