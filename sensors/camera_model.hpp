@@ -71,6 +71,12 @@ struct CameraConfig {
   std::optional<GimbalConfig> gimbal = {};  // nothing: fixed at pitch_rad
 };
 
+/// Volume of the pyramid that the camera sees, up to its maximum range.
+inline double frustum_m3(const CameraConfig& c) {
+  return 4.0 / 3.0 * std::tan(0.5 * c.fov_x_rad) * std::tan(0.5 * c.fov_y_rad) *
+         std::pow(c.range_max_m, 3);
+}
+
 /// Pinhole geometry derived from a CameraConfig; pixel (0, 0) is top left, centres at half pixels.
 struct CameraModel {
   CameraConfig config;

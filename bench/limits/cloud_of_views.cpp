@@ -63,7 +63,7 @@ CloudOfViews::CloudOfViews(const Scenario& scenario, const VoxelSet& reference)
       is_found_(reference.size(), 0) {}
 
 void CloudOfViews::add(std::span<const FrameRays> view) {
-  const std::size_t gained = cloud_.add(view, cloud_.config().leaf_m);
+  const std::size_t gained = cloud_.add(view);
   for (const std::uint32_t voxel : indices_of(reference_, points_world_m().last(gained))) {
     found_ += is_found_[voxel] == 0 ? 1 : 0;
     is_found_[voxel] = 1;

@@ -93,13 +93,13 @@ class Race {
         kd_(leaf_m_, cloud_.search_radius_m(), grid_) {}
 
   void prepare(std::span<const FrameRays> frames) {
-    cloud_.add(frames, leaf_m_);
+    cloud_.add(frames);
     kd_.add(hits_of(frames));
   }
 
   void run(std::span<const FrameRays> frames) {
     const VoxelSums before = sums_of(cloud_, grid_);
-    ours_ms_.push_back(time_ms([&] { cloud_.add(frames, leaf_m_); }));
+    ours_ms_.push_back(time_ms([&] { cloud_.add(frames); }));
     const std::vector<Vec3f> hits_m = hits_of(frames);
     competent_ms_.push_back(time_ms([&] { kd_.add(hits_m); }));
     is_identical_ = is_identical_ && sums_of(kd_, grid_) == sums_of(cloud_, grid_);

@@ -46,7 +46,7 @@ void integrate_view(const PlannerModel& model, std::span<const DepthFrame> frame
   };
   // the cloud, which nothing here reads, grows beside the map
   parallel_for(scratch.threads, 2, [&](std::size_t task) {
-    if (task == 0) belief.cloud.add(scratch.frame_rays, model.belief.cloud.leaf_m);
+    if (task == 0) belief.cloud.add(scratch.frame_rays);
     for (std::size_t i = 0; task == 1 && i < frames.size(); ++i) add_to_map(i);
   });
   const auto has_hit = [](const FrameRays& rays) {

@@ -10,11 +10,7 @@ namespace {
 /// Volume of the pyramids up to maximum range, in voxels.
 double frustum_voxels(std::span<const CameraModel> cameras, double resolution_m) {
   double volume_m3 = 0.0;
-  for (const CameraModel& camera : cameras) {
-    const CameraConfig& c = camera.config;
-    volume_m3 += 4.0 / 3.0 * std::tan(0.5 * c.fov_x_rad) * std::tan(0.5 * c.fov_y_rad) *
-                 std::pow(c.range_max_m, 3);
-  }
+  for (const CameraModel& camera : cameras) volume_m3 += frustum_m3(camera.config);
   return volume_m3 / std::pow(resolution_m, 3);
 }
 

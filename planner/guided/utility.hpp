@@ -25,7 +25,7 @@ enum class DensityTerm { sparse, literal };
 enum class IgCounting { per_ray, unique };
 
 /// Whether bircher and isler count the occupied voxel that ends a ray; the released code does not,
-/// see released_slips.hpp.
+/// see ray_by_ray.hpp.
 enum class HitVoxel { counted, excluded };
 
 /// The distance d that formulas discount by: of the way that is flown, or from here to there. They
@@ -52,7 +52,7 @@ struct UtilityConfig {
   bool normalise_weights = true;  // beta and gamma divided by their sum (released code)
   IgCounting ig_counting = IgCounting::per_ray;
   HitVoxel hit_voxel = HitVoxel::counted;
-  bool prediction_hides_hits = false;  // slip of the released code, see released_slips.hpp
+  bool prediction_hides_hits = false;  // slip of the released code, see ray_by_ray.hpp
   bool legacy_visibility = false;      // see ViewOptions
   VolumeWeights volume_weights = {};
   ShadowConfig shadow = {};

@@ -38,7 +38,7 @@ struct LeafTable {
   std::int32_t words_per_bucket;
   std::int32_t leaves_per_bucket;  // a side, at most 64
   std::int32_t first_leaf[3];      // where the cells begin
-  std::int32_t cells_x, cells_y;
+  std::int32_t cells[3];           // along each axis
   float inverse_leaf_1_m;
   float low_m[3], high_m[3];  // the workspace, both ends inside
 };
@@ -64,20 +64,16 @@ struct CellBox {
   std::size_t low[3], high[3];
 };
 
-/// Writes the indices, ascending, of those pixels from `begin` up to `end` that are hits inside the
-/// workspace in leaves not taken; `out` has room for `end` - `begin`, rounded up to 16, numbers.
-/// Returns how many.
-using FindUntaken = std::size_t (*)(const LeafTable& table, const PixelColumns& pixels,
-                                    std::size_t begin, std::size_t end, std::int32_t* out);
-
-/// Counts the points of the cells within the radius of a point (SurfaceCloud's float32 comparison)
-/// and adds 1 to neighbour_sum of the voxel of each, in `voxels` by slot.
-using CountNeighbours = std::uint64_t (*)(const PointTable& table, const float* p_m,
-                                          const CellBox& cells, VoxelPoints* voxels);
-
 struct CloudKernels {
-  FindUntaken find_untaken;
-  CountNeighbours count_neighbours;
+  /// Writes the indices, ascending, of those pixels from `begin` up to `end` that are hits inside
+  /// the workspace in leaves not taken, and returns how many. `out` has room for `end` - `begin`
+  /// numbers, rounded up to 16.
+  std::size_t (*find_untaken)(const LeafTable& table, const PixelColumns& pixels, std::size_t begin,
+                              std::size_t end, std::int32_t* out);
+  /// Counts the points of the cells within the radius of a point (SurfaceCloud's float32
+  /// comparison) and adds 1 to neighbour_sum of the voxel of each, in `voxels` by slot.
+  std::uint64_t (*count_neighbours)(const PointTable& table, const float* p_m, const CellBox& cells,
+                                    VoxelPoints* voxels);
 };
 
 GNBV_KERNELS(CloudKernels, cloud_kernels)

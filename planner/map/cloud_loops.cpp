@@ -30,9 +30,9 @@ inline Mask untaken(const LeafTable& t, Mask wanted, const Floats p_m[3]) {
   const std::int32_t n = t.leaves_per_bucket;
   const Ints bit = combine(z.in_bucket, y.in_bucket, x.in_bucket, n, n);
   const Ints bucket =
-      gather(wanted, t.bucket_at, combine(z.cell, y.cell, x.cell, t.cells_y, t.cells_x));
+      gather(wanted, t.bucket_at, combine(z.cell, y.cell, x.cell, t.cells[1], t.cells[0]));
   const Ints word = gather(wanted, t.taken, bucket * all(t.words_per_bucket) + shift_right<5>(bit));
-  return wanted & has_none(word, power_of_two(bit & all(31)));
+  return wanted & has_none(word, all(1) << (bit & all(31)));
 }
 
 std::size_t find_untaken(const LeafTable& table, const PixelColumns& pixels, std::size_t begin,

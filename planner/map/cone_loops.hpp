@@ -164,10 +164,10 @@ inline Spans spans_of(const Cone& cone, const SeenVoxel& voxel, int first_v) {
   Floats first_u = all(static_cast<float>(voxel.first_u));
   Floats last_u = all(static_cast<float>(voxel.last_u));
   for (int i = 0; i < cone.lower.count; ++i) {
-    first_u = max(first_u, all(cone.lower.at[i]) + all(cone.lower.slope[i]) * v);
+    first_u = hn::Max(first_u, all(cone.lower.at[i]) + all(cone.lower.slope[i]) * v);
   }
   for (int i = 0; i < cone.upper.count; ++i) {
-    last_u = min(last_u, all(cone.upper.at[i]) + all(cone.upper.slope[i]) * v);
+    last_u = hn::Min(last_u, all(cone.upper.at[i]) + all(cone.upper.slope[i]) * v);
   }
   Spans spans;
   store(spans.first_u, first_u);
@@ -182,7 +182,7 @@ inline Mask passing(const Cone& cone, const Spans& spans, int row, float v, Floa
                     Floats inverse_depth) {
   Floats exit = all(cone.least_exit);
   for (int i = 0; i < cone.exits; ++i) {
-    exit = max(exit, all(cone.exit_at[i] + cone.exit_v[i] * v) + all(cone.exit_u[i]) * u);
+    exit = hn::Max(exit, all(cone.exit_at[i] + cone.exit_v[i] * v) + all(cone.exit_u[i]) * u);
   }
   return less(inverse_depth, exit) & less_equal(all(spans.first_u[row]), u) &
          less_equal(u, all(spans.last_u[row]));

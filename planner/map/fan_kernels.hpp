@@ -16,9 +16,8 @@ constexpr std::uint8_t kFanFrame = 2;
 
 constexpr std::size_t kFanBundle = 16;  // rays that are walked by one call
 
-/// A bundle of rays that have listed where they begin, in columns: RaySteps, and places as indices
-/// of the framed grid. A ray of length -RaySteps::kNever
-/// comes through no place.
+/// A bundle of rays in columns, each where it begins, a voxel that is listed already: RaySteps, and
+/// places as indices of the framed grid. A ray of length -RaySteps::kNever takes no step.
 struct FanRays {
   double t_next[3][kFanBundle], t_voxel[3][kFanBundle];
   double length_m[kFanBundle];
@@ -27,9 +26,9 @@ struct FanRays {
 };
 
 struct FanKernels {
-  /// Takes every ray to its end or to the frame, marks the places that it comes through and writes
-  /// to `listed` those that were not marked; returns how many. There is room for as many as the
-  /// rays can take steps, and one more. `resting` is a place that is marked as listed.
+  /// Walks every ray to its end or to the frame. Marks the places that it crosses, writes those
+  /// that were not marked to `listed` and returns how many. `listed` has room for a place a step,
+  /// and one more. `resting` is a place that is marked as listed: rays that have ended wait there.
   std::size_t (*walk)(const FanRays& rays, std::int32_t resting, std::uint8_t* marks,
                       std::int32_t* listed);
 };

@@ -83,31 +83,24 @@ ScanUpdate FanWalker::compute_update(const Vec3f& origin_world_m, std::span<cons
   return update;
 }
 
-bool FanWalker::enter(const Key& key_end, RaySteps& ray, Key& key) const {
+bool FanWalker::enter(RaySteps& ray) const {
   const Key& min = grid_.min_key();
   const Key& size = grid_.size();
   const auto misses_along = [&](std::size_t a) {
-    return key[a] < min[a] ? ray.step[a] <= 0 : key[a] >= min[a] + size[a] && ray.step[a] >= 0;
+    return ray.key[a] < min[a] ? ray.step[a] <= 0
+                               : ray.key[a] >= min[a] + size[a] && ray.step[a] >= 0;
   };
-  while (!grid_.contains(key)) {
-    if (misses_along(0) || misses_along(1) || misses_along(2)) return false;
-    const std::size_t axis = next_axis(ray);
-    key[axis] += ray.step[axis];
-    ray.t_next[axis] += ray.t_voxel[axis];
-    if (key == key_end || *std::min_element(ray.t_next.begin(), ray.t_next.end()) > ray.length_m) {
-      return false;
-    }
+  while (!grid_.contains(ray.key)) {
+    if (misses_along(0) || misses_along(1) || misses_along(2) || !ray.advance()) return false;
   }
   return true;
 }
 
 bool FanWalker::start_ray(const RayOrigin& origin, const Vec3f& end_m, std::size_t which) {
-  const Key key_end = grid_.key_of(end_m);
-  if (key_end == origin.key) return false;
   RaySteps ray = make_ray_steps(grid_, origin, end_m);
-  Key key = origin.key;
-  if (!grid_.contains(key) && (!(ray.length_m > 0.0) || !enter(key_end, ray, key))) return false;
-  const Place start = place_of(key);
+  if (ray.key == ray.key_end) return false;
+  if (!grid_.contains(ray.key) && (!(ray.length_m > 0.0) || !enter(ray))) return false;
+  const Place start = place_of(ray.key);
   list(start);
   if (!(ray.length_m > 0.0)) return false;
   for (std::size_t a = 0; a < 3; ++a) {
@@ -117,7 +110,7 @@ bool FanWalker::start_ray(const RayOrigin& origin, const Vec3f& end_m, std::size
   }
   bundle_.length_m[which] = ray.length_m;
   bundle_.place[which] = start;
-  bundle_.end[which] = grid_.contains(key_end) ? place_of(key_end) : kNowhere;
+  bundle_.end[which] = grid_.contains(ray.key_end) ? place_of(ray.key_end) : kNowhere;
   return true;
 }
 

@@ -44,9 +44,9 @@ class FanWalker {
   void take(std::size_t first, std::vector<VoxelIndex>& voxels);
   /// Lists every voxel of the grid that computeRayKeys names for any of the rays.
   void walk(const RayOrigin& origin, std::span<const ScanRay> rays);
-  /// Walks a ray from a voxel outside the grid to its first one inside, where `ray` and `key` then
-  /// stand; false when it ends before, or never comes in.
-  bool enter(const Key& key_end, RaySteps& ray, Key& key) const;
+  /// Takes a ray from a voxel outside the grid to its first one inside; false when it ends before,
+  /// or never comes in.
+  bool enter(RaySteps& ray) const;
   /// Lists where the ray begins and puts it into the bundle; false when it goes no further.
   bool start_ray(const RayOrigin& origin, const Vec3f& end_m, std::size_t which);
 

@@ -16,18 +16,6 @@ constexpr float kNoRay = std::numeric_limits<float>::infinity();
 
 int round_up(int count, int unit) { return (count + unit - 1) / unit * unit; }
 
-/// What a row of ends needs, but for the row.
-EndRow make_end_row(const GridGeometry& grid, int width) {
-  EndRow row{};
-  row.width = width;
-  row.inverse_resolution = grid.inverse_resolution();
-  for (std::size_t a = 0; a < 3; ++a) {
-    row.min_key[a] = grid.min_key()[a];
-    row.size[a] = grid.size()[a];
-  }
-  return row;
-}
-
 }  // namespace
 
 FrameInserter::FrameInserter(const GridGeometry& grid)
@@ -92,7 +80,11 @@ void FrameInserter::widen_tiles() {
 void FrameInserter::read_band(const FrameRays& rays, const DepthFrame& frame,
                               const CameraModel& camera, int band, Worker& worker) {
   const FrameKernels& kernels = frame_kernels();
-  EndRow ends = make_end_row(grid_, width_);
+  EndRow ends{};
+  ends.width = width_;
+  ends.inverse_resolution = grid_.inverse_resolution();
+  std::ranges::copy(grid_.min_key(), ends.min_key);
+  std::ranges::copy(grid_.size(), ends.size);
   ends.scratch = worker.row.data();
   PixelRow depths{};
   depths.width = width_;
@@ -116,25 +108,22 @@ void FrameInserter::read_band(const FrameRays& rays, const DepthFrame& frame,
 
 void FrameInserter::walk_doubtful_rays(const FrameRays& rays) {
   const RayOrigin origin = make_ray_origin(grid_, rays.origin_world_m);
-  const auto walk = [&](std::size_t pixel) {
-    const Vec3f end_m(rays.x_m[pixel], rays.y_m[pixel], rays.z_m[pixel]);
-    walk_ray_inside(grid_, origin, end_m, [&](VoxelIndex v) {
-      if (marks_[v] == kUntouched) marks_[v] = kFreed;
-      return true;
-    });
-  };
   walked_count_ = 0;
   for (Worker& worker : workers_) {
-    // few are asked for: memchr passes over the others fastest
-    std::uint8_t* const end = worker.walk.data() + worker.walk.size();
-    std::uint8_t* next = worker.walk.data();
-    while (next != end) {
-      next = static_cast<std::uint8_t*>(std::memchr(next, 1, static_cast<std::size_t>(end - next)));
+    std::uint8_t* const begin = worker.walk.data();
+    const std::size_t size = worker.walk.size();
+    for (std::size_t i = 0; i < size; ++i) {
+      // few are asked for: memchr passes over the others fastest
+      const void* const next = std::memchr(begin + i, 1, size - i);
       if (next == nullptr) break;
-      *next = 0;
-      walk(static_cast<std::size_t>(next - worker.walk.data()));
+      i = static_cast<std::size_t>(static_cast<const std::uint8_t*>(next) - begin);
+      begin[i] = 0;
       ++walked_count_;
-      ++next;
+      walk_ray_inside(grid_, origin, Vec3f(rays.x_m[i], rays.y_m[i], rays.z_m[i]),
+                      [&](VoxelIndex v) {
+                        if (marks_[v] == kUntouched) marks_[v] = kFreed;
+                        return true;
+                      });
     }
   }
 }

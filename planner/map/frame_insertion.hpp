@@ -1,8 +1,8 @@
-// A depth frame into the map, voxel by voxel instead of ray by ray: a frame has millions of steps
-// of rays but some ten thousand voxels. OctoMap's answer all the same. A voxel is freed when some
-// ray passes it and ends beyond it, with a margin far above the rounding of OctoMap's float32
-// rays, untouched when every ray misses it or ends before it by that margin, and the few rays
-// between the two are walked as OctoMap walks them.
+// Puts a depth frame into the map voxel by voxel instead of ray by ray: the rays of a frame take
+// millions of steps, but cross some ten thousand voxels. The answer is OctoMap's. A voxel is freed
+// when some ray passes it and ends beyond it by more than a margin, which is far above the rounding
+// of OctoMap's float32 rays. It stays untouched when every ray misses it, or ends before it, by the
+// margin. The few rays in between are walked as OctoMap walks them.
 #pragma once
 
 #include <array>
@@ -16,20 +16,21 @@
 
 namespace gnbv {
 
-/// Computes updates of frames, reusing its memory from frame to frame: one byte a voxel, and for
-/// each thread one byte and one integer a pixel.
+/// Computes updates of frames. Its memory serves one frame after the other: a byte a voxel, and for
+/// each thread a byte and an integer a pixel.
 class FrameInserter {
  public:
   explicit FrameInserter(const GridGeometry& grid);
 
-  /// The voxels the frame's rays touch inside the map that it is for, in ascending order, the same
-  /// on any number of threads. Free ones that are settled there, of which a miss changes nothing,
-  /// may be missing. `rays` is compute_frame_rays() of the frame. Requires can_project() of
-  /// frame_view.hpp. Oracle: octomap::OcTree::computeUpdate.
+  /// The voxels of `map` that the frame's rays touch, in ascending order, the same on any number of
+  /// threads. Free voxels that are settled (OccupancyGrid::settled_word()) may be missing: a miss
+  /// changes nothing of them. `rays` is compute_frame_rays() of the frame. Requires can_project()
+  /// of frame_view.hpp. Oracle: octomap::OcTree::computeUpdate.
   ScanUpdate compute_update(const FrameRays& rays, const DepthFrame& frame,
                             const CameraModel& camera, const OccupancyGrid& map, int threads);
 
-  /// Walks of single rays in the last frame, of all threads; one may count twice.
+  /// How many single rays were walked for the last frame. Those that two threads asked for count
+  /// twice.
   std::size_t walked_count() const { return walked_count_; }
 
  private:

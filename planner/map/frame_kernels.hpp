@@ -47,8 +47,8 @@ struct EndRow {
 
 /// A frame as the voxels see it. World coordinates here are relative to the camera.
 struct FrameView {
-  // of the map before the frame: voxels of the settled word need no resolving, as a miss changes
-  // nothing of them
+  // the map before the frame; voxels of the settled word are passed over, as a miss changes nothing
+  // of them
   const std::uint32_t* words;
   std::uint32_t settled_word;
   // 1 / depth of each pixel's end, infinite without a ray; rows padded with infinity
@@ -62,16 +62,16 @@ struct FrameView {
   float toward[3], right[3], down[3];
   float camera_axis[3][3];          // unit x, y and z axes of the camera, world
   float focal_px[2], center_px[2];  // pixel = focal * x / z + center
-  float center_slack;  // no pixel of the image is further than this, per metre, from the nearest
+  float center_slack;  // from a point of the image to the nearest pixel, at most, per metre
   float half_voxel_m, margin_m;
-  float extent_m[3];   // of half a voxel along each camera axis, with the margin
-  double plane[6][4];  // inside the pyramid of rays, with room for a voxel: dot + [3] >= 0
+  float extent_m[3];   // half of a voxel's extent along each camera axis, and the margin
+  double plane[6][4];  // (n, d): centres of voxels that the pyramid of rays meets have n p + d >= 0
   double origin_m[3];
   double resolution_m;
   int min_key[3], size[3];
   int camera_key[3];
-  // OctoMap's distances to the borders of the camera's own voxel, negative and positive; and by how
-  // much the direction of a ray, per metre of depth, may differ from that of its pixel
+  // OctoMap's distances from the camera to the borders of its voxel, negative and positive; and by
+  // how much, per metre of depth, OctoMap's rounded direction of a ray may differ from its pixel's
   float lower_border_m[3], upper_border_m[3], direction_slack;
   int box_first[3], box_last[3];  // voxels from min_key that rays can reach
 };
@@ -93,8 +93,8 @@ struct FrameKernels {
   int (*ends_of_row)(const EndRow& row, std::int32_t* voxels);
   /// `inverse_depth` (width + padding to a whole tile and kPadding): see FrameView.
   void (*invert_row)(const PixelRow& row, float* inverse_depth, int padded_width);
-  /// Frees every voxel of the layer z (from min_key), but for settled ones, that is proven to be
-  /// passed by a ray, and asks for a walk of every ray that might pass one that is not.
+  /// Frees the voxels of a layer (z from min_key) that some ray is proven to pass, but not settled
+  /// ones. Of the others, asks for a walk of every ray that might pass one.
   void (*project_layer)(const FrameView& view, int layer, const FrameMarks& marks);
 };
 

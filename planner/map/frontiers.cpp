@@ -48,9 +48,8 @@ std::vector<std::vector<VoxelIndex>> cut(std::span<const VoxelIndex> voxels, dou
                                          const GridGeometry& geometry) {
   std::map<Key, std::vector<VoxelIndex>> cells;
   for (const VoxelIndex v : voxels) {
-    const Vec3 cell = (geometry.center_m(geometry.key_at(v)) / cell_m).array().floor();
-    cells[{static_cast<int>(cell.z()), static_cast<int>(cell.y()), static_cast<int>(cell.x())}]
-        .push_back(v);
+    const Key cube = cube_of(geometry.center_m(geometry.key_at(v)), cell_m);
+    cells[{cube[2], cube[1], cube[0]}].push_back(v);
   }
   std::vector<std::vector<VoxelIndex>> pieces;
   for (auto& [cell, piece] : cells) pieces.push_back(std::move(piece));

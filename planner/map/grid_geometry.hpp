@@ -13,6 +13,12 @@ namespace gnbv {
 using Key = std::array<std::int32_t, 3>;  // signed lattice coordinates
 using VoxelIndex = std::uint32_t;         // position in the dense arrays, x fastest
 
+/// The cube that holds the point, of those of that side that fill space from the origin on.
+inline Key cube_of(const Vec3& p_m, double side_m) {
+  const Eigen::Array3i cube = (p_m / side_m).array().floor().cast<int>();
+  return {cube[0], cube[1], cube[2]};
+}
+
 /// Keys from low to high, both included. Empty at first.
 struct KeyBox {
   Key low = {0, 0, 0}, high = {-1, -1, -1};

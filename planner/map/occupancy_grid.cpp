@@ -79,7 +79,7 @@ VoxelWord OccupancyGrid::compute_settled_word() const {
   const auto has_entropy_within = [&](float bound) {
     return compute_entropy(std::nextafter(bound, 0.0F)).word_units > 0;
   };
-  // at bounds so wide that entropy is 0 before them, words do not tell who is at one
+  // at bounds so wide that the entropy is 0 before them, words do not tell which voxels are at them
   const bool is_told = has_entropy_within(clamp_min_log_) && has_entropy_within(clamp_max_log_) &&
                        state_of_log_odds(clamp_min_log_) == VoxelState::free &&
                        state_of_log_odds(clamp_max_log_) != VoxelState::free;

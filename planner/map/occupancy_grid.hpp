@@ -19,8 +19,7 @@ struct ScanUpdate {
   std::vector<VoxelIndex> occupied;
 };
 
-/// A vector.
-constexpr std::size_t kWordPadding = 16;
+constexpr std::size_t kWordPadding = 16;  // that loops may read beyond the last voxel: one vector
 
 class OccupancyGrid {
  public:
@@ -67,14 +66,13 @@ class OccupancyGrid {
   bool shade(VoxelIndex v);
   bool is_shaded(VoxelIndex v) const { return (words_[v] & kShadowBit) != 0; }
 
-  /// The word that free voxels have at the lower clamping bound, and no others: a miss changes
-  /// nothing of them, and their log-odds are settled_log_odds(). A word that no voxel has where
-  /// words cannot tell them.
+  /// The word of free voxels at the lower clamping bound. A miss changes nothing of such a voxel,
+  /// and its log-odds are settled_log_odds(). No other voxel has this word. With clamping bounds at
+  /// which words do not tell these voxels from others, it is a word that no voxel has.
   VoxelWord settled_word() const { return settled_word_; }
   float settled_log_odds() const { return clamp_min_log_; }
 
-  /// Rows for the hot loops; index with VoxelIndex. Loops may read kWordPadding words beyond the
-  /// end.
+  /// Rows for the hot loops; index with VoxelIndex. kWordPadding more words may be read.
   std::span<const VoxelWord> words() const { return words_.span().first(geometry_.voxel_count()); }
   std::span<const float> all_log_odds() const { return log_odds_.span(); }
 

@@ -34,18 +34,34 @@ inline RayOrigin make_ray_origin(const GridGeometry& grid, const Vec3f& origin_m
   return origin;
 }
 
-/// Steps of one ray: along axis a it crosses borders at t_next[a], then every t_voxel[a].
+/// A ray on its way from voxel to voxel: along axis a it crosses borders at t_next[a], then every
+/// t_voxel[a].
 struct RaySteps {
   static constexpr double kNever = std::numeric_limits<double>::max();
+  Key key = {0, 0, 0};  // where it is
+  Key key_end = {0, 0, 0};
   Key step = {0, 0, 0};
   std::array<double, 3> t_next{kNever, kNever, kNever};
   std::array<double, 3> t_voxel{kNever, kNever, kNever};
   double length_m = 0.0;  // 0 when float32 cannot tell the ends apart: such a ray takes no step
+
+  /// Goes on to the next voxel; false when the ray ends before it, or there.
+  bool advance() {
+    // OctoMap's choice among equals
+    const std::size_t axis = t_next[0] < t_next[1] ? (t_next[0] < t_next[2] ? 0U : 2U)
+                                                   : (t_next[1] < t_next[2] ? 1U : 2U);
+    key[axis] += step[axis];
+    t_next[axis] += t_voxel[axis];
+    // rounding may walk past the end voxel: stop at the ray's length
+    return key != key_end && !(std::min({t_next[0], t_next[1], t_next[2]}) > length_m);
+  }
 };
 
 inline RaySteps make_ray_steps(const GridGeometry& grid, const RayOrigin& origin,
                                const Vec3f& end_m) {
   RaySteps ray;
+  ray.key = origin.key;
+  ray.key_end = grid.key_of(end_m);
   Vec3f direction = end_m - origin.p_m;
   // octomap::Vector3::norm sums float32 products, left to right, and takes a float64 root of it
   const float squared =
@@ -64,31 +80,15 @@ inline RaySteps make_ray_steps(const GridGeometry& grid, const RayOrigin& origin
   return ray;
 }
 
-/// The axis along which the ray next crosses a border; OctoMap's choice among equals.
-inline std::size_t next_axis(const RaySteps& ray) {
-  return ray.t_next[0] < ray.t_next[1] ? (ray.t_next[0] < ray.t_next[2] ? 0U : 2U)
-                                       : (ray.t_next[1] < ray.t_next[2] ? 1U : 2U);
-}
-
 /// Visits the voxels from `origin` towards `end` in order, with the origin's and without the end's.
 /// `visit(Key)` returns false to stop. Voxels outside the grid are visited too; the caller knows
 /// its bounds. Both points must be finite.
 template <typename Visit>
 void walk_ray(const GridGeometry& grid, const RayOrigin& origin, const Vec3f& end_m,
               Visit&& visit) {
-  Key key = origin.key;
-  const Key key_end = grid.key_of(end_m);
-  if (key == key_end || !visit(key)) return;
   RaySteps ray = make_ray_steps(grid, origin, end_m);
-  if (!(ray.length_m > 0.0)) return;
-  while (true) {
-    const std::size_t axis = next_axis(ray);
-    key[axis] += ray.step[axis];
-    ray.t_next[axis] += ray.t_voxel[axis];
-    if (key == key_end) return;
-    // rounding may walk past the end voxel: stop at the ray's length
-    if (std::min({ray.t_next[0], ray.t_next[1], ray.t_next[2]}) > ray.length_m) return;
-    if (!visit(key)) return;
+  if (ray.key == ray.key_end || !visit(ray.key) || !(ray.length_m > 0.0)) return;
+  while (ray.advance() && visit(ray.key)) {
   }
 }
 

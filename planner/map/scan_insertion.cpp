@@ -18,11 +18,8 @@ constexpr std::size_t kScansPerBatch = 32;  // and as many being applied
 bool is_faster_projected(const GridGeometry& grid, const CameraModel& camera) {
   constexpr double kStepsPerVoxel = 20.0;
   const CameraConfig& c = camera.config;
-  const double depth_voxels = c.range_max_m / grid.resolution_m();
-  const double steps = 2.0 * depth_voxels * c.width_px * c.height_px;
-  const double voxels = 4.0 / 3.0 * std::tan(0.5 * c.fov_x_rad) * std::tan(0.5 * c.fov_y_rad) *
-                        depth_voxels * depth_voxels * depth_voxels;
-  return steps > kStepsPerVoxel * voxels;
+  const double steps = 2.0 * c.range_max_m / grid.resolution_m() * c.width_px * c.height_px;
+  return steps > kStepsPerVoxel * frustum_m3(c) / std::pow(grid.resolution_m(), 3);
 }
 
 }  // namespace

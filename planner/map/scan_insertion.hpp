@@ -1,5 +1,5 @@
-// From frames to the voxels they touch. The rules (planar maximum range, floor, minimum range, one
-// update a voxel and scan, occupied wins) are the released code's; see FIDELITY.md.
+// From scans to the voxels that they touch. The rules (planar maximum range, floor, minimum range,
+// one update a voxel and scan, occupied wins) are the released code's; see FIDELITY.md.
 #pragma once
 
 #include <span>
@@ -21,20 +21,21 @@ std::vector<ScanRay> rays_of(const LidarScan& scan, const LidarModel& lidar, dou
 /// The ends of the rays that hit: the points of the cloud.
 std::vector<Vec3f> surface_points_world_m(std::span<const ScanRay> rays);
 
-/// Computes updates, reusing its memory from scan to scan: a byte a voxel and thread, and one.
+/// Computes updates. Its memory, a byte a voxel and one more for each thread, serves all scans.
 class ScanInserter {
  public:
   explicit ScanInserter(const GridGeometry& grid) : grid_(grid), frames_(grid) {}
 
-  /// What a frame makes of that map, to which it is applied before anything else is: the voxels it
-  /// touches, each list in ascending order; free ones of which a miss changes nothing may be
-  /// missing. `rays` is compute_frame_rays() of it. Voxel by voxel where can_project() allows it
-  /// and the pixels are many, else ray by ray on one thread; the same map.
+  /// The update of `map` by a frame: the voxels that it touches, each list in ascending order. Free
+  /// voxels may be missing if a miss changes nothing of them now, so that the update has to be the
+  /// next one that is applied. `rays` is compute_frame_rays() of the frame. Works voxel by voxel
+  /// where can_project() allows it and the pixels are many, else ray by ray on one thread, and
+  /// gives the same map.
   ScanUpdate compute_update(const FrameRays& rays, const DepthFrame& frame,
                             const CameraModel& camera, const OccupancyGrid& map, int threads);
 
-  /// Inserts the buffered profile: each sweep is one update, in order of time. LidarScan::lidar
-  /// says which of `lidars` took it.
+  /// Inserts the sweeps of a profile, each one update, in their order. LidarScan::lidar says which
+  /// of `lidars` took a sweep.
   void insert_scans(OccupancyGrid& grid, std::span<const LidarScan> scans,
                     std::span<const LidarModel> lidars, double floor_z_m, int threads);
 

@@ -13,10 +13,6 @@ constexpr std::int32_t kMostLeavesPerBucket = 64;
 constexpr double kMostCells = 2147483648.0;  // their indices are signed 32-bit in the gathers
 constexpr std::size_t kPixelsAtOnce = 8192;  // their columns and indices stay in the cache
 
-std::int32_t floor_div(std::int32_t a, std::int32_t b) {
-  return a >= 0 ? a / b : -((b - 1 - a) / b);
-}
-
 /// The first float32 number whose voxel is not below `key` along an axis.
 float first_of_voxel(const GridGeometry& voxels, std::int32_t key) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -41,23 +37,25 @@ SurfaceCloud::SurfaceCloud(const CloudConfig& config, const GridGeometry& voxels
   slot_of_ = ZeroedArray<std::uint32_t>(voxels.voxel_count());
   voxel_points_.resize(1);
 
-  leaves_per_bucket_ = static_cast<std::int32_t>(std::ceil(voxel_m / config.leaf_m - 1e-9));
-  bucket_m_ = static_cast<float>(leaves_per_bucket_ * config.leaf_m);
-  const auto leaves = static_cast<std::size_t>(leaves_per_bucket_);
-  words_per_bucket_ = (leaves * leaves * leaves + 31) / 32;
+  const double side = std::ceil(voxel_m / config.leaf_m - 1e-9);  // of a bucket, in leaves
+  const double bucket_m = side * config.leaf_m;
+  bucket_m_ = static_cast<float>(bucket_m);
+  leaves_.inverse_leaf_1_m = lattice_.inverse_leaf_1_m();
+  leaves_.leaves_per_bucket = static_cast<std::int32_t>(side);
+  leaves_.words_per_bucket = static_cast<std::int32_t>(std::ceil(side * side * side / 32.0));
   double cells = 1.0;
   for (std::size_t a = 0; a < 3; ++a) {
     // a bucket more on each side, so that the neighbours of any point have a cell
-    const double min_m = voxels.min_key()[a] * voxel_m;
-    const double max_m = (voxels.min_key()[a] + voxels.size()[a]) * voxel_m;
-    const double bucket_m = leaves_per_bucket_ * config.leaf_m;
-    first_bucket_[a] = static_cast<std::int32_t>(std::floor(min_m / bucket_m)) - 2;
-    bucket_cells_[a] =
-        static_cast<std::int32_t>(std::floor(max_m / bucket_m)) + 3 - first_bucket_[a];
-    cells *= bucket_cells_[a];
-    low_m_[a] = first_of_voxel(voxels, voxels.min_key()[a]);
-    high_m_[a] = std::nextafter(first_of_voxel(voxels, voxels.min_key()[a] + voxels.size()[a]),
-                                -std::numeric_limits<float>::infinity());
+    const std::int32_t end = voxels.min_key()[a] + voxels.size()[a];
+    first_bucket_[a] =
+        static_cast<std::int32_t>(std::floor(voxels.min_key()[a] * voxel_m / bucket_m)) - 2;
+    leaves_.cells[a] =
+        static_cast<std::int32_t>(std::floor(end * voxel_m / bucket_m)) + 3 - first_bucket_[a];
+    cells *= leaves_.cells[a];
+    leaves_.first_leaf[a] = first_bucket_[a] * leaves_.leaves_per_bucket;
+    leaves_.low_m[a] = first_of_voxel(voxels, voxels.min_key()[a]);
+    leaves_.high_m[a] =
+        std::nextafter(first_of_voxel(voxels, end), -std::numeric_limits<float>::infinity());
   }
   if (cells >= kMostCells) {
     throw BadInput(fmt::format("resolution_m: {} makes {:.3g} buckets of points, more than 2^31",
@@ -65,32 +63,30 @@ SurfaceCloud::SurfaceCloud(const CloudConfig& config, const GridGeometry& voxels
   }
   bucket_at_ = ZeroedArray<std::uint32_t>(static_cast<std::size_t>(cells));
   buckets_.resize(1);
-  taken_.resize(words_per_bucket_, 0);
+  taken_.resize(static_cast<std::size_t>(leaves_.words_per_bucket), 0);
   blocks_.resize(1);
   next_block_.resize(1, 0);
 }
 
 SurfaceCloud::Leaf SurfaceCloud::place_of(const LeafKey& leaf) const {
-  std::array<std::int32_t, 3> cell;
-  std::array<std::int32_t, 3> in_bucket;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const std::int32_t bucket = floor_div(leaf[a], leaves_per_bucket_);
-    cell[a] = bucket - first_bucket_[a];
-    in_bucket[a] = leaf[a] - bucket * leaves_per_bucket_;
+  const auto side = static_cast<std::uint32_t>(leaves_.leaves_per_bucket);
+  Leaf place{0, 0};
+  for (std::size_t a = 3; a-- > 0;) {
+    const auto from_first = static_cast<std::uint32_t>(leaf[a] - leaves_.first_leaf[a]);
+    const std::uint32_t cell = from_first / side;
+    place.bucket_cell = place.bucket_cell * static_cast<std::size_t>(leaves_.cells[a]) + cell;
+    place.bit = place.bit * side + (from_first - cell * side);
   }
-  const auto cell_index =
-      (static_cast<std::size_t>(cell[2]) * static_cast<std::size_t>(bucket_cells_[1]) +
-       static_cast<std::size_t>(cell[1])) *
-          static_cast<std::size_t>(bucket_cells_[0]) +
-      static_cast<std::size_t>(cell[0]);
-  const std::int32_t bit =
-      (in_bucket[2] * leaves_per_bucket_ + in_bucket[1]) * leaves_per_bucket_ + in_bucket[0];
-  return {cell_index, static_cast<std::uint32_t>(bit)};
+  return place;
+}
+
+std::size_t SurfaceCloud::word_of(std::uint32_t bucket, std::uint32_t bit) const {
+  return bucket * static_cast<std::size_t>(leaves_.words_per_bucket) + bit / 32;
 }
 
 bool SurfaceCloud::is_taken(const Leaf& leaf) const {
-  const std::size_t bucket = bucket_at_[leaf.bucket_cell];
-  return (taken_[bucket * words_per_bucket_ + leaf.bit / 32] >> (leaf.bit % 32) & 1U) != 0;
+  const std::uint32_t word = taken_[word_of(bucket_at_[leaf.bucket_cell], leaf.bit)];
+  return (word >> (leaf.bit % 32) & 1U) != 0;
 }
 
 bool SurfaceCloud::take(const Leaf& leaf) {
@@ -98,10 +94,10 @@ bool SurfaceCloud::take(const Leaf& leaf) {
   if (bucket == 0) {
     bucket = static_cast<std::uint32_t>(buckets_.size());
     buckets_.emplace_back();
-    taken_.resize(taken_.size() + words_per_bucket_, 0);
+    taken_.resize(word_of(bucket + 1, 0), 0);
     GNBV_CHECK(taken_.size() <= std::numeric_limits<std::int32_t>::max(), "{} buckets", bucket);
   }
-  std::uint32_t& word = taken_[bucket * words_per_bucket_ + leaf.bit / 32];
+  std::uint32_t& word = taken_[word_of(bucket, leaf.bit)];
   const std::uint32_t mask = 1U << (leaf.bit % 32);
   if ((word & mask) != 0) return false;
   word |= mask;
@@ -123,52 +119,24 @@ std::size_t SurfaceCloud::add(std::span<const Vec3f> points_world_m, double leaf
   return insert_batch(is_own_leaf);
 }
 
-std::size_t SurfaceCloud::add(std::span<const FrameRays> frames, double leaf_m) {
-  if (leaf_m != config_.leaf_m) {
-    std::vector<Vec3f> points_m;
-    for (const FrameRays& frame : frames) {
-      for (std::size_t i = 0; i < frame.kind.size(); ++i) {
-        if (frame.kind[i] != PixelRay::hits) continue;
-        points_m.emplace_back(frame.x_m[i], frame.y_m[i], frame.z_m[i]);
-      }
-    }
-    return add(points_m, leaf_m);
-  }
+std::size_t SurfaceCloud::add(std::span<const FrameRays> frames) {
   batch_.reset();
   for (const FrameRays& frame : frames) add_untaken(frame);
   return insert_batch(true);
 }
 
-LeafTable SurfaceCloud::leaf_table() const {
-  LeafTable table{.bucket_at = bucket_at_.data(),
-                  .taken = taken_.data(),
-                  .words_per_bucket = static_cast<std::int32_t>(words_per_bucket_),
-                  .leaves_per_bucket = leaves_per_bucket_,
-                  .first_leaf = {},
-                  .cells_x = bucket_cells_[0],
-                  .cells_y = bucket_cells_[1],
-                  .inverse_leaf_1_m = lattice_.inverse_leaf_1_m(),
-                  .low_m = {},
-                  .high_m = {}};
-  for (std::size_t a = 0; a < 3; ++a) {
-    table.first_leaf[a] = first_bucket_[a] * leaves_per_bucket_;
-    table.low_m[a] = low_m_[a];
-    table.high_m[a] = high_m_[a];
-  }
-  return table;
-}
-
 void SurfaceCloud::add_untaken(const FrameRays& frame) {
   static_assert(sizeof(PixelRay) == 1);
-  const LeafTable table = leaf_table();
+  leaves_.bucket_at = bucket_at_.data();
+  leaves_.taken = taken_.data();
   const PixelColumns pixels{.p_m = {frame.x_m.data(), frame.y_m.data(), frame.z_m.data()},
                             .kind = reinterpret_cast<const std::uint8_t*>(frame.kind.data())};
-  const FindUntaken find_untaken = cloud_kernels().find_untaken;
+  const auto find_untaken = cloud_kernels().find_untaken;
   const std::size_t count = frame.kind.size();
   untaken_.resize(kPixelsAtOnce);
   for (std::size_t begin = 0; begin < count; begin += kPixelsAtOnce) {
     const std::size_t end = std::min(begin + kPixelsAtOnce, count);
-    const std::size_t found = find_untaken(table, pixels, begin, end, untaken_.data());
+    const std::size_t found = find_untaken(leaves_, pixels, begin, end, untaken_.data());
     for (const std::int32_t pixel : std::span(untaken_).first(found)) {
       const auto i = static_cast<std::size_t>(pixel);
       const Vec3f p_m(frame.x_m[i], frame.y_m[i], frame.z_m[i]);
@@ -257,8 +225,8 @@ void SurfaceCloud::insert(const Vec3f& p_m, const Leaf& leaf) {
                          .buckets = buckets_.data(),
                          .blocks = blocks_.data(),
                          .next_block = next_block_.data(),
-                         .cells_x = static_cast<std::size_t>(bucket_cells_[0]),
-                         .cells_y = static_cast<std::size_t>(bucket_cells_[1]),
+                         .cells_x = static_cast<std::size_t>(leaves_.cells[0]),
+                         .cells_y = static_cast<std::size_t>(leaves_.cells[1]),
                          .radius2_m2 = search_radius2_m2_};
   const std::uint64_t neighbours = cloud_kernels().count_neighbours(
       table, p_m.data(), cells_within_reach(p_m), voxel_points_.data());

@@ -15,8 +15,8 @@
 
 namespace gnbv {
 
-/// Points with at most one a leaf. Leaves are cubes [k leaf, (k + 1) leaf). A leaf gets the
-/// centroid of the points that the first batch to reach it put there, and keeps it.
+/// At most one point a leaf. Leaves are cubes [k leaf, (k + 1) leaf). The first batch with points
+/// in a leaf puts their centroid there, and no later one changes it.
 ///
 /// Density (paper section 2.1, Fig. 3): mean, over the cloud points in a voxel, of the number of
 /// cloud points within r = voxel / sqrt(2), the point itself included. Counts are integers, kept
@@ -24,8 +24,8 @@ namespace gnbv {
 /// comparison dx dx + dy dy + dz dz <= r r, which is the same from either point.
 class SurfaceCloud {
  public:
-  /// Throws BadInput naming leaf_m when it is not positive or less than a 64th of a voxel. Empty,
-  /// it takes no memory; full, memory.hpp's for each voxel and what the points need.
+  /// Throws BadInput naming leaf_m when it is not positive or less than a 64th of a voxel. An empty
+  /// cloud takes no memory. It takes more as voxels get points; memory.hpp has the most.
   SurfaceCloud(const CloudConfig& config, const GridGeometry& voxels);
 
   const CloudConfig& config() const { return config_; }
@@ -34,12 +34,13 @@ class SurfaceCloud {
   /// Points outside the workspace are ignored. Returns how many points the cloud gained; they stand
   /// at the end of points_world_m(), in the order in which the batch first reached their leaves.
   std::size_t add(std::span<const Vec3f> points_world_m, double leaf_m);
-  /// The same for the pixels of the frames that hit, frame by frame, as one batch.
-  std::size_t add(std::span<const FrameRays> frames, double leaf_m);
+  /// The same for the pixels of the frames that hit, frame by frame, as one batch with the cloud's
+  /// own filter.
+  std::size_t add(std::span<const FrameRays> frames);
 
-  /// Fills a cloud that is empty with points_world_m() of one like it; every count becomes that
-  /// one's, and so does whatever is added later. False, and the cloud half filled, when they cannot
-  /// be such points: outside the workspace, or two in a leaf.
+  /// Fills an empty cloud with the points_world_m() of another one, of the same settings: every
+  /// count is the other's then, and after all that is added later. False, and the cloud half
+  /// filled, when a point lies outside the workspace, or two in one leaf.
   [[nodiscard]] bool restore(std::span<const Vec3f> points_world_m);
 
   std::span<const Vec3f> points_world_m() const { return points_; }
@@ -58,7 +59,10 @@ class SurfaceCloud {
                                    : static_cast<double>(points.neighbour_sum) /
                                          static_cast<double>(points.point_count);
   }
-  /// Density of a fully scanned plane: 3 (voxel / leaf)^2, the released normaliser.
+  /// The released normaliser, 3 (voxel / leaf)^2: 300 at 0.2 m and 0.02 m. No plane reaches it. One
+  /// with normal n crosses |nx| + |ny| + |nz| leaves a leaf's face, so that a point of a fully
+  /// scanned one has pi / 2 (voxel / leaf)^2 (|nx| + |ny| + |nz|) neighbours: 157 on a wall along
+  /// the axes, 272 on one oblique to all three, and half as many at a free edge.
   double density_max() const { return density_max_; }
   double search_radius_m() const { return search_radius_m_; }
 
@@ -70,7 +74,7 @@ class SurfaceCloud {
   Leaf place_of(const LeafKey& leaf) const;
   bool is_taken(const Leaf& leaf) const;
   bool take(const Leaf& leaf);
-  LeafTable leaf_table() const;
+  std::size_t word_of(std::uint32_t bucket, std::uint32_t bit) const;  // into taken_
   void add_untaken(const FrameRays& frame);
   std::size_t insert_batch(bool is_own_leaf);
   CellBox cells_within_reach(const Vec3f& p_m) const;
@@ -89,15 +93,12 @@ class SurfaceCloud {
   std::vector<VoxelPoints> voxel_points_;  // the first one is that of all voxels without points
   std::vector<VoxelIndex> voxels_with_points_;  // of the slots from the second on
 
-  std::int32_t leaves_per_bucket_ = 1;
-  std::size_t words_per_bucket_ = 1;
+  LeafTable leaves_{};  // its pointers are set before each use
   float bucket_m_ = 1.0F;
   LeafKey first_bucket_ = {0, 0, 0};
-  std::array<std::int32_t, 3> bucket_cells_ = {0, 0, 0};
-  std::array<float, 3> low_m_ = {0, 0, 0}, high_m_ = {0, 0, 0};  // float32 numbers in the workspace
   ZeroedArray<std::uint32_t> bucket_at_;  // of each cell: index into buckets_
   std::vector<CloudBucket> buckets_;      // the first one is that of all cells without points
-  std::vector<std::uint32_t> taken_;      // words_per_bucket_ for each bucket, a bit a leaf
+  std::vector<std::uint32_t> taken_;      // words_per_bucket for each bucket, a bit a leaf
   std::vector<PointBlock> blocks_;        // the first one is none
   std::vector<std::uint32_t> next_block_;
   LeafSums batch_;

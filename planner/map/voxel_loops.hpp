@@ -49,9 +49,9 @@ inline Mask passed_at_center(const FrameView& view, const Centers& c) {
   const float last[2] = {static_cast<float>(view.width - 1), static_cast<float>(view.height - 1)};
   for (int k = 0; k < 2; ++k) {
     const Floats at = c.camera_m[k] / z_m * all(view.focal_px[k]) + all(view.center_px[k]);
-    const Floats within = min(max(at, all(0.0F)), all(last[k]));
+    const Floats within = hn::Min(hn::Max(at, all(0.0F)), all(last[k]));
     is_seen = is_seen & less_equal(all(-0.5F), at) & less_equal(at, all(last[k] + 0.5F));
-    pixel[k] = round_to_even(within);
+    pixel[k] = hn::Round(within);
   }
   const Floats stride = all(static_cast<float>(view.row_stride));
   const Floats inverse = gather(view.inverse_depth, truncated(pixel[1] * stride + pixel[0]));
@@ -60,7 +60,7 @@ inline Mask passed_at_center(const FrameView& view, const Centers& c) {
   for (int a = 0; a < 3; ++a) {
     const Floats direction =
         all(view.toward[a]) + pixel[0] * all(view.right[a]) + pixel[1] * all(view.down[a]);
-    away_m = max(away_m, magnitude(depth_m * direction - c.world_m[a]));
+    away_m = hn::Max(away_m, hn::Abs(depth_m * direction - c.world_m[a]));
   }
   return is_seen & less(z_m, depth_m) & less(all(view.half_voxel_m + view.margin_m), away_m);
 }
@@ -94,8 +94,8 @@ inline PixelBox pixel_box(const FrameView& view, const Centers& c) {
     const Floats last =
         select(is_ahead, high * all(view.focal_px[k]) + all(view.center_px[k]), end);
     box.is_empty = box.is_empty | less(last, zero) | less(end, first);
-    box.first[k] = round_to_zero(min(max(first, zero), end));
-    box.last[k] = round_to_zero(min(max(last, zero), end));
+    box.first[k] = hn::Trunc(hn::Min(hn::Max(first, zero), end));
+    box.last[k] = hn::Trunc(hn::Min(hn::Max(last, zero), end));
   }
   return box;
 }
@@ -106,23 +106,23 @@ inline Mask hidden(const FrameView& view, const PixelBox& box) {
   Floats first[2];
   Floats last[2];
   for (int k = 0; k < 2; ++k) {
-    first[k] = round_to_zero(box.first[k] * all(1.0F / kTile_px));
-    last[k] = round_to_zero(box.last[k] * all(1.0F / kTile_px));
+    first[k] = hn::Trunc(box.first[k] * all(1.0F / kTile_px));
+    last[k] = hn::Trunc(box.last[k] * all(1.0F / kTile_px));
   }
-  const Floats tiles = max(last[0] - first[0], last[1] - first[1]);
-  const Ints window_bits = as_ints(max(tiles, all(1.0F)));
+  const Floats tiles = hn::Max(last[0] - first[0], last[1] - first[1]);
+  const Ints window_bits = as_ints(hn::Max(tiles, all(1.0F)));
   const Floats window = as_floats(window_bits & all(kExponentBits));  // 2^floor(log2)
   const Floats back = window - all(1.0F);
-  for (int k = 0; k < 2; ++k) last[k] = max(last[k] - back, first[k]);
+  for (int k = 0; k < 2; ++k) last[k] = hn::Max(last[k] - back, first[k]);
   const Floats log2 = to_floats(shift_right<23>(window_bits) - all(127));
   const Floats level = log2 * all(static_cast<float>(view.level_stride));
   const Floats stride = all(static_cast<float>(view.tile_stride));
   const auto least = [&](Floats tx, Floats ty) {
     return gather(view.tile_windows, truncated(level + ty * stride + tx));
   };
-  const Floats upper = min(least(first[0], first[1]), least(last[0], first[1]));
-  const Floats lower = min(least(first[0], last[1]), least(last[0], last[1]));
-  return less_equal(box.inverse_nearest, min(upper, lower));
+  const Floats upper = hn::Min(least(first[0], first[1]), least(last[0], first[1]));
+  const Floats lower = hn::Min(least(first[0], last[1]), least(last[0], last[1]));
+  return less_equal(box.inverse_nearest, hn::Min(upper, lower));
 }
 
 /// Tests lane by lane, ray by ray.

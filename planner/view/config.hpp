@@ -1,4 +1,4 @@
-// The settings of what a view is looked at with.
+// The settings of what is counted of a view.
 #pragma once
 
 namespace gnbv {
@@ -9,7 +9,7 @@ struct ShadowConfig {
   double shadow_depth_m = 0.3;
 };
 
-/// The band is no deeper: three axes of so many steps fit a byte.
+/// The depth is at most this: a ray of such a length takes fewer than 256 steps along three axes.
 constexpr double kMaxShadow_voxels = 80.0;
 
 }  // namespace gnbv

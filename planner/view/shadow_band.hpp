@@ -10,18 +10,18 @@
 
 namespace gnbv {
 
-/// For each voxel the smallest number of steps, 1 or more, from the voxel of a hit along the ray
-/// through it. Only voxels that are unmeasured count; the grid keeps which (is_shaded).
+/// For each unmeasured voxel behind a hit, the number of steps from the voxel of the hit along its
+/// ray, the smallest of all rays; at least 1. The grid knows which voxels these are (is_shaded).
 class ShadowBand {
  public:
   /// Throws BadInput naming shadow_depth_m when it is not between 0 and 80 voxels.
   ShadowBand(const ShadowConfig& config, const GridGeometry& grid);
 
-  /// Extends the hits of a frame that the grid has already been given.
+  /// Adds the voxels behind the hits of a frame. The grid must hold the frame already.
   void add(const FrameRays& rays, OccupancyGrid& grid);
 
-  /// Takes up a voxel of a band that was saved; false, and nothing done, for one that is measured
-  /// or with no step.
+  /// Adds a voxel of a band that was saved. False, and nothing changes, when it is measured or
+  /// `steps` is below 1.
   bool restore(VoxelIndex v, int steps, OccupancyGrid& grid);
 
   /// Steps behind the surface; 0 for a voxel in no shadow. Holds while grid.is_shaded(v).

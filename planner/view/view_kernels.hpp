@@ -9,8 +9,8 @@
 
 namespace gnbv {
 
-/// Times along a ray are integers: kRayEnd is the end of the ray. Sums of them are exact, so every
-/// level walks the same voxels, and a step out of the grid is seen before it is taken.
+/// Times along a ray are integers, from 0 at the camera to kRayEnd at the ray's end. Their sums are
+/// exact: every level walks the same voxels, and a walk knows beforehand when it leaves the grid.
 constexpr std::int32_t kRayEnd = 1 << 29;
 constexpr std::int32_t kNeverReached = (1 << 30) - 1;
 
@@ -30,30 +30,23 @@ struct RayFanFrame {
   double inverse_resolution;
 };
 
-/// The rays of one camera made ready, in columns; `count` is a multiple of kRayPadding.
+/// Ends of the rays of one camera in columns, body frame. Each column can be read up to the next
+/// multiple of kRayPadding.
 constexpr std::size_t kRayPadding = 16;
-struct PreparedRays {
+struct RayEnds {
+  const double* at_body_m[3];
   std::size_t count;
-  std::int32_t* t_next[3];   // when the ray crosses the next border of each axis
-  std::int32_t* t_voxel[3];  // and how long it takes from there to the one after
-  std::int32_t* move[3];     // change of VoxelIndex
-  std::int32_t* t_leave;     // when it leaves the grid
-  std::int32_t* voxels;      // to visit before range ends; 0 for padding
 };
 
-/// Turns the ends of `rays.count` rays (columns, body frame) into steps through the grid.
-using PrepareRays = void (*)(const RayFanFrame& frame, const double* const end_body_m[3],
-                             const PreparedRays& rays);
-
-/// What the walk reads and writes. `marks` has kMarkPadding bytes beyond the voxels, and is zero
-/// between views; lists have as much room beyond what can be in them.
+/// What the kernels read and write. `marks` has kMarkPadding bytes beyond the voxels, and is zero
+/// between views. Lists have room for as many entries more than they can get.
 constexpr std::size_t kMarkPadding = 128;
 constexpr std::uint8_t kMarked = 1;
 struct ViewMaps {
   const std::uint32_t* words;  // VoxelWord
   const float* log_odds;
   std::uint8_t* marks;
-  std::int32_t resting_voxel;  // where rays that have ended mark: in the padding
+  std::int32_t resting_voxel;  // in the padding: rays that have ended mark it
   std::int32_t* predicted;     // first predicted voxel of each ray that has one
   std::size_t predicted_count;
   std::uint32_t settled_word;  // OccupancyGrid::settled_word(), and its voxels' log-odds
@@ -80,11 +73,6 @@ struct RaySums {
   std::int64_t unknown_share;  // sum over rays of the unknown share of the pyramid, 2^-30
 };
 
-/// Walks prepared rays that start in one voxel. `odds_power` is log2(e), negative for the legacy
-/// visibility; only the full walk reads it.
-using WalkRays = void (*)(const PreparedRays& rays, std::int32_t origin_voxel, float odds_power,
-                          ViewMaps& maps, RaySums& sums);
-
 /// Sums over the marked voxels, each once.
 struct VoxelSums {
   std::int64_t visited;
@@ -103,15 +91,15 @@ struct VoxelBox {
   std::size_t planes, plane_stride;
 };
 
-/// Counts the marked voxels of the box and clears their marks. May also count and clear up to 63
-/// voxels after a row.
-using Tally = void (*)(const ViewMaps& maps, const VoxelBox& box, VoxelSums& sums);
-
 struct ViewKernels {
-  PrepareRays prepare;
-  WalkRays walk_voxels;
-  WalkRays walk_full;
-  Tally tally;
+  /// Walks the rays of a camera and marks the voxels that they see. `odds_power` is log2(e),
+  /// negative for the legacy visibility; only the full walk reads it.
+  using WalkRays = void (*)(const RayFanFrame& frame, const RayEnds& ends, float odds_power,
+                            ViewMaps& maps, RaySums& sums);
+  WalkRays walk_voxels, walk_full;
+  /// Counts the marked voxels of the box and clears their marks. May also count and clear up to 63
+  /// voxels after a row.
+  void (*tally)(const ViewMaps& maps, const VoxelBox& box, VoxelSums& sums);
 };
 
 GNBV_KERNELS(ViewKernels, view_kernels)

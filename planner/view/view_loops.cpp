@@ -1,5 +1,4 @@
 // The view kernels, once for each SimdLevel; here the count of the voxels that the walk has marked.
-#include "planner/view/prepare_loops.hpp"
 #include "planner/view/walk_loops.hpp"
 
 namespace gnbv {
@@ -11,7 +10,7 @@ constexpr int kChunksPerCarry = LongSum::kTermsPerCarry * kLanes / static_cast<i
 
 void tally_group(const ViewMaps& maps, std::size_t first, Mask marked, VoxelSums& sums,
                  LongSum& known_sum) {
-  const Ints word = load_where(marked, maps.words + first);
+  const Ints word = hn::IfThenElseZero(marked, load(maps.words + first));
   known_sum.low = known_sum.low + shift_right<kKnownShift>(word);
   sums.visited += count(marked);
   sums.free += count(marked & has_bit(word, static_cast<std::uint32_t>(VoxelState::free)));
@@ -59,10 +58,8 @@ void tally(const ViewMaps& maps, const VoxelBox& box, VoxelSums& sums) {
 
 namespace GNBV_SIMD_LEVEL {
 
-const ViewKernels kViewKernels = {.prepare = prepare_rays,
-                                  .walk_voxels = walk_rays<false>,
-                                  .walk_full = walk_rays<true>,
-                                  .tally = tally};
+const ViewKernels kViewKernels = {
+    .walk_voxels = walk_rays<false>, .walk_full = walk_rays<true>, .tally = tally};
 
 }  // namespace GNBV_SIMD_LEVEL
 }  // namespace gnbv

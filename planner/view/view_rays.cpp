@@ -60,16 +60,13 @@ ViewRays make_view_rays(std::span<const CameraModel> cameras, double resolution_
     camera.first = rays.end_body_m[0].size();
     append_ends(lattice, model.T_body_camera, rays);
     camera.count = rays.end_body_m[0].size() - camera.first;
-    camera.padded = (camera.count + kRayPadding - 1) / kRayPadding * kRayPadding;
-    for (std::vector<double>& column : rays.end_body_m) {
-      column.resize(camera.first + camera.padded, 0.0);
+    const std::size_t padded = (camera.count + kRayPadding - 1) / kRayPadding * kRayPadding;
+    for (std::vector<double>& column : rays.end_body_m) column.resize(camera.first + padded, 0.0);
+    for (int corner = 0; corner < 4; ++corner) {
+      camera.corners_body_m[static_cast<std::size_t>(corner)] =
+          model.T_body_camera *
+          lattice.end_camera_m(corner % 2 * (lattice.columns - 1), corner / 2 * (lattice.rows - 1));
     }
-    const int right = lattice.columns - 1;
-    const int bottom = lattice.rows - 1;
-    camera.corners_body_m = {model.T_body_camera * lattice.end_camera_m(0, 0),
-                             model.T_body_camera * lattice.end_camera_m(right, 0),
-                             model.T_body_camera * lattice.end_camera_m(0, bottom),
-                             model.T_body_camera * lattice.end_camera_m(right, bottom)};
     rays.cameras.push_back(camera);
   }
   return rays;

@@ -19,8 +19,7 @@ struct ViewRays {
     std::array<Vec3, 4> corners_body_m;  // ends of the outermost rays
     double pyramid_m3 = 0.0;             // volume that one ray stands for
     std::size_t first = 0;               // into the columns
-    std::size_t count = 0;               // rays
-    std::size_t padded = 0;              // count with the padding
+    std::size_t count = 0;               // rays, without the padding
   };
   double resolution_m = 0.0;
   std::vector<Camera> cameras;

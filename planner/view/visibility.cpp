@@ -10,9 +10,8 @@ namespace gnbv {
 namespace {
 
 constexpr float kLog2e = 1.44269504F;
-constexpr double kShareUnit = 0x1p-30;        // of RaySums::unknown_share
-constexpr double kDensityUnit = 0x1p-32;      // densities are summed as integers
-constexpr std::size_t kPreparedColumns = 11;  // of PreparedRays
+constexpr double kShareUnit = 0x1p-30;    // of RaySums::unknown_share
+constexpr double kDensityUnit = 0x1p-32;  // densities are summed as integers
 
 RayFanFrame make_frame(const GridGeometry& grid, const Isometry& T_world_body,
                        const Vec3& origin_body_m) {
@@ -43,25 +42,6 @@ RayFanFrame make_frame(const GridGeometry& grid, const Isometry& T_world_body,
   frame.resolution_m = grid.resolution_m();
   frame.inverse_resolution = 1.0 / grid.resolution_m();
   return frame;
-}
-
-/// The rays of one camera, ready to walk; columns lie one after the other in `memory`.
-PreparedRays prepare(const ViewRays& rays, const ViewRays::Camera& camera, const RayFanFrame& frame,
-                     std::vector<std::int32_t>& memory) {
-  memory.resize(std::max(memory.size(), kPreparedColumns * camera.padded));
-  const auto column = [&](std::size_t i) { return memory.data() + i * camera.padded; };
-  const PreparedRays prepared = {.count = camera.padded,
-                                 .t_next = {column(0), column(1), column(2)},
-                                 .t_voxel = {column(3), column(4), column(5)},
-                                 .move = {column(6), column(7), column(8)},
-                                 .t_leave = column(9),
-                                 .voxels = column(10)};
-  const double* const ends_body_m[3] = {rays.end_body_m[0].data() + camera.first,
-                                        rays.end_body_m[1].data() + camera.first,
-                                        rays.end_body_m[2].data() + camera.first};
-  view_kernels().prepare(frame, ends_body_m, prepared);
-  std::fill(prepared.voxels + camera.count, prepared.voxels + camera.padded, 0);
-  return prepared;
 }
 
 /// Voxels that hold whatever the view can see.
@@ -156,10 +136,13 @@ ViewStats evaluate_view(const OccupancyGrid& grid, const SurfaceCloud& cloud, co
   const float odds_power = options.legacy_visibility ? -kLog2e : kLog2e;
   for (const ViewRays::Camera& camera : rays.cameras) {
     const RayFanFrame frame = make_frame(geometry, T, camera.origin_body_m);
-    const PreparedRays prepared = prepare(rays, camera, frame, marks.prepared);
+    const RayEnds ends{.at_body_m = {rays.end_body_m[0].data() + camera.first,
+                                     rays.end_body_m[1].data() + camera.first,
+                                     rays.end_body_m[2].data() + camera.first},
+                       .count = camera.count};
     const auto walk = full ? view_kernels().walk_full : view_kernels().walk_voxels;
     const std::int64_t share_before = ray_sums.unknown_share;
-    walk(prepared, frame.origin_voxel, odds_power, maps, ray_sums);
+    walk(frame, ends, odds_power, maps, ray_sums);
     stats.unknown_volume_m3 +=
         static_cast<double>(ray_sums.unknown_share - share_before) * kShareUnit * camera.pyramid_m3;
   }

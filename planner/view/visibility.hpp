@@ -13,17 +13,17 @@
 
 namespace gnbv {
 
-/// Reusable memory of one thread, about one byte a voxel. No result depends on what it holds.
+/// Memory of one thread, about a byte a voxel, for one view after the other. No result depends on
+/// what it holds.
 struct VisitMarks {
   explicit VisitMarks(std::size_t voxels);
 
   ZeroedArray<std::uint8_t> marks;           // voxels the view at hand has seen; zero between views
-  std::vector<std::int32_t> prepared;        // PreparedRays
   std::vector<std::int32_t> predicted_ends;  // first predicted voxel of each ray
   std::vector<std::int32_t> occupied;        // seen
 };
 
-/// How a view is looked at.
+/// What is counted of a view, and how.
 struct ViewOptions {
   ViewDetail detail = ViewDetail::voxels;
   bool legacy_visibility = false;      // P_v multiplies P_j: released code of Delmerico et al.
@@ -32,9 +32,10 @@ struct ViewOptions {
   ReleasedSlips slips = {};            // with one, the detail is voxels
 };
 
-/// Walks all rays from the candidate pose; density_max and path_m stay 0. `rays` must have been
-/// made for the grid's resolution, `marks` for its number of voxels. The same bits on every
-/// SimdLevel. Voxels are those of walk_ray_inside() but for near ties: 2e-6 voxels at 40 steps.
+/// Walks all rays of a view from the candidate pose; density_max and path_m stay 0. `rays` must
+/// have been made for the grid's resolution, `marks` for its number of voxels. Every SimdLevel
+/// gives the same bits. The voxels are those of walk_ray_inside(), but for near ties: at 40 steps a
+/// ray, 2 in a million.
 ViewStats evaluate_view(const OccupancyGrid& grid, const SurfaceCloud& cloud, const ViewRays& rays,
                         const ViewPose& candidate, VisitMarks& marks,
                         const ViewOptions& options = {});

@@ -1,15 +1,19 @@
-// The walk of a view's rays: the same float32 operations in the same order per ray at every level.
-// For view_loops.cpp alone.
+// The walk of a view's rays. For view_loops.cpp alone.
+//
+// A ray leaves its voxel at the least of t_next, crosses the border along that axis into the next
+// voxel, and crosses its next border along it t_voxel later. It ends at the first occupied voxel,
+// at the border of the grid (t_leave) or when it has visited the voxels within its range. Rays of a
+// bundle are lanes: each takes the same float32 operations in the same order at every level.
 #pragma once
 
 #include "planner/map/voxel_word.hpp"
-#include "planner/view/view_kernels.hpp"
-#include "sim/core/lanes.hpp"
+#include "planner/view/ray_bundle.hpp"
 
 namespace gnbv {
 namespace {
 
-/// Sums lane by lane that 32 bits do not hold: 369 terms of ln 2, the largest there are, overflow.
+/// A sum in each lane that may exceed 32 bits: 369 terms of ln 2, the largest there are, would.
+/// carry() has to come after kTermsPerCarry terms at the latest.
 struct LongSum {
   static constexpr int kTermsPerCarry = 256;
   Ints low = all(0), high = all(0);
@@ -23,39 +27,12 @@ struct LongSum {
   }
 };
 
-/// Where the rays of a bundle are. `moving` rays are inside the grid and their range; `seeing`
-/// ones have met nothing occupied either. Rays that stopped seeing move on, so that no step has to
-/// wait for what the map says of the one before.
-struct Bundle {
-  Ints t_next[3];
-  Ints t_voxel[3];
-  Ints move[3];
-  Ints t_leave;
-  Ints voxels_left;
-  Ints voxel;
-  Mask moving;
-  Mask seeing;
-};
-
-inline Bundle load_bundle(const PreparedRays& rays, std::size_t first, std::int32_t origin_voxel) {
-  Bundle b;
-  for (int a = 0; a < 3; ++a) {
-    b.t_next[a] = load(rays.t_next[a] + first);
-    b.t_voxel[a] = load(rays.t_voxel[a] + first);
-    b.move[a] = load(rays.move[a] + first);
-  }
-  b.t_leave = load(rays.t_leave + first);
-  b.voxels_left = load(rays.voxels + first);
-  b.voxel = all(origin_voxel);
-  b.moving = less(all(0), b.voxels_left);
-  b.seeing = b.moving;
-  return b;
+/// When the rays leave their voxels.
+inline Ints exit_time(const Bundle& b) {
+  return hn::Min(b.t_next[0], hn::Min(b.t_next[1], b.t_next[2]));
 }
 
-/// When the rays leave their voxels.
-inline Ints exit_time(const Bundle& b) { return min(b.t_next[0], min(b.t_next[1], b.t_next[2])); }
-
-/// Takes every moving ray into its next voxel. Of equal times the later axis goes first, as in
+/// Takes every moving ray into its next voxel. Of axes with equal times the last goes first, as in
 /// walk_ray().
 inline void take_step(Bundle& b, Ints t_exit) {
   b.voxels_left = b.voxels_left - all(1);
@@ -89,7 +66,7 @@ struct RayMetrics {
   Floats rear_side = all(0.0F);
   Floats volume = all(0.0F);  // sum of cubes of times, over the unknown voxels
   Ints t_enter = all(0);
-  Ints visits = all(0);  // of the rays that hit
+  Ints visits = all(0);  // voxels of the rays that hit, the hit one included
   Mask after_unknown = no_lane();
   Mask hit = no_lane();
   Mask rear_hit = no_lane();
@@ -100,7 +77,7 @@ struct RayMetrics {
 /// 1 / (1 + e^l) = 1 - P, from x = l log2(e). Within 2e-6 for every x.
 inline Floats free_probability(Floats x) {
   constexpr float kRounder = 12582912.0F;  // 1.5 * 2^23: its neighbours are the integers
-  const Floats bounded = min(max(x, all(-100.0F)), all(100.0F));
+  const Floats bounded = hn::Min(hn::Max(x, all(-100.0F)), all(100.0F));
   const Floats shifted = bounded + all(kRounder);
   const Floats r = bounded - (shifted - all(kRounder));
   // 2^r for |r| <= 0.5, relative error 3e-6
@@ -109,7 +86,7 @@ inline Floats free_probability(Floats x) {
   power = power * r + all(0.240240991F);
   power = power * r + all(0.693124175F);
   power = power * r + all(1.0F);
-  const Floats odds = as_floats(as_ints(power) + shift_left<23>(as_ints(shifted)));
+  const Floats odds = as_floats(as_ints(power) + hn::ShiftLeft<23>(as_ints(shifted)));
   return all(1.0F) / (all(1.0F) + odds);
 }
 
@@ -141,15 +118,15 @@ struct Odds {
   Floats settled;  // the factor of a voxel of the settled word
 };
 
-// below it adds nothing, and what follows from it would be denormal and slow
+// less adds nothing to any sum, and numbers that follow from it would be denormal, hence slow
 constexpr float kLeastVisibility = 0x1p-60F;
 
-/// Adds voxels of the settled word, which have no entropy.
+/// Adds the voxels at hand if all have the settled word: they have no entropy.
 inline void measure_settled(Ints t_exit, const Odds& odds, RayMetrics& m) {
   m.unknown_run = all(0.0F);
   m.after_unknown = no_lane();
   m.t_enter = t_exit;
-  m.visibility = max(m.visibility * odds.settled, all(kLeastVisibility));
+  m.visibility = hn::Max(m.visibility * odds.settled, all(kLeastVisibility));
 }
 
 /// Adds the voxels at hand. The branches only skip what would change nothing.
@@ -178,7 +155,7 @@ inline void measure(const ViewMaps& maps, const Bundle& b, Ints word, Ints known
     const Floats log_odds = gather(measured, maps.log_odds, b.voxel);
     factor = free_probability(log_odds * all(odds.power));
   }
-  m.visibility = max(m.visibility * factor, all(kLeastVisibility));
+  m.visibility = hn::Max(m.visibility * factor, all(kLeastVisibility));
 }
 
 /// Adds what the rays of a bundle sum up to. No term is negative, and each ray's is rounded, so
@@ -190,10 +167,10 @@ void add_rays(const RayMetrics& m, const LongSum& known, RaySums& sums) {
   sums.shadow_rays += count(m.shadow);
   sums.front_rays += count(without(m.front_hit, m.shadow));
   sums.visits_occupied += sum_of(m.visits);
-  sums.occlusion_aware += sum_of(nearest(m.occlusion_aware));
-  sums.unobserved += sum_of(nearest(m.unobserved));
-  sums.rear_side += sum_of(nearest(m.rear_side));
-  sums.unknown_share += sum_of(nearest(m.volume * all(kCubeShare)));
+  sums.occlusion_aware += sum_of(hn::NearestInt(m.occlusion_aware));
+  sums.unobserved += sum_of(hn::NearestInt(m.unobserved));
+  sums.rear_side += sum_of(hn::NearestInt(m.rear_side));
+  sums.unknown_share += sum_of(hn::NearestInt(m.volume * all(kCubeShare)));
   sums.known_occupied += known.total(m.hit);
 }
 
@@ -234,12 +211,12 @@ void walk_bundle(Bundle b, const Odds& odds, ViewMaps& maps, RaySums& sums) {
 }
 
 template <bool kFull>
-void walk_rays(const PreparedRays& rays, std::int32_t origin_voxel, float odds_power,
-               ViewMaps& maps, RaySums& sums) {
+void walk_rays(const RayFanFrame& frame, const RayEnds& ends, float odds_power, ViewMaps& maps,
+               RaySums& sums) {
   const Odds odds = {.power = odds_power,
                      .settled = free_probability(all(maps.settled_log_odds) * all(odds_power))};
-  for (std::size_t first = 0; first < rays.count; first += kLanes) {
-    walk_bundle<kFull>(load_bundle(rays, first, origin_voxel), odds, maps, sums);
+  for (std::size_t first = 0; first < ends.count; first += kLanes) {
+    walk_bundle<kFull>(make_bundle(frame, ends, first), odds, maps, sums);
   }
 }
 

@@ -1,10 +1,11 @@
 // Several numbers side by side: the words in which the vector loops are written, over Google
 // Highway. gnbv_kernels() (CMakeLists.txt) compiles such a source once for each SimdLevel. A lane
-// gets the same bits at every level: nothing here fuses a product with a sum, and what Highway
-// leaves open (a result that does not fit, an order of summation) no loop asks for.
+// gets the same bits at every level: nothing here fuses a product with a sum, and no loop asks for
+// what Highway leaves open, as a result that does not fit or an order of summation.
 //
-// Floats, Ints and Mask have kLanes float32, int32 (modulo 2^32) and truths; + - * / & are
-// Highway's own. min() and max() give the second where one is NaN; comparisons with NaN are false.
+// Floats, Ints and Mask have kLanes float32, int32 (modulo 2^32) and truths. What Highway calls as
+// it should be called is taken from it: + - * / & |, hn::Min, hn::Max (the second where one is
+// NaN), hn::Abs, hn::Round (ties to even), hn::Trunc and so on.
 //
 // Everything has internal linkage: no copy made for one processor can be linked into another's
 // code. For the same reason these sources include nothing of ours but this, each other and plain
@@ -33,19 +34,19 @@ using Floats = hn::Vec<decltype(kFloatTag)>;
 using Ints = hn::Vec<decltype(kIntTag)>;
 using Mask = hn::Mask<decltype(kIntTag)>;
 
+/// kLanes elements at any address. Bytes are from 0 to 255, a lane each.
 inline Floats load(const float* p) { return hn::LoadU(kFloatTag, p); }
 inline Ints load(const std::int32_t* p) { return hn::LoadU(kIntTag, p); }
 inline Ints load(const std::uint32_t* p) { return load(reinterpret_cast<const std::int32_t*>(p)); }
+inline Ints load_bytes(const std::uint8_t* p) {
+  return hn::PromoteTo(kIntTag, hn::LoadU(kByteTag, p));
+}
 inline void store(float* p, Floats a) { hn::StoreU(a, kFloatTag, p); }
 inline void store(std::int32_t* p, Ints a) { hn::StoreU(a, kIntTag, p); }
-/// Low bytes of the lanes, which are from 0 to 255.
 inline void store_bytes(std::uint8_t* p, Ints a) {
   hn::StoreU(hn::DemoteTo(kByteTag, a), kByteTag, p);
 }
 
-inline Ints load_bytes(const std::uint8_t* p) {
-  return hn::PromoteTo(kIntTag, hn::LoadU(kByteTag, p));
-}
 /// x in every lane; 0, 1, 2, ...
 inline Floats all(float x) { return hn::Set(kFloatTag, x); }
 inline Ints all(std::int32_t x) { return hn::Set(kIntTag, x); }
@@ -53,34 +54,17 @@ inline Ints all(std::uint32_t x) { return all(static_cast<std::int32_t>(x)); }
 inline Floats ramp() { return hn::Iota(kFloatTag, 0.0F); }
 inline Ints int_ramp() { return hn::Iota(kIntTag, 0); }
 
-inline Floats min(Floats a, Floats b) { return hn::Min(a, b); }
-inline Floats max(Floats a, Floats b) { return hn::Max(a, b); }
-inline Ints min(Ints a, Ints b) { return hn::Min(a, b); }
-inline Ints max(Ints a, Ints b) { return hn::Max(a, b); }
-inline Floats magnitude(Floats a) { return hn::Abs(a); }
-inline Ints magnitude(Ints a) { return hn::Abs(a); }
-inline Floats root(Floats a) { return hn::Sqrt(a); }
-template <int kBits>
-Ints shift_left(Ints a) {
-  return hn::ShiftLeft<kBits>(a);
-}
 /// Zeros come in.
 template <int kBits>
 Ints shift_right(Ints a) {
-  return hn::BitCast(
-      kIntTag, hn::ShiftRight<kBits>(hn::BitCast(hn::RebindToUnsigned<decltype(kIntTag)>(), a)));
+  constexpr hn::RebindToUnsigned<decltype(kIntTag)> kTag;
+  return hn::BitCast(kIntTag, hn::ShiftRight<kBits>(hn::BitCast(kTag, a)));
 }
-/// 2^n, 0 <= n < 32.
-inline Ints power_of_two(Ints n) { return all(1) << n; }
 
-/// Whole numbers as floats: nearest with ties to even, toward zero.
-inline Floats round_to_even(Floats a) { return hn::Round(a); }
-inline Floats round_to_zero(Floats a) { return hn::Trunc(a); }
-/// The same bits; or to integers: nearest with ties to even, toward zero, down.
+/// The same bits; or the same numbers, integers of what fits 32 bits: toward zero, down.
 inline Ints as_ints(Floats a) { return hn::BitCast(kIntTag, a); }
 inline Floats as_floats(Ints a) { return hn::BitCast(kFloatTag, a); }
 inline Floats to_floats(Ints a) { return hn::ConvertTo(kFloatTag, a); }
-inline Ints nearest(Floats a) { return hn::NearestInt(a); }
 inline Ints truncated(Floats a) { return hn::ConvertTo(kIntTag, a); }
 inline Ints floored(Floats a) { return truncated(hn::Floor(a)); }
 
@@ -96,7 +80,6 @@ inline Mask equal(Ints a, Ints b) { return a == b; }
 /// `bit` is a power of two.
 inline Mask has_bit(Ints a, std::uint32_t bit) { return hn::TestBit(a, all(bit)); }
 inline Mask has_none(Ints a, Ints bits) { return (a & bits) == hn::Zero(kIntTag); }
-/// Which of kLanes bytes are b.
 inline Mask equal_bytes(const std::uint8_t* p, std::uint8_t b) {
   return load_bytes(p) == all(std::uint32_t{b});
 }
@@ -120,8 +103,8 @@ inline Ints select(Mask m, Ints a, Ints b) { return hn::IfThenElse(m, a, b); }
 inline Floats add_where(Mask m, Floats a, Floats b) { return select(m, a + b, a); }
 inline Ints add_where(Mask m, Ints a, Ints b) { return select(m, a + b, a); }
 
+/// p[at]; where m, else 0, but p[0] is read for the others.
 inline Floats gather(const float* p, Ints at) { return hn::GatherIndex(kFloatTag, p, at); }
-/// p[at] where m, else 0. p[0] is read for the others.
 inline Ints gather(Mask m, const std::uint32_t* p, Ints at) {
   const auto* const from = reinterpret_cast<const std::int32_t*>(p);
   return hn::IfThenElseZero(m, hn::GatherIndex(kIntTag, from, hn::IfThenElseZero(m, at)));
@@ -129,13 +112,11 @@ inline Ints gather(Mask m, const std::uint32_t* p, Ints at) {
 inline Floats gather(Mask m, const float* p, Ints at) {
   return as_floats(gather(m, reinterpret_cast<const std::uint32_t*>(p), at));
 }
-inline Ints load_where(Mask m, const std::uint32_t* p) { return hn::IfThenElseZero(m, load(p)); }
 /// The lanes of m one after the other. Writes kLanes numbers and returns how many are meant.
 inline int pack(Mask m, Ints a, std::int32_t* to) {
   store(to, hn::Compress(a, m));
   return count(m);
 }
-
 /// Of all lanes, taken as unsigned.
 inline std::int64_t sum_of(Ints a) {
   constexpr hn::Repartition<std::uint64_t, decltype(kIntTag)> kWideTag;
@@ -152,6 +133,10 @@ inline Doubles all(double x) { return {hn::Set(kDoubleTag, x), hn::Set(kDoubleTa
 inline Doubles load(const double* p) {
   return {hn::LoadU(kDoubleTag, p), hn::LoadU(kDoubleTag, p + kLanes / 2)};
 }
+inline Doubles operator+(Doubles a, Doubles b) { return {a.low + b.low, a.high + b.high}; }
+inline Doubles operator-(Doubles a, Doubles b) { return {a.low - b.low, a.high - b.high}; }
+inline Doubles operator*(Doubles a, Doubles b) { return {a.low * b.low, a.high * b.high}; }
+inline Doubles operator/(Doubles a, Doubles b) { return {a.low / b.low, a.high / b.high}; }
 inline Doubles magnitude(Doubles a) { return {hn::Abs(a.low), hn::Abs(a.high)}; }
 inline Doubles min(Doubles a, Doubles b) {
   return {hn::Min(a.low, b.low), hn::Min(a.high, b.high)};
@@ -159,10 +144,6 @@ inline Doubles min(Doubles a, Doubles b) {
 inline Doubles max(Doubles a, Doubles b) {
   return {hn::Max(a.low, b.low), hn::Max(a.high, b.high)};
 }
-inline Doubles operator+(Doubles a, Doubles b) { return {a.low + b.low, a.high + b.high}; }
-inline Doubles operator-(Doubles a, Doubles b) { return {a.low - b.low, a.high - b.high}; }
-inline Doubles operator/(Doubles a, Doubles b) { return {a.low / b.low, a.high / b.high}; }
-inline Doubles operator*(Doubles a, Doubles b) { return {a.low * b.low, a.high * b.high}; }
 inline Doubles select_less(Doubles a, Doubles b, Doubles yes, Doubles no) {
   return {hn::IfThenElse(a.low < b.low, yes.low, no.low),
           hn::IfThenElse(a.high < b.high, yes.high, no.high)};
@@ -179,7 +160,7 @@ inline Floats narrow(Doubles a) {
   return hn::Combine(kFloatTag, hn::DemoteTo(kHalfFloatTag, a.high),
                      hn::DemoteTo(kHalfFloatTag, a.low));
 }
-/// Toward zero; what does not fit becomes the nearest that does, or for NaN anything.
+/// Toward zero, down; what does not fit becomes the nearest that does.
 inline Ints truncated(Doubles a) {
   return hn::Combine(kIntTag, hn::DemoteTo(kHalfIntTag, a.high), hn::DemoteTo(kHalfIntTag, a.low));
 }
@@ -210,16 +191,16 @@ HWY_INLINE void write_end(T* p, int left, const Use& use) {
   use(some);
   for (int i = 0; i < left; ++i) p[i] = some[i];
 }
-HWY_INLINE Floats load(const float* p, int left) {
+inline Floats load(const float* p, int left) {
   return read_end(p, left, [](const float* q) { return load(q); });
 }
-HWY_INLINE Mask equal_bytes(const std::uint8_t* p, std::uint8_t b, int left) {
+inline Mask equal_bytes(const std::uint8_t* p, std::uint8_t b, int left) {
   return read_end(p, left, [b](const std::uint8_t* q) { return equal_bytes(q, b); });
 }
-HWY_INLINE void store(float* p, Floats a, int left) {
+inline void store(float* p, Floats a, int left) {
   write_end(p, left, [a](float* q) { store(q, a); });
 }
-HWY_INLINE void store_bytes(std::uint8_t* p, Ints a, int left) {
+inline void store_bytes(std::uint8_t* p, Ints a, int left) {
   write_end(p, left, [a](std::uint8_t* q) { store_bytes(q, a); });
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -151,6 +152,43 @@ TEST(SurfaceCloud, EqualsLeafByLeafFillingOfBatches) {
   }
   for (const Vec3f& p_m : cloud.points_world_m()) {
     ASSERT_EQ(first_centroid.at(lattice.key_of(p_m)), p_m);
+  }
+}
+
+/// Neighbours, on average, of the points of a square metre scanned every mm: of those about its
+/// middle, and of those at an edge.
+std::pair<double, double> neighbours_on_plane(const Vec3& normal) {
+  SurfaceCloud cloud(CloudConfig{}, GridGeometry(kBox_m, 0.2));
+  const Eigen::Quaterniond R = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), normal);
+  const Vec3 middle_m(0.1037, 0.1069, 1.0193);  // no plane here runs along corners of leaves
+  std::vector<Vec3f> points_m;
+  for (double x_m = -0.5; x_m < 0.5; x_m += 0.001) {
+    for (double y_m = -0.5; y_m < 0.5; y_m += 0.001) {
+      points_m.push_back((middle_m + R * Vec3(x_m, y_m, 0.0)).cast<float>());
+    }
+  }
+  cloud.add(points_m, cloud.config().leaf_m);
+  const auto radius2_m2 = static_cast<float>(std::pow(cloud.search_radius_m(), 2));
+  std::array<double, 2> points = {0.0, 0.0};  // about the middle, at the edge
+  std::array<double, 2> neighbours = {0.0, 0.0};
+  for (const Vec3f& p_m : cloud.points_world_m()) {
+    const Vec3 at_m = R.inverse() * (p_m.cast<double>() - middle_m);
+    const std::size_t where = at_m.x() > 0.49 ? 1 : 0;
+    if (std::fabs(at_m.y()) > 0.1 || (where == 0 && std::fabs(at_m.x()) > 0.1)) continue;
+    points[where] += 1.0;
+    for (const Vec3f& q_m : cloud.points_world_m()) {
+      neighbours[where] += (q_m - p_m).squaredNorm() <= radius2_m2 ? 1.0 : 0.0;
+    }
+  }
+  return {neighbours[0] / points[0], neighbours[1] / points[1]};
+}
+
+TEST(SurfaceCloud, AFullPlaneStaysBelowTheNormaliserAsItsNormalSays) {
+  for (const Vec3& normal : {Vec3(0, 0, 1), Vec3(0, 1, 1), Vec3(1, 1, 1), Vec3(1, 2, 5)}) {
+    const double expected = 0.5 * kPi * 100.0 * normal.normalized().lpNorm<1>();
+    const auto [middle, edge] = neighbours_on_plane(normal);
+    EXPECT_NEAR(middle, expected, 0.05 * expected) << normal.transpose();
+    EXPECT_NEAR(edge, 0.5 * expected, 0.13 * expected) << normal.transpose();
   }
 }
 
