@@ -108,21 +108,32 @@ bool is_path_clear(const OccupancyGrid& grid, const Vec3& from_world_m, const Ve
   });
 }
 
-bool is_known_free(const OccupancyGrid& grid, const Key& key, const Key& own) {
-  const GridGeometry& geometry = grid.geometry();
-  return geometry.contains(key) &&
-         (key == own || grid.state(geometry.index_of(key)) == VoxelState::free);
+FreeFromVehicle::FreeFromVehicle(const OccupancyGrid& grid, const Vec3& own_world_m,
+                                 double radius_m)
+    : grid_(grid),
+      own_m_(grid.geometry().nearest_inside(own_world_m)),
+      own_(grid.geometry().key_of(Vec3f(own_m_.cast<float>()))),  // as a ray's
+      radius_m_(radius_m) {}
+
+bool FreeFromVehicle::is_free(const Key& key) {
+  const GridGeometry& geometry = grid_.geometry();
+  if (!geometry.contains(key)) return false;
+  const VoxelState state = grid_.state(geometry.index_of(key));
+  if (state == VoxelState::free) is_blind_ = false;
+  if (state == VoxelState::free || key == own_) return true;
+  return state == VoxelState::unknown && is_blind_ &&
+         (geometry.center_m(key) - own_m_).squaredNorm() <= radius_m_ * radius_m_;
 }
 
-bool is_line_free(const OccupancyGrid& grid, const Vec3& from_world_m, const Vec3& to_world_m) {
+bool is_line_free(const OccupancyGrid& grid, const Vec3& from_world_m, const Vec3& to_world_m,
+                  double radius_m) {
   const GridGeometry& geometry = grid.geometry();
-  const Vec3f from_m = geometry.nearest_inside(from_world_m).cast<float>();
   const Vec3 to_m = geometry.nearest_inside(to_world_m);
-  const Key own = geometry.key_of(from_m);
-  bool is_free = is_known_free(grid, geometry.key_of(to_m), own);
-  if (!is_free) return false;
-  walk_ray(geometry, from_m, to_m.cast<float>(),
-           [&](const Key& key) { return is_free = is_known_free(grid, key, own); });
+  if (!FreeFromVehicle(grid, from_world_m, 0.0).is_free(geometry.key_of(to_m))) return false;
+  FreeFromVehicle line(grid, from_world_m, radius_m);
+  bool is_free = true;
+  walk_ray(geometry, geometry.nearest_inside(from_world_m).cast<float>(), to_m.cast<float>(),
+           [&](const Key& key) { return is_free = line.is_free(key); });
   return is_free;
 }
 
@@ -137,11 +148,9 @@ std::optional<Rejection> FreeSpace::rejection_at(const Vec3& p_world_m,
   if (!no_fly.allows(p_world_m)) return Rejection::no_fly;
   const GridGeometry& geometry = grid.geometry();
   const Vec3 inside_m = geometry.nearest_inside(p_world_m);
-  const Key own = geometry.key_of(geometry.nearest_inside(own_world_m));
   const bool may_be_unknown = allow_unknown && grid.state_at(inside_m) == VoxelState::unknown;
-  if (!may_be_unknown && !is_known_free(grid, geometry.key_of(inside_m), own)) {
-    return Rejection::not_free;
-  }
+  const bool is_free = FreeFromVehicle(grid, own_world_m, 0.0).is_free(geometry.key_of(inside_m));
+  if (!is_free && !may_be_unknown) return Rejection::not_free;
   if (!is_sphere_clear(grid, p_world_m, radius_m)) return Rejection::collision;
   return std::nullopt;
 }
@@ -152,7 +161,7 @@ bool FreeSpace::is_leg_clear(const Vec3& from_world_m, const Vec3& to_world_m) c
 }
 
 bool FreeSpace::is_leg_free(const Vec3& from_world_m, const Vec3& to_world_m) const {
-  return (allow_unknown || is_line_free(grid, from_world_m, to_world_m)) &&
+  return (allow_unknown || is_line_free(grid, from_world_m, to_world_m, radius_m)) &&
          is_leg_clear(from_world_m, to_world_m);
 }
 

@@ -27,13 +27,28 @@ bool is_sphere_clear(const OccupancyGrid& grid, const Vec3& p_world_m, double ra
 bool is_path_clear(const OccupancyGrid& grid, const Vec3& from_world_m, const Vec3& to_world_m,
                    double radius_m);
 
-/// Whether the voxel is known to be free. That in which the vehicle is, `own`, is free by
-/// definition: no camera sees it, and the vehicle fits in it.
-bool is_known_free(const OccupancyGrid& grid, const Key& key, const Key& own);
+/// Whether voxels are known to be free, asked in their order along a line that begins where the
+/// vehicle is. Its own voxel is free by definition: no camera sees it. As long as it has not been
+/// seen, neither is what is about it: up to the first voxel that has, unknown ones within the
+/// vehicle's radius are free, too.
+class FreeFromVehicle {
+ public:
+  FreeFromVehicle(const OccupancyGrid& grid, const Vec3& own_world_m, double radius_m);
+  bool is_free(const Key& key);
 
-/// Whether every voxel that the line crosses is known to be free; the vehicle is where it begins.
-/// Ends on the workspace's faces or beyond count as just inside.
-bool is_line_free(const OccupancyGrid& grid, const Vec3& from_world_m, const Vec3& to_world_m);
+ private:
+  const OccupancyGrid& grid_;
+  Vec3 own_m_;
+  Key own_;
+  double radius_m_;
+  bool is_blind_ = true;
+};
+
+/// Whether every voxel that the line crosses is known to be free, for a vehicle of that radius
+/// where it begins; the last one has to have been seen. Ends on the workspace's faces or beyond
+/// count as just inside.
+bool is_line_free(const OccupancyGrid& grid, const Vec3& from_world_m, const Vec3& to_world_m,
+                  double radius_m = 0.0);
 
 /// Where the vehicle may be and which straight legs it may fly, by what is known now. Refers to
 /// what it is made of.

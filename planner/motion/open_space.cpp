@@ -11,6 +11,7 @@ OpenSpace::OpenSpace(const GridGeometry& geometry, const Box3& navigation_m, con
                      double radius_m)
     : geometry_(geometry),
       navigation_m_(navigation_m),
+      radius_m_(radius_m),
       near_occupied_(geometry.voxel_count()),
       was_occupied_(geometry.voxel_count()) {
   // a cube at exactly the radius is near to some ways of rounding
@@ -63,11 +64,11 @@ bool OpenSpace::is_line_open(const OccupancyGrid& grid, const Vec3& from_world_m
   const Vec3 to_m = geometry_.nearest_inside(to_world_m);
   if (!is_open(grid, geometry_.key_of(to_m))) return false;
   const Vec3f from_m = geometry_.nearest_inside(from_world_m).cast<float>();
-  const Key own = geometry_.key_of(from_m);
+  FreeFromVehicle line(grid, from_world_m, radius_m_);
   bool is_clear = true;
   bool was_open = false;
   walk_ray(geometry_, from_m, to_m.cast<float>(), [&](const Key& key) {
-    if (!is_known_free(grid, key, own)) return is_clear = false;
+    if (!line.is_free(key)) return is_clear = false;
     const bool is_away = near_occupied_[geometry_.index_of(key)] == 0;
     is_clear = is_away || !was_open;
     was_open = was_open || is_away;

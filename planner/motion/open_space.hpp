@@ -30,6 +30,7 @@ class OpenSpace {
  private:
   GridGeometry geometry_;
   Box3 navigation_m_;
+  double radius_m_;
   std::vector<Key> ball_;                     // offsets at which an occupied voxel is too near
   ZeroedArray<std::uint32_t> near_occupied_;  // so many, and one more where nobody may fly
   ZeroedArray<std::uint8_t> was_occupied_;

@@ -17,7 +17,7 @@ void pack(const SurfaceCells& cells, CellBlocks::Block& block) {
     const SurfaceCell& cell = cells.cells()[index];
     if (cell.discs_m.empty() && !cell.is_boundary) continue;
     CellBlocks::Cell packed{.middle_m = cell.on_plane_m, .index = index, .changed = cell.changed};
-    if (cell.has_plane) packed.normal = cell.normal;
+    if (cell.has_plane && !cell.is_bar) packed.normal = cell.normal;
     if (!cell.is_boundary) {
       Vec3f sum_m = Vec3f::Zero();
       for (const Vec3f& disc_m : cell.discs_m) sum_m += disc_m;

@@ -7,13 +7,11 @@ namespace gnbv {
 ObservationTable::ObservationTable(const OrienteeringProblem& problem)
     : first_(problem.weight.size() + 1, 0) {
   for (const auto& observations : problem.observations) {
-    first_of_view_.push_back(odds_.size());
     for (const ItemObservation& one : observations) {
       GNBV_CHECK(one.item < problem.weight.size() && one.success >= 0.0F && one.success < 1.0F,
                  "observation of item {} of {} with success {}", one.item, problem.weight.size(),
                  one.success);
       ++first_[one.item + 1];
-      odds_.push_back(one.success / (1.0F - one.success));
     }
   }
   for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
@@ -66,9 +64,9 @@ void ExpectedCover::remove(std::uint32_t view) {
 
 double ExpectedCover::loss_without(std::uint32_t view) const {
   double loss = 0.0;
-  const float* odds = table_->odds(view);
   for (const ItemObservation& one : problem_->observations[view]) {
-    loss += static_cast<double>(problem_->weight[one.item] * *odds++) * missed_[one.item];
+    const float odds = one.success / (1.0F - one.success);
+    loss += static_cast<double>(problem_->weight[one.item] * odds) * missed_[one.item];
   }
   return loss;
 }

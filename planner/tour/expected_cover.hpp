@@ -9,7 +9,7 @@
 
 namespace gnbv {
 
-/// The observations of all views, and for each item those of it.
+/// For each item the observations of it.
 class ObservationTable {
  public:
   explicit ObservationTable(const OrienteeringProblem& problem);
@@ -21,14 +21,10 @@ class ObservationTable {
   std::span<const Holder> holders(std::uint32_t item) const {
     return std::span(holders_).subspan(first_[item], first_[item + 1] - first_[item]);
   }
-  /// success / (1 - success) of each observation of the view.
-  const float* odds(std::uint32_t view) const { return &odds_[first_of_view_[view]]; }
 
  private:
   std::vector<std::size_t> first_;  // holder of each item
   std::vector<Holder> holders_;
-  std::vector<std::size_t> first_of_view_;
-  std::vector<float> odds_;
 };
 
 /// Expected weight found is the sum of weight (1 - product of the observations' failures). A view

@@ -77,6 +77,11 @@ void GainCalibration::settle(SurfaceCells& cells) {
     kept.found = kFade * kept.found + seen.found;
   }
   predictions_.clear();
+  predicted_ = found_ = 0.0;
+  for (const GainOutcome& outcome : outcomes_) {
+    predicted_ += outcome.predicted;
+    found_ += outcome.found;
+  }
 }
 
 Key GainCalibration::cube_of(const Patch& patch) const {
@@ -110,18 +115,6 @@ void GainCalibration::book(const Prediction& prediction, double found) {
   same->missing += static_cast<double>(prediction.patch.missing);
   same->predicted += static_cast<double>(prediction.gain);
   same->found += found;
-}
-
-double GainCalibration::predicted() const {
-  double sum = 0.0;
-  for (const GainOutcome& outcome : outcomes_) sum += outcome.predicted;
-  return sum;
-}
-
-double GainCalibration::found() const {
-  double sum = 0.0;
-  for (const GainOutcome& outcome : outcomes_) sum += outcome.found;
-  return sum;
 }
 
 }  // namespace gnbv

@@ -95,8 +95,8 @@ class GainCalibration {
 
   /// Of the last settle(), by kind, and of all kinds together.
   std::span<const GainOutcome> outcomes() const { return outcomes_; }
-  double predicted() const;
-  double found() const;
+  double predicted() const { return predicted_; }
+  double found() const { return found_; }
 
  private:
   struct Prediction {
@@ -116,6 +116,7 @@ class GainCalibration {
   std::map<Key, Kept> kept_;  // by cube
   std::vector<Prediction> predictions_;
   std::vector<GainOutcome> outcomes_;
+  double predicted_ = 0.0, found_ = 0.0;
 };
 
 }  // namespace gnbv

@@ -22,20 +22,42 @@ void for_each_neighbour(const Key& key, const Use& use) {
   }
 }
 
-struct Plane {
+struct Fit {
   Vec3 mean_m;  // relative to where the moments are
   Vec3 normal;
+  std::optional<Vec3> axis;  // of a bar
 };
 
-/// The plane of least squares; nothing where the points lie on a line, or at one place.
-std::optional<Plane> fit_plane(const PointMoments& moments, double least_spread_m) {
+/// What the points lie on. The eigenvalues of their covariance are the squares of how far they
+/// spread along its eigenvectors, the least first. Two that are large: the plane of least squares.
+/// Only the last: a bar along its eigenvector; it faces all that is about it, and its normal is the
+/// level one. None: nothing.
+std::optional<Fit> fit_points(const PointMoments& moments, double least_spread_m) {
   if (moments.count < 3.0) return std::nullopt;
   const Vec3 mean_m = moments.sum_m / moments.count;
   const Eigen::Matrix3d covariance =
       moments.squares_m2 / moments.count - mean_m * mean_m.transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
-  if (solver.eigenvalues()[1] < least_spread_m * least_spread_m) return std::nullopt;
-  return Plane{mean_m, solver.eigenvectors().col(0)};
+  const double least_m2 = least_spread_m * least_spread_m;
+  if (solver.eigenvalues()[1] >= least_m2) return Fit{mean_m, solver.eigenvectors().col(0), {}};
+  constexpr double kBarSpreads2 = 4.0;  // a bar is at least twice as long as a plane is wide
+  if (solver.eigenvalues()[2] < kBarSpreads2 * least_m2) return std::nullopt;
+  const Vec3 axis = solver.eigenvectors().col(2);
+  const Vec3 level = axis.cross(Vec3::UnitZ());
+  return Fit{mean_m, level.norm() > 0.1 ? Vec3(level.normalized()) : Vec3::UnitX(), axis};
+}
+
+GridGeometry lattice_of(const Box3& workspace_m, double detail_m) {
+  constexpr double kMostCells = 2147483648.0;  // numbers of 31 bits
+  const double cell_m = SurfaceCell::kSide * detail_m;
+  const double cells = (workspace_m.sizes() / cell_m + Vec3::Constant(2.0)).prod();
+  if (cells > kMostCells) {
+    throw BadInput(
+        fmt::format("planner.tour.detail_m: {} m makes {:.2g} cells of the surface in "
+                    "this workspace; at most {:.0g} can be numbered",
+                    detail_m, cells, kMostCells));
+  }
+  return {workspace_m, cell_m};
 }
 
 }  // namespace
@@ -57,7 +79,7 @@ void PointMoments::add(const PointMoments& other, const Vec3& offset_m) {
 
 SurfaceCells::SurfaceCells(const Box3& workspace_m, double detail_m)
     : detail_m_(detail_m),
-      lattice_(workspace_m, SurfaceCell::kSide * detail_m),
+      lattice_(lattice_of(workspace_m, detail_m)),
       at_(lattice_.voxel_count()) {}
 
 std::uint32_t SurfaceCells::cell_at(const Key& key) {
@@ -83,6 +105,15 @@ Vec3 SurfaceCells::voxel_center_m(const SurfaceCell& cell, int bit) const {
          detail_m_ * (at + Vec3::Constant(0.5));
 }
 
+int SurfaceCells::bit_at(const Vec3& from_center_m) const {
+  int bit = 0;
+  for (int axis = 2; axis >= 0; --axis) {
+    const double at = (from_center_m[axis] + 0.5 * edge_m()) / detail_m_;
+    bit = bit * SurfaceCell::kSide + std::clamp(static_cast<int>(at), 0, SurfaceCell::kSide - 1);
+  }
+  return bit;
+}
+
 void SurfaceCells::count_observation(std::uint32_t cell, std::size_t side) {
   std::uint8_t& observations = cells_[cell].observations[side];
   if (observations < 0xff) ++observations;
@@ -103,22 +134,27 @@ PointMoments SurfaceCells::moments_around(const Key& key) const {
 void SurfaceCells::fit(SurfaceCell& cell, const OccupancyGrid& grid) const {
   constexpr double kEnoughPoints = 12.0;
   const double least_spread_m = 0.15 * edge_m();
-  std::optional<Plane> plane;
-  if (cell.moments.count >= kEnoughPoints) plane = fit_plane(cell.moments, 1.3 * least_spread_m);
-  if (!plane) plane = fit_plane(moments_around(cell.key), least_spread_m);
+  std::optional<Fit> found;
+  if (cell.moments.count >= kEnoughPoints) found = fit_points(cell.moments, 1.3 * least_spread_m);
+  if (!found || found->axis) found = fit_points(moments_around(cell.key), least_spread_m);
   const std::uint64_t expected_before = cell.expected;
   cell.expected = 0;
-  cell.has_plane = plane.has_value();
-  if (plane) {
+  cell.has_plane = found.has_value();
+  cell.is_bar = found && found->axis;
+  if (found) {
     const bool had_normal = cell.normal != Vec3f::Zero();
-    const bool is_turned = had_normal && cell.normal.dot(plane->normal.cast<float>()) < 0.0F;
+    const bool is_turned = had_normal && cell.normal.dot(found->normal.cast<float>()) < 0.0F;
     const Vec3 center_m = lattice_.center_m(cell.key);
-    cell.normal = ((is_turned ? -1.0 : 1.0) * plane->normal).cast<float>();
+    cell.normal = ((is_turned ? -1.0 : 1.0) * found->normal).cast<float>();
     // with own points few, the plane has to go through them
     const Vec3 mean_m =
-        cell.moments.count > 0.0 ? Vec3(cell.moments.sum_m / cell.moments.count) : plane->mean_m;
+        cell.moments.count > 0.0 ? Vec3(cell.moments.sum_m / cell.moments.count) : found->mean_m;
     cell.on_plane_m = (center_m + mean_m).cast<float>();
-    expect_section(cell);
+    if (found->axis) {
+      expect_bar(cell, *found->axis);
+    } else {
+      expect_section(cell);
+    }
     const Vec3 middle_m = cell.on_plane_m.cast<double>();
     if (cell.is_extrapolated() && grid.state_at(middle_m) == VoxelState::free) cell.expected = 0;
   }
@@ -144,6 +180,27 @@ void SurfaceCells::expect_section(SurfaceCell& cell) const {
   }
 }
 
+/// The voxels that the axis crosses. Where one that holds a point lies beside it, as the bar's own
+/// surface does, that one stands for it.
+void SurfaceCells::expect_bar(SurfaceCell& cell, const Vec3& axis) const {
+  constexpr double kBeside = 1.2;  // voxels from the axis
+  const Vec3 center_m = lattice_.center_m(cell.key);
+  const Vec3 on_axis_m = cell.on_plane_m.cast<double>() - center_m;
+  const double step_m = 0.25 * detail_m_;
+  const auto steps = static_cast<int>(std::ceil(2.0 * edge_m() / step_m));
+  for (int i = -steps; i <= steps; ++i) {
+    const Vec3 p_m = on_axis_m + i * step_m * axis;
+    if (p_m.cwiseAbs().maxCoeff() >= 0.5 * edge_m()) continue;
+    std::uint64_t beside = 0;
+    for (std::uint64_t left = cell.covered; left != 0; left &= left - 1) {
+      const int bit = std::countr_zero(left);
+      const double off_m = (voxel_center_m(cell, bit) - center_m - p_m).norm();
+      if (off_m <= kBeside * detail_m_) beside |= std::uint64_t{1} << bit;
+    }
+    cell.expected |= beside != 0 ? beside : std::uint64_t{1} << bit_at(p_m);
+  }
+}
+
 /// One for each eighth of the cell that has surface, where that is.
 void SurfaceCells::place_discs(SurfaceCell& cell) const {
   constexpr int kHalf = SurfaceCell::kSide / 2;
@@ -157,7 +214,7 @@ void SurfaceCells::place_discs(SurfaceCell& cell) const {
     const int z = bit / 16 / kHalf;
     const auto part = static_cast<std::size_t>(x + 2 * y + 4 * z);
     Vec3 center_m = voxel_center_m(cell, bit);
-    if (cell.has_plane) {
+    if (cell.has_plane && !cell.is_bar) {
       const Vec3 normal = cell.normal.cast<double>();
       const double off_m = normal.dot(center_m - cell.on_plane_m.cast<double>());
       if (std::fabs(off_m) < detail_m_) center_m -= off_m * normal;
@@ -183,12 +240,7 @@ void SurfaceCells::add(std::span<const Vec3f> points_world_m, const OccupancyGri
     SurfaceCell& cell = cells_[index];
     const Vec3 from_center_m = point_m.cast<double>() - lattice_.center_m(key);
     cell.moments.add(from_center_m);
-    int bit = 0;
-    for (int axis = 2; axis >= 0; --axis) {
-      const double at = (from_center_m[axis] + 0.5 * edge_m()) / detail_m_;
-      bit = bit * SurfaceCell::kSide + std::clamp(static_cast<int>(at), 0, SurfaceCell::kSide - 1);
-    }
-    cell.covered |= std::uint64_t{1} << bit;
+    cell.covered |= std::uint64_t{1} << bit_at(from_center_m);
     if (touched.empty() || touched.back() != index) touched.push_back(index);
   }
   std::sort(touched.begin(), touched.end());

@@ -30,8 +30,9 @@ struct SurfaceCell {
   Key key = {0, 0, 0};
   PointMoments moments;        // of its own points
   std::uint64_t covered = 0;   // voxels that hold a point, x fastest
-  std::uint64_t expected = 0;  // voxels of which the plane crosses enough
+  std::uint64_t expected = 0;  // voxels of which the plane crosses enough, or a bar's axis any
   bool has_plane = false;
+  bool is_bar = false;       // the plane is one through the axis of a thin bar
   bool is_boundary = false;  // no plane: unknown space beside free and occupied, normal outwards
   Vec3f on_plane_m = Vec3f::Zero();  // the middle of what the plane has of the cell
   Vec3f normal = Vec3f::Zero();      // of no particular side, the same side for ever
@@ -52,7 +53,8 @@ class SurfaceCells {
   SurfaceCells(const Box3& workspace_m, double detail_m);
 
   /// Adds points, and fits again what they change. Cells beside those with points are extrapolated
-  /// along the plane, but not into space that the map knows to be free.
+  /// along the plane, but not into space that the map knows to be free. Points that lie along a
+  /// line and on no plane are those of a thin bar.
   void add(std::span<const Vec3f> points_world_m, const OccupancyGrid& grid, int threads);
   /// Drops extrapolated cells that the map has found free, and finds the boundaries anew: unknown
   /// voxels beside free and occupied ones, where the cells expect nothing.
@@ -76,6 +78,8 @@ class SurfaceCells {
   PointMoments moments_around(const Key& key) const;
   void fit(SurfaceCell& cell, const OccupancyGrid& grid) const;
   void expect_section(SurfaceCell& cell) const;
+  void expect_bar(SurfaceCell& cell, const Vec3& axis) const;
+  int bit_at(const Vec3& from_center_m) const;
   void place_discs(SurfaceCell& cell) const;
   void mark_boundary(const OccupancyGrid& grid, const Key& voxel);
 

@@ -117,7 +117,7 @@ std::vector<Vec3> points_for_unseen(const NodeSearch& search, std::span<const Pa
   for (const auto& [key, cube] : cubes) {
     const auto before = searched.find(key);
     const int times = before == searched.end() ? 0 : before->second;
-    if (cube.missing >= kLeast && times == 0) order.emplace_back(times, -cube.missing, key);
+    if (cube.missing >= kLeast && times != kFound) order.emplace_back(times, -cube.missing, key);
   }
   std::sort(order.begin(), order.end());
   order.resize(std::min(order.size(), kCubes));

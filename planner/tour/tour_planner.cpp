@@ -93,9 +93,10 @@ bool solve_tour(const Step& step) {
       from.push_back(static_cast<std::uint32_t>(same - task.views.begin()));
     }
   }
-  const TourSearch search = {.iterations = step.config.iterations,
-                             .seed = static_cast<std::uint64_t>(state.searches++),
-                             .heed_stop = step.heed_stop()};
+  const TourSearch search = {
+      .iterations = step.config.iterations,
+      .seed = random_bits({step.model.seed, Stream::tour_search, state.searches++, 0}),
+      .heed_stop = step.heed_stop()};
   const OrienteeringTour found = solve(task.problem, from, search);
   state.tour.clear();
   for (const std::uint32_t view : found.views) state.tour.push_back(task.views[view]);

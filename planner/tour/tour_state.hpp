@@ -41,7 +41,7 @@ struct TourState {
   int views_since_replan = 0;
   bool is_due = true;        // the tour has to be made anew
   double cost_factor = 1.0;  // of what a metre costs: halved while what is left does not pay
-  int searches = 0;
+  std::uint64_t searches = 0;
 };
 
 /// Between nodes of the lattice: a quarter of the cameras' range, but at least eight across the

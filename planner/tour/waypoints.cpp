@@ -32,12 +32,6 @@ void Waypoints::find_rows() {
   for (const std::uint32_t node : nodes_) rows_m_.push_back((*row_m_)(node).data());
 }
 
-void Waypoints::set_extras() {
-  extra_m_.resize(least_m_.size());
-  for (std::size_t n = 0; n < least_m_.size(); ++n) extra_m_[n] = std::max(least_m_[n], 0.0F);
-  for (const std::uint32_t node : nodes_) extra_m_[node] = 0.0F;
-}
-
 /// A visit to node n between the waypoints a and b adds d(a, n) + d(n, b) - d(a, b); behind the
 /// last one, z, it adds d(z, n). The least of these is kept, with where it comes. Each pass runs
 /// over all nodes in memory order, so that it is vectorized.
@@ -49,8 +43,9 @@ void Waypoints::find_detours() {
   float* const least_m = least_m_.data();
   std::int32_t* const at = at_.data();
   for (std::size_t i = 1; i < nodes_.size(); ++i) {
-    const float leg_m = known_leg_m(i);
     const float* const from_m = rows_m_[i - 1];
+    const float way_m = from_m[nodes_[i]];
+    const float leg_m = std::isfinite(way_m) ? way_m : 0.0F;
     const float* const to_m = rows_m_[i];
     for (std::size_t n = 0; n < nodes; ++n) {
       const float extra = from_m[n] + to_m[n] - leg_m;
@@ -58,48 +53,14 @@ void Waypoints::find_detours() {
       least_m[n] = std::min(extra, least_m[n]);
     }
   }
-  set_extras();
+  extra_m_.resize(nodes);
+  for (std::size_t n = 0; n < nodes; ++n) extra_m_[n] = std::max(least_m_[n], 0.0F);
+  for (const std::uint32_t node : nodes_) extra_m_[node] = 0.0F;
 }
 
-/// Of one node, as find_detours() does of all.
-void Waypoints::find_detour(std::size_t node) {
-  least_m_[node] = rows_m_.back()[node];
-  at_[node] = static_cast<std::int32_t>(nodes_.size());
-  for (std::size_t i = 1; i < nodes_.size(); ++i) {
-    const float extra = detour_m(i, node, known_leg_m(i));
-    if (extra >= least_m_[node]) continue;
-    least_m_[node] = extra;
-    at_[node] = static_cast<std::int32_t>(i);
-  }
-}
-
-/// Nodes whose best detour was on the leg that the new waypoint breaks are asked of all legs again;
-/// all others of the two legs that it makes.
 void Waypoints::insert(std::uint32_t node) {
-  const std::int32_t broken = at_[node];
-  nodes_.insert(nodes_.begin() + broken, node);
-  find_rows();
-  const auto end = static_cast<std::int32_t>(nodes_.size());
-  for (std::size_t n = 0; n < least_m_.size(); ++n) {
-    if (at_[n] == broken) {
-      find_detour(n);
-      continue;
-    }
-    if (at_[n] > broken) ++at_[n];
-    for (std::int32_t i = broken; i <= std::min(broken + 1, end - 1); ++i) {
-      const auto waypoint = static_cast<std::size_t>(i);
-      const float extra = detour_m(waypoint, n, known_leg_m(waypoint));
-      const bool is_first_of_equals = extra == least_m_[n] && at_[n] != end && i < at_[n];
-      if (extra >= least_m_[n] && !is_first_of_equals) continue;
-      least_m_[n] = extra;
-      at_[n] = i;
-    }
-    if (broken + 1 == end && rows_m_.back()[n] <= least_m_[n]) {  // behind the new waypoint
-      least_m_[n] = rows_m_.back()[n];
-      at_[n] = end;
-    }
-  }
-  set_extras();
+  nodes_.insert(nodes_.begin() + at_[node], node);
+  find_detours();
 }
 
 /// The improvement needs ways that are as long both ways round, and that lead somewhere.

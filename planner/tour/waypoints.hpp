@@ -45,18 +45,7 @@ class Waypoints {
   double leg_m(std::uint32_t from, std::uint32_t to) const {
     return static_cast<double>((*row_m_)(from)[to]);
   }
-  /// From the waypoint before to this one; 0 where no way leads.
-  float known_leg_m(std::size_t waypoint) const {
-    const float leg_m = rows_m_[waypoint - 1][nodes_[waypoint]];
-    return std::isfinite(leg_m) ? leg_m : 0.0F;
-  }
-  /// What a visit to the node would add between the waypoint before and this one.
-  float detour_m(std::size_t waypoint, std::size_t node, float known_leg_m) const {
-    return rows_m_[waypoint - 1][node] + rows_m_[waypoint][node] - known_leg_m;
-  }
   void find_rows();
-  void find_detour(std::size_t node);
-  void set_extras();
 
   const RowOf* row_m_;
   std::vector<std::uint32_t> nodes_;

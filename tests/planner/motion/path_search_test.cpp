@@ -105,19 +105,22 @@ TEST(FindPath, InALargerBoxItLooksAtMore) {
   EXPECT_EQ(rejected(24000), std::nullopt);  // fewer than there are: in this box it stands for more
 }
 
-/// No camera sees the voxel that the vehicle is in.
-TEST(FindPath, BeginsInAVoxelThatNobodyHasSeen) {
+/// No camera sees the voxels that the vehicle is in.
+TEST(FindPath, BeginsInVoxelsThatNobodyHasSeen) {
   OccupancyGrid grid(OccupancyConfig{}, kWorkspace);
   ScanUpdate update;
   const auto voxels = static_cast<VoxelIndex>(grid.geometry().voxel_count());
-  const VoxelIndex own = grid.geometry().index_of(grid.geometry().key_of(kFrom));
   for (VoxelIndex v = 0; v < voxels; ++v) {
-    if (v != own) update.free.push_back(v);
+    const Vec3 center_m = grid.geometry().center_m(grid.geometry().key_at(v));
+    if ((center_m - kFrom).norm() > 0.5) update.free.push_back(v);
   }
   grid.apply(update);
   EXPECT_FALSE(search(grid).rejected);
-  EXPECT_TRUE(is_line_free(grid, kFrom, kTo));
-  EXPECT_FALSE(is_line_free(grid, kTo, kFrom));  // for a vehicle that is elsewhere
+  EXPECT_TRUE(is_line_free(grid, kFrom, kTo, kRadius_m));
+  EXPECT_FALSE(is_line_free(grid, kFrom, kTo, 0.3)) << "more than the vehicle is large";
+  EXPECT_FALSE(is_line_free(grid, kTo, kFrom, kRadius_m)) << "for a vehicle that is elsewhere";
+  const Vec3 beyond_m = kFrom - Vec3(2, 0, 0);
+  EXPECT_FALSE(is_line_free(grid, beyond_m, kTo, 10.0)) << "it was seen where it is";
 }
 
 TEST(FindPath, StaysInTheNavigationBox) {

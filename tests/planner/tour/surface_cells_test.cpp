@@ -5,7 +5,9 @@
 #include <bit>
 
 #include "planner/tour/patches.hpp"
+#include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
+#include "tests/planner/tour/free_grid.hpp"
 
 namespace gnbv {
 namespace {
@@ -103,6 +105,52 @@ TEST(SurfaceCells, PointsMayComeInAnyBatchesAndThreads) {
   EXPECT_EQ(alike, at_once.cells().size());
 }
 
+/// Points on the surface of a square bar of 2 m about (0, 0, 1), `width_m` wide.
+std::vector<Vec3f> bar(const Vec3& axis, double width_m, double step_m) {
+  const Vec3 u = axis.unitOrthogonal();
+  const Vec3 v = axis.cross(u);
+  std::vector<Vec3f> points;
+  for (double a = -1.0; a <= 1.0; a += step_m) {
+    for (int side = 0; side < 4; ++side) {
+      const double off_u_m = (side % 2 == 0 ? 0.5 : -0.5) * width_m;
+      const double off_v_m = (side / 2 == 0 ? 0.5 : -0.5) * width_m;
+      points.push_back(
+          (Vec3(0.01, 0.02, 1.03) + a * axis + off_u_m * u + off_v_m * v).cast<float>());
+    }
+  }
+  return points;
+}
+
+float missing_voxels(const SurfaceCells& cells, const OccupancyGrid& grid) {
+  float sum = 0.0F;
+  for (const Patch& patch : find_patches(cells, grid, 1)) sum += patch.missing;
+  return sum;
+}
+
+TEST(SurfaceCells, AThinBarLacksPointsUntilItIsScanned) {
+  const OccupancyGrid grid = free_grid(kBox);
+  for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0, 0, 1), Vec3(1, 2, 0.5)}) {
+    for (const double width_m : {0.02, 0.04}) {
+      SurfaceCells cells(kBox, 0.05);
+      cells.add(bar(axis.normalized(), width_m, 0.2), grid, 1);
+      const float before = missing_voxels(cells, grid);
+      EXPECT_GT(before, 15.0F) << width_m;  // of 40 along it, two sides
+      cells.add(bar(axis.normalized(), width_m, 0.01), grid, 1);
+      EXPECT_LT(missing_voxels(cells, grid), 0.35F * before) << width_m;
+    }
+  }
+}
+
+TEST(SurfaceCells, ADetailThatIsTooFineIsRefusedByItsName) {
+  const Box3 large_m(Vec3(0, 0, 0), Vec3(100, 100, 40));
+  try {
+    SurfaceCells(large_m, 0.005);
+    FAIL() << "accepted";
+  } catch (const BadInput& error) {
+    EXPECT_NE(std::string(error.what()).find("planner.tour.detail_m: 0.005"), std::string::npos);
+  }
+}
+
 TEST(Patches, ASurfaceHasTheSidesThatSpaceIsFreeBefore) {
   OccupancyGrid grid = unknown_grid();
   std::vector<VoxelIndex> above;
@@ -123,7 +171,7 @@ TEST(Patches, ASurfaceHasTheSidesThatSpaceIsFreeBefore) {
   EXPECT_GT(sides, 50);
 }
 
-TEST(Patches, LooksAtEitherSideCountForBoth) {
+TEST(Patches, ObservationsOfEitherSideCountForBoth) {
   const OccupancyGrid grid = unknown_grid();
   SurfaceCells cells(kBox, 0.05);
   cells.add(square(Vec3::UnitZ(), 0.1), grid, 1);

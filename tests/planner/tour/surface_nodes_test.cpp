@@ -60,7 +60,25 @@ TEST(SurfaceNodes, AreNoneBehindAWallAndFewerCubesEachTime) {
   const NodeSearch search{open.grid, open.space, open.cameras};
   EXPECT_TRUE(points_for_unseen(search, patches, seen, searched).empty());
   EXPECT_EQ(points_for_unseen(search, patches, unseen, searched).size(), 2U);
-  EXPECT_TRUE(points_for_unseen(search, patches, unseen, searched).empty()) << "searched before";
+  EXPECT_TRUE(points_for_unseen(search, patches, unseen, searched).empty()) << "found before";
+}
+
+/// What was searched for in vain is searched for again, once space has opened.
+TEST(SurfaceNodes, AreFoundWhereSpaceOpensLater) {
+  OccupancyGrid grid = free_grid(kBox);
+  fill(grid, Box3(Vec3(0.8, -8, 0), Vec3(1.2, 8, 8)));
+  World world(std::move(grid));
+  const std::vector<Patch> patches = {kFacingEast};
+  const std::vector<std::uint8_t> unseen = {0};
+  SearchedCubes searched;
+  const auto found = [&] {
+    return points_for_unseen({world.grid, world.space, world.cameras}, patches, unseen, searched);
+  };
+  EXPECT_TRUE(found().empty());
+  world.grid = free_grid(kBox);
+  world.space.follow(world.grid);
+  EXPECT_EQ(found().size(), 2U);
+  EXPECT_TRUE(found().empty()) << "found before";
 }
 
 }  // namespace
