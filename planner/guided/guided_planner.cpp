@@ -133,7 +133,7 @@ class Decider {
     constexpr std::size_t kPiece = 32;
     parallel_for_chunks(scratch_.threads, candidates.size(), kPiece, [&](auto begin, auto end) {
       ViewChecker checker(validity_, model_.navigation_m, model_.no_fly, belief_.grid, recent_,
-                          current_);
+                          current_, [this] { scratch_.heed_stop(); });
       for (Candidate& candidate : candidates.subspan(begin, end - begin)) check(checker, candidate);
     });
   }

@@ -17,8 +17,9 @@ double lattice_step_m(const FreeSpace& space) {
 class LatticeGraph {
  public:
   LatticeGraph(const FreeSpace& space, const Vec3& from_world_m, const Vec3& to_world_m,
-               int max_expansions)
+               int max_expansions, const std::function<void()>& heed_stop)
       : space_(space),
+        heed_stop_(heed_stop),
         from_m_(from_world_m),
         to_m_(to_world_m),
         step_m_(lattice_step_m(space)),
@@ -39,6 +40,7 @@ class LatticeGraph {
   double rest_m(GraphNode node) const { return (to_m_ - p_world_m(node)).norm(); }
   std::uint64_t rank(GraphNode /*node*/) { return found_++; }
   AtNode come_to(GraphNode node, double /*found_m*/) {
+    if (heed_stop_) heed_stop_();
     if (expansions_left_-- == 0) {
       has_ended_early_ = true;
       return AtNode::stop;
@@ -73,6 +75,7 @@ class LatticeGraph {
   }
 
   const FreeSpace& space_;
+  const std::function<void()>& heed_stop_;
   Vec3 from_m_, to_m_;
   double step_m_;
   int expansions_left_;
@@ -145,8 +148,9 @@ int search_limit(const PathSearchConfig& config, const FreeSpace& space) {
 }
 
 FoundPath find_path(const PathSearchConfig& config, const FreeSpace& space,
-                    const Vec3& from_world_m, const Vec3& to_world_m) {
-  LatticeGraph lattice(space, from_world_m, to_world_m, search_limit(config, space));
+                    const Vec3& from_world_m, const Vec3& to_world_m,
+                    const std::function<void()>& heed_stop) {
+  LatticeGraph lattice(space, from_world_m, to_world_m, search_limit(config, space), heed_stop);
   Ways<double> ways;
   find_ways(lattice, 0, ways);
   if (!lattice.last()) {

@@ -21,8 +21,10 @@ struct FoundPath {
 /// node, over legs that may be flown (FreeSpace::is_leg_free) inside the navigation box; then
 /// straightened greedily. path_blocked where no way is left to look at, search_limit where the
 /// search ended before. Deterministic: of equal nodes the one found first is looked at first.
+/// `heed_stop` is called for every node that is looked at, and may throw.
 FoundPath find_path(const PathSearchConfig& config, const FreeSpace& space,
-                    const Vec3& from_world_m, const Vec3& to_world_m);
+                    const Vec3& from_world_m, const Vec3& to_world_m,
+                    const std::function<void()>& heed_stop = {});
 
 /// Nodes that find_path() looks at before it gives up: max_expansions; in a navigation box of more
 /// than 40,000 nodes as many times that as it has more.

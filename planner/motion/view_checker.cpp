@@ -34,7 +34,7 @@ FoundPath ViewChecker::path_to(const Vec3& p_world_m) const {
       break;
     case PathCheck::astar:
       if (space_.is_leg_free(from_m, p_world_m)) return {};
-      return find_path(config_.path_search, space_, from_m, p_world_m);
+      return find_path(config_.path_search, space_, from_m, p_world_m, heed_stop_);
   }
   return {Rejection::path_blocked, {}};
 }

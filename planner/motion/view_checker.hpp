@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "planner/motion/path_search.hpp"
 
@@ -11,13 +12,15 @@ namespace gnbv {
 /// Checks views from one place, one after another; those of one position share its checks.
 class ViewChecker {
  public:
-  /// Keeps references to all of them.
+  /// Keeps references to all of them. `heed_stop` is called now and then, and may throw.
   ViewChecker(const ValidityConfig& config, const Box3& navigation_m, const NoFly& no_fly,
-              const OccupancyGrid& grid, std::span<const ViewPose> recent, const ViewPose& current)
+              const OccupancyGrid& grid, std::span<const ViewPose> recent, const ViewPose& current,
+              std::function<void()> heed_stop = {})
       : config_(config),
         space_{grid, navigation_m, no_fly, config.collision_radius_m, config.allow_unknown},
         recent_(recent),
-        current_(current) {}
+        current_(current),
+        heed_stop_(std::move(heed_stop)) {}
 
   /// Whether the view may be flown to, and the way there.
   FoundPath check(const ViewPose& view);
@@ -35,6 +38,7 @@ class ViewChecker {
   const FreeSpace space_;
   std::span<const ViewPose> recent_;
   const ViewPose& current_;
+  const std::function<void()> heed_stop_;
   std::optional<Vec3> checked_m_;  // the position at hand, and what was found there
   FoundPath at_position_;
 };

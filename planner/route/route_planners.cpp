@@ -18,8 +18,8 @@ ValidityConfig with_ways_around(ValidityConfig validity) {
 /// their reason of rejection.
 Plan first_flyable(const PlannerModel& model, const Belief& belief,
                    std::span<const ViewPose> recent, std::span<const ViewPose> views,
-                   const ViewPose& current) {
-  UserViewChecker checker(model, belief, recent, current);
+                   const ViewPose& current, const Scratch& scratch) {
+  UserViewChecker checker(model, belief, recent, current, [&scratch] { scratch.heed_stop(); });
   Plan plan{.end = Termination::no_valid_view};
   for (const ViewPose& view : views) {
     plan.candidates.push_back({.view = view, .sampler = Sampler::route});
@@ -34,10 +34,12 @@ Plan first_flyable(const PlannerModel& model, const Belief& belief,
 }  // namespace
 
 UserViewChecker::UserViewChecker(const PlannerModel& model, const Belief& belief,
-                                 std::span<const ViewPose> recent, const ViewPose& current)
+                                 std::span<const ViewPose> recent, const ViewPose& current,
+                                 std::function<void()> heed_stop)
     : model_(model),
       validity_(with_ways_around(model.validity)),
-      checker_(validity_, model.navigation_m, model.no_fly, belief.grid, recent, current) {}
+      checker_(validity_, model.navigation_m, model.no_fly, belief.grid, recent, current,
+               std::move(heed_stop)) {}
 
 void UserViewChecker::check(Candidate& candidate) {
   gnbv::check(checker_, candidate);
@@ -61,9 +63,9 @@ void LaidRoutePlanner::begin(const Belief& profile, const ViewPose& start) {
 }
 
 Plan LaidRoutePlanner::next(const Belief& belief, const History& history, const ViewPose& current,
-                            Scratch&) {
+                            Scratch& scratch) {
   Plan plan = first_flyable(model_, belief, recent_views(history, model_.validity.recent_poses),
-                            ahead_, current);
+                            ahead_, current, scratch);
   if (plan.has_view()) {
     ahead_.erase(ahead_.begin(),
                  ahead_.begin() + static_cast<std::ptrdiff_t>(plan.candidates.size()));
@@ -92,8 +94,10 @@ UserRoutePlanner::UserRoutePlanner(std::vector<ViewPose> views, NextView next_vi
       on_refused_(std::move(on_refused)),
       model_(model) {}
 
-Plan UserRoutePlanner::try_known(const Belief& belief, const ViewPose& current) {
-  Plan plan = first_flyable(model_, belief, {}, std::span(views_).subspan(tried_), current);
+Plan UserRoutePlanner::try_known(const Belief& belief, const ViewPose& current,
+                                 const Scratch& scratch) {
+  Plan plan =
+      first_flyable(model_, belief, {}, std::span(views_).subspan(tried_), current, scratch);
   for (const Candidate& candidate : plan.candidates) {
     const std::size_t index = tried_++;
     if (candidate.rejected && on_refused_) on_refused_(index, *candidate.rejected);
@@ -103,12 +107,12 @@ Plan UserRoutePlanner::try_known(const Belief& belief, const ViewPose& current) 
 
 Plan UserRoutePlanner::next(const Belief& belief, const History&, const ViewPose& current,
                             Scratch& scratch) {
-  Plan plan = try_known(belief, current);
+  Plan plan = try_known(belief, current, scratch);
   while (!plan.has_view() && next_view_) {
     const std::optional<ViewPose> view = next_view_();
     if (!view) break;
     views_.push_back(*view);
-    Plan more = try_known(belief, current);
+    Plan more = try_known(belief, current, scratch);
     for (std::size_t& chosen : more.chosen) chosen += plan.candidates.size();
     std::move(more.candidates.begin(), more.candidates.end(), std::back_inserter(plan.candidates));
     plan.chosen = std::move(more.chosen);
@@ -120,8 +124,8 @@ Plan UserRoutePlanner::next(const Belief& belief, const History&, const ViewPose
 }
 
 Plan UserRoutePlanner::replay(std::span<const Decision> recorded, const Belief& belief,
-                              const History& history, const ViewPose& current, Scratch&) {
-  Plan plan = try_known(belief, current);
+                              const History& history, const ViewPose& current, Scratch& scratch) {
+  Plan plan = try_known(belief, current, scratch);
   need_as_recorded(plan, recorded, history.decisions.size());
   return plan;
 }

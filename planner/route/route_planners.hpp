@@ -19,7 +19,7 @@ class UserViewChecker {
  public:
   /// Everything referred to stays with the caller.
   UserViewChecker(const PlannerModel& model, const Belief& belief, std::span<const ViewPose> recent,
-                  const ViewPose& current);
+                  const ViewPose& current, std::function<void()> heed_stop = {});
   UserViewChecker(const UserViewChecker&) = delete;  // the checker refers to the rules beside it
   UserViewChecker& operator=(const UserViewChecker&) = delete;
   /// As ViewChecker::check(), and whether the gimbal can.
@@ -75,7 +75,7 @@ class UserRoutePlanner final : public Planner {
   static constexpr EndRules kToTheEnd = {.entropy = false, .gain = false, .repetition = false};
 
  private:
-  Plan try_known(const Belief& belief, const ViewPose& current);
+  Plan try_known(const Belief& belief, const ViewPose& current, const Scratch& scratch);
 
   std::vector<ViewPose> views_;
   std::size_t tried_ = 0;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
 #include "planner/motion/free_space.hpp"
 
 namespace gnbv {
@@ -121,6 +123,16 @@ TEST(FindPath, BeginsInVoxelsThatNobodyHasSeen) {
   EXPECT_FALSE(is_line_free(grid, kTo, kFrom, kRadius_m)) << "for a vehicle that is elsewhere";
   const Vec3 beyond_m = kFrom - Vec3(2, 0, 0);
   EXPECT_FALSE(is_line_free(grid, beyond_m, kTo, 10.0)) << "it was seen where it is";
+}
+
+TEST(FindPath, AsksAtEachNodeWhetherToStop) {
+  const OccupancyGrid grid = wall_up_to(7.0);
+  int asked = 0;
+  const auto stop = [&] {
+    if (++asked == 100) throw std::runtime_error("stop");
+  };
+  const FreeSpace space{grid, kWorkspace, kNoBoxes, kRadius_m, false};
+  EXPECT_THROW(find_path({}, space, kFrom, kTo, stop), std::runtime_error);
 }
 
 TEST(FindPath, StaysInTheNavigationBox) {
