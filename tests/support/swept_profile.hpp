@@ -7,6 +7,7 @@
 #include "planner/core/belief.hpp"
 #include "planner/core/model.hpp"
 #include "planner/core/scratch.hpp"
+#include "planner/profiling.hpp"
 #include "sensors/capture.hpp"
 #include "sensors/ray_scene.hpp"
 

@@ -8,8 +8,8 @@
 
 #include "assets/catalog.hpp"
 #include "assets/random/random_structure.hpp"
-#include "scenarios/validation_error.hpp"
 #include "scenarios/scenario.hpp"
+#include "scenarios/validation_error.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/mesh/mesh_file.hpp"

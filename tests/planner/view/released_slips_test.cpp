@@ -1,9 +1,8 @@
 // The two slips of the released code on hand-drawn maps.
-#include "planner/view/ray_by_ray.hpp"
-
 #include <gtest/gtest.h>
 
 #include "planner/guided/utility.hpp"
+#include "planner/view/ray_by_ray.hpp"
 #include "tests/planner/view/view_scene.hpp"
 
 namespace gnbv {

@@ -1,11 +1,10 @@
 // What is listed of a view is what was counted of it.
-#include "planner/view/ray_by_ray.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 
+#include "planner/view/ray_by_ray.hpp"
 #include "tests/planner/view/view_scene.hpp"
 
 namespace gnbv {
