@@ -89,16 +89,15 @@ TEST(Onboard, EndsByTheRulesAndSaysWhich) {
 }
 
 TEST(Onboard, TheUtilityOfTheUserDecides) {
-  // the higher, the better: of the grid's views none is higher than the next one
   OnboardSettings settings = small_settings();
-  settings.utility = {
-      "height", [](const ViewStats&, const ViewPose& view) { return view.p_world_m.z(); }, ""};
+  settings.utility = {"left turn",
+                      [](const ViewStats&, const ViewPose& view) { return view.yaw_rad; }, ""};
   Onboard planner(std::move(settings));
   planner.add_view(kStart, frames_from(kStart));
   const std::optional<Decision> next = planner.next_view();
   ASSERT_TRUE(next);
-  EXPECT_GT(next->view.p_world_m.z(), kStart.p_world_m.z());
-  EXPECT_EQ(next->score.value, next->view.p_world_m.z());
+  EXPECT_NEAR(next->view.yaw_rad, kStart.yaw_rad + deg_to_rad(45.0), 1e-12);
+  EXPECT_EQ(next->score.value, next->view.yaw_rad);
 }
 
 TEST(Onboard, StopsWhereItIsAskedTo) {
