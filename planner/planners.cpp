@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "planner/guided/guided_planner.hpp"
+#include "planner/map/memory.hpp"
 #include "planner/tour/tour_planner.hpp"
+#include "planner/tour/tour_state.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {
@@ -76,6 +78,15 @@ PlannerTraits traits_of(const PlannerConfig& config) {
   return {.scores_views = true,
           .reads_prediction = reads_prediction(config.utility),
           .keeps_shadow = needs_of(config.utility).shadow};
+}
+
+double planning_bytes(const PlannerConfig& config, const Box3& workspace_m, int threads,
+                      std::size_t cameras) {
+  const double resolution_m = config.map.resolution_m;
+  const double map = map_bytes(workspace_m, resolution_m, threads, cameras);
+  const NamedPlanner* const named = planner_named(config.utility.name);
+  const bool makes_tours = named != nullptr && named->traits.makes_tours;
+  return makes_tours ? map + tour_bytes(config.tour, workspace_m, resolution_m) : map;
 }
 
 std::vector<std::string_view> planner_names() {

@@ -29,6 +29,11 @@ struct PlannerTraits {
 /// Requires a name of planner_names(), or that of a user's utility.
 PlannerTraits traits_of(const PlannerConfig& config);
 
+/// The most that the dense arrays of the belief and the planner take: map_bytes(), and of a planner
+/// that makes tours tour_bytes(). Of a name that no planner has, the former alone.
+double planning_bytes(const PlannerConfig& config, const Box3& workspace_m, int threads,
+                      std::size_t cameras);
+
 /// All that planner.utility.name may be, the formulas of utility_names() first.
 std::vector<std::string_view> planner_names();
 

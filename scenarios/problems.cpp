@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "planner/map/memory.hpp"
+#include "planner/planners.hpp"
 #include "scenarios/values.hpp"
 
 namespace gnbv {
@@ -76,7 +77,7 @@ void check_map_size(const Scenario& s, Problems& out) {
   const double resolution_m = s.planner.map.resolution_m;
   const Vec3 size_m = s.workspace_m.sizes();
   const Vec3 voxels = (size_m / resolution_m - Vec3::Constant(1e-6)).array().ceil();
-  const double bytes = map_bytes({voxels.x(), voxels.y(), voxels.z()}, 1, s.cameras.size());
+  const double bytes = planning_bytes(s.planner, s.workspace_m, 1, s.cameras.size());
   if (bytes > kMapBudget_bytes) {
     const double fitting_m = resolution_m * std::cbrt(bytes / kMapBudget_bytes);
     out.push_back(

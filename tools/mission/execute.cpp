@@ -6,6 +6,7 @@
 #include "bench/limits/oracle.hpp"
 #include "planner/core/belief_file.hpp"
 #include "planner/map/memory.hpp"
+#include "planner/planners.hpp"
 #include "planner/symmetry/symmetry_module.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/stopwatch.hpp"
@@ -40,7 +41,8 @@ namespace fs = std::filesystem;
 /// Memory that grows with the threads is not in the scenario's own budget.
 void need_memory_for(const Scenario& scenario, int threads) {
   const GridGeometry grid(scenario.workspace_m, scenario.planner.map.resolution_m);
-  const auto bytes = static_cast<double>(map_bytes(grid, threads, scenario.cameras.size()));
+  const double bytes =
+      planning_bytes(scenario.planner, scenario.workspace_m, threads, scenario.cameras.size());
   if (bytes <= kMapBudget_bytes) return;
   throw BadInput(
       fmt::format("--threads {}: a map of {} voxels needs {:.1f} GiB with so many, the "
