@@ -76,7 +76,7 @@ class MethodReader {
         continue;
       }
       NamedSettings base = {name, {}};
-      base.settings.add(fmt::format("{}={}", key, flow_yaml(*node)), node->origin);
+      base.settings.add(fmt::format("{}={}", key, flow_yaml(*node)), node->location);
       bases.push_back(std::move(base));
     }
     return bases;
@@ -87,7 +87,7 @@ class MethodReader {
     try {
       NamedUtility named = named_utility((folder_ / node.text).lexically_normal().string());
       NamedSettings base = {std::move(named.label), {}};
-      for (Override& set : named.overrides) base.settings.add(std::move(set.text), node.origin);
+      for (Override& set : named.overrides) base.settings.add(std::move(set.text), node.location);
       bases.push_back(std::move(base));
     } catch (const BadInput& error) {
       yaml_.fault(node, path, error.what());
@@ -133,7 +133,7 @@ class MethodReader {
           const std::string text = flow_yaml(*value);
           NamedSettings added = point;
           added.name += fmt::format("{}{}={}", point.name.empty() ? "" : " ", label, text);
-          added.settings.add(fmt::format("{}={}", entry.key, text), value->origin);
+          added.settings.add(fmt::format("{}={}", entry.key, text), value->location);
           next.push_back(std::move(added));
         }
       }
