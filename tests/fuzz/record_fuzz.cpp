@@ -77,7 +77,7 @@ void check_user_views(std::string_view content) {
   }
 }
 
-void check(char kind, std::string_view content) {
+void check_record(char kind, std::string_view content) {
   switch (kind) {
     case 'i':
       return check_views(written(content, "iterations.csv"));
@@ -102,7 +102,8 @@ void check(char kind, std::string_view content) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   try {
-    gnbv::check(static_cast<char>(data[0]), {reinterpret_cast<const char*>(data) + 1, size - 1});
+    gnbv::check_record(static_cast<char>(data[0]),
+                       {reinterpret_cast<const char*>(data) + 1, size - 1});
   } catch (const gnbv::BadInput&) {
     // said, and that is all
   }

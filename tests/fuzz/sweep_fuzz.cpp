@@ -15,9 +15,9 @@ void check_settings(const Settings& settings) {
              settings.overrides.size(), settings.sources.size());
 }
 
-void check(const std::string& text) {
+void check_sweep(const std::string& text) {
   SweepYaml yaml("fuzz.yaml");
-  const auto root = parse_document(text, {"fuzz.yaml", 1, 0}, yaml.faults());
+  const auto root = parse_document(text, {"fuzz.yaml", 1, 0}, yaml.errors());
   if (!root) return;
   yaml.require_map(*root, "",
                    {"scenarios", "utilities", "presets", "variants", "grid", "set", "seeds"});
@@ -32,11 +32,11 @@ void check(const std::string& text) {
   std::set<std::string> names;
   for (const SweepMethod& method : methods) {
     GNBV_CHECK(!method.name.empty(), "a method without a name");
-    GNBV_CHECK(names.insert(method.name).second || !yaml.faults().empty(), "two are '{}'",
+    GNBV_CHECK(names.insert(method.name).second || !yaml.errors().empty(), "two are '{}'",
                method.name);
   }
   try {
-    yaml.faults().throw_if_any();
+    yaml.errors().throw_if_any();
   } catch (const BadInput& faults) {
     GNBV_CHECK(!in_order_of_lines(faults.what()).empty(), "faults of no line");
   }
@@ -46,6 +46,6 @@ void check(const std::string& text) {
 }  // namespace gnbv
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  gnbv::check(std::string(reinterpret_cast<const char*>(data), size));
+  gnbv::check_sweep(std::string(reinterpret_cast<const char*>(data), size));
   return 0;
 }
