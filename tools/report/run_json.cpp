@@ -59,7 +59,7 @@ Json views_json(const RunRecord& record) {
                {"time", of([](V v) { return v.time_s; })},
                {"seconds", of([&](V v) { return v.time_s - begin_s; })},
                {"metres", of([](V v) { return v.straight_m; })},
-               {"sampler", of([](V v) { return v.decision.sampler; })},
+               {"sampler", of([](V v) { return traits_of(v.decision.sampler).name; })},
                {"candidates", of([](V v) { return v.decision.candidates; })},
                {"valid", of([](V v) { return v.decision.valid; })},
                {"utility", of([](V v) { return v.decision.score.value; })},

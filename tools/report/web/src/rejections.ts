@@ -1,4 +1,4 @@
-// What the reasons mean for which a candidate was refused, by their numbers (planner/core/view_validity.hpp).
+// What the reasons mean for which a candidate was refused, by their numbers (planner/motion/rejection.hpp).
 
 const kMeans = [
   "Outside the workspace, or below the lowest height at which the vehicle may fly",
@@ -11,6 +11,7 @@ const kMeans = [
   "Something occupied hides the frontier that it was to look at",
   "The utility refuses it: none of its rays meets a surface",
   "In a box where nobody may fly, or too near to it",
-  "No gimbal of the vehicle reaches its pitch"];
+  "No gimbal of the vehicle reaches its pitch",
+  "The search for a way around ended at its limit and had found none"];
 
 export const rejectionMeans = (reason: number) => kMeans[reason] ?? "";
