@@ -56,6 +56,8 @@ struct Case {
   std::string utility;  // that it plans by
 };
 
+void PrintTo(const Case& one, std::ostream* out) { *out << one.utility; }
+
 class OnboardProgram : public testing::TestWithParam<Case> {};
 
 TEST_P(OnboardProgram, PlansTheVeryViewsThatTheProgramFlew) {
