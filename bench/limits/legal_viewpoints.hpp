@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -41,14 +42,17 @@ struct LegalViewpoints {
 
 /// The legal positions that are connected to `start` by clear straight legs between neighbours (26
 /// to a position); from the start itself legs of up to two steps count. Empty when there are none.
-/// The same at any number of threads.
+/// The same at any number of threads. `heed_stop` is called several times a second, by any thread,
+/// and may throw.
 LegalViewpoints find_legal_viewpoints(const RayScene& scene, const Box3& navigation_m,
                                       double radius_m, double step_m, const Vec3& start_world_m,
-                                      int threads, const NoFly& no_fly = {});
+                                      int threads, const NoFly& no_fly = {},
+                                      const std::function<void()>& heed_stop = {});
 
 /// Those of a scenario: its navigation box, its collision radius, its no_fly boxes,
 /// lattice_step_m().
 LegalViewpoints find_legal_viewpoints(const Scenario& scenario, const RayScene& scene,
-                                      const ViewPose& start, int threads);
+                                      const ViewPose& start, int threads,
+                                      const std::function<void()>& heed_stop = {});
 
 }  // namespace gnbv

@@ -31,7 +31,7 @@ class Oracle {
  public:
   Oracle(const Scenario& scenario, const RayScene& scene, const LegalViewpoints& legal,
          const SurfaceReference& reference, const ViewSurvey& survey, const ViewPose& start,
-         int threads)
+         int threads, const std::function<void()>& heed_stop)
       : scenario_(scenario),
         scene_(scene),
         legal_(legal),
@@ -43,7 +43,9 @@ class Oracle {
         ways_(scene, legal, scenario.planner.validity.collision_radius_m),
         start_finds_(finds_alone(voxels_, take(start), scenario.planner.cloud.leaf_m)),
         places_(survey, voxels_.size(), ways_, threads),
-        task_(places_.task(start_finds_)) {}
+        task_(places_.task(start_finds_)) {
+    task_.heed_stop = heed_stop;
+  }
 
   std::vector<Decision> plan(OracleAim aim) {
     return decisions(best_tour(aim, kOracleShare).searched);
@@ -211,8 +213,9 @@ class Oracle {
 /// Calls use(oracle) with what it has to know.
 template <typename Use>
 auto ask_oracle(const Scenario& scenario, const World& world, const RayScene& scene,
-                const ViewPose& start, int threads, const Use& use) {
-  const LegalViewpoints legal = find_legal_viewpoints(scenario, scene, start, threads);
+                const ViewPose& start, int threads, const std::function<void()>& heed_stop,
+                const Use& use) {
+  const LegalViewpoints legal = find_legal_viewpoints(scenario, scene, start, threads, heed_stop);
   if (legal.size() == 0) {
     throw BadInput(fmt::format(
         "start.position_m: from [{}, {}, {}] no way leads to any other place that keeps "
@@ -224,8 +227,8 @@ auto ask_oracle(const Scenario& scenario, const World& world, const RayScene& sc
       world, scene, {.floor_z_m = scenario.planner.floor_z_m, .region_m = scenario.score.region_m},
       threads);
   const ViewSurvey survey = cached_survey(ceiling_key(scenario, world, legal), scenario, scene,
-                                          legal, reference, threads);
-  Oracle oracle(scenario, scene, legal, reference, survey, start, threads);
+                                          legal, reference, threads, heed_stop);
+  Oracle oracle(scenario, scene, legal, reference, survey, start, threads, heed_stop);
   return use(oracle);
 }
 
@@ -233,14 +236,14 @@ auto ask_oracle(const Scenario& scenario, const World& world, const RayScene& sc
 
 std::vector<Decision> plan_oracle(const Scenario& scenario, const World& world,
                                   const RayScene& scene, const ViewPose& start, OracleAim aim,
-                                  int threads) {
-  return ask_oracle(scenario, world, scene, start, threads,
+                                  int threads, const std::function<void()>& heed_stop) {
+  return ask_oracle(scenario, world, scene, start, threads, heed_stop,
                     [&](Oracle& oracle) { return oracle.plan(aim); });
 }
 
 std::vector<OracleReach> oracle_reaches(const Scenario& scenario, const World& world,
                                         const RayScene& scene, const ViewPose& start, int threads) {
-  return ask_oracle(scenario, world, scene, start, threads, [&](Oracle& oracle) {
+  return ask_oracle(scenario, world, scene, start, threads, {}, [&](Oracle& oracle) {
     std::vector<OracleReach> reaches;
     for (const double share : kOracleReachShares) reaches.push_back(oracle.reach(share));
     // a tour that finds more finds less, too

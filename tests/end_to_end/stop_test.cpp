@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <nlohmann/json.hpp>
 
 #include "bench/score/surface_reference.hpp"
@@ -47,6 +48,17 @@ TEST(Stop, IsHonouredWithinALeg) {
                                   }});
   EXPECT_EQ(flown.termination, Termination::interrupted);
   EXPECT_LT(flown.flight_time_s, 1.0);
+}
+
+TEST(Stop, IsHonouredWhileAnOraclePlans) {
+  const TempFolder temp;
+  std::atomic<int> asked = 0;
+  const ExecutedMission mission = execute_mission(
+      smoke({"planner.utility.name=oracle_metres"}),
+      {.out = temp.path() / "run", .quiet = true, .should_stop = [&] { return ++asked > 100; }});
+  EXPECT_EQ(mission.result.termination, Termination::interrupted);
+  EXPECT_EQ(mission.result.flight_time_s, 0.0);
+  EXPECT_LT(asked, 1000);  // each thread is told, and the mission
 }
 
 TEST(MaxDistance, TheLastLegThatFitsIsTheLast) {

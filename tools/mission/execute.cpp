@@ -84,12 +84,19 @@ class Shown {
 /// The views of who knows the structure; nothing for those who have to find out.
 std::optional<std::vector<Decision>> known_route(const Scenario& scenario, const World& world,
                                                  const RayScene& scene, Shown& progress,
+                                                 const std::function<bool()>& should_stop,
                                                  int threads) {
   const PlannerTraits planner = traits_of(scenario.planner);
   if (!planner.knows_structure) return std::nullopt;
   progress.show(0.0, "planning on the true structure");
   const OracleAim aim = planner.counts_metres ? OracleAim::metres : OracleAim::views;
-  return plan_oracle(scenario, world, scene, start_pose(scenario, scene), aim, threads);
+  try {
+    return plan_oracle(scenario, world, scene, start_pose(scenario, scene), aim, threads, [&] {
+      if (should_stop()) throw StopRequested();
+    });
+  } catch (const StopRequested&) {
+    return std::vector<Decision>();  // the mission ends before its first view
+  }
 }
 
 /// Keeps the mission's record while it flies, and says how far it is.
@@ -201,14 +208,15 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
   Shown progress(bar, options);
   progress.show(0.0, "finding what there is to see");
   const SurfaceReference reference = reference_of(scenario, world, scene, threads);
-  auto route = known_route(scenario, world, scene, progress, threads);
+  const InterruptGuard interrupt;
+  const auto should_stop = [&] { return InterruptGuard::requested() || options.should_stop(); };
+  auto route = known_route(scenario, world, scene, progress, should_stop, threads);
   RunDirectory directory(claim.folder(), scenario, options.resume);
   write_inputs(directory.path(), inputs_as_begun(scenario, world, directory.path()));
-  const InterruptGuard interrupt;
   try {
     RunRecorder recorder(scenario, directory, progress);
     MissionInputs inputs = {.observers = {&recorder}};
-    inputs.should_stop = [&] { return InterruptGuard::requested() || options.should_stop(); };
+    inputs.should_stop = should_stop;
     inputs.is_covered = coverage_goal(scenario.benchmark, reference, scene);
     inputs.replay = directory.recorded_decisions();
     inputs.sources.user_scores = user_scores;
