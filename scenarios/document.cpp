@@ -1,215 +1,141 @@
 #include "scenarios/document.hpp"
 
 #include <fmt/format.h>
-#include <yaml-cpp/eventhandler.h>
-#include <yaml-cpp/exceptions.h>
-#include <yaml-cpp/mark.h>
-#include <yaml-cpp/parser.h>
+#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <map>
-#include <sstream>
 #include <utility>
-
-#include "scenarios/flow_yaml.hpp"
 
 namespace gnbv {
 namespace {
 
-// Aliases can repeat aliases, and anchors can stand within anchors: a short text may ask for more
-// copies of its values than fit into memory.
-constexpr std::size_t kMaxCopiedNodes = 100'000;
+using Kind = YamlNode::Kind;
 
-std::size_t node_count(const YamlNode& node) {
-  std::size_t count = 1;
-  for (const YamlNode& item : node.items) count += node_count(item);
-  for (const YamlEntry& entry : node.entries) count += node_count(entry.value);
-  return count;
-}
+// Aliases can repeat aliases: a short text may ask for more copies of its values than fit into
+// memory. An alias inside the value it refers to asks for endless ones.
+constexpr std::size_t kMostCopies = 100'000;
+constexpr int kMostLevels = 500;  // as yaml-cpp's own limit for values that a text nests
 
-/// A line of the source, if it has lines.
-SourceLocation at_line(const SourceLocation& source, int line) {
-  return {source.source, source.line > 0 ? line : 0, source.rank};
-}
-
-/// Turns yaml-cpp's events into a tree. Its own YAML::Node would lose duplicate keys.
-class TreeBuilder final : public YAML::EventHandler {
+/// Turns yaml-cpp's tree into ours.
+class Converter {
  public:
-  TreeBuilder(SourceLocation source, ValidationErrors& errors)
-      : source_(std::move(source)), errors_(errors) {}
+  /// A text has no more values than letters, but for copies.
+  Converter(const std::string& text, SourceLocation source, ValidationErrors& errors)
+      : most_values_(text.size() + kMostCopies), source_(std::move(source)), errors_(errors) {}
 
-  YamlNode& root() { return root_; }
-  int start_line() const { return start_line_; }
-
-  void OnDocumentStart(const YAML::Mark& mark) override { start_line_ = mark.line + 1; }
-  void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
-    YamlNode node;
-    node.location = at(mark);
-    finish(std::move(node), anchor);
+  SourceLocation at(const YAML::Mark& mark) const {
+    return {source_.source, source_.line > 0 ? std::max(0, mark.line) + 1 : 0, source_.rank};
   }
-  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
-    const auto known = anchors_.find(anchor);
-    if (known == anchors_.end()) {
-      errors_.add(at(mark), path(), "", "the alias stands inside the value it refers to");
-      return finish({}, 0);
+
+  YamlNode converted(const YAML::Node& from, const std::string& path = "", int level = 0) {
+    if (++values_ > most_values_ || level > kMostLevels) {
+      throw YAML::ParserException(
+          from.Mark(), fmt::format("anchors and aliases stand for more than {} values, or more "
+                                   "than {} within one another",
+                                   kMostCopies, kMostLevels));
     }
-    count_copies(known->second, mark);
-    finish(known->second, 0);
-  }
-  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
-                const std::string& value) override {
-    refuse_tag(mark, tag);
+    const std::string& tag = from.Tag();
     YamlNode node;
-    node.kind = YamlNode::Kind::scalar;
-    node.text = value;
-    node.is_quoted = tag == "!";  // yaml-cpp: "!" for quoted and block text, "?" for plain
-    node.location = at(mark);
-    finish(std::move(node), anchor);
+    node.location = at(from.Mark());
+    // yaml-cpp: "!" for quoted and block text, "?" for plain
+    if (!tag.empty() && tag != "?" && tag != "!") {
+      errors_.add(node.location, path, "", fmt::format("the tag '{}' is not supported", tag));
+    }
+    const auto below = [&](const std::string& key) {
+      return path.empty() ? key : path + '.' + key;
+    };
+    if (from.IsScalar()) {
+      node.kind = Kind::scalar;
+      node.text = from.Scalar();
+      node.is_quoted = tag == "!";
+    } else if (from.IsSequence()) {
+      node.kind = Kind::list;
+      for (const auto& item : from) {
+        node.items.push_back(converted(item, below(std::to_string(node.items.size())), level + 1));
+      }
+    } else if (from.IsMap()) {
+      node.kind = Kind::map;
+      for (const auto& entry : from) {
+        const YamlNode key = converted(entry.first, path, level + 1);
+        YamlNode value = converted(entry.second, below(key.text), level + 1);
+        const auto first = std::ranges::find(node.entries, key.text, &YamlEntry::key);
+        if (key.kind != Kind::scalar) {
+          errors_.add(key.location, path, excerpt(key), "a key has to be a word");
+        } else if (first != node.entries.end()) {
+          const int line = first->location.line;
+          errors_.add(key.location, below(key.text), "",
+                      line > 0 ? fmt::format("key given twice, first on line {}", line)
+                               : "key given twice");
+        } else {
+          node.entries.push_back({key.text, key.location, std::move(value)});
+        }
+      }
+    }
+    return node;
   }
-  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
-                       YAML::EmitterStyle::value) override {
-    begin(YamlNode::Kind::list, mark, tag, anchor);
-  }
-  void OnSequenceEnd() override { end(); }
-  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
-                  YAML::EmitterStyle::value) override {
-    begin(YamlNode::Kind::map, mark, tag, anchor);
-  }
-  void OnMapEnd() override { end(); }
 
  private:
-  /// A list or map whose end has not come yet.
-  struct Open {
-    YamlNode node;
-    YAML::anchor_t anchor = 0;
-    bool has_key = false;     // map: the next value belongs to `key`
-    bool is_dropped = false;  // map: that value has no place to go
-    YamlEntry key;
-  };
-
-  SourceLocation at(const YAML::Mark& mark) const { return at_line(source_, mark.line + 1); }
-
-  void refuse_tag(const YAML::Mark& mark, const std::string& tag) {
-    if (tag.empty() || tag == "?" || tag == "!") return;
-    errors_.add(at(mark), path(), "", fmt::format("the tag '{}' is not supported", tag));
-  }
-
-  void begin(YamlNode::Kind kind, const YAML::Mark& mark, const std::string& tag,
-             YAML::anchor_t anchor) {
-    refuse_tag(mark, tag);
-    Open open;
-    open.node.kind = kind;
-    open.node.location = at(mark);
-    open.anchor = anchor;
-    open_.push_back(std::move(open));
-  }
-
-  void end() {
-    Open closed = std::move(open_.back());
-    open_.pop_back();
-    finish(std::move(closed.node), closed.anchor);
-  }
-
-  void count_copies(const YamlNode& node, const YAML::Mark& mark) {
-    copied_nodes_ += node_count(node);
-    if (copied_nodes_ <= kMaxCopiedNodes) return;
-    throw YAML::ParserException(
-        mark, fmt::format("anchors and aliases stand for more than {} values", kMaxCopiedNodes));
-  }
-
-  void finish(YamlNode node, YAML::anchor_t anchor) {
-    if (anchor != 0) {
-      YAML::Mark mark;
-      mark.line = std::max(0, node.location.line - 1);
-      count_copies(node, mark);
-      anchors_[anchor] = node;
-    }
-    if (open_.empty()) {
-      root_ = std::move(node);
-      return;
-    }
-    Open& parent = open_.back();
-    if (parent.node.kind == YamlNode::Kind::list) {
-      parent.node.items.push_back(std::move(node));
-    } else if (!parent.has_key) {
-      begin_entry(parent, std::move(node));
-    } else {
-      parent.key.value = std::move(node);
-      if (!parent.is_dropped) parent.node.entries.push_back(std::move(parent.key));
-      parent.has_key = false;
-    }
-  }
-
-  void begin_entry(Open& map, YamlNode key) {
-    map.is_dropped = false;
-    if (key.kind != YamlNode::Kind::scalar) {
-      errors_.add(key.location, path(), excerpt(key), "a key has to be a word");
-      map.is_dropped = true;
-    }
-    map.key = {key.text, key.location, {}};
-    map.has_key = true;
-    for (const YamlEntry& entry : map.node.entries) {
-      if (entry.key != key.text) continue;
-      const SourceLocation& first = entry.location;
-      errors_.add(key.location, path(), "",
-                  first.line > 0 ? fmt::format("key given twice, first on line {}", first.line)
-                                 : "key given twice");
-      map.is_dropped = true;
-    }
-  }
-
-  /// Of the value that is being read.
-  std::string path() const {
-    std::string text;
-    for (const Open& open : open_) {
-      if (open.node.kind == YamlNode::Kind::map && !open.has_key) break;
-      if (!text.empty()) text += '.';
-      text += open.node.kind == YamlNode::Kind::map ? open.key.key
-                                                    : std::to_string(open.node.items.size());
-    }
-    return text;
-  }
-
+  std::size_t values_ = 0;
+  std::size_t most_values_;
   SourceLocation source_;
   ValidationErrors& errors_;
-  int start_line_ = 1;  // of the document
-  YamlNode root_;
-  std::vector<Open> open_;
-  std::map<YAML::anchor_t, YamlNode> anchors_;
-  std::size_t copied_nodes_ = 0;
 };
+
+/// Inside a list or map: text that would end there goes into quotes; it is no number anyway.
+std::string inner_text(const std::string& text) {
+  return text.find_first_of(",[]{}:#\"'\n") == std::string::npos ? text : yaml_in_quotes(text);
+}
+
+/// Appends the value; no further than a little beyond `most` characters.
+void put_flow(const YamlNode& node, bool is_inside, std::size_t most, std::string& text) {
+  if (node.kind == Kind::null) {
+    if (is_inside) text += '~';
+    return;
+  }
+  if (node.kind == Kind::scalar) {
+    const std::string plain = is_inside ? inner_text(node.text) : node.text;
+    text += node.is_quoted ? yaml_in_quotes(node.text) : plain;
+    return;
+  }
+  const bool is_list = node.kind == Kind::list;
+  text += is_list ? '[' : '{';
+  const std::size_t begin = text.size();
+  const auto put = [&](const std::string& key, const YamlNode& value) {
+    if (text.size() > most) return;
+    if (text.size() > begin) text += ", ";
+    text += key;
+    put_flow(value, true, most, text);
+  };
+  for (const YamlNode& item : node.items) put("", item);
+  for (const YamlEntry& entry : node.entries) put(inner_text(entry.key) + ": ", entry.value);
+  text += is_list ? ']' : '}';
+}
 
 }  // namespace
 
 const YamlNode* YamlNode::find(std::string_view key) const {
-  const auto entry = std::find_if(entries.begin(), entries.end(),
-                                  [&](const YamlEntry& e) { return e.key == key; });
+  const auto entry = std::ranges::find(entries, key, &YamlEntry::key);
   return entry == entries.end() ? nullptr : &entry->value;
 }
 
 std::optional<YamlNode> parse_document(const std::string& text, const SourceLocation& source,
                                        ValidationErrors& errors) {
-  std::istringstream stream(text);
-  TreeBuilder builder(source, errors);
+  Converter converter(text, source, errors);
   try {
-    YAML::Parser parser(stream);
-    if (!parser.HandleNextDocument(builder)) {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.empty()) {
       errors.add(source, "", "", "is empty; a scenario is a map of keys");
       return std::nullopt;
     }
-    ValidationErrors ignored;
-    TreeBuilder second(source, ignored);
-    if (parser.HandleNextDocument(second)) {
-      errors.add(at_line(source, second.start_line()), "", "",
+    if (documents.size() > 1) {
+      errors.add(converter.at(documents[1].Mark()), "", "",
                  "a second YAML document begins here; a scenario is one document");
     }
+    return converter.converted(documents.front());
   } catch (const YAML::Exception& error) {
-    const int line = error.mark.is_null() ? 1 : error.mark.line + 1;
-    errors.add(at_line(source, line), "", "", fmt::format("not YAML: {}", error.msg));
+    errors.add(converter.at(error.mark), "", "", fmt::format("not YAML: {}", error.msg));
     return std::nullopt;
   }
-  return std::move(builder.root());
 }
 
 std::optional<YamlNode> parse_override(const std::string& text, const SourceLocation& location,
@@ -219,27 +145,58 @@ std::optional<YamlNode> parse_override(const std::string& text, const SourceLoca
     errors.add(location, "", "", "has to read key=value, as in planner.agvs.step_m=0.5");
     return std::nullopt;
   }
-  std::optional<YamlNode> value;
-  if (text.find_first_not_of(" \t\n", equals + 1) == std::string::npos) {
-    value = YamlNode{};  // `key=` gives the key no value, which the reader names
-    value->location = location;
-  } else {
-    value = parse_document(text.substr(equals + 1), location, errors);
+  std::optional<YamlNode> node = YamlNode{};
+  node->location = location;
+  // `key=` gives the key no value, which the reader names
+  if (text.find_first_not_of(" \t\n", equals + 1) != std::string::npos) {
+    node = parse_document(text.substr(equals + 1), location, errors);
   }
-  if (!value) return std::nullopt;
-  std::string path = text.substr(0, equals);
-  YamlNode node = std::move(*value);
-  while (true) {
+  if (!node) return std::nullopt;
+  for (std::string path = text.substr(0, equals);;) {
     const std::size_t dot = path.rfind('.');
-    YamlNode parent;
-    parent.kind = YamlNode::Kind::picks;
-    parent.location = location;
-    parent.entries.push_back(
-        {dot == std::string::npos ? path : path.substr(dot + 1), location, std::move(node)});
-    node = std::move(parent);
+    YamlNode above;
+    above.kind = Kind::picks;
+    above.location = location;
+    above.entries.push_back({path.substr(dot + 1), location, std::move(*node)});  // npos + 1 = 0
+    node = std::move(above);
     if (dot == std::string::npos) return node;
     path.resize(dot);
   }
+}
+
+std::string flow_yaml(const YamlNode& node) {
+  std::string text;
+  put_flow(node, false, std::string::npos, text);
+  return text;
+}
+
+std::string excerpt(const YamlNode& node) {
+  constexpr std::size_t kMaxLength = 60;
+  std::string text;
+  put_flow(node, false, kMaxLength, text);
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  if (text.size() <= kMaxLength) return text;
+  std::size_t end = kMaxLength - 3;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80) --end;  // whole UTF-8
+  return text.substr(0, end) + "...";
+}
+
+std::string yaml_in_quotes(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '\n') {
+      out += "\\n";
+    } else if (byte < 0x20 || byte == 0x7f) {
+      out += fmt::format("\\x{:02x}", byte);
+    } else {
+      if (c == '"' || c == '\\') out += '\\';
+      out += c;
+    }
+  }
+  return out + '"';
 }
 
 }  // namespace gnbv

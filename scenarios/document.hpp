@@ -1,5 +1,5 @@
-// A YAML text as a tree that remembers where everything was written. The only file of the project
-// that knows yaml-cpp is its .cpp.
+// A YAML text as a tree that remembers where everything was written, and back as text. Only its
+// .cpp knows yaml-cpp.
 #pragma once
 
 #include <optional>
@@ -14,8 +14,8 @@ namespace gnbv {
 struct YamlEntry;
 
 struct YamlNode {
-  /// picks: made by the dotted path of an override, `a.0.b=c`; its entries are keys of a map or
-  /// indices into a list, and everything not named keeps its value.
+  /// picks: made by the dotted path of an override, `a.0.b=c`. Its entries are keys of a map or
+  /// indices into a list; whatever they do not name keeps its value.
   enum class Kind { null, scalar, list, map, picks };
 
   Kind kind = Kind::null;
@@ -36,7 +36,7 @@ struct YamlEntry {
 };
 
 /// Reads exactly one document. Syntax errors, duplicate keys, tags and further documents go to
-/// `errors`; nothing is returned when there is no tree to go on with (syntax error, empty text).
+/// `errors`. Returns nothing when there is no tree to go on with (syntax error, empty text).
 std::optional<YamlNode> parse_document(const std::string& text, const SourceLocation& source,
                                        ValidationErrors& errors);
 
@@ -44,5 +44,14 @@ std::optional<YamlNode> parse_document(const std::string& text, const SourceLoca
 /// the place among the overrides, from 1.
 std::optional<YamlNode> parse_override(const std::string& text, const SourceLocation& location,
                                        ValidationErrors& errors);
+
+/// The value as YAML in flow style, on one line, which parse_override() reads as the same value.
+std::string flow_yaml(const YamlNode& node);
+
+/// The value as a message shows it; long ones are cut.
+std::string excerpt(const YamlNode& node);
+
+/// The text as a double-quoted scalar.
+std::string yaml_in_quotes(const std::string& text);
 
 }  // namespace gnbv

@@ -6,31 +6,8 @@
 namespace gnbv {
 namespace {
 
-constexpr EnumNames<ProfilingMethod, 4> kProfilingMethods = {
-    {{ProfilingMethod::bounding_box, "bounding_box"},
-     {ProfilingMethod::circular, "circular"},
-     {ProfilingMethod::saved, "saved"},
-     {ProfilingMethod::none, "none"}}};
-constexpr EnumNames<PathCheck, 3> kPathChecks = {{{PathCheck::straight, "straight"},
-                                                  {PathCheck::astar, "astar"},
-                                                  {PathCheck::unchecked, "unchecked"}}};
-constexpr EnumNames<ClusterOrder, 2> kClusterOrders = {
-    {{ClusterOrder::nearest, "nearest"}, {ClusterOrder::largest, "largest"}}};
-constexpr EnumNames<DistanceAlong, 2> kDistances = {
-    {{DistanceAlong::path, "path"}, {DistanceAlong::straight, "straight"}}};
-constexpr EnumNames<DensityTerm, 2> kDensityTerms = {
-    {{DensityTerm::sparse, "sparse"}, {DensityTerm::literal, "literal"}}};
-constexpr EnumNames<IgCounting, 2> kIgCountings = {
-    {{IgCounting::per_ray, "per_ray"}, {IgCounting::unique, "unique"}}};
-constexpr EnumNames<HitVoxel, 2> kHitVoxels = {
-    {{HitVoxel::counted, "counted"}, {HitVoxel::excluded, "excluded"}}};
-
 constexpr std::string_view kUtility = "planner.utility.name";
-using NameList = std::initializer_list<std::string_view>;
-
-bool is_one_of(std::string_view name, NameList names) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
+constexpr Range kWeight = {0, 1e9};
 
 // What the planner of a scenario does, and so which settings it reads.
 
@@ -39,6 +16,7 @@ bool lays_views(const Scenario& s) { return traits_of(s.planner).lays_views; }
 bool spaces_rows(const Scenario& s) { return traits_of(s.planner).spaces_rows; }
 bool takes_views(const Scenario& s) { return traits_of(s.planner).takes_views; }
 bool makes_tours(const Scenario& s) { return traits_of(s.planner).makes_tours; }
+bool samples_frontiers(const Scenario& s) { return s.planner.fvs.enabled; }
 bool may_end_early(const Scenario& s) {
   return !traits_of(s.planner).knows_structure && !takes_views(s);
 }
@@ -51,195 +29,182 @@ bool would_read_prediction(const Scenario& s) {
 
 }  // namespace
 
-void fields(FieldVisitor& v, OccupancyConfig& c) {
-  v.in_papers_setting().number("resolution_m", c.resolution_m, between(0.001, 10),
-                               "Edge of a voxel.");
-  v.number("prob_hit", c.prob_hit, inside(0.5, 1), "Occupancy that one hit alone implies.");
-  v.number("prob_miss", c.prob_miss, inside(0, 0.5), "Occupancy that one miss alone implies.");
-  v.number("clamp_min", c.clamp_min, inside(0, 0.5), "Occupancy never falls below.");
-  v.number("clamp_max", c.clamp_max, inside(0.5, 1), "Occupancy never rises above.");
-  v.number("occupied_min", c.occupied_min, inside(0, 1), "From here up a voxel is occupied.");
-  v.number("free_max", c.free_max, inside(0, 1), "Up to here a voxel is free.");
+void fields(const Keys& key, OccupancyConfig& c) {
+  key.of_papers_setting()("resolution_m", c.resolution_m, {0.001, 10}, "Edge of a voxel.");
+  key("prob_hit", c.prob_hit, inside(0.5, 1), "Occupancy that one hit alone implies.");
+  key("prob_miss", c.prob_miss, inside(0, 0.5), "Occupancy that one miss alone implies.");
+  key("clamp_min", c.clamp_min, inside(0, 0.5), "Occupancy never falls below this.");
+  key("clamp_max", c.clamp_max, inside(0.5, 1), "Occupancy never rises above this.");
+  key("occupied_min", c.occupied_min, inside(0, 1), "From here up a voxel is occupied.");
+  key("free_max", c.free_max, inside(0, 1), "Up to here a voxel is free.");
 }
 
-void fields(FieldVisitor& v, CloudConfig& c) {
-  v.number("leaf_m", c.leaf_m, between(0.001, 10), "The cloud keeps one point a leaf.");
-  v.number("profile_leaf_m", c.profile_leaf_m, between(0.001, 10),
-           "The same for the points of the profile.");
+void fields(const Keys& key, CloudConfig& c) {
+  constexpr Range kLeaf_m = {0.001, 10};
+  key("leaf_m", c.leaf_m, kLeaf_m, "The cloud keeps one point per cube of this edge.");
+  key("profile_leaf_m", c.profile_leaf_m, kLeaf_m, "The same for the points of the profile.");
 }
 
-void fields(FieldVisitor& v, ProfilingConfig& c) {
-  const bool is_circular = c.method == ProfilingMethod::circular;
-  v.in_papers_setting().choice("method", c.method, kProfilingMethods,
-                               "The rough scan before the first view.");
-  v.only_if(flies_a_profile, ".method")
-      .flag("scan_in_transit", c.scan_in_transit, "LIDAR on between the descents too.");
-  v.only_if(c.method == ProfilingMethod::saved, ".method")
+void fields(const Keys& key, ProfilingConfig& c) {
+  using enum ProfilingMethod;
+  key.of_papers_setting()(
+      "method", c.method,
+      {{bounding_box, "bounding_box"}, {circular, "circular"}, {saved, "saved"}, {none, "none"}},
+      "The rough scan before the first view.");
+  key.only_if(flies_a_profile, ".method")("scan_in_transit", c.scan_in_transit,
+                                          "The LIDAR scans between the descents, too.");
+  key.only_if(c.method == saved, ".method")
       .path("file", c.file, "saved: the profile.map of an earlier run.");
-  v.only_if(is_circular, ".method")
-      .integer("circle_stations", c.circle_stations, between(1, 1000),
-               "circular: places on the circle where it climbs.");
-  v.only_if(is_circular, ".method")
-      .number("climb_step_m", c.climb_step_m, between(0.01, 1e3),
-              "circular: climbs by this as long as surface is seen.");
+  const Keys on_circle = key.only_if(c.method == circular, ".method");
+  on_circle("circle_stations", c.circle_stations, {1, 1000}, "circular: places where it climbs.");
+  on_circle("climb_step_m", c.climb_step_m, {0.01, 1e3},
+            "circular: climbs by this as long as surface is seen.");
 }
 
-void fields(FieldVisitor& v, AgvsConfig& c) {
-  v.in_papers_setting().number("step_m", c.step_m, above_upto(0, 100),
-                               "Distance of the grid's positions at scale 1.");
-  v.in_papers_setting().angle("yaw_step_deg", c.yaw_step_rad, above_upto(0, 180),
-                              "Between the yaws of a position.");
-  v.flag("rotation_only", c.rotation_only,
-         "Offer the current position with other yaws at scale 1.");
-  v.flag("scales", c.scales, "Grow the grid at a local minimum.");
-  const auto grown = [&]() -> FieldVisitor& { return v.only_if(c.scales, ".scales"); };
-  grown().number("scale_factor", c.scale_factor, between(1.1, 100),
-                 "Growth of the grid at a local minimum.");
-  grown().number("scale_max", c.scale_max, between(1, 1e3), "The grid's largest scale.");
-  grown().number("utility_threshold", c.utility_threshold, between(0, 1e9),
-                 "Local minimum: the best utility stays below this");
-  grown().integer("utility_window", c.utility_window, between(1, 1e6), "for so many views.");
-  grown().integer("repeated_moves", c.repeated_moves, between(0, 1e6),
-                  "Or after so many moves back and forth; 0: never.");
-  grown().number(
-      "entropy_threshold_nat", c.entropy_threshold_nat, between(0, 1),
-      "Or when no view changed the total entropy by more than this per voxel of its frusta");
-  grown()
-      .only_if(c.entropy_threshold_nat != 0.0, ".entropy_threshold_nat")
-      .integer("entropy_window", c.entropy_window, between(1, 1000), "over this many views.");
+void fields(const Keys& key, AgvsConfig& c) {
+  const Keys papers = key.of_papers_setting();
+  papers("step_m", c.step_m, positive(100), "Distance of the grid's positions at scale 1.");
+  papers.angle("yaw_step_deg", c.yaw_step_rad, positive(180), "Between the yaws of a position.");
+  key("rotation_only", c.rotation_only, "Offer the current position with other yaws at scale 1.");
+  key("scales", c.scales, "Grow the grid at a local minimum.");
+  const Keys grown = key.only_if(c.scales, ".scales");
+  grown("scale_factor", c.scale_factor, {1.1, 100}, "The grid grows by this factor.");
+  grown("scale_max", c.scale_max, {1, 1e3}, "The grid's largest scale.");
+  grown("utility_threshold", c.utility_threshold, {0, 1e9},
+        "Local minimum: the best utility stays below this for utility_window views.");
+  grown("utility_window", c.utility_window, {1, 1e6}, "Views; see utility_threshold.");
+  grown("repeated_moves", c.repeated_moves, {0, 1e6},
+        "Also a local minimum: so many moves back and forth; 0: never.");
+  grown("entropy_threshold_nat", c.entropy_threshold_nat, {0, 1},
+        "Also a local minimum: over entropy_window views, none changed the total entropy by more "
+        "than this per voxel of its frusta; 0: never.");
+  grown.only_if(c.entropy_threshold_nat != 0.0, ".entropy_threshold_nat")(
+      "entropy_window", c.entropy_window, {1, 1000}, "Views; see entropy_threshold_nat.");
 }
 
-void fields(FieldVisitor& v, FrontierConfig& c) {
-  const auto sampled = [&]() -> FieldVisitor& {
-    return v.only_if([](const Scenario& s) { return s.planner.fvs.enabled; },
-                     "planner.fvs.enabled");
-  };
-  v.number("density_share", c.density_share, between(0, 10),
-           "Frontier: less dense than this share of a fully scanned plane.");
-  v.flag("occupied_only", c.occupied_only,
-         "And it is occupied; false: points in it will do, as those of thin parts.");
-  sampled().integer("neighbour_voxels", c.neighbour_voxels, between(1, 100),
-                    "Frontier voxels so near along each axis are one cluster.");
-  sampled().integer("min_cluster_voxels", c.min_cluster_voxels, between(1, 1e6),
-                    "Smaller clusters are left out.");
-  sampled().number(
-      "max_extent_m", c.max_extent_m, between(0, 1e4),
-      "Larger clusters are cut, into parts of any size; 0: never, the paper to the letter.");
+void fields(const Keys& key, FrontierConfig& c) {
+  key("density_share", c.density_share, {0, 10},
+      "A frontier voxel is less dense than this share of a fully scanned plane.");
+  key("occupied_only", c.occupied_only,
+      "A frontier voxel is occupied; false: points in it will do, as those of thin parts.");
+  const Keys sampled = key.only_if(samples_frontiers, "planner.fvs.enabled");
+  sampled("neighbour_voxels", c.neighbour_voxels, {1, 100},
+          "Frontier voxels within this distance along each axis are one cluster.");
+  sampled("min_cluster_voxels", c.min_cluster_voxels, {1, 1e6}, "Smaller ones are left out.");
+  sampled("max_extent_m", c.max_extent_m, {0, 1e4},
+          "Larger clusters are cut, into parts of any size; 0: never, the paper to the letter.");
 }
 
-void fields(FieldVisitor& v, FvsConfig& c) {
-  const auto sampled = [&]() -> FieldVisitor& { return v.only_if(c.enabled, ".enabled"); };
-  v.flag("enabled", c.enabled, "Whether frontier views are sampled at a local minimum.");
-  sampled().number("entropy_threshold_nat", c.entropy_threshold_nat, between(0, 1),
-                   "Local minimum: no view changed the total entropy by more, per voxel of its "
-                   "frusta,");
-  sampled()
-      .only_if(c.entropy_threshold_nat != 0.0, ".entropy_threshold_nat")
-      .integer("entropy_window", c.entropy_window, between(1, 1000), "over this many views.");
-  v.section("frontier", c.frontier, "Which voxels are frontiers, and how they cluster.");
-  sampled().choice("order", c.order, kClusterOrders, "Which clusters come first.");
-  sampled().integer("tries", c.tries, between(1, 1e6),
-                    "Clusters, in this order, until one has a valid view; 1: the paper.");
-  sampled().flag("pool_clusters", c.pool_clusters, "The views of all these clusters compete.");
-  sampled().integer("looks_max", c.looks_max, between(0, 1e6),
-                    "Frontier views at a cluster before it is left for what it is; 0: any number.");
-  sampled().integer("views_per_layer", c.views_per_layer, between(1, 360), "Around the cluster.");
-  sampled().number("radius_m", c.radius_m, above_upto(0, 1e3), "Of the cylinder of views.");
-  sampled().number("layer_step_m", c.layer_step_m, between(0, 1e3),
-                   "Height between its three layers.");
-  sampled().flag("needs_visible_cluster", c.needs_visible_cluster,
-                 "A view must see part of the cluster unoccluded.");
-  sampled().flag("agvs_when_stuck", c.agvs_when_stuck,
-                 "Where no cluster has a valid view, sample the grid; false: the mission ends.");
-  sampled().flag(
-      "when_grid_finds_nothing", c.when_grid_finds_nothing,
-      "Where the grid has no valid view, sample frontier views, at last by a way around; false: "
-      "the mission ends.");
+void fields(const Keys& key, FvsConfig& c) {
+  key("enabled", c.enabled, "Whether frontier views are sampled at a local minimum.");
+  const Keys sampled = key.only_if(c.enabled, ".enabled");
+  sampled("entropy_threshold_nat", c.entropy_threshold_nat, {0, 1},
+          "Local minimum: over entropy_window views, none changed the total entropy by more than "
+          "this per voxel of its frusta; 0: never.");
+  sampled.only_if(c.entropy_threshold_nat != 0.0, ".entropy_threshold_nat")(
+      "entropy_window", c.entropy_window, {1, 1000}, "Views; see entropy_threshold_nat.");
+  key.section("frontier", c.frontier, "Which voxels are frontiers, and how they cluster.");
+  sampled("order", c.order,
+          {{ClusterOrder::nearest, "nearest"}, {ClusterOrder::largest, "largest"}},
+          "Which clusters come first.");
+  sampled("tries", c.tries, {1, 1e6},
+          "Clusters, in this order, until one has a valid view; 1: the paper.");
+  sampled("pool_clusters", c.pool_clusters, "The views of all these clusters compete.");
+  sampled("looks_max", c.looks_max, {0, 1e6},
+          "Frontier views at a cluster before it is given up; 0: any number.");
+  sampled("views_per_layer", c.views_per_layer, {1, 360}, "Around the cluster.");
+  sampled("radius_m", c.radius_m, positive(1e3), "Of the cylinder of views.");
+  sampled("layer_step_m", c.layer_step_m, {0, 1e3}, "Height between its three layers.");
+  sampled("needs_visible_cluster", c.needs_visible_cluster, "A view must see part of its cluster.");
+  sampled("agvs_when_stuck", c.agvs_when_stuck,
+          "Where no cluster has a valid view, sample the grid; false: the mission ends.");
+  sampled("when_grid_finds_nothing", c.when_grid_finds_nothing,
+          "Where the grid has no valid view, sample frontier views, and at last look for a way "
+          "around; false: the mission ends.");
 }
 
-void fields(FieldVisitor& v, PathSearchConfig& c) {
-  v.integer("max_expansions", c.max_expansions, between(1, 1e7),
-            "Nodes that a search may look at in a navigation box of up to 40,000; in a larger one "
-            "as many times that as it has more.");
+void fields(const Keys& key, PathSearchConfig& c) {
+  key("max_expansions", c.max_expansions, {1, 1e7},
+      "Nodes that a search may expand in a navigation box of up to 40,000 voxels; in a larger box "
+      "proportionally more.");
 }
 
-void fields(FieldVisitor& v, ValidityConfig& c) {
-  v.in_papers_setting().number("collision_radius_m", c.collision_radius_m, above_upto(0, 100),
-                               "Of the sphere that may touch no occupied voxel.");
-  v.number("z_min_m", c.z_min_m, between(-1e4, 1e4), "No view below.");
-  v.integer("recent_poses", c.recent_poses, between(0, 1e6), "Views that are not taken again.");
-  v.only_if(c.recent_poses != 0, ".recent_poses")
-      .number("recent_distance_m", c.recent_distance_m, between(0, 100),
-              "The same view: nearer than this");
-  v.only_if(c.recent_poses != 0, ".recent_poses")
-      .angle("recent_yaw_deg", c.recent_yaw_rad, between(0, 180), "and turned by less than this.");
-  v.flag(
-      "allow_unknown", c.allow_unknown,
-      "Views, and legs that path: astar checks, in unknown space, too; false, the paper: in free "
-      "space only.");
-  v.choice(
-      "path", c.path, kPathChecks,
+void fields(const Keys& key, ValidityConfig& c) {
+  key.of_papers_setting()("collision_radius_m", c.collision_radius_m, positive(100),
+                          "Of the sphere that may touch no occupied voxel.");
+  key("z_min_m", c.z_min_m, {-1e4, 1e4}, "No view lies below this.");
+  key("recent_poses", c.recent_poses, {0, 1e6}, "The last views, none taken again.");
+  const Keys recent = key.only_if(c.recent_poses != 0, ".recent_poses");
+  recent("recent_distance_m", c.recent_distance_m, {0, 100},
+         "The same view is nearer than this, and turned by less than recent_yaw_deg.");
+  recent.angle("recent_yaw_deg", c.recent_yaw_rad, {0, 180}, "See recent_distance_m.");
+  key("allow_unknown", c.allow_unknown,
+      "Views may lie in unknown space, and so may legs that path: astar checks; false, the paper: "
+      "in free space only.");
+  using enum PathCheck;
+  key("path", c.path, {{straight, "straight"}, {astar, "astar"}, {unchecked, "unchecked"}},
       "straight: a view behind what is known is discarded, the paper; astar: a view to which no "
-      "way leads through known space; unchecked: flown to all the same.");
-  v.only_if(c.path != PathCheck::unchecked, "planner.validity.path")
+      "way leads through known space; unchecked: no view is.");
+  key.only_if(c.path != unchecked, "planner.validity.path")
       .section("path_search", c.path_search, "The search for a way around.");
 }
 
-void fields(FieldVisitor& v, VolumeWeights& c) {
-  constexpr Range kWeight = between(0, 1e9);
-  v.number("unmapped", c.unmapped, kWeight, "A cubic metre of unknown space.");
-  v.number("free", c.free, kWeight, "A cubic metre of free space.");
-  v.number("occupied", c.occupied, kWeight, "A cubic metre of occupied space.");
+void fields(const Keys& key, VolumeWeights& c) {
+  key("unmapped", c.unmapped, kWeight, "A cubic metre of unknown space.");
+  key("free", c.free, kWeight, "A cubic metre of free space.");
+  key("occupied", c.occupied, kWeight, "A cubic metre of occupied space.");
 }
 
-void fields(FieldVisitor& v, ShadowConfig& c) {
-  v.number("shadow_depth_m", c.shadow_depth_m, above_upto(0, 100), "Behind a hit, along its ray.");
+void fields(const Keys& key, ShadowConfig& c) {
+  key("shadow_depth_m", c.shadow_depth_m, positive(100), "Behind a hit, along its ray.");
 }
 
-void fields(FieldVisitor& v, UserUtilityConfig& c) {
-  v.text("function", c.function, "Its name in the source.");
-  v.text("source", c.source, "Python, all of it: as `--utility FILE.py:FUNCTION` put it here.");
+void fields(const Keys& key, UserUtilityConfig& c) {
+  key("function", c.function, "Its name in the source.");
+  key("source", c.source, "The Python source, put here by `--utility FILE.py:FUNCTION`.");
 }
 
-void fields(FieldVisitor& v, UtilityConfig& c) {
-  constexpr Range kWeight = between(0, 1e9);
+void fields(const Keys& key, UtilityConfig& c) {
   std::vector<std::string_view> names = planner_names();
   names.push_back(kUserUtilityName);
-  v.choice("name", c.name, names,
-           "What ranks the candidate views, a baseline's route, an oracle's, or your own.");
-  const auto of = [&](NameList known) -> FieldVisitor& {
-    return v.only_if(scores_views, kUtility).only_if(is_one_of(c.name, known), kUtility);
+  key("name", c.name, names,
+      "What ranks the candidate views, or a baseline's, an oracle's or your own route.");
+  const auto is_one_of = [&](std::initializer_list<std::string_view> known) {
+    return std::find(known.begin(), known.end(), c.name) != known.end();
   };
-  const bool hides_hits = is_one_of(c.name, {"bircher", "isler"}) && c.prediction_hides_hits;
-  of({"proposed"}).number("alpha", c.alpha, kWeight, "Weight of information, Eq. (2).");
-  of({"proposed"}).number("beta", c.beta, kWeight, "Weight of density, Eq. (2).");
-  v.only_if(hides_hits || c.name == "proposed", kUtility)
-      .number("gamma", c.gamma, kWeight, "Weight of prediction, Eq. (2).");
-  of({"proposed", "bircher_volume", "aep"})
-      .number("lambda_per_m", c.lambda_per_m, kWeight, "Decay with distance, Eq. (2).");
-  of({"proposed"})
-      .choice("density_term", c.density_term, kDensityTerms,
-              "sparse: reward thinly sampled surface; literal: Eq. (2) as printed.");
-  of({"bircher"})
-      .number("bircher_lambda_per_m", c.bircher_lambda_per_m, kWeight,
-              "bircher: decay with distance; 0.5 in the released configuration.");
-  of({"proposed", "bircher", "bircher_volume", "aep", "nearest_frontier", kUserUtilityName})
-      .choice("distance", c.distance, kDistances,
-              "By which gains are discounted: along the way that is flown, or straight.");
-  of({"proposed"})
-      .flag("normalise_weights", c.normalise_weights, "Divide beta and gamma by their sum.");
-  of({"bircher", "isler"})
-      .choice("ig_counting", c.ig_counting, kIgCountings,
-              "bircher, isler: a voxel counts once a ray that crosses it, or once.");
-  of({"bircher", "isler"})
-      .choice("hit_voxel", c.hit_voxel, kHitVoxels,
-              "bircher, isler: whether the voxel that ends a ray counts; excluded: released slip.");
-  of({"bircher", "isler"})
-      .flag("prediction_hides_hits", c.prediction_hides_hits,
-            "A hit counts only where the prediction was hit too; released slip.");
-  of({"occlusion_aware", "unobserved_voxel", "rear_side_entropy", kUserUtilityName})
-      .flag("legacy_visibility", c.legacy_visibility,
-            "Visibility multiplies P instead of 1 - P, as the released code of Delmerico et al.");
+  const auto of = [&](std::initializer_list<std::string_view> known) {
+    return key.only_if(scores_views, kUtility).only_if(is_one_of(known), kUtility);
+  };
+  const Keys proposed = of({"proposed"});
+  const Keys counted = of({"bircher", "isler"});
+  const bool hides_hits = is_one_of({"bircher", "isler"}) && c.prediction_hides_hits;
+  proposed("alpha", c.alpha, kWeight, "Weight of information, Eq. (2).");
+  proposed("beta", c.beta, kWeight, "Weight of density, Eq. (2).");
+  key.only_if(hides_hits || c.name == "proposed", kUtility)("gamma", c.gamma, kWeight,
+                                                            "Weight of prediction, Eq. (2).");
+  of({"proposed", "bircher_volume", "aep"})("lambda_per_m", c.lambda_per_m, kWeight,
+                                            "Decay with distance, Eq. (2).");
+  proposed("density_term", c.density_term,
+           {{DensityTerm::sparse, "sparse"}, {DensityTerm::literal, "literal"}},
+           "sparse: reward thinly sampled surface; literal: Eq. (2) as printed.");
+  of({"bircher"})("bircher_lambda_per_m", c.bircher_lambda_per_m, kWeight,
+                  "bircher: decay with distance; 0.5 in the released configuration.");
+  of({"proposed", "bircher", "bircher_volume", "aep", "nearest_frontier", kUserUtilityName})(
+      "distance", c.distance,
+      {{DistanceAlong::path, "path"}, {DistanceAlong::straight, "straight"}},
+      "Gains are discounted with the distance along the way that is flown, or straight.");
+  proposed("normalise_weights", c.normalise_weights, "Divide beta and gamma by their sum.");
+  counted("ig_counting", c.ig_counting,
+          {{IgCounting::per_ray, "per_ray"}, {IgCounting::unique, "unique"}},
+          "bircher, isler: a voxel counts once per ray that crosses it, or once.");
+  counted("hit_voxel", c.hit_voxel,
+          {{HitVoxel::counted, "counted"}, {HitVoxel::excluded, "excluded"}},
+          "bircher, isler: whether the voxel that ends a ray counts; excluded: released slip.");
+  counted("prediction_hides_hits", c.prediction_hides_hits,
+          "A hit counts only where the prediction was hit too; released slip.");
+  of({"occlusion_aware", "unobserved_voxel", "rear_side_entropy", kUserUtilityName})(
+      "legacy_visibility", c.legacy_visibility,
+      "Visibility multiplies P instead of 1 - P, as in the released code of Delmerico et al.");
   of({"bircher_volume"})
       .section("volume_weights", c.volume_weights, "bircher_volume: worth of visible space.");
   of({"proximity_count", "area_factor", kUserUtilityName})
@@ -247,112 +212,99 @@ void fields(FieldVisitor& v, UtilityConfig& c) {
   of({kUserUtilityName}).section("python", c.python, "python: a function of yours.");
 }
 
-void fields(FieldVisitor& v, ViewPose& c) {
-  v.number("position_m", c.p_world_m, between(-1e6, 1e6), "Of the body, world ENU.");
-  v.angle("yaw_deg", c.yaw_rad, between(-360, 360), "Heading of the body, 0 = east, 90 = north.");
-  v.angle("pitch_deg", c.gimbal_pitch_rad, between(-90, 90),
-          "Of the cameras on a gimbal; positive looks down.");
+void fields(const Keys& key, ViewPose& c) {
+  key("position_m", c.p_world_m, {-1e6, 1e6}, "Of the body, world ENU.");
+  key.angle("yaw_deg", c.yaw_rad, {-360, 360}, "Heading of the body, 0 = east, 90 = north.");
+  key.angle("pitch_deg", c.gimbal_pitch_rad, {-90, 90},
+            "Of the cameras on a gimbal; positive looks down.");
 }
 
-void fields(FieldVisitor& v, RouteConfig& c) {
-  v.only_if(lays_views, kUtility)
-      .number("standoff_m", c.standoff_m, between(0.1, 1e3), "From the surface of the profile.");
-  v.only_if(spaces_rows, kUtility)
-      .number("overlap", c.overlap, between(0, 0.95), "lawnmower: of neighbouring images.");
-  v.only_if(takes_views, kUtility)
-      .list("views", c.views, {0, kMostUserViews},
-            "route: body poses, in the order in which they are flown.");
+void fields(const Keys& key, RouteConfig& c) {
+  key.only_if(lays_views, kUtility)("standoff_m", c.standoff_m, {0.1, 1e3},
+                                    "From the surface of the profile.");
+  key.only_if(spaces_rows, kUtility)("overlap", c.overlap, {0, 0.95},
+                                     "lawnmower: of neighbouring images.");
+  key.only_if(takes_views, kUtility)
+      .list("views", c.views, {0, kMostUserViews}, "route: body poses, in the order of flight.");
 }
 
-void fields(FieldVisitor& v, TourConfig& c) {
-  v.number("detail_m", c.detail_m, between(0.005, 1),
-           "Edge of the voxels that are to hold a point.");
-  v.number(
-      "lattice_step_m", c.lattice_step_m, between(0, 100),
+void fields(const Keys& key, TourConfig& c) {
+  key("detail_m", c.detail_m, {0.005, 1}, "Edge of the voxels that are to hold a point.");
+  key("lattice_step_m", c.lattice_step_m, {0, 100},
       "Between views of the lattice; 0: a quarter of the cameras' range, more in a large box.");
-  v.angle("yaw_step_deg", c.yaw_step_rad, between(5, 360), "Between views at one place.");
-  v.angle("incidence_max_deg", c.incidence_max_rad, between(10, 89),
-          "Beyond, no observation counts.");
-  v.flag(
-      "double_cover", c.double_cover,
-      "Whether a second observation is worth what the first may miss; else it is worth nothing.");
-  v.flag("explore", c.explore,
-         "Without a profile: looks for unseen space where no surface pays any more.");
-  v.number("price", c.price, above_upto(0, 10),
-           "What a metre has to bring: as a share of what the mean metre would of a tour twice as "
-           "long as the sides of the structure's box together.");
-  v.number("metres_per_view", c.metres_per_view, between(0, 100), "What a view costs as if way.");
-  v.integer("iterations", c.iterations, between(0, 1e5), "Of the search, each time.");
-  v.integer("views_per_replan", c.views_per_replan, between(1, 1e6), "Flown before the next tour.");
-  v.number("replan_below", c.replan_below, between(0, 1),
-           "A new tour when a view brings less than this share of what was predicted.");
-  v.number("end_price", c.end_price, above_upto(0, 1),
-           "When no view pays, the price is halved, down to this share of it.");
-  v.flag("surface_views", c.surface_views, "Views off the lattice for what none of it sees.");
+  key.angle("yaw_step_deg", c.yaw_step_rad, {5, 360}, "Between views at one place.");
+  key.angle("incidence_max_deg", c.incidence_max_rad, {10, 89},
+            "No observation counts at a larger angle.");
+  key("double_cover", c.double_cover,
+      "A second observation is worth what the first may miss; false: it is worth nothing.");
+  key("explore", c.explore, "Without a profile: look for unseen space where no surface pays.");
+  key("price", c.price, positive(10),
+      "What a metre has to bring: as a share of what the mean metre would of a tour twice as long "
+      "as the sides of the structure's box together.");
+  key("metres_per_view", c.metres_per_view, {0, 100}, "A view costs as much as these.");
+  key("iterations", c.iterations, {0, 1e5}, "Of each search.");
+  key("views_per_replan", c.views_per_replan, {1, 1e6}, "Flown before the next tour.");
+  key("replan_below", c.replan_below, {0, 1},
+      "A new tour when a view brings less than this share of what was predicted.");
+  key("end_price", c.end_price, positive(1),
+      "When no view pays, the price is halved, down to this share of it.");
+  key("surface_views", c.surface_views, "Views off the lattice for what none of it sees.");
 }
 
-void fields(FieldVisitor& v, SymmetryConfig& c) {
-  v.flag("enabled", c.enabled, "Whether a mirror-symmetric profile predicts its other half.");
-  v.only_if(c.enabled, ".enabled")
-      .number("min_support", c.min_support, between(0, 1),
-              "Share of mirrored points that measured free space must not contradict.");
-  v.only_if(c.enabled, ".enabled")
-      .number("min_confirmed", c.min_confirmed, between(0, 1),
-              "Share of mirrored points that must fall on measured surface.");
+void fields(const Keys& key, SymmetryConfig& c) {
+  key("enabled", c.enabled, "Whether a mirror-symmetric profile predicts its other half.");
+  const Keys used = key.only_if(c.enabled, ".enabled");
+  used("min_support", c.min_support, {0, 1}, "Share of mirrored points not in free space.");
+  used("min_confirmed", c.min_confirmed, {0, 1}, "Share of mirrored points on measured surface.");
 }
 
-void fields(FieldVisitor& v, TerminationConfig& c) {
-  const auto by_entropy = [&]() -> FieldVisitor& {
-    return v.only_if(may_end_by_entropy, kUtility);
-  };
-  const auto by_gain = [&]() -> FieldVisitor& { return v.only_if(may_end_early, kUtility); };
-  v.in_papers_setting().integer("max_iterations", c.max_iterations, between(1, 1e6),
-                                "Views at most.");
-  by_entropy().number("entropy_change_percent", c.entropy_change_percent, between(0, 100),
-                      "Over when the total entropy changes by less, per view; 0: never.");
-  by_entropy()
-      .only_if(c.entropy_change_percent != 0.0, ".entropy_change_percent")
-      .integer("entropy_window", c.entropy_window, between(1, 1e6), "For so many views in a row.");
-  by_entropy().integer("repeated_moves", c.repeated_moves, between(0, 1e6),
-                       "Over after so many moves back and forth; 0: never.");
-  v.in_papers_setting().number(
-      "max_distance_m", c.max_distance_m, between(0, 1e9),
-      "Over when the way to the next view would make the planned way longer; 0: no limit.");
-  v.in_papers_setting().number(
-      "max_flight_time_s", c.max_flight_time_s, between(0, 1e9),
-      "Over in flight, so long after the mission's beginning; 0: no limit.");
-  by_gain().in_papers_setting().number(
-      "min_new_voxels_per_m", c.min_new_voxels_per_m, between(0, 1e9),
-      "Over when fewer voxels of the map become occupied a planned metre; 0: never.");
-  by_gain()
-      .only_if(c.min_new_voxels_per_m != 0.0, ".min_new_voxels_per_m")
-      .integer("new_voxels_window", c.new_voxels_window, between(1, 1e6),
-               "That is asked of so many views together.");
-  by_gain().in_papers_setting().integer(
-      "max_views_without_new_points", c.max_views_without_new_points, between(0, 1e6),
+void fields(const Keys& key, TerminationConfig& c) {
+  const Keys papers = key.of_papers_setting();
+  const Keys by_entropy = key.only_if(may_end_by_entropy, kUtility);
+  const Keys by_gain = key.only_if(may_end_early, kUtility);
+  papers("max_iterations", c.max_iterations, {1, 1e6}, "Views at most.");
+  by_entropy("entropy_change_percent", c.entropy_change_percent, {0, 100},
+             "Over when each of entropy_window views changed the total entropy by less; 0: never.");
+  by_entropy.only_if(c.entropy_change_percent != 0.0, ".entropy_change_percent")(
+      "entropy_window", c.entropy_window, {1, 1e6}, "Views; see entropy_change_percent.");
+  by_entropy("repeated_moves", c.repeated_moves, {0, 1e6},
+             "Over after so many moves back and forth; 0: never.");
+  papers("max_distance_m", c.max_distance_m, {0, 1e9},
+         "Over when the way to the next view would make the planned way longer; 0: no limit.");
+  papers("max_flight_time_s", c.max_flight_time_s, {0, 1e9},
+         "Over so long after the mission's beginning, in flight, too; 0: no limit.");
+  by_gain.of_papers_setting()(
+      "min_new_voxels_per_m", c.min_new_voxels_per_m, {0, 1e9},
+      "Over when fewer voxels of the map become occupied per planned metre; 0: never.");
+  by_gain.only_if(c.min_new_voxels_per_m != 0.0, ".min_new_voxels_per_m")(
+      "new_voxels_window", c.new_voxels_window, {1, 1e6},
+      "Views over which min_new_voxels_per_m is taken.");
+  by_gain.of_papers_setting()(
+      "max_views_without_new_points", c.max_views_without_new_points, {0, 1e6},
       "Over after so many views in a row that add no point to the cloud; 0: never.");
 }
 
-void fields(FieldVisitor& v, PlannerConfig& c) {
+void fields(const Keys& key, PlannerConfig& c) {
   const std::string before = c.preset;
-  v.choice("preset", c.preset, kPlannerPresets,
-           "paper, or the authors' released code: sets the switches in which they differ.");
+  key("preset", c.preset, kPlannerPresets,
+      "paper, or the authors' released code: sets the switches in which they differ.");
   if (c.preset != before) set_preset_switches(c);
-  v.section("map", c.map, "The occupancy grid.");
-  v.section("cloud", c.cloud, "The surface cloud.");
-  v.number("floor_z_m", c.floor_z_m, between(-1e4, 1e4),
-           "Returns below are the floor: they clear, but mark nothing.");
-  v.section("profiling", c.profiling, "The rough scan before the first view.");
-  v.only_if(scores_views, kUtility).section("agvs", c.agvs, "Adaptive grid view sampling.");
-  v.only_if(scores_views, kUtility).section("fvs", c.fvs, "Frontier view sampling.");
-  v.section("validity", c.validity, "Which views may be flown to.");
-  v.section("utility", c.utility, "What a view is worth.");
-  v.section("routes", c.routes, "Baselines whose views are laid around the profile.");
-  v.only_if(makes_tours, kUtility).section("tour", c.tour, "The tour of all that lacks points.");
-  v.only_if(would_read_prediction, kUtility)
+  const Keys scoring = key.only_if(scores_views, kUtility);
+  key.section("map", c.map, "The occupancy grid.");
+  key.section("cloud", c.cloud, "The surface cloud.");
+  key("floor_z_m", c.floor_z_m, {-1e4, 1e4},
+      "Returns below are the floor: they clear, but mark nothing.");
+  key.section("profiling", c.profiling, "The rough scan before the first view.");
+  scoring.section("agvs", c.agvs, "Adaptive grid view sampling.");
+  scoring.section("fvs", c.fvs, "Frontier view sampling.");
+  key.section("validity", c.validity, "Which views may be flown to.");
+  key.section("utility", c.utility, "What a view is worth.");
+  key.section("routes", c.routes, "Baselines whose views are laid around the profile.");
+  key.only_if(makes_tours, kUtility).section("tour", c.tour, "The tour of all that lacks points.");
+  key.only_if(would_read_prediction, kUtility)
       .only_if(c.utility.gamma > 0.0 || is_user_utility(c.utility.name), "planner.utility.gamma")
       .section("symmetry", c.symmetry, "The mirror image of the profile.");
-  v.section("termination", c.termination, "When the mission is over.");
+  key.section("termination", c.termination, "When the mission is over.");
 }
 
 }  // namespace gnbv

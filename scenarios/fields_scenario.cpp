@@ -2,78 +2,85 @@
 
 namespace gnbv {
 
-void fields(FieldVisitor& v, Box3& c) {
-  constexpr Range kCoordinate_m = between(-1e4, 1e4);
+void fields(const Keys& key, Box3& c) {
+  constexpr Range kCoordinate_m = {-1e4, 1e4};
   Vec3 min_m = c.min();
   Vec3 max_m = c.max();
-  v.number("min", min_m, kCoordinate_m, "Lowest x, y and z, world ENU.");
-  v.number("max", max_m, kCoordinate_m, "Highest x, y and z.");
+  key("min", min_m, kCoordinate_m, "Lowest x, y and z, world ENU.");
+  key("max", max_m, kCoordinate_m, "Highest x, y and z.");
   c = Box3(min_m, max_m);
 }
 
-void fields(FieldVisitor& v, StructureConfig& c) {
-  v.only_if(c.file.path.empty(), ".file.path")
-      .only_if(c.files.empty(), ".files")
-      .choice("builtin", c.builtin, kStructureNames,
-              "Built-in structure, unless file.path is given.");
-  v.section("file", c.file, "A mesh of your own.");
-  v.list("files", c.files, {0, 256}, "More meshes of the same structure, each placed by itself.");
-  v.flag("ground", c.ground,
-         "Whether there is a solid ground at z = 0, where no terrain is given.");
+void fields(const Keys& key, MeshFileConfig& c) {
+  constexpr std::array<std::string_view, 4> kUpAxes = {"auto", "x", "y", "z"};
+  key.path("path", c.path, "Mesh file (OBJ, STL, PLY, DAE, GLTF, GLB); empty: none.");
+  const Keys of_mesh = key.only_if(!c.path.empty(), ".path");
+  of_mesh("scale", c.scale, positive(1e6), "Factor on the file's coordinates.");
+  of_mesh.angle("yaw_deg", c.yaw_rad, {-360, 360}, "About the file's origin, counter-clockwise.");
+  of_mesh("offset_m", c.offset_m, {-1e8, 1e8},
+          "Added after scaling, world axes; survey coordinates are millions of metres.");
+  of_mesh("up_axis", c.up_axis, kUpAxes,
+          "Axis of the file that points up; auto: as the file says, else z.");
+  of_mesh("unit_m", c.unit_m, {0, 1e6},
+          "Metres per unit of the file; 0: as the file says, else 1.");
 }
 
-void fields(FieldVisitor& v, ObstacleConfig& c) {
-  v.section("file", c.file, "A mesh.");
-  v.section("box_m", c.box_m, "Without one, a box, world ENU.");
+void fields(const Keys& key, StructureConfig& c) {
+  const Keys unless_files =
+      key.only_if(c.file.path.empty(), ".file.path").only_if(c.files.empty(), ".files");
+  unless_files("builtin", c.builtin, kStructureNames, "Built-in structure, without a file.");
+  key.section("file", c.file, "A mesh of your own.");
+  key.list("files", c.files, {0, 256}, "More meshes of the same structure, each placed by itself.");
+  key("ground", c.ground, "Whether the plane z = 0 is solid ground, where no terrain is given.");
 }
 
-void fields(FieldVisitor& v, NoFlyConfig& c) { fields(v, c.box_m); }
-
-void fields(FieldVisitor& v, ScoreConfig& c) {
-  v.in_papers_setting().section("region_m", c.region_m,
-                                "What of the structure is scored, world ENU.");
-  v.number("sizes_m", c.sizes_m, between(0.01, 10),
-           "Edges of the voxels that coverage is told of, beside the paper's 0.05, 0.10 and "
-           "0.50, which are measured in any case.");
+void fields(const Keys& key, ObstacleConfig& c) {
+  key.section("file", c.file, "A mesh.");
+  key.section("box_m", c.box_m, "Or a box, world ENU.");
 }
 
-void fields(FieldVisitor& v, StartConfig& c) {
-  v.number("position_m", c.pose.p_world_m, between(-1e4, 1e4), "Where the views begin, world ENU.");
-  v.angle("yaw_deg", c.pose.yaw_rad, between(-360, 360), "Heading there, 0 = east, 90 = north.");
-  v.number("jitter_m", c.jitter_m, between(0, 1e4),
-           "The seed moves the start by up to this, within the navigation box.");
-  v.angle("jitter_yaw_deg", c.jitter_yaw_rad, between(0, 180), "And turns it by up to this.");
+void fields(const Keys& key, NoFlyConfig& c) { fields(key, c.box_m); }
+
+void fields(const Keys& key, ScoreConfig& c) {
+  key.of_papers_setting().section("region_m", c.region_m, "What is scored, world ENU.");
+  key("sizes_m", c.sizes_m, {0.01, 10},
+      "Edges of the voxels of which coverage is shown; the paper's 0.05, 0.10 and 0.50 are always "
+      "measured.");
 }
 
-void fields(FieldVisitor& v, BenchmarkConfig& c) {
-  v.number("stop_at_coverage", c.stop_at_coverage, between(0, 1),
-           "Over when the cloud covers this share of the voxels of 0.05 m with surface seen from "
-           "outside, summary.json's coverage.final at 0.05; 0: never.");
+void fields(const Keys& key, StartConfig& c) {
+  key("position_m", c.pose.p_world_m, {-1e4, 1e4}, "Where the views begin, world ENU.");
+  key.angle("yaw_deg", c.pose.yaw_rad, {-360, 360}, "Heading there, 0 = east, 90 = north.");
+  key("jitter_m", c.jitter_m, {0, 1e4},
+      "The seed moves it by up to this, inside the navigation box.");
+  key.angle("jitter_yaw_deg", c.jitter_yaw_rad, {0, 180}, "The seed turns it by up to this.");
 }
 
-void fields(FieldVisitor& v, Scenario& c) {
-  v.begin_whole(c);
-  v.word("name", c.name, "Name of the scenario, for reports.");
-  v.integer("seed", c.seed, "Moves the start pose and keys all noise.");
-  v.in_papers_setting().section("workspace_m", c.workspace_m,
-                                "What is mapped and flown in, world ENU.");
-  v.section("structure", c.structure, "What stands there.");
-  v.in_papers_setting().section("terrain", c.terrain,
-                                "A mesh in the place of the plane ground; not scored.");
-  v.in_papers_setting().list("obstacles", c.obstacles, {0, 256},
-                             "What is seen, solid, unknown and not scored.");
-  v.in_papers_setting().list("no_fly", c.no_fly, {0, 256},
-                             "Boxes that the collision sphere keeps out of; unseen.");
-  v.section("score", c.score, "What is scored.");
-  v.in_papers_setting().list("cameras", c.cameras, {1, 16}, "The depth cameras on the vehicle.");
-  v.in_papers_setting().list("lidars", c.lidars, {0, 16}, "The LIDARs that scan the profile.");
-  v.section("vehicle", c.vehicle, "What flies.");
-  v.section("guidance", c.guidance, "How it flies from view to view.");
-  v.in_papers_setting().section("wind", c.wind, "The air it flies in.");
-  v.section("start", c.start, "Where the views begin.");
-  v.section("planner", c.planner, "What is believed and decided.");
-  v.in_papers_setting().section("benchmark", c.benchmark,
-                                "What the truth decides, which no real mission knows.");
+void fields(const Keys& key, BenchmarkConfig& c) {
+  key("stop_at_coverage", c.stop_at_coverage, {0, 1},
+      "Over when the cloud covers this share of the voxels of 0.05 m with surface seen from "
+      "outside, coverage.final in summary.json; 0: never.");
+}
+
+void fields(const Keys& key, Scenario& c) {
+  const Keys papers = key.of_papers_setting();
+  key.word("name", c.name, "Name of the scenario, for reports.");
+  key("seed", c.seed, "Moves the start pose and keys all noise.");
+  papers.section("workspace_m", c.workspace_m, "What is mapped and flown in, world ENU.");
+  key.section("structure", c.structure, "What stands there.");
+  papers.section("terrain", c.terrain, "A mesh in the place of the plane ground; not scored.");
+  papers.list("obstacles", c.obstacles, {0, 256}, "What is seen, solid, unknown and not scored.");
+  papers.list("no_fly", c.no_fly, {0, 256},
+              "Boxes that the collision sphere keeps out of; unseen.");
+  key.section("score", c.score, "What is scored.");
+  papers.list("cameras", c.cameras, {1, 16}, "The depth cameras on the vehicle.");
+  papers.list("lidars", c.lidars, {0, 16}, "The LIDARs that scan the profile.");
+  key.section("vehicle", c.vehicle, "What flies.");
+  key.section("guidance", c.guidance, "How it flies from view to view.");
+  papers.section("wind", c.wind, "The air it flies in.");
+  key.section("start", c.start, "Where the views begin.");
+  key.section("planner", c.planner, "What is believed and decided.");
+  papers.section("benchmark", c.benchmark, "What the truth decides, which no real mission knows.");
 }
 
 }  // namespace gnbv

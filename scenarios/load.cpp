@@ -3,15 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "scenarios/builtin.hpp"
-#include "scenarios/document.hpp"
 #include "scenarios/problems.hpp"
 #include "scenarios/reader.hpp"
-#include "scenarios/unused_parameters.hpp"
-#include "scenarios/validation_error.hpp"
-#include "scenarios/write.hpp"
-#include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 
 namespace gnbv {
@@ -49,13 +45,6 @@ Source open_source(const std::string& name_or_path) {
   return {read_file(path), name_or_path, fs::absolute(path).parent_path().string()};
 }
 
-std::string value_of(const Scenario& scenario, const std::string& key) {
-  for (const auto& [path, text] : scenario_values(scenario)) {
-    if (path == key) return text;
-  }
-  return "";
-}
-
 /// A key and where it, or the nearest section around it, was given.
 struct GivenKey {
   std::string key;
@@ -67,7 +56,7 @@ struct GivenKey {
 /// first. At `source` when all are at their defaults.
 GivenKey latest_given(const std::vector<std::string>& keys, const SourceLocations& locations,
                       const SourceLocation& source) {
-  GivenKey given_key = {keys.front(), {source.source, 0, -1}, false};
+  GivenKey latest = {keys.front(), {source.source, 0, -1}, false};
   for (const std::string& key : keys) {
     std::string path = key;
     auto given = locations.find(path);
@@ -78,11 +67,11 @@ GivenKey latest_given(const std::vector<std::string>& keys, const SourceLocation
     if (given == locations.end()) continue;
     const bool is_given_itself = path == key;
     if (std::pair(given->second.rank, is_given_itself) >
-        std::pair(given_key.location.rank, given_key.is_given_itself)) {
-      given_key = {key, given->second, is_given_itself};
+        std::pair(latest.location.rank, latest.is_given_itself)) {
+      latest = {key, given->second, is_given_itself};
     }
   }
-  return given_key;
+  return latest;
 }
 
 /// Of any key of mesh_files().
@@ -98,23 +87,21 @@ enum class MeshFile { has_to_be_there, may_be_missing };
 void add_problems(const Scenario& scenario, MeshFile mesh_file, const SourceLocation& source,
                   const SourceLocations& locations, ValidationErrors& errors) {
   const ValidationErrors given = errors;
-  for (const Problem& problem : problems(scenario)) {
-    if (mesh_file == MeshFile::may_be_missing && is_mesh_path(problem.keys.front())) {
-      continue;
-    }
-    if (std::any_of(problem.keys.begin(), problem.keys.end(),
-                    [&](const std::string& key) { return given.concerns(key); })) {
-      continue;
-    }
-    const GivenKey given_key = latest_given(problem.keys, locations, source);
-    errors.add(given_key.location, given_key.key, value_of(scenario, given_key.key), problem.what);
+  const auto is_wrong_already = [&](const std::string& key) { return given.concerns(key); };
+  for (const auto& [keys, what] : problems(scenario)) {
+    if (mesh_file == MeshFile::may_be_missing && is_mesh_path(keys.front())) continue;
+    if (std::ranges::any_of(keys, is_wrong_already)) continue;
+    const auto& [key, location, is_given_itself] = latest_given(keys, locations, source);
+    const auto values = scenario_values(scenario);
+    const auto value = std::ranges::find(values, key, [](const auto& v) { return v.first; });
+    errors.add(location, key, value == values.end() ? "" : value->second, what);
   }
 }
 
 /// What was not given and is another afterwards is the filling's.
 void fill_in(const Filling& filling, Scenario& scenario, SourceLocations& locations) {
   const auto is_given = [&](std::string_view key) {
-    return std::any_of(locations.begin(), locations.end(), [&](const auto& given) {
+    return std::ranges::any_of(locations, [&](const auto& given) {
       return given.second.rank > 0 && is_at_or_below(given.first, key);
     });
   };
@@ -133,14 +120,6 @@ void fill_in(const Filling& filling, Scenario& scenario, SourceLocations& locati
   }
 }
 
-/// Of keys of version 0.1 that were passed over.
-std::string removed_note(const SourceLocation& source, const std::vector<std::string>& keys) {
-  const std::string others = keys.size() == 1 ? "" : fmt::format(" and {} more", keys.size() - 1);
-  return fmt::format(
-      "{}: passes over {}{}: removed after version 0.1, and given at the former default",
-      source.source, keys.front(), others);
-}
-
 /// Whom to tell that the structure is not in the workspace, which nobody knows before its mesh is
 /// read.
 std::string placed_at(const SourceLocations& locations, const SourceLocation& source) {
@@ -151,8 +130,8 @@ std::string placed_at(const SourceLocations& locations, const SourceLocation& so
     }
   }
   const GivenKey last = latest_given(keys, locations, source);
-  const std::string& key = last.key;
-  return text_of(last.location) + ": " + (key.starts_with("workspace_m") ? "workspace_m" : key);
+  return text_of(last.location) + ": " +
+         (last.key.starts_with("workspace_m") ? "workspace_m" : last.key);
 }
 
 struct Loaded {
@@ -172,7 +151,11 @@ Loaded load(const std::string& name_or_path, const std::vector<Override>& overri
   const auto read = [&](const YamlNode& tree, const std::string& folder,
                         const SourceLocation& given) {
     const auto removed = read_scenario(tree, folder, scenario, errors, locations);
-    if (!removed.empty()) loaded.removed_notes.push_back(removed_note(given, removed));
+    if (removed.empty()) return;
+    loaded.removed_notes.push_back(fmt::format(
+        "{}: passes over {}{}: removed after version 0.1, and given at the former default",
+        given.source, removed.front(),
+        removed.size() == 1 ? "" : fmt::format(" and {} more", removed.size() - 1)));
   };
   const std::optional<YamlNode> root = parse_document(source.text, location, errors);
   if (!root) errors.throw_if_any();

@@ -1,10 +1,11 @@
-// Scenario files: YAML in, typed values out, nothing guessed.
+// Scenario files: YAML in, typed values out, nothing guessed; and typed values back as text.
 #pragma once
 
 #include <functional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scenarios/scenario.hpp"
@@ -17,7 +18,7 @@ std::vector<std::string> builtin_scenario_names();
 /// Reads a built-in name or a YAML path (a file named like a built-in scenario: "./aircraft"), then
 /// applies the overrides in order: "planner.utility.name=isler", "cameras.0.range_max_m=6",
 /// "workspace_m={max: [9, 9, 9]}". The value is YAML; a map sets the keys it names, a list replaces
-/// the list. Relative paths of a file mean beside that file, those of an override the current
+/// the list. Relative paths of a file begin at that file, those of an override at the current
 /// folder; in the Scenario they are absolute.
 /// Throws BadInput with every error, one a line, `file:line: key: value 'X': what (did you mean)`:
 /// syntax, unknown and repeated keys, wrong types, values out of range, problems().
@@ -45,8 +46,8 @@ struct Filling {
 
 /// load_scenario() with overrides that were not given on the command line, and perhaps with values
 /// that depend on the rest: a filling's come last, and throw BadInput when they cannot be had.
-/// `unused_notes` gets a sentence for each key that was given and has no effect
-/// (unused_parameters.hpp); the files that are built in give none.
+/// `unused_notes` gets a sentence for each key that was given and has no effect, but for those of a
+/// built-in file: "key (where) has no effect: other key is value".
 Scenario load_with_overrides(const std::string& name_or_path,
                              const std::vector<Override>& overrides, const Filling& filling = {},
                              std::vector<std::string>* unused_notes = nullptr);
@@ -58,6 +59,16 @@ std::string views_override(std::span<const ViewPose> views);
 /// on it gives the same Scenario, bit for bit, if load_scenario made it. (An angle set by other
 /// means may lie between two numbers of degrees and lands on one of them.)
 std::string to_yaml(const Scenario& scenario);
+
+/// Every value with the path of its key ("cameras.0.range_max_m"), as YAML, in the order of the
+/// file. "path=text" is an override that load_scenario takes.
+std::vector<std::pair<std::string, std::string>> scenario_values(const Scenario& scenario);
+
+/// Whether the scenario has the values of the built-in scenario of its name, which are the paper's,
+/// wherever fields_*.cpp say that they belong to the paper's setting; only then may a mission's
+/// figures stand beside the paper's. The structure is not asked, since it may be a file, nor are
+/// the switches, each a reading of the paper.
+bool has_papers_setting(const Scenario& scenario);
 
 /// JSON schema (draft 7) of the scenario file, for editors: types, ranges, names, meanings.
 std::string scenario_json_schema();

@@ -1,21 +1,13 @@
-#include "scenarios/old_keys.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 
-#include "scenarios/validation_error.hpp"
+#include "scenarios/reader.hpp"
 #include "scenarios/values.hpp"
 
 namespace gnbv {
 namespace {
-
-struct RenamedKey {
-  std::string_view path;  // today's
-  std::string_view old_name;
-};
-constexpr std::array<RenamedKey, 0> kRenamed = {};
 
 struct RemovedKey {
   std::string_view path;
@@ -69,11 +61,6 @@ std::string text_of(const CommanderParameters& commander, const Px4Parameter& pa
 }
 
 }  // namespace
-
-std::string_view old_name_of(std::string_view path) {
-  const auto* const renamed = std::ranges::find(kRenamed, path, &RenamedKey::path);
-  return renamed == kRenamed.end() ? std::string_view() : renamed->old_name;
-}
 
 bool holds_removed_keys(std::string_view path) {
   return std::ranges::any_of(kRemoved,

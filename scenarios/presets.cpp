@@ -1,5 +1,3 @@
-#include "scenarios/presets.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,8 +17,8 @@ void read_px4(const YamlNode& px4, CommanderParameters& commander, ValidationErr
       errors.add(entry.location, entry.key, "", "is no parameter of PX4's commander");
       continue;
     }
-    const Field field = {
-        entry.key, FieldKind::number, between(parameter->min, parameter->max), {}, ""};
+    Field field;
+    field.allowed = {parameter->min, parameter->max};
     double value = 0.0;
     for (const ValueError& error : read_value(entry.value, field, "", &value)) {
       errors.add(entry.location, entry.key, entry.value.text, error.what);
@@ -38,16 +36,16 @@ Scenario overlaid(std::string_view folder, std::string_view name) {
   const SourceLocation start = {fmt::format("presets/{}/{}.yaml", folder, name), 1, 0};
   std::optional<YamlNode> root = parse_document(std::string(file->yaml), start, errors);
   errors.throw_if_any();
+  YamlNode px4;
+  std::erase_if(root->entries, [&](YamlEntry& entry) {
+    if (entry.key != "px4") return false;
+    px4 = std::move(entry.value);
+    return true;
+  });
   Scenario scenario;
-  const auto px4 = std::ranges::find(root->entries, "px4", &YamlEntry::key);
-  YamlNode px4_node;
-  if (px4 != root->entries.end()) {
-    px4_node = std::move(px4->value);
-    root->entries.erase(px4);
-  }
   SourceLocations locations;
   read_scenario(*root, "", scenario, errors, locations);
-  read_px4(px4_node, scenario.vehicle.autopilot.commander, errors);
+  read_px4(px4, scenario.vehicle.autopilot.commander, errors);
   errors.throw_if_any();
   return scenario;
 }

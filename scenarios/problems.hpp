@@ -1,7 +1,10 @@
 // What is wrong with a scenario whose values are each allowed, but do not go together.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scenarios/scenario.hpp"
@@ -21,19 +24,28 @@ Problems problems(const Scenario& scenario);
 
 /// Of structure.file, structure.files, terrain, obstacles, no_fly and score.region_m.
 void check_world(const Scenario& scenario, Problems& out);
-/// Of vehicle and guidance.
+/// Of vehicle, guidance and wind.
 void check_vehicle(const Scenario& scenario, Problems& out);
-/// Of wind and outages.
-void check_disturbances(const Scenario& scenario, Problems& out);
 
-/// The two have to be in order; the first key is the smaller one's.
-void require_below(double low, double high, const std::string& low_key, const std::string& high_key,
-                   Problems& out);
-/// Whether the box of that key has a length along each axis; a problem for each along which it has
-/// none.
+/// Returns whether the condition holds; adds a problem where it does not. `what` is a fmt message.
+template <typename... Args>
+bool require(bool holds, Problems& out, std::vector<std::string> keys,
+             fmt::format_string<Args...> what, Args&&... args) {
+  if (!holds) out.push_back({std::move(keys), fmt::format(what, std::forward<Args>(args)...)});
+  return holds;
+}
+/// Two keys of one section whose values have to be in order; `section` ends with a dot.
+inline void require_below(Problems& out, const std::string& section, const char* low_key,
+                          double low, const char* high_key, double high) {
+  require(low < high, out, {section + high_key, section + low_key},
+          "{0}{1} = {2} has to be below {0}{3} = {4}", section, low_key, low, high_key, high);
+}
+/// Whether the box of that key has a length along each axis.
 bool check_box(const Box3& box_m, const std::string& key, Problems& out);
 
 /// "[1, 2.5, -3]"
-std::string text_of(const Vec3& p_m);
+inline std::string point_text(const Vec3& p_m) {
+  return fmt::format("[{}, {}, {}]", p_m.x(), p_m.y(), p_m.z());
+}
 
 }  // namespace gnbv

@@ -3,12 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
-#include "scenarios/flow_yaml.hpp"
-#include "scenarios/old_keys.hpp"
+#include "scenarios/load.hpp"
 #include "scenarios/values.hpp"
-#include "scenarios/write.hpp"
 
 namespace gnbv {
 namespace {
@@ -20,215 +17,170 @@ class Reader final : public FieldVisitor {
   Reader(const YamlNode& root, const std::string& folder, const Scenario& scenario,
          ValidationErrors& errors, SourceLocations& locations)
       : folder_(folder), scenario_(scenario), errors_(errors), locations_(locations) {
-    push("", &root);
-    require_map();
+    levels_.push_back({&root, root.location, {}});
+    require_map(kRoot);
   }
 
   /// Call last. The removed keys that were given, each at its former default.
   std::vector<std::string> finish() {
-    pop();
+    end(kRoot);
     return std::move(removed_keys_);
   }
-
- private:
-  /// The section, list or item being read. `node` is null where the tree names nothing.
-  struct Level {
-    const YamlNode* node = nullptr;
-    std::string path;
-    SourceLocation location;              // of the key
-    std::vector<std::string_view> known;  // keys of a section
-  };
 
   void leaf(const Field& field, const FieldValue& value) override {
     write_angles_once(field, value);
     const YamlEntry* entry = take(field.key);
     if (entry == nullptr) return;
-    const std::string path = path_of(field.key);
     const auto errors = read_value(entry->value, field, folder_, value);
-    for (const ValueError& error : errors) {
-      const bool has_line = error.node->kind != Kind::null && error.node->kind != Kind::picks;
-      errors_.add(has_line ? error.node->location : entry->location, path + error.item,
+    for (const ValueError& error : errors) {  // nothing, the missing value, stands nowhere
+      const bool has_line = error.node->kind != Kind::null;
+      errors_.add(has_line ? error.node->location : entry->location, field.path + error.item,
                   excerpt(*error.node), error.what);
     }
-    if (errors.empty()) locations_[path] = entry->location;
+    if (errors.empty()) locations_[field.path] = entry->location;
   }
 
   Form form_of(std::string_view key, bool holds_section) override {
     const YamlEntry* entry = entry_of(key);
-    if (entry == nullptr) return holds_section ? Form::section : Form::leaf;
+    if (entry == nullptr) return FieldVisitor::form_of(key, holds_section);
     const bool is_map = entry->value.kind == Kind::map || entry->value.kind == Kind::picks;
     return is_map ? Form::section : Form::leaf;
   }
 
-  void begin_section(std::string_view key, std::string_view) override {
-    const YamlEntry* entry = take(key);
-    push(path_of(key), entry == nullptr ? nullptr : &entry->value);
-    if (entry == nullptr) return;
-    levels_.back().location = entry->location;
-    require_map();
-  }
-  void end_section() override { pop(); }
-
-  std::optional<std::size_t> begin_list(std::string_view key, std::size_t size,
-                                        const ListSize& allowed, std::string_view) override {
-    const YamlEntry* entry = take(key);
-    push(path_of(key), entry == nullptr ? nullptr : &entry->value);
-    if (entry == nullptr) return std::nullopt;
-    levels_.back().location = entry->location;
-    const YamlNode& node = entry->value;
-    if (node.kind == Kind::picks) {
-      check_picks(node, size);
-      return std::nullopt;
+  std::optional<std::size_t> begin(const Group& group) override {
+    const Level& above = levels_.back();
+    Level level;
+    const bool is_new =
+        group.kind == Group::Kind::item && above.node != nullptr && above.node->kind == Kind::list;
+    if (is_new) {
+      level.node = &above.node->items[std::stoul(group.key)];
+      level.location = locations_[group.path] = level.node->location;
+    } else if (const YamlEntry* entry = take(group.key)) {
+      level.node = &entry->value;
+      level.location = entry->location;
     }
-    const std::size_t given = node.items.size();
-    if (node.kind != Kind::list) {
-      drop(fmt::format("expects a list{}", node.kind == Kind::null ? ", but has no value" : ""));
-    } else if (given < allowed.min || given > allowed.max) {
-      drop(fmt::format("has {} items (allowed: {})", given,
-                       allowed.min == allowed.max
-                           ? fmt::format("{}", allowed.min)
-                           : fmt::format("from {} to {}", allowed.min, allowed.max)));
-    } else {
-      forget(levels_.back().path);
-      locations_[levels_.back().path] = entry->location;
-      return given;
-    }
+    levels_.push_back(std::move(level));
+    if (group.kind == Group::Kind::list) return new_items(group);
+    require_map(group);
     return std::nullopt;
   }
-  void end_list() override { levels_.pop_back(); }
 
-  void begin_item(std::size_t index) override {
-    const Level& list = levels_.back();
-    const YamlNode* item = nullptr;
-    if (list.node != nullptr && list.node->kind == Kind::picks) {
-      item = list.node->find(std::to_string(index));
-    } else if (list.node != nullptr) {
-      item = &list.node->items[index];
-    }
-    const bool is_new = item != nullptr && list.node->kind == Kind::list;
-    push(fmt::format("{}.{}", list.path, index), item);
-    if (is_new) locations_[levels_.back().path] = item->location;
-    require_map();
-  }
-  void end_item() override { pop(); }
-
-  std::string path_of(std::string_view key) const {
-    const std::string& above = levels_.back().path;
-    return above.empty() ? std::string(key) : fmt::format("{}.{}", above, key);
-  }
-
-  /// The key's entry in the current section, noting that the key is known.
-  const YamlEntry* take(std::string_view key) {
-    levels_.back().known.push_back(key);
-    const std::string_view old_name = old_name_of(path_of(key));
-    if (!old_name.empty()) levels_.back().known.push_back(old_name);
-    return entry_of(key);
-  }
-  const YamlEntry* entry_of(std::string_view key) const {
-    const Level& level = levels_.back();
-    if (level.node == nullptr) return nullptr;
-    const std::string_view old_name = old_name_of(path_of(key));
-    const auto entry =
-        std::find_if(level.node->entries.begin(), level.node->entries.end(),
-                     [&](const YamlEntry& e) { return e.key == key || e.key == old_name; });
-    return entry == level.node->entries.end() ? nullptr : &*entry;
-  }
-
-  void push(std::string path, const YamlNode* node) {
-    levels_.push_back(
-        {node, std::move(path), node == nullptr ? SourceLocation{} : node->location, {}});
-  }
-
-  /// Leaves a section, item or the scenario: what was not taken is no key, or no more.
-  void pop() {
+  /// What was not taken is no key or item, or no more.
+  void end(const Group& group) override {
     const Level level = std::move(levels_.back());
     levels_.pop_back();
     if (level.node == nullptr) return;
     for (const YamlEntry& entry : level.node->entries) {
-      if (std::find(level.known.begin(), level.known.end(), entry.key) == level.known.end()) {
-        refuse_or_pass_over(entry, level);
+      if (std::ranges::find(level.known, entry.key) != level.known.end()) continue;
+      const std::string path = group.path.empty() ? entry.key : group.path + '.' + entry.key;
+      if (group.kind != Group::Kind::list) {
+        refuse_or_pass_over(entry, path, group.path, level.known);
+      } else if (group.size == 0) {
+        errors_.add(entry.location, path, "", "the list is empty");
+      } else {
+        errors_.add(entry.location, path, "",
+                    fmt::format("is no item of the list (allowed: 0 to {})", group.size - 1));
       }
     }
   }
 
-  void refuse_or_pass_over(const YamlEntry& entry, const Level& level) {
-    const std::string path = level.path.empty() ? entry.key : level.path + '.' + entry.key;
+ private:
+  /// What the tree says of a section, list or item. `node` is null where it names nothing.
+  struct Level {
+    const YamlNode* node = nullptr;
+    SourceLocation location;         // of the key
+    std::vector<std::string> known;  // keys, or indices
+  };
+
+  const YamlEntry* entry_of(std::string_view key) const {
+    const Level& level = levels_.back();
+    if (level.node == nullptr) return nullptr;
+    const auto entry = std::ranges::find(level.node->entries, key, &YamlEntry::key);
+    return entry == level.node->entries.end() ? nullptr : &*entry;
+  }
+  /// The key's entry at this level, noting that the key is known.
+  const YamlEntry* take(std::string_view key) {
+    levels_.back().known.emplace_back(key);
+    return entry_of(key);
+  }
+
+  std::optional<std::size_t> new_items(const Group& list) {
+    const Level& level = levels_.back();
+    if (level.node == nullptr || level.node->kind == Kind::picks) return std::nullopt;
+    const auto& [min, max] = list.allowed;
+    const std::size_t given = level.node->items.size();
+    if (level.node->kind != Kind::list) {
+      const bool is_null = level.node->kind == Kind::null;
+      drop(list, fmt::format("expects a list{}", is_null ? ", but has no value" : ""));
+    } else if (given < min || given > max) {
+      const std::string few = min == max ? "" : fmt::format("from {} to ", min);
+      drop(list, fmt::format("has {} items (allowed: {}{})", given, few, max));
+    } else {  // the new list knows nothing of where the old one's values came from
+      std::erase_if(locations_,
+                    [&](const auto& known) { return is_at_or_below(known.first, list.path); });
+      locations_[list.path] = level.location;
+      return given;
+    }
+    return std::nullopt;
+  }
+
+  /// Drops a node that should be a map, with an error.
+  void require_map(const Group& group) {
+    const YamlNode* node = levels_.back().node;
+    if (node == nullptr || node->kind == Kind::map || node->kind == Kind::picks) return;
+    drop(group, node->kind == Kind::null ? "has no value; expects a map of keys"
+                                         : "expects a map of keys");
+  }
+  void drop(const Group& group, const std::string& what) {
+    Level& level = levels_.back();
+    errors_.add(level.location, group.path, excerpt(*level.node), what);
+    level.node = nullptr;
+  }
+
+  void refuse_or_pass_over(const YamlEntry& entry, const std::string& path,
+                           const std::string& above, const std::vector<std::string>& known) {
     if (const auto former = former_default(path, scenario_)) {
-      if (is_same_value(entry.value, *former)) {
-        removed_keys_.push_back(path);
-      } else {
-        errors_.add(entry.location, path, excerpt(entry.value),
-                    fmt::format("the key was removed after version 0.1; only its former default, "
-                                "{}, is still read",
-                                *former));
-      }
+      if (is_same_value(entry.value, *former)) return removed_keys_.push_back(path);
+      errors_.add(entry.location, path, excerpt(entry.value),
+                  fmt::format("the key was removed after version 0.1; only its former default, {}, "
+                              "is still read",
+                              *former));
     } else if (holds_removed_keys(path) && !entry.value.entries.empty()) {
       for (const YamlEntry& below : entry.value.entries) {
-        refuse_or_pass_over(below, {&entry.value, path, entry.location, level.known});
+        refuse_or_pass_over(below, path + '.' + below.key, path, known);
       }
     } else {  // the key is wrong, whatever its value
       errors_.add(entry.location, path, "",
-                  fmt::format("is no known key ({})", hint(level, entry.key)));
+                  fmt::format("is no known key ({})", hint(entry.key, above, known)));
     }
   }
 
-  static std::string hint(const Level& level, const std::string& key) {
-    const std::string above = level.path.empty() ? "" : level.path + '.';
-    if (const auto near = nearest_name(key, level.known, 2)) {
-      return fmt::format("did you mean '{}{}'?", above, *near);
-    }
-    const auto lacks_only_its_unit = [&](std::string_view known) {
-      return known.starts_with(key + '_');
+  static std::string hint(const std::string& key, const std::string& above,
+                          const std::vector<std::string>& known) {
+    const std::vector<std::string_view> names(known.begin(), known.end());
+    const auto meant = [](const std::string& path) {
+      return fmt::format("did you mean '{}'?", path);
     };
-    if (std::count_if(level.known.begin(), level.known.end(), lacks_only_its_unit) == 1) {
-      return fmt::format(
-          "did you mean '{}{}'?", above,
-          *std::find_if(level.known.begin(), level.known.end(), lacks_only_its_unit));
+    const auto meant_here = [&](std::string_view name) {
+      return meant(above.empty() ? std::string(name) : fmt::format("{}.{}", above, name));
+    };
+    if (const auto near = nearest_name(key, names, 2)) return meant_here(*near);
+    const auto lacks_only_its_unit = [&](std::string_view name) {
+      return name.starts_with(key + '_');
+    };
+    if (std::ranges::count_if(names, lacks_only_its_unit) == 1) {
+      return meant_here(*std::ranges::find_if(names, lacks_only_its_unit));
     }
     Scenario one_camera;
     one_camera.cameras.resize(1);
     for (const auto& [path, text] : scenario_values(one_camera)) {
       const std::size_t at = fmt::format(".{}.", path).find(fmt::format(".{}.", key));
-      if (at == std::string::npos) continue;
-      return fmt::format("did you mean '{}'?", path.substr(0, at + key.size()));
+      if (at != std::string::npos) return meant(path.substr(0, at + key.size()));
     }
-    if (const auto near = nearest_name(key, level.known, misspelling_limit(key))) {
-      return fmt::format("did you mean '{}{}'?", above, *near);
+    if (const auto near = nearest_name(key, names, misspelling_limit(key))) {
+      return meant_here(*near);
     }
-    return fmt::format("known here: {}", join(level.known));
-  }
-
-  /// Drops a node that should be a map, with an error.
-  void require_map() {
-    const YamlNode* node = levels_.back().node;
-    if (node == nullptr || node->kind == Kind::map || node->kind == Kind::picks) return;
-    drop(node->kind == Kind::null ? "has no value; expects a map of keys"
-                                  : "expects a map of keys");
-  }
-
-  void drop(const std::string& what) {
-    Level& level = levels_.back();
-    errors_.add(level.location, level.path, excerpt(*level.node), what);
-    level.node = nullptr;
-  }
-
-  void check_picks(const YamlNode& node, std::size_t size) {
-    for (const YamlEntry& entry : node.entries) {
-      std::size_t index = size;
-      const char* end = entry.key.data() + entry.key.size();
-      const auto [last, error] = std::from_chars(entry.key.data(), end, index);
-      const bool is_index =
-          error == std::errc{} && last == end && entry.key == std::to_string(index);
-      if (is_index && index < size) continue;
-      errors_.add(entry.location, path_of(entry.key), "",
-                  size == 0 ? "the list is empty"
-                            : fmt::format("is no item of the list (allowed: 0 to {})", size - 1));
-    }
-  }
-
-  /// A new list knows nothing of where the old one's values came from.
-  void forget(const std::string& path) {
-    std::erase_if(locations_, [&](const auto& known) { return is_at_or_below(known.first, path); });
+    return fmt::format("known here: {}", join(names));
   }
 
   static void write_angles_once(const Field& field, const FieldValue& value) {
@@ -239,6 +191,7 @@ class Reader final : public FieldVisitor {
     }
   }
 
+  const Group kRoot = {};
   const std::string& folder_;
   const Scenario& scenario_;
   ValidationErrors& errors_;
@@ -253,7 +206,7 @@ std::vector<std::string> read_scenario(const YamlNode& root, const std::string& 
                                        Scenario& scenario, ValidationErrors& errors,
                                        SourceLocations& locations) {
   Reader reader(root, folder, scenario, errors, locations);
-  fields(reader, scenario);
+  fields(Keys(reader), scenario);
   return reader.finish();
 }
 

@@ -1,20 +1,38 @@
-// From a tree to the config: what the tree names is set, all else stays.
+// The steps of load_scenario(), which alone calls them.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scenarios/document.hpp"
-#include "scenarios/fields.hpp"
+#include "scenarios/scenario.hpp"
 
 namespace gnbv {
 
-/// Sets what `root` names. Whatever does not fit, unknown keys included, goes to `errors` and
-/// changes nothing; where values were given goes to `locations`. Relative paths are taken from
-/// `folder`. Angles that are not named become their written_angle_rad(). Returns the keys that
-/// version 0.1 had and that were passed over (old_keys.hpp).
+/// Sets what `root` names; all else stays, but that an angle becomes its written_angle_rad(). What
+/// does not fit, unknown keys included, goes to `errors` and changes nothing; where values were
+/// given goes to `locations`. Relative paths begin at `folder`. Returns the removed keys that were
+/// given, each at its former_default().
 std::vector<std::string> read_scenario(const YamlNode& root, const std::string& folder,
                                        Scenario& scenario, ValidationErrors& errors,
                                        SourceLocations& locations);
+
+// ---- the keys of version 0.1 that scenario files have no more (old_keys.cpp): files and run
+// directories of that version are read up to version 2.0; then these functions go
+
+/// Whether a key below this path was removed.
+bool holds_removed_keys(std::string_view path);
+/// The value that a removed key had where nobody gave it, as YAML; nothing for any other path. It
+/// may depend on the preset of the scenario's vehicle.
+std::optional<std::string> former_default(std::string_view path, const Scenario& scenario);
+
+/// A sentence for each parameter without effect in the scenario as it stands that somebody gave:
+/// "key (where) has no effect: other key is value", in the order of the file. Passed over: what a
+/// file gives at its default, and a file that gives every key, as `gnbv run` writes it. Which
+/// parameters have no effect stands beside them, in fields_*.cpp.
+std::vector<std::string> unused_parameter_notes(const Scenario& scenario,
+                                                const SourceLocations& locations);
 
 }  // namespace gnbv

@@ -1,4 +1,4 @@
-// What to run: one value, assembled from every module's own config, read once.
+// What to run: one value, made of every module's own config and read once.
 #pragma once
 
 #include <array>
@@ -43,7 +43,7 @@ inline std::string structure_name(const StructureConfig& structure) {
   return more == 0 ? first : first + " and " + std::to_string(more) + " more";
 }
 
-/// What is flown around and not scored: a mesh, or without one a box. World ENU.
+/// What is flown around and not scored: a mesh, or else a box. World ENU.
 struct ObstacleConfig {
   MeshFileConfig file;
   Box3 box_m = Box3(Vec3::Zero(), Vec3::Zero());
@@ -68,7 +68,7 @@ struct StartConfig {
   double jitter_yaw_rad = 0.0;
 };
 
-/// What only a benchmark may know: it is asked of the truth, never of the belief.
+/// What only a benchmark may know: it asks the truth, never the belief.
 struct BenchmarkConfig {
   double stop_at_coverage = 0.0;  // of the surface seen from outside, at 0.05 m; 0 switches it off
 };
@@ -77,7 +77,7 @@ struct Scenario {
   std::string name = "unnamed";
   std::uint64_t seed = 1;
   Box3 workspace_m = Box3(Vec3(-20, -20, 0), Vec3(20, 20, 20));
-  std::string placed_at;  // for faults: "file:line: key" or override that placed the structure
+  std::string placed_at;  // for messages: "file:line: key" or override that placed the structure
   StructureConfig structure;
   MeshFileConfig terrain;  // the ground as a mesh; no path: none
   std::vector<ObstacleConfig> obstacles;
@@ -115,6 +115,16 @@ struct MeshFileKey {
   std::string key;
   MeshFileConfig* file;
 };
-std::vector<MeshFileKey> mesh_files(Scenario& scenario);
+inline std::vector<MeshFileKey> mesh_files(Scenario& scenario) {
+  std::vector<MeshFileKey> all = {{"structure.file", &scenario.structure.file},
+                                  {"terrain", &scenario.terrain}};
+  for (std::size_t i = 0; i < scenario.structure.files.size(); ++i) {
+    all.push_back({"structure.files." + std::to_string(i), &scenario.structure.files[i]});
+  }
+  for (std::size_t i = 0; i < scenario.obstacles.size(); ++i) {
+    all.push_back({"obstacles." + std::to_string(i) + ".file", &scenario.obstacles[i].file});
+  }
+  return all;
+}
 
 }  // namespace gnbv

@@ -5,9 +5,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <tuple>
-
-#include "sim/core/error.hpp"
 
 namespace gnbv {
 
@@ -25,7 +22,7 @@ void ValidationErrors::add(const SourceLocation& location, std::string_view key,
 }
 
 bool ValidationErrors::concerns(std::string_view path) const {
-  return std::any_of(errors_.begin(), errors_.end(), [&](const ValidationError& error) {
+  return std::ranges::any_of(errors_, [&](const ValidationError& error) {
     return is_at_or_below(path, error.key) || is_at_or_below(error.key, path);
   });
 }
@@ -33,9 +30,7 @@ bool ValidationErrors::concerns(std::string_view path) const {
 void ValidationErrors::throw_if_any() const {
   if (errors_.empty()) return;
   std::vector<ValidationError> sorted = errors_;
-  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
-    return std::tie(a.location.rank, a.location.line) < std::tie(b.location.rank, b.location.line);
-  });
+  std::ranges::stable_sort(sorted, {}, [](const auto& error) { return error.location.order(); });
   std::string text;
   for (const auto& [location, key, value, what] : sorted) {
     text += fmt::format("{}{}: {}{}{}", text.empty() ? "" : "\n", text_of(location),

@@ -18,6 +18,8 @@ struct SourceLocation {
   std::string source;  // as the message shows it: a path, "--set a.b=c"
   int line = 0;        // from 1; 0 = the source has no lines
   int rank = 0;        // 0 the file, then 1, 2, ... the overrides: later ones win
+
+  std::pair<int, int> order() const { return {rank, line}; }
 };
 
 /// "source:line", or "source".
@@ -34,7 +36,7 @@ struct ValidationError {
   std::string what;
 };
 
-/// All that is wrong with a scenario, for those who want more than text.
+/// All that is wrong with a scenario, as text and as a list.
 class BadScenario : public BadInput {
  public:
   BadScenario(const std::string& text, std::vector<ValidationError> all)
@@ -64,8 +66,8 @@ bool is_at_or_below(std::string_view path, std::string_view above);
 /// Number of single-character insertions, deletions and replacements that turn `a` into `b`.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The known name with the smallest edit distance, the first of them; nothing when all are farther
-/// than `limit`.
+/// The known name with the smallest edit distance, of several the first; nothing when all are
+/// farther than `limit`.
 std::optional<std::string_view> nearest_name(std::string_view name,
                                              std::span<const std::string_view> known,
                                              std::size_t limit);
@@ -73,7 +75,7 @@ std::optional<std::string_view> nearest_name(std::string_view name,
 /// The edit distance up to which a name counts as misspelt: half its length, at least 2.
 std::size_t misspelling_limit(std::string_view name);
 
-/// "did you mean 'isler'? " where the name may be a known one misspelt, else empty.
+/// "did you mean 'isler'? " where the name may be a misspelt known one, else empty.
 std::string did_you_mean(std::string_view name, std::span<const std::string_view> known);
 
 /// "a, b, c".

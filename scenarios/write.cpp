@@ -1,41 +1,38 @@
-#include "scenarios/write.hpp"
-
 #include <fmt/format.h>
 
-#include "scenarios/fields.hpp"
+#include <algorithm>
+
+#include "scenarios/builtin.hpp"
 #include "scenarios/load.hpp"
+#include "scenarios/reader.hpp"
 #include "scenarios/values.hpp"
 
 namespace gnbv {
 namespace {
+
+using Texts = std::map<std::string, std::string>;
 
 /// Block style, two spaces a level; vectors on one line.
 class YamlWriter final : public FieldVisitor {
  public:
   std::string text;
 
- private:
   void leaf(const Field& field, const FieldValue& value) override {
     line(fmt::format("{}: {}", field.key, yaml_text(field, value)));
   }
-  void begin_section(std::string_view key, std::string_view) override {
-    line(fmt::format("{}:", key));
-    depth_ += 1;
-  }
-  void end_section() override { depth_ -= 1; }
-  std::optional<std::size_t> begin_list(std::string_view key, std::size_t size, const ListSize&,
-                                        std::string_view) override {
-    line(fmt::format("{}:{}", key, size == 0 ? " []" : ""));
+  std::optional<std::size_t> begin(const Group& group) override {
+    const bool is_list = group.kind == Group::Kind::list;
+    if (group.kind == Group::Kind::item) {
+      is_first_of_item_ = true;
+    } else {
+      line(group.key + (is_list && group.size == 0 ? ": []" : ":"));
+    }
     depth_ += 1;
     return std::nullopt;
   }
-  void end_list() override { depth_ -= 1; }
-  void begin_item(std::size_t) override {
-    depth_ += 1;
-    is_first_of_item_ = true;
-  }
-  void end_item() override { depth_ -= 1; }
+  void end(const Group&) override { depth_ -= 1; }
 
+ private:
   void line(const std::string& content) {
     std::string indent(2 * depth_, ' ');
     if (is_first_of_item_) indent[indent.size() - 2] = '-';
@@ -47,44 +44,54 @@ class YamlWriter final : public FieldVisitor {
   bool is_first_of_item_ = false;
 };
 
-class ValueLister final : public FieldVisitor {
- public:
-  explicit ValueLister(bool asks_for_use) { asks_for_use_ = asks_for_use; }
-
-  std::vector<ValueUse> values;
-
- private:
-  void leaf(const Field& field, const FieldValue& value) override {
-    const std::string_view by = field.use.unused_by;
-    values.push_back({path_ + std::string(field.key), yaml_text(field, value),
-                      by.starts_with('.') ? path_ + std::string(by.substr(1)) : std::string(by),
-                      field.use.is_papers_setting});
-  }
-  void begin_section(std::string_view key, std::string_view) override { enter(key); }
-  void end_section() override { leave(); }
-  std::optional<std::size_t> begin_list(std::string_view key, std::size_t, const ListSize&,
-                                        std::string_view) override {
-    enter(key);
-    return std::nullopt;
-  }
-  void end_list() override { leave(); }
-  void begin_item(std::size_t index) override { enter(std::to_string(index)); }
-  void end_item() override { leave(); }
-
-  void enter(std::string_view key) { path_ += fmt::format("{}.", key); }
-  void leave() {
-    path_.pop_back();
-    path_.resize(path_.rfind('.') + 1);  // npos + 1 = 0: back at the root
-  }
-
-  std::string path_;
+/// Every value as YAML, and what the scenario makes of it.
+struct ValueUse {
+  std::string path;
+  std::string text;
+  FieldUse use;
 };
 
-std::vector<ValueUse> listed(const Scenario& scenario, bool asks_for_use) {
-  Scenario copy = scenario;
-  ValueLister lister(asks_for_use);
-  fields(lister, copy);
+class ValueLister final : public FieldVisitor {
+ public:
+  std::vector<ValueUse> values;
+
+  void leaf(const Field& field, const FieldValue& value) override {
+    values.push_back({field.path, yaml_text(field, value), field.use});
+  }
+};
+
+std::vector<ValueUse> value_uses(Scenario scenario) {
+  ValueLister lister;
+  fields(Keys(lister, &scenario), scenario);
   return std::move(lister.values);
+}
+
+/// What the paper's figures depend on and the paper states, or does not have.
+Texts papers_values(const Scenario& scenario) {
+  Texts stated;
+  for (const ValueUse& value : value_uses(scenario)) {
+    if (value.use.is_papers_setting) stated.emplace(value.path, value.text);
+  }
+  return stated;
+}
+
+/// What a file that names only the scenario's presets stands for.
+Texts defaults_of(const Scenario& scenario) {
+  Scenario plain;
+  plain.planner.preset = scenario.planner.preset;
+  set_preset_switches(plain.planner);
+  plain.vehicle = vehicle_preset(scenario.vehicle.preset);
+  const auto values = scenario_values(plain);
+  return {values.begin(), values.end()};
+}
+
+/// "planner.fvs.enabled is false", "structure.files is not empty".
+std::string state_of(const std::string& key, const std::vector<ValueUse>& values) {
+  const auto value = std::ranges::find_if(
+      values, [&](const ValueUse& each) { return is_at_or_below(each.path, key); });
+  if (value == values.end()) return key + " is empty";
+  if (value->path != key) return key + " is not empty";
+  return fmt::format("{} is {}", key, value->text == "\"\"" ? "empty" : value->text);
 }
 
 }  // namespace
@@ -92,7 +99,7 @@ std::vector<ValueUse> listed(const Scenario& scenario, bool asks_for_use) {
 std::string to_yaml(const Scenario& scenario) {
   Scenario copy = scenario;  // visitors may write, this one does not
   YamlWriter writer;
-  fields(writer, copy);
+  fields(Keys(writer), copy);
   return writer.text;
 }
 
@@ -107,14 +114,45 @@ std::string views_override(std::span<const ViewPose> views) {
   return text + ']';
 }
 
-std::vector<ValueUse> value_uses(const Scenario& scenario) { return listed(scenario, true); }
-
 std::vector<std::pair<std::string, std::string>> scenario_values(const Scenario& scenario) {
+  Scenario copy = scenario;
+  ValueLister lister;
+  fields(Keys(lister), copy);
   std::vector<std::pair<std::string, std::string>> values;
-  for (ValueUse& value : listed(scenario, false)) {
+  for (ValueUse& value : lister.values) {
     values.emplace_back(std::move(value.path), std::move(value.text));
   }
   return values;
+}
+
+bool has_papers_setting(const Scenario& scenario) {
+  return std::ranges::count(builtin_names("scenarios"), scenario.name) == 1 &&
+         papers_values(scenario) == papers_values(load_scenario(scenario.name, {}));
+}
+
+std::vector<std::string> unused_parameter_notes(const Scenario& scenario,
+                                                const SourceLocations& locations) {
+  const std::vector<ValueUse> values = value_uses(scenario);
+  const bool is_whole_file = std::ranges::all_of(values, [&](const ValueUse& value) {
+    const auto given = locations.find(value.path);
+    return given != locations.end() && given->second.line > 0;
+  });
+  const Texts defaults = defaults_of(scenario);
+  std::vector<std::pair<SourceLocation, std::string>> notes;
+  for (const auto& [path, text, use] : values) {
+    const auto given = locations.find(path);
+    if (use.unused_by.empty() || given == locations.end()) continue;
+    const auto plain = defaults.find(path);
+    const bool is_default = plain != defaults.end() && plain->second == text;
+    const SourceLocation& location = given->second;
+    if (location.rank == 0 && (is_whole_file || is_default)) continue;
+    notes.emplace_back(location, fmt::format("{} ({}) has no effect: {}", path, text_of(location),
+                                             state_of(use.unused_by, values)));
+  }
+  std::ranges::stable_sort(notes, {}, [](const auto& note) { return note.first.order(); });
+  std::vector<std::string> sentences;
+  for (auto& [location, sentence] : notes) sentences.push_back(std::move(sentence));
+  return sentences;
 }
 
 }  // namespace gnbv

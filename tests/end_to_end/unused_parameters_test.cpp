@@ -1,10 +1,9 @@
 // Keys that are said to have no effect have none: the same mission is flown with other values.
-#include "scenarios/unused_parameters.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
+#include "scenarios/load.hpp"
 #include "tests/support/flown.hpp"
 
 namespace gnbv {

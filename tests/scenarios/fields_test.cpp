@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <typeindex>
 #include <utility>
 
 namespace gnbv {
@@ -35,73 +37,76 @@ struct Three {
 };
 static_assert(field_count<Three>() == 3);
 
-/// Counts the keys of one struct, those of the structs in it left out.
+/// Counts the keys of each struct, those of the structs in it left out.
 class KeyCounter final : public FieldVisitor {
  public:
-  std::size_t count = 0;
+  std::map<std::type_index, std::size_t> counts;
+
+  void leaf(const Field&, const FieldValue&) override { counts[within_.back()] += 1; }
+  std::optional<std::size_t> begin(const Group& group) override {
+    if (group.kind != Group::Kind::item) counts[within_.back()] += 1;
+    if (group.kind != Group::Kind::list) counts[group.config] = 0;  // some are there several times
+    within_.push_back(group.config);
+    return 1;  // item in every list
+  }
+  void end(const Group&) override { within_.pop_back(); }
+  Form form_of(std::string_view, bool) override { return Form::both; }
 
  private:
-  void leaf(const Field&, const FieldValue&) override { count += depth_ == 0 ? 1 : 0; }
-  void begin_section(std::string_view, std::string_view) override { enter(); }
-  void end_section() override { depth_ -= 1; }
-  std::optional<std::size_t> begin_list(std::string_view, std::size_t, const ListSize&,
-                                        std::string_view) override {
-    enter();
-    return std::nullopt;
-  }
-  void end_list() override { depth_ -= 1; }
-  void begin_item(std::size_t) override {}
-  void end_item() override {}
-  void enter() {
-    count += depth_ == 0 ? 1 : 0;
-    depth_ += 1;
-  }
-
-  int depth_ = 0;
+  std::vector<std::type_index> within_ = {typeid(Scenario)};
 };
 
-template <typename Config>
-std::size_t key_count() {
-  Config config;
-  KeyCounter counter;
-  fields(counter, config);
-  return counter.count;
-}
-
 TEST(Fields, EveryFieldOfEveryConfigHasAKey) {
-  EXPECT_EQ(key_count<MeshFileConfig>(), field_count<MeshFileConfig>());
-  EXPECT_EQ(key_count<RotorMount>(), field_count<RotorMount>());
-  EXPECT_EQ(key_count<AirframeParameters>(), field_count<AirframeParameters>());
-  EXPECT_EQ(key_count<AutopilotParameters>() + 1, field_count<AutopilotParameters>())
-      << "the commander's are PX4 parameters";
-  EXPECT_EQ(key_count<PowerParameters>(), field_count<PowerParameters>());
-  EXPECT_EQ(key_count<EstimateConfig>(), field_count<EstimateConfig>());
-  EXPECT_EQ(key_count<VehicleConfig>(), field_count<VehicleConfig>());
-  EXPECT_EQ(key_count<GuidanceConfig>(), field_count<GuidanceConfig>());
-  EXPECT_EQ(key_count<WindConfig>(), field_count<WindConfig>());
-  EXPECT_EQ(key_count<GnssOutage>(), field_count<GnssOutage>());
-  EXPECT_EQ(key_count<GimbalConfig>(), field_count<GimbalConfig>());
-  EXPECT_EQ(key_count<DepthNoiseConfig>(), field_count<DepthNoiseConfig>());
-  EXPECT_EQ(key_count<CameraConfig>() + 1, field_count<CameraConfig>())
-      << "pitch or gimbal: one key";
-  EXPECT_EQ(key_count<LidarConfig>(), field_count<LidarConfig>());
-  EXPECT_EQ(key_count<OccupancyConfig>(), field_count<OccupancyConfig>());
-  EXPECT_EQ(key_count<CloudConfig>(), field_count<CloudConfig>());
-  EXPECT_EQ(key_count<ProfilingConfig>(), field_count<ProfilingConfig>());
-  EXPECT_EQ(key_count<AgvsConfig>(), field_count<AgvsConfig>());
-  EXPECT_EQ(key_count<ValidityConfig>(), field_count<ValidityConfig>());
-  EXPECT_EQ(key_count<UtilityConfig>(), field_count<UtilityConfig>());
-  EXPECT_EQ(key_count<TourConfig>(), field_count<TourConfig>());
-  EXPECT_EQ(key_count<RouteConfig>(), field_count<RouteConfig>());
-  EXPECT_EQ(key_count<TerminationConfig>(), field_count<TerminationConfig>());
-  EXPECT_EQ(key_count<PlannerConfig>(), field_count<PlannerConfig>());
-  EXPECT_EQ(key_count<StructureConfig>(), field_count<StructureConfig>());
-  EXPECT_EQ(key_count<ObstacleConfig>(), field_count<ObstacleConfig>());
-  EXPECT_EQ(key_count<NoFlyConfig>(), field_count<NoFlyConfig>() + 1) << "a box is two keys";
-  EXPECT_EQ(key_count<ScoreConfig>(), field_count<ScoreConfig>());
-  EXPECT_EQ(key_count<StartConfig>(), field_count<StartConfig>() + 1) << "pose is two keys";
-  EXPECT_EQ(key_count<BenchmarkConfig>(), field_count<BenchmarkConfig>());
-  EXPECT_EQ(key_count<Scenario>() + 1, field_count<Scenario>()) << "placed_at is no key";
+  Scenario scenario;
+  KeyCounter counter;
+  fields(Keys(counter), scenario);
+  const auto expect = [&]<typename Config>(const Config&, int more = 0) {
+    const auto keys = counter.counts.find(typeid(Config));
+    ASSERT_NE(keys, counter.counts.end()) << typeid(Config).name();
+    EXPECT_EQ(keys->second, field_count<Config>() + more) << typeid(Config).name();
+    counter.counts.erase(keys);
+  };
+  expect(MeshFileConfig{});
+  expect(RotorMount{});
+  expect(AirframeParameters{});
+  expect(PowerParameters{});
+  expect(EstimateConfig{});
+  expect(VehicleConfig{});
+  expect(GuidanceConfig{});
+  expect(WindConfig{});
+  expect(GnssOutage{});
+  expect(GimbalConfig{});
+  expect(DepthNoiseConfig{});
+  expect(CameraConfig{});
+  expect(LidarConfig{});
+  expect(OccupancyConfig{});
+  expect(CloudConfig{});
+  expect(ProfilingConfig{});
+  expect(AgvsConfig{});
+  expect(FvsConfig{});
+  expect(FrontierConfig{});
+  expect(ValidityConfig{});
+  expect(PathSearchConfig{});
+  expect(UtilityConfig{});
+  expect(VolumeWeights{});
+  expect(ShadowConfig{});
+  expect(UserUtilityConfig{});
+  expect(TourConfig{});
+  expect(SymmetryConfig{});
+  expect(RouteConfig{});
+  expect(ViewPose{});
+  expect(TerminationConfig{});
+  expect(PlannerConfig{});
+  expect(StructureConfig{});
+  expect(ObstacleConfig{});
+  expect(ScoreConfig{});
+  expect(BenchmarkConfig{});
+  expect(AutopilotParameters{}, -1);                  // the commander's are PX4 parameters
+  expect(StartConfig{}, 1);                           // pose is two keys
+  expect(NoFlyConfig{}, 1);                           // a box is two keys
+  expect(Scenario{}, -1);                             // placed_at is no key
+  EXPECT_EQ(counter.counts.erase(typeid(Box3)), 1U);  // no struct of ours
+  for (const auto& [config, count] : counter.counts) ADD_FAILURE() << config.name() << " is new";
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // `cameras.N.pitch_deg`: a number, or a gimbal's min, max and step.
 #include <gmock/gmock.h>
 
-#include "scenarios/write.hpp"
+#include "scenarios/load.hpp"
 #include "tests/scenarios/scenario_text.hpp"
 
 namespace gnbv {

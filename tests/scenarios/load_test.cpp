@@ -5,8 +5,6 @@
 #include <algorithm>
 
 #include "scenarios/builtin.hpp"
-#include "scenarios/presets.hpp"
-#include "scenarios/write.hpp"
 #include "sim/core/file.hpp"
 #include "tests/scenarios/scenario_text.hpp"
 

@@ -1,6 +1,4 @@
 // Files of version 0.1 are read: what was removed since is passed over at its former default.
-#include "scenarios/old_keys.hpp"
-
 #include <gmock/gmock.h>
 
 #include "scenarios/load.hpp"

@@ -1,5 +1,3 @@
-#include "scenarios/papers_setting.hpp"
-
 #include <gtest/gtest.h>
 
 #include "scenarios/load.hpp"

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scenarios/fields.hpp"
-#include "scenarios/write.hpp"
+#include "scenarios/load.hpp"
 #include "tests/scenarios/scenario_text.hpp"
 
 namespace gnbv {

@@ -1,8 +1,7 @@
 // Who is told of keys without effect, and where they stand.
-#include "scenarios/unused_parameters.hpp"
-
 #include <gtest/gtest.h>
 
+#include "scenarios/load.hpp"
 #include "tests/scenarios/scenario_text.hpp"
 
 namespace gnbv {

@@ -7,7 +7,7 @@
 
 #include "bench/compare/paper_table.hpp"
 #include "planner/planners.hpp"
-#include "scenarios/papers_setting.hpp"
+#include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/gnbv/commands.hpp"

@@ -8,7 +8,7 @@
 #include "bench/compare/paper_table.hpp"
 #include "bench/compare/statistics.hpp"
 #include "planner/planners.hpp"
-#include "scenarios/papers_setting.hpp"
+#include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/text.hpp"
 #include "tools/gnbv/bench_runs.hpp"

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "scenarios/flow_yaml.hpp"
+#include "scenarios/document.hpp"
 #include "sim/core/file.hpp"
 #include "tools/mission/auto_bounds.hpp"
 #include "tools/mission/load_world.hpp"

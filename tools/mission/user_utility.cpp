@@ -10,7 +10,7 @@
 #include <regex>
 
 #include "planner/view/view_fields.hpp"
-#include "scenarios/flow_yaml.hpp"
+#include "scenarios/document.hpp"
 #include "sim/core/embed.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "bench/compare/paper_figures.hpp"
-#include "scenarios/papers_setting.hpp"
+#include "scenarios/load.hpp"
 #include "tools/plots/script_parts.hpp"
 #include "tools/run_files/words.hpp"
 

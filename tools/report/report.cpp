@@ -7,7 +7,7 @@
 
 #include "bench/compare/paper_table.hpp"
 #include "bench/compare/table_groups.hpp"
-#include "scenarios/papers_setting.hpp"
+#include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/text.hpp"
 #include "tools/mission/start_pose.hpp"

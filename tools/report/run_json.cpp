@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/compare/paper_figures.hpp"
-#include "scenarios/papers_setting.hpp"
+#include "scenarios/load.hpp"
 #include "sim/core/file.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/report/packed_json.hpp"

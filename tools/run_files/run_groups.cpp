@@ -6,7 +6,7 @@
 #include <array>
 #include <iterator>
 
-#include "scenarios/write.hpp"
+#include "scenarios/load.hpp"
 #include "tools/run_files/run_names.hpp"
 #include "tools/run_files/words.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "scenarios/flow_yaml.hpp"
+#include "scenarios/document.hpp"
 #include "sim/core/error.hpp"
 #include "tools/mission/user_utility.hpp"
 

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <utility>
 
-#include "scenarios/flow_yaml.hpp"
+#include "scenarios/document.hpp"
 
 namespace gnbv {
 

@@ -7,7 +7,7 @@
 #include <functional>
 #include <limits>
 
-#include "scenarios/presets.hpp"
+#include "scenarios/builtin.hpp"
 #include "sim/mesh/world.hpp"
 #include "tests/support/streaming_flight.hpp"
 

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-#include "scenarios/presets.hpp"
+#include "scenarios/builtin.hpp"
 #include "sim/core/error.hpp"
 #include "sim/mesh/world.hpp"
 #include "tests/support/streaming_flight.hpp"

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "scenarios/builtin.hpp"
-#include "scenarios/presets.hpp"
 #include "sim/core/error.hpp"
 #include "sim/flight/rest_to_rest.hpp"
 #include "sim/mesh/world.hpp"

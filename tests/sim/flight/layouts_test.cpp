@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "scenarios/builtin.hpp"
-#include "scenarios/presets.hpp"
 #include "sim/core/rng.hpp"
 #include "sim/flight/allocation.hpp"
 #include "sim/flight/guidance.hpp"

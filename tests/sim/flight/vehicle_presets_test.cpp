@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "scenarios/presets.hpp"
+#include "scenarios/builtin.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
 #include "sim/flight/feed_forward.hpp"

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "scenarios/builtin.hpp"
-#include "scenarios/presets.hpp"
 #include "sim/flight/rotors.hpp"
 #include "sim/mesh/world.hpp"
 #include "tests/support/streaming_flight.hpp"

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <set>
 
-#include "scenarios/flow_yaml.hpp"
+#include "scenarios/document.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tests/support/temp_folder.hpp"

@@ -1,0 +1,216 @@
+#include "scenarios/builtin.hpp"
+#include "scenarios/fields.hpp"
+
+namespace gnbv {
+namespace {
+
+/// The first key of a sensor: another preset brings its values, which the keys after it override.
+template <typename Config>
+void preset(const Keys& key, Config& c, std::string_view folder) {
+  const std::string before = c.preset;
+  key("preset", c.preset, builtin_names(folder),
+      "Sets all values but name and mounting to those of this sensor.");
+  if (c.preset != before) c = with_preset_values(c);
+}
+
+template <typename Config>
+void mounting(const Keys& key, Config& c) {
+  constexpr Range kPitch_deg = {-90, 90};
+  constexpr std::string_view kPitch = "Turn about body y, the second: positive tilts down.";
+  key("p_body_m", c.p_body_m, {-10, 10}, "Where it sits, body FLU.");
+  key.angle("roll_deg", c.roll_rad, {-180, 180}, "Turn about body x, the first.");
+  if constexpr (std::is_same_v<Config, CameraConfig>) {
+    key.angle_or_section("pitch_deg", c.pitch_rad, kPitch_deg, c.gimbal, kPitch,
+                         "A gimbal: the pitches that every view may choose from.");
+    if (c.gimbal) c.pitch_rad = nearest_pitch_rad(*c.gimbal, 0.0);
+  } else {
+    key.angle("pitch_deg", c.pitch_rad, kPitch_deg, kPitch);
+  }
+  key.angle("yaw_deg", c.yaw_rad, {-180, 180}, "Turn about body z, the last: positive turns left.");
+}
+
+}  // namespace
+
+void fields(const Keys& key, RotorMount& c) {
+  key("p_body_m", c.p_body_m, {-10, 10}, "Where the rotor sits, body FLU.");
+  key("spin", c.spin, {-1, 1}, "Seen from above: 1 turns counter-clockwise, -1 clockwise.");
+}
+
+void fields(const Keys& key, AirframeParameters& c) {
+  key("mass_kg", c.mass_kg, positive(1e3), "Of the whole vehicle.");
+  key("inertia_kg_m2", c.inertia_kg_m2, positive(1e3), "Diagonal, body axes.");
+  key.list("rotors", c.rotors, {kLeastRotors, kMostRotors},
+           "Four to eight, in any layout around the centre of mass; presets are in PX4's order.");
+  key("thrust_coefficient_n_s2", c.thrust_coefficient_n_s2, positive(1),
+      "Thrust at rest over the square of the rotor speed.");
+  key("moment_per_thrust_m", c.moment_per_thrust_m, {0, 1}, "Reaction torque over thrust at rest.");
+  key("drag_coefficient_n_s2_per_m", c.drag_coefficient_n_s2_per_m, {0, 1},
+      "Rotor drag over rotor speed times in-plane velocity.");
+  key("rolling_coefficient_n_s2", c.rolling_coefficient_n_s2, {0, 1e-4},
+      "Rolling moment over rotor speed times in-plane velocity.");
+  key("rolling_follows_spin", c.rolling_follows_spin,
+      "Whether the rolling moment changes sign with the rotor's spin.");
+  using enum ThrustLoss;
+  key("thrust_loss", c.thrust_loss,
+      {{none, "none"}, {axial_speed, "axial_speed"}, {whole_speed, "whole_speed"}},
+      "Which speed of a rotor through the air takes thrust from it.");
+  key("thrust_loss_limit_m_s", c.thrust_loss_limit_m_s, positive(1e3),
+      "The speed at which no thrust is left.");
+  key("time_constant_up_s", c.time_constant_up_s, positive(10), "Of a rotor that gains speed.");
+  key("time_constant_down_s", c.time_constant_down_s, positive(10), "Of a rotor that loses speed.");
+  key("idle_speed_rad_s", c.idle_speed_rad_s, {0, 1e4}, "Rotor speed at command 0.");
+  key("command_gain_rad_s", c.command_gain_rad_s, positive(1e5),
+      "Rotor speed that a command of 1 adds.");
+  key("gravity_m_s2", c.gravity_m_s2, positive(100), "Acceleration of free fall.");
+  key("hull_radius_m", c.hull_radius_m, positive(10), "Of the collision cylinder.");
+  key("hull_height_m", c.hull_height_m, positive(10), "Of the collision cylinder.");
+}
+
+void fields(const Keys& key, AutopilotParameters& c) {
+  constexpr Range kGain = {0, 1e3};
+  constexpr Range kShare = {0, 1};
+  key("position_p_per_s", c.position_p_per_s, kGain, "MPC_XY_P, MPC_Z_P.");
+  key("velocity_p_per_s", c.velocity_p_per_s, kGain, "MPC_XY_VEL_P_ACC, MPC_Z_VEL_P_ACC.");
+  key("velocity_i_per_s2", c.velocity_i_per_s2, kGain, "MPC_XY_VEL_I_ACC, MPC_Z_VEL_I_ACC.");
+  key("velocity_d", c.velocity_d, kGain, "MPC_XY_VEL_D_ACC, MPC_Z_VEL_D_ACC.");
+  key("velocity_derivative_cutoff_hz", c.velocity_derivative_cutoff_hz, positive(1e3),
+      "MPC_VELD_LP.");
+  key("speed_max_m_s", c.speed_max_m_s, {0.01, 100}, "MPC_XY_VEL_MAX.");
+  key("climb_speed_max_m_s", c.climb_speed_max_m_s, {0.01, 100}, "MPC_Z_VEL_MAX_UP.");
+  key("descent_speed_max_m_s", c.descent_speed_max_m_s, {0.01, 100}, "MPC_Z_VEL_MAX_DN.");
+  key.angle("tilt_max_deg", c.tilt_max_rad, inside(0, 90), "MPC_TILTMAX_AIR.");
+  key("thrust_min", c.thrust_min, kShare, "MPC_THR_MIN, of the full command.");
+  key("thrust_max", c.thrust_max, kShare, "MPC_THR_MAX, of the full command.");
+  key("thrust_margin_xy", c.thrust_margin_xy, kShare, "MPC_THR_XY_MARG.");
+  key("attitude_p_per_s", c.attitude_p_per_s, kGain, "MC_ROLL_P, MC_PITCH_P, MC_YAW_P.");
+  key("yaw_weight", c.yaw_weight, positive(1), "MC_YAW_WEIGHT.");
+  key.angle("rate_max_deg_s", c.rate_max_rad_s, {0.1, 1e4},
+            "MC_ROLLRATE_MAX, MC_PITCHRATE_MAX, MC_YAWRATE_MAX.");
+  key("rate_p", c.rate_p, kGain, "MC_ROLLRATE_P, MC_PITCHRATE_P, MC_YAWRATE_P.");
+  key("rate_i", c.rate_i, kGain, "MC_ROLLRATE_I, MC_PITCHRATE_I, MC_YAWRATE_I.");
+  key("rate_d", c.rate_d, kGain, "MC_ROLLRATE_D, MC_PITCHRATE_D, MC_YAWRATE_D.");
+  key("rate_integral_max", c.rate_integral_max, kShare, "MC_RR_INT_LIM and its twins.");
+  key.angle("rate_integral_fade_deg_s", c.rate_integral_fade_rad_s, positive(1e5),
+            "Rate error beyond which nothing is integrated.");
+}
+
+void fields(const Keys& key, PowerParameters& c) {
+  constexpr Range kAny = {0, 1e3};
+  key("k1", c.k1, kAny, "Induced power (Liu et al. 2017).");
+  key("k2", c.k2, positive(1e3), "Induced velocity (Liu et al. 2017).");
+  key("c2", c.c2, kAny, "Profile power (Liu et al. 2017).");
+  key("c4", c.c4, kAny, "Parasitic power (Liu et al. 2017).");
+  key("battery_wh", c.battery_wh, {0, 1e5}, "Usable energy; 0: never empty.");
+  key.of_papers_setting()("return_home", c.return_home,
+                          "The mission ends landed at the start: in time, if there is a battery.");
+  key.only_if(c.return_home, ".return_home")
+      .only_if(c.battery_wh > 0.0, ".battery_wh")(
+          "reserve_share", c.reserve_share, {0, 0.9},
+          "return_home: share of the battery kept beyond what the way home takes.");
+}
+
+void fields(const Keys& key, GnssOutage& c) {
+  key("start_s", c.start_s, {0, 1e6}, "Of the mission's time.");
+  key("duration_s", c.duration_s, positive(1e6), "How long no satellite is received.");
+}
+
+void fields(const Keys& key, EstimateConfig& c) {
+  using enum EstimateModel;
+  key("model", c.model, {{none, "none"}, {mocap, "mocap"}, {gnss, "gnss"}, {vio, "vio"}},
+      "none: the truth; else with the errors of motion capture, satellites or vision.");
+  key.list("outages", c.outages, {0, 1000}, "gnss: times without satellites.");
+  key.only_if(!c.outages.empty(), ".outages")(
+      "outage_drift_m_per_sqrt_s", c.outage_drift_m_per_sqrt_s, {0, 100},
+      "gnss: random walk of each axis without satellites, by this in 1 s, by twice this in 4 s.");
+}
+
+void fields(const Keys& key, VehicleConfig& c) {
+  const std::string before = c.preset;
+  key("preset", c.preset, builtin_names("vehicles"),
+      "Sets all other values of the vehicle to those of this one.");
+  if (c.preset != before) c = vehicle_preset(c.preset);
+  key("kind", c.kind, {{VehicleKind::quadrotor, "quadrotor"}, {VehicleKind::ideal, "ideal"}},
+      "quadrotor: rigid body under an autopilot; ideal: moves exactly as commanded.");
+  key.of_papers_setting().section("estimate", c.estimate, "What the vehicle knows of itself.");
+  key.section("airframe", c.airframe, "Rigid body and rotors.");
+  key.only_if(c.kind != VehicleKind::ideal, "vehicle.kind")
+      .section("autopilot", c.autopilot,
+               "PX4's multicopter cascade; capitals name its parameters.");
+  key.section("power", c.power, "Power drawn by the rotors, and the battery.");
+}
+
+void fields(const Keys& key, GuidanceConfig& c) {
+  key("path_speed_m_s", c.path_speed_m_s, {0.01, 50}, "Top speed between views.");
+  const Keys profiling = key.only_if(flies_a_profile, "planner.profiling.method");
+  profiling("profile_speed_m_s", c.profile_speed_m_s, {0.01, 50}, "Top speed of descents.");
+  key("acceleration_m_s2", c.acceleration_m_s2, {0.01, 50}, "Of speeding up and braking.");
+  key("jerk_m_s3", c.jerk_m_s3, {0.01, 1e3}, "Top rate of change of acceleration.");
+  key.angle("yaw_rate_deg_s", c.yaw_rate_rad_s, {0.1, 1e3}, "Top turning speed.");
+  key.angle("yaw_acceleration_deg_s2", c.yaw_acceleration_rad_s2, {0.1, 1e4},
+            "Top rate of change of the turning speed.");
+  key.angle("yaw_jerk_deg_s3", c.yaw_jerk_rad_s3, {0.1, 1e5},
+            "Top rate of change of its acceleration.");
+  key("arrival_distance_m", c.arrival_distance_m, positive(10), "Arrived: nearer than this.");
+  key.angle("arrival_yaw_deg", c.arrival_yaw_rad, positive(180), "Arrived: turned up to this.");
+  key("arrival_speed_m_s", c.arrival_speed_m_s, positive(10), "Arrived: slower than this.");
+  key("timeout_s", c.timeout_s, positive(3600), "A leg this much longer than planned is given up.");
+}
+
+void fields(const Keys& key, WindConfig& c) {
+  key("mean_m_s", c.mean_world_m_s, {-100, 100},
+      "Velocity of the air, world ENU: [3, 0, 0] blows towards the east.");
+  key("gust_w20_m_s", c.gust_w20_m_s, {0, 100},
+      "Wind 20 ft above the ground, for Dryden's gusts: 7.7 light, 15.4 moderate, 23.2 severe; 0: "
+      "none. Height is z, over terrain, too.");
+}
+
+void fields(const Keys& key, DepthNoiseConfig& c) {
+  using enum DepthNoise;
+  key("model", c.model,
+      {{none, "none"},
+       {released, "released"},
+       {khoshelham, "khoshelham"},
+       {nguyen, "nguyen"},
+       {stereo, "stereo"}},
+      "Law of the standard deviation over depth (sensors/depth_noise.hpp).");
+  const Keys of_stereo = key.only_if(c.model == stereo, ".model");
+  of_stereo("baseline_m", c.baseline_m, {1e-3, 10}, "stereo: between the two lenses.");
+  of_stereo("disparity_noise_px", c.disparity_noise_px, {0, 10}, "stereo: sigma of a disparity.");
+}
+
+void fields(const Keys& key, GimbalConfig& c) {
+  key.angle("min", c.min_rad, {-90, 90}, "The first pitch, degrees; negative looks up.");
+  key.angle("max", c.max_rad, {-90, 90}, "No pitch is above this.");
+  key.angle("step", c.step_rad, {1, 180}, "From one pitch to the next.");
+}
+
+void fields(const Keys& key, CameraConfig& c) {
+  preset(key, c, "cameras");
+  key.word("name", c.name, "Name of the camera, unlike that of any other.");
+  key("width_px", c.width_px, {1, 8192}, "Pixels per row.");
+  key("height_px", c.height_px, {1, 8192}, "Pixels per column.");
+  key.angle("fov_x_deg", c.fov_x_rad, {1, 170}, "Horizontal field of view.");
+  key.angle("fov_y_deg", c.fov_y_rad, {1, 170}, "Vertical field of view.");
+  key("range_min_m", c.range_min_m, {0, 1e3}, "Along the optical axis; nearer ones are invalid.");
+  key("range_max_m", c.range_max_m, positive(1e3), "Along the optical axis; none is farther.");
+  key("rate_hz", c.rate_hz, {0, 250},
+      "Frames per second in flight, at most one per tick; 0: only one at each view.");
+  key("drop_probability", c.drop_probability, {0, 1}, "Of losing a frame, at a view or in flight.");
+  mounting(key, c);
+  key.section("noise", c.noise, "Noise of the depth.");
+}
+
+void fields(const Keys& key, LidarConfig& c) {
+  preset(key, c, "lidars");
+  key.word("name", c.name, "Name of the LIDAR, unlike that of any other.");
+  key("beams", c.beams, {1, 1e5}, "Beams per sweep, spread evenly over the fan.");
+  key.angle("fov_deg", c.fov_rad, {0, 360}, "Angle from the first beam to the last.");
+  key("rate_hz", c.rate_hz, positive(250), "Sweeps per second, at most one per tick.");
+  key("range_min_m", c.range_min_m, {0, 1e3}, "Nearer returns are invalid.");
+  key("range_max_m", c.range_max_m, positive(1e3), "Beyond there is no return.");
+  mounting(key, c);
+  key("range_sigma_m", c.range_sigma_m, {0, 10}, "Standard deviation of a range.");
+  key("rolling", c.rolling, "Whether the beams of a sweep follow one another, or all at once.");
+}
+
+}  // namespace gnbv
