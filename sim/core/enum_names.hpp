@@ -1,4 +1,4 @@
-// The names of an enumeration's values, in files and messages: a table, read both ways.
+// Names of enumeration values in files and messages: one table, read both ways.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ constexpr std::string_view name_of(Enum value, const EnumNames<Enum, count>& nam
   throw BrokenInvariant(fmt::format("a value has no name: {}", static_cast<int>(value)));
 }
 
-/// Nothing for a name that is not in the table.
+/// Nothing for an unknown name.
 template <typename Enum, std::size_t count>
 constexpr std::optional<Enum> value_of(std::string_view name, const EnumNames<Enum, count>& names) {
   for (const Named<Enum>& known : names) {

@@ -1,6 +1,6 @@
 // Three kinds of wrong: bad input throws BadInput (exit code 2), a broken invariant throws
-// BrokenInvariant (exit code 1, with the command that replays the run), and "nothing found" is an
-// std::optional, never an exception.
+// BrokenInvariant (exit code 1, with the command that replays the run), and what is not found is an
+// empty std::optional.
 #pragma once
 
 #include <fmt/format.h>
@@ -10,13 +10,13 @@
 
 namespace gnbv {
 
-/// The user gave something unusable. The message names file, line, key and value.
+/// The user's input cannot be used. The message names file, line, key and value.
 class BadInput : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// The program is wrong, or a number became NaN. Never caught to go on, only to report.
+/// The program is wrong, or a number became NaN. Caught only to report it.
 class BrokenInvariant : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -24,7 +24,8 @@ class BrokenInvariant : public std::runtime_error {
 
 }  // namespace gnbv
 
-/// Stops the run when `condition` is false; on in release builds too. The rest is a fmt message.
+/// Throws BrokenInvariant when `condition` is false, in release builds too. The rest is a message
+/// for fmt.
 #define GNBV_CHECK(condition, ...)                                                                \
   do {                                                                                            \
     if (!(condition)) {                                                                           \

@@ -5,7 +5,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cerrno>
@@ -13,8 +12,6 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
-#include <fstream>
-#include <initializer_list>
 #include <thread>
 
 #include "sim/core/error.hpp"
@@ -33,16 +30,14 @@ std::string host_name() {
   return name.data();
 }
 
-/// The extension stays last, because some libraries choose the format by it. The name holds the
-/// process and its machine, because others may write the same file.
+/// Named after the process and its machine, since others may write the same file. The extension
+/// stays last: some libraries choose the format by it.
 fs::path temporary_of(const fs::path& path) {
-  fs::path part = path;
-  part.replace_filename(fmt::format(".{}{}{}-{}{}", path.stem().string(), kTemporary, host_name(),
-                                    getpid(), path.extension().string()));
-  return part;
+  return path.parent_path() / fmt::format(".{}{}{}-{}{}", path.stem().string(), kTemporary,
+                                          host_name(), getpid(), path.extension().string());
 }
 
-/// Whether its writer still runs. Nobody knows about writers on other machines: they count as dead.
+/// Whether its writer still runs. A writer on another machine counts as dead.
 bool has_living_writer(const fs::path& temporary) {
   const std::string name = temporary.filename().string();
   const std::string host = std::string(kTemporary) + host_name() + "-";
@@ -55,7 +50,7 @@ bool has_living_writer(const fs::path& temporary) {
   return kill(process, 0) == 0 || errno == EPERM;
 }
 
-/// Writes all of it by system calls: their errors name the cause.
+/// By system calls: their errors name the cause.
 void write_whole(const fs::path& part, const fs::path& path, std::string_view content) {
   const int file = open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file < 0) refuse_to_write(path, errno);
@@ -72,12 +67,7 @@ void write_whole(const fs::path& part, const fs::path& path, std::string_view co
   if (close(file) != 0) refuse_to_write(path, errno);
 }
 
-/// Some file systems cannot sync and say so. That is no reason to give up.
-bool cannot_be_synced(int error) {
-  return error == EINVAL || error == ENOTSUP || error == EROFS || error == EBADF;
-}
-
-/// Whether the path still names the open file: the process that held the lock may have removed it.
+/// Whether the path still names the open file: a holder of the lock may have removed it.
 bool is_still_there(int descriptor, const fs::path& path) {
   struct stat open_file {};
   struct stat named_file {};
@@ -100,21 +90,26 @@ void refuse_to_write(const fs::path& path, int error_number, std::string_view wh
 
 std::string extension_of(const fs::path& path) {
   std::string out = path.extension().string();
-  std::transform(out.begin(), out.end(), out.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return out;
 }
 
-std::string read_file(const fs::path& path) {
+std::ifstream open_file(const fs::path& path) {
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) {
     throw BadInput(fmt::format("{}: is a directory, not a file", path.string()));
   }
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw BadInput(fmt::format("{}: {}", path.string(), std::strerror(errno)));
+  return in;
+}
+
+std::string read_file(const fs::path& path) {
+  std::error_code ignored;
   if (fs::is_character_file(path, ignored)) {
     throw BadInput(fmt::format("{}: is a device, not a file", path.string()));
   }
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw BadInput(fmt::format("{}: {}", path.string(), std::strerror(errno)));
+  std::ifstream in = open_file(path);
   const bool is_pipe = !fs::is_regular_file(path, ignored);
   std::string content;
   std::array<char, std::size_t{1} << 16> block{};
@@ -141,14 +136,14 @@ void write_file_atomically(const fs::path& path, const std::function<void(const 
     if (lasting == Lasting::power_failures) sync_to_disk(part);
     fs::rename(part, path);
     if (lasting == Lasting::power_failures) sync_to_disk(path.parent_path());
-  } catch (const fs::filesystem_error& error) {
-    std::error_code ignored;
-    fs::remove(part, ignored);
-    refuse_to_write(path, error.code().value());
   } catch (...) {
     std::error_code ignored;
     fs::remove(part, ignored);
-    throw;
+    try {
+      throw;
+    } catch (const fs::filesystem_error& error) {
+      refuse_to_write(path, error.code().value());
+    }
   }
 }
 
@@ -170,7 +165,11 @@ void sync_to_disk(const fs::path& path) {
   if (file < 0) refuse_to_write(path, errno);
   const int error = fsync(file) == 0 ? 0 : errno;
   close(file);
-  if (error != 0 && !cannot_be_synced(error)) refuse_to_write(path, error);
+  // some file systems cannot sync and say so: no reason to give up
+  for (const int excused : {0, EINVAL, ENOTSUP, EROFS, EBADF}) {
+    if (error == excused) return;
+  }
+  refuse_to_write(path, error);
 }
 
 void sync_all_to_disk(const fs::path& folder) {
@@ -188,7 +187,7 @@ bool make_folder(const fs::path& folder) {
 }
 
 std::optional<FileLock> FileLock::take(const fs::path& path) {
-  // is_locked() of another process holds the lock for a moment: try again
+  // again, since is_locked() of another process holds the lock for a moment
   for (int attempt = 0; attempt < 5; ++attempt) {
     FileLock lock(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
     if (lock.descriptor_ < 0) refuse_to_write(path, errno);

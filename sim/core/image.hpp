@@ -12,9 +12,9 @@
 
 namespace gnbv {
 
-using Rgb8 = std::array<std::uint8_t, 3>;  // red, green, blue as in an image file
+using Rgb8 = std::array<std::uint8_t, 3>;  // red, green, blue
 
-/// To linear light and back, one channel in [0, 1] each.
+/// One channel in [0, 1], to linear light and back.
 inline float srgb_to_linear(float s) {
   return s <= 0.04045F ? s / 12.92F : std::pow((s + 0.055F) / 1.055F, 2.4F);
 }
@@ -42,16 +42,16 @@ struct GreyImage16 {
   std::vector<std::uint16_t> values;  // (height, width)
 };
 
-/// Write PNGs by rename. Throw as refuse_to_write().
+/// By write_file_atomically(), and throw as it does.
 void write_png(const Image& image, const std::filesystem::path& path,
                Lasting lasting = Lasting::power_failures);
 void write_png(const GreyImage16& image, const std::filesystem::path& path,
                Lasting lasting = Lasting::power_failures);
 
-/// Reads any PNG as RGB8. Throws BadInput naming the path.
+/// Any PNG as RGB8. Throws BadInput naming the path.
 Image read_png(const std::filesystem::path& path);
 
-/// Reads a PNG of 16 grey bits a pixel, values as they are. Throws BadInput naming the path.
+/// A PNG of 16 grey bits a pixel, values as they are. Throws BadInput naming the path.
 GreyImage16 read_png_grey16(const std::filesystem::path& path);
 
 }  // namespace gnbv

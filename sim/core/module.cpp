@@ -2,18 +2,19 @@
 
 #include <dlfcn.h>
 #include <linux/limits.h>
+#include <sys/mman.h>
 
 #include <array>
+#include <new>
 #include <string_view>
 
-#include "sim/core/address_space.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {
 namespace {
 
-/// More than any module and its libraries map. The loader reports a lack of memory as any other
-/// error, so we ask for this much before we believe it.
+/// More than any module and its libraries map. The loader does not say when it lacks memory, so we
+/// ask for this much before we report its error.
 constexpr std::size_t kModule_bytes = 256U << 20U;
 
 std::string path_of(void* library, const std::string& file) {
@@ -25,7 +26,7 @@ std::string path_of(void* library, const std::string& file) {
 }  // namespace
 
 void* function_in_module(const ModulePlace& place, const char* name) {
-  void* library = nullptr;  // a library that is opened twice is loaded once
+  void* library = nullptr;
   std::string reasons;
   for (const std::string& path :
        {"$ORIGIN/" + place.file, "$ORIGIN/../lib/gnbv/" + place.file, place.file, place.as_built}) {
@@ -53,6 +54,12 @@ void* function_in_module(const ModulePlace& place, const char* name) {
         fmt::format("{} lacks {}: it belongs to another version of the program", place.file, name));
   }
   return function;
+}
+
+void need_address_space(std::size_t bytes) {
+  void* const memory = ::mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) throw std::bad_alloc();
+  ::munmap(memory, bytes);
 }
 
 }  // namespace gnbv

@@ -17,62 +17,53 @@ namespace {
 
 using Task = std::function<void(std::size_t)>;
 
-/// A call of parallel_for() under way. Each thread that takes part runs the next index until none
-/// is left.
-class Fork {
- public:
-  Fork(const Task& task, std::size_t count, std::size_t helpers)
-      : to_come(helpers), task_(task), count_(count), failed_at_(count) {}
+/// A call of parallel_for() under way.
+struct Fork {
+  Fork(const Task& its_task, std::size_t its_count, std::size_t helpers)
+      : task(its_task), count(its_count), to_come(helpers), failed_at(count) {}
 
-  bool has_work() const { return next_.load(std::memory_order_relaxed) < count_; }
-  std::size_t take() { return next_++; }
-  void run_from(std::size_t i) {
-    for (; i < count_; i = take()) run(i);
-  }
-  void rethrow() const {
-    if (error_) std::rethrow_exception(error_);
+  bool has_work() const { return next.load(std::memory_order_relaxed) < count; }
+  /// Each thread that takes part runs the next index until none is left.
+  void run() {
+    for (std::size_t i = next++; i < count; i = next++) {
+      try {
+        task(i);
+      } catch (...) {
+        const std::lock_guard lock(failing);
+        if (i >= failed_at) continue;
+        failed_at = i;
+        error = std::current_exception();
+      }
+    }
   }
 
+  const Task& task;
+  const std::size_t count;
   // the pool reads and writes these under its lock
   std::size_t to_come;      // helpers that may still join
   std::size_t helping = 0;  // those that have joined and not left
   std::condition_variable left;
 
- private:
-  void run(std::size_t i) {
-    try {
-      task_(i);
-    } catch (...) {
-      const std::lock_guard lock(failing_);
-      if (i >= failed_at_) return;
-      failed_at_ = i;
-      error_ = std::current_exception();
-    }
-  }
-
-  const Task& task_;
-  const std::size_t count_;
-  std::atomic<std::size_t> next_{0};
-  std::mutex failing_;
-  std::size_t failed_at_;
-  std::exception_ptr error_;
+  std::atomic<std::size_t> next{0};
+  std::mutex failing;
+  std::size_t failed_at;
+  std::exception_ptr error;
 };
 
 /// Threads that wait for forks, as many as the largest call has asked for. They live as long as the
-/// process. The caller works as well, and waits only for pieces that other threads have begun. So a
+/// process. The caller works too, and waits only for indices that other threads have taken. So a
 /// busy pool, or one without a free core, delays no caller, and nested forks cannot deadlock.
 class Pool {
  public:
   void run(Fork& fork) {
-    std::size_t to_wake = 0;
+    const std::size_t helpers = fork.to_come;
     {
       const std::lock_guard lock(mutex_);
-      add_workers(fork.to_come);
+      add_workers(helpers);
       forks_.push_back(&fork);
-      to_wake = std::min(idle_, fork.to_come);
     }
-    for (; to_wake > 0; --to_wake) wake_.notify_one();
-    fork.run_from(fork.take());
+    for (std::size_t i = 0; i < helpers; ++i) wake_.notify_one();
+    fork.run();
     std::unique_lock lock(mutex_);
     std::erase(forks_, &fork);
     fork.left.wait(lock, [&] { return fork.helping == 0; });
@@ -95,42 +86,34 @@ class Pool {
         return fork->to_come > 0 && fork->has_work();
       });
       if (open == forks_.rend()) {
-        ++idle_;
         wake_.wait(lock);
-        --idle_;
         continue;
       }
-      help(**open, lock);
+      Fork& fork = **open;
+      --fork.to_come;
+      ++fork.helping;
+      lock.unlock();
+      fork.run();
+      lock.lock();
+      if (--fork.helping == 0) fork.left.notify_one();
     }
-  }
-
-  void help(Fork& fork, std::unique_lock<std::mutex>& lock) {
-    --fork.to_come;
-    ++fork.helping;
-    const std::size_t first = fork.take();  // under the lock: a thread that has joined has begun
-    lock.unlock();
-    fork.run_from(first);
-    lock.lock();
-    if (--fork.helping == 0) fork.left.notify_one();
   }
 
   std::mutex mutex_;
   std::condition_variable wake_;
   std::vector<Fork*> forks_;
   std::size_t workers_ = 0;
-  std::size_t idle_ = 0;
 };
 
-/// Never destroyed, because its threads wait in it until the process ends. A child process, which
-/// has none of these threads, makes a new one.
+/// Never destroyed: its threads wait in it until the process ends. A child process has none of these
+/// threads and makes a pool of its own.
 Pool& the_pool() {
   alignas(Pool) static std::byte memory[sizeof(Pool)];
-  static const bool is_made = [] {
+  [[maybe_unused]] static const bool is_made = [] {
     const auto make = [] { new (memory) Pool; };
     make();
     return pthread_atfork(nullptr, nullptr, make) == 0;
   }();
-  static_cast<void>(is_made);
   return *std::launder(reinterpret_cast<Pool*>(memory));
 }
 
@@ -144,7 +127,7 @@ void parallel_for(int threads, std::size_t count, const Task& task) {
   }
   Fork fork(task, count, takers - 1);
   the_pool().run(fork);
-  fork.rethrow();
+  if (fork.error) std::rethrow_exception(fork.error);
 }
 
 void parallel_for_chunks(int threads, std::size_t count, std::size_t chunk,

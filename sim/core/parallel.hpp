@@ -1,5 +1,5 @@
-// Fork and join. Results never depend on the number of threads: a task writes only what its own
-// index owns, and whoever reduces does so in index order.
+// Fork and join. Results never depend on the number of threads as long as a task writes only what
+// its index owns, and sums are taken in the order of the indices.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@ namespace gnbv {
 /// The first exception by index is rethrown.
 void parallel_for(int threads, std::size_t count, const std::function<void(std::size_t)>& task);
 
-/// The same for work in small pieces: task(begin, end) for each range of `chunk` that [0, count) is
-/// cut into; the last one may be shorter.
+/// The same for small pieces: task(begin, end) for each range of `chunk` in [0, count), of which the
+/// last may be shorter.
 void parallel_for_chunks(int threads, std::size_t count, std::size_t chunk,
                          const std::function<void(std::size_t begin, std::size_t end)>& task);
 

@@ -1,6 +1,5 @@
 // Frames and poses. World: ENU, metres, z up. Body: FLU. Optical: x right, y down, z forward.
-// A transform T_a_b maps coordinates in b to coordinates in a, so that products cancel:
-// T_world_camera = T_world_body * T_body_camera.
+// T_a_b maps coordinates in b to coordinates in a: T_world_camera = T_world_body * T_body_camera.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -25,11 +24,11 @@ inline double wrap_angle_rad(double angle_rad) {
   return wrapped <= -kPi ? wrapped + 2.0 * kPi : wrapped;
 }
 
-/// A level pose of the vehicle: where a view is taken from. Yaw turns about world z, 0 = east (+x).
+/// A level pose of the vehicle at a view. Yaw turns about world z, 0 = east (+x).
 struct ViewPose {
   Vec3 p_world_m = Vec3::Zero();
   double yaw_rad = 0.0;
-  double gimbal_pitch_rad = 0.0;  // of cameras on a gimbal, positive looks down; 0 without one
+  double gimbal_pitch_rad = 0.0;  // positive looks down; 0 without a gimbal
 };
 
 inline bool is_same_view(const ViewPose& a, const ViewPose& b) {
@@ -44,7 +43,7 @@ inline Isometry T_world_body(const ViewPose& pose) {
   return T;
 }
 
-/// The mounting of a sensor on the body: roll about x first, then pitch about y, yaw about z last.
+/// Mounting of a sensor on the body: roll about x first, then pitch about y, then yaw about z.
 inline Isometry mounted(const Vec3& p_body_m, double roll_rad, double pitch_rad, double yaw_rad) {
   Isometry T = Isometry::Identity();
   T.translate(p_body_m);
@@ -59,7 +58,7 @@ inline double yaw_of(const Isometry& T_world_body) {
   return std::atan2(T_world_body.linear()(1, 0), T_world_body.linear()(0, 0));
 }
 
-/// From a point to the nearest of the straight leg between two others, squared, in m2.
+/// Squared distance from a point to the segment between two others, in m2.
 inline double distance_to_segment_m2(const Vec3& p_m, const Vec3& from_m, const Vec3& to_m) {
   const Vec3 along_m = to_m - from_m;
   const double length2_m2 = along_m.squaredNorm();

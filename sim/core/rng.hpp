@@ -1,5 +1,5 @@
-// Random numbers keyed by what they are for, never drawn from shared state: the same key gives the
-// same number in any order and on any number of threads.
+// Random numbers by key: the same key gives the same number, in any order and on any number of
+// threads.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace gnbv {
 
-/// One name per use, so that no two uses ever share a number.
+/// One name a use, so that no two uses share a number.
 enum class Stream : std::uint64_t {
   start_pose = 1,
   depth_noise = 2,
@@ -34,7 +34,7 @@ struct RandomKey {
   std::uint64_t index = 0;
 };
 
-/// Finaliser of SplitMix64 (Steele, Lea, Flood 2014): a bijection that mixes all 64 bits.
+/// Finaliser of SplitMix64 (Steele, Lea, Flood 2014), a bijection.
 constexpr std::uint64_t mix_bits(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15ULL;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
@@ -62,9 +62,9 @@ inline double standard_normal(const RandomKey& key) {
   return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * std::numbers::pi * v);
 }
 
-/// Draws the numbers 0, 1, 2, ... of a seed, a stream and one of the things in it (a structure, an
-/// iteration). A copy draws the same numbers again. Never draw twice in one argument list: the
-/// compiler chooses which draw is the first.
+/// Draws numbers 0, 1, 2, ... of a seed, a stream and a frame `of` it (a structure, an iteration). A
+/// copy draws the same numbers again. Never draw twice in one argument list: the compiler chooses
+/// which draw comes first.
 class Rng {
  public:
   Rng(std::uint64_t seed, Stream stream, int of)

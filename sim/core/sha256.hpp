@@ -1,4 +1,4 @@
-// SHA-256 over typed data; the run's result_sha256 is made with it.
+// SHA-256 over typed data: result_sha256, and the keys of caches.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ class Sha256 {
 
   void add_bytes(std::span<const std::byte> bytes);
   void add(std::string_view text) { add_bytes(std::as_bytes(std::span(text.data(), text.size()))); }
-  /// Little-endian machines only, as the file formats of the run directory are.
+  /// As little-endian machines store them.
   template <typename T>
   requires std::is_arithmetic_v<T>
   void add(std::span<const T> values) { add_bytes(std::as_bytes(values)); }

@@ -1,29 +1,32 @@
 #include "sim/core/simd.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 
-#include "sim/core/error.hpp"
+#include "sim/core/enum_names.hpp"
 
 namespace gnbv {
 namespace {
 
-constexpr std::array kLevels = {SimdLevel::baseline, SimdLevel::avx2, SimdLevel::avx512};
+constexpr EnumNames<SimdLevel, 3> kLevels = {{{SimdLevel::baseline, "baseline"},
+                                              {SimdLevel::avx2, "avx2"},
+                                              {SimdLevel::avx512, "avx512"}}};
 
 SimdLevel level_of_processor() {
 #ifdef __x86_64__
-  if (!__builtin_cpu_supports("sse4.2") || !__builtin_cpu_supports("popcnt")) {
+  const auto all = [](auto... has) { return (... && (has != 0)); };
+  if (!all(__builtin_cpu_supports("sse4.2"), __builtin_cpu_supports("popcnt"))) {
     throw BadInput("this processor is not of the level x86-64-v2 (SSE4.2), which gnbv needs");
   }
-  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma") ||
-      !__builtin_cpu_supports("bmi") || !__builtin_cpu_supports("bmi2")) {
+  if (!all(__builtin_cpu_supports("avx2"), __builtin_cpu_supports("fma"),
+           __builtin_cpu_supports("bmi"), __builtin_cpu_supports("bmi2"))) {
     return SimdLevel::baseline;
   }
-  const bool has_v4 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-                      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
-                      __builtin_cpu_supports("avx512cd");
-  return has_v4 ? SimdLevel::avx512 : SimdLevel::avx2;
+  return all(__builtin_cpu_supports("avx512f"), __builtin_cpu_supports("avx512bw"),
+             __builtin_cpu_supports("avx512dq"), __builtin_cpu_supports("avx512vl"),
+             __builtin_cpu_supports("avx512cd"))
+             ? SimdLevel::avx512
+             : SimdLevel::avx2;
 #else
   return SimdLevel::baseline;
 #endif
@@ -32,11 +35,8 @@ SimdLevel level_of_processor() {
 SimdLevel level_asked_for() {
   const char* const asked = std::getenv("GNBV_SIMD");
   if (asked == nullptr || *asked == '\0') return SimdLevel::avx512;
-  for (const SimdLevel level : kLevels) {
-    if (name_of(level) == asked) return level;
-  }
-  // what baseline was called before
-  if (asked == std::string_view("scalar")) return SimdLevel::baseline;
+  if (asked == std::string_view("scalar")) return SimdLevel::baseline;  // its former name
+  if (const auto level = value_of(asked, kLevels)) return *level;
   throw BadInput(
       fmt::format("GNBV_SIMD={}: has to be baseline, avx2 or avx512 (or not to be set)", asked));
 }
@@ -48,17 +48,7 @@ SimdLevel& current_level() {
 
 }  // namespace
 
-std::string_view name_of(SimdLevel level) {
-  switch (level) {
-    case SimdLevel::baseline:
-      return "baseline";
-    case SimdLevel::avx2:
-      return "avx2";
-    case SimdLevel::avx512:
-      return "avx512";
-  }
-  return "unknown";
-}
+std::string_view name_of(SimdLevel level) { return name_of(level, kLevels); }
 
 SimdLevel simd_level() { return current_level(); }
 

@@ -1,5 +1,5 @@
-// Which vector instructions the hot loops use: chosen once, at run time, from what the processor
-// has. Every level gives the same results, bit by bit; only the time differs.
+// The vector instructions of the hot loops, chosen once at run time. Every level gives the same
+// results, bit by bit.
 #pragma once
 
 #include <string_view>
@@ -9,17 +9,17 @@ namespace gnbv {
 enum class SimdLevel { baseline = 0, avx2 = 1, avx512 = 2 };
 std::string_view name_of(SimdLevel level);
 
-/// The best level this processor has, or what set_simd_level() or the environment variable
-/// GNBV_SIMD (baseline, avx2, avx512) limits it to. The levels are x86-64-v2, v3 and v4 of the
-/// x86-64 psABI; elsewhere all there is is the baseline: NEON on Arm. Throws BadInput when
-/// GNBV_SIMD holds another word, or the processor has not even the baseline.
+/// The best level of this processor, limited by set_simd_level() and by the environment variable
+/// GNBV_SIMD (baseline, avx2, avx512). The levels are x86-64-v2, v3 and v4 of the x86-64 psABI; Arm
+/// has the baseline alone (NEON). Throws BadInput for another word in GNBV_SIMD, and for a processor
+/// below the baseline.
 SimdLevel simd_level();
 
-/// For tests and benchmarks: no level above this one from now on. Not while another thread works.
+/// For tests and benchmarks: sets the highest level. Call it while no other thread works.
 void set_simd_level(SimdLevel most);
 
-// GNBV_KERNELS(Kernels, kernels): a source compiled by gnbv_kernels() (CMakeLists.txt) defines a
-// constant kKernels of each level, and kernels() gives the one for simd_level().
+// GNBV_KERNELS(Kernels, kernels): a source compiled by gnbv_kernels() (CMakeLists.txt) defines
+// kKernels once a level; kernels() returns that of simd_level().
 #ifdef __x86_64__
 #define GNBV_KERNELS(Kernels, kernels)                           \
   namespace at_baseline {                                        \

@@ -5,7 +5,7 @@
 
 namespace gnbv {
 
-/// Runs from when it is made.
+/// Starts when it is made.
 class Stopwatch {
  public:
   double elapsed_s() const {

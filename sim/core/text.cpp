@@ -69,13 +69,10 @@ std::string folded_text(std::string_view text, std::size_t width) {
   while (!text.empty()) {
     const std::string_view word = first_word(text);
     const std::size_t end = word.size();
-    const bool is_first = folded.empty() || folded.back() == '\n';
-    if (!is_first && used + 1 + width_of(word) > width) {
-      folded += '\n';
-      used = 0;
-    } else if (!is_first) {
-      folded += ' ';
-      ++used;
+    if (used > 0) {
+      const bool fits = used + 1 + width_of(word) <= width;
+      folded += fits ? ' ' : '\n';
+      used = fits ? used + 1 : 0;
     }
     folded += word;
     used += width_of(word);
@@ -115,14 +112,11 @@ std::string printable(std::string_view text) {
     const std::string_view before = text;
     const char32_t code = take_code_point(text);
     const std::string_view bytes = before.substr(0, before.size() - text.size());
-    const bool is_usual = code >= 0x20 || code == U'\n' || code == U'\t';
-    const bool is_control =
-        !is_usual || (code >= 0x7f && code < 0xa0) || (code == U'\ufffd' && bytes.size() == 1);
-    if (!is_control) {
-      shown += bytes;
-      continue;
-    }
-    for (const char byte : bytes) {
+    const bool is_hidden = (code < 0x20 && code != U'\n' && code != U'\t') ||
+                           (code >= 0x7f && code < 0xa0) ||
+                           (code == U'\ufffd' && bytes.size() == 1);
+    if (!is_hidden) shown += bytes;
+    for (const char byte : is_hidden ? bytes : "") {
       shown += fmt::format("\\x{:02x}", static_cast<unsigned char>(byte));
     }
   }

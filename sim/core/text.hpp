@@ -15,31 +15,30 @@ std::string counted(std::size_t count, std::string_view one, std::string_view ma
 /// "1,234,567".
 std::string grouped(std::size_t count);
 
-/// With so many decimals, thousands grouped as the paper does: "10,970", "-1,234.5"; never "-0".
+/// With so many decimals: "10,970", "-1,234.5"; never "-0".
 std::string grouped(double value, int decimals);
 
-/// Width on a terminal of UTF-8 text: its code points.
+/// Width of UTF-8 text on a terminal: its code points.
 std::size_t width_of(std::string_view text);
 
-/// Up to the first blank or line feed that a line may end at: a number and its unit ("38 s") are
-/// one word.
+/// Up to the first blank or line feed. A number and its unit ("38 s") are one word.
 std::string_view first_word(std::string_view text);
 
-/// Lines of at most `width` code points where blanks allow it; 0: as it is. Line feeds stay.
+/// Folded at blanks into lines of at most `width` code points, where the words allow it; 0: as it
+/// is. Line feeds stay.
 std::string folded_text(std::string_view text, std::size_t width);
 
-/// Cut after a word, with an ellipsis, where it is wider than that; empty where no word fits.
+/// Text wider than that is cut after a word and ends in an ellipsis; empty where no word fits.
 std::string shortened(std::string_view text, std::size_t width);
 
 /// Takes the first code point off `text`, which is not empty. A byte that is no UTF-8 (RFC 3629)
 /// becomes U+FFFD, the replacement character.
 char32_t take_code_point(std::string_view& text);
 
-/// For a terminal: shows control bytes (but newlines and tabs) and bytes that are no UTF-8 as
-/// \\x1b.
+/// For a terminal: control bytes (but newlines and tabs) and bytes that are no UTF-8 become \\x1b.
 std::string printable(std::string_view text);
 
-/// One word of a shell command, whatever it holds; plain text stays as it is.
+/// Quoted as one word of a shell command where that is needed.
 std::string shell_word(const std::string& text);
 
 /// RFC 4648, padded.

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "sim/core/address_space.hpp"
+#include "sim/core/module.hpp"
 #include "sim/core/error.hpp"
 #include "tools/render/shaders.hpp"
 

@@ -1,7 +1,7 @@
 // Programs, arrays, textures and buffers of a renderer.
 #include <cstddef>
 
-#include "sim/core/address_space.hpp"
+#include "sim/core/module.hpp"
 #include "sim/core/error.hpp"
 #include "tools/render/renderer_impl.hpp"
 #include "tools/render/screen_shaders.hpp"
