@@ -1,5 +1,4 @@
-// A pinhole RGBD camera on the body. Header only, since the planner shares the type but not the
-// ray tracer behind it.
+// A pinhole RGBD camera on the body. Header only: the planner has the type without the ray tracer.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +12,7 @@
 
 namespace gnbv {
 
-/// Depth noise by name; the laws and their sources are in sensors/depth_noise.hpp.
+/// Models of depth noise, defined in sensors/depth_noise.hpp.
 enum class DepthNoise { none, released, khoshelham, nguyen, stereo };
 
 struct DepthNoiseConfig {
@@ -23,15 +22,15 @@ struct DepthNoiseConfig {
   double disparity_noise_px = 0.1;
 };
 
-/// A gimbal turns its camera about body y: the pitches that a view may choose from are min_rad,
-/// min_rad + step_rad and so on up to max_rad; positive looks down.
+/// A gimbal turns its camera about body y, positive looks down. A view may choose min_rad,
+/// min_rad + step_rad and so on up to max_rad.
 struct GimbalConfig {
   double min_rad = deg_to_rad(-30.0);
   double max_rad = deg_to_rad(60.0);
   double step_rad = deg_to_rad(30.0);
 };
 
-/// Ascending; min_rad at least. One that rounding puts beyond max_rad by less than a nanoradian is
+/// Ascending, min_rad at least. A pitch less than a nanoradian beyond max_rad, by rounding, is
 /// max_rad.
 inline std::vector<double> pitches_rad(const GimbalConfig& gimbal) {
   constexpr double kRounding_rad = 1e-9;
@@ -43,7 +42,7 @@ inline std::vector<double> pitches_rad(const GimbalConfig& gimbal) {
   }
 }
 
-/// Of the gimbal's pitches the nearest to the one wanted, the lower of equals.
+/// The gimbal's pitch nearest to the one wanted, the lower of equals.
 inline double nearest_pitch_rad(const GimbalConfig& gimbal, double wanted_rad) {
   const std::vector<double> pitches = pitches_rad(gimbal);
   return *std::min_element(pitches.begin(), pitches.end(), [&](double a, double b) {
@@ -53,7 +52,7 @@ inline double nearest_pitch_rad(const GimbalConfig& gimbal, double wanted_rad) {
 
 /// Defaults: the forward camera of the paper's simulated RGBD pair (section 3.1.1, Table 1).
 struct CameraConfig {
-  std::string preset = "rgbd_sim";  // the sensor whose values these began as; a label, no more
+  std::string preset = "rgbd_sim";  // a label: the sensor whose values these began as
   std::string name = "rgbd";
   int width_px = 640;
   int height_px = 480;
@@ -61,23 +60,23 @@ struct CameraConfig {
   double fov_y_rad = deg_to_rad(45.0);
   double range_min_m = 0.3;       // along the optical axis; nearer returns are invalid
   double range_max_m = 8.0;       // along the optical axis (a plane, not a sphere)
-  double rate_hz = 0.0;           // frames a second in flight; 0: one at each view and none between
-  double drop_probability = 0.0;  // of a frame: lost on its way, nothing is believed of it
+  double rate_hz = 0.0;           // frames a second in flight; 0: none but one at each view
+  double drop_probability = 0.0;  // of a frame to be lost
   Vec3 p_body_m = Vec3::Zero();
   double roll_rad = 0.0;   // about body x, applied first
-  double pitch_rad = 0.0;  // about body y: positive looks down; applied second. A gimbal's: at rest
+  double pitch_rad = 0.0;  // about body y: positive looks down; applied second; a gimbal's at rest
   double yaw_rad = 0.0;    // about body z: positive looks left; applied last
   DepthNoiseConfig noise = {};
   std::optional<GimbalConfig> gimbal = {};  // nothing: fixed at pitch_rad
 };
 
-/// Volume of the pyramid that the camera sees, up to its maximum range.
+/// Volume of the pyramid that the camera sees up to its maximum range.
 inline double frustum_m3(const CameraConfig& c) {
   return 4.0 / 3.0 * std::tan(0.5 * c.fov_x_rad) * std::tan(0.5 * c.fov_y_rad) *
          std::pow(c.range_max_m, 3);
 }
 
-/// Pinhole geometry derived from a CameraConfig; pixel (0, 0) is top left, centres at half pixels.
+/// Pinhole geometry of a CameraConfig. Pixel (0, 0) is top left; centres lie at half pixels.
 struct CameraModel {
   CameraConfig config;
   double fx_px = 0.0;
@@ -86,22 +85,22 @@ struct CameraModel {
   double cy_px = 0.0;
   Isometry T_body_camera = Isometry::Identity();  // optical frame: x right, y down, z forward
 
-  /// Point on the plane z = 1 of the optical frame that the centre of pixel (u, v) looks at.
+  /// Where the ray of the centre of pixel (u, v) meets the plane z = 1 of the optical frame.
   Vec3f ray_camera(int u, int v) const {
     return {static_cast<float>((u + 0.5 - cx_px) / fx_px),
             static_cast<float>((v + 0.5 - cy_px) / fy_px), 1.0F};
   }
 };
 
-/// Where a point in the optical frame of a pinhole camera appears, x to the right and y down; only
-/// for points before the camera. Any type of camera with focal lengths and centre does.
+/// Pixel (x to the right, y down) of a point before the camera, in its optical frame. For any type
+/// with focal lengths and centre.
 template <typename Camera>
 Eigen::Vector2d pixel_of(const Camera& camera, const Vec3& p_camera_m) {
   return {camera.fx_px * p_camera_m.x() / p_camera_m.z() + camera.cx_px,
           camera.fy_px * p_camera_m.y() / p_camera_m.z() + camera.cy_px};
 }
 
-/// Rotation whose columns are the optical axes of a level, forward-looking camera in the body.
+/// Its columns are the optical axes of a level camera that looks ahead, in the body.
 inline Eigen::Matrix3d R_body_optical() {
   Eigen::Matrix3d R;
   R << 0, 0, 1,  //
@@ -128,7 +127,7 @@ inline CameraModel make_camera_model(const CameraConfig& config) {
   return model;
 }
 
-/// The camera as it is mounted while the vehicle's gimbal has this pitch: a fixed one as ever.
+/// The camera at this pitch of the vehicle's gimbal; a fixed camera stays as it is.
 inline CameraModel turned(CameraModel camera, double gimbal_pitch_rad) {
   if (camera.config.gimbal) {
     camera.T_body_camera = T_body_camera_at(camera.config, gimbal_pitch_rad);
@@ -142,7 +141,7 @@ inline std::vector<CameraModel> turned(std::span<const CameraModel> cameras,
   return all;
 }
 
-/// The gimbal of the cameras, which move together (scenarios/problems.cpp: all have the same).
+/// The gimbal of cameras (configs or models), which all have the same (scenarios/problems.cpp).
 template <typename Cameras>
 std::optional<GimbalConfig> gimbal_of(const Cameras& cameras) {
   for (const auto& camera : cameras) {
@@ -155,8 +154,7 @@ std::optional<GimbalConfig> gimbal_of(const Cameras& cameras) {
   return std::nullopt;
 }
 
-/// The camera fixed at each pitch of its gimbal: together they see what it sees. Without a gimbal
-/// itself.
+/// The camera fixed at each pitch of its gimbal; the camera itself without one.
 inline std::vector<CameraModel> at_all_pitches(const CameraModel& camera) {
   if (!camera.config.gimbal) return {camera};
   std::vector<CameraModel> fixed;

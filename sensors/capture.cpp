@@ -7,6 +7,7 @@
 
 #include "sensors/pixel_tiles.hpp"
 #include "sim/core/error.hpp"
+#include "sim/core/rng.hpp"
 
 namespace gnbv {
 namespace {
@@ -14,6 +15,17 @@ namespace {
 /// Rays begin at the sensor itself: a surface that is too near to be measured still hides what lies
 /// behind it.
 constexpr float kTraceFrom_m = 0.0F;
+
+/// A reading farther off than so many standard deviations beyond the maximum range is not traced:
+/// one pixel in three million would be told otherwise. (Much farther out the laws of noise, which
+/// hold near the working range, would give errors as large as the depth.)
+constexpr double kFarthest_sigmas = 5.0;
+
+/// One standard normal number for every pixel or beam of every sensor at every tick.
+double deviate(const NoiseKey& key, Stream stream, int sensor, std::uint64_t item) {
+  const auto of_sensor = static_cast<std::uint64_t>(sensor) << 32;
+  return standard_normal({key.seed, stream, key.tick, of_sensor | item});
+}
 
 /// What the sensor reports of a surface at `true_m` for which it reads `read_m`.
 float measured_range(float true_m, float read_m, double range_min_m, double range_max_m) {
@@ -37,49 +49,48 @@ struct DepthCapture {
   float far_m;
   PixelTiles tiles;
 
-  void trace(RunRays& rays) const {
-    scene.first_hits(origin_world_m, rays.directions_world, kTraceFrom_m, far_m, rays.hits);
-  }
-
-  void exact_run(const TileRun& run, RunRays& rays) const {
-    tiles.directions_world(run, rays.directions_world);
-    scene.first_distances(origin_world_m, rays.directions_world, kTraceFrom_m, far_m,
-                          rays.distances_m);
+  void exact_run(TileRun& run) const {
+    scene.first_distances(origin_world_m, run.directions_world, kTraceFrom_m, far_m,
+                          run.distances_m);
     const auto range_min_m = static_cast<float>(camera.config.range_min_m);
-    for (std::size_t tile = 0; tile < rays.distances_m.size(); ++tile) {
+    for (std::size_t tile = 0; tile < run.distances_m.size(); ++tile) {
       // the rays end at range_max_m, so only depths that are too small are left to reject
-      Eigen::Map<Eigen::Array<float, RayPacket::kRays, 1>> depths_m(rays.distances_m[tile].data());
+      Eigen::Map<Eigen::Array<float, RayPacket::kRays, 1>> depths_m(run.distances_m[tile].data());
       depths_m = (depths_m < range_min_m).select(kInvalidRange, depths_m);
-      tiles.put(run, tile, rays.distances_m[tile], frame.depth_m);
+      tiles.put_distances(run, tile, frame.depth_m);
     }
   }
 
-  void noisy_run(const TileRun& run, RunRays& rays) const {
-    tiles.directions_world(run, rays.directions_world);
-    trace(rays);
+  void noisy_run(TileRun& run) const {
+    trace(run);
     if (asks_incidence(camera.config.noise)) {
-      displace(run, rays);
-      trace(rays);
+      displace(run);
+      trace(run);
     }
     tiles.for_each_pixel(run, [&](std::size_t tile, std::size_t ray, std::size_t pixel) {
-      const HitPacket& hits = rays.hits[tile];
+      const HitPacket& hits = run.hits[tile];
       frame.depth_m[pixel] = read(hits.distance_m[ray], hits.face[ray],
-                                  rays.directions_world[tile].direction(ray), pixel);
+                                  run.directions_world[tile].direction(ray), pixel);
     });
+  }
+
+  void trace(TileRun& run) const {
+    scene.first_hits(origin_world_m, run.directions_world, kTraceFrom_m, far_m, run.hits);
   }
 
   /// Turns each ray to where its pixel really looks: the more slanted the surface that it met, the
   /// farther.
-  void displace(const TileRun& run, RunRays& rays) const {
+  void displace(TileRun& run) const {
     tiles.for_each_pixel(run, [&](std::size_t tile, std::size_t ray, std::size_t pixel) {
-      RayPacket& packet = rays.directions_world[tile];
-      const std::int32_t face = rays.hits[tile].face[ray];
+      RayPacket& packet = run.directions_world[tile];
+      const std::int32_t face = run.hits[tile].face[ray];
       const double theta_rad =
           face == kNoFace ? 0.0 : incidence_rad(scene, face, packet.direction(ray));
       const double sigma_px = lateral_sigma_px(camera.config.noise, theta_rad);
-      const Vec3f shift_world =
-          tiles.shift_world(sigma_px * lateral_deviate(key, frame.camera, pixel, 0),
-                            sigma_px * lateral_deviate(key, frame.camera, pixel, 1));
+      const auto lateral = [&](int axis) {
+        return sigma_px * deviate(key, Stream::lateral_noise, 2 * frame.camera + axis, pixel);
+      };
+      const Vec3f shift_world = tiles.shift_world(lateral(0), lateral(1));
       packet.x[ray] += shift_world.x();
       packet.y[ray] += shift_world.y();
       packet.z[ray] += shift_world.z();
@@ -93,7 +104,7 @@ struct DepthCapture {
         asks_incidence(camera.config.noise) ? incidence_rad(scene, face, direction_world) : 0.0;
     if (!has_return(camera.config.noise, theta_rad)) return kInvalidRange;
     const double sigma_m = depth_sigma_m(camera, true_m, theta_rad);
-    const double read_m = true_m + sigma_m * depth_deviate(key, frame.camera, pixel);
+    const double read_m = true_m + sigma_m * deviate(key, Stream::depth_noise, frame.camera, pixel);
     return measured_range(true_m, static_cast<float>(read_m), camera.config.range_min_m,
                           camera.config.range_max_m);
   }
@@ -148,25 +159,22 @@ std::vector<RayHit> trace_sweep(const RayScene& scene, const LidarModel& lidar,
 
 DepthFrame capture_depth(const RayScene& scene, const CameraModel& camera, int camera_index,
                          const Isometry& T_world_body, const NoiseKey& key, int threads) {
-  const CameraConfig& config = camera.config;
-  GNBV_CHECK(config.width_px > 0 && config.height_px > 0, "camera {} has {} x {} pixels",
-             config.name, config.width_px, config.height_px);
   DepthFrame frame;
   frame.camera = camera_index;
   frame.T_world_camera = T_world_body * camera.T_body_camera;
-  frame.depth_m.resize(static_cast<std::size_t>(config.width_px) *
-                       static_cast<std::size_t>(config.height_px));
+  const double range_max_m = camera.config.range_max_m;
+  const double far_m = range_max_m + kFarthest_sigmas * depth_sigma_m(camera, range_max_m, 0.0);
   const DepthCapture capture = {scene,
                                 camera,
                                 key,
                                 frame,
                                 frame.T_world_camera.translation().cast<float>(),
-                                static_cast<float>(farthest_m(camera)),
+                                static_cast<float>(far_m),
                                 PixelTiles(camera, frame.T_world_camera)};
-  const bool is_exact = config.noise.model == DepthNoise::none;
-  for_each_tile_run(capture.tiles, threads, [&](const TileRun& run, RunRays& rays) {
-    is_exact ? capture.exact_run(run, rays) : capture.noisy_run(run, rays);
-  });
+  frame.depth_m.resize(capture.tiles.pixel_count());
+  const bool is_exact = camera.config.noise.model == DepthNoise::none;
+  capture.tiles.for_each_run(
+      threads, [&](TileRun& run) { is_exact ? capture.exact_run(run) : capture.noisy_run(run); });
   return frame;
 }
 
@@ -175,7 +183,8 @@ LidarScan capture_scan(const RayScene& scene, const LidarModel& lidar, int lidar
                        const NoiseKey& key) {
   GNBV_CHECK(!T_world_body_during.empty(), "a sweep of {} without a pose", lidar.config.name);
   const LidarConfig& config = lidar.config;
-  const auto far_m = static_cast<float>(farthest_m(config));
+  const auto far_m =
+      static_cast<float>(config.range_max_m + kFarthest_sigmas * config.range_sigma_m);
   LidarScan scan;
   scan.lidar = lidar_index;
   scan.T_world_lidar = T_world_body_during.front() * lidar.T_body_lidar;
@@ -186,8 +195,9 @@ LidarScan capture_scan(const RayScene& scene, const LidarModel& lidar, int lidar
     const float true_m = hits[beam].distance_m;
     float read_m = true_m;
     if (hits[beam].face != kNoFace && config.range_sigma_m > 0.0) {
-      read_m =
-          static_cast<float>(true_m + config.range_sigma_m * range_deviate(key, lidar_index, beam));
+      const double error_m =
+          config.range_sigma_m * deviate(key, Stream::range_noise, lidar_index, beam);
+      read_m = static_cast<float>(true_m + error_m);
     }
     scan.range_m.push_back(measured_range(true_m, read_m, config.range_min_m, config.range_max_m));
   }

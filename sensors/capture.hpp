@@ -11,24 +11,23 @@
 
 namespace gnbv {
 
-/// Depth along the optical axis for every pixel centre, with the noise of CameraConfig::noise:
-/// kInvalidRange when the surface or its reading is nearer than range_min_m, or the surface is too
-/// grazing to return anything; kNoReturn when there is no surface, or its reading is beyond
-/// range_max_m. The frame is the same at any number of threads. `T_world_body` is the true pose,
-/// and the frame carries it: who believes another one says so afterwards.
+/// Depth along the optical axis for every pixel centre, with the noise of CameraConfig::noise.
+/// kInvalidRange: the surface or its reading is nearer than range_min_m, or too slanted to return
+/// anything. kNoReturn: no surface, or a reading beyond range_max_m. The same at any number of
+/// threads. `T_world_body` is the true pose, which the frame carries.
 DepthFrame capture_depth(const RayScene& scene, const CameraModel& camera, int camera_index,
                          const Isometry& T_world_body, const NoiseKey& key, int threads);
 
-/// What the camera sees in colour: materials under a sun with shadows and a sky
-/// (sensors/light.hpp), sRGB. Each pixel is the colour of what its centre looks at, at any
-/// distance: aligned pixel by pixel with a depth that has no lateral noise, and not anti-aliased.
+/// Colour for every pixel centre, at any distance, in sRGB: materials under a sun with shadows and
+/// a sky (sensors/light.hpp). Aligned with a depth frame that has no lateral noise; not
+/// anti-aliased.
 ColourFrame capture_colour(const RayScene& scene, const CameraModel& camera, int camera_index,
                            const Isometry& T_world_body, int threads);
 
-/// One sweep of the LIDAR. `T_world_body_during` are true poses, one every `interval_s` from the
-/// first beam to the last one or just after it; one pose means a sweep at one instant. Each beam is
-/// traced from the pose of its own time, in between interpolated; the scan carries the first pose,
-/// as a driver stamps it, so that a moving rolling scan is skewed. Ranges as depths above.
+/// One sweep of the LIDAR; ranges as depths above. `T_world_body_during` are true poses, one every
+/// `interval_s` from the first beam to the last one or just after it; one pose means a sweep at one
+/// instant. Each beam is traced from the interpolated pose of its own time. The scan carries the
+/// first pose, as a driver stamps it: a scan in motion is skewed.
 LidarScan capture_scan(const RayScene& scene, const LidarModel& lidar, int lidar_index,
                        std::span<const Isometry> T_world_body_during, double interval_s,
                        const NoiseKey& key);

@@ -1,18 +1,16 @@
-// The camera in colour. Its rays are those of capture_depth, so that the two agree pixel by pixel.
-#include <limits>
+// The camera in colour, by the same rays as capture_depth.
 #include <vector>
 
 #include "sensors/capture.hpp"
 #include "sensors/light.hpp"
 #include "sensors/pixel_tiles.hpp"
-#include "sim/core/error.hpp"
-#include "sim/mesh/texture.hpp"
+#include "sim/mesh/triangle_mesh.hpp"
 
 namespace gnbv {
 namespace {
 
-/// Shadow rays begin this far off the surface, on the camera's side. It is more than the rounding
-/// of a float within a kilometre, and less than anything whose shadow matters.
+/// Shadow rays begin this far off the surface, on the camera's side: more than the rounding of a
+/// float within a kilometre, less than anything whose shadow matters.
 constexpr float kOffSurface_m = 1e-3F;
 
 /// What the rays of one packet meet, where it is, and how it is lit.
@@ -30,18 +28,16 @@ struct ColourCapture {
   SrgbTable srgb;
   ColourFrame& frame;
 
-  void capture_run(const TileRun& run, RunRays& rays) const {
-    tiles.directions_world(run, rays.directions_world);
-    scene.first_hits(origin_world_m, rays.directions_world, 0.0F,
-                     std::numeric_limits<float>::infinity(), rays.hits);
+  void capture(TileRun& run) const {
+    scene.first_hits(origin_world_m, run.directions_world, 0.0F, kEndless, run.hits);
     std::vector<Surface> surfaces;
-    for (std::size_t tile = 0; tile < rays.hits.size(); ++tile) {
-      surfaces.push_back(surface_of(rays.directions_world[tile], rays.hits[tile]));
+    for (std::size_t tile = 0; tile < run.hits.size(); ++tile) {
+      surfaces.push_back(surface_of(run.directions_world[tile], run.hits[tile]));
     }
     tiles.for_each_pixel(run, [&](std::size_t tile, std::size_t ray, std::size_t pixel) {
-      const std::int32_t face = rays.hits[tile].face[ray];
+      const std::int32_t face = run.hits[tile].face[ray];
       frame.rgb[pixel] =
-          srgb(face == kNoFace ? sky_colour(rays.directions_world[tile].direction(ray))
+          srgb(face == kNoFace ? sky_colour(run.directions_world[tile].direction(ray))
                                : colour_of(face, surfaces[tile], ray));
     });
   }
@@ -76,22 +72,17 @@ struct ColourCapture {
 
 ColourFrame capture_colour(const RayScene& scene, const CameraModel& camera, int camera_index,
                            const Isometry& T_world_body, int threads) {
-  const CameraConfig& config = camera.config;
-  GNBV_CHECK(config.width_px > 0 && config.height_px > 0, "camera {} has {} x {} pixels",
-             config.name, config.width_px, config.height_px);
   ColourFrame frame;
   frame.camera = camera_index;
   frame.T_world_camera = T_world_body * camera.T_body_camera;
-  frame.rgb.resize(static_cast<std::size_t>(config.width_px) *
-                   static_cast<std::size_t>(config.height_px));
   const ColourCapture capture = {scene,
                                  frame.T_world_camera.translation().cast<float>(),
                                  ground_material(),
                                  PixelTiles(camera, frame.T_world_camera),
                                  SrgbTable(),
                                  frame};
-  for_each_tile_run(capture.tiles, threads,
-                    [&](const TileRun& run, RunRays& rays) { capture.capture_run(run, rays); });
+  frame.rgb.resize(capture.tiles.pixel_count());
+  capture.tiles.for_each_run(threads, [&](TileRun& run) { capture.capture(run); });
   return frame;
 }
 

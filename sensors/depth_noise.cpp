@@ -4,21 +4,14 @@
 #include <cmath>
 
 #include "sim/core/error.hpp"
-#include "sim/core/rng.hpp"
 
 namespace gnbv {
 namespace {
 
 constexpr double kSteep_rad = deg_to_rad(60.0);
 constexpr double kGrazing_rad = deg_to_rad(80.0);
-constexpr double kFarthest_sigmas = 5.0;
 
 double square(double x) { return x * x; }
-
-/// One standard normal for every pixel or beam of every sensor at every tick.
-double deviate(const NoiseKey& key, Stream stream, std::uint64_t sensor, std::uint64_t item) {
-  return standard_normal({key.seed, stream, key.tick, sensor << 32 | item});
-}
 
 }  // namespace
 
@@ -53,27 +46,6 @@ double lateral_sigma_px(const DepthNoiseConfig& noise, double incidence_rad) {
 
 bool has_return(const DepthNoiseConfig& noise, double incidence_rad) {
   return !asks_incidence(noise) || incidence_rad <= kGrazing_rad;
-}
-
-double farthest_m(const CameraModel& camera) {
-  const double range_max_m = camera.config.range_max_m;
-  return range_max_m + kFarthest_sigmas * depth_sigma_m(camera, range_max_m, 0.0);
-}
-
-double farthest_m(const LidarConfig& lidar) {
-  return lidar.range_max_m + kFarthest_sigmas * lidar.range_sigma_m;
-}
-
-double depth_deviate(const NoiseKey& key, int camera, std::uint64_t pixel) {
-  return deviate(key, Stream::depth_noise, static_cast<std::uint64_t>(camera), pixel);
-}
-
-double lateral_deviate(const NoiseKey& key, int camera, std::uint64_t pixel, int axis) {
-  return deviate(key, Stream::lateral_noise, static_cast<std::uint64_t>(2 * camera + axis), pixel);
-}
-
-double range_deviate(const NoiseKey& key, int lidar, std::uint64_t beam) {
-  return deviate(key, Stream::range_noise, static_cast<std::uint64_t>(lidar), beam);
 }
 
 }  // namespace gnbv

@@ -1,26 +1,23 @@
-// How far a measured range is from the true one. Pure functions: the laws, and numbers drawn by
-// key.
+// How far a measured depth is from the true one.
 #pragma once
 
 #include <cstdint>
 
 #include "sensors/camera_model.hpp"
-#include "sensors/lidar_model.hpp"
 
 namespace gnbv {
 
-/// What the noise of a measurement is keyed by, beside the sensor and the pixel or beam: the seed
-/// of the mission and the tick of the measurement. Noise depends on nothing else.
+/// Noise depends on these, the sensor and the pixel or beam, and on nothing else.
 struct NoiseKey {
-  std::uint64_t seed = 0;
-  std::uint64_t tick = 0;
+  std::uint64_t seed = 0;  // of the mission
+  std::uint64_t tick = 0;  // of the measurement
 };
 
-/// Whether a law of the model asks how slanted the surface is; else any incidence will do.
+/// Whether the model depends on how slanted the surface is.
 bool asks_incidence(const DepthNoiseConfig& noise);
 
-/// Standard deviation of the depth of a surface at `depth_m`, whose normal is `incidence_rad` off
-/// the ray, in [0, pi / 2]. z is the depth, theta the incidence:
+/// Standard deviation of the depth z of a surface whose normal is theta = `incidence_rad` off the
+/// ray, in [0, pi / 2]:
 /// none        0
 /// released    0.0025 z^2: the authors' sensor_settings.yaml (kucars/nbv_exploration)
 /// khoshelham  1.425e-3 z^2: a Kinect's random error (Khoshelham, Elberink, Sensors 2012)
@@ -30,24 +27,13 @@ bool asks_incidence(const DepthNoiseConfig& noise);
 /// stereo      z^2 s / (f B): a disparity of f B / z with an error of s pixels, to first order
 double depth_sigma_m(const CameraModel& camera, double depth_m, double incidence_rad);
 
-/// Standard deviation, along each axis of the image, of where a pixel really looks:
-/// 0.8 + 0.035 theta / (pi / 2 - theta) pixels for nguyen (ibid.), constant beyond the angles that
-/// return anything; else 0.
+/// Standard deviation of where a pixel really looks, along each axis of the image:
+/// 0.8 + 0.035 theta / (pi / 2 - theta) pixels for nguyen (ibid.), constant from 80 degrees on;
+/// else 0.
 double lateral_sigma_px(const DepthNoiseConfig& noise, double incidence_rad);
 
-/// Whether a surface seen at this incidence returns anything at all: nguyen, ibid., measured no
-/// surface beyond about 80 degrees.
+/// Whether a surface at this incidence returns anything: nguyen (ibid.) measured none beyond about
+/// 80 degrees.
 bool has_return(const DepthNoiseConfig& noise, double incidence_rad);
-
-/// Depth that can be told apart from the maximum range: what lies farther is not traced. Five
-/// standard deviations, so that one pixel in three million would be told otherwise. (Much farther
-/// out the laws, which hold near the working range, would give errors as large as the depth.)
-double farthest_m(const CameraModel& camera);
-double farthest_m(const LidarConfig& lidar);
-
-/// Standard normal numbers, each of its own.
-double depth_deviate(const NoiseKey& key, int camera, std::uint64_t pixel);
-double lateral_deviate(const NoiseKey& key, int camera, std::uint64_t pixel, int axis);
-double range_deviate(const NoiseKey& key, int lidar, std::uint64_t beam);
 
 }  // namespace gnbv

@@ -1,7 +1,7 @@
 #include "sensors/embree_scene.hpp"
 
 #include <algorithm>
-#include <cstdint>
+#include <limits>
 #include <new>
 #include <span>
 
@@ -12,8 +12,6 @@ namespace gnbv {
 namespace {
 
 constexpr float kGroundHalfWidth_m = 1000.0F;
-constexpr std::array<unsigned, SceneFaces::kParts> kMasks = {kStructurePart, kObstaclePart,
-                                                             kTerrainPart};
 
 /// Closest point of triangle abc to p: the region of p among vertices, edges and face decides
 /// (Ericson, Real-Time Collision Detection 2005, section 5.1.5).
@@ -60,104 +58,110 @@ void need_indices(const TriangleMesh& mesh) {
 void check_device(RTCDevice device, const char* doing) {
   const RTCError error = rtcGetDeviceError(device);
   if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
-  GNBV_CHECK(error == RTC_ERROR_NONE, "Embree error {} while {}", static_cast<int>(error), doing);
+  GNBV_CHECK(device != nullptr && error == RTC_ERROR_NONE, "Embree error {} while {}",
+             static_cast<int>(error), doing);
 }
 
-/// Copies the triangles into a new geometry of `scene`; its id. Embree pads its own buffers.
-unsigned attach_triangles(RTCDevice device, RTCScene scene, std::span<const Vec3f> vertices_m,
-                          std::span<const std::array<std::uint32_t, 3>> faces, unsigned mask) {
-  const Owner<RTCGeometry, rtcReleaseGeometry> geometry(
-      rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
+/// Copies the triangles into a new geometry. Embree pads its own buffers.
+void attach(const EmbreeScene& to, unsigned id, std::span<const Vec3f> vertices_m,
+            std::span<const std::array<std::uint32_t, 3>> faces) {
+  const std::unique_ptr<RTCGeometryTy, Releases<rtcReleaseGeometry>> geometry(
+      rtcNewGeometry(to.device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
   auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX,
                                                              0, RTC_FORMAT_FLOAT3,
                                                              3 * sizeof(float), vertices_m.size()));
   auto* index = static_cast<std::uint32_t*>(
       rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                               3 * sizeof(std::uint32_t), faces.size()));
-  check_device(device, "allocating geometry");
+  check_device(to.device.get(), "allocating geometry");
   for (const Vec3f& v : vertices_m) vertex = std::copy_n(v.data(), 3, vertex);
   for (const auto& face : faces) index = std::copy_n(face.data(), 3, index);
   rtcSetGeometryBuildQuality(geometry.get(), RTC_BUILD_QUALITY_HIGH);
-  rtcSetGeometryMask(geometry.get(), mask);
+  rtcSetGeometryMask(geometry.get(), 1U << id);
   rtcCommitGeometry(geometry.get());
-  return rtcAttachGeometry(scene, geometry.get());
+  rtcAttachGeometryByID(to.scene.get(), geometry.get(), id);
 }
 
-unsigned attach(RTCDevice device, RTCScene scene, const TriangleMesh& mesh, unsigned mask) {
-  if (mesh.faces.empty()) return RTC_INVALID_GEOMETRY_ID;
-  return attach_triangles(device, scene, mesh.vertices_m, mesh.faces, mask);
+/// Embree searches in floats around the rounded point, while we measure in doubles: it searches a
+/// ball a little larger than the distance found so far.
+float search_radius_m(double distance_m) {
+  return static_cast<float>(distance_m * 1.000001 + 1e-5);
 }
 
-RTCScene new_scene(RTCDevice device) {
-  if (device == nullptr) {
-    const RTCError error = rtcGetDeviceError(nullptr);
-    if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
-    GNBV_CHECK(false, "Embree error {} while opening a device", static_cast<int>(error));
+struct NearestQuery {
+  const EmbreeScene& scene;
+  unsigned parts;
+  Vec3 p_world_m;
+  double distance_m = std::numeric_limits<double>::infinity();
+
+  /// Whether the parts hold the face; its corners.
+  bool asks(unsigned id, const std::array<Vec3, 3>& corners_m) const {
+    if ((parts >> id & 1U) != 0) return true;
+    return id == EmbreeScene::terrain && (parts & kRisenTerrainPart) != 0 &&
+           std::any_of(corners_m.begin(), corners_m.end(), [&](const Vec3& p_m) {
+             return p_m.z() > static_cast<double>(scene.terrain_floor_z_m);
+           });
   }
-  return rtcNewScene(device);
+};
+
+bool visit_nearest(RTCPointQueryFunctionArguments* arguments) {
+  auto& query = *static_cast<NearestQuery*>(arguments->userPtr);
+  const unsigned id = arguments->geomID;
+  if (id == EmbreeScene::ground) return false;
+  const std::size_t face = query.scene.first_face[id] + arguments->primID;
+  const auto corners_m = face_corners_m(query.scene.meshes, face);
+  if (!query.asks(id, corners_m)) return false;
+  const auto& [a, b, c] = corners_m;
+  const double distance_m =
+      (closest_on_triangle(query.p_world_m, a, b, c) - query.p_world_m).norm();
+  if (!(distance_m < query.distance_m)) return false;
+  query.distance_m = distance_m;
+  arguments->query->radius = search_radius_m(distance_m);
+  return true;
 }
 
 }  // namespace
 
 EmbreeScene::EmbreeScene(const World& world)
-    : device(rtcNewDevice("threads=1")), scene(new_scene(device.get())) {
+    : device(rtcNewDevice("threads=1")),
+      meshes(world.structure),
+      terrain_floor_z_m(static_cast<float>(world.terrain_floor_z_m)) {
+  check_device(device.get(), "opening a device");
   GNBV_CHECK(rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) != 0,
              "this Embree was built without ray masks");
+  scene.reset(rtcNewScene(device.get()));
   rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_HIGH);
-  geometries = {attach(device.get(), scene.get(), world.structure, kStructurePart),
-                attach(device.get(), scene.get(), world.obstacles, kObstaclePart),
-                attach(device.get(), scene.get(), world.terrain, kTerrainPart)};
+  unsigned id = structure;
+  for (const TriangleMesh* part : {&world.structure, &world.obstacles, &world.terrain}) {
+    need_indices(*part);
+    if (id != structure && !part->faces.empty()) append(meshes, *part);
+    if (!part->faces.empty()) attach(*this, id, part->vertices_m, part->faces);
+    first_face[++id] = static_cast<std::uint32_t>(meshes.faces.size());
+  }
   if (world.has_ground) {
     constexpr float w = kGroundHalfWidth_m;
     const std::array<Vec3f, 4> corners = {Vec3f(-w, -w, 0), Vec3f(w, -w, 0), Vec3f(w, w, 0),
                                           Vec3f(-w, w, 0)};
     const std::array<std::array<std::uint32_t, 3>, 2> halves = {{{0, 1, 2}, {0, 2, 3}}};
-    ground_id = attach_triangles(device.get(), scene.get(), corners, halves, kGroundPart);
+    attach(*this, ground, corners, halves);
   }
   rtcCommitScene(scene.get());
   check_device(device.get(), "building the scene");
 }
 
-SceneFaces::SceneFaces(const World& world)
-    : meshes_(world.structure), terrain_floor_z_m_(static_cast<float>(world.terrain_floor_z_m)) {
-  need_indices(world.structure);
-  add(1, world.obstacles);
-  add(2, world.terrain);
-}
-
-void SceneFaces::add(std::size_t part, const TriangleMesh& mesh) {
-  need_indices(mesh);
-  first_face_[part] = static_cast<std::uint32_t>(meshes_.faces.size());
-  if (!mesh.faces.empty()) append(meshes_, mesh);
-}
-
-bool SceneFaces::is_asked(std::size_t part, std::uint32_t face, unsigned masks) const {
-  if ((masks & kMasks[part]) != 0) return true;
-  if (kMasks[part] != kTerrainPart || (masks & kRisenTerrainPart) == 0) return false;
-  const auto& corners = meshes_.faces[face];
-  return std::any_of(corners.begin(), corners.end(), [&](std::uint32_t vertex) {
-    return meshes_.vertices_m[vertex].z() > terrain_floor_z_m_;
-  });
-}
-
-double SceneFaces::distance_m(std::uint32_t face, const Vec3& p_world_m) const {
-  const auto corner = [&](std::size_t i) -> Vec3 {
-    return meshes_.vertices_m[meshes_.faces[face][i]].cast<double>();
-  };
-  return (closest_on_triangle(p_world_m, corner(0), corner(1), corner(2)) - p_world_m).norm();
-}
-
-Vec3f SceneFaces::normal_world(std::int32_t face) const {
-  GNBV_CHECK(face >= 0, "the normal of nothing");
-  const auto& [a, b, c] = meshes_.faces[static_cast<std::size_t>(face)];
-  const std::vector<Vec3f>& p = meshes_.vertices_m;
-  return (p[b] - p[a]).cross(p[c] - p[a]).stableNormalized();
-}
-
-const Material& SceneFaces::material(std::int32_t face) const {
-  const std::vector<std::uint16_t>& of_face = meshes_.face_material;
-  return meshes_.materials[of_face.empty() ? 0 : of_face[static_cast<std::size_t>(face)]];
+double EmbreeScene::distance_m(unsigned parts, const Vec3& p_world_m, double limit_m) const {
+  NearestQuery nearest{*this, parts, p_world_m};
+  RTCPointQuery query{};
+  query.x = static_cast<float>(p_world_m.x());
+  query.y = static_cast<float>(p_world_m.y());
+  query.z = static_cast<float>(p_world_m.z());
+  query.radius = search_radius_m(limit_m);
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(scene.get(), &query, &context, visit_nearest, &nearest);
+  return nearest.distance_m <= limit_m ? nearest.distance_m
+                                       : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace gnbv

@@ -1,72 +1,44 @@
-// The world as Embree holds it, and its faces as a ray scene names them.
+// The world as Embree holds it.
 #pragma once
 
 #include <embree3/rtcore.h>
 
 #include <array>
 #include <cstdint>
+#include <memory>
 
 #include "sim/mesh/world.hpp"
 
 namespace gnbv {
 
-/// The faces of all meshes of a world, one after the other, by which a ray scene names what it met.
-class SceneFaces {
- public:
-  /// Structure, obstacles and terrain.
-  static constexpr std::size_t kParts = 3;
-
-  /// Throws BrokenInvariant for faces and materials that point nowhere.
-  explicit SceneFaces(const World& world);
-
-  /// Of a part, among all faces.
-  std::uint32_t first_face(std::size_t part) const { return first_face_[part]; }
-
-  /// Whether the masks ask for a face of the part.
-  bool is_asked(std::size_t part, std::uint32_t face, unsigned masks) const;
-  /// From a point to the face.
-  double distance_m(std::uint32_t face, const Vec3& p_world_m) const;
-
-  /// Unit normal, on the side the corners run counter-clockwise. Zero for a face without area.
-  Vec3f normal_world(std::int32_t face) const;
-  const Material& material(std::int32_t face) const;
-
- private:
-  void add(std::size_t part, const TriangleMesh& mesh);
-
-  TriangleMesh meshes_;
-  std::array<std::uint32_t, kParts> first_face_{};
-  float terrain_floor_z_m_;
-};
-
-/// Owns one reference of an Embree handle.
-template <typename Handle, void (*Release)(Handle)>
-class Owner {
- public:
-  explicit Owner(Handle handle) : handle_(handle) {}
-  ~Owner() {
-    if (handle_ != nullptr) Release(handle_);
+template <auto kRelease>
+struct Releases {
+  template <typename Object>
+  void operator()(Object* object) const {
+    kRelease(object);
   }
-  Owner(const Owner&) = delete;
-  Owner& operator=(const Owner&) = delete;
-  Handle get() const { return handle_; }
-
- private:
-  Handle handle_;
 };
 
-/// A device and one committed scene of a world's meshes and its ground. Queries may run on any
-/// number of threads at once.
+/// One committed scene of a world's meshes and its ground. Queries may run on any number of threads
+/// at once.
 struct EmbreeScene {
-  // One build thread: the tree, and with it the last bit of a distance, then never depends on how
-  // a build happened to be shared out among threads.
-  Owner<RTCDevice, rtcReleaseDevice> device;
-  Owner<RTCScene, rtcReleaseScene> scene;
-  std::array<unsigned, SceneFaces::kParts> geometries;  // none where a mesh has no faces
-  unsigned ground_id = RTC_INVALID_GEOMETRY_ID;
+  /// Ids of Embree's geometries, and places in `first_face`. The mask of a part is 1 << id.
+  enum Id : unsigned { structure, obstacles, terrain, ground };
 
-  /// Throws std::bad_alloc for want of memory, BrokenInvariant for an Embree that cannot be used.
+  // One build thread: on several the tree, and with it the last bit of a distance, could depend on
+  // how they shared the work.
+  std::unique_ptr<RTCDeviceTy, Releases<rtcReleaseDevice>> device;
+  std::unique_ptr<RTCSceneTy, Releases<rtcReleaseScene>> scene;
+  TriangleMesh meshes;  // of structure, obstacles and terrain, one after the other
+  std::array<std::uint32_t, 4> first_face{};  // of each of them in `meshes`, and the end
+  float terrain_floor_z_m;
+
+  /// Throws std::bad_alloc for want of memory, BrokenInvariant for an Embree that cannot be used
+  /// and for faces and materials that point nowhere.
   explicit EmbreeScene(const World& world);
+
+  /// To the nearest face of the parts (kStructurePart and so on), up to `limit_m`; infinity beyond.
+  double distance_m(unsigned parts, const Vec3& p_world_m, double limit_m) const;
 };
 
 }  // namespace gnbv

@@ -1,4 +1,4 @@
-// What the sensors hand to the map: ranges with the pose the measurement was taken from.
+// What the sensors give to the map: measurements with the pose that they were taken from.
 #pragma once
 
 #include <array>
@@ -10,9 +10,9 @@
 
 namespace gnbv {
 
-/// A return nearer than the minimum range: says nothing about the space before it.
+/// Nearer than the minimum range: tells nothing about the space before it.
 constexpr float kInvalidRange = std::numeric_limits<float>::quiet_NaN();
-/// No return within the maximum range: the space up to the maximum range is free.
+/// No return within the maximum range: the space up to there is free.
 constexpr float kNoReturn = std::numeric_limits<float>::infinity();
 
 struct DepthFrame {
@@ -21,7 +21,7 @@ struct DepthFrame {
   std::vector<float> depth_m;  // (height, width) row-major, along the optical axis; see above
 };
 
-/// What the same camera sees in colour, pixel by pixel aligned with its depth.
+/// The same camera in colour, aligned with its depth pixel by pixel.
 struct ColourFrame {
   int camera = 0;
   Isometry T_world_camera = Isometry::Identity();  // optical frame

@@ -10,9 +10,9 @@
 namespace gnbv {
 
 /// Defaults: the profiling laser of the paper (180 degrees, 0.1-30 m) with the beams and rate of
-/// the released floating_sensor.sdf; tilted down, which reproduces the paper's profile row.
+/// the released floating_sensor.sdf, tilted down so that it gives the paper's profile.
 struct LidarConfig {
-  std::string preset = "profiling_sim";  // the sensor whose values these began as; a label, no more
+  std::string preset = "profiling_sim";  // a label: the sensor whose values these began as
   std::string name = "lidar";
   int beams = 720;
   double fov_rad = kPi;
@@ -24,12 +24,12 @@ struct LidarConfig {
   double pitch_rad = deg_to_rad(10.0);  // about body y: positive tilts the fan down; second
   double yaw_rad = 0.0;                 // about body z, applied last
   double range_sigma_m = 0.0;           // of each range
-  /// Whether the beams of a sweep are taken one after the other, fov / 2 pi of a period in all,
-  /// while the vehicle moves; else all at once.
+  /// Whether the beams of a sweep are taken one after the other (in fov / 2 pi of a period) while
+  /// the vehicle moves; else all at once.
   bool rolling = false;
 };
 
-/// Time from the first beam of a sweep to its last: the head turns evenly, once a period.
+/// From the first beam of a sweep to its last: the head turns evenly, once a period.
 inline double sweep_duration_s(const LidarConfig& config) {
   return config.rolling ? config.fov_rad / (2.0 * kPi * config.rate_hz) : 0.0;
 }
@@ -47,7 +47,7 @@ inline Vec3f beam_lidar(const LidarConfig& config, int beam) {
           0.0F};
 }
 
-/// What every sweep of a LIDAR shares.
+/// Geometry of a LidarConfig.
 struct LidarModel {
   LidarConfig config;
   Isometry T_body_lidar = Isometry::Identity();

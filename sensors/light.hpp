@@ -1,5 +1,5 @@
-// What lights the scene: a sun, a blue sky, and the ground's reflection of both. Linear colours,
-// scaled so that a white sheet that faces the sun comes out just below 1.
+// The light of the scene: a sun, a blue sky, and what the ground reflects of both. Colours are
+// linear; a white sheet that faces the sun comes out just below 1.
 #pragma once
 
 #include <array>
@@ -9,21 +9,21 @@
 
 namespace gnbv {
 
-/// Unit vector from anywhere to the sun: from the south-west, 50 degrees high.
+/// Unit vector to the sun, in the south-west, 50 degrees high.
 Vec3f towards_sun_world();
 
-/// Colour of the sky in a direction: pale at the horizon, blue overhead; below the horizon, where a
-/// world has no ground, the colour of far haze.
+/// Colour of the sky in a direction: pale at the horizon, blue overhead; haze below the horizon,
+/// where a world has no ground.
 Vec3f sky_colour(const Vec3f& direction_world);
 
-/// Light that a surface sends back: Lambert's law for the sun, where it is not in shadow, and an
-/// ambient light that depends on how much of sky and ground the surface faces.
+/// Light that a surface sends back: of the sun by Lambert's law, where it is not in shadow, and of
+/// sky and ground by how much of them the surface faces.
 Vec3f lit_colour(const Vec3f& albedo, const Vec3f& normal_world, bool is_sunlit);
 
-/// The ground's own look.
+/// The material of the ground plane.
 Material ground_material();
 
-/// From linear to sRGB (IEC 61966-2-1), by a table: up to half a level off the exact curve.
+/// linear_to_srgb() by a table: up to half a level off.
 class SrgbTable {
  public:
   SrgbTable();

@@ -1,4 +1,4 @@
-// The world as the sensors see it. What knows Embree is its .cpp, and embree_scene.hpp.
+// The world as the sensors see it. Embree is known to ray_scene.cpp and embree_scene.* alone.
 #pragma once
 
 #include <array>
@@ -16,12 +16,13 @@ namespace gnbv {
 
 /// Parts of the world; a question names one, or several joined by |. Sensors see all of them.
 constexpr unsigned kStructurePart = 1;
-constexpr unsigned kGroundPart = 2;
-constexpr unsigned kObstaclePart = 4;
-constexpr unsigned kTerrainPart = 8;
-constexpr unsigned kMeshParts = kStructurePart | kObstaclePart | kTerrainPart;
+constexpr unsigned kObstaclePart = 2;
+constexpr unsigned kTerrainPart = 4;
+constexpr unsigned kGroundPart = 8;
 constexpr unsigned kRisenTerrainPart =
-    16;  // of distances: faces that rise above the terrain's floor
+    16;  // of distances: faces that reach above terrain_floor_z_m
+constexpr unsigned kMeshParts = kStructurePart | kObstaclePart | kTerrainPart;
+constexpr unsigned kAllParts = kMeshParts | kGroundPart;
 
 /// The far end of a ray that has none.
 constexpr float kEndless = std::numeric_limits<float>::infinity();
@@ -30,12 +31,12 @@ constexpr std::int32_t kNoFace = -1;
 constexpr std::int32_t kGroundFace = -2;
 
 struct RayHit {
-  float distance_m = 0.0F;  // in units of the ray's direction length; kNoReturn when nothing
-  // index into the faces of World::structure, then obstacles, then terrain; or one of the two above
+  float distance_m = 0.0F;  // in lengths of the ray's direction; kNoReturn when nothing
+  // index into the faces of structure, then obstacles, then terrain; or one of the two above
   std::int32_t face = kNoFace;
 };
 
-/// Directions of 16 rays that are traced at once: neighbours in space.
+/// Directions of 16 rays that are traced at once, neighbours in space.
 struct RayPacket {
   static constexpr std::size_t kRays = 16;
   alignas(64) std::array<float, kRays> x{};
@@ -45,15 +46,16 @@ struct RayPacket {
   Vec3f direction(std::size_t ray) const { return {x[ray], y[ray], z[ray]}; }
 };
 
-/// What they meet first, as in RayHit.
+/// Their RayHits.
 struct HitPacket {
   std::array<float, RayPacket::kRays> distance_m{};
   std::array<std::int32_t, RayPacket::kRays> face{};
 };
 
-/// Ray queries against the structure, what stands around it, and the ground. Const after
-/// construction: any number of threads may query at once, and each query's answer depends on its
-/// rays alone.
+struct EmbreeScene;
+
+/// Ray queries against the structure, its surroundings and the ground. Any number of threads may
+/// query at once. An answer depends on its ray alone. As many answers as rays.
 class RayScene {
  public:
   explicit RayScene(const World& world);
@@ -62,49 +64,54 @@ class RayScene {
   RayScene& operator=(RayScene&&) noexcept;
 
   /// First hit of each ray in (near_m, far_m]. Directions need not be of unit length; distances are
-  /// in multiples of them. As many hits as rays.
+  /// in multiples of them.
   void first_hits(const Vec3f& origin_world_m, std::span<const RayPacket> directions_world,
                   float near_m, float far_m, std::span<HitPacket> hits) const;
   /// Their distances alone, which is faster.
   void first_distances(const Vec3f& origin_world_m, std::span<const RayPacket> directions_world,
                        float near_m, float far_m,
                        std::span<std::array<float, RayPacket::kRays>> distances_m) const;
-  /// First hits of any number of rays, 16 neighbours in the span to a packet.
-  void first_hits(const Vec3f& origin_world_m, std::span<const Vec3f> directions_world,
-                  float near_m, float far_m, std::span<RayHit> hits) const;
-  /// The same for rays that begin each at its own origin; as many origins as directions.
+  /// First hits of any number of rays, each from its own origin or all from one. Sixteen neighbours
+  /// in the span are traced at once.
   void first_hits(std::span<const Vec3f> origins_world_m, std::span<const Vec3f> directions_world,
                   float near_m, float far_m, std::span<RayHit> hits) const;
+  void first_hits(const Vec3f& origin_world_m, std::span<const Vec3f> directions_world,
+                  float near_m, float far_m, std::span<RayHit> hits) const {
+    first_hits(std::span(&origin_world_m, 1), directions_world, near_m, far_m, hits);
+  }
 
-  /// For each ray from its own origin: whether anything of the parts (kStructurePart and so on)
-  /// lies in (near_m, far_m), in units of the direction's length. Sizes equal. blocked[i] is 0
-  /// or 1.
+  /// For each ray, from its own origin or all from one, 1 where anything of the parts lies in
+  /// (near_m, far_m), in lengths of the direction; else 0.
   void find_blocked(unsigned parts, std::span<const Vec3f> origins_world_m,
                     std::span<const Vec3f> directions_world, float near_m, float far_m,
                     std::span<std::uint8_t> blocked) const;
 
-  /// Unit normal of a face of a mesh, on the side its corners run counter-clockwise, or of the
+  /// Unit normal of a mesh's face, on the side where its corners run counter-clockwise, or of the
   /// ground. Zero for a face without area.
   Vec3f normal_world(std::int32_t face) const;
-
-  /// What a face of a mesh is made of.
+  /// Of a mesh's face.
   const Material& material(std::int32_t face) const;
 
   bool has_obstacles() const;
   bool has_terrain() const;
 
-  /// Distance from a point to the structure's surface, up to `limit_m`; infinity beyond.
-  double distance_to_structure_m(const Vec3& p_world_m, double limit_m) const;
-  /// To what is seen and not scored: obstacles and terrain.
-  double distance_to_surroundings_m(const Vec3& p_world_m, double limit_m) const;
-  /// To what the vehicle has to keep clear of: the structure, the obstacles, and what of the
-  /// terrain rises above World::terrain_floor_z_m; a face of it that does so anywhere does so
-  /// everywhere.
-  double clearance_m(const Vec3& p_world_m, double limit_m) const;
+  /// Distance from a point to the nearest surface of the parts, but of the ground, up to `limit_m`;
+  /// infinity beyond.
+  double distance_m(unsigned parts, const Vec3& p_world_m, double limit_m) const;
+  double distance_to_structure_m(const Vec3& p_world_m, double limit_m) const {
+    return distance_m(kStructurePart, p_world_m, limit_m);
+  }
+  /// To what is seen and not scored.
+  double distance_to_surroundings_m(const Vec3& p_world_m, double limit_m) const {
+    return distance_m(kObstaclePart | kTerrainPart, p_world_m, limit_m);
+  }
+  /// To what the vehicle has to keep clear of.
+  double clearance_m(const Vec3& p_world_m, double limit_m) const {
+    return distance_m(kStructurePart | kObstaclePart | kRisenTerrainPart, p_world_m, limit_m);
+  }
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::unique_ptr<EmbreeScene> embree_;
 };
 
 }  // namespace gnbv

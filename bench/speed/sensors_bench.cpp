@@ -105,16 +105,14 @@ void BM_DepthFrameToPoints(benchmark::State& state, DepthNoise model) {
   const auto prepare = [&](const Isometry& T_world_body, BareEmbree& bare) {
     const Isometry T_world_camera = T_world_body * camera.T_body_camera;
     const PixelTiles tiles(camera, T_world_camera);
-    std::vector<RayPacket> packets(static_cast<std::size_t>(tiles.columns()));
     std::vector<Vec3f> directions_world;
-    for (int row = 0; row < tiles.rows(); ++row) {
-      tiles.directions_world({row, 0, tiles.columns()}, packets);
-      for (const RayPacket& packet : packets) {
+    tiles.for_each_run(1, [&](const TileRun& run) {
+      for (const RayPacket& packet : run.directions_world) {
         for (std::size_t ray = 0; ray < RayPacket::kRays; ++ray) {
           directions_world.push_back(packet.direction(ray));
         }
       }
-    }
+    });
     bare.prepare(T_world_camera.translation().cast<float>(), directions_world);
   };
   compare(state, sensor, prepare, static_cast<float>(config.range_max_m), packets_per_task,

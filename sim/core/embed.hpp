@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <string_view>
 
-/// GNBV_EMBED(name, FILE) defines `std::string_view name()`: the contents of FILE (a string literal)
-/// as part of the program. The assembler puts the file between two labels. CMake needs FILE in the
-/// OBJECT_DEPENDS of the source that embeds it, since no compiler sees the dependence.
+/// GNBV_EMBED(name, FILE) defines `std::string_view name()`: the contents of FILE (a string
+/// literal) as part of the program. The assembler puts the file between two labels. CMake needs
+/// FILE in the OBJECT_DEPENDS of the source that embeds it, since no compiler sees the dependence.
 #define GNBV_EMBED(name, file)                                                     \
   asm(".pushsection .rodata\ngnbv_embedded_" #name "_begin:\n.incbin \"" file      \
       "\"\ngnbv_embedded_" #name "_end:\n.popsection\n");                          \

@@ -32,8 +32,8 @@ std::string extension_of(const std::filesystem::path& path);
 /// Opens a file or pipe to read its bytes. Throws BadInput naming the path.
 std::ifstream open_file(const std::filesystem::path& path);
 
-/// The whole file, or pipe of up to 1 GiB. Throws BadInput naming the path when it cannot be read or
-/// is a device.
+/// The whole file, or pipe of up to 1 GiB. Throws BadInput naming the path when it cannot be read
+/// or is a device.
 std::string read_file(const std::filesystem::path& path);
 
 /// What a written file outlasts. A power failure costs some milliseconds a file.
@@ -73,8 +73,8 @@ void append_bytes(std::string& out, T value) {
   out.append(bytes.data(), bytes.size());
 }
 
-/// An exclusive lock on a file. The kernel releases it with the last process that has the file open:
-/// a mission keeps the lock on its cell when its sweep is killed.
+/// An exclusive lock on a file. The kernel releases it with the last process that has the file
+/// open: a mission keeps the lock on its cell when its sweep is killed.
 class FileLock {
  public:
   /// Makes the file if need be. Nothing when another holder has the lock. Throws BadInput when the

@@ -100,9 +100,9 @@ void write_png(const Image& image, const std::filesystem::path& path, Lasting la
 
 void write_png(const GreyImage16& image, const std::filesystem::path& path, Lasting lasting) {
   const auto bytes = std::as_bytes(std::span(image.values));
-  write_rows({image.width_px, image.height_px, false,
-              reinterpret_cast<const std::uint8_t*>(bytes.data())},
-             bytes.size(), path, lasting);
+  write_rows(
+      {image.width_px, image.height_px, false, reinterpret_cast<const std::uint8_t*>(bytes.data())},
+      bytes.size(), path, lasting);
 }
 
 Image read_png(const std::filesystem::path& path) {

@@ -105,8 +105,8 @@ class Pool {
   std::size_t workers_ = 0;
 };
 
-/// Never destroyed: its threads wait in it until the process ends. A child process has none of these
-/// threads and makes a pool of its own.
+/// Never destroyed: its threads wait in it until the process ends. A child process has none of
+/// these threads and makes a pool of its own.
 Pool& the_pool() {
   alignas(Pool) static std::byte memory[sizeof(Pool)];
   [[maybe_unused]] static const bool is_made = [] {

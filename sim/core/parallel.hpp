@@ -11,8 +11,8 @@ namespace gnbv {
 /// The first exception by index is rethrown.
 void parallel_for(int threads, std::size_t count, const std::function<void(std::size_t)>& task);
 
-/// The same for small pieces: task(begin, end) for each range of `chunk` in [0, count), of which the
-/// last may be shorter.
+/// The same for small pieces: task(begin, end) for each range of `chunk` in [0, count), of which
+/// the last may be shorter.
 void parallel_for_chunks(int threads, std::size_t count, std::size_t chunk,
                          const std::function<void(std::size_t begin, std::size_t end)>& task);
 

@@ -62,8 +62,8 @@ inline double standard_normal(const RandomKey& key) {
   return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * std::numbers::pi * v);
 }
 
-/// Draws numbers 0, 1, 2, ... of a seed, a stream and a frame `of` it (a structure, an iteration). A
-/// copy draws the same numbers again. Never draw twice in one argument list: the compiler chooses
+/// Draws numbers 0, 1, 2, ... of a seed, a stream and a frame `of` it (a structure, an iteration).
+/// A copy draws the same numbers again. Never draw twice in one argument list: the compiler chooses
 /// which draw comes first.
 class Rng {
  public:

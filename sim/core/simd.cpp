@@ -8,9 +8,8 @@
 namespace gnbv {
 namespace {
 
-constexpr EnumNames<SimdLevel, 3> kLevels = {{{SimdLevel::baseline, "baseline"},
-                                              {SimdLevel::avx2, "avx2"},
-                                              {SimdLevel::avx512, "avx512"}}};
+constexpr EnumNames<SimdLevel, 3> kLevels = {
+    {{SimdLevel::baseline, "baseline"}, {SimdLevel::avx2, "avx2"}, {SimdLevel::avx512, "avx512"}}};
 
 SimdLevel level_of_processor() {
 #ifdef __x86_64__

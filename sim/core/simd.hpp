@@ -11,8 +11,8 @@ std::string_view name_of(SimdLevel level);
 
 /// The best level of this processor, limited by set_simd_level() and by the environment variable
 /// GNBV_SIMD (baseline, avx2, avx512). The levels are x86-64-v2, v3 and v4 of the x86-64 psABI; Arm
-/// has the baseline alone (NEON). Throws BadInput for another word in GNBV_SIMD, and for a processor
-/// below the baseline.
+/// has the baseline alone (NEON). Throws BadInput for another word in GNBV_SIMD, and for a
+/// processor below the baseline.
 SimdLevel simd_level();
 
 /// For tests and benchmarks: sets the highest level. Call it while no other thread works.

@@ -12,8 +12,8 @@
 
 namespace gnbv {
 
-/// Allocates by calloc, whose fresh pages the kernel fills at the first write. For types whose value
-/// 0 is all-zero bytes.
+/// Allocates by calloc, whose fresh pages the kernel fills at the first write. For types whose
+/// value 0 is all-zero bytes.
 template <typename T>
 struct ZeroedMemory {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);

@@ -1,10 +1,10 @@
-// Mesh files: OBJ and PLY by our own readers, STL, COLLADA and glTF by assimp, which only
-// mesh_import.cpp and mesh_write.cpp know.
+// Mesh files: OBJ and PLY by our own readers, STL, COLLADA and glTF by assimp.
 #pragma once
 
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/mesh/triangle_mesh.hpp"
@@ -18,37 +18,53 @@ struct MeshFileConfig {
   double scale = 1.0;
   double yaw_rad = 0.0;  // about the file's origin, counter-clockwise seen from above
   Vec3 offset_m = Vec3::Zero();
-  std::string up_axis = "auto";  // auto (as the file says, z when it is silent), x, y or z
-  double unit_m = 0.0;           // metres per file unit; 0 = as the file says, metres when silent
+  std::string up_axis = "auto";  // auto (as the file says, or z), x, y or z
+  double unit_m = 0.0;           // metres per file unit; 0: as the file says, or metres
 };
 
-/// A mesh as its file holds it, for whoever wants to judge the file.
+/// What a file, or the specification of its format, says about its coordinates; nothing where both
+/// are silent.
+struct DeclaredAxes {
+  std::optional<double> unit_m;
+  std::optional<char> up_axis;  // x, y or z
+};
+
+/// A mesh as its file holds it.
 struct MeshReading {
-  TriangleMesh mesh;  // in world coordinates; may hold anything, faces without area and NaN too
-  std::string not_finite;  // a sentence naming the first coordinate that is not; empty without one
+  TriangleMesh mesh;       // in world coordinates; may hold faces without area, NaN and infinity
+  std::string not_finite;  // names the first coordinate that is not; empty without one
   double unit_m = 1.0;     // metres per file unit, as used
   char up_axis = 'z';      // of the file, as used: x, y or z
-  // what the file itself says, or its format's specification; nothing when both are silent
-  std::optional<double> declared_unit_m;
-  std::optional<char> declared_up_axis;
-  std::vector<std::string> warnings;  // what had to be left out, a sentence each
+  DeclaredAxes declared;
+  std::vector<std::string> warnings;  // what is left out, a sentence each
 };
 
-/// Reads .obj, .ply, .stl, .dae, .gltf and .glb, instances nodes and triangulates. The vertices of
-/// OBJ and PLY files stay as the file numbers them; those of formats that repeat a vertex per face,
-/// normal or material are joined where their positions are equal, nowhere else. Materials carry the
-/// diffuse colours of the file; those of a PLY file are the colours of its faces or vertices
-/// (sim/mesh/ply_file.hpp). Throws BadInput naming the file (and what is wrong with it) when it is
-/// missing or unreadable, and when the config itself is not usable.
+/// Reads .obj, .ply, .stl, .dae, .gltf and .glb, places instances and triangulates. The vertices of
+/// OBJ and PLY files keep their numbers; those of the other formats, which repeat a vertex for each
+/// face, normal or material, are joined where their positions are equal. Materials have the diffuse
+/// colours of the file, in PLY files those of its faces or vertices. Throws BadInput naming the
+/// file and its fault, or what is wrong with the config.
 MeshReading read_mesh(const MeshFileConfig& config);
 
-/// read_mesh() without the faces that have no area (is_flat() of sim/mesh/mesh_lint.hpp). What had
-/// to be left out is appended to `warnings`, a sentence each. Throws BadInput, too, when no face is
-/// left and when a coordinate is NaN or infinite.
+/// read_mesh() without faces that are flat (is_flat()). Appends to `warnings` what is left out.
+/// Throws BadInput, too, when no face is left or a coordinate is NaN or infinite.
 TriangleMesh load_mesh(const MeshFileConfig& config, std::vector<std::string>* warnings = nullptr);
+
+/// Reads .stl, .dae, .gltf and .glb by assimp, of whose coordinates `T_world_imported` makes world
+/// coordinates. (It delivers COLLADA in metres, with y up unless the config names the axis.)
+TriangleMesh import_mesh(const MeshFileConfig& config, const Eigen::Matrix4d& T_world_imported);
 
 /// Writes .obj (with its .mtl beside it), .ply (binary, faces coloured) or .glb (turned to y up) by
 /// extension, by rename. Throws BadInput for any other.
 void write_mesh(const TriangleMesh& mesh, const std::filesystem::path& path);
+
+/// Of a COLLADA text; its specification says metres with y up where it is silent.
+DeclaredAxes declared_by_collada(std::string_view content);
+
+/// Turns the axis `up` (x, y or z) to z; the right-handed turns of COLLADA 1.4's up_axis table.
+Eigen::Matrix3d R_z_up(char up);
+
+/// Turns about z, counter-clockwise seen from above.
+Eigen::Matrix3d R_yaw(double yaw_rad);
 
 }  // namespace gnbv

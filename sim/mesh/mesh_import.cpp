@@ -1,5 +1,4 @@
-#include "sim/mesh/mesh_import.hpp"
-
+// import_mesh() of sim/mesh/mesh_file.hpp.
 #include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/mesh.h>
@@ -8,12 +7,11 @@
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
-#include <bit>
-#include <limits>
-#include <unordered_map>
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/mesh/mesh_file.hpp"
+#include "sim/mesh/polygon_mesh.hpp"
 
 namespace gnbv {
 namespace {
@@ -40,14 +38,6 @@ Material material_from(const aiMaterial& from) {
   return to;
 }
 
-struct PositionHash {
-  std::size_t operator()(const std::array<float, 3>& p) const {
-    std::size_t h = 0;
-    for (const float x : p) h = (h ^ std::bit_cast<std::uint32_t>(x)) * 0x9e3779b97f4a7c15ULL;
-    return h ^ (h >> 29);
-  }
-};
-
 /// Collects the instances of meshes into one triangle mesh in world coordinates.
 class MeshBuilder {
  public:
@@ -66,32 +56,28 @@ class MeshBuilder {
   TriangleMesh take() { return std::move(mesh_); }
 
  private:
-  std::uint32_t add_vertex(const aiMesh& part, unsigned index, const Matrix4& T_world_node) {
-    const aiVector3D& v = part.mVertices[index];
-    const Vec3 p_node(v.x, v.y, v.z);
-    const Vec3f p =
-        (T_world_node.topLeftCorner<3, 3>() * p_node + T_world_node.topRightCorner<3, 1>())
-            .cast<float>();
+  std::uint32_t add_vertex(const aiVector3D& v, const Matrix4& T_world_node) {
+    const Vec3f p = (T_world_node.topLeftCorner<3, 3>() * Vec3(v.x, v.y, v.z) +
+                     T_world_node.topRightCorner<3, 1>())
+                        .cast<float>();
     const auto next = static_cast<std::uint32_t>(mesh_.vertices_m.size());
-    const Vec3f key = p + Vec3f::Zero();  // -0 becomes 0
-    const auto [entry, is_new] = index_of_.try_emplace({key.x(), key.y(), key.z()}, next);
+    const auto [index, is_new] = positions_.index_of(p, next);
     if (is_new) mesh_.vertices_m.push_back(p);
-    return entry->second;
+    return index;
   }
 
   void add_instance(const aiMesh& part, const Matrix4& T_world_node) {
     if ((part.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) == 0) return;  // points and lines only
-    std::vector<std::uint32_t> world_index(part.mNumVertices);
+    std::vector<std::uint32_t> world_index;
     for (unsigned i = 0; i < part.mNumVertices; ++i) {
-      world_index[i] = add_vertex(part, i, T_world_node);
+      world_index.push_back(add_vertex(part.mVertices[i], T_world_node));
     }
     const bool is_mirrored = T_world_node.topLeftCorner<3, 3>().determinant() < 0.0;
     for (unsigned i = 0; i < part.mNumFaces; ++i) {
-      const aiFace& polygon = part.mFaces[i];
-      if (polygon.mNumIndices != 3) continue;
-      std::array<std::uint32_t, 3> face = {world_index[polygon.mIndices[0]],
-                                           world_index[polygon.mIndices[1]],
-                                           world_index[polygon.mIndices[2]]};
+      if (part.mFaces[i].mNumIndices != 3) continue;
+      const unsigned* const at = part.mFaces[i].mIndices;
+      std::array<std::uint32_t, 3> face = {world_index[at[0]], world_index[at[1]],
+                                           world_index[at[2]]};
       if (is_mirrored) std::swap(face[1], face[2]);
       mesh_.faces.push_back(face);
       mesh_.face_material.push_back(material_of(part.mMaterialIndex));
@@ -100,12 +86,11 @@ class MeshBuilder {
 
   /// Index of an importer's material among those that faces use, in order of first use.
   std::uint16_t material_of(unsigned importer_index) {
-    const auto [entry, is_new] = index_of_material_.try_emplace(
-        importer_index, static_cast<std::uint16_t>(mesh_.materials.size()));
+    const std::size_t next = mesh_.materials.size();
+    const auto [entry, is_new] =
+        index_of_material_.try_emplace(importer_index, static_cast<std::uint16_t>(next));
     if (is_new) {
-      if (mesh_.materials.size() > std::numeric_limits<std::uint16_t>::max()) {
-        throw BadInput(fmt::format("{}: more than 65536 materials", path_));
-      }
+      as_index<std::uint16_t>(next, path_, "materials");
       mesh_.materials.push_back(material_from(*scene_.mMaterials[importer_index]));
     }
     return entry->second;
@@ -114,11 +99,14 @@ class MeshBuilder {
   std::string path_;
   const aiScene& scene_;
   TriangleMesh mesh_;
-  std::unordered_map<std::array<float, 3>, std::uint32_t, PositionHash> index_of_;
+  PositionIndices positions_;
   std::unordered_map<unsigned, std::uint16_t> index_of_material_;
 };
 
-const aiScene& imported_scene(Assimp::Importer& importer, const MeshFileConfig& config) {
+}  // namespace
+
+TriangleMesh import_mesh(const MeshFileConfig& config, const Matrix4& T_world_imported) {
+  Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, config.up_axis != "auto");
   // without meshes some importers would make up one from the bones
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
@@ -128,16 +116,8 @@ const aiScene& imported_scene(Assimp::Importer& importer, const MeshFileConfig& 
         fmt::format("{}: cannot be read as {}, it may be damaged or of another format ({})",
                     config.path, extension_of(config.path), importer.GetErrorString()));
   }
-  return *scene;
-}
-
-}  // namespace
-
-TriangleMesh import_mesh(const MeshFileConfig& config, const Matrix4& T_world_imported) {
-  Assimp::Importer importer;
-  const aiScene& scene = imported_scene(importer, config);
-  MeshBuilder builder(config.path, scene);
-  builder.add_node(*scene.mRootNode, T_world_imported);
+  MeshBuilder builder(config.path, *scene);
+  builder.add_node(*scene->mRootNode, T_world_imported);
   return builder.take();
 }
 

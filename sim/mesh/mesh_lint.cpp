@@ -9,27 +9,14 @@ namespace {
 
 using Corners = std::array<Vec3, 3>;
 
-Corners corners_of(const TriangleMesh& mesh, std::size_t face) {
-  const auto& [a, b, c] = mesh.faces[face];
-  return {mesh.vertices_m[a].cast<double>(), mesh.vertices_m[b].cast<double>(),
-          mesh.vertices_m[c].cast<double>()};
-}
-
 double area_m2(const Corners& p) { return 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).norm(); }
 
-/// For each vertex the first one, in order of position, at the same place.
+/// For each vertex the first one at the same place.
 std::vector<std::uint32_t> first_at_place(const std::vector<Vec3f>& vertices_m) {
-  std::vector<std::pair<std::array<float, 3>, std::uint32_t>> order;
-  order.reserve(vertices_m.size());
-  for (std::uint32_t i = 0; i < vertices_m.size(); ++i) {
-    const Vec3f p = vertices_m[i] + Vec3f::Zero();  // -0 becomes 0
-    if (p.allFinite()) order.push_back({{p.x(), p.y(), p.z()}, i});
-  }
-  std::sort(order.begin(), order.end());
-  std::vector<std::uint32_t> first(vertices_m.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool is_same = i > 0 && order[i].first == order[i - 1].first;
-    first[order[i].second] = is_same ? first[order[i - 1].second] : order[i].second;
+  std::vector<std::uint32_t> first;
+  PositionIndices indices;
+  for (const Vec3f& p_m : vertices_m) {
+    first.push_back(indices.index_of(p_m, static_cast<std::uint32_t>(first.size())).first);
   }
   return first;
 }
@@ -90,19 +77,8 @@ void count_edges(const std::vector<SortedFace>& faces, MeshLint& out) {
 
 }  // namespace
 
-bool is_flat(const TriangleMesh& mesh, std::size_t face) {
-  const auto [a, b, c] = corners_of(mesh, face);
-  const double longest2 =
-      std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-  return (b - a).cross(c - a).norm() <= 1e-7 * longest2;
-}
-
-double face_area_m2(const TriangleMesh& mesh, std::size_t face) {
-  return area_m2(corners_of(mesh, face));
-}
-
 double area_below_m2(const TriangleMesh& mesh, std::size_t face, double z_m) {
-  Corners p = corners_of(mesh, face);
+  Corners p = face_corners_m(mesh, face);
   std::sort(p.begin(), p.end(), [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
   if (p[0].z() >= z_m) return 0.0;
   if (p[2].z() <= z_m) return area_m2(p);
@@ -122,7 +98,7 @@ std::optional<char> likely_up_axis(const TriangleMesh& mesh) {
   double area = 0.0;
   std::vector<std::pair<Box3, double>> faces;
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
-    const Corners p = corners_of(mesh, i);
+    const Corners p = face_corners_m(mesh, i);
     if (!(p[0] + p[1] + p[2]).allFinite() || is_flat(mesh, i)) continue;
     Box3 face_box;
     for (const Vec3& corner : p) face_box.extend(corner);

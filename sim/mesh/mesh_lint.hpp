@@ -1,5 +1,4 @@
-// What is wrong with a mesh, in figures. Pure geometry: what needs rays is in
-// tools/mesh_lint/outside_view.hpp.
+// What is wrong with a mesh, in figures. What needs rays is in tools/mesh_lint/outside_view.hpp.
 #pragma once
 
 #include <cstddef>
@@ -16,14 +15,14 @@ struct FaceTally {
   double area_m2 = 0.0;
 };
 
-/// Corners count as equal where their positions are, bit for bit (-0 is 0): files that repeat a
-/// vertex for every face are as closed as those that share it. "Sound" faces are those with finite
-/// corners that are not flat; all figures after the first block are about them alone.
+/// Corners are equal where their positions are (PositionIndices): a file may repeat a vertex for
+/// every face. "Sound" faces have finite corners and are not flat; all figures after the first
+/// block are about them alone.
 struct MeshLint {
   std::size_t not_finite_vertices = 0;
   std::size_t not_finite_faces = 0;  // with such a corner
-  std::size_t repeated_corners = 0;  // faces that name a position twice
-  std::size_t flat_faces = 0;        // without area for any other reason
+  std::size_t repeated_corners = 0;  // faces with a position twice
+  std::size_t flat_faces = 0;        // all others that are flat
   std::size_t unreferenced_vertices = 0;
 
   FaceTally sound;
@@ -38,16 +37,10 @@ struct MeshLint {
 
 MeshLint lint_mesh(const TriangleMesh& mesh);
 
-/// Whether a face's corners lie on a line, to the rounding of float coordinates; false where one of
-/// them is not finite.
-bool is_flat(const TriangleMesh& mesh, std::size_t face);
-
-/// The axis (x, y or z) that the structure most likely stands on: the only one whose coordinates
-/// begin at 0, or the one with by far the most surface flat on its lower end. Nothing when neither
-/// speaks for one axis. Looks at sound faces only.
+/// The axis (x, y or z) along which the structure most likely stands: the only one whose
+/// coordinates begin at 0, or the one with by far the most surface flat on its lower end; of sound
+/// faces. Nothing when neither tells.
 std::optional<char> likely_up_axis(const TriangleMesh& mesh);
-
-double face_area_m2(const TriangleMesh& mesh, std::size_t face);
 
 /// Area of the part of a face that lies below z_m.
 double area_below_m2(const TriangleMesh& mesh, std::size_t face, double z_m);

@@ -1,4 +1,4 @@
-// The writers of sim/mesh/mesh_file.hpp.
+// write_mesh() of sim/mesh/mesh_file.hpp.
 #include <assimp/material.h>
 #include <assimp/mesh.h>
 #include <assimp/scene.h>
@@ -17,28 +17,21 @@
 namespace gnbv {
 namespace {
 
-std::size_t material_of(const TriangleMesh& mesh, std::size_t face) {
-  return mesh.face_material.empty() ? 0 : mesh.face_material[face];
-}
-
-/// Those without a name get one by their number.
+/// A material without a name gets one by its number.
 std::string obj_name_of_material(const TriangleMesh& mesh, std::size_t index) {
   const std::string& name = mesh.materials[index].name;
   return name.empty() ? fmt::format("material_{}", index) : name;
 }
 
-/// The mesh's materials as a library.
 std::string mtl_text_of(const TriangleMesh& mesh) {
   std::string out;
   for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
     const auto& [r, g, b] = mesh.materials[i].rgb;
-    fmt::format_to(std::back_inserter(out), "newmtl {}\nKd {} {} {}\n",
-                   obj_name_of_material(mesh, i), r, g, b);
+    out += fmt::format("newmtl {}\nKd {} {} {}\n", obj_name_of_material(mesh, i), r, g, b);
   }
   return out;
 }
 
-/// The mesh as OBJ, its materials taken from the file `mtl_name` beside it.
 std::string obj_text_of(const TriangleMesh& mesh, const std::string& mtl_name) {
   std::string out = fmt::format("mtllib {}\n", mtl_name);
   const auto at = std::back_inserter(out);
@@ -49,7 +42,7 @@ std::string obj_text_of(const TriangleMesh& mesh, const std::string& mtl_name) {
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
     const std::size_t material = material_of(mesh, i);
     if (material != current)
-      fmt::format_to(at, "usemtl {}\n", obj_name_of_material(mesh, material));
+      out += fmt::format("usemtl {}\n", obj_name_of_material(mesh, material));
     current = material;
     const auto& [a, b, c] = mesh.faces[i];
     fmt::format_to(at, "f {} {} {}\n", a + 1, b + 1, c + 1);
@@ -57,13 +50,13 @@ std::string obj_text_of(const TriangleMesh& mesh, const std::string& mtl_name) {
   return out;
 }
 
-/// The mesh as PLY, little-endian; each face has the sRGB bytes of its material, as MeshLab shows
-/// them. Own writer: assimp's binary PLY with colours is corrupt (found with 5.2.4).
+/// Little-endian; each face has the sRGB bytes of its material, as MeshLab shows them. Our own,
+/// since assimp (5.2.4) writes binary PLY with colours wrong.
 std::string ply_bytes_of(const TriangleMesh& mesh) {
   std::string out = fmt::format(
-      "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float "
-      "y\n"
-      "property float z\nelement face {}\nproperty list uchar int vertex_indices\n"
+      "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\n"
+      "property float y\nproperty float z\nelement face {}\nproperty list uchar int "
+      "vertex_indices\n"
       "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n",
       mesh.vertices_m.size(), mesh.faces.size());
   for (const Vec3f& v : mesh.vertices_m) {
@@ -72,15 +65,14 @@ std::string ply_bytes_of(const TriangleMesh& mesh) {
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
     append_bytes(out, std::uint8_t{3});
     for (const std::uint32_t index : mesh.faces[i]) append_bytes(out, index);
-    const std::size_t material = material_of(mesh, i);
-    for (const float channel : mesh.materials[material].rgb) {
+    for (const float channel : mesh.materials[material_of(mesh, i)].rgb) {
       append_bytes(out, static_cast<std::uint8_t>(std::lround(255.0F * linear_to_srgb(channel))));
     }
   }
   return out;
 }
 
-/// One aiMesh with the faces of one material, its vertices renumbered in order of first use.
+/// The faces of one material, their vertices numbered in order of first use; null without faces.
 aiMesh* export_part(const TriangleMesh& mesh, std::size_t material) {
   std::unordered_map<std::uint32_t, unsigned> index_of;
   std::vector<std::uint32_t> used;

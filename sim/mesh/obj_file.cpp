@@ -1,21 +1,22 @@
-// read_obj() of sim/mesh/polygon_file.hpp.
+// read_obj() of sim/mesh/polygon_mesh.hpp.
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <limits>
+#include <cstring>
+#include <fstream>
 #include <map>
 #include <optional>
 
-#include "sim/core/error.hpp"
-#include "sim/mesh/chunked_file.hpp"
+#include "sim/core/file.hpp"
 #include "sim/mesh/plain_text.hpp"
-#include "sim/mesh/polygon_file.hpp"
+#include "sim/mesh/polygon_mesh.hpp"
 
 namespace gnbv {
 namespace {
 
-/// Statements of the OBJ specification that say nothing about the shape we keep.
+/// Statements of the OBJ specification that we do not need.
 constexpr std::array<std::string_view, 36> kIgnored = {
     "vp",   "s",    "l",     "p",     "o",        "g",        "mg",   "cstype", "deg",
     "bmat", "step", "curv",  "curv2", "surf",     "parm",     "trim", "hole",   "scrv",
@@ -59,78 +60,62 @@ class ObjMaterials {
   explicit ObjMaterials(std::string path) : path_(std::move(path)) {}
 
   /// Takes the names and diffuse colours of a library, which may come after their use.
-  void read_library(const std::filesystem::path& library);
-  void use(const std::string& name);
+  void read_library(const std::filesystem::path& library) {
+    std::ifstream file = open_file(library);
+    std::vector<std::string_view> words;
+    std::string material;
+    for (std::string line; std::getline(file, line);) {
+      split(line, words);
+      if (words.size() < 2) continue;
+      const Words values = Words(words).subspan(1);
+      if (words[0] == "newmtl") {
+        material = joined(values);
+        rgb_of_.try_emplace(material, kUntoldColour);
+      } else if (words[0] == "Kd" && !material.empty()) {
+        if (const auto rgb = colour_in(values)) rgb_of_[material] = *rgb;
+      }
+    }
+    if (!is_named_ && index_of_.empty() && !material.empty()) current_ = material;
+  }
+
+  void use(const std::string& name) {
+    if (!is_named_ && current_ == kUntoldMaterial && !index_of_.empty()) index_of_ = {{name, 0}};
+    is_named_ = true;
+    if (name != current_) index_.reset();
+    current_ = name;
+  }
 
   /// Of the current material among those that faces use, in order of first use. Throws BadInput
-  /// naming the file when they become more than 65536.
-  std::uint16_t index_for_face();
+  /// naming the file when they become too many.
+  std::uint16_t index_for_face() {
+    if (index_) return *index_;
+    const std::size_t next = index_of_.size();
+    const auto [entry, is_new] = index_of_.try_emplace(current_, static_cast<std::uint16_t>(next));
+    if (is_new) as_index<std::uint16_t>(next, path_, "materials");
+    index_ = entry->second;
+    return *index_;
+  }
 
   /// Those that faces use, once all is read.
-  std::vector<Material> materials() const;
+  std::vector<Material> materials() const {
+    std::vector<Material> out(index_of_.size());
+    for (const auto& [name, index] : index_of_) {
+      const auto found = rgb_of_.find(name);
+      out[index] = {.name = name, .rgb = found != rgb_of_.end() ? found->second : kUntoldColour};
+    }
+    return out;
+  }
 
  private:
   std::string path_;
   std::map<std::string, std::array<float, 3>> rgb_of_;  // of the libraries' materials
-  std::vector<std::string> used_;                       // names by index
-  std::map<std::string, std::uint16_t> index_of_;       // of them
+  std::map<std::string, std::uint16_t> index_of_;       // of the materials that faces use
   std::string current_ = std::string(kUntoldMaterial);
   std::optional<std::uint16_t> index_;  // of the current one, once a face has used it
   bool is_named_ = false;               // by a usemtl
 };
 
-void ObjMaterials::read_library(const std::filesystem::path& library) {
-  ChunkedFile file(library);
-  std::vector<std::string_view> words;
-  std::string material;
-  while (const auto line = file.line()) {
-    split(*line, words);
-    if (words.size() < 2) continue;
-    const Words values = Words(words).subspan(1);
-    if (words[0] == "newmtl") {
-      material = joined(values);
-      rgb_of_.try_emplace(material, kUntoldColour);
-    } else if (words[0] == "Kd" && !material.empty()) {
-      if (const auto rgb = colour_in(values)) rgb_of_[material] = *rgb;
-    }
-  }
-  if (!is_named_ && used_.empty() && !material.empty()) current_ = material;
-}
-
-void ObjMaterials::use(const std::string& name) {
-  if (!is_named_ && current_ == kUntoldMaterial && !used_.empty()) {
-    used_ = {name};
-    index_of_ = {{name, std::uint16_t{0}}};
-  }
-  is_named_ = true;
-  if (name != current_) index_.reset();
-  current_ = name;
-}
-
-std::uint16_t ObjMaterials::index_for_face() {
-  if (index_) return *index_;
-  const auto [entry, is_new] =
-      index_of_.try_emplace(current_, static_cast<std::uint16_t>(used_.size()));
-  if (is_new) {
-    if (used_.size() > std::numeric_limits<std::uint16_t>::max()) {
-      throw BadInput(fmt::format("{}: more than 65536 materials", path_));
-    }
-    used_.push_back(current_);
-  }
-  index_ = entry->second;
-  return *index_;
-}
-
-std::vector<Material> ObjMaterials::materials() const {
-  std::vector<Material> out;
-  for (const std::string& name : used_) {
-    const auto found = rgb_of_.find(name);
-    out.push_back({.name = name, .rgb = found != rgb_of_.end() ? found->second : kUntoldColour});
-  }
-  return out;
-}
-
-/// Counts the lines of one kind that were left out, for one warning.
+/// Lines of one kind that are left out, for one warning.
 struct Dropped {
   std::size_t count = 0;
   std::size_t first_line = 0;
@@ -143,26 +128,26 @@ struct Dropped {
 class ObjReader {
  public:
   ObjReader(const std::filesystem::path& path, std::vector<std::string>& warnings)
-      : path_(path), file_(path), warnings_(warnings), materials_(path.string()) {}
+      : path_(path), file_(open_file(path)), warnings_(warnings), materials_(path.string()) {}
 
   PolygonMesh read() {
-    std::string continued;
-    for (std::size_t number = 1; auto line = file_.line(); ++number) {
-      if (continued.empty()) line_ = number;
-      while (line->ends_with('\r')) line->remove_suffix(1);
-      if (line->ends_with('\\')) {  // goes on in the next line
-        continued += line->substr(0, line->size() - 1);
-        if (continued.empty()) continued = " ";
-        continue;
+    std::string statement;
+    bool goes_on = false;  // in the next line
+    std::size_t number = 0;
+    for (std::string line; std::getline(file_, line);) {
+      ++number;
+      if (!goes_on) {
+        line_ = number;
+        statement.clear();
       }
-      if (continued.empty()) {
-        add_line(*line);
-      } else {
-        add_line(continued += *line);
-        continued.clear();
-      }
+      while (line.ends_with('\r')) line.pop_back();
+      goes_on = line.ends_with('\\');
+      if (goes_on) line.pop_back();
+      statement += line;
+      if (!goes_on) add_statement(statement);
     }
-    add_line(continued);
+    if (file_.bad()) throw BadInput(fmt::format("{}: {}", path_.string(), std::strerror(errno)));
+    if (goes_on) add_statement(statement);
     warn(unreadable_, "unreadable lines");
     warn(impossible_, "faces of vertices that do not exist");
     if (!out_.face_ends.empty()) out_.materials = materials_.materials();
@@ -170,7 +155,7 @@ class ObjReader {
   }
 
  private:
-  void add_line(std::string_view line) {
+  void add_statement(std::string_view line) {
     if (has_control_bytes(line)) return drop_line();
     split(line, words_);
     if (words_.empty() || words_[0].starts_with('#')) return;
@@ -195,7 +180,7 @@ class ObjReader {
   void add_vertex(Words values) {
     settle(true);
     if (doubt_line_ != 0) fail(doubt_line_, "unreadable beside a vertex, with vertices after it");
-    const std::uint32_t number = as_index(out_.vertices.size(), path_.string()) + 1;
+    const std::uint32_t number = as_index(out_.vertices.size(), path_.string(), "vertices") + 1;
     Vec3 p;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto value = i < values.size() ? read_decimal(values[i]) : std::nullopt;
@@ -225,13 +210,13 @@ class ObjReader {
       out_.corners.push_back(static_cast<std::uint32_t>(vertex - 1));
     }
     if (values.size() < 3) return drop(unreadable_);
-    out_.face_ends.push_back(as_index(out_.corners.size(), path_.string()));
+    out_.face_ends.push_back(as_index(out_.corners.size(), path_.string(), "corners"));
     out_.face_material.push_back(materials_.index_for_face());
   }
 
   void use_library(const std::string& name) {
     const std::filesystem::path library = path_.parent_path() / name;
-    std::error_code ignored;  // a file that we may not ask about counts as not found
+    std::error_code ignored;  // a file that we may not look at counts as not found
     if (std::filesystem::is_regular_file(library, ignored)) return materials_.read_library(library);
     warnings_.push_back(
         fmt::format("{}:{}: material file {} not found", path_.string(), line_, name));
@@ -242,8 +227,8 @@ class ObjReader {
     if (pending_line_ == 0) pending_line_ = line_;
   }
 
-  /// A readable statement ends a run of unreadable lines. Beside a vertex the run may have been
-  /// vertices too, and every vertex after it would carry a wrong number.
+  /// Call it for each readable statement: it ends a run of unreadable lines. Beside a vertex these
+  /// may have been vertices, and every vertex after them would have a wrong number.
   void settle(bool is_vertex) {
     const bool is_beside_vertex = is_after_vertex_ || (is_vertex && !out_.vertices.empty());
     if (pending_line_ != 0 && is_beside_vertex && doubt_line_ == 0) doubt_line_ = pending_line_;
@@ -262,7 +247,7 @@ class ObjReader {
   }
 
   std::filesystem::path path_;
-  ChunkedFile file_;
+  std::ifstream file_;
   std::vector<std::string>& warnings_;
   PolygonMesh out_;
   std::size_t line_ = 0;

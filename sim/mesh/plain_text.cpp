@@ -7,8 +7,8 @@
 namespace gnbv {
 namespace {
 
-/// Whether a well-formed number far from 1 is below it: looks at the power of ten of its first
-/// digit that is not 0.
+/// Whether a well-formed number out of a double's range is too small for it, not too large: by the
+/// power of ten of its first digit that is not 0.
 bool is_below_one(std::string_view word) {
   const std::size_t e = std::min(word.find_first_of("eE"), word.size());
   long long power = 0;
@@ -26,16 +26,17 @@ bool is_below_one(std::string_view word) {
 
 }  // namespace
 
-void split(std::string_view line, std::vector<std::string_view>& words) {
+std::string_view take_word(std::string_view& text) {
   constexpr std::string_view kBlanks = " \t\r";
+  text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+  const std::string_view word = text.substr(0, text.find_first_of(kBlanks));
+  text.remove_prefix(word.size());
+  return word;
+}
+
+void split(std::string_view line, std::vector<std::string_view>& words) {
   words.clear();
-  while (true) {
-    const std::size_t begin = line.find_first_not_of(kBlanks);
-    if (begin == std::string_view::npos) return;
-    line.remove_prefix(begin);
-    words.push_back(line.substr(0, line.find_first_of(kBlanks)));
-    line.remove_prefix(words.back().size());
-  }
+  for (auto word = take_word(line); !word.empty(); word = take_word(line)) words.push_back(word);
 }
 
 std::string joined(Words words) {

@@ -1,150 +1,329 @@
-// read_ply() of sim/mesh/polygon_file.hpp.
+// The PLY readers of sim/mesh/polygon_mesh.hpp. Our own, since assimp's (5.2.4) crashes on sound
+// binary files and does not know the colours of faces.
 #include <algorithm>
+#include <bit>
+#include <cerrno>
+#include <charconv>
 #include <cmath>
-#include <limits>
+#include <cstring>
+#include <fstream>
+#include <optional>
 
-#include "sim/core/error.hpp"
-#include "sim/mesh/ply_reader.hpp"
-#include "sim/mesh/polygon_file.hpp"
+#include "sim/core/file.hpp"
+#include "sim/mesh/plain_text.hpp"
+#include "sim/mesh/polygon_mesh.hpp"
 
 namespace gnbv {
 namespace {
 
-/// The colours of an element's items, if it has all three channels.
-class Colours {
- public:
-  explicit Colours(const PlyElement& element)
-      : element_(element), columns_(element.columns({"red", "green", "blue"})) {}
+template <typename T>
+double number_at(const char* bytes) {
+  T value;
+  std::memcpy(&value, bytes, sizeof(T));
+  return static_cast<double>(value);
+}
 
-  /// Appends 0xrrggbb.
-  void add(const PlyItem& item, std::vector<std::uint32_t>& colours) const {
-    if (!columns_[0] || !columns_[1] || !columns_[2]) return;
-    std::uint32_t rgb = 0;
-    for (const auto& column : columns_) {
-      const PlyType& type = *element_.properties[*column].type;
-      const double full = type.is_real ? 1.0 : std::ldexp(1.0, 8 * type.bytes) - 1.0;
-      const double level = item.numbers[*column] / full;
-      // NaN counts as 0
-      rgb = rgb << 8 | static_cast<std::uint32_t>(
-                           std::lround(255.0 * (level >= 0.0 ? std::min(level, 1.0) : 0.0)));
-    }
-    colours.push_back(rgb);
-  }
-
- private:
-  const PlyElement& element_;
-  std::array<std::optional<std::size_t>, 3> columns_;
+struct PlyType {
+  std::string_view name, other_name;
+  std::size_t bytes;
+  double full;  // level of a colour channel
+  double (*number_at)(const char* bytes);
 };
 
-class PlyMeshReader {
- public:
-  explicit PlyMeshReader(const std::filesystem::path& path) : path_(path.string()), ply_(path) {}
+constexpr std::array kTypes = {
+    PlyType{"char", "int8", 1, 255.0, number_at<std::int8_t>},
+    PlyType{"uchar", "uint8", 1, 255.0, number_at<std::uint8_t>},
+    PlyType{"short", "int16", 2, 65535.0, number_at<std::int16_t>},
+    PlyType{"ushort", "uint16", 2, 65535.0, number_at<std::uint16_t>},
+    PlyType{"int", "int32", 4, 4294967295.0, number_at<std::int32_t>},
+    PlyType{"uint", "uint32", 4, 4294967295.0, number_at<std::uint32_t>},
+    PlyType{"float", "float32", 4, 1.0, number_at<float>},
+    PlyType{"double", "float64", 8, 1.0, number_at<double>},
+};
 
-  PolygonMesh read(std::vector<std::string>& warnings) {
-    for (const PlyElement& element : ply_.elements()) {
-      if (element.properties.empty()) continue;
-      if (element.name == "vertex") {
-        read_vertices(element);
-      } else if (element.name == "face") {
-        read_faces(element);
-      } else {
-        ply_.skip(element);
+struct PlyProperty {
+  std::string name;
+  const PlyType* type = nullptr;
+  const PlyType* count_type = nullptr;  // of a list; null for a single number
+};
+
+struct PlyElement {
+  std::string name;
+  std::uint64_t count = 0;
+  std::vector<PlyProperty> properties;
+};
+
+using Columns = std::array<std::optional<std::size_t>, 3>;
+
+/// Places of the properties of these names that are no lists; the last of each name.
+Columns columns_of(const PlyElement& element, const std::array<std::string_view, 3>& names) {
+  Columns found;
+  for (std::size_t i = 0; i < element.properties.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const PlyProperty& property = element.properties[i];
+      if (property.count_type == nullptr && property.name == names[k]) found[k] = i;
+    }
+  }
+  return found;
+}
+
+using PlyItem = std::vector<std::vector<double>>;  // the numbers of each property
+
+Vec3 position_of(const PlyItem& item, const Columns& xyz) {
+  const auto axis = [&](std::size_t a) { return xyz[a] ? item[*xyz[a]][0] : 0.0; };
+  return {axis(0), axis(1), axis(2)};
+}
+
+/// Appends 0xrrggbb, if the element has all three channels.
+void add_colour(const PlyItem& item, const PlyElement& element, const Columns& columns,
+                std::vector<std::uint32_t>& colours) {
+  std::uint32_t rgb = 0;
+  for (const auto& column : columns) {
+    if (!column) return;
+    const double level = item[*column][0] / element.properties[*column].type->full;
+    // NaN counts as 0
+    rgb = rgb << 8 | static_cast<std::uint32_t>(
+                         std::lround(255.0 * (level >= 0.0 ? std::min(level, 1.0) : 0.0)));
+  }
+  colours.push_back(rgb);
+}
+
+/// A PLY file: a header, and the items of the elements that it announces, in text or in bytes of
+/// either order.
+class PlyFile {
+ public:
+  /// Reads the header.
+  explicit PlyFile(const std::filesystem::path& path) : path_(path.string()), in_(open_file(path)) {
+    static_assert(std::endian::native == std::endian::little);
+    std::error_code ignored;  // of a pipe
+    const auto size = std::filesystem::file_size(path, ignored);
+    if (!ignored) bytes_ = size;
+    read_header();
+  }
+
+  const std::string& path() const { return path_; }
+  const std::vector<PlyElement>& elements() const { return elements_; }
+
+  /// Calls use(item) for each item of the next element.
+  template <typename Use>
+  void for_each_item(const PlyElement& element, const Use& use) {
+    if (element.properties.empty()) return;
+    PlyItem item(element.properties.size());
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      for (std::size_t k = 0; k < item.size(); ++k) {
+        const PlyProperty& property = element.properties[k];
+        double count = 1.0;
+        if (property.count_type != nullptr) {
+          take_numbers(*property.count_type, 1.0, item[k]);
+          count = item[k][0];
+        }
+        take_numbers(*property.type, count, item[k]);
       }
+      use(item);
     }
-    const std::size_t dropped = drop_impossible_faces();
-    if (dropped > 0) {
-      warnings.push_back(
-          fmt::format("{}: {} faces of vertices that do not exist left out", path_, dropped));
-    }
-    if (!face_rgb_.empty()) {
-      take_colours(face_rgb_, out_.materials, out_.face_material);
-      out_.vertex_rgb.clear();
-    } else if (out_.vertex_rgb.size() != out_.vertices.size()) {
-      out_.vertex_rgb.clear();
-    }
-    return std::move(out_);
+  }
+
+  /// How many items are worth reserving, whatever the header says.
+  std::size_t most_items(const PlyElement& element) const {
+    return std::min<std::uint64_t>(element.count,
+                                   bytes_ / std::max<std::size_t>(element.properties.size(), 1));
   }
 
  private:
-  static constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
+  [[noreturn]] void fail(const std::string& what) const {
+    throw BadInput(fmt::format("{}: {}", path_, what));
+  }
 
-  void read_vertices(const PlyElement& element) {
-    const PlyPositions positions(element);
-    const Colours colours(element);
-    out_.vertices.reserve(out_.vertices.size() + ply_.most_items(element));
-    PlyItem item;
-    for (std::uint64_t i = 0; i < element.count; ++i) {
-      ply_.read_item(element, item);
-      const Vec3 p = positions.of(item);
-      if (!p.allFinite() && out_.not_finite.empty()) {
-        out_.not_finite =
-            fmt::format("{}: vertex {} is at ({}, {}, {})", path_, i, p.x(), p.y(), p.z());
+  void read_header() {
+    std::vector<std::string_view> words;
+    std::getline(in_, line_);
+    split(line_, words);
+    if (words.size() != 1 || words[0] != "ply") fail("is no PLY file: its first line is not 'ply'");
+    while (std::getline(in_, line_)) {
+      split(line_, words);
+      if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
+      if (words[0] == "end_header") return;
+      if (!read_declaration(words)) fail(fmt::format("its header has a bad '{}' line", words[0]));
+    }
+    fail("its header has no end_header");
+  }
+
+  bool read_declaration(Words words) {
+    const std::size_t n = words.size();
+    if (words[0] == "format" && n >= 2) {
+      is_text_ = words[1] == "ascii";
+      is_big_endian_ = words[1] == "binary_big_endian";
+      return is_text_ || is_big_endian_ || words[1] == "binary_little_endian";
+    }
+    if (words[0] == "element" && n == 3) {
+      PlyElement& element = elements_.emplace_back();
+      element.name = words[1];
+      const char* const last = words[2].data() + words[2].size();
+      const auto [end, error] = std::from_chars(words[2].data(), last, element.count);
+      return error == std::errc() && end == last;
+    }
+    if (words[0] != "property" || elements_.empty()) return false;
+    const bool is_list = n == 5 && words[1] == "list";
+    if (n != 3 && !is_list) return false;
+    elements_.back().properties.push_back(
+        {std::string(words[n - 1]), type_of(words[n - 2]), is_list ? type_of(words[2]) : nullptr});
+    return true;
+  }
+
+  const PlyType* type_of(std::string_view name) const {
+    for (const PlyType& type : kTypes) {
+      if (name == type.name || name == type.other_name) return &type;
+    }
+    fail(fmt::format("its header names the unknown type '{}'", name));
+  }
+
+  /// Reads in pieces, since a wrong count may be of any size.
+  void take_numbers(const PlyType& type, double count, std::vector<double>& numbers) {
+    constexpr std::size_t kPiece = 16;
+    std::array<char, kPiece * sizeof(double)> bytes{};
+    numbers.clear();
+    for (double left = count; left > 0.0; left = count - static_cast<double>(numbers.size())) {
+      if (is_text_) {
+        numbers.push_back(take_number());
+        continue;
       }
-      as_index(out_.vertices.size(), path_);
-      out_.vertices.push_back(p);
-      colours.add(item, out_.vertex_rgb);
-    }
-  }
-
-  void read_faces(const PlyElement& element) {
-    const Colours colours(element);
-    out_.face_ends.reserve(out_.face_ends.size() + ply_.most_items(element));
-    out_.corners.reserve(out_.corners.size() + ply_.most_list_numbers(element));
-    PlyItem item;
-    for (std::uint64_t i = 0; i < element.count; ++i) {
-      ply_.read_item(element, item);
-      for (std::size_t k = 0; k < element.properties.size(); ++k) {
-        const PlyProperty& property = element.properties[k];
-        const bool is_corners =
-            property.count_type != nullptr &&
-            (property.name == "vertex_indices" || property.name == "vertex_index");
-        if (is_corners) add_face(item.lists[k]);
+      const std::size_t piece = left < kPiece ? static_cast<std::size_t>(std::ceil(left)) : kPiece;
+      if (!in_.read(bytes.data(), static_cast<std::streamsize>(piece * type.bytes))) end_early();
+      for (std::size_t i = 0; i < piece; ++i) {
+        char* const first = bytes.data() + i * type.bytes;
+        if (is_big_endian_) std::reverse(first, first + type.bytes);
+        numbers.push_back(type.number_at(first));
       }
-      colours.add(item, face_rgb_);
     }
   }
 
-  /// Takes vertices of any number: a file may list the vertices after the faces.
-  void add_face(const std::vector<double>& vertices) {
-    for (const double vertex : vertices) {
-      const bool is_possible = vertex >= 0.0 && vertex < kNoVertex;
-      out_.corners.push_back(is_possible ? static_cast<std::uint32_t>(vertex) : kNoVertex);
+  double take_number() {
+    std::string_view word = take_word(rest_);
+    while (word.empty()) {
+      if (!std::getline(in_, line_)) end_early();
+      rest_ = line_;
+      word = take_word(rest_);
     }
-    out_.face_ends.push_back(as_index(out_.corners.size(), path_));
+    const auto value = read_decimal(word);
+    if (!value) fail(fmt::format("'{}' is no number", word.substr(0, 60)));
+    return *value;
   }
 
-  std::size_t drop_impossible_faces() {
-    if (face_rgb_.size() != out_.face_ends.size()) face_rgb_.clear();
-    std::size_t faces = 0, corners = 0, begin = 0;  // of those that are kept
-    for (std::size_t i = 0; i < out_.face_ends.size(); ++i) {
-      const auto face = std::span(out_.corners).subspan(begin, out_.face_ends[i] - begin);
-      begin = out_.face_ends[i];
-      const bool is_possible =
-          face.size() >= 3 && *std::max_element(face.begin(), face.end()) < out_.vertices.size();
-      if (!is_possible) continue;
-      std::copy(face.begin(), face.end(),
-                out_.corners.begin() + static_cast<std::ptrdiff_t>(corners));
-      corners += face.size();
-      if (!face_rgb_.empty()) face_rgb_[faces] = face_rgb_[i];
-      out_.face_ends[faces++] = static_cast<std::uint32_t>(corners);
-    }
-    const std::size_t dropped = out_.face_ends.size() - faces;
-    out_.face_ends.resize(faces);
-    out_.corners.resize(corners);
-    if (!face_rgb_.empty()) face_rgb_.resize(faces);
-    return dropped;
+  [[noreturn]] void end_early() const {
+    fail(in_.bad() ? std::strerror(errno) : "ends before all that its header announces");
   }
 
   std::string path_;
-  PlyReader ply_;
-  PolygonMesh out_;
-  std::vector<std::uint32_t> face_rgb_;  // 0xrrggbb in sRGB
+  std::ifstream in_;
+  std::uint64_t bytes_ = 0;  // of the file
+  std::string line_;
+  std::string_view rest_;  // of the line
+  bool is_text_ = true, is_big_endian_ = false;
+  std::vector<PlyElement> elements_;
 };
+
+constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
+
+void read_vertices(PlyFile& ply, const PlyElement& element, PolygonMesh& out) {
+  const Columns xyz = columns_of(element, {"x", "y", "z"});
+  const Columns rgb = columns_of(element, {"red", "green", "blue"});
+  out.vertices.reserve(out.vertices.size() + ply.most_items(element));
+  std::uint64_t i = 0;  // within the element
+  ply.for_each_item(element, [&](const PlyItem& item) {
+    const Vec3 p = position_of(item, xyz);
+    if (!p.allFinite() && out.not_finite.empty()) {
+      out.not_finite =
+          fmt::format("{}: vertex {} is at ({}, {}, {})", ply.path(), i, p.x(), p.y(), p.z());
+    }
+    ++i;
+    as_index(out.vertices.size(), ply.path(), "vertices");
+    out.vertices.push_back(p);
+    add_colour(item, element, rgb, out.vertex_rgb);
+  });
+}
+
+/// Takes vertices of any number: a file may list the vertices after the faces.
+void read_faces(PlyFile& ply, const PlyElement& element, PolygonMesh& out,
+                std::vector<std::uint32_t>& face_rgb) {
+  const Columns rgb = columns_of(element, {"red", "green", "blue"});
+  out.face_ends.reserve(out.face_ends.size() + ply.most_items(element));
+  out.corners.reserve(out.corners.size() + 3 * ply.most_items(element));
+  ply.for_each_item(element, [&](const PlyItem& item) {
+    for (std::size_t k = 0; k < item.size(); ++k) {
+      const PlyProperty& property = element.properties[k];
+      if (property.count_type == nullptr) continue;
+      if (property.name != "vertex_indices" && property.name != "vertex_index") continue;
+      for (const double vertex : item[k]) {
+        const bool is_possible = vertex >= 0.0 && vertex < kNoVertex;
+        out.corners.push_back(is_possible ? static_cast<std::uint32_t>(vertex) : kNoVertex);
+      }
+      out.face_ends.push_back(as_index(out.corners.size(), ply.path(), "corners"));
+    }
+    add_colour(item, element, rgb, face_rgb);
+  });
+}
+
+/// Drops faces of fewer than three corners or of vertices that do not exist, with their colours.
+/// Returns how many.
+std::size_t drop_impossible_faces(PolygonMesh& mesh, std::vector<std::uint32_t>& face_rgb) {
+  std::size_t faces = 0, corners = 0, begin = 0;  // of those that are kept
+  for (std::size_t i = 0; i < mesh.face_ends.size(); ++i) {
+    const auto face = std::span(mesh.corners).subspan(begin, mesh.face_ends[i] - begin);
+    begin = mesh.face_ends[i];
+    if (face.size() < 3 || *std::max_element(face.begin(), face.end()) >= mesh.vertices.size()) {
+      continue;
+    }
+    std::copy(face.begin(), face.end(),
+              mesh.corners.begin() + static_cast<std::ptrdiff_t>(corners));
+    corners += face.size();
+    if (!face_rgb.empty()) face_rgb[faces] = face_rgb[i];
+    mesh.face_ends[faces++] = static_cast<std::uint32_t>(corners);
+  }
+  const std::size_t dropped = mesh.face_ends.size() - faces;
+  mesh.face_ends.resize(faces);
+  mesh.corners.resize(corners);
+  if (!face_rgb.empty()) face_rgb.resize(faces);
+  return dropped;
+}
 
 }  // namespace
 
 PolygonMesh read_ply(const std::filesystem::path& path, std::vector<std::string>& warnings) {
-  return PlyMeshReader(path).read(warnings);
+  PlyFile ply(path);
+  PolygonMesh out;
+  std::vector<std::uint32_t> face_rgb;  // 0xrrggbb in sRGB
+  for (const PlyElement& element : ply.elements()) {
+    if (element.name == "vertex") {
+      read_vertices(ply, element, out);
+    } else if (element.name == "face") {
+      read_faces(ply, element, out, face_rgb);
+    } else {
+      ply.for_each_item(element, [](const PlyItem&) {});
+    }
+  }
+  if (face_rgb.size() != out.face_ends.size()) face_rgb.clear();
+  if (const std::size_t dropped = drop_impossible_faces(out, face_rgb); dropped > 0) {
+    warnings.push_back(
+        fmt::format("{}: {} faces of vertices that do not exist left out", ply.path(), dropped));
+  }
+  if (!face_rgb.empty()) take_colours(face_rgb, out.materials, out.face_material);
+  if (!face_rgb.empty() || out.vertex_rgb.size() != out.vertices.size()) out.vertex_rgb.clear();
+  return out;
+}
+
+std::vector<Vec3f> read_ply_points(const std::filesystem::path& path) {
+  PlyFile ply(path);
+  std::vector<Vec3f> points;
+  for (const PlyElement& element : ply.elements()) {
+    const bool is_vertices = element.name == "vertex" && !element.properties.empty();
+    const Columns xyz = columns_of(element, {"x", "y", "z"});
+    if (is_vertices) points.reserve(ply.most_items(element));
+    ply.for_each_item(element, [&](const PlyItem& item) {
+      if (is_vertices) points.push_back(position_of(item, xyz).cast<float>());
+    });
+    if (is_vertices) break;
+  }
+  return points;
 }
 
 }  // namespace gnbv

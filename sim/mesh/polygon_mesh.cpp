@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <unordered_map>
 
-#include "sim/core/error.hpp"
 #include "sim/core/image.hpp"
 
 namespace gnbv {
@@ -21,8 +19,8 @@ double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
   return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
 }
 
-/// Cuts up polygons, one after the other, and reuses its memory. It numbers corners by their place
-/// in the polygon, from 0.
+/// Cuts up one polygon after the other with the same memory. Numbers corners by their place in the
+/// polygon, from 0.
 class EarClipper {
  public:
   void cut(std::span<const std::uint32_t> corners, const std::vector<Vec3>& vertices,
@@ -55,13 +53,12 @@ class EarClipper {
 
  private:
   enum class Care {
-    clean,  // the ear has an area, and no other corner in it or on its border
-    thin,   // the ear has an area; other corners may lie on its border
-    none    // any corner will do
+    clean,  // an ear has an area, and no other corner in it or on its border
+    thin,   // an ear has an area; other corners may lie on its border
+    none    // any corner is an ear
   };
 
-  /// Projects the polygon along the axis nearest to its Newell normal, as seen from the side that
-  /// the normal points to.
+  /// Projects the polygon along the axis nearest to its Newell normal, seen from its front.
   void lay_flat(std::span<const std::uint32_t> corners, const std::vector<Vec3>& vertices) {
     const Vec3& origin = vertices[corners[0]];
     Vec3 normal = Vec3::Zero();
@@ -103,8 +100,8 @@ class EarClipper {
     const double longest2 =
         std::max({(p_b - p_a).squaredNorm(), (p_c - p_b).squaredNorm(), (p_a - p_c).squaredNorm()});
     const double area2 = turn(p_a, p_b, p_c);
-    const double flat2 = 1e-7 * longest2;  // as is_flat() of sim/mesh/mesh_lint.hpp
-    // the edge goes there and back: the corner has no area and would block others
+    const double flat2 = 1e-7 * longest2;  // as is_flat()
+    // the edge goes there and back: this corner has no area and would block others
     if (std::abs(area2) <= flat2 && (p_a - p_b).dot(p_c - p_b) >= 0.0) return true;
     // a corner within a straight edge is no ear
     if (!(area2 > (care == Care::clean ? flat2 : 0.0))) return false;
@@ -140,39 +137,39 @@ class EarClipper {
   std::vector<std::uint32_t> hollow_;  // the remaining corners at which the polygon is not convex
 };
 
-std::uint32_t mean_rgb(const std::vector<std::uint32_t>& vertex_rgb,
-                       const std::array<std::uint32_t, 3>& face) {
-  std::uint32_t mean = 0;
-  for (const unsigned shift : {16U, 8U, 0U}) {
-    std::uint32_t sum = 1;  // rounds the third of it
-    for (const std::uint32_t v : face) sum += (vertex_rgb[v] >> shift) & 0xffU;
-    mean |= sum / 3 << shift;
-  }
-  return mean;
+std::uint32_t level_of(std::uint32_t rgb, unsigned shift) { return (rgb >> shift) & 0xffU; }
+
+/// 0xrrggbb of level(shift) for each channel.
+template <typename Level>
+std::uint32_t rgb_of(const Level& level) {
+  return level(16U) << 16U | level(8U) << 8U | level(0U);
 }
 
-constexpr std::size_t kExactColours = 256;
-
-std::uint32_t channel_of(std::uint32_t rgb, unsigned shift) { return (rgb >> shift) & 0xffU; }
+std::uint32_t mean_rgb(const std::vector<std::uint32_t>& vertex_rgb,
+                       const std::array<std::uint32_t, 3>& face) {
+  return rgb_of([&](unsigned shift) {
+    std::uint32_t sum = 1;  // rounds the third of it
+    for (const std::uint32_t v : face) sum += level_of(vertex_rgb[v], shift);
+    return sum / 3;
+  });
+}
 
 std::uint32_t in_steps(std::uint32_t rgb) {
-  std::uint32_t out = 0;
-  for (const unsigned shift : {16U, 8U, 0U}) out |= (channel_of(rgb, shift) + 8) / 17 * 17 << shift;
-  return out;
+  return rgb_of([&](unsigned shift) { return (level_of(rgb, shift) + 8) / 17 * 17; });
 }
 
 bool are_few(std::span<const std::uint32_t> colours) {
+  constexpr std::size_t kFew = 256;
   std::set<std::uint32_t> found;
-  for (const std::uint32_t rgb : colours) {
+  return std::all_of(colours.begin(), colours.end(), [&](std::uint32_t rgb) {
     found.insert(rgb);
-    if (found.size() > kExactColours) return false;
-  }
-  return true;
+    return found.size() <= kFew;
+  });
 }
 
 Material material_of(std::uint32_t rgb) {
   const auto linear = [&](unsigned shift) {
-    return srgb_to_linear(static_cast<float>(channel_of(rgb, shift)) / 255.0F);
+    return srgb_to_linear(static_cast<float>(level_of(rgb, shift)) / 255.0F);
   };
   return {.name = fmt::format("colour_{:06x}", rgb), .rgb = {linear(16), linear(8), linear(0)}};
 }
@@ -199,13 +196,6 @@ void cut_faces(const PolygonMesh& polygons, TriangleMesh& mesh) {
 }
 
 }  // namespace
-
-std::uint32_t as_index(std::size_t count, const std::string& path) {
-  if (count >= std::numeric_limits<std::uint32_t>::max()) {
-    throw BadInput(fmt::format("{}: holds more vertices or corners than 32 bits number", path));
-  }
-  return static_cast<std::uint32_t>(count);
-}
 
 void take_colours(std::span<const std::uint32_t> face_rgb, std::vector<Material>& materials,
                   std::vector<std::uint16_t>& face_material) {

@@ -1,18 +1,21 @@
-// A mesh as files hold it: polygons of any number of corners, in the coordinates of the file.
+// A mesh as OBJ and PLY files hold it: polygons of any number of corners, in the file's
+// coordinates.
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "sim/core/error.hpp"
 #include "sim/mesh/triangle_mesh.hpp"
 
 namespace gnbv {
 
-/// Of faces to which their file gives no material, and the colour of materials that it does not
-/// tell.
+/// The material of faces that have none in their file, and the colour of materials that have none.
 inline constexpr std::string_view kUntoldMaterial = "DefaultMaterial";
 inline constexpr std::array<float, 3> kUntoldColour = {0.6F, 0.6F, 0.6F};
 
@@ -27,21 +30,39 @@ struct PolygonMesh {
   std::string not_finite;  // names the first coordinate that is NaN or infinite; empty without one
 };
 
-/// A number of vertices or corners as an index. Throws BadInput naming the file when there are more
-/// than 32 bits can number.
-std::uint32_t as_index(std::size_t count, const std::string& path);
+/// Reads the shape and the diffuse colours of its materials; no normals, no texture coordinates.
+/// Leaves out unreadable lines and faces of vertices that do not exist, and counts them in
+/// `warnings`. Throws BadInput naming the line where that could number vertices wrongly: an
+/// unreadable line beside a vertex, with more vertices after it.
+PolygonMesh read_obj(const std::filesystem::path& path, std::vector<std::string>& warnings);
+
+/// Reads vertices (x, y, z; 0 where the file lacks one), faces (vertex_indices or vertex_index) and
+/// red, green, blue: of the faces, or else of the vertices. Faces of fewer than three corners or of
+/// vertices that do not exist are left out and counted in `warnings`. Throws BadInput naming what
+/// is wrong with a file that is no PLY, ends too early or holds what is no number.
+PolygonMesh read_ply(const std::filesystem::path& path, std::vector<std::string>& warnings);
+/// The vertices alone. Reads no further.
+std::vector<Vec3f> read_ply_points(const std::filesystem::path& path);
 
 /// Cuts a polygon of n corners into n - 2 triangles of the same sense, in the plane of its Newell
 /// normal, by clipping ears from its second corner on: a convex polygon becomes a fan around its
-/// first corner, a triangle stays what it is. One that meets itself is cut as far as ears are
-/// found, then like a convex one; where it has no area, neither have its triangles. Vertices keep
-/// their numbers, used or not. A face has its own material or, where there is `vertex_rgb`, each
-/// triangle the mean colour of its corners.
+/// first corner. A polygon that meets itself is cut as far as ears are found, then like a convex
+/// one; one without area gives triangles without area. Vertices keep their numbers. A triangle has
+/// the material of its polygon or, where there is `vertex_rgb`, the mean colour of its corners.
 TriangleMesh triangulated(PolygonMesh polygons);
 
 /// Materials for faces of these colours, 0xrrggbb in sRGB, in order of first use; beyond 256 of
 /// them in 16 steps a channel.
 void take_colours(std::span<const std::uint32_t> face_rgb, std::vector<Material>& materials,
                   std::vector<std::uint16_t>& face_material);
+
+/// A number as an index. Throws BadInput naming the file when Index cannot hold it, but for its
+/// last value.
+template <typename Index = std::uint32_t>
+Index as_index(std::size_t number, const std::string& path, std::string_view of_what) {
+  constexpr std::size_t kMost = std::numeric_limits<Index>::max();
+  if (number >= kMost) throw BadInput(fmt::format("{}: more than {} {}", path, kMost, of_what));
+  return static_cast<Index>(number);
+}
 
 }  // namespace gnbv

@@ -1,11 +1,10 @@
-#include "sim/mesh/texture.hpp"
-
+// albedo() of sim/mesh/triangle_mesh.hpp.
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
+#include "sim/mesh/triangle_mesh.hpp"
 
 namespace gnbv {
 namespace {
@@ -19,8 +18,8 @@ constexpr float kCourseHeight = 1.0F / 3.0F;
 constexpr float kMortar = 0.05F;
 constexpr float kSheetContrast = 0.12F;  // lightest to darkest sheet, of its colour
 
-/// Borders of bands and cubes lie off the origin by this share of their size, so that faces at
-/// round coordinates do not lie on one, where rounding would choose the colour.
+/// Bands and cubes begin off the origin by this share of their size: a face at a round coordinate
+/// does not lie on a border, where rounding would choose the colour.
 constexpr float kPhase = 0.381966F;
 
 Colour mix(const Colour& a, const Colour& b, float share_b) {
@@ -41,7 +40,7 @@ float number_of(const Cell& cell) {
 std::int64_t floor_of(float x) { return static_cast<std::int64_t>(std::floor(x)); }
 float part_of(float x) { return x - std::floor(x); }
 
-/// Value noise: random numbers at the corners of the unit cubes, smoothly blended in between.
+/// Value noise: random numbers at the corners of unit cubes, smoothly blended in between.
 float value_noise(const Vec3f& p) {
   const Cell low = {floor_of(p.x()), floor_of(p.y()), floor_of(p.z())};
   Vec3f share;
@@ -64,7 +63,7 @@ float value_noise(const Vec3f& p) {
   return sum;
 }
 
-/// Octaves of half the size and half the weight each, in [0, 1].
+/// In [0, 1]: octaves of value noise, each of half the size and half the weight.
 float clouds(const Vec3f& p) {
   constexpr int kOctaves = 4;
   float sum = 0.0F;
@@ -80,19 +79,16 @@ float clouds(const Vec3f& p) {
   return sum / weights;
 }
 
-/// Coordinates in the plane of a surface: across and, unless it is level, up.
+/// Coordinates in the plane of a surface: across, and up unless it is level.
 struct InPlane {
-  int normal_axis = 2;
-  float across = 0.0F;
-  float up = 0.0F;
+  int normal_axis;
+  float across, up;
 };
 
 InPlane in_plane(const Vec3f& p, const Vec3f& normal) {
   int axis = 2;
   normal.cwiseAbs().maxCoeff(&axis);
-  if (axis == 0) return {axis, p.y(), p.z()};
-  if (axis == 1) return {axis, p.x(), p.z()};
-  return {axis, p.x(), p.y()};
+  return {axis, axis == 0 ? p.y() : p.x(), axis == 2 ? p.y() : p.z()};
 }
 
 Colour panels(const Material& m, const Vec3f& p, const Vec3f& normal) {

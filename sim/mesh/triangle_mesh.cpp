@@ -6,22 +6,38 @@
 
 namespace gnbv {
 
+std::array<Vec3, 3> face_corners_m(const TriangleMesh& mesh, std::size_t face) {
+  const auto& [a, b, c] = mesh.faces[face];
+  return {mesh.vertices_m[a].cast<double>(), mesh.vertices_m[b].cast<double>(),
+          mesh.vertices_m[c].cast<double>()};
+}
+
+double face_area_m2(const TriangleMesh& mesh, std::size_t face) {
+  const auto [a, b, c] = face_corners_m(mesh, face);
+  return 0.5 * (b - a).cross(c - a).norm();
+}
+
+bool is_flat(const TriangleMesh& mesh, std::size_t face) {
+  const auto [a, b, c] = face_corners_m(mesh, face);
+  const double longest2 =
+      std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  return (b - a).cross(c - a).norm() <= 1e-7 * longest2;
+}
+
 void append(TriangleMesh& mesh, const TriangleMesh& more) {
   constexpr std::size_t kMostMaterials = std::numeric_limits<std::uint16_t>::max() + std::size_t{1};
   if (mesh.materials.size() + more.materials.size() > kMostMaterials) {
     throw BadInput(fmt::format("the meshes have more than {} materials together", kMostMaterials));
   }
   const auto first_vertex = static_cast<std::uint32_t>(mesh.vertices_m.size());
-  const auto first_material = static_cast<std::uint16_t>(mesh.materials.size());
+  const std::size_t first_material = mesh.materials.size();
   mesh.face_material.resize(mesh.faces.size(), 0);
   mesh.vertices_m.insert(mesh.vertices_m.end(), more.vertices_m.begin(), more.vertices_m.end());
   mesh.materials.insert(mesh.materials.end(), more.materials.begin(), more.materials.end());
   for (std::size_t i = 0; i < more.faces.size(); ++i) {
     const auto& [a, b, c] = more.faces[i];
     mesh.faces.push_back({first_vertex + a, first_vertex + b, first_vertex + c});
-    const std::uint16_t material =
-        more.face_material.empty() ? std::uint16_t{0} : more.face_material[i];
-    mesh.face_material.push_back(static_cast<std::uint16_t>(first_material + material));
+    mesh.face_material.push_back(static_cast<std::uint16_t>(first_material + material_of(more, i)));
   }
 }
 
@@ -45,12 +61,7 @@ Box3 bounds_m(const TriangleMesh& mesh) {
 
 double surface_area_m2(const TriangleMesh& mesh) {
   double area_m2 = 0.0;
-  for (const auto& face : mesh.faces) {
-    const Vec3 a = mesh.vertices_m[face[0]].cast<double>();
-    const Vec3 b = mesh.vertices_m[face[1]].cast<double>();
-    const Vec3 c = mesh.vertices_m[face[2]].cast<double>();
-    area_m2 += 0.5 * (b - a).cross(c - a).norm();
-  }
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i) area_m2 += face_area_m2(mesh, i);
   return area_m2;
 }
 

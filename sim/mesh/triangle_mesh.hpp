@@ -3,15 +3,18 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "sim/core/pose.hpp"
 
 namespace gnbv {
 
-/// Procedural textures, solid in space, so that they need no texture coordinates
-/// (sim/mesh/texture.hpp).
+/// Procedural textures, solid in space: they need no texture coordinates.
 enum class Pattern {
   plain,    // rgb everywhere
   noise,    // clouds of rgb and rgb_2: paint, soil, concrete
@@ -29,6 +32,11 @@ struct Material {
   float pattern_size_m = 1.0F;                      // of a sheet, brick, band, cube or cloud
 };
 
+/// Linear colour at a place, each channel in [0, 1]. `normal_world` (unit) chooses the axes of
+/// panels and bricks. Depends on its arguments alone: the same from every view.
+std::array<float, 3> albedo(const Material& material, const Vec3f& p_world_m,
+                            const Vec3f& normal_world);
+
 struct TriangleMesh {
   std::vector<Vec3f> vertices_m;                    // (n, 3)
   std::vector<std::array<std::uint32_t, 3>> faces;  // (m, 3), counter-clockwise seen from outside
@@ -36,8 +44,19 @@ struct TriangleMesh {
   std::vector<std::uint16_t> face_material;  // (m), index into materials; empty = all 0
 };
 
-/// Adds another mesh with its materials, behind what is there: the first vertices, faces and
-/// materials keep their numbers. Throws BadInput where the materials become too many to number.
+/// The material's index.
+inline std::size_t material_of(const TriangleMesh& mesh, std::size_t face) {
+  return mesh.face_material.empty() ? 0 : mesh.face_material[face];
+}
+
+std::array<Vec3, 3> face_corners_m(const TriangleMesh& mesh, std::size_t face);
+double face_area_m2(const TriangleMesh& mesh, std::size_t face);
+
+/// Whether a face's corners lie on a line, to the rounding of float coordinates; false where one of
+/// them is not finite.
+bool is_flat(const TriangleMesh& mesh, std::size_t face);
+
+/// Appends another mesh with its materials. Throws BadInput for more materials than 16 bits number.
 void append(TriangleMesh& mesh, const TriangleMesh& more);
 
 /// The closed surface of a box: 8 vertices, 12 faces.
@@ -46,7 +65,26 @@ TriangleMesh box_mesh(const Box3& box_m, const Material& material = {});
 /// Smallest box around the vertices; empty for a mesh without vertices.
 Box3 bounds_m(const TriangleMesh& mesh);
 
-/// Sum of the triangles' areas, two-sided faces counted twice.
+/// Sum of the faces' areas, two-sided faces counted twice.
 double surface_area_m2(const TriangleMesh& mesh);
+
+/// Gives equal positions (bit for bit, but -0 is 0) the same index. A NaN equals nothing.
+class PositionIndices {
+ public:
+  /// The index of the position, which becomes `next` if it is new; whether it is.
+  std::pair<std::uint32_t, bool> index_of(const Vec3f& p_m, std::uint32_t next) {
+    const Vec3f p = p_m + Vec3f::Zero();  // -0 becomes 0
+    const auto [entry, is_new] = index_of_.try_emplace({p.x(), p.y(), p.z()}, next);
+    return {entry->second, is_new};
+  }
+
+ private:
+  struct Hash {
+    std::size_t operator()(const std::array<float, 3>& p) const {
+      return std::hash<std::string_view>{}({reinterpret_cast<const char*>(p.data()), sizeof p});
+    }
+  };
+  std::unordered_map<std::array<float, 3>, std::uint32_t, Hash> index_of_;
+};
 
 }  // namespace gnbv

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "sim/core/error.hpp"
-#include "sim/mesh/mesh_units.hpp"
+#include "sim/mesh/mesh_file.hpp"
 #include "sim/mesh/plain_text.hpp"
-#include "sim/mesh/polygon_file.hpp"
+#include "sim/mesh/polygon_mesh.hpp"
 #include "tests/fuzz/written.hpp"
 
 namespace gnbv {

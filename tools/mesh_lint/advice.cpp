@@ -10,7 +10,7 @@
 #include "scenarios/problems.hpp"
 #include "sensors/ray_scene.hpp"
 #include "sim/core/error.hpp"
-#include "sim/mesh/mesh_units.hpp"
+#include "sim/mesh/mesh_file.hpp"
 #include "tools/mesh_lint/mesh_places.hpp"
 #include "tools/mission/auto_bounds.hpp"
 #include "tools/mission/load_world.hpp"

@@ -49,10 +49,10 @@ Finding units_finding(const MeshReading& reading, const Scenario& scenario) {
   const MeshFileConfig& file = scenario.structure.file;
   const std::string unit = name_of_unit(reading.unit_m);
   std::string what = file.unit_m > 0.0         ? fmt::format("{}, by structure.file.unit_m", unit)
-                     : reading.declared_unit_m ? fmt::format("{}, as the file declares", unit)
+                     : reading.declared.unit_m ? fmt::format("{}, as the file declares", unit)
                                                : "the file declares none: taken as metres";
-  if (file.unit_m > 0.0 && reading.declared_unit_m && *reading.declared_unit_m != reading.unit_m) {
-    what += fmt::format("; the file declares {}", name_of_unit(*reading.declared_unit_m));
+  if (file.unit_m > 0.0 && reading.declared.unit_m && *reading.declared.unit_m != reading.unit_m) {
+    what += fmt::format("; the file declares {}", name_of_unit(*reading.declared.unit_m));
   }
   if (file.scale != 1.0) what += fmt::format("; scaled by {}", file.scale);
   return {"units", Severity::ok, what, ""};
@@ -71,7 +71,7 @@ Finding up_axis_finding(const MeshReport& report, const Scenario& scenario, cons
   const MeshReading& reading = report.reading;
   const bool is_set = scenario.structure.file.up_axis != "auto";
   const std::string_view origin = is_set                     ? "by structure.file.up_axis"
-                                  : reading.declared_up_axis ? "as the file declares"
+                                  : reading.declared.up_axis ? "as the file declares"
                                                              : "as assumed, the file declares none";
   std::string what = fmt::format("{} is up, {}", reading.up_axis, origin);
   const std::optional<char> likely = likely_up_axis(in_file_axes(report, scenario));

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sim/mesh/mesh_units.hpp"
+#include "sim/mesh/mesh_file.hpp"
 
 namespace gnbv {
 

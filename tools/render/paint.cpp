@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "sim/core/parallel.hpp"
-#include "sim/mesh/texture.hpp"
+#include "sim/mesh/triangle_mesh.hpp"
 
 namespace gnbv {
 namespace {

@@ -1,40 +1,21 @@
 #include "tools/run_files/cloud_file.hpp"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "sim/mesh/chunked_file.hpp"
 #include "sim/mesh/plain_text.hpp"
-#include "sim/mesh/ply_reader.hpp"
+#include "sim/mesh/polygon_mesh.hpp"
 
 namespace gnbv {
 
 namespace {
-
-/// Reads no further than the vertices.
-std::vector<Vec3f> read_ply_cloud(const std::filesystem::path& path) {
-  PlyReader ply(path);
-  std::vector<Vec3f> points_m;
-  for (const PlyElement& element : ply.elements()) {
-    if (element.name != "vertex" || element.properties.empty()) {
-      ply.skip(element);
-      continue;
-    }
-    const PlyPositions positions(element);
-    points_m.reserve(ply.most_items(element));
-    PlyItem item;
-    for (std::uint64_t i = 0; i < element.count; ++i) {
-      ply.read_item(element, item);
-      points_m.push_back(positions.of(item).cast<float>());
-    }
-    break;
-  }
-  return points_m;
-}
 
 /// The next number of a line, which is cut off; nothing where there is none.
 std::optional<float> take_number(std::string_view& line) {
@@ -47,23 +28,25 @@ std::optional<float> take_number(std::string_view& line) {
 }
 
 std::vector<Vec3f> read_xyz_cloud(const std::filesystem::path& path) {
-  ChunkedFile file(path);
+  std::ifstream file = open_file(path);
   std::vector<Vec3f> points_m;
-  for (std::size_t number = 1; const auto whole = file.line(); ++number) {
-    const std::size_t first = whole->find_first_not_of(" \t\r");
-    if (first == std::string_view::npos || (*whole)[first] == '#') continue;
-    std::string_view line = *whole;
+  std::string whole;
+  for (std::size_t number = 1; std::getline(file, whole); ++number) {
+    const std::size_t first = whole.find_first_not_of(" \t\r");
+    if (first == std::string::npos || whole[first] == '#') continue;
+    std::string_view line = whole;
     Vec3f p_m;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       const auto value = take_number(line);
       if (!value) {
         throw BadInput(fmt::format("{}:{}: '{}' does not begin with three numbers", path.string(),
-                                   number, whole->substr(0, 60)));
+                                   number, whole.substr(0, 60)));
       }
       p_m[axis] = *value;
     }
     points_m.push_back(p_m);
   }
+  if (file.bad()) throw BadInput(fmt::format("{}: {}", path.string(), std::strerror(errno)));
   return points_m;
 }
 
@@ -100,7 +83,7 @@ std::vector<Vec3f> read_cloud(const std::filesystem::path& path) {
   if (extension != ".ply" && extension != ".xyz") {
     throw BadInput(fmt::format("{}: a cloud is a .ply or an .xyz file", path.string()));
   }
-  return extension == ".ply" ? read_ply_cloud(path) : read_xyz_cloud(path);
+  return extension == ".ply" ? read_ply_points(path) : read_xyz_cloud(path);
 }
 
 }  // namespace gnbv

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "sim/mesh/mesh_units.hpp"
+#include "sim/mesh/mesh_file.hpp"
 #include "tests/sim/mesh/mesh_files.hpp"
 
 namespace gnbv {

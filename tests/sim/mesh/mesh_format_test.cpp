@@ -241,15 +241,15 @@ TEST_F(MeshFile, GltfNodesPlaceTheirMeshesWithYUp) {
 
 TEST_F(MeshFile, AReadingTellsWhatTheFileDeclares) {
   const MeshReading silent = read_mesh(file(write("box.stl", ascii_stl())));
-  EXPECT_FALSE(silent.declared_unit_m || silent.declared_up_axis);
+  EXPECT_FALSE(silent.declared.unit_m || silent.declared.up_axis);
   EXPECT_EQ(silent.unit_m, 1.0);
   EXPECT_EQ(silent.up_axis, 'z');
   MeshFileConfig config = file(write("box.glb", glb()));
   config.unit_m = 0.5;
   config.up_axis = "x";
   const MeshReading overridden = read_mesh(config);
-  EXPECT_EQ(overridden.declared_unit_m, 1.0);
-  EXPECT_EQ(overridden.declared_up_axis, 'y');
+  EXPECT_EQ(overridden.declared.unit_m, 1.0);
+  EXPECT_EQ(overridden.declared.up_axis, 'y');
   EXPECT_EQ(overridden.unit_m, 0.5);
   EXPECT_EQ(overridden.up_axis, 'x');
 }

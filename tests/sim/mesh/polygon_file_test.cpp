@@ -1,5 +1,5 @@
 // One mesh of polygons in OBJ and in every kind of PLY.
-#include "sim/mesh/polygon_file.hpp"
+#include "sim/mesh/polygon_mesh.hpp"
 
 #include <gtest/gtest.h>
 

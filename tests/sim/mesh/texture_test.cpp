@@ -1,4 +1,4 @@
-#include "sim/mesh/texture.hpp"
+#include "sim/mesh/triangle_mesh.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include "scenarios/load.hpp"
 #include "sensors/ray_scene.hpp"
 #include "sim/core/rng.hpp"
-#include "sim/mesh/mesh_units.hpp"
+#include "sim/mesh/mesh_file.hpp"
 #include "tests/bench/shapes.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/mesh_lint/mesh_report.hpp"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "sim/mesh/texture.hpp"
+#include "sim/mesh/triangle_mesh.hpp"
 #include "tools/render/paint.hpp"
 
 namespace gnbv {
