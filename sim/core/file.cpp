@@ -50,23 +50,6 @@ bool has_living_writer(const fs::path& temporary) {
   return kill(process, 0) == 0 || errno == EPERM;
 }
 
-/// By system calls: their errors name the cause.
-void write_whole(const fs::path& part, const fs::path& path, std::string_view content) {
-  const int file = open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (file < 0) refuse_to_write(path, errno);
-  while (!content.empty()) {
-    const ssize_t count = write(file, content.data(), content.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) {
-      const int error = errno;
-      close(file);
-      refuse_to_write(path, error);
-    }
-    content.remove_prefix(static_cast<std::size_t>(count));
-  }
-  if (close(file) != 0) refuse_to_write(path, errno);
-}
-
 /// Whether the path still names the open file: a holder of the lock may have removed it.
 bool is_still_there(int descriptor, const fs::path& path) {
   struct stat open_file {};
@@ -124,8 +107,14 @@ std::string read_file(const fs::path& path) {
 }
 
 void write_file_atomically(const fs::path& path, std::string_view content, Lasting lasting) {
-  write_file_atomically(
-      path, [&](const fs::path& part) { write_whole(part, path, content); }, lasting);
+  const auto write = [&](const fs::path& part) {
+    errno = 0;
+    std::ofstream out(part, std::ios::binary);
+    out << content;
+    out.close();
+    if (!out) refuse_to_write(path, errno);
+  };
+  write_file_atomically(path, write, lasting);
 }
 
 void write_file_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write,

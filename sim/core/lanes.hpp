@@ -1,15 +1,14 @@
-// Several numbers side by side: the words in which the vector loops are written, over Google
-// Highway. gnbv_kernels() (CMakeLists.txt) compiles such a source once for each SimdLevel. A lane
-// gets the same bits at every level: nothing here fuses a product with a sum, and no loop asks for
-// what Highway leaves open, as a result that does not fit or an order of summation.
+// Vector loops over Google Highway. gnbv_kernels() (CMakeLists.txt) compiles a source once for each
+// SimdLevel. A lane gets the same bits at every level: nothing here fuses a product with a sum, and
+// no loop asks for what Highway leaves open, as a result that does not fit or an order of
+// summation.
 //
-// Floats, Ints and Mask have kLanes float32, int32 (modulo 2^32) and truths. What Highway calls as
-// it should be called is taken from it: + - * / & |, hn::Min, hn::Max (the second where one is
-// NaN), hn::Abs, hn::Round (ties to even), hn::Trunc and so on.
+// Floats, Ints and Mask have kLanes float32, int32 (modulo 2^32) and truths. Other operations are
+// Highway's own: + - * / & |, hn::Min, hn::Max (the second where one is NaN), hn::Abs, hn::Round
+// (ties to even), hn::Trunc.
 //
-// Everything has internal linkage: no copy made for one processor can be linked into another's
-// code. For the same reason these sources include nothing of ours but this, each other and plain
-// structs.
+// Everything has internal linkage, so that no copy for one processor is linked into another's code.
+// For the same reason these sources include nothing of ours but this, each other and plain structs.
 #pragma once
 
 #include <hwy/highway.h>
@@ -34,7 +33,7 @@ using Floats = hn::Vec<decltype(kFloatTag)>;
 using Ints = hn::Vec<decltype(kIntTag)>;
 using Mask = hn::Mask<decltype(kIntTag)>;
 
-/// kLanes elements at any address. Bytes are from 0 to 255, a lane each.
+/// kLanes elements at any address; bytes from 0 to 255.
 inline Floats load(const float* p) { return hn::LoadU(kFloatTag, p); }
 inline Ints load(const std::int32_t* p) { return hn::LoadU(kIntTag, p); }
 inline Ints load(const std::uint32_t* p) { return load(reinterpret_cast<const std::int32_t*>(p)); }
@@ -47,7 +46,7 @@ inline void store_bytes(std::uint8_t* p, Ints a) {
   hn::StoreU(hn::DemoteTo(kByteTag, a), kByteTag, p);
 }
 
-/// x in every lane; 0, 1, 2, ...
+/// x in every lane. ramp: 0, 1, 2, ...
 inline Floats all(float x) { return hn::Set(kFloatTag, x); }
 inline Ints all(std::int32_t x) { return hn::Set(kIntTag, x); }
 inline Ints all(std::uint32_t x) { return all(static_cast<std::int32_t>(x)); }
@@ -61,7 +60,8 @@ Ints shift_right(Ints a) {
   return hn::BitCast(kIntTag, hn::ShiftRight<kBits>(hn::BitCast(kTag, a)));
 }
 
-/// The same bits; or the same numbers, integers of what fits 32 bits: toward zero, down.
+/// as_*: the same bits. Else the same numbers, where they fit 32 bits: truncated toward zero,
+/// floored down.
 inline Ints as_ints(Floats a) { return hn::BitCast(kIntTag, a); }
 inline Floats as_floats(Ints a) { return hn::BitCast(kFloatTag, a); }
 inline Floats to_floats(Ints a) { return hn::ConvertTo(kFloatTag, a); }
@@ -103,15 +103,14 @@ inline Ints select(Mask m, Ints a, Ints b) { return hn::IfThenElse(m, a, b); }
 inline Floats add_where(Mask m, Floats a, Floats b) { return select(m, a + b, a); }
 inline Ints add_where(Mask m, Ints a, Ints b) { return select(m, a + b, a); }
 
-/// p[at]; where m, else 0, but p[0] may be read for the others.
+/// p[at]. With m: 0 in the other lanes, which may read p[0].
 inline Floats gather(const float* p, Ints at) { return hn::GatherIndex(kFloatTag, p, at); }
 inline Ints gather(Mask m, const std::uint32_t* p, Ints at) {
   const auto* const from = reinterpret_cast<const std::int32_t*>(p);
 #if HWY_MAJOR > 1 || HWY_MINOR >= 1
   return hn::MaskedGatherIndex(m, kIntTag, from, at);
 #elif HWY_TARGET == HWY_AVX3
-  // Highway 1.0 gathers all lanes or none: with few of them that made the full walk 1.4 times as
-  // slow
+  // Highway 1.0 gathers all lanes or none, which made the full walk 1.4 times as slow
   return Ints{_mm512_mask_i32gather_epi32(_mm512_setzero_si512(), m.raw, at.raw, from, 4)};
 #else
   return hn::IfThenElseZero(m, hn::GatherIndex(kIntTag, from, hn::IfThenElseZero(m, at)));
@@ -120,7 +119,7 @@ inline Ints gather(Mask m, const std::uint32_t* p, Ints at) {
 inline Floats gather(Mask m, const float* p, Ints at) {
   return as_floats(gather(m, reinterpret_cast<const std::uint32_t*>(p), at));
 }
-/// The lanes of m one after the other. Writes kLanes numbers and returns how many are meant.
+/// Writes the lanes of m first, kLanes numbers in all. Returns how many lanes m has.
 inline int pack(Mask m, Ints a, std::int32_t* to) {
   store(to, hn::Compress(a, m));
   return count(m);
@@ -168,14 +167,14 @@ inline Floats narrow(Doubles a) {
   return hn::Combine(kFloatTag, hn::DemoteTo(kHalfFloatTag, a.high),
                      hn::DemoteTo(kHalfFloatTag, a.low));
 }
-/// Toward zero, down; what does not fit becomes the nearest that does.
+/// What does not fit becomes the nearest that does.
 inline Ints truncated(Doubles a) {
   return hn::Combine(kIntTag, hn::DemoteTo(kHalfIntTag, a.high), hn::DemoteTo(kHalfIntTag, a.low));
 }
 inline Ints floored(Doubles a) { return truncated({hn::Floor(a.low), hn::Floor(a.high)}); }
 
-/// Calls body(first, left) for `count` elements, kLanes at a time: `left` is kLanes but at the end,
-/// a constant, so that nothing in the loop has to ask for it.
+/// Calls body(first, left) for `count` elements, kLanes at a time. `left` is the constant kLanes
+/// but at the end.
 template <typename Body>
 __attribute__((flatten)) inline void for_lanes(int count, const Body& body) {
   int i = 0;
@@ -183,8 +182,7 @@ __attribute__((flatten)) inline void for_lanes(int count, const Body& body) {
   if (i < count) body(i, count - i);
 }
 
-/// At the end of an array only the first `left` of kLanes elements are there to be read or written.
-/// Those read beyond are zeros.
+/// The first `left` of kLanes elements, at the end of an array. Those read beyond are zeros.
 template <typename T, typename Use>
 HWY_INLINE auto read_end(const T* p, int left, const Use& use) {
   if (left >= kLanes) return use(p);

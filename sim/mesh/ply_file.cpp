@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <optional>
 
 #include "sim/core/file.hpp"
 #include "sim/mesh/plain_text.hpp"
@@ -53,34 +52,33 @@ struct PlyElement {
   std::vector<PlyProperty> properties;
 };
 
-using Columns = std::array<std::optional<std::size_t>, 3>;
+using PlyItem = std::vector<std::vector<double>>;  // the numbers of each property, and one 0 more
+using Columns = std::array<std::size_t, 3>;        // into it
 
-/// Places of the properties of these names that are no lists; the last of each name.
+/// The properties of these names that are no lists, the last of each name; or the 0.
 Columns columns_of(const PlyElement& element, const std::array<std::string_view, 3>& names) {
-  Columns found;
-  for (std::size_t i = 0; i < element.properties.size(); ++i) {
+  const std::size_t count = element.properties.size();
+  Columns found = {count, count, count};
+  for (std::size_t i = 0; i < count; ++i) {
+    const PlyProperty& property = element.properties[i];
     for (std::size_t k = 0; k < 3; ++k) {
-      const PlyProperty& property = element.properties[i];
       if (property.count_type == nullptr && property.name == names[k]) found[k] = i;
     }
   }
   return found;
 }
 
-using PlyItem = std::vector<std::vector<double>>;  // the numbers of each property
-
 Vec3 position_of(const PlyItem& item, const Columns& xyz) {
-  const auto axis = [&](std::size_t a) { return xyz[a] ? item[*xyz[a]][0] : 0.0; };
-  return {axis(0), axis(1), axis(2)};
+  return {item[xyz[0]][0], item[xyz[1]][0], item[xyz[2]][0]};
 }
 
 /// Appends 0xrrggbb, if the element has all three channels.
 void add_colour(const PlyItem& item, const PlyElement& element, const Columns& columns,
                 std::vector<std::uint32_t>& colours) {
   std::uint32_t rgb = 0;
-  for (const auto& column : columns) {
-    if (!column) return;
-    const double level = item[*column][0] / element.properties[*column].type->full;
+  for (const std::size_t column : columns) {
+    if (column == element.properties.size()) return;
+    const double level = item[column][0] / element.properties[column].type->full;
     // NaN counts as 0
     rgb = rgb << 8 | static_cast<std::uint32_t>(
                          std::lround(255.0 * (level >= 0.0 ? std::min(level, 1.0) : 0.0)));
@@ -107,10 +105,11 @@ class PlyFile {
   /// Calls use(item) for each item of the next element.
   template <typename Use>
   void for_each_item(const PlyElement& element, const Use& use) {
-    if (element.properties.empty()) return;
-    PlyItem item(element.properties.size());
+    const std::size_t properties = element.properties.size();
+    if (properties == 0) return;
+    PlyItem item(properties + 1, {0.0});
     for (std::uint64_t i = 0; i < element.count; ++i) {
-      for (std::size_t k = 0; k < item.size(); ++k) {
+      for (std::size_t k = 0; k < properties; ++k) {
         const PlyProperty& property = element.properties[k];
         double count = 1.0;
         if (property.count_type != nullptr) {
@@ -179,15 +178,14 @@ class PlyFile {
 
   /// Reads in pieces, since a wrong count may be of any size.
   void take_numbers(const PlyType& type, double count, std::vector<double>& numbers) {
-    constexpr std::size_t kPiece = 16;
-    std::array<char, kPiece * sizeof(double)> bytes{};
+    std::array<char, 16 * sizeof(double)> bytes{};
     numbers.clear();
     for (double left = count; left > 0.0; left = count - static_cast<double>(numbers.size())) {
       if (is_text_) {
         numbers.push_back(take_number());
         continue;
       }
-      const std::size_t piece = left < kPiece ? static_cast<std::size_t>(std::ceil(left)) : kPiece;
+      const auto piece = static_cast<std::size_t>(std::ceil(std::min(left, 16.0)));
       if (!in_.read(bytes.data(), static_cast<std::streamsize>(piece * type.bytes))) end_early();
       for (std::size_t i = 0; i < piece; ++i) {
         char* const first = bytes.data() + i * type.bytes;
@@ -198,11 +196,10 @@ class PlyFile {
   }
 
   double take_number() {
-    std::string_view word = take_word(rest_);
-    while (word.empty()) {
+    std::string_view word;
+    while ((word = take_word(rest_)).empty()) {
       if (!std::getline(in_, line_)) end_early();
       rest_ = line_;
-      word = take_word(rest_);
     }
     const auto value = read_decimal(word);
     if (!value) fail(fmt::format("'{}' is no number", word.substr(0, 60)));
@@ -249,7 +246,7 @@ void read_faces(PlyFile& ply, const PlyElement& element, PolygonMesh& out,
   out.face_ends.reserve(out.face_ends.size() + ply.most_items(element));
   out.corners.reserve(out.corners.size() + 3 * ply.most_items(element));
   ply.for_each_item(element, [&](const PlyItem& item) {
-    for (std::size_t k = 0; k < item.size(); ++k) {
+    for (std::size_t k = 0; k < element.properties.size(); ++k) {
       const PlyProperty& property = element.properties[k];
       if (property.count_type == nullptr) continue;
       if (property.name != "vertex_indices" && property.name != "vertex_index") continue;

@@ -23,9 +23,8 @@ constexpr float kSheetContrast = 0.12F;  // lightest to darkest sheet, of its co
 constexpr float kPhase = 0.381966F;
 
 Colour mix(const Colour& a, const Colour& b, float share_b) {
-  Colour mixed{};
-  for (std::size_t i = 0; i < 3; ++i) mixed[i] = a[i] + share_b * (b[i] - a[i]);
-  return mixed;
+  const auto channel = [&](std::size_t i) { return a[i] + share_b * (b[i] - a[i]); };
+  return {channel(0), channel(1), channel(2)};
 }
 
 /// Uniform in [0, 1), one number a cell.
