@@ -178,14 +178,16 @@ class PlyFile {
 
   /// Reads in pieces, since a wrong count may be of any size.
   void take_numbers(const PlyType& type, double count, std::vector<double>& numbers) {
-    std::array<char, 16 * sizeof(double)> bytes{};
+    std::array<char, 16 * sizeof(double)> bytes;
     numbers.clear();
-    for (double left = count; left > 0.0; left = count - static_cast<double>(numbers.size())) {
+    std::size_t piece = 1;
+    auto left = static_cast<std::size_t>(std::ceil(count > 0.0 ? std::min(count, 1e18) : 0.0));
+    for (; left > 0; left -= piece) {
       if (is_text_) {
         numbers.push_back(take_number());
         continue;
       }
-      const auto piece = static_cast<std::size_t>(std::ceil(std::min(left, 16.0)));
+      piece = std::min<std::size_t>(left, 16);
       if (!in_.read(bytes.data(), static_cast<std::streamsize>(piece * type.bytes))) end_early();
       for (std::size_t i = 0; i < piece; ++i) {
         char* const first = bytes.data() + i * type.bytes;
@@ -243,13 +245,16 @@ void read_vertices(PlyFile& ply, const PlyElement& element, PolygonMesh& out) {
 void read_faces(PlyFile& ply, const PlyElement& element, PolygonMesh& out,
                 std::vector<std::uint32_t>& face_rgb) {
   const Columns rgb = columns_of(element, {"red", "green", "blue"});
+  std::vector<std::size_t> lists;
+  for (std::size_t k = 0; k < element.properties.size(); ++k) {
+    const auto& [name, type, count_type] = element.properties[k];
+    const bool is_corners = name == "vertex_indices" || name == "vertex_index";
+    if (is_corners && count_type != nullptr) lists.push_back(k);
+  }
   out.face_ends.reserve(out.face_ends.size() + ply.most_items(element));
   out.corners.reserve(out.corners.size() + 3 * ply.most_items(element));
   ply.for_each_item(element, [&](const PlyItem& item) {
-    for (std::size_t k = 0; k < element.properties.size(); ++k) {
-      const PlyProperty& property = element.properties[k];
-      if (property.count_type == nullptr) continue;
-      if (property.name != "vertex_indices" && property.name != "vertex_index") continue;
+    for (const std::size_t k : lists) {
       for (const double vertex : item[k]) {
         const bool is_possible = vertex >= 0.0 && vertex < kNoVertex;
         out.corners.push_back(is_possible ? static_cast<std::uint32_t>(vertex) : kNoVertex);
