@@ -11,21 +11,6 @@
 namespace gnbv {
 namespace {
 
-/// Corners and side middles of the box, counter-clockwise from the corner (min x, min y).
-std::array<Eigen::Vector2d, 8> stations_m(const Box3& box) {
-  const Vec3 lo = box.min();
-  const Vec3 hi = box.max();
-  const Vec3 mid = box.center();
-  return {{{lo.x(), lo.y()},
-           {mid.x(), lo.y()},
-           {hi.x(), lo.y()},
-           {hi.x(), mid.y()},
-           {hi.x(), hi.y()},
-           {mid.x(), hi.y()},
-           {lo.x(), hi.y()},
-           {lo.x(), mid.y()}}};
-}
-
 struct Heights {
   double low_m, high_m;
 };
@@ -60,93 +45,20 @@ std::optional<Heights> allowed_heights(const NoFly& no_fly, const Eigen::Vector2
 
 }  // namespace
 
-ProfileRoute::ProfileRoute(const ProfilingConfig& config, const Box3& navigation_m,
-                           const ViewPose& start, NoFly no_fly)
-    : config_(config),
-      navigation_m_(navigation_m),
-      no_fly_(std::move(no_fly)),
-      at_m_(start.p_world_m) {
-  if (config.method == ProfilingMethod::bounding_box) {
-    legs_ = bounding_box_profile(navigation_m, start, no_fly_);
-  }
-  radius_m_ = 0.5 * std::min(navigation_m.sizes().x(), navigation_m.sizes().y());
-  const Vec3 from_center_m = start.p_world_m - navigation_m.center();
-  first_bearing_rad_ = std::atan2(from_center_m.y(), from_center_m.x());
-  z_m_ = navigation_m.min().z();
-}
-
-std::optional<ProfileLeg> ProfileRoute::next(bool saw_surface) {
-  while (detour_.empty()) {
-    const auto leg = next_of_method(saw_surface);
-    if (!leg) return std::nullopt;
-    const Vec3& to_m = leg->goal.p_world_m;
-    if (!no_fly_.allows(to_m)) continue;
-    auto via_m = way_around(no_fly_, navigation_m_, at_m_, to_m);
-    if (!via_m) continue;
-    detour_ = {*leg};
-    std::reverse(via_m->begin(), via_m->end());
-    for (const Vec3& p_m : *via_m) detour_.push_back({{p_m, leg->goal.yaw_rad}, false});
-  }
-  const ProfileLeg leg = detour_.back();
-  detour_.pop_back();
-  at_m_ = leg.goal.p_world_m;
-  return leg;
-}
-
-std::optional<ProfileLeg> ProfileRoute::next_of_method(bool saw_surface) {
-  if (config_.method == ProfilingMethod::circular) return next_on_circle(saw_surface);
-  if (next_leg_ >= legs_.size()) return std::nullopt;
-  return legs_[next_leg_++];
-}
-
-double ProfileRoute::share_done() const {
-  if (config_.method == ProfilingMethod::circular) {
-    return static_cast<double>(station_) / config_.circle_stations;
-  }
-  return legs_.empty() ? 1.0 : static_cast<double>(next_leg_) / static_cast<double>(legs_.size());
-}
-
-ViewPose ProfileRoute::on_circle(double bearing_rad, double z_m) const {
-  Vec3 p_world_m = navigation_m_.center();
-  p_world_m += radius_m_ * Vec3(std::cos(bearing_rad), std::sin(bearing_rad), 0.0);
-  p_world_m.z() = z_m;
-  return {p_world_m, wrap_angle_rad(bearing_rad + kPi)};
-}
-
-std::optional<ProfileLeg> ProfileRoute::next_on_circle(bool saw_surface) {
-  constexpr double kArc_rad = deg_to_rad(18.0);  // its chord comes 1.2 % of the radius inside
-  if (station_ >= config_.circle_stations) return std::nullopt;
-  const double spacing_rad = 2.0 * kPi / config_.circle_stations;
-  const int arcs = station_ == 0 ? 1 : static_cast<int>(std::ceil(spacing_rad / kArc_rad - 1e-9));
-  const double bearing_rad = first_bearing_rad_ + station_ * spacing_rad;
-  if (arc_ < arcs) {  // on the way, at the height it has climbed to
-    ++arc_;
-    const double to_go = 1.0 - static_cast<double>(arc_) / arcs;
-    return ProfileLeg{on_circle(bearing_rad - to_go * spacing_rad, z_m_), false};
-  }
-  const double bottom_m = navigation_m_.min().z();
-  const double top_m = navigation_m_.max().z();
-  if (arc_ == arcs) {  // arrived: it begins at the bottom, scanning on the way down
-    ++arc_;
-    if (z_m_ > bottom_m) {
-      z_m_ = bottom_m;
-      return ProfileLeg{on_circle(bearing_rad, z_m_), true};
-    }
-  }
-  const bool is_first_climb = arc_ == arcs + 1;
-  if ((is_first_climb || saw_surface) && z_m_ < top_m) {
-    arc_ = arcs + 2;
-    z_m_ = std::min(z_m_ + config_.climb_step_m, top_m);
-    return ProfileLeg{on_circle(bearing_rad, z_m_), true};
-  }
-  ++station_;
-  arc_ = 0;
-  return next_on_circle(false);
-}
-
 std::vector<ProfileLeg> bounding_box_profile(const Box3& navigation_m, const ViewPose& start,
                                              const NoFly& no_fly) {
-  const std::array<Eigen::Vector2d, 8> stations = stations_m(navigation_m);
+  const Vec3 lo = navigation_m.min();
+  const Vec3 hi = navigation_m.max();
+  const Vec3 mid = navigation_m.center();
+  // corners and side middles, counter-clockwise
+  const std::array<Eigen::Vector2d, 8> stations = {{{lo.x(), lo.y()},
+                                                    {mid.x(), lo.y()},
+                                                    {hi.x(), lo.y()},
+                                                    {hi.x(), mid.y()},
+                                                    {hi.x(), hi.y()},
+                                                    {mid.x(), hi.y()},
+                                                    {lo.x(), hi.y()},
+                                                    {lo.x(), mid.y()}}};
   const auto distance_m = [&](std::size_t i) {
     return (stations[i % 8] - start.p_world_m.head<2>()).norm();
   };
@@ -155,19 +67,88 @@ std::vector<ProfileLeg> bounding_box_profile(const Box3& navigation_m, const Vie
     if (distance_m(i) < distance_m(nearest)) nearest = i;
   }
   const bool counter_clockwise = distance_m(nearest + 1) <= distance_m(nearest + 7);
-
   std::vector<ProfileLeg> legs;
   for (std::size_t k = 0; k < 8; ++k) {
     const Eigen::Vector2d& p = stations[(nearest + (counter_clockwise ? k : 8 - k)) % 8];
-    const Eigen::Vector2d to_center = navigation_m.center().head<2>() - p;
+    const Eigen::Vector2d to_center = mid.head<2>() - p;
     const double yaw_rad = std::atan2(to_center.y(), to_center.x());
-    const auto heights =
-        allowed_heights(no_fly, p, {navigation_m.min().z(), navigation_m.max().z()});
+    const auto heights = allowed_heights(no_fly, p, {lo.z(), hi.z()});
     if (!heights) continue;
     legs.push_back({{Vec3(p.x(), p.y(), heights->high_m), yaw_rad}, false});
     legs.push_back({{Vec3(p.x(), p.y(), heights->low_m), yaw_rad}, true});
   }
   return legs;
+}
+
+ProfileRoute::ProfileRoute(const ProfilingConfig& config, const Box3& navigation_m,
+                           const ViewPose& start, NoFly no_fly)
+    : config_(config),
+      navigation_m_(navigation_m),
+      no_fly_(std::move(no_fly)),
+      at_m_(start.p_world_m),
+      z_m_(navigation_m.min().z()) {
+  if (config.method == ProfilingMethod::bounding_box) {
+    legs_ = bounding_box_profile(navigation_m, start, no_fly_);
+  }
+  const Vec3 from_center_m = start.p_world_m - navigation_m.center();
+  bearing_rad_ = std::atan2(from_center_m.y(), from_center_m.x());
+}
+
+std::optional<ProfileLeg> ProfileRoute::next(bool saw_surface) {
+  while (detour_.empty()) {
+    if (next_leg_ == legs_.size() && !plan_on_circle(saw_surface)) return std::nullopt;
+    const ProfileLeg& leg = legs_[next_leg_++];
+    const Vec3& to_m = leg.goal.p_world_m;
+    if (!no_fly_.allows(to_m)) continue;
+    const auto via_m = way_around(no_fly_, navigation_m_, at_m_, to_m);
+    if (!via_m) continue;
+    detour_ = {leg};
+    for (auto p_m = via_m->rbegin(); p_m != via_m->rend(); ++p_m) {
+      detour_.push_back({{*p_m, leg.goal.yaw_rad}, false});
+    }
+  }
+  const ProfileLeg leg = detour_.back();
+  detour_.pop_back();
+  at_m_ = leg.goal.p_world_m;
+  return leg;
+}
+
+double ProfileRoute::share_done() const {
+  if (config_.method == ProfilingMethod::circular) {
+    return static_cast<double>(std::max(station_, 0)) / config_.circle_stations;
+  }
+  return legs_.empty() ? 1.0 : static_cast<double>(next_leg_) / static_cast<double>(legs_.size());
+}
+
+/// Adds the legs that come next on the circle that the navigation box holds: one more climb while
+/// surface is seen, else all to the next station's first climb. False when there are none.
+bool ProfileRoute::plan_on_circle(bool saw_surface) {
+  constexpr double kArc_rad = deg_to_rad(18.0);  // its chord comes 1.2 % of the radius inside
+  if (config_.method != ProfilingMethod::circular) return false;
+  const double bottom_m = navigation_m_.min().z();
+  const double top_m = navigation_m_.max().z();
+  const double radius_m = 0.5 * std::min(navigation_m_.sizes().x(), navigation_m_.sizes().y());
+  const double spacing_rad = 2.0 * kPi / config_.circle_stations;
+  const auto add = [&](double to_go, double z_m, bool is_scan) {
+    const double bearing_rad = bearing_rad_ + station_ * spacing_rad - to_go * spacing_rad;
+    const Vec3 outwards(std::cos(bearing_rad), std::sin(bearing_rad), 0.0);
+    Vec3 p_m = navigation_m_.center() + radius_m * outwards;
+    p_m.z() = z_m_ = z_m;
+    legs_.push_back({{p_m, wrap_angle_rad(bearing_rad + kPi)}, is_scan});
+  };
+  const auto climb = [&] { add(0.0, std::min(z_m_ + config_.climb_step_m, top_m), true); };
+  if (station_ >= 0 && saw_surface && z_m_ < top_m) {
+    climb();
+    return true;
+  }
+  station_ = std::min(station_ + 1, config_.circle_stations);
+  if (station_ == config_.circle_stations) return false;
+  // in arcs that stay outside the structure, at the height it has climbed to
+  const int arcs = station_ == 0 ? 1 : static_cast<int>(std::ceil(spacing_rad / kArc_rad - 1e-9));
+  for (int arc = 1; arc <= arcs; ++arc) add(1.0 - static_cast<double>(arc) / arcs, z_m_, false);
+  if (z_m_ > bottom_m) add(0.0, bottom_m, true);
+  if (z_m_ < top_m) climb();
+  return true;
 }
 
 bool sees_surface(std::span<const LidarScan> scans, std::span<const LidarModel> lidars,

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "planner/motion/no_fly.hpp"
-#include "sim/core/pose.hpp"
 
 namespace gnbv {
 
@@ -53,23 +52,19 @@ class ProfileRoute {
   double share_done() const;
 
  private:
-  std::optional<ProfileLeg> next_of_method(bool saw_surface);
-  std::optional<ProfileLeg> next_on_circle(bool saw_surface);
-  ViewPose on_circle(double bearing_rad, double z_m) const;
+  bool plan_on_circle(bool saw_surface);
 
   ProfilingConfig config_;
   Box3 navigation_m_;
   NoFly no_fly_;
   Vec3 at_m_;                       // where the legs so far end
-  std::vector<ProfileLeg> detour_;  // legs to hand out before the method's next, the last one first
-  std::vector<ProfileLeg> legs_;    // bounding_box: all of them
-  std::size_t next_leg_ = 0;
-  // circular: the inscribed circle of the navigation box
-  double radius_m_ = 0.0;
-  double first_bearing_rad_ = 0.0;
-  int station_ = 0;
-  int arc_ = 0;  // of the way to the station, in steps that stay outside the structure
-  double z_m_ = 0.0;
+  std::vector<ProfileLeg> legs_;    // as the method plans them
+  std::size_t next_leg_ = 0;        // of them
+  std::vector<ProfileLeg> detour_;  // legs to hand out before those, the last one first
+  // circular
+  double bearing_rad_;  // of the first station, from the box's centre
+  int station_ = -1;    // where it climbs
+  double z_m_;          // how far it has climbed
 };
 
 /// Whether any of the sweeps had a return above the floor.
