@@ -1,6 +1,7 @@
 #include "bench/compare/table_groups.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "sim/core/error.hpp"
 
@@ -24,10 +25,12 @@ std::vector<TableGroup> table_groups(std::span<const RunFigures> runs,
 
 std::string name_in_table(const PaperTable& paper, const std::string& utility) {
   if (const PaperRow* const row = find_row(paper, utility)) return std::string(row->label);
-  if (utility == "tour") return "Tour";
-  if (utility == "oracle_views") return "Oracle, few views";
-  if (utility == "oracle_metres") return "Oracle, few metres";
-  return utility;
+  static const std::map<std::string, std::string> labels = {
+      {"tour", "Tour"},
+      {"oracle_views", "Oracle, few views"},
+      {"oracle_metres", "Oracle, few metres"}};
+  const auto label = labels.find(utility);
+  return label == labels.end() ? utility : label->second;
 }
 
 }  // namespace gnbv

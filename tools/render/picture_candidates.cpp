@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include "tools/render/candidate_legend.hpp"
 #include "tools/render/candidate_views.hpp"
@@ -28,20 +29,23 @@ void add_pin(const ViewPose& view, double length_m, double radius_m, const Rgb& 
 
 // "24 candidates around frontiers (0 valid), 80 of the grid (31 valid)"
 std::string counts_by_sampler(const Plan& plan) {
-  std::string words;
-  for (const SamplerTraits& sampler : all_samplers()) {
-    if (!sampler.is_scored) continue;
+  struct Tally {
     std::size_t all = 0;
     std::size_t valid = 0;
-    for (const Candidate& candidate : plan.candidates) {
-      if (candidate.sampler != sampler.sampler) continue;
-      ++all;
-      valid += candidate.rejected ? 0 : 1;
-    }
-    if (all == 0) continue;
-    words += fmt::format("{} {} ({} valid)",
-                         words.empty() ? counted(all, "candidate") : ", " + grouped(all),
-                         sampler.words, grouped(valid));
+  };
+  std::map<Sampler, Tally> tallies;
+  for (const Candidate& candidate : plan.candidates) {
+    Tally& tally = tallies[candidate.sampler];
+    ++tally.all;
+    tally.valid += candidate.rejected ? 0 : 1;
+  }
+  std::string words;
+  for (const auto& [sampler, tally] : tallies) {
+    if (!traits_of(sampler).is_scored) continue;
+    words +=
+        fmt::format("{} {} ({} valid)",
+                    words.empty() ? counted(tally.all, "candidate") : ", " + grouped(tally.all),
+                    traits_of(sampler).words, grouped(tally.valid));
   }
   return words.empty() ? counted(plan.candidates.size(), "candidate") : words;
 }
