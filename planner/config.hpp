@@ -6,13 +6,13 @@
 #include <string>
 #include <string_view>
 
-#include "planner/core/termination.hpp"
+#include "planner/core/planner.hpp"
 #include "planner/guided/utility.hpp"
 #include "planner/guided/view_sampling.hpp"
 #include "planner/map/config.hpp"
 #include "planner/motion/view_checker.hpp"
 #include "planner/profiling.hpp"
-#include "planner/route/laid_views.hpp"
+#include "planner/route/route_planners.hpp"
 #include "planner/symmetry/config.hpp"
 #include "planner/tour/config.hpp"
 

@@ -12,14 +12,6 @@
 #include <vector>
 
 #include "planner/config.hpp"
-#include "planner/core/belief.hpp"
-#include "planner/core/history.hpp"
-#include "planner/core/model.hpp"
-#include "planner/core/planner.hpp"
-#include "planner/core/scratch.hpp"
-#include "sensors/camera_model.hpp"
-#include "sensors/frames.hpp"
-#include "sensors/lidar_model.hpp"
 
 namespace gnbv {
 
@@ -73,8 +65,7 @@ class Onboard {
   const History& history() const { return history_; }
 
  private:
-  void predict_from_profile();
-  double way_m(const Decision& next) const;
+  void begin_from_profile();
 
   const PlannerConfig config_;
   const PlannerModel model_;
@@ -83,10 +74,7 @@ class Onboard {
   Belief belief_;
   History history_;
   ViewPose current_;
-  double entropy_before_nat_;    // the frames that came since the last view
-  double straight_m_ = 0.0;      // of the planned way, from the first view on
-  Decision flown_to_;            // the view that is taken next
-  std::vector<Decision> ahead_;  // of the plan at hand, the next one last
+  Decision flown_to_;  // the view that is taken next
   Termination end_ = Termination::no_valid_view;
 };
 

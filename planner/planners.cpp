@@ -75,9 +75,8 @@ const NamedPlanner* planner_named(std::string_view name) {
 
 PlannerTraits traits_of(const PlannerConfig& config) {
   if (const NamedPlanner* const named = planner_named(config.utility.name)) return named->traits;
-  return {.scores_views = true,
-          .reads_prediction = reads_prediction(config.utility),
-          .keeps_shadow = needs_of(config.utility).shadow};
+  const UtilityNeeds needs = needs_of(config.utility);
+  return {.scores_views = true, .reads_prediction = needs.prediction, .keeps_shadow = needs.shadow};
 }
 
 double planning_bytes(const PlannerConfig& config, const Box3& workspace_m, int threads,
@@ -110,7 +109,7 @@ std::unique_ptr<Planner> make_planner(const PlannerConfig& config, const Planner
 }
 
 PlannerModel make_model(const PlannerConfig& config, const Box3& workspace_m,
-                        std::span<const CameraModel> cameras, std::span<const LidarModel> lidars,
+                        std::span<const CameraConfig> cameras, std::span<const LidarConfig> lidars,
                         std::uint64_t seed, NoFly no_fly) {
   const BeliefConfig belief = {.map = config.map,
                                .cloud = config.cloud,

@@ -7,10 +7,6 @@
 #include <vector>
 
 #include "planner/config.hpp"
-#include "planner/core/model.hpp"
-#include "planner/core/planner.hpp"
-#include "planner/guided/user_utility.hpp"
-#include "planner/route/route_planners.hpp"
 
 namespace gnbv {
 
@@ -55,7 +51,7 @@ std::unique_ptr<Planner> make_planner(const PlannerConfig& config, const Planner
 
 /// What the settings mean for these cameras and this workspace.
 PlannerModel make_model(const PlannerConfig& config, const Box3& workspace_m,
-                        std::span<const CameraModel> cameras, std::span<const LidarModel> lidars,
+                        std::span<const CameraConfig> cameras, std::span<const LidarConfig> lidars,
                         std::uint64_t seed = 0, NoFly no_fly = {});
 
 }  // namespace gnbv

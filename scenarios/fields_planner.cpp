@@ -22,9 +22,9 @@ bool may_end_early(const Scenario& s) {
 }
 bool may_end_by_entropy(const Scenario& s) { return may_end_early(s) && !makes_tours(s); }
 bool would_read_prediction(const Scenario& s) {
-  UtilityConfig weighed = s.planner.utility;
-  weighed.gamma = 1.0;
-  return reads_prediction(weighed);
+  PlannerConfig weighed = s.planner;
+  weighed.utility.gamma = 1.0;
+  return traits_of(weighed).reads_prediction;
 }
 
 }  // namespace
@@ -169,31 +169,25 @@ void fields(const Keys& key, UtilityConfig& c) {
   names.push_back(kUserUtilityName);
   key("name", c.name, names,
       "What ranks the candidate views, or a baseline's, an oracle's or your own route.");
-  const auto is_one_of = [&](std::initializer_list<std::string_view> known) {
-    return std::find(known.begin(), known.end(), c.name) != known.end();
-  };
-  const auto of = [&](std::initializer_list<std::string_view> known) {
-    return key.only_if(scores_views, kUtility).only_if(is_one_of(known), kUtility);
-  };
-  const Keys proposed = of({"proposed"});
-  const Keys counted = of({"bircher", "isler"});
-  const bool hides_hits = is_one_of({"bircher", "isler"}) && c.prediction_hides_hits;
-  proposed("alpha", c.alpha, kWeight, "Weight of information, Eq. (2).");
-  proposed("beta", c.beta, kWeight, "Weight of density, Eq. (2).");
-  key.only_if(hides_hits || c.name == "proposed", kUtility)("gamma", c.gamma, kWeight,
-                                                            "Weight of prediction, Eq. (2).");
-  of({"proposed", "bircher_volume", "aep"})("lambda_per_m", c.lambda_per_m, kWeight,
-                                            "Decay with distance, Eq. (2).");
-  proposed("density_term", c.density_term,
-           {{DensityTerm::sparse, "sparse"}, {DensityTerm::literal, "literal"}},
-           "sparse: reward thinly sampled surface; literal: Eq. (2) as printed.");
-  of({"bircher"})("bircher_lambda_per_m", c.bircher_lambda_per_m, kWeight,
-                  "bircher: decay with distance; 0.5 in the released configuration.");
-  of({"proposed", "bircher", "bircher_volume", "aep", "nearest_frontier", kUserUtilityName})(
+  const UtilitySettings reads = settings_read_by(c.name);
+  const auto where = [&](bool is_read) { return key.only_if(is_read, kUtility); };
+  const Keys eq2 = where(reads.eq2);
+  const Keys counted = where(reads.baseline);
+  eq2("alpha", c.alpha, kWeight, "Weight of information, Eq. (2).");
+  eq2("beta", c.beta, kWeight, "Weight of density, Eq. (2).");
+  where(reads.eq2 || (reads.baseline && c.prediction_hides_hits))("gamma", c.gamma, kWeight,
+                                                                  "Weight of prediction, Eq. (2).");
+  where(reads.lambda)("lambda_per_m", c.lambda_per_m, kWeight, "Decay with distance, Eq. (2).");
+  eq2("density_term", c.density_term,
+      {{DensityTerm::sparse, "sparse"}, {DensityTerm::literal, "literal"}},
+      "sparse: reward thinly sampled surface; literal: Eq. (2) as printed.");
+  where(reads.bircher_lambda)("bircher_lambda_per_m", c.bircher_lambda_per_m, kWeight,
+                              "bircher: decay with distance; 0.5 in the released configuration.");
+  where(reads.distance)(
       "distance", c.distance,
       {{DistanceAlong::path, "path"}, {DistanceAlong::straight, "straight"}},
       "Gains are discounted with the distance along the way that is flown, or straight.");
-  proposed("normalise_weights", c.normalise_weights, "Divide beta and gamma by their sum.");
+  eq2("normalise_weights", c.normalise_weights, "Divide beta and gamma by their sum.");
   counted("ig_counting", c.ig_counting,
           {{IgCounting::per_ray, "per_ray"}, {IgCounting::unique, "unique"}},
           "bircher, isler: a voxel counts once per ray that crosses it, or once.");
@@ -202,14 +196,14 @@ void fields(const Keys& key, UtilityConfig& c) {
           "bircher, isler: whether the voxel that ends a ray counts; excluded: released slip.");
   counted("prediction_hides_hits", c.prediction_hides_hits,
           "A hit counts only where the prediction was hit too; released slip.");
-  of({"occlusion_aware", "unobserved_voxel", "rear_side_entropy", kUserUtilityName})(
+  where(reads.visibility)(
       "legacy_visibility", c.legacy_visibility,
       "Visibility multiplies P instead of 1 - P, as in the released code of Delmerico et al.");
-  of({"bircher_volume"})
+  where(reads.volume_weights)
       .section("volume_weights", c.volume_weights, "bircher_volume: worth of visible space.");
-  of({"proximity_count", "area_factor", kUserUtilityName})
+  where(reads.shadow)
       .section("shadow", c.shadow, "proximity_count, area_factor: what lies behind seen surface.");
-  of({kUserUtilityName}).section("python", c.python, "python: a function of yours.");
+  where(is_user_utility(c.name)).section("python", c.python, "python: a function of yours.");
 }
 
 void fields(const Keys& key, ViewPose& c) {

@@ -1,13 +1,51 @@
 #include "planner/core/belief.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
-#include "planner/core/model.hpp"
-#include "planner/core/scratch.hpp"
-#include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
 
 namespace gnbv {
+
+PlannerModel::PlannerModel(const BeliefConfig& belief_config, const ValidityConfig& validity_config,
+                           const Box3& workspace, std::span<const CameraConfig> camera_configs,
+                           std::span<const LidarConfig> lidar_configs, std::uint64_t mission_seed,
+                           NoFly mission_no_fly)
+    : belief(belief_config),
+      validity(validity_config),
+      seed(mission_seed),
+      workspace_m(workspace),
+      navigation_m(navigation_box_m(validity_config, workspace)),
+      no_fly(std::move(mission_no_fly)),
+      gimbal(gimbal_of(camera_configs)),
+      pitches_rad(gimbal ? gnbv::pitches_rad(*gimbal) : std::vector<double>{0.0}) {
+  const double resolution_m = belief.map.resolution_m;
+  for (const LidarConfig& lidar : lidar_configs) lidars.push_back(make_lidar_model(lidar));
+  for (const CameraConfig& camera : camera_configs) {
+    cameras.push_back(make_camera_model(camera));
+    view_voxels += frustum_m3(camera);
+  }
+  for (const double pitch_rad : pitches_rad) {
+    view_rays.push_back(make_view_rays(turned(cameras, pitch_rad), resolution_m));
+  }
+  view_voxels /= std::pow(resolution_m, 3);
+}
+
+const ViewRays& PlannerModel::rays_at(double gimbal_pitch_rad) const {
+  const auto nearest =
+      std::min_element(pitches_rad.begin(), pitches_rad.end(), [&](double a, double b) {
+        return std::abs(a - gimbal_pitch_rad) < std::abs(b - gimbal_pitch_rad);
+      });
+  return view_rays[static_cast<std::size_t>(nearest - pitches_rad.begin())];
+}
+
+bool PlannerModel::can_pitch(double gimbal_pitch_rad) const {
+  constexpr double kRounding_rad = 1e-9;
+  if (!gimbal) return gimbal_pitch_rad == 0.0;
+  return gimbal_pitch_rad >= gimbal->min_rad - kRounding_rad &&
+         gimbal_pitch_rad <= gimbal->max_rad + kRounding_rad;
+}
 
 Belief::Belief(const PlannerModel& model)
     : grid(model.belief.map, model.workspace_m),
@@ -15,15 +53,23 @@ Belief::Belief(const PlannerModel& model)
       shadow(model.belief.shadow, grid.geometry()),
       floor_z_m(model.belief.floor_z_m) {}
 
+Scratch::Scratch(const PlannerModel& model, int thread_count)
+    : threads(std::max(thread_count, 1)), inserter(model.geometry()) {
+  const std::size_t voxels = model.geometry().voxel_count();
+  // one by one: copies would write pages that cost nothing yet
+  marks.reserve(static_cast<std::size_t>(threads));
+  for (int i = 0; i < threads; ++i) marks.emplace_back(voxels);
+  frontier_marks = FrontierMarks(voxels);
+}
+
 void integrate_profile(const PlannerModel& model, std::span<const LidarScan> scans,
                        Scratch& scratch, Belief& belief) {
-  scratch.inserter.insert_scans(belief.grid, scans, model.lidars, model.belief.floor_z_m,
-                                scratch.threads);
+  const double floor_z_m = model.belief.floor_z_m;
+  scratch.inserter.insert_scans(belief.grid, scans, model.lidars, floor_z_m, scratch.threads);
   std::vector<Vec3f> points;
   for (const LidarScan& scan : scans) {
     const LidarModel& lidar = model.lidars[static_cast<std::size_t>(scan.lidar)];
-    const std::vector<Vec3f> hits =
-        surface_points_world_m(rays_of(scan, lidar, model.belief.floor_z_m));
+    const std::vector<Vec3f> hits = surface_points_world_m(rays_of(scan, lidar, floor_z_m));
     points.insert(points.end(), hits.begin(), hits.end());
   }
   belief.cloud.add(points, model.belief.cloud.profile_leaf_m);
@@ -32,29 +78,27 @@ void integrate_profile(const PlannerModel& model, std::span<const LidarScan> sca
 void integrate_view(const PlannerModel& model, std::span<const DepthFrame> frames, Scratch& scratch,
                     Belief& belief) {
   if (frames.empty()) return;
-  scratch.frame_rays.resize(frames.size());
+  std::vector<FrameRays>& rays = scratch.frame_rays;
+  rays.resize(frames.size());
   const auto camera_of = [&](std::size_t i) -> const CameraModel& {
     return model.cameras[static_cast<std::size_t>(frames[i].camera)];
   };
   parallel_for(scratch.threads, frames.size(), [&](std::size_t i) {
-    compute_frame_rays(frames[i], camera_of(i), model.belief.floor_z_m, scratch.frame_rays[i]);
+    compute_frame_rays(frames[i], camera_of(i), model.belief.floor_z_m, rays[i]);
   });
   const auto add_to_map = [&](std::size_t i) {
-    belief.grid.apply(scratch.inserter.compute_update(scratch.frame_rays[i], frames[i],
-                                                      camera_of(i), belief.grid, scratch.threads));
-    if (model.belief.keeps_shadow) belief.shadow.add(scratch.frame_rays[i], belief.grid);
+    belief.grid.apply(scratch.inserter.compute_update(rays[i], frames[i], camera_of(i), belief.grid,
+                                                      scratch.threads));
+    if (model.belief.keeps_shadow) belief.shadow.add(rays[i], belief.grid);
   };
   // the cloud, which nothing here reads, grows beside the map
   parallel_for(scratch.threads, 2, [&](std::size_t task) {
-    if (task == 0) belief.cloud.add(scratch.frame_rays);
+    if (task == 0) belief.cloud.add(rays);
     for (std::size_t i = 0; task == 1 && i < frames.size(); ++i) add_to_map(i);
   });
-  const auto has_hit = [](const FrameRays& rays) {
-    return std::find(rays.kind.begin(), rays.kind.end(), PixelRay::hits) != rays.kind.end();
-  };
-  belief.has_depth_return =
-      belief.has_depth_return ||
-      std::any_of(scratch.frame_rays.begin(), scratch.frame_rays.end(), has_hit);
+  belief.has_depth_return |= std::any_of(rays.begin(), rays.end(), [](const FrameRays& frame) {
+    return std::find(frame.kind.begin(), frame.kind.end(), PixelRay::hits) != frame.kind.end();
+  });
 }
 
 }  // namespace gnbv

@@ -1,18 +1,66 @@
-// What is believed about the world, and how what the sensors measured is added to it. Nothing here
-// ever sees the mesh, the world or the vehicle.
+// What every planner works on: what it is given once (the model), what is believed about the world,
+// how measurements are added to that, and memory to work in. Nothing here ever sees the mesh, the
+// world or the vehicle.
 #pragma once
 
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <optional>
 #include <span>
+#include <vector>
 
+#include "planner/map/config.hpp"
+#include "planner/map/frontiers.hpp"
 #include "planner/map/occupancy_grid.hpp"
+#include "planner/map/scan_insertion.hpp"
 #include "planner/map/surface_cloud.hpp"
+#include "planner/motion/config.hpp"
+#include "planner/motion/no_fly.hpp"
+#include "planner/view/config.hpp"
 #include "planner/view/shadow_band.hpp"
+#include "planner/view/visibility.hpp"
+#include "sensors/camera_model.hpp"
 #include "sensors/frames.hpp"
+#include "sensors/lidar_model.hpp"
 
 namespace gnbv {
 
-struct PlannerModel;
-struct Scratch;
+/// How what the sensors measured is believed.
+struct BeliefConfig {
+  OccupancyConfig map = {};
+  CloudConfig cloud = {};
+  double floor_z_m = 0.3;  // returns below are the floor: they clear, but mark nothing
+  ShadowConfig shadow = {};
+  bool keeps_shadow = false;  // whether anybody asks for Belief::shadow
+};
+
+/// What a planner knows of vehicle and workspace, and how it believes.
+struct PlannerModel {
+  PlannerModel(const BeliefConfig& belief_config, const ValidityConfig& validity_config,
+               const Box3& workspace, std::span<const CameraConfig> camera_configs,
+               std::span<const LidarConfig> lidar_configs, std::uint64_t mission_seed = 0,
+               NoFly mission_no_fly = {});
+
+  BeliefConfig belief;
+  ValidityConfig validity;
+  std::uint64_t seed;  // of what a planner leaves to chance
+  Box3 workspace_m;
+  Box3 navigation_m;
+  NoFly no_fly;
+  std::vector<CameraModel> cameras;
+  std::vector<LidarModel> lidars;
+  std::optional<GimbalConfig> gimbal;  // of the cameras that have one
+  std::vector<double> pitches_rad;     // that it offers; without one only 0
+  std::vector<ViewRays> view_rays;     // by those pitches
+  double view_voxels = 0.0;            // of the cameras' frusta together, up to maximum range
+
+  GridGeometry geometry() const { return {workspace_m, belief.map.resolution_m}; }
+  /// The rays of a view whose gimbal has this pitch, or the nearest that it offers.
+  const ViewRays& rays_at(double gimbal_pitch_rad) const;
+  /// Whether the gimbal reaches this pitch; without one, only 0 means anything.
+  bool can_pitch(double gimbal_pitch_rad) const;
+};
 
 struct Belief {
   explicit Belief(const PlannerModel& model);
@@ -22,6 +70,30 @@ struct Belief {
   ShadowBand shadow;
   double floor_z_m;               // returns below were taken for the floor
   bool has_depth_return = false;  // any camera has seen a surface
+};
+
+/// Thrown out of a planner that was asked to stop in the middle of its work.
+class StopRequested : public std::exception {
+ public:
+  const char* what() const noexcept override { return "asked to stop"; }
+};
+
+/// Memory to work in, kept from view to view, and whether somebody wants the work to stop. No
+/// result depends on what it holds.
+struct Scratch {
+  Scratch(const PlannerModel& model, int thread_count);
+
+  int threads;
+  std::function<bool()> should_stop;  // none: nobody asks; any thread may call it
+  ScanInserter inserter;
+  std::vector<FrameRays> frame_rays;  // of the view at hand
+  std::vector<VisitMarks> marks;      // one a thread
+  FrontierMarks frontier_marks;
+
+  /// For loops that may take long, several times a second. Throws StopRequested.
+  void heed_stop() const {
+    if (should_stop && should_stop()) throw StopRequested();
+  }
 };
 
 /// Adds the buffered sweeps of the profile in one batch (paper section 2.2).

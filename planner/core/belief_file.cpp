@@ -1,9 +1,11 @@
 #include "planner/core/belief_file.hpp"
 
+#include <array>
 #include <bit>
 #include <cstring>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "sim/core/error.hpp"
@@ -13,31 +15,25 @@
 namespace gnbv {
 namespace {
 
-static_assert(std::endian::native == std::endian::little);
+static_assert(std::endian::native == std::endian::little && sizeof(Vec3f) == 3 * sizeof(float));
 
 constexpr std::string_view kFirstLine = "gnbv belief 1\n";
 constexpr std::size_t kDigestLength = 64;
 
-/// What a run of voxels is. Measured ones have a log-odds besides.
 enum class Run : std::uint8_t { unmeasured = 0, predicted = 1, measured = 2 };
 
-struct Setting {
-  const char* name;
-  double value;
-};
-
 /// All that the numbers of a belief depend on.
-std::vector<Setting> settings_of(const Belief& belief) {
+std::vector<std::pair<const char*, double>> settings_of(const Belief& belief) {
   const OccupancyConfig& map = belief.grid.config();
   const GridGeometry& grid = belief.grid.geometry();
-  const auto key = [](std::int32_t k) { return static_cast<double>(k); };
+  const Key& first = grid.min_key();
   return {{"resolution_m", map.resolution_m},
-          {"workspace's first voxel along x", key(grid.min_key()[0])},
-          {"workspace's first voxel along y", key(grid.min_key()[1])},
-          {"workspace's first voxel along z", key(grid.min_key()[2])},
-          {"voxels along x", key(grid.size()[0])},
-          {"voxels along y", key(grid.size()[1])},
-          {"voxels along z", key(grid.size()[2])},
+          {"workspace's first voxel along x", 1.0 * first[0]},
+          {"workspace's first voxel along y", 1.0 * first[1]},
+          {"workspace's first voxel along z", 1.0 * first[2]},
+          {"voxels along x", 1.0 * grid.size()[0]},
+          {"voxels along y", 1.0 * grid.size()[1]},
+          {"voxels along z", 1.0 * grid.size()[2]},
           {"prob_hit", map.prob_hit},
           {"prob_miss", map.prob_miss},
           {"clamp_min", map.clamp_min},
@@ -69,16 +65,12 @@ class Reader {
   [[noreturn]] void refuse(const std::string& why) const {
     throw BadInput(fmt::format("{}: {}", path_.string(), why));
   }
-  std::string_view take_bytes(std::size_t count) {
-    if (count > rest_.size()) refuse("the belief ends too early");
-    const std::string_view taken = rest_.substr(0, count);
-    rest_.remove_prefix(count);
-    return taken;
-  }
   template <typename T>
   T take() {
+    if (sizeof(T) > rest_.size()) refuse("the belief ends too early");
     T value;
-    std::memcpy(&value, take_bytes(sizeof(T)).data(), sizeof(T));
+    std::memcpy(&value, rest_.data(), sizeof(T));
+    rest_.remove_prefix(sizeof(T));
     return value;
   }
   std::uint64_t take_count() {
@@ -97,47 +89,30 @@ class Reader {
   const std::filesystem::path& path_;
 };
 
-void put_points(std::span<const Vec3f> points_m, std::string& out) {
-  append_bytes(out, static_cast<std::uint64_t>(points_m.size()));
-  for (const Vec3f& p_m : points_m) {
-    for (Eigen::Index a = 0; a < 3; ++a) append_bytes(out, p_m[a]);
-  }
-}
-
 std::vector<Vec3f> take_points(Reader& in) {
   const auto count = in.take<std::uint64_t>();
-  if (count > in.size() / (3 * sizeof(float))) in.refuse("fewer points than it says");
+  if (count > in.size() / sizeof(Vec3f)) in.refuse("fewer points than it says");
   std::vector<Vec3f> points_m(count);
-  for (Vec3f& p_m : points_m) {
-    for (Eigen::Index a = 0; a < 3; ++a) p_m[a] = in.take<float>();
-  }
+  for (Vec3f& p_m : points_m) p_m = Vec3f(in.take<std::array<float, 3>>().data());
   return points_m;
 }
 
-Run run_of(const OccupancyGrid& grid, VoxelIndex v) {
-  if (grid.is_measured(v)) return Run::measured;
-  return grid.is_predicted(v) ? Run::predicted : Run::unmeasured;
-}
-
+/// Runs of equal voxels: what they are, how many, and of measured ones the bits of their log-odds.
 void put_voxels(const OccupancyGrid& grid, std::string& out) {
+  const auto kind_of = [&](VoxelIndex v) {
+    const Run run = grid.is_measured(v)    ? Run::measured
+                    : grid.is_predicted(v) ? Run::predicted
+                                           : Run::unmeasured;
+    return std::pair(run, std::bit_cast<std::uint32_t>(grid.log_odds(v)));
+  };
   const auto voxels = static_cast<VoxelIndex>(grid.geometry().voxel_count());
-  for (VoxelIndex first = 0; first < voxels;) {
-    const Run run = run_of(grid, first);
-    const auto bits = std::bit_cast<std::uint32_t>(grid.log_odds(first));
-    VoxelIndex end = first + 1;
-    while (end < voxels && run_of(grid, end) == run &&
-           std::bit_cast<std::uint32_t>(grid.log_odds(end)) == bits) {
-      ++end;
-    }
+  for (VoxelIndex first = 0, end = 0; first < voxels; first = end) {
+    const auto [run, bits] = kind_of(first);
+    while (end < voxels && kind_of(end) == std::pair(run, bits)) ++end;
     append_bytes(out, static_cast<std::uint8_t>(run));
     put_count(end - first, out);
     if (run == Run::measured) append_bytes(out, bits);
-    first = end;
   }
-}
-
-bool restore_voxel(OccupancyGrid& grid, VoxelIndex v, Run run, float log_odds) {
-  return run == Run::measured ? grid.restore(v, log_odds) : grid.predict(v);
 }
 
 void take_voxels(Reader& in, OccupancyGrid& grid) {
@@ -149,10 +124,9 @@ void take_voxels(Reader& in, OccupancyGrid& grid) {
     if (length == 0 || length > voxels - first) in.refuse("another number of voxels than it says");
     const float log_odds = run == Run::measured ? in.take<float>() : 0.0F;
     const std::size_t end = first + length;
-    for (std::size_t v = first; run != Run::unmeasured && v < end; ++v) {
-      if (!restore_voxel(grid, static_cast<VoxelIndex>(v), run, log_odds)) {
-        in.refuse(fmt::format("log-odds {} are beyond the clamping bounds", log_odds));
-      }
+    for (auto v = static_cast<VoxelIndex>(first); run != Run::unmeasured && v < end; ++v) {
+      if (run == Run::measured ? grid.restore(v, log_odds) : grid.predict(v)) continue;
+      in.refuse(fmt::format("log-odds {} are beyond the clamping bounds", log_odds));
     }
     first = end;
   }
@@ -202,9 +176,11 @@ std::string_view checked_body(std::string_view content, const Reader& in) {
 
 void write_belief(const Belief& belief, const std::filesystem::path& path) {
   std::string out(kFirstLine);
-  for (const Setting& setting : settings_of(belief)) append_bytes(out, setting.value);
+  for (const auto& [name, value] : settings_of(belief)) append_bytes(out, value);
   append_bytes(out, static_cast<std::uint8_t>(belief.has_depth_return));
-  put_points(belief.cloud.points_world_m(), out);
+  const std::span<const Vec3f> points_m = belief.cloud.points_world_m();
+  append_bytes(out, static_cast<std::uint64_t>(points_m.size()));
+  out.append(reinterpret_cast<const char*>(points_m.data()), points_m.size_bytes());
   put_voxels(belief.grid, out);
   put_shadow(belief, out);
   out += digest_of(out);
@@ -215,11 +191,10 @@ Belief read_belief(const std::filesystem::path& path, const PlannerModel& model)
   const std::string content = read_file(path);
   Reader in(checked_body(content, Reader(content, path)), path);
   Belief belief(model);
-  for (const Setting& setting : settings_of(belief)) {
-    const auto value = in.take<double>();
-    if (value == setting.value) continue;
-    in.refuse(fmt::format("the belief of another map: {} is {}, not {}", setting.name, value,
-                          setting.value));
+  for (const auto& [name, value] : settings_of(belief)) {
+    const auto its = in.take<double>();
+    if (its == value) continue;
+    in.refuse(fmt::format("the belief of another map: {} is {}, not {}", name, its, value));
   }
   belief.has_depth_return = in.take<std::uint8_t>() != 0;
   if (!belief.cloud.restore(take_points(in))) in.refuse("its points are not those of a cloud");

@@ -2,35 +2,43 @@
 
 #include <algorithm>
 #include <array>
-#include <set>
 #include <utility>
 
 namespace gnbv {
 namespace {
 
-constexpr std::array kSamplers = {
-    SamplerTraits{Sampler::start, "start", ""},
-    SamplerTraits{Sampler::fvs, "fvs", "around frontiers", true, false, true},
-    SamplerTraits{Sampler::agvs, "agvs", "of the grid", true, true, false},
-    SamplerTraits{Sampler::route, "route", ""},
-    SamplerTraits{Sampler::oracle, "oracle", ""},
-    SamplerTraits{Sampler::tour, "tour", ""},
-};
+// both in the order of their enumeration
+
+constexpr std::array<std::string_view, 16> kTerminations = {
+    "max_iterations",   "max_distance",   "max_flight_time", "entropy_change",
+    "low_gain",         "no_new_points",  "no_valid_view",   "repeated_motion",
+    "battery",          "route_flown",    "off_course",      "tour_complete",
+    "coverage_reached", "utility_failed", "interrupted",     "collision"};
+static_assert(kTerminations.size() == static_cast<std::size_t>(Termination::collision) + 1);
+
+constexpr std::array<SamplerTraits, 6> kSamplers = {
+    {{"start"},
+     {.name = "fvs", .words = "around frontiers", .is_scored = true, .at_frontier = true},
+     {.name = "agvs", .words = "of the grid", .is_scored = true, .on_grid = true},
+     {"route"},
+     {"oracle"},
+     {"tour"}}};
 
 }  // namespace
+
+std::string_view name_of(Termination reason) {
+  return kTerminations[static_cast<std::size_t>(reason)];
+}
 
 const SamplerTraits& traits_of(Sampler sampler) {
   return kSamplers[static_cast<std::size_t>(sampler)];
 }
 
-std::span<const SamplerTraits> all_samplers() { return kSamplers; }
-
 std::optional<Sampler> sampler_named(std::string_view name) {
-  const auto* const found =
-      std::find_if(kSamplers.begin(), kSamplers.end(),
-                   [&](const SamplerTraits& traits) { return traits.name == name; });
-  if (found == kSamplers.end()) return std::nullopt;
-  return found->sampler;
+  for (std::size_t i = 0; i < kSamplers.size(); ++i) {
+    if (kSamplers[i].name == name) return static_cast<Sampler>(i);
+  }
+  return std::nullopt;
 }
 
 void check(ViewChecker& checker, Candidate& candidate) {
@@ -45,15 +53,15 @@ bool Plan::is_chosen(std::size_t candidate) const {
 }
 
 std::map<Rejection, int> rejections_of(const Plan& plan) {
-  std::map<Rejection, int> counts;
-  std::set<std::array<double, 5>> counted;
-  for (auto candidate = plan.candidates.rbegin(); candidate != plan.candidates.rend();
-       ++candidate) {
-    const ViewPose& view = candidate->view;
+  std::map<std::array<double, 5>, std::optional<Rejection>> last;
+  for (const Candidate& candidate : plan.candidates) {
+    const ViewPose& view = candidate.view;
     const Vec3& p_m = view.p_world_m;
-    const bool is_last =
-        counted.insert({p_m.x(), p_m.y(), p_m.z(), view.yaw_rad, view.gimbal_pitch_rad}).second;
-    if (is_last && candidate->rejected) ++counts[*candidate->rejected];
+    last[{p_m.x(), p_m.y(), p_m.z(), view.yaw_rad, view.gimbal_pitch_rad}] = candidate.rejected;
+  }
+  std::map<Rejection, int> counts;
+  for (const auto& [view, rejected] : last) {
+    if (rejected) ++counts[*rejected];
   }
   return counts;
 }

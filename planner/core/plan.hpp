@@ -1,36 +1,52 @@
-// What a planner answers: the views to fly, why they were chosen, and what else there was to choose
-// from.
+// What a planner answers: the views to fly and why they were chosen, or why the mission ends; and
+// what else there was to choose from.
 #pragma once
 
 #include <cstddef>
 #include <map>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string_view>
 #include <vector>
 
-#include "planner/core/termination.hpp"
 #include "planner/map/frontiers.hpp"
 #include "planner/motion/view_checker.hpp"
 #include "sim/core/pose.hpp"
 
 namespace gnbv {
 
+/// Why a mission is over. Files hold the name.
+enum class Termination {
+  max_iterations,
+  max_distance,     // the way to the next view would be too long
+  max_flight_time,  // ends in flight
+  entropy_change,
+  low_gain,       // too few new voxels a metre
+  no_new_points,  // views that add nothing to the cloud
+  no_valid_view,
+  repeated_motion,   // goes back and forth between two places
+  battery,           // what is left is needed to land, or to come home and land
+  route_flown,       // every view of a given route was taken
+  off_course,        // carried out of the workspace
+  tour_complete,     // tour: no view pays any more
+  coverage_reached,  // told by the truth, for benchmarks
+  utility_failed,    // a utility of the user's own raised, or returned what are no scores
+  interrupted,
+  collision
+};
+std::string_view name_of(Termination reason);
+
 /// Where a view comes from. Files hold the name; whoever needs more asks traits_of().
 enum class Sampler { start, fvs, agvs, route, oracle, tour };
 
 struct SamplerTraits {
-  Sampler sampler;
-  std::string_view name;     // in files
-  std::string_view words;    // under pictures: "104 of the grid"; empty: nothing is sampled
-  bool is_scored = false;    // its views compete by a utility
-  bool on_grid = false;      // its views lie on a grid around the current one
-  bool at_frontier = false;  // its views look at a cluster of frontier voxels
+  std::string_view name = {};   // in files
+  std::string_view words = {};  // under pictures: "104 of the grid"; empty: nothing is sampled
+  bool is_scored = false;       // its views compete by a utility
+  bool on_grid = false;         // its views lie on a grid around the current one
+  bool at_frontier = false;     // its views look at a cluster of frontier voxels
 };
 const SamplerTraits& traits_of(Sampler sampler);
-/// All samplers in the order of the enumeration.
-std::span<const SamplerTraits> all_samplers();
 /// Nothing for a text that is no sampler's name.
 std::optional<Sampler> sampler_named(std::string_view name);
 
@@ -89,11 +105,11 @@ struct Plan {
   bool is_chosen(std::size_t candidate) const;
 };
 
-/// How many candidates each reason refused. A view that was checked more than once, as of a cluster
-/// that is tried again on ways around, counts once, by what was found last.
+/// How many views each reason refused. One that was checked more than once, as those of a cluster
+/// that is tried again on ways around, counts by what was found last.
 std::map<Rejection, int> rejections_of(const Plan& plan);
 
-/// A plan of one view: the candidate of that index, as it is.
+/// Makes it a plan of one view: the candidate of that index, as it is.
 void choose(Plan& plan, std::size_t candidate, int sampled, int valid);
 
 }  // namespace gnbv

@@ -1,14 +1,76 @@
-// The interface of every planner: from what is believed to the next views, or to the end.
+// The interface of every planner: from what is believed to the next views, or to the end. What it
+// looks back on, and the rules that end its missions (paper section 2.6).
 #pragma once
 
+#include <functional>
 #include <span>
+#include <variant>
 
 #include "planner/core/belief.hpp"
-#include "planner/core/history.hpp"
 #include "planner/core/plan.hpp"
-#include "planner/core/scratch.hpp"
 
 namespace gnbv {
+
+/// Defaults: Table 1 with the released window; max_iterations is the paper's longest aircraft run.
+/// What the paper does not have is off. Zero switches a rule off.
+struct TerminationConfig {
+  int max_iterations = 635;
+  double entropy_change_percent = 0.001;  // |E_n - E_n-1| of the mean of both, in each view ...
+  int entropy_window = 5;                 // ... of so many in a row
+  int repeated_moves = 10;                // back and forth, in a row
+  double max_distance_m = 0.0;            // planned, from the first view on
+  double max_flight_time_s = 0.0;         // simulated, since the mission began
+  double min_new_voxels_per_m = 0.0;      // newly occupied, a planned metre, over the ...
+  int new_voxels_window = 10;             // ... last views; those that only turn end nothing
+  int max_views_without_new_points = 0;   // in a row
+};
+
+/// Which of the rules that read the belief end a mission; its planner says.
+struct EndRules {
+  bool entropy = true;     // entropy_change_percent
+  bool gain = true;        // min_new_voxels_per_m, max_views_without_new_points
+  bool repetition = true;  // repeated_moves
+};
+
+/// What is believed after a view, as far as the rules read it.
+struct MapProgress {
+  std::size_t occupied_voxels = 0;  // of the map
+  std::size_t cloud_points = 0;     // one a leaf
+  double straight_m = 0.0;          // planned, from the first view on
+};
+
+/// What was decided so far, and what it brought; oldest first.
+struct History {
+  std::vector<Decision> decisions;    // flown
+  std::vector<double> entropies_nat;  // total; the first: before the first view with a depth return
+  std::vector<MapProgress> progress;  // after each view
+  std::vector<Decision> ahead;        // of the plan at hand, not flown yet; the next one last
+};
+
+/// Begins the history: what is believed before the first view.
+void remember_start(const Belief& belief, History& history);
+/// Adds a view that was taken, with what is believed after it. `straight_m`: planned_m() to it.
+void remember(const Decision& taken, const Belief& belief, double straight_m, History& history);
+
+/// The planned way from the first view on, with the leg from here to the next one.
+double planned_m(const History& history, const Vec3& from_world_m, const Decision& next);
+
+/// The last views, so many at most.
+std::vector<ViewPose> recent_views(const History& history, int count);
+
+/// Whether each of the last `moves` moves only undoes the one before: the position is that of two
+/// views ago (within a centimetre), and another than that of the view before.
+bool is_back_and_forth(std::span<const Decision> decisions, int moves);
+
+/// The first of the rules that ends the mission after a view, in the order of Termination.
+std::optional<Termination> end_after_view(const TerminationConfig& config, const EndRules& rules,
+                                          const History& history);
+
+/// The view that is flown next, taken from the plan at hand or from a new one. Or why there is
+/// none: what the new plan says, or max_distance.
+std::variant<Decision, Termination> next_decision(const TerminationConfig& config,
+                                                  const ViewPose& current, History& history,
+                                                  const std::function<Plan()>& make_plan);
 
 class Planner {
  public:
@@ -35,9 +97,8 @@ class Planner {
   virtual EndRules end_rules() const { return {}; }
 };
 
-/// Throws BadInput: the view of that iteration, decided anew, is another than was recorded.
-[[noreturn]] void refuse_another_view(std::size_t iteration);
-/// Does so unless the plan's views begin as the recorded ones do. `iteration`: of the first.
+/// Throws BadInput unless the plan's views begin as the recorded ones do. `iteration`: of the
+/// first.
 void need_as_recorded(const Plan& plan, std::span<const Decision> recorded, std::size_t iteration);
 
 }  // namespace gnbv

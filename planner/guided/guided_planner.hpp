@@ -2,13 +2,10 @@
 #pragma once
 
 #include "planner/core/planner.hpp"
-#include "planner/guided/user_utility.hpp"
 #include "planner/guided/utility.hpp"
 #include "planner/guided/view_sampling.hpp"
 
 namespace gnbv {
-
-struct PlannerModel;
 
 struct GuidedConfig {
   AgvsConfig agvs = {};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/view/view_fields.hpp"
 #include "planner/view/visibility.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
@@ -66,30 +67,16 @@ Score bircher(const UtilityConfig& config, const ViewStats& s, const ScoreContex
 
 // ---- volumetric gains of Delmerico et al. 2018, which discount nothing
 
-Score occlusion_aware(const UtilityConfig&, const ViewStats& s, const ScoreContext&) {
-  return gain(s.occlusion_aware_nat);
-}
-
-Score unobserved_voxel(const UtilityConfig&, const ViewStats& s, const ScoreContext&) {
-  return gain(s.unobserved_nat);
-}
-
-Score rear_side_voxel(const UtilityConfig&, const ViewStats& s, const ScoreContext&) {
-  return gain(s.rear_side_rays);
-}
-
-Score rear_side_entropy(const UtilityConfig&, const ViewStats& s, const ScoreContext&) {
-  return gain(s.rear_side_nat);
+/// A number of the view as it is.
+template <auto number>
+Score plain(const UtilityConfig&, const ViewStats& s, const ScoreContext&) {
+  return gain(s.*number);
 }
 
 /// Mean entropy along the rays that end at a surface; 0 without any.
 Score average_entropy(const UtilityConfig&, const ViewStats& s, const ScoreContext&) {
   if (s.crossed_by_occupied == 0) return gain(0.0);
   return gain(s.entropy_of_occupied_nat / static_cast<double>(s.crossed_by_occupied));
-}
-
-Score proximity_count(const UtilityConfig&, const ViewStats& s, const ScoreContext&) {
-  return gain(s.proximity_sum);
 }
 
 /// Vasquez-Gomez et al. 2014: a cubic on each side of the share wanted, 1 there and 0 at 0 and 1.
@@ -108,11 +95,6 @@ Score area_factor(const UtilityConfig&, const ViewStats& s, const ScoreContext&)
   const double rays = s.rays;
   return gain(area_share(s.front_rays / rays, kOccupiedWanted) +
               area_share(s.shadow_rays / rays, kShadowWanted));
-}
-
-/// Kriegel et al. 2015 as Pan et al. compare it: entropy of the rays that end at a surface.
-Score kriegel(const UtilityConfig&, const ViewStats& s, const ScoreContext&) {
-  return gain(s.entropy_of_occupied_nat);
 }
 
 // ---- volume of what is seen
@@ -144,37 +126,62 @@ struct Utility {
   std::string_view name;
   Formula formula;
   UtilityNeeds needs = {};
+  UtilitySettings reads = {};
 };
 
-constexpr UtilityNeeds kProposed = {.refuses_blind = true, .prediction = true};
-constexpr UtilityNeeds kReleasedBaseline = {.refuses_blind = true, .released_baseline = true};
 constexpr UtilityNeeds kRays = {.rays = true};
 constexpr UtilityNeeds kShadow = {.rays = true, .shadow = true};
+using S = ViewStats;
 
 /// The one table of utilities: adding one is a function above and a line here.
 constexpr std::array kUtilities = {
-    Utility{"proposed", proposed, kProposed},
-    Utility{"bircher", bircher, kReleasedBaseline},
-    Utility{"isler", isler, kReleasedBaseline},
-    Utility{"occlusion_aware", occlusion_aware, kRays},
-    Utility{"unobserved_voxel", unobserved_voxel, kRays},
-    Utility{"rear_side_voxel", rear_side_voxel, kRays},
-    Utility{"rear_side_entropy", rear_side_entropy, kRays},
+    Utility{"proposed",
+            proposed,
+            {.prediction = true},
+            {.eq2 = true, .lambda = true, .distance = true}},
+    Utility{"bircher", bircher, {}, {.baseline = true, .bircher_lambda = true, .distance = true}},
+    Utility{"isler", isler, {}, {.baseline = true}},
+    Utility{"occlusion_aware", plain<&S::occlusion_aware_nat>, kRays, {.visibility = true}},
+    Utility{"unobserved_voxel", plain<&S::unobserved_nat>, kRays, {.visibility = true}},
+    Utility{"rear_side_voxel", plain<&S::rear_side_rays>, kRays},
+    Utility{"rear_side_entropy", plain<&S::rear_side_nat>, kRays, {.visibility = true}},
     Utility{"average_entropy", average_entropy, kRays},
-    Utility{"proximity_count", proximity_count, kShadow},
-    Utility{"area_factor", area_factor, kShadow},
-    Utility{"kriegel", kriegel, kRays},
-    Utility{"bircher_volume", bircher_volume},
-    Utility{"aep", aep, kRays},
+    Utility{"proximity_count", plain<&S::proximity_sum>, kShadow, {.shadow = true}},
+    Utility{"area_factor", area_factor, kShadow, {.shadow = true}},
+    // Kriegel et al. 2015 as Pan et al. compare it: entropy of the rays that end at a surface
+    Utility{"kriegel", plain<&S::entropy_of_occupied_nat>, kRays},
+    Utility{"bircher_volume",
+            bircher_volume,
+            {},
+            {.lambda = true, .distance = true, .volume_weights = true}},
+    Utility{"aep", aep, kRays, {.lambda = true, .distance = true}},
     Utility{"random", random_choice},
-    Utility{"nearest_frontier", nearest_frontier},
+    Utility{"nearest_frontier", nearest_frontier, {}, {.distance = true}},
 };
 
 const Utility& utility_named(std::string_view name) {
-  const auto* const entry = std::find_if(kUtilities.begin(), kUtilities.end(),
-                                         [&](const Utility& e) { return e.name == name; });
-  GNBV_CHECK(entry != kUtilities.end(), "utility '{}' has no formula", name);
-  return *entry;
+  const auto* const utility = std::find_if(kUtilities.begin(), kUtilities.end(),
+                                           [&](const Utility& u) { return u.name == name; });
+  GNBV_CHECK(utility != kUtilities.end(), "utility '{}' has no formula", name);
+  return *utility;
+}
+
+/// Of the words of a source, those in comments included: what costs time there costs no result.
+UtilityNeeds needs_of_words(std::string_view source) {
+  constexpr std::string_view kPartOfWord =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_";
+  UtilityNeeds needs;
+  for (std::size_t at = 0, end = 0; (at = source.find_first_of(kPartOfWord, end)) != source.npos;) {
+    end = std::min(source.find_first_not_of(kPartOfWord, at), source.size());
+    const std::string_view word = source.substr(at, end - at);
+    for (const ViewField& field : kViewFields) {
+      if (field.name != word) continue;
+      needs.rays |= field.needs >= ViewFieldNeeds::rays;
+      needs.shadow |= field.needs == ViewFieldNeeds::shadow;
+    }
+    needs.prediction |= word == "predicted_voxels";
+  }
+  return needs;
 }
 
 }  // namespace
@@ -185,27 +192,30 @@ std::vector<std::string_view> utility_names() {
   return names;
 }
 
-bool reads_prediction(const UtilityConfig& config) {
-  if (is_user_utility(config.name)) return names_prediction(config.python);
-  const auto reads = [&](const Utility& e) {
-    return e.name == config.name &&
-           (e.needs.prediction || (e.needs.released_baseline && config.prediction_hides_hits));
-  };
-  return config.gamma > 0.0 && std::any_of(kUtilities.begin(), kUtilities.end(), reads);
+UtilityNeeds needs_of(const UtilityConfig& config) {
+  if (is_user_utility(config.name)) return needs_of_words(config.python.source);
+  const Utility& utility = utility_named(config.name);
+  UtilityNeeds needs = utility.needs;
+  needs.prediction |= utility.reads.baseline && config.prediction_hides_hits;
+  needs.prediction &= config.gamma > 0.0;
+  return needs;
 }
 
-UtilityNeeds needs_of(const UtilityConfig& config) {
-  if (!is_user_utility(config.name)) return utility_named(config.name).needs;
-  return {.rays = names_ray_fields(config.python), .shadow = names_shadow_fields(config.python)};
+UtilitySettings settings_read_by(std::string_view name) {
+  if (is_user_utility(name)) return {.distance = true, .visibility = true, .shadow = true};
+  for (const Utility& utility : kUtilities) {
+    if (utility.name == name) return utility.reads;
+  }
+  return {};
 }
 
 ViewOptions view_options(const UtilityConfig& config, const ShadowBand& shadow,
                          double sparse_below) {
   const UtilityNeeds needs = needs_of(config);
+  const bool is_baseline = settings_read_by(config.name).baseline;
   const ReleasedSlips slips = {
-      .excludes_hit_voxel = needs.released_baseline && config.hit_voxel == HitVoxel::excluded,
-      .prediction_hides_hits =
-          needs.released_baseline && config.prediction_hides_hits && config.gamma > 0.0};
+      .excludes_hit_voxel = is_baseline && config.hit_voxel == HitVoxel::excluded,
+      .prediction_hides_hits = is_baseline && needs.prediction};
   return {.detail = needs.rays ? ViewDetail::rays : ViewDetail::voxels,
           .legacy_visibility = config.legacy_visibility,
           .sparse_below = sparse_below,
@@ -216,7 +226,8 @@ ViewOptions view_options(const UtilityConfig& config, const ShadowBand& shadow,
 std::optional<Score> score(const UtilityConfig& config, const ViewStats& stats,
                            const ScoreContext& context) {
   const Utility& utility = utility_named(config.name);
-  if (utility.needs.refuses_blind && stats.occupied_voxels == 0) return std::nullopt;
+  const bool refuses_blind = utility.reads.eq2 || utility.reads.baseline;
+  if (refuses_blind && stats.occupied_voxels == 0) return std::nullopt;
   const Score result = utility.formula(config, stats, context);
   GNBV_CHECK(std::isfinite(result.value), "utility '{}' is {}", config.name, result.value);
   return result;

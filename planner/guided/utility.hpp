@@ -1,21 +1,24 @@
-// How much a view is worth. Every formula scores the same ViewStats.
+// How much a view is worth. Every formula scores the same ViewStats; so does a utility of the
+// user's own: a function that gets all candidates of a decision at once.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "planner/core/plan.hpp"
-#include "planner/guided/user_utility.hpp"
 #include "planner/view/config.hpp"
+#include "planner/view/view_stats.hpp"
 
 namespace gnbv {
 
 class ShadowBand;
 struct ViewOptions;
-struct ViewStats;
 
 /// Eq. (2)'s reward for density: of sparse regions (released code, fits the text's aim) or of dense
 /// ones (the formula to the letter).
@@ -39,6 +42,11 @@ struct VolumeWeights {
   double occupied = 0.0;
 };
 
+struct UserUtilityConfig {
+  std::string function;  // its name in the source
+  std::string source;    // Python, all of it
+};
+
 /// The formula by name and the weights of Table 1, Scenario 1. Each formula takes what it needs.
 struct UtilityConfig {
   std::string name = "proposed";
@@ -59,36 +67,41 @@ struct UtilityConfig {
   UserUtilityConfig python = {};
 };
 
-/// What a random choice is keyed by. Nothing else reads it.
-struct ScoreContext {
-  std::uint64_t seed = 0;
-  std::uint64_t iteration = 0;
-  std::uint64_t candidate = 0;  // index among those sampled
-};
-
-/// What a formula asks of evaluate_view().
-struct UtilityNeeds {
-  bool rays = false;               // ViewDetail::rays
-  bool shadow = false;             // a ShadowBand
-  bool refuses_blind = false;      // no score for views that see nothing occupied (released code)
-  bool released_baseline = false;  // hit_voxel is for it
-  bool prediction = false;         // predicted surface
-};
-
 /// The formulas by name, those of the paper's tables first.
 std::vector<std::string_view> utility_names();
+
+/// The UtilityConfig::name of the user's own, whose scores come from outside.
+constexpr std::string_view kUserUtilityName = "python";
+inline bool is_user_utility(std::string_view name) { return name == kUserUtilityName; }
 
 /// What tables and files call it: its name, of the user's own that of the function.
 inline std::string utility_label(const UtilityConfig& config) {
   return is_user_utility(config.name) ? config.python.function : config.name;
 }
 
-/// Requires a name of utility_names(), or that of a utility of the user's own.
+/// What a utility asks of evaluate_view().
+struct UtilityNeeds {
+  bool rays = false;        // ViewDetail::rays
+  bool shadow = false;      // a ShadowBand
+  bool prediction = false;  // predicted surface (section 2.3)
+};
+/// Of the user's own: what the fields of ViewStats that its source names ask for. Requires its name
+/// or one of utility_names().
 UtilityNeeds needs_of(const UtilityConfig& config);
 
-/// Whether the choice of views depends on predicted surface (section 2.3): names that are no
-/// formula's do not ask for it.
-bool reads_prediction(const UtilityConfig& config);
+/// Which settings a utility reads, beside those that all read.
+struct UtilitySettings {
+  bool eq2 = false;             // alpha, beta, gamma, density_term, normalise_weights
+  bool baseline = false;        // ig_counting, hit_voxel, prediction_hides_hits
+  bool lambda = false;          // lambda_per_m
+  bool bircher_lambda = false;  // bircher_lambda_per_m
+  bool distance = false;
+  bool visibility = false;  // legacy_visibility
+  bool volume_weights = false;
+  bool shadow = false;
+};
+/// Of a name that no utility has: none.
+UtilitySettings settings_read_by(std::string_view name);
 
 /// How evaluate_view() has to look for this utility, and no more closely: with the released slips
 /// where the configuration asks for them. `shadow` is kept only where it is needed; `sparse_below`
@@ -96,9 +109,41 @@ bool reads_prediction(const UtilityConfig& config);
 ViewOptions view_options(const UtilityConfig& config, const ShadowBand& shadow,
                          double sparse_below);
 
-/// Scores with the formula that `config` names. Nothing for a view that sees no occupied voxel and
-/// a formula that refuses those. Requires a name of utility_names().
+/// What a random choice is keyed by. Nothing else reads it.
+struct ScoreContext {
+  std::uint64_t seed = 0;
+  std::uint64_t iteration = 0;
+  std::uint64_t candidate = 0;  // index among those sampled
+};
+
+/// Scores with the formula that `config` names. Nothing for a view that sees no occupied voxel, by
+/// proposed, bircher and isler (released code). Requires a name of utility_names().
 std::optional<Score> score(const UtilityConfig& config, const ViewStats& stats,
                            const ScoreContext& context = {});
+
+/// One candidate as the user's function sees it.
+struct UserCandidate {
+  ViewStats stats;
+  double x_m = 0.0, y_m = 0.0, z_m = 0.0;  // of the body, world ENU
+  double yaw_rad = 0.0;
+  double gimbal_pitch_rad = 0.0;
+};
+
+/// The candidates of one decision, all of them valid.
+struct UserQuestion {
+  std::size_t iteration = 0;                 // the view that is being decided
+  std::span<const UserCandidate> rows = {};  // what the function gets
+  std::span<const std::size_t> indices;      // of each row among those sampled, for messages
+};
+
+/// The function failed: raised, or returned what are no scores.
+class UserUtilityFailed : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A finite score for each row. Whoever runs it is outside of the planner. Throws
+/// UserUtilityFailed.
+using UserScores = std::function<std::vector<double>(const UserQuestion&)>;
 
 }  // namespace gnbv

@@ -1,12 +1,13 @@
 // Where candidate views are sampled (paper section 2.4): around the current one (AGVS, Fig. 5), or
-// around thinly sampled surface (FVS, Fig. 6).
+// around thinly sampled surface (FVS, Fig. 6). When that changes: the local minimum.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "planner/core/planner.hpp"
 #include "planner/map/config.hpp"
-#include "sim/core/pose.hpp"
 
 namespace gnbv {
 
@@ -59,24 +60,26 @@ std::vector<ViewPose> sample_agvs(const AgvsConfig& config, const ViewPose& curr
 std::vector<ViewPose> sample_fvs(const FvsConfig& config, const Vec3& centroid_world_m,
                                  std::span<const double> pitches_rad = {});
 
-/// Whether a view of sample_fvs() was one of this centroid's, or of one no further than
-/// `apart_m` from it.
-bool looks_at(const FvsConfig& config, const ViewPose& view, const Vec3& centroid_world_m,
-              double apart_m);
+/// The clusters of density frontiers that a decision made at `from_world_m`, after those made
+/// before, may try: in their order, FvsConfig::tries of them at most. A cluster that is still there
+/// after looks_max views around it stays (glass, a slit, an edge) and is left out.
+std::vector<FrontierCluster> clusters_to_try(const FvsConfig& fvs, const Belief& belief,
+                                             std::span<const Decision> decisions,
+                                             const Vec3& from_world_m, FrontierMarks& marks);
 
-/// What a local minimum shows in, oldest first.
-struct Progress {
-  std::vector<double> utilities = {};          // of the chosen views
-  std::vector<Vec3> positions_m = {};          // of all views so far
-  std::span<const double> entropies_nat = {};  // total, before and after each view
-  double view_voxels = 1.0;                    // of the cameras' frusta
-};
+/// cluster_outside_fov when no camera has the centroid in its frustum; cluster_hidden when none
+/// sees a voxel of the cluster, if `needs_visible_cluster`; else nothing.
+std::optional<Rejection> cluster_rejection(std::span<const CameraModel> cameras,
+                                           const OccupancyGrid& grid,
+                                           const FrontierCluster& cluster, const ViewPose& view,
+                                           bool needs_visible_cluster);
 
-/// Whether each of the last `window` changes of the total entropy is below the threshold per voxel.
-bool is_entropy_still(double threshold_nat, int window, const Progress& progress);
+/// Whether each of the last `window` changes of the total entropy is below the threshold, per voxel
+/// of PlannerModel::view_voxels.
+bool is_entropy_still(double threshold_nat, int window, const History& history, double view_voxels);
 
 /// Scale for the next view: the last one grown by scale_factor (at most scale_max) at a local
 /// minimum, else 1.
-double next_agvs_scale(const AgvsConfig& config, double last_scale, const Progress& progress);
+double next_agvs_scale(const AgvsConfig& config, const History& history, double view_voxels);
 
 }  // namespace gnbv

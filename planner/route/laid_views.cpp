@@ -1,38 +1,38 @@
-#include "planner/route/laid_views.hpp"
-
+// Routes that are laid around the profile.
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <span>
 
-#include "planner/map/occupancy_grid.hpp"
-#include "sensors/camera_model.hpp"
+#include "planner/route/route_planners.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {
 namespace {
 
-std::vector<Vec3> occupied_centers_m(const OccupancyGrid& grid) {
-  std::vector<Vec3> centers_m;
-  const auto voxels = static_cast<VoxelIndex>(grid.geometry().voxel_count());
+/// What of the structure the map holds, and the box around it.
+struct KnownStructure {
+  std::vector<Vec3> centers_m = {};
+  Box3 box_m = {};
+};
+
+KnownStructure known_structure(const OccupancyGrid& map) {
+  KnownStructure known;
+  const auto voxels = static_cast<VoxelIndex>(map.geometry().voxel_count());
   for (VoxelIndex v = 0; v < voxels; ++v) {
-    if (grid.state(v) == VoxelState::occupied) {
-      centers_m.push_back(grid.geometry().center_m(grid.geometry().key_at(v)));
-    }
+    if (map.state(v) != VoxelState::occupied) continue;
+    known.centers_m.push_back(map.geometry().center_m(map.geometry().key_at(v)));
+    known.box_m.extend(known.centers_m.back());
   }
-  return centers_m;
+  return known;
 }
 
-double yaw_towards(const Vec3& from_m, const Vec3& to_m) {
-  return std::atan2(to_m.y() - from_m.y(), to_m.x() - from_m.x());
-}
-
-/// The gimbal's pitch that looks most nearly from one point at the other; 0 without a gimbal.
-double pitch_towards(const CameraModel& camera, const Vec3& from_m, const Vec3& to_m) {
+/// The gimbal's pitch that looks most nearly in this direction; 0 without a gimbal.
+double pitch_along(const CameraModel& camera, const Vec3& direction) {
   if (!camera.config.gimbal) return 0.0;
-  const Vec3 to = to_m - from_m;
-  return nearest_pitch_rad(*camera.config.gimbal, std::atan2(-to.z(), to.head<2>().norm()));
+  return nearest_pitch_rad(*camera.config.gimbal,
+                           std::atan2(-direction.z(), direction.head<2>().norm()));
 }
 
 /// Where the ray from `center` leaves the last ball of radius `standoff` around an obstacle.
@@ -63,28 +63,6 @@ void order_by_nearest(const Vec3& start_m, std::vector<ViewPose>& views) {
   }
 }
 
-/// Fibonacci lattice on the upper hemisphere: equal areas, golden angle between neighbours.
-std::vector<ViewPose> hemisphere(const RouteConfig& config, const RouteProblem& problem,
-                                 std::span<const Vec3> obstacles_m, const Box3& structure_m) {
-  const Vec3 center_m(structure_m.center().x(), structure_m.center().y(), structure_m.min().z());
-  std::vector<ViewPose> views;
-  const int count = std::min(problem.views, kMostLaidViews);
-  for (int i = 0; i < count; ++i) {
-    const double up = (i + 0.5) / count;
-    const double bearing_rad = 2.0 * kPi * i / (std::numbers::phi * std::numbers::phi);
-    const double level = std::sqrt(1.0 - up * up);
-    const Vec3 direction(level * std::cos(bearing_rad), level * std::sin(bearing_rad), up);
-    const Vec3 p_m =
-        center_m + exit_m(center_m, direction, obstacles_m, config.standoff_m) * direction;
-    const Vec3 inside_m =
-        p_m.cwiseMax(problem.navigation_m.min()).cwiseMin(problem.navigation_m.max());
-    views.push_back({inside_m, yaw_towards(inside_m, center_m),
-                     pitch_towards(problem.camera, inside_m, center_m)});
-  }
-  order_by_nearest(problem.start.p_world_m, views);
-  return views;
-}
-
 /// Evenly spaced from `from` to `to`, both included, no farther apart than `step`.
 std::vector<double> steps(double from, double to, double step) {
   const int count = std::max(1, static_cast<int>(std::ceil(std::fabs(to - from) / step - 1e-9)));
@@ -102,69 +80,6 @@ void append_row(std::vector<ViewPose> row, const Vec3& start_m, std::vector<View
   views.insert(views.end(), row.begin(), row.end());
 }
 
-/// Rows on the four sides of the box around the structure, from the bottom up, and then above it.
-std::vector<ViewPose> lawnmower(const RouteConfig& config, const RouteProblem& problem,
-                                const Box3& structure_m) {
-  const double across_m = 2.0 * config.standoff_m * (1.0 - config.overlap);
-  const double column_m = across_m * std::tan(0.5 * problem.camera.config.fov_x_rad);
-  const double row_m = across_m * std::tan(0.5 * problem.camera.config.fov_y_rad);
-  const Vec3 margin_m = Vec3::Constant(config.standoff_m);
-  const Box3 around_m = Box3(structure_m.min() - margin_m, structure_m.max() + margin_m)
-                            .intersection(problem.navigation_m);
-  const Vec3 lo = around_m.min();
-  const Vec3 hi = around_m.max();
-  const std::array<std::array<Eigen::Vector2d, 2>, 4> sides = {
-      {{{{lo.x(), lo.y()}, {hi.x(), lo.y()}}},
-       {{{hi.x(), lo.y()}, {hi.x(), hi.y()}}},
-       {{{hi.x(), hi.y()}, {lo.x(), hi.y()}}},
-       {{{lo.x(), hi.y()}, {lo.x(), lo.y()}}}}};
-  const double level_rad = pitch_towards(problem.camera, Vec3::Zero(), Vec3::UnitX());
-  const double down_rad = pitch_towards(problem.camera, Vec3::Zero(), -Vec3::UnitZ());
-  const Vec3 size_m = hi - lo;
-  const double rows = 2.0 * (size_m.x() + size_m.y() + 4.0 * column_m) / column_m *
-                          ((structure_m.max().z() - lo.z()) / row_m + 2.0) +
-                      (size_m.y() / column_m + 2.0) * (size_m.x() / row_m + 2.0);
-  if (rows > kMostLaidViews) {
-    throw BadInput(fmt::format(
-        "planner.routes.standoff_m, planner.routes.overlap: rows at {} m with an overlap of {} are "
-        "about {:.2g} views around this structure; at most {} are laid",
-        config.standoff_m, config.overlap, rows, kMostLaidViews));
-  }
-  std::vector<ViewPose> views;
-  for (const auto& [from, to] : sides) {
-    const Eigen::Vector2d along = to - from;
-    const double inwards_rad = std::atan2(along.x(), -along.y());
-    for (const double z_m : steps(lo.z(), structure_m.max().z(), row_m)) {
-      std::vector<ViewPose> row;
-      for (const double share : steps(0.0, 1.0, column_m / along.norm())) {
-        const Eigen::Vector2d p = from + share * along;
-        row.push_back({Vec3(p.x(), p.y(), std::min(z_m, hi.z())), inwards_rad, level_rad});
-      }
-      append_row(std::move(row), problem.start.p_world_m, views);
-    }
-  }
-  for (const double y_m : steps(hi.y(), lo.y(), column_m)) {
-    std::vector<ViewPose> row;
-    for (const double x_m : steps(lo.x(), hi.x(), row_m)) {
-      row.push_back({Vec3(x_m, y_m, hi.z()), 0.0, down_rad});
-    }
-    append_row(std::move(row), problem.start.p_world_m, views);
-  }
-  return views;
-}
-
-/// What of the structure the map holds, and the box around it.
-struct KnownStructure {
-  std::vector<Vec3> centers_m;
-  Box3 box_m;
-};
-
-KnownStructure known_structure(const OccupancyGrid& grid) {
-  KnownStructure known{occupied_centers_m(grid), {}};
-  for (const Vec3& center_m : known.centers_m) known.box_m.extend(center_m);
-  return known;
-}
-
 /// Views that were clamped to a corner of the navigation box may be the same.
 std::vector<ViewPose> without_repetitions(std::vector<ViewPose> views) {
   views.erase(std::unique(views.begin(), views.end(), is_same_view), views.end());
@@ -173,16 +88,82 @@ std::vector<ViewPose> without_repetitions(std::vector<ViewPose> views) {
 
 }  // namespace
 
-std::vector<ViewPose> lay_hemisphere(const RouteConfig& config, const RouteProblem& problem) {
-  const KnownStructure known = known_structure(problem.grid);
-  if (known.centers_m.empty()) return {};
-  return without_repetitions(hemisphere(config, problem, known.centers_m, known.box_m));
+// A Fibonacci lattice on the upper hemisphere: equal areas, golden angle between neighbours.
+std::vector<ViewPose> lay_hemisphere(const RouteConfig& config, const PlannerModel& model,
+                                     const OccupancyGrid& map, const ViewPose& start, int count) {
+  const auto [obstacles_m, structure_m] = known_structure(map);
+  if (obstacles_m.empty()) return {};
+  const Vec3 center_m(structure_m.center().x(), structure_m.center().y(), structure_m.min().z());
+  const Box3& box_m = model.navigation_m;
+  std::vector<ViewPose> views;
+  count = std::min(count, kMostLaidViews);
+  for (int i = 0; i < count; ++i) {
+    const double up = (i + 0.5) / count;
+    const double bearing_rad = 2.0 * kPi * i / (std::numbers::phi * std::numbers::phi);
+    const double level = std::sqrt(1.0 - up * up);
+    const Vec3 direction(level * std::cos(bearing_rad), level * std::sin(bearing_rad), up);
+    const Vec3 p_m =
+        center_m + exit_m(center_m, direction, obstacles_m, config.standoff_m) * direction;
+    const Vec3 inside_m = p_m.cwiseMax(box_m.min()).cwiseMin(box_m.max());
+    const Vec3 inwards = center_m - inside_m;
+    views.push_back({inside_m, std::atan2(inwards.y(), inwards.x()),
+                     pitch_along(model.cameras.front(), inwards)});
+  }
+  order_by_nearest(start.p_world_m, views);
+  return without_repetitions(std::move(views));
 }
 
-std::vector<ViewPose> lay_lawnmower(const RouteConfig& config, const RouteProblem& problem) {
-  const KnownStructure known = known_structure(problem.grid);
-  if (known.centers_m.empty()) return {};
-  return without_repetitions(lawnmower(config, problem, known.box_m));
+// Rows on the four sides of the box around the structure, from the bottom up, and then above it.
+std::vector<ViewPose> lay_lawnmower(const RouteConfig& config, const PlannerModel& model,
+                                    const OccupancyGrid& map, const ViewPose& start,
+                                    int /*count*/) {
+  const auto [obstacles_m, structure_m] = known_structure(map);
+  if (obstacles_m.empty()) return {};
+  const CameraModel& camera = model.cameras.front();
+  const double across_m = 2.0 * config.standoff_m * (1.0 - config.overlap);
+  const double column_m = across_m * std::tan(0.5 * camera.config.fov_x_rad);
+  const double row_m = across_m * std::tan(0.5 * camera.config.fov_y_rad);
+  const Vec3 margin_m = Vec3::Constant(config.standoff_m);
+  const Box3 around_m = Box3(structure_m.min() - margin_m, structure_m.max() + margin_m)
+                            .intersection(model.navigation_m);
+  const Vec3 lo = around_m.min();
+  const Vec3 hi = around_m.max();
+  const double top_m = structure_m.max().z();
+  const Vec3 size_m = hi - lo;
+  const double rows = 2.0 * (size_m.x() + size_m.y() + 4.0 * column_m) / column_m *
+                          ((top_m - lo.z()) / row_m + 2.0) +
+                      (size_m.y() / column_m + 2.0) * (size_m.x() / row_m + 2.0);
+  if (rows > kMostLaidViews) {
+    throw BadInput(fmt::format(
+        "planner.routes.standoff_m, planner.routes.overlap: rows at {} m with an overlap of {} are "
+        "about {:.2g} views around this structure; at most {} are laid",
+        config.standoff_m, config.overlap, rows, kMostLaidViews));
+  }
+  const std::array<Eigen::Vector2d, 5> corners = {
+      {{lo.x(), lo.y()}, {hi.x(), lo.y()}, {hi.x(), hi.y()}, {lo.x(), hi.y()}, {lo.x(), lo.y()}}};
+  std::vector<ViewPose> views;
+  for (std::size_t side = 0; side < 4; ++side) {
+    const Eigen::Vector2d& from = corners[side];
+    const Eigen::Vector2d along = corners[side + 1] - from;
+    const double inwards_rad = std::atan2(along.x(), -along.y());
+    for (const double z_m : steps(lo.z(), top_m, row_m)) {
+      std::vector<ViewPose> row;
+      for (const double share : steps(0.0, 1.0, column_m / along.norm())) {
+        const Eigen::Vector2d p = from + share * along;
+        row.push_back({Vec3(p.x(), p.y(), std::min(z_m, hi.z())), inwards_rad,
+                       pitch_along(camera, Vec3::UnitX())});
+      }
+      append_row(std::move(row), start.p_world_m, views);
+    }
+  }
+  for (const double y_m : steps(hi.y(), lo.y(), column_m)) {
+    std::vector<ViewPose> row;
+    for (const double x_m : steps(lo.x(), hi.x(), row_m)) {
+      row.push_back({Vec3(x_m, y_m, hi.z()), 0.0, pitch_along(camera, -Vec3::UnitZ())});
+    }
+    append_row(std::move(row), start.p_world_m, views);
+  }
+  return without_repetitions(std::move(views));
 }
 
 }  // namespace gnbv

@@ -4,8 +4,6 @@
 #include <iterator>
 #include <utility>
 
-#include "planner/core/model.hpp"
-
 namespace gnbv {
 namespace {
 
@@ -50,38 +48,23 @@ void UserViewChecker::check(Candidate& candidate) {
 
 // ---- laid around the profile
 
-LaidRoutePlanner::LaidRoutePlanner(LayViews lay, const RouteConfig& config, int views,
-                                   const PlannerModel& model)
-    : lay_(lay), config_(config), views_(views), model_(model) {}
-
 void LaidRoutePlanner::begin(const Belief& profile, const ViewPose& start) {
-  ahead_ = lay_(config_, {.grid = profile.grid,
-                          .navigation_m = model_.navigation_m,
-                          .camera = model_.cameras.front(),
-                          .start = start,
-                          .views = views_});
+  ahead_ = lay_(config_, model_, profile.grid, start, count_);
 }
 
 Plan LaidRoutePlanner::next(const Belief& belief, const History& history, const ViewPose& current,
                             Scratch& scratch) {
   Plan plan = first_flyable(model_, belief, recent_views(history, model_.validity.recent_poses),
                             ahead_, current, scratch);
-  if (plan.has_view()) {
-    ahead_.erase(ahead_.begin(),
-                 ahead_.begin() + static_cast<std::ptrdiff_t>(plan.candidates.size()));
-  }
+  const auto tried = static_cast<std::ptrdiff_t>(plan.candidates.size());
+  ahead_.erase(ahead_.begin(), ahead_.begin() + tried);
   return plan;
 }
 
-Plan LaidRoutePlanner::replay(std::span<const Decision> recorded, const Belief&,
-                              const History& history, const ViewPose&, Scratch&) {
-  Plan plan;
-  plan.views = {recorded.front()};
-  const auto at = std::find_if(ahead_.begin(), ahead_.end(), [&](const ViewPose& view) {
-    return is_same_view(view, recorded.front().view);
-  });
-  if (at == ahead_.end()) refuse_another_view(history.decisions.size());
-  ahead_.erase(ahead_.begin(), std::next(at));
+Plan LaidRoutePlanner::replay(std::span<const Decision> recorded, const Belief& belief,
+                              const History& history, const ViewPose& current, Scratch& scratch) {
+  Plan plan = next(belief, history, current, scratch);
+  need_as_recorded(plan, recorded, history.decisions.size());
   return plan;
 }
 

@@ -4,9 +4,7 @@
 #include <cmath>
 
 #include "planner/core/belief.hpp"
-#include "planner/core/history.hpp"
-#include "planner/core/model.hpp"
-#include "planner/core/scratch.hpp"
+#include "planner/core/planner.hpp"
 #include "planner/motion/view_checker.hpp"
 #include "planner/tour/tour_notes.hpp"
 #include "planner/tour/tour_problem.hpp"

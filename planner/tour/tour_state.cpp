@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/core/model.hpp"
+#include "planner/core/belief.hpp"
 
 namespace gnbv {
 namespace {

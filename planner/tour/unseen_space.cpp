@@ -3,8 +3,6 @@
 #include <vector>
 
 #include "planner/core/belief.hpp"
-#include "planner/core/model.hpp"
-#include "planner/core/scratch.hpp"
 #include "sim/core/parallel.hpp"
 
 namespace gnbv {

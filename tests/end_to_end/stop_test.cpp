@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/score/surface_reference.hpp"
-#include "planner/core/model.hpp"
+#include "planner/core/belief.hpp"
 #include "sim/core/file.hpp"
 #include "tests/bench/shapes.hpp"
 #include "tests/support/flown.hpp"

@@ -21,10 +21,9 @@ const PlannerModel& small_model() {
     CameraConfig camera;
     camera.width_px = 4;
     camera.height_px = 3;
-    const CameraModel one = make_camera_model(camera);
     BeliefConfig config;
     config.map.resolution_m = 1.0;
-    return PlannerModel(config, {}, Box3(Vec3(-4, -4, 0), Vec3(4, 4, 4)), {&one, 1}, {});
+    return PlannerModel(config, {}, Box3(Vec3(-4, -4, 0), Vec3(4, 4, 4)), {&camera, 1}, {});
   }();
   return model;
 }

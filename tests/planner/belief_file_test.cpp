@@ -7,7 +7,7 @@
 #include <bit>
 
 #include "bench/reference/analytic_scans.hpp"
-#include "planner/core/scratch.hpp"
+#include "planner/core/belief.hpp"
 #include "planner/planners.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
@@ -25,9 +25,8 @@ PlannerModel model_of(const PlannerConfig& config) {
   CameraConfig camera;
   camera.width_px = 80;
   camera.height_px = 60;
-  const CameraModel model = make_camera_model(camera);
-  const LidarModel lidar = make_lidar_model(LidarConfig{});
-  return make_model(config, Box3(Vec3(-10, -8, 0), Vec3(10, 8, 6)), {&model, 1}, {&lidar, 1});
+  const LidarConfig lidar;
+  return make_model(config, Box3(Vec3(-10, -8, 0), Vec3(10, 8, 6)), {&camera, 1}, {&lidar, 1});
 }
 
 std::vector<DepthFrame> view(const PlannerModel& model, int index) {

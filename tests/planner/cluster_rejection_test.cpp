@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "planner/guided/frontier_clusters.hpp"
+#include "planner/guided/view_sampling.hpp"
 #include "planner/map/frontiers.hpp"
 #include "sensors/camera_model.hpp"
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 
-#include "planner/guided/frontier_clusters.hpp"
 #include "planner/guided/view_sampling.hpp"
 #include "planner/map/frontiers.hpp"
 #include "planner/route/route_planners.hpp"
@@ -55,7 +54,7 @@ TEST(Gimbal, TurnedIsMountedAtThatPitch) {
 }
 
 TEST(Gimbal, AViewIsWalkedByTheRaysOfAFixedCamera) {
-  const std::array cameras = {make_camera_model(on_gimbal()), fixed_at(0.2)};
+  const std::array cameras = {on_gimbal(), fixed_at(0.2).config};
   const PlannerModel model({}, {}, Box3(Vec3(-5, -5, 0), Vec3(5, 5, 5)), cameras, {});
   for (const double pitch_rad : kPitches) {
     const std::array fixed = {fixed_at(pitch_rad), fixed_at(0.2)};
@@ -64,7 +63,7 @@ TEST(Gimbal, AViewIsWalkedByTheRaysOfAFixedCamera) {
   }
   EXPECT_TRUE(model.can_pitch(0.3));
   EXPECT_FALSE(model.can_pitch(0.6));
-  const PlannerModel without({}, {}, model.workspace_m, std::array{fixed_at(0.2)}, {});
+  const PlannerModel without({}, {}, model.workspace_m, std::array{fixed_at(0.2).config}, {});
   EXPECT_EQ(without.view_rays.size(), 1U);
   EXPECT_TRUE(without.can_pitch(0.0));
   EXPECT_FALSE(without.can_pitch(0.2));
@@ -95,8 +94,8 @@ TEST(Gimbal, EverySamplerOffersEachOfItsViewsWithEachPitch) {
 }
 
 TEST(Gimbal, AnotherPitchIsAnotherView) {
-  const PlannerModel model({}, {}, Box3(Vec3(-5, -5, 0), Vec3(5, 5, 5)),
-                           std::array{make_camera_model(on_gimbal())}, {});
+  const PlannerModel model({}, {}, Box3(Vec3(-5, -5, 0), Vec3(5, 5, 5)), std::array{on_gimbal()},
+                           {});
   Belief belief(model);
   ScanUpdate update;
   for (VoxelIndex v = 0; v < belief.grid.geometry().voxel_count(); ++v) update.free.push_back(v);

@@ -175,9 +175,9 @@ TEST(LaidRoute, TakesViewAfterViewAndSkipsWhatIsNotValid) {
   const PlannerModel model = small.model();
   static const std::array route = {ViewPose{Vec3(-3, 0, 4), 0.0}, ViewPose{Vec3(6.1, 0, 4), 0.0},
                                    ViewPose{Vec3(3, 0, 4), 0.0}};  // the second is in the wall
-  const LayViews lay = [](const RouteConfig&, const RouteProblem&) {
-    return std::vector<ViewPose>(route.begin(), route.end());
-  };
+  const LayViews lay = [](const RouteConfig&, const PlannerModel&, const OccupancyGrid&,
+                          const ViewPose&,
+                          int) { return std::vector<ViewPose>(route.begin(), route.end()); };
   LaidRoutePlanner planner(lay, {}, 3, model);
   planner.begin(belief, kCurrent);
   Scratch scratch(model, 2);

@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "planner/map/occupancy_grid.hpp"
-#include "planner/route/laid_views.hpp"
-#include "sensors/camera_model.hpp"
+#include "planner/route/route_planners.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {
@@ -26,13 +25,15 @@ OccupancyGrid box_in_the_middle() {
   return grid;
 }
 
+PlannerModel planner_model() {
+  const CameraConfig camera;
+  return {{}, {.z_min_m = 0.0}, kWorkspace, {&camera, 1}, {}};
+}
+
+const ViewPose kStart{Vec3(0, -12, 2), 0};
+
 std::vector<ViewPose> route(LayViews lay, const OccupancyGrid& grid) {
-  const CameraModel camera = make_camera_model({});
-  return lay({}, {.grid = grid,
-                  .navigation_m = kWorkspace,
-                  .camera = camera,
-                  .start = {Vec3(0, -12, 2), 0},
-                  .views = 100});
+  return lay({}, planner_model(), grid, kStart, 100);
 }
 
 double distance_to_box_m(const Vec3& p_m) {
@@ -91,12 +92,11 @@ TEST(Lawnmower, PassesEverySideInRowsThatOverlap) {
 
 TEST(Lawnmower, RefusesToLayMoreViewsThanAnybodyFlies) {
   const OccupancyGrid grid = box_in_the_middle();
-  const CameraModel camera = make_camera_model({});
-  const RouteProblem problem = {
-      .grid = grid, .navigation_m = kWorkspace, .camera = camera, .start = {Vec3(0, -12, 2), 0}};
-  EXPECT_THROW(lay_lawnmower({.standoff_m = 0.1, .overlap = 0.95}, problem), BadInput);
-  EXPECT_LT(lay_lawnmower({.standoff_m = 1.0, .overlap = 0.5}, problem).size(),
-            std::size_t{kMostLaidViews});
+  const auto laid = [&](const RouteConfig& config) {
+    return lay_lawnmower(config, planner_model(), grid, kStart, 0).size();
+  };
+  EXPECT_THROW(laid({.standoff_m = 0.1, .overlap = 0.95}), BadInput);
+  EXPECT_LT(laid({.standoff_m = 1.0, .overlap = 0.5}), std::size_t{kMostLaidViews});
 }
 
 TEST(Routes, AreEmptyWithoutAProfile) {

@@ -1,11 +1,10 @@
-// AGVS and FVS candidates, local minima and termination: all pure functions.
+// AGVS and FVS candidates, and local minima: all pure functions.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "planner/core/termination.hpp"
 #include "planner/guided/view_sampling.hpp"
 
 namespace gnbv {
@@ -49,15 +48,28 @@ TEST(Agvs, TurnsWithTheBody) {
   }
 }
 
+/// Of a mission that chose views of these utilities, the last one at that scale.
+History with_utilities(const std::vector<double>& utilities, double last_scale) {
+  History history;
+  for (const double utility : utilities) {
+    history.decisions.push_back({.view = {Vec3(utility, 0, 5), 0},
+                                 .sampler = Sampler::agvs,
+                                 .scale = last_scale,
+                                 .score = {.value = utility}});
+  }
+  return history;
+}
+
 TEST(Agvs, ScaleGrowsWhenUtilityIsLowAndUpToItsLimit) {
   const AgvsConfig config;
-  const Progress low{.utilities = {0.5, 0.05, 0.02, 0.09}, .entropies_nat = {}, .view_voxels = 1};
-  const Progress high{.utilities = {0.01, 0.02, 0.3}, .entropies_nat = {}, .view_voxels = 1};
-  const Progress few{.utilities = {0.0, 0.0}, .entropies_nat = {}, .view_voxels = 1};
-  EXPECT_EQ(next_agvs_scale(config, 1.0, low), 1.5);
-  EXPECT_EQ(next_agvs_scale(config, 6.0, low), 7.5);
-  EXPECT_EQ(next_agvs_scale(config, 6.0, high), 1.0);
-  EXPECT_EQ(next_agvs_scale(config, 1.0, few), 1.0);
+  const auto scale = [&](const std::vector<double>& utilities, double last_scale) {
+    return next_agvs_scale(config, with_utilities(utilities, last_scale), 1.0);
+  };
+  EXPECT_EQ(scale({0.5, 0.05, 0.02, 0.09}, 1.0), 1.5);
+  EXPECT_EQ(scale({0.5, 0.05, 0.02, 0.09}, 6.0), 7.5);
+  EXPECT_EQ(scale({0.01, 0.02, 0.3}, 6.0), 1.0);
+  EXPECT_EQ(scale({0.01, 0.3, 0.02, 0.03}, 6.0), 1.0);
+  EXPECT_EQ(scale({0.0, 0.0}, 1.0), 1.0);
 }
 
 TEST(Agvs, ScaleGrowsWhenEntropyStandsStill) {
@@ -68,8 +80,9 @@ TEST(Agvs, ScaleGrowsWhenEntropyStandsStill) {
   const std::vector<double> still = {900, 500, 499.5, 500.2, 500.1};
   const std::vector<double> moving = {500, 499.5, 498, 498.1};
   const auto scale = [&](const std::vector<double>& entropies_nat) {
-    return next_agvs_scale(config, 1.0,
-                           {.utilities = {}, .entropies_nat = entropies_nat, .view_voxels = 1000});
+    History history;
+    history.entropies_nat = entropies_nat;
+    return next_agvs_scale(config, history, 1000.0);
   };
   EXPECT_EQ(scale(still), 1.5);
   EXPECT_EQ(scale(moving), 1.0);
@@ -78,12 +91,19 @@ TEST(Agvs, ScaleGrowsWhenEntropyStandsStill) {
   EXPECT_EQ(scale(still), 1.0);
 }
 
+/// Views from those positions.
+std::vector<Decision> at(const std::vector<Vec3>& positions_m) {
+  std::vector<Decision> decisions;
+  for (const Vec3& p_m : positions_m) decisions.push_back({.view = {p_m, 0.0}});
+  return decisions;
+}
+
 TEST(Agvs, ScaleGrowsWhenItGoesBackAndForth) {
   const AgvsConfig config;  // four moves
   const Vec3 a(0, 0, 5);
   const Vec3 b(1, 0, 5);
   const auto scale = [&](const std::vector<Vec3>& positions_m) {
-    return next_agvs_scale(config, 1.0, {.positions_m = positions_m});
+    return next_agvs_scale(config, {.decisions = at(positions_m)}, 1.0);
   };
   EXPECT_EQ(scale({a, b, a, b, a, b}), 1.5);
   EXPECT_EQ(scale({b, a, b, a, b}), 1.0);  // three moves undone, not four
@@ -94,7 +114,7 @@ TEST(Agvs, ScaleGrowsWhenItGoesBackAndForth) {
 TEST(Agvs, NeverGrowsWithItsScalesOff) {
   AgvsConfig config;
   config.scales = false;
-  EXPECT_EQ(next_agvs_scale(config, 3.0, {.utilities = {0.0, 0.0, 0.0}}), 1.0);
+  EXPECT_EQ(next_agvs_scale(config, with_utilities({0.0, 0.0, 0.0}, 3.0), 1.0), 1.0);
 }
 
 TEST(Fvs, StandsOnThreeLayersOfACylinderFacingItsAxis) {
@@ -114,33 +134,6 @@ TEST(Fvs, StandsOnThreeLayersOfACylinderFacingItsAxis) {
   FvsConfig released;
   released.views_per_layer = 8;
   EXPECT_EQ(sample_fvs(released, centroid).size(), 24U);
-}
-
-TEST(BackAndForth, EndsAMissionAfterTenMoves) {
-  std::vector<Vec3> positions_m;
-  for (int i = 0; i < 12; ++i) positions_m.emplace_back(i % 2, 0, 5);
-  EXPECT_TRUE(is_back_and_forth(positions_m, TerminationConfig{}.repeated_moves));
-  EXPECT_FALSE(is_back_and_forth(std::span(positions_m).last(11), 10));
-  EXPECT_FALSE(is_back_and_forth(positions_m, 0));  // switched off
-}
-
-TEST(EntropyTermination, NeedsEveryViewOfTheWindowToBeQuiet) {
-  TerminationConfig config;
-  config.entropy_window = 3;
-  config.entropy_change_percent = 0.001;
-  const std::vector<double> quiet = {2e6, 1e6, 1e6 - 5, 1e6 - 9, 1e6 - 10};
-  const std::vector<double> one_loud = {1e6, 1e6 - 5, 1e6 - 25, 1e6 - 26};
-  EXPECT_TRUE(entropy_has_settled(config, quiet));
-  EXPECT_FALSE(entropy_has_settled(config, one_loud));  // 20 nat are 0.002 %
-}
-
-TEST(EntropyTermination, WaitsForAFullWindowAndCanBeSwitchedOff) {
-  TerminationConfig config;
-  config.entropy_window = 3;
-  EXPECT_FALSE(entropy_has_settled(config, std::vector<double>{1e6, 1e6, 1e6}));
-  EXPECT_TRUE(entropy_has_settled(config, std::vector<double>{1e6, 1e6, 1e6, 1e6}));
-  config.entropy_change_percent = 0.0;
-  EXPECT_FALSE(entropy_has_settled(config, std::vector<double>{1e6, 1e6, 1e6, 1e6}));
 }
 
 }  // namespace

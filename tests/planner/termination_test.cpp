@@ -1,9 +1,7 @@
-// The rules of belief that end a mission.
-#include "planner/core/termination.hpp"
-
+// What a planner looks back on, and the rules that end its missions.
 #include <gtest/gtest.h>
 
-#include "planner/core/history.hpp"
+#include "planner/core/planner.hpp"
 
 namespace gnbv {
 namespace {
@@ -20,83 +18,191 @@ std::vector<MapProgress> walk(const std::vector<std::size_t>& voxels,
   return progress;
 }
 
+/// How a mission with this behind it ends, if it does.
+std::optional<Termination> end_of(const TerminationConfig& config, const History& history,
+                                  const EndRules& rules = {}) {
+  return end_after_view(config, rules, history);
+}
+
+/// The last, or the first, of what happened.
+History last_of(std::span<const MapProgress> progress, std::size_t count) {
+  return {.progress = {progress.end() - static_cast<std::ptrdiff_t>(count), progress.end()}};
+}
+History first_of(std::span<const MapProgress> progress, std::size_t count) {
+  return last_of(progress.first(count), count);
+}
+
 TEST(GainIsLow, BelowTheThresholdOverTheWholeWindowAndNotBefore) {
   TerminationConfig config;
   config.new_voxels_window = 3;
   // 9 voxels in the last 1.5 m: 6 a metre
   const auto progress = walk({90, 6, 0, 3}, {0, 0, 0, 0});
-  EXPECT_FALSE(gain_is_low(config, progress));  // off by default
+  const History all = last_of(progress, 5);
+  EXPECT_EQ(end_of(config, all), std::nullopt);  // off by default
   config.min_new_voxels_per_m = 6.0;
-  EXPECT_FALSE(gain_is_low(config, progress));
+  EXPECT_EQ(end_of(config, all), std::nullopt);
   config.min_new_voxels_per_m = 6.001;
-  EXPECT_TRUE(gain_is_low(config, progress));
-  EXPECT_FALSE(gain_is_low(config, std::span(progress).first(4)));  // 96 voxels in it
-  EXPECT_FALSE(gain_is_low(config, std::span(progress).last(3)));   // two views are no window
-  config.new_voxels_window = 4;                                     // 99 voxels in 2 m
-  EXPECT_FALSE(gain_is_low(config, progress));
+  EXPECT_EQ(end_of(config, all), Termination::low_gain);
+  EXPECT_EQ(end_of(config, first_of(progress, 4)), std::nullopt);  // 96 voxels in it
+  EXPECT_EQ(end_of(config, last_of(progress, 3)), std::nullopt);   // two views are no window
+  config.new_voxels_window = 4;                                    // 99 voxels in 2 m
+  EXPECT_EQ(end_of(config, all), std::nullopt);
 }
 
 TEST(GainIsLow, OfViewsThatOnlyTurnIsUnknownAndOfLostVoxelsNegative) {
   TerminationConfig config;
   config.new_voxels_window = 1;
   config.min_new_voxels_per_m = 1e-6;
-  EXPECT_FALSE(gain_is_low(config, std::vector<MapProgress>{{100, 0, 2.0}, {100, 0, 2.0}}));
-  EXPECT_TRUE(gain_is_low(config, std::vector<MapProgress>{{100, 0, 2.0}, {99, 0, 3.0}}));
+  EXPECT_EQ(end_of(config, {.progress = {{100, 0, 2.0}, {100, 0, 2.0}}}), std::nullopt);
+  EXPECT_EQ(end_of(config, {.progress = {{100, 0, 2.0}, {99, 0, 3.0}}}), Termination::low_gain);
 }
 
-TEST(PointsHaveDriedUp, AfterSoManyViewsInARowThatAddNone) {
+TEST(NoNewPoints, AfterSoManyViewsInARowThatAddNone) {
   TerminationConfig config;
   const auto progress = walk({0, 0, 0, 0}, {7, 1, 0, 0});
-  EXPECT_FALSE(points_have_dried_up(config, progress));  // off by default
+  const History all = last_of(progress, 5);
+  EXPECT_EQ(end_of(config, all), std::nullopt);  // off by default
   config.max_views_without_new_points = 2;
-  EXPECT_TRUE(points_have_dried_up(config, progress));
-  EXPECT_FALSE(points_have_dried_up(config, std::span(progress).first(4)));
-  EXPECT_FALSE(points_have_dried_up(config, std::span(progress).last(2)));
+  EXPECT_EQ(end_of(config, all), Termination::no_new_points);
+  EXPECT_EQ(end_of(config, first_of(progress, 4)), std::nullopt);
+  EXPECT_EQ(end_of(config, last_of(progress, 2)), std::nullopt);
   config.max_views_without_new_points = 3;
-  EXPECT_FALSE(points_have_dried_up(config, progress));
+  EXPECT_EQ(end_of(config, all), std::nullopt);
 }
 
-TEST(IsTooFar, ALegThatPassesTheLimitNotOneThatEndsOnIt) {
+TEST(EntropyChange, NeedsEveryViewOfTheWindowToBeQuiet) {
   TerminationConfig config;
-  EXPECT_FALSE(is_too_far(config, 1e6, 1e6));  // off by default
-  config.max_distance_m = 10.0;
-  EXPECT_FALSE(is_too_far(config, 7.5, 2.5));
-  EXPECT_TRUE(is_too_far(config, 7.5, 2.5000001));
+  config.entropy_window = 3;
+  config.entropy_change_percent = 0.001;
+  EXPECT_EQ(end_of(config, {.entropies_nat = {2e6, 1e6, 1e6 - 5, 1e6 - 9, 1e6 - 10}}),
+            Termination::entropy_change);
+  // 20 nat are 0.002 %
+  EXPECT_EQ(end_of(config, {.entropies_nat = {1e6, 1e6 - 5, 1e6 - 25, 1e6 - 26}}), std::nullopt);
 }
 
-TEST(BelievedEnd, TheFirstRuleNamesTheEnd) {
+TEST(EntropyChange, WaitsForAFullWindowAndCanBeSwitchedOff) {
+  TerminationConfig config;
+  config.entropy_window = 3;
+  EXPECT_EQ(end_of(config, {.entropies_nat = {1e6, 1e6, 1e6}}), std::nullopt);
+  EXPECT_EQ(end_of(config, {.entropies_nat = {1e6, 1e6, 1e6, 1e6}}), Termination::entropy_change);
+  config.entropy_change_percent = 0.0;
+  EXPECT_EQ(end_of(config, {.entropies_nat = {1e6, 1e6, 1e6, 1e6}}), std::nullopt);
+}
+
+/// So many views, from two places in turn.
+std::vector<Decision> back_and_forth(int views) {
+  std::vector<Decision> decisions;
+  for (int i = 0; i < views; ++i) decisions.push_back({.view = {Vec3(i % 2, 0, 5), 0}});
+  return decisions;
+}
+
+TEST(RepeatedMotion, EndsAMissionAfterTenMoves) {
+  EXPECT_EQ(end_of({}, {.decisions = back_and_forth(12)}), Termination::repeated_motion);
+  EXPECT_EQ(end_of({}, {.decisions = back_and_forth(11)}), std::nullopt);
+  TerminationConfig off;
+  off.repeated_moves = 0;
+  EXPECT_EQ(end_of(off, {.decisions = back_and_forth(12)}), std::nullopt);
+}
+
+TEST(MaxIterations, IsTheFirstRuleAndNoPlannerSwitchesItOff) {
+  const TerminationConfig config{.max_iterations = 12};
+  const EndRules none = {.entropy = false, .gain = false, .repetition = false};
+  EXPECT_EQ(end_of(config, {.decisions = back_and_forth(12)}), Termination::max_iterations);
+  EXPECT_EQ(end_of(config, {.decisions = back_and_forth(12)}, none), Termination::max_iterations);
+  EXPECT_EQ(end_of(config, {.decisions = back_and_forth(11)}, none), std::nullopt);
+}
+
+TEST(EndAfterView, TheFirstRuleNamesTheEnd) {
   TerminationConfig config;
   config.entropy_window = 1;
   config.new_voxels_window = 1;
   config.min_new_voxels_per_m = 1.0;
   config.max_views_without_new_points = 1;
   const std::vector<double> settled = {5.0, 5.0}, going = {5.0, 4.0};
-  const auto nothing = walk({0}, {0}), points = walk({0}, {1}), voxels = walk({1}, {0});
-  EXPECT_EQ(believed_end(config, {}, settled, nothing, {}), Termination::entropy_change);
-  EXPECT_EQ(believed_end(config, {}, going, nothing, {}), Termination::low_gain);
-  EXPECT_EQ(believed_end(config, {}, going, points, {}), Termination::low_gain);
-  EXPECT_EQ(believed_end(config, {}, going, voxels, {}), Termination::no_new_points);
-  EXPECT_EQ(believed_end(config, {}, going, walk({1}, {1}), {}), std::nullopt);
+  const auto end = [&](const std::vector<double>& entropies_nat, std::size_t voxels,
+                       std::size_t points) {
+    return end_of(config, {.entropies_nat = entropies_nat, .progress = walk({voxels}, {points})});
+  };
+  EXPECT_EQ(end(settled, 0, 0), Termination::entropy_change);
+  EXPECT_EQ(end(going, 0, 0), Termination::low_gain);
+  EXPECT_EQ(end(going, 0, 1), Termination::low_gain);
+  EXPECT_EQ(end(going, 1, 0), Termination::no_new_points);
+  EXPECT_EQ(end(going, 1, 1), std::nullopt);
 }
 
-TEST(BelievedEnd, APlannerMaySwitchRulesOff) {
+TEST(EndAfterView, APlannerMaySwitchRulesOff) {
   TerminationConfig config;
   config.entropy_window = 1;
   config.max_views_without_new_points = 1;
   config.repeated_moves = 2;
-  const std::vector<double> settled = {5.0, 5.0};
-  const auto nothing = walk({0}, {0});
-  const Vec3 here = Vec3::Zero(), there = Vec3::UnitX();
-  const std::vector<Vec3> repeated_m = {here, there, here, there};
+  const History history = {
+      .decisions = back_and_forth(4), .entropies_nat = {5.0, 5.0}, .progress = walk({0}, {0})};
   EndRules rules;
-  const auto end = [&] { return believed_end(config, rules, settled, nothing, repeated_m); };
-  EXPECT_EQ(end(), Termination::entropy_change);
+  EXPECT_EQ(end_of(config, history, rules), Termination::entropy_change);
   rules.entropy = false;
-  EXPECT_EQ(end(), Termination::no_new_points);
+  EXPECT_EQ(end_of(config, history, rules), Termination::no_new_points);
   rules.gain = false;
-  EXPECT_EQ(end(), Termination::repeated_motion);
+  EXPECT_EQ(end_of(config, history, rules), Termination::repeated_motion);
   rules.repetition = false;
-  EXPECT_EQ(end(), std::nullopt);
+  EXPECT_EQ(end_of(config, history, rules), std::nullopt);
+}
+
+TEST(NextDecision, HandsOutTheViewsOfAPlanInOrderBeforeItAsksForAnother) {
+  History history;
+  int plans = 0;
+  const auto make_plan = [&] {
+    Plan plan{.end = Termination::route_flown};
+    if (++plans == 1) plan.views = back_and_forth(2);
+    return plan;
+  };
+  const auto next = [&] { return next_decision({}, {}, history, make_plan); };
+  for (const Decision& expected : back_and_forth(2)) {
+    EXPECT_TRUE(is_same_view(std::get<Decision>(next()).view, expected.view));
+    EXPECT_EQ(plans, 1);
+  }
+  EXPECT_EQ(std::get<Termination>(next()), Termination::route_flown);
+}
+
+TEST(NextDecision, ALegThatPassesTheLimitIsTooFarNotOneThatEndsOnIt) {
+  TerminationConfig config;
+  History history = {.progress = {{.straight_m = 7.5}}};
+  const auto is_too_far = [&](double leg_m) {
+    const auto next = next_decision(config, {}, history, [&] {
+      Plan plan;
+      plan.views = {{.view = {Vec3(leg_m, 0, 0), 0}}};
+      return plan;
+    });
+    return std::holds_alternative<Termination>(next) &&
+           std::get<Termination>(next) == Termination::max_distance;
+  };
+  EXPECT_FALSE(is_too_far(1e6));  // off by default
+  config.max_distance_m = 10.0;
+  EXPECT_FALSE(is_too_far(2.5));
+  EXPECT_TRUE(is_too_far(2.5000001));
+}
+
+TEST(History, ItsEntropiesBeginBeforeTheFirstViewWithADepthReturn) {
+  const CameraConfig camera;
+  const PlannerModel model({}, {}, Box3(Vec3(-8, -8, 0), Vec3(8, 8, 8)), {&camera, 1}, {});
+  Belief belief(model);
+  History history;
+  const auto free = [&](VoxelIndex v) {
+    belief.grid.apply({.free = {v}, .occupied = {}});
+    return belief.grid.total_entropy_nat();
+  };
+  remember_start(belief, history);
+  EXPECT_EQ(history.entropies_nat, std::vector<double>{belief.grid.total_entropy_nat()});
+  const double blind_nat = free(0);
+  remember({}, belief, 0.0, history);
+  EXPECT_EQ(history.entropies_nat, std::vector<double>{blind_nat});
+  belief.has_depth_return = true;
+  const double first_nat = free(1);
+  remember({}, belief, 0.0, history);
+  const double second_nat = free(2);
+  remember({}, belief, 2.0, history);
+  EXPECT_EQ(history.entropies_nat, (std::vector<double>{blind_nat, first_nat, second_nat}));
+  EXPECT_EQ(history.decisions.size(), 3U);
+  EXPECT_EQ(planned_m(history, Vec3(1, 0, 0), {.view = {Vec3(1, 3, 0), 0}}), 5.0);
 }
 
 }  // namespace

@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "planner/core/belief.hpp"
-#include "planner/core/model.hpp"
-#include "planner/core/scratch.hpp"
 
 namespace gnbv {
 namespace {
@@ -20,7 +18,7 @@ void clear_below(double x_m, Belief& belief) {
 }
 
 TEST(MostUnseen, LooksAtUnknownSpaceTheNearerTheBetter) {
-  const CameraModel camera = make_camera_model({});
+  const CameraConfig camera;
   const PlannerModel model({}, {}, Box3(Vec3(-16, -8, 0), Vec3(16, 8, 8)), {&camera, 1}, {});
   const Vec3 at_m(-4, 0, 4);
   const std::vector<ViewPose> views = {{at_m, kPi}, {at_m, 0.0}, {at_m, 0.0}};

@@ -5,9 +5,7 @@
 #include <functional>
 
 #include "planner/core/belief.hpp"
-#include "planner/core/history.hpp"
-#include "planner/core/model.hpp"
-#include "planner/core/scratch.hpp"
+#include "planner/core/planner.hpp"
 #include "planner/guided/guided_planner.hpp"
 #include "planner/planners.hpp"
 
@@ -26,7 +24,7 @@ struct SmallPlanner {
   PlannerConfig config;
 
   PlannerModel model() const {
-    const CameraModel camera = make_camera_model({});
+    const CameraConfig camera;
     return make_model(config, kWorkspace, {&camera, 1}, {});
   }
   Plan plan(const Belief& belief, const History& history, int threads = 2,

@@ -11,8 +11,7 @@
 #include <vector>
 
 #include "planner/core/belief.hpp"
-#include "planner/core/model.hpp"
-#include "planner/guided/frontier_clusters.hpp"
+#include "planner/guided/view_sampling.hpp"
 #include "planner/map/frontiers.hpp"
 #include "planner/motion/free_space.hpp"
 #include "planner/motion/view_checker.hpp"

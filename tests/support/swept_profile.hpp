@@ -5,8 +5,6 @@
 #include <vector>
 
 #include "planner/core/belief.hpp"
-#include "planner/core/model.hpp"
-#include "planner/core/scratch.hpp"
 #include "planner/profiling.hpp"
 #include "sensors/capture.hpp"
 #include "sensors/ray_scene.hpp"
@@ -42,13 +40,12 @@ inline std::vector<Isometry> profile_poses(const Box3& navigation_m, const ViewP
 inline SweptProfile sweep_profile(const World& world, const Box3& workspace_m,
                                   const ViewPose& start, int descents, double spacing_m,
                                   const LidarConfig& lidar = {}) {
-  const std::array lidars = {make_lidar_model(lidar)};
-  const PlannerModel model({}, {}, workspace_m, {}, lidars);
+  const PlannerModel model({}, {}, workspace_m, {}, {&lidar, 1});
   SweptProfile out{model, Belief(model)};
   const RayScene scene(world);
   std::vector<LidarScan> scans;
   for (const Isometry& T : profile_poses(model.navigation_m, start, descents, spacing_m)) {
-    scans.push_back(capture_scan(scene, lidars[0], 0, {&T, 1}, 1.0, {1, scans.size()}));
+    scans.push_back(capture_scan(scene, model.lidars[0], 0, {&T, 1}, 1.0, {1, scans.size()}));
   }
   Scratch scratch(model, 2);
   integrate_profile(model, scans, scratch, out.belief);

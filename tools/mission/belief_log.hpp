@@ -1,7 +1,7 @@
 // What a mission that keeps its candidates also keeps: what it believed where it meant to look.
 #pragma once
 
-#include "planner/core/model.hpp"
+#include "planner/core/belief.hpp"
 #include "planner/map/frontiers.hpp"
 #include "scenarios/scenario.hpp"
 #include "tools/mission/mission.hpp"

@@ -2,11 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
-#include <variant>
 
-#include "planner/motion/path_search.hpp"
 #include "planner/tour/tour_notes.hpp"
 #include "tools/mission/homing.hpp"
 #include "tools/mission/mission_state.hpp"
@@ -48,9 +45,7 @@ void turn_gimbal(Mission& m, const ViewPose& view) {
 /// one due on arrival is left to the view itself.
 std::optional<Termination> fly_to_view(Mission& m, const Decision& next) {
   const ScopeTimer timer(m.view_wall.fly_s);
-  m.entropy_before_nat = m.out.belief.grid.total_entropy_nat();
-  m.out.distance.straight_m +=
-      path_length_m(m.current.p_world_m, next.via_world_m, next.view.p_world_m);
+  m.out.distance.straight_m = planned_m(m.history, m.current.p_world_m, next);
   std::vector<DepthFrame> pending;
   const auto look = [&](const Flight& flight) {
     integrate_view(m.model, pending, m.scratch, m.out.belief);
@@ -106,14 +101,12 @@ std::vector<DepthFrame> sense(Mission& m) {
 void integrate(Mission& m, std::span<const DepthFrame> frames) {
   const ScopeTimer timer(m.view_wall.map_s);
   integrate_view(m.model, frames, m.scratch, m.out.belief);
-  remember_entropy(m.out.belief, m.entropy_before_nat, m.history);
 }
 
 void record(Mission& m, const Decision& decision) {
-  m.history.decisions.push_back(decision);
   if (!m.out.user_views.empty()) m.out.user_views.back().iteration = m.out.views.size();
   const Belief& belief = m.out.belief;
-  remember_progress(belief, m.out.distance.straight_m, m.history);
+  remember(decision, belief, m.out.distance.straight_m, m.history);
   const std::size_t points = belief.cloud.points_world_m().size();
   const std::size_t occupied = belief.grid.occupied_count();
   m.out.views.push_back(
@@ -138,13 +131,9 @@ void record(Mission& m, const Decision& decision) {
 }
 
 std::optional<Termination> termination(const Mission& m) {
-  const TerminationConfig& config = m.scenario.planner.termination;
   if (m.inputs.is_covered(m.out.belief)) return Termination::coverage_reached;
-  if (m.out.views.size() >= static_cast<std::size_t>(config.max_iterations)) {
-    return Termination::max_iterations;
-  }
-  if (const auto end = believed_end(config, m.planner->end_rules(), m.history.entropies_nat,
-                                    m.history.progress, positions_of(m.history))) {
+  if (const auto end =
+          end_after_view(m.scenario.planner.termination, m.planner->end_rules(), m.history)) {
     return end;
   }
   if (should_stop(m)) return Termination::interrupted;
@@ -179,25 +168,6 @@ Plan make_plan(Mission& m) {
   return plan;
 }
 
-/// The next view of the plan at hand, or of a new one; or why there is none.
-std::variant<Decision, Termination> next_decision(Mission& m) {
-  if (m.ahead.empty()) {
-    Plan plan = make_plan(m);
-    if (!plan.has_view()) return plan.end;
-    m.ahead.assign(std::make_move_iterator(plan.views.rbegin()),
-                   std::make_move_iterator(plan.views.rend()));
-  }
-  Decision next = std::move(m.ahead.back());
-  m.ahead.pop_back();
-  return next;
-}
-
-/// Whether the way to the view is longer than the mission may go on.
-bool is_too_far(const Mission& m, const Decision& next) {
-  return is_too_far(m.scenario.planner.termination, m.out.distance.straight_m,
-                    path_length_m(m.current.p_world_m, next.via_world_m, next.view.p_world_m));
-}
-
 /// Of a user's views those that the mission did not come to.
 void keep_views_not_tried(Mission& m) {
   if (!traits_of(m.scenario.planner).takes_views) return;
@@ -230,7 +200,8 @@ MissionResult run_mission(const Scenario& scenario, const World& world, const Ra
     record(m, view);
     if (const auto over = termination(m)) return finish(m, *over);
     try {
-      auto next = next_decision(m);
+      auto next = next_decision(scenario.planner.termination, m.current, m.history,
+                                [&] { return make_plan(m); });
       if (const auto* const end = std::get_if<Termination>(&next)) return finish(m, *end);
       view = std::move(std::get<Decision>(next));
     } catch (const StopRequested&) {
@@ -239,7 +210,6 @@ MissionResult run_mission(const Scenario& scenario, const World& world, const Ra
       m.out.failure = failed.what();
       return finish(m, Termination::utility_failed);
     }
-    if (is_too_far(m, view)) return finish(m, Termination::max_distance);
     if (!can_afford(m, view)) return finish(m, Termination::battery);
   }
 }

@@ -56,7 +56,6 @@ struct MissionInputs {
 };
 
 std::vector<CameraModel> camera_models(const Scenario& scenario);
-std::vector<LidarModel> lidar_models(const Scenario& scenario);
 /// What the planner of this scenario knows.
 PlannerModel planner_model(const Scenario& scenario);
 

@@ -31,12 +31,6 @@ bool stops_on_the_way(const Mission& m) { return !m.is_homing && should_stop(m);
 
 }  // namespace
 
-std::vector<LidarModel> lidar_models(const Scenario& scenario) {
-  std::vector<LidarModel> models;
-  for (const LidarConfig& lidar : scenario.lidars) models.push_back(make_lidar_model(lidar));
-  return models;
-}
-
 std::vector<CameraModel> camera_models(const Scenario& scenario) {
   std::vector<CameraModel> models;
   for (const CameraConfig& camera : scenario.cameras) models.push_back(make_camera_model(camera));
@@ -44,8 +38,8 @@ std::vector<CameraModel> camera_models(const Scenario& scenario) {
 }
 
 PlannerModel planner_model(const Scenario& scenario) {
-  return make_model(scenario.planner, scenario.workspace_m, camera_models(scenario),
-                    lidar_models(scenario), scenario.seed, no_fly_of(scenario));
+  return make_model(scenario.planner, scenario.workspace_m, scenario.cameras, scenario.lidars,
+                    scenario.seed, no_fly_of(scenario));
 }
 
 Mission::Mission(const Scenario& mission_scenario, const World& world, const RayScene& ray_scene,

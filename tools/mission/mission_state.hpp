@@ -5,10 +5,8 @@
 #include <memory>
 #include <optional>
 
-#include "planner/core/history.hpp"
-#include "planner/core/model.hpp"
+#include "planner/core/belief.hpp"
 #include "planner/core/planner.hpp"
-#include "planner/core/scratch.hpp"
 #include "sim/core/stopwatch.hpp"
 #include "sim/flight/flight.hpp"
 #include "tools/mission/mission.hpp"
@@ -38,7 +36,6 @@ struct Mission {
   std::unique_ptr<Flight> flight;
   History history;
   std::unique_ptr<Planner> planner;
-  std::vector<Decision> ahead;      // of the plan at hand, in reverse order: the next one last
   ViewPose current;                 // where the planner believes to be
   Vec3 last_p_world_m;              // truth, one tick ago
   double gimbal_pitch_rad = 0.0;    // where it is
@@ -46,7 +43,6 @@ struct Mission {
   std::vector<Exit> exits;          // none: home leads over the top
   std::vector<Exit> corners;        // of the way to the next view, ends included
   bool is_homing = false;           // on the last way, with energy for it
-  double entropy_before_nat = 0.0;  // of the view at hand
   WallTimes view_wall;              // of the view at hand
 };
 

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "planner/core/model.hpp"
-#include "planner/core/scratch.hpp"
+#include "planner/core/belief.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {

@@ -25,10 +25,11 @@ GNBV_EMBED(child_script, GNBV_UTILITY_CHILD);
 
 /// NumPy's dtype of UserCandidate, with the fields that are computed; the others are not there, so
 /// that nobody takes their zeros for counts.
-Json dtype_of(const UserUtilityConfig& config) {
-  const ViewFieldNeeds computed = names_shadow_fields(config) ? ViewFieldNeeds::shadow
-                                  : names_ray_fields(config)  ? ViewFieldNeeds::rays
-                                                              : ViewFieldNeeds::voxels;
+Json dtype_of(const UtilityConfig& config) {
+  const UtilityNeeds needs = needs_of(config);
+  const ViewFieldNeeds computed = needs.shadow ? ViewFieldNeeds::shadow
+                                  : needs.rays ? ViewFieldNeeds::rays
+                                               : ViewFieldNeeds::voxels;
   Json names = Json::array(), formats = Json::array(), offsets = Json::array();
   const auto add = [&](std::string_view name, std::string_view format, std::size_t offset) {
     names.push_back(name);
@@ -53,10 +54,11 @@ Json dtype_of(const UserUtilityConfig& config) {
 
 class PythonUtility {
  public:
-  explicit PythonUtility(const UserUtilityConfig& config)
-      : function_(config.function), child_({python_program(), "-c", std::string(child_script())}) {
-    const Json hello = {{"function", config.function},
-                        {"source", config.source},
+  explicit PythonUtility(const UtilityConfig& config)
+      : function_(config.python.function),
+        child_({python_program(), "-c", std::string(child_script())}) {
+    const Json hello = {{"function", function_},
+                        {"source", config.python.source},
                         {"dtype", dtype_of(config)},
                         {"asker", ::getpid()}};
     child_.write(hello.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
@@ -146,7 +148,7 @@ NamedUtility named_utility(const std::string& utility) {
 
 UserScores start_user_utility(const UtilityConfig& config) {
   if (!is_user_utility(config.name)) return {};
-  auto utility = std::make_shared<PythonUtility>(config.python);
+  auto utility = std::make_shared<PythonUtility>(config);
   return [utility](const UserQuestion& question) { return (*utility)(question); };
 }
 

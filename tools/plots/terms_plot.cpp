@@ -199,18 +199,18 @@ std::optional<Plot> terms_plot(const RunRecord& record) {
   const std::vector<ViewRecord> views = scored_views(record);
   if (views.empty()) return std::nullopt;
   const UtilityConfig& utility = record.scenario.planner.utility;
-  const bool is_proposed = utility.name == "proposed";
+  const bool is_eq2 = settings_read_by(utility.name).eq2;
   const Eq2 eq2(utility);
-  const Columns columns = is_proposed ? columns_of_eq2(views, eq2) : columns_of(views);
+  const Columns columns = is_eq2 ? columns_of_eq2(views, eq2) : columns_of(views);
   const bool is_smooth = views.size() > kManyViews;
-  const std::size_t count = is_proposed ? 5 : is_discounted(columns) ? 3 : 1;
+  const std::size_t count = is_eq2 ? 5 : is_discounted(columns) ? 3 : 1;
   const std::vector<Phase> phases = frontier_phases(record.views);
   Panels panels(count, run_and_seed(record), "views", views_range(record.views),
                 key_of(phases, is_smooth));
   std::string text = data_block("raw", rows_of(views, columns, 1)) +
                      data_block("mean", rows_of(views, columns, is_smooth ? kWindow : 1)) +
                      shaded_phases(phases) + utility_panel(panels, columns, is_smooth);
-  if (is_proposed) {
+  if (is_eq2) {
     text += quality_panel(panels, columns, eq2);  // one after the other: next() counts
     text += factor_panels(panels, columns, is_smooth);
   } else if (count > 1) {

@@ -9,8 +9,6 @@
 
 #include "planner/config.hpp"
 #include "planner/core/belief.hpp"
-#include "planner/core/model.hpp"
-#include "planner/core/scratch.hpp"
 #include "tools/python/arrays.hpp"
 
 namespace gnbv {

@@ -10,8 +10,6 @@
 
 #include "planner/config.hpp"
 #include "planner/core/belief.hpp"
-#include "planner/core/model.hpp"
-#include "planner/core/scratch.hpp"
 
 namespace gnbv {
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "planner/guided/frontier_clusters.hpp"
+#include "planner/guided/view_sampling.hpp"
 #include "sim/core/error.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/reference.hpp"

@@ -11,7 +11,7 @@
 #include "bench/score/mission_score.hpp"
 #include "planner/core/belief.hpp"
 #include "planner/core/plan.hpp"
-#include "planner/core/termination.hpp"
+#include "planner/core/planner.hpp"
 #include "planner/symmetry/symmetry.hpp"
 #include "sim/flight/flight.hpp"
 #include "tools/run_files/plan_jsonl.hpp"

@@ -8,7 +8,7 @@
 #include <atomic>
 #include <chrono>
 
-#include "planner/core/scratch.hpp"
+#include "planner/core/belief.hpp"
 #include "planner/tour/tour_notes.hpp"
 #include "tests/planner/wall_world.hpp"
 
@@ -17,9 +17,7 @@ namespace {
 
 struct TourWorld {
   explicit TourWorld(double range_max_m = 8.0, const Box3& workspace_m = kWorkspace) {
-    CameraConfig camera;
-    camera.range_max_m = range_max_m;
-    cameras = {make_camera_model(camera)};
+    cameras = {{.range_max_m = range_max_m}};
     planner.config.utility.name = "tour";
     workspace = workspace_m;
   }
@@ -27,7 +25,7 @@ struct TourWorld {
     return make_model(planner.config, workspace, cameras, {}, seed);
   }
   SmallPlanner planner;
-  std::vector<CameraModel> cameras;
+  std::vector<CameraConfig> cameras;
   Box3 workspace;
 };
 
@@ -91,13 +89,13 @@ TEST(TourState, ALatticeOfItsOwnStepHasNoMoreNodesThanCanBePlannedOver) {
   for (const double range_m : {0.5, 1.0, 8.0}) {
     const TourWorld world(range_m);
     const Box3 box_m(Vec3(0, 0, 0.7), Vec3(100, 100, 15));
-    const double step_m = automatic_step_m(world.cameras, box_m);
+    const double step_m = automatic_step_m(world.model(0).cameras, box_m);
     const Roadmap roadmap({box_m, 0.2}, box_m, step_m);
     EXPECT_LE(roadmap.size(), kMostAutomaticNodes);
     EXPECT_GE(step_m, 0.25 * range_m);
   }
   const TourWorld world;
-  EXPECT_EQ(automatic_step_m(world.cameras, Box3(Vec3(0, 0, 0), Vec3(40, 40, 10))), 2.0);
+  EXPECT_EQ(automatic_step_m(world.model(0).cameras, Box3(Vec3(0, 0, 0), Vec3(40, 40, 10))), 2.0);
 }
 
 }  // namespace
