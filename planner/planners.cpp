@@ -13,43 +13,48 @@
 namespace gnbv {
 namespace {
 
-using Make = std::unique_ptr<Planner> (*)(const PlannerConfig&, const PlannerModel&,
-                                          PlannerSources&&);
+struct Parts {
+  const PlannerConfig& config;
+  const PlannerModel& model;
+  PlannerSources sources;
+};
+using Made = std::unique_ptr<Planner>;
 
-std::unique_ptr<Planner> make_guided(const PlannerConfig& config, const PlannerModel& model,
-                                     PlannerSources&& sources) {
+Made make_guided(Parts parts) {
+  const PlannerConfig& config = parts.config;
   return std::make_unique<GuidedPlanner>(GuidedConfig{config.agvs, config.fvs, config.utility},
-                                         model, std::move(sources.user_scores));
+                                         parts.model, std::move(parts.sources.user_scores));
 }
 
-std::unique_ptr<Planner> make_tour(const PlannerConfig& config, const PlannerModel& model,
-                                   PlannerSources&&) {
-  const bool has_profile = config.profiling.method != ProfilingMethod::none;
-  return std::make_unique<TourPlanner>(config.tour, model, has_profile);
+Made make_tour(Parts parts) {
+  const bool has_profile = parts.config.profiling.method != ProfilingMethod::none;
+  return std::make_unique<TourPlanner>(parts.config.tour, parts.model, has_profile);
 }
 
-template <LayViews lay>
-std::unique_ptr<Planner> make_laid(const PlannerConfig& config, const PlannerModel& model,
-                                   PlannerSources&&) {
-  return std::make_unique<LaidRoutePlanner>(lay, config.routes, config.termination.max_iterations,
-                                            model);
+template <auto lay>
+Made make_laid(Parts parts) {
+  const auto lay_here = [&model = parts.model, config = parts.config](const OccupancyGrid& map,
+                                                                      const ViewPose& start) {
+    return lay(config.routes, model, map, start, config.termination.max_iterations);
+  };
+  return std::make_unique<RoutePlanner>(Route{.lay = lay_here}, parts.model);
 }
 
-std::unique_ptr<Planner> make_given(const PlannerConfig& config, const PlannerModel& model,
-                                    PlannerSources&& sources) {
-  return std::make_unique<UserRoutePlanner>(config.routes.views, std::move(sources.next_view),
-                                            std::move(sources.on_refused), model);
+Made make_given(Parts parts) {
+  return std::make_unique<RoutePlanner>(Route{.views = parts.config.routes.views,
+                                              .next_view = std::move(parts.sources.next_view),
+                                              .on_refused = std::move(parts.sources.on_refused)},
+                                        parts.model);
 }
 
-std::unique_ptr<Planner> make_known(const PlannerConfig& config, const PlannerModel&,
-                                    PlannerSources&& sources) {
-  GNBV_CHECK(sources.route.has_value(), "{} without its route", config.utility.name);
-  return std::make_unique<KnownRoutePlanner>(std::move(*sources.route));
+Made make_known(Parts parts) {
+  GNBV_CHECK(parts.sources.route.has_value(), "{} without its route", parts.config.utility.name);
+  return std::make_unique<KnownRoutePlanner>(std::move(*parts.sources.route));
 }
 
 struct NamedPlanner {
   std::string_view name;
-  Make make;
+  Made (*make)(Parts);
   PlannerTraits traits;
 };
 
@@ -63,28 +68,54 @@ constexpr std::array kPlanners = {
     NamedPlanner{"tour", make_tour, {.makes_tours = true}},
 };
 
-/// Nothing for the guided planner.
-const NamedPlanner* planner_named(std::string_view name) {
-  const auto* const found =
-      std::find_if(kPlanners.begin(), kPlanners.end(),
-                   [&](const NamedPlanner& planner) { return planner.name == name; });
-  return found == kPlanners.end() ? nullptr : found;
+/// The guided planner's for all other names.
+const NamedPlanner& planner_named(std::string_view name) {
+  static constexpr NamedPlanner kGuided = {"", make_guided, {.scores_views = true}};
+  for (const NamedPlanner& planner : kPlanners) {
+    if (planner.name == name) return planner;
+  }
+  return kGuided;
 }
 
 }  // namespace
 
+void set_preset_switches(PlannerConfig& config) {
+  const auto known = std::find(kPlannerPresets.begin(), kPlannerPresets.end(), config.preset);
+  GNBV_CHECK(known != kPlannerPresets.end(), "no preset '{}'", config.preset);
+  const bool is_released = config.preset == "released";
+  const auto set = [&](auto& value, const auto& papers, const auto& released) {
+    value = is_released ? released : papers;
+  };
+  const PlannerConfig paper;
+  FvsConfig& fvs = config.fvs;
+  UtilityConfig& utility = config.utility;
+  set(config.profiling.scan_in_transit, paper.profiling.scan_in_transit, false);
+  set(fvs.frontier.max_extent_m, paper.fvs.frontier.max_extent_m, 0.0);
+  set(fvs.tries, paper.fvs.tries, 50);
+  set(fvs.pool_clusters, paper.fvs.pool_clusters, true);
+  set(fvs.views_per_layer, paper.fvs.views_per_layer, 8);
+  set(fvs.needs_visible_cluster, paper.fvs.needs_visible_cluster, false);
+  set(fvs.agvs_when_stuck, paper.fvs.agvs_when_stuck, false);
+  set(fvs.when_grid_finds_nothing, paper.fvs.when_grid_finds_nothing, false);
+  set(utility.bircher_lambda_per_m, paper.utility.bircher_lambda_per_m, 0.5);
+  set(utility.hit_voxel, paper.utility.hit_voxel, HitVoxel::excluded);
+  set(utility.prediction_hides_hits, paper.utility.prediction_hides_hits, true);
+}
+
 PlannerTraits traits_of(const PlannerConfig& config) {
-  if (const NamedPlanner* const named = planner_named(config.utility.name)) return named->traits;
+  PlannerTraits traits = planner_named(config.utility.name).traits;
+  if (!traits.scores_views) return traits;
   const UtilityNeeds needs = needs_of(config.utility);
-  return {.scores_views = true, .reads_prediction = needs.prediction, .keeps_shadow = needs.shadow};
+  traits.reads_prediction = needs.prediction;
+  traits.keeps_shadow = needs.shadow;
+  return traits;
 }
 
 double planning_bytes(const PlannerConfig& config, const Box3& workspace_m, int threads,
                       std::size_t cameras) {
   const double resolution_m = config.map.resolution_m;
   const double map = map_bytes(workspace_m, resolution_m, threads, cameras);
-  const NamedPlanner* const named = planner_named(config.utility.name);
-  const bool makes_tours = named != nullptr && named->traits.makes_tours;
+  const bool makes_tours = planner_named(config.utility.name).traits.makes_tours;
   return makes_tours ? map + tour_bytes(config.tour, workspace_m, resolution_m) : map;
 }
 
@@ -104,8 +135,7 @@ std::vector<std::string_view> planners_that(bool PlannerTraits::*have) {
 
 std::unique_ptr<Planner> make_planner(const PlannerConfig& config, const PlannerModel& model,
                                       PlannerSources sources) {
-  const NamedPlanner* const named = planner_named(config.utility.name);
-  return (named != nullptr ? named->make : make_guided)(config, model, std::move(sources));
+  return planner_named(config.utility.name).make({config, model, std::move(sources)});
 }
 
 PlannerModel make_model(const PlannerConfig& config, const Box3& workspace_m,

@@ -14,12 +14,14 @@ PlannerModel::PlannerModel(const BeliefConfig& belief_config, const ValidityConf
                            NoFly mission_no_fly)
     : belief(belief_config),
       validity(validity_config),
+      validity_around(validity_config),
       seed(mission_seed),
       workspace_m(workspace),
       navigation_m(navigation_box_m(validity_config, workspace)),
       no_fly(std::move(mission_no_fly)),
       gimbal(gimbal_of(camera_configs)),
       pitches_rad(gimbal ? gnbv::pitches_rad(*gimbal) : std::vector<double>{0.0}) {
+  if (validity.path == PathCheck::straight) validity_around.path = PathCheck::astar;
   const double resolution_m = belief.map.resolution_m;
   for (const LidarConfig& lidar : lidar_configs) lidars.push_back(make_lidar_model(lidar));
   for (const CameraConfig& camera : camera_configs) {

@@ -10,19 +10,11 @@
 #include <span>
 #include <vector>
 
-#include "planner/map/config.hpp"
 #include "planner/map/frontiers.hpp"
-#include "planner/map/occupancy_grid.hpp"
 #include "planner/map/scan_insertion.hpp"
-#include "planner/map/surface_cloud.hpp"
 #include "planner/motion/config.hpp"
 #include "planner/motion/no_fly.hpp"
-#include "planner/view/config.hpp"
-#include "planner/view/shadow_band.hpp"
 #include "planner/view/visibility.hpp"
-#include "sensors/camera_model.hpp"
-#include "sensors/frames.hpp"
-#include "sensors/lidar_model.hpp"
 
 namespace gnbv {
 
@@ -44,7 +36,8 @@ struct PlannerModel {
 
   BeliefConfig belief;
   ValidityConfig validity;
-  std::uint64_t seed;  // of what a planner leaves to chance
+  ValidityConfig validity_around;  // what blocks the straight way is flown around
+  std::uint64_t seed;              // of what a planner leaves to chance
   Box3 workspace_m;
   Box3 navigation_m;
   NoFly no_fly;

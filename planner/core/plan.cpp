@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "planner/core/belief.hpp"
+
 namespace gnbv {
 namespace {
 
@@ -41,9 +43,10 @@ std::optional<Sampler> sampler_named(std::string_view name) {
   return std::nullopt;
 }
 
-void check(ViewChecker& checker, Candidate& candidate) {
+void check(ViewChecker& checker, const PlannerModel& model, Candidate& candidate) {
   FoundPath path = checker.check(candidate.view);
-  candidate.rejected = path.rejected;
+  const bool can_pitch = model.can_pitch(candidate.view.gimbal_pitch_rad);
+  candidate.rejected = can_pitch ? path.rejected : Rejection::beyond_gimbal;
   candidate.path_m = checker.length_m(path, candidate.view);
   candidate.via_world_m = std::move(path.via_world_m);
 }

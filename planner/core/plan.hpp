@@ -83,8 +83,9 @@ struct Candidate {
   Score score = {};
 };
 
-/// Fills in whether the candidate may be flown to, and the way there.
-void check(ViewChecker& checker, Candidate& candidate);
+struct PlannerModel;
+/// Fills in whether the candidate may be flown to and the gimbal can, and the way there.
+void check(ViewChecker& checker, const PlannerModel& model, Candidate& candidate);
 
 struct TourNotes;  // planner/tour/tour_notes.hpp
 

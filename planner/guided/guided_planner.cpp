@@ -18,8 +18,8 @@ struct Decider {
   const History& history;
   const ViewPose& current;
   Scratch& scratch;
-  ValidityConfig validity;  // the configured one, but for the last way out
-  std::vector<ViewPose> recent;
+  const ValidityConfig* validity = &model.validity;  // but for the last way out
+  std::vector<ViewPose> recent = recent_views(history, model.validity.recent_poses);
   Plan plan = {};
 
   Plan decide() {
@@ -30,8 +30,8 @@ struct Decider {
     if (is_stuck && (try_fvs() || !fvs.agvs_when_stuck)) return std::move(plan);
     if (try_agvs() || !fvs.enabled || !fvs.when_grid_finds_nothing) return std::move(plan);
     if (!is_stuck && try_fvs()) return std::move(plan);
-    if (validity.path == PathCheck::straight) {
-      validity.path = PathCheck::astar;
+    if (model.validity.path == PathCheck::straight) {
+      validity = &model.validity_around;
       try_fvs();
     }
     return std::move(plan);
@@ -107,11 +107,11 @@ struct Decider {
     constexpr std::size_t kPiece = 32;
     std::vector<Candidate> candidates(views.size(), as);
     parallel_for_chunks(scratch.threads, views.size(), kPiece, [&](auto begin, auto end) {
-      ViewChecker checker(validity, model.navigation_m, model.no_fly, belief.grid, recent, current,
+      ViewChecker checker(*validity, model.navigation_m, model.no_fly, belief.grid, recent, current,
                           [this] { scratch.heed_stop(); });
       for (std::size_t i = begin; i < end; ++i) {
         candidates[i].view = views[i];
-        check(checker, candidates[i]);
+        check(checker, model, candidates[i]);
       }
     });
     return candidates;
@@ -189,10 +189,7 @@ GuidedPlanner::GuidedPlanner(GuidedConfig config, const PlannerModel& model, Use
 
 Plan GuidedPlanner::next(const Belief& belief, const History& history, const ViewPose& current,
                          Scratch& scratch) {
-  std::vector<ViewPose> recent = recent_views(history, model_.validity.recent_poses);
-  Decider decider{config_, user_scores_, model_,          belief,           history,
-                  current, scratch,      model_.validity, std::move(recent)};
-  return decider.decide();
+  return Decider{config_, user_scores_, model_, belief, history, current, scratch}.decide();
 }
 
 }  // namespace gnbv

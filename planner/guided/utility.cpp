@@ -22,27 +22,19 @@ Score discounted(double value, double lambda_per_m, double path_m) {
   return {.value = value * distance, .information = value, .distance = distance};
 }
 
-/// E hat of Eq. (2): the share of the largest possible entropy of the visible voxels.
-double normalised_entropy(const ViewStats& s) {
-  const double voxels = static_cast<double>(s.free_voxels) + s.unknown_voxels + s.occupied_voxels;
-  return s.entropy_nat / (voxels * std::numbers::ln2);
-}
-
-/// D hat of Eq. (2); 0 when the view sees no point of the cloud.
-double normalised_density(const UtilityConfig& config, const ViewStats& s) {
-  const double mean = s.density_sum / s.occupied_voxels;
-  if (mean <= 0.0) return 0.0;
-  const double share = std::min(mean / s.density_max, 1.0);
-  return config.density_term == DensityTerm::literal ? share : 1.0 - share;
-}
-
-/// Eq. (2).
+/// Eq. (2), with P hat of Eq. (3). E hat is the share of the largest possible entropy of the
+/// visible voxels; D hat is 0 when the view sees no point of the cloud.
 Score proposed(const UtilityConfig& config, const ViewStats& s, const ScoreContext&) {
   Score out;
-  out.information = normalised_entropy(s);
-  out.density = normalised_density(config, s);
-  out.prediction = s.predicted_voxels /
-                   (static_cast<double>(s.predicted_voxels) + s.occupied_voxels);  // Eq. (3)
+  const double voxels = static_cast<double>(s.free_voxels) + s.unknown_voxels + s.occupied_voxels;
+  out.information = s.entropy_nat / (voxels * std::numbers::ln2);
+  const double mean_density = s.density_sum / s.occupied_voxels;
+  if (mean_density > 0.0) {
+    const double share = std::min(mean_density / s.density_max, 1.0);
+    out.density = config.density_term == DensityTerm::literal ? share : 1.0 - share;
+  }
+  out.prediction =
+      s.predicted_voxels / (static_cast<double>(s.predicted_voxels) + s.occupied_voxels);
   out.distance = std::exp(-config.lambda_per_m * s.path_m);
   const double weights = config.normalise_weights ? config.beta + config.gamma : 1.0;
   const double quality = (config.beta * out.density + config.gamma * out.prediction) / weights;

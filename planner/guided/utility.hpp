@@ -20,19 +20,9 @@ namespace gnbv {
 class ShadowBand;
 struct ViewOptions;
 
-/// Eq. (2)'s reward for density: of sparse regions (released code, fits the text's aim) or of dense
-/// ones (the formula to the letter).
 enum class DensityTerm { sparse, literal };
-
-/// How often bircher and isler count a voxel: once a ray that crosses it (released code), or once.
 enum class IgCounting { per_ray, unique };
-
-/// Whether bircher and isler count the occupied voxel that ends a ray; the released code does not,
-/// see ray_by_ray.hpp.
 enum class HitVoxel { counted, excluded };
-
-/// The distance d that formulas discount by: of the way that is flown, or from here to there. They
-/// differ only where the way leads around something (PathCheck::astar).
 enum class DistanceAlong { path, straight };
 
 /// What bircher_volume pays for a cubic metre of visible space.
@@ -55,13 +45,18 @@ struct UtilityConfig {
   double gamma = 0.5;
   double lambda_per_m = 0.2;          // proposed, bircher_volume, aep
   double bircher_lambda_per_m = 0.2;  // bircher; 0.5 in the released configuration
+  /// The way that is flown, or from here to there. They differ only where the way leads around
+  /// something (PathCheck::astar).
   DistanceAlong distance = DistanceAlong::path;
+  /// Eq. (2) rewards sparse regions (released code, fits the text's aim), or dense ones (to the
+  /// letter).
   DensityTerm density_term = DensityTerm::sparse;
   bool normalise_weights = true;  // beta and gamma divided by their sum (released code)
+  /// bircher, isler: a voxel counts once a ray that crosses it (released code), or once.
   IgCounting ig_counting = IgCounting::per_ray;
-  HitVoxel hit_voxel = HitVoxel::counted;
-  bool prediction_hides_hits = false;  // slip of the released code, see ray_by_ray.hpp
-  bool legacy_visibility = false;      // see ViewOptions
+  HitVoxel hit_voxel = HitVoxel::counted;  // that ends a ray; the released code excludes it, and
+  bool prediction_hides_hits = false;      // has this slip: see ray_by_ray.hpp
+  bool legacy_visibility = false;          // see ViewOptions
   VolumeWeights volume_weights = {};
   ShadowConfig shadow = {};
   UserUtilityConfig python = {};

@@ -52,14 +52,12 @@ double exit_m(const Vec3& center_m, const Vec3& direction, std::span<const Vec3>
 /// Reorders: each view is the nearest to the one before among those left.
 void order_by_nearest(const Vec3& start_m, std::vector<ViewPose>& views) {
   Vec3 at_m = start_m;
-  for (std::size_t next = 0; next < views.size(); ++next) {
-    const auto nearest = std::min_element(views.begin() + static_cast<std::ptrdiff_t>(next),
-                                          views.end(), [&](const ViewPose& a, const ViewPose& b) {
-                                            return (a.p_world_m - at_m).squaredNorm() <
-                                                   (b.p_world_m - at_m).squaredNorm();
-                                          });
-    std::iter_swap(views.begin() + static_cast<std::ptrdiff_t>(next), nearest);
-    at_m = views[next].p_world_m;
+  const auto is_nearer = [&](const ViewPose& a, const ViewPose& b) {
+    return (a.p_world_m - at_m).squaredNorm() < (b.p_world_m - at_m).squaredNorm();
+  };
+  for (auto next = views.begin(); next != views.end(); ++next) {
+    std::iter_swap(next, std::min_element(next, views.end(), is_nearer));
+    at_m = next->p_world_m;
   }
 }
 

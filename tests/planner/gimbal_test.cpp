@@ -6,7 +6,6 @@
 
 #include "planner/guided/view_sampling.hpp"
 #include "planner/map/frontiers.hpp"
-#include "planner/route/route_planners.hpp"
 #include "tests/planner/wall_world.hpp"
 
 namespace gnbv {
@@ -104,7 +103,10 @@ TEST(Gimbal, AnotherPitchIsAnotherView) {
   const auto rejection = [&](double pitch_rad) {
     const ViewPose view{here.p_world_m, 0.0, pitch_rad};
     Candidate candidate{.view = view, .sampler = Sampler::route};
-    UserViewChecker(model, belief, std::array{here}, here).check(candidate);
+    const std::array recent = {here};
+    ViewChecker checker(model.validity, model.navigation_m, model.no_fly, belief.grid, recent,
+                        here);
+    check(checker, model, candidate);
     return candidate.rejected;
   };
   EXPECT_EQ(rejection(0.0), Rejection::recently_visited);

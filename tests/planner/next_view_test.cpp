@@ -45,7 +45,7 @@ TEST(PlanNextView, ChoosesTheHighestUtilityAndTheFirstOfEquals) {
   double best_value = 0.0;
   for (const ViewPose& view : sample_agvs(planner.config.agvs, kCurrent, 1.0)) {
     Candidate candidate{.view = view, .sampler = Sampler::agvs};
-    check(checker, candidate);
+    check(checker, model, candidate);
     if (candidate.rejected) continue;
     ViewStats stats = evaluate_view(belief.grid, belief.cloud, model.view_rays[0], view, marks);
     stats.density_max = belief.cloud.density_max();
@@ -175,10 +175,10 @@ TEST(LaidRoute, TakesViewAfterViewAndSkipsWhatIsNotValid) {
   const PlannerModel model = small.model();
   static const std::array route = {ViewPose{Vec3(-3, 0, 4), 0.0}, ViewPose{Vec3(6.1, 0, 4), 0.0},
                                    ViewPose{Vec3(3, 0, 4), 0.0}};  // the second is in the wall
-  const LayViews lay = [](const RouteConfig&, const PlannerModel&, const OccupancyGrid&,
-                          const ViewPose&,
-                          int) { return std::vector<ViewPose>(route.begin(), route.end()); };
-  LaidRoutePlanner planner(lay, {}, 3, model);
+  const auto lay = [](const OccupancyGrid&, const ViewPose&) {
+    return std::vector<ViewPose>(route.begin(), route.end());
+  };
+  RoutePlanner planner({.lay = lay}, model);
   planner.begin(belief, kCurrent);
   Scratch scratch(model, 2);
   History history;

@@ -32,7 +32,7 @@ PlannerModel planner_model() {
 
 const ViewPose kStart{Vec3(0, -12, 2), 0};
 
-std::vector<ViewPose> route(LayViews lay, const OccupancyGrid& grid) {
+std::vector<ViewPose> route(decltype(&lay_hemisphere) lay, const OccupancyGrid& grid) {
   return lay({}, planner_model(), grid, kStart, 100);
 }
 

@@ -10,7 +10,6 @@
 #include "planner/guided/view_sampling.hpp"
 #include "planner/map/frontiers.hpp"
 #include "planner/motion/path_search.hpp"
-#include "planner/route/route_planners.hpp"
 #include "planner/view/view_fields.hpp"
 #include "sim/core/parallel.hpp"
 
@@ -129,8 +128,10 @@ nb::tuple BeliefView::validate(const ViewRows& rows) const {
     candidates.push_back({.view = view, .sampler = Sampler::route});
   {
     const Question question(tools());
-    UserViewChecker checker(tools().model, seen, {}, current_);
-    for (Candidate& candidate : candidates) checker.check(candidate);
+    const PlannerModel& model = tools().model;
+    ViewChecker checker(model.validity_around, model.navigation_m, model.no_fly, seen.grid, {},
+                        current_);
+    for (Candidate& candidate : candidates) check(checker, model, candidate);
   }
   nb::list reasons;
   std::vector<double> path_m;

@@ -51,7 +51,7 @@ class BeliefView {
   nb::object sample(double scale) const;
   nb::object sample_frontiers() const;
   /// For each view the name of what forbids it, or "", and the length of the way there (m), as the
-  /// mission will find it: UserViewChecker.
+  /// mission will find it.
   nb::tuple validate(const ViewRows& rows) const;
   /// A ViewStats a row, with rays, as bytes.
   nb::bytes evaluate(const ViewRows& rows) const;

@@ -5,7 +5,6 @@
 
 #include "planner/core/plan.hpp"
 #include "planner/guided/view_sampling.hpp"
-#include "planner/route/route_planners.hpp"
 
 namespace gnbv {
 namespace {
@@ -69,7 +68,8 @@ EnvObservation EnvObserver::observe(const Belief& belief, const ViewPose& curren
 
 void EnvObserver::add_candidates(const Belief& belief, const ViewPose& current,
                                  EnvObservation& out) {
-  UserViewChecker checker(model_, belief, {}, current);
+  ViewChecker checker(model_.validity_around, model_.navigation_m, model_.no_fly, belief.grid, {},
+                      current);
   const double most_voxels = std::log1p(model_.view_voxels);
   const double reach_m = model_.navigation_m.diagonal().norm();
   const auto share = [&](double count) { return bounded(std::log1p(count) / most_voxels); };
@@ -78,7 +78,7 @@ void EnvObserver::add_candidates(const Belief& belief, const ViewPose& current,
   for (const double scale : scales_) {
     for (const ViewPose& view : sample_agvs(config_.agvs, current, scale, model_.pitches_rad)) {
       Candidate candidate{.view = view, .sampler = Sampler::agvs};
-      checker.check(candidate);
+      check(checker, model_, candidate);
       const Vec3& p_m = view.p_world_m;
       out.views.insert(out.views.end(),
                        {p_m.x(), p_m.y(), p_m.z(), view.yaw_rad, view.gimbal_pitch_rad});
