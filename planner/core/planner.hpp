@@ -41,10 +41,10 @@ struct MapProgress {
 
 /// What was decided so far, and what it brought; oldest first.
 struct History {
-  std::vector<Decision> decisions;    // flown
-  std::vector<double> entropies_nat;  // total; the first: before the first view with a depth return
-  std::vector<MapProgress> progress;  // after each view
-  std::vector<Decision> ahead;        // of the plan at hand, not flown yet; the next one last
+  std::vector<Decision> decisions = {};    // flown
+  std::vector<double> entropies_nat = {};  // total; first: before the first depth return
+  std::vector<MapProgress> progress = {};  // after each view
+  std::vector<Decision> ahead = {};        // of the plan at hand, not flown yet; the next one last
 };
 
 /// Begins the history: what is believed before the first view.
