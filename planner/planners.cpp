@@ -105,7 +105,7 @@ void set_preset_switches(PlannerConfig& config) {
 PlannerTraits traits_of(const PlannerConfig& config) {
   PlannerTraits traits = planner_named(config.utility.name).traits;
   if (!traits.scores_views) return traits;
-  const UtilityNeeds needs = needs_of(config.utility);
+  const UtilityTraits needs = needs_of(config.utility);
   traits.reads_prediction = needs.prediction;
   traits.keeps_shadow = needs.shadow;
   return traits;

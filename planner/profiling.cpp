@@ -47,20 +47,15 @@ std::optional<Heights> allowed_heights(const NoFly& no_fly, const Eigen::Vector2
 
 std::vector<ProfileLeg> bounding_box_profile(const Box3& navigation_m, const ViewPose& start,
                                              const NoFly& no_fly) {
-  const Vec3 lo = navigation_m.min();
-  const Vec3 hi = navigation_m.max();
-  const Vec3 mid = navigation_m.center();
+  const std::array<Vec3, 3> lines = {navigation_m.min(), navigation_m.center(), navigation_m.max()};
   // corners and side middles, counter-clockwise
-  const std::array<Eigen::Vector2d, 8> stations = {{{lo.x(), lo.y()},
-                                                    {mid.x(), lo.y()},
-                                                    {hi.x(), lo.y()},
-                                                    {hi.x(), mid.y()},
-                                                    {hi.x(), hi.y()},
-                                                    {mid.x(), hi.y()},
-                                                    {lo.x(), hi.y()},
-                                                    {lo.x(), mid.y()}}};
+  constexpr std::array<std::size_t, 8> kX = {0, 1, 2, 2, 2, 1, 0, 0};
+  constexpr std::array<std::size_t, 8> kY = {0, 0, 0, 1, 2, 2, 2, 1};
+  const auto station_m = [&](std::size_t i) {
+    return Eigen::Vector2d(lines[kX[i % 8]].x(), lines[kY[i % 8]].y());
+  };
   const auto distance_m = [&](std::size_t i) {
-    return (stations[i % 8] - start.p_world_m.head<2>()).norm();
+    return (station_m(i) - start.p_world_m.head<2>()).norm();
   };
   std::size_t nearest = 0;
   for (std::size_t i = 1; i < 8; ++i) {
@@ -69,10 +64,10 @@ std::vector<ProfileLeg> bounding_box_profile(const Box3& navigation_m, const Vie
   const bool counter_clockwise = distance_m(nearest + 1) <= distance_m(nearest + 7);
   std::vector<ProfileLeg> legs;
   for (std::size_t k = 0; k < 8; ++k) {
-    const Eigen::Vector2d& p = stations[(nearest + (counter_clockwise ? k : 8 - k)) % 8];
-    const Eigen::Vector2d to_center = mid.head<2>() - p;
+    const Eigen::Vector2d p = station_m(nearest + (counter_clockwise ? k : 8 - k));
+    const Eigen::Vector2d to_center = navigation_m.center().head<2>() - p;
     const double yaw_rad = std::atan2(to_center.y(), to_center.x());
-    const auto heights = allowed_heights(no_fly, p, {lo.z(), hi.z()});
+    const auto heights = allowed_heights(no_fly, p, {lines[0].z(), lines[2].z()});
     if (!heights) continue;
     legs.push_back({{Vec3(p.x(), p.y(), heights->high_m), yaw_rad}, false});
     legs.push_back({{Vec3(p.x(), p.y(), heights->low_m), yaw_rad}, true});

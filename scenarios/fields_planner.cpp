@@ -169,7 +169,7 @@ void fields(const Keys& key, UtilityConfig& c) {
   names.push_back(kUserUtilityName);
   key("name", c.name, names,
       "What ranks the candidate views, or a baseline's, an oracle's or your own route.");
-  const UtilitySettings reads = settings_read_by(c.name);
+  const UtilityTraits reads = utility_traits(c.name);
   const auto where = [&](bool is_read) { return key.only_if(is_read, kUtility); };
   const Keys eq2 = where(reads.eq2);
   const Keys counted = where(reads.baseline);

@@ -167,7 +167,7 @@ void check_utility(const UtilityConfig& utility, Problems& out) {
               (!utility.python.function.empty() && !utility.python.source.empty()),
           out, {"planner.utility.python", "planner.utility.name"},
           "the utility python is a function of yours; --utility FILE.py:FUNCTION names it");
-  require(!settings_read_by(utility.name).eq2 || utility.beta + utility.gamma > 0.0, out,
+  require(!utility_traits(utility.name).eq2 || utility.beta + utility.gamma > 0.0, out,
           {"planner.utility.beta", "planner.utility.gamma"},
           "beta and gamma are both 0; Eq. (2) divides by their sum");
 }

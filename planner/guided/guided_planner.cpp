@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <utility>
 
 #include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
@@ -37,38 +38,31 @@ struct Decider {
     return std::move(plan);
   }
 
-  /// The first cluster that has a valid view, or all of them together.
+  /// The first cluster that has a valid view, or all of them together. Once the first ones had
+  /// none, several are looked at at a time: mostly there is none, and threads have nothing else to
+  /// do.
   bool try_fvs() {
     const FvsConfig& fvs = config.fvs;
     plan.clusters =
         clusters_to_try(fvs, belief, history.decisions, current.p_world_m, scratch.frontier_marks);
-    const std::span<const FrontierCluster> clusters = plan.clusters;
-    std::vector<std::vector<Candidate>> views;
+    const std::size_t count = plan.clusters.size();
+    const std::size_t most =
+        scratch.threads == 1 ? 1 : 4 * static_cast<std::size_t>(scratch.threads);
     std::vector<Candidate> pool;
-    for (std::size_t rank = 0; rank < clusters.size(); ++rank) {
-      if (rank == views.size()) look_at_next(clusters, views);
-      std::move(views[rank].begin(), views[rank].end(), std::back_inserter(pool));
-      const bool is_last = rank + 1 == clusters.size();
-      if (fvs.pool_clusters && !is_last) continue;
-      if (choose_among(std::move(pool))) return true;
-      pool.clear();
+    for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
+      scratch.heed_stop();
+      end = std::min({2 * begin + 1, begin + most, count});
+      std::vector<std::vector<Candidate>> views(end - begin);
+      parallel_for(scratch.threads, views.size(), [&](std::size_t i) {
+        views[i] = views_of(plan.clusters[begin + i], static_cast<int>(begin + i));
+      });
+      for (std::size_t i = 0; i < views.size(); ++i) {
+        std::move(views[i].begin(), views[i].end(), std::back_inserter(pool));
+        if (fvs.pool_clusters && begin + i + 1 < count) continue;
+        if (choose_among(std::exchange(pool, {}))) return true;
+      }
     }
     return false;
-  }
-
-  /// Appends the views of the next cluster, and, once the first ones had none that is valid, of
-  /// those after it: mostly there is none, and threads have nothing else to do.
-  void look_at_next(std::span<const FrontierCluster> clusters,
-                    std::vector<std::vector<Candidate>>& views) const {
-    scratch.heed_stop();
-    constexpr std::size_t kMostEach = 4;
-    const auto threads = static_cast<std::size_t>(std::max(scratch.threads, 1));
-    const std::size_t begin = views.size();
-    const std::size_t most = threads == 1 ? 1 : kMostEach * threads;
-    views.resize(std::min({2 * begin + 1, begin + most, clusters.size()}));
-    parallel_for(scratch.threads, views.size() - begin, [&](std::size_t i) {
-      views[begin + i] = views_of(clusters[begin + i], static_cast<int>(begin + i));
-    });
   }
 
   std::vector<Candidate> views_of(const FrontierCluster& cluster, int rank) const {

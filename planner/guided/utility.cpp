@@ -117,38 +117,35 @@ Score nearest_frontier(const UtilityConfig&, const ViewStats& s, const ScoreCont
 struct Utility {
   std::string_view name;
   Formula formula;
-  UtilityNeeds needs = {};
-  UtilitySettings reads = {};
+  UtilityTraits traits = {};
 };
 
-constexpr UtilityNeeds kRays = {.rays = true};
-constexpr UtilityNeeds kShadow = {.rays = true, .shadow = true};
+constexpr UtilityTraits kRays = {.rays = true};
+constexpr UtilityTraits kVisibility = {.rays = true, .visibility = true};
+constexpr UtilityTraits kShadow = {.rays = true, .shadow = true};
 using S = ViewStats;
 
 /// The one table of utilities: adding one is a function above and a line here.
 constexpr std::array kUtilities = {
-    Utility{"proposed",
-            proposed,
-            {.prediction = true},
-            {.eq2 = true, .lambda = true, .distance = true}},
-    Utility{"bircher", bircher, {}, {.baseline = true, .bircher_lambda = true, .distance = true}},
-    Utility{"isler", isler, {}, {.baseline = true}},
-    Utility{"occlusion_aware", plain<&S::occlusion_aware_nat>, kRays, {.visibility = true}},
-    Utility{"unobserved_voxel", plain<&S::unobserved_nat>, kRays, {.visibility = true}},
+    Utility{
+        "proposed", proposed, {.prediction = true, .eq2 = true, .lambda = true, .distance = true}},
+    Utility{"bircher", bircher, {.baseline = true, .bircher_lambda = true, .distance = true}},
+    Utility{"isler", isler, {.baseline = true}},
+    Utility{"occlusion_aware", plain<&S::occlusion_aware_nat>, kVisibility},
+    Utility{"unobserved_voxel", plain<&S::unobserved_nat>, kVisibility},
     Utility{"rear_side_voxel", plain<&S::rear_side_rays>, kRays},
-    Utility{"rear_side_entropy", plain<&S::rear_side_nat>, kRays, {.visibility = true}},
+    Utility{"rear_side_entropy", plain<&S::rear_side_nat>, kVisibility},
     Utility{"average_entropy", average_entropy, kRays},
-    Utility{"proximity_count", plain<&S::proximity_sum>, kShadow, {.shadow = true}},
-    Utility{"area_factor", area_factor, kShadow, {.shadow = true}},
+    Utility{"proximity_count", plain<&S::proximity_sum>, kShadow},
+    Utility{"area_factor", area_factor, kShadow},
     // Kriegel et al. 2015 as Pan et al. compare it: entropy of the rays that end at a surface
     Utility{"kriegel", plain<&S::entropy_of_occupied_nat>, kRays},
     Utility{"bircher_volume",
             bircher_volume,
-            {},
             {.lambda = true, .distance = true, .volume_weights = true}},
-    Utility{"aep", aep, kRays, {.lambda = true, .distance = true}},
+    Utility{"aep", aep, {.rays = true, .lambda = true, .distance = true}},
     Utility{"random", random_choice},
-    Utility{"nearest_frontier", nearest_frontier, {}, {.distance = true}},
+    Utility{"nearest_frontier", nearest_frontier, {.distance = true}},
 };
 
 const Utility& utility_named(std::string_view name) {
@@ -159,10 +156,10 @@ const Utility& utility_named(std::string_view name) {
 }
 
 /// Of the words of a source, those in comments included: what costs time there costs no result.
-UtilityNeeds needs_of_words(std::string_view source) {
+UtilityTraits needs_of_words(std::string_view source) {
   constexpr std::string_view kPartOfWord =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_";
-  UtilityNeeds needs;
+  UtilityTraits needs;
   for (std::size_t at = 0, end = 0; (at = source.find_first_of(kPartOfWord, end)) != source.npos;) {
     end = std::min(source.find_first_not_of(kPartOfWord, at), source.size());
     const std::string_view word = source.substr(at, end - at);
@@ -184,30 +181,28 @@ std::vector<std::string_view> utility_names() {
   return names;
 }
 
-UtilityNeeds needs_of(const UtilityConfig& config) {
-  if (is_user_utility(config.name)) return needs_of_words(config.python.source);
-  const Utility& utility = utility_named(config.name);
-  UtilityNeeds needs = utility.needs;
-  needs.prediction |= utility.reads.baseline && config.prediction_hides_hits;
-  needs.prediction &= config.gamma > 0.0;
-  return needs;
-}
-
-UtilitySettings settings_read_by(std::string_view name) {
-  if (is_user_utility(name)) return {.distance = true, .visibility = true, .shadow = true};
+UtilityTraits utility_traits(std::string_view name) {
+  if (is_user_utility(name)) return {.shadow = true, .distance = true, .visibility = true};
   for (const Utility& utility : kUtilities) {
-    if (utility.name == name) return utility.reads;
+    if (utility.name == name) return utility.traits;
   }
   return {};
 }
 
+UtilityTraits needs_of(const UtilityConfig& config) {
+  if (is_user_utility(config.name)) return needs_of_words(config.python.source);
+  UtilityTraits needs = utility_named(config.name).traits;
+  needs.prediction |= needs.baseline && config.prediction_hides_hits;
+  needs.prediction &= config.gamma > 0.0;
+  return needs;
+}
+
 ViewOptions view_options(const UtilityConfig& config, const ShadowBand& shadow,
                          double sparse_below) {
-  const UtilityNeeds needs = needs_of(config);
-  const bool is_baseline = settings_read_by(config.name).baseline;
+  const UtilityTraits needs = needs_of(config);
   const ReleasedSlips slips = {
-      .excludes_hit_voxel = is_baseline && config.hit_voxel == HitVoxel::excluded,
-      .prediction_hides_hits = is_baseline && needs.prediction};
+      .excludes_hit_voxel = needs.baseline && config.hit_voxel == HitVoxel::excluded,
+      .prediction_hides_hits = needs.baseline && needs.prediction};
   return {.detail = needs.rays ? ViewDetail::rays : ViewDetail::voxels,
           .legacy_visibility = config.legacy_visibility,
           .sparse_below = sparse_below,
@@ -218,7 +213,7 @@ ViewOptions view_options(const UtilityConfig& config, const ShadowBand& shadow,
 std::optional<Score> score(const UtilityConfig& config, const ViewStats& stats,
                            const ScoreContext& context) {
   const Utility& utility = utility_named(config.name);
-  const bool refuses_blind = utility.reads.eq2 || utility.reads.baseline;
+  const bool refuses_blind = utility.traits.eq2 || utility.traits.baseline;
   if (refuses_blind && stats.occupied_voxels == 0) return std::nullopt;
   const Score result = utility.formula(config, stats, context);
   GNBV_CHECK(std::isfinite(result.value), "utility '{}' is {}", config.name, result.value);

@@ -74,18 +74,11 @@ inline std::string utility_label(const UtilityConfig& config) {
   return is_user_utility(config.name) ? config.python.function : config.name;
 }
 
-/// What a utility asks of evaluate_view().
-struct UtilityNeeds {
-  bool rays = false;        // ViewDetail::rays
-  bool shadow = false;      // a ShadowBand
-  bool prediction = false;  // predicted surface (section 2.3)
-};
-/// Of the user's own: what the fields of ViewStats that its source names ask for. Requires its name
-/// or one of utility_names().
-UtilityNeeds needs_of(const UtilityConfig& config);
-
-/// Which settings a utility reads, beside those that all read.
-struct UtilitySettings {
+/// What a utility asks of evaluate_view(), and which settings it reads that not all do.
+struct UtilityTraits {
+  bool rays = false;            // ViewDetail::rays
+  bool shadow = false;          // a ShadowBand
+  bool prediction = false;      // predicted surface (section 2.3)
   bool eq2 = false;             // alpha, beta, gamma, density_term, normalise_weights
   bool baseline = false;        // ig_counting, hit_voxel, prediction_hides_hits
   bool lambda = false;          // lambda_per_m
@@ -93,10 +86,12 @@ struct UtilitySettings {
   bool distance = false;
   bool visibility = false;  // legacy_visibility
   bool volume_weights = false;
-  bool shadow = false;
 };
-/// Of a name that no utility has: none.
-UtilitySettings settings_read_by(std::string_view name);
+/// What a utility of that name may ask and read; of a name that none has nothing.
+UtilityTraits utility_traits(std::string_view name);
+/// What it does with these settings; of the user's own, what the fields of ViewStats that its
+/// source names ask for. Requires its name or one of utility_names().
+UtilityTraits needs_of(const UtilityConfig& config);
 
 /// How evaluate_view() has to look for this utility, and no more closely: with the released slips
 /// where the configuration asks for them. `shadow` is kept only where it is needed; `sparse_below`

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <utility>
 
 #include "planner/route/route_planners.hpp"
 #include "sim/core/error.hpp"
@@ -11,21 +12,16 @@
 namespace gnbv {
 namespace {
 
-/// What of the structure the map holds, and the box around it.
-struct KnownStructure {
-  std::vector<Vec3> centers_m = {};
-  Box3 box_m = {};
-};
-
-KnownStructure known_structure(const OccupancyGrid& map) {
-  KnownStructure known;
-  const auto voxels = static_cast<VoxelIndex>(map.geometry().voxel_count());
-  for (VoxelIndex v = 0; v < voxels; ++v) {
+/// The centres of the occupied voxels, and the box around them.
+std::pair<std::vector<Vec3>, Box3> known_structure(const OccupancyGrid& map) {
+  std::vector<Vec3> centers_m;
+  Box3 box_m;
+  for (VoxelIndex v = 0; v < map.geometry().voxel_count(); ++v) {
     if (map.state(v) != VoxelState::occupied) continue;
-    known.centers_m.push_back(map.geometry().center_m(map.geometry().key_at(v)));
-    known.box_m.extend(known.centers_m.back());
+    centers_m.push_back(map.geometry().center_m(map.geometry().key_at(v)));
+    box_m.extend(centers_m.back());
   }
-  return known;
+  return {std::move(centers_m), box_m};
 }
 
 /// The gimbal's pitch that looks most nearly in this direction; 0 without a gimbal.

@@ -26,7 +26,7 @@ GNBV_EMBED(child_script, GNBV_UTILITY_CHILD);
 /// NumPy's dtype of UserCandidate, with the fields that are computed; the others are not there, so
 /// that nobody takes their zeros for counts.
 Json dtype_of(const UtilityConfig& config) {
-  const UtilityNeeds needs = needs_of(config);
+  const UtilityTraits needs = needs_of(config);
   const ViewFieldNeeds computed = needs.shadow ? ViewFieldNeeds::shadow
                                   : needs.rays ? ViewFieldNeeds::rays
                                                : ViewFieldNeeds::voxels;

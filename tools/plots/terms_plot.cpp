@@ -199,7 +199,7 @@ std::optional<Plot> terms_plot(const RunRecord& record) {
   const std::vector<ViewRecord> views = scored_views(record);
   if (views.empty()) return std::nullopt;
   const UtilityConfig& utility = record.scenario.planner.utility;
-  const bool is_eq2 = settings_read_by(utility.name).eq2;
+  const bool is_eq2 = utility_traits(utility.name).eq2;
   const Eq2 eq2(utility);
   const Columns columns = is_eq2 ? columns_of_eq2(views, eq2) : columns_of(views);
   const bool is_smooth = views.size() > kManyViews;
