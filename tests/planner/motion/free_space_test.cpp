@@ -6,7 +6,6 @@
 #include <cmath>
 #include <set>
 
-#include "planner/core/plan.hpp"
 #include "planner/map/ray_walk.hpp"
 #include "planner/motion/no_fly.hpp"
 #include "planner/motion/view_checker.hpp"
@@ -172,10 +171,7 @@ TEST(PathCheck, WhatIsTooCloseAlreadyMayBeLeftButNotApproached) {
 std::optional<Rejection> rejection(const ValidityConfig& config, const OccupancyGrid& grid,
                                    std::span<const ViewPose> recent, const ViewPose& current,
                                    const ViewPose& view) {
-  Candidate candidate{.view = view, .sampler = Sampler::agvs};
-  ViewChecker checker(config, kNavigation, kNoBoxes, grid, recent, current);
-  check(checker, candidate);
-  return candidate.rejected;
+  return ViewChecker(config, kNavigation, kNoBoxes, grid, recent, current).check(view).rejected;
 }
 
 TEST(ViewValidity, NamesTheReason) {
@@ -203,15 +199,12 @@ TEST(ViewValidity, NoViewInANoFlyBoxAndNoWayThroughOne) {
   for (const PathCheck path : {PathCheck::straight, PathCheck::unchecked, PathCheck::astar}) {
     const ValidityConfig config{.collision_radius_m = 0.5, .path = path};
     const auto checked = [&](const Vec3& p_m) {
-      Candidate candidate{.view = {p_m, 0}, .sampler = Sampler::agvs};
-      ViewChecker checker(config, kNavigation, no_fly, grid, {}, current);
-      check(checker, candidate);
-      return candidate;
+      return ViewChecker(config, kNavigation, no_fly, grid, {}, current).check({p_m, 0});
     };
     EXPECT_EQ(checked({0, 0, 2}).rejected, Rejection::no_fly);
     EXPECT_EQ(checked({-0.8, 0, 2}).rejected, Rejection::no_fly);  // nearer than the radius
     EXPECT_EQ(checked({-1.5, 0, 2}).rejected, std::nullopt);
-    const Candidate beyond = checked({3, 0, 2});
+    const FoundPath beyond = checked({3, 0, 2});
     if (path != PathCheck::astar) {
       EXPECT_EQ(beyond.rejected, Rejection::path_blocked);
       continue;
