@@ -10,7 +10,7 @@
 #include "planner/guided/utility.hpp"
 #include "planner/guided/view_sampling.hpp"
 #include "planner/map/config.hpp"
-#include "planner/motion/view_checker.hpp"
+#include "planner/motion/config.hpp"
 #include "planner/profiling.hpp"
 #include "planner/route/route_planners.hpp"
 #include "planner/symmetry/config.hpp"

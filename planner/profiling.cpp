@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "planner/map/scan_insertion.hpp"
-#include "planner/motion/path_search.hpp"
+#include "planner/motion/paths.hpp"
 
 namespace gnbv {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/motion/no_fly.hpp"
+#include "planner/motion/config.hpp"
 
 namespace gnbv {
 

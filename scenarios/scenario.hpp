@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "planner/config.hpp"
-#include "planner/motion/no_fly.hpp"
+#include "planner/motion/config.hpp"
 #include "sensors/camera_model.hpp"
 #include "sensors/lidar_model.hpp"
 #include "sim/flight/guidance.hpp"

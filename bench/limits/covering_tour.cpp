@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "planner/tour/perturbation.hpp"
 #include "planner/tour/waypoints.hpp"
 #include "sim/core/error.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/motion/view_checker.hpp"
+#include "planner/motion/config.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
 

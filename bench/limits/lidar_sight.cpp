@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "bench/limits/sight_search.hpp"
-#include "planner/motion/view_checker.hpp"
+#include "planner/motion/config.hpp"
 #include "planner/profiling.hpp"
 #include "sensors/lidar_model.hpp"
 

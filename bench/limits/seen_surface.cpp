@@ -11,7 +11,7 @@
 #include "bench/limits/sight_search.hpp"
 #include "bench/score/surface_pieces.hpp"
 #include "planner/map/leaf_filter.hpp"
-#include "planner/motion/view_checker.hpp"
+#include "planner/motion/config.hpp"
 #include "sim/core/parallel.hpp"
 
 namespace gnbv {

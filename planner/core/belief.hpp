@@ -13,7 +13,6 @@
 #include "planner/map/frontiers.hpp"
 #include "planner/map/scan_insertion.hpp"
 #include "planner/motion/config.hpp"
-#include "planner/motion/no_fly.hpp"
 #include "planner/view/visibility.hpp"
 
 namespace gnbv {

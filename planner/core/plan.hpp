@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "planner/map/frontiers.hpp"
-#include "planner/motion/view_checker.hpp"
+#include "planner/motion/paths.hpp"
 #include "sim/core/pose.hpp"
 
 namespace gnbv {
@@ -87,7 +87,7 @@ struct PlannerModel;
 /// Fills in whether the candidate may be flown to and the gimbal can, and the way there.
 void check(ViewChecker& checker, const PlannerModel& model, Candidate& candidate);
 
-struct TourNotes;  // planner/tour/tour_notes.hpp
+struct TourNotes;  // planner/tour/gains.hpp
 
 /// One or more views to be flown in order, or why there is none; and all candidates of this
 /// decision in the order in which they were sampled.

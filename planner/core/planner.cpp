@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/motion/path_search.hpp"
+#include "planner/motion/paths.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {

@@ -23,7 +23,28 @@ inline Key cube_of(const Vec3& p_m, double side_m) {
 struct KeyBox {
   Key low = {0, 0, 0}, high = {-1, -1, -1};
   bool is_empty() const { return low[0] > high[0] || low[1] > high[1] || low[2] > high[2]; }
+  bool contains(const Key& key) const {
+    return key[0] >= low[0] && key[1] >= low[1] && key[2] >= low[2] &&  //
+           key[0] <= high[0] && key[1] <= high[1] && key[2] <= high[2];
+  }
 };
+
+/// The key and those about it: 26 at a `reach` of 1.
+inline KeyBox keys_about(const Key& key, std::int32_t reach = 1) {
+  return {{key[0] - reach, key[1] - reach, key[2] - reach},
+          {key[0] + reach, key[1] + reach, key[2] + reach}};
+}
+
+/// Calls use(key) for each key of the box, x fastest.
+template <typename Use>
+void for_each_key(const KeyBox& keys, const Use& use) {
+  Key key;
+  for (key[2] = keys.low[2]; key[2] <= keys.high[2]; ++key[2]) {
+    for (key[1] = keys.low[1]; key[1] <= keys.high[1]; ++key[1]) {
+      for (key[0] = keys.low[0]; key[0] <= keys.high[0]; ++key[0]) use(key);
+    }
+  }
+}
 
 class GridGeometry {
  public:

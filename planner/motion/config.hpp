@@ -1,7 +1,9 @@
-// Settings of where the vehicle may be, and of how its way there is checked.
+// Where the vehicle may be and how its way there is checked: settings, and boxes to keep out of.
 #pragma once
 
 #include <algorithm>
+#include <functional>
+#include <vector>
 
 #include "sim/core/pose.hpp"
 
@@ -12,8 +14,9 @@ namespace gnbv {
 enum class PathCheck { straight, astar, unchecked };
 
 struct PathSearchConfig {
-  int max_expansions =
-      2000;  // nodes that a search may look at; more in a large box: search_limit()
+  /// Nodes that a search may look at in a navigation box of up to 40,000 nodes; in a larger one as
+  /// many times more.
+  int max_expansions = 2000;
 };
 
 /// Defaults: section 3.1.1, and the released configuration where the paper is silent.
@@ -33,6 +36,25 @@ inline Box3 navigation_box_m(const ValidityConfig& config, const Box3& workspace
   Box3 box_m = workspace_m;
   box_m.min().z() = std::max(box_m.min().z(), config.z_min_m);
   return box_m;
+}
+
+/// Boxes where nobody may fly, which no sensor sees. World ENU. The vehicle's sphere keeps out of
+/// them as it does of occupied voxels.
+struct NoFly {
+  std::vector<Box3> boxes_m = {};
+  double margin_m = 0.0;  // radius of the sphere
+
+  /// Whether the sphere is clear of all boxes.
+  bool allows(const Vec3& p_world_m) const;
+  /// Whether it is on the whole straight leg. A box that the sphere reaches into at the start may
+  /// be left but not approached.
+  bool allows_leg(const Vec3& from_world_m, const Vec3& to_world_m) const;
+};
+
+/// Asked several times a second by what may take long: throws to end it. Empty: nobody asks.
+using HeedStop = std::function<void()>;
+inline void heed(const HeedStop& stop) {
+  if (stop) stop();
 }
 
 }  // namespace gnbv

@@ -26,8 +26,8 @@ Share cut(const Share& share, double a, double b, double center, double reach) {
 
 /// Whether `is_hit` says so of the cube of any occupied voxel that comes within the radius of the
 /// segment; asked of some others there, too. Goes through the rows of voxels along x in the
-/// segment's box, grown by the radius, each cut to where the segment passes by: of a cube that
-/// comes within the radius the centre lies within that and half the cube's diagonal.
+/// segment's box, grown by the radius. Each is cut to where the segment passes by: the centre of a
+/// cube within the radius lies within the radius and half the cube's diagonal.
 template <typename IsHit>
 bool any_occupied_near(const OccupancyGrid& grid, const Vec3& a_m, const Vec3& b_m, double radius_m,
                        const IsHit& is_hit) {
@@ -36,22 +36,19 @@ bool any_occupied_near(const OccupancyGrid& grid, const Vec3& a_m, const Vec3& b
   const Vec3 half_m = Vec3::Constant(0.5 * voxel_m);
   const double wide_m =
       radius_m + half_m.norm() + 1e-3 * voxel_m;  // more than anything here rounds
-  Key low = geometry.key_of(Vec3(a_m.cwiseMin(b_m) - Vec3::Constant(radius_m)));
-  Key high = geometry.key_of(Vec3(a_m.cwiseMax(b_m) + Vec3::Constant(radius_m)));
-  for (std::size_t a = 0; a < 3; ++a) {
-    low[a] = std::max(low[a], geometry.min_key()[a]);
-    high[a] = std::min(high[a], geometry.min_key()[a] + geometry.size()[a] - 1);
-  }
-  for (Key key = low; key[2] <= high[2]; ++key[2]) {
+  const Vec3 reach_m = Vec3::Constant(radius_m);
+  const KeyBox keys =
+      geometry.keys_in(Box3(a_m.cwiseMin(b_m) - reach_m, a_m.cwiseMax(b_m) + reach_m));
+  for (Key key = keys.low; key[2] <= keys.high[2]; ++key[2]) {
     const Share layer = cut({}, a_m.z(), b_m.z(), geometry.center_m(key[2]), wide_m);
     if (layer.is_empty()) continue;
-    for (key[1] = low[1]; key[1] <= high[1]; ++key[1]) {
+    for (key[1] = keys.low[1]; key[1] <= keys.high[1]; ++key[1]) {
       const Share row = cut(layer, a_m.y(), b_m.y(), geometry.center_m(key[1]), wide_m);
       if (row.is_empty()) continue;
       const auto [first_m, last_m] = std::minmax(
           {a_m.x() + row.first * (b_m.x() - a_m.x()), a_m.x() + row.last * (b_m.x() - a_m.x())});
-      key[0] = std::max(geometry.key_of(first_m - wide_m), low[0]);
-      const std::int32_t last_x = std::min(geometry.key_of(last_m + wide_m), high[0]);
+      key[0] = std::max(geometry.key_of(first_m - wide_m), keys.low[0]);
+      const std::int32_t last_x = std::min(geometry.key_of(last_m + wide_m), keys.high[0]);
       if (key[0] > last_x) continue;
       for (VoxelIndex v = geometry.index_of(key); key[0] <= last_x; ++key[0], ++v) {
         if (grid.state(v) != VoxelState::occupied) continue;
@@ -63,7 +60,57 @@ bool any_occupied_near(const OccupancyGrid& grid, const Vec3& a_m, const Vec3& b
   return false;
 }
 
+/// Whether the leg comes nearer to the box than `radius_m`, and nearer than it is at its start:
+/// what is too near already may be left but not approached.
+bool is_approached(const Box3& box_m, const Vec3& from_m, const Vec3& to_m, double radius_m) {
+  // the search for the nearest point is good to rounding: the start itself is no approach
+  constexpr double kRounding_m2 = 1e-9;
+  const double nearest_m2 = box_to_segment_m2(box_m, from_m, to_m);
+  return nearest_m2 < radius_m * radius_m &&
+         nearest_m2 < box_m.squaredExteriorDistance(from_m) - kRounding_m2;
+}
+
+/// The rule of is_line_free(), asked about voxels in their order along the line.
+class FreeFromVehicle {
+ public:
+  FreeFromVehicle(const OccupancyGrid& grid, const Vec3& own_world_m, double radius_m)
+      : grid_(grid),
+        own_m_(grid.geometry().nearest_inside(own_world_m)),
+        own_(grid.geometry().key_of(Vec3f(own_m_.cast<float>()))),  // as a ray's
+        radius_m_(radius_m) {}
+
+  bool is_free(const Key& key) {
+    const GridGeometry& geometry = grid_.geometry();
+    if (!geometry.contains(key)) return false;
+    const VoxelState state = grid_.state(geometry.index_of(key));
+    if (state == VoxelState::free) is_blind_ = false;
+    if (state == VoxelState::free || key == own_) return true;
+    return state == VoxelState::unknown && is_blind_ &&
+           (geometry.center_m(key) - own_m_).squaredNorm() <= radius_m_ * radius_m_;
+  }
+
+ private:
+  const OccupancyGrid& grid_;
+  const Vec3 own_m_;
+  const Key own_;
+  const double radius_m_;
+  bool is_blind_ = true;  // no voxel was seen yet
+};
+
 }  // namespace
+
+bool NoFly::allows(const Vec3& p_world_m) const {
+  return std::none_of(boxes_m.begin(), boxes_m.end(), [&](const Box3& box_m) {
+    return box_m.squaredExteriorDistance(p_world_m) < margin_m * margin_m ||
+           box_m.contains(p_world_m);
+  });
+}
+
+bool NoFly::allows_leg(const Vec3& from_world_m, const Vec3& to_world_m) const {
+  return std::none_of(boxes_m.begin(), boxes_m.end(), [&](const Box3& box_m) {
+    return is_approached(box_m, from_world_m, to_world_m, margin_m);
+  });
+}
 
 // Convex along the segment, so a ternary search finds the minimum.
 double box_to_segment_m2(const Box3& box_m, const Vec3& a_m, const Vec3& b_m) {
@@ -83,14 +130,6 @@ double box_to_segment_m2(const Box3& box_m, const Vec3& a_m, const Vec3& b_m) {
   return at(0.5 * (lo + hi));
 }
 
-bool is_approached(const Box3& box_m, const Vec3& from_m, const Vec3& to_m, double radius_m) {
-  // the search for the nearest point is good to rounding: the start itself is no approach
-  constexpr double kRounding_m2 = 1e-9;
-  const double nearest_m2 = box_to_segment_m2(box_m, from_m, to_m);
-  return nearest_m2 < radius_m * radius_m &&
-         nearest_m2 < box_m.squaredExteriorDistance(from_m) - kRounding_m2;
-}
-
 bool is_sphere_clear(const OccupancyGrid& grid, const Vec3& p_world_m, double radius_m) {
   return !any_occupied_near(grid, p_world_m, p_world_m, radius_m, [&](const Box3& cube) {
     return cube.squaredExteriorDistance(p_world_m) < radius_m * radius_m;
@@ -108,33 +147,14 @@ bool is_path_clear(const OccupancyGrid& grid, const Vec3& from_world_m, const Ve
   });
 }
 
-FreeFromVehicle::FreeFromVehicle(const OccupancyGrid& grid, const Vec3& own_world_m,
-                                 double radius_m)
-    : grid_(grid),
-      own_m_(grid.geometry().nearest_inside(own_world_m)),
-      own_(grid.geometry().key_of(Vec3f(own_m_.cast<float>()))),  // as a ray's
-      radius_m_(radius_m) {}
-
-bool FreeFromVehicle::is_free(const Key& key) {
-  const GridGeometry& geometry = grid_.geometry();
-  if (!geometry.contains(key)) return false;
-  const VoxelState state = grid_.state(geometry.index_of(key));
-  if (state == VoxelState::free) is_blind_ = false;
-  if (state == VoxelState::free || key == own_) return true;
-  return state == VoxelState::unknown && is_blind_ &&
-         (geometry.center_m(key) - own_m_).squaredNorm() <= radius_m_ * radius_m_;
-}
-
 bool is_line_free(const OccupancyGrid& grid, const Vec3& from_world_m, const Vec3& to_world_m,
                   double radius_m) {
   const GridGeometry& geometry = grid.geometry();
   const Vec3 to_m = geometry.nearest_inside(to_world_m);
   if (!FreeFromVehicle(grid, from_world_m, 0.0).is_free(geometry.key_of(to_m))) return false;
   FreeFromVehicle line(grid, from_world_m, radius_m);
-  bool is_free = true;
-  walk_ray(geometry, geometry.nearest_inside(from_world_m).cast<float>(), to_m.cast<float>(),
-           [&](const Key& key) { return is_free = line.is_free(key); });
-  return is_free;
+  return all_along_ray(geometry, geometry.nearest_inside(from_world_m).cast<float>(),
+                       to_m.cast<float>(), [&](const Key& key) { return line.is_free(key); });
 }
 
 bool FreeSpace::contains(const Vec3& p_world_m) const {
@@ -163,6 +183,70 @@ bool FreeSpace::is_leg_clear(const Vec3& from_world_m, const Vec3& to_world_m) c
 bool FreeSpace::is_leg_free(const Vec3& from_world_m, const Vec3& to_world_m) const {
   return (allow_unknown || is_line_free(grid, from_world_m, to_world_m, radius_m)) &&
          is_leg_clear(from_world_m, to_world_m);
+}
+
+OpenSpace::OpenSpace(const GridGeometry& geometry, const Box3& navigation_m, const NoFly& no_fly,
+                     double radius_m)
+    : geometry_(geometry),
+      navigation_m_(navigation_m),
+      radius_m_(radius_m),
+      near_occupied_(geometry.voxel_count()),
+      was_occupied_(geometry.voxel_count()) {
+  // a cube at exactly the radius is near to some ways of rounding
+  constexpr double kRounding_m = 1e-6;
+  const double voxel_m = geometry.resolution_m();
+  const auto reach = static_cast<std::int32_t>(std::ceil(radius_m / voxel_m)) + 1;
+  const auto gap_m = [&](std::int32_t steps) {  // from the centre to the cube, along an axis
+    return std::max(0.0, (std::abs(steps) - 0.5) * voxel_m);
+  };
+  for_each_key(keys_about({0, 0, 0}, reach), [&](const Key& offset) {
+    const Vec3 gaps_m(gap_m(offset[0]), gap_m(offset[1]), gap_m(offset[2]));
+    if (gaps_m.norm() < radius_m + kRounding_m) ball_.push_back(offset);
+  });
+  if (no_fly.boxes_m.empty()) return;
+  for (VoxelIndex v = 0; v < geometry.voxel_count(); ++v) {
+    if (!no_fly.allows(geometry.center_m(geometry.key_at(v)))) near_occupied_[v] = 1;
+  }
+}
+
+void OpenSpace::follow(const OccupancyGrid& grid, const HeedStop& stop) {
+  const std::span<const VoxelWord> words = grid.words();
+  for (std::size_t v = 0; v < words.size(); ++v) {
+    const bool is_occupied = state_of(words[v]) == VoxelState::occupied;
+    if (is_occupied == (was_occupied_[v] != 0)) continue;
+    heed(stop);
+    was_occupied_[v] = is_occupied ? 1 : 0;
+    const Key center = geometry_.key_at(static_cast<VoxelIndex>(v));
+    for (const Key& offset : ball_) {
+      const Key key = {center[0] + offset[0], center[1] + offset[1], center[2] + offset[2]};
+      if (!geometry_.contains(key)) continue;
+      std::uint32_t& count = near_occupied_[geometry_.index_of(key)];
+      count = is_occupied ? count + 1 : count - 1;
+    }
+  }
+}
+
+bool OpenSpace::is_open(const OccupancyGrid& grid, const Key& key) const {
+  if (!geometry_.contains(key)) return false;
+  const VoxelIndex v = geometry_.index_of(key);
+  return near_occupied_[v] == 0 && grid.state(v) == VoxelState::free &&
+         navigation_m_.contains(geometry_.center_m(key));
+}
+
+bool OpenSpace::is_line_open(const OccupancyGrid& grid, const Vec3& from_world_m,
+                             const Vec3& to_world_m) const {
+  const Vec3 to_m = geometry_.nearest_inside(to_world_m);
+  if (!is_open(grid, geometry_.key_of(to_m))) return false;
+  FreeFromVehicle line(grid, from_world_m, radius_m_);
+  bool was_open = false;
+  return all_along_ray(geometry_, geometry_.nearest_inside(from_world_m).cast<float>(),
+                       to_m.cast<float>(), [&](const Key& key) {
+                         if (!line.is_free(key)) return false;
+                         const bool is_away = near_occupied_[geometry_.index_of(key)] == 0;
+                         const bool is_clear = is_away || !was_open;
+                         was_open = was_open || is_away;
+                         return is_clear;
+                       });
 }
 
 }  // namespace gnbv

@@ -7,6 +7,8 @@
 #include <queue>
 #include <vector>
 
+#include "planner/motion/config.hpp"
+
 namespace gnbv {
 
 using GraphNode = std::uint32_t;
@@ -39,7 +41,7 @@ enum class AtNode { expand, skip, put_back, stop };
 ///   visit(node, use): calls use(before, next, leg_m) for each way on;
 ///   may_fly(node, next): whether that leg may be flown, asked where it would make a way shorter.
 template <typename Length, typename Graph>
-void find_ways(Graph& graph, GraphNode from, Ways<Length>& ways) {
+void find_ways(Graph& graph, GraphNode from, Ways<Length>& ways, const HeedStop& stop) {
   struct Open {
     Length estimate_m;  // of the whole way by this node
     std::uint64_t rank;
@@ -56,6 +58,7 @@ void find_ways(Graph& graph, GraphNode from, Ways<Length>& ways) {
   ways.before[from] = from;
   reach(from);
   while (!open.empty()) {
+    heed(stop);
     const auto [found_m, rank, node] = open.top();
     open.pop();
     if (ways.is_done[node] != 0 || found_m > estimate_m(node)) continue;
@@ -76,13 +79,15 @@ void find_ways(Graph& graph, GraphNode from, Ways<Length>& ways) {
   }
 }
 
-/// The nodes between the start and one that was reached, in the order of the way.
-template <typename Length>
-std::vector<GraphNode> nodes_between(const Ways<Length>& ways, GraphNode from, GraphNode to) {
-  std::vector<GraphNode> nodes;
-  for (GraphNode at = ways.before[to]; at != from; at = ways.before[at]) nodes.push_back(at);
-  std::reverse(nodes.begin(), nodes.end());
-  return nodes;
+/// The points of the nodes behind `from` up to `last`, in the order of the way; none where they are
+/// one. `p_m(node)`: where a node is.
+template <typename Length, typename PointOf>
+std::vector<Vec3> points_on_way(const Ways<Length>& ways, GraphNode from, GraphNode last,
+                                const PointOf& p_m) {
+  std::vector<Vec3> points_m;
+  for (GraphNode at = last; at != from; at = ways.before[at]) points_m.push_back(p_m(at));
+  std::reverse(points_m.begin(), points_m.end());
+  return points_m;
 }
 
 }  // namespace gnbv

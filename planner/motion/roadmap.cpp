@@ -35,11 +35,10 @@ Roadmap::Roadmap(const GridGeometry& geometry, const Box3& navigation_m, double 
   step_m_ = std::max(1.0, std::round(step_m / voxel_m)) * voxel_m;
   p_world_m_.push_back(navigation_m.center());  // here
   std::array<std::vector<double>, 3> along_m;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const auto axis = static_cast<Eigen::Index>(a);
-    // the lowest nodes see the undersides
-    along_m[a] = lattice_along_m(geometry, navigation_m.min()[axis], navigation_m.max()[axis],
-                                 step_m_, a == 2);
+  for (int a = 0; a < 3; ++a) {
+    const bool begins_low = a == 2;  // the lowest nodes see the undersides
+    along_m[a] = lattice_along_m(geometry, navigation_m.min()[a], navigation_m.max()[a], step_m_,
+                                 begins_low);
     lattice_size_[a] = static_cast<std::int32_t>(along_m[a].size());
   }
   for (const double z : along_m[2]) {
@@ -60,46 +59,34 @@ void Roadmap::link(Node a, Node b) {
   legs_[b].push_back(a);
 }
 
-/// Each node of the lattice with those of its 26 neighbours that are open.
-void Roadmap::link_lattice() {
+/// Each open node of the lattice with those of its 26 neighbours that are open.
+void Roadmap::link_lattice(const HeedStop& stop) {
   const auto& n = lattice_size_;
-  const auto node = [&](std::int32_t x, std::int32_t y, std::int32_t z) {
-    return static_cast<Node>(1 + (z * n[1] + y) * n[0] + x);
+  const KeyBox lattice = {{0, 0, 0}, {n[0] - 1, n[1] - 1, n[2] - 1}};
+  const auto node = [&](const Key& at) {
+    return static_cast<Node>(1 + (at[2] * n[1] + at[1]) * n[0] + at[0]);
   };
-  for (std::int32_t z = 0; z < n[2]; ++z) {
-    for (std::int32_t y = 0; y < n[1]; ++y) {
-      for (std::int32_t x = 0; x < n[0]; ++x) {
-        if (is_open_[node(x, y, z)] == 0) continue;
-        for (int to = 14; to < 27; ++to) {  // the 13 neighbours that come later
-          const std::int32_t tx = x + to % 3 - 1;
-          const std::int32_t ty = y + to / 3 % 3 - 1;
-          const std::int32_t tz = z + to / 9 - 1;
-          if (tx < 0 || ty < 0 || tx >= n[0] || ty >= n[1] || tz >= n[2]) continue;
-          link(node(x, y, z), node(tx, ty, tz));
-        }
-      }
-    }
-  }
+  for_each_key(lattice, [&](const Key& at) {
+    if (is_open_[node(at)] == 0) return;
+    heed(stop);
+    for_each_key(keys_about(at), [&](const Key& to) {
+      if (lattice.contains(to) && node(to) > node(at)) link(node(at), node(to));
+    });
+  });
 }
 
 /// The nodes beside the lattice, and then here(), with all before them within a diagonal of the
 /// lattice: sorted into cubes of that edge, of which the 27 about a node hold them all.
-void Roadmap::link_others() {
+void Roadmap::link_others(const HeedStop& stop) {
   const double reach_m = 1.01 * std::sqrt(3.0) * step_m_;
   std::map<Key, std::vector<Node>> cubes;
-  const auto cube_of = [&](const Vec3& p_m) {
-    const Eigen::Vector3i at = (p_m / reach_m).array().floor().cast<int>();
-    return Key{at.x(), at.y(), at.z()};
-  };
-  std::vector<Node> near;
   const auto link_to_near = [&](Node from) {
-    near.clear();
-    const Key cube = cube_of(p_world_m_[from]);
-    for (int i = 0; i < 27; ++i) {
-      const auto at =
-          cubes.find({cube[0] + i % 3 - 1, cube[1] + i / 3 % 3 - 1, cube[2] + i / 9 - 1});
+    heed(stop);
+    std::vector<Node> near;
+    for_each_key(keys_about(cube_of(p_world_m_[from], reach_m)), [&](const Key& cube) {
+      const auto at = cubes.find(cube);
       if (at != cubes.end()) near.insert(near.end(), at->second.begin(), at->second.end());
-    }
+    });
     std::sort(near.begin(), near.end());
     for (const Node to : near) {
       if ((p_world_m_[to] - p_world_m_[from]).squaredNorm() <= reach_m * reach_m) link(from, to);
@@ -110,27 +97,13 @@ void Roadmap::link_others() {
   for (Node node = 1; node < size(); ++node) {
     if (is_open_[node] == 0) continue;
     if (node >= lattice) link_to_near(node);
-    cubes[cube_of(p_world_m_[node])].push_back(node);
+    cubes[cube_of(p_world_m_[node], reach_m)].push_back(node);
   }
   link_to_near(here());
 }
 
-void Roadmap::find_reachable() {
-  is_reachable_.assign(size(), 0);
-  std::vector<Node> open = {here()};
-  is_reachable_[here()] = 1;
-  while (!open.empty()) {
-    const Node node = open.back();
-    open.pop_back();
-    for (const Node next : legs_[node]) {
-      if (is_reachable_[next] != 0) continue;
-      is_reachable_[next] = 1;
-      open.push_back(next);
-    }
-  }
-}
-
-void Roadmap::follow(const OccupancyGrid& grid, const OpenSpace& space, const Vec3& here_world_m) {
+void Roadmap::follow(const OccupancyGrid& grid, const OpenSpace& space, const Vec3& here_world_m,
+                     const HeedStop& stop) {
   grid_ = &grid;
   space_ = &space;
   ++follows_;
@@ -145,9 +118,13 @@ void Roadmap::follow(const OccupancyGrid& grid, const OpenSpace& space, const Ve
     is_open_[node] = is_open ? 1 : 0;
   }
   legs_.assign(size(), {});
-  link_lattice();
-  link_others();
-  find_reachable();
+  link_lattice(stop);
+  link_others(stop);
+  reachable_.clear();
+  const std::span<const float> from_here_m = row_m(here(), stop);
+  for (Node node = 1; node < size(); ++node) {
+    if (std::isfinite(from_here_m[node])) reachable_.push_back(node);
+  }
 }
 
 /// Lazy Theta* (Nash, Koenig, Tovey 2010) from one node to all: a way may cut across the lattice
@@ -211,23 +188,22 @@ void Roadmap::extend(Row& row) const {
   row.followed = follows_;
 }
 
-const Roadmap::Row& Roadmap::row(Node from) {
-  const auto [at, is_new] = rows_.try_emplace(from);
-  Row& row = at->second;
-  if (is_new) {
-    row.made = row.followed = follows_;
-    row.ways.grow(size());
-    LazyGraph graph{*this, row.ways, from};
-    find_ways(graph, from, row.ways);
+const Roadmap::Row& Roadmap::row(Node from, const HeedStop& stop) {
+  auto at = rows_.find(from);
+  if (at == rows_.end()) {
+    Row made{.made = follows_, .followed = follows_};
+    made.ways.grow(size());
+    LazyGraph graph{*this, made.ways, from};
+    find_ways(graph, from, made.ways, stop);
+    at = rows_.emplace(from, std::move(made)).first;
   }
-  if (row.followed < follows_) extend(row);
-  return row;
+  if (at->second.followed < follows_) extend(at->second);
+  return at->second;
 }
 
 std::vector<Vec3> Roadmap::via_world_m(Node from, Node to) {
-  std::vector<Vec3> via_m;
-  for (const Node node : nodes_between(row(from).ways, from, to)) via_m.push_back(p_world_m_[node]);
-  return via_m;
+  const Ways<float>& ways = row(from, {}).ways;
+  return points_on_way(ways, from, ways.before[to], [&](Node node) { return p_world_m_[node]; });
 }
 
 }  // namespace gnbv

@@ -1,13 +1,12 @@
 // Where views may be taken from, and the ways between those nodes.
 #pragma once
 
-#include <cstdint>
 #include <map>
 #include <span>
 #include <vector>
 
+#include "planner/motion/free_space.hpp"
 #include "planner/motion/graph_search.hpp"
-#include "planner/motion/open_space.hpp"
 
 namespace gnbv {
 
@@ -24,47 +23,51 @@ class Roadmap {
   Node add(const Vec3& p_world_m);
 
   /// Finds which nodes are open now and can be reached from `here_world_m`, and over which legs.
-  /// Rows are kept for some calls: they learn of nodes that have opened, but not of shorter ways,
-  /// and what has closed since may make them too short.
-  void follow(const OccupancyGrid& grid, const OpenSpace& space, const Vec3& here_world_m);
+  /// Keeps references to grid and space. Rows are kept for some calls: they learn of nodes that
+  /// have opened, but not of shorter ways, and what has closed since may make them too short.
+  void follow(const OccupancyGrid& grid, const OpenSpace& space, const Vec3& here_world_m,
+              const HeedStop& stop = {});
 
   std::size_t size() const { return p_world_m_.size(); }
   static constexpr Node here() { return 0; }
   const Vec3& p_world_m(Node node) const { return p_world_m_[node]; }
-  bool is_reachable(Node node) const { return is_reachable_[node] != 0; }
+  /// Ascending, without here().
+  std::span<const Node> reachable() const { return reachable_; }
 
   void forget_ways() { rows_.clear(); }
 
   /// Metres from the node to each one, along open space; infinite where no way leads. No way from
   /// elsewhere leads by here() or to it.
-  std::span<const float> row_m(Node from) { return row(from).ways.length_m; }
+  std::span<const float> row_m(Node from, const HeedStop& stop = {}) {
+    return row(from, stop).ways.length_m;
+  }
   /// The points between the two; requires a way.
   std::vector<Vec3> via_world_m(Node from, Node to);
 
  private:
   struct Row {
-    Ways<float> ways;
+    Ways<float> ways = {};
     std::uint32_t made = 0;      // in which follow() it was searched,
     std::uint32_t followed = 0;  // and up to which it knows the nodes
   };
   struct LazyGraph;
   void link(Node a, Node b);
-  void link_lattice();
-  void link_others();
-  void find_reachable();
+  void link_lattice(const HeedStop& stop);
+  void link_others(const HeedStop& stop);
   float leg_m(Node a, Node b) const {
     return static_cast<float>((p_world_m_[a] - p_world_m_[b]).norm());
   }
-  const Row& row(Node from);
+  const Row& row(Node from, const HeedStop& stop);
   void extend(Row& row) const;
 
   GridGeometry geometry_;
   double step_m_ = 0.0;
   Key lattice_size_ = {0, 0, 0};
   std::vector<Vec3> p_world_m_;
-  std::vector<std::uint8_t> is_open_, is_reachable_;
+  std::vector<std::uint8_t> is_open_;
   std::vector<std::uint32_t> opened_;    // in which follow() each did, last
   std::vector<std::vector<Node>> legs_;  // from each node
+  std::vector<Node> reachable_;
   const OccupancyGrid* grid_ = nullptr;  // of the last follow()
   const OpenSpace* space_ = nullptr;
   std::map<Node, Row> rows_;

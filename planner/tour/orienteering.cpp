@@ -4,8 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "planner/tour/expected_cover.hpp"
-#include "planner/tour/perturbation.hpp"
+#include "sim/core/error.hpp"
 
 namespace gnbv {
 namespace {
@@ -17,8 +16,8 @@ constexpr double kTolerance = 0.7;
 /// A tour while it is changed. Copied, it is a state to return to.
 class OpenTour {
  public:
-  OpenTour(const OrienteeringProblem& problem, const ObservationTable& table)
-      : problem_(&problem), cover_(problem, table), waypoints_({problem.start}, problem.row_m) {
+  explicit OpenTour(const OrienteeringProblem& problem)
+      : problem_(&problem), cover_(problem), waypoints_({problem.start}, problem.row_m) {
     waypoints_.find_detours();
   }
 
@@ -32,21 +31,20 @@ class OpenTour {
   }
 
   OrienteeringTour made() const {
-    OrienteeringTour tour{waypoints_.nodes(), chosen_, waypoints_.length_m(), cover_.found(),
-                          worth()};
-    const auto key = [&](std::uint32_t view) {
-      return std::pair(waypoints_.index_of(node_of(view)), view);
-    };
-    std::sort(tour.views.begin(), tour.views.end(),
-              [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+    std::vector<std::pair<std::size_t, std::uint32_t>> keyed;
+    for (const std::uint32_t view : chosen_) {
+      keyed.emplace_back(waypoints_.index_of(node_of(view)), view);
+    }
+    std::sort(keyed.begin(), keyed.end());
+    OrienteeringTour tour{.worth = worth()};
+    for (const auto& [index, view] : keyed) tour.views.push_back(view);
     return tour;
   }
 
   void remove(std::uint32_t view) {
     cover_.remove(view);
     chosen_.erase(std::find(chosen_.begin(), chosen_.end(), view));
-    const std::uint32_t node = node_of(view);
-    if (node != problem_->start && views_at(node) == 0) waypoints_.remove(node);
+    if (has_just(node_of(view), 0)) waypoints_.remove(node_of(view));
   }
 
   /// At the cheapest position; not where no way leads.
@@ -81,19 +79,17 @@ class OpenTour {
 
  private:
   std::uint32_t node_of(std::uint32_t view) const { return problem_->node[view]; }
-  std::ptrdiff_t views_at(std::uint32_t node) const {
-    return std::count_if(chosen_.begin(), chosen_.end(),
-                         [&](std::uint32_t view) { return node_of(view) == node; });
+  /// Whether it is not the start, and so many of the views are there.
+  bool has_just(std::uint32_t node, std::ptrdiff_t views) const {
+    return node != problem_->start &&
+           views == std::count_if(chosen_.begin(), chosen_.end(),
+                                  [&](std::uint32_t view) { return node_of(view) == node; });
   }
-  double saved_without_m(std::uint32_t view) const {
-    const std::uint32_t node = node_of(view);
-    return node == problem_->start || views_at(node) > 1 ? 0.0 : waypoints_.saved_without_m(node);
-  }
-
   /// Of a chosen view: what it brings beyond its cost.
   double worth_of(std::uint32_t view) const {
-    return cover_.loss_without(view) -
-           problem_->cost_per_m * (problem_->metres_per_view + saved_without_m(view));
+    const std::uint32_t node = node_of(view);
+    const double saved_m = has_just(node, 1) ? waypoints_.saved_without_m(node) : 0.0;
+    return cover_.loss_without(view) - problem_->cost_per_m * (problem_->metres_per_view + saved_m);
   }
 
   std::optional<std::uint32_t> best_view(double metres_per_view,
@@ -104,8 +100,8 @@ class OpenTour {
     std::optional<std::uint32_t> best;
     for (std::uint32_t view = 0; view < gains.size(); ++view) {
       if (cover_.has(view)) continue;
-      double rate = gains[view] / (static_cast<double>(extra_m[node_of(view)]) + metres_per_view);
-      if (!weights.empty()) rate *= static_cast<double>(static_cast<float>(weights[view]));
+      double rate = gains[view] / (extra_m[node_of(view)] + metres_per_view);
+      if (!weights.empty()) rate *= static_cast<float>(weights[view]);
       if (rate <= most) continue;
       most = rate;
       best = view;
@@ -121,12 +117,61 @@ class OpenTour {
 
 }  // namespace
 
+ExpectedCover::ExpectedCover(const OrienteeringProblem& problem)
+    : problem_(&problem),
+      observers_(std::make_shared<std::vector<std::vector<Observer>>>(problem.weight.size())),
+      gain_(problem.observations.size(), 0.0),
+      missed_(problem.weight.size(), 1.0),
+      is_chosen_(problem.observations.size(), 0) {
+  for (std::uint32_t view = 0; view < gain_.size(); ++view) {
+    for (const auto& [item, success] : problem.observations[view]) {
+      GNBV_CHECK(item < missed_.size() && success >= 0.0F && success < 1.0F,
+                 "observation of item {} of {} with success {}", item, missed_.size(), success);
+      observers_->at(item).push_back({view, success});
+      gain_[view] += problem.weight[item] * success;
+    }
+  }
+}
+
+void ExpectedCover::change(std::uint32_t item, double missed) {
+  const double by = problem_->weight[item] * (missed - missed_[item]);
+  for (const Observer& observer : (*observers_)[item]) {
+    gain_[observer.view] += by * observer.success;
+  }
+  found_ -= by;
+  missed_[item] = missed;
+}
+
+void ExpectedCover::add(std::uint32_t view) {
+  GNBV_CHECK(is_chosen_[view] == 0, "view {} is there already", view);
+  is_chosen_[view] = 1;
+  for (const ItemObservation& one : problem_->observations[view]) {
+    change(one.item, missed_[one.item] * (1.0 - one.success));
+  }
+}
+
+void ExpectedCover::remove(std::uint32_t view) {
+  GNBV_CHECK(is_chosen_[view] != 0, "view {} is not there", view);
+  is_chosen_[view] = 0;
+  for (const ItemObservation& one : problem_->observations[view]) {
+    change(one.item, missed_[one.item] / (1.0 - one.success));
+  }
+}
+
+double ExpectedCover::loss_without(std::uint32_t view) const {
+  double loss = 0.0;
+  for (const ItemObservation& one : problem_->observations[view]) {
+    const float odds = one.success / (1.0F - one.success);
+    loss += double{problem_->weight[one.item] * odds} * missed_[one.item];
+  }
+  return loss;
+}
+
 OrienteeringTour solve(const OrienteeringProblem& problem, std::span<const std::uint32_t> from,
-                       const TourSearch& search) {
+                       int iterations, std::uint64_t seed) {
   constexpr double kHot_m = 0.6;
   constexpr double kCold_m = 0.01;
-  const ObservationTable table(problem);
-  OpenTour current(problem, table);
+  OpenTour current(problem);
   for (const std::uint32_t view : from) current.insert(view);
   current.complete(1.0, {});
   current.drop_unpaid();
@@ -135,10 +180,8 @@ OrienteeringTour solve(const OrienteeringProblem& problem, std::span<const std::
   double current_worth = current.worth();
   double best_worth = current_worth;
   OpenTour trial = current;
-  const int iterations = search.iterations;
   for (int i = 0; i < iterations && !current.chosen().empty(); ++i) {
-    if (search.heed_stop) search.heed_stop();
-    Rng rng(search.seed, Stream::tour_search, i);
+    Rng rng(seed, Stream::tour_search, i);
     trial = current;
     for (const std::uint32_t view :
          views_to_remove(trial.chosen(), problem.node, trial.waypoints(), problem.row_m, rng)) {
@@ -152,9 +195,8 @@ OrienteeringTour solve(const OrienteeringProblem& problem, std::span<const std::
       trial.shorten();
       worth = trial.worth();
     }
-    const double heat =
-        problem.cost_per_m * kHot_m *
-        std::pow(kCold_m / kHot_m, static_cast<double>(i) / static_cast<double>(iterations));
+    const double heat = problem.cost_per_m * kHot_m *
+                        std::pow(kCold_m / kHot_m, i / static_cast<double>(iterations));
     if (current_worth - worth >= -heat * std::log(1.0 - rng.uniform())) continue;
     std::swap(current, trial);
     current_worth = worth;

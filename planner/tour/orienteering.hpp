@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -25,30 +25,54 @@ struct OrienteeringProblem {
   std::uint32_t start = 0;                                 // the node where a tour begins
   double cost_per_m = 0.0;                                 // of way, in weight
   double metres_per_view = 0.0;                            // what a view costs as if it were way
-  RowOf row_m = {};                                        // asked again and again
+  RowOf row_m = {};  // asked again and again, many times in each round of a search; may throw
+};
+
+/// What chosen views can be expected to find together, and what each further one would add. The
+/// expected weight found is the sum of weight (1 - product of the observations' failures). A view
+/// that comes or goes costs its items, and for each the views that observe it. Copied, it is a
+/// state to return to.
+class ExpectedCover {
+ public:
+  /// Keeps a reference to the problem.
+  explicit ExpectedCover(const OrienteeringProblem& problem);
+
+  void add(std::uint32_t view);
+  void remove(std::uint32_t view);
+  bool has(std::uint32_t view) const { return is_chosen_[view] != 0; }
+
+  double found() const { return found_; }
+  /// What each view that is not chosen would add; meaningless for those chosen.
+  std::span<const double> gains() const { return gain_; }
+  /// What would be lost without a chosen view.
+  double loss_without(std::uint32_t view) const;
+
+ private:
+  struct Observer {
+    std::uint32_t view;
+    float success;
+  };
+  void change(std::uint32_t item, double missed);
+
+  const OrienteeringProblem* problem_;
+  std::shared_ptr<std::vector<std::vector<Observer>>> observers_;  // of each item; for all copies
+  std::vector<double> gain_;
+  std::vector<double> missed_;  // of each item: the probability that no chosen view finds it
+  std::vector<std::uint8_t> is_chosen_;
+  double found_ = 0.0;
 };
 
 struct OrienteeringTour {
-  std::vector<std::uint32_t> nodes;  // in the order of the tour, each once, the start first
-  std::vector<std::uint32_t> views;  // in the order of the nodes, at a node by number
-  double length_m = 0.0;
-  double found = 0.0;  // weight that can be expected
-  double worth = 0.0;  // found less what it costs
-};
-
-/// How long a search goes on, and which random numbers it takes.
-struct TourSearch {
-  int iterations = 0;  // 0: greedily, view by view
-  std::uint64_t seed = 0;
-  std::function<void()> heed_stop = {};  // called now and then; may throw
+  std::vector<std::uint32_t> views = {};  // in the order of the tour, at a node by number
+  double worth = 0.0;                     // what can be expected to be found less what it costs
 };
 
 /// The tour with the greatest worth that a large-neighbourhood search met (Shaw 1998; Ropke,
-/// Pisinger 2006), begun with `from`: takes 2 to 15 views out - some in a row, the nearest of one,
-/// or any - puts others in by what they bring per metre of detour and a random price of a view,
-/// drops those that do not pay, and accepts as annealing does, from 0.6 m of loss down to 0.01 m.
-/// Deterministic.
+/// Pisinger 2006), begun with `from`. Each iteration takes views out (views_to_remove()), puts
+/// others in by what they bring per metre of detour at a random price of a view, drops those that
+/// do not pay, and accepts the result as annealing does: at a loss of 0.6 m at first, of 0.01 m in
+/// the end. Without iterations the greedy tour. Deterministic by the seed.
 OrienteeringTour solve(const OrienteeringProblem& problem, std::span<const std::uint32_t> from,
-                       const TourSearch& search);
+                       int iterations, std::uint64_t seed);
 
 }  // namespace gnbv

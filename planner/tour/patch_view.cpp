@@ -4,22 +4,84 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/core/parallel.hpp"
+
 namespace gnbv {
 namespace {
 
 constexpr double kPixel_rad = deg_to_rad(0.6);
-// of a disc, in the edge of a small voxel: 0.9 of the discs' spacing leaves no holes (this and the
-// bias: facts/tour.md, section 1, splats of 0.09 m with a bias of 0.08 m for a spacing of 0.1 m)
+// In the edge of a small voxel: the radius of a disc, 0.9 of the discs' spacing, leaves no holes;
+// what lies no deeper behind a disc is the disc's own surface (facts/tour.md, section 1: splats of
+// 0.09 m with a bias of 0.08 m for a spacing of 0.1 m).
 constexpr float kDiscRadius = 1.8F;
-// what lies no deeper behind a disc is the disc's own surface
 constexpr float kBias = 1.6F;
-// from where on a cell of fewer pixels is drawn as one disc: half the diagonal of its square
+// A cell of fewer pixels is drawn as one disc, if it has enough discs: else most of it is empty.
 constexpr float kSmallCell_px = 4.0F;
-constexpr float kCellRadius = 0.71F;      // in the edge of a cell
-constexpr std::uint32_t kWholeDiscs = 3;  // so many at least, or most of the cell is empty
+constexpr std::uint32_t kWholeDiscs = 3;
+constexpr float kCellRadius = 0.71F;  // in the edge of a cell: half the diagonal of its square
 constexpr float kNoDepth = std::numeric_limits<float>::infinity();
 
+constexpr double kBlockCells = 8.0;  // along an edge
+
+void pack(const SurfaceCells& cells, CellBlocks::Block& block) {
+  block.cells.clear();
+  block.discs_m.clear();
+  block.changed = 0;
+  for (const std::uint32_t index : block.members) {
+    const SurfaceCell& cell = cells.cells()[index];
+    if (cell.discs_m.empty() && !cell.is_boundary) continue;
+    CellBlocks::Cell packed{.middle_m = cell.on_plane_m, .index = index, .changed = cell.changed};
+    if (cell.has_plane() && !cell.is_bar) packed.normal = cell.normal;
+    if (!cell.is_boundary) {
+      Vec3f sum_m = Vec3f::Zero();
+      for (const Vec3f& disc_m : cell.discs_m) sum_m += disc_m;
+      packed.middle_m = sum_m / static_cast<float>(cell.discs_m.size());
+      packed.first_disc = static_cast<std::uint32_t>(block.discs_m.size());
+      packed.discs = static_cast<std::uint32_t>(cell.discs_m.size());
+      block.discs_m.insert(block.discs_m.end(), cell.discs_m.begin(), cell.discs_m.end());
+    }
+    block.changed = std::max(block.changed, cell.changed);
+    block.cells.push_back(packed);
+  }
+}
+
 }  // namespace
+
+CellBlocks::CellBlocks(const Box3& workspace_m, double cell_m)
+    : lattice_(workspace_m, kBlockCells * cell_m), slot_(lattice_.voxel_count()) {}
+
+void CellBlocks::follow(const SurfaceCells& cells, int threads) {
+  if (version_ == cells.version()) return;
+  version_ = cells.version();
+  for (; taken_ < cells.cells().size(); ++taken_) {
+    const Key key = lattice_.key_of(cells.lattice().center_m(cells.cells()[taken_].key));
+    if (!lattice_.contains(key)) continue;  // half a cell beyond the workspace
+    std::uint32_t& slot = slot_[lattice_.index_of(key)];
+    if (slot == 0) {
+      blocks_.push_back({.center_m = lattice_.center_m(key).cast<float>()});
+      slot = static_cast<std::uint32_t>(blocks_.size());
+    }
+    blocks_[slot - 1].members.push_back(static_cast<std::uint32_t>(taken_));
+  }
+  parallel_for_chunks(threads, blocks_.size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) pack(cells, blocks_[i]);
+  });
+}
+
+std::vector<const CellBlocks::Block*> CellBlocks::near(const Vec3& p_world_m,
+                                                       double reach_m) const {
+  const float within_m = static_cast<float>(reach_m) + radius_m();
+  const Vec3 reach = Vec3::Constant(within_m + 1e-3);  // more than anything here rounds
+  std::vector<const Block*> found;
+  for_each_key(lattice_.keys_in({p_world_m - reach, p_world_m + reach}), [&](const Key& key) {
+    const std::uint32_t slot = slot_[lattice_.index_of(key)];
+    if (slot == 0) return;
+    const Block& block = blocks_[slot - 1];
+    const float distance2_m2 = (block.center_m - p_world_m.cast<float>()).squaredNorm();
+    if (distance2_m2 <= within_m * within_m) found.push_back(&block);
+  });
+  return found;
+}
 
 double camera_reach_m(const CameraModel& camera) {
   const CameraConfig& c = camera.config;
@@ -31,24 +93,24 @@ void PatchViewer::begin(const CameraModel& camera, const Isometry& T_world_camer
   const CameraConfig& c = camera.config;
   const double half_x = std::tan(0.5 * c.fov_x_rad);
   const double half_y = std::tan(0.5 * c.fov_y_rad);
-  image_.width = static_cast<int>(std::ceil(2.0 * half_x / kPixel_rad));
-  image_.height = static_cast<int>(std::ceil(2.0 * half_y / kPixel_rad));
-  image_.cx = 0.5F * static_cast<float>(image_.width);
-  image_.cy = 0.5F * static_cast<float>(image_.height);
-  image_.fx = image_.cx / static_cast<float>(half_x);
-  image_.fy = image_.cy / static_cast<float>(half_y);
-  image_.R_camera_world = T_world_camera.linear().transpose().cast<float>();
-  image_.origin_m = T_world_camera.translation().cast<float>();
-  image_.range_max_m = static_cast<float>(c.range_max_m);
-  depth_m_.assign(static_cast<std::size_t>(image_.width * image_.height), kNoDepth);
-  ray_x_.resize(static_cast<std::size_t>(image_.width));
-  ray_y_.resize(static_cast<std::size_t>(image_.height));
-  for (std::size_t x = 0; x < ray_x_.size(); ++x) {
-    ray_x_[x] = (static_cast<float>(x) + 0.5F - image_.cx) / image_.fx;
-  }
-  for (std::size_t y = 0; y < ray_y_.size(); ++y) {
-    ray_y_[y] = (static_cast<float>(y) + 0.5F - image_.cy) / image_.fy;
-  }
+  width_ = static_cast<int>(std::ceil(2.0 * half_x / kPixel_rad));
+  height_ = static_cast<int>(std::ceil(2.0 * half_y / kPixel_rad));
+  cx_ = 0.5F * static_cast<float>(width_);
+  cy_ = 0.5F * static_cast<float>(height_);
+  fx_ = cx_ / static_cast<float>(half_x);
+  fy_ = cy_ / static_cast<float>(half_y);
+  R_camera_world_ = T_world_camera.linear().transpose().cast<float>();
+  origin_world_m_ = T_world_camera.translation().cast<float>();
+  range_max_m_ = static_cast<float>(c.range_max_m);
+  depth_m_.assign(static_cast<std::size_t>(width_ * height_), kNoDepth);
+  const auto set_rays = [](int pixels, float center, float focal, std::vector<float>& rays) {
+    rays.clear();
+    for (int i = 0; i < pixels; ++i) {
+      rays.push_back((static_cast<float>(i) + 0.5F - center) / focal);
+    }
+  };
+  set_rays(width_, cx_, fx_, ray_x_);
+  set_rays(height_, cy_, fy_, ray_y_);
 }
 
 /// The ray through a pixel is t (ray_x, ray_y, 1) in the camera's frame. It meets the disc's plane,
@@ -57,19 +119,19 @@ void PatchViewer::begin(const CameraModel& camera, const Isometry& T_world_camer
 /// about the disc's middle are asked.
 void PatchViewer::draw(const Vec3f& p, const Vec3f& normal, float radius_m) {
   const float along = normal.dot(p);
-  const float u = image_.fx * p.x() / p.z() + image_.cx;
-  const float v = image_.fy * p.y() / p.z() + image_.cy;
-  const float half = image_.fx * radius_m / p.z();
+  const float u = fx_ * p.x() / p.z() + cx_;
+  const float v = fy_ * p.y() / p.z() + cy_;
+  const float half = fx_ * radius_m / p.z();
   const int u0 = std::max(0, static_cast<int>(std::ceil(u - half - 0.5F)));
-  const int u1 = std::min(image_.width - 1, static_cast<int>(std::floor(u + half - 0.5F)));
+  const int u1 = std::min(width_ - 1, static_cast<int>(std::floor(u + half - 0.5F)));
   const int v0 = std::max(0, static_cast<int>(std::ceil(v - half - 0.5F)));
-  const int v1 = std::min(image_.height - 1, static_cast<int>(std::floor(v + half - 0.5F)));
+  const int v1 = std::min(height_ - 1, static_cast<int>(std::floor(v + half - 0.5F)));
   for (int y = v0; y <= v1; ++y) {
-    const float ray_y = ray_y_[static_cast<std::size_t>(y)];
+    const float ray_y = ray_y_[y];
     const float across_row = normal.y() * ray_y + normal.z();
-    float* const row_m = &depth_m_[static_cast<std::size_t>(y * image_.width)];
+    float* const row_m = &depth_m_[static_cast<std::size_t>(y * width_)];
     for (int x = u0; x <= u1; ++x) {
-      const float ray_x = ray_x_[static_cast<std::size_t>(x)];
+      const float ray_x = ray_x_[x];
       const float across = normal.x() * ray_x + across_row;
       if (std::fabs(across) < 1e-3F) continue;
       const float z_m = along / across;
@@ -81,21 +143,21 @@ void PatchViewer::draw(const Vec3f& p, const Vec3f& normal, float radius_m) {
 }
 
 bool PatchViewer::is_before(const Vec3f& p, float cos_incidence, float bias_m) const {
-  const int x = static_cast<int>(image_.fx * p.x() / p.z() + image_.cx);
-  const int y = static_cast<int>(image_.fy * p.y() / p.z() + image_.cy);
-  if (x < 0 || y < 0 || x >= image_.width || y >= image_.height) return false;
-  const float half_pixel = 0.5F / image_.fx;
-  return p.z() <= depth_m_[static_cast<std::size_t>(y * image_.width + x)] + bias_m +
+  const int x = static_cast<int>(fx_ * p.x() / p.z() + cx_);
+  const int y = static_cast<int>(fy_ * p.y() / p.z() + cy_);
+  if (x < 0 || y < 0 || x >= width_ || y >= height_) return false;
+  const float half_pixel = 0.5F / fx_;
+  return p.z() <= depth_m_[static_cast<std::size_t>(y * width_ + x)] + bias_m +
                       half_pixel * p.z() / cos_incidence;
 }
 
 bool PatchViewer::is_in_image(const Vec3f& p, float margin_m) const {
-  return p.z() > 0.05F && p.z() <= image_.range_max_m + margin_m && is_in_cone(p, margin_m);
+  return p.z() > 0.05F && p.z() <= range_max_m_ + margin_m && is_in_cone(p, margin_m);
 }
 
 bool PatchViewer::is_in_cone(const Vec3f& p, float margin_m) const {
-  return std::fabs(p.x()) <= image_.cx / image_.fx * p.z() + margin_m &&
-         std::fabs(p.y()) <= image_.cy / image_.fy * p.z() + margin_m;
+  return std::fabs(p.x()) <= cx_ / fx_ * p.z() + margin_m &&
+         std::fabs(p.y()) <= cy_ / fy_ * p.z() + margin_m;
 }
 
 void PatchViewer::draw_cell(const TourScene& scene, const CellBlocks::Block& block,
@@ -105,8 +167,8 @@ void PatchViewer::draw_cell(const TourScene& scene, const CellBlocks::Block& blo
   if (!is_in_image(middle, slant() * 0.9F * cell_m)) return;
   in_image_.push_back(cell.index);
   const bool has_plane = !cell.normal.isZero();
-  const Vec3f normal = image_.R_camera_world * cell.normal;
-  const bool is_small = cell_m * image_.fx < kSmallCell_px * middle.z();
+  const Vec3f normal = R_camera_world_ * cell.normal;
+  const bool is_small = cell_m * fx_ < kSmallCell_px * middle.z();
   if (is_small && has_plane && cell.discs >= kWholeDiscs) {
     draw(middle, normal, kCellRadius * cell_m);
     return;
@@ -128,7 +190,7 @@ void PatchViewer::observe(const TourScene& scene, const CameraModel& camera,
   for (const CellBlocks::Block* block : blocks) {
     const Vec3f middle = to_camera(block->center_m);
     const bool is_in_reach =
-        middle.z() >= -block_radius_m && middle.z() <= image_.range_max_m + block_radius_m;
+        middle.z() >= -block_radius_m && middle.z() <= range_max_m_ + block_radius_m;
     if (!is_in_reach || !is_in_cone(middle, slant() * block_radius_m)) continue;
     for (const CellBlocks::Cell& cell : block->cells) draw_cell(scene, *block, cell);
   }
@@ -142,7 +204,7 @@ void PatchViewer::observe(const TourScene& scene, const CameraModel& camera,
       if (patch.missing <= 0.0F) continue;
       const Vec3f p = to_camera(patch.target_m);
       if (!is_in_image(p, 0.0F) || p.z() < range_min_m) continue;
-      const float cosine = patch.normal.dot(image_.origin_m - patch.target_m) / p.norm();
+      const float cosine = patch.normal.dot(origin_world_m_ - patch.target_m) / p.norm();
       if (cosine < cos_min || !is_before(p, cosine, bias_m)) continue;
       seen.push_back({id, static_cast<std::uint8_t>(incidence_bin(cosine))});
     }

@@ -2,24 +2,24 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <bit>
+#include <cmath>
 #include <optional>
 
-#include "planner/tour/plane_section.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
 
 namespace gnbv {
 namespace {
 
-/// Calls use(neighbour) for the cell itself and the 26 around it, x fastest.
-template <typename Use>
-void for_each_neighbour(const Key& key, const Use& use) {
-  for (std::int32_t dz = -1; dz <= 1; ++dz) {
-    for (std::int32_t dy = -1; dy <= 1; ++dy) {
-      for (std::int32_t dx = -1; dx <= 1; ++dx) use(Key{key[0] + dx, key[1] + dy, key[2] + dz});
-    }
-  }
+constexpr int kSide = SurfaceCell::kSide;
+
+/// A section counts as a voxel of the surface from this share of a face on, as it does in the
+/// reference (a tenth) with a margin for the plane's error.
+constexpr double kExpectedFaceShare = 0.3;
+
+void sort_unique(std::vector<std::uint32_t>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
 struct Fit {
@@ -28,10 +28,11 @@ struct Fit {
   std::optional<Vec3> axis;  // of a bar
 };
 
-/// What the points lie on. The eigenvalues of their covariance are the squares of how far they
-/// spread along its eigenvectors, the least first. Two that are large: the plane of least squares.
-/// Only the last: a bar along its eigenvector; it faces all that is about it, and its normal is the
-/// level one. None: nothing.
+/// What the points lie on. The eigenvalues of their covariance, the least first, are the squares of
+/// how far they spread along its eigenvectors.
+/// - Two are large: the plane of least squares.
+/// - Only the last is: a bar along that eigenvector. It faces all sides; its normal is a level one.
+/// - None is: nothing.
 std::optional<Fit> fit_points(const PointMoments& moments, double least_spread_m) {
   if (moments.count < 3.0) return std::nullopt;
   const Vec3 mean_m = moments.sum_m / moments.count;
@@ -62,6 +63,25 @@ GridGeometry lattice_of(const Box3& workspace_m, double detail_m) {
 
 }  // namespace
 
+double plane_section_area(const Vec3& normal, double distance, double edge) {
+  constexpr double kLeast = 0.01;
+  const Vec3 n = normal.cwiseAbs().cwiseMax(kLeast);
+  const double t = 0.5 * n.sum() - std::fabs(distance) / edge;
+  if (t <= 0.0) return 0.0;
+  double sum = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    double along = t;
+    double sign = 1.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (((corner >> axis) & 1) == 0) continue;
+      along -= n[axis];
+      sign = -sign;
+    }
+    if (along > 0.0) sum += sign * along * along;
+  }
+  return edge * edge * std::max(0.0, sum / (2.0 * n.prod()));
+}
+
 void PointMoments::add(const Vec3& p_m) {
   count += 1.0;
   sum_m += p_m;
@@ -85,21 +105,13 @@ SurfaceCells::SurfaceCells(const Box3& workspace_m, double detail_m)
 std::uint32_t SurfaceCells::cell_at(const Key& key) {
   std::uint32_t& at = at_[lattice_.index_of(key)];
   if (at == 0) {
-    cells_.emplace_back();
-    cells_.back().key = key;
+    cells_.emplace_back().key = key;
     at = static_cast<std::uint32_t>(cells_.size());
   }
   return at - 1;
 }
 
-const SurfaceCell* SurfaceCells::find(const Key& key) const {
-  if (!lattice_.contains(key)) return nullptr;
-  const std::uint32_t at = at_[lattice_.index_of(key)];
-  return at == 0 ? nullptr : &cells_[at - 1];
-}
-
 Vec3 SurfaceCells::voxel_center_m(const SurfaceCell& cell, int bit) const {
-  constexpr int kSide = SurfaceCell::kSide;
   const Vec3 at(bit % kSide, bit / kSide % kSide, bit / (kSide * kSide));
   return lattice_.center_m(cell.key) - Vec3::Constant(0.5 * edge_m()) +
          detail_m_ * (at + Vec3::Constant(0.5));
@@ -109,7 +121,7 @@ int SurfaceCells::bit_at(const Vec3& from_center_m) const {
   int bit = 0;
   for (int axis = 2; axis >= 0; --axis) {
     const double at = (from_center_m[axis] + 0.5 * edge_m()) / detail_m_;
-    bit = bit * SurfaceCell::kSide + std::clamp(static_cast<int>(at), 0, SurfaceCell::kSide - 1);
+    bit = bit * kSide + std::clamp(static_cast<int>(at), 0, kSide - 1);
   }
   return bit;
 }
@@ -121,10 +133,10 @@ void SurfaceCells::count_observation(std::uint32_t cell, std::size_t side) {
 
 PointMoments SurfaceCells::moments_around(const Key& key) const {
   PointMoments sum;
-  for_each_neighbour(key, [&](const Key& other) {
-    const SurfaceCell* const cell = find(other);
-    if (cell == nullptr) return;
-    sum.add(cell->moments,
+  for_each_key(keys_about(key), [&](const Key& other) {
+    const std::uint32_t at = lattice_.contains(other) ? at_[lattice_.index_of(other)] : 0;
+    if (at == 0) return;
+    sum.add(cells_[at - 1].moments,
             edge_m() * Vec3(other[0] - key[0], other[1] - key[1], other[2] - key[2]));
   });
   return sum;
@@ -139,27 +151,19 @@ void SurfaceCells::fit(SurfaceCell& cell, const OccupancyGrid& grid) const {
   if (!found || found->axis) found = fit_points(moments_around(cell.key), least_spread_m);
   const std::uint64_t expected_before = cell.expected;
   cell.expected = 0;
-  cell.has_plane = found.has_value();
   cell.is_bar = found && found->axis;
   if (found) {
-    const bool had_normal = cell.normal != Vec3f::Zero();
-    const bool is_turned = had_normal && cell.normal.dot(found->normal.cast<float>()) < 0.0F;
-    const Vec3 center_m = lattice_.center_m(cell.key);
+    const bool is_turned = cell.normal.dot(found->normal.cast<float>()) < 0.0F;
     cell.normal = ((is_turned ? -1.0 : 1.0) * found->normal).cast<float>();
     // with own points few, the plane has to go through them
     const Vec3 mean_m =
-        cell.moments.count > 0.0 ? Vec3(cell.moments.sum_m / cell.moments.count) : found->mean_m;
-    cell.on_plane_m = (center_m + mean_m).cast<float>();
-    if (found->axis) {
-      expect_bar(cell, *found->axis);
-    } else {
-      expect_section(cell);
-    }
+        cell.is_extrapolated() ? found->mean_m : Vec3(cell.moments.sum_m / cell.moments.count);
+    cell.on_plane_m = (lattice_.center_m(cell.key) + mean_m).cast<float>();
+    cell.is_bar ? expect_bar(cell, *found->axis) : expect_section(cell);
     const Vec3 middle_m = cell.on_plane_m.cast<double>();
     if (cell.is_extrapolated() && grid.state_at(middle_m) == VoxelState::free) cell.expected = 0;
   }
-  if (cell.expected == 0) cell.has_plane = false;
-  if (cell.expected != expected_before) cell.changed = updates_;
+  if (cell.expected != expected_before) cell.changed = version_;
   place_discs(cell);
 }
 
@@ -192,45 +196,38 @@ void SurfaceCells::expect_bar(SurfaceCell& cell, const Vec3& axis) const {
     const Vec3 p_m = on_axis_m + i * step_m * axis;
     if (p_m.cwiseAbs().maxCoeff() >= 0.5 * edge_m()) continue;
     std::uint64_t beside = 0;
-    for (std::uint64_t left = cell.covered; left != 0; left &= left - 1) {
-      const int bit = std::countr_zero(left);
+    for_each_voxel(cell.covered, [&](int bit) {
       const double off_m = (voxel_center_m(cell, bit) - center_m - p_m).norm();
       if (off_m <= kBeside * detail_m_) beside |= std::uint64_t{1} << bit;
-    }
+    });
     cell.expected |= beside != 0 ? beside : std::uint64_t{1} << bit_at(p_m);
   }
 }
 
 /// One for each eighth of the cell that has surface, where that is.
 void SurfaceCells::place_discs(SurfaceCell& cell) const {
-  constexpr int kHalf = SurfaceCell::kSide / 2;
+  constexpr int kHalf = kSide / 2;
   std::array<Vec3, 8> sum_m;
   sum_m.fill(Vec3::Zero());
   std::array<int, 8> count{};
-  for (std::uint64_t left = cell.expected | cell.covered; left != 0; left &= left - 1) {
-    const int bit = std::countr_zero(left);
-    const int x = bit % 4 / kHalf;
-    const int y = bit / 4 % 4 / kHalf;
-    const int z = bit / 16 / kHalf;
-    const auto part = static_cast<std::size_t>(x + 2 * y + 4 * z);
+  for_each_voxel(cell.expected | cell.covered, [&](int bit) {
+    const int part = bit % kSide / kHalf + 2 * (bit / kSide % kSide / kHalf) +
+                     4 * (bit / (kSide * kSide) / kHalf);
     Vec3 center_m = voxel_center_m(cell, bit);
-    if (cell.has_plane && !cell.is_bar) {
-      const Vec3 normal = cell.normal.cast<double>();
-      const double off_m = normal.dot(center_m - cell.on_plane_m.cast<double>());
-      if (std::fabs(off_m) < detail_m_) center_m -= off_m * normal;
-    }
+    const double off_m = cell.off_plane_m(center_m);
+    const bool is_on_plane = cell.has_plane() && !cell.is_bar && std::fabs(off_m) < detail_m_;
+    if (is_on_plane) center_m -= off_m * cell.normal.cast<double>();
     sum_m[part] += center_m;
     ++count[part];
-  }
+  });
   cell.discs_m.clear();
-  for (std::size_t part = 0; part < 8; ++part) {
+  for (int part = 0; part < 8; ++part) {
     if (count[part] > 0) cell.discs_m.push_back((sum_m[part] / count[part]).cast<float>());
   }
 }
 
 void SurfaceCells::add(std::span<const Vec3f> points_world_m, const OccupancyGrid& grid,
-                       int threads) {
-  ++updates_;
+                       int threads, const HeedStop& stop) {
   ++version_;
   std::vector<std::uint32_t> touched;
   for (const Vec3f& point_m : points_world_m) {
@@ -243,28 +240,26 @@ void SurfaceCells::add(std::span<const Vec3f> points_world_m, const OccupancyGri
     cell.covered |= std::uint64_t{1} << bit_at(from_center_m);
     if (touched.empty() || touched.back() != index) touched.push_back(index);
   }
-  std::sort(touched.begin(), touched.end());
-  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-  std::vector<std::uint32_t> to_fit;
+  sort_unique(touched);
   for (const std::uint32_t index : touched) {
-    for_each_neighbour(Key(cells_[index].key), [&](const Key& key) {
-      if (lattice_.contains(key)) to_fit.push_back(cell_at(key));
+    for_each_key(keys_about(cells_[index].key), [&](const Key& key) {
+      if (lattice_.contains(key)) to_fit_.push_back(cell_at(key));
     });
   }
-  std::sort(to_fit.begin(), to_fit.end());
-  to_fit.erase(std::unique(to_fit.begin(), to_fit.end()), to_fit.end());
-  parallel_for_chunks(threads, to_fit.size(), 256, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) fit(cells_[to_fit[i]], grid);
+  sort_unique(to_fit_);
+  parallel_for_chunks(threads, to_fit_.size(), 256, [&](std::size_t begin, std::size_t end) {
+    heed(stop);
+    for (std::size_t i = begin; i < end; ++i) fit(cells_[to_fit_[i]], grid);
   });
+  to_fit_.clear();
 }
 
 void SurfaceCells::follow_map(const OccupancyGrid& grid) {
   ++version_;
   for (SurfaceCell& cell : cells_) {
     cell.is_boundary = false;
-    if (!cell.is_extrapolated() || !cell.has_plane) continue;
+    if (!cell.is_extrapolated() || !cell.has_plane()) continue;
     if (grid.state_at(cell.on_plane_m.cast<double>()) != VoxelState::free) continue;
-    cell.has_plane = false;
     cell.expected = 0;
     cell.discs_m.clear();
   }
@@ -272,7 +267,7 @@ void SurfaceCells::follow_map(const OccupancyGrid& grid) {
   const std::span<const VoxelWord> words = grid.words();
   for (std::size_t v = 0; v < words.size(); ++v) {
     if (state_of(words[v]) != VoxelState::occupied) continue;
-    for_each_neighbour(geometry.key_at(static_cast<VoxelIndex>(v)), [&](const Key& key) {
+    for_each_key(keys_about(geometry.key_at(static_cast<VoxelIndex>(v))), [&](const Key& key) {
       if (!geometry.contains(key)) return;
       if (grid.state(geometry.index_of(key)) == VoxelState::unknown) mark_boundary(grid, key);
     });
@@ -282,21 +277,20 @@ void SurfaceCells::follow_map(const OccupancyGrid& grid) {
 void SurfaceCells::mark_boundary(const OccupancyGrid& grid, const Key& voxel) {
   const GridGeometry& geometry = grid.geometry();
   Vec3 outwards = Vec3::Zero();
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (const std::int32_t step : {-1, 1}) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const int step : {-1, 1}) {
       Key beside = voxel;
       beside[axis] += step;
       if (!geometry.contains(beside)) continue;
-      if (grid.state(geometry.index_of(beside)) != VoxelState::free) continue;
-      outwards[static_cast<Eigen::Index>(axis)] += step;
+      if (grid.state(geometry.index_of(beside)) == VoxelState::free) outwards[axis] += step;
     }
   }
   const Vec3 center_m = geometry.center_m(voxel);
   const Key key = lattice_.key_of(center_m);
   if (outwards.isZero() || !lattice_.contains(key)) return;
   SurfaceCell& cell = cells_[cell_at(key)];
-  if (cell.has_plane || cell.moments.count > 0.0 || cell.is_boundary) return;
-  if (cell.normal.isZero()) cell.changed = updates_;
+  if (cell.has_plane() || !cell.is_extrapolated() || cell.is_boundary) return;
+  if (cell.normal.isZero()) cell.changed = version_;
   cell.is_boundary = true;
   cell.normal = outwards.normalized().cast<float>();
   cell.on_plane_m = center_m.cast<float>();

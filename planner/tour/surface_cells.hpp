@@ -3,14 +3,22 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "planner/map/occupancy_grid.hpp"
-#include "sim/core/zeroed_array.hpp"
+#include "planner/motion/config.hpp"
 
 namespace gnbv {
+
+/// Area of the section of a cube by a plane of the unit normal at a distance from the cube's
+/// centre. Of the unit cube it is the second difference of a truncated square along each axis of
+/// the normal: sum over the corners s of (-1)^|s| max(0, t - s n)^2 / (2 n_x n_y n_z), where t is
+/// the plane's distance from the lowest corner. Within a percent where a component of the normal
+/// is below 0.01.
+double plane_section_area(const Vec3& normal, double distance, double edge);
 
 /// Sums over points, relative to their cell's centre.
 struct PointMoments {
@@ -31,21 +39,28 @@ struct SurfaceCell {
   PointMoments moments;        // of its own points
   std::uint64_t covered = 0;   // voxels that hold a point, x fastest
   std::uint64_t expected = 0;  // voxels of which the plane crosses enough, or a bar's axis any
-  bool has_plane = false;
-  bool is_bar = false;       // the plane is one through the axis of a thin bar
-  bool is_boundary = false;  // no plane: unknown space beside free and occupied, normal outwards
+  bool is_bar = false;         // the plane is one through the axis of a thin bar
+  bool is_boundary = false;    // no plane: unknown space beside free and occupied, normal outwards
   Vec3f on_plane_m = Vec3f::Zero();  // the middle of what the plane has of the cell
   Vec3f normal = Vec3f::Zero();      // of no particular side, the same side for ever
   std::array<std::uint8_t, 2> observations = {0, 0};  // from the normal's side, and from the other
   std::vector<Vec3f> discs_m;                         // middles of discs that stand for the surface
-  std::uint32_t changed = 0;  // in which add() what is expected of it last changed
+  std::uint32_t changed = 0;  // in which version what is expected of it last did
 
+  bool has_plane() const { return expected != 0; }
   bool is_extrapolated() const { return moments.count == 0.0; }
+  /// How far a point lies off the plane, on the normal's side.
+  double off_plane_m(const Vec3& p_m) const {
+    const Vec3 n = normal.cast<double>();
+    return n.dot(p_m - on_plane_m.cast<double>());
+  }
 };
 
-/// A section counts as a voxel of the surface from this share of a face on, as it does in the
-/// reference (a tenth) with a margin for the plane's error.
-constexpr double kExpectedFaceShare = 0.3;
+/// Calls use(bit) for each voxel of a cell's mask, in ascending order.
+template <typename Use>
+void for_each_voxel(std::uint64_t mask, const Use& use) {
+  for (; mask != 0; mask &= mask - 1) use(std::countr_zero(mask));
+}
 
 class SurfaceCells {
  public:
@@ -55,7 +70,8 @@ class SurfaceCells {
   /// Adds points, and fits again what they change. Cells beside those with points are extrapolated
   /// along the plane, but not into space that the map knows to be free. Points that lie along a
   /// line and on no plane are those of a thin bar.
-  void add(std::span<const Vec3f> points_world_m, const OccupancyGrid& grid, int threads);
+  void add(std::span<const Vec3f> points_world_m, const OccupancyGrid& grid, int threads,
+           const HeedStop& stop = {});
   /// Drops extrapolated cells that the map has found free, and finds the boundaries anew: unknown
   /// voxels beside free and occupied ones, where the cells expect nothing.
   void follow_map(const OccupancyGrid& grid);
@@ -64,17 +80,14 @@ class SurfaceCells {
   double detail_m() const { return detail_m_; }
   const GridGeometry& lattice() const { return lattice_; }
   std::span<const SurfaceCell> cells() const { return cells_; }
-  /// Calls of add() so far.
-  std::uint32_t updates() const { return updates_; }
-  /// Of add() and follow_map() so far.
-  std::uint64_t version() const { return version_; }
+  /// Calls of add() and follow_map() so far.
+  std::uint32_t version() const { return version_; }
   void count_observation(std::uint32_t cell, std::size_t side);
   /// Centre of a voxel of the cell, by its bit.
   Vec3 voxel_center_m(const SurfaceCell& cell, int bit) const;
 
  private:
   std::uint32_t cell_at(const Key& key);
-  const SurfaceCell* find(const Key& key) const;
   PointMoments moments_around(const Key& key) const;
   void fit(SurfaceCell& cell, const OccupancyGrid& grid) const;
   void expect_section(SurfaceCell& cell) const;
@@ -87,8 +100,8 @@ class SurfaceCells {
   GridGeometry lattice_;
   ZeroedArray<std::uint32_t> at_;  // of each cell of the lattice: 1 + index into cells_
   std::vector<SurfaceCell> cells_;
-  std::uint32_t updates_ = 0;
-  std::uint64_t version_ = 0;
+  std::vector<std::uint32_t> to_fit_;  // what add() was stopped before
+  std::uint32_t version_ = 0;
 };
 
 }  // namespace gnbv

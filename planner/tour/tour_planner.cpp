@@ -4,21 +4,18 @@
 #include <cmath>
 
 #include "planner/core/belief.hpp"
-#include "planner/core/planner.hpp"
-#include "planner/motion/view_checker.hpp"
-#include "planner/tour/tour_notes.hpp"
-#include "planner/tour/tour_problem.hpp"
-#include "planner/tour/unseen_space.hpp"
-#include "sim/core/rng.hpp"
+#include "planner/motion/paths.hpp"
+#include "planner/tour/gains.hpp"
+#include "sim/core/parallel.hpp"
 
 namespace gnbv {
 namespace {
 
-// nodes observed again, a replan: those around which the surface changed most. Casting all costs
-// ten times as much and changes no tour by more than its seed does
+// Nodes that are observed again at each replan: those around which the surface changed most. All of
+// them cost ten times as much and change no tour by more than its seed does.
 constexpr std::size_t kObservedAgain = 80;
-// of all expected voxels: when no more is left, the end pays at no lower cost of a metre. Less than
-// this is what cameras miss of surface that they have seen three times
+// Of all expected voxels: once no more than this is left, the cost of a metre falls no further.
+// Cameras miss more than this of surface that they have seen three times.
 constexpr double kEndShare = 0.003;
 
 /// What the steps work on.
@@ -29,28 +26,28 @@ struct Step {
   const ViewPose& current;
   Scratch& scratch;
   TourState& state;
+  const HeedStop stop = [this] { scratch.heed_stop(); };
 
   TourScene scene() const { return {config, state.cells, state.patches}; }
   /// What a metre has to bring, in small voxels.
   double cost_per_m() const {
     return config.price * expected_surface(state.cells).voxels_a_metre();
   }
-  std::function<void()> heed_stop() const {
-    return [this] { scratch.heed_stop(); };
+  void follow_roadmap() const {
+    state.roadmap.follow(belief.grid, state.space, current.p_world_m, stop);
   }
 };
 
 /// Adds what the last view brought to the surface, and learns from it.
 void update_surface(const Step& step) {
   TourState& state = step.state;
-  const std::span<const Vec3f> points = step.belief.cloud.points_world_m();
-  state.cells.add(points.subspan(state.points_taken), step.belief.grid, step.scratch.threads);
-  state.points_taken = points.size();
-  state.calibration.settle(state.cells);
-  const double found = state.calibration.found();
-  const double predicted = state.calibration.predicted();
-  const bool is_short = found < step.config.replan_below * predicted;
-  if (is_short && predicted - found > step.cost_per_m()) state.is_due = true;
+  const std::span<const Vec3f> fresh =
+      step.belief.cloud.points_world_m().subspan(state.points_taken);
+  state.points_taken += fresh.size();
+  state.cells.add(fresh, step.belief.grid, step.scratch.threads, step.stop);
+  const Gain gain = state.calibration.settle(state.cells);
+  const bool is_short = gain.found < step.config.replan_below * gain.predicted;
+  if (is_short && gain.predicted - gain.found > step.cost_per_m()) state.is_due = true;
 }
 
 /// Finds what the surface lacks, and how much of it observations can be expected to bring.
@@ -65,37 +62,35 @@ void observe_nodes(const Step& step) {
   const int threads = step.scratch.threads;
   std::vector<Roadmap::Node> first;
   for (const TourView& view : state.tour) first.push_back(view.node);
-  state.visibility.follow(step.scene(), state.roadmap, first, kObservedAgain, threads,
-                          step.heed_stop());
+  state.visibility.follow(step.scene(), state.roadmap, first, kObservedAgain, threads, step.stop);
   if (!step.config.surface_views) return;
   const std::vector<Vec3> more_m =
-      points_for_unseen({step.belief.grid, state.space, state.cameras}, state.patches,
-                        seen_from_anywhere(state), state.searched);
+      points_for_unseen({step.belief.grid, state.space, step.model.cameras}, state.patches,
+                        state.seen_from_anywhere(), state.searched);
   if (more_m.empty()) return;
   for (const Vec3& p_m : more_m) state.roadmap.add(p_m);
-  state.roadmap.follow(step.belief.grid, state.space, step.current.p_world_m);
-  state.visibility.follow(step.scene(), state.roadmap, {}, 0, threads, step.heed_stop());
+  step.follow_roadmap();
+  state.visibility.follow(step.scene(), state.roadmap, {}, 0, threads, step.stop);
 }
 
 /// Whether some view pays at what a metre costs now: then the tour is that of the best views.
 bool solve_tour(const Step& step) {
   TourState& state = step.state;
-  TourProblem task = make_tour_problem(step.config, state, state.cost_factor * step.cost_per_m());
-  task.problem.row_m = [&state](std::uint32_t node) { return state.roadmap.row_m(node); };
+  TourProblem task =
+      make_tour_problem(step.config, state, state.cost_factor * step.cost_per_m(), step.stop);
+  task.problem.row_m = [&](std::uint32_t node) {
+    step.stop();
+    return state.roadmap.row_m(node, step.stop);
+  };
   std::vector<std::uint32_t> from;
   for (const TourView& left : state.tour) {
-    const auto same = std::find_if(task.views.begin(), task.views.end(), [&](const TourView& v) {
-      return v.node == left.node && is_same_view(v.pose, left.pose);
-    });
-    if (same != task.views.end()) {
-      from.push_back(static_cast<std::uint32_t>(same - task.views.begin()));
-    }
+    const auto same = std::find(task.views.begin(), task.views.end(), left);
+    if (same == task.views.end()) continue;
+    from.push_back(static_cast<std::uint32_t>(same - task.views.begin()));
   }
-  const TourSearch search = {
-      .iterations = step.config.iterations,
-      .seed = random_bits({step.model.seed, Stream::tour_search, state.searches++, 0}),
-      .heed_stop = step.heed_stop()};
-  const OrienteeringTour found = solve(task.problem, from, search);
+  const std::uint64_t seed =
+      random_bits({step.model.seed, Stream::tour_search, state.searches++, 0});
+  const OrienteeringTour found = solve(task.problem, from, step.config.iterations, seed);
   state.tour.clear();
   for (const std::uint32_t view : found.views) state.tour.push_back(task.views[view]);
   return !state.tour.empty();
@@ -105,12 +100,9 @@ bool solve_tour(const Step& step) {
 bool explore(const Step& step) {
   TourState& state = step.state;
   constexpr std::size_t kMostNodes = 160;
-  std::vector<Roadmap::Node> nodes;
-  for (Roadmap::Node node = 1; node < state.roadmap.size(); ++node) {
-    if (state.roadmap.is_reachable(node)) nodes.push_back(node);
-  }
+  const std::span<const Roadmap::Node> nodes = state.roadmap.reachable();
   const std::size_t one_in = (nodes.size() + kMostNodes - 1) / kMostNodes;
-  const std::span<const float> row_m = state.roadmap.row_m(Roadmap::here());
+  const std::span<const float> row_m = state.roadmap.row_m(Roadmap::here(), step.stop);
   std::vector<Roadmap::Node> node_of;
   std::vector<ViewPose> views;
   std::vector<double> way_m;
@@ -118,11 +110,10 @@ bool explore(const Step& step) {
     if (mix_bits(node) % one_in != 0) continue;
     for (int heading = 0; heading < state.visibility.headings(); ++heading) {
       const ViewPose pose = state.visibility.pose(state.roadmap.p_world_m(node), heading);
-      const auto is_pose = [&](const ViewPose& other) { return is_same_view(other, pose); };
-      if (std::any_of(state.refused.begin(), state.refused.end(), is_pose)) continue;
+      if (state.is_refused(pose)) continue;
       node_of.push_back(node);
       views.push_back(pose);
-      way_m.push_back(static_cast<double>(row_m[node]));
+      way_m.push_back(row_m[node]);
     }
   }
   const std::optional<std::size_t> best =
@@ -138,7 +129,7 @@ void solve_at_lower_costs(const Step& step) {
   do {
     const double may_stay = kEndShare * expected_surface(step.state.cells).voxels;
     const bool is_lowest = 0.5 * step.state.cost_factor < step.config.end_price;
-    if (is_lowest || voxels_in_reach(step.state) <= may_stay) return;
+    if (is_lowest || step.state.voxels_in_reach() <= may_stay) return;
     step.state.cost_factor *= 0.5;
   } while (!solve_tour(step));
 }
@@ -146,8 +137,8 @@ void solve_at_lower_costs(const Step& step) {
 TourPlan replan(const Step& step, bool may_explore) {
   TourState& state = step.state;
   state.cells.follow_map(step.belief.grid);
-  state.space.follow(step.belief.grid);
-  state.roadmap.follow(step.belief.grid, state.space, step.current.p_world_m);
+  state.space.follow(step.belief.grid, step.stop);
+  step.follow_roadmap();
   state.at = Roadmap::here();
   predict_gains(step);
   observe_nodes(step);
@@ -160,57 +151,50 @@ TourPlan replan(const Step& step, bool may_explore) {
 }
 
 /// Straight, or as the roadmap knows it; blocked where some leg is not free after all.
-FoundPath path_to(const Step& step, Roadmap::Node to) {
+FoundPath path_to(const Step& step, const ViewChecker& checker, const TourView& view) {
+  if (const auto rejected = checker.rejection_there(view.pose)) return {rejected};
   const PlannerModel& model = step.model;
   const FreeSpace space{step.belief.grid, model.navigation_m, model.no_fly,
                         model.validity.collision_radius_m};
   Roadmap& roadmap = step.state.roadmap;
-  const Vec3& to_m = roadmap.p_world_m(to);
+  const Vec3& to_m = roadmap.p_world_m(view.node);
   Vec3 from_m = step.current.p_world_m;
   if (space.is_leg_free(from_m, to_m)) return {};
-  if (!std::isfinite(roadmap.row_m(step.state.at)[to])) return {Rejection::path_blocked, {}};
-  std::vector<Vec3> points_m = roadmap.via_world_m(step.state.at, to);
+  if (!std::isfinite(roadmap.row_m(step.state.at, step.stop)[view.node])) {
+    return {Rejection::path_blocked};
+  }
+  std::vector<Vec3> points_m = roadmap.via_world_m(step.state.at, view.node);
   points_m.push_back(to_m);
   for (const Vec3& next_m : points_m) {
-    if (!space.is_leg_free(from_m, next_m)) return {Rejection::path_blocked, {}};
+    if (!space.is_leg_free(from_m, next_m)) return {Rejection::path_blocked};
     from_m = next_m;
   }
   points_m.pop_back();
   return {{}, std::move(points_m)};
 }
 
-Candidate checked(const Step& step, const ViewChecker& checker, const TourView& view) {
-  Candidate candidate{.view = view.pose, .sampler = Sampler::tour};
-  candidate.rejected = checker.rejection_there(view.pose);
-  if (candidate.rejected) return candidate;
-  FoundPath path = path_to(step, view.node);
-  candidate.rejected = path.rejected;
-  if (path.rejected) {
-    step.state.roadmap.forget_ways();
-  } else {
-    candidate.path_m = checker.length_m(path, view.pose);
-    candidate.via_world_m = std::move(path.via_world_m);
-  }
-  return candidate;
-}
-
 /// Hands out the tour's next view that can be flown to; those before it are rejected.
 bool hand_out_view(const Step& step, const ViewChecker& checker, Plan& plan) {
   TourState& state = step.state;
   while (!state.tour.empty()) {
+    const int left = static_cast<int>(state.tour.size());
     const TourView view = state.tour.front();
     state.tour.erase(state.tour.begin());
-    Candidate& candidate = plan.candidates.emplace_back(checked(step, checker, view));
-    if (candidate.rejected) {
+    FoundPath path = path_to(step, checker, view);
+    Candidate& candidate = plan.candidates.emplace_back(
+        Candidate{.view = view.pose, .sampler = Sampler::tour, .rejected = path.rejected});
+    if (path.rejected) {
+      if (path.rejected == Rejection::path_blocked) state.roadmap.forget_ways();
       state.refused.push_back(view.pose);
       state.is_due = true;
       continue;
     }
+    candidate.path_m = checker.length_m(path, view.pose);
+    candidate.via_world_m = std::move(path.via_world_m);
     const double gain = state.calibration.predict(
         state.visibility.observe(step.scene(), view.pose, step.scratch.threads), state.patches,
         state.cells);
     candidate.score = {.value = gain, .information = gain};
-    const int left = static_cast<int>(state.tour.size()) + 1;
     choose(plan, plan.candidates.size() - 1, left, left);
     state.at = view.node;
     ++state.views_since_replan;
@@ -220,6 +204,33 @@ bool hand_out_view(const Step& step, const ViewChecker& checker, Plan& plan) {
 }
 
 }  // namespace
+
+std::optional<std::size_t> most_unseen(const PlannerModel& model, const Belief& belief,
+                                       std::span<const ViewPose> views,
+                                       std::span<const double> way_m, Scratch& scratch) {
+  constexpr double kLeastShare = 0.02;
+  constexpr double kLook_m = 4.0;  // what stopping to look costs beside the way
+  std::vector<std::uint32_t> unknown(views.size(), 0);
+  const std::size_t shares = scratch.marks.size();
+  parallel_for(scratch.threads, shares, [&](std::size_t share) {
+    for (std::size_t i = share; i < views.size(); i += shares) {
+      scratch.heed_stop();
+      const ViewRays& rays = model.rays_at(views[i].gimbal_pitch_rad);
+      unknown[i] = evaluate_view(belief.grid, belief.cloud, rays, views[i], scratch.marks[share])
+                       .unknown_voxels;
+    }
+  });
+  std::optional<std::size_t> best;
+  double most = 0.0;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (unknown[i] < kLeastShare * model.view_voxels) continue;
+    const double rate = unknown[i] / (way_m[i] + kLook_m);
+    if (rate <= most) continue;
+    most = rate;
+    best = i;
+  }
+  return best;
+}
 
 Plan TourPlanner::next(const Belief& belief, const History& history, const ViewPose& current,
                        Scratch& scratch) {

@@ -1,11 +1,11 @@
-// All that the tour planner knows and means to do, as one value.
+// All that the tour planner knows and means to do, as one value; and the orienteering problem that
+// follows from it, whose solution is the tour.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "planner/tour/gain_calibration.hpp"
-#include "planner/tour/surface_nodes.hpp"
+#include "planner/tour/orienteering.hpp"
 #include "planner/tour/visibility_cache.hpp"
 
 namespace gnbv {
@@ -16,6 +16,10 @@ struct PlannerModel;
 struct TourView {
   Roadmap::Node node = kNoNode;
   ViewPose pose;
+
+  bool operator==(const TourView& other) const {
+    return node == other.node && is_same_view(pose, other.pose);
+  }
 };
 
 struct TourState {
@@ -31,8 +35,7 @@ struct TourState {
   OpenSpace space;
   Roadmap roadmap;
   VisibilityCache visibility;
-  std::vector<CameraModel> cameras;  // at each pitch of their gimbal
-  SearchedCubes searched;            // for nodes off the lattice
+  SearchedCubes searched;  // for nodes off the lattice
 
   // the tour
   std::vector<TourView> tour;          // what is left of it, in order
@@ -42,14 +45,38 @@ struct TourState {
   bool is_due = true;        // the tour has to be made anew
   double cost_factor = 1.0;  // of what a metre costs: halved while what is left does not pay
   std::uint64_t searches = 0;
+
+  bool is_refused(const ViewPose& pose) const;
+  /// Of each patch, whether a view from any reachable node sees it.
+  std::vector<std::uint8_t> seen_from_anywhere() const;
+  /// Small voxels that one observation of each patch that any view sees can be expected to bring.
+  double voxels_in_reach() const;
 };
+
+/// All surface that is believed to be there, seen or not.
+struct ExpectedSurface {
+  double voxels = 0.0;  // small ones, those that hold a point included
+  Box3 box_m;           // around their cells; empty without any
+  /// Of a tour twice as long as the box's sides together, which is what tours come to: 144 m for
+  /// the paper's aircraft, flown in 140 to 160 m. The same for a model of it on any scale.
+  double voxels_a_metre() const;
+};
+ExpectedSurface expected_surface(const SurfaceCells& cells);
+
+struct TourProblem {
+  OrienteeringProblem problem;
+  std::vector<TourView> views;  // of the problem, in its order
+};
+
+/// All views of reachable nodes that may pay when a metre has to bring `cost_per_m` small voxels.
+/// Of more than 12,000 patches one in so many stands for its share. Its `row_m` is left to the
+/// caller.
+TourProblem make_tour_problem(const TourConfig& config, const TourState& state, double cost_per_m,
+                              const HeedStop& stop);
 
 /// Between nodes of the lattice: a quarter of the cameras' range, but at least eight across the
 /// navigation box, and no more nodes than can be planned over at that.
 double automatic_step_m(std::span<const CameraModel> cameras, const Box3& navigation_m);
-
-/// The most nodes that a lattice may have whose step is given, and that one has whose step is not.
-constexpr double kMostLatticeNodes = 5e5;
 constexpr double kMostAutomaticNodes = 2e4;
 
 /// Bytes that the arrays of the tour take for each voxel of the map (OpenSpace) and each cell of

@@ -1,8 +1,8 @@
-// What each view would see: worked out once, and again where the surface nearby has changed.
+// What each view would see: worked out once, and again where the surface nearby has changed; and
+// further nodes, off the lattice, for patches that no node sees.
 #pragma once
 
-#include <cstdint>
-#include <functional>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -20,14 +20,13 @@ class VisibilityCache {
                   std::span<const double> pitches_rad, const Box3& workspace_m);
 
   /// Ways to look from a node: each yaw with each pitch.
-  int headings() const { return yaws_ * static_cast<int>(pitches_.size()); }
+  int headings() const { return yaws_ * static_cast<int>(pitches_rad_.size()); }
   ViewPose pose(const Vec3& p_world_m, int heading) const;
 
-  /// Observes from every reachable node that it never did, and from `most_again` of those
-  /// around which the surface changed most since it did; `first` come before all others.
-  /// `heed_stop` is called now and then, and may throw.
+  /// Observes from every reachable node that it never did, and again from `most_again` of those
+  /// around which the surface changed since: from `first`, then where it changed most.
   void follow(const TourScene& scene, const Roadmap& roadmap, std::span<const Node> first,
-              std::size_t most_again, int threads, const std::function<void()>& heed_stop);
+              std::size_t most_again, int threads, const HeedStop& stop);
 
   /// What was last seen from there at that heading, in ascending order.
   std::span<const SeenPatch> seen(Node node, int heading) const;
@@ -37,28 +36,42 @@ class VisibilityCache {
 
  private:
   struct AtNode {
-    bool is_known = false;
-    std::uint32_t update = 0;                  // of the cells, when it was last observed
-    std::vector<std::vector<SeenPatch>> seen;  // by heading
+    std::uint32_t version = 0;                      // of the cells, when it was last observed
+    std::vector<std::vector<SeenPatch>> seen = {};  // by heading; none: never observed
   };
-  struct Pitch {
-    double rad = 0.0;
-    std::vector<CameraModel> cameras;
-  };
+  using Blocks = std::vector<const CellBlocks::Block*>;
   std::uint32_t changes_near(const Vec3& p_world_m, std::uint32_t since) const;
-  std::vector<Node> changed_nodes(const Roadmap& roadmap, std::span<const Node> first,
-                                  int threads) const;
-  void observe_around(const TourScene& scene, const Vec3& p_world_m, AtNode& at,
-                      PatchViewer& viewer) const;
-  void observe(const TourScene& scene, const ViewPose& view,
-               std::span<const CellBlocks::Block* const> near, PatchViewer& viewer,
-               std::vector<SeenPatch>& seen) const;
+  std::vector<SeenPatch> observe(const TourScene& scene, const ViewPose& view, const Blocks& near,
+                                 PatchViewer& viewer) const;
 
-  std::vector<Pitch> pitches_;
+  std::vector<CameraModel> cameras_;
+  std::vector<double> pitches_rad_;
   CellBlocks blocks_;
   double reach_m_ = 0.0;
-  int yaws_ = 1;
+  int yaws_;
   std::vector<AtNode> at_;
 };
+
+/// What nodes are looked for in.
+struct NodeSearch {
+  const OccupancyGrid& grid;
+  const OpenSpace& space;
+  std::span<const CameraModel> cameras;
+};
+
+/// The best `most` points from which some camera, turned to the patch by the vehicle's yaw, has it
+/// in its image with no occupied voxel in between: the more face on and the nearer, the better.
+/// Tries bearings within 60 deg of the normal's, five elevations of each camera's image and four
+/// distances up to its range.
+std::vector<Vec3> points_to_see(const NodeSearch& search, const Patch& patch, std::size_t most);
+
+/// How often each cube of a metre was searched for in vain; -1 where a point was found.
+using SearchedCubes = std::map<Key, int>;
+
+/// Points for what no node sees (`is_seen`: of each patch): two for each of the cubes of a metre
+/// that lack the most, at most 24 cubes a call. A cube for which none is found is searched again
+/// after all others: space may open.
+std::vector<Vec3> points_for_unseen(const NodeSearch& search, std::span<const Patch> patches,
+                                    std::span<const std::uint8_t> is_seen, SearchedCubes& searched);
 
 }  // namespace gnbv

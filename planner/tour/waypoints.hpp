@@ -1,12 +1,13 @@
-// The waypoints of an open tour while a search changes it.
+// The waypoints of an open tour while a search changes it: what a further one would add, how their
+// order is shortened, and which views a search takes out at random.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
+
+#include "sim/core/rng.hpp"
 
 namespace gnbv {
 
@@ -38,21 +39,43 @@ class Waypoints {
   /// At the cheapest position as of the last find_detours(), and finds the detours of now.
   void insert(std::uint32_t node);
 
-  /// 2-opt and Or-opt, with `kicks` in between (short_tour.hpp).
+  /// improve_tour(), the first waypoint being the start.
   void shorten(int kicks = 0);
 
  private:
-  double leg_m(std::uint32_t from, std::uint32_t to) const {
-    return static_cast<double>((*row_m_)(from)[to]);
-  }
+  double leg_m(std::uint32_t from, std::uint32_t to) const { return (*row_m_)(from)[to]; }
   void find_rows();
 
   const RowOf* row_m_;
   std::vector<std::uint32_t> nodes_;
   std::vector<const float*> rows_m_;  // of each waypoint
-  std::vector<float> least_m_;        // of each node, less than nothing where ways are not shortest
-  std::vector<float> extra_m_;        // the same, but never less than nothing
+  std::vector<float> extra_m_;        // of each node
   std::vector<std::int32_t> at_;      // of each node: where among the waypoints it would come
 };
+
+/// Symmetric distances between stops, each of which has its row.
+using Distances = std::vector<std::vector<double>>;
+
+/// Along the stops in their order.
+double tour_length_m(const Distances& distances_m, const std::vector<std::size_t>& tour);
+
+/// Shortens an open tour, whose first stop stays and whose end is free. It ends when neither
+/// reversing a part (2-opt, Croes 1958) nor moving up to three neighbours elsewhere (Or-opt, Or
+/// 1976) helps. Then it swaps two parts at random and improves again, `kicks` times, and keeps the
+/// shorter of each two tours (iterated local search, Martin, Otto, Felten 1991: the double bridge).
+/// Deterministic.
+void improve_tour(const Distances& distances_m, std::vector<std::size_t>& tour, int kicks = 0);
+
+/// What an iteration of a large-neighbourhood search takes out: 2 to 15 of the chosen views, at
+/// random some in a row, the nearest of one, or any. `node_of`: of each view; `chosen` is not
+/// empty.
+std::vector<std::uint32_t> views_to_remove(std::span<const std::uint32_t> chosen,
+                                           std::span<const std::uint32_t> node_of,
+                                           const Waypoints& waypoints, const RowOf& row_m,
+                                           Rng& rng);
+
+/// Random factors of each view's gain per metre; every other time none. Without them the best view
+/// always wins, and two views that a third one outbids are never tried together.
+std::vector<double> perturbation_weights(std::size_t views, Rng& rng);
 
 }  // namespace gnbv

@@ -1,8 +1,8 @@
-#include "planner/tour/unseen_space.hpp"
-
+// Which view of space that nobody has seen is worth a look.
 #include <gtest/gtest.h>
 
 #include "planner/core/belief.hpp"
+#include "planner/tour/tour_planner.hpp"
 
 namespace gnbv {
 namespace {

@@ -14,7 +14,7 @@
 #include "planner/guided/view_sampling.hpp"
 #include "planner/map/frontiers.hpp"
 #include "planner/motion/free_space.hpp"
-#include "planner/motion/view_checker.hpp"
+#include "planner/motion/paths.hpp"
 
 namespace gnbv {
 

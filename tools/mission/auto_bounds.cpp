@@ -5,7 +5,7 @@
 #include <span>
 
 #include "bench/score/surface_samples.hpp"
-#include "planner/motion/view_checker.hpp"
+#include "planner/motion/config.hpp"
 #include "sim/core/error.hpp"
 #include "sim/mesh/mesh_lint.hpp"
 

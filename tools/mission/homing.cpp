@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "planner/motion/path_search.hpp"
+#include "planner/motion/paths.hpp"
 #include "sim/flight/endurance.hpp"
 #include "sim/flight/rotors.hpp"
 

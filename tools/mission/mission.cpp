@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "planner/tour/tour_notes.hpp"
+#include "planner/tour/gains.hpp"
 #include "tools/mission/homing.hpp"
 #include "tools/mission/mission_state.hpp"
 #include "tools/mission/sensing.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "planner/motion/free_space.hpp"
-#include "planner/motion/path_search.hpp"
+#include "planner/motion/paths.hpp"
 #include "sim/core/error.hpp"
 #include "sim/flight/guidance.hpp"
 #include "tools/mission/homing.hpp"

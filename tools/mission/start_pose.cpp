@@ -4,7 +4,7 @@
 
 #include "bench/limits/legal_viewpoints.hpp"
 #include "bench/score/escape_search.hpp"
-#include "planner/motion/view_checker.hpp"
+#include "planner/motion/config.hpp"
 #include "planner/profiling.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"

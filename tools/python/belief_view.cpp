@@ -9,7 +9,7 @@
 #include "planner/core/plan.hpp"
 #include "planner/guided/view_sampling.hpp"
 #include "planner/map/frontiers.hpp"
-#include "planner/motion/path_search.hpp"
+#include "planner/motion/paths.hpp"
 #include "planner/view/view_fields.hpp"
 #include "sim/core/parallel.hpp"
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "planner/motion/view_checker.hpp"
+#include "planner/motion/paths.hpp"
 #include "tools/render/colour.hpp"
 
 namespace gnbv {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/tour/tour_plan.hpp"
+#include "planner/tour/gains.hpp"
 
 namespace gnbv {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/tour/gain_calibration.hpp"
+#include "planner/tour/gains.hpp"
 
 namespace gnbv {
 

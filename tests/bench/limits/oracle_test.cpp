@@ -9,7 +9,7 @@
 #include "bench/limits/ceiling_cache.hpp"
 #include "bench/limits/cloud_of_views.hpp"
 #include "bench/limits/lattice_ways.hpp"
-#include "planner/motion/path_search.hpp"
+#include "planner/motion/paths.hpp"
 #include "scenarios/load.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/start_pose.hpp"

@@ -11,7 +11,7 @@
 #include "bench/limits/cloud_of_views.hpp"
 #include "bench/limits/lidar_sight.hpp"
 #include "bench/limits/sight_search.hpp"
-#include "planner/motion/view_checker.hpp"
+#include "planner/motion/config.hpp"
 #include "scenarios/load.hpp"
 #include "sim/core/rng.hpp"
 #include "tests/bench/shapes.hpp"

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "planner/map/ray_walk.hpp"
-#include "planner/motion/no_fly.hpp"
-#include "planner/motion/view_checker.hpp"
+#include "planner/motion/config.hpp"
+#include "planner/motion/paths.hpp"
 #include "sim/core/rng.hpp"
 
 namespace gnbv {

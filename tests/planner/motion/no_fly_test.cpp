@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "planner/motion/path_search.hpp"
+#include "planner/motion/paths.hpp"
 
 namespace gnbv {
 namespace {

@@ -1,5 +1,3 @@
-#include "planner/motion/open_space.hpp"
-
 #include <gtest/gtest.h>
 
 #include "planner/motion/free_space.hpp"

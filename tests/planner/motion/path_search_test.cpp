@@ -1,11 +1,10 @@
 // The way around an obstacle: clear, free, no longer than it has to be.
-#include "planner/motion/path_search.hpp"
-
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
 #include "planner/motion/free_space.hpp"
+#include "planner/motion/paths.hpp"
 
 namespace gnbv {
 namespace {

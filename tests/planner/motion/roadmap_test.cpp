@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "tests/planner/tour/free_grid.hpp"
 
@@ -24,6 +26,11 @@ struct World {
   Roadmap roadmap;
 };
 
+bool is_reachable(const Roadmap& roadmap, Roadmap::Node node) {
+  const std::span<const Roadmap::Node> nodes = roadmap.reachable();
+  return std::binary_search(nodes.begin(), nodes.end(), node);
+}
+
 TEST(Roadmap, InEmptySpaceWaysAreNearlyStraight) {
   World world(free_grid(kBox));
   EXPECT_GT(world.roadmap.size(), 13U * 13U * 4U);
@@ -44,7 +51,7 @@ TEST(Roadmap, AWallIsGoneAroundAndItsLegsAreOpen) {
   World world(std::move(grid));
   const auto behind = world.roadmap.add(Vec3(-5, 5, 1));
   world.roadmap.follow(world.grid, world.space, Vec3(-5, -5, 1));
-  ASSERT_TRUE(world.roadmap.is_reachable(behind));
+  ASSERT_TRUE(is_reachable(world.roadmap, behind));
   const float length_m = world.roadmap.row_m(Roadmap::here())[behind];
   const double least_m = 2.0 * std::hypot(9.0, 5.0);  // by the wall's end
   EXPECT_GT(length_m, least_m);
@@ -69,10 +76,10 @@ TEST(Roadmap, BehindAClosedWallNothingIsReached) {
     const bool is_on_this_side = world.roadmap.p_world_m(place).y() < -0.7;
     const bool is_other_side = world.roadmap.p_world_m(place).y() > 0.0;
     if (is_on_this_side) {
-      EXPECT_TRUE(world.roadmap.is_reachable(place));
+      EXPECT_TRUE(is_reachable(world.roadmap, place));
     }
     if (is_other_side) {
-      EXPECT_FALSE(world.roadmap.is_reachable(place));
+      EXPECT_FALSE(is_reachable(world.roadmap, place));
       EXPECT_TRUE(std::isinf(world.roadmap.row_m(Roadmap::here())[place]));
     }
   }
@@ -116,7 +123,7 @@ TEST(Roadmap, LeadsFromAVoxelThatNobodyHasSeen) {
   grid.apply({.free = others, .occupied = {}});
   World world(std::move(grid));
   world.roadmap.follow(world.grid, world.space, here_m);
-  EXPECT_TRUE(world.roadmap.is_reachable(1));
+  EXPECT_TRUE(is_reachable(world.roadmap, 1));
 }
 
 /// Of a node and those about it, the legs are the same whatever cube each falls into.
@@ -130,6 +137,34 @@ TEST(Roadmap, ANodeBesideTheLatticeIsLinkedToAllAboutIt) {
         (world.roadmap.p_world_m(node) - world.roadmap.p_world_m(added)).norm();
     if (straight_m > 1.7) continue;
     EXPECT_NEAR(row_m[node], straight_m, 1e-4) << "straight, over a leg";
+  }
+}
+
+/// Wherever it was stopped, it goes on as if it had not been.
+TEST(Roadmap, AsksOftenWhetherToStopAndKeepsNothingHalfDone) {
+  World world(free_grid(kBox));
+  const Vec3 here_m(-5, -5, 1);
+  const std::vector<float> whole_m(world.roadmap.row_m(5).begin(), world.roadmap.row_m(5).end());
+  int asked = 0;
+  int stop_at = 1 << 30;
+  const HeedStop stop = [&] {
+    if (++asked >= stop_at) throw std::runtime_error("stop");
+  };
+  const auto plan = [&] {
+    asked = 0;
+    world.roadmap.forget_ways();
+    world.roadmap.follow(world.grid, world.space, here_m, stop);
+    world.roadmap.row_m(5, stop);
+  };
+  plan();
+  const int all = asked;
+  EXPECT_GT(all, 2 * static_cast<int>(world.roadmap.size()));
+  for (const int at : {1, all / 4, all / 2, all - 1}) {
+    stop_at = at;
+    EXPECT_THROW(plan(), std::runtime_error);
+    world.roadmap.follow(world.grid, world.space, here_m);
+    const std::span<const float> row_m = world.roadmap.row_m(5);
+    EXPECT_TRUE(std::equal(row_m.begin(), row_m.end(), whole_m.begin(), whole_m.end())) << at;
   }
 }
 

@@ -1,7 +1,6 @@
-#include "planner/tour/expected_cover.hpp"
-
 #include <gtest/gtest.h>
 
+#include "planner/tour/orienteering.hpp"
 #include "sim/core/rng.hpp"
 
 namespace gnbv {
@@ -47,8 +46,7 @@ double found(const OrienteeringProblem& problem, const std::vector<bool>& chosen
 
 TEST(ExpectedCover, IsTheDefinitionAfterAnyChanges) {
   const OrienteeringProblem problem = random_problem(1, 20, 30);
-  const ObservationTable table(problem);
-  ExpectedCover cover(problem, table);
+  ExpectedCover cover(problem);
   std::vector<bool> chosen(20, false);
   for (std::uint64_t step = 0; step < 2000; ++step) {
     const auto view = static_cast<std::uint32_t>(random_bits({2, Stream::bench, step, 0}) % 20);

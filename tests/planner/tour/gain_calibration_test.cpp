@@ -1,9 +1,8 @@
-#include "planner/tour/gain_calibration.hpp"
-
 #include <gtest/gtest.h>
 
 #include <bit>
 
+#include "planner/tour/gains.hpp"
 #include "tests/planner/tour/free_grid.hpp"
 
 namespace gnbv {
@@ -58,8 +57,7 @@ TEST(GainCalibration, FindsAllThatADenseScanBringsAndNothingThatNoneDoes) {
     EXPECT_NEAR(calibration.predict(seen, thin.patches(), thin.cells),
                 static_cast<double>(before) * lacking, 0.2 * lacking);
     if (is_scanned) thin.cells.add(plane(1.2, 0.01), thin.grid, 1);
-    calibration.settle(thin.cells);
-    EXPECT_NEAR(calibration.found(), is_scanned ? lacking : 0.0, 0.1 * lacking);
+    EXPECT_NEAR(calibration.settle(thin.cells).found, is_scanned ? lacking : 0.0, 0.1 * lacking);
     const float after = calibration.yield().share(kPatch, 0);
     if (is_scanned) {
       EXPECT_GE(after, before - 0.02F);

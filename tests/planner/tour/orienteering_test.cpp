@@ -89,7 +89,7 @@ TEST(OrienteeringTour, IsTheBestOfAllWhereTheyCanBeCountedOrNextToIt) {
   std::uint64_t best = 0;
   for (std::uint64_t seed = 0; seed < kTasks; ++seed) {
     const RandomProblem random_one(seed);
-    const OrienteeringTour tour = solve(random_one.problem, {}, {.iterations = 300, .seed = seed});
+    const OrienteeringTour tour = solve(random_one.problem, {}, 300, seed);
     EXPECT_NEAR(tour.worth, random_one.worth(tour.views), 1e-4) << "what it says of itself";
     const double best_worth = random_one.best_worth();
     EXPECT_LE(tour.worth, best_worth + 1e-4);
@@ -101,25 +101,24 @@ TEST(OrienteeringTour, IsTheBestOfAllWhereTheyCanBeCountedOrNextToIt) {
 
 TEST(OrienteeringTour, IsNoWorseThanTheOneItBeginsWithNorGreed) {
   const RandomProblem random_one(5, 40);
-  const OrienteeringTour greedy = solve(random_one.problem, {}, {.iterations = 0, .seed = 1});
-  const OrienteeringTour searched =
-      solve(random_one.problem, greedy.views, {.iterations = 200, .seed = 1});
+  const OrienteeringTour greedy = solve(random_one.problem, {}, 0, 1);
+  const OrienteeringTour searched = solve(random_one.problem, greedy.views, 200, 1);
   EXPECT_GE(searched.worth, greedy.worth);
-  EXPECT_GT(solve(random_one.problem, {}, {.iterations = 500, .seed = 1}).worth, greedy.worth);
+  EXPECT_GT(solve(random_one.problem, {}, 500, 1).worth, greedy.worth);
 }
 
 TEST(OrienteeringTour, StaysAtHomeWhereNothingPays) {
   RandomProblem random_one(1);
   random_one.problem.cost_per_m = 1000.0;
-  const OrienteeringTour tour = solve(random_one.problem, {}, {.iterations = 100, .seed = 1});
+  const OrienteeringTour tour = solve(random_one.problem, {}, 100, 1);
   EXPECT_TRUE(tour.views.empty());
   EXPECT_EQ(tour.worth, 0.0);
 }
 
 TEST(OrienteeringTour, TheSameSeedFindsTheSame) {
   const RandomProblem random_one(9, 40);
-  EXPECT_EQ(solve(random_one.problem, {}, {.iterations = 100, .seed = 4}).views,
-            solve(random_one.problem, {}, {.iterations = 100, .seed = 4}).views);
+  EXPECT_EQ(solve(random_one.problem, {}, 100, 4).views,
+            solve(random_one.problem, {}, 100, 4).views);
 }
 
 }  // namespace

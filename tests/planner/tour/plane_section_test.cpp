@@ -1,7 +1,6 @@
-#include "planner/tour/plane_section.hpp"
-
 #include <gtest/gtest.h>
 
+#include "planner/tour/surface_cells.hpp"
 #include "sim/core/rng.hpp"
 
 namespace gnbv {

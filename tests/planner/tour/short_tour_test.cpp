@@ -1,10 +1,9 @@
-#include "planner/tour/short_tour.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <numeric>
 
+#include "planner/tour/waypoints.hpp"
 #include "sim/core/pose.hpp"
 #include "sim/core/rng.hpp"
 
@@ -45,7 +44,7 @@ TEST(Tour, IsTheShortestOfAllOrdersOfEightStops) {
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
       const Distances distances_m = random_distances(seed, stops);
       std::vector<std::size_t> tour = in_order(stops);
-      improve_tour_with_kicks(distances_m, tour, 100);
+      improve_tour(distances_m, tour, 100);
       EXPECT_NEAR(tour_length_m(distances_m, tour), shortest_m(distances_m), 1e-9)
           << stops << " stops, seed " << seed;
     }
@@ -59,7 +58,7 @@ TEST(Tour, KeepsItsStartAndEveryStopAndOnlyGetsShorter) {
   improve_tour(distances_m, tour);
   const double improved_m = tour_length_m(distances_m, tour);
   EXPECT_LT(improved_m, 0.6 * before_m);
-  improve_tour_with_kicks(distances_m, tour, 50);
+  improve_tour(distances_m, tour, 50);
   EXPECT_LE(tour_length_m(distances_m, tour), improved_m);
   EXPECT_EQ(tour.front(), 0U);
   std::sort(tour.begin(), tour.end());

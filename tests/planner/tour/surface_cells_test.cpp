@@ -3,8 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <stdexcept>
 
-#include "planner/tour/patches.hpp"
+#include "planner/tour/gains.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
 #include "tests/planner/tour/free_grid.hpp"
@@ -50,7 +51,7 @@ TEST(SurfaceCells, APlaneScannedDenselyIsExpectedWhereItsPointsAre) {
       if (cell.is_extrapolated()) continue;
       covered += static_cast<std::size_t>(std::popcount(cell.expected & cell.covered));
       missing += static_cast<std::size_t>(std::popcount(cell.expected & ~cell.covered));
-      if (cell.has_plane) {
+      if (cell.has_plane()) {
         EXPECT_GT(std::fabs(cell.normal.dot(normal.normalized().cast<float>())), 0.99F);
       }
     }
@@ -103,6 +104,20 @@ TEST(SurfaceCells, PointsMayComeInAnyBatchesAndThreads) {
     }
   }
   EXPECT_EQ(alike, at_once.cells().size());
+}
+
+TEST(SurfaceCells, WhatAStopLeftIsFittedTheNextTime) {
+  const std::vector<Vec3f> points = square(Vec3::UnitZ(), 0.03);
+  SurfaceCells whole(kBox, 0.05), stopped(kBox, 0.05);
+  whole.add(points, unknown_grid(), 1);
+  int asked = 0;
+  const HeedStop stop = [&] {
+    if (++asked == 2) throw std::runtime_error("stop");
+  };
+  EXPECT_THROW(stopped.add(points, unknown_grid(), 1, stop), std::runtime_error);
+  EXPECT_LT(expected_voxels(stopped), expected_voxels(whole));
+  stopped.add({}, unknown_grid(), 1);
+  EXPECT_EQ(expected_voxels(stopped), expected_voxels(whole));
 }
 
 /// Points on the surface of a square bar of 2 m about (0, 0, 1), `width_m` wide.

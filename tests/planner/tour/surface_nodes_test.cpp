@@ -1,4 +1,4 @@
-#include "planner/tour/surface_nodes.hpp"
+#include "planner/tour/visibility_cache.hpp"
 
 #include <gtest/gtest.h>
 

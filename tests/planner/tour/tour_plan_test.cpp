@@ -1,5 +1,5 @@
 // Laws of what a plan says it is for: nothing that can be expected is lost or moved.
-#include "planner/tour/tour_plan.hpp"
+#include "planner/tour/gains.hpp"
 
 #include <gtest/gtest.h>
 

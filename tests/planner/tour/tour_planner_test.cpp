@@ -9,7 +9,7 @@
 #include <chrono>
 
 #include "planner/core/belief.hpp"
-#include "planner/tour/tour_notes.hpp"
+#include "planner/tour/gains.hpp"
 #include "tests/planner/wall_world.hpp"
 
 namespace gnbv {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/motion/view_checker.hpp"
+#include "planner/motion/config.hpp"
 #include "scenarios/load.hpp"
 #include "scenarios/problems.hpp"
 #include "sim/core/error.hpp"

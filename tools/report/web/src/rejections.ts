@@ -1,4 +1,4 @@
-// What the reasons mean for which a candidate was refused, by their numbers (planner/motion/rejection.hpp).
+// What the reasons mean for which a candidate was refused, by their numbers (planner/motion/free_space.hpp).
 
 const kMeans = [
   "Outside the workspace, or below the lowest height at which the vehicle may fly",

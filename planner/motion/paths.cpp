@@ -1,7 +1,8 @@
-#include "planner/motion/path_search.hpp"
+#include "planner/motion/paths.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 #include "planner/motion/graph_search.hpp"
@@ -9,25 +10,20 @@
 namespace gnbv {
 namespace {
 
-double lattice_step_m(const FreeSpace& space) {
-  return std::max(space.radius_m, space.grid.geometry().resolution_m());
-}
-
-/// The lattice through the start of a search; its nodes are numbered as they are met.
+/// The lattice through the start of a search. Its nodes are numbered as they are met, the start 0.
 class LatticeGraph {
  public:
-  LatticeGraph(const FreeSpace& space, const Vec3& from_world_m, const Vec3& to_world_m,
-               int max_expansions, const std::function<void()>& heed_stop)
+  LatticeGraph(const PathSearchConfig& config, const FreeSpace& space, const Vec3& from_world_m,
+               const Vec3& to_world_m)
       : space_(space),
-        heed_stop_(heed_stop),
         from_m_(from_world_m),
         to_m_(to_world_m),
-        step_m_(lattice_step_m(space)),
-        expansions_left_(max_expansions) {
+        step_m_(std::max(space.radius_m, space.grid.geometry().resolution_m())),
+        expansions_left_(limit(config)) {
     number_of({0, 0, 0});
   }
 
-  bool has_ended_early() const { return has_ended_early_; }
+  bool has_ended_early() const { return expansions_left_ < 0; }
   std::optional<GraphNode> last() const { return last_; }
   Vec3 p_world_m(GraphNode node) const {
     const Steps& at = steps_[node];
@@ -40,11 +36,7 @@ class LatticeGraph {
   double rest_m(GraphNode node) const { return (to_m_ - p_world_m(node)).norm(); }
   std::uint64_t rank(GraphNode /*node*/) { return found_++; }
   AtNode come_to(GraphNode node, double /*found_m*/) {
-    if (heed_stop_) heed_stop_();
-    if (expansions_left_-- == 0) {
-      has_ended_early_ = true;
-      return AtNode::stop;
-    }
+    if (expansions_left_-- == 0) return AtNode::stop;
     const Vec3 p_m = p_world_m(node);
     if ((to_m_ - p_m).norm() > 2.0 * step_m_ || !is_leg_free(p_m, to_m_)) return AtNode::expand;
     last_ = node;
@@ -68,6 +60,14 @@ class LatticeGraph {
  private:
   using Steps = std::array<int, 3>;  // from the start along the world axes
 
+  /// PathSearchConfig::max_expansions in this box.
+  int limit(const PathSearchConfig& config) const {
+    constexpr double kNodes = 40000.0;  // 24 x 80 x 70 m at a step of 1.5 m
+    constexpr double kMost = 1e9;
+    const Vec3 steps = space_.navigation_m.sizes() / step_m_;
+    return static_cast<int>(
+        std::min(config.max_expansions * std::max(1.0, steps.prod() / kNodes), kMost));
+  }
   GraphNode number_of(const Steps& steps) {
     const auto [at, is_new] = number_.try_emplace(steps, static_cast<GraphNode>(steps_.size()));
     if (is_new) steps_.push_back(steps);
@@ -75,29 +75,14 @@ class LatticeGraph {
   }
 
   const FreeSpace& space_;
-  const std::function<void()>& heed_stop_;
-  Vec3 from_m_, to_m_;
-  double step_m_;
+  const Vec3 from_m_, to_m_;
+  const double step_m_;
   int expansions_left_;
-  bool has_ended_early_ = false;
   std::optional<GraphNode> last_;  // from which the straight leg to the goal is free
   std::map<Steps, GraphNode> number_;
-  std::vector<Steps> steps_;
+  std::vector<Steps> steps_;  // of each node
   std::uint64_t found_ = 0;
 };
-
-/// From each point on to the farthest that it can reach; without the ends.
-template <typename IsFree>
-std::vector<Vec3> straightened(const std::vector<Vec3>& points_m, const IsFree& is_free) {
-  std::vector<Vec3> via_m;
-  for (std::size_t at = 0; at + 1 < points_m.size();) {
-    std::size_t next = points_m.size() - 1;
-    while (next > at + 1 && !is_free(points_m[at], points_m[next])) --next;
-    at = next;
-    if (at + 1 < points_m.size()) via_m.push_back(points_m[at]);
-  }
-  return via_m;
-}
 
 /// The start of a way (0), the corners of each box grown by the margin and pulled into the
 /// navigation box, and the goal.
@@ -138,33 +123,26 @@ struct CornerGraph {
 
 }  // namespace
 
-int search_limit(const PathSearchConfig& config, const FreeSpace& space) {
-  constexpr double kNodes =
-      40000.0;  // of a box for which max_expansions was chosen: 24 x 80 x 70 m
-  constexpr double kMost = 1e9;
-  const Vec3 steps = space.navigation_m.sizes() / lattice_step_m(space);
-  const double limit = config.max_expansions * std::max(1.0, steps.prod() / kNodes);
-  return static_cast<int>(std::min(limit, kMost));
-}
-
 FoundPath find_path(const PathSearchConfig& config, const FreeSpace& space,
-                    const Vec3& from_world_m, const Vec3& to_world_m,
-                    const std::function<void()>& heed_stop) {
-  LatticeGraph lattice(space, from_world_m, to_world_m, search_limit(config, space), heed_stop);
+                    const Vec3& from_world_m, const Vec3& to_world_m, const HeedStop& stop) {
+  LatticeGraph lattice(config, space, from_world_m, to_world_m);
   Ways<double> ways;
-  find_ways(lattice, 0, ways);
+  find_ways(lattice, 0, ways, stop);
   if (!lattice.last()) {
     return {lattice.has_ended_early() ? Rejection::search_limit : Rejection::path_blocked};
   }
-  std::vector<Vec3> points_m = {from_world_m};
-  for (const GraphNode node : nodes_between(ways, 0, *lattice.last())) {
-    points_m.push_back(lattice.p_world_m(node));
-  }
-  if (*lattice.last() != 0) points_m.push_back(lattice.p_world_m(*lattice.last()));
+  std::vector<Vec3> points_m = points_on_way(
+      ways, 0, *lattice.last(), [&](GraphNode node) { return lattice.p_world_m(node); });
+  points_m.insert(points_m.begin(), from_world_m);
   points_m.push_back(to_world_m);
-  return {{}, straightened(points_m, [&](const Vec3& a_m, const Vec3& b_m) {
-            return lattice.is_leg_free(a_m, b_m);
-          })};
+  FoundPath path;  // straightened: from each point on to the farthest that it can reach
+  for (std::size_t at = 0, last = points_m.size() - 1; at < last;) {
+    std::size_t next = last;
+    while (next > at + 1 && !lattice.is_leg_free(points_m[at], points_m[next])) --next;
+    if (next < last) path.via_world_m.push_back(points_m[next]);
+    at = next;
+  }
+  return path;
 }
 
 std::optional<std::vector<Vec3>> way_around(
@@ -177,13 +155,10 @@ std::optional<std::vector<Vec3>> way_around(
   if (corners.is_clear(from_world_m, to_world_m)) return std::vector<Vec3>{};
   Ways<double> ways;
   ways.grow(corners.points_m.size());
-  find_ways(corners, 0, ways);
+  find_ways(corners, 0, ways, {});
   if (ways.before[corners.goal()] == kNoNode) return std::nullopt;
-  std::vector<Vec3> via_m;
-  for (const GraphNode node : nodes_between(ways, 0, corners.goal())) {
-    via_m.push_back(corners.points_m[node]);
-  }
-  return via_m;
+  return points_on_way(ways, 0, ways.before[corners.goal()],
+                       [&](GraphNode node) { return corners.points_m[node]; });
 }
 
 double path_length_m(const Vec3& from_world_m, std::span<const Vec3> via_world_m,
@@ -195,6 +170,41 @@ double path_length_m(const Vec3& from_world_m, std::span<const Vec3> via_world_m
     at_m = next_m;
   }
   return length_m + (to_world_m - at_m).norm();
+}
+
+bool ViewChecker::is_recent(const ViewPose& view) const {
+  return std::any_of(recent_.begin(), recent_.end(), [&](const ViewPose& pose) {
+    return (pose.p_world_m - view.p_world_m).norm() < config_.recent_distance_m &&
+           std::fabs(wrap_angle_rad(pose.yaw_rad - view.yaw_rad)) < config_.recent_yaw_rad &&
+           std::fabs(pose.gimbal_pitch_rad - view.gimbal_pitch_rad) < config_.recent_yaw_rad;
+  });
+}
+
+std::optional<Rejection> ViewChecker::rejection_there(const ViewPose& view) const {
+  if (is_recent(view)) return Rejection::recently_visited;
+  return space_.rejection_at(view.p_world_m, current_.p_world_m);
+}
+
+FoundPath ViewChecker::path_to(const Vec3& p_world_m) const {
+  const Vec3& from_m = current_.p_world_m;
+  if (const auto rejected = space_.rejection_at(p_world_m, from_m)) return {rejected};
+  if (config_.path == PathCheck::astar) {
+    if (space_.is_leg_free(from_m, p_world_m)) return {};
+    return find_path(config_.path_search, space_, from_m, p_world_m, stop_);
+  }
+  const bool is_clear = config_.path == PathCheck::straight
+                            ? space_.is_leg_clear(from_m, p_world_m)
+                            : space_.no_fly.allows_leg(from_m, p_world_m);
+  return is_clear ? FoundPath{} : FoundPath{Rejection::path_blocked};
+}
+
+FoundPath ViewChecker::check(const ViewPose& view) {
+  if (is_recent(view)) return {Rejection::recently_visited};
+  if (checked_m_ != view.p_world_m) {
+    checked_m_ = view.p_world_m;
+    at_position_ = path_to(view.p_world_m);
+  }
+  return at_position_;
 }
 
 }  // namespace gnbv
