@@ -40,7 +40,7 @@ enum class FieldKind {
 
 /// What a field does in the scenario at hand. A section's holds for all in it.
 struct FieldUse {
-  std::string unused_by;           // the key by whose value this one has no effect; empty: it has
+  std::string unused_by;           // the key whose value takes the effect from it; empty: none
   bool is_papers_setting = false;  // the paper's figures depend on it, and the paper states it
 };
 
@@ -67,7 +67,7 @@ struct ListSize {
   std::size_t max = 0;
 };
 
-/// Keys that stand together.
+/// A section, a list, or an item of a list.
 struct Group {
   enum class Kind { section, list, item };
 
@@ -99,7 +99,7 @@ class FieldVisitor {
 /// The keys of one section, as its fields() names them to a visitor: key("name", where, what).
 class Keys {
  public:
-  /// Field::use holds for the scenario; without one, conditions that ask the whole of it hold.
+  /// `whole` answers the conditions that ask the whole scenario; without one, they hold.
   explicit Keys(FieldVisitor& visitor, const Scenario* whole = nullptr)
       : visitor_(visitor), whole_(whole) {}
 
@@ -175,8 +175,8 @@ class Keys {
     section(key_deg, *config, section_meaning);
   }
 
-  /// The same keys, which have an effect only if this holds, and else none because of the value of
-  /// `unused_by`; ".key" is one of the same section.
+  /// The same keys, with an effect only if this holds. `unused_by` is the key whose value takes it
+  /// from them; ".key" is a key of this section.
   Keys only_if(bool has_effect, std::string_view unused_by) const {
     Keys keys = *this;
     if (!has_effect && use_.unused_by.empty()) {
@@ -188,7 +188,7 @@ class Keys {
   Keys only_if(bool (*has_effect)(const Scenario&), std::string_view unused_by) const {
     return only_if(whole_ == nullptr || has_effect(*whole_), unused_by);
   }
-  /// The same keys, which belong to the paper's setting; FieldUse.
+  /// The same keys, as part of the paper's setting.
   Keys of_papers_setting() const {
     Keys keys = *this;
     keys.use_.is_papers_setting = true;

@@ -54,11 +54,10 @@ void fields(const Keys& key, ProfilingConfig& c) {
   key.only_if(flies_a_profile, ".method")("scan_in_transit", c.scan_in_transit,
                                           "The LIDAR scans between the descents, too.");
   key.only_if(c.method == saved, ".method")
-      .path("file", c.file, "saved: the profile.map of an earlier run.");
+      .path("file", c.file, "saved: an earlier run's profile.map.");
   const Keys on_circle = key.only_if(c.method == circular, ".method");
   on_circle("circle_stations", c.circle_stations, {1, 1000}, "circular: places where it climbs.");
-  on_circle("climb_step_m", c.climb_step_m, {0.01, 1e3},
-            "circular: climbs by this as long as surface is seen.");
+  on_circle("climb_step_m", c.climb_step_m, {0.01, 1e3}, "circular: climb while surface is seen.");
 }
 
 void fields(const Keys& key, AgvsConfig& c) {
@@ -216,8 +215,7 @@ void fields(const Keys& key, ViewPose& c) {
 void fields(const Keys& key, RouteConfig& c) {
   key.only_if(lays_views, kUtility)("standoff_m", c.standoff_m, {0.1, 1e3},
                                     "From the surface of the profile.");
-  key.only_if(spaces_rows, kUtility)("overlap", c.overlap, {0, 0.95},
-                                     "lawnmower: of neighbouring images.");
+  key.only_if(spaces_rows, kUtility)("overlap", c.overlap, {0, 0.95}, "lawnmower: of its images.");
   key.only_if(takes_views, kUtility)
       .list("views", c.views, {0, kMostUserViews}, "route: body poses, in the order of flight.");
 }
@@ -227,8 +225,7 @@ void fields(const Keys& key, TourConfig& c) {
   key("lattice_step_m", c.lattice_step_m, {0, 100},
       "Between views of the lattice; 0: a quarter of the cameras' range, more in a large box.");
   key.angle("yaw_step_deg", c.yaw_step_rad, {5, 360}, "Between views at one place.");
-  key.angle("incidence_max_deg", c.incidence_max_rad, {10, 89},
-            "No observation counts at a larger angle.");
+  key.angle("incidence_max_deg", c.incidence_max_rad, {10, 89}, "No observation counts beyond.");
   key("double_cover", c.double_cover,
       "A second observation is worth what the first may miss; false: it is worth nothing.");
   key("explore", c.explore, "Without a profile: look for unseen space where no surface pays.");
@@ -286,8 +283,7 @@ void fields(const Keys& key, PlannerConfig& c) {
   const Keys scoring = key.only_if(scores_views, kUtility);
   key.section("map", c.map, "The occupancy grid.");
   key.section("cloud", c.cloud, "The surface cloud.");
-  key("floor_z_m", c.floor_z_m, {-1e4, 1e4},
-      "Returns below are the floor: they clear, but mark nothing.");
+  key("floor_z_m", c.floor_z_m, {-1e4, 1e4}, "Returns below are floor: they clear, mark nothing.");
   key.section("profiling", c.profiling, "The rough scan before the first view.");
   scoring.section("agvs", c.agvs, "Adaptive grid view sampling.");
   scoring.section("fvs", c.fvs, "Frontier view sampling.");

@@ -51,8 +51,7 @@ void fields(const Keys& key, ScoreConfig& c) {
 void fields(const Keys& key, StartConfig& c) {
   key("position_m", c.pose.p_world_m, {-1e4, 1e4}, "Where the views begin, world ENU.");
   key.angle("yaw_deg", c.pose.yaw_rad, {-360, 360}, "Heading there, 0 = east, 90 = north.");
-  key("jitter_m", c.jitter_m, {0, 1e4},
-      "The seed moves it by up to this, inside the navigation box.");
+  key("jitter_m", c.jitter_m, {0, 1e4}, "The seed moves it by up to this, in the navigation box.");
   key.angle("jitter_yaw_deg", c.jitter_yaw_rad, {0, 180}, "The seed turns it by up to this.");
 }
 

@@ -59,8 +59,7 @@ void fields(const Keys& key, AirframeParameters& c) {
   key("time_constant_up_s", c.time_constant_up_s, positive(10), "Of a rotor that gains speed.");
   key("time_constant_down_s", c.time_constant_down_s, positive(10), "Of a rotor that loses speed.");
   key("idle_speed_rad_s", c.idle_speed_rad_s, {0, 1e4}, "Rotor speed at command 0.");
-  key("command_gain_rad_s", c.command_gain_rad_s, positive(1e5),
-      "Rotor speed that a command of 1 adds.");
+  key("command_gain_rad_s", c.command_gain_rad_s, positive(1e5), "Rotor speed added by command 1.");
   key("gravity_m_s2", c.gravity_m_s2, positive(100), "Acceleration of free fall.");
   key("hull_radius_m", c.hull_radius_m, positive(10), "Of the collision cylinder.");
   key("hull_height_m", c.hull_height_m, positive(10), "Of the collision cylinder.");
@@ -147,9 +146,8 @@ void fields(const Keys& key, GuidanceConfig& c) {
   key("jerk_m_s3", c.jerk_m_s3, {0.01, 1e3}, "Top rate of change of acceleration.");
   key.angle("yaw_rate_deg_s", c.yaw_rate_rad_s, {0.1, 1e3}, "Top turning speed.");
   key.angle("yaw_acceleration_deg_s2", c.yaw_acceleration_rad_s2, {0.1, 1e4},
-            "Top rate of change of the turning speed.");
-  key.angle("yaw_jerk_deg_s3", c.yaw_jerk_rad_s3, {0.1, 1e5},
-            "Top rate of change of its acceleration.");
+            "Top acceleration of a turn.");
+  key.angle("yaw_jerk_deg_s3", c.yaw_jerk_rad_s3, {0.1, 1e5}, "Top jerk of a turn.");
   key("arrival_distance_m", c.arrival_distance_m, positive(10), "Arrived: nearer than this.");
   key.angle("arrival_yaw_deg", c.arrival_yaw_rad, positive(180), "Arrived: turned up to this.");
   key("arrival_speed_m_s", c.arrival_speed_m_s, positive(10), "Arrived: slower than this.");
@@ -175,7 +173,7 @@ void fields(const Keys& key, DepthNoiseConfig& c) {
       "Law of the standard deviation over depth (sensors/depth_noise.hpp).");
   const Keys of_stereo = key.only_if(c.model == stereo, ".model");
   of_stereo("baseline_m", c.baseline_m, {1e-3, 10}, "stereo: between the two lenses.");
-  of_stereo("disparity_noise_px", c.disparity_noise_px, {0, 10}, "stereo: sigma of a disparity.");
+  of_stereo("disparity_noise_px", c.disparity_noise_px, {0, 10}, "stereo: standard deviation.");
 }
 
 void fields(const Keys& key, GimbalConfig& c) {

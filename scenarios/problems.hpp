@@ -20,11 +20,7 @@ using Problems = std::vector<Problem>;
 /// All of them; none for a scenario that can be run.
 Problems problems(const Scenario& scenario);
 
-// ---- its parts, each of which adds what it finds
-
-/// Of structure.file, structure.files, terrain, obstacles, no_fly and score.region_m.
-void check_world(const Scenario& scenario, Problems& out);
-/// Of vehicle, guidance and wind.
+/// Its part: adds what is wrong with vehicle, guidance and wind.
 void check_vehicle(const Scenario& scenario, Problems& out);
 
 /// Returns whether the condition holds; adds a problem where it does not. `what` is a fmt message.
@@ -39,13 +35,6 @@ inline void require_below(Problems& out, const std::string& section, const char*
                           double low, const char* high_key, double high) {
   require(low < high, out, {section + high_key, section + low_key},
           "{0}{1} = {2} has to be below {0}{3} = {4}", section, low_key, low, high_key, high);
-}
-/// Whether the box of that key has a length along each axis.
-bool check_box(const Box3& box_m, const std::string& key, Problems& out);
-
-/// "[1, 2.5, -3]"
-inline std::string point_text(const Vec3& p_m) {
-  return fmt::format("[{}, {}, {}]", p_m.x(), p_m.y(), p_m.z());
 }
 
 }  // namespace gnbv

@@ -32,8 +32,8 @@ class Reader final : public FieldVisitor {
     const YamlEntry* entry = take(field.key);
     if (entry == nullptr) return;
     const auto errors = read_value(entry->value, field, folder_, value);
-    for (const ValueError& error : errors) {  // nothing, the missing value, stands nowhere
-      const bool has_line = error.node->kind != Kind::null;
+    for (const ValueError& error : errors) {
+      const bool has_line = error.node->kind != Kind::null;  // a missing value has none
       errors_.add(has_line ? error.node->location : entry->location, field.path + error.item,
                   excerpt(*error.node), error.what);
     }
@@ -65,7 +65,7 @@ class Reader final : public FieldVisitor {
     return std::nullopt;
   }
 
-  /// What was not taken is no key or item, or no more.
+  /// Refuses what was not taken: it is no key, or none any more, or no item.
   void end(const Group& group) override {
     const Level level = std::move(levels_.back());
     levels_.pop_back();
@@ -124,7 +124,7 @@ class Reader final : public FieldVisitor {
     return std::nullopt;
   }
 
-  /// Drops a node that should be a map, with an error.
+  /// Drops a node that is no map, with an error.
   void require_map(const Group& group) {
     const YamlNode* node = levels_.back().node;
     if (node == nullptr || node->kind == Kind::map || node->kind == Kind::picks) return;
@@ -164,23 +164,18 @@ class Reader final : public FieldVisitor {
     const auto meant_here = [&](std::string_view name) {
       return meant(above.empty() ? std::string(name) : fmt::format("{}.{}", above, name));
     };
-    if (const auto near = nearest_name(key, names, 2)) return meant_here(*near);
-    const auto lacks_only_its_unit = [&](std::string_view name) {
-      return name.starts_with(key + '_');
-    };
-    if (std::ranges::count_if(names, lacks_only_its_unit) == 1) {
-      return meant_here(*std::ranges::find_if(names, lacks_only_its_unit));
+    const auto near = nearest_name(key, names);
+    if (near && edit_distance(key, *near) <= 2) return meant_here(*near);
+    for (const std::string_view name : names) {  // without its unit
+      if (name.starts_with(key + '_')) return meant_here(name);
     }
     Scenario one_camera;
     one_camera.cameras.resize(1);
-    for (const auto& [path, text] : scenario_values(one_camera)) {
+    for (const auto& [path, text] : scenario_values(one_camera)) {  // in another section
       const std::size_t at = fmt::format(".{}.", path).find(fmt::format(".{}.", key));
       if (at != std::string::npos) return meant(path.substr(0, at + key.size()));
     }
-    if (const auto near = nearest_name(key, names, misspelling_limit(key))) {
-      return meant_here(*near);
-    }
-    return fmt::format("known here: {}", join(names));
+    return near ? meant_here(*near) : fmt::format("known here: {}", join(names));
   }
 
   static void write_angles_once(const Field& field, const FieldValue& value) {
@@ -191,7 +186,7 @@ class Reader final : public FieldVisitor {
     }
   }
 
-  const Group kRoot = {};
+  static inline const Group kRoot = {};
   const std::string& folder_;
   const Scenario& scenario_;
   ValidationErrors& errors_;

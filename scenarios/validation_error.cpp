@@ -56,24 +56,16 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::optional<std::string_view> nearest_name(std::string_view name,
-                                             std::span<const std::string_view> known,
-                                             std::size_t limit) {
-  std::optional<std::string_view> nearest;
-  for (const std::string_view candidate : known) {
-    const std::size_t distance = edit_distance(name, candidate);
-    if (distance > limit || (nearest && distance == limit)) continue;
-    nearest = candidate;
-    limit = distance;
-  }
-  return nearest;
-}
-
-std::size_t misspelling_limit(std::string_view name) {
-  return std::max<std::size_t>(2, name.size() / 2);
+                                             std::span<const std::string_view> known) {
+  const auto distance = [&](std::string_view candidate) { return edit_distance(name, candidate); };
+  const auto nearest = std::ranges::min_element(known, {}, distance);
+  const std::size_t limit = std::max<std::size_t>(2, name.size() / 2);
+  if (nearest == known.end() || distance(*nearest) > limit) return std::nullopt;
+  return *nearest;
 }
 
 std::string did_you_mean(std::string_view name, std::span<const std::string_view> known) {
-  const auto near = nearest_name(name, known, misspelling_limit(name));
+  const auto near = nearest_name(name, known);
   return near ? fmt::format("did you mean '{}'? ", *near) : "";
 }
 

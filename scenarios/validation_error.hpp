@@ -67,13 +67,9 @@ bool is_at_or_below(std::string_view path, std::string_view above);
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
 /// The known name with the smallest edit distance, of several the first; nothing when all are
-/// farther than `limit`.
+/// farther than half the name's length, or 2 if that is more.
 std::optional<std::string_view> nearest_name(std::string_view name,
-                                             std::span<const std::string_view> known,
-                                             std::size_t limit);
-
-/// The edit distance up to which a name counts as misspelt: half its length, at least 2.
-std::size_t misspelling_limit(std::string_view name);
+                                             std::span<const std::string_view> known);
 
 /// "did you mean 'isler'? " where the name may be a misspelt known one, else empty.
 std::string did_you_mean(std::string_view name, std::span<const std::string_view> known);

@@ -20,28 +20,18 @@ bool contains(const Range& range, double value) {
          (range.is_max_open ? value < range.max : value <= range.max);
 }
 
-/// "from 0 to 8", "above 0, up to 8", "above 0, below 8".
-std::string text_of(const Range& range) {
-  return fmt::format("{} {}{} {}", range.is_min_open ? "above" : "from", range.min,
-                     range.is_max_open ? ", below" : (range.is_min_open ? ", up to" : " to"),
-                     range.max);
-}
-
-std::string out_of_range(const std::string& allowed) {
-  return fmt::format("is out of range (allowed: {})", allowed);
+/// "... from 0 to 8", "... above 0, up to 8", "... above 0, below 8".
+std::string out_of_range(const Range& range) {
+  return fmt::format(
+      "is out of range (allowed: {} {}{} {})", range.is_min_open ? "above" : "from", range.min,
+      range.is_max_open ? ", below" : (range.is_min_open ? ", up to" : " to"), range.max);
 }
 
 std::string expected(const YamlNode& node, std::string_view what) {
-  switch (node.kind) {
-    case Kind::null:
-      return fmt::format("has no value; expects {}", what);
-    case Kind::scalar:
-      return fmt::format("{}expects {}", node.is_quoted ? "is text in quotes; " : "", what);
-    case Kind::list:
-      return fmt::format("is a list; expects {}", what);
-    default:
-      return fmt::format("is a map; expects {}", what);
-  }
+  constexpr std::array<const char*, 5> kIs = {"has no value; ", "", "is a list; ", "is a map; ",
+                                              "is a map; "};  // by YamlNode::Kind
+  const char* const is = kIs[static_cast<std::size_t>(node.kind)];
+  return fmt::format("{}expects {}", node.is_quoted ? "is text in quotes; " : is, what);
 }
 
 /// The text as a number of type T. One leading '+' is allowed, as in YAML.
@@ -73,7 +63,7 @@ std::string read_one(const YamlNode& node, const Field& field, double& value) {
   const std::errc error = is_plain ? parse_whole(node.text, number) : std::errc::invalid_argument;
   if (error == std::errc::result_out_of_range) return "is beyond what a number can hold";
   if (error != std::errc{}) return expected(node, "a number");
-  if (!contains(field.allowed, number)) return out_of_range(text_of(field.allowed));  // NaN, too
+  if (!contains(field.allowed, number)) return out_of_range(field.allowed);  // NaN, too
   value = field.kind == FieldKind::angle ? deg_to_rad(number) : number;
   return "";
 }
@@ -94,8 +84,8 @@ std::string read_one(const YamlNode& node, const Field& field, Integer& value) {
   if (!is_signed && text.starts_with('-')) error = std::errc::result_out_of_range;
   if (error == std::errc::invalid_argument) return expected(node, "a whole number");
   if (error != std::errc{} || !contains(field.allowed, static_cast<double>(number))) {
-    return out_of_range(is_signed ? text_of(field.allowed)
-                                  : fmt::format("from 0 to {}", ~std::uint64_t{0}));
+    return is_signed ? out_of_range(field.allowed)
+                     : fmt::format("is out of range (allowed: from 0 to {})", ~std::uint64_t{0});
   }
   value = number;
   return "";

@@ -60,16 +60,17 @@ class ValueLister final : public FieldVisitor {
   }
 };
 
-std::vector<ValueUse> value_uses(Scenario scenario) {
+/// With their uses if those are asked for; they may not be for a scenario of no known planner.
+std::vector<ValueUse> listed(Scenario scenario, bool with_uses) {
   ValueLister lister;
-  fields(Keys(lister, &scenario), scenario);
+  fields(Keys(lister, with_uses ? &scenario : nullptr), scenario);
   return std::move(lister.values);
 }
 
 /// What the paper's figures depend on and the paper states, or does not have.
 Texts papers_values(const Scenario& scenario) {
   Texts stated;
-  for (const ValueUse& value : value_uses(scenario)) {
+  for (const ValueUse& value : listed(scenario, true)) {
     if (value.use.is_papers_setting) stated.emplace(value.path, value.text);
   }
   return stated;
@@ -115,11 +116,8 @@ std::string views_override(std::span<const ViewPose> views) {
 }
 
 std::vector<std::pair<std::string, std::string>> scenario_values(const Scenario& scenario) {
-  Scenario copy = scenario;
-  ValueLister lister;
-  fields(Keys(lister), copy);
   std::vector<std::pair<std::string, std::string>> values;
-  for (ValueUse& value : lister.values) {
+  for (ValueUse& value : listed(scenario, false)) {
     values.emplace_back(std::move(value.path), std::move(value.text));
   }
   return values;
@@ -132,7 +130,7 @@ bool has_papers_setting(const Scenario& scenario) {
 
 std::vector<std::string> unused_parameter_notes(const Scenario& scenario,
                                                 const SourceLocations& locations) {
-  const std::vector<ValueUse> values = value_uses(scenario);
+  const std::vector<ValueUse> values = listed(scenario, true);
   const bool is_whole_file = std::ranges::all_of(values, [&](const ValueUse& value) {
     const auto given = locations.find(value.path);
     return given != locations.end() && given->second.line > 0;

@@ -167,6 +167,7 @@ TEST(Overrides, AreRefusedWithTheirText) {
   EXPECT_THAT(complaint(kMinimal, {"seed="}), StartsWith("--set seed=: seed: has no value"));
   EXPECT_THAT(complaint(kMinimal, {"seed=[1"}), StartsWith("--set seed=[1: not YAML: "));
   EXPECT_THAT(complaint(kMinimal, {"seed.x=1"}), StartsWith("--set seed.x=1: seed: "));
+  EXPECT_THAT(complaint(kMinimal, {".seed=1"}), StartsWith("--set .seed=1: is no known key ("));
   EXPECT_EQ(complaint(kMinimal, {"cameras.1.name=b"}),
             "--set cameras.1.name=b: cameras.1: is no item of the list (allowed: 0 to 0)");
   EXPECT_EQ(complaint(kMinimal, {"start.position_m.3=1"}),

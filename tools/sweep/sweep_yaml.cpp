@@ -37,7 +37,7 @@ bool SweepYaml::require_map(const YamlNode& node, const std::string& path,
   const std::vector<std::string_view> names(known);
   for (const YamlEntry& entry : node.entries) {
     if (std::find(names.begin(), names.end(), entry.key) != names.end()) continue;
-    const auto near = nearest_name(entry.key, names, misspelling_limit(entry.key));
+    const auto near = nearest_name(entry.key, names);
     errors_.add(entry.location, path.empty() ? entry.key : path + '.' + entry.key, "",
                 near ? fmt::format("is no known key (did you mean '{}'?)", *near)
                      : fmt::format("is no known key (known here: {})", join(names)));
