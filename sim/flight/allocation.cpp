@@ -16,11 +16,9 @@ namespace {
 using Effect = Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, kMostRotors>;
 
 constexpr std::array<std::string_view, 4> kAxes = {"roll", "pitch", "yaw", "thrust"};
-/// Of rows that reach up to 1: below this the axes are not told apart.
-constexpr double kSingular = 1e-3;
 
-/// What each rotor's thrust does about the centre of mass; each row divided by its greatest entry,
-/// which the normalisation of the columns takes out again.
+/// What each rotor's thrust does about the centre of mass. Each row is divided by its greatest
+/// entry; the normalisation of the pseudo-inverse takes that out again.
 Effect effect_of(const AirframeParameters& airframe) {
   Effect effect(4, static_cast<Eigen::Index>(airframe.rotors.size()));
   for (Eigen::Index i = 0; i < effect.cols(); ++i) {
@@ -77,9 +75,12 @@ Allocation quad_x(const AirframeParameters& airframe) {
   return quad;
 }
 
-/// PX4's scales: roll and pitch, one for both, so that the rotors that take part move by half the
-/// root of 2 on a root mean square; yaw, so that the most driven moves by 1; thrust, by its mean.
-Eigen::Vector4d scales_of(const Eigen::Matrix<double, Eigen::Dynamic, 4, 0, kMostRotors, 4>& mix) {
+/// The pseudo-inverse: rows are rotors, columns axes.
+using Mix = Eigen::Matrix<double, Eigen::Dynamic, 4, 0, kMostRotors, 4>;
+
+/// PX4's scales. Roll and pitch, one for both: the rotors that take part move by half the root of 2
+/// (root mean square). Yaw: the rotor that moves most moves by 1. Thrust: its mean.
+Eigen::Vector4d scales_of(const Mix& mix) {
   const auto tilt_scale = [&](Eigen::Index axis) {
     const auto taking_part = static_cast<double>((mix.col(axis).array().abs() > 1e-3).count());
     return std::sqrt(mix.col(axis).squaredNorm() / (0.5 * taking_part));
@@ -88,6 +89,56 @@ Eigen::Vector4d scales_of(const Eigen::Matrix<double, Eigen::Dynamic, 4, 0, kMos
   return {tilt, tilt, mix.col(2).maxCoeff(), mix.col(3).mean()};
 }
 
+constexpr double kYawHeadroom = 0.15;  // MINIMUM_YAW_MARGIN: yaw may ask for this much above full
+
+/// The commands of the rotors there are; the rest stay 0.
+class Desaturation {
+ public:
+  explicit Desaturation(std::size_t rotors) : rotors_(rotors) {}
+
+  void add(double gain, const RotorValues& direction) {
+    for (std::size_t i = 0; i < rotors_; ++i) commands[i] += gain * direction[i];
+  }
+
+  void along(const RotorValues& direction, double max) {
+    add(gain(direction, max), direction);
+    // what cannot be freed is shared: half of what is left is moved to the other end
+    add(0.5 * gain(direction, max), direction);
+  }
+
+  void thrust_down(const RotorValues& thrust) {
+    RotorValues less{};
+    for (std::size_t i = 0; i < rotors_; ++i) less[i] = -thrust[i];
+    if (gain(less, 1.0) >= 0.0) along(less, 1.0);
+  }
+
+  double share_of(const TorqueAllocation& axis) const {
+    double dot = 0.0;
+    for (std::size_t i = 0; i < rotors_; ++i) dot += commands[i] * axis.share[i];
+    return dot / axis.share_divisor;
+  }
+
+  RotorCommands commands{};
+
+ private:
+  /// The step along `direction` that frees the rotors of saturation as far as it can: the sum of
+  /// the farthest steps asked for either way.
+  double gain(const RotorValues& direction, double max) const {
+    double least = 0.0;
+    double most = 0.0;
+    for (std::size_t i = 0; i < rotors_; ++i) {
+      if (std::abs(direction[i]) < 1e-3) continue;  // it hardly moves this rotor
+      const double excess = commands[i] < 0.0 ? commands[i] : std::max(commands[i] - max, 0.0);
+      const double step = -excess / direction[i];
+      least = std::min(least, step);
+      most = std::max(most, step);
+    }
+    return least + most;
+  }
+
+  std::size_t rotors_;
+};
+
 }  // namespace
 
 std::string allocation_fault(const AirframeParameters& airframe) {
@@ -95,6 +146,7 @@ std::string allocation_fault(const AirframeParameters& airframe) {
   if (airframe.moment_per_thrust_m == 0.0) {
     return "moment_per_thrust_m is 0: nothing turns the vehicle about its vertical";
   }
+  constexpr double kSingular = 1e-3;  // of rows that reach up to 1
   const Eigen::JacobiSVD<Effect> svd(effect, Eigen::ComputeFullU);
   if (svd.singularValues()[3] < kSingular) {
     const Eigen::Vector4d inseparable = svd.matrixU().col(3);
@@ -103,9 +155,9 @@ std::string allocation_fault(const AirframeParameters& airframe) {
       if (std::abs(inseparable[static_cast<Eigen::Index>(axis)]) < 0.1) continue;
       axes += (axes.empty() ? "" : " apart from ") + std::string(kAxes[axis]);
     }
-    return fmt::format("these rotors cannot give {}: neither their places nor their spins tell",
-                       axes) +
-           " the axes apart";
+    return fmt::format(
+        "these rotors cannot give {}: neither their places nor their spins tell the axes apart",
+        axes);
   }
   const RotorValues thrust = allocation_of(airframe).thrust;
   for (std::size_t i = 0; i < airframe.rotors.size(); ++i) {
@@ -122,8 +174,7 @@ Allocation allocation_of(const AirframeParameters& airframe) {
   if (is_quad_x(airframe)) return quad_x(airframe);
   const Effect effect = effect_of(airframe);
   const Eigen::Matrix4d gram = effect * effect.transpose();
-  const Eigen::Matrix<double, Eigen::Dynamic, 4, 0, kMostRotors, 4> mix =
-      effect.transpose() * gram.ldlt().solve(Eigen::Matrix4d::Identity());
+  const Mix mix = effect.transpose() * gram.ldlt().solve(Eigen::Matrix4d::Identity());
   GNBV_CHECK(mix.allFinite(), "rotors that cannot steer");
   const Eigen::Vector4d scales = scales_of(mix);
   Allocation allocation{.rotors = airframe.rotors.size()};
@@ -137,6 +188,22 @@ Allocation allocation_of(const AirframeParameters& airframe) {
     allocation.thrust[i] = mix(row, 3) / scales[3];
   }
   return allocation;
+}
+
+MixerOutput mix(const Allocation& allocation, const Vec3& torque, double thrust) {
+  const auto& [roll, pitch, yaw] = allocation.torque;
+  Desaturation rotors(allocation.rotors);
+  rotors.add(thrust, allocation.thrust);
+  rotors.add(torque.x(), roll.command);
+  rotors.add(torque.y(), pitch.command);
+  rotors.thrust_down(allocation.thrust);
+  rotors.along(roll.command, 1.0);
+  rotors.along(pitch.command, 1.0);
+  rotors.add(torque.z(), yaw.command);
+  rotors.along(yaw.command, 1.0 + kYawHeadroom);
+  rotors.thrust_down(allocation.thrust);
+  for (double& command : rotors.commands) command = std::clamp(command, 0.0, 1.0);
+  return {rotors.commands, {rotors.share_of(roll), rotors.share_of(pitch), rotors.share_of(yaw)}};
 }
 
 }  // namespace gnbv

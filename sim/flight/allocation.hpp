@@ -1,5 +1,4 @@
-// From torque and thrust to rotors, for any layout of four to eight: the allocation matrix and its
-// pseudo-inverse, normalised as PX4's (ControlAllocationPseudoInverse.cpp).
+// From torque and thrust to rotors, for any layout of four to eight: PX4's control allocation.
 #pragma once
 
 #include <string>
@@ -21,12 +20,23 @@ struct Allocation {
   RotorValues thrust{};                      // without torque; its mean is 1
 };
 
-/// Quads in an X, their four arms about equal and within 20 degrees of the diagonals, are allocated
-/// by the quadrant of each rotor alone, as PX4's mixers do. Throws BrokenInvariant where
-/// allocation_fault() has something to say.
+/// The pseudo-inverse of the allocation matrix, normalised as PX4's
+/// (ControlAllocationPseudoInverse.cpp). Quads in an X, their four arms about equal and within 20
+/// degrees of the diagonals, are allocated by the quadrant of each rotor alone, as PX4's mixers do.
+/// Throws BrokenInvariant where allocation_fault() names a fault.
 Allocation allocation_of(const AirframeParameters& airframe);
 
-/// Why these rotors cannot steer a vehicle in one sentence; empty if they can.
+/// One sentence: why these rotors cannot steer a vehicle. Empty if they can.
 std::string allocation_fault(const AirframeParameters& airframe);
+
+struct MixerOutput {
+  RotorCommands commands{};
+  Vec3 torque = Vec3::Zero();  // the normalised torque that these commands give
+};
+
+/// PX4's sequential desaturation with airmode off (ControlAllocationSequentialDesaturation.cpp):
+/// yaw gives way first, then thrust, then roll and pitch. `torque`: normalised, body axes. `thrust`
+/// in [0, 1].
+MixerOutput mix(const Allocation& allocation, const Vec3& torque, double thrust);
 
 }  // namespace gnbv

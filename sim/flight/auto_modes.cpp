@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace gnbv {
 namespace {
@@ -12,20 +11,6 @@ using Stage = AutoFlight::Stage;
 
 constexpr double kAltitudeArrival_m = 0.8;  // NAV_MC_ALT_RAD; the rest of the way is flown as well
 constexpr double kHomeArrival_m = 0.5;      // of RTL, before it descends and still comes nearer
-
-Stage first_stage(NavState mode) {
-  switch (mode) {
-    case NavState::takeoff:
-    case NavState::rtl:
-      return Stage::climb;
-    case NavState::land:
-      return Stage::land;
-    case NavState::descend:
-      return Stage::descend;
-    default:
-      return Stage::hold;
-  }
-}
 
 /// Near home RTL climbs no higher than a cone of 45 deg above it.
 double return_altitude_m(const CommanderParameters& parameters, double distance_m) {
@@ -43,6 +28,10 @@ double landing_speed_m_s(const CommanderParameters& parameters, double height_m)
          share * (parameters.descent_speed_m_s - parameters.land_speed_m_s);
 }
 
+AxisLimits level_limits(const CommanderParameters& parameters) {
+  return {parameters.acceleration_m_s2, parameters.jerk_m_s3};
+}
+
 AxisLimits vertical_limits(const CommanderParameters& parameters, bool is_upwards) {
   return {is_upwards ? parameters.acceleration_up_m_s2 : parameters.acceleration_down_m_s2,
           parameters.jerk_m_s3};
@@ -52,20 +41,19 @@ double speed_to_altitude_m_s(const CommanderParameters& parameters, NavState mod
   const bool is_upwards = rise_m > 0.0;
   double limit_m_s = is_upwards ? parameters.climb_speed_m_s : parameters.descent_speed_m_s;
   if (mode == NavState::takeoff) limit_m_s = std::min(limit_m_s, parameters.takeoff_speed_m_s);
-  const double speed_m_s =
-      braking_speed_m_s(std::abs(rise_m), vertical_limits(parameters, is_upwards));
+  const double speed_m_s = braking_speed(std::abs(rise_m), vertical_limits(parameters, is_upwards));
   return std::copysign(std::min(speed_m_s, limit_m_s), rise_m);
 }
 
-Vec3 position(const AutoFlight& flight) {
-  return {flight.axes[0].x_m, flight.axes[1].x_m, flight.axes[2].x_m};
+/// One of the three numbers of each axis.
+Vec3 each(const AutoFlight& flight, double Motion::*number) {
+  return {flight.axes[0].*number, flight.axes[1].*number, flight.axes[2].*number};
 }
 
-/// The velocity that the trajectory is to take up. Across a stage that has no place to go to, it
-/// brakes and stays.
+/// The velocity that the trajectory is to take up. It brakes and stays on an axis that has no goal.
 Vec3 wanted_velocity(const AutoFlight& flight, const CommanderParameters& parameters,
                      double height_m) {
-  const Vec3 p_world_m = position(flight);
+  const Vec3 p_world_m = each(flight, &Motion::position);
   Vec3 v_m_s = Vec3::Zero();
   if (flight.stage == Stage::climb || flight.stage == Stage::go_home) {
     v_m_s.z() = speed_to_altitude_m_s(parameters, flight.mode, flight.altitude_m - p_world_m.z());
@@ -75,39 +63,34 @@ Vec3 wanted_velocity(const AutoFlight& flight, const CommanderParameters& parame
   if (flight.stage == Stage::go_home ||
       (flight.stage == Stage::land && flight.mode == NavState::rtl)) {
     const Vec2 way_m = flight.home_world_m - p_world_m.head<2>();
-    const double speed_m_s = std::min(
-        parameters.cruise_speed_m_s,
-        braking_speed_m_s(way_m.norm(), {parameters.acceleration_m_s2, parameters.jerk_m_s3}));
+    const double speed_m_s = std::min(parameters.cruise_speed_m_s,
+                                      braking_speed(way_m.norm(), level_limits(parameters)));
     v_m_s.head<2>() = speed_m_s * way_m.normalized();
   }
   return v_m_s;
 }
 
 void move_trajectory(AutoFlight& flight, const CommanderParameters& parameters,
-                     const VehicleState& estimate, double dt_s) {
-  const Vec3 p_world_m = estimate.T_world_body.translation();
+                     const Vec3& p_world_m, double dt_s) {
   const Vec3 wanted = wanted_velocity(flight, parameters, p_world_m.z());
   // the trajectory waits for a vehicle that is left behind
-  const double error_m = (position(flight) - p_world_m).head<2>().norm();
+  const double error_m = (each(flight, &Motion::position) - p_world_m).head<2>().norm();
   const double pace = std::max(0.0, 1.0 - error_m / parameters.path_error_max_m);
-  const AxisLimits level{parameters.acceleration_m_s2, parameters.jerk_m_s3};
-  const bool is_upwards = wanted.z() > 0.0;
+  const AxisLimits level = level_limits(parameters);
   flight.axes =
       advance_together(flight.axes, {wanted.x(), wanted.y(), wanted.z()},
-                       {level, level, vertical_limits(parameters, is_upwards)}, pace * dt_s);
+                       {level, level, vertical_limits(parameters, wanted.z() > 0.0)}, pace * dt_s);
 }
 
-bool is_at_altitude(const AutoFlight& flight, const VehicleState& estimate) {
-  return std::abs(flight.altitude_m - estimate.T_world_body.translation().z()) < kAltitudeArrival_m;
+bool is_at_altitude(const AutoFlight& flight, const Vec3& p_world_m) {
+  return std::abs(flight.altitude_m - p_world_m.z()) < kAltitudeArrival_m;
 }
 
-void enter_next_stage(AutoFlight& flight, const VehicleState& estimate) {
-  if (flight.mode != NavState::rtl) return;
-  const Vec2 p_world_m = estimate.T_world_body.translation().head<2>();
-  if (flight.stage == Stage::climb && is_at_altitude(flight, estimate)) {
+void enter_next_stage_of_return(AutoFlight& flight, const Vec3& p_world_m) {
+  if (flight.stage == Stage::climb && is_at_altitude(flight, p_world_m)) {
     flight.stage = Stage::go_home;
   } else if (flight.stage == Stage::go_home &&
-             (flight.home_world_m - p_world_m).norm() < kHomeArrival_m) {
+             (flight.home_world_m - p_world_m.head<2>()).norm() < kHomeArrival_m) {
     flight.stage = Stage::land;
   }
 }
@@ -118,50 +101,39 @@ AutoFlight begin_auto(NavState mode, const CommanderParameters& parameters,
                       const VehicleState& estimate, const Eigen::Vector2d& home_world_m,
                       double altitude_m) {
   const Vec3 p_world_m = estimate.T_world_body.translation();
-  AutoFlight flight;
-  flight.mode = mode;
-  flight.stage = first_stage(mode);
+  const bool returns = mode == NavState::rtl;
+  AutoFlight flight{.stage = returns || mode == NavState::takeoff ? Stage::climb
+                             : mode == NavState::land             ? Stage::land
+                                                                  : Stage::hold,
+                    .mode = mode,
+                    .axes = {},
+                    .yaw_rad = yaw_of(estimate.T_world_body),
+                    .home_world_m = home_world_m};
   for (int i = 0; i < 3; ++i) {
     flight.axes[static_cast<std::size_t>(i)] = {p_world_m[i], estimate.v_world_m_s[i], 0.0};
   }
-  flight.yaw_rad = yaw_of(estimate.T_world_body);
-  flight.home_world_m = home_world_m;
-  const double wanted_m =
-      mode == NavState::rtl
-          ? return_altitude_m(parameters, (p_world_m.head<2>() - home_world_m).norm())
-          : altitude_m;
-  flight.altitude_m = std::max(p_world_m.z(), wanted_m);
+  const double distance_m = (p_world_m.head<2>() - home_world_m).norm();
+  flight.altitude_m =
+      std::max(p_world_m.z(), returns ? return_altitude_m(parameters, distance_m) : altitude_m);
   return flight;
 }
 
 Setpoint step_auto(AutoFlight& flight, const CommanderParameters& parameters,
                    const VehicleState& estimate, double dt_s) {
-  Setpoint setpoint;
-  setpoint.yaw_rad = flight.yaw_rad;
-  if (flight.stage == Stage::descend) {  // level, wherever that leads
-    setpoint.a_world_m_s2.head<2>().setZero();
-    setpoint.v_world_m_s.z() = -parameters.land_speed_m_s;
-    return setpoint;
-  }
-  enter_next_stage(flight, estimate);
-  move_trajectory(flight, parameters, estimate, dt_s);
-  setpoint.p_world_m = position(flight);
-  setpoint.v_world_m_s = {flight.axes[0].v_m_s, flight.axes[1].v_m_s, flight.axes[2].v_m_s};
-  setpoint.a_world_m_s2 = {flight.axes[0].a_m_s2, flight.axes[1].a_m_s2, flight.axes[2].a_m_s2};
-  if (flight.stage == Stage::land) {  // the ground is where it is found
-    setpoint.p_world_m.z() = std::numeric_limits<double>::quiet_NaN();
-  }
+  const Vec3 p_world_m = estimate.T_world_body.translation();
+  if (flight.mode == NavState::rtl) enter_next_stage_of_return(flight, p_world_m);
+  move_trajectory(flight, parameters, p_world_m, dt_s);
+  Setpoint setpoint{.p_world_m = each(flight, &Motion::position),
+                    .v_world_m_s = each(flight, &Motion::speed),
+                    .a_world_m_s2 = each(flight, &Motion::acceleration),
+                    .yaw_rad = flight.yaw_rad};
+  if (flight.stage == Stage::land) setpoint.p_world_m.z() = kNotControlled;  // ground not known
   return setpoint;
 }
 
 bool is_finished(const AutoFlight& flight, const VehicleState& estimate) {
-  return flight.mode == NavState::takeoff && is_at_altitude(flight, estimate);
-}
-
-AutoFlight hold_after_takeoff(const AutoFlight& takeoff) {
-  AutoFlight flight = takeoff;
-  flight.mode = NavState::hold;
-  return flight;
+  return flight.mode == NavState::takeoff &&
+         is_at_altitude(flight, estimate.T_world_body.translation());
 }
 
 }  // namespace gnbv

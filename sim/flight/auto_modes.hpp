@@ -1,22 +1,21 @@
-// PX4's Auto modes without a mission: hold, takeoff, land, return and the blind descent, as
-// setpoints along jerk-limited trajectories (FlightTaskAuto.cpp, PositionSmoothing.cpp, rtl.cpp).
+// PX4's Auto modes without a mission (hold, takeoff, land, return) as setpoints along jerk-limited
+// trajectories (FlightTaskAuto.cpp, PositionSmoothing.cpp, rtl.cpp).
 #pragma once
 
 #include <array>
 
-#include "sim/flight/flight.hpp"
-#include "sim/flight/nav_state.hpp"
-#include "sim/flight/velocity_smoothing.hpp"
+#include "sim/flight/commander.hpp"
+#include "sim/flight/trajectory.hpp"
 
 namespace gnbv {
 
-/// What an Auto mode remembers. The heading stays what it was at the mode's begin; PX4 would turn
-/// towards home on the way back.
+/// What an Auto mode remembers. The heading stays that of the mode's begin; PX4 would turn towards
+/// home on the way back.
 struct AutoFlight {
-  enum class Stage { hold, climb, go_home, land, descend };
+  enum class Stage { hold, climb, go_home, land };
   Stage stage = Stage::hold;
   NavState mode = NavState::hold;
-  std::array<SmoothedAxis, 3> axes;  // the trajectory, world ENU
+  std::array<Motion, 3> axes;  // the trajectory, world ENU
   double yaw_rad = 0.0;
   double altitude_m = 0.0;  // that `climb` ends at, world z
   Eigen::Vector2d home_world_m = Eigen::Vector2d::Zero();
@@ -34,8 +33,5 @@ Setpoint step_auto(AutoFlight& flight, const CommanderParameters& parameters,
 
 /// Whether a takeoff has come near its altitude (NAV_MC_ALT_RAD).
 bool is_finished(const AutoFlight& takeoff, const VehicleState& estimate);
-
-/// HOLD that ends what is left of the takeoff.
-AutoFlight hold_after_takeoff(const AutoFlight& takeoff);
 
 }  // namespace gnbv

@@ -1,7 +1,8 @@
-// What PX4's commander, takeoff, land detector and Auto modes are set to; capitals name PX4's
-// parameters. PX4-Autopilot's defaults.
+// The parameters of PX4's commander, takeoff, land detector and Auto modes, with PX4-Autopilot's
+// defaults. Names in capitals are PX4's.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 
@@ -9,7 +10,7 @@
 
 namespace gnbv {
 
-/// COM_OBL_RC_ACT, in PX4's order: what a vehicle does whose offboard stream is lost.
+/// COM_OBL_RC_ACT, in PX4's order: what a vehicle does when its offboard stream is lost.
 enum class OffboardLossAction {
   position,
   altitude,
@@ -23,9 +24,8 @@ enum class OffboardLossAction {
 
 struct CommanderParameters {
   double offboard_loss_s = 1.0;       // COM_OF_LOSS_T: the stream is lost after this silence
-  double offboard_loss_hold_s = 0.0;  // COM_FAIL_ACT_T: stays in HOLD this long before the action.
-                                      // Today's PX4 acts at once; PX4 1.9 held at 0.5 s and acted
-                                      // COM_OF_LOSS_T later
+  double offboard_loss_hold_s = 0.0;  // COM_FAIL_ACT_T: and this long in HOLD before the action.
+                                      // Today's PX4 acts at once; PX4 1.9 held for COM_OF_LOSS_T
   OffboardLossAction offboard_loss_action = OffboardLossAction::position;  // COM_OBL_RC_ACT
 
   double disarm_after_landing_s = 2.0;               // COM_DISARM_LAND; 0 or less: never
@@ -58,7 +58,7 @@ struct CommanderParameters {
 };
 
 /// One of these by PX4's name. The range is that of PX4's parameter reference, or a wide one where
-/// the reference gives none.
+/// the reference gives none. COM_OF_LOSS_T begins at 0.1 s: five setpoints of a mission's stream.
 struct Px4Parameter {
   std::string_view name;
   double CommanderParameters::*value;  // null: offboard_loss_action, a whole number
@@ -98,11 +98,9 @@ inline constexpr std::array<Px4Parameter, 27> kPx4Parameters = {{
 }};
 
 /// nullptr for another name.
-constexpr const Px4Parameter* find_px4_parameter(std::string_view name) {
-  for (const Px4Parameter& parameter : kPx4Parameters) {
-    if (parameter.name == name) return &parameter;
-  }
-  return nullptr;
+inline const Px4Parameter* find_px4_parameter(std::string_view name) {
+  const auto* const found = std::ranges::find(kPx4Parameters, name, &Px4Parameter::name);
+  return found == kPx4Parameters.end() ? nullptr : found;
 }
 
 /// In PX4's unit.

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <string>
 
 #include "sim/core/pose.hpp"
 #include "sim/flight/vehicle_config.hpp"
@@ -22,15 +21,17 @@ constexpr double kTick_s = 1.0 / static_cast<double>(kTicksPerSecond);
 constexpr int kRateStepsPerTick = 4;
 constexpr double kRateStep_s = kTick_s / kRateStepsPerTick;
 
-/// PX4's TrajectorySetpoint in our world frame (ENU, FLU): NaN means "not controlled".
-/// Position together with velocity uses the velocity as feed-forward, likewise the acceleration.
-/// Each axis needs one of the three, x and y come in pairs; otherwise the vehicle stops and holds.
+constexpr double kNotControlled = std::numeric_limits<double>::quiet_NaN();
+
+/// PX4's TrajectorySetpoint in our world frame (ENU, FLU). Beside a position the velocity is its
+/// feed-forward, beside either the acceleration. Each axis needs one of the three, x and y come in
+/// pairs; otherwise the vehicle stops and holds.
 struct Setpoint {
-  Vec3 p_world_m = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
-  Vec3 v_world_m_s = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
-  Vec3 a_world_m_s2 = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
-  double yaw_rad = std::numeric_limits<double>::quiet_NaN();
-  double yaw_rate_rad_s = std::numeric_limits<double>::quiet_NaN();
+  Vec3 p_world_m = Vec3::Constant(kNotControlled);
+  Vec3 v_world_m_s = Vec3::Constant(kNotControlled);
+  Vec3 a_world_m_s2 = Vec3::Constant(kNotControlled);
+  double yaw_rad = kNotControlled;
+  double yaw_rate_rad_s = kNotControlled;
 };
 
 struct VehicleState {
@@ -48,27 +49,29 @@ class Flight {
   virtual VehicleState state() const = 0;
   /// What the autopilot, the guidance and the map believe (VehicleConfig::estimate).
   virtual VehicleState estimate() const = 0;
-  /// Holds until the next call; a quadrotor gives it up when no other comes for
-  /// CommanderParameters::offboard_loss_s, and then stays where it is.
+  /// Holds until the next call. A quadrotor gives it up after CommanderParameters::offboard_loss_s
+  /// without another, and stays where it is.
   virtual void command(const Setpoint& setpoint) = 0;
-  /// From now on the vehicle lands where it is, whatever is commanded, and the ground may be
-  /// touched.
+  /// From now on the vehicle lands where it is, whatever is commanded, and may touch the ground.
   virtual void land() = 0;
-  /// Whether it has, and has switched its rotors off. A world without ground is never landed on.
+  /// Whether it has landed and switched its rotors off. Never in a world without ground.
   virtual bool has_landed() const = 0;
   /// Advances one tick. Throws BrokenInvariant when the state becomes NaN.
   virtual void step() = 0;
   /// Whether the vehicle has touched the structure or the ground since the start.
   virtual bool has_collided() const = 0;
-  /// Energy drawn since the start, by the cited power model.
+  /// Energy drawn since the start, by PowerParameters' law.
   virtual double energy_wh() const = 0;
 };
 
 /// An airborne vehicle hovering at `start` (rotors at hover speed), in a world rebuilt for it.
-/// VehicleKind::quadrotor: sim/flight/quadrotor.hpp, armed and in OFFBOARD.
-/// VehicleKind::ideal: moves exactly as commanded, level, draws hover power and never collides.
-/// `seed` keys the errors of the estimate and the gusts. In a mean wind the quadrotor begins
-/// leaning against it; the ideal vehicle feels none.
+/// `seed` keys the errors of the estimate and the gusts.
+/// VehicleKind::quadrotor: sim/flight/quadrotor.hpp, armed and in OFFBOARD. In a mean wind it
+/// begins leaning against it.
+/// VehicleKind::ideal: level, takes position and yaw from the setpoint at once, integrates velocity
+/// and yaw rate where these are not given, keeps what is not commanded. It knows where it is, feels
+/// no wind, draws hover power and has no body to collide with. It lands on the highest terrain at
+/// its x and y, else on the plane ground, whatever else is in between.
 std::unique_ptr<Flight> make_flight(const VehicleConfig& config, const World& world,
                                     const ViewPose& start, std::uint64_t seed,
                                     const WindConfig& wind = {});

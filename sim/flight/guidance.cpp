@@ -4,10 +4,9 @@
 #include <cmath>
 
 #include "sim/core/error.hpp"
-#include "sim/flight/feed_forward.hpp"
 #include "sim/flight/flight.hpp"
-#include "sim/flight/rest_to_rest.hpp"
 #include "sim/flight/rotors.hpp"
+#include "sim/flight/trajectory.hpp"
 
 namespace gnbv {
 namespace {
@@ -39,6 +38,13 @@ RestToRest::Limits turn_limits(const GuidanceConfig& config, const VehicleConfig
           share * config.yaw_acceleration_rad_s2, share * config.yaw_jerk_rad_s3};
 }
 
+/// How much later than the setpoint the tilt follows. A loop of gain P follows a long ramp 1 / P
+/// later; those of a leg are short: with 0.8 of it the presets deviate and overshoot least on the
+/// whole (measured, in steps of a tenth).
+double attitude_lag_s(const AutopilotParameters& autopilot) {
+  return 0.8 / autopilot.attitude_p_per_s.x();
+}
+
 Vec3 direction_between(const Vec3& from, const Vec3& to) {
   const double length_m = (to - from).norm();
   return length_m > 0.0 ? Vec3((to - from) / length_m) : Vec3(Vec3::Zero());
@@ -62,14 +68,15 @@ class Leg {
   double duration_s() const { return std::max(path_.duration_s(), turn_.duration_s()); }
 
   Setpoint at(double time_s) const {
-    const RestToRest::Sample path = path_.at(time_s);
-    const RestToRest::Sample turn = turn_.at(time_s);
-    Setpoint setpoint;
-    setpoint.p_world_m = start_.p_world_m + path.position * direction_;
-    setpoint.v_world_m_s = path.speed * direction_;
-    setpoint.yaw_rad = wrap_angle_rad(start_.yaw_rad + std::copysign(turn.position, turn_rad_));
-    setpoint.yaw_rate_rad_s = std::copysign(turn.speed, turn_rad_);
-    setpoint.a_world_m_s2 = acceleration_ahead(time_s, setpoint.yaw_rate_rad_s);
+    const Motion path = path_.at(time_s);
+    const Motion turn = turn_.at(time_s);
+    const double yaw_rate_rad_s = std::copysign(turn.speed, turn_rad_);
+    Setpoint setpoint{
+        .p_world_m = start_.p_world_m + path.position * direction_,
+        .v_world_m_s = path.speed * direction_,
+        .a_world_m_s2 = acceleration_ahead(time_s, yaw_rate_rad_s),
+        .yaw_rad = wrap_angle_rad(start_.yaw_rad + std::copysign(turn.position, turn_rad_)),
+        .yaw_rate_rad_s = yaw_rate_rad_s};
     if (time_s >= path_.duration_s()) setpoint.p_world_m = goal_.p_world_m;
     if (time_s >= turn_.duration_s()) setpoint.yaw_rad = goal_.yaw_rad;
     return setpoint;
@@ -80,7 +87,7 @@ class Leg {
   Vec3 acceleration_ahead(double time_s, double yaw_rate_rad_s) const {
     const double lag_s = attitude_lag_s(vehicle_.autopilot);
     const auto wanted_at = [&](double t_s) {
-      const RestToRest::Sample path = path_.at(t_s);
+      const Motion path = path_.at(t_s);
       return acceleration_setpoint(vehicle_.airframe, vehicle_.autopilot, path.speed * direction_,
                                    path.acceleration * direction_);
     };
@@ -112,11 +119,6 @@ bool has_arrived(const VehicleState& state, const ViewPose& goal, const Guidance
 
 }  // namespace
 
-double leg_duration_s(const ViewPose& from, const ViewPose& goal, double speed_m_s,
-                      const GuidanceConfig& config, const VehicleConfig& vehicle) {
-  return Leg(from, goal, speed_m_s, config, vehicle).duration_s();
-}
-
 LegEnd fly_leg(Flight& flight, const ViewPose& goal, double speed_m_s, const GuidanceConfig& config,
                const VehicleConfig& vehicle, const std::function<bool(const Flight&)>& on_tick) {
   GNBV_CHECK(goal.p_world_m.allFinite() && std::isfinite(goal.yaw_rad) && speed_m_s > 0.0,
@@ -137,6 +139,72 @@ LegEnd fly_leg(Flight& flight, const ViewPose& goal, double speed_m_s, const Gui
       return LegEnd::arrived;
     }
   }
+}
+
+double leg_duration_s(const ViewPose& from, const ViewPose& goal, double speed_m_s,
+                      const GuidanceConfig& config, const VehicleConfig& vehicle) {
+  return Leg(from, goal, speed_m_s, config, vehicle).duration_s();
+}
+
+double leg_energy_wh(const VehicleConfig& vehicle, const GuidanceConfig& guidance,
+                     const ViewPose& from, const ViewPose& to) {
+  const double duration_s = leg_duration_s(from, to, guidance.path_speed_m_s, guidance, vehicle);
+  if (duration_s <= 0.0) return 0.0;
+  double drawn_w = hover_power_w(vehicle);
+  if (vehicle.kind == VehicleKind::quadrotor) {  // the ideal one draws hover power all the way
+    const double weight_n = vehicle.airframe.mass_kg * vehicle.airframe.gravity_m_s2;
+    const Vec3 v_mean_m_s = (to.p_world_m - from.p_world_m) / duration_s;
+    drawn_w = std::max(drawn_w, power_w(vehicle.power, weight_n, v_mean_m_s));
+  }
+  return drawn_w * (duration_s + kArrival_s) / kJoulesPerWattHour;
+}
+
+double landing_energy_wh(const VehicleConfig& vehicle, double height_m) {
+  const CommanderParameters& commander = vehicle.autopilot.commander;
+  const double duration_s = std::max(0.0, height_m) / commander.land_speed_m_s +
+                            commander.land_detection_s +
+                            std::max(0.0, commander.disarm_after_landing_s);
+  return hover_power_w(vehicle) * duration_s / kJoulesPerWattHour;
+}
+
+Vec3 acceleration_setpoint(const AirframeParameters& airframe, const AutopilotParameters& autopilot,
+                           const Vec3& v_world_m_s, const Vec3& a_world_m_s2) {
+  const auto rotors = static_cast<double>(airframe.rotors.size());
+  Vec3 body_z_world = Vec3::UnitZ();
+  double speed_rad_s = hover_speed_rad_s(airframe);
+  // thrust and tilt depend on the drag, and the drag on both, but weakly: eight turns leave less
+  // than 1 mm/s^2, even with the strongest drag of the presets
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::Quaterniond q = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), body_z_world);
+    const Vec3 v_body_m_s = q.conjugate() * v_world_m_s;
+    const Vec3 v_disk_m_s(v_body_m_s.x(), v_body_m_s.y(), 0.0);
+    const double drag_per_s =
+        rotors * speed_rad_s * airframe.drag_coefficient_n_s2_per_m / airframe.mass_kg;
+    const Vec3 thrust_m_s2 =
+        a_world_m_s2 + airframe.gravity_m_s2 * Vec3::UnitZ() + drag_per_s * (q * v_disk_m_s);
+    body_z_world = thrust_m_s2.normalized();
+    const double thrust_at_rest_n =
+        airframe.mass_kg * thrust_m_s2.norm() / thrust_share(airframe, v_body_m_s);
+    speed_rad_s = std::sqrt(thrust_at_rest_n / (rotors * airframe.thrust_coefficient_n_s2));
+  }
+  // position_control tilts by a_xy over g, and takes the command's vertical part for 1 + a_z / g
+  // of the hover command
+  const double lift =
+      command_at_speed(airframe, speed_rad_s) * body_z_world.z() / hover_command(airframe);
+  const Vec3 setpoint =
+      airframe.gravity_m_s2 *
+      Vec3(body_z_world.x() / body_z_world.z(), body_z_world.y() / body_z_world.z(), lift - 1.0);
+  return setpoint + autopilot.velocity_d.cwiseProduct(a_world_m_s2);
+}
+
+HoverTrim hover_trim(const VehicleConfig& vehicle, const Vec3& wind_world_m_s) {
+  const double gravity_m_s2 = vehicle.airframe.gravity_m_s2;
+  const Vec3 a_world_m_s2 =
+      acceleration_setpoint(vehicle.airframe, vehicle.autopilot, -wind_world_m_s, Vec3::Zero());
+  const double tilt_rad = std::atan2(a_world_m_s2.head<2>().norm(), gravity_m_s2);
+  return {a_world_m_s2, tilt_rad,
+          hover_command(vehicle.airframe) * (1.0 + a_world_m_s2.z() / gravity_m_s2) /
+              std::cos(tilt_rad)};
 }
 
 }  // namespace gnbv

@@ -2,28 +2,34 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+
+#include "sim/core/error.hpp"
+#include "sim/flight/rotors.hpp"
 
 namespace gnbv {
 namespace {
 
+enum MavCommand : std::uint16_t {
+  kNavReturnToLaunch = 20,
+  kNavLand = 21,
+  kNavTakeoff = 22,
+  kDoSetMode = 176,
+  kComponentArmDisarm = 400
+};
+constexpr long kForce = 21196;
+
 constexpr double kTakeoffSetpointAge_s = 1.0;  // older setpoints start no takeoff
 constexpr double kTiltLimitSlew_rad_s = 0.2;   // MulticopterPositionControl.hpp
+constexpr double kDescentSpeed_m_s = 0.3;      // MulticopterLandDetector.cpp: told to descend
 // on the ramp MPC_THR_MIN does not bind yet; not zero, so that the thrust keeps a direction
 constexpr double kRampThrustMin = 1e-3;
 
 bool is_auto(NavState mode) {
   return mode == NavState::hold || mode == NavState::takeoff || mode == NavState::land ||
-         mode == NavState::rtl || mode == NavState::descend;
+         mode == NavState::rtl;
 }
 
-/// Level at the present heading.
-AttitudeSetpoint idle(const VehicleState& estimate, double thrust) {
-  AttitudeSetpoint setpoint;
-  setpoint.q_world_body = Eigen::AngleAxisd(yaw_of(estimate.T_world_body), Vec3::UnitZ());
-  setpoint.thrust = thrust;
-  return setpoint;
-}
+std::string text_of(NavState mode) { return std::string(name_of(mode)); }
 
 }  // namespace
 
@@ -35,6 +41,8 @@ Px4::Px4(const AutopilotParameters& parameters, const AirframeParameters& airfra
       estimate_(start),
       home_world_m_(start.T_world_body.translation().head<2>()),
       tilt_limit_rad_(parameters.commander.tilt_max_on_ground_rad) {
+  const double hover = hover_command(airframe);
+  GNBV_CHECK(hover > 0.0 && hover < 1.0, "hover command {} is not in (0, 1)", hover);
   if (how == Start::on_ground) return;
   intention_ = intention_after_disarming_ = nav_state_ = NavState::offboard;
   is_armed_ = has_flown_ = true;
@@ -46,16 +54,79 @@ Px4::Px4(const AutopilotParameters& parameters, const AirframeParameters& airfra
   heartbeat_tick_ = 0;
 }
 
-std::int64_t Px4::tick() const { return tick_; }
-NavState Px4::nav_state() const { return nav_state_; }
-NavState Px4::intention() const { return intention_; }
-bool Px4::is_armed() const { return is_armed_; }
-bool Px4::is_landed() const { return land_.is_landed; }
-bool Px4::is_in_failsafe() const { return is_in_failsafe_; }
-const AttitudeSetpoint& Px4::attitude_setpoint() const { return attitude_setpoint_; }
-std::vector<StatusText> Px4::take_messages() { return std::exchange(messages_, {}); }
-
 void Px4::say(int severity, std::string text) { messages_.push_back({severity, std::move(text)}); }
+
+Ack Px4::reject(std::string text) {
+  say(kSeverityCritical, std::move(text));
+  return Ack::temporarily_rejected;
+}
+
+Ack Px4::command(const Px4Command& command) {
+  const auto whole = [&](std::size_t i) {
+    return std::isfinite(command.param[i]) ? std::lround(command.param[i]) : -1;
+  };
+  switch (command.id) {
+    case kComponentArmDisarm:
+      if (whole(0) != 0 && whole(0) != 1) return Ack::unsupported;
+      return arm(whole(0) == 1, whole(1) == kForce);
+    case kDoSetMode: {
+      const std::optional<NavState> mode = nav_state_of(whole(1), whole(2));
+      return mode ? set_mode(*mode) : reject("Unsupported mode");
+    }
+    case kNavTakeoff: {
+      const double altitude_m = command.param[6];
+      const Ack ack = set_mode(NavState::takeoff);
+      if (ack == Ack::accepted && std::isfinite(altitude_m)) {
+        takeoff_altitude_m_ = altitude_m;
+        if (nav_state_ == NavState::takeoff) enter(NavState::takeoff);
+      }
+      return ack;
+    }
+    case kNavLand:
+      return set_mode(NavState::land);
+    case kNavReturnToLaunch:
+      return set_mode(NavState::rtl);
+    default:
+      return Ack::unsupported;
+  }
+}
+
+Ack Px4::arm(bool armed, bool force) {
+  if (armed == is_armed_) return Ack::accepted;
+  if (!armed) {
+    if (!force && !land_.is_maybe_landed) return reject("Disarming denied: not landed");
+    disarm();
+    return Ack::accepted;
+  }
+  // force skips no check here: PX4 runs them for any arming from outside
+  if (!can_run(intention_, offboard_silence_s(), parameters_.commander) ||
+      prevents_arming(nav_state_)) {
+    return reject("Arming denied: not in " + text_of(intention_));
+  }
+  is_armed_ = true;
+  has_flown_ = false;
+  landed_ticks_ = 0;
+  home_world_m_ = estimate_.T_world_body.translation().head<2>();
+  position_ = {};
+  rate_ = {};
+  say(kSeverityInfo, "Armed");
+  update_mode();
+  return Ack::accepted;
+}
+
+Ack Px4::set_mode(NavState mode) {
+  // LAND is always taken
+  const bool is_allowed = !is_armed_ || mode == NavState::land ||
+                          can_run(mode, offboard_silence_s(), parameters_.commander);
+  if (nav_state_ == NavState::terminate || !is_allowed) {
+    return reject("Switching to " + text_of(mode) + " is not possible now");
+  }
+  intention_ = mode;
+  if (!prevents_arming(mode) || mode == NavState::terminate) intention_after_disarming_ = mode;
+  if (mode == NavState::takeoff) takeoff_altitude_m_ = parameters_.commander.takeoff_altitude_m;
+  update_mode();
+  return Ack::accepted;
+}
 
 void Px4::offboard_setpoint(const Setpoint& setpoint) {
   const bool is_invalid = !is_valid(setpoint);
@@ -63,7 +134,70 @@ void Px4::offboard_setpoint(const Setpoint& setpoint) {
   if (nav_state_ != NavState::offboard) return;
   offboard_setpoint_ = setpoint;
   const bool has_warned = std::exchange(has_warned_of_setpoint_, is_invalid);
-  if (is_invalid && !has_warned) say(4, "Invalid offboard setpoint: the vehicle stops and holds");
+  if (is_invalid && !has_warned) {
+    say(kSeverityWarning, "Invalid offboard setpoint: the vehicle stops and holds");
+  }
+}
+
+double Px4::offboard_silence_s() const {
+  if (!heartbeat_tick_) return std::numeric_limits<double>::infinity();
+  return static_cast<double>(tick_ - *heartbeat_tick_) * kTick_s;
+}
+
+void Px4::disarm() {
+  is_armed_ = false;
+  intention_ = intention_after_disarming_;
+  say(kSeverityInfo, "Disarmed");
+  update_mode();
+}
+
+void Px4::disarm_when_due() {
+  if (!is_armed_) return;
+  has_flown_ = has_flown_ || !land_.is_landed;
+  landed_ticks_ = land_.is_landed ? landed_ticks_ + 1 : 0;
+  const CommanderParameters& commander = parameters_.commander;
+  const double wait_s =
+      has_flown_ ? commander.disarm_after_landing_s : commander.disarm_never_flown_s;
+  if (!land_.is_landed || wait_s <= 0.0) return;
+  if (static_cast<double>(landed_ticks_) * kTick_s >= wait_s) disarm();
+}
+
+/// The mode that runs follows intention and health.
+void Px4::update_mode() {
+  if (nav_state_ == NavState::terminate) return;  // never left
+  if (takeoff_.phase == TakeoffPhase::flight && nav_state_ == NavState::takeoff &&
+      is_finished(auto_, estimate_)) {  // HOLD ends what is left of the way
+    intention_ = intention_after_disarming_ = nav_state_ = auto_.mode = NavState::hold;
+  }
+  const std::optional<NavState> mode =
+      is_armed_ ? choose_mode(intention_, offboard_silence_s(), parameters_.commander) : intention_;
+  if (!mode) {
+    say(kSeverityCritical, "Failsafe: offboard stream lost, disarming");
+    disarm();
+    return;
+  }
+  const bool is_failsafe = *mode != intention_;
+  if (is_failsafe && (*mode != nav_state_ || !is_in_failsafe_)) {
+    say(kSeverityWarning, "Failsafe: " + text_of(intention_) + " cannot run, " + text_of(*mode));
+  } else if (!is_failsafe && is_in_failsafe_) {
+    say(kSeverityInfo, "Failsafe over: " + text_of(intention_));
+  }
+  is_in_failsafe_ = is_failsafe;
+  if (*mode != nav_state_) enter(*mode);
+}
+
+/// Between Auto modes the trajectory goes on as it is, except that of a landing, which is below the
+/// vehicle. OFFBOARD begins with no setpoint, that is, it stops and holds.
+void Px4::enter(NavState mode) {
+  const bool was_on_trajectory = auto_.mode == nav_state_ &&
+                                 auto_.stage < AutoFlight::Stage::land &&
+                                 takeoff_.phase >= TakeoffPhase::ramp;
+  const std::array<Motion, 3> axes = auto_.axes;
+  nav_state_ = mode;
+  auto_ = begin_auto(mode, parameters_.commander, estimate_, home_world_m_, takeoff_altitude_m_);
+  if (was_on_trajectory) auto_.axes = axes;
+  offboard_setpoint_ = Setpoint{};
+  has_warned_of_setpoint_ = false;
 }
 
 RotorSpeeds Px4::step(const VehicleState& estimate) {
@@ -81,8 +215,9 @@ RotorSpeeds Px4::step(const VehicleState& estimate) {
 RotorSpeeds Px4::rate_step(const Vec3& omega_body_rad_s) {
   if (!is_armed_ || nav_state_ == NavState::terminate) return {};
   const Vec3 integral = rate_.integral;
-  const RotorCommands commands = rate_loop(parameters_, allocation_, rate_, omega_body_rad_s,
-                                           omega_setpoint_body_rad_s_, attitude_setpoint_.thrust);
+  const RotorCommands commands =
+      rate_control(parameters_, allocation_, rate_, omega_body_rad_s, omega_setpoint_body_rad_s_,
+                   attitude_setpoint_.thrust);
   if (land_.is_maybe_landed) rate_.integral = integral;  // the ground holds it, not we
   return reference_speeds(airframe_, commands);
 }
@@ -98,17 +233,15 @@ bool Px4::wants_takeoff() const {
          offboard_setpoint_.v_world_m_s.z() > 0.0 || offboard_setpoint_.a_world_m_s2.z() > 0.0;
 }
 
-Setpoint Px4::setpoint_to_fly() {
-  if (!is_auto(nav_state_)) return offboard_setpoint_;
-  if (takeoff_.phase < TakeoffPhase::ramp) enter(nav_state_);  // the trajectory waits as well
-  return step_auto(auto_, parameters_.commander, estimate_, kPositionLoop_s);
-}
-
 void Px4::run_position_loop() {
   const CommanderParameters& commander = parameters_.commander;
   takeoff_ =
       next(takeoff_, commander, is_armed_, land_.is_landed, wants_takeoff(), kPositionLoop_s);
-  setpoint_ = setpoint_to_fly();
+  setpoint_ = offboard_setpoint_;
+  if (is_auto(nav_state_)) {
+    if (takeoff_.phase < TakeoffPhase::ramp) enter(nav_state_);  // the trajectory waits as well
+    setpoint_ = step_auto(auto_, commander, estimate_, kPositionLoop_s);
+  }
 
   const bool is_flying = takeoff_.phase == TakeoffPhase::flight;
   const double tilt_aim_rad =
@@ -116,41 +249,41 @@ void Px4::run_position_loop() {
   constexpr double kTiltStep_rad = kTiltLimitSlew_rad_s * kPositionLoop_s;
   tilt_limit_rad_ += std::clamp(tilt_aim_rad - tilt_limit_rad_, -kTiltStep_rad, kTiltStep_rad);
 
-  if (nav_state_ == NavState::terminate) {
-    attitude_setpoint_ = idle(estimate_, 0.0);
-    return;
-  }
-  const double thrust_min = is_flying ? parameters_.thrust_min : kRampThrustMin;
-  if (takeoff_.phase < TakeoffPhase::ramp || (is_flying && land_.has_ground_contact)) {
+  const bool is_terminated = nav_state_ == NavState::terminate;
+  if (is_terminated || takeoff_.phase < TakeoffPhase::ramp ||
+      (is_flying && land_.has_ground_contact)) {  // level at the present heading
     position_.integral_m_s2.setZero();
-    attitude_setpoint_ = idle(estimate_, is_flying ? thrust_min : 0.0);
+    const Eigen::AngleAxisd heading(yaw_of(estimate_.T_world_body), Vec3::UnitZ());
+    const double thrust = is_flying && !is_terminated ? parameters_.thrust_min : 0.0;
+    attitude_setpoint_ = {Eigen::Quaterniond(heading), thrust, 0.0};
     return;
   }
   const double climb_m_s =
       nav_state_ == NavState::takeoff
           ? std::min(commander.takeoff_speed_m_s, parameters_.climb_speed_max_m_s)
           : parameters_.climb_speed_max_m_s;
-  const FlightEnvelope envelope{climb_limit_m_s(takeoff_, airframe_.gravity_m_s2,
-                                                parameters_.velocity_p_per_s.z(), climb_m_s),
-                                tilt_limit_rad_, thrust_min};
-  attitude_setpoint_ =
-      position_loop(parameters_, airframe_, envelope, position_, estimate_, setpoint_);
+  AutopilotParameters narrowed = parameters_;
+  narrowed.climb_speed_max_m_s = climb_limit_m_s(takeoff_, airframe_.gravity_m_s2,
+                                                 parameters_.velocity_p_per_s.z(), climb_m_s);
+  narrowed.descent_speed_max_m_s =  // a climb limit below zero asks for that descent at least
+      std::max(parameters_.descent_speed_max_m_s, -narrowed.climb_speed_max_m_s);
+  narrowed.tilt_max_rad = tilt_limit_rad_;
+  if (!is_flying) narrowed.thrust_min = kRampThrustMin;
+  attitude_setpoint_ = position_control(narrowed, airframe_, position_, estimate_, setpoint_);
 }
 
 void Px4::detect_landing() {
   const LandEvidence evidence{
       .is_armed = is_armed_,
-      .is_told_to_descend = asks_for_descent(setpoint_) || nav_state_ == NavState::terminate,
+      .is_told_to_descend = setpoint_.v_world_m_s.z() < -kDescentSpeed_m_s ||  // NaN: no
+                            nav_state_ == NavState::terminate,
       .thrust = attitude_setpoint_.thrust,
       .thrust_min = parameters_.thrust_min,
       .hover_thrust = hover_command(airframe_)};
   const bool was_landed = land_.is_landed;
   land_ = next(land_, parameters_.commander, evidence, estimate_, kTick_s);
   if (!is_armed_ || was_landed == land_.is_landed) return;
-  if (land_.is_landed)
-    say(6, "Landing detected");
-  else
-    say(6, "Takeoff detected");
+  say(kSeverityInfo, land_.is_landed ? "Landing detected" : "Takeoff detected");
 }
 
 }  // namespace gnbv

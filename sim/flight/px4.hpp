@@ -9,14 +9,12 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "sim/flight/auto_modes.hpp"
-#include "sim/flight/autopilot.hpp"
-#include "sim/flight/failsafe.hpp"
-#include "sim/flight/land_detector.hpp"
-#include "sim/flight/takeoff.hpp"
+#include "sim/flight/cascade.hpp"
+#include "sim/flight/commander.hpp"
 
 namespace gnbv {
 
@@ -37,9 +35,12 @@ struct Px4Command {
   std::array<float, 7> param{};
 };
 
-/// MAV_SEVERITY: 0 emergency ... 4 warning, 6 info.
+/// MAV_SEVERITY.
+constexpr int kSeverityCritical = 2;
+constexpr int kSeverityWarning = 4;
+constexpr int kSeverityInfo = 6;
 struct StatusText {
-  int severity = 6;
+  int severity = kSeverityInfo;
   std::string text;
 };
 
@@ -47,9 +48,9 @@ class Px4 {
  public:
   enum class Start {
     on_ground,         // disarmed, in HOLD
-    airborne_offboard  // armed, flying, in OFFBOARD with a stream just received: a mission begins
-                       // here
+    airborne_offboard  // a mission's: armed, flying, in OFFBOARD with a stream just received
   };
+  /// Throws BrokenInvariant when the airframe cannot hover.
   Px4(const AutopilotParameters& parameters, const AirframeParameters& airframe,
       const VehicleState& start, Start how);
 
@@ -70,32 +71,31 @@ class Px4 {
   /// The rate loop alone, for the other kRateStepsPerTick - 1 steps within the tick.
   RotorSpeeds rate_step(const Vec3& omega_body_rad_s);
 
-  std::int64_t tick() const;
-  NavState nav_state() const;  // what runs
-  NavState intention() const;  // what was asked for
-  bool is_armed() const;
-  bool is_landed() const;
-  bool is_in_failsafe() const;
+  std::int64_t tick() const { return tick_; }
+  NavState nav_state() const { return nav_state_; }  // what runs
+  NavState intention() const { return intention_; }  // what was asked for
+  bool is_armed() const { return is_armed_; }
+  bool is_landed() const { return land_.is_landed; }
+  bool is_in_failsafe() const { return is_in_failsafe_; }
   /// Where it was armed last; before that where it stood.
   const Eigen::Vector2d& home_world_m() const { return home_world_m_; }
   const CommanderParameters& commander() const { return parameters_.commander; }
   /// From now on, as PX4 takes a changed parameter. A mode that runs keeps what it began with.
   void set_commander(const CommanderParameters& commander) { parameters_.commander = commander; }
   /// What the position loop asks of the attitude loop.
-  const AttitudeSetpoint& attitude_setpoint() const;
+  const AttitudeSetpoint& attitude_setpoint() const { return attitude_setpoint_; }
   /// What was said since the last call, oldest first.
-  std::vector<StatusText> take_messages();
+  std::vector<StatusText> take_messages() { return std::exchange(messages_, {}); }
 
  private:
   double offboard_silence_s() const;
-  bool can_run_now(NavState mode) const;
   void say(int severity, std::string text);
+  Ack reject(std::string text);
   void disarm();
   void disarm_when_due();
   void update_mode();
   void enter(NavState mode);
   bool wants_takeoff() const;
-  Setpoint setpoint_to_fly();
   void run_position_loop();
   void detect_landing();
 
@@ -112,7 +112,7 @@ class Px4 {
   bool is_armed_ = false;
   bool has_flown_ = false;  // since arming
   std::int64_t landed_ticks_ = 0;
-  Eigen::Vector2d home_world_m_ = Eigen::Vector2d::Zero();  // where it was armed
+  Eigen::Vector2d home_world_m_ = Eigen::Vector2d::Zero();
 
   Setpoint offboard_setpoint_;
   bool has_warned_of_setpoint_ = false;  // the last one was invalid

@@ -15,18 +15,18 @@ class Quadrotor final : public Flight {
   Quadrotor(const VehicleConfig& config, const World& world, const ViewPose& start,
             std::uint64_t seed, Px4::Start how, const WindConfig& wind = {});
 
-  std::int64_t tick() const override;
-  VehicleState state() const override;
-  VehicleState estimate() const override;
+  std::int64_t tick() const override { return px4_.tick(); }
+  VehicleState state() const override { return vehicle_.state(); }
+  VehicleState estimate() const override { return estimate_; }
   /// A setpoint of the offboard stream.
-  void command(const Setpoint& setpoint) override;
+  void command(const Setpoint& setpoint) override { px4_.offboard_setpoint(setpoint); }
   void land() override;
   bool has_landed() const override { return !px4_.is_armed(); }
   void step() override;
   /// The structure always counts; the ground counts only for a vehicle that started airborne and
   /// was not told to land.
   bool has_collided() const override;
-  double energy_wh() const override;
+  double energy_wh() const override { return energy_j_ / kJoulesPerWattHour; }
   /// Electrical power at the last tick.
   double power_w() const;
 
@@ -34,8 +34,11 @@ class Quadrotor final : public Flight {
   const Px4& px4() const { return px4_; }
 
  private:
-  Quadrotor(const VehicleConfig& config, const World& world, const VehicleState& start,
-            std::uint64_t seed, Px4::Start how, const WindConfig& wind, const HoverTrim& trim);
+  struct Beginning;
+  static Beginning begin(const VehicleConfig& config, const World& world, const ViewPose& start,
+                         Px4::Start how, const Vec3& wind_world_m_s);
+  Quadrotor(const VehicleConfig& config, const World& world, const Beginning& beginning,
+            std::uint64_t seed, Px4::Start how, const WindConfig& wind);
 
   VehicleConfig config_;
   bool may_touch_ground_;

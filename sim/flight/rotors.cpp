@@ -33,14 +33,8 @@ double command_at_speed(const AirframeParameters& airframe, double speed_rad_s) 
   return (speed_rad_s - airframe.idle_speed_rad_s) / airframe.command_gain_rad_s;
 }
 
-double needed_hover_command(const AirframeParameters& airframe) {
-  return command_at_speed(airframe, hover_speed_rad_s(airframe));
-}
-
 double hover_command(const AirframeParameters& airframe) {
-  const double command = needed_hover_command(airframe);
-  GNBV_CHECK(command > 0.0 && command < 1.0, "hover command {} is not in (0, 1)", command);
-  return command;
+  return command_at_speed(airframe, hover_speed_rad_s(airframe));
 }
 
 double yaw_authority_rad_s2(const AirframeParameters& airframe) {
@@ -104,6 +98,11 @@ double power_w(const PowerParameters& power, double thrust_n, const Vec3& v_worl
   const double profile_w = power.c2 * thrust_n * std::sqrt(thrust_n);
   const double parasitic_w = power.c4 * v_horizontal_m_s * v_horizontal_m_s * v_horizontal_m_s;
   return induced_w + profile_w + parasitic_w;
+}
+
+double hover_power_w(const VehicleConfig& vehicle) {
+  const double weight_n = vehicle.airframe.mass_kg * vehicle.airframe.gravity_m_s2;
+  return power_w(vehicle.power, weight_n, Vec3::Zero());
 }
 
 }  // namespace gnbv

@@ -10,22 +10,21 @@ namespace gnbv {
 /// After an outage, what it has left fades by exp(-t / kOutageFade_s).
 constexpr double kOutageFade_s = 2.0;
 
+/// The errors. The body rate is always true. Errors are keyed by seed and tick: a flight flown
+/// again is the same flight.
 /// none: the truth, as the paper assumes.
 /// mocap: 1 mm and 0.1 deg (sigma, each axis), fresh at every tick.
-/// gnss: a position error of 0.5 m (sigma, each axis; EKF2_GPS_P_NOISE) and a heading error of 2
-/// deg
-///   that wander as critically damped second-order Gauss-Markov processes of 0.05 rad/s (a
-///   correlation time of some 40 s, own choice); the velocity error is the position error's
-///   derivative. Both begin at their stationary law. In an outage (EstimateConfig::outages) the
-///   position error stands still and a random walk of variance outage_drift^2 t grows on it, with
-///   no error of the velocity: dead reckoning by a velocity whose error is white. When the
-///   satellites are back the walk fades within seconds (kOutageFade_s, own choice), as a filter
-///   that trusts them again would have it; the heading, of a compass, wanders on.
+/// gnss: 0.5 m of position (sigma, each axis; EKF2_GPS_P_NOISE) and 2 deg of heading. They wander
+///   as critically damped second-order Gauss-Markov processes of 0.05 rad/s (a correlation time of
+///   some 40 s, own choice) and begin at their stationary law; the velocity error is the position
+///   error's derivative. In an outage (EstimateConfig::outages) the position error stands still and
+///   a random walk of variance outage_drift^2 t grows on it, without an error of the velocity: dead
+///   reckoning by a velocity whose error is white. When the satellites are back the walk fades
+///   within seconds (kOutageFade_s, own choice), as in a filter that trusts them again. The
+///   heading, of a compass, wanders on.
 /// vio: position drifts by 1 % of the path flown (root mean square over missions, while the path is
 ///   short against the 100 m after which the drift forgets its direction, own choice), heading by
 ///   0.01 deg a metre; roll and pitch are observable and stay true. Begins without error.
-/// The body rate is always true. Errors are keyed by seed and tick: a flight flown again is the
-/// same flight.
 class StateEstimator {
  public:
   StateEstimator(const EstimateConfig& config, std::uint64_t seed, const VehicleState& start);
@@ -36,13 +35,12 @@ class StateEstimator {
  private:
   using Vec4 = Eigen::Vector4d;  // x, y, z in metres, heading in radians
 
-  double normal(std::uint64_t index) const;
-  Vec4 normals() const;
+  /// Four normal numbers of this tick.
+  Vec4 normals(std::uint64_t first = 0) const;
   bool is_in_outage() const;
   void wander();
   void drift(const VehicleState& truth);
   VehicleState with_error(const VehicleState& truth) const;
-  VehicleState with_outage(const VehicleState& wandered) const;
   VehicleState with_jitter(const VehicleState& truth) const;
 
   EstimateConfig config_;

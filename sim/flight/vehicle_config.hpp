@@ -1,7 +1,6 @@
-// The vehicle by name and the parameters of its rigid body, rotors, autopilot and battery drain.
-// Sources: PX4-SITL_gazebo-classic@807b67b models/iris/iris.sdf.jinja and
-// src/gazebo_motor_model.cpp for the airframe; PX4-Autopilot parameter defaults for the autopilot
-// (names in capitals are PX4's).
+// A vehicle's parameters: rigid body, rotors, autopilot, battery. The defaults are today's Iris.
+// Sources. Airframe: PX4-SITL_gazebo-classic@807b67b, models/iris/iris.sdf.jinja and
+// src/gazebo_motor_model.cpp. Autopilot: PX4-Autopilot's defaults; names in capitals are PX4's.
 #pragma once
 
 #include <array>
@@ -17,6 +16,8 @@ constexpr std::size_t kLeastRotors = 4;
 constexpr std::size_t kMostRotors = 8;
 /// One number a rotor, in the order of AirframeParameters::rotors; 0 beyond them.
 using RotorValues = std::array<double, kMostRotors>;
+using RotorSpeeds = RotorValues;    // rad/s, >= 0
+using RotorCommands = RotorValues;  // in [0, 1]
 
 /// Where a rotor sits, and which way it turns seen from above: +1 counter-clockwise, -1 clockwise.
 struct RotorMount {
@@ -24,10 +25,10 @@ struct RotorMount {
   double spin = 1.0;
 };
 
-/// What of the velocity takes thrust from a rotor: the plugin has changed its mind over the years.
+/// Which speed of a rotor through the air takes thrust from it; versions of the plugin differ.
 enum class ThrustLoss { none, axial_speed, whole_speed };
 
-/// Iris: one rigid body, its 5 g rotors added as point masses; the centre of mass is the origin.
+/// One rigid body. The origin is the centre of mass; the 5 g rotors are point masses.
 struct AirframeParameters {
   double mass_kg = 1.55;
   Vec3 inertia_kg_m2 = {0.0300, 0.0295, 0.0564};  // diagonal, body axes
@@ -47,14 +48,14 @@ struct AirframeParameters {
   double idle_speed_rad_s = 100.0;     // armed, command 0
   double command_gain_rad_s = 1000.0;  // speed = idle + gain * command, command in [0, 1]
   double gravity_m_s2 = 9.8066;
-  // Collision hull: an upright cylinder around the rotor disks, because its clearance does not
-  // change with yaw. Radius = farthest rotor axis (hypot(0.13, 0.22)) + rotor radius 0.128, that is
-  // 0.77 m from tip to tip; height as the box in iris.sdf.jinja.
+  // Collision hull: an upright cylinder around the rotor disks, whose clearance does not change
+  // with yaw. Radius: farthest rotor axis, hypot(0.13, 0.22), plus the rotor's 0.128. Height: the
+  // box of iris.sdf.jinja.
   double hull_radius_m = 0.384;
   double hull_height_m = 0.11;
 };
 
-/// PX4's multicopter cascade, "today's" defaults, in our frames (world ENU, body FLU).
+/// PX4's multicopter cascade, in our frames (world ENU, body FLU).
 struct AutopilotParameters {
   Vec3 position_p_per_s = {0.95, 0.95, 1.0};   // MPC_XY_P, MPC_Z_P
   Vec3 velocity_p_per_s = {1.8, 1.8, 4.0};     // MPC_XY_VEL_P_ACC, MPC_Z_VEL_P_ACC
@@ -79,26 +80,23 @@ struct AutopilotParameters {
   CommanderParameters commander;
 };
 
-/// Liu et al. 2017, fitted on an IRIS+:
-/// P = k1 T [V/2 + sqrt((V/2)^2 + T/k2^2)] + c2 T^1.5 + c4 V_h^3, T thrust, V climb speed.
-/// Every preset keeps these coefficients: nobody has published them for the other airframes.
+/// Liu et al. 2017, fitted on an IRIS+, with thrust T, climb speed V and horizontal speed V_h:
+/// P = k1 T [V/2 + sqrt((V/2)^2 + T/k2^2)] + c2 T^1.5 + c4 V_h^3.
+/// Every preset keeps these coefficients: none are published for the other airframes.
 struct PowerParameters {
   double k1 = 0.8554;
   double k2 = 0.3051;
   double c2 = 0.3177;
   double c4 = 0.0296;
-  double battery_wh = 0.0;  // usable energy; 0: never empty
-  // Whether the mission ends at home, landed, and what of the battery is kept for that besides what
-  // the way home takes.
-  bool return_home = false;
-  double reserve_share = 0.2;
+  double battery_wh = 0.0;     // usable energy; 0: never empty
+  bool return_home = false;    // the mission ends at home, landed
+  double reserve_share = 0.2;  // of the battery, kept besides what the way home takes
 };
 
-/// Error of the state estimate by name; the laws and their sources are in
-/// sim/flight/state_estimator.hpp.
+/// Where the state estimate comes from. StateEstimator has the laws of the errors.
 enum class EstimateModel { none, mocap, gnss, vio };
 
-/// From start_s on, so long, the receiver has no satellites. Simulated time of the mission.
+/// The receiver has no satellites from `start_s` on, in simulated time of the mission.
 struct GnssOutage {
   double start_s = 0.0;
   double duration_s = 10.0;
@@ -113,7 +111,7 @@ struct EstimateConfig {
 enum class VehicleKind { quadrotor, ideal };
 
 struct VehicleConfig {
-  std::string preset = "iris";  // names the parameters that all below are the defaults of
+  std::string preset = "iris";  // whose parameters are the defaults of all below
   VehicleKind kind = VehicleKind::quadrotor;
   EstimateConfig estimate;
   AirframeParameters airframe;

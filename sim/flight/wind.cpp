@@ -4,22 +4,13 @@
 #include <cmath>
 
 #include "sim/core/rng.hpp"
-#include "sim/flight/feed_forward.hpp"
 #include "sim/flight/flight.hpp"
-#include "sim/flight/rotors.hpp"
 
 namespace gnbv {
 namespace {
 
 constexpr double kFoot_m = 0.3048;
-
-/// Columns: along the level part of the mean wind (east when it has none), to its left, up.
-Eigen::Matrix3d wind_axes(const Vec3& mean_world_m_s) {
-  const double angle_rad = mean_world_m_s.head<2>().norm() > 0.0
-                               ? std::atan2(mean_world_m_s.y(), mean_world_m_s.x())
-                               : 0.0;
-  return Eigen::AngleAxisd(angle_rad, Vec3::UnitZ()).toRotationMatrix();
-}
+constexpr double kGustSpeedMin_m_s = 1.0;
 
 /// Two lags in a row, z1' = -z1 + n and z2' = -z2 + z1 with white noise n of unit density, have the
 /// covariance P = [1/2 1/4; 1/4 1/4] when stationary. Over a time t they turn by
@@ -34,12 +25,6 @@ Eigen::Vector2d after(const Eigen::Vector2d& z, double t, double n1, double n2) 
   const double l21 = l11 > 0.0 ? q12 / l11 : 0.0;
   const double l22 = std::sqrt(std::max(0.0, q22 - l21 * l21));
   return {decay * z[0] + l11 * n1, decay * (t * z[0] + z[1]) + l21 * n1 + l22 * n2};
-}
-
-/// (1 + sqrt(3) s) / (1 + s)^2 = sqrt(3) / (1 + s) + (1 - sqrt(3)) / (1 + s)^2.
-double lead_of(const Eigen::Vector2d& z) {
-  const double root3 = std::sqrt(3.0);
-  return root3 * z[0] + (1.0 - root3) * z[1];
 }
 
 }  // namespace
@@ -76,10 +61,20 @@ void UnitGusts::step(const Vec3& scale_times) {
   }
 }
 
-Vec3 UnitGusts::value() const { return {along_, lead_of(lags_[0]), lead_of(lags_[1])}; }
+Vec3 UnitGusts::value() const {
+  // (1 + sqrt(3) s) / (1 + s)^2 = sqrt(3) / (1 + s) + (1 - sqrt(3)) / (1 + s)^2
+  const double root3 = std::sqrt(3.0);
+  const auto lead = [&](const Eigen::Vector2d& z) { return root3 * z[0] + (1.0 - root3) * z[1]; };
+  return {along_, lead(lags_[0]), lead(lags_[1])};
+}
 
-Wind::Wind(const WindConfig& config, std::uint64_t seed)
-    : config_(config), R_world_wind_(wind_axes(config.mean_world_m_s)), gusts_(seed) {}
+Wind::Wind(const WindConfig& config, std::uint64_t seed) : config_(config), gusts_(seed) {
+  const Vec3& mean_m_s = config.mean_world_m_s;
+  // along x, east, when the mean wind has no level part
+  const double angle_rad =
+      mean_m_s.head<2>().norm() > 0.0 ? std::atan2(mean_m_s.y(), mean_m_s.x()) : 0.0;
+  R_world_wind_ = Eigen::AngleAxisd(angle_rad, Vec3::UnitZ()).toRotationMatrix();
+}
 
 Vec3 Wind::step(const Vec3& p_world_m, const Vec3& v_world_m_s) {
   if (config_.gust_w20_m_s <= 0.0) return config_.mean_world_m_s;
@@ -88,16 +83,6 @@ Vec3 Wind::step(const Vec3& p_world_m, const Vec3& v_world_m_s) {
       std::max(kGustSpeedMin_m_s, (v_world_m_s - config_.mean_world_m_s).norm());
   gusts_.step(kTick_s * speed_m_s * law.length_m.cwiseInverse());
   return config_.mean_world_m_s + R_world_wind_ * law.sigma_m_s.cwiseProduct(gusts_.value());
-}
-
-HoverTrim hover_trim(const VehicleConfig& vehicle, const Vec3& wind_world_m_s) {
-  const double gravity_m_s2 = vehicle.airframe.gravity_m_s2;
-  const Vec3 a_world_m_s2 =
-      acceleration_setpoint(vehicle.airframe, vehicle.autopilot, -wind_world_m_s, Vec3::Zero());
-  const double tilt_rad = std::atan2(a_world_m_s2.head<2>().norm(), gravity_m_s2);
-  return {a_world_m_s2, tilt_rad,
-          hover_command(vehicle.airframe) * (1.0 + a_world_m_s2.z() / gravity_m_s2) /
-              std::cos(tilt_rad)};
 }
 
 }  // namespace gnbv

@@ -7,7 +7,7 @@
 #include <array>
 #include <cstdint>
 
-#include "sim/flight/vehicle_config.hpp"
+#include "sim/core/pose.hpp"
 
 namespace gnbv {
 
@@ -22,8 +22,8 @@ struct GustLaw {
   Vec3 length_m = Vec3::Ones();
 };
 
-/// The low-altitude model. It is stated for 10 ft to 1,000 ft above the ground: heights beyond take
-/// the law of the nearer end.
+/// The low-altitude model, stated for 10 ft to 1,000 ft above the ground. Heights beyond take the
+/// law of the nearer end.
 GustLaw low_altitude_gusts(double w20_m_s, double height_m);
 
 /// Gusts of unit variance that pass the vehicle. Dryden's forming filters in time over scale time,
@@ -56,7 +56,8 @@ class Wind {
 
   /// Velocity of the air during the next tick at a vehicle with that true place and velocity.
   /// The gust field is frozen: it passes at the speed of the vehicle through the mean wind, at
-  /// least kGustSpeedMin_m_s. The height of its law is z, over terrain too.
+  /// least 1 m/s (own choice: otherwise it would never pass a vehicle that drifts with the wind).
+  /// The height of its law is z, over terrain too.
   Vec3 step(const Vec3& p_world_m, const Vec3& v_world_m_s);
 
  private:
@@ -64,18 +65,5 @@ class Wind {
   Eigen::Matrix3d R_world_wind_;  // axes: along the level part of the mean wind, across, up
   UnitGusts gusts_;
 };
-
-/// Own choice: with no speed through the air a frozen field would never pass.
-constexpr double kGustSpeedMin_m_s = 1.0;
-
-/// What keeps the vehicle hovering in a wind.
-struct HoverTrim {
-  Vec3 a_world_m_s2 = Vec3::Zero();  // PX4's acceleration setpoint
-  double tilt_rad = 0.0;
-  double command = 0.0;  // of each rotor
-};
-
-/// Not finite in a wind that takes all thrust from the rotors.
-HoverTrim hover_trim(const VehicleConfig& vehicle, const Vec3& wind_world_m_s);
 
 }  // namespace gnbv

@@ -7,7 +7,6 @@
 
 #include "sim/flight/flight.hpp"
 #include "sim/mavlink/messages.hpp"
-#include "sim/mavlink/state_messages.hpp"
 
 namespace gnbv::mavlink {
 
@@ -26,23 +25,6 @@ struct Euler {
   double yaw_rad = 0.0;
 };
 Euler euler_ned_frd(const Isometry& T_world_body);
-
-Attitude attitude_of(const VehicleState& state, std::uint32_t time_boot_ms);
-AttitudeQuaternion attitude_quaternion_of(const VehicleState& state, std::uint32_t time_boot_ms);
-LocalPositionNed local_position_of(const VehicleState& state, std::uint32_t time_boot_ms);
-
-/// Where the scenario's origin lies for those clients who ask for latitudes: where PX4's own
-/// simulations start, at mean sea level.
-constexpr double kOriginLatitude_deg = 47.397742;
-constexpr double kOriginLongitude_deg = 8.545594;
-GpsGlobalOrigin global_origin();
-/// On a sphere of 6371 km, as PX4 projects, in steps of 1e-7 deg (11 mm).
-GlobalPositionInt global_position_of(const VehicleState& state, std::uint32_t time_boot_ms);
-/// Home on the ground there.
-HomePosition home_position_of(const Eigen::Vector2d& home_world_m);
-/// What a receiver of satellites would say that makes no errors.
-GpsRawInt gps_raw_of(const VehicleState& state, std::uint32_t time_boot_ms);
-VfrHud vfr_hud_of(const VehicleState& state, double thrust);
 
 /// Why a setpoint is not flown: one sentence for the client.
 struct Refusal {

@@ -10,7 +10,7 @@
 
 #include "sim/flight/quadrotor.hpp"
 #include "sim/mavlink/link.hpp"
-#include "sim/mavlink/streams.hpp"
+#include "sim/mavlink/telemetry.hpp"
 
 namespace gnbv::mavlink {
 
@@ -20,7 +20,7 @@ struct EndpointCounts {
   std::uint64_t refused_setpoints = 0;
   std::uint64_t commands = 0;
   std::uint64_t questions = 0;  // parameters, missions, time
-  std::uint64_t ignored = 0;    // for another system, or a message the vehicle has no ear for
+  std::uint64_t ignored = 0;    // for another system, or a message that the vehicle does not read
   std::uint64_t unsaid = 0;     // beyond kOutgoingMax
   std::uint64_t sent = 0;
 };
@@ -36,9 +36,11 @@ class Endpoint {
   explicit Endpoint(double battery_wh, std::optional<Address> partner = std::nullopt)
       : battery_wh_(battery_wh), link_(partner) {}
 
-  /// Does what the client asks for: COMMAND_LONG, COMMAND_INT and SET_MODE, each acknowledged, and
-  /// SET_POSITION_TARGET_LOCAL_NED; answers its questions (sim/mavlink/answers.hpp). `now_s` is
-  /// wall time from any origin.
+  /// Does what the client asks for. COMMAND_LONG, COMMAND_INT (no command known here has its x and
+  /// y) and SET_MODE are each acknowledged. SET_POSITION_TARGET_LOCAL_NED is flown or refused. What
+  /// a client asks at connection (QGroundControl waits for each) is answered: parameters, by PX4's
+  /// names, bounded, always with the value that holds; the mission protocol, of which there is none
+  /// (a count of 0, uploads refused); TIMESYNC and PING. `now_s` is wall time from any origin.
   void receive(std::span<const std::uint8_t> datagram, const Address& from, double now_s,
                Quadrotor& vehicle);
   void count_oversized_datagram() { link_.count_oversized_datagram(); }
@@ -55,12 +57,9 @@ class Endpoint {
   const EndpointCounts& counts() const { return counts_; }
 
  private:
-  void obey(const Frame& frame, double now_s, Quadrotor& vehicle);
-  void answer(const Frame& frame, Quadrotor& vehicle);
-  void obey(const Px4Command& command, const Frame& frame, Quadrotor& vehicle);
-  void obey(const SetPositionTargetLocalNed& message, double now_s, Quadrotor& vehicle);
-  /// The commands that are about messages, not about flight; nullopt for the others.
-  std::optional<Ack> obey_about_messages(const Px4Command& command, const Quadrotor& vehicle);
+  struct Handler;  // of each message that a client may send
+
+  VehicleReport report_of(const Quadrotor& vehicle) const;
   void refuse_setpoint(const std::string& reason, double now_s);
   void say(const gnbv::StatusText& text);
   void send(Packed message);

@@ -1,18 +1,61 @@
-// MAVLink on the wire: frames out of a datagram's bytes and back. Pure functions; whatever the
-// bytes hold, they are either a frame or counted. Format: mavlink.io/en/guide/serialization.html.
+// MAVLink on the wire: messages to payloads, payloads to frames, frames out of a datagram's bytes,
+// and back. Pure functions; whatever the bytes hold, they are either a frame or counted. Format:
+// mavlink.io/en/guide/serialization.html.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "sim/mavlink/messages.hpp"
-
 namespace gnbv::mavlink {
 
+/// What a receiver must know before it can check a frame. `crc_extra` is the seed that common.xml's
+/// definition hashes to; `base_size` counts the fields that MAVLink 1 has, `size` all of ours.
+struct MessageInfo {
+  std::uint32_t id = 0;
+  std::uint8_t crc_extra = 0;
+  std::uint8_t base_size = 0;
+  std::uint8_t size = 0;
+};
+
+// MAVLink sorts a message's fields by their size, so that a struct of them has no gaps: its first
+// `size` bytes are the payload. Extension fields come last unsorted; where that makes a gap the
+// struct is packed.
+static_assert(std::endian::native == std::endian::little, "MAVLink's byte order");
+
+template <typename Message>
+std::vector<std::uint8_t> payload_of(const Message& message) {
+  constexpr std::size_t kSize = Message::kInfo.size;
+  static_assert(kSize <= sizeof(Message) && sizeof(Message) < kSize + alignof(Message));
+  const auto bytes = std::bit_cast<std::array<std::uint8_t, sizeof(Message)>>(message);
+  return {bytes.begin(), bytes.begin() + kSize};
+}
+
+/// The reverse. `payload` holds at least Message::kInfo.size bytes.
+template <typename Message>
+Message message_of(std::span<const std::uint8_t> payload) {
+  std::array<std::uint8_t, sizeof(Message)> bytes{};
+  std::copy_n(payload.begin(), Message::kInfo.size, bytes.begin());
+  return std::bit_cast<Message>(bytes);
+}
+
+/// A message without a frame around it yet.
+struct Packed {
+  std::uint32_t id = 0;
+  std::vector<std::uint8_t> payload;
+};
+
+template <typename Message>
+Packed packed(const Message& message) {
+  return {Message::kInfo.id, payload_of(message)};
+}
+
 /// A frame whose CRC was right. `payload` has all the message's fields and no more: what the sender
-/// left off (MAVLink 2 drops trailing zeros) is zero again, and what a newer sender's message has
-/// behind them (extension fields) is left off.
+/// left off (MAVLink 2 drops trailing zeros) is zero again, and extension fields that are not ours
+/// are left off.
 struct Frame {
   std::uint8_t sequence = 0;
   std::uint8_t system_id = 0;
@@ -25,10 +68,9 @@ struct Frame {
 struct ReadCounts {
   std::uint64_t read = 0;
   std::uint64_t bad_crc = 0;
-  std::uint64_t truncated =
-      0;  // the datagram ends before the frame, or MAVLink 1 with fields missing
+  std::uint64_t truncated = 0;  // the datagram ends too early, or MAVLink 1 with fields missing
   std::uint64_t oversized = 0;  // MAVLink 1 with a payload longer than its message
-  std::uint64_t unknown = 0;  // a message or an incompatibility flag that is not ours to understand
+  std::uint64_t unknown = 0;    // not one of our messages, or an unknown incompatibility flag
 };
 
 /// CRC-16/MCRF4XX over the frame without its start byte, then over `crc_extra`.

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/mavlink/frame.hpp"
+#include "sim/mavlink/messages.hpp"
 
 namespace gnbv::mavlink {
 
@@ -26,13 +26,36 @@ struct LinkCounts {
   std::uint64_t accepted = 0;
 };
 
-/// Whom commands and setpoints are for.
+/// Whom commands and setpoints are for. 0 is everybody.
 constexpr std::uint8_t kSystem = 1;
 constexpr std::uint8_t kComponent = 1;  // MAV_COMP_ID_AUTOPILOT1
-bool is_for_us(std::uint8_t system, std::uint8_t component);
 
-/// A command, a mode or a setpoint for us; heartbeats and questions ask for nothing.
-bool asks_for_something(const Frame& frame);
+template <typename Message>
+bool is_for_us(const Message& message) {
+  if constexpr (requires { message.target_component; }) {
+    if (message.target_component != kComponent && message.target_component != 0) return false;
+  }
+  return message.target_system == kSystem || message.target_system == 0;
+}
+
+/// Calls `handle` with the frame's message if it is one of these and for us; whether it did.
+template <typename... Messages>
+bool handle_if_one_of(const Frame& frame, const auto& handle) {
+  const auto is_it = [&]<typename Message>() {
+    if (frame.message_id != Message::kInfo.id) return false;
+    const auto message = message_of<Message>(frame.payload);
+    if (!is_for_us(message)) return false;
+    handle(message);
+    return true;
+  };
+  return (is_it.template operator()<Messages>() || ...);
+}
+
+/// The same of a command, a mode or a setpoint; heartbeats and questions ask for nothing.
+bool handle_if_order(const Frame& frame, const auto& handle) {
+  return handle_if_one_of<SetMode, CommandLong, CommandInt, SetPositionTargetLocalNed,
+                          SetPositionTargetGlobalInt, SetAttitudeTarget>(frame, handle);
+}
 
 /// The first address from which a good frame comes is the client's, for as long as the vehicle is
 /// armed: nobody takes it over in flight. While it is disarmed another address gets the place by a

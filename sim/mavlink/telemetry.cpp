@@ -1,49 +1,21 @@
 #include "sim/mavlink/telemetry.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "sim/mavlink/border.hpp"
 
 namespace gnbv::mavlink {
 namespace {
 
-constexpr std::uint8_t kQuadrotor = 2;          // MAV_TYPE
-constexpr std::uint8_t kPx4 = 12;               // MAV_AUTOPILOT
-constexpr std::uint8_t kCustomModeEnabled = 1;  // MAV_MODE_FLAG
-constexpr std::uint8_t kSafetyArmed = 128;
-constexpr std::uint8_t kStandby = 3;  // MAV_STATE
-constexpr std::uint8_t kActive = 4;
-constexpr std::uint8_t kStateCritical = 5;
-constexpr std::uint8_t kOnGround = 1;  // MAV_LANDED_STATE
-constexpr std::uint8_t kInAir = 2;
-constexpr std::uint8_t kLithiumPolymer = 1;  // MAV_BATTERY_TYPE
-constexpr std::uint16_t kDoSetMode = 176;    // MAV_CMD
-
-// MAV_SYS_STATUS_SENSOR bits
-constexpr std::uint32_t kSensors = 0x1 | 0x2 | 0x4 | 0x8 | 0x20;        // gyro to GPS
-constexpr std::uint32_t kControllers = 0x400 | 0x800 | 0x1000 | 0x2000  // rates to height
-                                       | 0x4000 | 0x8000;               // place, motors
-constexpr std::uint32_t kEstimator = 0x200000;
-constexpr std::uint32_t kBattery = 0x2000000;
-constexpr std::uint32_t kPrearmCheck = 0x10000000;
-
-// MAV_PROTOCOL_CAPABILITY bits
-constexpr std::uint64_t kMissionInt = 4;  // the words for missions; there are none
-constexpr std::uint64_t kCommandInt = 8;
-constexpr std::uint64_t kParametersBytewise = 16;
-constexpr std::uint64_t kLocalTargets = 128;
-constexpr std::uint64_t kMavlink2 = 8192;
-constexpr std::uint32_t kPx4Version = 1 << 24 | 15 << 16 | 0 << 8 | 255;  // 1.15.0, a release
-
-/// In percent; -1 unknown.
-std::int8_t battery_left_percent(double energy_used_wh, double battery_wh) {
-  if (battery_wh <= 0.0) return -1;
-  const double left = std::clamp(1.0 - energy_used_wh / battery_wh, 0.0, 1.0);
-  return static_cast<std::int8_t>(std::lround(100.0 * left));
-}
-
-}  // namespace
-
-Heartbeat heartbeat_of(const Px4& px4) {
+Heartbeat heartbeat(const VehicleReport& report) {
+  constexpr std::uint8_t kQuadrotor = 2;          // MAV_TYPE
+  constexpr std::uint8_t kPx4 = 12;               // MAV_AUTOPILOT
+  constexpr std::uint8_t kCustomModeEnabled = 1;  // MAV_MODE_FLAG
+  constexpr std::uint8_t kSafetyArmed = 128;
+  constexpr std::uint8_t kStandby = 3, kActive = 4, kStateCritical = 5;  // MAV_STATE
+  const Px4& px4 = *report.px4;
   const std::uint8_t armed = px4.is_armed() ? kSafetyArmed : 0;
   return {.custom_mode = custom_mode_of(px4.nav_state()),
           .type = kQuadrotor,
@@ -54,33 +26,227 @@ Heartbeat heartbeat_of(const Px4& px4) {
                                                 : kStandby};
 }
 
-ExtendedSysState extended_sys_state_of(const Px4& px4) {
-  return {.landed_state = px4.is_landed() ? kOnGround : kInAir};
+ExtendedSysState extended_sys_state(const VehicleReport& report) {
+  constexpr std::uint8_t kOnGround = 1, kInAir = 2;  // MAV_LANDED_STATE
+  return {.landed_state = report.px4->is_landed() ? kOnGround : kInAir};
 }
 
-BatteryStatus battery_status_of(double energy_used_wh, double battery_wh) {
-  BatteryStatus status;
-  status.type = kLithiumPolymer;
-  status.energy_consumed_hj = static_cast<std::int32_t>(std::lround(36.0 * energy_used_wh));
-  status.remaining_percent = battery_left_percent(energy_used_wh, battery_wh);
-  return status;
+/// -1: unknown.
+std::int8_t battery_left_percent(const VehicleReport& report) {
+  if (report.battery_wh <= 0.0) return -1;
+  const double left = std::clamp(1.0 - report.energy_wh / report.battery_wh, 0.0, 1.0);
+  return static_cast<std::int8_t>(std::lround(100.0 * left));
 }
 
-SysStatus sys_status_of(const Px4& px4, double energy_used_wh, double battery_wh) {
-  const std::uint32_t all = kSensors | kControllers | kEstimator | kBattery | kPrearmCheck;
-  const bool is_ready = !px4.is_in_failsafe();
-  return {.sensors_present = all,
-          .sensors_enabled = all,
-          .sensors_health = is_ready ? all : all & ~kPrearmCheck,
-          .battery_remaining_percent = battery_left_percent(energy_used_wh, battery_wh)};
+BatteryStatus battery_status(const VehicleReport& report) {
+  constexpr std::uint8_t kLithiumPolymer = 1;  // MAV_BATTERY_TYPE
+  return {.energy_consumed_hj = static_cast<std::int32_t>(std::lround(36.0 * report.energy_wh)),
+          .type = kLithiumPolymer,
+          .remaining_percent = battery_left_percent(report)};
 }
 
-AutopilotVersion autopilot_version() {
+/// All sensors of a quadrotor are there and well: errors of the estimate are not told, as no
+/// vehicle knows them. Ready to arm unless in a failsafe.
+SysStatus sys_status(const VehicleReport& report) {
+  // MAV_SYS_STATUS_SENSOR bits
+  constexpr std::uint32_t kSensors = 0x1 | 0x2 | 0x4 | 0x8 | 0x20;  // gyro to GPS
+  constexpr std::uint32_t kControllers =  // rates to height, place, motors
+      0x400 | 0x800 | 0x1000 | 0x2000 | 0x4000 | 0x8000;
+  constexpr std::uint32_t kEstimator = 0x200000;
+  constexpr std::uint32_t kBattery = 0x2000000;
+  constexpr std::uint32_t kPrearmCheck = 0x10000000;
+  constexpr std::uint32_t kAll = kSensors | kControllers | kEstimator | kBattery | kPrearmCheck;
+  return {.sensors_present = kAll,
+          .sensors_enabled = kAll,
+          .sensors_health = report.px4->is_in_failsafe() ? kAll & ~kPrearmCheck : kAll,
+          .battery_remaining_percent = battery_left_percent(report)};
+}
+
+std::array<float, 3> as_floats(const Vec3& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+Attitude attitude(const VehicleReport& report) {
+  const Euler euler = euler_ned_frd(report.estimate.T_world_body);
+  const auto omega_frd_rad_s = as_floats(swap_flu_frd(report.estimate.omega_body_rad_s));
+  return {.time_boot_ms = report.time_boot_ms,
+          .roll_rad = static_cast<float>(euler.roll_rad),
+          .pitch_rad = static_cast<float>(euler.pitch_rad),
+          .yaw_rad = static_cast<float>(euler.yaw_rad),
+          .roll_speed_rad_s = omega_frd_rad_s[0],
+          .pitch_speed_rad_s = omega_frd_rad_s[1],
+          .yaw_speed_rad_s = omega_frd_rad_s[2]};
+}
+
+AttitudeQuaternion attitude_quaternion(const VehicleReport& report) {
+  const Euler euler = euler_ned_frd(report.estimate.T_world_body);
+  const Eigen::Quaternionf q = (Eigen::AngleAxisd(euler.yaw_rad, Vec3::UnitZ()) *
+                                Eigen::AngleAxisd(euler.pitch_rad, Vec3::UnitY()) *
+                                Eigen::AngleAxisd(euler.roll_rad, Vec3::UnitX()))
+                                   .cast<float>();
+  return {.time_boot_ms = report.time_boot_ms,
+          .q_ned_frd = {q.w(), q.x(), q.y(), q.z()},
+          .omega_frd_rad_s = as_floats(swap_flu_frd(report.estimate.omega_body_rad_s))};
+}
+
+LocalPositionNed local_position(const VehicleReport& report) {
+  return {.time_boot_ms = report.time_boot_ms,
+          .p_ned_m = as_floats(swap_enu_ned(report.estimate.T_world_body.translation())),
+          .v_ned_m_s = as_floats(swap_enu_ned(report.estimate.v_world_m_s))};
+}
+
+struct Place {
+  std::int32_t lat_deg_e7 = 0, lon_deg_e7 = 0, alt_mm = 0;
+};
+
+/// On the globe. The scenario's origin lies where PX4's own simulations start, at mean sea level.
+/// On a sphere of 6371 km, as PX4 projects, in steps of 1e-7 deg (11 mm).
+Place place_of(const Vec3& p_world_m) {
+  constexpr double kOriginLatitude_deg = 47.397742;
+  constexpr double kOriginLongitude_deg = 8.545594;
+  constexpr double kEarthRadius_m = 6371000.0;
+  const double latitude_rad = p_world_m.y() / kEarthRadius_m;
+  const double longitude_rad =
+      p_world_m.x() / (kEarthRadius_m * std::cos(deg_to_rad(kOriginLatitude_deg)));
+  const auto e7 = [](double deg) { return static_cast<std::int32_t>(std::lround(1e7 * deg)); };
+  return {e7(kOriginLatitude_deg + rad_to_deg(latitude_rad)),
+          e7(kOriginLongitude_deg + rad_to_deg(longitude_rad)),
+          static_cast<std::int32_t>(std::lround(1e3 * p_world_m.z()))};
+}
+
+double positive_deg(double angle_rad) {
+  const double angle_deg = rad_to_deg(angle_rad);
+  return angle_deg < 0.0 ? angle_deg + 360.0 : angle_deg;
+}
+
+/// From north clockwise, in [0, 360).
+double heading_deg(const VehicleReport& report) {
+  return positive_deg(euler_ned_frd(report.estimate.T_world_body).yaw_rad);
+}
+
+std::uint16_t centidegrees(double deg) {
+  return static_cast<std::uint16_t>(std::lround(100.0 * deg) % 36000);
+}
+
+std::int16_t centimetres_per_second(double v_m_s) {
+  return static_cast<std::int16_t>(std::lround(std::clamp(100.0 * v_m_s, -32767.0, 32767.0)));
+}
+
+GlobalPositionInt global_position(const VehicleReport& report) {
+  const Place place = place_of(report.estimate.T_world_body.translation());
+  const Vec3 v_ned_m_s = swap_enu_ned(report.estimate.v_world_m_s);
+  return {
+      .time_boot_ms = report.time_boot_ms,
+      .lat_deg_e7 = place.lat_deg_e7,
+      .lon_deg_e7 = place.lon_deg_e7,
+      .alt_mm = place.alt_mm,
+      .relative_alt_mm = place.alt_mm,
+      .v_ned_cm_s = {centimetres_per_second(v_ned_m_s.x()), centimetres_per_second(v_ned_m_s.y()),
+                     centimetres_per_second(v_ned_m_s.z())},
+      .heading_cdeg = centidegrees(heading_deg(report))};
+}
+
+/// What a receiver of satellites that makes no errors would say.
+GpsRawInt gps_raw(const VehicleReport& report) {
+  constexpr std::uint8_t kFix3d = 3;
+  constexpr std::uint8_t kSatellites = 12;
+  constexpr std::uint16_t kDilution = 70;  // 0.70
+  const Place place = place_of(report.estimate.T_world_body.translation());
+  const Vec3 v_ned_m_s = swap_enu_ned(report.estimate.v_world_m_s);
+  return {
+      .time_us = std::uint64_t{1000} * report.time_boot_ms,
+      .lat_deg_e7 = place.lat_deg_e7,
+      .lon_deg_e7 = place.lon_deg_e7,
+      .alt_mm = place.alt_mm,
+      .eph = kDilution,
+      .epv = kDilution,
+      .speed_cm_s = static_cast<std::uint16_t>(centimetres_per_second(v_ned_m_s.head<2>().norm())),
+      .course_cdeg = centidegrees(positive_deg(std::atan2(v_ned_m_s.y(), v_ned_m_s.x()))),
+      .fix_type = kFix3d,
+      .satellites_visible = kSatellites,
+      .alt_ellipsoid_mm = place.alt_mm};
+}
+
+VfrHud vfr_hud(const VehicleReport& report) {
+  const VehicleState& state = report.estimate;
+  const auto speed_m_s = static_cast<float>(state.v_world_m_s.head<2>().norm());
+  const double throttle = std::clamp(report.px4->attitude_setpoint().thrust, 0.0, 1.0);
+  return {.airspeed_m_s = speed_m_s,
+          .ground_speed_m_s = speed_m_s,
+          .alt_m = static_cast<float>(state.T_world_body.translation().z()),
+          .climb_m_s = static_cast<float>(state.v_world_m_s.z()),
+          .heading_deg = static_cast<std::int16_t>(heading_deg(report)),
+          .throttle_percent = static_cast<std::uint16_t>(std::lround(100.0 * throttle))};
+}
+
+/// Home on the ground.
+HomePosition home_position(const VehicleReport& report) {
+  const Eigen::Vector2d& home_world_m = report.px4->home_world_m();
+  const Vec3 p_world_m(home_world_m.x(), home_world_m.y(), 0.0);
+  const Place place = place_of(p_world_m);
+  return {.lat_deg_e7 = place.lat_deg_e7,
+          .lon_deg_e7 = place.lon_deg_e7,
+          .alt_mm = place.alt_mm,
+          .p_ned_m = as_floats(swap_enu_ned(p_world_m))};
+}
+
+GpsGlobalOrigin global_origin(const VehicleReport&) {
+  const Place origin = place_of(Vec3::Zero());
+  return {.lat_deg_e7 = origin.lat_deg_e7, .lon_deg_e7 = origin.lon_deg_e7};
+}
+
+/// What it can do of MAVLink, and the PX4 whose rules it follows.
+AutopilotVersion autopilot_version(const VehicleReport&) {
+  // MAV_PROTOCOL_CAPABILITY bits
+  constexpr std::uint64_t kMissionInt = 4;  // the words for missions; there are none
+  constexpr std::uint64_t kCommandInt = 8;
+  constexpr std::uint64_t kParametersBytewise = 16;
+  constexpr std::uint64_t kLocalTargets = 128;
+  constexpr std::uint64_t kMavlink2 = 8192;
   return {
       .capabilities = kMissionInt | kCommandInt | kParametersBytewise | kLocalTargets | kMavlink2,
       .uid = 1,
-      .flight_sw_version = kPx4Version,
+      .flight_sw_version = 1 << 24 | 15 << 16 | 0 << 8 | 255,  // 1.15.0, a release
       .flight_custom_version = {'g', 'n', 'b', 'v'}};
+}
+
+ProtocolVersion protocol_version(const VehicleReport&) { return {}; }
+
+struct Said {
+  std::uint32_t id;
+  double interval_s;  // by default; 0: only when asked
+  Packed (*pack)(const VehicleReport& report);
+};
+
+/// The rates are those of PX4's onboard link (mavlink_main.cpp), or slower.
+template <auto message>
+constexpr Said said(double default_hz) {
+  using Message = decltype(message(std::declval<const VehicleReport&>()));
+  return {Message::kInfo.id, default_hz > 0.0 ? 1.0 / default_hz : 0.0,
+          [](const VehicleReport& report) { return packed(message(report)); }};
+}
+
+constexpr std::array kSaid = {said<heartbeat>(1.0),
+                              said<extended_sys_state>(5.0),
+                              said<attitude>(50.0),
+                              said<local_position>(30.0),
+                              said<battery_status>(0.5),
+                              said<sys_status>(1.0),
+                              said<attitude_quaternion>(50.0),
+                              said<global_position>(30.0),
+                              said<gps_raw>(1.0),
+                              said<vfr_hud>(10.0),
+                              said<home_position>(0.5),
+                              said<global_origin>(0.0),
+                              said<autopilot_version>(0.0),
+                              said<protocol_version>(0.0)};
+
+}  // namespace
+
+std::optional<Packed> said_of(std::uint32_t id, const VehicleReport& report) {
+  const auto* const found = std::ranges::find(kSaid, id, &Said::id);
+  if (found == kSaid.end()) return std::nullopt;
+  return found->pack(report);
 }
 
 std::vector<StatusText> status_texts_of(const gnbv::StatusText& said, std::uint16_t id) {
@@ -92,8 +258,7 @@ std::vector<StatusText> status_texts_of(const gnbv::StatusText& said, std::uint1
     StatusText chunk{.severity = static_cast<std::uint8_t>(said.severity),
                      .id = is_long ? id : std::uint16_t{0},
                      .chunk_seq = static_cast<std::uint8_t>(chunks.size())};
-    const std::string_view part = std::string_view(said.text).substr(begin, width);
-    std::ranges::copy(part, chunk.text.begin());
+    std::ranges::copy(std::string_view(said.text).substr(begin, width), chunk.text.begin());
     chunks.push_back(chunk);
     begin += width;
     // a text is over at its first chunk with a NUL: one that ends with a full chunk needs another
@@ -101,21 +266,38 @@ std::vector<StatusText> status_texts_of(const gnbv::StatusText& said, std::uint1
   return chunks;
 }
 
-Px4Command command_of(const CommandLong& message) {
-  return {.id = message.command, .param = message.param};
+Streams::Streams() {
+  for (const Said& said : kSaid) streams_[said.id].interval_s = said.interval_s;
 }
 
-Px4Command command_of(const CommandInt& message) {
-  const auto& p = message.param;
-  const float none = std::nanf("");
-  return {.id = message.command, .param = {p[0], p[1], p[2], p[3], none, none, message.z}};
+bool Streams::set_interval_us(std::uint32_t id, float interval_us) {
+  const auto* const said = std::ranges::find(kSaid, id, &Said::id);
+  if (said == kSaid.end() || !std::isfinite(interval_us)) return false;
+  // due at once: the client sees its wish come true, and a slow stream does not hold up a fast one
+  streams_[id] = {interval_us == 0.0F  ? said->interval_s
+                  : interval_us < 0.0F ? 0.0
+                                       : 1e-6 * static_cast<double>(interval_us),
+                  0.0};
+  return true;
 }
 
-Px4Command command_of(const SetMode& message) {
-  return {.id = kDoSetMode,
-          .param = {static_cast<float>(message.base_mode),
-                    static_cast<float>(message.custom_mode >> 16 & 0xff),
-                    static_cast<float>(message.custom_mode >> 24), 0.0F, 0.0F, 0.0F, 0.0F}};
+std::optional<std::int32_t> Streams::interval_us(std::uint32_t id) const {
+  const auto found = streams_.find(id);
+  if (found == streams_.end()) return std::nullopt;
+  if (found->second.interval_s == 0.0) return -1;
+  return static_cast<std::int32_t>(std::min(std::round(1e6 * found->second.interval_s), 2e9));
+}
+
+std::vector<std::uint32_t> Streams::take_due(double now_s) {
+  std::vector<std::uint32_t> due;
+  for (const Said& said : kSaid) {
+    Stream& stream = streams_[said.id];
+    if (stream.interval_s == 0.0 || now_s < stream.due_s) continue;
+    const bool is_late = now_s - stream.due_s >= stream.interval_s;
+    stream.due_s = (is_late ? now_s : stream.due_s) + stream.interval_s;
+    due.push_back(said.id);
+  }
+  return due;
 }
 
 }  // namespace gnbv::mavlink

@@ -1,32 +1,50 @@
-// The autopilot's own words in MAVLink's: modes, battery, texts. (State: sim/mavlink/border.hpp.)
+// What the vehicle says of itself, message by message: on its own at rates that the client may
+// change, or once when asked.
 #pragma once
 
+#include <cstdint>
+#include <map>
+#include <optional>
 #include <vector>
 
 #include "sim/flight/px4.hpp"
-#include "sim/mavlink/query_messages.hpp"
-#include "sim/mavlink/state_messages.hpp"
+#include "sim/mavlink/messages.hpp"
 
 namespace gnbv::mavlink {
 
-constexpr int kSeverityCritical = 2;  // MAV_SEVERITY
+/// What the messages are made of.
+struct VehicleReport {
+  VehicleState estimate = {};
+  std::uint32_t time_boot_ms = 0;
+  const Px4* px4 = nullptr;  // only Heartbeat, ExtendedSysState, SysStatus, VfrHud and HomePosition
+  double energy_wh = 0.0;    // used
+  double battery_wh = 0.0;   // as PowerParameters has it
+};
 
-Heartbeat heartbeat_of(const Px4& px4);
-ExtendedSysState extended_sys_state_of(const Px4& px4);
-/// `battery_wh` 0: never empty, the remaining share is unknown.
-BatteryStatus battery_status_of(double energy_used_wh, double battery_wh);
-/// All sensors of a quadrotor are there and well: errors of the estimate are not told, as no
-/// vehicle knows them. Ready to arm unless in a failsafe.
-SysStatus sys_status_of(const Px4& px4, double energy_used_wh, double battery_wh);
-/// What it can do of MAVLink, and the PX4 whose rules it follows; "gnbv" in the custom version.
-AutopilotVersion autopilot_version();
+/// Message `id` about the vehicle as it is; nothing for one that it does not say.
+std::optional<Packed> said_of(std::uint32_t id, const VehicleReport& report);
+
 /// One message for up to 50 characters, and chunks with the same `id` (not 0) for more.
 std::vector<StatusText> status_texts_of(const gnbv::StatusText& said, std::uint16_t id);
 
-/// The command that a COMMAND_LONG, a COMMAND_INT (its x and y are of no command we know), or a
-/// SET_MODE, stands for.
-Px4Command command_of(const CommandLong& message);
-Px4Command command_of(const CommandInt& message);
-Px4Command command_of(const SetMode& message);
+/// When each message is due, by wall time.
+class Streams {
+ public:
+  Streams();
+  /// MAV_CMD_SET_MESSAGE_INTERVAL: 0 is the default of PX4's onboard link, below 0 never. False for
+  /// a message that the vehicle does not say, or no number.
+  bool set_interval_us(std::uint32_t id, float interval_us);
+  /// As MESSAGE_INTERVAL has it; nothing for a message that the vehicle does not say.
+  std::optional<std::int32_t> interval_us(std::uint32_t id) const;
+  /// Those due now. Times that were missed are not made up for: each comes once at most.
+  std::vector<std::uint32_t> take_due(double now_s);
+
+ private:
+  struct Stream {
+    double interval_s = 0.0;  // 0: never
+    double due_s = 0.0;
+  };
+  std::map<std::uint32_t, Stream> streams_;
+};
 
 }  // namespace gnbv::mavlink

@@ -9,7 +9,7 @@
 
 #include "sim/core/file.hpp"
 #include "sim/core/image.hpp"
-#include "sim/flight/endurance.hpp"
+#include "sim/flight/guidance.hpp"
 #include "sim/flight/rotors.hpp"
 #include "tests/support/flown.hpp"
 #include "tests/support/temp_folder.hpp"

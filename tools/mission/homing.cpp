@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "planner/motion/paths.hpp"
-#include "sim/flight/endurance.hpp"
+#include "sim/flight/guidance.hpp"
 #include "sim/flight/rotors.hpp"
 
 namespace gnbv {

@@ -1,13 +1,12 @@
 // Laws of the PX4 cascade. Step responses are those of an independent RK4 integration of the same
 // model (sheet, section 7).
-#include "sim/flight/autopilot.hpp"
-
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <limits>
 
 #include "scenarios/builtin.hpp"
+#include "sim/flight/cascade.hpp"
 #include "sim/mesh/world.hpp"
 #include "tests/support/streaming_flight.hpp"
 
@@ -232,7 +231,7 @@ TEST(PositionControl, VelocityFeedForwardAddsToThePositionTerm) {
       both.v_world_m_s + kConfig.autopilot.position_p_per_s.cwiseProduct(both.p_world_m);
   const auto run = [](const Setpoint& given) {
     PositionControlMemory memory;
-    return position_control(kConfig.autopilot, 9.8066, 0.7, memory, VehicleState{}, given, 0.02);
+    return position_control(kConfig.autopilot, kConfig.airframe, memory, VehicleState{}, given);
   };
   const AttitudeSetpoint a = run(both);
   const AttitudeSetpoint b = run(sum);
@@ -260,9 +259,8 @@ TEST(PositionControl, NeverAsksForMoreTiltOrThrustThanAllowed) {
       PositionControlMemory memory;
       VehicleState state;
       state.v_world_m_s.z() = climb_m_s;
-      const AttitudeSetpoint out =
-          position_control(kConfig.autopilot, 9.8066, 0.7067, memory, state,
-                           position(Vec3(far_m, -far_m, 0.0), 0.3), 0.02);
+      const AttitudeSetpoint out = position_control(kConfig.autopilot, kConfig.airframe, memory,
+                                                    state, position(Vec3(far_m, -far_m, 0.0), 0.3));
       const double cos_tilt = (out.q_world_body * Vec3::UnitZ()).z();
       EXPECT_LE(std::acos(std::min(1.0, cos_tilt)), kConfig.autopilot.tilt_max_rad + 1e-9);
       EXPECT_LE(out.thrust, 1.0 + 1e-12);

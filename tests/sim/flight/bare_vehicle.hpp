@@ -1,7 +1,7 @@
 // The rigid vehicle without an autopilot, or with the bare cascade of one.
 #pragma once
 
-#include "sim/flight/autopilot.hpp"
+#include "sim/flight/cascade.hpp"
 #include "sim/flight/vehicle.hpp"
 #include "sim/mesh/world.hpp"
 
@@ -28,11 +28,6 @@ inline void step(RigidVehicle& vehicle, const RotorSpeeds& reference_rad_s,
 
 inline bool has_collided(const RigidVehicle& vehicle) {
   return vehicle.has_touched_structure() || vehicle.has_touched_ground();
-}
-
-/// The limits that the parameters themselves set.
-inline FlightEnvelope full_envelope(const AutopilotParameters& parameters) {
-  return {parameters.climb_speed_max_m_s, parameters.tilt_max_rad, parameters.thrust_min};
 }
 
 }  // namespace gnbv

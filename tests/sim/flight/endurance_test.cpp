@@ -1,6 +1,4 @@
 // What a flight was foretold to draw against what it drew.
-#include "sim/flight/endurance.hpp"
-
 #include <gtest/gtest.h>
 
 #include "sim/flight/guidance.hpp"

@@ -5,7 +5,7 @@
 
 #include "scenarios/builtin.hpp"
 #include "sim/core/error.hpp"
-#include "sim/flight/rest_to_rest.hpp"
+#include "sim/flight/trajectory.hpp"
 #include "sim/mesh/world.hpp"
 #include "tests/support/streaming_flight.hpp"
 

@@ -11,7 +11,6 @@
 #include "sim/core/rng.hpp"
 #include "sim/flight/allocation.hpp"
 #include "sim/flight/guidance.hpp"
-#include "sim/flight/mixer.hpp"
 #include "sim/flight/quadrotor.hpp"
 #include "sim/mesh/world.hpp"
 #include "tests/support/streaming_flight.hpp"

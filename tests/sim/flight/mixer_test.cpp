@@ -1,9 +1,10 @@
 // Laws of the allocation to rotors: what is asked is given, and what gives way first.
-#include "sim/flight/mixer.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "sim/flight/allocation.hpp"
+#include "sim/flight/rotors.hpp"
 
 namespace gnbv {
 namespace {

@@ -150,15 +150,6 @@ TEST(Px4Modes, ReturnClimbsFliesHomeAndLands) {
   EXPECT_EQ(quadrotor.px4().intention(), NavState::offboard);  // RTL would prevent arming
 }
 
-TEST(Px4Modes, DescendGoesDownLevel) {
-  Quadrotor quadrotor = airborne({}, {Vec3(0, 0, 4), 0.3});
-  ASSERT_EQ(quadrotor.px4().set_mode(NavState::descend), Ack::accepted);
-  wait(quadrotor, 3.0);
-  EXPECT_NEAR(quadrotor.state().v_world_m_s.z(), -0.7, 0.05);
-  EXPECT_GT(ticks_until(quadrotor, 20.0, [&] { return !quadrotor.px4().is_armed(); }), 0);
-  EXPECT_LT(place(quadrotor).z(), 0.06);
-}
-
 TEST(Px4Modes, TerminationStopsTheMotorsForGood) {
   Quadrotor quadrotor = airborne();
   ASSERT_EQ(quadrotor.px4().set_mode(NavState::terminate), Ack::accepted);
@@ -231,17 +222,14 @@ TEST(Px4Modes, ALossCanBeHeldBeforeItIsActedOn) {  // PX4 1.9: two stages
 TEST(Px4Modes, ModesThatCannotRunFallBackToHold) {
   CommanderParameters commander;
   const auto choice = [&](NavState intention, double silence_s) {
-    const ModeChoice chosen = choose_mode(intention, silence_s, commander);
-    EXPECT_EQ(chosen.is_failsafe, chosen.mode != intention);
-    EXPECT_FALSE(chosen.disarms);
-    return chosen.mode;
+    return choose_mode(intention, silence_s, commander).value();
   };
   for (const NavState mode : {NavState::manual, NavState::stabilized, NavState::altitude,
                               NavState::position, NavState::mission}) {
     EXPECT_EQ(choice(mode, 0.0), NavState::hold) << name_of(mode);
   }
-  for (const NavState mode : {NavState::hold, NavState::rtl, NavState::takeoff, NavState::land,
-                              NavState::descend, NavState::terminate}) {
+  for (const NavState mode :
+       {NavState::hold, NavState::rtl, NavState::takeoff, NavState::land, NavState::terminate}) {
     EXPECT_EQ(choice(mode, 100.0), mode) << name_of(mode);
   }
   EXPECT_EQ(choice(NavState::offboard, 0.0), NavState::offboard);
@@ -251,6 +239,8 @@ TEST(Px4Modes, ModesThatCannotRunFallBackToHold) {
     commander.offboard_loss_action = action;
     EXPECT_EQ(choice(NavState::offboard, 100.0), mode);
   }
+  commander.offboard_loss_action = OffboardLossAction::disarm;
+  EXPECT_EQ(choose_mode(NavState::offboard, 100.0, commander), std::nullopt);
 }
 
 TEST(Px4Modes, AcknowledgementsAreMavResults) {

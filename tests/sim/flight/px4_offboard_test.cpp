@@ -229,8 +229,7 @@ TEST(Offboard, VerticalSpeedSetpointKeepsItsLimits) {  // 21
   const VehicleConfig config;
   const auto thrust = [&](const Setpoint& setpoint) {
     PositionControlMemory memory;
-    return position_loop(config.autopilot, config.airframe, full_envelope(config.autopilot), memory,
-                         VehicleState{}, setpoint)
+    return position_control(config.autopilot, config.airframe, memory, VehicleState{}, setpoint)
         .thrust;
   };
   for (const double far_m : {4.0, 40.0, 400.0}) {

@@ -2,10 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "sim/core/rng.hpp"
-#include "sim/flight/land_detector.hpp"
-#include "sim/flight/takeoff.hpp"
+#include "sim/flight/commander.hpp"
+#include "sim/flight/trajectory.hpp"
 #include "sim/flight/vehicle.hpp"
-#include "sim/flight/velocity_smoothing.hpp"
 #include "sim/mesh/world.hpp"
 
 namespace gnbv {
@@ -18,23 +17,24 @@ double uniform(std::uint64_t draw, double min, double max) {
 }
 
 TEST(VelocitySmoothing, BrakingSpeedIsPx4s) {  // the sheet's values, four digits
-  EXPECT_NEAR(braking_speed_m_s(1.0, kLimits), 0.6235, 5e-5);
-  EXPECT_NEAR(braking_speed_m_s(5.0, kLimits), 2.589, 5e-4);
-  EXPECT_NEAR(braking_speed_m_s(10.0, kLimits), 4.458, 5e-4);
-  EXPECT_EQ(braking_speed_m_s(0.0, kLimits), 0.0);
+  EXPECT_NEAR(braking_speed(1.0, kLimits), 0.6235, 5e-5);
+  EXPECT_NEAR(braking_speed(5.0, kLimits), 2.589, 5e-4);
+  EXPECT_NEAR(braking_speed(10.0, kLimits), 4.458, 5e-4);
+  EXPECT_EQ(braking_speed(0.0, kLimits), 0.0);
 }
 
 TEST(VelocitySmoothing, EveryChangeEndsAtItsSpeedWithinItsLimits) {
   for (std::uint64_t i = 0; i < 3000; ++i) {
-    const SmoothedAxis start{0.0, uniform(3 * i, -5, 5), uniform(3 * i + 1, -3, 3)};
+    const Motion start{0.0, uniform(3 * i, -5, 5), uniform(3 * i + 1, -3, 3)};
     const double wanted_m_s = uniform(3 * i + 2, -5, 5);
     const SpeedChange change = fastest_change(start, wanted_m_s, kLimits);
-    const SmoothedAxis end = advance(start, change, change.duration_s());
-    ASSERT_NEAR(end.v_m_s, wanted_m_s, 1e-12);
-    ASSERT_EQ(end.a_m_s2, 0.0);
+    const Motion end = advance(start, change, change.duration_s());
+    ASSERT_NEAR(end.speed, wanted_m_s, 1e-12);
+    ASSERT_EQ(end.acceleration, 0.0);
     for (int k = 1; k < 20; ++k) {
       const double share = 0.05 * k;
-      ASSERT_LE(std::abs(advance(start, change, share * change.duration_s()).a_m_s2), 3.0 + 1e-12);
+      ASSERT_LE(std::abs(advance(start, change, share * change.duration_s()).acceleration),
+                3.0 + 1e-12);
     }
   }
 }
@@ -48,52 +48,52 @@ TEST(VelocitySmoothing, FromRestItTakesTheClosedFormsTime) {
     for (const double longer : {1.0, 1.5, 4.0}) {
       const SpeedChange slow = stretched_change({}, dv, kLimits, longer * time_s);
       EXPECT_NEAR(slow.duration_s(), longer * time_s, 1e-9);
-      EXPECT_NEAR(advance({}, slow, slow.duration_s()).v_m_s, dv, 1e-12);
+      EXPECT_NEAR(advance({}, slow, slow.duration_s()).speed, dv, 1e-12);
     }
   }
 }
 
 TEST(VelocitySmoothing, StepsOfADifferentLengthGoTheSameWay) {
-  const SmoothedAxis start{1.0, -2.0, 0.5};
+  const Motion start{1.0, -2.0, 0.5};
   const SpeedChange change = fastest_change(start, 3.0, kLimits);
-  const SmoothedAxis once = advance(start, change, change.duration_s());
-  SmoothedAxis replanned = start;  // as the Auto modes do
+  const Motion once = advance(start, change, change.duration_s());
+  Motion replanned = start;  // as the Auto modes do
   for (int i = 0; i < 1000; ++i) {
     replanned =
         advance(replanned, fastest_change(replanned, 3.0, kLimits), change.duration_s() / 1000);
   }
-  EXPECT_NEAR(replanned.x_m, once.x_m, 1e-6);  // a thousand roundings
-  EXPECT_NEAR(replanned.v_m_s, once.v_m_s, 1e-6);
+  EXPECT_NEAR(replanned.position, once.position, 1e-6);  // a thousand roundings
+  EXPECT_NEAR(replanned.speed, once.speed, 1e-6);
 }
 
 TEST(VelocitySmoothing, ShorterAxesWaitForTheLongest) {
-  std::array<SmoothedAxis, 3> axes{};
+  std::array<Motion, 3> axes{};
   for (int i = 0; i < 50; ++i) {
     axes = advance_together(axes, {4.0, 2.0, 0.0}, {kLimits, kLimits, kLimits}, 0.02);
-    EXPECT_EQ(axes[2].x_m, 0.0);
+    EXPECT_EQ(axes[2].position, 0.0);
   }
   // same time, half the change: the accelerations keep near that ratio, not both at the limit
-  EXPECT_LT(axes[1].a_m_s2, 0.7 * axes[0].a_m_s2);
+  EXPECT_LT(axes[1].acceleration, 0.7 * axes[0].acceleration);
   const double before_s = fastest_change(axes[0], 4.0, kLimits).duration_s();
   for (int i = 0; 0.02 * i < before_s + 0.02; ++i) {
     axes = advance_together(axes, {4.0, 2.0, 0.0}, {kLimits, kLimits, kLimits}, 0.02);
   }
-  EXPECT_NEAR(axes[0].v_m_s, 4.0, 1e-9);
-  EXPECT_NEAR(axes[1].v_m_s, 2.0, 1e-9);
+  EXPECT_NEAR(axes[0].speed, 4.0, 1e-9);
+  EXPECT_NEAR(axes[1].speed, 2.0, 1e-9);
 }
 
 TEST(VelocitySmoothing, BrakingSpeedArrivesWithoutPassingTheGoal) {
   for (const double goal_m : {1.0, 5.0, 30.0}) {
-    SmoothedAxis axis;
+    Motion axis;
     for (int i = 0; i < 1500; ++i) {
-      const double way_m = goal_m - axis.x_m;
-      const double wanted = std::min(5.0, braking_speed_m_s(std::max(0.0, way_m), kLimits));
+      const double way_m = goal_m - axis.position;
+      const double wanted = std::min(5.0, braking_speed(std::max(0.0, way_m), kLimits));
       axis = advance(axis, fastest_change(axis, wanted, kLimits), 0.02);
-      ASSERT_LT(axis.x_m, goal_m + 0.01);
-      ASSERT_LE(axis.v_m_s, 5.0 + 1e-9);
-      ASSERT_LE(std::abs(axis.a_m_s2), 3.0 + 1e-9);
+      ASSERT_LT(axis.position, goal_m + 0.01);
+      ASSERT_LE(axis.speed, 5.0 + 1e-9);
+      ASSERT_LE(std::abs(axis.acceleration), 3.0 + 1e-9);
     }
-    EXPECT_NEAR(axis.x_m, goal_m, 0.01) << goal_m;
+    EXPECT_NEAR(axis.position, goal_m, 0.01) << goal_m;
   }
 }
 

@@ -1,12 +1,11 @@
 // Laws of the time-optimal reference.
-#include "sim/flight/rest_to_rest.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
 #include "sim/core/error.hpp"
+#include "sim/flight/trajectory.hpp"
 
 namespace gnbv {
 namespace {

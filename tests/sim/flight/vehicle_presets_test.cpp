@@ -6,7 +6,7 @@
 #include "scenarios/builtin.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
-#include "sim/flight/feed_forward.hpp"
+#include "sim/flight/guidance.hpp"
 #include "tests/sim/flight/bare_vehicle.hpp"
 #include "tests/support/streaming_flight.hpp"
 
@@ -50,15 +50,15 @@ TEST_P(Preset, HoversAtItsHoverCommand) {
   AttitudeSetpoint attitude;
   for (int tick = 0; tick < 1000; ++tick) {
     if (tick % kTicksPerPositionLoop == 0) {
-      attitude =
-          position_loop(vehicle.autopilot, vehicle.airframe, full_envelope(vehicle.autopilot),
-                        position_memory, body.state(), hold);
+      attitude = position_control(vehicle.autopilot, vehicle.airframe, position_memory,
+                                  body.state(), hold);
     }
     const Vec3 omega_setpoint = attitude_control(
         vehicle.autopilot, Eigen::Quaterniond(body.state().T_world_body.linear()), attitude);
     body.step([&](const Vec3& omega_body_rad_s) {
-      const RotorCommands commands = rate_loop(vehicle.autopilot, allocation, rate_memory,
-                                               omega_body_rad_s, omega_setpoint, attitude.thrust);
+      const RotorCommands commands =
+          rate_control(vehicle.autopilot, allocation, rate_memory, omega_body_rad_s, omega_setpoint,
+                       attitude.thrust);
       for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(commands[i], GetParam().hover_command, 1e-3);
       return reference_speeds(vehicle.airframe, commands);
     });
@@ -87,8 +87,8 @@ TEST_P(Preset, TiltedFlightReachesItsTerminalSpeed) {
     const Vec3 omega_setpoint = attitude_control(vehicle.autopilot, q, setpoint);
     body.step([&](const Vec3& omega_body_rad_s) {
       return reference_speeds(airframe,
-                              rate_loop(vehicle.autopilot, allocation, memory, omega_body_rad_s,
-                                        omega_setpoint, setpoint.thrust));
+                              rate_control(vehicle.autopilot, allocation, memory, omega_body_rad_s,
+                                           omega_setpoint, setpoint.thrust));
     });
   }
   const VehicleState& state = body.state();
@@ -117,8 +117,7 @@ TEST_P(Preset, FeedForwardLeavesTheCascadeNothingToCorrect) {
     setpoint.v_world_m_s = v_m_s;
     setpoint.a_world_m_s2 = acceleration_setpoint(airframe, vehicle.autopilot, v_m_s, a_m_s2);
     const AttitudeSetpoint out =
-        position_control(vehicle.autopilot, airframe.gravity_m_s2, hover_command(airframe), memory,
-                         state, setpoint, kPositionLoop_s);
+        position_control(vehicle.autopilot, airframe, memory, state, setpoint);
     const Eigen::Quaterniond& q = out.q_world_body;
     const RotorSpeeds speeds =
         all(airframe.idle_speed_rad_s + airframe.command_gain_rad_s * out.thrust);
@@ -189,8 +188,8 @@ TEST(Presets, OldVelocityGainsGiveTheThrustTheyNamed) {
   PositionControlMemory memory;
   Setpoint setpoint;
   setpoint.v_world_m_s = Vec3(1, 0, 0);
-  const AttitudeSetpoint out = position_control(vehicle.autopilot, vehicle.airframe.gravity_m_s2,
-                                                hover, memory, VehicleState{}, setpoint, 0.02);
+  const AttitudeSetpoint out =
+      position_control(vehicle.autopilot, vehicle.airframe, memory, VehicleState{}, setpoint);
   const Vec3 thrust = out.thrust * (out.q_world_body * Vec3::UnitZ());
   EXPECT_NEAR(thrust.x(), 0.2, 1e-12);
   EXPECT_NEAR(thrust.z(), hover, 1e-12);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "scenarios/builtin.hpp"
-#include "sim/flight/rotors.hpp"
+#include "sim/flight/guidance.hpp"
 #include "sim/mesh/world.hpp"
 #include "tests/support/streaming_flight.hpp"
 

@@ -8,6 +8,7 @@
 
 #include "sim/core/rng.hpp"
 #include "sim/mavlink/border.hpp"
+#include "tests/sim/mavlink/mavlink_session.hpp"
 
 namespace gnbv::mavlink {
 namespace {
@@ -234,11 +235,11 @@ TEST(MavlinkBorder, TelemetryHasMavlinksSigns) {
   state.T_world_body.linear() =
       (Eigen::AngleAxisd(kPi / 2.0, Vec3::UnitZ()) * Eigen::AngleAxisd(-0.2, Vec3::UnitY()))
           .toRotationMatrix();
-  const LocalPositionNed position = local_position_of(state, 77);
+  const LocalPositionNed position = said<LocalPositionNed>({.estimate = state, .time_boot_ms = 77});
   EXPECT_EQ(position.time_boot_ms, 77U);
   EXPECT_EQ(position.p_ned_m, (std::array{2.0F, 1.0F, -3.0F}));
   EXPECT_EQ(position.v_ned_m_s, (std::array{5.0F, 4.0F, -6.0F}));
-  const Attitude attitude = attitude_of(state, 77);
+  const Attitude attitude = said<Attitude>({.estimate = state, .time_boot_ms = 77});
   EXPECT_NEAR(attitude.yaw_rad, 0.0, 1e-7);  // float
   EXPECT_NEAR(attitude.pitch_rad, 0.2, 1e-7);
   EXPECT_NEAR(attitude.roll_rad, 0.0, 1e-7);

@@ -132,10 +132,13 @@ TEST(MavlinkEndpoint, ALongTextArrivesInChunks) {
 }
 
 TEST(MavlinkEndpoint, TheBatteryIsKnownOnlyWhereItIsConfigured) {
-  EXPECT_EQ(battery_status_of(12.0, 0.0).remaining_percent, -1);
-  EXPECT_EQ(battery_status_of(12.0, 48.0).remaining_percent, 75);
-  EXPECT_EQ(battery_status_of(60.0, 48.0).remaining_percent, 0);
-  EXPECT_EQ(battery_status_of(1.0, 0.0).energy_consumed_hj, 36);  // 1 Wh = 3600 J
+  const auto status = [](double energy_wh, double battery_wh) {
+    return said<BatteryStatus>({.energy_wh = energy_wh, .battery_wh = battery_wh});
+  };
+  EXPECT_EQ(status(12.0, 0.0).remaining_percent, -1);
+  EXPECT_EQ(status(12.0, 48.0).remaining_percent, 75);
+  EXPECT_EQ(status(60.0, 48.0).remaining_percent, 0);
+  EXPECT_EQ(status(1.0, 0.0).energy_consumed_hj, 36);  // 1 Wh = 3600 J
 }
 
 TEST(MavlinkEndpoint, AClientArmsTakesOffFliesAndLands) {

@@ -6,9 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "sim/mavlink/frame.hpp"
-#include "sim/mavlink/query_messages.hpp"
-#include "sim/mavlink/state_messages.hpp"
+#include "sim/mavlink/messages.hpp"
 
 namespace gnbv::mavlink {
 namespace {
@@ -78,37 +76,29 @@ TEST(MavlinkMessages, CommandsTimeAndVersionsAreWrittenAsPymavlinkWritesThem) {
                               .product_id = 6,
                               .flight_custom_version = {'g', 'n', 'b', 'v', 0, 0, 0, 1},
                               .middleware_custom_version = filled<8>(1),
-                              .os_custom_version = filled<8>(2),
-                              .uid2 = filled<18>(9)},
+                              .os_custom_version = filled<8>(2)},
              14),
-      "fd4e00000effbe94000098200000000000008877665544332211ff000f010200000003000000040000000500"
-      "0600676e62760000000101010101010101010202020202020202090909090909090909090909090909090909"
-      "b0c2");
+      "fd3c00000effbe94000098200000000000008877665544332211ff000f010200000003000000040000000500"
+      "0600676e62760000000101010101010101010202020202020202391d");
   EXPECT_EQ(hex_of(MessageInterval{20000, 30}, 15), "fd0500000fffbef40000204e00001e1733");
 }
 
 TEST(MavlinkMessages, StateIsWrittenAsPymavlinkWritesIt) {
   EXPECT_EQ(
-      hex_of(SysStatus{1, 2, 3, 4, 5, -6, 8, 9, {10, 11, 12, 13}, 77, {14, 15, 16}}, 16),
-      "fd28000010ffbe01000001000000020000000300000004000500faff080009000a000b000c000d004d0e0000"
-      "000f000000109ed7");
+      hex_of(SysStatus{1, 2, 3, 4, 5, -6, 8, 9, {10, 11, 12, 13}, 77}, 16),
+      "fd1f000010ffbe01000001000000020000000300000004000500faff080009000a000b000c000d004dfb13");
   EXPECT_EQ(
-      hex_of(GpsRawInt{1000, 473977420, 85455940, -1234, 70, 71, 72, 73, 3, 12, -5, 6, 7, 8, 9, 10},
-             17),
-      "fd33000011ffbe180000e8030000000000004c52401c44f417052efbffff4600470048004900030cfbffffff"
-      "060000000700000008000000090000000af48b");
+      hex_of(GpsRawInt{1000, 473977420, 85455940, -1234, 70, 71, 72, 73, 3, 12, -5}, 17),
+      "fd22000011ffbe180000e8030000000000004c52401c44f417052efbffff4600470048004900030cfbffffff"
+      "94b4");
   EXPECT_EQ(
-      hex_of(
-          AttitudeQuaternion{
-              1000, {1.0F, 0.5F, -0.5F, 0.25F}, {1.5F, 2.5F, 3.5F}, {4.0F, 5.0F, 6.0F, 7.0F}},
-          18),
-      "fd30000012ffbe1f0000e80300000000803f0000003f000000bf0000803e0000c03f00002040000060400000"
-      "80400000a0400000c0400000e0406d10");
+      hex_of(AttitudeQuaternion{1000, {1.0F, 0.5F, -0.5F, 0.25F}, {1.5F, 2.5F, 3.5F}}, 18),
+      "fd20000012ffbe1f0000e80300000000803f0000003f000000bf0000803e0000c03f0000204000006040e5c9");
   EXPECT_EQ(
       hex_of(GlobalPositionInt{1000, 473977420, 85455940, 1500, 1400, {-10, 20, -30}, 35999}, 19),
       "fd1c000013ffbe210000e80300004c52401c44f41705dc05000078050000f6ff1400e2ff9f8c9775");
-  EXPECT_EQ(hex_of(GpsGlobalOrigin{473977420, 85455940, -7, 99}, 20),
-            "fd0d000014ffbe3100004c52401c44f41705f9ffffff632e94");
+  EXPECT_EQ(hex_of(GpsGlobalOrigin{473977420, 85455940, -7}, 20),
+            "fd0c000014ffbe3100004c52401c44f41705f9ffffffca0a");
   EXPECT_EQ(hex_of(VfrHud{1.5F, 2.5F, 3.5F, -4.5F, 359, 50}, 21),
             "fd13000015ffbe4a00000000c03f0000204000006040000090c0670132e44f");
   EXPECT_EQ(
@@ -117,11 +107,10 @@ TEST(MavlinkMessages, StateIsWrittenAsPymavlinkWritesIt) {
                           -7,
                           {1.0F, 2.0F, 3.0F},
                           {1.0F, 0.5F, 0.25F, 0.125F},
-                          {4.0F, 5.0F, 6.0F},
-                          99},
+                          {4.0F, 5.0F, 6.0F}},
              22),
-      "fd35000016ffbef200004c52401c44f41705f9ffffff0000803f00000040000040400000803f0000003f0000"
-      "803e0000003e000080400000a0400000c04063a164");
+      "fd34000016ffbef200004c52401c44f41705f9ffffff0000803f00000040000040400000803f0000003f0000"
+      "803e0000003e000080400000a0400000c0403c5e");
 }
 
 std::vector<std::uint8_t> from_hex(std::string_view hex) {

@@ -8,9 +8,8 @@
 #include <string_view>
 
 #include "sim/core/rng.hpp"
-#include "sim/mavlink/parameters.hpp"
-#include "sim/mavlink/query_messages.hpp"
-#include "sim/mavlink/state_messages.hpp"
+#include "sim/mavlink/endpoint.hpp"
+#include "sim/mavlink/messages.hpp"
 #include "tests/sim/mavlink/mavlink_session.hpp"
 
 namespace gnbv::mavlink {
@@ -126,7 +125,7 @@ TEST(MavlinkQuestions, AParameterIsSetWithinItsRangeAndTheAnswerIsWhatHolds) {
   EXPECT_EQ(session.vehicle().px4().commander().offboard_loss_action, OffboardLossAction::land);
   for (const auto& refused :
        {set("MIS_TAKEOFF_ALT", -1.0F), set("MIS_TAKEOFF_ALT", std::nanf("")),
-        set("MIS_TAKEOFF_ALT", 5.0F, 6), set("MPC_LAND_ALT1", 123.0F),
+        set("MIS_TAKEOFF_ALT", 5.0F, 6), set("MPC_LAND_ALT1", 123.0F), set("COM_OF_LOSS_T", 0.02F),
         set("COM_OBL_RC_ACT", std::bit_cast<float>(8), 6), set("COM_OBL_RC_ACT", 4.0F, 6)}) {
     session.send(ParamRequestRead{-1, 1, 1, refused.param_id});
     session.send(refused);
@@ -184,16 +183,11 @@ TEST(MavlinkQuestions, NoParameterThatCanBeSetBreaksTheVehicle) {
   constexpr std::array<std::uint16_t, 3> kNext = {22, 20, 21};  // take off, return, land
   for (std::uint64_t trial = 0; trial < 10; ++trial) {
     Session session;
-    const auto start = parameter_at(session.vehicle().px4().commander(), 0);
     session.command(kArmDisarm, 1);
     for (std::size_t leg = 0; leg < kNext.size(); ++leg) {
-      for (int i = 0; i < start->param_count; ++i) {
-        const std::uint64_t bits =
-            random_bits({9, Stream::bench, trial, 100 * leg + static_cast<std::uint64_t>(i)});
-        ParamSet message{.target_system = 1, .target_component = 1, .param_type = 9};
-        message.param_id = parameter_at(session.vehicle().px4().commander(), i)->param_id;
-        message.param_value = kValues[bits % kValues.size()];
-        session.send(message);
+      for (std::size_t i = 0; i < kPx4Parameters.size(); ++i) {
+        const std::uint64_t bits = random_bits({9, Stream::bench, trial, 100 * leg + i});
+        session.send(set(kPx4Parameters[i].name, kValues[bits % kValues.size()]));
       }
       session.command(kNext[leg], 0);
       for (int tick = 0; tick < 5 * kTicksPerSecond; ++tick) session.step();  // throws at NaN
@@ -208,7 +202,7 @@ TEST(MavlinkQuestions, ThereIsNoMissionAndNoneIsTaken) {
     Session session;
     session.send(MissionRequestList{1, 1, type});
     session.listen();
-    EXPECT_EQ(session.last<MissionCount>().count, 0);
+    EXPECT_EQ(session.last<MissionCount>().number, 0);
     EXPECT_EQ(session.last<MissionCount>().mission_type, type);
     EXPECT_EQ(session.last<MissionCount>().target_system, 255);
     const auto result_of = [&](const auto& message) {
@@ -287,8 +281,8 @@ TEST(MavlinkQuestions, AnIntegerCommandIsTheCommandOfItsNumber) {
 TEST(MavlinkQuestions, PlacesOnTheGlobeAreAsFarApartAsInTheWorld) {
   VehicleState state;
   state.T_world_body.translation() = Vec3(30.0, 40.0, 5.0);
-  const GlobalPositionInt place = global_position_of(state, 0);
-  const GpsGlobalOrigin origin = global_origin();
+  const auto place = said<GlobalPositionInt>({.estimate = state});
+  const auto origin = said<GpsGlobalOrigin>({});
   const double to_rad = 1e-7 * kPi / 180.0;
   const double lat_a = origin.lat_deg_e7 * to_rad;
   const double lat_b = place.lat_deg_e7 * to_rad;
@@ -307,7 +301,7 @@ TEST(MavlinkQuestions, TheQuaternionIsTheAttitude) {
       (Eigen::AngleAxisd(0.4, Vec3::UnitZ()) * Eigen::AngleAxisd(-0.2, Vec3::UnitY()) *
        Eigen::AngleAxisd(0.3, Vec3::UnitX()))
           .toRotationMatrix();
-  const auto q = attitude_quaternion_of(state, 0).q_ned_frd;
+  const auto q = said<AttitudeQuaternion>({.estimate = state}).q_ned_frd;
   const Eigen::Quaterniond q_ned_frd(q[0], q[1], q[2], q[3]);
   for (const Vec3& v_frd : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) {
     const Vec3 v_ned = swap_enu_ned(state.T_world_body.linear() * swap_flu_frd(v_frd));
@@ -317,12 +311,14 @@ TEST(MavlinkQuestions, TheQuaternionIsTheAttitude) {
 
 TEST(MavlinkQuestions, ReadyToArmIsToldUntilAFailsafe) {
   Session session;
-  const SysStatus status = sys_status_of(session.vehicle().px4(), 12.0, 48.0);
-  EXPECT_EQ(status.sensors_present, status.sensors_health);
-  EXPECT_NE(status.sensors_health & 0x10000000, 0U);  // PREARM_CHECK
-  EXPECT_EQ(status.battery_remaining_percent, 75);
-
   const Px4& px4 = session.vehicle().px4();
+  const auto status = [&] {
+    return said<SysStatus>({.px4 = &px4, .energy_wh = 12.0, .battery_wh = 48.0});
+  };
+  EXPECT_EQ(status().sensors_present, status().sensors_health);
+  EXPECT_NE(status().sensors_health & 0x10000000, 0U);  // PREARM_CHECK
+  EXPECT_EQ(status().battery_remaining_percent, 75);
+
   ASSERT_TRUE(session.fly_until({0, 0, 3}, 2.0, [&] { return session.now_s() > 1.0; }));
   session.command(kDoSetMode, 1, 6);  // OFFBOARD
   session.command(kArmDisarm, 1);
@@ -331,7 +327,7 @@ TEST(MavlinkQuestions, ReadyToArmIsToldUntilAFailsafe) {
   }));
   for (int tick = 0; tick < 5 * kTicksPerSecond && !px4.is_in_failsafe(); ++tick) session.step();
   ASSERT_TRUE(px4.is_in_failsafe()) << "its client fell silent";
-  EXPECT_EQ(sys_status_of(px4, 12.0, 48.0).sensors_health & 0x10000000, 0U);
+  EXPECT_EQ(status().sensors_health & 0x10000000, 0U);
 }
 
 }  // namespace

@@ -20,6 +20,12 @@ constexpr Address kClient = {0x7f000001, 40001};
 constexpr std::uint16_t kArmDisarm = 400;  // MAV_CMD
 constexpr std::uint16_t kDoSetMode = 176;
 
+/// What a vehicle says in that message.
+template <typename Message>
+Message said(const VehicleReport& report) {
+  return message_of<Message>(said_of(Message::kInfo.id, report).value().payload);
+}
+
 /// A client and the vehicle on open ground, in step: wall time is simulation time.
 class Session {
  public:

@@ -1,0 +1,155 @@
+#include "sim/flight/commander.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace gnbv {
+namespace {
+
+struct Mode {
+  NavState state;
+  std::string_view name;
+  std::uint32_t main;
+  std::uint32_t sub = 0;  // of the Auto modes
+};
+constexpr std::uint32_t kAuto = 4;
+constexpr std::array kModes = std::to_array<Mode>({
+    // px4_custom_mode.h; in the enum's order
+    {NavState::manual, "MANUAL", 1},
+    {NavState::stabilized, "STABILIZED", 7},
+    {NavState::altitude, "ALTITUDE", 2},
+    {NavState::position, "POSITION", 3},
+    {NavState::hold, "HOLD", kAuto, 3},
+    {NavState::mission, "MISSION", kAuto, 4},
+    {NavState::rtl, "RTL", kAuto, 5},
+    {NavState::takeoff, "TAKEOFF", kAuto, 2},
+    {NavState::land, "LAND", kAuto, 6},
+    {NavState::offboard, "OFFBOARD", 6},
+    {NavState::terminate, "TERMINATE", 10},
+});
+
+const Mode& mode_of(NavState state) { return kModes.at(static_cast<std::size_t>(state)); }
+
+// MulticopterLandDetector.cpp: shares of the range from least to hover thrust (which is known
+// here), and how much wider the limits of motion are once the vehicle may have landed
+constexpr double kLowThrustShare = 0.6;
+constexpr double kNoThrustShare = 0.1;
+constexpr double kWidened = 2.5;
+
+/// Whether `condition` has held for `needed_s`.
+bool has_held(bool condition, double needed_s, double dt_s, double& held_s) {
+  held_s = condition ? held_s + dt_s : 0.0;
+  return condition && held_s > needed_s - 0.5 * dt_s;
+}
+
+}  // namespace
+
+std::string_view name_of(NavState state) { return mode_of(state).name; }
+
+std::uint32_t custom_mode_of(NavState state) {
+  return mode_of(state).main << 16 | mode_of(state).sub << 24;
+}
+
+std::optional<NavState> nav_state_of(long main_mode, long sub_mode) {
+  if (main_mode == kAuto && sub_mode == 0) return NavState::hold;
+  for (const Mode& mode : kModes) {
+    const bool is_it = mode.main == main_mode && (main_mode != kAuto || mode.sub == sub_mode);
+    if (is_it && mode.state != NavState::terminate) return mode.state;
+  }
+  return std::nullopt;
+}
+
+bool prevents_arming(NavState mode) {
+  return mode == NavState::rtl || mode == NavState::land || mode == NavState::terminate;
+}
+
+bool can_run(NavState mode, double offboard_silence_s, const CommanderParameters& parameters) {
+  if (mode == NavState::offboard) return offboard_silence_s < parameters.offboard_loss_s;
+  return mode >= NavState::hold && mode != NavState::mission;
+}
+
+std::optional<NavState> choose_mode(NavState intention, double offboard_silence_s,
+                                    const CommanderParameters& parameters) {
+  if (can_run(intention, offboard_silence_s, parameters)) return intention;
+  const double acts_after_s = parameters.offboard_loss_s + parameters.offboard_loss_hold_s;
+  if (intention != NavState::offboard || offboard_silence_s < acts_after_s) return NavState::hold;
+  switch (parameters.offboard_loss_action) {
+    case OffboardLossAction::rtl:
+      return NavState::rtl;
+    case OffboardLossAction::land:
+      return NavState::land;
+    case OffboardLossAction::terminate:
+      return NavState::terminate;
+    case OffboardLossAction::disarm:
+      return std::nullopt;
+    default:  // the others need a remote control
+      return NavState::hold;
+  }
+}
+
+Takeoff next(const Takeoff& takeoff, const CommanderParameters& parameters, bool is_armed,
+             bool is_landed, bool wants_takeoff, double dt_s) {
+  if (!is_armed) return {};
+  Takeoff after = takeoff;
+  after.spooled_s += dt_s;
+  if (after.phase == TakeoffPhase::disarmed) after = {TakeoffPhase::spool_up, 0.0, 0.0};
+  const double half_step_s = 0.5 * dt_s;  // times are whole steps, but their sums are rounded
+  if (after.phase == TakeoffPhase::spool_up &&
+      after.spooled_s > parameters.spool_up_s - half_step_s) {
+    after.phase = TakeoffPhase::ready;
+  }
+  if (after.phase == TakeoffPhase::ready && wants_takeoff) {
+    after.phase = TakeoffPhase::ramp;
+    after.ramp_share = 0.0;
+  } else if (after.phase == TakeoffPhase::ramp) {
+    const double ramp_s = parameters.takeoff_ramp_s;
+    after.ramp_share = ramp_s > dt_s ? std::min(1.0, after.ramp_share + dt_s / ramp_s) : 1.0;
+    if (after.ramp_share >= 1.0) after.phase = TakeoffPhase::flight;
+  } else if (after.phase == TakeoffPhase::flight && is_landed) {
+    after.phase = TakeoffPhase::ready;
+  }
+  return after;
+}
+
+double climb_limit_m_s(const Takeoff& takeoff, double gravity_m_s2, double velocity_p_per_s,
+                       double climb_max_m_s) {
+  if (takeoff.phase == TakeoffPhase::flight) return climb_max_m_s;
+  constexpr double kGainMin = 0.01;
+  const double start_m_s = -gravity_m_s2 / std::max(velocity_p_per_s, kGainMin);
+  const double share = takeoff.phase == TakeoffPhase::ramp ? takeoff.ramp_share : 0.0;
+  return start_m_s + share * (climb_max_m_s - start_m_s);
+}
+
+LandDetector next(const LandDetector& detector, const CommanderParameters& parameters,
+                  const LandEvidence& evidence, const VehicleState& estimate, double dt_s) {
+  if (!evidence.is_armed) return kOnGround;
+  const double widened = detector.is_maybe_landed ? kWidened : 1.0;
+  const auto thrust_below = [&](double share) {
+    return evidence.thrust <=
+           evidence.thrust_min + share * (evidence.hover_thrust - evidence.thrust_min);
+  };
+  const bool is_still =
+      std::abs(estimate.v_world_m_s.z()) <= widened * parameters.land_speed_vertical_max_m_s &&
+      estimate.v_world_m_s.head<2>().norm() <= parameters.land_speed_horizontal_max_m_s;
+  const bool is_turning =
+      estimate.omega_body_rad_s.head<2>().norm() > widened * parameters.land_rotation_max_rad_s;
+  const bool may_be_down =
+      evidence.is_told_to_descend || detector.is_maybe_landed || detector.is_landed;
+
+  // a stage that was reached before is not waited for again
+  const auto needed_s = [&](bool was_reached) {
+    return was_reached ? 0.0 : parameters.land_detection_s / 3.0;
+  };
+  LandDetector after = detector;
+  after.has_ground_contact = has_held(may_be_down && thrust_below(kLowThrustShare) && is_still,
+                                      needed_s(detector.has_ground_contact), dt_s, after.contact_s);
+  after.is_maybe_landed =
+      has_held(after.has_ground_contact && thrust_below(kNoThrustShare) && !is_turning,
+               needed_s(detector.is_maybe_landed), dt_s, after.maybe_s);
+  after.is_landed =
+      has_held(after.is_maybe_landed, needed_s(detector.is_landed), dt_s, after.landed_s);
+  return after;
+}
+
+}  // namespace gnbv
