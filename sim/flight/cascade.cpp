@@ -10,20 +10,11 @@ namespace {
 
 using Vec2 = Eigen::Vector2d;
 
+Vec3 zero_where_nan(const Vec3& v) { return v.array().isFinite().select(v, 0.0); }
+
 /// base + term where both are given, whichever is given otherwise (ControlMath::addIfNotNan).
 Vec3 add_given(const Vec3& base, const Vec3& term) {
-  Vec3 sum = base;
-  for (int i = 0; i < 3; ++i) {
-    if (!std::isfinite(base[i]))
-      sum[i] = term[i];
-    else if (std::isfinite(term[i]))
-      sum[i] += term[i];
-  }
-  return sum;
-}
-
-Vec3 zero_where_nan(const Vec3& v) {
-  return v.unaryExpr([](double x) { return std::isfinite(x) ? x : 0.0; });
+  return base.array().isFinite().select(base + zero_where_nan(term), term);
 }
 
 /// BlockDerivative with its first-order low-pass.
@@ -89,15 +80,11 @@ Eigen::Quaterniond attitude_for(const Vec3& thrust, double yaw_rad) {
 }  // namespace
 
 bool is_valid(const Setpoint& setpoint) {
-  const auto is_paired = [](const Vec3& v) { return std::isfinite(v.x()) == std::isfinite(v.y()); };
-  bool is_every_axis_given = true;
-  for (int i = 0; i < 3; ++i) {
-    is_every_axis_given &= std::isfinite(setpoint.p_world_m[i]) ||
-                           std::isfinite(setpoint.v_world_m_s[i]) ||
-                           std::isfinite(setpoint.a_world_m_s2[i]);
-  }
-  return is_every_axis_given && is_paired(setpoint.p_world_m) && is_paired(setpoint.v_world_m_s) &&
-         is_paired(setpoint.a_world_m_s2);
+  const auto is_given = [](const Vec3& v) { return v.array().isFinite().eval(); };
+  const auto p = is_given(setpoint.p_world_m);
+  const auto v = is_given(setpoint.v_world_m_s);
+  const auto a = is_given(setpoint.a_world_m_s2);
+  return (p || v || a).all() && p.x() == p.y() && v.x() == v.y() && a.x() == a.y();
 }
 
 Eigen::Vector2d constrain_xy(const Eigen::Vector2d& priority, const Eigen::Vector2d& rest,

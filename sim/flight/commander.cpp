@@ -74,18 +74,10 @@ std::optional<NavState> choose_mode(NavState intention, double offboard_silence_
   if (can_run(intention, offboard_silence_s, parameters)) return intention;
   const double acts_after_s = parameters.offboard_loss_s + parameters.offboard_loss_hold_s;
   if (intention != NavState::offboard || offboard_silence_s < acts_after_s) return NavState::hold;
-  switch (parameters.offboard_loss_action) {
-    case OffboardLossAction::rtl:
-      return NavState::rtl;
-    case OffboardLossAction::land:
-      return NavState::land;
-    case OffboardLossAction::terminate:
-      return NavState::terminate;
-    case OffboardLossAction::disarm:
-      return std::nullopt;
-    default:  // the others need a remote control
-      return NavState::hold;
-  }
+  constexpr std::array<std::optional<NavState>, 8> kFallbacks = {
+      NavState::hold, NavState::hold, NavState::hold,  // these need a remote control
+      NavState::rtl,  NavState::land, NavState::hold, NavState::terminate, std::nullopt};
+  return kFallbacks.at(static_cast<std::size_t>(parameters.offboard_loss_action));
 }
 
 Takeoff next(const Takeoff& takeoff, const CommanderParameters& parameters, bool is_armed,

@@ -189,8 +189,7 @@ void Px4::update_mode() {
 /// Between Auto modes the trajectory goes on as it is, except that of a landing, which is below the
 /// vehicle. OFFBOARD begins with no setpoint, that is, it stops and holds.
 void Px4::enter(NavState mode) {
-  const bool was_on_trajectory = auto_.mode == nav_state_ &&
-                                 auto_.stage < AutoFlight::Stage::land &&
+  const bool was_on_trajectory = is_auto(nav_state_) && auto_.stage < AutoFlight::Stage::land &&
                                  takeoff_.phase >= TakeoffPhase::ramp;
   const std::array<Motion, 3> axes = auto_.axes;
   nav_state_ = mode;

@@ -76,14 +76,44 @@ btDefaultCollisionConstructionInfo settings_of_bullet() {
 }  // namespace
 
 struct RigidVehicle::Scene {
-  Scene(const AirframeParameters& airframe, const World& world_in, const Isometry& T_world_body);
-  ~Scene();
+  Scene(const AirframeParameters& airframe, const World& world_in, const Isometry& T_world_body)
+      : hull_shape(btVector3(airframe.hull_radius_m, airframe.hull_radius_m,
+                             0.5 * airframe.hull_height_m)) {
+    world.setGravity(btVector3(0, 0, 0));
+    world.setForceUpdateAllAabbs(false);  // the boxes of what stands there never change
+    if (world_in.has_ground) add_static(&ground_shape);
+    add_static(world_in.structure);
+    add_static(world_in.obstacles);
+    terrain_shape = add_static(world_in.terrain);
+
+    btRigidBody::btRigidBodyConstructionInfo info(airframe.mass_kg, nullptr, &hull_shape,
+                                                  to_bullet(airframe.inertia_kg_m2));
+    info.m_startWorldTransform = to_bullet(T_world_body);
+    body = std::make_unique<btRigidBody>(info);
+    body->setDamping(0.0, 0.0);
+    body->setFlags(BT_DISABLE_WORLD_GRAVITY);  // replaces the flags: no gyroscopic term either
+    body->setActivationState(DISABLE_DEACTIVATION);
+    world.addRigidBody(body.get());
+  }
+  ~Scene() {
+    world.removeRigidBody(body.get());
+    for (const auto& fixed : statics) world.removeRigidBody(fixed.get());
+  }
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
 
-  void add_static(btCollisionShape* shape);
+  void add_static(btCollisionShape* shape) {
+    statics.push_back(std::make_unique<btRigidBody>(
+        btRigidBody::btRigidBodyConstructionInfo(0.0, nullptr, shape)));
+    world.addRigidBody(statics.back().get());
+  }
   /// The shape of a mesh that was added; none for one without faces.
-  const btCollisionShape* add_static(const TriangleMesh& mesh);
+  const btCollisionShape* add_static(const TriangleMesh& mesh) {
+    if (mesh.faces.empty()) return nullptr;
+    meshes.push_back(std::make_unique<StaticMesh>(mesh));
+    add_static(meshes.back()->shape.get());
+    return meshes.back()->shape.get();
+  }
 
   // Bullet keeps pointers: declared in order of need, so destroyed in reverse.
   std::vector<std::unique_ptr<StaticMesh>> meshes;
@@ -98,45 +128,6 @@ struct RigidVehicle::Scene {
   std::vector<std::unique_ptr<btRigidBody>> statics;
   std::unique_ptr<btRigidBody> body;
 };
-
-RigidVehicle::Scene::Scene(const AirframeParameters& airframe, const World& world_in,
-                           const Isometry& T_world_body)
-    : hull_shape(
-          btVector3(airframe.hull_radius_m, airframe.hull_radius_m, 0.5 * airframe.hull_height_m)) {
-  world.setGravity(btVector3(0, 0, 0));
-  world.setForceUpdateAllAabbs(false);  // the boxes of what stands there never change
-  if (world_in.has_ground) add_static(&ground_shape);
-  add_static(world_in.structure);
-  add_static(world_in.obstacles);
-  terrain_shape = add_static(world_in.terrain);
-
-  btRigidBody::btRigidBodyConstructionInfo info(airframe.mass_kg, nullptr, &hull_shape,
-                                                to_bullet(airframe.inertia_kg_m2));
-  info.m_startWorldTransform = to_bullet(T_world_body);
-  body = std::make_unique<btRigidBody>(info);
-  body->setDamping(0.0, 0.0);
-  body->setFlags(BT_DISABLE_WORLD_GRAVITY);  // replaces the flags: no gyroscopic term either
-  body->setActivationState(DISABLE_DEACTIVATION);
-  world.addRigidBody(body.get());
-}
-
-RigidVehicle::Scene::~Scene() {
-  world.removeRigidBody(body.get());
-  for (const auto& fixed : statics) world.removeRigidBody(fixed.get());
-}
-
-void RigidVehicle::Scene::add_static(btCollisionShape* shape) {
-  statics.push_back(
-      std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(0.0, nullptr, shape)));
-  world.addRigidBody(statics.back().get());
-}
-
-const btCollisionShape* RigidVehicle::Scene::add_static(const TriangleMesh& mesh) {
-  if (mesh.faces.empty()) return nullptr;
-  meshes.push_back(std::make_unique<StaticMesh>(mesh));
-  add_static(meshes.back()->shape.get());
-  return meshes.back()->shape.get();
-}
 
 RigidVehicle::RigidVehicle(const AirframeParameters& airframe, const World& world,
                            const VehicleState& start, const RotorSpeeds& start_rad_s)

@@ -42,16 +42,16 @@ Vec3 world_from_level_frd(const Vec3& v_frd, double yaw_world_rad) {
 
 }  // namespace
 
-Euler euler_ned_frd(const Isometry& T_world_body) {
+Vec3 roll_pitch_yaw_ned_frd(const Isometry& T_world_body) {
   const auto axis_ned = [&](const Vec3& axis_frd) {
     return swap_enu_ned(T_world_body.linear() * swap_flu_frd(axis_frd));
   };
   const Vec3 forward = axis_ned(Vec3::UnitX());
   const double down_of_right = axis_ned(Vec3::UnitY()).z();
   const double down_of_down = axis_ned(Vec3::UnitZ()).z();
-  return {.roll_rad = std::atan2(down_of_right, down_of_down),
-          .pitch_rad = std::atan2(-forward.z(), std::hypot(forward.x(), forward.y())),
-          .yaw_rad = std::atan2(forward.y(), forward.x())};
+  return {std::atan2(down_of_right, down_of_down),
+          std::atan2(-forward.z(), std::hypot(forward.x(), forward.y())),
+          std::atan2(forward.y(), forward.x())};
 }
 
 std::variant<Setpoint, Refusal> setpoint_of(const SetPositionTargetLocalNed& message,

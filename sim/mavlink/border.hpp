@@ -18,13 +18,9 @@ inline Vec3 swap_flu_frd(const Vec3& v) { return {v.x(), -v.y(), -v.z()}; }
 /// inverse.
 inline double swap_yaw_enu_ned(double yaw_rad) { return wrap_angle_rad(kPi / 2.0 - yaw_rad); }
 
-/// Attitude of the FRD body in NED: R = Rz(yaw) Ry(pitch) Rx(roll).
-struct Euler {
-  double roll_rad = 0.0;
-  double pitch_rad = 0.0;  // in [-pi/2, pi/2]
-  double yaw_rad = 0.0;
-};
-Euler euler_ned_frd(const Isometry& T_world_body);
+/// Roll, pitch and yaw of the FRD body in NED: R = Rz(yaw) Ry(pitch) Rx(roll), pitch in
+/// [-pi/2, pi/2].
+Vec3 roll_pitch_yaw_ned_frd(const Isometry& T_world_body);
 
 /// Why a setpoint is not flown: one sentence for the client.
 struct Refusal {

@@ -96,7 +96,7 @@ struct Endpoint::Handler {
   std::optional<Ack> obey_about_messages(const Px4Command& command) const {
     const std::uint32_t asked = message_id_of(command.param[0]);
     const auto say_once = [&](std::uint32_t id) {
-      std::optional<Packed> message = said_of(id, endpoint.report_of(vehicle));
+      std::optional<Frame> message = said_of(id, endpoint.report_of(vehicle));
       if (!message) return Ack::unsupported;
       endpoint.send(std::move(*message));
       return Ack::accepted;
@@ -249,13 +249,15 @@ void Endpoint::say(const gnbv::StatusText& text) {
   for (const StatusText& chunk : status_texts_of(text, text_id_)) send(packed(chunk));
 }
 
-void Endpoint::send(Packed message) {
+void Endpoint::send(Frame frame) {
   if (outgoing_.size() >= kOutgoingMax) {
     ++counts_.unsaid;
     return;
   }
-  outgoing_.push_back(
-      write_frame({sequence_++, kSystem, kComponent, message.id, std::move(message.payload)}));
+  frame.sequence = sequence_++;
+  frame.system_id = kSystem;
+  frame.component_id = kComponent;
+  outgoing_.push_back(write_frame(frame));
 }
 
 std::vector<std::vector<std::uint8_t>> Endpoint::take_outgoing(double now_s, Quadrotor& vehicle) {

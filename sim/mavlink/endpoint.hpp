@@ -62,7 +62,7 @@ class Endpoint {
   VehicleReport report_of(const Quadrotor& vehicle) const;
   void refuse_setpoint(const std::string& reason, double now_s);
   void say(const gnbv::StatusText& text);
-  void send(Packed message);
+  void send(Frame frame);
 
   double battery_wh_;
   Link link_;

@@ -42,17 +42,6 @@ Message message_of(std::span<const std::uint8_t> payload) {
   return std::bit_cast<Message>(bytes);
 }
 
-/// A message without a frame around it yet.
-struct Packed {
-  std::uint32_t id = 0;
-  std::vector<std::uint8_t> payload;
-};
-
-template <typename Message>
-Packed packed(const Message& message) {
-  return {Message::kInfo.id, payload_of(message)};
-}
-
 /// A frame whose CRC was right. `payload` has all the message's fields and no more: what the sender
 /// left off (MAVLink 2 drops trailing zeros) is zero again, and extension fields that are not ours
 /// are left off.
@@ -63,6 +52,12 @@ struct Frame {
   std::uint32_t message_id = 0;
   std::vector<std::uint8_t> payload;
 };
+
+/// Without sequence and sender yet.
+template <typename Message>
+Frame packed(const Message& message) {
+  return {.message_id = Message::kInfo.id, .payload = payload_of(message)};
+}
 
 /// What became of the bytes. Everything but `read` was dropped.
 struct ReadCounts {

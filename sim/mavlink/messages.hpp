@@ -11,6 +11,11 @@
 
 namespace gnbv::mavlink {
 
+/// By latitude and longitude, above mean sea level.
+struct GlobalPlace {
+  std::int32_t lat_deg_e7, lon_deg_e7, alt_mm;
+};
+
 struct Heartbeat {
   static constexpr MessageInfo kInfo = {0, 50, 9, 9};
   std::uint32_t custom_mode = 0;   // PX4: main mode << 16 | sub mode << 24
@@ -85,7 +90,7 @@ struct ParamSet {
 struct [[gnu::packed]] GpsRawInt {
   static constexpr MessageInfo kInfo = {24, 24, 30, 34};
   std::uint64_t time_us = 0;
-  std::int32_t lat_deg_e7 = 0, lon_deg_e7 = 0, alt_mm = 0;  // above mean sea level
+  GlobalPlace place{};
   std::uint16_t eph = 0xffff, epv = 0xffff, speed_cm_s = 0xffff, course_cdeg = 0xffff;
   std::uint8_t fix_type = 0;  // GPS_FIX_TYPE: 3 is a 3D fix
   std::uint8_t satellites_visible = 255;
@@ -96,8 +101,8 @@ struct [[gnu::packed]] GpsRawInt {
 struct Attitude {
   static constexpr MessageInfo kInfo = {30, 39, 28, 28};
   std::uint32_t time_boot_ms = 0;
-  float roll_rad = 0, pitch_rad = 0, yaw_rad = 0;
-  float roll_speed_rad_s = 0, pitch_speed_rad_s = 0, yaw_speed_rad_s = 0;
+  std::array<float, 3> roll_pitch_yaw_rad{};
+  std::array<float, 3> omega_frd_rad_s{};
 };
 
 /// Of the FRD body in NED, w first.
@@ -118,15 +123,15 @@ struct LocalPositionNed {
 struct GlobalPositionInt {
   static constexpr MessageInfo kInfo = {33, 104, 28, 28};
   std::uint32_t time_boot_ms = 0;
-  std::int32_t lat_deg_e7 = 0, lon_deg_e7 = 0, alt_mm = 0;  // above mean sea level
-  std::int32_t relative_alt_mm = 0;                         // above home
+  GlobalPlace place{};
+  std::int32_t relative_alt_mm = 0;  // above home
   std::array<std::int16_t, 3> v_ned_cm_s{};
   std::uint16_t heading_cdeg = 0;  // from north clockwise, 0 to 35999
 };
 
 struct GpsGlobalOrigin {
   static constexpr MessageInfo kInfo = {49, 39, 12, 12};
-  std::int32_t lat_deg_e7 = 0, lon_deg_e7 = 0, alt_mm = 0;
+  GlobalPlace place{};
 };
 
 /// `number` is an item's, or how many items there are. MAV_MISSION_TYPE: mission, fence, rally.
@@ -254,7 +259,7 @@ struct AutopilotVersion {
 
 struct HomePosition {
   static constexpr MessageInfo kInfo = {242, 104, 52, 52};
-  std::int32_t lat_deg_e7 = 0, lon_deg_e7 = 0, alt_mm = 0;
+  GlobalPlace place{};
   std::array<float, 3> p_ned_m{};
   std::array<float, 4> q = {std::numeric_limits<float>::quiet_NaN(), 0, 0, 0};  // NaN: unknown
   std::array<float, 3> approach_ned_m{};

@@ -67,25 +67,19 @@ std::array<float, 3> as_floats(const Vec3& v) {
 }
 
 Attitude attitude(const VehicleReport& report) {
-  const Euler euler = euler_ned_frd(report.estimate.T_world_body);
-  const auto omega_frd_rad_s = as_floats(swap_flu_frd(report.estimate.omega_body_rad_s));
   return {.time_boot_ms = report.time_boot_ms,
-          .roll_rad = static_cast<float>(euler.roll_rad),
-          .pitch_rad = static_cast<float>(euler.pitch_rad),
-          .yaw_rad = static_cast<float>(euler.yaw_rad),
-          .roll_speed_rad_s = omega_frd_rad_s[0],
-          .pitch_speed_rad_s = omega_frd_rad_s[1],
-          .yaw_speed_rad_s = omega_frd_rad_s[2]};
+          .roll_pitch_yaw_rad = as_floats(roll_pitch_yaw_ned_frd(report.estimate.T_world_body)),
+          .omega_frd_rad_s = as_floats(swap_flu_frd(report.estimate.omega_body_rad_s))};
 }
 
 AttitudeQuaternion attitude_quaternion(const VehicleReport& report) {
-  const Euler euler = euler_ned_frd(report.estimate.T_world_body);
-  const Eigen::Quaternionf q = (Eigen::AngleAxisd(euler.yaw_rad, Vec3::UnitZ()) *
-                                Eigen::AngleAxisd(euler.pitch_rad, Vec3::UnitY()) *
-                                Eigen::AngleAxisd(euler.roll_rad, Vec3::UnitX()))
-                                   .cast<float>();
+  const Vec3 angles_rad = roll_pitch_yaw_ned_frd(report.estimate.T_world_body);
+  const Eigen::Quaterniond q = Eigen::AngleAxisd(angles_rad[2], Vec3::UnitZ()) *
+                               Eigen::AngleAxisd(angles_rad[1], Vec3::UnitY()) *
+                               Eigen::AngleAxisd(angles_rad[0], Vec3::UnitX());
+  const auto [x, y, z] = as_floats(q.vec());
   return {.time_boot_ms = report.time_boot_ms,
-          .q_ned_frd = {q.w(), q.x(), q.y(), q.z()},
+          .q_ned_frd = {static_cast<float>(q.w()), x, y, z},
           .omega_frd_rad_s = as_floats(swap_flu_frd(report.estimate.omega_body_rad_s))};
 }
 
@@ -95,13 +89,9 @@ LocalPositionNed local_position(const VehicleReport& report) {
           .v_ned_m_s = as_floats(swap_enu_ned(report.estimate.v_world_m_s))};
 }
 
-struct Place {
-  std::int32_t lat_deg_e7 = 0, lon_deg_e7 = 0, alt_mm = 0;
-};
-
 /// On the globe. The scenario's origin lies where PX4's own simulations start, at mean sea level.
 /// On a sphere of 6371 km, as PX4 projects, in steps of 1e-7 deg (11 mm).
-Place place_of(const Vec3& p_world_m) {
+GlobalPlace place_of(const Vec3& p_world_m) {
   constexpr double kOriginLatitude_deg = 47.397742;
   constexpr double kOriginLongitude_deg = 8.545594;
   constexpr double kEarthRadius_m = 6371000.0;
@@ -121,7 +111,7 @@ double positive_deg(double angle_rad) {
 
 /// From north clockwise, in [0, 360).
 double heading_deg(const VehicleReport& report) {
-  return positive_deg(euler_ned_frd(report.estimate.T_world_body).yaw_rad);
+  return positive_deg(roll_pitch_yaw_ned_frd(report.estimate.T_world_body)[2]);
 }
 
 std::uint16_t centidegrees(double deg) {
@@ -133,13 +123,11 @@ std::int16_t centimetres_per_second(double v_m_s) {
 }
 
 GlobalPositionInt global_position(const VehicleReport& report) {
-  const Place place = place_of(report.estimate.T_world_body.translation());
+  const GlobalPlace place = place_of(report.estimate.T_world_body.translation());
   const Vec3 v_ned_m_s = swap_enu_ned(report.estimate.v_world_m_s);
   return {
       .time_boot_ms = report.time_boot_ms,
-      .lat_deg_e7 = place.lat_deg_e7,
-      .lon_deg_e7 = place.lon_deg_e7,
-      .alt_mm = place.alt_mm,
+      .place = place,
       .relative_alt_mm = place.alt_mm,
       .v_ned_cm_s = {centimetres_per_second(v_ned_m_s.x()), centimetres_per_second(v_ned_m_s.y()),
                      centimetres_per_second(v_ned_m_s.z())},
@@ -151,13 +139,11 @@ GpsRawInt gps_raw(const VehicleReport& report) {
   constexpr std::uint8_t kFix3d = 3;
   constexpr std::uint8_t kSatellites = 12;
   constexpr std::uint16_t kDilution = 70;  // 0.70
-  const Place place = place_of(report.estimate.T_world_body.translation());
+  const GlobalPlace place = place_of(report.estimate.T_world_body.translation());
   const Vec3 v_ned_m_s = swap_enu_ned(report.estimate.v_world_m_s);
   return {
       .time_us = std::uint64_t{1000} * report.time_boot_ms,
-      .lat_deg_e7 = place.lat_deg_e7,
-      .lon_deg_e7 = place.lon_deg_e7,
-      .alt_mm = place.alt_mm,
+      .place = place,
       .eph = kDilution,
       .epv = kDilution,
       .speed_cm_s = static_cast<std::uint16_t>(centimetres_per_second(v_ned_m_s.head<2>().norm())),
@@ -183,17 +169,10 @@ VfrHud vfr_hud(const VehicleReport& report) {
 HomePosition home_position(const VehicleReport& report) {
   const Eigen::Vector2d& home_world_m = report.px4->home_world_m();
   const Vec3 p_world_m(home_world_m.x(), home_world_m.y(), 0.0);
-  const Place place = place_of(p_world_m);
-  return {.lat_deg_e7 = place.lat_deg_e7,
-          .lon_deg_e7 = place.lon_deg_e7,
-          .alt_mm = place.alt_mm,
-          .p_ned_m = as_floats(swap_enu_ned(p_world_m))};
+  return {.place = place_of(p_world_m), .p_ned_m = as_floats(swap_enu_ned(p_world_m))};
 }
 
-GpsGlobalOrigin global_origin(const VehicleReport&) {
-  const Place origin = place_of(Vec3::Zero());
-  return {.lat_deg_e7 = origin.lat_deg_e7, .lon_deg_e7 = origin.lon_deg_e7};
-}
+GpsGlobalOrigin global_origin(const VehicleReport&) { return {.place = place_of(Vec3::Zero())}; }
 
 /// What it can do of MAVLink, and the PX4 whose rules it follows.
 AutopilotVersion autopilot_version(const VehicleReport&) {
@@ -215,7 +194,7 @@ ProtocolVersion protocol_version(const VehicleReport&) { return {}; }
 struct Said {
   std::uint32_t id;
   double interval_s;  // by default; 0: only when asked
-  Packed (*pack)(const VehicleReport& report);
+  Frame (*pack)(const VehicleReport& report);
 };
 
 /// The rates are those of PX4's onboard link (mavlink_main.cpp), or slower.
@@ -243,7 +222,7 @@ constexpr std::array kSaid = {said<heartbeat>(1.0),
 
 }  // namespace
 
-std::optional<Packed> said_of(std::uint32_t id, const VehicleReport& report) {
+std::optional<Frame> said_of(std::uint32_t id, const VehicleReport& report) {
   const auto* const found = std::ranges::find(kSaid, id, &Said::id);
   if (found == kSaid.end()) return std::nullopt;
   return found->pack(report);

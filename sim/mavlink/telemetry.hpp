@@ -22,7 +22,7 @@ struct VehicleReport {
 };
 
 /// Message `id` about the vehicle as it is; nothing for one that it does not say.
-std::optional<Packed> said_of(std::uint32_t id, const VehicleReport& report);
+std::optional<Frame> said_of(std::uint32_t id, const VehicleReport& report);
 
 /// One message for up to 50 characters, and chunks with the same `id` (not 0) for more.
 std::vector<StatusText> status_texts_of(const gnbv::StatusText& said, std::uint16_t id);

@@ -80,26 +80,20 @@ std::string url_of(const Address& address) {
 
 bool is_loopback(const Address& address) { return address.host >> 24 == 127; }
 
-Address resolve_udp_url(const std::string& url) { return address_in(url, kScheme); }
-
 Meeting resolve_meeting(const std::string& url) {
-  constexpr std::string_view kOut = "udpout://";
-  constexpr std::string_view kIn = "udpin://";
-  for (const std::string_view scheme : {kOut, kIn}) {
-    if (!url.starts_with(scheme)) continue;
-    const Address address = address_in(url, scheme);
-    if (scheme == kOut && (address.host == INADDR_ANY || address.port == 0)) {
-      throw BadInput(fmt::format("{}: nobody waits there; name the client's own address", url));
-    }
-    return {address, scheme == kOut};
-  }
-  if (!url.starts_with(kScheme)) {
+  if (url.starts_with("udpin://")) return {address_in(url, "udpin://"), false};
+  if (url.starts_with(kScheme)) return {address_in(url, kScheme), false};
+  if (!url.starts_with("udpout://")) {
     throw BadInput(
         fmt::format("'{}': expected udpout://HOST:PORT of a client to speak to, or "
                     "udpin://HOST:PORT to listen at",
                     url));
   }
-  return {resolve_udp_url(url), false};
+  const Address address = address_in(url, "udpout://");
+  if (address.host == INADDR_ANY || address.port == 0) {
+    throw BadInput(fmt::format("{}: nobody waits there; name the client's own address", url));
+  }
+  return {address, true};
 }
 
 Address bound_for(const Meeting& meeting) {

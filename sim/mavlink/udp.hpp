@@ -17,10 +17,6 @@ std::string url_of(const Address& address);
 /// Whether only this machine can send to it: 127.0.0.0/8.
 bool is_loopback(const Address& address);
 
-/// The address that "udp://HOST:PORT" names. HOST may be left out and is then the loopback, never
-/// all interfaces; PORT 0 means any free one. Throws BadInput naming the URL.
-Address resolve_udp_url(const std::string& url);
-
 /// Where vehicle and client meet: at an address that the vehicle listens at, or at one where the
 /// client waits and which the vehicle speaks to first, as PX4 does.
 struct Meeting {
@@ -28,8 +24,9 @@ struct Meeting {
   bool speaks_first = false;
 };
 
-/// "udpout://HOST:PORT" is spoken to, "udp://" and "udpin://" are listened at (resolve_udp_url).
-/// Throws BadInput naming the URL, also where nobody can be spoken to: host 0.0.0.0 or port 0.
+/// "udpout://HOST:PORT" is spoken to, "udp://" and "udpin://" are listened at. HOST may be left out
+/// and is then the loopback, never all interfaces; PORT 0 means any free one. Throws BadInput
+/// naming the URL, also where nobody can be spoken to: host 0.0.0.0 or port 0.
 Meeting resolve_meeting(const std::string& url);
 /// What the vehicle's socket binds for it: the address itself, or any free port of the interface
 /// that reaches it, the loopback's when the client is on this machine.

@@ -122,8 +122,9 @@ TEST(Fly, TouchingTheStructureIsAFailureThatSaysWhere) {
   const auto connect = [&](const std::string& line) {
     if (!line.starts_with(kListening)) return;
     const std::size_t begin = kListening.size();
-    client = std::jthread(fly_into_structure,
-                          mavlink::resolve_udp_url(line.substr(begin, line.find(',') - begin)));
+    client =
+        std::jthread(fly_into_structure,
+                     mavlink::resolve_meeting(line.substr(begin, line.find(',') - begin)).address);
   };
   const Outcome outcome = fly(kFreePort + "--speed 2 --duration 60", "2>&1", "", connect);
   EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
@@ -156,7 +157,8 @@ TEST(Fly, AFloodDoesNotStopTime) {
       if (!line.starts_with(kListening)) return;
       const std::size_t begin = kListening.size();
       attacker = std::jthread(
-          flood, mavlink::resolve_udp_url(line.substr(begin, line.find(',') - begin)), pattern);
+          flood, mavlink::resolve_meeting(line.substr(begin, line.find(',') - begin)).address,
+          pattern);
     };
     // a vehicle that refuses byte by byte flies a tenth of real time
     const Outcome outcome = fly(kFreePort + "--duration 3 --json", "2>&1", "timeout 30 ", attack);

@@ -130,6 +130,18 @@ TEST(Px4Modes, HoldBrakesAndStays) {
   EXPECT_LT((place(quadrotor) - stopped).norm(), 0.02);
 }
 
+TEST(Px4Modes, HoldAfterAnOffboardFlightStaysWhereItBegan) {
+  Quadrotor quadrotor = on_ground();
+  stream(quadrotor, go_to(Vec3(1, 2, 3), 0.5), 0.1);
+  ASSERT_EQ(quadrotor.px4().set_mode(NavState::offboard), Ack::accepted);  // begun elsewhere
+  ASSERT_EQ(quadrotor.px4().arm(true), Ack::accepted);
+  stream(quadrotor, go_to(Vec3(1, 2, 3), 0.5), 8.0);
+  stream(quadrotor, go_to(Vec3(7, 2, 3), 0.5), 8.0);
+  ASSERT_EQ(quadrotor.px4().set_mode(NavState::hold), Ack::accepted);
+  wait(quadrotor, 10.0);
+  EXPECT_LT((place(quadrotor) - Vec3(7, 2, 3)).norm(), 0.3);
+}
+
 TEST(Px4Modes, ReturnClimbsFliesHomeAndLands) {
   CommanderParameters commander;
   commander.return_altitude_m = 15.0;

@@ -185,17 +185,17 @@ TEST(MavlinkBorder, TheBodyFrameHasTheSameBounds) {
 }
 
 /// Oracle: the definition of the angles, Rz Ry Rx in NED/FRD, carried to ENU/FLU by matrices.
-Isometry world_body_of(const Euler& e) {
+Isometry world_body_of(const Vec3& roll_pitch_yaw_rad) {
+  const Vec3& e = roll_pitch_yaw_rad;
   Eigen::Matrix3d enu_ned;
   enu_ned << 0, 1, 0, 1, 0, 0, 0, 0, -1;
   const Eigen::Matrix3d frd_flu = Vec3(1, -1, -1).asDiagonal();
   Isometry T = Isometry::Identity();
-  T.linear() =
-      enu_ned *
-      (Eigen::AngleAxisd(e.yaw_rad, Vec3::UnitZ()) * Eigen::AngleAxisd(e.pitch_rad, Vec3::UnitY()) *
-       Eigen::AngleAxisd(e.roll_rad, Vec3::UnitX()))
-          .toRotationMatrix() *
-      frd_flu;
+  T.linear() = enu_ned *
+               (Eigen::AngleAxisd(e[2], Vec3::UnitZ()) * Eigen::AngleAxisd(e[1], Vec3::UnitY()) *
+                Eigen::AngleAxisd(e[0], Vec3::UnitX()))
+                   .toRotationMatrix() *
+               frd_flu;
   return T;
 }
 
@@ -218,11 +218,11 @@ TEST(MavlinkBorder, AttitudeSurvivesTheRoundTrip) {  // (14)
       return 2.0 * uniform01({2, Stream::bench, i, index}) - 1.0;
     };
     // pitch stays clear of 90 deg, where roll and yaw turn about the same axis
-    const Euler sent = {kPi * random(0), 1.5 * random(1), kPi * random(2)};
-    const Euler read = euler_ned_frd(world_body_of(sent));
-    EXPECT_LT(std::abs(wrap_angle_rad(read.roll_rad - sent.roll_rad)), kExact);
-    EXPECT_LT(std::abs(read.pitch_rad - sent.pitch_rad), kExact);
-    EXPECT_LT(std::abs(wrap_angle_rad(read.yaw_rad - sent.yaw_rad)), kExact);
+    const Vec3 sent(kPi * random(0), 1.5 * random(1), kPi * random(2));
+    const Vec3 read = roll_pitch_yaw_ned_frd(world_body_of(sent));
+    EXPECT_LT(std::abs(wrap_angle_rad(read[0] - sent[0])), kExact);
+    EXPECT_LT(std::abs(read[1] - sent[1]), kExact);
+    EXPECT_LT(std::abs(wrap_angle_rad(read[2] - sent[2])), kExact);
   }
 }
 
@@ -240,12 +240,10 @@ TEST(MavlinkBorder, TelemetryHasMavlinksSigns) {
   EXPECT_EQ(position.p_ned_m, (std::array{2.0F, 1.0F, -3.0F}));
   EXPECT_EQ(position.v_ned_m_s, (std::array{5.0F, 4.0F, -6.0F}));
   const Attitude attitude = said<Attitude>({.estimate = state, .time_boot_ms = 77});
-  EXPECT_NEAR(attitude.yaw_rad, 0.0, 1e-7);  // float
-  EXPECT_NEAR(attitude.pitch_rad, 0.2, 1e-7);
-  EXPECT_NEAR(attitude.roll_rad, 0.0, 1e-7);
-  EXPECT_EQ(attitude.roll_speed_rad_s, 0.1F);
-  EXPECT_EQ(attitude.pitch_speed_rad_s, -0.2F);
-  EXPECT_EQ(attitude.yaw_speed_rad_s, -0.3F);
+  EXPECT_NEAR(attitude.roll_pitch_yaw_rad[2], 0.0, 1e-7);  // float
+  EXPECT_NEAR(attitude.roll_pitch_yaw_rad[1], 0.2, 1e-7);
+  EXPECT_NEAR(attitude.roll_pitch_yaw_rad[0], 0.0, 1e-7);
+  EXPECT_EQ(attitude.omega_frd_rad_s, (std::array{0.1F, -0.2F, -0.3F}));
 }
 
 }  // namespace

@@ -65,12 +65,8 @@ TEST(MavlinkFrame, EveryMessageIsWrittenAsTheIndependentImplementationWritesIt) 
             from_hex("fd06000008ffbe0b000000000600010140ec"));
   EXPECT_EQ(
       bytes_of(Attitude{.time_boot_ms = 123456,
-                        .roll_rad = 0.25F,
-                        .pitch_rad = -0.5F,
-                        .yaw_rad = 1.5F,
-                        .roll_speed_rad_s = 0.125F,
-                        .pitch_speed_rad_s = -2.0F,
-                        .yaw_speed_rad_s = 3.0F},
+                        .roll_pitch_yaw_rad = {0.25F, -0.5F, 1.5F},
+                        .omega_frd_rad_s = {0.125F, -2.0F, 3.0F}},
                9),
       from_hex("fd1c000009ffbe1e000040e201000000803e000000bf0000c03f0000003e000000c00000404003"
                "d6"));

@@ -88,23 +88,21 @@ TEST(MavlinkMessages, StateIsWrittenAsPymavlinkWritesIt) {
       hex_of(SysStatus{1, 2, 3, 4, 5, -6, 8, 9, {10, 11, 12, 13}, 77}, 16),
       "fd1f000010ffbe01000001000000020000000300000004000500faff080009000a000b000c000d004dfb13");
   EXPECT_EQ(
-      hex_of(GpsRawInt{1000, 473977420, 85455940, -1234, 70, 71, 72, 73, 3, 12, -5}, 17),
+      hex_of(GpsRawInt{1000, {473977420, 85455940, -1234}, 70, 71, 72, 73, 3, 12, -5}, 17),
       "fd22000011ffbe180000e8030000000000004c52401c44f417052efbffff4600470048004900030cfbffffff"
       "94b4");
   EXPECT_EQ(
       hex_of(AttitudeQuaternion{1000, {1.0F, 0.5F, -0.5F, 0.25F}, {1.5F, 2.5F, 3.5F}}, 18),
       "fd20000012ffbe1f0000e80300000000803f0000003f000000bf0000803e0000c03f0000204000006040e5c9");
   EXPECT_EQ(
-      hex_of(GlobalPositionInt{1000, 473977420, 85455940, 1500, 1400, {-10, 20, -30}, 35999}, 19),
+      hex_of(GlobalPositionInt{1000, {473977420, 85455940, 1500}, 1400, {-10, 20, -30}, 35999}, 19),
       "fd1c000013ffbe210000e80300004c52401c44f41705dc05000078050000f6ff1400e2ff9f8c9775");
-  EXPECT_EQ(hex_of(GpsGlobalOrigin{473977420, 85455940, -7}, 20),
+  EXPECT_EQ(hex_of(GpsGlobalOrigin{{473977420, 85455940, -7}}, 20),
             "fd0c000014ffbe3100004c52401c44f41705f9ffffffca0a");
   EXPECT_EQ(hex_of(VfrHud{1.5F, 2.5F, 3.5F, -4.5F, 359, 50}, 21),
             "fd13000015ffbe4a00000000c03f0000204000006040000090c0670132e44f");
   EXPECT_EQ(
-      hex_of(HomePosition{473977420,
-                          85455940,
-                          -7,
+      hex_of(HomePosition{{473977420, 85455940, -7},
                           {1.0F, 2.0F, 3.0F},
                           {1.0F, 0.5F, 0.25F, 0.125F},
                           {4.0F, 5.0F, 6.0F}},

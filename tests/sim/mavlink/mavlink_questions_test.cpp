@@ -86,7 +86,7 @@ TEST(MavlinkQuestions, AskedForAMessageItComesWithItsAcknowledgement) {
   ASSERT_EQ(session.count<AutopilotVersion>(), 2U);
   EXPECT_EQ(session.last<AutopilotVersion>().capabilities, 8348U);
   EXPECT_EQ(session.last<ProtocolVersion>().max_version, 200);
-  EXPECT_EQ(session.last<GpsGlobalOrigin>().lat_deg_e7, 473977420);
+  EXPECT_EQ(session.last<GpsGlobalOrigin>().place.lat_deg_e7, 473977420);
   session.command(kRequestMessage, 397);  // COMPONENT_METADATA
   session.listen();
   EXPECT_EQ(session.last<CommandAck>().result, 3);
@@ -284,14 +284,14 @@ TEST(MavlinkQuestions, PlacesOnTheGlobeAreAsFarApartAsInTheWorld) {
   const auto place = said<GlobalPositionInt>({.estimate = state});
   const auto origin = said<GpsGlobalOrigin>({});
   const double to_rad = 1e-7 * kPi / 180.0;
-  const double lat_a = origin.lat_deg_e7 * to_rad;
-  const double lat_b = place.lat_deg_e7 * to_rad;
-  const double lon = (place.lon_deg_e7 - origin.lon_deg_e7) * to_rad;
+  const double lat_a = origin.place.lat_deg_e7 * to_rad;
+  const double lat_b = place.place.lat_deg_e7 * to_rad;
+  const double lon = (place.place.lon_deg_e7 - origin.place.lon_deg_e7) * to_rad;
   const double haversine = std::pow(std::sin((lat_b - lat_a) / 2.0), 2.0) +
                            std::cos(lat_a) * std::cos(lat_b) * std::pow(std::sin(lon / 2.0), 2.0);
   // 1e-7 deg is 11 mm
   EXPECT_NEAR(2.0 * 6371000.0 * std::asin(std::sqrt(haversine)), 50.0, 0.02);
-  EXPECT_EQ(place.alt_mm, 5000);
+  EXPECT_EQ(place.place.alt_mm, 5000);
   EXPECT_EQ(place.heading_cdeg, 9000) << "ENU's x is east";
 }
 

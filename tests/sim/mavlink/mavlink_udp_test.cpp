@@ -14,10 +14,11 @@ namespace {
 constexpr std::uint32_t kLoopback = 0x7f000001;
 
 TEST(MavlinkUdp, AUrlNamesAnAddress) {
-  EXPECT_EQ(resolve_udp_url("udp://127.0.0.1:14540"), (Address{kLoopback, 14540}));
-  EXPECT_EQ(resolve_udp_url("udp://0.0.0.0:0"), (Address{0, 0}));
-  EXPECT_EQ(resolve_udp_url("udp://localhost:65535"), (Address{kLoopback, 65535}));
-  EXPECT_EQ(resolve_udp_url("udp://:14540"), (Address{kLoopback, 14540})) << "never all interfaces";
+  EXPECT_EQ(resolve_meeting("udp://127.0.0.1:14540").address, (Address{kLoopback, 14540}));
+  EXPECT_EQ(resolve_meeting("udp://0.0.0.0:0").address, (Address{0, 0}));
+  EXPECT_EQ(resolve_meeting("udp://localhost:65535").address, (Address{kLoopback, 65535}));
+  EXPECT_EQ(resolve_meeting("udp://:14540").address, (Address{kLoopback, 14540}))
+      << "never all interfaces";
   EXPECT_EQ(url_of({0xc0a80102, 14540}), "udp://192.168.1.2:14540");
 }
 
@@ -27,7 +28,7 @@ TEST(MavlinkUdp, EveryOtherUrlIsBadInputThatNamesIt) {
         "udp://127.0.0.1:", "udp://127.0.0.1:65536", "udp://127.0.0.1:-1", "udp://127.0.0.1:14 540",
         "udp://127.0.0.1:14540/", "udp://256.0.0.1:14540", "udp://[::1]:14540"}) {
     try {
-      resolve_udp_url(url);
+      resolve_meeting(url);
       ADD_FAILURE() << url;
     } catch (const BadInput& error) {
       EXPECT_NE(std::string(error.what()).find(url), std::string::npos) << error.what();
@@ -104,10 +105,10 @@ TEST(MavlinkUdp, AClientThatIsGoneDoesNoHarm) {
 }
 
 TEST(MavlinkUdp, TheLoopbackIsThisMachineAlone) {
-  EXPECT_TRUE(is_loopback(resolve_udp_url("udp://127.0.0.1:1")));
-  EXPECT_TRUE(is_loopback(resolve_udp_url("udp://127.3.2.1:1")));
-  EXPECT_FALSE(is_loopback(resolve_udp_url("udp://0.0.0.0:1")));
-  EXPECT_FALSE(is_loopback(resolve_udp_url("udp://192.168.0.7:1")));
+  EXPECT_TRUE(is_loopback(resolve_meeting("udp://127.0.0.1:1").address));
+  EXPECT_TRUE(is_loopback(resolve_meeting("udp://127.3.2.1:1").address));
+  EXPECT_FALSE(is_loopback(resolve_meeting("udp://0.0.0.0:1").address));
+  EXPECT_FALSE(is_loopback(resolve_meeting("udp://192.168.0.7:1").address));
 }
 
 }  // namespace
