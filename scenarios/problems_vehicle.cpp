@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "scenarios/problems.hpp"
-#include "sim/flight/allocation.hpp"
 #include "sim/flight/flight.hpp"
 #include "sim/flight/guidance.hpp"
 #include "sim/flight/rotors.hpp"

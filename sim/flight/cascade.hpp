@@ -3,8 +3,8 @@
 // (AttitudeControl.cpp) a body rate, the rate loop (rate_control.cpp) and the mixer rotor commands.
 #pragma once
 
-#include "sim/flight/allocation.hpp"
 #include "sim/flight/flight.hpp"
+#include "sim/flight/rotors.hpp"
 
 namespace gnbv {
 
@@ -35,8 +35,7 @@ Eigen::Vector2d constrain_xy(const Eigen::Vector2d& priority, const Eigen::Vecto
                              double max_m_s);
 
 /// One pass of both loops, kPositionLoop_s after the last. An invalid setpoint stops the vehicle
-/// (zero velocity). Hover thrust is the true hover command, held constant: PX4's estimator would
-/// converge to it.
+/// (zero velocity). Hover thrust is the true hover command, to which PX4's estimator converges.
 AttitudeSetpoint position_control(const AutopilotParameters& parameters,
                                   const AirframeParameters& airframe, PositionControlMemory& memory,
                                   const VehicleState& state, const Setpoint& setpoint);

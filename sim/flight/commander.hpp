@@ -1,13 +1,14 @@
-// What PX4's commander decides, as pure functions: which mode runs, how a takeoff is let go, and
-// when a vehicle has landed.
+// What PX4 decides above its cascade, as pure functions: which mode runs, how a takeoff is let go,
+// when a vehicle has landed, and where the Auto modes lead it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string_view>
 
-#include "sim/flight/commander_parameters.hpp"
 #include "sim/flight/flight.hpp"
+#include "sim/flight/trajectory.hpp"
 
 namespace gnbv {
 
@@ -91,5 +92,31 @@ struct LandEvidence {
 /// One step of `dt_s`. A disarmed vehicle counts as landed at once.
 LandDetector next(const LandDetector& detector, const CommanderParameters& parameters,
                   const LandEvidence& evidence, const VehicleState& estimate, double dt_s);
+
+/// What an Auto mode remembers: PX4's hold, takeoff, land and return as setpoints along
+/// jerk-limited trajectories (FlightTaskAuto.cpp, PositionSmoothing.cpp, rtl.cpp). The heading
+/// stays that of the mode's begin; PX4 would turn towards home on the way back.
+struct AutoFlight {
+  enum class Stage { hold, climb, go_home, land };
+  Stage stage = Stage::hold;
+  NavState mode = NavState::hold;
+  std::array<Motion, 3> axes;  // the trajectory, world ENU
+  double yaw_rad = 0.0;
+  double altitude_m = 0.0;  // that `climb` ends at, world z
+  Eigen::Vector2d home_world_m = Eigen::Vector2d::Zero();
+};
+
+/// Begins a mode where the vehicle is and with the velocity it has. `altitude_m`: that of a
+/// takeoff, above the ground (world z = 0); a vehicle that is higher stays there.
+AutoFlight begin_auto(NavState mode, const CommanderParameters& parameters,
+                      const VehicleState& estimate, const Eigen::Vector2d& home_world_m,
+                      double altitude_m);
+
+/// The setpoint `dt_s` after the last.
+Setpoint step_auto(AutoFlight& flight, const CommanderParameters& parameters,
+                   const VehicleState& estimate, double dt_s);
+
+/// Whether a takeoff has come near its altitude (NAV_MC_ALT_RAD).
+bool is_finished(const AutoFlight& takeoff, const VehicleState& estimate);
 
 }  // namespace gnbv

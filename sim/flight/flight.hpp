@@ -54,7 +54,7 @@ class Flight {
   virtual void command(const Setpoint& setpoint) = 0;
   /// From now on the vehicle lands where it is, whatever is commanded, and may touch the ground.
   virtual void land() = 0;
-  /// Whether it has landed and switched its rotors off. Never in a world without ground.
+  /// Landed, with its rotors off. Never in a world without ground.
   virtual bool has_landed() const = 0;
   /// Advances one tick. Throws BrokenInvariant when the state becomes NaN.
   virtual void step() = 0;
@@ -66,8 +66,7 @@ class Flight {
 
 /// An airborne vehicle hovering at `start` (rotors at hover speed), in a world rebuilt for it.
 /// `seed` keys the errors of the estimate and the gusts.
-/// VehicleKind::quadrotor: sim/flight/quadrotor.hpp, armed and in OFFBOARD. In a mean wind it
-/// begins leaning against it.
+/// VehicleKind::quadrotor: armed and in OFFBOARD, leaning against the mean wind.
 /// VehicleKind::ideal: level, takes position and yaw from the setpoint at once, integrates velocity
 /// and yaw rate where these are not given, keeps what is not commanded. It knows where it is, feels
 /// no wind, draws hover power and has no body to collide with. It lands on the highest terrain at

@@ -45,11 +45,6 @@ double attitude_lag_s(const AutopilotParameters& autopilot) {
   return 0.8 / autopilot.attitude_p_per_s.x();
 }
 
-Vec3 direction_between(const Vec3& from, const Vec3& to) {
-  const double length_m = (to - from).norm();
-  return length_m > 0.0 ? Vec3((to - from) / length_m) : Vec3(Vec3::Zero());
-}
-
 /// The reference of one leg: the straight line, and the short way round to the heading.
 class Leg {
  public:
@@ -59,7 +54,7 @@ class Leg {
         start_(start),
         goal_(goal),
         turn_rad_(wrap_angle_rad(goal.yaw_rad - start.yaw_rad)),
-        direction_(direction_between(start.p_world_m, goal.p_world_m)),
+        direction_((goal.p_world_m - start.p_world_m).normalized()),
         path_((goal.p_world_m - start.p_world_m).norm(),
               {speed_along(direction_, speed_m_s, vehicle), config.acceleration_m_s2,
                config.jerk_m_s3}),

@@ -1,8 +1,7 @@
 // PX4 as an external client meets it: commands with acknowledgements, modes, arming, the offboard
-// stream and its failsafe, takeoff ramp, landing detection. Simulation time only, no input or
-// output: the same calls at the same ticks give the same flight, bit by bit. Source of every rule:
-// PX4-Autopilot, as listed in the tests (Commander.cpp, UserModeIntention.cpp, offboardCheck.cpp,
-// failsafe.cpp, Takeoff.cpp, MulticopterLandDetector.cpp).
+// stream and its failsafe, takeoff ramp, landing detection. The same calls at the same ticks give
+// the same flight, bit by bit. Source of every rule: PX4-Autopilot, as listed in the tests
+// (Commander.cpp, UserModeIntention.cpp, offboardCheck.cpp, and those of commander.hpp).
 #pragma once
 
 #include <array>
@@ -12,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "sim/flight/auto_modes.hpp"
 #include "sim/flight/cascade.hpp"
 #include "sim/flight/commander.hpp"
 

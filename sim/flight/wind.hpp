@@ -1,7 +1,6 @@
-// The air the vehicle flies in: a mean wind that is the same everywhere, and Dryden's gusts at the
-// vehicle.
-// Source: MIL-F-8785C (1980), section 3.7: continuous gusts of the Dryden form and the low-altitude
-// model. MIL-HDBK-1797 writes the same spectra with halved lateral and vertical lengths.
+// The air: a mean wind that is the same everywhere, and Dryden's gusts at the vehicle. Source:
+// MIL-F-8785C (1980), section 3.7, continuous gusts and the low-altitude model. MIL-HDBK-1797
+// writes the same spectra with halved lateral and vertical lengths.
 #pragma once
 
 #include <array>
@@ -54,10 +53,10 @@ class Wind {
  public:
   Wind(const WindConfig& config, std::uint64_t seed);
 
-  /// Velocity of the air during the next tick at a vehicle with that true place and velocity.
-  /// The gust field is frozen: it passes at the speed of the vehicle through the mean wind, at
-  /// least 1 m/s (own choice: otherwise it would never pass a vehicle that drifts with the wind).
-  /// The height of its law is z, over terrain too.
+  /// Velocity of the air during the next tick at a vehicle with that true place and velocity. The
+  /// gusts are frozen: they pass at the vehicle's speed through the mean wind, at least 1 m/s (own
+  /// choice, for a vehicle that drifts with the wind). The height of their law is z, over terrain
+  /// too.
   Vec3 step(const Vec3& p_world_m, const Vec3& v_world_m_s);
 
  private:

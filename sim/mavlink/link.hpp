@@ -51,18 +51,17 @@ bool handle_if_one_of(const Frame& frame, const auto& handle) {
   return (is_it.template operator()<Messages>() || ...);
 }
 
-/// The same of a command, a mode or a setpoint; heartbeats and questions ask for nothing.
+/// The same of an order: a command, a mode or a setpoint.
 bool handle_if_order(const Frame& frame, const auto& handle) {
   return handle_if_one_of<SetMode, CommandLong, CommandInt, SetPositionTargetLocalNed,
                           SetPositionTargetGlobalInt, SetAttitudeTarget>(frame, handle);
 }
 
-/// The first address from which a good frame comes is the client's, for as long as the vehicle is
-/// armed: nobody takes it over in flight. While it is disarmed another address gets the place by a
-/// good frame when the client was silent for kClientSilence_s, and by asking for something when
-/// the client asked for nothing that long. MAVLink 2 signatures are not checked: whoever can send
-/// from the client's address is the client.
-/// A partner, whom the vehicle speaks to first, has the place from the beginning and for good.
+/// The first address from which a good frame comes is the client's. While the vehicle is armed it
+/// stays so: nobody takes over in flight. While it is disarmed another address takes the place, by
+/// a good frame when the client was silent for kClientSilence_s, or by an order when the client
+/// gave none that long. A partner, whom the vehicle speaks to first, has the place for good.
+/// MAVLink 2 signatures are not checked: whoever can send from the client's address is the client.
 class Link {
  public:
   static constexpr double kClientSilence_s = 5.0;
@@ -84,7 +83,7 @@ class Link {
   std::optional<Address> client_;
   bool is_for_good_ = false;
   double heard_s_ = 0.0;  // the client's last good frame
-  double asked_s_ = 0.0;  // its last that asked for something
+  double asked_s_ = 0.0;  // its last order
   LinkCounts counts_;
 };
 

@@ -28,8 +28,8 @@ struct Meeting {
 /// and is then the loopback, never all interfaces; PORT 0 means any free one. Throws BadInput
 /// naming the URL, also where nobody can be spoken to: host 0.0.0.0 or port 0.
 Meeting resolve_meeting(const std::string& url);
-/// What the vehicle's socket binds for it: the address itself, or any free port of the interface
-/// that reaches it, the loopback's when the client is on this machine.
+/// What the vehicle's socket binds for it: the address itself, or any free port; the loopback's
+/// when the client is on this machine.
 Address bound_for(const Meeting& meeting);
 
 class UdpSocket {
@@ -40,7 +40,7 @@ class UdpSocket {
   UdpSocket(const UdpSocket&) = delete;
   UdpSocket& operator=(const UdpSocket&) = delete;
 
-  /// Where it is bound: the address asked for, with the port that was found for 0.
+  /// Where it is bound, with the port that was found for 0.
   Address address() const;
 
   struct Datagram {

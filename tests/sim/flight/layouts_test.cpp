@@ -9,9 +9,9 @@
 
 #include "scenarios/builtin.hpp"
 #include "sim/core/rng.hpp"
-#include "sim/flight/allocation.hpp"
 #include "sim/flight/guidance.hpp"
 #include "sim/flight/quadrotor.hpp"
+#include "sim/flight/rotors.hpp"
 #include "sim/mesh/world.hpp"
 #include "tests/support/streaming_flight.hpp"
 

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "sim/flight/allocation.hpp"
 #include "sim/flight/rotors.hpp"
 
 namespace gnbv {
