@@ -13,7 +13,6 @@
 #include "sensors/lidar_model.hpp"
 #include "sim/flight/guidance.hpp"
 #include "sim/flight/vehicle_config.hpp"
-#include "sim/flight/wind.hpp"
 #include "sim/mesh/mesh_file.hpp"
 
 namespace gnbv {

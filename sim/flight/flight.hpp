@@ -8,7 +8,6 @@
 
 #include "sim/core/pose.hpp"
 #include "sim/flight/vehicle_config.hpp"
-#include "sim/flight/wind.hpp"
 
 namespace gnbv {
 

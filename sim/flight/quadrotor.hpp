@@ -1,10 +1,9 @@
 // The quadrotor with its autopilot in its world: what `gnbv fly` serves and what missions fly.
 #pragma once
 
+#include "sim/flight/disturbances.hpp"
 #include "sim/flight/px4.hpp"
-#include "sim/flight/state_estimator.hpp"
 #include "sim/flight/vehicle.hpp"
-#include "sim/flight/wind.hpp"
 
 namespace gnbv {
 

@@ -222,6 +222,11 @@ struct EstimateConfig {
   double outage_drift_m_per_sqrt_s = 0.3;
 };
 
+struct WindConfig {
+  Vec3 mean_world_m_s = Vec3::Zero();  // velocity of the air: [3, 0, 0] blows towards the east
+  double gust_w20_m_s = 0.0;           // wind 20 ft above the ground that makes the gusts; 0: none
+};
+
 enum class VehicleKind { quadrotor, ideal };
 
 struct VehicleConfig {

@@ -1,11 +1,11 @@
 // The error of each source against its own law, over many missions at once.
-#include "sim/flight/state_estimator.hpp"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <vector>
+
+#include "sim/flight/disturbances.hpp"
 
 namespace gnbv {
 namespace {

@@ -1,6 +1,4 @@
 // Dryden's gusts against their own spectra, and the vehicle in a steady wind against statics.
-#include "sim/flight/wind.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "scenarios/builtin.hpp"
+#include "sim/flight/disturbances.hpp"
 #include "sim/flight/guidance.hpp"
 #include "sim/mesh/world.hpp"
 #include "tests/support/streaming_flight.hpp"
