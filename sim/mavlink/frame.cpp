@@ -52,13 +52,9 @@ std::size_t read_frame(std::span<const std::uint8_t> bytes, ReadCounts& counts,
   }
   const std::size_t payload_size = bytes[1];
   const std::uint8_t flags = is_version_1 ? 0 : bytes[2];  // of incompatibility
-  Frame frame = is_version_1
-                    ? Frame{bytes[2], bytes[3], bytes[4], bytes[5], {}}
-                    : Frame{bytes[4],
-                            bytes[5],
-                            bytes[6],
-                            bytes[7] | std::uint32_t{bytes[8]} << 8 | std::uint32_t{bytes[9]} << 16,
-                            {}};
+  const auto ids = bytes.subspan(is_version_1 ? 2 : 4);
+  Frame frame{ids[0], ids[1], ids[2], ids[3], {}};
+  if (!is_version_1) frame.message_id |= std::uint32_t{ids[4]} << 8 | std::uint32_t{ids[5]} << 16;
   const std::size_t crc_at = header_size + payload_size;
   const std::size_t frame_size =
       crc_at + kCrcSize + ((flags & kSignedFlag) != 0 ? kSignatureSize : 0);

@@ -56,7 +56,7 @@ std::uint32_t resolve_host(const std::string& host, const std::string& url) {
 /// The address behind the scheme of a URL.
 Address address_in(const std::string& url, std::string_view scheme) {
   const std::size_t colon = url.rfind(':');
-  if (!url.starts_with(scheme) || colon < scheme.size()) {
+  if (colon < scheme.size()) {
     throw BadInput(
         fmt::format("'{}': expected {}HOST:PORT, such as {}127.0.0.1:14540", url, scheme, scheme));
   }
