@@ -49,12 +49,6 @@ using Stage = AutoFlight::Stage;
 constexpr double kAltitudeArrival_m = 0.8;  // NAV_MC_ALT_RAD; the rest of the way is flown as well
 constexpr double kHomeArrival_m = 0.5;      // of RTL, before it descends and still comes nearer
 
-/// Near home RTL climbs no higher than a cone of 45 deg above it.
-double return_altitude_m(const CommanderParameters& parameters, double distance_m) {
-  if (distance_m > parameters.return_distance_min_m) return parameters.return_altitude_m;
-  return std::min(parameters.return_altitude_m, distance_m);
-}
-
 /// MPC_Z_V_AUTO_DN far above the ground, MPC_LAND_SPEED near it.
 double landing_speed_m_s(const CommanderParameters& parameters, double height_m) {
   const double range_m = parameters.land_slow_from_m - parameters.land_slow_below_m;
@@ -248,9 +242,13 @@ AutoFlight begin_auto(NavState mode, const CommanderParameters& parameters,
   for (int i = 0; i < 3; ++i) {
     flight.axes[static_cast<std::size_t>(i)] = {p_world_m[i], estimate.v_world_m_s[i], 0.0};
   }
-  const double distance_m = (p_world_m.head<2>() - home_world_m).norm();
-  flight.altitude_m =
-      std::max(p_world_m.z(), returns ? return_altitude_m(parameters, distance_m) : altitude_m);
+  if (returns) {  // near home no higher than a cone of 45 deg above it
+    const double distance_m = (p_world_m.head<2>() - home_world_m).norm();
+    altitude_m = parameters.return_altitude_m;
+    if (distance_m <= parameters.return_distance_min_m)
+      altitude_m = std::min(altitude_m, distance_m);
+  }
+  flight.altitude_m = std::max(p_world_m.z(), altitude_m);
   return flight;
 }
 

@@ -14,26 +14,6 @@ void move(Motion& now, double jerk, double dt_s) {
   now.acceleration += dt_s * jerk;
 }
 
-/// The signed jerk of the first phase: away from the speed that would be reached by braking the
-/// acceleration at once, towards the wanted one.
-double first_jerk(const Motion& now, double dv, const AxisLimits& limits) {
-  const double dv_braking = now.acceleration * std::abs(now.acceleration) / (2.0 * limits.jerk);
-  return dv >= dv_braking ? limits.jerk : -limits.jerk;
-}
-
-/// The change that goes through the acceleration `peak`, or as far as its limit; the middle phase
-/// fills up what is missing of the speed.
-SpeedChange through_peak(const Motion& now, double dv, double jerk, double peak, double a_max) {
-  const double a1 = std::clamp(peak, -a_max, a_max);
-  SpeedChange change{.jerk = jerk, .t1_s = std::max(0.0, (a1 - now.acceleration) / jerk)};
-  const double reached = now.acceleration + jerk * change.t1_s;
-  change.t3_s = std::max(0.0, reached / jerk);
-  const double dv_outer =
-      0.5 * (now.acceleration + reached) * change.t1_s + 0.5 * reached * change.t3_s;
-  if (std::abs(reached) > 1e-9) change.t2_s = std::max(0.0, (dv - dv_outer) / reached);
-  return change;
-}
-
 /// The speed at half way when nothing is lost on cruising: with a stretch of constant acceleration
 /// if there is room for one, otherwise the jerk alone shapes the motion.
 double peak_speed_within(double distance, double acceleration, double jerk) {
@@ -46,25 +26,28 @@ double peak_speed_within(double distance, double acceleration, double jerk) {
 
 }  // namespace
 
-SpeedChange fastest_change(const Motion& now, double speed, const AxisLimits& limits) {
+SpeedChange speed_change(const Motion& now, double speed, const AxisLimits& limits,
+                         std::optional<double> duration_s) {
   const double dv = speed - now.speed;
-  const double jerk = first_jerk(now, dv, limits);
-  // without a middle phase a1^2 / j - a0^2 / (2 j) = dv, PX4's T1 = (a1 - a0) / j
-  const double squared = jerk * dv + 0.5 * now.acceleration * now.acceleration;
-  const double peak = std::copysign(std::sqrt(std::max(0.0, squared)), jerk);
-  return through_peak(now, dv, jerk, peak, limits.acceleration);
-}
-
-SpeedChange stretched_change(const Motion& now, double speed, const AxisLimits& limits,
-                             double duration_s) {
-  const double dv = speed - now.speed;
-  const double jerk = first_jerk(now, dv, limits);
-  // T1 + T2 + T3 = T gives a1^2 - a1 (j T + a0) + j dv + a0^2 / 2 = 0; the root nearer to zero
-  const double sum = jerk * duration_s + now.acceleration;
-  const double squared = sum * sum - 4.0 * jerk * dv - 2.0 * now.acceleration * now.acceleration;
-  if (squared < 0.0) return fastest_change(now, speed, limits);
-  const double peak = 0.5 * (sum - std::copysign(std::sqrt(squared), jerk));
-  return through_peak(now, dv, jerk, peak, limits.acceleration);
+  const double a0 = now.acceleration;
+  // towards the wanted speed, from the one that is reached by braking the acceleration at once
+  const double jerk = dv >= a0 * std::abs(a0) / (2.0 * limits.jerk) ? limits.jerk : -limits.jerk;
+  // the fastest: without a middle phase a1^2 / j - a0^2 / (2 j) = dv, PX4's T1 = (a1 - a0) / j
+  double peak = std::copysign(std::sqrt(std::max(0.0, jerk * dv + 0.5 * a0 * a0)), jerk);
+  if (duration_s) {
+    // T1 + T2 + T3 = T gives a1^2 - a1 (j T + a0) + j dv + a0^2 / 2 = 0; the root nearer to zero
+    const double sum = jerk * *duration_s + a0;
+    const double squared = sum * sum - 4.0 * jerk * dv - 2.0 * a0 * a0;
+    if (!(squared < 0.0)) peak = 0.5 * (sum - std::copysign(std::sqrt(squared), jerk));
+  }
+  const double a1 = std::clamp(peak, -limits.acceleration, limits.acceleration);
+  SpeedChange change{.jerk = jerk, .t1_s = std::max(0.0, (a1 - a0) / jerk)};
+  const double reached = a0 + jerk * change.t1_s;
+  change.t3_s = std::max(0.0, reached / jerk);
+  // the middle phase fills up what is missing of the speed
+  const double dv_outer = 0.5 * (a0 + reached) * change.t1_s + 0.5 * reached * change.t3_s;
+  if (std::abs(reached) > 1e-9) change.t2_s = std::max(0.0, (dv - dv_outer) / reached);
+  return change;
 }
 
 Motion advance(const Motion& now, const SpeedChange& change, double dt_s) {
@@ -85,11 +68,11 @@ std::array<Motion, 3> advance_together(const std::array<Motion, 3>& axes,
                                        const std::array<AxisLimits, 3>& limits, double dt_s) {
   double longest_s = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
-    longest_s = std::max(longest_s, fastest_change(axes[i], speeds[i], limits[i]).duration_s());
+    longest_s = std::max(longest_s, speed_change(axes[i], speeds[i], limits[i]).duration_s());
   }
   std::array<Motion, 3> after;
   for (std::size_t i = 0; i < 3; ++i) {
-    after[i] = advance(axes[i], stretched_change(axes[i], speeds[i], limits[i], longest_s), dt_s);
+    after[i] = advance(axes[i], speed_change(axes[i], speeds[i], limits[i], longest_s), dt_s);
   }
   return after;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 namespace gnbv {
 
@@ -28,13 +29,10 @@ struct SpeedChange {
   double duration_s() const { return t1_s + t2_s + t3_s; }
 };
 
-/// The fastest change from `now` to that speed.
-SpeedChange fastest_change(const Motion& now, double speed, const AxisLimits& limits);
-
-/// The same change with a lower peak, so that it takes `duration_s` (not less than the fastest), or
-/// as long as the acceleration at hand allows.
-SpeedChange stretched_change(const Motion& now, double speed, const AxisLimits& limits,
-                             double duration_s);
+/// The fastest change from `now` to that speed; or one with a lower peak that takes `duration_s`
+/// (not less than the fastest), as far as the acceleration at hand allows.
+SpeedChange speed_change(const Motion& now, double speed, const AxisLimits& limits,
+                         std::optional<double> duration_s = std::nullopt);
 
 /// The motion after `dt_s` of the change; it keeps its speed after the end.
 Motion advance(const Motion& now, const SpeedChange& change, double dt_s);

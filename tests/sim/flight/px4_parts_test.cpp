@@ -27,7 +27,7 @@ TEST(VelocitySmoothing, EveryChangeEndsAtItsSpeedWithinItsLimits) {
   for (std::uint64_t i = 0; i < 3000; ++i) {
     const Motion start{0.0, uniform(3 * i, -5, 5), uniform(3 * i + 1, -3, 3)};
     const double wanted_m_s = uniform(3 * i + 2, -5, 5);
-    const SpeedChange change = fastest_change(start, wanted_m_s, kLimits);
+    const SpeedChange change = speed_change(start, wanted_m_s, kLimits);
     const Motion end = advance(start, change, change.duration_s());
     ASSERT_NEAR(end.speed, wanted_m_s, 1e-12);
     ASSERT_EQ(end.acceleration, 0.0);
@@ -44,9 +44,9 @@ TEST(VelocitySmoothing, FromRestItTakesTheClosedFormsTime) {
     // below a^2 / j the limit is not reached: 2 sqrt(dv / j); above: dv / a + a / j
     const double size = std::abs(dv);
     const double time_s = size < 9.0 / 4.0 ? 2.0 * std::sqrt(size / 4.0) : size / 3.0 + 3.0 / 4.0;
-    EXPECT_NEAR(fastest_change({}, dv, kLimits).duration_s(), time_s, 1e-12) << dv;
+    EXPECT_NEAR(speed_change({}, dv, kLimits).duration_s(), time_s, 1e-12) << dv;
     for (const double longer : {1.0, 1.5, 4.0}) {
-      const SpeedChange slow = stretched_change({}, dv, kLimits, longer * time_s);
+      const SpeedChange slow = speed_change({}, dv, kLimits, longer * time_s);
       EXPECT_NEAR(slow.duration_s(), longer * time_s, 1e-9);
       EXPECT_NEAR(advance({}, slow, slow.duration_s()).speed, dv, 1e-12);
     }
@@ -55,12 +55,12 @@ TEST(VelocitySmoothing, FromRestItTakesTheClosedFormsTime) {
 
 TEST(VelocitySmoothing, StepsOfADifferentLengthGoTheSameWay) {
   const Motion start{1.0, -2.0, 0.5};
-  const SpeedChange change = fastest_change(start, 3.0, kLimits);
+  const SpeedChange change = speed_change(start, 3.0, kLimits);
   const Motion once = advance(start, change, change.duration_s());
   Motion replanned = start;  // as the Auto modes do
   for (int i = 0; i < 1000; ++i) {
     replanned =
-        advance(replanned, fastest_change(replanned, 3.0, kLimits), change.duration_s() / 1000);
+        advance(replanned, speed_change(replanned, 3.0, kLimits), change.duration_s() / 1000);
   }
   EXPECT_NEAR(replanned.position, once.position, 1e-6);  // a thousand roundings
   EXPECT_NEAR(replanned.speed, once.speed, 1e-6);
@@ -74,7 +74,7 @@ TEST(VelocitySmoothing, ShorterAxesWaitForTheLongest) {
   }
   // same time, half the change: the accelerations keep near that ratio, not both at the limit
   EXPECT_LT(axes[1].acceleration, 0.7 * axes[0].acceleration);
-  const double before_s = fastest_change(axes[0], 4.0, kLimits).duration_s();
+  const double before_s = speed_change(axes[0], 4.0, kLimits).duration_s();
   for (int i = 0; 0.02 * i < before_s + 0.02; ++i) {
     axes = advance_together(axes, {4.0, 2.0, 0.0}, {kLimits, kLimits, kLimits}, 0.02);
   }
@@ -88,7 +88,7 @@ TEST(VelocitySmoothing, BrakingSpeedArrivesWithoutPassingTheGoal) {
     for (int i = 0; i < 1500; ++i) {
       const double way_m = goal_m - axis.position;
       const double wanted = std::min(5.0, braking_speed(std::max(0.0, way_m), kLimits));
-      axis = advance(axis, fastest_change(axis, wanted, kLimits), 0.02);
+      axis = advance(axis, speed_change(axis, wanted, kLimits), 0.02);
       ASSERT_LT(axis.position, goal_m + 0.01);
       ASSERT_LE(axis.speed, 5.0 + 1e-9);
       ASSERT_LE(std::abs(axis.acceleration), 3.0 + 1e-9);
