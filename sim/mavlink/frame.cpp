@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <boost/crc.hpp>
+#include <iterator>
 
 #include "sim/core/error.hpp"
 #include "sim/mavlink/messages.hpp"
@@ -121,10 +122,10 @@ std::vector<std::uint8_t> write_frame(const Frame& frame) {
                                      byte(id),
                                      byte(id >> 8),
                                      byte(id >> 16)};
-  const auto payload = std::span(frame.payload).first(size);
-  bytes.insert(bytes.end(), payload.begin(), payload.end());
+  std::copy_n(frame.payload.begin(), size, std::back_inserter(bytes));
   const std::uint16_t crc = frame_crc(std::span(bytes).subspan(1), info->crc_extra);
-  bytes.insert(bytes.end(), {byte(crc), byte(crc >> 8U)});
+  bytes.push_back(byte(crc));
+  bytes.push_back(byte(crc >> 8U));
   return bytes;
 }
 
