@@ -110,22 +110,16 @@ std::vector<std::uint8_t> write_frame(const Frame& frame) {
              frame.message_id, frame.payload.size());
   std::size_t size = frame.payload.size();
   while (size > 1 && frame.payload[size - 1] == 0) --size;
-  const auto byte = [](std::size_t bits) { return static_cast<std::uint8_t>(bits & 0xff); };
-  const std::uint32_t id = frame.message_id;
-  std::vector<std::uint8_t> bytes = {kStart2,
-                                     byte(size),
-                                     0,
-                                     0,
-                                     frame.sequence,
-                                     frame.system_id,
-                                     frame.component_id,
-                                     byte(id),
-                                     byte(id >> 8),
-                                     byte(id >> 16)};
+  std::vector<std::uint8_t> bytes = {kStart2, static_cast<std::uint8_t>(size), 0, 0};
+  for (const std::uint8_t id : {frame.sequence, frame.system_id, frame.component_id}) {
+    bytes.push_back(id);
+  }
+  const auto append = [&](std::uint32_t value, int count) {  // low byte first
+    for (int i = 0; i < count; ++i) bytes.push_back(static_cast<std::uint8_t>(value >> 8 * i));
+  };
+  append(frame.message_id, 3);
   std::copy_n(frame.payload.begin(), size, std::back_inserter(bytes));
-  const std::uint16_t crc = frame_crc(std::span(bytes).subspan(1), info->crc_extra);
-  bytes.push_back(byte(crc));
-  bytes.push_back(byte(crc >> 8U));
+  append(frame_crc(std::span(bytes).subspan(1), info->crc_extra), 2);
   return bytes;
 }
 
