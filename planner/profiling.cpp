@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "planner/map/scan_insertion.hpp"
@@ -19,7 +20,7 @@ struct Heights {
 std::optional<Heights> allowed_heights(const NoFly& no_fly, const Eigen::Vector2d& p,
                                        const Heights& whole) {
   constexpr double kRounding_m = 1e-3;
-  std::vector<Heights> forbidden;
+  std::multimap<double, double> forbidden = {{whole.high_m, whole.high_m}};  // from and to
   for (const Box3& box_m : no_fly.boxes_m) {
     const Box3 at_level_m(Vec3(box_m.min().x(), box_m.min().y(), 0.0),
                           Vec3(box_m.max().x(), box_m.max().y(), 0.0));
@@ -27,18 +28,15 @@ std::optional<Heights> allowed_heights(const NoFly& no_fly, const Eigen::Vector2
     const double reach2_m2 = no_fly.margin_m * no_fly.margin_m - across2_m2;
     if (reach2_m2 < 0.0) continue;
     const double reach_m = std::sqrt(reach2_m2) + kRounding_m;
-    forbidden.push_back({box_m.min().z() - reach_m, box_m.max().z() + reach_m});
+    forbidden.emplace(box_m.min().z() - reach_m, box_m.max().z() + reach_m);
   }
-  std::sort(forbidden.begin(), forbidden.end(),
-            [](const Heights& a, const Heights& b) { return a.low_m < b.low_m; });
-  forbidden.push_back({whole.high_m, whole.high_m});
   std::optional<Heights> longest;
   double low_m = whole.low_m;
-  for (const Heights& gap : forbidden) {
-    const Heights piece = {low_m, std::min(gap.low_m, whole.high_m)};
+  for (const auto& [from_m, to_m] : forbidden) {
+    const Heights piece = {low_m, std::min(from_m, whole.high_m)};
     const double longest_m = longest ? longest->high_m - longest->low_m : 0.0;
     if (piece.high_m - piece.low_m > longest_m) longest = piece;
-    low_m = std::max(low_m, gap.high_m);
+    low_m = std::max(low_m, to_m);
   }
   return longest;
 }

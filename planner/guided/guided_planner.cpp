@@ -111,18 +111,6 @@ struct Decider {
     return candidates;
   }
 
-  ViewStats stats_of(const Candidate& candidate, const ViewOptions& options,
-                     VisitMarks& marks) const {
-    const ViewPose& view = candidate.view;
-    ViewStats stats = evaluate_view(belief.grid, belief.cloud, model.rays_at(view.gimbal_pitch_rad),
-                                    view, marks, options);
-    stats.density_max = belief.cloud.density_max();
-    stats.path_m = config.utility.distance == DistanceAlong::path
-                       ? candidate.path_m
-                       : (view.p_world_m - current.p_world_m).norm();
-    return stats;
-  }
-
   /// Scores the candidates not rejected, each alone: which thread did it leaves no trace. The
   /// user's function gets all of them at once: it sees a decision, never a share of it.
   void score_all(std::span<Candidate> candidates) {
@@ -138,16 +126,21 @@ struct Decider {
     parallel_for(scratch.threads, scratch.marks.size(), [&](std::size_t share) {
       for (std::size_t i = next++; i < valid.size(); i = next++) {
         Candidate& candidate = candidates[valid[i]];
-        const ViewStats stats = stats_of(candidate, options, scratch.marks[share]);
+        const auto& [p_m, yaw_rad, pitch_rad] = candidate.view;
+        ViewStats stats = evaluate_view(belief.grid, belief.cloud, model.rays_at(pitch_rad),
+                                        candidate.view, scratch.marks[share], options);
+        stats.density_max = belief.cloud.density_max();
+        stats.path_m = config.utility.distance == DistanceAlong::path
+                           ? candidate.path_m
+                           : (p_m - current.p_world_m).norm();
         if (user_scores) {
-          const auto& [p_m, yaw_rad, pitch_rad] = candidate.view;
           rows[i] = {stats, p_m.x(), p_m.y(), p_m.z(), yaw_rad, pitch_rad};
-        } else if (const auto utility =
-                       score(config.utility, stats, {model.seed, iteration, valid[i]})) {
-          candidate.score = *utility;
-        } else {
-          candidate.rejected = Rejection::sees_no_surface;
+          continue;
         }
+        const std::optional<Score> worth =
+            score(config.utility, stats, {model.seed, iteration, valid[i]});
+        if (worth) candidate.score = *worth;
+        if (!worth) candidate.rejected = Rejection::sees_no_surface;
       }
     });
     if (rows.empty()) return;
