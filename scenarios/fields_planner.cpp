@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "planner/planners.hpp"
 #include "scenarios/fields.hpp"
 
