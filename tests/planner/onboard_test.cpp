@@ -41,9 +41,10 @@ std::string refusal(const std::function<void(OnboardSettings&)>& change) {
 
 TEST(Onboard, RefusesWhatNobodyCanPlanWith) {
   EXPECT_EQ(refusal([](OnboardSettings&) {}), "");
-  EXPECT_THAT(refusal([](OnboardSettings& s) { s.cameras.clear(); }), testing::HasSubstr("camera"));
+  EXPECT_THAT(refusal([](OnboardSettings& s) { s.cameras.clear(); }),
+              testing::HasSubstr("needs a camera"));
   EXPECT_THAT(refusal([](OnboardSettings& s) { s.workspace_m.setEmpty(); }),
-              testing::HasSubstr("workspace"));
+              testing::HasSubstr("needs a workspace"));
   EXPECT_THAT(refusal([](OnboardSettings& s) { s.planner.utility.name = "propose"; }),
               testing::AllOf(testing::HasSubstr("propose "), testing::HasSubstr("tour")));
 }
@@ -86,6 +87,23 @@ TEST(Onboard, EndsByTheRulesAndSaysWhich) {
   short_of_breath.add_view(kStart, frames_from(kStart));
   EXPECT_FALSE(short_of_breath.next_view());
   EXPECT_EQ(short_of_breath.end(), Termination::max_distance);
+}
+
+TEST(Onboard, RemembersWhatItDecidedAndHowFarThatIs) {
+  OnboardSettings settings = small_settings();
+  settings.planner.agvs.rotation_only = false;
+  Onboard planner(std::move(settings));
+  planner.add_view(kStart, frames_from(kStart));
+  const std::optional<Decision> next = planner.next_view();
+  ASSERT_TRUE(next);
+  planner.add_view(next->view, frames_from(next->view));
+  const History& history = planner.history();
+  ASSERT_EQ(history.decisions.size(), 2U);
+  EXPECT_GT(next->candidates, 0);
+  EXPECT_EQ(history.decisions[1].candidates, next->candidates);
+  EXPECT_EQ(history.progress[0].straight_m, 0.0);
+  EXPECT_NEAR(history.progress[1].straight_m, (next->view.p_world_m - kStart.p_world_m).norm(),
+              1e-12);
 }
 
 TEST(Onboard, TheUtilityOfTheUserDecides) {
