@@ -117,11 +117,12 @@ double ProfileRoute::share_done() const {
 /// surface is seen, else all to the next station's first climb. False when there are none.
 bool ProfileRoute::plan_on_circle(bool saw_surface) {
   constexpr double kArc_rad = deg_to_rad(18.0);  // its chord comes 1.2 % of the radius inside
-  if (config_.method != ProfilingMethod::circular) return false;
+  const int stations = config_.circle_stations;
+  if (config_.method != ProfilingMethod::circular || station_ == stations) return false;
   const double bottom_m = navigation_m_.min().z();
   const double top_m = navigation_m_.max().z();
   const double radius_m = 0.5 * std::min(navigation_m_.sizes().x(), navigation_m_.sizes().y());
-  const double spacing_rad = 2.0 * kPi / config_.circle_stations;
+  const double spacing_rad = 2.0 * kPi / stations;
   const auto add = [&](double to_go, double z_m, bool is_scan) {
     const double bearing_rad = bearing_rad_ + station_ * spacing_rad - to_go * spacing_rad;
     const Vec3 outwards(std::cos(bearing_rad), std::sin(bearing_rad), 0.0);
@@ -134,8 +135,7 @@ bool ProfileRoute::plan_on_circle(bool saw_surface) {
     climb();
     return true;
   }
-  station_ = std::min(station_ + 1, config_.circle_stations);
-  if (station_ == config_.circle_stations) return false;
+  if (++station_ == stations) return false;
   // in arcs that stay outside the structure, at the height it has climbed to
   const int arcs = station_ == 0 ? 1 : static_cast<int>(std::ceil(spacing_rad / kArc_rad - 1e-9));
   for (int arc = 1; arc <= arcs; ++arc) add(1.0 - static_cast<double>(arc) / arcs, z_m_, false);
