@@ -73,7 +73,9 @@ class OccupancyGrid {
   float settled_log_odds() const { return clamp_min_log_; }
 
   /// Rows for the hot loops; index with VoxelIndex. kWordPadding more words may be read.
-  std::span<const VoxelWord> words() const { return std::span(words_).first(geometry_.voxel_count()); }
+  std::span<const VoxelWord> words() const {
+    return std::span(words_).first(geometry_.voxel_count());
+  }
   std::span<const float> all_log_odds() const { return log_odds_; }
 
  private:

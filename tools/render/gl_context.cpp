@@ -8,8 +8,8 @@
 #include <thread>
 #include <vector>
 
-#include "sim/core/module.hpp"
 #include "sim/core/error.hpp"
+#include "sim/core/module.hpp"
 #include "tools/render/shaders.hpp"
 
 #ifdef __SANITIZE_ADDRESS__

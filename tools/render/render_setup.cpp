@@ -1,8 +1,8 @@
 // Programs, arrays, textures and buffers of a renderer.
 #include <cstddef>
 
-#include "sim/core/module.hpp"
 #include "sim/core/error.hpp"
+#include "sim/core/module.hpp"
 #include "tools/render/renderer_impl.hpp"
 #include "tools/render/screen_shaders.hpp"
 #include "tools/render/shaders.hpp"

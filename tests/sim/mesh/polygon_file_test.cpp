@@ -1,9 +1,8 @@
 // One mesh of polygons in OBJ and in every kind of PLY.
-#include "sim/mesh/polygon_mesh.hpp"
-
 #include <gtest/gtest.h>
 
 #include "sim/core/file.hpp"
+#include "sim/mesh/polygon_mesh.hpp"
 #include "tests/sim/mesh/mesh_files.hpp"
 
 namespace gnbv {

@@ -1,8 +1,7 @@
-#include "sim/mesh/triangle_mesh.hpp"
-
 #include <gtest/gtest.h>
 
 #include "sim/core/rng.hpp"
+#include "sim/mesh/triangle_mesh.hpp"
 
 namespace gnbv {
 namespace {
