@@ -19,10 +19,11 @@ DepthFrame capture_depth(const RayScene& scene, const CameraModel& camera, int c
                          const Isometry& T_world_body, const NoiseKey& key, int threads);
 
 /// Colour for every pixel centre, at any distance, in sRGB: materials under a sun with shadows and
-/// a sky (sensors/light.hpp). Aligned with a depth frame that has no lateral noise; not
-/// anti-aliased.
+/// a sky. Aligned with a depth frame that has no lateral noise; not anti-aliased.
 ColourFrame capture_colour(const RayScene& scene, const CameraModel& camera, int camera_index,
                            const Isometry& T_world_body, int threads);
+/// Unit vector to its sun, in the south-west, 50 degrees high.
+Vec3f towards_sun_world();
 
 /// One sweep of the LIDAR; ranges as depths above. `T_world_body_during` are true poses, one every
 /// `interval_s` from the first beam to the last one or just after it; one pose means a sweep at one

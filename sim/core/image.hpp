@@ -1,6 +1,7 @@
 // Pictures, 8-bit sRGB (IEC 61966-2-1) and 16-bit grey, and their PNG files.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -21,6 +22,24 @@ inline float srgb_to_linear(float s) {
 inline float linear_to_srgb(float l) {
   return l <= 0.0031308F ? 12.92F * l : 1.055F * std::pow(l, 1.0F / 2.4F) - 0.055F;
 }
+inline std::uint8_t srgb_byte(float linear) {
+  return static_cast<std::uint8_t>(std::lround(255.0F * linear_to_srgb(linear)));
+}
+
+/// srgb_byte() by a table, of any number: up to half a level off.
+class SrgbTable {
+ public:
+  SrgbTable() {
+    for (std::size_t i = 0; i <= kSteps; ++i) bytes_[i] = srgb_byte(static_cast<float>(i) / kSteps);
+  }
+  std::uint8_t operator()(float linear) const {
+    return bytes_[static_cast<std::size_t>(std::lround(std::clamp(linear, 0.0F, 1.0F) * kSteps))];
+  }
+
+ private:
+  static constexpr int kSteps = 4096;
+  std::array<std::uint8_t, kSteps + 1> bytes_{};
+};
 
 /// RGB8, sRGB-encoded, rows from top to bottom without padding.
 struct Image {

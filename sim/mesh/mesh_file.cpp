@@ -18,20 +18,18 @@ constexpr std::array<std::string_view, 6> kFormats = {".obj", ".ply",  ".stl",
                                                       ".dae", ".gltf", ".glb"};
 
 void check_config(const MeshFileConfig& config) {
-  const auto fail = [](const std::string& what) { throw BadInput("mesh: " + what); };
-  if (config.path.empty()) fail("path is empty");
-  if (!(config.scale > 0.0) || !std::isfinite(config.scale)) {
-    fail(fmt::format("scale = {} is not positive", config.scale));
-  }
-  if (!(config.unit_m >= 0.0) || !std::isfinite(config.unit_m)) {
-    fail(fmt::format("unit_m = {} is neither positive nor 0", config.unit_m));
-  }
-  if (!config.offset_m.allFinite()) fail("offset_m is not finite");
-  if (!std::isfinite(config.yaw_rad)) fail("yaw is not finite");
-  const auto& up = config.up_axis;
-  if (up != "auto" && up != "x" && up != "y" && up != "z") {
-    fail(fmt::format("up_axis = {} is none of auto, x, y, z", up));
-  }
+  const auto need = [](bool holds, const std::string& fault) {
+    if (!holds) throw BadInput("mesh: " + fault);
+  };
+  const auto& [path, scale, yaw_rad, offset_m, up, unit_m] = config;
+  need(!path.empty(), "path is empty");
+  need(scale > 0.0 && std::isfinite(scale), fmt::format("scale = {} is not positive", scale));
+  need(unit_m >= 0.0 && std::isfinite(unit_m),
+       fmt::format("unit_m = {} is neither positive nor 0", unit_m));
+  need(offset_m.allFinite(), "offset_m is not finite");
+  need(std::isfinite(yaw_rad), "yaw is not finite");
+  need(up == "auto" || up == "x" || up == "y" || up == "z",
+       fmt::format("up_axis = {} is none of auto, x, y, z", up));
 }
 
 void check_file(const std::string& path, const std::string& extension) {

@@ -5,7 +5,6 @@
 
 #include <assimp/Exporter.hpp>
 #include <cerrno>
-#include <cmath>
 #include <iterator>
 #include <unordered_map>
 
@@ -66,7 +65,7 @@ std::string ply_bytes_of(const TriangleMesh& mesh) {
     append_bytes(out, std::uint8_t{3});
     for (const std::uint32_t index : mesh.faces[i]) append_bytes(out, index);
     for (const float channel : mesh.materials[material_of(mesh, i)].rgb) {
-      append_bytes(out, static_cast<std::uint8_t>(std::lround(255.0F * linear_to_srgb(channel))));
+      append_bytes(out, srgb_byte(channel));
     }
   }
   return out;
