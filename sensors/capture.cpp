@@ -16,9 +16,9 @@ namespace {
 /// behind it.
 constexpr float kTraceFrom_m = 0.0F;
 
-/// A reading farther off than so many standard deviations beyond the maximum range is not traced:
-/// one pixel in three million would be told otherwise. (Much farther out the laws of noise, which
-/// hold near the working range, would give errors as large as the depth.)
+/// Surfaces more than so many standard deviations beyond the maximum range are not traced: one
+/// reading in three million of theirs would lie within it. (The laws of noise hold near the working
+/// range; much farther out they would give errors as large as the depth.)
 constexpr double kFarthest_sigmas = 5.0;
 
 /// One standard normal number for every pixel or beam of every sensor at every tick.
@@ -110,7 +110,7 @@ struct DepthCapture {
   }
 };
 
-/// The pose `intervals` after the first one. Position and rotation each change at an even pace.
+/// The pose `intervals` after the first one: position and rotation change evenly in between.
 Isometry pose_during(std::span<const Isometry> poses, double intervals) {
   const std::size_t before = std::min(static_cast<std::size_t>(intervals), poses.size() - 2);
   const double t = intervals - static_cast<double>(before);

@@ -70,7 +70,7 @@ class ObjMaterials {
       const Words values = Words(words).subspan(1);
       if (words[0] == "newmtl") {
         material = joined(values);
-        rgb_of_.try_emplace(material, kUntoldColour);
+        rgb_of_.try_emplace(material, kDefaultColour);
       } else if (words[0] == "Kd" && !material.empty()) {
         if (const auto rgb = colour_in(values)) rgb_of_[material] = *rgb;
       }
@@ -79,7 +79,7 @@ class ObjMaterials {
   }
 
   void use(const std::string& name) {
-    if (!is_named_ && current_ == kUntoldMaterial && !index_of_.empty()) index_of_ = {{name, 0}};
+    if (!is_named_ && current_ == kDefaultMaterial && !index_of_.empty()) index_of_ = {{name, 0}};
     is_named_ = true;
     if (name != current_) index_.reset();
     current_ = name;
@@ -101,7 +101,7 @@ class ObjMaterials {
     std::vector<Material> out(index_of_.size());
     for (const auto& [name, index] : index_of_) {
       const auto found = rgb_of_.find(name);
-      out[index] = {.name = name, .rgb = found != rgb_of_.end() ? found->second : kUntoldColour};
+      out[index] = {.name = name, .rgb = found != rgb_of_.end() ? found->second : kDefaultColour};
     }
     return out;
   }
@@ -110,7 +110,7 @@ class ObjMaterials {
   std::string path_;
   std::map<std::string, std::array<float, 3>> rgb_of_;  // of the libraries' materials
   std::map<std::string, std::uint16_t> index_of_;       // of the materials that faces use
-  std::string current_ = std::string(kUntoldMaterial);
+  std::string current_ = std::string(kDefaultMaterial);
   std::optional<std::uint16_t> index_;  // of the current one, once a face has used it
   bool is_named_ = false;               // by a usemtl
 };

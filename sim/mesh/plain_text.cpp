@@ -9,7 +9,7 @@ namespace {
 
 /// Whether a well-formed number out of a double's range is too small for it, not too large: by the
 /// power of ten of its first digit that is not 0.
-bool is_below_one(std::string_view word) {
+bool is_too_small(std::string_view word) {
   const std::size_t e = std::min(word.find_first_of("eE"), word.size());
   long long power = 0;
   if (e < word.size()) {
@@ -50,7 +50,7 @@ std::optional<double> read_decimal(std::string_view word) {
   const auto [end, error] = std::from_chars(word.data(), last, value);
   if (end != last || error == std::errc::invalid_argument) return std::nullopt;
   if (error == std::errc()) return value;
-  const double size = is_below_one(word) ? 0.0 : std::numeric_limits<double>::infinity();
+  const double size = is_too_small(word) ? 0.0 : std::numeric_limits<double>::infinity();
   return word.starts_with('-') ? -size : size;
 }
 

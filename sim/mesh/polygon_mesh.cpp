@@ -80,13 +80,13 @@ class EarClipper {
   void link(std::uint32_t count) {
     next_.resize(count);
     previous_.resize(count);
-    hollow_.clear();
+    reflex_.clear();
     for (std::uint32_t i = 0; i < count; ++i) {
       next_[i] = i + 1 < count ? i + 1 : 0;
       previous_[i] = i > 0 ? i - 1 : count - 1;
     }
     for (std::uint32_t i = 0; i < count; ++i) {
-      if (!(turn_at(i) > 0.0)) hollow_.push_back(i);
+      if (!(turn_at(i) > 0.0)) reflex_.push_back(i);
     }
   }
 
@@ -105,8 +105,8 @@ class EarClipper {
     if (std::abs(area2) <= flat2 && (p_a - p_b).dot(p_c - p_b) >= 0.0) return true;
     // a corner within a straight edge is no ear
     if (!(area2 > (care == Care::clean ? flat2 : 0.0))) return false;
-    // if any corner lies in the triangle, then a hollow one does
-    return std::none_of(hollow_.begin(), hollow_.end(),
+    // if any corner lies in the triangle, then a reflex one does
+    return std::none_of(reflex_.begin(), reflex_.end(),
                         [&](std::uint32_t corner) { return is_in_the_way(corner, b, care); });
   }
 
@@ -125,7 +125,7 @@ class EarClipper {
   std::uint32_t clipped(std::uint32_t b) {
     next_[previous_[b]] = next_[b];
     previous_[next_[b]] = previous_[b];
-    std::erase_if(hollow_, [&](std::uint32_t corner) {
+    std::erase_if(reflex_, [&](std::uint32_t corner) {
       const bool is_beside = corner == previous_[b] || corner == next_[b];
       return corner == b || (is_beside && turn_at(corner) > 0.0);
     });
@@ -134,7 +134,7 @@ class EarClipper {
 
   std::vector<Vec2> at_;
   std::vector<std::uint32_t> next_, previous_;
-  std::vector<std::uint32_t> hollow_;  // the remaining corners at which the polygon is not convex
+  std::vector<std::uint32_t> reflex_;  // the remaining corners at which the polygon is not convex
 };
 
 std::uint32_t level_of(std::uint32_t rgb, unsigned shift) { return (rgb >> shift) & 0xffU; }

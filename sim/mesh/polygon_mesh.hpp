@@ -15,16 +15,16 @@
 
 namespace gnbv {
 
-/// The material of faces that have none in their file, and the colour of materials that have none.
-inline constexpr std::string_view kUntoldMaterial = "DefaultMaterial";
-inline constexpr std::array<float, 3> kUntoldColour = {0.6F, 0.6F, 0.6F};
+/// For faces without a material and for materials without a colour.
+inline constexpr std::string_view kDefaultMaterial = "DefaultMaterial";
+inline constexpr std::array<float, 3> kDefaultColour = {0.6F, 0.6F, 0.6F};
 
 struct PolygonMesh {
   std::vector<Vec3> vertices;            // (n, 3), as the file numbers them
   std::vector<std::uint32_t> corners;    // vertices of all faces, one face after the other
   std::vector<std::uint32_t> face_ends;  // (m), of each face among the corners, at least 3 apart
   std::vector<Material> materials = {
-      Material{.name = std::string(kUntoldMaterial), .rgb = kUntoldColour}};
+      Material{.name = std::string(kDefaultMaterial), .rgb = kDefaultColour}};
   std::vector<std::uint16_t> face_material;  // (m), index into materials; empty = all 0
   std::vector<std::uint32_t> vertex_rgb;     // (n), 0xrrggbb in sRGB, to colour the faces; or empty
   std::string not_finite;  // names the first coordinate that is NaN or infinite; empty without one
