@@ -13,7 +13,7 @@
 #include "planner/motion/config.hpp"
 #include "planner/profiling.hpp"
 #include "planner/route/route_planners.hpp"
-#include "planner/symmetry/config.hpp"
+#include "planner/symmetry/symmetry.hpp"
 #include "planner/tour/config.hpp"
 
 namespace gnbv {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "planner/guided/guided_planner.hpp"
-#include "planner/map/memory.hpp"
+#include "planner/map/grid_geometry.hpp"
 #include "planner/tour/tour_planner.hpp"
 #include "planner/tour/tour_state.hpp"
 #include "sim/core/error.hpp"

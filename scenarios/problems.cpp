@@ -3,7 +3,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "planner/map/memory.hpp"
+#include "planner/map/grid_geometry.hpp"
 #include "planner/planners.hpp"
 #include "scenarios/values.hpp"
 

@@ -47,13 +47,11 @@ std::vector<std::uint32_t> finds_alone(const VoxelSet& reference, std::span<cons
   for (const FrameRays& frame : view) {
     for (std::size_t i = 0; i < frame.kind.size(); ++i) {
       if (frame.kind[i] != PixelRay::hits) continue;
-      const Vec3f p_m(frame.x_m[i], frame.y_m[i], frame.z_m[i]);
+      const Vec3f p_m = frame.end_world_m(i);
       sums.add(lattice.key_of(p_m), p_m);
     }
   }
-  std::vector<Vec3f> centroids_m(sums.size());
-  for (std::size_t i = 0; i < sums.size(); ++i) centroids_m[i] = sums.centroid_m(i);
-  return indices_of(reference, centroids_m);
+  return indices_of(reference, sums.centroids_m());
 }
 
 CloudOfViews::CloudOfViews(const Scenario& scenario, const VoxelSet& reference)

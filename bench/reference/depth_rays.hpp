@@ -1,9 +1,9 @@
-// The rays of a depth frame one by one: the slow twin of planner/map/frame_rays.hpp.
+// The rays of a depth frame one by one: the slow twin of planner/map/scan_rays.hpp.
 #pragma once
 
 #include <vector>
 
-#include "planner/map/fan_walker.hpp"
+#include "planner/map/scan_rays.hpp"
 #include "sensors/camera_model.hpp"
 #include "sensors/frames.hpp"
 

@@ -4,7 +4,7 @@
 #include <octomap/octomap.h>
 
 #include "planner/map/occupancy_grid.hpp"
-#include "planner/view/view_rays.hpp"
+#include "planner/view/visibility.hpp"
 
 namespace gnbv {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "planner/map/fan_walker.hpp"
+#include "planner/map/scan_rays.hpp"
 #include "planner/map/occupancy_grid.hpp"
 
 namespace gnbv {

@@ -77,7 +77,7 @@ std::vector<Vec3f> hits_of(std::span<const FrameRays> frames) {
   for (const FrameRays& rays : frames) {
     for (std::size_t i = 0; i < rays.kind.size(); ++i) {
       if (rays.kind[i] != PixelRay::hits) continue;
-      hits_m.emplace_back(rays.x_m[i], rays.y_m[i], rays.z_m[i]);
+      hits_m.push_back(rays.end_world_m(i));
     }
   }
   return hits_m;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/view/view_fields.hpp"
+#include "planner/view/view_stats.hpp"
 #include "planner/view/visibility.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"

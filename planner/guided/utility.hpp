@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "planner/core/plan.hpp"
-#include "planner/view/config.hpp"
+#include "planner/view/shadow_band.hpp"
 #include "planner/view/view_stats.hpp"
 
 namespace gnbv {

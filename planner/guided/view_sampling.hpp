@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "planner/core/planner.hpp"
-#include "planner/map/config.hpp"
+#include "planner/map/frontiers.hpp"
 
 namespace gnbv {
 

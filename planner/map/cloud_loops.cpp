@@ -1,6 +1,5 @@
-// The cloud kernels, once for each SimdLevel.
-#include "planner/map/cloud_kernels.hpp"
-#include "planner/map/frame_kernels.hpp"
+// The cloud kernels: which pixels lie in new leaves, and how many points are near a new one.
+#include "planner/map/map_kernels.hpp"
 #include "sim/core/lanes.hpp"
 
 namespace gnbv {
@@ -11,45 +10,43 @@ namespace {
 struct AlongAxis {
   Ints cell, in_bucket;
 };
-inline AlongAxis along_axis(const LeafTable& t, int axis, Floats p_m) {
-  const Ints s = floored(p_m * all(t.inverse_leaf_1_m)) - all(t.first_leaf[axis]);
+inline AlongAxis along_axis(const CloudTable& t, int axis, Floats p_m) {
+  const Ints first = all(t.first_bucket[axis] * t.leaves_per_bucket);
+  const Ints s = floored(p_m * all(t.inverse_leaf_1_m)) - first;
   const float inverse = 1.0F / static_cast<float>(t.leaves_per_bucket);
   const Ints cell = truncated((to_floats(s) + all(0.5F)) * all(inverse));
   return {cell, s - cell * all(t.leaves_per_bucket)};
 }
 
-inline Ints combine(Ints z, Ints y, Ints x, std::int32_t y_count, std::int32_t x_count) {
-  return (z * all(y_count) + y) * all(x_count) + x;
-}
-
 /// Those of `wanted` whose leaf is not taken.
-inline Mask untaken(const LeafTable& t, Mask wanted, const Floats p_m[3]) {
-  const AlongAxis x = along_axis(t, 0, p_m[0]);
-  const AlongAxis y = along_axis(t, 1, p_m[1]);
-  const AlongAxis z = along_axis(t, 2, p_m[2]);
-  const std::int32_t n = t.leaves_per_bucket;
-  const Ints bit = combine(z.in_bucket, y.in_bucket, x.in_bucket, n, n);
-  const Ints bucket =
-      gather(wanted, t.bucket_at, combine(z.cell, y.cell, x.cell, t.cells[1], t.cells[0]));
+inline Mask untaken(const CloudTable& t, Mask wanted, const Floats p_m[3]) {
+  Ints cell = all(0);
+  Ints bit = all(0);
+  for (int a = 2; a >= 0; --a) {
+    const AlongAxis at = along_axis(t, a, p_m[a]);
+    cell = cell * all(t.cells[a]) + at.cell;
+    bit = bit * all(t.leaves_per_bucket) + at.in_bucket;
+  }
+  const Ints bucket = gather(wanted, t.bucket_at, cell);
   const Ints word = gather(wanted, t.taken, bucket * all(t.words_per_bucket) + shift_right<5>(bit));
   return wanted & has_none(word, all(1) << (bit & all(31)));
 }
 
-std::size_t find_untaken(const LeafTable& table, const PixelColumns& pixels, std::size_t begin,
-                         std::size_t end, std::int32_t* out) {
+std::size_t find_untaken(const CloudTable& given, const EndRow& pixels, int count,
+                         std::int32_t* out) {
+  const CloudTable table = given;  // no output can be part of it
+  const auto* const kind = reinterpret_cast<const std::uint8_t*>(pixels.kind);
   std::int32_t* next = out;
-  for_lanes(static_cast<int>(end - begin), [&](int from_begin, int left) {
-    const std::size_t i = begin + static_cast<std::size_t>(from_begin);
-    Mask wanted = equal_bytes(pixels.kind + i, static_cast<std::uint8_t>(PixelRay::hits), left);
+  for_lanes(count, [&](int i, int left) {
+    Mask wanted = equal_bytes(kind + i, static_cast<std::uint8_t>(PixelRay::hits), left);
     if (!any(wanted)) return;
     Floats p_m[3];
     for (int a = 0; a < 3; ++a) {
-      p_m[a] = load(pixels.p_m[a] + i, left);
+      p_m[a] = load(pixels.end_m[a] + i, left);
       wanted = wanted & less_equal(all(table.low_m[a]), p_m[a]) &
                less_equal(p_m[a], all(table.high_m[a]));
     }
-    const Ints pixel = all(static_cast<std::int32_t>(i)) + int_ramp();
-    next += pack(untaken(table, wanted, p_m), pixel, next);
+    next += pack(untaken(table, wanted, p_m), all(i) + int_ramp(), next);
   });
   return static_cast<std::size_t>(next - out);
 }
@@ -58,16 +55,15 @@ std::size_t find_untaken(const LeafTable& table, const PixelColumns& pixels, std
 inline std::uint32_t near_bits(const PointBlock& block, const Floats p_m[3], Floats radius2_m2) {
   std::uint32_t near = 0;
   for (std::uint32_t first = 0; first < kPointsPerBlock; first += kLanes) {
-    const Floats dx = load(block.x_m + first) - p_m[0];
-    const Floats dy = load(block.y_m + first) - p_m[1];
-    const Floats dz = load(block.z_m + first) - p_m[2];
+    const Floats dx = load(block.p_m[0] + first) - p_m[0];
+    const Floats dy = load(block.p_m[1] + first) - p_m[1];
+    const Floats dz = load(block.p_m[2] + first) - p_m[2];
     near |= bits(less_equal(dx * dx + dy * dy + dz * dz, radius2_m2)) << first;
   }
   return near;
 }
 
-/// Of one bucket.
-inline std::uint64_t count_in_bucket(const PointTable& t, const CloudBucket& bucket,
+inline std::uint64_t count_in_bucket(const CloudTable& t, const CloudBucket& bucket,
                                      const Floats p_m[3], VoxelPoints* voxels) {
   const Floats radius2_m2 = all(t.radius2_m2);
   std::uint64_t near_count = 0;
@@ -83,15 +79,15 @@ inline std::uint64_t count_in_bucket(const PointTable& t, const CloudBucket& buc
   return near_count;
 }
 
-std::uint64_t count_neighbours(const PointTable& table, const float* point_m, const CellBox& cells,
+std::uint64_t count_neighbours(const CloudTable& t, const float* point_m, const CellBox& cells,
                                VoxelPoints* voxels) {
   const Floats p_m[3] = {all(point_m[0]), all(point_m[1]), all(point_m[2])};
   std::uint64_t near_count = 0;
-  for (std::size_t z = cells.low[2]; z <= cells.high[2]; ++z) {
-    for (std::size_t y = cells.low[1]; y <= cells.high[1]; ++y) {
-      const std::uint32_t* const row = table.bucket_at + (z * table.cells_y + y) * table.cells_x;
-      for (std::size_t x = cells.low[0]; x <= cells.high[0]; ++x) {
-        if (row[x] != 0) near_count += count_in_bucket(table, table.buckets[row[x]], p_m, voxels);
+  for (std::int64_t z = cells.low[2]; z <= cells.high[2]; ++z) {
+    for (std::int64_t y = cells.low[1]; y <= cells.high[1]; ++y) {
+      const std::uint32_t* const row = t.bucket_at + (z * t.cells[1] + y) * t.cells[0];
+      for (std::int64_t x = cells.low[0]; x <= cells.high[0]; ++x) {
+        if (row[x] != 0) near_count += count_in_bucket(t, t.buckets[row[x]], p_m, voxels);
       }
     }
   }
@@ -99,10 +95,10 @@ std::uint64_t count_neighbours(const PointTable& table, const float* point_m, co
 }
 
 }  // namespace
-}  // namespace gnbv
 
-namespace gnbv::GNBV_SIMD_LEVEL {
+namespace GNBV_SIMD_LEVEL {
 
 const CloudKernels kCloudKernels = {find_untaken, count_neighbours};
 
-}  // namespace gnbv::GNBV_SIMD_LEVEL
+}  // namespace GNBV_SIMD_LEVEL
+}  // namespace gnbv

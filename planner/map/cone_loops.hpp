@@ -1,5 +1,5 @@
 // Which pixels' rays pass a voxel, and how deep such a ray must go to leave it. For
-// frame_loops.cpp.
+// frame_loops.cpp alone.
 //
 // Pixel (u, v) looks along d = toward + u right + v down: its ray is at t d where it is t deep. The
 // voxel is a box [low, high] relative to the camera, three slabs. Along an axis on which the camera
@@ -19,7 +19,7 @@
 // with the box shrunk by it, whose rays are sure to pass.
 #pragma once
 
-#include "planner/map/frame_kernels.hpp"
+#include "planner/map/map_kernels.hpp"
 #include "sim/core/lanes.hpp"
 
 namespace gnbv {
@@ -29,8 +29,8 @@ namespace {
 struct SeenVoxel {
   float low_m[3], high_m[3];
   float inverse_nearest;  // 1 / least depth of the voxel, infinite when it reaches the camera plane
-  int first_u, last_u, first_v, last_v;
-  int from_camera[3];  // voxels from the camera's own
+  int first_px[2], last_px[2];  // columns, rows
+  int from_camera[3];           // voxels from the camera's own
 };
 
 /// Lines in the image, u = at + slope * v.
@@ -161,8 +161,8 @@ struct Spans {
 
 inline Spans spans_of(const Cone& cone, const SeenVoxel& voxel, int first_v) {
   const Floats v = all(static_cast<float>(first_v)) + ramp();
-  Floats first_u = all(static_cast<float>(voxel.first_u));
-  Floats last_u = all(static_cast<float>(voxel.last_u));
+  Floats first_u = all(static_cast<float>(voxel.first_px[0]));
+  Floats last_u = all(static_cast<float>(voxel.last_px[0]));
   for (int i = 0; i < cone.lower.count; ++i) {
     first_u = hn::Max(first_u, all(cone.lower.at[i]) + all(cone.lower.slope[i]) * v);
   }
@@ -172,7 +172,7 @@ inline Spans spans_of(const Cone& cone, const SeenVoxel& voxel, int first_v) {
   Spans spans;
   store(spans.first_u, first_u);
   store(spans.last_u, last_u);
-  const Mask is_in = less_equal(v, all(static_cast<float>(voxel.last_v)));
+  const Mask is_in = less_equal(v, all(static_cast<float>(voxel.last_px[1])));
   spans.rows = bits(less_equal(first_u, last_u) & is_in);
   return spans;
 }
@@ -194,7 +194,7 @@ inline bool is_passed(const FrameView& view, const SeenVoxel& voxel, const Frame
   Cone sure;  // made when the first ray might pass
   bool has_sure = false;
   int doubts = 0;
-  for (int v0 = voxel.first_v; v0 <= voxel.last_v; v0 += kLanes) {
+  for (int v0 = voxel.first_px[1]; v0 <= voxel.last_px[1]; v0 += kLanes) {
     const Spans spans = spans_of(might, voxel, v0);
     Spans sure_spans;
     bool has_sure_spans = false;

@@ -1,8 +1,9 @@
-// The walk of a scan's rays, once for each SimdLevel. A ray at time t (metres from the sensor) is
-// in one voxel of the grid. t_next[a] is when it crosses its next border along axis a, and it
-// crosses another one t_voxel[a] later: the least of the three says along which axis it steps
-// (Amanatides and Woo 1987).
-#include "planner/map/fan_kernels.hpp"
+// The walk of a scan's rays, kLanes side by side. At time t (metres from the sensor) a ray is in
+// one voxel of the grid. It crosses its next border along axis a at t_next[a], and one more every
+// t_voxel[a] after that. The least of the three t_next says along which axis it steps (Amanatides
+// and Woo 1987). A ray stops at its end voxel, when all t_next lie beyond its length, or on the
+// frame around the grid.
+#include "planner/map/map_kernels.hpp"
 #include "sim/core/lanes.hpp"
 
 namespace gnbv {
@@ -33,8 +34,8 @@ inline HalfSide load_half(const FanRays& rays, std::size_t first) {
   return s;
 }
 
-/// One step of every ray: the comparisons and additions of walk_ray(), without its branches. Those
-/// at their end are moving no more.
+/// One step of every ray: the comparisons and additions of walk_ray(), without its branches. Rays
+/// at their end stop moving.
 inline void take_step(HalfSide& s) {
   const auto as_places = [](auto mask) { return hn::RebindMask(kPlaceTag, mask); };
   const auto x = s.t_next[0] < hn::Min(s.t_next[1], s.t_next[2]);
@@ -51,7 +52,7 @@ inline void take_step(HalfSide& s) {
 
 inline bool is_moving(const HalfSide& s) { return !hn::AllFalse(kPlaceTag, s.moving); }
 
-/// Where the rays are, in memory: the others rest.
+/// Where the moving rays are, in memory; the others rest.
 struct Places {
   alignas(64) std::int64_t at[kRays];
 

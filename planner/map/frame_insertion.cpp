@@ -1,10 +1,10 @@
 #include "planner/map/frame_insertion.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
-#include "planner/map/frame_view.hpp"
 #include "planner/map/ray_walk.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
@@ -16,94 +16,163 @@ constexpr float kNoRay = std::numeric_limits<float>::infinity();
 
 int round_up(int count, int unit) { return (count + unit - 1) / unit * unit; }
 
-}  // namespace
+/// What the centres of the pixels span at z = 1.
+Eigen::AlignedBox2d image_of(const CameraModel& camera) {
+  const Eigen::Array2d focal_px(camera.fx_px, camera.fy_px);
+  const Eigen::Array2d center_px(camera.cx_px, camera.cy_px);
+  const Eigen::Array2d size_px(camera.config.width_px, camera.config.height_px);
+  return {((0.5 - center_px) / focal_px).matrix(),
+          ((size_px - 0.5 - center_px) / focal_px).matrix()};
+}
 
-FrameInserter::FrameInserter(const GridGeometry& grid)
-    : grid_(grid), marks_(grid.voxel_count() + kPadding) {}
+/// No coordinate of a ray is larger.
+double reach_m(const DepthFrame& frame, const CameraModel& camera) {
+  const Eigen::AlignedBox2d image = image_of(camera);
+  const Eigen::Vector2d steepest = image.min().cwiseAbs().cwiseMax(image.max().cwiseAbs());
+  return frame.T_world_camera.translation().cwiseAbs().maxCoeff() +
+         camera.config.range_max_m * std::hypot(1.0, steepest.norm());
+}
 
-void FrameInserter::prepare(const CameraModel& camera, int threads) {
-  width_ = camera.config.width_px;
-  height_ = camera.config.height_px;
-  row_stride_ = round_up(width_, kPadding) + kPadding;
-  tiles_x_ = row_stride_ / kTile_px;
-  tiles_y_ = round_up(height_, kTile_px) / kTile_px;
-  levels_ = 1;
-  while ((1 << levels_) < std::max(tiles_x_, tiles_y_)) ++levels_;
-  const std::size_t rows = static_cast<std::size_t>(tiles_y_) * kTile_px;
-  inverse_depth_.resize(rows * static_cast<std::size_t>(row_stride_));
-  const auto below = static_cast<std::ptrdiff_t>(height_) * row_stride_;  // the last tiles' rest
-  std::fill(inverse_depth_.begin() + below, inverse_depth_.end(), kNoRay);
-  const auto tiles = static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_);
-  tile_windows_.resize(tiles * static_cast<std::size_t>(levels_));
-  ends_.resize(static_cast<std::size_t>(tiles_y_));
-  workers_.resize(static_cast<std::size_t>(std::max(threads, 1)));
-  const auto pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
-  for (Worker& worker : workers_) {
-    worker.walk.resize(pixels, 0);
-    worker.doubts.resize(pixels + kPadding);
-    worker.row.resize(static_cast<std::size_t>(row_stride_) + 1);
-    worker.ends.resize(static_cast<std::size_t>(width_ + kPadding));
+/// Rays and planes are rounded to float32 here and in OctoMap, by a few units in the last place of
+/// the largest coordinate.
+double margin_m(const DepthFrame& frame, const CameraModel& camera) {
+  constexpr double kLeast_m = 1e-4;
+  constexpr double kUnits = 64.0 * 0x1p-24;
+  return std::max(kLeast_m, kUnits * reach_m(frame, camera));
+}
+
+/// The view without its pointers, and without what depends on how deep the rays go.
+FrameView make_frame_view(const GridGeometry& grid, const DepthFrame& frame,
+                          const CameraModel& camera) {
+  const Eigen::Matrix3d R = frame.T_world_camera.linear();
+  const Vec3 origin_m = frame.T_world_camera.translation();
+  const RayOrigin origin = make_ray_origin(grid, origin_m.cast<float>());
+  const Vec3 toward = R * image_of(camera).min().homogeneous();
+  const double half_m = 0.5 * grid.resolution_m();
+  const double margin = margin_m(frame, camera);
+  const auto narrow = [](double x) { return static_cast<float>(x); };
+  FrameView view{};
+  view.width = camera.config.width_px;
+  view.height = camera.config.height_px;
+  view.row_stride = round_up(view.width, kPadding) + kPadding;
+  view.tile_stride = view.row_stride / kTile_px;
+  view.level_stride = view.tile_stride * (round_up(view.height, kTile_px) / kTile_px);
+  view.focal_px[0] = narrow(camera.fx_px);
+  view.focal_px[1] = narrow(camera.fy_px);
+  view.center_px[0] = narrow(camera.cx_px - 0.5);
+  view.center_px[1] = narrow(camera.cy_px - 0.5);
+  view.center_slack = narrow(0.501 * std::hypot(1.0 / camera.fx_px, 1.0 / camera.fy_px));
+  view.half_voxel_m = narrow(half_m);
+  view.margin_m = narrow(margin);
+  view.direction_slack = view.margin_m / narrow(camera.config.range_min_m);
+  view.resolution_m = grid.resolution_m();
+  view.inverse_resolution = grid.inverse_resolution();
+  for (int a = 0; a < 3; ++a) {
+    view.toward[a] = narrow(toward[a]);
+    view.right[a] = narrow(R(a, 0) / camera.fx_px);
+    view.down[a] = narrow(R(a, 1) / camera.fy_px);
+    for (int k = 0; k < 3; ++k) view.camera_axis[k][a] = narrow(R(a, k));
+    view.extent_m[a] = narrow(half_m * R.col(a).lpNorm<1>() + margin);
+    view.origin_m[a] = origin_m[a];
+    view.min_key[a] = grid.min_key()[a];
+    view.size[a] = grid.size()[a];
+    view.camera_key[a] = origin.key[a];
+    view.lower_border_m[a] = narrow(origin.to_lower_border_m[a]);
+    view.upper_border_m[a] = narrow(origin.to_upper_border_m[a]);
+  }
+  return view;
+}
+
+/// Adds the pyramid of rays down to `furthest_m`, and the box of voxels that it can meet.
+void set_reach(const GridGeometry& grid, const DepthFrame& frame, const CameraModel& camera,
+               double furthest_m, FrameView& view) {
+  const Eigen::Matrix3d R = frame.T_world_camera.linear();
+  const Eigen::AlignedBox2d image = image_of(camera);
+  const double margin = margin_m(frame, camera);
+  const double room_m = 0.5 * grid.resolution_m() + 2.0 * margin;
+  const Vec3 normals_camera[6] = {{1.0, 0.0, -image.min().x()},
+                                  {-1.0, 0.0, image.max().x()},
+                                  {0.0, 1.0, -image.min().y()},
+                                  {0.0, -1.0, image.max().y()},
+                                  {0.0, 0.0, 1.0},
+                                  {0.0, 0.0, -1.0}};
+  for (int k = 0; k < 6; ++k) {
+    const Vec3 normal = R * normals_camera[k];
+    for (int a = 0; a < 3; ++a) view.plane[k][a] = normal[a];
+    view.plane[k][3] = (k < 5 ? 0.0 : furthest_m) + room_m * normal.lpNorm<1>();
+  }
+  const Vec3 origin_m = frame.T_world_camera.translation();
+  Box3 reached_m(origin_m);
+  for (const auto corner : {image.BottomLeft, image.BottomRight, image.TopLeft, image.TopRight}) {
+    reached_m.extend(origin_m + R * image.corner(corner).homogeneous() * furthest_m);
+  }
+  const Box3 grown_m(reached_m.min().array() - margin, reached_m.max().array() + margin);
+  const KeyBox keys = grid.keys_in(grown_m, 1);
+  for (int a = 0; a < 3; ++a) {
+    view.box_first[a] = keys.low[a] - view.min_key[a];
+    view.box_last[a] = keys.high[a] - view.min_key[a];
   }
 }
 
-void FrameInserter::keep_tiles(int band) {
-  std::vector<float> least(static_cast<std::size_t>(row_stride_), kNoRay);
-  for (int v = band * kTile_px; v < (band + 1) * kTile_px; ++v) {
-    const float* const row = inverse_depth_.data() + v * row_stride_;
-    for (std::size_t u = 0; u < least.size(); ++u) least[u] = row[u] < least[u] ? row[u] : least[u];
-  }
-  float* const tiles = tile_windows_.data() + band * tiles_x_;
-  for (int t = 0; t < tiles_x_; ++t) {
-    const auto first = least.begin() + t * kTile_px;
-    tiles[t] = *std::min_element(first, first + kTile_px);
-  }
-}
-
-void FrameInserter::widen_tiles() {
-  const int level_stride = tiles_x_ * tiles_y_;
-  for (int level = 1; level < levels_; ++level) {
-    const float* const from = tile_windows_.data() + (level - 1) * level_stride;
-    float* const to = tile_windows_.data() + level * level_stride;
+/// Fills the levels above the first: the least of the four windows of half the size.
+void widen_tiles(const FrameView& view, int levels, float* windows) {
+  const int columns = view.tile_stride;
+  const int rows = view.level_stride / columns;
+  for (int level = 1; level < levels; ++level) {
+    const float* const from = windows + (level - 1) * view.level_stride;
+    float* const to = windows + level * view.level_stride;
     const int half = 1 << (level - 1);
-    for (int ty = 0; ty < tiles_y_; ++ty) {
-      const float* const upper = from + ty * tiles_x_;
-      const float* const lower = from + std::min(ty + half, tiles_y_ - 1) * tiles_x_;
-      for (int tx = 0; tx < tiles_x_; ++tx) {
-        const int right = std::min(tx + half, tiles_x_ - 1);
-        to[ty * tiles_x_ + tx] =
-            std::min(std::min(upper[tx], upper[right]), std::min(lower[tx], lower[right]));
+    for (int ty = 0; ty < rows; ++ty) {
+      const float* const upper = from + ty * columns;
+      const float* const lower = from + std::min(ty + half, rows - 1) * columns;
+      for (int tx = 0; tx < columns; ++tx) {
+        const int right = std::min(tx + half, columns - 1);
+        to[ty * columns + tx] = std::min({upper[tx], upper[right], lower[tx], lower[right]});
       }
     }
   }
 }
 
-void FrameInserter::read_band(const FrameRays& rays, const DepthFrame& frame,
+}  // namespace
+
+bool can_project(const GridGeometry& grid, const DepthFrame& frame, const CameraModel& camera) {
+  constexpr double kRotationSlack = 1e-9;
+  constexpr double kOctomapKeys = 32768.0;
+  constexpr double kMarginsPerVoxel = 20.0;
+  constexpr int kPixels = 1 << 23;
+  const Eigen::Matrix3d R = frame.T_world_camera.linear();
+  const double rotation_error =
+      (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  return grid.contains(grid.key_of(Vec3f(frame.T_world_camera.translation().cast<float>()))) &&
+         rotation_error < kRotationSlack && camera.config.range_min_m > 0.0 &&
+         reach_m(frame, camera) < kOctomapKeys * grid.resolution_m() &&
+         kMarginsPerVoxel * margin_m(frame, camera) < grid.resolution_m() &&
+         camera.config.width_px + 2 * kPadding < kPixels / (camera.config.height_px + kTile_px);
+}
+
+FrameInserter::FrameInserter(const GridGeometry& grid)
+    : grid_(grid), marks_(grid.voxel_count() + kPadding) {}
+
+void FrameInserter::read_band(const FrameView& view, const FrameRays& rays, const DepthFrame& frame,
                               const CameraModel& camera, int band, Worker& worker) {
   const FrameKernels& kernels = frame_kernels();
-  EndRow ends{};
-  ends.width = width_;
-  ends.inverse_resolution = grid_.inverse_resolution();
-  std::ranges::copy(grid_.min_key(), ends.min_key);
-  std::ranges::copy(grid_.size(), ends.size);
-  ends.scratch = worker.row.data();
-  PixelRow depths{};
-  depths.width = width_;
-  set_ranges(camera, depths);
-  std::vector<VoxelIndex>& voxels = ends_[static_cast<std::size_t>(band)];
+  PixelRow depths = make_pixel_row(camera);
+  std::vector<VoxelIndex>& voxels = ends_[band];
   voxels.clear();
-  for (int v = band * kTile_px; v < std::min((band + 1) * kTile_px, height_); ++v) {
-    const std::ptrdiff_t first = std::ptrdiff_t{v} * width_;
+  std::vector<float> least(view.row_stride, kNoRay);  // of each column
+  for (int v = band * kTile_px; v < std::min((band + 1) * kTile_px, view.height); ++v) {
+    const std::ptrdiff_t first = std::ptrdiff_t{v} * view.width;
     depths.depth_m = frame.depth_m.data() + first;
-    kernels.invert_row(depths, inverse_depth_.data() + std::ptrdiff_t{v} * row_stride_,
-                       row_stride_);
-    ends.end_m[0] = rays.x_m.data() + first;
-    ends.end_m[1] = rays.y_m.data() + first;
-    ends.end_m[2] = rays.z_m.data() + first;
-    ends.kind = reinterpret_cast<const std::uint8_t*>(rays.kind.data() + first);
-    const int count = kernels.ends_of_row(ends, worker.ends.data());
+    float* const row = inverse_depth_.data() + std::ptrdiff_t{v} * view.row_stride;
+    kernels.invert_row(depths, row, view.row_stride);
+    for (std::size_t u = 0; u < least.size(); ++u) least[u] = row[u] < least[u] ? row[u] : least[u];
+    const int count = kernels.ends_of_row(view, rays.row(first), worker.ends.data());
     voxels.insert(voxels.end(), worker.ends.begin(), worker.ends.begin() + count);
   }
-  keep_tiles(band);
+  for (int t = 0; t < view.tile_stride; ++t) {
+    const auto first = least.begin() + t * kTile_px;
+    tile_windows_[band * view.tile_stride + t] = *std::min_element(first, first + kTile_px);
+  }
 }
 
 void FrameInserter::walk_doubtful_rays(const FrameRays& rays) {
@@ -116,30 +185,27 @@ void FrameInserter::walk_doubtful_rays(const FrameRays& rays) {
       // few are asked for: memchr passes over the others fastest
       const void* const next = std::memchr(begin + i, 1, size - i);
       if (next == nullptr) break;
-      i = static_cast<std::size_t>(static_cast<const std::uint8_t*>(next) - begin);
+      i = static_cast<const std::uint8_t*>(next) - begin;
       begin[i] = 0;
       ++walked_count_;
-      walk_ray_inside(grid_, origin, Vec3f(rays.x_m[i], rays.y_m[i], rays.z_m[i]),
-                      [&](VoxelIndex v) {
-                        if (marks_[v] == kUntouched) marks_[v] = kFreed;
-                        return true;
-                      });
+      walk_ray_inside(grid_, origin, rays.end_world_m(i), [&](VoxelIndex v) {
+        if (marks_[v] == kUntouched) marks_[v] = kFreed;
+        return true;
+      });
     }
   }
 }
 
 ScanUpdate FrameInserter::collect(const FrameView& view) {
   ScanUpdate update;
-  const auto length = static_cast<std::size_t>(view.box_last[0] - view.box_first[0] + 1);
+  const int length = view.box_last[0] - view.box_first[0] + 1;
   for (int z = view.box_first[2]; z <= view.box_last[2]; ++z) {
     for (int y = view.box_first[1]; y <= view.box_last[1]; ++y) {
-      const std::ptrdiff_t start =
-          (std::ptrdiff_t{z} * view.size[1] + y) * view.size[0] + view.box_first[0];
-      std::uint8_t* const row = marks_.data() + start;
-      for (std::size_t x = 0; x < length; ++x) {
+      const int first = (z * view.size[1] + y) * view.size[0] + view.box_first[0];
+      std::uint8_t* const row = marks_.data() + first;
+      for (int x = 0; x < length; ++x) {
         if (row[x] == kUntouched) continue;
-        const auto voxel = static_cast<VoxelIndex>(start) + static_cast<VoxelIndex>(x);
-        (row[x] == kEnd ? update.occupied : update.free).push_back(voxel);
+        (row[x] == kEnd ? update.occupied : update.free).push_back(first + x);
       }
       std::memset(row, kUntouched, length);
     }
@@ -150,40 +216,44 @@ ScanUpdate FrameInserter::collect(const FrameView& view) {
 ScanUpdate FrameInserter::compute_update(const FrameRays& rays, const DepthFrame& frame,
                                          const CameraModel& camera, const OccupancyGrid& map,
                                          int threads) {
-  prepare(camera, threads);
-  GNBV_CHECK(map.geometry().min_key() == grid_.min_key() && map.geometry().size() == grid_.size(),
-             "another map than the one this inserter was made for");
-  const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+  GNBV_CHECK(map.geometry() == grid_, "another map than the one this inserter was made for");
+  FrameView view = make_frame_view(grid_, frame, camera);
+  const int bands = view.level_stride / view.tile_stride;
+  const std::size_t pixels = static_cast<std::size_t>(view.width) * view.height;
   GNBV_CHECK(frame.depth_m.size() == pixels && rays.kind.size() == pixels,
              "{} depths and {} rays for {} pixels", frame.depth_m.size(), rays.kind.size(), pixels);
-  const std::size_t workers = workers_.size();
-  parallel_for(threads, workers, [&](std::size_t w) {
-    for (auto band = static_cast<int>(w); band < tiles_y_; band += static_cast<int>(workers)) {
-      read_band(rays, frame, camera, band, workers_[w]);
+  int levels = 1;
+  while ((1 << levels) < std::max(view.tile_stride, bands)) ++levels;
+  inverse_depth_.resize(static_cast<std::size_t>(view.height) * view.row_stride);
+  tile_windows_.resize(static_cast<std::size_t>(levels) * view.level_stride);
+  ends_.resize(bands);
+  workers_.resize(std::max(threads, 1));
+  for (Worker& worker : workers_) {
+    worker.walk.resize(pixels, 0);
+    worker.doubts.resize(pixels + kPadding);
+    worker.ends.resize(view.width + kPadding);
+  }
+  const int workers = static_cast<int>(workers_.size());
+  parallel_for(threads, workers_.size(), [&](std::size_t w) {
+    for (int band = static_cast<int>(w); band < bands; band += workers) {
+      read_band(view, rays, frame, camera, band, workers_[w]);
     }
   });
-  widen_tiles();
+  widen_tiles(view, levels, tile_windows_.data());
   const float nearest_inverse =
-      *std::min_element(tile_windows_.begin(), tile_windows_.begin() + tiles_x_ * tiles_y_);
+      *std::min_element(tile_windows_.begin(), tile_windows_.begin() + view.level_stride);
   if (nearest_inverse == kNoRay) return {};
-  FrameView view =
-      make_frame_view(grid_, frame, camera, 1.0 / static_cast<double>(nearest_inverse));
+  set_reach(grid_, frame, camera, 1.0 / static_cast<double>(nearest_inverse), view);
   view.words = map.words().data();
   view.settled_word = map.settled_word();
   view.inverse_depth = inverse_depth_.data();
-  view.row_stride = row_stride_;
   view.tile_windows = tile_windows_.data();
-  view.tile_stride = tiles_x_;
-  view.level_stride = tiles_x_ * tiles_y_;
   for (const std::vector<VoxelIndex>& band : ends_) {
     for (const VoxelIndex v : band) marks_[v] = kEnd;
   }
-  parallel_for(threads, workers, [&](std::size_t w) {
-    const FrameMarks marks{.voxel = marks_.data(),
-                           .walk = workers_[w].walk.data(),
-                           .doubts = workers_[w].doubts.data()};
-    for (int z = view.box_first[2] + static_cast<int>(w); z <= view.box_last[2];
-         z += static_cast<int>(workers)) {
+  parallel_for(threads, workers_.size(), [&](std::size_t w) {
+    const FrameMarks marks = {marks_.data(), workers_[w].walk.data(), workers_[w].doubts.data()};
+    for (int z = view.box_first[2] + static_cast<int>(w); z <= view.box_last[2]; z += workers) {
       frame_kernels().project_layer(view, z, marks);
     }
   });

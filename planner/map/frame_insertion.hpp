@@ -5,16 +5,18 @@
 // margin. The few rays in between are walked as OctoMap walks them.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
-#include "planner/map/frame_kernels.hpp"
-#include "planner/map/frame_rays.hpp"
 #include "planner/map/occupancy_grid.hpp"
-#include "sim/core/zeroed_array.hpp"
+#include "planner/map/scan_rays.hpp"
 
 namespace gnbv {
+
+/// Whether voxels can be projected into the frame. Not when the camera is outside the grid, its
+/// rotation is none, its minimum range is not positive, its rays end beyond OctoMap's keys, the
+/// voxels are narrow against the margin, or float32 cannot count the pixels.
+bool can_project(const GridGeometry& grid, const DepthFrame& frame, const CameraModel& camera);
 
 /// Computes updates of frames. Its memory serves one frame after the other: a byte a voxel, and for
 /// each thread a byte and an integer a pixel.
@@ -24,8 +26,8 @@ class FrameInserter {
 
   /// The voxels of `map` that the frame's rays touch, in ascending order, the same on any number of
   /// threads. Free voxels that are settled (OccupancyGrid::settled_word()) may be missing: a miss
-  /// changes nothing of them. `rays` is compute_frame_rays() of the frame. Requires can_project()
-  /// of frame_view.hpp. Oracle: octomap::OcTree::computeUpdate.
+  /// changes nothing of them. `rays` is compute_frame_rays() of the frame. Requires can_project().
+  /// Oracle: octomap::OcTree::computeUpdate.
   ScanUpdate compute_update(const FrameRays& rays, const DepthFrame& frame,
                             const CameraModel& camera, const OccupancyGrid& map, int threads);
 
@@ -37,23 +39,17 @@ class FrameInserter {
   struct Worker {
     std::vector<std::uint8_t> walk;    // (pixels)
     std::vector<std::int32_t> doubts;  // (pixels + padding)
-    std::vector<std::int32_t> row;     // scratch of EndRow
     std::vector<std::int32_t> ends;    // (width + padding)
   };
-  void prepare(const CameraModel& camera, int threads);
-  void read_band(const FrameRays& rays, const DepthFrame& frame, const CameraModel& camera,
-                 int band, Worker& worker);
-  void keep_tiles(int band);
-  void widen_tiles();
+  void read_band(const FrameView& view, const FrameRays& rays, const DepthFrame& frame,
+                 const CameraModel& camera, int band, Worker& worker);
   void walk_doubtful_rays(const FrameRays& rays);
   ScanUpdate collect(const FrameView& view);
 
   GridGeometry grid_;
-  ZeroedArray<std::uint8_t> marks_;  // of voxels; untouched between calls
-  int width_ = 0, height_ = 0, row_stride_ = 0;
-  int tiles_x_ = 0, tiles_y_ = 0, levels_ = 0;
-  std::vector<float> inverse_depth_;           // (rows of whole tiles, row_stride_)
-  std::vector<float> tile_windows_;            // (levels_, tiles_y_, tiles_x_)
+  ZeroedArray<std::uint8_t> marks_;            // of voxels; untouched between calls
+  std::vector<float> inverse_depth_;           // (rows of whole tiles, row_stride)
+  std::vector<float> tile_windows_;            // (levels, tile rows, tile_stride)
   std::vector<std::vector<VoxelIndex>> ends_;  // of each band of kTile_px rows
   std::vector<Worker> workers_;
   std::size_t walked_count_ = 0;

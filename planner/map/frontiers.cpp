@@ -8,10 +8,8 @@
 namespace gnbv {
 namespace {
 
-constexpr std::uint8_t kUnvisited = 1;
-
-/// All frontier voxels within the neighbourhood of `seed`, directly or by way of others; takes
-/// their marks away.
+/// All marked voxels within the neighbourhood of `seed`, directly or by way of others; takes their
+/// marks away.
 std::vector<VoxelIndex> connected_to(VoxelIndex seed, int reach, const GridGeometry& geometry,
                                      FrontierMarks& marks) {
   std::vector<VoxelIndex> voxels = {seed};
@@ -23,7 +21,7 @@ std::vector<VoxelIndex> connected_to(VoxelIndex seed, int reach, const GridGeome
       for (at[1] = near.low[1]; at[1] <= near.high[1]; ++at[1]) {
         at[0] = near.low[0];
         for (VoxelIndex v = geometry.index_of(at); at[0] <= near.high[0]; ++at[0], ++v) {
-          if (marks[v] != kUnvisited) continue;
+          if (marks[v] == 0) continue;
           marks[v] = 0;
           voxels.push_back(v);
         }
@@ -37,29 +35,22 @@ std::vector<VoxelIndex> connected_to(VoxelIndex seed, int reach, const GridGeome
 double largest_extent_m(std::span<const VoxelIndex> voxels, const GridGeometry& geometry) {
   Eigen::AlignedBox3i keys;
   for (const VoxelIndex v : voxels) {
-    const Key key = geometry.key_at(v);
-    keys.extend(Eigen::Vector3i(key[0], key[1], key[2]));
+    keys.extend(Eigen::Vector3i::Map(geometry.key_at(v).data()));
   }
   return (keys.sizes().maxCoeff() + 1) * geometry.resolution_m();
 }
 
-/// The voxels by the cell of the world lattice in which their centres lie.
+/// The voxels by the cell of the world lattice in which their centres lie; by z, then y, then x.
 std::vector<std::vector<VoxelIndex>> cut(std::span<const VoxelIndex> voxels, double cell_m,
                                          const GridGeometry& geometry) {
   std::map<Key, std::vector<VoxelIndex>> cells;
   for (const VoxelIndex v : voxels) {
-    const Key cube = cube_of(geometry.center_m(geometry.key_at(v)), cell_m);
-    cells[{cube[2], cube[1], cube[0]}].push_back(v);
+    const auto [x, y, z] = cube_of(geometry.center_m(geometry.key_at(v)), cell_m);
+    cells[{z, y, x}].push_back(v);
   }
   std::vector<std::vector<VoxelIndex>> pieces;
   for (auto& [cell, piece] : cells) pieces.push_back(std::move(piece));
   return pieces;
-}
-
-Vec3 centroid_m(std::span<const VoxelIndex> voxels, const GridGeometry& geometry) {
-  Vec3 sum_m = Vec3::Zero();
-  for (const VoxelIndex v : voxels) sum_m += geometry.center_m(geometry.key_at(v));
-  return sum_m / static_cast<double>(voxels.size());
 }
 
 }  // namespace
@@ -81,22 +72,24 @@ std::vector<FrontierCluster> find_frontiers(const FrontierConfig& config, const 
     if (is_frontier(config, grid, cloud, v)) frontier.push_back(v);
   }
   std::sort(frontier.begin(), frontier.end());
-  for (const VoxelIndex v : frontier) marks[v] = kUnvisited;
+  for (const VoxelIndex v : frontier) marks[v] = 1;
 
   const auto min_voxels = static_cast<std::size_t>(config.min_cluster_voxels);
   std::vector<FrontierCluster> clusters;
   for (const VoxelIndex seed : frontier) {
-    if (marks[seed] != kUnvisited) continue;
+    if (marks[seed] == 0) continue;
     std::vector<std::vector<VoxelIndex>> pieces = {
         connected_to(seed, config.neighbour_voxels, geometry, marks)};
-    if (pieces.front().size() < min_voxels) continue;  // before the cut: no sliver of a large one
-    if (config.max_extent_m > 0.0 &&
-        largest_extent_m(pieces.front(), geometry) > config.max_extent_m) {
-      pieces = cut(pieces.front(), config.max_extent_m, geometry);
+    const std::vector<VoxelIndex>& whole = pieces.front();
+    if (whole.size() < min_voxels) continue;  // before the cut: no sliver of a large one
+    if (config.max_extent_m > 0.0 && largest_extent_m(whole, geometry) > config.max_extent_m) {
+      pieces = cut(whole, config.max_extent_m, geometry);
     }
     for (std::vector<VoxelIndex>& piece : pieces) {
-      const Vec3 center_m = centroid_m(piece, geometry);
-      clusters.push_back({std::move(piece), center_m});
+      Vec3 sum_m = Vec3::Zero();
+      for (const VoxelIndex v : piece) sum_m += geometry.center_m(geometry.key_at(v));
+      const Vec3 centroid_m = sum_m / static_cast<double>(piece.size());
+      clusters.push_back({std::move(piece), centroid_m});
     }
   }
   return clusters;

@@ -3,11 +3,20 @@
 
 #include <vector>
 
-#include "planner/map/config.hpp"
 #include "planner/map/occupancy_grid.hpp"
 #include "planner/map/surface_cloud.hpp"
 
 namespace gnbv {
+
+/// Defaults: the released configuration (density below 100 of 300, neighbours up to 2 voxels away,
+/// at least 5 voxels); cutting is our own, see FIDELITY.md.
+struct FrontierConfig {
+  double density_share = 1.0 / 3.0;  // frontier: 0 < density < this share of density_max()
+  bool occupied_only = true;         // and the voxel is occupied, not only full of points
+  int neighbour_voxels = 2;          // Chebyshev distance that joins two voxels
+  int min_cluster_voxels = 5;
+  double max_extent_m = 2.0;  // clusters larger along any axis are cut; 0: never
+};
 
 /// Whether the voxel's density is below the bound, but not 0, and it is occupied. Without
 /// `occupied_only` points will do: those of thin parts lie in voxels that other rays cleared.

@@ -13,6 +13,13 @@ namespace gnbv {
 using Key = std::array<std::int32_t, 3>;  // signed lattice coordinates
 using VoxelIndex = std::uint32_t;         // position in the dense arrays, x fastest
 
+/// The greatest integer that is not above x; std::floor would be a call. Requires |x| < 2^31.
+template <typename T>
+std::int32_t floor_to_int(T x) {
+  const auto truncated = static_cast<std::int32_t>(x);
+  return truncated - static_cast<std::int32_t>(x < static_cast<T>(truncated));
+}
+
 /// The cube that holds the point, of those of that side that fill space from the origin on.
 inline Key cube_of(const Vec3& p_m, double side_m) {
   const Eigen::Array3i cube = (p_m / side_m).array().floor().cast<int>();
@@ -59,9 +66,15 @@ class GridGeometry {
   double inverse_resolution() const { return inverse_resolution_; }
   const Key& min_key() const { return min_; }
   const Key& size() const { return size_; }
-  std::size_t voxel_count() const {
-    return static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]) *
-           static_cast<std::size_t>(size_[2]);
+  std::size_t voxel_count() const { return std::size_t{1} * size_[0] * size_[1] * size_[2]; }
+  bool operator==(const GridGeometry&) const = default;
+
+  /// The lattice with so many more voxels on each side.
+  GridGeometry grown(std::int32_t voxels) const {
+    GridGeometry grid = *this;
+    for (std::int32_t& first : grid.min_) first -= voxels;
+    for (std::int32_t& count : grid.size_) count += 2 * voxels;
+    return grid;
   }
 
   /// As OctoMap's coordToKey: floor of the coordinate times the resolution factor, in double.
@@ -69,22 +82,16 @@ class GridGeometry {
   std::int32_t key_of(double coordinate_m) const {
     constexpr double kLimit = 1 << 30;
     const double scaled = inverse_resolution_ * coordinate_m;
-    const double bounded = scaled > -kLimit ? (scaled < kLimit ? scaled : kLimit) : -kLimit;
-    const auto truncated = static_cast<std::int32_t>(bounded);
-    return truncated - static_cast<std::int32_t>(bounded < truncated);
+    return floor_to_int(scaled > -kLimit ? (scaled < kLimit ? scaled : kLimit) : -kLimit);
   }
-  Key key_of(const Vec3& p_world_m) const {
-    return {key_of(p_world_m.x()), key_of(p_world_m.y()), key_of(p_world_m.z())};
-  }
-  /// The same for float32 points: OctoMap widens each coordinate to double.
-  Key key_of(const Vec3f& p_world_m) const {
-    return {key_of(static_cast<double>(p_world_m.x())), key_of(static_cast<double>(p_world_m.y())),
-            key_of(static_cast<double>(p_world_m.z()))};
+  /// OctoMap widens each coordinate of float32 points to double.
+  template <typename Scalar>
+  Key key_of(const Eigen::Matrix<Scalar, 3, 1>& p_world_m) const {
+    return {key_of(double{p_world_m.x()}), key_of(double{p_world_m.y()}),
+            key_of(double{p_world_m.z()})};
   }
   /// As OctoMap's keyToCoord: the centre of the voxel.
-  double center_m(std::int32_t key) const {
-    return (static_cast<double>(key) + 0.5) * resolution_m_;
-  }
+  double center_m(std::int32_t key) const { return (key + 0.5) * resolution_m_; }
   Vec3 center_m(const Key& key) const {
     return {center_m(key[0]), center_m(key[1]), center_m(key[2])};
   }
@@ -94,10 +101,9 @@ class GridGeometry {
   Vec3 nearest_inside(const Vec3& p_world_m) const {
     constexpr double kFace_m = 1e-4;
     Vec3 inside_m;
-    for (Eigen::Index a = 0; a < 3; ++a) {
-      const auto i = static_cast<std::size_t>(a);
-      inside_m[a] = std::clamp(p_world_m[a], min_[i] * resolution_m_ + kFace_m,
-                               (min_[i] + size_[i]) * resolution_m_ - kFace_m);
+    for (int a = 0; a < 3; ++a) {
+      inside_m[a] = std::clamp(p_world_m[a], min_[a] * resolution_m_ + kFace_m,
+                               (min_[a] + size_[a]) * resolution_m_ - kFace_m);
     }
     return inside_m;
   }
@@ -127,5 +133,16 @@ class GridGeometry {
   Key min_ = {0, 0, 0};
   Key size_ = {0, 0, 0};
 };
+
+/// Larger maps are refused before the start.
+constexpr double kMapBudget_bytes = 6.0 * 1024 * 1024 * 1024;
+
+/// The most that the dense arrays of a map take, once every page of them is written. A voxel takes
+/// 8 bytes in OccupancyGrid (float32 log-odds, VoxelWord), 4 in SurfaceCloud and 4 in its buckets,
+/// 1 each in ShadowBand, the frontier marks and the FrameInserter of each camera, and 2 for each
+/// thread (VisitMarks, FanWalker). Not counted are what grows with the surface, some 50 to 150
+/// bytes a point of the cloud, and a planner's own arrays (planning_bytes() in planner/planners.hpp
+/// has them).
+double map_bytes(const Box3& workspace_m, double resolution_m, int threads, std::size_t cameras);
 
 }  // namespace gnbv

@@ -5,9 +5,6 @@
 #include "sim/core/rng.hpp"
 
 namespace gnbv {
-namespace {
-constexpr std::size_t kFewestSlots = 4096;
-}
 
 void LeafSums::reset() {
   std::fill(slots_.begin(), slots_.end(), kEmpty);
@@ -15,28 +12,22 @@ void LeafSums::reset() {
   last_ = kEmpty;
 }
 
-std::size_t LeafSums::slot_of(const LeafKey& leaf) const {
-  const auto bits = [&](std::size_t a) {
-    return static_cast<std::uint64_t>(static_cast<std::uint32_t>(leaf[a]) & 0x1fffffU);
-  };
-  std::size_t slot = mix_bits(bits(0) | bits(1) << 21 | bits(2) << 42) & (slots_.size() - 1);
-  while (slots_[slot] != kEmpty && sums_[slots_[slot]].leaf != leaf) {
-    slot = (slot + 1) & (slots_.size() - 1);
-  }
-  return slot;
-}
-
-void LeafSums::grow() {
-  slots_.assign(std::max(kFewestSlots, 2 * slots_.size()), kEmpty);
-  for (std::size_t i = 0; i < sums_.size(); ++i) {
-    slots_[slot_of(sums_[i].leaf)] = static_cast<std::uint32_t>(i);
-  }
+std::uint32_t& LeafSums::slot_of(const LeafKey& leaf) {
+  const auto bits = [&](std::size_t a) { return std::uint64_t{leaf[a] & 0x1fffffU}; };
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t slot = mix_bits(bits(0) | bits(1) << 21 | bits(2) << 42) & mask;
+  while (slots_[slot] != kEmpty && sums_[slots_[slot]].leaf != leaf) slot = (slot + 1) & mask;
+  return slots_[slot];
 }
 
 void LeafSums::add(const LeafKey& leaf, const Vec3f& p_m) {
+  constexpr std::size_t kFewestSlots = 4096;
   if (last_ == kEmpty || sums_[last_].leaf != leaf) {
-    if (2 * (sums_.size() + 1) > slots_.size()) grow();
-    std::uint32_t& slot = slots_[slot_of(leaf)];
+    if (2 * (sums_.size() + 1) > slots_.size()) {
+      slots_.assign(std::max(kFewestSlots, 2 * slots_.size()), kEmpty);
+      for (std::uint32_t i = 0; i < sums_.size(); ++i) slot_of(sums_[i].leaf) = i;
+    }
+    std::uint32_t& slot = slot_of(leaf);
     if (slot == kEmpty) {
       slot = static_cast<std::uint32_t>(sums_.size());
       sums_.push_back({leaf, 0, Vec3::Zero()});
@@ -47,13 +38,17 @@ void LeafSums::add(const LeafKey& leaf, const Vec3f& p_m) {
   sums_[last_].sum_m += p_m.cast<double>();
 }
 
+std::vector<Vec3f> LeafSums::centroids_m() const {
+  std::vector<Vec3f> centroids(size());
+  for (std::size_t i = 0; i < size(); ++i) centroids[i] = centroid_m(i);
+  return centroids;
+}
+
 std::vector<Vec3f> leaf_filter(std::span<const Vec3f> points_m, double leaf_m) {
   const LeafLattice lattice(leaf_m);
   LeafSums sums;
   for (const Vec3f& p_m : points_m) sums.add(lattice.key_of(p_m), p_m);
-  std::vector<Vec3f> centroids_m(sums.size());
-  for (std::size_t i = 0; i < sums.size(); ++i) centroids_m[i] = sums.centroid_m(i);
-  return centroids_m;
+  return sums.centroids_m();
 }
 
 }  // namespace gnbv

@@ -1,17 +1,14 @@
 // One centroid per leaf, as pcl::VoxelGrid, but without its limit on the number of leaves.
 #pragma once
 
-#include <array>
-#include <cmath>
-#include <cstdint>
 #include <span>
 #include <vector>
 
-#include "sim/core/pose.hpp"
+#include "planner/map/grid_geometry.hpp"
 
 namespace gnbv {
 
-using LeafKey = std::array<std::int32_t, 3>;
+using LeafKey = Key;
 
 /// Cubes [k leaf, (k + 1) leaf). The float32 product is pcl::VoxelGrid's, so that a point on a
 /// border falls into the same leaf.
@@ -19,16 +16,12 @@ class LeafLattice {
  public:
   explicit LeafLattice(double leaf_m) : inverse_leaf_(1.0F / static_cast<float>(leaf_m)) {}
   LeafKey key_of(const Vec3f& p_m) const {
-    return {key_of(p_m[0]), key_of(p_m[1]), key_of(p_m[2])};
+    return {floor_to_int(p_m[0] * inverse_leaf_), floor_to_int(p_m[1] * inverse_leaf_),
+            floor_to_int(p_m[2] * inverse_leaf_)};
   }
   float inverse_leaf_1_m() const { return inverse_leaf_; }
 
  private:
-  std::int32_t key_of(float coordinate_m) const {
-    const float scaled = coordinate_m * inverse_leaf_;
-    const auto truncated = static_cast<std::int32_t>(scaled);
-    return truncated - static_cast<std::int32_t>(scaled < static_cast<float>(truncated));
-  }
   float inverse_leaf_;
 };
 
@@ -44,6 +37,7 @@ class LeafSums {
   Vec3f centroid_m(std::size_t i) const {
     return (sums_[i].sum_m / static_cast<double>(sums_[i].count)).cast<float>();
   }
+  std::vector<Vec3f> centroids_m() const;
 
  private:
   struct Sum {
@@ -51,8 +45,7 @@ class LeafSums {
     std::uint32_t count;
     Vec3 sum_m;
   };
-  std::size_t slot_of(const LeafKey& leaf) const;
-  void grow();
+  std::uint32_t& slot_of(const LeafKey& leaf);
 
   static constexpr std::uint32_t kEmpty = 0xffffffffU;
   std::vector<std::uint32_t> slots_;  // open addressing, a power of two: index into sums_

@@ -1,15 +1,16 @@
 #include "planner/map/occupancy_grid.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numbers>
+#include <utility>
 
 #include "sim/core/error.hpp"
 
 namespace gnbv {
 namespace {
 
-constexpr double kTotalUnits = 4294967296.0;  // per nat
+constexpr double kTotalUnits = 0x1p32;  // per nat
 constexpr int kMemoBits = 12;
 
 /// octomap::logodds (octomap_utils.h)
@@ -23,31 +24,30 @@ void need_between(const char* key, double value, double low, double high) {
   }
 }
 
-void need_usable(const OccupancyConfig& c) {
-  need_between("prob_hit", c.prob_hit, 0.5, 1.0);
-  need_between("prob_miss", c.prob_miss, 0.0, 0.5);
-  need_between("clamp_min", c.clamp_min, 0.0, 0.5);
-  need_between("clamp_max", c.clamp_max, 0.5, 1.0);
-  need_between("free_max", c.free_max, 0.0, 1.0);
-  need_between("occupied_min", c.occupied_min, c.free_max, 1.0);
-}
-
 }  // namespace
 
 OccupancyGrid::OccupancyGrid(const OccupancyConfig& config, const Box3& bounds_m)
     : config_(config), geometry_(bounds_m, config.resolution_m) {
-  need_usable(config);
+  need_between("prob_hit", config.prob_hit, 0.5, 1.0);
+  need_between("prob_miss", config.prob_miss, 0.0, 0.5);
+  need_between("clamp_min", config.clamp_min, 0.0, 0.5);
+  need_between("clamp_max", config.clamp_max, 0.5, 1.0);
+  need_between("free_max", config.free_max, 0.0, 1.0);
+  need_between("occupied_min", config.occupied_min, config.free_max, 1.0);
   clamp_min_log_ = log_odds_of(config.clamp_min);
   clamp_max_log_ = log_odds_of(config.clamp_max);
   occupied_min_log_ = log_odds_of(config.occupied_min);
   free_max_log_ = log_odds_of(config.free_max);
   settled_word_ = compute_settled_word();
-  hits_ = make_memo(log_odds_of(config.prob_hit));
-  misses_ = make_memo(log_odds_of(config.prob_miss));
+  for (const auto& [memo, probability] :
+       {std::pair(&hits_, config.prob_hit), std::pair(&misses_, config.prob_miss)}) {
+    memo->delta = log_odds_of(probability);
+    memo->steps.assign(std::size_t{1} << kMemoBits, step_by(memo->delta, 0.0F));
+  }
   const std::size_t voxels = geometry_.voxel_count();
   log_odds_ = ZeroedArray<float>(voxels);
-  words_ = ZeroedArray<VoxelWord>(voxels + kWordPadding);
-  total_entropy_ = compute_entropy(0.0F).units * static_cast<std::int64_t>(voxels);
+  words_ = ZeroedArray<VoxelWord>(voxels + kPadding);
+  total_entropy_ = entropy_of(0.0F).units * static_cast<std::int64_t>(voxels);
 }
 
 VoxelState OccupancyGrid::state_at(const Vec3& p_world_m) const {
@@ -59,7 +59,7 @@ double OccupancyGrid::total_entropy_nat() const {
   return static_cast<double>(total_entropy_) / kTotalUnits;
 }
 
-OccupancyGrid::Entropy OccupancyGrid::compute_entropy(float log_odds) const {
+OccupancyGrid::Entropy OccupancyGrid::entropy_of(float log_odds) const {
   if (is_clamped(log_odds)) return {};
   // Eq. (1) in terms of l = |log-odds|, where p = 1 / (1 + e^-l) cannot round to 0 or 1
   const double l = std::fabs(static_cast<double>(log_odds));
@@ -77,7 +77,7 @@ VoxelState OccupancyGrid::state_of_log_odds(float log_odds) const {
 VoxelWord OccupancyGrid::compute_settled_word() const {
   constexpr auto kNoWord = static_cast<VoxelWord>(kStateMask);  // no state
   const auto has_entropy_within = [&](float bound) {
-    return compute_entropy(std::nextafter(bound, 0.0F)).word_units > 0;
+    return entropy_of(std::nextafter(bound, 0.0F)).word_units > 0;
   };
   // at bounds so wide that the entropy is 0 before them, words do not tell which voxels are at them
   const bool is_told = has_entropy_within(clamp_min_log_) && has_entropy_within(clamp_max_log_) &&
@@ -86,62 +86,47 @@ VoxelWord OccupancyGrid::compute_settled_word() const {
   return is_told ? measured_word(VoxelState::free, 0) : kNoWord;
 }
 
-OccupancyGrid::Step OccupancyGrid::compute_step(float before, float delta) const {
-  float after = before + delta;
-  if (after < clamp_min_log_) after = clamp_min_log_;
-  if (after > clamp_max_log_) after = clamp_max_log_;
-  return make_step(before, after);
-}
-
-OccupancyGrid::Step OccupancyGrid::make_step(float before, float after) const {
-  const Entropy entropy = compute_entropy(after);
+OccupancyGrid::Step OccupancyGrid::step_to(float after, float before) const {
+  const Entropy entropy = entropy_of(after);
   return {.before = before,
           .after = after,
           .word = measured_word(state_of_log_odds(after), entropy.word_units),
-          .entropy_gain = entropy.units - compute_entropy(before).units};
+          .entropy_gain = entropy.units - entropy_of(before).units};
 }
 
-OccupancyGrid::StepMemo OccupancyGrid::make_memo(float delta) const {
-  const std::size_t size = std::size_t{1} << kMemoBits;
-  return {.delta = delta, .steps = std::vector<Step>(size, compute_step(0.0F, delta))};
-}
-
-const OccupancyGrid::Step& OccupancyGrid::step_from(float before, StepMemo& memo) const {
-  const std::uint32_t hash = std::bit_cast<std::uint32_t>(before) * 0x9e3779b1U;
-  Step& step = memo.steps[hash >> (32 - kMemoBits)];
-  if (step.before != before) step = compute_step(before, memo.delta);
-  return step;
+OccupancyGrid::Step OccupancyGrid::step_by(float delta, float before) const {
+  return step_to(std::clamp(before + delta, clamp_min_log_, clamp_max_log_), before);
 }
 
 void OccupancyGrid::take_step(VoxelIndex v, const Step& step) {
-  const auto is_occupied = [](VoxelWord word) {
-    return static_cast<std::size_t>(state_of(word) == VoxelState::occupied);
-  };
+  const auto is_occupied = [](VoxelWord word) { return state_of(word) == VoxelState::occupied; };
   const VoxelWord word = words_[v];
   total_entropy_ += step.entropy_gain;
   occupied_count_ += is_occupied(step.word) - is_occupied(word);
-  predicted_count_ -= static_cast<std::size_t>((word & kPredictedBit) != 0);
+  predicted_count_ -= (word & kPredictedBit) != 0;
   log_odds_[v] = step.after;
   words_[v] = step.word;
 }
 
 void OccupancyGrid::add_log_odds(std::span<const VoxelIndex> voxels, StepMemo& memo) {
   for (const VoxelIndex v : voxels) {
-    const Step& step = step_from(log_odds_[v], memo);
-    if (step.after == step.before) continue;  // at a bound, hence measured
-    take_step(v, step);
+    const float before = log_odds_[v];
+    const std::uint32_t hash = std::bit_cast<std::uint32_t>(before) * 0x9e3779b1U;
+    Step& step = memo.steps[hash >> (32 - kMemoBits)];
+    if (step.before != before) step = step_by(memo.delta, before);
+    if (step.after != before) take_step(v, step);  // else at a bound, hence measured
   }
 }
 
 bool OccupancyGrid::restore(VoxelIndex v, float log_odds) {
   if (is_measured(v) || !(log_odds >= clamp_min_log_ && log_odds <= clamp_max_log_)) return false;
-  take_step(v, make_step(log_odds_[v], log_odds));
+  take_step(v, step_to(log_odds, log_odds_[v]));
   return true;
 }
 
 bool OccupancyGrid::predict(VoxelIndex v) {
   if (is_measured(v)) return false;
-  predicted_count_ += static_cast<std::size_t>(!is_predicted(v));
+  predicted_count_ += !is_predicted(v);
   words_[v] |= kPredictedBit;
   return true;
 }

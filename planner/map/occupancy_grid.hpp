@@ -6,20 +6,29 @@
 #include <span>
 #include <vector>
 
-#include "planner/map/config.hpp"
 #include "planner/map/grid_geometry.hpp"
-#include "planner/map/voxel_word.hpp"
+#include "planner/map/map_kernels.hpp"
 #include "sim/core/zeroed_array.hpp"
 
 namespace gnbv {
+
+/// Defaults: OctoMap's sensor model, and the thresholds of the released configuration. Thresholds
+/// are compared as float32 log-odds, so one miss (0.4) is free and one hit (0.7) occupied.
+struct OccupancyConfig {
+  double resolution_m = 0.2;
+  double prob_hit = 0.7;
+  double prob_miss = 0.4;
+  double clamp_min = 0.1192;
+  double clamp_max = 0.971;
+  double occupied_min = 0.6;  // p >= this is occupied
+  double free_max = 0.4;      // p <= this is free, between is unknown
+};
 
 /// The voxels one scan touches, each once, occupied before free (OctoMap's computeUpdate).
 struct ScanUpdate {
   std::vector<VoxelIndex> free;  // disjoint from occupied
   std::vector<VoxelIndex> occupied;
 };
-
-constexpr std::size_t kWordPadding = 16;  // that loops may read beyond the last voxel: one vector
 
 class OccupancyGrid {
  public:
@@ -95,18 +104,16 @@ class OccupancyGrid {
     float delta = 0.0F;
     std::vector<Step> steps;
   };
-  Entropy compute_entropy(float log_odds) const;
-  VoxelState state_of_log_odds(float log_odds) const;
-  VoxelWord compute_settled_word() const;
-  Step make_step(float before, float after) const;
-  Step compute_step(float before, float delta) const;
-  StepMemo make_memo(float delta) const;
-  const Step& step_from(float before, StepMemo& memo) const;
-  void take_step(VoxelIndex v, const Step& step);
-  void add_log_odds(std::span<const VoxelIndex> voxels, StepMemo& memo);
   bool is_clamped(float log_odds) const {
     return log_odds <= clamp_min_log_ || log_odds >= clamp_max_log_;
   }
+  Entropy entropy_of(float log_odds) const;
+  VoxelState state_of_log_odds(float log_odds) const;
+  VoxelWord compute_settled_word() const;
+  Step step_to(float after, float before) const;
+  Step step_by(float delta, float before) const;
+  void take_step(VoxelIndex v, const Step& step);
+  void add_log_odds(std::span<const VoxelIndex> voxels, StepMemo& memo);
 
   OccupancyConfig config_;
   GridGeometry geometry_;
@@ -115,7 +122,7 @@ class OccupancyGrid {
   VoxelWord settled_word_ = 0;
   ZeroedArray<float> log_odds_;
   ZeroedArray<VoxelWord> words_;
-  std::int64_t total_entropy_ = 0;  // in units of 2^-32 nat
+  std::int64_t total_entropy_ = 0;  // in 2^-32 nat
   std::size_t occupied_count_ = 0;
   std::size_t predicted_count_ = 0;
   StepMemo hits_, misses_;

@@ -16,20 +16,16 @@ struct RayOrigin {
   Vec3f p_m = Vec3f::Zero();
   Key key = {0, 0, 0};
   // signed distance from the point to the borders of its voxel, along each axis
-  std::array<double, 3> to_upper_border_m = {0.0, 0.0, 0.0};
-  std::array<double, 3> to_lower_border_m = {0.0, 0.0, 0.0};
+  std::array<double, 3> to_upper_border_m = {}, to_lower_border_m = {};
 };
 
 inline RayOrigin make_ray_origin(const GridGeometry& grid, const Vec3f& origin_m) {
-  RayOrigin origin;
-  origin.p_m = origin_m;
-  origin.key = grid.key_of(origin_m);
+  RayOrigin origin = {.p_m = origin_m, .key = grid.key_of(origin_m)};
   // OctoMap rounds half a voxel to float32 before it adds it to the centre
-  const auto half_m = static_cast<double>(static_cast<float>(grid.resolution_m() * 0.5));
-  for (std::size_t a = 0; a < 3; ++a) {
-    const auto p_m = static_cast<double>(origin_m[static_cast<Eigen::Index>(a)]);
-    origin.to_upper_border_m[a] = (grid.center_m(origin.key[a]) + half_m) - p_m;
-    origin.to_lower_border_m[a] = (grid.center_m(origin.key[a]) - half_m) - p_m;
+  const double half_m = static_cast<float>(grid.resolution_m() * 0.5);
+  for (int a = 0; a < 3; ++a) {
+    origin.to_upper_border_m[a] = (grid.center_m(origin.key[a]) + half_m) - origin_m[a];
+    origin.to_lower_border_m[a] = (grid.center_m(origin.key[a]) - half_m) - origin_m[a];
   }
   return origin;
 }
@@ -59,23 +55,20 @@ struct RaySteps {
 
 inline RaySteps make_ray_steps(const GridGeometry& grid, const RayOrigin& origin,
                                const Vec3f& end_m) {
-  RaySteps ray;
-  ray.key = origin.key;
-  ray.key_end = grid.key_of(end_m);
-  Vec3f direction = end_m - origin.p_m;
+  RaySteps ray = {.key = origin.key, .key_end = grid.key_of(end_m)};
+  const Vec3f direction = end_m - origin.p_m;
   // octomap::Vector3::norm sums float32 products, left to right, and takes a float64 root of it
   const float squared =
       direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2];
-  const float length_m = static_cast<float>(std::sqrt(static_cast<double>(squared)));
+  const auto length_m = static_cast<float>(std::sqrt(static_cast<double>(squared)));
   if (!(length_m > 0.0F)) return ray;
-  ray.length_m = static_cast<double>(length_m);
-  for (std::size_t a = 0; a < 3; ++a) {
-    const float d = direction[static_cast<Eigen::Index>(a)] / length_m;
-    if (d == 0.0F) continue;
-    const auto d64 = static_cast<double>(d);
-    ray.step[a] = d > 0.0F ? 1 : -1;
-    ray.t_next[a] = (d > 0.0F ? origin.to_upper_border_m[a] : origin.to_lower_border_m[a]) / d64;
-    ray.t_voxel[a] = grid.resolution_m() / std::fabs(d64);
+  ray.length_m = length_m;
+  for (int a = 0; a < 3; ++a) {
+    const double d = direction[a] / length_m;  // rounded to float32
+    if (d == 0.0) continue;
+    ray.step[a] = d > 0.0 ? 1 : -1;
+    ray.t_next[a] = (d > 0.0 ? origin.to_upper_border_m[a] : origin.to_lower_border_m[a]) / d;
+    ray.t_voxel[a] = grid.resolution_m() / std::fabs(d);
   }
   return ray;
 }
@@ -85,18 +78,23 @@ inline RaySteps make_ray_steps(const GridGeometry& grid, const RayOrigin& origin
 /// its bounds. Both points must be finite.
 template <typename Visit>
 void walk_ray(const GridGeometry& grid, const RayOrigin& origin, const Vec3f& end_m,
-              Visit&& visit) {
+              const Visit& visit) {
   RaySteps ray = make_ray_steps(grid, origin, end_m);
   if (ray.key == ray.key_end || !visit(ray.key) || !(ray.length_m > 0.0)) return;
   while (ray.advance() && visit(ray.key)) {
   }
+}
+template <typename Visit>
+void walk_ray(const GridGeometry& grid, const Vec3f& origin_m, const Vec3f& end_m,
+              const Visit& visit) {
+  walk_ray(grid, make_ray_origin(grid, origin_m), end_m, visit);
 }
 
 /// walk_ray() by VoxelIndex, up to where the ray leaves the grid. `visit(VoxelIndex)` returns false
 /// to stop.
 template <typename Visit>
 void walk_ray_inside(const GridGeometry& grid, const RayOrigin& origin, const Vec3f& end_m,
-                     Visit&& visit) {
+                     const Visit& visit) {
   walk_ray(grid, origin, end_m,
            [&](const Key& key) { return grid.contains(key) && visit(grid.index_of(key)); });
 }
@@ -106,14 +104,8 @@ template <typename Passes>
 bool all_along_ray(const GridGeometry& grid, const Vec3f& origin_m, const Vec3f& end_m,
                    const Passes& passes) {
   bool pass = true;
-  walk_ray(grid, make_ray_origin(grid, origin_m), end_m,
-           [&](const Key& key) { return pass = passes(key); });
+  walk_ray(grid, origin_m, end_m, [&](const Key& key) { return pass = passes(key); });
   return pass;
-}
-
-template <typename Visit>
-void walk_ray(const GridGeometry& grid, const Vec3f& origin_m, const Vec3f& end_m, Visit&& visit) {
-  walk_ray(grid, make_ray_origin(grid, origin_m), end_m, visit);
 }
 
 }  // namespace gnbv

@@ -1,25 +1,51 @@
-// From scans to the voxels that they touch. The rules (planar maximum range, floor, minimum range,
-// one update a voxel and scan, occupied wins) are the released code's; see FIDELITY.md.
+// From scans to the voxels that they touch: one update a voxel and scan, occupied wins (the
+// released code's rules; see FIDELITY.md).
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "planner/map/fan_walker.hpp"
 #include "planner/map/frame_insertion.hpp"
-#include "planner/map/frame_rays.hpp"
-#include "planner/map/occupancy_grid.hpp"
-#include "sensors/camera_model.hpp"
-#include "sensors/frames.hpp"
-#include "sensors/lidar_model.hpp"
+#include "planner/map/ray_walk.hpp"
 
 namespace gnbv {
 
-/// Rays of a sweep in beam order; the maximum range is a sphere.
-std::vector<ScanRay> rays_of(const LidarScan& scan, const LidarModel& lidar, double floor_z_m);
+/// Lists what the rays of a scan touch. Memory of one thread, reused from scan to scan: marks of
+/// the voxels already listed, over the grid and a frame one voxel wide around it. A ray that
+/// reaches the frame has left the grid, and since it is straight it never comes back.
+class FanWalker {
+ public:
+  explicit FanWalker(const GridGeometry& grid);
 
-/// The ends of the rays that hit: the points of the cloud.
-std::vector<Vec3f> surface_points_world_m(std::span<const ScanRay> rays);
+  /// The voxels the rays touch inside the grid. Oracle: octomap::OcTree::computeUpdate, whose
+  /// computeRayKeys names the free ones. Points must be finite. The lists go into the memory of
+  /// `update`, whatever it holds.
+  ScanUpdate compute_update(const Vec3f& origin_world_m, std::span<const ScanRay> rays,
+                            ScanUpdate update = {});
+
+ private:
+  using Place = std::int32_t;  // a voxel's index in the framed grid
+
+  VoxelIndex voxel_at(Place place) const;
+  /// Appends the voxel to listed_ unless it is marked, and marks it.
+  void list(const Key& key);
+  /// Takes those listed from number `first` on, and their marks, away.
+  void take(std::size_t first, std::vector<VoxelIndex>& voxels);
+  /// Takes a ray from a voxel outside the grid to its first one inside; false when it ends before,
+  /// or never comes in.
+  bool enter(RaySteps& ray) const;
+  /// Lists where the ray begins and puts it into the bundle; false when it goes no further.
+  bool start_ray(const RayOrigin& origin, const Vec3f& end_m, std::size_t which);
+
+  GridGeometry grid_, framed_;
+  std::array<Place, 3> move_;                 // change of place with a step up each axis
+  double layers_per_place_, rows_per_place_;  // 1 over move_[2] and move_[1]
+  std::size_t steps_max_;                     // of one ray inside the grid
+  std::vector<std::uint8_t> marks_;           // of the framed grid, and one resting place
+  std::vector<Place> listed_;                 // of the scan at hand, listed_count_ of them
+  std::size_t listed_count_ = 0;
+  FanRays bundle_{};
+};
 
 /// Computes updates. Its memory, a byte a voxel and one more for each thread, serves all scans.
 class ScanInserter {

@@ -12,13 +12,13 @@ namespace {
 constexpr std::int32_t kMostLeavesPerBucket = 64;
 constexpr double kMostCells = 2147483648.0;  // their indices are signed 32-bit in the gathers
 constexpr std::size_t kPixelsAtOnce = 8192;  // their columns and indices stay in the cache
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// The first float32 number whose voxel is not below `key` along an axis.
 float first_of_voxel(const GridGeometry& voxels, std::int32_t key) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
   auto at_m = static_cast<float>(key * voxels.resolution_m());
-  while (voxels.key_of(static_cast<double>(at_m)) >= key) at_m = std::nextafter(at_m, -kInfinity);
-  while (voxels.key_of(static_cast<double>(at_m)) < key) at_m = std::nextafter(at_m, kInfinity);
+  while (voxels.key_of(at_m) >= key) at_m = std::nextafter(at_m, -kInfinity);
+  while (voxels.key_of(at_m) < key) at_m = std::nextafter(at_m, kInfinity);
   return at_m;
 }
 
@@ -33,29 +33,27 @@ SurfaceCloud::SurfaceCloud(const CloudConfig& config, const GridGeometry& voxels
   }
   density_max_ = 3.0 * (voxel_m / config.leaf_m) * (voxel_m / config.leaf_m);
   search_radius_m_ = voxel_m / std::sqrt(2.0);
-  search_radius2_m2_ = static_cast<float>(search_radius_m_ * search_radius_m_);
+  table_.radius2_m2 = static_cast<float>(search_radius_m_ * search_radius_m_);
   slot_of_ = ZeroedArray<std::uint32_t>(voxels.voxel_count());
   voxel_points_.resize(1);
 
   const double side = std::ceil(voxel_m / config.leaf_m - 1e-9);  // of a bucket, in leaves
   const double bucket_m = side * config.leaf_m;
   bucket_m_ = static_cast<float>(bucket_m);
-  leaves_.inverse_leaf_1_m = lattice_.inverse_leaf_1_m();
-  leaves_.leaves_per_bucket = static_cast<std::int32_t>(side);
-  leaves_.words_per_bucket = static_cast<std::int32_t>(std::ceil(side * side * side / 32.0));
+  table_.inverse_leaf_1_m = lattice_.inverse_leaf_1_m();
+  table_.leaves_per_bucket = static_cast<std::int32_t>(side);
+  table_.words_per_bucket = static_cast<std::int32_t>(std::ceil(side * side * side / 32.0));
   double cells = 1.0;
-  for (std::size_t a = 0; a < 3; ++a) {
+  for (int a = 0; a < 3; ++a) {
     // a bucket more on each side, so that the neighbours of any point have a cell
-    const std::int32_t end = voxels.min_key()[a] + voxels.size()[a];
-    first_bucket_[a] =
-        static_cast<std::int32_t>(std::floor(voxels.min_key()[a] * voxel_m / bucket_m)) - 2;
-    leaves_.cells[a] =
-        static_cast<std::int32_t>(std::floor(end * voxel_m / bucket_m)) + 3 - first_bucket_[a];
-    cells *= leaves_.cells[a];
-    leaves_.first_leaf[a] = first_bucket_[a] * leaves_.leaves_per_bucket;
-    leaves_.low_m[a] = first_of_voxel(voxels, voxels.min_key()[a]);
-    leaves_.high_m[a] =
-        std::nextafter(first_of_voxel(voxels, end), -std::numeric_limits<float>::infinity());
+    const std::int32_t begin = voxels.min_key()[a];
+    const std::int32_t end = begin + voxels.size()[a];
+    table_.first_bucket[a] = static_cast<std::int32_t>(std::floor(begin * voxel_m / bucket_m)) - 2;
+    table_.cells[a] = static_cast<std::int32_t>(std::floor(end * voxel_m / bucket_m)) + 3 -
+                      table_.first_bucket[a];
+    cells *= table_.cells[a];
+    table_.low_m[a] = first_of_voxel(voxels, begin);
+    table_.high_m[a] = std::nextafter(first_of_voxel(voxels, end), -kInfinity);
   }
   if (cells >= kMostCells) {
     throw BadInput(fmt::format("resolution_m: {} makes {:.3g} buckets of points, more than 2^31",
@@ -63,34 +61,29 @@ SurfaceCloud::SurfaceCloud(const CloudConfig& config, const GridGeometry& voxels
   }
   bucket_at_ = ZeroedArray<std::uint32_t>(static_cast<std::size_t>(cells));
   buckets_.resize(1);
-  taken_.resize(static_cast<std::size_t>(leaves_.words_per_bucket), 0);
+  taken_.resize(table_.words_per_bucket, 0);
   blocks_.resize(1);
   next_block_.resize(1, 0);
 }
 
 SurfaceCloud::Leaf SurfaceCloud::place_of(const LeafKey& leaf) const {
-  const auto side = static_cast<std::uint32_t>(leaves_.leaves_per_bucket);
+  const auto side = static_cast<std::uint32_t>(table_.leaves_per_bucket);
   Leaf place{0, 0};
-  for (std::size_t a = 3; a-- > 0;) {
-    const auto from_first = static_cast<std::uint32_t>(leaf[a] - leaves_.first_leaf[a]);
+  for (int a = 2; a >= 0; --a) {
+    const std::uint32_t from_first = leaf[a] - table_.first_bucket[a] * table_.leaves_per_bucket;
     const std::uint32_t cell = from_first / side;
-    place.bucket_cell = place.bucket_cell * static_cast<std::size_t>(leaves_.cells[a]) + cell;
+    place.cell = place.cell * table_.cells[a] + cell;
     place.bit = place.bit * side + (from_first - cell * side);
   }
   return place;
 }
 
 std::size_t SurfaceCloud::word_of(std::uint32_t bucket, std::uint32_t bit) const {
-  return bucket * static_cast<std::size_t>(leaves_.words_per_bucket) + bit / 32;
-}
-
-bool SurfaceCloud::is_taken(const Leaf& leaf) const {
-  const std::uint32_t word = taken_[word_of(bucket_at_[leaf.bucket_cell], leaf.bit)];
-  return (word >> (leaf.bit % 32) & 1U) != 0;
+  return std::size_t{bucket} * table_.words_per_bucket + bit / 32;
 }
 
 bool SurfaceCloud::take(const Leaf& leaf) {
-  std::uint32_t& bucket = bucket_at_[leaf.bucket_cell];
+  std::uint32_t& bucket = bucket_at_[leaf.cell];
   if (bucket == 0) {
     bucket = static_cast<std::uint32_t>(buckets_.size());
     buckets_.emplace_back();
@@ -104,6 +97,14 @@ bool SurfaceCloud::take(const Leaf& leaf) {
   return true;
 }
 
+void SurfaceCloud::point_table_at_arrays() {
+  table_.bucket_at = bucket_at_.data();
+  table_.taken = taken_.data();
+  table_.buckets = buckets_.data();
+  table_.blocks = blocks_.data();
+  table_.next_block = next_block_.data();
+}
+
 std::size_t SurfaceCloud::add(std::span<const Vec3f> points_world_m, double leaf_m) {
   GNBV_CHECK(leaf_m > 0.0, "leaf of {} m", leaf_m);
   const bool is_own_leaf = leaf_m == config_.leaf_m;
@@ -112,8 +113,11 @@ std::size_t SurfaceCloud::add(std::span<const Vec3f> points_world_m, double leaf
   for (const Vec3f& p_m : points_world_m) {
     if (!voxels_.contains(voxels_.key_of(p_m))) continue;
     const LeafKey leaf = batch_lattice.key_of(p_m);
-    // a centroid stays in its leaf, so those of taken leaves need not be computed
-    if (is_own_leaf && is_taken(place_of(leaf))) continue;
+    if (is_own_leaf) {
+      // a centroid stays in its leaf, so those of taken leaves need not be computed
+      const auto [cell, bit] = place_of(leaf);
+      if ((taken_[word_of(bucket_at_[cell], bit)] >> (bit % 32) & 1U) != 0) continue;
+    }
     batch_.add(leaf, p_m);
   }
   return insert_batch(is_own_leaf);
@@ -121,28 +125,20 @@ std::size_t SurfaceCloud::add(std::span<const Vec3f> points_world_m, double leaf
 
 std::size_t SurfaceCloud::add(std::span<const FrameRays> frames) {
   batch_.reset();
-  for (const FrameRays& frame : frames) add_untaken(frame);
-  return insert_batch(true);
-}
-
-void SurfaceCloud::add_untaken(const FrameRays& frame) {
-  static_assert(sizeof(PixelRay) == 1);
-  leaves_.bucket_at = bucket_at_.data();
-  leaves_.taken = taken_.data();
-  const PixelColumns pixels{.p_m = {frame.x_m.data(), frame.y_m.data(), frame.z_m.data()},
-                            .kind = reinterpret_cast<const std::uint8_t*>(frame.kind.data())};
-  const auto find_untaken = cloud_kernels().find_untaken;
-  const std::size_t count = frame.kind.size();
+  point_table_at_arrays();
   untaken_.resize(kPixelsAtOnce);
-  for (std::size_t begin = 0; begin < count; begin += kPixelsAtOnce) {
-    const std::size_t end = std::min(begin + kPixelsAtOnce, count);
-    const std::size_t found = find_untaken(leaves_, pixels, begin, end, untaken_.data());
-    for (const std::int32_t pixel : std::span(untaken_).first(found)) {
-      const auto i = static_cast<std::size_t>(pixel);
-      const Vec3f p_m(frame.x_m[i], frame.y_m[i], frame.z_m[i]);
-      batch_.add(lattice_.key_of(p_m), p_m);
+  for (const FrameRays& frame : frames) {
+    for (std::size_t begin = 0; begin < frame.kind.size(); begin += kPixelsAtOnce) {
+      const auto count = static_cast<int>(std::min(frame.kind.size() - begin, kPixelsAtOnce));
+      const std::size_t found =
+          cloud_kernels().find_untaken(table_, frame.row(begin), count, untaken_.data());
+      for (const std::int32_t pixel : std::span(untaken_).first(found)) {
+        const Vec3f p_m = frame.end_world_m(begin + pixel);
+        batch_.add(lattice_.key_of(p_m), p_m);
+      }
     }
   }
+  return insert_batch(true);
 }
 
 std::size_t SurfaceCloud::insert_batch(bool is_own_leaf) {
@@ -170,22 +166,31 @@ CellBox SurfaceCloud::cells_within_reach(const Vec3f& p_m) const {
   // the slack covers rounding of leaf borders and of the distance
   const float reach_m = static_cast<float>(search_radius_m_) * 1.001F + 1e-5F * bucket_m_;
   CellBox cells;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const float at_m = p_m[static_cast<Eigen::Index>(a)];
-    const float slack_m = reach_m + 4e-7F * std::fabs(at_m);
-    const auto cell_of = [&](float x_m) {
-      const float scaled = x_m / bucket_m_;
-      const auto truncated = static_cast<std::int32_t>(scaled);
-      const auto is_below = static_cast<std::int32_t>(scaled < static_cast<float>(truncated));
-      return static_cast<std::size_t>(truncated - is_below - first_bucket_[a]);
-    };
-    cells.low[a] = cell_of(at_m - slack_m);
-    cells.high[a] = cell_of(at_m + slack_m);
+  for (int a = 0; a < 3; ++a) {
+    const float slack_m = reach_m + 4e-7F * std::fabs(p_m[a]);
+    cells.low[a] = floor_to_int((p_m[a] - slack_m) / bucket_m_) - table_.first_bucket[a];
+    cells.high[a] = floor_to_int((p_m[a] + slack_m) / bucket_m_) - table_.first_bucket[a];
   }
   return cells;
 }
 
-std::uint32_t SurfaceCloud::slot_of(const Vec3f& p_m) {
+void SurfaceCloud::append(CloudBucket& bucket, const Vec3f& p_m, std::uint32_t slot) {
+  if (bucket.last_block == 0) bucket.slot = slot;
+  bucket.has_one_voxel &= bucket.slot == slot;
+  if (bucket.last_block == 0 || bucket.last_count == kPointsPerBlock) {
+    PointBlock& block = blocks_.emplace_back();
+    for (auto& column : block.p_m) std::fill(std::begin(column), std::end(column), kInfinity);
+    next_block_.push_back(bucket.last_block);
+    bucket.last_block = static_cast<std::uint32_t>(blocks_.size() - 1);
+    bucket.last_count = 0;
+  }
+  PointBlock& block = blocks_[bucket.last_block];
+  const std::uint32_t i = bucket.last_count++;
+  for (int a = 0; a < 3; ++a) block.p_m[a][i] = p_m[a];
+  block.slot[i] = slot;
+}
+
+void SurfaceCloud::insert(const Vec3f& p_m, const Leaf& leaf) {
   const VoxelIndex voxel = voxels_.index_of(voxels_.key_of(p_m));
   std::uint32_t& slot = slot_of_[voxel];
   if (slot == 0) {
@@ -193,46 +198,12 @@ std::uint32_t SurfaceCloud::slot_of(const Vec3f& p_m) {
     slot = static_cast<std::uint32_t>(voxel_points_.size());
     voxel_points_.emplace_back();
   }
-  return slot;
-}
-
-void SurfaceCloud::append(CloudBucket& bucket, const Vec3f& p_m, std::uint32_t slot) {
-  if (bucket.last_block == 0) {
-    bucket.slot = slot;
-  } else {
-    bucket.has_one_voxel &= bucket.slot == slot;
-  }
-  if (bucket.last_block == 0 || bucket.last_count == kPointsPerBlock) {
-    PointBlock& block = blocks_.emplace_back();
-    for (float* const column : {block.x_m, block.y_m, block.z_m}) {
-      std::fill_n(column, kPointsPerBlock, std::numeric_limits<float>::infinity());
-    }
-    next_block_.push_back(bucket.last_block);
-    bucket.last_block = static_cast<std::uint32_t>(blocks_.size() - 1);
-    bucket.last_count = 0;
-  }
-  PointBlock& block = blocks_[bucket.last_block];
-  const std::uint32_t i = bucket.last_count++;
-  block.x_m[i] = p_m[0];
-  block.y_m[i] = p_m[1];
-  block.z_m[i] = p_m[2];
-  block.slot[i] = slot;
-}
-
-void SurfaceCloud::insert(const Vec3f& p_m, const Leaf& leaf) {
-  const std::uint32_t slot = slot_of(p_m);
-  const PointTable table{.bucket_at = bucket_at_.data(),
-                         .buckets = buckets_.data(),
-                         .blocks = blocks_.data(),
-                         .next_block = next_block_.data(),
-                         .cells_x = static_cast<std::size_t>(leaves_.cells[0]),
-                         .cells_y = static_cast<std::size_t>(leaves_.cells[1]),
-                         .radius2_m2 = search_radius2_m2_};
+  point_table_at_arrays();
   const std::uint64_t neighbours = cloud_kernels().count_neighbours(
-      table, p_m.data(), cells_within_reach(p_m), voxel_points_.data());
+      table_, p_m.data(), cells_within_reach(p_m), voxel_points_.data());
   voxel_points_[slot].neighbour_sum += neighbours + 1;  // the point itself
   ++voxel_points_[slot].point_count;
-  append(buckets_[bucket_at_[leaf.bucket_cell]], p_m, slot);
+  append(buckets_[bucket_at_[leaf.cell]], p_m, slot);
   points_.push_back(p_m);
 }
 

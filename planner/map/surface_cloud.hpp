@@ -1,19 +1,21 @@
 // What is believed about the surface: a leaf-filtered cloud with an exact, incremental density.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "planner/map/cloud_kernels.hpp"
-#include "planner/map/config.hpp"
-#include "planner/map/frame_rays.hpp"
-#include "planner/map/grid_geometry.hpp"
 #include "planner/map/leaf_filter.hpp"
+#include "planner/map/scan_rays.hpp"
 #include "sim/core/zeroed_array.hpp"
 
 namespace gnbv {
+
+/// Defaults: the released filter sizes.
+struct CloudConfig {
+  double leaf_m = 0.02;         // RGBD points
+  double profile_leaf_m = 0.1;  // LIDAR points
+};
 
 /// At most one point a leaf. Leaves are cubes [k leaf, (k + 1) leaf). The first batch with points
 /// in a leaf puts their centroid there, and no later one changes it.
@@ -25,7 +27,7 @@ namespace gnbv {
 class SurfaceCloud {
  public:
   /// Throws BadInput naming leaf_m when it is not positive or less than a 64th of a voxel. An empty
-  /// cloud takes no memory. It takes more as voxels get points; memory.hpp has the most.
+  /// cloud takes no memory. It takes more as voxels get points; map_bytes() has the most.
   SurfaceCloud(const CloudConfig& config, const GridGeometry& voxels);
 
   const CloudConfig& config() const { return config_; }
@@ -54,10 +56,8 @@ class SurfaceCloud {
   }
   /// Mean neighbour count of the points in the voxel; 0 without points.
   double density(VoxelIndex v) const {
-    const VoxelPoints& points = voxel_points_[slot_of_[v]];
-    return points.point_count == 0 ? 0.0
-                                   : static_cast<double>(points.neighbour_sum) /
-                                         static_cast<double>(points.point_count);
+    const auto& [sum, count] = voxel_points_[slot_of_[v]];
+    return count == 0 ? 0.0 : static_cast<double>(sum) / count;
   }
   /// The released normaliser, 3 (voxel / leaf)^2: 300 at 0.2 m and 0.02 m. No plane reaches it. One
   /// with normal n crosses |nx| + |ny| + |nz| leaves a leaf's face, so that a point of a fully
@@ -68,17 +68,15 @@ class SurfaceCloud {
 
  private:
   struct Leaf {
-    std::size_t bucket_cell;  // into bucket_at_
-    std::uint32_t bit;        // into the bucket's mask
+    std::size_t cell;   // of its bucket, into bucket_at_
+    std::uint32_t bit;  // into the bucket's mask
   };
   Leaf place_of(const LeafKey& leaf) const;
-  bool is_taken(const Leaf& leaf) const;
-  bool take(const Leaf& leaf);
   std::size_t word_of(std::uint32_t bucket, std::uint32_t bit) const;  // into taken_
-  void add_untaken(const FrameRays& frame);
+  bool take(const Leaf& leaf);
+  void point_table_at_arrays();
   std::size_t insert_batch(bool is_own_leaf);
   CellBox cells_within_reach(const Vec3f& p_m) const;
-  std::uint32_t slot_of(const Vec3f& p_m);
   void insert(const Vec3f& p_m, const Leaf& leaf);
   void append(CloudBucket& bucket, const Vec3f& p_m, std::uint32_t slot);
 
@@ -87,15 +85,13 @@ class SurfaceCloud {
   LeafLattice lattice_;
   double density_max_ = 0.0;
   double search_radius_m_ = 0.0;
-  float search_radius2_m2_ = 0.0F;
+  float bucket_m_ = 1.0F;
   std::vector<Vec3f> points_;
   ZeroedArray<std::uint32_t> slot_of_;     // of each voxel: index into voxel_points_
   std::vector<VoxelPoints> voxel_points_;  // the first one is that of all voxels without points
   std::vector<VoxelIndex> voxels_with_points_;  // of the slots from the second on
 
-  LeafTable leaves_{};  // its pointers are set before each use
-  float bucket_m_ = 1.0F;
-  LeafKey first_bucket_ = {0, 0, 0};
+  CloudTable table_{};                    // its pointers are set before each use
   ZeroedArray<std::uint32_t> bucket_at_;  // of each cell: index into buckets_
   std::vector<CloudBucket> buckets_;      // the first one is that of all cells without points
   std::vector<std::uint32_t> taken_;      // words_per_bucket for each bucket, a bit a leaf

@@ -15,10 +15,18 @@ struct MirrorPlane {
   double offset_m = 0.0;
 };
 
-Vec3 mirrored(const MirrorPlane& plane, const Vec3& p_world_m);
+inline Vec3 mirrored(const MirrorPlane& plane, const Vec3& p_world_m) {
+  return p_world_m -
+         2.0 * (plane.normal_world.dot(p_world_m) - plane.offset_m) * plane.normal_world;
+}
 
 /// The plane with that normal, of any length but 0, through the point.
-MirrorPlane plane_through(const Vec3& p_world_m, const Vec3& normal_world);
+inline MirrorPlane plane_through(const Vec3& p_world_m, const Vec3& normal_world) {
+  Vec3 n = normal_world.normalized();
+  const bool is_folded = n.x() != 0.0 ? n.x() < 0.0 : (n.y() != 0.0 ? n.y() < 0.0 : n.z() < 0.0);
+  if (is_folded) n = -n;
+  return {n, n.dot(p_world_m)};
+}
 
 /// The part of space whose mirroring matters.
 struct Extent {
@@ -31,10 +39,10 @@ struct Extent {
 /// opposite are one.
 double distance_m(const MirrorPlane& a, const MirrorPlane& b, const Extent& extent);
 
-/// Planes that much alike stand together: the mean of those within the bandwidth.
+/// The mean of planes that are much alike, and how many are within the bandwidth.
 struct PlaneCluster {
   MirrorPlane plane;
-  std::size_t votes = 0;  // planes within the bandwidth
+  std::size_t votes = 0;
 };
 
 /// Mean shift with a flat kernel over distance_m(). Most votes first.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/symmetry/symmetry_module.hpp"
 #include "sim/core/module.hpp"
 #include "sim/core/parallel.hpp"
 
@@ -22,43 +21,48 @@ constexpr double kMaxGainOfRefining = 0.3;  // of support, with room: 0.15 on th
 constexpr double kMinMoved = 0.25;  // below that the plane leaves nearly all points in place
 constexpr std::size_t kMaxInliers = 4000;
 
-enum class Verdict { contradicted, open, confirmed };
-
-/// Looks at the voxel and the 26 around it. Voxels outside the grid count as unknown.
-Verdict verdict_at(const OccupancyGrid& grid, const Key& key) {
+/// Calls use(offset, state) for the voxels up to `reach` along each axis from `key`, until it
+/// returns false. Voxels outside the grid are unknown.
+template <typename Use>
+void for_each_near(const OccupancyGrid& grid, const Key& key, int reach, const Use& use) {
   const GridGeometry& geometry = grid.geometry();
-  if (!geometry.contains(key)) return Verdict::contradicted;
-  bool is_free = true;
-  for (std::int32_t dz = -1; dz <= 1; ++dz) {
-    for (std::int32_t dy = -1; dy <= 1; ++dy) {
-      for (std::int32_t dx = -1; dx <= 1; ++dx) {
+  for (int dz = -reach; dz <= reach; ++dz) {
+    for (int dy = -reach; dy <= reach; ++dy) {
+      for (int dx = -reach; dx <= reach; ++dx) {
         const Key near = {key[0] + dx, key[1] + dy, key[2] + dz};
         const VoxelState state =
             geometry.contains(near) ? grid.state(geometry.index_of(near)) : VoxelState::unknown;
-        if (state == VoxelState::occupied) return Verdict::confirmed;
-        is_free = is_free && state == VoxelState::free;
+        if (!use(Eigen::Vector3i(dx, dy, dz), state)) return;
       }
     }
   }
+}
+
+enum class Verdict { contradicted, open, confirmed };
+
+/// Looks at the voxel and the 26 around it.
+Verdict verdict_at(const OccupancyGrid& grid, const Key& key) {
+  if (!grid.geometry().contains(key)) return Verdict::contradicted;
+  bool is_free = true;
+  bool is_surface = false;
+  for_each_near(grid, key, 1, [&](const Eigen::Vector3i&, VoxelState state) {
+    is_surface = state == VoxelState::occupied;
+    is_free = is_free && state == VoxelState::free;
+    return !is_surface;
+  });
+  if (is_surface) return Verdict::confirmed;
   return is_free ? Verdict::contradicted : Verdict::open;
 }
 
 /// The direction from the point to the free voxels around it, two voxels each way; zero where none
 /// is free.
 Vec3f outward(const OccupancyGrid& grid, const Vec3f& p_world_m) {
-  const GridGeometry& geometry = grid.geometry();
-  const Key key = geometry.key_of(p_world_m);
   Vec3f sum = Vec3f::Zero();
-  for (std::int32_t dz = -2; dz <= 2; ++dz) {
-    for (std::int32_t dy = -2; dy <= 2; ++dy) {
-      for (std::int32_t dx = -2; dx <= 2; ++dx) {
-        const Key near = {key[0] + dx, key[1] + dy, key[2] + dz};
-        if (!geometry.contains(near)) continue;
-        if (grid.state(geometry.index_of(near)) != VoxelState::free) continue;
-        sum += Eigen::Vector3i(dx, dy, dz).cast<float>();
-      }
-    }
-  }
+  for_each_near(grid, grid.geometry().key_of(p_world_m), 2,
+                [&](const Eigen::Vector3i& offset, VoxelState state) {
+                  if (state == VoxelState::free) sum += offset.cast<float>();
+                  return true;
+                });
   return sum;
 }
 
@@ -84,10 +88,8 @@ std::vector<Vec3f> inliers(std::span<const Vec3f> profile_world_m, const Occupan
     if (grid.state_at(p.cast<double>()) == VoxelState::occupied) all.push_back(p);
   }
   if (all.size() <= kMaxInliers) return all;
-  std::vector<Vec3f> chosen;
-  for (std::size_t i = 0; i < kMaxInliers; ++i) {
-    chosen.push_back(all[i * all.size() / kMaxInliers]);
-  }
+  std::vector<Vec3f> chosen(kMaxInliers);
+  for (std::size_t i = 0; i < kMaxInliers; ++i) chosen[i] = all[i * all.size() / kMaxInliers];
   return chosen;
 }
 
@@ -108,9 +110,12 @@ bool is_upright(const MirrorPlane& plane) {
   return std::fabs(plane.normal_world.z()) <= std::sin(kMaxTilt_rad);
 }
 
-/// For each pair the plane in its middle, if the normals of the two mirror each other in it, too.
-std::vector<MirrorPlane> mid_planes(std::span<const KeypointPair> pairs) {
-  std::vector<MirrorPlane> planes;
+/// For each pair of keypoints the plane in its middle, if the normals of the two mirror each other
+/// in it, too; of the pairs, clusters.
+std::vector<MirrorPlane> rough_planes(std::span<const ProfilePoint> profile, const Extent& extent) {
+  std::vector<KeypointPair> pairs;
+  symmetry_module().match_keypoints(profile, pairs);
+  std::vector<MirrorPlane> middles;
   for (const KeypointPair& pair : pairs) {
     const Vec3 a_m = pair.a_world_m.cast<double>();
     const Vec3 b_m = pair.b_world_m.cast<double>();
@@ -118,7 +123,11 @@ std::vector<MirrorPlane> mid_planes(std::span<const KeypointPair> pairs) {
     const MirrorPlane plane = plane_through(0.5 * (a_m + b_m), b_m - a_m);
     const Vec3 image = mirrored({plane.normal_world, 0.0}, pair.a_normal_world.cast<double>());
     if (image.dot(pair.b_normal_world.cast<double>()) < std::cos(kMaxNormalError_rad)) continue;
-    if (is_upright(plane)) planes.push_back(plane);
+    if (is_upright(plane)) middles.push_back(plane);
+  }
+  std::vector<MirrorPlane> planes;
+  for (const PlaneCluster& cluster : cluster_planes(middles, extent, kBandwidth_m)) {
+    planes.push_back(cluster.plane);
   }
   return planes;
 }
@@ -140,9 +149,8 @@ std::vector<Candidate> judged(std::span<const MirrorPlane> planes,
     if (support.moved < kMinMoved || support.confirmed < min_confirmed) continue;
     out.push_back({plane, support});
   }
-  std::stable_sort(out.begin(), out.end(), [](const Candidate& a, const Candidate& b) {
-    return a.support.support > b.support.support;
-  });
+  std::ranges::stable_sort(out, std::ranges::greater{},
+                           [](const Candidate& c) { return c.support.support; });
   return out;
 }
 
@@ -152,7 +160,7 @@ std::vector<MirrorPlane> worth_refining(std::span<const Candidate> candidates, d
   std::vector<MirrorPlane> chosen;
   for (const Candidate& candidate : candidates) {
     if (candidate.support.support < min_support || chosen.size() == kMaxRefined) break;
-    const bool is_new = std::none_of(chosen.begin(), chosen.end(), [&](const MirrorPlane& other) {
+    const bool is_new = std::ranges::none_of(chosen, [&](const MirrorPlane& other) {
       return distance_m(candidate.plane, other, extent) < kRefineReach_m;
     });
     if (is_new) chosen.push_back(candidate.plane);
@@ -160,27 +168,14 @@ std::vector<MirrorPlane> worth_refining(std::span<const Candidate> candidates, d
   return chosen;
 }
 
-/// Clusters the mid-planes of all pairs of keypoints.
-std::vector<MirrorPlane> rough_planes(std::span<const ProfilePoint> profile, const Extent& extent) {
-  std::vector<KeypointPair> pairs;
-  symmetry_module().match_keypoints(profile, pairs);
-  std::vector<MirrorPlane> planes;
-  for (const PlaneCluster& cluster : cluster_planes(mid_planes(pairs), extent, kBandwidth_m)) {
-    planes.push_back(cluster.plane);
-  }
-  return planes;
-}
-
 }  // namespace
 
 const SymmetryModule& symmetry_module() {
-  static const SymmetryModule module = [] {
+  static const SymmetryModule& module = []() -> const SymmetryModule& {
     const ModulePlace place{GNBV_SYMMETRY_MODULE, GNBV_SYMMETRY_MODULE_AS_BUILT,
                             "PCL, Debian package libpcl-dev"};
-    return SymmetryModule{
-        reinterpret_cast<EstimateNormals*>(function_in_module(place, "gnbv_estimate_normals")),
-        reinterpret_cast<MatchKeypoints*>(function_in_module(place, "gnbv_match_keypoints")),
-        reinterpret_cast<RefinePlanes*>(function_in_module(place, "gnbv_refine_planes"))};
+    using Functions = const SymmetryModule&();
+    return reinterpret_cast<Functions*>(function_in_module(place, "gnbv_symmetry"))();
   }();
   return module;
 }
@@ -189,9 +184,7 @@ MirrorSupport mirror_support(const OccupancyGrid& grid, std::span<const Vec3f> p
                              const MirrorPlane& plane) {
   constexpr double kMovedVoxels = 4.0;
   const double moved_min_m = kMovedVoxels * grid.geometry().resolution_m();
-  std::size_t moved = 0;
-  std::size_t contradicted = 0;
-  std::size_t confirmed = 0;
+  std::size_t moved = 0, contradicted = 0, confirmed = 0;
   for (const Vec3f& point : points_world_m) {
     const Vec3 p_world_m = point.cast<double>();
     const Vec3 image_world_m = mirrored(plane, p_world_m);
@@ -220,9 +213,8 @@ Symmetry find_symmetry(const SymmetryConfig& config, std::span<const Vec3f> prof
       judged(rough_planes(profile, extent), inliers_world_m, grid, 0.5 * config.min_confirmed);
   std::vector<MirrorPlane> planes =
       worth_refining(rough, config.min_support - kMaxGainOfRefining, extent);
-  parallel_for(threads, planes.size(), [&](std::size_t i) {
-    symmetry_module().refine_planes(profile, std::span(planes).subspan(i, 1));
-  });
+  parallel_for(threads, planes.size(),
+               [&](std::size_t i) { symmetry_module().refine_plane(profile, planes[i]); });
   const std::vector<Candidate> refined =
       judged(planes, inliers_world_m, grid, config.min_confirmed);
 

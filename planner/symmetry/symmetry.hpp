@@ -7,10 +7,17 @@
 #include <vector>
 
 #include "planner/map/occupancy_grid.hpp"
-#include "planner/symmetry/config.hpp"
 #include "planner/symmetry/mirror_plane.hpp"
 
 namespace gnbv {
+
+/// Defaults: the released configuration where it works on the two structures of the paper, our own
+/// choice elsewhere (FIDELITY.md).
+struct SymmetryConfig {
+  bool enabled = true;
+  double min_support = 0.985;  // share of mirrored points not contradicted by measured free space
+  double min_confirmed = 0.4;  // share of them that falls on measured surface
+};
 
 /// Shares of the mirrored points that move by more than a few voxels: those nearer to the plane
 /// stay where they are in any world.
@@ -35,13 +42,45 @@ struct Symmetry {
 
 /// Finds the plane from the points of the profile and what the map knows of the space between.
 /// Structures stand on the ground, so that only planes within 10 degrees of upright are looked
-/// for. Deterministic; nothing for few or no points, and when disabled. Throws BadInput when the
-/// module that looks for it (planner/symmetry/symmetry_module.hpp) cannot be loaded.
+/// for. Deterministic; nothing for few or no points, and when disabled. Throws BadInput when
+/// symmetry_module() does.
 Symmetry find_symmetry(const SymmetryConfig& config, std::span<const Vec3f> profile_world_m,
                        const OccupancyGrid& grid, int threads = 1);
 
 /// Marks the mirrored points in the map where it knows nothing; returns how many voxels of the map
 /// are marked then.
 std::size_t predict_surface(const Symmetry& symmetry, OccupancyGrid& grid);
+
+/// A surface point with the direction in which the space before it is free, of any length; zero
+/// where that is not known.
+struct ProfilePoint {
+  Vec3f p_world_m = Vec3f::Zero();
+  Vec3f outward_world = Vec3f::Zero();
+  Vec3f normal_world = Vec3f::Zero();  // unit, outwards; zero where there is none
+  float curvature = 0.0F;
+};
+
+/// Two keypoints, each of which looks like the other in a mirror; unit normals of the surface.
+struct KeypointPair {
+  Vec3f a_world_m, b_world_m;
+  Vec3f a_normal_world, b_normal_world;
+};
+
+/// What the program asks of PCL, which sits in a module of its own (symmetry_pcl.cpp): linked, its
+/// libraries would cost every start 140 ms.
+struct SymmetryModule {
+  /// Fills normals and curvatures of the points [begin, end) from their neighbours among all. Calls
+  /// for other points may run at once.
+  void (*estimate_normals)(std::span<ProfilePoint> profile, std::size_t begin, std::size_t end);
+  /// Finds keypoints and pairs them by feature, the best matches of each. Needs the normals.
+  void (*match_keypoints)(std::span<const ProfilePoint> profile, std::vector<KeypointPair>& pairs);
+  /// Moves the plane to where the mirrored profile fits the profile best. Needs the normals; calls
+  /// for other planes may run at once.
+  void (*refine_plane)(std::span<const ProfilePoint> profile, MirrorPlane& plane);
+};
+
+/// Loads the module from beside the program, or from where it was built, when it is first needed.
+/// Throws BadInput, saying why, when it cannot be loaded. It stays loaded.
+const SymmetryModule& symmetry_module();
 
 }  // namespace gnbv

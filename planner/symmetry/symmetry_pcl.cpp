@@ -1,5 +1,6 @@
-// The module that knows PCL (planner/symmetry/symmetry_module.hpp). Nothing here is random: PCL's
-// searches, filters and keypoints give the same answer for the same points in the same order.
+// The module that knows PCL (SymmetryModule). Nothing here is random: PCL's searches, filters and
+// keypoints give the same answer for the same points in the same order.
+#include <pcl/common/centroid.h>
 #include <pcl/common/point_tests.h>
 #include <pcl/console/print.h>
 #include <pcl/features/fpfh.h>
@@ -16,7 +17,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "planner/symmetry/symmetry_module.hpp"
+#include "planner/symmetry/symmetry.hpp"
 #include "sim/core/module.hpp"
 
 GNBV_MODULE(GNBV_VERSION)
@@ -25,7 +26,9 @@ namespace gnbv {
 namespace {
 
 using Cloud = pcl::PointCloud<pcl::PointNormal>;
-using Features = pcl::PointCloud<pcl::FPFHSignature33>;
+using Tree = pcl::search::KdTree<pcl::PointNormal>;
+using Feature = pcl::FPFHSignature33;
+using Features = pcl::PointCloud<Feature>;
 
 constexpr int kNeighbours = 50;          // released: of normals and of features
 constexpr float kRefineLeaf_m = 0.2F;    // of the cloud that ICP aligns
@@ -46,10 +49,9 @@ Cloud::Ptr with_normals(std::span<const ProfilePoint> profile) {
 }
 
 /// Indices of the cloud's points that stand out by their curvature at any of several scales.
-pcl::IndicesPtr keypoints_of(const Cloud::ConstPtr& cloud,
-                             const pcl::search::KdTree<pcl::PointNormal>& tree) {
+pcl::IndicesPtr keypoints_of(const Cloud::ConstPtr& cloud, const Tree& tree) {
   pcl::SIFTKeypoint<pcl::PointNormal, pcl::PointWithScale> sift;  // looks at the curvature
-  sift.setSearchMethod(pcl::make_shared<pcl::search::KdTree<pcl::PointNormal>>());
+  sift.setSearchMethod(pcl::make_shared<Tree>());
   sift.setScales(0.2F, 3, 4);        // released: from 0.1 m, four times as slow
   sift.setMinimumContrast(0.0001F);  // released
   sift.setInputCloud(cloud);
@@ -70,8 +72,8 @@ pcl::IndicesPtr keypoints_of(const Cloud::ConstPtr& cloud,
 }
 
 Features features_of(const Cloud::ConstPtr& cloud, const pcl::IndicesPtr& indices,
-                     const pcl::search::KdTree<pcl::PointNormal>::Ptr& tree) {
-  pcl::FPFHEstimation<pcl::PointNormal, pcl::PointNormal, pcl::FPFHSignature33> estimation;
+                     const Tree::Ptr& tree) {
+  pcl::FPFHEstimation<pcl::PointNormal, pcl::PointNormal, Feature> estimation;
   estimation.setInputCloud(cloud);
   estimation.setInputNormals(cloud);
   estimation.setIndices(indices);
@@ -82,33 +84,23 @@ Features features_of(const Cloud::ConstPtr& cloud, const pcl::IndicesPtr& indice
   return features;
 }
 
-/// The feature of the mirrored neighbourhood. Of the three angles only the second, against the
-/// cross product of normal and distance, changes its sign; its histogram is the middle third.
-pcl::FPFHSignature33 mirrored(pcl::FPFHSignature33 feature) {
-  std::reverse(feature.histogram + 11, feature.histogram + 22);
-  return feature;
-}
-
-float distance2(const pcl::FPFHSignature33& a, const pcl::FPFHSignature33& b) {
-  float sum = 0.0F;
-  for (std::size_t i = 0; i < 33; ++i) {
-    const float difference = a.histogram[i] - b.histogram[i];
-    sum += difference * difference;
-  }
-  return sum;
-}
-
 /// The keypoints whose features are most like the mirrored ones of keypoint `of`; the best first.
 std::vector<std::size_t> best_matches(const Features& features, std::size_t of) {
-  const pcl::FPFHSignature33 wanted = mirrored(features[of]);
+  // of the three angles only the second, against the cross product of normal and distance, changes
+  // its sign in a mirror; its histogram is the middle third
+  Feature wanted = features[of];
+  std::reverse(wanted.histogram + 11, wanted.histogram + 22);
   std::vector<std::pair<float, std::size_t>> matches;
   for (std::size_t j = 0; j < features.size(); ++j) {
-    const float d2 = distance2(wanted, features[j]);
+    float d2 = 0.0F;
+    for (int i = 0; i < 33; ++i) {
+      const float difference = wanted.histogram[i] - features[j].histogram[i];
+      d2 += difference * difference;
+    }
     if (j != of && d2 >= 0.0F) matches.emplace_back(d2, j);
   }
   const std::size_t count = std::min(kMatchesEach, matches.size());
-  std::partial_sort(matches.begin(), matches.begin() + static_cast<std::ptrdiff_t>(count),
-                    matches.end());
+  std::ranges::partial_sort(matches, matches.begin() + static_cast<std::ptrdiff_t>(count));
   std::vector<std::size_t> best;
   for (std::size_t i = 0; i < count; ++i) best.push_back(matches[i].second);
   return best;
@@ -173,17 +165,7 @@ MirrorPlane aligned(const Cloud::Ptr& cloud, const MirrorPlane& plane, double re
   return moved(plane, T, center_world_m);
 }
 
-Vec3 center_of(const Cloud& cloud) {
-  Vec3 sum = Vec3::Zero();
-  for (const pcl::PointNormal& point : cloud) sum += point.getVector3fMap().cast<double>();
-  return sum / static_cast<double>(cloud.size());
-}
-
-}  // namespace
-
-extern "C" __attribute__((visibility("default"))) void gnbv_estimate_normals(
-    std::span<ProfilePoint> profile, std::size_t begin, std::size_t end) {
-  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
+void estimate_normals(std::span<ProfilePoint> profile, std::size_t begin, std::size_t end) {
   if (profile.size() < kNeighbours) return;
   auto points = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
   for (const ProfilePoint& point : profile) {
@@ -207,14 +189,11 @@ extern "C" __attribute__((visibility("default"))) void gnbv_estimate_normals(
   }
 }
 
-extern "C" __attribute__((visibility("default"))) void gnbv_match_keypoints(
-    std::span<const ProfilePoint> profile, std::vector<KeypointPair>& pairs) {
-  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
+void match_keypoints(std::span<const ProfilePoint> profile, std::vector<KeypointPair>& pairs) {
   pairs.clear();
-  if (profile.size() < kNeighbours) return;
   const Cloud::Ptr cloud = with_normals(profile);
   if (cloud->size() < kNeighbours) return;
-  auto tree = pcl::make_shared<pcl::search::KdTree<pcl::PointNormal>>();
+  auto tree = pcl::make_shared<Tree>();
   tree->setInputCloud(cloud);
   const pcl::IndicesPtr keypoints = keypoints_of(cloud, *tree);
   if (keypoints->empty()) return;
@@ -229,18 +208,23 @@ extern "C" __attribute__((visibility("default"))) void gnbv_match_keypoints(
   }
 }
 
-extern "C" __attribute__((visibility("default"))) void gnbv_refine_planes(
-    std::span<const ProfilePoint> profile, std::span<MirrorPlane> planes) {
-  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
-  if (planes.empty() || profile.size() < kNeighbours) return;
+void refine_plane(std::span<const ProfilePoint> profile, MirrorPlane& plane) {
+  if (profile.size() < kNeighbours) return;
   const Cloud::Ptr cloud = thinned(with_normals(profile));
   if (cloud->size() < kNeighbours) return;
-  const Vec3 center_world_m = center_of(*cloud);
-  for (MirrorPlane& plane : planes) {
-    for (const double reach_m : {1.0, 0.4}) {  // released: 1 m
-      plane = aligned(cloud, plane, reach_m, center_world_m);
-    }
+  Eigen::Vector4d center_world_m;
+  pcl::compute3DCentroid(*cloud, center_world_m);
+  for (const double reach_m : {1.0, 0.4}) {  // released: 1 m
+    plane = aligned(cloud, plane, reach_m, center_world_m.head<3>());
   }
 }
 
+}  // namespace
 }  // namespace gnbv
+
+extern "C" __attribute__((visibility("default"))) const gnbv::SymmetryModule& gnbv_symmetry() {
+  static const gnbv::SymmetryModule module = {gnbv::estimate_normals, gnbv::match_keypoints,
+                                              gnbv::refine_plane};
+  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
+  return module;
+}

@@ -1,8 +1,11 @@
-// Rays side by side, made ready to walk. For view_loops.cpp alone.
+// Rays side by side, a ray a lane, and their way from voxel to voxel. For view_loops.cpp alone.
 //
 // A ray has integer times, 0 at the camera and kRayEnd at its end. Along one axis it comes
-// along = |d| length metres far, so a metre along the axis takes kRayEnd / along: that times the
-// distance to the first border, and times a voxel, is when it crosses borders of that axis.
+// along = |d| length metres far, so a metre along the axis takes the time kRayEnd / along. The
+// distance to the first border times this is when the ray crosses that border (t_next); a voxel
+// times this is how long it takes from border to border (t_voxel). A ray leaves its voxel at the
+// least t_next of the three axes, through the border of that axis. Its walk ends when it leaves the
+// grid (t_leave), or has visited the voxels within its range.
 #pragma once
 
 #include "planner/view/view_kernels.hpp"
@@ -94,6 +97,28 @@ inline Bundle make_bundle(const RayFanFrame& f, const RayEnds& ends, std::size_t
   b.moving = less(int_ramp(), left) & less(all(0), b.voxels_left);
   b.seeing = b.moving;
   return b;
+}
+
+/// When the rays leave their voxels.
+inline Ints exit_time(const Bundle& b) {
+  return hn::Min(b.t_next[0], hn::Min(b.t_next[1], b.t_next[2]));
+}
+
+/// Takes every moving ray into its next voxel. Of axes with equal times the last goes first, as in
+/// walk_ray().
+inline void take_step(Bundle& b, Ints t_exit) {
+  b.voxels_left = b.voxels_left - all(1);
+  b.moving = b.moving & less(all(0), b.voxels_left) & less(t_exit, b.t_leave);
+  const Mask z = b.moving & equal(b.t_next[2], t_exit);
+  const Mask not_z = without(b.moving, z);
+  const Mask y = not_z & equal(b.t_next[1], t_exit);
+  const Mask x = without(not_z, y);
+  b.t_next[0] = add_where(x, b.t_next[0], b.t_voxel[0]);
+  b.t_next[1] = add_where(y, b.t_next[1], b.t_voxel[1]);
+  b.t_next[2] = add_where(z, b.t_next[2], b.t_voxel[2]);
+  b.voxel = add_where(x, b.voxel, b.move[0]);
+  b.voxel = add_where(y, b.voxel, b.move[1]);
+  b.voxel = add_where(z, b.voxel, b.move[2]);
 }
 
 }  // namespace

@@ -9,23 +9,6 @@
 namespace gnbv {
 namespace {
 
-/// Calls use(origin, end_world_m) for each ray of a view from that pose, camera after camera. An
-/// origin outside the map is taken to its nearest place inside.
-template <typename Use>
-void for_each_ray(const GridGeometry& geometry, const ViewRays& rays, const ViewPose& view,
-                  const Use& use) {
-  const Isometry T = T_world_body(view);
-  for (const ViewRays::Camera& camera : rays.cameras) {
-    const Vec3f origin_m = geometry.nearest_inside(T * camera.origin_body_m).cast<float>();
-    const RayOrigin origin = make_ray_origin(geometry, origin_m);
-    for (std::size_t i = camera.first; i < camera.first + camera.count; ++i) {
-      const Vec3 end_m =
-          T * Vec3(rays.end_body_m[0][i], rays.end_body_m[1][i], rays.end_body_m[2][i]);
-      use(origin, Vec3f(end_m.cast<float>()));
-    }
-  }
-}
-
 /// What casting a ray finds before it leaves its range or the grid.
 struct Cast {
   std::vector<VoxelIndex> voxels;             // up to, not including, a hit
@@ -37,7 +20,7 @@ struct Cast {
 Cast cast(const OccupancyGrid& grid, const RayOrigin& origin, const Vec3f& end_m) {
   Cast found;
   walk_ray_inside(grid.geometry(), origin, end_m, [&](VoxelIndex v) {
-    found.prediction_hit = found.prediction_hit || grid.is_predicted(v);
+    found.prediction_hit |= grid.is_predicted(v);
     if (found.hit) return !found.prediction_hit;
     if (grid.is_predicted(v) && !found.first_predicted) found.first_predicted = v;
     if (grid.state(v) == VoxelState::occupied) {
@@ -50,20 +33,40 @@ Cast cast(const OccupancyGrid& grid, const RayOrigin& origin, const Vec3f& end_m
   return found;
 }
 
-/// Turns the voxels before the hit into those that count.
-void apply_slips(const GridGeometry& geometry, const RayOrigin& origin, const ReleasedSlips& slips,
-                 Cast& found) {
-  if (!found.hit) return;
-  if (!slips.excludes_hit_voxel) {
-    if (!slips.prediction_hides_hits || found.prediction_hit) found.voxels.push_back(*found.hit);
-    return;
+/// Calls use(found, origin) for each ray of a view from that pose, camera after camera. An origin
+/// outside the map is taken to its nearest place inside.
+template <typename Use>
+void cast_each(const OccupancyGrid& grid, const ViewRays& rays, const ViewPose& view,
+               const Use& use) {
+  const GridGeometry& geometry = grid.geometry();
+  const Isometry T = T_world_body(view);
+  const auto& [x_m, y_m, z_m] = rays.end_body_m;
+  for (const ViewRays::Camera& camera : rays.cameras) {
+    const Vec3f origin_m = geometry.nearest_inside(T * camera.origin_body_m).cast<float>();
+    const RayOrigin origin = make_ray_origin(geometry, origin_m);
+    for (std::size_t i = camera.first; i < camera.first + camera.count; ++i) {
+      const Vec3 end_m = T * Vec3(x_m[i], y_m[i], z_m[i]);
+      use(cast(grid, origin, end_m.cast<float>()), origin);
+    }
+  }
+}
+
+/// The voxels that count, with the slips.
+std::vector<VoxelIndex> counted(const GridGeometry& geometry, const RayOrigin& origin,
+                                const ReleasedSlips& slips, const Cast& found) {
+  std::vector<VoxelIndex> voxels;
+  if (!found.hit || !slips.excludes_hit_voxel) {
+    voxels = found.voxels;
+    const bool hides_hit = slips.prediction_hides_hits && !found.prediction_hit;
+    if (found.hit && !hides_hit) voxels.push_back(*found.hit);
+    return voxels;
   }
   const Vec3f center_m = geometry.center_m(geometry.key_at(*found.hit)).cast<float>();
-  found.voxels.clear();
   walk_ray_inside(geometry, origin, center_m, [&](VoxelIndex v) {
-    found.voxels.push_back(v);
+    voxels.push_back(v);
     return true;
   });
+  return voxels;
 }
 
 void sort_unique(std::vector<VoxelIndex>& voxels) {
@@ -81,23 +84,21 @@ ViewStats evaluate_view_with_slips(const OccupancyGrid& grid, const SurfaceCloud
   stats.voxel_m3 = std::pow(geometry.resolution_m(), 3);
   std::vector<bool> is_seen(geometry.voxel_count(), false);
   std::vector<VoxelIndex> predicted;
-  for_each_ray(geometry, rays, candidate, [&](const RayOrigin& origin, const Vec3f& end_m) {
-    Cast found = cast(grid, origin, end_m);
-    apply_slips(geometry, origin, slips, found);
+  cast_each(grid, rays, candidate, [&](const Cast& found, const RayOrigin& origin) {
     if (found.first_predicted) predicted.push_back(*found.first_predicted);
-    for (const VoxelIndex v : found.voxels) {
-      const auto entropy_nat = static_cast<double>(grid.entropy_nat(v));
+    for (const VoxelIndex v : counted(geometry, origin, slips, found)) {
+      const double entropy_nat = grid.entropy_nat(v);
       stats.entropy_per_ray_nat += entropy_nat;
       if (is_seen[v]) continue;
       is_seen[v] = true;
       stats.entropy_nat += entropy_nat;
-      stats.free_voxels += static_cast<std::uint32_t>(grid.state(v) == VoxelState::free);
-      stats.unknown_voxels += static_cast<std::uint32_t>(grid.state(v) == VoxelState::unknown);
+      stats.free_voxels += grid.state(v) == VoxelState::free;
+      stats.unknown_voxels += grid.state(v) == VoxelState::unknown;
       if (grid.state(v) != VoxelState::occupied) continue;
       const double density = cloud.density(v);
       ++stats.occupied_voxels;
       stats.density_sum += density;
-      stats.sparse_voxels += static_cast<std::uint32_t>(density > 0.0 && density < sparse_below);
+      stats.sparse_voxels += density > 0.0 && density < sparse_below;
     }
   });
   sort_unique(predicted);
@@ -108,8 +109,7 @@ ViewStats evaluate_view_with_slips(const OccupancyGrid& grid, const SurfaceCloud
 VoxelsInSight voxels_in_sight(const OccupancyGrid& grid, const ViewRays& rays,
                               const ViewPose& view) {
   VoxelsInSight seen;
-  for_each_ray(grid.geometry(), rays, view, [&](const RayOrigin& origin, const Vec3f& end_m) {
-    const Cast found = cast(grid, origin, end_m);
+  cast_each(grid, rays, view, [&](const Cast& found, const RayOrigin&) {
     if (found.first_predicted) seen.predicted.push_back(*found.first_predicted);
     for (const VoxelIndex v : found.voxels) {
       if (grid.state(v) == VoxelState::unknown) seen.unknown.push_back(v);

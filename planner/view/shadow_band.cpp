@@ -8,7 +8,7 @@ namespace gnbv {
 ShadowBand::ShadowBand(const ShadowConfig& config, const GridGeometry& grid)
     : shadow_depth_m_(config.shadow_depth_m),
       steps_max_(2.0 * config.shadow_depth_m / grid.resolution_m()),
-      steps_(grid.voxel_count() + kWordPadding) {
+      steps_(grid.voxel_count() + kPadding) {
   if (!(shadow_depth_m_ > 0.0 && shadow_depth_m_ <= kMaxShadow_voxels * grid.resolution_m())) {
     throw BadInput(fmt::format("shadow_depth_m: {} is not between 0 and {} voxels of {} m",
                                shadow_depth_m_, kMaxShadow_voxels, grid.resolution_m()));
@@ -19,7 +19,7 @@ void ShadowBand::add(const FrameRays& rays, OccupancyGrid& grid) {
   const GridGeometry& geometry = grid.geometry();
   for (std::size_t i = 0; i < rays.kind.size(); ++i) {
     if (rays.kind[i] != PixelRay::hits) continue;
-    const Vec3f hit_m(rays.x_m[i], rays.y_m[i], rays.z_m[i]);
+    const Vec3f hit_m = rays.end_world_m(i);
     const Vec3 along = (hit_m - rays.origin_world_m).cast<double>().normalized();
     const Vec3 end_m = hit_m.cast<double>() + shadow_depth_m_ * along;
     const RayOrigin origin = make_ray_origin(geometry, hit_m);

@@ -4,11 +4,19 @@
 
 #include <cstdint>
 
-#include "planner/map/frame_rays.hpp"
 #include "planner/map/occupancy_grid.hpp"
-#include "planner/view/config.hpp"
+#include "planner/map/scan_rays.hpp"
 
 namespace gnbv {
+
+/// Depth of the shadow band behind a hit, along its ray. Default: the launch file of the released
+/// code of Delmerico et al.
+struct ShadowConfig {
+  double shadow_depth_m = 0.3;
+};
+
+/// The depth is at most this: a ray of such a length takes fewer than 256 steps along three axes.
+constexpr double kMaxShadow_voxels = 80.0;
 
 /// For each unmeasured voxel behind a hit, the number of steps from the voxel of the hit along its
 /// ray, the smallest of all rays; at least 1. The grid knows which voxels these are (is_shaded).

@@ -1,11 +1,8 @@
-// The hot loops of visibility.cpp, compiled once for each SimdLevel (view_loops.cpp). Plain structs
-// and raw pointers only, see sim/core/lanes.hpp.
+// The hot loops of visibility.cpp, compiled once for each SimdLevel (view_loops.cpp), and the plain
+// structs that they share with it (sim/core/lanes.hpp says why plain).
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-
-#include "sim/core/simd.hpp"
+#include "planner/map/map_kernels.hpp"
 
 namespace gnbv {
 
@@ -20,19 +17,15 @@ struct RayFanFrame {
   double t_m[3];      // of the body
   float origin_m[3];  // of the camera, inside the grid
   std::int32_t origin_key[3];
-  double to_upper_border_m[3];  // see RayOrigin
-  double to_lower_border_m[3];
-  std::int32_t steps_up[3];  // voxels of the grid beyond the origin's
-  std::int32_t steps_down[3];
-  std::int32_t stride[3];  // change of VoxelIndex with a step up
+  double to_upper_border_m[3], to_lower_border_m[3];  // see RayOrigin
+  std::int32_t steps_up[3], steps_down[3];            // voxels of the grid beyond the origin's
+  std::int32_t stride[3];                             // change of VoxelIndex with a step up
   std::int32_t origin_voxel;
-  double resolution_m;
-  double inverse_resolution;
+  double resolution_m, inverse_resolution;
 };
 
 /// Ends of the rays of one camera in columns, body frame. Each column can be read up to the next
-/// multiple of kRayPadding.
-constexpr std::size_t kRayPadding = 16;
+/// multiple of kPadding.
 struct RayEnds {
   const double* at_body_m[3];
   std::size_t count;
@@ -43,13 +36,13 @@ struct RayEnds {
 constexpr std::size_t kMarkPadding = 128;
 constexpr std::uint8_t kMarked = 1;
 struct ViewMaps {
-  const std::uint32_t* words;  // VoxelWord
+  const VoxelWord* words;
   const float* log_odds;
   std::uint8_t* marks;
   std::int32_t resting_voxel;  // in the padding: rays that have ended mark it
   std::int32_t* predicted;     // first predicted voxel of each ray that has one
   std::size_t predicted_count;
-  std::uint32_t settled_word;  // OccupancyGrid::settled_word(), and its voxels' log-odds
+  VoxelWord settled_word;  // OccupancyGrid::settled_word(), and its voxels' log-odds
   float settled_log_odds;
   const std::uint8_t* shadow_steps;  // of each voxel, ShadowBand's; null: no shadow is counted
 };
@@ -59,27 +52,18 @@ struct RaySums {
   std::int64_t visits;  // voxels, once per ray
   std::int64_t known;   // sum over visits of ln 2 - entropy, 2^-24 nat
   // ---- of the full walk
-  std::int64_t rays;
-  std::int64_t rays_occupied;
-  std::int64_t visits_occupied;  // of the rays that end occupied
-  std::int64_t known_occupied;
-  std::int64_t rear_side_rays;
-  std::int64_t shadow_rays;
-  std::int64_t front_rays;
+  std::int64_t rays, rays_occupied, rear_side_rays, shadow_rays, front_rays;  // as in ViewStats
+  std::int64_t visits_occupied, known_occupied;  // of the rays that end occupied
   // sums of P_v H, 2^-24 nat; of one ray they stay below 1 - ln(1 - P) < 40 nat and fit 32 bits
-  std::int64_t occlusion_aware;
-  std::int64_t unobserved;
-  std::int64_t rear_side;
+  std::int64_t occlusion_aware, unobserved, rear_side;
   std::int64_t unknown_share;  // sum over rays of the unknown share of the pyramid, 2^-30
 };
 
 /// Sums over the marked voxels, each once.
 struct VoxelSums {
-  std::int64_t visited;
-  std::int64_t free;
+  std::int64_t visited, free;
   std::int64_t known;  // as in RaySums
-  std::int64_t shadow;
-  std::int64_t shadow_steps;
+  std::int64_t shadow, shadow_steps;
   std::int32_t* occupied;
   std::size_t occupied_count;
 };
@@ -101,7 +85,6 @@ struct ViewKernels {
   /// voxels after a row.
   void (*tally)(const ViewMaps& maps, const VoxelBox& box, VoxelSums& sums);
 };
-
 GNBV_KERNELS(ViewKernels, view_kernels)
 
 }  // namespace gnbv

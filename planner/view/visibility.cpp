@@ -1,9 +1,10 @@
 #include "planner/view/visibility.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "planner/map/ray_walk.hpp"
-#include "planner/view/view_kernels.hpp"
+#include "planner/view/ray_by_ray.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {
@@ -20,27 +21,26 @@ RayFanFrame make_frame(const GridGeometry& grid, const Isometry& T_world_body,
   const RayOrigin origin = make_ray_origin(grid, origin_m);
   GNBV_CHECK(grid.contains(origin.key), "camera at {} {} {}", origin_m.x(), origin_m.y(),
              origin_m.z());
-  const double reach_m = T_world_body.translation().cwiseAbs().maxCoeff();
+  const Vec3 t_m = T_world_body.translation();
+  const double reach_m = t_m.cwiseAbs().maxCoeff();
   GNBV_CHECK(reach_m < 0x1p29 * grid.resolution_m(), "candidate {} m from the origin", reach_m);
   RayFanFrame frame{};
-  const std::array<std::int32_t, 3> stride = {1, grid.size()[0], grid.size()[0] * grid.size()[1]};
-  for (std::size_t a = 0; a < 3; ++a) {
-    const auto row = static_cast<Eigen::Index>(a);
-    for (std::size_t b = 0; b < 3; ++b) {
-      frame.R[a][b] = T_world_body.linear()(row, static_cast<Eigen::Index>(b));
-    }
-    frame.t_m[a] = T_world_body.translation()[row];
-    frame.origin_m[a] = origin_m[row];
+  std::int32_t stride = 1;
+  for (int a = 0; a < 3; ++a) {
+    for (int b = 0; b < 3; ++b) frame.R[a][b] = T_world_body.linear()(a, b);
+    frame.t_m[a] = t_m[a];
+    frame.origin_m[a] = origin_m[a];
     frame.origin_key[a] = origin.key[a];
     frame.to_upper_border_m[a] = origin.to_upper_border_m[a];
     frame.to_lower_border_m[a] = origin.to_lower_border_m[a];
     frame.steps_down[a] = origin.key[a] - grid.min_key()[a];
     frame.steps_up[a] = grid.size()[a] - 1 - frame.steps_down[a];
-    frame.stride[a] = stride[a];
+    frame.stride[a] = stride;
+    stride *= grid.size()[a];
   }
   frame.origin_voxel = static_cast<std::int32_t>(grid.index_of(origin.key));
   frame.resolution_m = grid.resolution_m();
-  frame.inverse_resolution = 1.0 / grid.resolution_m();
+  frame.inverse_resolution = grid.inverse_resolution();
   return frame;
 }
 
@@ -55,55 +55,101 @@ VoxelBox box_of(const GridGeometry& grid, const ViewRays& rays, const Isometry& 
   }
   const KeyBox keys = grid.keys_in(box_m, 1);  // a voxel more for what float32 rounds
   if (keys.is_empty()) return {};
-  const auto count = [&](std::size_t a) {
+  const auto count = [&](int a) {
     return static_cast<std::size_t>(keys.high[a] - keys.low[a] + 1);
   };
-  const auto row = static_cast<std::size_t>(grid.size()[0]);
+  const std::size_t row = grid.size()[0];
   return {.first = grid.index_of(keys.low),
           .length = count(0),
           .rows = count(1),
           .row_stride = row,
           .planes = count(2),
-          .plane_stride = row * static_cast<std::size_t>(grid.size()[1])};
-}
-
-std::uint32_t count_unique(std::span<std::int32_t> voxels) {
-  std::sort(voxels.begin(), voxels.end());
-  return static_cast<std::uint32_t>(std::unique(voxels.begin(), voxels.end()) - voxels.begin());
-}
-
-void add_density(const SurfaceCloud& cloud, std::span<const std::int32_t> occupied,
-                 double sparse_below, ViewStats& stats) {
-  std::int64_t sum = 0;
-  for (const std::int32_t voxel : occupied) {
-    const double density = cloud.density(static_cast<VoxelIndex>(voxel));
-    sum += std::llround(density / kDensityUnit);
-    stats.sparse_voxels += static_cast<std::uint32_t>(density > 0.0 && density < sparse_below);
-  }
-  stats.density_sum = static_cast<double>(sum) * kDensityUnit;
+          .plane_stride = row * grid.size()[1]};
 }
 
 double entropy_nat(std::int64_t voxels, std::int64_t known) {
-  return static_cast<double>(voxels * static_cast<std::int64_t>(kLn2Units) - known) *
-         kEntropyUnit_nat;
+  return static_cast<double>(voxels * kLn2Units - known) * kEntropyUnit_nat;
+}
+
+void fill_voxel_stats(const SurfaceCloud& cloud, const VoxelSums& sums, double sparse_below,
+                      ViewStats& stats) {
+  stats.free_voxels = static_cast<std::uint32_t>(sums.free);
+  stats.occupied_voxels = static_cast<std::uint32_t>(sums.occupied_count);
+  stats.unknown_voxels =
+      static_cast<std::uint32_t>(sums.visited) - stats.free_voxels - stats.occupied_voxels;
+  stats.entropy_nat = entropy_nat(sums.visited, sums.known);
+  std::int64_t density_sum = 0;
+  for (const std::int32_t voxel : std::span(sums.occupied, sums.occupied_count)) {
+    const double density = cloud.density(voxel);
+    density_sum += std::llround(density / kDensityUnit);
+    stats.sparse_voxels += density > 0.0 && density < sparse_below;
+  }
+  stats.density_sum = static_cast<double>(density_sum) * kDensityUnit;
 }
 
 void fill_ray_stats(const RaySums& sums, ViewStats& stats) {
-  stats.rays = static_cast<std::uint32_t>(sums.rays);
-  stats.rays_occupied = static_cast<std::uint32_t>(sums.rays_occupied);
-  stats.occlusion_aware_nat = static_cast<double>(sums.occlusion_aware) * kEntropyUnit_nat;
-  stats.unobserved_nat = static_cast<double>(sums.unobserved) * kEntropyUnit_nat;
-  stats.rear_side_rays = static_cast<std::uint32_t>(sums.rear_side_rays);
-  stats.rear_side_nat = static_cast<double>(sums.rear_side) * kEntropyUnit_nat;
+  const auto count = [](std::int64_t rays) { return static_cast<std::uint32_t>(rays); };
+  const auto nat = [](std::int64_t sum) { return static_cast<double>(sum) * kEntropyUnit_nat; };
+  stats.rays = count(sums.rays);
+  stats.rays_occupied = count(sums.rays_occupied);
+  stats.occlusion_aware_nat = nat(sums.occlusion_aware);
+  stats.unobserved_nat = nat(sums.unobserved);
+  stats.rear_side_rays = count(sums.rear_side_rays);
+  stats.rear_side_nat = nat(sums.rear_side);
   stats.crossed_by_occupied = static_cast<std::uint64_t>(sums.visits_occupied);
   stats.entropy_of_occupied_nat = entropy_nat(sums.visits_occupied, sums.known_occupied);
-  stats.shadow_rays = static_cast<std::uint32_t>(sums.shadow_rays);
-  stats.front_rays = static_cast<std::uint32_t>(sums.front_rays);
+  stats.shadow_rays = count(sums.shadow_rays);
+  stats.front_rays = count(sums.front_rays);
 }
 
 }  // namespace
 
-VisitMarks::VisitMarks(std::size_t voxels) : marks(voxels + kMarkPadding) {}
+std::size_t ViewRays::count() const {
+  std::size_t rays = 0;
+  for (const Camera& camera : cameras) rays += camera.count;
+  return rays;
+}
+
+ViewRays make_view_rays(std::span<const CameraModel> cameras, double resolution_m) {
+  constexpr int kTile = 4;
+  ViewRays rays;
+  rays.resolution_m = resolution_m;
+  for (const CameraModel& model : cameras) {
+    const double depth_m = model.config.range_max_m;
+    const auto points_across = [&](double fov_rad) {
+      const double half_m = depth_m * std::tan(0.5 * fov_rad);
+      return static_cast<int>(2.0 * half_m / resolution_m) + 1;
+    };
+    const int columns = points_across(model.config.fov_x_rad);
+    const int rows = points_across(model.config.fov_y_rad);
+    // centred: the lattice rarely fits the plane exactly
+    const auto end_body_m = [&](int column, int row) -> Vec3 {
+      return model.T_body_camera * Vec3((column - 0.5 * (columns - 1)) * resolution_m,
+                                        (row - 0.5 * (rows - 1)) * resolution_m, depth_m);
+    };
+    ViewRays::Camera camera;
+    camera.origin_body_m = model.T_body_camera.translation();
+    camera.corners_body_m = {end_body_m(0, 0), end_body_m(columns - 1, 0), end_body_m(0, rows - 1),
+                             end_body_m(columns - 1, rows - 1)};
+    camera.pyramid_m3 = resolution_m * resolution_m * depth_m / 3.0;
+    camera.first = rays.end_body_m[0].size();
+    camera.count = static_cast<std::size_t>(columns) * rows;
+    for (int top = 0; top < rows; top += kTile) {
+      for (int left = 0; left < columns; left += kTile) {
+        for (int row = top; row < std::min(top + kTile, rows); ++row) {
+          for (int column = left; column < std::min(left + kTile, columns); ++column) {
+            const Vec3 end_m = end_body_m(column, row);
+            for (int a = 0; a < 3; ++a) rays.end_body_m[a].push_back(end_m[a]);
+          }
+        }
+      }
+    }
+    const std::size_t padded = (camera.count + kPadding - 1) / kPadding * kPadding;
+    for (std::vector<double>& column : rays.end_body_m) column.resize(camera.first + padded, 0.0);
+    rays.cameras.push_back(camera);
+  }
+  return rays;
+}
 
 ViewStats evaluate_view(const OccupancyGrid& grid, const SurfaceCloud& cloud, const ViewRays& rays,
                         const ViewPose& candidate, VisitMarks& marks, const ViewOptions& options) {
@@ -134,13 +180,13 @@ ViewStats evaluate_view(const OccupancyGrid& grid, const SurfaceCloud& cloud, co
   ViewStats stats;
   stats.voxel_m3 = std::pow(geometry.resolution_m(), 3);
   const float odds_power = options.legacy_visibility ? -kLog2e : kLog2e;
+  const auto walk = full ? view_kernels().walk_full : view_kernels().walk_voxels;
   for (const ViewRays::Camera& camera : rays.cameras) {
     const RayFanFrame frame = make_frame(geometry, T, camera.origin_body_m);
     const RayEnds ends{.at_body_m = {rays.end_body_m[0].data() + camera.first,
                                      rays.end_body_m[1].data() + camera.first,
                                      rays.end_body_m[2].data() + camera.first},
                        .count = camera.count};
-    const auto walk = full ? view_kernels().walk_full : view_kernels().walk_voxels;
     const std::int64_t share_before = ray_sums.unknown_share;
     walk(frame, ends, odds_power, maps, ray_sums);
     stats.unknown_volume_m3 +=
@@ -149,16 +195,12 @@ ViewStats evaluate_view(const OccupancyGrid& grid, const SurfaceCloud& cloud, co
   VoxelSums voxel_sums{};
   voxel_sums.occupied = marks.occupied.data();
   view_kernels().tally(maps, box_of(geometry, rays, T), voxel_sums);
-
-  const auto occupied = static_cast<std::int64_t>(voxel_sums.occupied_count);
-  stats.free_voxels = static_cast<std::uint32_t>(voxel_sums.free);
-  stats.occupied_voxels = static_cast<std::uint32_t>(occupied);
-  stats.unknown_voxels =
-      static_cast<std::uint32_t>(voxel_sums.visited - voxel_sums.free - occupied);
-  stats.predicted_voxels = count_unique({maps.predicted, maps.predicted_count});
-  stats.entropy_nat = entropy_nat(voxel_sums.visited, voxel_sums.known);
+  fill_voxel_stats(cloud, voxel_sums, options.sparse_below, stats);
+  std::int32_t* const predicted_end = maps.predicted + maps.predicted_count;
+  std::sort(maps.predicted, predicted_end);
+  stats.predicted_voxels =
+      static_cast<std::uint32_t>(std::unique(maps.predicted, predicted_end) - maps.predicted);
   stats.entropy_per_ray_nat = entropy_nat(ray_sums.visits, ray_sums.known);
-  add_density(cloud, {voxel_sums.occupied, voxel_sums.occupied_count}, options.sparse_below, stats);
   if (full) fill_ray_stats(ray_sums, stats);
   if (maps.shadow_steps != nullptr) {
     stats.proximity_sum = static_cast<double>(voxel_sums.shadow) * options.shadow->steps_max() -

@@ -1,26 +1,64 @@
 // What a candidate view would see: one walk of its rays.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "planner/map/occupancy_grid.hpp"
 #include "planner/map/surface_cloud.hpp"
-#include "planner/view/ray_by_ray.hpp"
 #include "planner/view/shadow_band.hpp"
-#include "planner/view/view_rays.hpp"
+#include "planner/view/view_kernels.hpp"
 #include "planner/view/view_stats.hpp"
 
 namespace gnbv {
 
+/// The rays along which a view is looked at, in the body frame, in columns: one per voxel of each
+/// camera's plane at maximum range (released code: 47 x 34 for 60 x 45 degrees, 8 m and 0.2 m), in
+/// tiles of 4 x 4 neighbours, which end close to each other and fill a vector. Each camera's rays
+/// are padded to full vectors.
+struct ViewRays {
+  struct Camera {
+    Vec3 origin_body_m = Vec3::Zero();
+    std::array<Vec3, 4> corners_body_m;  // ends of the outermost rays
+    double pyramid_m3 = 0.0;             // volume that one ray stands for
+    std::size_t first = 0;               // into the columns
+    std::size_t count = 0;               // rays, without the padding
+  };
+  double resolution_m = 0.0;
+  std::vector<Camera> cameras;
+  std::array<std::vector<double>, 3> end_body_m;  // x, y, z
+
+  /// Rays of all cameras, without the padding.
+  std::size_t count() const;
+};
+
+/// The rays of all cameras through a map of this resolution.
+ViewRays make_view_rays(std::span<const CameraModel> cameras, double resolution_m);
+
 /// Memory of one thread, about a byte a voxel, for one view after the other. No result depends on
 /// what it holds.
 struct VisitMarks {
-  explicit VisitMarks(std::size_t voxels);
+  explicit VisitMarks(std::size_t voxels) : marks(voxels + kMarkPadding) {}
 
   ZeroedArray<std::uint8_t> marks;           // voxels the view at hand has seen; zero between views
   std::vector<std::int32_t> predicted_ends;  // first predicted voxel of each ray
   std::vector<std::int32_t> occupied;        // seen
+};
+
+/// Two slips of the released code, kept behind switches so that their effect on the paper's tables
+/// can be measured.
+struct ReleasedSlips {
+  /// The voxels of a ray that hits something are listed towards the centre of the voxel it hit and
+  /// without that voxel: occupied voxels count only where the list clips them on the way. A flat
+  /// wall seen head-on shows none.
+  bool excludes_hit_voxel = false;
+  /// A ray that hits a surface counts the voxel it hit only when a ray cast among the predicted
+  /// voxels hits one too, at any distance within range.
+  bool prediction_hides_hits = false;
+
+  bool any() const { return excludes_hit_voxel || prediction_hides_hits; }
 };
 
 /// What is counted of a view, and how.

@@ -101,7 +101,7 @@ library LinearMath/btTransform.h sim/flight/vehicle.cpp sim/flight/flight.hpp
 library boost/math/distributions/students_t.hpp bench/compare/statistics.cpp bench/compare/statistics.hpp bench/score/coverage_curve.cpp
 library assimp/Importer.hpp sim/mesh/mesh_import.cpp sim/mesh/mesh_import.hpp sim/mesh/mesh_file.cpp tools/mission/load_world.cpp
 library octomap/OcTree.h planner/map/octomap_io.cpp planner/map/octomap_io.hpp planner/map/occupancy_grid.cpp
-library pcl/point_types.h planner/symmetry/symmetry_pcl.cpp planner/symmetry/symmetry.cpp planner/symmetry/symmetry_module.hpp bench/score/coverage.cpp
+library pcl/point_types.h planner/symmetry/symmetry_pcl.cpp planner/symmetry/symmetry.cpp planner/symmetry/symmetry.hpp bench/score/coverage.cpp
 library yaml-cpp/yaml.h scenarios/document.cpp tools/gnbv/main.cpp
 library GL/osmesa.h tools/render/render.cpp tools/render/view.cpp tools/mission/mission.cpp
 library CLI/CLI.hpp tools/gnbv/main.cpp tools/mission/mission.cpp

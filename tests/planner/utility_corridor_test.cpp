@@ -129,9 +129,7 @@ TEST(ProximityCount, IsLargestNextToTheSurface) {
   ShadowBand shadow({.shadow_depth_m = 0.5}, corridor.grid.geometry());
   FrameRays rays;
   rays.origin_world_m = Vec3f(0.1F, 0.1F, 0.1F);
-  rays.x_m = {0.75F};
-  rays.y_m = {0.1F};
-  rays.z_m = {0.1F};
+  rays.end_m = {{{0.75F}, {0.1F}, {0.1F}}};
   rays.kind = {PixelRay::hits};
   shadow.add(rays, corridor.grid);
   const ViewOptions options = {.detail = ViewDetail::rays, .shadow = &shadow};

@@ -5,9 +5,9 @@
 
 #include "bench/limits/oracle.hpp"
 #include "planner/core/belief_file.hpp"
-#include "planner/map/memory.hpp"
+#include "planner/map/grid_geometry.hpp"
 #include "planner/planners.hpp"
-#include "planner/symmetry/symmetry_module.hpp"
+#include "planner/symmetry/symmetry.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/stopwatch.hpp"
 #include "sim/core/text.hpp"

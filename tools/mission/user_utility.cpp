@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "planner/view/view_fields.hpp"
+#include "planner/view/view_stats.hpp"
 #include "scenarios/document.hpp"
 #include "sim/core/embed.hpp"
 #include "sim/core/error.hpp"

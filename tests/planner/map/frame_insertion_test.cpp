@@ -10,7 +10,6 @@
 #include "bench/reference/analytic_scans.hpp"
 #include "bench/reference/depth_rays.hpp"
 #include "bench/reference/octomap_twin.hpp"
-#include "planner/map/frame_view.hpp"
 #include "planner/map/ray_walk.hpp"
 #include "planner/map/scan_insertion.hpp"
 #include "tests/planner/map/frames.hpp"

@@ -1,4 +1,4 @@
-#include "planner/map/frame_rays.hpp"
+#include "planner/map/scan_rays.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ std::vector<ScanRay> compact(const FrameRays& rays) {
   std::vector<ScanRay> each;
   for (std::size_t i = 0; i < rays.kind.size(); ++i) {
     if (rays.kind[i] == PixelRay::none) continue;
-    each.push_back({Vec3f(rays.x_m[i], rays.y_m[i], rays.z_m[i]), rays.kind[i] == PixelRay::hits});
+    each.push_back({rays.end_world_m(i), rays.kind[i] == PixelRay::hits});
   }
   return each;
 }
@@ -47,7 +47,7 @@ TEST_P(FrameRaysAt, EqualRaysOfBitForBitAtEveryWidth) {
       const double floor_z_m = frame.T_world_camera.translation().z() - 0.5;
       const std::vector<ScanRay> expected = rays_of(frame, camera, floor_z_m);
       compute_frame_rays(frame, camera, floor_z_m, rays);
-      ASSERT_EQ(rays.x_m.size(), frame.depth_m.size());
+      ASSERT_EQ(rays.end_m[0].size(), frame.depth_m.size());
       const std::vector<ScanRay> each = compact(rays);
       ASSERT_EQ(each.size(), expected.size());
       for (std::size_t i = 0; i < each.size(); ++i) {

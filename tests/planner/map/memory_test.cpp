@@ -1,8 +1,7 @@
-#include "planner/map/memory.hpp"
+#include "planner/map/grid_geometry.hpp"
 
 #include <gtest/gtest.h>
 
-#include "planner/map/grid_geometry.hpp"
 #include "planner/planners.hpp"
 
 namespace gnbv {

@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "bench/reference/octomap_twin.hpp"
-#include "planner/map/fan_walker.hpp"
+#include "planner/map/scan_insertion.hpp"
 #include "sim/core/error.hpp"
 #include "tests/planner/map/random_points.hpp"
 

@@ -39,9 +39,7 @@ FrameRays random_frame(Random& random, const Box3& box_m, double leaf_m, std::si
       p_m[a] = random.chance(0.3) ? face_m : std::nextafter(face_m, to_m);
     }
     if (random.chance(0.01)) p_m[a] = std::numeric_limits<float>::quiet_NaN();
-    frame.x_m.push_back(p_m[0]);
-    frame.y_m.push_back(p_m[1]);
-    frame.z_m.push_back(p_m[2]);
+    for (int axis = 0; axis < 3; ++axis) frame.end_m[axis].push_back(p_m[axis]);
     frame.kind.push_back(random.chance(0.7)   ? PixelRay::hits
                          : random.chance(0.5) ? PixelRay::clears
                                               : PixelRay::none);
@@ -54,7 +52,7 @@ std::vector<Vec3f> hits_of(std::span<const FrameRays> frames) {
   for (const FrameRays& frame : frames) {
     for (std::size_t i = 0; i < frame.kind.size(); ++i) {
       if (frame.kind[i] != PixelRay::hits) continue;
-      hits_m.emplace_back(frame.x_m[i], frame.y_m[i], frame.z_m[i]);
+      hits_m.push_back(frame.end_world_m(i));
     }
   }
   return hits_m;

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <limits>
 
-#include "planner/symmetry/symmetry_module.hpp"
 #include "tests/planner/symmetry/blobs.hpp"
 
 namespace gnbv {
@@ -226,7 +225,7 @@ TEST(RefinePlanes, BringsAPlaneBack) {
   std::vector<MirrorPlane> planes = {truth, plane_at(38.5, 1.5), plane_at(36.0, 1.0)};
   planes.push_back(
       plane_through(1.3 * truth.normal_world, truth.normal_world + 0.03 * Vec3::UnitZ()));
-  symmetry_module().refine_planes(profile, planes);
+  for (MirrorPlane& plane : planes) symmetry_module().refine_plane(profile, plane);
   for (const MirrorPlane& plane : planes) EXPECT_LT(distance_m(plane, truth, extent), 0.02);
 }
 

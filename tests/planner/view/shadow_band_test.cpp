@@ -12,9 +12,7 @@ namespace {
 FrameRays ray_to(double x_m, PixelRay kind = PixelRay::hits) {
   FrameRays rays;
   rays.origin_world_m = Vec3f(0.1F, 0.1F, 0.1F);
-  rays.x_m = {static_cast<float>(x_m)};
-  rays.y_m = {0.1F};
-  rays.z_m = {0.1F};
+  rays.end_m = {{{static_cast<float>(x_m)}, {0.1F}, {0.1F}}};
   rays.kind = {kind};
   return rays;
 }

@@ -42,9 +42,7 @@ struct RandomScene {
         points.push_back(
             (center_m + Vec3::Constant(0.1 * scene_draw(40 + i, v) - 0.05)).cast<float>());
       }
-      hits.x_m.push_back(static_cast<float>(center_m.x()));
-      hits.y_m.push_back(static_cast<float>(center_m.y()));
-      hits.z_m.push_back(static_cast<float>(center_m.z()));
+      for (int a = 0; a < 3; ++a) hits.end_m[a].push_back(static_cast<float>(center_m[a]));
       hits.kind.push_back(PixelRay::hits);
     }
     cloud.add(points, 0.02);

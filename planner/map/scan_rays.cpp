@@ -1,0 +1,76 @@
+#include "planner/map/scan_rays.hpp"
+
+#include "sim/core/error.hpp"
+
+namespace gnbv {
+
+std::vector<ScanRay> rays_of(const LidarScan& scan, const LidarModel& lidar, double floor_z_m) {
+  const std::vector<Vec3f>& beams = lidar.beams_lidar;
+  GNBV_CHECK(scan.range_m.size() == beams.size(), "{} ranges for {} beams", scan.range_m.size(),
+             beams.size());
+  const auto range_min_m = static_cast<float>(lidar.config.range_min_m);
+  const auto range_max_m = static_cast<float>(lidar.config.range_max_m);
+  std::vector<ScanRay> rays;
+  rays.reserve(beams.size());
+  for (std::size_t b = 0; b < beams.size(); ++b) {
+    const float range_m = scan.range_m[b];
+    if (!(range_m >= range_min_m)) continue;
+    const bool has_return = range_m <= range_max_m;
+    const double along_m = has_return ? range_m : lidar.config.range_max_m;
+    const Vec3 end_m = scan.T_world_lidar * (along_m * beams[b].cast<double>());
+    rays.push_back({end_m.cast<float>(), has_return && end_m.z() >= floor_z_m});
+  }
+  return rays;
+}
+
+std::vector<Vec3f> surface_points_world_m(std::span<const ScanRay> rays) {
+  std::vector<Vec3f> points;
+  for (const ScanRay& ray : rays) {
+    if (ray.hit) points.push_back(ray.end_world_m);
+  }
+  return points;
+}
+
+PixelRow make_pixel_row(const CameraModel& camera) {
+  PixelRow row{};
+  row.width = camera.config.width_px;
+  row.range_max_m = camera.config.range_max_m;
+  row.range_min_m = static_cast<float>(camera.config.range_min_m);
+  row.range_max_compared_m = static_cast<float>(camera.config.range_max_m);
+  return row;
+}
+
+void compute_frame_rays(const DepthFrame& frame, const CameraModel& camera, double floor_z_m,
+                        FrameRays& rays) {
+  const int width = camera.config.width_px;
+  const int height = camera.config.height_px;
+  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  GNBV_CHECK(frame.depth_m.size() == pixels, "{} depths for {} x {} pixels", frame.depth_m.size(),
+             width, height);
+  const Eigen::Matrix3d R = frame.T_world_camera.linear();
+  const Vec3 origin_m = frame.T_world_camera.translation();
+  rays.origin_world_m = origin_m.cast<float>();
+  rays.kind.resize(pixels);
+  PixelRow row = make_pixel_row(camera);
+  row.floor_z_m = floor_z_m;
+  Eigen::MatrixX3d across(width + kPadding, 3);  // world part of each column
+  for (int a = 0; a < 3; ++a) {
+    rays.end_m[a].resize(pixels);
+    for (int u = 0; u < width; ++u) across(u, a) = R(a, 0) * camera.ray_camera(u, 0).x();
+    row.across[a] = across.col(a).data();
+    row.origin_m[a] = origin_m[a];
+  }
+  for (int v = 0; v < height; ++v) {
+    const std::ptrdiff_t first = std::ptrdiff_t{v} * width;
+    const Vec3 down = R.col(1) * static_cast<double>(camera.ray_camera(0, v).y()) + R.col(2);
+    for (int a = 0; a < 3; ++a) {
+      row.down[a] = down[a];
+      row.end_m[a] = rays.end_m[a].data() + first;
+    }
+    row.depth_m = frame.depth_m.data() + first;
+    row.kind = rays.kind.data() + first;
+    frame_kernels().rays_of_row(row);
+  }
+}
+
+}  // namespace gnbv
