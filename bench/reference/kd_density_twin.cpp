@@ -5,7 +5,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "planner/map/leaf_filter.hpp"
+#include "planner/map/surface_cloud.hpp"
 
 namespace gnbv {
 namespace {

@@ -55,7 +55,7 @@ struct UtilityConfig {
   /// bircher, isler: a voxel counts once a ray that crosses it (released code), or once.
   IgCounting ig_counting = IgCounting::per_ray;
   HitVoxel hit_voxel = HitVoxel::counted;  // that ends a ray; the released code excludes it, and
-  bool prediction_hides_hits = false;      // has this slip: see ray_by_ray.hpp
+  bool prediction_hides_hits = false;      // has this slip: see ReleasedSlips
   bool legacy_visibility = false;          // see ViewOptions
   VolumeWeights volume_weights = {};
   ShadowConfig shadow = {};

@@ -21,6 +21,51 @@ constexpr double kMaxGainOfRefining = 0.3;  // of support, with room: 0.15 on th
 constexpr double kMinMoved = 0.25;  // below that the plane leaves nearly all points in place
 constexpr std::size_t kMaxInliers = 4000;
 
+/// (radius normal, offset from the centre): a plane where distances are metres. Its negative is the
+/// same plane.
+using Metric = Eigen::Vector4d;
+
+Metric to_metric(const MirrorPlane& plane, const Extent& extent) {
+  Metric out;
+  out << extent.radius_m * plane.normal_world,
+      plane.offset_m - plane.normal_world.dot(extent.center_world_m);
+  return out;
+}
+
+/// `metric` or its negative, whichever is nearer to `reference`.
+Metric aligned(const Metric& metric, const Metric& reference) {
+  return metric.dot(reference) < 0.0 ? Metric(-metric) : metric;
+}
+
+struct Mode {
+  Metric metric;
+  std::size_t votes;
+};
+
+/// Climbs to a mode of the planes. A step of the mean shift goes to the mean of all planes within
+/// the bandwidth, and scales its normal back to the radius.
+Mode climb(Metric at, std::span<const Metric> all, double radius_m, double bandwidth_m) {
+  constexpr int kMaxSteps = 20;
+  constexpr double kStill_m = 1e-3;
+  Mode mode = {at, 0};
+  for (int step = 0; step < kMaxSteps; ++step) {
+    Metric sum = Metric::Zero();
+    mode.votes = 0;
+    for (const Metric& metric : all) {
+      const Metric near = aligned(metric, at);
+      if ((near - at).squaredNorm() > bandwidth_m * bandwidth_m) continue;
+      sum += near;
+      ++mode.votes;
+    }
+    mode.metric = mode.votes == 0 ? at : Metric(sum / static_cast<double>(mode.votes));
+    const double length = mode.metric.head<3>().norm();
+    if (length > 0.0) mode.metric.head<3>() *= radius_m / length;
+    if ((mode.metric - at).norm() < kStill_m) break;
+    at = mode.metric;
+  }
+  return mode;
+}
+
 /// Calls use(offset, state) for the voxels up to `reach` along each axis from `key`, until it
 /// returns false. Voxels outside the grid are unknown.
 template <typename Use>
@@ -38,20 +83,16 @@ void for_each_near(const OccupancyGrid& grid, const Key& key, int reach, const U
   }
 }
 
-enum class Verdict { contradicted, open, confirmed };
-
-/// Looks at the voxel and the 26 around it.
-Verdict verdict_at(const OccupancyGrid& grid, const Key& key) {
-  if (!grid.geometry().contains(key)) return Verdict::contradicted;
-  bool is_free = true;
-  bool is_surface = false;
+/// What is known of the voxel and the 26 around it: occupied if any is, free if all are. Beyond the
+/// grid counts as free.
+VoxelState state_around(const OccupancyGrid& grid, const Key& key) {
+  if (!grid.geometry().contains(key)) return VoxelState::free;
+  VoxelState around = VoxelState::free;
   for_each_near(grid, key, 1, [&](const Eigen::Vector3i&, VoxelState state) {
-    is_surface = state == VoxelState::occupied;
-    is_free = is_free && state == VoxelState::free;
-    return !is_surface;
+    if (state != VoxelState::free) around = state;
+    return state != VoxelState::occupied;
   });
-  if (is_surface) return Verdict::confirmed;
-  return is_free ? Verdict::contradicted : Verdict::open;
+  return around;
 }
 
 /// The direction from the point to the free voxels around it, two voxels each way; zero where none
@@ -73,7 +114,7 @@ std::vector<ProfilePoint> oriented(std::span<const Vec3f> profile_world_m,
     if (p.allFinite()) out.push_back({p, outward(grid, p)});
   }
   // each call of the module builds an index of all points: few, large pieces
-  const std::size_t piece = out.size() / static_cast<std::size_t>(std::max(threads, 1)) + 1;
+  const std::size_t piece = out.size() / std::max(threads, 1) + 1;
   parallel_for_chunks(threads, out.size(), piece, [&](std::size_t begin, std::size_t end) {
     symmetry_module().estimate_normals(out, begin, end);
   });
@@ -102,8 +143,7 @@ Extent extent_of(std::span<const Vec3f> points_world_m) {
   for (const Vec3f& p : points_world_m) {
     sum_m2 += (p.cast<double>() - extent.center_world_m).squaredNorm();
   }
-  extent.radius_m = std::sqrt(sum_m2 / count);
-  return extent;
+  return {extent.center_world_m, std::sqrt(sum_m2 / count)};
 }
 
 bool is_upright(const MirrorPlane& plane) {
@@ -126,8 +166,8 @@ std::vector<MirrorPlane> rough_planes(std::span<const ProfilePoint> profile, con
     if (is_upright(plane)) middles.push_back(plane);
   }
   std::vector<MirrorPlane> planes;
-  for (const PlaneCluster& cluster : cluster_planes(middles, extent, kBandwidth_m)) {
-    planes.push_back(cluster.plane);
+  for (const auto& [plane, votes] : cluster_planes(middles, extent, kBandwidth_m)) {
+    planes.push_back(plane);
   }
   return planes;
 }
@@ -171,13 +211,42 @@ std::vector<MirrorPlane> worth_refining(std::span<const Candidate> candidates, d
 }  // namespace
 
 const SymmetryModule& symmetry_module() {
-  static const SymmetryModule& module = []() -> const SymmetryModule& {
-    const ModulePlace place{GNBV_SYMMETRY_MODULE, GNBV_SYMMETRY_MODULE_AS_BUILT,
-                            "PCL, Debian package libpcl-dev"};
-    using Functions = const SymmetryModule&();
-    return reinterpret_cast<Functions*>(function_in_module(place, "gnbv_symmetry"))();
-  }();
-  return module;
+  static auto* const module = reinterpret_cast<const SymmetryModule& (*)()>(function_in_module(
+      {GNBV_SYMMETRY_MODULE, GNBV_SYMMETRY_MODULE_AS_BUILT, "PCL, Debian package libpcl-dev"},
+      "gnbv_symmetry"));
+  return module();
+}
+
+double distance_m(const MirrorPlane& a, const MirrorPlane& b, const Extent& extent) {
+  const Metric metric = to_metric(a, extent);
+  return (aligned(to_metric(b, extent), metric) - metric).norm();
+}
+
+std::vector<PlaneCluster> cluster_planes(std::span<const MirrorPlane> planes, const Extent& extent,
+                                         double bandwidth_m) {
+  constexpr std::size_t kMaxSeeds = 500;
+  std::vector<Metric> all;
+  for (const MirrorPlane& plane : planes) all.push_back(to_metric(plane, extent));
+  std::vector<Mode> modes;
+  const std::size_t stride = (all.size() + kMaxSeeds - 1) / kMaxSeeds;
+  for (std::size_t i = 0; i < all.size(); i += stride) {
+    modes.push_back(climb(all[i], all, extent.radius_m, bandwidth_m));
+  }
+  std::ranges::stable_sort(modes, std::ranges::greater{}, &Mode::votes);
+  // of modes nearer to each other than half a bandwidth, the one with most votes stays
+  std::vector<Mode> distinct;
+  std::vector<PlaneCluster> clusters;
+  for (const Mode& mode : modes) {
+    const bool is_new = std::ranges::none_of(distinct, [&](const Mode& other) {
+      return (aligned(mode.metric, other.metric) - other.metric).norm() < 0.5 * bandwidth_m;
+    });
+    if (!is_new) continue;
+    distinct.push_back(mode);
+    const Vec3 normal_world = mode.metric.head<3>().normalized();
+    const Vec3 foot_m = extent.center_world_m + mode.metric[3] * normal_world;
+    clusters.push_back({plane_through(foot_m, normal_world), mode.votes});
+  }
+  return clusters;
 }
 
 MirrorSupport mirror_support(const OccupancyGrid& grid, std::span<const Vec3f> points_world_m,
@@ -190,9 +259,9 @@ MirrorSupport mirror_support(const OccupancyGrid& grid, std::span<const Vec3f> p
     const Vec3 image_world_m = mirrored(plane, p_world_m);
     if ((image_world_m - p_world_m).norm() < moved_min_m) continue;
     ++moved;
-    const Verdict verdict = verdict_at(grid, grid.geometry().key_of(image_world_m));
-    contradicted += verdict == Verdict::contradicted;
-    confirmed += verdict == Verdict::confirmed;
+    const VoxelState state = state_around(grid, grid.geometry().key_of(image_world_m));
+    contradicted += state == VoxelState::free;
+    confirmed += state == VoxelState::occupied;
   }
   if (moved == 0) return {};
   const auto total = static_cast<double>(moved);

@@ -1,10 +1,10 @@
-#include "planner/view/ray_by_ray.hpp"
-
+// A view looked at ray by ray: what evaluate_view() does not count.
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "planner/map/ray_walk.hpp"
+#include "planner/view/visibility.hpp"
 
 namespace gnbv {
 namespace {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "planner/map/ray_walk.hpp"
-#include "planner/view/ray_by_ray.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "planner/core/belief.hpp"
-#include "planner/view/ray_by_ray.hpp"
+#include "planner/view/visibility.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "planner/map/occupancy_grid.hpp"
-#include "planner/symmetry/mirror_plane.hpp"
+#include "planner/symmetry/symmetry.hpp"
 #include "tests/planner/map/random_points.hpp"
 
 namespace gnbv::test {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "planner/guided/utility.hpp"
-#include "planner/view/ray_by_ray.hpp"
+#include "planner/view/visibility.hpp"
 #include "tests/planner/view/view_scene.hpp"
 
 namespace gnbv {

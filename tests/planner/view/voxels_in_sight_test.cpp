@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "planner/view/ray_by_ray.hpp"
+#include "planner/view/visibility.hpp"
 #include "tests/planner/view/view_scene.hpp"
 
 namespace gnbv {
