@@ -1,22 +1,22 @@
-// Which pixels' rays pass a voxel, and how deep such a ray must go to leave it. For
-// frame_loops.cpp alone.
+// Which pixels' rays pass a voxel, and how deep such a ray must go to leave it. For frame_loops.cpp
+// alone.
 //
-// Pixel (u, v) looks along d = toward + u right + v down: its ray is at t d where it is t deep. The
-// voxel is a box [low, high] relative to the camera, three slabs. Along an axis on which the camera
-// is outside the slab, mirrored (`sign`) so that the slab lies ahead, the ray enters it at
-// t = near / d and leaves it at t = far / d; on an axis on which the camera is inside, it is in the
-// slab from the start and leaves by the face that d points to. The ray passes the box if it enters
-// no slab b after it has left another one a:
+// Pixel (u, v) looks along d = toward + u right + v down. Its ray is at t d where it is t deep. The
+// voxel is a box [low, high] relative to the camera: what three slabs have in common. On an axis on
+// which the camera is outside the slab, mirror the axis (`sign`) so that the slab lies ahead: the
+// ray enters the slab at t = near / d and leaves it at t = far / d. On an axis on which the camera
+// is inside, the ray is in the slab from the start and leaves by the face that d points to. The ray
+// passes the box if it enters no slab b after it has left another slab a:
 //
-//   near_b / d_b <= far_a / d_a,  that is  far_a d_b - near_b d_a >= 0,
+//   near_b / d_b <= far_a / d_a,  that is  far_a d_b - near_b d_a >= 0.
 //
-// which is linear in u and v, as d is: one side of a line in the image. All such lines together
-// outline the voxel, and in row v they bound u from below or from above. The ray leaves the box
-// with the first slab, at 1 / t = the greatest d_a / far_a, again linear in u and v: it ends beyond
-// the box if 1 / depth is less than that.
+// d is linear in u and v, so this is one side of a line in the image. All such lines together
+// outline the voxel; in row v they bound u from below or above. The ray leaves the box with the
+// first slab that it leaves, at 1 / t = the greatest d_a / far_a, again linear in u and v. It ends
+// beyond the box if 1 / depth is less than that.
 //
-// All this is done twice: with the box grown by the margin of rounding, whose rays might pass, and
-// with the box shrunk by it, whose rays are sure to pass.
+// All this is done twice: with the box grown by the margin of rounding (rays that might pass), and
+// with the box shrunk by it (rays that are sure to pass).
 #pragma once
 
 #include "planner/map/map_kernels.hpp"
@@ -39,8 +39,8 @@ struct Lines {
   int count = 0;
 };
 
-/// The rays that pass a box are those between the lines, and one ends beyond the box where
-/// 1 / depth is less than the greatest of `exit` at its pixel.
+/// The rays between the lines pass a box. One ends beyond the box where 1 / depth is less than the
+/// greatest exit at its pixel.
 struct Cone {
   Lines lower, upper;  // bounds of u
   float exit_at[6], exit_u[6], exit_v[6];
@@ -81,9 +81,7 @@ inline void add_exit(const FrameView& view, Cone& cone, int a, float sign, float
 /// of the voxel itself.
 inline Cone make_grown_cone(const FrameView& view, const SeenVoxel& voxel, float margin_m) {
   Cone cone;
-  float near_m[3];
-  float far_m[3];
-  float sign[3];
+  float near_m[3], far_m[3], sign[3];
   bool is_outside[3];
   for (int a = 0; a < 3; ++a) {
     const float low_m = voxel.low_m[a] - margin_m;
@@ -103,8 +101,8 @@ inline Cone make_grown_cone(const FrameView& view, const SeenVoxel& voxel, float
     for (int a = 0; a < 3; ++a) {
       if (a == b) continue;
       keep_side(view, cone, b, sign[b] * far_m[a], a, -sign[a] * near_m[b], 0.0F);
-      if (!is_outside[a])
-        keep_side(view, cone, b, -sign[b] * near_m[a], a, sign[a] * near_m[b], 0.0F);
+      if (is_outside[a]) continue;
+      keep_side(view, cone, b, -sign[b] * near_m[a], a, sign[a] * near_m[b], 0.0F);
     }
   }
   return cone;

@@ -10,8 +10,13 @@
 namespace gnbv {
 namespace {
 
-constexpr double kTotalUnits = 0x1p32;  // per nat
 constexpr int kMemoBits = 12;
+constexpr double kTotalUnits = 0x1p32;  // per nat
+
+std::int64_t total_units(double nat) { return std::llround(nat * kTotalUnits); }
+std::uint32_t word_units(double nat) {
+  return static_cast<std::uint32_t>(std::llround(nat / kEntropyUnit_nat));
+}
 
 /// octomap::logodds (octomap_utils.h)
 float log_odds_of(double probability) {
@@ -38,7 +43,14 @@ OccupancyGrid::OccupancyGrid(const OccupancyConfig& config, const Box3& bounds_m
   clamp_max_log_ = log_odds_of(config.clamp_max);
   occupied_min_log_ = log_odds_of(config.occupied_min);
   free_max_log_ = log_odds_of(config.free_max);
-  settled_word_ = compute_settled_word();
+  // at bounds so wide that the entropy is 0 before them, words do not tell which voxels are at them
+  const auto has_entropy_within = [&](float bound) {
+    return word_units(entropy_nat_of(std::nextafter(bound, 0.0F))) > 0;
+  };
+  const bool is_told = has_entropy_within(clamp_min_log_) && has_entropy_within(clamp_max_log_) &&
+                       state_of_log_odds(clamp_min_log_) == VoxelState::free &&
+                       state_of_log_odds(clamp_max_log_) != VoxelState::free;
+  settled_word_ = is_told ? measured_word(VoxelState::free, 0) : kStateMask;  // which is no state
   for (const auto& [memo, probability] :
        {std::pair(&hits_, config.prob_hit), std::pair(&misses_, config.prob_miss)}) {
     memo->delta = log_odds_of(probability);
@@ -47,7 +59,7 @@ OccupancyGrid::OccupancyGrid(const OccupancyConfig& config, const Box3& bounds_m
   const std::size_t voxels = geometry_.voxel_count();
   log_odds_ = ZeroedArray<float>(voxels);
   words_ = ZeroedArray<VoxelWord>(voxels + kPadding);
-  total_entropy_ = entropy_of(0.0F).units * static_cast<std::int64_t>(voxels);
+  total_entropy_ = total_units(entropy_nat_of(0.0F)) * static_cast<std::int64_t>(voxels);
 }
 
 VoxelState OccupancyGrid::state_at(const Vec3& p_world_m) const {
@@ -59,14 +71,12 @@ double OccupancyGrid::total_entropy_nat() const {
   return static_cast<double>(total_entropy_) / kTotalUnits;
 }
 
-OccupancyGrid::Entropy OccupancyGrid::entropy_of(float log_odds) const {
-  if (is_clamped(log_odds)) return {};
+double OccupancyGrid::entropy_nat_of(float log_odds) const {
+  if (log_odds <= clamp_min_log_ || log_odds >= clamp_max_log_) return 0.0;
   // Eq. (1) in terms of l = |log-odds|, where p = 1 / (1 + e^-l) cannot round to 0 or 1
   const double l = std::fabs(static_cast<double>(log_odds));
   const double e = std::exp(-l);
-  const double entropy_nat = std::log1p(e) + l * e / (1.0 + e);
-  return {.word_units = static_cast<std::uint32_t>(std::llround(entropy_nat / kEntropyUnit_nat)),
-          .units = std::llround(entropy_nat * kTotalUnits)};
+  return std::log1p(e) + l * e / (1.0 + e);
 }
 
 VoxelState OccupancyGrid::state_of_log_odds(float log_odds) const {
@@ -74,24 +84,12 @@ VoxelState OccupancyGrid::state_of_log_odds(float log_odds) const {
   return log_odds <= free_max_log_ ? VoxelState::free : VoxelState::unknown;
 }
 
-VoxelWord OccupancyGrid::compute_settled_word() const {
-  constexpr auto kNoWord = static_cast<VoxelWord>(kStateMask);  // no state
-  const auto has_entropy_within = [&](float bound) {
-    return entropy_of(std::nextafter(bound, 0.0F)).word_units > 0;
-  };
-  // at bounds so wide that the entropy is 0 before them, words do not tell which voxels are at them
-  const bool is_told = has_entropy_within(clamp_min_log_) && has_entropy_within(clamp_max_log_) &&
-                       state_of_log_odds(clamp_min_log_) == VoxelState::free &&
-                       state_of_log_odds(clamp_max_log_) != VoxelState::free;
-  return is_told ? measured_word(VoxelState::free, 0) : kNoWord;
-}
-
 OccupancyGrid::Step OccupancyGrid::step_to(float after, float before) const {
-  const Entropy entropy = entropy_of(after);
+  const double entropy_nat = entropy_nat_of(after);
   return {.before = before,
           .after = after,
-          .word = measured_word(state_of_log_odds(after), entropy.word_units),
-          .entropy_gain = entropy.units - entropy_of(before).units};
+          .word = measured_word(state_of_log_odds(after), word_units(entropy_nat)),
+          .entropy_gain = total_units(entropy_nat) - total_units(entropy_nat_of(before))};
 }
 
 OccupancyGrid::Step OccupancyGrid::step_by(float delta, float before) const {

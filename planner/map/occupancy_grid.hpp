@@ -52,8 +52,8 @@ class OccupancyGrid {
   float entropy_nat(VoxelIndex v) const {
     return static_cast<float>(entropy_units_of(words_[v])) * static_cast<float>(kEntropyUnit_nat);
   }
-  /// Sum of entropy_nat over all voxels of the workspace, kept up to date by apply(). Summed in
-  /// units of 2^-32 nat, so that no order of updates changes it.
+  /// Sum of entropy_nat over all voxels of the workspace, in units of 2^-32 nat, so that no order
+  /// of updates changes it.
   double total_entropy_nat() const;
   std::size_t occupied_count() const { return occupied_count_; }
 
@@ -88,14 +88,9 @@ class OccupancyGrid {
   std::span<const float> all_log_odds() const { return log_odds_; }
 
  private:
-  struct Entropy {
-    std::uint32_t word_units = 0;  // in 2^-24 nat
-    std::int64_t units = 0;        // in 2^-32 nat
-  };
   /// What a hit or a miss makes of a voxel's log-odds.
   struct Step {
-    float before = 0.0F;
-    float after = 0.0F;
+    float before = 0.0F, after = 0.0F;
     VoxelWord word = 0;
     std::int64_t entropy_gain = 0;  // in 2^-32 nat
   };
@@ -104,12 +99,8 @@ class OccupancyGrid {
     float delta = 0.0F;
     std::vector<Step> steps;
   };
-  bool is_clamped(float log_odds) const {
-    return log_odds <= clamp_min_log_ || log_odds >= clamp_max_log_;
-  }
-  Entropy entropy_of(float log_odds) const;
+  double entropy_nat_of(float log_odds) const;
   VoxelState state_of_log_odds(float log_odds) const;
-  VoxelWord compute_settled_word() const;
   Step step_to(float after, float before) const;
   Step step_by(float delta, float before) const;
   void take_step(VoxelIndex v, const Step& step);
@@ -123,8 +114,7 @@ class OccupancyGrid {
   ZeroedArray<float> log_odds_;
   ZeroedArray<VoxelWord> words_;
   std::int64_t total_entropy_ = 0;  // in 2^-32 nat
-  std::size_t occupied_count_ = 0;
-  std::size_t predicted_count_ = 0;
+  std::size_t occupied_count_ = 0, predicted_count_ = 0;
   StepMemo hits_, misses_;
 };
 

@@ -1,6 +1,7 @@
 #include "planner/map/surface_cloud.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -77,9 +78,7 @@ SurfaceCloud::SurfaceCloud(const CloudConfig& config, const GridGeometry& voxels
     throw BadInput(fmt::format("leaf_m: {} is not between a {}th of resolution_m {} and infinity",
                                config.leaf_m, kMostLeavesPerBucket, voxel_m));
   }
-  density_max_ = 3.0 * (voxel_m / config.leaf_m) * (voxel_m / config.leaf_m);
-  search_radius_m_ = voxel_m / std::sqrt(2.0);
-  table_.radius2_m2 = static_cast<float>(search_radius_m_ * search_radius_m_);
+  table_.radius2_m2 = static_cast<float>(search_radius_m() * search_radius_m());
   slot_of_ = ZeroedArray<std::uint32_t>(voxels.voxel_count());
   voxel_points_.resize(1);
 
@@ -172,13 +171,13 @@ std::size_t SurfaceCloud::add(std::span<const Vec3f> points_world_m, double leaf
 std::size_t SurfaceCloud::add(std::span<const FrameRays> frames) {
   batch_.reset();
   point_table_at_arrays();
-  untaken_.resize(kPixelsAtOnce);
+  std::array<std::int32_t, kPixelsAtOnce> untaken;
   for (const FrameRays& frame : frames) {
     for (std::size_t begin = 0; begin < frame.kind.size(); begin += kPixelsAtOnce) {
       const auto count = static_cast<int>(std::min(frame.kind.size() - begin, kPixelsAtOnce));
       const std::size_t found =
-          cloud_kernels().find_untaken(table_, frame.row(begin), count, untaken_.data());
-      for (const std::int32_t pixel : std::span(untaken_).first(found)) {
+          cloud_kernels().find_untaken(table_, frame.row(begin), count, untaken.data());
+      for (const std::int32_t pixel : std::span(untaken).first(found)) {
         const Vec3f p_m = frame.end_world_m(begin + pixel);
         batch_.add(lattice_.key_of(p_m), p_m);
       }
@@ -210,7 +209,7 @@ bool SurfaceCloud::restore(std::span<const Vec3f> points_world_m) {
 
 CellBox SurfaceCloud::cells_within_reach(const Vec3f& p_m) const {
   // the slack covers rounding of leaf borders and of the distance
-  const float reach_m = static_cast<float>(search_radius_m_) * 1.001F + 1e-5F * bucket_m_;
+  const float reach_m = static_cast<float>(search_radius_m()) * 1.001F + 1e-5F * bucket_m_;
   CellBox cells;
   for (int a = 0; a < 3; ++a) {
     const float slack_m = reach_m + 4e-7F * std::fabs(p_m[a]);
@@ -218,22 +217,6 @@ CellBox SurfaceCloud::cells_within_reach(const Vec3f& p_m) const {
     cells.high[a] = floor_to_int((p_m[a] + slack_m) / bucket_m_) - table_.first_bucket[a];
   }
   return cells;
-}
-
-void SurfaceCloud::append(CloudBucket& bucket, const Vec3f& p_m, std::uint32_t slot) {
-  if (bucket.last_block == 0) bucket.slot = slot;
-  bucket.has_one_voxel &= bucket.slot == slot;
-  if (bucket.last_block == 0 || bucket.last_count == kPointsPerBlock) {
-    PointBlock& block = blocks_.emplace_back();
-    for (auto& column : block.p_m) std::fill(std::begin(column), std::end(column), kInfinity);
-    next_block_.push_back(bucket.last_block);
-    bucket.last_block = static_cast<std::uint32_t>(blocks_.size() - 1);
-    bucket.last_count = 0;
-  }
-  PointBlock& block = blocks_[bucket.last_block];
-  const std::uint32_t i = bucket.last_count++;
-  for (int a = 0; a < 3; ++a) block.p_m[a][i] = p_m[a];
-  block.slot[i] = slot;
 }
 
 void SurfaceCloud::insert(const Vec3f& p_m, const Leaf& leaf) {
@@ -249,7 +232,20 @@ void SurfaceCloud::insert(const Vec3f& p_m, const Leaf& leaf) {
       table_, p_m.data(), cells_within_reach(p_m), voxel_points_.data());
   voxel_points_[slot].neighbour_sum += neighbours + 1;  // the point itself
   ++voxel_points_[slot].point_count;
-  append(buckets_[bucket_at_[leaf.cell]], p_m, slot);
+
+  CloudBucket& bucket = buckets_[bucket_at_[leaf.cell]];
+  if (bucket.last_block == 0) bucket.slot = slot;
+  bucket.has_one_voxel &= bucket.slot == slot;
+  if (bucket.last_block == 0 || bucket.last_count == kPointsPerBlock) {
+    PointBlock& block = blocks_.emplace_back();
+    for (auto& column : block.p_m) std::fill(std::begin(column), std::end(column), kInfinity);
+    next_block_.push_back(bucket.last_block);
+    bucket.last_block = static_cast<std::uint32_t>(blocks_.size() - 1);
+    bucket.last_count = 0;
+  }
+  PointBlock& block = blocks_[bucket.last_block];
+  for (int a = 0; a < 3; ++a) block.p_m[a][bucket.last_count] = p_m[a];
+  block.slot[bucket.last_count++] = slot;
   points_.push_back(p_m);
 }
 

@@ -1,6 +1,7 @@
 // What is believed about the surface: a leaf-filtered cloud with an exact, incremental density.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -111,8 +112,11 @@ class SurfaceCloud {
   /// with normal n crosses |nx| + |ny| + |nz| leaves a leaf's face, so that a point of a fully
   /// scanned one has pi / 2 (voxel / leaf)^2 (|nx| + |ny| + |nz|) neighbours: 157 on a wall along
   /// the axes, 272 on one oblique to all three, and half as many at a free edge.
-  double density_max() const { return density_max_; }
-  double search_radius_m() const { return search_radius_m_; }
+  double density_max() const {
+    const double ratio = voxels_.resolution_m() / config_.leaf_m;
+    return 3.0 * ratio * ratio;
+  }
+  double search_radius_m() const { return voxels_.resolution_m() / std::sqrt(2.0); }
 
  private:
   struct Leaf {
@@ -126,13 +130,10 @@ class SurfaceCloud {
   std::size_t insert_batch(bool is_own_leaf);
   CellBox cells_within_reach(const Vec3f& p_m) const;
   void insert(const Vec3f& p_m, const Leaf& leaf);
-  void append(CloudBucket& bucket, const Vec3f& p_m, std::uint32_t slot);
 
   CloudConfig config_;
   GridGeometry voxels_;
   LeafLattice lattice_;
-  double density_max_ = 0.0;
-  double search_radius_m_ = 0.0;
   float bucket_m_ = 1.0F;
   std::vector<Vec3f> points_;
   ZeroedArray<std::uint32_t> slot_of_;     // of each voxel: index into voxel_points_
@@ -146,7 +147,6 @@ class SurfaceCloud {
   std::vector<PointBlock> blocks_;        // the first one is none
   std::vector<std::uint32_t> next_block_;
   LeafSums batch_;
-  std::vector<std::int32_t> untaken_;  // pixels of a frame
 };
 
 }  // namespace gnbv

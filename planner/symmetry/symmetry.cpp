@@ -26,10 +26,8 @@ constexpr std::size_t kMaxInliers = 4000;
 using Metric = Eigen::Vector4d;
 
 Metric to_metric(const MirrorPlane& plane, const Extent& extent) {
-  Metric out;
-  out << extent.radius_m * plane.normal_world,
-      plane.offset_m - plane.normal_world.dot(extent.center_world_m);
-  return out;
+  const double offset_m = plane.offset_m - plane.normal_world.dot(extent.center_world_m);
+  return (Metric() << extent.radius_m * plane.normal_world, offset_m).finished();
 }
 
 /// `metric` or its negative, whichever is nearer to `reference`.
@@ -128,9 +126,8 @@ std::vector<Vec3f> inliers(std::span<const Vec3f> profile_world_m, const Occupan
   for (const Vec3f& p : profile_world_m) {
     if (grid.state_at(p.cast<double>()) == VoxelState::occupied) all.push_back(p);
   }
-  if (all.size() <= kMaxInliers) return all;
-  std::vector<Vec3f> chosen(kMaxInliers);
-  for (std::size_t i = 0; i < kMaxInliers; ++i) chosen[i] = all[i * all.size() / kMaxInliers];
+  std::vector<Vec3f> chosen(std::min(all.size(), kMaxInliers));
+  for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = all[i * all.size() / chosen.size()];
   return chosen;
 }
 
@@ -192,20 +189,6 @@ std::vector<Candidate> judged(std::span<const MirrorPlane> planes,
   std::ranges::stable_sort(out, std::ranges::greater{},
                            [](const Candidate& c) { return c.support.support; });
   return out;
-}
-
-/// The best candidates that lie farther apart than refining moves them.
-std::vector<MirrorPlane> worth_refining(std::span<const Candidate> candidates, double min_support,
-                                        const Extent& extent) {
-  std::vector<MirrorPlane> chosen;
-  for (const Candidate& candidate : candidates) {
-    if (candidate.support.support < min_support || chosen.size() == kMaxRefined) break;
-    const bool is_new = std::ranges::none_of(chosen, [&](const MirrorPlane& other) {
-      return distance_m(candidate.plane, other, extent) < kRefineReach_m;
-    });
-    if (is_new) chosen.push_back(candidate.plane);
-  }
-  return chosen;
 }
 
 }  // namespace
@@ -280,14 +263,21 @@ Symmetry find_symmetry(const SymmetryConfig& config, std::span<const Vec3f> prof
   // a rough plane misses thin wings, so it needs less confirmation
   const std::vector<Candidate> rough =
       judged(rough_planes(profile, extent), inliers_world_m, grid, 0.5 * config.min_confirmed);
-  std::vector<MirrorPlane> planes =
-      worth_refining(rough, config.min_support - kMaxGainOfRefining, extent);
+  if (rough.empty()) return symmetry;
+  // the best candidates that lie farther apart than refining moves them
+  std::vector<MirrorPlane> planes;
+  for (const auto& [plane, support] : rough) {
+    const bool is_hopeless = support.support < config.min_support - kMaxGainOfRefining;
+    if (is_hopeless || planes.size() == kMaxRefined) break;
+    const bool is_new = std::ranges::none_of(planes, [&, &at = plane](const MirrorPlane& other) {
+      return distance_m(at, other, extent) < kRefineReach_m;
+    });
+    if (is_new) planes.push_back(plane);
+  }
   parallel_for(threads, planes.size(),
                [&](std::size_t i) { symmetry_module().refine_plane(profile, planes[i]); });
   const std::vector<Candidate> refined =
       judged(planes, inliers_world_m, grid, config.min_confirmed);
-
-  if (rough.empty()) return symmetry;
   const Candidate& best = refined.empty() ? rough.front() : refined.front();
   symmetry.support = best.support.support;
   symmetry.confirmed = best.support.confirmed;

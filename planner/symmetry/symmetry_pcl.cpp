@@ -71,19 +71,6 @@ pcl::IndicesPtr keypoints_of(const Cloud::ConstPtr& cloud, const Tree& tree) {
   return indices;
 }
 
-Features features_of(const Cloud::ConstPtr& cloud, const pcl::IndicesPtr& indices,
-                     const Tree::Ptr& tree) {
-  pcl::FPFHEstimation<pcl::PointNormal, pcl::PointNormal, Feature> estimation;
-  estimation.setInputCloud(cloud);
-  estimation.setInputNormals(cloud);
-  estimation.setIndices(indices);
-  estimation.setSearchMethod(tree);
-  estimation.setKSearch(kNeighbours);
-  Features features;
-  estimation.compute(features);
-  return features;
-}
-
 /// The keypoints whose features are most like the mirrored ones of keypoint `of`; the best first.
 std::vector<std::size_t> best_matches(const Features& features, std::size_t of) {
   // of the three angles only the second, against the cross product of normal and distance, changes
@@ -197,7 +184,14 @@ void match_keypoints(std::span<const ProfilePoint> profile, std::vector<Keypoint
   tree->setInputCloud(cloud);
   const pcl::IndicesPtr keypoints = keypoints_of(cloud, *tree);
   if (keypoints->empty()) return;
-  const Features features = features_of(cloud, keypoints, tree);
+  pcl::FPFHEstimation<pcl::PointNormal, pcl::PointNormal, Feature> estimation;
+  estimation.setInputCloud(cloud);
+  estimation.setInputNormals(cloud);
+  estimation.setIndices(keypoints);
+  estimation.setSearchMethod(tree);
+  estimation.setKSearch(kNeighbours);
+  Features features;
+  estimation.compute(features);
   for (std::size_t i = 0; i < features.size(); ++i) {
     const pcl::PointNormal& a = (*cloud)[static_cast<std::size_t>((*keypoints)[i])];
     for (const std::size_t j : best_matches(features, i)) {

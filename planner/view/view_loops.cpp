@@ -35,18 +35,13 @@ inline void mark(std::uint8_t* marks, Mask seeing, Ints voxel, Ints resting_voxe
 /// What the full walk keeps of each ray; see ViewStats.
 struct RayMetrics {
   Floats visibility = all(1.0F);  // P_v
-  Floats occlusion_aware = all(0.0F);
-  Floats unobserved = all(0.0F);
+  Floats occlusion_aware = all(0.0F), unobserved = all(0.0F), rear_side = all(0.0F);
   Floats unknown_run = all(0.0F);  // P_v H since the last known voxel
-  Floats rear_side = all(0.0F);
-  Floats volume = all(0.0F);  // sum of cubes of times, over the unknown voxels
+  Floats volume = all(0.0F);       // sum of cubes of times, over the unknown voxels
   Ints t_enter = all(0);
   Ints visits = all(0);  // voxels of the rays that hit, the hit one included
-  Mask after_unknown = no_lane();
-  Mask hit = no_lane();
-  Mask rear_hit = no_lane();
-  Mask front_hit = no_lane();
-  Mask shadow = no_lane();
+  Mask after_unknown = no_lane(), shadow = no_lane();
+  Mask hit = no_lane(), rear_hit = no_lane(), front_hit = no_lane();
 };
 
 /// 1 / (1 + e^l) = 1 - P, from x = l log2(e). Within 2e-6 for every x.
@@ -89,7 +84,7 @@ struct Odds {
 // less adds nothing to any sum, and numbers that follow from it would be denormal, hence slow
 constexpr float kLeastVisibility = 0x1p-60F;
 
-/// Adds the voxels at hand. The branches only skip what would change nothing.
+/// Adds the voxels at hand. Branches only skip what would change nothing.
 inline void measure(const ViewMaps& maps, const Bundle& b, Ints word, Ints known, Mask occupied,
                     Ints t_exit, const Odds& odds, int step, RayMetrics& m) {
   // most of the space before a camera has been looked at often: settled, without entropy
