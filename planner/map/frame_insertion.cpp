@@ -14,8 +14,6 @@ namespace {
 
 constexpr float kNoRay = std::numeric_limits<float>::infinity();
 
-int round_up(int count, int unit) { return (count + unit - 1) / unit * unit; }
-
 /// What the centres of the pixels span at z = 1.
 Eigen::AlignedBox2d image_of(const CameraModel& camera) {
   const Eigen::Array2d focal_px(camera.fx_px, camera.fy_px);
@@ -41,8 +39,8 @@ double margin_m(const DepthFrame& frame, const CameraModel& camera) {
   return std::max(kLeast_m, kUnits * reach_m(frame, camera));
 }
 
-/// The view without its pointers, and without what depends on how deep the rays go.
-FrameView make_frame_view(const GridGeometry& grid, const DepthFrame& frame,
+/// The view but for map and tiles, and for what depends on how deep the rays go.
+FrameView make_frame_view(const GridGeometry& grid, const FrameRays& rays, const DepthFrame& frame,
                           const CameraModel& camera) {
   const Eigen::Matrix3d R = frame.T_world_camera.linear();
   const Vec3 origin_m = frame.T_world_camera.translation();
@@ -54,9 +52,10 @@ FrameView make_frame_view(const GridGeometry& grid, const DepthFrame& frame,
   FrameView view{};
   view.width = camera.config.width_px;
   view.height = camera.config.height_px;
-  view.row_stride = round_up(view.width, kPadding) + kPadding;
+  view.row_stride = rays.row_stride;
   view.tile_stride = view.row_stride / kTile_px;
-  view.level_stride = view.tile_stride * (round_up(view.height, kTile_px) / kTile_px);
+  view.level_stride = view.tile_stride * ((view.height + kTile_px - 1) / kTile_px);
+  view.inverse_depth = rays.inverse_depth.data();
   view.focal_px[0] = narrow(camera.fx_px);
   view.focal_px[1] = narrow(camera.fy_px);
   view.center_px[0] = narrow(camera.cx_px - 0.5);
@@ -153,20 +152,16 @@ bool can_project(const GridGeometry& grid, const DepthFrame& frame, const Camera
 FrameInserter::FrameInserter(const GridGeometry& grid)
     : grid_(grid), marks_(grid.voxel_count() + kPadding) {}
 
-void FrameInserter::read_band(const FrameView& view, const FrameRays& rays, const DepthFrame& frame,
-                              const CameraModel& camera, int band, Worker& worker) {
-  const FrameKernels& kernels = frame_kernels();
-  PixelRow depths = make_pixel_row(camera);
+void FrameInserter::read_band(const FrameView& view, const FrameRays& rays, int band,
+                              Worker& worker) {
   std::vector<VoxelIndex>& voxels = ends_[band];
   voxels.clear();
   std::vector<float> least(view.row_stride, kNoRay);  // of each column
   for (int v = band * kTile_px; v < std::min((band + 1) * kTile_px, view.height); ++v) {
-    const std::ptrdiff_t first = std::ptrdiff_t{v} * view.width;
-    depths.depth_m = frame.depth_m.data() + first;
-    float* const row = inverse_depth_.data() + std::ptrdiff_t{v} * view.row_stride;
-    kernels.invert_row(depths, row, view.row_stride);
+    const float* const row = view.inverse_depth + std::ptrdiff_t{v} * view.row_stride;
     for (std::size_t u = 0; u < least.size(); ++u) least[u] = row[u] < least[u] ? row[u] : least[u];
-    const int count = kernels.ends_of_row(view, rays.row(first), worker.ends.data());
+    const EndRow ends = rays.row(std::ptrdiff_t{v} * view.width);
+    const int count = frame_kernels().ends_of_row(view, ends, worker.ends.data());
     voxels.insert(voxels.end(), worker.ends.begin(), worker.ends.begin() + count);
   }
   for (int t = 0; t < view.tile_stride; ++t) {
@@ -217,14 +212,12 @@ ScanUpdate FrameInserter::compute_update(const FrameRays& rays, const DepthFrame
                                          const CameraModel& camera, const OccupancyGrid& map,
                                          int threads) {
   GNBV_CHECK(map.geometry() == grid_, "another map than the one this inserter was made for");
-  FrameView view = make_frame_view(grid_, frame, camera);
+  FrameView view = make_frame_view(grid_, rays, frame, camera);
   const int bands = view.level_stride / view.tile_stride;
   const std::size_t pixels = static_cast<std::size_t>(view.width) * view.height;
-  GNBV_CHECK(frame.depth_m.size() == pixels && rays.kind.size() == pixels,
-             "{} depths and {} rays for {} pixels", frame.depth_m.size(), rays.kind.size(), pixels);
+  GNBV_CHECK(rays.kind.size() == pixels, "{} rays for {} pixels", rays.kind.size(), pixels);
   int levels = 1;
   while ((1 << levels) < std::max(view.tile_stride, bands)) ++levels;
-  inverse_depth_.resize(static_cast<std::size_t>(view.height) * view.row_stride);
   tile_windows_.resize(static_cast<std::size_t>(levels) * view.level_stride);
   ends_.resize(bands);
   workers_.resize(std::max(threads, 1));
@@ -236,7 +229,7 @@ ScanUpdate FrameInserter::compute_update(const FrameRays& rays, const DepthFrame
   const int workers = static_cast<int>(workers_.size());
   parallel_for(threads, workers_.size(), [&](std::size_t w) {
     for (int band = static_cast<int>(w); band < bands; band += workers) {
-      read_band(view, rays, frame, camera, band, workers_[w]);
+      read_band(view, rays, band, workers_[w]);
     }
   });
   widen_tiles(view, levels, tile_windows_.data());
@@ -246,7 +239,6 @@ ScanUpdate FrameInserter::compute_update(const FrameRays& rays, const DepthFrame
   set_reach(grid_, frame, camera, 1.0 / static_cast<double>(nearest_inverse), view);
   view.words = map.words().data();
   view.settled_word = map.settled_word();
-  view.inverse_depth = inverse_depth_.data();
   view.tile_windows = tile_windows_.data();
   for (const std::vector<VoxelIndex>& band : ends_) {
     for (const VoxelIndex v : band) marks_[v] = kEnd;

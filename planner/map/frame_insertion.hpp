@@ -41,14 +41,12 @@ class FrameInserter {
     std::vector<std::int32_t> doubts;  // (pixels + padding)
     std::vector<std::int32_t> ends;    // (width + padding)
   };
-  void read_band(const FrameView& view, const FrameRays& rays, const DepthFrame& frame,
-                 const CameraModel& camera, int band, Worker& worker);
+  void read_band(const FrameView& view, const FrameRays& rays, int band, Worker& worker);
   void walk_doubtful_rays(const FrameRays& rays);
   ScanUpdate collect(const FrameView& view);
 
   GridGeometry grid_;
   ZeroedArray<std::uint8_t> marks_;            // of voxels; untouched between calls
-  std::vector<float> inverse_depth_;           // (rows of whole tiles, row_stride)
   std::vector<float> tile_windows_;            // (levels, tile rows, tile_stride)
   std::vector<std::vector<VoxelIndex>> ends_;  // of each band of kTile_px rows
   std::vector<Worker> workers_;

@@ -16,21 +16,16 @@ namespace {
 
 // ---- pixels -------------------------------------------------------------------------------------
 
-inline Mask has_ray(const PixelRow& row, Floats depth_m) {
-  return less_equal(all(row.range_min_m), depth_m);
-}
-inline Mask has_return(const PixelRow& row, Floats depth_m) {
-  return less_equal(depth_m, all(row.range_max_compared_m));
-}
-
 void rays_of_row(const PixelRow& given) {
   const PixelRow row = given;  // no output can be part of it
   constexpr int kClears = static_cast<int>(PixelRay::clears);
   constexpr int kHits = static_cast<int>(PixelRay::hits);
   const Doubles infinite = all(static_cast<double>(__builtin_inff()));
+  const float range_max_m = static_cast<float>(row.range_max_m);
   for_lanes(row.width, [&](int u, int left) {
     const Floats depth_m = load(row.depth_m + u, left);
-    const Mask is_return = has_return(row, depth_m);
+    const Mask has_ray = less_equal(all(row.range_min_m), depth_m);
+    const Mask is_return = less_equal(depth_m, all(row.range_max_compared_m));
     const Doubles returned_m = widen(select(is_return, depth_m, all(__builtin_inff())));
     const Doubles along_m = select_less(returned_m, infinite, returned_m, all(row.range_max_m));
     Doubles p_m = along_m;
@@ -41,8 +36,9 @@ void rays_of_row(const PixelRow& given) {
     // p_m is the height now
     const Floats height = narrow(select_less(p_m, all(row.floor_z_m), all(-1.0), all(1.0)));
     const Ints says = select(is_return & less(all(0.0F), height), all(kHits), all(kClears));
-    store_bytes(reinterpret_cast<std::uint8_t*>(row.kind) + u,
-                select(has_ray(row, depth_m), says, all(0)), left);
+    store_bytes(reinterpret_cast<std::uint8_t*>(row.kind) + u, select(has_ray, says, all(0)), left);
+    const Floats inverse = all(1.0F) / select(is_return, depth_m, all(range_max_m));
+    store(row.inverse_depth + u, select(has_ray, inverse, all(__builtin_inff())));
   });
 }
 
@@ -73,17 +69,6 @@ int ends_of_row(const FrameView& view, const EndRow& given, std::int32_t* voxels
     recent[0] = recent[kLanes];
   });
   return count;
-}
-
-void invert_row(const PixelRow& row, float* inverse_depth, int padded_width) {
-  const Floats range_max_m = all(static_cast<float>(row.range_max_m));
-  const Floats none = all(__builtin_inff());
-  for_lanes(row.width, [&](int u, int left) {
-    const Floats depth_m = load(row.depth_m + u, left);
-    const Floats along_m = select(has_return(row, depth_m), depth_m, range_max_m);
-    store(inverse_depth + u, select(has_ray(row, depth_m), all(1.0F) / along_m, none));
-  });
-  for (int u = row.width; u < padded_width; ++u) inverse_depth[u] = __builtin_inff();
 }
 
 // ---- voxels -------------------------------------------------------------------------------------
@@ -288,10 +273,8 @@ void project_layer(const FrameView& view, int z, const FrameMarks& marks) {
 
 namespace GNBV_SIMD_LEVEL {
 
-const FrameKernels kFrameKernels = {.rays_of_row = rays_of_row,
-                                    .ends_of_row = ends_of_row,
-                                    .invert_row = invert_row,
-                                    .project_layer = project_layer};
+const FrameKernels kFrameKernels = {
+    .rays_of_row = rays_of_row, .ends_of_row = ends_of_row, .project_layer = project_layer};
 
 }  // namespace GNBV_SIMD_LEVEL
 }  // namespace gnbv

@@ -57,6 +57,7 @@ struct PixelRow {
   float range_min_m, range_max_compared_m;  // depths are compared as float32
   float* end_m[3];                          // (width), out
   PixelRay* kind;                           // (width), out
+  float* inverse_depth;  // (width + kPadding), out: 1 / depth of the end, infinite without a ray
 };
 
 /// A row of ray ends (width), world.
@@ -73,8 +74,7 @@ struct FrameView {
   // the map before the frame; a miss changes nothing of voxels with the settled word
   const VoxelWord* words;
   VoxelWord settled_word;
-  // 1 / depth of each pixel's end, infinite without a ray; rows are padded with infinity
-  const float* inverse_depth;
+  const float* inverse_depth;  // PixelRow's, padded with infinity to row_stride
   int width, height, row_stride;
   // tile_windows[level * level_stride + ty * tile_stride + tx]: the least inverse depth of the
   // 2^level x 2^level tiles from (tx, ty) on
@@ -110,8 +110,6 @@ struct FrameKernels {
   /// Writes the indices of the grid's voxels that hold the ends of hits to `voxels`
   /// (width + kPadding) and returns how many. Neighbours in the row list a voxel once.
   int (*ends_of_row)(const FrameView& view, const EndRow& row, std::int32_t* voxels);
-  /// Writes a row of FrameView::inverse_depth (padded_width).
-  void (*invert_row)(const PixelRow& row, float* inverse_depth, int padded_width);
   /// Frees the voxels of a layer (z from min_key) that a ray is sure to pass, but not settled ones.
   /// Of the others, asks for a walk of each ray that might pass one.
   void (*project_layer)(const FrameView& view, int layer, const FrameMarks& marks);

@@ -1,5 +1,8 @@
 #include "planner/map/scan_rays.hpp"
 
+#include <algorithm>
+#include <limits>
+
 #include "sim/core/error.hpp"
 
 namespace gnbv {
@@ -31,17 +34,9 @@ std::vector<Vec3f> surface_points_world_m(std::span<const ScanRay> rays) {
   return points;
 }
 
-PixelRow make_pixel_row(const CameraModel& camera) {
-  PixelRow row{};
-  row.width = camera.config.width_px;
-  row.range_max_m = camera.config.range_max_m;
-  row.range_min_m = static_cast<float>(camera.config.range_min_m);
-  row.range_max_compared_m = static_cast<float>(camera.config.range_max_m);
-  return row;
-}
-
 void compute_frame_rays(const DepthFrame& frame, const CameraModel& camera, double floor_z_m,
                         FrameRays& rays) {
+  constexpr float kNone = std::numeric_limits<float>::infinity();
   const int width = camera.config.width_px;
   const int height = camera.config.height_px;
   const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
@@ -51,7 +46,13 @@ void compute_frame_rays(const DepthFrame& frame, const CameraModel& camera, doub
   const Vec3 origin_m = frame.T_world_camera.translation();
   rays.origin_world_m = origin_m.cast<float>();
   rays.kind.resize(pixels);
-  PixelRow row = make_pixel_row(camera);
+  rays.row_stride = (width + kPadding - 1) / kPadding * kPadding + kPadding;
+  rays.inverse_depth.resize(static_cast<std::size_t>(rays.row_stride) * height);
+  PixelRow row{};
+  row.width = width;
+  row.range_max_m = camera.config.range_max_m;
+  row.range_min_m = static_cast<float>(camera.config.range_min_m);
+  row.range_max_compared_m = static_cast<float>(camera.config.range_max_m);
   row.floor_z_m = floor_z_m;
   Eigen::MatrixX3d across(width + kPadding, 3);  // world part of each column
   for (int a = 0; a < 3; ++a) {
@@ -69,7 +70,9 @@ void compute_frame_rays(const DepthFrame& frame, const CameraModel& camera, doub
     }
     row.depth_m = frame.depth_m.data() + first;
     row.kind = rays.kind.data() + first;
+    row.inverse_depth = rays.inverse_depth.data() + std::ptrdiff_t{v} * rays.row_stride;
     frame_kernels().rays_of_row(row);
+    std::fill(row.inverse_depth + width, row.inverse_depth + rays.row_stride, kNone);
   }
 }
 

@@ -33,6 +33,8 @@ struct FrameRays {
   Vec3f origin_world_m = Vec3f::Zero();
   std::array<std::vector<float>, 3> end_m;  // x, y and z, world
   std::vector<PixelRay> kind;
+  std::vector<float> inverse_depth;  // (height, row_stride), see PixelRow; padded with infinity
+  int row_stride = 0;
 
   Vec3f end_world_m(std::size_t i) const { return {end_m[0][i], end_m[1][i], end_m[2][i]}; }
   /// Those from pixel `first` on.
@@ -45,8 +47,5 @@ struct FrameRays {
 /// Fills `rays`, reusing its memory.
 void compute_frame_rays(const DepthFrame& frame, const CameraModel& camera, double floor_z_m,
                         FrameRays& rays);
-
-/// A row of the camera's pixels with its ranges, the rest empty.
-PixelRow make_pixel_row(const CameraModel& camera);
 
 }  // namespace gnbv
