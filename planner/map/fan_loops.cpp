@@ -10,8 +10,8 @@ namespace gnbv {
 namespace {
 
 constexpr hn::Rebind<std::int64_t, decltype(kDoubleTag)> kPlaceTag;
-constexpr std::size_t kRays = kLanes;         // that are walked side by side,
-constexpr std::size_t kHalfRays = kRays / 2;  // in two vectors
+constexpr std::size_t kRays = kLanes;         // walked side by side, in two vectors
+constexpr std::size_t kHalfRays = kRays / 2;  // of so many
 static_assert(kFanBundle % kRays == 0);
 
 struct HalfSide {
@@ -94,7 +94,7 @@ std::size_t walk_side(const FanRays& rays, std::size_t first, std::int32_t resti
       every &= mark;
       some |= mark;
     }
-    if (every != 0) continue;  // near the sensor mostly
+    if (every != 0) continue;  // all are listed, as most are near the sensor
     if ((some & kFanFrame) != 0) {
       stop_at_frame(places, marks, side);
       places.set(side, resting);

@@ -37,7 +37,7 @@ FanWalker::FanWalker(const GridGeometry& grid) : grid_(grid), framed_(grid.grown
       std::fill_n(marks_.data() + framed_.index_of({min[0], y, z}), size[0], kFanUnlisted);
     }
   }
-  marks_.back() = kFanListed;  // where nothing is left to walk
+  marks_.back() = kFanListed;  // the resting place
 }
 
 VoxelIndex FanWalker::voxel_at(Place place) const {
@@ -45,7 +45,7 @@ VoxelIndex FanWalker::voxel_at(Place place) const {
   const double middle = place + 0.5;
   const auto layer = static_cast<Place>(middle * layers_per_place_);
   const auto row = static_cast<Place>(middle * rows_per_place_);
-  // a row has two places more than voxels, a layer two rows more, and the frame's first ones
+  // without the frame: two places a row, two rows a layer, and those before the first voxel
   const Key& size = grid_.size();
   return static_cast<VoxelIndex>(place - 2 * row - (2 * layer + size[1] + 1) * size[0] - 1);
 }
@@ -81,7 +81,7 @@ ScanUpdate FanWalker::compute_update(const Vec3f& origin_world_m, std::span<cons
   const RayOrigin origin = make_ray_origin(grid_, origin_world_m);
   const auto resting = static_cast<Place>(marks_.size() - 1);
   while (!rays.empty()) {
-    // each ray lists its start and a place a step; those that go no further share the sensor's
+    // a ray lists its start and a place a step; those that go no further share the sensor's place
     const std::size_t room = listed_count_ + (kFanBundle + 1) * steps_max_;
     if (listed_.size() < room) listed_.resize(2 * room);
     std::size_t count = 0;

@@ -111,7 +111,7 @@ std::vector<ProfilePoint> oriented(std::span<const Vec3f> profile_world_m,
   for (const Vec3f& p : profile_world_m) {
     if (p.allFinite()) out.push_back({p, outward(grid, p)});
   }
-  // each call of the module builds an index of all points: few, large pieces
+  // a call of the module builds an index of all points, so the pieces are few and large
   const std::size_t piece = out.size() / std::max(threads, 1) + 1;
   parallel_for_chunks(threads, out.size(), piece, [&](std::size_t begin, std::size_t end) {
     symmetry_module().estimate_normals(out, begin, end);
@@ -147,8 +147,7 @@ bool is_upright(const MirrorPlane& plane) {
   return std::fabs(plane.normal_world.z()) <= std::sin(kMaxTilt_rad);
 }
 
-/// For each pair of keypoints the plane in its middle, if the normals of the two mirror each other
-/// in it, too; of the pairs, clusters.
+/// Clusters of the planes in the middle of pairs of keypoints whose normals mirror each other, too.
 std::vector<MirrorPlane> rough_planes(std::span<const ProfilePoint> profile, const Extent& extent) {
   std::vector<KeypointPair> pairs;
   symmetry_module().match_keypoints(profile, pairs);

@@ -49,9 +49,9 @@ inline AxisSteps axis_steps(const RayFanFrame& f, int axis, Floats direction, Do
   return steps;
 }
 
-/// Where the rays of a bundle are. Those that are `moving` are inside the grid and their range, and
-/// those that are `seeing` have met nothing occupied either. Rays that see no more move on, so that
-/// no step waits for what the map says of the step before.
+/// Where the rays of a bundle are. `moving` rays are inside the grid and their range; `seeing` rays
+/// have met nothing occupied either. Rays that no longer see move on, so that a step need not wait
+/// for what the map says of the step before.
 struct Bundle {
   Ints t_next[3];    // when the ray crosses the next border of each axis
   Ints t_voxel[3];   // and how long it takes from there to the one after

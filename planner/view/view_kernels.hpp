@@ -31,8 +31,8 @@ struct RayEnds {
   std::size_t count;
 };
 
-/// What the kernels read and write. `marks` has kMarkPadding bytes beyond the voxels, and is zero
-/// between views. Lists have room for as many entries more than they can get.
+/// What the kernels read and write. `marks` has kMarkPadding bytes beyond the voxels and is zero
+/// between views. Lists have room for kMarkPadding entries more than they can get.
 constexpr std::size_t kMarkPadding = 128;
 constexpr std::uint8_t kMarked = 1;
 struct ViewMaps {
@@ -47,7 +47,7 @@ struct ViewMaps {
   const std::uint8_t* shadow_steps;  // of each voxel, ShadowBand's; null: no shadow is counted
 };
 
-/// Sums over the rays, in integers: the order of the rays leaves no trace.
+/// Sums over the rays, in integers: they do not depend on the order of the rays.
 struct RaySums {
   std::int64_t visits;  // voxels, once per ray
   std::int64_t known;   // sum over visits of ln 2 - entropy, 2^-24 nat

@@ -119,8 +119,8 @@ inline void measure(const ViewMaps& maps, const Bundle& b, Ints word, Ints known
   m.visibility = hn::Max(m.visibility * factor, all(kLeastVisibility));
 }
 
-/// Adds the sums of a bundle's rays. No term is negative, and each ray's is rounded, so that the
-/// order of the rays leaves no trace.
+/// Adds the sums of a bundle's rays. Each ray's term is rounded to an integer, so that no sum
+/// depends on the order of the rays.
 void add_rays(const RayMetrics& m, const LongSum& known, RaySums& sums) {
   constexpr float kCubeShare = 0x1p-57F;  // times are 2^-29 of the ray, shares 2^-30
   sums.rays_occupied += count(m.hit);
