@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "planner/map/scan_rays.hpp"
 #include "planner/map/occupancy_grid.hpp"
+#include "planner/map/scan_rays.hpp"
 
 namespace gnbv {
 

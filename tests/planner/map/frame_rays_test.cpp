@@ -1,10 +1,9 @@
-#include "planner/map/scan_rays.hpp"
-
 #include <gtest/gtest.h>
 
 #include <bit>
 
 #include "bench/reference/depth_rays.hpp"
+#include "planner/map/scan_rays.hpp"
 #include "sim/core/error.hpp"
 #include "tests/planner/map/frames.hpp"
 #include "tests/support/at_simd_level.hpp"

@@ -1,7 +1,6 @@
-#include "planner/map/grid_geometry.hpp"
-
 #include <gtest/gtest.h>
 
+#include "planner/map/grid_geometry.hpp"
 #include "planner/planners.hpp"
 
 namespace gnbv {

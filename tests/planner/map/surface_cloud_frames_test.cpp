@@ -39,7 +39,7 @@ FrameRays random_frame(Random& random, const Box3& box_m, double leaf_m, std::si
       p_m[a] = random.chance(0.3) ? face_m : std::nextafter(face_m, to_m);
     }
     if (random.chance(0.01)) p_m[a] = std::numeric_limits<float>::quiet_NaN();
-    for (int axis = 0; axis < 3; ++axis) frame.end_m[axis].push_back(p_m[axis]);
+    for (int column = 0; column < 3; ++column) frame.end_m[column].push_back(p_m[column]);
     frame.kind.push_back(random.chance(0.7)   ? PixelRay::hits
                          : random.chance(0.5) ? PixelRay::clears
                                               : PixelRay::none);
