@@ -11,9 +11,8 @@ namespace gnbv {
 namespace {
 
 constexpr int kMemoBits = 12;
-constexpr double kTotalUnits = 0x1p32;  // per nat
 
-std::int64_t total_units(double nat) { return std::llround(nat * kTotalUnits); }
+std::int64_t total_units(double nat) { return std::llround(nat * 0x1p32); }
 std::uint32_t word_units(double nat) {
   return static_cast<std::uint32_t>(std::llround(nat / kEntropyUnit_nat));
 }
@@ -65,10 +64,6 @@ OccupancyGrid::OccupancyGrid(const OccupancyConfig& config, const Box3& bounds_m
 VoxelState OccupancyGrid::state_at(const Vec3& p_world_m) const {
   const Key key = geometry_.key_of(p_world_m);
   return geometry_.contains(key) ? state(geometry_.index_of(key)) : VoxelState::unknown;
-}
-
-double OccupancyGrid::total_entropy_nat() const {
-  return static_cast<double>(total_entropy_) / kTotalUnits;
 }
 
 double OccupancyGrid::entropy_nat_of(float log_odds) const {

@@ -54,7 +54,7 @@ class OccupancyGrid {
   }
   /// Sum of entropy_nat over all voxels of the workspace, in units of 2^-32 nat, so that no order
   /// of updates changes it.
-  double total_entropy_nat() const;
+  double total_entropy_nat() const { return static_cast<double>(total_entropy_) * 0x1p-32; }
   std::size_t occupied_count() const { return occupied_count_; }
 
   /// Adds the log-odds of a miss to each free voxel and of a hit to each occupied one, clamped.

@@ -98,24 +98,19 @@ ScanUpdate FanWalker::compute_update(const Vec3f& origin_world_m, std::span<cons
   return update;
 }
 
-bool FanWalker::enter(RaySteps& ray) const {
-  const Key& min = grid_.min_key();
-  const Key& size = grid_.size();
-  const auto misses_along = [&](std::size_t a) {
-    return ray.key[a] < min[a] ? ray.step[a] <= 0
-                               : ray.key[a] >= min[a] + size[a] && ray.step[a] >= 0;
-  };
-  while (!grid_.contains(ray.key)) {
-    if (misses_along(0) || misses_along(1) || misses_along(2) || !ray.advance()) return false;
-  }
-  return true;
-}
-
 bool FanWalker::start_ray(const RayOrigin& origin, const Vec3f& end_m, std::size_t which) {
   RaySteps ray = make_ray_steps(grid_, origin, end_m);
   if (ray.key == ray.key_end) return false;
   const bool moves = ray.length_m > 0.0;
-  if (!grid_.contains(ray.key) && (!moves || !enter(ray))) return false;
+  const auto misses_along = [&](std::size_t a) {
+    const std::int32_t min = grid_.min_key()[a];
+    return ray.key[a] < min ? ray.step[a] <= 0
+                            : ray.key[a] >= min + grid_.size()[a] && ray.step[a] >= 0;
+  };
+  while (!grid_.contains(ray.key)) {  // a sensor outside
+    const bool misses = misses_along(0) || misses_along(1) || misses_along(2);
+    if (!moves || misses || !ray.advance()) return false;
+  }
   list(ray.key);
   if (!moves) return false;
   for (std::size_t a = 0; a < 3; ++a) {
@@ -130,10 +125,6 @@ bool FanWalker::start_ray(const RayOrigin& origin, const Vec3f& end_m, std::size
   return true;
 }
 
-void ScanInserter::need_walkers(int threads) {
-  while (static_cast<int>(walkers_.size()) < std::max(threads, 1)) walkers_.emplace_back(grid_);
-}
-
 ScanUpdate ScanInserter::compute_update(const FrameRays& rays, const DepthFrame& frame,
                                         const CameraModel& camera, const OccupancyGrid& map,
                                         int threads) {
@@ -145,7 +136,7 @@ ScanUpdate ScanInserter::compute_update(const FrameRays& rays, const DepthFrame&
     if (rays.kind[i] == PixelRay::none) continue;
     each.push_back({rays.end_world_m(i), rays.kind[i] == PixelRay::hits});
   }
-  need_walkers(1);
+  if (walkers_.empty()) walkers_.emplace_back(grid_);
   ScanUpdate update = walkers_[0].compute_update(rays.origin_world_m, each);
   std::ranges::sort(update.free);
   std::ranges::sort(update.occupied);
@@ -155,7 +146,7 @@ ScanUpdate ScanInserter::compute_update(const FrameRays& rays, const DepthFrame&
 void ScanInserter::insert_scans(OccupancyGrid& grid, std::span<const LidarScan> scans,
                                 std::span<const LidarModel> lidars, double floor_z_m, int threads) {
   GNBV_CHECK(grid.geometry() == grid_, "another grid than the one this inserter was made for");
-  need_walkers(threads);
+  while (std::ssize(walkers_) < std::max(threads, 1)) walkers_.emplace_back(grid_);
   std::vector<ScanUpdate> walked(kScansPerBatch), updates(kScansPerBatch);
   std::span<ScanUpdate> to_apply;  // while the next batch is walked
   while (!scans.empty() || !to_apply.empty()) {

@@ -31,10 +31,8 @@ class FanWalker {
   void list(const Key& key);
   /// Takes those listed from number `first` on, and their marks, away.
   void take(std::size_t first, std::vector<VoxelIndex>& voxels);
-  /// Takes a ray from a voxel outside the grid to its first one inside; false when it ends before,
-  /// or never comes in.
-  bool enter(RaySteps& ray) const;
-  /// Lists where the ray begins and puts it into the bundle; false when it goes no further.
+  /// Lists the ray's first voxel in the grid and puts the ray there into the bundle; false when it
+  /// goes no further.
   bool start_ray(const RayOrigin& origin, const Vec3f& end_m, std::size_t which);
 
   GridGeometry grid_, framed_;
@@ -66,8 +64,6 @@ class ScanInserter {
                     std::span<const LidarModel> lidars, double floor_z_m, int threads);
 
  private:
-  void need_walkers(int threads);
-
   GridGeometry grid_;
   FrameInserter frames_;
   std::vector<FanWalker> walkers_;  // one a thread

@@ -68,11 +68,9 @@ struct VoxelSums {
   std::size_t occupied_count;
 };
 
-/// Voxels first + [0, length), in rows and planes of the grid.
+/// So many voxels along x, y and z from the first one on, and how far a step along an axis is.
 struct VoxelBox {
-  std::size_t first, length;
-  std::size_t rows, row_stride;
-  std::size_t planes, plane_stride;
+  std::size_t first, count[3], stride[3];
 };
 
 struct ViewKernels {

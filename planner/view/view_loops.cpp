@@ -216,10 +216,10 @@ inline bool is_blank(const std::uint8_t* marks) {
 void tally(const ViewMaps& maps, const VoxelBox& box, VoxelSums& sums) {
   LongSum known_sum;
   int chunks = 0;
-  for (std::size_t row = 0; row < box.rows * box.planes; ++row) {
+  for (std::size_t row = 0; row < box.count[1] * box.count[2]; ++row) {
     const std::size_t first =
-        box.first + row % box.rows * box.row_stride + row / box.rows * box.plane_stride;
-    for (std::size_t at = first; at < first + box.length; at += kTallyChunk) {
+        box.first + row % box.count[1] * box.stride[1] + row / box.count[1] * box.stride[2];
+    for (std::size_t at = first; at < first + box.count[0]; at += kTallyChunk) {
       if (is_blank(maps.marks + at)) continue;
       for (std::size_t group = at; group < at + kTallyChunk; group += kLanes) {
         const Mask marked = equal_bytes(maps.marks + group, kMarked);

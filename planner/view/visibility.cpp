@@ -54,16 +54,15 @@ VoxelBox box_of(const GridGeometry& grid, const ViewRays& rays, const Isometry& 
   }
   const KeyBox keys = grid.keys_in(box_m, 1);  // a voxel more for what float32 rounds
   if (keys.is_empty()) return {};
-  const auto count = [&](int a) {
-    return static_cast<std::size_t>(keys.high[a] - keys.low[a] + 1);
-  };
-  const std::size_t row = grid.size()[0];
-  return {.first = grid.index_of(keys.low),
-          .length = count(0),
-          .rows = count(1),
-          .row_stride = row,
-          .planes = count(2),
-          .plane_stride = row * grid.size()[1]};
+  VoxelBox box{};
+  box.first = grid.index_of(keys.low);
+  std::size_t stride = 1;
+  for (int a = 0; a < 3; ++a) {
+    box.count[a] = keys.high[a] - keys.low[a] + 1;
+    box.stride[a] = stride;
+    stride *= grid.size()[a];
+  }
+  return box;
 }
 
 double entropy_nat(std::int64_t voxels, std::int64_t known) {
