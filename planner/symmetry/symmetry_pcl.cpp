@@ -206,7 +206,7 @@ void refine_plane(std::span<const ProfilePoint> profile, MirrorPlane& plane) {
   if (profile.size() < kNeighbours) return;
   const Cloud::Ptr cloud = thinned(with_normals(profile));
   if (cloud->size() < kNeighbours) return;
-  Eigen::Vector4d center_world_m;
+  Eigen::Vector4d center_world_m = Eigen::Vector4d::Zero();
   pcl::compute3DCentroid(*cloud, center_world_m);
   for (const double reach_m : {1.0, 0.4}) {  // released: 1 m
     plane = aligned(cloud, plane, reach_m, center_world_m.head<3>());
