@@ -10,7 +10,7 @@
 #include "bench/limits/lidar_sight.hpp"
 #include "bench/limits/sight_search.hpp"
 #include "bench/score/surface_pieces.hpp"
-#include "planner/map/leaf_filter.hpp"
+#include "planner/map/surface_cloud.hpp"
 #include "planner/motion/config.hpp"
 #include "sim/core/parallel.hpp"
 

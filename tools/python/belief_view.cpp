@@ -10,7 +10,7 @@
 #include "planner/guided/view_sampling.hpp"
 #include "planner/map/frontiers.hpp"
 #include "planner/motion/paths.hpp"
-#include "planner/view/view_fields.hpp"
+#include "planner/view/view_stats.hpp"
 #include "sim/core/parallel.hpp"
 
 namespace gnbv {
