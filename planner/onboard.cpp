@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "planner/core/belief_file.hpp"
+#include "planner/core/belief.hpp"
 #include "planner/planners.hpp"
 #include "planner/symmetry/symmetry.hpp"
 #include "sim/core/error.hpp"

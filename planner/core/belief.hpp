@@ -1,10 +1,11 @@
 // What every planner works on: what it is given once (the model), what is believed about the world,
-// how measurements are added to that, and memory to work in. Nothing here ever sees the mesh, the
-// world or the vehicle.
+// how measurements are added to that, how a file keeps it, and memory to work in. Nothing here ever
+// sees the mesh, the world or the vehicle.
 #pragma once
 
 #include <cstdint>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <span>
@@ -95,5 +96,18 @@ void integrate_profile(const PlannerModel& model, std::span<const LidarScan> sca
 /// Adds the frames of one view, camera by camera.
 void integrate_view(const PlannerModel& model, std::span<const DepthFrame> frames, Scratch& scratch,
                     Belief& belief);
+
+// profile.map: what was believed after the profile, so that another mission can begin there.
+
+/// Writes all of the belief, exactly. Little-endian: the line "gnbv belief 1", the float64 settings
+/// it was made with, has_depth_return, the cloud's points in their order as float32 triples, the
+/// voxels as runs of equal ones, the shadow band, and the SHA-256 of it all. Whole or not at all,
+/// by rename. Throws BadInput when it cannot be written.
+void write_belief(const Belief& belief, const std::filesystem::path& path);
+
+/// The belief of the file, which goes on as the written one would have, bit by bit. Throws BadInput
+/// naming the file when it cannot be read, is no belief, is damaged or cut short, or is that of
+/// another map than the model's.
+Belief read_belief(const std::filesystem::path& path, const PlannerModel& model);
 
 }  // namespace gnbv

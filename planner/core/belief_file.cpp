@@ -1,5 +1,4 @@
-#include "planner/core/belief_file.hpp"
-
+// A belief as a file; belief.hpp says what stands in it.
 #include <array>
 #include <bit>
 #include <cstring>
@@ -8,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "planner/core/belief.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/core/sha256.hpp"

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "planner/core/belief_file.hpp"
+#include "planner/core/belief.hpp"
 #include "planner/guided/utility.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"

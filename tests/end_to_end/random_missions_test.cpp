@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "planner/core/belief_file.hpp"
+#include "planner/core/belief.hpp"
 #include "planner/guided/utility.hpp"
 #include "scenarios/load.hpp"
 #include "tests/support/random_structures.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "planner/core/belief_file.hpp"
+#include "planner/core/belief.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/sha256.hpp"
 #include "tests/fuzz/written.hpp"

@@ -1,5 +1,4 @@
 // A belief that was saved and loaded is the one that was not, and nothing else is ever loaded.
-#include "planner/core/belief_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

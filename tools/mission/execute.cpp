@@ -4,7 +4,7 @@
 #include <thread>
 
 #include "bench/limits/oracle.hpp"
-#include "planner/core/belief_file.hpp"
+#include "planner/core/belief.hpp"
 #include "planner/map/grid_geometry.hpp"
 #include "planner/planners.hpp"
 #include "planner/symmetry/symmetry.hpp"

@@ -1,5 +1,5 @@
 // The first stage of a mission: the profile, and what is made of it before the first view.
-#include "planner/core/belief_file.hpp"
+#include "planner/core/belief.hpp"
 #include "planner/motion/free_space.hpp"
 #include "tools/mission/mission_state.hpp"
 #include "tools/mission/sensing.hpp"

@@ -2,7 +2,7 @@
 
 #include <cerrno>
 
-#include "planner/core/belief_file.hpp"
+#include "planner/core/belief.hpp"
 #include "planner/map/octomap_io.hpp"
 #include "planner/planners.hpp"
 #include "scenarios/load.hpp"
