@@ -44,7 +44,7 @@ bool can_run(NavState mode, double offboard_silence_s, const CommanderParameters
 /// The mode of an armed vehicle that was told `intention` (failsafe.cpp, framework.cpp); nothing
 /// when it disarms. It follows the intention again as soon as that can run. Until then it holds: of
 /// PX4's fallbacks (position, altitude, stabilized, hold, ...) those before hold need a remote
-/// control. A lost offboard stream has a fallback of its own, OffboardLossAction.
+/// control. A lost offboard stream has a fallback of its own, OffboardLoss.
 std::optional<NavState> choose_mode(NavState intention, double offboard_silence_s,
                                     const CommanderParameters& parameters);
 

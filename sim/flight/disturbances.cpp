@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
 
 namespace gnbv {
@@ -150,18 +149,6 @@ void StateEstimator::drift(const VehicleState& truth) {
   p_last_world_m_ = p_world_m;
 }
 
-VehicleState StateEstimator::with_error(const VehicleState& truth) const {
-  VehicleState estimate = truth;
-  estimate.T_world_body.linear() =
-      Eigen::AngleAxisd(error_[3], Vec3::UnitZ()) * truth.T_world_body.linear();
-  estimate.T_world_body.translation() += error_.head<3>();
-  estimate.v_world_m_s += error_rate_per_s_.head<3>();
-  if (config_.outages.empty()) return estimate;
-  estimate.T_world_body.translation() += walk_m_;
-  if (!is_in_outage()) estimate.v_world_m_s -= walk_m_ / kOutageFade_s;  // it fades
-  return estimate;
-}
-
 VehicleState StateEstimator::with_jitter(const VehicleState& truth) const {
   const Vec4 first = normals();
   const Vec4 more = normals(4);
@@ -175,19 +162,19 @@ VehicleState StateEstimator::with_jitter(const VehicleState& truth) const {
 
 VehicleState StateEstimator::step(const VehicleState& truth) {
   ++tick_;  // the constructor has used the numbers of tick 0
-  switch (config_.model) {
-    case EstimateModel::none:
-      return truth;
-    case EstimateModel::mocap:
-      return with_jitter(truth);
-    case EstimateModel::gnss:
-      wander();
-      return with_error(truth);
-    case EstimateModel::vio:
-      drift(truth);
-      return with_error(truth);
-  }
-  throw BrokenInvariant("estimate model outside its enumeration");
+  if (config_.model == EstimateModel::none) return truth;
+  if (config_.model == EstimateModel::mocap) return with_jitter(truth);
+  if (config_.model == EstimateModel::gnss) wander();
+  if (config_.model == EstimateModel::vio) drift(truth);
+  VehicleState estimate = truth;
+  estimate.T_world_body.linear() =
+      Eigen::AngleAxisd(error_[3], Vec3::UnitZ()) * truth.T_world_body.linear();
+  estimate.T_world_body.translation() += error_.head<3>();
+  estimate.v_world_m_s += error_rate_per_s_.head<3>();
+  if (config_.outages.empty()) return estimate;
+  estimate.T_world_body.translation() += walk_m_;
+  if (!is_in_outage()) estimate.v_world_m_s -= walk_m_ / kOutageFade_s;  // it fades
+  return estimate;
 }
 
 }  // namespace gnbv

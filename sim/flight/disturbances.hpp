@@ -89,7 +89,6 @@ class StateEstimator {
   bool is_in_outage() const;
   void wander();
   void drift(const VehicleState& truth);
-  VehicleState with_error(const VehicleState& truth) const;
   VehicleState with_jitter(const VehicleState& truth) const;
 
   EstimateConfig config_;

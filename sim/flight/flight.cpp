@@ -1,7 +1,6 @@
 #include "sim/flight/flight.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -14,25 +13,23 @@
 namespace gnbv {
 namespace {
 
-/// Of the face at (x, y), if it is there.
-std::optional<double> height_m(const std::array<Vec3, 3>& corners_m, const Vec3& at_m) {
-  const auto& [a, b, c] = corners_m;
-  Eigen::Matrix2d edges;
-  edges << (b - a).head<2>(), (c - a).head<2>();
-  if (edges.determinant() == 0.0) return std::nullopt;  // upright
-  const Eigen::Vector2d s = edges.inverse() * (at_m - a).head<2>();
-  if (!(s.minCoeff() >= 0.0 && s.sum() <= 1.0)) return std::nullopt;
-  return a.z() + s[0] * (b - a).z() + s[1] * (c - a).z();
-}
-
 /// Of the highest terrain at (x, y), else of the plane ground; -infinity where there is neither.
 double ground_height_m(const World& world, const Vec3& at_m) {
   double highest_m = -std::numeric_limits<double>::infinity();
-  const std::vector<Vec3f>& p_m = world.terrain.vertices_m;
-  for (const auto& [a, b, c] : world.terrain.faces) {
-    const auto z_m =
-        height_m({p_m[a].cast<double>(), p_m[b].cast<double>(), p_m[c].cast<double>()}, at_m);
-    highest_m = std::max(highest_m, z_m.value_or(highest_m));
+  for (const auto& face : world.terrain.faces) {
+    const auto corner = [&](std::size_t i) -> Vec3 {
+      return world.terrain.vertices_m[face[i]].cast<double>();
+    };
+    const Vec3 a = corner(0);
+    const Vec3 ab = corner(1) - a;
+    const Vec3 ac = corner(2) - a;
+    Eigen::Matrix2d edges;
+    edges << ab.head<2>(), ac.head<2>();
+    if (edges.determinant() == 0.0) continue;  // upright
+    const Eigen::Vector2d s = edges.inverse() * (at_m - a).head<2>();
+    if (s.minCoeff() >= 0.0 && s.sum() <= 1.0) {
+      highest_m = std::max(highest_m, a.z() + s[0] * ab.z() + s[1] * ac.z());
+    }
   }
   return std::isinf(highest_m) && world.has_ground ? 0.0 : highest_m;
 }

@@ -151,17 +151,6 @@ void Px4::disarm() {
   update_mode();
 }
 
-void Px4::disarm_when_due() {
-  if (!is_armed_) return;
-  has_flown_ = has_flown_ || !land_.is_landed;
-  landed_ticks_ = land_.is_landed ? landed_ticks_ + 1 : 0;
-  const CommanderParameters& commander = parameters_.commander;
-  const double wait_s =
-      has_flown_ ? commander.disarm_after_landing_s : commander.disarm_never_flown_s;
-  if (!land_.is_landed || wait_s <= 0.0) return;
-  if (static_cast<double>(landed_ticks_) * kTick_s >= wait_s) disarm();
-}
-
 /// The mode that runs follows intention and health.
 void Px4::update_mode() {
   if (nav_state_ == NavState::terminate) return;  // never left
@@ -203,8 +192,7 @@ RotorSpeeds Px4::step(const VehicleState& estimate) {
   estimate_ = estimate;
   update_mode();
   if (tick_ % kTicksPerPositionLoop == 0) run_position_loop();
-  detect_landing();
-  disarm_when_due();
+  follow_landing();
   ++tick_;
   omega_setpoint_body_rad_s_ = attitude_control(
       parameters_, Eigen::Quaterniond(estimate.T_world_body.linear()), attitude_setpoint_);
@@ -271,7 +259,9 @@ void Px4::run_position_loop() {
   attitude_setpoint_ = position_control(narrowed, airframe_, position_, estimate_, setpoint_);
 }
 
-void Px4::detect_landing() {
+/// Detects takeoff and landing, and disarms when it is due.
+void Px4::follow_landing() {
+  const CommanderParameters& commander = parameters_.commander;
   const LandEvidence evidence{
       .is_armed = is_armed_,
       .is_told_to_descend = setpoint_.v_world_m_s.z() < -kDescentSpeed_m_s ||  // NaN: no
@@ -280,9 +270,17 @@ void Px4::detect_landing() {
       .thrust_min = parameters_.thrust_min,
       .hover_thrust = hover_command(airframe_)};
   const bool was_landed = land_.is_landed;
-  land_ = next(land_, parameters_.commander, evidence, estimate_, kTick_s);
-  if (!is_armed_ || was_landed == land_.is_landed) return;
-  say(kSeverityInfo, land_.is_landed ? "Landing detected" : "Takeoff detected");
+  land_ = next(land_, commander, evidence, estimate_, kTick_s);
+  if (!is_armed_) return;
+  if (was_landed != land_.is_landed) {
+    say(kSeverityInfo, land_.is_landed ? "Landing detected" : "Takeoff detected");
+  }
+  has_flown_ = has_flown_ || !land_.is_landed;
+  landed_ticks_ = land_.is_landed ? landed_ticks_ + 1 : 0;
+  const double wait_s =
+      has_flown_ ? commander.disarm_after_landing_s : commander.disarm_never_flown_s;
+  if (!land_.is_landed || wait_s <= 0.0) return;
+  if (static_cast<double>(landed_ticks_) * kTick_s >= wait_s) disarm();
 }
 
 }  // namespace gnbv

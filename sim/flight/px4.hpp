@@ -16,13 +16,8 @@
 
 namespace gnbv {
 
-/// MAV_RESULT.
-enum class Ack : std::uint8_t {
-  accepted = 0,
-  temporarily_rejected = 1,
-  denied = 2,
-  unsupported = 3
-};
+/// MAV_RESULT, from 0 on.
+enum class Ack : std::uint8_t { accepted, temporarily_rejected, denied, unsupported };
 
 /// A MAV_CMD with its seven parameters, as COMMAND_LONG carries them. Known: 400
 /// COMPONENT_ARM_DISARM (21196 in param2 forces), 176 DO_SET_MODE (param2 main mode, param3 sub
@@ -90,12 +85,11 @@ class Px4 {
   void say(int severity, std::string text);
   Ack reject(std::string text);
   void disarm();
-  void disarm_when_due();
   void update_mode();
   void enter(NavState mode);
   bool wants_takeoff() const;
   void run_position_loop();
-  void detect_landing();
+  void follow_landing();
 
   AutopilotParameters parameters_;
   AirframeParameters airframe_;

@@ -57,23 +57,14 @@ struct AirframeParameters {
 };
 
 /// COM_OBL_RC_ACT, in PX4's order: what a vehicle does when its offboard stream is lost.
-enum class OffboardLossAction {
-  position,
-  altitude,
-  stabilized,
-  rtl,
-  land,
-  hold,
-  terminate,
-  disarm
-};
+enum class OffboardLoss { position, altitude, stabilized, rtl, land, hold, terminate, disarm };
 
 /// Of PX4's commander, takeoff, land detector and Auto modes.
 struct CommanderParameters {
   double offboard_loss_s = 1.0;       // COM_OF_LOSS_T: the stream is lost after this silence
   double offboard_loss_hold_s = 0.0;  // COM_FAIL_ACT_T: and this long in HOLD before the action.
                                       // Today's PX4 acts at once; PX4 1.9 held for COM_OF_LOSS_T
-  OffboardLossAction offboard_loss_action = OffboardLossAction::position;  // COM_OBL_RC_ACT
+  OffboardLoss offboard_loss_action = OffboardLoss::position;  // COM_OBL_RC_ACT
 
   double disarm_after_landing_s = 2.0;               // COM_DISARM_LAND; 0 or less: never
   double disarm_never_flown_s = 10.0;                // COM_DISARM_PRFLT; 0 or less: never
@@ -162,7 +153,7 @@ inline bool set_px4_value(CommanderParameters& commander, const Px4Parameter& pa
                           double value) {
   if (!(value >= parameter.min && value <= parameter.max)) return false;
   if (parameter.value == nullptr) {
-    commander.offboard_loss_action = static_cast<OffboardLossAction>(static_cast<int>(value));
+    commander.offboard_loss_action = static_cast<OffboardLoss>(static_cast<int>(value));
   } else {
     commander.*parameter.value = parameter.is_angle ? deg_to_rad(value) : value;
   }

@@ -84,22 +84,19 @@ struct Endpoint::Handler {
 
   void obey(const Px4Command& command) const {
     ++endpoint.counts_.commands;
-    const std::optional<Ack> about_messages = obey_about_messages(command);
-    const Ack ack = about_messages ? *about_messages : vehicle.px4().command(command);
     reply(CommandAck{.command = command.id,
-                     .result = static_cast<std::uint8_t>(ack),
+                     .result = static_cast<std::uint8_t>(result_of(command)),
                      .target_system = frame.system_id,
                      .target_component = frame.component_id});
   }
 
-  /// nullopt for the commands that are about flight.
-  std::optional<Ack> obey_about_messages(const Px4Command& command) const {
+  Ack result_of(const Px4Command& command) const {
+    const auto ack_if = [](bool is_known) { return is_known ? Ack::accepted : Ack::unsupported; };
     const std::uint32_t asked = message_id_of(command.param[0]);
     const auto say_once = [&](std::uint32_t id) {
-      std::optional<Frame> message = said_of(id, endpoint.report_of(vehicle));
-      if (!message) return Ack::unsupported;
-      endpoint.send(std::move(*message));
-      return Ack::accepted;
+      const std::optional<Frame> message = said_of(id, endpoint.report_of(vehicle));
+      if (message) endpoint.send(*message);
+      return ack_if(message.has_value());
     };
     switch (command.id) {
       case kRequestMessage:
@@ -109,15 +106,14 @@ struct Endpoint::Handler {
       case kRequestAutopilotCapabilities:
         return say_once(AutopilotVersion::kInfo.id);
       case kSetMessageInterval:
-        return endpoint.streams_.set_interval_us(asked, command.param[1]) ? Ack::accepted
-                                                                          : Ack::unsupported;
+        return ack_if(endpoint.streams_.set_interval_us(asked, command.param[1]));
       case kGetMessageInterval: {
         const std::optional<std::int32_t> interval_us = endpoint.streams_.interval_us(asked);
         reply(MessageInterval{interval_us.value_or(0), static_cast<std::uint16_t>(asked)});
-        return interval_us ? Ack::accepted : Ack::unsupported;
+        return ack_if(interval_us.has_value());
       }
-      default:
-        return std::nullopt;
+      default:  // about flight
+        return vehicle.px4().command(command);
     }
   }
 

@@ -176,7 +176,7 @@ TEST(Px4Modes, TerminationStopsTheMotorsForGood) {
 }
 
 TEST(Px4Modes, EveryLossActionDoesWhatItSays) {
-  using enum OffboardLossAction;
+  using enum OffboardLoss;
   for (const auto& [action, mode] :
        {std::pair(position, NavState::hold), std::pair(altitude, NavState::hold),
         std::pair(stabilized, NavState::hold), std::pair(rtl, NavState::rtl),
@@ -197,8 +197,8 @@ TEST(Px4Modes, EveryLossActionDoesWhatItSays) {
 }
 
 TEST(Px4Modes, CommandingTheFallbackModeEndsTheFailsafe) {
-  for (const auto& [action, mode] : {std::pair(OffboardLossAction::hold, NavState::hold),
-                                     std::pair(OffboardLossAction::land, NavState::land)}) {
+  for (const auto& [action, mode] : {std::pair(OffboardLoss::hold, NavState::hold),
+                                     std::pair(OffboardLoss::land, NavState::land)}) {
     CommanderParameters commander;
     commander.offboard_loss_action = action;
     Quadrotor quadrotor = airborne(with(commander));
@@ -220,7 +220,7 @@ TEST(Px4Modes, ALossCanBeHeldBeforeItIsActedOn) {  // PX4 1.9: two stages
   CommanderParameters commander;
   commander.offboard_loss_s = 0.5;
   commander.offboard_loss_hold_s = 5.0;
-  commander.offboard_loss_action = OffboardLossAction::rtl;
+  commander.offboard_loss_action = OffboardLoss::rtl;
   Quadrotor quadrotor = airborne(with(commander));
   const auto runs = [&](NavState mode) {
     return ticks_until(quadrotor, 10.0, [&] { return quadrotor.px4().nav_state() == mode; });
@@ -245,13 +245,13 @@ TEST(Px4Modes, ModesThatCannotRunFallBackToHold) {
     EXPECT_EQ(choice(mode, 100.0), mode) << name_of(mode);
   }
   EXPECT_EQ(choice(NavState::offboard, 0.0), NavState::offboard);
-  for (const auto& [action, mode] : {std::pair(OffboardLossAction::position, NavState::hold),
-                                     std::pair(OffboardLossAction::rtl, NavState::rtl),
-                                     std::pair(OffboardLossAction::land, NavState::land)}) {
+  for (const auto& [action, mode] : {std::pair(OffboardLoss::position, NavState::hold),
+                                     std::pair(OffboardLoss::rtl, NavState::rtl),
+                                     std::pair(OffboardLoss::land, NavState::land)}) {
     commander.offboard_loss_action = action;
     EXPECT_EQ(choice(NavState::offboard, 100.0), mode);
   }
-  commander.offboard_loss_action = OffboardLossAction::disarm;
+  commander.offboard_loss_action = OffboardLoss::disarm;
   EXPECT_EQ(choose_mode(NavState::offboard, 100.0, commander), std::nullopt);
 }
 

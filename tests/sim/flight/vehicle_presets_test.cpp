@@ -202,7 +202,7 @@ TEST(Presets, CommandersAreThoseOfTheirFirmware) {  // sheet, sections 2 and 3
   const CommanderParameters px19 = commander("iris_sitl_2019");
   EXPECT_EQ(px19.offboard_loss_s, 0.5);
   EXPECT_EQ(px19.offboard_loss_hold_s, 5.0);
-  EXPECT_EQ(px19.offboard_loss_action, OffboardLossAction::rtl);
+  EXPECT_EQ(px19.offboard_loss_action, OffboardLoss::rtl);
   EXPECT_EQ(px19.disarm_after_landing_s, 0.1);
   EXPECT_EQ(px19.descent_speed_m_s, 1.0);
   EXPECT_EQ(px19.acceleration_m_s2, 5.0);
@@ -214,7 +214,7 @@ TEST(Presets, CommandersAreThoseOfTheirFirmware) {  // sheet, sections 2 and 3
   for (const CommanderParameters& today : {commander("iris"), commander("f450")}) {
     EXPECT_EQ(today.offboard_loss_s, 1.0);
     EXPECT_EQ(today.offboard_loss_hold_s, 0.0);
-    EXPECT_EQ(today.offboard_loss_action, OffboardLossAction::position);
+    EXPECT_EQ(today.offboard_loss_action, OffboardLoss::position);
     EXPECT_EQ(today.disarm_after_landing_s, 2.0);
     EXPECT_EQ(today.descent_speed_m_s, 1.5);
     EXPECT_EQ(today.acceleration_m_s2, 3.0);

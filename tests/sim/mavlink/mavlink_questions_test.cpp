@@ -122,7 +122,7 @@ TEST(MavlinkQuestions, AParameterIsSetWithinItsRangeAndTheAnswerIsWhatHolds) {
   session.send(set("COM_OBL_RC_ACT", std::bit_cast<float>(4), 6));
   session.listen();
   EXPECT_EQ(session.vehicle().px4().commander().takeoff_altitude_m, 4.0);
-  EXPECT_EQ(session.vehicle().px4().commander().offboard_loss_action, OffboardLossAction::land);
+  EXPECT_EQ(session.vehicle().px4().commander().offboard_loss_action, OffboardLoss::land);
   for (const auto& refused :
        {set("MIS_TAKEOFF_ALT", -1.0F), set("MIS_TAKEOFF_ALT", std::nanf("")),
         set("MIS_TAKEOFF_ALT", 5.0F, 6), set("MPC_LAND_ALT1", 123.0F), set("COM_OF_LOSS_T", 0.02F),
