@@ -117,15 +117,6 @@ bool is_at_altitude(const AutoFlight& flight, const Vec3& p_world_m) {
   return std::abs(flight.altitude_m - p_world_m.z()) < kAltitudeArrival_m;
 }
 
-void enter_next_stage_of_return(AutoFlight& flight, const Vec3& p_world_m) {
-  if (flight.stage == Stage::climb && is_at_altitude(flight, p_world_m)) {
-    flight.stage = Stage::go_home;
-  } else if (flight.stage == Stage::go_home &&
-             (flight.home_world_m - p_world_m.head<2>()).norm() < kHomeArrival_m) {
-    flight.stage = Stage::land;
-  }
-}
-
 }  // namespace
 
 std::string_view name_of(NavState state) { return mode_of(state).name; }
@@ -255,7 +246,13 @@ AutoFlight begin_auto(NavState mode, const CommanderParameters& parameters,
 Setpoint step_auto(AutoFlight& flight, const CommanderParameters& parameters,
                    const VehicleState& estimate, double dt_s) {
   const Vec3 p_world_m = estimate.T_world_body.translation();
-  if (flight.mode == NavState::rtl) enter_next_stage_of_return(flight, p_world_m);
+  if (flight.mode == NavState::rtl) {
+    const double distance_m = (flight.home_world_m - p_world_m.head<2>()).norm();
+    if (flight.stage == Stage::go_home && distance_m < kHomeArrival_m) flight.stage = Stage::land;
+    if (flight.stage == Stage::climb && is_at_altitude(flight, p_world_m)) {
+      flight.stage = Stage::go_home;
+    }
+  }
   move_trajectory(flight, parameters, p_world_m, dt_s);
   Setpoint setpoint{.p_world_m = each(flight, &Motion::position),
                     .v_world_m_s = each(flight, &Motion::speed),

@@ -11,7 +11,6 @@
 #include <bit>
 #include <cerrno>
 #include <charconv>
-#include <cmath>
 #include <cstring>
 #include <memory>
 
@@ -134,9 +133,9 @@ std::optional<UdpSocket::Datagram> UdpSocket::receive() {
 
 void UdpSocket::wait(double timeout_s) const {
   pollfd readable{.fd = descriptor_, .events = POLLIN, .revents = 0};
-  const double whole_s = std::floor(std::max(timeout_s, 0.0));
-  const timespec timeout{.tv_sec = static_cast<time_t>(whole_s),
-                         .tv_nsec = static_cast<long>(1e9 * (std::max(timeout_s, 0.0) - whole_s))};
+  constexpr long kSecond_ns = 1'000'000'000;
+  const auto timeout_ns = static_cast<long>(1e9 * std::max(timeout_s, 0.0));
+  const timespec timeout{timeout_ns / kSecond_ns, timeout_ns % kSecond_ns};
   ppoll(&readable, 1, &timeout, nullptr);
 }
 
