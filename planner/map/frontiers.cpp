@@ -16,17 +16,12 @@ std::vector<VoxelIndex> connected_to(VoxelIndex seed, int reach, const GridGeome
   marks[seed] = 0;
   for (std::size_t next = 0; next < voxels.size(); ++next) {
     const Box3 center_m(geometry.center_m(geometry.key_at(voxels[next])));
-    const KeyBox near = geometry.keys_in(center_m, reach);
-    for (Key at = near.low; at[2] <= near.high[2]; ++at[2]) {
-      for (at[1] = near.low[1]; at[1] <= near.high[1]; ++at[1]) {
-        at[0] = near.low[0];
-        for (VoxelIndex v = geometry.index_of(at); at[0] <= near.high[0]; ++at[0], ++v) {
-          if (marks[v] == 0) continue;
-          marks[v] = 0;
-          voxels.push_back(v);
-        }
-      }
-    }
+    for_each_key(geometry.keys_in(center_m, reach), [&](const Key& near) {
+      const VoxelIndex v = geometry.index_of(near);
+      if (marks[v] == 0) return;
+      marks[v] = 0;
+      voxels.push_back(v);
+    });
   }
   std::sort(voxels.begin(), voxels.end());
   return voxels;

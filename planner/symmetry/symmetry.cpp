@@ -64,21 +64,10 @@ Mode climb(Metric at, std::span<const Metric> all, double radius_m, double bandw
   return mode;
 }
 
-/// Calls use(offset, state) for the voxels up to `reach` along each axis from `key`, until it
-/// returns false. Voxels outside the grid are unknown.
-template <typename Use>
-void for_each_near(const OccupancyGrid& grid, const Key& key, int reach, const Use& use) {
+/// Outside the grid unknown.
+VoxelState state_at(const OccupancyGrid& grid, const Key& key) {
   const GridGeometry& geometry = grid.geometry();
-  for (int dz = -reach; dz <= reach; ++dz) {
-    for (int dy = -reach; dy <= reach; ++dy) {
-      for (int dx = -reach; dx <= reach; ++dx) {
-        const Key near = {key[0] + dx, key[1] + dy, key[2] + dz};
-        const VoxelState state =
-            geometry.contains(near) ? grid.state(geometry.index_of(near)) : VoxelState::unknown;
-        if (!use(Eigen::Vector3i(dx, dy, dz), state)) return;
-      }
-    }
-  }
+  return geometry.contains(key) ? grid.state(geometry.index_of(key)) : VoxelState::unknown;
 }
 
 /// What is known of the voxel and the 26 around it: occupied if any is, free if all are. Beyond the
@@ -86,9 +75,10 @@ void for_each_near(const OccupancyGrid& grid, const Key& key, int reach, const U
 VoxelState state_around(const OccupancyGrid& grid, const Key& key) {
   if (!grid.geometry().contains(key)) return VoxelState::free;
   VoxelState around = VoxelState::free;
-  for_each_near(grid, key, 1, [&](const Eigen::Vector3i&, VoxelState state) {
+  for_each_key(keys_about(key), [&](const Key& near) {
+    if (around == VoxelState::occupied) return;
+    const VoxelState state = state_at(grid, near);
     if (state != VoxelState::free) around = state;
-    return state != VoxelState::occupied;
   });
   return around;
 }
@@ -96,13 +86,13 @@ VoxelState state_around(const OccupancyGrid& grid, const Key& key) {
 /// The direction from the point to the free voxels around it, two voxels each way; zero where none
 /// is free.
 Vec3f outward(const OccupancyGrid& grid, const Vec3f& p_world_m) {
-  Vec3f sum = Vec3f::Zero();
-  for_each_near(grid, grid.geometry().key_of(p_world_m), 2,
-                [&](const Eigen::Vector3i& offset, VoxelState state) {
-                  if (state == VoxelState::free) sum += offset.cast<float>();
-                  return true;
-                });
-  return sum;
+  const Key key = grid.geometry().key_of(p_world_m);
+  Eigen::Vector3i sum = Eigen::Vector3i::Zero();
+  for_each_key(keys_about(key, 2), [&](const Key& near) {
+    if (state_at(grid, near) != VoxelState::free) return;
+    sum += Eigen::Vector3i(near[0] - key[0], near[1] - key[1], near[2] - key[2]);
+  });
+  return sum.cast<float>();
 }
 
 std::vector<ProfilePoint> oriented(std::span<const Vec3f> profile_world_m,
