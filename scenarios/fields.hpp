@@ -27,9 +27,12 @@ struct Range {
   bool is_min_open = false;
   bool is_max_open = false;
 };
-constexpr Range between(double min, double max) { return {min, max, false, false}; }
 constexpr Range inside(double min, double max) { return {min, max, true, true}; }
 constexpr Range positive(double max) { return {0.0, max, true, false}; }
+constexpr bool contains(const Range& range, double value) {
+  return (range.is_min_open ? value > range.min : value >= range.min) &&
+         (range.is_max_open ? value < range.max : value <= range.max);
+}
 
 enum class FieldKind {
   plain,
@@ -61,12 +64,6 @@ using FieldValue =
 
 constexpr std::size_t kMostNumbers = 16;
 
-/// How many items a list may have.
-struct ListSize {
-  std::size_t min = 0;
-  std::size_t max = 0;
-};
-
 /// A section, a list, or an item of a list.
 struct Group {
   enum class Kind { section, list, item };
@@ -77,7 +74,7 @@ struct Group {
   std::string path;
   std::string_view meaning;
   std::size_t size = 0;  // list: its items
-  ListSize allowed;      // list
+  Range allowed;         // list: how many items it may have
 };
 
 /// Is shown the keys of a config in the order of the file.
@@ -152,7 +149,7 @@ class Keys {
   }
   /// A list of the user's own length: one given anew replaces the old one, its items at defaults.
   template <typename Config>
-  void list(std::string_view key, std::vector<Config>& items, const ListSize& allowed,
+  void list(std::string_view key, std::vector<Config>& items, const Range& allowed,
             std::string_view meaning) const {
     const std::string path = path_of(key);
     const Group list = {Group::Kind::list, typeid(Config), std::string(key), path,

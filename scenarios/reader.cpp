@@ -107,14 +107,13 @@ class Reader final : public FieldVisitor {
   std::optional<std::size_t> new_items(const Group& list) {
     const Level& level = levels_.back();
     if (level.node == nullptr || level.node->kind == Kind::picks) return std::nullopt;
-    const auto& [min, max] = list.allowed;
     const std::size_t given = level.node->items.size();
     if (level.node->kind != Kind::list) {
       const bool is_null = level.node->kind == Kind::null;
       drop(list, fmt::format("expects a list{}", is_null ? ", but has no value" : ""));
-    } else if (given < min || given > max) {
-      const std::string few = min == max ? "" : fmt::format("from {} to ", min);
-      drop(list, fmt::format("has {} items (allowed: {}{})", given, few, max));
+    } else if (!contains(list.allowed, static_cast<double>(given))) {
+      drop(list, fmt::format("has {} items (allowed: from {} to {})", given, list.allowed.min,
+                             list.allowed.max));
     } else {  // the new list knows nothing of where the old one's values came from
       std::erase_if(locations_,
                     [&](const auto& known) { return is_at_or_below(known.first, list.path); });

@@ -21,6 +21,13 @@ Json number_schema(const char* type, const Range& allowed) {
           {allowed.is_max_open ? "exclusiveMaximum" : "maximum", bound_of(allowed.max)}};
 }
 
+Json array_schema(const Field& field, std::size_t min, std::size_t max) {
+  return {{"type", "array"},
+          {"items", number_schema("number", field.allowed)},
+          {"minItems", min},
+          {"maxItems", max}};
+}
+
 Json object(std::string_view meaning) {
   return {{"type", "object"},
           {"description", meaning},
@@ -46,18 +53,11 @@ Json schema_of(const Field& field, const std::string&) {
   if (field.kind == FieldKind::word) schema["pattern"] = "^[A-Za-z0-9_][A-Za-z0-9._-]*$";
   return schema;
 }
-Json schema_of(const Field& field, const Vec3&) {
-  return {{"type", "array"},
-          {"items", number_schema("number", field.allowed)},
-          {"minItems", 3},
-          {"maxItems", 3}};
-}
+Json schema_of(const Field& field, const Vec3&) { return array_schema(field, 3, 3); }
 Json schema_of(const Field& field, const std::vector<double>&) {
-  return {{"type", "array"},
-          {"items", number_schema("number", field.allowed)},
-          {"minItems", 1},
-          {"maxItems", kMostNumbers},
-          {"uniqueItems", true}};
+  Json schema = array_schema(field, 1, kMostNumbers);
+  schema["uniqueItems"] = true;
+  return schema;
 }
 
 Json default_of(const Field& field, double value) { return written(field, value); }
@@ -94,10 +94,9 @@ class SchemaWriter final : public FieldVisitor {
     }
     open_.push_back({{"type", "array"},
                      {"description", group.meaning},
-                     {"minItems", group.allowed.min},
-                     {"maxItems", group.allowed.max}});
-    const bool has_fixed_size = group.allowed.min == group.allowed.max;
-    return has_fixed_size ? group.size : 1;  // one item describes them all
+                     {"minItems", bound_of(group.allowed.min)},
+                     {"maxItems", bound_of(group.allowed.max)}});
+    return 1;  // item describes them all
   }
 
   void end(const Group& group) override {

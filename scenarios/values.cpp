@@ -15,11 +15,6 @@ namespace {
 
 using Kind = YamlNode::Kind;
 
-bool contains(const Range& range, double value) {
-  return (range.is_min_open ? value > range.min : value >= range.min) &&
-         (range.is_max_open ? value < range.max : value <= range.max);
-}
-
 /// "... from 0 to 8", "... above 0, up to 8", "... above 0, below 8".
 std::string out_of_range(const Range& range) {
   return fmt::format(
