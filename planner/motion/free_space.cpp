@@ -24,10 +24,10 @@ Share cut(const Share& share, double a, double b, double center, double reach) {
   return {std::max(low, share.first), std::min(high, share.last)};
 }
 
-/// Whether `is_hit` says so of the cube of any occupied voxel that comes within the radius of the
-/// segment; asked of some others there, too. Goes through the rows of voxels along x in the
-/// segment's box, grown by the radius. Each is cut to where the segment passes by: the centre of a
-/// cube within the radius lies within the radius and half the cube's diagonal.
+/// Whether `is_hit` holds for the cube of any occupied voxel that comes within the radius of the
+/// segment; it is asked of some others nearby, too. Goes through the rows of voxels along x in the
+/// segment's box grown by the radius. Each row is cut to where the segment passes by: the centre of
+/// a cube within the radius is no farther off than the radius and half the cube's diagonal.
 template <typename IsHit>
 bool any_occupied_near(const OccupancyGrid& grid, const Vec3& a_m, const Vec3& b_m, double radius_m,
                        const IsHit& is_hit) {
@@ -63,7 +63,7 @@ bool any_occupied_near(const OccupancyGrid& grid, const Vec3& a_m, const Vec3& b
 /// Whether the leg comes nearer to the box than `radius_m`, and nearer than it is at its start:
 /// what is too near already may be left but not approached.
 bool is_approached(const Box3& box_m, const Vec3& from_m, const Vec3& to_m, double radius_m) {
-  // the search for the nearest point is good to rounding: the start itself is no approach
+  // the nearest distance is found up to rounding: the start itself is no approach
   constexpr double kRounding_m2 = 1e-9;
   const double nearest_m2 = box_to_segment_m2(box_m, from_m, to_m);
   return nearest_m2 < radius_m * radius_m &&
@@ -192,7 +192,7 @@ OpenSpace::OpenSpace(const GridGeometry& geometry, const Box3& navigation_m, con
       radius_m_(radius_m),
       near_occupied_(geometry.voxel_count()),
       was_occupied_(geometry.voxel_count()) {
-  // a cube at exactly the radius is near to some ways of rounding
+  // whether a cube at exactly the radius is near depends on rounding: here it is
   constexpr double kRounding_m = 1e-6;
   const double voxel_m = geometry.resolution_m();
   const auto reach = static_cast<std::int32_t>(std::ceil(radius_m / voxel_m)) + 1;

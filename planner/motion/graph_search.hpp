@@ -35,10 +35,10 @@ enum class AtNode { expand, skip, put_back, stop };
 /// Shortest ways from a node (A*: Hart, Nilsson, Raphael 1968; Dijkstra 1959 where nothing is known
 /// of what remains). The graph says
 ///   rest_m(node): what remains from there at least, 0 where that is not known;
-///   rank(node): of equal nodes that with the lower rank comes first;
-///   come_to(node, found_m): what to do at a node, reached by a way that was found to be so long:
-///     put_back when it has made that longer;
-///   visit(node, use): calls use(before, next, leg_m) for each way on;
+///   rank(node): of equally promising nodes the one with the lower rank comes first;
+///   come_to(node, found_m): what to do at a node that is reached by a way of that length; put_back
+///     when the graph has just found the way to be longer;
+///   visit(node, use): calls use(before, next, leg_m) for each leg on from there;
 ///   may_fly(node, next): whether that leg may be flown, asked where it would make a way shorter.
 template <typename Length, typename Graph>
 void find_ways(Graph& graph, GraphNode from, Ways<Length>& ways, const HeedStop& stop) {
@@ -79,8 +79,8 @@ void find_ways(Graph& graph, GraphNode from, Ways<Length>& ways, const HeedStop&
   }
 }
 
-/// The points of the nodes behind `from` up to `last`, in the order of the way; none where they are
-/// one. `p_m(node)`: where a node is.
+/// The points of the way's nodes after `from`, up to `last`; none where they are one. `p_m(node)`:
+/// where a node is.
 template <typename Length, typename PointOf>
 std::vector<Vec3> points_on_way(const Ways<Length>& ways, GraphNode from, GraphNode last,
                                 const PointOf& p_m) {

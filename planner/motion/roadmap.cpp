@@ -127,9 +127,9 @@ void Roadmap::follow(const OccupancyGrid& grid, const OpenSpace& space, const Ve
   }
 }
 
-/// Lazy Theta* (Nash, Koenig, Tovey 2010) from one node to all: a way may cut across the lattice
-/// wherever the straight line is open, which is asked once a node, when the node is reached. Until
-/// then the way is taken to come straight from the node before the neighbour's own.
+/// Lazy Theta* (Nash, Koenig, Tovey 2010) from one node to all. A node is at first taken to be
+/// reached straight from the node before its neighbour, across the lattice. Whether that line is
+/// open is asked only once the search comes to the node; if not, the way leads over a leg.
 struct Roadmap::LazyGraph {
   const Roadmap& map;
   Ways<float>& ways;

@@ -23,8 +23,8 @@ class Roadmap {
   Node add(const Vec3& p_world_m);
 
   /// Finds which nodes are open now and can be reached from `here_world_m`, and over which legs.
-  /// Keeps references to grid and space. Rows are kept for some calls: they learn of nodes that
-  /// have opened, but not of shorter ways, and what has closed since may make them too short.
+  /// Keeps references to grid and space. Rows are kept for some calls. They learn of nodes that
+  /// have opened, but neither of shorter ways nor of what has closed.
   void follow(const OccupancyGrid& grid, const OpenSpace& space, const Vec3& here_world_m,
               const HeedStop& stop = {});
 

@@ -8,20 +8,22 @@
 namespace gnbv {
 namespace {
 
-// of the voxels of a side that nobody observed, when the other one is known
+// What a side that nobody observed lacks when the other side is known: a share of its voxels.
 constexpr float kOppositeShare = 0.5F;
-// that a cell of unknown space is worth: a fifth of a plane through it
+// What a cell of unknown space lacks: a fifth of a plane through it.
 constexpr float kBoundaryVoxels = 0.2F * SurfaceCell::kSide * SurfaceCell::kSide;
 
-// Before anything was learned: an observation of sampled surface brings nearly all. Each that left
-// something says that the rest is hard to get.
+// What an observation is taken to bring before anything was learned. Of sampled surface nearly all;
+// each observation that left something says that the rest is hard to get.
 constexpr std::array<double, kPatchSources> kPrior = {0.9, 0.5, 0.3, 0.5};
 constexpr double kPriorPerObservation = 0.4;
 constexpr std::array<double, kIncidenceBins> kPriorOfIncidence = {1.0, 0.95, 0.8};
-constexpr double kPriorTries = 300.0;  // small voxels that the prior weighs as much as
+constexpr double kPriorTries = 300.0;  // the prior weighs as much as so many small voxels
 
-constexpr double kFade = 0.8;          // of what a cube gained, each time a view sees into it
-constexpr double kTrustVoxels = 32.0;  // that a cube is believed to have gained as predicted before
+// Each time a view sees into a cube, what was known of it counts by this factor. To begin with, so
+// many voxels count as gained just as predicted.
+constexpr double kFade = 0.8;
+constexpr double kTrustVoxels = 32.0;
 
 /// In float32, as the target is.
 Key reliability_cube(const Patch& patch, double cube_m) {

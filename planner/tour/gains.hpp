@@ -93,13 +93,12 @@ class ObservationYield {
   std::array<float, kBins> shares_{};
 };
 
-/// In small voxels.
+/// In small voxels (SurfaceCells::detail_m).
 struct Gain {
   double predicted = 0.0, found = 0.0;
 };
 
-/// What a view was predicted to gain by one kind of observation, and what it brought, in small
-/// voxels.
+/// What a view was predicted to gain by one kind of observation and what it brought, in voxels.
 struct GainOutcome {
   PatchSource source = PatchSource::sampled;
   std::size_t observations = 0;  // observation_bin(), before

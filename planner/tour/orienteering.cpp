@@ -10,7 +10,7 @@ namespace gnbv {
 namespace {
 
 constexpr double kLeast = 1e-6;  // less is rounding
-// a view is put in that brings this share of its cost: the search may find it a neighbour
+// a view that brings this share of its cost may be put in: the search may find it a neighbour
 constexpr double kTolerance = 0.7;
 
 /// A tour while it is changed. Copied, it is a state to return to.
@@ -42,27 +42,28 @@ class OpenTour {
   }
 
   void remove(std::uint32_t view) {
-    cover_.remove(view);
+    cover_.set(view, false);
     chosen_.erase(std::find(chosen_.begin(), chosen_.end(), view));
     if (has_just(node_of(view), 0)) waypoints_.remove(node_of(view));
   }
 
-  /// At the cheapest position; not where no way leads.
+  /// At the cheapest position; not at all where no way leads.
   void insert(std::uint32_t view) {
     const std::uint32_t node = node_of(view);
     if (!std::isfinite(waypoints_.extra_m()[node])) return;
-    cover_.add(view);
+    cover_.set(view, true);
     chosen_.push_back(view);
     if (!waypoints_.has(node)) waypoints_.insert(node);
   }
 
-  /// Until none is left that pays: that with the most per metre, times its weight.
+  /// Puts in what pays, until nothing does: each time what brings the most per metre, times its
+  /// weight.
   void complete(double metres_per_view, std::span<const double> weights) {
     waypoints_.find_detours();
     while (const auto view = best_view(metres_per_view, weights)) insert(*view);
   }
 
-  /// Views that bring less than they cost go, those first that lose the most.
+  /// Takes out what brings less than it costs, the worst first.
   void drop_unpaid() {
     std::vector<std::pair<double, std::uint32_t>> unpaid;
     for (const std::uint32_t view : chosen_) {
@@ -133,28 +134,16 @@ ExpectedCover::ExpectedCover(const OrienteeringProblem& problem)
   }
 }
 
-void ExpectedCover::change(std::uint32_t item, double missed) {
-  const double by = problem_->weight[item] * (missed - missed_[item]);
-  for (const Observer& observer : (*observers_)[item]) {
-    gain_[observer.view] += by * observer.success;
-  }
-  found_ -= by;
-  missed_[item] = missed;
-}
-
-void ExpectedCover::add(std::uint32_t view) {
-  GNBV_CHECK(is_chosen_[view] == 0, "view {} is there already", view);
-  is_chosen_[view] = 1;
-  for (const ItemObservation& one : problem_->observations[view]) {
-    change(one.item, missed_[one.item] * (1.0 - one.success));
-  }
-}
-
-void ExpectedCover::remove(std::uint32_t view) {
-  GNBV_CHECK(is_chosen_[view] != 0, "view {} is not there", view);
-  is_chosen_[view] = 0;
-  for (const ItemObservation& one : problem_->observations[view]) {
-    change(one.item, missed_[one.item] / (1.0 - one.success));
+void ExpectedCover::set(std::uint32_t view, bool is_chosen) {
+  GNBV_CHECK(has(view) != is_chosen, "view {} is set to {} twice", view, is_chosen);
+  is_chosen_[view] = is_chosen ? 1 : 0;
+  for (const auto& [item, success] : problem_->observations[view]) {
+    const double failure = 1.0 - success;
+    const double missed = is_chosen ? missed_[item] * failure : missed_[item] / failure;
+    const double by = problem_->weight[item] * (missed - missed_[item]);
+    for (const Observer& one : (*observers_)[item]) gain_[one.view] += by * one.success;
+    found_ -= by;
+    missed_[item] = missed;
   }
 }
 

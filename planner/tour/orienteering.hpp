@@ -37,8 +37,8 @@ class ExpectedCover {
   /// Keeps a reference to the problem.
   explicit ExpectedCover(const OrienteeringProblem& problem);
 
-  void add(std::uint32_t view);
-  void remove(std::uint32_t view);
+  /// Chooses the view, or lets go of it. Requires a change.
+  void set(std::uint32_t view, bool is_chosen);
   bool has(std::uint32_t view) const { return is_chosen_[view] != 0; }
 
   double found() const { return found_; }
@@ -52,8 +52,6 @@ class ExpectedCover {
     std::uint32_t view;
     float success;
   };
-  void change(std::uint32_t item, double missed);
-
   const OrienteeringProblem* problem_;
   std::shared_ptr<std::vector<std::vector<Observer>>> observers_;  // of each item; for all copies
   std::vector<double> gain_;

@@ -151,15 +151,6 @@ bool PatchViewer::is_before(const Vec3f& p, float cos_incidence, float bias_m) c
                       half_pixel * p.z() / cos_incidence;
 }
 
-bool PatchViewer::is_in_image(const Vec3f& p, float margin_m) const {
-  return p.z() > 0.05F && p.z() <= range_max_m_ + margin_m && is_in_cone(p, margin_m);
-}
-
-bool PatchViewer::is_in_cone(const Vec3f& p, float margin_m) const {
-  return std::fabs(p.x()) <= cx_ / fx_ * p.z() + margin_m &&
-         std::fabs(p.y()) <= cy_ / fy_ * p.z() + margin_m;
-}
-
 void PatchViewer::draw_cell(const TourScene& scene, const CellBlocks::Block& block,
                             const CellBlocks::Cell& cell) {
   const auto cell_m = static_cast<float>(scene.cells.edge_m());

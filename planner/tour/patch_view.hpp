@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -72,10 +73,17 @@ class PatchViewer {
   Vec3f to_camera(const Vec3f& p_world_m) const {
     return R_camera_world_ * (p_world_m - origin_world_m_);
   }
-  /// A ball reaches into a cone from farther beside it than its radius, at most by this factor.
+  /// A ball reaches into the cone of sight from farther beside it than its radius, measured across
+  /// the axis: at most by this factor.
   float slant() const { return 1.0F + std::max(cx_ / fx_, cy_ / fy_); }
-  bool is_in_cone(const Vec3f& p_camera_m, float margin_m) const;
-  bool is_in_image(const Vec3f& p_camera_m, float margin_m) const;
+  bool is_in_cone(const Vec3f& p_camera_m, float margin_m) const {
+    return std::fabs(p_camera_m.x()) <= cx_ / fx_ * p_camera_m.z() + margin_m &&
+           std::fabs(p_camera_m.y()) <= cy_ / fy_ * p_camera_m.z() + margin_m;
+  }
+  bool is_in_image(const Vec3f& p_camera_m, float margin_m) const {
+    return p_camera_m.z() > 0.05F && p_camera_m.z() <= range_max_m_ + margin_m &&
+           is_in_cone(p_camera_m, margin_m);
+  }
   void draw_cell(const TourScene& scene, const CellBlocks::Block& block,
                  const CellBlocks::Cell& cell);
   void draw(const Vec3f& p_camera_m, const Vec3f& normal, float radius_m);

@@ -126,11 +126,6 @@ int SurfaceCells::bit_at(const Vec3& from_center_m) const {
   return bit;
 }
 
-void SurfaceCells::count_observation(std::uint32_t cell, std::size_t side) {
-  std::uint8_t& observations = cells_[cell].observations[side];
-  if (observations < 0xff) ++observations;
-}
-
 PointMoments SurfaceCells::moments_around(const Key& key) const {
   PointMoments sum;
   for_each_key(keys_about(key), [&](const Key& other) {

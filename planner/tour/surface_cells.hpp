@@ -82,7 +82,10 @@ class SurfaceCells {
   std::span<const SurfaceCell> cells() const { return cells_; }
   /// Calls of add() and follow_map() so far.
   std::uint32_t version() const { return version_; }
-  void count_observation(std::uint32_t cell, std::size_t side);
+  void count_observation(std::uint32_t cell, std::size_t side) {
+    std::uint8_t& observations = cells_[cell].observations[side];
+    if (observations < 0xff) ++observations;
+  }
   /// Centre of a voxel of the cell, by its bit.
   Vec3 voxel_center_m(const SurfaceCell& cell, int bit) const;
 

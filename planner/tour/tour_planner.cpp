@@ -103,23 +103,21 @@ bool explore(const Step& step) {
   const std::span<const Roadmap::Node> nodes = state.roadmap.reachable();
   const std::size_t one_in = (nodes.size() + kMostNodes - 1) / kMostNodes;
   const std::span<const float> row_m = state.roadmap.row_m(Roadmap::here(), step.stop);
-  std::vector<Roadmap::Node> node_of;
-  std::vector<ViewPose> views;
+  std::vector<TourView> views;
   std::vector<double> way_m;
   for (const Roadmap::Node node : nodes) {
     if (mix_bits(node) % one_in != 0) continue;
     for (int heading = 0; heading < state.visibility.headings(); ++heading) {
       const ViewPose pose = state.visibility.pose(state.roadmap.p_world_m(node), heading);
       if (state.is_refused(pose)) continue;
-      node_of.push_back(node);
-      views.push_back(pose);
+      views.push_back({node, pose});
       way_m.push_back(row_m[node]);
     }
   }
   const std::optional<std::size_t> best =
       most_unseen(step.model, step.belief, views, way_m, step.scratch);
   if (!best) return false;
-  state.tour = {{node_of[*best], views[*best]}};
+  state.tour = {views[*best]};
   state.cost_factor = 1.0;  // of what it will find
   return true;
 }
@@ -206,7 +204,7 @@ bool hand_out_view(const Step& step, const ViewChecker& checker, Plan& plan) {
 }  // namespace
 
 std::optional<std::size_t> most_unseen(const PlannerModel& model, const Belief& belief,
-                                       std::span<const ViewPose> views,
+                                       std::span<const TourView> views,
                                        std::span<const double> way_m, Scratch& scratch) {
   constexpr double kLeastShare = 0.02;
   constexpr double kLook_m = 4.0;  // what stopping to look costs beside the way
@@ -215,9 +213,10 @@ std::optional<std::size_t> most_unseen(const PlannerModel& model, const Belief& 
   parallel_for(scratch.threads, shares, [&](std::size_t share) {
     for (std::size_t i = share; i < views.size(); i += shares) {
       scratch.heed_stop();
-      const ViewRays& rays = model.rays_at(views[i].gimbal_pitch_rad);
-      unknown[i] = evaluate_view(belief.grid, belief.cloud, rays, views[i], scratch.marks[share])
-                       .unknown_voxels;
+      const ViewPose& view = views[i].pose;
+      const ViewRays& rays = model.rays_at(view.gimbal_pitch_rad);
+      unknown[i] =
+          evaluate_view(belief.grid, belief.cloud, rays, view, scratch.marks[share]).unknown_voxels;
     }
   });
   std::optional<std::size_t> best;

@@ -21,7 +21,7 @@ TEST(MostUnseen, LooksAtUnknownSpaceTheNearerTheBetter) {
   const CameraConfig camera;
   const PlannerModel model({}, {}, Box3(Vec3(-16, -8, 0), Vec3(16, 8, 8)), {&camera, 1}, {});
   const Vec3 at_m(-4, 0, 4);
-  const std::vector<ViewPose> views = {{at_m, kPi}, {at_m, 0.0}, {at_m, 0.0}};
+  const std::vector<TourView> views = {{1, {at_m, kPi}}, {2, {at_m, 0.0}}, {3, {at_m, 0.0}}};
   for (const int threads : {1, 3}) {
     Scratch scratch(model, threads);
     Belief belief(model);
@@ -30,7 +30,7 @@ TEST(MostUnseen, LooksAtUnknownSpaceTheNearerTheBetter) {
     EXPECT_EQ(most_unseen(model, belief, views, near_m, scratch), 2U);
     const std::vector<double> same_m = {0.0, 2.0, 2.0};
     EXPECT_EQ(most_unseen(model, belief, views, same_m, scratch), 1U) << "the first of equals";
-    const std::vector<ViewPose> away = {views[0]};
+    const std::vector<TourView> away = {views[0]};
     EXPECT_EQ(most_unseen(model, belief, away, {near_m.data(), 1}, scratch), std::nullopt);
     clear_below(16.0, belief);
     EXPECT_EQ(most_unseen(model, belief, views, near_m, scratch), std::nullopt);
