@@ -15,64 +15,49 @@ using Tour = std::vector<std::size_t>;
 
 auto at(std::size_t i) { return static_cast<std::ptrdiff_t>(i); }
 
-/// The first change that it finds to shorten the tour, again and again. A change replaces the legs
-/// at the ends of a part; behind the last stop there is none.
-class Improver {
- public:
-  Improver(const Distances& distances_m, Tour& tour) : d_(distances_m), tour_(tour) {}
-
-  void run() {
-    while (reverse_a_part() || move_a_part()) {
+/// Makes the first change that it finds to shorten the tour; false where there is none. A change
+/// replaces the legs at the ends of a part.
+bool improve_once(const Distances& distances_m, Tour& tour) {
+  const auto leg = [&](std::size_t i, std::size_t j) {  // 0 where j is beyond the last stop
+    return j < tour.size() ? distances_m[tour[i]][tour[j]] : 0.0;
+  };
+  // 2-opt: turns round stops i to j
+  for (std::size_t i = 1; i < tour.size(); ++i) {
+    for (std::size_t j = i + 1; j < tour.size(); ++j) {
+      const double before_m = leg(i - 1, i) + leg(j, j + 1);
+      const double after_m = leg(i - 1, j) + leg(i, j + 1);
+      if (before_m - after_m <= kWorthwhile_m) continue;
+      std::reverse(tour.begin() + at(i), tour.begin() + at(j + 1));
+      return true;
     }
   }
-
- private:
-  /// Between the stops at two indices; 0 where the second is beyond the last.
-  double leg(std::size_t i, std::size_t j) const {
-    return j < tour_.size() ? d_[tour_[i]][tour_[j]] : 0.0;
-  }
-
-  /// 2-opt: turns round stops i to j.
-  bool reverse_a_part() {
-    for (std::size_t i = 1; i < tour_.size(); ++i) {
-      for (std::size_t j = i + 1; j < tour_.size(); ++j) {
-        const double before_m = leg(i - 1, i) + leg(j, j + 1);
-        const double after_m = leg(i - 1, j) + leg(i, j + 1);
-        if (before_m - after_m <= kWorthwhile_m) continue;
-        std::reverse(tour_.begin() + at(i), tour_.begin() + at(j + 1));
+  // Or-opt: puts stops i to `last` between stop k and the next, either way round
+  for (std::size_t length = 1; length <= 3; ++length) {
+    for (std::size_t i = 1; i + length <= tour.size(); ++i) {
+      const std::size_t last = i + length - 1;
+      const double saved_m = leg(i - 1, i) + leg(last, last + 1) - leg(i - 1, last + 1);
+      for (std::size_t k = 0; k < tour.size(); ++k) {
+        if (k + 1 >= i && k <= last) continue;
+        const double gap_m = leg(k, k + 1);
+        const double same_m = leg(k, i) + leg(last, k + 1) - gap_m;
+        const double turned_m = leg(k, last) + leg(i, k + 1) - gap_m;
+        if (saved_m - std::min(same_m, turned_m) <= kWorthwhile_m) continue;
+        const auto first = tour.begin() + at(i);
+        const auto end = tour.begin() + at(last + 1);
+        const auto to = tour.begin() + at(k + 1);
+        if (turned_m < same_m) std::reverse(first, end);
+        std::rotate(std::min(first, to), k < i ? first : end, std::max(end, to));
         return true;
       }
     }
-    return false;
   }
+  return false;
+}
 
-  /// Or-opt: puts stops i to `last` between stop k and the next, either way round.
-  bool move_a_part() {
-    for (std::size_t length = 1; length <= 3; ++length) {
-      for (std::size_t i = 1; i + length <= tour_.size(); ++i) {
-        const std::size_t last = i + length - 1;
-        const double saved_m = leg(i - 1, i) + leg(last, last + 1) - leg(i - 1, last + 1);
-        for (std::size_t k = 0; k < tour_.size(); ++k) {
-          if (k + 1 >= i && k <= last) continue;
-          const double gap_m = leg(k, k + 1);
-          const double same_m = leg(k, i) + leg(last, k + 1) - gap_m;
-          const double turned_m = leg(k, last) + leg(i, k + 1) - gap_m;
-          if (saved_m - std::min(same_m, turned_m) <= kWorthwhile_m) continue;
-          const auto first = tour_.begin() + at(i);
-          const auto end = tour_.begin() + at(last + 1);
-          const auto to = tour_.begin() + at(k + 1);
-          if (turned_m < same_m) std::reverse(first, end);
-          std::rotate(std::min(first, to), k < i ? first : end, std::max(end, to));
-          return true;
-        }
-      }
-    }
-    return false;
+void improve(const Distances& distances_m, Tour& tour) {
+  while (improve_once(distances_m, tour)) {
   }
-
-  const Distances& d_;
-  Tour& tour_;
-};
+}
 
 /// Swaps two neighbouring parts of the tour.
 Tour kicked(const Tour& tour, std::uint64_t kick) {
@@ -96,12 +81,12 @@ double tour_length_m(const Distances& distances_m, const Tour& tour) {
 }
 
 void improve_tour(const Distances& distances_m, Tour& tour, int kicks) {
-  Improver(distances_m, tour).run();
+  improve(distances_m, tour);
   if (tour.size() < 4) return;  // the first of them stays: two others are both ways round alike
   double length_m = tour_length_m(distances_m, tour);
   for (int kick = 0; kick < kicks; ++kick) {
     Tour other = kicked(tour, static_cast<std::uint64_t>(kick));
-    Improver(distances_m, other).run();
+    improve(distances_m, other);
     const double other_m = tour_length_m(distances_m, other);
     if (length_m - other_m <= kWorthwhile_m) continue;
     tour = std::move(other);
