@@ -211,11 +211,11 @@ std::optional<ViewSurvey> survey_from(std::string_view bytes) {
 
 ViewSurvey cached_survey(const std::string& key, const Scenario& scenario, const RayScene& scene,
                          const LegalViewpoints& legal, const SurfaceReference& reference,
-                         int threads, const std::function<void()>& heed_stop) {
+                         int threads, const HeedStop& stop) {
   if (const auto stored = load_cached(kSurveyKind, key)) {
     if (auto survey = survey_from(*stored)) return std::move(*survey);
   }
-  ViewSurvey survey = survey_views(scenario, scene, legal, reference, threads, heed_stop);
+  ViewSurvey survey = survey_views(scenario, scene, legal, reference, threads, stop);
   store_cached(kSurveyKind, key, bytes_of(survey));
   return survey;
 }

@@ -30,6 +30,6 @@ std::optional<ViewSurvey> survey_from(std::string_view bytes);
 /// survey_views(), from the cache when it is there.
 ViewSurvey cached_survey(const std::string& key, const Scenario& scenario, const RayScene& scene,
                          const LegalViewpoints& legal, const SurfaceReference& reference,
-                         int threads, const std::function<void()>& heed_stop = {});
+                         int threads, const HeedStop& stop = {});
 
 }  // namespace gnbv

@@ -126,7 +126,7 @@ CoveringTour greedy_tour(const CoverTask& task, const CoverAim& aim) {
   OpenTour tour(task);
   tour.find_detours();
   while (tour.counts().covered() < aim.wanted && tour.add_best(aim, aim.metres_per_view, {})) {
-    if (task.heed_stop) task.heed_stop();
+    heed(task.stop);
     tour.shorten();
     tour.find_detours();
   }
@@ -145,7 +145,7 @@ CoveringTour cheaper_tour(const CoverTask& task, const CoverAim& aim, const Cove
   double best_m = current_m;
   OpenTour trial = current;
   for (int i = 0; i < iterations && !current.chosen().empty(); ++i) {
-    if (task.heed_stop) task.heed_stop();
+    heed(task.stop);
     Rng rng(0, Stream::cover_search, i);
     trial = current;
     for (const std::uint32_t view :

@@ -86,13 +86,13 @@ struct Search {
   const NoFly& no_fly;
   double radius_m;
   int threads;
-  const std::function<void()>& heed_stop;
+  const HeedStop& stop;
 
   template <typename Task>
   void for_each_node(const Task& task) const {
     constexpr std::size_t kChunk = 256;
     parallel_for_chunks(threads, lattice.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-      if (heed_stop) heed_stop();
+      heed(stop);
       for (std::size_t node = begin; node < end; ++node) task(node);
     });
   }
@@ -145,11 +145,10 @@ double lattice_step_m(const Box3& navigation_m) {
 
 LegalViewpoints find_legal_viewpoints(const RayScene& scene, const Box3& navigation_m,
                                       double radius_m, double step_m, const Vec3& start_world_m,
-                                      int threads, const NoFly& no_fly,
-                                      const std::function<void()>& heed_stop) {
+                                      int threads, const NoFly& no_fly, const HeedStop& stop) {
   GNBV_CHECK(step_m > 0.0, "a lattice step of {} m", step_m);
   const Lattice lattice(navigation_m, step_m);
-  const Search search{scene, lattice, no_fly, radius_m, threads, heed_stop};
+  const Search search{scene, lattice, no_fly, radius_m, threads, stop};
   const std::vector<double> clear_m = search.clearances_m(radius_m + std::sqrt(3.0) * step_m);
   const std::vector<std::vector<std::size_t>> legs = search.legs(clear_m);
 
@@ -193,13 +192,12 @@ LegalViewpoints find_legal_viewpoints(const RayScene& scene, const Box3& navigat
 }
 
 LegalViewpoints find_legal_viewpoints(const Scenario& scenario, const RayScene& scene,
-                                      const ViewPose& start, int threads,
-                                      const std::function<void()>& heed_stop) {
+                                      const ViewPose& start, int threads, const HeedStop& stop) {
   const ValidityConfig& validity = scenario.planner.validity;
   const Box3 navigation_m = navigation_box_m(validity, scenario.workspace_m);
   return find_legal_viewpoints(scene, navigation_m, validity.collision_radius_m,
                                lattice_step_m(navigation_m), start.p_world_m, threads,
-                               no_fly_of(scenario), heed_stop);
+                               no_fly_of(scenario), stop);
 }
 
 }  // namespace gnbv

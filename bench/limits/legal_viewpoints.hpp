@@ -3,10 +3,10 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
+#include "planner/motion/config.hpp"
 #include "scenarios/scenario.hpp"
 #include "sensors/ray_scene.hpp"
 
@@ -42,17 +42,17 @@ struct LegalViewpoints {
 
 /// The legal positions that are connected to `start` by clear straight legs between neighbours (26
 /// to a position); from the start itself legs of up to two steps count. Empty when there are none.
-/// The same at any number of threads. `heed_stop` is called several times a second, by any thread,
+/// The same at any number of threads. `stop` is called several times a second, by any thread,
 /// and may throw.
 LegalViewpoints find_legal_viewpoints(const RayScene& scene, const Box3& navigation_m,
                                       double radius_m, double step_m, const Vec3& start_world_m,
                                       int threads, const NoFly& no_fly = {},
-                                      const std::function<void()>& heed_stop = {});
+                                      const HeedStop& stop = {});
 
 /// Those of a scenario: its navigation box, its collision radius, its no_fly boxes,
 /// lattice_step_m().
 LegalViewpoints find_legal_viewpoints(const Scenario& scenario, const RayScene& scene,
                                       const ViewPose& start, int threads,
-                                      const std::function<void()>& heed_stop = {});
+                                      const HeedStop& stop = {});
 
 }  // namespace gnbv

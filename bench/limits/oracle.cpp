@@ -31,7 +31,7 @@ class Oracle {
  public:
   Oracle(const Scenario& scenario, const RayScene& scene, const LegalViewpoints& legal,
          const SurfaceReference& reference, const ViewSurvey& survey, const ViewPose& start,
-         int threads, const std::function<void()>& heed_stop)
+         int threads, const HeedStop& stop)
       : scenario_(scenario),
         scene_(scene),
         legal_(legal),
@@ -44,7 +44,7 @@ class Oracle {
         start_finds_(finds_alone(voxels_, take(start), scenario.planner.cloud.leaf_m)),
         places_(survey, voxels_.size(), ways_, threads),
         task_(places_.task(start_finds_)) {
-    task_.heed_stop = heed_stop;
+    task_.stop = stop;
   }
 
   std::vector<Decision> plan(OracleAim aim) {
@@ -213,9 +213,8 @@ class Oracle {
 /// Calls use(oracle) with what it has to know.
 template <typename Use>
 auto ask_oracle(const Scenario& scenario, const World& world, const RayScene& scene,
-                const ViewPose& start, int threads, const std::function<void()>& heed_stop,
-                const Use& use) {
-  const LegalViewpoints legal = find_legal_viewpoints(scenario, scene, start, threads, heed_stop);
+                const ViewPose& start, int threads, const HeedStop& stop, const Use& use) {
+  const LegalViewpoints legal = find_legal_viewpoints(scenario, scene, start, threads, stop);
   if (legal.size() == 0) {
     throw BadInput(fmt::format(
         "start.position_m: from [{}, {}, {}] no way leads to any other place that keeps "
@@ -227,8 +226,8 @@ auto ask_oracle(const Scenario& scenario, const World& world, const RayScene& sc
       world, scene, {.floor_z_m = scenario.planner.floor_z_m, .region_m = scenario.score.region_m},
       threads);
   const ViewSurvey survey = cached_survey(ceiling_key(scenario, world, legal), scenario, scene,
-                                          legal, reference, threads, heed_stop);
-  Oracle oracle(scenario, scene, legal, reference, survey, start, threads, heed_stop);
+                                          legal, reference, threads, stop);
+  Oracle oracle(scenario, scene, legal, reference, survey, start, threads, stop);
   return use(oracle);
 }
 
@@ -236,8 +235,8 @@ auto ask_oracle(const Scenario& scenario, const World& world, const RayScene& sc
 
 std::vector<Decision> plan_oracle(const Scenario& scenario, const World& world,
                                   const RayScene& scene, const ViewPose& start, OracleAim aim,
-                                  int threads, const std::function<void()>& heed_stop) {
-  return ask_oracle(scenario, world, scene, start, threads, heed_stop,
+                                  int threads, const HeedStop& stop) {
+  return ask_oracle(scenario, world, scene, start, threads, stop,
                     [&](Oracle& oracle) { return oracle.plan(aim); });
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <vector>
 
 #include "planner/core/plan.hpp"
@@ -29,10 +28,10 @@ constexpr double kGreedyMetresPerView = 1.0;
 /// the survey (view_survey.hpp), begun with the greedy tour: fewest metres and kMetresPerView, or
 /// fewest views, whose cloud (CloudOfViews, in the order of flight) holds kOracleShare of what that
 /// of all views holds. Deterministic at any number of threads. The best we know; no bound.
-/// `heed_stop` is called several times a second, by any thread, and may throw.
+/// `stop` is called several times a second, by any thread, and may throw.
 std::vector<Decision> plan_oracle(const Scenario& scenario, const World& world,
                                   const RayScene& scene, const ViewPose& start, OracleAim aim,
-                                  int threads, const std::function<void()>& heed_stop = {});
+                                  int threads, const HeedStop& stop = {});
 
 /// Shares of what the cloud of all views holds that are asked of an oracle.
 constexpr std::array<double, 4> kOracleReachShares = {0.90, 0.95, 0.98, 0.99};

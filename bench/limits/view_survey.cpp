@@ -58,7 +58,7 @@ double share_of_hits(std::span<const FrameRays> view) {
 
 std::vector<SurveyedView> worthwhile_views(const RayScene& scene, const LegalViewpoints& legal,
                                            std::span<const CameraModel> cameras, double floor_z_m,
-                                           int threads, const std::function<void()>& heed_stop) {
+                                           int threads, const HeedStop& stop) {
   const std::vector<CameraModel> quick = coarse(cameras);
   const std::optional<GimbalConfig> gimbal = gimbal_of(cameras);
   const std::vector<double> pitches = gimbal ? pitches_rad(*gimbal) : std::vector<double>{0.0};
@@ -66,7 +66,7 @@ std::vector<SurveyedView> worthwhile_views(const RayScene& scene, const LegalVie
   const std::int32_t stride = stride_of(legal, cameras);
   std::vector<std::vector<SurveyedView>> at(legal.size());
   parallel_for(threads, legal.size(), [&](std::size_t i) {
-    if (heed_stop) heed_stop();
+    heed(stop);
     const auto& cell = legal.cell[i];
     if (cell[0] % stride != 0 || cell[1] % stride != 0 || cell[2] % stride != 0) return;
     if (std::isinf(scene.distance_to_structure_m(legal.p_world_m[i], far_m))) return;
@@ -94,16 +94,16 @@ ViewPose pose_of(const LegalViewpoints& legal, const SurveyedView& view) {
 
 ViewSurvey survey_views(const Scenario& scenario, const RayScene& scene,
                         const LegalViewpoints& legal, const SurfaceReference& reference,
-                        int threads, const std::function<void()>& heed_stop) {
+                        int threads, const HeedStop& stop) {
   const std::vector<CameraModel> cameras = exact_cameras(scenario);
   const double floor_z_m = scenario.planner.floor_z_m;
   ViewSurvey survey;
-  survey.views = worthwhile_views(scene, legal, cameras, floor_z_m, threads, heed_stop);
+  survey.views = worthwhile_views(scene, legal, cameras, floor_z_m, threads, stop);
   CloudOfViews cloud(scenario, reference.outside[0]);
   std::vector<std::vector<FrameRays>> rays(kViewsAtOnce);
   for (std::size_t begin = 0; begin < survey.views.size(); begin += kViewsAtOnce) {
     const std::size_t count = std::min(kViewsAtOnce, survey.views.size() - begin);
-    if (heed_stop) heed_stop();
+    heed(stop);
     parallel_for(threads, count, [&](std::size_t i) {
       SurveyedView& view = survey.views[begin + i];
       take_view(scene, cameras, pose_of(legal, view), floor_z_m, 1, rays[i]);

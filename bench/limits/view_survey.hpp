@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "bench/limits/legal_viewpoints.hpp"
@@ -33,9 +32,9 @@ struct ViewSurvey {
 /// at least. All views, in the order of `views`, go
 /// through one cloud (CloudOfViews). A leaf of it keeps the centroid that reached it first, as a
 /// mission's does: another order gives a slightly different cloud. The same at any number of
-/// threads. `heed_stop` is called several times a second, by any thread, and may throw.
+/// threads. `stop` is called several times a second, by any thread, and may throw.
 ViewSurvey survey_views(const Scenario& scenario, const RayScene& scene,
                         const LegalViewpoints& legal, const SurfaceReference& reference,
-                        int threads, const std::function<void()>& heed_stop = {});
+                        int threads, const HeedStop& stop = {});
 
 }  // namespace gnbv
