@@ -30,13 +30,13 @@ forbidden() {  # forbidden FILE LINE
 # ---- the planner cannot see the ground truth --------------------------------------------------
 for truth in sim/mesh/world.hpp sim/mesh/triangle_mesh.hpp sim/mesh/mesh_file.hpp sim/flight/flight.hpp \
   sim/flight/vehicle_config.hpp sensors/ray_scene.hpp sensors/capture.hpp assets/aircraft.hpp \
-  scenarios/scenario.hpp bench/score/coverage.hpp tools/mission/mission.hpp; do
-  forbidden planner/planner.cpp "#include \"$truth\""
+  scenarios/scenario.hpp bench/score/cloud_metrics.hpp tools/mission/mission.hpp; do
+  forbidden planner/planners.cpp "#include \"$truth\""
   forbidden planner/map/occupancy_grid.hpp "#include \"$truth\""
 done
 for believed in planner/view/visibility.hpp sim/core/pose.hpp sensors/camera_model.hpp \
   sensors/lidar_model.hpp sensors/frames.hpp; do
-  allowed planner/planner.cpp "#include \"$believed\""
+  allowed planner/planners.cpp "#include \"$believed\""
 done
 # nor by way of the sensor types it reads
 for type in camera_model lidar_model frames; do
@@ -49,8 +49,8 @@ done
 forbidden sim/core/pose.hpp '#include "sim/mesh/world.hpp"'
 forbidden sim/mesh/world.hpp '#include "sim/flight/flight.hpp"'
 forbidden sim/flight/px4.cpp '#include "sim/mavlink/messages.hpp"'
-forbidden planner/map/clearance.cpp '#include "planner/core/model.hpp"'
-forbidden planner/map/clearance.cpp '#include "planner/view/visibility.hpp"'
+forbidden planner/map/frontiers.cpp '#include "planner/core/planner.hpp"'
+forbidden planner/map/frontiers.cpp '#include "planner/view/visibility.hpp"'
 for room in core guided route tour; do  # no way back up, nor to another planner
   forbidden "planner/$room/any.cpp" '#include "planner/planners.hpp"'
   forbidden "planner/$room/any.cpp" '#include "planner/config.hpp"'
@@ -59,7 +59,7 @@ forbidden planner/guided/any.cpp '#include "planner/tour/config.hpp"'
 forbidden planner/tour/any.cpp '#include "planner/guided/utility.hpp"'
 forbidden planner/core/any.cpp '#include "planner/guided/utility.hpp"'
 forbidden planner/symmetry/symmetry.cpp '#include "planner/view/visibility.hpp"'
-forbidden bench/score/coverage.cpp '#include "bench/limits/ceiling.hpp"'
+forbidden bench/score/cloud_metrics.cpp '#include "bench/limits/ceiling.hpp"'
 forbidden bench/limits/ceiling.cpp '#include "bench/compare/statistics.hpp"'
 forbidden tools/run_files/run_directory.cpp '#include "tools/mission/mission.hpp"'
 forbidden tools/mission/mission.cpp '#include "tools/render/picture.hpp"'
@@ -68,40 +68,40 @@ forbidden tools/paper/page.cpp '#include "tools/gnbv/bench_runs.hpp"'
 forbidden tools/plots/curves.cpp '#include "tools/paper/verdicts.hpp"'
 allowed tools/paper/page.cpp '#include "tools/surface/surface.hpp"'
 forbidden tools/terminal/progress.cpp '#include "scenarios/scenario.hpp"'
-forbidden sim/mesh/world.cpp '#include "sensors/frames.hpp"'
-forbidden sim/mesh/world.cpp '#include "planner/core/model.hpp"'
+forbidden sim/mesh/triangle_mesh.cpp '#include "sensors/frames.hpp"'
+forbidden sim/mesh/triangle_mesh.cpp '#include "planner/core/planner.hpp"'
 forbidden assets/aircraft.cpp '#include "sensors/frames.hpp"'
-forbidden sensors/capture.cpp '#include "planner/core/model.hpp"'
+forbidden sensors/capture.cpp '#include "planner/core/planner.hpp"'
 forbidden sensors/capture.cpp '#include "assets/aircraft.hpp"'
 forbidden scenarios/load.cpp '#include "sim/mesh/world.hpp"'
 forbidden scenarios/load.cpp '#include "sensors/ray_scene.hpp"'
-forbidden scenarios/load.cpp '#include "bench/score/coverage.hpp"'
-forbidden bench/score/coverage.cpp '#include "tools/mission/mission.hpp"'
-forbidden tools/mission/mission.cpp '#include "tests/support/scenes.hpp"'
-allowed sim/mesh/world.cpp '#include "sim/core/pose.hpp"'
+forbidden scenarios/load.cpp '#include "bench/score/cloud_metrics.hpp"'
+forbidden bench/score/cloud_metrics.cpp '#include "tools/mission/mission.hpp"'
+forbidden tools/mission/mission.cpp '#include "tests/support/made_run.hpp"'
+allowed sim/mesh/triangle_mesh.cpp '#include "sim/core/pose.hpp"'
 allowed assets/aircraft.cpp '#include "sim/mesh/triangle_mesh.hpp"'
 allowed sensors/capture.cpp '#include "sim/mesh/world.hpp"'
-allowed scenarios/scenario.hpp '#include "planner/core/model.hpp"'
-allowed bench/score/coverage.cpp '#include "sensors/ray_scene.hpp"'
-allowed tools/mission/mission.cpp '#include "bench/score/coverage.hpp"'
+allowed scenarios/scenario.hpp '#include "planner/core/planner.hpp"'
+allowed bench/score/cloud_metrics.cpp '#include "sensors/ray_scene.hpp"'
+allowed tools/mission/mission.cpp '#include "bench/score/cloud_metrics.hpp"'
 allowed tests/end_to_end/smoke_test.cpp '#include "tools/mission/mission.hpp"'
 
 # ---- libraries stop at their one file ---------------------------------------------------------
 library() {  # library HEADER FILE_THAT_MAY FILE_THAT_MAY_NOT...
   allowed "$2" "#include <$1>"
   local file
-  for file in "${@:3}" planner/planner.cpp tests/support/scenes.hpp; do
+  for file in "${@:3}" planner/planners.cpp tests/support/made_run.hpp; do
     forbidden "$file" "#include <$1>"
   done
 }
 library embree3/rtcore.h sensors/ray_scene.cpp sensors/ray_scene.hpp bench/limits/ceiling.cpp
-library btBulletDynamicsCommon.h sim/flight/vehicle.cpp sim/flight/vehicle.hpp sim/world.cpp
+library btBulletDynamicsCommon.h sim/flight/vehicle.cpp sim/flight/vehicle.hpp sim/flight/px4.cpp
 library bullet/btBulletCollisionCommon.h sim/flight/vehicle.cpp sim/flight/flight.hpp
 library LinearMath/btTransform.h sim/flight/vehicle.cpp sim/flight/flight.hpp
 library boost/math/distributions/students_t.hpp bench/compare/statistics.cpp bench/compare/statistics.hpp bench/score/coverage_curve.cpp
-library assimp/Importer.hpp sim/mesh/mesh_import.cpp sim/mesh/mesh_import.hpp sim/mesh/mesh_file.cpp tools/mission/load_world.cpp
+library assimp/Importer.hpp sim/mesh/mesh_import.cpp sim/mesh/mesh_file.hpp sim/mesh/mesh_file.cpp tools/mission/load_world.cpp
 library octomap/OcTree.h planner/map/octomap_io.cpp planner/map/octomap_io.hpp planner/map/occupancy_grid.cpp
-library pcl/point_types.h planner/symmetry/symmetry_pcl.cpp planner/symmetry/symmetry.cpp planner/symmetry/symmetry.hpp bench/score/coverage.cpp
+library pcl/point_types.h planner/symmetry/symmetry_pcl.cpp planner/symmetry/symmetry.cpp planner/symmetry/symmetry.hpp bench/score/cloud_metrics.cpp
 library yaml-cpp/yaml.h scenarios/document.cpp tools/gnbv/main.cpp
 library GL/osmesa.h tools/render/render.cpp tools/render/view.cpp tools/mission/mission.cpp
 library CLI/CLI.hpp tools/gnbv/main.cpp tools/mission/mission.cpp
@@ -112,24 +112,24 @@ allowed sensors/embree_scene.hpp '#include <embree3/rtcore.h>'
 allowed sensors/embree_scene.cpp '#include <embree3/rtcore.h>'
 allowed bench/reference/bare_embree.cpp '#include <embree3/rtcore.h>'
 forbidden bench/reference/bare_embree.hpp '#include <embree3/rtcore.h>'
-allowed bench/reference/slow_cloud.cpp '#include <pcl/point_types.h>'
-allowed bench/reference/slow_map.cpp '#include <octomap/octomap.h>'
+allowed bench/reference/kd_density_twin.cpp '#include <pcl/point_types.h>'
+allowed bench/reference/octomap_twin.cpp '#include <octomap/octomap.h>'
 allowed sim/core/sha256.cpp '#include <openssl/evp.h>'
 forbidden tools/run_files/run_directory.cpp '#include <openssl/evp.h>'
-forbidden sim/mesh/world.cpp '#include <gtest/gtest.h>'
-forbidden sim/mesh/world.cpp '#include <benchmark/benchmark.h>'
+forbidden sim/mesh/triangle_mesh.cpp '#include <gtest/gtest.h>'
+forbidden sim/mesh/triangle_mesh.cpp '#include <benchmark/benchmark.h>'
 
 # ---- spellings that would slip past -----------------------------------------------------------
-forbidden planner/planner.cpp '  #  include <sim/mesh/world.hpp>'
-forbidden planner/planner.cpp '#include"sim/mesh/world.hpp"'
-forbidden planner/planner.cpp '#include "../sim/world.hpp"'
-forbidden planner/planner.cpp '#include "sim/core/../world.hpp"'
-forbidden planner/planner.cpp '#include "planner/../sim/world.hpp"'
-forbidden planner/planner.cpp '#include "world.hpp"'
+forbidden planner/planners.cpp '  #  include <sim/mesh/world.hpp>'
+forbidden planner/planners.cpp '#include"sim/mesh/world.hpp"'
+forbidden planner/planners.cpp '#include "../sim/mesh/world.hpp"'
+forbidden planner/planners.cpp '#include "sim/core/../mesh/world.hpp"'
+forbidden planner/planners.cpp '#include "planner/../sim/mesh/world.hpp"'
+forbidden planner/planners.cpp '#include "world.hpp"'
 forbidden sensors/ray_scene.cpp '#include "embree3/rtcore.h"'
-allowed planner/planner.cpp '#include <vector>'
-allowed planner/planner.cpp '// as #include "sim/mesh/world.hpp" would'
-forbidden planner/planner.cpp '#include GROUND_TRUTH'
+allowed planner/planners.cpp '#include <vector>'
+allowed planner/planners.cpp '// as #include "sim/mesh/world.hpp" would'
+forbidden planner/planners.cpp '#include GROUND_TRUTH'
 
 # ---- what the check says ----------------------------------------------------------------------
 failed=0
