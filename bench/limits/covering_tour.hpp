@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/limits/cover_counts.hpp"
+#include "planner/motion/config.hpp"
 #include "planner/tour/waypoints.hpp"
 
 namespace gnbv {
