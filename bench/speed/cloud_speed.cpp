@@ -55,16 +55,16 @@ class Views {
   std::array<CameraModel, 2> cameras_;
 };
 
-struct VoxelSums {
+struct CloudSums {
   std::vector<std::uint32_t> points;
   std::vector<std::uint64_t> neighbours;
 
-  bool operator==(const VoxelSums&) const = default;
+  bool operator==(const CloudSums&) const = default;
 };
 
 template <typename Cloud>
-VoxelSums sums_of(const Cloud& cloud, const GridGeometry& grid) {
-  VoxelSums sums;
+CloudSums sums_of(const Cloud& cloud, const GridGeometry& grid) {
+  CloudSums sums;
   for (VoxelIndex v = 0; v < grid.voxel_count(); ++v) {
     sums.points.push_back(cloud.point_count(v));
     sums.neighbours.push_back(cloud.neighbour_sum(v));
@@ -98,7 +98,7 @@ class Race {
   }
 
   void run(std::span<const FrameRays> frames) {
-    const VoxelSums before = sums_of(cloud_, grid_);
+    const CloudSums before = sums_of(cloud_, grid_);
     ours_ms_.push_back(time_ms([&] { cloud_.add(frames); }));
     const std::vector<Vec3f> hits_m = hits_of(frames);
     competent_ms_.push_back(time_ms([&] { kd_.add(hits_m); }));
@@ -124,8 +124,8 @@ class Race {
 
   /// The paper's way asks for the points of the voxels that received some. The other voxels whose
   /// density changed are asked for afterwards, for the comparison alone.
-  void time_reference(const std::vector<Vec3f>& hits_m, const VoxelSums& before) {
-    const VoxelSums after = sums_of(cloud_, grid_);
+  void time_reference(const std::vector<Vec3f>& hits_m, const CloudSums& before) {
+    const CloudSums after = sums_of(cloud_, grid_);
     std::vector<std::uint32_t> asked;
     std::vector<std::uint32_t> changed;
     for (std::size_t i = 0; i < pcl_.size(); ++i) {
@@ -153,9 +153,9 @@ class Race {
   }
 
   /// What PCL counted in the voxels that changed is what ours holds, and no other voxel owes more.
-  void compare(const VoxelSums& before, const VoxelSums& after,
+  void compare(const CloudSums& before, const CloudSums& after,
                const std::vector<std::uint32_t>& asked, const std::vector<std::uint32_t>& counts) {
-    VoxelSums by_pcl{.points = std::vector<std::uint32_t>(after.points.size(), 0),
+    CloudSums by_pcl{.points = std::vector<std::uint32_t>(after.points.size(), 0),
                      .neighbours = std::vector<std::uint64_t>(after.points.size(), 0)};
     for (std::size_t i = 0; i < asked.size(); ++i) {
       const VoxelIndex v = voxel_of(asked[i]);
@@ -177,7 +177,7 @@ class Race {
     }
   }
 
-  static bool is_changed(const VoxelSums& before, const VoxelSums& after, std::size_t v) {
+  static bool is_changed(const CloudSums& before, const CloudSums& after, std::size_t v) {
     return after.points[v] != before.points[v] || after.neighbours[v] != before.neighbours[v];
   }
 
