@@ -1,9 +1,11 @@
 #include "scenarios/document.hpp"
 
 #include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <sstream>
 #include <utility>
 
 namespace gnbv {
@@ -12,9 +14,8 @@ namespace {
 using Kind = YamlNode::Kind;
 
 // Aliases can repeat aliases: a short text may ask for more copies of its values than fit into
-// memory. An alias inside the value it refers to asks for endless ones.
+// memory.
 constexpr std::size_t kMostCopies = 100'000;
-constexpr int kMostLevels = 500;  // as yaml-cpp's own limit for values that a text nests
 
 /// Turns yaml-cpp's tree into ours.
 class Converter {
@@ -27,16 +28,20 @@ class Converter {
     return {source_.source, source_.line > 0 ? std::max(0, mark.line) + 1 : 0, source_.rank};
   }
 
-  YamlNode converted(const YAML::Node& from, const std::string& path = "", int level = 0) {
-    if (++values_ > most_values_ || level > kMostLevels) {
+  YamlNode converted(const YAML::Node& from, const std::string& path = "") {
+    if (++values_ > most_values_) {
       throw YAML::ParserException(
-          from.Mark(), fmt::format("anchors and aliases stand for more than {} values, or more "
-                                   "than {} within one another",
-                                   kMostCopies, kMostLevels));
+          from.Mark(),
+          fmt::format("anchors and aliases stand for more than {} values", kMostCopies));
     }
     const std::string& tag = from.Tag();
     YamlNode node;
     node.location = at(from.Mark());
+    if (std::ranges::any_of(open_, [&](const YAML::Node& open) { return open.is(from); })) {
+      errors_.add(node.location, path, "", "the alias stands inside the value it refers to");
+      return node;
+    }
+    open_.push_back(from);
     // yaml-cpp: "!" for quoted and block text, "?" for plain
     if (!tag.empty() && tag != "?" && tag != "!") {
       errors_.add(node.location, path, "", fmt::format("the tag '{}' is not supported", tag));
@@ -51,13 +56,13 @@ class Converter {
     } else if (from.IsSequence()) {
       node.kind = Kind::list;
       for (const auto& item : from) {
-        node.items.push_back(converted(item, below(std::to_string(node.items.size())), level + 1));
+        node.items.push_back(converted(item, below(std::to_string(node.items.size()))));
       }
     } else if (from.IsMap()) {
       node.kind = Kind::map;
       for (const auto& entry : from) {
-        const YamlNode key = converted(entry.first, path, level + 1);
-        YamlNode value = converted(entry.second, below(key.text), level + 1);
+        const YamlNode key = converted(entry.first, path);
+        YamlNode value = converted(entry.second, below(key.text));
         const auto first = std::ranges::find(node.entries, key.text, &YamlEntry::key);
         if (key.kind != Kind::scalar) {
           errors_.add(key.location, path, excerpt(key), "a key has to be a word");
@@ -71,14 +76,34 @@ class Converter {
         }
       }
     }
+    open_.pop_back();
     return node;
   }
 
  private:
   std::size_t values_ = 0;
+  std::vector<YAML::Node> open_;  // those that hold the one at hand
   std::size_t most_values_;
   SourceLocation source_;
   ValidationErrors& errors_;
+};
+
+/// Where documents begin. YAML::LoadAll() would tell no line, and takes a comma for documents
+/// without end.
+struct DocumentStart final : YAML::EventHandler {
+  YAML::Mark last;
+  void OnDocumentStart(const YAML::Mark& mark) override { last = mark; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
 };
 
 /// Inside a list or map: text that would end there goes into quotes; it is no number anyway.
@@ -122,16 +147,18 @@ std::optional<YamlNode> parse_document(const std::string& text, const SourceLoca
                                        ValidationErrors& errors) {
   Converter converter(text, source, errors);
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.empty()) {
+    std::istringstream stream(text);
+    YAML::Parser parser(stream);
+    DocumentStart start;
+    if (!parser.HandleNextDocument(start)) {
       errors.add(source, "", "", "is empty; a scenario is a map of keys");
       return std::nullopt;
     }
-    if (documents.size() > 1) {
-      errors.add(converter.at(documents[1].Mark()), "", "",
+    if (parser.HandleNextDocument(start)) {
+      errors.add(converter.at(start.last), "", "",
                  "a second YAML document begins here; a scenario is one document");
     }
-    return converter.converted(documents.front());
+    return converter.converted(YAML::Load(text));
   } catch (const YAML::Exception& error) {
     errors.add(converter.at(error.mark), "", "", fmt::format("not YAML: {}", error.msg));
     return std::nullopt;

@@ -122,8 +122,8 @@ void fields(const Keys& key, FvsConfig& c) {
 
 void fields(const Keys& key, PathSearchConfig& c) {
   key("max_expansions", c.max_expansions, {1, 1e7},
-      "Nodes that a search may expand in a navigation box of up to 40,000 voxels; in a larger box "
-      "proportionally more.");
+      "Nodes that a search may expand where its lattice has up to 40,000 in the navigation box; "
+      "where it has more, proportionally more.");
 }
 
 void fields(const Keys& key, ValidityConfig& c) {

@@ -16,7 +16,8 @@ void fields(const Keys& key, MeshFileConfig& c) {
   key.path("path", c.path, "Mesh file (OBJ, STL, PLY, DAE, GLTF, GLB); empty: none.");
   const Keys of_mesh = key.only_if(!c.path.empty(), ".path");
   of_mesh("scale", c.scale, positive(1e6), "Factor on the file's coordinates.");
-  of_mesh.angle("yaw_deg", c.yaw_rad, {-360, 360}, "About the file's origin, counter-clockwise.");
+  of_mesh.angle("yaw_deg", c.yaw_rad, {-360, 360},
+                "About the file's origin; from above, counter-clockwise.");
   of_mesh("offset_m", c.offset_m, {-1e8, 1e8},
           "Added after scaling, world axes; survey coordinates are millions of metres.");
   of_mesh("up_axis", c.up_axis, kUpAxes,

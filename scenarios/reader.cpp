@@ -165,8 +165,9 @@ class Reader final : public FieldVisitor {
     };
     const auto near = nearest_name(key, names);
     if (near && edit_distance(key, *near) <= 2) return meant_here(*near);
-    for (const std::string_view name : names) {  // without its unit
-      if (name.starts_with(key + '_')) return meant_here(name);
+    const auto lacks_its_unit = [&](std::string_view name) { return name.starts_with(key + '_'); };
+    if (std::ranges::count_if(names, lacks_its_unit) == 1) {
+      return meant_here(*std::ranges::find_if(names, lacks_its_unit));
     }
     Scenario one_camera;
     one_camera.cameras.resize(1);

@@ -1,4 +1,4 @@
-// The steps of load_scenario(), which alone calls them.
+// The steps of load_scenario().
 #pragma once
 
 #include <optional>

@@ -12,7 +12,8 @@ using Json = nlohmann::ordered_json;
 
 /// A whole number without a decimal point.
 Json bound_of(double bound) {
-  return bound == std::round(bound) ? Json(static_cast<std::int64_t>(bound)) : Json(bound);
+  if (std::isinf(bound) || bound != std::round(bound)) return bound;
+  return static_cast<std::int64_t>(bound);
 }
 
 Json number_schema(const char* type, const Range& allowed) {

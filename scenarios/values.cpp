@@ -50,6 +50,12 @@ bool is_word(std::string_view text, std::string_view more = "._-") {
   });
 }
 
+/// Whether the text is a word for NaN or infinity, as .inf and nan are.
+bool is_not_finite(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text.ends_with("nan") || text.ends_with("inf");
+}
+
 // Each read_one() sets the value and returns "", or returns what is wrong.
 
 std::string read_one(const YamlNode& node, const Field& field, double& value) {
@@ -57,8 +63,10 @@ std::string read_one(const YamlNode& node, const Field& field, double& value) {
   const bool is_plain = node.kind == Kind::scalar && !node.is_quoted;
   const std::errc error = is_plain ? parse_whole(node.text, number) : std::errc::invalid_argument;
   if (error == std::errc::result_out_of_range) return "is beyond what a number can hold";
-  if (error != std::errc{}) return expected(node, "a number");
-  if (!contains(field.allowed, number)) return out_of_range(field.allowed);  // NaN, too
+  if (error != std::errc{} || !std::isfinite(number)) {
+    return expected(node, is_plain && is_not_finite(node.text) ? "a finite number" : "a number");
+  }
+  if (!contains(field.allowed, number)) return out_of_range(field.allowed);
   value = field.kind == FieldKind::angle ? deg_to_rad(number) : number;
   return "";
 }

@@ -7,7 +7,6 @@
 #include <limits>
 #include <memory>
 #include <span>
-#include <vector>
 
 #include "sim/core/pose.hpp"
 #include "sim/mesh/world.hpp"
@@ -46,7 +45,7 @@ struct RayPacket {
   Vec3f direction(std::size_t ray) const { return {x[ray], y[ray], z[ray]}; }
 };
 
-/// Their RayHits.
+/// Their hits.
 struct HitPacket {
   std::array<float, RayPacket::kRays> distance_m{};
   std::array<std::int32_t, RayPacket::kRays> face{};

@@ -111,10 +111,10 @@ std::variant<Decision, Termination> next_decision(const TerminationConfig& confi
     history.ahead.assign(plan.views.rbegin(), plan.views.rend());
   }
   Decision next = history.ahead.back();
-  history.ahead.pop_back();
   const bool is_too_far = config.max_distance_m > 0.0 &&
                           planned_m(history, current.p_world_m, next) > config.max_distance_m;
   if (is_too_far) return Termination::max_distance;
+  history.ahead.pop_back();
   return next;
 }
 

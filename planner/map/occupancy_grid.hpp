@@ -81,7 +81,7 @@ class OccupancyGrid {
   VoxelWord settled_word() const { return settled_word_; }
   float settled_log_odds() const { return clamp_min_log_; }
 
-  /// Rows for the hot loops; index with VoxelIndex. kWordPadding more words may be read.
+  /// Rows for the hot loops; index with VoxelIndex. kPadding more words may be read.
   std::span<const VoxelWord> words() const {
     return std::span(words_).first(geometry_.voxel_count());
   }

@@ -1,7 +1,7 @@
 #include "planner/tour/tour_state.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
 
 #include "planner/core/belief.hpp"
 

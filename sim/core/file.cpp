@@ -87,6 +87,10 @@ std::ifstream open_file(const fs::path& path) {
   return in;
 }
 
+void need_whole(const std::istream& in, const fs::path& path) {
+  if (in.bad()) throw BadInput(fmt::format("{}: {}", path.string(), std::strerror(errno)));
+}
+
 std::string read_file(const fs::path& path) {
   std::error_code ignored;
   if (fs::is_character_file(path, ignored)) {
@@ -102,7 +106,7 @@ std::string read_file(const fs::path& path) {
       throw BadInput(fmt::format("{}: goes on after 1 GiB", path.string()));
     }
   }
-  if (in.bad()) throw BadInput(fmt::format("{}: {}", path.string(), std::strerror(errno)));
+  need_whole(in, path);
   return content;
 }
 

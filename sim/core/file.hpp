@@ -31,6 +31,8 @@ std::string extension_of(const std::filesystem::path& path);
 
 /// Opens a file or pipe to read its bytes. Throws BadInput naming the path.
 std::ifstream open_file(const std::filesystem::path& path);
+/// Throws BadInput naming the path when reading it failed, rather than ended.
+void need_whole(const std::istream& in, const std::filesystem::path& path);
 
 /// The whole file, or pipe of up to 1 GiB. Throws BadInput naming the path when it cannot be read
 /// or is a device.

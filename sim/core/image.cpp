@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <memory>
 #include <span>
-#include <string>
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"

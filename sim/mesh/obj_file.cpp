@@ -75,6 +75,7 @@ class ObjMaterials {
         if (const auto rgb = colour_in(values)) rgb_of_[material] = *rgb;
       }
     }
+    need_whole(file, library);
     if (!is_named_ && index_of_.empty() && !material.empty()) current_ = material;
   }
 
@@ -146,7 +147,7 @@ class ObjReader {
       statement += line;
       if (!goes_on) add_statement(statement);
     }
-    if (file_.bad()) throw BadInput(fmt::format("{}: {}", path_.string(), std::strerror(errno)));
+    need_whole(file_, path_);
     if (goes_on) add_statement(statement);
     warn(unreadable_, "unreadable lines");
     warn(impossible_, "faces of vertices that do not exist");

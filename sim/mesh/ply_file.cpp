@@ -136,6 +136,7 @@ class PlyFile {
   void read_header() {
     std::vector<std::string_view> words;
     std::getline(in_, line_);
+    need_whole(in_, path_);
     split(line_, words);
     if (words.size() != 1 || words[0] != "ply") fail("is no PLY file: its first line is not 'ply'");
     while (std::getline(in_, line_)) {
@@ -144,6 +145,7 @@ class PlyFile {
       if (words[0] == "end_header") return;
       if (!read_declaration(words)) fail(fmt::format("its header has a bad '{}' line", words[0]));
     }
+    need_whole(in_, path_);
     fail("its header has no end_header");
   }
 
@@ -209,7 +211,8 @@ class PlyFile {
   }
 
   [[noreturn]] void end_early() const {
-    fail(in_.bad() ? std::strerror(errno) : "ends before all that its header announces");
+    need_whole(in_, path_);
+    fail("ends before all that its header announces");
   }
 
   std::string path_;

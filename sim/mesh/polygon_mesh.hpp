@@ -56,11 +56,12 @@ TriangleMesh triangulated(PolygonMesh polygons);
 void take_colours(std::span<const std::uint32_t> face_rgb, std::vector<Material>& materials,
                   std::vector<std::uint16_t>& face_material);
 
-/// A number as an index. Throws BadInput naming the file when Index cannot hold it, but for its
-/// last value.
+/// A number as an index. Throws BadInput naming the file when there are too many for an Index; the
+/// last uint32 stands for none.
 template <typename Index = std::uint32_t>
 Index as_index(std::size_t number, const std::string& path, std::string_view of_what) {
-  constexpr std::size_t kMost = std::numeric_limits<Index>::max();
+  constexpr std::size_t kLast = std::numeric_limits<Index>::max();
+  constexpr std::size_t kMost = sizeof(Index) == sizeof(std::uint32_t) ? kLast : kLast + 1;
   if (number >= kMost) throw BadInput(fmt::format("{}: more than {} {}", path, kMost, of_what));
   return static_cast<Index>(number);
 }

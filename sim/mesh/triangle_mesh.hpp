@@ -68,11 +68,12 @@ Box3 bounds_m(const TriangleMesh& mesh);
 /// Sum of the faces' areas, two-sided faces counted twice.
 double surface_area_m2(const TriangleMesh& mesh);
 
-/// Gives equal positions (bit for bit, but -0 is 0) the same index. A NaN equals nothing.
+/// Gives equal positions (bit for bit, but -0 is 0) the same index. One with a NaN equals nothing.
 class PositionIndices {
  public:
   /// The index of the position, which becomes `next` if it is new; whether it is.
   std::pair<std::uint32_t, bool> index_of(const Vec3f& p_m, std::uint32_t next) {
+    if (p_m.hasNaN()) return {next, true};
     const Vec3f p = p_m + Vec3f::Zero();  // -0 becomes 0
     const auto [entry, is_new] = index_of_.try_emplace({p.x(), p.y(), p.z()}, next);
     return {entry->second, is_new};

@@ -179,6 +179,7 @@ TEST(NextDecision, ALegThatPassesTheLimitIsTooFarNotOneThatEndsOnIt) {
   config.max_distance_m = 10.0;
   EXPECT_FALSE(is_too_far(2.5));
   EXPECT_TRUE(is_too_far(2.5000001));
+  EXPECT_TRUE(is_too_far(1.0));  // the plan at hand is asked again, not another one
 }
 
 TEST(History, ItsEntropiesBeginBeforeTheFirstViewWithADepthReturn) {

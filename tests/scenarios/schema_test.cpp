@@ -83,7 +83,7 @@ TEST(Schema, EveryKeyCanBeSet) {
     const std::string path = (is_of_outages ? outages : file).path().string();
     const auto before = scenario_values(load_scenario(path, {}));
     if (leaf.path == "obstacles.0.file.path") continue;  // a box excludes it
-    // one alone leaves a vehicle that cannot hover: LayoutTest has them
+    // one alone leaves a vehicle that cannot hover: Layouts has them
     if (leaf.path.starts_with("vehicle.airframe.rotors")) continue;
     const std::string value = other_value(leaf, path);
     std::vector<std::pair<std::string, std::string>> after;

@@ -36,14 +36,14 @@ struct Mission {
   std::unique_ptr<Flight> flight;
   History history;
   std::unique_ptr<Planner> planner;
-  ViewPose current;                 // where the planner believes to be
-  Vec3 last_p_world_m;              // truth, one tick ago
-  double gimbal_pitch_rad = 0.0;    // where it is
-  double flown_m = 0.0;             // truth, since the start
-  std::vector<Exit> exits;          // none: home leads over the top
-  std::vector<Exit> corners;        // of the way to the next view, ends included
-  bool is_homing = false;           // on the last way, with energy for it
-  WallTimes view_wall;              // of the view at hand
+  ViewPose current;               // where the planner believes to be
+  Vec3 last_p_world_m;            // truth, one tick ago
+  double gimbal_pitch_rad = 0.0;  // where it is
+  double flown_m = 0.0;           // truth, since the start
+  std::vector<Exit> exits;        // none: home leads over the top
+  std::vector<Exit> corners;      // of the way to the next view, ends included
+  bool is_homing = false;         // on the last way, with energy for it
+  WallTimes view_wall;            // of the view at hand
 };
 
 double time_s(const Flight& flight);

@@ -33,7 +33,7 @@ class BeliefView {
 
   /// z, y, x; natural logarithm of the odds, float32.
   nb::object log_odds() const;
-  /// z, y, x; voxel_word.hpp.
+  /// z, y, x; map_kernels.hpp.
   nb::object words() const;
   /// points x 3, m, world ENU, float32.
   nb::object cloud() const;

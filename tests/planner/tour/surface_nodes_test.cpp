@@ -1,10 +1,9 @@
-#include "planner/tour/visibility_cache.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "planner/tour/visibility_cache.hpp"
 #include "tests/planner/tour/free_grid.hpp"
 
 namespace gnbv {

@@ -1,7 +1,7 @@
 // Laws of what a plan says it is for: nothing that can be expected is lost or moved.
-#include "planner/tour/gains.hpp"
-
 #include <gtest/gtest.h>
+
+#include "planner/tour/gains.hpp"
 
 namespace gnbv {
 namespace {

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/sim/mesh/mesh_files.hpp"
@@ -62,6 +63,14 @@ TEST_F(MeshFile, GarbageAmongTheVerticesIsRefused) {
   EXPECT_TRUE(says(with("vt 0 x\n"), ":3: "));
   EXPECT_EQ(with("vt 0 0\n.7 0.3 1\nvt 1 1\n"), "");
   EXPECT_EQ(with("f 1 2\n"), "");  // a face, if a broken one
+}
+
+TEST_F(MeshFile, AnObjHasUpTo65536Materials) {
+  std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (int i = 0; i < 65536; ++i) text += fmt::format("usemtl m{}\nf 1 2 3\n", i);
+  EXPECT_EQ(load_mesh(file(write("t.obj", text))).materials.size(), 65536U);
+  EXPECT_TRUE(says(complaint(file(write("u.obj", text + "usemtl more\nf 1 2 3\n"))),
+                   "u.obj: more than 65536 materials"));
 }
 
 TEST_F(MeshFile, MissingMaterialFileIsReported) {
