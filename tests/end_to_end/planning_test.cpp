@@ -178,8 +178,7 @@ struct Believed {
     const Flown flown(scenario, {.observers = {&watch, &log}});
     log.finish();
     sha256 = result_sha256(flown.result);
-    views = read_beliefs(folder.path(), flown.result.views.size(),
-                         belief->grid.geometry().voxel_count());
+    views = read_beliefs(folder.path(), flown.result.views.size(), model.geometry().voxel_count());
   }
 };
 

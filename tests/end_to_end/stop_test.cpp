@@ -57,7 +57,7 @@ TEST(Stop, IsHonouredWhileAnOraclePlans) {
       smoke({"planner.utility.name=oracle_metres"}),
       {.out = temp.path() / "run", .quiet = true, .should_stop = [&] { return ++asked > 100; }});
   EXPECT_EQ(mission.result.termination, Termination::interrupted);
-  EXPECT_EQ(mission.result.flight_time_s, 0.0);
+  EXPECT_LT(mission.result.flight_time_s, 0.01);  // a tick, before the mission asks
   EXPECT_LT(asked, 1000);  // each thread is told, and the mission
 }
 
