@@ -58,7 +58,7 @@ TEST(Stop, IsHonouredWhileAnOraclePlans) {
       {.out = temp.path() / "run", .quiet = true, .should_stop = [&] { return ++asked > 100; }});
   EXPECT_EQ(mission.result.termination, Termination::interrupted);
   EXPECT_LT(mission.result.flight_time_s, 0.01);  // a tick, before the mission asks
-  EXPECT_LT(asked, 1000);  // each thread is told, and the mission
+  EXPECT_LT(asked, 1000);                         // each thread is told, and the mission
 }
 
 TEST(MaxDistance, TheLastLegThatFitsIsTheLast) {
