@@ -93,7 +93,7 @@ void check_leg_times(const Scenario& s, Problems& out) {
 void check_quadrotor(const Scenario& s, Problems& out) {
   const AutopilotParameters& autopilot = s.vehicle.autopilot;
   const AirframeParameters& a = s.vehicle.airframe;
-  const double hover = hover_command(a);
+  const double hover = needed_hover_command(a);
   require_below(out, kAutopilot, "thrust_min", autopilot.thrust_min, "thrust_max",
                 autopilot.thrust_max);
   require_below(out, kAutopilot, "thrust_margin_xy", autopilot.thrust_margin_xy, "thrust_max",
@@ -130,7 +130,7 @@ void check_wind(const Scenario& s, Problems& out) {
                "an ideal vehicle moves exactly as commanded: it feels no wind")) {
     return;
   }
-  const double calm_command = hover_command(s.vehicle.airframe);
+  const double calm_command = needed_hover_command(s.vehicle.airframe);
   if (!(calm_command > 0.0 && calm_command < 1.0)) return;  // check_quadrotor() said so
   const AutopilotParameters& autopilot = s.vehicle.autopilot;
   const HoverTrim trim = hover_trim(s.vehicle, wind_m_s);

@@ -41,8 +41,7 @@ Px4::Px4(const AutopilotParameters& parameters, const AirframeParameters& airfra
       estimate_(start),
       home_world_m_(start.T_world_body.translation().head<2>()),
       tilt_limit_rad_(parameters.commander.tilt_max_on_ground_rad) {
-  const double hover = hover_command(airframe);
-  GNBV_CHECK(hover > 0.0 && hover < 1.0, "hover command {} is not in (0, 1)", hover);
+  hover_command(airframe);  // throws for a vehicle that cannot hover
   if (how == Start::on_ground) return;
   intention_ = intention_after_disarming_ = nav_state_ = NavState::offboard;
   is_armed_ = has_flown_ = true;

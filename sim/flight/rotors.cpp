@@ -162,6 +162,12 @@ double hover_speed_rad_s(const AirframeParameters& airframe) {
       weight_n / (static_cast<double>(airframe.rotors.size()) * airframe.thrust_coefficient_n_s2));
 }
 
+double hover_command(const AirframeParameters& airframe) {
+  const double command = needed_hover_command(airframe);
+  GNBV_CHECK(command > 0.0 && command < 1.0, "hover command {} is not in (0, 1)", command);
+  return command;
+}
+
 double yaw_authority_rad_s2(const AirframeParameters& airframe) {
   const double thrust_per_command_n = 2.0 * airframe.thrust_coefficient_n_s2 *
                                       hover_speed_rad_s(airframe) * airframe.command_gain_rad_s;

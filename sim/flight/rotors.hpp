@@ -22,9 +22,11 @@ inline double command_at_speed(const AirframeParameters& airframe, double speed_
 }
 double hover_speed_rad_s(const AirframeParameters& airframe);
 /// The command at which thrust equals weight; not in (0, 1) where the vehicle cannot hover.
-inline double hover_command(const AirframeParameters& airframe) {
+inline double needed_hover_command(const AirframeParameters& airframe) {
   return command_at_speed(airframe, hover_speed_rad_s(airframe));
 }
+/// The same of a vehicle that can.
+double hover_command(const AirframeParameters& airframe);
 
 /// Angular acceleration about body z for a unit of yaw command, at hover.
 double yaw_authority_rad_s2(const AirframeParameters& airframe);
