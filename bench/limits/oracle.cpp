@@ -213,7 +213,8 @@ class Oracle {
 /// Calls use(oracle) with what it has to know.
 template <typename Use>
 auto ask_oracle(const Scenario& scenario, const World& world, const RayScene& scene,
-                const ViewPose& start, int threads, const HeedStop& stop, const Use& use) {
+                const SurfaceReference& reference, const ViewPose& start, int threads,
+                const HeedStop& stop, const Use& use) {
   const LegalViewpoints legal = find_legal_viewpoints(scenario, scene, start, threads, stop);
   if (legal.size() == 0) {
     throw BadInput(fmt::format(
@@ -222,9 +223,6 @@ auto ask_oracle(const Scenario& scenario, const World& world, const RayScene& sc
         start.p_world_m.x(), start.p_world_m.y(), start.p_world_m.z(),
         scenario.planner.validity.collision_radius_m));
   }
-  const SurfaceReference reference = cached_surface_reference(
-      world, scene, {.floor_z_m = scenario.planner.floor_z_m, .region_m = scenario.score.region_m},
-      threads);
   const ViewSurvey survey = cached_survey(ceiling_key(scenario, world, legal), scenario, scene,
                                           legal, reference, threads, stop);
   Oracle oracle(scenario, scene, legal, reference, survey, start, threads, stop);
@@ -234,15 +232,17 @@ auto ask_oracle(const Scenario& scenario, const World& world, const RayScene& sc
 }  // namespace
 
 std::vector<Decision> plan_oracle(const Scenario& scenario, const World& world,
-                                  const RayScene& scene, const ViewPose& start, OracleAim aim,
-                                  int threads, const HeedStop& stop) {
-  return ask_oracle(scenario, world, scene, start, threads, stop,
+                                  const RayScene& scene, const SurfaceReference& reference,
+                                  const ViewPose& start, OracleAim aim, int threads,
+                                  const HeedStop& stop) {
+  return ask_oracle(scenario, world, scene, reference, start, threads, stop,
                     [&](Oracle& oracle) { return oracle.plan(aim); });
 }
 
 std::vector<OracleReach> oracle_reaches(const Scenario& scenario, const World& world,
-                                        const RayScene& scene, const ViewPose& start, int threads) {
-  return ask_oracle(scenario, world, scene, start, threads, {}, [&](Oracle& oracle) {
+                                        const RayScene& scene, const SurfaceReference& reference,
+                                        const ViewPose& start, int threads) {
+  const auto reach_all = [](Oracle& oracle) {
     std::vector<OracleReach> reaches;
     for (const double share : kOracleReachShares) reaches.push_back(oracle.reach(share));
     // a tour that finds more finds less, too
@@ -253,7 +253,8 @@ std::vector<OracleReach> oracle_reaches(const Scenario& scenario, const World& w
       reaches[i].views = more.views;
     }
     return reaches;
-  });
+  };
+  return ask_oracle(scenario, world, scene, reference, start, threads, {}, reach_all);
 }
 
 }  // namespace gnbv

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "bench/score/surface_reference.hpp"
 #include "planner/core/plan.hpp"
 #include "scenarios/scenario.hpp"
 #include "sensors/ray_scene.hpp"
@@ -29,9 +30,11 @@ constexpr double kGreedyMetresPerView = 1.0;
 /// fewest views, whose cloud (CloudOfViews, in the order of flight) holds kOracleShare of what that
 /// of all views holds. Deterministic at any number of threads. The best we know; no bound.
 /// `stop` is called several times a second, by any thread, and may throw.
+/// `reference` is what the scenario's missions are scored against.
 std::vector<Decision> plan_oracle(const Scenario& scenario, const World& world,
-                                  const RayScene& scene, const ViewPose& start, OracleAim aim,
-                                  int threads, const HeedStop& stop = {});
+                                  const RayScene& scene, const SurfaceReference& reference,
+                                  const ViewPose& start, OracleAim aim, int threads,
+                                  const HeedStop& stop = {});
 
 /// Shares of what the cloud of all views holds that are asked of an oracle.
 constexpr std::array<double, 4> kOracleReachShares = {0.90, 0.95, 0.98, 0.99};
@@ -49,6 +52,7 @@ struct OracleReach {
 
 /// By kOracleReachShares. Takes as long as so many calls of plan_oracle.
 std::vector<OracleReach> oracle_reaches(const Scenario& scenario, const World& world,
-                                        const RayScene& scene, const ViewPose& start, int threads);
+                                        const RayScene& scene, const SurfaceReference& reference,
+                                        const ViewPose& start, int threads);
 
 }  // namespace gnbv

@@ -8,6 +8,7 @@
 #include "sim/core/error.hpp"
 #include "tests/support/flown_into.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tools/mission/reference.hpp"
 #include "tools/mission/start_pose.hpp"
 #include "tools/run_files/iterations_csv.hpp"
 #include "tools/run_files/run_directory.hpp"
@@ -34,7 +35,8 @@ const std::vector<Decision>& route_of(const std::string& utility) {
     const RayScene scene(world);
     const OracleAim aim =
         traits_of(scenario.planner).counts_metres ? OracleAim::metres : OracleAim::views;
-    routes[utility] = plan_oracle(scenario, world, scene, start_pose(scenario, scene), aim, 2);
+    routes[utility] = plan_oracle(scenario, world, scene, reference_of(scenario, world, scene, 2),
+                                  start_pose(scenario, scene), aim, 2);
   }
   return routes[utility];
 }

@@ -145,7 +145,8 @@ TEST(NoFlyMission, AnOracleKeepsOutToo) {
   const RayScene scene(world);
   MissionInputs inputs;
   inputs.sources.route =
-      plan_oracle(scenario, world, scene, start_pose(scenario, scene), OracleAim::metres, 2);
+      plan_oracle(scenario, world, scene, reference_of(scenario, world, scene, 2),
+                  start_pose(scenario, scene), OracleAim::metres, 2);
   const Flown flown(scenario, inputs);
   EXPECT_GE(flown.result.views.size(), 2U);
   expect_clear_of(flown, box_m, scenario.planner.validity.collision_radius_m);

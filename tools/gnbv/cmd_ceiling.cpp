@@ -14,6 +14,7 @@
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/mission/load_world.hpp"
+#include "tools/mission/reference.hpp"
 #include "tools/mission/start_pose.hpp"
 #include "tools/run_files/file_names.hpp"
 #include "tools/run_files/run_inputs.hpp"
@@ -141,7 +142,8 @@ void ceiling(const CeilingOptions& options) {
   std::vector<OracleReach> reaches;
   if (options.oracle) {
     progress.show(0.99, "planning on the true structure");
-    reaches = oracle_reaches(scenario, world, scene, start, threads);
+    reaches = oracle_reaches(scenario, world, scene, reference_of(scenario, world, scene, threads),
+                             start, threads);
   }
   progress.show(1.0, "done");
   const double wall_s = watch.elapsed_s();

@@ -83,7 +83,8 @@ class Shown {
 
 /// The views of who knows the structure; nothing for those who have to find out.
 std::optional<std::vector<Decision>> known_route(const Scenario& scenario, const World& world,
-                                                 const RayScene& scene, Shown& progress,
+                                                 const RayScene& scene,
+                                                 const SurfaceReference& reference, Shown& progress,
                                                  const std::function<bool()>& should_stop,
                                                  int threads) {
   const PlannerTraits planner = traits_of(scenario.planner);
@@ -91,9 +92,10 @@ std::optional<std::vector<Decision>> known_route(const Scenario& scenario, const
   progress.show(0.0, "planning on the true structure");
   const OracleAim aim = planner.counts_metres ? OracleAim::metres : OracleAim::views;
   try {
-    return plan_oracle(scenario, world, scene, start_pose(scenario, scene), aim, threads, [&] {
-      if (should_stop()) throw StopRequested();
-    });
+    return plan_oracle(scenario, world, scene, reference, start_pose(scenario, scene), aim, threads,
+                       [&] {
+                         if (should_stop()) throw StopRequested();
+                       });
   } catch (const StopRequested&) {
     return std::vector<Decision>();  // the mission ends before its first view
   }
@@ -210,7 +212,7 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
   const SurfaceReference reference = reference_of(scenario, world, scene, threads);
   const InterruptGuard interrupt;
   const auto should_stop = [&] { return InterruptGuard::requested() || options.should_stop(); };
-  auto route = known_route(scenario, world, scene, progress, should_stop, threads);
+  auto route = known_route(scenario, world, scene, reference, progress, should_stop, threads);
   RunDirectory directory(claim.folder(), scenario, options.resume);
   write_inputs(directory.path(), inputs_as_begun(scenario, world, directory.path()));
   try {

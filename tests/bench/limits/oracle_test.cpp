@@ -22,7 +22,7 @@ struct Smoke {
   Smoke() { setenv("GNBV_CACHE", "", 1); }
 
   std::vector<Decision> plan(OracleAim aim, int threads = 2) const {
-    return plan_oracle(scenario, world, scene, start, aim, threads);
+    return plan_oracle(scenario, world, scene, reference, start, aim, threads);
   }
 
   std::vector<std::string> warnings;
@@ -141,7 +141,7 @@ TEST(Oracle, PlansTheSameOnAnyNumberOfThreads) {
 
 TEST(Oracle, NeedsMoreForMoreAndNeverAsManyMetresAsTheGreedyTour) {
   const Smoke& s = smoke();
-  const auto reaches = oracle_reaches(s.scenario, s.world, s.scene, s.start, 2);
+  const auto reaches = oracle_reaches(s.scenario, s.world, s.scene, s.reference, s.start, 2);
   ASSERT_EQ(reaches.size(), kOracleReachShares.size());
   for (std::size_t i = 0; i < reaches.size(); ++i) {
     EXPECT_EQ(reaches[i].share, kOracleReachShares[i]);
