@@ -3,7 +3,7 @@
 #include <map>
 
 #include "tests/support/exported_run.hpp"
-#include "tools/run_files/cloud_file.hpp"
+#include "tools/run/cloud_file.hpp"
 
 namespace gnbv {
 namespace {

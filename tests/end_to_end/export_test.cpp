@@ -12,9 +12,9 @@
 #include "sim/core/file.hpp"
 #include "tests/support/exported_run.hpp"
 #include "tools/mission/load_world.hpp"
-#include "tools/run_files/cloud_file.hpp"
-#include "tools/run_files/iterations_csv.hpp"
-#include "tools/run_files/run_record.hpp"
+#include "tools/run/cloud_file.hpp"
+#include "tools/run/iterations_csv.hpp"
+#include "tools/run/run_record.hpp"
 
 namespace gnbv {
 namespace {

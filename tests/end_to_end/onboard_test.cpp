@@ -11,7 +11,7 @@
 #include "tests/support/program.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tests/support/watch.hpp"
-#include "tools/run_files/iterations_csv.hpp"
+#include "tools/run/iterations_csv.hpp"
 
 namespace gnbv {
 namespace {

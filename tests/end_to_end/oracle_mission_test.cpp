@@ -10,8 +10,8 @@
 #include "tests/support/temp_folder.hpp"
 #include "tools/mission/reference.hpp"
 #include "tools/mission/start_pose.hpp"
-#include "tools/run_files/iterations_csv.hpp"
-#include "tools/run_files/run_directory.hpp"
+#include "tools/run/iterations_csv.hpp"
+#include "tools/run/run_directory.hpp"
 
 namespace gnbv {
 namespace {

@@ -15,8 +15,8 @@
 #include "tests/support/temp_folder.hpp"
 #include "tests/support/watch.hpp"
 #include "tools/mission/belief_log.hpp"
-#include "tools/run_files/candidates_jsonl.hpp"
-#include "tools/run_files/iterations_csv.hpp"
+#include "tools/run/candidates_jsonl.hpp"
+#include "tools/run/iterations_csv.hpp"
 
 namespace gnbv {
 namespace {

@@ -14,7 +14,7 @@
 #include "tests/support/flown.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tests/support/watch.hpp"
-#include "tools/run_files/frames_folder.hpp"
+#include "tools/run/frames_folder.hpp"
 
 namespace gnbv {
 namespace {

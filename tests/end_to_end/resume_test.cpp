@@ -10,8 +10,8 @@
 #include "tests/support/program.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/mission/execute.hpp"
-#include "tools/run_files/iterations_csv.hpp"
-#include "tools/run_files/run_claim.hpp"
+#include "tools/run/iterations_csv.hpp"
+#include "tools/run/run_claim.hpp"
 
 namespace gnbv {
 namespace {

@@ -13,8 +13,8 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tests/end_to_end/scored_mission.hpp"
-#include "tools/run_files/cloud_file.hpp"
-#include "tools/run_files/summary_json.hpp"
+#include "tools/run/cloud_file.hpp"
+#include "tools/run/summary_json.hpp"
 
 namespace gnbv {
 namespace {

@@ -7,7 +7,7 @@
 #include "sim/mesh/mesh_file.hpp"
 #include "tests/bench/shapes.hpp"
 #include "tests/end_to_end/scored_mission.hpp"
-#include "tools/run_files/cloud_file.hpp"
+#include "tools/run/cloud_file.hpp"
 
 namespace gnbv {
 namespace {

@@ -16,7 +16,7 @@
 #include "tools/mission/coverage_goal.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/mission/reference.hpp"
-#include "tools/run_files/summary_json.hpp"
+#include "tools/run/summary_json.hpp"
 
 namespace gnbv {
 namespace {

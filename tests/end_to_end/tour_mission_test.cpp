@@ -8,8 +8,8 @@
 #include "sim/core/error.hpp"
 #include "tests/support/flown.hpp"
 #include "tests/support/watch.hpp"
-#include "tools/run_files/plan_jsonl.hpp"
-#include "tools/run_files/run_record.hpp"
+#include "tools/run/plan_jsonl.hpp"
+#include "tools/run/run_record.hpp"
 
 namespace gnbv {
 namespace {

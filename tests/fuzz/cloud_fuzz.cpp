@@ -10,7 +10,7 @@
 #include "sim/core/sha256.hpp"
 #include "tests/fuzz/written.hpp"
 #include "tools/exports/octomap_voxels.hpp"
-#include "tools/run_files/cloud_file.hpp"
+#include "tools/run/cloud_file.hpp"
 
 namespace gnbv {
 namespace {

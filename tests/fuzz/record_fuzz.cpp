@@ -6,13 +6,13 @@
 
 #include "sim/core/error.hpp"
 #include "tests/fuzz/written.hpp"
-#include "tools/run_files/beliefs_jsonl.hpp"
-#include "tools/run_files/candidates_jsonl.hpp"
-#include "tools/run_files/coverage_csv.hpp"
-#include "tools/run_files/file_names.hpp"
-#include "tools/run_files/iterations_csv.hpp"
-#include "tools/run_files/trajectory_tum.hpp"
-#include "tools/run_files/user_views.hpp"
+#include "tools/run/beliefs_jsonl.hpp"
+#include "tools/run/candidates_jsonl.hpp"
+#include "tools/run/coverage_csv.hpp"
+#include "tools/run/file_names.hpp"
+#include "tools/run/iterations_csv.hpp"
+#include "tools/run/trajectory_tum.hpp"
+#include "tools/run/user_views.hpp"
 
 namespace gnbv {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "tests/support/flown.hpp"
 #include "tests/support/watch.hpp"
-#include "tools/run_files/run_directory.hpp"
+#include "tools/run/run_directory.hpp"
 
 namespace gnbv {
 

@@ -8,11 +8,11 @@
 
 #include "scenarios/load.hpp"
 #include "sim/core/file.hpp"
-#include "tools/run_files/cloud_file.hpp"
-#include "tools/run_files/file_names.hpp"
-#include "tools/run_files/iterations_csv.hpp"
-#include "tools/run_files/run_record.hpp"
-#include "tools/run_files/trajectory_tum.hpp"
+#include "tools/run/cloud_file.hpp"
+#include "tools/run/file_names.hpp"
+#include "tools/run/iterations_csv.hpp"
+#include "tools/run/run_record.hpp"
+#include "tools/run/trajectory_tum.hpp"
 
 namespace gnbv {
 

@@ -5,7 +5,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/exports/export_folder.hpp"
-#include "tools/run_files/cloud_file.hpp"
+#include "tools/run/cloud_file.hpp"
 
 namespace gnbv {
 namespace {

@@ -9,11 +9,11 @@
 #include "sim/core/file.hpp"
 #include "tools/exports/export_folder.hpp"
 #include "tools/exports/octomap_voxels.hpp"
-#include "tools/run_files/cloud_file.hpp"
-#include "tools/run_files/file_names.hpp"
-#include "tools/run_files/iterations_csv.hpp"
-#include "tools/run_files/run_poses.hpp"
-#include "tools/run_files/separated_text.hpp"
+#include "tools/run/cloud_file.hpp"
+#include "tools/run/file_names.hpp"
+#include "tools/run/iterations_csv.hpp"
+#include "tools/run/run_poses.hpp"
+#include "tools/run/separated_text.hpp"
 
 namespace gnbv {
 namespace {

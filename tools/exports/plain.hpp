@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "tools/run_files/frame_sight.hpp"
-#include "tools/run_files/run_record.hpp"
+#include "tools/run/frame_sight.hpp"
+#include "tools/run/run_record.hpp"
 
 namespace gnbv {
 

@@ -9,8 +9,8 @@
 #include "sim/core/error.hpp"
 #include "sim/mesh/mesh_file.hpp"
 #include "tools/mission/child_pipe.hpp"
-#include "tools/run_files/file_names.hpp"
-#include "tools/run_files/run_poses.hpp"
+#include "tools/run/file_names.hpp"
+#include "tools/run/run_poses.hpp"
 
 namespace gnbv {
 namespace {

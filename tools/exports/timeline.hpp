@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "sim/mesh/triangle_mesh.hpp"
-#include "tools/run_files/frames_folder.hpp"
-#include "tools/run_files/run_record.hpp"
+#include "tools/run/frames_folder.hpp"
+#include "tools/run/run_record.hpp"
 
 namespace gnbv {
 

@@ -5,8 +5,8 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/exports/export_folder.hpp"
-#include "tools/run_files/run_poses.hpp"
-#include "tools/run_files/trajectory_tum.hpp"
+#include "tools/run/run_poses.hpp"
+#include "tools/run/trajectory_tum.hpp"
 
 namespace gnbv {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
-#include "tools/run_files/frames_folder.hpp"
-#include "tools/run_files/run_record.hpp"
+#include "tools/run/frames_folder.hpp"
+#include "tools/run/run_record.hpp"
 
 namespace gnbv {
 

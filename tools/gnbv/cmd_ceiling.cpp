@@ -16,8 +16,8 @@
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/reference.hpp"
 #include "tools/mission/start_pose.hpp"
-#include "tools/run_files/file_names.hpp"
-#include "tools/run_files/run_inputs.hpp"
+#include "tools/run/file_names.hpp"
+#include "tools/run/run_inputs.hpp"
 #include "tools/terminal/progress.hpp"
 #include "tools/terminal/say.hpp"
 

@@ -9,7 +9,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/gnbv/commands.hpp"
-#include "tools/run_files/summary_json.hpp"
+#include "tools/run/summary_json.hpp"
 
 namespace gnbv {
 namespace {

@@ -15,9 +15,9 @@
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/mission/load_world.hpp"
-#include "tools/run_files/cloud_colours.hpp"
-#include "tools/run_files/file_names.hpp"
-#include "tools/run_files/run_inputs.hpp"
+#include "tools/run/cloud_colours.hpp"
+#include "tools/run/file_names.hpp"
+#include "tools/run/run_inputs.hpp"
 #include "tools/terminal/progress.hpp"
 #include "tools/terminal/say.hpp"
 

@@ -19,8 +19,8 @@
 #include "tools/plots/script_parts.hpp"
 #include "tools/plots/terms_plot.hpp"
 #include "tools/plots/tracking_plot.hpp"
-#include "tools/run_files/file_names.hpp"
-#include "tools/run_files/run_names.hpp"
+#include "tools/run/file_names.hpp"
+#include "tools/run/run_names.hpp"
 #include "tools/sweep/cell_files.hpp"
 #include "tools/terminal/say.hpp"
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "planner/planners.hpp"
-#include "tools/run_files/mission_result.hpp"
+#include "tools/run/mission_result.hpp"
 
 namespace gnbv {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "scenarios/scenario.hpp"
-#include "tools/run_files/mission_result.hpp"
+#include "tools/run/mission_result.hpp"
 
 namespace gnbv {
 

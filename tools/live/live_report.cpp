@@ -8,7 +8,7 @@
 #include "sim/core/error.hpp"
 #include "tools/live/live_server.hpp"
 #include "tools/report/report.hpp"
-#include "tools/run_files/run_directory.hpp"
+#include "tools/run/run_directory.hpp"
 #include "tools/terminal/interrupt.hpp"
 
 namespace gnbv {

@@ -5,7 +5,7 @@
 #include "planner/map/frontiers.hpp"
 #include "scenarios/scenario.hpp"
 #include "tools/mission/mission.hpp"
-#include "tools/run_files/beliefs_jsonl.hpp"
+#include "tools/run/beliefs_jsonl.hpp"
 
 namespace gnbv {
 

@@ -9,7 +9,7 @@
 #include "scenarios/scenario.hpp"
 #include "tools/mission/run_ceiling.hpp"
 #include "tools/mission/user_planner.hpp"
-#include "tools/run_files/mission_result.hpp"
+#include "tools/run/mission_result.hpp"
 
 namespace gnbv {
 

@@ -11,7 +11,7 @@
 #include "sensors/frames.hpp"
 #include "sensors/ray_scene.hpp"
 #include "sim/mesh/world.hpp"
-#include "tools/run_files/mission_result.hpp"
+#include "tools/run/mission_result.hpp"
 
 namespace gnbv {
 

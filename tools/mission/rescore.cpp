@@ -9,11 +9,11 @@
 #include "sim/core/text.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/reference.hpp"
-#include "tools/run_files/cloud_file.hpp"
-#include "tools/run_files/file_names.hpp"
-#include "tools/run_files/iterations_csv.hpp"
-#include "tools/run_files/run_inputs.hpp"
-#include "tools/run_files/summary_json.hpp"
+#include "tools/run/cloud_file.hpp"
+#include "tools/run/file_names.hpp"
+#include "tools/run/iterations_csv.hpp"
+#include "tools/run/run_inputs.hpp"
+#include "tools/run/summary_json.hpp"
 
 namespace gnbv {
 namespace {

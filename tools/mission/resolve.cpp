@@ -9,7 +9,7 @@
 #include "tools/mission/auto_bounds.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/user_utility.hpp"
-#include "tools/run_files/user_views.hpp"
+#include "tools/run/user_views.hpp"
 
 namespace gnbv {
 

@@ -10,7 +10,7 @@
 
 #include "planner/core/belief.hpp"
 #include "tools/mission/mission.hpp"
-#include "tools/run_files/run_directory.hpp"
+#include "tools/run/run_directory.hpp"
 
 namespace gnbv {
 

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/core/error.hpp"
-#include "tools/run_files/file_names.hpp"
-#include "tools/run_files/frames_folder.hpp"
+#include "tools/run/file_names.hpp"
+#include "tools/run/frames_folder.hpp"
 
 namespace gnbv {
 namespace {

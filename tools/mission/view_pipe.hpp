@@ -7,8 +7,8 @@
 
 #include "bench/score/surface_reference.hpp"
 #include "tools/mission/mission.hpp"
-#include "tools/run_files/run_directory.hpp"
-#include "tools/run_files/user_views.hpp"
+#include "tools/run/run_directory.hpp"
+#include "tools/run/user_views.hpp"
 #include "tools/terminal/stdin_lines.hpp"
 
 namespace gnbv {

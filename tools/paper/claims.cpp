@@ -6,7 +6,7 @@
 #include "bench/compare/text_table.hpp"
 #include "tools/paper/comparisons.hpp"
 #include "tools/plots/curves.hpp"
-#include "tools/run_files/words.hpp"
+#include "tools/run/words.hpp"
 
 namespace gnbv {
 namespace {

@@ -14,7 +14,7 @@
 #include "tools/render/camera_choice.hpp"
 #include "tools/render/flight_items.hpp"
 #include "tools/render/grid_samples.hpp"
-#include "tools/run_files/words.hpp"
+#include "tools/run/words.hpp"
 #include "tools/surface/surface.hpp"
 #include "tools/surface/surface_picture.hpp"
 

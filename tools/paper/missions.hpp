@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/run_files/run_record.hpp"
+#include "tools/run/run_record.hpp"
 #include "tools/sweep/sweep.hpp"
 
 namespace gnbv {

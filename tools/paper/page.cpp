@@ -11,7 +11,7 @@
 #include "tools/paper/page_parts.hpp"
 #include "tools/report/jpeg.hpp"
 #include "tools/report/page_text.hpp"
-#include "tools/run_files/words.hpp"
+#include "tools/run/words.hpp"
 
 namespace gnbv {
 namespace {

@@ -9,7 +9,7 @@
 #include "bench/compare/paper_figures.hpp"
 #include "scenarios/load.hpp"
 #include "tools/plots/script_parts.hpp"
-#include "tools/run_files/words.hpp"
+#include "tools/run/words.hpp"
 
 namespace gnbv {
 namespace {

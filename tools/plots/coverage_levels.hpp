@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tools/plots/key.hpp"
-#include "tools/run_files/run_groups.hpp"
+#include "tools/run/run_groups.hpp"
 
 namespace gnbv {
 

@@ -6,7 +6,7 @@
 
 #include "bench/compare/statistics.hpp"
 #include "bench/score/run_figures.hpp"
-#include "tools/run_files/run_groups.hpp"
+#include "tools/run/run_groups.hpp"
 
 namespace gnbv {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "tools/plots/gnuplot.hpp"
-#include "tools/run_files/run_record.hpp"
+#include "tools/run/run_record.hpp"
 
 namespace gnbv {
 

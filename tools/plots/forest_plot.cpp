@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tools/plots/script_parts.hpp"
-#include "tools/run_files/words.hpp"
+#include "tools/run/words.hpp"
 
 namespace gnbv {
 namespace {

@@ -8,8 +8,8 @@
 #include <map>
 
 #include "tools/plots/script_parts.hpp"
-#include "tools/run_files/file_names.hpp"
-#include "tools/run_files/predictions_csv.hpp"
+#include "tools/run/file_names.hpp"
+#include "tools/run/predictions_csv.hpp"
 
 namespace gnbv {
 namespace {

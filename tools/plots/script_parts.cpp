@@ -8,7 +8,7 @@
 #include <iterator>
 
 #include "tools/plots/gnuplot.hpp"
-#include "tools/run_files/words.hpp"
+#include "tools/run/words.hpp"
 
 namespace gnbv {
 namespace {

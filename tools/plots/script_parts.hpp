@@ -9,7 +9,7 @@
 
 #include "tools/plots/curves.hpp"
 #include "tools/plots/key.hpp"
-#include "tools/run_files/method_slots.hpp"
+#include "tools/run/method_slots.hpp"
 
 namespace gnbv {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tools/plots/gnuplot.hpp"
-#include "tools/run_files/run_record.hpp"
+#include "tools/run/run_record.hpp"
 
 namespace gnbv {
 

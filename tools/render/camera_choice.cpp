@@ -10,7 +10,7 @@
 #include "scenarios/validation_error.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "tools/run_files/separated_text.hpp"
+#include "tools/run/separated_text.hpp"
 
 namespace gnbv {
 namespace {

@@ -9,7 +9,7 @@
 #include "tools/render/frontier_items.hpp"
 #include "tools/render/rejection_look.hpp"
 #include "tools/render/voxel_items.hpp"
-#include "tools/run_files/words.hpp"
+#include "tools/run/words.hpp"
 
 namespace gnbv {
 

@@ -4,7 +4,7 @@
 #include "planner/core/belief.hpp"
 #include "sim/mesh/world.hpp"
 #include "tools/render/picture.hpp"
-#include "tools/run_files/run_record.hpp"
+#include "tools/run/run_record.hpp"
 
 namespace gnbv {
 

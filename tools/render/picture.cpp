@@ -2,7 +2,7 @@
 
 #include "sim/core/error.hpp"
 #include "tools/render/paint.hpp"
-#include "tools/run_files/words.hpp"
+#include "tools/run/words.hpp"
 
 namespace gnbv {
 

@@ -13,7 +13,7 @@
 #include "tools/render/panel_layout.hpp"
 #include "tools/render/rejection_look.hpp"
 #include "tools/render/voxel_items.hpp"
-#include "tools/run_files/words.hpp"
+#include "tools/run/words.hpp"
 
 namespace gnbv {
 namespace {

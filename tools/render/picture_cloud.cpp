@@ -7,7 +7,7 @@
 #include "bench/score/voxel_set.hpp"
 #include "tools/render/picture.hpp"
 #include "tools/render/point_normals.hpp"
-#include "tools/run_files/words.hpp"
+#include "tools/run/words.hpp"
 
 namespace gnbv {
 namespace {

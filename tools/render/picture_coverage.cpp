@@ -12,7 +12,7 @@
 #include "sim/core/error.hpp"
 #include "tools/render/picture.hpp"
 #include "tools/render/voxel_items.hpp"
-#include "tools/run_files/words.hpp"
+#include "tools/run/words.hpp"
 
 namespace gnbv {
 namespace {

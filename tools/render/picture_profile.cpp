@@ -8,7 +8,7 @@
 #include "tools/render/flight_items.hpp"
 #include "tools/render/panel_layout.hpp"
 #include "tools/render/point_normals.hpp"
-#include "tools/run_files/words.hpp"
+#include "tools/run/words.hpp"
 
 namespace gnbv {
 namespace {

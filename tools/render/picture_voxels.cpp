@@ -5,7 +5,7 @@
 
 #include "tools/render/picture.hpp"
 #include "tools/render/voxel_items.hpp"
-#include "tools/run_files/words.hpp"
+#include "tools/run/words.hpp"
 
 namespace gnbv {
 namespace {

@@ -6,8 +6,8 @@
 #include "sim/core/error.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/reference.hpp"
-#include "tools/run_files/candidates_jsonl.hpp"
-#include "tools/run_files/run_inputs.hpp"
+#include "tools/run/candidates_jsonl.hpp"
+#include "tools/run/run_inputs.hpp"
 
 namespace gnbv {
 namespace {

@@ -11,8 +11,8 @@
 #include "tools/render/flight_items.hpp"
 #include "tools/render/point_normals.hpp"
 #include "tools/render/vehicle_item.hpp"
-#include "tools/run_files/run_poses.hpp"
-#include "tools/run_files/words.hpp"
+#include "tools/run/run_poses.hpp"
+#include "tools/run/words.hpp"
 
 namespace gnbv {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "tools/run_files/file_names.hpp"
+#include "tools/run/file_names.hpp"
 
 namespace gnbv {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "planner/map/grid_geometry.hpp"
 #include "tools/report/byte_pack.hpp"
-#include "tools/run_files/beliefs_jsonl.hpp"
-#include "tools/run_files/run_record.hpp"
+#include "tools/run/beliefs_jsonl.hpp"
+#include "tools/run/run_record.hpp"
 
 namespace gnbv {
 

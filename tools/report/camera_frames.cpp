@@ -6,7 +6,7 @@
 
 #include "tools/render/colour.hpp"
 #include "tools/report/jpeg.hpp"
-#include "tools/run_files/cloud_colours.hpp"
+#include "tools/run/cloud_colours.hpp"
 
 namespace gnbv {
 namespace {

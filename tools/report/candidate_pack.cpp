@@ -2,9 +2,9 @@
 
 #include "planner/core/plan.hpp"
 #include "sim/core/error.hpp"
-#include "tools/run_files/candidates_jsonl.hpp"
-#include "tools/run_files/file_names.hpp"
-#include "tools/run_files/words.hpp"
+#include "tools/run/candidates_jsonl.hpp"
+#include "tools/run/file_names.hpp"
+#include "tools/run/words.hpp"
 
 namespace gnbv {
 namespace {

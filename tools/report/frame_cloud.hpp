@@ -1,8 +1,8 @@
 // Points of a run that has no cloud yet: a cloud is written when its mission ends.
 #pragma once
 
-#include "tools/run_files/frame_sight.hpp"
-#include "tools/run_files/run_record.hpp"
+#include "tools/run/frame_sight.hpp"
+#include "tools/run/run_record.hpp"
 
 namespace gnbv {
 

@@ -16,10 +16,10 @@
 #include "tools/report/page_text.hpp"
 #include "tools/report/run_json.hpp"
 #include "tools/report/structures.hpp"
-#include "tools/run_files/file_names.hpp"
-#include "tools/run_files/method_slots.hpp"
-#include "tools/run_files/run_groups.hpp"
-#include "tools/run_files/words.hpp"
+#include "tools/run/file_names.hpp"
+#include "tools/run/method_slots.hpp"
+#include "tools/run/run_groups.hpp"
+#include "tools/run/words.hpp"
 
 namespace gnbv {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tools/report/camera_frames.hpp"
-#include "tools/run_files/run_record.hpp"
+#include "tools/run/run_record.hpp"
 
 namespace gnbv {
 

@@ -11,7 +11,7 @@
 #include "tools/mission/load_world.hpp"
 #include "tools/report/packed_json.hpp"
 #include "tools/report/thinning.hpp"
-#include "tools/run_files/file_names.hpp"
+#include "tools/run/file_names.hpp"
 
 namespace gnbv {
 namespace {

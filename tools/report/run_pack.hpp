@@ -12,7 +12,7 @@
 #include "tools/report/camera_frames.hpp"
 #include "tools/report/candidate_pack.hpp"
 #include "tools/report/packed_points.hpp"
-#include "tools/run_files/run_record.hpp"
+#include "tools/run/run_record.hpp"
 
 namespace gnbv {
 

@@ -8,8 +8,8 @@
 
 #include "tools/report/byte_pack.hpp"
 #include "tools/report/true_surface.hpp"
-#include "tools/run_files/run_inputs.hpp"
-#include "tools/run_files/run_record.hpp"
+#include "tools/run/run_inputs.hpp"
+#include "tools/run/run_record.hpp"
 
 namespace gnbv {
 

@@ -7,7 +7,7 @@
 
 #include "bench/score/surface_reference.hpp"
 #include "sensors/ray_scene.hpp"
-#include "tools/run_files/run_record.hpp"
+#include "tools/run/run_record.hpp"
 
 namespace gnbv {
 

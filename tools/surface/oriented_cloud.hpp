@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "tools/run_files/run_record.hpp"
+#include "tools/run/run_record.hpp"
 
 namespace gnbv {
 

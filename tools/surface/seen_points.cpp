@@ -7,7 +7,7 @@
 #include "sensors/camera_model.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
-#include "tools/run_files/file_names.hpp"
+#include "tools/run/file_names.hpp"
 #include "tools/surface/oriented_cloud.hpp"
 
 namespace gnbv {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "sim/core/error.hpp"
-#include "tools/run_files/file_names.hpp"
+#include "tools/run/file_names.hpp"
 #include "tools/surface/decimate.hpp"
 #include "tools/surface/poisson_module.hpp"
 #include "tools/surface/trim.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/run_files/run_record.hpp"
+#include "tools/run/run_record.hpp"
 #include "tools/surface/oriented_cloud.hpp"
 #include "tools/surface/textured_mesh.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "sim/core/error.hpp"
 #include "tools/render/caption.hpp"
-#include "tools/run_files/words.hpp"
+#include "tools/run/words.hpp"
 
 namespace gnbv {
 namespace {

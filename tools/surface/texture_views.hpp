@@ -9,7 +9,7 @@
 #include "sensors/camera_model.hpp"
 #include "sensors/ray_scene.hpp"
 #include "sim/core/image.hpp"
-#include "tools/run_files/frames_folder.hpp"
+#include "tools/run/frames_folder.hpp"
 
 namespace gnbv {
 

@@ -1,7 +1,7 @@
 #include "tools/sweep/cell_files.hpp"
 
 #include "sim/core/error.hpp"
-#include "tools/run_files/summary_json.hpp"
+#include "tools/run/summary_json.hpp"
 
 namespace gnbv {
 

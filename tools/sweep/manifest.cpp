@@ -11,8 +11,8 @@
 #include "bench/sources/source_ids.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "tools/run_files/separated_text.hpp"
-#include "tools/run_files/summary_json.hpp"
+#include "tools/run/separated_text.hpp"
+#include "tools/run/summary_json.hpp"
 
 namespace gnbv {
 namespace {

@@ -14,7 +14,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/mission/execute.hpp"
-#include "tools/run_files/file_names.hpp"
+#include "tools/run/file_names.hpp"
 #include "tools/sweep/cell_files.hpp"
 #include "tools/sweep/child.hpp"
 #include "tools/sweep/failure.hpp"

@@ -5,8 +5,8 @@
 
 #include "tests/support/flown_into.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tools/run_files/iterations_csv.hpp"
-#include "tools/run_files/run_directory.hpp"
+#include "tools/run/iterations_csv.hpp"
+#include "tools/run/run_directory.hpp"
 
 namespace gnbv {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "sim/core/file.hpp"
 #include "tests/tools/plots/plot_support.hpp"
-#include "tools/run_files/predictions_csv.hpp"
+#include "tools/run/predictions_csv.hpp"
 
 namespace gnbv {
 namespace {

@@ -6,7 +6,7 @@
 #include "tools/plots/coverage_plot.hpp"
 #include "tools/plots/density_plot.hpp"
 #include "tools/plots/script_parts.hpp"
-#include "tools/run_files/run_groups.hpp"
+#include "tools/run/run_groups.hpp"
 
 namespace gnbv {
 namespace {

@@ -16,7 +16,7 @@
 #include "tools/render/place_marks.hpp"
 #include "tools/render/rejection_look.hpp"
 #include "tools/render/voxel_items.hpp"
-#include "tools/run_files/candidates_jsonl.hpp"
+#include "tools/run/candidates_jsonl.hpp"
 
 namespace gnbv {
 namespace {

@@ -9,8 +9,8 @@
 #include "tests/support/temp_folder.hpp"
 #include "tests/tools/render/watched.hpp"
 #include "tools/render/pictures.hpp"
-#include "tools/run_files/cloud_file.hpp"
-#include "tools/run_files/words.hpp"
+#include "tools/run/cloud_file.hpp"
+#include "tools/run/words.hpp"
 
 namespace gnbv {
 namespace {

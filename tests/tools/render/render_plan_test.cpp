@@ -10,8 +10,8 @@
 #include "tests/support/temp_folder.hpp"
 #include "tools/render/flight_items.hpp"
 #include "tools/render/pictures.hpp"
-#include "tools/run_files/cloud_file.hpp"
-#include "tools/run_files/file_names.hpp"
+#include "tools/run/cloud_file.hpp"
+#include "tools/run/file_names.hpp"
 
 namespace gnbv {
 namespace {

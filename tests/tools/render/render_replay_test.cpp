@@ -14,9 +14,9 @@
 #include "tools/mission/replay.hpp"
 #include "tools/render/picture.hpp"
 #include "tools/render/pictures.hpp"
-#include "tools/run_files/candidates_jsonl.hpp"
-#include "tools/run_files/cloud_file.hpp"
-#include "tools/run_files/words.hpp"
+#include "tools/run/candidates_jsonl.hpp"
+#include "tools/run/cloud_file.hpp"
+#include "tools/run/words.hpp"
 
 namespace gnbv {
 namespace {

@@ -14,8 +14,8 @@
 #include "tools/render/colour.hpp"
 #include "tools/report/run_json.hpp"
 #include "tools/report/run_pack.hpp"
-#include "tools/run_files/plan_jsonl.hpp"
-#include "tools/run_files/words.hpp"
+#include "tools/run/plan_jsonl.hpp"
+#include "tools/run/words.hpp"
 
 namespace gnbv {
 namespace {

@@ -14,7 +14,7 @@
 #include "tests/support/made_run.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/report/candidate_pack.hpp"
-#include "tools/run_files/candidates_jsonl.hpp"
+#include "tools/run/candidates_jsonl.hpp"
 
 namespace gnbv {
 namespace {

@@ -1,0 +1,310 @@
+// Laws of reading a run back: what was written is what is read, what is missing is named with the
+// command that makes it, what is damaged is named with its line.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "sim/core/error.hpp"
+#include "tests/support/made_run.hpp"
+#include "tests/support/temp_folder.hpp"
+#include "tools/run/frames_folder.hpp"
+#include "tools/run/run_directory.hpp"
+#include "tools/run/run_poses.hpp"
+#include "tools/run/words.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Record : public ::testing::Test {
+ protected:
+  Record() { write_made_run(temp_.path()); }
+
+  void write(const std::string& name, const std::string& content) const {
+    write_file_atomically(temp_.path() / name, content);
+  }
+  void remove(const std::string& name) const { fs::remove_all(temp_.path() / name); }
+  void write_frames() const {
+    fs::create_directories(temp_.path() / "frames");
+    write("frames/cameras.json",
+          R"([{"name": "rgbd", "width_px": 640, "height_px": 480, "fx_px": 500.0, "fy_px": 510.0,
+               "cx_px": 320.0, "cy_px": 240.0, "depth_scale_m": 0.001}])");
+    write("frames/poses.csv",
+          "iteration,camera,time_s,x_m,y_m,z_m,qx,qy,qz,qw,rgb,depth\n"
+          "7,rgbd,12.5,1,2,3,0,0,1,0,0007_rgbd.rgb.png,0007_rgbd.depth.png\n");
+    write("frames/0007_rgbd.rgb.png", "");
+    write("frames/0007_rgbd.depth.png", "");
+  }
+  // The message of the error that reading ends in.
+  template <typename Read>
+  std::string complaint(Read read) const {
+    try {
+      read(temp_.path());
+    } catch (const BadInput& error) {
+      return error.what();
+    }
+    return "";
+  }
+  std::string run_complaint() const { return complaint(read_run); }
+  std::string frames_complaint() const { return complaint(read_frames); }
+  std::string cloud_complaint() const {
+    return complaint([](const fs::path& folder) { read_run_cloud(read_run(folder)); });
+  }
+
+  TempFolder temp_;
+};
+
+TEST_F(Record, HoldsWhatTheFilesSay) {
+  const RunRecord record = read_run(temp_.path());
+  const RunRecord made = made_record();
+  ASSERT_EQ(record.path.size(), made.path.size());
+  EXPECT_EQ(record.path[3].time_s, 3.0);
+  EXPECT_EQ(record.path[3].T_world_body.translation(), Vec3(-4, 4, 2));
+  ASSERT_EQ(record.views.size(), 3U);
+  EXPECT_EQ(record.views[1].decision.view.p_world_m, Vec3(-4, 4, 2));
+  EXPECT_EQ(record.views[1].decision.view.yaw_rad, 1.5);
+  EXPECT_EQ(record.views[1].cloud_points, 5U);
+  EXPECT_EQ(record.views[1].time_s, 4.0);
+  EXPECT_EQ(run_title(record), "Smoke, Proposed");
+  EXPECT_EQ(run_detail(record), "3 views, 0.0 m flown");
+}
+
+TEST_F(Record, EveryPointBelongsToTheViewThatBroughtIt) {
+  const RunCloud cloud = read_run_cloud(read_run(temp_.path()));
+  std::vector<int> views;
+  for (std::size_t i = 0; i < cloud.points_world_m.size(); ++i) views.push_back(cloud.view_of(i));
+  EXPECT_EQ(views, (std::vector<int>{-1, -1, 0, 1, 1, 2}));
+}
+
+TEST_F(Record, PointsAfterTheLastViewBelongToNone) {
+  const std::string views = read_file(temp_.path() / "iterations.csv");
+  const auto views_of_points = [&] {
+    const RunCloud cloud = read_run_cloud(read_run(temp_.path()));
+    std::vector<int> of_points;
+    for (std::size_t i = 0; i < cloud.points_world_m.size(); ++i) {
+      of_points.push_back(cloud.view_of(i));
+    }
+    return of_points;
+  };
+  const std::size_t last_row = views.rfind('\n', views.size() - 2) + 1;
+  write("iterations.csv", views.substr(0, last_row));
+  EXPECT_EQ(views_of_points(), (std::vector<int>{-1, -1, 0, 1, 1, 2}));
+  write("iterations.csv", views.substr(0, views.find('\n') + 1));
+  EXPECT_EQ(views_of_points(), (std::vector<int>{-1, -1, 0, 0, 0, 0}));
+}
+
+TEST_F(Record, CommandsAreWordsForAShell) {
+  const fs::path folder = temp_.path() / "my run";
+  fs::create_directories(folder);
+  write_made_run(folder);
+  fs::remove(folder / "iterations.csv");
+  const RunRecord record = read_run(folder);
+  ASSERT_EQ(record.missing.size(), 2U);
+  for (const std::string& sentence : record.missing) {
+    EXPECT_NE(sentence.find("run/scenario.yaml' --resume --out '"), std::string::npos) << sentence;
+  }
+  EXPECT_NE(command_to_fly_again(folder, "--frames").find("my run/scenario.yaml' --frames"),
+            std::string::npos);
+}
+
+TEST(Words, NamesOfOursAreReadAsWordsAndThoseOfUsersStay) {
+  EXPECT_EQ(human_name("power_plant"), "Power plant");
+  EXPECT_EQ(human_name("aep"), "AEP");
+  EXPECT_EQ(human_name("mine.py:gain"), "mine.py:gain");
+  EXPECT_EQ(human_name("MyPlant"), "MyPlant");
+  EXPECT_EQ(human_name(""), "");
+}
+
+TEST(Words, ThousandsAreApart) {
+  EXPECT_EQ(counted(1, "view"), "1 view");
+  EXPECT_EQ(counted(1200, "view"), "1,200 views");
+}
+
+TEST_F(Record, TheTitleNamesAnUnusualReadingOfThePaper) {
+  RunRecord record = made_record();
+  EXPECT_EQ(run_title(record), "Smoke, Proposed");
+  record.scenario.planner.preset = "released";
+  EXPECT_EQ(run_title(record), "Smoke, Proposed, released");
+  record.scenario.structure.file.path = "/meshes/of others/a340.obj";
+  EXPECT_EQ(run_title(record), "Smoke (a340.obj), Proposed, released");
+}
+
+TEST_F(Record, AFolderHasItsOneName) {
+  const fs::path before = fs::current_path();
+  for (const char* given : {".", "./", "frames/..", "frames/../."}) {
+    fs::create_directories(temp_.path() / "frames");
+    fs::current_path(temp_.path());
+    const RunRecord record = read_run(given);
+    fs::current_path(before);
+    EXPECT_EQ(record.folder, temp_.path()) << given;
+  }
+  EXPECT_EQ(read_run(temp_.path() / "").folder, temp_.path());
+  EXPECT_EQ(read_run(temp_.path() / "frames" / "..").folder, temp_.path());
+}
+
+TEST_F(Record, IsReadWithoutTheMeshFileThatMoved) {
+  Scenario scenario = made_record().scenario;
+  scenario.structure.file.path = (temp_.path() / "moved.ply").string();
+  write("scenario.yaml", to_yaml(scenario));
+  EXPECT_EQ(read_run(temp_.path()).scenario.structure.file.path, scenario.structure.file.path);
+  EXPECT_THROW(load_scenario((temp_.path() / "scenario.yaml").string(), {}), BadInput);
+}
+
+TEST_F(Record, WhatIsMissingIsNamedWithTheCommandThatMakesIt) {
+  ASSERT_EQ(read_run(temp_.path()).missing.size(), 1U);  // a made run has no summary
+  remove("trajectory.tum");
+  fs::rename(temp_.path() / "iterations.csv", temp_.path() / "iterations.csv.part");
+  const RunRecord record = read_run(temp_.path());
+  EXPECT_TRUE(record.path.empty());
+  EXPECT_EQ(record.views.size(), 3U);  // of the journal
+  EXPECT_FALSE(record.figures.has_value());
+  ASSERT_EQ(record.missing.size(), 3U);
+  for (const std::string& sentence : record.missing) {
+    EXPECT_NE(sentence.find("gnbv run"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("--resume"), std::string::npos) << sentence;
+  }
+  write("summary.json", R"({"schema": 1, "profile_end_s": 2.0, "views_begin_s": 2.5})");
+  const RunRecord older = read_run(temp_.path());
+  EXPECT_EQ(older.views_begin_s, 2.5);
+  EXPECT_NE(older.missing.back().find("--update"), std::string::npos);
+  remove("scenario.yaml");
+  EXPECT_NE(run_complaint().find("gnbv run SCENARIO"), std::string::npos) << run_complaint();
+}
+
+TEST_F(Record, WhoGoesOnWithARunKeepsWhatItKept) {
+  const auto command = [&] { return command_to_resume(temp_.path()); };
+  const auto has = [&](const char* option) { return command().find(option) != std::string::npos; };
+  EXPECT_FALSE(has("--frames") || has("--candidates")) << command();
+  fs::create_directories(temp_.path() / "frames");
+  EXPECT_TRUE(has("--frames`") && !has("--candidates")) << command();
+  write("candidates.jsonl.part", "");
+  EXPECT_TRUE(has("--frames --candidates`")) << command();
+  remove("frames");
+  fs::rename(temp_.path() / "candidates.jsonl.part", temp_.path() / "candidates.jsonl");
+  EXPECT_TRUE(has("--candidates`") && !has("--frames")) << command();
+}
+
+TEST_F(Record, DamagedFilesAreNamedWithTheLine) {
+  const auto expect_complaint = [&](const std::string& path, const std::string& words) {
+    write("trajectory.tum", path);
+    EXPECT_NE(run_complaint().find(words), std::string::npos) << run_complaint();
+  };
+  expect_complaint("0 1 2 3 0 0 0 1\n1 1 2 three 0 0 0 1\n", "trajectory.tum:2");
+  expect_complaint("0 1 2 3 0 0 0\n", "trajectory.tum:1");
+  expect_complaint("0 1 2 3 0 0 0 1\n1 nan 2 3 0 0 0 1\n", "trajectory.tum:2");
+  expect_complaint("1 1 2 3 0 0 0 1\n0 1 2 3 0 0 0 1\n", "goes back");
+  expect_complaint("0 1 2 3 0 0 0 2\n", "unit quaternion");
+  expect_complaint("", "holds no pose");
+  expect_complaint("0 1 2 3 0 0 0 1\n1 1e30 2 3 0 0 0 1\n",
+                   "trajectory.tum:2: stands at 1e+30 2 3");
+  write("trajectory.tum", "0 1 2 3 0 0 0 1\n");
+  EXPECT_EQ(run_complaint(), "");
+  write("summary.json", "{\"schema\": ");
+  EXPECT_NE(run_complaint().find("summary.json"), std::string::npos) << run_complaint();
+  remove("summary.json");
+  write("iterations.csv", "iteration,x,y,yaw\n");
+  EXPECT_NE(run_complaint().find("iterations.csv:1"), std::string::npos) << run_complaint();
+  write("iterations.csv", iterations_csv(std::vector{made_view(0, {Vec3(0, -1e30, 1), 0.0}, 3)}));
+  EXPECT_NE(run_complaint().find("iterations.csv:2: stands at 0 -1e+30 1"), std::string::npos)
+      << run_complaint();
+  EXPECT_NE(complaint([](const fs::path&) { read_run(""); }).find("RUN: is empty"),
+            std::string::npos);
+}
+
+TEST_F(Record, APointThatIsNoneIsNamedWithItsFile) {
+  for (const float x : {std::numeric_limits<float>::quiet_NaN(), 1e30F}) {
+    std::vector<Vec3f> points(6, Vec3f(0, 0, 1));
+    points[4].x() = x;
+    write_cloud_ply(points, temp_.path() / "cloud.ply");
+    EXPECT_NE(cloud_complaint().find("cloud.ply: point 4"), std::string::npos) << cloud_complaint();
+  }
+}
+
+TEST_F(Record, BetweenSamplesThePoseIsInterpolated) {
+  RunRecord record = made_record();
+  const auto p_world_m = [&](double time_s) {
+    const auto T_world_body = true_pose_at(record, time_s);
+    return T_world_body ? Vec3(T_world_body->translation()) : Vec3(Vec3::Constant(-99.0));
+  };
+  EXPECT_TRUE(p_world_m(3.25).isApprox(Vec3(-4, 2, 2.25)));
+  EXPECT_EQ(p_world_m(3.0), Vec3(-4, 4, 2));
+  EXPECT_EQ(p_world_m(4.05), Vec3(-4, -4, 3)) << "it hovers where it ends";
+  EXPECT_FALSE(true_pose_at(record, 4.2) || true_pose_at(record, -0.1));
+  record.path[3].T_world_body.rotate(Eigen::AngleAxisd(deg_to_rad(170.0), Vec3::UnitZ()));
+  record.path[4].T_world_body.rotate(Eigen::AngleAxisd(deg_to_rad(-170.0), Vec3::UnitZ()));
+  const Eigen::AngleAxisd turn(true_pose_at(record, 3.25)->linear());
+  EXPECT_NEAR(turn.angle(), deg_to_rad(175.0), 1e-9) << "the shorter way round";
+}
+
+TEST_F(Record, ACloudOfAnotherRunIsRefused) {
+  write_cloud_ply(std::vector<Vec3f>(4, Vec3f(0, 0, 1)), temp_.path() / "cloud.ply");
+  EXPECT_NE(cloud_complaint().find("files of two runs"), std::string::npos) << cloud_complaint();
+  remove("cloud.ply");
+  EXPECT_NE(cloud_complaint().find("--resume"), std::string::npos) << cloud_complaint();
+}
+
+TEST_F(Record, ImagesThatAreNotOfTheirCamerasSizeAreRefused) {
+  write_frames();
+  const FrameRecord frames = read_frames(temp_.path());
+  const auto said_of = [&](const auto& image, const fs::path& file, const auto& read) {
+    write_png(image, file);
+    return complaint([&](const fs::path&) { read(frames, 0); });
+  };
+  Image colour{.width_px = 640, .height_px = 480, .rgb = std::vector<std::uint8_t>(3 * 640 * 480)};
+  GreyImage16 depth{640, 480, std::vector<std::uint16_t>(640 * 480)};
+  const RecordedFrame& frame = frames.frames[0];
+  EXPECT_EQ(said_of(colour, frame.colour, read_colour), "");
+  EXPECT_EQ(said_of(depth, frame.depth, read_depth), "");
+  std::swap(colour.width_px, colour.height_px);
+  std::swap(depth.width_px, depth.height_px);
+  for (const std::string& said :
+       {said_of(colour, frame.colour, read_colour), said_of(depth, frame.depth, read_depth)}) {
+    EXPECT_NE(said.find("0007_rgbd."), std::string::npos) << said;
+    EXPECT_NE(said.find("480 x 640 px, but cameras.json says 640 x 480 px"), std::string::npos)
+        << said;
+  }
+}
+
+TEST_F(Record, FramesHoldPosesAndIntrinsics) {
+  EXPECT_FALSE(has_frames(temp_.path()));
+  EXPECT_NE(frames_complaint().find("--frames"), std::string::npos) << frames_complaint();
+  for (const char* const name : {"poses.csv", "cameras.json"}) {
+    write_frames();
+    remove(std::string("frames/") + name);
+    EXPECT_TRUE(has_frames(temp_.path()));
+    EXPECT_NE(frames_complaint().find(std::string(name) + ": is missing; `gnbv run"),
+              std::string::npos)
+        << frames_complaint();
+  }
+  write_frames();
+  const FrameRecord record = read_frames(temp_.path());
+  ASSERT_EQ(record.frames.size(), 1U);
+  EXPECT_EQ(record.cameras[0].fy_px, 510.0);
+  EXPECT_EQ(record.frames[0].iteration, 7);
+  EXPECT_EQ(record.frames[0].T_world_camera * Vec3(1, 0, 0), Vec3(0, 2, 3));
+  EXPECT_EQ(record.frames[0].depth, temp_.path() / "frames/0007_rgbd.depth.png");
+}
+
+TEST_F(Record, DamagedFramesAreNamedWithTheLine) {
+  write_frames();
+  const std::string good = read_file(temp_.path() / "frames/poses.csv");
+  const auto expect_complaint = [&](std::string from, const std::string& to,
+                                    const std::string& words) {
+    std::string text = good;
+    text.replace(text.find(from), from.size(), to);
+    write("frames/poses.csv", text);
+    EXPECT_NE(frames_complaint().find(words), std::string::npos) << frames_complaint();
+  };
+  expect_complaint("7,rgbd", "7,other", "poses.csv:2");
+  expect_complaint("0,0,1,0", "0,0,1,1", "unit quaternion");
+  expect_complaint("12.5", "soon", "poses.csv:2");
+  expect_complaint("0007_rgbd.rgb", "../0007_rgbd.rgb", "no image");
+  expect_complaint("iteration,", "view,", "poses.csv:1");
+  write("frames/poses.csv", good);
+  write("frames/cameras.json", R"([{"name": "rgbd"}])");
+  EXPECT_NE(frames_complaint().find("cameras.json"), std::string::npos) << frames_complaint();
+}
+
+}  // namespace
+}  // namespace gnbv

@@ -1,0 +1,386 @@
+// Laws of the files of a run directory: what was written is what is read, number by number, and a
+// damaged file is refused by file and line.
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "planner/planners.hpp"
+#include "sim/core/error.hpp"
+#include "tests/support/made_run.hpp"
+#include "tests/support/temp_folder.hpp"
+#include "tools/run/candidates_jsonl.hpp"
+#include "tools/run/coverage_csv.hpp"
+#include "tools/run/frames_folder.hpp"
+#include "tools/run/run_directory.hpp"
+#include "tools/run/summary_json.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The message of the error that this ends in.
+template <typename Action>
+std::string complaint_of(const Action& action) {
+  try {
+    action();
+  } catch (const BadInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+bool has(const std::string& text, const std::string& words) {
+  return text.find(words) != std::string::npos;
+}
+
+/// Numbers that no short text holds by chance.
+ViewRecord odd_view(int iteration) {
+  const double odd = 1.0 / 3.0 + iteration;
+  ViewRecord view{.iteration = iteration};
+  view.decision = {.view = {Vec3(odd, -1e-300, 1.7e5), 0.1 + 0.2},
+                   .sampler = iteration == 0 ? Sampler::start : Sampler::fvs,
+                   .scale = 4.0 / 7.0,
+                   .candidates = 1'000'000,
+                   .valid = 3,
+                   .score = {.value = odd,
+                             .information = 5e-324,
+                             .density = 0.7,
+                             .prediction = -0.0,
+                             .distance = 1.0 / 9.0},
+                   .via_world_m = {Vec3(odd, 2, 3), Vec3(-4, 5e-7, 1e20)}};
+  view.entropy_nat = 9007199254740993.0 / 7.0;
+  view.density_points_per_voxel = 2.0 / 3.0;
+  view.cloud_points = 999'999'999;
+  view.straight_m = 1e-9;
+  view.flown_m = 12345.678901234567;
+  view.time_s = 0.004 * 1234567;
+  view.wall = {.sense_s = 0.25, .map_s = 1e-6, .plan_s = 123.456789, .fly_s = 0.0};
+  return view;
+}
+
+TEST(RoundTrip, IterationsCsvOfAGimbal) {
+  TempFolder temp;
+  const fs::path csv = temp.path() / kIterationsFile;
+  ViewRecord view = odd_view(0);
+  view.decision.view.gimbal_pitch_rad = 0.1 + 0.2;
+  write_file_atomically(csv, iterations_csv(std::vector{view}, Columns::with_gimbal));
+  EXPECT_EQ(read_view_records(csv).at(0).decision.view.gimbal_pitch_rad, 0.1 + 0.2);
+  EXPECT_EQ(columns_of(load_scenario("smoke", {})), Columns::usual);
+  EXPECT_EQ(columns_of(load_scenario("smoke", {"cameras.0.pitch_deg={min: 0, max: 9, step: 3}"})),
+            Columns::with_gimbal);
+}
+
+TEST(RoundTrip, IterationsCsv) {
+  TempFolder temp;
+  const fs::path csv = temp.path() / kIterationsFile;
+  const std::vector<ViewRecord> views = {odd_view(0), odd_view(1)};
+  write_file_atomically(csv, iterations_csv(views));
+  const std::vector<ViewRecord> read = read_view_records(csv);
+  ASSERT_EQ(read.size(), 2U);
+  // the text of a number is the shortest that reads back as it: equal texts are equal numbers
+  EXPECT_EQ(iterations_csv(read), iterations_csv(views));
+  EXPECT_EQ(read[1].decision.view.p_world_m, views[1].decision.view.p_world_m);
+  EXPECT_EQ(read[1].decision.via_world_m, views[1].decision.via_world_m);
+  EXPECT_EQ(read[1].decision.score.information, 5e-324);
+  EXPECT_EQ(read[1].entropy_nat, views[1].entropy_nat);
+  EXPECT_EQ(read[1].wall.plan_s, 123.456789);
+  EXPECT_EQ(read[0].decision.sampler, Sampler::start);
+}
+
+TEST(RoundTrip, DamagedIterationsAreNamedByLineAndColumn) {
+  TempFolder temp;
+  const fs::path csv = temp.path() / kIterationsFile;
+  const std::string good = iterations_csv(std::vector{odd_view(0), odd_view(1)});
+  const auto expect_complaint = [&](const std::string& from, const std::string& to,
+                                    const std::string& words) {
+    std::string text = good;
+    text.replace(text.rfind(from), from.size(), to);
+    write_file_atomically(csv, text);
+    const std::string said = complaint_of([&] { read_view_records(csv); });
+    EXPECT_TRUE(has(said, words)) << said;
+  };
+  expect_complaint("fvs", "guess", "iterations.csv:3: 'guess' is no sampler");
+  expect_complaint(",1000000,", ",many,", "iterations.csv:3: candidates `many` is not a number");
+  expect_complaint(",999999999,", ",-1,", "iterations.csv:3: cloud_points `-1` is not a count");
+  expect_complaint("\n1,", "\n2,", "iterations.csv:3: '2' must be iteration 1");
+  expect_complaint(":2:3", ":2",
+                   "iterations.csv:3: via '1.3333333333333333:2' is no list of x:y:z");
+  expect_complaint(",3,", ",", "must have 25 columns");
+  expect_complaint("iteration,", "view,", "iterations.csv:1: is not the header");
+}
+
+TEST(RoundTrip, CoverageCsv) {
+  TempFolder temp;
+  const CoverageCurve curve{.coverage = {{0.0, 1.0 / 3.0, 1.0}, {0.1 + 0.2, 5e-324, 2.0 / 3.0}},
+                            .metres = {0.0, 1e-9},
+                            .seconds = {0.0, 12345.678901234567}};
+  const fs::path csv = temp.path() / kCoverageFile;
+  const std::vector<SizedCoverage> more = {{.size_m = 0.2, .curve = {0.7, 1.0 / 7.0}},
+                                           {.size_m = 0.025, .curve = {0.0, 5e-324}}};
+  write_file_atomically(csv, coverage_csv(curve, more));
+  const CoverageFile wide = read_coverage_csv(csv);
+  EXPECT_EQ(wide.curve.coverage, curve.coverage);
+  EXPECT_EQ(wide.more_names, (std::vector<std::string>{"0.20", "0.025"}));
+  EXPECT_EQ(wide.more_curves[0], more[0].curve);
+  EXPECT_EQ(wide.more_curves[1], more[1].curve);
+  write_file_atomically(csv, coverage_csv(curve));
+  EXPECT_TRUE(read_coverage_csv(csv).more_names.empty());
+  const CoverageCurve read = read_coverage_csv(csv).curve;
+  EXPECT_EQ(read.coverage, curve.coverage);
+  EXPECT_EQ(read.metres, curve.metres);
+  EXPECT_EQ(read.seconds, curve.seconds);
+  for (const char* row :
+       {"2,1,2,3,4\n", "2,1,2,3,4,5,6\n", "2,1,2,3,4,x\n", "3,1,2,3,4,5\n",
+        "2,-1,1e9,0.5,0.5,0.5\n", "2,1e9,-1,0.5,0.5,0.5\n", "2,1e9,1e9,0.5,1.5,0.5\n"}) {
+    write_file_atomically(csv, coverage_csv(curve) + row);
+    const std::string said = complaint_of([&] { read_coverage_csv(csv); });
+    EXPECT_TRUE(has(said, "coverage.csv:4: ")) << said;
+  }
+}
+
+TEST(RoundTrip, TrajectoryTum) {
+  TempFolder temp;
+  std::vector<TrajectorySample> path;
+  for (int i = 0; i < 4; ++i) {
+    TrajectorySample& sample = path.emplace_back(made_sample(0.1 * i, {0.000001 * i, -1.5, 2.25}));
+    sample.T_world_body.rotate(Eigen::AngleAxisd(0.7 * i, Vec3(1, 2, 3).normalized()));
+  }
+  const fs::path file = temp.path() / kTrajectoryFile;
+  write_file_atomically(file, trajectory_tum(path));
+  const auto read = read_trajectory_tum(file, Box3(Vec3(-5, -5, 0), Vec3(5, 5, 5)));
+  ASSERT_EQ(read.size(), path.size());
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    EXPECT_NEAR(read[i].time_s, path[i].time_s, 1e-15);
+    EXPECT_EQ(read[i].T_world_body.translation(), path[i].T_world_body.translation());
+    // nine digits of a quaternion
+    EXPECT_TRUE(read[i].T_world_body.isApprox(path[i].T_world_body, 1e-8));
+  }
+  EXPECT_EQ(trajectory_tum(read), read_file(file));
+}
+
+TEST(RoundTrip, CandidatesJsonl) {
+  TempFolder temp;
+  Plan plan;
+  plan.candidates = {
+      {.view = {Vec3(1.0 / 3.0, -1e-300, 2), 0.1 + 0.2},
+       .sampler = Sampler::agvs,
+       .scale = 4.0 / 7.0,
+       .path_m = 5e-324,
+       .score = {.value = 2.0 / 3.0,
+                 .information = 1e20,
+                 .density = 0.7,
+                 .prediction = 0.3,
+                 .distance = 1.0 / 9.0}},
+      {.view = {Vec3(1, 2, 3), 0.5}, .sampler = Sampler::fvs, .cluster = 2, .path_m = 4.0}};
+  plan.candidates[1].rejected = Rejection::cluster_hidden;
+  plan.chosen = {0};
+  CandidatesFile file(temp.path(), 1);
+  file.write(1, plan);
+  plan.chosen.clear();
+  file.write(2, plan);
+  file.finish();
+  for (const std::size_t iteration : {1U, 2U}) {
+    const std::optional<Plan> read = read_candidates(temp.path(), iteration);
+    ASSERT_TRUE(read && read->candidates.size() == 2U);
+    EXPECT_EQ(read->chosen,
+              iteration == 1 ? std::vector<std::size_t>{0} : std::vector<std::size_t>{});
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Candidate& now = read->candidates[i];
+      const Candidate& was = plan.candidates[i];
+      EXPECT_EQ(now.view.p_world_m, was.view.p_world_m);
+      EXPECT_EQ(now.view.yaw_rad, was.view.yaw_rad);
+      EXPECT_EQ(now.sampler, was.sampler);
+      EXPECT_EQ(now.scale, was.scale);
+      EXPECT_EQ(now.cluster, was.cluster);
+      EXPECT_EQ(now.rejected, was.rejected);
+      EXPECT_EQ(now.path_m, was.path_m);
+      EXPECT_EQ(now.score.value, was.score.value);
+      EXPECT_EQ(now.score.information, was.score.information);
+      EXPECT_EQ(now.score.density, was.score.density);
+      EXPECT_EQ(now.score.prediction, was.score.prediction);
+      EXPECT_EQ(now.score.distance, was.score.distance);
+    }
+  }
+  std::string text = read_file(temp.path() / kCandidatesFile);
+  text.replace(text.rfind("cluster_hidden"), 14, "unlucky");
+  write_file_atomically(temp.path() / kCandidatesFile, text);
+  const std::string said = complaint_of([&] { read_candidates(temp.path(), 2); });
+  EXPECT_TRUE(has(said, "candidates.jsonl:4: rejected: no such reason")) << said;
+  EXPECT_EQ(complaint_of([&] { read_candidates(temp.path(), 1); }), "");
+  write_file_atomically(part_of(temp.path() / kCandidatesFile), "{\"iteration\":1}\nno\n");
+  const std::string resumed = complaint_of([&] { CandidatesFile(temp.path(), 2); });
+  EXPECT_TRUE(has(resumed, "candidates.jsonl.part:2: ")) << resumed;
+}
+
+TEST(RoundTrip, Frames) {
+  TempFolder temp;
+  CameraConfig config = made_record().scenario.cameras[0];
+  config.width_px = 3;
+  config.height_px = 2;
+  const CameraModel camera = make_camera_model(config);
+  DepthFrame depth;
+  depth.depth_m = {0.001F, 1.5F, 65.535F, 65.5364F, std::numeric_limits<float>::infinity(), 2.0F};
+  depth.T_world_camera.translate(Vec3(1.5, -2.000001, 3));
+  depth.T_world_camera.rotate(Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5));
+  ColourFrame colour;
+  for (std::uint8_t i = 0; i < 6; ++i) colour.rgb.push_back({i, 0, 255});
+  {
+    FramesFolder folder(temp.path(), {camera});
+    folder.write(0, 0.25, std::span(&depth, 1), std::span(&colour, 1));
+    folder.write(7, 12.125, std::span(&depth, 1), std::span(&colour, 1));
+  }
+  const FrameRecord read = read_frames(temp.path());
+  ASSERT_EQ(read.cameras.size(), 1U);
+  EXPECT_EQ(read.cameras[0].name, config.name);
+  EXPECT_EQ(read.cameras[0].width_px, 3);
+  EXPECT_EQ(read.cameras[0].height_px, 2);
+  EXPECT_EQ(read.cameras[0].fx_px, camera.fx_px);
+  EXPECT_EQ(read.cameras[0].fy_px, camera.fy_px);
+  EXPECT_EQ(read.cameras[0].cx_px, camera.cx_px);
+  EXPECT_EQ(read.cameras[0].cy_px, camera.cy_px);
+  ASSERT_EQ(read.frames.size(), 2U);
+  EXPECT_EQ(read.frames[1].iteration, 7);
+  EXPECT_EQ(read.frames[1].time_s, 12.125);
+  EXPECT_EQ(read.frames[1].T_world_camera.matrix(), depth.T_world_camera.matrix());
+  EXPECT_EQ(read_depth(read, 1).values, (std::vector<std::uint16_t>{1, 1500, 65535, 0, 0, 2000}));
+  EXPECT_EQ(read_colour(read, 0).at(2, 1), (Rgb8{5, 0, 255}));
+}
+
+/// A mission that was hardly flown, with a score of its own.
+struct MadeMission {
+  Scenario scenario = made_record().scenario;
+  MissionResult result{ViewPose{}, make_model(scenario.planner, scenario.workspace_m, {}, {})};
+  MissionScore score;
+
+  MadeMission() {
+    result.termination = Termination::no_valid_view;
+    result.views = {odd_view(0), odd_view(1)};
+    for (ViewRecord& view : result.views) view.decision.view.p_world_m = Vec3(1.0 / 3.0, 0, 1);
+    result.trajectory = made_record().path;
+    result.distance = {
+        .profile_m = 1.0 / 3.0, .transfer_m = 2.0 / 7.0, .straight_m = 1e-9, .flown_m = 2.0 / 3.0};
+    result.profile_end_s = 0.1 + 0.2;
+    result.flight_time_s = 1e20;
+    result.energy_wh = 5e-324;
+    result.entropy_after_profile_nat = result.belief.grid.total_entropy_nat() + 0.5;
+    score.profile = {0.1, 0.2, 0.3};
+    score.final = {0.4, 0.5, 2.0 / 3.0};
+    score.profile_raw = {0.01, 0.02, 0.03};
+    score.final_raw = {0.04, 0.05, 0.06};
+    score.distances.at[1] = {.distance_m = 0.05, .precision = 1.0 / 3.0, .recall = 0.7, .f = 0.45};
+    score.distances.accuracy_m = 1.0 / 7.0;
+    score.distances.completeness_m = 1.0 / 9.0;
+    score.distances.chamfer_m = 1.0 / 11.0;
+    score.density = {.voxel_m = 0.2, .mean_points = 10.0 / 3.0, .variation = 0.3};
+    score.curve = {.coverage = {{0.1, 0.2, 0.3}, {0.2, 0.3, 0.4}, {0.4, 0.5, 2.0 / 3.0}},
+                   .metres = {0.0, 0.0, 1.0},
+                   .seconds = {0.0, 1.0, 2.0}};
+  }
+};
+
+TEST(RoundTrip, RunDirectory) {
+  TempFolder temp;
+  const fs::path run = temp.path() / "run";
+  const MadeMission made;
+  RunDirectory directory(run, made.scenario, false);
+  directory.finish(made.scenario, made.result, made.score, 61.5);
+  const RunRecord record = read_run(run);
+  EXPECT_TRUE(record.missing.empty());
+  EXPECT_EQ(to_yaml(record.scenario), to_yaml(made.scenario));
+  EXPECT_EQ(record.profile_end_s, made.result.profile_end_s);
+  EXPECT_EQ(record.views_begin_s, made.result.views[0].time_s);
+  EXPECT_EQ(iterations_csv(record.views), iterations_csv(made.result.views));
+  EXPECT_EQ(trajectory_tum(record.path), trajectory_tum(made.result.trajectory));
+  const RunSummary summary = read_summary(run);
+  EXPECT_EQ(summary.schema, kSummarySchema);
+  EXPECT_EQ(summary.termination, "no_valid_view");
+  EXPECT_EQ(summary.iterations, 2U);
+  ASSERT_TRUE(record.figures.has_value());
+  const RunFigures& f = *record.figures;
+  EXPECT_EQ(f.scenario, made.scenario.name);
+  EXPECT_EQ(f.structure, structure_name(made.scenario.structure));
+  EXPECT_EQ(f.utility, made.scenario.planner.utility.name);
+  EXPECT_EQ(f.preset, made.scenario.planner.preset);
+  EXPECT_EQ(f.seed, made.scenario.seed);
+  EXPECT_EQ(f.result_sha256, result_sha256(made.result));
+  EXPECT_EQ(f.entropy_reduction_nat, 0.5);
+  EXPECT_EQ(f.straight_m, 1e-9);
+  EXPECT_EQ(f.flown_m, 2.0 / 3.0);
+  EXPECT_EQ(f.before.profile_m, 1.0 / 3.0);
+  EXPECT_EQ(f.before.transfer_m, 2.0 / 7.0);
+  EXPECT_EQ(f.before.profile_end_s, 0.1 + 0.2);
+  EXPECT_EQ(f.flight_time_s, 1e20);
+  EXPECT_EQ(f.energy_wh, 5e-324);
+  EXPECT_EQ(f.coverage_final, made.score.final);
+  EXPECT_EQ(f.coverage_profile, made.score.profile);
+  EXPECT_EQ(f.coverage_final_raw, made.score.final_raw);
+  EXPECT_EQ(f.coverage_profile_raw, made.score.profile_raw);
+  EXPECT_EQ(f.density_points_per_voxel, 2.0 / 3.0);
+  EXPECT_EQ(f.distances.at[1].precision, 1.0 / 3.0);
+  EXPECT_EQ(f.distances.at[1].recall, 0.7);
+  EXPECT_EQ(f.distances.accuracy_m, 1.0 / 7.0);
+  EXPECT_EQ(f.distances.completeness_m, 1.0 / 9.0);
+  EXPECT_EQ(f.distances.chamfer_m, 1.0 / 11.0);
+  EXPECT_EQ(f.density.mean_points, 10.0 / 3.0);
+  EXPECT_EQ(f.curve.coverage, made.score.curve.coverage);
+  EXPECT_EQ(f.wall_s, 61.5);
+}
+
+TEST(RoundTrip, AScoreTakesThePlaceOfAnotherAndOfNothingElse) {
+  TempFolder temp;
+  const fs::path run = temp.path() / "run";
+  MadeMission made;
+  RunDirectory(run, made.scenario, false).finish(made.scenario, made.result, made.score, 61.5);
+  const std::string before = read_file(run / kSummaryFile);
+  rescore_summary(run, made.score);
+  EXPECT_EQ(read_file(run / kSummaryFile), before);
+  made.score.final[0] = 0.123;
+  rescore_summary(run, made.score);
+  EXPECT_EQ(read_run_figures(run).coverage_final[0], 0.123);
+  EXPECT_EQ(read_run_figures(run).energy_wh, 5e-324);
+}
+
+TEST(RoundTrip, EffortsAreThereWhenTheCeilingIsKnown) {
+  TempFolder temp;
+  const fs::path run = temp.path() / "run";
+  MadeMission made;
+  RunDirectory(run, made.scenario, false).finish(made.scenario, made.result, made.score, 61.5);
+  const auto json = [&] { return nlohmann::json::parse(read_file(run / kSummaryFile)); };
+  EXPECT_TRUE(json().at("ceiling_at_0.05").is_null());
+  EXPECT_TRUE(json().at("effort_to_reach").is_null());
+  EXPECT_EQ(read_run_figures(run).ceiling, std::nullopt);
+
+  made.score.ceiling = 0.42;  // 0.95 of it is 0.399
+  made.score.before = {.profile_m = 10.0, .transfer_m = 2.0, .profile_end_s = 30.0};
+  rescore_summary(run, made.score);
+  EXPECT_EQ(read_run_figures(run).ceiling, 0.42);
+  const nlohmann::json efforts = json().at("effort_to_reach");
+  EXPECT_EQ(efforts.at("0.95"), nlohmann::json::parse(R"({"views": 2, "metres": 1.0,
+    "metres_with_profile": 13.0, "seconds": 2.0, "seconds_with_profile": 32.0})"));
+  EXPECT_EQ(efforts.at("0.80").at("views"), 2);
+  EXPECT_TRUE(efforts.at("0.98").is_null());  // 0.4116 of the final 0.4
+  EXPECT_EQ(efforts.size(), 5U);
+}
+
+TEST(RoundTrip, AnOlderScoreLeavesNothingBehind) {
+  TempFolder temp;
+  const fs::path run = temp.path() / "run";
+  const MadeMission made;
+  RunDirectory(run, made.scenario, false).finish(made.scenario, made.result, made.score, 61.5);
+  const std::string whole = read_file(run / kSummaryFile);
+  auto old = nlohmann::ordered_json::parse(whole);
+  old["schema"] = 2;
+  old["auc"] = {{"views", 0.5}};  // of schema 2, where mean_coverage_over_own has that name
+  for (const char* key : {"mean_coverage_over_own", "ceiling_at_0.05", "effort_to_reach"}) {
+    old.erase(key);
+  }
+  write_file_atomically(run / kSummaryFile, old.dump(2) + "\n");
+  EXPECT_TRUE(has(complaint_of([&] { read_run_figures(run); }), "schema 2 of another version"));
+  rescore_summary(run, made.score);
+  EXPECT_EQ(read_file(run / kSummaryFile), whole);
+}
+
+}  // namespace
+}  // namespace gnbv

@@ -1,0 +1,113 @@
+#include "tools/run/beliefs_jsonl.hpp"
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "tools/run/file_names.hpp"
+#include "tools/run/run_commands.hpp"
+#include "tools/run/separated_text.hpp"
+
+namespace gnbv {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+constexpr std::array<std::pair<const char*, VoxelRuns BelievedVoxels::*>, 4> kLists = {
+    {{"unknown", &BelievedVoxels::unknown},
+     {"predicted", &BelievedVoxels::predicted},
+     {"frontier", &BelievedVoxels::frontier},
+     {"looked_at", &BelievedVoxels::looked_at}}};
+
+Json json_of(const VoxelRuns& runs) {
+  Json json = Json::array();
+  VoxelIndex end = 0;
+  for (const VoxelRun& run : runs) {
+    json.push_back(run.first - end);
+    json.push_back(run.length);
+    end = run.first + run.length;
+  }
+  return json;
+}
+
+VoxelRuns runs_of(const Json& json, std::size_t voxels) {
+  if (!json.is_array() || json.size() % 2 != 0) throw BadInput("is no list of gaps and lengths");
+  VoxelRuns runs;
+  std::uint64_t end = 0;
+  for (std::size_t i = 0; i < json.size(); i += 2) {
+    if (!json[i].is_number_unsigned() || !json[i + 1].is_number_unsigned()) {
+      throw BadInput("gaps and lengths are whole numbers");
+    }
+    const auto gap = json[i].get<std::uint64_t>();
+    const auto length = json[i + 1].get<std::uint64_t>();
+    if (gap > voxels || length > voxels || end + gap + length > voxels) {
+      throw BadInput(fmt::format("runs end beyond the {} voxels of the map", voxels));
+    }
+    if (length == 0 || (gap == 0 && i > 0)) throw BadInput("runs are longer, and apart");
+    runs.push_back({static_cast<VoxelIndex>(end + gap), static_cast<std::uint32_t>(length)});
+    end += gap + length;
+  }
+  return runs;
+}
+
+}  // namespace
+
+VoxelRuns runs_of(std::span<const VoxelIndex> voxels) {
+  VoxelRuns runs;
+  for (const VoxelIndex v : voxels) {
+    if (runs.empty() || v != runs.back().first + runs.back().length) runs.push_back({v, 0});
+    ++runs.back().length;
+  }
+  return runs;
+}
+
+std::size_t voxel_count(const VoxelRuns& runs) {
+  std::size_t count = 0;
+  for (const VoxelRun& run : runs) count += run.length;
+  return count;
+}
+
+BeliefsFile::BeliefsFile(const fs::path& folder, std::size_t first_iteration)
+    : lines_(folder / kBeliefsFile, lines_before(first_iteration, folder / kBeliefsFile).text) {}
+
+void BeliefsFile::write(std::size_t iteration, const BelievedVoxels& voxels) {
+  Json json = {{"iteration", iteration}};
+  for (const auto& [name, list] : kLists) {
+    if (!(voxels.*list).empty()) json[name] = json_of(voxels.*list);
+  }
+  lines_.write(json.dump() + '\n');
+}
+
+void BeliefsFile::finish() { lines_.finish(); }
+
+std::vector<BelievedVoxels> read_beliefs(const fs::path& run, std::size_t iterations,
+                                         std::size_t voxels) {
+  const fs::path path = run / kBeliefsFile;
+  if (!fs::exists(path)) return {};
+  const std::string text = read_file(path);
+  std::string_view rest = text;
+  std::vector<BelievedVoxels> all(iterations);
+  for (int line = 1; !rest.empty(); ++line) {
+    try {
+      const Json json = Json::parse(next_part(rest, '\n'));
+      const Json& iteration = json.at("iteration");
+      if (!iteration.is_number_unsigned()) {
+        throw BadInput("iteration: not a whole number from 0 on");
+      }
+      const auto of = iteration.get<std::size_t>();
+      if (of >= iterations) continue;
+      for (const auto& [name, list] : kLists) {
+        if (json.contains(name)) all[of].*list = runs_of(json.at(name), voxels);
+      }
+    } catch (const std::exception& error) {
+      throw BadInput(fmt::format("{}: {}; {} writes it anew", to_string(TextPlace{path, line}),
+                                 json_reason(error), command_to_fly_again(run, "--candidates")));
+    }
+  }
+  return text.empty() ? std::vector<BelievedVoxels>{} : all;
+}
+
+}  // namespace gnbv

@@ -1,0 +1,89 @@
+#include "tools/run/cloud_file.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "sim/mesh/plain_text.hpp"
+#include "sim/mesh/polygon_mesh.hpp"
+
+namespace gnbv {
+
+namespace {
+
+/// The next number of a line, which is cut off; nothing where there is none.
+std::optional<float> take_number(std::string_view& line) {
+  constexpr std::string_view kBetween = " \t\r,;";
+  line.remove_prefix(std::min(line.find_first_not_of(kBetween), line.size()));
+  const std::string_view word = line.substr(0, line.find_first_of(kBetween));
+  line.remove_prefix(word.size());
+  const auto value = read_decimal(word);
+  return value ? std::optional(static_cast<float>(*value)) : std::nullopt;
+}
+
+std::vector<Vec3f> read_xyz_cloud(const std::filesystem::path& path) {
+  std::ifstream file = open_file(path);
+  std::vector<Vec3f> points_m;
+  std::string whole;
+  for (std::size_t number = 1; std::getline(file, whole); ++number) {
+    const std::size_t first = whole.find_first_not_of(" \t\r");
+    if (first == std::string::npos || whole[first] == '#') continue;
+    std::string_view line = whole;
+    Vec3f p_m;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const auto value = take_number(line);
+      if (!value) {
+        throw BadInput(fmt::format("{}:{}: '{}' does not begin with three numbers", path.string(),
+                                   number, whole.substr(0, 60)));
+      }
+      p_m[axis] = *value;
+    }
+    points_m.push_back(p_m);
+  }
+  if (file.bad()) throw BadInput(fmt::format("{}: {}", path.string(), std::strerror(errno)));
+  return points_m;
+}
+
+}  // namespace
+
+void write_cloud_ply(std::span<const Vec3f> points_world_m, const std::filesystem::path& path,
+                     const CloudColumns& columns) {
+  const auto& [colours, views] = columns;
+  const std::size_t count = points_world_m.size();
+  GNBV_CHECK(colours.empty() || colours.size() == count, "{} of {} colours", colours.size(), count);
+  GNBV_CHECK(views.empty() || views.size() == count, "{} of {} views", views.size(), count);
+  std::string content = fmt::format(
+      "ply\nformat binary_little_endian 1.0\ncomment gnbv, world ENU, metres\n"
+      "element vertex {}\nproperty float x\nproperty float y\nproperty float z\n",
+      count);
+  if (!colours.empty()) {
+    content += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  }
+  if (!views.empty()) content += "property int view\n";
+  content += "end_header\n";
+  content.reserve(content.size() + 19 * count);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (const float x : points_world_m[i]) append_bytes(content, x);
+    if (!colours.empty()) {
+      for (const std::uint8_t level : colours[i]) append_bytes(content, level);
+    }
+    if (!views.empty()) append_bytes(content, views[i]);
+  }
+  write_file_atomically(path, content);
+}
+
+std::vector<Vec3f> read_cloud(const std::filesystem::path& path) {
+  const std::string extension = extension_of(path);
+  if (extension != ".ply" && extension != ".xyz") {
+    throw BadInput(fmt::format("{}: a cloud is a .ply or an .xyz file", path.string()));
+  }
+  return extension == ".ply" ? read_ply_points(path) : read_xyz_cloud(path);
+}
+
+}  // namespace gnbv

@@ -1,0 +1,204 @@
+#include "tools/run/frames_folder.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "tools/run/file_names.hpp"
+#include "tools/run/run_commands.hpp"
+#include "tools/run/separated_text.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kCamerasFile = "cameras.json";
+constexpr const char* kPosesFile = "poses.csv";
+constexpr std::string_view kPosesHeader =
+    "iteration,camera,time_s,x_m,y_m,z_m,qx,qy,qz,qw,rgb,depth";
+
+constexpr double kDepthStep_m = 0.001;
+
+std::uint16_t millimetres(float depth_m) {
+  constexpr float kMax_mm = 65535.0F;
+  const float depth_mm = std::round(1000.0F * depth_m);
+  return depth_mm > 0.0F && depth_mm <= kMax_mm ? static_cast<std::uint16_t>(depth_mm) : 0;
+}
+
+GreyImage16 image_of(const DepthFrame& frame, const CameraConfig& camera) {
+  GreyImage16 image{camera.width_px, camera.height_px, {}};
+  image.values.resize(frame.depth_m.size());
+  std::transform(frame.depth_m.begin(), frame.depth_m.end(), image.values.begin(), millimetres);
+  return image;
+}
+
+Image image_of(const ColourFrame& frame, const CameraConfig& camera) {
+  Image image{camera.width_px, camera.height_px, {}};
+  image.rgb.reserve(3 * frame.rgb.size());
+  for (const auto& pixel : frame.rgb) image.rgb.insert(image.rgb.end(), pixel.begin(), pixel.end());
+  return image;
+}
+
+std::string row_of(std::size_t iteration, double time_s, const std::string& camera,
+                   const Isometry& T_world_camera, const std::string& stem) {
+  return fmt::format("{},{},{:.3f},{},{}.rgb.png,{}.depth.png\n", iteration, camera, time_s,
+                     pose_text(T_world_camera, ','), stem, stem);
+}
+
+/// An image of the folder itself, so that a damaged file cannot name any other.
+fs::path image_named(const fs::path& folder, std::string_view name, const TextPlace& place) {
+  const fs::path file(trimmed(name));
+  if (file.empty() || file != file.filename() || !fs::exists(folder / file)) {
+    throw BadInput(
+        fmt::format("{}: no image `{}` in {}", to_string(place), file.string(), folder.string()));
+  }
+  return folder / file;
+}
+
+RecordedFrame frame_of(std::string_view row, const std::vector<FrameCamera>& cameras,
+                       const TextPlace& place) {
+  std::array<std::string_view, 12> cells;
+  for (std::string_view& cell : cells) cell = next_part(row, ',');
+  const auto camera = std::find_if(cameras.begin(), cameras.end(),
+                                   [&](const FrameCamera& c) { return c.name == cells[1]; });
+  if (camera == cameras.end()) {
+    throw BadInput(
+        fmt::format("{}: camera `{}` is not in {}", to_string(place), cells[1], kCamerasFile));
+  }
+  std::array<double, 8> numbers{};  // time x y z qx qy qz qw
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    numbers[i] = to_number(cells[i + 2], place, "time or pose");
+  }
+  const fs::path folder = place.file.parent_path();
+  return {.iteration = to_count(cells[0], place, "iteration"),
+          .camera = static_cast<std::size_t>(camera - cameras.begin()),
+          .time_s = numbers[0],
+          .T_world_camera = to_pose(std::span(numbers).subspan<1>(), place),
+          .colour = image_named(folder, cells[10], place),
+          .depth = image_named(folder, cells[11], place)};
+}
+
+Json json_of(const CameraModel& camera) {
+  return {{"name", camera.config.name},
+          {"width_px", camera.config.width_px},
+          {"height_px", camera.config.height_px},
+          {"fx_px", camera.fx_px},
+          {"fy_px", camera.fy_px},
+          {"cx_px", camera.cx_px},
+          {"cy_px", camera.cy_px},
+          {"depth_scale_m", kDepthStep_m}};
+}
+
+FrameCamera camera_of(const Json& json) {
+  FrameCamera c{.name = json.at("name"),
+                .width_px = json.at("width_px"),
+                .height_px = json.at("height_px"),
+                .fx_px = json.at("fx_px"),
+                .fy_px = json.at("fy_px"),
+                .cx_px = json.at("cx_px"),
+                .cy_px = json.at("cy_px"),
+                .depth_scale_m = json.at("depth_scale_m")};
+  const bool is_camera =
+      c.width_px > 0 && c.height_px > 0 && c.fx_px > 0.0 && c.fy_px > 0.0 && c.depth_scale_m > 0.0;
+  if (is_camera) return c;
+  throw BadInput(
+      fmt::format("camera '{}': sizes, focal lengths and depth scale must be positive", c.name));
+}
+
+std::vector<FrameCamera> read_cameras(const fs::path& path) {
+  const std::string text = read_file(path);
+  std::vector<FrameCamera> cameras;
+  try {
+    for (const Json& entry : Json::parse(text)) cameras.push_back(camera_of(entry));
+  } catch (const std::exception& error) {
+    throw BadInput(fmt::format("{}: {}", path.string(), json_reason(error)));
+  }
+  return cameras;
+}
+
+/// The image, which `file` holds, of a camera of its size.
+template <typename AnyImage>
+AnyImage of_size(AnyImage image, const FrameCamera& camera, const fs::path& file) {
+  if (image.width_px == camera.width_px && image.height_px == camera.height_px) return image;
+  throw BadInput(fmt::format("{}: {} x {} px, but cameras.json says {} x {} px of camera `{}`",
+                             file.string(), image.width_px, image.height_px, camera.width_px,
+                             camera.height_px, camera.name));
+}
+
+}  // namespace
+
+std::string frame_stem(std::size_t iteration, const std::string& camera) {
+  return fmt::format("{:04}_{}", iteration, camera);
+}
+
+FramesFolder::FramesFolder(const fs::path& run, std::vector<CameraModel> cameras)
+    : folder_(run / kFramesFolder),
+      cameras_(std::move(cameras)),
+      poses_(fmt::format("{}\n", kPosesHeader)) {
+  make_folder(folder_);
+  Json intrinsics = Json::array();
+  for (const CameraModel& camera : cameras_) intrinsics.push_back(json_of(camera));
+  write_file_atomically(folder_ / kCamerasFile, intrinsics.dump(2) + "\n");
+}
+
+void FramesFolder::write(std::size_t iteration, double time_s, std::span<const DepthFrame> depth,
+                         std::span<const ColourFrame> colour) {
+  GNBV_CHECK(depth.size() == colour.size(), "{} depth frames, {} colour frames", depth.size(),
+             colour.size());
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    const CameraConfig& camera = cameras_[static_cast<std::size_t>(depth[i].camera)].config;
+    const std::string stem = frame_stem(iteration, camera.name);
+    write_png(image_of(colour[i], camera), folder_ / (stem + ".rgb.png"), Lasting::the_process);
+    write_png(image_of(depth[i], camera), folder_ / (stem + ".depth.png"), Lasting::the_process);
+    poses_ += row_of(iteration, time_s, camera.name, depth[i].T_world_camera, stem);
+  }
+  write_file_atomically(folder_ / kPosesFile, poses_, Lasting::the_process);
+}
+
+bool has_frames(const fs::path& run) {
+  const fs::path folder = run / kFramesFolder;
+  return fs::exists(folder / kPosesFile) || fs::exists(folder / kCamerasFile);
+}
+
+FrameRecord read_frames(const fs::path& run) {
+  const fs::path folder = run / kFramesFolder;
+  const std::string again = command_to_fly_again(run, "--frames");
+  if (!has_frames(run)) {
+    throw BadInput(fmt::format("{}: the run has no frames; {} flies it again and keeps them",
+                               folder.string(), again));
+  }
+  const fs::path poses = folder / kPosesFile;
+  for (const fs::path& file : {poses, folder / kCamerasFile}) {
+    if (fs::exists(file)) continue;
+    throw BadInput(
+        fmt::format("{}: is missing; {} flies it again and writes it", file.string(), again));
+  }
+  FrameRecord record{.cameras = read_cameras(folder / kCamerasFile), .frames = {}};
+  const std::string text = read_file(poses);
+  std::string_view rest = text;
+  need_header(trimmed(next_part(rest, '\n')), kPosesHeader, {poses, 1},
+              fmt::format("; {} flies the mission again", again));
+  for (int line = 2; !rest.empty(); ++line) {
+    const std::string_view row = trimmed(next_part(rest, '\n'));
+    if (!row.empty()) record.frames.push_back(frame_of(row, record.cameras, {poses, line}));
+  }
+  if (record.frames.empty()) throw BadInput(fmt::format("{}: holds no frame", poses.string()));
+  return record;
+}
+
+Image read_colour(const FrameRecord& record, std::size_t frame) {
+  const RecordedFrame& f = record.frames[frame];
+  return of_size(read_png(f.colour), record.cameras[f.camera], f.colour);
+}
+
+GreyImage16 read_depth(const FrameRecord& record, std::size_t frame) {
+  const RecordedFrame& f = record.frames[frame];
+  return of_size(read_png_grey16(f.depth), record.cameras[f.camera], f.depth);
+}
+
+}  // namespace gnbv

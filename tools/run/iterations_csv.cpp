@@ -1,0 +1,291 @@
+#include "tools/run/iterations_csv.hpp"
+
+#include <algorithm>
+
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "sim/core/sha256.hpp"
+#include "tools/run/run_commands.hpp"
+#include "tools/run/separated_text.hpp"
+
+namespace gnbv {
+namespace {
+
+/// Wall time: no result depends on it, and nobody needs all its digits.
+template <typename Seconds>
+struct Wall {
+  Seconds& s;
+};
+template <typename Seconds>
+Wall(Seconds&) -> Wall<Seconds>;
+
+// Every column in its order, for whoever writes its name, writes its value or reads it: `View` is a
+// ViewRecord, const for writers.
+
+template <typename View, typename Column>
+void visit_decision(View& view, Column&& column) {
+  auto& d = view.decision;
+  column("sampler", d.sampler);
+  column("scale", d.scale);
+  column("candidates", d.candidates);
+  column("valid", d.valid);
+  column("utility", d.score.value);
+  column("information", d.score.information);
+  column("density_term", d.score.density);
+  column("prediction", d.score.prediction);
+  column("distance_factor", d.score.distance);
+  column("entropy_nat", view.entropy_nat);
+  column("density_points_per_voxel", view.density_points_per_voxel);
+  column("cloud_points", view.cloud_points);
+  column("straight_m", view.straight_m);
+  column("flown_m", view.flown_m);
+  column("time_s", view.time_s);
+}
+
+template <typename View, typename Column>
+void visit_columns(View& view, Columns columns, Column&& column) {
+  auto& d = view.decision;
+  column("iteration", view.iteration);
+  column("x", d.view.p_world_m.x());
+  column("y", d.view.p_world_m.y());
+  column("z", d.view.p_world_m.z());
+  column("yaw", d.view.yaw_rad);
+  visit_decision(view, column);
+  column("wall_sense_s", Wall{view.wall.sense_s});
+  column("wall_map_s", Wall{view.wall.map_s});
+  column("wall_plan_s", Wall{view.wall.plan_s});
+  column("wall_fly_s", Wall{view.wall.fly_s});
+  column("via", d.via_world_m);
+  if (columns == Columns::with_gimbal) column("gimbal_pitch", d.view.gimbal_pitch_rad);
+}
+
+/// The names of the columns.
+struct Names {
+  std::string text;
+  void operator()(std::string_view name, const auto&) {
+    text += (text.empty() ? "" : ",") + std::string(name);
+  }
+};
+
+/// The values of a view.
+struct Cells {
+  std::string text;
+  bool is_first = true;
+
+  void operator()(std::string_view, const auto& value) { add(fmt::format("{}", value)); }
+  void operator()(std::string_view, const Sampler& sampler) {
+    add(std::string(traits_of(sampler).name));
+  }
+  void operator()(std::string_view, const Wall<const double>& wall) {
+    add(fmt::format("{:.6f}", wall.s));
+  }
+  /// "x:y:z;x:y:z"; an empty cell for none.
+  void operator()(std::string_view, const std::vector<Vec3>& points_m) {
+    std::string cell;
+    for (const Vec3& p : points_m) {
+      cell += fmt::format("{}{}:{}:{}", cell.empty() ? "" : ";", p.x(), p.y(), p.z());
+    }
+    add(cell);
+  }
+  void add(const std::string& cell) {
+    text += (is_first ? "" : ",") + cell;
+    is_first = false;
+  }
+};
+
+/// Each column's name and value, without wall times.
+struct NamedCells {
+  std::vector<std::pair<std::string, std::string>> cells;
+
+  void operator()(std::string_view, const Wall<const double>&) {}
+  void operator()(std::string_view name, const auto& value) {
+    Cells text;
+    text(name, value);
+    cells.emplace_back(name, text.text);
+  }
+};
+
+constexpr std::string_view kCheckColumn = ",check";
+
+/// Of a row, with the check of the row before.
+std::string check_of(std::string_view before, std::string_view row) {
+  Sha256 sha;
+  sha.add(before);
+  sha.add(row);
+  return sha.hex().substr(0, 16);
+}
+
+/// Cuts off the row's check. Throws BadInput when it is another's.
+std::string take_check(std::string_view before, std::string_view& row, const TextPlace& place) {
+  const std::size_t comma = row.rfind(',');
+  const std::string_view cell = comma == row.npos ? row : row.substr(comma + 1);
+  row = row.substr(0, std::min(comma, row.size()));
+  const std::string check = check_of(before, row);
+  if (cell == check) return check;
+  throw BadInput(
+      fmt::format("{}: is not the row that was written: edited or damaged", to_string(place)));
+}
+
+/// A row's cells, read left to right.
+struct Row {
+  std::string_view rest;
+  const TextPlace& place;
+
+  void operator()(std::string_view name, double& value) {
+    value = to_number(next_part(rest, ','), place, name);
+  }
+  void operator()(std::string_view name, int& count) {
+    count = to_count(next_part(rest, ','), place, name);
+  }
+  void operator()(std::string_view name, std::size_t& count) {
+    count = static_cast<std::size_t>(to_count(next_part(rest, ','), place, name));
+  }
+  void operator()(std::string_view name, Wall<double> wall) { (*this)(name, wall.s); }
+  void operator()(std::string_view, Sampler& sampler) {
+    const std::string_view cell = next_part(rest, ',');
+    const auto known = sampler_named(cell);
+    if (!known) throw BadInput(fmt::format("{}: '{}' is no sampler", to_string(place), cell));
+    sampler = *known;
+  }
+  void operator()(std::string_view name, std::vector<Vec3>& points_m) {
+    std::string_view points = next_part(rest, ',');
+    while (!points.empty()) {
+      std::string_view point = next_part(points, ';');
+      if (std::count(point.begin(), point.end(), ':') != 2) {
+        throw BadInput(
+            fmt::format("{}: {} '{}' is no list of x:y:z", to_string(place), name, point));
+      }
+      Vec3& p_m = points_m.emplace_back();
+      for (double& x : p_m) x = to_number(next_part(point, ':'), place, name);
+    }
+  }
+};
+
+std::string header_text(Columns columns) {
+  Names names;
+  const ViewRecord view;
+  visit_columns(view, columns, names);
+  return names.text;
+}
+
+std::ptrdiff_t cells_in(std::string_view row) {
+  return 1 + std::count(row.begin(), row.end(), ',');
+}
+
+/// `expected`: cells of the header.
+ViewRecord record_of(std::string_view row, Columns columns, std::ptrdiff_t expected, int iteration,
+                     const TextPlace& place) {
+  if (cells_in(row) != expected) {
+    throw BadInput(fmt::format("{}: '{}' must have {} columns", to_string(place), row, expected));
+  }
+  ViewRecord view;
+  visit_columns(view, columns, Row{row, place});
+  if (view.iteration != iteration) {
+    throw BadInput(
+        fmt::format("{}: '{}' must be iteration {}", to_string(place), view.iteration, iteration));
+  }
+  return view;
+}
+
+}  // namespace
+
+Columns columns_of(const Scenario& scenario) {
+  return gimbal_of(scenario.cameras) ? Columns::with_gimbal : Columns::usual;
+}
+
+std::string iterations_csv_header(Columns columns) { return header_text(columns) + "\n"; }
+
+std::string iterations_csv_row(const ViewRecord& view, Columns columns) {
+  Cells cells;
+  visit_columns(view, columns, cells);
+  return cells.text + "\n";
+}
+
+std::string iterations_csv(std::span<const ViewRecord> views, Columns columns) {
+  std::string csv = iterations_csv_header(columns);
+  for (const ViewRecord& view : views) csv += iterations_csv_row(view, columns);
+  return csv;
+}
+
+std::string JournalRows::header() const {
+  return fmt::format("{}{}\n", header_text(columns_), kCheckColumn);
+}
+
+std::string JournalRows::row(const ViewRecord& view) {
+  Cells cells;
+  visit_columns(view, columns_, cells);
+  check_ = check_of(check_, cells.text);
+  return fmt::format("{},{}\n", cells.text, check_);
+}
+
+std::optional<Difference> first_difference(const ViewRecord& now, const ViewRecord& recorded) {
+  NamedCells of_now;
+  NamedCells of_recorded;
+  visit_columns(now, Columns::with_gimbal, of_now);
+  visit_columns(recorded, Columns::with_gimbal, of_recorded);
+  for (std::size_t i = 0; i < of_now.cells.size(); ++i) {
+    const auto& [name, value] = of_now.cells[i];
+    if (value != of_recorded.cells[i].second) {
+      return Difference{name, value, of_recorded.cells[i].second};
+    }
+  }
+  return std::nullopt;
+}
+
+std::string views_sha256(std::span<const ViewRecord> views) {
+  Sha256 sha;
+  for (const ViewRecord& view : views) {
+    NamedCells named;
+    visit_columns(view, Columns::with_gimbal, named);
+    for (const auto& [name, value] : named.cells) sha.add(value + ",");
+  }
+  return sha.hex();
+}
+
+std::string decision_header() {
+  Names names;
+  const ViewRecord view;
+  visit_decision(view, names);
+  return names.text;
+}
+
+std::string decision_cells(const ViewRecord& view) {
+  Cells cells;
+  visit_decision(view, cells);
+  return cells.text;
+}
+
+std::vector<ViewRecord> read_view_records(const std::filesystem::path& csv) {
+  const std::string text = read_file(csv);
+  std::string_view rest(text.data(), text.rfind('\n') + 1);  // npos + 1: none
+  std::vector<ViewRecord> views;
+  Columns columns = Columns::usual;
+  std::ptrdiff_t cells = 0;
+  bool has_checks = false;
+  std::string check;
+  for (int line = 1; !rest.empty(); ++line) {
+    std::string_view row = next_part(rest, '\n');
+    const TextPlace place{csv, line};
+    if (line > 1) {
+      if (has_checks) check = take_check(check, row, place);
+      views.push_back(record_of(row, columns, cells, line - 2, place));
+      continue;
+    }
+    has_checks = row.ends_with(kCheckColumn);
+    if (has_checks) row.remove_suffix(kCheckColumn.size());
+    if (row == header_text(Columns::with_gimbal)) columns = Columns::with_gimbal;
+    cells = cells_in(row);
+    need_header(row, header_text(columns), place,
+                fmt::format(": of another version, and {} flies its mission again",
+                            command_to_fly_again(csv.parent_path())));
+  }
+  return views;
+}
+
+std::vector<Decision> read_decisions(const std::filesystem::path& csv) {
+  std::vector<Decision> decisions;
+  for (ViewRecord& view : read_view_records(csv)) decisions.push_back(std::move(view.decision));
+  return decisions;
+}
+
+}  // namespace gnbv

@@ -1,0 +1,50 @@
+#include "tools/run/mission_result.hpp"
+
+#include "sim/core/sha256.hpp"
+
+namespace gnbv {
+
+std::vector<ViewMark> view_marks(std::span<const ViewRecord> views) {
+  std::vector<ViewMark> marks;
+  for (const ViewRecord& view : views) {
+    marks.push_back({view.cloud_points, view.straight_m, view.time_s});
+  }
+  return marks;
+}
+
+ScoredCloud scored_cloud(const MissionResult& result) {
+  return {.points_world_m = result.belief.cloud.points_world_m(),
+          .profile_points = result.profile_points_world_m.size(),
+          .before = {.profile_m = result.distance.profile_m,
+                     .transfer_m = result.distance.transfer_m,
+                     .profile_end_s = result.profile_end_s},
+          .views = view_marks(result.views)};
+}
+
+std::string result_sha256(const MissionResult& result) {
+  Sha256 hash;
+  hash.add(name_of(result.termination));
+  for (const TrajectorySample& sample : result.trajectory) {
+    hash.add(sample.time_s);
+    hash.add(std::span<const double>(sample.T_world_body.data(), 16));
+  }
+  for (const ViewRecord& view : result.views) {
+    const Vec3& p = view.decision.view.p_world_m;
+    hash.add(std::span<const double>(p.data(), 3));
+    for (const double value : {view.decision.view.yaw_rad, view.decision.scale,
+                               view.decision.score.value, view.entropy_nat, view.flown_m}) {
+      hash.add(value);
+    }
+    if (view.decision.view.gimbal_pitch_rad != 0.0) {  // so that others keep their hash
+      hash.add(view.decision.view.gimbal_pitch_rad);
+    }
+  }
+  hash.add(result.energy_wh);
+  hash.add(result.belief.grid.all_log_odds());
+  for (const Vec3f& point : result.belief.cloud.points_world_m()) {
+    hash.add(std::span<const float>(point.data(), 3));
+  }
+  return hash.hex();
+}
+
+}  // namespace gnbv

@@ -1,0 +1,199 @@
+#include "tools/run/run_directory.hpp"
+
+#include <cerrno>
+
+#include "planner/core/belief.hpp"
+#include "planner/map/octomap_io.hpp"
+#include "planner/planners.hpp"
+#include "scenarios/load.hpp"
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "tools/run/cloud_file.hpp"
+#include "tools/run/coverage_csv.hpp"
+#include "tools/run/file_names.hpp"
+#include "tools/run/iterations_csv.hpp"
+#include "tools/run/plan_jsonl.hpp"
+#include "tools/run/predictions_csv.hpp"
+#include "tools/run/run_claim.hpp"
+#include "tools/run/run_commands.hpp"
+#include "tools/run/summary_json.hpp"
+#include "tools/run/trajectory_tum.hpp"
+#include "tools/run/user_views.hpp"
+
+namespace gnbv {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kOtherRecord =
+    "another version of the program, another world or another kind of processor made the record, "
+    "or it was edited";
+
+/// Before any is flown again: a leg to nowhere takes for ever.
+void need_inside(const ViewRecord& view, const Scenario& scenario, const fs::path& file) {
+  constexpr double kRounding_m = 1e-6;
+  std::vector<Vec3> places_m = view.decision.via_world_m;
+  places_m.push_back(view.decision.view.p_world_m);
+  for (const Vec3& p_m : places_m) {
+    if (scenario.workspace_m.exteriorDistance(p_m) <= kRounding_m) continue;
+    throw BadInput(fmt::format(
+        "{}:{}: view {} leads to {:g} {:g} {:g} m, outside the workspace: {}", file.string(),
+        view.iteration + 2, view.iteration, p_m.x(), p_m.y(), p_m.z(), kOtherRecord));
+  }
+}
+
+/// The summary of the folder; nothing when it has none that can be read.
+std::optional<RunSummary> summary_of(const fs::path& folder) {
+  std::error_code ignored;
+  if (!fs::exists(folder / kSummaryFile, ignored)) return std::nullopt;
+  try {
+    return read_summary(folder);
+  } catch (const BadInput&) {
+    return std::nullopt;
+  }
+}
+
+bool was_finished(const std::optional<RunSummary>& summary) {
+  return summary && summary->termination && *summary->termination != "interrupted";
+}
+
+}  // namespace
+
+void need_usable(const fs::path& folder, const Scenario& scenario, bool resume) {
+  std::error_code error;
+  const bool holds_a_run = fs::exists(folder / kScenarioFile, error);
+  if (!holds_a_run && !holds_only_leftovers(folder)) {
+    throw BadInput(fmt::format("{}: is not empty and holds no run{}: choose another --out",
+                               folder.string(),
+                               resume ? fmt::format(" to go on with (no {})", kScenarioFile) : ""));
+  }
+  if (holds_a_run && !resume) {
+    throw BadInput(
+        fmt::format("{}: holds a run already: add --resume to continue it, or choose "
+                    "another --out",
+                    folder.string()));
+  }
+  if (holds_a_run && !is_written_in((folder / kScenarioFile).string(), scenario)) {
+    throw BadInput(
+        fmt::format("{}: the run there is of another configuration: only the same one "
+                    "can be resumed",
+                    (folder / kScenarioFile).string()));
+  }
+}
+
+bool is_finished(const fs::path& folder) {
+  std::error_code ignored;
+  for (const char* file : {kScenarioFile, kTrajectoryFile, kCloudFile, kProfileCloudFile,
+                           kIterationsFile, kCoverageFile, kMapFile}) {
+    if (!fs::exists(folder / file, ignored)) return false;
+  }
+  return was_finished(summary_of(folder));
+}
+
+RunDirectory::RunDirectory(fs::path folder, const Scenario& scenario, bool resume)
+    : folder_(std::move(folder)), columns_(columns_of(scenario)), rows_(columns_) {
+  need_usable(folder_, scenario, resume);
+  std::error_code error;
+  const bool holds_a_run = fs::exists(folder_ / kScenarioFile, error);
+  make_folder(folder_);
+  const std::optional<RunSummary> summary = holds_a_run ? summary_of(folder_) : std::nullopt;
+  const fs::path csv = folder_ / kIterationsFile;
+  const fs::path& record = fs::exists(journal_file()) ? journal_file() : csv;
+  if (holds_a_run && fs::exists(record)) recorded_ = read_view_records(record);
+  if (summary && record == csv) need_views_of_summary(csv, *summary, recorded_);
+  for (const ViewRecord& view : recorded_) need_inside(view, scenario, record);
+  if (was_finished(summary)) finished_sha256_ = summary->result_sha256.value_or("");
+  remove_stale_temporaries(folder_);
+  remove_stale_temporaries(folder_ / kFramesFolder);
+  // the journal is written anew as the recorded views are flown again, and takes its place only
+  // when it has caught up: a resumed run that is killed, too, has lost nothing
+  write_file_atomically(folder_ / kScenarioFile, to_yaml(scenario));
+}
+
+std::vector<Decision> RunDirectory::recorded_decisions() const {
+  std::vector<Decision> decisions;
+  for (const ViewRecord& view : recorded_) decisions.push_back(view.decision);
+  return decisions;
+}
+
+void RunDirectory::need_as_recorded(const ViewRecord& view) const {
+  const auto i = static_cast<std::size_t>(view.iteration);
+  if (i >= recorded_.size()) return;
+  const std::optional<Difference> difference = first_difference(view, recorded_[i]);
+  if (!difference) return;
+  throw BadInput(
+      fmt::format("{}: view {}: {} is {} when it is flown again, recorded was {}: {}; {} "
+                  "flies it anew",
+                  folder_.string(), i, difference->column, difference->now, difference->recorded,
+                  kOtherRecord, command_to_fly_again(folder_)));
+}
+
+void RunDirectory::need_as_recorded(const MissionResult& result) const {
+  const bool is_short = result.views.size() < recorded_.size();
+  const bool is_other = !finished_sha256_.empty() && result_sha256(result) != finished_sha256_;
+  if (!is_short && !is_other) return;
+  const std::string what =
+      is_short ? fmt::format("flown again it ends after {} views ({}), recorded were {}",
+                             result.views.size(), name_of(result.termination), recorded_.size())
+               : "flown again it comes to another result than its summary.json holds";
+  throw BadInput(fmt::format("{}: {}: {}; {} flies it anew", folder_.string(), what, kOtherRecord,
+                             command_to_fly_again(folder_)));
+}
+
+fs::path RunDirectory::journal_file() const { return part_of(folder_ / kIterationsFile); }
+
+void RunDirectory::write_profile(const Belief& belief) const {
+  write_belief(belief, folder_ / kProfileMapFile);
+}
+
+void RunDirectory::append(const ViewRecord& view) {
+  if (!journal_.is_open() && static_cast<std::size_t>(view.iteration) + 1 < recorded_.size()) {
+    pending_ += rows_.row(view);
+    return;
+  }
+  if (!journal_.is_open()) {
+    write_file_atomically(journal_file(), rows_.header() + pending_);
+    journal_.open(journal_file(), std::ios::binary | std::ios::app);
+  }
+  errno = 0;
+  journal_ << rows_.row(view) << std::flush;
+  if (!journal_) refuse_to_write(journal_file(), errno);
+}
+
+void RunDirectory::keep(const Scenario& scenario) const {
+  write_file_atomically(folder_ / kScenarioFile, to_yaml(scenario), Lasting::the_process);
+}
+
+void RunDirectory::finish(const Scenario& scenario, const MissionResult& result,
+                          const MissionScore& score, double total_wall_s) {
+  std::error_code ignored;
+  // an old one would be taken for that of the new files, were this process killed among them
+  if (fs::remove(folder_ / kSummaryFile, ignored)) sync_to_disk(folder_);
+  write_file_atomically(folder_ / kTrajectoryFile, trajectory_tum(result.trajectory));
+  write_cloud_ply(result.profile_points_world_m, folder_ / kProfileCloudFile);
+  write_cloud_ply(result.belief.cloud.points_world_m(), folder_ / kCloudFile);
+  write_octomap(result.belief.grid, folder_ / kMapStem);
+  write_file_atomically(folder_ / kIterationsFile, iterations_csv(result.views, columns_));
+  const PlannerTraits planner = traits_of(scenario.planner);
+  if (planner.takes_views) {
+    write_file_atomically(folder_ / kViewsFile, user_views_csv(result.user_views));
+  }
+  if (is_user_utility(scenario.planner.utility.name)) {
+    write_file_atomically(folder_ / kUserUtilityFile, scenario.planner.utility.python.source);
+  }
+  if (planner.makes_tours) {
+    write_file_atomically(folder_ / kPredictionsFile, predictions_csv(result.gain_outcomes));
+    write_file_atomically(folder_ / kPlanFile, plan_jsonl(result.tour_plans));
+  }
+  write_file_atomically(folder_ / kCoverageFile, coverage_csv(score.curve, score.more));
+  // before the summary: killed after it, a finished run would keep its journal for ever
+  journal_.close();
+  fs::remove(journal_file(), ignored);
+  // whoever sees the summary after a power failure sees the rest, too
+  if (fs::exists(folder_ / kFramesFolder, ignored)) sync_all_to_disk(folder_ / kFramesFolder);
+  write_file_atomically(folder_ / kSummaryFile,
+                        summary_json(scenario, result, score, total_wall_s));
+}
+
+}  // namespace gnbv

@@ -1,0 +1,58 @@
+// A run directory read back: what pictures, pages, models and exports are made of.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/score/run_figures.hpp"
+#include "scenarios/scenario.hpp"
+#include "tools/run/mission_result.hpp"
+#include "tools/run/run_commands.hpp"
+
+namespace gnbv {
+
+/// Whatever of a run is there. Only scenario.yaml has to be.
+struct RunRecord {
+  std::filesystem::path folder;             // never "." or "..", no slash at its end
+  Scenario scenario;                        // scenario.yaml
+  std::vector<TrajectorySample> path = {};  // trajectory.tum, times ascending; empty without it
+  std::vector<ViewRecord> views = {};       // iterations.csv, or what a run that goes on has so far
+  std::optional<RunFigures> figures = {};   // summary.json and coverage.csv
+  std::optional<double> profile_end_s = {};  // summary.json: where the profile ends,
+  std::optional<double> views_begin_s = {};  // and where the planned views begin
+  std::vector<std::string> missing = {};     // a sentence each: what is not there, what makes it
+};
+
+/// Reads a run directory, finished or not. What is absent, or was written by another version, is
+/// left out and named in `missing` with the command that makes it. Throws BadInput naming the
+/// folder when it holds no run at all, and file and line of whatever is damaged. A mesh file that
+/// was moved since is missed only by those who load it.
+RunRecord read_run(const std::filesystem::path& folder);
+
+/// The cloud of a run in the order in which it grew.
+struct RunCloud {
+  std::vector<Vec3f> points_world_m;     // cloud.ply
+  std::size_t profile_points = 0;        // the first ones
+  std::vector<std::size_t> view_points;  // (views) how many there were after each view
+
+  /// Of the view after which the point was there; -1 for one of the profile, and the number of
+  /// views for one that came after the last of them, as a run leaves them that ends in flight.
+  int view_of(std::size_t point) const;
+};
+
+/// Throws BadInput naming file and command when cloud.ply or profile.ply is missing, or when they
+/// and the record's views do not belong together.
+RunCloud read_run_cloud(const RunRecord& record);
+
+/// "Aircraft (a340.obj)": a scenario's name says little of the mesh that --mesh put in its
+/// structure's place.
+std::string scenario_title(const Scenario& scenario);
+
+/// Who flew where: "aircraft, proposed"; and by which reading of the paper, if not the usual one.
+std::string run_title(const RunRecord& record);
+/// The main figures in one line, as far as they are there.
+std::string run_detail(const RunRecord& record);
+
+}  // namespace gnbv

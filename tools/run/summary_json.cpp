@@ -1,0 +1,167 @@
+#include "tools/run/summary_json.hpp"
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "sim/core/sha256.hpp"
+#include "tools/run/coverage_csv.hpp"
+#include "tools/run/file_names.hpp"
+#include "tools/run/iterations_csv.hpp"
+#include "tools/run/score_json.hpp"
+
+namespace gnbv {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+Json symmetry_of(const Prediction& prediction) {
+  const Symmetry& symmetry = prediction.symmetry;
+  Json plane = nullptr;
+  if (symmetry.plane) {
+    const Vec3& n = symmetry.plane->normal_world;
+    plane = {{"normal", std::vector<double>(n.begin(), n.end())},
+             {"offset_m", symmetry.plane->offset_m}};
+  }
+  return {{"plane", plane},
+          {"support", symmetry.support},
+          {"confirmed", symmetry.confirmed},
+          {"predicted_voxels", prediction.predicted_voxels}};
+}
+
+/// Keys of earlier schemas that this one has under another name.
+constexpr std::array<std::string_view, 1> kRetiredKeys = {"auc"};
+
+/// The summary with this score instead of the one it has, and this schema. `coverage` is where the
+/// score stands.
+Json with_score(const Json& summary, const MissionScore& score) {
+  const Json part = score_part(score);
+  Json out;
+  for (const auto& [key, value] : summary.items()) {
+    if (key == "schema") {
+      out[key] = kSummarySchema;
+    } else if (key == "coverage") {
+      for (const auto& [score_key, score_value] : part.items()) out[score_key] = score_value;
+    } else if (std::find(kRetiredKeys.begin(), kRetiredKeys.end(), key) == kRetiredKeys.end() &&
+               !part.contains(key)) {
+      out[key] = value;
+    }
+  }
+  return out;
+}
+
+/// How many candidates of the decision that found no valid view were rejected, and why.
+Json rejections_of(const std::map<Rejection, int>& rejections) {
+  if (rejections.empty()) return nullptr;
+  Json counts = Json::object();
+  for (const auto& [reason, count] : rejections) counts[std::string(name_of(reason))] = count;
+  return counts;
+}
+
+/// Of a utility of the user's own.
+Json source_hash_of(const UtilityConfig& utility) {
+  if (!is_user_utility(utility.name)) return nullptr;
+  Sha256 hash;
+  hash.add(utility.python.source);
+  return hash.hex();
+}
+
+Json home_of(const std::optional<HomeFlight>& home) {
+  if (!home) return nullptr;
+  return {{"reached", home->reached}, {"landed", home->landed}, {"flown_m", home->flown_m}};
+}
+
+}  // namespace
+
+std::string summary_json(const Scenario& scenario, const MissionResult& r,
+                         const MissionScore& score, double total_wall_s) {
+  const double entropy_nat = r.belief.grid.total_entropy_nat();
+  const double battery_wh = scenario.vehicle.power.battery_wh;
+  const Json battery = battery_wh > 0.0 ? Json(battery_wh) : Json(nullptr);  // null: never empty
+  const WindConfig& wind = scenario.wind;
+  const Vec3 p = r.final_state.T_world_body.translation();
+  const Eigen::Quaterniond q(r.final_state.T_world_body.linear());
+  const Vec3& v = r.final_state.v_world_m_s;
+  Json json = {
+      {"schema", kSummarySchema},
+      {"scenario", scenario.name},
+      {"structure", structure_name(scenario.structure)},
+      {"utility", utility_label(scenario.planner.utility)},
+      {"utility_source_sha256", source_hash_of(scenario.planner.utility)},
+      {"preset", scenario.planner.preset},
+      {"vehicle", scenario.vehicle.kind == VehicleKind::ideal ? "ideal" : scenario.vehicle.preset},
+      {"seed", scenario.seed},
+      {"version", GNBV_VERSION},
+      {"iterations", r.views.size()},
+      {"termination", name_of(r.termination)},
+      {"failure", r.failure.empty() ? Json(nullptr) : Json(r.failure)},
+      {"ended_by_truth", r.termination == Termination::coverage_reached},
+      {"last_rejections", rejections_of(r.last_rejections)},
+      {"distance_m",
+       {{"straight", r.distance.straight_m},
+        {"flown", r.distance.flown_m},
+        {"profile", r.distance.profile_m},
+        {"profile_flown", r.distance.profile_flown_m},
+        {"transfer", r.distance.transfer_m}}},
+      {"profile_end_s", r.profile_end_s},
+      {"views_begin_s", r.views.empty() ? r.profile_end_s : r.views.front().time_s},
+      {"flight_time_s", r.flight_time_s},
+      {"energy_wh", r.energy_wh},
+      {"battery_wh", battery},
+      {"battery_left_wh", battery_wh > 0.0 ? Json(battery_wh - r.energy_wh) : Json(nullptr)},
+      {"home", home_of(r.home)},
+      {"entropy_nat",
+       {{"after_profile", r.entropy_after_profile_nat},
+        {"final", entropy_nat},
+        {"reduction", r.entropy_after_profile_nat - entropy_nat}}},
+      {"symmetry", symmetry_of(r.prediction)},
+      {"coverage", nullptr},
+      {"density_points_per_voxel", r.views.empty() ? 0.0 : r.views.back().density_points_per_voxel},
+      {"collisions", r.termination == Termination::collision ? 1 : 0},
+      {"legs_timed_out", r.legs_timed_out},
+      {"path_error_m", {{"rms", r.path_error.rms_m()}, {"max", r.path_error.max_m}}},
+      {"frames", {{"taken", r.frames.taken}, {"dropped", r.frames.dropped}}},
+      {"wind",
+       {{"mean_m_s", std::vector<double>(wind.mean_world_m_s.begin(), wind.mean_world_m_s.end())},
+        {"gust_w20_m_s", wind.gust_w20_m_s}}},
+      {"final_state",
+       {{"position_m", std::vector<double>(p.begin(), p.end())},
+        {"quaternion_xyzw", std::vector<double>{q.x(), q.y(), q.z(), q.w()}},
+        {"velocity_m_s", std::vector<double>(v.begin(), v.end())}}},
+      {"wall_s",
+       {{"total", total_wall_s},
+        {"profile", r.wall.profile_s},
+        {"symmetry", r.wall.symmetry_s},
+        {"sense", r.wall.sense_s},
+        {"map", r.wall.map_s},
+        {"plan", r.wall.plan_s},
+        {"fly", r.wall.fly_s},
+        {"score", r.wall.score_s}}},
+      {"views_sha256", views_sha256(r.views)},
+      {"result_sha256", result_sha256(r)},
+  };
+  return with_score(json, score).dump(2) + "\n";
+}
+
+void rescore_summary(const fs::path& run, const MissionScore& score) {
+  const fs::path path = run / kSummaryFile;
+  const Json json = Json::parse(read_file(path), nullptr, false);
+  if (!json.is_object() || !json.contains("schema") || !json.contains("coverage")) {
+    throw BadInput(fmt::format("{}: is not the summary of a run", path.string()));
+  }
+  const Json& schema = json.at("schema");
+  if (!schema.is_number_unsigned() || schema.get<std::uint64_t>() > kSummarySchema) {
+    throw BadInput(fmt::format("{}: /schema: {} is none that this version knows, 1 to {}",
+                               path.string(), schema.dump(), kSummarySchema));
+  }
+  const std::string summary = with_score(json, score).dump(2) + "\n";
+  // killed in between, the run is one without a curve, which scoring gives back, not one of two
+  fs::remove(run / kCoverageFile);
+  write_file_atomically(path, summary);
+  write_file_atomically(run / kCoverageFile, coverage_csv(score.curve, score.more));
+}
+
+}  // namespace gnbv

@@ -1,0 +1,171 @@
+#include "tools/run/user_views.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "scenarios/values.hpp"
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "tools/run/separated_text.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kMostCoordinate_m = 1e6;  // as planner.routes.views allows
+constexpr double kMaxTilt_rad = deg_to_rad(45.0);
+const std::vector<std::string> kTumColumns = {"t", "x", "y", "z", "qx", "qy", "qz", "qw"};
+constexpr std::array<std::string_view, 9> kRead = {"x",  "y",  "z",  "yaw_deg", "pitch_deg",
+                                                   "qx", "qy", "qz", "qw"};
+constexpr std::array<std::string_view, 5> kPassedOver = {"t", "view", "result", "reason",
+                                                         "iteration"};
+
+bool is_one_of(std::span<const std::string_view> names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::vector<std::string> cells_of(std::string_view row, bool is_csv) {
+  std::vector<std::string> cells;
+  while (!row.empty()) {
+    const bool ends_in_comma = is_csv && row.back() == ',' && row.find(',') == row.size() - 1;
+    const std::string_view cell = trimmed(next_part(row, is_csv ? ',' : ' '));
+    if (is_csv || !cell.empty()) cells.emplace_back(cell);
+    if (ends_in_comma) cells.emplace_back();
+  }
+  return cells;
+}
+
+/// Throws BadInput for a header that does not say where each view is and where it looks.
+void need_columns(const std::vector<std::string>& columns, const TextPlace& place) {
+  const auto fail = [&](const std::string& what) {
+    throw BadInput(
+        fmt::format("{}: {}; a header is x,y,z,yaw_deg or x,y,z,qx,qy,qz,qw, in any "
+                    "order, with pitch_deg where the cameras hang on a gimbal",
+                    to_string(place), what));
+  };
+  const auto count = [&](std::string_view name) {
+    return std::count(columns.begin(), columns.end(), name);
+  };
+  for (const std::string& column : columns) {
+    if (!is_one_of(kRead, column) && !is_one_of(kPassedOver, column)) {
+      fail(fmt::format("column `{}` is not known", column));
+    }
+    if (count(column) > 1) fail(fmt::format("column `{}` stands twice", column));
+  }
+  for (const std::string_view name : {"x", "y", "z"}) {
+    if (count(name) == 0) fail(fmt::format("has no column `{}`", name));
+  }
+  const auto turns = count("qx") + count("qy") + count("qz") + count("qw");
+  if (count("yaw_deg") + turns == 0) fail("says nowhere where a view looks");
+  if (count("yaw_deg") == 1 && turns > 0) fail("has yaw_deg and a quaternion");
+  if (count("yaw_deg") == 0 && turns != 4) fail("has only a part of qx,qy,qz,qw");
+}
+
+double to_number_within(std::string_view text, double limit, const TextPlace& place,
+                        std::string_view what) {
+  const double value = to_number(text, place, what);
+  if (std::abs(value) <= limit) return value;
+  throw BadInput(fmt::format("{}: {} `{}` is out of range (allowed: from {} to {})",
+                             to_string(place), what, trimmed(text), -limit, limit));
+}
+
+/// As scenario.yaml will hold it, so that the same bits come back from there.
+double heading_rad(const Isometry& T_world_body, const TextPlace& place) {
+  const double tilt_rad = std::acos(std::clamp(T_world_body.linear()(2, 2), -1.0, 1.0));
+  if (tilt_rad > kMaxTilt_rad) {
+    throw BadInput(fmt::format(
+        "{}: qx qy qz qw tilt the body by {:.0f} degrees, and views are taken level: a pose has to "
+        "be that of the body (x forward, y left, z up), not of a camera (z forward)",
+        to_string(place), rad_to_deg(tilt_rad)));
+  }
+  return written_angle_rad(yaw_of(T_world_body));
+}
+
+}  // namespace
+
+std::optional<ViewPose> ViewLines::read(std::string_view line) {
+  ++line_;
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (line_ == 1 && line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
+  const std::string_view row = trimmed(line);
+  if (row.empty() || row.front() == '#') return std::nullopt;
+  if (form_ != Form::unknown) return read_row(row);
+  const bool is_header = row.find(',') != std::string_view::npos;
+  if (!is_header) {
+    columns_ = kTumColumns;
+    form_ = Form::tum;
+    try {
+      return read_row(row);
+    } catch (const BadInput&) {
+      form_ = Form::unknown;  // a first line that is no view says nothing of those to come
+      throw;
+    }
+  }
+  columns_ = cells_of(row, true);
+  need_columns(columns_, {source_, line_});
+  form_ = Form::csv;
+  return std::nullopt;
+}
+
+ViewPose ViewLines::read_row(std::string_view row) {
+  const TextPlace place{source_, line_};
+  const std::vector<std::string> cells = cells_of(row, form_ == Form::csv);
+  if (cells.size() != columns_.size()) {
+    throw BadInput(fmt::format("{}: `{}` has {} values, not {}: {}", to_string(place), row,
+                               cells.size(), columns_.size(),
+                               fmt::join(columns_, form_ == Form::csv ? "," : " ")));
+  }
+  ViewPose view;
+  std::array<double, 7> pose{};  // x y z qx qy qz qw
+  bool is_quaternion = false;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const std::string& name = columns_[i];
+    if (form_ == Form::csv && is_one_of(kPassedOver, name)) continue;
+    const auto number = [&](double limit) {
+      return to_number_within(cells[i], limit, place, name);
+    };
+    if (name == "t") to_number(cells[i], place, name);
+    if (name == "yaw_deg") view.yaw_rad = deg_to_rad(number(360.0));
+    if (name == "pitch_deg") view.gimbal_pitch_rad = deg_to_rad(number(90.0));
+    if (name.size() == 1 && name != "t")
+      pose[std::string_view("xyz").find(name)] = number(kMostCoordinate_m);
+    if (name.front() != 'q') continue;
+    is_quaternion = true;
+    pose[3 + std::string_view("xyzw").find(name.back())] = to_number(cells[i], place, name);
+  }
+  view.p_world_m = Vec3(pose[0], pose[1], pose[2]);
+  if (is_quaternion) view.yaw_rad = heading_rad(to_pose(pose, place), place);
+  return view;
+}
+
+std::vector<ViewPose> read_user_views(const fs::path& file) {
+  const std::string text = read_file(file);
+  ViewLines lines(file);
+  std::vector<ViewPose> views;
+  std::string_view rest = text;
+  while (!rest.empty()) {
+    if (const auto view = lines.read(next_part(rest, '\n'))) views.push_back(*view);
+  }
+  if (views.empty()) throw BadInput(fmt::format("{}: holds no view", file.string()));
+  return views;
+}
+
+std::string user_views_csv(std::span<const UserView> views) {
+  std::string csv = "view,x,y,z,yaw_deg,pitch_deg,result,reason,iteration\n";
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const UserView& given = views[i];
+    const Vec3& p = given.view.p_world_m;
+    csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", i, p.x(), p.y(), p.z(),
+                       degrees_of(given.view.yaw_rad), degrees_of(given.view.gimbal_pitch_rad),
+                       given.rejected    ? "refused"
+                       : given.iteration ? "flown"
+                                         : "left",
+                       given.rejected ? name_of(*given.rejected) : "",
+                       given.iteration ? fmt::format("{}", *given.iteration) : "");
+  }
+  return csv;
+}
+
+}  // namespace gnbv
