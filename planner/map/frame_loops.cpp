@@ -58,15 +58,16 @@ HWY_INLINE Ints voxels_of_ends(const FrameView& view, const EndRow& row, int u, 
 
 int ends_of_row(const FrameView& view, const EndRow& given, std::int32_t* voxels) {
   const EndRow row = given;
-  std::int32_t recent[kLanes + 1] = {-1};  // the last pixel's voxel, then those of the lanes
+  const Mask is_first = hn::FirstN(kIntTag, 1);
+  Ints last = all(-1);  // its first lane: the voxel of the pixel before
   int count = 0;
   for_lanes(view.width, [&](int u, int left) {
     const Ints here = voxels_of_ends(view, row, u, left);
-    store(recent + 1, here);
-    const Mask is_known = equal(here, load(recent)) | equal(here, all(-1));
+    const Ints turned = turn_up(here);
+    const Mask is_known = equal(here, select(is_first, last, turned)) | equal(here, all(-1));
     const Mask is_new = without(every_lane(), is_known);
     if (any(is_new)) count += pack(is_new, here, voxels + count);
-    recent[0] = recent[kLanes];
+    last = turned;
   });
   return count;
 }

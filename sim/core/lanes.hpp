@@ -119,6 +119,11 @@ inline Ints gather(Mask m, const std::uint32_t* p, Ints at) {
 inline Floats gather(Mask m, const float* p, Ints at) {
   return as_floats(gather(m, reinterpret_cast<const std::uint32_t*>(p), at));
 }
+/// Each lane gets the one before it, the first lane the last one.
+inline Ints turn_up(Ints a) {
+  const Ints from = hn::Iota(kIntTag, kLanes - 1) & all(kLanes - 1);
+  return hn::TableLookupLanes(a, hn::IndicesFromVec(kIntTag, from));
+}
 /// Writes the lanes of m first, kLanes numbers in all. Returns how many lanes m has.
 inline int pack(Mask m, Ints a, std::int32_t* to) {
   store(to, hn::Compress(a, m));
