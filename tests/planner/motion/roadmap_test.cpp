@@ -126,17 +126,24 @@ TEST(Roadmap, LeadsFromAVoxelThatNobodyHasSeen) {
   EXPECT_TRUE(is_reachable(world.roadmap, 1));
 }
 
-/// Of a node and those about it, the legs are the same whatever cube each falls into.
+/// All open nodes lie on the other side of an edge of the cubes that nodes are sorted into, which
+/// is at 1.01 * sqrt(3) m.
 TEST(Roadmap, ANodeBesideTheLatticeIsLinkedToAllAboutIt) {
-  World world(free_grid(kBox));
-  const Roadmap::Node added = world.roadmap.add(Vec3(0.9, 1.1, 2.1));
-  world.roadmap.follow(world.grid, world.space, Vec3(-5, -5, 1));
-  const std::span<const float> row_m = world.roadmap.row_m(added);
-  for (Roadmap::Node node = 1; node < added; ++node) {
-    const double straight_m =
-        (world.roadmap.p_world_m(node) - world.roadmap.p_world_m(added)).norm();
-    if (straight_m > 1.7) continue;
-    EXPECT_NEAR(row_m[node], straight_m, 1e-4) << "straight, over a leg";
+  for (int axis = 0; axis < 2; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      Box3 wall_m = kBox;
+      (side > 0.0 ? wall_m.max() : wall_m.min())[axis] = 0.7 * side;
+      OccupancyGrid grid = free_grid(kBox);
+      fill(grid, wall_m);
+      World world(std::move(grid));
+      Vec3 p_world_m(0.0, 0.0, 2.0);
+      p_world_m[axis] = 1.6 * side;
+      const Roadmap::Node added = world.roadmap.add(p_world_m);
+      Vec3 here_m(0.0, 0.0, 1.0);
+      here_m[axis] = 5.0 * side;
+      world.roadmap.follow(world.grid, world.space, here_m);
+      EXPECT_TRUE(is_reachable(world.roadmap, added)) << axis << " " << side;
+    }
   }
 }
 
@@ -159,7 +166,7 @@ TEST(Roadmap, AsksOftenWhetherToStopAndKeepsNothingHalfDone) {
   plan();
   const int all = asked;
   EXPECT_GT(all, 2 * static_cast<int>(world.roadmap.size()));
-  for (const int at : {1, all / 4, all / 2, all - 1}) {
+  for (const int at : {1, all / 4, all / 2, 3 * all / 4, all - 1}) {
     stop_at = at;
     EXPECT_THROW(plan(), std::runtime_error);
     world.roadmap.follow(world.grid, world.space, here_m);
