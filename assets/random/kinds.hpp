@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "assets/mesh_builder.hpp"
+#include "assets/random/mesh_builder.hpp"
 #include "sim/core/rng.hpp"
 
 namespace gnbv::random_parts {

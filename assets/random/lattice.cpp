@@ -1,6 +1,6 @@
 #include "assets/random/lattice.hpp"
 
-#include "assets/solids.hpp"
+#include "assets/random/solids.hpp"
 
 namespace gnbv::random_parts {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "assets/mesh_builder.hpp"
+#include "assets/random/mesh_builder.hpp"
 #include "assets/random/paints.hpp"
 
 namespace gnbv::random_parts {

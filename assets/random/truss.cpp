@@ -4,7 +4,7 @@
 
 #include "assets/random/kinds.hpp"
 #include "assets/random/lattice.hpp"
-#include "assets/solids.hpp"
+#include "assets/random/solids.hpp"
 
 namespace gnbv::random_parts {
 namespace {

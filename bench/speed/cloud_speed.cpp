@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "assets/aircraft.hpp"
+#include "assets/catalog.hpp"
 #include "bench/reference/kd_density_twin.hpp"
 #include "bench/reference/pcl_twin.hpp"
 #include "bench/speed/measure.hpp"
@@ -21,7 +21,8 @@ constexpr int kViewsTimed = 15;
 /// Views all over the structure, a few metres off its faces and towards them.
 class Views {
  public:
-  Views() : world_{make_aircraft(), true}, scene_(world_), cameras_(camera_pair()) {}
+  Views()
+      : world_{make_builtin_structure("aircraft"), true}, scene_(world_), cameras_(camera_pair()) {}
 
   std::vector<FrameRays> take(int view) const {
     const ViewPose pose = pose_of(view);

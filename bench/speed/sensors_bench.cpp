@@ -6,7 +6,7 @@
 
 #include <ctime>
 
-#include "assets/aircraft.hpp"
+#include "assets/catalog.hpp"
 #include "bench/reference/bare_embree.hpp"
 #include "sensors/capture.hpp"
 #include "sensors/pixel_tiles.hpp"
@@ -18,7 +18,7 @@ namespace {
 constexpr int kViews = 24;
 
 const World& world() {
-  static const World aircraft = {make_aircraft(), true};
+  static const World aircraft = {make_builtin_structure("aircraft"), true};
   return aircraft;
 }
 

@@ -1,4 +1,4 @@
-// read_obj() of sim/mesh/polygon_mesh.hpp.
+// read_obj() and read_obj_text() of sim/mesh/polygon_mesh.hpp.
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -8,6 +8,7 @@
 #include <fstream>
 #include <map>
 #include <optional>
+#include <sstream>
 
 #include "sim/core/file.hpp"
 #include "sim/mesh/plain_text.hpp"
@@ -60,8 +61,7 @@ class ObjMaterials {
   explicit ObjMaterials(std::string path) : path_(std::move(path)) {}
 
   /// Takes the names and diffuse colours of a library, which may come after their use.
-  void read_library(const std::filesystem::path& library) {
-    std::ifstream file = open_file(library);
+  void read_library(std::istream& file, const std::filesystem::path& library) {
     std::vector<std::string_view> words;
     std::string material;
     for (std::string line; std::getline(file, line);) {
@@ -128,8 +128,10 @@ struct Dropped {
 
 class ObjReader {
  public:
-  ObjReader(const std::filesystem::path& path, std::vector<std::string>& warnings)
-      : path_(path), file_(open_file(path)), warnings_(warnings), materials_(path.string()) {}
+  /// `mtl` is the text of every material library; without it they are files beside `path`.
+  ObjReader(std::istream& file, const std::filesystem::path& path,
+            std::optional<std::string_view> mtl, std::vector<std::string>& warnings)
+      : path_(path), file_(file), mtl_(mtl), warnings_(warnings), materials_(path.string()) {}
 
   PolygonMesh read() {
     std::string statement;
@@ -217,8 +219,15 @@ class ObjReader {
 
   void use_library(const std::string& name) {
     const std::filesystem::path library = path_.parent_path() / name;
+    if (mtl_) {
+      std::istringstream text{std::string(*mtl_)};
+      return materials_.read_library(text, library);
+    }
     std::error_code ignored;  // a file that we may not look at counts as not found
-    if (std::filesystem::is_regular_file(library, ignored)) return materials_.read_library(library);
+    if (std::filesystem::is_regular_file(library, ignored)) {
+      std::ifstream file = open_file(library);
+      return materials_.read_library(file, library);
+    }
     warnings_.push_back(
         fmt::format("{}:{}: material file {} not found", path_.string(), line_, name));
   }
@@ -248,7 +257,8 @@ class ObjReader {
   }
 
   std::filesystem::path path_;
-  std::ifstream file_;
+  std::istream& file_;
+  std::optional<std::string_view> mtl_;
   std::vector<std::string>& warnings_;
   PolygonMesh out_;
   std::size_t line_ = 0;
@@ -264,7 +274,14 @@ class ObjReader {
 }  // namespace
 
 PolygonMesh read_obj(const std::filesystem::path& path, std::vector<std::string>& warnings) {
-  return ObjReader(path, warnings).read();
+  std::ifstream file = open_file(path);
+  return ObjReader(file, path, std::nullopt, warnings).read();
+}
+
+PolygonMesh read_obj_text(const std::filesystem::path& path, std::string_view obj,
+                          std::string_view mtl, std::vector<std::string>& warnings) {
+  std::istringstream text{std::string(obj)};
+  return ObjReader(text, path, mtl, warnings).read();
 }
 
 }  // namespace gnbv

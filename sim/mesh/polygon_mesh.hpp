@@ -35,6 +35,9 @@ struct PolygonMesh {
 /// `warnings`. Throws BadInput naming the line where that could number vertices wrongly: an
 /// unreadable line beside a vertex, with more vertices after it.
 PolygonMesh read_obj(const std::filesystem::path& path, std::vector<std::string>& warnings);
+/// The same of a text and that of its material library. Messages call the text `path`.
+PolygonMesh read_obj_text(const std::filesystem::path& path, std::string_view obj,
+                          std::string_view mtl, std::vector<std::string>& warnings);
 
 /// Reads vertices (x, y, z; 0 where the file lacks one), faces (vertex_indices or vertex_index) and
 /// red, green, blue: of the faces, or else of the vertices. Faces of fewer than three corners or of

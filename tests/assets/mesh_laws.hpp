@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "assets/mesh_builder.hpp"
+#include "assets/random/mesh_builder.hpp"
 
 namespace gnbv {
 

@@ -1,16 +1,14 @@
-// Laws that every built-in structure obeys as a whole.
+// Laws that every structure obeys as a whole.
 #pragma once
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "sim/core/sha256.hpp"
@@ -18,12 +16,6 @@
 #include "tests/assets/mesh_laws.hpp"
 
 namespace gnbv {
-
-inline std::array<Vec3, 3> corners_m(const TriangleMesh& mesh, std::size_t face) {
-  const auto& f = mesh.faces[face];
-  return {mesh.vertices_m[f[0]].cast<double>(), mesh.vertices_m[f[1]].cast<double>(),
-          mesh.vertices_m[f[2]].cast<double>()};
-}
 
 inline std::string sha256_of(const TriangleMesh& mesh) {
   Sha256 hash;
@@ -81,59 +73,13 @@ inline double least_face_height_m(const TriangleMesh& mesh) {
   std::vector<bool> used(mesh.vertices_m.size(), false);
   double least_m = std::numeric_limits<double>::infinity();
   for (std::size_t face = 0; face < mesh.faces.size(); ++face) {
-    const auto [a, b, c] = corners_m(mesh, face);
+    const auto [a, b, c] = face_corners_m(mesh, face);
     const double longest_m = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
     least_m = std::min(least_m, (b - a).cross(c - a).norm() / std::max(longest_m, 1e-12));
     for (const auto v : mesh.faces[face]) used[v] = true;
   }
   EXPECT_EQ(std::count(used.begin(), used.end(), false), 0);
   return least_m;
-}
-
-/// Area of the axis-aligned faces within 0.1 mm of a boundary of voxels: it would fall into one
-/// layer of them or the other by rounding.
-inline double area_on_voxel_boundaries_m2(const TriangleMesh& mesh, double voxel_m) {
-  double area_m2 = 0.0;
-  for (std::size_t face = 0; face < mesh.faces.size(); ++face) {
-    const auto [a, b, c] = corners_m(mesh, face);
-    for (int axis = 0; axis < 3; ++axis) {
-      const double off_m = std::abs(std::remainder(a[axis], voxel_m));
-      if (a[axis] == b[axis] && b[axis] == c[axis] && off_m < 1e-4)
-        area_m2 += 0.5 * (b - a).cross(c - a).norm();
-    }
-  }
-  return area_m2;
-}
-
-/// Where the line along `axis` through p crosses the surface: (coordinate, +1 in or -1 out),
-/// sorted.
-inline std::vector<std::pair<double, int>> crossings(const TriangleMesh& mesh, const Vec3& p_m,
-                                                     int axis) {
-  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  std::vector<std::pair<double, int>> found;
-  for (std::size_t face = 0; face < mesh.faces.size(); ++face) {
-    const auto [a, b, c] = corners_m(mesh, face);
-    const auto side = [&](const Vec3& from, const Vec3& to) {
-      return (to[u] - from[u]) * (p_m[v] - from[v]) - (to[v] - from[v]) * (p_m[u] - from[u]);
-    };
-    const double wa = side(b, c), wb = side(c, a), wc = side(a, b);
-    const bool front = wa > 0.0 && wb > 0.0 && wc > 0.0, back = wa < 0.0 && wb < 0.0 && wc < 0.0;
-    if (!front && !back) continue;
-    const double at = (wa * a[axis] + wb * b[axis] + wc * c[axis]) / (wa + wb + wc);
-    found.emplace_back(at, front ? -1 : 1);  // the normal looks along the axis: outwards there
-  }
-  std::sort(found.begin(), found.end());
-  return found;
-}
-
-/// How often that line enters the union of the closed parts.
-inline int entries(const TriangleMesh& mesh, const Vec3& p_m, int axis) {
-  int depth = 0, count = 0;
-  for (const auto& [at, step] : crossings(mesh, p_m, axis)) {
-    count += depth == 0 && step > 0;
-    depth += step;
-  }
-  return count;
 }
 
 }  // namespace gnbv

@@ -29,7 +29,7 @@ forbidden() {  # forbidden FILE LINE
 
 # ---- the planner cannot see the ground truth --------------------------------------------------
 for truth in sim/mesh/world.hpp sim/mesh/triangle_mesh.hpp sim/mesh/mesh_file.hpp sim/flight/flight.hpp \
-  sim/flight/vehicle_config.hpp sensors/ray_scene.hpp sensors/capture.hpp assets/aircraft.hpp \
+  sim/flight/vehicle_config.hpp sensors/ray_scene.hpp sensors/capture.hpp assets/catalog.hpp \
   scenarios/scenario.hpp bench/score/cloud_metrics.hpp tools/mission/mission.hpp; do
   forbidden planner/planners.cpp "#include \"$truth\""
   forbidden planner/map/occupancy_grid.hpp "#include \"$truth\""
@@ -70,16 +70,17 @@ allowed tools/paper/page.cpp '#include "tools/surface/surface.hpp"'
 forbidden tools/terminal/progress.cpp '#include "scenarios/scenario.hpp"'
 forbidden sim/mesh/triangle_mesh.cpp '#include "sensors/frames.hpp"'
 forbidden sim/mesh/triangle_mesh.cpp '#include "planner/core/planner.hpp"'
-forbidden assets/aircraft.cpp '#include "sensors/frames.hpp"'
+forbidden assets/catalog.cpp '#include "sensors/frames.hpp"'
 forbidden sensors/capture.cpp '#include "planner/core/planner.hpp"'
-forbidden sensors/capture.cpp '#include "assets/aircraft.hpp"'
+forbidden sensors/capture.cpp '#include "assets/catalog.hpp"'
 forbidden scenarios/load.cpp '#include "sim/mesh/world.hpp"'
 forbidden scenarios/load.cpp '#include "sensors/ray_scene.hpp"'
 forbidden scenarios/load.cpp '#include "bench/score/cloud_metrics.hpp"'
 forbidden bench/score/cloud_metrics.cpp '#include "tools/mission/mission.hpp"'
 forbidden tools/mission/mission.cpp '#include "tests/support/made_run.hpp"'
 allowed sim/mesh/triangle_mesh.cpp '#include "sim/core/pose.hpp"'
-allowed assets/aircraft.cpp '#include "sim/mesh/triangle_mesh.hpp"'
+allowed assets/catalog.cpp '#include "sim/mesh/triangle_mesh.hpp"'
+allowed assets/catalog.cpp '#include "scenarios/values.hpp"'
 allowed sensors/capture.cpp '#include "sim/mesh/world.hpp"'
 allowed scenarios/scenario.hpp '#include "planner/core/planner.hpp"'
 allowed bench/score/cloud_metrics.cpp '#include "sensors/ray_scene.hpp"'

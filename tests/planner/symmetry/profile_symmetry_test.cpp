@@ -4,8 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "assets/aircraft.hpp"
-#include "assets/power_plant.hpp"
+#include "assets/catalog.hpp"
 #include "planner/symmetry/symmetry.hpp"
 #include "sim/mesh/mesh_file.hpp"
 #include "tests/support/swept_profile.hpp"
@@ -90,19 +89,21 @@ std::optional<World> paper_world(const char* name, double scale, const Vec3& off
 }
 
 TEST(ProfileSymmetry, OfTheAircraftPredictsTheFarSideFromThreeWaypoints) {
-  expect_prediction_from_three_waypoints({make_aircraft()});
+  expect_prediction_from_three_waypoints({make_builtin_structure("aircraft")});
 }
 
 TEST(ProfileSymmetry, OfTheAircraftPredictsNextToNothingFromEight) {
-  expect_little_to_predict_from_eight_waypoints({make_aircraft()});
+  expect_little_to_predict_from_eight_waypoints({make_builtin_structure("aircraft")});
 }
 
-TEST(ProfileSymmetry, IsNotInventedForThePowerPlant) { expect_none({make_power_plant()}); }
+TEST(ProfileSymmetry, IsNotInventedForThePowerPlant) {
+  expect_none({make_builtin_structure("power_plant")});
+}
 
 TEST(ProfileSymmetry, SurvivesNoisyRanges) {
   LidarConfig noisy;
   noisy.range_sigma_m = 0.05;
-  const World world = {make_aircraft()};
+  const World world = {make_builtin_structure("aircraft")};
   test::SweptProfile profile = aircraft_profile(world, 3, noisy);
   const Symmetry symmetry = symmetry_of(profile);
   expect_plane_x_0(symmetry);

@@ -1,4 +1,4 @@
-// `gnbv asset`: what is written is what was generated.
+// `gnbv asset`: what is written is the structure.
 #include <gtest/gtest.h>
 
 #include "assets/catalog.hpp"

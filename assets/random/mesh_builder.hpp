@@ -1,5 +1,5 @@
-// Closed bodies from rings of points: loft, revolve, mirror, append. In metres, in double
-// precision; append() rounds to the float of a TriangleMesh, the same on both sides of x = 0.
+// Closed bodies from rings of points: loft, revolve, append. In metres, in double precision;
+// append() rounds to the float of a TriangleMesh.
 #pragma once
 
 #include <array>
@@ -55,14 +55,8 @@ Part revolve_loop(const std::vector<RevolvedPoint>& profile, std::size_t sides,
                   const Painter& painter);
 
 Part translated(Part part, const Vec3& offset_m);
-/// x becomes -x exactly, and the faces turn so that they still look outwards.
-Part mirrored_x(Part part);
 double signed_volume_m3(const Part& part);
 
-/// The ring whose half with x >= 0 is given; first and last point have x = 0 exactly.
-Ring mirror_ring(const std::vector<Vec3>& half);
-
 void append(TriangleMesh& mesh, const Part& part);
-void append_both_sides(TriangleMesh& mesh, const Part& part);
 
 }  // namespace gnbv

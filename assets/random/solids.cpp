@@ -1,4 +1,4 @@
-#include "assets/solids.hpp"
+#include "assets/random/solids.hpp"
 
 #include <array>
 #include <cmath>
@@ -56,37 +56,6 @@ Ring rectangle(const Isometry& T_world_box, double x_m, double y_m, double z_m) 
   return ring;
 }
 
-/// Direction of the path at point i: the mean of its segments.
-Vec3 tangent(const std::vector<TubePoint>& path, std::size_t i) {
-  Vec3 sum = Vec3::Zero();
-  if (i > 0) sum += (path[i].centre_m - path[i - 1].centre_m).normalized();
-  if (i + 1 < path.size()) sum += (path[i + 1].centre_m - path[i].centre_m).normalized();
-  return sum.normalized();
-}
-
-/// Circles across the mean direction of the path at each of its points.
-std::vector<Ring> tube_rings(const std::vector<TubePoint>& path, std::size_t sides) {
-  GNBV_CHECK(path.size() >= 2 && sides >= 3, "a tube of {} points and {} sides", path.size(),
-             sides);
-  const Vec3 along = tangent(path, 0);
-  Vec3 across = along.cross(std::abs(along.x()) < 0.9 ? Vec3::UnitX() : Vec3::UnitY()).normalized();
-  std::vector<Ring> rings;
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    // Parallel transport: the rings do not twist against each other.
-    const Vec3 direction = tangent(path, i);
-    across = (across - across.dot(direction) * direction).normalized();
-    const Vec3 third = direction.cross(across);
-    Ring ring;
-    for (std::size_t k = 0; k < sides; ++k) {
-      const double turn_rad = 2.0 * kPi * static_cast<double>(k) / static_cast<double>(sides);
-      ring.emplace_back(path[i].centre_m + path[i].radius_m * (std::cos(turn_rad) * across +
-                                                               std::sin(turn_rad) * third));
-    }
-    rings.push_back(ring);
-  }
-  return rings;
-}
-
 }  // namespace
 
 Part block(const BlockExtent& e, std::uint16_t paint) {
@@ -106,39 +75,6 @@ Part box(const Isometry& T_world_box, const Vec3& size_m, std::uint16_t material
   return loft({rectangle(T_world_box, size_m.x(), size_m.y(), 0.0),
                rectangle(T_world_box, size_m.x(), size_m.y(), size_m.z())},
               {}, {}, uniform(material));
-}
-
-Part open_box(const Isometry& T_world_box, const Vec3& size_m, double wall_m, double depth_m,
-              std::uint16_t material, std::uint16_t inside) {
-  const double x_m = size_m.x(), y_m = size_m.y(), z_m = size_m.z();
-  const double pit_x_m = x_m - 2.0 * wall_m, pit_y_m = y_m - 2.0 * wall_m;
-  return loft({rectangle(T_world_box, x_m, y_m, 0.0), rectangle(T_world_box, x_m, y_m, z_m),
-               rectangle(T_world_box, pit_x_m, pit_y_m, z_m),
-               rectangle(T_world_box, pit_x_m, pit_y_m, z_m - depth_m)},
-              {}, {}, [=](std::size_t ring, std::size_t) { return ring < 2 ? material : inside; });
-}
-
-Part rod(const std::vector<TubePoint>& path, std::size_t sides, std::uint16_t material) {
-  return loft(tube_rings(path, sides), {path.front().centre_m}, {path.back().centre_m},
-              uniform(material));
-}
-
-Part open_rod(const std::vector<TubePoint>& path, std::size_t sides, double wall_m, double depth_m,
-              std::uint16_t material, std::uint16_t inside) {
-  std::vector<Ring> rings = tube_rings(path, sides);
-  const std::size_t rim = rings.size() - 1;
-  const TubePoint& end = path.back();
-  const Vec3 floor_m = end.centre_m - depth_m * tangent(path, rim);
-  Ring mouth, bottom;
-  for (const Vec3& p : rings[rim]) {
-    const Vec3 arm_m = (1.0 - wall_m / end.radius_m) * (p - end.centre_m);
-    mouth.emplace_back(end.centre_m + arm_m);
-    bottom.emplace_back(floor_m + arm_m);
-  }
-  rings.push_back(mouth);
-  rings.push_back(bottom);
-  return loft(rings, {path.front().centre_m}, {floor_m},
-              [=](std::size_t ring, std::size_t) { return ring <= rim ? material : inside; });
 }
 
 Part prism(const Ring& outline, const Vec3& along_m, const Painter& painter) {
@@ -189,16 +125,6 @@ Part bent_pipe(const std::vector<Vec3>& line_m, double radius_m, std::size_t sid
   return swept(std::move(ring), line_m, paint);
 }
 
-std::vector<Vec3> eased(const std::vector<Vec3>& line_m, double cut_m) {
-  std::vector<Vec3> line = {line_m.front()};
-  for (std::size_t i = 1; i + 1 < line_m.size(); ++i) {
-    line.push_back(line_m[i] + cut_m * (line_m[i - 1] - line_m[i]).normalized());
-    line.push_back(line_m[i] + cut_m * (line_m[i + 1] - line_m[i]).normalized());
-  }
-  line.push_back(line_m.back());
-  return line;
-}
-
 std::vector<Part> railing(const std::vector<Vec3>& line_m, double height_m, std::uint16_t paint) {
   constexpr double kPost_m = 0.034, kRail_m = 0.026, kPostSpacing_m = 1.46, kFoot_m = 0.04;
   std::vector<Part> parts;
@@ -213,23 +139,6 @@ std::vector<Part> railing(const std::vector<Vec3>& line_m, double height_m, std:
   }
   if (line_m.front() != line_m.back()) add_post(line_m.back());
   parts.push_back(bent_pipe(raised(line_m, height_m), kRail_m, 3, paint));
-  return parts;
-}
-
-std::vector<Part> stairs(const Stairs& s, std::uint16_t tread_paint, std::uint16_t stringer_paint) {
-  constexpr double kThickness_m = 0.034, kStringer_m = 0.13, kOverlap = 0.92;
-  const Vec3 rise = s.head_m - s.foot_m;
-  const Vec3 half_width_m = 0.5 * s.width_m * across(s.foot_m, s.head_m).side;
-  const double depth_m = kOverlap * std::hypot(rise.x(), rise.y()) / s.treads;
-  std::vector<Part> parts;
-  for (int k = 0; k < s.treads; ++k) {
-    const Vec3 middle_m = s.foot_m + rise * ((k + 0.5) / s.treads);
-    parts.push_back(
-        beam(middle_m - half_width_m, middle_m + half_width_m, depth_m, kThickness_m, tread_paint));
-  }
-  for (const double sign : {-1.0, 1.0})
-    parts.push_back(beam(s.foot_m + sign * half_width_m, s.head_m + sign * half_width_m,
-                         0.3 * kStringer_m, kStringer_m, stringer_paint));
   return parts;
 }
 

@@ -1,4 +1,4 @@
-#include "assets/mesh_builder.hpp"
+#include "assets/random/mesh_builder.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -165,12 +165,6 @@ Part translated(Part part, const Vec3& offset_m) {
   return part;
 }
 
-Part mirrored_x(Part part) {
-  for (Vec3& p : part.points_m) p.x() = 0.0 - p.x();  // 0 stays +0
-  turn_over(part);
-  return part;
-}
-
 double signed_volume_m3(const Part& part) {
   // Relative to a point of the part: far from the origin the terms would cancel badly.
   const Vec3& o = part.points_m.front();
@@ -183,26 +177,12 @@ double signed_volume_m3(const Part& part) {
   return volume_m3;
 }
 
-Ring mirror_ring(const std::vector<Vec3>& half) {
-  GNBV_CHECK(half.size() >= 3 && half.front().x() == 0.0 && half.back().x() == 0.0,
-             "a half ring of {} points has to start and end on x = 0", half.size());
-  Ring ring = half;
-  for (std::size_t i = half.size() - 2; i > 0; --i)
-    ring.emplace_back(-half[i].x(), half[i].y(), half[i].z());
-  return ring;
-}
-
 void append(TriangleMesh& mesh, const Part& part) {
   const auto offset = static_cast<std::uint32_t>(mesh.vertices_m.size());
   for (const Vec3& p : part.points_m) mesh.vertices_m.push_back(p.cast<float>());
   for (const auto& f : part.faces)
     mesh.faces.push_back({f[0] + offset, f[1] + offset, f[2] + offset});
   mesh.face_material.insert(mesh.face_material.end(), part.material.begin(), part.material.end());
-}
-
-void append_both_sides(TriangleMesh& mesh, const Part& part) {
-  append(mesh, part);
-  append(mesh, mirrored_x(part));
 }
 
 }  // namespace gnbv

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "assets/mesh_builder.hpp"
+#include "assets/random/mesh_builder.hpp"
 
 namespace gnbv {
 
@@ -22,22 +22,6 @@ Part parapet_block(const BlockExtent& extent, double parapet_height_m, const Par
 
 /// Box of `size_m` in any attitude, whose bottom's middle is the frame's origin.
 Part box(const Isometry& T_world_box, const Vec3& size_m, std::uint16_t material);
-
-/// The same with a pit of `depth_m` from the top, walls of `wall_m`, a floor of another material.
-Part open_box(const Isometry& T_world_box, const Vec3& size_m, double wall_m, double depth_m,
-              std::uint16_t material, std::uint16_t inside);
-
-struct TubePoint {
-  Vec3 centre_m;
-  double radius_m = 0.0;
-};
-
-/// Circles across the mean direction of the path at each of its points, at least two; ends flat.
-Part rod(const std::vector<TubePoint>& path, std::size_t sides, std::uint16_t material);
-
-/// A rod whose last end is open: a bore of `depth_m` that leaves `wall_m`.
-Part open_rod(const std::vector<TubePoint>& path, std::size_t sides, double wall_m, double depth_m,
-              std::uint16_t material, std::uint16_t inside);
 
 /// The outline moved along: painted by side of the outline, its ends as side 0. An outline that is
 /// not convex has to suit the zipper of a Cap.
@@ -61,21 +45,9 @@ Part bent_beam(const std::vector<Vec3>& line_m, double width_m, double height_m,
 Part bent_pipe(const std::vector<Vec3>& line_m, double radius_m, std::size_t sides,
                std::uint16_t paint);
 
-/// The line with each inner corner cut off `cut_m` before and after it: a bend of two mitres.
-std::vector<Vec3> eased(const std::vector<Vec3>& line_m, double cut_m);
-
 /// Posts at the corners of the line and between them, a rail on top. The line lies on the
 /// deck, into which the posts reach.
 std::vector<Part> railing(const std::vector<Vec3>& line_m, double height_m, std::uint16_t paint);
-
-/// Open treads between two stringers from `foot_m` to `head_m`, the middles of its ends.
-struct Stairs {
-  Vec3 foot_m, head_m;
-  double width_m = 0.5;
-  int treads = 8;
-};
-std::vector<Part> stairs(const Stairs& stairs, std::uint16_t tread_paint,
-                         std::uint16_t stringer_paint);
 
 /// Moves the parts of `more` to the end of `parts`.
 void add(std::vector<Part>& parts, std::vector<Part> more);
