@@ -1,71 +1,22 @@
-#!/usr/bin/env python3
 """Bad input, generated: every key of the schema with values that are wrong or extreme, every number
 on the command line that is none, and meshes that are no structures. Each has to end by itself: done,
 refused in one line a fault that names the key or the file (exit 2), or as a mission that failed for
 a stated reason (exit 1). Internal errors, signals, silence and more than the time given are failures.
 
-usage: bad-input.py [--gnbv FILE] [--part keys,options,meshes] [--every N] [--jobs N] [--timeout S]
-  --every N    only each N-th try: the short version
-exit: 0 nothing found, 1 failures (named on stderr), 2 bad usage
+--every N takes only each N-th: the short version.
 """
-import argparse
-import concurrent.futures
 import json
 import math
-import os
-import resource
-import shutil
 import struct
 import subprocess
-import sys
-import tempfile
 
-from run_attack import REPOSITORY, is_sanitized
+import pytest
 
-MEMORY_BYTES = 12 << 30  # the map's budget is 6 GiB
-ONE_VIEW = ["--quiet", "--set", "planner.termination.max_iterations=1"]
-BAD_WORDS = ("internal error", "the program is wrong", "broken invariant", "terminate called",
-             "out of memory", "Sanitizer", "[json.exception", "std::")
+TIMEOUT_S = 120
+RUN = ["run", "smoke", "--quiet", "--set", "planner.termination.max_iterations=1", "--out", "out"]
+STRUCTURE = ["start", "structure", "workspace"]
 
 
-def run(command, timeout_s):
-    """(exit code, what it said); the code is None when it took too long."""
-    is_limited = not is_sanitized(command[0])
-
-    def limit():
-        if is_limited:
-            resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, MEMORY_BYTES))
-        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    try:
-        done = subprocess.run(command, capture_output=True, timeout=timeout_s, preexec_fn=limit,
-                              stdin=subprocess.DEVNULL, env={**os.environ, "GNBV_CACHE": ""})
-    except subprocess.TimeoutExpired:
-        return None, ""
-    said = (done.stdout + done.stderr).decode("utf-8", "replace")
-    return done.returncode, said
-
-
-def fault_of(code, said, names):
-    """What is wrong with that end, or nothing. A refusal has to contain one of the names."""
-    if code is None:
-        return "took too long"
-    if code < 0 or code > 2:
-        return f"exit {code}"
-    for word in BAD_WORDS:
-        if word in said:
-            return f"said '{word}'"
-    if any(ord(c) < 32 and c not in "\n\t" for c in said):
-        return "printed control characters"
-    if code == 1 and "gnbv: " not in said and "ended by" not in said:
-        return "failed without a reason"
-    if code == 2 and "gnbv: " not in said and "--" not in said:
-        return "refused without a reason"
-    if code == 2 and names and not any(name in said for name in names):
-        return "refused without naming " + " or ".join(names)
-    return None
-
-
-# ---- keys --------------------------------------------------------------------------------------
 def leaves(schema, path=()):
     """(path, schema) of all leaves; of a list, those of its first item and the list itself."""
     if "properties" in schema:
@@ -81,23 +32,19 @@ def leaves(schema, path=()):
         yield path, schema
 
 
-def text(value):
-    return f"{value:g}" if isinstance(value, float) else str(value)
-
-
 def numbers(schema):
     """Wrong and extreme numbers for that schema, as text."""
     yield from (".nan", ".inf", "-.inf", "nan", "1e999", "-1", "0", "1e-300", "1e308", "1e18")
     for key in ("minimum", "exclusiveMinimum", "maximum", "exclusiveMaximum"):
         if key in schema:
             limit = schema[key]
-            yield text(limit)
+            yield f"{limit:g}"
             if key.startswith("exclusive"):
                 yield repr(math.nextafter(limit, math.inf if "Min" in key else -math.inf))
     low = schema.get("minimum", schema.get("exclusiveMinimum", 0))
     high = schema.get("maximum", schema.get("exclusiveMaximum", 1))
     if schema.get("type") == "integer":
-        yield text((low + high) // 2)
+        yield str((low + high) // 2)
         yield "1.5"
     else:
         yield repr(low + 1e-6 * (high - low))
@@ -125,42 +72,34 @@ def values(schema):
         yield from ("''", "a/b", "../../etc/passwd", "/", "/dev/null", "'" + "x" * 5000 + "'")
 
 
-def key_tries(gnbv, folder):
-    """(label, command, names)"""
-    schema = json.loads(subprocess.run([gnbv, "schema"], capture_output=True, check=True).stdout)
+def key_tries(program):
+    """(words of the program, of which a refusal has to hold one)"""
+    schema = json.loads(subprocess.run([program, "schema"], capture_output=True, check=True).stdout)
+    box = "{min: [2, 2, 0], max: [2.5, 2.5, 1]}"
+    before = {"obstacles": f"obstacles=[{{box_m: {box}}}]", "no_fly": f"no_fly=[{box}]",
+              "vehicle": "vehicle.estimate.model=gnss"}
     for path, leaf in leaves(schema):
-        key = ".".join(path)
-        before = []
-        if path[:2] == ("vehicle", "estimate"):
-            before = ["--set", "vehicle.estimate.model=gnss"]
-        if path[0] in ("obstacles", "no_fly"):
-            box = "{min: [2, 2, 0], max: [2.5, 2.5, 1]}"
-            before = ["--set", f"{path[0]}=[{{box_m: {box}}}]" if path[0] == "obstacles"
-                      else f"no_fly=[{box}]"]
+        more = ["--set", before[path[0]]] if path[0] in before and (
+            path[0] != "vehicle" or path[1] == "estimate") else []
         for value in values(leaf):
-            yield (f"{key}={value[:60]}",
-                   [gnbv, "run", "smoke", *ONE_VIEW, *before, "--set", f"{key}={value}"],
-                   [path[-1], path[-2] if len(path) > 1 else path[-1]])
+            yield [*RUN, *more, "--set", f"{'.'.join(path)}={value}"], path[-2:]
 
 
-# ---- options -----------------------------------------------------------------------------------
 COMMANDS = ("cache fly run sweep table compare ceiling render export plot paper report asset lint score "
             "check surface").split()
 
 
-def option_tries(gnbv, folder):
+def option_tries(program):
     for command in COMMANDS:
-        words = subprocess.run([gnbv, command, "--help"], capture_output=True,
+        words = subprocess.run([program, command, "--help"], capture_output=True,
                                check=True).stdout.decode().split()
         for option, kind in zip(words, words[1:]):
-            if not option.startswith("--") or kind.split(":")[0] not in ("FLOAT", "INT", "UINT"):
-                continue
-            for value in ("nan", "inf", "-inf", "1e999", "-1e999", "", "word", "0x", "1e400"):
+            if option.startswith("--") and kind.split(":")[0] in ("FLOAT", "INT", "UINT"):
                 option = option.split(",")[0]
-                yield (f"{command} {option}={value}", [gnbv, command, f"{option}={value}"], [option])
+                for value in ("nan", "inf", "-inf", "1e999", "-1e999", "", "word", "0x", "1e400"):
+                    yield [command, f"{option}={value}"], [option]
 
 
-# ---- meshes ------------------------------------------------------------------------------------
 CUBE = [(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (0.0, 1.0)]
 QUADS = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
 
@@ -250,63 +189,44 @@ def meshes():
     yield "picture.obj", bytes(range(256)) * 400
 
 
-def mesh_tries(gnbv, folder):
+def mesh_tries():
     for name, content in meshes():
-        path = os.path.join(folder, name)
-        with open(path, "wb") as file:
-            file.write(content)
-        yield f"lint {name}", [gnbv, "lint", path], [name]
-        yield f"run {name}", [gnbv, "run", "smoke", *ONE_VIEW, "--mesh", path], \
-            [name, "start", "structure", "workspace"]
-        yield f"run --bounds auto {name}", \
-            [gnbv, "run", "smoke", *ONE_VIEW, "--bounds", "auto", "--mesh", path], \
-            [name, "start", "structure", "workspace", "planner.map.resolution_m"]
+        yield name, content, ["lint", name], [name]
+        yield name, content, [*RUN, "--mesh", name], [name, *STRUCTURE]
+        yield name, content, [*RUN, "--bounds", "auto", "--mesh", name], \
+            [name, *STRUCTURE, "planner.map.resolution_m"]
 
 
-PARTS = {"keys": key_tries, "options": option_tries, "meshes": mesh_tries}
+def pytest_generate_tests(metafunc):
+    program = metafunc.config.option.gnbv
+    tries = {"key": key_tries, "option": option_tries}
+    for kind, made in tries.items():
+        if kind in metafunc.fixturenames:
+            found = list(made(program))
+            metafunc.parametrize([kind, "names"], found, ids=[words[-1][:60] for words, _ in found])
 
 
-def attack(part, options, folder):
-    """Rows of failures and the number of tries."""
-    tries = [t for i, t in enumerate(PARTS[part](options.gnbv, folder)) if i % options.every == 0]
-
-    def one(numbered):
-        number, (label, command, names) = numbered
-        out = os.path.join(folder, f"{part}{number}")
-        if command[1] == "run" and part != "options":
-            command = command + ["--out", out]
-        fault = fault_of(*run(command, options.timeout), names)
-        shutil.rmtree(out, ignore_errors=True)
-        return f"{part}: {label}: {fault}" if fault else None
-
-    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        failures = [fault for fault in pool.map(one, enumerate(tries)) if fault]
-    return failures, len(tries)
+def refuses_or_flies(gnbv, words, names):
+    end = gnbv.limited(*words, timeout_s=TIMEOUT_S).check(names=[])
+    said = end.out + end.err
+    assert "out of memory" not in said
+    if end.code == 1:
+        assert "gnbv: " in said or "ended by" in said, said
+    if end.code == 2:
+        assert "gnbv: " in said or "--" in said, said
+        assert any(name in said for name in names), said
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    parser.add_argument("--gnbv", default=REPOSITORY / "build/release/gnbv")
-    parser.add_argument("--part", default=",".join(PARTS))
-    parser.add_argument("--every", type=int, default=1)
-    parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--timeout", type=float, default=120.0)
-    options = parser.parse_args()
-    parts = options.part.split(",")
-    if any(part not in PARTS for part in parts) or options.every < 1:
-        parser.error(f"parts are {', '.join(PARTS)}; --every is at least 1")
-    options.gnbv = os.path.abspath(options.gnbv)
-    found = False
-    print(f"{'attack':<24}{'tries':>8}{'failures':>10}")
-    for part in parts:
-        with tempfile.TemporaryDirectory() as folder:
-            failures, tries = attack(part, options, folder)
-        print(f"{'bad input: ' + part:<24}{tries:>8}{len(failures):>10}", flush=True)
-        for failure in failures:
-            print(failure, file=sys.stderr)
-        found = found or bool(failures)
-    return 1 if found else 0
+def test_a_key_is_named(gnbv, key, names):
+    refuses_or_flies(gnbv, key, names)
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+def test_an_option_is_named(gnbv, option, names):
+    refuses_or_flies(gnbv, option, names)
+
+
+@pytest.mark.parametrize("name, content, words, names", mesh_tries(), ids=lambda value: (
+    "" if isinstance(value, bytes) else "_".join(value) if isinstance(value, list) else value))
+def test_a_mesh_is_named(gnbv, tmp_path, name, content, words, names):
+    (tmp_path / name).write_bytes(content)
+    refuses_or_flies(gnbv, words, names)
