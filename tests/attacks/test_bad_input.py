@@ -1,4 +1,6 @@
-"""Bad input, generated: every key of the schema with values that are wrong or extreme, every number
+"""Bad input, generated: every key and option with wrong values, and meshes that are none.
+
+Every key of the schema with values that are wrong or extreme, every number
 on the command line that is none, and meshes that are no structures. Each has to end by itself: done,
 refused in one line a fault that names the key or the file (exit 2), or as a mission that failed for
 a stated reason (exit 1). Internal errors, signals, silence and more than the time given are failures.

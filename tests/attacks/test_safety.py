@@ -1,4 +1,6 @@
-"""Safety of flight: random small worlds of boxes, spheres, poles, thin walls, wires and gaps, with
+"""Safety of flight: random small worlds, flown by every utility, and nothing is touched.
+
+Worlds of boxes, spheres, poles, thin walls, wires and gaps, with
 random sensors, noise, estimates, starts, paths and profiles, flown by every utility. No mission may
 touch what its map shows, every one has to end for a stated reason, and no view may be taken nearer
 than the collision radius to surface that the profile showed. Who touches a wire that no pixel or

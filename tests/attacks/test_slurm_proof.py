@@ -12,6 +12,7 @@ import subprocess
 import time
 
 import pytest
+from program import until
 
 # ports that no other Slurm of this machine has
 PORT = 20000 + os.getpid() % 10000 * 4
@@ -52,13 +53,6 @@ PartitionName=all Nodes={host} Default=YES MaxTime=INFINITE State=UP OverSubscri
 
 def said(*command):
     return subprocess.run(command, capture_output=True, text=True).stdout
-
-
-def until(seconds, what, holds):
-    end = time.monotonic() + seconds
-    while not holds():
-        assert time.monotonic() < end, what
-        time.sleep(0.2)
 
 
 @pytest.fixture

@@ -30,21 +30,6 @@ TEST_F(Export, AWholeRunIsReadWithItsFigures) {
   EXPECT_GE(*record.views_begin_s, *record.profile_end_s);
 }
 
-/// Figures of a whole run beside half of its views would lie.
-TEST_F(Export, AHalfIterationsFileIsRefused) {
-  const fs::path half = folder_ / "half";
-  fs::copy(run(), half);
-  const std::string text = read_file(run() / "iterations.csv");
-  write_file_atomically(half / "iterations.csv", text.substr(0, text.size() / 2));
-  for (const char* command :
-       {"report ", "render ", "plot ", "surface ", "export --format plain "}) {
-    const Outcome refused = gnbv(command + half.string());
-    EXPECT_EQ(refused.exit_code, 2) << command;
-    EXPECT_TRUE(has(refused, "iterations.csv: holds")) << refused.output;
-    EXPECT_TRUE(has(refused, "and the run of summary.json has")) << refused.output;
-  }
-}
-
 TEST_F(Export, ColmapPointsProjectWhereTheImagesShowThem) {
   const Numbers k = intrinsics();
   const auto all = points();

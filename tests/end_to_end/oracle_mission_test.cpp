@@ -75,21 +75,6 @@ TEST_P(OracleMission, IsCutOffAtMaxIterations) {
   EXPECT_EQ(flight.result.views.size(), 3U);
 }
 
-TEST_P(OracleMission, ResumedEqualsTheUninterruptedOne) {
-  const std::string utility = GetParam();
-  TempFolder temp;
-  const Scenario scenario = oracle_smoke(utility);
-  const auto run = temp.path() / "run";
-  EXPECT_EQ(fly_into(run, scenario, false, 4, with_route(utility)).termination,
-            Termination::interrupted);
-  const std::vector<Decision> recorded = read_decisions(temp.path() / "run/iterations.csv.part");
-  ASSERT_EQ(recorded.size(), 4U);
-  EXPECT_EQ(recorded[3].sampler, Sampler::oracle);
-  EXPECT_EQ(recorded[3].score.value, route_of(utility)[2].score.value);
-  const MissionResult resumed = fly_into(run, scenario, true, kNeverStops, with_route(utility));
-  EXPECT_EQ(result_sha256(resumed), result_sha256(Flown(scenario, with_route(utility), 1).result));
-}
-
 INSTANTIATE_TEST_SUITE_P(BothAims, OracleMission, testing::Values("oracle_views", "oracle_metres"));
 
 TEST(OracleRoute, WithoutOneTheMissionIsRefused) {

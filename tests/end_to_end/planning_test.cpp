@@ -10,7 +10,6 @@
 #include "planner/guided/utility.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "tests/support/at_simd_level.hpp"
 #include "tests/support/flown.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tests/support/watch.hpp"
@@ -36,16 +35,6 @@ TEST(PlannerMission, EveryUtilityFliesWithoutACollision) {
         << name;
   }
 }
-
-class PlannerMissionAt : public AtSimdLevel {};
-
-TEST_P(PlannerMissionAt, IsThatOfTheBaseline) {
-  const std::string ours = result_sha256(Flown(smoke()).result);
-  set_simd_level(SimdLevel::baseline);
-  EXPECT_EQ(ours, result_sha256(Flown(smoke()).result));
-}
-
-GNBV_ABOVE_THE_BASELINE(PlannerMissionAt);
 
 TEST(PlannerMission, ThePresetsFlyDifferently) {
   const Flown paper(smoke());
@@ -138,17 +127,6 @@ TEST(CandidatesFile, IsRefusedForARunThatDidNotWriteOneBefore) {
   EXPECT_NO_THROW(CandidatesFile(temp.path(), 1));  // the start alone is no decision
 }
 
-TEST(CandidatesFile, OfAResumedMissionIsThatOfAnUninterruptedOne) {
-  const TempFolder whole;
-  const TempFolder parts;
-  const std::string expected = candidates_of(whole.path(), {}, 99);
-  const Flown flown(smoke({"planner.termination.max_iterations=6"}));
-  std::vector<Decision> recorded;
-  for (std::size_t i = 0; i < 3; ++i) recorded.push_back(flown.result.views[i].decision);
-  candidates_of(parts.path(), {}, 3);
-  EXPECT_EQ(candidates_of(parts.path(), recorded, 99), expected);
-}
-
 /// A smoke mission that writes beliefs.jsonl, and what its planner counted of each view that it
 /// chose, by the same belief.
 struct Believed {
@@ -236,19 +214,6 @@ TEST(BeliefLog, HasFrontiersWhereViewsWereSampledAroundThem) {
     looked += voxel_count(looked_at);
   }
   EXPECT_GT(looked, 0U);
-}
-
-TEST(IterationsCsv, KeepsTheWayToAView) {
-  const TempFolder folder;
-  ViewRecord view;
-  view.decision.sampler = Sampler::fvs;
-  view.decision.via_world_m = {Vec3(1.0 / 3.0, -2, 3), Vec3(4, 5e-7, 6)};
-  write_file_atomically(folder.path() / "i.csv",
-                        iterations_csv_header() + iterations_csv_row(view));
-  const std::vector<Decision> read = read_decisions(folder.path() / "i.csv");
-  ASSERT_EQ(read.size(), 1U);
-  EXPECT_EQ(read[0].via_world_m, view.decision.via_world_m);
-  EXPECT_EQ(read[0].sampler, Sampler::fvs);
 }
 
 }  // namespace

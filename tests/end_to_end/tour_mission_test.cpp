@@ -19,45 +19,6 @@ Scenario tour(std::vector<std::string> overrides = {}) {
   return smoke(overrides);
 }
 
-TEST(TourMission, IsTheSameAtAnyNumberOfThreadsAndResumed) {
-  const Scenario scenario = tour({"planner.termination.max_iterations=9"});
-  const Flown whole(scenario, {}, 1);
-  const std::string hash = result_sha256(whole.result);
-  EXPECT_EQ(result_sha256(Flown(scenario, {}, 3).result), hash);
-  ASSERT_GE(whole.result.views.size(), 6U) << name_of(whole.result.termination);
-  for (const std::size_t views : {2U, 5U}) {
-    MissionInputs resumed;
-    for (std::size_t i = 0; i < views; ++i) {
-      resumed.replay.push_back(whole.result.views[i].decision);
-    }
-    const Flown again(scenario, resumed);
-    EXPECT_EQ(result_sha256(again.result), hash) << "after view " << views;
-    EXPECT_EQ(plan_jsonl(again.result.tour_plans), plan_jsonl(whole.result.tour_plans));
-  }
-}
-
-TEST(TourMission, IsTheSameInAWorldWithAGimbalAndLostFrames) {
-  const Scenario scenario =
-      tour({"planner.termination.max_iterations=24", "cameras.0.drop_probability=0.3",
-            "cameras.0.pitch_deg={min: 0, max: 30, step: 30}", "wind.mean_m_s=[2, 1, 0]",
-            "no_fly=[{min: [2.2, -1, 0], max: [4, 1, 5]}]",
-            "obstacles=[{box_m: {min: [-2.6, 1.5, 0], max: [-2, 2.1, 1]}}]"});
-  const Flown whole(scenario, {}, 1);
-  ASSERT_GE(whole.result.views.size(), 5U) << name_of(whole.result.termination);
-  MissionInputs resumed;
-  for (std::size_t i = 0; i < 4; ++i) {
-    resumed.replay.push_back(whole.result.views[i].decision);
-  }
-  EXPECT_EQ(result_sha256(Flown(scenario, resumed).result), result_sha256(whole.result));
-  const NoFly no_fly = no_fly_of(scenario);
-  std::set<double> pitches_rad;
-  for (const ViewRecord& view : whole.result.views) {
-    EXPECT_TRUE(no_fly.allows(view.decision.view.p_world_m));
-    pitches_rad.insert(view.decision.view.gimbal_pitch_rad);
-  }
-  EXPECT_GT(pitches_rad.size(), 1U);
-}
-
 TEST(TourMission, ARecordOfOtherViewsIsNotResumed) {
   const Scenario scenario = tour({"planner.termination.max_iterations=4"});
   MissionInputs resumed;

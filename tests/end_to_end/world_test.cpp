@@ -157,17 +157,6 @@ TEST(NoFlyMission, ABoxThatNothingComesNearChangesNothing) {
             result_sha256(Flown(smoke()).result));
 }
 
-TEST(NoFlyMission, IsTheSameOnAnyNumberOfThreadsAndFlownAgain) {
-  const std::vector<std::string> both = {kNoFlyEast, kScreen};
-  const Flown two(smoke(both));
-  EXPECT_EQ(result_sha256(Flown(smoke(both), {}, 1).result), result_sha256(two.result));
-  MissionInputs again;
-  for (std::size_t i = 0; i < two.result.views.size() / 2; ++i) {
-    again.replay.push_back(two.result.views[i].decision);
-  }
-  EXPECT_EQ(result_sha256(Flown(smoke(both), again).result), result_sha256(two.result));
-}
-
 TEST(Structure, OfTwoFilesIsTheirMergedFile) {
   const TempFolder folder;
   TriangleMesh box = box_mesh(Box3(Vec3(-1, -0.75, 0), Vec3(1, 0.75, 1)));

@@ -3,10 +3,8 @@
 
 #include <set>
 
-#include "tests/support/flown_into.hpp"
-#include "tests/support/temp_folder.hpp"
-#include "tools/run/iterations_csv.hpp"
-#include "tools/run/run_directory.hpp"
+#include "tests/support/flown.hpp"
+#include "tests/support/watch.hpp"
 
 namespace gnbv {
 namespace {
@@ -77,10 +75,8 @@ TEST(GimbalMission, WaitsForTheGimbal) {
   EXPECT_LT(views[4].time_s - views[3].time_s, 0.5);
 }
 
-Scenario planned() { return smoke({kGimbal, "planner.termination.max_iterations=8"}); }
-
-TEST(GimbalMission, ChoosesPitchesTheSameAtAnyNumberOfThreads) {
-  const Flown flight(planned());
+TEST(GimbalMission, ChoosesPitchesOfItsOwn) {
+  const Flown flight(smoke({kGimbal, "planner.termination.max_iterations=8"}));
   std::set<double> used;
   for (const ViewRecord& view : flight.result.views) {
     used.insert(view.decision.view.gimbal_pitch_rad);
@@ -90,20 +86,6 @@ TEST(GimbalMission, ChoosesPitchesTheSameAtAnyNumberOfThreads) {
     const auto all = pitches_rad(*flight.scenario.cameras[0].gimbal);
     EXPECT_NE(std::find(all.begin(), all.end(), pitch_rad), all.end());
   }
-  EXPECT_EQ(result_sha256(Flown(planned(), {}, 1).result), result_sha256(flight.result));
-}
-
-TEST(GimbalMission, ResumedEqualsTheUninterruptedOne) {
-  TempFolder temp;
-  const Scenario scenario = planned();
-  const auto run = temp.path() / "run";
-  const MissionResult cut = fly_into(run, scenario, false, 5);
-  const auto recorded = read_decisions(temp.path() / "run/iterations.csv.part");
-  ASSERT_EQ(recorded.size(), 5U);
-  for (std::size_t i = 0; i < recorded.size(); ++i) {
-    EXPECT_TRUE(is_same_view(recorded[i].view, cut.views[i].decision.view));
-  }
-  EXPECT_EQ(result_sha256(fly_into(run, scenario, true)), result_sha256(Flown(scenario).result));
 }
 
 }  // namespace

@@ -2,10 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/core/error.hpp"
-#include "tests/support/flown_into.hpp"
-#include "tests/support/temp_folder.hpp"
-#include "tools/run/iterations_csv.hpp"
-#include "tools/run/run_directory.hpp"
+#include "tests/support/flown.hpp"
 
 namespace gnbv {
 namespace {
@@ -99,17 +96,6 @@ TEST(UserRoute, OneByOneIsAsAllAtOnceAtAnyNumberOfThreads) {
   const Given rest(mixed().begin() + 3, mixed().end());
   EXPECT_EQ(result_sha256(Flown(route_of(first), one_by_one(rest, refused)).result), sha);
   EXPECT_EQ(refused, (std::vector<std::size_t>{0, 2, 4, 5}));
-}
-
-TEST(UserRoute, ResumedEqualsTheUninterruptedOne) {
-  TempFolder temp;
-  const Scenario scenario = route_of(mixed());
-  const auto run = temp.path() / "run";
-  EXPECT_EQ(fly_into(run, scenario, false, 3).termination, Termination::interrupted);
-  ASSERT_EQ(read_decisions(temp.path() / "run/iterations.csv.part").size(), 3U);
-  const MissionResult resumed = fly_into(run, scenario, true);
-  EXPECT_EQ(result_sha256(resumed), result_sha256(Flown(scenario).result));
-  EXPECT_EQ(resumed.user_views[2].rejected.has_value(), true);  // reasons are found again
 }
 
 TEST(UserRoute, ARecordOfOtherViewsIsNotResumed) {

@@ -1,8 +1,10 @@
-"""What the attacks and proofs share: options, the program, whole runs, moments, counts."""
+"""Fixtures of tests of the whole program: the program, whole runs, moments, counts."""
 import collections
 import os
 import pathlib
 import random
+import shlex
+import shutil
 import subprocess
 import time
 import types
@@ -84,6 +86,22 @@ def gnbv(request, tmp_path):
 
 
 @pytest.fixture
+def run(gnbv):
+    """run(line, *says, code=0, **environment) -> the end of `gnbv LINE`, which has that exit code
+    and says these words."""
+    def line(words, *says, code=0, **environment):
+        here = Gnbv(gnbv.path, gnbv.folder, **environment)
+        end = here(*shlex.split(words))
+        said = end.out + end.err
+        assert end.code == code, f'gnbv {words}: exit code {end.code}: {said[-600:]}'
+        for word in says:
+            assert word in said, f'gnbv {words}: no {word!r} in: {said[-1500:]}'
+        return end
+
+    return line
+
+
+@pytest.fixture
 def views(request):
     return request.config.option.views or request.module.VIEWS
 
@@ -109,6 +127,12 @@ def whole(request, tmp_path_factory):
         return known[words]
 
     return made
+
+
+@pytest.fixture
+def copy_of(whole, tmp_path):
+    """copy_of(*words) -> a copy of what that command makes, to be changed: `tmp_path / 'run'`."""
+    return lambda *words: shutil.copytree(whole(*words).path, tmp_path / 'run')
 
 
 @pytest.fixture(scope='session')

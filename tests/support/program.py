@@ -9,6 +9,7 @@ import resource
 import signal
 import subprocess
 import tempfile
+import time
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 TIMEOUT_S = 300
@@ -49,6 +50,11 @@ class End:
             return f'names none of {names}: {said}'
         return None
 
+    @property
+    def json(self):
+        """What it printed on stdout."""
+        return json.loads(self.out)
+
     def check(self, codes=(0, 1, 2), names=()):
         """It, or an AssertionError that says the fault."""
         if fault := self.fault(codes, names):
@@ -66,8 +72,8 @@ class Gnbv:
     def start(self, *words, **more):
         files = tempfile.TemporaryFile(), tempfile.TemporaryFile()  # a pipe could outlive it
         process = subprocess.Popen([*self.before, self.path, *map(str, words)], cwd=self.folder,
-                                   env=self.environment, stdin=subprocess.DEVNULL,
-                                   stdout=files[0], stderr=files[1], **more)
+                                   env=self.environment, stdout=files[0], stderr=files[1],
+                                   **{'stdin': subprocess.DEVNULL, **more})
         process.files = files
         return process
 
@@ -107,10 +113,22 @@ def stopped(process, after_s, name):
     return end_of(process)
 
 
+def until(seconds, what, holds):
+    """Waits for what `holds` tells."""
+    end = time.monotonic() + seconds
+    while not holds():
+        assert time.monotonic() < end, f'not within {seconds} s: {what}'
+        time.sleep(0.1)
+
+
+def json_of(path):
+    return json.loads(path.read_text())
+
+
 def summary(run):
     """What summary.json holds; None before there is one."""
     path = run / 'summary.json'
-    return json.loads(path.read_text()) if path.exists() else None
+    return json_of(path) if path.exists() else None
 
 
 def hash_of(run):
