@@ -127,18 +127,6 @@ TEST(Oracle, TakesNoViewTwiceAndPlacesOneAfterTheOther) {
   }
 }
 
-TEST(Oracle, PlansTheSameOnAnyNumberOfThreads) {
-  const std::vector<Decision> one = smoke().plan(OracleAim::metres, 1);
-  const std::vector<Decision>& two = route(OracleAim::metres);
-  ASSERT_EQ(one.size(), two.size());
-  for (std::size_t i = 0; i < one.size(); ++i) {
-    EXPECT_EQ(one[i].view.p_world_m, two[i].view.p_world_m);
-    EXPECT_EQ(one[i].view.yaw_rad, two[i].view.yaw_rad);
-    EXPECT_EQ(one[i].via_world_m, two[i].via_world_m);
-    EXPECT_EQ(one[i].score.value, two[i].score.value);
-  }
-}
-
 TEST(Oracle, NeedsMoreForMoreAndNeverAsManyMetresAsTheGreedyTour) {
   const Smoke& s = smoke();
   const auto reaches = oracle_reaches(s.scenario, s.world, s.scene, s.reference, s.start, 2);

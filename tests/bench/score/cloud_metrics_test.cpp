@@ -144,20 +144,6 @@ TEST(CloudDistances, EqualBruteForce) {
   EXPECT_GT(near[1], 0U);
 }
 
-TEST(CloudDistances, AreTheSameAtAnyNumberOfThreads) {
-  const World world = sheet();
-  const RayScene scene(world);
-  const std::vector<Vec3f> cloud = random_points(30000, 1);
-  const std::vector<Vec3f> samples = random_points(30000, 2);
-  const CloudDistances one = cloud_distances(scene, cloud, samples, 1);
-  for (const int threads : {2, 5}) {
-    const CloudDistances many = cloud_distances(scene, cloud, samples, threads);
-    EXPECT_EQ(many.accuracy_m, one.accuracy_m);
-    EXPECT_EQ(many.completeness_m, one.completeness_m);
-    EXPECT_EQ(many.at[1].f, one.at[1].f);
-  }
-}
-
 TEST(CloudDensity, OfTwoVoxelsIsTheirMeanAndSpread) {
   std::vector<Vec3f> points(3, Vec3f(0.1F, 0.1F, 0.1F));
   points.insert(points.end(), 5, Vec3f(-0.1F, 0.1F, 0.1F));

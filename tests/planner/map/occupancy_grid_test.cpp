@@ -102,15 +102,6 @@ TEST(OccupancyGrid, NoVoxelIsSettledWhereWordsCannotTell) {
   }
 }
 
-TEST(OccupancyGrid, EntropyIsEquationOneOfTheProbability) {
-  OccupancyGrid grid = small_grid();
-  grid.apply({.free = {0}, .occupied = {1}});
-  // float32 results: relative 6e-8, and p off by 1e-7 times a slope below 1
-  EXPECT_NEAR(grid.entropy_nat(0), entropy_nat(0.4), 2e-7);
-  EXPECT_NEAR(grid.entropy_nat(1), entropy_nat(0.7), 2e-7);
-  EXPECT_NEAR(grid.entropy_nat(0), 0.6730117, 2e-7);
-}
-
 ScanUpdate random_update(Random& random, VoxelIndex voxels) {
   ScanUpdate update;
   for (VoxelIndex v = 0; v < voxels; ++v) {

@@ -190,59 +190,6 @@ TEST(ScanInsertion, LidarSweepsEqualOctomapVoxelByVoxel) {
   expect_equal(grid, twin);
 }
 
-TEST(ScanInsertion, BatchOfSweepsIsTheSameAtAnyThreadCount) {
-  LidarConfig lidar;
-  lidar.beams = 90;
-  const LidarModel model = make_lidar_model(lidar);
-  const std::vector<LidarScan> scans = example_scans(lidar, 130);  // more than one batch
-  const Box3 box_m(Vec3(-10, -10, 0), Vec3(10, 10, 8));
-  OccupancyGrid one(OccupancyConfig{}, box_m);
-  ScanInserter(one.geometry()).insert_scans(one, scans, {&model, 1}, 0.3, 1);
-  for (const int threads : {2, 5}) {
-    OccupancyGrid many(OccupancyConfig{}, box_m);
-    ScanInserter(many.geometry()).insert_scans(many, scans, {&model, 1}, 0.3, threads);
-    EXPECT_TRUE(std::ranges::equal(one.all_log_odds(), many.all_log_odds()));
-    EXPECT_EQ(one.total_entropy_nat(), many.total_entropy_nat());
-  }
-}
-
-TEST(ScanInsertion, UpdateIsTheSameWithUsedMemory) {
-  const GridGeometry grid(kBox_m, 0.1);
-  Random random(31);
-  const Vec3f origin_m(0.3F, -0.2F, 1.1F);
-  const std::vector<ScanRay> rays = random_rays(random, origin_m, 60000);
-  FanWalker walker(grid);
-  const ScanUpdate one = walker.compute_update(origin_m, rays);
-  EXPECT_GT(one.free.size(), 10000U);
-  EXPECT_GT(one.occupied.size(), 1000U);
-  const ScanUpdate again = walker.compute_update(origin_m, rays);
-  EXPECT_EQ(again.free, one.free);
-  EXPECT_EQ(again.occupied, one.occupied);
-}
-
-TEST_P(ScanInsertionAt, EachVoxelIsListedOnceAndOccupiedWins) {
-  const GridGeometry grid(kBox_m, 0.2);
-  Random random(37);
-  const Vec3f origin_m(0.3F, -0.2F, 1.1F);
-  const std::vector<ScanRay> rays = random_rays(random, origin_m, 40000);
-  const ScanUpdate update = FanWalker(grid).compute_update(origin_m, rays);
-  std::vector<int> listed(grid.voxel_count(), 0);
-  for (const VoxelIndex v : update.free) ++listed[v];
-  for (const VoxelIndex v : update.occupied) ++listed[v];
-  EXPECT_EQ(std::ranges::max(listed), 1);
-}
-
-TEST(ScanInsertion, ARayThroughAnotherHitLeavesItOccupied) {
-  const GridGeometry grid(kBox_m, 0.2);
-  const Vec3f origin_m(0.1F, 0.1F, 1.1F);
-  const std::vector<ScanRay> rays = {{Vec3f(1.9F, 0.1F, 1.1F), false},
-                                     {Vec3f(0.9F, 0.1F, 1.1F), true}};
-  const ScanUpdate update = FanWalker(grid).compute_update(origin_m, rays);
-  ASSERT_EQ(update.occupied.size(), 1U);
-  EXPECT_EQ(grid.key_at(update.occupied[0]), (Key{4, 0, 5}));
-  EXPECT_EQ(update.free.size(), 8U);  // x keys 0 to 8 without 4, and without the end's 9
-}
-
 TEST_P(ScanInsertionAt, RaysThatLeaveTheGridSideBySideStopThere) {
   const GridGeometry grid(kBox_m, 0.2);
   const Vec3f origin_m(0.1F, 0.1F, 1.1F);
@@ -254,12 +201,6 @@ TEST_P(ScanInsertionAt, RaysThatLeaveTheGridSideBySideStopThere) {
 }
 
 GNBV_AT_EVERY_SIMD_LEVEL(ScanInsertionAt);
-
-TEST(ScanInsertion, NoRaysTouchNothing) {
-  const ScanUpdate update = FanWalker(GridGeometry(kBox_m, 0.2)).compute_update(Vec3f::Zero(), {});
-  EXPECT_TRUE(update.free.empty());
-  EXPECT_TRUE(update.occupied.empty());
-}
 
 }  // namespace
 }  // namespace gnbv

@@ -9,23 +9,6 @@
 namespace gnbv {
 namespace {
 
-TEST(HoverPower, IsLiusLawAtTheWeight) {
-  const VehicleConfig iris;
-  const double weight_n = 1.55 * 9.8066;
-  EXPECT_NEAR(hover_power_w(iris), (0.8554 / 0.3051 + 0.3177) * std::pow(weight_n, 1.5), 1e-9);
-}
-
-TEST(HoverPower, IsWhatAHoverDraws) {
-  const VehicleConfig iris;
-  const auto flight = streaming(make_flight(iris, World{}, {Vec3(0, 0, 5), 0.0}, 1));
-  Setpoint hold;
-  hold.p_world_m = Vec3(0, 0, 5);
-  hold.yaw_rad = 0.0;
-  flight->command(hold);
-  for (int i = 0; i < 10 * kTicksPerSecond; ++i) flight->step();
-  EXPECT_NEAR(flight->energy_wh() * kJoulesPerWattHour / 10.0 / hover_power_w(iris), 1.0, 1e-4);
-}
-
 TEST(LegEnergy, IsWhatALegDrawsAndNeverLess) {
   const VehicleConfig iris;
   const GuidanceConfig guidance;

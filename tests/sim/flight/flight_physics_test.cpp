@@ -84,15 +84,6 @@ TEST(RigidVehicle, HoversWhereItIsAtHoverSpeed) {
   EXPECT_NEAR((vehicle.state().T_world_body.translation() - Vec3(0, 0, 3)).norm(), 0.0, 1e-9);
 }
 
-TEST(RigidVehicle, RotorsLagTheirReferences) {
-  RigidVehicle vehicle(kIris, empty_world(), at_height(0.0), all(0.0));
-  for (int i = 1; i <= 10; ++i) {
-    step(vehicle, all(1000.0));
-    EXPECT_NEAR(vehicle.rotor_speeds_rad_s()[0], 1000.0 * (1.0 - std::exp(-i * kTick_s / 0.0125)),
-                1e-9);
-  }
-}
-
 TEST(RigidVehicle, TorqueFreeRotationConservesAngularMomentumAndEnergy) {
   VehicleState start = at_height(0.0);
   start.omega_body_rad_s = Vec3(2.0, 4.0, 1.0);  // near the unstable axis: it tumbles

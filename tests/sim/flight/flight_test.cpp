@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <limits>
 
 #include "scenarios/builtin.hpp"
@@ -55,6 +54,7 @@ TEST(Flight, FlyingIntoAWallIsACollision) {
   for (int i = 0; i < 1500; ++i) flight->step();
   EXPECT_TRUE(flight->has_collided());
   EXPECT_LT(flight->state().T_world_body.translation().x(), 3.0);
+  EXPECT_TRUE(flight->state().T_world_body.matrix().allFinite());
 }
 
 TEST(Flight, FlyingIntoTheGroundIsACollision) {
@@ -63,23 +63,6 @@ TEST(Flight, FlyingIntoTheGroundIsACollision) {
   for (int i = 0; i < 1500; ++i) flight->step();
   EXPECT_TRUE(flight->has_collided());
   EXPECT_GT(flight->state().T_world_body.translation().z(), 0.0);
-}
-
-TEST(Flight, SameCommandsGiveTheSameBits) {
-  const auto fly = [] {  // free flight, contact and tumbling
-    const auto flight = streaming(make_flight({}, walled_world(), kStart, 1));
-    flight->command(go_to(Vec3(2, 3, 7), 2.0));
-    for (int i = 0; i < 700; ++i) flight->step();
-    flight->command(go_to(Vec3(6, 0, 5), -1.0));
-    for (int i = 0; i < 1500; ++i) flight->step();
-    EXPECT_TRUE(flight->has_collided());
-    return std::pair(flight->state(), flight->energy_wh());
-  };
-  const auto [one, energy_one] = fly();
-  const auto [two, energy_two] = fly();
-  EXPECT_EQ(std::memcmp(one.T_world_body.data(), two.T_world_body.data(), 16 * sizeof(double)), 0);
-  EXPECT_EQ(std::memcmp(one.v_world_m_s.data(), two.v_world_m_s.data(), 3 * sizeof(double)), 0);
-  EXPECT_EQ(energy_one, energy_two);
 }
 
 TEST(Flight, HoverDrawsHoverPower) {

@@ -11,23 +11,6 @@ namespace {
 const AirframeParameters kIris;
 const Allocation kQuad = allocation_of(kIris);
 
-TEST(Mixer, GivesWhatIsAskedBelowSaturation) {
-  const MixerOutput out = mix(kQuad, Vec3(0.1, -0.05, 0.02), 0.5);
-  EXPECT_LT((out.torque - Vec3(0.1, -0.05, 0.02)).norm(), 1e-12);
-  double sum = 0.0;
-  for (const double command : out.commands) sum += command;
-  EXPECT_NEAR(sum, 4 * 0.5, 1e-12);
-}
-
-TEST(Mixer, PositiveTorqueIsPositiveOnTheBody) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const MixerOutput out = mix(kQuad, 0.1 * Vec3::Unit(axis), 0.5);
-    const Wrench wrench =
-        rotor_wrench(kIris, reference_speeds(kIris, out.commands), Vec3::Zero(), Vec3::Zero());
-    EXPECT_GT(wrench.torque_body_n_m[axis], 0.0) << "axis " << axis;
-  }
-}
-
 TEST(Mixer, SacrificesYawBeforeRoll) {
   const MixerOutput out = mix(kQuad, Vec3(0.4, 0.0, 0.6), 1.0);
   EXPECT_NEAR(out.torque.x(), 0.4, 1e-12);

@@ -338,18 +338,6 @@ TEST(SurfaceShape, PointsThatHoldNoSurfaceAreBadInput) {
   EXPECT_EQ(refusal_of(patch, 0.005), "");
 }
 
-TEST(SurfaceShape, IsTheSameAtAnyNumberOfThreads) {
-  const SeenPoints seen = seen_sphere(-0.5F);
-  const auto shape = [&](int threads) {
-    return shape_of(oriented(seen, threads), 0.03, {}, "sphere", threads,
-                    [](double, const std::string&) {});
-  };
-  const TriangleMesh one = shape(1);
-  const TriangleMesh three = shape(3);
-  EXPECT_EQ(one.vertices_m, three.vertices_m);
-  EXPECT_EQ(one.faces, three.faces);
-}
-
 TEST(Decimation, KeepsTheSphereWithinItsTolerance) {
   const TriangleMesh fine = poisson(oriented(seen_sphere(), 2), 6);
   constexpr double kTolerance_m = 0.01;
