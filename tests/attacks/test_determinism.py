@@ -10,7 +10,7 @@ import shutil
 import pytest
 from program import Gnbv, difference, files_of, hash_of, summary
 
-VIEWS = 8
+VIEWS = 12
 PAIRS = [(1, 'avx512'), (3, 'baseline'), (2, 'avx2'),
          *itertools.product((1, 2, 3, 8), ('baseline', 'avx2', 'avx512'))]
 ROUTE = ('planner.routes.views=[{position_m: [0, 5, 2]}, {position_m: [3.2, 0, 2], yaw_deg: 180}, '
@@ -43,14 +43,15 @@ MISSIONS = {
                            'cameras.0.drop_probability=0.3', 'cameras.0.rate_hz=1',
                            'vehicle.power.return_home=true'],
     'frames in flight': ['cameras.0.rate_hz=5'],
-    'few metres': ['planner.termination.max_distance_m=12'],
-    'few seconds': ['planner.termination.max_flight_time_s=110'],
-    'few voxels': ['planner.termination={min_new_voxels_per_m: 10, new_voxels_window: 2}'],
-    'no new points': ['planner={map: {resolution_m: 0.5}, cloud: {leaf_m: 0.5, profile_leaf_m: 0.5}, '
+    'max_distance': ['planner.termination.max_distance_m=12'],
+    'max_flight_time': ['planner.termination.max_flight_time_s=110'],
+    'low_gain': ['planner.termination={min_new_voxels_per_m: 10, new_voxels_window: 2}'],
+    'no_new_points': ['planner={map: {resolution_m: 0.5}, cloud: {leaf_m: 0.5, profile_leaf_m: 0.5}, '
                       'termination: {max_views_without_new_points: 2}}'],
-    'enough coverage': ['benchmark.stop_at_coverage=0.7'],
+    'coverage_reached': ['benchmark.stop_at_coverage=0.7'],
     'lab_model': ['lab_model'],
 }
+ENDS = ('max_distance', 'max_flight_time', 'low_gain', 'no_new_points', 'coverage_reached')
 
 
 def words_of(mission, views):
@@ -70,9 +71,11 @@ def test_a_mission_has_one_hash_and_goes_on_to_it(gnbv, tmp_path, request, views
         hashes.setdefault(hash_of(run), []).append((threads, simd))
     print(mission, *hashes)
     assert len(hashes) == 1, hashes
+    ended = summary(run)['termination']
+    assert mission not in ENDS or ended == mission
     # as if it had been killed after half of its views
     rows = (run / 'iterations.csv').read_text().splitlines(keepends=True)
-    assert len(rows) >= 4, f'{summary(run)["termination"]} after {len(rows) - 1} views'
+    assert len(rows) >= 4, f'{ended} after {len(rows) - 1} views'
     cut = shutil.copytree(run, tmp_path / 'cut', ignore=lambda *_: set(files_of(run)) - {
         'scenario.yaml', 'inputs.json'})
     (cut / 'iterations.csv.part').write_text(''.join(rows[:1 + len(rows) // 2]))

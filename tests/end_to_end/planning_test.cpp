@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "planner/core/belief.hpp"
@@ -15,7 +16,6 @@
 #include "tests/support/watch.hpp"
 #include "tools/mission/belief_log.hpp"
 #include "tools/run/candidates_jsonl.hpp"
-#include "tools/run/iterations_csv.hpp"
 
 namespace gnbv {
 namespace {
@@ -25,6 +25,7 @@ TEST(PlannerMission, EveryUtilityFliesWithoutACollision) {
   const auto laid = planners_that(&PlannerTraits::lays_views);
   names.insert(names.end(), laid.begin(), laid.end());
   EXPECT_GE(names.size(), 17U);
+  std::set<std::string> hashes;
   for (const std::string_view name : names) {
     const Flown flight(smoke(
         {fmt::format("planner.utility.name={}", name), "planner.termination.max_iterations=5"}));
@@ -33,14 +34,8 @@ TEST(PlannerMission, EveryUtilityFliesWithoutACollision) {
     EXPECT_EQ(flight.result.views.back().decision.sampler == Sampler::route,
               traits_of(flight.scenario.planner).lays_views)
         << name;
+    EXPECT_TRUE(hashes.insert(result_sha256(flight.result)).second) << name << " flies as another";
   }
-}
-
-TEST(PlannerMission, ThePresetsFlyDifferently) {
-  const Flown paper(smoke());
-  const Flown released(smoke({"planner.preset=released"}));
-  EXPECT_NE(result_sha256(paper.result), result_sha256(released.result));
-  EXPECT_GE(released.result.views.size(), 3U);
 }
 
 TEST(PlannerMission, ASavedProfileIsTakenUpWhereItEnded) {

@@ -5,16 +5,12 @@
 
 #include <cmath>
 #include <filesystem>
-#include <set>
 
 #include "sim/core/file.hpp"
-#include "sim/core/image.hpp"
 #include "sim/flight/guidance.hpp"
 #include "sim/flight/rotors.hpp"
 #include "tests/support/flown.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tests/support/watch.hpp"
-#include "tools/run/frames_folder.hpp"
 
 namespace gnbv {
 namespace {
@@ -104,39 +100,6 @@ TEST(HittingTheStructure, EndsTheMissionWhereItHappened) {
             flight.scenario.vehicle.airframe.hull_radius_m + 0.1);
   EXPECT_TRUE(flight.result.final_state.v_world_m_s.allFinite());
   EXPECT_GT(flight.result.flight_time_s, 0.0);
-}
-
-TEST(FramesOfARun, HoldWhatTheCamerasSaw) {
-  TempFolder temp;
-  const Scenario scenario = smoke(short_mission({}));
-  FramesFolder files(temp.path(), camera_models(scenario));
-  std::vector<float> first_depth_m;
-  Watch watch;
-  watch.colour = true;
-  watch.sensed = [&](const SensedView& view) {
-    if (view.iteration == 0) first_depth_m = view.depth[0].depth_m;
-    files.write(view.iteration, view.time_s, view.depth, view.colour);
-  };
-  const Flown flight(scenario, {.observers = {&watch}});
-  std::set<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(temp.path() / "frames")) {
-    names.insert(entry.path().filename());
-  }
-  EXPECT_EQ(names,
-            (std::set<std::string>{"0000_rgbd.rgb.png", "0000_rgbd.depth.png", "0001_rgbd.rgb.png",
-                                   "0001_rgbd.depth.png", "0002_rgbd.rgb.png",
-                                   "0002_rgbd.depth.png", "cameras.json", "poses.csv"}));
-  const GreyImage16 depth = read_png_grey16(temp.path() / "frames/0000_rgbd.depth.png");
-  ASSERT_EQ(depth.values.size(), first_depth_m.size());
-  for (std::size_t i = 0; i < first_depth_m.size(); ++i) {
-    const float expected_mm = std::isfinite(first_depth_m[i]) ? 1000.0F * first_depth_m[i] : 0.0F;
-    ASSERT_NEAR(depth.values[i], expected_mm, 0.51);  // rounded to millimetres
-  }
-  const Image colour = read_png(temp.path() / "frames/0000_rgbd.rgb.png");
-  EXPECT_EQ(colour.width_px, 160);
-  EXPECT_EQ(colour.height_px, 120);
-  // the pictures change nothing
-  EXPECT_EQ(result_sha256(flight.result), result_sha256(Flown(scenario).result));
 }
 
 }  // namespace

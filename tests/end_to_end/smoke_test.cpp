@@ -2,15 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
-#include <set>
 
-#include "bench/reference/octomap_twin.hpp"
 #include "bench/score/mission_score.hpp"
 #include "bench/score/surface_reference.hpp"
-#include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
-#include "sim/core/file.hpp"
 #include "tests/support/flown_into.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/run/iterations_csv.hpp"
@@ -88,16 +83,6 @@ TEST(SmokeMission, AnotherSeedIsAnotherMission) {
   EXPECT_NE(other.result.start.p_world_m, smoke_flight().result.start.p_world_m);
 }
 
-TEST(SmokeMission, EachUtilityFliesItsOwnWay) {
-  std::set<std::string> hashes;
-  for (const std::string name : {"proposed", "bircher", "isler"}) {
-    const Flown flight(smoke({"planner.utility.name=" + name}));
-    EXPECT_NE(flight.result.termination, Termination::collision);
-    hashes.insert(result_sha256(flight.result));
-  }
-  EXPECT_EQ(hashes.size(), 3U);
-}
-
 TEST(SmokeMission, TheIdealVehicleFliesExactlyThePlannedLegs) {
   const Flown ideal(smoke({"vehicle.kind=ideal"}));
   EXPECT_EQ(ideal.result.termination, Termination::max_iterations);
@@ -159,34 +144,6 @@ TEST(Journal, NamesFileAndLineOfAFault) {
   } catch (const BadInput& error) {
     EXPECT_NE(std::string(error.what()).find("iterations.csv:2"), std::string::npos);
   }
-}
-
-TEST(RunDirectoryFiles, AreCompleteAndReadByTheirTools) {
-  TempFolder temp;
-  const fs::path folder = temp.path() / "run";
-  const Flown& f = smoke_flight();
-  RunDirectory directory(folder, f.scenario, false);
-  for (const ViewRecord& view : f.result.views) directory.append(view);
-  directory.finish(f.scenario, f.result, smoke_score(), 1.0);
-
-  std::set<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename());
-  EXPECT_EQ(names, (std::set<std::string>{"scenario.yaml", "summary.json", "iterations.csv",
-                                          "trajectory.tum", "cloud.ply", "profile.ply", "map.ot",
-                                          "map.bt", "coverage.csv"}));
-  const auto summary = nlohmann::json::parse(read_file(folder / "summary.json"));
-  EXPECT_EQ(summary.at("result_sha256"), result_sha256(f.result));
-  EXPECT_EQ(summary.at("iterations"), f.result.views.size());
-  EXPECT_EQ(summary.at("termination"), "max_iterations");
-  EXPECT_EQ(to_yaml(load_scenario((folder / "scenario.yaml").string(), {})), to_yaml(f.scenario));
-
-  const OctomapTwin tree = OctomapTwin::read(folder / "map.ot");
-  const OccupancyGrid& grid = f.result.belief.grid;
-  std::size_t measured = 0;
-  for (VoxelIndex v = 0; v < grid.geometry().voxel_count(); ++v) {
-    measured += static_cast<std::size_t>(grid.is_measured(v));
-  }
-  EXPECT_EQ(tree.voxel_count(), measured);
 }
 
 }  // namespace

@@ -196,17 +196,6 @@ TEST(ViewSurvey, SkipsNoPositionWhereCamerasReachNoFartherThanFourSteps) {
   EXPECT_TRUE(looks_from_odd_cells(0.65));
 }
 
-TEST(Ceiling, OfWhatIsSeenIsNoLowerThanOfWhatTheCloudKeeps) {
-  const Smoke& s = smoke();
-  const Ceiling ceiling = find_ceiling(s.scenario, s.world, s.scene, s.start, 2);
-  for (std::size_t size = 0; size < 3; ++size) {
-    EXPECT_GT(ceiling.leaf_raw[size], 0.0);
-    EXPECT_LE(ceiling.leaf_raw[size], ceiling.raw[size]);
-    EXPECT_LE(ceiling.leaf_outside[size], ceiling.outside[size]);
-    EXPECT_LE(ceiling.outside[size], 1.0);
-  }
-}
-
 TEST(CeilingCache, GivesBackWhatWasPutIn) {
   const std::string bytes = bytes_of(survey());
   const auto read = survey_from(bytes);
