@@ -2,11 +2,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <nlohmann/json.hpp>
 
 #include "bench/score/surface_reference.hpp"
 #include "planner/core/belief.hpp"
+#include "scenarios/load.hpp"
 #include "sim/core/file.hpp"
 #include "tests/bench/shapes.hpp"
 #include "tests/support/flown.hpp"
@@ -116,6 +118,112 @@ TEST(StopAtCoverage, IsOffByDefaultAndSoIsTheTruth) {
   const auto summary = nlohmann::json::parse(read_file(mission.folder / "summary.json"));
   EXPECT_EQ(summary["termination"], "max_iterations");
   EXPECT_EQ(summary["ended_by_truth"], false);
+}
+
+// Keys that are said to have no effect have none: the same mission is flown with other values.
+
+/// A key with another value than its default, where it is idle.
+struct Case {
+  std::vector<std::string> where;
+  std::vector<std::string> sets;
+};
+
+const std::vector<Case>& cases() {
+  const std::string utility = "planner.utility.";
+  static const std::vector<Case> kCases = {
+      {{},
+       {"structure.file={scale: 2, unit_m: 0.5, up_axis: x, offset_m: [9, 9, 9]}",
+        "planner.profiling={circle_stations: 3, climb_step_m: 0.2, file: x.map}",
+        "planner.agvs.entropy_window=1", "planner.termination.new_voxels_window=1",
+        "planner.routes={standoff_m: 1, overlap: 0.9}", "planner.tour={iterations: 1, price: 0.1}",
+        utility + "bircher_lambda_per_m=3", utility + "ig_counting=unique",
+        utility + "hit_voxel=excluded", utility + "prediction_hides_hits=true",
+        utility + "volume_weights={free: 7}", utility + "shadow={shadow_depth_m: 0.3}",
+        utility + "legacy_visibility=true", "vehicle.power={battery_wh: 99, reserve_share: 0.3}",
+        "cameras.0.noise={baseline_m: 0.5, disparity_noise_px: 5}"}},
+      {{"planner.utility.name=isler"},
+       {utility + "alpha=0", utility + "beta=9", utility + "gamma=9", utility + "lambda_per_m=9",
+        utility + "density_term=literal", utility + "normalise_weights=false",
+        utility + "distance=straight", utility + "legacy_visibility=true",
+        "planner.symmetry={enabled: false}"}},
+      {{"planner.utility.name=bircher"}, {utility + "alpha=0", utility + "lambda_per_m=9"}},
+      {{"planner.utility.name=area_factor"}, {utility + "gamma=9", utility + "distance=straight"}},
+      {{"planner.utility.name=lawnmower"},
+       {"planner.agvs={step_m: 3, scales: false}", "planner.fvs={enabled: false}",
+        utility + "alpha=0", utility + "legacy_visibility=true"}},
+      {{"planner.utility.name=uniform_hemisphere"}, {"planner.routes.overlap=0.9"}},
+      {{"planner.utility.name=tour"},
+       {"planner.agvs={step_m: 3, scales: false}", "planner.fvs={enabled: false}",
+        utility + "alpha=0", utility + "legacy_visibility=true",
+        "planner.termination={entropy_change_percent: 50, entropy_window: 1, repeated_moves: 1}"}},
+      {{"planner.symmetry.enabled=false"}, {"planner.symmetry={min_support: 0, min_confirmed: 0}"}},
+      {{"planner.agvs.scales=false"},
+       {"planner.agvs={scale_factor: 3, scale_max: 1, utility_threshold: 99, utility_window: 1, "
+        "repeated_moves: 1, entropy_threshold_nat: 1, entropy_window: 1}"}},
+      {{"planner.fvs.enabled=false"},
+       {"planner.fvs={tries: 1, looks_max: 2, radius_m: 1, views_per_layer: 9, layer_step_m: 0.1, "
+        "order: "
+        "largest, pool_clusters: true, needs_visible_cluster: false, agvs_when_stuck: false, "
+        "when_grid_finds_nothing: false, entropy_threshold_nat: 1, entropy_window: 1, frontier: "
+        "{neighbour_voxels: 9, min_cluster_voxels: 99, max_extent_m: 9}}"}},
+      {{"planner.fvs.entropy_threshold_nat=0"}, {"planner.fvs.entropy_window=1"}},
+      {{"planner.profiling.method=none"},
+       {"planner.profiling.scan_in_transit=false", "guidance.profile_speed_m_s=0.5"}},
+      {{"planner.validity.path=unchecked"}, {"planner.validity.path_search.max_expansions=1"}},
+      {{"planner.validity.recent_poses=0"},
+       {"planner.validity={recent_distance_m: 9, recent_yaw_deg: 90}"}},
+      {{"planner.termination.entropy_change_percent=0"}, {"planner.termination.entropy_window=1"}},
+      {{"vehicle.kind=ideal"},
+       {"vehicle.autopilot={position_p_per_s: [2, 2, 2], tilt_max_deg: 9}"}},
+  };
+  return kCases;
+}
+
+std::vector<std::string> joined(std::vector<std::string> a, const std::vector<std::string>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+TEST(UnusedParameters, ChangeNoMission) {
+  for (const Case& c : cases()) {
+    const auto where = joined({"planner.termination.max_iterations=6"}, c.where);
+    EXPECT_EQ(result_sha256(Flown(smoke(where)).result),
+              result_sha256(Flown(smoke(joined(where, c.sets))).result))
+        << c.sets.front();
+  }
+}
+
+TEST(UnusedParameters, EachThatIsGivenIsNoted) {
+  for (const Case& c : cases()) {
+    std::vector<Override> overrides;
+    for (const std::string& text : joined(c.where, c.sets)) overrides.push_back({.text = text});
+    std::vector<std::string> notes;
+    load_with_overrides("smoke", overrides, {}, &notes);
+    for (const std::string& set : c.sets) {
+      EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [&](const std::string& note) {
+        return note.find("(--set " + set + ")") != std::string::npos;
+      })) << set;
+    }
+  }
+}
+
+TEST(UnusedParameters, AKeyOfWhatIsInUseIsNotAmongThem) {
+  const auto notes_of = [](const std::vector<std::string>& sets) {
+    std::vector<Override> overrides;
+    for (const std::string& text : sets) overrides.push_back({.text = text});
+    std::vector<std::string> notes;
+    load_with_overrides("smoke", overrides, {}, &notes);
+    return notes;
+  };
+  EXPECT_EQ(notes_of({"planner.utility.alpha=1", "planner.agvs.step_m=0.5",
+                      "planner.termination={min_new_voxels_per_m: 1, new_voxels_window: 3}"}),
+            std::vector<std::string>{});
+  EXPECT_EQ(notes_of({"planner.utility={name: isler, ig_counting: unique}"}),
+            std::vector<std::string>{});
+  // one note, though the name came later
+  EXPECT_EQ(notes_of({"planner.utility.alpha=1", "planner.utility.name=isler"}),
+            std::vector<std::string>{"planner.utility.alpha (--set planner.utility.alpha=1) has no "
+                                     "effect: planner.utility.name is isler"});
 }
 
 }  // namespace

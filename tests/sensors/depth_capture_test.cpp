@@ -30,10 +30,6 @@ Vec3 direction_world(const CameraModel& camera, const DepthFrame& frame, int u, 
   return frame.T_world_camera.linear() * camera.ray_camera(u, v).cast<double>();
 }
 
-bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
-}
-
 bool all_of_kind(const DepthFrame& frame, bool (*kind)(float)) {
   return std::all_of(frame.depth_m.begin(), frame.depth_m.end(), kind);
 }

@@ -17,10 +17,6 @@ const VehicleConfig kConfig;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 const ViewPose kStart = {Vec3(0, 0, 10), 0.0};
 
-double tilt_rad(const VehicleState& state) {
-  return std::acos(std::min(1.0, state.T_world_body.linear()(2, 2)));
-}
-
 std::unique_ptr<Flight> flight_from(const ViewPose& start) {
   return streaming(make_flight(kConfig, World{}, start, 1));
 }
