@@ -1,6 +1,7 @@
 """A run goes on only from a record that is its own, in the world that it began in."""
 import fcntl
 import re
+import resource
 import shutil
 
 import pytest
@@ -99,11 +100,12 @@ def test_an_edited_row_of_a_finished_run_is_noticed(run, copy_of, words):
     run(words, 'iterations.csv: holds other rows', code=2)
 
 
-def test_there_is_no_old_summary_beside_new_files(run, copy_of):
+def test_there_is_no_old_summary_beside_new_files(gnbv, copy_of):
     left = copy_of(*SMOKE)
-    (left / 'coverage.csv').unlink()
-    (left / 'coverage.csv/in the way').mkdir(parents=True)
-    assert run(RESUME, code=1)
+    size = (left / 'trajectory.tum').stat().st_size  # the largest file
+    (left / 'cloud.ply').unlink()
+    gnbv(*RESUME.split(), restore_signals=False, preexec_fn=lambda: resource.setrlimit(
+        resource.RLIMIT_FSIZE, (size - 1, size - 1))).check({1}, ['File too large'])
     assert not (left / 'summary.json').exists()
 
 
