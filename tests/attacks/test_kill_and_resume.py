@@ -77,7 +77,8 @@ def test_many_missions_are_those_of_one_call(gnbv, whole, sweep_yaml, tmp_path, 
 @pytest.mark.parametrize('kind', MADE)
 def test_what_is_made_of_a_run_is_whole_or_not_there(gnbv, whole, tmp_path, dice, kind, attempt):
     words = [word.format(run=whole('run', *SMOKE, '--out').path) for word in MADE[kind]]
-    undisturbed, out = whole(*words), tmp_path / 'made' / 'out'
+    name = 'out.html' if kind == 'report' else 'out'
+    undisturbed, out = whole(*words, name=name), tmp_path / 'made' / name
     out.parent.mkdir()
     stopped(gnbv.start(*words, out), dice.uniform(0.0, undisturbed.takes_s), 'SIGKILL')
     assert not half_written(out.parent, undisturbed.path.parent)

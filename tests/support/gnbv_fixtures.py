@@ -117,13 +117,13 @@ def whole(request, tmp_path_factory):
     last word: the folder, how long it took and its end."""
     known = {}
 
-    def made(*words):
+    def made(*words, name='out'):
         if words not in known:
             folder = tmp_path_factory.mktemp('whole')
             begin = time.monotonic()
-            end = Gnbv(request.config.option.gnbv, folder)(*words, folder / 'out').check({0})
+            end = Gnbv(request.config.option.gnbv, folder)(*words, folder / name).check({0})
             known[words] = types.SimpleNamespace(
-                path=folder / 'out', takes_s=time.monotonic() - begin, end=end)
+                path=folder / name, takes_s=time.monotonic() - begin, end=end)
         return known[words]
 
     return made
