@@ -6,6 +6,7 @@
 #include "bench/score/mission_score.hpp"
 #include "bench/score/surface_reference.hpp"
 #include "sim/core/error.hpp"
+#include "tests/support/fault.hpp"
 #include "tests/support/flown_into.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/run/iterations_csv.hpp"
@@ -138,12 +139,7 @@ TEST(Journal, NamesFileAndLineOfAFault) {
   TempFolder temp;
   const fs::path csv = temp.path() / "iterations.csv";
   std::ofstream(csv) << iterations_csv_header() << "0,1,2\n";
-  try {
-    read_decisions(csv);
-    FAIL();
-  } catch (const BadInput& error) {
-    EXPECT_NE(std::string(error.what()).find("iterations.csv:2"), std::string::npos);
-  }
+  EXPECT_TRUE(test::says(test::fault_of([&] { read_decisions(csv); }), {"iterations.csv:2"}));
 }
 
 }  // namespace

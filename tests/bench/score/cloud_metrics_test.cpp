@@ -10,6 +10,7 @@
 #include "bench/score/surface_samples.hpp"
 #include "sim/core/error.hpp"
 #include "tests/bench/shapes.hpp"
+#include "tests/support/fault.hpp"
 
 namespace gnbv {
 namespace {
@@ -189,12 +190,7 @@ std::vector<Vec3f> cloud_scaled_by(double scale) {
 }
 
 std::string complaint_of(const std::vector<Vec3f>& cloud) {
-  try {
-    scorable_points("a.ply", cloud, kFloor_z_m, scene(), kStructure);
-  } catch (const BadInput& error) {
-    return error.what();
-  }
-  return "";
+  return test::fault_of([&] { scorable_points("a.ply", cloud, kFloor_z_m, scene(), kStructure); });
 }
 
 bool complains(const std::vector<Vec3f>& cloud, const std::string& words) {

@@ -14,6 +14,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
 #include "tests/bench/shapes.hpp"
+#include "tests/support/fault.hpp"
 
 namespace gnbv {
 namespace {
@@ -75,12 +76,7 @@ TEST(VoxelSet, NamesThePointThatHasNoVoxel) {
                           std::numeric_limits<float>::infinity(), 1e6F, -1e6F}) {
     std::vector<Vec3f> points = random_points(5, 4);
     points[3].y() = bad;
-    try {
-      voxels_of(points, 0.05);
-      FAIL() << "accepted " << bad;
-    } catch (const BadInput& error) {
-      EXPECT_NE(std::string(error.what()).find("point 3"), std::string::npos) << error.what();
-    }
+    EXPECT_TRUE(test::says(test::fault_of([&] { voxels_of(points, 0.05); }), {"point 3"})) << bad;
     EXPECT_THROW(voxel_code(points[3], 0.05), BrokenInvariant);
   }
 }
@@ -186,13 +182,8 @@ TEST(SizedShares, OfThePapersSizesAreThePapers) {
 TEST(SizedRoom, IsRefusedByNameOfTheSizeThatFits) {
   TriangleMesh field;
   test::add_sheet(field, Vec3(0, 0, 1), Vec3(100, 0, 0), Vec3(0, 100, 0));
-  const auto fault_of = [&](const std::vector<double>& sizes_m) -> std::string {
-    try {
-      need_room_for(sizes_m, field);
-    } catch (const BadInput& fault) {
-      return fault.what();
-    }
-    return "";
+  const auto fault_of = [&](const std::vector<double>& sizes_m) {
+    return test::fault_of([&] { need_room_for(sizes_m, field); });
   };
   // 10,000 m2 by (size / 2)^2 are a hundred million at 0.02 m
   EXPECT_EQ(fault_of({0.05, 0.02}), "");

@@ -12,6 +12,7 @@
 #include "planner/map/scan_insertion.hpp"
 #include "sim/core/error.hpp"
 #include "tests/planner/map/random_points.hpp"
+#include "tests/support/fault.hpp"
 
 namespace gnbv {
 namespace {
@@ -144,12 +145,8 @@ TEST_F(OctomapFiles, AMapThatNothingTouchedIsAValidFile) {
 }
 
 TEST_F(OctomapFiles, AFolderThatIsNotThereIsNamed) {
-  try {
-    write_octomap(grid_, folder_ / "nowhere" / "map");
-    FAIL();
-  } catch (const BadInput& error) {
-    EXPECT_NE(std::string(error.what()).find("nowhere"), std::string::npos) << error.what();
-  }
+  EXPECT_TRUE(test::says(test::fault_of([&] { write_octomap(grid_, folder_ / "nowhere" / "map"); }),
+                         {"nowhere"}));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "bench/score/escape_search.hpp"
 #include "sensors/ray_scene.hpp"
 #include "sim/core/error.hpp"
+#include "tests/support/fault.hpp"
 #include "tests/support/made_run.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/surface/decimate.hpp"
@@ -311,12 +312,9 @@ TEST(SurfaceScore, SamplesLieEvenlyByArea) {
 std::string refusal_of(std::vector<Vec3f> points_m, double leaf_m) {
   SeenPoints seen{std::move(points_m), {}};
   seen.sensors_world_m.assign(seen.points_world_m.size(), Vec3f(0, 0, 9));
-  try {
+  return test::fault_of([&] {
     shape_of(oriented(seen, 1), leaf_m, {}, "cloud.ply", 1, [](double, const std::string&) {});
-  } catch (const BadInput& error) {
-    return error.what();
-  }
-  return "";
+  });
 }
 
 TEST(SurfaceShape, PointsThatHoldNoSurfaceAreBadInput) {
