@@ -5,6 +5,7 @@ import pathlib
 import random
 import shlex
 import shutil
+import signal
 import subprocess
 import time
 import types
@@ -13,6 +14,8 @@ import pytest
 from program import REPOSITORY, Gnbv
 
 LINES, COUNTS = [], collections.Counter()
+# a shell's background job is started with SIGINT ignored, which its children would inherit
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def pytest_addoption(parser):
