@@ -7,8 +7,9 @@
 #include "bench/score/surface_reference.hpp"
 #include "sim/core/error.hpp"
 #include "tests/support/fault.hpp"
-#include "tests/support/flown_into.hpp"
+#include "tests/support/flown.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tests/support/watch.hpp"
 #include "tools/run/iterations_csv.hpp"
 #include "tools/run/run_directory.hpp"
 
@@ -91,11 +92,27 @@ TEST(SmokeMission, TheIdealVehicleFliesExactlyThePlannedLegs) {
   EXPECT_NEAR(ideal.result.distance.flown_m, ideal.result.distance.straight_m, 1e-6);
 }
 
+/// Asked to stop once `stop_after` views of its own were flown. Only its journal stays, as of one
+/// that was killed.
+MissionResult fly_into(const fs::path& folder, bool resume, std::size_t stop_after) {
+  RunDirectory directory(folder, smoke(), resume);
+  std::size_t views = 0;
+  Watch watch;
+  watch.view = [&](const ViewRecord& view, const Belief&) {
+    directory.append(view);
+    ++views;
+  };
+  const MissionInputs inputs = {.observers = {&watch},
+                                .should_stop = [&] { return views >= stop_after; },
+                                .replay = directory.recorded_decisions()};
+  return Flown(smoke(), inputs).result;
+}
+
 TEST(ResumedMission, LosesNoRecordedViewWhenItIsStoppedEarly) {
   TempFolder temp;
   const fs::path folder = temp.path() / "run";
-  fly_into(folder, smoke(), false, 5);
-  EXPECT_EQ(fly_into(folder, smoke(), true, 2).views.size(), 5U);
+  fly_into(folder, false, 5);
+  EXPECT_EQ(fly_into(folder, true, 2).views.size(), 5U);
   EXPECT_EQ(read_decisions(folder / "iterations.csv.part").size(), 5U);
 }
 

@@ -118,12 +118,6 @@ TEST(OrienteeringTour, StaysAtHomeWhereNothingPays) {
   EXPECT_EQ(tour.worth, 0.0);
 }
 
-TEST(OrienteeringTour, TheSameSeedFindsTheSame) {
-  const RandomProblem random_one(9, 40);
-  EXPECT_EQ(solve(random_one.problem, {}, 100, 4).views,
-            solve(random_one.problem, {}, 100, 4).views);
-}
-
 Distances random_distances(std::uint64_t seed, std::size_t stops) {
   std::vector<Vec3> p_m(stops);
   for (std::size_t i = 0; i < stops; ++i) {
