@@ -15,8 +15,6 @@
 namespace gnbv {
 namespace {
 
-using namespace test;
-
 // Heaps of spheres: structures whose symmetry is known in closed form.
 
 struct Sphere {
