@@ -12,6 +12,7 @@
 #include "scenarios/problems.hpp"
 #include "sim/core/file.hpp"
 #include "tests/scenarios/scenario_text.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace gnbv {
 namespace {
@@ -68,14 +69,13 @@ TEST(WorldProblems, TheRegionHasSomethingOfTheWorkspaceInIt) {
 }
 
 TEST(WorldProblems, AFlownScenarioMayHaveLostItsMeshes) {
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / "gnbv_world_problems.yaml";
+  const TempFolder temp;
+  const std::filesystem::path file = temp.path() / "s.yaml";
   write_file_atomically(file, kMinimal +
                                   "structure: {files: [{path: a.obj}]}\nterrain: {path: b.obj}\n"
                                   "obstacles: [{file: {path: c.obj}}]\n");
   EXPECT_NO_THROW(load_flown_scenario(file.string()));
   EXPECT_THROW(load_scenario(file.string(), {}), BadInput);
-  std::filesystem::remove(file);
 }
 
 TEST(WorldProblems, TheResolvedScenarioNamesThemAllAndIsReadBack) {

@@ -96,27 +96,18 @@ TEST(Sha256Hash, PartsHashAsTheirConcatenation) {
 
 class AtomicFile : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::temp_directory_path() /
-              ("gnbv_core_test_" +
-               std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
+  std::ptrdiff_t files() const {
+    return std::distance(std::filesystem::directory_iterator(folder_), {});
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::size_t files() const {
-    std::size_t count = 0;
-    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder_)) ++count;
-    return count;
-  }
-  std::filesystem::path folder_;
+  TempFolder temp_;
+  const std::filesystem::path& folder_ = temp_.path();
 };
 
 TEST_F(AtomicFile, ReadsBackWhatWasWritten) {
   const std::string content("one\0two\n", 8);
   write_file_atomically(folder_ / "f.txt", content);
   EXPECT_EQ(read_file(folder_ / "f.txt"), content);
-  EXPECT_EQ(files(), 1U);
+  EXPECT_EQ(files(), 1);
 }
 
 TEST_F(AtomicFile, AFailedWriteLeavesTheOldFileAndNothingElse) {
@@ -128,7 +119,7 @@ TEST_F(AtomicFile, AFailedWriteLeavesTheOldFileAndNothingElse) {
                                      }),
                BadInput);
   EXPECT_EQ(read_file(folder_ / "f.txt"), "old");
-  EXPECT_EQ(files(), 1U);
+  EXPECT_EQ(files(), 1);
 }
 
 TEST_F(AtomicFile, ErrorsNameThePath) {
