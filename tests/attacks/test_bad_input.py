@@ -227,7 +227,7 @@ def test_an_option_is_named(gnbv, option, names):
     refuses_or_flies(gnbv, option, names)
 
 
-@pytest.mark.parametrize("name, content, words, names", mesh_tries(), ids=lambda value: (
+@pytest.mark.parametrize("name, content, words, names", list(mesh_tries()), ids=lambda value: (
     "" if isinstance(value, bytes) else "_".join(value) if isinstance(value, list) else value))
 def test_a_mesh_is_named(gnbv, tmp_path, name, content, words, names):
     (tmp_path / name).write_bytes(content)
