@@ -1,9 +1,9 @@
 """Bad input, generated: every key and option with wrong values, and meshes that are none.
 
-Every key of the schema with values that are wrong or extreme, every number
-on the command line that is none, and meshes that are no structures. Each has to end by itself: done,
-refused in one line a fault that names the key or the file (exit 2), or as a mission that failed for
-a stated reason (exit 1). Internal errors, signals, silence and more than the time given are failures.
+Every key of the schema with values that are wrong or extreme, every number on the command line that
+is none, and meshes that are no structures. Each has to end by itself: done, refused in one line a
+fault that names the key or the file (exit 2), or as a mission that failed for a stated reason (exit
+1). Internal errors, signals, silence and more than the time given are failures.
 
 --every N takes only each N-th: the short version.
 """
@@ -55,8 +55,8 @@ def numbers(schema):
 
 def values(schema):
     """Missing, of a wrong type, and extreme values for a leaf, as YAML."""
-    yield from ("", "null", "[]", "{}", "{a: 1}", "[1, 2]", "word", "'0.5'", "true", "*a", "!!str 5",
-                "[", "\\x01", "0x", "+", "1,5", "- 5")
+    yield from ("", "null", "[]", "{}", "{a: 1}", "[1, 2]", "word", "'0.5'", "true", "*a",
+                "!!str 5", "[", "\\x01", "0x", "+", "1,5", "- 5")
     kind = schema.get("type")
     if kind in ("number", "integer"):
         yield from numbers(schema)
@@ -87,8 +87,8 @@ def key_tries(program):
             yield [*RUN, *more, "--set", f"{'.'.join(path)}={value}"], path[-2:]
 
 
-COMMANDS = ("cache fly run sweep table compare ceiling render export plot paper report asset lint score "
-            "check surface").split()
+COMMANDS = ("cache fly run sweep table compare ceiling render export plot paper report asset lint "
+            "score check surface").split()
 
 
 def option_tries(program):
@@ -156,7 +156,8 @@ def meshes():
     yield "below_ground.obj", placed(1.0, (0, 0, -50))
     yield "beside_start.obj", placed(1.0, (0, -2.8, 0.7))
     yield "around_start.obj", placed(20.0)
-    for word in ("nan", "inf", "-inf", "1e-400", "1e400", "+", "-", "+-1", "1,5", "0x10", "1e", "--1"):
+    for word in ("nan", "inf", "-inf", "1e-400", "1e400", "+", "-", "+-1", "1,5", "0x10", "1e",
+                 "--1"):
         yield f"word_{word.replace('+', 'plus').replace(',', '_')}.obj", \
             b"v " + word.encode() + b" 0 0\n" + obj(CUBE, [(0, 1, 2), (3, 4, 5)])
         yield f"word_{word.replace('+', 'plus').replace(',', '_')}.ply", \
@@ -171,7 +172,7 @@ def meshes():
     yield "zeros.obj", bytes(100_000)
     yield "zeros.stl", bytes(84)
     yield "count.stl", bytes(80) + struct.pack("<I", 0xffffffff) + bytes(50)
-    yield "nan.stl", bytes(80) + struct.pack("<I", 1) + struct.pack("<12f", *[math.nan] * 12) + b"\0\0"
+    yield "nan.stl", bytes(80) + struct.pack("<I12f", 1, *[math.nan] * 12) + b"\0\0"
     collada = ('<?xml version="1.0"?><COLLADA version="1.4.1"><asset>{}</asset>'
                "</COLLADA>")
     for name, asset in (("unit_blanks", "<unit " + " " * 200_000 + ">"),

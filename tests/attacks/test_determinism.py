@@ -1,8 +1,8 @@
-"""One result: at any number of threads, by every instruction set, of a resumed mission, of a command.
+"""One result: at any number of threads, by every instruction set, resumed, and of a command.
 
---tries says how many pairs of threads and instruction set each mission is flown with (default: all).
-An instruction set that the processor lacks is its next lower one, and counts all the same. The hash
-of another build of the same commit, clang's say, is printed by it, too: --gnbv, and -s to see it.
+--tries says how many pairs of threads and instruction set each mission is flown with (all without
+it). An instruction set that the processor lacks is its next lower one, and counts all the same. The
+hash of another build of the same commit, clang's say, is printed, too: --gnbv, and -s to see it.
 """
 import itertools
 import shutil
@@ -46,8 +46,9 @@ MISSIONS = {
     'max_distance': ['planner.termination.max_distance_m=12'],
     'max_flight_time': ['planner.termination.max_flight_time_s=110'],
     'low_gain': ['planner.termination={min_new_voxels_per_m: 10, new_voxels_window: 2}'],
-    'no_new_points': ['planner={map: {resolution_m: 0.5}, cloud: {leaf_m: 0.5, profile_leaf_m: 0.5}, '
-                      'termination: {max_views_without_new_points: 2}}'],
+    'no_new_points': ['planner.map.resolution_m=0.5', 'planner.cloud.leaf_m=0.5',
+                      'planner.cloud.profile_leaf_m=0.5',
+                      'planner.termination.max_views_without_new_points=2'],
     'coverage_reached': ['benchmark.stop_at_coverage=0.7'],
     'lab_model': ['lab_model'],
 }

@@ -1,11 +1,11 @@
 """Safety of flight: random small worlds, flown by every utility, and nothing is touched.
 
-Worlds of boxes, spheres, poles, thin walls, wires and gaps, with
-random sensors, noise, estimates, starts, paths and profiles, flown by every utility. No mission may
-touch what its map shows, every one has to end for a stated reason, and no view may be taken nearer
-than the collision radius to surface that the profile showed. Who touches a wire that no pixel or
-beam has met often enough for its map is counted by itself: the planner knows nothing of it. So is
-who touches the ground in a mission that strayed from its path by more than is kept free, and says so.
+Worlds of boxes, spheres, poles, thin walls, wires and gaps, with random sensors, noise, estimates,
+starts, paths and profiles. No mission may touch what its map shows, every one has to end for a
+stated reason, and no view may be taken nearer than the collision radius to surface that the profile
+showed. Who touches a wire that no pixel or beam has met often enough for its map is counted by
+itself: the planner knows nothing of it. So is who touches the ground in a mission that strayed from
+its path by more than is kept free, and says so.
 
 --tries N worlds, --keep DIR for the scenario and mesh of every world that failed.
 """

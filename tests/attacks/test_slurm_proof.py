@@ -1,4 +1,4 @@
-"""Proof of `gnbv sweep` on a real Slurm and with GNU parallel: the results are those of this machine.
+"""Proof of `gnbv sweep` on a real Slurm and with GNU parallel: the results are the local ones.
 
 Starts munged, slurmctld and slurmd with a configuration of their own, flies a sweep of eight small
 missions as a job array, requeues one task while it flies, and compares every result with that of a
@@ -130,8 +130,8 @@ def test_a_job_array_with_a_requeued_task(slurm, sweep, local, tmp_path):
                 '--time=00:10:00').check({0}).out.strip()
     # MaxArraySize is 6, so that tasks have two cells each
     assert '--array=0-3%2' in (out / 'sweep.sbatch').read_text()
-    # task 2 has the cells 4 and 5, both long: it is requeued when it has flown some views of the first
-    cell = next(line.split()[1] for line in sweep('--list').out.splitlines() if line.split()[0] == '4')
+    # task 2 has the cells 4 and 5, both long: it is requeued after some views of the first
+    cell = next(row[1] for row in map(str.split, sweep('--list').out.splitlines()) if row[0] == '4')
     part = out / 'cells' / f'{cell}.part'
     journal = part / 'iterations.csv.part'
     until(120, 'cell 4 is flown',
@@ -143,7 +143,7 @@ def test_a_job_array_with_a_requeued_task(slurm, sweep, local, tmp_path):
           lambda: not set('RC') & set(said('squeue', '-h', '-j', task, '-o', '%t')))
     assert not (out / 'cells' / cell).exists()
     assert not (out / 'cells' / f'{cell}.failed.json').exists()
-    said('scontrol', 'update', f'jobid={task}', 'starttime=now')  # or Slurm holds it for two minutes
+    said('scontrol', 'update', f'jobid={task}', 'starttime=now')  # or Slurm holds it a while
     until(300, 'all cells are done', lambda: sweep('--out', out, '--status').code == 0 and
           all(row[1] == 'done' for row in results(out)))
     assert 'restart 1' in (out / 'slurm-2.log').read_text()

@@ -207,7 +207,8 @@ def test_without_frames_the_path_is_still_there(run, copy):
     run('export run --format tum', '--resume', code=2)
 
 
-@pytest.mark.parametrize('command', ['report', 'render', 'plot', 'surface', 'export --format plain'])
+@pytest.mark.parametrize('command', ['report', 'render', 'plot', 'surface',
+                                     'export --format plain'])
 def test_half_an_iterations_file_is_refused(run, copy, command):
     """Figures of a whole run beside half of its views would lie."""
     text = (copy / 'iterations.csv').read_text()

@@ -102,8 +102,8 @@ def test_touching_the_structure_is_a_failure_that_says_where(flying, client):
     assert end.code == 1 and 'hit the structure at [' in end.err, end
 
 
-# commands in MAVLink 1 that are too long, and positions in MAVLink 2 that are as long as a frame can
-# be, which a newer sender may mean so: a CRC of 265 bytes at every tenth
+# commands in MAVLink 1 that are too long, and positions in MAVLink 2 that are as long as a frame
+# can be, which a newer sender may mean so: a CRC of 265 bytes at every tenth
 @pytest.mark.parametrize('longest', [b'\xfe\xff\x4c', b'\xfd\xff\0\0\0\0\0\x1e\0\0'])
 def test_a_flood_does_not_stop_time(flying, client, longest):
     process = flying(f'{PORT} --duration 3 --json')

@@ -5,8 +5,8 @@ import re
 import pytest
 from program import hash_of, json_of
 
-COMMANDS = ('run table render asset lint schema score sweep ceiling export plot check compare report '
-            'surface fly paper').split()
+COMMANDS = ('run table render asset lint schema score sweep ceiling export plot check compare '
+            'report surface fly paper').split()
 ONE = '--quiet --set planner.termination.max_iterations=1'
 NAN = 'v 0 0 1\nv nan 0 1\nv 0 1 1\nf 1 2 3\n'
 
@@ -170,8 +170,8 @@ def test_lint_takes_several_meshes_and_ends_as_the_worst(run, tmp_path):
     (tmp_path / 'nan.obj').write_text(NAN)
     one = run('lint good.obj').out
     assert run('lint good.obj good.obj', '2 meshes: 2 usable').out.startswith(f'{one}\n{one}')
-    run('lint nan.obj good.obj', 'nan.obj:2: vertex 2', 'good.obj: usable', '1 usable, 1 not usable',
-        code=1)
+    run('lint nan.obj good.obj', 'nan.obj:2: vertex 2', 'good.obj: usable',
+        '1 usable, 1 not usable', code=1)
     run('lint absent.obj nan.obj good.obj', 'good.obj: usable', '1 not to be looked at', code=2)
     meshes = run('lint --json nan.obj good.obj', code=1).json['meshes']
     assert [mesh['usable'] for mesh in meshes] == [False, True]

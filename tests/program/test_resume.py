@@ -65,8 +65,8 @@ def test_the_first_view_that_comes_out_differently_is_named(run, killed, change,
 
 def test_every_edit_of_a_journal_is_noticed(run, gnbv, tmp_path):
     journal = tmp_path / 'run/iterations.csv.part'
-    process = gnbv.start('run', 'smoke', '--quiet', '--set', 'planner.termination.max_iterations=80',
-                         '--out', 'run')
+    process = gnbv.start('run', 'smoke', '--quiet', '--out', 'run', '--set',
+                         'planner.termination.max_iterations=80')
     until(60, 'six lines', lambda: journal.exists() and journal.read_text().count('\n') > 6)
     process.kill()
     process.wait()
@@ -93,7 +93,8 @@ def test_a_finished_run_stays_as_it_is(run, copy_of, whole):
     assert not difference(left, whole(*SMOKE).path)
 
 
-@pytest.mark.parametrize('words', ['score run', 'report run -o r.html', 'plot run -o plots', RESUME])
+@pytest.mark.parametrize('words', ['score run', 'report run -o r.html', 'plot run -o plots',
+                                   RESUME])
 def test_an_edited_row_of_a_finished_run_is_noticed(run, copy_of, words):
     path = copy_of(*SMOKE) / 'iterations.csv'
     path.write_text(path.read_text().replace(',agvs,', ',fvs,', 1))

@@ -161,7 +161,7 @@ def put(old, new):
     ('plot run', 'coverage.csv', without_last_row, '12 rows for the profile and 12 views'),
     ('plot run', 'coverage.csv', lambda text: text + '13,1,2,nan,4,5\n', "13,1,2,nan,4,5'"),
     ('plot run', 'coverage.csv', lambda text: 'view\n', 'is not the header')])
-def test_a_file_that_does_not_fit_the_others_is_named(run, cache, copy, command, name, change, says):
+def test_a_file_that_does_not_fit_others_is_named(run, cache, copy, command, name, change, says):
     text = (copy / name).read_text()
     (copy / name).write_text(change(text))
     assert f'run/{name}:' in run(command, says, code=2, **cache).err

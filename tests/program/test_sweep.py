@@ -45,8 +45,8 @@ def test_flies_what_is_missing_and_tabulates_all(sweep, tmp_path):
 
 def test_a_cell_that_failed_is_named(sweep, tmp_path):
     (tmp_path / 'f.yaml').write_text(
-        'scenarios:\n  - smoke\n  - {name: inside, scenario: smoke, set: {planner.validity.z_min_m: '
-        '0, start: {position_m: [0, 0, 0.5], jitter_m: [0, 0, 0]}}}\n'
+        'scenarios:\n  - smoke\n  - {name: inside, scenario: smoke, set: {'
+        'planner.validity.z_min_m: 0, start: {position_m: [0, 0, 0.5], jitter_m: [0, 0, 0]}}}\n'
         'set: {planner.termination.max_iterations: 1}\n')
     sweep('f.yaml --out o --quiet --threads 1', '1 cells failed; --retry-failed',
           'inside default seed 1: exit code 2: gnbv: start.position', code=1)
@@ -113,8 +113,9 @@ def test_the_batch_script_flies_each_cell_in_one_task(sweep, tmp_path):
     ('s.yaml --out s.yaml/o', 's.yaml/o'),
     ('s.yaml --out o --jobs 0', '--jobs')])
 def test_bad_usage_is_named_and_leaves_nothing(sweep, tmp_path, words, says):
-    for name, text in {'key.yaml': 'scenarios: smoke\nset:\n  planner.utilty.name: isler\nseeds: 0\n',
-                       'empty.yaml': '', 'none.yaml': 'scenarios: []\n'}.items():
+    for name, text in {
+            'key.yaml': 'scenarios: smoke\nset:\n  planner.utilty.name: isler\nseeds: 0\n',
+            'empty.yaml': '', 'none.yaml': 'scenarios: []\n'}.items():
         (tmp_path / name).write_text(text)
     sweep(words, says, code=2)
     assert not (tmp_path / 'o').exists()

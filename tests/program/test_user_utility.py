@@ -1,4 +1,4 @@
-"""A utility in a Python file: it flies, its record repeats the run, its failure ends it in order."""
+"""A utility in a Python file: it flies, its record repeats the run, its failure ends the run."""
 import hashlib
 import sys
 from pathlib import Path

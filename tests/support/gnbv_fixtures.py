@@ -55,7 +55,8 @@ def pytest_terminal_summary(terminalreporter):
 
 def pytest_sessionfinish(session):
     reporter = session.config.pluginmanager.get_plugin('terminalreporter')
-    if set(reporter.stats) & {'skipped'} and not set(reporter.stats) & {'passed', 'failed', 'error'}:
+    ends = set(reporter.stats)
+    if 'skipped' in ends and not ends & {'passed', 'failed', 'error'}:
         session.exitstatus = 77  # this machine does not allow the attack
 
 
@@ -147,7 +148,7 @@ def may_mount():
 @pytest.fixture
 def on_disk(request, may_mount, tmp_path):
     """on_disk(options of its tmpfs, `then`) -> the program with such a disk for its folder, and
-    after the shell commands `then`. What the disk holds at the end is left in `tmp_path / 'rescued'`."""
+    after the shell commands `then`. What it holds at the end is left in `tmp_path / 'rescued'`."""
     def made(options, then='true'):
         disk = tmp_path / 'disk'
         disk.mkdir(exist_ok=True)

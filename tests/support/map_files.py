@@ -10,7 +10,8 @@ def read_surface(path):
         data = file.read()
     at = data.index(b"\n") + 1
     settings = struct.unpack_from("<16d", data, at)
-    resolution_m, first, size, occupied_min = settings[0], settings[1:4], settings[4:7], settings[11]
+    resolution_m, first, size = settings[0], settings[1:4], settings[4:7]
+    occupied_min = settings[11]
     at += 16 * 8 + 1
     (points,) = struct.unpack_from("<Q", data, at)
     at += 8 + 12 * points
