@@ -7,11 +7,11 @@
 #include <cstdlib>
 
 #include "scenarios/load.hpp"
+#include "sensors/ray_scene.hpp"
 #include "sim/core/file.hpp"
 #include "tests/support/export_text.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tests/support/triangle_distance.hpp"
 #include "tools/mission/load_world.hpp"
 
 namespace gnbv {
@@ -91,14 +91,14 @@ TEST(Colmap, TriangulatesOurImagesOntoTheTrueSurface) {
 
   std::vector<std::string> warnings;
   const Scenario scenario = load_scenario("smoke", {});
-  const World world = load_world(scenario, warnings);
+  const RayScene scene(load_world(scenario, warnings));
   const Box3 around(scenario.workspace_m.min() - Vec3(0, 0, 1), scenario.workspace_m.max());
   std::vector<double> all_m;
   std::vector<double> sure_m;
   for (const auto& [number, point] : colmap_points(triangulated)) {
     // COLMAP also finds the ground far beyond the hall, and the edge of the sky
     if (!around.contains(point.p_world_m)) continue;
-    const double off_m = std::min(distance_to_mesh_m(world.structure, point.p_world_m),
+    const double off_m = std::min(scene.distance_to_structure_m(point.p_world_m, 1e3),
                                   std::abs(point.p_world_m.z()));
     all_m.push_back(off_m);
     if (point.track.size() > 2) sure_m.push_back(off_m);

@@ -2,12 +2,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <map>
 #include <set>
 
+#include "bench/limits/oracle.hpp"
 #include "planner/motion/free_space.hpp"
 #include "sim/core/error.hpp"
 #include "tests/support/flown.hpp"
 #include "tests/support/watch.hpp"
+#include "tools/mission/reference.hpp"
+#include "tools/mission/start_pose.hpp"
 #include "tools/run/plan_jsonl.hpp"
 #include "tools/run/run_record.hpp"
 
@@ -17,45 +22,6 @@ namespace {
 Scenario tour(std::vector<std::string> overrides = {}) {
   overrides.emplace_back("planner.utility.name=tour");
   return smoke(overrides);
-}
-
-TEST(TourMission, IsTheSameAtAnyNumberOfThreadsAndResumed) {
-  const Scenario scenario = tour({"planner.termination.max_iterations=9"});
-  const Flown whole(scenario, {}, 1);
-  const std::string hash = result_sha256(whole.result);
-  EXPECT_EQ(result_sha256(Flown(scenario, {}, 3).result), hash);
-  ASSERT_GE(whole.result.views.size(), 6U) << name_of(whole.result.termination);
-  for (const std::size_t views : {2U, 5U}) {
-    MissionInputs resumed;
-    for (std::size_t i = 0; i < views; ++i) {
-      resumed.replay.push_back(whole.result.views[i].decision);
-    }
-    const Flown again(scenario, resumed);
-    EXPECT_EQ(result_sha256(again.result), hash) << "after view " << views;
-    EXPECT_EQ(plan_jsonl(again.result.tour_plans), plan_jsonl(whole.result.tour_plans));
-  }
-}
-
-TEST(TourMission, IsTheSameInAWorldWithAGimbalAndLostFrames) {
-  const Scenario scenario =
-      tour({"planner.termination.max_iterations=24", "cameras.0.drop_probability=0.3",
-            "cameras.0.pitch_deg={min: 0, max: 30, step: 30}", "wind.mean_m_s=[2, 1, 0]",
-            "no_fly=[{min: [2.2, -1, 0], max: [4, 1, 5]}]",
-            "obstacles=[{box_m: {min: [-2.6, 1.5, 0], max: [-2, 2.1, 1]}}]"});
-  const Flown whole(scenario, {}, 1);
-  ASSERT_GE(whole.result.views.size(), 5U) << name_of(whole.result.termination);
-  MissionInputs resumed;
-  for (std::size_t i = 0; i < 4; ++i) {
-    resumed.replay.push_back(whole.result.views[i].decision);
-  }
-  EXPECT_EQ(result_sha256(Flown(scenario, resumed).result), result_sha256(whole.result));
-  const NoFly no_fly = no_fly_of(scenario);
-  std::set<double> pitches_rad;
-  for (const ViewRecord& view : whole.result.views) {
-    EXPECT_TRUE(no_fly.allows(view.decision.view.p_world_m));
-    pitches_rad.insert(view.decision.view.gimbal_pitch_rad);
-  }
-  EXPECT_GT(pitches_rad.size(), 1U);
 }
 
 TEST(TourMission, ARecordOfOtherViewsIsNotResumed) {
@@ -183,6 +149,71 @@ TEST(TourMission, WithoutAProfileItLooksForTheStructureFirst) {
             0.9 * points(Flown(tour({"planner.termination.max_iterations=200"}))));
   unknown.emplace_back("planner.tour.explore=false");
   EXPECT_LT(points(Flown(tour(unknown))), 0.1 * points(explored));
+}
+
+// Missions of the oracle: planned on the mesh, flown and scored like the others.
+
+Scenario oracle_smoke(const std::string& utility) {
+  // an entropy that hardly changes would end any other mission
+  return smoke({"planner.utility.name=" + utility, "planner.termination.max_iterations=100",
+                "planner.termination.entropy_change_percent=1"});
+}
+
+const std::vector<Decision>& route_of(const std::string& utility) {
+  static std::map<std::string, std::vector<Decision>> routes;
+  if (!routes.contains(utility)) {
+    setenv("GNBV_CACHE", "", 1);
+    const Scenario scenario = oracle_smoke(utility);
+    std::vector<std::string> warnings;
+    const World world = load_world(scenario, warnings);
+    const RayScene scene(world);
+    const OracleAim aim =
+        traits_of(scenario.planner).counts_metres ? OracleAim::metres : OracleAim::views;
+    routes[utility] = plan_oracle(scenario, world, scene, reference_of(scenario, world, scene, 2),
+                                  start_pose(scenario, scene), aim, 2);
+  }
+  return routes[utility];
+}
+
+MissionInputs with_route(const std::string& utility) {
+  MissionInputs inputs;
+  inputs.sources.route = route_of(utility);
+  return inputs;
+}
+
+class OracleMission : public testing::TestWithParam<const char*> {};
+
+TEST_P(OracleMission, FliesItsWholeRouteAndFindsNearlyAll) {
+  const std::string utility = GetParam();
+  const Flown flight(oracle_smoke(utility), with_route(utility));
+  EXPECT_EQ(flight.result.termination, Termination::route_flown);
+  ASSERT_EQ(flight.result.views.size(), route_of(utility).size() + 1);
+  EXPECT_EQ(flight.result.legs_timed_out, 0);
+  for (std::size_t i = 1; i < flight.result.views.size(); ++i) {
+    const Decision& flown = flight.result.views[i].decision;
+    EXPECT_EQ(flown.view.p_world_m, route_of(utility)[i - 1].view.p_world_m);
+    EXPECT_EQ(flown.sampler, Sampler::oracle);
+  }
+  const SurfaceReference reference = make_surface_reference(
+      flight.world, flight.scene, {.floor_z_m = flight.scenario.planner.floor_z_m}, 2);
+  // all of smoke can be seen; what a real vehicle's errors cost beside kOracleShare is little
+  const std::array<double, 3> coverage =
+      coverage_at_all_sizes(reference.outside, flight.result.belief.cloud.points_world_m());
+  EXPECT_GT(coverage[0], kOracleShare - 0.03);
+}
+
+INSTANTIATE_TEST_SUITE_P(BothAims, OracleMission, testing::Values("oracle_views", "oracle_metres"));
+
+TEST(OracleRoute, WithoutOneTheMissionIsRefused) {
+  EXPECT_THROW(Flown(oracle_smoke("oracle_views")), BrokenInvariant);
+}
+
+TEST(OracleRoute, EmptyEndsAfterTheFirstView) {
+  MissionInputs inputs;
+  inputs.sources.route.emplace();
+  const Flown flight(oracle_smoke("oracle_views"), inputs);
+  EXPECT_EQ(flight.result.termination, Termination::route_flown);
+  EXPECT_EQ(flight.result.views.size(), 1U);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/core/sha256.hpp"
+#include "tests/support/fault.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace gnbv {
@@ -77,12 +78,7 @@ class BeliefFile : public testing::Test {
   }
   std::string complaint(const std::string& content) const {
     write_file_atomically(path_, content);
-    try {
-      read_belief(path_, model_);
-    } catch (const BadInput& bad) {
-      return bad.what();
-    }
-    return "";
+    return test::fault_of([&] { read_belief(path_, model_); });
   }
 
   TempFolder folder_;

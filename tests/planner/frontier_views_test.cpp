@@ -135,42 +135,6 @@ TEST(FrontierViews, PooledClustersCompeteAndOthersTakeTheirTurn) {
   }
 }
 
-TEST(FrontierViews, AreTheSameAtAnyNumberOfThreads) {
-  // of a shell of clusters the first has a view, or the second, or, for the widest vehicle, none
-  for (const double radius_m : {0.5, 2.0, 3.2}) {
-    for (const bool pooled : {false, true}) {
-      const SmallPlanner planner([&](PlannerConfig& c) {
-        c.validity.collision_radius_m = radius_m;
-        c.fvs.pool_clusters = pooled;
-        c.fvs.agvs_when_stuck = false;
-      });
-      const Belief belief = shell_of_frontiers(planner);
-      const auto plan_with = [&](int threads) {
-        return planner.plan(belief, still_history(), threads);
-      };
-      const Plan one = plan_with(1);
-      if (radius_m > 3.0) {
-        ASSERT_EQ(one.candidates.size(), 50U * 12U);
-      }
-      for (std::size_t i = 0; i < one.candidates.size(); ++i) {
-        EXPECT_EQ(one.candidates[i].cluster, static_cast<int>(i / 12));  // each once, in order
-      }
-      for (const int threads : {2, 5}) {
-        const Plan many = plan_with(threads);
-        EXPECT_EQ(many.chosen, one.chosen);
-        EXPECT_EQ(many.clusters.size(), one.clusters.size());
-        ASSERT_EQ(many.candidates.size(), one.candidates.size());
-        for (std::size_t i = 0; i < one.candidates.size(); ++i) {
-          EXPECT_EQ(many.candidates[i].cluster, one.candidates[i].cluster);
-          EXPECT_EQ(many.candidates[i].rejected, one.candidates[i].rejected);
-          EXPECT_EQ(many.candidates[i].view.p_world_m, one.candidates[i].view.p_world_m);
-          EXPECT_EQ(many.candidates[i].score.value, one.candidates[i].score.value);
-        }
-      }
-    }
-  }
-}
-
 TEST(FrontierViews, LargestClustersFirstIsASwitch) {
   const auto looked_at_from = [](ClusterOrder order) {
     const SmallPlanner planner = model_with_fvs([&](FvsConfig& fvs) {

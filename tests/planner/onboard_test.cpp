@@ -7,6 +7,7 @@
 
 #include "bench/reference/analytic_scans.hpp"
 #include "sim/core/error.hpp"
+#include "tests/support/fault.hpp"
 
 namespace gnbv {
 namespace {
@@ -31,12 +32,7 @@ std::vector<DepthFrame> frames_from(const ViewPose& pose) {
 std::string refusal(const std::function<void(OnboardSettings&)>& change) {
   OnboardSettings settings = small_settings();
   change(settings);
-  try {
-    const Onboard planner(std::move(settings));
-    return "";
-  } catch (const BadInput& error) {
-    return error.what();
-  }
+  return test::fault_of([&] { Onboard(std::move(settings)); });
 }
 
 TEST(Onboard, RefusesWhatNobodyCanPlanWith) {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "scenarios/load.hpp"
-#include "sim/core/error.hpp"
+#include "tests/support/fault.hpp"
 
 namespace gnbv {
 
@@ -49,13 +49,7 @@ inline Scenario load_text(const std::string& text, const std::vector<std::string
 inline std::string complaint(const std::string& text,
                              const std::vector<std::string>& overrides = {}) {
   const ScenarioFile file(text);
-  std::string message;
-  try {
-    load_scenario(file.path().string(), overrides);
-    return "";
-  } catch (const BadInput& error) {
-    message = error.what();
-  }
+  std::string message = test::fault_of([&] { load_scenario(file.path().string(), overrides); });
   const std::string folder = file.folder().string() + '/';
   for (std::size_t at = message.find(folder); at != std::string::npos; at = message.find(folder)) {
     message.erase(at, folder.size());

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "tests/scenarios/scenario_text.hpp"
+#include "tests/support/fault.hpp"
 
 namespace gnbv {
 namespace {
@@ -182,13 +183,8 @@ TEST(Overrides, AreRefusedWithTheirText) {
 }
 
 TEST(MissingScenario, ListsTheBuiltinsAndTheNearest) {
-  const auto message = [](const std::string& name) -> std::string {
-    try {
-      load_scenario(name, {});
-      return "";
-    } catch (const BadInput& error) {
-      return error.what();
-    }
+  const auto message = [](const std::string& name) {
+    return test::fault_of([&] { load_scenario(name, {}); });
   };
   EXPECT_EQ(message("aircaft"),
             fmt::format("aircaft: no such file, and no built-in scenario (did you mean 'aircraft'? "

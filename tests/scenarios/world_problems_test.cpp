@@ -1,11 +1,18 @@
 // What is wrong with the world of a scenario: named with file, line and key.
 #include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
+#include <typeindex>
+#include <utility>
 
+#include "scenarios/fields.hpp"
+#include "scenarios/load.hpp"
 #include "scenarios/problems.hpp"
 #include "sim/core/file.hpp"
 #include "tests/scenarios/scenario_text.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace gnbv {
 namespace {
@@ -62,14 +69,13 @@ TEST(WorldProblems, TheRegionHasSomethingOfTheWorkspaceInIt) {
 }
 
 TEST(WorldProblems, AFlownScenarioMayHaveLostItsMeshes) {
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / "gnbv_world_problems.yaml";
+  const TempFolder temp;
+  const std::filesystem::path file = temp.path() / "s.yaml";
   write_file_atomically(file, kMinimal +
                                   "structure: {files: [{path: a.obj}]}\nterrain: {path: b.obj}\n"
                                   "obstacles: [{file: {path: c.obj}}]\n");
   EXPECT_NO_THROW(load_flown_scenario(file.string()));
   EXPECT_THROW(load_scenario(file.string(), {}), BadInput);
-  std::filesystem::remove(file);
 }
 
 TEST(WorldProblems, TheResolvedScenarioNamesThemAllAndIsReadBack) {
@@ -84,6 +90,146 @@ TEST(WorldProblems, TheResolvedScenarioNamesThemAllAndIsReadBack) {
   EXPECT_EQ(no_fly_of(scenario).margin_m, scenario.planner.validity.collision_radius_m);
   EXPECT_NEAR(scenario.structure.file.yaw_rad, deg_to_rad(30.0), 1e-12);
   EXPECT_EQ(to_yaml(load_text(to_yaml(scenario))), to_yaml(scenario));
+}
+
+TEST(PapersSetting, IsThatOfTheBuiltInScenariosWhateverTheReading) {
+  for (const std::string name : {"aircraft", "power_plant", "lab_model", "lab_airplane"}) {
+    EXPECT_TRUE(has_papers_setting(load_scenario(name, {})));
+    EXPECT_TRUE(has_papers_setting(
+        load_scenario(name, {"seed=7", "planner.utility.name=isler", "planner.preset=released",
+                             "planner.fvs.tries=1", "structure.builtin=smoke"})));
+  }
+}
+
+TEST(PapersSetting, IsNoneInAnotherWorldNorWithAnotherEnd) {
+  for (const std::string set :
+       {"obstacles=[{box_m: {min: [20, 20, 0], max: [21, 21, 1]}}]",
+        "no_fly=[{min: [20, 20, 0], max: [21, 21, 1]}]",
+        "score.region_m={min: [-1, -1, 0], max: [1, 1, 9]}", "wind.gust_w20_m_s=1",
+        "vehicle.power.return_home=true", "planner.termination.max_distance_m=2000",
+        "planner.termination.max_flight_time_s=9000", "planner.termination.min_new_voxels_per_m=1",
+        "planner.termination.max_views_without_new_points=5", "benchmark.stop_at_coverage=0.9"}) {
+    EXPECT_FALSE(has_papers_setting(load_scenario("aircraft", {set}))) << set;
+  }
+  Scenario hilly = load_scenario("aircraft", {});
+  hilly.terrain.path = "/hill.ply";
+  EXPECT_FALSE(has_papers_setting(hilly));
+  EXPECT_FALSE(has_papers_setting(
+      load_scenario("aircraft", {"vehicle.estimate={model: gnss, outages: [{start_s: 9}]}"})));
+  // what is only told
+  EXPECT_TRUE(has_papers_setting(load_scenario("aircraft", {"score.sizes_m=[0.2]"})));
+}
+
+TEST(PapersSetting, IsNoneWithOtherViewsSensorsProfileRoomOrName) {
+  for (const std::string set :
+       {"planner.termination.max_iterations=20", "planner.profiling.method=none",
+        "cameras.0.range_max_m=6", "cameras=[{}]", "lidars.0.range_max_m=9",
+        "planner.map.resolution_m=0.1", "workspace_m={max: [30, 30, 20]}", "name=mine",
+        "vehicle.estimate.model=gnss", "planner.validity.collision_radius_m=1",
+        "planner.agvs.step_m=2", "planner.agvs.yaw_step_deg=90"}) {
+    EXPECT_FALSE(has_papers_setting(load_scenario("aircraft", {set}))) << set;
+  }
+}
+
+// No config field without a key: the fields of each struct are counted and compared with its keys.
+
+/// Converts to any field's type, so that T{Any, Any, ...} compiles up to the number of fields.
+struct Any {
+  template <typename T>
+  operator T() const;  // NOLINT: has to be implicit; never called
+};
+
+template <typename T, std::size_t... i>
+constexpr bool takes(std::index_sequence<i...>) {
+  return requires { T{(static_cast<void>(i), Any{})...}; };
+}
+
+template <typename T, std::size_t count = 0>
+constexpr std::size_t field_count() {
+  if constexpr (takes<T>(std::make_index_sequence<count + 1>{})) {
+    return field_count<T, count + 1>();
+  } else {
+    return count;
+  }
+}
+
+struct Three {
+  double a = 1.0;
+  Vec3 b = Vec3::Zero();
+  std::string c = "c";
+};
+static_assert(field_count<Three>() == 3);
+
+/// Counts the keys of each struct, those of the structs in it left out.
+class KeyCounter final : public FieldVisitor {
+ public:
+  std::map<std::type_index, std::size_t> counts;
+
+  void leaf(const Field&, const FieldValue&) override { counts[within_.back()] += 1; }
+  std::optional<std::size_t> begin(const Group& group) override {
+    if (group.kind != Group::Kind::item) counts[within_.back()] += 1;
+    if (group.kind != Group::Kind::list) counts[group.config] = 0;  // some are there several times
+    within_.push_back(group.config);
+    return 1;  // item in every list
+  }
+  void end(const Group&) override { within_.pop_back(); }
+  Form form_of(std::string_view, bool) override { return Form::both; }
+
+ private:
+  std::vector<std::type_index> within_ = {typeid(Scenario)};
+};
+
+TEST(Fields, EveryFieldOfEveryConfigHasAKey) {
+  Scenario scenario;
+  KeyCounter counter;
+  fields(Keys(counter), scenario);
+  const auto expect = [&]<typename Config>(const Config&, int more = 0) {
+    const auto keys = counter.counts.find(typeid(Config));
+    ASSERT_NE(keys, counter.counts.end()) << typeid(Config).name();
+    EXPECT_EQ(keys->second, field_count<Config>() + more) << typeid(Config).name();
+    counter.counts.erase(keys);
+  };
+  expect(MeshFileConfig{});
+  expect(RotorMount{});
+  expect(AirframeParameters{});
+  expect(PowerParameters{});
+  expect(EstimateConfig{});
+  expect(VehicleConfig{});
+  expect(GuidanceConfig{});
+  expect(WindConfig{});
+  expect(GnssOutage{});
+  expect(GimbalConfig{});
+  expect(DepthNoiseConfig{});
+  expect(CameraConfig{});
+  expect(LidarConfig{});
+  expect(OccupancyConfig{});
+  expect(CloudConfig{});
+  expect(ProfilingConfig{});
+  expect(AgvsConfig{});
+  expect(FvsConfig{});
+  expect(FrontierConfig{});
+  expect(ValidityConfig{});
+  expect(PathSearchConfig{});
+  expect(UtilityConfig{});
+  expect(VolumeWeights{});
+  expect(ShadowConfig{});
+  expect(UserUtilityConfig{});
+  expect(TourConfig{});
+  expect(SymmetryConfig{});
+  expect(RouteConfig{});
+  expect(ViewPose{});
+  expect(TerminationConfig{});
+  expect(PlannerConfig{});
+  expect(StructureConfig{});
+  expect(ObstacleConfig{});
+  expect(ScoreConfig{});
+  expect(BenchmarkConfig{});
+  expect(AutopilotParameters{}, -1);                  // the commander's are PX4 parameters
+  expect(StartConfig{}, 1);                           // pose is two keys
+  expect(NoFlyConfig{}, 1);                           // a box is two keys
+  expect(Scenario{}, -1);                             // placed_at is no key
+  EXPECT_EQ(counter.counts.erase(typeid(Box3)), 1U);  // no struct of ours
+  for (const auto& [config, count] : counter.counts) ADD_FAILURE() << config.name() << " is new";
 }
 
 }  // namespace

@@ -179,18 +179,6 @@ TEST(ColourCapture, SeesBeyondTheRangeOfDepth) {
   }
 }
 
-TEST(ColourCapture, SameFrameForAnyThreadCount) {
-  TriangleMesh soup = test::random_soup(500, 5.0, {0, 0, 3}, 5);
-  soup.materials[0].pattern = Pattern::noise;
-  const RayScene scene(world_of(soup, true));
-  const CameraModel camera = colour_camera(0.2, 161, 119);
-  const Isometry T = T_world_body({{-6, 1, 4}, 0.3});
-  const ColourFrame one = capture_colour(scene, camera, 0, T, 1);
-  for (const int threads : {2, 5}) {
-    EXPECT_EQ(one.rgb, capture_colour(scene, camera, 0, T, threads).rgb);
-  }
-}
-
 TEST(Srgb, EqualsTheStandardsCurveWithinALevel) {
   const SrgbTable table;
   for (int i = 0; i <= 1000; ++i) {

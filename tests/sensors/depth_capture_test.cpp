@@ -30,10 +30,6 @@ Vec3 direction_world(const CameraModel& camera, const DepthFrame& frame, int u, 
   return frame.T_world_camera.linear() * camera.ray_camera(u, v).cast<double>();
 }
 
-bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
-}
-
 bool all_of_kind(const DepthFrame& frame, bool (*kind)(float)) {
   return std::all_of(frame.depth_m.begin(), frame.depth_m.end(), kind);
 }
@@ -223,21 +219,6 @@ TEST(DepthCapture, EqualsBruteForceAtEveryPixel) {
   }
   EXPECT_GT(hits, 3000);
   EXPECT_LT(undecided, 300);
-}
-
-TEST(DepthCapture, SameFrameForAnyThreadCount) {
-  const TriangleMesh soup = test::random_soup(3000, 5.0, {0, 0, 3}, 5);
-  const RayScene scene(world_of(soup, true));
-  const RayScene rebuilt(world_of(soup, true));
-  for (const auto& [width, height] : {std::pair(640, 480), std::pair(61, 47), std::pair(3, 2)}) {
-    const CameraModel camera = camera_with(deg_to_rad(20.0), 0.3, 8.0, width, height);
-    const Isometry T = T_world_body({{-6, 1, 4}, 0.3});
-    const DepthFrame one = capture_depth(scene, camera, 0, T, {}, 1);
-    for (const int threads : {2, 5}) {
-      EXPECT_TRUE(same_bits(one.depth_m, capture_depth(scene, camera, 0, T, {}, threads).depth_m));
-    }
-    EXPECT_TRUE(same_bits(one.depth_m, capture_depth(rebuilt, camera, 0, T, {}, 2).depth_m));
-  }
 }
 
 }  // namespace

@@ -35,9 +35,4 @@ inline std::string simd_test_name(const testing::TestParamInfo<SimdLevel>& info)
       AtEveryLevel, fixture,              \
       testing::Values(SimdLevel::baseline, SimdLevel::avx2, SimdLevel::avx512), simd_test_name)
 
-/// For tests that compare with the baseline.
-#define GNBV_ABOVE_THE_BASELINE(fixture)              \
-  INSTANTIATE_TEST_SUITE_P(AboveTheBaseline, fixture, \
-                           testing::Values(SimdLevel::avx2, SimdLevel::avx512), simd_test_name)
-
 }  // namespace gnbv

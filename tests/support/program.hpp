@@ -11,7 +11,7 @@ namespace gnbv {
 
 struct Outcome {
   int exit_code = -1;
-  std::string output;  // stdout, and stderr unless the arguments send it elsewhere
+  std::string output;  // stdout, and of gnbv() stderr, too
 };
 
 /// A shell command: how it ends, and its stdout.
@@ -27,14 +27,8 @@ inline Outcome shell(const std::string& command) {
   return outcome;
 }
 
-/// `before` is a shell command that comes first, such as "cd FOLDER && ".
-inline Outcome gnbv(const std::string& arguments, const std::string& before = "") {
-  const bool both = arguments.find("2>") == std::string::npos;
-  return shell(before + std::string(GNBV_PROGRAM) + " " + arguments + (both ? " 2>&1" : ""));
-}
-
-inline bool has(const Outcome& outcome, const std::string& text) {
-  return outcome.output.find(text) != std::string::npos;
+inline Outcome gnbv(const std::string& arguments) {
+  return shell(std::string(GNBV_PROGRAM) + " " + arguments + " 2>&1");
 }
 
 }  // namespace gnbv

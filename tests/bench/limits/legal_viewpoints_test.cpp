@@ -81,14 +81,6 @@ TEST(LegalViewpoints, KeepTheRadiusOnEveryLeg) {
   }
 }
 
-TEST(LegalViewpoints, AreTheSameOnAnyNumberOfThreads) {
-  const TriangleMesh mesh = wall_with_door(1.5);
-  const LegalViewpoints one = legal_in(mesh, Vec3(-2, 0, 2), 1);
-  const LegalViewpoints many = legal_in(mesh, Vec3(-2, 0, 2), 5);
-  EXPECT_EQ(one.p_world_m, many.p_world_m);
-  EXPECT_EQ(one.neighbours, many.neighbours);
-}
-
 TEST(LegClearance, IsTheDistanceOfTheLegFromTheWall) {
   // along a wall the distance is known; what is within a centimetre of the radius may be refused
   const World world{wall_with_door(0.2), true};

@@ -127,18 +127,6 @@ TEST(Oracle, TakesNoViewTwiceAndPlacesOneAfterTheOther) {
   }
 }
 
-TEST(Oracle, PlansTheSameOnAnyNumberOfThreads) {
-  const std::vector<Decision> one = smoke().plan(OracleAim::metres, 1);
-  const std::vector<Decision>& two = route(OracleAim::metres);
-  ASSERT_EQ(one.size(), two.size());
-  for (std::size_t i = 0; i < one.size(); ++i) {
-    EXPECT_EQ(one[i].view.p_world_m, two[i].view.p_world_m);
-    EXPECT_EQ(one[i].view.yaw_rad, two[i].view.yaw_rad);
-    EXPECT_EQ(one[i].via_world_m, two[i].via_world_m);
-    EXPECT_EQ(one[i].score.value, two[i].score.value);
-  }
-}
-
 TEST(Oracle, NeedsMoreForMoreAndNeverAsManyMetresAsTheGreedyTour) {
   const Smoke& s = smoke();
   const auto reaches = oracle_reaches(s.scenario, s.world, s.scene, s.reference, s.start, 2);
@@ -206,17 +194,6 @@ TEST(ViewSurvey, SkipsNoPositionWhereCamerasReachNoFartherThanFourSteps) {
   };
   EXPECT_FALSE(looks_from_odd_cells(0.6));
   EXPECT_TRUE(looks_from_odd_cells(0.65));
-}
-
-TEST(Ceiling, OfWhatIsSeenIsNoLowerThanOfWhatTheCloudKeeps) {
-  const Smoke& s = smoke();
-  const Ceiling ceiling = find_ceiling(s.scenario, s.world, s.scene, s.start, 2);
-  for (std::size_t size = 0; size < 3; ++size) {
-    EXPECT_GT(ceiling.leaf_raw[size], 0.0);
-    EXPECT_LE(ceiling.leaf_raw[size], ceiling.raw[size]);
-    EXPECT_LE(ceiling.leaf_outside[size], ceiling.outside[size]);
-    EXPECT_LE(ceiling.outside[size], 1.0);
-  }
 }
 
 TEST(CeilingCache, GivesBackWhatWasPutIn) {

@@ -333,14 +333,6 @@ TEST(Ceiling, LeavesLoseNothingOfSizesThatTheyDivide) {
   }
 }
 
-TEST(SeenSurface, IsTheSameOnAnyNumberOfThreads) {
-  const Setting smoke_setting("smoke");
-  const SeenSurface one = smoke_setting.seen(1);
-  const SeenSurface many = smoke_setting.seen(5);
-  EXPECT_EQ(one.voxels, many.voxels);
-  EXPECT_EQ(one.kept_world_m, many.kept_world_m);
-}
-
 TEST(LidarSight, SeesAFaceOfTheBoxAndNotItsInside) {
   Scenario scenario = load_scenario("smoke", {});
   TriangleMesh mesh;

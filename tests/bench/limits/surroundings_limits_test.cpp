@@ -2,13 +2,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "bench/limits/ceiling_cache.hpp"
+#include "bench/limits/free_yaw_camera.hpp"
 #include "bench/limits/lattice_ways.hpp"
 #include "bench/limits/legal_viewpoints.hpp"
 #include "bench/limits/lidar_sight.hpp"
 #include "bench/limits/sight_search.hpp"
 #include "scenarios/load.hpp"
+#include "sim/core/rng.hpp"
 #include "tests/bench/shapes.hpp"
+#include "tools/mission/load_world.hpp"
 #include "tools/mission/start_pose.hpp"
 
 namespace gnbv {
@@ -128,6 +133,111 @@ TEST(SurroundingsLimits, NoLidarSeesThroughAFence) {
   test::add_box(world.obstacles, Vec3(-1.2, -1.2, 0), Vec3(2.4, 2.4, 1.6), false);
   EXPECT_FALSE(is_seen(0.8));
   EXPECT_TRUE(is_seen(2.2));
+}
+
+CameraModel camera(double pitch_rad, const Vec3& p_body_m = Vec3::Zero()) {
+  CameraConfig config;
+  config.pitch_rad = pitch_rad;
+  config.p_body_m = p_body_m;
+  config.range_max_m = 5.0;
+  return make_camera_model(config);
+}
+
+/// Whether the point is in the image and range from there; `slack` widens both.
+bool is_in_image(const CameraModel& model, const ViewPose& view, const Vec3& point_m,
+                 double slack) {
+  const CameraConfig& c = model.config;
+  const Vec3 p = (T_world_body(view) * model.T_body_camera).inverse() * point_m;
+  return p.z() >= c.range_min_m - slack && p.z() <= c.range_max_m + slack &&
+         std::abs(p.x()) <= p.z() * std::tan(0.5 * c.fov_x_rad) + slack &&
+         std::abs(p.y()) <= p.z() * std::tan(0.5 * c.fov_y_rad) + slack;
+}
+
+Vec3 random_point(std::uint64_t index) {
+  const auto u = [&](std::uint64_t axis) {
+    return 12.0 * uniform01({9, Stream::bench, index, axis}) - 6.0;
+  };
+  return {u(0), u(1), u(2)};
+}
+
+TEST(FreeYawCamera, HasInItsImageWhatSomeYawHas) {
+  // the brute force: every tenth of a degree. The bearings tried leave out slivers between them.
+  constexpr double kSliver_m = 0.12;
+  for (const double pitch_rad : {0.0, 0.35, -0.8}) {
+    const CameraModel model = camera(pitch_rad, Vec3(0.1, 0.0, -0.2));
+    const FreeYawCamera free_yaw(model);
+    int found = 0;
+    int missed = 0;
+    for (std::uint64_t i = 0; i < 300; ++i) {
+      const Vec3 vehicle_m(0.5, -0.3, 0.2);
+      const Vec3 point_m = random_point(i);
+      bool some_yaw = false;
+      bool some_yaw_easily = false;
+      for (int k = 0; k < 3600; ++k) {
+        const ViewPose view{vehicle_m, 2.0 * kPi * k / 3600.0};
+        some_yaw = some_yaw || is_in_image(model, view, point_m, 0.02);
+        some_yaw_easily = some_yaw_easily || is_in_image(model, view, point_m, -kSliver_m);
+      }
+      const auto origin_m = free_yaw.origin_world_m(vehicle_m, point_m);
+      EXPECT_TRUE(!origin_m || some_yaw) << i;
+      missed += !origin_m && some_yaw_easily ? 1 : 0;
+      if (!origin_m) continue;
+      ++found;
+      EXPECT_NEAR((*origin_m - vehicle_m).norm(), model.config.p_body_m.norm(), 1e-9);
+      EXPECT_LE((point_m - vehicle_m).norm(), free_yaw.reach_m());
+    }
+    EXPECT_GT(found, 30);
+    EXPECT_LE(missed, 1) << found;
+  }
+}
+
+// What a ceiling depends on, and what not.
+
+std::string content_of(const std::string& set) {
+  return to_yaml(what_a_ceiling_depends_on(load_scenario("smoke", {set})));
+}
+
+std::string key_of(const Scenario& scenario) {
+  std::vector<std::string> warnings;
+  const World world = load_world(scenario, warnings);
+  const RayScene scene(world);
+  const ViewPose start = start_pose(scenario, scene);
+  return ceiling_key(scenario, world, find_legal_viewpoints(scenario, scene, start, 2));
+}
+
+TEST(WhatACeilingDependsOn, HasTheSameKeyOfTheCache) {
+  const Scenario scenario = load_scenario(
+      "smoke", {"cameras.0.noise.model=nguyen", "cameras.0.name=x", "cameras.0.rate_hz=3",
+                "planner.utility.name=isler", "planner.validity.collision_radius_m=0.6",
+                "planner.validity.z_min_m=0.9", "planner.cloud.leaf_m=0.07",
+                "planner.floor_z_m=0.2", "planner.profiling.method=circular", "seed=3",
+                "obstacles=[{box_m: {min: [2, 2, 0], max: [3, 3, 1]}}]",
+                "no_fly=[{min: [-3, 2, 0], max: [-2, 3, 1]}]",
+                "score.region_m={min: [-1, -1, 0], max: [1, 1, 1]}"});
+  EXPECT_EQ(key_of(what_a_ceiling_depends_on(scenario)), key_of(scenario));
+}
+
+TEST(WhatACeilingDependsOn, IsNotWhatOnlyDecidesBetweenViews) {
+  const std::string plain = content_of("seed=1");
+  for (const char* set :
+       {"planner.utility.name=isler", "planner.termination.max_iterations=3",
+        "planner.agvs.step_m=0.3", "planner.fvs.enabled=false", "planner.map.prob_hit=0.6",
+        "planner.validity.path=astar", "cameras.0.noise.model=nguyen", "cameras.0.rate_hz=2",
+        "guidance.path_speed_m_s=2", "vehicle.kind=ideal", "benchmark.stop_at_coverage=0.5",
+        "cameras.0.drop_probability=0.3", "wind.mean_m_s=[1, 0, 0]", "score.sizes_m=[0.2]"}) {
+    EXPECT_EQ(content_of(set), plain) << set;
+  }
+  for (const char* set :
+       {"seed=2", "cameras.0.range_max_m=4", "cameras.0.pitch_deg=9", "lidars.0.range_max_m=4",
+        "planner.cloud.leaf_m=0.1", "planner.map.resolution_m=0.1", "planner.floor_z_m=0.1",
+        "planner.validity.collision_radius_m=0.7", "planner.validity.z_min_m=0.9",
+        "planner.profiling.method=none", "workspace_m.max=[5, 4, 5]", "structure.ground=false",
+        "structure.builtin=lab_model", "start.position_m=[0, -3, 1.2]",
+        "obstacles=[{box_m: {min: [2, 2, 0], max: [3, 3, 1]}}]",
+        "no_fly=[{min: [2, 2, 0], max: [3, 3, 1]}]",
+        "score.region_m={min: [-1, -1, 0], max: [1, 1, 1]}"}) {
+    EXPECT_NE(content_of(set), plain) << set;
+  }
 }
 
 }  // namespace

@@ -3,11 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
 
 #include "assets/catalog.hpp"
-#include "bench/score/escape_search.hpp"
-#include "bench/score/surface_pieces.hpp"
+#include "bench/score/surface_samples.hpp"
 #include "tests/bench/shapes.hpp"
 
 namespace gnbv {
@@ -189,57 +187,6 @@ TEST(SurfaceReference, EmptyMeshAsksForNothing) {
   EXPECT_EQ(coverage_at_all_sizes(reference.outside, {}), (std::array<double, 3>{0, 0, 0}));
 }
 
-// A box with a slit, a box in it, and a sheet that crosses slabs of work.
-TriangleMesh cluttered() {
-  TriangleMesh mesh;
-  test::add_box(mesh, Vec3(-1.3, -1.1, 0.1), Vec3(2, 1.7, 1.4), false);
-  test::add_sheet(mesh, Vec3(-1.3, -1.1, 1.5), Vec3(1.8, 0, 0), Vec3(0, 1.7, 0));
-  test::add_box(mesh, Vec3(-0.9, -0.7, 0.4), Vec3(0.6, 0.7, 0.5));
-  test::add_sheet(mesh, Vec3(-2.2, 1.0, 0.2), Vec3(4, 0.3, 0.4), Vec3(0.1, 0.7, 1));
-  return mesh;
-}
-
-TEST(SurfaceReference, IsMadeOfTheAreasThatSeeOut) {
-  // the slow way: every sample asked for itself, every area summed in a map
-  const World world{cluttered(), true};
-  const RayScene scene(world);
-  const ReferenceConfig config{.fewest_samples = 0};
-  std::array<std::map<std::uint64_t, double>, 3> raw_m2, outside_m2;
-  const Slabs slabs = make_slabs(world.structure, config.floor_z_m);
-  for (std::size_t slab = 0; slab < slabs.faces.size(); ++slab) {
-    for (const std::uint32_t face : slabs.faces[slab]) {
-      for_each_piece(world.structure, face, slabs.slab(slab), config.floor_z_m,
-                     [&](const SurfacePiece& piece) {
-                       std::vector<SurfaceSample> samples;
-                       for (std::size_t k = 0; k < points_on(piece, config.sample_spacing_m); ++k) {
-                         samples.push_back({point_on(piece, k), face});
-                       }
-                       const auto out = samples_seeing_out(world, scene, samples, config, 1);
-                       const auto seen = std::count(out.begin(), out.end(), 1);
-                       for (std::size_t i = 0; i < 3; ++i) {
-                         const std::uint64_t code = coarser_code(piece.voxel, kCoverageFactors[i]);
-                         raw_m2[i][code] += piece.area_m2;
-                         outside_m2[i][code] += piece.area_m2 * static_cast<double>(seen) /
-                                                static_cast<double>(samples.size());
-                       }
-                     });
-    }
-  }
-  const auto rich = [](const std::map<std::uint64_t, double>& areas_m2, double size_m) {
-    VoxelSet voxels;
-    for (const auto& [code, area_m2] : areas_m2) {
-      if (area_m2 >= 0.1 * size_m * size_m * (1.0 - 1e-9)) voxels.push_back(code);
-    }
-    return voxels;
-  };
-  const SurfaceReference reference = make_surface_reference(world, scene, config, 2);
-  for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(reference.raw[i], rich(raw_m2[i], kCoverageSizes_m[i]));
-    EXPECT_EQ(reference.outside[i], rich(outside_m2[i], kCoverageSizes_m[i]));
-  }
-  EXPECT_LT(reference.outside[0].size(), reference.raw[0].size());
-}
-
 /// The voxels that are in one of the two, as a share of the first.
 double unlike(const VoxelSet& a, const VoxelSet& b) {
   const auto both = static_cast<double>(common(a, b));
@@ -261,15 +208,6 @@ TEST(SurfaceReference, HalvingTheSpacingMovesCoverageByLessThanAFifthOfAPoint) {
       EXPECT_EQ(coarse.raw[i], fine.raw[i]) << name;
       EXPECT_LT(unlike(coarse.outside[i], fine.outside[i]), 0.002) << name << " " << i;
     }
-  }
-}
-
-TEST(SurfaceReference, IsTheSameOnAnyNumberOfThreads) {
-  const SurfaceReference one = reference_of(cluttered(), 1);
-  for (const int threads : {2, 5}) {
-    const SurfaceReference many = reference_of(cluttered(), threads);
-    EXPECT_EQ(one.raw, many.raw);
-    EXPECT_EQ(one.outside, many.outside);
   }
 }
 

@@ -2,10 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
+#include "bench/score/escape_search.hpp"
+#include "bench/score/point_tree.hpp"
+#include "bench/score/surface_pieces.hpp"
+#include "bench/score/voxel_set.hpp"
 #include "sim/core/rng.hpp"
+#include "tests/bench/shapes.hpp"
 
 namespace gnbv {
 namespace {
@@ -94,6 +102,143 @@ TEST(SurfaceSamples, AreAsManyAsTheAreaAsks) {
   const auto count = static_cast<double>(sample_surface(square, 0.02).size());
   EXPECT_GE(count, expected);
   EXPECT_LE(count, 1.05 * expected);
+}
+
+/// Triangles of all shapes, from a millimetre to metres, some along the voxels' planes.
+TriangleMesh corner_soup() {
+  TriangleMesh mesh;
+  test::add_sheet(mesh, Vec3(1.0, -1.0, 0.5), Vec3(0, 2.0, 0), Vec3(0, 0, 1.5));  // x = 1 exactly
+  test::add_sheet(mesh, Vec3(-0.3, -0.3, 0.05), Vec3(0.6, 0, 0), Vec3(0, 0.6, 0));
+  for (std::uint64_t i = 0; i < 40; ++i) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices_m.size());
+    const double size_m = std::pow(10.0, -3.0 + 3.5 * uniform01({5, Stream::bench, i, 9}));
+    for (std::uint64_t k = 0; k < 3; ++k) {
+      const auto u = [&](std::uint64_t axis) {
+        return uniform01({5, Stream::bench, i, 3 * k + axis}) - 0.5;
+      };
+      mesh.vertices_m.push_back(
+          (Vec3(0.4, -0.7, 1.1) + size_m * Vec3(u(0), u(1), u(2))).cast<float>());
+    }
+    mesh.faces.push_back({first, first + 1, first + 2});
+  }
+  return mesh;
+}
+
+template <typename Use>
+void for_all_pieces(const TriangleMesh& mesh, double floor_z_m, const Use& use) {
+  const Slabs slabs = make_slabs(mesh, floor_z_m);
+  for (std::size_t slab = 0; slab < slabs.faces.size(); ++slab) {
+    for (const std::uint32_t face : slabs.faces[slab]) {
+      for_each_piece(mesh, face, slabs.slab(slab), floor_z_m, use);
+    }
+  }
+}
+
+TEST(SurfacePieces, OfAFaceHaveItsArea) {
+  const TriangleMesh mesh = corner_soup();
+  std::vector<double> sums_m2(mesh.faces.size(), 0.0);
+  for_all_pieces(mesh, -10.0,
+                 [&](const SurfacePiece& piece) { sums_m2[piece.face] += piece.area_m2; });
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto corner = [&](std::size_t k) {
+      return mesh.vertices_m[mesh.faces[f][k]].cast<double>();
+    };
+    const double area_m2 =
+        0.5 * Vec3(corner(1) - corner(0)).cross(Vec3(corner(2) - corner(0))).norm();
+    EXPECT_NEAR(sums_m2[f], area_m2, 1e-9 * area_m2 + 1e-15) << f;
+  }
+}
+
+TEST(SurfacePieces, EndAtTheFloor) {
+  TriangleMesh wall;
+  test::add_sheet(wall, Vec3(0.01, 0.0, 0.0), Vec3(1, 0, 0), Vec3(0, 0, 1));
+  double area_m2 = 0.0;
+  for_all_pieces(wall, 0.32, [&](const SurfacePiece& piece) {
+    area_m2 += piece.area_m2;
+    for (const Vec3& p : piece.corners_world_m) EXPECT_GE(p.z(), 0.32);
+  });
+  EXPECT_NEAR(area_m2, 0.68, 1e-7);
+}
+
+TEST(SurfacePieces, AndTheirPointsLieInTheirVoxel) {
+  for_all_pieces(corner_soup(), -10.0, [](const SurfacePiece& piece) {
+    const Vec3 centre_m = voxel_centre_m(piece.voxel, kCoverageSizes_m[0]);
+    for (const Vec3& p : piece.corners_world_m) {
+      EXPECT_LE((p - centre_m).cwiseAbs().maxCoeff(), 0.025 + 1e-12);
+    }
+    for (std::size_t k = 0; k < points_on(piece, 0.01); ++k) {
+      ASSERT_EQ(voxel_code(point_on(piece, k), kCoverageSizes_m[0]), piece.voxel);
+    }
+  });
+}
+
+TEST(SurfacePieces, PointsSpreadEvenlyOverThem) {
+  // a square voxel's face: of any of its quarters, a quarter of the points
+  TriangleMesh sheet;
+  test::add_sheet(sheet, Vec3(0, 0, 1.02), Vec3(0.05, 0, 0), Vec3(0, 0.05, 0));
+  std::array<int, 4> quarters{};
+  int all = 0;
+  for_all_pieces(sheet, 0.0, [&](const SurfacePiece& piece) {
+    for (std::size_t k = 0; k < points_on(piece, 0.001); ++k) {
+      const Vec3f p = point_on(piece, k);
+      ++quarters[(p.x() < 0.025F ? 0U : 1U) + (p.y() < 0.025F ? 0U : 2U)];
+      ++all;
+    }
+  });
+  EXPECT_NEAR(all, 2500, 10);  // rounded a piece
+  for (const int count : quarters) EXPECT_NEAR(count, 0.25 * all, 0.01 * all);
+}
+
+TEST(PointTree, FindsWhatASearchOfAllFindsNearestFirst) {
+  const std::vector<Vec3f> points = spread_directions(500);
+  const PointTree tree(points);
+  for (const Vec3f& query : {Vec3f(0, 0, 0.9F), Vec3f(2, 1, 0), Vec3f(-0.3F, 0.2F, 0.1F)}) {
+    std::array<Neighbour, 7> found{};
+    ASSERT_EQ(tree.nearest(query, found).size(), found.size());
+    std::vector<float> all_m;
+    for (const Vec3f& p : points) all_m.push_back((p - query).norm());
+    std::sort(all_m.begin(), all_m.end());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_NEAR(found[i].distance_m, all_m[i], 1e-6F);
+      EXPECT_NEAR((points[found[i].point] - query).norm(), all_m[i], 1e-6F);
+    }
+  }
+  std::array<Neighbour, 3> found{};
+  EXPECT_EQ(PointTree(std::span(points).first(2)).nearest(Vec3f::Zero(), found).size(), 2U);
+}
+
+TEST(PointTree, WithABoundItFindsWhatLiesNearerAndNothingElse) {
+  const std::vector<Vec3f> points = {Vec3f(1, 0, 0), Vec3f(0, 2, 0), Vec3f(0, 0, 3)};
+  const PointTree tree(points);
+  std::array<Neighbour, 3> found{};
+  const auto count_below = [&](float below_m) {
+    return tree.nearest(Vec3f::Zero(), found, below_m).size();
+  };
+  EXPECT_EQ(count_below(0.5F), 0U);
+  EXPECT_EQ(count_below(1.0F), 0U) << "nearer, not as near";
+  EXPECT_EQ(count_below(2.5F), 2U);
+  EXPECT_EQ(found[1].point, 1U);
+  EXPECT_EQ(count_below(100.0F), 3U);
+}
+
+TEST(PointTree, OfPointsEquallyFarItFindsTheFirstOnes) {
+  std::vector<Vec3f> grid;
+  for (int i = 0; i < 1000; ++i) {  // the lower index is not always the one the tree meets first
+    const int j = (i * 387) % 1000;
+    grid.emplace_back(j % 10, j / 10 % 10, j / 100);
+  }
+  const PointTree tree(grid);
+  for (std::uint32_t i = 0; i < grid.size(); i += 7) {
+    const Vec3f query = grid[i] + Vec3f(i % 2 == 0 ? 0.0F : 0.5F, 0.0F, 0.0F);
+    std::array<Neighbour, 9> found{};
+    ASSERT_EQ(tree.nearest(query, found).size(), found.size());
+    std::vector<std::pair<float, std::uint32_t>> all;
+    for (std::uint32_t k = 0; k < grid.size(); ++k) {
+      all.emplace_back((grid[k] - query).squaredNorm(), k);
+    }
+    std::sort(all.begin(), all.end());
+    for (std::size_t k = 0; k < found.size(); ++k) EXPECT_EQ(found[k].point, all[k].second) << i;
+  }
 }
 
 }  // namespace

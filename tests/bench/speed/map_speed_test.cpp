@@ -2,24 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/core/simd.hpp"
-
 namespace gnbv {
 namespace {
-
-TEST(MapSpeed, MapsAreIdenticalToOctomapsAtEveryLevel) {
-  const std::vector<SpeedRow> rows = map_speed();
-  ASSERT_EQ(rows.size(), simd_level() == SimdLevel::baseline ? 2U : 3U);
-  for (const SpeedRow& row : rows) {
-    EXPECT_TRUE(row.identical) << row.name;
-    // on any machine ours is faster than both, and one ray a voxel than one a pixel; aimed for are
-    // factors of ten and more
-    ASSERT_TRUE(row.competent.has_value());
-    EXPECT_GT(ratio(row), 1.0) << row.name;
-    EXPECT_GT(*competent_ratio(row), 1.0) << row.name;
-    EXPECT_GT(ratio(row), *competent_ratio(row)) << row.name;
-  }
-}
 
 TEST(SpeedRows, RatiosSayHowManyTimesAsFastOursIs) {
   const SpeedRow faster{.ours = 2.0, .reference = 30.0, .competent = 10.0};

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "bench/reference/octomap_twin.hpp"
+#include "planner/map/grid_geometry.hpp"
+#include "planner/planners.hpp"
 #include "sim/core/error.hpp"
 #include "tests/planner/map/random_points.hpp"
 
@@ -102,15 +104,6 @@ TEST(OccupancyGrid, NoVoxelIsSettledWhereWordsCannotTell) {
   }
 }
 
-TEST(OccupancyGrid, EntropyIsEquationOneOfTheProbability) {
-  OccupancyGrid grid = small_grid();
-  grid.apply({.free = {0}, .occupied = {1}});
-  // float32 results: relative 6e-8, and p off by 1e-7 times a slope below 1
-  EXPECT_NEAR(grid.entropy_nat(0), entropy_nat(0.4), 2e-7);
-  EXPECT_NEAR(grid.entropy_nat(1), entropy_nat(0.7), 2e-7);
-  EXPECT_NEAR(grid.entropy_nat(0), 0.6730117, 2e-7);
-}
-
 ScanUpdate random_update(Random& random, VoxelIndex voxels) {
   ScanUpdate update;
   for (VoxelIndex v = 0; v < voxels; ++v) {
@@ -172,6 +165,40 @@ TEST(OccupancyGrid, RefusesProbabilitiesOutOfOrder) {
     spoil(config);
     EXPECT_THROW(OccupancyGrid(config, kBox_m), BadInput);
   }
+}
+
+const Box3 kSmallBox_m(Vec3(-2.05, -2, 0), Vec3(2, 2, 2));
+
+double voxels_of(const Box3& box_m, double resolution_m) {
+  return static_cast<double>(GridGeometry(box_m, resolution_m).voxel_count());
+}
+
+TEST(MapBytes, AreNoLessThanWhatEveryVoxelHolds) {
+  const double voxels = voxels_of(kSmallBox_m, 0.2);
+  const double bytes = map_bytes(kSmallBox_m, 0.2, 1, 2);
+  EXPECT_GE(bytes, 22.0 * voxels);
+  EXPECT_GE(map_bytes(kSmallBox_m, 0.2, 4, 2), bytes + 6.0 * voxels);
+  EXPECT_EQ(map_bytes(kSmallBox_m, 0.2, 1, 5), bytes + 3.0 * voxels);
+}
+
+TEST(MapBytes, OfAQuarterOfABillionVoxelsAreWithinTheBudget) {
+  const Box3 fine_m(Vec3(-20, -20, 0), Vec3(20, 20, 20));
+  const Box3 wide_m(Vec3(-100, -100, 0), Vec3(100, 100, 50));
+  EXPECT_EQ(voxels_of(fine_m, 0.05), 256e6);
+  EXPECT_EQ(voxels_of(wide_m, 0.2), 250e6);
+  for (const auto& [box_m, resolution_m] : {std::pair{fine_m, 0.05}, std::pair{wide_m, 0.2}}) {
+    EXPECT_LT(map_bytes(box_m, resolution_m, 2, 2), kMapBudget_bytes);
+    EXPECT_GT(map_bytes(box_m, resolution_m, 4, 2), kMapBudget_bytes);
+  }
+}
+
+TEST(PlanningBytes, HoldWhatATourKeepsOfEveryVoxelAndCell) {
+  PlannerConfig config;
+  const double map = map_bytes(kSmallBox_m, config.map.resolution_m, 2, 2);
+  EXPECT_EQ(planning_bytes(config, kSmallBox_m, 2, 2), map);
+  config.utility.name = "tour";
+  const double open_space = 5.0 * voxels_of(kSmallBox_m, config.map.resolution_m);
+  EXPECT_GT(planning_bytes(config, kSmallBox_m, 2, 2), map + open_space);
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "planner/map/octomap_io.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <bit>
@@ -12,6 +11,8 @@
 #include "planner/map/scan_insertion.hpp"
 #include "sim/core/error.hpp"
 #include "tests/planner/map/random_points.hpp"
+#include "tests/support/fault.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace gnbv {
 namespace {
@@ -19,11 +20,6 @@ namespace {
 class OctomapFiles : public ::testing::Test {
  protected:
   OctomapFiles() : grid_(OccupancyConfig{}, Box3(Vec3(-3, -2, 0), Vec3(3, 2, 2))) {
-    folder_ =
-        std::filesystem::temp_directory_path() /
-        (std::string("gnbv_") + ::testing::UnitTest::GetInstance()->current_test_info()->name() +
-         "_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
     Random random(53);
     for (int scan = 0; scan < 12; ++scan) {
       const Vec3f origin_m = random.point_in(Box3(Vec3(-2, -1, 0.5), Vec3(2, 1, 1.5)));
@@ -34,11 +30,6 @@ class OctomapFiles : public ::testing::Test {
       grid_.apply(FanWalker(grid_.geometry()).compute_update(origin_m, rays));
     }
   }
-  ~OctomapFiles() override {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
-
   std::size_t measured_count() const {
     std::size_t count = 0;
     for (VoxelIndex v = 0; v < grid_.geometry().voxel_count(); ++v) {
@@ -47,7 +38,8 @@ class OctomapFiles : public ::testing::Test {
     return count;
   }
 
-  std::filesystem::path folder_;
+  TempFolder temp_;
+  const std::filesystem::path& folder_ = temp_.path();
   OccupancyGrid grid_;
 };
 
@@ -144,12 +136,8 @@ TEST_F(OctomapFiles, AMapThatNothingTouchedIsAValidFile) {
 }
 
 TEST_F(OctomapFiles, AFolderThatIsNotThereIsNamed) {
-  try {
-    write_octomap(grid_, folder_ / "nowhere" / "map");
-    FAIL();
-  } catch (const BadInput& error) {
-    EXPECT_NE(std::string(error.what()).find("nowhere"), std::string::npos) << error.what();
-  }
+  EXPECT_TRUE(test::says(test::fault_of([&] { write_octomap(grid_, folder_ / "nowhere" / "map"); }),
+                         {"nowhere"}));
 }
 
 }  // namespace

@@ -2,9 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
+
+#include "bench/reference/depth_rays.hpp"
 #include "bench/reference/octomap_twin.hpp"
+#include "planner/map/scan_insertion.hpp"
+#include "planner/map/scan_rays.hpp"
 #include "sim/core/error.hpp"
+#include "tests/planner/map/frames.hpp"
 #include "tests/planner/map/random_points.hpp"
+#include "tests/support/at_simd_level.hpp"
 
 namespace gnbv {
 namespace {
@@ -120,6 +127,159 @@ TEST(GridGeometry, RefusesWhatItCannotHold) {
   EXPECT_THROW(GridGeometry(Box3(Vec3(0, 0, 0), Vec3(1, 0, 1)), 0.1), BadInput);
   EXPECT_THROW(GridGeometry(Box3(Vec3(0, 0, 0), Vec3(4000, 1, 1)), 0.1), BadInput);
   EXPECT_THROW(GridGeometry(Box3(Vec3(0, 0, 0), Vec3(2000, 2000, 200)), 0.1), BadInput);
+}
+
+constexpr double kFloor_m = 0.3;
+
+CameraModel small_camera() {
+  CameraConfig config;
+  config.width_px = 4;
+  config.height_px = 2;
+  return make_camera_model(config);
+}
+
+DepthFrame frame_of(const CameraModel& camera, float depth_m) {
+  DepthFrame frame;
+  frame.T_world_camera = T_world_body({Vec3(1, 2, 5), deg_to_rad(30.0)}) * camera.T_body_camera;
+  frame.depth_m.assign(8, depth_m);
+  return frame;
+}
+
+Vec3 in_camera(const DepthFrame& frame, const ScanRay& ray) {
+  return frame.T_world_camera.inverse() * ray.end_world_m.cast<double>();
+}
+
+// float32 coordinates below 16 m are rounded by up to 5e-7
+constexpr double kFloatSlack_m = 1e-6;
+
+TEST(RaysOf, ReturnsLieAtTheirDepthAlongTheirPixelsRay) {
+  const CameraModel camera = small_camera();
+  const DepthFrame frame = frame_of(camera, 3.0F);
+  const std::vector<ScanRay> rays = rays_of(frame, camera, kFloor_m);
+  ASSERT_EQ(rays.size(), 8U);
+  for (int v = 0; v < 2; ++v) {
+    for (int u = 0; u < 4; ++u) {
+      const ScanRay& ray = rays[static_cast<std::size_t>(4 * v + u)];
+      EXPECT_TRUE(ray.hit);
+      const Vec3 expected_m = 3.0 * camera.ray_camera(u, v).cast<double>();
+      EXPECT_LT((in_camera(frame, ray) - expected_m).norm(), 2.0 * kFloatSlack_m);
+    }
+  }
+}
+
+TEST(RaysOf, NoReturnClearsToThePlaneAtMaximumRange) {
+  const CameraModel camera = small_camera();
+  for (const float depth_m : {kNoReturn, 8.1F}) {
+    const DepthFrame frame = frame_of(camera, depth_m);
+    const std::vector<ScanRay> rays = rays_of(frame, camera, kFloor_m);
+    ASSERT_EQ(rays.size(), 8U);
+    for (const ScanRay& ray : rays) {
+      EXPECT_FALSE(ray.hit);
+      EXPECT_NEAR(in_camera(frame, ray).z(), 8.0, kFloatSlack_m);  // a plane, not a sphere
+    }
+  }
+}
+
+TEST(RaysOf, InvalidOrTooNearGivesNoRay) {
+  const CameraModel camera = small_camera();
+  for (const float depth_m : {kInvalidRange, 0.29F, 0.0F, -1.0F}) {
+    EXPECT_TRUE(rays_of(frame_of(camera, depth_m), camera, kFloor_m).empty()) << depth_m;
+  }
+  EXPECT_EQ(rays_of(frame_of(camera, 0.3F), camera, kFloor_m).size(), 8U);
+  EXPECT_EQ(rays_of(frame_of(camera, 8.0F), camera, kFloor_m).size(), 8U);
+}
+
+TEST(RaysOf, TheFloorClearsButMarksNothing) {
+  const CameraModel camera = small_camera();
+  const DepthFrame frame = frame_of(camera, 4.0F);
+  for (const ScanRay& ray : rays_of(frame, camera, 5.0)) {  // the horizon is the floor
+    EXPECT_EQ(ray.hit, ray.end_world_m.z() > 5.0F);
+  }
+  EXPECT_EQ(rays_of(frame, camera, 100.0).size(), 8U);
+}
+
+TEST(RaysOf, RefusesAFrameOfAnotherSize) {
+  const CameraModel camera = small_camera();
+  DepthFrame frame = frame_of(camera, 4.0F);
+  frame.depth_m.pop_back();
+  EXPECT_THROW(rays_of(frame, camera, kFloor_m), BrokenInvariant);
+}
+
+TEST(RaysOf, LidarRangesAreSpherical) {
+  LidarConfig lidar;
+  lidar.beams = 5;
+  LidarScan scan;
+  scan.T_world_lidar = T_world_body({Vec3(1, 2, 20), 0.3}) * T_body_lidar(lidar);
+  scan.range_m = {kNoReturn, kInvalidRange, 7.0F, 31.0F, 0.05F};
+  const std::vector<ScanRay> rays = rays_of(scan, make_lidar_model(lidar), kFloor_m);
+  ASSERT_EQ(rays.size(), 3U);
+  const std::array<double, 3> range_m = {30.0, 7.0, 30.0};
+  const std::array<int, 3> beam = {0, 2, 3};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 expected_m =
+        scan.T_world_lidar * (range_m[i] * beam_lidar(lidar, beam[i]).cast<double>());
+    // float32 coordinates below 64 m
+    EXPECT_LT((rays[i].end_world_m.cast<double>() - expected_m).norm(), 5e-6);
+    EXPECT_EQ(rays[i].hit, i == 1);
+  }
+}
+
+const Box3 kSmallBox_m(Vec3(-20, -20, 0), Vec3(20, 20, 20));
+
+/// The pixels that say something, as rays_of gives them.
+std::vector<ScanRay> compact(const FrameRays& rays) {
+  std::vector<ScanRay> each;
+  for (std::size_t i = 0; i < rays.kind.size(); ++i) {
+    if (rays.kind[i] == PixelRay::none) continue;
+    each.push_back({rays.end_world_m(i), rays.kind[i] == PixelRay::hits});
+  }
+  return each;
+}
+
+void expect_same_bits(const Vec3f& a, const Vec3f& b) {
+  for (int axis = 0; axis < 3; ++axis) {
+    ASSERT_EQ(std::bit_cast<std::uint32_t>(a[axis]), std::bit_cast<std::uint32_t>(b[axis]));
+  }
+}
+
+class FrameRaysAt : public AtSimdLevel {};
+
+TEST_P(FrameRaysAt, EqualRaysOfBitForBitAtEveryWidth) {
+  Random random(5);
+  FrameRays rays;  // reused: a small frame after a large one
+  for (const int width_px : {64, 37, 16, 15, 3, 1}) {
+    CameraModel camera = camera_of(width_px, 11, 60.0, 45.0);
+    for (const double range_max_m : {8.0, 8.1}) {  // 8.1 is more than 8.1 as float32
+      camera.config.range_max_m = range_max_m;
+      DepthFrame frame;
+      frame.T_world_camera = random_pose(random, kSmallBox_m);
+      frame.depth_m = noise_depths(random, camera);
+      frame.depth_m.front() = static_cast<float>(range_max_m);
+      frame.depth_m.back() = 0.3F;
+      const double floor_z_m = frame.T_world_camera.translation().z() - 0.5;
+      const std::vector<ScanRay> expected = rays_of(frame, camera, floor_z_m);
+      compute_frame_rays(frame, camera, floor_z_m, rays);
+      ASSERT_EQ(rays.end_m[0].size(), frame.depth_m.size());
+      const std::vector<ScanRay> each = compact(rays);
+      ASSERT_EQ(each.size(), expected.size());
+      for (std::size_t i = 0; i < each.size(); ++i) {
+        expect_same_bits(each[i].end_world_m, expected[i].end_world_m);
+        ASSERT_EQ(each[i].hit, expected[i].hit);
+      }
+      expect_same_bits(rays.origin_world_m,
+                       Vec3f(frame.T_world_camera.translation().cast<float>()));
+    }
+  }
+}
+
+GNBV_AT_EVERY_SIMD_LEVEL(FrameRaysAt);
+
+TEST(FrameRays, RefuseAFrameOfAnotherSize) {
+  const CameraModel camera = camera_of(4, 2, 60.0, 45.0);
+  DepthFrame frame;
+  frame.depth_m.assign(7, 1.0F);
+  FrameRays rays;
+  EXPECT_THROW(compute_frame_rays(frame, camera, 0.0, rays), BrokenInvariant);
 }
 
 }  // namespace

@@ -47,32 +47,39 @@ std::vector<ScanRay> random_rays(Random& random, const Vec3f& origin_m, int coun
   return rays;
 }
 
+/// A map of ours and one of OctoMap's, which see the same.
+struct Both {
+  explicit Both(const Box3& box_m, double resolution_m = OccupancyConfig{}.resolution_m)
+      : grid(OccupancyConfig{.resolution_m = resolution_m}, box_m),
+        walker(grid.geometry()),
+        twin(grid.config()) {}
+  void insert(const Vec3f& origin_m, const std::vector<ScanRay>& rays) {
+    grid.apply(walker.compute_update(origin_m, rays));
+    twin.insert(origin_m, rays);
+  }
+  OccupancyGrid grid;
+  FanWalker walker;
+  OctomapTwin twin;
+};
+
 class ScanInsertionAt : public AtSimdLevel {};
 
 TEST_P(ScanInsertionAt, GridEqualsOctomapVoxelByVoxel) {
   for (const double resolution_m : {0.2, 0.07, 0.05}) {
-    OccupancyConfig config;
-    config.resolution_m = resolution_m;
-    OccupancyGrid grid(config, kBox_m);
-    FanWalker walker(grid.geometry());
-    OctomapTwin twin(config);
+    Both maps(kBox_m, resolution_m);
     Random random(23);
     for (int scan = 0; scan < 9; ++scan) {
       Vec3f origin_m = random.point_in(kBox_m);
       if (scan == 3) origin_m = {-4.0F, 0.0F, 1.0F};  // outside, looking in
       if (scan == 5) origin_m = {0.0F, 0.2F, 1.0F};   // on voxel borders
-      const std::vector<ScanRay> rays = random_rays(random, origin_m, 400);
-      grid.apply(walker.compute_update(origin_m, rays));
-      twin.insert(origin_m, rays);
+      maps.insert(origin_m, random_rays(random, origin_m, 400));
     }
-    expect_equal(grid, twin);
+    expect_equal(maps.grid, maps.twin);
   }
 }
 
 TEST_P(ScanInsertionAt, RaysFromOutsideTheGridEqualOctomapVoxelByVoxel) {
-  OccupancyGrid grid(OccupancyConfig{}, kBox_m);
-  FanWalker walker(grid.geometry());
-  OctomapTwin twin(grid.config());
+  Both maps(kBox_m);
   Random random(29);
   const Box3 around_m(kBox_m.min() - Vec3::Constant(1.0), kBox_m.max() + Vec3::Constant(1.0));
   int outside = 0;
@@ -82,30 +89,23 @@ TEST_P(ScanInsertionAt, RaysFromOutsideTheGridEqualOctomapVoxelByVoxel) {
     if (outside % 3 == 0) origin_m.x() = static_cast<float>(kBox_m.min().x()) - 1e-3F;
     if (kBox_m.contains(origin_m.cast<double>())) continue;
     ++outside;
-    const std::vector<ScanRay> rays = random_rays(random, origin_m, 200);
-    grid.apply(walker.compute_update(origin_m, rays));
-    twin.insert(origin_m, rays);
+    maps.insert(origin_m, random_rays(random, origin_m, 200));
   }
-  expect_equal(grid, twin);
+  expect_equal(maps.grid, maps.twin);
 }
 
 // where borders of two or three axes are crossed at once, OctoMap's order decides
 TEST_P(ScanInsertionAt, RaysAlongDiagonalsEqualOctomapVoxelByVoxel) {
   for (const double resolution_m : {0.2, 0.25}) {  // the second one's half is exact: all tie
-    OccupancyConfig config;
-    config.resolution_m = resolution_m;
-    OccupancyGrid grid(config, Box3(Vec3(-1, -1, -1), Vec3(1.2, 1.2, 1.2)));
-    FanWalker walker(grid.geometry());
-    OctomapTwin twin(config);
+    Both maps(Box3(Vec3(-1, -1, -1), Vec3(1.2, 1.2, 1.2)), resolution_m);
     const Vec3f origin_m = Vec3f::Constant(static_cast<float>(0.5 * resolution_m));
     std::vector<ScanRay> rays;
     for (int direction = 0; direction < 27; ++direction) {
       const Eigen::Vector3i towards(direction % 3 - 1, direction / 3 % 3 - 1, direction / 9 - 1);
       rays.push_back({origin_m + 0.8F * towards.cast<float>(), false});
     }
-    grid.apply(walker.compute_update(origin_m, rays));
-    twin.insert(origin_m, rays);
-    expect_equal(grid, twin);
+    maps.insert(origin_m, rays);
+    expect_equal(maps.grid, maps.twin);
   }
 }
 
@@ -113,18 +113,15 @@ TEST_P(ScanInsertionAt, GridsOfOneRowOrLayerEqualOctomapVoxelByVoxel) {
   for (const Vec3& size_m : {Vec3(6, 0.2, 0.2), Vec3(0.2, 6, 0.2), Vec3(0.2, 0.2, 6),
                              Vec3(6, 4, 0.2), Vec3(0.2, 4, 6)}) {
     const Box3 box_m(Vec3::Zero(), size_m);
-    OccupancyGrid grid(OccupancyConfig{}, box_m);
-    FanWalker walker(grid.geometry());
-    OctomapTwin twin(grid.config());
+    Both maps(box_m);
     Random random(41);
     for (int scan = 0; scan < 5; ++scan) {
       const Vec3f origin_m = random.point_in(box_m);
       std::vector<ScanRay> rays;
       for (int i = 0; i < 100; ++i) rays.push_back({random.point_in(box_m), i % 2 == 0});
-      grid.apply(walker.compute_update(origin_m, rays));
-      twin.insert(origin_m, rays);
+      maps.insert(origin_m, rays);
     }
-    expect_equal(grid, twin);
+    expect_equal(maps.grid, maps.twin);
   }
 }
 
@@ -149,21 +146,17 @@ TEST_P(ScanInsertionAt, DepthFramesEqualOctomapVoxelByVoxel) {
   camera_config.pitch_rad = deg_to_rad(20.0);
   const CameraModel camera = make_camera_model(camera_config);
   const AnalyticScene scene = example_scene();
-  OccupancyGrid grid(OccupancyConfig{}, Box3(Vec3(-10, -10, 0), Vec3(10, 10, 8)));
-  FanWalker walker(grid.geometry());
-  OctomapTwin twin(grid.config());
+  Both maps(Box3(Vec3(-10, -10, 0), Vec3(10, 10, 8)));
   for (int view = 0; view < 12; ++view) {
     const double angle_rad = view * kPi / 6.0;
     const ViewPose pose = {Vec3(8.0 * std::cos(angle_rad), 8.0 * std::sin(angle_rad), 5.0),
                            angle_rad + kPi};
     const DepthFrame frame = analytic_depth(scene, camera, T_world_body(pose));
     const Vec3f origin_m = frame.T_world_camera.translation().cast<float>();
-    const std::vector<ScanRay> rays = rays_of(frame, camera, 0.3);
-    grid.apply(walker.compute_update(origin_m, rays));
-    twin.insert(origin_m, rays);
+    maps.insert(origin_m, rays_of(frame, camera, 0.3));
   }
-  EXPECT_GT(grid.occupied_count(), 300U);
-  expect_equal(grid, twin);
+  EXPECT_GT(maps.grid.occupied_count(), 300U);
+  expect_equal(maps.grid, maps.twin);
 }
 
 std::vector<LidarScan> example_scans(const LidarConfig& lidar, int count) {
@@ -190,59 +183,6 @@ TEST(ScanInsertion, LidarSweepsEqualOctomapVoxelByVoxel) {
   expect_equal(grid, twin);
 }
 
-TEST(ScanInsertion, BatchOfSweepsIsTheSameAtAnyThreadCount) {
-  LidarConfig lidar;
-  lidar.beams = 90;
-  const LidarModel model = make_lidar_model(lidar);
-  const std::vector<LidarScan> scans = example_scans(lidar, 130);  // more than one batch
-  const Box3 box_m(Vec3(-10, -10, 0), Vec3(10, 10, 8));
-  OccupancyGrid one(OccupancyConfig{}, box_m);
-  ScanInserter(one.geometry()).insert_scans(one, scans, {&model, 1}, 0.3, 1);
-  for (const int threads : {2, 5}) {
-    OccupancyGrid many(OccupancyConfig{}, box_m);
-    ScanInserter(many.geometry()).insert_scans(many, scans, {&model, 1}, 0.3, threads);
-    EXPECT_TRUE(std::ranges::equal(one.all_log_odds(), many.all_log_odds()));
-    EXPECT_EQ(one.total_entropy_nat(), many.total_entropy_nat());
-  }
-}
-
-TEST(ScanInsertion, UpdateIsTheSameWithUsedMemory) {
-  const GridGeometry grid(kBox_m, 0.1);
-  Random random(31);
-  const Vec3f origin_m(0.3F, -0.2F, 1.1F);
-  const std::vector<ScanRay> rays = random_rays(random, origin_m, 60000);
-  FanWalker walker(grid);
-  const ScanUpdate one = walker.compute_update(origin_m, rays);
-  EXPECT_GT(one.free.size(), 10000U);
-  EXPECT_GT(one.occupied.size(), 1000U);
-  const ScanUpdate again = walker.compute_update(origin_m, rays);
-  EXPECT_EQ(again.free, one.free);
-  EXPECT_EQ(again.occupied, one.occupied);
-}
-
-TEST_P(ScanInsertionAt, EachVoxelIsListedOnceAndOccupiedWins) {
-  const GridGeometry grid(kBox_m, 0.2);
-  Random random(37);
-  const Vec3f origin_m(0.3F, -0.2F, 1.1F);
-  const std::vector<ScanRay> rays = random_rays(random, origin_m, 40000);
-  const ScanUpdate update = FanWalker(grid).compute_update(origin_m, rays);
-  std::vector<int> listed(grid.voxel_count(), 0);
-  for (const VoxelIndex v : update.free) ++listed[v];
-  for (const VoxelIndex v : update.occupied) ++listed[v];
-  EXPECT_EQ(std::ranges::max(listed), 1);
-}
-
-TEST(ScanInsertion, ARayThroughAnotherHitLeavesItOccupied) {
-  const GridGeometry grid(kBox_m, 0.2);
-  const Vec3f origin_m(0.1F, 0.1F, 1.1F);
-  const std::vector<ScanRay> rays = {{Vec3f(1.9F, 0.1F, 1.1F), false},
-                                     {Vec3f(0.9F, 0.1F, 1.1F), true}};
-  const ScanUpdate update = FanWalker(grid).compute_update(origin_m, rays);
-  ASSERT_EQ(update.occupied.size(), 1U);
-  EXPECT_EQ(grid.key_at(update.occupied[0]), (Key{4, 0, 5}));
-  EXPECT_EQ(update.free.size(), 8U);  // x keys 0 to 8 without 4, and without the end's 9
-}
-
 TEST_P(ScanInsertionAt, RaysThatLeaveTheGridSideBySideStopThere) {
   const GridGeometry grid(kBox_m, 0.2);
   const Vec3f origin_m(0.1F, 0.1F, 1.1F);
@@ -254,12 +194,6 @@ TEST_P(ScanInsertionAt, RaysThatLeaveTheGridSideBySideStopThere) {
 }
 
 GNBV_AT_EVERY_SIMD_LEVEL(ScanInsertionAt);
-
-TEST(ScanInsertion, NoRaysTouchNothing) {
-  const ScanUpdate update = FanWalker(GridGeometry(kBox_m, 0.2)).compute_update(Vec3f::Zero(), {});
-  EXPECT_TRUE(update.free.empty());
-  EXPECT_TRUE(update.occupied.empty());
-}
 
 }  // namespace
 }  // namespace gnbv

@@ -98,26 +98,6 @@ bool is_clear_of_each(const OccupancyGrid& grid, const std::set<VoxelIndex>& occ
   });
 }
 
-// 1.5 m are seven and a half voxels: whether a cube beside the line is touched is for rounding to
-// say
-TEST(PathCheck, AnswersGrazesAsAskingEachVoxelDoes) {
-  const GridGeometry geometry = empty_grid().geometry();
-  for (std::int32_t y = -16; y < 16; ++y) {
-    for (const std::int32_t beside : {-8, 8}) {
-      const std::set<VoxelIndex> occupied = {geometry.index_of({0, y + beside, 10})};
-      OccupancyGrid grid = empty_grid();
-      grid.apply({.free = {}, .occupied = {*occupied.begin()}});
-      for (const std::int32_t z : {10, 2, 18}) {
-        const Vec3 a_m = geometry.center_m({-12, y, z});
-        const Vec3 b_m = geometry.center_m({12, y, z});
-        ASSERT_EQ(is_path_clear(grid, a_m, b_m, 1.5),
-                  is_clear_of_each(grid, occupied, a_m, b_m, 1.5))
-            << y << " " << beside << " " << z;
-      }
-    }
-  }
-}
-
 TEST(PathCheck, EqualsAskingEachVoxelOnTheLatticeToo) {
   const OccupancyGrid probe = empty_grid();
   int blocked = 0;

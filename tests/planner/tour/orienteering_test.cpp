@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
+#include "planner/tour/waypoints.hpp"
 #include "sim/core/pose.hpp"
 #include "sim/core/rng.hpp"
 
@@ -115,10 +118,139 @@ TEST(OrienteeringTour, StaysAtHomeWhereNothingPays) {
   EXPECT_EQ(tour.worth, 0.0);
 }
 
-TEST(OrienteeringTour, TheSameSeedFindsTheSame) {
-  const RandomProblem random_one(9, 40);
-  EXPECT_EQ(solve(random_one.problem, {}, 100, 4).views,
-            solve(random_one.problem, {}, 100, 4).views);
+Distances random_distances(std::uint64_t seed, std::size_t stops) {
+  std::vector<Vec3> p_m(stops);
+  for (std::size_t i = 0; i < stops; ++i) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      p_m[i][static_cast<Eigen::Index>(a)] = 10.0 * uniform01({seed, Stream::bench, i, a});
+    }
+  }
+  Distances distances_m(stops, std::vector<double>(stops));
+  for (std::size_t i = 0; i < stops; ++i) {
+    for (std::size_t j = 0; j < stops; ++j) distances_m[i][j] = (p_m[i] - p_m[j]).norm();
+  }
+  return distances_m;
+}
+
+std::vector<std::size_t> in_order(std::size_t stops) {
+  std::vector<std::size_t> tour(stops);
+  std::iota(tour.begin(), tour.end(), std::size_t{0});
+  return tour;
+}
+
+double shortest_m(const Distances& distances_m) {
+  std::vector<std::size_t> tour = in_order(distances_m.size());
+  double best_m = tour_length_m(distances_m, tour);
+  while (std::next_permutation(tour.begin() + 1, tour.end())) {
+    best_m = std::min(best_m, tour_length_m(distances_m, tour));
+  }
+  return best_m;
+}
+
+TEST(Tour, IsTheShortestOfAllOrdersOfEightStops) {
+  for (std::size_t stops = 1; stops <= 8; ++stops) {
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+      const Distances distances_m = random_distances(seed, stops);
+      std::vector<std::size_t> tour = in_order(stops);
+      improve_tour(distances_m, tour, 100);
+      EXPECT_NEAR(tour_length_m(distances_m, tour), shortest_m(distances_m), 1e-9)
+          << stops << " stops, seed " << seed;
+    }
+  }
+}
+
+TEST(Tour, KeepsItsStartAndEveryStopAndOnlyGetsShorter) {
+  const Distances distances_m = random_distances(3, 60);
+  std::vector<std::size_t> tour = in_order(60);
+  const double before_m = tour_length_m(distances_m, tour);
+  improve_tour(distances_m, tour);
+  const double improved_m = tour_length_m(distances_m, tour);
+  EXPECT_LT(improved_m, 0.6 * before_m);
+  improve_tour(distances_m, tour, 50);
+  EXPECT_LE(tour_length_m(distances_m, tour), improved_m);
+  EXPECT_EQ(tour.front(), 0U);
+  std::sort(tour.begin(), tour.end());
+  EXPECT_EQ(tour, in_order(60));
+}
+
+TEST(Tour, ImprovedNoReversalAndNoMoveOfOneStopHelps) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const Distances distances_m = random_distances(seed, 40);
+    std::vector<std::size_t> tour = in_order(40);
+    improve_tour(distances_m, tour);
+    const double length_m = tour_length_m(distances_m, tour);
+    for (std::size_t i = 1; i < tour.size(); ++i) {
+      for (std::size_t j = 1; j < tour.size(); ++j) {
+        std::vector<std::size_t> other = tour;
+        if (i < j) {
+          std::reverse(other.begin() + static_cast<std::ptrdiff_t>(i),
+                       other.begin() + static_cast<std::ptrdiff_t>(j + 1));
+          EXPECT_GE(tour_length_m(distances_m, other), length_m - 1e-8);
+          other = tour;
+        }
+        const std::size_t stop = other[i];
+        other.erase(other.begin() + static_cast<std::ptrdiff_t>(i));
+        other.insert(other.begin() + static_cast<std::ptrdiff_t>(j), stop);
+        EXPECT_GE(tour_length_m(distances_m, other), length_m - 1e-8);
+      }
+    }
+  }
+}
+
+double drawn(std::uint64_t seed, std::uint64_t from, std::uint64_t to) {
+  return uniform01({seed, Stream::bench, from, to});
+}
+
+/// Ways of any length, some of which lead nowhere: no metric, and not the same both ways.
+struct RandomWays {
+  explicit RandomWays(std::uint64_t seed, std::size_t nodes) : rows_m(nodes) {
+    for (std::size_t from = 0; from < nodes; ++from) {
+      for (std::size_t to = 0; to < nodes; ++to) {
+        const bool leads_there = drawn(seed, from, to) > 0.1;
+        const auto length_m = static_cast<float>(1.0 + std::floor(8.0 * drawn(seed + 1, from, to)));
+        rows_m[from].push_back(leads_there ? length_m : std::numeric_limits<float>::infinity());
+      }
+      rows_m[from][from] = 0.0F;
+    }
+  }
+  std::vector<std::vector<float>> rows_m;
+  RowOf row_m = [this](std::uint32_t node) -> std::span<const float> { return rows_m[node]; };
+};
+
+TEST(Waypoints, DetoursAfterAnInsertionAreThoseFoundAnew) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const RandomWays ways(seed, 30);
+    Waypoints waypoints({0}, ways.row_m);
+    waypoints.find_detours();
+    for (std::uint32_t node = 3; node < 30; node += 4) {
+      if (!std::isfinite(waypoints.extra_m()[node])) continue;
+      waypoints.insert(node);
+      Waypoints anew(waypoints.nodes(), ways.row_m);
+      anew.find_detours();
+      const std::vector<float> extra_m(waypoints.extra_m().begin(), waypoints.extra_m().end());
+      EXPECT_EQ(extra_m, std::vector<float>(anew.extra_m().begin(), anew.extra_m().end()));
+      for (std::uint32_t next = 1; next < 30; ++next) {  // and a further stop goes to one position
+        if (waypoints.has(next) || !std::isfinite(extra_m[next])) continue;
+        Waypoints one = waypoints;
+        Waypoints other = anew;
+        one.insert(next);
+        other.insert(next);
+        EXPECT_EQ(one.nodes(), other.nodes());
+      }
+    }
+  }
+}
+
+TEST(Waypoints, ShorteningEndsWhateverTheWays) {
+  for (std::uint64_t seed = 100; seed < 120; ++seed) {
+    const RandomWays ways(seed, 12);
+    std::vector<std::uint32_t> nodes(12);
+    for (std::uint32_t i = 0; i < 12; ++i) nodes[i] = i;
+    Waypoints waypoints(nodes, ways.row_m);
+    waypoints.shorten();
+    EXPECT_EQ(waypoints.nodes().front(), 0U);
+    EXPECT_EQ(waypoints.nodes().size(), 12U);
+  }
 }
 
 }  // namespace

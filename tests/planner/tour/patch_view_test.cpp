@@ -4,6 +4,9 @@
 
 #include <cmath>
 
+#include "planner/tour/orienteering.hpp"
+#include "planner/tour/surface_cells.hpp"
+#include "sim/core/rng.hpp"
 #include "tests/planner/tour/free_grid.hpp"
 
 namespace gnbv {
@@ -90,6 +93,102 @@ TEST(PatchViewer, SeesNothingBeyondItsRange) {
   add_wall(5.03, {-2, 2}, {2, 4}, points);
   const Looked looked = look(points, kView);
   for (std::size_t i = 0; i < looked.patches.size(); ++i) EXPECT_FALSE(looked.is_seen[i]);
+}
+
+double random(std::uint64_t seed, std::uint64_t frame, std::uint64_t index) {
+  return uniform01({seed, Stream::bench, frame, index});
+}
+
+OrienteeringProblem random_problem(std::uint64_t seed, std::size_t views, std::size_t items) {
+  OrienteeringProblem problem;
+  for (std::size_t i = 0; i < items; ++i) {
+    problem.weight.push_back(static_cast<float>(1.0 + 9.0 * random(seed, 0, i)));
+  }
+  for (std::size_t v = 0; v < views; ++v) {
+    problem.observations.emplace_back();
+    for (std::uint32_t i = 0; i < items; ++i) {
+      if (random(seed, 1 + v, i) < 0.3) {
+        problem.observations.back().push_back(
+            {i, static_cast<float>(0.98 * random(seed, 100 + v, i))});
+      }
+    }
+    problem.node.push_back(0);
+  }
+  return problem;
+}
+
+/// The definition, from scratch.
+double found(const OrienteeringProblem& problem, const std::vector<bool>& chosen) {
+  double sum = 0.0;
+  for (std::uint32_t i = 0; i < problem.weight.size(); ++i) {
+    double missed = 1.0;
+    for (std::size_t v = 0; v < problem.observations.size(); ++v) {
+      if (!chosen[v]) continue;
+      for (const ItemObservation& one : problem.observations[v]) {
+        if (one.item == i) missed *= 1.0 - static_cast<double>(one.success);
+      }
+    }
+    sum += static_cast<double>(problem.weight[i]) * (1.0 - missed);
+  }
+  return sum;
+}
+
+TEST(ExpectedCover, IsTheDefinitionAfterAnyChanges) {
+  const OrienteeringProblem problem = random_problem(1, 20, 30);
+  ExpectedCover cover(problem);
+  std::vector<bool> chosen(20, false);
+  for (std::uint64_t step = 0; step < 2000; ++step) {
+    const auto view = static_cast<std::uint32_t>(random_bits({2, Stream::bench, step, 0}) % 20);
+    chosen[view] = !chosen[view];
+    cover.set(view, chosen[view]);
+    if (step % 50 != 0) continue;
+    ASSERT_NEAR(cover.found(), found(problem, chosen), 1e-6);
+    for (std::uint32_t v = 0; v < 20; ++v) {
+      std::vector<bool> other = chosen;
+      other[v] = !other[v];
+      const double difference = found(problem, other) - found(problem, chosen);
+      const double told = chosen[v] ? -cover.loss_without(v) : cover.gains()[v];
+      ASSERT_NEAR(told, difference, 1e-6) << "view " << v;
+    }
+  }
+}
+
+double drawn(std::uint64_t frame, std::uint64_t index) {
+  return 2.0 * uniform01({3, Stream::bench, frame, index}) - 1.0;
+}
+
+/// Of the points of a square in the plane, the share that lies in the cube, times its area.
+double counted_area(const Vec3& normal, double distance) {
+  constexpr int kSteps = 400;
+  constexpr double kHalf = 1.0;  // beyond the half diagonal of the cube
+  const Vec3 u = normal.unitOrthogonal();
+  const Vec3 v = normal.cross(u);
+  int inside = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    for (int j = 0; j < kSteps; ++j) {
+      const double a = kHalf * (2.0 * (i + 0.5) / kSteps - 1.0);
+      const double b = kHalf * (2.0 * (j + 0.5) / kSteps - 1.0);
+      const Vec3 p = distance * normal + a * u + b * v;
+      if (p.cwiseAbs().maxCoeff() <= 0.5) ++inside;
+    }
+  }
+  return 4.0 * kHalf * kHalf * inside / (kSteps * kSteps);
+}
+
+TEST(PlaneSection, IsWhatCountedPointsSay) {
+  for (std::uint64_t i = 0; i < 40; ++i) {
+    const Vec3 normal = Vec3(drawn(i, 0), drawn(i, 1), drawn(i, 2)).normalized();
+    const double distance = 0.9 * drawn(i, 3);
+    EXPECT_NEAR(plane_section_area(normal, distance, 1.0), counted_area(normal, distance), 0.02)
+        << normal.transpose() << " at " << distance;
+  }
+}
+
+TEST(PlaneSection, OfAFaceIsTheFace) {
+  EXPECT_NEAR(plane_section_area(Vec3::UnitZ(), 0.1, 1.0), 1.0, 0.02);
+  EXPECT_EQ(plane_section_area(Vec3::UnitZ(), 0.52, 1.0), 0.0);
+  EXPECT_NEAR(plane_section_area(Vec3(1, 1, 1).normalized(), 0.0, 2.0), 3.0 * std::sqrt(3.0), 1e-9)
+      << "a regular hexagon through the middle";
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
 #include "tests/planner/tour/free_grid.hpp"
+#include "tests/support/fault.hpp"
 
 namespace gnbv {
 namespace {
@@ -158,12 +159,8 @@ TEST(SurfaceCells, AThinBarLacksPointsUntilItIsScanned) {
 
 TEST(SurfaceCells, ADetailThatIsTooFineIsRefusedByItsName) {
   const Box3 large_m(Vec3(0, 0, 0), Vec3(100, 100, 40));
-  try {
-    SurfaceCells(large_m, 0.005);
-    FAIL() << "accepted";
-  } catch (const BadInput& error) {
-    EXPECT_NE(std::string(error.what()).find("planner.tour.detail_m: 0.005"), std::string::npos);
-  }
+  EXPECT_TRUE(test::says(test::fault_of([&] { SurfaceCells(large_m, 0.005); }),
+                         {"planner.tour.detail_m: 0.005"}));
 }
 
 TEST(Patches, ASurfaceHasTheSidesThatSpaceIsFreeBefore) {

@@ -7,9 +7,12 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 
 #include "planner/core/belief.hpp"
 #include "planner/tour/gains.hpp"
+#include "planner/tour/visibility_cache.hpp"
+#include "tests/planner/tour/free_grid.hpp"
 #include "tests/planner/wall_world.hpp"
 
 namespace gnbv {
@@ -96,6 +99,124 @@ TEST(TourState, ALatticeOfItsOwnStepHasNoMoreNodesThanCanBePlannedOver) {
   }
   const TourWorld world;
   EXPECT_EQ(automatic_step_m(world.model(0).cameras, Box3(Vec3(0, 0, 0), Vec3(40, 40, 10))), 2.0);
+}
+
+const Box3 kBox(Vec3(-8, -8, 0), Vec3(8, 8, 8));
+constexpr double kRadius_m = 0.7;
+
+struct World {
+  explicit World(OccupancyGrid occupancy)
+      : grid(std::move(occupancy)), space(grid.geometry(), kBox, {}, kRadius_m) {
+    space.follow(grid);
+  }
+  std::vector<Vec3> nodes(const Patch& patch) const {
+    return points_to_see({grid, space, cameras}, patch, 4);
+  }
+  OccupancyGrid grid;
+  OpenSpace space;
+  std::vector<CameraModel> cameras = {make_camera_model({})};
+};
+
+const Patch kFacingEast{
+    .target_m = Vec3f(0.1F, 0.1F, 4.1F), .normal = Vec3f(1, 0, 0), .missing = 10.0F};
+
+/// By the definition: before the patch, in a camera's image once the vehicle is turned to it.
+TEST(SurfaceNodes, SeeThePatchFromBeforeItWithinTheImage) {
+  OccupancyGrid grid = free_grid(kBox);
+  fill(grid, Box3(Vec3(-0.2, -0.6, 3.4), Vec3(0.2, 0.6, 4.8)));
+  const World world(std::move(grid));
+  const std::vector<Vec3> nodes = world.nodes(kFacingEast);
+  ASSERT_FALSE(nodes.empty());
+  const CameraConfig& camera = world.cameras.front().config;
+  for (const Vec3& p_m : nodes) {
+    const Vec3 to_m = p_m - kFacingEast.target_m.cast<double>();
+    EXPECT_GT(to_m.x(), 0.0);
+    EXPECT_LE(std::fabs(std::atan2(to_m.z(), to_m.head<2>().norm())),
+              0.5 * camera.fov_y_rad + 0.05);
+    EXPECT_LE(to_m.norm(), camera.range_max_m);
+    EXPECT_TRUE(world.space.is_open(world.grid, world.grid.geometry().key_of(p_m)));
+  }
+}
+
+TEST(SurfaceNodes, AreNoneBehindAWallAndFewerCubesEachTime) {
+  OccupancyGrid grid = free_grid(kBox);
+  fill(grid, Box3(Vec3(0.8, -8, 0), Vec3(1.2, 8, 8)));  // nearer than any node may be
+  const World walled(std::move(grid));
+  EXPECT_TRUE(walled.nodes(kFacingEast).empty());
+
+  const World open(free_grid(kBox));
+  const std::vector<Patch> patches = {kFacingEast};
+  const std::vector<std::uint8_t> unseen = {0}, seen = {1};
+  SearchedCubes searched;
+  const NodeSearch search{open.grid, open.space, open.cameras};
+  EXPECT_TRUE(points_for_unseen(search, patches, seen, searched).empty());
+  EXPECT_EQ(points_for_unseen(search, patches, unseen, searched).size(), 2U);
+  EXPECT_TRUE(points_for_unseen(search, patches, unseen, searched).empty()) << "found before";
+}
+
+/// What was searched for in vain is searched for again, once space has opened.
+TEST(SurfaceNodes, AreFoundWhereSpaceOpensLater) {
+  OccupancyGrid grid = free_grid(kBox);
+  fill(grid, Box3(Vec3(0.8, -8, 0), Vec3(1.2, 8, 8)));
+  World world(std::move(grid));
+  const std::vector<Patch> patches = {kFacingEast};
+  const std::vector<std::uint8_t> unseen = {0};
+  SearchedCubes searched;
+  const auto found = [&] {
+    return points_for_unseen({world.grid, world.space, world.cameras}, patches, unseen, searched);
+  };
+  EXPECT_TRUE(found().empty());
+  world.grid = free_grid(kBox);
+  world.space.follow(world.grid);
+  EXPECT_EQ(found().size(), 2U);
+  EXPECT_TRUE(found().empty()) << "found before";
+}
+
+// Laws of what a plan says it is for: nothing that can be expected is lost or moved.
+
+Patch patch_at(const Vec3f& p_m, float missing, PatchSource source = PatchSource::sampled) {
+  return {.target_m = p_m, .normal = Vec3f::UnitZ(), .missing = missing, .source = source};
+}
+
+TEST(TourPlan, GathersBySourceAndPlaceWhatCanBeExpected) {
+  const ObservationYield yield;
+  const std::vector<Patch> patches = {patch_at({0.1F, 0.1F, 0.1F}, 30.0F),
+                                      patch_at({0.2F, 0.1F, 0.1F}, 10.0F),
+                                      patch_at({-0.1F, 0.1F, 0.1F}, 20.0F),
+                                      patch_at({0.2F, 0.2F, 0.2F}, 8.0F, PatchSource::boundary),
+                                      patch_at({9.0F, 9.0F, 9.0F}, 0.0F)};
+  const TourPlan plan = make_tour_plan({}, patches, yield);
+  EXPECT_EQ(plan.cube_m, kLeastCube_m);
+  ASSERT_EQ(plan.cubes.size(), 3U);
+  const double share = yield.share(patches[0], 0);
+  EXPECT_EQ(plan.cubes[0].source, PatchSource::sampled);
+  EXPECT_NEAR(plan.cubes[0].p_world_m.x(), -0.1, 1e-6);  // below 0 is another cube
+  EXPECT_NEAR(plan.cubes[0].expected, 20.0 * share, 1e-5);
+  EXPECT_NEAR(plan.cubes[1].p_world_m.x(), (30.0 * 0.1 + 10.0 * 0.2) / 40.0, 1e-6);
+  EXPECT_NEAR(plan.cubes[1].expected, 40.0 * share, 1e-5);
+  EXPECT_EQ(plan.cubes[2].source, PatchSource::boundary);
+  EXPECT_NEAR(plan.cubes[2].expected, 8.0 * yield.share(patches[3], 0), 1e-5);
+}
+
+TEST(TourPlan, CubesGrowUntilTheyAreFew) {
+  std::vector<Patch> patches;
+  double expected = 0.0;
+  const ObservationYield yield;
+  for (int i = 0; i < 100; ++i) {
+    for (int j = 0; j < 100; ++j) {
+      patches.push_back(
+          patch_at(Vec3f(0.5F * static_cast<float>(i), 0.5F * static_cast<float>(j), 0.0F) +
+                       Vec3f::Constant(0.25F),
+                   4.0F));
+      expected += static_cast<double>(4.0F * yield.share(patches.back(), 0));
+    }
+  }
+  const TourPlan plan = make_tour_plan({}, patches, yield);
+  EXPECT_EQ(plan.cube_m, 1.0);
+  EXPECT_EQ(plan.cubes.size(), 2500U);
+  double sum = 0.0;
+  for (const PatchCube& cube : plan.cubes) sum += cube.expected;
+  EXPECT_NEAR(sum, expected, 1e-6 * expected);
 }
 
 }  // namespace

@@ -1,8 +1,13 @@
 // The two slips of the released code on hand-drawn maps.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+
 #include "planner/guided/utility.hpp"
+#include "planner/view/shadow_band.hpp"
 #include "planner/view/visibility.hpp"
+#include "sim/core/error.hpp"
 #include "tests/planner/view/view_scene.hpp"
 
 namespace gnbv {
@@ -137,6 +142,105 @@ TEST(PredictionThatHidesHits, NeedsAWeightForPrediction) {
   config.gamma = 0.5;
   config.name = "proposed";  // a slip of the baselines alone
   EXPECT_EQ(occupied(), 1U);
+}
+
+/// One pixel that looks along +x from x = 0.1 m.
+FrameRays ray_to(double x_m, PixelRay kind = PixelRay::hits) {
+  FrameRays rays;
+  rays.origin_world_m = Vec3f(0.1F, 0.1F, 0.1F);
+  rays.end_m = {{{static_cast<float>(x_m)}, {0.1F}, {0.1F}}};
+  rays.kind = {kind};
+  return rays;
+}
+
+TEST(ShadowBand, CountsStepsBehindTheHitUpToItsDepth) {
+  Corridor corridor(12);
+  ShadowBand band({.shadow_depth_m = 0.75}, corridor.grid.geometry());
+  corridor.hit(3);
+  band.add(ray_to(0.7), corridor.grid);  // from 0.7 m to 1.45 m: the voxel with the end is left out
+  const std::vector<int> expected = {0, 0, 0, 0, 1, 2, 3, 0, 0, 0, 0, 0};
+  for (VoxelIndex v = 0; v < 12; ++v) {
+    EXPECT_EQ(band.steps_behind(v), expected[v]) << v;
+    EXPECT_EQ(corridor.grid.is_shaded(v), expected[v] > 0) << v;
+  }
+  EXPECT_DOUBLE_EQ(band.steps_max(), 7.5);
+}
+
+TEST(ShadowBand, KeepsTheSmallestDistance) {
+  Corridor corridor(12);
+  ShadowBand band({.shadow_depth_m = 0.75}, corridor.grid.geometry());
+  band.add(ray_to(0.7), corridor.grid);
+  band.add(ray_to(0.9), corridor.grid);
+  EXPECT_EQ(band.steps_behind(5), 1);
+  EXPECT_EQ(band.steps_behind(6), 2);
+  band.add(ray_to(0.5), corridor.grid);
+  EXPECT_EQ(band.steps_behind(5), 1);
+}
+
+TEST(ShadowBand, HoldsOnlyWhereNothingHasBeenMeasured) {
+  Corridor corridor(12);
+  ShadowBand band({.shadow_depth_m = 0.75}, corridor.grid.geometry());
+  corridor.miss(4);
+  band.add(ray_to(0.7), corridor.grid);
+  EXPECT_FALSE(corridor.grid.is_shaded(4));
+  EXPECT_EQ(band.steps_behind(4), 0);
+  EXPECT_TRUE(corridor.grid.is_shaded(5));
+  corridor.miss(5);
+  EXPECT_FALSE(corridor.grid.is_shaded(5));
+}
+
+TEST(ShadowBand, FollowsHitsAlone) {
+  Corridor corridor(12);
+  ShadowBand band({.shadow_depth_m = 0.75}, corridor.grid.geometry());
+  band.add(ray_to(0.7, PixelRay::clears), corridor.grid);
+  band.add(ray_to(0.7, PixelRay::none), corridor.grid);
+  for (VoxelIndex v = 0; v < 12; ++v) EXPECT_FALSE(corridor.grid.is_shaded(v));
+}
+
+TEST(ShadowBand, RefusesDepthsThatNoByteCounts) {
+  const Corridor corridor(2);
+  EXPECT_THROW(ShadowBand({.shadow_depth_m = 0.0}, corridor.grid.geometry()), BadInput);
+  EXPECT_THROW(ShadowBand({.shadow_depth_m = 17.0}, corridor.grid.geometry()), BadInput);
+}
+
+// What is listed of a view is what was counted of it.
+
+TEST(VoxelsInSight, AreThoseThatTheUtilityCounts) {
+  const RandomScene scene;
+  const CameraModel left = make_camera_model({.range_max_m = 5.0});
+  const CameraModel right =
+      make_camera_model({.fov_x_rad = 0.6, .fov_y_rad = 0.4, .range_max_m = 3.0});
+  const std::array cameras = {left, right};
+  const ViewRays rays = make_view_rays(cameras, scene.grid.geometry().resolution_m());
+  VisitMarks marks(scene.grid.geometry().voxel_count());
+  std::size_t predicted = 0;
+  for (std::uint64_t i = 0; i < 40; ++i) {
+    const ViewPose pose = RandomScene::pose(i);
+    const ViewStats stats = evaluate_view(scene.grid, scene.cloud, rays, pose, marks);
+    const VoxelsInSight seen = voxels_in_sight(scene.grid, rays, pose);
+    EXPECT_EQ(seen.unknown.size(), stats.unknown_voxels) << i;
+    EXPECT_EQ(seen.predicted.size(), stats.predicted_voxels) << i;
+    EXPECT_TRUE(std::is_sorted(seen.unknown.begin(), seen.unknown.end()));
+    for (const VoxelIndex v : seen.unknown) {
+      EXPECT_EQ(scene.grid.state(v), VoxelState::unknown);
+    }
+    for (const VoxelIndex v : seen.predicted) EXPECT_TRUE(scene.grid.is_predicted(v));
+    predicted += seen.predicted.size();
+  }
+  EXPECT_GT(predicted, 100U);
+}
+
+TEST(VoxelsInSight, EndAtTheFirstOccupiedVoxel) {
+  Corridor corridor(12);
+  for (const VoxelIndex v : {0, 1, 2}) {
+    for (int i = 0; i < 3; ++i) corridor.miss(v);
+  }
+  for (int i = 0; i < 3; ++i) corridor.hit(8);
+  for (const VoxelIndex v : {5, 6, 10}) corridor.grid.predict(v);
+  const VoxelsInSight seen =
+      voxels_in_sight(corridor.grid, Corridor::one_ray(5.0), {Vec3(0.1, 0.1, 0.1), 0.0});
+  EXPECT_EQ(seen.unknown, (std::vector<VoxelIndex>{3, 4, 5, 6, 7}));
+  EXPECT_EQ(seen.predicted, (std::vector<VoxelIndex>{5}));
 }
 
 }  // namespace

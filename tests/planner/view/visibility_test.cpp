@@ -173,26 +173,6 @@ TEST_P(EvaluateView, EqualsBruteForceInEveryNumber) {
   }
 }
 
-class EvaluateViewAbove : public EvaluateView {};
-
-TEST_P(EvaluateViewAbove, GivesTheBitsOfTheBaseline) {
-  for (const bool legacy : {false, true}) {
-    ViewOptions options = full();
-    options.legacy_visibility = legacy;
-    for (std::uint64_t i = 0; i < 40; ++i) {
-      for (const ViewOptions& each : {options, ViewOptions{}}) {
-        const auto ours = numbers(look(RandomScene::pose(i), each));
-        set_simd_level(SimdLevel::baseline);
-        const auto baseline = numbers(look(RandomScene::pose(i), each));
-        set_simd_level(GetParam());
-        for (std::size_t n = 0; n < ours.size(); ++n) {
-          EXPECT_EQ(ours[n].second, baseline[n].second) << ours[n].first << " " << i;
-        }
-      }
-    }
-  }
-}
-
 TEST_P(EvaluateView, LeavesNoTraceInTheMarks) {
   const auto first = numbers(look(RandomScene::pose(0), full()));
   for (std::uint64_t i = 1; i < 10; ++i)
@@ -269,7 +249,6 @@ TEST_P(EvaluateView, SeesWhatThePapersWaySees) {
 }
 
 GNBV_AT_EVERY_SIMD_LEVEL(EvaluateView);
-GNBV_ABOVE_THE_BASELINE(EvaluateViewAbove);
 
 TEST(ViewRays, AreTheLatticeOfTheReleasedCode) {
   const CameraModel camera = make_camera_model({});

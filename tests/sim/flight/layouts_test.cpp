@@ -162,5 +162,84 @@ TEST(Allocation, WhatCannotSteerIsNamed) {
   EXPECT_THAT(allocation_fault(airframe), HasSubstr("centre of mass"));
 }
 
+// Laws of the allocation to rotors: what is asked is given, and what gives way first.
+
+const AirframeParameters kIris;
+const Allocation kQuad = allocation_of(kIris);
+
+TEST(Mixer, SacrificesYawBeforeRoll) {
+  const MixerOutput out = mix(kQuad, Vec3(0.4, 0.0, 0.6), 1.0);
+  EXPECT_NEAR(out.torque.x(), 0.4, 1e-12);
+  EXPECT_NEAR(out.torque.z(), 0.15, 1e-12);  // what the headroom leaves
+  // beyond the headroom's reach roll gives way a little, yaw most of itself
+  const MixerOutput extreme = mix(kQuad, Vec3(0.6, 0.0, 0.6), 1.0);
+  EXPECT_GT(extreme.torque.x(), 0.9 * 0.6);
+  EXPECT_LT(extreme.torque.z(), 0.3 * 0.6);
+  for (const double command : extreme.commands) {
+    EXPECT_GE(command, 0.0);
+    EXPECT_LE(command, 1.0);
+  }
+}
+
+TEST(Mixer, SacrificesThrustBeforeRoll) {
+  const MixerOutput out = mix(kQuad, Vec3(0.5, 0.0, 0.0), 1.0);
+  EXPECT_NEAR(out.torque.x(), 0.5, 1e-12);
+  double mean = 0.0;
+  for (const double command : out.commands) mean += 0.25 * command;
+  EXPECT_NEAR(mean, 1.0 - 0.5 * std::sqrt(0.5), 1e-12);  // the higher pair just reaches 1
+}
+
+TEST(Mixer, NeverRaisesThrustForAttitude) {
+  for (const double thrust : {0.0, 0.05, 0.1}) {  // airmode off
+    const MixerOutput out = mix(kQuad, Vec3(0.4, 0.3, 0.2), thrust);
+    double mean = 0.0;
+    for (const double command : out.commands) mean += 0.25 * command;
+    EXPECT_LE(mean, thrust + 1e-12);
+  }
+}
+
+// What a flight was foretold to draw against what it drew.
+
+TEST(LegEnergy, IsWhatALegDrawsAndNeverLess) {
+  const VehicleConfig iris;
+  const GuidanceConfig guidance;
+  const Vec3 from_m(0, 0, 10);
+  for (const ViewPose& to :
+       {ViewPose{{0.5, 0, 10}, 0.0}, ViewPose{{30, 0, 10}, 0.0}, ViewPose{{0, 0, 40}, 0.0},
+        ViewPose{{-10, 4, 4}, 0.0}, ViewPose{{0, 0, 10}, kPi}, ViewPose{{0.5, 0, 10}, -2.0}}) {
+    const auto flight = make_flight(iris, World{}, {from_m, 0.0}, 1);
+    ASSERT_EQ(fly_leg(*flight, to, guidance.path_speed_m_s, guidance, iris, {}), LegEnd::arrived);
+    const double foretold_wh = leg_energy_wh(iris, guidance, {from_m, 0.0}, to);
+    const double allowance_wh = hover_power_w(iris) * kArrival_s / kJoulesPerWattHour;
+    EXPECT_LT(flight->energy_wh(), foretold_wh) << to.p_world_m.transpose() << ", " << to.yaw_rad;
+    EXPECT_GT(flight->energy_wh(), 0.97 * (foretold_wh - allowance_wh))
+        << to.p_world_m.transpose() << ", " << to.yaw_rad;
+  }
+}
+
+TEST(LegEnergy, OfATurnAloneIsHoverPowerTimesItsTimeEitherWayRound) {
+  const VehicleConfig iris;
+  const GuidanceConfig guidance;
+  const ViewPose from = {Vec3(1, 2, 3), 3.0};
+  for (const double yaw_rad : {-2.0, 1.0, 3.0 - kPi}) {
+    const ViewPose to = {from.p_world_m, yaw_rad};
+    const double duration_s = leg_duration_s(from, to, 1.0, guidance, iris);
+    EXPECT_GT(duration_s, 1.0);
+    EXPECT_NEAR(leg_energy_wh(iris, guidance, from, to) * kJoulesPerWattHour,
+                hover_power_w(iris) * (duration_s + kArrival_s), 1e-6);
+  }
+  EXPECT_EQ(leg_energy_wh(iris, guidance, from, from), 0.0);
+}
+
+TEST(LegEnergy, OfAnIdealVehicleIsHoverPowerTimesTheTime) {
+  VehicleConfig ideal;
+  ideal.kind = VehicleKind::ideal;
+  const GuidanceConfig guidance;
+  // 30 m at 2 m/s, 1 m/s^2 and 4 m/s^3: 30 / 2 + 2 / 1 + 1 / 4 seconds
+  EXPECT_NEAR(leg_energy_wh(ideal, guidance, {Vec3(0, 0, 1), 0.0}, {Vec3(0, 0, 31), 0.0}) *
+                  kJoulesPerWattHour,
+              hover_power_w(ideal) * (15.0 + 2.0 + 0.25 + kArrival_s), 1e-6);
+}
+
 }  // namespace
 }  // namespace gnbv

@@ -245,12 +245,6 @@ TEST(Offboard, VerticalSpeedSetpointKeepsItsLimits) {  // 21
   EXPECT_GT(thrust(fly_at(Vec3(0, 0, -1.4))), thrust(fly_at(Vec3(0, 0, -1.5))));
 }
 
-TEST(Offboard, FullThrottleAndRollGiveUpYawFirst) {  // 22
-  const MixerOutput out = mix(allocation_of(AirframeParameters{}), Vec3(0.6, 0.0, 0.6), 1.0);
-  EXPECT_GT(out.torque.x(), 0.9 * 0.6);
-  EXPECT_LT(out.torque.z(), 0.3 * 0.6);
-}
-
 /// Everything at once: takeoff, steps, a lost stream, a way home and a landing.
 std::pair<VehicleState, double> long_flight() {
   Quadrotor quadrotor = on_ground();

@@ -113,17 +113,6 @@ TEST(RestToRest, UsesALimitAtEveryMoment) {
   }
 }
 
-TEST(RestToRest, IsSymmetricInTime) {
-  for (const auto& [distance, limits] : motions()) {
-    const RestToRest motion(distance, limits);
-    for (int i = 0; i <= 100; ++i) {
-      const double time_s = 0.01 * i * motion.duration_s();
-      EXPECT_NEAR(motion.at(time_s).position + motion.at(motion.duration_s() - time_s).position,
-                  distance, 1e-12 * (1.0 + distance));
-    }
-  }
-}
-
 TEST(RestToRest, WantsPositiveLimits) {
   EXPECT_THROW(RestToRest(-1.0, kPx4), BrokenInvariant);
   EXPECT_THROW(RestToRest(1.0, {1.0, 1.0, 0.0}), BrokenInvariant);

@@ -32,41 +32,6 @@ class Preset : public testing::TestWithParam<Figures> {
   const VehicleConfig vehicle = vehicle_preset(GetParam().preset);
 };
 
-TEST_P(Preset, IsWhatItsNameSays) { EXPECT_EQ(vehicle.preset, GetParam().preset); }
-
-TEST_P(Preset, HoversAtItsHoverCommand) {
-  EXPECT_NEAR(hover_command(vehicle.airframe), GetParam().hover_command, 1e-3);
-  EXPECT_NEAR(thrust_to_weight(vehicle), GetParam().thrust_to_weight, 0.01);
-  const ViewPose start = {Vec3(0, 0, 10), 0.4};
-  VehicleState state;
-  state.T_world_body = T_world_body(start);
-  const Allocation allocation = allocation_of(vehicle.airframe);
-  RigidVehicle body(vehicle.airframe, World{}, state, all(hover_speed_rad_s(vehicle.airframe)));
-  PositionControlMemory position_memory;
-  RateControlMemory rate_memory;
-  Setpoint hold;
-  hold.p_world_m = start.p_world_m;
-  hold.yaw_rad = start.yaw_rad;
-  AttitudeSetpoint attitude;
-  for (int tick = 0; tick < 1000; ++tick) {
-    if (tick % kTicksPerPositionLoop == 0) {
-      attitude = position_control(vehicle.autopilot, vehicle.airframe, position_memory,
-                                  body.state(), hold);
-    }
-    const Vec3 omega_setpoint = attitude_control(
-        vehicle.autopilot, Eigen::Quaterniond(body.state().T_world_body.linear()), attitude);
-    body.step([&](const Vec3& omega_body_rad_s) {
-      const RotorCommands commands =
-          rate_control(vehicle.autopilot, allocation, rate_memory, omega_body_rad_s, omega_setpoint,
-                       attitude.thrust);
-      for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(commands[i], GetParam().hover_command, 1e-3);
-      return reference_speeds(vehicle.airframe, commands);
-    });
-  }
-  // trim is exact: only rounding moves it
-  EXPECT_LT((body.state().T_world_body.translation() - start.p_world_m).norm(), 1e-9);
-}
-
 TEST_P(Preset, TiltedFlightReachesItsTerminalSpeed) {
   // attitude held at 10 deg, thrust governed for level flight: V = m g tan(tilt) / (4 w cd)
   const double tilt_rad = deg_to_rad(10.0);
@@ -195,34 +160,6 @@ TEST(Presets, OldVelocityGainsGiveTheThrustTheyNamed) {
   EXPECT_NEAR(thrust.z(), hover, 1e-12);
 }
 
-TEST(Presets, CommandersAreThoseOfTheirFirmware) {  // sheet, sections 2 and 3
-  const auto commander = [](std::string_view preset) {
-    return vehicle_preset(preset).autopilot.commander;
-  };
-  const CommanderParameters px19 = commander("iris_sitl_2019");
-  EXPECT_EQ(px19.offboard_loss_s, 0.5);
-  EXPECT_EQ(px19.offboard_loss_hold_s, 5.0);
-  EXPECT_EQ(px19.offboard_loss_action, OffboardLoss::rtl);
-  EXPECT_EQ(px19.disarm_after_landing_s, 0.1);
-  EXPECT_EQ(px19.descent_speed_m_s, 1.0);
-  EXPECT_EQ(px19.acceleration_m_s2, 5.0);
-  EXPECT_EQ(px19.jerk_m_s3, 8.0);
-  EXPECT_EQ(px19.tilt_max_on_ground_rad, deg_to_rad(12.0));
-  const CommanderParameters kfw = commander("authors");
-  EXPECT_EQ(kfw.offboard_loss_s, 0.5);
-  EXPECT_EQ(kfw.tilt_max_on_ground_rad, deg_to_rad(15.0));
-  for (const CommanderParameters& today : {commander("iris"), commander("f450")}) {
-    EXPECT_EQ(today.offboard_loss_s, 1.0);
-    EXPECT_EQ(today.offboard_loss_hold_s, 0.0);
-    EXPECT_EQ(today.offboard_loss_action, OffboardLoss::position);
-    EXPECT_EQ(today.disarm_after_landing_s, 2.0);
-    EXPECT_EQ(today.descent_speed_m_s, 1.5);
-    EXPECT_EQ(today.acceleration_m_s2, 3.0);
-    EXPECT_EQ(today.jerk_m_s3, 4.0);
-    EXPECT_EQ(today.tilt_max_on_ground_rad, deg_to_rad(12.0));
-  }
-}
-
 TEST(Presets, UnknownNamesThrow) { EXPECT_THROW(vehicle_preset("concorde"), BrokenInvariant); }
 
 TEST(Power, LiuEtAlsHoverIsTheIdealOneAtAPlausibleEfficiency) {
@@ -236,13 +173,6 @@ TEST(Power, LiuEtAlsHoverIsTheIdealOneAtAPlausibleEfficiency) {
   EXPECT_NEAR(power_w({}, 1.37 * iris.gravity_m_s2, Vec3::Zero()), 154.0, 0.5);
   EXPECT_GT(ideal_w / hover_w, 0.4);  // figure of merit times motor and controller
   EXPECT_LT(ideal_w / hover_w, 0.6);
-}
-
-TEST(Power, AnIrisHoversForEighteenMinutes) {
-  const auto flight = streaming(make_flight({}, World{}, {Vec3(0, 0, 5), 0.0}, 1));
-  for (int i = 0; i < 10 * kTicksPerSecond; ++i) flight->step();
-  const double battery_wh = 5.1 * 11.1;  // 56.6 Wh
-  EXPECT_NEAR(battery_wh / flight->energy_wh() * 10.0 / 60.0, 18.4, 0.1);
 }
 
 }  // namespace

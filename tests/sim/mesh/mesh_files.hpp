@@ -9,6 +9,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/mesh/mesh_file.hpp"
+#include "tests/support/fault.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace gnbv::test {
@@ -32,12 +33,7 @@ inline MeshFileConfig file(const std::filesystem::path& path) {
 
 /// The message of the BadInput that loading throws; empty when it loads.
 inline std::string complaint(const MeshFileConfig& config) {
-  try {
-    load_mesh(config);
-  } catch (const BadInput& error) {
-    return error.what();
-  }
-  return "";
+  return test::fault_of([&] { load_mesh(config); });
 }
 
 inline bool says(const std::string& text, const std::string& part) {

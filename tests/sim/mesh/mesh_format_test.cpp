@@ -261,13 +261,5 @@ TEST_F(MeshFile, AGltfWithoutItsBufferFileNamesIt) {
   EXPECT_TRUE(says(what, "absent.bin")) << what;
 }
 
-TEST_F(MeshFile, AFileThatIsNotWhatItsNameSaysIsRefusedInOneLine) {
-  for (const char* name : {"a.stl", "a.ply", "a.obj", "a.dae", "a.gltf", "a.glb"}) {
-    const std::string what = complaint(file(write(name, "Dear diary,\nno mesh today.\n")));
-    EXPECT_TRUE(says(what, std::string(name) + ": ")) << what;
-    EXPECT_EQ(what.find('\n'), std::string::npos) << what;
-  }
-}
-
 }  // namespace
 }  // namespace gnbv

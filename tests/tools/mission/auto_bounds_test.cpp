@@ -9,6 +9,7 @@
 #include "sim/core/rng.hpp"
 #include "sim/mesh/mesh_file.hpp"
 #include "tests/bench/shapes.hpp"
+#include "tests/support/fault.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/mission/resolve.hpp"
 
@@ -157,13 +158,9 @@ TEST_F(GivenBoundsTest, WhatTheUserSaysWins) {
 }
 
 TEST_F(GivenBoundsTest, WhatDoesNotFitIsRefusedByItsOwnName) {
-  try {
-    resolved({"workspace_m={min: [-9, -9, 0], max: [9, 9, 40]}", "start.position_m=[0, -30, 35]"});
-    FAIL() << "accepted";
-  } catch (const BadInput& error) {
-    EXPECT_NE(std::string(error.what()).find("--set start.position_m"), std::string::npos)
-        << error.what();
-  }
+  const std::vector<std::string> sets = {"workspace_m={min: [-9, -9, 0], max: [9, 9, 40]}",
+                                         "start.position_m=[0, -30, 35]"};
+  EXPECT_TRUE(test::says(test::fault_of([&] { resolved(sets); }), {"--set start.position_m"}));
 }
 
 TEST(AutoBounds, WhatNoMapCanHoldIsSaidByItsProblems) {

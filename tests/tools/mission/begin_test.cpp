@@ -7,6 +7,7 @@
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "tests/bench/shapes.hpp"
+#include "tests/support/fault.hpp"
 #include "tests/support/no_cache.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/mission/load_world.hpp"
@@ -33,22 +34,14 @@ World hall(double wall_to_m) {
 
 std::string fault_of(const Scenario& scenario, const World& world, const Vec3& start_m) {
   const RayScene scene(world);
-  try {
+  return test::fault_of([&] {
     need_way_out(scenario, scene, bounds_m(world.structure), {start_m, 0.0}, 2);
-  } catch (const BadInput& fault) {
-    return fault.what();
-  }
-  return "";
+  });
 }
 
 std::string fault_of_world(const Scenario& scenario) {
   std::vector<std::string> warnings;
-  try {
-    load_world(scenario, warnings);
-  } catch (const BadInput& fault) {
-    return fault.what();
-  }
-  return "";
+  return test::fault_of([&] { load_world(scenario, warnings); });
 }
 
 TEST(LoadWorld, AMeshOutsideTheWorkspaceIsNamedWithTheLineThatPlacedItThere) {

@@ -9,6 +9,7 @@
 #include "sim/core/file.hpp"
 #include "sim/core/image.hpp"
 #include "sim/mesh/mesh_file.hpp"
+#include "tests/support/fault.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tests/tools/surface/pictured_sheet.hpp"
 #include "tools/surface/textured_mesh.hpp"
@@ -75,14 +76,9 @@ TEST(SurfaceFiles, LinesOfOthersAreNamed) {
                            "v 1 2 3", "v 1 2 3 0 0 1.5", "g what"}) {
     write_file_atomically(temp.path() / "surface.obj", text + line + "\n");
     const auto lines = std::count(text.begin(), text.end(), '\n') + 1;
-    try {
-      read_surface(temp.path());
-      ADD_FAILURE() << line;
-    } catch (const BadInput& error) {
-      EXPECT_NE(std::string(error.what()).find("surface.obj:" + std::to_string(lines)),
-                std::string::npos)
-          << error.what();
-    }
+    EXPECT_TRUE(test::says(test::fault_of([&] { read_surface(temp.path()); }),
+                           {"surface.obj:" + std::to_string(lines)}))
+        << line;
   }
 }
 

@@ -8,6 +8,7 @@
 #include "bench/score/escape_search.hpp"
 #include "sensors/ray_scene.hpp"
 #include "sim/core/error.hpp"
+#include "tests/support/fault.hpp"
 #include "tests/support/made_run.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/surface/decimate.hpp"
@@ -311,12 +312,9 @@ TEST(SurfaceScore, SamplesLieEvenlyByArea) {
 std::string refusal_of(std::vector<Vec3f> points_m, double leaf_m) {
   SeenPoints seen{std::move(points_m), {}};
   seen.sensors_world_m.assign(seen.points_world_m.size(), Vec3f(0, 0, 9));
-  try {
+  return test::fault_of([&] {
     shape_of(oriented(seen, 1), leaf_m, {}, "cloud.ply", 1, [](double, const std::string&) {});
-  } catch (const BadInput& error) {
-    return error.what();
-  }
-  return "";
+  });
 }
 
 TEST(SurfaceShape, PointsThatHoldNoSurfaceAreBadInput) {
@@ -336,18 +334,6 @@ TEST(SurfaceShape, PointsThatHoldNoSurfaceAreBadInput) {
   EXPECT_NE(refusal.find("scraps"), std::string::npos) << refusal;
   EXPECT_EQ(refusal.find("--trim-m"), std::string::npos);
   EXPECT_EQ(refusal_of(patch, 0.005), "");
-}
-
-TEST(SurfaceShape, IsTheSameAtAnyNumberOfThreads) {
-  const SeenPoints seen = seen_sphere(-0.5F);
-  const auto shape = [&](int threads) {
-    return shape_of(oriented(seen, threads), 0.03, {}, "sphere", threads,
-                    [](double, const std::string&) {});
-  };
-  const TriangleMesh one = shape(1);
-  const TriangleMesh three = shape(3);
-  EXPECT_EQ(one.vertices_m, three.vertices_m);
-  EXPECT_EQ(one.faces, three.faces);
 }
 
 TEST(Decimation, KeepsTheSphereWithinItsTolerance) {

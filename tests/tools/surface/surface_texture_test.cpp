@@ -192,13 +192,6 @@ TEST(TexturedMesh, FacesThatNoPictureShowsHaveTheirNeighboursColours) {
   for (const Rgb8& rgb : mesh.vertex_rgb) EXPECT_EQ(rgb[2], 200);
 }
 
-TEST(TexturedMesh, IsTheSameAtAnyNumberOfThreads) {
-  const TexturedMesh one = textured(1);
-  const TexturedMesh three = textured(3);
-  EXPECT_EQ(one.atlas.rgb, three.atlas.rgb);
-  EXPECT_EQ(glb_of(one, ""), glb_of(three, ""));
-}
-
 TEST(SurfacePicture, PiecesHaveTheTexturesColoursAndTheFacesArea) {
   TexturedMesh mesh;
   mesh.shape.vertices_m = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};

@@ -1,0 +1,179 @@
+"""Tables and comparisons: missions flown, read back and judged."""
+import json
+import re
+
+import pytest
+from program import summary
+
+FEW = '--quiet --set planner.termination.max_iterations=4'
+
+
+def rows(table, metric):
+    return [row for row in table['rows'] if row['metric'] == metric]
+
+
+def runs(folder):
+    return [path.parent for path in sorted(folder.glob('cells/*/summary.json'))]
+
+
+def test_compare_flies_what_is_missing_and_judges_the_runs_of_its_folder(run, tmp_path):
+    compare = f'compare smoke --utilities proposed,bircher --seeds 2 {FEW} --out . --format'
+    table = run(f'{compare} json').json
+    proposed, bircher = rows(table, 'coverage at 0.05 m (%)')
+    # the oracle: the summaries of the four runs
+    flown = [summary(path) for path in runs(tmp_path)]
+    covered = {(s['utility'], s['seed']): 100 * s['coverage']['final']['0.05'] for s in flown}
+    p1, p2, b1, b2 = (covered[utility, seed] for utility in ('proposed', 'bircher')
+                      for seed in (1, 2))
+    assert proposed['mean'] == pytest.approx((p1 + p2) / 2, abs=1e-9)
+    assert bircher['difference'] == pytest.approx((b1 - p1 + b2 - p2) / 2, abs=1e-9)
+    assert rows(table, 'AUC over metres (%)') and rows(table, 'share of ceiling at 0.05 m (%)')
+    # four views are too few for any share of the ceiling
+    assert not rows(table, 'metres to 80 % of ceiling')
+    assert 'smoke: no run got to 80 % of ceiling' in str(table['notes'])
+    # a run that is there is not flown again: a doctored one is believed
+    for path in runs(tmp_path):
+        doctored = summary(path)
+        doctored['distance_m']['straight'] = 123.0
+        (path / 'summary.json').write_text(json.dumps(doctored))
+    run(f'{compare} csv', 'smoke,distance (m),bircher,2,2,123,0,1.5,0,0,1,1,equal')
+
+
+def test_compare_takes_a_sweep_and_says_what_it_lacks(run, tmp_path):
+    (tmp_path / 'grid.yaml').write_text(
+        'scenarios: [smoke]\nutilities: [proposed, isler]\nseeds: 2\n'
+        'set: {planner.termination.max_iterations: 2}\n')
+    for index in (0, 2):
+        run(f'sweep grid.yaml --quiet --index {index} --out sweep')
+    run('compare --quiet --from sweep --baseline isler', 'proposed against isler',
+        'one seed: no test', 'smoke, isler: without a result: not flown (seed 2)', code=1)
+    run('sweep grid.yaml --quiet --out sweep')
+    run('compare --quiet --from sweep')
+
+
+def test_compare_flies_again_what_failed_in_an_earlier_call(run, tmp_path):
+    compare = f'compare smoke --utilities proposed,isler --seeds 1 {FEW} --out .'
+    run(compare)
+    failed = runs(tmp_path)[0]
+    failed.rename(tmp_path / 'gone')  # as a mission leaves it that was killed for its memory
+    failed.with_name(f'{failed.name}.failed.json').write_text('{"failure": "killed by signal 9"}')
+    run(compare)
+    assert failed in runs(tmp_path)
+
+
+@pytest.mark.parametrize('option', ['--mesh m.obj', '--seed 2', '--set planner.cloud.leaf_m=0.1',
+                                    '--bounds auto', '--seeds 3', '--jobs 2', '--out o'])
+def test_compare_of_a_sweep_takes_nothing_that_would_fly_other_missions(run, option):
+    run(f'compare --from sweep {option}', 'excludes', option.split()[0], code=2)
+
+
+def test_compare_gives_a_method_that_changes_the_leaf_its_own_ceiling(run):
+    table = run('compare smoke --vary planner.cloud.leaf_m=0.05,0.2 --seeds 1 --format json '
+                f'{FEW} --out .').json
+    for leaf, covered, share in zip(('0.05', '0.2'), rows(table, 'coverage at 0.05 m (%)'),
+                                    rows(table, 'share of ceiling at 0.05 m (%)')):
+        ceiling = run(f'ceiling smoke --quiet --json --set planner.cloud.leaf_m={leaf}').json
+        assert share['mean'] == pytest.approx(
+            covered['mean'] / ceiling['leaf_outside']['0.05'], abs=1e-9)
+
+
+def test_compare_loses_no_more_than_the_ceiling_of_a_mesh_that_is_gone(run, tmp_path):
+    (tmp_path / 'box.obj').write_text('v 0 0 1\nv 1 0 1\nv 0 1 1\nv 0 0 2\n'
+                                      'f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n')
+    (tmp_path / 'grid.yaml').write_text(
+        'scenarios: {name: box, scenario: smoke, mesh: box.obj}\nutilities: [proposed, isler]\n'
+        'set: {planner.termination.max_iterations: 1}\n')
+    run('sweep grid.yaml --quiet --out sweep')
+    (tmp_path / 'box.obj').unlink()
+    run('compare --quiet --from sweep', 'box, isler: no share of ceiling: ', 'box.obj')
+
+
+@pytest.mark.parametrize('words, says', [
+    ('compare smoke --utilities proposed,best --presets relased --variant '
+     'planner.utilty.name=isler', ["'best'", "'relased'", 'planner.utilty']),
+    ('compare smoke --utilities a,b --baseline c',
+     ["'c': no method of this comparison; it has: a, b"]),
+    ('compare smoke --utilities proposed', []),
+    ('compare smoke --utilities proposed,isler --seeds 0', []),
+    ('compare --utilities proposed,isler', []),
+    ('compare smoke smoke --utilities proposed,isler', [])])
+def test_compare_names_all_faults_before_it_flies(run, tmp_path, words, says):
+    run(f'{words} --out out', *says, code=2)
+    run('compare --from out', code=2)
+    assert not (tmp_path / 'out').exists()
+
+
+def test_table_has_the_papers_row_ours_the_oracles_and_the_ceiling(run):
+    # the smallest scenario, under the name of one that the paper has figures of
+    table = f'table smoke --set name=lab_model --seeds 2 {FEW} --out . --format'
+    found = run(f'{table} json').json['rows']
+    assert [f'{row["utility"]}: {row["row"]}' for row in found] == [
+        'Proposed: ours', 'Proposed: paper', 'Tour: ours', 'Oracle, few views: ours',
+        'Oracle, few metres: ours', 'Profile: ours', 'Ceiling: physical', 'Ceiling: leaf filter']
+    assert found[0]['runs'] == 2 and found[0]['iterations'] == 4
+    assert found[0]['time_min'] and found[0]['share_of_ceiling']
+    assert found[1]['entropy_reduction'] == 30140
+    assert [found[i]['metres_to_90_runs'] is None for i in (0, 1, 2, 3, 4)] == [
+        False, True, False, False, False]
+    # every other form has the same rows and the command that repeats it
+    for form in ('terminal', 'markdown', 'csv', 'latex'):
+        run(f'{table} {form}', 'gnbv table smoke', 'seeds 2', 'Oracle, few metres',
+            'how many runs got there', 'ours is of smoke, which is not known to be')
+
+
+def test_table_flies_again_without_noise_what_lies_above_the_ceiling(run):
+    # noise of some decimetres fills voxels that a point a leaf of 0.04 m cannot
+    found = run('table smoke --set name=lab_model --no-oracle --quiet '
+                '--set cameras.0.noise.model=stereo --set cameras.0.noise.disparity_noise_px=2 '
+                '--set cameras.0.width_px=640 --set cameras.0.height_px=480 '
+                '--set planner.cloud.leaf_m=0.04 --set planner.validity.collision_radius_m=1.3 '
+                '--set planner.termination.max_iterations=30 --format json --out .').json['rows']
+    assert [row['utility'] for row in found[:2]] == ['Proposed', 'Proposed, exact sensors']
+    assert found[0]['share_of_ceiling'] > 1.0 > found[1]['share_of_ceiling']
+    assert found[1]['metres_to_90_runs'] is not None
+
+
+# ---- the paper's page ----
+TINY = '--scenarios lab_model --set planner.termination.max_iterations=3'
+
+
+@pytest.fixture
+def paper(run):
+    return lambda more, *says, code=0: run(
+        f'paper -o page --cells cells --seeds 1 --threads 1 --quiet {more}', *says, code=code)
+
+
+def test_paper_flies_nothing_twice_and_its_files_are_there(paper, tmp_path):
+    assert paper(TINY).out == 'page/index.html\n'
+    html = (tmp_path / 'page/index.html').read_text()
+    shown = set(re.findall('<section id=fig([0-9]+)>', html))
+    assert shown >= {'2', '4', '5', '6', '13', '14', '15'} and '8' not in shown  # the aircraft's
+    assert '://' not in html  # no network
+    linked = set(re.findall("href='([^#'][^']*)'", html))
+    assert all((tmp_path / 'page' / name).is_file() for name in linked)
+    assert linked >= {'tables/lab_model.md', 'tables/lab_model.csv', 'figures/fig02-rays.png',
+                      'figures/fig04-profile.png', 'figures/fig13-path-top.png',
+                      'figures/fig14-density-entropy.svg', 'figures/fig15-surface-top.png'}
+    # the paper's numbers stand beside ours
+    assert '30,140' in html and 'compared after 3 views, where ours ended' in html
+    flown = {path: path.stat().st_mtime_ns for path in tmp_path.rglob('cells/**/summary.json')}
+    assert len(flown) == 2  # with images and without
+    paper(TINY)
+    assert {path: path.stat().st_mtime_ns for path in flown} == flown
+    assert (tmp_path / 'page/index.html').read_text() == html
+
+
+def test_paper_says_which_mission_failed(paper, tmp_path):
+    paper("--scenarios lab_model --set 'start={position_m: [0, 0, 0.5], jitter_m: [0, 0, 0]}' "
+          '--set planner.validity.z_min_m=0', 'not every mission came to its end', code=1)
+    html = (tmp_path / 'page/index.html').read_text()
+    for words in ('lab_model, proposed: without a result: exit code 2: gnbv: start',
+                  'Proposed: no mission came to its end', '30,140'):
+        assert words in html
+
+
+@pytest.mark.parametrize('words', ['--scenarios moon', '--set planner.utilty.name=isler',
+                                   '--seeds 0', '--jobs 0'])
+def test_paper_refuses_bad_input_and_leaves_no_page(paper, tmp_path, words):
+    paper(words, code=2)
+    assert not (tmp_path / 'page/index.html').exists()

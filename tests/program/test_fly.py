@@ -1,0 +1,138 @@
+"""`gnbv fly`: what it refuses, how it ends, what it prints, and that no flood stops its time.
+
+Frames are written here anew, byte by byte (MAVLink 2, https://mavlink.io/en/guide/serialization).
+"""
+import itertools
+import re
+import signal
+import socket
+import struct
+import threading
+import time
+
+import pytest
+from program import end_of, until
+
+PORT = 'smoke --mavlink udp://127.0.0.1:0'
+LISTENS = r'gnbv: listening on udp://127.0.0.1:(\d+)'
+CRC_EXTRA = {11: 89, 76: 152, 84: 143}
+NUMBERS = itertools.count()
+
+
+def frame(message_id, layout, *values):
+    body = struct.pack('<' + layout, *values)
+    packet = struct.pack('<BBBBBBHB', len(body), 0, 0, next(NUMBERS) % 256, 255, 190,
+                         message_id & 0xffff, message_id >> 16) + body
+    crc = 0xffff
+    for byte in [*packet, CRC_EXTRA[message_id]]:  # X.25
+        byte = (byte ^ crc) & 0xff
+        byte ^= byte << 4 & 0xff
+        crc = crc >> 8 ^ byte << 8 ^ byte << 3 ^ byte >> 4
+    return b'\xfd' + packet + struct.pack('<H', crc & 0xffff)
+
+
+@pytest.fixture
+def flying(gnbv):
+    """flying(line) -> a vehicle that listens, and its port."""
+    processes = []
+
+    def start(line):
+        process = gnbv.start('fly', *line.split())
+        processes.append(process)
+
+        def port():
+            process.files[1].seek(0)
+            found = re.search(LISTENS, process.files[1].read().decode())
+            process.port = found and int(found[1])
+            return process.port
+
+        until(30, 'it listens', port)
+        return process
+
+    yield start
+    for process in processes:
+        process.kill()
+        process.wait()
+
+
+@pytest.fixture
+def client():
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as udp:
+        udp.bind(('127.0.0.1', 0))
+        udp.settimeout(5)
+        yield udp
+
+
+def test_ends_after_its_duration_with_a_summary(run):
+    flown = run(f'fly {PORT} --speed 20 --duration 2 --json').json
+    assert (flown['end'], flown['flight_time_s'], flown['accepted']) == ('duration', 2.0, 0)
+    assert flown['wall_s'] >= 0.09, 'not faster than asked for'
+    assert flown['dropped']['bad_crc'] == 0
+    end = run(f'fly {PORT} --speed 20 --duration 0.1', 'end: duration')
+    assert re.match(LISTENS, end.err) and 'other machines' not in end.err
+    run('fly smoke --mavlink udp://0.0.0.0:0 --speed 20 --duration 0.1',
+        'can be reached from other machines')
+
+
+def test_speaks_first_to_where_its_client_waits(run, client):
+    url = f'udpout://127.0.0.1:{client.getsockname()[1]}'
+    end = run(f'fly smoke --speed 5 --duration 5 --mavlink {url}')
+    assert end.err.startswith(f'gnbv: speaking to {url} from udp://127.0.0.1:')
+    first = client.recv(2048)
+    assert first[0] == 0xfd and first[7:10] == b'\0\0\0', 'a heartbeat'
+
+
+def test_ctrl_c_is_an_ordinary_end(flying):
+    process = flying(PORT)
+    process.send_signal(signal.SIGINT)
+    end = end_of(process)
+    assert end.code == 0 and 'end: stopped' in end.out + end.err
+
+
+def test_touching_the_structure_is_a_failure_that_says_where(flying, client):
+    """OFFBOARD, arming and the middle of the structure, asked for until it ends."""
+    process = flying(f'{PORT} --speed 2 --duration 60')
+    while process.poll() is None:
+        for packet in (frame(84, 'I11fHBBB', 0, 0, 0, -0.7, *[0] * 8, 2552, 1, 1, 1),
+                       frame(11, 'IBB', 6 << 16, 1, 1),
+                       frame(76, '7fHBBB', 1, *[0] * 6, 400, 1, 1, 0)):
+            client.sendto(packet, ('127.0.0.1', process.port))
+        time.sleep(0.02)
+    end = end_of(process)
+    assert end.code == 1 and 'hit the structure at [' in end.err, end
+
+
+# commands in MAVLink 1 that are too long, and positions in MAVLink 2 that are as long as a frame
+# can be, which a newer sender may mean so: a CRC of 265 bytes at every tenth
+@pytest.mark.parametrize('longest', [b'\xfe\xff\x4c', b'\xfd\xff\0\0\0\0\0\x1e\0\0'])
+def test_a_flood_does_not_stop_time(flying, client, longest):
+    process = flying(f'{PORT} --duration 3 --json')
+    datagram = longest * (2040 // len(longest))
+    is_over = threading.Event()
+
+    def flood():
+        while not is_over.is_set():
+            for _ in range(100):
+                client.sendto(datagram, ('127.0.0.1', process.port))
+            time.sleep(0.01)  # 20 MB/s
+
+    attacker = threading.Thread(target=flood)
+    attacker.start()
+    # a vehicle that refuses byte by byte flies a tenth of real time
+    end = end_of(process, 30)
+    is_over.set()
+    attacker.join()
+    assert end.code == 0 and end.json['datagrams'] > 1000, end
+
+
+@pytest.mark.parametrize('words', [
+    'smoke --mavlink udp://127.0.0.1:{taken}', 'smoke --mavlink tcp://127.0.0.1:14540',
+    'smoke --mavlink udp://127.0.0.1', 'smoke --mavlink udpout://127.0.0.1:0',
+    'smoke --mavlink udpout://0.0.0.0:14540', 'smoke --mavlink udp://8.8.8.8:14540',
+    'smoke --mavlink udp://no-such-host.invalid:14540', f'{PORT} --speed 0', f'{PORT} --duration 0',
+    f'{PORT} --set vehicle.kind=ideal', f'{PORT} --set structure.ground=false', 'no-such-scenario',
+    # the tower's wall stands at x = 0.04: the start is above it, the ground below is in it
+    f"{PORT} --set 'start={{position_m: [0.04, 0.12, 4], jitter_m: [0, 0, 0]}}'"])
+def test_what_cannot_be_served_is_bad_input(run, client, words):
+    words = words.replace('{taken}', str(client.getsockname()[1]))
+    assert 'listening' not in run(f'fly {words}', code=2).err
