@@ -36,7 +36,9 @@ TEST_F(Score, AWorseMissionFailsTheBaselineByName) {
 TEST_F(Score, ChecksAgainstABaselineThatItWrote) {
   const std::string baseline = (temp_.path() / "b.json").string();
   const std::string check = "check " + original().string() + " --against " + baseline;
-  EXPECT_EQ(gnbv(check).exit_code, 2);  // there is none yet
+  const Outcome none = gnbv(check);
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_TRUE(has(none, "no such baseline; `gnbv " + check + " --update`")) << none.output;
   ASSERT_EQ(gnbv(check + " --update").exit_code, 0);
   EXPECT_EQ(gnbv(check).exit_code, 0);
   Json changed = Json::parse(read_file(baseline));
@@ -52,7 +54,10 @@ TEST_F(Score, ChecksAgainstABaselineThatItWrote) {
                   "termination: " + summary_of(original()).at("termination").get<std::string>() +
                       ", the baseline's is battery"));
   EXPECT_EQ(gnbv(check + " --json --update").exit_code, 2);
-  ASSERT_EQ(gnbv(check + " --update").exit_code, 0);
+  const Outcome worse = gnbv(check + " --update");
+  ASSERT_EQ(worse.exit_code, 0);
+  EXPECT_TRUE(has(worse, "regressed against " + baseline + ": termination result_sha256 recall"))
+      << "taken, but not without a word: " << worse.output;
   const Json updated = Json::parse(read_file(baseline));
   EXPECT_EQ(updated.at("metrics").at("recall").at("tolerance"), 0.5);
   EXPECT_EQ(updated.at("result_sha256"), summary_of(original()).at("result_sha256"));

@@ -139,8 +139,7 @@ std::string frame_stem(std::size_t iteration, const std::string& camera) {
 FramesFolder::FramesFolder(const fs::path& run, std::vector<CameraModel> cameras)
     : folder_(run / kFramesFolder),
       cameras_(std::move(cameras)),
-      poses_(fmt::format("{}\n", kPosesHeader)) {
-  make_folder(folder_);
+      poses_((make_folder(folder_), folder_ / kPosesFile), fmt::format("{}\n", kPosesHeader)) {
   Json intrinsics = Json::array();
   for (const CameraModel& camera : cameras_) intrinsics.push_back(json_of(camera));
   write_file_atomically(folder_ / kCamerasFile, intrinsics.dump(2) + "\n");
@@ -155,9 +154,8 @@ void FramesFolder::write(std::size_t iteration, double time_s, std::span<const D
     const std::string stem = frame_stem(iteration, camera.name);
     write_png(image_of(colour[i], camera), folder_ / (stem + ".rgb.png"), Lasting::the_process);
     write_png(image_of(depth[i], camera), folder_ / (stem + ".depth.png"), Lasting::the_process);
-    poses_ += row_of(iteration, time_s, camera.name, depth[i].T_world_camera, stem);
+    poses_.write(row_of(iteration, time_s, camera.name, depth[i].T_world_camera, stem));
   }
-  write_file_atomically(folder_ / kPosesFile, poses_, Lasting::the_process);
 }
 
 bool has_frames(const fs::path& run) {
@@ -180,7 +178,7 @@ FrameRecord read_frames(const fs::path& run) {
   }
   FrameRecord record{.cameras = read_cameras(folder / kCamerasFile), .frames = {}};
   const std::string text = read_file(poses);
-  std::string_view rest = text;
+  std::string_view rest(text.data(), text.rfind('\n') + 1);  // a killed run may not end a row
   need_header(trimmed(next_part(rest, '\n')), kPosesHeader, {poses, 1},
               fmt::format("; {} flies the mission again", again));
   for (int line = 2; !rest.empty(); ++line) {

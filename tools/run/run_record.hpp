@@ -17,16 +17,17 @@ namespace gnbv {
 struct RunRecord {
   std::filesystem::path folder;             // never "." or "..", no slash at its end
   Scenario scenario;                        // scenario.yaml
+  bool goes_on = false;                     // with more views than it last ended with
   std::vector<TrajectorySample> path = {};  // trajectory.tum, times ascending; empty without it
-  std::vector<ViewRecord> views = {};       // iterations.csv, or what a run that goes on has so far
+  std::vector<ViewRecord> views = {};       // iterations.csv, or its journal
   std::optional<RunFigures> figures = {};   // summary.json and coverage.csv
   std::optional<double> profile_end_s = {};  // summary.json: where the profile ends,
   std::optional<double> views_begin_s = {};  // and where the planned views begin
   std::vector<std::string> missing = {};     // a sentence each: what is not there, what makes it
 };
 
-/// Reads a run directory, finished or not. What is absent, or was written by another version, is
-/// left out and named in `missing` with the command that makes it. Throws BadInput naming the
+/// Reads a run directory as it stands (RunFiles). What is absent, or was written by another version,
+/// is left out and named in `missing` with the command that makes it. Throws BadInput naming the
 /// folder when it holds no run at all, and file and line of whatever is damaged. A mesh file that
 /// was moved since is missed only by those who load it.
 RunRecord read_run(const std::filesystem::path& folder);

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <array>
-#include <cstring>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -46,9 +45,7 @@ CellOutcome record_failure(const Cell& cell, const CellFiles& files, const Child
                            const std::vector<std::string>& command, std::uintmax_t log_begin) {
   const bool killed = end.signal != 0;
   const std::vector<std::string> lines = last_lines(files.log, log_begin);
-  std::string line =
-      killed ? fmt::format("killed by signal {} ({})", end.signal, strsignal(end.signal))
-             : fmt::format("exit code {}", end.exit_code);
+  std::string line = end.text();
   if (!lines.empty()) line += ": " + lines.back();
   const Json record = {{"id", cell.id},
                        {"scenario", cell.scenario},

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/core/child_process.hpp"
 #include "tools/sweep/cell_files.hpp"
-#include "tools/sweep/child.hpp"
 #include "tools/sweep/run_cells.hpp"
 
 namespace gnbv {
