@@ -101,8 +101,8 @@ std::string ChildEnd::text() const {
 ChildProcess::ChildProcess(const std::vector<std::string>& command, const ChildOptions& options) {
   hear_of_children();
   const std::string program = options.program.empty() ? command[0] : options.program.string();
-  Start start{.words = {}, .program = program.c_str(), .log = options.log.c_str(),
-              .options = options};
+  Start start{
+      .words = {}, .program = program.c_str(), .log = options.log.c_str(), .options = options};
   for (const std::string& word : command) start.words.push_back(const_cast<char*>(word.c_str()));
   start.words.push_back(nullptr);
   std::array<int, 2> in = {-1, -1}, out = {-1, -1}, failed = {-1, -1};
@@ -211,8 +211,10 @@ ChildEnd ChildProcess::end() {
   close_pipes();
   int status = 0;
   while (!end_) {
-    if (waitpid(pid_, &status, 0) == pid_) end_ = end_of(status);
-    else if (errno != EINTR) end_ = ChildEnd{.exit_code = -1};  // somebody else waited for it
+    if (waitpid(pid_, &status, 0) == pid_)
+      end_ = end_of(status);
+    else if (errno != EINTR)
+      end_ = ChildEnd{.exit_code = -1};  // somebody else waited for it
   }
   return *end_;
 }

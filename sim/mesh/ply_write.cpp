@@ -6,8 +6,7 @@
 namespace gnbv {
 namespace {
 
-constexpr const char* kColours =
-    "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+constexpr const char* kColours = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
 
 template <typename Value, std::size_t kExtent>
 void append_all(std::string& out, std::span<const Value, kExtent> values) {
@@ -23,7 +22,8 @@ std::string head_of(const PlyVertices& vertices, const std::optional<PlyFaces>& 
       "ply\nformat binary_little_endian 1.0\ncomment gnbv, world ENU, metres\n"
       "element vertex {}\nproperty float x\nproperty float y\nproperty float z\n",
       vertices.places_world_m.size());
-  if (!vertices.normals.empty()) head += "property float nx\nproperty float ny\nproperty float nz\n";
+  if (!vertices.normals.empty())
+    head += "property float nx\nproperty float ny\nproperty float nz\n";
   if (!vertices.colours.empty()) head += kColours;
   if (!vertices.views.empty()) head += "property int view\n";
   if (faces) {

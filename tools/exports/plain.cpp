@@ -10,9 +10,9 @@
 #include "sim/core/file.hpp"
 #include "tools/exports/export_folder.hpp"
 #include "tools/run/cloud_file.hpp"
-#include "tools/run/run_files.hpp"
 #include "tools/run/iterations_csv.hpp"
-#include "tools/run/run_poses.hpp"
+#include "tools/run/run_files.hpp"
+#include "tools/run/run_record.hpp"
 #include "tools/run/separated_text.hpp"
 
 namespace gnbv {
@@ -167,7 +167,8 @@ void write_cloud(const RunCloud& cloud, const std::vector<Rgb8>& colours, const 
 /// for more than a map of the run's workspace has.
 void write_map(const fs::path& octomap, const RunRecord& record, const fs::path& folder) {
   const OccupancyConfig& config = record.scenario.planner.map;
-  const std::size_t most = GridGeometry(record.scenario.workspace_m, config.resolution_m).voxel_count();
+  const std::size_t most =
+      GridGeometry(record.scenario.workspace_m, config.resolution_m).voxel_count();
   const OctomapLeaves map = read_octomap(octomap);
   std::vector<Vec3f> occupied_m;
   std::size_t voxels = 0;

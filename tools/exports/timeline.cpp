@@ -10,7 +10,7 @@
 #include "sim/core/error.hpp"
 #include "sim/mesh/mesh_file.hpp"
 #include "tools/run/file_names.hpp"
-#include "tools/run/run_poses.hpp"
+#include "tools/run/run_record.hpp"
 
 namespace gnbv {
 namespace {

@@ -40,8 +40,7 @@ void update(const CheckOptions& options) {
   if (fs::exists(options.against)) {
     const Baseline before = read_baseline(options.against);
     now = updated_baseline(run, before, options.against);
-    const BaselineCheck check =
-        check_against(before, options.against, run, Versions::may_differ);
+    const BaselineCheck check = check_against(before, options.against, run, Versions::may_differ);
     if (const std::string worse = regressed_text(options, check); !worse.empty()) {
       say("{}; from now on that is what is asked for", worse);
     }
@@ -52,10 +51,11 @@ void update(const CheckOptions& options) {
 
 void check(const CheckOptions& options) {
   if (!fs::exists(options.against)) {
-    throw BadInput(fmt::format("{}: no such baseline; `gnbv check {} --against {} --update` writes "
-                               "one of the run",
-                               options.against.string(), shell_word(options.run.string()),
-                               shell_word(options.against.string())));
+    throw BadInput(
+        fmt::format("{}: no such baseline; `gnbv check {} --against {} --update` writes "
+                    "one of the run",
+                    options.against.string(), shell_word(options.run.string()),
+                    shell_word(options.against.string())));
   }
   const Baseline baseline = read_baseline(options.against);
   const BaselineCheck check =

@@ -15,7 +15,7 @@
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/mission/load_world.hpp"
-#include "tools/run/cloud_colours.hpp"
+#include "tools/frames/frame_sight.hpp"
 #include "tools/run/run_files.hpp"
 #include "tools/run/run_inputs.hpp"
 #include "tools/terminal/progress.hpp"
@@ -106,7 +106,8 @@ void fill_plain(const Export& e, const fs::path& folder) {
   const RunFiles files(e.record.folder);
   if (!files.find(kMapOddsFile)) {
     note(fmt::format("{}: is missing, so that no voxels are written; {} makes one",
-                     (e.record.folder / kMapOddsFile).string(), command_to_fly_again(e.record.folder)));
+                     (e.record.folder / kMapOddsFile).string(),
+                     command_to_fly_again(e.record.folder)));
   }
   if (parts.frames && parts.cloud) {
     parts.colours = colours_of_cloud(e.record, *parts.cloud, *parts.frames, e.threads, e.progress);

@@ -21,7 +21,6 @@
 #include "tools/report/page_parts.hpp"
 #include "tools/run/file_names.hpp"
 #include "tools/run/frames_folder.hpp"
-#include "tools/run/run_commands.hpp"
 #include "tools/run/run_directory.hpp"
 #include "tools/run/run_files.hpp"
 #include "tools/run/summary_json.hpp"

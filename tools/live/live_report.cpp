@@ -44,7 +44,8 @@ void serve_report(const std::filesystem::path& run, const LiveReportOptions& opt
   std::optional<Stage> shown;
   for (int look = 0; !InterruptGuard::requested(); ++look) {
     if (look % kLooksBetweenPages == 0) {
-      const bool was_finished = RunFiles(run).is_finished();  // asked first: the record has what it says
+      const bool was_finished =
+          RunFiles(run).is_finished();  // asked first: the record has what it says
       const std::optional<RunRecord> record = read_growing(run);
       if (record && !record->views.empty()) {
         const Stage stage{record->views.size(), was_finished};

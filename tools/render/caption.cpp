@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
-
-#include "sim/core/round_number.hpp"
 
 namespace gnbv {
 namespace {
@@ -20,6 +19,15 @@ constexpr double kHalo = 2.5;
 constexpr double kPaperBorder = 7.0;  // above and below the legend
 constexpr Rgb8 kSheet = {246, 248, 250};
 constexpr double kSheetOpacity = 0.92;
+
+// The longest of 1, 2, 5, 10 ... m that stays under `limit_m`.
+double round_length_m(double limit_m) {
+  const double power = std::pow(10.0, std::floor(std::log10(limit_m)));
+  for (const double step : {5.0, 2.0}) {
+    if (step * power <= limit_m) return step * power;
+  }
+  return power;
+}
 
 bool is_bar(const LegendItem& item) { return item.colours.size() > 1; }
 
@@ -216,7 +224,7 @@ double legend_paper_height(int rows, double width) {
 }
 
 double scale_length_m(const RenderView& view) {
-  return round_down(0.16 * view.width_px / px_per_m_at_focus(view));
+  return round_length_m(0.16 * view.width_px / px_per_m_at_focus(view));
 }
 
 double draw_scale(Image& image, const RenderView& view, double u, double length_m) {

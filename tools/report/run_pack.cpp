@@ -10,8 +10,8 @@
 #include "tools/report/structures.hpp"
 #include "tools/report/thinning.hpp"
 #include "tools/report/voxel_growth.hpp"
-#include "tools/run/file_names.hpp"
 #include "tools/run/plan_jsonl.hpp"
+#include "tools/run/run_files.hpp"
 
 namespace gnbv {
 namespace {

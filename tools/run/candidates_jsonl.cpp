@@ -6,7 +6,6 @@
 
 #include "sim/core/error.hpp"
 #include "tools/run/mission_result.hpp"
-#include "tools/run/run_commands.hpp"
 #include "tools/run/run_files.hpp"
 
 namespace gnbv {

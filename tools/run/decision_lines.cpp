@@ -5,7 +5,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "tools/run/run_commands.hpp"
+#include "tools/run/run_files.hpp"
 #include "tools/run/separated_text.hpp"
 
 namespace gnbv {

@@ -8,7 +8,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/run/file_names.hpp"
-#include "tools/run/run_commands.hpp"
+#include "tools/run/run_files.hpp"
 #include "tools/run/separated_text.hpp"
 
 namespace gnbv {
@@ -62,8 +62,8 @@ fs::path image_named(const fs::path& folder, std::string_view name, const TextPl
 
 RecordedFrame frame_of(std::string_view row, const std::vector<FrameCamera>& cameras,
                        const TextPlace& place) {
-  std::array<std::string_view, 12> cells;
-  for (std::string_view& cell : cells) cell = next_part(row, ',');
+  std::vector<std::string_view> cells = split(row, ',');
+  cells.resize(12);
   const auto camera = std::find_if(cameras.begin(), cameras.end(),
                                    [&](const FrameCamera& c) { return c.name == cells[1]; });
   if (camera == cameras.end()) {

@@ -7,7 +7,6 @@
 #include "sim/core/text.hpp"
 #include "tools/run/coverage_csv.hpp"
 #include "tools/run/iterations_csv.hpp"
-#include "tools/run/run_commands.hpp"
 #include "tools/run/run_files.hpp"
 #include "tools/run/summary_json.hpp"
 

@@ -12,7 +12,7 @@
 #include "tools/run/plan_jsonl.hpp"
 #include "tools/run/predictions_csv.hpp"
 #include "tools/run/run_claim.hpp"
-#include "tools/run/run_commands.hpp"
+#include "tools/run/run_files.hpp"
 #include "tools/run/summary_json.hpp"
 #include "tools/run/trajectory_tum.hpp"
 #include "tools/run/user_views.hpp"
@@ -91,8 +91,7 @@ RunDirectory::RunDirectory(fs::path folder, const Scenario& scenario, bool resum
   const RunFiles files(folder_);
   const bool holds_a_run = files.find(kScenarioFile).has_value();
   const std::optional<RunSummary> summary = holds_a_run ? summary_of(folder_) : std::nullopt;
-  const std::optional<fs::path> record =
-      holds_a_run ? files.find(kIterationsFile) : std::nullopt;
+  const std::optional<fs::path> record = holds_a_run ? files.find(kIterationsFile) : std::nullopt;
   if (record) {
     recorded_ = read_view_records(*record);
     if (summary) need_views_of_summary(*record, *summary, recorded_);

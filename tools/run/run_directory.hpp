@@ -48,8 +48,8 @@ class RunDirectory {
   /// with.
   void append(const ViewRecord& view);
 
-  /// Keeps the last of the views that the mission was given, one by one: views.csv.part grows by it,
-  /// and finish() writes all into scenario.yaml.
+  /// Keeps the last of the views that the mission was given, one by one: views.csv.part grows by
+  /// it, and finish() writes all into scenario.yaml.
   void keep(std::span<const ViewPose> views);
 
   /// Removes the old summary.json, writes every file, removes the journals and writes summary.json

@@ -7,6 +7,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/text.hpp"
 #include "tools/run/summary_json.hpp"
 
 namespace gnbv {
@@ -17,8 +18,8 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 3> kGrowing = {kIterationsFile, kCandidatesFile,
                                                       kBeliefsFile};
 constexpr std::array<std::string_view, 10> kWrittenAtTheEnd = {
-    kSummaryFile, kCoverageFile, kTrajectoryFile, kCloudFile, kProfileCloudFile,
-    kMapFile, kMapOddsFile, kViewsFile,    kPredictionsFile, kPlanFile};
+    kSummaryFile, kCoverageFile, kTrajectoryFile, kCloudFile,       kProfileCloudFile,
+    kMapFile,     kMapOddsFile,  kViewsFile,      kPredictionsFile, kPlanFile};
 
 bool is_one_of(std::span<const std::string_view> names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -80,6 +81,21 @@ void GrowingFile::write(std::string_view text) {
   errno = 0;
   file_ << text << std::flush;
   if (!file_) refuse_to_write(path_, errno);
+}
+
+std::string command_to_resume(const fs::path& folder, const std::string& options) {
+  std::error_code ignored;
+  const auto keeps = [&](const fs::path& name) { return fs::exists(folder / name, ignored); };
+  const bool has_candidates = keeps(kCandidatesFile) || keeps(part_of(kCandidatesFile));
+  return fmt::format(
+      "`gnbv run {} {}--resume --out {}{}{}`", shell_word((folder / kScenarioFile).string()),
+      options.empty() ? "" : options + " ", shell_word(folder.string()),
+      keeps(kFramesFolder) ? " --frames" : "", has_candidates ? " --candidates" : "");
+}
+
+std::string command_to_fly_again(const fs::path& folder, const std::string& options) {
+  return fmt::format("`gnbv run {} {}--out NEW`", shell_word((folder / kScenarioFile).string()),
+                     options.empty() ? "" : options + " ");
 }
 
 }  // namespace gnbv

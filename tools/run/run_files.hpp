@@ -22,8 +22,8 @@ class RunFiles {
   /// Whether it has flown views that no end of it has told of yet.
   bool goes_on() const { return goes_on_; }
 
-  /// The file of that name, one of file_names.hpp: the one that grows rather than that of an earlier
-  /// end, and nothing of what is written at the end alone while the run goes on.
+  /// The file of that name, one of file_names.hpp: the one that grows rather than that of an
+  /// earlier end, and nothing of what is written at the end alone while the run goes on.
   std::optional<std::filesystem::path> find(std::string_view name) const;
 
   /// Whether all is there of a run that ended by itself: there is nothing to resume.
@@ -50,5 +50,13 @@ class GrowingFile {
   std::filesystem::path path_;
   std::ofstream file_;
 };
+
+/// `gnbv run FOLDER/scenario.yaml OPTIONS --resume --out FOLDER`, keeping what the run in the
+/// folder keeps.
+std::string command_to_resume(const std::filesystem::path& folder, const std::string& options = "");
+
+/// `gnbv run FOLDER/scenario.yaml OPTIONS --out NEW`: flies the same mission once more.
+std::string command_to_fly_again(const std::filesystem::path& folder,
+                                 const std::string& options = "");
 
 }  // namespace gnbv

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "sim/core/error.hpp"
-#include "sim/core/round_number.hpp"
 #include "tools/render/caption.hpp"
 #include "tools/run/words.hpp"
 
@@ -137,7 +137,12 @@ Image surface_picture(const TexturedMesh& mesh, const std::string& title, int wi
 
 double error_range_m(std::span<const double> errors_m) {
   constexpr double kLeast_m = 0.001;
-  return round_up(std::max(kLeast_m, quantile(errors_m, 0.95)));
+  const double most_m = std::max(kLeast_m, quantile(errors_m, 0.95));
+  const double power_m = std::pow(10.0, std::floor(std::log10(most_m) + 1e-9));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (most_m <= (factor + 1e-9) * power_m) return factor * power_m;
+  }
+  return 10.0 * power_m;
 }
 
 Image error_picture(const TriangleMesh& mesh, std::span<const double> errors_m,

@@ -176,14 +176,14 @@ class Pool {
     one.command.insert(one.command.end(), options_.run_arguments.begin(),
                        options_.run_arguments.end());
     // the first Ctrl-C is passed on to it, as SIGINT; killed, we leave it to fly on
-    one.child = std::make_unique<ChildProcess>(
-        one.command, ChildOptions{.out = ChildStream::log,
-                                  .err = ChildStream::log,
-                                  .log = files.log,
-                                  .program = program_,
-                                  .dies_with_us = false,
-                                  .is_apart = true,
-                                  .kept_open = one.lock.descriptor()});
+    one.child = std::make_unique<ChildProcess>(one.command,
+                                               ChildOptions{.out = ChildStream::log,
+                                                            .err = ChildStream::log,
+                                                            .log = files.log,
+                                                            .program = program_,
+                                                            .dies_with_us = false,
+                                                            .is_apart = true,
+                                                            .kept_open = one.lock.descriptor()});
     if (one.child->start_error() != 0) {
       throw BadInput(fmt::format("{}, its output in {}: {}", one.command[0], files.log.string(),
                                  one.child->end().text()));

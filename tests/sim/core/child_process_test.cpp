@@ -1,8 +1,8 @@
 // Laws of child processes: what is said comes across, how they end is told, nobody is left behind.
 #include "sim/core/child_process.hpp"
 
-#include <gmock/gmock.h>
 #include <fcntl.h>
+#include <gmock/gmock.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>

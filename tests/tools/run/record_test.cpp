@@ -9,7 +9,7 @@
 #include "tests/support/temp_folder.hpp"
 #include "tools/run/frames_folder.hpp"
 #include "tools/run/run_directory.hpp"
-#include "tools/run/run_poses.hpp"
+#include "tools/run/run_record.hpp"
 #include "tools/run/words.hpp"
 
 namespace gnbv {
