@@ -18,7 +18,6 @@
 #include "tools/mission/execute.hpp"
 #include "tools/run/file_names.hpp"
 #include "tools/sweep/cell_files.hpp"
-#include "tools/sweep/failure.hpp"
 #include "tools/terminal/interrupt.hpp"
 #include "tools/terminal/progress.hpp"
 
@@ -209,7 +208,7 @@ class Pool {
     const auto termination = termination_of(one.files.part);
     if (is_result(termination)) return publish(one.files);
     if (termination == "utility_failed") {
-      return record_failure(cells_[one.index], one.files, end, one.command, one.log_begin);
+      return failed(one, end);
     }
     if (termination || InterruptGuard::requested()) return {};  // a later call resumes it
     if (end.signal == SIGKILL) {
@@ -217,7 +216,13 @@ class Pool {
       std::this_thread::sleep_for(std::chrono::seconds(1));
       if (InterruptGuard::requested()) return {};
     }
-    return record_failure(cells_[one.index], one.files, end, one.command, one.log_begin);
+    return failed(one, end);
+  }
+
+  CellOutcome failed(const Running& one, const ChildEnd& end) const {
+    const Cell& cell = cells_[one.index];
+    return {
+        CellStatus::failed, {}, record_failure(cell, one.files, end, one.command, one.log_begin)};
   }
 
   static CellOutcome publish(const CellFiles& files) {
