@@ -128,10 +128,10 @@ TEST_F(Export, WithoutFramesThePathIsStillThere) {
     EXPECT_EQ(cells[0], cells_of(own[i], ' ')[0]);
     EXPECT_TRUE(pose_of(cells, 1).isApprox(pose_of(cells_of(own[i], ' '), 1), 1e-6));
   }
-  EXPECT_TRUE(fs::remove(bare / "profile.ply") && fs::remove(bare / "map.bt"));
+  EXPECT_TRUE(fs::remove(bare / "profile.ply") && fs::remove(bare / "map.ot"));
   const Outcome plain = gnbv("export " + bare.string() + " --format plain");
   ASSERT_EQ(plain.exit_code, 0) << plain.output;
-  for (const char* what : {"profile.ply: is missing", "map.bt: is missing", "--frames"}) {
+  for (const char* what : {"profile.ply: is missing", "map.ot: is missing", "--frames"}) {
     EXPECT_TRUE(has(plain, what)) << plain.output;
   }
   EXPECT_NE(read_file(bare / "export/plain/views.csv").find(",planned,"), std::string::npos);

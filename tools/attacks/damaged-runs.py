@@ -46,7 +46,7 @@ COMMANDS = {
     'export colmap': (made('export', '--format', 'colmap'), [*RECORD, *CLOUDS, 'frames/']),
     'export nerfstudio': (made('export', '--format', 'nerfstudio'), [*RECORD, *CLOUDS, 'frames/']),
     'export plain': (made('export', '--format', 'plain'),
-                     [*RECORD, *CLOUDS, 'map.bt', 'frames/']),
+                     [*RECORD, *CLOUDS, 'map.ot', 'frames/']),
     'surface': (made('surface'), [*RECORD, *CLOUDS, 'frames/']),
     'render path': (made('render', to=TO_PNG), [*RECORD, 'inputs.json']),
     'render cloud': (made('render', '--what', 'cloud', to=TO_PNG),

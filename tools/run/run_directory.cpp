@@ -162,13 +162,13 @@ void RunDirectory::finish(const Scenario& scenario, const MissionResult& result,
   std::error_code ignored;
   // an old one would be taken for that of the new files, were this process killed among them
   if (fs::remove(folder_ / kSummaryFile, ignored)) sync_to_disk(folder_);
+  write_file_atomically(folder_ / kScenarioFile, to_yaml(scenario));  // with views given on the way
   write_file_atomically(folder_ / kTrajectoryFile, trajectory_tum(result.trajectory));
   write_cloud_ply(result.profile_points_world_m, folder_ / kProfileCloudFile);
   write_cloud_ply(result.belief.cloud.points_world_m(), folder_ / kCloudFile);
   write_octomap(result.belief.grid, folder_ / kMapStem);
   const PlannerTraits planner = traits_of(scenario.planner);
   if (planner.takes_views) {
-    if (given_views_) write_file_atomically(folder_ / kScenarioFile, to_yaml(scenario));
     write_file_atomically(folder_ / kViewsFile, user_views_csv(result.user_views));
   }
   if (is_user_utility(scenario.planner.utility.name)) {
