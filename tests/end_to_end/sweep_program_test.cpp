@@ -77,6 +77,19 @@ TEST_F(SweepProgram, FliesWhatIsMissingAndTabulatesAll) {
   }
 }
 
+TEST_F(SweepProgram, WhateverItsRowsAreCalledItIsComparedAndDrawn) {
+  write("named.yaml",
+        "scenarios: {name: a/b, scenario: smoke}\nutilities: [proposed, bircher]\nseeds: 2\n"
+        "set: {planner.termination.max_iterations: 1}\n");
+  ASSERT_EQ(sweep("named.yaml --out o --jobs 2 --threads 1 2>/dev/null").exit_code, 0);
+  const std::string folder = temp_.path().string();
+  const Outcome compared =
+      gnbv("compare --no-ceiling --from " + folder + "/o --plots " + folder + "/p");
+  EXPECT_EQ(compared.exit_code, 0) << compared.output;
+  EXPECT_THAT(compared.output, HasSubstr("a/b"));
+  EXPECT_TRUE(fs::exists(temp_.path() / "p")) << compared.output;
+}
+
 TEST_F(SweepProgram, ExitsWith1WhenACellFailedAndSaysWhich) {
   write(
       "f.yaml",
