@@ -37,9 +37,10 @@ class RunAsItStands : public ::testing::Test {
     result.views = views_;
     result.trajectory = made_record().path;
     MissionScore score;
-    score.curve = {.coverage = {views_.size() + 1, {0.1, 0.2, 0.3}},
-                   .metres = std::vector<double>(views_.size() + 1, 0.0),
-                   .seconds = std::vector<double>(views_.size() + 1, 0.0)};
+    const std::size_t rows = views_.size() + 1;
+    score.curve.coverage.assign(rows, {0.1, 0.2, 0.3});
+    score.curve.metres.assign(rows, 0.0);
+    score.curve.seconds.assign(rows, 0.0);
     RunDirectory(run(), scenario_, false).finish(scenario_, result, score, 1.0);
   }
 };
