@@ -276,8 +276,9 @@ Baseline updated_baseline(const RunFigures& run, const Baseline& before, const f
   return baseline;
 }
 
-BaselineCheck check_against(const Baseline& baseline, const fs::path& path, const RunFigures& run) {
-  need_same(baseline.of, subject_of(run), true, path);
+BaselineCheck check_against(const Baseline& baseline, const fs::path& path, const RunFigures& run,
+                            Versions versions) {
+  need_same(baseline.of, subject_of(run), versions == Versions::have_to_agree, path);
   BaselineCheck check{.metrics = {}, .termination = run.termination};
   for (const BaselineMetric& metric : baseline.metrics) {
     const double now = gated_value(run, metric, path);
@@ -287,6 +288,16 @@ BaselineCheck check_against(const Baseline& baseline, const fs::path& path, cons
       run.termination == "collision" || run.termination != baseline.termination;
   check.is_hash_wrong = baseline.result_sha256 && *baseline.result_sha256 != run.result_sha256;
   return check;
+}
+
+std::vector<std::string> regressed(const BaselineCheck& check) {
+  std::vector<std::string> names;
+  if (check.is_termination_wrong) names.emplace_back("termination");
+  if (check.is_hash_wrong) names.emplace_back("result_sha256");
+  for (const MetricChange& change : check.metrics) {
+    if (change.verdict == GateVerdict::regressed) names.push_back(change.baseline.name);
+  }
+  return names;
 }
 
 }  // namespace gnbv

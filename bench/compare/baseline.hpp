@@ -72,8 +72,13 @@ struct BaselineCheck {
   bool is_hash_wrong = false;
 };
 
-/// Throws BadInput naming `path` and every difference when the run is of something else.
+/// Throws BadInput naming `path` and every difference when the run is of something else, or of
+/// another version where that may not be.
+enum class Versions { have_to_agree, may_differ };
 BaselineCheck check_against(const Baseline& baseline, const std::filesystem::path& path,
-                            const RunFigures& run);
+                            const RunFigures& run, Versions versions = Versions::have_to_agree);
+
+/// What got worse, by name: termination, result_sha256, metrics.
+std::vector<std::string> regressed(const BaselineCheck& check);
 
 }  // namespace gnbv

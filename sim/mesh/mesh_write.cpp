@@ -12,6 +12,7 @@
 #include "sim/core/file.hpp"
 #include "sim/core/image.hpp"
 #include "sim/mesh/mesh_file.hpp"
+#include "sim/mesh/ply_write.hpp"
 
 namespace gnbv {
 namespace {
@@ -49,26 +50,16 @@ std::string obj_text_of(const TriangleMesh& mesh, const std::string& mtl_name) {
   return out;
 }
 
-/// Little-endian; each face has the sRGB bytes of its material, as MeshLab shows them. Our own,
-/// since assimp (5.2.4) writes binary PLY with colours wrong.
+/// Each face has the sRGB bytes of its material, as MeshLab shows them. Our own, since assimp (5.2.4)
+/// writes binary PLY with colours wrong.
 std::string ply_bytes_of(const TriangleMesh& mesh) {
-  std::string out = fmt::format(
-      "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\n"
-      "property float y\nproperty float z\nelement face {}\nproperty list uchar int "
-      "vertex_indices\n"
-      "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n",
-      mesh.vertices_m.size(), mesh.faces.size());
-  for (const Vec3f& v : mesh.vertices_m) {
-    for (const float x : v) append_bytes(out, x);
-  }
+  std::vector<Rgb8> colours;
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
-    append_bytes(out, std::uint8_t{3});
-    for (const std::uint32_t index : mesh.faces[i]) append_bytes(out, index);
-    for (const float channel : mesh.materials[material_of(mesh, i)].rgb) {
-      append_bytes(out, srgb_byte(channel));
-    }
+    const auto& [r, g, b] = mesh.materials[material_of(mesh, i)].rgb;
+    colours.push_back({srgb_byte(r), srgb_byte(g), srgb_byte(b)});
   }
-  return out;
+  return ply_bytes({.places_world_m = mesh.vertices_m},
+                   PlyFaces{.corners = mesh.faces, .colours = colours});
 }
 
 /// The faces of one material, their vertices numbered in order of first use; null without faces.

@@ -33,7 +33,7 @@ COMMANDS = {
     'export run --format tum -o out': [*RECORD, 'frames/'],
     'export run --format colmap -o out': [*RECORD, *CLOUDS, 'frames/'],
     'export run --format nerfstudio -o out': [*RECORD, *CLOUDS, 'frames/'],
-    'export run --format plain -o out': [*RECORD, *CLOUDS, 'map.bt', 'frames/'],
+    'export run --format plain -o out': [*RECORD, *CLOUDS, 'map.ot', 'frames/'],
     'surface run -o out': [*RECORD, *CLOUDS, 'frames/'],
     'render run -o out.png': PICTURED,
     'render run --what cloud -o out.png': [*PICTURED, *CLOUDS],

@@ -6,10 +6,10 @@
 #include <string_view>
 
 #include "planner/core/belief.hpp"
+#include "planner/map/octomap_io.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/sha256.hpp"
 #include "tests/fuzz/written.hpp"
-#include "tools/exports/octomap_voxels.hpp"
 #include "tools/run/cloud_file.hpp"
 
 namespace gnbv {
@@ -55,7 +55,7 @@ void check(char kind, std::string_view content) {
     case 'x':
       return check_cloud(written(content, "cloud.xyz"));
     case 'o':
-      read_octomap(written(content, "map.bt"));
+      read_octomap(written(content, "map.ot"));
       return;
     default:
       return check_belief(content);

@@ -199,9 +199,9 @@ def test_without_frames_the_path_is_still_there(run, copy):
     for ours, own in zip(rows(copy / 'export/tum/trajectory.txt'), rows(copy / 'trajectory.tum'),
                          strict=True):
         assert ours == pytest.approx(own, abs=1e-6)
-    for name in ('profile.ply', 'map.bt'):
+    for name in ('profile.ply', 'map.ot'):
         (copy / name).unlink()
-    run('export run --format plain', 'profile.ply: is missing', 'map.bt: is missing', '--frames')
+    run('export run --format plain', 'profile.ply: is missing', 'map.ot: is missing', '--frames')
     assert ',planned,' in (copy / 'export/plain/views.csv').read_text()
     (copy / 'trajectory.tum').unlink()
     run('export run --format tum', '--resume', code=2)

@@ -208,7 +208,7 @@ def test_smoke_keeps_its_baseline(run, flown, request):
 
 def test_checks_against_a_baseline_that_it_wrote(run, flown, tmp_path):
     check = f'check {flown} --against b.json'
-    run(check, code=2)  # there is none yet
+    run(check, f'no such baseline; `gnbv {check} --update`', code=2)
     run(f'{check} --update')
     run(check)
 
@@ -220,7 +220,7 @@ def test_checks_against_a_baseline_that_it_wrote(run, flown, tmp_path):
     assert run(f'{check} --json', code=1).json['regressed'] == 3
     run(check, f'termination: {summary(flown)["termination"]}, the baseline\'s is battery', code=1)
     run(f'{check} --json --update', code=2)
-    run(f'{check} --update')
+    run(f'{check} --update', 'regressed against b.json: termination result_sha256 recall')
     updated = json_of(tmp_path / 'b.json')
     assert updated['metrics']['recall']['tolerance'] == 0.5
     assert updated['result_sha256'] == hash_of(flown)

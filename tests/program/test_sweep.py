@@ -43,6 +43,15 @@ def test_flies_what_is_missing_and_tabulates_all(sweep, tmp_path):
         assert str(found['coverage']['final']['0.05']) in row.values()
 
 
+def test_is_compared_and_drawn_whatever_its_rows_are_called(sweep, run, tmp_path):
+    (tmp_path / 'named.yaml').write_text(
+        'scenarios: {name: a/b, scenario: smoke}\nutilities: [proposed, bircher]\nseeds: 2\n'
+        'set: {planner.termination.max_iterations: 1}\n')
+    sweep('named.yaml --out o --jobs 2 --threads 1')
+    run('compare --no-ceiling --from o --plots p', 'a/b')
+    assert (tmp_path / 'p').exists()
+
+
 def test_a_cell_that_failed_is_named(sweep, tmp_path):
     (tmp_path / 'f.yaml').write_text(
         'scenarios:\n  - smoke\n  - {name: inside, scenario: smoke, set: {'

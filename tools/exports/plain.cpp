@@ -4,15 +4,15 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "planner/map/octomap_io.hpp"
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/exports/export_folder.hpp"
-#include "tools/exports/octomap_voxels.hpp"
 #include "tools/run/cloud_file.hpp"
-#include "tools/run/file_names.hpp"
 #include "tools/run/iterations_csv.hpp"
-#include "tools/run/run_poses.hpp"
+#include "tools/run/run_files.hpp"
+#include "tools/run/run_record.hpp"
 #include "tools/run/separated_text.hpp"
 
 namespace gnbv {
@@ -163,12 +163,33 @@ void write_cloud(const RunCloud& cloud, const std::vector<Rgb8>& colours, const 
   write_cloud_ply(cloud.points_world_m, path, {.colours = colours, .views = views});
 }
 
-void write_map(const fs::path& octomap, const fs::path& folder) {
-  const MeasuredVoxels voxels = read_octomap(octomap);
-  write_cloud_ply(voxels.occupied_world_m, folder / "voxels.ply");
-  const Json json = {{"voxel_m", voxels.voxel_m},
-                     {"occupied_voxels", voxels.occupied_world_m.size()},
-                     {"free_voxels", voxels.free_voxels}};
+/// The centres of the occupied voxels, cubes apart, and how many voxels are free. Throws BadInput
+/// for more than a map of the run's workspace has.
+void write_map(const fs::path& octomap, const RunRecord& record, const fs::path& folder) {
+  const OccupancyConfig& config = record.scenario.planner.map;
+  const std::size_t most =
+      GridGeometry(record.scenario.workspace_m, config.resolution_m).voxel_count();
+  const OctomapLeaves map = read_octomap(octomap);
+  std::vector<Vec3f> occupied_m;
+  std::size_t voxels = 0;
+  for (const OctomapLeaf& leaf : map.leaves) {
+    const auto edge = static_cast<std::size_t>(leaf.edge_voxels);
+    voxels += edge * edge * edge;
+    if (voxels > most) {
+      throw BadInput(fmt::format("{}: holds more voxels than the workspace", octomap.string()));
+    }
+    if (!is_occupied(leaf, config)) continue;
+    for (std::size_t i = 0; i < edge * edge * edge; ++i) {
+      const Vec3 key(leaf.first[0] + static_cast<double>(i % edge),
+                     leaf.first[1] + static_cast<double>(i / edge % edge),
+                     leaf.first[2] + static_cast<double>(i / edge / edge));
+      occupied_m.push_back((map.voxel_m * (key + Vec3::Constant(0.5))).cast<float>());
+    }
+  }
+  write_cloud_ply(occupied_m, folder / "voxels.ply");
+  const Json json = {{"voxel_m", map.voxel_m},
+                     {"occupied_voxels", occupied_m.size()},
+                     {"free_voxels", voxels - occupied_m.size()}};
   write_file_atomically(folder / "map.json", json.dump(2) + "\n");
 }
 
@@ -183,8 +204,7 @@ void write_plain(const RunRecord& record, const PlainParts& parts, const fs::pat
   write_file_atomically(folder / "README.txt", kPlainReadme);
   if (parts.frames) link_images(*parts.frames, folder);
   if (parts.cloud) write_cloud(*parts.cloud, parts.colours, folder / kCloudFile);
-  const fs::path octomap = record.folder / kMapFile;
-  if (fs::exists(octomap)) write_map(octomap, folder);
+  if (const auto map = RunFiles(record.folder).find(kMapOddsFile)) write_map(*map, record, folder);
 }
 
 }  // namespace gnbv

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "tools/run/frame_sight.hpp"
+#include "tools/frames/frame_sight.hpp"
 #include "tools/run/run_record.hpp"
 
 namespace gnbv {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "tools/run/frame_sight.hpp"
+#include "tools/frames/frame_sight.hpp"
 
 namespace gnbv {
 

@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "sensors/camera_model.hpp"
+#include "sim/core/child_process.hpp"
 #include "sim/core/embed.hpp"
 #include "sim/core/error.hpp"
 #include "sim/mesh/mesh_file.hpp"
-#include "tools/mission/child_pipe.hpp"
 #include "tools/run/file_names.hpp"
-#include "tools/run/run_poses.hpp"
+#include "tools/run/run_record.hpp"
 
 namespace gnbv {
 namespace {
@@ -118,7 +118,8 @@ std::string write_timeline(const RunRecord& record, const TimelineParts& parts,
       {"cloud", growth_of(record, parts.cloud)}};
   const Json modules = {
       {"recorded_run", recorded_run_py()}, {"to_rerun", to_rerun_py()}, {"to_mcap", to_mcap_py()}};
-  ChildPipe child({python_program(), "-c", std::string(write_timeline_py())});
+  ChildProcess child({python_program(), "-c", std::string(write_timeline_py())},
+                     {.in = ChildStream::pipe, .out = ChildStream::pipe});
   const auto line = [](const Json& json) {  // ASCII, whatever Python takes for its locale
     return json.dump(-1, ' ', true, Json::error_handler_t::replace) + "\n";
   };
@@ -126,7 +127,7 @@ std::string write_timeline(const RunRecord& record, const TimelineParts& parts,
   const Json answer = Json::parse(child.read_line(), nullptr, false);
   if (!answer.is_object()) {
     throw BadInput(fmt::format("--format {}: {} does not run ({}); GNBV_PYTHON names another",
-                               format, python_program(), child.end()));
+                               format, python_program(), child.end().text()));
   }
   if (answer.contains("error")) throw BadInput(answer["error"].get<std::string>());
   fs::remove(structure);

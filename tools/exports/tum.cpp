@@ -5,7 +5,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/exports/export_folder.hpp"
-#include "tools/run/run_poses.hpp"
+#include "tools/run/run_record.hpp"
 #include "tools/run/trajectory_tum.hpp"
 
 namespace gnbv {

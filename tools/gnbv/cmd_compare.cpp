@@ -128,7 +128,9 @@ void draw_comparison(const Comparison& comparison, const BenchRuns& collected,
                      const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   const auto draw = [&](const Plot& plot) {
-    const std::filesystem::path path = folder / (plot.name + ".svg");
+    std::string name = plot.name;  // of a scenario that a sweep may have called a/b
+    std::replace(name.begin(), name.end(), '/', '-');
+    const std::filesystem::path path = folder / (name + ".svg");
     draw_plot(plot_script(plot, PlotFormat::svg, {}), path);
     say("{}", path.string());
   };

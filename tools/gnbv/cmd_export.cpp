@@ -15,8 +15,8 @@
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/mission/load_world.hpp"
-#include "tools/run/cloud_colours.hpp"
-#include "tools/run/file_names.hpp"
+#include "tools/frames/frame_sight.hpp"
+#include "tools/run/run_files.hpp"
 #include "tools/run/run_inputs.hpp"
 #include "tools/terminal/progress.hpp"
 #include "tools/terminal/say.hpp"
@@ -83,8 +83,8 @@ std::optional<FrameRecord> frames_if_kept(const RunRecord& record) {
 
 /// Says so, with the command that makes it, when it is not all there. Throws for a damaged one.
 std::optional<RunCloud> cloud_if_there(const RunRecord& record) {
-  const bool is_there =
-      fs::exists(record.folder / kCloudFile) && fs::exists(record.folder / kProfileCloudFile);
+  const RunFiles files(record.folder);
+  const bool is_there = files.find(kCloudFile) && files.find(kProfileCloudFile);
   try {
     return read_run_cloud(record);
   } catch (const BadInput& error) {
@@ -103,9 +103,11 @@ void fill_plain(const Export& e, const fs::path& folder) {
   PlainParts parts;
   parts.frames = frames_if_kept(e.record);
   parts.cloud = cloud_if_there(e.record);
-  if (!fs::exists(e.record.folder / kMapFile)) {
+  const RunFiles files(e.record.folder);
+  if (!files.find(kMapOddsFile)) {
     note(fmt::format("{}: is missing, so that no voxels are written; {} makes one",
-                     (e.record.folder / kMapFile).string(), command_to_fly_again(e.record.folder)));
+                     (e.record.folder / kMapOddsFile).string(),
+                     command_to_fly_again(e.record.folder)));
   }
   if (parts.frames && parts.cloud) {
     parts.colours = colours_of_cloud(e.record, *parts.cloud, *parts.frames, e.threads, e.progress);

@@ -21,8 +21,8 @@
 #include "tools/report/page_parts.hpp"
 #include "tools/run/file_names.hpp"
 #include "tools/run/frames_folder.hpp"
-#include "tools/run/run_commands.hpp"
 #include "tools/run/run_directory.hpp"
+#include "tools/run/run_files.hpp"
 #include "tools/run/summary_json.hpp"
 #include "tools/terminal/say.hpp"
 #include "tools/terminal/width.hpp"
@@ -104,7 +104,7 @@ void print_summary(const RunOptions& options, const Scenario& scenario, const fs
 /// summary is printed, and no file of it is touched.
 bool has_ended(const RunOptions& options, const Scenario& scenario) {
   const MissionOptions& mission = options.mission;
-  if (!mission.resume || !is_finished(mission.out) || mission.piped_views) return false;
+  if (!mission.resume || !RunFiles(mission.out).is_finished() || mission.piped_views) return false;
   if (mission.frames && !has_frames(mission.out)) return false;
   need_usable(mission.out, scenario, mission.resume);
   need_unchanged(mission.out, scenario);

@@ -17,7 +17,6 @@
 #include "tools/mission/rescore.hpp"
 #include "tools/run/cloud_file.hpp"
 #include "tools/run/run_claim.hpp"
-#include "tools/run/score_json.hpp"
 #include "tools/run/summary_json.hpp"
 #include "tools/run/words.hpp"
 #include "tools/terminal/say.hpp"

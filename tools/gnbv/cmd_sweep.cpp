@@ -151,13 +151,13 @@ void fail_if_any_failed(const std::vector<CellOutcome>& outcomes) {
 void run_indexed(const SweepOptions& options, const Sweep& sweep) {
   const auto [first, last] = parse_index(options.index, cell_count(sweep));
   const std::vector<Cell> cells = cells_of(sweep, first, last);
-  auto manifest = read_manifest_head(options.out);
+  auto manifest = read_manifest(options.out);
   if (!manifest) {
     write_manifest(options.out, options.file, cells_of(sweep));
-    manifest = read_manifest_head(options.out);
+    manifest = read_manifest(options.out);
   }
   for (std::size_t i = first; i <= last; ++i) {
-    if (i < manifest->ids.size() && manifest->ids[i] == cells[i - first].id) continue;
+    if (i < manifest->cells.size() && manifest->cells[i].id == cells[i - first].id) continue;
     throw BadInput(
         fmt::format("{}: cell {} is not the one of {}: the sweep, a file it names or the program "
                     "has changed since; `gnbv sweep` without --index takes the new one",

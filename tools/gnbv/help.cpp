@@ -5,8 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <numeric>
 
+#include "scenarios/validation_error.hpp"
 #include "sim/core/text.hpp"
 
 namespace gnbv {
@@ -112,23 +112,11 @@ void lay_out_help(CLI::App& app) {
 }
 
 std::string nearest_word(std::string_view word, std::span<const std::string> known) {
-  const auto distance = [&](std::string_view other) {
-    std::vector<std::size_t> row(other.size() + 1);
-    std::iota(row.begin(), row.end(), 0U);
-    for (std::size_t i = 0; i < word.size(); ++i) {
-      std::size_t diagonal = std::exchange(row[0], i + 1);
-      for (std::size_t k = 0; k < other.size(); ++k) {
-        const std::size_t changed = diagonal + (word[i] == other[k] ? 0 : 1);
-        diagonal = std::exchange(row[k + 1], std::min({changed, row[k] + 1, row[k + 1] + 1}));
-      }
-    }
-    return row.back();
-  };
   std::string nearest;
   std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
   for (const std::string& other : known) {
     const bool begins = word.size() >= 2 && other.starts_with(word);
-    const std::size_t apart = begins ? 1 : distance(other);
+    const std::size_t apart = begins ? 1 : edit_distance(word, other);
     if (apart >= least) continue;
     least = apart;
     nearest = other;

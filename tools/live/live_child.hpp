@@ -1,10 +1,10 @@
 // A process of its own that serves a run's page while the mission flies in this one.
 #pragma once
 
-#include <sys/types.h>
-
 #include <filesystem>
 #include <string>
+
+#include "sim/core/child_process.hpp"
 
 namespace gnbv {
 
@@ -17,13 +17,11 @@ class LiveChild {
   /// std::system_error when the system gives no process.
   LiveChild(const std::filesystem::path& run, int port);
   ~LiveChild();
-  LiveChild(const LiveChild&) = delete;
-  LiveChild& operator=(const LiveChild&) = delete;
 
   const std::string& url() const { return url_; }
 
  private:
-  pid_t child_ = -1;
+  ChildProcess child_;
   std::string url_;
 };
 

@@ -8,7 +8,7 @@
 #include "sim/core/error.hpp"
 #include "tools/live/live_server.hpp"
 #include "tools/report/report.hpp"
-#include "tools/run/run_directory.hpp"
+#include "tools/run/run_files.hpp"
 #include "tools/terminal/interrupt.hpp"
 
 namespace gnbv {
@@ -44,7 +44,8 @@ void serve_report(const std::filesystem::path& run, const LiveReportOptions& opt
   std::optional<Stage> shown;
   for (int look = 0; !InterruptGuard::requested(); ++look) {
     if (look % kLooksBetweenPages == 0) {
-      const bool was_finished = is_finished(run);  // asked first: the record has what it says
+      const bool was_finished =
+          RunFiles(run).is_finished();  // asked first: the record has what it says
       const std::optional<RunRecord> record = read_growing(run);
       if (record && !record->views.empty()) {
         const Stage stage{record->views.size(), was_finished};

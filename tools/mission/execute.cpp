@@ -8,6 +8,7 @@
 #include "planner/map/grid_geometry.hpp"
 #include "planner/planners.hpp"
 #include "planner/symmetry/symmetry.hpp"
+#include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/stopwatch.hpp"
 #include "sim/core/text.hpp"
@@ -24,10 +25,11 @@
 #include "tools/run/frames_folder.hpp"
 #include "tools/run/iterations_csv.hpp"
 #include "tools/run/run_claim.hpp"
-#include "tools/run/run_commands.hpp"
 #include "tools/run/run_directory.hpp"
+#include "tools/run/run_files.hpp"
 #include "tools/run/run_inputs.hpp"
 #include "tools/run/summary_json.hpp"
+#include "tools/run/user_views.hpp"
 #include "tools/run/words.hpp"
 #include "tools/terminal/interrupt.hpp"
 #include "tools/terminal/progress.hpp"
@@ -65,6 +67,21 @@ void need_views(const Scenario& scenario, bool are_piped) {
       "planner.routes.views: holds no view, and planner.utility.name = {} flies what it holds; "
       "--views FILE gives some",
       scenario.planner.utility.name));
+}
+
+/// Who is given views one by one goes on with those that the run was given: all are in its
+/// scenario.yaml or, when it was killed, on their way there.
+Scenario with_views_of_run(const Scenario& asked, const MissionOptions& options) {
+  Scenario scenario = asked;
+  const fs::path yaml = options.out / kScenarioFile;
+  if (!options.resume || !traits_of(asked.planner).takes_views || !fs::exists(yaml)) return asked;
+  std::vector<ViewPose> given = views_on_the_way(options.out);
+  if (given.empty() && (options.piped_views || options.planner != nullptr)) {
+    given = load_flown_scenario(yaml.string()).planner.routes.views;
+  }
+  std::vector<ViewPose>& views = scenario.planner.routes.views;
+  if (given_rows(given).starts_with(given_rows(views))) views = std::move(given);
+  return scenario;
 }
 
 /// On stderr, and to whoever wants to know.
@@ -182,11 +199,12 @@ int thread_count(int threads) {
   return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
-ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& options) {
+ExecutedMission execute_mission(const Scenario& asked, const MissionOptions& options) {
   const Stopwatch watch;
   if (options.resume && options.out.empty()) {
     throw BadInput("--resume: needs --out, the run directory to continue");
   }
+  const Scenario scenario = with_views_of_run(asked, options);
   need_views(scenario, options.piped_views || options.planner != nullptr);
   const int threads = thread_count(options.threads);
   need_memory_for(scenario, threads);

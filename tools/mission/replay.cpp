@@ -175,18 +175,4 @@ Replayed replay(const RecordedMission& mission, const ReplayRequest& request) {
   return out;
 }
 
-std::vector<ProfileStage> replay_profile(const RecordedMission& mission,
-                                         std::span<const std::size_t> waypoints) {
-  return replay(mission, {.waypoints = {waypoints.begin(), waypoints.end()}, .has_profile = true})
-      .profile;
-}
-
-Belief replay_belief(const RecordedMission& mission, std::size_t iteration) {
-  return std::move(*replay(mission, {.belief = iteration}).belief);
-}
-
-ReplayedDecision replay_decision(const RecordedMission& mission, std::size_t iteration) {
-  return std::move(*replay(mission, {.decision = iteration}).decision);
-}
-
 }  // namespace gnbv

@@ -29,33 +29,21 @@ struct ProfileStage {
   std::vector<Vec3> waypoints_world_m = {};  // where each of them was left
 };
 
-/// The profile after each of those numbers of waypoints (ascending, from 1) as far as they are less
-/// than it has, and after its last one. Nothing for a mission that took up a saved profile, flew
-/// none, or ended before its first waypoint. No view is flown.
-std::vector<ProfileStage> replay_profile(const RecordedMission& mission,
-                                         std::span<const std::size_t> waypoints);
-
-/// What was believed after the recorded view `iteration`. Throws BadInput when the flight does not
-/// come out as recorded: then another program made the record. Requires iteration <
-/// mission.views.size().
-Belief replay_belief(const RecordedMission& mission, std::size_t iteration);
-
 /// A decision, and the belief on which it was made.
 struct ReplayedDecision {
   Belief belief;
   Plan plan;  // made again; empty for a mission that was handed its views (an oracle's)
 };
 
-/// The decision that chose the recorded view `iteration`. Throws as replay_belief(). Requires 1 <=
-/// iteration < mission.views.size(): the start was no decision.
-ReplayedDecision replay_decision(const RecordedMission& mission, std::size_t iteration);
-
 /// What one flight is to bring back.
 struct ReplayRequest {
-  std::vector<std::size_t> waypoints = {};  // as replay_profile()
+  /// The profile after each of those numbers of waypoints (ascending, from 1) as far as they are
+  /// less than it has, and after its last one. Nothing of a mission that took up a saved profile,
+  /// flew none, or ended before its first waypoint.
+  std::vector<std::size_t> waypoints = {};
   bool has_profile = false;
-  std::optional<std::size_t> belief = {};    // after this view
-  std::optional<std::size_t> decision = {};  // that chose this view
+  std::optional<std::size_t> belief = {};    // what was believed after this view
+  std::optional<std::size_t> decision = {};  // that chose this view, not the start: none chose it
   bool plans = true;  // the decision again; else its plan stays empty, and the belief before is all
 };
 
@@ -65,7 +53,9 @@ struct Replayed {
   std::optional<ReplayedDecision> decision = {};
 };
 
-/// All of that from one flight. Requires and throws as those above.
+/// All of that from one flight; no view is flown for a profile. Requires views of the mission.
+/// Throws BadInput when the flight does not come out as recorded: then another program made the
+/// record.
 Replayed replay(const RecordedMission& mission, const ReplayRequest& request);
 
 }  // namespace gnbv

@@ -28,7 +28,7 @@ std::optional<ViewPose> UserPlannerLink::next(const std::function<bool()>& shoul
   const std::optional<ViewPose> view = planner_.plan(*belief_);
   if (!view) return std::nullopt;
   views.push_back(*view);
-  directory_.keep(scenario_);
+  directory_.keep(views);
   return view;
 }
 

@@ -24,8 +24,8 @@ struct UserPlanner {
   std::function<void(Rejection)> on_refused = [](Rejection) {};
 };
 
-/// Lets a mission of --utility route ask the planner. scenario.yaml holds each view as soon as it
-/// is planned.
+/// Lets a mission of --utility route ask the planner. The run directory keeps each view as soon as
+/// it is planned.
 class UserPlannerLink final : public MissionObserver {
  public:
   /// Everything referred to stays with the caller.

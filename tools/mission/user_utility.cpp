@@ -1,7 +1,5 @@
 #include "tools/mission/user_utility.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
@@ -11,10 +9,10 @@
 
 #include "planner/view/view_stats.hpp"
 #include "scenarios/document.hpp"
+#include "sim/core/child_process.hpp"
 #include "sim/core/embed.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "tools/mission/child_pipe.hpp"
 
 namespace gnbv {
 namespace {
@@ -56,17 +54,16 @@ class PythonUtility {
  public:
   explicit PythonUtility(const UtilityConfig& config)
       : function_(config.python.function),
-        child_({python_program(), "-c", std::string(child_script())}) {
+        child_({python_program(), "-c", std::string(child_script())}, kTalks) {
     const Json hello = {{"function", function_},
                         {"source", config.python.source},
-                        {"dtype", dtype_of(config)},
-                        {"asker", ::getpid()}};
+                        {"dtype", dtype_of(config)}};
     child_.write(hello.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
     const std::string line = child_.read_line();
     const Json answer = Json::parse(line, nullptr, false);
     if (!answer.is_object()) {
       throw BadInput(fmt::format("utility {}: {} does not run ({}); GNBV_PYTHON names another",
-                                 function_, python_program(), child_.end()));
+                                 function_, python_program(), child_.end().text()));
     }
     if (answer.contains("error")) {
       throw BadInput(fmt::format("utility {}: {}", function_, answer["error"].get<std::string>()));
@@ -95,7 +92,7 @@ class PythonUtility {
     child_.read(text.data(), text.size());
     if (!child_.is_open()) {
       throw UserUtilityFailed(fmt::format("utility {}: iteration {}: its Python ended ({})",
-                                          function_, question.iteration, child_.end()));
+                                          function_, question.iteration, child_.end().text()));
     }
     const std::string who =
         row < 0 ? fmt::format("all {} candidates together", question.rows.size())
@@ -104,8 +101,10 @@ class PythonUtility {
         fmt::format("utility {}: iteration {}, {}: {}", function_, question.iteration, who, text));
   }
 
+  static inline const ChildOptions kTalks = {.in = ChildStream::pipe, .out = ChildStream::pipe};
+
   std::string function_;
-  ChildPipe child_;
+  ChildProcess child_;
 };
 
 }  // namespace

@@ -10,7 +10,7 @@ import sys
 import traceback
 
 signal.signal(signal.SIGINT, signal.SIG_IGN)  # the mission ends in order, and this with it
-PR_SET_PDEATHSIG = 1  # however it ends: a function may never return to see that nobody waits
+PR_SET_PDEATHSIG = 1  # as the program set it, for the child of a wrapper that GNBV_PYTHON names
 ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
 hear = os.fdopen(os.dup(0), "rb")
 tell = os.fdopen(os.dup(1), "wb")
@@ -67,8 +67,6 @@ def load(hello):
 
 def main():
     hello = json.loads(hear.readline())
-    if os.getppid() == 1 != hello["asker"]:  # it has ended before it could be named above
-        return None
     dtype = numpy.dtype(hello["dtype"])
     try:
         function = load(hello)

@@ -79,7 +79,7 @@ std::optional<ViewPose> ViewPipe::next(const std::function<bool()>& should_stop)
       const std::optional<ViewPose> view = lines_.read(*line);
       if (!view) continue;
       views.push_back(*view);
-      directory_.keep(scenario_);
+      directory_.keep(views);
       return view;
     } catch (const BadInput& error) {
       tell_client({{"event", "malformed"}, {"what", error.what()}});

@@ -27,7 +27,7 @@ class ViewPipe final : public MissionObserver {
   /// this lives.
   void connect(MissionInputs& inputs);
 
-  /// With all views that came: as soon as one comes, scenario.yaml holds it.
+  /// With all views that came.
   const Scenario& scenario() const { return scenario_; }
 
   void on_profile_belief(const Belief& belief) override;

@@ -40,10 +40,10 @@ class RunSource {
   /// The profile after 1, 3 and all waypoints (Fig. 4: all are 8), each once. Throws BadInput for a
   /// run that flew none.
   const std::vector<ProfileStage>& profile();
-  /// What was believed after a view. Throws BadInput as replay_belief().
+  /// What was believed after a view. Throws BadInput as replay().
   const Belief& belief_after(std::size_t iteration);
   /// The decision that chose a view: its candidates are those of candidates.jsonl where the run has
-  /// one, or else planned again. Throws BadInput as replay_decision().
+  /// one, or else planned again. Throws BadInput as replay().
   const ReplayedDecision& decision(std::size_t iteration);
 
   /// Lets go of what is large and can be had again: everything but record, structure and what was

@@ -11,7 +11,7 @@
 #include "tools/render/flight_items.hpp"
 #include "tools/render/point_normals.hpp"
 #include "tools/render/vehicle_item.hpp"
-#include "tools/run/run_poses.hpp"
+#include "tools/run/run_record.hpp"
 #include "tools/run/words.hpp"
 
 namespace gnbv {

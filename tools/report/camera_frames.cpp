@@ -6,7 +6,7 @@
 
 #include "tools/render/colour.hpp"
 #include "tools/report/jpeg.hpp"
-#include "tools/run/cloud_colours.hpp"
+#include "tools/frames/frame_sight.hpp"
 
 namespace gnbv {
 namespace {

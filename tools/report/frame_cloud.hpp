@@ -1,7 +1,7 @@
 // Points of a run that has no cloud yet: a cloud is written when its mission ends.
 #pragma once
 
-#include "tools/run/frame_sight.hpp"
+#include "tools/frames/frame_sight.hpp"
 #include "tools/run/run_record.hpp"
 
 namespace gnbv {

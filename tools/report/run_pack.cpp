@@ -10,8 +10,8 @@
 #include "tools/report/structures.hpp"
 #include "tools/report/thinning.hpp"
 #include "tools/report/voxel_growth.hpp"
-#include "tools/run/file_names.hpp"
 #include "tools/run/plan_jsonl.hpp"
+#include "tools/run/run_files.hpp"
 
 namespace gnbv {
 namespace {
@@ -157,7 +157,7 @@ std::optional<ByteSlice> pack_surface(const fs::path& run, std::size_t max_bytes
 
 /// Of a run that still flies what its frames show; nothing where it keeps none.
 RunCloud seen_so_far(const RunRecord& record, int threads, std::vector<std::string>& missing) {
-  if (fs::exists(record.folder / kCloudFile) || !has_frames(record.folder)) return {};
+  if (RunFiles(record.folder).find(kCloudFile) || !has_frames(record.folder)) return {};
   try {
     RunCloud cloud = cloud_of_frames(record, read_frames(record.folder), threads);
     missing.emplace_back(

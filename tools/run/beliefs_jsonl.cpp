@@ -5,10 +5,7 @@
 #include <utility>
 
 #include "sim/core/error.hpp"
-#include "sim/core/file.hpp"
 #include "tools/run/file_names.hpp"
-#include "tools/run/run_commands.hpp"
-#include "tools/run/separated_text.hpp"
 
 namespace gnbv {
 namespace {
@@ -71,7 +68,7 @@ std::size_t voxel_count(const VoxelRuns& runs) {
 }
 
 BeliefsFile::BeliefsFile(const fs::path& folder, std::size_t first_iteration)
-    : lines_(folder / kBeliefsFile, lines_before(first_iteration, folder / kBeliefsFile).text) {}
+    : lines_(folder / kBeliefsFile, lines_before(first_iteration, folder, kBeliefsFile).text) {}
 
 void BeliefsFile::write(std::size_t iteration, const BelievedVoxels& voxels) {
   Json json = {{"iteration", iteration}};
@@ -85,29 +82,14 @@ void BeliefsFile::finish() { lines_.finish(); }
 
 std::vector<BelievedVoxels> read_beliefs(const fs::path& run, std::size_t iterations,
                                          std::size_t voxels) {
-  const fs::path path = run / kBeliefsFile;
-  if (!fs::exists(path)) return {};
-  const std::string text = read_file(path);
-  std::string_view rest = text;
   std::vector<BelievedVoxels> all(iterations);
-  for (int line = 1; !rest.empty(); ++line) {
-    try {
-      const Json json = Json::parse(next_part(rest, '\n'));
-      const Json& iteration = json.at("iteration");
-      if (!iteration.is_number_unsigned()) {
-        throw BadInput("iteration: not a whole number from 0 on");
-      }
-      const auto of = iteration.get<std::size_t>();
-      if (of >= iterations) continue;
-      for (const auto& [name, list] : kLists) {
-        if (json.contains(name)) all[of].*list = runs_of(json.at(name), voxels);
-      }
-    } catch (const std::exception& error) {
-      throw BadInput(fmt::format("{}: {}; {} writes it anew", to_string(TextPlace{path, line}),
-                                 json_reason(error), command_to_fly_again(run, "--candidates")));
-    }
-  }
-  return text.empty() ? std::vector<BelievedVoxels>{} : all;
+  const bool has_lines = read_decision_lines(
+      run, kBeliefsFile, iterations, "", [&](std::size_t iteration, const Json& json) {
+        for (const auto& [name, list] : kLists) {
+          if (json.contains(name)) all[iteration].*list = runs_of(json.at(name), voxels);
+        }
+      });
+  return has_lines ? all : std::vector<BelievedVoxels>{};
 }
 
 }  // namespace gnbv

@@ -5,11 +5,8 @@
 #include <string>
 
 #include "sim/core/error.hpp"
-#include "sim/core/file.hpp"
-#include "tools/run/file_names.hpp"
 #include "tools/run/mission_result.hpp"
-#include "tools/run/run_commands.hpp"
-#include "tools/run/separated_text.hpp"
+#include "tools/run/run_files.hpp"
 
 namespace gnbv {
 namespace {
@@ -88,30 +85,22 @@ void add_candidate(const Json& json, Plan& plan) {
   plan.candidates.push_back(candidate_of(json));
 }
 
-/// Lines are told apart by how they begin: a long mission has hundreds of thousands.
-std::string beginning_of(std::size_t iteration) {
-  return fmt::format("{{\"iteration\":{},", iteration);
-}
-
 /// What an interrupted run wrote of the decisions before `iteration`. Throws when it does not reach
 /// up to it: then that run did not write them all.
-std::string candidates_before(std::size_t iteration, const fs::path& file) {
-  const LinesBefore kept = lines_before(iteration, file);
+std::string candidates_before(std::size_t iteration, const fs::path& run) {
+  const LinesBefore kept = lines_before(iteration, run, kCandidatesFile);
   if (kept.last_iteration + 1 >= iteration) return kept.text;
-  const fs::path part = part_of(file);
-  if (!fs::exists(part) && !fs::exists(file)) {
-    throw BadInput(fmt::format("{}: {}", file.string(), kNotWritten));
-  }
+  const auto file = RunFiles(run).find(kCandidatesFile);
+  if (!file) throw BadInput(fmt::format("{}: {}", (run / kCandidatesFile).string(), kNotWritten));
   throw BadInput(
       fmt::format("{}: holds no candidates of iteration {}, which was flown: cut off, or {}",
-                  (fs::exists(part) ? part : file).string(), kept.last_iteration + 1, kNotWritten));
+                  file->string(), kept.last_iteration + 1, kNotWritten));
 }
 
 }  // namespace
 
 CandidatesFile::CandidatesFile(const fs::path& folder, std::size_t first_iteration)
-    : lines_(folder / kCandidatesFile,
-             candidates_before(first_iteration, folder / kCandidatesFile)) {}
+    : lines_(folder / kCandidatesFile, candidates_before(first_iteration, folder)) {}
 
 void CandidatesFile::write(std::size_t iteration, const Plan& plan) {
   std::string lines;
@@ -124,51 +113,26 @@ void CandidatesFile::write(std::size_t iteration, const Plan& plan) {
 void CandidatesFile::finish() { lines_.finish(); }
 
 std::optional<Plan> read_candidates(const fs::path& run, std::size_t iteration) {
-  const fs::path path = run / kCandidatesFile;
-  if (!fs::exists(path)) return std::nullopt;
-  const std::string text = read_file(path);
-  if (text.empty()) return std::nullopt;  // an oracle's mission samples none
-  const std::string again = command_to_fly_again(run, "--candidates");
-  const std::string beginning = beginning_of(iteration);
-  std::string_view rest = text;
   Plan plan;
-  for (int line = 1; !rest.empty(); ++line) {
-    const std::string_view row = next_part(rest, '\n');
-    if (!row.starts_with(beginning)) continue;
-    try {
-      add_candidate(Json::parse(row), plan);
-    } catch (const std::exception& error) {
-      throw BadInput(fmt::format("{}: {}; {} writes it anew", to_string(TextPlace{path, line}),
-                                 json_reason(error), again));
-    }
-  }
+  // lines are told apart by how they begin: a long mission has hundreds of thousands
+  const bool has_lines = read_decision_lines(
+      run, kCandidatesFile, iteration + 1, fmt::format("{{\"iteration\":{},", iteration),
+      [&](std::size_t, const Json& json) { add_candidate(json, plan); });
+  if (!has_lines) return std::nullopt;  // an oracle's mission samples none
   if (plan.candidates.empty()) {
     throw BadInput(fmt::format("{}: holds no candidate of iteration {}; {} writes them",
-                               path.string(), iteration, again));
+                               (run / kCandidatesFile).string(), iteration,
+                               command_to_fly_again(run, "--candidates")));
   }
   return plan;
 }
 
 std::vector<Plan> read_all_candidates(const fs::path& run, std::size_t iterations) {
-  const fs::path path = run / kCandidatesFile;
-  if (!fs::exists(path)) return {};
-  const std::string text = read_file(path);
-  std::string_view rest = text;
   std::vector<Plan> plans(iterations);
-  for (int line = 1; !rest.empty(); ++line) {
-    try {
-      const Json json = Json::parse(next_part(rest, '\n'));
-      const Json& iteration = json.at("iteration");
-      if (!iteration.is_number_unsigned())
-        throw BadInput("iteration: not a whole number from 0 on");
-      const auto of = iteration.get<std::size_t>();
-      if (of < iterations) add_candidate(json, plans[of]);
-    } catch (const std::exception& error) {
-      throw BadInput(fmt::format("{}: {}; {} writes it anew", to_string(TextPlace{path, line}),
-                                 json_reason(error), command_to_fly_again(run, "--candidates")));
-    }
-  }
-  return text.empty() ? std::vector<Plan>{} : plans;
+  const bool has_lines = read_decision_lines(
+      run, kCandidatesFile, iterations, "",
+      [&](std::size_t iteration, const Json& json) { add_candidate(json, plans[iteration]); });
+  return has_lines ? plans : std::vector<Plan>{};
 }
 
 }  // namespace gnbv

@@ -11,6 +11,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/mesh/plain_text.hpp"
+#include "sim/mesh/ply_write.hpp"
 #include "sim/mesh/polygon_mesh.hpp"
 
 namespace gnbv {
@@ -54,28 +55,9 @@ std::vector<Vec3f> read_xyz_cloud(const std::filesystem::path& path) {
 
 void write_cloud_ply(std::span<const Vec3f> points_world_m, const std::filesystem::path& path,
                      const CloudColumns& columns) {
-  const auto& [colours, views] = columns;
-  const std::size_t count = points_world_m.size();
-  GNBV_CHECK(colours.empty() || colours.size() == count, "{} of {} colours", colours.size(), count);
-  GNBV_CHECK(views.empty() || views.size() == count, "{} of {} views", views.size(), count);
-  std::string content = fmt::format(
-      "ply\nformat binary_little_endian 1.0\ncomment gnbv, world ENU, metres\n"
-      "element vertex {}\nproperty float x\nproperty float y\nproperty float z\n",
-      count);
-  if (!colours.empty()) {
-    content += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
-  }
-  if (!views.empty()) content += "property int view\n";
-  content += "end_header\n";
-  content.reserve(content.size() + 19 * count);
-  for (std::size_t i = 0; i < count; ++i) {
-    for (const float x : points_world_m[i]) append_bytes(content, x);
-    if (!colours.empty()) {
-      for (const std::uint8_t level : colours[i]) append_bytes(content, level);
-    }
-    if (!views.empty()) append_bytes(content, views[i]);
-  }
-  write_file_atomically(path, content);
+  write_file_atomically(path, ply_bytes({.places_world_m = points_world_m,
+                                         .colours = columns.colours,
+                                         .views = columns.views}));
 }
 
 std::vector<Vec3f> read_cloud(const std::filesystem::path& path) {

@@ -1,7 +1,5 @@
 #include "tools/run/coverage_csv.hpp"
 
-#include <algorithm>
-
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/run/separated_text.hpp"
@@ -12,22 +10,8 @@ namespace {
 constexpr std::string_view kHeader =
     "view,metres,seconds,coverage_0.05,coverage_0.10,coverage_0.50";
 
-constexpr std::string_view kColumn = ",coverage_";
-
-/// The names behind the columns of the paper's sizes.
-std::vector<std::string> more_names_of(std::string_view header, const TextPlace& place) {
-  std::vector<std::string> names;
-  std::string_view rest = header;
-  if (!rest.starts_with(kHeader)) need_header(header, kHeader, place);
-  rest.remove_prefix(kHeader.size());
-  while (!rest.empty()) {
-    if (!rest.starts_with(kColumn)) need_header(header, kHeader, place);
-    rest.remove_prefix(kColumn.size());
-    names.emplace_back(rest.substr(0, rest.find(',')));
-    rest.remove_prefix(names.back().size());
-  }
-  return names;
-}
+constexpr std::string_view kColumn = "coverage_";
+constexpr std::size_t kColumns = 6;  // of the header above; others follow it
 
 /// A row goes on from those before it, with shares from 0 to 1.
 void need_curve(const CoverageCurve& before, std::span<const double> row, const TextPlace& place) {
@@ -47,7 +31,7 @@ void need_curve(const CoverageCurve& before, std::span<const double> row, const 
 
 std::string coverage_csv(const CoverageCurve& curve, std::span<const SizedCoverage> more) {
   std::string csv(kHeader);
-  for (const SizedCoverage& at : more) csv += fmt::format("{}{}", kColumn, size_name(at.size_m));
+  for (const SizedCoverage& at : more) csv += fmt::format(",{}{}", kColumn, size_name(at.size_m));
   csv += '\n';
   for (std::size_t view = 0; view < curve.coverage.size(); ++view) {
     const auto& [fine, middle, coarse] = curve.coverage[view];
@@ -63,19 +47,25 @@ CoverageFile read_coverage_csv(const std::filesystem::path& file) {
   const std::string text = read_file(file);
   std::string_view rest = text;
   CoverageFile read;
-  read.more_names = more_names_of(next_part(rest, '\n'), {file, 1});
+  const std::string_view header = next_part(rest, '\n');
+  const std::vector<std::string_view> names = split(header, ',');
+  if (!header.starts_with(kHeader)) need_header(header, kHeader, {file, 1});
+  for (std::size_t i = kColumns; i < names.size(); ++i) {
+    if (!names[i].starts_with(kColumn)) need_header(header, kHeader, {file, 1});
+    read.more_names.emplace_back(names[i].substr(kColumn.size()));
+  }
   read.more_curves.resize(read.more_names.size());
-  std::vector<double> values(6 + read.more_names.size());
   for (int line = 2; !rest.empty(); ++line) {
     const TextPlace place{file, line};
     const std::string_view row = next_part(rest, '\n');
-    if (static_cast<std::size_t>(std::count(row.begin(), row.end(), ',')) + 1 != values.size()) {
+    const std::vector<std::string_view> cells = split(row, ',');
+    if (cells.size() != names.size()) {
       throw BadInput(
-          fmt::format("{}: '{}' is no row of {} numbers", to_string(place), row, values.size()));
+          fmt::format("{}: '{}' is no row of {} numbers", to_string(place), row, names.size()));
     }
-    std::string_view cells = row;
-    for (double& value : values) {
-      value = to_number(next_part(cells, ','), place, fmt::format("'{}':", row));
+    std::vector<double> values;
+    for (const std::string_view cell : cells) {
+      values.push_back(to_number(cell, place, fmt::format("'{}':", row)));
     }
     if (values[0] != line - 2) {
       throw BadInput(fmt::format("{}: view {} must be {}", to_string(place), values[0], line - 2));
@@ -84,7 +74,9 @@ CoverageFile read_coverage_csv(const std::filesystem::path& file) {
     read.curve.metres.push_back(values[1]);
     read.curve.seconds.push_back(values[2]);
     read.curve.coverage.push_back({values[3], values[4], values[5]});
-    for (std::size_t i = 6; i < values.size(); ++i) read.more_curves[i - 6].push_back(values[i]);
+    for (std::size_t i = kColumns; i < values.size(); ++i) {
+      read.more_curves[i - kColumns].push_back(values[i]);
+    }
   }
   return read;
 }

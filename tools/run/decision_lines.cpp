@@ -1,54 +1,73 @@
 #include "tools/run/decision_lines.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <nlohmann/json.hpp>
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "tools/run/file_names.hpp"
+#include "tools/run/run_files.hpp"
 #include "tools/run/separated_text.hpp"
 
 namespace gnbv {
 
 namespace fs = std::filesystem;
 
-LinesBefore lines_before(std::size_t iteration, const fs::path& file) {
-  const fs::path path = fs::exists(part_of(file)) ? part_of(file) : file;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+std::size_t iteration_of(const Json& json) {
+  if (json.is_object() && json.contains("iteration") && json["iteration"].is_number_unsigned()) {
+    return json["iteration"].get<std::size_t>();
+  }
+  throw BadInput("is of no decision: iteration is no whole number from 0 on");
+}
+
+}  // namespace
+
+LinesBefore lines_before(std::size_t iteration, const fs::path& run, const char* name) {
   LinesBefore kept;
-  if (!fs::exists(path)) return kept;
-  const std::string content = read_file(path);
-  std::string_view rest(content.data(), content.rfind('\n') + 1);  // npos + 1: none
+  const auto file = RunFiles(run).find(name);
+  if (!file) return kept;
+  const std::string content = whole_lines(*file);
+  std::string_view rest = content;
   for (int line = 1; !rest.empty(); ++line) {
     const std::string_view row = next_part(rest, '\n');
-    const auto json = nlohmann::json::parse(row, nullptr, false);
-    const bool is_ours =
-        json.is_object() && json.contains("iteration") && json["iteration"].is_number_unsigned();
-    if (!is_ours) {
-      throw BadInput(fmt::format("{}: is of no decision", to_string(TextPlace{path, line})));
+    try {
+      const std::size_t of = iteration_of(Json::parse(row));
+      if (of >= iteration) continue;
+      kept.text.append(row) += '\n';
+      kept.last_iteration = std::max(kept.last_iteration, of);
+    } catch (const std::exception& error) {
+      throw BadInput(fmt::format("{}: {}", to_string(TextPlace{*file, line}), json_reason(error)));
     }
-    const auto of = json["iteration"].get<std::size_t>();
-    if (of >= iteration) continue;
-    kept.text.append(row) += '\n';
-    kept.last_iteration = std::max(kept.last_iteration, of);
   }
   return kept;
 }
 
-DecisionLines::DecisionLines(const fs::path& file, const std::string& kept) : path_(file) {
-  write_file_atomically(part_of(path_), kept);
-  part_.open(part_of(path_), std::ios::binary | std::ios::app);
-  if (!part_) refuse_to_write(part_of(path_), errno);
+bool read_decision_lines(const fs::path& run, const char* name, std::size_t end,
+                         std::string_view beginning,
+                         const std::function<void(std::size_t, const Json&)>& take) {
+  const auto file = RunFiles(run).find(name);
+  if (!file) return false;
+  const std::string text = whole_lines(*file);
+  std::string_view rest = text;
+  for (int line = 1; !rest.empty(); ++line) {
+    const std::string_view row = next_part(rest, '\n');
+    if (!row.starts_with(beginning)) continue;
+    try {
+      const Json json = Json::parse(row);
+      const std::size_t iteration = iteration_of(json);
+      if (iteration < end) take(iteration, json);
+    } catch (const std::exception& error) {
+      throw BadInput(fmt::format("{}: {}; {} writes it anew", to_string(TextPlace{*file, line}),
+                                 json_reason(error), command_to_fly_again(run, "--candidates")));
+    }
+  }
+  return !text.empty();
 }
 
-void DecisionLines::write(const std::string& lines) {
-  part_ << lines;
-  part_.flush();
-  if (!part_) refuse_to_write(part_of(path_), errno);
-}
-
-void DecisionLines::finish() {
-  part_.close();
+void DecisionLines::finish() const {
   std::error_code error;
   sync_to_disk(part_of(path_));
   fs::rename(part_of(path_), path_, error);

@@ -2,8 +2,12 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
+
+#include "tools/run/run_files.hpp"
 
 namespace gnbv {
 
@@ -13,23 +17,31 @@ struct LinesBefore {
   std::size_t last_iteration = 0;  // 0: there are none
 };
 
-/// As an interrupted run left them in the file or, while it is written, in part_of() it. Throws
-/// BadInput naming file and line of what has no `iteration`.
-LinesBefore lines_before(std::size_t iteration, const std::filesystem::path& file);
+/// As an interrupted run left them. Throws BadInput naming file and line of what has no
+/// `iteration`.
+LinesBefore lines_before(std::size_t iteration, const std::filesystem::path& run, const char* name);
+
+/// Hands over what each line of a run's file holds, of iterations before `end`; those alone that
+/// begin with `beginning`. Returns whether there is any line. Throws BadInput naming file, line and
+/// the command that writes it anew for whatever is damaged, or `take` refuses.
+bool read_decision_lines(
+    const std::filesystem::path& run, const char* name, std::size_t end, std::string_view beginning,
+    const std::function<void(std::size_t iteration, const nlohmann::ordered_json&)>& take);
 
 /// Appends to part_of() a file, which finish() renames.
 class DecisionLines {
  public:
   /// Begins with `kept`. Throws as refuse_to_write(), as all of it does.
-  DecisionLines(const std::filesystem::path& file, const std::string& kept);
+  DecisionLines(const std::filesystem::path& file, const std::string& kept)
+      : path_(file), part_(part_of(file), kept) {}
 
   /// `lines` end with a line feed.
-  void write(const std::string& lines);
-  void finish();
+  void write(const std::string& lines) { part_.write(lines); }
+  void finish() const;
 
  private:
   std::filesystem::path path_;
-  std::ofstream part_;
+  GrowingFile part_;
 };
 
 }  // namespace gnbv

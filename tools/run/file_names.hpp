@@ -17,6 +17,7 @@ constexpr const char* kProfileCloudFile = "profile.ply";  // the first points of
 constexpr const char* kProfileMapFile = "profile.map";
 constexpr const char* kMapStem = "map";  // OctoMap: map.ot with log-odds, map.bt without
 constexpr const char* kMapFile = "map.bt";
+constexpr const char* kMapOddsFile = "map.ot";
 constexpr const char* kCandidatesFile = "candidates.jsonl";
 constexpr const char* kBeliefsFile = "beliefs.jsonl";
 constexpr const char* kViewsFile = "views.csv";

@@ -8,7 +8,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/run/file_names.hpp"
-#include "tools/run/run_commands.hpp"
+#include "tools/run/run_files.hpp"
 #include "tools/run/separated_text.hpp"
 
 namespace gnbv {
@@ -62,8 +62,8 @@ fs::path image_named(const fs::path& folder, std::string_view name, const TextPl
 
 RecordedFrame frame_of(std::string_view row, const std::vector<FrameCamera>& cameras,
                        const TextPlace& place) {
-  std::array<std::string_view, 12> cells;
-  for (std::string_view& cell : cells) cell = next_part(row, ',');
+  std::vector<std::string_view> cells = split(row, ',');
+  cells.resize(12);
   const auto camera = std::find_if(cameras.begin(), cameras.end(),
                                    [&](const FrameCamera& c) { return c.name == cells[1]; });
   if (camera == cameras.end()) {
@@ -139,8 +139,7 @@ std::string frame_stem(std::size_t iteration, const std::string& camera) {
 FramesFolder::FramesFolder(const fs::path& run, std::vector<CameraModel> cameras)
     : folder_(run / kFramesFolder),
       cameras_(std::move(cameras)),
-      poses_(fmt::format("{}\n", kPosesHeader)) {
-  make_folder(folder_);
+      poses_((make_folder(folder_), folder_ / kPosesFile), fmt::format("{}\n", kPosesHeader)) {
   Json intrinsics = Json::array();
   for (const CameraModel& camera : cameras_) intrinsics.push_back(json_of(camera));
   write_file_atomically(folder_ / kCamerasFile, intrinsics.dump(2) + "\n");
@@ -155,9 +154,8 @@ void FramesFolder::write(std::size_t iteration, double time_s, std::span<const D
     const std::string stem = frame_stem(iteration, camera.name);
     write_png(image_of(colour[i], camera), folder_ / (stem + ".rgb.png"), Lasting::the_process);
     write_png(image_of(depth[i], camera), folder_ / (stem + ".depth.png"), Lasting::the_process);
-    poses_ += row_of(iteration, time_s, camera.name, depth[i].T_world_camera, stem);
+    poses_.write(row_of(iteration, time_s, camera.name, depth[i].T_world_camera, stem));
   }
-  write_file_atomically(folder_ / kPosesFile, poses_, Lasting::the_process);
 }
 
 bool has_frames(const fs::path& run) {
@@ -180,7 +178,7 @@ FrameRecord read_frames(const fs::path& run) {
   }
   FrameRecord record{.cameras = read_cameras(folder / kCamerasFile), .frames = {}};
   const std::string text = read_file(poses);
-  std::string_view rest = text;
+  std::string_view rest(text.data(), text.rfind('\n') + 1);  // a killed run may not end a row
   need_header(trimmed(next_part(rest, '\n')), kPosesHeader, {poses, 1},
               fmt::format("; {} flies the mission again", again));
   for (int line = 2; !rest.empty(); ++line) {

@@ -9,13 +9,14 @@
 #include "sensors/camera_model.hpp"
 #include "sensors/frames.hpp"
 #include "sim/core/image.hpp"
+#include "tools/run/run_files.hpp"
 
 namespace gnbv {
 
 /// Writes ITERATION_CAMERA.rgb.png (sRGB) and ITERATION_CAMERA.depth.png (16 bits, millimetres
 /// along the optical axis, 0 where there is none) of each view, cameras.json (pinhole intrinsics in
 /// pixels, pixel centres at half pixels) and poses.csv, which grows with the views (T_world_camera
-/// as believed: metres, unit quaternion; optical frame, world ENU). Every file appears by rename.
+/// as believed: metres, unit quaternion; optical frame, world ENU). The others appear by rename.
 class FramesFolder {
  public:
   /// Makes the folder of the run and writes cameras.json. Throws BadInput naming it when that
@@ -28,7 +29,7 @@ class FramesFolder {
  private:
   std::filesystem::path folder_;
   std::vector<CameraModel> cameras_;
-  std::string poses_;
+  GrowingFile poses_;
 };
 
 /// The names of a view's images in the folder, without `.rgb.png` and `.depth.png`.

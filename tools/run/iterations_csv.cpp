@@ -1,11 +1,13 @@
 #include "tools/run/iterations_csv.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/core/sha256.hpp"
-#include "tools/run/run_commands.hpp"
+#include "tools/run/run_files.hpp"
 #include "tools/run/separated_text.hpp"
 
 namespace gnbv {
@@ -59,51 +61,44 @@ void visit_columns(View& view, Columns columns, Column&& column) {
   if (columns == Columns::with_gimbal) column("gimbal_pitch", d.view.gimbal_pitch_rad);
 }
 
-/// The names of the columns.
-struct Names {
+std::string text_of(const auto& value) { return fmt::format("{}", value); }
+std::string text_of(const Sampler& sampler) { return std::string(traits_of(sampler).name); }
+std::string text_of(const Wall<const double>& wall) { return fmt::format("{:.6f}", wall.s); }
+/// "x:y:z;x:y:z"; an empty cell for none.
+std::string text_of(const std::vector<Vec3>& points_m) {
   std::string text;
-  void operator()(std::string_view name, const auto&) {
-    text += (text.empty() ? "" : ",") + std::string(name);
+  for (const Vec3& p : points_m) {
+    text += fmt::format("{}{}:{}:{}", text.empty() ? "" : ";", p.x(), p.y(), p.z());
   }
-};
+  return text;
+}
 
-/// The values of a view.
+/// Each column's name and value.
 struct Cells {
-  std::string text;
-  bool is_first = true;
+  std::vector<std::string> names = {};
+  std::vector<std::string> values = {};
+  bool has_walls = true;
 
-  void operator()(std::string_view, const auto& value) { add(fmt::format("{}", value)); }
-  void operator()(std::string_view, const Sampler& sampler) {
-    add(std::string(traits_of(sampler).name));
-  }
-  void operator()(std::string_view, const Wall<const double>& wall) {
-    add(fmt::format("{:.6f}", wall.s));
-  }
-  /// "x:y:z;x:y:z"; an empty cell for none.
-  void operator()(std::string_view, const std::vector<Vec3>& points_m) {
-    std::string cell;
-    for (const Vec3& p : points_m) {
-      cell += fmt::format("{}{}:{}:{}", cell.empty() ? "" : ";", p.x(), p.y(), p.z());
-    }
-    add(cell);
-  }
-  void add(const std::string& cell) {
-    text += (is_first ? "" : ",") + cell;
-    is_first = false;
-  }
-};
-
-/// Each column's name and value, without wall times.
-struct NamedCells {
-  std::vector<std::pair<std::string, std::string>> cells;
-
-  void operator()(std::string_view, const Wall<const double>&) {}
   void operator()(std::string_view name, const auto& value) {
-    Cells text;
-    text(name, value);
-    cells.emplace_back(name, text.text);
+    names.emplace_back(name);
+    values.push_back(text_of(value));
+  }
+  void operator()(std::string_view name, const Wall<const double>& wall) {
+    if (!has_walls) return;
+    names.emplace_back(name);
+    values.push_back(text_of(wall));
   }
 };
+
+Cells cells_of(const ViewRecord& view, Columns columns, bool has_walls = true) {
+  Cells cells{.has_walls = has_walls};
+  visit_columns(view, columns, cells);
+  return cells;
+}
+
+std::string joined(const std::vector<std::string>& cells) {
+  return fmt::format("{}", fmt::join(cells, ","));
+}
 
 constexpr std::string_view kCheckColumn = ",check";
 
@@ -161,12 +156,7 @@ struct Row {
   }
 };
 
-std::string header_text(Columns columns) {
-  Names names;
-  const ViewRecord view;
-  visit_columns(view, columns, names);
-  return names.text;
-}
+std::string header_text(Columns columns) { return joined(cells_of({}, columns).names); }
 
 std::ptrdiff_t cells_in(std::string_view row) {
   return 1 + std::count(row.begin(), row.end(), ',');
@@ -196,9 +186,7 @@ Columns columns_of(const Scenario& scenario) {
 std::string iterations_csv_header(Columns columns) { return header_text(columns) + "\n"; }
 
 std::string iterations_csv_row(const ViewRecord& view, Columns columns) {
-  Cells cells;
-  visit_columns(view, columns, cells);
-  return cells.text + "\n";
+  return joined(cells_of(view, columns).values) + "\n";
 }
 
 std::string iterations_csv(std::span<const ViewRecord> views, Columns columns) {
@@ -212,22 +200,17 @@ std::string JournalRows::header() const {
 }
 
 std::string JournalRows::row(const ViewRecord& view) {
-  Cells cells;
-  visit_columns(view, columns_, cells);
-  check_ = check_of(check_, cells.text);
-  return fmt::format("{},{}\n", cells.text, check_);
+  const std::string cells = joined(cells_of(view, columns_).values);
+  check_ = check_of(check_, cells);
+  return fmt::format("{},{}\n", cells, check_);
 }
 
 std::optional<Difference> first_difference(const ViewRecord& now, const ViewRecord& recorded) {
-  NamedCells of_now;
-  NamedCells of_recorded;
-  visit_columns(now, Columns::with_gimbal, of_now);
-  visit_columns(recorded, Columns::with_gimbal, of_recorded);
-  for (std::size_t i = 0; i < of_now.cells.size(); ++i) {
-    const auto& [name, value] = of_now.cells[i];
-    if (value != of_recorded.cells[i].second) {
-      return Difference{name, value, of_recorded.cells[i].second};
-    }
+  const Cells of_now = cells_of(now, Columns::with_gimbal, false);
+  const Cells of_recorded = cells_of(recorded, Columns::with_gimbal, false);
+  for (std::size_t i = 0; i < of_now.names.size(); ++i) {
+    if (of_now.values[i] == of_recorded.values[i]) continue;
+    return Difference{of_now.names[i], of_now.values[i], of_recorded.values[i]};
   }
   return std::nullopt;
 }
@@ -235,24 +218,22 @@ std::optional<Difference> first_difference(const ViewRecord& now, const ViewReco
 std::string views_sha256(std::span<const ViewRecord> views) {
   Sha256 sha;
   for (const ViewRecord& view : views) {
-    NamedCells named;
-    visit_columns(view, Columns::with_gimbal, named);
-    for (const auto& [name, value] : named.cells) sha.add(value + ",");
+    sha.add(joined(cells_of(view, Columns::with_gimbal, false).values) + ",");
   }
   return sha.hex();
 }
 
 std::string decision_header() {
-  Names names;
+  Cells cells;
   const ViewRecord view;
-  visit_decision(view, names);
-  return names.text;
+  visit_decision(view, cells);
+  return joined(cells.names);
 }
 
 std::string decision_cells(const ViewRecord& view) {
   Cells cells;
   visit_decision(view, cells);
-  return cells.text;
+  return joined(cells.values);
 }
 
 std::vector<ViewRecord> read_view_records(const std::filesystem::path& csv) {

@@ -10,7 +10,7 @@
 #include "planner/planners.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "tools/run/file_names.hpp"
+#include "tools/run/run_files.hpp"
 #include "tools/run/run_record.hpp"
 #include "tools/run/separated_text.hpp"
 #include "tools/run/trajectory_tum.hpp"
@@ -83,7 +83,7 @@ MadePlan made_plan_of(const Json& json, const RunRecord& record, const TextPlace
 }
 
 std::string command_to_write_plans(const RunRecord& record) {
-  const bool is_over = fs::exists(record.folder / kSummaryFile);
+  const bool is_over = RunFiles(record.folder).find(kSummaryFile).has_value();
   return is_over ? command_to_fly_again(record.folder) : command_to_resume(record.folder);
 }
 
@@ -123,7 +123,7 @@ std::vector<MadePlan> read_plans(const RunRecord& record) {
                                command_to_fly_again(record.folder, "--utility tour")));
   }
   const fs::path path = record.folder / kPlanFile;
-  if (!fs::exists(path)) {
+  if (!RunFiles(record.folder).find(kPlanFile)) {
     throw BadInput(
         fmt::format("{}: is missing; {} writes it", path.string(), command_to_write_plans(record)));
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
@@ -14,45 +15,42 @@ namespace {
 constexpr std::string_view kPredictionsHeader =
     "iteration,source,looks,incidence_deg,patches,missing,promised,found";
 
-PatchSource patch_source_named(std::string_view name, const TextPlace& place) {
-  for (std::size_t i = 0; i < kPatchSources; ++i) {
-    if (name_of(static_cast<PatchSource>(i)) == name) return static_cast<PatchSource>(i);
-  }
-  throw BadInput(fmt::format("{}: '{}' is no source of patches", to_string(place), name));
+/// The number of what equals the value; throws BadInput when none does.
+template <typename Values, typename Value>
+std::size_t index_in(const Values& values, const Value& value, const TextPlace& place,
+                     const char* what) {
+  const auto at = std::find(values.begin(), values.end(), value);
+  if (at != values.end()) return static_cast<std::size_t>(at - values.begin());
+  throw BadInput(fmt::format("{}: '{}' is no {}", to_string(place), value, what));
 }
 
-std::size_t incidence_bin_from(int from_deg, const TextPlace& place) {
-  const auto* const bin = std::find(kIncidenceFrom_deg.begin(), kIncidenceFrom_deg.end(), from_deg);
-  if (bin != kIncidenceFrom_deg.end()) {
-    return static_cast<std::size_t>(bin - kIncidenceFrom_deg.begin());
-  }
-  throw BadInput(fmt::format("{}: no bin of incidence begins at {}", to_string(place), from_deg));
+std::array<std::string_view, kPatchSources> source_names() {
+  std::array<std::string_view, kPatchSources> names;
+  for (std::size_t i = 0; i < kPatchSources; ++i) names[i] = name_of(static_cast<PatchSource>(i));
+  return names;
 }
 
 ViewOutcome outcome_of(std::string_view row, const TextPlace& place) {
-  if (std::count(row.begin(), row.end(), ',') !=
-      std::count(kPredictionsHeader.begin(), kPredictionsHeader.end(), ',')) {
+  const std::vector<std::string_view> cells = split(row, ',');
+  if (cells.size() != split(kPredictionsHeader, ',').size()) {
     throw BadInput(
         fmt::format("{}: '{}' is no row of {}", to_string(place), row, kPredictionsHeader));
   }
-  ViewOutcome outcome;
-  GainOutcome& gain = outcome.gain;
-  const auto count = [&](std::string_view what) {
-    return to_count(next_part(row, ','), place, what);
-  };
-  outcome.iteration = static_cast<std::size_t>(count("iteration"));
-  gain.source = patch_source_named(next_part(row, ','), place);
-  gain.observations = static_cast<std::size_t>(count("looks"));
+  GainOutcome gain;
+  gain.source =
+      static_cast<PatchSource>(index_in(source_names(), cells[1], place, "source of patches"));
+  gain.observations = static_cast<std::size_t>(to_count(cells[2], place, "looks"));
   if (gain.observations >= kObservationBins) {
     throw BadInput(fmt::format("{}: looks {} must be less than {}", to_string(place),
                                gain.observations, kObservationBins));
   }
-  gain.incidence = incidence_bin_from(count("incidence_deg"), place);
-  gain.patches = count("patches");
-  gain.missing = to_number(next_part(row, ','), place, "missing");
-  gain.predicted = to_number(next_part(row, ','), place, "promised");
-  gain.found = to_number(next_part(row, ','), place, "found");
-  return outcome;
+  gain.incidence = index_in(kIncidenceFrom_deg, to_count(cells[3], place, "incidence_deg"), place,
+                            "beginning of a bin of incidence");
+  gain.patches = to_count(cells[4], place, "patches");
+  gain.missing = to_number(cells[5], place, "missing");
+  gain.predicted = to_number(cells[6], place, "promised");
+  gain.found = to_number(cells[7], place, "found");
+  return {static_cast<std::size_t>(to_count(cells[0], place, "iteration")), gain};
 }
 
 }  // namespace

@@ -6,9 +6,8 @@
 #include "sim/core/file.hpp"
 #include "sim/core/text.hpp"
 #include "tools/run/coverage_csv.hpp"
-#include "tools/run/file_names.hpp"
 #include "tools/run/iterations_csv.hpp"
-#include "tools/run/run_commands.hpp"
+#include "tools/run/run_files.hpp"
 #include "tools/run/summary_json.hpp"
 
 namespace gnbv {
@@ -21,7 +20,7 @@ namespace fs = std::filesystem;
 class SummaryReader {
  public:
   explicit SummaryReader(const fs::path& run) : path_(run / kSummaryFile) {
-    if (!fs::exists(path_)) {
+    if (!RunFiles(run).find(kSummaryFile)) {
       throw BadInput(fmt::format(
           "{}: holds no summary.json: no run, or one that is not finished; {} finishes it",
           run.string(), command_to_resume(run)));

@@ -1,7 +1,5 @@
 #include "tools/run/run_directory.hpp"
 
-#include <cerrno>
-
 #include "planner/core/belief.hpp"
 #include "planner/map/octomap_io.hpp"
 #include "planner/planners.hpp"
@@ -10,12 +8,11 @@
 #include "sim/core/file.hpp"
 #include "tools/run/cloud_file.hpp"
 #include "tools/run/coverage_csv.hpp"
-#include "tools/run/file_names.hpp"
 #include "tools/run/iterations_csv.hpp"
 #include "tools/run/plan_jsonl.hpp"
 #include "tools/run/predictions_csv.hpp"
 #include "tools/run/run_claim.hpp"
-#include "tools/run/run_commands.hpp"
+#include "tools/run/run_files.hpp"
 #include "tools/run/summary_json.hpp"
 #include "tools/run/trajectory_tum.hpp"
 #include "tools/run/user_views.hpp"
@@ -45,8 +42,6 @@ void need_inside(const ViewRecord& view, const Scenario& scenario, const fs::pat
 
 /// The summary of the folder; nothing when it has none that can be read.
 std::optional<RunSummary> summary_of(const fs::path& folder) {
-  std::error_code ignored;
-  if (!fs::exists(folder / kSummaryFile, ignored)) return std::nullopt;
   try {
     return read_summary(folder);
   } catch (const BadInput&) {
@@ -54,8 +49,15 @@ std::optional<RunSummary> summary_of(const fs::path& folder) {
   }
 }
 
-bool was_finished(const std::optional<RunSummary>& summary) {
-  return summary && summary->termination && *summary->termination != "interrupted";
+/// Whether the run in the folder, with the views that it was given on the way, is of the scenario.
+bool is_run_of(const fs::path& folder, const Scenario& scenario) {
+  const std::string yaml = (folder / kScenarioFile).string();
+  if (is_written_in(yaml, scenario)) return true;
+  const std::vector<ViewPose>& views = scenario.planner.routes.views;
+  if (views.empty() || given_rows(views_on_the_way(folder)) != given_rows(views)) return false;
+  Scenario before = scenario;
+  before.planner.routes.views = load_flown_scenario(yaml).planner.routes.views;
+  return is_written_in(yaml, before);
 }
 
 }  // namespace
@@ -74,7 +76,7 @@ void need_usable(const fs::path& folder, const Scenario& scenario, bool resume) 
                     "another --out",
                     folder.string()));
   }
-  if (holds_a_run && !is_written_in((folder / kScenarioFile).string(), scenario)) {
+  if (holds_a_run && !is_run_of(folder, scenario)) {
     throw BadInput(
         fmt::format("{}: the run there is of another configuration: only the same one "
                     "can be resumed",
@@ -82,33 +84,28 @@ void need_usable(const fs::path& folder, const Scenario& scenario, bool resume) 
   }
 }
 
-bool is_finished(const fs::path& folder) {
-  std::error_code ignored;
-  for (const char* file : {kScenarioFile, kTrajectoryFile, kCloudFile, kProfileCloudFile,
-                           kIterationsFile, kCoverageFile, kMapFile}) {
-    if (!fs::exists(folder / file, ignored)) return false;
-  }
-  return was_finished(summary_of(folder));
-}
-
 RunDirectory::RunDirectory(fs::path folder, const Scenario& scenario, bool resume)
     : folder_(std::move(folder)), columns_(columns_of(scenario)), rows_(columns_) {
   need_usable(folder_, scenario, resume);
-  std::error_code error;
-  const bool holds_a_run = fs::exists(folder_ / kScenarioFile, error);
   make_folder(folder_);
+  const RunFiles files(folder_);
+  const bool holds_a_run = files.find(kScenarioFile).has_value();
   const std::optional<RunSummary> summary = holds_a_run ? summary_of(folder_) : std::nullopt;
-  const fs::path csv = folder_ / kIterationsFile;
-  const fs::path& record = fs::exists(journal_file()) ? journal_file() : csv;
-  if (holds_a_run && fs::exists(record)) recorded_ = read_view_records(record);
-  if (summary && record == csv) need_views_of_summary(csv, *summary, recorded_);
-  for (const ViewRecord& view : recorded_) need_inside(view, scenario, record);
-  if (was_finished(summary)) finished_sha256_ = summary->result_sha256.value_or("");
+  const std::optional<fs::path> record = holds_a_run ? files.find(kIterationsFile) : std::nullopt;
+  if (record) {
+    recorded_ = read_view_records(*record);
+    if (summary) need_views_of_summary(*record, *summary, recorded_);
+    for (const ViewRecord& view : recorded_) need_inside(view, scenario, *record);
+  }
+  if (summary && summary->termination && *summary->termination != "interrupted") {
+    finished_sha256_ = summary->result_sha256.value_or("");
+  }
   remove_stale_temporaries(folder_);
   remove_stale_temporaries(folder_ / kFramesFolder);
   // the journal is written anew as the recorded views are flown again, and takes its place only
   // when it has caught up: a resumed run that is killed, too, has lost nothing
   write_file_atomically(folder_ / kScenarioFile, to_yaml(scenario));
+  fs::remove(part_of(folder_ / kViewsFile));
 }
 
 std::vector<Decision> RunDirectory::recorded_decisions() const {
@@ -141,28 +138,23 @@ void RunDirectory::need_as_recorded(const MissionResult& result) const {
                              command_to_fly_again(folder_)));
 }
 
-fs::path RunDirectory::journal_file() const { return part_of(folder_ / kIterationsFile); }
-
 void RunDirectory::write_profile(const Belief& belief) const {
   write_belief(belief, folder_ / kProfileMapFile);
 }
 
 void RunDirectory::append(const ViewRecord& view) {
-  if (!journal_.is_open() && static_cast<std::size_t>(view.iteration) + 1 < recorded_.size()) {
+  if (!journal_ && static_cast<std::size_t>(view.iteration) + 1 < recorded_.size()) {
     pending_ += rows_.row(view);
     return;
   }
-  if (!journal_.is_open()) {
-    write_file_atomically(journal_file(), rows_.header() + pending_);
-    journal_.open(journal_file(), std::ios::binary | std::ios::app);
-  }
-  errno = 0;
-  journal_ << rows_.row(view) << std::flush;
-  if (!journal_) refuse_to_write(journal_file(), errno);
+  if (!journal_) journal_.emplace(part_of(folder_ / kIterationsFile), rows_.header() + pending_);
+  journal_->write(rows_.row(view));
 }
 
-void RunDirectory::keep(const Scenario& scenario) const {
-  write_file_atomically(folder_ / kScenarioFile, to_yaml(scenario), Lasting::the_process);
+void RunDirectory::keep(std::span<const ViewPose> views) {
+  if (given_views_) return given_views_->write(given_rows(views.last(1)));
+  given_views_.emplace(part_of(folder_ / kViewsFile),
+                       fmt::format("{}{}", kGivenHeader, given_rows(views)));
 }
 
 void RunDirectory::finish(const Scenario& scenario, const MissionResult& result,
@@ -170,11 +162,11 @@ void RunDirectory::finish(const Scenario& scenario, const MissionResult& result,
   std::error_code ignored;
   // an old one would be taken for that of the new files, were this process killed among them
   if (fs::remove(folder_ / kSummaryFile, ignored)) sync_to_disk(folder_);
+  write_file_atomically(folder_ / kScenarioFile, to_yaml(scenario));  // with views given on the way
   write_file_atomically(folder_ / kTrajectoryFile, trajectory_tum(result.trajectory));
   write_cloud_ply(result.profile_points_world_m, folder_ / kProfileCloudFile);
   write_cloud_ply(result.belief.cloud.points_world_m(), folder_ / kCloudFile);
   write_octomap(result.belief.grid, folder_ / kMapStem);
-  write_file_atomically(folder_ / kIterationsFile, iterations_csv(result.views, columns_));
   const PlannerTraits planner = traits_of(scenario.planner);
   if (planner.takes_views) {
     write_file_atomically(folder_ / kViewsFile, user_views_csv(result.user_views));
@@ -187,9 +179,12 @@ void RunDirectory::finish(const Scenario& scenario, const MissionResult& result,
     write_file_atomically(folder_ / kPlanFile, plan_jsonl(result.tour_plans));
   }
   write_file_atomically(folder_ / kCoverageFile, coverage_csv(score.curve, score.more));
-  // before the summary: killed after it, a finished run would keep its journal for ever
-  journal_.close();
-  fs::remove(journal_file(), ignored);
+  // as long as it is shorter than the journal, the files above are not taken for the run's
+  write_file_atomically(folder_ / kIterationsFile, iterations_csv(result.views, columns_));
+  // before the summary: killed after it, a finished run would keep its journals for ever
+  for (const char* name : {kIterationsFile, kViewsFile}) {
+    fs::remove(part_of(folder_ / name), ignored);
+  }
   // whoever sees the summary after a power failure sees the rest, too
   if (fs::exists(folder_ / kFramesFolder, ignored)) sync_all_to_disk(folder_ / kFramesFolder);
   write_file_atomically(folder_ / kSummaryFile,

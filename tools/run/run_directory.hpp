@@ -3,7 +3,8 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,15 +12,13 @@
 #include "scenarios/scenario.hpp"
 #include "tools/run/iterations_csv.hpp"
 #include "tools/run/mission_result.hpp"
+#include "tools/run/run_files.hpp"
 
 namespace gnbv {
 
 /// Throws BadInput for a folder that holds a run already when `resume` is false, a run of another
 /// scenario, or anything else that is no run. Writes nothing.
 void need_usable(const std::filesystem::path& folder, const Scenario& scenario, bool resume);
-
-/// Whether the folder holds all files of a run that ended by itself: there is nothing to resume.
-bool is_finished(const std::filesystem::path& folder);
 
 class RunDirectory {
  public:
@@ -49,24 +48,24 @@ class RunDirectory {
   /// with.
   void append(const ViewRecord& view);
 
-  /// Writes scenario.yaml anew, for a mission that learns its views on the way.
-  void keep(const Scenario& scenario) const;
+  /// Keeps the last of the views that the mission was given, one by one: views.csv.part grows by
+  /// it, and finish() writes all into scenario.yaml.
+  void keep(std::span<const ViewPose> views);
 
-  /// Removes the old summary.json, writes every file, removes the journal and writes summary.json
+  /// Removes the old summary.json, writes every file, removes the journals and writes summary.json
   /// when the others are on the disk; each by rename.
   void finish(const Scenario& scenario, const MissionResult& result, const MissionScore& score,
               double total_wall_s);
 
  private:
-  std::filesystem::path journal_file() const;
-
   std::filesystem::path folder_;
   Columns columns_;
   std::vector<ViewRecord> recorded_;
   std::string finished_sha256_;  // result_sha256 of a recorded run that was finished
   JournalRows rows_;
   std::string pending_;  // rows of recorded views that are being flown again
-  std::ofstream journal_;
+  std::optional<GrowingFile> journal_;
+  std::optional<GrowingFile> given_views_;
 };
 
 }  // namespace gnbv

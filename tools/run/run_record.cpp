@@ -8,8 +8,8 @@
 #include "sim/core/file.hpp"
 #include "sim/core/text.hpp"
 #include "tools/run/cloud_file.hpp"
-#include "tools/run/file_names.hpp"
 #include "tools/run/iterations_csv.hpp"
+#include "tools/run/run_files.hpp"
 #include "tools/run/summary_json.hpp"
 #include "tools/run/trajectory_tum.hpp"
 #include "tools/run/words.hpp"
@@ -23,6 +23,11 @@ std::string command_to_finish(const fs::path& folder) {
   return command_to_resume(folder) + " ends the run";
 }
 
+std::string absence_of(const fs::path& file) {
+  return fmt::format("{}: {}", file.string(),
+                     fs::exists(file) ? "is of an earlier end of the run" : "is missing");
+}
+
 /// Without "./", "..", or a slash at its end; "." itself by its name.
 fs::path plain_folder(const fs::path& given) {
   const auto normal = [](const fs::path& path) {
@@ -34,25 +39,24 @@ fs::path plain_folder(const fs::path& given) {
   return is_nameless ? normal(fs::absolute(given)) : plain;
 }
 
-void read_views(RunRecord& record) {
-  const fs::path csv = record.folder / kIterationsFile;
-  const fs::path journal = part_of(csv);
-  const fs::path& file = fs::exists(csv) ? csv : journal;
-  if (fs::exists(file)) record.views = read_view_records(file);
-  for (const ViewRecord& view : record.views) {
-    need_near_workspace(view.decision.view.p_world_m, record.scenario.workspace_m,
-                        {file, view.iteration + 2});
+void read_views(const RunFiles& files, RunRecord& record) {
+  if (const auto file = files.find(kIterationsFile)) {
+    record.views = read_view_records(*file);
+    for (const ViewRecord& view : record.views) {
+      need_near_workspace(view.decision.view.p_world_m, record.scenario.workspace_m,
+                          {*file, view.iteration + 2});
+    }
+    if (!record.goes_on) return;
   }
-  if (fs::exists(csv)) return;
-  record.missing.push_back(fmt::format("{}: is missing, {} views are in its journal; {}",
-                                       csv.string(), record.views.size(),
-                                       command_to_finish(record.folder)));
+  record.missing.push_back(fmt::format("{}, {} views are in its journal; {}",
+                                       absence_of(record.folder / kIterationsFile),
+                                       record.views.size(), command_to_finish(record.folder)));
 }
 
 /// Throws BadInput when iterations.csv holds fewer or more views than the run ended with.
 void need_all_views(const RunRecord& record) {
-  const fs::path csv = record.folder / kIterationsFile;
   const auto ended_with = static_cast<std::size_t>(record.figures->iterations);
+  const fs::path csv = record.folder / kIterationsFile;
   if (record.views.size() == ended_with || !fs::exists(csv)) return;
   throw BadInput(fmt::format(
       "{}: holds {} views, and the run of summary.json has {}: damaged, or "
@@ -60,36 +64,34 @@ void need_all_views(const RunRecord& record) {
       csv.string(), record.views.size(), ended_with, command_to_fly_again(record.folder)));
 }
 
-/// As long as there is an iterations.csv: the journal of a run that goes on is ahead of an old
-/// summary.
-void need_views_of(const RunRecord& record, const RunSummary& summary) {
-  const fs::path csv = record.folder / kIterationsFile;
-  if (fs::exists(csv)) need_views_of_summary(csv, summary, record.views);
-}
-
-void read_figures(RunRecord& record) {
+void read_figures(const RunFiles& files, RunRecord& record) {
   const fs::path path = record.folder / kSummaryFile;
-  if (!fs::exists(path)) {
+  if (!files.find(kSummaryFile)) {
     record.missing.push_back(
-        fmt::format("{}: is missing; {}", path.string(), command_to_finish(record.folder)));
+        fmt::format("{}; {}", absence_of(path), command_to_finish(record.folder)));
     return;
   }
   const RunSummary summary = read_summary(record.folder);
   record.profile_end_s = summary.profile_end_s;
   record.views_begin_s = summary.views_begin_s;
-  const fs::path curve = record.folder / kCoverageFile;
-  if (summary.schema == kSummarySchema && fs::exists(curve)) {
+  const bool has_curve = files.find(kCoverageFile).has_value();
+  if (summary.schema == kSummarySchema && has_curve) {
     record.figures = read_run_figures(record.folder);
     need_all_views(record);
-    need_views_of(record, summary);
+    if (const auto csv = files.find(kIterationsFile)) {
+      need_views_of_summary(*csv, summary, record.views);
+    }
     return;
   }
-  record.missing.push_back(fmt::format("{}; `gnbv score {} --update` scores the run anew",
-                                       fs::exists(curve)
-                                           ? fmt::format("{}: is of another version", path.string())
-                                           : fmt::format("{}: is missing", curve.string()),
-                                       shell_word(record.folder.string())));
+  record.missing.push_back(fmt::format(
+      "{}; `gnbv score {} --update` scores the run anew",
+      has_curve ? fmt::format("{}: is of another version", path.string())
+                : fmt::format("{}: is missing", (record.folder / kCoverageFile).string()),
+      shell_word(record.folder.string())));
 }
+
+constexpr double kHeld_s =
+    0.1001;  // a period of the path's samples, and what their text rounds off
 
 }  // namespace
 
@@ -103,16 +105,17 @@ RunRecord read_run(const fs::path& given) {
                     "makes one",
                     folder.string(), shell_word(folder.string())));
   }
-  RunRecord record{.folder = folder, .scenario = load_flown_scenario(yaml.string())};
-  const fs::path trajectory = folder / kTrajectoryFile;
-  if (fs::exists(trajectory)) {
-    record.path = read_trajectory_tum(trajectory, record.scenario.workspace_m);
+  const RunFiles files(folder);
+  RunRecord record{
+      .folder = folder, .scenario = load_flown_scenario(yaml.string()), .goes_on = files.goes_on()};
+  if (const auto trajectory = files.find(kTrajectoryFile)) {
+    record.path = read_trajectory_tum(*trajectory, record.scenario.workspace_m);
   } else {
     record.missing.push_back(
-        fmt::format("{}: is missing; {}", trajectory.string(), command_to_finish(folder)));
+        fmt::format("{}; {}", absence_of(folder / kTrajectoryFile), command_to_finish(folder)));
   }
-  read_views(record);
-  read_figures(record);
+  read_views(files, record);
+  read_figures(files, record);
   return record;
 }
 
@@ -123,11 +126,11 @@ int RunCloud::view_of(std::size_t point) const {
 }
 
 RunCloud read_run_cloud(const RunRecord& record) {
+  const RunFiles files(record.folder);
   for (const char* name : {kCloudFile, kProfileCloudFile}) {
-    const fs::path path = record.folder / name;
-    if (fs::exists(path)) continue;
+    if (files.find(name)) continue;
     throw BadInput(
-        fmt::format("{}: is missing; {}", path.string(), command_to_finish(record.folder)));
+        fmt::format("{}; {}", absence_of(record.folder / name), command_to_finish(record.folder)));
   }
   RunCloud cloud{.points_world_m = read_cloud(record.folder / kCloudFile),
                  .profile_points = read_cloud(record.folder / kProfileCloudFile).size(),
@@ -178,6 +181,44 @@ std::string run_detail(const RunRecord& record) {
         fmt::format(", coverage {:.1f} % at 0.05 m", 100.0 * record.figures->coverage_final[0]);
   }
   return detail;
+}
+
+void need_path(const RunRecord& record) {
+  if (!record.path.empty()) return;
+  const std::string file = (record.folder / kTrajectoryFile).string();
+  for (const std::string& sentence : record.missing) {
+    if (sentence.find(file) != std::string::npos) throw BadInput(sentence);
+  }
+  throw BadInput(fmt::format("{}: is missing", file));
+}
+
+std::optional<Isometry> true_pose_at(const RunRecord& record, double time_s) {
+  const auto after = std::lower_bound(
+      record.path.begin(), record.path.end(), time_s,
+      [](const TrajectorySample& sample, double t_s) { return sample.time_s < t_s; });
+  if (after == record.path.end()) {
+    const bool is_held = !record.path.empty() && time_s <= record.path.back().time_s + kHeld_s;
+    return is_held ? std::optional(record.path.back().T_world_body) : std::nullopt;
+  }
+  if (after->time_s == time_s) return after->T_world_body;
+  if (after == record.path.begin()) return std::nullopt;
+  const auto before = std::prev(after);
+  const double share = (time_s - before->time_s) / (after->time_s - before->time_s);
+  const Vec3 from = before->T_world_body.translation();
+  const Vec3 to = after->T_world_body.translation();
+  const Eigen::Quaterniond turn(before->T_world_body.linear());
+  Isometry T_world_body = Isometry::Identity();
+  T_world_body.translate(from + share * (to - from));
+  T_world_body.rotate(turn.slerp(share, Eigen::Quaterniond(after->T_world_body.linear())));
+  return T_world_body;
+}
+
+CameraModel camera_named(const RunRecord& record, std::string_view name) {
+  for (const CameraConfig& camera : record.scenario.cameras) {
+    if (camera.name == name) return make_camera_model(camera);
+  }
+  throw BadInput(fmt::format("{}: cameras.json names '{}', which scenario.yaml does not have",
+                             (record.folder / kFramesFolder).string(), name));
 }
 
 }  // namespace gnbv

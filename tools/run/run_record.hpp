@@ -9,26 +9,27 @@
 #include "bench/score/run_figures.hpp"
 #include "scenarios/scenario.hpp"
 #include "tools/run/mission_result.hpp"
-#include "tools/run/run_commands.hpp"
+#include "tools/run/run_files.hpp"
 
 namespace gnbv {
 
 /// Whatever of a run is there. Only scenario.yaml has to be.
 struct RunRecord {
-  std::filesystem::path folder;             // never "." or "..", no slash at its end
-  Scenario scenario;                        // scenario.yaml
-  std::vector<TrajectorySample> path = {};  // trajectory.tum, times ascending; empty without it
-  std::vector<ViewRecord> views = {};       // iterations.csv, or what a run that goes on has so far
-  std::optional<RunFigures> figures = {};   // summary.json and coverage.csv
+  std::filesystem::path folder;              // never "." or "..", no slash at its end
+  Scenario scenario;                         // scenario.yaml
+  bool goes_on = false;                      // with more views than it last ended with
+  std::vector<TrajectorySample> path = {};   // trajectory.tum, times ascending; empty without it
+  std::vector<ViewRecord> views = {};        // iterations.csv, or its journal
+  std::optional<RunFigures> figures = {};    // summary.json and coverage.csv
   std::optional<double> profile_end_s = {};  // summary.json: where the profile ends,
   std::optional<double> views_begin_s = {};  // and where the planned views begin
   std::vector<std::string> missing = {};     // a sentence each: what is not there, what makes it
 };
 
-/// Reads a run directory, finished or not. What is absent, or was written by another version, is
-/// left out and named in `missing` with the command that makes it. Throws BadInput naming the
-/// folder when it holds no run at all, and file and line of whatever is damaged. A mesh file that
-/// was moved since is missed only by those who load it.
+/// Reads a run directory as it stands (RunFiles). What is absent, or was written by another
+/// version, is left out and named in `missing` with the command that makes it. Throws BadInput
+/// naming the folder when it holds no run at all, and file and line of whatever is damaged. A mesh
+/// file that was moved since is missed only by those who load it.
 RunRecord read_run(const std::filesystem::path& folder);
 
 /// The cloud of a run in the order in which it grew.
@@ -54,5 +55,16 @@ std::string scenario_title(const Scenario& scenario);
 std::string run_title(const RunRecord& record);
 /// The main figures in one line, as far as they are there.
 std::string run_detail(const RunRecord& record);
+
+/// Throws BadInput naming trajectory.tum, and the command that makes it, when the run has no path.
+void need_path(const RunRecord& record);
+
+/// T_world_body as it truly was, between the samples of the path: straight, and along the shorter
+/// arc. For one period after the last sample, 0.1 s, that one holds: a run ends where it hovers to
+/// see. Nothing before the first sample or later.
+std::optional<Isometry> true_pose_at(const RunRecord& record, double time_s);
+
+/// The camera as the scenario mounts it. Throws BadInput naming it when the scenario has none.
+CameraModel camera_named(const RunRecord& record, std::string_view name);
 
 }  // namespace gnbv

@@ -22,6 +22,15 @@ std::string_view next_part(std::string_view& rest, char separator) {
   return part;
 }
 
+std::vector<std::string_view> split(std::string_view row, char separator) {
+  std::vector<std::string_view> parts;
+  for (std::size_t end = 0; end != row.npos; row.remove_prefix(end == row.npos ? 0 : end + 1)) {
+    end = row.find(separator);
+    parts.push_back(row.substr(0, end));
+  }
+  return parts;
+}
+
 std::string to_string(const TextPlace& place) {
   return fmt::format("{}:{}", place.file.string(), place.line);
 }

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "sim/core/pose.hpp"
 
@@ -16,6 +17,9 @@ std::string_view trimmed(std::string_view text);
 
 /// Cuts off and returns the part before the next `separator`; all of it without one.
 std::string_view next_part(std::string_view& rest, char separator);
+
+/// All parts of a row.
+std::vector<std::string_view> split(std::string_view row, char separator);
 
 /// `FILE:LINE`, as errors begin.
 struct TextPlace {

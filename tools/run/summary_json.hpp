@@ -17,6 +17,10 @@ namespace gnbv {
 /// 3: auc is mean_coverage_over_own; ceiling_at_0.05, effort_to_reach.
 constexpr unsigned kSummarySchema = 3;
 
+/// A score as an object of its own; without the run's curve and profile when it is only a cloud
+/// that was scored.
+std::string score_json(const MissionScore& score, bool is_run);
+
 std::string summary_json(const Scenario& scenario, const MissionResult& result,
                          const MissionScore& score, double total_wall_s);
 

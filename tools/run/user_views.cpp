@@ -7,6 +7,7 @@
 #include "scenarios/values.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "tools/run/run_files.hpp"
 #include "tools/run/separated_text.hpp"
 
 namespace gnbv {
@@ -141,7 +142,7 @@ ViewPose ViewLines::read_row(std::string_view row) {
 }
 
 std::vector<ViewPose> read_user_views(const fs::path& file) {
-  const std::string text = read_file(file);
+  const std::string text = whole_lines(file);
   ViewLines lines(file);
   std::vector<ViewPose> views;
   std::string_view rest = text;
@@ -152,13 +153,28 @@ std::vector<ViewPose> read_user_views(const fs::path& file) {
   return views;
 }
 
+std::string given_rows(std::span<const ViewPose> views) {
+  std::string rows;
+  for (const ViewPose& view : views) {
+    const Vec3& p = view.p_world_m;
+    rows += fmt::format("{},{},{},{},{}\n", p.x(), p.y(), p.z(), degrees_of(view.yaw_rad),
+                        degrees_of(view.gimbal_pitch_rad));
+  }
+  return rows;
+}
+
+std::vector<ViewPose> views_on_the_way(const fs::path& run) {
+  const fs::path part = part_of(run / kViewsFile);
+  return fs::exists(part) ? read_user_views(part) : std::vector<ViewPose>{};
+}
+
 std::string user_views_csv(std::span<const UserView> views) {
   std::string csv = "view,x,y,z,yaw_deg,pitch_deg,result,reason,iteration\n";
   for (std::size_t i = 0; i < views.size(); ++i) {
     const UserView& given = views[i];
-    const Vec3& p = given.view.p_world_m;
-    csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", i, p.x(), p.y(), p.z(),
-                       degrees_of(given.view.yaw_rad), degrees_of(given.view.gimbal_pitch_rad),
+    std::string pose = given_rows({&given.view, 1});
+    pose.pop_back();
+    csv += fmt::format("{},{},{},{},{}\n", i, pose,
                        given.rejected    ? "refused"
                        : given.iteration ? "flown"
                                          : "left",

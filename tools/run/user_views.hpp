@@ -41,6 +41,14 @@ class ViewLines {
 /// All views of a file. Throws BadInput naming file, line and value, and for a file without a view.
 std::vector<ViewPose> read_user_views(const std::filesystem::path& file);
 
+/// Views as ViewLines reads them back, bit for bit: the header, and the rows.
+constexpr std::string_view kGivenHeader = "x,y,z,yaw_deg,pitch_deg\n";
+std::string given_rows(std::span<const ViewPose> views);
+
+/// The views that a mission was given one by one (`--views -`, a planner of the user's own) before
+/// its scenario.yaml had them: views.csv.part of a run that flies, or was killed; else none.
+std::vector<ViewPose> views_on_the_way(const std::filesystem::path& run);
+
 /// views.csv of a run: every given view in its order, and what became of it: `flown` as which
 /// iteration, `refused` for which reason, or `left` when the mission ended before it.
 std::string user_views_csv(std::span<const UserView> views);

@@ -2,32 +2,13 @@
 #include <fmt/format.h>
 
 #include "sim/core/file.hpp"
+#include "sim/mesh/ply_write.hpp"
 #include "tools/surface/textured_mesh.hpp"
 
 namespace gnbv {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string ply_of(const TexturedMesh& mesh) {
-  std::string out = fmt::format(
-      "ply\nformat binary_little_endian 1.0\ncomment gnbv, world ENU, metres\nelement vertex {}\n"
-      "property float x\nproperty float y\nproperty float z\nproperty float nx\nproperty float ny\n"
-      "property float nz\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
-      "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
-      mesh.shape.vertices_m.size(), mesh.shape.faces.size());
-  const std::vector<Vec3f> normals = vertex_normals(mesh.shape);
-  for (std::size_t i = 0; i < mesh.shape.vertices_m.size(); ++i) {
-    for (const float x : mesh.shape.vertices_m[i]) append_bytes(out, x);
-    for (const float x : normals[i]) append_bytes(out, x);
-    for (const std::uint8_t level : mesh.vertex_rgb[i]) append_bytes(out, level);
-  }
-  for (const auto& face : mesh.shape.faces) {
-    append_bytes(out, std::uint8_t{3});
-    for (const std::uint32_t vertex : face) append_bytes(out, vertex);
-  }
-  return out;
-}
 
 /// With a texture, `v` and `vt` of each distinct corner; without, colours behind the positions, as
 /// MeshLab and Blender read them.
@@ -83,7 +64,11 @@ std::vector<fs::path> write_surface(const TexturedMesh& mesh, const fs::path& fo
     for (const char* stale : {"surface.png", "surface.mtl"}) fs::remove(folder / stale, ignored);
   }
   write("surface.obj", obj_of(mesh));
-  write("surface.ply", ply_of(mesh));
+  const std::vector<Vec3f> normals = vertex_normals(mesh.shape);
+  write("surface.ply", ply_bytes({.places_world_m = mesh.shape.vertices_m,
+                                  .normals = normals,
+                                  .colours = mesh.vertex_rgb},
+                                 PlyFaces{.corners = mesh.shape.faces}));
   write("surface.glb", glb_of(mesh, png));
   return paths;
 }

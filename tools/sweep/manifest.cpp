@@ -108,50 +108,42 @@ void write_manifest(const fs::path& folder, const fs::path& yaml, std::span<cons
                   by_line(items)));
 }
 
-std::optional<ManifestHead> read_manifest_head(const fs::path& folder) {
+std::optional<Manifest> read_manifest(const fs::path& folder) {
   std::error_code ignored;
   const fs::path path = folder / kManifest;
   if (!fs::exists(path, ignored)) return std::nullopt;
+  Manifest manifest;
+  std::set<std::tuple<std::string, std::string, std::uint64_t>> seen;
   try {
-    const auto manifest = Json::parse(read_file(path));
-    ManifestHead head{.file = manifest.at("file").get<std::string>(), .ids = {}};
-    for (const auto& cell : manifest.at("cells"))
-      head.ids.push_back(cell.at("id").get<std::string>());
-    return head;
+    const Json json = Json::parse(read_file(path));
+    if (json.at("schema") != 1) {
+      throw BadInput(fmt::format("{}: schema: value '{}': expects 1", path.string(),
+                                 json.at("schema").dump()));
+    }
+    manifest.file = json.value("file", "");
+    for (const Json& item : json.at("cells")) {
+      const Cell& cell = manifest.cells.emplace_back(cell_from(item, path));
+      if (seen.insert({cell.scenario, cell.method, cell.seed}).second) continue;
+      throw BadInput(fmt::format("{}: two cells of {}, {}, seed {}", path.string(), cell.scenario,
+                                 cell.method, cell.seed));
+    }
   } catch (const Json::exception& error) {
     throw BadInput(
         fmt::format("{}: is no manifest of a sweep: {}", path.string(), json_reason(error)));
   }
+  return manifest;
 }
 
 std::vector<Cell> cells_of_manifest(const fs::path& folder) {
   const fs::path path = folder / kManifest;
-  std::vector<Cell> cells;
-  std::set<std::tuple<std::string, std::string, std::uint64_t>> seen;
-  try {
-    const Json manifest = Json::parse(read_file(path));
-    if (manifest.at("schema") != 1) {
-      throw BadInput(fmt::format("{}: schema: value '{}': expects 1", path.string(),
-                                 manifest.at("schema").dump()));
-    }
-    for (const Json& json : manifest.at("cells")) {
-      cells.push_back(cell_from(json, path));
-      const Cell& cell = cells.back();
-      if (!seen.insert({cell.scenario, cell.method, cell.seed}).second) {
-        throw BadInput(fmt::format("{}: two cells of {}, {}, seed {}", path.string(), cell.scenario,
-                                   cell.method, cell.seed));
-      }
-    }
-  } catch (const Json::exception& error) {
-    throw BadInput(
-        fmt::format("{}: is no manifest of a sweep: {}", path.string(), json_reason(error)));
-  }
-  if (cells.empty()) throw BadInput(fmt::format("{}: has no cells", path.string()));
-  return cells;
+  std::optional<Manifest> manifest = read_manifest(folder);
+  if (!manifest) read_file(path);  // throws, with the cause
+  if (manifest->cells.empty()) throw BadInput(fmt::format("{}: has no cells", path.string()));
+  return std::move(manifest->cells);
 }
 
 void require_folder_of(const fs::path& folder, const fs::path& yaml) {
-  const auto head = read_manifest_head(folder);
+  const auto head = read_manifest(folder);
   std::error_code ignored;
   const std::string file = fs::absolute(yaml).lexically_normal().string();
   if (!head || head->file == file || fs::equivalent(head->file, file, ignored)) return;

@@ -18,16 +18,15 @@ void write_manifest(const std::filesystem::path& folder, const std::filesystem::
                     std::span<const Cell> cells);
 
 /// Of which sweep a folder is.
-struct ManifestHead {
-  std::string file;              // absolute path of the sweep file
-  std::vector<std::string> ids;  // of its cells, by index
+struct Manifest {
+  std::string file = {};         // absolute path of the sweep file
+  std::vector<Cell> cells = {};  // by index; their scenarios are not resolved
 };
 
-/// Nothing when there is no manifest; throws BadInput naming it when it is none.
-std::optional<ManifestHead> read_manifest_head(const std::filesystem::path& folder);
+/// Nothing when there is no manifest; throws BadInput naming one that is none, or damaged.
+std::optional<Manifest> read_manifest(const std::filesystem::path& folder);
 
-/// The cells of the manifest, in its order; their scenarios are not resolved. Throws BadInput
-/// naming the file for a folder that is none of a sweep, or whose manifest is damaged.
+/// The cells of a folder that has to be one of a sweep: throws BadInput when it is none.
 std::vector<Cell> cells_of_manifest(const std::filesystem::path& folder);
 
 /// Throws BadInput naming both files when the folder is that of another sweep file.

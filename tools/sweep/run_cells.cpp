@@ -8,16 +8,16 @@
 #include <csignal>
 #include <deque>
 #include <map>
+#include <memory>
 #include <thread>
 
 #include "scenarios/load.hpp"
+#include "sim/core/child_process.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/run/file_names.hpp"
 #include "tools/sweep/cell_files.hpp"
-#include "tools/sweep/child.hpp"
-#include "tools/sweep/failure.hpp"
 #include "tools/terminal/interrupt.hpp"
 #include "tools/terminal/progress.hpp"
 
@@ -58,7 +58,6 @@ class Pool {
 
   std::vector<CellOutcome> run() {
     const InterruptGuard interrupt(2);
-    std::signal(SIGCHLD, SIG_DFL);  // where a launcher ignores it, nobody learns how a child ended
     try {
       while (!is_over()) {
         pass_on_interrupts();
@@ -84,7 +83,7 @@ class Pool {
     FileLock lock;
     std::vector<std::string> command;
     std::uintmax_t log_begin = 0;  // what is before it, another run printed
-    pid_t child = 0;
+    std::unique_ptr<ChildProcess> child = nullptr;
   };
 
   static int shared_threads(int jobs) { return std::max(1, thread_count(0) / std::max(1, jobs)); }
@@ -101,19 +100,18 @@ class Pool {
   /// The first Ctrl-C asks the missions to end after the view at hand, the second one kills them.
   void pass_on_interrupts() {
     for (; passed_on_ < InterruptGuard::requests(); ++passed_on_) {
-      for (const Running& one : running_) kill(one.child, passed_on_ == 0 ? SIGINT : SIGKILL);
+      for (const Running& one : running_) one.child->send(passed_on_ == 0 ? SIGINT : SIGKILL);
     }
   }
 
   /// Each may end its view; nobody is left behind.
   void end_missions() {
-    for (const Running& one : running_) kill(one.child, SIGINT);
+    for (const Running& one : running_) one.child->send(SIGINT);
     const Clock::time_point patience = Clock::now() + std::chrono::seconds(10);
     for (const Running& one : running_) {
-      while (!end_of(one.child)) {
-        if (Clock::now() > patience) kill(one.child, SIGKILL);
-        std::this_thread::sleep_for(kPoll);
-      }
+      using std::chrono::milliseconds;
+      const auto left = std::chrono::duration_cast<milliseconds>(patience - Clock::now());
+      if (!one.child->ended_within(left)) one.child->send(SIGKILL);
     }
   }
 
@@ -176,18 +174,30 @@ class Pool {
                    .log_begin = no_log ? 0 : size};
     one.command.insert(one.command.end(), options_.run_arguments.begin(),
                        options_.run_arguments.end());
-    one.child = start_child(program_, one.command, files.log, one.lock.descriptor());
+    // the first Ctrl-C is passed on to it, as SIGINT; killed, we leave it to fly on
+    one.child = std::make_unique<ChildProcess>(one.command,
+                                               ChildOptions{.out = ChildStream::log,
+                                                            .err = ChildStream::log,
+                                                            .log = files.log,
+                                                            .program = program_,
+                                                            .dies_with_us = false,
+                                                            .is_apart = true,
+                                                            .kept_open = one.lock.descriptor()});
+    if (one.child->start_error() != 0) {
+      throw BadInput(fmt::format("{}, its output in {}: {}", one.command[0], files.log.string(),
+                                 one.child->end().text()));
+    }
     running_.push_back(std::move(one));
   }
 
   void reap() {
     for (std::size_t i = 0; i < running_.size();) {
-      const std::optional<ChildEnd> end = end_of(running_[i].child);
+      const std::optional<ChildEnd> end = running_[i].child->ended();
       if (!end) {
         ++i;
         continue;
       }
-      const Running one = std::move(running_[i]);
+      Running one = std::move(running_[i]);
       running_.erase(running_.begin() + static_cast<std::ptrdiff_t>(i));
       flown_ += 1;
       settle(one.index, outcome_of(one, *end));
@@ -198,7 +208,7 @@ class Pool {
     const auto termination = termination_of(one.files.part);
     if (is_result(termination)) return publish(one.files);
     if (termination == "utility_failed") {
-      return record_failure(cells_[one.index], one.files, end, one.command, one.log_begin);
+      return failed(one, end);
     }
     if (termination || InterruptGuard::requested()) return {};  // a later call resumes it
     if (end.signal == SIGKILL) {
@@ -206,7 +216,13 @@ class Pool {
       std::this_thread::sleep_for(std::chrono::seconds(1));
       if (InterruptGuard::requested()) return {};
     }
-    return record_failure(cells_[one.index], one.files, end, one.command, one.log_begin);
+    return failed(one, end);
+  }
+
+  CellOutcome failed(const Running& one, const ChildEnd& end) const {
+    const Cell& cell = cells_[one.index];
+    return {
+        CellStatus::failed, {}, record_failure(cell, one.files, end, one.command, one.log_begin)};
   }
 
   static CellOutcome publish(const CellFiles& files) {

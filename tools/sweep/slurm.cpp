@@ -1,13 +1,11 @@
 #include "tools/sweep/slurm.hpp"
 
 #include <fmt/format.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
-#include <cstdio>
 
+#include "sim/core/child_process.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/core/text.hpp"
@@ -32,29 +30,12 @@ std::string in_directive(const fs::path& path) {
   return out;
 }
 
-struct CommandOutput {
-  int exit_code = -1;
-  std::string text;
-};
-
-CommandOutput output_of(const std::string& command) {
-  CommandOutput output;
-  FILE* const pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return output;
-  std::array<char, 4096> buffer{};
-  while (std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe) != nullptr) {
-    output.text += buffer.data();
-  }
-  const int status = pclose(pipe);
-  if (WIFEXITED(status)) output.exit_code = WEXITSTATUS(status);
-  while (!output.text.empty() && output.text.back() == '\n') output.text.pop_back();
-  return output;
-}
-
 }  // namespace
 
 std::optional<std::size_t> max_array_size() {
-  const std::string config = output_of("scontrol show config 2>/dev/null").text;
+  ChildProcess scontrol({"scontrol", "show", "config"},
+                        {.out = ChildStream::pipe, .err = ChildStream::nothing});
+  const std::string config = scontrol.read_all();
   constexpr std::string_view kKey = "MaxArraySize";
   const std::size_t at = config.find(kKey);
   const std::size_t digit = config.find_first_of("0123456789\n", at);
@@ -103,20 +84,24 @@ std::string batch_script(const SlurmOptions& options, std::size_t max_array_size
 
 std::string submit(const fs::path& script) {
   const fs::path said = script.string() + ".stderr";  // warnings are no part of the id
-  const CommandOutput sent = output_of(fmt::format(
-      "sbatch --parsable {} 2> {}", shell_word(full_path(script)), shell_word(full_path(said))));
+  fs::remove(said);
+  ChildProcess sbatch({"sbatch", "--parsable", full_path(script)},
+                      {.out = ChildStream::pipe, .err = ChildStream::log, .log = said});
+  std::string id = sbatch.read_all();
+  id.erase(id.find_last_not_of('\n') + 1);
+  const ChildEnd end = sbatch.end();
   const std::string words = fs::exists(said) ? read_file(said) : "";
   fs::remove(said);
-  if (sent.exit_code == 127) {
+  if (end.start_error != 0) {
     throw BadInput(
         fmt::format("sbatch: not found on this machine; {} is written", script.string()));
   }
-  if (sent.exit_code != 0) {
+  if (!end.is_success()) {
     throw BadInput(fmt::format("sbatch {}: {}", script.string(),
                                words.substr(0, words.find_last_not_of('\n') + 1)));
   }
   print_to_stderr(printable(words));
-  return sent.text;
+  return id;
 }
 
 }  // namespace gnbv

@@ -10,6 +10,7 @@
 #include "bench/reference/octomap_twin.hpp"
 #include "planner/map/scan_insertion.hpp"
 #include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
 #include "tests/planner/map/random_points.hpp"
 #include "tests/support/fault.hpp"
 #include "tests/support/temp_folder.hpp"
@@ -138,6 +139,41 @@ TEST_F(OctomapFiles, AMapThatNothingTouchedIsAValidFile) {
 TEST_F(OctomapFiles, AFolderThatIsNotThereIsNamed) {
   EXPECT_TRUE(test::says(test::fault_of([&] { write_octomap(grid_, folder_ / "nowhere" / "map"); }),
                          {"nowhere"}));
+}
+
+TEST_F(OctomapFiles, OurReaderTakesBackWhatWasWritten) {
+  write_octomap(grid_, folder_ / "map");
+  const OctomapLeaves read = read_octomap(folder_ / "map.ot");
+  EXPECT_EQ(read.voxel_m, 0.2);
+  std::size_t measured = 0;
+  for (const OctomapLeaf& leaf : read.leaves) {
+    const int edge = leaf.edge_voxels;
+    for (int i = 0; i < edge * edge * edge; ++i, ++measured) {
+      const Key key = {leaf.first[0] + i % edge, leaf.first[1] + i / edge % edge,
+                       leaf.first[2] + i / edge / edge};
+      const VoxelIndex v = grid_.geometry().index_of(key);
+      ASSERT_EQ(grid_.log_odds(v), leaf.log_odds);
+      EXPECT_EQ(is_occupied(leaf, grid_.config()), grid_.state(v) == VoxelState::occupied);
+    }
+  }
+  EXPECT_EQ(measured, measured_count());
+  write_octomap(OccupancyGrid(OccupancyConfig{}, Box3(Vec3(0, 0, 0), Vec3(1, 1, 1))),
+                folder_ / "empty");
+  EXPECT_TRUE(read_octomap(folder_ / "empty.ot").leaves.empty());
+}
+
+TEST_F(OctomapFiles, DamagedOnesAreRefused) {
+  write_octomap(grid_, folder_ / "map");
+  const std::string whole = read_file(folder_ / "map.ot");
+  for (const std::string& text :
+       {std::string("some words"), whole.substr(0, whole.size() / 2), whole.substr(0, 40),
+        whole + "more", read_file(folder_ / "map.bt"),
+        // children of children of a voxel
+        whole.substr(0, whole.find("data\n") + 5) + std::string(4000, '\xff')}) {
+    std::ofstream(folder_ / "damaged.ot", std::ios::binary) << text;
+    EXPECT_THROW(read_octomap(folder_ / "damaged.ot"), BadInput);
+  }
+  EXPECT_THROW(read_octomap(folder_ / "none.ot"), BadInput);
 }
 
 }  // namespace

@@ -149,7 +149,7 @@ TEST(PredictionsFile, ReadsBackAsItWasWritten) {
   EXPECT_EQ(read[0].gain.predicted, 65.2);
   for (const auto& [from, to, words] : std::vector<std::array<std::string, 3>>{
            {"opposite", "behind", "predictions.csv:3: 'behind' is no source"},
-           {",45,", ",44,", "predictions.csv:3: no bin of incidence begins at 44"},
+           {",45,", ",44,", "predictions.csv:3: '44' is no"},
            {",4,65,", ",5,65,", "predictions.csv:2: looks 5 must be less than 5"},
            {",5.5,", ",", "predictions.csv:3: '2,opposite"},
            {",5.5,", ",many,", "predictions.csv:3: promised `many` is not a number"},

@@ -9,7 +9,7 @@
 #include "tests/support/temp_folder.hpp"
 #include "tools/run/frames_folder.hpp"
 #include "tools/run/run_directory.hpp"
-#include "tools/run/run_poses.hpp"
+#include "tools/run/run_record.hpp"
 #include "tools/run/words.hpp"
 
 namespace gnbv {
@@ -132,15 +132,13 @@ TEST_F(Record, TheTitleNamesAnUnusualReadingOfThePaper) {
 
 TEST_F(Record, AFolderHasItsOneName) {
   const fs::path before = fs::current_path();
-  for (const char* given : {".", "./", "frames/..", "frames/../."}) {
-    fs::create_directories(temp_.path() / "frames");
-    fs::current_path(temp_.path());
-    const RunRecord record = read_run(given);
-    fs::current_path(before);
-    EXPECT_EQ(record.folder, temp_.path()) << given;
+  fs::create_directories(temp_.path() / "frames");
+  fs::current_path(temp_.path());
+  for (const fs::path& given :
+       {fs::path("."), fs::path("./"), fs::path("frames/.."), temp_.path() / ""}) {
+    EXPECT_EQ(read_run(given).folder, temp_.path()) << given;
   }
-  EXPECT_EQ(read_run(temp_.path() / "").folder, temp_.path());
-  EXPECT_EQ(read_run(temp_.path() / "frames" / "..").folder, temp_.path());
+  fs::current_path(before);
 }
 
 TEST_F(Record, IsReadWithoutTheMeshFileThatMoved) {
@@ -164,6 +162,7 @@ TEST_F(Record, WhatIsMissingIsNamedWithTheCommandThatMakesIt) {
     EXPECT_NE(sentence.find("gnbv run"), std::string::npos) << sentence;
     EXPECT_NE(sentence.find("--resume"), std::string::npos) << sentence;
   }
+  fs::rename(temp_.path() / "iterations.csv.part", temp_.path() / "iterations.csv");
   write("summary.json", R"({"schema": 1, "profile_end_s": 2.0, "views_begin_s": 2.5})");
   const RunRecord older = read_run(temp_.path());
   EXPECT_EQ(older.views_begin_s, 2.5);

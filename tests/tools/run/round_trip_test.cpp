@@ -60,18 +60,6 @@ ViewRecord odd_view(int iteration) {
   return view;
 }
 
-TEST(RoundTrip, IterationsCsvOfAGimbal) {
-  TempFolder temp;
-  const fs::path csv = temp.path() / kIterationsFile;
-  ViewRecord view = odd_view(0);
-  view.decision.view.gimbal_pitch_rad = 0.1 + 0.2;
-  write_file_atomically(csv, iterations_csv(std::vector{view}, Columns::with_gimbal));
-  EXPECT_EQ(read_view_records(csv).at(0).decision.view.gimbal_pitch_rad, 0.1 + 0.2);
-  EXPECT_EQ(columns_of(load_scenario("smoke", {})), Columns::usual);
-  EXPECT_EQ(columns_of(load_scenario("smoke", {"cameras.0.pitch_deg={min: 0, max: 9, step: 3}"})),
-            Columns::with_gimbal);
-}
-
 TEST(RoundTrip, IterationsCsv) {
   TempFolder temp;
   const fs::path csv = temp.path() / kIterationsFile;
@@ -87,6 +75,10 @@ TEST(RoundTrip, IterationsCsv) {
   EXPECT_EQ(read[1].entropy_nat, views[1].entropy_nat);
   EXPECT_EQ(read[1].wall.plan_s, 123.456789);
   EXPECT_EQ(read[0].decision.sampler, Sampler::start);
+  ViewRecord turned = odd_view(0);
+  turned.decision.view.gimbal_pitch_rad = 0.1 + 0.2;
+  write_file_atomically(csv, iterations_csv(std::vector{turned}, Columns::with_gimbal));
+  EXPECT_EQ(read_view_records(csv).at(0).decision.view.gimbal_pitch_rad, 0.1 + 0.2);
 }
 
 TEST(RoundTrip, DamagedIterationsAreNamedByLineAndColumn) {
@@ -181,29 +173,19 @@ TEST(RoundTrip, CandidatesJsonl) {
   plan.chosen.clear();
   file.write(2, plan);
   file.finish();
+  std::string text = read_file(temp.path() / kCandidatesFile);
+  // the text of a number is the shortest that reads back as it: equal texts are equal numbers
+  TempFolder again;
+  CandidatesFile copy(again.path(), 1);
   for (const std::size_t iteration : {1U, 2U}) {
     const std::optional<Plan> read = read_candidates(temp.path(), iteration);
     ASSERT_TRUE(read && read->candidates.size() == 2U);
-    EXPECT_EQ(read->chosen,
-              iteration == 1 ? std::vector<std::size_t>{0} : std::vector<std::size_t>{});
-    for (std::size_t i = 0; i < 2; ++i) {
-      const Candidate& now = read->candidates[i];
-      const Candidate& was = plan.candidates[i];
-      EXPECT_EQ(now.view.p_world_m, was.view.p_world_m);
-      EXPECT_EQ(now.view.yaw_rad, was.view.yaw_rad);
-      EXPECT_EQ(now.sampler, was.sampler);
-      EXPECT_EQ(now.scale, was.scale);
-      EXPECT_EQ(now.cluster, was.cluster);
-      EXPECT_EQ(now.rejected, was.rejected);
-      EXPECT_EQ(now.path_m, was.path_m);
-      EXPECT_EQ(now.score.value, was.score.value);
-      EXPECT_EQ(now.score.information, was.score.information);
-      EXPECT_EQ(now.score.density, was.score.density);
-      EXPECT_EQ(now.score.prediction, was.score.prediction);
-      EXPECT_EQ(now.score.distance, was.score.distance);
-    }
+    EXPECT_EQ(read->candidates[0].view.p_world_m, plan.candidates[0].view.p_world_m);
+    EXPECT_EQ(read->candidates[1].rejected, Rejection::cluster_hidden);
+    copy.write(iteration, *read);
   }
-  std::string text = read_file(temp.path() / kCandidatesFile);
+  copy.finish();
+  EXPECT_EQ(read_file(again.path() / kCandidatesFile), text);
   text.replace(text.rfind("cluster_hidden"), 14, "unlucky");
   write_file_atomically(temp.path() / kCandidatesFile, text);
   const std::string said = complaint_of([&] { read_candidates(temp.path(), 2); });
@@ -298,34 +280,23 @@ TEST(RoundTrip, RunDirectory) {
   EXPECT_EQ(summary.termination, "no_valid_view");
   EXPECT_EQ(summary.iterations, 2U);
   ASSERT_TRUE(record.figures.has_value());
+  // every number that a comparison reads is one of summary.json, where no two are the same
   const RunFigures& f = *record.figures;
-  EXPECT_EQ(f.scenario, made.scenario.name);
-  EXPECT_EQ(f.structure, structure_name(made.scenario.structure));
-  EXPECT_EQ(f.utility, made.scenario.planner.utility.name);
-  EXPECT_EQ(f.preset, made.scenario.planner.preset);
-  EXPECT_EQ(f.seed, made.scenario.seed);
   EXPECT_EQ(f.result_sha256, result_sha256(made.result));
-  EXPECT_EQ(f.entropy_reduction_nat, 0.5);
-  EXPECT_EQ(f.straight_m, 1e-9);
-  EXPECT_EQ(f.flown_m, 2.0 / 3.0);
-  EXPECT_EQ(f.before.profile_m, 1.0 / 3.0);
-  EXPECT_EQ(f.before.transfer_m, 2.0 / 7.0);
-  EXPECT_EQ(f.before.profile_end_s, 0.1 + 0.2);
-  EXPECT_EQ(f.flight_time_s, 1e20);
-  EXPECT_EQ(f.energy_wh, 5e-324);
+  EXPECT_EQ(f.structure, structure_name(made.scenario.structure));
+  EXPECT_EQ(
+      (std::array{f.entropy_reduction_nat, f.straight_m, f.flown_m, f.before.profile_m,
+                  f.before.transfer_m, f.before.profile_end_s, f.flight_time_s, f.energy_wh,
+                  f.density_points_per_voxel, f.distances.at[1].precision, f.distances.at[1].recall,
+                  f.distances.accuracy_m, f.distances.completeness_m, f.distances.chamfer_m,
+                  f.density.mean_points, f.wall_s}),
+      (std::array{0.5, 1e-9, 2.0 / 3.0, 1.0 / 3.0, 2.0 / 7.0, 0.1 + 0.2, 1e20, 5e-324, 2.0 / 3.0,
+                  1.0 / 3.0, 0.7, 1.0 / 7.0, 1.0 / 9.0, 1.0 / 11.0, 10.0 / 3.0, 61.5}));
   EXPECT_EQ(f.coverage_final, made.score.final);
   EXPECT_EQ(f.coverage_profile, made.score.profile);
   EXPECT_EQ(f.coverage_final_raw, made.score.final_raw);
   EXPECT_EQ(f.coverage_profile_raw, made.score.profile_raw);
-  EXPECT_EQ(f.density_points_per_voxel, 2.0 / 3.0);
-  EXPECT_EQ(f.distances.at[1].precision, 1.0 / 3.0);
-  EXPECT_EQ(f.distances.at[1].recall, 0.7);
-  EXPECT_EQ(f.distances.accuracy_m, 1.0 / 7.0);
-  EXPECT_EQ(f.distances.completeness_m, 1.0 / 9.0);
-  EXPECT_EQ(f.distances.chamfer_m, 1.0 / 11.0);
-  EXPECT_EQ(f.density.mean_points, 10.0 / 3.0);
   EXPECT_EQ(f.curve.coverage, made.score.curve.coverage);
-  EXPECT_EQ(f.wall_s, 61.5);
 }
 
 TEST(RoundTrip, AScoreTakesThePlaceOfAnotherAndOfNothingElse) {

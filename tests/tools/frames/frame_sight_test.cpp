@@ -1,6 +1,6 @@
 // Laws of what a frame shows: a point is seen where it projects, unless the depth image says that
 // something else is there, and a cloud has the colours of the frames that brought it.
-#include "tools/run/frame_sight.hpp"
+#include "tools/frames/frame_sight.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,6 @@
 
 #include "sensors/camera_model.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tools/run/cloud_colours.hpp"
 
 namespace gnbv {
 namespace {
