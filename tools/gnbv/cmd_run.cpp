@@ -47,10 +47,9 @@ void need_route(const RunOptions& options, const Scenario& scenario) {
     throw BadInput("--json: with --views -, stdout belongs to whoever sends views");
   }
   const bool has_views = options.mission.piped_views || !options.scenario.views.empty();
-  if (!has_views || traits_of(scenario.planner).takes_views) return;
+  if (!has_views || scenario.planner.utility.name == kRouteName) return;
   throw BadInput(fmt::format("--views {}: goes with --utility {}, not {}",
-                             options.mission.piped_views ? "-" : options.scenario.views,
-                             planners_that(&PlannerTraits::takes_views).front(),
+                             options.mission.piped_views ? "-" : options.scenario.views, kRouteName,
                              scenario.planner.utility.name));
 }
 
@@ -178,8 +177,9 @@ void add_run_command(CLI::App& app) {
   CLI::App* const command = app.add_subcommand("run", "fly one mission and score it");
   MissionOptions& mission = options->mission;
   add_scenario_options(*command, options->scenario);
-  command->add_option("--utility", options->scenario.utility,
-                      "utility by name, or a Python function of yours: FILE.py:FUNCTION");
+  command->add_option(
+      "--utility", options->scenario.utility,
+      "utility by name, or a utility or planner of yours in Python: [NAME=]FILE.py[:FUNCTION]");
   command->add_option_function<std::string>(
       "--views", [options](const std::string& file) { set_views(file, *options); },
       "with --utility route: body poses to fly, CSV or TUM; -: one a line from stdin, each "

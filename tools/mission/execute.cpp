@@ -17,7 +17,7 @@
 #include "tools/mission/mission.hpp"
 #include "tools/mission/reference.hpp"
 #include "tools/mission/start_pose.hpp"
-#include "tools/mission/user_utility.hpp"
+#include "tools/mission/user_child.hpp"
 #include "tools/mission/view_pipe.hpp"
 #include "tools/run/candidates_jsonl.hpp"
 #include "tools/run/file_names.hpp"
@@ -58,8 +58,8 @@ void need_saved_profile(const Scenario& scenario) {
 }
 
 /// Who flies given views needs some.
-void need_views(const Scenario& scenario, bool are_piped) {
-  if (are_piped || !traits_of(scenario.planner).takes_views) return;
+void need_views(const Scenario& scenario, bool are_asked_for) {
+  if (are_asked_for || !traits_of(scenario.planner).takes_views) return;
   if (!scenario.planner.routes.views.empty()) return;
   throw BadInput(fmt::format(
       "planner.routes.views: holds no view, and planner.utility.name = {} flies what it holds; "
@@ -187,7 +187,8 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
   if (options.resume && options.out.empty()) {
     throw BadInput("--resume: needs --out, the run directory to continue");
   }
-  need_views(scenario, options.piped_views || options.planner != nullptr);
+  const bool asks_planner = options.planner != nullptr || is_user_planner(scenario.planner.utility);
+  need_views(scenario, options.piped_views || asks_planner);
   const int threads = thread_count(options.threads);
   need_memory_for(scenario, threads);
   // all that can be wrong with the input is found before the first file is written
@@ -203,6 +204,7 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
   }
   need_saved_profile(scenario);
   const UserScores user_scores = start_user_utility(scenario.planner.utility);
+  const std::unique_ptr<UserPlanner> in_file = start_user_planner(scenario, threads);
   if (scenario.planner.symmetry.enabled) symmetry_module();  // throws when it is missing
   const RunClaim claim = claim_folder(scenario, options);    // an oracle may think for minutes
   ProgressBar bar(fmt::format("{} {}", scenario.name, utility_label(scenario.planner.utility)),
@@ -240,8 +242,8 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
           .connect(inputs);
     }
     std::optional<UserPlannerLink> planner;
-    if (options.planner != nullptr) {
-      planner.emplace(*options.planner, scenario, directory).connect(inputs);
+    if (asks_planner) {
+      planner.emplace(in_file ? *in_file : *options.planner, scenario).connect(inputs);
     }
     MissionResult result = run_mission(scenario, world, scene, inputs, threads);
     directory.need_as_recorded(result);
@@ -258,7 +260,10 @@ ExecutedMission execute_mission(const Scenario& scenario, const MissionOptions& 
     // before the summary, which says that all is there
     if (candidates) candidates->finish();
     if (beliefs) beliefs->finish();
-    const Scenario& flown = pipe ? pipe->scenario() : planner ? planner->scenario() : scenario;
+    const Scenario flown = pipe      ? pipe->scenario()
+                           : planner ? planner->repeatable(result.termination)
+                                     : scenario;
+    if (planner) directory.keep(flown);
     directory.finish(flown, result, score, watch.elapsed_s());
     return {directory.path(), std::move(result), score, watch.elapsed_s()};
   } catch (const BrokenInvariant& broken) {
