@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A utility in a Python file flies, is recorded so that the run repeats from its record, and ends
-# the run in order when it fails.
+# Utilities and planners in Python files fly, are recorded so that the runs repeat from their
+# records, are compared with others, and end the run in order when they fail.
 # usage: user_utility_test.sh GNBV       exit: 77 where python3 has no NumPy
 set -euo pipefail
 gnbv=$1
@@ -25,8 +25,9 @@ def other(views):
 def mine(views):  # "quotes", a back\slash, Umläute
     return views["unknown_voxels"] / (1.0 + views["path_m"])
 END
-"$gnbv" run smoke "${short[@]}" --utility mine.py --out first >/dev/null
-grep -q '"utility": "mine"' first/summary.json || fail "the last function is not the one that flew"
+expect 2 "mine.py: defines several functions (other, mine): name one" "$gnbv" run smoke --utility mine.py --out none
+"$gnbv" run smoke "${short[@]}" --utility mine.py:mine --out first >/dev/null
+grep -q '"utility": "mine"' first/summary.json || fail "the function that was named is not the one that flew"
 cmp mine.py first/utility.py
 grep -q "\"utility_source_sha256\": \"$(sha256sum <mine.py | cut -d' ' -f1)\"" first/summary.json || fail "hash"
 rm mine.py
@@ -40,8 +41,26 @@ grep -q '"termination": "utility_failed"' late/summary.json || fail "termination
 expect 2 "defines no function 'none'" "$gnbv" run smoke --utility late.py:none --out none
 expect 2 "GNBV_PYTHON names another" env GNBV_PYTHON=/nowhere "$gnbv" run smoke --utility late.py --out none
 [[ ! -e none ]] || fail "something was written before the utility was known to run"
-"$gnbv" compare smoke "${short[@]}" --utilities proposed,first/utility.py:other --seeds 1 --no-ceiling --out cells | grep -q other ||
-  fail "compare does not name the function"
+
+# a planner: asked view after view, flown again and resumed as any other, and a row like any other
+cat >plan.py <<'END'
+def plan(belief, history):
+    views = belief.valid(belief.sample())
+    return View(*views[len(history) * 7 % len(views)])
+END
+"$gnbv" run smoke "${short[@]}" --utility plan.py --out planned >/dev/null
+"$gnbv" run planned/scenario.yaml --quiet --threads 1 --out planned-again >/dev/null
+[[ $(hash_of planned) == "$(hash_of planned-again)" ]] || fail "the record does not repeat the planner's run"
+expect 2 "--views views.csv: goes with --utility route" "$gnbv" run smoke --utility plan.py --views views.csv --out none
+cp -r planned cut
+rm cut/summary.json
+head -n 4 cut/iterations.csv >cut/iterations.csv.part && rm cut/iterations.csv
+"$gnbv" run smoke "${short[@]}" --utility plan.py --out cut --resume >/dev/null
+[[ $(hash_of planned) == "$(hash_of cut)" ]] || fail "the resumed planner's run is another"
+"$gnbv" compare smoke "${short[@]}" --utilities proposed,first/utility.py:other,walk=plan.py --seeds 2 --no-ceiling --out cells --format csv >compared.csv
+for method in proposed other walk; do
+  [[ $(grep -c "^smoke,coverage at 0.05 m (%),$method,2," compared.csv) == 1 ]] || fail "no row of two seeds of $method in $(cat compared.csv)"
+done
 
 # a function that never returns ends with the program that asks it, however that ends
 printf 'def endless(views):\n    import os\n    with open("pid.part", "w") as file:\n        file.write(str(os.getpid()))\n    os.rename("pid.part", "pid")\n    while True:\n        pass\n' >endless.py

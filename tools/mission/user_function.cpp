@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <regex>
 
 #include "planner/guided/utility.hpp"
@@ -18,12 +17,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The parts of [NAME=]FILE.py[:FUNCTION], empty where they are not said.
+/// The parts of [NAME=]FILE.py[:FUNCTION], or of [NAME=]UTILITY, empty where they are not said.
 struct Named {
   std::string name, file, function;
+  std::string utility = {};
 };
 
-std::optional<Named> parts_of(std::string_view text) {
+Named parts_of(std::string_view text) {
   Named parts;
   const std::size_t equals = text.find_first_of("=/.");  // a NAME is one word
   if (equals != std::string_view::npos && text[equals] == '=') {
@@ -35,8 +35,8 @@ std::optional<Named> parts_of(std::string_view text) {
     parts.function = text.substr(colon + 1);
     text = text.substr(0, colon);
   }
-  parts.file = text;
-  return text.ends_with(".py") ? std::optional(parts) : std::nullopt;
+  (text.ends_with(".py") ? parts.file : parts.utility) = text;
+  return parts;
 }
 
 /// How many parameters, from behind the bracket on, have to be given by their places.
@@ -114,31 +114,33 @@ Definition chosen(const Named& named, const std::string& source) {
 
 }  // namespace
 
-bool is_user_function(std::string_view text) { return parts_of(text).has_value(); }
+bool is_user_function(std::string_view text) { return !parts_of(text).file.empty(); }
 
 NamedMethod named_method(const std::string& text, const std::string& option,
                          const fs::path& folder) {
   const std::string given_by = option + " " + text;
-  const std::optional<Named> named = parts_of(text);
+  const Named named = parts_of(text);
   const auto set = [&](const std::string& key, const std::string& value) {
     return Override{.text = fmt::format("planner.utility.{}={}", key, value), .source = given_by};
   };
-  if (!named) return {text, {set("name", text)}};
-  const fs::path file = folder / named->file;
+  if (named.file.empty()) {
+    return {named.name.empty() ? named.utility : named.name, {set("name", named.utility)}};
+  }
+  const fs::path file = folder / named.file;
   const std::string source = read_file(file);
   const Definition function =
-      chosen({named->name, file.lexically_normal().string(), named->function}, source);
+      chosen({named.name, file.lexically_normal().string(), named.function}, source);
   const std::string file_name = file.filename().string();
   const bool is_planner = function.kind == UserFunctionKind::planner;
-  NamedMethod method{named->name.empty() ? function.name : named->name,
+  NamedMethod method{named.name.empty() ? function.name : named.name,
                      {set("name", std::string(kUserUtilityName)),
                       set("python.kind", is_planner ? "planner" : "utility"),
-                      set("python.label", yaml_in_quotes(named->name)),
+                      set("python.label", yaml_in_quotes(named.name)),
                       set("python.file", yaml_in_quotes(file_name)),
                       set("python.function", yaml_in_quotes(function.name)),
                       set("python.source", yaml_in_quotes(source))}};
-  if (named->name.empty()) {
-    method.longer_labels = {file_name + ":" + function.name, named->file + ":" + function.name};
+  if (named.name.empty()) {
+    method.longer_labels = {file_name + ":" + function.name, named.file + ":" + function.name};
   }
   return method;
 }

@@ -1,4 +1,5 @@
-// Functions of the user's own as the command line names them: [NAME=]FILE.py[:FUNCTION].
+// Functions of the user's own as the command line names them, [NAME=]FILE.py[:FUNCTION], beside the
+// utilities of the program, [NAME=]UTILITY.
 #pragma once
 
 #include <string>

@@ -76,8 +76,6 @@ BenchRuns collect(const std::vector<Cell>& cells, const std::vector<CellOutcome>
       (is_lost(termination) ? failures : notes)
           .add(cell, fmt::format("ended by {}, counted as it is", termination));
     }
-    // the run may have been flown under another label
-    if (is_user_utility(cell.resolved.planner.utility.name)) run.figures.utility = cell.method;
     collected.runs.push_back(std::move(run));
     collected.folders.push_back(outcomes[i].run);
   }

@@ -49,10 +49,9 @@ bool sets_seed(std::string_view assignment) {
 void need_known_names(const MethodOptions& options) {
   std::vector<Override> sets;
   for (const std::string& utility : options.utilities) {
-    if (is_user_function(utility)) continue;
-    sets.push_back({.text = "planner.utility.name=" + utility,
-                    .source = "--utilities " + utility,
-                    .folder = {}});
+    if (!is_user_function(utility)) {
+      sets.push_back(named_method(utility, "--utilities").overrides.front());
+    }
   }
   for (const std::string& preset : options.presets) {
     sets.push_back(

@@ -150,7 +150,10 @@ BenchTables table_of_missions(const TableRequest& request, const BenchOptions& o
   std::vector<RunFigures> runs;
   std::vector<std::string> settings;
   const auto add = [&](const BenchRuns& some, const std::string& setting) {
-    for (const ComparedRun& run : some.runs) runs.push_back(run.figures);
+    for (const ComparedRun& run : some.runs) {
+      runs.push_back(run.figures);
+      runs.back().utility = run.method;  // it may have been flown under another label
+    }
     settings.resize(runs.size(), setting);
   };
   add(flown, "");
