@@ -7,7 +7,6 @@
 #include "sim/core/error.hpp"
 #include "tools/python/belief_view.hpp"
 #include "tools/python/env_bindings.hpp"
-#include "tools/python/map_file.hpp"
 #include "tools/python/run_mission.hpp"
 
 namespace {
@@ -49,6 +48,5 @@ NB_MODULE(_core, m) {
   nb::register_exception_translator(translate);
   gnbv::bind_belief(m);
   gnbv::bind_run(m);
-  gnbv::bind_map_file(m);
   gnbv::bind_env(m);
 }

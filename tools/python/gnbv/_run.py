@@ -12,7 +12,6 @@ from typing import Any, Union
 import numpy as np
 import numpy.typing as npt
 
-from gnbv import _core
 from gnbv._errors import BadInput
 from gnbv._program import call
 
@@ -73,11 +72,7 @@ class Run:
     @cached_property
     def map(self) -> Array:
         """The occupancy map's leaves: centre and size (m), log-odds (natural logarithm)."""
-        leaves = _core.read_map(os.fspath(self.folder / "map.ot"))
-        out = np.empty(len(leaves), MAP_DTYPE)
-        for column, name in enumerate(MAP_DTYPE.names or ()):
-            out[name] = leaves[:, column]
-        return out
+        return _read_octree(self.folder / "map.ot")
 
     @cached_property
     def trajectory(self) -> npt.NDArray[np.float64]:
@@ -153,13 +148,49 @@ def _csv(file: Path) -> Array:
     return out
 
 
-def read_ply(file: Path) -> npt.NDArray[np.float32]:
-    """The vertices of one of gnbv's own .ply files: rows x 3, m."""
+def _read_octree(file: Path) -> Array:
+    """OctoMap's .ot: a text head, then each node before its children: float32 log-odds, and a byte
+    whose bits say which of the eight children follow."""
+    head, found, body = _bytes_of(file).partition(b"\ndata\n")
+    resolution = next((line[4:] for line in head.split(b"\n") if line.startswith(b"res ")), b"0")
+    edge_m = float(resolution)
+    if not found or not head.startswith(b"# Octomap OcTree file") or edge_m <= 0 or len(body) % 5:
+        raise BadInput(f"{file}: is no OctoMap .ot file, or cut short")
+    depth = 16
+    todo = [(-(1 << 15), -(1 << 15), -(1 << 15), depth)]  # lowest corners in voxels, and levels
+    leaves = []
+    for log_odds, children in np.frombuffer(body, [("l", "<f4"), ("c", "u1")]).tolist():
+        if not todo:
+            raise BadInput(f"{file}: has more behind its end")
+        x, y, z, level = todo.pop()
+        if not children or not level:
+            size = float(1 << level)
+            leaves.append((x + size / 2, y + size / 2, z + size / 2, size, log_odds))
+            continue
+        half = 1 << (level - 1)
+        todo += [
+            (x + half * (i & 1), y + half * (i >> 1 & 1), z + half * (i >> 2), level - 1)
+            for i in range(7, -1, -1)
+            if children >> i & 1
+        ]
+    if todo and len(body):
+        raise BadInput(f"{file}: is cut short")
+    out = np.array(leaves, dtype=MAP_DTYPE)
+    for name in ("x_m", "y_m", "z_m", "size_m"):
+        out[name] *= edge_m
+    return out
+
+
+def _bytes_of(file: Path) -> bytes:
     try:
-        bytes_ = file.read_bytes()
+        return file.read_bytes()
     except OSError as error:
         raise BadInput(f"{file}: {error.strerror}") from error
-    head, found, body = bytes_.partition(b"end_header\n")
+
+
+def read_ply(file: Path) -> npt.NDArray[np.float32]:
+    """The vertices of one of gnbv's own .ply files: rows x 3, m."""
+    head, found, body = _bytes_of(file).partition(b"end_header\n")
     kinds = {b"float": "<f4", b"uchar": "u1", b"int": "<i4"}
     words = [line.split() for line in head.splitlines()]
     fields = [(w[2].decode(), kinds.get(w[1], "")) for w in words if w[:1] == [b"property"]]
