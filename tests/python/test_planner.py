@@ -70,7 +70,7 @@ def test_a_planner_in_a_file_gets_the_answers_of_one_in_this_process(tmp_path, m
     # the run repeats from its record, by the program alone
     again = gnbv.run(there.folder / "scenario.yaml", threads=1)
     assert again.sha256 == there.sha256
-    assert again.render(out=tmp_path / "voxels.png")  # and is drawn without asking the planner
+    assert again.render("voxels", out=tmp_path / "voxels.png")  # and is drawn without asking the planner
 
 
 def test_a_planner_that_fails_in_a_file_ends_the_run_in_order(tmp_path):

@@ -85,7 +85,7 @@ def recorded_planner(planner: UserFunction) -> str:
     try:
         source = textwrap.dedent(inspect.getsource(planner))
         around = inspect.getclosurevars(planner).nonlocals
-    except (OSError, TypeError):
+    except (OSError, TypeError, ValueError):
         source, around = "", {}
     for name, value in around.items():
         if isinstance(value, (bool, int, float, str)):
