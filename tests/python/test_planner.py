@@ -70,7 +70,9 @@ def test_a_planner_in_a_file_gets_the_answers_of_one_in_this_process(tmp_path, m
     # the run repeats from its record, by the program alone
     again = gnbv.run(there.folder / "scenario.yaml", threads=1)
     assert again.sha256 == there.sha256
-    assert again.render("voxels", out=tmp_path / "voxels.png")  # and is drawn without asking the planner
+    assert again.render(
+        "voxels", out=tmp_path / "voxels.png"
+    )  # and is drawn without asking the planner
 
 
 def test_a_planner_that_fails_in_a_file_ends_the_run_in_order(tmp_path):
@@ -87,22 +89,8 @@ def test_a_planner_that_fails_in_a_file_ends_the_run_in_order(tmp_path):
     assert len(gnbv.load(failed.value.folder).iterations) == 3
 
 
-def stubborn_walk():
-    """It remembers what it did outside of the history."""
-    steps = []
-
-    def walk(belief, history):
-        steps.append(len(history))
-        if len(history) > 5:
-            return None
-        views = belief.valid(belief.sample())
-        return views[len(steps) % len(views)]
-
-    return walk
-
-
-WALK_IN_A_FILE = """
-steps = []
+WALK = """
+steps = []  # remembered outside of the history
 def walk(belief, history):
     steps.append(len(history))
     if len(history) > 5:
@@ -114,10 +102,14 @@ def walk(belief, history):
 
 @pytest.mark.parametrize("where", ["here", "in a file"])
 def test_a_resumed_planner_flies_what_an_uninterrupted_one_flies(where, tmp_path):
-    (tmp_path / "walk.py").write_text(WALK_IN_A_FILE)
+    (tmp_path / "walk.py").write_text(WALK)
 
     def planner():
-        return stubborn_walk() if where == "here" else tmp_path / "walk.py"
+        if where == "in a file":
+            return tmp_path / "walk.py"
+        space = {}
+        exec(WALK, space)
+        return space["walk"]
 
     def ends(share, note):
         if note.startswith("view 3/"):
