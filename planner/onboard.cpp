@@ -17,7 +17,7 @@ PlannerConfig checked(const OnboardSettings& settings) {
   PlannerConfig config = settings.planner;
   if (settings.utility) {
     config.utility.name = kUserUtilityName;
-    config.utility.python = {settings.utility->name, settings.utility->reads};
+    config.utility.python = {.function = settings.utility->name, .source = settings.utility->reads};
     return config;
   }
   const std::vector<std::string_view> names = planner_names();

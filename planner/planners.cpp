@@ -41,10 +41,12 @@ Made make_laid(Parts parts) {
 }
 
 Made make_given(Parts parts) {
-  return std::make_unique<RoutePlanner>(Route{.views = parts.config.routes.views,
-                                              .next_view = std::move(parts.sources.next_view),
-                                              .on_refused = std::move(parts.sources.on_refused)},
-                                        parts.model);
+  return std::make_unique<RoutePlanner>(
+      Route{.views = parts.config.routes.views,
+            .next_view = std::move(parts.sources.next_view),
+            .on_refused = std::move(parts.sources.on_refused),
+            .trusts_record = is_user_planner(parts.config.utility)},
+      parts.model);
 }
 
 Made make_known(Parts parts) {
@@ -62,15 +64,16 @@ struct NamedPlanner {
 constexpr std::array kPlanners = {
     NamedPlanner{"uniform_hemisphere", make_laid<lay_hemisphere>, {.lays_views = true}},
     NamedPlanner{"lawnmower", make_laid<lay_lawnmower>, {.lays_views = true, .spaces_rows = true}},
-    NamedPlanner{"route", make_given, {.takes_views = true}},
+    NamedPlanner{kRouteName, make_given, {.takes_views = true}},
     NamedPlanner{"oracle_views", make_known, {.knows_structure = true}},
     NamedPlanner{"oracle_metres", make_known, {.knows_structure = true, .counts_metres = true}},
     NamedPlanner{"tour", make_tour, {.makes_tours = true}},
 };
 
-/// The guided planner's for all other names.
-const NamedPlanner& planner_named(std::string_view name) {
+/// The guided planner's for all other names. A planner of the user's own gives views.
+const NamedPlanner& planner_of(const UtilityConfig& utility) {
   static constexpr NamedPlanner kGuided = {"", make_guided, {.scores_views = true}};
+  const std::string_view name = is_user_planner(utility) ? kRouteName : utility.name;
   for (const NamedPlanner& planner : kPlanners) {
     if (planner.name == name) return planner;
   }
@@ -103,7 +106,7 @@ void set_preset_switches(PlannerConfig& config) {
 }
 
 PlannerTraits traits_of(const PlannerConfig& config) {
-  PlannerTraits traits = planner_named(config.utility.name).traits;
+  PlannerTraits traits = planner_of(config.utility).traits;
   if (!traits.scores_views) return traits;
   const UtilityTraits needs = needs_of(config.utility);
   traits.reads_prediction = needs.prediction;
@@ -115,7 +118,7 @@ double planning_bytes(const PlannerConfig& config, const Box3& workspace_m, int 
                       std::size_t cameras) {
   const double resolution_m = config.map.resolution_m;
   const double map = map_bytes(workspace_m, resolution_m, threads, cameras);
-  const bool makes_tours = planner_named(config.utility.name).traits.makes_tours;
+  const bool makes_tours = planner_of(config.utility).traits.makes_tours;
   return makes_tours ? map + tour_bytes(config.tour, workspace_m, resolution_m) : map;
 }
 
@@ -135,7 +138,7 @@ std::vector<std::string_view> planners_that(bool PlannerTraits::*have) {
 
 std::unique_ptr<Planner> make_planner(const PlannerConfig& config, const PlannerModel& model,
                                       PlannerSources sources) {
-  return planner_named(config.utility.name).make({config, model, std::move(sources)});
+  return planner_of(config.utility).make({config, model, std::move(sources)});
 }
 
 PlannerModel make_model(const PlannerConfig& config, const Box3& workspace_m,

@@ -156,7 +156,12 @@ void fields(const Keys& key, ShadowConfig& c) {
   key("shadow_depth_m", c.shadow_depth_m, positive(100), "Behind a hit, along its ray.");
 }
 
-void fields(const Keys& key, UserUtilityConfig& c) {
+void fields(const Keys& key, UserFunctionConfig& c) {
+  key("kind", c.kind,
+      {{UserFunctionKind::utility, "utility"}, {UserFunctionKind::planner, "planner"}},
+      "utility: scores the candidates; planner: gives the next view.");
+  key("label", c.label, "What tables call it; empty: by its name.");
+  key("file", c.file, "The name of the file that it is from.");
   key("function", c.function, "Its name in the source.");
   key("source", c.source, "The Python source, put here by `--utility FILE.py:FUNCTION`.");
 }
@@ -200,7 +205,8 @@ void fields(const Keys& key, UtilityConfig& c) {
       .section("volume_weights", c.volume_weights, "bircher_volume: worth of visible space.");
   where(reads.shadow)
       .section("shadow", c.shadow, "proximity_count, area_factor: what lies behind seen surface.");
-  where(is_user_utility(c.name)).section("python", c.python, "python: a function of yours.");
+  where(is_user_utility(c.name) || c.name == kRouteName)
+      .section("python", c.python, "A function of yours: python asks it, route flies its views.");
 }
 
 void fields(const Keys& key, ViewPose& c) {

@@ -57,7 +57,10 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::optional<std::string_view> nearest_name(std::string_view name,
                                              std::span<const std::string_view> known) {
-  const auto distance = [&](std::string_view candidate) { return edit_distance(name, candidate); };
+  const auto distance = [&](std::string_view candidate) {
+    const bool begins = name.size() >= 2 && candidate.starts_with(name);
+    return begins ? std::size_t{1} : edit_distance(name, candidate);
+  };
   const auto nearest = std::ranges::min_element(known, {}, distance);
   const std::size_t limit = std::max<std::size_t>(2, name.size() / 2);
   if (nearest == known.end() || distance(*nearest) > limit) return std::nullopt;

@@ -18,6 +18,9 @@ namespace {
 
 using Row = std::vector<TableCell>;
 
+constexpr std::string_view kCut = "ours, cut";
+constexpr const char* kCutNote = "ours, cut: after as many views as the paper's row";
+
 /// "92.8 ±0.6%" of 0.928 and 0.006 with factor 100 and unit "%".
 TableCell cell(const std::optional<MeanEstimate>& e, int decimals, double factor = 1.0,
                const std::string& unit = "") {
@@ -36,9 +39,9 @@ std::vector<TableColumn> all_columns(const std::set<double>& more_m) {
                                       {"Entropy reduction", "entropy_reduction", estimate},
                                       {"Distance (m)", "distance_m", estimate},
                                       {"Time (min)", "time_min", estimate},
-                                      {"0.05 m", "coverage_0.05", estimate},
-                                      {"0.10 m", "coverage_0.10", estimate},
-                                      {"0.50 m", "coverage_0.50", estimate},
+                                      {"Coverage 0.05 m", "coverage_0.05", estimate},
+                                      {"Coverage 0.10 m", "coverage_0.10", estimate},
+                                      {"Coverage 0.50 m", "coverage_0.50", estimate},
                                       {"Of ceiling", "share_of_ceiling", estimate},
                                       {"Points/voxel", "density_points_per_voxel", estimate}};
   const auto after = std::find_if(columns.begin(), columns.end(),
@@ -46,7 +49,7 @@ std::vector<TableColumn> all_columns(const std::set<double>& more_m) {
   std::vector<TableColumn> more;
   for (const double size_m : more_m) {
     const std::string name = size_name(size_m);
-    more.push_back({name + " m", "coverage_" + name, estimate});
+    more.push_back({"Coverage " + name + " m", "coverage_" + name, estimate});
   }
   columns.insert(after, more.begin(), more.end());
   return columns;
@@ -161,8 +164,12 @@ bool prints_time(const PaperTable& paper) {
 void add_notes(TextTable& table, const PaperTable& paper, bool several_runs,
                const std::optional<Ceiling>& ceiling) {
   table.notes.emplace_back(
-      "0.05, 0.10, 0.50 m: coverage at that voxel size, ours of voxels with visible surface of a "
-      "tenth of their face");
+      "coverage: of voxels of that size, ours of those with visible surface of a tenth of their "
+      "face");
+  const auto is_cut = [](const Row& row) { return row[1].text == kCut; };
+  if (std::any_of(table.rows.begin(), table.rows.end(), is_cut)) {
+    table.notes.emplace_back(kCutNote);
+  }
   table.notes.push_back(fmt::format(
       "ours: entropy reduction in nat; distance in straight lines between views, profile apart{}",
       prints_time(paper) ? "; time from the first view on, as the distance" : ""));
@@ -196,18 +203,18 @@ TextTable comparison_table(const PaperTable& paper, std::span<const RunFigures> 
   table.columns = all_columns(more_m);
   const auto add = [&](const RowFigures& f) { table.rows.push_back(all_cells(f, more_m)); };
   const std::vector<TableGroup> groups = table_groups(runs, settings);
-  const auto add_ours = [&](const TableGroup& group, const std::string& name) {
-    add(our_figures(group.label(name), group.runs, ceiling));
-  };
   for (const PaperRow& row : paper.rows) {
     for (const TableGroup& group : groups) {
-      if (group.utility == row.utility) add_ours(group, std::string(row.label));
+      if (group.utility != row.utility) continue;
+      const std::string label = group.label(std::string(row.label));
+      add(our_figures(label, group.runs, ceiling));
+      if (const auto cut = our_figures_as_long(label, group.runs, row, ceiling)) add(*cut);
     }
     add(paper_figures(row));
   }
   for (const TableGroup& group : groups) {
-    if (find_row(paper, group.utility) == nullptr)
-      add_ours(group, name_in_table(paper, group.utility));
+    if (find_row(paper, group.utility) != nullptr) continue;
+    add(our_figures(group.label(name_in_table(paper, group.utility)), group.runs, ceiling));
   }
   for (const RowFigures& profile : our_profiles(groups, ceiling, more_m)) add(profile);
   if (paper.profile) add(paper_figures(*paper.profile));
@@ -236,6 +243,10 @@ std::string one_row_summary(const RunFigures& run, bool has_papers_setting, std:
   if (row != nullptr && !has_papers_setting) {
     table.notes.push_back(fmt::format("without the paper's row: {}", kOtherSetting));
   } else if (row != nullptr) {
+    if (const auto cut = our_figures_as_long(run.utility, {&run}, *row, {})) {
+      table.rows.push_back(all_cells(*cut, more_m));
+      table.notes.emplace_back(kCutNote);
+    }
     RowFigures printed_row = paper_figures(*row);
     printed_row.label = run.utility;
     table.rows.push_back(all_cells(printed_row, more_m));

@@ -75,6 +75,35 @@ RowFigures our_figures(const std::string& label, const RunsOfRow& runs,
   return f;
 }
 
+std::optional<RowFigures> our_figures_as_long(const std::string& label, const RunsOfRow& runs,
+                                              const PaperRow& row,
+                                              const std::optional<Ceiling>& ceiling) {
+  const auto most = static_cast<std::size_t>(row.iterations.value_or(0));
+  const auto is_longer = [&](const RunFigures* run) { return run->curve.views() > most; };
+  if (most == 0 || std::none_of(runs.begin(), runs.end(), is_longer)) return std::nullopt;
+  std::vector<RunFigures> cut;
+  for (const RunFigures* run : runs) {
+    RunFigures& figures = cut.emplace_back(*run);
+    CoverageCurve& curve = figures.curve;
+    if (curve.views() <= most) continue;
+    for (std::vector<double>* values : {&curve.metres, &curve.seconds}) values->resize(most + 1);
+    curve.coverage.resize(most + 1);
+    figures.iterations = *row.iterations;
+    figures.straight_m = curve.metres.back();
+    figures.coverage_final = curve.coverage.back();
+    for (SizedCoverage& at : figures.more) {
+      if (most < at.curve.size()) at.final = at.curve[most];
+    }
+  }
+  RunsOfRow as_long;
+  for (const RunFigures& figures : cut) as_long.push_back(&figures);
+  RowFigures f = our_figures(label, as_long, ceiling);
+  f.kind = "ours, cut";
+  f.entropy_reduction.reset();
+  f.density.reset();
+  return f;
+}
+
 RowFigures our_profile(const RunsOfRow& runs, const std::optional<Ceiling>& ceiling) {
   std::map<std::uint64_t, const RunFigures*> by_seed;
   for (const RunFigures* run : runs) by_seed.emplace(run->seed, run);

@@ -50,6 +50,12 @@ RowFigures paper_figures(const PaperRow& row);
 RowFigures our_figures(const std::string& label, const RunsOfRow& runs,
                        const std::optional<Ceiling>& ceiling);
 
+/// Ours after as many views as the paper's row took, at most; nothing when no run took more. Of
+/// entropy and density only the end is known.
+std::optional<RowFigures> our_figures_as_long(const std::string& label, const RunsOfRow& runs,
+                                              const PaperRow& row,
+                                              const std::optional<Ceiling>& ceiling);
+
 /// The profile does not depend on the utility: one run a seed.
 RowFigures our_profile(const RunsOfRow& runs, const std::optional<Ceiling>& ceiling);
 

@@ -7,13 +7,13 @@
 namespace gnbv {
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffU;
+constexpr std::uint32_t kNoIndex = 0xffffffffU;
 
-/// The items of a sample, in the order of the voxels; kNone for all others.
+/// The items of a sample, in the order of the voxels; kNoIndex for all others.
 std::vector<std::uint32_t> sample_of(std::size_t voxels) {
   constexpr std::size_t kMany = 100000;
   const std::size_t one_of = (voxels + kMany - 1) / kMany;
-  std::vector<std::uint32_t> item(voxels, kNone);
+  std::vector<std::uint32_t> item(voxels, kNoIndex);
   std::uint32_t items = 0;
   for (std::size_t v = 0; v < voxels; ++v) {
     if (one_of == 1 || mix_bits(v) % one_of == 0) item[v] = items++;
@@ -35,12 +35,12 @@ SurveyTask::SurveyTask(const ViewSurvey& survey, std::size_t voxels, const Latti
     : ways_(ways),
       threads_(threads),
       item_(sample_of(voxels)),
-      items_(voxels - static_cast<std::size_t>(std::count(item_.begin(), item_.end(), kNone))),
+      items_(voxels - static_cast<std::size_t>(std::count(item_.begin(), item_.end(), kNoIndex))),
       finds_(sampled_finds(survey)),
       sets_(pointers(finds_), items_) {
-  std::vector<std::uint32_t> index(ways.start(), kNone);
+  std::vector<std::uint32_t> index(ways.start(), kNoIndex);
   for (const SurveyedView& view : survey.views) {
-    if (index[view.position] == kNone) {
+    if (index[view.position] == kNoIndex) {
       index[view.position] = static_cast<std::uint32_t>(lattice_place_.size());
       lattice_place_.push_back(view.position);
     }
@@ -53,7 +53,7 @@ SurveyTask::SurveyTask(const ViewSurvey& survey, std::size_t voxels, const Latti
 std::vector<std::uint32_t> SurveyTask::sampled(std::span<const std::uint32_t> voxels) const {
   std::vector<std::uint32_t> items;
   for (const std::uint32_t voxel : voxels) {
-    if (item_[voxel] != kNone) items.push_back(item_[voxel]);
+    if (item_[voxel] != kNoIndex) items.push_back(item_[voxel]);
   }
   return items;
 }

@@ -131,7 +131,7 @@ void need_as_recorded(const Plan& plan, std::span<const Decision> recorded, std:
     if (i < plan.views.size() && is_same_view(plan.views[i].view, recorded[i].view)) continue;
     throw BadInput(fmt::format(
         "view {}: what is decided anew is another view than was recorded: another version of the "
-        "program or another mesh made this run; fly it anew",
+        "program, another mesh or another planner made this run; fly it anew",
         iteration + i));
   }
 }

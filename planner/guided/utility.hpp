@@ -32,9 +32,17 @@ struct VolumeWeights {
   double occupied = 0.0;
 };
 
-struct UserUtilityConfig {
-  std::string function;  // its name in the source
-  std::string source;    // Python, all of it
+/// What a function of the user's own does: scores the candidates, or plans the next view.
+enum class UserFunctionKind { utility, planner };
+
+/// A Python function of the user's own. Label and file are for readers: missions do not depend on
+/// them.
+struct UserFunctionConfig {
+  UserFunctionKind kind = UserFunctionKind::utility;
+  std::string label = {};     // what tables call it; empty: by its name
+  std::string file = {};      // the name of the file that it is from; empty: of none
+  std::string function = {};  // its name in the source
+  std::string source = {};    // Python, all of it
 };
 
 /// The formula by name and the weights of Table 1, Scenario 1. Each formula takes what it needs.
@@ -59,19 +67,33 @@ struct UtilityConfig {
   bool legacy_visibility = false;          // see ViewOptions
   VolumeWeights volume_weights = {};
   ShadowConfig shadow = {};
-  UserUtilityConfig python = {};
+  UserFunctionConfig python = {};
 };
 
 /// The formulas by name, those of the paper's tables first.
 std::vector<std::string_view> utility_names();
 
-/// The UtilityConfig::name of the user's own, whose scores come from outside.
+/// The UtilityConfig::name of the user's own function, which is asked from outside.
 constexpr std::string_view kUserUtilityName = "python";
 inline bool is_user_utility(std::string_view name) { return name == kUserUtilityName; }
+inline bool is_user_planner(const UtilityConfig& config) {
+  return is_user_utility(config.name) && config.python.kind == UserFunctionKind::planner;
+}
+/// The UtilityConfig::name of who flies given views. A function of the user's own may have given
+/// them (UtilityConfig::python).
+constexpr std::string_view kRouteName = "route";
 
-/// What tables and files call it: its name, of the user's own that of the function.
+/// The user's own function that decided, or gave the views; nothing for a planner of ours.
+inline const UserFunctionConfig* user_function(const UtilityConfig& config) {
+  const bool is_users = is_user_utility(config.name) || config.name == kRouteName;
+  return is_users && !config.python.function.empty() ? &config.python : nullptr;
+}
+
+/// What tables and files call it: its name, of the user's own its label or that of the function.
 inline std::string utility_label(const UtilityConfig& config) {
-  return is_user_utility(config.name) ? config.python.function : config.name;
+  const UserFunctionConfig* const own = user_function(config);
+  if (own == nullptr) return config.name;
+  return own->label.empty() ? own->function : own->label;
 }
 
 /// What a utility asks of evaluate_view(), and which settings it reads that not all do.

@@ -182,8 +182,9 @@ void RoutePlanner::try_known(const Belief& belief, const History& history, const
   }
 }
 
-Plan RoutePlanner::next(const Belief& belief, const History& history, const ViewPose& current,
-                        Scratch& scratch) {
+/// Of the known views, then of those that are asked for.
+Plan RoutePlanner::first_valid(const Belief& belief, const History& history,
+                               const ViewPose& current, Scratch& scratch) {
   Plan plan;
   try_known(belief, history, current, scratch, plan);
   while (!plan.has_view() && route_.next_view) {
@@ -192,6 +193,12 @@ Plan RoutePlanner::next(const Belief& belief, const History& history, const View
     route_.views.push_back(*view);
     try_known(belief, history, current, scratch, plan);
   }
+  return plan;
+}
+
+Plan RoutePlanner::next(const Belief& belief, const History& history, const ViewPose& current,
+                        Scratch& scratch) {
+  Plan plan = first_valid(belief, history, current, scratch);
   if (route_.lay) return plan;
   const bool is_stopped = scratch.should_stop && scratch.should_stop();
   plan.end = is_stopped ? Termination::interrupted : Termination::route_flown;
@@ -200,8 +207,9 @@ Plan RoutePlanner::next(const Belief& belief, const History& history, const View
 
 Plan RoutePlanner::replay(std::span<const Decision> recorded, const Belief& belief,
                           const History& history, const ViewPose& current, Scratch& scratch) {
-  Plan plan;
-  try_known(belief, history, current, scratch, plan);
+  const bool is_asked = static_cast<bool>(route_.next_view);
+  if (route_.trusts_record && !is_asked) route_.views.push_back(recorded.front().view);
+  const Plan plan = first_valid(belief, history, current, scratch);
   need_as_recorded(plan, recorded, history.decisions.size());
   return plan;
 }

@@ -46,6 +46,7 @@ struct Route {
   std::function<std::vector<ViewPose>(const OccupancyGrid& map, const ViewPose& start)> lay = {};
   NextView next_view = {};  // after the views
   OnRefused on_refused = {};
+  bool trusts_record = false;  // flown again without `next_view`, its views are the recorded ones
 };
 
 constexpr EndRules kToTheEnd = {.entropy = false, .gain = false, .repetition = false};
@@ -67,6 +68,8 @@ class RoutePlanner final : public Planner {
   EndRules end_rules() const override { return route_.lay ? EndRules{} : kToTheEnd; }
 
  private:
+  Plan first_valid(const Belief& belief, const History& history, const ViewPose& current,
+                   Scratch& scratch);
   void try_known(const Belief& belief, const History& history, const ViewPose& current,
                  const Scratch& scratch, Plan& plan);
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <ostream>
 
-#include "tools/gnbv/serve.hpp"
+#include "sim/mavlink/serve.hpp"
 
 namespace gnbv {
 namespace {

@@ -1,6 +1,5 @@
 """Environments."""
 
-import time
 import warnings
 
 import numpy as np
@@ -148,25 +147,3 @@ def test_a_vector_does_what_single_ones_do_at_any_number_of_threads(threads):
 def test_all_scenarios_are_registered():
     for name, scenario in gnbv.gym.SCENARIOS.items():
         assert gymnasium.spec(f"gnbv/{name}-v0").kwargs["scenario"] == scenario
-
-
-@pytest.mark.parametrize("views", [12, 100])
-def test_steps_a_second(views, capsys):
-    """Episodes begin with the flight of the profile, which costs as much as twenty views."""
-    budget = {"planner.termination.max_iterations": views}
-    envs = gymnasium.make_vec("gnbv/Smoke-v0", num_envs=4, goal=0.0, set=budget)
-    envs.reset(seed=0)
-    random = np.random.default_rng(0)
-    begin, began, steps = time.perf_counter(), time.process_time(), 48
-    for _ in range(steps):
-        envs.step(random.uniform(-1, 1, (4, 4)).astype(np.float32))
-    rate = 4 * steps / (time.perf_counter() - begin)
-    cpu_rate = 4 * steps / (time.process_time() - began)
-    envs.close()
-    with capsys.disabled():
-        print(
-            f" [episodes of {views} views: {rate:.0f} environment steps a second, "
-            f"{cpu_rate:.0f} a second of CPU]",
-            end="",
-        )
-    assert cpu_rate > (50 if views == 100 else 20)  # 50: two cores do 100

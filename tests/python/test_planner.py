@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import gnbv
+from gnbv._utility import source_of
 
 
 def greedy(belief, history):
@@ -25,6 +26,121 @@ def test_a_planner_flies_and_its_run_repeats_without_it():
     assert len(run.iterations) == 6
     again = gnbv.run(run.folder / "scenario.yaml")
     assert again.sha256 == run.sha256
+
+
+def asks_all(belief, history):
+    """Answers by everything that can be asked for, so that one other answer is another view."""
+    if len(history) == 5:
+        return None
+    if len(history) == 2 and not history.refused:
+        return View(1e3, 0.0, 2.0, 0.0)  # noqa: F821  (in a file View is there, as np is)
+    if history.refused:
+        assert [reason for _, reason in history.refused] == ["out_of_bounds"]
+    everywhere = np.vstack([belief.sample(), belief.sample(2.0), belief.sample_frontiers()])
+    views = belief.valid(everywhere)
+    reasons, path_m = belief.validate(everywhere)
+    stats = belief.evaluate(everywhere)
+    where, density = belief.density
+    way = belief.find_path(belief.current[:3], everywhere[0, :3])
+    told = [belief.log_odds, belief.words, belief.cloud, belief.state, belief.is_predicted]
+    told += [belief.entropy, belief.origin_m, belief.navigation_m, belief.current, where, density]
+    told += [path_m, stats["unknown_voxels"], stats["rear_side_nat"], history.views["flown_m"]]
+    told += [belief.entropy_nat, belief.resolution_m, belief.density_max, len(history)]
+    told += [[len(reason) for reason in reasons], way if way is not None else [-1.0]]
+    total = sum(float(np.sum(np.asarray(part, dtype=float))) for part in told)
+    return views[int(total * 997) % len(views)]
+
+
+def file_of(function, folder):
+    file = folder / "planners.py"
+    file.write_text(source_of(function))
+    return f"{file}:{function.__name__}"
+
+
+def test_a_planner_in_a_file_gets_the_answers_of_one_in_this_process(tmp_path, monkeypatch):
+    monkeypatch.setitem(globals(), "View", gnbv.View)
+    here = gnbv.run("smoke", planner=asks_all, seed=4)
+    there = gnbv.run("smoke", utility=file_of(asks_all, tmp_path), seed=4)
+    assert there.sha256 == here.sha256
+    assert len(there.iterations) == 5 and there.termination == "route_flown"
+    assert (here.folder / "views.csv").read_text() == (there.folder / "views.csv").read_text()
+    for run in (here, there):  # both are known by its name and its text
+        assert run.summary["utility"] == "asks_all"
+        assert run.utility_source == source_of(asks_all)
+    # the run repeats from its record, by the program alone
+    again = gnbv.run(there.folder / "scenario.yaml", threads=1)
+    assert again.sha256 == there.sha256
+    assert again.render(
+        "voxels", out=tmp_path / "voxels.png"
+    )  # and is drawn without asking the planner
+
+
+def test_a_planner_that_fails_in_a_file_ends_the_run_in_order(tmp_path):
+    file = tmp_path / "fails.py"
+    file.write_text(
+        "def fails(belief, history):\n    print('on stderr')\n"
+        "    return belief.valid(belief.sample())[1 // (3 - len(history))]\n"
+    )
+    with pytest.raises(gnbv.UtilityFailed, match="planner fails: iteration 3") as failed:
+        gnbv.run("smoke", utility=file)
+    assert failed.value.traceback.splitlines()[-1].startswith("ZeroDivisionError")
+    assert 'File "fails.py", line 3' in failed.value.traceback
+    assert failed.value.candidate is None
+    assert len(gnbv.load(failed.value.folder).iterations) == 3
+
+
+WALK = """
+steps = []  # remembered outside of the history
+def walk(belief, history):
+    steps.append(len(history))
+    if len(history) > 5:
+        return None
+    views = belief.valid(belief.sample())
+    return views[len(steps) % len(views)]
+"""
+
+
+@pytest.mark.parametrize("where", ["here", "in a file"])
+def test_a_resumed_planner_flies_what_an_uninterrupted_one_flies(where, tmp_path):
+    (tmp_path / "walk.py").write_text(WALK)
+
+    def planner():
+        if where == "in a file":
+            return tmp_path / "walk.py"
+        space = {}
+        exec(WALK, space)
+        return space["walk"]
+
+    def ends(share, note):
+        if note.startswith("view 3/"):
+            raise LookupError("enough")
+
+    whole = gnbv.run("smoke", planner=planner(), out=tmp_path / "whole")
+    with pytest.raises(LookupError):
+        gnbv.run("smoke", planner=planner(), out=tmp_path / "r", progress=ends)
+    assert len(gnbv.load(tmp_path / "r").iterations) == 3
+    resumed = gnbv.run("smoke", planner=planner(), out=tmp_path / "r", resume=True)
+    assert resumed.sha256 == whole.sha256
+    for name in ("scenario.yaml", "views.csv"):
+        assert (resumed.folder / name).read_text() == (whole.folder / name).read_text()
+    # a finished one is flown again by its views
+    again = gnbv.run("smoke", planner=planner(), out=tmp_path / "r", resume=True)
+    assert again.sha256 == whole.sha256
+
+
+def test_a_planner_that_answers_otherwise_is_not_resumed(tmp_path):
+    picks = [0]
+
+    def picky(belief, history):
+        if len(history) == 3 and picks[0] == 0:
+            raise LookupError("enough")
+        return belief.valid(belief.sample())[picks[0]]
+
+    with pytest.raises(LookupError):
+        gnbv.run("smoke", planner=picky, out=tmp_path / "r")
+    picks[0] = 1
+    with pytest.raises(gnbv.BadInput, match="another planner made this run"):
+        gnbv.run("smoke", planner=picky, out=tmp_path / "r", resume=True)
 
 
 def test_arrays_are_views_of_the_map_that_nobody_can_write():

@@ -2,12 +2,14 @@
 
 import hashlib
 import subprocess
+import sys
+from collections import Counter
 
 import numpy as np
 import pytest
 
 import gnbv
-from gnbv._program import PROGRAM, environment
+from gnbv._program import PROGRAM, call, environment
 
 
 def mine(views):
@@ -145,33 +147,105 @@ def test_free_variables_and_lambdas_are_refused():
         gnbv.run("smoke", utility=lambda views: views["path_m"])
 
 
-def test_compare_says_what_it_compared(short, tmp_path):
-    tables = gnbv.compare(
-        "smoke", utilities=["proposed", mine], seeds=2, set=short, ceiling=False, out=tmp_path / "c"
-    )
-    methods = set(tables[0].rows["method"])
-    assert methods == {"proposed", "mine"}
-    assert {"mean", "mean_ci95", "p"} <= set(tables[0].rows.dtype.names)
-    assert "mine" in str(tables[0])
+def wander(belief, history):
+    views = belief.valid(belief.sample())
+    return views[len(history) % len(views)]
+
+
+def curves_of(folder):
+    """The labels of the runs in a folder, as plots have them, and how many runs each has."""
+    runs = [gnbv.load(each) for each in (folder / "cells").iterdir() if each.is_dir()]
+    return Counter(run.summary["utility"] for run in runs)
+
+
+def test_functions_and_planners_are_rows_like_every_other(short, tmp_path):
+    """Their seeds are pooled, and they are tested against the others."""
+    (tmp_path / "other.py").write_text("def mine(views):\n    return -views['path_m']\n")
+    compared = {"seeds": 2, "set": short, "ceiling": False, "out": tmp_path / "c", "jobs": 2}
+    utilities = ["proposed", mine, tmp_path / "other.py", wander]
+    rows = gnbv.compare("smoke", utilities=utilities, **compared)[0].rows
+    methods = ["proposed", "test_utility.py:mine", "other.py:mine", "wander"]
+    assert list(dict.fromkeys(rows["method"])) == methods
+    coverage = rows[rows["metric"] == "coverage at 0.05 m (%)"]
+    assert len(coverage) == 4 and (coverage["runs"] == 2).all()
+    assert np.isfinite(coverage["difference"][1:]).all() and np.isfinite(coverage["p"][1:]).all()
+    assert set(curves_of(tmp_path / "c").values()) == {2, 4}  # two are called mine
+    # other names, the same missions
+    flown = sorted(path.name for path in (tmp_path / "c" / "cells").iterdir())
+    named = gnbv.compare("smoke", utilities={"a": "proposed", "b": mine, "w": wander}, **compared)
+    assert list(dict.fromkeys(named[0].rows["method"])) == ["a", "b", "w"]
+    assert sorted(path.name for path in (tmp_path / "c" / "cells").iterdir()) == flown
+
+
+def test_names_are_words(tmp_path):
+    for name in ("", "a b", "a,b", "a=b"):
+        with pytest.raises(gnbv.BadInput, match="a name is one word"):
+            gnbv.compare("smoke", utilities={name: mine}, out=tmp_path / "c")
 
 
 def test_a_function_is_a_row_of_the_papers_table(short, tmp_path):
     tables = gnbv.table(
-        "lab_model", utilities=[mine], oracle=False, set=short, out=tmp_path / "c", jobs=2
+        "lab_model",
+        utilities={"my_own": mine, "walk": wander},
+        oracle=False,
+        set=short,
+        out=tmp_path / "c",
+        jobs=2,
     )
-    assert "mine" in str(tables[0]) and "Proposed" in str(tables[0])
+    for label in ("my_own", "walk", "Proposed"):
+        assert label in str(tables[0])
 
 
-def test_a_failing_utility_is_a_failed_cell(short, tmp_path):
+def test_a_failing_function_is_a_failed_cell_that_says_why(short, tmp_path):
     def raises(views):
-        raise RuntimeError("no")
+        raise RuntimeError("no such luck")
 
-    with pytest.raises(gnbv.Failed):
+    def lost(belief, history):
+        raise LookupError("no way")
+
+    with pytest.raises(gnbv.Failed) as failed:
         gnbv.compare(
             "smoke",
-            utilities=["proposed", raises],
+            utilities=["proposed", raises, lost],
             seeds=1,
             set=short,
             ceiling=False,
             out=tmp_path / "c",
         )
+    # the last line of each traceback, and whose it is
+    said = str(failed.value)
+    assert "smoke, raises: without a result: exit code 1: RuntimeError: no such luck" in said
+    assert "smoke, lost: without a result: exit code 1: LookupError: no way" in said
+
+
+def test_what_the_program_says_is_utf_8_in_any_locale(tmp_path):
+    (tmp_path / "bad.yaml").write_text("n\u00e4me: 1\n", encoding="utf-8")
+    code = (
+        "import gnbv; from gnbv._program import call\n"
+        "try: call('run', 'bad.yaml')\n"
+        "except gnbv.BadInput as bad: print('n\\u00e4me: is no' in str(bad), ascii(str(bad)))\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-X", "utf8=0", "-c", code],
+        env={**environment(), "LC_ALL": "C", "PYTHONCOERCECLOCALE": "0"},
+        capture_output=True,
+        check=False,
+    )
+    assert done.stdout.startswith(b"True"), done.stdout + done.stderr
+
+
+def test_a_failure_that_speaks_of_interruptions_is_a_failure(tmp_path, monkeypatch):
+    program = tmp_path / "program"
+    program.write_text("#!/bin/sh\necho 'gnbv: smoke: ended by interrupted' >&2\nexit 1\n")
+    program.chmod(0o755)
+    monkeypatch.setattr("gnbv._program.PROGRAM", program)
+    with pytest.raises(gnbv.Failed, match="ended by interrupted"):
+        call("table")
+
+
+def test_of_several_functions_in_a_file_one_is_named(tmp_path):
+    file = tmp_path / "two.py"
+    file.write_text("def one(views): return views\ndef two(views): return views\n")
+    with pytest.raises(gnbv.BadInput, match=r"defines several functions \(one, two\)"):
+        gnbv.run("smoke", utility=file, out="r")
+    assert not (tmp_path / "r").exists()

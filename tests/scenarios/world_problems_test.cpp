@@ -213,7 +213,7 @@ TEST(Fields, EveryFieldOfEveryConfigHasAKey) {
   expect(UtilityConfig{});
   expect(VolumeWeights{});
   expect(ShadowConfig{});
-  expect(UserUtilityConfig{});
+  expect(UserFunctionConfig{});
   expect(TourConfig{});
   expect(SymmetryConfig{});
   expect(RouteConfig{});

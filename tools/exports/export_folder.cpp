@@ -69,13 +69,14 @@ void need_place_for(const fs::path& folder) {
 
 std::string marker_text(const RunRecord& record, std::string_view format,
                         const std::vector<std::string>& files) {
-  const nlohmann::ordered_json marker = {{"schema", kSchema},
-                                         {"format", format},
-                                         {"written_by", "gnbv " GNBV_VERSION},
-                                         {"scenario", record.scenario.name},
-                                         {"utility", record.scenario.planner.utility.name},
-                                         {"seed", record.scenario.seed},
-                                         {"files", files}};
+  const nlohmann::ordered_json marker = {
+      {"schema", kSchema},
+      {"format", format},
+      {"written_by", "gnbv " GNBV_VERSION},
+      {"scenario", record.scenario.name},
+      {"utility", utility_label(record.scenario.planner.utility)},
+      {"seed", record.scenario.seed},
+      {"files", files}};
   return marker.dump(2) + "\n";
 }
 

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/core/error.hpp"
+#include "sim/mavlink/serve.hpp"
 #include "tools/gnbv/commands.hpp"
-#include "tools/gnbv/serve.hpp"
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/start_pose.hpp"

@@ -11,7 +11,6 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/core/text.hpp"
-#include "tools/gnbv/bench_runs.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/execute.hpp"
@@ -106,7 +105,7 @@ PaperMaterial fly(const PaperOptions& options, bool& has_failures) {
     material.missions.push_back({run.scenario, run.method, run.seed, read_run(flown.folders[i])});
   }
   material.notes = flown.notes;
-  has_failures = flown.has_failures;
+  has_failures = !flown.failures.empty();
   fly_pictured(options, material, has_failures);
   return material;
 }
@@ -161,9 +160,7 @@ void add_paper_command(CLI::App& app) {
   command->add_option("--cells", options->bench.out,
                       "folder of the missions (default: runs/bench, which `table` and `compare` "
                       "share); those it holds are not flown again");
-  command->add_option("--seeds", options->bench.seed_count, "how many seeds a row, from --seed on")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
+  add_cells_options(*command, options->bench, "how many seeds a row, from --seed on");
   command->add_option("--seed", options->first_seed, "the first one; pictures show it")
       ->capture_default_str();
   command->add_option("--scenarios", options->scenarios, "some of the paper's, with commas")
@@ -172,13 +169,6 @@ void add_paper_command(CLI::App& app) {
       ->check(is_one_of(paper_scenarios()));
   command->add_option("--set", options->overrides, "KEY=VALUE of all scenario files; repeatable")
       ->allow_extra_args(false);
-  command
-      ->add_option("--jobs", options->bench.jobs,
-                   "missions at a time, each in a process of its own")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
-  add_threads_option(*command, options->bench.threads);
-  add_quiet_option(*command, options->bench.quiet);
   command->callback([options] { paper(*options); });
 }
 

@@ -12,15 +12,15 @@
 #include "sim/core/file.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/early_end.hpp"
-#include "tools/gnbv/margin_note.hpp"
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/live/live_child.hpp"
-#include "tools/mesh_lint/mesh_report.hpp"
+#include "tools/mesh_lint/mesh_warnings.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/mission/view_pipe.hpp"
 #include "tools/report/page_parts.hpp"
 #include "tools/run/file_names.hpp"
 #include "tools/run/frames_folder.hpp"
+#include "tools/run/margin_note.hpp"
 #include "tools/run/run_directory.hpp"
 #include "tools/run/run_files.hpp"
 #include "tools/run/summary_json.hpp"
@@ -47,10 +47,9 @@ void need_route(const RunOptions& options, const Scenario& scenario) {
     throw BadInput("--json: with --views -, stdout belongs to whoever sends views");
   }
   const bool has_views = options.mission.piped_views || !options.scenario.views.empty();
-  if (!has_views || traits_of(scenario.planner).takes_views) return;
+  if (!has_views || scenario.planner.utility.name == kRouteName) return;
   throw BadInput(fmt::format("--views {}: goes with --utility {}, not {}",
-                             options.mission.piped_views ? "-" : options.scenario.views,
-                             planners_that(&PlannerTraits::takes_views).front(),
+                             options.mission.piped_views ? "-" : options.scenario.views, kRouteName,
                              scenario.planner.utility.name));
 }
 
@@ -59,34 +58,11 @@ void set_views(const std::string& file, RunOptions& options) {
   options.scenario.views = file == "-" ? "" : file;
 }
 
-/// What lint warns of in one mesh of the structure, whose keys are those below `section`.
-void say_warnings(const Scenario& scenario, const MeshFileConfig& file,
-                  const std::string& section) {
-  constexpr std::string_view kAlone = "structure.file.";
-  Scenario alone = scenario;
-  alone.structure.file = file;
-  alone.structure.files.clear();
-  const MeshReport report = report_on_mesh(alone, false, thread_count(0));
-  for (const Finding& finding : report.findings) {
-    if (finding.severity < Severity::warning || finding.check == "file") continue;
-    std::string fix = finding.fix.empty() ? "" : "; fix: " + finding.fix;
-    for (std::size_t at = fix.find(kAlone); at != std::string::npos;
-         at = fix.find(kAlone, at + section.size())) {
-      fix.replace(at, kAlone.size(), section);
-    }
-    say("{}: {}: {}{}", report.path, finding.check, finding.what, fix);
-  }
-}
-
 /// What a mission flies in spite of: keys that do nothing, and what lint warns of in a mesh. What
 /// its reader left out is said when the mission loads it.
 void say_doubts(const Scenario& scenario, const std::vector<std::string>& unused_notes) {
   for (const std::string& note : unused_notes) say(note);
-  const StructureConfig& structure = scenario.structure;
-  if (!structure.file.path.empty()) say_warnings(scenario, structure.file, "structure.file.");
-  for (std::size_t i = 0; i < structure.files.size(); ++i) {
-    say_warnings(scenario, structure.files[i], fmt::format("structure.files.{}.", i));
-  }
+  for (const std::string& warning : mesh_warnings(scenario, thread_count(0))) say(warning);
 }
 
 void print_summary(const RunOptions& options, const Scenario& scenario, const fs::path& folder) {
@@ -130,6 +106,26 @@ std::unique_ptr<LiveChild> watched(const RunOptions& options) {
   return live;
 }
 
+void need_end_in_order(const ExecutedMission& mission, bool has_piped_views) {
+  const MissionResult& result = mission.result;
+  switch (result.termination) {
+    case Termination::utility_failed:
+      throw CommandFailed(result.failure);
+    case Termination::off_course:
+      throw CommandFailed(
+          "the vehicle was carried out of the workspace; the run directory shows "
+          "where");
+    case Termination::collision:
+      throw CommandFailed("the vehicle hit something; the run directory shows where");
+    case Termination::interrupted:
+      throw CommandFailed(
+          fmt::format("interrupted after {} views; {} continues it", result.views.size(),
+                      command_to_resume(mission.folder, has_piped_views ? "--views -" : "")));
+    default:
+      return;
+  }
+}
+
 void run(const RunOptions& options) {
   std::vector<std::string> unused_notes;
   const Scenario scenario = resolve_scenario(options.scenario, unused_notes);
@@ -143,32 +139,14 @@ void run(const RunOptions& options) {
   } else {
     print_summary(options, scenario, mission.folder);
   }
-  if (const std::string note = refused_views_note(mission.result); !note.empty()) {
-    say(note);
+  const MissionResult& result = mission.result;
+  for (const std::string& note :
+       {refused_views_note(result),
+        early_end_note(result, mission.score.final[0], traits_of(scenario.planner)),
+        margin_note(scenario, result.path_error)}) {
+    if (!note.empty()) say(note);
   }
-  if (const std::string note =
-          early_end_note(mission.result, mission.score.final[0], traits_of(scenario.planner));
-      !note.empty()) {
-    say(note);
-  }
-  if (const std::string note = margin_note(scenario, mission.result.path_error); !note.empty()) {
-    say(note);
-  }
-  if (mission.result.termination == Termination::utility_failed) {
-    throw CommandFailed(mission.result.failure);
-  }
-  if (mission.result.termination == Termination::off_course) {
-    throw CommandFailed(
-        "the vehicle was carried out of the workspace; the run directory shows where");
-  }
-  if (mission.result.termination == Termination::collision) {
-    throw CommandFailed("the vehicle hit something; the run directory shows where");
-  }
-  if (mission.result.termination == Termination::interrupted) {
-    throw CommandFailed(fmt::format(
-        "interrupted after {} views; {} continues it", mission.result.views.size(),
-        command_to_resume(mission.folder, options.mission.piped_views ? "--views -" : "")));
-  }
+  need_end_in_order(mission, options.mission.piped_views);
 }
 
 }  // namespace
@@ -178,8 +156,9 @@ void add_run_command(CLI::App& app) {
   CLI::App* const command = app.add_subcommand("run", "fly one mission and score it");
   MissionOptions& mission = options->mission;
   add_scenario_options(*command, options->scenario);
-  command->add_option("--utility", options->scenario.utility,
-                      "utility by name, or a Python function of yours: FILE.py:FUNCTION");
+  command->add_option(
+      "--utility", options->scenario.utility,
+      "utility by name, or a utility or planner of yours in Python: [NAME=]FILE.py[:FUNCTION]");
   command->add_option_function<std::string>(
       "--views", [options](const std::string& file) { set_views(file, *options); },
       "with --utility route: body poses to fly, CSV or TUM; -: one a line from stdin, each "

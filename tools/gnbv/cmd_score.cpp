@@ -2,23 +2,19 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
-#include "sim/core/text.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/execute.hpp"
-#include "tools/mission/rescore.hpp"
+#include "tools/mission/score_text.hpp"
 #include "tools/run/cloud_file.hpp"
 #include "tools/run/run_claim.hpp"
 #include "tools/run/summary_json.hpp"
-#include "tools/run/words.hpp"
 #include "tools/terminal/say.hpp"
 #include "tools/terminal/width.hpp"
 
@@ -37,78 +33,6 @@ struct ScoreOptions {
   std::vector<double> box_m;  // x0, y0, z0, x1, y1, z1
   bool json = false;
 };
-
-template <typename Value>
-std::string percent_row(const std::string& name, std::size_t columns, const Value& value_at) {
-  std::string row = fmt::format("{:<26}", name);
-  for (std::size_t i = 0; i < columns; ++i) row += fmt::format("{:>9.1f}%", 100.0 * value_at(i));
-  return row + "\n";
-}
-
-std::string heading(const std::string& name, std::span<const double> columns_m) {
-  std::string row = fmt::format("{:<26}", name);
-  for (const double column_m : columns_m) row += fmt::format("{:>8} m", size_name(column_m));
-  return row + "\n" + std::string(26 + 10 * columns_m.size(), '-') + "\n";
-}
-
-/// Of one of the sizes that were asked for.
-double share_at(const MissionScore& score, double size_m, const std::array<double, 3>& papers,
-                double SizedCoverage::*share) {
-  if (const auto size = papers_size(size_m)) return papers[*size];
-  const auto at = std::find_if(score.more.begin(), score.more.end(),
-                               [&](const SizedCoverage& c) { return c.size_m == size_m; });
-  GNBV_CHECK(at != score.more.end(), "no score at {} m", size_m);
-  return (*at).*share;
-}
-
-std::string terminal_text(const Scored& scored, const std::string& name, bool is_run) {
-  const MissionScore& score = scored.score;
-  std::string text = fmt::format("{}: {} points against {}, its surface above z = {} m\n", name,
-                                 grouped(scored.points), scored.structure, scored.floor_z_m);
-  if (scored.points_below_floor > 0) {
-    text += fmt::format("{} below z = {} m left out\n", counted(scored.points_below_floor, "point"),
-                        scored.floor_z_m);
-  }
-  text += "\n";
-  text += heading("Coverage, voxels of", scored.sizes_m);
-  const auto coverage_row = [&](const std::string& row, const std::array<double, 3>& shares,
-                                double SizedCoverage::*share) {
-    text += percent_row(row, scored.sizes_m.size(), [&](std::size_t i) {
-      return share_at(score, scored.sizes_m[i], shares, share);
-    });
-  };
-  coverage_row("seen from outside", score.final, &SizedCoverage::final);
-  coverage_row("all surface, also inner", score.final_raw, &SizedCoverage::final_raw);
-  if (is_run) coverage_row("profile, from outside", score.profile, &SizedCoverage::profile);
-  text += "a voxel counts with such surface of a tenth of its face\n";
-  text += "\n" + heading("Within", kScoreDistances_m);
-  const auto& at = score.distances.at;
-  text += percent_row("precision", at.size(), [&](std::size_t i) { return at[i].precision; });
-  text +=
-      percent_row("recall, from outside", at.size(), [&](std::size_t i) { return at[i].recall; });
-  text += percent_row("F", at.size(), [&](std::size_t i) { return at[i].f; });
-  text += fmt::format(
-      "\nChamfer distance {:.4f} m: accuracy {:.4f} m, completeness {:.4f} m; beyond {} m counts "
-      "as that\n",
-      score.distances.chamfer_m, score.distances.accuracy_m, score.distances.completeness_m,
-      kFarthest_m);
-  text += fmt::format(
-      "Points in a voxel of {} m that holds any: {:.1f}, variation {:.2f}; the tables' "
-      "Points/voxel is the paper's: points over the map's occupied voxels\n",
-      score.density.voxel_m, score.density.mean_points, score.density.variation);
-  return folded_text(text, stdout_columns());
-}
-
-std::string json_text(const Scored& scored, bool is_run) {
-  nlohmann::ordered_json json = {{"schema", "gnbv-score-1"},
-                                 {"structure", scored.structure},
-                                 {"points", scored.points},
-                                 {"points_below_floor", scored.points_below_floor},
-                                 {"floor_z_m", scored.floor_z_m}};
-  json.update(nlohmann::ordered_json::parse(score_json(scored.score, is_run)));
-  json["wall_s"] = {{"reference", scored.reference_s}, {"score", scored.score_s}};
-  return json.dump(2) + "\n";
-}
 
 /// What a cloud is compared with is not written in it.
 Scored score_file(ScoreOptions options, int threads) {
@@ -184,8 +108,8 @@ void score(ScoreOptions options) {
   const int threads = thread_count(options.threads);
   const bool is_run = fs::is_directory(options.target);
   const Scored scored = is_run ? score_folder(options, threads) : score_file(options, threads);
-  fmt::print("{}", options.json ? json_text(scored, is_run)
-                                : terminal_text(scored, options.target, is_run));
+  fmt::print("{}", options.json ? score_json(scored, is_run)
+                                : score_text(scored, options.target, is_run, stdout_columns()));
 }
 
 }  // namespace

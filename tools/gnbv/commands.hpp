@@ -1,19 +1,13 @@
 // The commands of the program: each adds its options to the command line and runs when chosen.
 #pragma once
 
-#include <stdexcept>
+#include "tools/terminal/command_failed.hpp"  // IWYU pragma: export
 
 namespace CLI {
 class App;
 }  // namespace CLI
 
 namespace gnbv {
-
-/// What was asked for did not come about (exit code 1): a mission that ended in a collision.
-class CommandFailed : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 void add_compare_command(CLI::App& app);
 void add_fly_command(CLI::App& app);

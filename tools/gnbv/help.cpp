@@ -111,41 +111,29 @@ void lay_out_help(CLI::App& app) {
   }
 }
 
-std::string nearest_word(std::string_view word, std::span<const std::string> known) {
-  std::string nearest;
-  std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
-  for (const std::string& other : known) {
-    const bool begins = word.size() >= 2 && other.starts_with(word);
-    const std::size_t apart = begins ? 1 : edit_distance(word, other);
-    if (apart >= least) continue;
-    least = apart;
-    nearest = other;
-  }
-  return nearest;
-}
-
 std::string meant_instead(const CLI::App& app, std::span<const std::string> words) {
   const auto all = [](const auto*) { return true; };
-  std::vector<std::string> commands;
+  std::vector<std::string_view> commands;
   for (const CLI::App* const command : app.get_subcommands(all)) {
-    commands.push_back(command->get_name());
+    commands.emplace_back(command->get_name());
   }
   const auto is_word = [](const std::string& word) { return !word.starts_with("-"); };
   const auto first = std::find_if(words.begin(), words.end(), is_word);
   if (first == words.end()) return "";
   if (std::count(commands.begin(), commands.end(), *first) == 0) {
-    const std::string nearest = nearest_word(*first, commands);
-    return nearest.empty() ? "" : fmt::format("did you mean `gnbv {}`?", nearest);
+    const auto nearest = nearest_name(*first, commands);
+    return nearest ? fmt::format("did you mean `gnbv {}`?", *nearest) : "";
   }
-  std::vector<std::string> options;
+  std::vector<std::string_view> options;
   for (const CLI::Option* const option : app.get_subcommand(*first)->get_options(all)) {
-    for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+    options.insert(options.end(), option->get_lnames().begin(), option->get_lnames().end());
   }
   for (const std::string& word : std::span(first, words.end())) {
-    const std::string name = word.substr(0, word.find('='));
-    if (!name.starts_with("--") || std::count(options.begin(), options.end(), name) > 0) continue;
-    const std::string nearest = nearest_word(name, options);
-    if (!nearest.empty()) return fmt::format("did you mean {}?", nearest);
+    if (!word.starts_with("--")) continue;
+    const std::string name = word.substr(2, word.find('=') - 2);
+    if (std::count(options.begin(), options.end(), name) > 0) continue;
+    if (const auto near = nearest_name(name, options))
+      return fmt::format("did you mean --{}?", *near);
   }
   return "";
 }

@@ -20,8 +20,4 @@ void lay_out_help(CLI::App& app);
 /// command, or no option of the command before it, but resembles one; else empty.
 std::string meant_instead(const CLI::App& app, std::span<const std::string> words);
 
-/// The one that takes the fewest letters to become `word` (Levenshtein 1966), if these are at most
-/// a third of it, or that `word` begins; else empty.
-std::string nearest_word(std::string_view word, std::span<const std::string> known);
-
 }  // namespace gnbv

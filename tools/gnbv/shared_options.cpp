@@ -7,7 +7,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/compare/terminal_table.hpp"
 #include "scenarios/validation_error.hpp"
+#include "tools/terminal/command_failed.hpp"
+#include "tools/terminal/width.hpp"
 
 namespace gnbv {
 namespace {
@@ -50,6 +53,17 @@ void add_preset_option(CLI::App& command, ScenarioOptions& options) {
   command.add_option("--preset", options.preset, "paper, or released: the authors' own code");
 }
 
+CLI::Option* add_utilities_option(CLI::App& command, std::vector<std::string>& utilities,
+                                  const std::string& what) {
+  return command
+      .add_option("--utilities", utilities,
+                  what +
+                      ": utilities by name, utilities and planners of yours as "
+                      "[NAME=]FILE.py[:FUNCTION], with commas")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+}
+
 void add_threads_option(CLI::App& command, int& threads, const std::string& what) {
   command.add_option("--threads", threads, fmt::format("0 = all; {} not depend on it", what))
       ->check(CLI::Range(0, 1024));
@@ -57,6 +71,43 @@ void add_threads_option(CLI::App& command, int& threads, const std::string& what
 
 void add_quiet_option(CLI::App& command, bool& quiet, const std::string& what) {
   command.add_flag("--quiet", quiet, "no " + what);
+}
+
+void add_cells_options(CLI::App& command, BenchOptions& options, const std::string& seeds) {
+  add_threads_option(command, options.threads);
+  add_quiet_option(command, options.quiet);
+  command.add_option("--seeds", options.seed_count, seeds)
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command.add_option("--jobs", options.jobs, "missions at a time, each in a process of its own")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+}
+
+void add_bench_options(CLI::App& command, BenchOptions& options) {
+  command.add_option(
+      "--out", options.out,
+      "folder of the missions (default: runs/bench); those it holds are not flown again");
+  add_cells_options(command, options, "how many seeds, from --seed on");
+  command
+      .add_option("--ceiling-at", options.ceiling_percent,
+                  "take shares of this coverage at 0.05 m, in percent, instead of the ceiling that "
+                  "a search finds: what an oracle reached, say")
+      ->check(CLI::Range(1.0, 100.0));
+  command.add_option("--format", options.format, "form of the table on stdout")
+      ->check(is_one_of({kTableFormats.begin(), kTableFormats.end()}))
+      ->capture_default_str();
+}
+
+void print_bench(const BenchTables& bench, const std::string& format) {
+  for (const TextTable& table : bench.tables) {
+    fmt::print("{}{}", &table == &bench.tables.front() ? "" : "\n",
+               format == "terminal" ? terminal_text(table, stdout_columns())
+                                    : formatted_text(table, format));
+  }
+  if (bench.failures.empty()) return;
+  throw CommandFailed(
+      fmt::format("not every mission came to its end:\n{}", fmt::join(bench.failures, "\n")));
 }
 
 void refuse_what_is_not_finite(CLI::App& app) {

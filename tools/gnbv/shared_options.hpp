@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tools/mission/resolve.hpp"
+#include "tools/sweep/bench_runs.hpp"
 
 namespace CLI {
 class App;
@@ -26,6 +27,10 @@ void add_scenario_options(CLI::App& command, ScenarioOptions& options);
 /// --preset of the planner.
 void add_preset_option(CLI::App& command, ScenarioOptions& options);
 
+/// --utilities: `what` they are.
+CLI::Option* add_utilities_option(CLI::App& command, std::vector<std::string>& utilities,
+                                  const std::string& what);
+
 /// --threads. `what` does not depend on it.
 void add_threads_option(CLI::App& command, int& threads,
                         const std::string& what = "the result does");
@@ -33,6 +38,15 @@ void add_threads_option(CLI::App& command, int& threads,
 /// --quiet: without `what`.
 void add_quiet_option(CLI::App& command, bool& quiet,
                       const std::string& what = "progress on stderr");
+
+/// Where many missions are flown: --jobs, --threads, --quiet, and `seeds` as --seeds.
+void add_cells_options(CLI::App& command, BenchOptions& options, const std::string& seeds);
+
+/// What tables of many missions share: those, --out, --ceiling-at and --format.
+void add_bench_options(CLI::App& command, BenchOptions& options);
+
+/// Prints the tables, an empty line between them, then throws CommandFailed if something failed.
+void print_bench(const BenchTables& bench, const std::string& format);
 
 /// No number on the command line of any command may be NaN or infinite: CLI11's ranges let NaN
 /// pass. To be called when all commands have their options.

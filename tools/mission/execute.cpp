@@ -18,7 +18,7 @@
 #include "tools/mission/mission.hpp"
 #include "tools/mission/reference.hpp"
 #include "tools/mission/start_pose.hpp"
-#include "tools/mission/user_utility.hpp"
+#include "tools/mission/user_child.hpp"
 #include "tools/mission/view_pipe.hpp"
 #include "tools/run/candidates_jsonl.hpp"
 #include "tools/run/file_names.hpp"
@@ -60,8 +60,8 @@ void need_saved_profile(const Scenario& scenario) {
 }
 
 /// Who flies given views needs some.
-void need_views(const Scenario& scenario, bool are_piped) {
-  if (are_piped || !traits_of(scenario.planner).takes_views) return;
+void need_views(const Scenario& scenario, bool are_asked_for) {
+  if (are_asked_for || !traits_of(scenario.planner).takes_views) return;
   if (!scenario.planner.routes.views.empty()) return;
   throw BadInput(fmt::format(
       "planner.routes.views: holds no view, and planner.utility.name = {} flies what it holds; "
@@ -76,7 +76,7 @@ Scenario with_views_of_run(const Scenario& asked, const MissionOptions& options)
   const fs::path yaml = options.out / kScenarioFile;
   if (!options.resume || !traits_of(asked.planner).takes_views || !fs::exists(yaml)) return asked;
   std::vector<ViewPose> given = views_on_the_way(options.out);
-  if (given.empty() && (options.piped_views || options.planner != nullptr)) {
+  if (given.empty() && options.piped_views) {
     given = load_flown_scenario(yaml.string()).planner.routes.views;
   }
   std::vector<ViewPose>& views = scenario.planner.routes.views;
@@ -205,7 +205,8 @@ ExecutedMission execute_mission(const Scenario& asked, const MissionOptions& opt
     throw BadInput("--resume: needs --out, the run directory to continue");
   }
   const Scenario scenario = with_views_of_run(asked, options);
-  need_views(scenario, options.piped_views || options.planner != nullptr);
+  const bool asks_planner = options.planner != nullptr || is_user_planner(scenario.planner.utility);
+  need_views(scenario, options.piped_views || asks_planner);
   const int threads = thread_count(options.threads);
   need_memory_for(scenario, threads);
   // all that can be wrong with the input is found before the first file is written
@@ -221,6 +222,7 @@ ExecutedMission execute_mission(const Scenario& asked, const MissionOptions& opt
   }
   need_saved_profile(scenario);
   const UserScores user_scores = start_user_utility(scenario.planner.utility);
+  const std::unique_ptr<UserPlanner> in_file = start_user_planner(scenario, threads);
   if (scenario.planner.symmetry.enabled) symmetry_module();  // throws when it is missing
   const RunClaim claim = claim_folder(scenario, options);    // an oracle may think for minutes
   ProgressBar bar(fmt::format("{} {}", scenario.name, utility_label(scenario.planner.utility)),
@@ -258,8 +260,8 @@ ExecutedMission execute_mission(const Scenario& asked, const MissionOptions& opt
           .connect(inputs);
     }
     std::optional<UserPlannerLink> planner;
-    if (options.planner != nullptr) {
-      planner.emplace(*options.planner, scenario, directory).connect(inputs);
+    if (asks_planner) {
+      planner.emplace(in_file ? *in_file : *options.planner, scenario).connect(inputs);
     }
     MissionResult result = run_mission(scenario, world, scene, inputs, threads);
     directory.need_as_recorded(result);
@@ -276,7 +278,9 @@ ExecutedMission execute_mission(const Scenario& asked, const MissionOptions& opt
     // before the summary, which says that all is there
     if (candidates) candidates->finish();
     if (beliefs) beliefs->finish();
-    const Scenario& flown = pipe ? pipe->scenario() : planner ? planner->scenario() : scenario;
+    const Scenario flown = pipe      ? pipe->scenario()
+                           : planner ? planner->repeatable(result.termination)
+                                     : scenario;
     directory.finish(flown, result, score, watch.elapsed_s());
     return {directory.path(), std::move(result), score, watch.elapsed_s()};
   } catch (const BrokenInvariant& broken) {

@@ -8,7 +8,7 @@
 #include "sim/flight/guidance.hpp"
 #include "tools/mission/homing.hpp"
 #include "tools/mission/start_pose.hpp"
-#include "tools/mission/user_utility.hpp"
+#include "tools/mission/user_child.hpp"
 
 namespace gnbv {
 namespace {

@@ -8,7 +8,7 @@
 #include "sim/core/file.hpp"
 #include "tools/mission/auto_bounds.hpp"
 #include "tools/mission/load_world.hpp"
-#include "tools/mission/user_utility.hpp"
+#include "tools/mission/user_function.hpp"
 #include "tools/run/user_views.hpp"
 
 namespace gnbv {
@@ -42,8 +42,8 @@ Scenario resolve_scenario(const ScenarioOptions& options, const std::vector<Over
     add(fmt::format("structure.file.path={}", yaml_in_quotes(fs::absolute(options.mesh).string())));
   }
   if (!options.utility.empty()) {
-    const NamedUtility utility = named_utility(options.utility);
-    all.insert(all.end(), utility.overrides.begin(), utility.overrides.end());
+    const NamedMethod method = named_method(options.utility);
+    all.insert(all.end(), method.overrides.begin(), method.overrides.end());
   }
   if (!options.preset.empty()) add("planner.preset=" + options.preset);
   if (!options.seed.empty()) add("seed=" + options.seed);

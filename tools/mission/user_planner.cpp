@@ -4,9 +4,8 @@
 
 namespace gnbv {
 
-UserPlannerLink::UserPlannerLink(const UserPlanner& planner, const Scenario& scenario,
-                                 RunDirectory& directory)
-    : planner_(planner), scenario_(scenario), directory_(directory) {}
+UserPlannerLink::UserPlannerLink(const UserPlanner& planner, const Scenario& scenario)
+    : planner_(planner), scenario_(scenario), given_(scenario.planner.routes.views) {}
 
 void UserPlannerLink::connect(MissionInputs& inputs) {
   inputs.observers.push_back(this);
@@ -26,10 +25,16 @@ std::optional<ViewPose> UserPlannerLink::next(const std::function<bool()>& shoul
   if (should_stop() || views.size() >= kMostUserViews) return std::nullopt;
   GNBV_CHECK(belief_ != nullptr, "asked before the first view");
   const std::optional<ViewPose> view = planner_.plan(*belief_);
-  if (!view) return std::nullopt;
-  views.push_back(*view);
-  directory_.keep(views);
+  if (view) views.push_back(*view);
   return view;
+}
+
+Scenario UserPlannerLink::repeatable(Termination reason) const {
+  const bool has_views =
+      reason != Termination::interrupted && !is_user_planner(scenario_.planner.utility);
+  Scenario scenario = scenario_;
+  if (!has_views) scenario.planner.routes.views = given_;
+  return scenario;
 }
 
 }  // namespace gnbv

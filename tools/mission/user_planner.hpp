@@ -1,16 +1,14 @@
-// A planner of the user's own, in this process: it is asked for view after view and told what
-// became of them. The mission flies them as given views, so that the run repeats without the
-// planner.
+// A planner of the user's own: it is asked for view after view and told what became of them. The
+// mission flies them as given views. A mission that is resumed asks it again from the first view
+// on, and refuses other answers than those that were recorded.
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <optional>
-#include <string_view>
+#include <vector>
 
 #include "planner/core/belief.hpp"
 #include "tools/mission/mission.hpp"
-#include "tools/run/run_directory.hpp"
 
 namespace gnbv {
 
@@ -24,16 +22,17 @@ struct UserPlanner {
   std::function<void(Rejection)> on_refused = [](Rejection) {};
 };
 
-/// Lets a mission of --utility route ask the planner. The run directory keeps each view as soon as
-/// it is planned.
+/// Lets a mission ask the planner.
 class UserPlannerLink final : public MissionObserver {
  public:
   /// Everything referred to stays with the caller.
-  UserPlannerLink(const UserPlanner& planner, const Scenario& scenario, RunDirectory& directory);
+  UserPlannerLink(const UserPlanner& planner, const Scenario& scenario);
 
   /// Lets the mission ask here. `inputs` is good as long as this lives.
   void connect(MissionInputs& inputs);
-  const Scenario& scenario() const { return scenario_; }
+  /// What repeats a mission that ended so: with its views, where the scenario does not hold the
+  /// planner itself; of one that is to be resumed as it was given.
+  Scenario repeatable(Termination reason) const;
 
   void on_view(const ViewRecord& view, const Belief& belief) override;
 
@@ -41,8 +40,8 @@ class UserPlannerLink final : public MissionObserver {
   std::optional<ViewPose> next(const std::function<bool()>& should_stop);
 
   const UserPlanner& planner_;
-  Scenario scenario_;
-  RunDirectory& directory_;
+  Scenario scenario_;  // with all views
+  const std::vector<ViewPose> given_;
   const Belief* belief_ = nullptr;  // the mission's
 };
 

@@ -3,15 +3,7 @@
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/string.h>
 
-#include <algorithm>
 #include <utility>
-
-#include "planner/core/plan.hpp"
-#include "planner/guided/view_sampling.hpp"
-#include "planner/map/frontiers.hpp"
-#include "planner/motion/paths.hpp"
-#include "planner/view/view_stats.hpp"
-#include "sim/core/parallel.hpp"
 
 namespace gnbv {
 namespace {
@@ -27,7 +19,7 @@ Vec3 vec3(const Point& p) { return {p[0], p[1], p[2]}; }
 /// Python's other threads run while one asks; none of them asks as well.
 class Question {
  public:
-  explicit Question(BeliefTools& tools) : lock_(tools.is_asked) {}
+  explicit Question(AskedTools& tools) : lock_(tools.is_asked) {}
   ~Question() { lock_.unlock(); }  // first: who waits for it holds Python's
   Question(const Question&) = delete;
   Question& operator=(const Question&) = delete;
@@ -39,7 +31,7 @@ class Question {
 
 }  // namespace
 
-BeliefView::BeliefView(const Belief& belief, BeliefTools& tools, const ViewPose& current)
+BeliefView::BeliefView(const Belief& belief, AskedTools& tools, const ViewPose& current)
     : belief_(&belief), tools_(&tools), current_(current), lease_(nb::capsule(this)) {}
 
 void BeliefView::end() {
@@ -53,7 +45,7 @@ const Belief& BeliefView::belief() const {
   return *belief_;
 }
 
-BeliefTools& BeliefView::tools() const {
+AskedTools& BeliefView::tools() const {
   if (tools_ == nullptr) raise_ended();
   return *tools_;
 }
@@ -62,11 +54,7 @@ bool BeliefView::is_shared() const { return Py_REFCNT(lease_.ptr()) > 1; }
 
 template <typename T>
 nb::object BeliefView::grid_array(std::span<const T> values) const {
-  const Key& size = belief().grid.geometry().size();
-  const std::array<std::size_t, 3> shape = {static_cast<std::size_t>(size[2]),
-                                            static_cast<std::size_t>(size[1]),
-                                            static_cast<std::size_t>(size[0])};
-  return shared_array(values, shape, lease_);
+  return shared_array(values, grid_shape(belief()), lease_);
 }
 
 nb::object BeliefView::log_odds() const { return grid_array(belief().grid.all_log_odds()); }
@@ -81,16 +69,13 @@ nb::object BeliefView::cloud() const {
 }
 
 nb::tuple BeliefView::density() const {
-  const std::span<const VoxelIndex> voxels = belief().cloud.voxels();
-  std::vector<std::int64_t> indices(voxels.begin(), voxels.end());
-  std::vector<double> densities;
-  for (const VoxelIndex v : voxels) densities.push_back(belief().cloud.density(v));
-  return nb::make_tuple(owned_array(std::move(indices)), owned_array(std::move(densities)));
+  auto [voxels, densities] = voxel_densities(belief());
+  return nb::make_tuple(owned_array(std::move(voxels)), owned_array(std::move(densities)));
 }
 
 Point BeliefView::origin_m() const {
-  const Key& low = belief().grid.geometry().min_key();
-  return {low[0] * resolution_m(), low[1] * resolution_m(), low[2] * resolution_m()};
+  const Vec3 low_m = grid_origin_m(belief());
+  return {low_m.x(), low_m.y(), low_m.z()};
 }
 
 nb::object BeliefView::current() const {
@@ -106,36 +91,24 @@ nb::object BeliefView::navigation_m() const {
 }
 
 nb::object BeliefView::sample(double scale) const {
-  return array_of(sample_agvs(tools().config.agvs, current_, scale, tools().model.pitches_rad));
+  return array_of(views_around(tools(), current_, scale));
 }
 
 nb::object BeliefView::sample_frontiers() const {
-  const FvsConfig& fvs = tools().config.fvs;
-  std::vector<ViewPose> views;
-  for (const FrontierCluster& cluster : find_frontiers(fvs.frontier, belief().grid, belief().cloud,
-                                                       tools().scratch.frontier_marks)) {
-    const std::vector<ViewPose> around =
-        sample_fvs(fvs, cluster.centroid_world_m, tools().model.pitches_rad);
-    views.insert(views.end(), around.begin(), around.end());
-  }
-  return array_of(views);
+  return array_of(views_of_frontiers(tools(), belief()));
 }
 
 nb::tuple BeliefView::validate(const ViewRows& rows) const {
   const Belief& seen = belief();
-  std::vector<Candidate> candidates;
-  for (const ViewPose& view : views_of(rows))
-    candidates.push_back({.view = view, .sampler = Sampler::route});
+  const std::vector<ViewPose> views = views_of(rows);
+  std::vector<Candidate> checked;
   {
     const Question question(tools());
-    const PlannerModel& model = tools().model;
-    ViewChecker checker(model.validity_around, model.navigation_m, model.no_fly, seen.grid, {},
-                        current_);
-    for (Candidate& candidate : candidates) check(checker, model, candidate);
+    checked = checked_views(tools(), seen, current_, views);
   }
   nb::list reasons;
   std::vector<double> path_m;
-  for (const Candidate& candidate : candidates) {
+  for (const Candidate& candidate : checked) {
     const std::string_view name = candidate.rejected ? name_of(*candidate.rejected) : "";
     reasons.append(nb::str(name.data(), name.size()));
     path_m.push_back(candidate.path_m);
@@ -145,42 +118,25 @@ nb::tuple BeliefView::validate(const ViewRows& rows) const {
 
 nb::bytes BeliefView::evaluate(const ViewRows& rows) const {
   const Belief& seen = belief();
-  BeliefTools& with = tools();
-  const PlannerModel& model = with.model;
   const std::vector<ViewPose> views = views_of(rows);
-  std::vector<ViewStats> stats(views.size());
-  const ViewOptions options = {
-      .detail = ViewDetail::rays,
-      .sparse_below = with.config.fvs.frontier.density_share * density_max()};
+  std::vector<ViewStats> stats;
   {
-    const Question question(with);
-    std::vector<VisitMarks>& marks = with.scratch.marks;
-    parallel_for(with.scratch.threads, marks.size(), [&](std::size_t share) {
-      for (std::size_t i = share; i < views.size(); i += marks.size()) {
-        stats[i] = evaluate_view(seen.grid, seen.cloud, model.rays_at(views[i].gimbal_pitch_rad),
-                                 views[i], marks[share], options);
-        stats[i].density_max = seen.cloud.density_max();
-        stats[i].path_m = (views[i].p_world_m - current_.p_world_m).norm();
-      }
-    });
+    const Question question(tools());
+    stats = evaluated_views(tools(), seen, current_, views);
   }
   return nb::bytes(stats.data(), stats.size() * sizeof(ViewStats));
 }
 
 nb::object BeliefView::find_path(const Point& from_m, const Point& to_m) const {
-  const PlannerModel& model = tools().model;
-  const ValidityConfig& validity = model.validity;
-  const FoundPath way = gnbv::find_path(validity.path_search,
-                                        {belief().grid, model.navigation_m, model.no_fly,
-                                         validity.collision_radius_m, validity.allow_unknown},
-                                        vec3(from_m), vec3(to_m));
+  const FoundPath way = way_around(tools(), belief(), vec3(from_m), vec3(to_m));
   if (way.rejected) return nb::none();
   std::vector<double> rows;
   for (const Vec3& p_m : way.via_world_m) rows.insert(rows.end(), p_m.begin(), p_m.end());
   return owned_array(std::move(rows), 3);
 }
 
-nb::dict view_stats_dtype() {
+/// NumPy's dtype of ViewStats as evaluate() fills it.
+static nb::dict view_stats_dtype() {
   nb::list names, formats, offsets;
   for (const ViewField& field : kViewFields) {
     if (field.needs == ViewFieldNeeds::shadow) continue;
@@ -228,8 +184,10 @@ void bind_belief(nb::module_& m) {
           "find_path", &BeliefView::find_path, nb::arg("from_m"), nb::arg("to_m"),
           nb::sig("def find_path(self, from_m: collections.abc.Sequence[float], to_m: "
                   "collections.abc.Sequence[float]) -> numpy.typing.NDArray[numpy.float64] | None"))
+      .def_prop_ro(
+          "stats_dtype", [](const BeliefView&) { return view_stats_dtype(); },
+          nb::sig("def stats_dtype(self) -> typing.Any"))
       .def("is_shared", &BeliefView::is_shared);
-  m.def("view_stats_dtype", &view_stats_dtype, nb::sig("def view_stats_dtype() -> typing.Any"));
 }
 
 }  // namespace gnbv

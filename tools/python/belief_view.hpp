@@ -1,25 +1,19 @@
 // What a planner written in Python sees: what is believed, and what the planner of C++ asks of it.
-// This file and its .cpp include nothing but the planner (tools/check_layers): no truth is in
-// reach.
+// This file and its .cpp include nothing but the planner and the questions to it
+// (tools/check_layers): no truth is in reach.
 #pragma once
 
 #include <mutex>
 #include <string>
 #include <vector>
 
-#include "planner/config.hpp"
-#include "planner/core/belief.hpp"
+#include "tools/mission/belief_questions.hpp"
 #include "tools/python/arrays.hpp"
 
 namespace gnbv {
 
-/// What questions need that are not about the belief alone. Kept for a mission.
-struct BeliefTools {
-  BeliefTools(const PlannerConfig& planner_config, const PlannerModel& planner_model, int threads)
-      : config(planner_config), model(planner_model), scratch(model, threads) {}
-  const PlannerConfig config;
-  const PlannerModel model;
-  Scratch scratch;
+struct AskedTools : BeliefTools {
+  using BeliefTools::BeliefTools;
   std::mutex is_asked;  // Python may have threads
 };
 
@@ -27,7 +21,7 @@ struct BeliefTools {
 /// Its arrays share the belief's memory; who made them asks is_shared() before the belief changes.
 class BeliefView {
  public:
-  BeliefView(const Belief& belief, BeliefTools& tools, const ViewPose& current);
+  BeliefView(const Belief& belief, AskedTools& tools, const ViewPose& current);
   /// What was handed over is used no more; waits for what other threads still ask.
   void end();
 
@@ -66,16 +60,13 @@ class BeliefView {
   nb::object grid_array(std::span<const T> values) const;
 
   const Belief& belief() const;
-  BeliefTools& tools() const;
+  AskedTools& tools() const;
 
   const Belief* belief_;  // none after end()
-  BeliefTools* tools_;
+  AskedTools* tools_;
   ViewPose current_;
   nb::object lease_;  // what the shared arrays keep alive
 };
-
-/// NumPy's dtype of ViewStats as evaluate() fills it.
-nb::dict view_stats_dtype();
 
 void bind_belief(nb::module_& m);
 

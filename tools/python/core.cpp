@@ -49,6 +49,6 @@ NB_MODULE(_core, m) {
   nb::register_exception_translator(translate);
   gnbv::bind_belief(m);
   gnbv::bind_run(m);
-  gnbv::bind_map_file(m);
   gnbv::bind_env(m);
+  gnbv::bind_map_file(m);
 }

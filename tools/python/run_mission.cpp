@@ -10,6 +10,7 @@
 #include "tools/mission/execute.hpp"
 #include "tools/mission/resolve.hpp"
 #include "tools/python/belief_view.hpp"
+#include "tools/run/file_names.hpp"
 #include "tools/terminal/interrupt.hpp"
 
 namespace gnbv {
@@ -60,7 +61,7 @@ class AskedPlanner {
  public:
   AskedPlanner(nb::object planner, const Scenario& scenario, int threads, Raised& raised)
       : python_(std::move(planner)), raised_(raised) {
-    tools_ = std::make_unique<BeliefTools>(scenario.planner, planner_model(scenario), threads);
+    tools_ = std::make_unique<AskedTools>(scenario.planner, planner_model(scenario), threads);
   }
 
   UserPlanner hooks() {
@@ -113,7 +114,7 @@ class AskedPlanner {
 
   nb::object python_;
   Raised& raised_;
-  std::unique_ptr<BeliefTools> tools_;
+  std::unique_ptr<AskedTools> tools_;
   ViewPose current_;
   bool has_kept_ = false;
 };
@@ -150,7 +151,12 @@ nb::tuple run(const nb::dict& given, nb::object planner, nb::object on_progress)
   RunArguments arguments = arguments_of(given);
   MissionOptions& options = arguments.mission;
   std::vector<std::string> unused_notes;
-  const Scenario scenario = resolve_scenario(arguments.scenario, unused_notes);
+  Scenario scenario = resolve_scenario(arguments.scenario, unused_notes);
+  if (const auto begun = options.out / kScenarioFile;
+      !planner.is_none() && options.resume && std::filesystem::exists(begun)) {
+    // of a mission that was finished, which holds its views
+    scenario.planner.routes.views = load_flown_scenario(begun.string()).planner.routes.views;
+  }
   for (const std::string& note : unused_notes) fmt::print(stderr, "gnbv: {}\n", note);
   Raised raised;
   options.should_stop = [&raised] { return raised.error != nullptr; };

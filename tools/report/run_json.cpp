@@ -201,7 +201,7 @@ Json run_json(const RunRecord& record, const std::string& label, const PackedRun
   Json json = {
       {"label", label},
       {"structure", structure_name(scenario.structure)},
-      {"utility", scenario.planner.utility.name},
+      {"utility", utility_label(scenario.planner.utility)},
       {"preset", scenario.planner.preset},
       {"seed", scenario.seed},
       {"folder", record.folder.string()},

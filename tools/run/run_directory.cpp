@@ -171,8 +171,8 @@ void RunDirectory::finish(const Scenario& scenario, const MissionResult& result,
   if (planner.takes_views) {
     write_file_atomically(folder_ / kViewsFile, user_views_csv(result.user_views));
   }
-  if (is_user_utility(scenario.planner.utility.name)) {
-    write_file_atomically(folder_ / kUserUtilityFile, scenario.planner.utility.python.source);
+  if (const UserFunctionConfig* const own = user_function(scenario.planner.utility)) {
+    write_file_atomically(folder_ / kUserUtilityFile, own->source);
   }
   if (planner.makes_tours) {
     write_file_atomically(folder_ / kPredictionsFile, predictions_csv(result.gain_outcomes));

@@ -6,7 +6,9 @@
 #include <array>
 #include <iterator>
 
+#include "planner/guided/utility.hpp"
 #include "scenarios/load.hpp"
+#include "sim/core/sha256.hpp"
 #include "tools/run/run_names.hpp"
 #include "tools/run/words.hpp"
 
@@ -19,15 +21,33 @@ using Values = std::vector<std::pair<std::string, std::string>>;
 
 constexpr std::array<std::string_view, 3> kNames = {"name", "planner.utility.name",
                                                     "planner.preset"};
+// Of a function of the user's own: FILE.py:FUNCTION, and a hash.
+constexpr const char* kFunction = "function";
+constexpr const char* kText = "text";
 
-/// All but the seed, and the utility's name unless asked for; the scenario by its title.
+/// All but the seed, and the utility's name unless asked for; the scenario by its title. A function
+/// of the user's own is known by its label, its file and a hash of its text, and the views that it
+/// gave are its answers, not its settings.
 Values values_of(const RunRecord& run, bool has_utility = true) {
   Scenario scenario = run.scenario;
   scenario.seed = 0;
+  const UtilityConfig utility = scenario.planner.utility;
+  const UserFunctionConfig* const own = user_function(utility);
+  if (own != nullptr) scenario.planner.routes.views.clear();
   if (!has_utility) scenario.planner.utility.name.clear();
   Values values = scenario_values(scenario);
+  std::erase_if(values, [&](const auto& value) {
+    return value.first.starts_with("planner.utility.python.");
+  });
   for (auto& [key, value] : values) {
-    if (key == kNames.front()) value = scenario_title(scenario);
+    if (key == kNames[0]) value = scenario_title(scenario);
+    if (key == kNames[1]) value = own != nullptr ? utility_label(utility) : human_name(value);
+  }
+  if (own != nullptr && has_utility) {
+    Sha256 hash;
+    hash.add(own->source);
+    values.emplace_back(kFunction, fmt::format("{}:{}", own->file, own->function));
+    values.emplace_back(kText, hash.hex().substr(0, 6));
   }
   return values;
 }
@@ -49,7 +69,8 @@ std::vector<std::string> differing_keys(const std::vector<Values>& groups) {
   std::vector<std::string> keys;
   for (const Values& values : groups) {
     for (const auto& [key, value] : values) {
-      const bool is_known = std::find(keys.begin(), keys.end(), key) != keys.end() ||
+      const bool is_known = key == kFunction ||
+                            std::find(keys.begin(), keys.end(), key) != keys.end() ||
                             std::find(kNames.begin(), kNames.end(), key) != kNames.end();
       if (!is_known && differ_in(groups, key)) keys.push_back(key);
     }
@@ -57,15 +78,20 @@ std::vector<std::string> differing_keys(const std::vector<Values>& groups) {
   return keys;
 }
 
-/// What everybody knows methods by, as far as they differ in it.
-std::string names_of(const Values& values, const std::vector<Values>& groups) {
-  std::string names;
+/// What everybody knows methods by, as far as they differ in it; a function of the user's own as
+/// FILE.py:FUNCTION where another one has its name.
+std::string names_of(const Values& own, const std::vector<Values>& groups) {
+  const std::string function = value_of(own, kFunction);
+  const bool has_namesake = std::any_of(groups.begin(), groups.end(), [&](const Values& other) {
+    return value_of(other, kNames[1]) == value_of(own, kNames[1]) &&
+           value_of(other, kFunction) != function;
+  });
+  std::vector<std::string> names;
   for (const std::string_view key : kNames) {
-    if (!differ_in(groups, key)) continue;
-    const std::string value = value_of(values, key);
-    names += (names.empty() ? "" : ", ") + (key == kNames[1] ? human_name(value) : value);
+    const bool is_file = key == kNames[1] && has_namesake && !function.empty();
+    if (is_file || differ_in(groups, key)) names.push_back(is_file ? function : value_of(own, key));
   }
-  return names;
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 /// The last part of a key, or all of it where others end alike.

@@ -162,8 +162,9 @@ std::string scenario_title(const Scenario& scenario) {
 
 std::string run_title(const RunRecord& record) {
   const PlannerConfig& planner = record.scenario.planner;
-  const std::string title =
-      fmt::format("{}, {}", scenario_title(record.scenario), human_name(planner.utility.name));
+  const std::string label = utility_label(planner.utility);
+  const std::string title = fmt::format("{}, {}", scenario_title(record.scenario),
+                                        user_function(planner.utility) ? label : human_name(label));
   return planner.preset == PlannerConfig{}.preset ? title : title + ", " + planner.preset;
 }
 

@@ -141,11 +141,12 @@ Json rejections_of(const std::map<Rejection, int>& rejections) {
   return counts;
 }
 
-/// Of a utility of the user's own.
+/// Of a function of the user's own.
 Json source_hash_of(const UtilityConfig& utility) {
-  if (!is_user_utility(utility.name)) return nullptr;
+  const UserFunctionConfig* const own = user_function(utility);
+  if (own == nullptr) return nullptr;
   Sha256 hash;
-  hash.add(utility.python.source);
+  hash.add(own->source);
   return hash.hex();
 }
 

@@ -20,6 +20,8 @@ std::string CellNamer::content_path(const std::string& path) {
 std::string CellNamer::id_of(const Scenario& scenario) {
   Scenario named = scenario;
   for (const MeshFileKey& mesh : mesh_files(named)) mesh.file->path = content_path(mesh.file->path);
+  named.planner.utility.python.label.clear();
+  named.planner.utility.python.file.clear();
   std::string& profile = named.planner.profiling.file;
   profile = content_path(profile);
   Sha256 hash;

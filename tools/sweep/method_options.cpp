@@ -7,7 +7,7 @@
 
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
-#include "tools/mission/user_utility.hpp"
+#include "tools/mission/user_function.hpp"
 
 namespace gnbv {
 namespace {
@@ -49,10 +49,9 @@ bool sets_seed(std::string_view assignment) {
 void need_known_names(const MethodOptions& options) {
   std::vector<Override> sets;
   for (const std::string& utility : options.utilities) {
-    if (is_utility_file(utility)) continue;
-    sets.push_back({.text = "planner.utility.name=" + utility,
-                    .source = "--utilities " + utility,
-                    .folder = {}});
+    if (!is_user_function(utility)) {
+      sets.push_back(named_method(utility, "--utilities").overrides.front());
+    }
   }
   for (const std::string& preset : options.presets) {
     sets.push_back(
@@ -124,11 +123,18 @@ class Methods {
 
 }  // namespace
 
-SweepMethod method_of_utility(const std::string& utility) {
-  NamedUtility named = named_utility(utility);
-  SweepMethod method{.name = std::move(named.label), .overrides = {}};
-  for (Override& set : named.overrides) method.overrides.push_back(std::move(set.text));
-  return method;
+std::vector<SweepMethod> methods_of_utilities(const std::vector<std::string>& utilities) {
+  std::vector<NamedMethod> named;
+  for (const std::string& utility : utilities) {
+    named.push_back(named_method(utility, "--utilities"));
+  }
+  tell_apart(named);
+  std::vector<SweepMethod> methods;
+  for (NamedMethod& one : named) {
+    methods.push_back({.name = std::move(one.label), .overrides = {}});
+    for (Override& set : one.overrides) methods.back().overrides.push_back(std::move(set.text));
+  }
+  return methods;
 }
 
 std::vector<SweepMethod> methods_of(const MethodOptions& options) {
@@ -136,8 +142,8 @@ std::vector<SweepMethod> methods_of(const MethodOptions& options) {
   const bool only_variants = options.utilities.empty() && options.presets.empty() &&
                              options.varies.empty() && !options.variants.empty();
   if (only_variants) methods.add("default", {});
-  for (const std::string& utility : options.utilities) {
-    methods.add(method_of_utility(utility));
+  for (SweepMethod& method : methods_of_utilities(options.utilities)) {
+    methods.add(std::move(method));
   }
   for (const std::string& preset : options.presets) {
     methods.add(preset, {"planner.preset=" + preset});

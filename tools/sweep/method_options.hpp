@@ -15,10 +15,11 @@ struct MethodOptions {
   std::vector<std::string> varies{};    // KEY=VALUE[,VALUE]...: a method a value
 };
 
-/// A utility by name, or FILE.py:FUNCTION. Throws BadInput for a file that defines none.
-SweepMethod method_of_utility(const std::string& utility);
+/// Each a utility by name, or a utility or planner [NAME=]FILE.py[:FUNCTION], named as shortly as
+/// tells them apart. Throws BadInput for a file that defines none.
+std::vector<SweepMethod> methods_of_utilities(const std::vector<std::string>& utilities);
 
-/// In the order of the options above: a utility and a preset are named as they are, a variant by
+/// In the order of the options above: a utility is named as above, a preset as it is, a variant by
 /// its NAME or its text, a varied value by KEY=VALUE. When only variants are named, the scenario as
 /// it is, "default", stands first. Commas within brackets, braces or quotes separate nothing.
 /// Throws BadInput with every fault at once: text that is none of this, a name that stands twice,

@@ -6,7 +6,7 @@
 
 #include "scenarios/document.hpp"
 #include "sim/core/error.hpp"
-#include "tools/mission/user_utility.hpp"
+#include "tools/mission/user_function.hpp"
 
 namespace gnbv {
 namespace {
@@ -27,8 +27,8 @@ class MethodReader {
       : folder_(folder), yaml_(yaml) {}
 
   std::vector<SweepMethod> read(const YamlNode& root) {
-    std::vector<NamedSettings> bases = named_by_value(root, "utilities", "planner.utility.name");
-    for (NamedSettings& base : named_by_value(root, "presets", "planner.preset")) {
+    std::vector<NamedSettings> bases = read_utilities(root);
+    for (NamedSettings& base : read_presets(root)) {
       bases.push_back(std::move(base));
     }
     for (NamedSettings& base : read_variants(root.find("variants"))) {
@@ -61,37 +61,52 @@ class MethodReader {
   }
 
  private:
-  std::vector<NamedSettings> named_by_value(const YamlNode& root, const std::string& section,
-                                            const std::string& key) {
-    std::vector<NamedSettings> bases;
+  struct GivenName {
+    const YamlNode& node;
+    std::string path, name;
+  };
+  std::vector<GivenName> names_in(const YamlNode& root, const std::string& section) {
     const YamlNode* const list = root.find(section);
-    if (list == nullptr) return bases;
+    if (list == nullptr) return {};
+    std::vector<GivenName> names;
     int index = 0;
     for (const YamlNode* node : yaml_.items_of(*list, section)) {
       const std::string path = fmt::format("{}.{}", section, index++);
       const std::string name = yaml_.text_of(node, path, "a name");
-      if (name.empty()) continue;
-      if (section == "utilities" && is_utility_file(name)) {
-        add_utility_file(*node, path, bases);
-        continue;
-      }
-      NamedSettings base = {name, {}};
-      base.settings.add(fmt::format("{}={}", key, flow_yaml(*node)), node->location);
-      bases.push_back(std::move(base));
+      if (!name.empty()) names.push_back({*node, path, name});
+    }
+    return names;
+  }
+
+  std::vector<NamedSettings> read_presets(const YamlNode& root) {
+    std::vector<NamedSettings> bases;
+    for (const GivenName& given : names_in(root, "presets")) {
+      bases.push_back({given.name, {}});
+      bases.back().settings.add("planner.preset=" + flow_yaml(given.node), given.node.location);
     }
     return bases;
   }
 
-  void add_utility_file(const YamlNode& node, const std::string& path,
-                        std::vector<NamedSettings>& bases) {
-    try {
-      NamedUtility named = named_utility((folder_ / node.text).lexically_normal().string());
-      NamedSettings base = {std::move(named.label), {}};
-      for (Override& set : named.overrides) base.settings.add(std::move(set.text), node.location);
-      bases.push_back(std::move(base));
-    } catch (const BadInput& error) {
-      yaml_.fault(node, path, error.what());
+  std::vector<NamedSettings> read_utilities(const YamlNode& root) {
+    std::vector<NamedMethod> methods;
+    std::vector<SourceLocation> locations;
+    for (const GivenName& given : names_in(root, "utilities")) {
+      try {
+        methods.push_back(named_method(given.name, "utilities", folder_));
+        locations.push_back(given.node.location);
+      } catch (const BadInput& error) {
+        yaml_.fault(given.node, given.path, error.what());
+      }
     }
+    tell_apart(methods);
+    std::vector<NamedSettings> bases;
+    for (std::size_t i = 0; i < methods.size(); ++i) {
+      bases.push_back({std::move(methods[i].label), {}});
+      for (Override& set : methods[i].overrides) {
+        bases.back().settings.add(std::move(set.text), locations[i]);
+      }
+    }
+    return bases;
   }
 
   std::vector<NamedSettings> read_variants(const YamlNode* list) {

@@ -101,6 +101,32 @@ TEST(UserRoute, OneByOneIsAsAllAtOnceAtAnyNumberOfThreads) {
   EXPECT_EQ(refused, (std::vector<std::size_t>{0, 2, 4, 5}));
 }
 
+/// Its scenario holds the planner, not the views: the record has them. It is asked again where it
+/// is there, and may not answer otherwise.
+TEST(UserRoute, ARecordOfAUsersPlannerFliesAgainWithItAndWithoutIt) {
+  Scenario scenario = route_of({});
+  scenario.planner.utility.name = kUserUtilityName;
+  scenario.planner.utility.python = {
+      .kind = UserFunctionKind::planner, .function = "plan", .source = "def plan(b, h): ..."};
+  std::vector<std::size_t> refused;
+  const MissionResult flown = Flown(scenario, one_by_one(mixed(), refused)).result;
+  EXPECT_EQ(flown.termination, Termination::route_flown);
+  EXPECT_EQ(result_sha256(flown), result_sha256(Flown(route_of(mixed())).result));
+  std::vector<Decision> record;
+  for (const ViewRecord& view : flown.views) record.push_back(view.decision);
+  const Flown alone(scenario, {.replay = record});
+  EXPECT_EQ(alone.result.views.size(), flown.views.size());
+  EXPECT_EQ(alone.result.views.back().entropy_nat, flown.views.back().entropy_nat);
+  MissionInputs again = one_by_one(mixed(), refused);
+  again.replay = record;
+  const MissionResult repeated = Flown(scenario, again).result;
+  EXPECT_EQ(result_sha256(repeated), result_sha256(flown));
+  EXPECT_EQ(repeated.user_views.size(), flown.user_views.size());
+  MissionInputs otherwise = one_by_one({kNorth, kEast}, refused);
+  otherwise.replay = record;
+  EXPECT_THROW(Flown(scenario, otherwise), BadInput);
+}
+
 TEST(UserRoute, ARecordOfOtherViewsIsNotResumed) {
   const MissionInputs inputs = {
       .replay = {{.view = {}}, {.view = kNorth, .sampler = Sampler::route}}};

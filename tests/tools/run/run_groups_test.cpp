@@ -60,6 +60,36 @@ TEST(RunGroups, LabelsSayNoMoreThanIsNeeded) {
   EXPECT_EQ(labels()[1], "cameras.0.rate_hz=2, lidars.0.rate_hz=2");
 }
 
+/// A function of the user's own, once as it is asked and once as the views that it gave.
+TEST(RunGroups, AFunctionOfTheUsersIsOneMethodWhateverViewsItGave) {
+  std::vector<RunRecord> runs;
+  const auto add = [&](std::uint64_t seed, std::string_view name, UserFunctionConfig function) {
+    RunRecord& run = runs.emplace_back(covered_record(seed, {0.2}));
+    run.scenario.planner.utility.name = name;
+    run.scenario.planner.utility.python = std::move(function);
+    if (name != kRouteName) return;
+    run.scenario.planner.routes.views = {{Vec3(static_cast<double>(seed), 0, 1)}};
+  };
+  const auto labels = [&] {
+    std::vector<std::string> notes, all;
+    for (const RunGroup& group : group_runs(runs, notes)) all.push_back(group.label);
+    EXPECT_TRUE(notes.empty());
+    return all;
+  };
+  const UserFunctionConfig mine = {.file = "a.py", .function = "mine", .source = "def mine(): 1"};
+  const auto kPlanner = UserFunctionKind::planner;
+  add(1, "proposed", {});
+  for (const std::uint64_t seed : {1, 2, 3}) add(seed, kUserUtilityName, mine);
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    add(seed, kRouteName, {.kind = kPlanner, .file = "a.py", .function = "plan", .source = "p"});
+  }
+  EXPECT_EQ(labels(), (std::vector<std::string>{"Proposed", "mine", "plan"}));
+  add(1, kUserUtilityName, {.label = "my own", .function = "mine", .source = "x"});
+  add(1, kUserUtilityName, {.file = "b.py", .function = "mine", .source = "def mine(): 2"});
+  EXPECT_EQ(labels(),
+            (std::vector<std::string>{"Proposed", "a.py:mine", "plan", "my own", "b.py:mine"}));
+}
+
 TEST(RunLabels, RunsAreToldApartByAsMuchAsItTakes) {
   RunRecord a = made_record();
   a.folder = "runs/a";

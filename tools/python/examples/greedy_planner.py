@@ -2,6 +2,7 @@
 none sees any, the thinly sampled surface.
 
 usage: greedy_planner.py [SCENARIO [VIEWS]]
+       gnbv compare SCENARIO --utilities proposed,greedy_planner.py:greedy
 """
 
 import sys
@@ -29,4 +30,8 @@ def greedy(belief: gnbv.Belief, history: gnbv.History, most_views: int = 30):
 if __name__ == "__main__":
     scenario = sys.argv[1] if len(sys.argv) > 1 else "smoke"
     most_views = int(sys.argv[2]) if len(sys.argv) > 2 else 30
-    print(gnbv.run(scenario, planner=lambda b, h: greedy(b, h, most_views)))
+
+    def planner(belief, history):
+        return greedy(belief, history, most_views)
+
+    print(gnbv.run(scenario, planner=planner))

@@ -45,12 +45,12 @@ class Failed(RuntimeError):
 
 
 class UtilityFailed(Failed):
-    """A utility of your own raised, or returned what are no scores.
+    """A utility or planner of your own raised, or returned what are no scores or no view.
 
     Attributes:
         folder: the run directory, complete up to there.
         iteration: the view that was being decided.
-        candidate: its index among those sampled, or None: all of them together.
+        candidate: its index among those sampled, or None: all of them together, or a planner.
         traceback: as Python prints it.
     """
 

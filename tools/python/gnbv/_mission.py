@@ -13,7 +13,7 @@ from gnbv import _core
 from gnbv._errors import BadInput, Failed, Interrupted, UtilityFailed
 from gnbv._planner import AskedPlanner, Planner
 from gnbv._run import Run
-from gnbv._utility import Utility, as_arguments
+from gnbv._utility import Utility, as_arguments, recorded_planner
 
 PathLike = Union[str, "os.PathLike[str]"]
 Progress = Callable[[float, str], None]
@@ -23,7 +23,7 @@ def run(
     scenario: PathLike,
     *,
     utility: Utility | None = None,
-    planner: Planner | None = None,
+    planner: Planner | str | os.PathLike[str] | None = None,
     seed: int | None = None,
     preset: str | None = None,
     mesh: PathLike | None = None,
@@ -41,10 +41,12 @@ def run(
 
     Args:
         scenario: a built-in name ("aircraft", "smoke", ...) or a YAML file.
-        utility: what ranks the candidates: a name, 'FILE.py:FUNCTION', or a function of your own
-            from the candidates' ViewStats (a structured array) to a finite score each.
+        utility: what ranks the candidates: a name, '[NAME=]FILE.py:FUNCTION', or a function of
+            your own from the candidates' ViewStats (a structured array) to a finite score each.
         planner: a function plan(belief, history) -> View of your own, instead of a utility; None
-            ends the mission. The views are recorded, so that the run repeats without it.
+            ends the mission. One of this process records its views, so that the run repeats
+            without it; '[NAME=]FILE.py:FUNCTION' is run from its text, as a utility is. Resumed,
+            it is asked again from the first view on, and has to answer as it did.
         seed, preset, mesh, bounds, out, threads, resume, frames, candidates, ceiling: as the
             options of `gnbv run`.
         set: values of the scenario by key: {"planner.cloud.leaf_m": 0.02}.
@@ -53,7 +55,8 @@ def run(
 
     Raises:
         BadInput: with file, line, key and value of what is wrong; nothing was written.
-        UtilityFailed: with iteration, candidate and traceback; the run directory is complete.
+        UtilityFailed: of a utility, or a planner in a file: with iteration, candidate and
+            traceback; the run directory is complete.
         Interrupted: Ctrl-C; the mission ended after the view at hand, and so did all that flew in
             other threads.
         KeyboardInterrupt: Ctrl-C when the last view was taken; the run directory is complete.
@@ -64,15 +67,18 @@ def run(
         raise BadInput("planner: a planner chooses without a utility; give one of the two")
     os.environ.setdefault("GNBV_PYTHON", sys.executable)
     with ExitStack() as stack:
-        arguments = stack.enter_context(as_arguments([] if utility is None else [utility]))
-        chosen = "route" if planner is not None else arguments[0] if arguments else ""
+        is_here = callable(planner)
+        in_text = [each for each in (utility, planner) if each is not None and not is_here]
+        arguments = stack.enter_context(as_arguments(in_text))
+        chosen = "route" if is_here else arguments[0] if arguments else ""
+        overrides = [f"{key}={_yaml(value)}" for key, value in (set or {}).items()]
         given = {
             "scenario": os.fspath(scenario),
             "mesh": os.fspath(mesh) if mesh is not None else "",
             "utility": chosen,
             "preset": preset or "",
             "seed": "" if seed is None else str(seed),
-            "overrides": [f"{key}={_yaml(value)}" for key, value in (set or {}).items()],
+            "overrides": overrides + ([recorded_planner(planner)] if callable(planner) else []),
             "views": "",
             "bounds_auto": bounds == "auto",
             "out": os.fspath(out) if out is not None else "",
@@ -84,7 +90,7 @@ def run(
             "ceiling": ceiling,
         }
         shown = stack.enter_context(_Shown(progress, os.fspath(scenario)))
-        asked = None if planner is None else AskedPlanner(planner)
+        asked = AskedPlanner(planner) if callable(planner) else None
         folder, termination, failure = _core.run(given, asked, shown.show if shown else None)
     return _checked(folder, termination, failure)
 

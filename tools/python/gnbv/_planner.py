@@ -1,4 +1,7 @@
-"""What a planner of your own sees: Belief and History. None of it knows the true structure."""
+"""What a planner of your own sees: Belief and History. None of it knows the true structure.
+
+The program runs this file, too, where a planner flies from its source: it needs NumPy alone.
+"""
 
 from __future__ import annotations
 
@@ -8,10 +11,8 @@ from typing import Any, NamedTuple, Optional, Union
 import numpy as np
 import numpy.typing as npt
 
-from gnbv import _core
 from gnbv._errors import BadInput
 
-VIEW_STATS_DTYPE = np.dtype(_core.view_stats_dtype())
 HISTORY_DTYPE = np.dtype(
     [("iteration", "i8"), ("x", "f8"), ("y", "f8"), ("z", "f8"), ("yaw", "f8")]
     + [("gimbal_pitch", "f8"), ("entropy_nat", "f8"), ("cloud_points", "i8")]
@@ -36,7 +37,8 @@ class Belief:
     """What the planner believes, for the call that it was handed to.
 
     The arrays share the map's memory and cannot be written. Copy what is to outlast the call: a
-    planner that keeps one of them beyond it ends the mission with BufferError.
+    planner that keeps one of them beyond it ends the mission with BufferError. (A planner that
+    flies from a file has copies.)
     """
 
     def __init__(self, view: Any) -> None:
@@ -133,7 +135,7 @@ class Belief:
     def evaluate(self, views: Views) -> npt.NDArray[Any]:
         """What each view would see: ViewStats as a structured array, path_m the straight way."""
         rows = view_rows(views)
-        return np.frombuffer(self._view.evaluate(rows), VIEW_STATS_DTYPE)
+        return np.frombuffer(self._view.evaluate(rows), np.dtype(self._view.stats_dtype))
 
     def find_path(
         self, start: Iterable[float], goal: Iterable[float]

@@ -25,28 +25,34 @@ def environment() -> dict[str, str]:
 def call(*arguments: str) -> str:
     """Runs `gnbv ARGUMENTS` and returns its stdout; what it says on stderr comes on stderr.
 
-    Raises BadInput for exit code 2, Failed for 1, KeyboardInterrupt when it was interrupted.
+    Raises BadInput for exit code 2, Failed for 1, KeyboardInterrupt on Ctrl-C.
     """
     command = [str(PROGRAM), *arguments]
+    is_interrupted = False
     with subprocess.Popen(
-        command, env=environment(), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        command,
+        env=environment(),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        encoding="utf-8",
+        errors="surrogateescape",  # in the names of files
     ) as child:
         while True:
             try:
                 out, errors = child.communicate()
                 break
             except KeyboardInterrupt:  # it has heard it, too, and ends in order
-                continue
-    if child.returncode == 0:
-        sys.stderr.write(errors)
-        return out
+                is_interrupted = True
     lines = [line for line in errors.strip().splitlines() if line]
     message = "\n".join(lines).removeprefix("gnbv: ") or f"gnbv {arguments[0]}: failed"
+    if is_interrupted:
+        raise KeyboardInterrupt(message)
     if child.returncode == 2:
         raise BadInput(message)
-    if "interrupted" in message:
-        raise KeyboardInterrupt(message)
-    raise Failed(message)
+    if child.returncode != 0:
+        raise Failed(message)
+    sys.stderr.write(errors)
+    return out
 
 
 def main() -> None:

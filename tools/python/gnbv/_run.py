@@ -153,13 +153,16 @@ def _csv(file: Path) -> Array:
     return out
 
 
-def read_ply(file: Path) -> npt.NDArray[np.float32]:
-    """The vertices of one of gnbv's own .ply files: rows x 3, m."""
+def _bytes_of(file: Path) -> bytes:
     try:
-        bytes_ = file.read_bytes()
+        return file.read_bytes()
     except OSError as error:
         raise BadInput(f"{file}: {error.strerror}") from error
-    head, found, body = bytes_.partition(b"end_header\n")
+
+
+def read_ply(file: Path) -> npt.NDArray[np.float32]:
+    """The vertices of one of gnbv's own .ply files: rows x 3, m."""
+    head, found, body = _bytes_of(file).partition(b"end_header\n")
     kinds = {b"float": "<f4", b"uchar": "u1", b"int": "<i4"}
     words = [line.split() for line in head.splitlines()]
     fields = [(w[2].decode(), kinds.get(w[1], "")) for w in words if w[:1] == [b"property"]]

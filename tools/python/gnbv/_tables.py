@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from gnbv._mission import _yaml
 from gnbv._program import call
-from gnbv._utility import Utility, as_arguments
+from gnbv._utility import Utilities, as_arguments
 
 PathLike = Union[str, "os.PathLike[str]"]
 
@@ -60,7 +60,7 @@ def table(
 
 def compare(
     *scenarios: PathLike,
-    utilities: Iterable[Utility] = (),
+    utilities: Utilities = (),
     presets: Iterable[str] = (),
     variants: Mapping[str, Mapping[str, Any]] | None = None,
     seeds: int = 8,
@@ -71,7 +71,8 @@ def compare(
 
     Args:
         scenarios: built-in names or YAML files.
-        utilities: names, 'FILE.py:FUNCTION' or functions of your own; the first is the baseline.
+        utilities: names, '[NAME=]FILE.py:FUNCTION' or functions of your own, utilities and
+            planners, perhaps by names of your choice (a dict); the first is the baseline.
         presets: of the planner, as methods.
         variants: methods by name, each with the values it sets.
         ceiling: also shares of what any legal viewpoint can see (a minute where it is not known).
@@ -95,7 +96,7 @@ def _tables(
     *,
     seeds: int,
     extra: list[str],
-    utilities: Iterable[Utility] = (),
+    utilities: Utilities = (),
     seed: int | None = None,
     set: Mapping[str, Any] | None = None,
     mesh: PathLike | None = None,
@@ -110,7 +111,7 @@ def _tables(
     arguments += ["--out", os.fspath(out)] if out is not None else []
     for key, value in (set or {}).items():
         arguments += ["--set", f"{key}={_yaml(value)}"]
-    with as_arguments(list(utilities)) as names:
+    with as_arguments(utilities) as names:
         arguments += ["--utilities", ",".join(names)] if names else []
         said = call(*arguments)
     return [_table(read) for read in _documents(said)]

@@ -1,13 +1,14 @@
-"""Utilities of your own: functions that are recorded and run by their source text."""
+"""Utilities and planners of your own: functions that are recorded and run by their source text."""
 
 from __future__ import annotations
 
 import inspect
+import json
 import os
 import re
 import tempfile
 import textwrap
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Union
@@ -15,8 +16,9 @@ from typing import Any, Union
 from gnbv import _core
 from gnbv._errors import BadInput
 
-UtilityFunction = Callable[[Any], Any]
-Utility = Union[str, "os.PathLike[str]", UtilityFunction]
+UserFunction = Callable[..., Any]
+Utility = Union[str, "os.PathLike[str]", UserFunction]
+Utilities = Union[Iterable[Utility], Mapping[str, Utility]]
 
 
 def utilities() -> list[str]:
@@ -24,7 +26,7 @@ def utilities() -> list[str]:
     return list(_core.utilities())
 
 
-def source_of(function: UtilityFunction) -> str:
+def source_of(function: UserFunction) -> str:
     """The function's own text. It has to stand alone: `np` is NumPy, all else it imports itself.
 
     Raises BadInput for what has no such text: a lambda, a method, a function with free variables.
@@ -49,25 +51,44 @@ def source_of(function: UtilityFunction) -> str:
     return text[start.start() :]
 
 
-def _name_of(utility: Utility) -> str:
-    if callable(utility):
-        return str(utility.__name__)
-    return os.fspath(utility)
+def _file_of(function: UserFunction) -> str:
+    """The name of the file that it is from."""
+    code = getattr(function, "__code__", None)
+    name = Path(code.co_filename).name if code else ""
+    return name if name.endswith(".py") else ""
 
 
 @contextmanager
-def as_arguments(given: Sequence[Utility]) -> Iterator[list[str]]:
-    """Each utility as `--utility` takes it; functions are put into files for the time being."""
-    names = [_name_of(utility) for utility in given]
-    double = next((name for name in names if names.count(name) > 1), None)
-    if double is not None:
-        raise BadInput(f"utility {double}: named twice")
+def as_arguments(given: Utilities) -> Iterator[list[str]]:
+    """Each as `--utilities` takes it; functions are put into files for the time being."""
+    is_named = isinstance(given, Mapping)
+    pairs = list(given.items()) if isinstance(given, Mapping) else [("", each) for each in given]
     with tempfile.TemporaryDirectory(prefix="gnbv-utility-") as folder:
-        arguments = []
-        for utility, name in zip(given, names, strict=True):
+        arguments: list[str] = []
+        for i, (name, utility) in enumerate(pairs):
+            if is_named and not re.fullmatch(r"[^=/.,\s]+", name):
+                raise BadInput(f"utility {name!r}: a name is one word without = / . and commas")
             if callable(utility):
-                file = Path(folder) / f"{name}.py"
+                file = Path(folder, str(i), _file_of(utility) or f"{utility.__name__}.py")
+                file.parent.mkdir()
                 file.write_text(source_of(utility), encoding="utf-8")
-                name = f"{file}:{name}"
-            arguments.append(name)
+                text = f"{file}:{utility.__name__}"
+            else:
+                text = os.fspath(utility)
+            arguments.append(f"{name}={text}" if is_named else text)
         yield arguments
+
+
+def recorded_planner(planner: UserFunction) -> str:
+    """The setting by which runs of a planner in this process are known as its own."""
+    function = getattr(planner, "__name__", type(planner).__name__).strip("<>")
+    try:
+        source = textwrap.dedent(inspect.getsource(planner))
+        around = inspect.getclosurevars(planner).nonlocals
+    except (OSError, TypeError, ValueError):
+        source, around = "", {}
+    for name, value in around.items():
+        if isinstance(value, (bool, int, float, str)):
+            source += f"# {name} = {value!r}\n"
+    own = {"kind": "planner", "function": function, "file": _file_of(planner), "source": source}
+    return "planner.utility.python=" + json.dumps(own, ensure_ascii=False)

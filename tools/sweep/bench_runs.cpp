@@ -1,27 +1,23 @@
-#include "tools/gnbv/bench_runs.hpp"
+#include "tools/sweep/bench_runs.hpp"
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <map>
 #include <set>
 
-#include "bench/compare/terminal_table.hpp"
 #include "bench/limits/ceiling_cache.hpp"
 #include "scenarios/load.hpp"
 #include "sensors/ray_scene.hpp"
 #include "sim/core/error.hpp"
-#include "tools/gnbv/commands.hpp"
-#include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/start_pose.hpp"
 #include "tools/run/file_names.hpp"
 #include "tools/run/summary_json.hpp"
 #include "tools/sweep/run_cells.hpp"
+#include "tools/terminal/command_failed.hpp"
 #include "tools/terminal/say.hpp"
-#include "tools/terminal/width.hpp"
 
 namespace gnbv {
 namespace {
@@ -34,7 +30,7 @@ bool is_lost(const std::string& termination) {
 
 /// Missions that did not end by the planner's own rules are counted as they are, and named.
 bool ended_early(const std::string& termination) {
-  return is_lost(termination) || termination == "battery" || termination == "interrupted";
+  return termination == "battery" || termination == "interrupted";
 }
 
 std::string why_missing(const CellOutcome& outcome) {
@@ -67,49 +63,29 @@ class CellNotes {
 
 BenchRuns collect(const std::vector<Cell>& cells, const std::vector<CellOutcome>& outcomes) {
   BenchRuns collected;
-  CellNotes notes;
+  CellNotes notes, failures;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Cell& cell = cells[i];
     if (outcomes[i].status != CellStatus::done) {
-      notes.add(cell, "without a result: " + why_missing(outcomes[i]));
-      collected.has_failures = true;
+      failures.add(cell, "without a result: " + why_missing(outcomes[i]));
       continue;
     }
     ComparedRun run{cell.scenario, cell.method, cell.seed, read_run_figures(outcomes[i].run)};
-    if (ended_early(run.figures.termination)) {
-      notes.add(cell, fmt::format("ended by {}, counted as it is", run.figures.termination));
+    const std::string& termination = run.figures.termination;
+    if (is_lost(termination) || ended_early(termination)) {
+      (is_lost(termination) ? failures : notes)
+          .add(cell, fmt::format("ended by {}, counted as it is", termination));
     }
-    collected.has_failures = collected.has_failures || is_lost(run.figures.termination);
     collected.runs.push_back(std::move(run));
     collected.folders.push_back(outcomes[i].run);
   }
-  collected.notes = notes.lines();
+  collected.failures = failures.lines();
+  collected.notes = collected.failures;
+  for (std::string& note : notes.lines()) collected.notes.push_back(std::move(note));
   return collected;
 }
 
 }  // namespace
-
-void add_bench_options(CLI::App& command, BenchOptions& options) {
-  command.add_option(
-      "--out", options.out,
-      "folder of the missions (default: runs/bench); those it holds are not flown again");
-  add_threads_option(command, options.threads);
-  add_quiet_option(command, options.quiet);
-  command.add_option("--seeds", options.seed_count, "how many seeds, from --seed on")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  command.add_option("--jobs", options.jobs, "missions at a time, each in a process of its own")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
-  command
-      .add_option("--ceiling-at", options.ceiling_percent,
-                  "take shares of this coverage at 0.05 m, in percent, instead of the ceiling that "
-                  "a search finds: what an oracle reached, say")
-      ->check(CLI::Range(1.0, 100.0));
-  command.add_option("--format", options.format, "form of the table on stdout")
-      ->check(is_one_of({kTableFormats.begin(), kTableFormats.end()}))
-      ->capture_default_str();
-}
 
 fs::path bench_folder(const BenchOptions& options) {
   return options.out.empty() ? fs::path("runs") / "bench" : options.out;
@@ -184,16 +160,6 @@ void add_given_ceiling_note(const BenchOptions& options, std::vector<std::string
   if (!options.ceiling_percent) return;
   notes.push_back(fmt::format("ceiling: {:.4g} % at 0.05 m, as given by --ceiling-at",
                               *options.ceiling_percent));
-}
-
-void print_bench(const std::vector<TextTable>& tables, const std::string& format,
-                 bool has_failures) {
-  for (const TextTable& table : tables) {
-    fmt::print("{}{}", &table == &tables.front() ? "" : "\n",
-               format == "terminal" ? terminal_text(table, stdout_columns())
-                                    : formatted_text(table, format));
-  }
-  if (has_failures) throw CommandFailed("not every mission came to its end; the notes say which");
 }
 
 }  // namespace gnbv

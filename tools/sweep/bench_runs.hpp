@@ -1,4 +1,5 @@
-// Cells flown and read back: what `table` and `compare` share.
+// Cells flown and read back, with the ceilings of their scenarios: what `table`, `compare` and
+// `paper` share.
 #pragma once
 
 #include <filesystem>
@@ -11,13 +12,9 @@
 #include "bench/limits/ceiling.hpp"
 #include "tools/sweep/sweep.hpp"
 
-namespace CLI {
-class App;
-}  // namespace CLI
-
 namespace gnbv {
 
-/// What the command line says about many missions.
+/// How many missions are flown, and where.
 struct BenchOptions {
   std::filesystem::path out = {};  // "" is runs/bench
   int threads = 0;                 // 0 = as many as the machine has
@@ -27,10 +24,6 @@ struct BenchOptions {
   std::string format = "terminal";
   std::optional<double> ceiling_percent = {};  // at 0.05 m, instead of what a search finds
 };
-
-/// What many missions share beside their scenario: --seeds, --jobs, --threads, --format, --out,
-/// --quiet, --ceiling-at.
-void add_bench_options(CLI::App& command, BenchOptions& options);
 
 /// Where cells are kept when --out is not given: cells are named by their content, so that every
 /// table and comparison finds what another one flew.
@@ -42,8 +35,8 @@ std::vector<std::uint64_t> seeds_from(std::uint64_t first, int count);
 struct BenchRuns {
   std::vector<ComparedRun> runs;               // of the cells that are done, in their order
   std::vector<std::filesystem::path> folders;  // of these runs
-  std::vector<std::string> notes;  // cells that are missing here, and missions that ended early
-  bool has_failures = false;       // cells without a result, collisions
+  std::vector<std::string> notes;     // cells that are missing here, missions that ended early
+  std::vector<std::string> failures;  // of the notes: cells without a result, collisions
 };
 
 /// Flies what is missing and reads all. Throws CommandFailed when it is interrupted.
@@ -63,8 +56,10 @@ Ceilings ceilings_of(const BenchRuns& runs, const BenchOptions& options,
 /// What shares of the ceiling are of, when it is given.
 void add_given_ceiling_note(const BenchOptions& options, std::vector<std::string>& notes);
 
-/// Prints the tables, an empty line between them, then throws CommandFailed if something failed.
-void print_bench(const std::vector<TextTable>& tables, const std::string& format,
-                 bool has_failures);
+/// What a command makes of missions.
+struct BenchTables {
+  std::vector<TextTable> tables;
+  std::vector<std::string> failures;
+};
 
 }  // namespace gnbv

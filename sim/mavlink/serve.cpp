@@ -1,4 +1,4 @@
-#include "tools/gnbv/serve.hpp"
+#include "sim/mavlink/serve.hpp"
 
 #include <algorithm>
 #include <cmath>

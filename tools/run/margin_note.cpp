@@ -1,4 +1,4 @@
-#include "tools/gnbv/margin_note.hpp"
+#include "tools/run/margin_note.hpp"
 
 #include <fmt/format.h>
 

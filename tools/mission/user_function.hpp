@@ -1,0 +1,33 @@
+// Functions of the user's own as the command line names them, [NAME=]FILE.py[:FUNCTION], beside the
+// utilities of the program, [NAME=]UTILITY.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenarios/load.hpp"
+
+namespace gnbv {
+
+/// Whether TEXT names a function in a file, rather than a utility of the program.
+bool is_user_function(std::string_view text);
+
+/// A utility, or a planner, that somebody named.
+struct NamedMethod {
+  std::string label;  // the NAME, the FUNCTION, or the utility's own
+  std::vector<Override> overrides;
+  /// What to call it instead where others have its label, the shortest first; none with a NAME.
+  std::vector<std::string> longer_labels = {};
+};
+
+/// The settings that `OPTION TEXT` stands for; a relative FILE begins at `folder`. A file is read.
+/// A function of two parameters without defaults is a planner. Throws BadInput naming a file that
+/// cannot be read or defines no such function, and, without a FUNCTION, one that defines several.
+NamedMethod named_method(const std::string& text, const std::string& option = "--utility",
+                         const std::filesystem::path& folder = {});
+
+/// Gives longer labels to those that share one.
+void tell_apart(std::vector<NamedMethod>& methods);
+
+}  // namespace gnbv

@@ -1,0 +1,114 @@
+#include "tools/surface/made_surface.hpp"
+
+#include <unistd.h>
+
+#include "sensors/ray_scene.hpp"
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "sim/core/parallel.hpp"
+#include "tools/mission/load_world.hpp"
+#include "tools/mission/reference.hpp"
+#include "tools/run/run_inputs.hpp"
+#include "tools/surface/surface_picture.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder made before the work, so that one that cannot be made costs no time. It goes again when
+/// nothing was written into it.
+class OutFolder {
+ public:
+  explicit OutFolder(fs::path path) : path_(std::move(path)) {
+    is_new_ = make_folder(path_);
+    if (::access(path_.c_str(), W_OK | X_OK) != 0) {
+      throw BadInput(fmt::format("{}: cannot write into the folder", path_.string()));
+    }
+  }
+  ~OutFolder() {
+    std::error_code not_empty;
+    if (is_new_) fs::remove(path_, not_empty);
+  }
+  OutFolder(const OutFolder&) = delete;
+  OutFolder& operator=(const OutFolder&) = delete;
+
+ private:
+  fs::path path_;
+  bool is_new_ = false;
+};
+
+/// What the surface is scored against; nothing, and a note, when its mesh cannot be loaded.
+std::optional<World> truth_of(const RunRecord& record, std::vector<std::string>& notes) {
+  std::vector<std::string> told_by_run;  // the mesh's faults were told when it was flown
+  try {
+    World world = load_world(record.scenario, told_by_run);
+    need_same_inputs(record.folder, world_inputs(record.scenario, world),
+                     "another structure is none to score by");
+    return world;
+  } catch (const BadInput& error) {
+    notes.push_back(fmt::format("{}; without the true structure there is no score", error.what()));
+    return std::nullopt;
+  }
+}
+
+/// Of each vertex to the true structure, as far as the finest voxels of the score go.
+std::vector<double> errors_m(const TriangleMesh& mesh, const World& truth, int threads) {
+  const RayScene scene(truth);
+  std::vector<double> errors(mesh.vertices_m.size());
+  constexpr double kMost_m = 0.05;
+  parallel_for_chunks(threads, errors.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3 p_m = mesh.vertices_m[i].cast<double>();
+      errors[i] = std::min(kMost_m, scene.distance_to_structure_m(p_m, kMost_m));
+    }
+  });
+  return errors;
+}
+
+/// The paths of what is written. What an earlier call knew of the truth and this one does not goes.
+std::vector<fs::path> write_all(const TexturedMesh& mesh, const std::optional<SurfaceScore>& score,
+                                const std::optional<World>& truth, const std::string& title,
+                                const fs::path& folder, int threads) {
+  std::vector<fs::path> paths = write_surface(mesh, folder);
+  paths.push_back(folder / "preview.png");
+  write_png(surface_picture(mesh, title, 1280, 720), paths.back());
+  if (truth) {
+    paths.push_back(folder / "error.png");
+    write_png(error_picture(mesh.shape, errors_m(mesh.shape, *truth, threads), title, 1280, 720),
+              paths.back());
+  } else {
+    std::error_code ignored;
+    fs::remove(folder / "error.png", ignored);
+  }
+  if (score) {
+    paths.push_back(folder / "score.json");
+    write_file_atomically(paths.back(), score_json(*score));
+  } else {
+    std::error_code ignored;
+    fs::remove(folder / "score.json", ignored);
+  }
+  return paths;
+}
+
+}  // namespace
+
+MadeSurface make_surface(const RunRecord& record, const SurfaceSettings& settings,
+                         const fs::path& folder, bool needs_score, int threads,
+                         const SurfaceProgress& progress) {
+  MadeSurface made;
+  const std::optional<World> truth = truth_of(record, made.notes);
+  if (needs_score && !truth) throw BadInput("--json: " + made.notes.back());
+  const OutFolder out(folder);
+  const TexturedMesh mesh = reconstruct_surface(record, settings, threads, progress, made.notes);
+  progress(0.9, "scoring");
+  if (truth) {
+    made.score = score_surface(mesh.shape, *truth, reference_config(record.scenario), threads);
+  }
+  progress(0.95, "writing");
+  made.files = write_all(mesh, made.score, truth, run_title(record), folder, threads);
+  progress(1.0, "done");
+  return made;
+}
+
+}  // namespace gnbv
