@@ -8,12 +8,13 @@
 #include "planner/planners.hpp"
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "tools/figures/figure_files.hpp"
+#include "tools/figures/forest_figure.hpp"
+#include "tools/figures/group_figures.hpp"
 #include "tools/gnbv/bench_runs.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/shared_options.hpp"
-#include "tools/plots/coverage_plot.hpp"
-#include "tools/plots/forest_plot.hpp"
-#include "tools/run/run_groups.hpp"
 #include "tools/run/user_views.hpp"
 #include "tools/sweep/manifest.hpp"
 #include "tools/sweep/method_options.hpp"
@@ -125,15 +126,10 @@ Plan plan_of_sweep(const CompareOptions& options) {
 
 /// The paired differences, and the coverage over metres of all methods, scenario by scenario.
 void draw_comparison(const Comparison& comparison, const BenchRuns& collected,
-                     const std::filesystem::path& folder) {
-  std::filesystem::create_directories(folder);
-  const auto draw = [&](const Plot& plot) {
-    const std::filesystem::path path = folder / (plot.name + ".svg");
-    draw_plot(plot_script(plot, PlotFormat::svg, {}), path);
-    say("{}", path.string());
-  };
+                     const fs::path& folder) {
+  std::vector<Figure> figures;
   for (std::size_t scenario = 0; scenario < comparison.scenarios.size(); ++scenario) {
-    if (const auto forest = forest_plot(comparison, scenario)) draw(*forest);
+    if (auto forest = forest_figure(comparison, scenario)) figures.push_back(std::move(*forest));
     std::vector<RunRecord> records;
     for (std::size_t i = 0; i < collected.runs.size(); ++i) {
       if (collected.runs[i].scenario != comparison.scenarios[scenario]) continue;
@@ -143,9 +139,13 @@ void draw_comparison(const Comparison& comparison, const BenchRuns& collected,
     const std::vector<RunGroup> groups = group_runs(records, notes);
     for (const std::string& note : notes) say(note);
     if (groups.empty()) continue;
-    Plot coverage = coverage_plot(groups, Effort::metres, 0);
-    coverage.name += "-" + comparison.scenarios[scenario];
-    draw(coverage);
+    figures.push_back(coverage_figure(groups, Effort::metres, kCoverageSizes_m[0]));
+    figures.back().name += "-" + comparison.scenarios[scenario];
+  }
+  make_folder(folder);
+  const std::vector<std::string> formats = {"svg", "json"};
+  for (const fs::path& written : write_figures(figures, formats, {}, folder)) {
+    say("{}", written.string());
   }
 }
 

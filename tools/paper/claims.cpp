@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "bench/compare/text_table.hpp"
+#include "tools/figures/curves.hpp"
 #include "tools/paper/comparisons.hpp"
-#include "tools/plots/curves.hpp"
 #include "tools/run/words.hpp"
 
 namespace gnbv {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "bench/compare/paper_figures.hpp"
+#include "tools/figures/group_figures.hpp"
 #include "tools/paper/missions.hpp"
 #include "tools/paper/verdicts.hpp"
-#include "tools/plots/density_plot.hpp"
 
 namespace gnbv {
 

@@ -10,6 +10,7 @@
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/text.hpp"
+#include "tools/figures/groups.hpp"
 #include "tools/mission/start_pose.hpp"
 #include "tools/render/colour.hpp"
 #include "tools/report/page_parts.hpp"
@@ -17,8 +18,6 @@
 #include "tools/report/run_json.hpp"
 #include "tools/report/structures.hpp"
 #include "tools/run/file_names.hpp"
-#include "tools/run/method_slots.hpp"
-#include "tools/run/run_groups.hpp"
 #include "tools/run/words.hpp"
 
 namespace gnbv {
@@ -206,7 +205,9 @@ Report make_report(const std::vector<RunRecord>& records, const ReportOptions& o
   Report report;
   const std::string title = options.title.empty() ? title_of(records) : options.title;
   const std::vector<std::string> labels = run_labels(records);
-  const std::vector<std::size_t> slots = method_slots(methods_of(records));
+  std::vector<std::string> methods;
+  for (const RunRecord& record : records) methods.push_back(method_of(record));
+  const std::vector<std::size_t> slots = method_slots(methods);
   const Structures structures = pack_structures(records, options.threads);
   const RunBudget budget = budget_of(records, structures.bytes.bytes().size());
   Json runs = Json::array();

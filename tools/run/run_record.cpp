@@ -157,10 +157,14 @@ std::string scenario_title(const Scenario& scenario) {
   return fmt::format("{} ({})", name, mesh.filename().string());
 }
 
+std::string utility_title(const UtilityConfig& utility) {
+  return is_user_utility(utility.name) ? utility.python.function : human_name(utility.name);
+}
+
 std::string run_title(const RunRecord& record) {
   const PlannerConfig& planner = record.scenario.planner;
   const std::string title =
-      fmt::format("{}, {}", scenario_title(record.scenario), human_name(planner.utility.name));
+      fmt::format("{}, {}", scenario_title(record.scenario), utility_title(planner.utility));
   return planner.preset == PlannerConfig{}.preset ? title : title + ", " + planner.preset;
 }
 

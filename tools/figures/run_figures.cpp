@@ -1,0 +1,262 @@
+#include "tools/figures/run_figures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tools/figures/curves.hpp"
+
+namespace gnbv {
+namespace {
+
+// palette colours on white, as large areas want them
+constexpr std::string_view kDensityArea = "#66abd1";
+constexpr std::string_view kPredictionArea = "#e69e66";
+constexpr std::size_t kManyViews = 100;
+constexpr std::size_t kWindow = 15;  // views that a mean is taken over, when there are many
+
+SeriesLook look_in(std::string_view colour) { return {.colour = std::string(colour)}; }
+
+/// How many views were taken with each: on an axis, the first view is 1.
+std::vector<double> counts_of(std::span<const ViewRecord> views) {
+  std::vector<double> counts;
+  for (const ViewRecord& view : views) counts.push_back(view.iteration + 1.0);
+  return counts;
+}
+
+/// Panels over the views, half a view around them, with the frontier phases shaded.
+FigurePanel panel_over_views(const RunRecord& record, std::string heading, Axis y, int height_px) {
+  FigurePanel panel{.heading = std::move(heading), .y = std::move(y), .height_px = height_px};
+  panel.x =
+      axis_from("views", record.views.front().iteration + 0.5, record.views.back().iteration + 1.5);
+  for (const Phase& phase : frontier_phases(record.views)) {
+    panel.shades.spans.push_back({phase.first + 0.5, phase.last + 1.5});
+  }
+  return panel;
+}
+
+void name_shades_once(Figure& figure) {
+  Shades& shades = figure.panels.front().shades;
+  if (!shades.spans.empty()) shades.label = "frontier views";
+}
+
+/// The views that somebody scored, with a value of 0, too: not the start, nor those of a route.
+std::vector<ViewRecord> scored_views(const RunRecord& record) {
+  std::vector<ViewRecord> scored;
+  std::copy_if(record.views.begin(), record.views.end(), std::back_inserter(scored),
+               [](const ViewRecord& view) {
+                 const Score& s = view.decision.score;
+                 return s.value != 0.0 || s.information != 0.0 || s.distance != 1.0;
+               });
+  return scored;
+}
+
+/// What the terms of Eq. (2) come to, by their weights.
+struct Eq2 {
+  explicit Eq2(const UtilityConfig& config)
+      : is_normalised(config.normalise_weights), alpha(config.alpha) {
+    const double weights = config.normalise_weights ? config.beta + config.gamma : 1.0;
+    beta = config.beta / weights;
+    gamma = config.gamma / weights;
+  }
+  double density(const Score& s) const { return beta * s.density; }
+  double prediction(const Score& s) const { return gamma * s.prediction; }
+  double information(const Score& s) const { return 1.0 + alpha * s.information; }
+  /// What remains of the value: log10 of the occupied voxels in view, which no file holds; not
+  /// known where another term is 0.
+  double size(const Score& s) const {
+    const double others = information(s) * (density(s) + prediction(s)) * s.distance;
+    return others > 0.0 ? s.value / others : std::numeric_limits<double>::quiet_NaN();
+  }
+
+  bool is_normalised = true;
+  double alpha = 0.0;
+  double beta = 0.0;
+  double gamma = 0.0;
+};
+
+/// The panels of one run's terms, each with the views behind their means where these are many.
+class TermPanels {
+ public:
+  TermPanels(const RunRecord& record, std::vector<ViewRecord> views)
+      : record_(record), views_(std::move(views)), counts_(counts_of(views_)) {}
+
+  bool is_smooth() const { return views_.size() > kManyViews; }
+
+  template <typename Value>
+  std::vector<double> column(const Value& value) const {
+    std::vector<double> column;
+    for (const ViewRecord& view : views_) column.push_back(value(view.decision.score));
+    return column;
+  }
+
+  /// An axis from 0 that holds all of it that is known.
+  FigurePanel panel(std::string heading, std::span<const double> values, int height_px) const {
+    double most = 0.0;
+    for (const double value : values) most = std::isnan(value) ? most : std::max(most, value);
+    return panel_over_views(record_, std::move(heading), close_axis("", 0.0, most), height_px);
+  }
+
+  FigurePanel lines(std::string heading, const std::string& name, const std::vector<double>& values,
+                    std::size_t colour, int height_px) const {
+    FigurePanel panel = this->panel(std::move(heading), values, height_px);
+    const SeriesLook look = look_in(kPalette.at(colour));
+    if (is_smooth()) {
+      panel.series.push_back({.name = name + ", each view",
+                              .look = look,
+                              .width_pt = 0.3,
+                              .opacity = 0.35,
+                              .x = counts_,
+                              .y = values});
+    } else {  // a point each: one may have no neighbours
+      panel.series.push_back({.name = name + ", each view",
+                              .mark = Mark::points,
+                              .look = look,
+                              .width_pt = 0.0,
+                              .size_pt = 1.0,
+                              .x = counts_,
+                              .y = values});
+    }
+    panel.series.push_back({.name = name, .look = look, .x = counts_, .y = smooth(values)});
+    return panel;
+  }
+
+  Series area(std::string name, std::string_view colour, const std::vector<double>& low,
+              const std::vector<double>& high) const {
+    Series series{.name = name, .label = name, .mark = Mark::area, .look = look_in(colour)};
+    series.x = counts_;
+    series.low = smooth(low);
+    series.high = series.y = smooth(high);
+    return series;
+  }
+
+ private:
+  std::vector<double> smooth(const std::vector<double>& values) const {
+    return moving_mean(values, is_smooth() ? kWindow : 1);
+  }
+
+  const RunRecord& record_;
+  std::vector<ViewRecord> views_;
+  std::vector<double> counts_;
+};
+
+/// Q, and what there is of a prediction that nobody sees beside the density.
+std::string heading_of_quality(const Eq2& eq2, double most_prediction, bool is_seen) {
+  const std::string formula = eq2.is_normalised ? "Q = (β D + γ P) / (β + γ)" : "Q = β D + γ P";
+  if (is_seen) return formula;
+  if (most_prediction == 0.0) return formula + ", P = 0";
+  return fmt::format("{}, P ≤ {:.2g}", formula, most_prediction / eq2.gamma);
+}
+
+FigurePanel quality_panel(const TermPanels& terms, const Eq2& eq2, int height_px) {
+  const auto density = terms.column([&](const Score& s) { return eq2.density(s); });
+  const auto prediction = terms.column([&](const Score& s) { return eq2.prediction(s); });
+  std::vector<double> quality = density;
+  for (std::size_t i = 0; i < quality.size(); ++i) quality[i] += prediction[i];
+  // a share of the panel that nobody sees is a number in the heading
+  constexpr double kLeastSeen = 0.02;
+  const double most = *std::max_element(prediction.begin(), prediction.end());
+  const bool is_seen = most > kLeastSeen * *std::max_element(quality.begin(), quality.end());
+  FigurePanel panel = terms.panel(heading_of_quality(eq2, most, is_seen), quality, height_px);
+  const std::vector<double> nothing(density.size(), 0.0);
+  panel.series.push_back(terms.area("D, density", kDensityArea, nothing, density));
+  if (is_seen) {
+    panel.series.push_back(terms.area("P, prediction", kPredictionArea, density, quality));
+  }
+  return panel;
+}
+
+/// One below the other: the utility, and the factors that it is the product of.
+std::vector<FigurePanel> panels_of_eq2(const TermPanels& terms, const Eq2& eq2) {
+  constexpr int kHeight_px = 205;
+  const auto size = terms.column([&](const Score& s) { return eq2.size(s); });
+  const bool is_defined =
+      std::none_of(size.begin(), size.end(), [](double value) { return std::isnan(value); });
+  const std::string of_size =
+      fmt::format("L = log₁₀ N, N occupied voxels{}", is_defined ? " in view" : " (where defined)");
+  return {
+      terms.lines("utility = L Q I exp(−λ d)", "utility",
+                  terms.column([](const Score& s) { return s.value; }), 6, kHeight_px),
+      quality_panel(terms, eq2, kHeight_px),
+      terms.lines("I = 1 + α E, E information gain", "I",
+                  terms.column([&](const Score& s) { return eq2.information(s); }), 2, kHeight_px),
+      terms.lines("exp(−λ d), d distance to the view (m)", "exp(−λ d)",
+                  terms.column([](const Score& s) { return s.distance; }), 3, kHeight_px),
+      terms.lines(of_size, "L", size, 4, kHeight_px)};
+}
+
+/// The utility, and its gain and distance factor where the latter ever says anything.
+std::vector<FigurePanel> panels_of_gain(const TermPanels& terms) {
+  constexpr int kHeight_px = 300;
+  std::vector<FigurePanel> panels = {terms.lines(
+      "utility", "utility", terms.column([](const Score& s) { return s.value; }), 6, kHeight_px)};
+  const auto distance = terms.column([](const Score& s) { return s.distance; });
+  const bool is_discounted =
+      std::any_of(distance.begin(), distance.end(), [](double factor) { return factor != 1.0; });
+  if (!is_discounted) return panels;
+  panels.push_back(terms.lines("the product of gain", "gain",
+                               terms.column([](const Score& s) { return s.information; }), 0,
+                               kHeight_px));
+  panels.push_back(terms.lines("and distance factor", "distance factor", distance, 3, kHeight_px));
+  panels.back().y = axis_around("", 0.0, 1.0);
+  return panels;
+}
+
+}  // namespace
+
+std::string run_and_seed(const RunRecord& record) {
+  return fmt::format("{}, seed {}", run_title(record), record.scenario.seed);
+}
+
+std::optional<Figure> density_entropy_figure(const RunRecord& record, bool has_density) {
+  if (record.views.empty()) return std::nullopt;
+  constexpr int kHeight_px = 360;
+  std::vector<double> entropies, densities;
+  for (const ViewRecord& view : record.views) {
+    entropies.push_back(view.entropy_nat);
+    densities.push_back(view.density_points_per_voxel);
+  }
+  Figure figure{.name = has_density ? "density" : "entropy",
+                .kind = has_density ? "density" : "entropy",
+                .title = run_and_seed(record)};
+  const std::vector<double> counts = counts_of(record.views);
+  const auto add = [&](std::string name, std::string heading, const Axis& y,
+                       const std::vector<double>& values, std::size_t colour) {
+    figure.panels.push_back(panel_over_views(record, std::move(heading), y, kHeight_px));
+    figure.panels.back().series.push_back({.name = std::move(name),
+                                           .look = look_in(kPalette.at(colour)),
+                                           .width_pt = 1.0,
+                                           .x = counts,
+                                           .y = values,
+                                           .end = std::array{counts.back(), values.back()}});
+  };
+  const auto [low, high] = std::minmax_element(entropies.begin(), entropies.end());
+  const Axis entropy = axis_around("", *low, *high);
+  add("entropy", entropy.low > 0.0 ? "entropy (nat), axis cut" : "entropy (nat)", entropy,
+      entropies, 0);
+  if (has_density) {
+    add("density", "density (points/voxel)",
+        axis_around("", 0.0, *std::max_element(densities.begin(), densities.end())), densities, 1);
+  }
+  name_shades_once(figure);
+  return figure;
+}
+
+std::optional<Figure> terms_figure(const RunRecord& record) {
+  std::vector<ViewRecord> views = scored_views(record);
+  if (views.empty()) return std::nullopt;
+  const TermPanels terms(record, std::move(views));
+  const UtilityConfig& utility = record.scenario.planner.utility;
+  Figure figure{.name = "terms", .kind = "terms", .title = run_and_seed(record)};
+  figure.panels =
+      utility_traits(utility.name).eq2 ? panels_of_eq2(terms, Eq2(utility)) : panels_of_gain(terms);
+  if (terms.is_smooth()) {
+    figure.notes.push_back(fmt::format("thin: each view; thick: mean of {} views", kWindow));
+  }
+  name_shades_once(figure);
+  return figure;
+}
+
+}  // namespace gnbv
